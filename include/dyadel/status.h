@@ -62,7 +62,7 @@ typedef struct dyd_error {
   uint64_t stage; /* how many times that point had been narrowed before */
   size_t line;    /* line of the input text, from 1 */
   size_t column;  /* column of the input text in characters, from 1 */
-  char message[DYD_MESSAGE_SIZE];
+  char message[DYD_MESSAGE_SIZE]; /* fields of options that a remedy names are in backquotes: "raise `max_pairs`" */
 } dyd_error;
 
 /* Sets *err to "no error". */

@@ -1,11 +1,44 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Messages on standard error. */
 #include "cli.h"
+#include "table.h"
 #include <stdarg.h>
+#include <string.h>
+
+/* Returns true if the field of the library's options has an option of the command, and prints that: `max_pairs` is
+ * --max-pairs, and `radius_columns`, which may name two, is --radius-column. */
+static bool complain_field(FILE *out, const char *field, size_t length) {
+  for (const cli_option *o = cli_option_table; o < cli_option_table + cli_option_count; o++) {
+    size_t k = 0;
+    while (k < length && (field[k] == '_' ? '-' : field[k]) == o->name[k]) k++;
+    if (o->name[k] || !(k == length || (k + 1 == length && field[k] == 's'))) continue;
+    fprintf(out, "--%s", o->name);
+    return true;
+  }
+  return false;
+}
+
+/* Prints a message: the library names fields of its options in backquotes. */
+static void complain_print(FILE *out, const char *text) {
+  while (*text) {
+    size_t plain = strcspn(text, "`"), length;
+    fwrite(text, 1, plain, out);
+    text += plain;
+    if (!*text) return;
+    length = strspn(text + 1, "abcdefghijklmnopqrstuvwxyz_");
+    if (text[1 + length] == '`' && complain_field(out, text + 1, length)) {
+      text += length + 2;
+    } else {
+      fputc(*text++, out);
+    }
+  }
+}
 
 static void complain_list(const char *format, va_list args) {
+  char text[2 * DYD_MESSAGE_SIZE + 8192];
+  vsnprintf(text, sizeof text, format, args);
   fputs("dyadel: ", stderr);
-  vfprintf(stderr, format, args);
+  complain_print(stderr, text);
   fputs("\n", stderr);
 }
 

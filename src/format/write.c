@@ -137,7 +137,7 @@ static dyd_status tell_fineness(dyd_status st, const dyd_diagram *d, dyd_error *
   if (st != DYD_E_RANGE || !err || strcmp(err->message, dyd_status_text(st)) != 0) return st;
   return dyd_fail(err, st,
                   "polygons within 2^%" PRId64 " of their cells take more points or digits than can be held; give a "
-                  "smaller M by --flatten",
+                  "smaller M by `flatten`",
                   -d->bits);
 }
 
@@ -157,7 +157,7 @@ dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_o
   const dyd_delaunay *pd = result_of(e, err);
   if (!pd || refuse_layer(o.layer, DYD_CONTENT_VORONOI, err) != DYD_OK) return DYD_E_ARG;
   if (dyd_delaunay_is_capped(pd))
-    return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise --max-pairs");
+    return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise `max_pairs`");
   st = grant_output(pd, format, true, NULL, err);
   if (st != DYD_OK) return st;
   dyd_diagram d;

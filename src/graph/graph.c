@@ -73,7 +73,7 @@ dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_grap
   if ((size_t)graph >= sizeof make / sizeof *make)
     return dyd_fail(err, DYD_E_ARG, "there is no graph number %d", (int)graph);
   if (dyd_delaunay_is_capped(pd))
-    return dyd_fail(err, DYD_CAPPED, "there are more pairs than can be stored; raise --max-pairs");
+    return dyd_fail(err, DYD_CAPPED, "there are more pairs than can be stored; raise `max_pairs`");
   dyd_graph_work w = {.pd = pd, .sites = dyd_delaunay_sites(pd), .cancel = cancel, .room = dyd_delaunay_room(pd)};
   w.n = dyd_sites_count(w.sites);
   dyd_reach_init(&w.reach);

@@ -237,7 +237,7 @@ static dyd_status diagram_window(dyd_diagram *d, const dyd_rect *given, dyd_erro
     return dyd_fail(err, DYD_E_ARG, "the window has to have positive area and dyadic ends");
   }
   if (dyd_voronoi_window(&d->window, d->sites) == DYD_OK) return DYD_OK;
-  return dyd_fail(err, DYD_E_RANGE, "the points span more than doubles hold; give a window (--window)");
+  return dyd_fail(err, DYD_E_RANGE, "the points span more than doubles hold; give a `window`");
 }
 
 /* Is the bound of the area at bits + step less than half of that at bits: does flattening still matter? */

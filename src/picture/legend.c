@@ -174,8 +174,7 @@ void dyd_legend_crowd(dyd_legend *l, const dyd_site_marks *m) {
     seen += dyd_view_sees(v, b);
     inside += is_in(box, b);
   }
-  snprintf(text, sizeof text,
-           "%zu of these %zu points are in a small part of the picture: --window=%s,%s,%s,%s shows it", inside, seen,
-           end[0], end[1], end[2], end[3]);
+  snprintf(text, sizeof text, "%zu of these %zu points are in a small part of the picture: window %s,%s,%s,%s shows it",
+           inside, seen, end[0], end[1], end[2], end[3]);
   dyd_legend_text(l, text);
 }

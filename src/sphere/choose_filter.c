@@ -5,8 +5,8 @@
  *
  * A guess in doubles: on it depends how wide images are, not whether they are right. Places are compared by distances
  * between the middles of regions, so that wider radii do not change which place, or which gap, is best; a gap is taken
- * from some width on, and where a place is projected from and leaves pairs open, the gap is looked from, too (sphere.c):
- * so wider radii decide no more. */
+ * from some width on, and where a place is projected from and leaves pairs open, the gap is looked from, too
+ * (sphere.c): so wider radii decide no more. */
 #include "base/alloc.h"
 #include "base/error.h"
 #include "sphere/state.h"
@@ -57,8 +57,8 @@ typedef struct room_guess {
   double distance, left;
 } room_guess;
 
-/* What is left counts from the edge of the eye's box. Where the distance is not above `enough`, or nothing is left, both
- * may be any such numbers. */
+/* What is left counts from the edge of the eye's box. Where the distance is not above `enough`, or nothing is left,
+ * both may be any such numbers. */
 static room_guess guess_room(const ball_guess *g, size_t n, const ball_guess *from, double enough) {
   room_guess r = {4, 4 - from->eye};
   for (size_t j = 0; j < n && r.distance > enough && r.left > 0; j++) {
@@ -165,7 +165,7 @@ dyd_status dyd_sphere_choose(dyd_sphere *s, dyd_error *err) {
   if (st != DYD_OK || found) return st;
   return dyd_fail(err, DYD_E_DOMAIN,
                   "points may be at the same place as others, and anywhere on the globe, so that nothing is "
-                  "known of any; give a smaller radius, or --merge where such points are one");
+                  "known of any; give a smaller radius, or `merge` where such points are one");
 }
 
 dyd_status dyd_sphere_choose_gap(dyd_sphere *s, dyd_error *err) {

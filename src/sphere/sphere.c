@@ -75,9 +75,10 @@ static dyd_status radius_take(dyd_sphere *s, const dyd_sphere_options *o, mpq_t 
   st = dyd_radius_parse(radius, &ground, o->radius, strlen(o->radius), unit);
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (st == DYD_E_DOMAIN)
-    return radius_refuse(o->radius, "has no unit; state a unit: --radius-unit m (" DYD_UNIT_NAMES ")", err);
+    return radius_refuse(o->radius, "has no unit; state a unit: `radius_unit` m (" DYD_UNIT_NAMES ")", err);
   if (st != DYD_OK)
-    return radius_refuse(o->radius, "is not an exact number >= 0 and a unit; give one such as 30m, 2km or 0.01deg", err);
+    return radius_refuse(o->radius, "is not an exact number >= 0 and a unit; give one such as 30m, 2km or 0.01deg",
+                         err);
   mpq_mul(radius, radius, scale);
   if (!ground) return mpq_swap(s->degrees, radius), DYD_OK;
   mpq_mul(s->angle, radius, s->metre);
@@ -194,7 +195,8 @@ static double *costs_of_images(const dyd_sphere *s, const double *cost) {
 }
 
 /* [SPH-5] What is stated from one eye holds whatever is not known from another. A wide centre widens all images; from a
- * gap only the pairs about it are lost. So pairs that are indeterminate from the first are looked at from the second. */
+ * gap only the pairs about it are lost. So pairs that are indeterminate from the first are looked at from the second.
+ */
 static dyd_status second_make(dyd_sphere *s, dyd_error *err) {
   dyd_sphere *t = sphere_begin(s->places);
   if (!t) return dyd_fail_nomem(err);

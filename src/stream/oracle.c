@@ -66,7 +66,7 @@ static void oracle_fail_silent(const dyd_oracle *o, dyd_worker *w) {
                     how, o->seconds);
   else
     dyd_worker_fail(w, DYD_E_STREAM,
-                    "it was silent for %g s%s; flush its output after each line, or allow more time (--oracle-timeout)",
+                    "it was silent for %g s%s; flush its output after each line, or allow more time (`oracle_timeout`)",
                     o->seconds, deaf);
 }
 

@@ -114,7 +114,7 @@ dyd_status dyd_births(dyd_tolerance *t, dyd_error *err) {
   o.max_bytes = dyd_room_left(&t->room);
   if (st == DYD_OK) st = dyd_delaunay_new(&wide, squares, &o, err);
   if (st == DYD_CAPPED)
-    dyd_fail(err, st, "there are too many pairs that may be born up to there; ask for less, or raise --max-pairs");
+    dyd_fail(err, st, "there are too many pairs that may be born up to there; ask for less, or raise `max_pairs`");
   if (st == DYD_OK) st = births_have_room(t, wide);
   if (st == DYD_OK) st = dyd_delaunay_pairs(&pairs, wide);
   if (st == DYD_OK) st = births_among(t, &pairs);

@@ -276,7 +276,7 @@ dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error 
   uint32_t n = pd->sk.n;
   if (err) dyd_error_clear(err);
   if (dyd_delaunay_is_capped(pd))
-    return dyd_fail(err, DYD_CAPPED, "there are more pairs than can be stored; raise --max-pairs");
+    return dyd_fail(err, DYD_CAPPED, "there are more pairs than can be stored; raise `max_pairs`");
   w.disc = dyd_alloc(n, sizeof *w.disc);
   if (!w.disc) return dyd_fail_nomem(err);
   for (uint32_t v = 0; v < n; v++) dyd_disc_init(&w.disc[v]);

@@ -341,7 +341,7 @@ static dyd_status simplify(dyd_survey *s, const dyd_delaunay *pd) {
 static dyd_status survey_check(const dyd_survey *s, const dyd_delaunay *pd, dyd_error *err) {
   const dyd_survey_options *o = &s->options;
   if (dyd_delaunay_is_capped(pd))
-    return dyd_fail(err, DYD_CAPPED, "there are more open pairs than can be stored; raise --max-pairs");
+    return dyd_fail(err, DYD_CAPPED, "there are more open pairs than can be stored; raise `max_pairs`");
   if (o->accuracy && mpq_sgn(o->accuracy) <= 0) return dyd_fail(err, DYD_E_ARG, "an accuracy is above 0");
   if (o->site && *o->site >= s->sites)
     return dyd_fail(err, DYD_E_ARG, "there is no such point; give the number of one, from 0");

@@ -25,7 +25,7 @@ static dyd_status check_points(const dyd_tolerance *t, dyd_error *err) {
       return dyd_fail(err, DYD_E_ARG, "tolerances are those of exact points; give this one by plain numbers");
     }
   if (dyd_delaunay_is_capped(t->pd))
-    return dyd_fail(err, DYD_CAPPED, "there are more ties than can be stored; raise --max-pairs");
+    return dyd_fail(err, DYD_CAPPED, "there are more ties than can be stored; raise `max_pairs`");
   if (t->options.up_to && mpq_sgn(t->options.up_to) < 0)
     return dyd_fail(err, DYD_E_ARG, "births up to a negative number: give a positive one");
   if (t->options.weight && t->options.metric == DYD_METRIC_BOX)

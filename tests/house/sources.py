@@ -89,6 +89,16 @@ def check_static_names(root):
                 yield f'{path}: the static function {name} has the name of one in {seen[name].relative_to(root)}'
 
 
+OPTION = re.compile(r'"[^"\n]*--[a-z][a-z-]+[^"\n]*"')
+
+
+def check_options(path, text, layer):
+    """Messages of the library name fields, `max_pairs`; the command prints its own options instead (cli/complain.c)."""
+    for number, line in enumerate(text.splitlines(), 1):
+        if layer not in OUTSIDE and OPTION.search(line):
+            yield f'{path}:{number}: the library names an option of the command: {line.strip()}'
+
+
 def check_top(root):
     """What is beside the rooms was left behind; where there is no git, folders of builds are passed over."""
     listed = subprocess.run(['git', '-C', root, 'ls-files', '-z'], check=False, capture_output=True, text=True).stdout
@@ -118,6 +128,7 @@ def breaches(root):
         yield from check_lengths(path, text)
         if (root / 'src') in path.parents:
             yield from check_source_includes(path, text, root)
+            yield from check_options(path, text, path.relative_to(root / 'src').parts[0])
         if (root / 'include') in path.parents:
             yield from check_public_includes(path, text)
 

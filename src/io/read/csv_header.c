@@ -38,13 +38,13 @@ static dyd_status read_names(dyd_csv *csv, const char *text, const char *option,
 }
 
 static dyd_status read_wanted(dyd_csv *csv, const dyd_read_options *o, dyd_error *err) {
-  dyd_status st = read_names(csv, o->columns, "--columns", DYD_CSV_X, 2, 2, err);
+  dyd_status st = read_names(csv, o->columns, "`columns`", DYD_CSV_X, 2, 2, err);
   if (st == DYD_OK && o->radius_columns)
-    st = read_names(csv, o->radius_columns, "--radius-column", DYD_CSV_RADIUS_X, 1, 2, err);
-  if (st == DYD_OK && o->cost_column) st = read_names(csv, o->cost_column, "--cost-column", DYD_CSV_COST, 1, 1, err);
+    st = read_names(csv, o->radius_columns, "`radius_columns`", DYD_CSV_RADIUS_X, 1, 2, err);
+  if (st == DYD_OK && o->cost_column) st = read_names(csv, o->cost_column, "`cost_column`", DYD_CSV_COST, 1, 1, err);
   if (st == DYD_OK && o->sigma_column)
-    st = read_names(csv, o->sigma_column, "--sigma-column", DYD_CSV_SIGMA, 1, 1, err);
-  if (st == DYD_OK && o->id) st = read_names(csv, o->id, "--id", DYD_CSV_ID, 1, 1, err);
+    st = read_names(csv, o->sigma_column, "`sigma_column`", DYD_CSV_SIGMA, 1, 1, err);
+  if (st == DYD_OK && o->id) st = read_names(csv, o->id, "`id`", DYD_CSV_ID, 1, 1, err);
   return st;
 }
 
@@ -107,7 +107,7 @@ static dyd_status fail_missing(const dyd_csv *csv, const dyd_csv_want *want, dyd
   if (csv->fields == 1)
     snprintf(message, sizeof message,
              "the header is one column, \"%s\", and \"%.60s\" is not its name; say what separates columns: "
-             "--delimiter C",
+             "`delimiter` C",
              names, want->name);
   else
     snprintf(message, sizeof message,
@@ -203,7 +203,8 @@ static dyd_status refuse_numbers(const dyd_csv *csv, dyd_error *err) {
                      "the first line must name the columns, but here it holds numbers; put a line of names before it");
 }
 
-/* Words that the names of coordinates hold: anywhere in a name, at its begin, or as its last part (stop_lat, gpsLon). */
+/* Words that the names of coordinates hold: anywhere in a name, at its begin, or as its last part (stop_lat, gpsLon).
+ */
 typedef struct axis_words {
   const char *any, *begin[2], *last[3];
 } axis_words;
@@ -246,7 +247,7 @@ static dyd_status read_meanings(dyd_csv *csv, const dyd_read_options *o, dyd_err
   csv->unit = radius ? dyd_unit_of_column(radius->text, radius->length) : NULL;
   if (!csv->swapped || !o->degrees) return DYD_OK;
   return dyd_fail(err, DYD_E_ARG,
-                  "by their names the columns are latitude and longitude; longitude comes first: --columns %.*s,%.*s",
+                  "by their names the columns are latitude and longitude; longitude comes first: `columns` %.*s,%.*s",
                   (int)(y->length < 60 ? y->length : 60), y->text, (int)(x->length < 60 ? x->length : 60), x->text);
 }
 
@@ -309,7 +310,7 @@ void dyd_csv_hint(char *out, size_t size, const dyd_line *line) {
   for (const char *d = delimiters; *d && !*out; d++) {
     if (header_split(&csv, line, *d, NULL) != DYD_OK || !is_header(&csv)) continue;
     list_names(names, sizeof names, &csv);
-    snprintf(out, size, "; if this is CSV with a header, name two of its columns: --columns X,Y; they are: %s", names);
+    snprintf(out, size, "; if this is CSV with a header, name two of its columns: `columns` X,Y; they are: %s", names);
   }
   dyd_csv_clear(&csv);
 }

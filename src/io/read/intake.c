@@ -31,12 +31,12 @@ static dyd_status radius_fail(const dyd_intake *in, const dyd_span *span, dyd_er
   return dyd_span_fail(
       err, span, 0,
       in->o->degrees ? "the radius is not an exact number >= 0 and a unit; give one such as 0.01deg, 30m or 2km"
-                     : "the radius is not an exact number >= 0; give one such as 0.01 or 1/64 (units: with --sphere)");
+                     : "the radius is not an exact number >= 0; give one such as 0.01 or 1/64 (units: with `sphere`)");
 }
 
 static dyd_status radius_fail_unit(const dyd_span *span, dyd_error *err) {
   char message[160];
-  snprintf(message, sizeof message, "the radius %.*s has no unit; state a unit: --radius-unit m (" DYD_UNIT_NAMES ")",
+  snprintf(message, sizeof message, "the radius %.*s has no unit; state a unit: `radius_unit` m (" DYD_UNIT_NAMES ")",
            (int)(span->length < 20 ? span->length : 20), span->text);
   dyd_span_fail(err, span, 0, message);
   return DYD_E_ARG;
@@ -83,13 +83,13 @@ static dyd_status intake_radius_of_all(dyd_intake *in, dyd_error *err) {
   if (unit && !in->o->degrees)
     return dyd_fail(err, DYD_E_ARG,
                     "in the plane radii are in the unit of the coordinates; for others scale them, such as millimetres "
-                    "where coordinates are metres: --radius-scale 0.001");
+                    "where coordinates are metres: `radius_scale` 0.001");
   st = text ? dyd_real_parse_exact(in->radius, text, strlen(text)) : DYD_OK;
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (st != DYD_OK || mpq_sgn(in->radius) < 0)
     return dyd_fail(
         err, DYD_E_ARG,
-        "the radius \"%.60s\" is not an exact number >= 0; give one such as 0.01 or 1/64 (units: with --sphere)", text);
+        "the radius \"%.60s\" is not an exact number >= 0; give one such as 0.01 or 1/64 (units: with `sphere`)", text);
   mpq_mul(in->radius, in->radius, in->scale);
   for (int a = 0; a < 2; a++) manner_set_radius(&in->manner[a], in->radius);
   return DYD_OK;
@@ -112,14 +112,14 @@ static dyd_status intake_number(double *out, const dyd_span *span, const char *w
 /* ---- life ---- */
 
 static dyd_status intake_check(const dyd_read_options *o, dyd_error *err) {
-  const char *about = o->id               ? "--id"
-                      : o->radius_columns ? "--radius-column"
-                      : o->cost_column    ? "--cost-column"
-                      : o->sigma_column   ? "--sigma-column"
-                      : o->delimiter      ? "--delimiter"
+  const char *about = o->id               ? "`id`"
+                      : o->radius_columns ? "`radius_columns`"
+                      : o->cost_column    ? "`cost_column`"
+                      : o->sigma_column   ? "`sigma_column`"
+                      : o->delimiter      ? "`delimiter`"
                                           : NULL;
   if (o->columns || !about) return DYD_OK;
-  return dyd_fail(err, DYD_E_ARG, "%s is about columns; name those of x and y, too: --columns NAME,NAME", about);
+  return dyd_fail(err, DYD_E_ARG, "%s is about columns; name those of x and y, too: `columns` NAME,NAME", about);
 }
 
 dyd_status dyd_intake_init(dyd_intake *in, const dyd_read_options *o, dyd_error *err) {
@@ -177,10 +177,10 @@ static dyd_status fail_missing_field(const dyd_span *s, dyd_csv_role role, dyd_e
                      : role >= DYD_CSV_RADIUS_X ? "radius"
                                                 : "coordinate";
   if (s->length)
-    snprintf(message, sizeof message, "the %s is missing (%.*s); fill it in, or leave such rows out: --skip-missing",
+    snprintf(message, sizeof message, "the %s is missing (%.*s); fill it in, or leave such rows out: `skip_missing`",
              what, (int)s->length, s->text);
   else
-    snprintf(message, sizeof message, "the %s is empty; fill it in, or leave such rows out: --skip-missing", what);
+    snprintf(message, sizeof message, "the %s is empty; fill it in, or leave such rows out: `skip_missing`", what);
   return dyd_span_fail(err, s, 0, message);
 }
 
@@ -211,7 +211,7 @@ static dyd_status hint_comma(dyd_status st, const dyd_intake *in, const dyd_span
   size_t length = strlen(err->message);
   if (st == DYD_E_PARSE && !in->o->decimal_comma && has_comma(s))
     snprintf(err->message + length, sizeof err->message - length,
-             "; where commas stand for decimal points, give --decimal-comma");
+             "; where commas stand for decimal points, give `decimal_comma`");
   return st;
 }
 

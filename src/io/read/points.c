@@ -59,7 +59,7 @@ dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_lin
     return points_fail(err, &c,
                        memchr(line->text, ';', (size_t)(c.end - line->text))
                            ? "the line has one coordinate only; give two, separated by a blank or a comma in place of "
-                             "';', or a header and --columns X,Y"
+                             "';', or a header and `columns` X,Y"
                            : "the line has one coordinate only; give two, separated by a blank or a comma");
   coordinate[1] = points_coordinate(&c);
   int commas = points_separator(&c, 0);

@@ -27,7 +27,7 @@ typedef enum dyd_csv_role {
 typedef struct dyd_csv_want {
   char *name;
   bool quoted;
-  const char *option; /* for messages: "--id" */
+  const char *option; /* for messages: "`id`" */
 } dyd_csv_want;
 
 /* Separated text (RFC 4180) being read. */

@@ -81,11 +81,11 @@ static dyd_status scene_check_size(const html_scene *s, dyd_error *err) {
   const dyd_history *h = s->history;
   size_t pairs = count_seen(s, h->last.item, h->last.count), changes = count_seen(s, h->change, h->changes);
   const char *where = s->r->window ? " in this window" : "",
-             *advice = s->r->window ? "a smaller --window" : "a part of the plane, --window XLO,XHI,YLO,YHI";
+             *advice = s->r->window ? "a smaller `window`" : "a part of the plane, `window` XLO,XHI,YLO,YHI";
   dyd_status st = dyd_html_check_pairs(pairs, where, advice, err);
   if (st != DYD_OK || changes <= MOST_CHANGES) return st;
   return dyd_fail(err, DYD_E_RANGE,
-                  "html shows at most %d changes of pairs, and the stages have %zu%s; raise --start-bits, or give %s",
+                  "html shows at most %d changes of pairs, and the stages have %zu%s; raise `start_bits`, or give %s",
                   MOST_CHANGES, changes, where, advice);
 }
 
