@@ -316,18 +316,11 @@ def cap(site, metres):
 def unit_radius(unit):
     def kind(case, rand):
         plain(case)
-        name, metres, degrees = UNITS[unit]
-        r = size(case, rand)
-        if metres:
-            r = Q(math.ceil(r * Q(111195) / metres * 100), 100)
-            for s in case.sites:
-                s.region = cap(s, r * metres)
-        else:
-            r = r / degrees
-            for s in case.sites:
-                s.region = around(s, r * degrees, r * degrees, 'sphere')
-        case.args += ['--radius', decimal(r) + name]
-        case.radius = decimal(r) + name
+        r = size_in(case, rand, unit)
+        for s in case.sites:
+            s.region = region_of_unit(s, r, unit)
+        case.args += ['--radius', decimal(r) + unit]
+        case.radius = decimal(r) + unit
     return kind
 
 
@@ -366,14 +359,65 @@ def kind_column_units(case, rand):
     case.names = ('r',)
     case.args += ['--radius-column', 'r']
     for s in case.sites:
-        name, metres, degrees = UNITS[rand.choice(('deg', 'm', 'km'))]
+        unit = rand.choice(list(UNITS))
+        r = size_in(case, rand, unit)
+        s.columns, s.region = (decimal(r) + unit,), region_of_unit(s, r, unit)
+
+
+def region_of_unit(site, number, unit):
+    """The region of a radius in a unit, on the sphere."""
+    _, metres, degrees = UNITS[unit]
+    return cap(site, number * metres) if metres else around(site, number * degrees, number * degrees, 'sphere')
+
+
+def size_in(case, rand, unit):
+    """A radius as a number of these units."""
+    _, metres, degrees = UNITS[unit]
+    r = size(case, rand)
+    return Q(math.ceil(r * Q(111195) / metres * 100), 100) if metres else r / degrees
+
+
+def kind_unit_option(case, rand):
+    """The unit in an option of its own, of --radius or of a column; or in the name of the column."""
+    plain(case)
+    unit = rand.choice(list(UNITS))
+    way = rand.choice(('radius', 'column', 'name'))
+    if case.form not in TABLES:
+        way = 'radius'
+    if way == 'radius':
+        r = size_in(case, rand, unit)
+        case.args += ['--radius', decimal(r), '--radius-unit', unit]
+        for s in case.sites:
+            s.region = region_of_unit(s, r, unit)
+        return
+    case.names = ('r' if way == 'column' else rand.choice((f'r({unit})', f'r [{unit}]')),)
+    case.args += ['--radius-column', case.names[0], *(['--radius-unit', unit] if way == 'column' else [])]
+    for s in case.sites:
+        r = size_in(case, rand, unit)
+        s.columns, s.region = (decimal(r),), region_of_unit(s, r, unit)
+
+
+def kind_scaled(case, rand):
+    """A column and an option, both multiplied."""
+    plain(case)
+    k = rand.choice((Q(3), Q(1, 4), Q(2)))
+    case.names = ('r',)
+    case.args += ['--radius-column', 'r', '--radius-scale', decimal(k)]
+    for s in case.sites:
         r = size(case, rand)
-        if metres:
-            r = Q(math.ceil(r * Q(111195) / metres * 100), 100)
-            s.region = cap(s, r * metres)
-        else:
-            s.region = around(s, r * degrees, r * degrees, 'sphere')
-        s.columns = (decimal(r) + name,)
+        s.columns, s.region = (decimal(r),), around(s, r * k, r * k, case.geometry)
+
+
+def kind_columns_of_degrees(case, rand):
+    """A column of longitudes and one of latitudes."""
+    plain(case)
+    case.names = ('rx', 'ry')
+    case.args += ['--radius-column', 'rx,ry']
+    for s in case.sites:
+        unit = rand.choice(('deg', 'arcmin'))
+        r = tuple(size_in(case, rand, unit) for _ in 'xy')
+        s.columns = tuple(decimal(c) + unit for c in r)
+        s.region = around(s, *(c * UNITS[unit][2] for c in r), 'sphere')
 
 
 def kind_both(case, rand):
@@ -484,10 +528,13 @@ KINDS = {  # name: function, geometries, forms
     'exact': (kind_exact, ('plane', 'sphere', 'discs'), TEXTS + ('python', 'capi', 'tiles')),
     'interval': (kind_interval, ('plane', 'sphere'), TEXTS + ('python', 'capi', 'tiles')),
     'plusminus': (kind_plusminus, ('plane', 'sphere'), TEXTS + ('python',)),
-    'radius': (kind_radius, ('plane', 'sphere', 'discs'), TEXTS + ('python',)),
-    'column': (kind_column, ('plane', 'sphere', 'discs'), TABLES + ('python',)),
-    'columns': (kind_columns, ('plane', 'sphere'), TABLES),
-    'both': (kind_both, ('plane', 'sphere'), TABLES),
+    'radius': (kind_radius, ('plane', 'discs'), TEXTS + ('python',)),
+    'column': (kind_column, ('plane', 'discs'), TABLES + ('python',)),
+    'columns': (kind_columns, ('plane',), TABLES),
+    'scaled column': (kind_scaled, ('plane', 'discs'), TABLES),
+    'columns of degrees': (kind_columns_of_degrees, ('sphere',), TABLES),
+    'unit apart': (kind_unit_option, ('sphere',), TEXTS),
+    'both': (kind_both, ('plane',), TABLES),
     'measured': (kind_measured, ('plane', 'sphere'), TEXTS),
     'disguised': (kind_disguised, ('plane', 'sphere'), TEXTS + ('python',)),
     'real': (kind_real, ('plane', 'sphere'), TEXTS + ('python',)),

@@ -310,7 +310,7 @@ def write_regions(regions, geometry, product):
                 at = r[1:3]
                 radius = axes.decimal(r[3]) if r[0] == 'disc' else axes.decimal(r[3] * axes.EARTH / (1 - Q(1, 2 ** 60))) + 'm'
             else:
-                at, radius = ((r[1] + r[2]) / 2, (r[3] + r[4]) / 2), axes.decimal((r[2] - r[1]) / 2)
+                at, radius = ((r[1] + r[2]) / 2, (r[3] + r[4]) / 2), axes.decimal((r[2] - r[1]) / 2) + ('deg' if r[0] == 'degrees' else '')
                 if r[2] - r[1] != r[4] - r[3]:
                     return None
             lines.append(','.join((*map(axes.decimal, at), radius)))

@@ -53,8 +53,6 @@ class Space:
         options = self.offers['options'].get(s.command, []) if s else []
         if form and self.without.get(form):
             return False
-        if kind and kind.startswith('radius ') and not self.unit(kind[7:]):
-            return False
         if kind and (g and g not in axes.KINDS[kind][1] or form and form not in axes.KINDS[kind][2]):
             return False
         if shape and g and axes.SHAPES[shape][g == 'sphere'] is None:
@@ -78,14 +76,13 @@ class Space:
             return False
         return self.extra_fits(row, e)
 
-    def unit(self, name):
-        return name in ('deg', 'm', 'km') or '--radius-unit' in self.offers['options']['delaunay']
-
     @staticmethod
     def kind_fits(s, kind, options):
         if s.command == 'tolerance':
             return kind in stated.FIRM
-        if kind in ('radius', 'both', 'real with radius') or kind.startswith('radius '):
+        if kind == 'scaled column':
+            return '--radius-scale' in options
+        if kind in ('radius', 'both', 'real with radius', 'unit apart') or kind.startswith('radius '):
             return '--radius' in options
         return kind != 'measured' or '--measured' in options
 
