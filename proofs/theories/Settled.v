@@ -4,30 +4,53 @@ From Coq Require Import Reals Lra Lia Psatz Classical.
 From Dyadel Require Import Plane Finite Distance Cells Legal Nerve Orientation Disc TiedFace.
 Open Scope R_scope.
 
-(* Rectangles are made smaller, but not along x those of FX, nor along y those of FY. *)
+(* B' is what rectangles are narrowed to. Along x those of FX have a core, which stays inside of what they are narrowed
+   to; so have those of FY along y. B has the cores there, and elsewhere what the rectangles are narrowed from. *)
 Definition narrowing (N : nat) (FX FY : nat -> Prop) (B B' : sites) : Prop :=
-  refined N B' B /\ (forall k, (k < N)%nat -> FX k -> xlo (B' k) = xlo (B k) /\ xhi (B' k) = xhi (B k)) /\
-  forall k, (k < N)%nat -> FY k -> ylo (B' k) = ylo (B k) /\ yhi (B' k) = yhi (B k).
+  forall k, (k < N)%nat ->
+    (FX k -> xlo (B' k) <= xlo (B k) /\ xhi (B k) <= xhi (B' k)) /\
+    (~ FX k -> xlo (B k) <= xlo (B' k) /\ xhi (B' k) <= xhi (B k)) /\
+    (FY k -> ylo (B' k) <= ylo (B k) /\ yhi (B k) <= yhi (B' k)) /\
+    (~ FY k -> ylo (B k) <= ylo (B' k) /\ yhi (B' k) <= yhi (B k)).
 
-(* Along sides that stay any place is there afterwards as before. *)
+(* Rectangles whose fixed sides stay as they are have these as cores. *)
+Lemma narrowing_of_fixed N (FX FY : nat -> Prop) B B' : refined N B' B ->
+  (forall k, (k < N)%nat -> FX k -> xlo (B' k) = xlo (B k) /\ xhi (B' k) = xhi (B k)) ->
+  (forall k, (k < N)%nat -> FY k -> ylo (B' k) = ylo (B k) /\ yhi (B' k) = yhi (B k)) -> narrowing N FX FY B B'.
+Proof.
+  intros Re X Y k K. specialize (X k K). specialize (Y k K).
+  destruct (Re k K (xlo (B' k), ylo (B' k))) as [A D].
+  { pose proof (x_ordered (B' k)). pose proof (y_ordered (B' k)). split; simpl; lra. }
+  destruct (Re k K (xhi (B' k), yhi (B' k))) as [E F].
+  { pose proof (x_ordered (B' k)). pose proof (y_ordered (B' k)). split; simpl; lra. }
+  simpl in *. split; [intros S; specialize (X S); lra |]. split; [intros _; lra |].
+  split; [intros S; specialize (Y S); lra | intros _; lra].
+Qed.
+
+(* Any place in a core is there afterwards as before; in other sides some place is. *)
 Lemma narrowing_point N FX FY B B' k g : (k < N)%nat -> narrowing N FX FY B B' -> inside g (B k) ->
-  exists z, inside z (B' k) /\ (FX k -> fst z = fst g) /\ (FY k -> snd z = snd g).
+  exists z, inside z (B' k) /\ inside z (B k) /\ (FX k -> fst z = fst g) /\ (FY k -> snd z = snd g).
 Proof.
-  intros K [_ [X Y]] [Gx Gy]. destruct (nearest_inside (0, 0) (B' k)) as [Nx Ny].
-  assert (Sx : exists x, xlo (B' k) <= x <= xhi (B' k) /\ (FX k -> x = fst g)).
-  { destruct (classic (FX k)) as [H | H]; [exists (fst g); rewrite (proj1 (X k K H)), (proj2 (X k K H)) |
-      exists (fst (nearest (0, 0) (B' k)))]; tauto. }
-  assert (Sy : exists y, ylo (B' k) <= y <= yhi (B' k) /\ (FY k -> y = snd g)).
-  { destruct (classic (FY k)) as [H | H]; [exists (snd g); rewrite (proj1 (Y k K H)), (proj2 (Y k K H)) |
-      exists (snd (nearest (0, 0) (B' k)))]; tauto. }
-  destruct Sx as [x [Ix Ex]]. destruct Sy as [y [Iy Ey]]. now exists (x, y).
+  intros K W [Gx Gy]. destruct (W k K) as [X [X' [Y Y']]]. destruct (nearest_inside (0, 0) (B' k)) as [Nx Ny].
+  assert (Sx : exists x, xlo (B' k) <= x <= xhi (B' k) /\ xlo (B k) <= x <= xhi (B k) /\ (FX k -> x = fst g)).
+  { destruct (classic (FX k)) as [H | H]; [exists (fst g); specialize (X H) |
+      exists (fst (nearest (0, 0) (B' k))); specialize (X' H)]; repeat split; try lra; tauto. }
+  assert (Sy : exists y, ylo (B' k) <= y <= yhi (B' k) /\ ylo (B k) <= y <= yhi (B k) /\ (FY k -> y = snd g)).
+  { destruct (classic (FY k)) as [H | H]; [exists (snd g); specialize (Y H) |
+      exists (snd (nearest (0, 0) (B' k))); specialize (Y' H)]; repeat split; try lra; tauto. }
+  destruct Sx as [x [Ix [Jx Ex]]]. destruct Sy as [y [Iy [Jy Ey]]]. exists (x, y). unfold inside. simpl. tauto.
 Qed.
 
-Lemma narrowing_fixed N FX FY B B' k : (k < N)%nat -> narrowing N FX FY B B' -> FX k -> FY k -> refines (B k) (B' k).
+Lemma narrowing_core N FX FY B B' k : (k < N)%nat -> narrowing N FX FY B B' -> FX k -> FY k -> refines (B k) (B' k).
 Proof.
-  intros K [_ [X Y]] Hx Hy z [Zx Zy]. unfold inside.
-  rewrite (proj1 (X k K Hx)), (proj2 (X k K Hx)), (proj1 (Y k K Hy)), (proj2 (Y k K Hy)). tauto.
+  intros K W Hx Hy z [Zx Zy]. destruct (W k K) as [X [_ [Y _]]]. specialize (X Hx). specialize (Y Hy). unfold inside. lra.
 Qed.
+
+(* The interval within the radius r of every place x that the centre may have: each [lo', hi'] that holds what is within
+   r of such a place, in [lo, hi], holds the core [SET-3]. *)
+Theorem core_stays lo hi lo' hi' x r : lo <= lo' -> hi' <= hi -> lo' <= x - r -> x + r <= hi' ->
+  lo' <= hi - 2 * r /\ lo + 2 * r <= hi'.
+Proof. lra. Qed.
 
 (* g chooses points along the sides that stay; a part of the sites is numbered anew, m is the site e m, and stands for
    all of its rectangle with this choice. *)
@@ -37,16 +60,15 @@ Theorem part_refutes_legal N M FX FY B B' C (g : nat -> point) (e : nat -> nat) 
     (FY (e m) -> snd x = snd (g (e m))) -> inside x (C m)) ->
   (a < M)%nat -> (b < M)%nat -> ~ possible M C a b -> ~ legal N B' (e a) (e b).
 Proof.
-  intros W G E A D Np L. apply Np. clear Np. pose proof (proj1 W) as Re.
-  destruct (finite_choice (0, 0) (fun k z => inside z (B' k) /\ (FX k -> fst z = fst (g k)) /\
+  intros W G E A D Np L. apply Np. clear Np.
+  destruct (finite_choice (0, 0) (fun k z => inside z (B' k) /\ inside z (B k) /\ (FX k -> fst z = fst (g k)) /\
     (FY k -> snd z = snd (g k))) N) as [p P].
   { intros k K. apply (narrowing_point N FX FY B B' k (g k) K W), G, K. }
   destruct (E a A) as [Ea _]. destruct (E b D) as [Eb _].
   destruct (legal_sound N B' (e a) (e b) p Ea Eb L) as [c [Eq Out]]; [intros k K; now apply P |].
   left. apply (pair_possible M C a b A D). exists c.
   apply (disc_shows_possible M C (pair a b) (fun m => p (e m)) c (dist c (p (e a)))).
-  - intros m H. destruct (E m H) as [K X]. destruct (P (e m) K) as [I [Zx Zy]].
-    apply X; [now apply (Re (e m) K) | |]; assumption.
+  - intros m H. destruct (E m H) as [K X]. destruct (P (e m) K) as [_ [I [Zx Zy]]]. now apply X.
   - split; [now intros i _ [-> | ->] |]. intros m H. destruct (E m H) as [K _].
     destruct (Nat.eq_dec (e m) (e a)) as [-> | Da]; [lra |].
     destruct (Nat.eq_dec (e m) (e b)) as [-> | Db]; [lra |]. left. now apply Out.
@@ -91,9 +113,8 @@ Lemma end_within N FX FY B B' k c d : (k < N)%nat -> narrowing N FX FY B B' -> r
   ds c (B' k) <= d.
 Proof.
   intros K W [v [X [Y ->]]].
-  destruct (narrowing_point N FX FY B B' k (nearest c (B k)) K W (nearest_inside c (B k))) as [z [I [Zx Zy]]].
+  destruct (narrowing_point N FX FY B B' k (nearest c (B k)) K W (nearest_inside c (B k))) as [z [I [[Ix Iy] [Zx Zy]]]].
   apply Rle_trans with (dist c z); [now apply ds_le |]. apply dist_le. unfold dist2.
-  destruct (proj1 W k K z I) as [Ix Iy].
   pose proof (along_end _ _ _ _ _ _ (x_ordered (B k)) X Ix Zx).
   pose proof (along_end _ _ _ _ _ _ (y_ordered (B k)) Y Iy Zy). lra.
 Qed.
@@ -102,9 +123,8 @@ Lemma other_reaches N FX FY B B' k c d : (k < N)%nat -> narrowing N FX FY B B' -
   reach (~ FX k) (~ FY k) c (B k) d -> d <= dl c (B' k).
 Proof.
   intros K W [v [X [Y ->]]].
-  destruct (narrowing_point N FX FY B B' k (farthest c (B k)) K W (farthest_inside c (B k))) as [z [I [Zx Zy]]].
+  destruct (narrowing_point N FX FY B B' k (farthest c (B k)) K W (farthest_inside c (B k))) as [z [I [[Ix Iy] [Zx Zy]]]].
   apply Rle_trans with (dist c z); [| now apply le_dl]. apply dist_le. unfold dist2.
-  destruct (proj1 W k K z I) as [Ix Iy].
   pose proof (along_other _ _ _ _ _ _ (x_ordered (B k)) X Ix Zx).
   pose proof (along_other _ _ _ _ _ _ (y_ordered (B k)) Y Iy Zy). lra.
 Qed.
@@ -131,8 +151,8 @@ Definition stands_for (FX FY : nat -> Prop) (B : sites) (k : nat) (Q : point -> 
 Lemma stands_in_narrowing N FX FY B B' k Q : (k < N)%nat -> narrowing N FX FY B B' -> stands_for FX FY B k Q ->
   exists x, Q x /\ inside x (B' k).
 Proof.
-  intros K W [q [I H]]. destruct (narrowing_point N FX FY B B' k q K W I) as [z [Iz [Zx Zy]]].
-  exists z. split; [| exact Iz]. apply H; [now apply (proj1 W k K) | |]; assumption.
+  intros K W [q [I H]]. destruct (narrowing_point N FX FY B B' k q K W I) as [z [Iz [Jz [Zx Zy]]]].
+  exists z. split; [now apply H | exact Iz].
 Qed.
 
 Section Four.
@@ -286,7 +306,7 @@ Definition differ_narrowed (FX FY : nat -> Prop) (k : nat) (x y : point) : Prop 
 
 Section Firm.
 Variables (N : nat) (FX FY firm : nat -> Prop) (B B' C : sites) (q : nat -> point) (e : R) (i j : nat).
-Variables (I : (i < N)%nat) (J : (j < N)%nat) (Pe : 0 < e).
+Variables (I : (i < N)%nat) (J : (j < N)%nat) (Pe : 0 <= e).
 Variable narrow : narrowing N FX FY B B'.
 Variable small_ones : forall k x y, (k < N)%nat -> inside x (B k) -> inside y (B k) -> differ_narrowed FX FY k x y ->
   dist x y <= e.
@@ -301,16 +321,16 @@ Lemma near_narrowed k x : (k < N)%nat -> inside x (C k) -> exists z, inside z (B
 Proof.
   intros K H. destruct (classic (firm k)) as [T | T].
   - destruct (firm_fixed k K T) as [Fx [Fy L]]. exists x. rewrite dist_self. split; [| lra].
-    apply (narrowing_fixed N FX FY B B' k K narrow Fx Fy), (around_inside e (C k) (B k) x x L H). rewrite dist_self. lra.
+    apply (narrowing_core N FX FY B B' k K narrow Fx Fy), (around_inside e (C k) (B k) x x L H). rewrite dist_self. lra.
   - destruct (others k x K T H) as [Hb _].
-    destruct (narrowing_point N FX FY B B' k x K narrow Hb) as [z [Iz [Zx Zy]]]. exists z. split; [exact Iz |].
-    apply (small_ones k x z K Hb); [now apply (proj1 narrow k K) |]. split; intros Y; symmetry; auto.
+    destruct (narrowing_point N FX FY B B' k x K narrow Hb) as [z [Iz [Jz [Zx Zy]]]]. exists z. split; [exact Iz |].
+    apply (small_ones k x z K Hb Jz). split; intros Y; symmetry; auto.
 Qed.
 
 Lemma end_shrinks k c : (k < N)%nat -> firm k -> dl c (C k) <= dl c (B' k) - e.
 Proof.
-  intros K H. destruct (firm_fixed k K H) as [Fx [Fy L]]. pose proof (dl_less e _ _ c (Rlt_le _ _ Pe) L).
-  pose proof (dl_monotone c _ _ (narrowing_fixed N FX FY B B' k K narrow Fx Fy)). lra.
+  intros K H. destruct (firm_fixed k K H) as [Fx [Fy L]]. pose proof (dl_less e _ _ c Pe L).
+  pose proof (dl_monotone c _ _ (narrowing_core N FX FY B B' k K narrow Fx Fy)). lra.
 Qed.
 
 Theorem firm_refutes_legal : ~ legal N C i j -> ~ legal N B' i j.
@@ -324,14 +344,13 @@ Qed.
 
 Theorem firm_stays_possible : possible N C i j -> possible N B' i j.
 Proof.
-  assert (Same : forall k c, (k < N)%nat -> firm k -> ds c (B' k) = ds c (B k)).
+  assert (Same : forall k c, (k < N)%nat -> firm k -> ds c (B' k) <= ds c (B k)).
   { intros k c K T. destruct (firm_fixed k K T) as [Fx [Fy _]].
-    pose proof (ds_monotone c _ _ (proj1 narrow k K)).
-    pose proof (ds_monotone c _ _ (narrowing_fixed N FX FY B B' k K narrow Fx Fy)). lra. }
+    apply ds_monotone, (narrowing_core N FX FY B B' k K narrow Fx Fy). }
   destruct (firm_fixed i I Fi) as [_ [_ Li]]. destruct (firm_fixed j J Fj) as [_ [_ Lj]].
   assert (E : 0 <= e) by lra. intros [[c H] | [u [U H]]].
   - left. exists c. intros k K Di Dj. destruct (H k K Di Dj) as [Hi Hj].
-    pose proof (Same i c I Fi) as Si. pose proof (Same j c J Fj) as Sj. rewrite Si, Sj.
+    pose proof (Same i c I Fi) as Si. pose proof (Same j c J Fj) as Sj.
     destruct (near_narrowed k (farthest c (C k)) K (farthest_inside c (C k))) as [z [Iz D]].
     pose proof (le_dl c _ _ Iz). pose proof (dist_triangle c z (farthest c (C k))). rewrite (dist_sym z) in *.
     assert (Dl : dl c (C k) - e <= dl c (B' k)) by (change (dl c (C k)) with (dist c (farthest c (C k))); lra).
@@ -346,7 +365,7 @@ Proof.
     assert (Ts : firm s) by (destruct Ss as [-> | ->]; assumption).
     destruct (firm_fixed s Ls Ts) as [Fx [Fy L]]. pose proof (highest_more e _ _ u E U L) as Hi.
     assert (dot u (highest u (B s)) <= dot u (highest u (B' s))).
-    { apply highest_spec, (narrowing_fixed N FX FY B B' s Ls narrow Fx Fy), highest_spec. }
+    { apply highest_spec, (narrowing_core N FX FY B B' s Ls narrow Fx Fy), highest_spec. }
     destruct (near_narrowed k (lowest u (C k)) K (proj1 (lowest_spec u (C k)))) as [z [Iz D]].
     assert (0 <= norm u) by apply dist_nonneg. pose proof (proj2 (lowest_spec u (B' k)) z Iz).
     pose proof (dot_near u z (lowest u (C k))). rewrite dist_sym in D.

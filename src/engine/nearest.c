@@ -8,11 +8,15 @@
  *
  * Whoever is nearest is listed. If all that are listed are equally far from the point, all of them are nearest, and no
  * refinement changes that: a tie. It is looked for when the list has changed [NEAR-4]. */
+#include "base/alloc.h"
 #include "base/error.h"
 #include "engine/plan.h"
 #include "engine/points.h"
+#include "engine/settle_firm.h"
 #include "engine/ties.h"
 #include <dyadel/voronoi.h>
+
+#include <stdlib.h>
 
 /* level: the precision worked towards, INT64_MIN at first; the point asked about is the only guest. tried: how many
  * were listed when a tie was looked for last. */
@@ -64,12 +68,60 @@ static dyd_status nearest_try_tie(nearest_question *q, const dyd_engine_options 
   return st;
 }
 
+/* Adds the sites listed, as they are in the problem of [NEAR-5]. firm: one flag for each of them. */
+static dyd_status nearest_add_firm(dyd_sites *sites, bool *firm, const nearest_question *q, const dyd_dyadic *eps) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; st == DYD_OK && k < q->near.count; k++)
+    st = dyd_firm_add(sites, &firm[k], q->e, eps, q->near.item[k]);
+  return st;
+}
+
+/* Counts the firm sites that may be nearest to some point of `at`, by a triangulation of the sites listed. */
+static dyd_status nearest_count_firm(size_t *count, const nearest_question *q, const dyd_rect *at,
+                                     const dyd_dyadic *eps) {
+  dyd_sites *sites = NULL;
+  dyd_delaunay *pd = NULL;
+  dyd_index_list near = {0};
+  bool sure, *firm = dyd_alloc(q->near.count, sizeof *firm);
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = &q->e->stop};
+  dyd_status st = firm ? dyd_sites_new(&sites) : DYD_E_NOMEM;
+  *count = 0;
+  if (st == DYD_OK) st = nearest_add_firm(sites, firm, q, eps);
+  if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, NULL);
+  if (st == DYD_OK) st = dyd_nearest_rect(&near, &sure, pd, at);
+  for (size_t k = 0; st == DYD_OK && k < near.count; k++) *count += firm[near.item[k]];
+  dyd_index_list_clear(&near);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  free(firm);
+  return st == DYD_CAPPED ? DYD_OK : st;
+}
+
+/* Do two sites stay possible, whatever is refined [NEAR-5]? */
+static dyd_status nearest_is_settled(bool *out, const nearest_question *q) {
+  size_t count = 0;
+  dyd_dyadic eps;
+  dyd_rect at;
+  dyd_dyadic_init(&eps);
+  dyd_rect_init(&at);
+  dyd_status st = dyd_firm_place(&at, &eps, q->at);
+  for (size_t k = 0; st == DYD_OK && k < q->near.count; k++) st = dyd_firm_raise(&eps, q->e, q->near.item[k]);
+  for (int k = 0; st == DYD_OK && k < 2; k++) st = dyd_dyadic_add(&eps, &eps, &eps);
+  if (st == DYD_OK) st = nearest_count_firm(&count, q, &at, &eps);
+  *out = count > 1;
+  dyd_rect_clear(&at);
+  dyd_dyadic_clear(&eps);
+  return st;
+}
+
 static dyd_status nearest_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   nearest_question *q = user;
   dyd_status st = dyd_nearest_rect(&q->near, &q->sure, e->pd, dyd_stream_rect(q->at));
   *answered = st == DYD_OK && q->sure;
   if (st == DYD_OK && q->near.count > 1) st = nearest_try_tie(q, plan->o, err);
-  if (st == DYD_OK && !q->sure && !q->tied && q->near.count) nearest_plan(q, plan);
+  bool settled = q->sure || q->tied || q->near.count == 0;
+  if (st == DYD_OK && !settled && q->near.count > 1) st = nearest_is_settled(&settled, q);
+  if (st == DYD_OK && !settled) nearest_plan(q, plan);
   return st;
 }
 

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Pairs that stay indeterminate whatever is refined [SET-1] [SET-2].
  *
- * Sides of rectangles are fixed, or can be narrowed: both, or one, or none of a point. Let no two points of a rectangle
- * that differ along sides which can be narrowed be farther apart than eps. A rectangle is firm if it is fixed and wider
- * than 2 eps both ways. Pairs of firm rectangles: all sites are triangulated once with firm rectangles smaller by eps
- * on each side and any place along each side that can be narrowed. A pair that is open there, neither legal nor
- * illegal, is so wherever these points are. Other pairs: settle_face.c. */
+ * A side of a rectangle may have a core, an interval that no refinement leaves [SET-3]: all of a fixed side, and what
+ * is within the radius of every place that the centre of a side may have. Let no two points of a rectangle that differ
+ * along sides without a core be farther apart than eps. A site is firm if both its sides have cores wider than 2 eps.
+ * Pairs of firm sites: all sites are triangulated once, the firm ones with their cores less eps on each side, the
+ * others with any place along each side without a core. A pair that is neither legal nor illegal there is so wherever
+ * these points are. Other pairs: settle_face.c. */
 #include "engine/settle.h"
 
 #include "base/alloc.h"
@@ -14,8 +15,8 @@
 
 #include <stdlib.h>
 
-/* From so many bits on pairs are worth a look; how many sites may be looked at in all, for each site and besides. In
- * the armed build coarse points are looked at. */
+/* From so many bits on pairs without a radius are worth a look; how many sites may be looked at in all, for each site
+ * and besides. In the armed build coarse points are looked at. */
 #ifdef DYD_ARMED
 enum { FIRST_BITS = 2 };
 #else
@@ -56,9 +57,9 @@ static void settled_sort(dyd_settled *s) {
   s->count = kept;
 }
 
-/* ---- pairs of firm rectangles ---- */
+/* ---- pairs of firm sites ---- */
 
-/* Settles pairs of firm rectangles, by all sites. */
+/* Settles pairs of firm sites, by all sites. */
 static dyd_status settle_firm(dyd_settled_pair *pair, size_t pairs, const dyd_plan *plan, const dyd_dyadic *eps) {
   const dyd_engine *e = plan->e;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = plan->o->max_pairs, .cancel = &e->stop,
@@ -66,7 +67,10 @@ static dyd_status settle_firm(dyd_settled_pair *pair, size_t pairs, const dyd_pl
   dyd_sites *sites = NULL;
   dyd_delaunay *pd = NULL;
   dyd_status st = dyd_sites_new(&sites);
-  for (size_t k = 0; st == DYD_OK && k < dyd_sites_count(e->sites); k++) st = dyd_firm_add(sites, e, eps, (uint32_t)k);
+  for (size_t k = 0; st == DYD_OK && k < dyd_sites_count(e->sites); k++) {
+    bool firm;
+    st = dyd_firm_add(sites, &firm, e, eps, (uint32_t)k);
+  }
   if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, NULL);
   for (size_t k = 0; st == DYD_OK && k < pairs; k++) {
     dyd_pair_status status = dyd_delaunay_status(pd, pair[k].i, pair[k].j);
@@ -82,12 +86,14 @@ static dyd_status settle_firm(dyd_settled_pair *pair, size_t pairs, const dyd_pl
 
 /* Is one of the sites a point that can be narrowed? */
 static bool any_can_narrow(const dyd_engine *e, const dyd_index_list *site) {
-  for (size_t k = 0; k < site->count; k++)
-    if (!dyd_site_is_fixed(e, site->item[k])) return true;
+  for (size_t k = 0; k < site->count; k++) {
+    const dyd_refinable *p = dyd_engine_find(e, site->item[k]);
+    if (p && !p->final) return true;
+  }
   return false;
 }
 
-/* Appends the indeterminate pairs of face f that are not settled: those of firm rectangles, or the others. */
+/* Appends the indeterminate pairs of face f that are not settled: those of firm sites, or the others. */
 static dyd_status take_pairs(dyd_settled *out, const dyd_settled *known, const dyd_engine *e, const dyd_dyadic *eps,
                              size_t f, bool firm) {
   dyd_pair_list all = {0};
@@ -106,7 +112,7 @@ static dyd_status take_pairs(dyd_settled *out, const dyd_settled *known, const d
   return st;
 }
 
-/* Takes pairs of face f, if a point of it can be narrowed; unless they are of firm rectangles, looks at them. */
+/* Takes pairs of face f, if a point of it can be narrowed; unless they are of firm sites, looks at them. */
 static dyd_status settle_face_pairs(dyd_settled *fresh, dyd_settled *s, size_t *work, const dyd_engine *e,
                                     const dyd_dyadic *eps, size_t f, bool firm) {
   size_t first = fresh->count;
@@ -148,12 +154,37 @@ static dyd_status settled_append(dyd_settled *s, const dyd_settled *fresh) {
   return DYD_OK;
 }
 
+/* Does a point that can be narrowed have a core? */
+static dyd_status any_core(bool *out, const dyd_engine *e) {
+  dyd_status st = DYD_OK;
+  dyd_rect r;
+  *out = false;
+  dyd_rect_init(&r);
+  for (size_t k = 0; st == DYD_OK && !*out && k < e->points; k++) {
+    bool core[2];
+    if (e->point[k].final) continue;
+    st = dyd_site_get_core(&r, core, e, e->point[k].site);
+    *out = st == DYD_OK && core[0] && core[1];
+  }
+  dyd_rect_clear(&r);
+  return st;
+}
+
+/* From FIRST_BITS on, and when all pairs are looked at for the first time, if radii may be what keeps them open. */
+static dyd_status settle_is_due(bool *out, const dyd_settled *s, const dyd_plan *plan, int64_t bits) {
+  int64_t due = s->next > FIRST_BITS ? s->next : FIRST_BITS;
+  *out = bits >= due || bits >= plan->o->max_bits;
+  return *out || s->next ? DYD_OK : any_core(out, plan->e);
+}
+
 dyd_status dyd_settle(dyd_settled *s, const dyd_plan *plan) {
-  int64_t bits = most_bits(plan->e), due = s->next > FIRST_BITS ? s->next : FIRST_BITS;
+  int64_t bits = most_bits(plan->e);
   dyd_settled fresh = {0};
-  if (bits < due && bits < plan->o->max_bits) return DYD_OK;
+  bool due;
+  dyd_status st = settle_is_due(&due, s, plan, bits);
+  if (st != DYD_OK || !due) return st;
   s->next = dyd_bits_raised(bits, bits > 0 ? 3 * bits : 0, INT64_MAX);
-  dyd_status st = settle_pairs(&fresh, s, plan);
+  st = settle_pairs(&fresh, s, plan);
   if (st == DYD_OK) st = settled_append(s, &fresh);
   dyd_settled_clear(&fresh);
   return st;

@@ -50,7 +50,7 @@ static void cutting_add_end(cutting *q, size_t k) {
   double b[4];
   for (int n = 0; n < 4; n++) {
     const double *side = &q->site[k].box[n & 2];
-    b[n] = q->site[k].fixed[n / 2] ? side[n & 1] : side[0] / 2 + side[1] / 2;
+    b[n] = q->site[k].core[n / 2] ? side[n & 1] : side[0] / 2 + side[1] / 2;
   }
   for (int x = 0; x < (b[0] < b[1] ? 2 : 1); x++)
     for (int y = 2; y < (b[2] < b[3] ? 4 : 3); y++) q->end[q->ends++] = (spot){{b[x] - o[0], b[y] - o[1]}, k};

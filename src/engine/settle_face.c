@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Pairs of one face: what stays open wherever the points are that can be narrowed [SET-1].
  *
- * Each side of a rectangle is fixed, or can be narrowed to any point of it. A disc to which both ends may reach along
- * their fixed sides, wherever they are along the others, while nobody else has to meet it, makes a pair possible for
- * good. Points of both ends that four points show to be in no disc of their own, make it never legal. First a few
- * choices of points on fixed sides are triangulated, all others being as they are: a witness there is such a disc for
+ * A side has a core, which no refinement leaves, or can be narrowed to any point of it. A disc to which both ends may
+ * reach along their cores, wherever they are along the others, while nobody else has to meet it, makes a pair possible
+ * for good. Points of both ends that four points show to be in no disc of their own, make it never legal. First a few
+ * choices of points in cores are triangulated, all others being as they are: a witness there is such a disc for
  * some of them, and what is illegal there is never legal. */
 #include "engine/settle_face.h"
 
@@ -14,8 +14,8 @@
 #include "base/flag.h"
 #include "base/index.h"
 #include "delaunay/disc_filter.h"
-#include "engine/points.h"
 #include "engine/settle_filter.h"
+#include "engine/settle_firm.h"
 
 #include <stdlib.h>
 
@@ -33,7 +33,7 @@ typedef struct settling {
   dyd_settled_pair *pair;
   size_t pairs, left;
   size_t *work;
-  bool mixed; /* some side is fixed, and no point */
+  bool mixed; /* some side has a core that is no point */
 } settling;
 
 static void settling_drop_rects(settling *s) {
@@ -74,12 +74,11 @@ static dyd_status settling_take_rects(settling *s) {
   for (size_t k = 0; s->rect && k < s->site.count; k++) dyd_rect_init(&s->rect[k]);
   if (!s->rect || !s->guess) return DYD_E_NOMEM;
   for (size_t k = 0; st == DYD_OK && k < s->site.count; k++) {
-    bool *fixed = s->guess[k].fixed;
-    st = dyd_sites_get(&s->rect[k], s->e->sites, s->site.item[k]);
+    bool *core = s->guess[k].core;
+    st = dyd_site_get_core(&s->rect[k], core, s->e, s->site.item[k]);
     dyd_rect_get_d(s->guess[k].box, &s->rect[k]);
-    dyd_site_fixed_sides(fixed, s->e, s->site.item[k], &s->rect[k]);
-    s->mixed = s->mixed || (fixed[0] && !dyd_interval_is_point(&s->rect[k].x)) ||
-               (fixed[1] && !dyd_interval_is_point(&s->rect[k].y));
+    s->mixed = s->mixed || (core[0] && !dyd_interval_is_point(&s->rect[k].x)) ||
+               (core[1] && !dyd_interval_is_point(&s->rect[k].y));
   }
   return st;
 }
@@ -122,12 +121,11 @@ static dyd_status rect_reach2(mpq_t out, const dyd_point *c, const dyd_rect *r, 
 static dyd_status disc_spares(bool *out, const dyd_engine *e, const dyd_point *c, const mpq_t radius2, uint32_t k) {
   mpq_t far2;
   dyd_rect r;
-  bool fixed[2];
+  bool core[2] = {false, false};
   mpq_init(far2);
   dyd_rect_init(&r);
-  dyd_status st = dyd_sites_get(&r, e->sites, k);
-  dyd_site_fixed_sides(fixed, e, k, &r);
-  const bool near[2] = {!fixed[0], !fixed[1]};
+  dyd_status st = dyd_site_get_core(&r, core, e, k);
+  const bool near[2] = {!core[0], !core[1]};
   if (st == DYD_OK) st = rect_reach2(far2, c, &r, near);
   *out = st == DYD_OK && mpq_cmp(far2, radius2) >= 0;
   dyd_rect_clear(&r);
@@ -144,7 +142,7 @@ static dyd_status disc_joins(bool *out, dyd_index_list *met, const settling *s, 
   dyd_status st = DYD_OK;
   mpq_inits(radius2, other, (mpq_ptr)0);
   for (int k = 0; st == DYD_OK && k < 2; k++) {
-    st = rect_reach2(other, c, &s->rect[end[k]], s->guess[end[k]].fixed);
+    st = rect_reach2(other, c, &s->rect[end[k]], s->guess[end[k]].core);
     if (mpq_cmp(other, radius2) > 0) mpq_swap(other, radius2);
   }
   if (st == DYD_OK) st = dyd_delaunay_meet_disc(met, s->e->pd, c, radius2);
@@ -202,9 +200,9 @@ static void choose_on_side(dyd_interval *out, const dyd_interval *a, double at) 
 /* Site number k of the face: its point nearest to `at` along the sides where that can be chosen. */
 static void settling_choose(dyd_rect *out, const settling *s, size_t k, const double at[2]) {
   dyd_rect_set(out, &s->rect[k]);
-  const bool *fixed = s->guess[k].fixed;
-  if (fixed[0] && !dyd_interval_is_point(&out->x)) choose_on_side(&out->x, &s->rect[k].x, at[0]);
-  if (fixed[1] && !dyd_interval_is_point(&out->y)) choose_on_side(&out->y, &s->rect[k].y, at[1]);
+  const bool *core = s->guess[k].core;
+  if (core[0] && !dyd_interval_is_point(&out->x)) choose_on_side(&out->x, &s->rect[k].x, at[0]);
+  if (core[1] && !dyd_interval_is_point(&out->y)) choose_on_side(&out->y, &s->rect[k].y, at[1]);
 }
 
 /* Is r[3] surely among the three others? */

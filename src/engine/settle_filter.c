@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Centres of discs for some choice of places along fixed sides, by a few of them and a descent in doubles.
+/* Centres of discs for some choice of places in cores, by a few of them and a descent in doubles.
  *
  * For a centre c the choice that joins i and j best is clear: theirs nearest to c, all others farthest. There is room
  * when the farther of i and j is then nearer to c than all others, wherever those are that cannot be chosen. */
@@ -49,7 +49,7 @@ static double joining_reach2(const joining *q, size_t k, const double c[2]) {
   bool end = k == q->i || k == q->j;
   double sum = 0;
   for (int a = 0; a < 2; a++)
-    sum += s->fixed[a] == end ? side_near2(&s->box[2 * a], c[a]) : side_far2(&s->box[2 * a], c[a]);
+    sum += s->core[a] == end ? side_near2(&s->box[2 * a], c[a]) : side_far2(&s->box[2 * a], c[a]);
   return sum;
 }
 
@@ -121,13 +121,13 @@ static void centre_list_start(centre_list *l, joining *q) {
 
 /* Is there more than one choice? */
 static bool site_is_wide(const dyd_settle_site *s) {
-  return (s->fixed[0] && s->box[0] < s->box[1]) || (s->fixed[1] && s->box[2] < s->box[3]);
+  return (s->core[0] && s->box[0] < s->box[1]) || (s->core[1] && s->box[2] < s->box[3]);
 }
 
 /* Number n of a row of points around the box; false: there is none. */
 static bool site_spot(double out[2], const dyd_settle_site *s, int n) {
   double b[4];
-  for (int k = 0; k < 4; k++) b[k] = s->fixed[k / 2] ? s->box[k] : site_middle(s, k / 2);
+  for (int k = 0; k < 4; k++) b[k] = s->core[k / 2] ? s->box[k] : site_middle(s, k / 2);
   const double t = (double)(n % ALONG) / ALONG, w = b[1] - b[0], h = b[3] - b[2];
   switch (n / ALONG) {
   case 0:

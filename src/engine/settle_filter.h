@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Where to put points along fixed sides, so that a pair becomes an edge, or cannot be legal. Guesses: nothing
+/* Where to put points in cores, so that a pair becomes an edge, or cannot be legal. Guesses: nothing
  * that is stated depends on them. */
 #ifndef DYD_ENGINE_SETTLE_FILTER_H
 #define DYD_ENGINE_SETTLE_FILTER_H
@@ -12,7 +12,7 @@
  * choice. */
 typedef struct dyd_settle_site {
   double box[4];
-  bool fixed[2];
+  bool core[2];
   double at[2];
 } dyd_settle_site;
 
@@ -20,14 +20,14 @@ typedef struct dyd_settle_site {
 void dyd_filter_choose_middles(dyd_settle_site *site, size_t count);
 /* Anywhere. */
 void dyd_filter_choose_any(dyd_settle_site *site, size_t count, uint64_t *random);
-/* The centre of a disc that holds points of sites i and j, and of each other site not all, by choices along fixed
+/* The centre of a disc that holds points of sites i and j, and of each other site not all, by choices along cores
  * sides, wherever points are along the others; of such centres one with much room. false: none with any room was found.
  * thorough: looks about ten times as long. */
 bool dyd_filter_find_centre(double c[2], const dyd_settle_site *site, size_t count, size_t i, size_t j, bool thorough);
 
 /* Four points at[k] of site[k]. inside: number 3 is among the three others, all of them of the two ends; else 0 and 1
  * are of ends, and 2 and 3 of others: the segments 01 and 23 cross, and the circle through 0, 1, 2 goes around 3. Sites
- * have their middles there along sides that are not fixed. */
+ * have their middles there along sides without a core. */
 typedef struct dyd_settle_cut {
   size_t site[4];
   double at[4][2];

@@ -1,52 +1,67 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Firm rectangles: fixed, and wider both ways than twice what is not known of sides that can be narrowed [SET-2]. */
+/* Cores [SET-3], and firm ones: wider both ways than twice what is not known of sides without a core [SET-2]. */
 #include "engine/settle_firm.h"
 
 #include "engine/points.h"
+#include "stream/real.h"
 #include "stream/stream.h"
 
-/* Sides of r that are fixed, or those that are not, become their lower ends. */
-static dyd_status rect_collapse(dyd_rect *r, const bool fixed[2], bool which) {
+/* Sides of r that have a core, or those that have none, become their lower ends. */
+static dyd_status rect_collapse(dyd_rect *r, const bool core[2], bool which) {
   dyd_interval *side[2] = {&r->x, &r->y};
   dyd_status st = DYD_OK;
   for (int a = 0; st == DYD_OK && a < 2; a++)
-    if (fixed[a] == which && !dyd_interval_is_point(side[a]))
+    if (core[a] == which && !dyd_interval_is_point(side[a]))
       st = dyd_interval_set_ends(side[a], &side[a]->lo, &side[a]->lo);
   return st;
 }
 
-/* Is a side of a point that x gives one that never changes again? Another user of x may have narrowed it for good
- * since. A side that was measured again, or is joined with another one, is narrower than x, and only x is asked for
- * more. */
-static bool side_is_final(const dyd_real *x, const dyd_interval *side) {
-  return dyd_real_is_final(x) && dyd_interval_contains(dyd_real_interval(x), side);
+dyd_status dyd_site_get_core(dyd_rect *r, bool core[2], const dyd_engine *e, uint32_t site) {
+  const dyd_refinable *p = dyd_engine_find(e, site);
+  core[0] = core[1] = !p || p->final;
+  dyd_status st = dyd_sites_get(r, e->sites, site);
+  return st == DYD_OK && !core[0] && p->stream ? dyd_stream_core(r, core, p->stream, p->measured) : st;
 }
 
-void dyd_site_fixed_sides(bool fixed[2], const dyd_engine *e, uint32_t site, const dyd_rect *r) {
-  const dyd_refinable *p = dyd_engine_find(e, site);
-  const void *pair;
-  fixed[0] = fixed[1] = !p || p->final;
-  if (fixed[0] || !p->stream || dyd_stream_object(&pair, p->stream) != DYD_STREAM_PAIR) return;
-  fixed[0] = side_is_final(((const dyd_stream_pair *)pair)->x, &r->x);
-  fixed[1] = side_is_final(((const dyd_stream_pair *)pair)->y, &r->y);
+/* Raises *eps to what two points of r may differ by along sides without a core. */
+static dyd_status eps_raise(dyd_dyadic *eps, const dyd_rect *r, const bool core[2]) {
+  dyd_dyadic more;
+  dyd_rect rest;
+  dyd_dyadic_init(&more);
+  dyd_rect_init(&rest);
+  dyd_rect_set(&rest, r);
+  dyd_status st = rect_collapse(&rest, core, true);
+  if (st == DYD_OK && !dyd_rect_is_point(&rest)) /* widths of 2^-b, a diameter below 2^(1-b) */
+    st = dyd_dyadic_set_si_2exp(&more, 1, 1 - dyd_rect_bits(&rest));
+  if (dyd_dyadic_cmp(&more, eps) > 0) dyd_dyadic_swap(&more, eps);
+  dyd_rect_clear(&rest);
+  dyd_dyadic_clear(&more);
+  return st;
+}
+
+dyd_status dyd_firm_raise(dyd_dyadic *eps, const dyd_engine *e, uint32_t site) {
+  bool core[2];
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = dyd_site_get_core(&r, core, e, site);
+  if (st == DYD_OK) st = eps_raise(eps, &r, core);
+  dyd_rect_clear(&r);
+  return st;
 }
 
 dyd_status dyd_firm_eps(dyd_dyadic *eps, const dyd_engine *e) {
-  int64_t least = INT64_MAX / 2;
-  dyd_status st = DYD_OK;
-  dyd_rect r;
-  dyd_rect_init(&r);
-  for (size_t k = 0; st == DYD_OK && k < e->points; k++) {
-    bool fixed[2];
-    if (e->point[k].final) continue;
-    st = dyd_sites_get(&r, e->sites, e->point[k].site);
-    dyd_site_fixed_sides(fixed, e, e->point[k].site, &r);
-    if (st == DYD_OK) st = rect_collapse(&r, fixed, true);
-    int64_t bits = dyd_rect_bits(&r);
-    if (bits < least) least = bits;
-  }
-  dyd_rect_clear(&r);
-  return st == DYD_OK ? dyd_dyadic_set_si_2exp(eps, 1, 1 - least) : st; /* widths of 2^-b, a diameter below 2^(1-b) */
+  dyd_status st = dyd_dyadic_set_si_2exp(eps, 0, 0);
+  for (size_t k = 0; st == DYD_OK && k < e->points; k++)
+    if (!e->point[k].final) st = dyd_firm_raise(eps, e, e->point[k].site);
+  return st;
+}
+
+dyd_status dyd_firm_place(dyd_rect *out, dyd_dyadic *eps, const dyd_stream *at) {
+  bool core[2] = {false, false};
+  dyd_rect_set(out, dyd_stream_rect(at));
+  dyd_status st = dyd_stream_core(out, core, at, false);
+  if (st == DYD_OK) st = eps_raise(eps, out, core);
+  return st == DYD_OK ? rect_collapse(out, core, false) : st;
 }
 
 /* *out, unless it is NULL: a, smaller by eps on each side. *can: is it wide enough? */
@@ -75,37 +90,32 @@ dyd_status dyd_firm_shrink(dyd_rect *out, bool *can, const dyd_rect *r, const dy
   return st;
 }
 
-bool dyd_site_is_fixed(const dyd_engine *e, uint32_t site) {
-  const dyd_refinable *p = dyd_engine_find(e, site);
-  return !p || p->final;
-}
-
 dyd_status dyd_pair_is_firm(bool *out, const dyd_engine *e, const dyd_dyadic *eps, const dyd_pair *pair) {
   const uint32_t end[2] = {pair->i, pair->j};
   dyd_status st = DYD_OK;
   dyd_rect r;
-  *out = dyd_site_is_fixed(e, pair->i) && dyd_site_is_fixed(e, pair->j);
+  *out = true;
   dyd_rect_init(&r);
   for (int k = 0; st == DYD_OK && *out && k < 2; k++) {
-    st = dyd_sites_get(&r, e->sites, end[k]);
-    if (st == DYD_OK) st = dyd_firm_shrink(NULL, out, &r, eps);
+    bool core[2];
+    st = dyd_site_get_core(&r, core, e, end[k]);
+    *out = core[0] && core[1];
+    if (st == DYD_OK && *out) st = dyd_firm_shrink(NULL, out, &r, eps);
   }
   dyd_rect_clear(&r);
   return st;
 }
 
-dyd_status dyd_firm_add(dyd_sites *sites, const dyd_engine *e, const dyd_dyadic *eps, uint32_t k) {
+dyd_status dyd_firm_add(dyd_sites *sites, bool *firm, const dyd_engine *e, const dyd_dyadic *eps, uint32_t k) {
   dyd_rect r;
-  bool firm = false;
+  bool core[2];
+  *firm = false;
   dyd_rect_init(&r);
-  dyd_status st = dyd_sites_get(&r, e->sites, k);
-  if (st == DYD_OK && dyd_site_is_fixed(e, k)) {
-    st = dyd_firm_shrink(&r, &firm, &r, eps);
-  } else if (st == DYD_OK) {
-    bool fixed[2];
-    dyd_site_fixed_sides(fixed, e, k, &r);
-    st = rect_collapse(&r, fixed, false);
-  }
+  dyd_status st = dyd_site_get_core(&r, core, e, k);
+  if (st == DYD_OK && core[0] && core[1])
+    st = dyd_firm_shrink(&r, firm, &r, eps);
+  else if (st == DYD_OK)
+    st = rect_collapse(&r, core, false);
   if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
   dyd_rect_clear(&r);
   return st;

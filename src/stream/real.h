@@ -57,6 +57,10 @@ void *dyd_real_user(const dyd_real *x, dyd_narrow_real_fn narrow);
 /* Is `now`, an interval that x gave, at most 2^-bits wider than x can ever be (known for final and for widened reals;
  * of others: than a point)? */
 bool dyd_real_reaches(const dyd_real *x, const dyd_interval *now, int64_t bits);
+/* Sets *core to an interval that every interval which x gives from now on contains [SET-3], and *has. Known are final
+ * reals and those that are widened by a radius; of others *has is false. now: an interval that contains all that x
+ * gives from now on (NULL: not known; out = now is allowed). */
+dyd_status dyd_real_core(dyd_interval *core, bool *has, const dyd_real *x, const dyd_interval *now);
 
 /* [lo,hi] with ends that are not dyadic rounded outward by less than 2^-64 of the width; the point when lo = hi. */
 dyd_status dyd_interval_fix(dyd_interval *out, const mpq_t lo, const mpq_t hi);

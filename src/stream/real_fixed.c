@@ -119,19 +119,74 @@ dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radius) {
   return st;
 }
 
+/* radius becomes the sum of the radii around x. */
+static void real_radius(mpq_t radius, const dyd_real *x) {
+  mpq_set_ui(radius, 0, 1);
+  for (const widened *w; (w = dyd_real_user(x, widened_narrow)); x = w->x) mpq_add(radius, radius, w->radius);
+}
+
 bool dyd_real_reaches(const dyd_real *x, const dyd_interval *now, int64_t bits) {
   if (dyd_real_is_final(x)) return true;
-  mpq_t lo, hi, most;
-  mpq_inits(lo, hi, most, NULL);
+  mpq_t lo, hi, most, radius;
+  mpq_inits(lo, hi, most, radius, NULL);
   dyd_interval_get_q(lo, hi, now);
   mpq_set_ui(most, 1, 1);
   (bits >= 0 ? mpq_div_2exp : mpq_mul_2exp)(most, most, (mp_bitcnt_t)(bits >= 0 ? bits : -bits));
-  for (const widened *w; (w = dyd_real_user(x, widened_narrow)); x = w->x) {
-    mpq_add(most, most, w->radius);
-    mpq_add(most, most, w->radius);
-  }
+  real_radius(radius, x);
+  mpq_add(most, most, radius);
+  mpq_add(most, most, radius);
   mpq_sub(hi, hi, lo);
   bool reaches = mpq_cmp(hi, most) <= 0;
-  mpq_clears(lo, hi, most, NULL);
+  mpq_clears(lo, hi, most, radius, NULL);
   return reaches;
+}
+
+/* [lo,hi] rounded inward by less than a quarter of `slack`; *has: something is left. */
+static dyd_status interval_set_inward(dyd_interval *out, bool *has, const mpq_t lo, const mpq_t hi, const mpq_t slack) {
+  dyd_dyadic l, h;
+  dyd_dyadic_init(&l);
+  dyd_dyadic_init(&h);
+  int64_t exp = (int64_t)mpz_sizeinbase(mpq_numref(slack), 2) - (int64_t)mpz_sizeinbase(mpq_denref(slack), 2) - 3;
+  dyd_status st = fixed_end(&l, lo, exp, DYD_UP);
+  if (st == DYD_OK) st = fixed_end(&h, hi, exp, DYD_DOWN);
+  *has = st == DYD_OK && dyd_dyadic_cmp(&l, &h) <= 0;
+  if (*has) st = dyd_interval_set_ends(out, &l, &h);
+  dyd_dyadic_clear(&h);
+  dyd_dyadic_clear(&l);
+  return st;
+}
+
+/* Twice the radius away from each end: every interval of x holds those within the radius of some place, and this
+ * place is no nearer to the ends of `now` than the radius [SET-3]. */
+static dyd_status widened_core(dyd_interval *core, bool *has, const mpq_t radius, const dyd_interval *now) {
+  mpq_t lo, hi, slack;
+  dyd_status st = DYD_OK;
+  mpq_inits(lo, hi, slack, NULL);
+  dyd_interval_get_q(lo, hi, now);
+  mpq_sub(slack, hi, lo);
+  for (int k = 0; k < 2; k++) {
+    mpq_sub(slack, slack, radius);
+    mpq_sub(hi, hi, radius);
+    mpq_add(lo, lo, radius);
+  }
+  *has = mpq_sgn(slack) >= 0 && mpq_cmp(hi, lo) <= 0;
+  if (mpq_sgn(slack) == 0) mpq_div_2exp(slack, radius, 64);
+  if (*has) st = interval_set_inward(core, has, hi, lo, slack);
+  mpq_clears(lo, hi, slack, NULL);
+  return st;
+}
+
+dyd_status dyd_real_core(dyd_interval *core, bool *has, const dyd_real *x, const dyd_interval *now) {
+  mpq_t radius;
+  *has = dyd_real_is_final(x);
+  if (*has) {
+    dyd_interval_set(core, dyd_real_interval(x));
+    return DYD_OK;
+  }
+  dyd_status st = DYD_OK;
+  mpq_init(radius);
+  real_radius(radius, x);
+  if (now && mpq_sgn(radius) > 0) st = widened_core(core, has, radius, now);
+  mpq_clear(radius);
+  return st;
 }

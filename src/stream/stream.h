@@ -49,6 +49,9 @@ int64_t dyd_stream_glance_bits(const dyd_stream *s);
 /* Is `now`, a rectangle that s gave, on both sides at most 2^-bits wider than it can ever be, as far as that is known
  * (dyd_real_reaches)? */
 bool dyd_stream_reaches(const dyd_stream *s, const dyd_rect *now, int64_t bits);
+/* Replaces each side of r, a rectangle that s gave, by its core (dyd_real_core), where one is known: core[0] for x,
+ * core[1] for y. narrower: r is what such a rectangle has in common with others. */
+dyd_status dyd_stream_core(dyd_rect *r, bool core[2], const dyd_stream *s, bool narrower);
 /* As dyd_stream_narrow; stop as for dyd_real_narrow_until. */
 dyd_status dyd_stream_narrow_until(dyd_stream *s, int64_t bits, int64_t max_bits, const volatile int *stop,
                                    dyd_error *err);

@@ -72,6 +72,25 @@ bool dyd_stream_reaches(const dyd_stream *s, const dyd_rect *now, int64_t bits) 
   return dyd_stream_is_final(s) || dyd_rect_bits(now) >= bits;
 }
 
+/* A side becomes its core. What it is cut to by others goes on to be cut from it. */
+static dyd_status side_core(dyd_interval *side, bool *has, const dyd_real *x, bool narrower) {
+  dyd_interval core;
+  dyd_interval_init(&core);
+  dyd_status st = dyd_real_core(&core, has, x, narrower ? dyd_real_interval(x) : side);
+  *has = *has && dyd_interval_meets(&core, side);
+  if (st == DYD_OK && *has) st = dyd_interval_intersect(side, side, &core);
+  dyd_interval_clear(&core);
+  return st;
+}
+
+dyd_status dyd_stream_core(dyd_rect *r, bool core[2], const dyd_stream *s, bool narrower) {
+  const dyd_stream_pair *p = dyd_stream_user(s, pair_narrow);
+  core[0] = core[1] = dyd_stream_is_final(s);
+  if (!p || core[0]) return DYD_OK;
+  dyd_status st = side_core(&r->x, &core[0], p->x, narrower);
+  return st == DYD_OK ? side_core(&r->y, &core[1], p->y, narrower) : st;
+}
+
 bool dyd_stream_glance(dyd_double_span out[2], const dyd_stream *s, int64_t bits) {
   const dyd_stream_pair *p = dyd_stream_user(s, pair_narrow);
   if (!p || dyd_stream_rect(s)) return false;

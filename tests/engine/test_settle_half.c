@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Points that are measured in one way and computed in the other: what is said to stay open does, whatever the computed
- * coordinates are, by the literal oracle [SET-1] [SET-2]; and runs end when nothing else is left. */
+/* Points that are measured in one way and computed in the other, and computed ones with a radius: what is said to stay
+ * open does, whatever the computed coordinates are, by the literal oracle [SET-1] [SET-2] [SET-3]; and runs end when
+ * nothing else is left. */
 #include "engine/help.h"
 #include "engine/settle.h"
 #include "engine/settle_firm.h"
 #include "oracle/oracle.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { MOST = 8 };
 
@@ -16,13 +18,16 @@ typedef struct rough {
   double at;
 } rough;
 
-/* What a case is made of; fixed: the sides of each site that are never narrowed. */
+/* What a case is made of; fixed: the sides of each site that are never narrowed; radius: of the others, in 384ths. */
 typedef struct half_case {
   dyd_engine *e;
   size_t n;
   rough side[MOST][2];
   bool fixed[MOST][2];
+  int radius[MOST][2];
 } half_case;
+
+enum { RADIUS_UNIT = 384 };
 
 static double grid(test_random *r, int least, int most) {
   return (double)test_between(r, least, most) / 128;
@@ -36,16 +41,28 @@ static dyd_status rough_narrow(dyd_interval *out, void *user, const dyd_request 
   return dyd_interval_set_d(out, fmax(had[0], f->at - below), fmin(had[1], f->at + (w - below)));
 }
 
-/* A side: [lo,hi] for good, or a place that is hidden in it. */
-static dyd_real *side_of(rough *f, test_random *r, double lo, double hi, bool fixed) {
+/* A place that is hidden, with a radius. */
+static dyd_real *wide_side(rough *f, int radius) {
+  dyd_real *out;
+  mpq_t by;
+  assert_int_equal(DYD_OK, dyd_real_new(&out, rough_narrow, NULL, f));
+  mpq_init(by);
+  for (int part = radius / 2; radius > 0; radius -= part, part = radius) { /* in two parts */
+    mpq_set_ui(by, (unsigned)part, RADIUS_UNIT);
+    mpq_canonicalize(by);
+    assert_int_equal(DYD_OK, dyd_real_widen(&out, out, by));
+  }
+  mpq_clear(by);
+  return out;
+}
+
+/* A side: [lo,hi] for good, or a place that is hidden at lo, with a radius. */
+static dyd_real *side_of(rough *f, test_random *r, double lo, double hi, bool fixed, int radius) {
   dyd_real *out;
   mpq_t end[2];
   *f = (rough){.random = *r, .at = lo};
   test_below(r, 2);
-  if (!fixed) {
-    assert_int_equal(DYD_OK, dyd_real_new(&out, rough_narrow, NULL, f));
-    return out;
-  }
+  if (!fixed) return wide_side(f, radius);
   mpq_inits(end[0], end[1], NULL);
   mpq_set_d(end[0], lo);
   mpq_set_d(end[1], hi);
@@ -65,27 +82,45 @@ static void half_case_new(half_case *c, test_random *r, int most) {
       double lo = grid(r, 0, 256);
       c->fixed[i][a] = kind < 2 ? kind == 0 : (kind & 1) == a;
       double hi = c->fixed[i][a] && !test_chance(r, 6) ? lo + grid(r, 1, most) : lo;
-      x[a] = side_of(&c->side[i][a], r, lo, hi, c->fixed[i][a]);
+      c->radius[i][a] = !c->fixed[i][a] && test_chance(r, 3) ? (int)test_between(r, 1, most) : 0;
+      x[a] = side_of(&c->side[i][a], r, lo, hi, c->fixed[i][a], c->radius[i][a]);
     }
     assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, x[0], x[1]));
     assert_int_equal(DYD_OK, dyd_engine_add_stream(c->e, s));
   }
 }
 
-/* The sites when all that can be narrowed is a point: the lower ends, the upper ends, or anywhere, ends included. */
+/* A side of end[0] to end[1] becomes what is within the radius of a place that is eighths/8 of the way. */
+static void side_narrow(mpq_t end[2], int radius, int eighths) {
+  mpq_t at, by, t;
+  mpq_inits(at, by, t, (mpq_ptr)0);
+  mpq_set_ui(by, (unsigned)radius, RADIUS_UNIT);
+  mpq_canonicalize(by);
+  mpq_set_ui(t, (unsigned)eighths, 8);
+  mpq_canonicalize(t);
+  mpq_sub(at, end[1], end[0]);
+  mpq_sub(at, at, by);
+  mpq_sub(at, at, by);
+  mpq_mul(at, at, t);
+  mpq_add(end[0], end[0], at);
+  mpq_add(end[1], end[0], by);
+  mpq_add(end[1], end[1], by);
+  mpq_clears(at, by, t, (mpq_ptr)0);
+}
+
+/* The sites when all that can be narrowed is: to the lower ends, the upper ends, or anywhere, ends included. */
 static void half_case_narrow(orc_case *out, const half_case *c, test_random *r, int way) {
   out->n = 0;
   for (size_t i = 0; i < c->n; i++) {
-    double d[4];
+    dyd_rect rect;
     orc_rect *q = &out->rect[out->n++];
-    dyd_sites_get_d(d, dyd_engine_sites(c->e), i);
-    for (int a = 0; a < 2; a++) {
-      if (c->fixed[i][a]) continue;
-      double w = d[2 * a + 1] - d[2 * a];
-      double t = way < 2 ? way : (double)test_below(r, 9) / 8;
-      d[2 * a] = d[2 * a + 1] = d[2 * a] + t * w;
-    }
-    for (int k = 0; k < 4; k++) mpq_set_d(q->e[k], d[k]);
+    dyd_rect_init(&rect);
+    assert_int_equal(DYD_OK, dyd_sites_get(&rect, dyd_engine_sites(c->e), i));
+    dyd_interval_get_q(q->e[0], q->e[1], &rect.x);
+    dyd_interval_get_q(q->e[2], q->e[3], &rect.y);
+    for (int a = 0; a < 2; a++)
+      if (!c->fixed[i][a]) side_narrow(&q->e[2 * a], c->radius[i][a], way < 2 ? 8 * way : (int)test_below(r, 9));
+    dyd_rect_clear(&rect);
   }
 }
 
@@ -217,59 +252,78 @@ static void test_runs(void **state) {
   assert_true(ends[DYD_OUTCOME_FIXPOINT] > rounds / 2 && ends[DYD_OUTCOME_BUDGET] < rounds / 20);
 }
 
-/* The rectangle of site k of the engine, as P has it [SET-2]. */
-static void check_added(const half_case *c, const dyd_dyadic *eps, size_t k) {
+/* The rectangle of site k of the engine, as P has it [SET-2]; core: with the core [SET-3]. */
+static void check_added(const half_case *c, const dyd_dyadic *eps, size_t k, const dyd_rect *rect, const bool core[2]) {
   dyd_sites *sites;
   double was[4], is[4];
+  bool said;
   assert_int_equal(DYD_OK, dyd_sites_new(&sites));
-  assert_int_equal(DYD_OK, dyd_firm_add(sites, c->e, eps, (uint32_t)k));
-  dyd_sites_get_d(was, dyd_engine_sites(c->e), k);
+  assert_int_equal(DYD_OK, dyd_firm_add(sites, &said, c->e, eps, (uint32_t)k));
+  dyd_rect_get_d(was, rect);
   dyd_sites_get_d(is, sites, 0);
   dyd_sites_free(sites);
   double e = dyd_dyadic_get_d(eps, DYD_UP);
-  bool both = c->fixed[k][0] && c->fixed[k][1];
-  bool firm = both && was[1] - was[0] > 2 * e && was[3] - was[2] > 2 * e;
+  bool firm = core[0] && core[1] && was[1] - was[0] > 2 * e && was[3] - was[2] > 2 * e;
+  assert_true(said == firm);
   for (int a = 0; a < 4; a += 2) {
     double in = firm ? e : 0;
     assert_true(was[a] <= is[a] && is[a] <= is[a + 1] && is[a + 1] <= was[a + 1]);
-    if (c->fixed[k][a / 2])
+    if (core[a / 2])
       assert_true(is[a] == was[a] + in && is[a + 1] == was[a + 1] - in);
     else
       assert_true(is[a] == is[a + 1]);
   }
 }
 
-/* Which sides are fixed, how much is not known of the others, and what stands for the sites. */
+/* The core of a side with a radius is in what is within the radius of every place [SET-3], and most of that. */
+static void check_core(const double core[2], bool has, const double side[2], double radius) {
+  double lo = side[1] - 2 * radius, hi = side[0] + 2 * radius, slack = side[1] - side[0] - 2 * radius;
+  if (has)
+    assert_true(lo <= core[0] && core[1] <= hi && core[0] <= lo + slack / 2 && core[1] >= hi - slack / 2);
+  else
+    assert_true(hi - lo < slack);
+}
+
+/* Which sides have cores, how much is not known of the others, and what stands for the sites. */
 static void test_sides(void **state) {
   (void)state;
   test_random r = test_random_start(__func__);
+  size_t wide = 0;
   for (size_t round = 0; round < test_cases(200); round++) {
     half_case c;
     dyd_engine_options o;
     dyd_dyadic eps;
     dyd_rect rect;
-    double most = 0, d[4];
+    double most = 0, d[4], was[4];
     half_case_new(&c, &r, 160);
     run_coarsely(&c, &o, test_between(&r, 1, 6));
     dyd_dyadic_init(&eps);
     dyd_rect_init(&rect);
     assert_int_equal(DYD_OK, dyd_firm_eps(&eps, c.e));
     for (size_t k = 0; k < c.n; k++) {
-      bool fixed[2];
-      assert_int_equal(DYD_OK, dyd_sites_get(&rect, dyd_engine_sites(c.e), k));
-      dyd_site_fixed_sides(fixed, c.e, (uint32_t)k, &rect);
-      assert_true(fixed[0] == c.fixed[k][0] && fixed[1] == c.fixed[k][1]);
-      dyd_sites_get_d(d, dyd_engine_sites(c.e), k);
-      double x = fixed[0] ? 0 : d[1] - d[0], y = fixed[1] ? 0 : d[3] - d[2];
+      bool core[2];
+      assert_int_equal(DYD_OK, dyd_site_get_core(&rect, core, c.e, (uint32_t)k));
+      dyd_rect_get_d(d, &rect);
+      dyd_sites_get_d(was, dyd_engine_sites(c.e), k);
+      for (int a = 0; a < 2; a++) {
+        if (c.radius[k][a])
+          check_core(&d[2 * a], core[a], &was[2 * a], (double)c.radius[k][a] / RADIUS_UNIT);
+        else
+          assert_true(core[a] == c.fixed[k][a]);
+        wide += c.radius[k][a] && core[a];
+      }
+      double x = core[0] ? 0 : d[1] - d[0], y = core[1] ? 0 : d[3] - d[2];
       most = fmax(most, hypot(x, y));
-      check_added(&c, &eps, k);
+      check_added(&c, &eps, k, &rect, core);
     }
     double e = dyd_dyadic_get_d(&eps, DYD_UP);
-    assert_true(most <= e && (most == 0 || e <= 4 * most));
+    assert_true(most <= e && (most == 0 ? e == 0 : e <= 4 * most));
     dyd_rect_clear(&rect);
     dyd_dyadic_clear(&eps);
     dyd_engine_free(c.e);
   }
+  print_message("%zu sides with a radius have a core\n", wide);
+  assert_true(wide > 150);
 }
 
 static bool same_interval(const dyd_interval *a, const dyd_interval *b) {
@@ -324,8 +378,7 @@ static void test_fixed_for_good(void **state) {
     assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, &o, NULL));
     for (uint32_t k = 0; k < POINTS; k++) {
       dyd_rect_init(&was[k]);
-      assert_int_equal(DYD_OK, dyd_sites_get(&was[k], dyd_engine_sites(e), k));
-      dyd_site_fixed_sides(fixed[k], e, k, &was[k]);
+      assert_int_equal(DYD_OK, dyd_site_get_core(&was[k], fixed[k], e, k));
       said += fixed[k][0] + fixed[k][1];
     }
     o.start_bits = o.max_bits = bits + 100;
@@ -368,7 +421,7 @@ static dyd_status tiring_narrow(dyd_interval *out, void *user, const dyd_request
   return q->bits < 10 ? DYD_OK : DYD_FIXED;
 }
 
-/* Another user of a coordinate brings it to its end: the side here is as wide as before, and is narrowed when asked. */
+/* Another user of a coordinate brings it to its end: the side here is as wide as before, and its core is that end. */
 static void test_shared(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
@@ -377,7 +430,7 @@ static void test_shared(void **state) {
   dyd_real *x, *y;
   dyd_stream *s;
   dyd_rect r;
-  bool fixed[2];
+  bool core[2];
   assert_int_equal(DYD_OK, dyd_real_new(&x, tiring_narrow, NULL, NULL));
   assert_int_equal(DYD_OK, dyd_real_parse(&y, "sqrt(3)", 7, NULL));
   assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, dyd_real_ref(x), y));
@@ -387,13 +440,11 @@ static void test_shared(void **state) {
   dyd_engine_options_init(&o);
   o.start_bits = o.max_bits = 4;
   assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, &o, NULL));
+  assert_int_equal(DYD_OK, dyd_site_get_core(&r, core, e, 0));
+  assert_true(!core[0] && !core[1]);
   assert_int_equal(DYD_FIXED, dyd_real_narrow(x, 20, 20, NULL));
-  assert_int_equal(DYD_OK, dyd_sites_get(&r, dyd_engine_sites(e), 0));
-  dyd_site_fixed_sides(fixed, e, 0, &r);
-  assert_true(!fixed[0] && !fixed[1]);
-  dyd_interval_set(&r.x, dyd_real_interval(x));
-  dyd_site_fixed_sides(fixed, e, 0, &r);
-  assert_true(fixed[0] && !fixed[1]);
+  assert_int_equal(DYD_OK, dyd_site_get_core(&r, core, e, 0));
+  assert_true(core[0] && !core[1] && same_interval(&r.x, dyd_real_interval(x)));
   dyd_rect_clear(&r);
   dyd_real_free(x);
   dyd_engine_free(e);
@@ -418,10 +469,103 @@ static void test_measured(void **state) {
   dyd_engine_free(e);
 }
 
+/* Computed points with a radius: all that is open is so for good, which is seen early, and more bits change nothing. */
+static void test_radius(void **state) {
+  (void)state;
+  static const char *const text[][2] = {{"sqrt(2)+-0.4", "0+-0.4"},
+                                        {"0+-0.4", "sqrt(3)+-0.4"},
+                                        {"2+-0.4", "2+-0.4"},
+                                        {"sqrt(5)+-0.4", "e+-0.4"},
+                                        {"1/3+-0.4", "pi/7+-0.4"}};
+  dyd_engine *e = engine_new(), *fine = engine_new();
+  dyd_engine_options o;
+  dyd_outcome outcome;
+  for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
+    engine_add_text(e, text[k][0], text[k][1]);
+    engine_add_text(fine, text[k][0], text[k][1]);
+  }
+  engine_run(e, NULL, DYD_OUTCOME_FIXPOINT);
+  assert_true(engine_counters(e).bits_most <= 64);
+  dyd_engine_options_init(&o);
+  o.start_bits = o.max_bits = 2000;
+  assert_int_equal(DYD_OK, dyd_engine_run(&outcome, fine, &o, NULL));
+  assert_same_statuses(e, fine);
+  dyd_engine_free(fine);
+  dyd_engine_free(e);
+}
+
+/* Points (-1,0), (1,0), (0,h), (0,-h) with radius 0.4: 0,1 is legal if and only if h > 0.4 + sqrt(2.12), which takes
+ * 100 bits to see, and for equality is never seen. */
+static void test_near_radius(void **state) {
+  (void)state;
+  static const struct {
+    const char *h, *minus_h;
+    dyd_pair_status status;
+    dyd_outcome outcome;
+  } wanted[] = {
+      {"0.4+sqrt(2.12)+2^-20+-0.4", "-0.4-sqrt(2.12)-2^-20+-0.4", DYD_LEGAL, DYD_OUTCOME_DECIDED},
+      {"0.4+sqrt(2.12)-2^-20+-0.4", "-0.4-sqrt(2.12)+2^-20+-0.4", DYD_INDETERMINATE, DYD_OUTCOME_FIXPOINT},
+  };
+  for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++) {
+    dyd_engine *e = engine_new();
+    dyd_engine_options o;
+    engine_add_text(e, "-1+-0.4", "0+-0.4");
+    engine_add_text(e, "1+-0.4", "0+-0.4");
+    engine_add_text(e, "0+-0.4", wanted[k].h);
+    engine_add_text(e, "0+-0.4", wanted[k].minus_h);
+    dyd_engine_options_init(&o);
+    o.start_bits = 10;
+    o.max_bits = 400;
+    engine_run(e, &o, wanted[k].outcome);
+    assert_int_equal(wanted[k].status, dyd_delaunay_status(dyd_engine_delaunay(e), 0, 1));
+    assert_true(engine_counters(e).bits_most <= 100);
+    dyd_engine_free(e);
+  }
+}
+
+/* Sites that may be nearest whatever is refined [NEAR-5]: few bits. Beyond the radius: as many as it takes. */
+static void test_nearest(void **state) {
+  (void)state;
+  static const struct {
+    const char *x, *y;
+    dyd_outcome outcome;
+    size_t count;
+  } at[] = {{"sqrt(2)/2", "sqrt(3)/3", DYD_OUTCOME_FIXPOINT, 2},
+            {"sqrt(2)/2", "0", DYD_OUTCOME_FIXPOINT, 2},
+            {"0", "sqrt(3)/3", DYD_OUTCOME_DECIDED, 1},
+            {"sqrt(2)/2+-0.1", "0+-0.1", DYD_OUTCOME_FIXPOINT, 2}};
+  for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
+    dyd_engine *e = engine_new();
+    dyd_index_list near = {0};
+    dyd_outcome outcome;
+    dyd_stream *s;
+    dyd_real *x, *y;
+    bool sure;
+    engine_add_text(e, "0+-0.25", "sqrt(2)-sqrt(2)+-0.25");
+    engine_add_text(e, "sqrt(2)+-0.25", "0+-0.25");
+    engine_add_text(e, "5", "sqrt(31)");
+    dyd_engine_options o;
+    dyd_engine_options_init(&o);
+    o.start_bits = o.max_bits = 20;
+    assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, &o, NULL));
+    assert_int_equal(DYD_OK, dyd_real_parse(&x, at[k].x, strlen(at[k].x), NULL));
+    assert_int_equal(DYD_OK, dyd_real_parse(&y, at[k].y, strlen(at[k].y), NULL));
+    assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, x, y));
+    assert_int_equal(DYD_OK, dyd_engine_nearest(&near, &sure, &outcome, e, s, NULL, NULL));
+    assert_int_equal(at[k].outcome, outcome);
+    assert_int_equal(at[k].count, near.count);
+    assert_true(engine_counters(e).bits_most <= 64);
+    dyd_index_list_clear(&near);
+    dyd_stream_free(s);
+    dyd_engine_free(e);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_few),    cmocka_unit_test(test_faces),          cmocka_unit_test(test_runs),
-      cmocka_unit_test(test_sides),  cmocka_unit_test(test_fixed_for_good), cmocka_unit_test(test_text),
-      cmocka_unit_test(test_shared), cmocka_unit_test(test_measured)};
+      cmocka_unit_test(test_few),         cmocka_unit_test(test_faces),          cmocka_unit_test(test_runs),
+      cmocka_unit_test(test_sides),       cmocka_unit_test(test_fixed_for_good), cmocka_unit_test(test_text),
+      cmocka_unit_test(test_shared),      cmocka_unit_test(test_measured),       cmocka_unit_test(test_radius),
+      cmocka_unit_test(test_near_radius), cmocka_unit_test(test_nearest)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
