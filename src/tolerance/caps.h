@@ -71,5 +71,8 @@ int dyd_filter_cap_side(const dyd_direction *u, const dyd_cap *k);
 bool dyd_caps_uncovered(dyd_direction *u, dyd_caps *c);
 /* Is there a direction that all caps hold? *u: about the middle of them. */
 bool dyd_caps_common(dyd_direction *u, dyd_caps *c);
+/* circle.c: a circle about the direction that was found last, within about 2^-bits of its size; it holds i and j.
+ * false: at this precision it is a half-plane. */
+bool dyd_caps_circle(dyd_disc *out, const dyd_caps *c, const dyd_disc *i, const dyd_disc *j, unsigned bits);
 
 #endif

@@ -5,7 +5,8 @@
  * proved by caps of finitely many sites, exactly; of those in a circle's way the one is taken whose cap reaches highest
  * in its direction, so that few are needed. Legal is proved by a witness: a centre of doubles, checked against
  * everybody whose square comes as near as the farther of both discs. |c - p| and the sums with radii are within ROOM =
- * 2^-48 of all sizes met (a few roundings each); what is closer than that counts as not proved. */
+ * 2^-48 of all sizes met (a few roundings each); what is closer than that is compared in rationals, with a centre as
+ * precise as it takes, up to MOST_BITS of its size. */
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/invariant.h"
@@ -16,7 +17,10 @@
 #include <math.h>
 
 #define ROOM 0x1p-48
-enum { FIRST_SEEN = 10, MOST_ROUNDS = 400 };
+#define FARTHEST 0x1p500
+#define INSIDE 0x1p-46
+#define ROOT_HALF 0x1.6a09e667f3bccp-1 /* below it */
+enum { FIRST_SEEN = 10, MOST_ROUNDS = 400, LEAST_BITS = 128, MOST_BITS = 8192 };
 
 /* ---- discs ---- */
 
@@ -57,7 +61,11 @@ static dyd_status make_discs(dyd_disc_work *w, dyd_error *err) {
   for (uint32_t v = 0; v < sk->n && st == DYD_OK; v++) {
     uint32_t site = sk->reps.site[v];
     st = dyd_sites_get(&r, sk->reps.sites, site);
-    if (st != DYD_OK || disc_of_square(&w->disc[v], &r)) continue;
+    bool square = st == DYD_OK && disc_of_square(&w->disc[v], &r);
+    w->about[v][0] = mpq_get_d(w->disc[v].x);
+    w->about[v][1] = mpq_get_d(w->disc[v].y);
+    w->about[v][2] = mpq_get_d(w->disc[v].r);
+    if (st != DYD_OK || square) continue;
     if (err) err->point = site;
     st = dyd_fail(err, DYD_E_ARG, "a disc needs one radius, the same in x and y");
   }
@@ -97,12 +105,12 @@ typedef struct circle_d {
 } circle_d;
 
 static double size_d(const dyd_disc_work *w, uint32_t v) {
-  const dyd_disc *d = &w->disc[v];
-  return fabs(mpq_get_d(d->x)) + fabs(mpq_get_d(d->y)) + mpq_get_d(d->r);
+  const double *d = w->about[v];
+  return fabs(d[0]) + fabs(d[1]) + d[2];
 }
 
 static double distance_d(const circle_d *c, uint32_t v) {
-  return hypot(mpq_get_d(c->w->disc[v].x) - c->x, mpq_get_d(c->w->disc[v].y) - c->y);
+  return hypot(c->w->about[v][0] - c->x, c->w->about[v][1] - c->y);
 }
 
 /* How much all is off by, with v. */
@@ -112,9 +120,8 @@ static double room_d(const circle_d *c, uint32_t v) {
 
 /* h of the circle of direction u that v just keeps from: caps.h. A disc that meets i rules all circles out, or none. */
 static double height_d(const circle_d *c, uint32_t v) {
-  const dyd_disc *i = &c->w->disc[c->w->i], *k = &c->w->disc[v];
-  double x = mpq_get_d(k->x) - mpq_get_d(i->x), y = mpq_get_d(k->y) - mpq_get_d(i->y);
-  double r = mpq_get_d(k->r) + mpq_get_d(i->r), n = x * x + y * y - r * r, along = c->u.x * x + c->u.y * y;
+  const double *i = c->w->about[c->w->i], *k = c->w->about[v];
+  double x = k[0] - i[0], y = k[1] - i[1], r = k[2] + i[2], n = x * x + y * y - r * r, along = c->u.x * x + c->u.y * y;
   if (!(n > 0)) return c->legal ? HUGE_VAL : -HUGE_VAL;
   return (c->legal ? along + r : along - r) / n;
 }
@@ -131,28 +138,74 @@ static bool keep_worst(circle_d *c, uint32_t v) {
 /* legal: v must be outside for sure; possible: v blocks when its disc is inside, about. */
 static bool meet_square(void *context, uint32_t v) {
   circle_d *c = context;
-  double r = mpq_get_d(c->w->disc[v].r), d = distance_d(c, v);
+  double r = c->w->about[v][2], d = distance_d(c, v);
   if (v == c->w->i || v == c->w->j || (c->legal ? d - r : d + r) > c->radius + room_d(c, v)) return true;
   c->good = false;
   return c->highest < HUGE_VAL && keep_worst(c, v);
 }
 
+/* ---- where doubles do not tell ---- */
+
+/* A circle in rationals. about: the same in doubles; clear: no disc is in its way; one: the first one in its way ends
+ * the search. */
+typedef struct circle_q {
+  dyd_disc_work *w;
+  circle_d about;
+  dyd_disc disc;
+  bool one, clear;
+} circle_q;
+
+/* v is in the way unless its disc is outside. */
+static bool meet_square_exactly(void *context, uint32_t v) {
+  circle_q *c = context;
+  const dyd_disc *k = &c->w->disc[v];
+  if (v == c->w->i || v == c->w->j) return true;
+  double r = c->w->about[v][2], d = distance_d(&c->about, v);
+  if (d - r > c->about.radius + room_d(&c->about, v) || !dyd_discs_meet(k, &c->disc)) return true;
+  c->clear = false;
+  if (!c->one) dyd_discs_see(c->w, v);
+  return !c->one && !c->w->failed;
+}
+
+/* Visits the squares that come as near as the circle, if doubles hold it. */
+static void visit_exactly(circle_q *c) {
+  const dyd_disc *d = &c->disc;
+  double x = mpq_get_d(d->x), y = mpq_get_d(d->y), r = mpq_get_d(d->r), reach = r + ROOM * (fabs(x) + fabs(y) + r);
+  const dyd_bbox at = {{x, x, y, y}};
+  double radius2 = reach * reach * (1 + ROOM);
+  if (!(reach < FARTHEST)) return;
+  c->about = (circle_d){.w = c->w, .x = x, .y = y, .radius = r};
+  c->clear = true;
+  dyd_tree_near(&c->w->pd->sk.rects.tree, &at, &radius2, meet_square_exactly, c);
+}
+
+/* Is the circle of the direction found a witness? Sees the discs in its way. If all of these were seen, their caps hold
+ * the direction, so the circle was not precise enough. */
+static bool circle_is_witness(dyd_disc_work *w) {
+  circle_q c = {.w = w};
+  size_t had = w->count;
+  dyd_disc_init(&c.disc);
+  for (unsigned bits = LEAST_BITS; bits <= MOST_BITS && w->count == had && !w->failed && !c.clear; bits *= 4)
+    if (dyd_caps_circle(&c.disc, &w->caps, &w->disc[w->i], &w->disc[w->j], bits)) visit_exactly(&c);
+  dyd_disc_clear(&c.disc);
+  return c.clear;
+}
+
 /* The circle of direction u: legal, the discs i and j just inside; possible, just meeting it. */
 static bool place_circle_of(circle_d *c, dyd_disc_work *w, dyd_direction u, bool legal) {
-  const dyd_disc *i = &w->disc[w->i], *j = &w->disc[w->j];
-  double jx = mpq_get_d(j->x) - mpq_get_d(i->x), jy = mpq_get_d(j->y) - mpq_get_d(i->y);
-  double delta = mpq_get_d(j->r) - mpq_get_d(i->r), n = jx * jx + jy * jy - delta * delta;
+  const double *i = w->about[w->i], *j = w->about[w->j];
+  double jx = j[0] - i[0], jy = j[1] - i[1], delta = j[2] - i[2], n = jx * jx + jy * jy - delta * delta;
   double h = (u.x * jx + u.y * jy + (legal ? -delta : delta)) / n;
-  *c = (circle_d){.w = w, .x = mpq_get_d(i->x) + u.x / (2 * h), .y = mpq_get_d(i->y) + u.y / (2 * h), .legal = legal};
+  *c = (circle_d){.w = w, .x = i[0] + u.x / (2 * h), .y = i[1] + u.y / (2 * h), .legal = legal};
   c->u = u;
   c->worst = DYD_NONE;
   c->highest = h > 0 ? h * (1 - ROOM) : 0;
-  double a = distance_d(c, w->i), ri = mpq_get_d(i->r), b = distance_d(c, w->j), rj = mpq_get_d(j->r);
+  double a = distance_d(c, w->i), ri = i[2], b = distance_d(c, w->j), rj = j[2];
   c->radius = legal ? fmax(a + ri, b + rj) : fmax(a - ri, b - rj);
   double room = room_d(c, w->i) + room_d(c, w->j);
   c->radius += legal ? room : 0;
   c->reach = c->radius + 2 * room;
-  c->good = h > 0 && c->reach < 1e150;
+  c->good = h > 0 && c->reach < FARTHEST;
   return c->good;
 }
 
@@ -164,13 +217,13 @@ static void visit_circle(circle_d *c) {
 
 /* Whoever is higher still is in the smaller circle that the worst allows. */
 static bool see_worst(circle_d *c) {
-  const dyd_disc *i = &c->w->disc[c->w->i];
+  const double *i = c->w->about[c->w->i];
   uint32_t last = DYD_NONE;
   while (c->worst != last && c->highest > 0 && isfinite(c->highest)) {
-    double distance = 1 / (2 * c->highest), r = mpq_get_d(i->r);
+    double distance = 1 / (2 * c->highest), r = i[2];
     last = c->worst;
-    c->x = mpq_get_d(i->x) + c->u.x * distance;
-    c->y = mpq_get_d(i->y) + c->u.y * distance;
+    c->x = i[0] + c->u.x * distance;
+    c->y = i[1] + c->u.y * distance;
     c->radius = c->reach = distance + (c->legal ? r : -r);
     visit_circle(c);
   }
@@ -183,21 +236,34 @@ static bool meet_beyond(void *context, uint32_t v) {
 
 /* Far circles: everybody beyond the tangent of i, about. */
 static void look_beyond(circle_d *c) {
-  const dyd_disc *i = &c->w->disc[c->w->i];
-  double height = c->u.x * mpq_get_d(i->x) + c->u.y * mpq_get_d(i->y);
+  const double *i = c->w->about[c->w->i];
+  double height = c->u.x * i[0] + c->u.y * i[1];
   dyd_tree_beyond(&c->w->pd->sk.rects.tree, c->u.x, c->u.y, &height, meet_beyond, c);
 }
 
 /* ---- one pair ---- */
 
 bool dyd_discs_load(dyd_disc_work *w, bool legal) {
-  const dyd_disc *i = &w->disc[w->i], *j = &w->disc[w->j];
-  if (!dyd_caps_begin(&w->caps, i, j, legal)) w->failed = true;
-  for (size_t k = 0; k < w->count && !w->failed; k++) {
-    const dyd_disc *d = &w->disc[w->seen[k]];
-    bool meets = dyd_discs_meet(i, d) || dyd_discs_meet(j, d);
+  w->loaded = 0;
+  if (!dyd_caps_begin(&w->caps, &w->disc[w->i], &w->disc[w->j], legal)) w->failed = true;
+  return dyd_discs_load_more(w, legal);
+}
+
+static bool vertices_meet(const dyd_disc_work *w, uint32_t v, uint32_t k) {
+  if (w->about) {
+    const double *a = w->about[v], *b = w->about[k];
+    double gap = hypot(b[0] - a[0], b[1] - a[1]) - (a[2] + b[2]);
+    if (fabs(gap) > ROOM * (size_d(w, v) + size_d(w, k))) return gap < 0;
+  }
+  return dyd_discs_meet(&w->disc[v], &w->disc[k]);
+}
+
+bool dyd_discs_load_more(dyd_disc_work *w, bool legal) {
+  for (; w->loaded < w->count && !w->failed; w->loaded++) {
+    uint32_t v = w->seen[w->loaded];
+    bool meets = vertices_meet(w, w->i, v) || vertices_meet(w, w->j, v);
     if (meets && legal) return false;
-    if (!meets && !dyd_caps_add(&w->caps, i, d, w->seen[k], legal)) w->failed = true;
+    if (!meets && !dyd_caps_add(&w->caps, &w->disc[w->i], &w->disc[v], v, legal)) w->failed = true;
   }
   return !w->failed;
 }
@@ -207,25 +273,27 @@ static bool discs_are_legal(dyd_disc_work *w) {
     circle_d c;
     dyd_direction u;
     DYD_INVARIANT(2 * round < MOST_ROUNDS); /* the worst first: a few are enough */
-    if (!dyd_discs_load(w, true) || !dyd_caps_common(&u, &w->caps)) return false;
-    if (!place_circle_of(&c, w, u, true)) return false;
-    visit_circle(&c);
-    if (c.good) return true;
-    if (!see_worst(&c)) return false;
+    if (!(round ? dyd_discs_load_more : dyd_discs_load)(w, true) || !dyd_caps_common(&u, &w->caps)) return false;
+    bool placed = place_circle_of(&c, w, u, true);
+    size_t had = w->count;
+    if (placed) visit_circle(&c);
+    if (c.good || (!(placed && see_worst(&c)) && circle_is_witness(w))) return true;
+    if (w->count == had) return false;
   }
   return false;
 }
 
-/* The small disc is in the large one, whose own centre is the best one then. */
+/* The small disc is in the large one, which is the best circle then. */
 static bool large_is_legal(dyd_disc_work *w) {
+  circle_q c = {.w = w, .one = true};
   const dyd_disc *j = &w->disc[w->j];
-  circle_d c = {
-      .w = w, .x = mpq_get_d(j->x), .y = mpq_get_d(j->y), .radius = mpq_get_d(j->r), .legal = true, .good = true};
-  c.radius += 2 * room_d(&c, w->j);
-  c.reach = c.radius * (1 + ROOM);
-  c.highest = HUGE_VAL; /* one in the way is enough */
-  visit_circle(&c);
-  return c.good;
+  dyd_disc_init(&c.disc);
+  mpq_set(c.disc.x, j->x);
+  mpq_set(c.disc.y, j->y);
+  mpq_set(c.disc.r, j->r);
+  visit_exactly(&c);
+  dyd_disc_clear(&c.disc);
+  return c.clear;
 }
 
 static bool discs_are_possible(dyd_disc_work *w) {
@@ -233,7 +301,7 @@ static bool discs_are_possible(dyd_disc_work *w) {
     circle_d c;
     dyd_direction u;
     DYD_INVARIANT(2 * round < MOST_ROUNDS); /* the worst first: a few are enough */
-    if (!dyd_discs_load(w, false)) return true;
+    if (!(round ? dyd_discs_load_more : dyd_discs_load)(w, false)) return true;
     if (!dyd_caps_uncovered(&u, &w->caps)) return false;
     if (place_circle_of(&c, w, u, false))
       visit_circle(&c);
@@ -244,7 +312,49 @@ static bool discs_are_possible(dyd_disc_work *w) {
   return true;
 }
 
-static dyd_pair_status discs_status(dyd_disc_work *w, uint32_t i, uint32_t j) {
+/* ---- squares in discs ---- */
+
+/* A square in the disc that v stands for, if there is one: half-width r / sqrt(2) less INSIDE of all sizes. The disc is
+ * known within 2^-49 of these, x and its ends in doubles within 2^-50. */
+static bool add_inner_square(dyd_sites *sites, dyd_status *st, const dyd_disc_work *w, uint32_t v) {
+  const double *d = w->about[v];
+  double half = mpq_sgn(w->disc[v].r) ? (d[2] - INSIDE * size_d(w, v)) * ROOT_HALF : 0;
+  const double b[4] = {d[0] - half, d[0] + half, d[1] - half, d[1] + half};
+  mpq_t x;
+  mpq_init(x);
+  bool inside = half > 0;
+  if (!inside && half == 0) { /* points, where doubles hold them */
+    mpq_set_d(x, d[0]);
+    inside = mpq_equal(x, w->disc[v].x);
+    mpq_set_d(x, d[1]);
+    inside = inside && mpq_equal(x, w->disc[v].y);
+  }
+  mpq_clear(x);
+  if (inside) *st = dyd_sites_add_boxes(sites, 1, &b[0], &b[1], &b[2], &b[3]);
+  return inside && *st == DYD_OK;
+}
+
+/* Triangulates squares in the discs, numbered as vertices are [DISC-2]. *out = NULL: some disc has none that is worth
+ * it, or there are too many pairs. */
+static dyd_status triangulate_inside(dyd_delaunay **out, dyd_sites **sites, const dyd_disc_work *w) {
+  uint32_t v = 0, n = w->pd->sk.n;
+  dyd_status st = dyd_sites_new(sites);
+  *out = NULL;
+  while (st == DYD_OK && v < n && add_inner_square(*sites, &st, w, v)) v++;
+  if (st == DYD_OK && v == n) st = dyd_delaunay_new(out, *sites, NULL, NULL);
+  if (st != DYD_CAPPED) return st;
+  dyd_delaunay_free(*out);
+  *out = NULL;
+  return DYD_OK;
+}
+
+/* ---- all pairs ---- */
+
+/* inside: what squares in the discs say. What is legal for the discs is for these, what is possible for these is for
+ * the discs. */
+static dyd_pair_status discs_status(dyd_disc_work *w, uint32_t i, uint32_t j, const dyd_delaunay *inside) {
+  dyd_pair_status known = inside ? dyd_delaunay_status(inside, i, j) : DYD_TIE;
+  if (known == DYD_INDETERMINATE) return known;
   bool swap = mpq_cmp(w->disc[i].r, w->disc[j].r) > 0;
   w->i = swap ? j : i;
   w->j = swap ? i : j;
@@ -253,21 +363,28 @@ static dyd_pair_status discs_status(dyd_disc_work *w, uint32_t i, uint32_t j) {
     dyd_legal_each_at(w->pd, end ? j : i, see_neighbour, w);
     dyd_open_each_at(w->pd, end ? j : i, see_neighbour, w);
   }
-  if (dyd_disc_is_within(&w->disc[w->i], &w->disc[w->j]) ? large_is_legal(w) : discs_are_legal(w)) return DYD_LEGAL;
-  bool possible = dyd_discs_meet(&w->disc[i], &w->disc[j]) || discs_are_possible(w);
+  if (known != DYD_ILLEGAL &&
+      (dyd_disc_is_within(&w->disc[w->i], &w->disc[w->j]) ? large_is_legal(w) : discs_are_legal(w)))
+    return DYD_LEGAL;
+  bool possible = known == DYD_LEGAL || vertices_meet(w, i, j) || discs_are_possible(w);
   return possible ? DYD_INDETERMINATE : DYD_ILLEGAL;
 }
 
 static dyd_status decide_discs(dyd_disc_work *w, dyd_pair_list *list) {
   const uint32_t *vertex = w->pd->sk.vertex;
   size_t kept = 0;
-  for (size_t k = 0; k < list->count && !w->failed; k++) {
+  dyd_sites *sites = NULL;
+  dyd_delaunay *inside = NULL;
+  dyd_status st = triangulate_inside(&inside, &sites, w);
+  for (size_t k = 0; st == DYD_OK && k < list->count && !w->failed; k++) {
     dyd_pair p = list->item[k];
-    if (p.status == DYD_INDETERMINATE) p.status = discs_status(w, vertex[p.i], vertex[p.j]);
+    if (p.status == DYD_INDETERMINATE) p.status = discs_status(w, vertex[p.i], vertex[p.j], inside);
     if (p.status != DYD_ILLEGAL) list->item[kept++] = p;
   }
   list->count = kept;
-  return w->failed ? DYD_E_NOMEM : DYD_OK;
+  dyd_delaunay_free(inside);
+  dyd_sites_free(sites);
+  return w->failed ? DYD_E_NOMEM : st;
 }
 
 dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err) {
@@ -278,7 +395,12 @@ dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error 
   if (dyd_delaunay_is_capped(pd))
     return dyd_fail(err, DYD_CAPPED, "there are more pairs than can be stored; raise `max_pairs`");
   w.disc = dyd_alloc(n, sizeof *w.disc);
-  if (!w.disc) return dyd_fail_nomem(err);
+  w.about = dyd_alloc(n, sizeof *w.about);
+  if (!w.disc || !w.about) {
+    free(w.disc);
+    free(w.about);
+    return dyd_fail_nomem(err);
+  }
   for (uint32_t v = 0; v < n; v++) dyd_disc_init(&w.disc[v]);
   dyd_caps_init(&w.caps);
   dyd_status st = make_discs(&w, err);
@@ -287,6 +409,7 @@ dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error 
   dyd_caps_clear(&w.caps);
   for (uint32_t v = 0; v < n; v++) dyd_disc_clear(&w.disc[v]);
   free(w.disc);
+  free(w.about);
   free(w.seen);
   if (st != DYD_OK) {
     dyd_pair_list_clear(&list);

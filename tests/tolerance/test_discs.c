@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Statuses of discs: with equal radii against tolerances, with others against choices of points [DISC-1]. */
+/* Statuses of discs: with equal radii against tolerances, with others against choices of points [DISC-1] [DISC-2]. */
 #include <setjmp.h>
 #include <stdarg.h>
 
@@ -210,8 +210,28 @@ static void test_many(void **state) {
   assert_true(open > 0 && decided > 0);
 }
 
+/* 0,1 is legal by a disc whose centre is near (-9e14, 4e14), with a margin of 1e-7: a direction decides, not a place.
+ * Of two discs a rim's width apart no circle in doubles tells. */
+static void test_far_centre(void **state) {
+  (void)state;
+  static const disc_case cases[] = {{5,
+                                     {-1, 20, 59, 20, 59},
+                                     {20, 59, 20, 20, 40},
+                                     {4.7978909999999999, 1.4393673, 28.787345999999999, 14.393673, 14.393673}},
+                                    /* a small disc in a large one; the nearest other is 2^-30 away */
+                                    {4, {0, 1, 16, -40}, {0, 0, 0, 0}, {8, 2, 8 - 0x1p-30, 1}},
+                                    /* beside a line, 2^-30 before a third disc touches it */
+                                    {4, {0, 1024, 512, 512}, {0, 0, 16 + 0x1p-30, 99999}, {8, 8, 8, 1}}};
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    dyd_pair_list l = pairs_of_discs(&cases[k]);
+    assert_int_equal(DYD_LEGAL, status_in(&l, 0, 1));
+    dyd_pair_list_clear(&l);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_equal_discs), cmocka_unit_test(test_choices),
-                                     cmocka_unit_test(test_refused), cmocka_unit_test(test_many)};
+                                     cmocka_unit_test(test_refused), cmocka_unit_test(test_many),
+                                     cmocka_unit_test(test_far_centre)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
