@@ -19,13 +19,19 @@ enum { MOST_ABOUT = 4096 };
 
 /* ---- pairs ---- */
 
-/* The images in face f; *tie: its pairs are ties. A face without open pairs is none: only the hull is open there. */
-static dyd_status face_look(dyd_index_list *face, bool *outer, bool *tie, const dyd_delaunay *pd, size_t f) {
+/* The images in face f; *tie: its pairs are ties. Where no pair is open, only the hull is: a tie if all are on a line.
+ */
+static dyd_status face_look(dyd_index_list *face, bool *outer, bool *tie, const dyd_sphere *s, size_t f) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
   dyd_pair_list pairs = {0};
   dyd_status st = dyd_delaunay_face(face, outer, pd, f);
   if (st == DYD_OK) st = dyd_delaunay_face_pairs(&pairs, pd, f);
-  *tie = pairs.count && !dyd_delaunay_is_capped(pd);
+  *tie = !dyd_delaunay_is_capped(pd);
   for (size_t k = 0; k < pairs.count; k++) *tie = *tie && pairs.item[k].status == DYD_TIE;
+  if (st == DYD_OK && *tie && !pairs.count) {
+    *tie = false;
+    if (*outer && face->count > 2) st = dyd_sphere_on_circle(tie, s, true, face->item, face->count, NULL);
+  }
   dyd_pair_list_clear(&pairs);
   return st;
 }
@@ -33,12 +39,13 @@ static dyd_status face_look(dyd_index_list *face, bool *outer, bool *tie, const 
 /* Of images in outer faces: whose pairs are all ties, or not. */
 enum { IN_NONE, IN_TIE, IN_OPEN };
 
-static dyd_status mark_outer(uint8_t *in, const dyd_delaunay *pd) {
+static dyd_status mark_outer(uint8_t *in, const dyd_sphere *s) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
   dyd_status st = DYD_OK;
   for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd) && st == DYD_OK; f++) {
     dyd_index_list face = {0};
     bool outer, tie;
-    st = face_look(&face, &outer, &tie, pd, f);
+    st = face_look(&face, &outer, &tie, s, f);
     for (size_t k = 0; k < face.count && outer; k++)
       if (in[face.item[k]] != IN_OPEN) in[face.item[k]] = tie ? IN_TIE : IN_OPEN;
     dyd_index_list_clear(&face);
@@ -66,7 +73,7 @@ dyd_status dyd_sphere_face(dyd_index_list *out, bool *tie, const dyd_sphere *s, 
   bool outer = false;
   if (!pd || f >= dyd_sphere_faces(s)) return DYD_E_ARG;
   bool gap = f == dyd_delaunay_undecided_faces(pd);
-  dyd_status st = gap ? face_of_gap(&face, tie, pd) : face_look(&face, &outer, tie, pd, f);
+  dyd_status st = gap ? face_of_gap(&face, tie, pd) : face_look(&face, &outer, tie, s, f);
   uint32_t *item = st == DYD_OK ? dyd_alloc(face.count + 1, sizeof *item) : NULL;
   if (st == DYD_OK && !item) st = DYD_E_NOMEM;
   if (st == DYD_OK) {
@@ -91,7 +98,7 @@ static dyd_pair_status status_on_hull(const dyd_sphere *s, uint8_t in) {
 static dyd_status centre_statuses(dyd_pair_status *status, const dyd_sphere *s, const dyd_delaunay *pd) {
   dyd_index_list sure = {0}, possible = {0};
   uint8_t *in = calloc(s->with_image + 1, sizeof *in);
-  dyd_status st = in ? mark_outer(in, pd) : DYD_E_NOMEM;
+  dyd_status st = in ? mark_outer(in, s) : DYD_E_NOMEM;
   if (st == DYD_OK) st = dyd_delaunay_hull_vertices(&sure, &possible, pd);
   for (size_t k = 0; k < s->with_image; k++) status[k] = DYD_ILLEGAL;
   for (size_t k = 0; k < possible.count; k++)

@@ -29,18 +29,18 @@ struct dyd_sphere {
   uint32_t *of, *alias;
   size_t with_image;
   dyd_stream **stream;
-  mpq_t metre;   /* radians to a metre */
+  mpq_t metre;          /* radians to a metre */
   mpq_t angle, degrees; /* the radius in the options: radians, or degrees of longitude and latitude */
-  dyd_eye eye;   /* the centre, as it was asked last */
+  dyd_eye eye;          /* the centre, as it was asked last */
   int64_t eye_bits;
   dyd_eye_d eye_d; /* the same in doubles, where first looks are in doubles */
   /* The same places, projected from a gap; made where a wide centre leaves pairs indeterminate. NULL: none. */
   dyd_sphere *second;
 };
 
-/* places.c: the region of place i, as it is known now, with all that widens it: rectangle, stream, the radius of its row
- * and those in the options. Nothing else reads these. DYD_E_DOMAIN where its latitude is beyond a pole, or its angle
- * above 1; DYD_E_NOMEM. */
+/* places.c: the region of place i, as it is known now, with all that widens it: rectangle, stream, the radius of its
+ * row and those in the options. Nothing else reads these. DYD_E_DOMAIN where its latitude is beyond a pole, or its
+ * angle above 1; DYD_E_NOMEM. */
 dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
 /* Encloses the same in doubles; quick for exact places. */
 dyd_status dyd_sphere_spot_d(dyd_spot_d *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
@@ -61,7 +61,10 @@ dyd_status dyd_sphere_add_images(dyd_sphere *s, dyd_error *err);
 /* source.c: narrows places and centre as if images that a trace gave had been asked for, so that what is said of images
  * holds for all choices in the rectangles of their places. */
 dyd_status dyd_sphere_narrow_recalled(dyd_sphere *s, int64_t max_bits, dyd_error *err);
-/* ties.c: as dyd_prove_fn; user is a dyd_sphere, sites are images. */
+/* ties.c: proves that images are of exact places on one circle, with the centre if that is asked for. */
+dyd_status dyd_sphere_on_circle(bool *proved, const dyd_sphere *s, bool centre, const uint32_t *site, size_t count,
+                                dyd_error *err);
+/* As dyd_prove_fn; user is a dyd_sphere, sites are images. */
 dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                             dyd_error *err);
 

@@ -143,12 +143,11 @@ static dyd_status circle_ask(bool *proved, circle_question *q, dyd_error *err) {
   return st;
 }
 
-dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
-                            dyd_error *err) {
-  const dyd_sphere *s = user;
-  circle_question q = {.s = s, .site = site, .count = count, .line = relation == DYD_COLLINEAR};
+dyd_status dyd_sphere_on_circle(bool *proved, const dyd_sphere *s, bool centre, const uint32_t *site, size_t count,
+                                dyd_error *err) {
+  circle_question q = {.s = s, .site = site, .count = count, .line = centre};
   *proved = false;
-  if (relation == DYD_COINCIDENT || (q.line && s->free)) return DYD_OK;
+  if (centre && s->free) return DYD_OK;
   q.spot = dyd_alloc(circle_places(&q), sizeof *q.spot);
   if (!q.spot) return dyd_fail_nomem(err);
   mpz_init_set_ui(q.n, 1);
@@ -158,4 +157,11 @@ dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, con
   mpz_clear(q.n);
   free(q.spot);
   return st;
+}
+
+dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
+                            dyd_error *err) {
+  *proved = false;
+  if (relation == DYD_COINCIDENT) return DYD_OK;
+  return dyd_sphere_on_circle(proved, user, relation == DYD_COLLINEAR, site, count, err);
 }
