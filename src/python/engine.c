@@ -26,7 +26,7 @@ static PyMethodDef engine_methods[] = {
     {"append_source", dydpy_append_source, METH_VARARGS, "append_source(n, narrow)"},
     {"append_text", dydpy_append_text, METH_VARARGS,
      "append_text(bytes, columns, measured, radius, radius_columns, id, delimiter, decimal_comma, skip_missing, "
-     "merge, degrees)"},
+     "merge, radius_unit, radius_scale, degrees)"},
     {"remeasure", dydpy_remeasure, METH_VARARGS, "remeasure(i, (xlo, xhi, ylo, yhi))"},
     {"recall", dydpy_recall, METH_VARARGS, "recall(path) -> int: answers taken from a trace"},
     {"trace_begin", dydpy_trace_begin, METH_VARARGS, "trace_begin(path, options, (window, no_voronoi) or None)"},

@@ -182,8 +182,9 @@ PyObject *dydpy_append_text(PyObject *object, PyObject *args) {
   Py_ssize_t length;
   int measured, decimal_comma, skip_missing, merge, degrees;
   dyd_error err;
-  if (!PyArg_ParseTuple(args, "y#zpzzzzpppp", &text, &length, &o.columns, &measured, &o.radius, &o.radius_columns,
-                        &o.id, &o.delimiter, &decimal_comma, &skip_missing, &merge, &degrees))
+  if (!PyArg_ParseTuple(args, "y#zpzzzzpppzzp", &text, &length, &o.columns, &measured, &o.radius, &o.radius_columns,
+                        &o.id, &o.delimiter, &decimal_comma, &skip_missing, &merge, &o.radius_unit, &o.radius_scale,
+                        &degrees))
     return NULL;
   o.measured = measured;
   o.decimal_comma = decimal_comma;

@@ -19,13 +19,13 @@ static dyd_status globe_make(dydpy_engine *self, dydpy_engine *places, const dyd
   return PyErr_Occurred() ? DYD_E_STREAM : DYD_OK;
 }
 
-/* Sphere(places, radius or None) */
+/* Sphere(places, radius, radius_unit, radius_scale), each a text or None */
 static PyObject *globe_new(PyTypeObject *type, PyObject *args, PyObject *kwargs) {
   dyd_sphere_options o = {DYD_SIZED(dyd_sphere_options)};
   PyObject *places;
   dyd_error err;
   (void)kwargs;
-  if (!PyArg_ParseTuple(args, "Oz", &places, &o.radius)) return NULL;
+  if (!PyArg_ParseTuple(args, "Ozzz", &places, &o.radius, &o.radius_unit, &o.radius_scale)) return NULL;
   if (!PyType_IsSubtype(Py_TYPE(places), dydpy_engine_type()))
     return PyErr_Format(PyExc_TypeError, "places are an Engine");
   dydpy_engine *self = (dydpy_engine *)PyType_GenericAlloc(type, 0);

@@ -107,12 +107,25 @@ def test_radius():
     assert len(wide.indeterminate) and wide.outcome == 'fixpoint'
     degree = 30 / 6371.0088 * 180 / np.pi
     assert np.allclose(np.diff(wide.boxes[:, 2:]), 2 * degree, rtol=1e-9), 'of latitude'
-    for radius in ('0.01deg', '0.01'):
-        d = dyadel.delaunay([(1, 2), (3, 4)], radius, sphere=True)
+    for radius, unit in (('0.01deg', None), ('0.01', 'deg'), (Fraction(1, 100), 'deg'), ('36arcsec', 'm'), (Fraction(6, 10), 'arcmin')):
+        d = dyadel.delaunay([(1, 2), (3, 4)], radius, sphere=True, radius_unit=unit)
         ends = Fraction(99, 100), Fraction(101, 100), Fraction(199, 100), Fraction(201, 100)
         assert all(abs(got - end) < 2.0**-60 for got, end in zip(d.rect(0), ends)), d.rect(0)
-    by_number = dyadel.delaunay(lonlat, 0.01, sphere=True)
-    assert np.array_equal(by_number.pairs, dyadel.delaunay(lonlat, [0.01] * 60, sphere=True).pairs)
+    by_number = dyadel.delaunay(lonlat, 0.01, sphere=True, radius_unit='deg')
+    assert np.array_equal(by_number.pairs, dyadel.delaunay(lonlat, [0.01] * 60, sphere=True, radius_unit='deg').pairs)
+    for radii, unit in (([30] * 60, 'km'), (np.full(60, 30000.0), 'm'), (30, 'km'), (np.float64(30), 'km')):
+        same = dyadel.delaunay(lonlat, radii, sphere=True, radius_unit=unit)
+        assert np.array_equal(same.pairs, wide.pairs) and np.allclose(same.boxes, wide.boxes), (radii, unit)
+    own = dyadel.delaunay([(0, 0), ('1/3', 10)], ['2km', 0], sphere=True)
+    assert np.allclose(np.diff(own.boxes[:, 2:]).ravel(), [4 / 6371.0088 * 180 / np.pi, 0], atol=1e-12)
+    table = dyadel.Text('lon,lat,s [mm]\n0,0,5\n1,1,7\n', columns='lon,lat', radius_columns='s [mm]')
+    metres = dyadel.Text('lon,lat,s\n0,0,5\n1,1,7\n', columns='lon,lat', radius_columns='s', radius_unit='m', radius_scale='0.001')
+    assert np.array_equal(dyadel.delaunay(table, sphere=True).boxes, dyadel.delaunay(metres, sphere=True).boxes)
+    five = [(-103, -58), (11, 5), (-82, -59), (15, -18), (150, 0)]
+    both = [dyadel.delaunay(five, '20deg', sphere=True), dyadel.delaunay(five, 20, sphere=True, radius_unit='deg')]
+    both.append(pickle.loads(pickle.dumps(both[1])))
+    for d in both:
+        assert d.status(2, 4) == d.status(0, 3) == 'indeterminate' and np.array_equal(d.pairs, both[0].pairs)
     assert np.allclose(np.diff(by_number.boxes)[:, [0, 2]], 0.02, atol=1e-9)
     text = ''.join(f'{x!r} {y!r}\n' for x, y in lonlat.tolist())
     assert np.array_equal(dyadel.delaunay(dyadel.Text(text, radius='30km'), sphere=True).pairs, wide.pairs)
@@ -120,7 +133,10 @@ def test_radius():
 
 def test_refused():
     cases = [(dict(until='hausdorff:3'), 'about the plane'), (dict(window=(0, 1, 0, 1)), 'about the plane'),
-             (dict(radius='3 parsec'), 'is not an exact number'),
+             (dict(radius='3 parsec'), 'is not an exact number'), (dict(radius=20), "state a unit: radius_unit='m'"),
+             (dict(radius='0.01'), "state a unit: radius_unit='m'"), (dict(radius=[1] * 6), "state a unit: radius_unit='m'"),
+             (dict(radius=3, radius_unit='miles'), 'is not a unit of radii'), (dict(radius=[1], radius_unit='m'), '1 radii of 6 points'),
+             (dict(radius=[(1, 2)] * 6, radius_unit='m'), 'one radius'),
              (dict(radius='-1m'), 'is not an exact number'), (dict(radius='7000km'), 'larger than that of the earth')]
     for options, words in cases:
         assert words in str(harness.raised(ValueError, dyadel.delaunay, OCTAHEDRON, sphere=True, **options)), options
@@ -189,7 +205,7 @@ def test_traces():
 
 def test_pickling():
     for d in (dyadel.delaunay(somewhere(50), '10km', sphere=True), dyadel.delaunay(OCTAHEDRON, sphere=True),
-              dyadel.delaunay(AIRPORTS, sphere=True), dyadel.delaunay(somewhere(9), 0.5, sphere=True)):
+              dyadel.delaunay(AIRPORTS, sphere=True), dyadel.delaunay(somewhere(9), 0.5, sphere=True, radius_unit='deg')):
         for other in (pickle.loads(pickle.dumps(d)), copy.deepcopy(d)):
             assert np.array_equal(other.pairs, d.pairs) and other.outcome == d.outcome and np.array_equal(other.boxes, d.boxes)
 

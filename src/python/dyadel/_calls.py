@@ -19,16 +19,16 @@ def delaunay(points: Any, radius: Any = None, *, sphere: Literal[False] = False,
 
 
 @overload
-def delaunay(points: Any, radius: Any = None, *, sphere: Literal[True], trace: Path | None = None,
-             resume: Path | None = None, **options: Any) -> Sphere: ...
+def delaunay(points: Any, radius: Any = None, *, sphere: Literal[True], radius_unit: str | None = None,
+             trace: Path | None = None, resume: Path | None = None, **options: Any) -> Sphere: ...
 
 
 @overload
 def delaunay(points: Any, radius: Any = None, *, sphere: bool, **options: Any) -> Delaunay | Sphere: ...
 
 
-def delaunay(points: Any, radius: Any = None, *, sphere: bool = False, trace: Path | None = None,
-             resume: Path | None = None, **options: Any) -> Delaunay | Sphere:
+def delaunay(points: Any, radius: Any = None, *, sphere: bool = False, radius_unit: str | None = None,
+             trace: Path | None = None, resume: Path | None = None, **options: Any) -> Delaunay | Sphere:
     """Triangulates points that need not be known exactly.
 
     points   array (N, 2) of floats, taken exactly as they are, without a copy; array (N, 4) of boxes xlo, xhi, ylo, yhi;
@@ -37,8 +37,9 @@ def delaunay(points: Any, radius: Any = None, *, sphere: bool = False, trace: Pa
              a Source; a Text
     radius   half-width of the square around each point: a number, N of them, or (N, 2) for x and y; with an array of
              floats the box is rounded outward to doubles, other numbers ('0.01', Fraction, Decimal) are exact, and slow
-    sphere   points are longitude and latitude in degrees, neighbours those on the globe; the result is a Sphere. radius
-             may be a text with a unit: '30m', '2km' (on the ground), '0.01deg'; numbers are degrees
+    sphere   points are longitude and latitude in degrees, neighbours those on the globe; the result is a Sphere. Radii have
+             a unit: a text such as '30m', '2km' (on the ground), '0.01deg', or numbers and
+    radius_unit  'm', 'mm', 'cm', 'km', 'ft', 'in', 'deg', 'arcmin' or 'arcsec'
     trace    name of a file that receives each answer of a point as it comes, and what each stage states; a run that ended
              early, however it did, goes on from there with
     resume   name of such a file: its answers are taken in place of asking again. Points and options have to be the same
@@ -51,8 +52,10 @@ def delaunay(points: Any, radius: Any = None, *, sphere: bool = False, trace: Pa
 
     """
     if not sphere:
+        if radius_unit is not None:
+            raise ValueError('in the plane radii are in the unit of the coordinates; give sphere=True, or leave radius_unit out')
         return _in_plane(points, radius, trace, resume, **options)
-    globe = Sphere(points, radius)
+    globe = Sphere(points, radius, radius_unit)
     with _kept_with_errors(globe), globe._traced(trace, resume, options):
         return globe.refine(**options)
 

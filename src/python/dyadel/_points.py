@@ -44,6 +44,8 @@ class Text:
     decimal_comma: bool = False
     skip_missing: bool = False
     merge: bool = False
+    radius_unit: str | None = None
+    radius_scale: str | None = None
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str], **how: Any) -> Text:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import fractions
 import json
 from typing import Any, NamedTuple
 
@@ -90,15 +91,21 @@ class Sphere(Statuses):
 
     _engine: _dyadel.Sphere
 
-    def __init__(self, points: Any, radius: Any = None) -> None:
+    def __init__(self, points: Any, radius: Any = None, radius_unit: str | None = None) -> None:
         super().__init__()
-        if isinstance(points, Text) and radius is None and points.radius is not None:
-            points, radius = dataclasses.replace(points, radius=None), points.radius
-        ground = isinstance(radius, str)
+        scale = None
+        if isinstance(points, Text):
+            scale = points.radius_scale
+            radius_unit = points.radius_unit if radius_unit is None else radius_unit
+            if radius is None and points.radius is not None:
+                points, radius = dataclasses.replace(points, radius=None), points.radius
+        radius = _with_unit(radius, radius_unit)
+        if radius is not None and not isinstance(radius, str):
+            points, radius = _with_radii(points, radius, radius_unit), None
         self._places = _dyadel.Engine()
-        kept = append_points(self._places, points, None if ground else radius, degrees=True)
-        self._given = points if kept else None, radius if kept or ground else None
-        self._engine = _dyadel.Sphere(self._places, radius if ground else None)
+        kept = append_points(self._places, points, degrees=True)
+        self._given = points if kept else None, radius, radius_unit
+        self._engine = _dyadel.Sphere(self._places, radius, None if radius is None else radius_unit, scale)
 
     def refine(self, **options: Any) -> Sphere:
         """Runs until all is decided, or nothing more can be; options are those of delaunay. Returns itself."""
@@ -142,10 +149,10 @@ class Sphere(Statuses):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """What was given: a copy is triangulated anew."""
-        points, radius = self._given
         options = {name: value for name, value in self._options.items() if name != 'progress'}
+        points, radius, unit = self._given
         boxes = floats(self._places.boxes()).reshape(-1, 4).copy() if points is None else points
-        return _restore_sphere, (boxes, radius, options, self.outcome)
+        return _restore_sphere, ((boxes, radius, unit), options, self.outcome)
 
 
 def beyond_sides(corners: Ints, n: int) -> Ints:
@@ -158,8 +165,38 @@ def beyond_sides(corners: Ints, n: int) -> Ints:
     return np.where(side[found] == turned, found // 3, -1).astype(np.int32).reshape(-1, 3)
 
 
-def _restore_sphere(points: Any, radius: Any, options: dict[str, Any], outcome: str) -> Sphere:
-    d = Sphere(points, radius)
+def _with_unit(radius: Any, unit: str | None) -> Any:
+    """A radius of all points as a text; others as they are. Without a unit it is refused."""
+    if radius is None:
+        return None
+    one = isinstance(radius, str) or not (isinstance(radius, (list, tuple)) or np.ndim(radius))
+    bare = [r for r in ([radius] if one else radius) if not (isinstance(r, str) and r[-1:].isalpha()) and not (np.ndim(r) == 0 and r in (0, '0'))]
+    if unit is None and bare:
+        raise ValueError(f"the radius {radius!r:.60} has no unit; state a unit: radius_unit='m' (m, mm, cm, km, ft, in, deg, "
+                         'arcmin or arcsec)')
+    if not one or isinstance(radius, str):
+        return radius
+    return str(fractions.Fraction(radius.item() if isinstance(radius, np.generic) else radius))
+
+
+def _as_text(value: Any) -> str:
+    """A number as a points file has it, exactly."""
+    return value if isinstance(value, str) else str(fractions.Fraction(value.item() if isinstance(value, np.generic) else value))
+
+
+def _with_radii(points: Any, radii: Any, unit: str | None) -> Text:
+    """A table of points with a radius each."""
+    rows, radii = list(points), list(radii)
+    if len(rows) != len(radii):
+        raise ValueError(f'{len(radii)} radii of {len(rows)} points')
+    if any(np.ndim(r) for r in radii):
+        raise ValueError('on the globe a point has one radius, not one for x and one for y')
+    text = ''.join(f'"{_as_text(x)}","{_as_text(y)}","{_as_text(r)}"\n' for (x, y), r in zip(rows, radii))
+    return Text('x,y,r\n' + text, columns='x,y', radius_columns='r', radius_unit=unit)
+
+
+def _restore_sphere(given: tuple[Any, Any, Any], options: dict[str, Any], outcome: str) -> Sphere:
+    d = Sphere(*given)
     if outcome not in ('none', 'error'):
         d.refine(**options)
     d._options, d._outcome = options, outcome
