@@ -23,8 +23,8 @@ typedef struct dyd_read_report {
   size_t missing; /* rows left out by skip_missing */
   size_t merged;  /* rows taken as one with an earlier one by merge */
   size_t shared;  /* rectangles whose centre is that of another one, which leaves their neighbours undecided */
-  bool degrees;   /* the columns of x and y are called longitude and latitude: lon, lng, stop_lon, decimalLongitude .. */
-  bool swapped;   /* the column of x is called latitude or northing, that of y longitude or easting */
+  bool degrees; /* the columns of x and y are called longitude and latitude: lon, lng, stop_lon, decimalLongitude .. */
+  bool swapped; /* the column of x is called latitude or northing, that of y longitude or easting */
 } dyd_read_report;
 
 /* Columns are named as in the header (quoted as in RFC 4180 when they hold commas; capitals count only where names
@@ -42,8 +42,8 @@ typedef struct dyd_read_options {
   bool skip_missing;          /* leave out rows with an empty field, NA, NaN or null for a coordinate or radius */
   bool merge;                 /* equal nominal coordinates are one point: with the smaller radius */
   dyd_read_report *report;    /* receives what was read; NULL: nowhere */
-  /* x and y are longitude and latitude: a latitude beyond 90 degrees is an error with its line and column, columns whose
-   * names say the other order are DYD_E_ARG, and so are radii in a column without a unit: "30m", "2 km", that of
+  /* x and y are longitude and latitude: a latitude beyond 90 degrees is an error with its line and column, columns
+   * whose names say the other order are DYD_E_ARG, and so are radii in a column without a unit: "30m", "2 km", that of
    * radius_unit, or that in the column's name ("sde(m)", "s [mm]", "accuracyInMeters"). Lengths are no part of the
    * rectangle, but kept in metres (dyd_engine_radius). */
   bool degrees;

@@ -24,9 +24,9 @@ typedef struct dyd_sphere dyd_sphere;
 
 typedef struct dyd_sphere_options {
   size_t struct_size; /* set by DYD_SIZED */
-  /* How far points may be from their places: an exact number with a unit behind it. "0.01deg", arcmin, arcsec: longitude
-   * and latitude may each be off by so much. "30m", km, cm, mm, ft, in: points lie within this distance on the ground
-   * (DYD_EARTH_RADIUS). NULL: none. Borrowed for the call. */
+  /* How far points may be from their places: an exact number with a unit behind it. "0.01deg", arcmin, arcsec:
+   * longitude and latitude may each be off by so much. "30m", km, cm, mm, ft, in: points lie within this distance on
+   * the ground (DYD_EARTH_RADIUS). NULL: none. Borrowed for the call. */
   const char *radius;
   bool centre_set; /* project from point `centre`; else one is chosen, or a place between points */
   uint32_t centre;
@@ -38,8 +38,8 @@ typedef struct dyd_sphere_options {
  * bits. Where each point may be the same as another one, or radii are wide, so that a point would widen all images,
  * a place between points is projected from, if there is one: then pairs around that may stay open [SPH-5]. A point
  * whose row has a radius in metres (dyd_engine_radius) lies within it, in addition to options. DYD_E_ARG: a radius
- * in the options that is not understood, has no unit, or is larger than that of the earth. DYD_E_DOMAIN, with the point where it is
- * one: a latitude beyond 90 degrees, points that leave no place of the sphere free. O(N log N). */
+ * in the options that is not understood, has no unit, or is larger than that of the earth. DYD_E_DOMAIN, with the point
+ * where it is one: a latitude beyond 90 degrees, points that leave no place of the sphere free. O(N log N). */
 DYD_API dyd_status dyd_sphere_new(dyd_sphere **out, dyd_engine *places, const dyd_sphere_options *options,
                                   dyd_error *err);
 DYD_API void dyd_sphere_free(dyd_sphere *s);

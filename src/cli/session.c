@@ -61,10 +61,11 @@ int cli_points_read_noting(dyd_engine *e, const cli_options *o) {
              "equal coordinates are one point, give --merge",
              o->file, r.shared);
   if (r.swapped && !o->plane)
-    cli_note(o,
-             "%s: by their names the columns are latitude and longitude, or northing and easting, and are taken as x and "
-             "y: a mirrored map; give the column of y first, or --plane if that is meant",
-             o->file);
+    cli_note(
+        o,
+        "%s: by their names the columns are latitude and longitude, or northing and easting, and are taken as x and "
+        "y: a mirrored map; give the column of y first, or --plane if that is meant",
+        o->file);
   if (r.degrees && !o->sphere && !o->plane && points_are_degrees(e))
     cli_note(o,
              "%s: the columns are longitude and latitude by their names, and taken as coordinates in a plane; for "

@@ -106,12 +106,15 @@ const cli_option cli_option_table[] = {
      AT(read.delimiter)},
     {"decimal-comma", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "47,61 is 47.61", AT(read.decimal_comma)},
     {"radius-column", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT,
-     "widen each point by the value in this column; NAME,NAME\nfor x and y apart; with --sphere each value, the column's\n"
-     "name (\"sde(m)\", \"s [mm]\") or --radius-unit states a unit;\ntolerance: each point moves in proportion to it, 0: "
+     "widen each point by the value in this column; NAME,NAME\nfor x and y apart; with --sphere each value, the "
+     "column's\n"
+     "name (\"sde(m)\", \"s [mm]\") or --radius-unit states a unit;\ntolerance: each point moves in proportion to it, "
+     "0: "
      "not at\nall",
      AT(read.radius_columns)},
     {"radius-unit", 0, "U", CLI_TEXT, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_INPUT,
-     "with --sphere: the unit of radii without one: m, mm, cm, km,\nft, in, deg, arcmin or arcsec", AT(read.radius_unit)},
+     "with --sphere: the unit of radii without one: m, mm, cm, km,\nft, in, deg, arcmin or arcsec",
+     AT(read.radius_unit)},
     {"radius-scale", 0, "K", CLI_TEXT, TEXT, CLI_INPUT,
      "multiply all radii by K: 0.001 for millimetres beside\ncoordinates in metres, 3 for a bound of 3 sigma",
      AT(read.radius_scale)},

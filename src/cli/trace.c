@@ -16,7 +16,7 @@ static uint64_t digest_bytes(uint64_t digest, const char *byte, size_t count) {
 
 /* FNV-1a of the points file and of what says which points are in it. false: it cannot be read twice. */
 static bool digest_input(char text[17], const cli_options *o) {
-  const char *const words[] = {o->read.columns, o->read.radius, o->read.radius_columns,
+  const char *const words[] = {o->read.columns,     o->read.radius,       o->read.radius_columns,
                                o->read.radius_unit, o->read.radius_scale, o->read.delimiter};
   uint64_t digest = 14695981039346656037u;
   char part[4096];

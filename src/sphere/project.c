@@ -6,9 +6,9 @@
  * D is a sum of squares, so that nothing is lost near q. The places within an angle a of (l, f) go to the disc with
  * centre (X, Y) / E and radius sin a / E, E = D - 2 sin^2(a/2), as long as E > 0 [SPH-2].
  *
- * Over a box of v = (d, f, f0) with middle m, F(v) is extreme at an end of v_k where F_k(box), which holds its slope, has
- * one sign; by other variables it is off by F_k(box) (v_k - m_k). Boxes that are wide, measured by their distance from
- * q, are cut; where pieces are too many, they reach q. */
+ * Over a box of v = (d, f, f0) with middle m, F(v) is extreme at an end of v_k where F_k(box), which holds its slope,
+ * has one sign; by other variables it is off by F_k(box) (v_k - m_k). Boxes that are wide, measured by their distance
+ * from q, are cut; where pieces are too many, they reach q. */
 #include "sphere/project.h"
 
 #include "base/flag.h"

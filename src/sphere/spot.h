@@ -21,8 +21,8 @@ typedef struct dyd_spot_d {
 void dyd_spot_init(dyd_spot *s);
 void dyd_spot_clear(dyd_spot *s);
 /* Sets s to the rectangle r of degrees, widened by `more` on each side, with no angle; longitudes are taken modulo 360.
- * Where its latitudes reach beyond a pole, or are the pole, all longitudes stand for each other: beyond, the spot is all
- * of the cap; a pole itself has longitude 0. Returns false if no latitude of r is within 90. */
+ * Where its latitudes reach beyond a pole, or are the pole, all longitudes stand for each other: beyond, the spot is
+ * all of the cap; a pole itself has longitude 0. Returns false if no latitude of r is within 90. */
 bool dyd_spot_set(dyd_spot *s, const dyd_rect *r, mpq_srcptr more);
 bool dyd_spot_is_exact(const dyd_spot *s);
 /* Widens the box of s to hold all of s; the angle becomes 0. */

@@ -27,9 +27,9 @@ const dyd_unit *dyd_unit_of_column(const char *name, size_t length);
 /* Sets *unit to that of this name (NULL: leaves it) and scale to an exact number above 0 (NULL: leaves it). Returns
  * DYD_E_ARG with a message where they are not such; DYD_E_NOMEM. */
 dyd_status dyd_unit_take(const dyd_unit **unit, mpq_ptr scale, const char *name, const char *factor, dyd_error *err);
-/* Reads "30m", "2 km": *ground, and out in metres; "0.01deg": in degrees. A number alone is in `unit`. Returns DYD_E_ARG
- * where it is no exact number >= 0 with a unit; DYD_E_DOMAIN where it is above 0, has no unit, and `unit` is NULL;
- * DYD_E_NOMEM. */
+/* Reads "30m", "2 km": *ground, and out in metres; "0.01deg": in degrees. A number alone is in `unit`. Returns
+ * DYD_E_ARG where it is no exact number >= 0 with a unit; DYD_E_DOMAIN where it is above 0, has no unit, and `unit` is
+ * NULL; DYD_E_NOMEM. */
 dyd_status dyd_radius_parse(mpq_ptr out, bool *ground, const char *text, size_t length, const dyd_unit *unit);
 
 #endif

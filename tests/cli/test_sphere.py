@@ -294,13 +294,23 @@ def test_choices_within_boxes():
 def test_radius():
     """Degrees widen longitude and latitude; metres are a distance on the ground."""
     square = '0 60\n1 60\n0 60.5\n1 60.5\n50 0\n'
-    assert run('delaunay', '--sphere', '-q', '--radius', '0.01deg', '-', stdin=square).out == \
-        run('delaunay', '--sphere', '-q', '--radius', '0.01', '-', stdin=square).out
+    want = run('delaunay', '--sphere', '-q', '--radius', '0.01deg', '-', stdin=square).out
+    for same in (['--radius', '0.01', '--radius-unit', 'deg'], ['--radius', '36arcsec', '--radius-unit', 'm'],
+                 ['--radius', '0.6', '--radius-unit', 'arcmin'], ['--radius', '10', '--radius-unit', 'deg', '--radius-scale', '0.001']):
+        assert run('delaunay', '--sphere', '-q', *same, '-', stdin=square).out == want, same
     box = json.loads(run('delaunay', '--sphere', '-q', '--format', 'json', '--radius', '30m', '-', stdin='0 60\n10 0\n').out)['sites']
     angle = math.degrees(30 / 6371008.8)
     for site, wide in zip(box, (2, 1)):
         (x0, x1), (y0, y1) = site['x_decimal'], site['y_decimal']
         assert angle * 2 * wide <= x1 - x0 <= angle * 2 * wide * 1.001 and 2 * angle * 0.9999 <= y1 - y0 <= 2 * angle * 1.001, site
+    for bare in ('0.01', '30', '1/64'):
+        expect(run('delaunay', '--sphere', '--radius', bare, '-', stdin=square), 2, r'\A\Z', 'has no unit; state a unit: --radius-unit m')
+    expect(run('delaunay', '--sphere', '--radius', '0', '-', stdin=square), 3, 'i,j,status')  # zero is zero in any unit
+    for unit in ('miles', 'M', 'met'):
+        expect(run('delaunay', '--sphere', '--radius', '3', '--radius-unit', unit, '-', stdin=square), 2, r'\A\Z', 'is not a unit of radii')
+    for scale in ('0', '-1', 'x'):
+        expect(run('delaunay', '--sphere', '--radius', '3m', '--radius-scale', scale, '-', stdin=square), 2, r'\A\Z', 'the scale of radii')
+    expect(run('delaunay', '--radius', '3', '--radius-unit', 'm', '-', stdin=square), 2, r'\A\Z', 'in the plane .*--radius-scale 0.001')
     for wrong in ('30 miles', 'm', '-1m', '30kmm', '7000km'):
         expect(run('delaunay', '--sphere', '--radius', wrong, '-', stdin=square), 2, r'\A\Z', r'\Adyadel: the radius .*; give')
 
@@ -315,24 +325,53 @@ COLUMN = ('--columns', 'lon,lat', '--radius-column', 'acc')
 def test_radius_column():
     """Each its own unit; what --radius says is added; the same for all is as --radius."""
     square = [(0, 60), (1, 60), (0, 60.5), (1, 60.5), (50, 0)]
-    for one in ('30m', '2km', '0.01deg', '0.01', '1/64', '0'):
+    for one in ('30m', '2km', '0.01deg', '1 ft', '1/64arcmin', '0'):
         got = run('delaunay', '--sphere', '-q', *COLUMN, '--format', 'json', '-', stdin=table(square, [one] * 5))
         want = run('delaunay', '--sphere', '-q', '--radius', one, '--format', 'json', '-', stdin=''.join(f'{x} {y}\n' for x, y in square))
         got, want = json.loads(got.out), json.loads(want.out)
         assert got['pairs'] == want['pairs'], one
         for a, b in zip(got['sites'], want['sites']):
             assert all(abs(p - q) < 1e-12 for axis in ('x_decimal', 'y_decimal') for p, q in zip(a[axis], b[axis])), (one, a, b)
-    both = run('delaunay', '--sphere', '-q', *COLUMN, '--radius', '0.5km', '--layer', 'points', '-', stdin=table(square, ['1500m', '1.5km', '0m', '1deg', '0.1']))
+    both = run('delaunay', '--sphere', '-q', *COLUMN, '--radius', '0.5km', '--layer', 'points', '-', stdin=table(square, ['1500m', '1.5km', '0m', '1deg', '6arcmin']))
     rows = [[float(v) for v in line.split(',')[1:5]] for line in both.out.splitlines() if line[0] in '01234']
     metre = math.degrees(1 / 6371008.8)
     for (x0, x1, y0, y1), metres, degrees in zip(rows, (2000, 2000, 500, 500, 500), (0, 0, 0, 1, 0.1)):
         assert math.isclose(y1 - y0, 2 * (metres * metre + degrees), rel_tol=1e-9) and x1 - x0 > y1 - y0 - 1e-9, (metres, degrees)
     for wrong in ('30 miles', 'm', '-1m', '30kmm', '-0.1', '1e400km'):
-        expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=table(square, ['1', wrong, '1', '1', '1'])), 1, r'\A\Z', r'-:3:\d+: the radius .*; give one such as')
-    expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=table(square, ['1', '7000km', '1', '1', '1'])), 1, r'\A\Z', 'point 1: the radius is larger than that of the earth')
+        expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=table(square, ['1m', wrong, '1m', '1m', '1m'])), 1, r'\A\Z', r'-:3:\d+: the radius .*; give one such as')
+    expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=table(square, ['1m', '7000km', '1m', '1m', '1m'])), 1, r'\A\Z', 'point 1: the radius is larger than that of the earth')
     expect(run('delaunay', *COLUMN, '-', stdin=table(square, ['30m'] * 5)), 1, r'\A\Z', r'2:6: the radius is not an exact number >= 0; give')
     apart = ('--columns', 'lon,lat', '--radius-column', 'lon,acc')
     expect(run('delaunay', '--sphere', *apart, '-', stdin=table(square, ['30m'] * 5)), 1, r'\A\Z', r'2:6: the radii in x and in y differ.*; name one column')
+
+
+def test_unit_of_column():
+    """Stated by --radius-unit, by the name of the column, or by each value; otherwise refused. The value's own holds."""
+    square = [(0, 60), (1, 60), (0, 60.5), (1, 60.5), (50, 0)]
+    bare = table(square, ['30', '2000', '0', '5', '7'])
+    expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=bare), 2, r'\A\Z', 'the radius 30 has no unit; state a unit: --radius-unit m')
+    mixed = table(square, ['30m', '2km', '0', '5', '7m'])
+    expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=mixed), 2, r'\A\Z', 'the radius 5 has no unit')
+    ways = [(table(square, ['30m', '2km', '0', '5m', '7m']), COLUMN), (bare, (*COLUMN, '--radius-unit', 'm')),
+            (table(square, ['30', '2km', '0', '500cm', '7']), (*COLUMN, '--radius-unit', 'm')),
+            (table(square, ['30000', '2000000', '0', '5000', '7000']), (*COLUMN, '--radius-unit', 'm', '--radius-scale', '1e-3'))]
+    ways += [(bare.replace('acc', name), ('--columns', 'lon,lat', '--radius-column', name)) for name in ('sde(m)', 's [m]', 'uncertaintyInMeters')]
+    outs = [json.loads(run('delaunay', '--sphere', '-q', *how, '--format', 'json', '-', stdin=text).out)['sites'] for text, how in ways]
+    assert all(out == outs[0] for out in outs), outs
+
+
+def test_order_of_columns():
+    """Names that say the other order: an error that gives the right one; in the plane a note."""
+    rows = '47.1,8.5\n47.2,8.6\n47.15,8.4\n'
+    for names in ('lat,lon', 'Latitude,Longitude', 'stop_lat,stop_lon', 'decimalLatitude,decimalLongitude', 'northing,easting', 'gps.lat,gps.lng',
+                  'NORTH,EAST', 'northing,lon', 'lat_deg,lon_deg'):
+        x, y = names.split(',')
+        expect(run('delaunay', '--sphere', '--columns', names, '-', stdin=names + '\n' + rows), 2, r'\A\Z', f'longitude comes first: --columns {y},{x}')
+        expect(run('delaunay', '--sphere', '-q', '--columns', f'{y},{x}', '-', stdin=names + '\n' + rows), 0, 'i,j,status', r'\A\Z')
+        expect(run('delaunay', '--columns', names, '-', stdin=names + '\n' + rows), 0, 'i,j,status', 'a mirrored map')
+        expect(run('delaunay', '--plane', '--columns', names, '-', stdin=names + '\n' + rows), 0, 'i,j,status', r'\A\Z')
+    for names in ('x,y', 'latency,lonely', 'plateau,salon', 'a,lon', 'lat,b', 'easting,northing'):
+        expect(run('delaunay', '-q', '--sphere', '--columns', names, '-', stdin=names + '\n' + rows), 0 if names != 'latency,lonely' else 2)
 
 
 def test_radius_column_merged():
@@ -343,7 +382,7 @@ def test_radius_column_merged():
         return float(high) - float(low)
     metre = 2 * math.degrees(1 / 6371008.8)
     assert math.isclose(box('30m', '20m', '40m'), 20 * metre, rel_tol=1e-9)
-    assert math.isclose(box('0.3', '0.1', '0.2'), 0.2, rel_tol=1e-9)
+    assert math.isclose(box('0.3deg', '0.1deg', '0.2deg'), 0.2, rel_tol=1e-9)
     assert math.isclose(box('0.1deg', '30m'), 0.2, rel_tol=1e-9)  # neither is inside the other: the first
     assert math.isclose(box('30m', '0.1deg'), 30 * metre, rel_tol=1e-9)
     assert math.isclose(box('30m', '0'), 0, abs_tol=1e-12)
@@ -616,14 +655,15 @@ def test_ids_and_rows():
 def test_note():
     """Degrees by their names, read as a plane, are told of once; not where they are no degrees, or it is meant."""
     note = r'\Adyadel: -: the columns are longitude and latitude by their names.*--sphere; --plane says'
-    for head in ('lon,lat', 'Longitude,LATITUDE', 'lng;latitude_deg', 'lon_x,lat_y'):
+    for head in ('lon,lat', 'Longitude,LATITUDE', 'lng;latitude_deg', 'lon_x,lat_y', 'stop_lon,stop_lat',
+                 'decimalLongitude,decimalLatitude', 'gpsLng,gpsLat'):
         names = head.replace(';', ',')
         text = head + '\n0 1\n-180 90\n3 4\n'.replace(' ', head[3] if head[3] == ';' else ',')
         expect(run('delaunay', '--columns', names, '-', stdin=text), 0, 'i,j,status', note + r'[^\n]*\n\Z')
         for quiet in ('--plane', '--quiet', '--sphere'):
             expect(run('delaunay', quiet, '--columns', names, '-', stdin=text), 0, 'i,j,status', r'\A\Z')
     expect(run('tolerance', '--columns', '1,2', '-', stdin='lon,lat\n0,1\n'), 0, '', note)
-    for text in ('lon,lat\n181,1\n', 'x,y\n0,1\n', 'lat,lon\n1,2\n', 'lon,lat\n'):
+    for text in ('lon,lat\n181,1\n', 'x,y\n0,1\n', 'lon,lat\n'):
         got = run('delaunay', '--columns', '1,2', '-', stdin=text)
         assert got.code == 0 and 'by their names' not in got.err, (text, got)
     expect(run('delaunay', '--sphere', '--plane', '-', stdin=OCTAHEDRON), 2, r'\A\Z', 'contradict')

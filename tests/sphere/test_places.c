@@ -55,7 +55,7 @@ static void test_circles(void **state) {
     int few = (int)test_between(&r, 1, 24);
     for (int i = 1; i < 5; i++)
       lon[i] = 15 * (double)(test_between(&r, 0, few) - 12), lat[i] = 15 * (double)test_between(&r, -6, 6);
-    const char *radius = k % 4 ? NULL : k % 8 ? "1m" : "1/1000"; /* then none is surely on a circle with others */
+    const char *radius = k % 4 ? NULL : k % 8 ? "1m" : "1/1000deg"; /* then none is surely on a circle with others */
     const dyd_sphere_options o = {DYD_SIZED(dyd_sphere_options), .radius = radius, .centre_set = true, .centre = 0};
     dyd_sphere *s = sphere_of(&e, 5, lon, lat, &o);
     const uint32_t site[] = {0, 1, 2, 3};

@@ -16,27 +16,68 @@ static const long double degree = 0.017453292519943295769236907684886L;
 
 static void test_units(void **state) {
   static const struct {
-    const char *text;
-    bool good, ground;
+    const char *text, *unit;
+    dyd_status status;
+    bool ground;
     unsigned long num, den;
-  } tries[] = {{"30m", true, true, 30, 1},     {"2.5km", true, true, 2500, 1},  {"1/4deg", true, false, 1, 4},
-               {"0.5", true, false, 1, 2},     {"0", true, false, 0, 1},        {"0m", true, true, 0, 1},
-               {"3/1000km", true, true, 3, 1}, {"-1", false, false, 0, 1},      {"-1km", false, false, 0, 1},
-               {"m", false, false, 0, 1},      {"km", false, false, 0, 1},      {"deg", false, false, 0, 1},
-               {"", false, false, 0, 1},       {"3 miles", false, false, 0, 1}, {"3kmm", false, false, 0, 1},
-               {"3degkm", false, false, 0, 1}};
+  } tries[] = {{"30m", NULL, DYD_OK, true, 30, 1},        {"2.5km", NULL, DYD_OK, true, 2500, 1},
+               {"1/4deg", NULL, DYD_OK, false, 1, 4},     {"0.5", "deg", DYD_OK, false, 1, 2},
+               {"0", NULL, DYD_OK, false, 0, 1},          {"0m", NULL, DYD_OK, true, 0, 1},
+               {"3/1000km", NULL, DYD_OK, true, 3, 1},    {"3 mm", NULL, DYD_OK, true, 3, 1000},
+               {"7cm", "km", DYD_OK, true, 7, 100},       {"1ft", NULL, DYD_OK, true, 3048, 10000},
+               {"1in", NULL, DYD_OK, true, 254, 10000},   {"6arcmin", NULL, DYD_OK, false, 1, 10},
+               {"9arcsec", NULL, DYD_OK, false, 1, 400},  {"5", "ft", DYD_OK, true, 1524, 1000},
+               {"5", NULL, DYD_E_DOMAIN, false, 0, 1},    {"0.02", NULL, DYD_E_DOMAIN, false, 0, 1},
+               {"-1", "m", DYD_E_ARG, false, 0, 1},       {"-1km", NULL, DYD_E_ARG, false, 0, 1},
+               {"m", NULL, DYD_E_ARG, false, 0, 1},       {"km", "m", DYD_E_ARG, false, 0, 1},
+               {"deg", NULL, DYD_E_ARG, false, 0, 1},     {"", "m", DYD_E_ARG, false, 0, 1},
+               {"3 miles", NULL, DYD_E_ARG, false, 0, 1}, {"3kmm", NULL, DYD_E_ARG, false, 0, 1},
+               {"3degkm", NULL, DYD_E_ARG, false, 0, 1},  {"3KM", NULL, DYD_E_ARG, false, 0, 1}};
   (void)state;
   mpq_t got, want;
   mpq_inits(got, want, NULL);
   for (size_t k = 0; k < sizeof tries / sizeof *tries; k++) {
     bool ground = !tries[k].ground;
-    dyd_status st = dyd_radius_parse(got, &ground, tries[k].text, strlen(tries[k].text));
-    assert_int_equal(st, tries[k].good ? DYD_OK : DYD_E_ARG);
-    if (!tries[k].good) continue;
+    const dyd_unit *unit = tries[k].unit ? dyd_unit_find(tries[k].unit, strlen(tries[k].unit)) : NULL;
+    assert_int_equal(dyd_radius_parse(got, &ground, tries[k].text, strlen(tries[k].text), unit), tries[k].status);
+    if (tries[k].status != DYD_OK) continue;
     mpq_set_ui(want, tries[k].num, tries[k].den);
+    mpq_canonicalize(want);
     assert_true(mpq_equal(got, want) && ground == tries[k].ground);
   }
   mpq_clears(got, want, NULL);
+}
+
+static void test_columns(void **state) {
+  static const char *const tries[][2] = {{"sde(m)", "m"},
+                                         {"s [mm]", "mm"},
+                                         {"h_acc (km) ", "km"},
+                                         {"coordinateUncertaintyInMeters", "m"},
+                                         {"accInMetre", "m"},
+                                         {"accuracy in feet", "ft"},
+                                         {"rInInches", "in"},
+                                         {"err_in_degrees", "deg"},
+                                         {"xInArcseconds", "arcsec"},
+                                         {"rInKilometers", "km"},
+                                         {"r[arcmin]", "arcmin"},
+                                         {"acc", NULL},
+                                         {"parameters", NULL},
+                                         {"diameters", NULL},
+                                         {"meters", NULL},
+                                         {"s (mean)", NULL},
+                                         {"sde(m", NULL},
+                                         {"plain meters", NULL},
+                                         {"margin meters", NULL},
+                                         {"", NULL},
+                                         {"()", NULL},
+                                         {"m", NULL},
+                                         {"acc_m", NULL},
+                                         {"sigma (1 m)", NULL}};
+  (void)state;
+  for (size_t k = 0; k < sizeof tries / sizeof *tries; k++) {
+    const dyd_unit *u = dyd_unit_of_column(tries[k][0], strlen(tries[k][0]));
+    assert_true(tries[k][1] ? u && !strcmp(u->name, tries[k][1]) : !u);
+  }
 }
 
 /* ---- spots ---- */
@@ -133,7 +174,7 @@ static void test_widened(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_units), cmocka_unit_test(test_spots),
-                                     cmocka_unit_test(test_widened)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_units), cmocka_unit_test(test_columns),
+                                     cmocka_unit_test(test_spots), cmocka_unit_test(test_widened)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
