@@ -54,6 +54,7 @@ static dyd_status mark_outer(uint8_t *in, const dyd_sphere *s) {
 }
 
 size_t dyd_sphere_faces(const dyd_sphere *s) {
+  if (!s) return 0;
   const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
   return pd ? dyd_delaunay_undecided_faces(pd) + s->free : 0;
 }
@@ -68,6 +69,7 @@ static dyd_status face_of_gap(dyd_index_list *face, bool *tie, const dyd_delauna
 }
 
 dyd_status dyd_sphere_face(dyd_index_list *out, bool *tie, const dyd_sphere *s, size_t f) {
+  if (!s) return DYD_E_ARG;
   const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
   dyd_index_list face = {0};
   bool outer = false;
@@ -193,6 +195,7 @@ static void pairs_improve(dyd_pair_list *l, const dyd_pair_list *other) {
 }
 
 dyd_status dyd_sphere_pairs(dyd_pair_list *out, const dyd_sphere *s) {
+  if (!s) return DYD_E_ARG;
   dyd_pair_list other = {0};
   dyd_status st = pairs_seen(out, s);
   if (st != DYD_OK || !s->second || !dyd_engine_delaunay(s->second->images)) return st;
@@ -211,6 +214,7 @@ static bool pairs_are_legal(const dyd_sphere *s) {
 }
 
 dyd_outcome dyd_sphere_outcome(const dyd_sphere *s) {
+  if (!s) return DYD_OUTCOME_NONE;
   dyd_outcome outcome = dyd_engine_outcome(s->images);
   if (s->free && outcome == DYD_OUTCOME_DECIDED) return pairs_are_legal(s) ? outcome : DYD_OUTCOME_FIXPOINT;
   if (!s->second || outcome != DYD_OUTCOME_FIXPOINT) return outcome;
@@ -262,6 +266,7 @@ static dyd_status triangles_join(dyd_triangle_list *out, const dyd_sphere *s, co
 }
 
 dyd_status dyd_sphere_triangles(dyd_triangle_list *out, const dyd_sphere *s) {
+  if (!s) return DYD_E_ARG;
   const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
   if (!pd) return DYD_E_ARG;
   dyd_triangle_list images = {0};
@@ -291,6 +296,7 @@ static dyd_status spot_side(dyd_interval *out, const dyd_spot *spot, int a) {
 }
 
 dyd_status dyd_sphere_rect(dyd_rect *out, const dyd_sphere *s, uint32_t i) {
+  if (!s) return DYD_E_ARG;
   dyd_spot spot;
   dyd_rect r;
   if (i >= s->count) return DYD_E_ARG;

@@ -162,26 +162,32 @@ void dyd_sphere_free(dyd_sphere *s) {
 /* ---- what it is ---- */
 
 dyd_engine *dyd_sphere_engine(dyd_sphere *s) {
+  if (!s) return NULL;
   return s->images;
 }
 
 const dyd_engine *dyd_sphere_places(const dyd_sphere *s) {
+  if (!s) return NULL;
   return s->places;
 }
 
 const dyd_engine *dyd_sphere_images(const dyd_sphere *s) {
+  if (!s) return NULL;
   return s->images;
 }
 
 uint32_t dyd_sphere_centre(const dyd_sphere *s) {
+  if (!s) return 0;
   return s->count ? s->centre : DYD_NO_PLACE;
 }
 
 uint32_t dyd_sphere_place(const dyd_sphere *s, uint32_t k) {
+  if (!s) return 0;
   return k < s->with_image ? s->of[k] : DYD_NO_PLACE;
 }
 
 uint32_t dyd_sphere_alias(const dyd_sphere *s, uint32_t i) {
+  if (!s) return 0;
   return i < s->count ? s->alias[i] : i;
 }
 

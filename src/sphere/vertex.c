@@ -239,6 +239,7 @@ static dyd_status place_vector(arb_ptr v, const dyd_sphere *s, uint32_t i, dyd_e
 }
 
 dyd_status dyd_sphere_vector(double box[6], const dyd_sphere *s, uint32_t i, dyd_error *err) {
+  if (!s) return dyd_fail_null(err);
   if (i >= s->count) return dyd_fail(err, DYD_E_ARG, "there is no point %lu", (unsigned long)i);
   arb_ptr v = _arb_vec_init(3);
   arf_t end;
@@ -266,6 +267,7 @@ static dyd_status triangle_spots(dyd_spot spot[3], const dyd_sphere *s, const dy
 }
 
 dyd_status dyd_sphere_vertex(double box[4], const dyd_sphere *s, const dyd_triangle *t, dyd_error *err) {
+  if (!s) return dyd_fail_null(err);
   arb_ptr v = _arb_vec_init(9), n = _arb_vec_init(3);
   dyd_spot spot[3];
   axes f;

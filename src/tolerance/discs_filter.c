@@ -388,6 +388,7 @@ static dyd_status decide_discs(dyd_disc_work *w, dyd_pair_list *list) {
 }
 
 dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err) {
+  if (!pd) return dyd_fail_null(err);
   dyd_disc_work w = {.pd = pd};
   dyd_pair_list list = {0};
   uint32_t n = pd->sk.n;

@@ -354,6 +354,7 @@ static dyd_status survey_check(const dyd_survey *s, const dyd_delaunay *pd, dyd_
 }
 
 dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_survey_options *options, dyd_error *err) {
+  if (!pd) return dyd_fail_null(err);
   *out = NULL;
   if (err) dyd_error_clear(err);
   dyd_survey *s = calloc(1, sizeof *s);
@@ -394,11 +395,13 @@ void dyd_survey_free(dyd_survey *s) {
 }
 
 size_t dyd_survey_rows(const dyd_survey_row **row, const dyd_survey *s) {
+  if (!s) return 0;
   *row = s->row;
   return s->rows;
 }
 
 void dyd_survey_count(size_t *open, size_t *ties, size_t *left, const dyd_survey *s) {
+  if (!s) return;
   *open = s->target.count;
   *ties = s->ties;
   *left = s->left;

@@ -96,6 +96,7 @@ static dyd_status tolerance_work(dyd_tolerance *t, dyd_error *err) {
 
 dyd_status dyd_tolerance_new(dyd_tolerance **out, const dyd_delaunay *pd, const dyd_tolerance_options *options,
                              dyd_error *err) {
+  if (!pd) return dyd_fail_null(err);
   *out = NULL;
   if (err) dyd_error_clear(err);
   dyd_status st = dyd_float_check(err);
@@ -136,34 +137,41 @@ void dyd_tolerance_free(dyd_tolerance *t) {
 /* ---- answers ---- */
 
 size_t dyd_tolerance_rows(const dyd_tolerance_row **row, const dyd_tolerance *t) {
+  if (!t) return 0;
   *row = t->row;
   return t->rows;
 }
 
 dyd_metric dyd_tolerance_metric(const dyd_tolerance *t) {
+  if (!t) return (dyd_metric)0;
   return t->options.metric;
 }
 
 void dyd_tolerance_whole(double *lo, double *hi, const dyd_tolerance *t) {
+  if (!t) return;
   *lo = t->lo;
   *hi = t->hi;
 }
 
 const double *dyd_tolerance_points(const dyd_tolerance *t) {
+  if (!t) return NULL;
   return t->radius;
 }
 
 const double *dyd_tolerance_chances(const dyd_tolerance *t) {
+  if (!t) return NULL;
   return t->chance;
 }
 
 void dyd_tolerance_rungs(uint64_t *filter, uint64_t *exact, const dyd_tolerance *t) {
+  if (!t) return;
   *filter = t->filter;
   *exact = t->exact;
 }
 
 /* What binds is known: the summit of these lines alone is that of all; a birth is where they cross. */
 dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_tolerance *t, size_t row) {
+  if (!t) return DYD_E_ARG;
   if (row >= t->rows || t->row[row].lo == HUGE_VAL || t->weight) return DYD_E_ARG;
   if (t->options.metric == DYD_METRIC_BOX) return DYD_E_ARG;
   const dyd_tolerance_row *r = &t->row[row];

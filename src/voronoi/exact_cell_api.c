@@ -60,18 +60,22 @@ static dyd_status cell_of_caller(dyd_boundary *out, const dyd_delaunay *pd, uint
 }
 
 dyd_status dyd_voronoi_int(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i) {
+  if (!pd) return DYD_E_ARG;
   return cell_of_caller(out, pd, i, false, NULL);
 }
 
 dyd_status dyd_voronoi_pos(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i) {
+  if (!pd) return DYD_E_ARG;
   return cell_of_caller(out, pd, i, true, NULL);
 }
 
 dyd_status dyd_voronoi_int_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {
+  if (!pd) return DYD_E_ARG;
   return window ? cell_of_caller(out, pd, i, false, window) : DYD_E_ARG;
 }
 
 dyd_status dyd_voronoi_pos_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {
+  if (!pd) return DYD_E_ARG;
   return window ? cell_of_caller(out, pd, i, true, window) : DYD_E_ARG;
 }
 
@@ -106,6 +110,7 @@ dyd_status dyd_cell_point_side(dyd_truth *out, const dyd_delaunay *pd, uint32_t 
 }
 
 dyd_truth dyd_voronoi_side(const dyd_delaunay *pd, uint32_t i, const dyd_point *c) {
+  if (!pd) return DYD_UNKNOWN;
   dyd_truth answer = DYD_UNKNOWN;
   return dyd_cell_point_side(&answer, pd, i, c) == DYD_OK ? answer : DYD_UNKNOWN;
 }

@@ -145,6 +145,7 @@ static void query_deliver(dyd_index_list *out, query *q) {
 }
 
 dyd_status dyd_nearest_rect(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, const dyd_rect *rect) {
+  if (!pd) return DYD_E_ARG;
   query q = {.pd = pd};
   for (int n = 0; n < 4; n++) mpq_init(q.e[n]);
   dyd_status st = dyd_near_candidates(&q.vertex, &q.count, pd, rect);
@@ -165,6 +166,7 @@ dyd_status dyd_nearest_rect(dyd_index_list *out, bool *sure, const dyd_delaunay 
 }
 
 dyd_status dyd_nearest(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, const dyd_point *c) {
+  if (!pd) return DYD_E_ARG;
   dyd_rect r;
   dyd_rect_init(&r);
   dyd_status st = dyd_interval_set_ends(&r.x, &c->x, &c->x);

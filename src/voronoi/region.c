@@ -48,6 +48,7 @@ static dyd_status region_find(dyd_rect *out, bool *any, const dyd_delaunay *pd, 
 }
 
 dyd_status dyd_voronoi_region(dyd_rect *out, bool *any, const dyd_delaunay *pd, size_t f, const dyd_rect *window) {
+  if (!pd) return DYD_E_ARG;
   dyd_pair_list pairs = {0};
   if (f >= dyd_delaunay_undecided_faces(pd)) return DYD_E_ARG;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;

@@ -156,6 +156,7 @@ static dyd_status shape_find_public(dyd_shape *s, const dyd_delaunay *pd, uint32
 
 dyd_status dyd_voronoi_inner_polygon(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window,
                                      int64_t bits) {
+  if (!pd) return DYD_E_ARG;
   dyd_shape s = {0};
   dyd_polygon p = {0};
   dyd_status st = shape_find_public(&s, pd, i, window, bits);
@@ -170,6 +171,7 @@ dyd_status dyd_voronoi_inner_polygon(dyd_polygon *out, const dyd_delaunay *pd, u
 
 dyd_status dyd_voronoi_outer_polygon(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window,
                                      int64_t bits) {
+  if (!pd) return DYD_E_ARG;
   dyd_shape s = {0};
   dyd_polygon_list l = {0};
   dyd_status st = shape_find_public(&s, pd, i, window, bits);

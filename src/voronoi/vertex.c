@@ -18,6 +18,7 @@ static bool triangle_is_sure(const dyd_delaunay *pd, const dyd_triangle *t, uint
 }
 
 dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_triangle *t, int64_t bits) {
+  if (!pd) return DYD_E_ARG;
   uint32_t v[3];
   dyd_bbox box;
   if (!triangle_is_sure(pd, t, v)) return DYD_E_ARG;
@@ -74,6 +75,7 @@ static dyd_status enclose_centre(dyd_rect *out, const dyd_sites *sites, const ui
 }
 
 dyd_status dyd_voronoi_tied_vertex(dyd_rect *out, bool *tied, const dyd_delaunay *pd, size_t f, int64_t bits) {
+  if (!pd) return DYD_E_ARG;
   dyd_index_list sites = {0};
   uint32_t corner[3];
   bool outer;
@@ -98,6 +100,7 @@ static double window_margin(double lo, double hi, double other) {
 }
 
 dyd_status dyd_voronoi_window(dyd_rect *out, const dyd_sites *sites) {
+  if (!sites) return DYD_E_ARG;
   double e[4] = {HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL}, b[4];
   size_t n = dyd_sites_count(sites);
   for (size_t i = 0; i < n; i++) {
