@@ -5,6 +5,10 @@
  * callback among it), then what is only read, and the error record, which may be NULL, last. A count stands before the
  * arrays that share it, or behind its only array; a callback is followed by its user pointer.
  *
+ * NULL in place of an object with a life (an engine, a stream, a result that does not exist yet) is DYD_E_ARG; what
+ * returns no status then returns 0, false, NULL, or the answer that states nothing, such as DYD_INDETERMINATE.
+ * Functions that release take NULL. Outputs, numbers and rectangles are never NULL unless the function says so.
+ *
  * ABI rules. A program keeps working with every later library of the same soname:
  *  1. Every struct of options, counters, reports, and every struct that callbacks are given, begins with struct_size,
  *     the size that its user was compiled with. Who makes the struct sets it, by DYD_SIZED (status.h) or the init

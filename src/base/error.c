@@ -26,6 +26,11 @@ dyd_status dyd_error_set(dyd_error *err, dyd_status code, const char *message) {
   return dyd_fail(err, code, "%s", message);
 }
 
+dyd_status dyd_fail_null(dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  return dyd_fail(err, DYD_E_ARG, "NULL was given for an object, or for a result that does not exist yet");
+}
+
 dyd_status dyd_fail_nomem(dyd_error *err) {
   return dyd_fail(err, DYD_E_NOMEM, "%s", dyd_status_text(DYD_E_NOMEM));
 }

@@ -20,6 +20,8 @@ static inline bool dyd_failed(dyd_status st) {
   return st < 0;
 }
 
+/* DYD_E_ARG: NULL was given for an object, or for a result that does not exist yet. Clears *err before. */
+dyd_status dyd_fail_null(dyd_error *err);
 /* DYD_E_NOMEM with its standard sentence. */
 dyd_status dyd_fail_nomem(dyd_error *err);
 /* DYD_E_NOMEM with what the room, which has refused something, was asked for. */

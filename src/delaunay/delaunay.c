@@ -69,5 +69,6 @@ dyd_status dyd_delaunay_update(dyd_delaunay *pd, const uint32_t *changed, size_t
 }
 
 bool dyd_delaunay_is_capped(const dyd_delaunay *pd) {
+  if (!pd) return false;
   return pd->open.capped > 0;
 }

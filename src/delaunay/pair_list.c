@@ -25,6 +25,7 @@ static void visit_sites(void *context, uint32_t v, uint32_t w, dyd_pair_status s
 }
 
 void dyd_delaunay_each_pair(const dyd_delaunay *pd, dyd_pair_fn visit, void *user) {
+  if (!pd) return;
   site_visit s = {pd->sk.reps.site, visit, user};
   dyd_each_pair(pd, visit_sites, &s);
 }
@@ -169,6 +170,7 @@ dyd_status dyd_pairs_list(dyd_pair_list *out, const dyd_delaunay *pd) {
 }
 
 dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd) {
+  if (!pd) return DYD_E_ARG;
   dyd_status st = DYD_OK;
   if (dyd_delaunay_is_bounded(pd)) st = dyd_delaunay_grant(pd, dyd_pairs_bytes(pd), "the list of pairs", NULL);
   return st == DYD_OK ? dyd_pairs_list(out, pd) : st;

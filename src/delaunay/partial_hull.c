@@ -274,6 +274,7 @@ static dyd_status fill(dyd_hull *out, hull *h) {
 }
 
 dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd) {
+  if (!pd) return DYD_E_ARG;
   hull h = {.pd = pd, .pairs = {.most = pd->max_pairs}};
   dyd_hull found = {0};
   dyd_status st = fill(&found, &h);
@@ -288,6 +289,7 @@ dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd) {
 }
 
 dyd_status dyd_delaunay_hull_vertices(dyd_index_list *sure, dyd_index_list *possible, const dyd_delaunay *pd) {
+  if (!pd) return DYD_E_ARG;
   hull h = {.pd = pd};
   dyd_hull found = {0};
   dyd_status st = fill_vertices(&found, &h, NULL);

@@ -23,6 +23,7 @@ void dyd_index_list_clear(dyd_index_list *l) {
 }
 
 const dyd_sites *dyd_delaunay_sites(const dyd_delaunay *pd) {
+  if (!pd) return NULL;
   return pd->sk.rects.sites;
 }
 
@@ -33,10 +34,12 @@ dyd_status dyd_delaunay_get_counters(dyd_delaunay_counters *out, const dyd_delau
 }
 
 size_t dyd_delaunay_undecided_faces(const dyd_delaunay *pd) {
+  if (!pd) return 0;
   return pd->open.count;
 }
 
 size_t dyd_delaunay_memory(const dyd_delaunay *pd) {
+  if (!pd) return 0;
   const dyd_undecided *f = &pd->open;
   size_t bytes = sizeof *pd + dyd_skeleton_memory(&pd->sk);
   bytes += f->face_cap * sizeof *f->face + (f->tri_cap + f->seed_cap) * sizeof *f->tri;
@@ -45,10 +48,12 @@ size_t dyd_delaunay_memory(const dyd_delaunay *pd) {
 }
 
 uint32_t dyd_delaunay_alias(const dyd_delaunay *pd, uint32_t i) {
+  if (!pd) return 0;
   return pd->sk.mesh.alias ? pd->sk.reps.site[pd->sk.vertex[i]] : i;
 }
 
 dyd_pair_status dyd_delaunay_status(const dyd_delaunay *pd, uint32_t i, uint32_t j) {
+  if (!pd) return DYD_INDETERMINATE;
   if (i >= pd->sk.n || j >= pd->sk.n) return DYD_ILLEGAL;
   uint32_t v = pd->sk.vertex[i], w = pd->sk.vertex[j];
   if (v == w) return DYD_ILLEGAL;
@@ -56,6 +61,7 @@ dyd_pair_status dyd_delaunay_status(const dyd_delaunay *pd, uint32_t i, uint32_t
 }
 
 void dyd_delaunay_count(size_t count[4], const dyd_delaunay *pd) {
+  if (!pd) return;
   memset(count, 0, 4 * sizeof *count);
   count[DYD_LEGAL] = dyd_legal_count(pd);
   dyd_open_count(count, pd);
@@ -103,6 +109,7 @@ static void collect_neighbour(void *context, uint32_t v, uint32_t w, dyd_pair_st
 }
 
 dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaunay *pd, uint32_t i, dyd_pair_status least) {
+  if (!pd) return DYD_E_ARG;
   neighbour_filter c = {.site = pd->sk.reps.site, .least = least};
   if (i >= pd->sk.n) return DYD_E_ARG;
   dyd_legal_each_at(pd, pd->sk.vertex[i], collect_neighbour, &c);
@@ -111,6 +118,7 @@ dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaunay *pd, 
 }
 
 dyd_status dyd_delaunay_face(dyd_index_list *out, bool *outer, const dyd_delaunay *pd, size_t f) {
+  if (!pd) return DYD_E_ARG;
   collector c = {0};
   uint32_t *v;
   size_t count;
@@ -142,6 +150,7 @@ static void collect_pair(void *context, uint32_t v, uint32_t w, dyd_pair_status 
 }
 
 dyd_status dyd_delaunay_face_pairs(dyd_pair_list *out, const dyd_delaunay *pd, size_t f) {
+  if (!pd) return DYD_E_ARG;
   pair_collector c = {.site = pd->sk.reps.site};
   if (f >= pd->open.count) return DYD_E_ARG;
   dyd_open_each_in(pd, f, collect_pair, &c);

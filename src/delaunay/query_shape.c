@@ -20,6 +20,7 @@ static dyd_status line_ends(dyd_index_list *out, const dyd_skeleton *sk) {
 }
 
 dyd_status dyd_delaunay_hull(dyd_index_list *out, const dyd_delaunay *pd) {
+  if (!pd) return DYD_E_ARG;
   const dyd_mesh *m = &pd->sk.mesh;
   dyd_half_edge last = dyd_hull_first(m), h = last;
   size_t count = 0, cap = 0;
@@ -83,6 +84,7 @@ static dyd_status find_witness(dyd_point *out, dyd_work *work, const dyd_skeleto
 }
 
 dyd_status dyd_delaunay_witness(dyd_point *out, const dyd_delaunay *pd, uint32_t i, uint32_t j) {
+  if (!pd) return DYD_E_ARG;
   if (dyd_delaunay_status(pd, i, j) != DYD_LEGAL) return DYD_E_ARG;
   const dyd_skeleton *sk = &pd->sk;
   uint32_t v = sk->vertex[i], w = sk->vertex[j];

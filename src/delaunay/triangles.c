@@ -121,6 +121,7 @@ static uint64_t triangles_bytes(const dyd_delaunay *pd, bool neighbours) {
 
 dyd_status dyd_delaunay_triangles_and_neighbours(dyd_triangle_list *out, dyd_triangle_list *neighbours,
                                                  const dyd_delaunay *pd) {
+  if (!pd) return DYD_E_ARG;
   dealt *all = NULL;
   size_t count = 0;
   dyd_triangle_list triangles = {0}, beyond = {0};
@@ -143,6 +144,7 @@ dyd_status dyd_delaunay_triangles_and_neighbours(dyd_triangle_list *out, dyd_tri
 }
 
 dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, const dyd_delaunay *pd) {
+  if (!pd) return DYD_E_ARG;
   return dyd_delaunay_triangles_and_neighbours(out, NULL, pd);
 }
 
@@ -169,6 +171,7 @@ static void list_as_found(dyd_triangle *triangle, dyd_triangle *beyond, const ui
 
 dyd_status dyd_delaunay_triangles_as_found(dyd_triangle_list *out, dyd_triangle_list *neighbours,
                                            const dyd_delaunay *pd) {
+  if (!pd) return DYD_E_ARG;
   uint32_t *place = dyd_alloc(pd->sk.mesh.count, sizeof *place);
   if (!place) return DYD_E_NOMEM;
   size_t count = number_as_found(place, pd);

@@ -75,23 +75,27 @@ static dyd_status add_boxes(dyd_engine *e, bool later, size_t n, const double *c
 }
 
 dyd_status dyd_engine_add_points(dyd_engine *e, size_t n, const double *x, const double *y) {
+  if (!e) return DYD_E_ARG;
   const double *const at[2] = {x, y};
   return add_boxes(e, false, n, at, at);
 }
 
 dyd_status dyd_engine_append_points(dyd_engine *e, size_t n, const double *x, const double *y, dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   const double *const at[2] = {x, y};
   return appended(e, add_boxes(e, true, n, at, at), err);
 }
 
 dyd_status dyd_engine_add_boxes(dyd_engine *e, size_t n, const double *x0, const double *x1, const double *y0,
                                 const double *y1) {
+  if (!e) return DYD_E_ARG;
   const double *const lo[2] = {x0, y0}, *const hi[2] = {x1, y1};
   return add_boxes(e, false, n, lo, hi);
 }
 
 dyd_status dyd_engine_append_boxes(dyd_engine *e, size_t n, const double *x0, const double *x1, const double *y0,
                                    const double *y1, dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   const double *const lo[2] = {x0, y0}, *const hi[2] = {x1, y1};
   return appended(e, add_boxes(e, true, n, lo, hi), err);
 }
@@ -117,6 +121,7 @@ static dyd_status column_check(dyd_engine *e, size_t n, const dyd_column *x, con
 
 dyd_status dyd_engine_append_columns(dyd_engine *e, size_t n, const dyd_column xy[2], const dyd_column *radius,
                                      dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   size_t before = dyd_sites_count(e->sites);
   dyd_status st = dyd_engine_may_add(e, true);
   if (st != DYD_OK) return appended(e, st, err);
@@ -135,10 +140,12 @@ static dyd_status add_rect(dyd_engine *e, bool later, const dyd_rect *r) {
 }
 
 dyd_status dyd_engine_add_rect(dyd_engine *e, const dyd_rect *r) {
+  if (!e) return DYD_E_ARG;
   return add_rect(e, false, r);
 }
 
 dyd_status dyd_engine_append_rect(dyd_engine *e, const dyd_rect *r, dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   return appended(e, add_rect(e, true, r), err);
 }
 
@@ -181,11 +188,19 @@ static dyd_status add_stream(dyd_engine *e, bool later, dyd_stream *s) {
   return st;
 }
 
+/* Takes what add_stream would have taken. */
+static dyd_status refuse_stream(dyd_stream *s, dyd_error *err) {
+  dyd_stream_free(s);
+  return dyd_fail_null(err);
+}
+
 dyd_status dyd_engine_add_stream(dyd_engine *e, dyd_stream *s) {
+  if (!e || !s) return refuse_stream(s, NULL);
   return add_stream(e, false, s);
 }
 
 dyd_status dyd_engine_append_stream(dyd_engine *e, dyd_stream *s, dyd_error *err) {
+  if (!e || !s) return refuse_stream(s, err);
   return appended(e, add_stream(e, true, s), err);
 }
 
@@ -224,7 +239,7 @@ static dyd_status points_add_source_at_cost(dyd_engine *e, size_t n, const dyd_s
 
 static dyd_status add_source(dyd_engine *e, bool later, size_t n, const dyd_source *source) {
   dyd_source s;
-  size_t before = dyd_sites_count(e->sites);
+  const size_t before = dyd_sites_count(e->sites);
   dyd_error_clear(&e->refused);
   dyd_status st = dyd_abi_take(&s, sizeof s, source, "dyd_source", &e->refused);
   if (st != DYD_OK) return st;
@@ -234,10 +249,19 @@ static dyd_status add_source(dyd_engine *e, bool later, size_t n, const dyd_sour
   return st;
 }
 
+/* Releases what add_source would have released. */
+static dyd_status refuse_source(const dyd_source *source, dyd_error *err) {
+  dyd_source s;
+  if (dyd_abi_take(&s, sizeof s, source, "dyd_source", NULL) == DYD_OK && s.release) s.release(s.user);
+  return dyd_fail_null(err);
+}
+
 dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_source *source, dyd_error *err) {
+  if (!e) return refuse_source(source, err);
   return appended(e, add_source(e, false, n, source), err);
 }
 
 dyd_status dyd_engine_append_source(dyd_engine *e, size_t n, const dyd_source *source, dyd_error *err) {
+  if (!e) return refuse_source(source, err);
   return appended(e, add_source(e, true, n, source), err);
 }

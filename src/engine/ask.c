@@ -459,6 +459,7 @@ dyd_status dyd_ask(dyd_outcome *outcome, dyd_budget *spent, dyd_engine *e, const
 
 dyd_status dyd_engine_ask(dyd_outcome *outcome, dyd_engine *e, const dyd_question *question,
                           const dyd_engine_options *options, dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   dyd_budget spent;
   return dyd_ask(outcome, &spent, e, question, options, err);
 }

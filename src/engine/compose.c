@@ -102,6 +102,7 @@ static dyd_status fixed_copy(dyd_stream **out, const dyd_engine *e, uint32_t i) 
 }
 
 dyd_status dyd_engine_stream(dyd_stream **out, dyd_engine *e, uint32_t i) {
+  if (!e) return DYD_E_ARG;
   if (i >= dyd_sites_count(e->sites)) return DYD_E_ARG;
   const dyd_refinable *p = dyd_engine_find(e, i);
   if (!p || p->final) return fixed_copy(out, e, i);
@@ -111,6 +112,7 @@ dyd_status dyd_engine_stream(dyd_stream **out, dyd_engine *e, uint32_t i) {
 }
 
 dyd_status dyd_engine_voronoi_vertex(dyd_stream **out, dyd_engine *e, const dyd_triangle *t) {
+  if (!e) return DYD_E_ARG;
   dyd_stream *corner[3] = {NULL, NULL, NULL};
   dyd_status st = DYD_OK;
   for (int k = 0; k < 3 && st == DYD_OK; k++) st = dyd_engine_stream(&corner[k], e, t->v[k]);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Life, counters and results of an engine. */
+#include "base/error.h"
 #include "engine/points.h"
 #include "engine/recall.h"
 #include "engine/ties.h"
@@ -50,6 +51,7 @@ void dyd_engine_free(dyd_engine *e) {
 }
 
 size_t dyd_engine_count(const dyd_engine *e) {
+  if (!e) return 0;
   return dyd_sites_count(e->sites);
 }
 
@@ -60,6 +62,7 @@ static void engine_stop(dyd_engine *e) {
 
 /* Loads and stores of flags and nothing else: safe in a signal handler. */
 void dyd_engine_cancel(dyd_engine *e) {
+  if (!e) return;
   engine_stop(e);
   dyd_engine *follower = __atomic_load_n(&e->follower, __ATOMIC_SEQ_CST);
   if (follower) engine_stop(follower);
@@ -72,23 +75,28 @@ void dyd_engine_follow(dyd_engine *e, dyd_engine *follower) {
 }
 
 dyd_outcome dyd_engine_outcome(const dyd_engine *e) {
+  if (!e) return DYD_OUTCOME_NONE;
   return e->outcome;
 }
 
 dyd_goal dyd_engine_goal(int64_t *bits, const dyd_engine *e) {
+  if (!e) return DYD_GOAL_DECIDED;
   if (bits) *bits = e->goal_bits;
   return e->goal;
 }
 
 const dyd_delaunay *dyd_engine_delaunay(const dyd_engine *e) {
+  if (!e) return NULL;
   return e->pd;
 }
 
 const dyd_sites *dyd_engine_sites(const dyd_engine *e) {
+  if (!e) return NULL;
   return e->sites;
 }
 
 bool dyd_engine_knows(const dyd_engine *e, uint32_t site) {
+  if (!e) return false;
   const dyd_refinable *p = dyd_engine_find(e, site);
   return p ? p->asked || p->measured : site < dyd_sites_count(e->sites);
 }
@@ -126,6 +134,7 @@ static void counters_add_bits(dyd_engine_counters *out, const dyd_engine *e) {
 }
 
 dyd_status dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e, dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   dyd_engine_counters c = {.stages = e->stages, .calls = e->calls, .seconds = e->seconds, .spent = e->spent};
   c.delaunay.struct_size = sizeof c.delaunay;
   dyd_status st = dyd_abi_check(out, 0, "dyd_engine_counters", err);
@@ -142,6 +151,7 @@ dyd_status dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e
 }
 
 dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, const dyd_engine *e) {
+  if (!e) return DYD_E_ARG;
   if (!e->pd) return DYD_E_ARG;
   dyd_dyadic a;
   dyd_dyadic_init(&a);

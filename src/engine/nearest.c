@@ -127,6 +127,7 @@ static dyd_status nearest_ask(bool *answered, dyd_plan *plan, void *user, const 
 
 dyd_status dyd_engine_nearest(dyd_index_list *out, bool *sure, dyd_outcome *outcome, dyd_engine *e, dyd_stream *at,
                               const dyd_engine_options *options, dyd_error *err) {
+  if (!e || !at) return dyd_fail_null(err);
   nearest_question q = {.e = e, .at = at, .level = INT64_MIN};
   const dyd_question question = {DYD_SIZED(dyd_question), .ask = nearest_ask, .user = &q, .guest = &at, .guests = 1};
   *outcome = DYD_OUTCOME_ERROR;
@@ -146,5 +147,6 @@ dyd_status dyd_engine_nearest(dyd_index_list *out, bool *sure, dyd_outcome *outc
 }
 
 bool dyd_engine_nearest_tied(const dyd_engine *e) {
+  if (!e) return false;
   return e->nearest_tied;
 }

@@ -121,6 +121,7 @@ void dyd_plan_first(dyd_plan *p) {
 }
 
 dyd_status dyd_plan_add(dyd_plan *p, uint32_t site, int64_t bits) {
+  if (!p) return DYD_E_ARG;
   size_t sites = dyd_sites_count(p->e->sites);
   if (p->failed) return p->failed;
   if (site >= sites + p->guests) {
@@ -136,5 +137,6 @@ dyd_status dyd_plan_add(dyd_plan *p, uint32_t site, int64_t bits) {
 }
 
 size_t dyd_plan_count(const dyd_plan *p) {
+  if (!p) return 0;
   return p->count;
 }

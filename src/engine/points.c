@@ -269,6 +269,7 @@ static dyd_status site_measure(dyd_engine *e, uint32_t i, const dyd_rect *r, dyd
 }
 
 dyd_status dyd_engine_remeasure(dyd_engine *e, uint32_t i, const dyd_rect *r, dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   if (err) dyd_error_clear(err);
   return site_measure(e, i, r, err);
 }

@@ -75,6 +75,7 @@ static dyd_status recall_may_take(const dyd_engine *e, uint32_t i, const dyd_rec
 }
 
 dyd_status dyd_engine_recall(dyd_engine *e, uint32_t i, int64_t bits, const dyd_rect *r, bool final, dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   if (err) dyd_error_clear(err);
   dyd_status st = recall_may_take(e, i, r, err);
   if (st != DYD_OK) return st;

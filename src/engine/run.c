@@ -70,6 +70,7 @@ static dyd_status goal_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine
 }
 
 dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_options *options, dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   dyd_engine_options o;
   *outcome = DYD_OUTCOME_ERROR;
   if (err) dyd_error_clear(err);

@@ -25,11 +25,13 @@ static void result_sites(dyd_result *r) {
 }
 
 dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format format, dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   return dyd_write_delaunay_window(out, e, NULL, format, err);
 }
 
 dyd_status dyd_write_delaunay_window(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_format format,
                                      dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   const dyd_delaunay_output o = {DYD_SIZED(dyd_delaunay_output), .window = window};
   return dyd_write_delaunay_as(out, e, &o, format, err);
 }
@@ -282,6 +284,7 @@ dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_rect *b, d
 
 dyd_status dyd_write_bisector_named(FILE *out, const dyd_engine *e, const dyd_rect *a, const dyd_rect *b,
                                     dyd_outcome outcome, dyd_format format, dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   dyd_boundary curve[2] = {{0}, {0}};
   dyd_status st = dyd_bisector(&curve[0], a, b);
   if (st == DYD_OK) st = dyd_bisector(&curve[1], b, a);
@@ -324,6 +327,7 @@ dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_nearest_a
 
 dyd_status dyd_write_places(FILE *out, const dyd_engine *e, const dyd_nearest_answer *const *answer, size_t count,
                             dyd_outcome outcome, dyd_format format, dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   if (err) dyd_error_clear(err);
   dyd_nearest_answer *own = dyd_alloc(count, sizeof *own);
   if (!own) return dyd_fail(err, DYD_E_NOMEM, "%s", dyd_status_text(DYD_E_NOMEM));

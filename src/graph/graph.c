@@ -67,6 +67,7 @@ static void graph_work_clear(dyd_graph_work *w) {
 
 dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_graph graph, const volatile int *cancel,
                            dyd_error *err) {
+  if (!pd) return dyd_fail_null(err);
   static dyd_status (*const make[])(dyd_graph_work *) = {dyd_nearest_graph, dyd_gabriel_graph, dyd_spanning_graph};
   if (err) dyd_error_clear(err);
   if (dyd_float_check(err) != DYD_OK) return DYD_E_ARG;

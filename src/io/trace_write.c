@@ -202,6 +202,7 @@ void dyd_trace_stage(void *trace, const dyd_progress *p) {
 }
 
 dyd_status dyd_trace_end(dyd_trace *t, dyd_outcome outcome, dyd_error *err) {
+  if (!t) return dyd_fail_null(err);
   dyd_status st = t->failed;
   fprintf(t->line, "{\"outcome\":\"%s\"", dyd_outcome_text(outcome));
   if (st == DYD_OK) st = trace_line(t);

@@ -15,6 +15,7 @@ static dyd_status put_side(FILE *out, const dyd_interval *a, char behind) {
 }
 
 dyd_status dyd_write_rects(FILE *out, const dyd_sites *sites, size_t first, size_t count, dyd_error *err) {
+  if (!sites) return dyd_fail_null(err);
   dyd_rect r;
   dyd_status st = DYD_OK;
   if (first > dyd_sites_count(sites) || count > dyd_sites_count(sites) - first)

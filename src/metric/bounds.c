@@ -115,9 +115,11 @@ static dyd_status metric_bound(dyd_dyadic *out, const dyd_delaunay *pd, bound_fn
 }
 
 dyd_status dyd_metric_area(dyd_dyadic *out, const dyd_delaunay *pd) {
+  if (!pd) return DYD_E_ARG;
   return metric_bound(out, pd, dyd_bound_area);
 }
 
 dyd_status dyd_metric_hausdorff(dyd_dyadic *out, const dyd_delaunay *pd) {
+  if (!pd) return DYD_E_ARG;
   return metric_bound(out, pd, dyd_bound_hausdorff);
 }

@@ -287,6 +287,7 @@ dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, c
 
 /* The perimeters of N cells of equal area in W are about 4 sqrt(N area(W)) in all, plus the perimeter of W. */
 int64_t dyd_metric_flattening(const dyd_delaunay *pd, const dyd_rect *window, int64_t goal_bits) {
+  if (!pd) return 0;
   mpfr_t side[2], length;
   size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
   mpfr_inits2(64, side[0], side[1], length, (mpfr_ptr)0);
@@ -326,6 +327,7 @@ static int64_t log2_short_side(const dyd_rect *window) {
 /* With a total perimeter L of N cells, a cell has about the size L / (4 N); but it is no wider than the window, which
  * tells more where one side of that is very short. */
 int64_t dyd_metric_coarseness(const dyd_delaunay *pd, const dyd_rect *window) {
+  if (!pd) return 0;
   size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
   int64_t log2_n = 0, log2_length = dyd_metric_flattening(pd, window, 0) - 3;
   while (log2_n < 60 && (size_t)1 << log2_n < n) log2_n++;

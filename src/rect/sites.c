@@ -32,6 +32,7 @@ void dyd_sites_free(dyd_sites *s) {
 }
 
 size_t dyd_sites_count(const dyd_sites *s) {
+  if (!s) return 0;
   return s->count;
 }
 
@@ -75,12 +76,14 @@ static dyd_status sites_add_doubles(dyd_sites *s, size_t n, const double *const 
 }
 
 dyd_status dyd_sites_add_points(dyd_sites *s, size_t n, const double *x, const double *y) {
+  if (!s) return DYD_E_ARG;
   const double *const lo[2] = {x, y};
   return sites_add_doubles(s, n, lo, lo);
 }
 
 dyd_status dyd_sites_add_boxes(dyd_sites *s, size_t n, const double *x0, const double *x1, const double *y0,
                                const double *y1) {
+  if (!s) return DYD_E_ARG;
   const double *const lo[2] = {x0, y0}, *const hi[2] = {x1, y1};
   return sites_add_doubles(s, n, lo, hi);
 }
@@ -98,6 +101,7 @@ static bool put_columns(double *lower, double *upper, size_t n, const dyd_column
 }
 
 dyd_status dyd_sites_add_columns(dyd_sites *s, size_t n, const dyd_column xy[2], const dyd_column *radius) {
+  if (!s) return DYD_E_ARG;
   dyd_status st = dyd_sites_reserve(s, n);
   if (st == DYD_OK && radius) st = dyd_sites_split_ends(s);
   for (int a = 0; st == DYD_OK && a < 2; a++) {
@@ -211,6 +215,7 @@ static dyd_status sites_get_plane(dyd_rect *out) {
 }
 
 dyd_status dyd_sites_get(dyd_rect *out, const dyd_sites *s, size_t i) {
+  if (!s) return DYD_E_ARG;
   if (i >= s->count) return DYD_E_ARG;
   if (dyd_sites_in_doubles(s, i) && isinf(dyd_sites_lo(s, 0, i))) return sites_get_plane(out);
   if (dyd_sites_in_doubles(s, i))
@@ -224,6 +229,7 @@ dyd_status dyd_sites_get(dyd_rect *out, const dyd_sites *s, size_t i) {
 }
 
 void dyd_sites_get_d(double out[4], const dyd_sites *s, size_t i) {
+  if (!s) return;
   for (int a = 0; a < 2; a++) {
     out[2 * a] = dyd_sites_lo(s, a, i);
     out[2 * a + 1] = dyd_sites_hi(s, a, i);
@@ -231,12 +237,14 @@ void dyd_sites_get_d(double out[4], const dyd_sites *s, size_t i) {
 }
 
 dyd_status dyd_sites_copy_d(double *out, const dyd_sites *s, size_t first, size_t count) {
+  if (!s) return DYD_E_ARG;
   if (first > s->count || count > s->count - first) return DYD_E_ARG;
   for (size_t k = 0; k < count; k++) dyd_sites_get_d(out + 4 * k, s, first + k);
   return DYD_OK;
 }
 
 bool dyd_sites_is_point(const dyd_sites *s, size_t i) {
+  if (!s) return false;
   if (dyd_sites_in_doubles(s, i))
     return dyd_sites_lo(s, 0, i) == dyd_sites_hi(s, 0, i) && dyd_sites_lo(s, 1, i) == dyd_sites_hi(s, 1, i);
   if (dyd_sites_in_words(s, i)) return true;
@@ -276,6 +284,7 @@ static dyd_status sites_put(dyd_sites *s, size_t i, const dyd_rect *r, dyd_packe
 }
 
 dyd_status dyd_sites_add_rect(dyd_sites *s, const dyd_rect *r) {
+  if (!s) return DYD_E_ARG;
   dyd_status st = dyd_sites_reserve(s, 1);
   if (st != DYD_OK) return st;
   st = sites_put(s, s->count, r, NULL);
@@ -284,6 +293,7 @@ dyd_status dyd_sites_add_rect(dyd_sites *s, const dyd_rect *r) {
 }
 
 dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {
+  if (!s) return DYD_E_ARG;
   if (i >= s->count) return DYD_E_ARG;
   dyd_rect now;
   dyd_rect_init(&now);
@@ -317,6 +327,7 @@ dyd_status dyd_sites_narrow_d(dyd_sites *s, size_t i, const double box[4]) {
 }
 
 size_t dyd_sites_memory(const dyd_sites *s) {
+  if (!s) return 0;
   size_t arrays = 2 + (s->upper[0] != NULL) + (s->upper[1] != NULL) + (s->exact != NULL);
   size_t words = (s->word ? s->cap * sizeof *s->word : 0) + s->point_cap * sizeof *s->point;
   return sizeof *s + s->cap * arrays * sizeof(double) + s->packed_bytes + words + s->joined_count * sizeof *s->joined;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 size_t dyd_sites_joined(const dyd_sites *s, size_t i) {
+  if (!s) return 0;
   return i < s->joined_count ? s->joined[i] : i;
 }
 
@@ -40,6 +41,7 @@ static dyd_status joined_narrow(dyd_sites *s, uint32_t low, uint32_t high, const
 }
 
 dyd_status dyd_sites_join(dyd_sites *s, size_t i, size_t j) {
+  if (!s) return DYD_E_ARG;
   if (i >= s->count || j >= s->count) return DYD_E_ARG;
   dyd_status st = joined_make_room(s);
   if (st != DYD_OK) return st;

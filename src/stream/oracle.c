@@ -215,6 +215,7 @@ static void oracle_release(void *user) {
 }
 
 dyd_status dyd_oracle_source(dyd_source *out, dyd_oracle *o, dyd_error *err) {
+  if (!o) return dyd_fail_null(err);
   const dyd_source source = {
       .narrow = oracle_narrow, .release = oracle_release, .user = o, .announce = oracle_announce, .cost = o->cost};
   dyd_status st = dyd_abi_check(out, 0, "dyd_source", err);
@@ -225,6 +226,7 @@ dyd_status dyd_oracle_source(dyd_source *out, dyd_oracle *o, dyd_error *err) {
 }
 
 size_t dyd_oracle_count(const dyd_oracle *o) {
+  if (!o) return 0;
   return o->points;
 }
 

@@ -117,10 +117,12 @@ void dyd_real_free(dyd_real *x) {
 }
 
 const dyd_interval *dyd_real_interval(const dyd_real *x) {
+  if (!x) return NULL;
   return x->now;
 }
 
 bool dyd_real_is_final(const dyd_real *x) {
+  if (!x) return false;
   return x->final;
 }
 
@@ -231,6 +233,7 @@ static dyd_status real_take_span(dyd_real *x, dyd_double_span span, dyd_error *e
 }
 
 dyd_status dyd_real_narrow(dyd_real *x, int64_t bits, int64_t max_bits, dyd_error *err) {
+  if (!x) return dyd_fail_null(err);
   return dyd_real_narrow_until(x, bits, max_bits, NULL, err);
 }
 

@@ -121,14 +121,17 @@ void dyd_stream_free(dyd_stream *s) {
 }
 
 const dyd_rect *dyd_stream_rect(const dyd_stream *s) {
+  if (!s) return NULL;
   return s->now;
 }
 
 bool dyd_stream_is_final(const dyd_stream *s) {
+  if (!s) return false;
   return s->final;
 }
 
 uint64_t dyd_stream_stage(const dyd_stream *s) {
+  if (!s) return 0;
   return s->stage;
 }
 
@@ -163,6 +166,7 @@ static dyd_status stream_call_source(dyd_stream *s, const dyd_request *request, 
 }
 
 dyd_status dyd_stream_narrow(dyd_stream *s, int64_t bits, int64_t max_bits, dyd_error *err) {
+  if (!s) return dyd_fail_null(err);
   return dyd_stream_narrow_until(s, bits, max_bits, NULL, err);
 }
 

@@ -74,6 +74,7 @@ static dyd_status points_read_given(dyd_engine *e, dyd_text *text, bool later, c
 }
 
 dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_options *options, dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   dyd_text text;
   dyd_text_init(&text, in);
   return points_read_given(e, &text, false, options, err);
@@ -88,11 +89,13 @@ static dyd_status points_read_copy(dyd_engine *e, const char *text, size_t lengt
 
 dyd_status dyd_engine_add_text(dyd_engine *e, const char *text, size_t length, const dyd_read_options *options,
                                dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   return points_read_copy(e, text, length, false, options, err);
 }
 
 dyd_status dyd_engine_append_text(dyd_engine *e, const char *text, size_t length, const dyd_read_options *options,
                                   dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
   return points_read_copy(e, text, length, true, options, err);
 }
 
