@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""`dyadel verify` and dyadel-proved give the same verdict, and neither accepts what is false [CERT-1] [CERT-5] [CERT-6]
+"""`dyadel verify` and dyadel-proved give the same verdict, and neither accepts a false statement [CERT-1] [CERT-5] [CERT-6]
 [CERT-7] [CERT-8] [CERT-9] [CERT-10].
 
 Usage: verdicts.py ROOT DYADEL_PROVED DYADEL [CASES]   (DYADEL_PROVED "-": without it; DYADEL_TEST_SCALE multiplies CASES)
 
 CASES true certificates (default 60) of up to nine points: exact ones, ties on circles and lines, boxes, crowds, points
 among boxes, roots and their ties, aliases, bounds and diagrams; and ten changes of each: lines, statuses, pairs, numbers,
-outcomes, counts, bounds and blocks, the counts put right afterwards. What is accepted is judged by exact arithmetic
-(oracle below) for many choices of the points. Verdicts are the exit statuses; where they differ, DIFFERENCES has the
+outcomes, counts, bounds and blocks, the counts put right afterwards. An oracle in exact numbers, below, judges each accepted
+certificate for many choices of the points. Verdicts are the exit statuses; where they differ, DIFFERENCES has the
 reason, by a name that SOUNDNESS.md explains. Its table is what CASES = 2000 printed.
 """
 import collections
@@ -423,7 +423,7 @@ def reached(s):
 
 
 def judge(rng, text, answer, many=24):
-    """What is false of what a checker said is proved; None: nothing."""
+    """Returns a statement that a checker took for proved and that is false, or None."""
     s = Statement(text)
     everything, ties, complete = answer.status == ALL, answer.ties, answer.complete
     counted = 'not proved: corners and the numbers of triangles' not in answer.stdout
@@ -709,7 +709,7 @@ def counts_right(ask, text):
 
 # ---- verdicts ----
 
-# name; exit statuses of verify, and of dyadel-proved; patterns of what they print
+# name; exit statuses of verify, and of dyadel-proved; patterns of their output
 DIFFERENCES = [
     ('places and bridges', (REJECTED,), (ALL, NOT_ALL), r'no witness of|the place is not in|a bridge joins', 'not used: places'),
     ('pairs in no open set', (REJECTED,), (NOT_ALL,), 'in no open set', ''),
@@ -765,7 +765,7 @@ def difference(here, there):
 
 
 def try_text(both, count, rng, text, name):
-    """Both on one certificate; what they accept against the oracle."""
+    """Runs both on one certificate, and the oracle on each that accepts it."""
     here = Answer(both.ask(text))
     there = Answer(both.ask(text, both.proved)) if both.proved else here
     for answer in (here, there):
@@ -796,7 +796,7 @@ def changed(rng, both, text):
     """The text with one change, or two; the counts put right."""
     while True:
         rows = text.split('\n')
-        with contextlib.suppress(StopIteration, ValueError, IndexError):  # what one change leaves may be no certificate
+        with contextlib.suppress(StopIteration, ValueError, IndexError):  # a second change may find no certificate
             for _ in range(1 if rng.randrange(4) else 2):
                 rng.choice(WAYS)(rng, rows)
         other = counts_right(both.ask, '\n'.join(rows))

@@ -151,5 +151,14 @@ static dyd_status add_bounded_face(dyd_cert_faces *f, bool *seen, const dyd_cert
     requires \separated(f, s);
     exits \false; ensures \result == DYD_OK ==> indexed(f); */
 static dyd_status faces_index_sites(dyd_cert_faces *f, const dyd_cert_sites *s);
+/* What measure.c promises of them, of lists of sites that are there. */
+typedef const dyd_cert_sites *places_of;
+/*@ predicate listed_places(places_of s, uint32_t *site, integer count) = \valid_read(site + (0 .. count - 1)) &&
+      \valid_read(s) && s->count == SITES && \valid_read(s->site + (0 .. SITES - 1)) &&
+      (\forall integer q; 0 <= q < count ==> site[q] < SITES && small_site(s->site + site[q])); */
+/*@ requires 2 <= count && listed_places(s, (uint32_t *)site, count); assigns \nothing; exits \false; */
+bool dyd_cert_on_line(const dyd_cert_sites *s, const uint32_t *site, size_t count);
+/*@ requires 3 <= count && listed_places(s, (uint32_t *)site, count); assigns \nothing; exits \false; */
+bool dyd_cert_on_circle(const dyd_cert_sites *s, const uint32_t *site, size_t count);
 
 #include "checker/faces.c"

@@ -24,6 +24,8 @@ size_t dyd_cert_faces_common(const dyd_cert_faces *f, uint32_t i, uint32_t j);
 /*@ requires indexed(f) && i < SITES && j < SITES; assigns \nothing; exits \false; */
 bool dyd_cert_faces_share(const dyd_cert_faces *f, uint32_t i, uint32_t j);
 /*@ requires indexed(f) && i < SITES && j < SITES; assigns \nothing; exits \false; */
+bool dyd_cert_faces_tied(const dyd_cert_faces *f, uint32_t i, uint32_t j);
+/*@ requires indexed(f) && i < SITES && j < SITES; assigns \nothing; exits \false; */
 bool dyd_cert_faces_still(const dyd_cert_faces *f, uint32_t i, uint32_t j);
 /*@ requires indexed(f) && i < SITES && j < SITES; exits \false; ensures indexed(f); */
 void dyd_cert_faces_cover(dyd_cert_faces *f, uint32_t i, uint32_t j);

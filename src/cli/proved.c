@@ -47,7 +47,7 @@ static void proved_find(char *path, size_t size, const char *folder) {
   snprintf(path, size, PROGRAM);
 }
 
-/* Names what is missing, and what brings it. */
+/* Reports the missing program, where it was looked for, and the remedy. */
 static void complain_missing(const char *folder) {
   size_t at;
   if (folder_ends(&at, folder, PLACE[PLACES - 1].end))
@@ -55,12 +55,12 @@ static void complain_missing(const char *folder) {
                  "meson configure -Dproofs=enabled %.*s && ninja -C %.*s)",
                  (int)at, folder, PLACE[PLACES - 1].instead, (int)at, folder, (int)at, folder);
   else
-    cli_complain("there is no " PROGRAM " in %s%sPATH (leave out --proved, or install " PROGRAM
+    cli_complain("there is no " PROGRAM " in %s%sPATH (omit --proved, or install " PROGRAM
                  " from a build of dyadel with meson setup -Dproofs=enabled)",
                  folder, *folder ? " or in " : "");
 }
 
-/* Becomes the program; only functions that may follow fork. What stays is its standard input (-1: it is not told). */
+/* Becomes the program, by functions only that may follow fork. `still` becomes its standard input (-1: no list). */
 static void proved_become(int out, int still, const char *path, const char *file) {
   const char *option = still < 0 ? NULL : "--still"; /* NULL ends the arguments */
 #ifdef __linux__

@@ -52,13 +52,11 @@ static void print_gaps(FILE *out, const dyd_certificate_report *r) {
   if (r->gaps & DYD_GAP_ILLEGAL)
     fprintf(out, "not proved: that %llu pairs within %zu undecided faces are illegal\n",
             (unsigned long long)r->unproved, r->undecided_sets);
-  if (r->gaps & DYD_GAP_TIES)
-    fprintf(out, "not proved: that %zu pairs are ties\n", r->ties_unproved);
+  if (r->gaps & DYD_GAP_TIES) fprintf(out, "not proved: that %zu pairs are ties\n", r->ties_unproved);
   if (r->gaps & DYD_GAP_CLAIMS)
     fprintf(out, "not proved: that %zu callbacks are the roots that their authors say they are\n", r->claims);
   if (r->gaps & DYD_GAP_ALIASES)
-    fprintf(out,
-            "not proved: that %zu aliases of points that are not exact are the same points\n",
+    fprintf(out, "not proved: that %zu aliases of points that are not exact are the same points\n",
             r->aliases_unproved);
   if (r->gaps & DYD_GAP_BOUNDS)
     fputs("not proved: the bounds of area and Hausdorff distance, as more pairs may be possible\n", out);

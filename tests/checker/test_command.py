@@ -315,7 +315,7 @@ def check_found(folder):
     says where it was looked for, and what brings it."""
     certificate, path = certify(folder, '0 0\n1 0\n0 1\n'), os.environ['PATH']
     os.environ['PATH'] = str(folder / 'elsewhere')
-    for own, places, remedy in (('usr/bin', ('usr/bin', 'usr/libexec'), 'leave out --proved, or install dyadel-proved'),
+    for own, places, remedy in (('usr/bin', ('usr/bin', 'usr/libexec'), 'omit --proved, or install dyadel-proved'),
                                 ('build/src/cli', ('build/src/cli', 'build/proofs'), f'ninja -C {folder}/build)')):
         command = copied(folder / own)
         done = run('verify', '--proved', certificate, by=command)

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Forged statuses of exact points are never called proved [CERT-8] [CERT-10].
  *
- * All sets of three, four and five points of a 3 x 3 grid, in every combination of statuses: each pair is what it is,
- * or a tie, or legal without a witness, or not listed. The truth is by brute force in integers: the centres that are as
- * near to both points of a pair as to no other one are an interval of their bisector. Sets of five points have two
- * statuses a pair, what it is and a tie; with DYADEL_TEST_SCALE > 1 all. */
+ * All sets of three, four and five points of a 3 x 3 grid, in every combination of statuses: each pair has its true
+ * status, or is a tie, or legal without a witness, or not listed. The truth is by brute force in integers: the centres
+ * that are as near to both points of a pair as to no other one are an interval of their bisector. Sets of five points
+ * have two statuses a pair, the true one and a tie; with DYADEL_TEST_SCALE > 1 all. */
 #include "checker/statement.h"
 #include "support/random.h"
 
@@ -154,7 +154,7 @@ static bool are_joined(const point_set *s, const bool *marked, int i, int j) {
   return reached >> j & 1;
 }
 
-/* Legal pairs, and as bridges those that are wanted to join what they do not. */
+/* Legal pairs, and bridges until all sites are joined. */
 static void put_edges(FILE *out, const forgery *f) {
   const point_set *s = f->of;
   bool marked[PAIRS], bridge[PAIRS] = {false};
@@ -237,7 +237,7 @@ static void judge(totals *t, forgery *f) {
 
 /* ---- all of them ---- */
 
-/* Every pair has each of the statuses, where it can: "=" is what it is. */
+/* Tries every combination of the statuses; "=" is the true one. */
 static void try_statuses(totals *t, const point_set *s, const char *statuses) {
   size_t kinds = strlen(statuses), all = 1;
   for (int k = 0; k < s->pairs; k++) all *= kinds;
