@@ -241,16 +241,15 @@ static dyd_status ask_settle(dyd_engine *e, const dyd_delaunay_options *o, dyd_e
   return st;
 }
 
-/* Returns true if a plan may ask for more of both sides of the site. */
+/* Returns true if a plan may ask for more of the site, and neither side has a core that stays wide. */
 static bool ask_narrows(void *user, uint32_t site) {
   const ask *a = user;
   const dyd_refinable *p = dyd_engine_find(a->e, site);
   if (!p || p->final || p->bits >= a->o.max_bits) return false;
   dyd_rect r;
   dyd_rect_init(&r);
-  bool fixed[2] = {true, true};
-  if (dyd_sites_get(&r, a->e->sites, site) == DYD_OK) dyd_site_fixed_sides(fixed, a->e, site, &r);
-  bool narrows = (!fixed[0] || dyd_interval_is_point(&r.x)) && (!fixed[1] || dyd_interval_is_point(&r.y));
+  bool core[2], narrows = dyd_site_get_core(&r, core, a->e, site) == DYD_OK;
+  narrows = narrows && (!core[0] || dyd_interval_is_point(&r.x)) && (!core[1] || dyd_interval_is_point(&r.y));
   dyd_rect_clear(&r);
   return narrows;
 }

@@ -24,7 +24,7 @@ const dyd_unit *dyd_unit_find(const char *name, size_t length) {
   return NULL;
 }
 
-static bool is_letter(char c) {
+static bool unit_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
@@ -45,9 +45,9 @@ static bool is_in_words(const char *name, size_t length, const char *word) {
   length -= length && (name[length - 1] | 0x20) == 's';
   if (word[strlen(word) - 1] == 'h') length -= length && (name[length - 1] | 0x20) == 'e'; /* inches */
   if (!ends_like(name, length, word)) return false;
-  for (length -= strlen(word); length && !is_letter(name[length - 1]); length--) continue;
+  for (length -= strlen(word); length && !unit_letter(name[length - 1]); length--) continue;
   return length >= 2 && ends_like(name, length, "in") &&
-         (length == 2 || name[length - 2] == 'I' || !is_letter(name[length - 3]));
+         (length == 2 || name[length - 2] == 'I' || !unit_letter(name[length - 3]));
 }
 
 const dyd_unit *dyd_unit_of_column(const char *name, size_t length) {

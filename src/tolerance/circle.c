@@ -27,7 +27,7 @@ static void add_end(mpfr_t u[2], const dyd_cap *e, int turn) {
 }
 
 /* u: about the direction found last: the middle between two ends; the middle of a cap where these are its own. */
-static void set_direction(mpfr_t u[2], const dyd_caps *c) {
+static void circle_set_direction(mpfr_t u[2], const dyd_caps *c) {
   const dyd_cap *a = &c->item[c->by[0]], *b = &c->item[c->by[1]];
   mpfr_t length;
   mpfr_init2(length, mpfr_get_prec(u[0]));
@@ -84,7 +84,7 @@ static void reach_to(dyd_disc *c, const dyd_disc *k, mpfr_prec_t bits) {
 bool dyd_caps_circle(dyd_disc *out, const dyd_caps *c, const dyd_disc *i, const dyd_disc *j, unsigned bits) {
   mpfr_t u[2], d;
   mpfr_inits2((mpfr_prec_t)bits, u[0], u[1], d, (mpfr_ptr)0);
-  set_direction(u, c);
+  circle_set_direction(u, c);
   bool above = set_distance(d, u, c);
   mpq_ptr at[2] = {out->x, out->y};
   for (int k = 0; k < 2 && above; k++) {

@@ -43,7 +43,8 @@ static dyd_status radius_fail_unit(const dyd_span *span, dyd_error *err) {
 }
 
 /* Of a field: out, scaled; *ground: in metres. */
-static dyd_status radius_read(mpq_t out, bool *ground, const dyd_intake *in, const dyd_span *span, dyd_error *err) {
+static dyd_status intake_read_radius(mpq_t out, bool *ground, const dyd_intake *in, const dyd_span *span,
+                                     dyd_error *err) {
   *ground = false;
   dyd_status st = in->o->degrees ? dyd_radius_parse(out, ground, span->text, span->length, in->unit)
                                  : dyd_real_parse_exact(out, span->text, span->length);
@@ -59,7 +60,7 @@ static dyd_status intake_radius(dyd_intake *in, int axis, const dyd_span *span, 
   mpq_t own;
   bool ground;
   mpq_init(own);
-  dyd_status st = radius_read(own, &ground, in, span, err);
+  dyd_status st = intake_read_radius(own, &ground, in, span, err);
   if (st == DYD_OK) {
     bool keep = ground || in->o->keep_radii;
     in->kept[axis] = keep ? radius_above(own) : 0;
