@@ -112,9 +112,19 @@ static int64_t face_step(const dyd_refinable *p, int64_t relative, const dyd_eng
   return lacks_needed(p, o) && p->needed > step ? p->needed : step;
 }
 
-/* Marks the coarsest of the ends of pairs that can be narrowed; *least becomes their relative precision. false: none
- * can be. */
-static bool mark_ends(int64_t *least, dyd_plan *plan, const dyd_coarse *c, const dyd_pair_list *pairs) {
+/* The relative precision up to which ends are refined: beyond it they wait for the coarsest site of the face, which may
+ * be what keeps their pairs open. */
+static int64_t bits_worth(dyd_plan *plan, const dyd_coarse *c) {
+  int64_t least = INT64_MAX;
+  for (size_t k = 0; k < c->sites.count; k++)
+    if (dyd_plan_can_narrow(plan, dyd_engine_find(plan->e, c->sites.item[k])))
+      least = lesser_bits(least, dyd_coarse_bits(c, c->sites.item[k]));
+  return least > INT64_MAX / 4 ? INT64_MAX : least + least / 2;
+}
+
+/* Marks the coarsest of the ends of pairs that can be narrowed, up to the precision `worth`; *least becomes their
+ * relative precision. Returns false if no end can be narrowed. */
+static bool mark_ends(int64_t *least, dyd_plan *plan, const dyd_coarse *c, const dyd_pair_list *pairs, int64_t worth) {
   bool any = false;
   *least = INT64_MAX;
   for (int pass = 0; pass < 2; pass++) {
@@ -126,7 +136,7 @@ static bool mark_ends(int64_t *least, dyd_plan *plan, const dyd_coarse *c, const
       any = true;
       if (pass == 0)
         *least = lesser_bits(*least, relative);
-      else if (relative <= companion_bits(*least) || lacks_needed(p, plan->o))
+      else if ((relative <= companion_bits(*least) && relative <= worth) || lacks_needed(p, plan->o))
         dyd_plan_mark(plan, p, face_step(p, relative, plan->o), DYD_REASON_END, pair->i, pair->j);
     }
   }
@@ -184,7 +194,8 @@ static dyd_status plan_face(dyd_plan *plan, dyd_helpers *h, size_t f, dyd_measur
   if (st == DYD_OK && pairs.count) {
     int64_t least;
     dyd_plan *wants = dyd_thrift_face(h->thrift, plan);
-    bool ends = mark_ends(&least, wants, &c, &pairs);
+    /* Where points have costs the coarsest may be dear, and wait themselves. */
+    bool ends = mark_ends(&least, wants, &c, &pairs, h->thrift->waited ? INT64_MAX : bits_worth(plan, &c));
     mark_blockers(wants, &c, ends, least);
     dyd_thrift_choose(plan, h->thrift, &c.sites);
     if (ends && h->scouts && !any_lacks_needed(&c, plan)) st = dyd_scouts_add(h->scouts, plan, &pairs);
