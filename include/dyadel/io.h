@@ -185,6 +185,7 @@ typedef struct dyd_delaunay_output {
   const dyd_history *history;     /* of the run, for html; NULL: only the result is shown. DYD_E_ARG with pairs, and
                                      where it ends with other pairs than the result */
   const dyd_tolerance *tolerance; /* of the result, with points, for html; NULL: none is told */
+  const volatile int *cancel;     /* as in dyd_graph_edges: DYD_CANCELLED, and no graph is written; NULL: none */
 } dyd_delaunay_output;
 /* The same as o says; NULL: as dyd_write_delaunay. DYD_E_ARG when the format does not hold the layer. */
 DYD_API dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delaunay_output *o,

@@ -101,8 +101,13 @@ DYD_API void dyd_tolerance_rungs(uint64_t *filter, uint64_t *exact, const dyd_to
  * only pairs that squares leave indeterminate can change: to legal (a disc holds both and meets no other), to illegal
  * (a disc that meets both always holds another one), or they stay. Sorted; *out is replaced. Sound for every choice in
  * the discs; squares are taken as rounded outward, so what hangs on 2^-48 of all sizes may stay indeterminate [DISC-1].
- * DYD_E_ARG for a site that is no square (err names it); DYD_CAPPED when pd is. A few searches for each such pair. */
+ * DYD_E_ARG for a site that is no square (err names it); DYD_CAPPED when pd is: *out holds the pairs that pd lists. A
+ * few searches for each such pair. */
 DYD_API dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err);
+/* The same; when *cancel (may be NULL) becomes non-zero, DYD_CANCELLED: *out is valid, and pairs that were not reached
+ * have their statuses in pd, which hold for discs, too. err says how many these are. */
+DYD_API dyd_status dyd_disc_pairs_until(dyd_pair_list *out, const dyd_delaunay *pd, const volatile int *cancel,
+                                        dyd_error *err);
 
 #ifdef __cplusplus
 }

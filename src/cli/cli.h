@@ -137,6 +137,7 @@ typedef struct cli_session {
   cli_progress *progress;               /* may be NULL */
   double begun, share;                  /* of the time that is left, the engine's */
   bool forgot;                          /* memory was exhausted when a stage was noted */
+  const dyd_pair_list *discs;           /* what was written of discs, borrowed; NULL: of none */
   const dyd_voronoi_bounds *bounds;     /* of the diagram written, borrowed; NULL: of none */
   const dyd_converge_options *converge; /* what a trace tells of them, borrowed; NULL: of none */
   dyd_trace *trace;                     /* NULL: none is written, or it has not begun */
@@ -264,6 +265,6 @@ void cli_progress_stage(void *user, const dyd_progress *stage);
 void cli_progress_stop(cli_progress *p);
 
 /* stats.c: what --stats prints. `seconds` since the command began. */
-void cli_stats(FILE *out, const dyd_engine *e, const dyd_sphere *sphere, double seconds);
+void cli_stats(FILE *out, const dyd_engine *e, const dyd_sphere *sphere, const dyd_pair_list *discs, double seconds);
 
 #endif

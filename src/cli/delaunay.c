@@ -18,8 +18,8 @@ static dyd_status write_pairs(FILE *out, const dyd_engine *e, const dyd_pair_lis
                               dyd_error *err) {
   dyd_tolerance *tolerance = NULL;
   if (!pairs && o->format == DYD_FORMAT_HTML) tolerance = find_tolerance(dyd_engine_delaunay(e));
-  const dyd_delaunay_output how = {DYD_SIZED(dyd_delaunay_output), o->view,  o->content, pairs, o->epsg,
-                                   pairs ? NULL : o->history,      tolerance};
+  const dyd_delaunay_output how = {DYD_SIZED(dyd_delaunay_output), o->view,   o->content,        pairs, o->epsg,
+                                   pairs ? NULL : o->history,      tolerance, cli_signals_flag()};
   dyd_status st = dyd_write_delaunay_as(out, e, &how, o->format, err);
   dyd_tolerance_free(tolerance);
   return st;
@@ -41,15 +41,17 @@ static dyd_status discs_write(FILE *out, const void *what, const cli_options *o,
   return write_pairs(out, r->engine, &r->pairs, o, err);
 }
 
-/* What is open among the discs: exit status, and a note. */
-static int discs_outcome(const disc_result *r, const cli_options *o) {
+/* What is open among the discs: exit status, and a note. cut: not all pairs were reached. */
+static int discs_outcome(const disc_result *r, bool cut, const cli_options *o) {
   size_t count[4] = {0};
   for (size_t k = 0; k < r->pairs.count; k++) count[r->pairs.item[k].status]++;
-  if (count[DYD_INDETERMINATE] + count[DYD_TIE] == 0) return CLI_OK;
   dyd_outcome outcome = dyd_engine_outcome(r->engine);
+  if (cut) return cli_deadline_passed() ? CLI_BUDGET : CLI_CANCELLED;
+  if (!dyd_delaunay_is_capped(dyd_engine_delaunay(r->engine)) && count[DYD_INDETERMINATE] + count[DYD_TIE] == 0)
+    return CLI_OK;
   if (!o->quiet)
-    cli_complain("%s: %zu legal, %zu indeterminate, %zu tie among the discs", dyd_outcome_text(outcome),
-                 count[DYD_LEGAL], count[DYD_INDETERMINATE], count[DYD_TIE]);
+    cli_complain("%s: %zu legal, %zu indeterminate, %zu tie among the discs; %s", dyd_outcome_text(outcome),
+                 count[DYD_LEGAL], count[DYD_INDETERMINATE], count[DYD_TIE], cli_outcome_advice(r->engine));
   return cli_exit_status(outcome);
 }
 
@@ -59,13 +61,19 @@ static int discs_result(cli_session *s, disc_result *r, const cli_options *o) {
   int status = cli_session_run(s, &o->engine);
   if (status) return status;
   if (!dyd_engine_delaunay(s->engine)) return cli_session_write(s, delaunay_write);
-  if (dyd_disc_pairs(&r->pairs, dyd_engine_delaunay(s->engine), &err) != DYD_OK) {
+  cli_progress_phase(s->progress, "the discs");
+  dyd_status st = dyd_disc_pairs_until(&r->pairs, dyd_engine_delaunay(s->engine), cli_signals_flag(), &err);
+  if (st < 0) {
     cli_complain_at(o->file, &err);
     return CLI_FAILED;
   }
+  if (st == DYD_CANCELLED)
+    cli_complain("%s: %s%s", cli_deadline_passed() ? "budget" : "cancelled", err.message,
+                 cli_deadline_passed() ? "; raise --timeout" : "");
+  s->discs = &r->pairs;
   cli_session_settle(s);
   status = cli_write_file(o->output, o, discs_write, r);
-  return status ? status : discs_outcome(r, o);
+  return status ? status : discs_outcome(r, st == DYD_CANCELLED, o);
 }
 
 static int delaunay_discs(cli_options *o) {

@@ -162,6 +162,19 @@ static void session_note_outcome(const cli_session *s) {
 
 /* ---- writing ---- */
 
+/* Nothing is written since work was cut: says why. Exit status. */
+static int write_was_cut(dyd_status st, const cli_options *o, const dyd_error *err) {
+  if (cli_deadline_passed()) {
+    cli_complain("budget: the time was used up before the result was known: nothing is written; raise --timeout");
+    return CLI_BUDGET;
+  }
+  if (st == DYD_CAPPED)
+    cli_complain_at(o->file, err);
+  else
+    cli_complain("cancelled before the result was known: nothing is written");
+  return st == DYD_CAPPED ? CLI_BUDGET : CLI_CANCELLED;
+}
+
 int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, const void *what) {
   cli_output out;
   if (!cli_output_open(&out, name)) return CLI_FAILED;
@@ -169,6 +182,10 @@ int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, c
   dyd_error_clear(&err);
   dyd_status st = print(out.stream, what, o, &err);
   bool done = st == DYD_OK;
+  if (st > 0) {
+    cli_output_drop(&out);
+    return write_was_cut(st, o, &err);
+  }
   if (st == DYD_E_IO && !cli_output_note_reader(out.stream, name, o))
     cli_complain("%s: %s; choose another place with -o", name ? name : "standard output", err.message);
   else if (!done && st != DYD_E_IO)
@@ -239,7 +256,7 @@ int cli_session_close(cli_session *s, int status) {
     if (status == 0) status = traced ? traced : cli_exit_status(outcome);
     if (!o->quiet && status != CLI_OK && status != CLI_USAGE) session_note_outcome(s);
     if (status != CLI_OK && status != CLI_USAGE) cli_note_spacing(dyd_engine_delaunay(s->engine), o);
-    if (o->stats && outcome != DYD_OUTCOME_NONE) cli_stats(stderr, s->engine, NULL, cli_clock() - s->begun);
+    if (o->stats && outcome != DYD_OUTCOME_NONE) cli_stats(stderr, s->engine, NULL, s->discs, cli_clock() - s->begun);
   }
   cli_deadline_written(status);
   dyd_engine_free(s->engine);

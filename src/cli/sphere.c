@@ -72,7 +72,7 @@ static int sphere_result(cli_session *s, const dyd_sphere *sphere, const cli_opt
   cli_session_settle(s);
   int status = cli_write_file(o->output, o, sphere_write, sphere);
   if (!status) status = sphere_certificate(sphere, o);
-  if (o->stats) cli_stats(stderr, s->engine, sphere, cli_clock() - s->begun);
+  if (o->stats) cli_stats(stderr, s->engine, sphere, NULL, cli_clock() - s->begun);
   return status ? status : sphere_outcome(sphere, o);
 }
 

@@ -8,10 +8,12 @@ static void stats_line(FILE *out, const char *name, uint64_t value) {
   fprintf(out, "%-26s %" PRIu64 "\n", name, value);
 }
 
-static void plane_count(size_t count[4], size_t *aliases, const dyd_delaunay *pd) {
+/* discs: their pairs; NULL: those of rectangles count. */
+static void plane_count(size_t count[4], size_t *aliases, const dyd_delaunay *pd, const dyd_pair_list *discs) {
   size_t sites = dyd_sites_count(dyd_delaunay_sites(pd));
   for (size_t i = 0; i < sites; i++) *aliases += dyd_delaunay_alias(pd, (uint32_t)i) != i;
-  dyd_delaunay_count(count, pd);
+  if (!discs) dyd_delaunay_count(count, pd);
+  for (size_t k = 0; discs && k < discs->count; k++) count[discs->item[k].status]++;
 }
 
 /* Of the places, not of their images. */
@@ -24,12 +26,12 @@ static void sphere_count(size_t count[4], size_t *aliases, const dyd_sphere *sph
   dyd_pair_list_clear(&pairs);
 }
 
-static void result_stats(FILE *out, const dyd_delaunay *pd, const dyd_sphere *sphere) {
+static void result_stats(FILE *out, const dyd_delaunay *pd, const dyd_sphere *sphere, const dyd_pair_list *discs) {
   size_t count[4] = {0}, aliases = 0;
   if (sphere)
     sphere_count(count, &aliases, sphere);
   else
-    plane_count(count, &aliases, pd);
+    plane_count(count, &aliases, pd, discs);
   stats_line(out, "aliases", aliases);
   stats_line(out, "pairs legal", count[DYD_LEGAL]);
   stats_line(out, "pairs indeterminate", count[DYD_INDETERMINATE]);
@@ -56,13 +58,13 @@ static void tie_stats(FILE *out, const dyd_tie_counters *t) {
           "degree in tests, most", t->degree_most, "seconds in tests", t->seconds);
 }
 
-void cli_stats(FILE *out, const dyd_engine *e, const dyd_sphere *sphere, double seconds) {
+void cli_stats(FILE *out, const dyd_engine *e, const dyd_sphere *sphere, const dyd_pair_list *discs, double seconds) {
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
   dyd_engine_get_counters(&c, e, NULL);
   fprintf(out, "%-26s %s\n", "outcome", dyd_outcome_text(sphere ? dyd_sphere_outcome(sphere) : dyd_engine_outcome(e)));
   fprintf(out, "%-26s %s\n", "budget spent", budget_text(c.spent));
   stats_line(out, "points", dyd_engine_count(sphere ? dyd_sphere_places(sphere) : e));
-  if (dyd_engine_delaunay(e)) result_stats(out, dyd_engine_delaunay(e), sphere);
+  if (dyd_engine_delaunay(e)) result_stats(out, dyd_engine_delaunay(e), sphere, discs);
   stats_line(out, "undecided faces", c.undecided_faces);
   stats_line(out, "stages", c.stages);
   stats_line(out, "stream calls", c.calls);

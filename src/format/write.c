@@ -74,13 +74,13 @@ static dyd_status pairs_of_graph(dyd_result *r) {
 }
 
 /* What is written in place of the pairs, if the layer is a graph. */
-static dyd_status result_graph(bool *graph, dyd_result *r, dyd_content layer, dyd_error *err) {
+static dyd_status result_graph(bool *graph, dyd_result *r, const dyd_delaunay_output *o, dyd_error *err) {
   size_t k = 0;
-  while (k < GRAPH_LAYERS && graph_layers[k].layer != layer) k++;
+  while (k < GRAPH_LAYERS && graph_layers[k].layer != o->layer) k++;
   *graph = k < GRAPH_LAYERS;
   if (!*graph) return DYD_OK;
   r->graph_name = graph_layers[k].name;
-  dyd_status st = dyd_graph_edges(&r->graph, r->pd, graph_layers[k].graph, NULL, err);
+  dyd_status st = dyd_graph_edges(&r->graph, r->pd, graph_layers[k].graph, o->cancel, err);
   return st == DYD_OK ? pairs_of_graph(r) : st;
 }
 
@@ -121,7 +121,7 @@ dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delau
   result_sites(&r);
   dyd_status st = grant_output(r.pd, format, false, o.pairs, err);
   if (st != DYD_OK) return st;
-  st = result_graph(&graph, &r, o.layer, err);
+  st = result_graph(&graph, &r, &o, err);
   if (graph) r.history = NULL, r.tolerance = NULL; /* they tell of the triangulation */
   if (st == DYD_OK && !graph && !o.pairs) st = dyd_delaunay_pairs(&r.pairs, r.pd);
   if (o.pairs) r.pairs = *o.pairs;

@@ -155,7 +155,9 @@ static PyObject *pairs_found(PyObject *object, pairs_fn find) {
   dyd_status st = find(&list, pd, &err);
   PyEval_RestoreThread(thread);
   dydpy_leave(self);
-  return st == DYD_OK ? array_new(list.item, list.count, sizeof *list.item) : dydpy_raise(&err, st);
+  if (st == DYD_OK) return array_new(list.item, list.count, sizeof *list.item);
+  dyd_pair_list_clear(&list);
+  return dydpy_raise(&err, st);
 }
 
 PyObject *dydpy_pairs(PyObject *self, PyObject *none) {

@@ -14,8 +14,9 @@ typedef struct dyd_disc_work {
   dyd_caps caps;
   uint32_t i, j; /* vertices, the smaller disc first */
   uint32_t *seen;
-  size_t count, cap, loaded; /* loaded: how many of these have caps, or meet i or j */
-  bool failed;               /* memory is exhausted */
+  size_t count, cap, loaded;  /* loaded: how many of these have caps, or meet i or j */
+  bool failed;                /* memory is exhausted */
+  const volatile int *cancel; /* ends what dyd_disc_pairs_until does; may be NULL */
 } dyd_disc_work;
 
 /* Looks at v from now on; false: it is i, j or seen already, or memory is exhausted. */

@@ -9,6 +9,7 @@
  * precise as it takes, up to MOST_BITS of its size. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/flag.h"
 #include "base/invariant.h"
 #include "delaunay/undecided.h"
 #include "tolerance/discs.h"
@@ -337,11 +338,12 @@ static bool add_inner_square(dyd_sites *sites, dyd_status *st, const dyd_disc_wo
 /* Triangulates squares in the discs, numbered as vertices are [DISC-2]. *out = NULL: some disc has none that is worth
  * it, or there are too many pairs. */
 static dyd_status triangulate_inside(dyd_delaunay **out, dyd_sites **sites, const dyd_disc_work *w) {
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = w->cancel};
   uint32_t v = 0, n = w->pd->sk.n;
   dyd_status st = dyd_sites_new(sites);
   *out = NULL;
   while (st == DYD_OK && v < n && add_inner_square(*sites, &st, w, v)) v++;
-  if (st == DYD_OK && v == n) st = dyd_delaunay_new(out, *sites, NULL, NULL);
+  if (st == DYD_OK && v == n) st = dyd_delaunay_new(out, *sites, &o, NULL);
   if (st != DYD_CAPPED) return st;
   dyd_delaunay_free(*out);
   *out = NULL;
@@ -370,15 +372,20 @@ static dyd_pair_status discs_status(dyd_disc_work *w, uint32_t i, uint32_t j, co
   return possible ? DYD_INDETERMINATE : DYD_ILLEGAL;
 }
 
-static dyd_status decide_discs(dyd_disc_work *w, dyd_pair_list *list) {
+/* *left: how many indeterminate pairs were not reached when work was cancelled; these stay as they are. */
+static dyd_status decide_discs(dyd_disc_work *w, size_t *left, dyd_pair_list *list) {
   const uint32_t *vertex = w->pd->sk.vertex;
   size_t kept = 0;
   dyd_sites *sites = NULL;
   dyd_delaunay *inside = NULL;
   dyd_status st = triangulate_inside(&inside, &sites, w);
-  for (size_t k = 0; st == DYD_OK && k < list->count && !w->failed; k++) {
+  for (size_t k = 0; (st == DYD_OK || st == DYD_CANCELLED) && k < list->count && !w->failed; k++) {
     dyd_pair p = list->item[k];
-    if (p.status == DYD_INDETERMINATE) p.status = discs_status(w, vertex[p.i], vertex[p.j], inside);
+    if (st == DYD_OK && p.status == DYD_INDETERMINATE && dyd_flag_is_set(w->cancel)) st = DYD_CANCELLED;
+    if (p.status == DYD_INDETERMINATE && st == DYD_CANCELLED)
+      ++*left;
+    else if (p.status == DYD_INDETERMINATE)
+      p.status = discs_status(w, vertex[p.i], vertex[p.j], inside);
     if (p.status != DYD_ILLEGAL) list->item[kept++] = p;
   }
   list->count = kept;
@@ -387,36 +394,55 @@ static dyd_status decide_discs(dyd_disc_work *w, dyd_pair_list *list) {
   return w->failed ? DYD_E_NOMEM : st;
 }
 
-dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err) {
-  if (!pd) return dyd_fail_null(err);
-  dyd_disc_work w = {.pd = pd};
+static void discs_clear(dyd_disc_work *w) {
+  dyd_caps_clear(&w->caps);
+  for (uint32_t v = 0; w->disc && v < w->pd->sk.n; v++) dyd_disc_clear(&w->disc[v]);
+  free(w->disc);
+  free(w->about);
+  free(w->seen);
+}
+
+static dyd_status discs_begin(dyd_disc_work *w, dyd_error *err) {
+  uint32_t n = w->pd->sk.n;
+  dyd_caps_init(&w->caps);
+  w->about = dyd_alloc(n, sizeof *w->about);
+  w->disc = w->about ? dyd_alloc(n, sizeof *w->disc) : NULL;
+  if (!w->disc) return dyd_fail_nomem(err);
+  for (uint32_t v = 0; v < n; v++) dyd_disc_init(&w->disc[v]);
+  return make_discs(w, err);
+}
+
+/* What is to be said of pairs that are listed, and not all of them decided. */
+static dyd_status discs_end(const dyd_disc_work *w, dyd_status st, size_t left, size_t count, dyd_error *err) {
+  if (st == DYD_CANCELLED)
+    return dyd_fail(err, st, "%zu of %zu pairs were not reached: they have the statuses of squares", left, count);
+  if (st == DYD_OK && dyd_delaunay_is_capped(w->pd))
+    return dyd_fail(err, DYD_CAPPED, "there are more pairs than can be stored: some are missing");
+  if (st == DYD_OK || (err && err->code == st)) return st;
+  return dyd_fail(err, st, "%s", dyd_status_text(st));
+}
+
+dyd_status dyd_disc_pairs_until(dyd_pair_list *out, const dyd_delaunay *pd, const volatile int *cancel,
+                                dyd_error *err) {
+  if (!pd || !out) return dyd_fail_null(err);
+  dyd_disc_work w = {.pd = pd, .cancel = cancel};
   dyd_pair_list list = {0};
-  uint32_t n = pd->sk.n;
+  size_t left = 0;
   if (err) dyd_error_clear(err);
-  if (dyd_delaunay_is_capped(pd))
-    return dyd_fail(err, DYD_CAPPED, "there are more pairs than can be stored; raise `max_pairs`");
-  w.disc = dyd_alloc(n, sizeof *w.disc);
-  w.about = dyd_alloc(n, sizeof *w.about);
-  if (!w.disc || !w.about) {
-    free(w.disc);
-    free(w.about);
-    return dyd_fail_nomem(err);
-  }
-  for (uint32_t v = 0; v < n; v++) dyd_disc_init(&w.disc[v]);
-  dyd_caps_init(&w.caps);
-  dyd_status st = make_discs(&w, err);
+  dyd_status st = discs_begin(&w, err);
   if (st == DYD_OK) st = dyd_delaunay_pairs(&list, pd);
-  if (st == DYD_OK && pd->sk.rects.tree.count) st = decide_discs(&w, &list);
-  dyd_caps_clear(&w.caps);
-  for (uint32_t v = 0; v < n; v++) dyd_disc_clear(&w.disc[v]);
-  free(w.disc);
-  free(w.about);
-  free(w.seen);
-  if (st != DYD_OK) {
+  if (st == DYD_OK && pd->sk.rects.tree.count) st = decide_discs(&w, &left, &list);
+  discs_clear(&w);
+  st = discs_end(&w, st, left, list.count, err);
+  if (st == DYD_OK || st == DYD_CAPPED || st == DYD_CANCELLED) {
+    dyd_pair_list_clear(out);
+    *out = list;
+  } else {
     dyd_pair_list_clear(&list);
-    return err && err->code == st ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
   }
-  dyd_pair_list_clear(out);
-  *out = list;
-  return DYD_OK;
+  return st;
+}
+
+dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err) {
+  return dyd_disc_pairs_until(out, pd, NULL, err);
 }

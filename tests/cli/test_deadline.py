@@ -231,6 +231,33 @@ def test_tolerances_and_plans_in_time():
                    r'^dyadel: budget: the time was used up before the [a-z ]+ known: .*; raise --timeout')
 
 
+def test_discs_and_graphs_that_are_cut():
+    """Pairs of discs that were not reached have the statuses of squares; a graph that is not known is not written."""
+    given = ('--columns', 'x,y', '--radius-column', 'r', '-')
+    text = 'x,y,r\n' + ''.join(f'{k * k % 997},{k * k * k % 991}.{k},{1 + k * 7 % 23}\n' for k in range(1500))
+    whole, squares = run('delaunay', '--discs', *given, stdin=text), run('delaunay', *given, stdin=text)
+    status = {(row['i'], row['j']): row['status'] for row in rows_of(whole)}
+    outer = {(row['i'], row['j']): row['status'] for row in rows_of(squares)}
+
+    def place(result):
+        return 1 if result.code != 4 else 0 if rows_of(result) and 'not reached' in result.err else -1
+
+    result = cut_between(lambda seconds: timed(seconds, 'delaunay', '--discs', *given, stdin=text), place, 0.3)
+    expect(result, 4, '', r'pairs were not reached: they have the statuses of squares; raise --timeout')
+    assert '--max-pairs' not in result.err, result.err
+    listed = {(row['i'], row['j']): row['status'] for row in rows_of(result)}
+    for pair, known in listed.items():
+        assert known == status.get(pair, 'illegal') or known == outer[pair] == 'indeterminate', (pair, known)
+    for seconds in (0.02, 0.1):
+        result = timed(seconds, 'delaunay', '--layer', 'graph:mst', *given, stdin=text)
+        assert result.code in (3, 4) and '--max-pairs' not in result.err, result.err
+        assert result.code == 3 or not result.out, result.out
+    expect(run('delaunay', '--layer', 'graph:mst', '--max-pairs', '100', *given, stdin=text), 4, r'\A\Z', 'raise --max-pairs')
+    result = run('delaunay', '--discs', '--max-pairs', '100', *given, stdin=text)
+    expect(result, 4, '^# capped: ', 'raise --max-pairs')
+    assert all(row['status'] != 'legal' or status[row['i'], row['j']] == 'legal' for row in rows_of(result))
+
+
 def catches_interrupts(process):
     with open(f'/proc/{process.pid}/status', encoding='ascii') as status:
         caught = next(int(line.split()[1], 16) for line in status if line.startswith('SigCgt'))

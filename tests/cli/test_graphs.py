@@ -291,7 +291,7 @@ def test_formats():
     expect(run('delaunay', '--layer', 'graph:tree', *GPS), 2, r'\A\Z', 'graph:mst')
     expect(run('delaunay', '--sphere', '--layer', 'graph:mst', *AIRPORTS[1:]), 2, r'\A\Z', 'delaunay --sphere has no layer "graph:mst"; give pairs')
     expect(run('voronoi', '--layer', 'graph:mst', *GPS), 2, r'\A\Z', 'has no layer "graph:mst"')
-    expect(run('delaunay', '-q', '--max-pairs', '1', '--radius', '9', '--layer', 'graph:mst', *GPS), 1, r'\A\Z', '--max-pairs')
+    expect(run('delaunay', '-q', '--max-pairs', '1', '--radius', '9', '--layer', 'graph:mst', *GPS), 4, r'\A\Z', '--max-pairs')
 
 
 main(globals())

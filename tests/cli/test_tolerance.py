@@ -134,7 +134,7 @@ def test_discs():
     """The same as deaths and births say; fewer open pairs than squares leave; what cannot be written so is refused."""
     for radius in ('0.01', '0.003'):
         discs = run('delaunay', '--discs', '--radius', radius, *AIRPORTS)
-        expect(discs, 3, r'\Ai,j,status\n', r'\Adyadel: fixpoint: \d+ legal, \d+ indeterminate, 0 tie among the discs\n\Z')
+        expect(discs, 3, r'\Ai,j,status\n', r'\Adyadel: fixpoint: \d+ legal, \d+ indeterminate, 0 tie among the discs; nothing that is open .*\n\Z')
         events = rows(run('tolerance', '--up-to', radius, *AIRPORTS).out)
         wanted = {(r['i'], r['j']): 'legal' if r['event'] == 'death' and float(r['lo']) > float(radius) else 'indeterminate'
                   for r in events}
@@ -143,6 +143,9 @@ def test_discs():
     expect(run('delaunay', '--discs', '-', stdin='0 0\n9 0\n4+-1 8\n'), 1, r'\A\Z', 'point 2: a disc needs one radius')
     expect(run('delaunay', '--discs', '--format', 'json', '-', stdin='0 0\n'), 1, r'\A\Z', 'written as pairs')
     expect(run('delaunay', '--discs', '--certificate', '/dev/null', '-', stdin='0 0\n'), 2, r'\A\Z', '--certificate away')
+    stats = run('delaunay', '--discs', '--stats', '--radius', '0.01', *AIRPORTS)
+    for status in ('legal', 'indeterminate'):
+        assert re.search(rf'^pairs {status} +{stats.out.count("," + status)}$', stats.err, re.M), stats.err
     xml.etree.ElementTree.fromstring(run('delaunay', '--discs', '--format', 'svg', '-', stdin='0+-1 0+-1\n9 0\n4 8\n').out)
 
 

@@ -175,7 +175,7 @@ static void test_few(void **state) {
   enum { FEW = 4 };
   test_random r = test_random_start(__func__);
   size_t possible = 0, unsure = 0;
-  for (size_t round = 0; round < test_cases(900); round++) {
+  for (size_t round = 0; round < test_cases(500); round++) {
     half_case c;
     dyd_engine_options o;
     dyd_settled_pair pair[FEW * FEW];
@@ -202,7 +202,7 @@ static void test_faces(void **state) {
   (void)state;
   test_random r = test_random_start(__func__);
   size_t said = 0, settled = 0;
-  for (size_t round = 0; round < test_cases(300); round++) {
+  for (size_t round = 0; round < test_cases(200); round++) {
     half_case c;
     dyd_engine_options o;
     dyd_settled s = {0};
