@@ -443,7 +443,8 @@ def described(case, product):
 class Run:
     """Cases, counts and findings of a run."""
 
-    def __init__(self, space, product, seed, effort, out):
+    def __init__(self, space, product, seed, effort, out, against=None):
+        self.against = against
         self.space, self.product, self.seed, self.effort, self.out = space, product, seed, effort, out
         self.cases, self.judged, self.refused = 0, 0, collections.Counter()
         self.table = collections.Counter()
@@ -458,6 +459,8 @@ class Run:
         case = self.case(row, number)
         judge, refused = judge_case(case, self.product, self.effort)
         self.cases += 1
+        if judge.refuted and self.against:  # what this one says, too, is not counted
+            judge.refuted = [] if judge_case(case, self.against, self.effort)[0].refuted else judge.refuted
         self.judged += judge.judged
         for axis in ORDER:
             self.table[axis, row[axis], 'cases'] += 1
@@ -471,7 +474,9 @@ class Run:
     def report(self, case, judge, number):
         key = case.stated, case.geometry, re.sub(r'\d[\d.e+-]*', '#', judge.refuted[0])[:60]
         self.findings.append(key)
-        if self.findings.count(key) > 2:
+        if self.against:
+            print(f'noticed by case {number}, the {self.cases}th: {judge.refuted[0]} ({case.row})', file=self.out)
+        if self.findings.count(key) > 2 or self.against:
             return
         small, j = shrink(case, self.space, self.product, self.effort)
         j = j or judge
@@ -498,6 +503,7 @@ def main():
     p.add_argument('--shard', default='0/1', help='K/N: every Nth case, from the Kth on')
     p.add_argument('--where', action='append', default=[], help='AXIS=VALUE: only these rows')
     p.add_argument('--stop', type=int, default=10 ** 9, help='end after so many findings')
+    p.add_argument('--against', help='only what is not refuted of this command as well counts')
     p.add_argument('--python')
     p.add_argument('--capi')
     p.add_argument('--tiles')
@@ -507,7 +513,8 @@ def main():
     python = a.python and os.path.isdir(a.python) and a.python
     space = Space(a.command, python, a.capi, a.tiles)
     product = Product(a.command, python, a.capi, a.tiles, a.limit)
-    run = Run(space, product, a.seed, a.effort, sys.stdout)
+    against = Product(a.against, python, a.capi, a.tiles, a.limit) if a.against else None
+    run = Run(space, product, a.seed, a.effort, sys.stdout, against)
     design, never = pairs_design(space, a.seed)
     want = dict(w.split('=') for w in a.where)
     rows = itertools.chain(design, random_rows(space, a.seed)) if a.cases else design
@@ -529,6 +536,8 @@ def main():
         run.print_table()
         for (what, why), count in sorted(run.refused.items()):
             print(f'refused {count}: {what}: {why}')
+    if against:
+        against.close()
     bad = len(run.findings) + len(laws_judge.refuted)
     print(f'seed {a.seed}: {run.cases:,} cases ({len(design)} rows for all pairs, {len(never)} pairs that never meet), '
           f'{product.runs:,} runs, {run.judged:,} statements judged, {bad} refuted')

@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Tries the truth harness: faults.py PROJECT COMMAND [--minutes M] [NUMBER...]
+
+Each fault is a small change of the sources, made in a copy of the project and built. The harness has to refute a case
+that it does not refute of COMMAND, built from PROJECT as it is. Rows are drawn from the part of the product that `where`
+names; the table tells how many of all rows that part has."""
+import argparse
+import itertools
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+GLOBE, DISCS, PLANE = 'geometry=sphere', 'geometry=discs', 'geometry=plane'
+FAULTS = [  # where it shows, file, what stands there, what is put there
+    (GLOBE, 'sphere/places.c', '|| mpq_sgn(s->degrees) || mpq_sgn(s->angle)', '|| mpq_sgn(s->angle)'),  # degrees ignored
+    (GLOBE, 'sphere/places.c', 'mpq_add(out, out, s->angle);', 'if (!mpq_sgn(out)) mpq_add(out, out, s->angle), mpq_div_2exp(out, out, 1);'),
+    (GLOBE, 'sphere/places.c', 'mpq_equal(a.mid[0], b.mid[0]) && mpq_equal', 'mpq_equal'),
+    (GLOBE, 'sphere/units.c', '{"arcmin", "arcminute", NULL, false, 1, 60}', '{"arcmin", "arcminute", NULL, false, 1, 3600}'),
+    (GLOBE, 'sphere/units.c', '{"ft", "feet", "foot", true, 381, 1250}', '{"ft", "feet", "foot", true, 38, 1250}'),
+    (GLOBE, 'sphere/units.c', 'true, 1000, 1}', 'true, 100, 1}'),
+    (GLOBE, 'sphere/units.c', '{"cm", "centimeter", "centimetre", true, 1, 100}', '{"cm", "centimeter", "centimetre", true, 1, 1000}'),
+    (GLOBE, 'sphere/units.c', 'if (!own) own = unit;', 'if (unit) own = &units[6];'),
+    (GLOBE, 'sphere/spot.c', 'mpq_sub(lo, lo, more);\n    mpq_add(hi, hi, more);\n  }\n  bool good', 'mpq_add(hi, hi, more);\n  }\n  bool good'),
+    (GLOBE, 'sphere/spot.c', 'mpq_set_si(s->half[0], pole ? 0 : 180, 1);', 'mpq_set_si(s->half[0], pole ? 0 : 90, 1);'),
+    (GLOBE, 'sphere/spot.c', 'arb_div(a, a, f, 64);', 'arb_mul(a, a, f, 64);'),
+    (GLOBE, 'sphere/project.c', 'if (!way) mag_addmul(off, more, &p->half[k]);', 'if (!way && k) mag_addmul(off, more, &p->half[k]);'),
+    (GLOBE, 'sphere/project.c', 'arb_mul_si(g->number, g->size, side, g->prec);', 'arb_mul_si(g->number, g->size, 1, g->prec);'),
+    (GLOBE, 'sphere/project.c', 'arb_addmul_si(&at[k], g->slope, way * side, g->prec);', 'arb_addmul_si(&at[k], g->slope, way, g->prec);'),
+    (GLOBE, 'sphere/image_filter.c', 'if (quarter == 1 || quarter == 2) *c', 'if (quarter == 1) *c'),
+    (GLOBE, 'sphere/image_filter.c', 'double wide = MORE_THAN_DEGREE * (x.hi - x.lo)', 'double wide = 0.1 * MORE_THAN_DEGREE * (x.hi - x.lo)'),
+    (GLOBE, 'sphere/result.c', 'if (in[face.item[k]] != IN_OPEN) in[face.item[k]] = tie ? IN_TIE : IN_OPEN;', 'in[face.item[k]] = IN_TIE;'),
+    (GLOBE, 'sphere/result.c', 'for (size_t k = 0; k < sure.count; k++) status[sure.item[k]] = DYD_LEGAL;',
+     'for (size_t k = 0; k < possible.count; k++) status[possible.item[k]] = DYD_LEGAL;'),
+    (GLOBE + ' stated=vertices', 'sphere/vertex.c', 'arb_submul(n + k, v + 3 + m, v + 6 + l, PREC);', 'arb_addmul(n + k, v + 3 + m, v + 6 + l, PREC);'),
+    (GLOBE + ' stated=vertices', 'sphere/vertex.c', 'arb_get_mag(half, angle[a]);', 'arb_get_mag(half, angle[0]);'),
+    (DISCS, 'tolerance/caps.c', 'mpq_add(s, a->r, b->r);', 'mpq_set(s, a->r);'),
+    (DISCS, 'tolerance/caps.c', 'if (inside < 0 || (inside == 0 &&', 'if ((inside == 0 &&'),
+    (DISCS, 'tolerance/caps.c', 'end_against(c, &c->item[e], turn, u, &c->item[k]) <= 0)) k++;', 'end_against(c, &c->item[e], turn, u, &c->item[k]) >= 0)) k++;'),
+    (DISCS, 'tolerance/caps.c', 'if (!found[0] || !found[1]) return false;', 'if (!found[0] && !found[1]) return false;'),
+    ('stated=rho', 'tolerance/points_filter.c', 'double now = radius_now(radius), least = r > 0 ? r * (1 - 4 * U) : 0;',
+     'double now = radius_now(radius), least = r > 0 ? r * 1.2 : 0;'),
+    ('stated=rho', 'tolerance/points_filter.c', 'gap_of(&p->lines, &line, p->ring) - p->ring->half;', 'gap_of(&p->lines, &line, p->ring);'),
+    ('stated=tolerance', 'tolerance/rows.c', 'dyd_roots_half(&lo, &hi, s->plus, s->minus);', 'dyd_roots_half(&lo, &hi, s->plus, s->minus), lo *= 1.0001, hi *= 1.0001;'),
+    ('stated=tolerance', 'tolerance/summit.c', '<= 0)\n', '>= 0)\n'),
+    ('stated=plan', 'tolerance/survey.c', '*holds = st == DYD_OK && dyd_survey_open(s, pd) <= s->left;', '*holds = st == DYD_OK;'),
+    ('stated=plan', 'tolerance/survey_rects.c', 'mpq_sub(p->half, hi, lo);', 'mpq_sub(p->half, hi, lo), mpq_div_2exp(p->half, p->half, 1);'),
+    ('stated=graph nearest', 'graph/graph_filter.c', 'dyd_dl2_upper(a, &w->box[w->other[q]]) < dyd_ds2_lower(a, b))', 'dyd_ds2_upper(a, &w->box[w->other[q]], 0) < dyd_ds2_lower(a, b))'),
+    ('stated=graph gabriel', 'graph/graph_filter.c', 'double least = 0.25 * dyd_ds2_lower(a, b), most', 'double least = 0.5 * dyd_ds2_lower(a, b), most'),
+    ('stated=graph mst', 'graph/spanning.c', 'if (p->status == DYD_LEGAL) s->sets', 's->sets'),
+    ('stated=graph nearest', 'graph/reach.c', 'for (int c = 0; c < 4; c++) {\n    mpz_srcptr x = corner_x', 'for (int c = 0; c < 1; c++) {\n    mpz_srcptr x = corner_x'),
+    ('stated=nearest', 'voronoi/nearest.c', 'if (mpq_cmp(d, least) <= 0) q->vertex', 'if (mpq_cmp(d, least) < 0 || k == 0) q->vertex'),
+    ('stated=vertices ' + PLANE, 'voronoi/vertex.c', 'if (st == DYD_OK) st = dyd_sites_get(&r[k], pd->sk.rects.sites, t->v[k]);', 'if (st == DYD_OK) st = dyd_sites_get(&r[k], pd->sk.rects.sites, t->v[k ? k : 1]);'),
+    (PLANE, 'io/read/coordinate.c', 'ends[0] = (dyd_plain){v.man * 10 - 5, v.exp - 1};', 'ends[0] = (dyd_plain){v.man * 10, v.exp - 1};'),
+    (PLANE, 'io/read/coordinate.c', 'lo = sum_towards(lo, -manner->radius_up, DYD_DOWN);', 'lo = sum_towards(lo, -0.9 * manner->radius_up, DYD_DOWN);'),
+    (PLANE, 'io/read/plain.c', 'if (error * (double)dir < 0) near', 'if (error * (double)dir > 0) near'),
+    ('stated=cells ' + PLANE, 'io/layers_voronoi.c', 'dyd_row_decimal(t, row->area[0], DYD_DOWN);', 'dyd_row_decimal(t, row->area[0] * 1.02, DYD_DOWN);'),
+]
+
+
+def run(argv, **more):
+    return subprocess.run(argv, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, **more)
+
+
+def share(command, where):
+    """The part of random rows that `where` names."""
+    sys.path.insert(0, HERE)
+    import truth
+    space = truth.Space(command, None, None, None)
+    want = dict(w.split('=') for w in where)
+    rows = list(itertools.islice(truth.random_rows(space, 1), 1000))
+    return sum(all(r[a] == v for a, v in want.items()) for r in rows) / len(rows)
+
+
+def wanted(where):
+    """'stated=graph mst geometry=plane' -> its conditions."""
+    return re.findall(r'\w+=.*?(?= \w+=|$)', where)
+
+
+def attempt(number, fault, copy, a):
+    where, name, old, new = fault
+    path = os.path.join(copy, 'src', name)
+    with open(path, encoding='utf-8') as file:
+        text = file.read()
+    if text.count(old) < 1:
+        return 'the sources have changed: the text to be replaced is not there'
+    try:
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(text.replace(old, new, 1))
+        built = run(['ninja', '-C', copy + '/build', 'src/cli/dyadel'])
+        if built.returncode:
+            return 'does not compile: ' + next((l for l in built.stdout.splitlines() if 'error' in l), '')[:150]
+        argv = [sys.executable, os.path.join(HERE, 'truth.py'), copy + '/build/src/cli/dyadel', '--against', a.command, '--stop', '1',
+                '--seed', str(1000 + number), '--cases', '1000000', '--limit', '10']
+        for w in wanted(where):
+            argv += ['--where', w]
+        begin = time.monotonic()
+        try:
+            out = run(argv, timeout=60 * a.minutes).stdout
+        except subprocess.TimeoutExpired:
+            return f'not noticed within {a.minutes} minutes'
+        m = re.search(r'noticed by case (\d+), the (\d+)th: (.*)', out)
+        if not m:
+            return 'not noticed: ' + out.strip()[-200:]
+        return f'{int(m[2])} cases, {time.monotonic() - begin:.0f} s: {m[3][:110]}'
+    finally:
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(text)
+
+
+def main():
+    p = argparse.ArgumentParser()
+    p.add_argument('project')
+    p.add_argument('command')
+    p.add_argument('numbers', nargs='*', type=int)
+    p.add_argument('--minutes', type=float, default=10)
+    a = p.parse_args()
+    copy, missed = tempfile.mkdtemp(prefix='faults-'), 0
+    try:
+        run(['git', 'clone', '-q', a.project, copy + '/p'])
+        copy_of = copy + '/p'
+        run(['meson', 'setup', '-Dtests=disabled', '-Dproofs=disabled', copy_of + '/build', copy_of])
+        print('| fault | file | rows drawn from | part of all rows | noticed after |\n|---|---|---|---|---|', flush=True)
+        for number, fault in enumerate(FAULTS):
+            if a.numbers and number not in a.numbers:
+                continue
+            said = attempt(number, fault, copy_of, a)
+            missed += not re.match(r'\d', said)
+            print(f'| {number} | {fault[1]} | {fault[0]} | {share(a.command, wanted(fault[0])):.1%} | {said} |', flush=True)
+    finally:
+        shutil.rmtree(copy, ignore_errors=True)
+    print(f'{missed} not noticed')
+    return missed > 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
