@@ -48,11 +48,26 @@ def test_edges(rand):
             assert e == edge_by_centres(p, i, j, range(n)), (p, i, j, e)
 
 
+def test_corners(rand):
+    """A corner is in no triangle, on no segment and at no place of the others."""
+    for _ in range(300):
+        n, side = rand.randint(2, 7), rand.choice((2, 3, 9))
+        p = [(rand.randint(0, side), rand.randint(0, side)) for _ in range(n)]
+        for i in range(n):
+            rest = [p[k] for k in range(n) if k != i]
+            held = any(min(t := [oracle.turn(a, b, p[i]), oracle.turn(b, c, p[i]), oracle.turn(c, a, p[i])]) >= 0 and
+                       (max(t) > 0 or p[i] in (a, b, c) or any(oracle.dot(p[i], u, v) < 0 for u, v in ((a, b), (b, c), (c, a))))
+                       for a, b, c in itertools.product(rest, repeat=3))
+            assert (oracle.corner(p, i, range(n)) == 1) == (not held), (p, i)
+
+
 def test_sphere(rand):
     """Projected from the north pole, the plane tells the same of all other pairs, and hull corners are the pole's neighbours."""
-    for _ in range(60):
+    for _ in range(80):
         n = rand.randint(4, 7)
-        p = [(Q(rand.randint(-99, 99), 40), Q(rand.randint(-99, 99), 40)) for _ in range(n)]
+        span = rand.choice((99, 3))  # many points on one circle or line, too
+        p = sorted({(Q(rand.randint(-span, span), 40), Q(rand.randint(-span, span), 40)) for _ in range(n)})
+        n = len(p)
         with mpmath.workprec(1300):
             places = []
             for x, y in p:  # to longitude and latitude: the distance from the pole is 2 atan(1 / r)
@@ -63,10 +78,10 @@ def test_sphere(rand):
         globe, flat = oracle.Sphere([*places, (Q(0), Q(90))], range(n + 1)), oracle.whole(p)[0]
         for i, j in itertools.combinations(range(n), 2):
             e, g = oracle.edge(flat, i, j, range(n)), globe.edge(i, j)
-            assert g in (0, e) and (g == e or e == 0), (p, i, j, e, g)
+            assert g in (0, e) and (g == e or 0 in globe.known.values()), (p, i, j, e, g)
         for i in range(n):
             e, g = oracle.corner(flat, i, range(n)), globe.edge(i, n)
-            assert g in (0, e) and (g == e or e == 0), (p, i, e, g)
+            assert g in (0, e) and (g == e or 0 in globe.known.values()), (p, i, e, g)
 
 
 def test_annuli(rand):
@@ -103,6 +118,11 @@ def test_witnesses(rand):
             for p in [*draws.choices([regions[k] for k in range(n)], rand, 6),
                       draws.climb([regions[k] for k in range(n)], range(n), i, j, False, rand, False)]:
                 assert oracle.edge(oracle.whole(p)[0], i, j, range(n)) == 1, (regions, i, j, p)
+        c = Q(rand.randint(-20, 60)), Q(rand.randint(-20, 60))
+        if oracle.witness_holds(regions, 0, 1, c, range(n)):
+            for p in draws.choices([regions[k] for k in range(n)], rand, 12):
+                d = [oracle.far2(q, c) for q in p]
+                assert max(d[:2]) < min(d[2:]), (regions, c, p)
     assert found > 200
 
 
