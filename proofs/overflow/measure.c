@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/measure.c: turns reckoned on the grid. */
 /* Unproved site_height_loop_invariant_preserved, dyd_cert_cross_loop_invariant_3_preserved,
-   dyd_cert_cross_loop_invariant_4_preserved: that numbers stay while another one is set or cleared takes 8 to 12 s of a
+   dyd_cert_cross_loop_invariant_4_preserved, lifted_set_ensures: that numbers stay while another one is set or cleared takes 8 to 12 s of a
    quiet machine. */
 #define SPELL_OUT
 #include "sites.h"
