@@ -174,6 +174,12 @@ def test_sources():
     assert dyadel.delaunay(dyadel.Source(4, again), sphere=True).outcome == 'decided'
 
 
+def answers_of(trace):
+    """The lines of a trace without digests, and without answers kept from another trace."""
+    lines = [json.loads(line) for line in pathlib.Path(trace).read_text().splitlines()]
+    return [{name: value for name, value in line.items() if name != 'sum'} for line in lines if 'kept' not in line]
+
+
 def test_traces():
     """Killed at any line: the resumed run takes those answers, and finds the same; what it asks beyond is for the rectangles."""
     calls = []
@@ -197,7 +203,7 @@ def test_traces():
             calls.clear()
             e = run(resume=cut, trace=again)
             assert e.recalled == sum(k < kept for k in answers) and len(calls) <= alone + e.recalled, kept
-            assert pathlib.Path(again).read_text() == ''.join(lines), kept
+            assert answers_of(again) == answers_of(trace), kept
             assert np.array_equal(e.pairs, d.pairs) and np.array_equal(e.boxes, d.boxes)
         error = harness.raised(dyadel.Error, dyadel.delaunay, OCTAHEDRON, sphere=True, resume=trace)
         assert error.code == 'parse' and error.result.outcome == 'none', error
