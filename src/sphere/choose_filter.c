@@ -23,6 +23,9 @@ typedef struct ball_guess {
  * least so many times as far from others as it is wide. */
 enum { WORK = 1 << 20, CANDIDATES = 16, GAPS = 4096, APART = 4 };
 
+/* Scores that differ by less of themselves are the same, whatever the radius. */
+#define EVEN 1e-6
+
 static const double degree = 0.017453292519943295, quarter = 1.5707963267948966;
 
 static dyd_status guess_set(ball_guess *out, const dyd_sphere *s, uint32_t i, dyd_error *err) {
@@ -88,7 +91,8 @@ static double guess_best(uint32_t *out, const ball_guess *g, size_t n) {
   for (size_t k = 0; k < n && tried < all && (tried < most || best <= 0); k += k < exact ? step : 1, tried++) {
     if (best > 1e9 && g[k].reach > 0) break;
     double score = guess_score(g, n, &g[k]);
-    if (tried && score <= best) continue;
+    bool same = fabs(score - best) <= EVEN * best; /* two places may be nearest to each other */
+    if (tried && (same ? g[k].place > *out : score < best)) continue;
     best = score;
     *out = g[k].place;
   }
