@@ -72,7 +72,7 @@ dyd_status dyd_unit_take(const dyd_unit **unit, mpq_ptr scale, const char *name,
                   factor);
 }
 
-/* The unit that the text ends with; *length becomes that of what is before it, without blanks. */
+/* Returns the unit at the end of the text and takes it, and blanks before it, off *length. */
 static const dyd_unit *take_unit(const char *text, size_t *length) {
   for (size_t u = 0; u < UNITS; u++) {
     size_t name = strlen(units[u].name);

@@ -56,7 +56,7 @@ def in_cap(place, angle, r):
 
 
 def in_box(place, half, r):
-    """Longitude and latitude each off by at most so many degrees; often a corner. Over a pole it goes on beyond it."""
+    """Longitude and latitude each off by at most `half` degrees, often at a corner. Beyond a pole the longitude turns by 180."""
     x, y = (c + half * r.choice([-1, 1, r.uniform(-1, 1)]) for c in place)
     return (x + 180, math.copysign(180 - abs(y), y)) if abs(y) > 90 else (x, y)
 
@@ -68,7 +68,7 @@ def drawn(places, degrees, unit, r):
 
 
 def written(degrees, unit):
-    """The radius of so many degrees (an angle of the ground's), in the unit."""
+    """The radius in this unit that is an angle of `degrees`."""
     return f'{degrees / UNITS[unit] if UNITS[unit] else math.radians(degrees) * EARTH / METRES[unit]:.12f}{unit}'
 
 
@@ -185,7 +185,7 @@ def test_no_ties():
 
 
 def test_cancelled():
-    """The first SIGTERM ends a long run; what is known is written."""
+    """The first SIGTERM ends a long run."""
     places = ''.join(f'{k * 0.07 % 5:.4f},{k * 0.31 % 4 + 84:.4f}\n' for k in range(4000))
     p = subprocess.Popen([harness.COMMAND, 'delaunay', '--sphere', '-q', '--radius', '30km', '-'], stdin=subprocess.PIPE,
                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, text=True)
