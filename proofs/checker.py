@@ -6,7 +6,7 @@ Usage: checker.py ROOT DYADEL_PROVED DYADEL [COUNT]
 
 On certificates of the airports and of COUNT random inputs (default 100), on mutants of these, on forgeries, chains and
 diagrams among them, and on texts in another spelling: what verify accepts is accepted, and of what is all proved verify
-says so too; what is accepted and rejected as it has to be; of ties at least as much as verify proves. The time grows little
+says so too; what is accepted and rejected as it has to be; of ties at least as much as verify proves; parts that it does not know are named. The time grows little
 faster than the number of sites, so do the triangles that cover the plane.
 """
 import os
@@ -232,6 +232,23 @@ def left_ties(answer):
 def as_tie(text, line):
     """The text with one line on a pair that says it is a tie."""
     return text.replace(f'\n{line}\n', f'\nt {line[2:]}\n')
+
+
+def try_parts(both, path):
+    """Of discs, graphs and places this checker knows nothing: it names them, and never says that all is proved."""
+    named = 0
+    for text, said in forgeries(path):
+        here = both.ask(both.proved, text=text)
+        if here.returncode not in (NOT_ALL, REJECTED) or (here.returncode == REJECTED) != ('rejected: ' in here.stderr):
+            yield f'{here}: {said}\n{text}'
+        if said.startswith('---- accepted'):
+            what = re.search('^(discs|graph|nearest) ', text, re.M)[1]
+            words = {'discs': 'for points in discs', 'graph': 'the graph', 'nearest': 'which sites are nearest'}[what]
+            if here.returncode != NOT_ALL or not any(words in gap for gap in gaps(here)):
+                yield f'{what} are not named: {here}\n{text}'
+            named += 1
+    if named < 50:
+        yield 'hardly any part was named'
 
 
 def try_ties(both, count):
@@ -528,6 +545,7 @@ def main():
         both = Checkers(proved, dyadel, pathlib.Path(folder))
         found = list(try_random(both, int(sys.argv[4]) if len(sys.argv) > 4 else 100))
         found += try_chains(both, root / 'tests/checker/forgeries.txt')
+        found += try_parts(both, root / 'tests/checker/forgeries_parts.txt')
         found += try_ties(both, 60)
         found += try_forged_ties(both)
         found += try_fixpoint(both)

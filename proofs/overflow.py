@@ -49,6 +49,7 @@ PARTS = {  # tests of some minutes; those but the first are of what reads and ke
     'values': ['number', 'quotient', 'algebra_read', 'enclosure', 'inverse'],
     'blocks': ['algebra', 'algebra_enclose', 'algebra_bound', 'bracket', 'cycle', 'ties'],
 }
+UNWRITTEN = {'caps', 'discs', 'graphs', 'near', 'places'}  # of src/checker, all functions left out: contract not written yet
 ITEMS = {'start': 'sizes', 'first': 'sizes', 'entry': 'entries', 'term': 'terms', 'digits': 'chars', 'den': 'numbers',
          'place': 'places', 'point': 'described', 'c': 'coefficients', 'cosine': 'cosines',
          'box': 'boxes'}  # of lists, by name
@@ -268,8 +269,8 @@ def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     every = sum(PARTS.values(), [])
     there = {path.stem for folder in ('checker', 'dyadic') for path in (root / 'src' / folder).glob('*.c')}
-    if there - set(every):
-        sys.exit(f'in no part: {sorted(there - set(every))}')
+    if there - set(every) - UNWRITTEN:
+        sys.exit(f'in no part: {sorted(there - set(every) - UNWRITTEN)}')
     names = sys.argv[3:] or PARTS[sys.argv[2]] if len(sys.argv) > 2 else every
     if len(sys.argv) == 3:
         names = to_prove(root, names)

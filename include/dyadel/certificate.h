@@ -14,7 +14,7 @@
  *
  *     dyadel certificate 1
  *     outcome decided | certified | fixpoint | budget | cancelled | error
- *     goal decided | area M | hausdorff M | voronoi area M | voronoi hausdorff M
+ *     goal decided | area M | hausdorff M | voronoi area M | voronoi hausdorff M | nearest
  *     capped no | yes
  *     sites N
  *       X Y                 N lines: the rectangle of a site; or
@@ -60,6 +60,20 @@
  *       line i j k ... M      all these are on the line of i and j
  *       circle i j k l ... M  all these are on the circle of i, j and k; M: identity | bound
  *
+ * then, where each point is known to lie in a disc, too,
+ *
+ *     discs C               or: discs C fixed
+ *       x y r               C lines: for each site that is no alias, in order, the disc of radius r about (x,y)
+ *     refined M             M pairs that the rectangles leave indeterminate, in order
+ *       l i j [x y]           legal for the discs; (x,y) is the witness
+ *       n i j [k k ...]       illegal for the discs, by what the discs of sites k forbid
+ *
+ * then, where a graph of neighbours (graph.h) is stated,
+ *
+ *     graph nearest G       or: graph gabriel G
+ *       c i j               G rows, in order: the edge is certain; or
+ *       p i j                 the edge is possible
+ *
  * then, where the certificate says something of the Voronoi diagram,
  *
  *     window XLO XHI YLO YHI
@@ -72,6 +86,13 @@
  * and at last
  *
  *     end
+ *
+ * With the goal nearest, the places of queries follow the sites in place of all this, and "end" follows them:
+ *
+ *     nearest Q
+ *       X Y c i LO HI             Q lines: the rectangle of a place, written as that of a site, and the site that is
+ *                                 certainly nearest to it, at a distance in [LO,HI]; HI may be "none"; or
+ *       X Y p i LO HI i LO HI ... all sites that may be nearest to it, in order
  *
  * A number that is not rational in those before is a leaf: x0, x1, ... in their order. An irrational sqrt, cbrt or
  * root without V makes one (times its denominator: of sqrt a, a = p/q, the leaf is sqrt(p q); of a root cn X), cycle
@@ -126,6 +147,19 @@
  * sites of a bounded face of legal edges, or a line through all sites of a part of the unbounded face, makes its
  * pairs ties; of exact points, which no block describes, the checker finds it.
  *
+ * [CERT-11] Discs: each point lies in its rectangle and in its disc. Legal by a witness: |c - p_i| + r_i and |c - p_j|
+ * + r_j are less than |c - p_k| - r_k for all other sites k but aliases, p_k being the centre of the disc of k.
+ * Illegal: the discs of i and j are disjoint, and the caps of directions that the sites in the line forbid hold all
+ * directions. "fixed" says that nothing is ever narrowed, of no site: with points given, that is compared, too.
+ *
+ * [CERT-12] Places: certain: dl_i < ds_k for all other sites at the corners of the place. Sites that are not listed are
+ * nearest nowhere in the place, since a site that is listed is nearer; the checker cuts the place until one site is
+ * nearer in all of a part. Distances lie in their bounds.
+ *
+ * [CERT-13] Graphs. nearest: as for places, each site being the place and taking no part. gabriel: certain when
+ * (p_k - p_i).(p_k - p_j) > 0 for every choice and all k; a possible pair that has no row is no edge, since around each
+ * middle of the two rectangles some k, in a possible pair with i, is inside the smallest disc of the pair.
+ *
  * U counts, over the open sets, the pairs within the set that have no line and are none of the P: nothing proves that
  * they are illegal (0: the certificate proves its list of pairs complete). decided needs no o, t and l line and capped
  * no; certified needs the goal's bound.
@@ -135,7 +169,8 @@
  * narrowed. That is proved where all sites of a bounded face of legal edges are on one circle, or all sites of a part
  * of the unbounded face on one line: as exact points, or as a fact says. fixpoint is proved where no site that matters
  * can be narrowed. That an alias of a site that is not exact is the same point is proved by facts. decided and bounds
- * are proved when U = 0. Nothing proves budget, cancelled and error, and lines l. */
+ * are proved when U = 0. Nothing proves budget, cancelled and error, and lines l. A row p, and a place without a site
+ * that is certain, state nothing but that the others are none. */
 #ifndef DYADEL_CERTIFICATE_H
 #define DYADEL_CERTIFICATE_H
 
@@ -149,6 +184,9 @@ extern "C" {
 
 struct dyd_engine;
 struct dyd_rect;
+struct dyd_pair_list;
+struct dyd_graph_list;
+struct dyd_nearest_answer;
 
 /* Writes the certificate of the current result of e, for every outcome that has one. No section on the diagram.
  * DYD_E_ARG when e has no result, or a goal on the diagram was certified (see below); DYD_E_NOMEM; DYD_E_IO. Then what
@@ -164,6 +202,22 @@ DYD_API dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, 
 DYD_API dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_engine *e, const struct dyd_rect *window,
                                                  dyd_error *err);
 
+/* What a certificate says beside the pairs of the rectangles. Borrowed for the call; what is NULL is left out. */
+typedef struct dyd_certificate_parts {
+  size_t struct_size;                 /* set by DYD_SIZED */
+  const struct dyd_pair_list *discs;  /* the pairs of dyd_disc_pairs [CERT-11] */
+  const struct dyd_graph_list *graph; /* the edges of dyd_graph_edges [CERT-13] */
+  int kind;                           /* of the graph, a dyd_graph. DYD_GRAPH_MST is refused by DYD_E_ARG */
+} dyd_certificate_parts;
+/* As dyd_write_certificate, with these parts. */
+DYD_API dyd_status dyd_write_certificate_parts(FILE *out, const struct dyd_engine *e,
+                                               const dyd_certificate_parts *parts, dyd_error *err);
+/* Writes a certificate of the answers of dyd_engine_nearest to `count` places, for the rectangles of e as they are now,
+ * and their outcome, a dyd_outcome. Errors as above. [CERT-12] */
+DYD_API dyd_status dyd_write_nearest_certificate(FILE *out, const struct dyd_engine *e,
+                                                 const struct dyd_nearest_answer *const *answer, size_t count,
+                                                 int outcome, dyd_error *err);
+
 /* What an accepted certificate states without a proof; bits of dyd_certificate_report.gaps. */
 typedef enum dyd_certificate_gap {
   DYD_GAP_LEGAL = 1,     /* that pairs without a witness are legal */
@@ -174,7 +228,10 @@ typedef enum dyd_certificate_gap {
   DYD_GAP_OUTCOME = 32,  /* the outcome */
   DYD_GAP_POINTS = 64,   /* that the points given lie in its rectangles, and are what it describes */
   DYD_GAP_ALIASES = 128, /* that aliases of sites that are not exact are the same points */
-  DYD_GAP_CLAIMS = 256   /* that callbacks are what their authors say they are */
+  DYD_GAP_CLAIMS = 256,  /* that callbacks are what their authors say they are */
+  DYD_GAP_DISCS = 512,   /* that discs make pairs legal or illegal */
+  DYD_GAP_GRAPH = 1024,  /* that pairs without a row are no edges of the graph */
+  DYD_GAP_NEAREST = 2048 /* that sites which are not listed are not nearest to a place */
 } dyd_certificate_gap;
 
 /* What an accepted certificate states. Texts have static storage. */
@@ -206,6 +263,14 @@ typedef struct dyd_certificate_report {
   size_t undescribed;             /* of the points given, those not known to be what the certificate describes */
   size_t claims;                  /* that callbacks are the roots that their authors say */
   size_t identities, tie_bounds;  /* facts about what points are: proved by an identity, by a bound [CERT-10] */
+  size_t discs;                   /* the points lie in so many discs; 0: in rectangles */
+  bool discs_fixed;               /* and nothing is ever narrowed */
+  size_t discs_legal, discs_illegal, discs_unproved; /* pairs that the discs decide, by what proves it */
+  const char *graph;                                 /* the graph that is stated; NULL: none */
+  size_t graph_rows, graph_certain;
+  uint64_t graph_unproved;       /* pairs without a row that are not proved to be no edges */
+  size_t places, places_certain; /* places of queries; those with a site that is certainly nearest */
+  uint64_t near_unproved;        /* sites not proved to be nearest nowhere in a place that does not list them */
 } dyd_certificate_report;
 
 /* Checks the certificate in `in` up to its end, in integers. DYD_OK: accepted, *out is what it states. DYD_E_PARSE:
@@ -228,6 +293,12 @@ DYD_API dyd_status dyd_verify_certificate_of(dyd_certificate_report *out, FILE *
 DYD_API dyd_status dyd_verify_certificate_still(dyd_certificate_report *out, FILE *still, FILE *in,
                                                 struct dyd_engine *e, const struct dyd_engine_options *options,
                                                 dyd_error *err);
+
+/* As dyd_verify_certificate_still; discs: the points of e lie in the discs in their rectangles, which have to be
+ * squares. Without it a certificate of discs is one of these points only where their rectangles lie in the discs. */
+DYD_API dyd_status dyd_verify_certificate_discs(dyd_certificate_report *out, FILE *still, FILE *in,
+                                                struct dyd_engine *e, bool discs,
+                                                const struct dyd_engine_options *options, dyd_error *err);
 
 #ifdef __cplusplus
 }

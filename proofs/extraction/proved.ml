@@ -144,7 +144,9 @@ let goal_holds c p =
   | [ "voronoi"; "hausdorff"; _ ] -> not (has_unproved_distance c)
   | _ -> p.complete
 
+(* Of what the checker knows nothing about, it proves no outcome. *)
 let outcome_is_proved c p =
+  c.beside = [] &&
   match c.outcome with
   | "decided" -> p.decided || (p.complete && c.pairs.listed = [])
   | "certified" -> is_reached c && goal_holds c p
@@ -154,7 +156,7 @@ let outcome_is_proved c p =
 (* What a certificate says that cannot be. *)
 let contradiction c d e p =
   let opened = c.pairs.listed <> [] || c.capped in
-  if c.outcome = "decided" && opened then Some "the outcome is not decided: pairs are open"
+  if c.outcome = "decided" && opened && c.beside = [] then Some "the outcome is not decided: pairs are open"
   else if c.outcome = "certified" && not (is_reached c) then
     Some "the outcome is not certified: no bound reaches the goal"
   else if p.decided && opened then Some "pairs are listed as open that are illegal"
@@ -166,8 +168,9 @@ let contradiction c d e p =
 
 let gaps c p (b : Blocks.proof) =
   let left = List.length c.sites - p.surrounded in
+  let beside = List.map (fun what -> "not proved: " ^ what) c.beside in
   let unwitnessed = c.pairs.unwitnessed and loose = Blocks.loose_aliases c b in
-  List.filter_map
+  beside @ List.filter_map
     (fun (there, text) -> if there then Some ("not proved: " ^ text) else None)
     [ (not (p.complete || c.capped), Printf.sprintf "that pairs among %d sites which are not listed are illegal" left);
       (unwitnessed > 0, Printf.sprintf "that %d pairs without a witness are legal" unwitnessed);
@@ -226,9 +229,17 @@ let read_still c name =
   | listed -> listed
   | exception Bad (line, message) -> raise (Bad_list (line, message))
 
+(* The exit status of one of nearest sites, of which nothing is proved here. *)
+let report_nearest c =
+  print_endline "accepted, not all of it proved: see what is not proved below";
+  Printf.printf "states: outcome %s, goal nearest\n" c.outcome;
+  Printf.printf "sites: %d, of which %d aliases\n" (List.length c.sites + c.aliases) c.aliases;
+  List.iter (fun what -> print_endline ("not proved: " ^ what)) c.beside;
+  Printf.printf "not proved: the outcome %s\n" c.outcome;
+  3
+
 (* The exit status. *)
-let verdict name list =
-  let c = certificate (whole_file name) in
+let verdict_on_pairs c list =
   let given = Option.map (read_still c) list in
   let d, e = Hints.unit_of c.sites c.edges (List.map snd c.pairs.chains) in
   if not (Checker.check d e c.sites c.edges) then
@@ -242,6 +253,10 @@ let verdict name list =
   let found = gaps c p b in
   report c p b given found;
   if found = [] then 0 else 3
+
+let verdict name list =
+  let c = certificate (whole_file name) in
+  if c.goal = [ "nearest" ] then report_nearest c else verdict_on_pairs c list
 
 let check name list =
   match verdict name list with

@@ -44,6 +44,7 @@ type certificate = {
   rects : Checker.site array;  (* of all sites; of aliases, those of their sites *)
   aliased : (int * int) list;  (* aliases of sites that are not exact, and these *)
   diagram : diagram option;
+  beside : string list;  (* what sections that the checker does not know are about *)
 }
 
 let limit = 1 lsl 20
@@ -96,7 +97,7 @@ let read_head s =
   in
   let goal =
     match words s with
-    | "goal" :: ([ "decided" ] as goal) -> goal
+    | "goal" :: ([ "decided" | "nearest" ] as goal) -> goal
     | "goal" :: ([ ("area" | "hausdorff"); m ] as goal) | "goal" :: ([ "voronoi"; ("area" | "hausdorff"); m ] as goal) ->
       ignore (small s m);
       goal
@@ -253,24 +254,52 @@ let read_diagram s known corners =
   let distance, distance_unproved = read_distance s in
   { window; polygons; first_polygon; undetermined; distance; distance_line = s.line; distance_unproved }
 
-(* What follows the bounds: blocks on what points are; the diagram. *)
+let skip s number =
+  for _ = 1 to count s number do ignore (next s) done
+
+let ends s =
+  s.line <- s.line + 1;
+  if s.at < String.length s.text then bad s "something follows the line \"end\""
+
+(* After the line "discs": what they make of which pairs, which the checker does not know. *)
+let skip_discs s discs =
+  skip s discs;
+  match words s with
+  | [ "refined"; m ] -> skip s m; Printf.sprintf "that %s pairs are legal, or illegal, for points in discs" m
+  | _ -> bad s "\"refined\" is missing"
+
+(* What follows the bounds: blocks on what points are; discs, a graph; the diagram. *)
 let read_rest s known size =
-  let ends (blocks, diagram) =
-    s.line <- s.line + 1;
-    if s.at < String.length s.text then bad s "something follows the line \"end\"";
-    (List.rev blocks, diagram)
-  in
-  let rec sections blocks =
+  let ends blocks diagram beside = ends s; (List.rev blocks, diagram, List.rev beside) in
+  let rec sections blocks beside =
     match words s with
-    | [ "end" ] -> ends (blocks, None)
+    | [ "end" ] -> ends blocks None beside
+    | "discs" :: discs :: ([] | [ "fixed" ]) -> sections blocks (skip_discs s discs :: beside)
+    | [ "graph"; name; rows ] ->
+      skip s rows;
+      sections blocks (Printf.sprintf "the graph %s, of which %s edges are listed" name rows :: beside)
     | "window" :: corners ->
       let diagram = read_diagram s known corners in
       if next s <> "end" then bad s "\"end\" is missing";
-      ends (blocks, Some diagram)
-    | [ "algebra"; k ] -> sections (Described.block s size k :: blocks)
+      ends blocks (Some diagram) beside
+    | [ "algebra"; k ] -> sections (Described.block s size k :: blocks) beside
     | _ -> bad s "this is no section"
   in
-  sections []
+  sections [] []
+
+(* A certificate of nearest sites: the checker knows of the sites only. *)
+let read_nearest s (outcome, goal, capped) (sites, aliases, rects) =
+  let beside =
+    match words s with
+    | [ "nearest"; q ] -> skip s q; Printf.sprintf "which sites are nearest to %s places, and how far they are" q
+    | _ -> bad s "\"nearest\" is missing"
+  in
+  if next s <> "end" then bad s "\"end\" is missing";
+  ends s;
+  let pairs =
+    { listed = []; ties = []; opened = 0; unwitnessed = 0; chains = []; boxes = 0; faces = 0; unproved = 0 } in
+  { outcome; goal; capped; sites; aliases = List.length aliases; edges = []; first_edge = s.line; corners = []; hints = 0;
+    pairs; area = None; hausdorff = None; blocks = []; rects; aliased = []; diagram = None; beside = [ beside ] }
 
 (* Sites that stay where they are, a line each: rising numbers, aliases among them. *)
 let still_sites c text =
@@ -285,10 +314,9 @@ let still_sites c text =
   in
   read []
 
-let certificate text =
-  let s = { text; at = 0; line = 0 } and known = Hashtbl.create 1000 and legal = Hashtbl.create 1000 in
-  let outcome, goal, capped = read_head s in
-  let sites, aliases, rects = read_sites s known in
+(* What follows the sites of one of pairs. *)
+let read_pairs_of s known (outcome, goal, capped) (sites, aliases, rects) =
+  let legal = Hashtbl.create 1000 in
   let first_edge = s.line + 2 in
   let edges = read_edges s known "legal" in
   List.iter (fun (e : Checker.edge) -> Hashtbl.replace legal (Z.to_int e.from, Z.to_int e.to0) ()) edges;
@@ -298,8 +326,15 @@ let certificate text =
   let pairs = read_pairs s known legal in
   let area = read_bound s "area" in
   let hausdorff = read_bound s "hausdorff" in
-  let blocks, diagram = read_rest s known (Array.length rects) in
+  let blocks, diagram, beside = read_rest s known (Array.length rects) in
   let aliased = List.filter_map (fun (k, other, exact) -> if exact then None else Some (k, other)) aliases in
   let hints = List.length places + List.length bridges in
   { outcome; goal; capped; sites; aliases = List.length aliases; edges; first_edge; corners; hints; pairs; area;
-    hausdorff; blocks; rects; aliased; diagram }
+    hausdorff; blocks; rects; aliased; diagram; beside }
+
+let certificate text =
+  let s = { text; at = 0; line = 0 } and known = Hashtbl.create 1000 in
+  let head = read_head s in
+  let read = match head with _, [ "nearest" ], _ -> read_nearest s | _ -> read_pairs_of s known in
+  let sites = read_sites s known in
+  read head sites

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/certificate.c: the words that are compared are there. */
+/* Without checker_sections, settle_sections, run_nearest: contract not written yet. */
 #define __int128 long long /* of areas nothing is proved here */
 #include "checks.h"
 #include "pairing.h"
@@ -36,6 +37,10 @@ void dyd_cert_faces_clear(dyd_cert_faces *f);
     assigns *c; exits \false; */
 void dyd_cert_chain_clear(dyd_cert_chain *c);
 
+/* Of discs.c, where it is not proved. */
+/*@ requires \valid(c); assigns *c; exits \false; */
+void dyd_checker_discs_clear(dyd_checker *c);
+
 /*@ requires \valid(c); assigns *c; exits \false; */
 void dyd_checker_init(dyd_checker *c, FILE *in, dyd_error *err);
 /*@ requires \valid(c) && blocks(&c->ties) && cleared_corners(&c->corners) && point(c) &&
@@ -61,6 +66,12 @@ dyd_status dyd_cert_ties_aliases(size_t *out, const dyd_cert_ties *t, const dyd_
 /*@ requires pairing(c); exits \false;
     ensures \result == DYD_OK ==> pairing(c); ensures \result == DYD_OK ==> begun(c); */
 static dyd_status checker_ties(dyd_checker *c);
+/* What they leave is not proved. */
+/*@ requires pairing(c) && begun(c); exits \false; ensures \result == DYD_OK ==> pairing(c) && begun(c); */
+static dyd_status checker_sections(dyd_checker *c);
+/*@ requires pairing(c) && (still == \null || \valid_read(still + (0 .. SITES - 1)));
+    assigns c->report.gaps, c->report.undescribed; exits \false; ensures pairing(c); */
+static void settle_sections(dyd_checker *c, const bool *still);
 /* Of diagram.c, which asks less; and that what is known stays, which is not proved there: of the checker, the reader,
  * the chain's points, the report and whether the goal was reached change. */
 /*@ requires pairing(c) && begun(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
@@ -73,7 +84,7 @@ dyd_status expect_end(dyd_checker *c);
       pairs(&c->open, SITES) && indexed(&c->faces) &&
       (0 < SITES ==> \valid_read(c->sites.site + (0 .. SITES - 1))) &&
       (\forall integer i; 0 <= i < SITES ==> c->sites.site[i].alias < SITES) && string(c->report.goal); */
-/*@ requires pairing(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
+/*@ requires pairing(c) && begun(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
 static dyd_status checker_end(dyd_checker *c);
 /* Of still.c, and that only *out changes. */
 /*@ requires \valid(out) && standing(c) && (still == \null || \valid_read(still + (0 .. SITES - 1))) &&
@@ -81,7 +92,7 @@ static dyd_status checker_end(dyd_checker *c);
     assigns *out; exits \false; */
 dyd_status dyd_checker_stays(bool *out, const dyd_checker *c, const bool *still);
 /*@ requires pairing(c) && (still == \null || \valid_read(still + (0 .. SITES - 1)));
-    assigns c->report.gaps, *c->in.err; exits \false; */
+    assigns c->report.gaps, c->report.undescribed, *c->in.err; exits \false; */
 dyd_status dyd_checker_settle(dyd_checker *c, const bool *still);
 
 /* What each part leaves to the next; what checker.c does not prove of them is that the rest stays, that sites which
@@ -99,6 +110,8 @@ dyd_status dyd_checker_settle(dyd_checker *c, const bool *still);
 dyd_status dyd_checker_head(dyd_checker *c);
 /*@ requires empty(c) && reported(c); exits \false; ensures \result == DYD_OK ==> graphed(c); */
 dyd_status dyd_checker_sites(dyd_checker *c);
+/*@ requires graphed(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
+static dyd_status run_nearest(dyd_checker *c);
 /*@ requires graphed(c); exits \false; ensures \result == DYD_OK ==> graphed(c); */
 dyd_status dyd_checker_legal(dyd_checker *c);
 /*@ requires graphed(c); exits \false; ensures \result == DYD_OK ==> graphed(c); */

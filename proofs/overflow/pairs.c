@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/pairs.c: pairs of the lists are of sites that are there. */
+/* Without check_open: that the list of lines l grows like the others is not said yet. */
 #define __int128 long long /* of areas nothing is proved here */
 #include "faces.h"
 

@@ -17,7 +17,6 @@ void dyd_checker_init(dyd_checker *c, FILE *in, dyd_error *err) {
 
 void dyd_checker_clear(dyd_checker *c) {
   dyd_cert_reader_clear(&c->in);
-  dyd_cert_sites_clear(&c->sites);
   dyd_cert_tree_clear(&c->tree);
   free(c->legal.item);
   free(c->bridges.item);
@@ -25,17 +24,20 @@ void dyd_checker_clear(dyd_checker *c) {
   free(c->tie.item);
   dyd_cert_ties_clear(&c->ties);
   free(c->chained.item);
+  dyd_checker_discs_clear(c);
+  free(c->near_open);
   dyd_cert_corners_clear(&c->corners);
   dyd_cert_graph_clear(&c->graph);
   dyd_cert_faces_clear(&c->faces);
   dyd_cert_chain_clear(&c->chain);
+  dyd_cert_sites_clear(&c->sites);
   dyd_exact_clear(&c->point[0]);
   dyd_exact_clear(&c->point[1]);
 }
 
 static dyd_status checker_outcome(const dyd_checker *c) {
   const dyd_certificate_report *r = &c->report;
-  bool open = r->indeterminate || r->tie || r->legal_unproved || r->capped;
+  bool open = r->indeterminate || r->tie || r->legal_unproved || r->capped || r->places_certain < r->places;
   if (strcmp(r->outcome, "decided") == 0 && open)
     return dyd_cert_reject(&c->in, "the outcome is not decided: pairs are open");
   if (strcmp(r->outcome, "certified") == 0 && !c->reached)
@@ -61,13 +63,24 @@ static dyd_status checker_ties(dyd_checker *c) {
   return st == DYD_OK ? DYD_OK : dyd_fail_nomem(c->in.err);
 }
 
-/* The section on the diagram, if there is one, the outcome, and the last line. */
-static dyd_status checker_end(dyd_checker *c) {
-  dyd_status st = checker_ties(c);
-  if (st == DYD_OK && strncmp(c->in.line, "window", 6) == 0) {
-    st = dyd_checker_diagram(c);
+/* Sections that need not be there, in their order; the line after them has been read. */
+static dyd_status checker_sections(dyd_checker *c) {
+  static const struct {
+    const char *word;
+    dyd_status (*check)(dyd_checker *);
+  } section[] = {{"discs", dyd_checker_discs}, {"graph", dyd_checker_graph}, {"window", dyd_checker_diagram}};
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < sizeof section / sizeof *section && st == DYD_OK; k++) {
+    if (strncmp(c->in.line, section[k].word, strlen(section[k].word)) != 0) continue;
+    st = section[k].check(c);
     if (st == DYD_OK) st = dyd_cert_next_line(&c->in);
   }
+  return st;
+}
+
+/* The outcome and the last line, which has been read. */
+static dyd_status checker_end(dyd_checker *c) {
+  dyd_status st = DYD_OK;
   if (st == DYD_OK) st = checker_outcome(c);
   if (st == DYD_OK) st = dyd_cert_expect_word(c, "end");
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
@@ -79,16 +92,28 @@ static dyd_status checker_end(dyd_checker *c) {
 /* stays: it is a fixpoint, and one is proved. */
 static bool outcome_is_proved(const dyd_checker *c, bool stays) {
   const dyd_certificate_report *r = &c->report;
-  bool complete = !r->unproved && !r->capped, of_diagram = strncmp(r->goal, "voronoi", 7) == 0;
+  bool complete = !r->unproved && !r->capped && !r->discs_unproved && !r->near_unproved,
+       of_diagram = strncmp(r->goal, "voronoi", 7) == 0;
   if (strcmp(r->outcome, "decided") == 0) return complete;
   if (strcmp(r->outcome, "certified") == 0)
     return strcmp(r->goal, "voronoi hausdorff") == 0 ? r->distance_proved : of_diagram || complete;
   return stays;
 }
 
+/* What discs, graphs and places state without a proof; discs that are fixed have to be so. */
+static void settle_sections(dyd_checker *c, const bool *still) {
+  dyd_certificate_report *r = &c->report;
+  for (size_t i = 0; still && r->discs_fixed && i < r->sites; i++) r->undescribed += !still[i];
+  if (still && r->undescribed) r->gaps |= DYD_GAP_POINTS;
+  if (r->discs_unproved) r->gaps |= DYD_GAP_DISCS;
+  if (r->graph_unproved || (r->graph && (r->unproved || r->capped))) r->gaps |= DYD_GAP_GRAPH;
+  if (r->near_unproved) r->gaps |= DYD_GAP_NEAREST;
+}
+
 dyd_status dyd_checker_settle(dyd_checker *c, const bool *still) {
   dyd_certificate_report *r = &c->report;
   bool stays = false;
+  settle_sections(c, still);
   if (strcmp(r->outcome, "fixpoint") == 0 && dyd_checker_stays(&stays, c, still) != DYD_OK)
     return dyd_fail_nomem(c->in.err);
   if (r->legal_unproved) r->gaps |= DYD_GAP_LEGAL;
@@ -102,14 +127,25 @@ dyd_status dyd_checker_settle(dyd_checker *c, const bool *still) {
   return DYD_OK;
 }
 
+static dyd_status run_nearest(dyd_checker *c) {
+  dyd_status st = dyd_checker_places_near(c);
+  if (st == DYD_OK) st = dyd_cert_next_line(&c->in);
+  if (st == DYD_OK && dyd_cert_ties_aliases(&c->report.aliases_unproved, &c->ties, &c->sites) != DYD_OK)
+    st = dyd_fail_nomem(c->in.err);
+  return st == DYD_OK ? checker_end(c) : st;
+}
+
 dyd_status dyd_checker_run(dyd_checker *c) {
   dyd_status st = dyd_checker_head(c);
   if (st == DYD_OK) st = dyd_checker_sites(c);
+  if (st == DYD_OK && strcmp(c->report.goal, "nearest") == 0) return run_nearest(c);
   if (st == DYD_OK) st = dyd_checker_legal(c);
   if (st == DYD_OK) st = dyd_checker_places(c);
   if (st == DYD_OK) st = dyd_checker_bridges(c);
   if (st == DYD_OK) st = dyd_checker_corners(c);
   if (st == DYD_OK) st = dyd_checker_pairs(c);
+  if (st == DYD_OK) st = checker_ties(c);
+  if (st == DYD_OK) st = checker_sections(c);
   return st == DYD_OK ? checker_end(c) : st;
 }
 

@@ -80,16 +80,16 @@ void dyd_cert_note_bound(dyd_checker *c, const char *goal, const dyd_exact *boun
 /* ---- head ---- */
 
 static dyd_status check_goal(dyd_checker *c) {
-  static const char *const first[] = {"decided", "area", "hausdorff", "voronoi"},
+  static const char *const first[] = {"decided", "nearest", "area", "hausdorff", "voronoi"},
                            *const second[] = {"area", "hausdorff"},
                            *const voronoi[] = {"voronoi area", "voronoi hausdorff"};
   size_t k = 0, m = 0;
   dyd_status st = dyd_cert_expect_line(c, "goal");
-  if (st == DYD_OK) st = dyd_cert_read_choice(&k, c, first, 4);
-  if (st == DYD_OK && k == 3) st = dyd_cert_read_choice(&m, c, second, 2);
-  if (st == DYD_OK && k > 0) st = dyd_cert_read_integer(&c->report.goal_bits, &c->in);
+  if (st == DYD_OK) st = dyd_cert_read_choice(&k, c, first, 5);
+  if (st == DYD_OK && k == 4) st = dyd_cert_read_choice(&m, c, second, 2);
+  if (st == DYD_OK && k > 1) st = dyd_cert_read_integer(&c->report.goal_bits, &c->in);
   if (st != DYD_OK) return st;
-  c->report.goal = k == 3 ? voronoi[m] : first[k];
+  c->report.goal = k == 4 ? voronoi[m] : first[k];
   return dyd_cert_line_done(&c->in);
 }
 

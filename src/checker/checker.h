@@ -5,6 +5,7 @@
 
 #include "checker/bounds.h"
 #include "checker/boxes.h"
+#include "checker/caps.h"
 #include "checker/chain.h"
 #include "checker/distance.h"
 #include "checker/faces.h"
@@ -30,10 +31,15 @@ typedef struct dyd_checker {
   dyd_cert_chain chain;
   dyd_cert_edges open;    /* pairs o, t, l: kept for the bounds */
   dyd_cert_edges tie;     /* pairs t */
+  dyd_cert_edges bare;    /* pairs l */
   dyd_cert_edges chained; /* pairs n */
   dyd_cert_ties ties;
   dyd_exact point[2];
-  bool reached; /* a bound that is stated is as small as the goal asks */
+  bool reached;        /* a bound that is stated is as small as the goal asks */
+  dyd_cert_disc *disc; /* of each site that is no alias; NULL: the points lie in no discs */
+  uint32_t *near_open; /* sites that may be nearest to a place, where none certainly is */
+  size_t near_count, near_cap;
+  bool near_moves; /* one of these places is no exact point */
 } dyd_checker;
 
 void dyd_checker_init(dyd_checker *c, FILE *in, dyd_error *err);
@@ -61,6 +67,12 @@ dyd_status dyd_cert_boxes_unproved(uint64_t *out, const dyd_cert_sites *s, const
                                    const dyd_cert_known *known);
 /* The section on the Voronoi diagram, whose first line has been read. */
 dyd_status dyd_checker_diagram(dyd_checker *c);
+/* The section on discs, or on a graph, whose first line has been read. */
+dyd_status dyd_checker_discs(dyd_checker *c);
+void dyd_checker_discs_clear(dyd_checker *c);
+dyd_status dyd_checker_graph(dyd_checker *c);
+/* The places of a certificate with the goal "nearest". */
+dyd_status dyd_checker_places_near(dyd_checker *c);
 /* The bound that the goal `goal` is about is stated to be `bound`. */
 void dyd_cert_note_bound(dyd_checker *c, const char *goal, const dyd_exact *bound);
 

@@ -46,6 +46,7 @@ static dyd_status check_open(dyd_checker *c, const dyd_cert_edge *pair, char kin
   if (kind == 't') c->report.tie++;
   if (kind == 'l') c->report.legal_unproved++;
   if (kind == 't') st = dyd_cert_edges_add(&c->tie, pair->i, pair->j);
+  if (kind == 'l') st = dyd_cert_edges_add(&c->bare, pair->i, pair->j);
   if (st == DYD_OK) st = dyd_cert_edges_add(&c->open, pair->i, pair->j);
   return st != DYD_OK ? dyd_fail_nomem(c->in.err) : DYD_OK;
 }

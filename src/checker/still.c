@@ -84,9 +84,18 @@ static bool open_pairs_stay(const dyd_checker *c, const movers *m) {
   return true;
 }
 
+/* Of places: who is nearest to one is decided by those listed there. */
+static bool places_stay(const dyd_checker *c, const movers *m) {
+  bool stay = !c->near_moves && !c->report.near_unproved;
+  for (size_t k = 0; k < c->near_count && stay; k++) stay = !m->movable[c->near_open[k]];
+  return stay;
+}
+
 dyd_status dyd_checker_stays(bool *out, const dyd_checker *c, const bool *still) {
   const dyd_certificate_report *r = &c->report;
-  bool all = true, of_pairs = strcmp(r->goal, "decided") == 0 && !r->unproved && !r->capped;
+  bool all = true, of_pairs = strcmp(r->goal, "decided") == 0 && !r->unproved && !r->capped && !r->discs;
+  *out = r->discs_fixed && !still;
+  if (*out) return DYD_OK;
   movers m = {.movable = calloc(c->sites.count ? c->sites.count : 1, sizeof *m.movable)};
   if (!m.movable) return DYD_E_NOMEM;
   for (size_t i = 0; i < c->sites.count; i++) {
@@ -94,7 +103,7 @@ dyd_status dyd_checker_stays(bool *out, const dyd_checker *c, const bool *still)
     m.movable[c->sites.site[i].alias] = true;
     all = false;
   }
-  *out = all;
+  *out = strcmp(r->goal, "nearest") == 0 ? places_stay(c, &m) : all;
   dyd_status st = !all && of_pairs ? movers_list(&m, c) : DYD_OK;
   if (st == DYD_OK && !all && of_pairs) *out = open_pairs_stay(c, &m);
   movers_clear(&m);

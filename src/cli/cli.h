@@ -181,6 +181,9 @@ void cli_session_settle(cli_session *s);
 bool cli_run_was_whole(const dyd_engine *e);
 /* Says that there is nothing to write, as the work ended before `what` ("the plan was") known, and how to mend that. */
 int cli_session_stopped(const cli_session *s, const char *what);
+/* Writes the certificate that the options ask for, after results were written with this status. Returns the status of
+ * all. */
+int cli_session_certificate(cli_session *s, int status, cli_print_fn print, const void *what);
 /* Prints the result, from the engine, to --output, when there is one (otherwise says so). */
 int cli_session_write(cli_session *s, cli_print_fn print);
 /* Writes anything to the file `name` (NULL: standard output), whole or not at all. 0, or CLI_FAILED after a message. */

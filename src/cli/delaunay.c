@@ -41,6 +41,13 @@ static dyd_status discs_write(FILE *out, const void *what, const cli_options *o,
   return write_pairs(out, r->engine, &r->pairs, o, err);
 }
 
+static dyd_status discs_certificate(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+  const disc_result *r = what;
+  (void)o;
+  const dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .discs = &r->pairs};
+  return dyd_write_certificate_parts(out, r->engine, &parts, err);
+}
+
 /* What is open among the discs: exit status, and a note. cut: not all pairs were reached. */
 static int discs_outcome(const disc_result *r, bool cut, const cli_options *o) {
   size_t count[4] = {0};
@@ -73,6 +80,7 @@ static int discs_result(cli_session *s, disc_result *r, const cli_options *o) {
   s->discs = &r->pairs;
   cli_session_settle(s);
   status = cli_write_file(o->output, o, discs_write, r);
+  if (st == DYD_OK || cli_deadline_passed()) status = cli_session_certificate(s, status, discs_certificate, r);
   return status ? status : discs_outcome(r, st == DYD_CANCELLED, o);
 }
 
@@ -80,10 +88,6 @@ static int delaunay_discs(cli_options *o) {
   const cli_options as_given = *o;
   disc_result r = {0};
   cli_session s;
-  if (o->certificate) {
-    cli_complain("a certificate proves statuses of rectangles; leave --discs or --certificate away");
-    return CLI_USAGE;
-  }
   int status = cli_session_open(&s, o);
   if (!status) {
     status = discs_result(&s, &r, &as_given);
@@ -97,6 +101,10 @@ static int delaunay_discs(cli_options *o) {
 int cli_delaunay(const cli_options *o) {
   cli_options own = *o; /* with the window read */
   dyd_rect window;
+  if (o->certificate && o->content == DYD_CONTENT_GRAPH_MST) {
+    cli_complain("no certificate proves a minimum spanning tree: leave --certificate or --layer graph:mst out");
+    return CLI_USAGE;
+  }
   if (o->sphere) return cli_sphere(o);
   dyd_rect_init(&window);
   int status = 0;

@@ -139,13 +139,28 @@ static dyd_status answer(dyd_engine *e, const dyd_engine_options *options, void 
 
 /* ---- output ---- */
 
+static const dyd_nearest_answer **list_answers(const query *q) {
+  const dyd_nearest_answer **list = malloc((q->answered + 1) * sizeof(const dyd_nearest_answer *));
+  for (size_t k = 0; list && k < q->answered; k++) list[k] = &q->place[k].answer;
+  return list;
+}
+
 static dyd_status write_answer(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const query *q = what;
   if (!o->queries) return dyd_write_nearest(out, q->engine, &q->place[0].answer, o->format, err);
-  const dyd_nearest_answer **list = malloc((q->answered + 1) * sizeof(const dyd_nearest_answer *));
+  const dyd_nearest_answer **list = list_answers(q);
   if (!list) return DYD_E_NOMEM;
-  for (size_t k = 0; k < q->answered; k++) list[k] = &q->place[k].answer;
   dyd_status st = dyd_write_places(out, q->engine, list, q->answered, q->outcome, o->format, err);
+  free(list);
+  return st;
+}
+
+static dyd_status write_near_certificate(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+  const query *q = what;
+  const dyd_nearest_answer **list = list_answers(q);
+  (void)o;
+  if (!list) return DYD_E_NOMEM;
+  dyd_status st = dyd_write_nearest_certificate(out, q->engine, list, q->answered, q->outcome, err);
   free(list);
   return st;
 }
@@ -187,6 +202,7 @@ static int ask(cli_session *s, query *q, const cli_options *o) {
     status = cli_write_file(o->output, o, write_answer, q);
   else
     cli_complain("%s before the points were known: there is no result to write", dyd_outcome_text(q->outcome));
+  if (q->answered) status = cli_session_certificate(s, status, write_near_certificate, q);
   return status ? status : cli_exit_status(q->outcome);
 }
 

@@ -197,9 +197,24 @@ int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, c
   return done ? 0 : CLI_FAILED;
 }
 
+/* The graph of --layer, or nothing, beside the pairs. */
+static dyd_status print_graph_certificate(FILE *out, const dyd_engine *e, const cli_options *o, dyd_error *err) {
+  dyd_graph_list list = {0};
+  dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts)};
+  dyd_status st = DYD_OK;
+  if (o->content == DYD_CONTENT_GRAPH_NEAREST || o->content == DYD_CONTENT_GRAPH_GABRIEL) {
+    parts.kind = o->content == DYD_CONTENT_GRAPH_GABRIEL ? DYD_GRAPH_GABRIEL : DYD_GRAPH_NEAREST;
+    parts.graph = &list;
+    st = dyd_graph_edges(&list, dyd_engine_delaunay(e), (dyd_graph)parts.kind, cli_signals_flag(), err);
+  }
+  if (st == DYD_OK) st = dyd_write_certificate_parts(out, e, &parts, err);
+  dyd_graph_list_clear(&list);
+  return st;
+}
+
 static dyd_status session_print_certificate(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const dyd_rect *window = o->engine.window;
-  return window ? dyd_write_voronoi_certificate(out, what, window, err) : dyd_write_certificate(out, what, err);
+  return window ? dyd_write_voronoi_certificate(out, what, window, err) : print_graph_certificate(out, what, o, err);
 }
 
 void cli_session_settle(cli_session *s) {
@@ -209,6 +224,18 @@ void cli_session_settle(cli_session *s) {
   s->progress = NULL;
 }
 
+int cli_session_certificate(cli_session *s, int status, cli_print_fn print, const void *what) {
+  const char *certificate = s->options->certificate;
+  if (!certificate || (status && !cli_output_lost_reader())) return status;
+  if (cli_deadline_passed()) {
+    cli_complain("budget: the time is used up, so no certificate is written; raise --timeout");
+    return CLI_BUDGET;
+  }
+  cli_progress_phase(s->progress, "the certificate");
+  int written = cli_write_file(certificate, s->options, print, what);
+  return status ? status : written;
+}
+
 int cli_session_write(cli_session *s, cli_print_fn print) {
   cli_session_settle(s);
   if (!dyd_engine_delaunay(s->engine)) {
@@ -216,16 +243,8 @@ int cli_session_write(cli_session *s, cli_print_fn print) {
                  dyd_outcome_text(dyd_engine_outcome(s->engine)));
     return 0;
   }
-  const char *certificate = s->options->certificate;
   int status = cli_write_file(s->options->output, s->options, print, s->engine);
-  if (!certificate || (status && !cli_output_lost_reader())) return status;
-  if (cli_deadline_passed()) {
-    cli_complain("budget: the time is used up, so no certificate is written; raise --timeout");
-    return CLI_BUDGET;
-  }
-  cli_progress_phase(s->progress, "the certificate");
-  int written = cli_write_file(certificate, s->options, session_print_certificate, s->engine);
-  return status ? status : written;
+  return cli_session_certificate(s, status, session_print_certificate, s->engine);
 }
 
 /* Without a result, no budget but that of time was there. */

@@ -4,9 +4,7 @@
 #include <errno.h>
 #include <string.h>
 
-static void print_proved(FILE *out, const dyd_certificate_report *r) {
-  fprintf(out, "sites: %zu, of which %zu aliases\n", r->sites, r->aliases);
-  if (r->bound && !r->unlocated) fputs("checked: the points given lie in its rectangles\n", out);
+static void print_pairs(FILE *out, const dyd_certificate_report *r) {
   fprintf(out, "checked: %zu legal pairs, each by its witness against all sites\n", r->legal);
   if (r->connected)
     fprintf(out, "checked: %zu sure triangles, %zu sure corners of the hull\n", r->triangles, r->corners);
@@ -26,6 +24,36 @@ static void print_proved(FILE *out, const dyd_certificate_report *r) {
             r->tie_bounds);
   if (r->tie > r->ties_unproved)
     fprintf(out, "checked: %zu ties, on empty circles or lines of the hull\n", r->tie - r->ties_unproved);
+}
+
+static void print_parts(FILE *out, const dyd_certificate_report *r) {
+  if (r->discs)
+    fprintf(out, "checked: %zu more legal pairs of the discs by witnesses, %zu illegal ones by blockers\n",
+            r->discs_legal, r->discs_illegal);
+  if (r->graph)
+    fprintf(out, "checked: %zu of %zu edges of the graph %s are certain\n", r->graph_certain, r->graph_rows, r->graph);
+  if (r->graph && !(r->gaps & DYD_GAP_GRAPH)) fputs("checked: pairs without a row are no edges of it\n", out);
+}
+
+static void print_places(FILE *out, const dyd_certificate_report *r) {
+  fprintf(out, "checked: %zu of %zu places have a certain nearest site\n", r->places_certain, r->places);
+  if (!r->near_unproved)
+    fputs("checked: sites that are not listed are not nearest, distances lie in their bounds\n", out);
+}
+
+static void print_proved(FILE *out, const dyd_certificate_report *r) {
+  fprintf(out, "sites: %zu, of which %zu aliases\n", r->sites, r->aliases);
+  if (r->discs)
+    fprintf(out, "about: points in %zu discs%s\n", r->discs, r->discs_fixed ? ", which nothing narrows" : "");
+  if (r->bound && !r->unlocated)
+    fprintf(out, "checked: the points given lie in its rectangles%s\n",
+            r->discs && !r->undescribed ? " and discs" : "");
+  if (strcmp(r->goal, "nearest") == 0) {
+    print_places(out, r);
+  } else {
+    print_pairs(out, r);
+    print_parts(out, r);
+  }
   if (!(r->gaps & DYD_GAP_OUTCOME)) fprintf(out, "checked: the outcome %s\n", r->outcome);
 }
 
@@ -46,6 +74,18 @@ static const char *outcome_reason(const dyd_certificate_report *r) {
   return "why the run ended leaves no proof";
 }
 
+static void print_part_gaps(FILE *out, const dyd_certificate_report *r) {
+  if (r->gaps & DYD_GAP_DISCS)
+    fprintf(out, "not proved: the statuses of %zu pairs of the discs, which have no witness or blockers\n",
+            r->discs_unproved);
+  if (r->gaps & DYD_GAP_GRAPH)
+    fprintf(out, "not proved: that pairs without a row are no edges of the graph %s (%llu possible ones)\n", r->graph,
+            (unsigned long long)r->graph_unproved);
+  if (r->gaps & DYD_GAP_NEAREST)
+    fprintf(out, "not proved: that %llu sites are not nearest to places that do not list them\n",
+            (unsigned long long)r->near_unproved);
+}
+
 static void print_gaps(FILE *out, const dyd_certificate_report *r) {
   if (r->gaps & DYD_GAP_LEGAL)
     fprintf(out, "not proved: that %zu pairs without a witness are legal\n", r->legal_unproved);
@@ -61,9 +101,11 @@ static void print_gaps(FILE *out, const dyd_certificate_report *r) {
   if (r->gaps & DYD_GAP_BOUNDS)
     fputs("not proved: the bounds of area and Hausdorff distance, as more pairs may be possible\n", out);
   if (r->gaps & DYD_GAP_DISTANCE) fputs("not proved: the distance of undetermined points to the diagram\n", out);
+  print_part_gaps(out, r);
   if (r->gaps & DYD_GAP_OUTCOME) fprintf(out, "not proved: the outcome %s (%s)\n", r->outcome, outcome_reason(r));
   if (r->undescribed)
-    fprintf(out, "not proved: that %zu of the points given are what the certificate describes\n", r->undescribed);
+    fprintf(out, "not proved: that %zu of the points given are what the certificate describes%s\n", r->undescribed,
+            r->discs ? " (if radii are those of discs: --discs)" : "");
   if (r->unlocated) fprintf(out, "not proved: that %zu of the points given lie in its rectangles\n", r->unlocated);
 }
 
@@ -75,7 +117,7 @@ static dyd_status print_verified(FILE *out, const void *what, const cli_options 
   else
     fputs("accepted, all of it proved\n", out);
   fprintf(out, "states: outcome %s, goal %s", r->outcome, r->goal);
-  if (strcmp(r->goal, "decided") != 0) fprintf(out, " %lld", r->goal_bits);
+  if (strcmp(r->goal, "decided") != 0 && strcmp(r->goal, "nearest") != 0) fprintf(out, " %lld", r->goal_bits);
   fputs(r->capped ? ", capped\n" : "\n", out);
   print_proved(out, r);
   print_open(out, r);
@@ -92,7 +134,7 @@ static dyd_status verify_points(int *status, dyd_certificate_report *report, FIL
   dyd_status st = dyd_engine_new(&e);
   if (st != DYD_OK) return dyd_error_set(err, st, dyd_status_text(st));
   *status = cli_points_read(e, &reading);
-  if (*status == 0) st = dyd_verify_certificate_still(report, still, in, e, &o->engine, err);
+  if (*status == 0) st = dyd_verify_certificate_discs(report, still, in, e, o->discs, &o->engine, err);
   dyd_engine_free(e);
   return st;
 }

@@ -3,6 +3,7 @@
  *
  * Everything that needs a proof is put before the checker's own tests first; what they do not take is written as
  * unproved. */
+#include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include "delaunay/memory.h"
@@ -10,6 +11,8 @@
 #include "prove/proof.h"
 #include "voronoi/shape.h"
 #include <dyadel/certificate.h>
+#include <dyadel/graph.h>
+#include <dyadel/io.h>
 #include <inttypes.h>
 
 static void proof_clear(dyd_proof *p) {
@@ -87,10 +90,18 @@ static void certificate_side(FILE *out, const dyd_cert_side *s) {
   dyd_exact_clear(&width);
 }
 
-static void certificate_head(FILE *out, const dyd_proof *p) {
+/* Discs may decide what rectangles leave open. */
+static dyd_outcome outcome_of_parts(const dyd_proof *p, const dyd_certificate_parts *parts) {
+  bool open = dyd_engine_goal(NULL, p->engine) != DYD_GOAL_DECIDED;
+  if (!parts->discs) return dyd_engine_outcome(p->engine);
+  for (size_t k = 0; k < parts->discs->count && !open; k++) open = parts->discs->item[k].status != DYD_LEGAL;
+  return open ? dyd_engine_outcome(p->engine) : DYD_OUTCOME_DECIDED;
+}
+
+static void certificate_head(FILE *out, const dyd_proof *p, const dyd_certificate_parts *parts) {
   int64_t bits;
   dyd_goal goal = dyd_engine_goal(&bits, p->engine);
-  fprintf(out, "dyadel certificate 1\noutcome %s\ngoal %s", dyd_outcome_text(dyd_engine_outcome(p->engine)),
+  fprintf(out, "dyadel certificate 1\noutcome %s\ngoal %s", dyd_outcome_text(outcome_of_parts(p, parts)),
           dyd_goal_text(goal));
   if (goal != DYD_GOAL_DECIDED) fprintf(out, " %" PRId64, bits);
   fprintf(out, "\ncapped %s\n", dyd_delaunay_is_capped(p->pd) ? "yes" : "no");
@@ -171,9 +182,16 @@ static dyd_status certificate_end(FILE *out, const dyd_proof *p) {
   return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
+static void certificate_graph(FILE *out, const dyd_graph_list *l, int kind) {
+  fprintf(out, "graph %s %zu\n", kind == DYD_GRAPH_GABRIEL ? "gabriel" : "nearest", l->count);
+  for (size_t k = 0; k < l->count; k++)
+    fprintf(out, "%c %" PRIu32 " %" PRIu32 "\n", l->item[k].sure ? 'c' : 'p', l->item[k].i, l->item[k].j);
+}
+
 /* window: NULL: no section on the diagram. */
-static dyd_status certificate_sections(FILE *out, dyd_proof *p, const dyd_rect *window) {
-  certificate_head(out, p);
+static dyd_status certificate_sections(FILE *out, dyd_proof *p, const dyd_certificate_parts *parts,
+                                       const dyd_rect *window) {
+  certificate_head(out, p, parts);
   certificate_sites(out, p);
   certificate_edges(out, "legal", &p->legal, &p->witness);
   certificate_places(out, p);
@@ -182,6 +200,8 @@ static dyd_status certificate_sections(FILE *out, dyd_proof *p, const dyd_rect *
   dyd_status st = dyd_proof_put_pairs(out, p);
   if (st == DYD_OK) st = certificate_end(out, p);
   if (st == DYD_OK) st = dyd_proof_put_ties(out, p);
+  if (st == DYD_OK && parts->discs) st = dyd_proof_put_discs(out, p, parts->discs);
+  if (st == DYD_OK && parts->graph) certificate_graph(out, parts->graph, parts->kind);
   if (st == DYD_OK && window) st = dyd_proof_put_diagram(out, p, window);
   return st;
 }
@@ -213,13 +233,14 @@ static dyd_status certificate_grant(const dyd_delaunay *pd, dyd_error *err) {
   return dyd_delaunay_grant(pd, dyd_bytes_add(bytes, dyd_bytes_times(pairs, PAIR)), "the certificate", err);
 }
 
-static dyd_status certificate_write(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_error *err) {
+static dyd_status certificate_write(FILE *out, const dyd_engine *e, const dyd_certificate_parts *parts,
+                                    const dyd_rect *window, dyd_error *err) {
   dyd_proof p = {.engine = e, .pd = dyd_engine_delaunay(e)};
   dyd_status st = certificate_grant(p.pd, err);
   if (st != DYD_OK) return st;
   dyd_cert_sites_init(&p.sites);
   st = proof_gather(&p);
-  if (st == DYD_OK) st = certificate_sections(out, &p, window);
+  if (st == DYD_OK) st = certificate_sections(out, &p, parts, window);
   proof_clear(&p);
   if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
   fputs("end\n", out);
@@ -227,13 +248,23 @@ static dyd_status certificate_write(FILE *out, const dyd_engine *e, const dyd_re
 }
 
 dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, dyd_error *err) {
+  return dyd_write_certificate_parts(out, e, &(dyd_certificate_parts){DYD_SIZED(dyd_certificate_parts)}, err);
+}
+
+dyd_status dyd_write_certificate_parts(FILE *out, const struct dyd_engine *e, const dyd_certificate_parts *given,
+                                       dyd_error *err) {
+  dyd_certificate_parts parts;
   if (err) dyd_error_clear(err);
+  dyd_status st = dyd_abi_take(&parts, sizeof parts, given, "dyd_certificate_parts", err);
+  if (st != DYD_OK) return st;
+  if (parts.graph && parts.kind == DYD_GRAPH_MST)
+    return dyd_fail(err, DYD_E_ARG, "no certificate proves a minimum spanning tree");
   if (!dyd_engine_delaunay(e)) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
   dyd_goal goal = dyd_engine_goal(NULL, e);
   if (dyd_engine_outcome(e) == DYD_OUTCOME_CERTIFIED &&
       (goal == DYD_GOAL_VORONOI_AREA || goal == DYD_GOAL_VORONOI_HAUSDORFF))
     return dyd_fail(err, DYD_E_ARG, "a goal on the diagram was reached; its certificate needs the window");
-  return certificate_write(out, e, NULL, err);
+  return certificate_write(out, e, &parts, NULL, err);
 }
 
 dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_engine *e, const struct dyd_rect *window,
@@ -251,7 +282,81 @@ dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_engine *e, 
   else if (dyd_window_init(&w, window ? window : &own) != DYD_OK)
     st = dyd_fail(err, DYD_E_ARG, "the window has to have positive area and dyadic ends");
   else
-    st = certificate_write(out, e, window ? window : &own, err);
+    st = certificate_write(out, e, &(dyd_certificate_parts){0}, window ? window : &own, err);
   dyd_rect_clear(&own);
   return st;
+}
+
+/* ---- places ---- */
+
+static void put_near_bound(FILE *out, double bound) {
+  dyd_dyadic d;
+  dyd_exact x;
+  dyd_dyadic_init(&d);
+  dyd_exact_init(&x);
+  if (dyd_dyadic_set_d(&d, bound) == DYD_OK) {
+    dyd_proof_set(&x, &d);
+    putc(' ', out);
+    dyd_proof_put_number(out, &x);
+  } else {
+    fputs(" none", out);
+  }
+  dyd_exact_clear(&x);
+  dyd_dyadic_clear(&d);
+}
+
+static dyd_status put_near_site(FILE *out, const dyd_proof *p, const dyd_rect *at, uint32_t i, dyd_rect *scratch) {
+  double lo, hi;
+  dyd_status st = dyd_sites_get(scratch, dyd_delaunay_sites(p->pd), i);
+  if (st != DYD_OK) return st;
+  dyd_rect_distance(&lo, &hi, at, scratch);
+  fprintf(out, " %" PRIu32, i);
+  put_near_bound(out, lo);
+  put_near_bound(out, hi);
+  return DYD_OK;
+}
+
+static dyd_status put_near_place(FILE *out, const dyd_proof *p, const dyd_nearest_answer *a, dyd_rect *scratch) {
+  dyd_cert_sites at;
+  dyd_cert_sites_init(&at);
+  dyd_status st = dyd_proof_add_site(&at, a->at);
+  if (st == DYD_OK) {
+    certificate_side(out, &at.site[0].side[0]);
+    putc(' ', out);
+    certificate_side(out, &at.site[0].side[1]);
+    fputs(a->sure ? " c" : " p", out);
+  }
+  dyd_cert_sites_clear(&at);
+  for (size_t k = 0; k < a->found->count && st == DYD_OK; k++)
+    st = put_near_site(out, p, a->at, a->found->item[k], scratch);
+  putc('\n', out);
+  return st;
+}
+
+static dyd_status nearest_sections(FILE *out, dyd_proof *p, const dyd_nearest_answer *const *answer, size_t count,
+                                   int outcome) {
+  dyd_rect scratch;
+  dyd_status st = proof_gather_sites(p);
+  if (st != DYD_OK) return st;
+  fprintf(out, "dyadel certificate 1\noutcome %s\ngoal nearest\ncapped no\n", dyd_outcome_text((dyd_outcome)outcome));
+  certificate_sites(out, p);
+  fprintf(out, "nearest %zu\n", count);
+  dyd_rect_init(&scratch);
+  for (size_t k = 0; k < count && st == DYD_OK; k++) st = put_near_place(out, p, answer[k], &scratch);
+  dyd_rect_clear(&scratch);
+  return st;
+}
+
+dyd_status dyd_write_nearest_certificate(FILE *out, const struct dyd_engine *e,
+                                         const struct dyd_nearest_answer *const *answer, size_t count, int outcome,
+                                         dyd_error *err) {
+  dyd_proof p = {.engine = e, .pd = dyd_engine_delaunay(e)};
+  if (err) dyd_error_clear(err);
+  if (!p.pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
+  dyd_cert_sites_init(&p.sites);
+  dyd_status st = nearest_sections(out, &p, answer, count, outcome);
+  proof_clear(&p);
+  if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
+  fputs("end\n", out);
+  return dyd_output_end(out, err);
 }

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "checker/checker.h"
 #include "prove/proof.h"
+#include "tolerance/discs.h"
 
 /* The question put to the engine. found[i]: point i lies in the rectangle of its site; wrong: one that does not. */
 typedef struct location {
@@ -101,6 +102,67 @@ static dyd_status location_init(location *l, const dyd_cert_sites *s) {
   return st;
 }
 
+/* ---- discs of the certificate ---- */
+
+static void get_rational(mpq_ptr out, const dyd_exact *x) {
+  mpq_set_z(out, x->man);
+  if (x->exp < 0)
+    mpq_div_2exp(out, out, (mp_bitcnt_t)-x->exp);
+  else
+    mpq_mul_2exp(out, out, (mp_bitcnt_t)x->exp);
+}
+
+/* The disc of a rectangle: of a square the one in it, or (around) one that holds it. */
+static bool disc_of_point(dyd_disc *out, const dyd_rect *r, bool around) {
+  if (!around) return dyd_disc_of_square(out, r);
+  mpq_t lo, hi;
+  mpq_inits(lo, hi, NULL);
+  mpq_set_ui(out->r, 0, 1);
+  for (int a = 0; a < 2; a++) { /* the sum of the half-widths is at least half of a diagonal */
+    dyd_interval_get_q(lo, hi, a ? &r->y : &r->x);
+    mpq_sub(a ? out->y : out->x, hi, lo);
+    mpq_add(out->r, out->r, a ? out->y : out->x);
+    mpq_add(a ? out->y : out->x, hi, lo);
+    mpq_div_2exp(a ? out->y : out->x, a ? out->y : out->x, 1);
+  }
+  mpq_div_2exp(out->r, out->r, 1);
+  mpq_clears(lo, hi, NULL);
+  return true;
+}
+
+/* Does the disc of the certificate hold that of the point? */
+static bool disc_holds_point(const dyd_cert_disc *d, const dyd_disc *own) {
+  dyd_disc held;
+  dyd_disc_init(&held);
+  get_rational(held.x, &d->x);
+  get_rational(held.y, &d->y);
+  get_rational(held.r, &d->r);
+  bool holds = mpq_cmp(own->r, held.r) <= 0 && dyd_disc_is_within(own, &held);
+  dyd_disc_clear(&held);
+  return holds;
+}
+
+/* Adds to the report the points that are not seen to lie in their discs. A fixed one does or does not. */
+static dyd_status locate_in_discs(location *l, dyd_checker *c, const dyd_engine *e, bool discs) {
+  dyd_rect r;
+  dyd_disc d;
+  dyd_status st = DYD_OK;
+  dyd_rect_init(&r);
+  dyd_disc_init(&d);
+  for (uint32_t i = 0; c->disc && i < l->count && st == DYD_OK; i++) {
+    st = dyd_sites_get(&r, dyd_engine_sites(e), i);
+    if (st != DYD_OK) break;
+    bool square = disc_of_point(&d, &r, !discs);
+    if (square && disc_holds_point(&c->disc[c->sites.site[i].alias], &d)) continue;
+    if (discs && !dyd_engine_find(e, i))
+      location_wrong(l, i, square ? "has a disc that does not hold that of the point" : "is that of no disc");
+    c->report.undescribed++;
+  }
+  dyd_disc_clear(&d);
+  dyd_rect_clear(&r);
+  return st;
+}
+
 /* ---- all ---- */
 
 /* still[i]: no call narrows point i any more, and its site is no wider. */
@@ -137,7 +199,8 @@ static dyd_status location_settle(dyd_checker *c, FILE *out, const location *l, 
   return st;
 }
 
-static dyd_status checker_locate(dyd_checker *c, FILE *still, dyd_engine *e, const dyd_engine_options *options) {
+static dyd_status checker_locate(dyd_checker *c, bool discs, FILE *still, dyd_engine *e,
+                                 const dyd_engine_options *options) {
   location l;
   dyd_outcome outcome;
   const dyd_question question = {DYD_SIZED(dyd_question), .ask = location_ask, .user = &l};
@@ -150,13 +213,14 @@ static dyd_status checker_locate(dyd_checker *c, FILE *still, dyd_engine *e, con
   if (st == DYD_OK && outcome == DYD_OUTCOME_CANCELLED) st = DYD_CANCELLED;
   /* once more: some are known to be exact only now */
   if (st == DYD_OK) st = dyd_proof_compare_points(l.found, &c->report.undescribed, &c->ties, e);
+  if (st == DYD_OK && !l.why) st = locate_in_discs(&l, c, e, discs);
   if (st == DYD_OK) st = location_settle(c, still, &l, e);
   location_clear(&l);
   return st == DYD_E_NOMEM ? dyd_fail_nomem(c->in.err) : st;
 }
 
-dyd_status dyd_verify_certificate_still(dyd_certificate_report *out, FILE *still, FILE *in, struct dyd_engine *e,
-                                        const struct dyd_engine_options *options, dyd_error *err) {
+dyd_status dyd_verify_certificate_discs(dyd_certificate_report *out, FILE *still, FILE *in, struct dyd_engine *e,
+                                        bool discs, const struct dyd_engine_options *options, dyd_error *err) {
   dyd_checker c;
   dyd_error unused;
   if (!err) err = &unused;
@@ -164,10 +228,15 @@ dyd_status dyd_verify_certificate_still(dyd_certificate_report *out, FILE *still
   if (dyd_abi_check(out, 0, "dyd_certificate_report", err) != DYD_OK) return DYD_E_ARG;
   dyd_checker_init(&c, in, err);
   dyd_status st = dyd_checker_run(&c);
-  if (st == DYD_OK) st = checker_locate(&c, still, e, options);
+  if (st == DYD_OK) st = checker_locate(&c, discs, still, e, options);
   if (st == DYD_OK) dyd_abi_give(out, &c.report, sizeof c.report);
   dyd_checker_clear(&c);
   return st;
+}
+
+dyd_status dyd_verify_certificate_still(dyd_certificate_report *out, FILE *still, FILE *in, struct dyd_engine *e,
+                                        const struct dyd_engine_options *options, dyd_error *err) {
+  return dyd_verify_certificate_discs(out, still, in, e, false, options, err);
 }
 
 dyd_status dyd_verify_certificate_of(dyd_certificate_report *out, FILE *in, struct dyd_engine *e,

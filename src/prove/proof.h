@@ -3,10 +3,12 @@
 #ifndef DYD_PROVE_PROOF_H
 #define DYD_PROVE_PROOF_H
 
+#include "checker/caps.h"
 #include "checker/chain.h"
 #include "checker/faces.h"
 #include "checker/ties.h"
 #include "checker/witness.h"
+#include "tolerance/caps.h"
 #include <dyadel/engine.h>
 #include <stdio.h>
 
@@ -61,6 +63,13 @@ dyd_status dyd_proof_put_ties(FILE *out, const dyd_proof *p);
 
 /* Which points of e are what the blocks describe: found[i], others stay as they are; *others: how many are not. */
 dyd_status dyd_proof_compare_points(bool *found, size_t *others, const dyd_cert_ties *t, const dyd_engine *e);
+
+/* A disc of dyadics that holds d. */
+void dyd_proof_hold_disc(dyd_cert_disc *out, const dyd_disc *d);
+/* Writes the section on discs, whose pairs these are: fewer are open than p->pairs. DYD_E_ARG: a rectangle is no
+ * square.
+ */
+dyd_status dyd_proof_put_discs(FILE *out, const dyd_proof *p, const dyd_pair_list *pairs);
 
 /* Writes the section on the diagram; nothing for a result that is capped. DYD_E_ARG for a wrong window. */
 dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window);

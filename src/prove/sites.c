@@ -3,6 +3,7 @@
  * written. */
 #include "base/alloc.h"
 #include "prove/proof.h"
+#include "tolerance/discs.h"
 #include <inttypes.h>
 
 void dyd_proof_set(dyd_exact *out, const dyd_dyadic *x) {
@@ -114,6 +115,61 @@ dyd_status dyd_proof_add_witness(bool *found, dyd_proof_points *out, const dyd_p
       dyd_exact_clear(&to[a]);
   }
   return DYD_OK;
+}
+
+/* ---- discs ---- */
+
+/* x rounded down to a multiple of 2^exp; what is lost is added to *lost. */
+static void round_rational(dyd_exact *out, mpq_t lost, mpq_srcptr x, int64_t exp) {
+  mpq_t at;
+  mpq_init(at);
+  if (exp < 0)
+    mpq_mul_2exp(at, x, (mp_bitcnt_t)-exp);
+  else
+    mpq_div_2exp(at, x, (mp_bitcnt_t)exp);
+  mpz_fdiv_q(out->man, mpq_numref(at), mpq_denref(at));
+  out->exp = exp;
+  mpq_set_z(at, out->man);
+  if (exp < 0)
+    mpq_div_2exp(at, at, (mp_bitcnt_t)-exp);
+  else
+    mpq_mul_2exp(at, at, (mp_bitcnt_t)exp);
+  mpq_sub(at, x, at);
+  mpq_add(lost, lost, at);
+  mpq_clear(at);
+}
+
+static int64_t exponent_of(mpq_srcptr x) {
+  return (int64_t)mpz_sizeinbase(mpq_numref(x), 2) - (int64_t)mpz_sizeinbase(mpq_denref(x), 2);
+}
+
+enum { DISC_BITS = 256 };
+
+/* The least power of two that the numbers of the disc are multiples of, or DISC_BITS bits below the least of them. */
+static int64_t grid_of_disc(const dyd_disc *d) {
+  mpq_srcptr all[3] = {d->x, d->y, d->r};
+  int64_t least = INT64_MAX;
+  for (int k = 0; k < 3; k++) {
+    if (!mpq_sgn(all[k])) continue;
+    mp_bitcnt_t zeros = mpz_scan1(mpq_denref(all[k]), 0);
+    bool dyadic = mpz_sizeinbase(mpq_denref(all[k]), 2) == zeros + 1;
+    int64_t exp = dyadic ? -(int64_t)zeros : exponent_of(all[k]) - DISC_BITS;
+    if (exp < least) least = exp;
+  }
+  return least == INT64_MAX ? 0 : least;
+}
+
+void dyd_proof_hold_disc(dyd_cert_disc *out, const dyd_disc *d) {
+  mpq_t lost, r;
+  mpq_inits(lost, r, NULL);
+  int64_t exp = grid_of_disc(d);
+  round_rational(&out->x, lost, d->x, exp);
+  round_rational(&out->y, lost, d->y, exp);
+  mpq_add(r, d->r, lost);
+  mpq_set_ui(lost, 0, 1);
+  round_rational(&out->r, lost, r, exp);
+  if (mpq_sgn(lost)) mpz_add_ui(out->r.man, out->r.man, 1);
+  mpq_clears(lost, r, NULL);
 }
 
 /* ---- writing ---- */

@@ -19,6 +19,9 @@ typedef struct dyd_disc_work {
   const volatile int *cancel; /* ends what dyd_disc_pairs_until does; may be NULL */
 } dyd_disc_work;
 
+/* The disc in a square, whose ends may have been rounded outward by less than 2^-50 of what they are: so is the disc.
+ * false: it is no square. */
+bool dyd_disc_of_square(dyd_disc *d, const dyd_rect *r);
 /* Looks at v from now on; false: it is i, j or seen already, or memory is exhausted. */
 bool dyd_discs_see(dyd_disc_work *w, uint32_t v);
 /* The caps of all that are seen; false: one of them meets i or j, so that there is no witness. Who meets one of them

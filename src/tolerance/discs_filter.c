@@ -25,8 +25,7 @@ enum { FIRST_SEEN = 10, MOST_ROUNDS = 400, LEAST_BITS = 128, MOST_BITS = 8192 };
 
 /* ---- discs ---- */
 
-/* The disc in a square. Its ends may have been rounded outward, by less than 2^-50 of what they are: so is the disc. */
-static bool disc_of_square(dyd_disc *d, const dyd_rect *r) {
+bool dyd_disc_of_square(dyd_disc *d, const dyd_rect *r) {
   mpq_t lo, hi, h, room;
   mpq_inits(lo, hi, h, room, NULL);
   dyd_interval_get_q(lo, hi, &r->x);
@@ -62,7 +61,7 @@ static dyd_status make_discs(dyd_disc_work *w, dyd_error *err) {
   for (uint32_t v = 0; v < sk->n && st == DYD_OK; v++) {
     uint32_t site = sk->reps.site[v];
     st = dyd_sites_get(&r, sk->reps.sites, site);
-    bool square = st == DYD_OK && disc_of_square(&w->disc[v], &r);
+    bool square = st == DYD_OK && dyd_disc_of_square(&w->disc[v], &r);
     w->about[v][0] = mpq_get_d(w->disc[v].x);
     w->about[v][1] = mpq_get_d(w->disc[v].y);
     w->about[v][2] = mpq_get_d(w->disc[v].r);

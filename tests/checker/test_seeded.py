@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Faults seeded into the checker of certificates are noticed [CERT-1] [CERT-2] [CERT-3] [CERT-4] [CERT-5] [CERT-6]
-[CERT-7] [CERT-8] [CERT-9].
+[CERT-7] [CERT-8] [CERT-9] [CERT-11] [CERT-12] [CERT-13].
 
 Usage: test_seeded.py CC ROOT LIBRARY [COUNT SEED FILE...]   (exit status 1 when a fault goes unnoticed)
 
-forgeries.txt has certificates, each with its verdict: what is rejected, and what is accepted with which gaps. Most are one
+forgeries.txt and forgeries_parts.txt have certificates, each with its verdict: what is rejected, and what is accepted with which gaps. Most are one
 step from a good one, counts put right. The checker has to give these verdicts; a copy of one of its sources with a fault
 (a check removed or weakened, a < made <= at a tie), linked with the rest from LIBRARY, must give another one. Each fault
 replaces a text, which must occur once. SURVIVORS change nothing that could be noticed, for the reason given. With COUNT,
@@ -148,7 +148,7 @@ FAULTS = [
      'bool holds = dyd_exact_cmp(&b->area2.num, &twice) < 0;'),
     ('certificate.c', 'if (strcmp(r->outcome, "decided") == 0 && open)', 'if (false)'),
     ('certificate.c', 'if (strcmp(r->outcome, "certified") == 0 && !c->reached)', 'if (false)'),
-    ('certificate.c', 'bool complete = !r->unproved && !r->capped,', 'bool complete = true,'),
+    ('certificate.c', 'bool complete = !r->unproved && !r->capped &&', 'bool complete ='),
     ('certificate.c', 'if (r->legal_unproved) r->gaps |= DYD_GAP_LEGAL;', ''),
     ('certificate.c', 'if (r->unproved && !r->capped) r->gaps |= DYD_GAP_ILLEGAL;', ''),
     ('certificate.c', 'if (r->ties_unproved) r->gaps |= DYD_GAP_TIES;', ''),
@@ -244,6 +244,89 @@ FAULTS = [
     ('read.c', 'if (getc(r->in) != EOF) return', 'if (false) return'),
     ('read.c', 'return r->at ? dyd_cert_reject', 'return false ? dyd_cert_reject'),
     ('read.c', 'if (!end || *end || end - text > 18) return false;', 'if (!end || *end) return false;'),
+    ('caps.c', 'bool within = dyd_exact_cmp(&d, &s) <= 0;', 'bool within = false;'),
+    ('caps.c', 'bool nearer = dyd_exact_sgn(&b) > 0;', 'bool nearer = true;'),
+    ('caps.c', 'nearer = nearer && dyd_exact_cmp(&b, &a) > 0;', 'nearer = nearer && dyd_exact_cmp(&b, &a) >= 0;'),
+    ('caps.c', 'nearer = nearer && dyd_exact_cmp(&b, &a) > 0;', ''),
+    ('caps.c', 'a.exp += 2;', ''),
+    ('caps.c', 'dyd_exact_add(&s, &i->r, &k->r);', 'dyd_exact_set(&s, &i->r);'),
+    ('caps.c', 'dyd_exact_add(&s, &i->r, &k->r);', 'dyd_exact_set(&s, &k->r);'),
+    ('caps.c', 'if (dyd_cert_disc_is_nearer(s->c, &d[s->i], &d[k]) && dyd', 'if (dyd'),
+    ('caps.c', ' && dyd_cert_disc_is_nearer(s->c, &d[s->j], &d[k])) return true;', ') return true;'),
+    ('caps.c', 'limit = a > b ? a : b;', 'limit = 0;'),
+    ('caps.c', 'dyd_exact_set(&p->tau, &c->delta);', ''),
+    ('caps.c', 'dyd_exact_add(&p->tau, &k->r, &c->i->r);', 'dyd_exact_set(&p->tau, &k->r);'),
+    ('caps.c', 'dyd_exact_add(&p->tau, &k->r, &c->i->r);', 'dyd_exact_set(&p->tau, &c->i->r);'),
+    ('caps.c', 'cap_against_pair(&p->tau, c, &c->delta, &p->n, 1);', 'cap_against_pair(&p->tau, c, &c->delta, &p->n, -1);'),
+    ('caps.c', 'cap_against_pair(&p->wy, c, &c->jy, &p->n, -1);', 'cap_against_pair(&p->wy, c, &c->jy, &p->n, 1);'),
+    ('caps.c', 'cap_end_sign(e, &c->item[k]) <= 0)) k++;', 'cap_end_sign(e, &c->item[k]) < 0)) k++;'),
+    ('discs.c', 'bool meets = dyd_cert_fraction_cmp(&near, &r2) <= 0;', 'bool meets = true;'),
+    ('discs.c', 'bool meets = dyd_cert_fraction_cmp(&near, &r2) <= 0;', 'bool meets = dyd_cert_fraction_cmp(&near, &r2) < 0;'),
+    ('discs.c', 'if (dyd_exact_sgn(&d->r) < 0) return', 'if (false) return'),
+    ('discs.c', 'if (count != c->report.discs) return', 'if (false) return'),
+    ('discs.c', 'dyd_cert_edges_have(&c->tie, p->i, p->j) ||', ''),
+    ('discs.c', 'if (!dyd_cert_edges_have(&c->open, p->i, p->j) || ', 'if ('),
+    ('discs.c', ' ||\n      dyd_cert_edges_have(&c->bare, p->i, p->j))', ')'),
+    ('discs.c', 'c->report.indeterminate--;', ''),
+    ('discs.c', 'good = good && !dyd_cert_discs_meet(caps.i, caps.j) && dyd_cert_caps_cover(&end, &caps);', ''),
+    ('discs.c', 'if (!dyd_cert_is_disc_witness(&other, &c->sites, &c->tree, c->disc, p->i, p->j, c->point))', 'if (false)'),
+    ('certificate.c', 'if (r->discs_unproved) r->gaps |= DYD_GAP_DISCS;', ''),
+    ('certificate.c', ' && !r->discs_unproved && !r->near_unproved, of_diagram', ', of_diagram'),
+    ('certificate.c', 'if (r->graph_unproved || (r->graph && (r->unproved || r->capped))) r->gaps |= DYD_GAP_GRAPH;', ''),
+    ('certificate.c', 'if (r->near_unproved) r->gaps |= DYD_GAP_NEAREST;', ''),
+    ('certificate.c', ' || r->places_certain < r->places;', ';'),
+    ('still.c', '*out = r->discs_fixed && !still;', '*out = r->discs && !still;'),
+    ('still.c', 'bool stay = !c->near_moves && !c->report.near_unproved;', 'bool stay = true;'),
+    ('still.c', 'stay = !m->movable[c->near_open[k]];', 'stay = true;'),
+    ('near.c', 'bool prefers = dyd_exact_cmp(&far, &near) < 0;', 'bool prefers = dyd_exact_cmp(&far, &near) <= 0;'),
+    ('near.c', 'int corners = dyd_cert_span_is_point(b) ? 1 : 4;', 'int corners = 1;'),
+    ('near.c', 'int corners = dyd_cert_span_is_point(b) ? 1 : 4;', 'int corners = 3;'),
+    ('near.c', 'dyd_cert_corner_distance2(&far, b, q, k, true);', 'dyd_cert_corner_distance2(&far, b, q, k, false);'),
+    ('near.c', 'dyd_cert_corner_distance2(&near, b, q, j, false);', 'dyd_cert_corner_distance2(&near, b, q, j, true);'),
+    ('near.c', 'out->e[1] = upper.e[1];', ''),
+    ('near.c', 'if (k == i || k == q->self || span', 'if (k == i || span'),
+    ('near.c', 'for (int upper = 0; upper < 2 && more; upper++) {', 'for (int upper = 1; upper < 2 && more; upper++) {'),
+    ('near.c', 'for (int upper = 0; upper < 2 && more; upper++) {', 'for (int upper = 0; upper < 1 && more; upper++) {'),
+    ('near.c', 's->unproved++;', ''),
+    ('near.c', 'if (k < s->q->count || j == s->q->self || span', 'if (k < s->q->count || span'),
+    ('near.c', 'bool hold = dyd_exact_sgn(lo) <= 0 || dyd_exact_cmp(&t, &d[0]) <= 0;', 'bool hold = true;'),
+    ('near.c', 'bool hold = dyd_exact_sgn(lo) <= 0 || dyd_exact_cmp(&t, &d[0]) <= 0;',
+     'bool hold = dyd_exact_sgn(lo) <= 0 || dyd_exact_cmp(&t, &d[0]) < 0;'),
+    ('near.c', 'hold = hold && dyd_exact_sgn(hi) >= 0 && dyd_exact_cmp(&t, &d[1]) >= 0;',
+     'hold = hold && dyd_exact_cmp(&t, &d[1]) >= 0;'),
+    ('near.c', 'hold = hold && dyd_exact_sgn(hi) >= 0 && dyd_exact_cmp(&t, &d[1]) >= 0;',
+     'hold = hold && dyd_exact_sgn(hi) >= 0 && dyd_exact_cmp(&t, &d[1]) > 0;'),
+    ('places.c', 'if (p->count != 1) return', 'if (false) return'),
+    ('places.c', 'if (p->count && i <= p->list[p->count - 1]) return', 'if (false) return'),
+    ('places.c', 'if (!dyd_cert_near_is_certain(&other, &q))', 'if (false)'),
+    ('places.c', 'if (!point) c->near_moves = true;', ''),
+    ('places.c', 'c->report.near_unproved += unproved;', ''),
+    ('places.c', 'if (st == DYD_OK && !p->count && c->sites.count) st', 'if (false) st'),
+    ('places.c', 'if (!dyd_cert_near_bounds_hold(&p->at, &p->span[i], &c->point[0], none ? NULL : &c->point[1]))', 'if (false)'),
+    ('graphs.c', 'if (certain && g->count > 1) return', 'if (false) return'),
+    ('graphs.c', 'if (certain && !dyd_cert_near_is_certain(&other, &q))', 'if (false)'),
+    ('graphs.c', 'c->report.graph_unproved += unproved;', ''),
+    ('graphs.c', 'count_silent(g, k ? last.i + 1 : 0, row.i);', ''),
+    ('graphs.c', 'count_silent(g, rows ? last.i + 1 : 0, (uint32_t)g->c->sites.count);', ''),
+    ('graphs.c', 'if (st == DYD_OK && row->i == row->j) st', 'if (false) st'),
+    ('graphs.c', 'if (k && (row.i < last.i || (row.i == last.i && row.j <= last.j)))', 'if (false)'),
+    ('graphs.c', 'has_certain |= certain;', ''),
+    ('graphs.c', 'bool outside = dyd_exact_sgn(&least[0]) > 0;', 'bool outside = dyd_exact_sgn(&least[0]) >= 0;'),
+    ('graphs.c', 'dyd_exact_add(&least[0], &least[0], &least[1]);', ''),
+    ('graphs.c', 'if (dyd_exact_cmp(&z, &side[0]) < 0) dyd_exact_set(&z, &side[0]);', ''),
+    ('graphs.c', 'if (dyd_exact_cmp(&z, &side[1]) > 0) dyd_exact_set(&z, &side[1]);', ''),
+    ('graphs.c', 'for (int q = 0; q < 4; q++)\n      lower_angle', 'for (int q = 0; q < 1; q++)\n      lower_angle'),
+    ('graphs.c', 'for (int q = 0; q < 4; q++)\n      lower_angle', 'for (int q = 0; q < 3; q++)\n      lower_angle'),
+    ('graphs.c', '&s->box[p->j]) / 4 + 1;', '&s->box[p->j]) / 40;'),
+    ('graphs.c', 'inside = dyd_exact_cmp(&far, &radius) < 0;', 'inside = dyd_exact_cmp(&far, &radius) <= 0;'),
+    ('graphs.c', 'dyd_cert_corner_distance2(&far, b, q, &g->span[k], true);',
+     'dyd_cert_corner_distance2(&far, b, q, &g->span[k], false);'),
+    ('graphs.c', 'if (dyd_exact_cmp(&t, &d) > 0) dyd_exact_set(&d, &t);', ''),
+    ('graphs.c', 'for (int q = 0; q < 4 && inside; q++) {', 'for (int q = 0; q < 1 && inside; q++) {'),
+    ('graphs.c', 'for (int k = 0; k < last[0] * last[1] && never; k++) {', 'for (int k = 1; k < last[0] * last[1] && never; k++) {'),
+    ('graphs.c', 'dyd_cert_compare_edges(&last, &row) >= 0))', 'false))'),
+    ('graphs.c', 'if (st == DYD_OK && certain && !gabriel_is_certain(&other, g, &row))', 'if (false)'),
+    ('graphs.c', 'c->report.graph_unproved += !gabriel_is_never(g, p);', ';'),
 ]
 CONES = 'what a cone holds, squares before it hold as well, and leave unless cut more often than the effort allows'
 SURVIVORS = [
@@ -253,6 +336,9 @@ SURVIVORS = [
      'for (int side = 0; side < 3 && st == DYD_OK; side++) {\n    cone_region(&r, side, LAST)', CONES),
     ('boxes.c', 'bool blocked = b[q].site != v;', 'bool blocked = true;',
      'the far end of a rectangle is not nearer than its near one'),
+    ('caps.c', 'bool swap = dyd_exact_cmp(&a->r, &b->r) > 0;', 'bool swap = dyd_exact_cmp(&a->r, &b->r) < 0;',
+     'the circles that touch both discs are the same ones'),
+    ('caps.c', '*good = dyd_exact_sgn(&c->nj) > 0;', '*good = true;', 'discs in one another meet, which is refused'),
     ('chain.c', 'return dyd_cert_cross(p, q, p, at) >= 0 ? 1 : -1;',
      'return dyd_cert_cross(p, q, p, at) > 0 ? 1 : -1;',
      'the chain is moved to the right in place of the left'),
@@ -274,7 +360,8 @@ SURVIVORS = [
 def notices(program, certificates):
     """A crash, or no end, is a verdict of its own."""
     try:
-        return subprocess.run([program, certificates], stdout=subprocess.DEVNULL, timeout=300, check=False).returncode != 0
+        return any(subprocess.run([program, path], stdout=subprocess.DEVNULL, timeout=300, check=False).returncode
+                   for path in certificates)
     except subprocess.TimeoutExpired:
         return True
 
@@ -346,7 +433,8 @@ def try_drawn(seeds, sources, certificates, count, seed, names):
 def main():
     cc, root, library, *drawn = sys.argv[1:]
     root = pathlib.Path(root)
-    certificates, sources = root / 'tests/checker/forgeries.txt', root / 'src/checker'
+    certificates = [root / 'tests/checker' / name for name in ('forgeries.txt', 'forgeries_parts.txt')]
+    sources = root / 'src/checker'
     with tempfile.TemporaryDirectory() as name:
         seeds = Seeds(cc, root, library, pathlib.Path(name))
         if notices(seeds.link('judge', []), certificates):

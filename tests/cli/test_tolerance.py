@@ -142,10 +142,11 @@ def test_discs():
     expect(run('delaunay', '--discs', '-', stdin='0 0\n9 0\n4+-1 8+-1\n'), 0, r'\Ai,j,status\n(\d,\d,legal\n){3}\Z', r'\A\Z')
     expect(run('delaunay', '--discs', '-', stdin='0 0\n9 0\n4+-1 8\n'), 1, r'\A\Z', 'point 2: a disc needs one radius')
     expect(run('delaunay', '--discs', '--format', 'json', '-', stdin='0 0\n'), 1, r'\A\Z', 'written as pairs')
-    expect(run('delaunay', '--discs', '--certificate', '/dev/null', '-', stdin='0 0\n'), 2, r'\A\Z', '--certificate away')
     stats = run('delaunay', '--discs', '--stats', '--radius', '0.01', *AIRPORTS)
     for status in ('legal', 'indeterminate'):
         assert re.search(rf'^pairs {status} +{stats.out.count("," + status)}$', stats.err, re.M), stats.err
+    expect(run('delaunay', '--layer', 'graph:mst', '--certificate', '/dev/null', '-', stdin='0 0\n'), 2, r'\A\Z',
+           'no certificate proves a minimum spanning tree')
     xml.etree.ElementTree.fromstring(run('delaunay', '--discs', '--format', 'svg', '-', stdin='0+-1 0+-1\n9 0\n4 8\n').out)
 
 

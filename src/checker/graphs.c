@@ -1,0 +1,339 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The section on a graph of neighbours: which of its edges are certain, and that others than those listed are none
+ * [CERT-13]. */
+#include "base/alloc.h"
+#include "base/error.h"
+#include "checker/by_key.h"
+#include "checker/checker.h"
+#include "checker/near.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define EFFORT_BITS 16
+#define MOST_CUTS 60 /* of a box of middles */
+
+/* Rows being read; list: those of the site read last, `flag` those that are certain. partner[first[i] .. first[i+1]):
+ * in a possible pair with i. */
+typedef struct graph_rows {
+  dyd_checker *c;
+  dyd_cert_span *span;
+  uint32_t *list;
+  size_t count, cap;
+  size_t *first;
+  uint32_t *partner;
+  uint64_t effort;
+} graph_rows;
+
+/* ---- nearest: ordered pairs ---- */
+
+/* The rows of site i are read. */
+static dyd_status check_nearest_of(graph_rows *g, uint32_t i, bool certain) {
+  dyd_checker *c = g->c;
+  const dyd_cert_near q = {&c->sites, &c->tree, g->span, &g->span[i], i, g->list, g->count};
+  uint32_t other = DYD_CERT_NONE;
+  size_t unproved = 0;
+  if (certain && g->count > 1) return dyd_cert_reject(&c->in, "of site %u another one is nearest, too", (unsigned)i);
+  if (certain && !dyd_cert_near_is_certain(&other, &q))
+    return dyd_cert_reject(&c->in, "site %u may be as near to %u", (unsigned)other, (unsigned)i);
+  if (!certain && g->count) dyd_cert_near_count(&unproved, &other, &g->effort, &q);
+  c->report.graph_unproved += unproved;
+  return DYD_OK;
+}
+
+/* Sites without a row, of which others than aliases are there, have a nearest one that is not stated. */
+static void count_silent(graph_rows *g, uint32_t from, uint32_t to) {
+  const dyd_checker *c = g->c;
+  if (c->sites.count - c->report.aliases < 2) return;
+  for (uint32_t i = from; i < to; i++) g->c->report.graph_unproved += c->sites.site[i].alias == i;
+}
+
+static dyd_status read_row(graph_rows *g, dyd_cert_edge *row, bool *certain) {
+  static const char *const kinds[] = {"c", "p"};
+  size_t kind = 0;
+  dyd_status st = dyd_cert_next_line(&g->c->in);
+  if (st == DYD_OK) st = dyd_cert_read_choice(&kind, g->c, kinds, 2);
+  if (st == DYD_OK) st = dyd_cert_read_site(&row->i, g->c);
+  if (st == DYD_OK) st = dyd_cert_read_site(&row->j, g->c);
+  if (st == DYD_OK) st = dyd_cert_line_done(&g->c->in);
+  if (st == DYD_OK && row->i == row->j) st = dyd_cert_reject(&g->c->in, "a site is not nearest to itself");
+  *certain = kind == 0;
+  g->c->report.graph_certain += kind == 0;
+  return st;
+}
+
+static dyd_status check_nearest_rows(graph_rows *g, uint32_t rows) {
+  dyd_cert_edge row, last = {DYD_CERT_NONE, 0};
+  bool certain, has_certain = false;
+  dyd_status st = DYD_OK;
+  for (uint32_t k = 0; k < rows && st == DYD_OK; k++, last = row) {
+    st = read_row(g, &row, &certain);
+    if (st != DYD_OK) return st;
+    if (k && (row.i < last.i || (row.i == last.i && row.j <= last.j)))
+      return dyd_cert_reject(&g->c->in, "rows are not in order");
+    if (!k || row.i != last.i) {
+      if (k) st = check_nearest_of(g, last.i, has_certain);
+      count_silent(g, k ? last.i + 1 : 0, row.i);
+      g->count = 0;
+      has_certain = false;
+    }
+    has_certain |= certain;
+    if (!dyd_reserve((void **)&g->list, &g->cap, g->count + 1, sizeof *g->list)) return dyd_fail_nomem(g->c->in.err);
+    g->list[g->count++] = row.j;
+  }
+  if (st == DYD_OK && rows) st = check_nearest_of(g, last.i, has_certain);
+  count_silent(g, rows ? last.i + 1 : 0, (uint32_t)g->c->sites.count);
+  return st;
+}
+
+/* ---- gabriel: certain ---- */
+
+/* Lowers `least` to (z - x)(z - y), z in [side[0], side[1]] as near to the middle of x and y as can be. */
+static void lower_angle(dyd_exact *least, bool first, const dyd_exact *x, const dyd_exact *y, const dyd_exact side[2]) {
+  dyd_exact z, t;
+  dyd_exact_init(&z);
+  dyd_exact_init(&t);
+  dyd_exact_add(&z, x, y);
+  z.exp--;
+  if (dyd_exact_cmp(&z, &side[0]) < 0) dyd_exact_set(&z, &side[0]);
+  if (dyd_exact_cmp(&z, &side[1]) > 0) dyd_exact_set(&z, &side[1]);
+  dyd_exact_sub(&t, &z, x);
+  dyd_exact_sub(&z, &z, y);
+  dyd_exact_mul(&t, &t, &z);
+  if (first || dyd_exact_cmp(&t, least) < 0) dyd_exact_set(least, &t);
+  dyd_exact_clear(&z);
+  dyd_exact_clear(&t);
+}
+
+/* Is (p_k - p_i).(p_k - p_j) > 0 for every choice? */
+static bool is_outside_diameter(const dyd_cert_span *i, const dyd_cert_span *j, const dyd_cert_span *k) {
+  dyd_exact least[2];
+  dyd_exact_init(&least[0]);
+  dyd_exact_init(&least[1]);
+  for (int a = 0; a < 2; a++)
+    for (int q = 0; q < 4; q++)
+      lower_angle(&least[a], q == 0, &i->e[2 * a + (q & 1)], &j->e[2 * a + (q >> 1)], &k->e[2 * a]);
+  dyd_exact_add(&least[0], &least[0], &least[1]);
+  bool outside = dyd_exact_sgn(&least[0]) > 0;
+  dyd_exact_clear(&least[0]);
+  dyd_exact_clear(&least[1]);
+  return outside;
+}
+
+typedef struct diameter {
+  const dyd_cert_span *span;
+  uint32_t i, j, other;
+} diameter;
+
+static bool meet_diameter(void *context, uint32_t k) {
+  diameter *d = context;
+  if (k == d->i || k == d->j || is_outside_diameter(&d->span[d->i], &d->span[d->j], &d->span[k])) return true;
+  d->other = k;
+  return false;
+}
+
+/* out = the box of all middles of the two. */
+static void span_of_middles(dyd_cert_span *out, const dyd_cert_span *i, const dyd_cert_span *j) {
+  for (int k = 0; k < 4; k++) {
+    dyd_exact_add(&out->e[k], &i->e[k], &j->e[k]);
+    out->e[k].exp--;
+  }
+}
+
+/* A disc with the pair as a diameter has its centre among the middles, and at most half of the greatest length as its
+ * radius. */
+static bool gabriel_is_certain(uint32_t *other, const graph_rows *g, const dyd_cert_edge *p) {
+  const dyd_cert_sites *s = &g->c->sites;
+  diameter d = {g->span, p->i, p->j, DYD_CERT_NONE};
+  dyd_cert_span middles;
+  dyd_cert_centre centre, end;
+  dyd_cert_span_init(&middles);
+  span_of_middles(&middles, &g->span[p->i], &g->span[p->j]);
+  dyd_cert_span_on_grid(&centre, s, &middles);
+  dyd_cert_span_on_grid(&end, s, &g->span[p->i]);
+  dyd_cert_span_clear(&middles);
+  dyd_cert_area limit = end.far ? 0 : dyd_cert_far_upper(&end, &s->box[p->j]) / 4 + 1;
+  centre.far |= end.far;
+  bool certain = dyd_cert_tree_visit(&g->c->tree, &centre, limit, meet_diameter, &d);
+  *other = d.other;
+  return certain;
+}
+
+/* ---- gabriel: never ---- */
+
+/* The square of half the least length of a pair whose middle is corner q of the box. */
+static void middle_radius2(dyd_exact *out, const dyd_cert_span *b, int q, const dyd_cert_span *i,
+                           const dyd_cert_span *j) {
+  dyd_exact d, t, u;
+  dyd_exact_init(&d);
+  dyd_exact_init(&t);
+  dyd_exact_init(&u);
+  mpz_set_ui(out->man, 0);
+  for (int a = 0; a < 2; a++) {
+    const dyd_exact *c = &b->e[2 * a + (a ? q >> 1 : q & 1)];
+    dyd_cert_axis_gap(&d, &u, c, &i->e[2 * a], false);
+    dyd_cert_axis_gap(&t, &u, c, &j->e[2 * a], false);
+    if (dyd_exact_cmp(&t, &d) > 0) dyd_exact_set(&d, &t);
+    dyd_exact_mul(&d, &d, &d);
+    dyd_exact_add(out, out, &d);
+  }
+  dyd_exact_clear(&d);
+  dyd_exact_clear(&t);
+  dyd_exact_clear(&u);
+}
+
+/* Is k inside, for every choice, of each disc whose middle is a corner of the box? */
+static bool is_inside_middles(const graph_rows *g, const dyd_cert_span *b, const dyd_cert_edge *p, uint32_t k) {
+  dyd_exact far, radius;
+  bool inside = true;
+  dyd_exact_init(&far);
+  dyd_exact_init(&radius);
+  for (int q = 0; q < 4 && inside; q++) {
+    dyd_cert_corner_distance2(&far, b, q, &g->span[k], true);
+    middle_radius2(&radius, b, q, &g->span[p->i], &g->span[p->j]);
+    inside = dyd_exact_cmp(&far, &radius) < 0;
+  }
+  dyd_exact_clear(&far);
+  dyd_exact_clear(&radius);
+  return inside;
+}
+
+/* In the box half the least length is, by each coordinate, 0 or the distance to one number: so a site that is inside at
+ * its corners is inside at all of it. */
+static bool middles_are_covered(graph_rows *g, const dyd_cert_span *b, const dyd_cert_edge *p, int cuts) {
+  size_t from = g->first[p->i], to = g->first[p->i + 1];
+  for (size_t k = from; k < to; k++)
+    if (is_inside_middles(g, b, p, g->partner[k])) return true; /* j never is */
+  bool more = cuts < MOST_CUTS && g->effort > to - from && !dyd_cert_span_is_point(b);
+  if (!more) return false;
+  g->effort -= to - from;
+  dyd_cert_span part;
+  dyd_cert_span_init(&part);
+  for (int upper = 0; upper < 2 && more; upper++) {
+    dyd_cert_span_half(&part, b, upper);
+    more = middles_are_covered(g, &part, p, cuts + 1);
+  }
+  dyd_cert_span_clear(&part);
+  return more;
+}
+
+/* Ends of the sides of two sites, and where opposite ends are equally far: what is in the side of middles, ascending,
+ * its ends among it. Returns how many. */
+static int cut_middles(dyd_exact cut[8], const dyd_exact middle[2], const dyd_exact i[2], const dyd_exact j[2]) {
+  int count = 0;
+  dyd_exact *all = cut;
+  for (int k = 0; k < 2; k++) {
+    dyd_exact_set(&all[k], &middle[k]);
+    dyd_exact_set(&all[2 + k], &i[k]);
+    dyd_exact_set(&all[4 + k], &j[k]);
+    dyd_exact_add(&all[6 + k], &i[k], &j[1 - k]);
+    all[6 + k].exp--;
+  }
+  for (int k = 0; k < 8; k++) { /* by insertion: what is outside, or there already, is left out */
+    if (dyd_exact_cmp(&all[k], &middle[0]) < 0 || dyd_exact_cmp(&all[k], &middle[1]) > 0) continue;
+    int at = count;
+    dyd_exact t = all[k];
+    while (at && dyd_exact_cmp(&all[at - 1], &t) > 0) at--;
+    if (at && dyd_exact_cmp(&all[at - 1], &t) == 0) continue;
+    for (int l = k; l > at; l--) all[l] = all[l - 1];
+    all[at] = t;
+    count++;
+  }
+  return count;
+}
+
+static bool gabriel_is_never(graph_rows *g, const dyd_cert_edge *p) {
+  dyd_exact cut[2][8];
+  dyd_cert_span middles, part;
+  const dyd_cert_span *i = &g->span[p->i], *j = &g->span[p->j];
+  int count[2];
+  bool never = true;
+  for (int k = 0; k < 16; k++) dyd_exact_init(&cut[k / 8][k % 8]);
+  dyd_cert_span_init(&middles);
+  dyd_cert_span_init(&part);
+  span_of_middles(&middles, i, j);
+  for (int a = 0; a < 2; a++) count[a] = cut_middles(cut[a], &middles.e[2 * a], &i->e[2 * a], &j->e[2 * a]);
+  int last[2] = {count[0] > 1 ? count[0] - 1 : 1, count[1] > 1 ? count[1] - 1 : 1};
+  for (int k = 0; k < last[0] * last[1] && never; k++) {
+    int at[2] = {k / last[1], k % last[1]};
+    for (int q = 0; q < 4; q++) {
+      int a = q / 2, n = at[a] + (q % 2 && count[a] > 1);
+      dyd_exact_set(&part.e[q], &cut[a][n]);
+    }
+    never = middles_are_covered(g, &part, p, 0);
+  }
+  for (int k = 0; k < 16; k++) dyd_exact_clear(&cut[k / 8][k % 8]);
+  dyd_cert_span_clear(&middles);
+  dyd_cert_span_clear(&part);
+  return never;
+}
+
+/* ---- gabriel: rows ---- */
+
+/* Who is in a possible pair with whom. */
+static dyd_status index_partners(graph_rows *g) {
+  const dyd_cert_edges *list[2] = {&g->c->legal, &g->c->open};
+  size_t all = 2 * (list[0]->count + list[1]->count), count = 0;
+  dyd_cert_entry *entry = dyd_alloc(all, sizeof *entry);
+  g->first = dyd_alloc(g->c->sites.count + 1, sizeof *g->first);
+  g->partner = dyd_alloc(all, sizeof *g->partner);
+  bool good = entry && g->first && g->partner;
+  for (int k = 0; k < 2 && good; k++)
+    for (size_t e = 0; e < list[k]->count; e++) {
+      const dyd_cert_edge *p = &list[k]->item[e];
+      entry[count++] = (dyd_cert_entry){p->i, p->j};
+      entry[count++] = (dyd_cert_entry){p->j, p->i};
+    }
+  if (good) dyd_cert_by_key(g->first, g->partner, g->c->sites.count, entry, count);
+  free(entry);
+  return good ? DYD_OK : dyd_fail_nomem(g->c->in.err);
+}
+
+static dyd_status check_gabriel_rows(graph_rows *g, uint32_t rows) {
+  dyd_checker *c = g->c;
+  const dyd_cert_edges *list[2] = {&c->legal, &c->open};
+  dyd_cert_edges listed = {0};
+  dyd_cert_edge row, last = {0, 0};
+  uint32_t other;
+  bool certain;
+  dyd_status st = index_partners(g);
+  for (uint32_t k = 0; k < rows && st == DYD_OK; k++, last = row) {
+    st = read_row(g, &row, &certain);
+    if (st == DYD_OK && (row.i > row.j || dyd_cert_compare_edges(&last, &row) >= 0))
+      st = dyd_cert_reject(&c->in, "rows are not in order");
+    if (st == DYD_OK && certain && !gabriel_is_certain(&other, g, &row))
+      st = dyd_cert_reject(&c->in, "site %u may be in the disc", (unsigned)other);
+    if (st == DYD_OK && dyd_cert_edges_add(&listed, row.i, row.j) != DYD_OK) st = dyd_fail_nomem(c->in.err);
+  }
+  for (int k = 0; k < 2 && st == DYD_OK; k++)
+    for (size_t e = 0; e < list[k]->count; e++) {
+      const dyd_cert_edge *p = &list[k]->item[e];
+      if (!dyd_cert_edges_have(&listed, p->i, p->j)) c->report.graph_unproved += !gabriel_is_never(g, p);
+    }
+  free(listed.item);
+  return st;
+}
+
+/* ---- the section ---- */
+
+dyd_status dyd_checker_graph(dyd_checker *c) {
+  static const char *const names[] = {"nearest", "gabriel"};
+  static dyd_status (*const check[])(graph_rows *, uint32_t) = {check_nearest_rows, check_gabriel_rows};
+  graph_rows g = {.c = c, .effort = ((uint64_t)c->sites.count + 64) << EFFORT_BITS};
+  uint32_t rows = 0;
+  size_t kind = 0;
+  dyd_status st = dyd_cert_expect_word(c, "graph");
+  if (st == DYD_OK) st = dyd_cert_read_choice(&kind, c, names, 2);
+  if (st == DYD_OK) st = dyd_cert_read_index(&rows, &c->in, DYD_CERT_NONE);
+  if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
+  if (st != DYD_OK) return st;
+  c->report.graph = names[kind];
+  if (dyd_cert_spans_init(&g.span, &c->sites) != DYD_OK) st = dyd_fail_nomem(c->in.err);
+  if (st == DYD_OK) st = check[kind](&g, rows);
+  c->report.graph_rows = rows;
+  dyd_cert_spans_free(g.span, c->sites.count);
+  free(g.first);
+  free(g.partner);
+  free(g.list);
+  return st;
+}

@@ -1,0 +1,411 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The section on discs of a certificate: for each pair that the discs decide a witness, or sites whose caps hold all
+ * directions [CERT-11].
+ *
+ * Who matters for a pair are first the sites in possible pairs with one of its ends. Directions are numbers of
+ * PRECISION bits: what they lead to is put before the checker's own tests, and they prove nothing themselves. */
+#include "tolerance/discs.h"
+#include "base/alloc.h"
+#include "base/index.h"
+#include "checker/caps.h"
+#include "engine/points.h"
+#include "prove/proof.h"
+#include <inttypes.h>
+
+enum { PRECISION = 256, MOST_ADDED = 64, MOST_MET = 64 };
+
+typedef struct vector {
+  mpf_t x, y;
+} vector;
+
+/* near: the sites looked at, and with their caps in `all`: cap k + 1 is that of site near[k]. some: those of a proof.
+ */
+typedef struct disc_proof {
+  const dyd_proof *p;
+  const dyd_pair_list *pairs;
+  dyd_cert_disc *disc;
+  size_t *start; /* partner[start[i] .. start[i + 1] - 1]: in possible pairs with site i */
+  uint32_t *partner;
+  uint32_t *near, *chosen;
+  size_t near_count, near_cap, chosen_count, chosen_cap;
+  dyd_cert_caps all, some;
+  dyd_exact at[2];         /* the witness found last */
+  vector u, from, to, end; /* scratch */
+  mpf_t s, t, best;
+} disc_proof;
+
+/* ---- discs ---- */
+
+/* *fixed: nothing narrows any of them. */
+static dyd_status gather_discs(bool *fixed, disc_proof *w) {
+  const dyd_sites *sites = dyd_delaunay_sites(w->p->pd);
+  dyd_rect r;
+  dyd_disc d;
+  dyd_status st = DYD_OK;
+  *fixed = true;
+  dyd_rect_init(&r);
+  dyd_disc_init(&d);
+  for (size_t i = 0; i < w->p->sites.count && st == DYD_OK; i++) {
+    const dyd_refinable *point = dyd_engine_find(w->p->engine, (uint32_t)i);
+    *fixed = *fixed && (!point || point->final);
+    st = dyd_sites_get(&r, sites, i);
+    if (st == DYD_OK && !dyd_disc_of_square(&d, &r)) st = DYD_E_ARG;
+    if (st == DYD_OK) dyd_proof_hold_disc(&w->disc[i], &d);
+  }
+  dyd_disc_clear(&d);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+/* ---- vectors ---- */
+
+static void set_float(mpf_ptr out, const dyd_exact *x) {
+  mpf_set_z(out, x->man);
+  if (x->exp < 0)
+    mpf_div_2exp(out, out, (mp_bitcnt_t)-x->exp);
+  else
+    mpf_mul_2exp(out, out, (mp_bitcnt_t)x->exp);
+}
+
+/* out = u.w - tau. */
+static void height_in_cap(mpf_ptr out, disc_proof *w, const vector *u, const dyd_cert_cap *k) {
+  set_float(w->s, &k->wx);
+  mpf_mul(out, w->s, u->x);
+  set_float(w->s, &k->wy);
+  mpf_mul(w->s, w->s, u->y);
+  mpf_add(out, out, w->s);
+  set_float(w->s, &k->tau);
+  mpf_sub(out, out, w->s);
+}
+
+/* The sign of the cross product. */
+static int turn_of(disc_proof *w, const vector *a, const vector *b) {
+  mpf_mul(w->s, a->x, b->y);
+  mpf_mul(w->t, a->y, b->x);
+  return mpf_cmp(w->s, w->t);
+}
+
+/* The end of a cap that is not empty. */
+static void end_of_cap(vector *out, disc_proof *w, const dyd_cert_cap *e, int turn) {
+  vector v;
+  mpf_inits(v.x, v.y, NULL);
+  mpf_set_prec(v.x, PRECISION);
+  mpf_set_prec(v.y, PRECISION);
+  set_float(w->t, &e->c);
+  mpf_sqrt(w->t, w->t);
+  if (turn < 0) mpf_neg(w->t, w->t);
+  set_float(v.x, &e->wx);
+  set_float(v.y, &e->wy);
+  set_float(w->s, &e->tau);
+  mpf_mul(out->x, w->s, v.x);
+  mpf_mul(out->y, w->s, v.y);
+  mpf_mul(w->s, w->t, v.y);
+  mpf_sub(out->x, out->x, w->s);
+  mpf_mul(w->s, w->t, v.x);
+  mpf_add(out->y, out->y, w->s);
+  set_float(w->s, &e->ww);
+  mpf_div(out->x, out->x, w->s);
+  mpf_div(out->y, out->y, w->s);
+  mpf_clears(v.x, v.y, NULL);
+}
+
+/* Makes its length 1; false: it is 0. */
+static bool make_unit(disc_proof *w, vector *v) {
+  mpf_mul(w->s, v->x, v->x);
+  mpf_mul(w->t, v->y, v->y);
+  mpf_add(w->s, w->s, w->t);
+  mpf_sqrt(w->s, w->s);
+  if (!mpf_sgn(w->s)) return false;
+  mpf_div(v->x, v->x, w->s);
+  mpf_div(v->y, v->y, w->s);
+  return true;
+}
+
+/* ---- who is looked at ---- */
+
+static dyd_status add_near(disc_proof *w, uint32_t v, uint32_t i, uint32_t j) {
+  bool added;
+  for (size_t k = 0; k < w->near_count; k++)
+    if (w->near[k] == v) return DYD_OK;
+  if (v == i || v == j) return DYD_OK;
+  if (!dyd_reserve((void **)&w->near, &w->near_cap, w->near_count + 1, sizeof *w->near)) return DYD_E_NOMEM;
+  dyd_status st = dyd_cert_caps_add(&added, &w->all, &w->disc[v]);
+  if (st == DYD_OK && added) w->near[w->near_count++] = v;
+  return st;
+}
+
+static dyd_status begin_pair(bool *good, disc_proof *w, uint32_t i, uint32_t j) {
+  const uint32_t end[2] = {i, j};
+  w->near_count = w->chosen_count = 0;
+  dyd_status st = dyd_cert_caps_begin(good, &w->all, &w->disc[i], &w->disc[j]);
+  for (int q = 0; q < 2 && st == DYD_OK && *good; q++)
+    for (size_t k = w->start[end[q]]; k < w->start[end[q] + 1] && st == DYD_OK; k++)
+      st = add_near(w, w->partner[k], i, j);
+  return st;
+}
+
+/* ---- illegal ---- */
+
+/* The cap that holds u, and highest, as circles go: (u.w - tau) / n; false: none does. */
+static bool highest_cap(size_t *out, disc_proof *w, const vector *u, size_t from) {
+  mpf_set_ui(w->best, 0);
+  for (size_t k = from; k < w->all.count; k++) {
+    height_in_cap(w->t, w, u, &w->all.item[k]);
+    set_float(w->s, &w->all.item[k].n);
+    mpf_div(w->t, w->t, w->s);
+    if (mpf_cmp(w->t, w->best) <= 0) continue;
+    mpf_set(w->best, w->t);
+    *out = k;
+  }
+  return mpf_sgn(w->best) > 0;
+}
+
+/* All other sites, when those near leave a direction. */
+static dyd_status add_everybody(disc_proof *w, uint32_t i, uint32_t j) {
+  dyd_status st = DYD_OK;
+  for (uint32_t v = 0; v < w->p->sites.count && st == DYD_OK; v++)
+    if (w->p->sites.site[v].alias == v) st = add_near(w, v, i, j);
+  return st;
+}
+
+static dyd_status choose_cap(disc_proof *w, size_t k) {
+  bool added;
+  uint32_t v = w->near[k - 1];
+  if (!dyd_reserve((void **)&w->chosen, &w->chosen_cap, w->chosen_count + 1, sizeof *w->chosen)) return DYD_E_NOMEM;
+  w->chosen[w->chosen_count++] = v;
+  return dyd_cert_caps_add(&added, &w->some, &w->disc[v]);
+}
+
+/* w->chosen becomes the sites whose caps hold all directions. */
+static dyd_status find_caps(bool *found, disc_proof *w, uint32_t i, uint32_t j) {
+  bool good, all = false;
+  dyd_status st = begin_pair(&good, w, i, j);
+  if (st == DYD_OK && good) st = dyd_cert_caps_begin(&good, &w->some, &w->disc[i], &w->disc[j]);
+  *found = false;
+  while (st == DYD_OK && good && w->chosen_count < MOST_ADDED) {
+    size_t end, k = 0;
+    *found = dyd_cert_caps_cover(&end, &w->some);
+    if (*found || end == w->some.count) break;
+    end_of_cap(&w->u, w, &w->some.item[end], 1);
+    bool blocked = highest_cap(&k, w, &w->u, 1);
+    if (!blocked && !all) {
+      st = add_everybody(w, i, j);
+      all = true;
+      blocked = st == DYD_OK && highest_cap(&k, w, &w->u, 1);
+    }
+    if (!blocked) break;
+    if (st == DYD_OK) st = choose_cap(w, k);
+  }
+  return st;
+}
+
+/* ---- legal ---- */
+
+/* Cuts the arc from w->from to w->to, at most half a turn, to what is in the cap. */
+static void narrow_arc(disc_proof *w, const dyd_cert_cap *k) {
+  bool inside[2];
+  vector *const ends[2] = {&w->from, &w->to};
+  for (int side = 0; side < 2; side++) {
+    end_of_cap(&w->end, w, k, side ? 1 : -1);
+    inside[side] = turn_of(w, &w->from, &w->end) >= 0 && turn_of(w, &w->end, &w->to) >= 0;
+    if (!inside[side]) continue;
+    mpf_set(ends[side]->x, w->end.x);
+    mpf_set(ends[side]->y, w->end.y);
+  }
+}
+
+/* w->u = the opposite of the middle of what all caps hold: the direction of a witness. */
+static bool common_direction(disc_proof *w) {
+  const dyd_cert_cap *own = &w->all.item[0];
+  end_of_cap(&w->from, w, own, -1);
+  end_of_cap(&w->to, w, own, 1);
+  for (size_t k = 1; k < w->all.count; k++) {
+    if (dyd_exact_sgn(&w->all.item[k].c) <= 0) return false;
+    narrow_arc(w, &w->all.item[k]);
+  }
+  mpf_add(w->u.x, w->from.x, w->to.x);
+  mpf_add(w->u.y, w->from.y, w->to.y);
+  if (w->all.count == 1) {
+    set_float(w->u.x, &own->wx);
+    set_float(w->u.y, &own->wy);
+  }
+  mpf_neg(w->u.x, w->u.x);
+  mpf_neg(w->u.y, w->u.y);
+  return make_unit(w, &w->u);
+}
+
+/* x = about a + b, rounded to a multiple of 2^exp. */
+static void put_rounded(dyd_exact *x, disc_proof *w, const dyd_exact *a, mpf_srcptr b, int64_t exp) {
+  set_float(w->s, a);
+  mpf_add(w->s, w->s, b);
+  if (exp < 0)
+    mpf_mul_2exp(w->s, w->s, (mp_bitcnt_t)-exp);
+  else
+    mpf_div_2exp(w->s, w->s, (mp_bitcnt_t)exp);
+  mpf_floor(w->s, w->s);
+  mpz_set_f(x->man, w->s);
+  x->exp = exp;
+}
+
+/* The centre p_i + u / (2 h), h = (u.P_j - delta) / N_j, with as few digits as make it a witness; or *other is one too
+ * near. */
+static bool round_centre(dyd_exact at[2], uint32_t *other, disc_proof *w, uint32_t i, uint32_t j) {
+  vector to;
+  long top;
+  const dyd_proof *p = w->p;
+  bool good = false;
+  mpf_init2(to.x, PRECISION);
+  mpf_init2(to.y, PRECISION);
+  mpf_neg(w->u.x, w->u.x);
+  mpf_neg(w->u.y, w->u.y);
+  height_in_cap(w->best, w, &w->u, &w->all.item[0]); /* of the opposite: u.P_j - delta */
+  mpf_neg(w->u.x, w->u.x);
+  mpf_neg(w->u.y, w->u.y);
+  set_float(w->s, &w->all.nj);
+  if (mpf_sgn(w->best) > 0) {
+    mpf_div(w->best, w->s, w->best);
+    mpf_div_2exp(w->best, w->best, 1);
+    mpf_mul(to.x, w->u.x, w->best);
+    mpf_mul(to.y, w->u.y, w->best);
+    mpf_get_d_2exp(&top, w->best);
+    for (int bits = 4; bits < PRECISION && !good; bits += bits < 64 ? 4 : 32) {
+      put_rounded(&at[0], w, &w->all.i->x, to.x, top - bits);
+      put_rounded(&at[1], w, &w->all.i->y, to.y, top - bits);
+      good = dyd_cert_is_disc_witness(other, &p->sites, &p->tree, w->disc, i, j, at);
+    }
+  }
+  mpf_clears(to.x, to.y, NULL);
+  return good;
+}
+
+/* w->at becomes the witness of a pair of discs. */
+static dyd_status find_disc_witness(bool *found, disc_proof *w, uint32_t i, uint32_t j) {
+  bool good;
+  dyd_exact *at = w->at;
+  dyd_status st = begin_pair(&good, w, i, j);
+  *found = false;
+  if (st == DYD_OK && !good) { /* the larger disc's own centre is best */
+    dyd_exact_set(&at[0], &w->all.j->x);
+    dyd_exact_set(&at[1], &w->all.j->y);
+    *found = dyd_cert_is_disc_witness(NULL, &w->p->sites, &w->p->tree, w->disc, i, j, at);
+  }
+  for (int met = 0; st == DYD_OK && good && !*found && met < MOST_MET; met++) {
+    uint32_t other = DYD_CERT_NONE;
+    size_t before = w->all.count;
+    if (!common_direction(w)) break;
+    *found = round_centre(at, &other, w, i, j);
+    if (!*found && other != DYD_CERT_NONE) st = add_near(w, other, i, j);
+    if (!*found && w->all.count == before) break;
+  }
+  return st;
+}
+
+/* ---- writing ---- */
+
+static void put_disc(FILE *out, const dyd_cert_disc *d) {
+  dyd_proof_put_number(out, &d->x);
+  putc(' ', out);
+  dyd_proof_put_number(out, &d->y);
+  putc(' ', out);
+  dyd_proof_put_number(out, &d->r);
+  putc('\n', out);
+}
+
+static dyd_status put_refined(FILE *out, disc_proof *w, const dyd_pair *q, bool legal) {
+  bool found = false;
+  dyd_status st = legal ? find_disc_witness(&found, w, q->i, q->j) : find_caps(&found, w, q->i, q->j);
+  if (st != DYD_OK) return st;
+  fprintf(out, "%c %" PRIu32 " %" PRIu32, legal ? 'l' : 'n', q->i, q->j);
+  if (found && legal) {
+    putc(' ', out);
+    dyd_proof_put_point(out, w->at);
+  }
+  for (size_t k = 0; found && !legal && k < w->chosen_count; k++) fprintf(out, " %" PRIu32, w->chosen[k]);
+  putc('\n', out);
+  return DYD_OK;
+}
+
+/* The pairs of the squares that are indeterminate, and those of the discs, are both sorted. Counts, or writes. */
+static dyd_status each_refined(size_t *count, FILE *out, disc_proof *w) {
+  const dyd_pair_list *squares = &w->p->pairs;
+  size_t d = 0;
+  dyd_status st = DYD_OK;
+  *count = 0;
+  for (size_t k = 0; k < squares->count && st == DYD_OK; k++) {
+    const dyd_pair *q = &squares->item[k];
+    while (d < w->pairs->count && dyd_compare_two(&w->pairs->item[d], q) < 0) d++;
+    bool there = d < w->pairs->count && dyd_compare_two(&w->pairs->item[d], q) == 0;
+    if (q->status != DYD_INDETERMINATE || (there && w->pairs->item[d].status == DYD_INDETERMINATE)) continue;
+    ++*count;
+    if (out) st = put_refined(out, w, q, there);
+  }
+  return st;
+}
+
+/* ---- the section ---- */
+
+static void init_search(disc_proof *w) {
+  mpf_ptr all[] = {w->u.x, w->u.y, w->from.x, w->from.y, w->to.x, w->to.y, w->end.x, w->end.y, w->s, w->t, w->best};
+  for (size_t k = 0; k < sizeof all / sizeof *all; k++) mpf_init2(all[k], PRECISION);
+  dyd_exact_init(&w->at[0]);
+  dyd_exact_init(&w->at[1]);
+  dyd_cert_caps_init(&w->all);
+  dyd_cert_caps_init(&w->some);
+}
+
+static void clear_search(disc_proof *w) {
+  mpf_clears(w->u.x, w->u.y, w->from.x, w->from.y, w->to.x, w->to.y, w->end.x, w->end.y, w->s, w->t, w->best, NULL);
+  dyd_cert_caps_clear(&w->all);
+  dyd_cert_caps_clear(&w->some);
+  for (size_t i = 0; w->disc && i < w->p->sites.count; i++) dyd_cert_disc_clear(&w->disc[i]);
+  dyd_exact_clear(&w->at[0]);
+  dyd_exact_clear(&w->at[1]);
+  free(w->disc);
+  free(w->start);
+  free(w->partner);
+  free(w->near);
+  free(w->chosen);
+}
+
+static dyd_status deal_pairs(disc_proof *w) {
+  const dyd_pair_list *l = &w->p->pairs;
+  size_t n = w->p->sites.count;
+  w->start = calloc(n + 2, sizeof *w->start);
+  w->partner = dyd_alloc(2 * l->count, sizeof *w->partner);
+  if (!w->start || !w->partner) return DYD_E_NOMEM;
+  for (size_t k = 0; k < l->count; k++) {
+    w->start[l->item[k].i + 2]++;
+    w->start[l->item[k].j + 2]++;
+  }
+  for (size_t i = 2; i <= n + 1; i++) w->start[i] += w->start[i - 1];
+  for (size_t k = 0; k < l->count; k++) {
+    w->partner[w->start[l->item[k].i + 1]++] = l->item[k].j;
+    w->partner[w->start[l->item[k].j + 1]++] = l->item[k].i;
+  }
+  return DYD_OK;
+}
+
+static dyd_status put_discs(FILE *out, disc_proof *w) {
+  size_t count = 0;
+  bool fixed;
+  dyd_status st = gather_discs(&fixed, w);
+  if (st != DYD_OK) return st;
+  for (size_t i = 0; i < w->p->sites.count; i++) count += w->p->sites.site[i].alias == i;
+  fprintf(out, "discs %zu%s\n", count, fixed ? " fixed" : "");
+  for (size_t i = 0; i < w->p->sites.count; i++)
+    if (w->p->sites.site[i].alias == i) put_disc(out, &w->disc[i]);
+  each_refined(&count, NULL, w);
+  fprintf(out, "refined %zu\n", count);
+  return each_refined(&count, out, w);
+}
+
+dyd_status dyd_proof_put_discs(FILE *out, const dyd_proof *p, const dyd_pair_list *pairs) {
+  disc_proof w = {.p = p, .pairs = pairs};
+  init_search(&w);
+  w.disc = dyd_alloc(p->sites.count, sizeof *w.disc);
+  for (size_t i = 0; w.disc && i < p->sites.count; i++) dyd_cert_disc_init(&w.disc[i]);
+  dyd_status st = w.disc ? deal_pairs(&w) : DYD_E_NOMEM;
+  if (st == DYD_OK) st = put_discs(out, &w);
+  clear_search(&w);
+  return st;
+}
