@@ -427,6 +427,12 @@ def reasons():
                 yield path.name, re.sub(r'%(\\\.\d+|l+|z)*[sdu]', '.*', re.escape(reason.replace('\\"', '"')))
 
 
+def forged_parts():
+    """Certificates of discs, graphs and places that test_seeded.py has verdicts of; here only why they are rejected."""
+    found = re.findall(r'(.*?)---- (.*?)\n', (ROOT / 'tests/checker/forgeries_parts.txt').read_text(), re.S)
+    return [text for text, said in found if said == 'rejected']
+
+
 def main():
     wrong, seen = [], set()
     with tempfile.TemporaryDirectory() as name, concurrent.futures.ThreadPoolExecutor(2) as pool:
@@ -441,6 +447,7 @@ def main():
             seen.add(found)
             if code != 1 or at != line or why not in found:
                 wrong.append(f'{code}, line {at}: {found}, not line {line}: {why}\n{text}')
+        seen |= {verdict(folder, 'part', text)[2] for text in forged_parts()}
     for source, pattern in reasons():
         if not any(re.fullmatch(pattern, text, re.S) for text in seen):
             wrong.append(f'{source}: no certificate here is rejected for this: {pattern}')
