@@ -76,7 +76,7 @@ static dyd_status check_disc_witness(dyd_checker *c, const dyd_cert_edge *p) {
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
   if (st != DYD_OK) return st;
   if (!dyd_cert_is_disc_witness(&other, &c->sites, &c->tree, c->disc, p->i, p->j, c->point))
-    return dyd_cert_reject(&c->in, "the point is no witness of the discs: that of %u is too near", (unsigned)other);
+    return dyd_cert_reject(&c->in, "the disc of site %u is too near to the point of the line", (unsigned)other);
   c->report.discs_legal++;
   return DYD_OK;
 }

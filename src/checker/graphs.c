@@ -13,7 +13,7 @@
 #define EFFORT_BITS 16
 #define MOST_CUTS 60 /* of a box of middles */
 
-/* Rows being read; list: those of the site read last, `flag` those that are certain. partner[first[i] .. first[i+1]):
+/* Rows being read; list: of the site read last. partner[first[i] .. first[i+1]):
  * in a possible pair with i. */
 typedef struct graph_rows {
   dyd_checker *c;
@@ -217,8 +217,8 @@ static bool middles_are_covered(graph_rows *g, const dyd_cert_span *b, const dyd
   return more;
 }
 
-/* Ends of the sides of two sites, and where opposite ends are equally far: what is in the side of middles, ascending,
- * its ends among it. Returns how many. */
+/* Ends of the sides of two sites, and the places equally far from opposite ends: those in the side of middles,
+ * ascending, its ends among it. Returns how many. */
 static int cut_middles(dyd_exact cut[8], const dyd_exact middle[2], const dyd_exact i[2], const dyd_exact j[2]) {
   int count = 0;
   dyd_exact *all = cut;
@@ -229,7 +229,7 @@ static int cut_middles(dyd_exact cut[8], const dyd_exact middle[2], const dyd_ex
     dyd_exact_add(&all[6 + k], &i[k], &j[1 - k]);
     all[6 + k].exp--;
   }
-  for (int k = 0; k < 8; k++) { /* by insertion: what is outside, or there already, is left out */
+  for (int k = 0; k < 8; k++) { /* by insertion; numbers outside, and repeats, are skipped */
     if (dyd_exact_cmp(&all[k], &middle[0]) < 0 || dyd_exact_cmp(&all[k], &middle[1]) > 0) continue;
     int at = count;
     dyd_exact t = all[k];
@@ -270,7 +270,7 @@ static bool gabriel_is_never(graph_rows *g, const dyd_cert_edge *p) {
 
 /* ---- gabriel: rows ---- */
 
-/* Who is in a possible pair with whom. */
+/* Fills in the partners of each site in possible pairs. */
 static dyd_status index_partners(graph_rows *g) {
   const dyd_cert_edges *list[2] = {&g->c->legal, &g->c->open};
   size_t all = 2 * (list[0]->count + list[1]->count), count = 0;

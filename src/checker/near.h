@@ -12,7 +12,7 @@ typedef struct dyd_cert_span {
 
 void dyd_cert_span_init(dyd_cert_span *b);
 void dyd_cert_span_clear(dyd_cert_span *b);
-/* out = the rectangle of a site, its ends rounded outward where they are no dyadics. */
+/* out = the rectangle of a site, its ends rounded outward to dyadics. */
 void dyd_cert_span_set(dyd_cert_span *out, const dyd_cert_site *s);
 bool dyd_cert_span_is_point(const dyd_cert_span *b);
 
@@ -33,7 +33,7 @@ void dyd_cert_span_half(dyd_cert_span *part, const dyd_cert_span *b, bool upper)
 dyd_status dyd_cert_spans_init(dyd_cert_span **out, const dyd_cert_sites *s);
 void dyd_cert_spans_free(dyd_cert_span *span, size_t count);
 
-/* A question: who is nearest to somewhere in `at`. Sites list[0 .. count-1] (count > 0) are said to be all; `self` (or
+/* A question: which sites are nearest to some point of `at`. list[0 .. count-1] (count > 0) are stated; `self` (or
  * DYD_CERT_NONE) takes no part. */
 typedef struct dyd_cert_near {
   const dyd_cert_sites *sites;
@@ -48,7 +48,7 @@ typedef struct dyd_cert_near {
 /* Is list[0] strictly nearer than all others, everywhere in the box, for every choice? *other: one that is not farther.
  * Exact. */
 bool dyd_cert_near_is_certain(uint32_t *other, const dyd_cert_near *q);
-/* Is nobody else nearest somewhere in the box, for some choice? *unproved: how many are not proved to be nowhere
+/* Counts the sites that are not listed and may be nearest to a point of the box: *unproved are not proved to be nowhere
  * nearest, and *other one of them. A box is cut to show it; that gives up after *effort comparisons, which are taken
  * from it. */
 void dyd_cert_near_count(size_t *unproved, uint32_t *other, uint64_t *effort, const dyd_cert_near *q);

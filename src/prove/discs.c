@@ -3,7 +3,7 @@
  * directions [CERT-11].
  *
  * Who matters for a pair are first the sites in possible pairs with one of its ends. Directions are numbers of
- * PRECISION bits: what they lead to is put before the checker's own tests, and they prove nothing themselves. */
+ * PRECISION bits: they prove nothing themselves, each result passes the checker's own tests. */
 #include "tolerance/discs.h"
 #include "base/alloc.h"
 #include "base/index.h"
@@ -18,7 +18,7 @@ typedef struct vector {
   mpf_t x, y;
 } vector;
 
-/* near: the sites looked at, and with their caps in `all`: cap k + 1 is that of site near[k]. some: those of a proof.
+/* near: sites with their caps in `all`: cap k + 1 is that of site near[k]. some: those of a proof.
  */
 typedef struct disc_proof {
   const dyd_proof *p;
@@ -121,7 +121,7 @@ static bool make_unit(disc_proof *w, vector *v) {
   return true;
 }
 
-/* ---- who is looked at ---- */
+/* ---- sites near a pair ---- */
 
 static dyd_status add_near(disc_proof *w, uint32_t v, uint32_t i, uint32_t j) {
   bool added;
@@ -201,7 +201,7 @@ static dyd_status find_caps(bool *found, disc_proof *w, uint32_t i, uint32_t j) 
 
 /* ---- legal ---- */
 
-/* Cuts the arc from w->from to w->to, at most half a turn, to what is in the cap. */
+/* Cuts the arc from w->from to w->to, at most half a turn, to its part in the cap. */
 static void narrow_arc(disc_proof *w, const dyd_cert_cap *k) {
   bool inside[2];
   vector *const ends[2] = {&w->from, &w->to};
@@ -214,7 +214,7 @@ static void narrow_arc(disc_proof *w, const dyd_cert_cap *k) {
   }
 }
 
-/* w->u = the opposite of the middle of what all caps hold: the direction of a witness. */
+/* w->u = the opposite of the middle of the common part of all caps: the direction of a witness. */
 static bool common_direction(disc_proof *w) {
   const dyd_cert_cap *own = &w->all.item[0];
   end_of_cap(&w->from, w, own, -1);

@@ -48,7 +48,7 @@ def side(text):
 
 
 class Certificate:
-    """What is stated, as it stands."""
+    """The statements of a certificate, as they stand."""
 
     def __init__(self, text):
         lines = iter(text.splitlines())
