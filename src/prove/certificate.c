@@ -92,7 +92,7 @@ static void certificate_side(FILE *out, const dyd_cert_side *s) {
 
 /* Discs may decide what rectangles leave open. */
 static dyd_outcome outcome_of_parts(const dyd_proof *p, const dyd_certificate_parts *parts) {
-  bool open = dyd_engine_goal(NULL, p->engine) != DYD_GOAL_DECIDED;
+  bool open = dyd_engine_goal(NULL, p->engine) != DYD_GOAL_DECIDED || dyd_delaunay_is_capped(p->pd);
   if (!parts->discs) return dyd_engine_outcome(p->engine);
   for (size_t k = 0; k < parts->discs->count && !open; k++) open = parts->discs->item[k].status != DYD_LEGAL;
   return open ? dyd_engine_outcome(p->engine) : DYD_OUTCOME_DECIDED;
