@@ -11,7 +11,7 @@
 #include <string.h>
 
 #define EFFORT_BITS 16
-#define MOST_CUTS 60 /* of a box of middles */
+#define MOST_CUTS 3000 /* of a box of middles */
 
 /* Rows being read; list: of the site read last. partner[first[i] .. first[i+1]):
  * in a possible pair with i. */

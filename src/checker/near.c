@@ -6,7 +6,7 @@
 #include "checker/near.h"
 #include "base/alloc.h"
 
-#define MOST_CUTS 200 /* of a box */
+#define MOST_CUTS 3000 /* of a box: what is near one site may be 2^-900 of it */
 
 /* ---- boxes ---- */
 
