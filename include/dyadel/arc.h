@@ -58,7 +58,8 @@ typedef enum dyd_end_kind {
 
 typedef struct dyd_arc_end {
   dyd_end_kind kind;
-  uint32_t site; /* for DYD_END_SITES the lowest third site, else 0 */
+  uint32_t site; /* for DYD_END_SITES the lowest third site that bounds the cell, else 0. Where all sites are exact
+                    points, one whose pair is a tie does not */
   dyd_surd_point at;
 } dyd_arc_end;
 

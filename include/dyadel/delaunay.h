@@ -89,7 +89,8 @@ typedef dyd_status (*dyd_prove_fn)(bool *proved, void *user, dyd_relation relati
 
 typedef struct dyd_delaunay_options {
   size_t struct_size;         /* set by DYD_SIZED */
-  size_t max_pairs;           /* cap on stored pairs beyond the skeleton; 0: the default, 4e6 + 16 N */
+  size_t max_pairs;           /* cap on stored pairs beyond the skeleton; 0: the default, 4e6 + 16 N. Ties where
+                                 all sites are exact points are not stored */
   const volatile int *cancel; /* when it points to a non-zero value, work stops with DYD_CANCELLED; may be NULL */
   unsigned threads;           /* how many may be used, the calling one included; 0: one. Nothing else depends on it */
   bool no_filter;             /* decide everything on the exact rung (for tests; statuses are the same) */
@@ -149,6 +150,17 @@ typedef void (*dyd_pair_fn)(void *user, uint32_t i, uint32_t j, dyd_pair_status 
 /* The same pairs, each once, without the memory of a list, in an order that may change with the number of threads and
  * with releases. */
 DYD_API void dyd_delaunay_each_pair(const dyd_delaunay *pd, dyd_pair_fn visit, void *user);
+/* What sites that are tied have in common. */
+typedef enum dyd_group_kind {
+  DYD_GROUP_CIRCLE = 0, /* one empty circle: k sites, in its order, counter-clockwise, have k (k - 3) / 2 tied pairs */
+  DYD_GROUP_CHAIN,      /* one line of the hull: k sites, along it, have (k - 1) (k - 2) / 2 tied pairs */
+  DYD_GROUP_PAIR        /* a tied pair by itself */
+} dyd_group_kind;
+/* Called with a group of ties; sites is borrowed for the call. Another status than DYD_OK ends the walk. */
+typedef dyd_status (*dyd_group_fn)(void *user, dyd_group_kind kind, const dyd_index_list *sites);
+/* All ties as groups: each tied pair is in one of them, neighbours on the circle or line aside, which are legal.
+ * Returns what `visit` returned, or DYD_E_NOMEM. O(sites of the groups). */
+DYD_API dyd_status dyd_delaunay_each_group(const dyd_delaunay *pd, dyd_group_fn visit, void *user);
 /* The sites whose pair with i has at least the status `least` (TIE or INDETERMINATE: all possible ones). Ascending.
  * O(log pairs + degree); where all points are on one line, O(N). */
 DYD_API dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaunay *pd, uint32_t i,

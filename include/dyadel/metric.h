@@ -30,7 +30,8 @@ DYD_API dyd_status dyd_metric_hausdorff(dyd_dyadic *out, const dyd_delaunay *pd)
  * hausdorff is 0 and means nothing
  *
  * Both are rounded up by at most 2^-53 of themselves. bits: the polygons are within 2^-bits of their cells, which adds
- * at most the perimeter of all cells in W times 2^-bits to the area. */
+ * at most the perimeter of all cells in W times 2^-bits to the area; cells of exact points are exact, and add nothing.
+ */
 typedef struct dyd_voronoi_bounds {
   size_t struct_size; /* set by dyd_voronoi_bounds_init */
   dyd_dyadic area, hausdorff;

@@ -58,9 +58,16 @@ DYD_API void dyd_polygon_list_clear(dyd_polygon_list *l);
 DYD_API dyd_status dyd_voronoi_inner_polygon(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i,
                                              const dyd_rect *window, int64_t bits);
 /* Polygons that hold Pos_i n W, one for each part of it: the ends of each edge lie in one convex C_ji, so the edge lies
- * in Ext_i, or the edge lies outside of W [POLY-2]. They reach at most 2^-bits beyond Pos_i. */
+ * in Ext_i [POLY-2], but where they are cut to W, in which they lie [POLY-3]. They reach at most 2^-bits beyond
+ * Pos_i. */
 DYD_API dyd_status dyd_voronoi_outer_polygon(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i,
                                              const dyd_rect *window, int64_t bits);
+
+/* The area of the cell of i on the window, as a rational. *exact = false, and *out is unchanged, where the cell depends
+ * on a choice: i or one of its possible partners is no exact point, or partners are not decided (ties apart). out is
+ * initialised by the caller. O(K^2) exact steps for K legal partners. */
+DYD_API dyd_status dyd_voronoi_exact_area(mpq_t out, bool *exact, const dyd_delaunay *pd, uint32_t i,
+                                          const dyd_rect *window);
 
 /* ---- vertices ---- */
 

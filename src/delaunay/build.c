@@ -24,12 +24,12 @@ static void mark_known(dyd_skeleton *sk, dyd_known known) {
   }
 }
 
-/* All pairs of a line are possible: they count as one face. */
+/* All pairs of a line are possible: they count as one face. Ties are one group, which the cap does not count. */
 static void line_find(dyd_delaunay *pd, dyd_error *err) {
   const dyd_line *l = &pd->sk.line;
   size_t open = dyd_line_open_pairs(l);
   pd->open.count = open > 0;
-  pd->open.capped = open > pd->max_pairs;
+  pd->open.capped = !pd->line_tie && open > pd->max_pairs;
   if (pd->open.capped)
     dyd_fail(err, DYD_CAPPED,
              "%zu collinear sites (%u, %u, ...) have %zu possible pairs, more than the cap of %zu; raise the cap on "
@@ -39,8 +39,9 @@ static void line_find(dyd_delaunay *pd, dyd_error *err) {
 
 static dyd_status build_statuses(dyd_delaunay *pd, dyd_work *w, dyd_known known) {
   if (pd->open.kind == DYD_LINE) {
-    line_find(pd, w->err);
-    return dyd_prove_line(pd, w);
+    dyd_status proved = dyd_prove_line(pd, w);
+    if (proved == DYD_OK) line_find(pd, w->err);
+    return proved;
   }
   bool tied = pd->open.kind == DYD_TIED;
   dyd_status st = tied ? dyd_certify_points(&pd->sk, w) : dyd_certify_all(&pd->sk, w);

@@ -23,10 +23,16 @@ dyd_status dyd_delaunay_grant(const dyd_delaunay *pd, uint64_t bytes, const char
   return dyd_room_has(&room, bytes, what) ? DYD_OK : dyd_fail_room(err, &room);
 }
 
-uint64_t dyd_pairs_bytes(const dyd_delaunay *pd) {
+dyd_pair_status dyd_least_bounding(const dyd_delaunay *pd) {
+  return pd->sk.all_points ? DYD_INDETERMINATE : DYD_TIE;
+}
+
+uint64_t dyd_pairs_bytes(const dyd_delaunay *pd, dyd_pair_status least) {
   size_t count[4];
   dyd_delaunay_count(count, pd);
-  return dyd_bytes_times(count[DYD_LEGAL] + count[DYD_INDETERMINATE] + count[DYD_TIE], sizeof(dyd_pair));
+  return dyd_bytes_times(count[DYD_LEGAL] + (least <= DYD_INDETERMINATE ? count[DYD_INDETERMINATE] : 0) +
+                             (least <= DYD_TIE ? count[DYD_TIE] : 0),
+                         sizeof(dyd_pair));
 }
 
 /* Sorted with their numbers in the mesh, then listed. */

@@ -15,10 +15,16 @@ bool dyd_delaunay_is_bounded(const dyd_delaunay *pd);
 /* DYD_OK when so much may be made of the result at once; else DYD_E_NOMEM, with what took too much in *err (may be
  * NULL). `what` is static. */
 dyd_status dyd_delaunay_grant(const dyd_delaunay *pd, uint64_t bytes, const char *what, dyd_error *err);
-/* Of the list of all possible pairs, and of that of the sure triangles while it is made. */
-uint64_t dyd_pairs_bytes(const dyd_delaunay *pd);
+/* The least status of the pairs that cells, areas, spanning trees and plans look at. Ties of exact points are left out:
+ * the common boundary of two such cells is one point or nothing [GRP-1], and a face of k sites has about k^2 / 2 of
+ * them. Ties that were proved count, since their rectangles say less than what was proved. */
+dyd_pair_status dyd_least_bounding(const dyd_delaunay *pd);
+/* Bytes of the list of pairs with at least that status, and of that of the sure triangles while it is made. */
+uint64_t dyd_pairs_bytes(const dyd_delaunay *pd, dyd_pair_status least);
 uint64_t dyd_triangles_bytes(const dyd_delaunay *pd);
-/* The list of all pairs, for those who have seen to its room, as runs have: dyd_delaunay_pairs without a grant. */
-dyd_status dyd_pairs_list(dyd_pair_list *out, const dyd_delaunay *pd);
+/* As dyd_delaunay_pairs, of the pairs with at least the status `least`; dyd_pairs_list does not ask for a grant: its
+ * callers have seen to the memory, as runs have. */
+dyd_status dyd_pairs_take(dyd_pair_list *out, const dyd_delaunay *pd, dyd_pair_status least);
+dyd_status dyd_pairs_list(dyd_pair_list *out, const dyd_delaunay *pd, dyd_pair_status least);
 
 #endif

@@ -27,7 +27,7 @@ static void visit_sites(void *context, uint32_t v, uint32_t w, dyd_pair_status s
 void dyd_delaunay_each_pair(const dyd_delaunay *pd, dyd_pair_fn visit, void *user) {
   if (!pd) return;
   site_visit s = {pd->sk.reps.site, visit, user};
-  dyd_each_pair(pd, visit_sites, &s);
+  dyd_each_pair(pd, DYD_TIE, visit_sites, &s);
 }
 
 /* At most MOST_BLOCKS blocks; up to SHORT_RUN pairs are sorted by insertion, FEW by one thread. In the armed build few
@@ -151,14 +151,14 @@ static dyd_status sort_blocks(pair_sort *s, unsigned threads) {
   return st;
 }
 
-dyd_status dyd_pairs_list(dyd_pair_list *out, const dyd_delaunay *pd) {
+dyd_status dyd_pairs_list(dyd_pair_list *out, const dyd_delaunay *pd, dyd_pair_status least) {
   pair_sort s = {.site = pd->sk.reps.site, .n = pd->sk.n};
   while (pd->sk.n && (pd->sk.n - 1) >> s.shift >= MOST_BLOCKS) s.shift++;
-  dyd_each_pair(pd, count_pair, &s);
+  dyd_each_pair(pd, least, count_pair, &s);
   size_t total = starts_from_counts(s.end, MOST_BLOCKS);
   s.to = dyd_alloc(total, sizeof *s.to);
   if (!s.to) return DYD_E_NOMEM;
-  dyd_each_pair(pd, place_pair, &s);
+  dyd_each_pair(pd, least, place_pair, &s);
   dyd_status st = sort_blocks(&s, total < FEW ? 1 : pd->options.threads);
   if (st != DYD_OK) {
     free(s.to);
@@ -169,9 +169,12 @@ dyd_status dyd_pairs_list(dyd_pair_list *out, const dyd_delaunay *pd) {
   return DYD_OK;
 }
 
-dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd) {
-  if (!pd) return DYD_E_ARG;
+dyd_status dyd_pairs_take(dyd_pair_list *out, const dyd_delaunay *pd, dyd_pair_status least) {
   dyd_status st = DYD_OK;
-  if (dyd_delaunay_is_bounded(pd)) st = dyd_delaunay_grant(pd, dyd_pairs_bytes(pd), "the list of pairs", NULL);
-  return st == DYD_OK ? dyd_pairs_list(out, pd) : st;
+  if (dyd_delaunay_is_bounded(pd)) st = dyd_delaunay_grant(pd, dyd_pairs_bytes(pd, least), "the list of pairs", NULL);
+  return st == DYD_OK ? dyd_pairs_list(out, pd, least) : st;
+}
+
+dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd) {
+  return pd ? dyd_pairs_take(out, pd, DYD_TIE) : DYD_E_ARG;
 }

@@ -32,7 +32,7 @@ static bool has_inexact_vertex(const dyd_delaunay *pd, const rim *r) {
 
 /* A half-edge of the rim, if the triangles, which are connected, are joined like a tree: t triangles have t + 2 sides
  * then that nobody shares, and one cycle passes through all of them. A chain begins at the ghost. Else DYD_NONE. */
-static dyd_half_edge rim_start(bool *chain, const dyd_delaunay *pd, const dyd_face *face) {
+dyd_half_edge dyd_rim_start(bool *chain, const dyd_delaunay *pd, const dyd_face *face) {
   const dyd_skeleton *sk = &pd->sk;
   dyd_half_edge start = DYD_NONE;
   uint32_t sides = 0;
@@ -64,7 +64,7 @@ static dyd_status are_distinct(bool *distinct, const uint32_t *v, uint32_t count
 /* Walks around the face. *found: it is a polygon, or a chain, in which something is open. */
 static dyd_status rim_find(bool *found, rim *r, const dyd_delaunay *pd, const dyd_face *face) {
   const dyd_skeleton *sk = &pd->sk;
-  dyd_half_edge h = rim_start(&r->chain, pd, face);
+  dyd_half_edge h = dyd_rim_start(&r->chain, pd, face);
   *found = false;
   if (h == DYD_NONE || face->tris < 2) return DYD_OK;
   r->vertex = dyd_alloc(face->tris + 2, sizeof *r->vertex);
@@ -153,7 +153,7 @@ dyd_status dyd_prove_line(dyd_delaunay *pd, dyd_work *w) {
   const dyd_line *l = &pd->sk.line;
   dyd_status st = DYD_OK;
   pd->line_tie = pd->sk.all_points;
-  if (pd->line_tie || !pd->options.prove || pd->open.capped || l->count < 3) return st;
+  if (pd->line_tie || !pd->options.prove || l->count < 3) return st;
   for (uint32_t q = 0; q + 1 < l->count; q++)
     if (!l->legal[q]) return st;
   uint32_t *site = dyd_alloc(l->count, sizeof *site);

@@ -113,7 +113,7 @@ dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaunay *pd, 
   neighbour_filter c = {.site = pd->sk.reps.site, .least = least};
   if (i >= pd->sk.n) return DYD_E_ARG;
   dyd_legal_each_at(pd, pd->sk.vertex[i], collect_neighbour, &c);
-  if (least < DYD_LEGAL) dyd_open_each_at(pd, pd->sk.vertex[i], collect_neighbour, &c);
+  if (least < DYD_LEGAL) dyd_open_each_at(pd, pd->sk.vertex[i], least, collect_neighbour, &c);
   return deliver(out, &c.list);
 }
 

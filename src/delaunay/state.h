@@ -44,12 +44,10 @@ typedef struct dyd_face {
  * (ties.h), and all their pairs are possible; LINE, no triangles: all pairs that are not legal are, as one face. */
 typedef enum dyd_undecided_kind { DYD_LISTED, DYD_TIED, DYD_LINE } dyd_undecided_kind;
 
-#define DYD_SEED_CAPPED (UINT32_C(1) << 31)
-#define DYD_SEED_QUAD (UINT32_C(1) << 30)
-#define DYD_SEED_MARKS (DYD_SEED_CAPPED | DYD_SEED_QUAD)
+#define DYD_SEED_QUAD (UINT32_C(1) << 31)
 
-/* LISTED: face, tri and pair. TIED: seed[f] is a triangle of face f, with a mark if pairs beyond the skeleton are
- * missing, and else one if it has two triangles and no ghost. */
+/* LISTED: face, tri and pair. TIED: seed[f] is a triangle of face f, marked if it has two triangles and no ghost; no
+ * pair is stored, so the cap on stored pairs counts none of them. */
 typedef struct dyd_undecided {
   dyd_undecided_kind kind;
   size_t count;  /* faces */
@@ -57,7 +55,8 @@ typedef struct dyd_undecided {
   dyd_face *face;
   size_t face_cap;
   uint32_t *seed;
-  size_t seed_cap, capped_pairs; /* live pairs of capped faces, while there are seeds */
+  size_t seed_cap;
+  uint64_t tied_pairs; /* of the faces that have seeds */
   uint32_t *tri;
   size_t tri_count, tri_cap;
   dyd_vertex_pair *pair;
@@ -73,7 +72,7 @@ typedef struct dyd_undecided {
 struct dyd_delaunay {
   dyd_skeleton sk;
   dyd_undecided open;
-  bool line_tie; /* a line all of whose open pairs are ties, unless it is capped */
+  bool line_tie; /* a line all of whose open pairs are ties */
   dyd_delaunay_counters counters;
   dyd_delaunay_options options;
   size_t max_pairs;

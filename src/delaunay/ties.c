@@ -33,32 +33,12 @@ static dyd_status tie_flood_from(tie_flood *f, dyd_delaunay *pd, uint32_t t, uin
   return DYD_OK;
 }
 
-static dyd_status report_cap(const dyd_delaunay *pd, dyd_work *w, size_t face) {
-  uint32_t *v = NULL;
-  size_t n;
-  dyd_status st = dyd_tie_vertices(&v, &n, pd, face);
-  if (st != DYD_OK) return st;
-  dyd_report_cap(w, pd, v, n);
-  free(v);
-  return DYD_OK;
-}
-
-/* Counts the pairs of the face in work, of t triangles. A polygon of m = t + 2 sites has m sides and t - 1 edges
- * inside; a chain of m = t + 1 sites has t links, and its edges inside go to the ghost. */
-static dyd_status tie_settle(dyd_delaunay *pd, dyd_work *w, uint64_t t, bool ghost) {
+/* Counts the pairs of the face in work, of t triangles. A polygon has t + 2 sites, a chain t + 1. */
+static void tie_settle(dyd_delaunay *pd, uint64_t t, bool ghost) {
   dyd_undecided *table = &pd->open;
-  uint64_t all = ghost ? t * (t - 1) / 2 : (t + 2) * (t - 1) / 2, inside = ghost ? 0 : t - 1;
-  size_t face = table->count++;
-  if (table->live_pairs <= pd->max_pairs && all <= pd->max_pairs - table->live_pairs) {
-    table->live_pairs += all;
-    if (t == 2 && !ghost) table->seed[face] |= DYD_SEED_QUAD;
-    return DYD_OK;
-  }
-  table->seed[face] |= DYD_SEED_CAPPED;
-  table->live_pairs += inside;
-  table->capped_pairs += inside;
-  table->capped++;
-  return report_cap(pd, w, face);
+  table->tied_pairs += dyd_group_pairs(ghost ? t + 1 : t + 2, ghost);
+  if (t == 2 && !ghost) table->seed[table->count] |= DYD_SEED_QUAD;
+  table->count++;
 }
 
 /* Two triangles joined by the only uncertain edge of both, no ghost among them: marks them. */
@@ -81,9 +61,10 @@ static dyd_status tie_find_face(tie_flood *f, dyd_delaunay *pd, dyd_work *w, uin
   if (!dyd_reserve((void **)&table->seed, &table->seed_cap, table->count + 1, sizeof *table->seed)) return DYD_E_NOMEM;
   table->seed[face] = t;
   w->counters.faces++;
-  if (is_quad(pd, t, face)) return tie_settle(pd, w, 2, false);
+  if (is_quad(pd, t, face)) return tie_settle(pd, 2, false), DYD_OK;
   dyd_status st = tie_flood_from(f, pd, t, face);
-  return st == DYD_OK ? tie_settle(pd, w, f->count, f->ghost) : st;
+  if (st == DYD_OK) tie_settle(pd, f->count, f->ghost);
+  return st;
 }
 
 dyd_status dyd_ties_find(dyd_delaunay *pd, dyd_work *w) {

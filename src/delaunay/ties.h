@@ -15,11 +15,12 @@
  * empty. */
 dyd_status dyd_ties_find(dyd_delaunay *pd, dyd_work *w);
 
-static inline bool dyd_tie_is_capped(const dyd_delaunay *pd, size_t f) {
-  return pd->open.seed[f] & DYD_SEED_CAPPED;
+/* Tied pairs of k sites of one circle, or (chain) of one line. */
+static inline uint64_t dyd_group_pairs(uint64_t k, bool chain) {
+  return chain ? (k - 1) * (k - 2) / 2 : k * (k - 3) / 2;
 }
 static inline uint32_t dyd_tie_seed(const dyd_delaunay *pd, size_t f) {
-  return pd->open.seed[f] & ~DYD_SEED_MARKS;
+  return pd->open.seed[f] & ~DYD_SEED_QUAD;
 }
 /* The rim's half-edge out of the origin of h, a half-edge in the face: turns clockwise across uncertain edges. */
 static inline dyd_half_edge dyd_tie_rim(const dyd_skeleton *sk, dyd_half_edge h) {

@@ -8,9 +8,9 @@
 dyd_pair_status dyd_open_status_of(const dyd_delaunay *pd, size_t f) {
   switch (pd->open.kind) {
   case DYD_LINE:
-    return pd->line_tie && !pd->open.capped ? DYD_TIE : DYD_INDETERMINATE;
+    return pd->line_tie ? DYD_TIE : DYD_INDETERMINATE;
   case DYD_TIED:
-    return dyd_tie_is_capped(pd, f) ? DYD_INDETERMINATE : DYD_TIE;
+    return DYD_TIE;
   default:
     return dyd_listed_status(&pd->open.face[f]);
   }
@@ -76,7 +76,7 @@ bool dyd_open_is_outer(const dyd_delaunay *pd, size_t f) {
 
 bool dyd_open_is_capped(const dyd_delaunay *pd, size_t f) {
   if (pd->open.kind == DYD_LINE) return pd->open.capped;
-  return pd->open.kind == DYD_LISTED ? pd->open.face[f].capped : dyd_tie_is_capped(pd, f);
+  return pd->open.kind == DYD_LISTED && pd->open.face[f].capped;
 }
 
 bool dyd_open_is_postponed(const dyd_delaunay *pd, size_t f) {
@@ -139,8 +139,7 @@ void dyd_open_count(size_t count[4], const dyd_delaunay *pd) {
     if (!pd->open.capped) count[dyd_open_status_of(pd, 0)] += dyd_line_open_pairs(&pd->sk.line);
     return;
   case DYD_TIED:
-    count[DYD_INDETERMINATE] += pd->open.capped_pairs;
-    count[DYD_TIE] += pd->open.live_pairs - pd->open.capped_pairs;
+    count[DYD_TIE] += pd->open.tied_pairs;
     return;
   default:
     count_listed(count, pd);
@@ -170,24 +169,6 @@ bool dyd_is_hull_edge(const dyd_delaunay *pd, uint32_t v, uint32_t w) {
 
 /* ---- those of one face ---- */
 
-/* The edges of the skeleton inside a tied face, out of the origin of the rim's half-edge h. */
-static void each_inside_at(const dyd_delaunay *pd, dyd_half_edge h, bool once, dyd_pair_visit visit, void *context) {
-  const dyd_mesh *m = &pd->sk.mesh;
-  uint32_t v = dyd_edge_origin(m, h);
-  for (; v != m->n && !dyd_edge_is_certain(&pd->sk, dyd_edge_prev(h)); h = dyd_edge_turn(m, h)) {
-    uint32_t w = dyd_edge_apex(m, h);
-    if (w != m->n && (!once || v < w)) visit(context, v, w, DYD_INDETERMINATE);
-  }
-}
-
-static void each_capped_tied(const dyd_delaunay *pd, size_t f, dyd_pair_visit visit, void *context) {
-  dyd_half_edge first = dyd_tie_start(pd, f), h = first;
-  do {
-    each_inside_at(pd, h, true, visit, context);
-    h = dyd_tie_next(&pd->sk, h);
-  } while (h != first);
-}
-
 /* Passes on those that are not legal. */
 typedef struct only_open {
   dyd_pair_visit visit;
@@ -202,11 +183,9 @@ static void visit_open(void *context, uint32_t v, uint32_t w, dyd_pair_status st
 void dyd_open_each_in(const dyd_delaunay *pd, size_t f, dyd_pair_visit visit, void *context) {
   only_open o = {visit, context};
   if (pd->open.kind == DYD_LINE)
-    dyd_each_on_line(pd, visit_open, &o);
+    dyd_each_on_line(pd, dyd_open_status_of(pd, 0), visit_open, &o);
   else if (pd->open.kind == DYD_LISTED)
     dyd_each_listed(pd, f, visit, context);
-  else if (dyd_tie_is_capped(pd, f))
-    each_capped_tied(pd, f, visit, context);
   else
     dyd_each_tied(pd, f, visit, context);
 }
@@ -264,7 +243,8 @@ static void each_listed_at(const dyd_delaunay *pd, uint32_t f, uint32_t v, dyd_p
     visit_listed(face, pair[q], v, visit, context);
 }
 
-void dyd_open_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_visit visit, void *context) {
+void dyd_open_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_status least, dyd_pair_visit visit, void *context) {
+  if (!pd->open.count || (pd->open.kind != DYD_LISTED && dyd_open_status_of(pd, 0) < least)) return;
   if (pd->open.kind == DYD_LINE) {
     each_on_line_at(pd, v, visit, context);
     return;
@@ -276,10 +256,7 @@ void dyd_open_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_visit visit, 
     if (f != DYD_NONE && pd->open.kind == DYD_LISTED) {
       if (f != before) each_listed_at(pd, f, v, visit, context);
     } else if (f != DYD_NONE && dyd_edge_is_certain(&pd->sk, h)) {
-      if (dyd_tie_is_capped(pd, f))
-        each_inside_at(pd, h, false, visit, context);
-      else
-        each_tied_at(pd, h, visit, context);
+      each_tied_at(pd, h, visit, context);
     }
     before = f;
     h = dyd_edge_turn(&pd->sk.mesh, h);

@@ -23,8 +23,8 @@ bool dyd_open_is_postponed(const dyd_delaunay *pd, size_t f);
 dyd_pair_status dyd_open_status(const dyd_delaunay *pd, uint32_t v, uint32_t w);
 /* How many pairs of each status, that are not legal, are added to count[]. */
 void dyd_open_count(size_t count[4], const dyd_delaunay *pd);
-/* The pairs of vertex v that are not legal, each once. */
-void dyd_open_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_visit visit, void *context);
+/* The pairs of vertex v that are not legal, each once; ties of exact points only if `least` is at most DYD_TIE. */
+void dyd_open_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_status least, dyd_pair_visit visit, void *context);
 /* The pairs of face f that are not legal, each once. */
 void dyd_open_each_in(const dyd_delaunay *pd, size_t f, dyd_pair_visit visit, void *context);
 
@@ -73,12 +73,11 @@ static inline void dyd_each_tied(const dyd_delaunay *pd, size_t f, dyd_pair_visi
   }
 }
 
-/* An edge of the skeleton inside a tied face: itself, if the face is capped, or both diagonals of a quad. */
+/* An edge of the skeleton inside a tied face: both diagonals of a quad; larger ones are walked around. */
 static inline void dyd_each_inside(const dyd_delaunay *pd, dyd_half_edge h, dyd_pair_visit visit, void *context) {
   const dyd_mesh *m = &pd->sk.mesh;
   uint32_t seed = pd->open.seed[pd->open.of[dyd_edge_triangle(h)]];
   uint32_t v = dyd_edge_origin(m, h), w = dyd_edge_target(m, h);
-  if (seed & DYD_SEED_CAPPED) visit(context, v, w, DYD_INDETERMINATE);
   if (!(seed & DYD_SEED_QUAD)) return;
   visit(context, v, w, DYD_TIE);
   visit(context, dyd_edge_apex(m, h), dyd_edge_across(m, h), DYD_TIE);
@@ -86,13 +85,13 @@ static inline void dyd_each_inside(const dyd_delaunay *pd, dyd_half_edge h, dyd_
 
 /* Edges of the skeleton: legal ones, and those inside tied faces. Loops over bits: which edges qualify is as good as
  * random, and branches on it would be guessed wrongly. */
-static inline void dyd_each_edge(const dyd_delaunay *pd, dyd_pair_visit visit, void *context) {
+static inline void dyd_each_edge(const dyd_delaunay *pd, bool ties, dyd_pair_visit visit, void *context) {
   const dyd_mesh *m = &pd->sk.mesh;
   const unsigned lowest = 0x1210; /* two bits for each value of three bits: its lowest bit */
   for (uint32_t t = 0; t < m->count; t++) {
     const uint32_t *v = m->tri[t].v;
     unsigned named = dyd_edges_first_named(m, t), legal = named & pd->sk.certain[t];
-    unsigned inside = pd->open.kind == DYD_TIED ? named & ~legal : 0;
+    unsigned inside = ties && pd->open.kind == DYD_TIED ? named & ~legal : 0;
     for (; legal; legal &= legal - 1) {
       unsigned k = lowest >> 2 * legal & 3;
       visit(context, v[dyd_next(k)], v[dyd_prev(k)], DYD_LEGAL);
@@ -101,28 +100,31 @@ static inline void dyd_each_edge(const dyd_delaunay *pd, dyd_pair_visit visit, v
   }
 }
 
-/* Pairs of a line; of a capped one only the legal ones. */
-static inline void dyd_each_on_line(const dyd_delaunay *pd, dyd_pair_visit visit, void *context) {
+/* Pairs of a line with at least that status; of a capped one only the legal ones. */
+static inline void dyd_each_on_line(const dyd_delaunay *pd, dyd_pair_status least, dyd_pair_visit visit,
+                                    void *context) {
   const dyd_line *l = &pd->sk.line;
+  bool open = !pd->open.capped && dyd_open_status_of(pd, 0) >= least;
   for (uint32_t a = 0; a + 1 < l->count; a++)
-    for (uint32_t b = a + 1; b < l->count && (b == a + 1 || !pd->open.capped); b++) {
+    for (uint32_t b = a + 1; b < l->count && (b == a + 1 || open); b++) {
       bool legal = b == a + 1 && l->legal[a];
-      if (legal || !pd->open.capped)
-        visit(context, l->order[a], l->order[b], legal ? DYD_LEGAL : dyd_open_status_of(pd, 0));
+      if (legal || open) visit(context, l->order[a], l->order[b], legal ? DYD_LEGAL : dyd_open_status_of(pd, 0));
     }
 }
 
-/* Every possible pair once; of capped faces only those of the skeleton. */
-static inline void dyd_each_pair(const dyd_delaunay *pd, dyd_pair_visit visit, void *context) {
+/* Every pair with at least that status once; of capped faces only those of the skeleton. Without ties the time does not
+ * depend on how many there are. */
+static inline void dyd_each_pair(const dyd_delaunay *pd, dyd_pair_status least, dyd_pair_visit visit, void *context) {
+  bool tied = pd->open.kind == DYD_TIED;
   if (pd->open.kind == DYD_LINE) {
-    dyd_each_on_line(pd, visit, context);
+    dyd_each_on_line(pd, least, visit, context);
     return;
   }
-  dyd_each_edge(pd, visit, context);
-  for (size_t f = 0; f < pd->open.count; f++) {
-    if (pd->open.kind == DYD_LISTED)
+  dyd_each_edge(pd, least <= DYD_TIE, visit, context);
+  for (size_t f = 0; f < pd->open.count && !(tied && least > DYD_TIE); f++) {
+    if (!tied && dyd_listed_status(&pd->open.face[f]) >= least)
       dyd_each_listed(pd, f, visit, context);
-    else if (!(pd->open.seed[f] & DYD_SEED_MARKS))
+    else if (tied && !(pd->open.seed[f] & DYD_SEED_QUAD))
       dyd_each_tied(pd, f, visit, context);
   }
 }

@@ -25,9 +25,9 @@
 
 /* ---- everything again ---- */
 
-/* What stays beside the new one while it is made: all there is, and the list of its pairs. */
+/* What stays beside the new one while it is made: all there is, and the list of its legal pairs. */
 static uint64_t rebuild_bytes(const dyd_delaunay *pd) {
-  return dyd_bytes_add(dyd_delaunay_memory(pd), dyd_pairs_bytes(pd));
+  return dyd_bytes_add(dyd_delaunay_memory(pd), dyd_pairs_bytes(pd, DYD_LEGAL));
 }
 
 static dyd_status rebuild(dyd_delaunay *pd, dyd_error *err) {
@@ -35,14 +35,11 @@ static dyd_status rebuild(dyd_delaunay *pd, dyd_error *err) {
   if (pd->room.most) pd->room.beside = rebuild_bytes(pd);
   if (!dyd_room_has(&pd->room, dyd_skeleton_bytes(pd->sk.rects.sites), "the triangulation made anew"))
     return DYD_E_NOMEM;
-  dyd_status st = dyd_pairs_list(&all, pd);
+  dyd_status st = dyd_pairs_list(&all, pd, DYD_LEGAL);
   if (st != DYD_OK) return st;
-  size_t kept = 0;
-  for (size_t q = 0; q < all.count; q++)
-    if (all.item[q].status == DYD_LEGAL) all.item[kept++] = all.item[q];
   dyd_delaunay next = {.counters = pd->counters, .options = pd->options, .max_pairs = pd->max_pairs, .room = pd->room};
   next.room.held = 0;
-  st = dyd_build(&next, pd->sk.rects.sites, (dyd_known){all.item, kept}, err);
+  st = dyd_build(&next, pd->sk.rects.sites, (dyd_known){all.item, all.count}, err);
   pd->room = next.room;
   if (st == DYD_OK) {
     dyd_build_clear(pd);

@@ -84,7 +84,7 @@ static dyd_status try_last_pair(bool *any, dyd_engine *e, const dyd_delaunay *pd
   size_t count[4];
   dyd_delaunay_count(count, pd);
   if (count[DYD_LEGAL] != 1) return DYD_OK;
-  dyd_status st = dyd_pairs_list(&pairs, pd);
+  dyd_status st = dyd_pairs_list(&pairs, pd, DYD_TIE);
   if (st == DYD_OK && pairs.count == 1) st = try_group(any, e, (uint32_t[]){pairs.item->i, pairs.item->j}, 2, err);
   dyd_pair_list_clear(&pairs);
   return st;

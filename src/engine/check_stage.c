@@ -240,11 +240,17 @@ static dyd_status point_is_on_side(bool *out, const dyd_check_state *s, uint32_t
   return st;
 }
 
-/* Where the edge was in Ext_i by a neighbour that is none any more, its ends are at least; beyond the window nothing is
- * stated. */
+/* Not on a side of it, where outer polygons are cut [POLY-3]. */
+static bool is_inside_window(const dyd_rect *w, const dyd_point *z) {
+  return dyd_dyadic_cmp(&w->x.lo, &z->x) < 0 && dyd_dyadic_cmp(&z->x, &w->x.hi) < 0 &&
+         dyd_dyadic_cmp(&w->y.lo, &z->y) < 0 && dyd_dyadic_cmp(&z->y, &w->y.hi) < 0;
+}
+
+/* Where the edge was in Ext_i by a neighbour that is none any more, its ends are at least; of edges that end at the
+ * window nothing is stated. */
 static dyd_status outer_edge_holds(bool *out, const dyd_check_state *s, uint32_t i, const dyd_point *a,
                                    const dyd_point *b) {
-  *out = !dyd_rect_holds(&s->window, a) || !dyd_rect_holds(&s->window, b);
+  *out = !is_inside_window(&s->window, a) || !is_inside_window(&s->window, b);
   dyd_status st = *out ? DYD_OK : edge_is_outside(out, s, i, a, b);
   if (st != DYD_OK || *out) return st;
   st = point_is_on_side(out, s, i, a, DYD_FALSE);

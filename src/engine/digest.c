@@ -9,7 +9,7 @@ static uint64_t digest_word(uint64_t digest, uint32_t word) {
 
 dyd_status dyd_digest_pairs(uint64_t *out, const dyd_delaunay *pd) {
   dyd_pair_list pairs = {0};
-  dyd_status st = dyd_pairs_list(&pairs, pd);
+  dyd_status st = dyd_pairs_list(&pairs, pd, DYD_TIE);
   if (st != DYD_OK) return st;
   *out = 14695981039346656037u;
   for (size_t k = 0; k < pairs.count; k++) {

@@ -125,7 +125,7 @@ dyd_status dyd_goal_voronoi_holds(bool *out, dyd_voronoi_sums **sums, const dyd_
   mpfr_t bound;
   bool finite = false;
   mpfr_init2(bound, DYD_MEASURE_PREC);
-  dyd_status st = dyd_pairs_list(&pairs, e->pd);
+  dyd_status st = dyd_pairs_list(&pairs, e->pd, dyd_least_bounding(e->pd));
   if (st == DYD_OK && o->goal == DYD_GOAL_VORONOI_AREA) {
     st = goal_area_holds(out, bound, sums, e, o, &pairs);
   } else if (st == DYD_OK) {

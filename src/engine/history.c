@@ -103,7 +103,7 @@ dyd_status dyd_history_add(dyd_history *h, const dyd_delaunay *pd, dyd_pair_list
 dyd_status dyd_history_note(dyd_history *h, const dyd_delaunay *pd) {
   if (!h || !pd) return DYD_E_ARG;
   dyd_pair_list pairs = {0};
-  dyd_status st = dyd_pairs_list(&pairs, pd);
+  dyd_status st = dyd_pairs_list(&pairs, pd, DYD_TIE);
   if (st == DYD_OK) st = dyd_history_add(h, pd, &pairs);
   dyd_pair_list_clear(&pairs);
   return st;

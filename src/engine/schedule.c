@@ -273,7 +273,7 @@ static dyd_status plan_bound(dyd_plan *plan, dyd_measure *m, dyd_voronoi_sums *s
   dyd_pair_list pairs = {0};
   mpfr_t share, largest, unused;
   mpfr_inits2(DYD_MEASURE_PREC, share, largest, unused, (mpfr_ptr)0);
-  dyd_status st = dyd_pairs_list(&pairs, plan->e->pd);
+  dyd_status st = dyd_pairs_list(&pairs, plan->e->pd, DYD_TIE);
   if (st == DYD_OK && pairs.count) {
     mpfr_set_ui_2exp(share, 1, (mpfr_exp_t)-plan->o->goal_bits, MPFR_RNDD);
     if (shared) mpfr_div_ui(share, share, (unsigned long)pairs.count, MPFR_RNDD);
@@ -344,7 +344,7 @@ static dyd_status goal_bound_holds(bool *out, dyd_measure *m, const dyd_engine *
   dyd_pair_list pairs = {0};
   mpfr_t bound;
   mpfr_init2(bound, DYD_MEASURE_PREC);
-  dyd_status st = dyd_pairs_list(&pairs, e->pd);
+  dyd_status st = dyd_pairs_list(&pairs, e->pd, DYD_TIE);
   if (st == DYD_OK)
     st = o->goal == DYD_GOAL_AREA ? dyd_bound_area(bound, m, &pairs) : dyd_bound_hausdorff(bound, m, &pairs);
   *out = st == DYD_OK && mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;

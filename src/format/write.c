@@ -88,7 +88,7 @@ static dyd_status result_graph(bool *graph, dyd_result *r, const dyd_delaunay_ou
 static dyd_status grant_output(const dyd_delaunay *pd, dyd_format format, bool diagram, const dyd_pair_list *pairs,
                                dyd_error *err) {
   if (!dyd_delaunay_is_bounded(pd)) return DYD_OK;
-  uint64_t count = pairs ? pairs->count : dyd_pairs_bytes(pd) / sizeof(dyd_pair);
+  uint64_t count = pairs ? pairs->count : dyd_pairs_bytes(pd, DYD_TIE) / sizeof(dyd_pair);
   uint64_t bytes = dyd_format_bytes(format, diagram, dyd_sites_count(dyd_delaunay_sites(pd)), count);
   return dyd_delaunay_grant(pd, bytes, "this output", err);
 }

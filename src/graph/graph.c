@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/float_filter.h"
+#include "delaunay/state.h"
 
 /* Pairs are sorted, so each list comes out ascending. */
 static void deal_partners(dyd_graph_work *w) {
@@ -22,7 +23,7 @@ static void deal_partners(dyd_graph_work *w) {
 
 /* The partners and boxes, and a list of edges that grows. */
 static bool graph_has_room(dyd_graph_work *w) {
-  uint64_t pairs = dyd_pairs_bytes(w->pd) / sizeof(dyd_pair);
+  uint64_t pairs = dyd_pairs_bytes(w->pd, w->least) / sizeof(dyd_pair);
   uint64_t each = sizeof(dyd_pair) + 2 * sizeof *w->partner + 2 * sizeof *w->out.item;
   uint64_t bytes = dyd_bytes_times(pairs, each) + dyd_bytes_times(w->n, sizeof *w->start + sizeof *w->box);
   if (!dyd_room_has(&w->room, bytes, "the graph")) return false;
@@ -39,7 +40,7 @@ static bool partners_have_room(dyd_graph_work *w, size_t most) {
 
 static dyd_status graph_prepare(dyd_graph_work *w) {
   if (!graph_has_room(w)) return DYD_E_NOMEM;
-  dyd_status st = dyd_delaunay_pairs(&w->pairs, w->pd);
+  dyd_status st = dyd_pairs_take(&w->pairs, w->pd, w->least);
   if (st != DYD_OK) return st;
   size_t most = 0;
   w->start = calloc(w->n + 2, sizeof *w->start);
@@ -77,6 +78,8 @@ dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_grap
     return dyd_fail(err, DYD_CAPPED, "there are more pairs than can be stored; raise `max_pairs`");
   dyd_graph_work w = {.pd = pd, .sites = dyd_delaunay_sites(pd), .cancel = cancel, .room = dyd_delaunay_room(pd)};
   w.n = dyd_sites_count(w.sites);
+  /* A tied pair of exact points is longer than those between on the rim [GRP-1]; it may be a diameter of its circle. */
+  w.least = graph == DYD_GRAPH_GABRIEL && !dyd_is_line(pd) ? DYD_TIE : dyd_least_bounding(pd);
   dyd_reach_init(&w.reach);
   dyd_status st = graph_prepare(&w);
   if (st == DYD_OK) st = make[graph](&w);

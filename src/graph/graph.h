@@ -13,12 +13,14 @@
 #include "skeleton/distance_filter.h"
 #include <dyadel/graph.h>
 
-/* pairs: the possible ones. partner[start[i] .. start[i + 1] - 1]: those of site i, ascending. */
+/* pairs: the possible ones, of at least the status `least`. partner[start[i] .. start[i + 1] - 1]: those of site i,
+ * ascending. */
 typedef struct dyd_graph_work {
   const dyd_delaunay *pd;
   const dyd_sites *sites;
   const volatile int *cancel;
   size_t n;
+  dyd_pair_status least;
   dyd_pair_list pairs;
   size_t *start;
   uint32_t *partner;

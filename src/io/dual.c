@@ -103,16 +103,16 @@ dyd_status dyd_dual_edges(dyd_dual_edge **out, size_t *count, const dyd_delaunay
                           const dyd_triangle_list *triangles, const size_t *tied, size_t ties, dyd_room *room) {
   dyd_pair_list pairs = {0};
   size_t legal = 0;
-  uint64_t bytes = dyd_pairs_bytes(pd), edges = dyd_bytes_times(bytes / sizeof(dyd_pair), sizeof(dyd_dual_edge));
+  uint64_t bytes = dyd_pairs_bytes(pd, DYD_LEGAL),
+           edges = dyd_bytes_times(bytes / sizeof(dyd_pair), sizeof(dyd_dual_edge));
   if (!dyd_room_has(room, dyd_bytes_add(bytes, edges), "the edges of the diagram")) return DYD_E_NOMEM;
-  dyd_status st = dyd_delaunay_pairs(&pairs, pd);
+  dyd_status st = dyd_pairs_take(&pairs, pd, DYD_LEGAL);
   dyd_dual_edge *edge = st == DYD_OK ? calloc(pairs.count ? pairs.count : 1, sizeof *edge) : NULL;
   if (st == DYD_OK && !edge) st = DYD_E_NOMEM;
-  for (size_t k = 0; st == DYD_OK && k < pairs.count; k++)
-    if (pairs.item[k].status == DYD_LEGAL) {
-      edge[legal].i = pairs.item[k].i;
-      edge[legal++].j = pairs.item[k].j;
-    }
+  for (; st == DYD_OK && legal < pairs.count; legal++) {
+    edge[legal].i = pairs.item[legal].i;
+    edge[legal].j = pairs.item[legal].j;
+  }
   dyd_pair_list_clear(&pairs);
   if (st == DYD_OK) {
     dual_join_triangles(edge, legal, triangles);

@@ -8,16 +8,20 @@
 #include "metric/second_filter.h"
 
 #include "base/alloc.h"
+#include "base/flag.h"
+#include "delaunay/memory.h"
 
 #define SAFE (1 + 32 * 0x1p-53)
-enum { DEPTH = 60, FINER = 16 };
+/* So often a box is halved; it is small for its value when it is FINER times smaller. */
+enum { DEPTH = 120, FINER = 16 };
 
-/* box[own]: the rectangle of the site; best: the square of the bound so far, most: of those worth looking for;
- * far: room for one number a box. */
+/* cancel: the search ends once it is set. box[own]: the rectangle of the site; best: the square of the bound so far,
+ * most: of those worth looking for; far: room for one number a box. */
 typedef struct second_search {
   dyd_bbox *box;
   size_t count, own;
   double best, most, *far;
+  const volatile int *cancel;
 } second_search;
 
 static bool boxes_are_apart(const dyd_bbox *a, const dyd_bbox *b) {
@@ -70,18 +74,27 @@ static double second_value(const second_search *s, const dyd_bbox *c) {
   return dyd_min(second_least(s, s->own), second_least(s, nearest));
 }
 
-static void second_visit(second_search *s, const dyd_bbox *c, int depth) {
-  double value = second_value(s, c), width = c->e[1] - c->e[0], height = c->e[3] - c->e[2];
+/* The longer side is halved, so boxes stay about as high as wide, however long W is: along a strip there are about
+ * FINER of them each time the distance from the site doubles. The half of the larger value comes first: it often shows
+ * that the other one does not count. */
+static void second_visit(second_search *s, const dyd_bbox *c, double value, int depth) {
+  double width = c->e[1] - c->e[0], height = c->e[3] - c->e[2];
   if (s->best > s->most || value <= s->best || second_is_outside(s, c) || second_is_inside(s, c)) return;
+  if (dyd_flag_is_set(s->cancel)) {
+    s->best = HUGE_VAL;
+    return;
+  }
   if (depth == 0 || !(FINER * FINER * (width * width + height * height) > value)) {
     s->best = value;
     return;
   }
-  double x = c->e[0] / 2 + c->e[1] / 2, y = c->e[2] / 2 + c->e[3] / 2;
-  for (int q = 0; q < 4; q++) {
-    dyd_bbox part = {{q & 1 ? x : c->e[0], q & 1 ? c->e[1] : x, q & 2 ? y : c->e[2], q & 2 ? c->e[3] : y}};
-    second_visit(s, &part, depth - 1);
-  }
+  int axis = height > width ? 2 : 0;
+  dyd_bbox part[2] = {*c, *c};
+  part[0].e[axis + 1] = part[1].e[axis] = c->e[axis] / 2 + c->e[axis + 1] / 2;
+  double half[2] = {second_value(s, &part[0]), second_value(s, &part[1])};
+  int first = half[1] > half[0];
+  second_visit(s, &part[first], half[first], depth - 1);
+  second_visit(s, &part[1 - first], half[1 - first], depth - 1);
 }
 
 /* *c = a box round { dl_i <= reach } n W; false: none of finite ends. */
@@ -97,12 +110,12 @@ static bool second_start(dyd_bbox *c, const dyd_bbox *own, const dyd_rect *windo
 }
 
 dyd_status dyd_filter_second(double *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, double reach,
-                             double most) {
+                             double most, const volatile int *cancel) {
   dyd_index_list near = {0};
   dyd_bbox c;
-  dyd_status st = dyd_delaunay_neighbours(&near, pd, i, DYD_TIE);
+  dyd_status st = dyd_delaunay_neighbours(&near, pd, i, dyd_least_bounding(pd));
   if (st != DYD_OK) return st;
-  second_search s = {.count = near.count + 1, .own = near.count, .most = most * most};
+  second_search s = {.count = near.count + 1, .own = near.count, .most = most * most, .cancel = cancel};
   s.box = dyd_alloc(s.count, sizeof *s.box);
   s.far = dyd_alloc(s.count, sizeof *s.far);
   if (s.box && s.far) {
@@ -110,7 +123,7 @@ dyd_status dyd_filter_second(double *out, const dyd_delaunay *pd, uint32_t i, co
     dyd_sites_get_d(s.box[s.own].e, dyd_delaunay_sites(pd), i);
     *out = HUGE_VAL;
     if (second_start(&c, &s.box[s.own], window, reach)) {
-      second_visit(&s, &c, DEPTH);
+      second_visit(&s, &c, second_value(&s, &c), DEPTH);
       if (!(s.best > s.most)) *out = sqrt(s.best) * SAFE;
     }
   }

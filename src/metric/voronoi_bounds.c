@@ -24,6 +24,7 @@
 #include "metric/bounds.h"
 #include "metric/second_filter.h"
 #include "metric/voronoi_filter.h"
+#include "voronoi/point_cell.h"
 
 /* Areas in W are below 2^(2 e), polygons are within 2^-bits: sums need some e + bits more digits than a bound. */
 static mpfr_prec_t sum_precision(const dyd_rect *window, int64_t bits) {
@@ -38,7 +39,8 @@ static mpfr_prec_t sum_precision(const dyd_rect *window, int64_t bits) {
 
 dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits) {
   size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
-  *s = (dyd_voronoi_sums){.pd = pd, .window = window, .bits = bits, .most = HUGE_VAL, .room = dyd_delaunay_room(pd)};
+  *s = (dyd_voronoi_sums){
+      .pd = pd, .window = window, .bits = bits, .most = HUGE_VAL, .exact = true, .room = dyd_delaunay_room(pd)};
   mpfr_inits2(sum_precision(window, bits), s->inner, s->term, (mpfr_ptr)0);
   mpfr_set_zero(s->inner, 1);
   dyd_dyadic_init(&s->area2);
@@ -83,6 +85,8 @@ static dyd_status add_shape(double area[2], dyd_voronoi_sums *s, uint32_t i, con
   double box[4];
   dyd_sites_get_d(box, dyd_delaunay_sites(s->pd), i);
   s->reach[i] = dyd_filter_reach_of_shape(shape, box);
+  s->added++;
+  s->inexact += !shape->exact;
   if (!shape->in_doubles || shape->on_grid) return add_exact_shape(area, s, shape);
   area[0] = shape->area[0];
   area[1] = shape->area[1];
@@ -105,6 +109,7 @@ dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, vo
   dyd_status st = dyd_window_init(&w, s->window);
   w.cancel = s->cancel;
   w.room = &s->room;
+  if (st == DYD_OK && s->exact) dyd_window_set_grid(&w);
   for (size_t i = 0; i < n && st == DYD_OK; i++) {
     double area[2];
     if (dyd_delaunay_alias(s->pd, (uint32_t)i) != i) continue;
@@ -130,7 +135,8 @@ void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s) {
       dyd_dyadic_mul(&area, &side[0], &side[1]) == DYD_OK) {
     mpfr_from_dyadic(exact, &area, MPFR_RNDU);
     mpfr_sub(out, exact, s->inner, MPFR_RNDU);
-    if (mpfr_sgn(out) < 0) mpfr_set_zero(out, 1); /* rounded sums of what fills W */
+    bool whole = s->added && !s->inexact; /* cells of exact points fill W */
+    if (whole || mpfr_sgn(out) < 0) mpfr_set_zero(out, 1);
   }
   mpfr_clear(exact);
   dyd_dyadic_clear(&area);
@@ -172,7 +178,7 @@ dyd_status dyd_voronoi_pair_second(double *out, dyd_voronoi_sums *s, const dyd_p
   *out = 0;
   for (int k = 0; k < 2 && st == DYD_OK && *out < HUGE_VAL; k++) {
     double *second = &s->second[end[k]];
-    if (*second < 0) st = dyd_filter_second(second, s->pd, end[k], s->window, s->reach[end[k]], s->most);
+    if (*second < 0) st = dyd_filter_second(second, s->pd, end[k], s->window, s->reach[end[k]], s->most, s->cancel);
     if (*second > *out) *out = *second;
   }
   return st;
@@ -244,8 +250,10 @@ dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, dyd_voronoi_sums *s)
   dyd_pair_list pairs = {0};
   mpfr_t area, hausdorff;
   mpfr_inits2(DYD_MEASURE_PREC, area, hausdorff, (mpfr_ptr)0);
-  dyd_status st = dyd_room_has(&s->room, dyd_pairs_bytes(s->pd), "the bounds of the diagram") ? DYD_OK : DYD_E_NOMEM;
-  if (st == DYD_OK) st = dyd_delaunay_pairs(&pairs, s->pd);
+  dyd_status st = dyd_room_has(&s->room, dyd_pairs_bytes(s->pd, dyd_least_bounding(s->pd)), "the bounds of the diagram")
+                      ? DYD_OK
+                      : DYD_E_NOMEM;
+  if (st == DYD_OK) st = dyd_pairs_take(&pairs, s->pd, dyd_least_bounding(s->pd));
   dyd_voronoi_area(area, s);
   if (st == DYD_OK) st = dyd_voronoi_hausdorff(hausdorff, &out->finite, s, &pairs);
   if (st == DYD_CANCELLED && s->cut) { /* not known */

@@ -23,6 +23,8 @@ typedef struct dyd_voronoi_sums {
   size_t *cut;
   dyd_room room; /* what max_bytes leaves beside the triangulation */
   double *reach, *second, most;
+  bool exact; /* cells of exact points are not flattened; false: their polygons are proved, vertex by vertex */
+  size_t added, inexact; /* shapes; those that are not the whole cell */
 } dyd_voronoi_sums;
 
 /* bits: of the polygons to come; sums are kept so precise that rounding does not spoil what these give. */

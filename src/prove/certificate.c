@@ -225,7 +225,7 @@ static dyd_status pairs_of_faces(uint64_t *out, const dyd_delaunay *pd) {
 static dyd_status certificate_grant(const dyd_delaunay *pd, dyd_error *err) {
   enum { SITE = 650, PAIR = 40, LEFT = 16, MOST_LEFT = 1 << 22 };
   if (!dyd_delaunay_is_bounded(pd)) return DYD_OK;
-  uint64_t of_faces, pairs = dyd_pairs_bytes(pd) / sizeof(dyd_pair);
+  uint64_t of_faces, pairs = dyd_pairs_bytes(pd, DYD_TIE) / sizeof(dyd_pair);
   dyd_status st = pairs_of_faces(&of_faces, pd);
   if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
   uint64_t left = of_faces > pairs ? of_faces - pairs : 0, bytes = (left < MOST_LEFT ? left : MOST_LEFT) * LEFT;

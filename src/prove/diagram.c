@@ -155,6 +155,7 @@ static dyd_status section_write(section *s, const dyd_rect *window) {
   if (st != DYD_OK) return st;
   dyd_voronoi_bounds_init(&bounds);
   st = dyd_voronoi_sums_init(&sums, s->proof->pd, window, bits);
+  sums.exact = false;
   fputs("window", s->out);
   for (int k = 0; k < 4; k++) {
     putc(' ', s->out);

@@ -98,8 +98,8 @@ static dyd_status births_among(dyd_tolerance *t, const dyd_pair_list *pairs) {
 /* For the list of candidates beside their triangulation, and for rows of all of them. */
 static dyd_status births_have_room(dyd_tolerance *t, const dyd_delaunay *wide) {
   if (!t->room.most) return DYD_OK;
-  t->room.beside += dyd_delaunay_memory(wide) + dyd_pairs_bytes(wide);
-  return dyd_rows_have_room(t, dyd_pairs_bytes(wide) / sizeof(dyd_pair), "the births") ? DYD_OK : DYD_E_NOMEM;
+  t->room.beside += dyd_delaunay_memory(wide) + dyd_pairs_bytes(wide, DYD_TIE);
+  return dyd_rows_have_room(t, dyd_pairs_bytes(wide, DYD_TIE) / sizeof(dyd_pair), "the births") ? DYD_OK : DYD_E_NOMEM;
 }
 
 dyd_status dyd_births(dyd_tolerance *t, dyd_error *err) {

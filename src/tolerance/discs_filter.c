@@ -362,7 +362,7 @@ static dyd_pair_status discs_status(dyd_disc_work *w, uint32_t i, uint32_t j, co
   w->count = 0;
   for (int end = 0; end < 2; end++) {
     dyd_legal_each_at(w->pd, end ? j : i, see_neighbour, w);
-    dyd_open_each_at(w->pd, end ? j : i, see_neighbour, w);
+    dyd_open_each_at(w->pd, end ? j : i, DYD_TIE, see_neighbour, w);
   }
   if (known != DYD_ILLEGAL &&
       (dyd_disc_is_within(&w->disc[w->i], &w->disc[w->j]) ? large_is_legal(w) : discs_are_legal(w)))

@@ -5,6 +5,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "delaunay/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -28,14 +29,22 @@ static bool is_asked(const dyd_survey_options *o, const dyd_survey *s, const dyd
   return !o->window || dyd_rect_meets(&s->site[p->i].rect, o->window) || dyd_rect_meets(&s->site[p->j].rect, o->window);
 }
 
+/* How many ties dyd_least_bounding leaves out: they are those of the nominal places, which are the points. */
+static size_t ties_left_out(const dyd_delaunay *pd) {
+  size_t count[4];
+  dyd_delaunay_count(count, pd);
+  return dyd_least_bounding(pd) > DYD_TIE ? count[DYD_TIE] : 0;
+}
+
 /* Of the pairs asked for: those open, but for the ties of the nominal places. */
 static dyd_status find_targets(dyd_survey *s, const dyd_delaunay *pd) {
   dyd_pair_list all = {0};
   dyd_delaunay *nominal = NULL;
   dyd_sites *centres = NULL;
   const dyd_survey_options *o = &s->options;
-  dyd_status st = o->pairs ? DYD_OK : dyd_delaunay_pairs(&all, pd);
+  dyd_status st = o->pairs ? DYD_OK : dyd_pairs_take(&all, pd, dyd_least_bounding(pd));
   const dyd_pair_list *asked = o->pairs ? o->pairs : &all;
+  if (!o->pairs) s->ties = ties_left_out(pd);
   if (st == DYD_OK) st = dyd_survey_triangulate(&nominal, &centres, s, true);
   if (st == DYD_OK && !(s->target.item = dyd_alloc(asked->count, sizeof *s->target.item))) st = DYD_E_NOMEM;
   for (size_t k = 0; k < asked->count && st == DYD_OK; k++) {

@@ -79,10 +79,10 @@ static dyd_status tolerance_work(dyd_tolerance *t, dyd_error *err) {
   dyd_status st = dyd_near_prepare(t);
   if (st == DYD_OK && (o->sigmas || o->sigma > 0))
     st = take_by_vertex(&t->sigma, &t->widest, t->sk, o->sigmas, o->sigma);
-  uint64_t pairs = dyd_pairs_bytes(t->pd) / sizeof(dyd_pair);
+  uint64_t pairs = dyd_pairs_bytes(t->pd, DYD_TIE) / sizeof(dyd_pair);
   if (st == DYD_OK && !dyd_rows_have_room(t, pairs, "the tolerances of the edges")) st = DYD_E_NOMEM;
   if (st == DYD_OK) st = dyd_deaths(t);
-  if (st == DYD_OK) dyd_each_pair(t->pd, add_tie, &ties);
+  if (st == DYD_OK) dyd_each_pair(t->pd, DYD_TIE, add_tie, &ties);
   if (st == DYD_OK) st = ties.status;
   if (st == DYD_OK && o->weight) st = take_by_vertex(&t->weight, &t->heaviest, t->sk, o->weight, 1);
   if (st == DYD_OK && t->options.up_to && mpq_sgn(t->options.up_to)) st = dyd_births(t, err);

@@ -9,6 +9,7 @@
  * only one beginning has a box that meets the box of the end, it is that one. */
 #include "voronoi/outline_filter.h"
 
+#include "delaunay/memory.h"
 #include "rect/sites_table.h"
 #include <stdlib.h>
 
@@ -48,7 +49,7 @@ static bool box_load(dyd_box *out, const dyd_sites *s, uint32_t i) {
 dyd_status dyd_outline_load(bool *done, dyd_outline *o, const dyd_delaunay *pd, uint32_t i) {
   dyd_index_list list = {0};
   const dyd_sites *s = dyd_delaunay_sites(pd);
-  dyd_status st = dyd_delaunay_neighbours(&list, pd, i, DYD_TIE);
+  dyd_status st = dyd_delaunay_neighbours(&list, pd, i, dyd_least_bounding(pd));
   *done = st == DYD_OK && list.count <= DYD_OUTLINE_OTHERS;
   if (*done) {
     o->count = list.count;

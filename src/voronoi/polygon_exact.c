@@ -16,7 +16,9 @@
 #include "voronoi/sample.h"
 #include "voronoi/shape.h"
 
-enum { FIRST_EXTRA = 8, MOST_EXTRA = 1 << 15 };
+/* FINER: bits by which polygons that cross themselves are made finer. Parabolas take twice as many chords for two bits,
+ * so what was too coarse costs less than what is fine enough. */
+enum { FIRST_EXTRA = 8, MOST_EXTRA = 1 << 15, FINER = 2 };
 
 typedef struct work {
   dyd_cell_sites sites;
@@ -198,7 +200,7 @@ static dyd_status exact_outer_part(dyd_polygon *out, work *w, const dyd_chain *c
   int64_t bits = w->bits;
   bool simple = false;
   dyd_status st = DYD_OK;
-  for (int64_t extra = 0; !simple && st == DYD_OK; extra += extra + 4) {
+  for (int64_t extra = 0; !simple && st == DYD_OK; extra += FINER) {
     if (extra > MOST_EXTRA) return DYD_E_RANGE;
     dyd_polygon_clear(out);
     w->samples.count = 0;
@@ -221,7 +223,8 @@ static dyd_status drop_if_clockwise(dyd_polygon_list *l) {
   return st;
 }
 
-static dyd_status exact_outer(dyd_polygon_list *out, work *w) {
+static dyd_status exact_outer_parts(dyd_polygon_list *out, work *w) {
+  dyd_polygon_list_clear(out);
   out->item = calloc(w->boundary.count, sizeof *out->item);
   if (!out->item) return DYD_E_NOMEM;
   dyd_status st = DYD_OK;
@@ -229,6 +232,21 @@ static dyd_status exact_outer(dyd_polygon_list *out, work *w) {
     st = exact_outer_part(&out->item[out->count++], w, &w->boundary.chain[k]);
     if (st == DYD_OK) st = drop_if_clockwise(out);
   }
+  return st;
+}
+
+/* Cut to W; taken anew with more bits while that spoils one. */
+static dyd_status exact_outer(dyd_polygon_list *out, work *w, const dyd_rect *window) {
+  int64_t bits = w->bits;
+  bool simple = false;
+  dyd_status st = DYD_OK;
+  for (int64_t extra = 0; !simple && st == DYD_OK; extra += FINER) {
+    if (extra > MOST_EXTRA) return DYD_E_RANGE;
+    w->bits = bits + extra;
+    st = exact_outer_parts(out, w);
+    if (st == DYD_OK) st = dyd_polygons_clip(&simple, out, window, w->bits + DYD_CLIP_EXTRA, w->cancel);
+  }
+  w->bits = bits;
   return st;
 }
 
@@ -255,7 +273,7 @@ dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32
   dyd_status st = polygon_work_init(&w, pd, i, &wide, window, bits);
   if (st == DYD_OK) st = dyd_window_enlarge(&wide, window->rect, bits);
   if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, true, &wide, w.room, w.cancel);
-  if (st == DYD_OK && w.boundary.count) st = exact_outer(&list, &w);
+  if (st == DYD_OK && w.boundary.count) st = exact_outer(&list, &w, window->rect);
   if (st == DYD_OK) {
     dyd_polygon_list_clear(out);
     *out = list;

@@ -13,7 +13,7 @@
 
 #include <stdlib.h>
 
-enum { GRID = DYD_GRID_BITS, FIRST_EXTRA = 8, SAMPLES = 1 << 14 };
+enum { GRID = DYD_GRID_BITS, FIRST_EXTRA = 8, FINER = 2, SAMPLES = 1 << 14 };
 
 /* As dyd_arc_sample. */
 typedef struct grid_sample {
@@ -79,6 +79,7 @@ static dyd_status grid_steps(uint32_t *out, grid_work *w, const dyd_outline_piec
   if (!w->known || !length) return DYD_OK;
   dyd_iv q = dyd_iv_sub(p->arc->shape.s[o], p->arc->shape.q[o]), square = dyd_iv_sqr(dyd_iv_point((double)length));
   if (dyd_iv_sign(q) < 0) q = dyd_iv_neg(q);
+  if (!(q.lo > ldexp(1, -bits - DYD_NARROW))) return w->known = false, DYD_OK;
   dyd_iv share = dyd_iv_div(square, q);
   (void)frexp(share.lo, &exp[0]);
   (void)frexp(share.hi, &exp[1]);
@@ -313,7 +314,7 @@ static dyd_status grid_outer(grid_work *w) {
   bool simple = false;
   dyd_status st = DYD_OK;
   w->polygon.count = 0;
-  for (int extra = 0; w->o->parts && !simple && w->known && st == DYD_OK; extra += extra + 4) {
+  for (int extra = 0; w->o->parts && !simple && w->known && st == DYD_OK; extra += FINER) {
     w->bits = bits + extra;
     st = grid_samples(w);
     if (st == DYD_OK && w->known) st = grid_place_all(w, grid_place_outer);

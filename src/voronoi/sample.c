@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/index.h"
+#include "delaunay/memory.h"
 #include "dyadic/raw.h"
 
 #include <string.h>
@@ -17,7 +18,7 @@ dyd_status dyd_cell_sites_init(dyd_cell_sites *s, const dyd_delaunay *pd, uint32
   dyd_rect_init(&s->own);
   dyd_index_list list = {0};
   dyd_status st = dyd_sites_get(&s->own, dyd_delaunay_sites(pd), i);
-  if (st == DYD_OK) st = dyd_delaunay_neighbours(&list, pd, i, DYD_TIE);
+  if (st == DYD_OK) st = dyd_delaunay_neighbours(&list, pd, i, dyd_least_bounding(pd));
   if (st != DYD_OK) return st;
   s->site = list.item;
   s->other = dyd_alloc(list.count, sizeof *s->other);
@@ -164,6 +165,18 @@ dyd_status dyd_parabola_steps(uint32_t *out, const dyd_sites *sites, const uint3
   return st;
 }
 
+/* The bits with which ends of an arc are found, for its length. An error d of the length adds d sqrt(2^bits / (8 q)) to
+ * the number of parts: below 1 for d^2 <= q 2^-bits. Where the parabola is much narrower than 2^-bits, as near sites
+ * that are small against the window, that takes more bits than the parts themselves. */
+static int64_t length_bits(const mpq_t q, int64_t bits) {
+  mpq_t size;
+  mpq_init(size);
+  mpq_abs(size, q);
+  int64_t log2 = dyd_q_log2_above(size);
+  mpq_clear(size);
+  return log2 >= -bits - DYD_NARROW ? bits + 4 : (bits - log2) / 2 + 3;
+}
+
 /* Into how many parts the arc has to be cut: n >= length sqrt(2^bits / (8 q)). */
 static dyd_status arc_count_steps(uint32_t *out, const dyd_arc *arc, const dyd_cell_sites *s, uint32_t own,
                                   int64_t bits) {
@@ -177,8 +190,10 @@ static dyd_status arc_count_steps(uint32_t *out, const dyd_arc *arc, const dyd_c
   dyd_point_init(&b);
   mpq_inits(length, q, NULL);
   parabola_set(&p, arc, s, own);
-  dyd_status st = arc_end_point(&a, &arc->begin, bits + 4);
-  if (st == DYD_OK) st = arc_end_point(&b, &arc->end, bits + 4);
+  mpq_sub(q, p.focus[1 - p.along], p.directrix);
+  int64_t fine = length_bits(q, bits);
+  dyd_status st = arc_end_point(&a, &arc->begin, fine);
+  if (st == DYD_OK) st = arc_end_point(&b, &arc->end, fine);
   if (st == DYD_OK) {
     dyd_dyadic_get_q(length, p.along ? &a.y : &a.x);
     dyd_dyadic_get_q(q, p.along ? &b.y : &b.x);

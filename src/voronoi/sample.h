@@ -42,6 +42,9 @@ dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const
                              int64_t bits, dyd_room *room);
 /* log2 of the length of (x, y), rounded up by at most 2; INT64_MIN / 2 where that is 0. */
 int64_t dyd_log2_length(const mpq_t x, const mpq_t y);
+/* The arcs of parabolas whose focus and directrix are at least 2^-(bits + DYD_NARROW) apart are measured with
+ * bits + 4. */
+enum { DYD_NARROW = 4 };
 /* Into how many parts an arc of a parabola is cut whose ends are `length` 2^-(bits+5) apart along its directrix: the
  * focus is the end far_end of the side across it of site far, the directrix that of site near. */
 dyd_status dyd_parabola_steps(uint32_t *out, const dyd_sites *sites, const uint32_t site[2], const int end[2],

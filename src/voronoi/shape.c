@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "voronoi/outline_filter.h"
+#include "voronoi/point_cell.h"
 #include "voronoi/polygon.h"
 
 dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect) {
@@ -11,6 +12,7 @@ dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect) {
   w->rect = rect;
   w->cancel = NULL;
   w->room = NULL;
+  w->exact = false;
   for (int a = 0; a < 2; a++) {
     if (mpz_cmp_ui(side[a]->den, 1) != 0 || dyd_dyadic_cmp(&side[a]->lo, &side[a]->hi) >= 0) return DYD_E_ARG;
     w->d[2 * a] = dyd_dyadic_get_d(&side[a]->lo, DYD_UP);
@@ -26,12 +28,13 @@ void dyd_shape_clear(dyd_shape *s) {
   free(s->outer);
   free(s->fan);
   free(s->fan_box);
+  free(s->key);
   free(s->outline);
   *s = (dyd_shape){0};
 }
 
 static void shape_empty(dyd_shape *s) {
-  s->in_doubles = s->on_grid = false;
+  s->in_doubles = s->on_grid = s->exact = false;
   dyd_polygon_clear(&s->inner_exact);
   dyd_polygon_list_clear(&s->outer_exact);
 }
@@ -53,15 +56,34 @@ dyd_status dyd_shape_set_unknown(dyd_shape *s, const dyd_rect *window) {
   return DYD_OK;
 }
 
+dyd_status dyd_shape_clip(bool *done, dyd_shape *s, const dyd_window *w, int64_t bits) {
+  uint32_t k = 0;
+  while (k < s->outer_count && w->d[0] <= s->outer[k].x && s->outer[k].x <= w->d[1] && w->d[2] <= s->outer[k].y &&
+         s->outer[k].y <= w->d[3])
+    k++;
+  if (k == s->outer_count) return DYD_OK;
+  dyd_status st = dyd_shape_inner(&s->inner_exact, s);
+  if (st == DYD_OK) st = dyd_shape_outer(&s->outer_exact, s);
+  if (st == DYD_OK) st = dyd_polygons_clip(done, &s->outer_exact, w->rect, bits + DYD_CLIP_EXTRA, w->cancel);
+  s->in_doubles = s->on_grid = false;
+  return st;
+}
+
 dyd_status dyd_shape_find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w, int64_t bits) {
   bool done = false;
   shape_empty(s);
   if (dyd_flag_is_set(w->cancel)) return DYD_CANCELLED;
+  dyd_status found = dyd_point_cell(&done, s, pd, i, w);
+  if (found != DYD_OK || done) return found;
   if (!pd->sk.mesh.no_filter) {
     dyd_status st = dyd_filter_shape(&done, s, pd, pd->sk.vertex[i], w, bits);
-    if (st == DYD_OK && !done) st = dyd_filter_polygons(&done, s, pd, i, w, bits);
+    if (st == DYD_OK && !done) {
+      st = dyd_filter_polygons(&done, s, pd, i, w, bits);
+      if (done) st = dyd_shape_clip(&done, s, w, bits);
+    }
     if (st != DYD_OK || done) return st;
   }
+  shape_empty(s);
   dyd_status st = dyd_exact_inner(&s->inner_exact, pd, i, w, bits);
   if (st == DYD_OK) st = dyd_exact_outer(&s->outer_exact, pd, i, w, bits);
   return st;
@@ -180,6 +202,16 @@ dyd_status dyd_voronoi_outer_polygon(dyd_polygon_list *out, const dyd_delaunay *
     dyd_polygon_list_clear(out);
     *out = l;
   }
+  dyd_shape_clear(&s);
+  return st;
+}
+
+dyd_status dyd_voronoi_exact_area(mpq_t out, bool *exact, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {
+  dyd_shape s = {0};
+  dyd_window w;
+  if (!pd || i >= pd->sk.n) return DYD_E_ARG;
+  dyd_status st = dyd_window_init(&w, window);
+  if (st == DYD_OK) st = dyd_point_cell_area(out, exact, &s, pd, dyd_delaunay_alias(pd, i), &w);
   dyd_shape_clear(&s);
   return st;
 }

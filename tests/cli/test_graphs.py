@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Graphs of neighbours, delaunay --layer graph:nearest|gabriel|mst, against exact oracles: [NNG-1] [GAB-1] [MST-1].
+"""Graphs of neighbours, delaunay --layer graph:nearest|gabriel|mst, against exact oracles: [NNG-1] [GAB-1] [MST-1]
+[GRP-1].
 
 Usage: test_graphs.py COMMAND DATA
 """

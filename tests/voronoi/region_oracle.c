@@ -288,17 +288,23 @@ static bool on_side_line(orc_pool *p, const orc_rect *r, orc_point at) {
   return false;
 }
 
-/* The lowest third site at the radius; n for none. */
-static size_t third_site(orc_pool *p, const region *g, const dyd_arc *a, orc_point at) {
+static bool all_are_points(const orc_case *c) {
+  for (size_t k = 0; k < c->n; k++)
+    if (!mpq_equal(c->rect[k].e[0], c->rect[k].e[1]) || !mpq_equal(c->rect[k].e[2], c->rect[k].e[3])) return false;
+  return true;
+}
+
+/* Is `site` the lowest third site at the radius? Of exact points, on one circle perhaps, is it any of them? */
+static bool is_third_site(orc_pool *p, const region *g, const dyd_arc *a, orc_point at, size_t site) {
   size_t own = g->outer ? a->near_site : a->far_site, other = g->outer ? a->far_site : a->near_site;
   orc_alg r = orc_dl2(p, at, &g->c->rect[a->far_site]);
-  for (size_t k = 0; k < g->c->n; k++) {
+  for (size_t k = all_are_points(g->c) ? site : 0; k < g->c->n; k++) {
     if (k == own || k == other || orc_case_alias(g->c, k) != k) continue;
     const orc_rect *q = &g->c->rect[k];
     if (orc_rect_meets(q, &g->c->rect[own])) continue;
-    if (!orc_alg_cmp(p, g->outer ? orc_dl2(p, at, q) : orc_ds2(p, at, q), r)) return k;
+    if (!orc_alg_cmp(p, g->outer ? orc_dl2(p, at, q) : orc_ds2(p, at, q), r)) return k == site;
   }
-  return g->c->n;
+  return false;
 }
 
 static bool end_is_right(orc_pool *p, const region *g, const dyd_arc *a, const dyd_arc_end *e, const dyd_arc *beyond) {
@@ -310,7 +316,7 @@ static bool end_is_right(orc_pool *p, const region *g, const dyd_arc *a, const d
       beyond && beyond->kind != DYD_ARC_WINDOW && beyond->far_site == a->far_site && beyond->near_site == a->near_site;
   switch (e->kind) {
   case DYD_END_SITES:
-    return !same && e->site == third_site(p, g, a, at);
+    return !same && is_third_site(p, g, a, at, e->site);
   case DYD_END_AXIS:
     return same && beyond->corner != a->corner && on_middle(p, &g->c->rect[a->far_site], at);
   case DYD_END_FEATURE:

@@ -14,7 +14,7 @@
 
 enum { PROBES = 24 };
 
-static size_t vertices, probes, fast_sites, exact_sites;
+static size_t vertices, probes, fast_sites, exact_sites, exact_cells;
 
 /* ---- cases ---- */
 
@@ -160,12 +160,17 @@ static bool check_inner(char *message, orc_pool *p, setting *s, size_t i, const 
 
 /* ---- outer ---- */
 
-/* Both ends beyond the same side of the window. */
-static bool edge_is_outside(const orc_rect *w, xy a, xy b) {
-  return (mpq_cmp(a.x, w->e[0]) < 0 && mpq_cmp(b.x, w->e[0]) < 0) ||
-         (mpq_cmp(a.x, w->e[1]) > 0 && mpq_cmp(b.x, w->e[1]) > 0) ||
-         (mpq_cmp(a.y, w->e[2]) < 0 && mpq_cmp(b.y, w->e[2]) < 0) ||
-         (mpq_cmp(a.y, w->e[3]) > 0 && mpq_cmp(b.y, w->e[3]) > 0);
+/* Both ends on the same side of the window. */
+static bool edge_is_on_side(const orc_rect *w, xy a, xy b) {
+  for (int k = 0; k < 4; k++)
+    if (mpq_equal(k < 2 ? a.x : a.y, w->e[k]) && mpq_equal(k < 2 ? b.x : b.y, w->e[k])) return true;
+  return false;
+}
+
+/* [POLY-3] */
+static bool is_in_window(const orc_rect *w, xy z) {
+  return mpq_cmp(w->e[0], z.x) <= 0 && mpq_cmp(z.x, w->e[1]) <= 0 && mpq_cmp(w->e[2], z.y) <= 0 &&
+         mpq_cmp(z.y, w->e[3]) <= 0;
 }
 
 /* Moved towards R_i by four times what it may be off, the vertex is in Pos_i (or the move ends in R_i). A sliver of
@@ -190,11 +195,12 @@ static bool check_outer_edges(char *message, orc_pool *p, const setting *s, size
   for (size_t k = 0; k < g->count; k++) {
     size_t mark = orc_mark(p);
     xy a = of_point(p, &g->vertex[k]), b = of_point(p, &g->vertex[(k + 1) % g->count]);
-    bool good = edge_is_outside(&s->window, a, b),
-         close = edge_is_outside(&s->window, a, a) || vertex_is_close(p, s, i, a);
+    bool good = edge_is_on_side(&s->window, a, b), within = is_in_window(&s->window, a),
+         close = edge_is_on_side(&s->window, a, a) || vertex_is_close(p, s, i, a);
     for (size_t j = 0; j < s->c->n && !good; j++) good = j != i && nearer(p, s->c, j, i, a) && nearer(p, s->c, j, i, b);
     orc_release(p, mark);
     vertices++;
+    if (!within) return wrong(message, "outer vertex %zu of site %zu leaves the window", k, i);
     if (!good) return wrong(message, "outer edge %zu of site %zu is not in Ext by one site", k, i);
     if (!close) return wrong(message, "outer vertex %zu of site %zu is far from Pos", k, i);
   }
@@ -340,6 +346,17 @@ static mpq_srcptr true_area2(orc_pool *p, const setting *s, const orc_case *choi
   return sum;
 }
 
+/* What the bound takes for the area of a cell of exact points: all of it, exactly; else that of the inner polygon. */
+static bool cell_area2(char *message, orc_pool *p, mpq_srcptr *sum, setting *s, size_t i, mpq_srcptr inner,
+                       mpq_srcptr truth) {
+  mpq_ptr area = orc_new(p);
+  bool exact = false;
+  if (dyd_voronoi_exact_area(area, &exact, s->pd, (uint32_t)i, &s->rect) != DYD_OK) return wrong(message, "no area");
+  *sum = orc_add(p, *sum, exact ? truth : inner);
+  exact_cells += exact;
+  return !exact || mpq_equal(orc_mul(p, orc_si(p, 2, 1), area), truth) || wrong(message, "the area of cell %zu", i);
+}
+
 /* Areas: inner <= true cell <= outer, for a choice; and the bound on U is W less all inner ones. */
 static bool check_areas(char *message, setting *s, const orc_case *choice, const dyd_voronoi_bounds *b) {
   orc_pool *p = &s->h->pool;
@@ -358,7 +375,7 @@ static bool check_areas(char *message, setting *s, const orc_case *choice, const
            dyd_voronoi_outer_polygon(&outer, s->pd, (uint32_t)i, &s->rect, s->bits) == DYD_OK &&
            dyd_polygon_area2(&d, &inner) == DYD_OK;
     dyd_dyadic_get_q(q, &d);
-    sum = orc_add(p, sum, q);
+    good = good && cell_area2(message, p, &sum, s, i, q, truth);
     if (good && mpq_cmp(q, truth) > 0) good = wrong(message, "the inner polygon of %zu is larger than a true cell", i);
     for (size_t k = 0; good && k < outer.count; k++) {
       mpq_ptr t = orc_new(p);
@@ -438,7 +455,7 @@ static void thin_cases(void **state) {
     harness_run(&h, &c, check_case);
   }
   fprintf(stderr, "# cells in doubles %zu, exact %zu\n", fast_sites, exact_sites);
-  assert_true(fast_sites > 40 && exact_sites > 40);
+  assert_true(fast_sites > 40 && exact_sites > 40 && exact_cells > 40);
   orc_case_clear(&c);
   harness_clear(&h);
 }

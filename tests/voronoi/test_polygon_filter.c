@@ -90,6 +90,7 @@ static void check_cell(size_t kind, dyd_shape *s, const dyd_delaunay *pd, uint32
   dyd_polygon_list outer = {0}, copies = {0};
   bool found;
   assert_int_equal(dyd_filter_polygons(&found, s, pd, i, w, bits), DYD_OK);
+  if (found) assert_int_equal(dyd_shape_clip(&found, s, w, bits), DYD_OK);
   cells[kind]++;
   done[kind] += found;
   if (!found) return;
