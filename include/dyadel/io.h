@@ -143,8 +143,18 @@ typedef enum dyd_content {
   DYD_CONTENT_SPHERE_TRIANGLES,
   DYD_CONTENT_SPHERE_VORONOI, /* its diagram: cells, and other layers */
   DYD_CONTENT_SPHERE_VERTICES,
-  DYD_CONTENT_SPHERE_REGIONS
+  DYD_CONTENT_SPHERE_REGIONS,
+  DYD_CONTENT_ALIASES,         /* rows that have a point in common with an earlier one: a layer of the triangulation, */
+  DYD_CONTENT_VORONOI_ALIASES, /* and of the diagram */
+  DYD_CONTENT_TIES             /* groups of ties */
 } dyd_content;
+
+/* How ties are listed beside other pairs. */
+typedef enum dyd_list_ties {
+  DYD_LIST_TIES_PAIRS = 0, /* a row for each pair: k sites of a circle have k (k - 3) / 2 */
+  DYD_LIST_TIES_GROUPS,    /* csv: the groups, in place of the pairs; json has them always, and then only them */
+  DYD_LIST_TIES_NONE
+} dyd_list_ties;
 
 /* Finds a format by its name ("csv"), or by the ending of a file's name ("a/map.svg", in any case); false when there is
  * none. */
@@ -186,6 +196,7 @@ typedef struct dyd_delaunay_output {
                                      where it ends with other pairs than the result */
   const dyd_tolerance *tolerance; /* of the result, with points, for html; NULL: none is told */
   const volatile int *cancel;     /* as in dyd_graph_edges: DYD_CANCELLED, and no graph is written; NULL: none */
+  dyd_list_ties ties;
 } dyd_delaunay_output;
 /* The same as o says; NULL: as dyd_write_delaunay. DYD_E_ARG when the format does not hold the layer. */
 DYD_API dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delaunay_output *o,

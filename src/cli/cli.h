@@ -48,7 +48,8 @@ typedef struct cli_options {
   dyd_engine_options engine;
   dyd_format format; /* one that the command can write; csv when not given */
   bool format_set;
-  const char *layer;    /* a name */
+  const char *layer; /* a name */
+  dyd_list_ties list_ties;
   dyd_content content;  /* what is written: the layer, or all that the command says */
   unsigned epsg;        /* 0: not given */
   const char *window;   /* checked text: see cli_window_read */
@@ -202,6 +203,8 @@ dyd_goal cli_voronoi_goal(dyd_goal goal);
 
 /* notes.c: a line when radii were given and most of the rectangles meet another one. pd may be NULL. */
 void cli_note_spacing(const dyd_delaunay *pd, const cli_options *o);
+/* A line when points have no row in wkt or geojson, since they coincide with others. pd may be NULL. */
+void cli_note_aliases(const dyd_delaunay *pd, const cli_options *o);
 
 /* output.c. name NULL: standard output. false after a message. */
 bool cli_output_open(cli_output *out, const char *name);

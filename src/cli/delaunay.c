@@ -18,8 +18,8 @@ static dyd_status write_pairs(FILE *out, const dyd_engine *e, const dyd_pair_lis
                               dyd_error *err) {
   dyd_tolerance *tolerance = NULL;
   if (!pairs && o->format == DYD_FORMAT_HTML) tolerance = find_tolerance(dyd_engine_delaunay(e));
-  const dyd_delaunay_output how = {DYD_SIZED(dyd_delaunay_output), o->view,   o->content,        pairs, o->epsg,
-                                   pairs ? NULL : o->history,      tolerance, cli_signals_flag()};
+  const dyd_delaunay_output how = {DYD_SIZED(dyd_delaunay_output), o->view,   o->content,         pairs,       o->epsg,
+                                   pairs ? NULL : o->history,      tolerance, cli_signals_flag(), o->list_ties};
   dyd_status st = dyd_write_delaunay_as(out, e, &how, o->format, err);
   dyd_tolerance_free(tolerance);
   return st;

@@ -53,6 +53,8 @@ static void bash_value(FILE *out, const cli_option *o) {
     fputs("words='euclid box' ;;\n", out);
   } else if (o->kind == CLI_TIES) {
     fputs("words='prove off' ;;\n", out);
+  } else if (o->kind == CLI_LIST_TIES) {
+    fputs("words='pairs groups none' ;;\n", out);
   } else if (o->kind == CLI_GOAL) {
     fputs("words='decided area: hausdorff:' ;;\n", out);
   } else if (o->kind == CLI_CRS) {
@@ -130,6 +132,7 @@ static void zsh_option(FILE *out, const cli_option *o, const cli_command *c) {
   if (o->kind == CLI_SUBJECT) fputs("(delaunay voronoi)", out);
   if (o->kind == CLI_METRIC) fputs("(euclid box)", out);
   if (o->kind == CLI_TIES) fputs("(prove off)", out);
+  if (o->kind == CLI_LIST_TIES) fputs("(pairs groups none)", out);
   if (o->kind == CLI_GOAL) fputs("(decided area\\: hausdorff\\:)", out);
   if (o->kind == CLI_CRS) fputs("(EPSG\\:)", out);
   if (o->kind == CLI_FORMAT || o->kind == CLI_LAYER) {

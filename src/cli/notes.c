@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* A note on radii that are large for the spacing of the points.
+/* Notes on what is read: radii that are large for the spacing of the points, points that coincide.
  *
  * Rectangles that meet can be chosen as points arbitrarily near to each other, so their pair is possible: going over
  * the possible pairs finds all of them. */
@@ -44,4 +44,16 @@ void cli_note_spacing(const dyd_delaunay *pd, const cli_options *o) {
            "the radius is large for the spacing of the points: %zu of %zu rectangles meet another one, so that few "
            "edges can be sure; a smaller radius decides more",
            meeting, rectangles);
+}
+
+void cli_note_aliases(const dyd_delaunay *pd, const cli_options *o) {
+  bool of_points = o->content == DYD_CONTENT_DELAUNAY || o->content == DYD_CONTENT_VORONOI ||
+                   o->content == DYD_CONTENT_GRAPH_NEAREST || o->content == DYD_CONTENT_GRAPH_GABRIEL ||
+                   o->content == DYD_CONTENT_GRAPH_MST;
+  size_t aliases = 0, n = pd ? dyd_sites_count(dyd_delaunay_sites(pd)) : 0;
+  if (!of_points || (o->format != DYD_FORMAT_WKT && o->format != DYD_FORMAT_GEOJSON)) return;
+  for (size_t i = 0; i < n; i++) aliases += dyd_delaunay_alias(pd, (uint32_t)i) != i;
+  if (aliases)
+    cli_note(o, "%zu points coincide with earlier ones and have no row of their own (list them: --layer aliases)",
+             aliases);
 }

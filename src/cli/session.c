@@ -274,6 +274,7 @@ int cli_session_close(cli_session *s, int status) {
     int traced = cli_trace_end(s, outcome);
     if (status == 0) status = traced ? traced : cli_exit_status(outcome);
     if (!o->quiet && status != CLI_OK && status != CLI_USAGE) session_note_outcome(s);
+    cli_note_aliases(dyd_engine_delaunay(s->engine), o);
     if (status != CLI_OK && status != CLI_USAGE) cli_note_spacing(dyd_engine_delaunay(s->engine), o);
     if (o->stats && outcome != DYD_OUTCOME_NONE) cli_stats(stderr, s->engine, NULL, s->discs, cli_clock() - s->begun);
   }

@@ -219,12 +219,17 @@ const cli_option cli_option_table[] = {
 
     {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE), CLI_OUTPUT,
      "what csv, wkt and geojson hold, and html shows first;\ndelaunay: pairs (default), points, triangles,\n"
-     "graph:nearest, graph:gabriel, graph:mst (edges that are\nsure or possible; also pictures);\n"
-     "voronoi: cells (default), vertices, regions, edges; json\nand vtk hold all of them but graphs;\n"
+     "graph:nearest, graph:gabriel, graph:mst (edges that are\nsure or possible; also pictures), aliases (rows that\n"
+     "have a point in common with an earlier one), ties;\nvoronoi: cells (default), vertices, regions, edges,\n"
+     "aliases; json and vtk hold all of them but graphs;\n"
      "tolerance: pairs (default), points, barcode (csv: how "
      "many\n"
      "edges are certain at which accuracy)",
      AT(layer)},
+    {"list-ties", 0, "HOW", CLI_LIST_TIES, BIT(CLI_DELAUNAY), CLI_OUTPUT,
+     "pairs (default): a row for each tied pair; groups: csv\nlists the circles and lines that the tied points are on\n"
+     "in place of pairs (kind,sites); none: no tied pair",
+     AT(list_ties)},
     {"crs", 0, "EPSG:N", CLI_CRS, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_OUTPUT,
      "the reference system of the coordinates, for geojson and\njson (default: none is claimed)", AT(epsg)},
     {"output", 'o', "FILE", CLI_FILE, CLI_ALL, CLI_OUTPUT,

@@ -22,22 +22,23 @@ typedef enum cli_command_number {
 
 /* What the value of an option is: how it is read, and what completion offers for it. */
 typedef enum cli_kind {
-  CLI_FLAG,     /* no value; a bool is set */
-  CLI_TEXT,     /* any text */
-  CLI_FILE,     /* the name of a file that is written */
-  CLI_SOURCE,   /* the name of a file that is read */
-  CLI_INTEGER,  /* least..most, into an integer of `width` bytes */
-  CLI_SECONDS,  /* a double above 0 */
-  CLI_GOAL,     /* decided, area:M, hausdorff:M */
-  CLI_SCHEDULE, /* adaptive or uniform */
-  CLI_SUBJECT,  /* delaunay or voronoi; a bool is set for the latter */
-  CLI_METRIC,   /* euclid or box */
-  CLI_TIES,     /* prove or off, into a bool: off */
-  CLI_FORMAT,   /* a format of the command */
-  CLI_LAYER,    /* a layer of what the command writes */
-  CLI_CRS,      /* EPSG:N */
-  CLI_WINDOW,   /* XLO,XHI,YLO,YHI */
-  CLI_HELP      /* nothing, or =KIND */
+  CLI_FLAG,      /* no value; a bool is set */
+  CLI_TEXT,      /* any text */
+  CLI_FILE,      /* the name of a file that is written */
+  CLI_SOURCE,    /* the name of a file that is read */
+  CLI_INTEGER,   /* least..most, into an integer of `width` bytes */
+  CLI_SECONDS,   /* a double above 0 */
+  CLI_GOAL,      /* decided, area:M, hausdorff:M */
+  CLI_SCHEDULE,  /* adaptive or uniform */
+  CLI_SUBJECT,   /* delaunay or voronoi; a bool is set for the latter */
+  CLI_METRIC,    /* euclid or box */
+  CLI_TIES,      /* prove or off, into a bool: off */
+  CLI_LIST_TIES, /* pairs, groups or none */
+  CLI_FORMAT,    /* a format of the command */
+  CLI_LAYER,     /* a layer of what the command writes */
+  CLI_CRS,       /* EPSG:N */
+  CLI_WINDOW,    /* XLO,XHI,YLO,YHI */
+  CLI_HELP       /* nothing, or =KIND */
 } cli_kind;
 static inline bool cli_kind_is_file(cli_kind kind) {
   return kind == CLI_FILE || kind == CLI_SOURCE;

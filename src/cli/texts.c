@@ -66,7 +66,9 @@ const cli_term cli_results[] = {
      "holds the nearest one, and who reaches into it."},
     {"polygons of voronoi", "For every point an inner polygon, all of whose points are surely nearest to it, and outer "
                             "polygons that hold all points possibly nearest; vertices are dyadic, so that anybody can "
-                            "check them by comparing distances in integers."},
+                            "check them by comparing distances in integers. The cell of an exact point among exact "
+                            "points is one polygon (kind exact), whose vertices are rounded by at most vertex_error. "
+                            "All lie in the window."},
     {"converge", "One line for each stage: bits asked for (least, most, total), largest and median width, pairs by "
                  "status, undecided faces, bounds of the triangulation and of the diagram on the window, decisions per "
                  "rung, calls, a digest of all statuses, seconds. Widths and bounds are rounded up."},

@@ -82,6 +82,13 @@ static bool value_ties(bool *off, const cli_option *option, const char *text) {
   return *off || strcmp(text, "prove") == 0 || value_usage(option, text, "prove or off");
 }
 
+static bool value_list_ties(dyd_list_ties *out, const cli_option *option, const char *text) {
+  static const char *const name[] = {"pairs", "groups", "none"};
+  for (int k = 0; k < 3; k++)
+    if (strcmp(text, name[k]) == 0) return *out = (dyd_list_ties)k, true;
+  return value_usage(option, text, "pairs, groups or none");
+}
+
 /* Whether the command writes it is seen later, when the command is known. */
 static bool value_format(dyd_format *place, const cli_option *option, const char *text) {
   if (dyd_format_from_name(place, text)) return true;
@@ -152,6 +159,8 @@ static bool value_any(cli_options *o, const cli_option *option, const char *text
     return value_metric(place, option, text);
   case CLI_TIES:
     return value_ties(place, option, text);
+  case CLI_LIST_TIES:
+    return value_list_ties(place, option, text);
   case CLI_FORMAT:
     return value_format(place, option, text);
   case CLI_LAYER:

@@ -86,9 +86,9 @@ static dyd_status result_graph(bool *graph, dyd_result *r, const dyd_delaunay_ou
 
 /* May what an output takes be made? pairs: those to be written; NULL: all. */
 static dyd_status grant_output(const dyd_delaunay *pd, dyd_format format, bool diagram, const dyd_pair_list *pairs,
-                               dyd_error *err) {
+                               dyd_pair_status least, dyd_error *err) {
   if (!dyd_delaunay_is_bounded(pd)) return DYD_OK;
-  uint64_t count = pairs ? pairs->count : dyd_pairs_bytes(pd, DYD_TIE) / sizeof(dyd_pair);
+  uint64_t count = pairs ? pairs->count : dyd_pairs_bytes(pd, least) / sizeof(dyd_pair);
   uint64_t bytes = dyd_format_bytes(format, diagram, dyd_sites_count(dyd_delaunay_sites(pd)), count);
   return dyd_delaunay_grant(pd, bytes, "this output", err);
 }
@@ -97,6 +97,14 @@ static dyd_status grant_output(const dyd_delaunay *pd, dyd_format format, bool d
 static bool holds_pairs_alone(dyd_content layer, dyd_format format) {
   bool pairs = layer == DYD_CONTENT_NONE || layer == DYD_CONTENT_DELAUNAY;
   return pairs && format != DYD_FORMAT_JSON && format != DYD_FORMAT_OBJ && format != DYD_FORMAT_VTK;
+}
+
+/* Are ties found while rows of pairs are written, so that no list of them is made? */
+static bool rows_hold_ties(const dyd_result *r, dyd_content layer, dyd_format format, const dyd_delaunay_output *o) {
+  size_t count[4];
+  dyd_delaunay_count(count, r->pd);
+  bool rows = format == DYD_FORMAT_CSV || format == DYD_FORMAT_WKT || format == DYD_FORMAT_GEOJSON;
+  return rows && layer == DYD_CONTENT_DELAUNAY && !o->pairs && o->ties == DYD_LIST_TIES_PAIRS && count[DYD_TIE];
 }
 
 dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delaunay_output *options, dyd_format format,
@@ -118,15 +126,21 @@ dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delau
     return dyd_fail(err, DYD_E_ARG,
                     "statuses of discs are written as pairs: in csv, wkt, geojson, svg, pdf, png or html");
   bool graph;
+  dyd_content layer = layer_of(o.layer, DYD_CONTENT_DELAUNAY);
+  if (o.ties == DYD_LIST_TIES_GROUPS && layer == DYD_CONTENT_DELAUNAY && format == DYD_FORMAT_CSV)
+    layer = DYD_CONTENT_TIES;
   result_sites(&r);
-  dyd_status st = grant_output(r.pd, format, false, o.pairs, err);
+  r.ties_apart = rows_hold_ties(&r, layer, format, &o);
+  dyd_pair_status least = o.ties || r.ties_apart || layer == DYD_CONTENT_POINTS ? DYD_INDETERMINATE : DYD_TIE;
+  dyd_status st = grant_output(r.pd, format, false, o.pairs, least, err);
   if (st != DYD_OK) return st;
   st = result_graph(&graph, &r, &o, err);
   if (graph) r.history = NULL, r.tolerance = NULL; /* they tell of the triangulation */
-  if (st == DYD_OK && !graph && !o.pairs) st = dyd_delaunay_pairs(&r.pairs, r.pd);
+  bool pairs = !graph && !o.pairs && layer != DYD_CONTENT_TIES && layer != DYD_CONTENT_ALIASES;
+  if (st == DYD_OK && pairs) st = dyd_pairs_take(&r.pairs, r.pd, least);
   if (o.pairs) r.pairs = *o.pairs;
   if (st == DYD_OK)
-    st = dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_DELAUNAY), &r, err);
+    st = dyd_format_write(out, format, layer, &r, err);
   else if (!err || err->code != st)
     dyd_fail(err, st, "%s", dyd_status_text(st));
   if (!o.pairs) dyd_pair_list_clear(&r.pairs);
@@ -160,7 +174,7 @@ dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_o
   if (!pd || refuse_layer(o.layer, DYD_CONTENT_VORONOI, err) != DYD_OK) return DYD_E_ARG;
   if (dyd_delaunay_is_capped(pd))
     return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise `max_pairs`");
-  st = grant_output(pd, format, true, NULL, err);
+  st = grant_output(pd, format, true, NULL, DYD_LEGAL, err);
   if (st != DYD_OK) return st;
   dyd_diagram d;
   dyd_room room = dyd_delaunay_room(pd);

@@ -34,12 +34,18 @@ static void cell_row_box(dyd_cell_row *row, const dyd_shape *s, const double win
                        dyd_dyadic_get_d(&z->y, DYD_DOWN), dyd_dyadic_get_d(&z->y, DYD_UP));
     }
   row->present = b[0] <= b[1];
+  row->exact = s->exact;
+  row->rounding = s->exact ? s->rounding : 0;
+  for (int k = 0; k < 4 && s->exact; k++) {
+    double out = k & 1 ? INFINITY : -INFINITY;
+    b[k] = nextafter(b[k] + copysign(s->rounding, out), out);
+  }
   clip_box(b, window);
 }
 
 double dyd_cell_undetermined(const dyd_cell_row *row) {
   const double *area = row->area;
-  if (!(area[1] > 0)) return 0;
+  if (row->exact || !(area[1] > 0)) return 0;
   return fmin(nextafter(nextafter(area[1] - area[0], INFINITY) / area[1], INFINITY), 1);
 }
 

@@ -9,10 +9,11 @@
 #include "metric/voronoi_bounds.h"
 
 /* One cell: bounds of its areas in W and the box of Pos_i n W, all rounded outward. Invariant: present = Pos_i may meet
- * W. */
+ * W; exact = the polygon is the whole cell, but for the rounding of its vertices. */
 typedef struct dyd_cell_row {
   double area[2], box[4];
-  bool present;
+  bool present, exact;
+  double rounding; /* of the vertices of an exact one, in each coordinate; else 0 */
 } dyd_cell_row;
 
 /* Which share of what may be the cell is not surely so, rounded up. */

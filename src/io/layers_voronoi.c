@@ -91,8 +91,11 @@ static void cell_polygon(dyd_table *t, const char *kind, uint32_t i, const dyd_p
   dyd_row_begin(t);
   for (size_t k = 0; k <= p->count; k++) {
     const dyd_point *z = &p->vertex[k % p->count];
-    dyd_row_at(t, (const double[]){dyd_dyadic_get_d(&z->x, DYD_DOWN), dyd_dyadic_get_d(&z->x, DYD_UP),
-                                   dyd_dyadic_get_d(&z->y, DYD_DOWN), dyd_dyadic_get_d(&z->y, DYD_UP)});
+    dyd_place place;
+    dyd_place_set(&place, (const double[]){dyd_dyadic_get_d(&z->x, DYD_DOWN), dyd_dyadic_get_d(&z->x, DYD_UP),
+                                           dyd_dyadic_get_d(&z->y, DYD_DOWN), dyd_dyadic_get_d(&z->y, DYD_UP)});
+    if (row->rounding > 0) place.error = nextafter(place.error + row->rounding, INFINITY);
+    dyd_row_place(t, &place);
   }
   dyd_row_text(t, kind);
   cell_values(t, i, row);
@@ -103,8 +106,8 @@ static dyd_status cell_polygons(void *context, uint32_t i, const dyd_shape *shap
   dyd_polygon inner = {0};
   dyd_polygon_list outer = {0};
   dyd_status st = dyd_shape_inner(&inner, shape);
-  if (st == DYD_OK) st = dyd_shape_outer(&outer, shape);
-  if (st == DYD_OK) cell_polygon(t, "surely nearest", i, &inner, row);
+  if (st == DYD_OK && !row->exact) st = dyd_shape_outer(&outer, shape);
+  if (st == DYD_OK) cell_polygon(t, row->exact ? "exact" : "surely nearest", i, &inner, row);
   for (size_t k = 0; st == DYD_OK && k < outer.count; k++) cell_polygon(t, "possibly nearest", i, &outer.item[k], row);
   dyd_polygon_list_clear(&outer);
   dyd_polygon_clear(&inner);
@@ -200,19 +203,6 @@ typedef struct regions {
   const dyd_diagram *d;
 } regions;
 
-/* The numbers of the list, separated by blanks. */
-static dyd_status row_sites(dyd_table *t, const dyd_index_list *list) {
-  enum { DIGITS = 21 };
-  char *text = dyd_alloc(list->count * DIGITS + 1, 1), *end = text;
-  if (!text) return DYD_E_NOMEM;
-  *end = 0;
-  for (size_t k = 0; k < list->count; k++)
-    end += snprintf(end, DIGITS + 1, "%s%zu", k ? " " : "", dyd_engine_row(t->head->engine, list->item[k]));
-  dyd_row_text(t, text);
-  free(text);
-  return DYD_OK;
-}
-
 static dyd_status layer_region(void *context, size_t face, const double box[4]) {
   regions *g = context;
   dyd_index_list sites = {0};
@@ -224,7 +214,7 @@ static dyd_status layer_region(void *context, size_t face, const double box[4]) 
     dyd_row_outline(&g->t, box);
     dyd_row_index(&g->t, face);
     dyd_row_box(&g->t, box);
-    st = row_sites(&g->t, &sites);
+    st = dyd_row_sites(&g->t, &sites);
     dyd_row_end(&g->t);
   }
   dyd_index_list_clear(&sites);
@@ -257,7 +247,7 @@ static dyd_status tied_value(dyd_table *t, const dyd_diagram *d, size_t vertex) 
   dyd_index_list sites = {0};
   dyd_status st = dyd_diagram_vertex_sites(&sites, d, vertex);
   if (st == DYD_OK && sites.count > 3) sites.count = 3;
-  if (st == DYD_OK) st = row_sites(t, &sites);
+  if (st == DYD_OK) st = dyd_row_sites(t, &sites);
   dyd_index_list_clear(&sites);
   return st;
 }

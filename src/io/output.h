@@ -21,7 +21,7 @@ typedef struct dyd_output {
 typedef dyd_status dyd_writer(const dyd_output *o);
 /* The writers of a format are an array by content, NULL where it cannot hold that: dyd_NAME_writers, in the file that
  * writes it. */
-enum { DYD_CONTENTS = DYD_CONTENT_SPHERE_REGIONS + 1 };
+enum { DYD_CONTENTS = DYD_CONTENT_TIES + 1 };
 
 /* `what` by content: dyd_result (result.h) and dyd_diagram (diagram.h), also of their layers, dyd_stage_table,
  * dyd_convergence, dyd_check_report, dyd_disc_output, dyd_bisector_output, dyd_nearest_output, dyd_tolerance_result,
@@ -79,6 +79,7 @@ typedef struct dyd_sphere_result {
 
 /* Writers that such arrays take from other files. */
 dyd_writer dyd_layer_pairs, dyd_layer_points, dyd_layer_triangles, dyd_layer_graph;
+dyd_writer dyd_layer_aliases, dyd_layer_ties;
 dyd_writer dyd_layer_cells, dyd_layer_vertices, dyd_layer_regions, dyd_layer_edges;
 dyd_writer dyd_voronoi_json, dyd_voronoi_vtk;
 dyd_writer dyd_plan_rows;

@@ -6,20 +6,11 @@
 #include "io/decimal.h"
 #include <stdlib.h>
 
-/* Goes over the rows that have a point in common with an earlier one, ascending: aliases of the triangulation, and rows
- * that were merged when they were read. */
-typedef struct alias_walk {
-  const dyd_engine *e;
-  const dyd_sphere *s; /* e is that of its places; NULL: of a plane */
-  size_t i, merged;    /* where to look on */
-  size_t row, of;      /* what was found: rows */
-} alias_walk;
-
-static size_t alias_of(const alias_walk *w, size_t i) {
+static size_t alias_of(const dyd_alias_walk *w, size_t i) {
   return w->s ? dyd_sphere_alias(w->s, (uint32_t)i) : dyd_delaunay_alias(dyd_engine_delaunay(w->e), (uint32_t)i);
 }
 
-static bool next_alias(alias_walk *w) {
+bool dyd_alias_next(dyd_alias_walk *w) {
   size_t count = w->s ? dyd_engine_count(w->e) : dyd_sites_count(dyd_delaunay_sites(dyd_engine_delaunay(w->e)));
   size_t row, point;
   while (w->i < count && alias_of(w, w->i) == w->i) w->i++;
@@ -30,34 +21,35 @@ static bool next_alias(alias_walk *w) {
   else
     row = dyd_engine_row(w->e, point = w->i++);
   w->row = row;
+  w->site = alias_of(w, point);
   w->of = dyd_engine_row(w->e, alias_of(w, point));
   return true;
 }
 
-static void csv_aliases(FILE *out, alias_walk w) {
-  while (next_alias(&w)) fprintf(out, "# alias %zu %zu\n", w.row, w.of);
+static void csv_aliases(FILE *out, dyd_alias_walk w) {
+  while (dyd_alias_next(&w)) fprintf(out, "# alias %zu %zu\n", w.row, w.of);
 }
 
-static void json_aliases(FILE *out, alias_walk w, const char *after) {
+static void json_aliases(FILE *out, dyd_alias_walk w, const char *after) {
   fputs("\"aliases\": [", out);
-  for (const char *between = ""; next_alias(&w); between = ", ") fprintf(out, "%s[%zu, %zu]", between, w.row, w.of);
+  for (const char *between = ""; dyd_alias_next(&w); between = ", ") fprintf(out, "%s[%zu, %zu]", between, w.row, w.of);
   fprintf(out, "]%s", after);
 }
 
 void dyd_csv_aliases(FILE *out, const dyd_engine *e) {
-  csv_aliases(out, (alias_walk){.e = e});
+  csv_aliases(out, (dyd_alias_walk){.e = e});
 }
 
 void dyd_json_aliases(FILE *out, const dyd_engine *e, const char *after) {
-  json_aliases(out, (alias_walk){.e = e}, after);
+  json_aliases(out, (dyd_alias_walk){.e = e}, after);
 }
 
 void dyd_csv_sphere_aliases(FILE *out, const dyd_sphere *s) {
-  csv_aliases(out, (alias_walk){.e = dyd_sphere_places(s), .s = s});
+  csv_aliases(out, (dyd_alias_walk){.e = dyd_sphere_places(s), .s = s});
 }
 
 void dyd_json_sphere_aliases(FILE *out, const dyd_sphere *s, const char *after) {
-  json_aliases(out, (alias_walk){.e = dyd_sphere_places(s), .s = s}, after);
+  json_aliases(out, (dyd_alias_walk){.e = dyd_sphere_places(s), .s = s}, after);
 }
 
 const char *dyd_schedule_text(dyd_schedule schedule) {

@@ -7,6 +7,17 @@
 #include <dyadel/delaunay.h>
 #include <dyadel/sphere.h>
 
+/* Goes over the rows that have a point in common with an earlier one, ascending: aliases of the triangulation, and rows
+ * that were merged when they were read. Begin with e, and s where it is that of the places of a sphere. */
+typedef struct dyd_alias_walk {
+  const dyd_engine *e;
+  const dyd_sphere *s; /* NULL: of a plane */
+  size_t i, merged;    /* where to look on */
+  size_t row, of;      /* what was found: rows; */
+  size_t site;         /* of the latter */
+} dyd_alias_walk;
+/* false: there is no other one. */
+bool dyd_alias_next(dyd_alias_walk *w);
 /* "# alias 7 3" for each alias or merged row of the result of e, a line each. */
 void dyd_csv_aliases(FILE *out, const dyd_engine *e);
 /* "aliases": [[7, 3], ..], and `after` behind it. */

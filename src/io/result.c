@@ -54,6 +54,18 @@ static dyd_status find_hull(dyd_site_row *rows, const dyd_result *r) {
   return st;
 }
 
+/* Each site of a group is tied with all but itself and those next to it. */
+static dyd_status count_ties(void *context, dyd_group_kind kind, const dyd_index_list *sites) {
+  dyd_site_row *rows = context;
+  size_t count = sites->count;
+  for (size_t k = 0; k < count; k++) {
+    size_t near = kind == DYD_GROUP_PAIR ? 0 : kind == DYD_GROUP_CHAIN && (k == 0 || k + 1 == count) ? 1 : 2;
+    rows[sites->item[k]].partners[DYD_TIE] += count - 1 - near;
+  }
+  return DYD_OK;
+}
+
+/* Ties come as groups, whether pairs hold them or not. */
 dyd_status dyd_result_sites(dyd_site_row **out, const dyd_result *r) {
   dyd_site_row *rows = calloc(r->count ? r->count : 1, sizeof *rows);
   dyd_status st = rows ? find_hull(rows, r) : DYD_E_NOMEM;
@@ -61,14 +73,19 @@ dyd_status dyd_result_sites(dyd_site_row **out, const dyd_result *r) {
     free(rows);
     return st;
   }
+  if (!r->discs) st = dyd_delaunay_each_group(r->pd, count_ties, rows);
   for (size_t k = 0; k < r->pairs.count; k++) {
     const dyd_pair *p = &r->pairs.item[k];
+    if (p->status == DYD_TIE && !r->discs) continue;
     rows[p->i].partners[p->status]++;
     rows[p->j].partners[p->status]++;
   }
   for (size_t i = 0; i < r->count; i++) rows[i] = rows[dyd_delaunay_alias(r->pd, (uint32_t)i)];
-  *out = rows;
-  return DYD_OK;
+  if (st == DYD_OK)
+    *out = rows;
+  else
+    free(rows);
+  return st;
 }
 
 void dyd_put_rows(FILE *out, const dyd_engine *e, const dyd_index_list *list, const char *between) {

@@ -14,6 +14,7 @@ typedef struct dyd_result {
   const dyd_sites *sites;
   size_t count; /* sites, aliases included */
   dyd_pair_list pairs;
+  bool ties_apart;        /* rows of pairs hold ties, which `pairs` does not */
   const char *graph_name; /* what is written in place of the triangulation, whose edges `pairs` are; NULL: nothing */
   dyd_graph_list graph;   /* its edges; owned, too */
   const dyd_rect *window; /* what pictures show; NULL: everything */
@@ -36,6 +37,8 @@ typedef struct dyd_vector_text {
 
 /* "legal", "indeterminate", "tie", "illegal". */
 const char *dyd_pair_status_text(dyd_pair_status status);
+/* "circle", "chain", "pair". */
+const char *dyd_group_text(dyd_group_kind kind);
 /* The box of site i; DYD_E_RANGE with a message that names the site when it is not finite in doubles. */
 dyd_status dyd_result_box(double box[4], const dyd_result *r, size_t i, dyd_error *err);
 /* The places of all sites; *out is released with free(). `bound` is the largest error among them, two digits rounded

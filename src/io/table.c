@@ -2,6 +2,8 @@
 /* Layers: tables with a row for each feature, as csv, as wkt or as geojson. */
 #include "io/table.h"
 
+#include "base/alloc.h"
+
 #include "io/label_text.h"
 
 #include <math.h>
@@ -239,6 +241,18 @@ void dyd_row_decimal(dyd_table *t, double x, dyd_round dir) {
 
 void dyd_row_box(dyd_table *t, const double box[4]) {
   for (int k = 0; k < 4; k++) dyd_row_decimal(t, box[k], k & 1 ? DYD_UP : DYD_DOWN);
+}
+
+dyd_status dyd_row_sites(dyd_table *t, const dyd_index_list *list) {
+  enum { DIGITS = 21 };
+  char *text = dyd_alloc(list->count * DIGITS + 1, 1), *end = text;
+  if (!text) return DYD_E_NOMEM;
+  *end = 0;
+  for (size_t k = 0; k < list->count; k++)
+    end += snprintf(end, DIGITS + 1, "%s%zu", k ? " " : "", dyd_engine_row(t->head->engine, list->item[k]));
+  dyd_row_text(t, text);
+  free(text);
+  return DYD_OK;
 }
 
 void dyd_row_end(dyd_table *t) {

@@ -76,6 +76,8 @@ void dyd_row_index(dyd_table *t, size_t i);
 /* The number of a site in its file; its identifier, which is left out where there are none. */
 void dyd_row_site(dyd_table *t, size_t i);
 void dyd_row_id(dyd_table *t, size_t i);
+/* The numbers of the sites in their file, separated by blanks. */
+dyd_status dyd_row_sites(dyd_table *t, const dyd_index_list *list);
 /* The columns of pairs: i, j, status, id_i, id_j; and what they say of one. */
 extern const char *const dyd_columns_of_pairs[];
 void dyd_row_pair(dyd_table *t, size_t i, size_t j, const char *status);

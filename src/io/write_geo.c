@@ -86,6 +86,7 @@ static dyd_status obj_sphere(const dyd_output *o) {
 #define LAYERS                                                                                                         \
   {                                                                                                                    \
     [DYD_CONTENT_DELAUNAY] = dyd_layer_pairs, [DYD_CONTENT_POINTS] = dyd_layer_points,                                 \
+    [DYD_CONTENT_ALIASES] = dyd_layer_aliases, [DYD_CONTENT_VORONOI_ALIASES] = dyd_layer_aliases,                      \
     [DYD_CONTENT_TRIANGLES] = dyd_layer_triangles, [DYD_CONTENT_VORONOI] = dyd_layer_cells,                            \
     [DYD_CONTENT_VERTICES] = dyd_layer_vertices, [DYD_CONTENT_REGIONS] = dyd_layer_regions,                            \
     [DYD_CONTENT_EDGES] = dyd_layer_edges, [DYD_CONTENT_TOLERANCE] = dyd_layer_tolerance,                              \

@@ -86,6 +86,29 @@ static dyd_status json_triangles(const dyd_result *r) {
   return st;
 }
 
+typedef struct json_groups {
+  const dyd_result *r;
+  bool any;
+} json_groups;
+
+static dyd_status json_group(void *context, dyd_group_kind kind, const dyd_index_list *sites) {
+  json_groups *g = context;
+  fprintf(g->r->out, "%s\n{\"kind\": \"%s\", \"sites\": [", g->any ? "," : "", dyd_group_text(kind));
+  dyd_put_rows(g->r->out, g->r->engine, sites, ", ");
+  fputs("]}", g->r->out);
+  g->any = true;
+  return DYD_OK;
+}
+
+/* Ties as groups, each in the order of its circle or line. */
+static dyd_status json_ties(const dyd_result *r) {
+  json_groups g = {r, false};
+  fputs("\"ties\": [", r->out);
+  dyd_status st = dyd_delaunay_each_group(r->pd, json_group, &g);
+  fputs("\n],\n", r->out);
+  return st;
+}
+
 /* The hull: possible pairs as hull edges; "capped" when they are too many to be listed. */
 static dyd_status json_hull(const dyd_result *r) {
   dyd_hull hull = {0};
@@ -158,6 +181,7 @@ static dyd_status json_delaunay(const dyd_output *o) {
   if (st == DYD_OK) st = json_sites(r);
   dyd_json_pairs(r->out, r->engine, "pairs", &r->pairs);
   fputs(",\n", r->out);
+  if (st == DYD_OK) st = json_ties(r);
   if (st == DYD_OK) st = json_faces(r);
   if (st == DYD_OK) st = json_triangles(r);
   if (st == DYD_OK) st = json_hull(r);

@@ -33,6 +33,24 @@ static dyd_status polygon_json(FILE *out, const dyd_polygon *p) {
   return st;
 }
 
+/* What is known of an exact cell. */
+static dyd_status exact_json(const dyd_diagram *d, uint32_t i, const dyd_cell_row *row) {
+  mpq_t area;
+  bool exact = false;
+  if (!row->exact) return DYD_OK;
+  mpq_init(area);
+  dyd_status st = dyd_voronoi_exact_area(area, &exact, d->pd, i, &d->window);
+  if (st == DYD_OK && exact) {
+    fputs("\"exact_area\": \"", d->out);
+    mpq_out_str(d->out, 10, area);
+    fputs("\", \"vertex_error\": ", d->out);
+    dyd_decimal_put(d->out, row->rounding, DYD_UP, "null");
+    fputs(", ", d->out);
+  }
+  mpq_clear(area);
+  return st;
+}
+
 static dyd_status polygons_json(FILE *out, const dyd_shape *shape) {
   dyd_polygon inner = {0};
   dyd_polygon_list outer = {0};
@@ -86,7 +104,8 @@ static dyd_status cell_json(void *context, uint32_t i, const dyd_shape *shape, c
   else
     fputs("\"x\": null, \"y\": null", out);
   fputs(",\n", out);
-  dyd_status st = polygons_json(out, shape);
+  dyd_status st = exact_json(c->d, i, row);
+  if (st == DYD_OK) st = polygons_json(out, shape);
   fputs(",\n\"int\": ", out);
   if (st == DYD_OK) st = region_boundary_json(c, i, false);
   fputs(",\n\"pos\": ", out);
@@ -192,7 +211,8 @@ static dyd_status diagram_head_json(const dyd_diagram *d) {
   fprintf(
       d->out,
       "\"rounding\": \"texts are exact numbers; pairs of numbers are rounded outward: the first down, the second up; "
-      "null is unbounded or beyond the largest double\",\n"
+      "null is unbounded or beyond the largest double; inner and outer of a cell with vertex_error are that cell, with "
+      "vertices rounded by at most so much in each coordinate\",\n"
       "\"outcome\": \"%s\",\n\"goal\": \"%s\",\n\"goal_bits\": %" PRId64 ",\n\"flatten_bits\": %" PRId64
       ",\n\"count\": {\"sites\": %zu, \"legal\": %zu, \"indeterminate\": %zu, \"tie\": %zu},\n\"window\": ",
       dyd_outcome_text(dyd_engine_outcome(d->engine)), dyd_goal_text(goal), bits, d->bits, d->count, count[DYD_LEGAL],

@@ -28,6 +28,7 @@ WRONG = {
     '--of': ('', 'Voronoi', 'both'),
     '--metric': ('', 'max', 'Box', 'box '),
     '--ties': ('', 'on', 'Prove', 'off '),
+    '--list-ties': ('', 'pair', 'Groups', 'none '),
     '--format': ('', 'gif', 'CSV', 'csv,json'),
     '--layer': ('', 'edge', 'Points', 'pairs,points'),
     '--crs': ('', '4326', 'EPSG', 'EPSG:', 'EPSG:0', 'EPSG:x', 'EPSG:1000000', 'epsg 4326'),
@@ -36,7 +37,7 @@ WRONG = {
     '--plot': ('', 'plot', 'plot.gif', 'png'),
     '--help': ('fish', 'MAN'),
 }
-RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--ties': 'off', '--metric': 'box', '--until': 'decided'}
+RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--ties': 'off', '--list-ties': 'none', '--metric': 'box', '--until': 'decided'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
 TEXTS = {'--queries', '--up-to', '--sigma', '--sigma-column', '--cost-column', '--label', '--accuracy', '--pairs', '--columns', '--delimiter', '--id', '--points', '--radius', '--radius-column', '--oracle', '--output', '--trace',
          '--replay', '--resume', '--certificate'}

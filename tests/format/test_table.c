@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-enum { CONTENTS = DYD_CONTENT_SPHERE_REGIONS + 1 };
+enum { CONTENTS = DYD_CONTENT_TIES + 1 };
 
 static void test_names(void **state) {
   (void)state;
@@ -143,11 +143,14 @@ static dyd_status write_content(FILE *out, const example *x, dyd_content content
   case DYD_CONTENT_GRAPH_NEAREST:
   case DYD_CONTENT_GRAPH_GABRIEL:
   case DYD_CONTENT_GRAPH_MST:
+  case DYD_CONTENT_ALIASES:
+  case DYD_CONTENT_TIES:
     return dyd_write_delaunay_as(out, x->e, &(dyd_delaunay_output){DYD_SIZED(dyd_delaunay_output), .layer = content},
                                  format, err);
   case DYD_CONTENT_VERTICES:
   case DYD_CONTENT_REGIONS:
   case DYD_CONTENT_EDGES:
+  case DYD_CONTENT_VORONOI_ALIASES:
     return dyd_write_voronoi(out, x->e, &(dyd_voronoi_options){DYD_SIZED(dyd_voronoi_options), .layer = content},
                              format, err);
   case DYD_CONTENT_TOLERANCE:
@@ -182,10 +185,12 @@ static void test_layers(void **state) {
       assert_true(dyd_layer_from_name(&found, of[k], dyd_layer_name(of[k], l)));
       assert_true(l == 0 ? found == of[k] : found != of[k]);
       assert_true(dyd_format_holds(DYD_FORMAT_CSV, found));
-      assert_int_equal(dyd_format_holds(DYD_FORMAT_GEOJSON, found), found != DYD_CONTENT_SPHERE_REGIONS);
-      assert_false(dyd_layer_from_name(&found, of[k ^ 1], dyd_layer_name(of[k], l)));
+      assert_int_equal(dyd_format_holds(DYD_FORMAT_GEOJSON, found),
+                       found != DYD_CONTENT_SPHERE_REGIONS && found != DYD_CONTENT_TIES);
+      bool shared = strcmp(dyd_layer_name(of[k], l), "aliases") == 0;
+      assert_int_equal(dyd_layer_from_name(&found, of[k ^ 1], dyd_layer_name(of[k], l)), shared);
     }
-  assert_int_equal(count, 16);
+  assert_int_equal(count, 19);
   assert_null(dyd_layer_name(DYD_CONTENT_CHECK, 0));
   example x;
   dyd_error err;

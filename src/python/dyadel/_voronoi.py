@@ -27,8 +27,8 @@ class Triangulation(Protocol):
 
 class Cell(NamedTuple):
     """inner: a polygon (K, 2) all of whose points are surely nearest to the point (K = 0: none known); outer: polygons
-    that hold all points possibly nearest. Their exact vertices are dyadic; here they are rounded to doubles. area: bounds,
-    rounded outward."""
+    that hold all points possibly nearest. Their exact vertices are dyadic; here they are rounded to doubles. Of exact points
+    both are the cell, its vertices rounded once. area: bounds, rounded outward."""
 
     inner: Floats
     outer: list[Floats]
@@ -99,7 +99,7 @@ class Voronoi:
 
     @property
     def __geo_interface__(self) -> dict[str, Any]:
-        """Cells as a FeatureCollection: polygons of two kinds, 'surely nearest' and 'possibly nearest'."""
+        """Cells as a FeatureCollection: polygons of the kinds 'surely nearest' and 'possibly nearest', or 'exact'."""
         collection: dict[str, Any] = json.loads(self.write('geojson'))
         return collection
 
