@@ -640,6 +640,7 @@ EXTRAS = {
     'merge': Extra(['--merge'], softens=True), 'cost': Extra(['--cost-column', 'cost'], fits='table'),
     'certificate': Extra(['--certificate', '@certificate'], check='certificate'),
     'trace': Extra(['--trace', '@trace'], check='resume'),
+    'trace synced': Extra(['--trace', '@trace', '--trace-sync', '0.5']),
     'output': Extra(['-o', '@output'], check='output'),
     'flatten': Extra(['--flatten', '3']),
     'jobs': Extra(['--oracle-jobs', '2'], fits='program'), 'batch': Extra(['--oracle-batch', '4'], fits='program'),

@@ -688,7 +688,7 @@ class Stated:
 
 ROWS = ('csv', 'wkt', 'geojson')
 ALL = ('plane', 'sphere', 'discs')
-FIRM = ('exact', 'column')
+FIRM = ('exact', 'column', 'scaled column')
 STATED = {
     'pairs': Stated('delaunay', read_pairs, judge_pairs, formats=('csv', 'json', 'wkt', 'geojson', 'vtk', 'svg', 'obj'),
                     geometries=ALL),

@@ -106,7 +106,7 @@ class Space:
             return False
         if extra == 'plane' and g == 'sphere' or extra == 'window' and what and stated.STATED[what].command == 'voronoi':
             return False
-        if extra in ('euclid metric', 'box metric') and (kind == 'column' or what == 'barcode'):
+        if extra in ('euclid metric', 'box metric') and (kind in ('column', 'scaled column') or what == 'barcode'):
             return False
         if extra == 'few pairs' and (fmt in ('obj', 'svg') or g == 'sphere'):
             return False
@@ -114,7 +114,7 @@ class Space:
             return False
         if extra == 'merge' and kind in ('both', 'interval', 'plusminus', 'columns', 'column of units'):
             return False
-        return not (extra == 'trace' and what in ('check', 'converge', 'converge of voronoi', 'converge of delaunay'))
+        return not (extra in ('trace', 'trace synced') and what in ('check', 'converge', 'converge of voronoi', 'converge of delaunay'))
 
     def complete(self, row, rand, wanted=None):
         """Fills the other axes, so that as many pairs as can be that are wanted are covered; None: nothing fits."""
@@ -190,7 +190,7 @@ def build(row, seed):
     extra = axes.EXTRAS[row['extra']]
     if row['extra'] == 'merge':
         merge(case)
-    case.softened, case.weights, case.up_to = extra.softens, row['kind'] == 'column', None
+    case.softened, case.weights, case.up_to = extra.softens, row['kind'] in ('column', 'scaled column'), None
     case.box_metric = row['extra'] == 'box metric'
     case.tail = []
     xs, ys = ([s.place[k] for s in case.sites] for k in (0, 1))
@@ -204,9 +204,9 @@ def build(row, seed):
     if what.command == 'tolerance':
         up = unit * Q(rand.randint(1, 8), 8) if row['extra'] == 'births' else None
         case.up_to = up
-        case.exact = row['kind'] != 'column' or True
+        case.exact = True
         for s in case.sites:
-            s.weight = stated.number(s.columns[0]) if case.weights else Q(1)
+            s.weight = (s.region[2] - s.region[1]) / 2 if case.weights else Q(1)
             s.region = ('disc', *s.place, Q(0))
     return case
 
