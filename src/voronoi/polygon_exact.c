@@ -18,7 +18,7 @@
 
 /* FINER: bits by which polygons that cross themselves are made finer. Parabolas take twice as many chords for two bits,
  * so what was too coarse costs less than what is fine enough. */
-enum { FIRST_EXTRA = 8, MOST_EXTRA = 1 << 15, FINER = 2 };
+enum { FIRST_EXTRA = 8, MOST_EXTRA = 1 << 15, MOST_ANEW = 1 << 13, FINER = 2 };
 
 typedef struct work {
   dyd_cell_sites sites;
@@ -195,7 +195,8 @@ dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i,
   return st;
 }
 
-/* One part; taken anew with more bits while it crosses itself. */
+/* One part; taken anew with more bits while it crosses itself. Where arcs come nearer to each other than samples of
+ * that number can follow, scales are too far apart for polygons: DYD_E_RANGE. */
 static dyd_status exact_outer_part(dyd_polygon *out, work *w, const dyd_chain *chain) {
   int64_t bits = w->bits;
   bool simple = false;
@@ -206,6 +207,7 @@ static dyd_status exact_outer_part(dyd_polygon *out, work *w, const dyd_chain *c
     w->samples.count = 0;
     w->bits = bits + extra;
     st = dyd_chain_samples(&w->samples, chain, &w->sites, w->own, w->bits + 1, w->room);
+    if (st == DYD_OK && extra > 0 && w->samples.count > MOST_ANEW) st = DYD_E_RANGE;
     if (st == DYD_OK) st = place_samples(out, w, place_outer, FIRST_EXTRA);
     if (st == DYD_OK) st = dyd_polygon_is_simple(&simple, out, w->cancel);
   }
