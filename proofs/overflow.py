@@ -50,6 +50,8 @@ PARTS = {  # tests of some minutes; those but the first are of what reads and ke
     'blocks': ['algebra', 'algebra_enclose', 'algebra_bound', 'bracket', 'cycle', 'ties'],
 }
 UNWRITTEN = {'caps', 'discs', 'graphs', 'near', 'places'}  # of src/checker, all functions left out: contract not written yet
+# About certificates on a sphere: of fractions of GMP, lists of enclosures, and a checker within one no header says enough.
+LEFT_OUT = {'around', 'cocircular', 'globe', 'globe_places', 'image', 'region', 'sphere'}
 ITEMS = {'start': 'sizes', 'first': 'sizes', 'entry': 'entries', 'term': 'terms', 'digits': 'chars', 'den': 'numbers',
          'place': 'places', 'point': 'described', 'c': 'coefficients', 'cosine': 'cosines',
          'box': 'boxes'}  # of lists, by name
@@ -269,8 +271,8 @@ def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     every = sum(PARTS.values(), [])
     there = {path.stem for folder in ('checker', 'dyadic') for path in (root / 'src' / folder).glob('*.c')}
-    if there - set(every) - UNWRITTEN:
-        sys.exit(f'in no part: {sorted(there - set(every) - UNWRITTEN)}')
+    if there - set(every) - UNWRITTEN - LEFT_OUT:
+        sys.exit(f'in no part: {sorted(there - set(every) - UNWRITTEN - LEFT_OUT)}')
     names = sys.argv[3:] or PARTS[sys.argv[2]] if len(sys.argv) > 2 else every
     if len(sys.argv) == 3:
         names = to_prove(root, names)

@@ -83,6 +83,24 @@
  *     undetermined A        upper bounds on the window, see metric.h
  *     distance none | H | H unproved
  *
+ * or, where the sites are images of places on a sphere, see sphere.h; LON, LAT and R are coordinates of sites,
+ *
+ *     sphere
+ *     eye K | gap LON LAT   projected from place K, or from a point where no place is
+ *     radius none | degrees R | metres R
+ *     places N
+ *       LON LAT               N lines: longitude and latitude in degrees
+ *       LON LAT M             and the point is up to M metres away
+ *       LON LAT = K           exactly the same place as place K, which has no such line
+ *     neighbours C
+ *       l k                   C lines, sorted by k: the image that is site k is a corner of the hull for every choice
+ *       l k x y               the same, proved by an outward direction
+ *       t k                   it is a tie with the eye
+ *       o k                   it may be a neighbour of the eye, or of a point at the gap
+ *     also                    (or no such line) then a whole certificate, from "dyadel certificate 1" to its own
+ *                             "end", of the same places from another eye; without the lines radius and places
+ *     outcome                 as above; the one at the beginning is that of the images
+ *
  * and at last
  *
  *     end
@@ -159,6 +177,15 @@
  * [CERT-13] Graphs. nearest: as for places, each site being the place and taking no part. gabriel: certain when
  * (p_k - p_i).(p_k - p_j) > 0 for every choice and all k; a possible pair that has no row is no edge, since around each
  * middle of the two rectangles some k, in a possible pair with i, is inside the smallest disc of the pair.
+ * [CERT-14] The sphere: the sites are the images of all places but the eye and aliases, in their order: stereographic,
+ * onto the plane through the middle of the sphere, with axes to the east and to the north at the eye. A place may be
+ * anywhere up to M metres from where longitude and latitude, each off by up to R degrees, may be; metres are those of
+ * DYD_EARTH_RADIUS, and R metres are added to M. A pole alone has longitude 0; where latitudes reach beyond one, the
+ * longitude is any. Each rectangle holds the images of all of that, seen from everywhere in the least box of degrees,
+ * about, that holds where the eye may be. Legal and illegal pairs of the plane are so for places; a place is a
+ * neighbour of the eye as the list says, and one that is not listed is none. From a gap, pairs of two listed images
+ * that are no pairs of the plane are indeterminate. Of two certificates each proves what it states; open is what is
+ * open in both.
  *
  * U counts, over the open sets, the pairs within the set that have no line and are none of the P: nothing proves that
  * they are illegal (0: the certificate proves its list of pairs complete). decided needs no o, t and l line and capped
@@ -194,11 +221,16 @@ struct dyd_nearest_answer;
  * undecided faces, which gives up after about half a minute (such pairs are counted as unproved). */
 DYD_API dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, dyd_error *err);
 
-/* The same with a section on the Voronoi diagram in the window, which has dyadic ends and positive area. NULL: as
- * dyd_voronoi_window. A result that is capped has no such section. The bound of the area is that of dyd_metric_voronoi
- * with polygons within a 256th of a cell, or as fine as a goal on it asks; H is that of dyd_metric_voronoi, too, or at
- * most four times as much (but within the goal that was reached), or it is unproved. DYD_E_ARG for a wrong window;
- * DYD_E_RANGE when there is no window by default, or polygons leave the range of numbers. */
+struct dyd_sphere;
+/* The certificate of the current result of s, with a section on the sphere. Errors and cost as above. */
+DYD_API dyd_status dyd_write_sphere_certificate(FILE *out, const struct dyd_sphere *s, dyd_error *err);
+
+/* The same as the first with a section on the Voronoi diagram in the window, which has dyadic ends and positive area.
+ * NULL: as dyd_voronoi_window. A result that is capped has no such section. The bound of the area is that of
+ * dyd_metric_voronoi with polygons within a 256th of a cell, or as fine as a goal on it asks; H is that of
+ * dyd_metric_voronoi, too, or at most four times as much (but within the goal that was reached), or it is unproved.
+ * DYD_E_ARG for a wrong window; DYD_E_RANGE when there is no window by default, or polygons leave the range of numbers.
+ */
 DYD_API dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_engine *e, const struct dyd_rect *window,
                                                  dyd_error *err);
 
@@ -232,6 +264,9 @@ typedef enum dyd_certificate_gap {
   DYD_GAP_DISCS = 512,   /* that discs make pairs legal or illegal */
   DYD_GAP_GRAPH = 1024,  /* that pairs without a row are no edges of the graph */
   DYD_GAP_NEAREST = 2048 /* that sites which are not listed are not nearest to a place */
+  DYD_GAP_IMAGES = 4096, /* on a sphere: that rectangles hold the images of their places */
+  DYD_GAP_AROUND = 8192, /* on a sphere: that places which are not listed are no neighbours of the eye */
+  DYD_GAP_SPHERE = DYD_GAP_IMAGES | DYD_GAP_AROUND
 } dyd_certificate_gap;
 
 /* What an accepted certificate states. Texts have static storage. */
@@ -271,6 +306,12 @@ typedef struct dyd_certificate_report {
   uint64_t graph_unproved;       /* pairs without a row that are not proved to be no edges */
   size_t places, places_certain; /* places of queries; those with a site that is certainly nearest */
   uint64_t near_unproved;        /* sites not proved to be nearest nowhere in a place that does not list them */
+  bool sphere, gap, second;      /* is it about places on a sphere [CERT-14]; from a gap; from a second eye as well? */
+  size_t sphere_places;          /* what follows is 0 elsewhere; unproved ones are counted for both eyes */
+  size_t legal_around;           /* pairs with the eye that are proved to be legal */
+  size_t second_legal;           /* pairs that are proved to be legal from there */
+  size_t images_unproved;        /* rectangles that are not proved to hold the image of their place */
+  size_t around_unproved;        /* images that are not proved to be no neighbours of the eye */
 } dyd_certificate_report;
 
 /* Checks the certificate in `in` up to its end, in integers. DYD_OK: accepted, *out is what it states. DYD_E_PARSE:
@@ -293,12 +334,14 @@ DYD_API dyd_status dyd_verify_certificate_of(dyd_certificate_report *out, FILE *
 DYD_API dyd_status dyd_verify_certificate_still(dyd_certificate_report *out, FILE *still, FILE *in,
                                                 struct dyd_engine *e, const struct dyd_engine_options *options,
                                                 dyd_error *err);
-
-/* As dyd_verify_certificate_still; discs: the points of e lie in the discs in their rectangles, which have to be
- * squares. Without it a certificate of discs is one of these points only where their rectangles lie in the discs. */
-DYD_API dyd_status dyd_verify_certificate_discs(dyd_certificate_report *out, FILE *still, FILE *in,
-                                                struct dyd_engine *e, bool discs,
-                                                const struct dyd_engine_options *options, dyd_error *err);
+struct dyd_sphere_options;
+/* The same; discs: the points of e lie in the discs in their rectangles, which have to be squares; without it a
+ * certificate of discs is one of these points only where their rectangles lie in the discs. sphere not NULL: the points
+ * of e are places on a sphere, as for dyd_sphere_new, the radius in the options is that of the certificate, and so are
+ * those of rows. DYD_E_DOMAIN: one of the two is about a plane, the other about a sphere. */
+DYD_API dyd_status dyd_verify_certificate_on(dyd_certificate_report *out, FILE *still, FILE *in, struct dyd_engine *e,
+                                             bool discs, const struct dyd_sphere_options *sphere,
+                                             const struct dyd_engine_options *options, dyd_error *err);
 
 #ifdef __cplusplus
 }

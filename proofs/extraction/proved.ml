@@ -181,7 +181,8 @@ let gaps c p (b : Blocks.proof) =
       (b.unseen_points > 0, Printf.sprintf "that %d points lie where they are described to be" b.unseen_points);
       (b.unseen_facts > 0, Printf.sprintf "that %d facts on points hold" b.unseen_facts);
       (has_unproved_distance c, "the distance of undetermined points to the Voronoi diagram");
-      (not (outcome_is_proved c p), "the outcome " ^ c.outcome) ]
+      (not (outcome_is_proved c p), "the outcome " ^ c.outcome);
+      (c.sphere, "the projection: that rectangles hold the images of places on a sphere, and what follows for places") ]
 
 let report c p (b : Blocks.proof) given gaps =
   print_endline (if gaps = [] then "accepted, all of it proved" else "accepted, not all of it proved: see what is not proved below");

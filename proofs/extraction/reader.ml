@@ -45,6 +45,7 @@ type certificate = {
   aliased : (int * int) list;  (* aliases of sites that are not exact, and these *)
   diagram : diagram option;
   beside : string list;  (* what sections that the checker does not know are about *)
+  sphere : bool;  (* is there a section on a sphere? It is not read *)
 }
 
 let limit = 1 lsl 20
@@ -268,20 +269,22 @@ let skip_discs s discs =
   | [ "refined"; m ] -> skip s m; Printf.sprintf "that %s pairs are legal, or illegal, for points in discs" m
   | _ -> bad s "\"refined\" is missing"
 
-(* What follows the bounds: blocks on what points are; discs, a graph; the diagram. *)
+(* What follows the bounds: blocks on what points are; discs, a graph; the diagram; the sphere. *)
 let read_rest s known size =
-  let ends blocks diagram beside = ends s; (List.rev blocks, diagram, List.rev beside) in
+  let ends blocks diagram beside sphere = ends s; (List.rev blocks, diagram, List.rev beside, sphere) in
+  let rec skip_all () = if next s <> "end" || s.at < String.length s.text then skip_all () in
   let rec sections blocks beside =
     match words s with
-    | [ "end" ] -> ends blocks None beside
+    | [ "end" ] -> ends blocks None beside false
     | "discs" :: discs :: ([] | [ "fixed" ]) -> sections blocks (skip_discs s discs :: beside)
     | [ "graph"; name; rows ] ->
       skip s rows;
       sections blocks (Printf.sprintf "the graph %s, of which %s edges are listed" name rows :: beside)
+    | [ "sphere" ] -> skip_all (); ends blocks None beside true
     | "window" :: corners ->
       let diagram = read_diagram s known corners in
       if next s <> "end" then bad s "\"end\" is missing";
-      ends blocks (Some diagram) beside
+      ends blocks (Some diagram) beside false
     | [ "algebra"; k ] -> sections (Described.block s size k :: blocks) beside
     | _ -> bad s "this is no section"
   in
@@ -299,7 +302,7 @@ let read_nearest s (outcome, goal, capped) (sites, aliases, rects) =
   let pairs =
     { listed = []; ties = []; opened = 0; unwitnessed = 0; chains = []; boxes = 0; faces = 0; unproved = 0 } in
   { outcome; goal; capped; sites; aliases = List.length aliases; edges = []; first_edge = s.line; corners = []; hints = 0;
-    pairs; area = None; hausdorff = None; blocks = []; rects; aliased = []; diagram = None; beside = [ beside ] }
+    pairs; area = None; hausdorff = None; blocks = []; rects; aliased = []; diagram = None; beside = [ beside ]; sphere = false }
 
 (* Sites that stay where they are, a line each: rising numbers, aliases among them. *)
 let still_sites c text =
@@ -326,11 +329,11 @@ let read_pairs_of s known (outcome, goal, capped) (sites, aliases, rects) =
   let pairs = read_pairs s known legal in
   let area = read_bound s "area" in
   let hausdorff = read_bound s "hausdorff" in
-  let blocks, diagram, beside = read_rest s known (Array.length rects) in
+  let blocks, diagram, beside, sphere = read_rest s known (Array.length rects) in
   let aliased = List.filter_map (fun (k, other, exact) -> if exact then None else Some (k, other)) aliases in
   let hints = List.length places + List.length bridges in
   { outcome; goal; capped; sites; aliases = List.length aliases; edges; first_edge; corners; hints; pairs; area;
-    hausdorff; blocks; rects; aliased; diagram; beside }
+    hausdorff; blocks; rects; aliased; diagram; beside; sphere }
 
 let certificate text =
   let s = { text; at = 0; line = 0 } and known = Hashtbl.create 1000 in

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/certificate.c: the words that are compared are there. */
 /* Without checker_sections, settle_sections, run_nearest: contract not written yet. */
+/* Without checker_clear_second, read_second, read_last_lines, checker_sphere, checker_settle_second,
+   checker_settle_sphere: the second certificate has a checker of its own, of which no header says anything. */
 #define __int128 long long /* of areas nothing is proved here */
 #include "checks.h"
 #include "pairing.h"
@@ -21,6 +23,12 @@ static bool outcome_is_proved(const dyd_checker *c, bool stays);
 void dyd_cert_sites_init(dyd_cert_sites *s);
 /*@ requires \valid(c); assigns *c; exits \false; */
 void dyd_cert_chain_init(dyd_cert_chain *c);
+/*@ requires \valid(g); assigns *g; exits \false; */
+void dyd_cert_globe_init(dyd_cert_globe *g);
+/*@ requires \valid(g); assigns *g; exits \false; */
+void dyd_cert_globe_clear(dyd_cert_globe *g);
+/*@ requires \valid(c); assigns c->second; exits \false; */
+static void checker_clear_second(dyd_checker *c);
 /*@ requires \valid(s); assigns *s; exits \false; */
 void dyd_cert_sites_clear(dyd_cert_sites *s);
 /*@ requires \valid(t); assigns *t; exits \false; */
@@ -76,6 +84,8 @@ static void settle_sections(dyd_checker *c, const bool *still);
  * the chain's points, the report and whether the goal was reached change. */
 /*@ requires pairing(c) && begun(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
 dyd_status dyd_checker_diagram(dyd_checker *c);
+/*@ requires pairing(c) && begun(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
+static dyd_status checker_sphere(dyd_checker *c);
 /* Of read.h, and that what is known stays. */
 /*@ requires pairing(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
 dyd_status expect_end(dyd_checker *c);
@@ -91,6 +101,9 @@ static dyd_status checker_end(dyd_checker *c);
       \separated(out, c, still + (0 .. SITES - 1), c->sites.site + (0 .. SITES - 1));
     assigns *out; exits \false; */
 dyd_status dyd_checker_stays(bool *out, const dyd_checker *c, const bool *still);
+/*@ requires pairing(c) && \valid(stays) && (still == \null || \valid_read(still + (0 .. SITES - 1)));
+    assigns c->report.gaps, *c->in.err, *stays; exits \false; */
+static dyd_status checker_settle_sphere(bool *stays, dyd_checker *c, const bool *still);
 /*@ requires pairing(c) && (still == \null || \valid_read(still + (0 .. SITES - 1)));
     assigns c->report.gaps, c->report.undescribed, *c->in.err; exits \false; */
 dyd_status dyd_checker_settle(dyd_checker *c, const bool *still);

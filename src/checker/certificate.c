@@ -11,8 +11,15 @@ void dyd_checker_init(dyd_checker *c, FILE *in, dyd_error *err) {
   *c = (dyd_checker){.in = {.in = in, .err = err}};
   dyd_cert_sites_init(&c->sites);
   dyd_cert_chain_init(&c->chain);
+  dyd_cert_globe_init(&c->globe);
   dyd_exact_init(&c->point[0]);
   dyd_exact_init(&c->point[1]);
+}
+
+static void checker_clear_second(dyd_checker *c) {
+  if (c->second) dyd_checker_clear(c->second);
+  free(c->second);
+  c->second = NULL;
 }
 
 void dyd_checker_clear(dyd_checker *c) {
@@ -30,6 +37,8 @@ void dyd_checker_clear(dyd_checker *c) {
   dyd_cert_graph_clear(&c->graph);
   dyd_cert_faces_clear(&c->faces);
   dyd_cert_chain_clear(&c->chain);
+  checker_clear_second(c);
+  dyd_cert_globe_clear(&c->globe);
   dyd_cert_sites_clear(&c->sites);
   dyd_exact_clear(&c->point[0]);
   dyd_exact_clear(&c->point[1]);
@@ -63,12 +72,57 @@ static dyd_status checker_ties(dyd_checker *c) {
   return st == DYD_OK ? DYD_OK : dyd_fail_nomem(c->in.err);
 }
 
+/* After "also": another certificate, of the same places from a second eye. */
+static dyd_status read_second(dyd_checker *c) {
+  if (c->first || c->globe.gap)
+    return dyd_cert_reject(&c->in, "a second eye is for places that are seen from one of them");
+  c->second = dyd_checker_room();
+  if (!c->second) return dyd_fail_nomem(c->in.err);
+  dyd_checker_init(c->second, c->in.in, c->in.err);
+  c->second->first = c;
+  c->second->in.number = c->in.number;
+  dyd_status st = dyd_checker_run(c->second);
+  if (st != DYD_OK) return st;
+  c->in.number = c->second->in.number;
+  if (!c->second->globe.stated) return dyd_cert_reject(&c->in, "the second certificate is not about a sphere");
+  c->report.capped = c->report.capped || c->second->report.capped;
+  dyd_checker_join(c);
+  return DYD_OK;
+}
+
+/* "outcome W", or "also", a certificate, and this. */
+static dyd_status read_last_lines(dyd_checker *c) {
+  static const char *const outcome[] = {"decided", "certified", "fixpoint", "budget", "cancelled", "error"};
+  size_t k = 0;
+  dyd_status st = dyd_cert_next_line(&c->in);
+  if (st == DYD_OK && strcmp(c->in.line, "also") == 0) {
+    st = read_second(c);
+    if (st == DYD_OK) st = dyd_cert_next_line(&c->in);
+  }
+  if (st == DYD_OK) st = dyd_cert_expect_word(c, "outcome");
+  if (st == DYD_OK) st = dyd_cert_read_choice(&k, c, outcome, 6);
+  if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
+  if (st == DYD_OK) c->report.outcome = outcome[k];
+  return st;
+}
+
+/* The section on a sphere; the outcome before it is that of the images. */
+static dyd_status checker_sphere(dyd_checker *c) {
+  dyd_status st = checker_outcome(c);
+  if (st == DYD_OK) st = dyd_checker_globe(c);
+  if (st == DYD_OK) st = dyd_checker_around(c);
+  return st == DYD_OK ? read_last_lines(c) : st;
+}
+
 /* Sections that need not be there, in their order; the line after them has been read. */
 static dyd_status checker_sections(dyd_checker *c) {
   static const struct {
     const char *word;
     dyd_status (*check)(dyd_checker *);
-  } section[] = {{"discs", dyd_checker_discs}, {"graph", dyd_checker_graph}, {"window", dyd_checker_diagram}};
+  } section[] = {{"discs", dyd_checker_discs},
+                 {"graph", dyd_checker_graph},
+                 {"window", dyd_checker_diagram},
+                 {"sphere", checker_sphere}};
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < sizeof section / sizeof *section && st == DYD_OK; k++) {
     if (strncmp(c->in.line, section[k].word, strlen(section[k].word)) != 0) continue;
@@ -78,12 +132,14 @@ static dyd_status checker_sections(dyd_checker *c) {
   return st;
 }
 
-/* The outcome and the last line, which has been read. */
+/* The outcome and the last line, which has been read and ends the text unless the certificate is the second one of a
+ * sphere. */
 static dyd_status checker_end(dyd_checker *c) {
   dyd_status st = DYD_OK;
   if (st == DYD_OK) st = checker_outcome(c);
   if (st == DYD_OK) st = dyd_cert_expect_word(c, "end");
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
+  if (c->first) return st;
   return st == DYD_OK ? dyd_cert_expect_end(&c->in) : st;
 }
 
@@ -92,7 +148,7 @@ static dyd_status checker_end(dyd_checker *c) {
 /* stays: it is a fixpoint, and one is proved. */
 static bool outcome_is_proved(const dyd_checker *c, bool stays) {
   const dyd_certificate_report *r = &c->report;
-  bool complete = !r->unproved && !r->capped && !r->discs_unproved && !r->near_unproved,
+  bool complete = !r->unproved && !r->capped && !r->discs_unproved && !r->near_unproved && !(r->gaps & DYD_GAP_SPHERE),
        of_diagram = strncmp(r->goal, "voronoi", 7) == 0;
   if (strcmp(r->outcome, "decided") == 0) return complete;
   if (strcmp(r->outcome, "certified") == 0)
@@ -110,11 +166,41 @@ static void settle_sections(dyd_checker *c, const bool *still) {
   if (r->near_unproved) r->gaps |= DYD_GAP_NEAREST;
 }
 
+/* Of a sphere: *stays: from no eye anything changes. Fills in the gaps of images, and of the second certificate. */
+static dyd_status checker_settle_second(bool *stays, dyd_checker *c, const bool *still) {
+  dyd_certificate_report *r = &c->report;
+  const dyd_certificate_report *other = &c->second->report;
+  dyd_status st = dyd_checker_settle(c->second, still);
+  bool settled = strcmp(other->outcome, "fixpoint") == 0 || strcmp(other->outcome, "decided") == 0;
+  *stays = *stays && settled && !(other->gaps & DYD_GAP_OUTCOME);
+  r->gaps |= other->gaps & ~(unsigned)DYD_GAP_OUTCOME;
+  r->second = true;
+  r->second_legal = other->legal;
+  r->legal_unproved += other->legal_unproved;
+  r->unproved += other->unproved;
+  r->ties_unproved += other->ties_unproved;
+  r->images_unproved += other->images_unproved;
+  r->around_unproved += other->around_unproved;
+  return st;
+}
+
+/* The same where there is one eye. */
+static dyd_status checker_settle_sphere(bool *stays, dyd_checker *c, const bool *still) {
+  dyd_certificate_report *r = &c->report;
+  dyd_status st = dyd_checker_stays_on_sphere(stays, c, still);
+  if (st == DYD_OK && c->second) st = checker_settle_second(stays, c, still);
+  *stays = *stays && strcmp(r->outcome, "fixpoint") == 0;
+  if (r->images_unproved) r->gaps |= DYD_GAP_IMAGES;
+  if (r->around_unproved) r->gaps |= DYD_GAP_AROUND;
+  return st;
+}
+
 dyd_status dyd_checker_settle(dyd_checker *c, const bool *still) {
   dyd_certificate_report *r = &c->report;
   bool stays = false;
   settle_sections(c, still);
-  if (strcmp(r->outcome, "fixpoint") == 0 && dyd_checker_stays(&stays, c, still) != DYD_OK)
+  if (c->globe.stated && checker_settle_sphere(&stays, c, still) != DYD_OK) return dyd_fail_nomem(c->in.err);
+  if (strcmp(r->outcome, "fixpoint") == 0 && !c->globe.stated && dyd_checker_stays(&stays, c, still) != DYD_OK)
     return dyd_fail_nomem(c->in.err);
   if (r->legal_unproved) r->gaps |= DYD_GAP_LEGAL;
   if (r->unproved && !r->capped) r->gaps |= DYD_GAP_ILLEGAL;

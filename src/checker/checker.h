@@ -9,6 +9,7 @@
 #include "checker/chain.h"
 #include "checker/distance.h"
 #include "checker/faces.h"
+#include "checker/globe.h"
 #include "checker/read.h"
 #include "checker/ties.h"
 #include "checker/witness.h"
@@ -34,6 +35,10 @@ typedef struct dyd_checker {
   dyd_cert_edges bare;    /* pairs l */
   dyd_cert_edges chained; /* pairs n */
   dyd_cert_ties ties;
+  dyd_cert_globe globe;
+  /* The same places seen from a second eye: another certificate, which follows this one; owned. In that one: NULL. */
+  struct dyd_checker *second;
+  const struct dyd_checker *first; /* in that one: this one */
   dyd_exact point[2];
   bool reached;        /* a bound that is stated is as small as the goal asks */
   dyd_cert_disc *disc; /* of each site that is no alias; NULL: the points lie in no discs */
@@ -46,8 +51,8 @@ void dyd_checker_init(dyd_checker *c, FILE *in, dyd_error *err);
 void dyd_checker_clear(dyd_checker *c);
 /* From the first line to the last; what is stated without a proof is settled after it. */
 dyd_status dyd_checker_run(dyd_checker *c);
-/* Fills in report.gaps. still[i]: site i is known never to be narrowed; NULL: the exact points. The gap of points is
- * the caller's, and stays. */
+/* Fills in report.gaps. still[i]: point i, which is site i, or place i on a sphere, is known never to be narrowed;
+ * NULL: the exact points. The gap of points is the caller's, and stays. */
 dyd_status dyd_checker_settle(dyd_checker *c, const bool *still);
 /* still.c, with `still` as above: can nothing that is narrowed change what the goal is about? Of the triangulation,
  * what a pair is; of a bound, anything. DYD_E_NOMEM. */
@@ -73,6 +78,22 @@ void dyd_checker_discs_clear(dyd_checker *c);
 dyd_status dyd_checker_graph(dyd_checker *c);
 /* The places of a certificate with the goal "nearest". */
 dyd_status dyd_checker_places_near(dyd_checker *c);
+/* sphere.c: memory for the second one, to be initialised; NULL when it is exhausted. */
+dyd_checker *dyd_checker_room(void);
+/* Leaves of the open pairs those that are open from the second eye, too. */
+void dyd_checker_join(dyd_checker *c);
+/* As dyd_checker_stays, on a sphere, from one eye; place_still as for dyd_checker_still_images. */
+dyd_status dyd_checker_stays_on_sphere(bool *out, dyd_checker *c, const bool *place_still);
+/* still[k]: nothing narrows the image that is site k, place_still[i] telling of place i (NULL: of exact ones). */
+void dyd_checker_still_images(bool *still, const dyd_checker *c, const bool *place_still);
+/* globe.c: the section but for its last lines. */
+dyd_status dyd_checker_globe(dyd_checker *c);
+/* around.c: what follows for pairs of places; reads the list of neighbours of the eye. */
+dyd_status dyd_checker_around(dyd_checker *c);
+/* Places i and j: may the pair be possible and no sure edge, by what is stated? */
+bool dyd_checker_is_open(const dyd_checker *c, uint32_t i, uint32_t j);
+/* Is no pair of the eye, or about it, open? */
+bool dyd_checker_is_closed_around(const dyd_checker *c);
 /* The bound that the goal `goal` is about is stated to be `bound`. */
 void dyd_cert_note_bound(dyd_checker *c, const char *goal, const dyd_exact *bound);
 

@@ -102,6 +102,8 @@ int cli_delaunay(const cli_options *o);
 int cli_voronoi(const cli_options *o);
 /* sphere.c: delaunay and voronoi with --sphere. */
 int cli_sphere(const cli_options *o);
+/* For reading points as longitude and latitude. */
+void cli_options_degrees(cli_options *o);
 int cli_check(const cli_options *o);
 int cli_converge(const cli_options *o);
 int cli_nearest(const cli_options *o);

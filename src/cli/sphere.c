@@ -7,9 +7,9 @@ static dyd_status sphere_write(FILE *out, const void *sphere, const cli_options 
   return dyd_write_sphere(out, sphere, &how, o->format, err);
 }
 
-static dyd_status sphere_write_certificate(FILE *out, const void *images, const cli_options *o, dyd_error *err) {
+static dyd_status sphere_write_certificate(FILE *out, const void *sphere, const cli_options *o, dyd_error *err) {
   (void)o;
-  return dyd_write_certificate(out, images, err);
+  return dyd_write_sphere_certificate(out, sphere, err);
 }
 
 static dyd_status sphere_run(dyd_engine *images, const dyd_engine_options *options, void *user, dyd_error *err) {
@@ -54,24 +54,11 @@ static int sphere_outcome(const dyd_sphere *sphere, const cli_options *o) {
   return cli_exit_status(outcome);
 }
 
-/* The certificate speaks of the images, which are a plane's. */
-static int sphere_certificate(const dyd_sphere *sphere, const cli_options *o) {
-  if (!o->certificate) return 0;
-  char from[40] = "a place between them";
-  if (dyd_sphere_centre(sphere) != DYD_NO_PLACE)
-    snprintf(from, sizeof from, "point %zu", dyd_engine_row(dyd_sphere_places(sphere), dyd_sphere_centre(sphere)));
-  cli_note(o,
-           "the certificate is about the images of the points in the plane, projected from %s: %zu rectangles, in the "
-           "order of the points that have one",
-           from, dyd_engine_count(dyd_sphere_images(sphere)));
-  return cli_write_file(o->certificate, o, sphere_write_certificate, dyd_sphere_images(sphere));
-}
-
 static int sphere_result(cli_session *s, const dyd_sphere *sphere, const cli_options *o) {
   if (!dyd_engine_delaunay(s->engine)) return cli_session_stopped(s, "the triangulation was");
   cli_session_settle(s);
   int status = cli_write_file(o->output, o, sphere_write, sphere);
-  if (!status) status = sphere_certificate(sphere, o);
+  if (!status && o->certificate) status = cli_write_file(o->certificate, o, sphere_write_certificate, sphere);
   if (o->stats) cli_stats(stderr, s->engine, sphere, NULL, cli_clock() - s->begun);
   return status ? status : sphere_outcome(sphere, o);
 }
@@ -102,12 +89,16 @@ static int sphere_all(cli_session *s, const cli_options *o) {
   return status;
 }
 
+void cli_options_degrees(cli_options *o) {
+  o->read.degrees = true;
+  o->read.radius = NULL; /* it may have a unit, and widens places */
+}
+
 static int sphere_points(const cli_options *o) {
   cli_options read = *o;
   cli_session s;
-  read.read.degrees = true;
-  read.read.radius = NULL; /* it may have a unit, and widens places */
-  read.resume = NULL;      /* traces hold answers of images */
+  cli_options_degrees(&read);
+  read.resume = NULL; /* traces hold answers of images */
   int status = cli_session_open(&s, &read);
   read.read.radius = o->read.radius;
   read.resume = o->resume;

@@ -112,7 +112,7 @@ const cli_option cli_option_table[] = {
      "0: "
      "not at\nall",
      AT(read.radius_columns)},
-    {"radius-unit", 0, "U", CLI_TEXT, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_INPUT,
+    {"radius-unit", 0, "U", CLI_TEXT, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_VERIFY), CLI_INPUT,
      "with --sphere: the unit of radii without one: m, mm, cm, km,\nft, in, deg, arcmin or arcsec",
      AT(read.radius_unit)},
     {"radius-scale", 0, "K", CLI_TEXT, TEXT, CLI_INPUT,
@@ -136,7 +136,7 @@ const cli_option cli_option_table[] = {
      "radii are those of discs, not of squares around them:\nfewer pairs stay indeterminate; verify: the discs of "
      "FILE\nhave to be those of the certificate",
      AT(discs)},
-    {"sphere", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_INPUT,
+    {"sphere", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_VERIFY), CLI_INPUT,
      "points are longitude and latitude in degrees, on a sphere;\nradii have a unit: 30m, 2km, 5ft, 0.01deg, 3arcsec",
      AT(sphere)},
     {"plane", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,

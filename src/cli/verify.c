@@ -6,6 +6,9 @@
 
 static void print_pairs(FILE *out, const dyd_certificate_report *r) {
   fprintf(out, "checked: %zu legal pairs, each by its witness against all sites\n", r->legal);
+  if (r->sphere && !r->gap)
+    fprintf(out, "checked: %zu legal pairs with the place that is projected from\n", r->legal_around);
+  if (r->second) fprintf(out, "checked: from a gap between them as well: %zu legal pairs\n", r->second_legal);
   if (r->connected)
     fprintf(out, "checked: %zu sure triangles, %zu sure corners of the hull\n", r->triangles, r->corners);
   if (r->illegal_chains)
@@ -13,7 +16,9 @@ static void print_pairs(FILE *out, const dyd_certificate_report *r) {
   if (r->illegal_boxes)
     fprintf(out, "checked: %llu illegal pairs within undecided faces, by boxes that cover the plane\n",
             (unsigned long long)r->illegal_boxes);
-  if (!r->unproved && !r->capped) fputs("checked: all pairs that are not listed are illegal\n", out);
+  if (!r->unproved && !r->capped && !r->around_unproved)
+    fprintf(out, "checked: all pairs that are not listed%s are illegal\n",
+            r->gap ? ", nor of two neighbours of the gap," : "");
   if ((r->area || r->hausdorff) && !(r->gaps & DYD_GAP_BOUNDS))
     fputs("checked: the bounds of area and Hausdorff distance\n", out);
   if (r->diagram)
@@ -42,12 +47,18 @@ static void print_places(FILE *out, const dyd_certificate_report *r) {
 }
 
 static void print_proved(FILE *out, const dyd_certificate_report *r) {
-  fprintf(out, "sites: %zu, of which %zu aliases\n", r->sites, r->aliases);
+  if (r->sphere)
+    fprintf(out, "places: %zu on a sphere, projected from %s: %zu images\n", r->sphere_places,
+            r->gap ? "a gap between them" : "one of them", r->sites);
+  else
+    fprintf(out, "sites: %zu, of which %zu aliases\n", r->sites, r->aliases);
   if (r->discs)
     fprintf(out, "about: points in %zu discs%s\n", r->discs, r->discs_fixed ? ", which nothing narrows" : "");
   if (r->bound && !r->unlocated)
-    fprintf(out, "checked: the points given lie in its rectangles%s\n",
+    fprintf(out, "checked: the points given %s%s\n",
+            r->sphere ? "are its places, with their radii" : "lie in its rectangles",
             r->discs && !r->undescribed ? " and discs" : "");
+  if (r->sphere && !r->images_unproved) fputs("checked: each image lies in its rectangle, radii included\n", out);
   if (strcmp(r->goal, "nearest") == 0) {
     print_places(out, r);
   } else {
@@ -87,6 +98,11 @@ static void print_part_gaps(FILE *out, const dyd_certificate_report *r) {
 }
 
 static void print_gaps(FILE *out, const dyd_certificate_report *r) {
+  if (r->gaps & DYD_GAP_IMAGES)
+    fprintf(out, "not proved: that %zu rectangles hold the images of their places\n", r->images_unproved);
+  if (r->gaps & DYD_GAP_AROUND)
+    fprintf(out, "not proved: that %zu images that are not listed are no neighbours of what is projected from\n",
+            r->around_unproved);
   if (r->gaps & DYD_GAP_LEGAL)
     fprintf(out, "not proved: that %zu pairs without a witness are legal\n", r->legal_unproved);
   if (r->gaps & DYD_GAP_ILLEGAL)
@@ -130,11 +146,15 @@ static dyd_status verify_points(int *status, dyd_certificate_report *report, FIL
                                 const cli_options *o, dyd_error *err) {
   dyd_engine *e = NULL;
   cli_options reading = *o;
+  const dyd_sphere_options sphere = {DYD_SIZED(dyd_sphere_options), .radius = o->read.radius,
+                                     .radius_unit = o->read.radius_unit, .radius_scale = o->read.radius_scale};
   reading.file = o->points;
+  if (o->sphere) cli_options_degrees(&reading);
   dyd_status st = dyd_engine_new(&e);
   if (st != DYD_OK) return dyd_error_set(err, st, dyd_status_text(st));
   *status = cli_points_read(e, &reading);
-  if (*status == 0) st = dyd_verify_certificate_discs(report, still, in, e, o->discs, &o->engine, err);
+  if (*status == 0)
+    st = dyd_verify_certificate_on(report, still, in, e, o->discs, o->sphere ? &sphere : NULL, &o->engine, err);
   dyd_engine_free(e);
   return st;
 }
@@ -143,6 +163,8 @@ static int complain_rejected(const cli_options *o, const dyd_error *err) {
   const char *rejected = err->code == DYD_E_PARSE ? "rejected: " : "";
   if (err->line)
     cli_complain("%s:%zu: %s%s", o->file, err->line, rejected, err->message);
+  else if (err->code == DYD_E_DOMAIN && o->points && err->point == DYD_NO_POINT)
+    cli_complain("%s: %s; %s", o->file, err->message, o->sphere ? "leave --sphere away" : "give --sphere");
   else
     cli_complain("%s: %s%s", o->file, rejected, err->message);
   return CLI_FAILED;

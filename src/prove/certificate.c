@@ -13,7 +13,20 @@
 #include <dyadel/certificate.h>
 #include <dyadel/graph.h>
 #include <dyadel/io.h>
+#include <dyadel/sphere.h>
 #include <inttypes.h>
+
+/* What a certificate is of. parts: discs, a graph, or none; window: NULL: no section on the diagram; sphere: NULL: none
+ * on a sphere, whose images are those of the engine; again: its places have been written. */
+typedef struct subject {
+  const dyd_engine *engine;
+  const dyd_certificate_parts *parts;
+  const dyd_rect *window;
+  const dyd_sphere *sphere;
+  bool again;
+} subject;
+
+static const dyd_certificate_parts no_parts = {0};
 
 static void proof_clear(dyd_proof *p) {
   dyd_proof_drop_corners(p);
@@ -115,9 +128,9 @@ static void certificate_sites(FILE *out, const dyd_proof *p) {
       fprintf(out, "= %" PRIu32 "\n", s->alias);
       continue;
     }
-    certificate_side(out, &s->side[0]);
+    dyd_proof_put_side(out, &s->side[0]);
     putc(' ', out);
-    certificate_side(out, &s->side[1]);
+    dyd_proof_put_side(out, &s->side[1]);
     putc('\n', out);
   }
 }
@@ -188,9 +201,8 @@ static void certificate_graph(FILE *out, const dyd_graph_list *l, int kind) {
     fprintf(out, "%c %" PRIu32 " %" PRIu32 "\n", l->item[k].sure ? 'c' : 'p', l->item[k].i, l->item[k].j);
 }
 
-/* window: NULL: no section on the diagram. */
-static dyd_status certificate_sections(FILE *out, dyd_proof *p, const dyd_certificate_parts *parts,
-                                       const dyd_rect *window) {
+static dyd_status certificate_sections(FILE *out, dyd_proof *p, const subject *of) {
+  const dyd_certificate_parts *parts = of->parts;
   certificate_head(out, p, parts);
   certificate_sites(out, p);
   certificate_edges(out, "legal", &p->legal, &p->witness);
@@ -202,7 +214,8 @@ static dyd_status certificate_sections(FILE *out, dyd_proof *p, const dyd_certif
   if (st == DYD_OK) st = dyd_proof_put_ties(out, p);
   if (st == DYD_OK && parts->discs) st = dyd_proof_put_discs(out, p, parts->discs);
   if (st == DYD_OK && parts->graph) certificate_graph(out, parts->graph, parts->kind);
-  if (st == DYD_OK && window) st = dyd_proof_put_diagram(out, p, window);
+  if (st == DYD_OK && of->window) st = dyd_proof_put_diagram(out, p, of->window);
+  if (st == DYD_OK && of->sphere) st = dyd_proof_put_globe(out, p, of->sphere, of->again);
   return st;
 }
 
@@ -233,18 +246,34 @@ static dyd_status certificate_grant(const dyd_delaunay *pd, dyd_error *err) {
   return dyd_delaunay_grant(pd, dyd_bytes_add(bytes, dyd_bytes_times(pairs, PAIR)), "the certificate", err);
 }
 
-static dyd_status certificate_write(FILE *out, const dyd_engine *e, const dyd_certificate_parts *parts,
-                                    const dyd_rect *window, dyd_error *err) {
-  dyd_proof p = {.engine = e, .pd = dyd_engine_delaunay(e)};
+static dyd_status certificate_put(FILE *out, const subject *of, dyd_error *err) {
+  dyd_proof p = {.engine = of->engine, .pd = dyd_engine_delaunay(of->engine)};
   dyd_status st = certificate_grant(p.pd, err);
   if (st != DYD_OK) return st;
   dyd_cert_sites_init(&p.sites);
   st = proof_gather(&p);
-  if (st == DYD_OK) st = certificate_sections(out, &p, parts, window);
+  if (st == DYD_OK) st = certificate_sections(out, &p, of);
   proof_clear(&p);
-  if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
-  fputs("end\n", out);
-  return dyd_output_end(out, err);
+  return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
+}
+
+/* On a sphere, the certificate from a second eye as well. */
+static dyd_status certificate_put_all(FILE *out, const subject *of, dyd_error *err) {
+  const dyd_sphere *second = of->sphere ? dyd_proof_second(of->sphere) : NULL;
+  dyd_status st = certificate_put(out, of, err);
+  if (st == DYD_OK && second) {
+    const subject again = {.engine = dyd_sphere_images(second), .parts = &no_parts, .sphere = second, .again = true};
+    fputs("also\n", out);
+    st = certificate_put_all(out, &again, err);
+  }
+  if (st == DYD_OK && of->sphere) fprintf(out, "outcome %s\n", dyd_outcome_text(dyd_sphere_outcome(of->sphere)));
+  if (st == DYD_OK) fputs("end\n", out);
+  return st;
+}
+
+static dyd_status certificate_write(FILE *out, const subject *of, dyd_error *err) {
+  dyd_status st = certificate_put_all(out, of, err);
+  return st == DYD_OK ? dyd_output_end(out, err) : st;
 }
 
 dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, dyd_error *err) {
@@ -264,7 +293,14 @@ dyd_status dyd_write_certificate_parts(FILE *out, const struct dyd_engine *e, co
   if (dyd_engine_outcome(e) == DYD_OUTCOME_CERTIFIED &&
       (goal == DYD_GOAL_VORONOI_AREA || goal == DYD_GOAL_VORONOI_HAUSDORFF))
     return dyd_fail(err, DYD_E_ARG, "a goal on the diagram was reached; its certificate needs the window");
-  return certificate_write(out, e, &parts, NULL, err);
+  return certificate_write(out, &(subject){.engine = e, .parts = &parts}, err);
+}
+
+dyd_status dyd_write_sphere_certificate(FILE *out, const struct dyd_sphere *s, dyd_error *err) {
+  const dyd_engine *images = dyd_sphere_images(s);
+  if (err) dyd_error_clear(err);
+  if (!dyd_engine_delaunay(images)) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
+  return certificate_write(out, &(subject){.engine = images, .parts = &no_parts, .sphere = s}, err);
 }
 
 dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_engine *e, const struct dyd_rect *window,
@@ -282,7 +318,7 @@ dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_engine *e, 
   else if (dyd_window_init(&w, window ? window : &own) != DYD_OK)
     st = dyd_fail(err, DYD_E_ARG, "the window has to have positive area and dyadic ends");
   else
-    st = certificate_write(out, e, &(dyd_certificate_parts){0}, window ? window : &own, err);
+    st = certificate_write(out, &(subject){.engine = e, .parts = &no_parts, .window = window ? window : &own}, err);
   dyd_rect_clear(&own);
   return st;
 }

@@ -165,15 +165,17 @@ static void cone_choose(dyd_exact u[2], const cone *k, int64_t bits) {
   }
 }
 
-/* For the sites of the two groups at the corner at position q: takes them into the cone (u = NULL), or asks whether the
- * corner is beyond them all in direction u. */
-static bool each_beside(cone *k, const dyd_exact *u, const dyd_proof *p, const rim *r, const dyd_cert_parts *parts,
-                        size_t q) {
-  uint32_t v = r->site[q];
+/* Two lists of sites. */
+typedef struct crowds {
+  const uint32_t *site[2];
+  size_t count[2];
+} crowds;
+
+/* For the sites beside v: takes them into the cone (u = NULL), or asks whether v is beyond them all in direction u. */
+static bool each_beside(cone *k, const dyd_exact *u, const dyd_proof *p, uint32_t v, const crowds *beside) {
   for (int way = 0; way < 2; way++) {
-    uint32_t group = parts->group[way ? q : (q + r->count - 1) % r->count];
-    for (size_t m = parts->start[group]; m < parts->start[group + 1]; m++) {
-      uint32_t w = parts->site[m];
+    for (size_t m = 0; m < beside->count[way]; m++) {
+      uint32_t w = beside->site[way][m];
       if (w == v) continue;
       if (!u)
         cone_take_in(k, &p->sites, v, w);
@@ -185,17 +187,17 @@ static bool each_beside(cone *k, const dyd_exact *u, const dyd_proof *p, const r
   return true;
 }
 
-static bool find_direction(dyd_exact u[2], const dyd_proof *p, const rim *r, const dyd_cert_parts *parts, size_t q) {
+static bool find_direction(dyd_exact u[2], const dyd_proof *p, uint32_t v, const crowds *beside) {
   cone k = {.empty = true};
   for (int a = 0; a < 2; a++) {
     dyd_exact_init(&k.first[a]);
     dyd_exact_init(&k.last[a]);
   }
   bool found = false;
-  if (each_beside(&k, NULL, p, r, parts, q) && !k.empty)
+  if (each_beside(&k, NULL, p, v, beside) && !k.empty)
     for (int64_t bits = 3; bits <= (int64_t)1 << 14 && !found; bits += bits / 2 + 1) {
       cone_choose(u, &k, bits);
-      found = each_beside(&k, u, p, r, parts, q);
+      found = each_beside(&k, u, p, v, beside);
     }
   for (int a = 0; a < 2; a++) {
     dyd_exact_clear(&k.first[a]);
@@ -204,7 +206,23 @@ static bool find_direction(dyd_exact u[2], const dyd_proof *p, const rim *r, con
   return found;
 }
 
+bool dyd_proof_find_direction(dyd_exact u[2], const dyd_proof *p, uint32_t v, const uint32_t *site, size_t count) {
+  const crowds all = {{site, NULL}, {count, 0}};
+  return find_direction(u, p, v, &all);
+}
+
 /* ---- all corners ---- */
+
+/* The sites of the two groups at the corner at position q. */
+static crowds groups_beside(const rim *r, const dyd_cert_parts *parts, size_t q) {
+  crowds out;
+  for (int way = 0; way < 2; way++) {
+    uint32_t group = parts->group[way ? q : (q + r->count - 1) % r->count];
+    out.site[way] = parts->site + parts->start[group];
+    out.count[way] = parts->start[group + 1] - parts->start[group];
+  }
+  return out;
+}
 
 static dyd_status keep_corner(dyd_proof *p, uint32_t v, const dyd_exact u[2]) {
   if (!dyd_reserve((void **)&p->corner, &p->corner_cap, p->corners + 1, sizeof *p->corner)) return DYD_E_NOMEM;
@@ -243,7 +261,8 @@ static dyd_status try_corners(bool *again, dyd_proof *p, rim *r) {
   dyd_exact_init(&u[1]);
   for (size_t q = 0; q < r->count && st == DYD_OK; q++) {
     if (!r->corner[r->site[q]]) continue;
-    if (find_direction(u, p, r, &parts, q)) {
+    const crowds beside = groups_beside(r, &parts, q);
+    if (find_direction(u, p, r->site[q], &beside)) {
       st = keep_corner(p, r->site[q], (const dyd_exact *)u);
     } else {
       r->corner[r->site[q]] = false;

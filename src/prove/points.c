@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "checker/checker.h"
 #include "prove/proof.h"
+#include "sphere/state.h"
 #include "tolerance/discs.h"
 
 /* The question put to the engine. found[i]: point i lies in the rectangle of its site; wrong: one that does not. */
@@ -185,6 +186,16 @@ static dyd_status write_still(FILE *out, const bool *still, size_t count, dyd_er
   return fflush(out) || ferror(out) ? dyd_fail(err, DYD_E_IO, "the sites that stay cannot be written") : DYD_OK;
 }
 
+/* The same of the images of places. */
+static dyd_status write_still_images(FILE *out, const bool *still, const dyd_checker *c) {
+  bool *image = dyd_alloc(c->sites.count, sizeof *image);
+  if (!image) return DYD_E_NOMEM;
+  dyd_checker_still_images(image, c, still);
+  dyd_status st = write_still(out, image, c->sites.count, c->in.err);
+  free(image);
+  return st;
+}
+
 static dyd_status location_settle(dyd_checker *c, FILE *out, const location *l, const dyd_engine *e) {
   if (l->why) return dyd_fail(c->in.err, DYD_E_PARSE, "the rectangle of site %u %s", (unsigned)l->wrong, l->why);
   bool *still = dyd_alloc(l->count, sizeof *still);
@@ -194,21 +205,65 @@ static dyd_status location_settle(dyd_checker *c, FILE *out, const location *l, 
   c->report.unlocated = l->open;
   if (l->open || c->report.undescribed) c->report.gaps |= DYD_GAP_POINTS;
   if (st == DYD_OK) st = dyd_checker_settle(c, still);
-  if (st == DYD_OK && out) st = write_still(out, still, l->count, c->in.err);
+  if (st == DYD_OK && out && !c->globe.stated) st = write_still(out, still, l->count, c->in.err);
+  if (st == DYD_OK && out && c->globe.stated) st = write_still_images(out, still, c);
   free(still);
   return st;
 }
 
+/* ---- on a sphere ---- */
+
+/* Is the radius of all points that of the certificate? */
+static dyd_status compare_radius(const dyd_checker *c, const dyd_sphere_options *o) {
+  mpq_t radius;
+  bool ground = false;
+  mpq_init(radius);
+  dyd_status st = dyd_sphere_radius(radius, &ground, o, c->in.err);
+  bool same = mpq_equal(radius, c->globe.radius) && (!mpq_sgn(radius) || ground == c->globe.ground);
+  mpq_clear(radius);
+  if (st != DYD_OK || same) return st;
+  return dyd_fail(c->in.err, DYD_E_PARSE, "the radius of the points is not the one that it states");
+}
+
+/* And that of each? */
+static dyd_status compare_metres(const dyd_checker *c, const dyd_engine *e) {
+  mpq_t given, stated;
+  uint32_t i = 0;
+  bool same = true;
+  mpq_inits(given, stated, NULL);
+  for (; i < c->globe.place.count && same; i++) {
+    mpq_set_d(given, dyd_engine_radius(e, i));
+    dyd_cert_exact_to_q(stated, &c->globe.metres[i], NULL);
+    same = mpq_equal(given, stated);
+  }
+  mpq_clears(given, stated, NULL);
+  if (same) return DYD_OK;
+  return dyd_fail(c->in.err, DYD_E_PARSE, "the radius of point %u is not the one that it states", (unsigned)(i - 1));
+}
+
+static dyd_status compare_sphere(const dyd_checker *c, const dyd_engine *e, const dyd_sphere_options *sphere) {
+  if (!sphere != !c->globe.stated)
+    return dyd_fail(c->in.err, DYD_E_DOMAIN, "the certificate is about points %s, and these are not",
+                    sphere ? "of a plane" : "on a sphere");
+  if (!sphere) return DYD_OK;
+  dyd_status st = compare_radius(c, sphere);
+  return st == DYD_OK ? compare_metres(c, e) : st;
+}
+
 static dyd_status checker_locate(dyd_checker *c, bool discs, FILE *still, dyd_engine *e,
-                                 const dyd_engine_options *options) {
+                                 const dyd_sphere_options *sphere, const dyd_engine_options *options) {
   location l;
   dyd_outcome outcome;
   const dyd_question question = {DYD_SIZED(dyd_question), .ask = location_ask, .user = &l};
-  if (dyd_engine_count(e) != c->sites.count)
-    return dyd_fail(c->in.err, DYD_E_PARSE, "it has %zu sites, and there are %zu points", c->sites.count,
+  const dyd_cert_sites *about = c->globe.stated ? &c->globe.place : &c->sites;
+  if (dyd_engine_count(e) != about->count)
+    return dyd_fail(c->in.err, DYD_E_PARSE, "it has %zu sites, and there are %zu points", about->count,
                     (size_t)dyd_engine_count(e));
-  dyd_status st = location_init(&l, &c->sites);
-  if (st == DYD_OK) st = dyd_proof_compare_points(l.found, &c->report.undescribed, &c->ties, e);
+  dyd_status st = compare_sphere(c, e, sphere);
+  if (st == DYD_OK) st = location_init(&l, about);
+  if (st == DYD_E_NOMEM) return dyd_fail_nomem(c->in.err);
+  if (st != DYD_OK) return st;
+  st = dyd_proof_compare_points(l.found, &c->report.undescribed, &c->ties, e);
   if (st == DYD_OK) st = dyd_engine_ask(&outcome, e, &question, options, c->in.err);
   if (st == DYD_OK && outcome == DYD_OUTCOME_CANCELLED) st = DYD_CANCELLED;
   /* once more: some are known to be exact only now */
@@ -219,16 +274,19 @@ static dyd_status checker_locate(dyd_checker *c, bool discs, FILE *still, dyd_en
   return st == DYD_E_NOMEM ? dyd_fail_nomem(c->in.err) : st;
 }
 
-dyd_status dyd_verify_certificate_discs(dyd_certificate_report *out, FILE *still, FILE *in, struct dyd_engine *e,
-                                        bool discs, const struct dyd_engine_options *options, dyd_error *err) {
+dyd_status dyd_verify_certificate_on(dyd_certificate_report *out, FILE *still, FILE *in, struct dyd_engine *e,
+                                     bool discs, const struct dyd_sphere_options *sphere,
+                                     const struct dyd_engine_options *options, dyd_error *err) {
   dyd_checker c;
   dyd_error unused;
+  dyd_sphere_options own;
   if (!err) err = &unused;
   dyd_error_clear(err);
   if (dyd_abi_check(out, 0, "dyd_certificate_report", err) != DYD_OK) return DYD_E_ARG;
+  if (sphere && dyd_abi_take(&own, sizeof own, sphere, "dyd_sphere_options", err) != DYD_OK) return DYD_E_ARG;
   dyd_checker_init(&c, in, err);
   dyd_status st = dyd_checker_run(&c);
-  if (st == DYD_OK) st = checker_locate(&c, discs, still, e, options);
+  if (st == DYD_OK) st = checker_locate(&c, discs, still, e, sphere ? &own : NULL, options);
   if (st == DYD_OK) dyd_abi_give(out, &c.report, sizeof c.report);
   dyd_checker_clear(&c);
   return st;
@@ -236,7 +294,7 @@ dyd_status dyd_verify_certificate_discs(dyd_certificate_report *out, FILE *still
 
 dyd_status dyd_verify_certificate_still(dyd_certificate_report *out, FILE *still, FILE *in, struct dyd_engine *e,
                                         const struct dyd_engine_options *options, dyd_error *err) {
-  return dyd_verify_certificate_discs(out, still, in, e, false, options, err);
+  return dyd_verify_certificate_on(out, still, in, e, false, NULL, options, err);
 }
 
 dyd_status dyd_verify_certificate_of(dyd_certificate_report *out, FILE *in, struct dyd_engine *e,

@@ -48,6 +48,8 @@ dyd_status dyd_proof_find_bridges(dyd_proof *p);
 /* The graph, the corners and the faces. */
 dyd_status dyd_proof_find_faces(dyd_proof *p);
 void dyd_proof_drop_corners(dyd_proof *p);
+/* Looks for a direction in which site v is surely beyond all sites of the list, itself left out; u is initialised. */
+bool dyd_proof_find_direction(dyd_exact u[2], const dyd_proof *p, uint32_t v, const uint32_t *site, size_t count);
 /* Looks for a chain that proves the pair of an open set illegal. Sites `near` are tried as blockers. */
 dyd_status dyd_proof_find_chain(bool *found, dyd_cert_chain *out, const dyd_proof *p, uint32_t i, uint32_t j,
                                 const uint32_t *near, size_t count);
@@ -73,6 +75,16 @@ dyd_status dyd_proof_put_discs(FILE *out, const dyd_proof *p, const dyd_pair_lis
 
 /* Writes the section on the diagram; nothing for a result that is capped. DYD_E_ARG for a wrong window. */
 dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window);
+
+struct dyd_sphere;
+/* Writes the section on a sphere, of whose images the sites are. again: the places are those of a section before. */
+dyd_status dyd_proof_put_globe(FILE *out, const dyd_proof *p, const struct dyd_sphere *s, bool again);
+/* The same places from a second eye; NULL: there is no result of any. */
+const struct dyd_sphere *dyd_proof_second(const struct dyd_sphere *s);
+
+/* Copies an interval into a side without a denominator yet; writes one. */
+dyd_status dyd_proof_set_side(dyd_cert_side *out, const dyd_interval *a);
+void dyd_proof_put_side(FILE *out, const dyd_cert_side *s);
 
 /* out = x. */
 void dyd_proof_set(dyd_exact *out, const dyd_dyadic *x);

@@ -11,7 +11,7 @@ void dyd_proof_set(dyd_exact *out, const dyd_dyadic *x) {
   out->exp = x->exp;
 }
 
-static dyd_status proof_add_side(dyd_cert_side *out, const dyd_interval *a) {
+dyd_status dyd_proof_set_side(dyd_cert_side *out, const dyd_interval *a) {
   dyd_proof_set(&out->lo, &a->lo);
   out->point = dyd_interval_is_point(a);
   if (!out->point) dyd_proof_set(&out->hi, &a->hi);
@@ -21,8 +21,8 @@ static dyd_status proof_add_side(dyd_cert_side *out, const dyd_interval *a) {
 dyd_status dyd_proof_add_site(dyd_cert_sites *out, const dyd_rect *r) {
   dyd_cert_site *site = dyd_cert_sites_add(out);
   if (!site) return DYD_E_NOMEM;
-  dyd_status st = proof_add_side(&site->side[0], &r->x);
-  return st == DYD_OK ? proof_add_side(&site->side[1], &r->y) : st;
+  dyd_status st = dyd_proof_set_side(&site->side[0], &r->x);
+  return st == DYD_OK ? dyd_proof_set_side(&site->side[1], &r->y) : st;
 }
 
 void dyd_proof_points_clear(dyd_proof_points *p) {
@@ -182,6 +182,21 @@ void dyd_proof_put_number(FILE *out, const dyd_exact *x) {
   mpz_out_str(out, 10, t.man);
   if (t.exp) fprintf(out, "*2^%" PRId64, t.exp);
   dyd_exact_clear(&t);
+}
+
+void dyd_proof_put_side(FILE *out, const dyd_cert_side *s) {
+  dyd_proof_put_number(out, &s->lo);
+  if (s->den) {
+    putc('/', out);
+    mpz_out_str(out, 10, *s->den);
+  }
+  if (s->point) return;
+  dyd_exact width;
+  dyd_exact_init(&width);
+  dyd_exact_sub(&width, &s->hi, &s->lo);
+  putc('+', out);
+  dyd_proof_put_number(out, &width);
+  dyd_exact_clear(&width);
 }
 
 void dyd_proof_put_point(FILE *out, const dyd_exact c[2]) {

@@ -5,7 +5,8 @@
 static PyMethodDef module_functions[] = {
     {"formats", dydpy_formats, METH_NOARGS, "formats() -> [(name, what it is, is it binary), ...]"},
     {"replay", dydpy_replay, METH_VARARGS, "replay(path) -> (outcome, csv, svg)"},
-    {"verify", dydpy_verify, METH_VARARGS, "verify(certificate, engine or None, options) -> dict"},
+    {"verify", dydpy_verify, METH_VARARGS,
+     "verify(certificate, engine or None, sphere, radius, unit, scale, options) -> dict"},
     {"check", dydpy_check, METH_VARARGS,
      "check(make, seed, schedules, stages, base_bits, max_bits, slack_bits, seconds, moves or None, progress or None) "
      "-> dict"},

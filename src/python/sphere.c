@@ -173,7 +173,7 @@ static PyMethodDef globe_methods[] = {
     {"count", dydpy_count, METH_NOARGS, "count() -> int: points"},
     {"outcome", dydpy_outcome, METH_NOARGS, "outcome() -> str"},
     {"counters", dydpy_counters, METH_NOARGS, "counters() -> dict"},
-    {"certificate", dydpy_certificate, METH_VARARGS, "certificate(False, None) -> bytes: of the images"},
+    {"certificate", dydpy_certificate, METH_VARARGS, "certificate(False, None) -> bytes"},
     {"pairs", globe_pairs, METH_NOARGS, "pairs() -> Buffer of (uint32 i, uint32 j, int32 status), sorted"},
     {"triangles", globe_triangles, METH_NOARGS, "triangles() -> (Buffer of uint32 (T, 3): corners, an empty one)"},
     {"centre", globe_centre, METH_NOARGS, "centre() -> int or None: the point projected from"},

@@ -128,7 +128,8 @@ PyObject *dydpy_certificate(PyObject *object, PyObject *args) {
   PyThreadState *thread = PyEval_SaveThread();
   dyd_status st = diagram
                       ? dyd_write_voronoi_certificate(t.text.file, self->engine, t.windowed ? &t.window : NULL, &err)
-                      : dyd_write_certificate(t.text.file, self->engine, &err);
+                  : self->sphere ? dyd_write_sphere_certificate(t.text.file, self->sphere, &err)
+                                 : dyd_write_certificate(t.text.file, self->engine, &err);
   PyEval_RestoreThread(thread);
   return order_end(&t, self, &err, st);
 }
@@ -158,14 +159,15 @@ static PyObject *report_of(const dyd_certificate_report *r) {
 }
 
 /* With the engine entered, if there is one. */
-static PyObject *verify_with(FILE *in, dydpy_engine *of, const dyd_engine_options *o) {
+static PyObject *verify_with(FILE *in, dydpy_engine *of, const dyd_sphere_options *sphere,
+                             const dyd_engine_options *o) {
   dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
   dyd_error err;
   dydpy_guard guard;
   dydpy_guard_begin(&guard, of ? of->engine : NULL, NULL);
   PyThreadState *thread = PyEval_SaveThread();
-  dyd_status st =
-      of ? dyd_verify_certificate_of(&report, in, of->engine, o, &err) : dyd_verify_certificate(&report, in, &err);
+  dyd_status st = of ? dyd_verify_certificate_on(&report, NULL, in, of->engine, false, sphere, o, &err)
+                     : dyd_verify_certificate(&report, in, &err);
   PyEval_RestoreThread(thread);
   if (dydpy_guard_end(&guard) < 0) return NULL;
   return st == DYD_OK ? report_of(&report) : dydpy_raise(&err, st);
@@ -176,15 +178,19 @@ PyObject *dydpy_verify(PyObject *module, PyObject *args) {
   Py_ssize_t length;
   PyObject *of, *dict, *report = NULL;
   dydpy_options o;
+  int sphere;
+  dyd_sphere_options on = {DYD_SIZED(dyd_sphere_options)};
   (void)module;
-  if (!PyArg_ParseTuple(args, "s#OO!", &bytes, &length, &of, &PyDict_Type, &dict)) return NULL;
+  if (!PyArg_ParseTuple(args, "s#OpzzzO!", &bytes, &length, &of, &sphere, &on.radius, &on.radius_unit, &on.radius_scale,
+                        &PyDict_Type, &dict))
+    return NULL;
   dydpy_engine *self = of == Py_None ? NULL : (dydpy_engine *)of;
   if (dydpy_options_init(&o, self, dict) < 0) return NULL;
   FILE *in = fmemopen(bytes, length ? (size_t)length : 1, "r");
   if (!in)
     PyErr_NoMemory();
   else if (!self || dydpy_enter(self)) {
-    report = verify_with(in, self, &o.o);
+    report = verify_with(in, self, sphere ? &on : NULL, &o.o);
     if (self) dydpy_leave(self);
   }
   if (in) fclose(in);

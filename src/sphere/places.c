@@ -5,8 +5,7 @@
 #include "sphere/state.h"
 #include <string.h>
 
-/* The rectangle that is known of place i. */
-static dyd_status sphere_place_rect(dyd_rect *out, const dyd_sphere *s, uint32_t i) {
+dyd_status dyd_sphere_stated(dyd_rect *out, const dyd_sphere *s, uint32_t i) {
   if (dyd_sphere_is_fixed(s, i)) return dyd_sites_get(out, dyd_engine_sites(s->places), i);
   dyd_rect_set(out, dyd_stream_rect(s->stream[i]));
   return DYD_OK;
@@ -28,7 +27,7 @@ static dyd_status place_fail(uint32_t i, const char *what, dyd_error *err) {
 dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err) {
   dyd_rect r;
   dyd_rect_init(&r);
-  dyd_status st = sphere_place_rect(&r, s, i);
+  dyd_status st = dyd_sphere_stated(&r, s, i);
   bool good = st == DYD_OK && dyd_spot_set(out, &r, s->degrees);
   dyd_rect_clear(&r);
   if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));

@@ -96,8 +96,8 @@ static dyd_pair_status status_on_hull(const dyd_sphere *s, uint8_t in) {
   return in == IN_TIE ? DYD_TIE : DYD_INDETERMINATE;
 }
 
-/* What each image is to the centre. */
-static dyd_status centre_statuses(dyd_pair_status *status, const dyd_sphere *s, const dyd_delaunay *pd) {
+dyd_status dyd_sphere_about_centre(dyd_pair_status *status, const dyd_sphere *s) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
   dyd_index_list sure = {0}, possible = {0};
   uint8_t *in = calloc(s->with_image + 1, sizeof *in);
   dyd_status st = in ? mark_outer(in, s) : DYD_E_NOMEM;
@@ -176,7 +176,7 @@ static dyd_status pairs_seen(dyd_pair_list *out, const dyd_sphere *s) {
   dyd_pair_list images = {0};
   dyd_pair_status *status = dyd_alloc(s->with_image, sizeof *status);
   dyd_status st = status ? dyd_delaunay_pairs(&images, pd) : DYD_E_NOMEM;
-  if (st == DYD_OK) st = centre_statuses(status, s, pd);
+  if (st == DYD_OK) st = dyd_sphere_about_centre(status, s);
   if (st == DYD_OK) st = pairs_join(out, s, &images, status);
   dyd_pair_list_clear(&images);
   free(status);

@@ -65,14 +65,12 @@ static dyd_status radius_refuse(const char *text, const char *what, dyd_error *e
   return dyd_fail(err, DYD_E_ARG, "the radius \"%.60s\" %s", text, what);
 }
 
-/* A number and its unit: metres are an angle, degrees stay degrees. */
-static dyd_status radius_take(dyd_sphere *s, const dyd_sphere_options *o, mpq_t radius, mpq_t scale, dyd_error *err) {
+static dyd_status radius_take(mpq_ptr radius, bool *ground, const dyd_sphere_options *o, mpq_t scale, dyd_error *err) {
   const dyd_unit *unit = NULL;
-  bool ground = false;
   mpq_set_ui(scale, 1, 1);
   dyd_status st = dyd_unit_take(&unit, scale, o->radius_unit, o->radius_scale, err);
   if (st != DYD_OK || !o->radius) return st;
-  st = dyd_radius_parse(radius, &ground, o->radius, strlen(o->radius), unit);
+  st = dyd_radius_parse(radius, ground, o->radius, strlen(o->radius), unit);
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (st == DYD_E_DOMAIN)
     return radius_refuse(o->radius, "has no unit; state a unit: `radius_unit` m (" DYD_UNIT_NAMES ")", err);
@@ -80,18 +78,28 @@ static dyd_status radius_take(dyd_sphere *s, const dyd_sphere_options *o, mpq_t 
     return radius_refuse(o->radius, "is not an exact number >= 0 and a unit; give one such as 30m, 2km or 0.01deg",
                          err);
   mpq_mul(radius, radius, scale);
-  if (!ground) return mpq_swap(s->degrees, radius), DYD_OK;
-  mpq_mul(s->angle, radius, s->metre);
-  if (mpq_cmp_si(s->angle, 1, 1) <= 0) return DYD_OK;
-  return radius_refuse(o->radius, "is larger than that of the earth; give a smaller one", err);
+  return DYD_OK;
 }
 
-static dyd_status radius_read(dyd_sphere *s, const dyd_sphere_options *o, dyd_error *err) {
-  mpq_t radius, scale;
-  mpq_inits(radius, scale, NULL);
-  dyd_status st = radius_take(s, o, radius, scale, err);
-  mpq_clears(radius, scale, NULL);
+dyd_status dyd_sphere_radius(mpq_ptr out, bool *ground, const dyd_sphere_options *o, dyd_error *err) {
+  mpq_t scale;
+  mpq_init(scale);
+  mpq_set_ui(out, 0, 1);
+  *ground = false;
+  dyd_status st = radius_take(out, ground, o, scale, err);
+  mpq_clear(scale);
   return st;
+}
+
+/* Metres are an angle, degrees stay degrees. */
+static dyd_status radius_set(dyd_sphere *s, const dyd_sphere_options *o, dyd_error *err) {
+  bool ground;
+  dyd_status st = dyd_sphere_radius(s->degrees, &ground, o, err);
+  if (st != DYD_OK || !ground) return st;
+  mpq_swap(s->angle, s->degrees);
+  mpq_mul(s->angle, s->angle, s->metre);
+  if (mpq_cmp_si(s->angle, 1, 1) <= 0) return DYD_OK;
+  return radius_refuse(o->radius, "is larger than that of the earth; give a smaller one", err);
 }
 
 /* Radians to a metre on the ground. */
@@ -125,7 +133,7 @@ static dyd_sphere *sphere_begin(dyd_engine *places) {
 }
 
 static dyd_status sphere_make(dyd_sphere *s, const dyd_sphere_options *o, dyd_error *err) {
-  dyd_status st = radius_read(s, o, err);
+  dyd_status st = radius_set(s, o, err);
   if (st == DYD_OK) st = streams_take(s, err);
   if (st == DYD_OK) st = dyd_sphere_find_aliases(s, err);
   if (st == DYD_OK) st = centre_take(s, o, err);

@@ -44,6 +44,10 @@ struct dyd_sphere {
 dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
 /* Encloses the same in doubles; quick for exact places. */
 dyd_status dyd_sphere_spot_d(dyd_spot_d *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
+/* Sets out to the radius in the options: metres on the ground, or degrees. DYD_E_ARG where it is none; DYD_E_NOMEM. */
+dyd_status dyd_sphere_radius(mpq_ptr out, bool *ground, const dyd_sphere_options *o, dyd_error *err);
+/* What was given of place i, as it is known now: without radii. */
+dyd_status dyd_sphere_stated(dyd_rect *out, const dyd_sphere *s, uint32_t i);
 static inline bool dyd_sphere_is_fixed(const dyd_sphere *s, uint32_t i) {
   return !s->stream || !s->stream[i];
 }
@@ -64,6 +68,8 @@ dyd_status dyd_sphere_narrow_recalled(dyd_sphere *s, int64_t max_bits, dyd_error
 /* ties.c: proves that images are of exact places on one circle, with the centre if that is asked for. */
 dyd_status dyd_sphere_on_circle(bool *proved, const dyd_sphere *s, bool centre, const uint32_t *site, size_t count,
                                 dyd_error *err);
+/* result.c: what each image is to the centre; in a gap, to a point there. */
+dyd_status dyd_sphere_about_centre(dyd_pair_status *status, const dyd_sphere *s);
 /* As dyd_prove_fn; user is a dyd_sphere, sites are images. */
 dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                             dyd_error *err);

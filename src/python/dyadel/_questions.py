@@ -238,14 +238,21 @@ class Verdict(NamedTuple):
     report: dict[str, Any]
 
 
-def verify(certificate: bytes, points: Any = None, radius: Any = None, **options: Any) -> Verdict:
+def verify(certificate: bytes, points: Any = None, radius: Any = None, sphere: bool = False,
+           radius_unit: str | None = None, **options: Any) -> Verdict:
     """Checks a certificate in integers, with no code of the engine; points: and that it is about these.
+
+    sphere: the points are longitude and latitude in degrees, radius and radius_unit are as for delaunay.
 
     Error with code 'parse' and the line when it is rejected.
     """
-    engine = None
+    engine, kept = None, (None, None, None)
     if points is not None:
         engine = _dyadel.Engine()
-        append_points(engine, points, radius)
-    report = _dyadel.verify(certificate, engine, engine_options(**options))
+        if sphere:
+            from ._sphere import append_places  # which imports this module
+            _, *kept = append_places(engine, points, radius, radius_unit)
+        else:
+            append_points(engine, points, radius)
+    report = _dyadel.verify(certificate, engine, sphere, *kept, engine_options(**options))
     return Verdict(report['proved'], report['outcome'], report)

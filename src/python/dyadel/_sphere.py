@@ -19,6 +19,21 @@ from ._statuses import STATUS, Statuses
 OF_THE_PLANE = ('until', 'window')
 
 
+def append_places(engine: _dyadel.Engine, points: Any, radius: Any = None,
+                  radius_unit: str | None = None) -> tuple[bool, Any, str | None, Any]:
+    """As append_points, of longitudes and latitudes; then the radius that is kept beside the points, its unit and scale."""
+    scale = None
+    if isinstance(points, Text):
+        scale = points.radius_scale
+        radius_unit = points.radius_unit if radius_unit is None else radius_unit
+        if radius is None and points.radius is not None:
+            points, radius = dataclasses.replace(points, radius=None), points.radius
+    radius = _with_unit(radius, radius_unit)
+    if radius is not None and not isinstance(radius, str):
+        points, radius = _with_radii(points, radius, radius_unit), None
+    return append_points(engine, points, degrees=True), radius, radius_unit, scale
+
+
 class SphereCell(NamedTuple):
     """vertices: numbers of those around the cell, counter-clockwise from outside (rows of SphereVoronoi.vertices); None
     stands for an undecided region between its neighbours. complete: all around is known."""
@@ -93,19 +108,10 @@ class Sphere(Statuses):
 
     def __init__(self, points: Any, radius: Any = None, radius_unit: str | None = None) -> None:
         super().__init__()
-        scale = None
-        if isinstance(points, Text):
-            scale = points.radius_scale
-            radius_unit = points.radius_unit if radius_unit is None else radius_unit
-            if radius is None and points.radius is not None:
-                points, radius = dataclasses.replace(points, radius=None), points.radius
-        radius = _with_unit(radius, radius_unit)
-        if radius is not None and not isinstance(radius, str):
-            points, radius = _with_radii(points, radius, radius_unit), None
         self._places = _dyadel.Engine()
-        kept = append_points(self._places, points, degrees=True)
-        self._given = points if kept else None, radius, radius_unit
-        self._engine = _dyadel.Sphere(self._places, radius, None if radius is None else radius_unit, scale)
+        kept, radius, unit, scale = append_places(self._places, points, radius, radius_unit)
+        self._given = points if kept else None, radius, unit
+        self._engine = _dyadel.Sphere(self._places, radius, None if radius is None else unit, scale)
 
     def refine(self, **options: Any) -> Sphere:
         """Runs until all is decided, or nothing more can be; options are those of delaunay. Returns itself."""
@@ -136,7 +142,7 @@ class Sphere(Statuses):
 
     @property
     def centre(self) -> int | None:
-        """The point that the others were projected from: what a certificate speaks of are their images."""
+        """The point that the others were projected from."""
         return self._engine.centre()
 
     def voronoi(self) -> SphereVoronoi:
@@ -144,7 +150,7 @@ class Sphere(Statuses):
         return SphereVoronoi(self)
 
     def certificate(self) -> bytes:
-        """What proves the statuses of the images in the plane, for verify()."""
+        """What proves the statuses, for verify()."""
         return self._engine.certificate(False, None)
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The section of a certificate on a sphere: places, radii, the eye, who may be its neighbours. */
+#include "base/alloc.h"
+#include "prove/proof.h"
+#include "rect/interval.h"
+#include "sphere/state.h"
+#include <inttypes.h>
+
+static dyd_status put_interval(FILE *out, const dyd_interval *a) {
+  dyd_cert_sites one;
+  dyd_cert_sites_init(&one);
+  dyd_cert_site *site = dyd_cert_sites_add(&one);
+  dyd_status st = site ? dyd_proof_set_side(&site->side[0], a) : DYD_E_NOMEM;
+  if (st == DYD_OK) dyd_proof_put_side(out, &site->side[0]);
+  dyd_cert_sites_clear(&one);
+  return st;
+}
+
+static dyd_status put_rational(FILE *out, mpq_srcptr q) {
+  dyd_interval a;
+  dyd_interval_init(&a);
+  dyd_status st = dyd_interval_set_q(&a, q);
+  if (st == DYD_OK) st = put_interval(out, &a);
+  dyd_interval_clear(&a);
+  return st;
+}
+
+static dyd_status put_metres(FILE *out, double metres) {
+  mpq_t q;
+  if (!(metres > 0)) return DYD_OK;
+  mpq_init(q);
+  mpq_set_d(q, metres);
+  putc(' ', out);
+  dyd_status st = put_rational(out, q);
+  mpq_clear(q);
+  return st;
+}
+
+static dyd_status put_eye(FILE *out, const dyd_sphere *s) {
+  if (!s->free && s->count) {
+    fprintf(out, "eye %" PRIu32 "\n", s->centre);
+    return DYD_OK;
+  }
+  fputs("eye gap ", out);
+  dyd_status st = put_rational(out, s->eye.spot.mid[0]);
+  putc(' ', out);
+  if (st == DYD_OK) st = put_rational(out, s->eye.spot.mid[1]);
+  putc('\n', out);
+  return st;
+}
+
+static dyd_status put_radius(FILE *out, const dyd_sphere *s) {
+  mpq_t radius;
+  bool ground = mpq_sgn(s->angle) != 0;
+  if (!ground && !mpq_sgn(s->degrees)) {
+    fputs("radius none\n", out);
+    return DYD_OK;
+  }
+  mpq_init(radius);
+  mpq_set(radius, s->degrees);
+  if (ground) mpq_div(radius, s->angle, s->metre);
+  fputs(ground ? "radius metres " : "radius degrees ", out);
+  dyd_status st = put_rational(out, radius);
+  putc('\n', out);
+  mpq_clear(radius);
+  return st;
+}
+
+/* Each eye has streams of its own: what is stated lies in what both know. */
+static dyd_status place_narrowest(dyd_rect *out, const dyd_sphere *s, uint32_t i) {
+  dyd_rect other;
+  dyd_status st = dyd_sphere_stated(out, s, i);
+  if (st != DYD_OK || !dyd_proof_second(s)) return st;
+  dyd_rect_init(&other);
+  st = dyd_sphere_stated(&other, s->second, i);
+  if (st == DYD_OK) st = dyd_interval_intersect(&out->x, &out->x, &other.x);
+  if (st == DYD_OK) st = dyd_interval_intersect(&out->y, &out->y, &other.y);
+  dyd_rect_clear(&other);
+  return st;
+}
+
+static dyd_status put_stated_place(FILE *out, const dyd_sphere *s, uint32_t i, dyd_rect *r) {
+  dyd_status st = place_narrowest(r, s, i);
+  if (st == DYD_OK) st = put_interval(out, &r->x);
+  putc(' ', out);
+  if (st == DYD_OK) st = put_interval(out, &r->y);
+  if (st == DYD_OK) st = put_metres(out, dyd_engine_radius(s->places, i));
+  if (s->alias[i] != i) fprintf(out, " = %" PRIu32, s->alias[i]);
+  putc('\n', out);
+  return st;
+}
+
+static dyd_status put_places(FILE *out, const dyd_sphere *s) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = DYD_OK;
+  fprintf(out, "places %zu\n", s->count);
+  for (uint32_t i = 0; i < s->count && st == DYD_OK; i++) st = put_stated_place(out, s, i, &r);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+/* kind[k]: of image k and the eye, as a letter of the list; 0: no neighbour. */
+static dyd_status find_kinds(char *kind, const dyd_sphere *s) {
+  static const char letter[] = {[DYD_TIE] = 't', [DYD_INDETERMINATE] = 'o', [DYD_LEGAL] = 'l'};
+  dyd_pair_status *status = dyd_alloc(s->with_image, sizeof *status);
+  dyd_status st = status ? dyd_sphere_about_centre(status, s) : DYD_E_NOMEM;
+  for (size_t k = 0; k < s->with_image && st == DYD_OK; k++)
+    kind[k] = status[k] == DYD_ILLEGAL ? '\0' : s->free ? 'o' : letter[status[k]];
+  free(status);
+  return st;
+}
+
+static bool is_among_corners(const dyd_proof *p, uint32_t k) {
+  for (size_t q = 0; q < p->corners; q++)
+    if (p->corner[q].i == k) return true;
+  return false;
+}
+
+/* A corner of the hull that is not listed as one, with a direction, all sites being those of the list. */
+static void put_direction(FILE *out, const dyd_proof *p, uint32_t k, const uint32_t *all, size_t count) {
+  dyd_exact u[2];
+  if (p->sites.count <= 2 || is_among_corners(p, k)) return;
+  for (int a = 0; a < 2; a++) dyd_exact_init(&u[a]);
+  if (dyd_proof_find_direction(u, p, k, all, count)) {
+    putc(' ', out);
+    dyd_proof_put_point(out, (const dyd_exact *)u);
+  }
+  for (int a = 0; a < 2; a++) dyd_exact_clear(&u[a]);
+}
+
+static void put_neighbour(FILE *out, const dyd_proof *p, char kind, uint32_t k, const uint32_t *all, size_t count) {
+  if (!kind) return;
+  fprintf(out, "%c %" PRIu32, kind, k);
+  if (kind == 'l') put_direction(out, p, k, all, count);
+  putc('\n', out);
+}
+
+static dyd_status put_neighbours(FILE *out, const dyd_proof *p, const dyd_sphere *s) {
+  char *kind = dyd_alloc(s->with_image, sizeof *kind);
+  uint32_t *all = dyd_alloc(s->with_image, sizeof *all);
+  dyd_status st = kind && all ? find_kinds(kind, s) : DYD_E_NOMEM;
+  size_t count = 0, sites = 0;
+  for (uint32_t k = 0; k < s->with_image && st == DYD_OK; k++) {
+    count += kind[k] != 0;
+    if (p->sites.site[k].alias == k) all[sites++] = k;
+  }
+  if (st == DYD_OK) fprintf(out, "neighbours %zu\n", count);
+  for (uint32_t k = 0; k < s->with_image && st == DYD_OK; k++) put_neighbour(out, p, kind[k], k, all, sites);
+  free(all);
+  free(kind);
+  return st;
+}
+
+const struct dyd_sphere *dyd_proof_second(const struct dyd_sphere *s) {
+  return s->second && dyd_engine_delaunay(s->second->images) ? s->second : NULL;
+}
+
+dyd_status dyd_proof_put_globe(FILE *out, const dyd_proof *p, const struct dyd_sphere *s, bool again) {
+  fputs("sphere\n", out);
+  dyd_status st = put_eye(out, s);
+  if (st == DYD_OK && !again) st = put_radius(out, s);
+  if (st == DYD_OK && !again) st = put_places(out, s);
+  return st == DYD_OK ? put_neighbours(out, p, s) : st;
+}
