@@ -17,6 +17,10 @@ static bool text_gets(const char *verdict, char *text, size_t length) {
   if (st == DYD_OK)
     snprintf(found, sizeof found, "accepted: gaps %u, unproved %llu, triangles %zu, distance %d%s", r.gaps,
              (unsigned long long)r.unproved, r.triangles, r.distance_proved, ties);
+  size_t end = strlen(found);
+  if (r.sphere)
+    snprintf(found + end, sizeof found - end, ", sphere: %zu places, %zu legal around, %zu open, %zu ties, %zu not",
+             r.sphere_places, r.legal_around, r.indeterminate, r.tie, r.ties_unproved + r.legal_unproved);
   if (in) fclose(in);
   if (strcmp(found, verdict) != 0) printf("%s, not %s:\n%.*s", found, verdict, (int)length, text);
   return strcmp(found, verdict) == 0;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Every refusal of the checker, by a certificate that is wrong in exactly that point [CERT-1] [CERT-2] [CERT-3] [CERT-4]
-[CERT-5] [CERT-6] [CERT-7] [CERT-9] [CERT-10].
+[CERT-5] [CERT-6] [CERT-7] [CERT-9] [CERT-10] [CERT-14].
 
 Usage: test_refusals.py DYADEL ROOT
 
@@ -175,6 +175,48 @@ SHORT, LONG, BLANKS = 'the line is too short', 'the line goes on with "y"', 'two
 NUMBER, COUNT, INTEGER = 'is not a number m or m*2^e', 'is not a number of a site or of lines', 'is no integer'
 LARGE, WORD = 'is too large', 'is no word that may stand here'
 NO_DENOMINATOR, NOT_LOWEST, NO_WIDTH = '" is no denominator', 'is no denominator in lowest terms', 'is not a width'
+
+
+# Five places on a sphere, the last one the first again.
+SPHERE = '''dyadel certificate 1
+outcome decided
+goal decided
+capped no
+sites 3
+-6706799550877399*2^-53+141*2^-53 3138186047629653*2^-54+249*2^-54
+-1385510300907327*2^-52+9*2^-50 -232478893885975*2^-51+943*2^-56
+-6902851726705479*2^-55+1*2^-48 715400431414223*2^-51+153*2^-54
+legal 3
+0 1 -3*2^-2 -1*2^-2
+0 2 -1*2^-1 3*2^-2
+1 2 0 0
+places 0
+bridges 0
+corners 3
+0 -11 3
+1 5 -11
+2 3*2^1 1*2^3
+pairs
+triangles 1
+unproved 0
+area 3308525148028615321*2^-107
+hausdorff 13553964483723401363*2^-109
+sphere
+eye 2
+radius none
+places 5
+5*2^1 5*2^2
+-5*2^3 15*2^1
+25*2^2 -25*2^1
+0 35*2^1
+185*2^1 5*2^2 = 0
+neighbours 3
+l 0
+l 1
+l 2
+outcome decided
+end
+'''
 
 
 def missing(word):
@@ -387,9 +429,38 @@ def first_difference(a, b):
     return next((k for k, (x, y) in enumerate(zip(a.split('\n'), b.split('\n')), 1) if x != y), b.count('\n') + 1)
 
 
+def of_sphere():
+    """Sections on a sphere [CERT-14]; lines that are told of are counted from the first one that differs."""
+    sphere = [(SPHERE, *c) for c in (
+        ('eye 2\n', 'eye 7\n', 'there is no place 7 that is the eye', 7), ('eye 2\n', 'eye 4\n', 'there is no place 4', 7),
+        ('eye 2\n', 'eye gap 0 91\n', 'the eye is no place'), ('eye 2\n', 'eye gap 0+1 0\n', 'the eye is no place'),
+        ('eye 2\n', 'eye gap 0 0\n', 'there are 3 sites, and 4 places that have an image', 7),
+        ('radius none', 'radius metres 0', 'this is no radius'), ('radius none', 'radius degrees 1+1', 'this is no radius'),
+        ('radius none', 'radius feet 1', WORD),
+        ('25*2^2 -25*2^1', '25*2^2 -91', 'the eye is no place with a radius on the sphere', 2),
+        ('\n5*2^1 5*2^2\n', '\n5*2^1 5*2^2 0\n', 'this is no radius'),
+        ('0 35*2^1\n', '0 91\n', 'place 3 is no place with a radius', 1),
+        ('0 35*2^1\n', '1 35*2^1\n', 'the rectangle of site 2 does not hold the image of place 3', 1),
+        ('5*2^2 = 0', '5*2^2 = 4', 'place 4 is an alias'), ('5*2^2 = 0', '5*2^2 = 1', 'it is not seen to be the same place as 1'),
+        ('l 0\nl 1\n', 'l 1\nl 0\n', 'neighbours are not in order', 1),
+        ('l 0\n', 't 0\n', 'the pair is legal, and no tie'), ('l 0\n', 'l 0 1 0\n', 'image 0 is not seen to be a corner'),
+        ('neighbours 3\nl 0\n', 'neighbours 2\n', 'site 0 is a corner of the hull, and no neighbour', 2),
+        )]
+    yield from sphere
+    gap = 'sphere\neye gap 0 0\nradius none\nplaces 0\nneighbours 0\noutcome decided\nend\n'
+    none = HEAD.replace('fixpoint', 'decided') + 'sites 0\nlegal 0\nplaces 0\nbridges 0\ncorners 0\npairs\ntriangles 0\nunproved 0\n' \
+        'area none\nhausdorff none\n'
+    yield SPHERE, 'l 2\noutcome decided\n', 'l 2\nalso\n' + none + 'end\n', 'the second certificate is not about a sphere', 15
+    yield none + gap, 'neighbours 0\n', 'neighbours 0\nalso\n', 'a second eye is for places that are seen from one of them'
+    one = (none + gap).replace('sites 0\n', 'sites 1\n0 0\n').replace('gap 0 0', 'gap 45*2^2 0').replace(
+        'places 0\nneighbours 0', 'places 1\n0 0\nneighbours 1\no 0')
+    yield one, 'o 0\n', 'l 0\n', 'the eye is no place, and has no pairs'
+    yield none + gap, '\nsphere\n', '\nwindow 0 1 0 1\npolygons\nundetermined 1\ndistance none\nsphere\n', 'are about a plane', 4
+
+
 def cases():
     """The text, the line, why."""
-    for good, old, new, why, *line in [*((SQUARE, *c) for c in (*of_lines(), *of_sites())), *of_lists(), *of_pairs(),
+    for good, old, new, why, *line in [*((SQUARE, *c) for c in (*of_lines(), *of_sites())), *of_lists(), *of_sphere(), *of_pairs(),
                                        *of_ends(),
                                        *((DESCRIBED, *c) for c in of_descriptions())]:
         old, new = (old, new) if old[0] == '\n' or '\n' in old else (f'{old}\n', f'{new}\n')

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Faults seeded into the checker of certificates are noticed [CERT-1] [CERT-2] [CERT-3] [CERT-4] [CERT-5] [CERT-6]
-[CERT-7] [CERT-8] [CERT-9] [CERT-11] [CERT-12] [CERT-13].
+[CERT-7] [CERT-8] [CERT-9] [CERT-11] [CERT-12] [CERT-13] [CERT-14].
 
 Usage: test_seeded.py CC ROOT LIBRARY [COUNT SEED FILE...]   (exit status 1 when a fault goes unnoticed)
 
-forgeries.txt and forgeries_parts.txt have certificates, each with its verdict: what is rejected, and what is accepted with which gaps. Most are one
+forgeries.txt, forgeries_parts.txt and forgeries_sphere.txt have certificates, each with its verdict: what is rejected, and what is accepted with which gaps. Most are one
 step from a good one, counts put right. The checker has to give these verdicts; a copy of one of its sources with a fault
 (a check removed or weakened, a < made <= at a tie), linked with the rest from LIBRARY, must give another one. Each fault
 replaces a text, which must occur once. SURVIVORS change nothing that could be noticed, for the reason given. With COUNT,
@@ -433,7 +433,7 @@ def try_drawn(seeds, sources, certificates, count, seed, names):
 def main():
     cc, root, library, *drawn = sys.argv[1:]
     root = pathlib.Path(root)
-    certificates = [root / 'tests/checker' / name for name in ('forgeries.txt', 'forgeries_parts.txt')]
+    certificates = [root / 'tests/checker' / f'forgeries{part}.txt' for part in ('', '_parts', '_sphere')]
     sources = root / 'src/checker'
     with tempfile.TemporaryDirectory() as name:
         seeds = Seeds(cc, root, library, pathlib.Path(name))
