@@ -252,20 +252,20 @@ DYD_API dyd_status dyd_write_nearest_certificate(FILE *out, const struct dyd_eng
 
 /* What an accepted certificate states without a proof; bits of dyd_certificate_report.gaps. */
 typedef enum dyd_certificate_gap {
-  DYD_GAP_LEGAL = 1,     /* that pairs without a witness are legal */
-  DYD_GAP_ILLEGAL = 2,   /* that pairs which are not listed are illegal */
-  DYD_GAP_TIES = 4,      /* that a pair is a tie: no face with both its sites is seen to be on one circle or line */
-  DYD_GAP_BOUNDS = 8,    /* area, hausdorff: pairs that are not listed may be possible */
-  DYD_GAP_DISTANCE = 16, /* the distance in the diagram */
-  DYD_GAP_OUTCOME = 32,  /* the outcome */
-  DYD_GAP_POINTS = 64,   /* that the points given lie in its rectangles, and are what it describes */
-  DYD_GAP_ALIASES = 128, /* that aliases of sites that are not exact are the same points */
-  DYD_GAP_CLAIMS = 256,  /* that callbacks are what their authors say they are */
-  DYD_GAP_DISCS = 512,   /* that discs make pairs legal or illegal */
-  DYD_GAP_GRAPH = 1024,  /* that pairs without a row are no edges of the graph */
-  DYD_GAP_NEAREST = 2048 /* that sites which are not listed are not nearest to a place */
-  DYD_GAP_IMAGES = 4096, /* on a sphere: that rectangles hold the images of their places */
-  DYD_GAP_AROUND = 8192, /* on a sphere: that places which are not listed are no neighbours of the eye */
+  DYD_GAP_LEGAL = 1,      /* that pairs without a witness are legal */
+  DYD_GAP_ILLEGAL = 2,    /* that pairs which are not listed are illegal */
+  DYD_GAP_TIES = 4,       /* that a pair is a tie: no face with both its sites is seen to be on one circle or line */
+  DYD_GAP_BOUNDS = 8,     /* area, hausdorff: pairs that are not listed may be possible */
+  DYD_GAP_DISTANCE = 16,  /* the distance in the diagram */
+  DYD_GAP_OUTCOME = 32,   /* the outcome */
+  DYD_GAP_POINTS = 64,    /* that the points given lie in its rectangles, and are what it describes */
+  DYD_GAP_ALIASES = 128,  /* that aliases of sites that are not exact are the same points */
+  DYD_GAP_CLAIMS = 256,   /* that callbacks are what their authors say they are */
+  DYD_GAP_DISCS = 512,    /* that discs make pairs legal or illegal */
+  DYD_GAP_GRAPH = 1024,   /* that pairs without a row are no edges of the graph */
+  DYD_GAP_NEAREST = 2048, /* that sites which are not listed are not nearest to a place */
+  DYD_GAP_IMAGES = 4096,  /* on a sphere: that rectangles hold the images of their places */
+  DYD_GAP_AROUND = 8192,  /* on a sphere: that places which are not listed are no neighbours of the eye */
   DYD_GAP_SPHERE = DYD_GAP_IMAGES | DYD_GAP_AROUND
 } dyd_certificate_gap;
 

@@ -57,7 +57,7 @@ static dyd_status mark_ties(dyd_checker *c) {
 
 /* A pair of places is a tie where all sets that hold both are tied: circles through the eye are lines; where it is no
  * place, those are no ties. */
-static void count_ties(dyd_checker *c) {
+static void around_count_ties(dyd_checker *c) {
   c->report.ties_unproved = 0;
   for (size_t q = 0; q < c->tie.count; q++)
     c->report.ties_unproved += !dyd_cert_faces_tied(&c->faces, c->tie.item[q].i, c->tie.item[q].j);
@@ -246,7 +246,7 @@ dyd_status dyd_checker_around(dyd_checker *c) {
   uint32_t count = 0, k = 0;
   dyd_status st = mark_ties(c);
   if (st != DYD_OK) return st;
-  count_ties(c);
+  around_count_ties(c);
   st = dyd_cert_expect_line(c, "neighbours");
   if (st == DYD_OK) st = dyd_cert_read_index(&count, &c->in, c->sites.count);
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);

@@ -83,7 +83,7 @@ static void form_set(dyd_cert_enclosure *out, int form, const values *v, const d
 
 /* ---- an angle over a part ---- */
 
-static void angle_span_init(dyd_cert_span *v) {
+static void angle_span_init(dyd_cert_angle_span *v) {
   mpq_inits(v->mid, v->half, NULL);
   mpz_init(v->reach);
   for (int k = 0; k < DYD_CERT_ENDS; k++) dyd_cert_trig_init(&v->at[k]);
@@ -91,14 +91,14 @@ static void angle_span_init(dyd_cert_span *v) {
   v->p = 0;
 }
 
-static void angle_span_clear(dyd_cert_span *v) {
+static void angle_span_clear(dyd_cert_angle_span *v) {
   dyd_cert_trig_clear(&v->over);
   for (int k = 0; k < DYD_CERT_ENDS; k++) dyd_cert_trig_clear(&v->at[k]);
   mpz_clear(v->reach);
   mpq_clears(v->mid, v->half, NULL);
 }
 
-static const dyd_cert_trig *span_at(dyd_cert_span *v, int end, const dyd_cert_lens *g) {
+static const dyd_cert_trig *span_at(dyd_cert_angle_span *v, int end, const dyd_cert_lens *g) {
   if (v->known[end]) return &v->at[end];
   mpq_t q;
   mpq_init(q);
@@ -124,7 +124,7 @@ static void widen(dyd_cert_enclosure *x, mpz_srcptr reach, long p) {
   dyd_cert_enclosure_clear(&one);
 }
 
-static void span_set(dyd_cert_span *v, mpq_srcptr mid, mpq_srcptr half, const dyd_cert_lens *g) {
+static void span_set(dyd_cert_angle_span *v, mpq_srcptr mid, mpq_srcptr half, const dyd_cert_lens *g) {
   if (v->p == g->p && mpq_equal(v->mid, mid) && mpq_equal(v->half, half)) return;
   mpq_set(v->mid, mid);
   mpq_set(v->half, half);

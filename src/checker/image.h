@@ -13,20 +13,20 @@ enum { DYD_CERT_LOW, DYD_CERT_MIDDLE, DYD_CERT_UPPER, DYD_CERT_ENDS };
 
 /* An angle over a part of a region: within half of mid, in degrees; reach: half in radians, a number 2^-p rounded up.
  * at[] is known where `known` says so; over: of all angles of the part. */
-typedef struct dyd_cert_span {
+typedef struct dyd_cert_angle_span {
   mpq_t mid, half;
   mpz_t reach;
   dyd_cert_trig at[DYD_CERT_ENDS], over;
   bool known[DYD_CERT_ENDS];
   long p; /* 0: nothing is known */
-} dyd_cert_span;
+} dyd_cert_angle_span;
 
 /* The eye, a box, and what many images have in common. */
 typedef struct dyd_cert_lens {
   dyd_cert_region eye;
   long p; /* of pi; 0: not known */
   dyd_cert_enclosure pi;
-  dyd_cert_span span[DYD_CERT_ANGLES];
+  dyd_cert_angle_span span[DYD_CERT_ANGLES];
   dyd_cert_trig cap;             /* of the angle of the place */
   dyd_cert_enclosure side[2][2]; /* of the rectangle: of x, of y, lower and upper */
   size_t pieces;                 /* how many more pieces may be looked at */
