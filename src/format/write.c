@@ -298,7 +298,6 @@ dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_rect *b, d
 
 dyd_status dyd_write_bisector_named(FILE *out, const dyd_engine *e, const dyd_rect *a, const dyd_rect *b,
                                     dyd_outcome outcome, dyd_format format, dyd_error *err) {
-  if (!e) return dyd_fail_null(err);
   dyd_boundary curve[2] = {{0}, {0}};
   dyd_status st = dyd_bisector(&curve[0], a, b);
   if (st == DYD_OK) st = dyd_bisector(&curve[1], b, a);

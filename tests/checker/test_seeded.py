@@ -271,7 +271,7 @@ FAULTS = [
     ('discs.c', 'good = good && !dyd_cert_discs_meet(caps.i, caps.j) && dyd_cert_caps_cover(&end, &caps);', ''),
     ('discs.c', 'if (!dyd_cert_is_disc_witness(&other, &c->sites, &c->tree, c->disc, p->i, p->j, c->point))', 'if (false)'),
     ('certificate.c', 'if (r->discs_unproved) r->gaps |= DYD_GAP_DISCS;', ''),
-    ('certificate.c', ' && !r->discs_unproved && !r->near_unproved,', ','),
+    ('certificate.c', ' && !r->discs_unproved && !r->near_unproved &&', ' &&'),
     ('certificate.c', 'if (r->graph_unproved || (r->graph && (r->unproved || r->capped))) r->gaps |= DYD_GAP_GRAPH;', ''),
     ('certificate.c', 'if (r->near_unproved) r->gaps |= DYD_GAP_NEAREST;', ''),
     ('certificate.c', ' || r->places_certain < r->places;', ';'),

@@ -82,7 +82,9 @@ static void test_all(void **state) {
         dyd_status st = call[n](e);
         over = countdown > 0;
         countdown = 0;
-        assert_int_equal(st, over ? DYD_OK : DYD_E_NOMEM);
+        /* A question after a stream triangulates sites; without memory for their copy in integers it takes longer. */
+        bool does_without = st == DYD_OK && call[n] == ask_streams && kind == 1;
+        assert_true(st == (over ? DYD_OK : DYD_E_NOMEM) || does_without);
         assert_true(k < 1000);
       }
     }
