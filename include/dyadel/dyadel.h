@@ -9,6 +9,8 @@
  * returns no status then returns 0, false, NULL, or the answer that states nothing, such as DYD_INDETERMINATE.
  * Functions that release take NULL. Outputs, numbers and rectangles are never NULL unless the function says so.
  *
+ * Messages of errors name fields of options in backquotes, as in "raise `max_pairs`".
+ *
  * ABI rules. A program keeps working with every later library of the same soname:
  *  1. Every struct of options, counters, reports, and every struct that callbacks are given, begins with struct_size,
  *     the size that its user was compiled with. Who makes the struct sets it, by DYD_SIZED (status.h) or the init

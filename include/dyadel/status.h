@@ -58,11 +58,11 @@ typedef enum dyd_truth { DYD_FALSE = -1, DYD_UNKNOWN = 0, DYD_TRUE = 1 } dyd_tru
  * Invariant: message is a terminated UTF-8 string; unknown numbers are 0 (point: DYD_NO_POINT). */
 typedef struct dyd_error {
   dyd_status code;
-  size_t point;                   /* number of the point concerned, from 0 */
-  uint64_t stage;                 /* how many times that point had been narrowed before */
-  size_t line;                    /* line of the input text, from 1 */
-  size_t column;                  /* column of the input text in characters, from 1 */
-  char message[DYD_MESSAGE_SIZE]; /* fields of options that a remedy names are in backquotes: "raise `max_pairs`" */
+  size_t point;   /* number of the point concerned, from 0 */
+  uint64_t stage; /* how many times that point had been narrowed before */
+  size_t line;    /* line of the input text, from 1 */
+  size_t column;  /* column of the input text in characters, from 1 */
+  char message[DYD_MESSAGE_SIZE];
 } dyd_error;
 
 /* Sets *err to "no error". */

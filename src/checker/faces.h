@@ -62,4 +62,11 @@ dyd_status dyd_cert_walk(uint32_t **out, size_t *count, const dyd_cert_graph *g,
  * item is sorted by places. */
 dyd_status dyd_cert_hull(bool *hull, const dyd_cert_sites *s, uint32_t *item, size_t count);
 
+/* Returns true if the places of `count` different sites are on the line of the first two, which have different places
+ * (measure.c). */
+bool dyd_cert_on_line(const dyd_cert_sites *s, const uint32_t *site, size_t count);
+/* Returns true if the places of `count` sites, at least three, all different and not all on one line, are on one
+ * circle. */
+bool dyd_cert_on_circle(const dyd_cert_sites *s, const uint32_t *site, size_t count);
+
 #endif

@@ -2,7 +2,7 @@
 /* Exact distances, heights and turns of the sites of a certificate.
  *
  * ds clamps the centre to the rectangle, dl goes to the farther end on each axis; heights are u.x at a corner. */
-#include "checker/sites.h"
+#include "checker/faces.h"
 #include <stddef.h>
 
 void dyd_cert_fraction_init(dyd_cert_fraction *f) {

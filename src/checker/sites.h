@@ -100,12 +100,6 @@ dyd_cert_spot dyd_cert_spot_at(const dyd_exact v[2]);
 int dyd_cert_cross(dyd_cert_spot a, dyd_cert_spot b, dyd_cert_spot c, dyd_cert_spot d);
 /* Sign of the orientation of the places of three sites. */
 int dyd_cert_turn(const dyd_cert_sites *s, uint32_t a, uint32_t b, uint32_t c);
-/* Returns true if the places of `count` different sites are on the line of the first two, which have different places.
- */
-bool dyd_cert_on_line(const dyd_cert_sites *s, const uint32_t *site, size_t count);
-/* Returns true if the places of `count` sites, at least three, all different and not all on one line, are on one
- * circle. */
-bool dyd_cert_on_circle(const dyd_cert_sites *s, const uint32_t *site, size_t count);
 /* Compares places by x, then by y. */
 int dyd_cert_compare_places(const dyd_cert_sites *s, uint32_t a, uint32_t b);
 
