@@ -246,7 +246,7 @@ def verify(certificate: bytes, points: Any = None, radius: Any = None, sphere: b
 
     Error with code 'parse' and the line when it is rejected.
     """
-    engine, kept = None, (None, None, None)
+    engine, kept = None, [None, None, None]
     if points is not None:
         engine = _dyadel.Engine()
         if sphere:
