@@ -166,12 +166,11 @@ dyd_status dyd_diagram_vertex_sites(dyd_index_list *out, const dyd_diagram *d, s
   return DYD_OK;
 }
 
-bool dyd_diagram_vertex_in_window(double box[4], const dyd_diagram *d, size_t k) {
-  double window[4];
-  dyd_rect_get_d(window, &d->window);
-  for (int m = 0; m < 4; m++) box[m] = d->vertex[k][m];
-  clip_box(box, window);
-  return box[0] <= box[1] && box[2] <= box[3];
+bool dyd_diagram_vertex_in_window(const dyd_diagram *d, size_t k) {
+  double w[4];
+  const double *b = d->vertex[k];
+  dyd_rect_get_d(w, &d->window);
+  return dyd_box_is_finite(b) && b[0] <= w[1] && w[0] <= b[1] && b[2] <= w[3] && w[2] <= b[3];
 }
 
 dyd_status dyd_diagram_vertex(char *text[4], const dyd_diagram *d, size_t k) {

@@ -173,8 +173,8 @@ static dyd_status row_vertex(dyd_table *t, const dyd_diagram *d, size_t k, const
   return st;
 }
 
-/* wkt and geojson hold what is in the window. Where a goal asks for more than decimals of 17 digits show, the
- * enclosures are exact numbers in csv. */
+/* wkt and geojson hold what may be in the window and can be drawn. Where a goal asks for more than decimals of 17
+ * digits show, the enclosures are exact numbers in csv. */
 dyd_status dyd_layer_vertices(const dyd_output *o) {
   static const char *const column[] = {"i", "j", "k", "xlo", "xhi", "ylo", "yhi", "id_i", "id_j", "id_k", NULL};
   const dyd_diagram *d = o->what;
@@ -187,10 +187,7 @@ dyd_status dyd_layer_vertices(const dyd_output *o) {
   if (st == DYD_OK) st = tied_comments(o);
   if (st == DYD_OK) dyd_table_begin(&t, &head);
   for (size_t k = 0; k < dyd_diagram_vertices(d) && st == DYD_OK; k++) {
-    double clipped[4];
-    const double *box = csv ? d->vertex[k] : clipped;
-    if (!csv && !dyd_diagram_vertex_in_window(clipped, d, k)) continue;
-    st = row_vertex(&t, d, k, box, exact);
+    if (csv || dyd_diagram_vertex_in_window(d, k)) st = row_vertex(&t, d, k, d->vertex[k], exact);
   }
   if (st == DYD_OK) dyd_table_end(&t);
   return st;

@@ -88,8 +88,8 @@ static dyd_status name_of_vertex(const voronoi_drawing *g, size_t k) {
 static dyd_status voronoi_vertices(voronoi_drawing *g) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < dyd_diagram_vertices(g->d) && st == DYD_OK; k++) {
-    const double *b = g->d->vertex[k], *w = g->window;
-    if (!(b[0] <= w[1] && w[0] <= b[1] && b[2] <= w[3] && w[2] <= b[3])) continue;
+    const double *b = g->d->vertex[k];
+    if (!dyd_diagram_vertex_in_window(g->d, k)) continue;
     if ((b[1] - b[0] + b[3] - b[2]) * g->view.scale > 12 * g->view.dot) continue; /* the band shows it better */
     double side = 1.6 * g->view.dot / g->view.scale, x = b[0] / 2 + b[1] / 2, y = b[2] / 2 + b[3] / 2;
     double wide = fmax(b[1] - b[0], side) / 2, high = fmax(b[3] - b[2], side) / 2,

@@ -330,6 +330,22 @@ def test_tied_vertices():
     assert '# tie' not in undecided and undecided.endswith('yhi\n'), undecided
 
 
+def test_enclosures_of_vertices_are_whole():
+    """A vertex that may be outside of the window has the enclosure in every format that csv has."""
+    points, window = '[-4,4] -1\n4 0\n[-3,3] 6\n', '--window=-2,2,1,3'
+    lines = run('voronoi', '-', '--layer', 'vertices', window, stdin=points).out.splitlines()
+    row, = [[float(t) for t in line.split(',')[3:]] for line in lines if line.startswith('0,1,2,')]
+    assert row[0] < -2 or row[1] > 2 or row[2] < 1 or row[3] > 3, row  # or nothing would be cut
+    feature, = json.loads(run('voronoi', '-', '--layer', 'vertices', '--format', 'geojson', window,
+                              stdin=points).out)['features']
+    held = feature['properties']
+    assert [held[k] for k in ('xlo', 'xhi', 'ylo', 'yhi')] == row, (held, row)
+    for at, low, high in zip(feature['geometry']['coordinates'], row[::2], row[1::2]):
+        assert abs(at - low) <= held['max_coordinate_error'] and abs(at - high) <= held['max_coordinate_error'], held
+    vertex, = json.loads(run('voronoi', '-', '--format', 'json', window, stdin=points).out)['vertices']
+    assert vertex['x'] + vertex['y'] == row, (vertex, row)
+
+
 def test_vertices_are_as_narrow_as_the_goal():
     points = [tuple(root(t) for t in p) for p in RADICANDS]
     for bits in (10, 100, 300):

@@ -88,18 +88,17 @@ static dyd_status html_cell(void *context, uint32_t i, const dyd_shape *shape, c
 
 static dyd_status html_vertices(html_diagram *g) {
   const dyd_diagram *d = g->d;
-  double box[4];
   const char *between = "\n";
   dyd_status st = DYD_OK;
   fputs("\"vertices\": [", g->out);
   for (size_t k = 0; k < dyd_diagram_vertices(d) && st == DYD_OK; k++) {
     dyd_index_list sites = {0};
-    if (!dyd_diagram_vertex_in_window(box, d, k)) continue;
+    if (!dyd_diagram_vertex_in_window(d, k)) continue;
     st = dyd_diagram_vertex_sites(&sites, d, k);
     fprintf(g->out, "%s{\"sites\": [", between);
     dyd_put_rows(g->out, d->engine, &sites, ", ");
     fputs("], ", g->out);
-    dyd_json_box(g->out, "", box);
+    dyd_json_box(g->out, "", d->vertex[k]);
     fputs("}", g->out);
     dyd_index_list_clear(&sites);
     between = ",\n";
