@@ -249,6 +249,33 @@ def judge_points(judge, case, c, ch):
         judge(holds, 'point %d is not in its box', i)
 
 
+def read_unlisted(case, out, err, form):
+    """Pairs, where ties are not listed among them."""
+    return {**read_pairs(case, out, err, form), 'listed only': True}
+
+
+def read_groups(case, out, err, form):
+    r, _ = rows(out, form)
+    return {'groups': [(q['kind'], [int(k) for k in q['sites'].split()]) for q in r]}
+
+
+def judge_groups(judge, case, c, ch):
+    """Sites of a group are ties, but for neighbours, which may be edges; a chain is on a line with nothing beyond."""
+    for kind, sites in c['groups']:
+        judge(kind in ('circle', 'chain') and len(set(sites)) == len(sites) > 2, '%s of %s is no group', kind, sites)
+        for a, b in itertools.combinations(range(len(sites)), 2):
+            near = b - a == 1 or kind == 'circle' and b - a == len(sites) - 1
+            e = ch.edge(sites[a], sites[b])
+            judge(case.true or e == 0 or near and e == 1, '%d,%d of a %s are no tie', sites[a], sites[b], kind)
+        turns = [oracle.turn(*(ch.p[k] for k in sites[:2]), ch.p[m]) for m in (sites[2:] if kind == 'circle' else ch.sites)]
+        judge(case.true or all(t > 0 if kind == 'circle' else t <= 0 for t in turns), 'the %s %s is not in order', kind, sites)
+
+
+def read_aliases(case, out, err, form):
+    r, _ = rows(out, form)
+    return {'aliases': {int(q['i']): int(q['of']) for q in r}}
+
+
 def read_triangles(case, out, err, form):
     r, notes = rows(out, form)
     return {'triangles': [tuple(int(q[k]) for k in 'ijk') for q in r],
@@ -692,6 +719,12 @@ FIRM = ('exact', 'column', 'scaled column')
 STATED = {
     'pairs': Stated('delaunay', read_pairs, judge_pairs, formats=('csv', 'json', 'wkt', 'geojson', 'vtk', 'svg', 'obj'),
                     geometries=ALL),
+    'pairs with ties': Stated('delaunay', read_pairs, judge_pairs, args=['--list-ties', 'pairs'], formats=ROWS),
+    'pairs without ties': Stated('delaunay', read_unlisted, judge_pairs, args=['--list-ties', 'none'], formats=ROWS),
+    'groups': Stated('delaunay', read_groups, judge_groups, args=['--list-ties', 'groups']),
+    'layer ties': Stated('delaunay', read_groups, judge_groups, layer='ties'),
+    'aliases': Stated('delaunay', read_aliases, None, layer='aliases', formats=ROWS),
+    'aliases of cells': Stated('voronoi', read_aliases, None, layer='aliases', formats=ROWS),
     'layer pairs': Stated('delaunay', read_pairs, judge_pairs, layer='pairs', formats=ROWS, geometries=ALL),
     'hull': Stated('delaunay', read_points, judge_points, layer='points', formats=ROWS, geometries=('plane', 'sphere')),
     'triangles': Stated('delaunay', read_triangles, judge_triangles, layer='triangles', formats=ROWS,
