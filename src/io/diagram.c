@@ -258,6 +258,22 @@ static dyd_status finer_helps(bool *out, const dyd_diagram *d, int64_t bits, int
   return st == DYD_CANCELLED ? DYD_OK : st;
 }
 
+/* Where scales are far apart, arcs may take more points than can be held: only as fine as polygons can be had.
+ * Elsewhere they can, and nothing is tried. */
+static dyd_status coarsen_flattening(dyd_diagram *d) {
+  enum { COMMON = 40, COARSER = 8 };
+  int64_t least = COMMON + 3 - dyd_metric_flattening(d->pd, &d->window, 0);
+  dyd_status st = DYD_E_RANGE;
+  while (st == DYD_E_RANGE && d->bits > least) {
+    dyd_voronoi_bounds b;
+    dyd_voronoi_bounds_init(&b);
+    st = dyd_metric_voronoi(&b, d->pd, &d->window, d->bits, d->cancel);
+    dyd_voronoi_bounds_clear(&b);
+    if (st == DYD_E_RANGE) d->bits -= COARSER;
+  }
+  return st == DYD_E_NOMEM ? st : DYD_OK;
+}
+
 /* Fine enough for the eye, and for the goal on the area where there was one. Where that was not reached, what is
  * undetermined hides the flattening, and polygons as fine as the goal could be endless: only as fine as it helps. */
 static dyd_status choose_flattening(dyd_diagram *d) {
@@ -298,6 +314,7 @@ dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, cons
     d->bits = o->flatten_bits;
   else
     st = choose_flattening(d);
+  if (st == DYD_OK && !o->flatten_set) st = coarsen_flattening(d);
   d->vertex_bits = vertex_bits(d);
   if (st == DYD_OK && vertices) st = find_vertices(d);
   return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));

@@ -330,6 +330,18 @@ def test_tied_vertices():
     assert '# tie' not in undecided and undecided.endswith('yhi\n'), undecided
 
 
+def test_scales_far_apart_have_polygons():
+    """Where nobody asks for a flattening, one is taken that can be had."""
+    points = '[0,1*2^-100] 0\n1 [0,1]\n[3*2^100,4*2^100] 5\n1*2^-300 [1*2^-310,1*2^-309]\n'
+    for layer in ('cells', 'edges', 'regions', 'vertices'):
+        expect(run('voronoi', '-', '--layer', layer, stdin=points), 3)
+    result = run('voronoi', '-', '--format', 'json', stdin=points)
+    expect(result, 3)
+    for cell in json.loads(result.out)['cells']:
+        assert 0 < cell['area'][0] <= cell['area'][1], cell
+    expect(run('voronoi', '-', '--flatten', '2', stdin=points), 1, '', 'give a smaller M by --flatten')
+
+
 def test_enclosures_of_vertices_are_whole():
     """A vertex that may be outside of the window has the enclosure in every format that csv has."""
     points, window = '[-4,4] -1\n4 0\n[-3,3] 6\n', '--window=-2,2,1,3'
