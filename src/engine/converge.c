@@ -12,6 +12,7 @@
 #include "base/flag.h"
 #include "engine/digest.h"
 #include "engine/goal_voronoi.h"
+#include "metric/voronoi_bounds.h"
 #include <dyadel/metric.h>
 
 #include <math.h>
@@ -154,12 +155,33 @@ static int64_t row_flattening(const dyd_stage_row *row) {
   return dyd_dyadic_sgn(w) == 0 ? EXACT : FINER - (w->exp + (int64_t)mpz_sizeinbase(w->man, 2));
 }
 
+/* The bounds with polygons within 2^-fine; coarser ones where a step does not halve the area: what is undetermined
+ * comes from the rectangles then, whose arcs would take 2^(fine / 2) points. */
+static dyd_status find_voronoi(dyd_voronoi_bounds *b, const dyd_delaunay *pd, const dyd_rect *window, int64_t fine,
+                               const volatile int *cancel) {
+  enum { PLAIN = 16, FIRST_STEP = 6 };
+  int64_t bits = dyd_metric_coarseness(pd, window) + PLAIN, step = FIRST_STEP;
+  bool helps = true;
+  dyd_dyadic old;
+  dyd_dyadic_init(&old);
+  dyd_status st = dyd_metric_voronoi(b, pd, window, bits < fine ? bits : fine, cancel);
+  for (; bits < fine && helps && st == DYD_OK; step *= 2) {
+    dyd_dyadic_swap(&old, &b->area);
+    bits = fine - bits < step ? fine : bits + step;
+    st = dyd_metric_voronoi(b, pd, window, bits, cancel);
+    if (st == DYD_OK) st = dyd_dyadic_mul_2exp(&old, &old, -1);
+    helps = st == DYD_OK && dyd_dyadic_cmp(&b->area, &old) < 0;
+  }
+  dyd_dyadic_clear(&old);
+  return st;
+}
+
 /* Bounds that cannot be had (a capped result, rectangles that all meet, numbers out of range, no time) are left out. */
 static dyd_status measure_voronoi(dyd_stage_row *row, const dyd_convergence *out, const dyd_delaunay *pd,
                                   const volatile int *cancel) {
   dyd_voronoi_bounds b;
   dyd_voronoi_bounds_init(&b);
-  dyd_status st = dyd_metric_voronoi(&b, pd, out->window, row_flattening(row), cancel);
+  dyd_status st = find_voronoi(&b, pd, out->window, row_flattening(row), cancel);
   row->voronoi = st == DYD_OK && b.finite;
   if (row->voronoi) {
     dyd_dyadic_swap(&row->v_area, &b.area);

@@ -236,6 +236,15 @@ def test_bad_traces():
         expect(run('converge', '--replay', '-', option, stdin=trace), 2, r'\A\Z', 'from the trace; leave --')
 
 
+def test_points_far_smaller_than_the_first_boxes():
+    """Polygons are as fine as it helps: the window is that of the first boxes, and arcs have an end."""
+    tiny = '(-33*2^-79)+(cbrt(17))*2^-81 7*2^-77\n(43*2^-79)+(e*11)*2^-81 (-85*2^-80)+(atan(24))*3*2^-81\n' \
+           '(47*2^-79)+(log(17))*2^-80 (-43*2^-79)+(sqrt(26))*3*2^-81\n'
+    stages = table('--timeout', '60', text=tiny)
+    assert stages[-1]['legal'] == '3' and all(stage['v_area'] for stage in stages), stages
+    assert all(Fraction(a['v_area']) >= Fraction(b['v_area']) for a, b in zip(stages, stages[1:])), stages
+
+
 def test_goals_of_the_diagram():
     """--of says whose bound --until means: each stops as soon as its own column is small enough."""
     steps = ('--schedule', 'uniform', '--step-bits', '1', '--max-bits', '60')
