@@ -155,8 +155,8 @@ static int64_t row_flattening(const dyd_stage_row *row) {
   return dyd_dyadic_sgn(w) == 0 ? EXACT : FINER - (w->exp + (int64_t)mpz_sizeinbase(w->man, 2));
 }
 
-/* The bounds with polygons within 2^-fine; coarser ones where a step does not halve the area: what is undetermined
- * comes from the rectangles then, whose arcs would take 2^(fine / 2) points. */
+/* The bounds with polygons within 2^-fine; coarser ones where a step does not halve the area: the rectangles count for
+ * more than the polygons then, and arcs could take 2^(fine / 2) points. */
 static dyd_status find_voronoi(dyd_voronoi_bounds *b, const dyd_delaunay *pd, const dyd_rect *window, int64_t fine,
                                const volatile int *cancel) {
   enum { PLAIN = 16, FIRST_STEP = 6 };

@@ -173,8 +173,8 @@ static dyd_status row_vertex(dyd_table *t, const dyd_diagram *d, size_t k, const
   return st;
 }
 
-/* wkt and geojson hold what may be in the window and can be drawn. Where a goal asks for more than decimals of 17
- * digits show, the enclosures are exact numbers in csv. */
+/* wkt and geojson hold those that can be drawn and whose enclosure meets the window. Where a goal asks for more than
+ * decimals of 17 digits show, the enclosures are exact numbers in csv. */
 dyd_status dyd_layer_vertices(const dyd_output *o) {
   static const char *const column[] = {"i", "j", "k", "xlo", "xhi", "ylo", "yhi", "id_i", "id_j", "id_k", NULL};
   const dyd_diagram *d = o->what;

@@ -331,7 +331,7 @@ def test_tied_vertices():
 
 
 def test_scales_far_apart_have_polygons():
-    """Where nobody asks for a flattening, one is taken that can be had."""
+    """Where no flattening is given, the command takes one with which it can draw the cells."""
     points = '[0,1*2^-100] 0\n1 [0,1]\n[3*2^100,4*2^100] 5\n1*2^-300 [1*2^-310,1*2^-309]\n'
     for layer in ('cells', 'edges', 'regions', 'vertices'):
         expect(run('voronoi', '-', '--layer', layer, stdin=points), 3)
