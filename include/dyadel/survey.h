@@ -36,11 +36,16 @@ typedef struct dyd_survey dyd_survey;
  * own faces tell (in small plans: at all; in large faces: the sites near it), and all accuracies are as coarse as one
  * common factor makes them, then each by itself in powers of 2 [SUR-1]. dyd_survey_left: how many pairs stay open even
  * so (the accuracy is not enough, or rectangles are fixed by their centres). pd is borrowed for the call; options may
- * be NULL. Returns DYD_OK; DYD_E_ARG; DYD_CAPPED when pd is; DYD_CANCELLED; DYD_E_NOMEM: *out is NULL then. Cost: for a
+ * be NULL. Returns DYD_OK; DYD_E_ARG; DYD_CAPPED when pd is; DYD_E_NOMEM: *out is NULL then. DYD_CANCELLED: *out has
+ * the rows that were chosen by then, with what they decide, see dyd_survey_is_cut, and err says what is open; or it is
+ * NULL, before pairs were looked at. Cost: for a
  * face of m sites at most m^2 triangulations of m sites, m <= 16; in larger ones an update for each row, and some
  * triangulations of the sites near it; some of all. */
 DYD_API dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_survey_options *options,
                                   dyd_error *err);
+/* Is the plan not finished? Points may then be in it that a finished one does not need, in the order they were chosen;
+ * the numbers of pairs hold as they do otherwise. */
+DYD_API bool dyd_survey_is_cut(const dyd_survey *s);
 DYD_API void dyd_survey_free(dyd_survey *s);
 /* In the order to measure them, the most telling first. Borrowed until s is freed. */
 DYD_API size_t dyd_survey_rows(const dyd_survey_row **row, const dyd_survey *s);

@@ -184,6 +184,10 @@ void cli_session_settle(cli_session *s);
 bool cli_run_was_whole(const dyd_engine *e);
 /* Says that there is nothing to write, as the work ended before `what` ("the plan was") known, and how to mend that. */
 int cli_session_stopped(const cli_session *s, const char *what);
+/* Work that was cut short has a result all the same: says what is missing of it, and DYD_OK; other statuses stay. */
+dyd_status cli_session_cut(dyd_status st, const dyd_error *err);
+/* Exit status where work was cut short, by the end of time or on request. */
+int cli_exit_cut(void);
 /* Writes the certificate that the options ask for, after results were written with this status. Returns the status of
  * all. */
 int cli_session_certificate(cli_session *s, int status, cli_print_fn print, const void *what);

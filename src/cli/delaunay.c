@@ -10,7 +10,9 @@ static dyd_tolerance *find_tolerance(const dyd_delaunay *pd) {
   dyd_tolerance *t = NULL;
   for (size_t i = 0; i < dyd_sites_count(sites); i++)
     if (!dyd_sites_is_point(sites, i)) return NULL;
-  return dyd_tolerance_new(&t, pd, &options, NULL) == DYD_OK ? t : NULL;
+  if (dyd_tolerance_new(&t, pd, &options, NULL) == DYD_OK) return t;
+  dyd_tolerance_free(t);
+  return NULL;
 }
 
 /* pairs: of discs; NULL: those of the engine. */
@@ -53,7 +55,7 @@ static int discs_outcome(const disc_result *r, bool cut, const cli_options *o) {
   size_t count[4] = {0};
   for (size_t k = 0; k < r->pairs.count; k++) count[r->pairs.item[k].status]++;
   dyd_outcome outcome = dyd_engine_outcome(r->engine);
-  if (cut) return cli_deadline_passed() ? CLI_BUDGET : CLI_CANCELLED;
+  if (cut) return cli_exit_cut();
   if (!dyd_delaunay_is_capped(dyd_engine_delaunay(r->engine)) && count[DYD_INDETERMINATE] + count[DYD_TIE] == 0)
     return CLI_OK;
   if (!o->quiet)
@@ -74,9 +76,7 @@ static int discs_result(cli_session *s, disc_result *r, const cli_options *o) {
     cli_complain_at(o->file, &err);
     return CLI_FAILED;
   }
-  if (st == DYD_CANCELLED)
-    cli_complain("%s: %s%s", cli_deadline_passed() ? "budget" : "cancelled", err.message,
-                 cli_deadline_passed() ? "; raise --timeout" : "");
+  cli_session_cut(st, &err);
   s->discs = &r->pairs;
   cli_session_settle(s);
   status = cli_write_file(o->output, o, discs_write, r);

@@ -158,7 +158,7 @@ static dyd_status plan_find(dyd_engine *e, const dyd_engine_options *options, vo
   if (st != DYD_OK || !cli_run_was_whole(e)) return st;
   st = plan_costs(r, e);
   if (st == DYD_OK) st = dyd_survey_new(&r->survey, dyd_engine_delaunay(e), &r->options, err);
-  return st == DYD_CANCELLED ? DYD_OK : st;
+  return r->survey ? cli_session_cut(st, err) : st == DYD_CANCELLED ? DYD_OK : st;
 }
 
 static int plan_session(cli_session *s, plan_run *r, const cli_options *o) {
@@ -171,6 +171,7 @@ static int plan_session(cli_session *s, plan_run *r, const cli_options *o) {
   if (!r->survey) return cli_session_stopped(s, "the plan was");
   status = cli_write_file(o->output, o, plan_write, r);
   dyd_survey_count(&open, &ties, &left, r->survey);
+  if (!status && dyd_survey_is_cut(r->survey)) return cli_exit_cut();
   if (status || !left) return status;
   if (!o->quiet) cli_complain("%zu of %zu pairs stay open with this plan; give a finer --accuracy", left, open);
   return CLI_FIXPOINT;

@@ -258,6 +258,17 @@ bool cli_run_was_whole(const dyd_engine *e) {
   return dyd_engine_delaunay(e) && dyd_engine_outcome(e) != DYD_OUTCOME_CANCELLED && !session_is_late(e);
 }
 
+dyd_status cli_session_cut(dyd_status st, const dyd_error *err) {
+  bool late = cli_deadline_passed();
+  if (st != DYD_CANCELLED) return st;
+  cli_complain("%s: %s%s", late ? "budget" : "cancelled", err->message, late ? "; raise --timeout" : "");
+  return DYD_OK;
+}
+
+int cli_exit_cut(void) {
+  return cli_deadline_passed() ? CLI_BUDGET : CLI_CANCELLED;
+}
+
 /* The engine may see the end of time a little before the flag is raised. */
 int cli_session_stopped(const cli_session *s, const char *what) {
   bool late = cli_deadline_passed() || session_is_late(s->engine);

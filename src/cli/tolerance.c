@@ -9,6 +9,7 @@ typedef struct tolerance_run {
   mpq_t up_to, sigma;
   double *weight, *sigmas;
   dyd_metric metric;
+  bool cut;
   bool points; /* are radii of points written? They take longer than all edges */
   dyd_rect window;
 } tolerance_run;
@@ -51,7 +52,8 @@ static dyd_status tolerance_find(dyd_engine *e, const dyd_engine_options *option
   o.weight = r->weight;
   o.sigmas = r->sigmas;
   st = dyd_tolerance_new(&r->tolerance, dyd_engine_delaunay(e), &o, err);
-  return st == DYD_CANCELLED ? DYD_OK : st;
+  r->cut = st == DYD_CANCELLED;
+  return cli_session_cut(st, err);
 }
 
 static int tolerance_all(cli_session *s, tolerance_run *r, const cli_options *o) {
@@ -59,8 +61,11 @@ static int tolerance_all(cli_session *s, tolerance_run *r, const cli_options *o)
   int status = tolerance_columns(r, o);
   if (!status) status = cli_session_run_by(s, &o->engine, tolerance_find, r);
   cli_session_settle(s);
-  if (!status && r->tolerance) return cli_write_file(o->output, o, tolerance_write, r);
-  return status ? status : cli_session_stopped(s, "the tolerances were");
+  /* radii and counts come of all edges */
+  bool parts = o->content != DYD_CONTENT_RADII && o->content != DYD_CONTENT_BARCODE;
+  if (!status && (!r->tolerance || (r->cut && !parts))) return cli_session_stopped(s, "the tolerances were");
+  if (!status) status = cli_write_file(o->output, o, tolerance_write, r);
+  return !status && r->cut ? cli_exit_cut() : status;
 }
 
 /* Above 0, and a double that is. */

@@ -12,7 +12,10 @@ static void plan_comments(const dyd_output *o) {
   if (o->format != DYD_FORMAT_CSV) return;
   dyd_survey_count(&open, &ties, &left, p->survey);
   dyd_csv_aliases(o->out, p->result->engine);
-  if (left)
+  if (dyd_survey_is_cut(p->survey))
+    fprintf(o->out, "# cut: the plan is not finished: %zu of %zu pairs are open after its first %zu points\n", left,
+            open, rows);
+  else if (left)
     fprintf(o->out, "# plan %zu points: not sufficient, %zu of %zu pairs stay open\n", rows, left, open);
   else
     fprintf(

@@ -25,7 +25,13 @@ static dyd_status tolerance_places(dyd_place **out, const dyd_output *o) {
   return o->format == DYD_FORMAT_CSV ? DYD_OK : dyd_result_places(out, bound, nominal_of(o), o->err);
 }
 
-/* In csv: aliases, and the tolerance of the whole. */
+/* What has no row, since work was cancelled; births: SIZE_MAX: they were not looked for. */
+static bool tolerance_is_cut(size_t *edges, size_t *births, const dyd_output *o) {
+  dyd_tolerance_left(edges, births, tolerance_of(o));
+  return *edges || *births;
+}
+
+/* In csv: aliases, and the tolerance of the whole; what is missing. */
 static void tolerance_comments(const dyd_output *o) {
   double lo, hi;
   if (o->format != DYD_FORMAT_CSV) return;
@@ -36,6 +42,13 @@ static void tolerance_comments(const dyd_output *o) {
   fputs(" ", o->out);
   dyd_decimal_put(o->out, hi, DYD_UP, "inf");
   fputs("\n", o->out);
+  size_t edges, births;
+  if (!tolerance_is_cut(&edges, &births, o)) return;
+  fprintf(o->out, "# cut: %zu edges have no row; ", edges);
+  if (births == SIZE_MAX)
+    fputs("births were not looked for\n", o->out);
+  else
+    fprintf(o->out, "%zu pairs that may be born have none\n", births);
 }
 
 /* ---- layers ---- */
@@ -145,7 +158,8 @@ dyd_status dyd_layer_barcode(const dyd_output *o) {
   static const char *const column[] = {"accuracy", "certain", "open", NULL};
   const dyd_table_head head = tolerance_head(o, column, DYD_GEOMETRY_POINT);
   const dyd_tolerance_row *row;
-  size_t rows = dyd_tolerance_rows(&row, tolerance_of(o)), count = 0, edges = 0;
+  size_t rows = dyd_tolerance_rows(&row, tolerance_of(o)), count = 0, edges, births;
+  if (tolerance_is_cut(&edges, &births, o)) return DYD_CANCELLED;
   double *death = malloc((rows + 1) * sizeof *death);
   dyd_table t;
   if (!death) return DYD_E_NOMEM;
@@ -208,6 +222,16 @@ static dyd_status json_events(FILE *out, const dyd_engine *e, const dyd_toleranc
   return st;
 }
 
+static void json_missing(const dyd_output *o) {
+  size_t edges, births;
+  if (!tolerance_is_cut(&edges, &births, o)) return;
+  fprintf(o->out, "\"without_row\": {\"edges\": %zu, \"births\": ", edges);
+  if (births == SIZE_MAX)
+    fputs("null},\n", o->out);
+  else
+    fprintf(o->out, "%zu},\n", births);
+}
+
 dyd_status dyd_tolerance_json(const dyd_output *o) {
   const dyd_result *r = nominal_of(o);
   const dyd_tolerance *t = tolerance_of(o);
@@ -223,6 +247,7 @@ dyd_status dyd_tolerance_json(const dyd_output *o) {
   dyd_tolerance_whole(&lo, &hi, t);
   dyd_json_decimals(o->out, lo, hi);
   fputs(",\n", o->out);
+  json_missing(o);
   dyd_status st = json_events(o->out, r->engine, t);
   fputs("\"rho\": [", o->out);
   for (size_t i = 0; radius && i < r->count; i++) {

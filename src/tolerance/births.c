@@ -78,12 +78,16 @@ static dyd_status make_squares(dyd_sites *squares, const dyd_tolerance *t) {
 
 static dyd_status births_among(dyd_tolerance *t, const dyd_pair_list *pairs) {
   dyd_status st = DYD_OK;
+  t->births_left = 0;
   for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
     const dyd_pair *p = &pairs->item[k];
     bool late;
-    if (dyd_flag_is_set(t->options.cancel)) return DYD_CANCELLED;
     if (dyd_delaunay_alias(t->pd, p->i) != p->i || dyd_delaunay_alias(t->pd, p->j) != p->j) continue;
     if (p->status == DYD_LEGAL || dyd_delaunay_status(t->pd, p->i, p->j) != DYD_ILLEGAL) continue;
+    if (t->births_left || dyd_flag_is_set(t->options.cancel)) {
+      t->births_left++;
+      continue;
+    }
     uint32_t v = t->sk->vertex[p->i], w = t->sk->vertex[p->j];
     if (t->weight || t->options.metric == DYD_METRIC_BOX) {
       st = dyd_row_add(t, dyd_row_of(t, v, w, DYD_EVENT_BIRTH, DYD_NONE, DYD_NONE, 0, HUGE_VAL));
@@ -92,7 +96,7 @@ static dyd_status births_among(dyd_tolerance *t, const dyd_pair_list *pairs) {
     st = dyd_birth_exact(&late, t, v, w);
     if (st == DYD_OK && !late) st = dyd_row_add(t, dyd_row_of_summit(t, v, w, DYD_EVENT_BIRTH));
   }
-  return st;
+  return st == DYD_OK && t->births_left ? DYD_CANCELLED : st;
 }
 
 /* For the list of candidates beside their triangulation, and for rows of all of them. */

@@ -128,8 +128,10 @@ dyd_status dyd_chances(dyd_tolerance *t) {
   t->chance = dyd_alloc(t->rows, sizeof *t->chance);
   if (!phi || !t->chance) st = DYD_E_NOMEM;
   for (int k = 0; k < ENTRIES && st == DYD_OK; k++) phi[k] = phi_rounded((double)k / PER_UNIT) - 1e-13;
-  for (size_t r = 0; r < t->rows && st == DYD_OK; r++)
-    t->chance[r] = t->row[r].event == DYD_EVENT_DEATH && t->row[r].lo == HUGE_VAL ? 1 : 0;
+  for (size_t r = 0; r < t->rows && st == DYD_OK; r++) {
+    bool lasts = t->row[r].lo == HUGE_VAL;
+    t->chance[r] = t->row[r].event != DYD_EVENT_DEATH ? 0 : lasts ? 1 : NAN; /* each NaN has its ring */
+  }
   chance_pass p = {.t = t, .phi = phi};
   for (size_t k = 0; k < t->rings && st == DYD_OK; k++) {
     p.ring = &t->ring[k];

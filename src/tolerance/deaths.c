@@ -130,18 +130,19 @@ static dyd_ring_d *ring_of_edge(const dyd_tolerance *t, const death_edge *e) {
   return t->ring ? &t->ring[e->ring] : NULL;
 }
 
-/* false: memory is exhausted. Of what is left for later the row holds no more than its pair. */
+/* false: memory is exhausted. What is left for later, or cancelled, has not been reached as yet. */
 static bool death_of_edge(dyd_tolerance_row *row, death_part *p, const dyd_tolerance *t, const death_edge *e) {
   dyd_lines_d *l = &p->lines;
   dyd_death_d d;
   double radius2;
+  *row = dyd_row_of(t, e->v, e->w, DYD_EVENT_DEATH, DYD_NONE, DYD_NONE, 0, DYD_UNREACHED);
+  if (p->status == DYD_CANCELLED) return true;
   if (!t->options.no_filter && !has_hub(t, e->v, e->w) && load_edge(l, t, e) &&
       dyd_filter_death(&d, NULL, &radius2, &t->points, l)) {
     p->filter++;
     write_death(row, ring_of_edge(t, e), t, e, &d);
     return true;
   }
-  *row = dyd_row_of(t, e->v, e->w, DYD_EVENT_DEATH, DYD_NONE, DYD_NONE, 0, 0);
   if (!dyd_reserve((void **)&p->later, &p->cap, p->count + 1, sizeof *p->later)) return false;
   p->later[p->count++] = *e;
   return true;
@@ -211,16 +212,14 @@ static void deaths_of_range(void *context, size_t number) {
   const uint32_t *site = t->sk->reps.site;
   death_part *part = &p->part[number];
   size_t end = dyd_range_begin(t->sk->n, number + 1);
-  for (uint32_t v = (uint32_t)dyd_range_begin(t->sk->n, number); v < end && part->status == DYD_OK; v++) {
+  for (uint32_t v = (uint32_t)dyd_range_begin(t->sk->n, number); v < end && part->status != DYD_E_NOMEM; v++) {
     if (v + 2 * AHEAD < end) {
       dyd_prefetch(&p->first[site[v + 2 * AHEAD]]);
       dyd_prefetch(&t->row[p->first[site[v + AHEAD]]]);
       dyd_prefetch(&t->row[p->first[site[v + AHEAD]] + 2]);
     }
-    if (dyd_flag_is_set(t->options.cancel))
-      part->status = DYD_CANCELLED;
-    else if (!deaths_at(part, t->row + p->first[site[v]], t, v))
-      part->status = DYD_E_NOMEM;
+    if (dyd_flag_is_set(t->options.cancel)) part->status = DYD_CANCELLED; /* from here on rows get their pairs alone */
+    if (!deaths_at(part, t->row + p->first[site[v]], t, v)) part->status = DYD_E_NOMEM;
   }
 }
 
@@ -230,6 +229,7 @@ static dyd_status deaths_on_line(dyd_tolerance *t) {
   for (uint32_t q = 0; q + 1 < l->count && st == DYD_OK; q++) {
     dyd_tolerance_row row;
     if (!l->legal[q]) continue;
+    if (dyd_flag_is_set(t->options.cancel)) return DYD_CANCELLED;
     st = death_by_integers(&row, t->ring ? &t->ring[t->rings] : NULL, t, l->order[q], l->order[q + 1]);
     t->rings += t->ring && t->summit.binding != DYD_BINDING_NONE;
     if (st == DYD_OK) st = dyd_row_add(t, row);

@@ -38,6 +38,39 @@ dyd_status dyd_row_add(dyd_tolerance *t, dyd_tolerance_row row) {
   return DYD_OK;
 }
 
+dyd_status dyd_rows_rework(dyd_tolerance *t, dyd_row_work *work, void *user) {
+  size_t kept = 0;
+  bool cut = false;
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < t->rows && st == DYD_OK; k++) {
+    dyd_tolerance_row *row = &t->row[k];
+    bool late = false;
+    cut = cut || dyd_flag_is_set(t->options.cancel);
+    if (cut && row->event != DYD_EVENT_TIE)
+      row->hi = DYD_UNREACHED;
+    else if (row->event != DYD_EVENT_TIE && row->hi != DYD_UNREACHED)
+      st = work(&late, row, user);
+    if (!late) t->row[kept++] = *row;
+  }
+  t->rows = kept;
+  return st == DYD_OK && cut ? DYD_CANCELLED : st;
+}
+
+void dyd_rows_reached(dyd_tolerance *t) {
+  size_t kept = 0, count[4];
+  dyd_delaunay_count(count, t->pd);
+  t->edges_left = count[DYD_LEGAL];
+  for (size_t k = 0; k < t->rows; k++) {
+    const dyd_tolerance_row *row = &t->row[k];
+    bool reached = row->hi != DYD_UNREACHED;
+    t->edges_left -= reached && row->event == DYD_EVENT_DEATH;
+    t->births_left += !reached && row->event == DYD_EVENT_BIRTH && t->births_left != SIZE_MAX;
+    if (reached) t->row[kept++] = *row;
+  }
+  t->rows = kept;
+  t->sorted = 0;
+}
+
 /* A short run, such as nearly all sites have. */
 static void sort_few_rows(dyd_tolerance_row *row, size_t count) {
   for (size_t q = 1; q < count; q++) {

@@ -154,26 +154,16 @@ static dyd_status square_birth(bool *late, dyd_squares *q, dyd_tolerance_row *ro
   return st;
 }
 
-static dyd_status squares_all(dyd_squares *q) {
-  dyd_tolerance *t = q->t;
-  size_t kept = 0;
-  dyd_status st = dyd_near_index(t);
-  for (size_t k = 0; k < t->rows && st == DYD_OK; k++) {
-    bool late = false;
-    if (dyd_flag_is_set(t->options.cancel)) return DYD_CANCELLED;
-    if (t->row[k].event == DYD_EVENT_DEATH) st = square_death(q, &t->row[k]);
-    if (t->row[k].event == DYD_EVENT_BIRTH) st = square_birth(&late, q, &t->row[k]);
-    if (!late) t->row[kept++] = t->row[k];
-  }
-  t->rows = kept;
-  return st;
+static dyd_status square_row(bool *late, dyd_tolerance_row *row, void *squares) {
+  return row->event == DYD_EVENT_DEATH ? square_death(squares, row) : square_birth(late, squares, row);
 }
 
 dyd_status dyd_square_rows(dyd_tolerance *t) {
   dyd_squares q = {.t = t};
   mpq_inits(q.half, q.end[0], q.end[1], NULL);
   dyd_point_init(&q.c);
-  dyd_status st = squares_all(&q);
+  dyd_status st = dyd_near_index(t);
+  if (st == DYD_OK) st = dyd_rows_rework(t, square_row, &q);
   dyd_point_clear(&q.c);
   mpq_clears(q.half, q.end[0], q.end[1], NULL);
   free(q.seen.vertex);

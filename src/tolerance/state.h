@@ -38,8 +38,9 @@ struct dyd_tolerance {
   dyd_tolerance_options options;
   dyd_room room; /* what max_bytes leaves beside the triangulation */
   dyd_tolerance_row *row;
-  size_t rows, cap, sorted; /* sorted: rows of deaths that are */
-  double *weight;           /* of a vertex, the largest of those at its place; NULL: all are 1 */
+  size_t rows, cap, sorted;       /* sorted: rows of deaths that are */
+  size_t edges_left, births_left; /* of work that was cancelled: dyd_tolerance_left */
+  double *weight;                 /* of a vertex, the largest of those at its place; NULL: all are 1 */
   double heaviest;
   double *sigma, widest; /* the same of standard deviations; NULL: none are given */
   double lo, hi;         /* of the whole */
@@ -108,6 +109,14 @@ dyd_status dyd_chances(dyd_tolerance *t);
 dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event, uint32_t k,
                              uint32_t l, double lo, double hi);
 dyd_tolerance_row dyd_row_of_summit(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event);
+/* The upper end of a row that work did not reach before it was cancelled. */
+#define DYD_UNREACHED (-1.0)
+/* Rows but ties become what `work` makes of them, and those go that it finds too late. DYD_CANCELLED: rows that were
+ * not reached are marked. */
+typedef dyd_status dyd_row_work(bool *late, dyd_tolerance_row *row, void *user);
+dyd_status dyd_rows_rework(dyd_tolerance *t, dyd_row_work *work, void *user);
+/* After work that was cancelled: takes marked rows out, and counts what has none. */
+void dyd_rows_reached(dyd_tolerance *t);
 dyd_status dyd_row_add(dyd_tolerance *t, dyd_tolerance_row row);
 /* Rows of one i, by j. */
 void dyd_rows_sort_site(dyd_tolerance_row *row, size_t count);

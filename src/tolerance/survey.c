@@ -87,7 +87,7 @@ static dyd_status mark_near(bool *near, const dyd_delaunay *pd, uint32_t i) {
 
 static void forget_rows(dyd_survey *s) {
   for (size_t f = 0; f < s->faces; f++) free(s->face[f].row);
-  s->faces = 0;
+  s->faces = s->draft.count = 0;
   for (size_t i = 0; i < s->sites; i++) s->site[i].chosen = false;
 }
 
@@ -108,22 +108,43 @@ static dyd_status recount_left(dyd_survey *s, bool *near) {
   return st;
 }
 
+/* In all faces of pd, one by one; what each chooses is measured in the triangulation of all. */
+static dyd_status choose_in_faces(dyd_measuring *m, const dyd_delaunay *pd) {
+  dyd_survey *s = m->s;
+  dyd_status st = DYD_OK;
+  for (size_t f = 0; st == DYD_OK && f < dyd_delaunay_undecided_faces(pd); f++) {
+    size_t decided, faces = s->faces;
+    st = dyd_survey_face(s, pd, f);
+    for (size_t k = 0; s->faces > faces && st == DYD_OK && k < s->face[faces].count; k++)
+      st = dyd_measuring_draft(&decided, m, s->face[faces].row[k].site);
+  }
+  return st;
+}
+
 /* In large faces; then in all faces of the triangulation with what was chosen, as long as that helps. */
-static dyd_status choose_rounds(dyd_survey *s, const dyd_delaunay *pd) {
-  s->left = s->target.count;
-  dyd_status st = has_large_face(pd) ? dyd_survey_crowds(s) : DYD_OK;
-  for (int round = 0; round < ROUNDS && s->left && st == DYD_OK; round++) {
+static dyd_status measure_rounds(dyd_measuring *m, const dyd_delaunay *pd) {
+  dyd_survey *s = m->s;
+  dyd_status st = has_large_face(pd) ? dyd_survey_crowds(m) : DYD_OK;
+  for (int round = 0; round < ROUNDS && m->left && st == DYD_OK; round++) {
     dyd_delaunay *now = NULL;
     dyd_sites *sites = NULL;
     size_t faces = s->faces;
     if (faces) st = dyd_survey_triangulate(&now, &sites, s, false);
-    const dyd_delaunay *at = faces ? now : pd;
-    for (size_t f = 0; st == DYD_OK && f < dyd_delaunay_undecided_faces(at); f++) st = dyd_survey_face(s, at, f);
+    if (st == DYD_OK) st = choose_in_faces(m, faces ? now : pd);
     dyd_delaunay_free(now);
     dyd_sites_free(sites);
-    if (st == DYD_OK) st = recount_left(s, NULL);
-    if (s->faces == faces) return st;
+    if (s->faces == faces) break;
   }
+  return st;
+}
+
+static dyd_status choose_rounds(dyd_survey *s, const dyd_delaunay *pd) {
+  dyd_measuring m;
+  s->left = s->target.count;
+  dyd_status st = dyd_measuring_begin(&m, s);
+  if (st == DYD_OK) st = measure_rounds(&m, pd);
+  if (st == DYD_OK) s->left = m.left;
+  dyd_measuring_end(&m);
   return st;
 }
 
@@ -362,6 +383,18 @@ static dyd_status survey_check(const dyd_survey *s, const dyd_delaunay *pd, dyd_
   return DYD_OK;
 }
 
+/* Work was cancelled when targets were known. */
+static dyd_status keep_draft(dyd_survey *s, dyd_error *err) {
+  free(s->row);
+  s->row = s->draft.row;
+  s->rows = s->draft.count;
+  s->draft = (dyd_face_rows){0};
+  s->left = s->rows ? s->row[s->rows - 1].left : s->target.count;
+  s->cut = true;
+  return dyd_fail(err, DYD_CANCELLED, "the plan is not finished: %zu of %zu pairs are open after its first %zu points",
+                  s->left, s->target.count, s->rows);
+}
+
 dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_survey_options *options, dyd_error *err) {
   if (!pd) return dyd_fail_null(err);
   *out = NULL;
@@ -378,9 +411,9 @@ dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_su
   if (st == DYD_OK) st = choose_finely_enough(s, pd);
   if (st == DYD_OK) st = simplify(s, pd);
   s->err = NULL;
-  if (st == DYD_OK) {
+  if (st == DYD_OK || (st == DYD_CANCELLED && s->first)) {
     *out = s;
-    return DYD_OK;
+    return st == DYD_OK ? st : keep_draft(s, err);
   }
   if (st == DYD_E_NOMEM && s->room.refused) dyd_fail_room(err, &s->room);
   dyd_survey_free(s);
@@ -398,6 +431,7 @@ void dyd_survey_free(dyd_survey *s) {
   free(s->site);
   free(s->face);
   free(s->row);
+  free(s->draft.row);
   dyd_pair_list_clear(&s->target);
   mpq_clear(s->scale);
   free(s);
@@ -407,6 +441,10 @@ size_t dyd_survey_rows(const dyd_survey_row **row, const dyd_survey *s) {
   if (!s) return 0;
   *row = s->row;
   return s->rows;
+}
+
+bool dyd_survey_is_cut(const dyd_survey *s) {
+  return s && s->cut;
 }
 
 void dyd_survey_count(size_t *open, size_t *ties, size_t *left, const dyd_survey *s) {

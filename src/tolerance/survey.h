@@ -48,6 +48,9 @@ struct dyd_survey {
   size_t faces, face_cap;
   dyd_survey_row *row;
   size_t rows;
+  dyd_face_rows draft; /* sites chosen so far, in that order, counted in a triangulation of all; while work lasts */
+  size_t draft_cap;
+  bool cut; /* cancelled: the rows are that draft */
 };
 
 /* survey_rects.c */
@@ -90,10 +93,12 @@ dyd_status dyd_measuring_begin(dyd_measuring *m, dyd_survey *s);
 void dyd_measuring_end(dyd_measuring *m);
 /* *decided: so many targets that were open are not, with this site measured. */
 dyd_status dyd_measuring_site(size_t *decided, dyd_measuring *m, uint32_t i);
+/* The same; it is the next site of the draft. */
+dyd_status dyd_measuring_draft(size_t *decided, dyd_measuring *m, uint32_t i);
 
 /* survey_crowd.c: chooses in large faces of the triangulation, as sites are chosen now, until they are small or nothing
- * in them is open or can be measured; appends to s->face, and sets s->left. */
-dyd_status dyd_survey_crowds(dyd_survey *s);
+ * in them is open or can be measured; appends to s->face, and to the draft. */
+dyd_status dyd_survey_crowds(dyd_measuring *m);
 
 /* survey_face.c: the number of a site among these, ascending, or DYD_NONE. */
 uint32_t dyd_survey_number_in(const dyd_index_list *sites, uint32_t site);

@@ -63,7 +63,7 @@ static dyd_status measure_first(dyd_face_rows *rows, dyd_measuring *m, const cro
     dyd_survey_row *row = &rows->row[rows->count++];
     *row = (dyd_survey_row){.site = i};
     m->s->site[i].chosen = true;
-    st = dyd_measuring_site(&row->decided, m, i);
+    st = dyd_measuring_draft(&row->decided, m, i);
   }
   return st;
 }
@@ -84,14 +84,11 @@ static dyd_status measure_crowds(dyd_face_rows *rows, dyd_measuring *m) {
   return st;
 }
 
-dyd_status dyd_survey_crowds(dyd_survey *s) {
-  dyd_measuring m;
+dyd_status dyd_survey_crowds(dyd_measuring *m) {
+  dyd_survey *s = m->s;
   if (!dyd_reserve((void **)&s->face, &s->face_cap, s->faces + 1, sizeof *s->face)) return DYD_E_NOMEM;
   dyd_face_rows rows = {0};
-  dyd_status st = dyd_measuring_begin(&m, s);
-  if (st == DYD_OK) st = measure_crowds(&rows, &m);
-  s->left = m.left;
-  dyd_measuring_end(&m);
+  dyd_status st = measure_crowds(&rows, m);
   if (rows.count)
     s->face[s->faces++] = rows;
   else

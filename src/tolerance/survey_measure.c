@@ -64,6 +64,16 @@ dyd_status dyd_measuring_site(size_t *decided, dyd_measuring *m, uint32_t i) {
   return st;
 }
 
+dyd_status dyd_measuring_draft(size_t *decided, dyd_measuring *m, uint32_t i) {
+  dyd_survey *s = m->s;
+  dyd_status st = dyd_measuring_site(decided, m, i);
+  if (st != DYD_OK) return st;
+  if (!dyd_reserve((void **)&s->draft.row, &s->draft_cap, s->draft.count + 1, sizeof *s->draft.row)) return DYD_E_NOMEM;
+  s->draft.row[s->draft.count++] =
+      (dyd_survey_row){i, dyd_survey_now(s, i), dyd_survey_needed(s, i), *decided, m->left};
+  return DYD_OK;
+}
+
 dyd_status dyd_survey_count_left(dyd_survey *s) {
   dyd_measuring m;
   if (!s->rows) return DYD_OK;

@@ -73,25 +73,65 @@ static dyd_status take_by_vertex(double **out, double *largest, const dyd_skelet
   return DYD_OK;
 }
 
-static dyd_status tolerance_work(dyd_tolerance *t, dyd_error *err) {
+/* May work go on, if only to bring in what is known? */
+static bool may_go_on(dyd_status st) {
+  return st == DYD_OK || st == DYD_CANCELLED;
+}
+
+static void join_status(dyd_status *st, dyd_status next) {
+  if (next != DYD_OK) *st = next;
+}
+
+/* All rows; or those that were reached: DYD_CANCELLED. */
+static dyd_status tolerance_rows(dyd_tolerance *t, dyd_error *err) {
   tie_rows ties = {t, DYD_OK};
+  const dyd_tolerance_options *o = &t->options;
+  bool births = o->up_to && mpq_sgn(o->up_to);
+  t->births_left = births ? SIZE_MAX : 0;
+  dyd_status st = dyd_deaths(t);
+  if (may_go_on(st)) dyd_each_pair(t->pd, DYD_TIE, add_tie, &ties);
+  if (may_go_on(st)) join_status(&st, ties.status);
+  if (may_go_on(st) && o->weight) join_status(&st, take_by_vertex(&t->weight, &t->heaviest, t->sk, o->weight, 1));
+  if (st == DYD_OK && births) st = dyd_births(t, err);
+  if (may_go_on(st) && t->weight) join_status(&st, dyd_weigh(t));
+  if (may_go_on(st) && o->metric == DYD_METRIC_BOX) join_status(&st, dyd_square_rows(t));
+  if (st == DYD_CANCELLED) dyd_rows_reached(t);
+  return st;
+}
+
+/* Radii of points are known when all are. */
+static dyd_status tolerance_radii(dyd_tolerance *t) {
+  dyd_status st = dyd_points_radius(t);
+  if (st == DYD_OK) return st;
+  free(t->radius);
+  t->radius = NULL;
+  return st;
+}
+
+static dyd_status tolerance_work(dyd_tolerance *t, dyd_error *err) {
   const dyd_tolerance_options *o = &t->options;
   dyd_status st = dyd_near_prepare(t);
   if (st == DYD_OK && (o->sigmas || o->sigma > 0))
     st = take_by_vertex(&t->sigma, &t->widest, t->sk, o->sigmas, o->sigma);
   uint64_t pairs = dyd_pairs_bytes(t->pd, DYD_TIE) / sizeof(dyd_pair);
   if (st == DYD_OK && !dyd_rows_have_room(t, pairs, "the tolerances of the edges")) st = DYD_E_NOMEM;
-  if (st == DYD_OK) st = dyd_deaths(t);
-  if (st == DYD_OK) dyd_each_pair(t->pd, DYD_TIE, add_tie, &ties);
-  if (st == DYD_OK) st = ties.status;
-  if (st == DYD_OK && o->weight) st = take_by_vertex(&t->weight, &t->heaviest, t->sk, o->weight, 1);
-  if (st == DYD_OK && t->options.up_to && mpq_sgn(t->options.up_to)) st = dyd_births(t, err);
-  if (st == DYD_OK && t->weight) st = dyd_weigh(t);
-  if (st == DYD_OK && o->metric == DYD_METRIC_BOX) st = dyd_square_rows(t);
-  if (st == DYD_OK) st = dyd_whole(t);
-  if (st == DYD_OK && t->options.points) st = dyd_points_radius(t);
-  if (st == DYD_OK) st = dyd_rows_sort(t);
-  return st == DYD_OK && t->sigma ? dyd_chances(t) : st;
+  if (st == DYD_OK) st = tolerance_rows(t, err);
+  if (may_go_on(st)) join_status(&st, dyd_whole(t));
+  if (st == DYD_OK && o->points) st = tolerance_radii(t);
+  if (may_go_on(st)) join_status(&st, dyd_rows_sort(t));
+  if (may_go_on(st) && t->sigma) join_status(&st, dyd_chances(t));
+  return st;
+}
+
+/* What is missing of work that was cancelled. */
+static dyd_status tell_left(const dyd_tolerance *t, dyd_error *err) {
+  if (!t->edges_left && !t->births_left)
+    return dyd_fail(err, DYD_CANCELLED, "all pairs were reached, but not all radii or probabilities");
+  if (t->births_left == SIZE_MAX)
+    return dyd_fail(err, DYD_CANCELLED, "%zu edges were not reached: they have no row; births were not looked for",
+                    t->edges_left);
+  return dyd_fail(err, DYD_CANCELLED, "%zu edges and %zu pairs that may be born were not reached: they have no row",
+                  t->edges_left, t->births_left);
 }
 
 dyd_status dyd_tolerance_new(dyd_tolerance **out, const dyd_delaunay *pd, const dyd_tolerance_options *options,
@@ -112,9 +152,9 @@ dyd_status dyd_tolerance_new(dyd_tolerance **out, const dyd_delaunay *pd, const 
   if (st == DYD_OK) st = tolerance_work(t, err);
   t->options.up_to = NULL;
   if (st == DYD_E_NOMEM && t->room.refused) dyd_fail_room(err, &t->room);
-  if (st == DYD_OK) {
+  if (st == DYD_OK || st == DYD_CANCELLED) {
     *out = t;
-    return DYD_OK;
+    return st == DYD_OK ? st : tell_left(t, err);
   }
   dyd_tolerance_free(t);
   return err && err->code == st ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
@@ -145,6 +185,12 @@ size_t dyd_tolerance_rows(const dyd_tolerance_row **row, const dyd_tolerance *t)
 dyd_metric dyd_tolerance_metric(const dyd_tolerance *t) {
   if (!t) return (dyd_metric)0;
   return t->options.metric;
+}
+
+void dyd_tolerance_left(size_t *edges, size_t *births, const dyd_tolerance *t) {
+  if (!t) return;
+  *edges = t->edges_left;
+  *births = t->births_left;
 }
 
 void dyd_tolerance_whole(double *lo, double *hi, const dyd_tolerance *t) {

@@ -351,20 +351,16 @@ static void weights_end(weight_work *g) {
   mpq_clear(g->now);
 }
 
+static dyd_status weigh_row(bool *late, dyd_tolerance_row *row, void *work) {
+  return row->event == DYD_EVENT_DEATH ? weigh_death(work, row) : weigh_birth(late, work, row);
+}
+
 dyd_status dyd_weigh(dyd_tolerance *t) {
   weight_work g = {.t = t};
   dyd_caps_init(&g.discs.caps);
   mpq_init(g.now);
-  size_t kept = 0;
   dyd_status st = weights_begin(&g);
-  for (size_t k = 0; k < t->rows && st == DYD_OK; k++) {
-    bool late = false;
-    if (dyd_flag_is_set(t->options.cancel)) st = DYD_CANCELLED;
-    if (st == DYD_OK && t->row[k].event == DYD_EVENT_DEATH) st = weigh_death(&g, &t->row[k]);
-    if (st == DYD_OK && t->row[k].event == DYD_EVENT_BIRTH) st = weigh_birth(&late, &g, &t->row[k]);
-    if (!late) t->row[kept++] = t->row[k];
-  }
-  t->rows = kept;
+  if (st == DYD_OK) st = dyd_rows_rework(t, weigh_row, &g);
   weights_end(&g);
   return st;
 }

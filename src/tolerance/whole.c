@@ -128,7 +128,8 @@ dyd_status dyd_whole(dyd_tolerance *t) {
   t->lo = t->hi = HUGE_VAL;
   for (size_t k = 0; k < t->rows; k++)
     if (t->row[k].event != DYD_EVENT_BIRTH) lower_whole(t, t->row[k].lo, t->row[k].hi);
-  if (dyd_is_line(t->pd)) return DYD_OK;
+  if (t->edges_left) t->lo = 0;
+  if (t->edges_left || dyd_is_line(t->pd)) return DYD_OK;
   dyd_half_edge first = dyd_hull_first(m), h = first;
   do {
     double lo, hi;

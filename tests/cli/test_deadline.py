@@ -8,6 +8,7 @@ import csv
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import tempfile
@@ -219,16 +220,61 @@ def test_one_message():
         expect(result, 1, r'\A\Z', r'\Adyadel: [^\n]*far.txt: polygons within [^\n]*--flatten\n\Z')
 
 
-# Work on what the engine found at once: 300,000 births, and faces of hundreds of squares.
-LONG = {'tolerance': (('--up-to', '1e6'), ''.join(f'{k * k % 997} {k * k * k % 991}.{k}\n' for k in range(800))),
-        'plan': ((), ''.join(f'{k * k % 997}+-12 {k * k * k % 991}.{k}+-12\n' for k in range(800)))}
+SCATTER = [(k * k % 997, f'{k * k * k % 991}.{k}', 1 + k * 7 % 23) for k in range(400)]
+WEIGHED = 'x,y,r\n' + ''.join(f'{x},{y},{r}\n' for x, y, r in SCATTER)
 
 
-def test_tolerances_and_plans_in_time():
-    for command, (extra, text) in LONG.items():
-        for seconds in (0.2, 1):  # within the run, in a slow build; later
-            expect(timed(seconds, command, '-', *extra, stdin=text), 4, r'\A\Z',
-                   r'^dyadel: budget: the time was used up before the [a-z ]+ known: .*; raise --timeout')
+def place_of_cut(result):
+    return 1 if result.code != 4 else 0 if rows_of(result) and '\n# cut: ' in '\n' + result.out else -1
+
+
+def test_tolerances_that_are_cut():
+    """Rows that were reached are those of the whole, and the comment counts the others."""
+    for how in (('--radius-column', 'r'), ('--radius-column', 'r', '--up-to', '1'), ('--metric', 'box'),
+                ('--metric', 'box', '--up-to', '1'), ('--up-to', '1000')):
+        given = ('tolerance', '--columns', 'x,y', *how, '-')
+        cut = cut_between(lambda seconds, given=given: timed(seconds, *given, stdin=WEIGHED), place_of_cut, 0.05)
+        expect(cut, 4, '^# tolerance .*\n# cut: ', r'^dyadel: budget: .*(no row|not looked for); raise --timeout$')
+        if how == ('--up-to', '1000'):  # all pairs are born
+            continue
+        whole = run(*given, stdin=WEIGHED)
+        rows, reached = rows_of(whole), rows_of(cut)
+        assert reached and all(row in rows for row in reached), how
+        edges, births = re.search('^# cut: ([0-9]+) edges have no row; (.*)$', cut.out, re.M).groups()
+        assert int(edges) == sum(row['event'] == 'death' for row in rows) - sum(row['event'] == 'death' for row in reached)
+        assert int(edges) or births[0] != '0', cut.out
+        lo, hi = (float(x) for x in re.search('^# tolerance (.*) (.*)$', cut.out, re.M).groups())
+        assert (lo == 0 or not int(edges)) and hi >= float(re.search('^# tolerance (.*) ', whole.out, re.M).group(1)), how
+    given = ('tolerance', '--columns', 'x,y', '--radius-column', 'r', '--format', 'json', '-')
+    cut = cut_between(lambda seconds: timed(seconds, *given, stdin=WEIGHED),
+                      lambda result: 1 if result.code != 4 else 0 if '"death"' in result.out else -1, 0.05)
+    found = json.loads(cut.out)
+    assert found['without_row']['edges'] > 0 and found['pairs'] and not found['rho'], cut.out[:300]
+
+
+def test_counts_that_are_cut():
+    """How many edges are certain at an accuracy, and radii, are known from all edges: nothing is written of them."""
+    for layer in ('barcode', 'points'):
+        result = timed(0.02, 'tolerance', '--layer', layer, '--columns', 'x,y', '--radius-column', 'r', '-',
+                       stdin=WEIGHED)
+        expect(result, 4, r'\A\Z', r'^dyadel: budget: .*\n(.*\n)*.*there is no result to write; raise --timeout$')
+
+
+def test_plans_that_are_cut():
+    """The first points of a plan; what they leave open is so when they are measured, and nothing is called sufficient."""
+    points = [(Fraction(x), Fraction(y)) for x, y, _ in SCATTER]
+    half = 12
+    text = ''.join(f'{x}+-{half} {y}+-{half}\n' for x, y in map(lambda p: (p[0], float(p[1])), points))
+    cut = cut_between(lambda seconds: timed(seconds, 'plan', '-', stdin=text), place_of_cut, 0.5)
+    expect(cut, 4, '^# cut: the plan is not finished', r'^dyadel: budget: the plan is not finished: .*; raise --timeout$')
+    assert 'sufficient' not in cut.out and 'verified' not in cut.out
+    rows = rows_of(cut)
+    left, after = re.search('not finished: ([0-9]+) of [0-9]+ pairs are open after its first ([0-9]+) points', cut.out).groups()
+    assert int(after) == len(rows) and rows[-1]['pairs_left'] == left
+    size = {int(row['i']): row['half_width_needed'] for row in rows}
+    text = ''.join(f'{x}+-{size.get(k, half)} {float(y)}+-{size.get(k, half)}\n' for k, (x, y) in enumerate(points))
+    now = rows_of(run('delaunay', '-', stdin=text))
+    assert sum(row['status'] == 'indeterminate' for row in now) == int(left), left
 
 
 def test_discs_and_graphs_that_are_cut():
