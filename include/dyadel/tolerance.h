@@ -112,6 +112,10 @@ DYD_API dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dy
  * have their statuses in pd, which hold for discs, too. err says how many these are. */
 DYD_API dyd_status dyd_disc_pairs_until(dyd_pair_list *out, const dyd_delaunay *pd, const volatile int *cancel,
                                         dyd_error *err);
+/* Triangles that are Delaunay for every choice in the discs: those of the centres with three pairs that are legal in
+ * `pairs`, which dyd_disc_pairs listed for pd [DISC-3]. Sorted; *out is replaced. DYD_E_ARG for a site that is no
+ * square. O(N log N) */
+DYD_API dyd_status dyd_disc_triangles(dyd_triangle_list *out, const dyd_pair_list *pairs, const dyd_delaunay *pd);
 
 #ifdef __cplusplus
 }

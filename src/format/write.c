@@ -93,10 +93,11 @@ static dyd_status grant_output(const dyd_delaunay *pd, dyd_format format, bool d
   return dyd_delaunay_grant(pd, bytes, "this output", err);
 }
 
-/* Other formats and layers tell of more than pairs. */
-static bool holds_pairs_alone(dyd_content layer, dyd_format format) {
+/* Graphs, and other formats, tell of more than what discs decide. */
+static bool holds_discs(dyd_content layer, dyd_format format) {
   bool pairs = layer == DYD_CONTENT_NONE || layer == DYD_CONTENT_DELAUNAY;
-  return pairs && format != DYD_FORMAT_JSON && format != DYD_FORMAT_OBJ && format != DYD_FORMAT_VTK;
+  bool known = layer == DYD_CONTENT_POINTS || layer == DYD_CONTENT_TRIANGLES || layer == DYD_CONTENT_ALIASES;
+  return (pairs || known) && format != DYD_FORMAT_JSON && format != DYD_FORMAT_OBJ && format != DYD_FORMAT_VTK;
 }
 
 /* Are ties found while rows of pairs are written, so that no list of them is made? */
@@ -122,9 +123,11 @@ dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delau
                   .history = o.history,
                   .tolerance = o.tolerance};
   if (!r.pd) return DYD_E_ARG;
-  if (o.pairs && !holds_pairs_alone(o.layer, format))
-    return dyd_fail(err, DYD_E_ARG,
-                    "statuses of discs are written as pairs: in csv, wkt, geojson, svg, pdf, png or html");
+  if (o.pairs && !holds_discs(o.layer, format))
+    return dyd_fail(
+        err, DYD_E_ARG,
+        "statuses of discs are written as pairs, points or triangles: in csv, wkt, geojson, or pairs in svg, pdf, "
+        "png or html");
   bool graph;
   dyd_content layer = layer_of(o.layer, DYD_CONTENT_DELAUNAY);
   if (o.ties == DYD_LIST_TIES_GROUPS && layer == DYD_CONTENT_DELAUNAY && format == DYD_FORMAT_CSV)

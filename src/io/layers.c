@@ -202,7 +202,8 @@ dyd_status dyd_layer_triangles(const dyd_output *o) {
   dyd_place *place = NULL;
   dyd_table t;
   dyd_status st = layer_places(&place, o);
-  if (st == DYD_OK) st = dyd_delaunay_triangles(&list, r->pd);
+  if (st == DYD_OK && r->discs) st = dyd_disc_triangles(&list, &r->pairs, r->pd);
+  if (st == DYD_OK && !r->discs) st = dyd_delaunay_triangles(&list, r->pd);
   if (st == DYD_OK && o->format == DYD_FORMAT_CSV) dyd_csv_aliases(o->out, r->engine);
   if (st == DYD_OK) dyd_table_begin(&t, &head);
   for (size_t k = 0; k < list.count && st == DYD_OK; k++) {

@@ -10,6 +10,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/flag.h"
+#include "base/index.h"
 #include "base/invariant.h"
 #include "delaunay/undecided.h"
 #include "tolerance/discs.h"
@@ -444,4 +445,54 @@ dyd_status dyd_disc_pairs_until(dyd_pair_list *out, const dyd_delaunay *pd, cons
 
 dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err) {
   return dyd_disc_pairs_until(out, pd, NULL, err);
+}
+
+/* ---- triangles ---- */
+
+/* Of the centres of all squares, which are one choice. To be released, whatever it returns. */
+static dyd_status triangulate_centres(dyd_delaunay **out, dyd_sites **sites, const dyd_sites *squares) {
+  dyd_disc d;
+  dyd_rect r;
+  dyd_disc_init(&d);
+  dyd_rect_init(&r);
+  dyd_status st = dyd_sites_new(sites);
+  for (size_t i = 0; i < dyd_sites_count(squares) && st == DYD_OK; i++) {
+    st = dyd_sites_get(&r, squares, i);
+    if (st == DYD_OK && !dyd_disc_of_square(&d, &r)) st = DYD_E_ARG;
+    if (st == DYD_OK) st = dyd_rect_set_q(&r, d.x, d.y);
+    if (st == DYD_OK) st = dyd_sites_add_rect(*sites, &r);
+  }
+  dyd_rect_clear(&r);
+  dyd_disc_clear(&d);
+  if (st == DYD_OK) st = dyd_delaunay_new(out, *sites, NULL, NULL);
+  return st == DYD_CAPPED ? DYD_OK : st;
+}
+
+static bool is_legal_in(const dyd_pair_list *pairs, uint32_t i, uint32_t j) {
+  const dyd_pair key = {i < j ? i : j, i < j ? j : i, DYD_LEGAL};
+  const dyd_pair *p = bsearch(&key, pairs->item, pairs->count, sizeof key, dyd_compare_two);
+  return p && p->status == DYD_LEGAL;
+}
+
+dyd_status dyd_disc_triangles(dyd_triangle_list *out, const dyd_pair_list *pairs, const dyd_delaunay *pd) {
+  if (!pd || !pairs || !out) return DYD_E_ARG;
+  dyd_triangle_list list = {0};
+  dyd_delaunay *centres = NULL;
+  dyd_sites *sites = NULL;
+  size_t kept = 0;
+  dyd_status st = triangulate_centres(&centres, &sites, dyd_delaunay_sites(pd));
+  if (st == DYD_OK) st = dyd_delaunay_triangles(&list, centres);
+  for (size_t k = 0; k < list.count && pairs->count; k++) {
+    const uint32_t *v = list.item[k].v;
+    uint32_t a = dyd_delaunay_alias(pd, v[0]), b = dyd_delaunay_alias(pd, v[1]), c = dyd_delaunay_alias(pd, v[2]);
+    if (!is_legal_in(pairs, a, b) || !is_legal_in(pairs, b, c) || !is_legal_in(pairs, a, c)) continue;
+    list.item[kept++] = (dyd_triangle){{a, b, c}}; /* [DISC-3] */
+  }
+  list.count = kept;
+  dyd_delaunay_free(centres);
+  dyd_sites_free(sites);
+  if (st != DYD_OK) return st;
+  dyd_triangle_list_clear(out);
+  *out = list;
+  return DYD_OK;
 }

@@ -4,6 +4,7 @@
 
 Usage: test_tolerance.py COMMAND DATA
 """
+import collections
 import csv
 import fractions
 import json
@@ -142,6 +143,17 @@ def test_discs():
     expect(run('delaunay', '--discs', '-', stdin='0 0\n9 0\n4+-1 8+-1\n'), 0, r'\Ai,j,status\n(\d,\d,legal\n){3}\Z', r'\A\Z')
     expect(run('delaunay', '--discs', '-', stdin='0 0\n9 0\n4+-1 8\n'), 1, r'\A\Z', 'point 2: a disc needs one radius')
     expect(run('delaunay', '--discs', '--format', 'json', '-', stdin='0 0\n'), 1, r'\A\Z', 'written as pairs')
+    for layer in ('triangles', 'points'):
+        of_discs, of_squares = (rows(run('delaunay', '--layer', layer, '--radius', '0.003', *how, *AIRPORTS).out)
+                                for how in (('--discs',), ()))
+        assert len(of_discs) > len(of_squares) or layer == 'points'
+        if layer == 'triangles':
+            assert all(row in of_discs for row in of_squares)
+    listed = rows(run('delaunay', '--discs', '--radius', '0.003', *AIRPORTS).out)
+    partners = collections.Counter((row[end], row['status']) for row in listed for end in ('i', 'j'))
+    for row in of_discs:
+        assert all(int(row[s]) == partners[row['i'], s] for s in ('legal', 'indeterminate', 'tie')), row
+    expect(run('delaunay', '--discs', '--layer', 'graph:mst', '-', stdin='0 0\n'), 1, r'\A\Z', 'written as pairs, points or triangles')
     stats = run('delaunay', '--discs', '--stats', '--radius', '0.01', *AIRPORTS)
     for status in ('legal', 'indeterminate'):
         assert re.search(rf'^pairs {status} +{stats.out.count("," + status)}$', stats.err, re.M), stats.err

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Statuses of discs: with equal radii against tolerances, with others against choices of points [DISC-1] [DISC-2]. */
+/* Statuses of discs: with equal radii against tolerances, with others against choices of points [DISC-1] [DISC-2]
+ * [DISC-3]. */
 #include <setjmp.h>
 #include <stdarg.h>
 
@@ -160,8 +161,110 @@ static void test_choices(void **state) {
   assert_true(changed > 300 && shown * 10 > open * 6);
 }
 
+/* ---- triangles: with the empty circles of choices ---- */
+
+/* The sign of the turn a, b, c; and is d inside the circle through a, b, c (1), or on it (0)? Exactly. */
+static int circle_sign(int *turn, const disc_case *p, const uint32_t v[4]) {
+  mpq_t m[3][3], s, t;
+  mpq_inits(s, t, NULL);
+  for (int k = 0; k < 3; k++) {
+    mpq_inits(m[k][0], m[k][1], m[k][2], NULL);
+    for (int axis = 0; axis < 2; axis++) {
+      mpq_set_d(m[k][axis], axis ? p->y[v[k]] : p->x[v[k]]);
+      mpq_set_d(s, axis ? p->y[v[3]] : p->x[v[3]]);
+      mpq_sub(m[k][axis], m[k][axis], s);
+      mpq_mul(s, m[k][axis], m[k][axis]);
+      mpq_add(m[k][2], m[k][2], s);
+    }
+  }
+  mpq_t all, area;
+  mpq_inits(all, area, NULL);
+  for (int k = 0; k < 3; k++) { /* of the first two columns of the rows after k */
+    mpq_t *a = m[(k + 1) % 3], *b = m[(k + 2) % 3];
+    mpq_mul(s, a[0], b[1]);
+    mpq_mul(t, a[1], b[0]);
+    mpq_sub(s, s, t);
+    mpq_add(area, area, s);
+    mpq_mul(s, s, m[k][2]);
+    mpq_add(all, all, s);
+  }
+  int inside = mpq_sgn(all);
+  *turn = mpq_sgn(area);
+  for (int k = 0; k < 3; k++) mpq_clears(m[k][0], m[k][1], m[k][2], NULL);
+  mpq_clears(s, t, all, area, NULL);
+  return inside * *turn;
+}
+
+/* Counter-clockwise, and strictly outside of its circle is everybody else. */
+static bool is_triangle(const disc_case *p, const uint32_t v[3]) {
+  for (uint32_t d = 0; d < p->n; d++) {
+    uint32_t all[4] = {v[0], v[1], v[2], d};
+    int turn;
+    if (d == v[0] || d == v[1] || d == v[2]) continue;
+    if (circle_sign(&turn, p, all) >= 0 || turn <= 0) return false;
+  }
+  return true;
+}
+
+static bool lists_triangle(const dyd_triangle_list *l, const uint32_t v[3]) {
+  bool found = false;
+  for (size_t k = 0; k < l->count; k++) found = found || memcmp(l->item[k].v, v, sizeof l->item[k].v) == 0;
+  return found;
+}
+
+/* Those listed are triangles of every choice; the others with three legal pairs are of none. */
+static void compare_triangles(const disc_case *c, test_random *r, const dyd_pair_list *l, const dyd_triangle_list *tri,
+                              size_t *hollow) {
+  for (int tries = 0; tries < 20; tries++) {
+    disc_case p = *c;
+    if (tries) choose(&p, c, r);
+    for (uint32_t i = 0; i < c->n; i++)
+      for (uint32_t j = i + 1; j < c->n; j++)
+        for (uint32_t k = i + 1; k < c->n; k++) {
+          const uint32_t v[3] = {i, j, k};
+          bool listed = lists_triangle(tri, v);
+          bool legal = j != k && status_in(l, i, j) == DYD_LEGAL && status_in(l, i, k) == DYD_LEGAL &&
+                       status_in(l, j < k ? j : k, j < k ? k : j) == DYD_LEGAL;
+          assert_true(legal || !listed);
+          if (legal) assert_int_equal(is_triangle(&p, v), listed);
+          *hollow += legal && j < k && !tries && !listed && !lists_triangle(tri, (uint32_t[]){i, k, j});
+        }
+  }
+}
+
+static void test_triangles(void **state) {
+  (void)state;
+  test_random r = test_random_start("triangles of discs");
+  size_t certain = 0, more = 0, hollow = 0;
+  for (size_t k = 0; k < test_cases(300); k++) {
+    disc_case c;
+    dyd_sites *sites;
+    dyd_triangle_list tri = {0}, squares = {0};
+    make_discs_case(&c, &r, false);
+    for (size_t i = 0; i < c.n; i++) c.r[i] = nearbyint(c.r[i]) / (k % 2 ? 4 : 1);
+    if (c.n < 4) continue;
+    dyd_pair_list l = pairs_of_discs(&c);
+    dyd_delaunay *pd = triangulate(&sites, &c, true);
+    assert_int_equal(dyd_disc_triangles(&tri, &l, pd), DYD_OK);
+    assert_int_equal(dyd_delaunay_triangles(&squares, pd), DYD_OK);
+    compare_triangles(&c, &r, &l, &tri, &hollow);
+    for (size_t q = 0; q < squares.count; q++) assert_true(lists_triangle(&tri, squares.item[q].v));
+    for (size_t q = 0; q + 1 < tri.count; q++) assert_true(memcmp(&tri.item[q], &tri.item[q + 1], sizeof *tri.item));
+    certain += tri.count;
+    more += tri.count - squares.count;
+    dyd_triangle_list_clear(&squares);
+    dyd_triangle_list_clear(&tri);
+    dyd_pair_list_clear(&l);
+    dyd_delaunay_free(pd);
+    dyd_sites_free(sites);
+  }
+  print_message("certain %zu, not so for squares %zu, three legal pairs around others %zu\n", certain, more, hollow);
+  assert_true(certain > 300 && more > 20 && hollow > 10);
+}
+
 static void test_refused(void **state) {
   (void)state;
+  dyd_triangle_list none = {0};
   dyd_sites *sites;
   dyd_delaunay *pd;
   dyd_error err;
@@ -172,6 +275,8 @@ static void test_refused(void **state) {
   assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, &err), DYD_OK);
   assert_int_equal(dyd_disc_pairs(&l, pd, &err), DYD_E_ARG);
   assert_true(err.point == 2 && l.count == 0);
+  assert_int_equal(dyd_disc_triangles(&none, &l, pd), DYD_E_ARG);
+  assert_true(none.count == 0);
   dyd_delaunay_free(pd);
   dyd_sites_free(sites);
 }
@@ -231,7 +336,7 @@ static void test_far_centre(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_equal_discs), cmocka_unit_test(test_choices),
-                                     cmocka_unit_test(test_refused), cmocka_unit_test(test_many),
-                                     cmocka_unit_test(test_far_centre)};
+                                     cmocka_unit_test(test_triangles),   cmocka_unit_test(test_refused),
+                                     cmocka_unit_test(test_many),        cmocka_unit_test(test_far_centre)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
