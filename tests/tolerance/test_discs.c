@@ -262,6 +262,41 @@ static void test_triangles(void **state) {
   assert_true(certain > 300 && more > 20 && hollow > 10);
 }
 
+/* Told to end before it begins, a tolerance has no row, and counts what has none; one that is not told has all. */
+static void test_cancelled(void **state) {
+  (void)state;
+  test_random r = test_random_start("cancelled tolerances");
+  for (size_t k = 0; k < test_cases(40); k++) {
+    disc_case c;
+    dyd_sites *sites;
+    const dyd_tolerance_row *row;
+    size_t count[4], edges = 1, births = 1, deaths = 0;
+    make_discs_case(&c, &r, false);
+    dyd_delaunay *pd = triangulate(&sites, &c, false);
+    dyd_delaunay_count(count, pd);
+    for (int now = 0; now < 2; now++) {
+      dyd_tolerance *t;
+      mpq_t up_to;
+      mpq_init(up_to);
+      mpq_set_ui(up_to, 1, 1);
+      dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .cancel = &now, .metric = k % 2,
+                                 .weight = k % 4 == 2 ? c.r : NULL};
+      if (k % 3) o.up_to = up_to;
+      assert_int_equal(dyd_tolerance_new(&t, pd, &o, NULL), now && count[DYD_LEGAL] ? DYD_CANCELLED : DYD_OK);
+      size_t rows = dyd_tolerance_rows(&row, t);
+      dyd_tolerance_left(&edges, &births, t);
+      for (size_t q = deaths = 0; q < rows; q++) deaths += row[q].event == DYD_EVENT_DEATH;
+      assert_int_equal(deaths + edges, count[DYD_LEGAL]);
+      assert_int_equal(deaths, now ? 0 : count[DYD_LEGAL]);
+      assert_true(births == (now && o.up_to ? SIZE_MAX : 0));
+      dyd_tolerance_free(t);
+      mpq_clear(up_to);
+    }
+    dyd_delaunay_free(pd);
+    dyd_sites_free(sites);
+  }
+}
+
 static void test_refused(void **state) {
   (void)state;
   dyd_triangle_list none = {0};
@@ -336,7 +371,8 @@ static void test_far_centre(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_equal_discs), cmocka_unit_test(test_choices),
-                                     cmocka_unit_test(test_triangles),   cmocka_unit_test(test_refused),
-                                     cmocka_unit_test(test_many),        cmocka_unit_test(test_far_centre)};
+                                     cmocka_unit_test(test_triangles),   cmocka_unit_test(test_cancelled),
+                                     cmocka_unit_test(test_refused),     cmocka_unit_test(test_many),
+                                     cmocka_unit_test(test_far_centre)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
