@@ -276,10 +276,14 @@ typedef struct dyd_sphere_output {
   unsigned epsg; /* as in dyd_delaunay_output; 0: longitude and latitude (CRS84) in geojson */
   /* What svg, pdf and png show: degrees, positive area; longitudes modulo 360, as in [170, 200]. NULL: everything. */
   const dyd_rect *window;
+  double max_arc; /* sides of cells in wkt and geojson are divided into arcs of so many degrees; 0: 1, at most 90 */
 } dyd_sphere_output;
 /* Writes the current result of s; o may be NULL. In wkt and geojson edges are great circles, a place at every 2 degrees
  * at most, cut where they cross the meridian of 180 degrees; of triangles that hold more than half of the sphere the
- * geometry is empty. DYD_E_ARG when there is no result yet, or the format does not hold the layer. */
+ * geometry is empty. Cells that are known all around are valid polygons: one for each part beside the meridian of 180
+ * degrees; one that holds a pole goes up that meridian, along the pole's parallel and down again. Of one point the cell
+ * is the globe, of two they are its halves. DYD_E_ARG when there is no result yet, the format does not hold the layer,
+ * or max_arc is out of range. */
 DYD_API dyd_status dyd_write_sphere(FILE *out, const dyd_sphere *s, const dyd_sphere_output *o, dyd_format format,
                                     dyd_error *err);
 

@@ -81,8 +81,13 @@ DYD_API dyd_status dyd_sphere_triangles(dyd_triangle_list *out, const dyd_sphere
  * Voronoi region is one point. */
 DYD_API size_t dyd_sphere_faces(const dyd_sphere *s);
 DYD_API dyd_status dyd_sphere_face(dyd_index_list *out, bool *tie, const dyd_sphere *s, size_t f);
+/* Calls visit with each empty circle (DYD_GROUP_CIRCLE) that holds more than three points, counter-clockwise from
+ * outside, and no others: they have one Voronoi vertex. A circle that holds all points is empty on both sides, and told
+ * of twice. As dyd_delaunay_each_group; DYD_E_ARG before the first run. */
+DYD_API dyd_status dyd_sphere_each_circle(const dyd_sphere *s, dyd_group_fn visit, void *user);
 /* A box of degrees (longitude lower, upper, latitude lower, upper) that holds the Voronoi vertex of t, one of
- * dyd_sphere_triangles, for every choice of its corners. Longitudes may reach beyond 180; near a pole they may be all.
+ * dyd_sphere_triangles or any three points of one of dyd_sphere_each_circle in its order, for every choice of its
+ * corners. Longitudes may reach beyond 180; near a pole they may be all.
  * [SPH-4] */
 DYD_API dyd_status dyd_sphere_vertex(double box[4], const dyd_sphere *s, const dyd_triangle *t, dyd_error *err);
 

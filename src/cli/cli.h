@@ -56,6 +56,7 @@ typedef struct cli_options {
   const dyd_rect *view; /* delaunay: the window read, which pictures show */
   int64_t flatten_bits;
   bool flatten_set;
+  double max_arc; /* degrees; 0: default */
   const char *certificate, *trace, *replay, *resume, *plot;
   double trace_sync; /* seconds; 0: default */
   uint64_t seed;

@@ -3,7 +3,7 @@
 #include "cli.h"
 
 static dyd_status sphere_write(FILE *out, const void *sphere, const cli_options *o, dyd_error *err) {
-  const dyd_sphere_output how = {DYD_SIZED(dyd_sphere_output), o->content, o->epsg, o->view};
+  const dyd_sphere_output how = {DYD_SIZED(dyd_sphere_output), o->content, o->epsg, o->view, o->max_arc};
   return dyd_write_sphere(out, sphere, &how, o->format, err);
 }
 

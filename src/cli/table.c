@@ -196,6 +196,8 @@ const cli_option cli_option_table[] = {
      AT(window)},
     {"flatten", 0, "M", CLI_INTEGER, BIT(CLI_VORONOI), CLI_OUTPUT, "draw arcs by polygons within 2^-M of them",
      AT(flatten_bits), RANGE(-DYD_EXP_LIMIT, DYD_EXP_LIMIT), GIVEN(flatten_set)},
+    {"max-arc", 0, "DEG", CLI_DEGREES, BIT(CLI_VORONOI), CLI_OUTPUT,
+     "with --sphere: divide sides of cells into arcs of DEG degrees\nat most (default 1)", AT(max_arc)},
     {"format", 0, "F", CLI_FORMAT, CLI_ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},
     {"accuracy", 0, "A", CLI_TEXT, BIT(CLI_PLAN), CLI_REFINEMENT,
      "measuring gives a point within A, an exact number\n(default: as exactly as it takes)", AT(accuracy)},

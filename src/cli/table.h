@@ -28,6 +28,7 @@ typedef enum cli_kind {
   CLI_SOURCE,    /* the name of a file that is read */
   CLI_INTEGER,   /* least..most, into an integer of `width` bytes */
   CLI_SECONDS,   /* a double above 0 */
+  CLI_DEGREES,   /* the same, up to 90 */
   CLI_GOAL,      /* decided, area:M, hausdorff:M */
   CLI_SCHEDULE,  /* adaptive or uniform */
   CLI_SUBJECT,   /* delaunay or voronoi; a bool is set for the latter */

@@ -36,12 +36,13 @@ static bool value_integer(void *place, const cli_option *option, const char *tex
   return true;
 }
 
-static bool value_seconds(double *place, const cli_option *option, const char *text) {
+static bool value_number(double *place, const cli_option *option, const char *text) {
   char *end;
-  double seconds = strtod(text, &end);
-  if (end == text || *end || !isfinite(seconds) || seconds <= 0)
-    return value_usage(option, text, "a number of seconds above 0");
-  *place = seconds;
+  double value = strtod(text, &end);
+  bool seconds = option->kind == CLI_SECONDS;
+  if (end == text || *end || !isfinite(value) || value <= 0 || (!seconds && value > 90))
+    return value_usage(option, text, seconds ? "a number of seconds above 0" : "degrees above 0, at most 90");
+  *place = value;
   return true;
 }
 
@@ -148,7 +149,8 @@ static bool value_any(cli_options *o, const cli_option *option, const char *text
   case CLI_INTEGER:
     return value_integer(place, option, text);
   case CLI_SECONDS:
-    return value_seconds(place, option, text);
+  case CLI_DEGREES:
+    return value_number(place, option, text);
   case CLI_GOAL:
     return value_goal(place, option, text);
   case CLI_SCHEDULE:

@@ -67,6 +67,7 @@ int cli_voronoi(const cli_options *o) {
   size_t cut = 0;
   bool known = false;
   if (o->sphere) return cli_sphere(o);
+  if (o->max_arc > 0) return cli_complain("--max-arc is about the globe; give --sphere or leave it away"), CLI_USAGE;
   dyd_rect_init(&window);
   dyd_voronoi_bounds_init(&bounds);
   own.bounds = &bounds;

@@ -376,7 +376,9 @@ dyd_status dyd_write_sphere(FILE *out, const dyd_sphere *s, const dyd_sphere_out
       refuse_layer(o.layer, DYD_CONTENT_SPHERE_VORONOI, err) != DYD_OK)
     return DYD_E_ARG;
   if (!result_of(dyd_sphere_images(s), err)) return DYD_E_ARG;
-  dyd_sphere_result r = {.sphere = s, .epsg = o.epsg, .window = o.window};
+  if (!(o.max_arc >= 0 && o.max_arc <= 90))
+    return dyd_fail(err, DYD_E_ARG, "max_arc is in degrees, above 0 and at most 90");
+  dyd_sphere_result r = {.sphere = s, .epsg = o.epsg, .window = o.window, .max_arc = o.max_arc > 0 ? o.max_arc : 1};
   dyd_status st = dyd_sphere_pairs(&r.pairs, s);
   if (st == DYD_OK)
     st = dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_SPHERE), &r, err);

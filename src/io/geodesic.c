@@ -2,8 +2,10 @@
 /* Great circles as lines and polygons of longitude and latitude, cut at the meridian of 180 degrees.
  *
  * Longitudes are unrolled along a way, each within 180 degrees of the one before. A closed way that does not come back
- * to where it began turns around a pole, the north one if it went east, and is closed over it. What lies between
- * -180 + 360 k and 180 + 360 k is a part. */
+ * to where it began turns around a pole, the north one if it went east: it is followed twice, closed over the pole, and
+ * cut to all longitudes once. Of others, what lies between -180 + 360 k and 180 + 360 k is a part. A pole on the way is
+ * a line of the map, from the longitude where the way comes to where it leaves. What is convex meets each meridian in
+ * one piece, so each part is one polygon. */
 #include "io/geodesic.h"
 
 #include "base/alloc.h"
@@ -11,15 +13,19 @@
 #include <string.h>
 
 #define DEGREE 0.017453292519943295
-#define STEP (2 * DEGREE)
-#define ROUND 0x1p-32     /* degrees: less than a tenth of a millimetre on the earth */
-enum { MOST_STEPS = 92 }; /* of a way of 180 degrees, roundings included */
+#define PI 3.141592653589793
+#define STEP (2 * DEGREE * (1 + 1e-9))
+#define ROUND                                                                                                          \
+  0x1p-36           /* degrees: 2 micrometres on the earth; places nearer to a pole or to 180 degrees are moved there */
+#define LEAST 1e-12 /* radians: ways that are not divided */
+#define MOST_TURN 5 /* degrees of longitude from place to place */
 
 typedef struct unit_vector {
   double x, y, z;
 } unit_vector;
 
 dyd_lon_lat dyd_lon_lat_of(const double box[4]) {
+  if (box[1] - box[0] >= 360 && (box[3] >= 90 || box[2] <= -90)) return (dyd_lon_lat){0, box[3] >= 90 ? 90 : -90};
   return (dyd_lon_lat){box[0] + (box[1] - box[0]) / 2, box[2] + (box[3] - box[2]) / 2};
 }
 
@@ -32,56 +38,166 @@ static dyd_lon_lat place_of(unit_vector v) {
   return (dyd_lon_lat){atan2(v.y, v.x) / DEGREE, atan2(v.z, hypot(v.x, v.y)) / DEGREE};
 }
 
-static double angle_between(unit_vector a, unit_vector b) {
-  double x = a.y * b.z - a.z * b.y, y = a.z * b.x - a.x * b.z, z = a.x * b.y - a.y * b.x;
-  return atan2(sqrt(x * x + y * y + z * z), a.x * b.x + a.y * b.y + a.z * b.z);
+static double dot(unit_vector a, unit_vector b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/* a - s b */
+static unit_vector less(unit_vector a, double s, unit_vector b) {
+  return (unit_vector){a.x - s * b.x, a.y - s * b.y, a.z - s * b.z};
+}
+
+static unit_vector cross_product(unit_vector a, unit_vector b) {
+  return (unit_vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 bool dyd_turns_left(const dyd_lon_lat corner[3]) {
+  return dot(vector_of(corner[0]), cross_product(vector_of(corner[1]), vector_of(corner[2]))) > 0;
+}
+
+dyd_lon_lat dyd_circle_centre(const dyd_lon_lat corner[3]) {
   unit_vector a = vector_of(corner[0]), b = vector_of(corner[1]), c = vector_of(corner[2]);
-  return a.x * (b.y * c.z - b.z * c.y) - a.y * (b.x * c.z - b.z * c.x) + a.z * (b.x * c.y - b.y * c.x) > 0;
+  return place_of(cross_product(less(b, 1, a), less(c, 1, a)));
 }
 
-/* The place at the share s of the way from a to b, an angle apart. Opposite places have no shorter way: any. */
-static dyd_lon_lat way_at(unit_vector a, unit_vector b, double angle, double s) {
-  double p = sin((1 - s) * angle), q = sin(s * angle);
-  return place_of((unit_vector){p * a.x + q * b.x, p * a.y + q * b.y, p * a.z + q * b.z});
+/* ---- sides ---- */
+
+/* The places of a way; `step`: radians between them at most. */
+typedef struct way {
+  dyd_lon_lat *p;
+  size_t count, cap;
+  double step;
+  dyd_status st;
+} way;
+
+/* A part of a great circle from u on, towards t. */
+typedef struct great_circle {
+  unit_vector u, t;
+  double angle;
+} great_circle;
+
+static void way_put(way *w, dyd_lon_lat p) {
+  if (!dyd_reserve((void **)&w->p, &w->cap, w->count + 1, sizeof *w->p))
+    w->st = DYD_E_NOMEM;
+  else
+    w->p[w->count++] = p;
 }
 
-/* A pole has the longitude of who is next to it. */
-static void ways_mend_poles(dyd_lon_lat *p, size_t n) {
-  for (size_t k = 0; k < n && n > 1; k++)
-    if (fabs(p[k].lat) >= 90) p[k].lon = p[k ? k - 1 : 1].lon;
+static unit_vector of_length_1(unit_vector a) {
+  double length = sqrt(dot(a, a));
+  return length > 0 ? (unit_vector){a.x / length, a.y / length, a.z / length} : a;
 }
 
-dyd_status dyd_great_circles(dyd_lon_lat **out, size_t *count, const dyd_lon_lat *corner, size_t corners) {
-  dyd_lon_lat *p = dyd_alloc(corners * MOST_STEPS + 1, sizeof *p);
-  size_t n = 0;
-  if (!p) return DYD_E_NOMEM;
-  for (size_t k = 0; k + 1 < corners; k++) {
-    unit_vector a = vector_of(corner[k]), b = vector_of(corner[k + 1]);
-    double angle = angle_between(a, b), steps = ceil(angle / STEP);
-    p[n++] = corner[k];
-    for (double s = 1; s < steps; s++) p[n++] = way_at(a, b, angle, s / steps);
+static bool is_pole(dyd_lon_lat p) {
+  return fabs(p.lat) == 90;
+}
+
+/* Something that is not along a. */
+static unit_vector aside(unit_vector a) {
+  if (fabs(a.z) <= fabs(a.x) && fabs(a.z) <= fabs(a.y)) return (unit_vector){0, 0, 1};
+  return fabs(a.x) <= fabs(a.y) ? (unit_vector){1, 0, 0} : (unit_vector){0, 1, 0};
+}
+
+/* Long ways by the places they are between: ends that are opposite tell nothing. */
+static great_circle circle_of(const dyd_side *d, bool whole) {
+  great_circle g = {.u = vector_of(d->from), .angle = 2 * PI};
+  unit_vector w = vector_of(d->to), pole = less(vector_of(d->left), 1, vector_of(d->right));
+  if (whole) g.u = of_length_1(cross_product(aside(pole), pole));
+  if (whole || (d->between && dot(g.u, w) <= 0))
+    g.t = of_length_1(cross_product(pole, g.u));
+  else
+    g.t = of_length_1(less(less(w, 1, g.u), dot(less(w, 1, g.u), g.u), g.u));
+  if (whole) return g;
+  if (dot(g.t, g.t) == 0)
+    g.t = of_length_1(cross_product(aside(g.u), g.u)); /* opposite places have no shorter way: any */
+  g.angle = atan2(dot(w, g.t), dot(w, g.u));
+  if (g.angle < 0) g.angle += 2 * PI;
+  return g;
+}
+
+static dyd_lon_lat at_pole(dyd_lon_lat p) {
+  if (90 - fabs(p.lat) < ROUND) p.lat = copysign(90, p.lat);
+  return p;
+}
+
+static dyd_lon_lat circle_at(const great_circle *g, double angle) {
+  double c = cos(angle), s = sin(angle);
+  return at_pole(place_of((unit_vector){c * g->u.x + s * g->t.x, c * g->u.y + s * g->t.y, c * g->u.z + s * g->t.z}));
+}
+
+/* The places between lo and hi, which are a and b. */
+static void way_fill(way *w, const great_circle *g, double lo, double hi, dyd_lon_lat a, dyd_lon_lat b) {
+  double turn = is_pole(a) || is_pole(b) ? 0 : fabs(remainder(b.lon - a.lon, 360)), mid = lo + (hi - lo) / 2;
+  if (hi - lo < LEAST || (hi - lo <= w->step && turn <= MOST_TURN)) return;
+  dyd_lon_lat p = circle_at(g, mid);
+  way_fill(w, g, lo, mid, a, p);
+  way_put(w, p);
+  way_fill(w, g, mid, hi, p, b);
+}
+
+/* The places of a side but its last. Where it is next to a pole it is divided, so that longitudes turn by less than 180
+ * degrees on each piece. */
+static void way_divide(way *w, const great_circle *g, dyd_lon_lat from, dyd_lon_lat to) {
+  double lo = 0, next = atan2(g->t.z, g->u.z) - 2 * PI;
+  bool passes = g->angle > PI / 2 || hypot(g->u.z, g->t.z) > 0.9998;
+  way_put(w, from);
+  for (; passes && next < g->angle - LEAST; next += PI) {
+    if (next <= LEAST) continue;
+    dyd_lon_lat p = circle_at(g, next);
+    way_fill(w, g, lo, next, from, p);
+    way_put(w, p);
+    lo = next, from = p;
   }
-  if (corners) p[n++] = corner[corners - 1];
-  ways_mend_poles(p, n);
-  *out = p;
-  *count = n;
-  return DYD_OK;
+  way_fill(w, g, lo, g->angle, from, to);
+}
+
+static bool is_before(dyd_lon_lat a, dyd_lon_lat b) {
+  return a.lon != b.lon ? a.lon < b.lon : a.lat < b.lat;
+}
+
+/* From both of its sides a side has the same places: those of the way from the lower end, or the lower place. */
+static void way_side(way *w, const dyd_side *side, bool whole) {
+  dyd_side d = {at_pole(side->from), at_pole(side->to), side->between, side->left, side->right};
+  bool back = whole ? is_before(d.right, d.left) : is_before(d.to, d.from);
+  size_t first = w->count;
+  if (back) d = (dyd_side){d.to, d.from, d.between, d.right, d.left};
+  great_circle g = circle_of(&d, whole);
+  if (whole) d.from = d.to = circle_at(&g, 0);
+  way_divide(w, &g, d.from, d.to);
+  if (!back) return;
+  way_put(w, d.to);
+  for (size_t k = first, l = w->count; k + 1 < l; k++) {
+    dyd_lon_lat p = w->p[k];
+    w->p[k] = w->p[--l];
+    w->p[l] = p;
+  }
+  w->count -= w->st == DYD_OK;
+}
+
+dyd_status dyd_side_places(dyd_lon_lat **out, size_t *count, const dyd_side *side, bool whole) {
+  way w = {.step = STEP};
+  way_side(&w, side, whole);
+  way_put(&w, whole && w.count ? w.p[0] : at_pole(side->to));
+  for (size_t k = 0; k < w.count && w.count > 1; k++) /* a pole has the longitude of the place next to it */
+    if (is_pole(w.p[k])) w.p[k].lon = w.p[k ? k - 1 : 1].lon;
+  if (w.st != DYD_OK) free(w.p);
+  *out = w.st == DYD_OK ? w.p : NULL;
+  *count = w.st == DYD_OK ? w.count : 0;
+  return w.st;
 }
 
 /* ---- unrolled and cut ---- */
 
-/* Returns the turns made. */
-static double way_unroll(dyd_lon_lat *p, size_t n) {
-  double turns = 0;
-  for (size_t k = 1; k < n; k++) {
-    double step = p[k].lon + 360 * turns - p[k - 1].lon;
-    turns -= step > 180 ? 1 : step < -180 ? -1 : 0;
-    p[k].lon += 360 * turns;
-  }
-  return turns;
+/* How far east it is from a to b; along a pole, with the inside of the way, on its left, between them. */
+static double step_east(dyd_lon_lat a, dyd_lon_lat b) {
+  double step = remainder(b.lon - a.lon, 360);
+  if (!is_pole(a) || a.lat != b.lat || step * a.lat <= 0) return step;
+  return step - copysign(360, step);
+}
+
+static void way_unroll(dyd_lon_lat *p, size_t n) {
+  for (size_t k = 1; k < n; k++)
+    p[k].lon += 360 * nearbyint((p[k - 1].lon + step_east(p[k - 1], p[k]) - p[k].lon) / 360);
 }
 
 static int strip_of(double lon) {
@@ -97,9 +213,15 @@ static void strips_of(int strip[2], const dyd_lon_lat *p, size_t n) {
 }
 
 /* A place on the way, in few digits; on the edge of the map, or at a pole, exactly. */
-static void row_at_place(dyd_table *t, double lon, double lat) {
+static void place_near(dyd_place *out, double lon, double lat) {
   double x = fabs(lon) == 180 ? 0 : ROUND, y = fabs(lat) == 90 ? 0 : ROUND;
-  dyd_row_at(t, (const double[]){lon - x, lon + x, lat - y, lat + y});
+  dyd_place_set(out, (const double[]){lon - x, lon + x, lat - y, lat + y});
+}
+
+static void row_at_place(dyd_table *t, double lon, double lat) {
+  dyd_place place;
+  place_near(&place, lon, lat);
+  dyd_row_place(t, &place);
 }
 
 /* Where the way from a to b has this longitude. */
@@ -117,12 +239,12 @@ static void arc_put(dyd_table *t, const dyd_lon_lat *p, size_t k, size_t n, doub
 }
 
 dyd_status dyd_row_arc(dyd_table *t, const double a[4], const double b[4]) {
-  const dyd_lon_lat corner[2] = {dyd_lon_lat_of(a), dyd_lon_lat_of(b)};
+  const dyd_side side = {.from = dyd_lon_lat_of(a), .to = dyd_lon_lat_of(b)};
   const double *const end[2] = {a, b};
   dyd_lon_lat *p = NULL;
   size_t n = 0;
   int strip[2];
-  dyd_status st = dyd_great_circles(&p, &n, corner, 2);
+  dyd_status st = dyd_side_places(&p, &n, &side, false);
   if (st != DYD_OK) return st;
   way_unroll(p, n);
   strips_of(strip, p, n);
@@ -154,40 +276,110 @@ static size_t around_clip(dyd_lon_lat *out, const dyd_lon_lat *p, size_t n, doub
   return count;
 }
 
-/* p[0 .. n-1], a closed way, with room for 2 * n + 4 in each of work[]. */
-static void around_put(dyd_table *t, const dyd_lon_lat *p, size_t n, dyd_lon_lat *const work[2]) {
-  int strip[2];
-  strips_of(strip, p, n);
-  for (int k = strip[0]; k <= strip[1]; k++) {
-    size_t m = around_clip(work[0], p, n, 360.0 * k - 180, 1);
-    m = around_clip(work[1], work[0], m, 360.0 * k + 180, -1);
-    if (m < 3) continue;
-    dyd_row_part(t);
-    for (size_t l = 0; l <= m; l++) row_at_place(t, work[1][l % m].lon - 360.0 * k, work[1][l % m].lat);
+/* ---- polygons ---- */
+
+static bool is_same_place(dyd_lon_lat a, dyd_lon_lat b) {
+  return a.lat == b.lat && (a.lon == b.lon || is_pole(a));
+}
+
+/* Each place once, poles with the longitudes before and behind; closed. */
+static void way_close(way *out, const way *w) {
+  size_t n = 0, kept = 0;
+  for (size_t k = 0; k < w->count; k++)
+    if (!kept || !is_same_place(w->p[kept - 1], w->p[k])) w->p[kept++] = w->p[k];
+  while (kept > 1 && is_same_place(w->p[kept - 1], w->p[0])) kept--;
+  for (n = 0; n < kept; n++) {
+    dyd_lon_lat p = w->p[n], before = w->p[n ? n - 1 : kept - 1], behind = w->p[n + 1 < kept ? n + 1 : 0];
+    if (is_pole(p)) way_put(out, (dyd_lon_lat){before.lon, p.lat});
+    way_put(out, is_pole(p) ? (dyd_lon_lat){behind.lon, p.lat} : p);
+  }
+  if (kept) way_put(out, out->count ? out->p[0] : w->p[0]);
+}
+
+/* Longitudes next to the edge of the map are on it. */
+static void way_settle(way *w) {
+  for (size_t k = 0; k < w->count; k++) {
+    double edge = 180 + 360 * nearbyint((w->p[k].lon - 180) / 360);
+    if (fabs(w->p[k].lon - edge) < ROUND) w->p[k].lon = edge;
   }
 }
 
-dyd_status dyd_row_around(dyd_table *t, const dyd_lon_lat *corner, size_t corners) {
-  dyd_lon_lat *p = NULL, *work[2], *closed = dyd_alloc(corners + 1, sizeof *closed);
-  size_t n = 0;
-  if (!closed) return DYD_E_NOMEM;
-  for (size_t k = 0; k <= corners; k++) closed[k] = corner[k % corners];
-  dyd_status st = dyd_great_circles(&p, &n, closed, corners + 1);
-  size_t room = 4 * n + 16;
-  dyd_lon_lat *all = st == DYD_OK ? dyd_alloc(room, 3 * sizeof *all) : NULL;
-  if (all) {
-    work[0] = all + room, work[1] = all + 2 * room;
-    memcpy(all, p, n * sizeof *all);
-    double turns = way_unroll(all, n);
-    if (turns != 0) { /* closed over the pole */
-      double pole = turns > 0 ? 90 : -90, from = all[0].lon, to = all[n - 1].lon;
-      all[n++] = (dyd_lon_lat){to, pole};
-      all[n++] = (dyd_lon_lat){from, pole};
-    }
-    around_put(t, all, n, work);
+/* Followed a second time, and closed over the pole. */
+static void way_close_pole(way *w) {
+  size_t n = w->count;
+  double from = w->p[0].lon, turn = w->p[n - 1].lon - from, pole = turn > 0 ? 90 : -90;
+  for (size_t k = 1; k < n && w->st == DYD_OK; k++) way_put(w, (dyd_lon_lat){w->p[k].lon + turn, w->p[k].lat});
+  way_put(w, (dyd_lon_lat){from + 2 * turn, pole});
+  way_put(w, (dyd_lon_lat){from, pole});
+}
+
+static bool places_agree(const dyd_place *a, const dyd_place *b, int axis) {
+  return a->length[axis] == b->length[axis] && memcmp(axis ? a->y : a->x, axis ? b->y : b->x, a->length[axis]) == 0;
+}
+
+/* A part, unless it has no area in the digits that it is written with. */
+static void part_put(dyd_table *t, dyd_place *place, const dyd_lon_lat *p, size_t n, double turn) {
+  size_t count = 0;
+  bool flat[2] = {true, true};
+  for (size_t k = 0; k < n; k++) {
+    place_near(&place[count], p[k].lon - turn, p[k].lat);
+    const dyd_place *last = count ? &place[count - 1] : NULL;
+    if (!last || !places_agree(last, &place[count], 0) || !places_agree(last, &place[count], 1)) count++;
   }
-  free(all);
-  free(p);
-  free(closed);
-  return all ? DYD_OK : DYD_E_NOMEM;
+  while (count > 1 && places_agree(place, &place[count - 1], 0) && places_agree(place, &place[count - 1], 1)) count--;
+  for (size_t k = 1; k < count; k++)
+    for (int a = 0; a < 2; a++) flat[a] = flat[a] && places_agree(place, &place[k], a);
+  if (count < 3 || flat[0] || flat[1]) return;
+  dyd_row_part(t);
+  for (size_t k = 0; k <= count; k++) dyd_row_place(t, &place[k % count]);
+}
+
+/* The parts of a closed way: in every strip that it touches, or, closed over a pole, in one. */
+static dyd_status around_put(dyd_table *t, const way *w, bool pole) {
+  size_t room = 4 * w->count + 16;
+  dyd_lon_lat *work = dyd_alloc(room, 2 * sizeof *work);
+  dyd_place *place = dyd_alloc(room, sizeof *place);
+  int strip[2];
+  strips_of(strip, w->p, w->count);
+  if (pole) { /* the first that begins on it */
+    double lo = fmin(w->p[w->count - 1].lon, w->p[w->count - 2].lon);
+    strip[0] = strip[1] = -strip_of(-lo - 360);
+  }
+  for (int k = strip[0]; k <= strip[1] && work && place; k++) {
+    size_t m = around_clip(work, w->p, w->count, 360.0 * k - 180, 1);
+    m = around_clip(work + room, work, m, 360.0 * k + 180, -1);
+    part_put(t, place, work + room, m, 360.0 * k);
+  }
+  dyd_status st = work && place ? DYD_OK : DYD_E_NOMEM;
+  free(place);
+  free(work);
+  return st;
+}
+
+static dyd_status globe_put(dyd_table *t) {
+  dyd_row_part(t);
+  dyd_row_outline(t, (const double[]){-180, 180, -90, 90});
+  return DYD_OK;
+}
+
+dyd_status dyd_row_around(dyd_table *t, const dyd_side *side, size_t sides, double most) {
+  way w = {.step = most * DEGREE * (1 + 1e-9)}, closed = {0};
+  if (!sides) return globe_put(t);
+  for (size_t k = 0; k < sides; k++) way_side(&w, &side[k], sides == 1);
+  dyd_status st = w.st;
+  if (st == DYD_OK) way_close(&closed, &w);
+  if (st == DYD_OK) st = closed.st;
+  if (st == DYD_OK && closed.count > 3) {
+    way_unroll(closed.p, closed.count);
+    way_settle(&closed);
+    bool pole = fabs(closed.p[closed.count - 1].lon - closed.p[0].lon) > 180;
+    if (pole)
+      way_close_pole(&closed);
+    else
+      closed.count--;
+    st = closed.st == DYD_OK ? around_put(t, &closed, pole) : closed.st;
+  }
+  free(closed.p);
+  free(w.p);
+  return st;
 }

@@ -75,6 +75,7 @@ typedef struct dyd_sphere_result {
   dyd_pair_list pairs;
   unsigned epsg;
   const dyd_rect *window; /* what pictures show, in degrees; NULL: everything */
+  double max_arc;         /* sides of cells are divided into arcs of so many degrees at most */
 } dyd_sphere_result;
 
 /* Writers that such arrays take from other files. */

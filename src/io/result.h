@@ -53,6 +53,11 @@ dyd_status dyd_result_sites(dyd_site_row **out, const dyd_result *r);
 dyd_status dyd_sphere_sites(dyd_site_row **out, const dyd_sphere_result *r);
 dyd_status dyd_sphere_vectors(dyd_vector_text **out, char bound[DYD_DECIMAL_SIZE], const dyd_sphere_result *r,
                               dyd_error *err);
+/* Where each place may be, in degrees. Released with free(). */
+typedef struct dyd_degree_box {
+  double end[4];
+} dyd_degree_box;
+dyd_status dyd_sphere_boxes(dyd_degree_box **out, const dyd_sphere *s);
 /* What meshes take from it: pairs, borrowed, and the engine of places. */
 dyd_result dyd_sphere_mesh(const dyd_output *o);
 

@@ -7,19 +7,14 @@
 #include "io/parts.h"
 #include "io/result.h"
 
-/* Where a point may be, in degrees. */
-typedef struct degree_box {
-  double end[4];
-} degree_box;
-
 static dyd_table_head sphere_head(const dyd_output *o, const char *const *column, dyd_geometry geometry) {
   const dyd_sphere_result *r = o->what;
   return (dyd_table_head){o->out, o->format, column, geometry, r->epsg, dyd_sphere_places(r->sphere), r->sphere};
 }
 
-static dyd_status sphere_boxes(degree_box **out, const dyd_sphere *s) {
+dyd_status dyd_sphere_boxes(dyd_degree_box **out, const dyd_sphere *s) {
   size_t n = dyd_engine_count(dyd_sphere_places(s));
-  degree_box *box = dyd_alloc(n, sizeof *box);
+  dyd_degree_box *box = dyd_alloc(n, sizeof *box);
   dyd_rect r;
   dyd_status st = box ? DYD_OK : DYD_E_NOMEM;
   dyd_rect_init(&r);
@@ -47,9 +42,9 @@ static void sphere_comments(const dyd_output *o) {
 dyd_status dyd_sphere_layer_pairs(const dyd_output *o) {
   const dyd_sphere_result *r = o->what;
   const dyd_table_head head = sphere_head(o, dyd_columns_of_pairs, DYD_GEOMETRY_LINES);
-  degree_box *box = NULL;
+  dyd_degree_box *box = NULL;
   dyd_table t;
-  dyd_status st = o->format == DYD_FORMAT_CSV ? DYD_OK : sphere_boxes(&box, r->sphere);
+  dyd_status st = o->format == DYD_FORMAT_CSV ? DYD_OK : dyd_sphere_boxes(&box, r->sphere);
   if (st != DYD_OK) return st;
   sphere_comments(o);
   dyd_table_begin(&t, &head);
@@ -88,10 +83,10 @@ dyd_status dyd_sphere_layer_points(const dyd_output *o) {
                                        "tie", "hull", NULL};
   const dyd_sphere_result *r = o->what;
   const dyd_table_head head = sphere_head(o, column, DYD_GEOMETRY_POINT);
-  degree_box *box = NULL;
+  dyd_degree_box *box = NULL;
   dyd_site_row *rows = NULL;
   dyd_table t;
-  dyd_status st = sphere_boxes(&box, r->sphere);
+  dyd_status st = dyd_sphere_boxes(&box, r->sphere);
   if (st == DYD_OK) st = dyd_sphere_sites(&rows, r);
   if (st == DYD_OK) {
     sphere_comments(o);
@@ -147,12 +142,16 @@ dyd_result dyd_sphere_mesh(const dyd_output *o) {
 
 /* ---- triangles ---- */
 
+enum { TRIANGLE_ARC = 2 }; /* degrees */
+
 /* A triangle that is no less than half of the sphere has the other side of its corners on its left. */
-static dyd_status triangle_outline(dyd_table *t, const degree_box *box, const uint32_t v[3]) {
+static dyd_status triangle_outline(dyd_table *t, const dyd_degree_box *box, const uint32_t v[3]) {
   dyd_lon_lat corner[3];
+  dyd_side side[3];
   if (!box) return DYD_OK;
   for (int c = 0; c < 3; c++) corner[c] = dyd_lon_lat_of(box[v[c]].end);
-  return dyd_turns_left(corner) ? dyd_row_around(t, corner, 3) : DYD_OK;
+  for (int c = 0; c < 3; c++) side[c] = (dyd_side){.from = corner[c], .to = corner[(c + 1) % 3]};
+  return dyd_turns_left(corner) ? dyd_row_around(t, side, 3, TRIANGLE_ARC) : DYD_OK;
 }
 
 dyd_status dyd_sphere_layer_triangles(const dyd_output *o) {
@@ -160,9 +159,9 @@ dyd_status dyd_sphere_layer_triangles(const dyd_output *o) {
   const dyd_sphere_result *r = o->what;
   const dyd_table_head head = sphere_head(o, column, DYD_GEOMETRY_POLYGONS);
   dyd_triangle_list list = {0};
-  degree_box *box = NULL;
+  dyd_degree_box *box = NULL;
   dyd_table t;
-  dyd_status st = o->format == DYD_FORMAT_CSV ? DYD_OK : sphere_boxes(&box, r->sphere);
+  dyd_status st = o->format == DYD_FORMAT_CSV ? DYD_OK : dyd_sphere_boxes(&box, r->sphere);
   if (st == DYD_OK) st = dyd_sphere_triangles(&list, r->sphere);
   if (st == DYD_OK && o->format == DYD_FORMAT_CSV) dyd_csv_sphere_aliases(o->out, r->sphere);
   if (st == DYD_OK) dyd_table_begin(&t, &head);

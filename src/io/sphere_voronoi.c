@@ -8,6 +8,7 @@
 #include "io/parts.h"
 #include "io/result.h"
 #include "io/sphere_cells.h"
+#include <math.h>
 
 static dyd_table_head sphere_diagram_head(const dyd_output *o, const char *const *column, dyd_geometry geometry) {
   const dyd_sphere_result *r = o->what;
@@ -23,20 +24,31 @@ static void put_nodes(FILE *out, const dyd_sphere_cells *c, size_t i, const char
   }
 }
 
-/* The polygon of a cell that is known all around, and smaller than half of the sphere. */
-static dyd_status cell_outline(dyd_table *t, const dyd_sphere_cells *c, size_t i) {
+/* How far a vertex may be from where it is shown; at a pole longitudes are one. */
+static double node_error(const dyd_sphere_node *v) {
+  double lon = v->at.lon + 360 * nearbyint((v->box[0] / 2 + v->box[1] / 2 - v->at.lon) / 360);
+  double x = fabs(v->at.lat) == 90 ? 0 : fmax(lon - v->box[0], v->box[1] - lon);
+  return fmax(x, fmax(v->at.lat - v->box[2], v->box[3] - v->at.lat));
+}
+
+/* The polygon of a cell that is known all around. */
+static dyd_status cell_outline(dyd_table *t, const dyd_sphere_cells *c, double most, uint32_t i) {
   size_t n = c->first[i + 1] - c->first[i];
-  if (t->head->format == DYD_FORMAT_CSV || !c->closed[i] || n < 3) return DYD_OK;
-  dyd_lon_lat *corner = dyd_alloc(n, sizeof *corner);
-  if (!corner) return DYD_E_NOMEM;
-  for (size_t k = 0; k < n; k++) corner[k] = dyd_lon_lat_of(c->node[c->of[c->first[i] + k]].box);
-  dyd_status st = dyd_row_around(t, corner, n);
-  free(corner);
+  double error = 0;
+  if (t->bare || !c->closed[i]) return DYD_OK;
+  dyd_side *side = dyd_alloc(n + 1, sizeof *side);
+  if (!side) return DYD_E_NOMEM;
+  for (size_t k = 0; k < n; k++) side[k] = dyd_sphere_cell_side(c, i, k);
+  n += dyd_sphere_cell_is_half(&side[n], c, t->head->sphere, i);
+  dyd_status st = dyd_row_around(t, side, n, most);
+  for (size_t k = c->first[i]; k < c->first[i + 1]; k++) error = fmax(error, node_error(&c->node[c->of[k]]));
+  t->error += error;
+  free(side);
   return st;
 }
 
 /* The list as one value; blanks between numbers need no quotes. */
-static dyd_status cell_row(dyd_table *t, const dyd_sphere_cells *c, size_t i) {
+static dyd_status cell_row(dyd_table *t, const dyd_sphere_cells *c, double most, uint32_t i) {
   char *text = NULL;
   size_t length = 0;
   FILE *list = open_memstream(&text, &length);
@@ -44,7 +56,7 @@ static dyd_status cell_row(dyd_table *t, const dyd_sphere_cells *c, size_t i) {
   put_nodes(list, c, i, " ", "*");
   bool good = fclose(list) == 0;
   dyd_row_begin(t);
-  dyd_status st = good ? cell_outline(t, c, i) : DYD_E_NOMEM;
+  dyd_status st = good ? cell_outline(t, c, most, i) : DYD_E_NOMEM;
   dyd_row_site(t, i);
   dyd_row_id(t, i);
   dyd_row_text(t, c->closed[i] ? "yes" : "no");
@@ -65,7 +77,7 @@ dyd_status dyd_sphere_layer_cells(const dyd_output *o) {
     if (o->format == DYD_FORMAT_CSV) dyd_csv_sphere_aliases(o->out, r->sphere);
     dyd_table_begin(&t, &head);
     for (uint32_t i = 0; i < c.places && st == DYD_OK; i++)
-      if (dyd_sphere_alias(r->sphere, i) == i) st = cell_row(&t, &c, i);
+      if (dyd_sphere_alias(r->sphere, i) == i) st = cell_row(&t, &c, r->max_arc, i);
     dyd_table_end(&t);
   }
   dyd_sphere_cells_clear(&c);

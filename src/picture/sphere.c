@@ -72,11 +72,10 @@ static double map_longitude(const sphere_drawing *d, double lon) {
 }
 
 /* Beyond the seam it goes on at the other side of the map. */
-static void arc_follow(sphere_drawing *d, const double *from, const double *to, arc_step step) {
-  const dyd_lon_lat corner[2] = {dyd_lon_lat_of(from), dyd_lon_lat_of(to)};
+static void side_follow(sphere_drawing *d, const dyd_side *side, bool whole, arc_step step) {
   dyd_lon_lat *p = NULL;
   size_t n = 0;
-  dyd_status st = dyd_great_circles(&p, &n, corner, 2);
+  dyd_status st = dyd_side_places(&p, &n, side, whole);
   for (size_t k = 0; k < n; k++) {
     p[k].lon = map_longitude(d, p[k].lon);
     double turn = !k ? 0 : p[k].lon - p[k - 1].lon > 180 ? 360 : p[k].lon - p[k - 1].lon < -180 ? -360 : 0;
@@ -88,6 +87,10 @@ static void arc_follow(sphere_drawing *d, const double *from, const double *to, 
   }
   free(p);
   if (st != DYD_OK) d->failed = st;
+}
+
+static void arc_follow(sphere_drawing *d, const double *from, const double *to, arc_step step) {
+  side_follow(d, &(dyd_side){.from = dyd_lon_lat_of(from), .to = dyd_lon_lat_of(to)}, false, step);
 }
 
 static void draw_graticule(sphere_drawing *d) {
@@ -125,18 +128,22 @@ static void draw_pairs(sphere_drawing *d) {
   }
 }
 
-/* Sides between vertices that follow each other in a cell, each once. */
+/* Sides between vertices that follow each other in a cell, each once; and the one of two halves. */
 static void draw_cells(sphere_drawing *d) {
   const dyd_sphere_cells *g = d->cells;
   size_t drawn = 0;
-  for (size_t i = 0; i < g->places; i++)
+  dyd_side side;
+  for (uint32_t i = 0; i < g->places; i++) {
+    if (!drawn && dyd_sphere_cell_is_half(&side, g, d->r->sphere, i)) side_follow(d, &side, true, arc_draw), drawn++;
     for (size_t k = g->first[i]; k < g->first[i + 1]; k++) {
       bool last = k + 1 == g->first[i + 1];
       size_t next = last ? g->first[i] : k + 1;
       if ((last && !g->closed[i]) || g->gap[next] || g->of[k] >= g->of[next]) continue;
-      arc_follow(d, g->node[g->of[k]].box, g->node[g->of[next]].box, arc_draw);
+      side = dyd_sphere_cell_side(g, i, k - g->first[i]);
+      side_follow(d, &side, false, arc_draw);
       drawn++;
     }
+  }
   if (drawn) dyd_picture_stroke(d->canvas, kind[2].rgb, d->view.line, 0, 0);
 }
 

@@ -283,6 +283,38 @@ dyd_status dyd_sphere_triangles(dyd_triangle_list *out, const dyd_sphere *s) {
   return st;
 }
 
+/* ---- circles ---- */
+
+/* A walk over the ties of images. */
+typedef struct circle_walk {
+  const dyd_sphere *s;
+  dyd_group_fn visit;
+  void *user;
+} circle_walk;
+
+/* [SPH-1] [SPH-4] Images of one circle are places of one, seen from the other side. A line of the hull, followed
+ * clockwise about it, is a circle with the centre; one that holds all images is empty on both sides. */
+static dyd_status circle_tell(void *user, dyd_group_kind kind, const dyd_index_list *images) {
+  const circle_walk *w = user;
+  bool chain = kind == DYD_GROUP_CHAIN;
+  if (kind == DYD_GROUP_PAIR || (chain && w->s->free)) return DYD_OK;
+  dyd_index_list circle = {images->count + chain, NULL};
+  circle.item = dyd_alloc(circle.count, sizeof *circle.item);
+  if (!circle.item) return DYD_E_NOMEM;
+  circle.item[0] = w->s->centre;
+  for (size_t k = 0; k < images->count; k++) circle.item[circle.count - 1 - k] = w->s->of[images->item[k]];
+  dyd_status st = w->visit(w->user, DYD_GROUP_CIRCLE, &circle);
+  for (size_t k = 0; k < images->count; k++) circle.item[circle.count - images->count + k] = w->s->of[images->item[k]];
+  if (st == DYD_OK && chain && images->count == w->s->with_image) st = w->visit(w->user, DYD_GROUP_CIRCLE, &circle);
+  dyd_index_list_clear(&circle);
+  return st;
+}
+
+dyd_status dyd_sphere_each_circle(const dyd_sphere *s, dyd_group_fn visit, void *user) {
+  if (!s || !visit) return DYD_E_ARG;
+  return dyd_delaunay_each_group(dyd_engine_delaunay(s->images), circle_tell, &(circle_walk){s, visit, user});
+}
+
 /* ---- places ---- */
 
 static dyd_status spot_side(dyd_interval *out, const dyd_spot *spot, int a) {
