@@ -23,7 +23,7 @@ WRONG = {
     '--oracle-jobs': WHOLE, '--oracle-batch': WHOLE, '--schedules': WHOLE,
     '--seed': WHOLE[1:], '--site': WHOLE[1:], '--oracle-retries': WHOLE[1:],
     '--flatten': WHOLE[2:],
-    '--timeout': SECONDS, '--oracle-timeout': SECONDS, '--trace-sync': SECONDS,
+    '--max-arc': SECONDS, '--timeout': SECONDS, '--oracle-timeout': SECONDS, '--trace-sync': SECONDS,
     '--schedule': ('', 'fast', 'Adaptive', 'uniform '),
     '--of': ('', 'Voronoi', 'both'),
     '--metric': ('', 'max', 'Box', 'box '),

@@ -229,9 +229,9 @@ def test_voronoi():
     for i, cell in enumerate(v):
         assert all(i in v.corners[k] for k in cell.vertices)
     cube = dyadel.delaunay([(x, y) for x in (45, 135, -45, -135) for y in (30, -30)], sphere=True).voronoi()
-    assert [region['status'] for region in cube.regions] == ['tie'] * 6 and cube[0] == dyadel.SphereCell([], False)
+    assert [region['status'] for region in cube.regions] == ['tie'] * 6 and cube[0].complete and len(cube[0].vertices) == 3
     square = dyadel.delaunay([(1, 1), (-1, 1), (1, -1), (-1, -1), (180, 0)], sphere=True).voronoi()
-    assert None in square[0].vertices and not square[0].complete and square[4].complete
+    assert len(set(square[0].vertices) & set(square[3].vertices)) == 1 and square[0].complete and square[4].complete
     assert json.loads(v.write('json'))['cells'] and v.write(layer='vertices').startswith('#') and '<svg' in v._repr_svg_()
     assert len(v.__geo_interface__['features']) == 100 and dyadel.delaunay([(0, 0), (360, 0), (9, 9)], sphere=True).voronoi()[1]
     harness.raised(IndexError, lambda: v[100])

@@ -16,6 +16,7 @@ VERIFY = 'certificates: laws.judge_certificate runs verify on what rows write, t
 PICTURE = 'says nothing that can be read back: the geometry drawn is that of csv and svg'
 REASONS = {  # (command or *, option, format:F, layer:L or OPTION=word): why no row types it
     ('verify', '*'): VERIFY,
+    ('voronoi', '--max-arc'): 'about the polygons of cells on the sphere, which tests/cli/test_sphere_cells.py looks at',
     ('*', '--help'): 'says nothing about points', ('*', '--version'): 'says nothing about points',
     ('*', '--resume'): 'laws.judge_resume gives it what --trace wrote',
     ('converge', '--trace-sync'): 'as --trace', ('converge', '--trace'): 'a trace of stages says what its table does', ('converge', '--resume'): 'as --trace',
