@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/certificate.c: the words that are compared are there. */
 /* Without checker_sections, settle_sections, run_nearest: contract not written yet. */
+/* Without checker_end, dyd_checker_clear, dyd_checker_settle: they call functions of sections without contracts. */
 /* Without checker_clear_second, read_second, read_last_lines, checker_sphere, checker_settle_second,
    checker_settle_sphere: the second certificate has a checker of its own, of which no header says anything. */
 #define __int128 long long /* of areas nothing is proved here */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/faces.c: open sets grow in their lists, and are found by sites that are there. */
+/* Without dyd_cert_faces_init: its loop over sets writes to a list whose length no contract states yet. */
 #include "faces.h"
 #include "by_key.h"
 

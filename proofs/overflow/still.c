@@ -32,7 +32,7 @@ int compare_with_literal(const char *s);
 #define strcmp(s, literal) compare_with_literal(s)
 /*@ requires \valid_read(edges) && pairs(edges, SITES); assigns \nothing; exits \false; */
 bool dyd_cert_edges_have(const dyd_cert_edges *edges, uint32_t i, uint32_t j);
-/* Without places_stay: contract not written yet. */
+/* Without places_stay, dyd_checker_stays: contract of places_stay not written yet. */
 /*@ requires \valid(out) && checks(c) && (still == \null || \valid_read(still + (0 .. SITES - 1))) &&
       \separated(out, c, still + (0 .. SITES - 1), c->sites.site + (0 .. SITES - 1));
     exits \false; */
