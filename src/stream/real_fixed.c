@@ -72,23 +72,44 @@ static void widened_release(void *user) {
   free(w);
 }
 
+/* radius becomes the sum of the radii around x. */
+static void real_radius(mpq_t radius, const dyd_real *x);
+
+/* By how much more than the radius an interval of x that is not final is widened, on the grid of 2^exp [DISC-4]. */
+static void widened_margin(mpq_t out, const dyd_real *x, const mpq_t lo, const mpq_t hi, int64_t exp) {
+  mpq_t radius;
+  mpq_init(radius);
+  real_radius(radius, x);
+  mpq_sub(out, hi, lo);
+  mpq_sub(out, out, radius);
+  mpq_sub(out, out, radius);
+  mpq_div_2exp(out, out, 2);
+  mpq_set_ui(radius, 1, 1);
+  (exp < 0 ? mpq_div_2exp : mpq_mul_2exp)(radius, radius, (mp_bitcnt_t)(exp < 0 ? -exp : exp));
+  mpq_add(out, out, radius);
+  mpq_clear(radius);
+}
+
 /* out = the interval of w->x, widened; fixed once and for all when x is final, else on the grid of 2^exp. */
 static dyd_status widened_interval(dyd_interval *out, const widened *w, int64_t exp) {
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  const bool final = dyd_real_is_final(w->x);
+  mpq_t lo, hi, more;
+  mpq_inits(lo, hi, more, NULL);
   dyd_interval_get_q(lo, hi, dyd_real_interval(w->x));
-  mpq_sub(lo, lo, w->radius);
-  mpq_add(hi, hi, w->radius);
-  dyd_status st = dyd_real_is_final(w->x) ? dyd_interval_fix(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
-  mpq_clears(lo, hi, NULL);
+  if (!final) widened_margin(more, w->x, lo, hi, exp);
+  mpq_add(more, more, w->radius);
+  mpq_sub(lo, lo, more);
+  mpq_add(hi, hi, more);
+  dyd_status st = final ? dyd_interval_fix(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
+  mpq_clears(lo, hi, more, NULL);
   return st;
 }
 
 static dyd_status widened_narrow(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
   widened *w = user;
-  dyd_status st = dyd_real_narrow_until(w->x, request->bits + 2, request->max_bits + 2, request->stop, err);
+  dyd_status st = dyd_real_narrow_until(w->x, request->bits + 3, request->max_bits + 3, request->stop, err);
   if (dyd_narrow_ended(st)) return st;
-  st = widened_interval(out, w, -request->bits - 2);
+  st = widened_interval(out, w, -request->bits - 3);
   if (st != DYD_OK) return dyd_fail(err, st, "the interval around a value: %s", dyd_status_text(st));
   return dyd_real_is_final(w->x) ? DYD_FIXED : DYD_OK;
 }
@@ -119,7 +140,6 @@ dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radius) {
   return st;
 }
 
-/* radius becomes the sum of the radii around x. */
 static void real_radius(mpq_t radius, const dyd_real *x) {
   mpq_set_ui(radius, 0, 1);
   for (const widened *w; (w = dyd_real_user(x, widened_narrow)); x = w->x) mpq_add(radius, radius, w->radius);

@@ -5,9 +5,11 @@ lattice [WIT-FLT], with about the bits by which it differs from that. Statuses a
 
 Usage: test_decided.py COMMAND DATA
 """
+import json
 import os
 import random
 import re
+from fractions import Fraction
 from itertools import combinations
 
 from mpmath import mp, mpf
@@ -80,6 +82,30 @@ def test_boxes_of_the_arc():
     boxes = [[f'[{v >> BITS - 152}*2^-152,{(v >> BITS - 152) + 1}*2^-152]' for v in p] for p in integers(arc(ARC, 100, 100))]
     result = run('delaunay', '-', stdin=''.join(' '.join(b) + '\n' for b in boxes))
     assert result.code == 0 and '2,4,legal' in result.out.split(), result.err
+
+
+def test_discs_of_computed_points_hold_them():
+    """At every precision the disc that stands for a computed point with a radius, half as wide as its square and by 2^-50 of
+    the coordinates wider, holds the disc around the point [DISC-4]."""
+    r = random.Random(SEED)
+    for bits in (*range(2, 24), 40, 64, 65):
+        texts = [(f'sqrt({r.randint(2, 99)})*2^-{k % 3}', f'exp(1/{r.randint(2, 9)})+{k}') for k in range(6)]
+        radius = Fraction(r.randint(1, 40), 64)
+        result = run('delaunay', '-', '--radius', str(radius), '--max-bits', str(bits), '--format', 'json',
+                     stdin=''.join(f'{x} {y}\n' for x, y in texts))
+        assert result.code in (0, 3, 4), result.err
+        for place, true in zip(json.loads(result.out)['sites'], integers(texts)):
+            sides = [[exact(end) for end in place[axis]] for axis in 'xy']
+            room = sum(abs(a + b) + b - a for a, b in sides) / 2 ** 50
+            half = (max(b - a for a, b in sides) + room) / 2
+            off = [Fraction(t, 1 << BITS) - (a + b) / 2 for t, (a, b) in zip(true, sides)]
+            assert half >= radius and sum(d * d for d in off) <= (half - radius) ** 2, (bits, texts, radius)
+
+
+def exact(text):
+    """An exact end: a rational, or m*2^e."""
+    number, _, power = text.partition('*2^')
+    return Fraction(number) * Fraction(2) ** int(power or 0)
 
 
 def weights(r, n):

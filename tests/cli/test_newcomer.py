@@ -120,7 +120,7 @@ def test_outputs_that_fail():
 
 
 def test_polygons_too_fine():
-    for text, bits in (('[0,1] 0\n[4,5] [0,1]\n0 [4,5]\n', '60'), ('0 0\n1 0\n0 1\n3 5\n', '1000000')):
+    for text, bits in (('[0,1] 0\n[4,5] [0,1]\n0 [4,5]\n', '60'), ('[0,1] 0\n[4,5] [0,1]\n0 [4,5]\n', '1000000')):
         expect(run('voronoi', '--quiet', '--flatten', bits, '-', stdin=text), 1, r'\A\Z',
                r'polygons within 2\^-' + bits + ' of their cells .*; give a smaller M by --flatten')
 

@@ -54,7 +54,7 @@ def cases():
     yield Case('converge', '--replay', 't', '--no-times', '-o', 'o', inputs={'t': trace}, outputs=('o',))
     yield Case('delaunay', 'p', '-o', 'o', '--resume', 't', '--trace', 'u', inputs={'t': trace, **points}, outputs=('o',), loose=True)
     yield Case('delaunay', 'p', '-o', 'o', '--layer', 'graph:mst', inputs=points, outputs=('o',))
-    yield Case('voronoi', '--sphere', *COLUMNS, 'p', '-o', 'o', inputs=near, outputs=('o',))
+    yield Case('voronoi', '--sphere', '--radius-unit', 'deg', *COLUMNS, 'p', '-o', 'o', inputs=near, outputs=('o',))
     yield Case('check', 'p', '--schedules', '2', '-o', 'o', inputs=points, outputs=('o',))
     certificate = made('delaunay', 'p', '-o', 'o', '--certificate', 'c', inputs=exact, output='c')
     yield Case('verify', 'c', '-o', 'o', inputs={'c': certificate}, outputs=('o',))

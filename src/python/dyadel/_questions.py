@@ -246,12 +246,13 @@ def verify(certificate: bytes, points: Any = None, radius: Any = None, sphere: b
 
     Error with code 'parse' and the line when it is rejected.
     """
-    engine, kept = None, [None, None, None]
+    engine = None
+    kept: tuple[str | None, str | None, str | None] = (None, None, None)
     if points is not None:
         engine = _dyadel.Engine()
         if sphere:
             from ._sphere import append_places  # which imports this module
-            _, *kept = append_places(engine, points, radius, radius_unit)
+            kept = append_places(engine, points, radius, radius_unit)[1:]
         else:
             append_points(engine, points, radius)
     report = _dyadel.verify(certificate, engine, sphere, *kept, engine_options(**options))
