@@ -6,6 +6,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "checker/near.h"
 #include "delaunay/memory.h"
 #include "io/output.h"
 #include "prove/proof.h"
@@ -325,27 +326,54 @@ dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_engine *e, 
 
 /* ---- places ---- */
 
-static void put_near_bound(FILE *out, double bound) {
+/* Sets *out to a bound; returns false if it is infinite. */
+static bool near_bound_set(dyd_exact *out, double bound) {
   dyd_dyadic d;
-  dyd_exact x;
   dyd_dyadic_init(&d);
-  dyd_exact_init(&x);
-  if (dyd_dyadic_set_d(&d, bound) == DYD_OK) {
-    dyd_proof_set(&x, &d);
-    putc(' ', out);
-    dyd_proof_put_number(out, &x);
-  } else {
-    fputs(" none", out);
-  }
-  dyd_exact_clear(&x);
+  bool finite = dyd_dyadic_set_d(&d, bound) == DYD_OK;
+  if (finite) dyd_proof_set(out, &d);
   dyd_dyadic_clear(&d);
+  return finite;
 }
 
-static dyd_status put_near_site(FILE *out, const dyd_proof *p, const dyd_rect *at, uint32_t i, dyd_rect *scratch) {
+static void put_near_bound(FILE *out, double bound) {
+  dyd_exact x;
+  dyd_exact_init(&x);
+  bool finite = near_bound_set(&x, bound);
+  fputs(finite ? " " : " none", out);
+  if (finite) dyd_proof_put_number(out, &x);
+  dyd_exact_clear(&x);
+}
+
+/* Until the checker, which rounds rational ends outward, sees the distance between them. */
+static void widen_near_bounds(double *lo, double *hi, const dyd_cert_site *place, const dyd_cert_site *site) {
+  dyd_cert_span a, b;
+  dyd_exact low, high;
+  dyd_cert_span_init(&a);
+  dyd_cert_span_init(&b);
+  dyd_exact_init(&low);
+  dyd_exact_init(&high);
+  dyd_cert_span_set(&a, place);
+  dyd_cert_span_set(&b, site);
+  double step = *hi > 0 ? *hi * 0x1p-52 : 0x1p-1000;
+  for (; near_bound_set(&low, *lo) && near_bound_set(&high, *hi); step *= 16) {
+    if (dyd_cert_near_bounds_hold(&a, &b, &low, &high)) break;
+    *lo = *lo > step ? *lo - step : 0;
+    *hi += step;
+  }
+  dyd_exact_clear(&high);
+  dyd_exact_clear(&low);
+  dyd_cert_span_clear(&b);
+  dyd_cert_span_clear(&a);
+}
+
+static dyd_status put_near_site(FILE *out, const dyd_proof *p, const dyd_rect *at, const dyd_cert_site *place,
+                                uint32_t i, dyd_rect *scratch) {
   double lo, hi;
   dyd_status st = dyd_sites_get(scratch, dyd_delaunay_sites(p->pd), i);
   if (st != DYD_OK) return st;
   dyd_rect_distance(&lo, &hi, at, scratch);
+  widen_near_bounds(&lo, &hi, place, &p->sites.site[i]);
   fprintf(out, " %" PRIu32, i);
   put_near_bound(out, lo);
   put_near_bound(out, hi);
@@ -362,10 +390,10 @@ static dyd_status put_near_place(FILE *out, const dyd_proof *p, const dyd_neares
     certificate_side(out, &at.site[0].side[1]);
     fputs(a->sure ? " c" : " p", out);
   }
-  dyd_cert_sites_clear(&at);
   for (size_t k = 0; k < a->found->count && st == DYD_OK; k++)
-    st = put_near_site(out, p, a->at, a->found->item[k], scratch);
+    st = put_near_site(out, p, a->at, &at.site[0], a->found->item[k], scratch);
   putc('\n', out);
+  dyd_cert_sites_clear(&at);
   return st;
 }
 

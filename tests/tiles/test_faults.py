@@ -110,7 +110,7 @@ class Faults(unittest.TestCase):
         """What the manifest says does not depend on which parts were there; a cap is another job."""
         cases.write(self.at / 'in.bin', cases.line(300, random.Random(1)))
         name = ('delaunay', self.file, '-o', self.out)
-        for words, status in ((('--max-pairs', '10'), 4), ((), 3)):
+        for words, status in ((('--max-pairs', '10'), 3), ((), 3)):
             told = []
             for restart in ((), ('--restart',)):
                 again = (*words, '--restart') if words == () else (*words, *restart)
@@ -182,9 +182,13 @@ class Faults(unittest.TestCase):
         self.assertIn('0.', subprocess.run([TILES, '--version'], capture_output=True, text=True).stdout)
 
     def test_options(self):
-        """A cap on pairs ends in outcome budget, ties in fixpoint, which may be accepted."""
+        """A cap on pairs ends in outcome budget; ties, which it does not count, in fixpoint, which may be accepted."""
+        cases.write(self.at / 'in.bin', [(k, k + 30, k, k + 30) for k in range(20)])
+        done = tiles(2, 'delaunay', self.file, '--boxes', '-o', self.out, '--max-pairs', '10')
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn('"outcome":"budget"', (self.at / 'out' / 'manifest.json').read_text())
         cases.write(self.at / 'in.bin', cases.line(300, random.Random(1)))
-        for words, status, outcome in ((('--max-pairs', '10'), 4, 'budget'), ((), 3, 'fixpoint'),
+        for words, status, outcome in ((('--max-pairs', '10'), 3, 'fixpoint'), ((), 3, 'fixpoint'),
                                        (('--accept-fixpoint', '--stats'), 0, 'fixpoint')):
             done = tiles(2, 'delaunay', self.file, '-o', self.out, *words)
             self.assertEqual(done.returncode, status, done.stderr)
