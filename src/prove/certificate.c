@@ -89,21 +89,6 @@ static dyd_status proof_gather(dyd_proof *p) {
 
 /* ---- sections ---- */
 
-static void certificate_side(FILE *out, const dyd_cert_side *s) {
-  dyd_proof_put_number(out, &s->lo);
-  if (s->den) {
-    putc('/', out);
-    mpz_out_str(out, 10, *s->den);
-  }
-  if (s->point) return;
-  dyd_exact width;
-  dyd_exact_init(&width);
-  dyd_exact_sub(&width, &s->hi, &s->lo);
-  putc('+', out);
-  dyd_proof_put_number(out, &width);
-  dyd_exact_clear(&width);
-}
-
 /* Discs may decide what rectangles leave open. */
 static dyd_outcome outcome_of_parts(const dyd_proof *p, const dyd_certificate_parts *parts) {
   bool open = dyd_engine_goal(NULL, p->engine) != DYD_GOAL_DECIDED || dyd_delaunay_is_capped(p->pd);
@@ -385,9 +370,9 @@ static dyd_status put_near_place(FILE *out, const dyd_proof *p, const dyd_neares
   dyd_cert_sites_init(&at);
   dyd_status st = dyd_proof_add_site(&at, a->at);
   if (st == DYD_OK) {
-    certificate_side(out, &at.site[0].side[0]);
+    dyd_proof_put_side(out, &at.site[0].side[0]);
     putc(' ', out);
-    certificate_side(out, &at.site[0].side[1]);
+    dyd_proof_put_side(out, &at.site[0].side[1]);
     fputs(a->sure ? " c" : " p", out);
   }
   for (size_t k = 0; k < a->found->count && st == DYD_OK; k++)
