@@ -91,6 +91,8 @@ def judge_exit(judge, case, status, claims):
     left = sorted(s for s in claims['pairs'].values() if s != 'legal')
     if case.extra in ('accept fixpoint', 'area', 'hausdorff') or case.extra == 'few pairs' or 'listed only' in claims:
         return
+    if case.geometry == 'discs' and case.form in ('python', 'capi'):  # the outcome is that of the squares
+        return
     judge(status == 0 or left or case.softened or case.geometry == 'sphere', 'exit %d, but nothing is open', status)
     judge(status != 0 or not left, 'exit 0, but %d pairs are open', len(left))
     # Images of exact places are refined to the budget beside a region that keeps their pairs open: not settled on the sphere.

@@ -344,13 +344,14 @@ def read_cells(case, out, err, form):
 
 def read_diagram(case, out):
     d = parsed(out)
-    c = {'aliases': None, 'cells': {}, 'inner': {}, 'outer': {}, 'vertices': [], 'regions': []}
+    c = {'aliases': None, 'cells': {}, 'inner': {}, 'outer': {}, 'rounded': {}, 'vertices': [], 'regions': []}
     c['window'] = [number(t) for t in (*d['window']['x'], *d['window']['y'])]
     for q in d['cells']:
         if 'area' in q:
             c['cells'][q['i']] = [None if t is None else Q(t) for t in (*q['area'], *q['x'], *q['y'])]
             c['inner'][q['i']] = [[tuple(number(t) for t in v) for v in q['inner']]]
             c['outer'][q['i']] = [[tuple(number(t) for t in v) for v in p] for p in q['outer']]
+            c['rounded'][q['i']] = number(str(q.get('vertex_error', 0)))
     c['vertices'] = [(v['sites'], [number(t) for t in (*v['x_exact'], *v['y_exact'])]) for v in d['vertices'] if 'x_exact' in v]
     for name, b in d['bounds'].items():
         c[name] = number(b['exact'] if isinstance(b, dict) else b)
@@ -372,12 +373,16 @@ def judge_cells(judge, case, c, ch):
         for x, y in polys[k]:
             holds = all(a is None or b is None or a <= b for a, b in ((q[2], x), (x, q[3]), (q[4], y), (y, q[5])))
             judge(holds, 'cell %d is not in its box', k)
+    for k, e in c.get('rounded', {}).items():
+        if e:
+            judge_rounded(judge, k, e, c['inner'][k], c['outer'][k], polys.get(k, []))
+    exact = {k for k, e in c.get('rounded', {}).items() if e == 0}
     for k, ps in c.get('inner', {}).items():
-        for at in itertools.chain(*ps):
+        for at in itertools.chain(*ps) if k in exact else ():
             d = oracle.ranks(ch.points, at, ch.sites) if k in ch.sites else {}
             judge(all(d[k] < d[m] for m in d if m != k), 'a corner of the inner polygon of %d is nearer to another', k)
     for k, ps in c.get('outer', {}).items():
-        for at in polys.get(k, ()):
+        for at in polys.get(k, ()) if k in exact else ():
             judge(any(holds_point(p, at) for p in ps), 'cell %d is not in its outer polygons', k)
     for t, box in c.get('vertices', ()):
         if len(t) == 3:
@@ -385,14 +390,24 @@ def judge_cells(judge, case, c, ch):
     judge_between(judge, c, ch, polys)
 
 
+def judge_rounded(judge, k, e, inner, outer, poly):
+    """The polygon of an exact cell: each corner is near one of the cell, and each of the cell near one of it."""
+    judge([inner[0]] == outer or not inner[0], 'the inner and the outer polygon of the exact cell %d differ', k)
+    corners = list(itertools.chain(*outer))
+    for a, b, what in ((corners, poly, 'a corner of the polygon'), (poly, corners, 'a corner')):
+        for x, y in a:
+            judge(any(abs(x - u) <= e and abs(y - v) <= e for u, v in b), '%s of cell %d is not where it is stated', what, k)
+
+
 def judge_between(judge, c, ch, polys):
     """What differs between two choices is undetermined: its area, and how far it is from either diagram."""
-    before = c.get('before')
-    c['before'] = ch.points, {k: oracle.area(p) for k, p in polys.items()}, polys
+    before, apart = c.get('before'), len({ch.points[k] for k in ch.sites}) == len(ch.sites)
+    c['before'] = apart, {k: oracle.area(p) for k, p in polys.items()}, polys
     if before is None or c.get('undetermined_area') is None:
         return
-    moved = sum(abs(oracle.area(p) - before[1].get(k, 0)) for k, p in polys.items())
-    judge(moved <= 2 * c['undetermined_area'], 'more area changes hands than is stated to be undetermined')
+    if apart and before[0]:  # cells of sites that meet overlap
+        moved = sum(abs(oracle.area(p) - before[1].get(k, 0)) for k, p in polys.items())
+        judge(moved <= 2 * c['undetermined_area'], 'more area changes hands than is stated to be undetermined')
     d = c.get('distance_to_true_diagram')
     if d is None:
         return

@@ -51,8 +51,7 @@ static dyd_status intake_read_radius(mpq_t out, bool *ground, const dyd_intake *
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (st == DYD_E_DOMAIN) return radius_fail_unit(span, err);
   if (st == DYD_OK) mpq_mul(out, out, in->scale);
-  if (st != DYD_OK || mpq_sgn(out) < 0 || !isfinite(radius_above(out))) return radius_fail(in, span, err);
-  return DYD_OK;
+  return st != DYD_OK || mpq_sgn(out) < 0 ? radius_fail(in, span, err) : DYD_OK;
 }
 
 /* Each row with columns of radii has its own: what they say is added to the radius of all points, or kept. */
@@ -69,6 +68,8 @@ static dyd_status intake_radius(dyd_intake *in, int axis, const dyd_span *span, 
     manner_set_radius(&in->manner[axis], own);
   }
   mpq_clear(own);
+  if (st == DYD_OK && !isfinite(in->kept[axis]))
+    st = dyd_span_fail(err, span, 0, "the radius is above the range of doubles, about 1.8e308; give a smaller one");
   if (st == DYD_OK && axis && in->kept[0] != in->kept[1])
     st = dyd_span_fail(err, span, 0,
                        "the radii in x and in y differ, and here a point has one; name one column of them");
