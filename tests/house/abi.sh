@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # The ABI of the library is the one of tests/data/abi.xml ("ABI rules" in include/dyadel/dyadel.h): every difference
-# fails, and is shown. Usage: abi.sh ROOT [LIBRARY [--renew]]   (LIBRARY has debug information;
+# fails, and is shown. Usage: abi.sh ROOT [LIBRARY BUILD [--renew]]   (LIBRARY, a target of BUILD, has debug information;
 # --renew writes tests/data/abi.xml). Skipped where abigail-tools are not installed, and on other machines than x86-64.
 set -u
 for tool in abidw abidiff; do
@@ -9,6 +9,7 @@ for tool in abidw abidiff; do
 done
 [ "$(uname -m)" = x86_64 ] || { echo "skipped: the dump is of x86-64, this is $(uname -m)"; exit 77; }
 [ $# -gt 1 ] || { echo "skipped: not in a build with sanitizers, or configure again to find abidw"; exit 77; }
+ninja -C "$3" "${2#"$3"/}" >/dev/null || { echo "$2 does not compile"; exit 1; }
 known=$1/tests/data/abi.xml
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
@@ -24,7 +25,7 @@ EOT
 abidw --suppressions "$work/private" --exported-interfaces-only --no-show-locs --no-parameter-names --no-corpus-path \
   --no-comp-dir-path --no-elf-needed --no-write-default-sizes --type-id-style hash "$2" >"$work/abi.xml"
 grep -q "elf-symbol name='dyd_version'" "$work/abi.xml" || { echo "abidw finds no interface in $2"; exit 1; }
-if [ "${3-}" = --renew ]; then
+if [ "${4-}" = --renew ]; then
   cp "$work/abi.xml" "$known" && echo "$known: $(wc -c <"$known") bytes"
   exit
 fi
