@@ -15,7 +15,7 @@ PyObject *dydpy_outcome(PyObject *object, PyObject *none) {
   dydpy_engine *self = (dydpy_engine *)object;
   (void)none;
   if (!dydpy_enter(self)) return NULL;
-  dyd_outcome outcome = dyd_engine_outcome(self->engine);
+  dyd_outcome outcome = self->sphere ? dyd_sphere_outcome(self->sphere) : dyd_engine_outcome(self->engine);
   dydpy_leave(self);
   return PyUnicode_FromString(dyd_outcome_text(outcome));
 }

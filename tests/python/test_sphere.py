@@ -174,6 +174,12 @@ def test_sources():
     assert dyadel.delaunay(dyadel.Source(4, again), sphere=True).outcome == 'decided'
 
 
+def test_open_around_the_gap():
+    """Images are decided, a pair of places around the gap that all is projected from is not: the outcome is of places."""
+    d = dyadel.delaunay([(-82.97, -19.2), (33.21, 66.32), (34.9, 65.43), (-81.82, -19.93)], radius='0.2deg', sphere=True)
+    assert d.indeterminate.tolist() == [[0, 2]] and d.outcome == 'fixpoint', (d.outcome, d.pairs)
+
+
 def answers_of(trace):
     """The lines of a trace without digests, and without answers kept from another trace."""
     lines = [json.loads(line) for line in pathlib.Path(trace).read_text().splitlines()]

@@ -209,6 +209,8 @@ def judge_plan(judge, case, claims, last, rand, effort):
         h = None if h is None else h * (1 - Q(1, 2 ** 40))
         regions.append(s.region if h is None else (n, max(xlo, x - h), min(xhi, x + h), max(ylo, y - h), min(yhi, y + h)))
     middle = stated.Choice([((r[1] + r[2]) / 2, (r[3] + r[4]) / 2) for r in regions], last.sites)
+    if len({middle.points[k] for k in last.sites}) < len(last.sites):
+        return
     pairs = [p for p in itertools.combinations(last.sites, 2) if middle.edge(*p) != 0]
     if len(pairs) < len(last.sites) * (len(last.sites) - 1) // 2:
         return
