@@ -1,10 +1,23 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What the work on one cell has in common: sides of points, samples between points, lists of cuts and pieces. */
+/* Exact boundaries of Int_i and Pos_i: rectangles in one integer scale, curves cut in pieces, pieces linked to chains.
+ *
+ * On the boundary of Int_i some j has dl_i = ds_j <= ds_k for all k; on that of Pos_i some j has dl_j = ds_i <= dl_k.
+ * Let D_k = ds_k (Int) or dl_k (Pos), r = dl_i or ds_i. So the boundary consists of those points of the curves r = D_j
+ * where no D_k is less than r. Along a curve this can change only where D_k = r too and no other D_l is less: there j
+ * and k are both possible at the point, so jk is a possible pair [CELL-2]. Such points are centres of critical circles
+ * FCC (Int) or CFF (Pos) of i, j, k, which dyd_icircles finds [CRIT-1]: where the curves of j and k coincide along a
+ * stretch, since both show the same feature, the end of the stretch is in a pane beyond it, in which they show
+ * different ones, and different features leave finitely many circles. Between two cuts one exact sample decides. Of
+ * curves that coincide the one with the lowest number counts. */
 #include "voronoi/exact_cell.h"
 
 #include "base/alloc.h"
+#include "base/invariant.h"
+#include "predicate/icircle.h"
 
+#include <dyadel/arc.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- samples and sides ---- */
 
@@ -15,7 +28,7 @@ int dyd_cell_spot_side(const dyd_exact_cell *c, const dyd_spot *p, size_t k) {
                                     c->frame->fixed_touch);
 }
 
-mpz_srcptr dyd_window_level(const dyd_exact_cell *c, int side) {
+static mpz_srcptr window_level(const dyd_exact_cell *c, int side) {
   const dyd_irect *w = &c->frame->window.r;
   return side == 0 ? w->y0 : side == 1 ? w->x1 : side == 2 ? w->y1 : w->x0;
 }
@@ -29,13 +42,14 @@ static void sample_make_exact(const dyd_exact_cell *c, dyd_sample *s, const dyd_
   }
   int axis = dyd_window_axis(window_side);
   mpz_set(axis ? p->ay : p->ax, s->num);
-  mpz_mul_2exp(axis ? p->ax : p->ay, dyd_window_level(c, window_side), (mp_bitcnt_t)s->bits);
+  mpz_mul_2exp(axis ? p->ax : p->ay, window_level(c, window_side), (mp_bitcnt_t)s->bits);
   dyd_surd_point_drop_root(p);
   mpz_set_ui(p->d, 1);
   mpz_mul_2exp(p->d, p->d, (mp_bitcnt_t)s->bits);
 }
 
-int dyd_cell_side(const dyd_exact_cell *c, dyd_sample *s, const dyd_elementary *arc, int window_side, size_t k) {
+/* Is the sample nearer to (sign = -1), as far from (0), or farther from (1) other k than the radius dl_i or ds_i? */
+static int cell_side(const dyd_exact_cell *c, dyd_sample *s, const dyd_elementary *arc, int window_side, size_t k) {
   int sign =
       dyd_filter_side(&s->spot, &c->other[k].box, c->frame->other_touch, &c->frame->fixed.box, c->frame->fixed_touch);
   if (sign) return sign;
@@ -60,8 +74,9 @@ static void sample_between(dyd_sample *s, const dyd_spot *low, const dyd_spot *h
   mpz_clears(up, down, t, NULL);
 }
 
-void dyd_cell_sample(dyd_exact_cell *c, const dyd_elementary *arc, int window_side, const dyd_spot *low,
-                     const dyd_spot *high) {
+/* A sample strictly between two points, on an arc or (arc = NULL) on a side of the window. */
+static void cell_sample(dyd_exact_cell *c, const dyd_elementary *arc, int window_side, const dyd_spot *low,
+                        const dyd_spot *high) {
   dyd_sample *s = &c->sample;
   int axis = arc ? arc->axis : dyd_window_axis(window_side);
   static const int end[4] = {2, 1, 3, 0};
@@ -73,9 +88,9 @@ void dyd_cell_sample(dyd_exact_cell *c, const dyd_elementary *arc, int window_si
   dyd_filter_spot_box(&s->spot, c->frame->shift);
 }
 
-/* ---- cuts ---- */
+/* ---- cuts and pieces ---- */
 
-dyd_status dyd_cell_add_cut(dyd_exact_cell *c, size_t *count, const dyd_spot *s) {
+static dyd_status cell_add_cut(dyd_exact_cell *c, size_t *count, const dyd_spot *s) {
   if (!dyd_reserve((void **)&c->cut, &c->cut_cap, *count + 1, sizeof *c->cut)) return DYD_E_NOMEM;
   c->cut[(*count)++] = s;
   return DYD_OK;
@@ -94,7 +109,8 @@ static int compare_cut_y(const void *p, const void *q) {
   return dyd_cell_spot_cmp(*(const dyd_spot *const *)p, *(const dyd_spot *const *)q, 1);
 }
 
-size_t dyd_cell_sort_cuts(const dyd_spot **cut, size_t count, int axis) {
+/* Sorts cuts along axis, drops repeats; returns how many are left. */
+static size_t cell_sort_cuts(const dyd_spot **cut, size_t count, int axis) {
   if (count > 1) qsort(cut, count, sizeof(const dyd_spot *), axis ? compare_cut_y : compare_cut_x);
   size_t kept = 0;
   for (size_t k = 0; k < count; k++)
@@ -102,10 +118,560 @@ size_t dyd_cell_sort_cuts(const dyd_spot **cut, size_t count, int axis) {
   return kept;
 }
 
-/* ---- pieces ---- */
-
-dyd_status dyd_cell_add_piece(dyd_exact_cell *c, dyd_piece p) {
+static dyd_status cell_add_piece(dyd_exact_cell *c, dyd_piece p) {
   if (!dyd_reserve((void **)&c->piece, &c->piece_cap, c->pieces + 1, sizeof *c->piece)) return DYD_E_NOMEM;
   c->piece[c->pieces++] = p;
+  return DYD_OK;
+}
+
+/* ---- boundaries: chains of arcs ---- */
+
+static void arc_init(dyd_arc *a) {
+  *a = (dyd_arc){.kind = DYD_ARC_LINE};
+  dyd_surd_point_init(&a->begin.at);
+  dyd_surd_point_init(&a->end.at);
+}
+
+static void arc_clear(dyd_arc *a) {
+  dyd_surd_point_clear(&a->end.at);
+  dyd_surd_point_clear(&a->begin.at);
+}
+
+/* Appends a chain with room for `arcs` initialised arcs (count = arcs) to a boundary whose chain array has room for it.
+ * NULL when memory is exhausted, nothing changed then. */
+static dyd_chain *boundary_add_chain(dyd_boundary *b, size_t arcs) {
+  dyd_arc *arc = dyd_alloc(arcs, sizeof *arc);
+  if (!arc) return NULL;
+  for (size_t k = 0; k < arcs; k++) arc_init(&arc[k]);
+  dyd_chain *chain = &b->chain[b->count++];
+  *chain = (dyd_chain){.count = arcs, .arc = arc};
+  return chain;
+}
+
+void dyd_boundary_clear(dyd_boundary *b) {
+  for (size_t c = b->count; c-- > 0;) {
+    dyd_chain *chain = &b->chain[c];
+    for (size_t k = chain->count; k-- > 0;) arc_clear(&chain->arc[k]);
+    free(chain->arc);
+  }
+  free(b->chain);
+  *b = (dyd_boundary){0};
+}
+
+/* ---- pieces of the window ----
+ *
+ * Inside W the boundary of the region consists of pieces of the curves, and of points at which a curve touches W from
+ * outside. So along a side the region can begin or end only at an end of an arc on that side (arcs that are one point
+ * included, so that no sample meets a touching point). Between two such ends a sample decides; a stretch that lies on
+ * the boundary of the region itself is no piece of the window (the curve's arc is one, if it has the region on the side
+ * of W). */
+
+/* Adds s if it lies strictly inside the side. */
+static dyd_status cut_side(dyd_exact_cell *c, size_t *count, int side, const dyd_spot *s) {
+  int axis = dyd_window_axis(side);
+  const dyd_irect *w = &c->frame->window.r;
+  if (s->infinite || dyd_surd_point_cmp_z(&s->at, 1 - axis, window_level(c, side))) return DYD_OK;
+  if (dyd_surd_point_cmp_z(&s->at, axis, dyd_irect_end(w, axis, 0)) <= 0) return DYD_OK;
+  if (dyd_surd_point_cmp_z(&s->at, axis, dyd_irect_end(w, axis, 1)) >= 0) return DYD_OK;
+  return cell_add_cut(c, count, s);
+}
+
+static dyd_status side_find_cuts(dyd_exact_cell *c, size_t *count, int side) {
+  *count = 0;
+  for (size_t j = 0; j < c->count; j++)
+    for (size_t a = 0; a < c->curve[j].count; a++)
+      for (int e = 0; e < 2; e++) {
+        dyd_status st = cut_side(c, count, side, &c->curve[j].arc[a].end[e]);
+        if (st != DYD_OK) return st;
+      }
+  return DYD_OK;
+}
+
+static bool side_is_inside(dyd_exact_cell *c, int side) {
+  for (size_t k = 0; k < c->count; k++)
+    if (cell_side(c, &c->sample, NULL, side, k) <= 0) return false;
+  return true;
+}
+
+static dyd_status side_pieces(dyd_exact_cell *c, int side) {
+  size_t count;
+  bool grows = side < 2;
+  const dyd_spot *first = &c->frame->corner[side], *last = &c->frame->corner[(side + 1) & 3];
+  const dyd_spot *lowest = grows ? first : last, *highest = grows ? last : first;
+  dyd_status st = side_find_cuts(c, &count, side);
+  if (st != DYD_OK) return st;
+  count = cell_sort_cuts(c->cut, count, dyd_window_axis(side));
+  for (size_t k = 0; k <= count && st == DYD_OK; k++) {
+    const dyd_spot *low = k ? c->cut[k - 1] : lowest, *high = k < count ? c->cut[k] : highest;
+    cell_sample(c, NULL, side, low, high);
+    if (side_is_inside(c, side))
+      st = cell_add_piece(c, (dyd_piece){c->count + (size_t)side, NULL, grows ? low : high, grows ? high : low});
+  }
+  return st;
+}
+
+/* The pieces of the sides of the window strictly inside the region. */
+static dyd_status cell_window_pieces(dyd_exact_cell *c) {
+  dyd_status st = DYD_OK;
+  for (int side = 0; side < 4 && st == DYD_OK; side++) st = side_pieces(c, side);
+  return st;
+}
+
+/* ---- cuts of an arc ---- */
+
+/* Adds s if it is strictly inside the arc. */
+static dyd_status cut_arc(dyd_exact_cell *c, size_t *count, const dyd_elementary *a, const dyd_spot *s) {
+  if (s->infinite || !dyd_elementary_holds(a, s)) return DYD_OK;
+  if (!a->end[0].infinite && dyd_cell_spot_cmp(s, &a->end[0], a->axis) <= 0) return DYD_OK;
+  if (!a->end[1].infinite && dyd_cell_spot_cmp(s, &a->end[1], a->axis) >= 0) return DYD_OK;
+  return cell_add_cut(c, count, s);
+}
+
+/* All cuts of an arc, unsorted. */
+static dyd_status arc_find_cuts(dyd_exact_cell *c, size_t *count, const dyd_elementary *a, size_t j) {
+  *count = 0;
+  for (size_t m = 0; m < c->meets; m++) {
+    const dyd_meet *meet = &c->meet[m];
+    if (meet->curve[0] != j && meet->curve[1] != j) continue;
+    dyd_status st = cut_arc(c, count, a, &meet->spot);
+    if (st != DYD_OK) return st;
+  }
+  return DYD_OK;
+}
+
+/* ---- pieces of an arc ---- */
+
+/* Does k take the sample on curve j away from it? */
+static bool other_takes_sample(dyd_exact_cell *c, const dyd_elementary *a, size_t j, size_t k) {
+  if (k == j) return false;
+  int sign = cell_side(c, &c->sample, a, 0, k);
+  return sign < 0 || (!sign && k < j);
+}
+
+/* Is the sample on curve j a point of the boundary that counts for j? Who took the last one is asked first. */
+static bool sample_is_kept(dyd_exact_cell *c, const dyd_elementary *a, size_t j) {
+  if (c->taker < c->count && other_takes_sample(c, a, j, c->taker)) return false;
+  for (size_t k = 0; k < c->count; k++)
+    if (k != c->taker && other_takes_sample(c, a, j, k)) return c->taker = k, false;
+  return true;
+}
+
+static dyd_status arc_pieces(dyd_exact_cell *c, size_t j, const dyd_elementary *a) {
+  size_t count;
+  if (a->point) return DYD_OK;
+  dyd_status st = arc_find_cuts(c, &count, a, j);
+  if (st != DYD_OK) return st;
+  count = cell_sort_cuts(c->cut, count, a->axis);
+  bool grows = (a->direction > 0) != c->task->outer;
+  if (dyd_flag_is_set(c->task->cancel)) return DYD_CANCELLED;
+  for (size_t k = 0; k <= count && st == DYD_OK; k++) {
+    const dyd_spot *low = k ? c->cut[k - 1] : &a->end[0], *high = k < count ? c->cut[k] : &a->end[1];
+    cell_sample(c, a, 0, low, high);
+    if (sample_is_kept(c, a, j)) st = cell_add_piece(c, (dyd_piece){j, a, grows ? low : high, grows ? high : low});
+  }
+  return st;
+}
+
+/* ---- meets ---- */
+
+static bool cell_has_room(const dyd_exact_cell *c, uint64_t bytes) {
+  return !c->task->room || dyd_room_has(c->task->room, dyd_bytes_add(c->bytes, bytes), "the boundary of a cell");
+}
+
+/* For one meet more, with what reserving takes while it copies. */
+static bool meets_have_room(dyd_exact_cell *c, const dyd_icircle *circle) {
+  enum { NUMBERS = 6, BLOCK = 16 };
+  mpz_srcptr widest = mpz_size(circle->ax) > mpz_size(circle->ay) ? circle->ax : circle->ay;
+  c->bytes += NUMBERS * (BLOCK + sizeof(mp_limb_t) * mpz_size(widest));
+  return c->meets < c->meet_cap || cell_has_room(c, dyd_bytes_times(3 * c->meets + 16, sizeof *c->meet));
+}
+
+static dyd_status curves_add_meet(dyd_exact_cell *c, size_t j, size_t k, dyd_icircle *circle) {
+  if (!meets_have_room(c, circle)) return DYD_E_NOMEM;
+  if (!dyd_reserve((void **)&c->meet, &c->meet_cap, c->meets + 1, sizeof *c->meet)) return DYD_E_NOMEM;
+  dyd_meet *m = &c->meet[c->meets++];
+  *m = (dyd_meet){.curve = {(uint32_t)j, (uint32_t)k}};
+  dyd_surd_point *p = &m->spot.at;
+  dyd_surd_point_init(p);
+  mpz_swap(p->ax, circle->ax);
+  mpz_swap(p->bx, circle->bx);
+  mpz_swap(p->ay, circle->ay);
+  mpz_swap(p->by, circle->by);
+  mpz_swap(p->c, circle->c);
+  mpz_swap(p->d, circle->d);
+  dyd_filter_spot_box(&m->spot, c->frame->shift);
+  return DYD_OK;
+}
+
+static bool curves_may_meet(const dyd_exact_cell *c, size_t j, size_t k) {
+  const dyd_delaunay *pd = c->task->pd;
+  return !pd || dyd_delaunay_status(pd, c->site[j], c->site[k]) != DYD_ILLEGAL;
+}
+
+static dyd_status curves_find_meets(dyd_exact_cell *c) {
+  dyd_icircle circle[DYD_CELL_CIRCLES];
+  for (int m = 0; m < DYD_CELL_CIRCLES; m++) dyd_icircle_init(&circle[m]);
+  const dyd_touch touch[3] = {c->frame->fixed_touch, c->frame->other_touch, c->frame->other_touch};
+  dyd_status st = DYD_OK;
+  for (size_t j = 0; j < c->count; j++)
+    for (size_t k = j + 1; k < c->count && st == DYD_OK; k++) {
+      if (dyd_flag_is_set(c->task->cancel)) st = DYD_CANCELLED;
+      if (st != DYD_OK || !curves_may_meet(c, j, k)) continue;
+      const dyd_irect *r[3] = {&c->frame->fixed.r, &c->other[j].r, &c->other[k].r};
+      size_t found = dyd_icircles(circle, DYD_CELL_CIRCLES, r, touch);
+      DYD_INVARIANT(found < DYD_CELL_CIRCLES);
+      for (size_t m = 0; m < found && st == DYD_OK; m++) st = curves_add_meet(c, j, k, &circle[m]);
+    }
+  for (int m = DYD_CELL_CIRCLES; m-- > 0;) dyd_icircle_clear(&circle[m]);
+  return st;
+}
+
+/* ---- all pieces ---- */
+
+void dyd_cell_forget(dyd_exact_cell *c) {
+  free(c->cut);
+  free(c->piece);
+  for (size_t m = c->meets; m-- > 0;) dyd_surd_point_clear(&c->meet[m].spot.at);
+  free(c->meet);
+  if (c->curve)
+    for (size_t k = c->count; k-- > 0;) dyd_curve_clear(&c->curve[k]);
+  free(c->curve);
+  c->cut = NULL;
+  c->piece = NULL;
+  c->meet = NULL;
+  c->curve = NULL;
+  c->cut_cap = c->pieces = c->piece_cap = c->meets = c->meet_cap = 0;
+}
+
+void dyd_cell_init(dyd_exact_cell *c, const dyd_cell_task *task, const dyd_cell_frame *frame) {
+  memset(c, 0, sizeof *c);
+  c->task = task;
+  c->frame = frame;
+  mpz_init(c->sample.num);
+  dyd_surd_point_init(&c->sample.spot.at);
+}
+
+void dyd_cell_clear(dyd_exact_cell *c) {
+  dyd_cell_forget(c);
+  free(c->other);
+  free(c->site);
+  dyd_surd_point_clear(&c->sample.spot.at);
+  mpz_clear(c->sample.num);
+}
+
+static dyd_status cell_set_curves(dyd_exact_cell *c) {
+  c->bytes = dyd_bytes_times(c->count, sizeof *c->curve);
+  if (!cell_has_room(c, 0)) return DYD_E_NOMEM;
+  c->curve = dyd_alloc(c->count, sizeof *c->curve);
+  if (!c->curve) return DYD_E_NOMEM;
+  const dyd_scaled *window = c->task->windowed ? &c->frame->window : NULL;
+  for (size_t k = 0; k < c->count; k++) {
+    dyd_curve_init(&c->curve[k]);
+    const dyd_scaled *far = c->task->outer ? &c->other[k] : &c->frame->fixed,
+                     *near = c->task->outer ? &c->frame->fixed : &c->other[k];
+    dyd_curve_set(&c->curve[k], far, near, window, c->task->outer ? -1 : 1, c->frame->shift);
+  }
+  return DYD_OK;
+}
+
+dyd_status dyd_cell_find_pieces(dyd_exact_cell *c) {
+  dyd_status st = cell_set_curves(c);
+  if (st == DYD_OK) st = curves_find_meets(c);
+  for (size_t j = 0; j < c->count && st == DYD_OK; j++)
+    for (size_t a = 0; a < c->curve[j].count && st == DYD_OK; a++) st = arc_pieces(c, j, &c->curve[j].arc[a]);
+  if (st == DYD_OK && c->task->windowed) st = cell_window_pieces(c);
+  return st;
+}
+
+/* ---- links ----
+ *
+ * Each piece ends where exactly one other begins, since the region has no pinched point in the plane: Int_i is convex,
+ * and near a point outside R_i the segments towards R_i, all in Pos_i, run in nearly one direction. A curve may touch
+ * a side of the window; there each goes on by itself, so a piece is first joined to the next one of its own curve.
+ * Neighbours that differ in nothing but a cut become one arc. */
+
+#define NONE SIZE_MAX
+
+/* next[p], last[p]: the pieces before and after p; done: written. */
+typedef struct links {
+  size_t *next, *last;
+  bool *done;
+} links;
+
+static dyd_status links_init(links *l, size_t count) {
+  l->next = dyd_alloc(count, sizeof *l->next);
+  l->last = dyd_alloc(count, sizeof *l->last);
+  l->done = calloc(count ? count : 1, sizeof *l->done);
+  if (!l->next || !l->last || !l->done) return DYD_E_NOMEM;
+  for (size_t p = 0; p < count; p++) l->next[p] = l->last[p] = NONE;
+  return DYD_OK;
+}
+
+static void links_clear(links *l) {
+  free(l->done);
+  free(l->last);
+  free(l->next);
+}
+
+static bool same_spot(const dyd_spot *p, const dyd_spot *q) {
+  if (p == q) return true;
+  for (int axis = 0; axis < 2; axis++)
+    if (dyd_filter_spot_cmp(p, q, axis)) return false;
+  return !dyd_surd_point_cmp(&p->at, &q->at, 0) && !dyd_surd_point_cmp(&p->at, &q->at, 1);
+}
+
+/* Joins every loose end of a finite piece to a loose beginning; own: of the same curve only. */
+static void links_join(links *l, const dyd_exact_cell *c, bool own) {
+  for (size_t p = 0; p < c->pieces; p++) {
+    if (c->piece[p].end->infinite || l->next[p] != NONE) continue;
+    for (size_t q = 0; q < c->pieces; q++) {
+      if (l->last[q] != NONE || c->piece[q].begin->infinite) continue;
+      if ((own && c->piece[p].curve != c->piece[q].curve) || !same_spot(c->piece[p].end, c->piece[q].begin)) continue;
+      l->next[p] = q;
+      l->last[q] = p;
+      break;
+    }
+    DYD_INVARIANT(own || l->next[p] != NONE);
+  }
+}
+
+/* Are the piece p and its successor one arc? */
+static bool links_are_smooth(const links *l, const dyd_exact_cell *c, size_t p) {
+  size_t n = l->next[p];
+  if (n == NONE || c->piece[p].curve != c->piece[n].curve) return false;
+  const dyd_elementary *a = c->piece[p].arc, *b = c->piece[n].arc;
+  return a == b || (a && b && a->corner == b->corner && a->feature == b->feature);
+}
+
+/* ---- writing ---- */
+
+static dyd_arc_end links_end_kind(const dyd_exact_cell *c, const dyd_piece *p, const dyd_piece *other,
+                                  const dyd_spot *at) {
+  dyd_arc_end e = {.kind = DYD_END_WINDOW};
+  if (!other) {
+    e.kind = DYD_END_INFINITE;
+  } else if (p->arc && other->arc && p->curve == other->curve) {
+    e.kind = p->arc->corner != other->arc->corner ? DYD_END_AXIS : DYD_END_FEATURE;
+  } else if (p->arc && other->arc) {
+    size_t k = 0;
+    while (k < c->count && (k == p->curve || dyd_cell_spot_side(c, at, k))) k++;
+    DYD_INVARIANT(k < c->count);
+    e.kind = DYD_END_SITES;
+    e.site = c->site[k < c->count ? k : other->curve];
+  }
+  return e;
+}
+
+/* other: the piece beyond this end. */
+static void links_write_end(dyd_arc_end *out, const dyd_exact_cell *c, const dyd_piece *p, const dyd_piece *other,
+                            const dyd_spot *at) {
+  dyd_arc_end e = links_end_kind(c, p, other, at);
+  out->kind = e.kind;
+  out->site = e.site;
+  if (e.kind == DYD_END_INFINITE) return;
+  dyd_surd_point_set(&out->at, &at->at);
+  dyd_surd_point_unscale(&out->at, c->frame->ox, c->frame->oy, c->frame->man, c->frame->exp);
+}
+
+/* The arc made of the pieces from first to last. */
+static void links_write_arc(dyd_arc *out, const dyd_exact_cell *c, const links *l, size_t first, size_t last) {
+  const dyd_piece *f = &c->piece[first], *t = &c->piece[last];
+  const dyd_piece *before = l->last[first] == NONE ? NULL : &c->piece[l->last[first]];
+  const dyd_piece *after = l->next[last] == NONE ? NULL : &c->piece[l->next[last]];
+  out->kind = DYD_ARC_WINDOW;
+  if (f->arc) {
+    uint32_t i = c->task->site, j = c->site[f->curve];
+    out->kind = f->arc->parabola ? DYD_ARC_PARABOLA : DYD_ARC_LINE;
+    out->far_site = c->task->outer ? j : i;
+    out->near_site = c->task->outer ? i : j;
+    out->corner = f->arc->corner;
+    out->feature = f->arc->feature;
+  }
+  links_write_end(&out->begin, c, f, before, f->begin);
+  links_write_end(&out->end, c, t, after, t->end);
+}
+
+/* Where the chain through p starts: at infinity, or after a break. */
+static size_t links_chain_start(const links *l, const dyd_exact_cell *c, size_t p) {
+  size_t start = p;
+  while (l->last[start] != NONE && l->last[start] != p) start = l->last[start];
+  if (l->last[start] == NONE) return start;
+  size_t q = p;
+  while (links_are_smooth(l, c, l->last[q]) && l->last[q] != p) q = l->last[q];
+  return q;
+}
+
+static dyd_status links_write_chain(dyd_boundary *out, links *l, const dyd_exact_cell *c, size_t start) {
+  size_t arcs = 0, p = start;
+  do {
+    l->done[p] = true;
+    bool smooth = links_are_smooth(l, c, p);
+    p = l->next[p];
+    arcs += !smooth || p == start;
+  } while (p != NONE && p != start);
+  dyd_chain *chain = boundary_add_chain(out, arcs);
+  if (!chain) return DYD_E_NOMEM;
+  chain->closed = p != NONE;
+  p = start;
+  for (size_t k = 0; k < arcs; k++) {
+    size_t first = p;
+    while (links_are_smooth(l, c, p) && l->next[p] != start) p = l->next[p];
+    links_write_arc(&chain->arc[k], c, l, first, p);
+    p = l->next[p];
+  }
+  return DYD_OK;
+}
+
+static dyd_status links_write_all(dyd_boundary *out, links *l, const dyd_exact_cell *c) {
+  out->chain = dyd_alloc(c->pieces, sizeof *out->chain);
+  if (!out->chain) return DYD_E_NOMEM;
+  dyd_status st = DYD_OK;
+  bool all_window = true;
+  for (size_t p = 0; p < c->pieces && st == DYD_OK; p++) {
+    all_window = all_window && !c->piece[p].arc;
+    if (!l->done[p]) st = links_write_chain(out, l, c, links_chain_start(l, c, p));
+  }
+  out->whole = all_window;
+  return st;
+}
+
+/* Joins the pieces to chains. *out is empty before; on failure the caller clears it. */
+static dyd_status cell_link(dyd_boundary *out, const dyd_exact_cell *c) {
+  links l;
+  dyd_status st = links_init(&l, c->pieces);
+  if (st == DYD_OK) {
+    links_join(&l, c, true);
+    links_join(&l, c, false);
+    st = links_write_all(out, &l, c);
+  }
+  links_clear(&l);
+  return st;
+}
+
+/* ---- scale ---- */
+
+/* Moves the origin to the fixed rectangle and doubles. */
+static void irect_place(dyd_irect *r, mpz_srcptr ox, mpz_srcptr oy) {
+  mpz_ptr end[4] = {r->x0, r->x1, r->y0, r->y1};
+  for (int k = 0; k < 4; k++) {
+    mpz_sub(end[k], end[k], k < 2 ? ox : oy);
+    mpz_mul_2exp(end[k], end[k], 1);
+  }
+}
+
+static size_t irect_bits(const dyd_irect *r) {
+  mpz_srcptr end[4] = {r->x0, r->x1, r->y0, r->y1};
+  size_t bits = 0;
+  for (int k = 0; k < 4; k++)
+    if (mpz_sizeinbase(end[k], 2) > bits) bits = mpz_sizeinbase(end[k], 2);
+  return bits;
+}
+
+/* Scales all rectangles; the doubled origin is kept for the way back. Products of four doubles stay below 2^1000. */
+static void cell_frame_scale(dyd_cell_frame *c, const dyd_cell_task *task, dyd_irect *r, size_t n) {
+  dyd_irects_scale(r, task->rect, n, c->man, &c->exp);
+  mpz_set(c->ox, r[0].x0);
+  mpz_set(c->oy, r[0].y0);
+  size_t bits = 0;
+  for (size_t k = 0; k < n; k++) {
+    irect_place(&r[k], c->ox, c->oy);
+    if (irect_bits(&r[k]) > bits) bits = irect_bits(&r[k]);
+  }
+  mpz_mul_2exp(c->ox, c->ox, 1);
+  mpz_mul_2exp(c->oy, c->oy, 1);
+  c->exp++;
+  c->shift = bits > 200 ? (int64_t)bits - 200 : 0;
+}
+
+static void scaled_take(dyd_scaled *out, dyd_irect *r, int64_t shift) {
+  dyd_irect t = out->r;
+  out->r = *r;
+  *r = t;
+  dyd_filter_irect_box(&out->box, &out->r, shift);
+}
+
+static void cell_frame_set_corners(dyd_cell_frame *c) {
+  const dyd_irect *w = &c->window.r;
+  for (int k = 0; k < 4; k++) {
+    mpz_set(c->corner[k].at.ax, k == 1 || k == 2 ? w->x1 : w->x0);
+    mpz_set(c->corner[k].at.ay, k >= 2 ? w->y1 : w->y0);
+    dyd_filter_spot_box(&c->corner[k], c->shift);
+  }
+}
+
+/* Fills fixed, window, other, site; *blocked: some other meets the fixed rectangle. */
+static dyd_status cell_set_rects(bool *blocked, dyd_exact_cell *c, dyd_cell_frame *frame) {
+  const dyd_cell_task *t = c->task;
+  size_t n = t->count + 1 + (t->windowed ? 1 : 0);
+  dyd_irect *r = dyd_alloc(n, sizeof *r);
+  c->other = dyd_alloc(t->count, sizeof *c->other);
+  c->site = dyd_alloc(t->count, sizeof *c->site);
+  if (!r || !c->other || !c->site) return free(r), DYD_E_NOMEM;
+  for (size_t k = 0; k < n; k++) dyd_irect_init(&r[k]);
+  cell_frame_scale(frame, t, r, n);
+  scaled_take(&frame->fixed, &r[0], frame->shift);
+  if (t->windowed) {
+    scaled_take(&frame->window, &r[n - 1], frame->shift);
+    cell_frame_set_corners(frame);
+  }
+  *blocked = false;
+  for (size_t k = 0; k < t->count; k++) {
+    if (dyd_irects_meet(&frame->fixed.r, &r[k + 1])) {
+      *blocked = true;
+      continue;
+    }
+    dyd_irect_init(&c->other[c->count].r);
+    c->site[c->count] = t->other[k];
+    scaled_take(&c->other[c->count++], &r[k + 1], frame->shift);
+  }
+  for (size_t k = n; k-- > 0;) dyd_irect_clear(&r[k]);
+  free(r);
+  return DYD_OK;
+}
+
+/* ---- the whole ---- */
+
+static void cell_frame_init(dyd_cell_frame *f, const dyd_cell_task *task) {
+  memset(f, 0, sizeof *f);
+  f->fixed_touch = task->outer ? DYD_CLOSEST : DYD_FARTHEST;
+  f->other_touch = task->outer ? DYD_FARTHEST : DYD_CLOSEST;
+  dyd_irect_init(&f->fixed.r);
+  dyd_irect_init(&f->window.r);
+  mpz_inits(f->man, f->ox, f->oy, NULL);
+  for (int k = 0; k < 4; k++) dyd_surd_point_init(&f->corner[k].at);
+}
+
+static void cell_frame_clear(dyd_cell_frame *f) {
+  for (int k = 4; k-- > 0;) dyd_surd_point_clear(&f->corner[k].at);
+  mpz_clears(f->man, f->ox, f->oy, NULL);
+  dyd_irect_clear(&f->window.r);
+  dyd_irect_clear(&f->fixed.r);
+}
+
+/* No boundary at all: the plane, or nothing? */
+static bool cell_is_whole(const dyd_exact_cell *c) {
+  return !c->task->windowed && (c->task->outer || !c->task->count);
+}
+
+dyd_status dyd_cell_boundary(dyd_boundary *out, const dyd_cell_task *task) {
+  dyd_cell_frame frame;
+  dyd_exact_cell c;
+  dyd_boundary b = {0};
+  bool blocked = false;
+  cell_frame_init(&frame, task);
+  dyd_cell_init(&c, task, &frame);
+  dyd_status st = cell_set_rects(&blocked, &c, &frame);
+  if (st == DYD_OK && (task->outer || !blocked)) {
+    st = dyd_cell_prune(&c);
+    if (st == DYD_OK) st = dyd_cell_find_pieces(&c);
+    if (st == DYD_OK && c.pieces) st = cell_link(&b, &c);
+    if (!c.pieces) b.whole = cell_is_whole(&c);
+  }
+  for (size_t k = c.count; k-- > 0;) dyd_irect_clear(&c.other[k].r);
+  dyd_cell_clear(&c);
+  cell_frame_clear(&frame);
+  if (st != DYD_OK) return dyd_boundary_clear(&b), st;
+  dyd_boundary_clear(out);
+  *out = b;
   return DYD_OK;
 }

@@ -73,29 +73,15 @@ typedef struct dyd_exact_cell {
  * the at most ten lines that bound panes of the three rectangles at most twice, so it runs through at most 21 panes,
  * and each holds at most two. */
 enum { DYD_CELL_CIRCLES = 43 };
-
-/* Is the sample nearer to (sign = -1), as far from (0), or farther from (1) other k than the radius dl_i or ds_i? */
-int dyd_cell_side(const dyd_exact_cell *c, dyd_sample *s, const dyd_elementary *arc, int window_side, size_t k);
 /* The same for a point. */
 int dyd_cell_spot_side(const dyd_exact_cell *c, const dyd_spot *p, size_t k);
 /* Sign of (coordinate of p) - (that of q). */
 int dyd_cell_spot_cmp(const dyd_spot *p, const dyd_spot *q, int axis);
-/* Sorts cuts along axis, drops repeats; returns how many are left. */
-size_t dyd_cell_sort_cuts(const dyd_spot **cut, size_t count, int axis);
-/* A sample strictly between two points, on an arc or (arc = NULL) on a side of the window. */
-void dyd_cell_sample(dyd_exact_cell *c, const dyd_elementary *arc, int window_side, const dyd_spot *low,
-                     const dyd_spot *high);
-dyd_status dyd_cell_add_piece(dyd_exact_cell *c, dyd_piece p);
-dyd_status dyd_cell_add_cut(dyd_exact_cell *c, size_t *count, const dyd_spot *s);
 
 /* Side of the window: bottom, right, top, left. Its axis, and the coordinate of the other axis. */
 static inline int dyd_window_axis(int side) {
   return side & 1;
 }
-mpz_srcptr dyd_window_level(const dyd_exact_cell *c, int side);
-
-/* The pieces of the sides of the window strictly inside the region. */
-dyd_status dyd_cell_window_pieces(dyd_exact_cell *c);
 /* Fills curve, meet, piece, empty before; and their release. */
 dyd_status dyd_cell_find_pieces(dyd_exact_cell *c);
 void dyd_cell_forget(dyd_exact_cell *c);
@@ -108,8 +94,6 @@ dyd_status dyd_cell_prune(dyd_exact_cell *c);
  * DYD_CANCELLED once *cancel, which may be NULL, is set; room may be NULL. */
 dyd_status dyd_cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer, const dyd_rect *window,
                            dyd_room *room, const volatile int *cancel);
-/* Joins the pieces to chains. *out is empty before; on failure the caller clears it. */
-dyd_status dyd_cell_link(dyd_boundary *out, const dyd_exact_cell *c);
 
 /* *out is replaced. */
 dyd_status dyd_cell_boundary(dyd_boundary *out, const dyd_cell_task *task);
