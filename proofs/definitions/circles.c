@@ -2,9 +2,6 @@
 /* Signs of numbers with roots, and circles through features, in integers. */
 #include "dyadic/sqrt_sign.c"
 #include "predicate/circle.c" /* functions are static */
-#include "predicate/icircles.c"
-#include "predicate/solve.c"
-#include "predicate/surd.c"
 #include "vectors.h"
 
 /* ---- signs ---- */
@@ -83,7 +80,7 @@ static dyd_feature feature_at(mpz_t *z, int q) {
 }
 static dyd_centre with_junk(void) {
   dyd_centre c;
-  dyd_centre_init(&c);
+  centre_init(&c);
   mpz_ptr part[8] = {c.a[0], c.a[1], c.b[0], c.b[1], c.c, c.d, c.s, c.t};
   for (int q = 0; q < 8; q++) mpz_set_si(part[q], 7 - 2 * q);
   return c;
@@ -91,22 +88,22 @@ static dyd_centre with_junk(void) {
 static void ask_solve(answer *a, mpz_t *z) {
   dyd_feature f = feature_at(z, 0), g = feature_at(z, 3);
   dyd_centre c = with_junk();
-  bool found = dyd_solve(&c, &f, &g, mpz_sgn(z[6]) != 0);
+  bool found = solve_circle(&c, &f, &g, mpz_sgn(z[6]) != 0);
   say_centre(a, found, &c);
-  dyd_centre_clear(&c);
+  centre_clear(&c);
 }
 static void ask_solve_two_points(answer *a, mpz_t *z) {
   dyd_feature f = {{true, true}, {{*z[0]}, {*z[1]}}}, g = {{true, true}, {{*z[2]}, {*z[3]}}};
   dyd_centre c = with_junk();
   bool found = solve_two_points(&c, &f, &g);
   say_centre(a, found, &c);
-  dyd_centre_clear(&c);
+  centre_clear(&c);
 }
 static void ask_beside_line(answer *a, mpz_t *z) {
   dyd_centre c = with_junk();
   bool found = solve_point_beside_line(&c, z[0], z[1], mpz_sgn(z[2]) != 0);
   say_centre(a, found, &c);
-  dyd_centre_clear(&c);
+  centre_clear(&c);
 }
 /* z[4]: the axis across the line, z[5]: which */
 static void ask_solve_point_and_line(answer *a, mpz_t *z) {
@@ -115,19 +112,19 @@ static void ask_solve_point_and_line(answer *a, mpz_t *z) {
   dyd_centre c = with_junk();
   bool found = solve_point_and_line(&c, &point, &line, mpz_sgn(z[5]) != 0);
   say_centre(a, found, &c);
-  dyd_centre_clear(&c);
+  centre_clear(&c);
 }
 static void ask_solve_parallel_lines(answer *a, mpz_t *z) {
   dyd_centre c = with_junk();
   bool found = solve_parallel_lines(&c, z[0], z[1], mpz_sgn(z[2]) != 0, mpz_sgn(z[3]) != 0);
   say_centre(a, found, &c);
-  dyd_centre_clear(&c);
+  centre_clear(&c);
 }
 static void ask_solve_crossing_lines(answer *a, mpz_t *z) {
   dyd_centre c = with_junk();
   bool found = solve_crossing_lines(&c, z[0], z[1], mpz_sgn(z[2]) != 0);
   say_centre(a, found, &c);
-  dyd_centre_clear(&c);
+  centre_clear(&c);
 }
 /* Of (x, y) / d, without roots, d > 0; or d < 0, and made positive */
 static void ask_make(answer *a, mpz_t *z, bool positive) {
@@ -138,7 +135,7 @@ static void ask_make(answer *a, mpz_t *z, bool positive) {
   centre_make_rational(&c);
   if (positive) centre_make_positive(&c);
   say_centre(a, true, &c);
-  dyd_centre_clear(&c);
+  centre_clear(&c);
 }
 static void ask_make_rational(answer *a, mpz_t *z) {
   ask_make(a, z, false);
@@ -233,7 +230,7 @@ static void choose_slab(mpz_t *z, unsigned inputs) {
 static const whole circle[] = {{"compare_squares", 3, ask_compare_squares, choose_squares},
                                {"dyd_sqrt_sign", 3, ask_sqrt_sign, choose_root},
                                {"dyd_sqrt2_sign", 5, ask_sqrt2_sign, choose_two_roots},
-                               {"dyd_solve", 7, ask_solve, choose_features},
+                               {"solve_circle", 7, ask_solve, choose_features},
                                {"solve_two_points", 4, ask_solve_two_points, choose_small},
                                {"solve_point_beside_line", 3, ask_beside_line, choose_one_flag},
                                {"solve_point_and_line", 6, ask_solve_point_and_line, choose_two_flags},

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Roots in interval arithmetic, of predicate/pane_filter.c. */
-#include "predicate/pane_filter.c" /* functions are static */
+/* Roots in interval arithmetic, of predicate/predicate_filter.c. */
+#include "predicate/predicate_filter.c" /* functions are static */
 #include "vectors.h"
 
 static dyd_iv end_at(const double *x, int k) {

@@ -21,7 +21,7 @@ let define_centres () =
   (* has: 1 for x, 2 for y *)
   let feature has x y = Circle.feature (has land 1 > 0) (has land 2 > 0) x y in
   let feature_at a k = feature (Whole.to_int (whole a k)) (whole a (k + 1)) (whole a (k + 2)) in
-  define "dyd_solve" 7 (fun a -> maybe centre (Circle.solve (feature_at a 0) (feature_at a 3) (whole_flag a 6)));
+  define "solve_circle" 7 (fun a -> maybe centre (Circle.solve (feature_at a 0) (feature_at a 3) (whole_flag a 6)));
   define "solve_two_points" 4 (fun a ->
       maybe centre (Circle.two_points (feature 3 (whole a 0) (whole a 1)) (feature 3 (whole a 2) (whole a 3))));
   define "solve_point_beside_line" 3 (fun a ->

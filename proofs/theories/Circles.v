@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** [CRIT-1] The circles of src/predicate/solve.c: through the origin and two features, points or axis-parallel lines.
+(** [CRIT-1] The circles of src/predicate/circle.c: through the origin and two features, points or axis-parallel lines.
     What the C code computes is a solution; and every isolated solution is computed. *)
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
 From Dyadel Require Import Surd.
@@ -27,12 +27,12 @@ Definition good (k : centre) : Prop := (0 < dd k)%Z /\ (0 <= cc k)%Z.
 
 Definition norm2 (f : feature) : Z := (at0 f * at0 f + at1 f * at1 f)%Z.
 
-(* C src/predicate/solve.c centre_make_rational
+(* C src/predicate/circle.c centre_make_rational
   mpz_set_ui(out->b[0], 0);
   mpz_set_ui(out->b[1], 0);
   mpz_set_ui(out->c, 0);
 *)
-(* C src/predicate/solve.c centre_make_positive
+(* C src/predicate/circle.c centre_make_positive
   if (mpz_sgn(out->d) > 0) return;
   mpz_neg(out->d, out->d);
   mpz_neg(out->a[0], out->a[0]);
@@ -42,7 +42,7 @@ Definition rational (x y d : Z) : centre :=
   if (0 <? d)%Z then {| a0 := x; a1 := y; b0 := 0; b1 := 0; cc := 0; dd := d |}
   else {| a0 := - x; a1 := - y; b0 := 0; b1 := 0; cc := 0; dd := - d |}.
 
-(* C src/predicate/solve.c solve_two_points
+(* C src/predicate/circle.c solve_two_points
   mpz_mul(out->d, f->at[0], g->at[1]);
   mpz_submul(out->d, g->at[0], f->at[1]);
   if (!mpz_sgn(out->d)) return false;
@@ -68,7 +68,7 @@ Definition along (k : bool) (au av bu bv c d : Z) : centre :=
   if k then {| a0 := av; a1 := au; b0 := bv; b1 := bu; cc := c; dd := d |}
   else {| a0 := au; a1 := av; b0 := bu; b1 := bv; cc := c; dd := d |}.
 
-(* C src/predicate/solve.c solve_point_beside_line
+(* C src/predicate/circle.c solve_point_beside_line
   if (!mpz_sgn(b) || !mpz_sgn(l)) return false;
   mpz_mul_2exp(out->d, l, 3);
   mpz_mul(out->a[1 - k], b, l);
@@ -85,7 +85,7 @@ Definition point_beside_line (b l : Z) (k : bool) : option centre :=
   else let u := (l * l * 4 - b * b)%Z in let v := (b * l * 4)%Z in
     Some (if k then rational v u (l * 8) else rational u v (l * 8)).
 
-(* C src/predicate/solve.c solve_point_and_line
+(* C src/predicate/circle.c solve_point_and_line
   int k = line->has[0] ? 0 : 1;
   mpz_srcptr a = point->at[k], b = point->at[1 - k], l = line->at[k];
   if (!mpz_sgn(a)) return which == 0 && solve_point_beside_line(out, b, l, k);
@@ -121,7 +121,7 @@ Definition point_and_line (point line : feature) (which : bool) : option centre 
       let av := (bv * bl)%Z in let au := (s * a - bu * bl)%Z in
       Some (along k au av (if which then bu else - bu) (if which then - bv else bv) (s * t) (a * a * 2)).
 
-(* C src/predicate/solve.c solve_parallel_lines
+(* C src/predicate/circle.c solve_parallel_lines
   mpz_mul(out->c, l, m);
   mpz_neg(out->c, out->c);
   if (!mpz_cmp(l, m) || mpz_sgn(out->c) < 0 || (which && !mpz_sgn(out->c))) return false;
@@ -137,7 +137,7 @@ Definition parallel_lines (l m : Z) (k which : bool) : option centre :=
   if (l =? m)%Z || (c <? 0)%Z || (which && (c =? 0)%Z) then None
   else Some (along k (l + m) 0 0 (if which then -2 else 2) c 2).
 
-(* C src/predicate/solve.c solve_crossing_lines
+(* C src/predicate/circle.c solve_crossing_lines
   int z = mpz_sgn(l) * mpz_sgn(m);
   int root = which ? -1 : 1;
   if (!z) {
@@ -161,7 +161,7 @@ Definition crossing_lines (l m : Z) (which : bool) : centre :=
   let root' := if (z =? 0)%Z then 0%Z else root in
   {| a0 := m * - z'; a1 := l * - z'; b0 := root'; b1 := root' * z'; cc := Z.abs (l * m * 2); dd := 1 |}.
 
-(* C src/predicate/solve.c dyd_solve
+(* C src/predicate/circle.c solve_circle
   bool f_point = f->has[0] && f->has[1], g_point = g->has[0] && g->has[1];
   if (f_point && g_point) return which == 0 && solve_two_points(out, f, g);
   if (f_point) return solve_point_and_line(out, f, g, which);
@@ -330,7 +330,7 @@ Proof.
     rewrite !mult_IZR, !opp_IZR. fold z. apply ww. destruct which; simpl; lra.
 Qed.
 
-(** [CRIT-1] Whatever dyd_solve returns is a circle that meets both features. *)
+(** [CRIT-1] Whatever solve_circle returns is a circle that meets both features. *)
 Theorem solve_sound f g which k : (has0 f || has1 f = true) -> (has0 g || has1 g = true) -> solve f g which = Some k ->
   good k /\ meets f (cx k) (cy k) /\ meets g (cx k) (cy k).
 Proof.

@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** [CRIT-1] Every circle through the origin that meets two features is computed by dyd_solve, unless it is one of
+(** [CRIT-1] Every circle through the origin that meets two features is computed by solve_circle, unless it is one of
     infinitely many close by. *)
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
 From Dyadel Require Import Surd Circles.
@@ -289,7 +289,7 @@ Proof. intros A B. apply isolated_iff. intros x' y'. unfold both. rewrite A, B. 
 Lemma point_eq_swap a b x y : point_eq a b x y <-> point_eq b a y x.
 Proof. unfold point_eq; split; intros; lra. Qed.
 
-(** [CRIT-1] An isolated circle that meets both features is returned by dyd_solve for which = 0 or 1. *)
+(** [CRIT-1] An isolated circle that meets both features is returned by solve_circle for which = 0 or 1. *)
 Theorem solve_complete f g x y : has0 f || has1 f = true -> has0 g || has1 g = true ->
   solution f g x y -> isolated (solution f g) x y -> exists which k, solve f g which = Some k /\ x = cx k /\ y = cy k.
 Proof.

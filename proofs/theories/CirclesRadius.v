@@ -44,7 +44,7 @@ Proof.
   repeat rewrite ?mult_IZR, ?plus_IZR, ?minus_IZR. rewrite <- R. field. exact D'.
 Qed.
 
-(* C src/predicate/surd.c surd_add_square
+(* C src/predicate/circle.c surd_add_square
   if (!z) return;
   mpz_mul(t, s->b, s->b);
   mpz_addmul(p, t, s->c);
@@ -98,7 +98,7 @@ Proof.
   rewrite S. unfold coordinate. field. lra.
 Qed.
 
-(* C src/predicate/icircles.c within_slab
+(* C src/predicate/circle.c within_slab
   const dyd_icircle *k = &q->circle;
   mpz_mul_2exp(q->s, b, 1);
   for (int side = 0; side < 2; side++) {

@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** [CRIT-1] Throwing out cells in interval arithmetic: what src/predicate/pane_filter.c encloses are the roots, in each
+(** [CRIT-1] Throwing out cells in interval arithmetic: what src/predicate/predicate_filter.c encloses are the roots, in each
     of its four cases. *)
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz List.
 From Flocq Require Import Core Binary.
@@ -8,12 +8,12 @@ From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersDistance
 Import ListNotations.
 Open Scope R_scope.
 
-(* [CRIT-1] src/predicate/pane_filter.c: dyd_iv_scale(dyd_iv_add(f->at[k], g->at[k]), {}) *)
+(* [CRIT-1] src/predicate/predicate_filter.c: dyd_iv_scale(dyd_iv_add(f->at[k], g->at[k]), {}) *)
 Definition c_cell_half : const := (1, -1)%Z.
-(* [CRIT-1] src/predicate/pane_filter.c: dyd_iv det2 = dyd_iv_scale(det, {}); *)
-(* [CRIT-1] src/predicate/pane_filter.c: dyd_iv b2 = dyd_iv_scale(b, {}), *)
-(* [CRIT-1] src/predicate/pane_filter.c: a2 = dyd_iv_scale(a, {}); *)
-(* [CRIT-1] src/predicate/pane_filter.c: dyd_iv_sqrt(dyd_iv_scale(lm, {})) *)
+(* [CRIT-1] src/predicate/predicate_filter.c: dyd_iv det2 = dyd_iv_scale(det, {}); *)
+(* [CRIT-1] src/predicate/predicate_filter.c: dyd_iv b2 = dyd_iv_scale(b, {}), *)
+(* [CRIT-1] src/predicate/predicate_filter.c: a2 = dyd_iv_scale(a, {}); *)
+(* [CRIT-1] src/predicate/predicate_filter.c: dyd_iv_sqrt(dyd_iv_scale(lm, {})) *)
 Definition c_cell_two : const := (1, 1)%Z.
 
 Lemma twice_contains a x : contains a x -> contains (iv_scale a (lit c_cell_two)) (2 * x).
@@ -48,7 +48,7 @@ Definition roots : Type := option (list (iv * iv)).
 Definition holds_root (found : roots) (u v : R) : Prop :=
   match found with None => True | Some l => exists c, In c l /\ contains (fst c) u /\ contains (snd c) v end.
 
-(* C src/predicate/pane_filter.c iv_two_points
+(* C src/predicate/predicate_filter.c iv_two_points
   dyd_iv s = dyd_iv_add(dyd_iv_sqr(f->at[0]), dyd_iv_sqr(f->at[1]));
   dyd_iv t = dyd_iv_add(dyd_iv_sqr(g->at[0]), dyd_iv_sqr(g->at[1]));
   dyd_iv det = dyd_iv_sub(dyd_iv_mul(f->at[0], g->at[1]), dyd_iv_mul(g->at[0], f->at[1]));
@@ -82,7 +82,7 @@ Proof.
     + rewrite <- P', <- Q'. ring.
 Qed.
 
-(* C src/predicate/pane_filter.c iv_point_and_line
+(* C src/predicate/predicate_filter.c iv_point_and_line
   int k = line->has[0] ? 0 : 1;
   dyd_iv a = point->at[k], b = point->at[1 - k], l = line->at[k];
   dyd_iv s = dyd_iv_add(dyd_iv_sqr(a), dyd_iv_sqr(b));
@@ -147,7 +147,7 @@ Proof.
   destruct second; [right; left|left]; reflexivity.
 Qed.
 
-(* C src/predicate/pane_filter.c iv_parallel_lines
+(* C src/predicate/predicate_filter.c iv_parallel_lines
   dyd_iv c = dyd_iv_neg(dyd_iv_mul(f->at[k], g->at[k]));
   if (c.hi < 0) return no_roots;
   dyd_iv u = dyd_iv_scale(dyd_iv_add(f->at[k], g->at[k]), 0.5), v = dyd_iv_sqrt(c);
@@ -193,7 +193,7 @@ Proof.
     rewrite C; eexists; [split; [left; reflexivity|]|split; [right; left; reflexivity|]]; now split.
 Qed.
 
-(* C src/predicate/pane_filter.c iv_crossing_lines
+(* C src/predicate/predicate_filter.c iv_crossing_lines
   dyd_iv lm = dyd_iv_mul(l, m);
   int sign = dyd_iv_sign(lm);
   if (!sign) return unknown_roots;
@@ -259,7 +259,7 @@ Proof.
   split; [|now split]. destruct second; [right; left|left]; reflexivity.
 Qed.
 
-(* C src/predicate/pane_filter.c outside_slab
+(* C src/predicate/predicate_filter.c outside_slab
   dyd_iv at = dyd_iv_add(t, p);
   return (s->lo2 && at.hi < s->lo.lo) || (s->hi2 && at.lo > s->hi.hi);
 *)

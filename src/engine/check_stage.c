@@ -8,7 +8,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
-#include "rect/interval.h"
+#include "rect/rect.h"
 #include "stream/stream.h"
 #include "voronoi/exact_cell.h"
 #include <stdarg.h>

@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "engine/recall.h"
-#include "rect/interval.h"
+#include "rect/rect.h"
 #include "rect/sites_table.h"
 #include "stream/real.h"
 #include "stream/stream.h"

@@ -5,7 +5,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
-#include "rect/interval.h"
+#include "rect/rect.h"
 
 struct dyd_recalled {
   uint32_t site, number; /* the number-th answer given */

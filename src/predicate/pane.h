@@ -32,13 +32,6 @@ typedef struct dyd_axis {
   size_t slabs;
 } dyd_axis;
 
-void dyd_axis_init(dyd_axis *a);
-void dyd_axis_clear(dyd_axis *a);
-
-/* The slabs of axis 0 (x) or 1 (y). */
-void dyd_axis_set(dyd_axis *out, const dyd_irect *const r[3], const dyd_touch touch[3], int axis, mpz_srcptr origin,
-                  int64_t shift);
-
 /* An enclosure of (z - origin) * 2^-shift; scratch is overwritten. */
 dyd_iv dyd_filter_near(mpz_srcptr z, mpz_srcptr origin, int64_t shift, mpz_ptr scratch);
 

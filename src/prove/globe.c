@@ -2,7 +2,7 @@
 /* The section of a certificate on a sphere: places, radii, the eye, who may be its neighbours. */
 #include "base/alloc.h"
 #include "prove/proof.h"
-#include "rect/interval.h"
+#include "rect/rect.h"
 #include "sphere/state.h"
 #include <inttypes.h>
 

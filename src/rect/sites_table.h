@@ -51,14 +51,10 @@ struct dyd_sites {
 
 /* Room for `more` further sites in every array there is. */
 dyd_status dyd_sites_reserve(dyd_sites *s, size_t more);
-/* Gives upper ends arrays of their own. */
-dyd_status dyd_sites_split_ends(dyd_sites *s);
 /* Appends n exact points, number k being (xy[2 k], xy[2 k + 1]); none on failure. */
 dyd_status dyd_sites_add_words(dyd_sites *s, size_t n, const dyd_words *xy);
 /* The ends x lower, x upper, y lower, y upper of site i; false where one of them is not of single words. */
 bool dyd_sites_get_words(dyd_words end[4], const dyd_sites *s, size_t i);
-/* The point of a site that is held in words. */
-dyd_status dyd_sites_get_point(dyd_rect *out, const dyd_sites *s, size_t i);
 /* Appends n sites that hold the whole plane; none on failure. */
 dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n);
 /* As dyd_sites_narrow, for the rectangle [box[0],box[1]] x [box[2],box[3]] of finite doubles, without -0. */

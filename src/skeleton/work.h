@@ -6,7 +6,7 @@
 #define DYD_SKELETON_WORK_H
 
 #include "base/room.h"
-#include "predicate/icircle.h"
+#include "predicate/circle.h"
 #include "skeleton/scale_set.h"
 #include "skeleton/skeleton.h"
 

@@ -11,7 +11,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
-#include "rect/interval.h"
+#include "rect/rect.h"
 #include "sphere/state.h"
 
 /* Neighbours of a centre that is no place, whose pairs are listed. */

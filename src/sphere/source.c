@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/flag.h"
 #include "engine/points.h"
-#include "rect/interval.h"
+#include "rect/rect.h"
 #include "sphere/state.h"
 #include "stream/ball.h"
 #include "stream/stream.h"

@@ -2,7 +2,7 @@
 /* Where a point on the sphere may be. */
 #include "sphere/spot.h"
 
-#include "rect/interval.h"
+#include "rect/rect.h"
 #include "stream/ball.h"
 
 void dyd_spot_init(dyd_spot *s) {

@@ -5,7 +5,7 @@
 #include "stream/real.h"
 
 #include "base/error.h"
-#include "rect/interval.h"
+#include "rect/rect.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/flag.h"
 #include "base/invariant.h"
-#include "rect/interval.h"
+#include "rect/rect.h"
 
 /* Invariant: refs > 0; now: NULL before the first narrowing, else owned and valid; final: known and no call can narrow
  * it; spans: the value lies in span; encloses. */

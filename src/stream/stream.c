@@ -9,7 +9,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/flag.h"
-#include "rect/interval.h"
+#include "rect/rect.h"
 #include "stream/real.h"
 
 /* Invariant: as dyd_real, with rectangles and without span. */

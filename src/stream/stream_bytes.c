@@ -2,7 +2,7 @@
 /* Estimates of what streams take in memory. Operands made by dyd_real_op count by themselves, not for what they are
  * made of in turn, which others may use as well. */
 #include "base/room.h"
-#include "rect/interval.h"
+#include "rect/rect.h"
 #include "stream/expr.h"
 #include "stream/real.h"
 #include "stream/root.h"

@@ -13,7 +13,7 @@
 
 #include "base/alloc.h"
 #include "base/invariant.h"
-#include "predicate/icircle.h"
+#include "predicate/circle.h"
 
 #include <dyadel/arc.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #include "voronoi/exact_cell_filter.h"
 
 #include "dyadic/raw.h"
-#include "predicate/icircle.h"
+#include "predicate/circle.h"
 
 void dyd_filter_spot_box(dyd_spot *s, int64_t shift) {
   const dyd_surd_point *p = &s->at;

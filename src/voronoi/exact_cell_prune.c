@@ -14,7 +14,7 @@
  * ends tell if no critical circle of i, j, k has its centre on the piece. What is not sure is kept. */
 #include "base/alloc.h"
 #include "delaunay/state.h"
-#include "predicate/icircle.h"
+#include "predicate/circle.h"
 #include "voronoi/exact_cell.h"
 
 #include <string.h>

@@ -7,7 +7,7 @@
  * along the line, so the result holds all inner points of the polygon, and none beyond the line [POLY-3]. */
 #include "base/alloc.h"
 #include "base/flag.h"
-#include "rect/interval.h"
+#include "rect/rect.h"
 #include "voronoi/polygon.h"
 
 /* One side of W: points with sign * (coordinate - level) > 0 are beyond it. */

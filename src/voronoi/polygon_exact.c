@@ -10,7 +10,7 @@
  * Moves are at most 2^-(bits+2), chords are within 2^-(bits+1) of their arcs. [POLY-1] [POLY-2] */
 #include "base/alloc.h"
 #include "dyadic/raw.h"
-#include "rect/interval.h"
+#include "rect/rect.h"
 #include "voronoi/exact_cell.h"
 #include "voronoi/polygon.h"
 #include "voronoi/sample.h"

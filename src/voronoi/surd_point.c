@@ -7,7 +7,7 @@
  * c)) for b >= 0, a - ceil(sqrt(b^2 c)) for b < 0; so integer roots decide. */
 #include "voronoi/surd_point.h"
 
-#include "predicate/surd.h"
+#include "predicate/circle.h"
 
 void dyd_surd_point_init(dyd_surd_point *p) {
   mpz_inits(p->ax, p->bx, p->ay, p->by, p->c, NULL);

@@ -5,7 +5,7 @@
 #include "help.h"
 
 #include "possible/quad_filter.h"
-#include "predicate/icircle.h"
+#include "predicate/circle.h"
 #include <string.h>
 
 /* ---- planted faults of the engine ---- */

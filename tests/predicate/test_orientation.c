@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "predicate/icircle.h"
+#include "predicate/circle.h"
 #include "predicate/predicate_filter.h"
 #include "predicate/shapes.h"
 

@@ -8,9 +8,9 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "rect/interval.h"
 #include "rect/irect.h"
 #include "rect/literal.h"
+#include "rect/rect.h"
 
 static const int64_t exponents[] = {0, 0, -3, 60, -1080, 1030, -3000};
 

@@ -3,7 +3,7 @@
 #include "stream/algebra/describe.h"
 
 #include "base/alloc.h"
-#include "rect/interval.h"
+#include "rect/rect.h"
 #include "stream/real.h"
 #include "stream/stream.h"
 

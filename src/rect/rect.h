@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Invariants of intervals and rectangles. */
-#ifndef DYD_RECT_INTERVAL_H
-#define DYD_RECT_INTERVAL_H
+#ifndef DYD_RECT_RECT_H
+#define DYD_RECT_RECT_H
 
 #include <dyadel/rect.h>
 
