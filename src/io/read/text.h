@@ -3,14 +3,21 @@
 #ifndef DYD_IO_READ_TEXT_H
 #define DYD_IO_READ_TEXT_H
 
-#include "io/read/bytes.h"
+#include <dyadel/status.h>
+#include <stdbool.h>
+#include <stdio.h>
 
 /* A line (or a record of several lines) longer than this is refused: it is no points file. */
 #define DYD_TEXT_LINE_MAX ((size_t)1 << 20)
 
-/* Invariant: start <= end <= cap; buffer[start .. end) is read and not yet handed out. */
+typedef struct dyd_unpacker dyd_unpacker;
+
+/* Invariant: start <= end <= cap; buffer[start .. end) is read and not yet handed out.
+ * unpacker = NULL before the first read, and for files that are not packed. */
 typedef struct dyd_text {
-  dyd_bytes bytes;
+  FILE *in; /* borrowed */
+  bool begun;
+  dyd_unpacker *unpacker;
   char *buffer;
   size_t cap, start, end;
   size_t line; /* number of the last line handed out */
