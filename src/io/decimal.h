@@ -5,6 +5,7 @@
 
 #include "io/sink.h"
 #include "rect/sites_table.h"
+#include <dyadel/arc.h>
 
 /* Sign, 17 digits, point, exponent or zeros, terminator. */
 #define DYD_DECIMAL_SIZE 32
@@ -30,5 +31,24 @@ char *dyd_end_text(const dyd_interval *a, bool upper);
  * quick way: where it is an integer above 2^64, or has a denominator above 2^126. */
 enum { DYD_WORDS_SIZE = 64 };
 char *dyd_words_put(char to[DYD_WORDS_SIZE], const dyd_words *w);
+
+/* The powers of five that are single words: 5^27 < 2^63 < 5^28. */
+enum { DYD_MOST_FIVES = 27 };
+extern const uint64_t dyd_power_of_five[DYD_MOST_FIVES + 1];
+
+/* ---- numbers (a + b sqrt(c)) / d ---- */
+
+/* "7", "-3/4", "(3-2*sqrt(5))/7": a coordinate that the reader of points takes. */
+void dyd_exact_text(FILE *out, mpz_srcptr a, mpz_srcptr b, mpz_srcptr c, mpz_srcptr d);
+/* x lower, x upper, y lower, y upper, rounded down and up; -inf, inf beyond the largest double. */
+void dyd_exact_enclose(double box[4], const dyd_surd_point *p);
+/* The same for the square root of the x coordinate, which is not negative. */
+void dyd_exact_enclose_root(double *lo, double *hi, const dyd_surd_point *p);
+/* "LO<between>HI" as directed decimals. */
+void dyd_exact_decimals(FILE *out, double lo, double hi, const char *between);
+/* The middle of the coordinates' decimals, for drawing. */
+void dyd_exact_middle(double out[2], const dyd_surd_point *p);
+/* A circle as points in lowest terms: its centre, and (radius^2, 0). Copied. */
+void dyd_exact_circle(dyd_surd_point *centre, dyd_surd_point *radius2, const dyd_circle *k);
 
 #endif

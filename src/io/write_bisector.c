@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The partial bisector of two points: csv (a line for each arc), json. */
 #include "io/arc_json.h"
-#include "io/exact_text.h"
+#include "io/decimal.h"
 #include "io/label_text.h"
 #include "io/output.h"
 #include "io/parts.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The partial disc of three points, and where the others are: csv, json. */
-#include "io/exact_text.h"
+#include "io/decimal.h"
 #include "io/label_text.h"
 #include "io/output.h"
 #include "io/parts.h"

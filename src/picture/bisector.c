@@ -4,7 +4,7 @@
  * A parabola v(t) between t0 and t1 is the quadratic Bezier curve whose middle point has t = (t0 + t1) / 2 and lies on
  * the tangent at the first end: v = v(t0) + v'(t0) (t1 - t0) / 2. Arcs with an end at infinity are lines. What is
  * surely nearer to a point is convex, and goes on to infinity between the ends of its chain. */
-#include "io/exact_text.h"
+#include "io/decimal.h"
 #include "picture/picture.h"
 #include <math.h>
 

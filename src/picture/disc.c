@@ -5,7 +5,7 @@
  * Surely inside is the intersection of the three discs that enclose one rectangle, surely outside what is in none of
  * the three that enclose two. */
 #include "base/error.h"
-#include "io/exact_text.h"
+#include "io/decimal.h"
 #include "picture/picture.h"
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The quick decimals of the reader and the directed decimals of the writers, against exact rationals. */
 #include "io/decimal.h"
-#include "io/read/plain.h"
+#include "io/read/coordinate.h"
 #include "stream/number.h"
 #include "support/random.h"
 #include <inttypes.h>

@@ -58,7 +58,7 @@ FAULTS = [  # where it shows, file, what stands there, what is put there
     ('stated=vertices ' + PLANE, 'voronoi/vertex.c', 'if (st == DYD_OK) st = dyd_sites_get(&r[k], pd->sk.rects.sites, t->v[k]);', 'if (st == DYD_OK) st = dyd_sites_get(&r[k], pd->sk.rects.sites, t->v[k ? k : 1]);'),
     (PLANE, 'io/read/coordinate.c', 'ends[0] = (dyd_plain){v.man * 10 - 5, v.exp - 1};', 'ends[0] = (dyd_plain){v.man * 10, v.exp - 1};'),
     (PLANE, 'io/read/coordinate.c', 'lo = sum_towards(lo, -manner->radius_up, DYD_DOWN);', 'lo = sum_towards(lo, -0.9 * manner->radius_up, DYD_DOWN);'),
-    (PLANE, 'io/read/plain.c', 'if (error * (double)dir < 0) near', 'if (error * (double)dir > 0) near'),
+    (PLANE, 'io/read/coordinate.c', 'if (error * (double)dir < 0) near', 'if (error * (double)dir > 0) near'),
     ('stated=cells ' + PLANE, 'io/layers_voronoi.c', 'dyd_row_decimal(t, row->area[0], DYD_DOWN);', 'dyd_row_decimal(t, row->area[0] * 1.02, DYD_DOWN);'),
 ]
 

@@ -4,7 +4,7 @@
  * A column is wanted by its name or, in digits without quotes, by its number from 1. */
 #include "base/alloc.h"
 #include "base/error.h"
-#include "io/read/plain.h"
+#include "io/read/coordinate.h"
 #include "io/read/source.h"
 #include <string.h>
 

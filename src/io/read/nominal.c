@@ -5,7 +5,7 @@
 #include "io/read/nominal.h"
 
 #include "base/alloc.h"
-#include "io/read/plain.h"
+#include "io/read/coordinate.h"
 #include <dyadel/stream.h>
 #include <inttypes.h>
 #include <string.h>
