@@ -65,7 +65,7 @@ FAULTS = [
     ('proofs/mathematics.md', '[ORI-1]: claims/predicate.md', '[ORI-1]: claims/possible.md', 'citations', '[ORI-1] is not stated'),
     ('src/README.md', '](../proofs/mathematics.md)', '](../proofs/mathematic.md)', 'citations', 'leads nowhere'),
     ('src/README.md', '`src/io/read/read.c`', '`src/io/read.c`', 'citations', 'there is no src/io/read.c'),
-    ('src/README.md', '`dyd_stage_commit`', '`dyd_stage_comit`', 'citations', 'there is no dyd_stage_comit'),
+    ('src/README.md', '`dyd_read_points`', '`dyd_read_pionts`', 'citations', 'there is no dyd_read_pionts'),
     ('src/README.md', '  rect --> dyadic\n', '', 'map', 'rect --> dyadic'),
     ('src/README.md', '| `src/metric` |', '| `src/measure` |', 'map', 'metric is a room without a row'),
     ('src/dyadic/text.c', '#include "dyadic/raw.h"', '#include "rect/irect.h"', 'map', 'circle of folders: dyadic, rect'),

@@ -4,10 +4,480 @@
  *
  * In a well-formed file quotes come in pairs, so a record ends at the first line end before which their number is
  * even. */
+#include "io/read/csv.h"
 #include "base/alloc.h"
 #include "base/error.h"
-#include "io/read/source.h"
+#include "io/read/coordinate.h"
+
 #include <string.h>
+
+static dyd_status csv_record(dyd_line *out, dyd_csv *csv, dyd_error *err);
+static dyd_status csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err);
+static void span_trim(dyd_span *s);
+
+/* One line of a points file: two coordinates separated by blanks or one comma, and a comment.
+ *
+ * Blanks and commas within parentheses or brackets belong to the coordinate. */
+
+typedef struct cursor {
+  const char *at, *end;
+  const dyd_line *line;
+  char comma; /* what may separate besides blanks */
+} cursor;
+
+static dyd_status points_fail(dyd_error *err, const cursor *c, const char *message) {
+  dyd_span span = {c->at, 0, c->at, c->line->text, c->line->number};
+  return dyd_span_fail(err, &span, 0, message);
+}
+
+static bool is_points_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+
+/* Skips blanks; how many commas stood among them (0, 1, or 2 for "too many"). */
+static int points_separator(cursor *c, int allowed) {
+  int commas = 0;
+  for (; c->at < c->end && (is_points_blank(*c->at) || *c->at == c->comma); c->at++)
+    if (*c->at == c->comma && ++commas > allowed) return commas;
+  return commas;
+}
+
+/* Characters that may end a coordinate or open a parenthesis in it. */
+static const bool special[256] = {
+    [' '] = true, ['\t'] = true, [','] = true, ['('] = true, [')'] = true, ['['] = true, [']'] = true};
+
+/* From c->at up to a separator outside all parentheses. */
+static dyd_span points_coordinate(cursor *c) {
+  const char *begin = c->at;
+  int depth = 0;
+  for (; c->at < c->end; c->at++) {
+    if (!special[(unsigned char)*c->at]) continue;
+    if (*c->at == '(' || *c->at == '[') depth++;
+    if ((*c->at == ')' || *c->at == ']') && depth > 0) depth--;
+    if (depth == 0 && (is_points_blank(*c->at) || *c->at == c->comma)) break;
+  }
+  return (dyd_span){begin, (size_t)(c->at - begin), begin, c->line->text, c->line->number};
+}
+
+dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_line *line, char comma, dyd_error *err) {
+  const char *comment = memchr(line->text, '#', line->length);
+  cursor c = {line->text, comment ? comment : line->text + line->length, line, comma};
+  *count = 0;
+  if (points_separator(&c, 0))
+    return points_fail(err, &c, "a coordinate is missing before this comma; give two coordinates");
+  if (c.at == c.end) return DYD_OK;
+  coordinate[0] = points_coordinate(&c);
+  if (points_separator(&c, 1) > 1)
+    return points_fail(err, &c, "two commas in a row; separate the coordinates by one comma");
+  if (c.at == c.end)
+    return points_fail(err, &c,
+                       memchr(line->text, ';', (size_t)(c.end - line->text))
+                           ? "the line has one coordinate only; give two, separated by a blank or a comma in place of "
+                             "';', or a header and `columns` X,Y"
+                           : "the line has one coordinate only; give two, separated by a blank or a comma");
+  coordinate[1] = points_coordinate(&c);
+  int commas = points_separator(&c, 0);
+  if (commas || c.at < c.end)
+    return points_fail(err, &c,
+                       "more than two coordinates on this line; give two, and write expressions without blanks "
+                       "outside parentheses");
+  *count = 2;
+  return DYD_OK;
+}
+
+/* The header of separated text: which delimiter it uses, and where the wanted columns are.
+ *
+ * A column is wanted by its name or, in digits without quotes, by its number from 1. */
+
+static const char delimiters[] = ",;\t|";
+
+/* ---- what is wanted ---- */
+
+/* The names in `text`, at least `least`, at most `most`, for the roles from `first` on. */
+static dyd_status read_names(dyd_csv *csv, const char *text, const char *option, dyd_csv_role first, size_t least,
+                             size_t most, dyd_error *err) {
+  dyd_line line = {text, strlen(text), 0};
+  csv->delimiter = ',';
+  dyd_status split = line.length ? csv_split(csv, &line, NULL) : DYD_E_ARG;
+  if (split == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (split != DYD_OK || csv->fields < least || csv->fields > most) {
+    static const char *const wanted[] = {"one column name; give NAME",
+                                         "one or two column names; give NAME or NAME,NAME",
+                                         "two column names; give NAME,NAME"};
+    return dyd_fail(err, DYD_E_ARG, "\"%.100s\" is not %s", text, wanted[least + most - 2]);
+  }
+  for (size_t k = 0; k < most; k++) {
+    dyd_span *field = &csv->field[k < csv->fields ? k : 0];
+    span_trim(field);
+    dyd_csv_want *want = &csv->want[first + k];
+    *want = (dyd_csv_want){dyd_alloc(field->length + 1, 1), field->text != field->at, option};
+    if (!want->name) return dyd_fail_nomem(err);
+    memcpy(want->name, field->text, field->length);
+    want->name[field->length] = 0;
+  }
+  return DYD_OK;
+}
+
+static dyd_status read_wanted(dyd_csv *csv, const dyd_read_options *o, dyd_error *err) {
+  dyd_status st = read_names(csv, o->columns, "`columns`", DYD_CSV_X, 2, 2, err);
+  if (st == DYD_OK && o->radius_columns)
+    st = read_names(csv, o->radius_columns, "`radius_columns`", DYD_CSV_RADIUS_X, 1, 2, err);
+  if (st == DYD_OK && o->cost_column) st = read_names(csv, o->cost_column, "`cost_column`", DYD_CSV_COST, 1, 1, err);
+  if (st == DYD_OK && o->sigma_column)
+    st = read_names(csv, o->sigma_column, "`sigma_column`", DYD_CSV_SIGMA, 1, 1, err);
+  if (st == DYD_OK && o->id) st = read_names(csv, o->id, "`id`", DYD_CSV_ID, 1, 1, err);
+  return st;
+}
+
+/* 0: the header tells. */
+static dyd_status read_delimiter(char *out, const char *text, dyd_error *err) {
+  *out = 0;
+  if (!text) return DYD_OK;
+  if (strcmp(text, "tab") == 0 || strcmp(text, "\\t") == 0) text = "\t";
+  if (!text[0] || text[1] || text[0] == '"' || text[0] == '\n' || text[0] == '\r' || (unsigned char)text[0] >= 128)
+    return dyd_fail(err, DYD_E_ARG, "\"%.20s\" cannot be a delimiter; give one character such as \";\", or tab", text);
+  *out = text[0];
+  return DYD_OK;
+}
+
+/* ---- finding it ---- */
+
+static char lower_letter(char c) {
+  return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+static bool is_named(const dyd_span *field, const char *name, bool fold) {
+  if (field->length != strlen(name)) return false;
+  for (size_t k = 0; k < field->length; k++)
+    if (field->text[k] != name[k] && (!fold || lower_letter(field->text[k]) != lower_letter(name[k]))) return false;
+  return true;
+}
+
+/* How many columns have the name; *first and *last of them. */
+static size_t count_named(size_t *first, size_t *last, const dyd_csv *csv, const char *name, bool fold) {
+  size_t found = 0;
+  for (size_t k = 0; k < csv->fields; k++) {
+    if (!is_named(&csv->field[k], name, fold)) continue;
+    if (!found++) *first = k;
+    *last = k;
+  }
+  return found;
+}
+
+/* The names of the header, as many as fit. */
+static void list_names(char *out, size_t size, const dyd_csv *csv) {
+  size_t used = 0;
+  for (size_t k = 0; k < csv->fields; k++) {
+    const dyd_span *f = &csv->field[k];
+    if (used + f->length + 8 > size) {
+      snprintf(out + used, size - used, ", ...");
+      return;
+    }
+    used += (size_t)snprintf(out + used, size - used, "%s%.*s", k ? ", " : "", (int)f->length, f->text);
+  }
+}
+
+/* A failure at column k of the header. */
+static dyd_status header_fail(const dyd_csv *csv, size_t k, dyd_error *err, const char *message) {
+  return dyd_span_fail(err, &csv->field[k], 0, message);
+}
+
+static dyd_status fail_missing(const dyd_csv *csv, const dyd_csv_want *want, dyd_error *err) {
+  char names[180], message[DYD_MESSAGE_SIZE];
+  list_names(names, sizeof names, csv);
+  if (csv->fields == 1)
+    snprintf(message, sizeof message,
+             "the header is one column, \"%s\", and \"%.60s\" is not its name; say what separates columns: "
+             "`delimiter` C",
+             names, want->name);
+  else
+    snprintf(message, sizeof message,
+             "no column is called \"%.60s\"; the header's names are: %s; give one of these, or its number, to %s",
+             want->name, names, want->option);
+  return header_fail(csv, 0, err, message);
+}
+
+/* By number; a name that is the same digits must not be meant. */
+static dyd_status find_numbered(size_t *out, const dyd_csv *csv, const dyd_csv_want *want, dyd_error *err) {
+  char message[DYD_MESSAGE_SIZE];
+  size_t first = 0, last = 0, number = strlen(want->name) < 9 ? (size_t)atol(want->name) : SIZE_MAX;
+  bool named = count_named(&first, &last, csv, want->name, false);
+  if (named && first + 1 != number) {
+    snprintf(message, sizeof message,
+             "%s is the name of column %zu: for that one, put the name into quotes: %s '\"%s\"'; for column %s, give "
+             "its name",
+             want->name, first + 1, want->option, want->name, want->name);
+    return header_fail(csv, first, err, message);
+  }
+  if (number >= 1 && number <= csv->fields) return *out = number - 1, DYD_OK;
+  snprintf(message, sizeof message, "there is no column %.20s; the header has %zu, counted from 1", want->name,
+           csv->fields);
+  return header_fail(csv, 0, err, message);
+}
+
+static dyd_status find_column(size_t *out, const dyd_csv *csv, const dyd_csv_want *want, dyd_error *err) {
+  char names[160], message[DYD_MESSAGE_SIZE];
+  size_t first = 0, last = 0;
+  if (!want->quoted && want->name[0] && !want->name[strspn(want->name, "0123456789")])
+    return find_numbered(out, csv, want, err);
+  size_t found = count_named(&first, &last, csv, want->name, false), exact = found;
+  if (!found) found = count_named(&first, &last, csv, want->name, true);
+  if (found == 1) return *out = first, DYD_OK;
+  if (!found) return fail_missing(csv, want, err);
+  list_names(names, sizeof names, csv);
+  if (exact)
+    snprintf(message, sizeof message,
+             "%zu columns are called \"%.60s\"; rename them in the header, or give numbers; its names are: %s", found,
+             want->name, names);
+  else
+    snprintf(message, sizeof message,
+             "%zu columns are called \"%.60s\" but for capitals; write the name as the header does, whose names are: "
+             "%s",
+             found, want->name, names);
+  return header_fail(csv, last, err, message);
+}
+
+static dyd_status find_columns(dyd_csv *csv, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  for (int k = 0; k < DYD_CSV_ROLES && st == DYD_OK; k++)
+    if (csv->want[k].name) st = find_column(&csv->column[k], csv, &csv->want[k], err);
+  return st;
+}
+
+/* ---- the delimiter ---- */
+
+static dyd_status header_split(dyd_csv *csv, const dyd_line *line, char delimiter, dyd_error *err) {
+  csv->delimiter = delimiter;
+  dyd_status st = csv_split(csv, line, err);
+  for (size_t k = 0; k < csv->fields && st == DYD_OK; k++) span_trim(&csv->field[k]);
+  return st;
+}
+
+/* The delimiter that makes the most columns among those by which all wanted ones are found; when there is none, the one
+ * that makes the most. */
+static dyd_status find_delimiter(char *best, dyd_csv *csv, const dyd_line *line, dyd_error *err) {
+  size_t most = 0;
+  bool found = false;
+  *best = delimiters[0];
+  for (const char *d = delimiters; *d; d++) {
+    dyd_status st = header_split(csv, line, *d, NULL);
+    if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+    if (st != DYD_OK) continue;
+    bool finds = find_columns(csv, NULL) == DYD_OK;
+    if (finds < found || (finds == found && csv->fields <= most)) continue;
+    found = finds;
+    most = csv->fields;
+    *best = *d;
+  }
+  return DYD_OK;
+}
+
+/* Columns by number say nothing about a first line that is no header, but a point that would be lost. */
+static dyd_status refuse_numbers(const dyd_csv *csv, dyd_error *err) {
+  dyd_plain p;
+  for (int k = DYD_CSV_X; k <= DYD_CSV_Y; k++) {
+    const dyd_span *f = &csv->field[csv->column[k]];
+    if (csv->want[k].quoted || is_named(f, csv->want[k].name, false)) return DYD_OK;
+    if (!dyd_plain_scan(&p, f->text, f->length)) return DYD_OK;
+  }
+  return header_fail(csv, csv->column[DYD_CSV_X], err,
+                     "the first line must name the columns, but here it holds numbers; put a line of names before it");
+}
+
+/* Words that the names of coordinates hold: anywhere in a name, at its begin, or as its last part (stop_lat, gpsLon).
+ */
+typedef struct axis_words {
+  const char *any, *begin[2], *last[3];
+} axis_words;
+
+static const axis_words latitude = {"latitude", {"lat", "lat"}, {"lat", "lat", "lat"}},
+                        longitude = {"longitude", {"lon", "lng"}, {"lon", "lng", "long"}},
+                        northing = {"northing", {"northing", "northing"}, {"north", "north", "north"}},
+                        easting = {"easting", {"easting", "easting"}, {"east", "east", "east"}};
+
+/* The word is at place k of the field, in any case. */
+static bool has_word(const dyd_span *f, size_t k, const char *word) {
+  for (; *word && k < f->length && lower_letter(f->text[k]) == *word; k++) word++;
+  return !*word;
+}
+
+/* A part of a name begins where a capital follows a small letter, or behind what is no letter. */
+static bool ends_with_part(const dyd_span *f, const char *word) {
+  size_t n = strlen(word);
+  if (n > f->length || !has_word(f, f->length - n, word)) return false;
+  if (n == f->length) return true;
+  char before = f->text[f->length - n - 1], first = f->text[f->length - n];
+  bool letter = lower_letter(before) >= 'a' && lower_letter(before) <= 'z';
+  return !letter || (lower_letter(before) == before && lower_letter(first) != first);
+}
+
+static bool is_called(const dyd_csv *csv, dyd_csv_role role, const axis_words *w) {
+  const dyd_span *f = &csv->field[csv->column[role]];
+  for (size_t k = 0; k < f->length; k++)
+    if (has_word(f, k, w->any)) return true;
+  return has_word(f, 0, w->begin[0]) || has_word(f, 0, w->begin[1]) || ends_with_part(f, w->last[0]) ||
+         ends_with_part(f, w->last[1]) || ends_with_part(f, w->last[2]);
+}
+
+/* What the names of the columns say of them. On the sphere, columns in the other order are refused. */
+static dyd_status read_meanings(dyd_csv *csv, const dyd_read_options *o, dyd_error *err) {
+  const dyd_span *x = &csv->field[csv->column[DYD_CSV_X]], *y = &csv->field[csv->column[DYD_CSV_Y]];
+  const dyd_span *radius = csv->want[DYD_CSV_RADIUS_X].name ? &csv->field[csv->column[DYD_CSV_RADIUS_X]] : NULL;
+  bool x_lat = is_called(csv, DYD_CSV_X, &latitude), y_lon = is_called(csv, DYD_CSV_Y, &longitude);
+  csv->degrees = is_called(csv, DYD_CSV_X, &longitude) && is_called(csv, DYD_CSV_Y, &latitude);
+  csv->swapped = (x_lat || is_called(csv, DYD_CSV_X, &northing)) && (y_lon || is_called(csv, DYD_CSV_Y, &easting));
+  csv->unit = radius ? dyd_unit_of_column(radius->text, radius->length) : NULL;
+  if (!csv->swapped || !o->degrees) return DYD_OK;
+  return dyd_fail(err, DYD_E_ARG,
+                  "by their names the columns are latitude and longitude; longitude comes first: `columns` %.*s,%.*s",
+                  (int)(y->length < 60 ? y->length : 60), y->text, (int)(x->length < 60 ? x->length : 60), x->text);
+}
+
+/* Takes the line for the header. delimiter 0: it tells. */
+static dyd_status header_take(dyd_csv *csv, const dyd_line *line, char delimiter, dyd_error *err) {
+  dyd_status st = delimiter ? DYD_OK : find_delimiter(&delimiter, csv, line, err);
+  if (st == DYD_OK) st = header_split(csv, line, delimiter, err);
+  if (st == DYD_OK) st = find_columns(csv, err);
+  return st == DYD_OK ? refuse_numbers(csv, err) : st;
+}
+
+/* Lines before the header that begin with # and have not got the columns are comments, as what is written here has. One
+ * that has as many fields as the line behind it, in which columns are missing as well, was the header. */
+static dyd_status header_read(dyd_csv *csv, char delimiter, dyd_error *err) {
+  dyd_error before;
+  for (size_t fields = 0;; fields = csv->fields) {
+    dyd_line line;
+    dyd_status st = csv_record(&line, csv, err);
+    if (st != DYD_OK) return st;
+    if (!line.text) break;
+    st = header_take(csv, &line, delimiter, err);
+    if (st != DYD_E_PARSE) return st;
+    if (line.text[0] != '#') {
+      if (err && fields == csv->fields) *err = before;
+      return st;
+    }
+    if (err) before = *err;
+  }
+  if (err) err->line = err->column = 1;
+  return dyd_fail(err, DYD_E_PARSE, "the file has no header; its first line must name the columns");
+}
+
+dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const dyd_read_options *o, dyd_error *err) {
+  *csv = (dyd_csv){.text = text};
+  char delimiter;
+  dyd_status st = read_wanted(csv, o, err);
+  if (st == DYD_OK) st = read_delimiter(&delimiter, o->delimiter, err);
+  if (st == DYD_OK) st = header_read(csv, delimiter, err);
+  csv->columns = csv->fields;
+  return st == DYD_OK ? read_meanings(csv, o, err) : st;
+}
+
+/* ---- a file that is taken for a points file ---- */
+
+/* Is every field a word, or quoted? */
+static bool is_header(const dyd_csv *csv) {
+  bool words = csv->fields > 1;
+  for (size_t k = 0; words && k < csv->fields; k++) {
+    const dyd_span *f = &csv->field[k];
+    char c = f->length ? lower_letter(f->text[0]) : 0;
+    words = f->text != f->at || c == '_' || (c >= 'a' && c <= 'z');
+  }
+  return words;
+}
+
+void dyd_csv_hint(char *out, size_t size, const dyd_line *line) {
+  dyd_csv csv = {0};
+  char names[160];
+  *out = 0;
+  for (const char *d = delimiters; *d && !*out; d++) {
+    if (header_split(&csv, line, *d, NULL) != DYD_OK || !is_header(&csv)) continue;
+    list_names(names, sizeof names, &csv);
+    snprintf(out, size, "; if this is CSV with a header, name two of its columns: `columns` X,Y; they are: %s", names);
+  }
+  dyd_csv_clear(&csv);
+}
+
+/* Rows of fields: small tables beside the points, by the readers of lines and of separated text. */
+
+/* Fields between runs of blanks, commas and semicolons, up to a comment; quotes mean nothing. */
+static dyd_status rows_split_runs(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
+  static const bool between[256] = {[' '] = true, ['\t'] = true, [','] = true, [';'] = true, ['\r'] = true};
+  const char *at = line->text, *end = at + line->length;
+  for (csv->fields = 0;; csv->fields++) {
+    while (at < end && between[(unsigned char)*at]) at++;
+    if (at == end || *at == '#') return DYD_OK;
+    if (!dyd_reserve((void **)&csv->field, &csv->field_cap, csv->fields + 1, sizeof *csv->field))
+      return dyd_fail_nomem(err);
+    const char *from = at;
+    while (at < end && *at != '#' && !between[(unsigned char)*at]) at++;
+    csv->field[csv->fields] = (dyd_span){from, (size_t)(at - from), from, line->text, line->number};
+  }
+}
+
+/* Of the line: what separates most formats of tables, the first that it holds. */
+static char rows_delimiter(const dyd_line *line) {
+  for (const char *c = ",;\t|"; *c; c++)
+    if (memchr(line->text, *c, line->length)) return *c;
+  return ' ';
+}
+
+/* The next row that has fields; csv->fields = 0 at the end. */
+static dyd_status rows_next(dyd_csv *csv, dyd_error *err) {
+  dyd_line line;
+  for (csv->fields = 0; csv->fields == 0;) {
+    dyd_status st = csv->delimiter == ' ' ? dyd_text_next(&line, csv->text, err) : csv_record(&line, csv, err);
+    if (st != DYD_OK || !line.text) return st;
+    if (!csv->delimiter) csv->delimiter = rows_delimiter(&line);
+    st = csv->delimiter == ' ' ? rows_split_runs(csv, &line, err) : csv_split(csv, &line, err);
+    if (st != DYD_OK) return st;
+  }
+  for (size_t k = 0; k < csv->fields; k++) span_trim(&csv->field[k]);
+  return DYD_OK;
+}
+
+dyd_status dyd_read_records(FILE *in, char delimiter, dyd_record_fn row, void *user, dyd_error *err) {
+  dyd_text text;
+  dyd_csv csv = {.text = &text, .delimiter = delimiter, .comments = true};
+  dyd_error own;
+  dyd_status st;
+  if (!err) err = &own;
+  dyd_error_clear(err);
+  dyd_text_init(&text, in);
+  do {
+    st = rows_next(&csv, err);
+    const dyd_record now = {DYD_SIZED(dyd_record), .fields = csv.fields, .field = csv.field};
+    if (st == DYD_OK && csv.fields) st = row(user, &now, err);
+  } while (st == DYD_OK && csv.fields);
+  dyd_csv_clear(&csv);
+  dyd_text_clear(&text);
+  return st;
+}
+
+const char *dyd_record_field(size_t *length, const dyd_record *row, size_t k) {
+  const dyd_span *field = row->field;
+  *length = k < row->fields ? field[k].length : 0;
+  return k < row->fields ? field[k].text : NULL;
+}
+
+bool dyd_record_integer(int64_t *out, const dyd_record *row, size_t k, int64_t least, int64_t most) {
+  size_t length, at = 0;
+  const char *text = dyd_record_field(&length, row, k);
+  const bool negative = length > 0 && *text == '-';
+  int64_t value = 0;
+  for (at = negative; at < length && text[at] >= '0' && text[at] <= '9'; at++)
+    if (__builtin_mul_overflow(value, 10, &value) ||
+        __builtin_add_overflow(value, negative ? '0' - text[at] : text[at] - '0', &value))
+      return false;
+  *out = value;
+  return at == length && at > negative && value >= least && value <= most;
+}
+
+void dyd_record_place(dyd_error *err, const dyd_record *row, size_t k) {
+  const dyd_span *field = row->field;
+  const bool behind = k >= row->fields;
+  const dyd_span *at = &field[behind ? row->fields - 1 : k];
+  dyd_span_position(&err->line, &err->column, at, behind ? at->length : 0);
+}
 
 void dyd_csv_clear(dyd_csv *csv) {
   for (int k = 0; k < DYD_CSV_ROLES; k++) free(csv->want[k].name);
@@ -56,7 +526,10 @@ static dyd_status record_join_lines(dyd_line *out, dyd_csv *csv, dyd_error *err)
   return st;
 }
 
-dyd_status dyd_csv_record(dyd_line *out, dyd_csv *csv, dyd_error *err) {
+/* ---- for the header ---- */
+
+/* The next record that is not an empty line; text = NULL at the end. */
+static dyd_status csv_record(dyd_line *out, dyd_csv *csv, dyd_error *err) {
   dyd_status st;
   do st = dyd_text_next(out, csv->text, err);
   while (st == DYD_OK && out->text && (out->length == 0 || (csv->comments && out->text[0] == '#')));
@@ -97,7 +570,8 @@ static dyd_status record_field(dyd_span *field, const char **at, const char *end
                        "a quote inside a field that is not quoted; quote the whole field and double its quotes");
 }
 
-dyd_status dyd_csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
+/* Splits it into csv->field. */
+static dyd_status csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
   const char *at = line->text, *end = line->text + line->length;
   csv->used = csv->fields = 0;
   if (!dyd_reserve((void **)&csv->plain, &csv->plain_cap, line->length, 1)) return dyd_fail_nomem(err);
@@ -112,14 +586,15 @@ dyd_status dyd_csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
   }
 }
 
-void dyd_span_trim(dyd_span *s) {
+/* Takes off blanks at both ends. */
+static void span_trim(dyd_span *s) {
   while (s->length && (*s->text == ' ' || *s->text == '\t')) s->text++, s->at++, s->length--;
   while (s->length && (s->text[s->length - 1] == ' ' || s->text[s->length - 1] == '\t')) s->length--;
 }
 
+/* "commas", "a comma". Static storage. */
 /* ---- the next point ---- */
-
-const char *dyd_delimiter_name(char delimiter, bool many) {
+static const char *delimiter_name(char delimiter, bool many) {
   static const struct {
     char c;
     const char *one, *many;
@@ -136,19 +611,19 @@ const char *dyd_delimiter_name(char delimiter, bool many) {
 dyd_status dyd_csv_next(dyd_span field[DYD_CSV_ROLES], size_t *count, dyd_csv *csv, dyd_error *err) {
   dyd_line line;
   *count = 0;
-  dyd_status st = dyd_csv_record(&line, csv, err);
+  dyd_status st = csv_record(&line, csv, err);
   if (st != DYD_OK || !line.text) return st;
-  st = dyd_csv_split(csv, &line, err);
+  st = csv_split(csv, &line, err);
   if (st != DYD_OK) return st;
   if (csv->fields != csv->columns) {
     if (err) dyd_span_position(&err->line, &err->column, &csv->field[0], 0);
     return dyd_fail(err, DYD_E_PARSE, "this record has %zu fields, the header %zu; quote fields that hold %s",
-                    csv->fields, csv->columns, dyd_delimiter_name(csv->delimiter, true));
+                    csv->fields, csv->columns, delimiter_name(csv->delimiter, true));
   }
   for (int k = 0; k < DYD_CSV_ROLES; k++) {
     if (!csv->want[k].name) continue;
     field[k] = csv->field[csv->column[k]];
-    dyd_span_trim(&field[k]);
+    span_trim(&field[k]);
   }
   *count = csv->columns;
   return DYD_OK;

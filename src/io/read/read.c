@@ -1,21 +1,795 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Reads points from a file into an engine, in one pass over the text. */
+/* Reads points from a file into an engine, in one pass over the text.
+ *
+ * Each row of either layout becomes a staged point: missing fields, decimal commas, radii and places that are given
+ * more than once are handled here. Staged points are kept back until the whole file is read, so that bad input adds
+ * nothing.
+ *
+ * Points are equal by their nominal coordinates: those that are written, without a radius. A hash table holds texts
+ * that are equal exactly if the numbers are: "mek" for a decimal m * 10^k where 10 does not divide m, "p/q" in lowest
+ * terms for another rational. */
 #include "base/abi.h"
+#include "base/alloc.h"
 #include "base/error.h"
 #include "engine/add.h"
-#include "io/read/intake.h"
+#include "engine/labels.h"
+#include "io/read/coordinate.h"
+#include "io/read/csv.h"
+
 #include <dyadel/io.h>
+#include <dyadel/stream.h>
+#include <inttypes.h>
+#include <math.h>
 #include <string.h>
 
+/* ---- staged points ---- */
+
+/* A point takes the most special kind of its coordinates; doubles fit all kinds. */
+typedef struct staged_point {
+  int16_t kind;   /* a dyd_coordinate_kind */
+  int16_t exp[2]; /* PLAIN */
+  union {
+    double box[4]; /* DOUBLE: x, y. BOX: x0, x1, y0, y1 */
+    int64_t man[2];
+    dyd_real *real[2];
+  } u;
+} staged_point;
+
+/* 40 bytes per point, and what reals hold. */
+typedef struct stage {
+  size_t count;
+  staged_point **piece; /* the points, in pieces of one length; of the first one, first_cap has been allocated */
+  size_t pieces, piece_cap, first_cap;
+} stage;
+
+static void staged_drop(staged_point *p) {
+  if (p->kind != DYD_COORDINATE_REAL) return;
+  dyd_real_free(p->u.real[0]);
+  dyd_real_free(p->u.real[1]);
+  p->kind = DYD_COORDINATE_DOUBLE;
+}
+
+/* Points in a piece: one of full length is in large pages, and none is copied. In the armed build few points need
+ * several. */
+#ifdef DYD_ARMED
+enum { PIECE = 16 };
+#else
+enum { PIECE = 1 << 17 };
+#endif
+
+static staged_point *staged_at(const stage *s, size_t k) {
+  return &s->piece[k / PIECE][k % PIECE];
+}
+
+static void stage_clear(stage *s) {
+  for (size_t k = 0; k < s->count; k++) staged_drop(staged_at(s, k));
+  for (size_t k = 0; k < s->pieces; k++) free(s->piece[k]);
+  free(s->piece);
+  *s = (stage){0};
+}
+
+/* Room for one more point: the first piece grows, so that few points take little. */
+static bool stage_make_room(stage *s) {
+  size_t k = s->count / PIECE;
+  if (k == s->pieces) {
+    if (!dyd_reserve((void **)&s->piece, &s->piece_cap, k + 1, sizeof *s->piece)) return false;
+    s->piece[k] = k ? dyd_alloc(PIECE, sizeof **s->piece) : NULL;
+    if (k && !s->piece[k]) return false;
+    s->pieces++;
+  }
+  return k || dyd_reserve((void **)&s->piece[0], &s->first_cap, s->count + 1, sizeof **s->piece);
+}
+
+/* DOUBLE stands for BINARY, too, but beside a PLAIN coordinate. */
+static dyd_coordinate_kind staged_kind(dyd_coordinate_kind a, dyd_coordinate_kind b) {
+  if (a == DYD_COORDINATE_BINARY && b != DYD_COORDINATE_PLAIN) a = DYD_COORDINATE_DOUBLE;
+  if (b == DYD_COORDINATE_BINARY && a != DYD_COORDINATE_PLAIN) b = DYD_COORDINATE_DOUBLE;
+  if (a == b) return a;
+  if (a == DYD_COORDINATE_DOUBLE && b != DYD_COORDINATE_REAL) return b;
+  if (b == DYD_COORDINATE_DOUBLE && a != DYD_COORDINATE_REAL) return a;
+  return DYD_COORDINATE_REAL;
+}
+
+static void staged_join(staged_point *out, dyd_coordinate_kind kind, const dyd_coordinate *x, const dyd_coordinate *y) {
+  *out = (staged_point){.kind = (int16_t)kind};
+  switch (kind) {
+  case DYD_COORDINATE_DOUBLE:
+  case DYD_COORDINATE_BINARY:
+    out->u.box[0] = x->lo, out->u.box[1] = y->lo;
+    break;
+  case DYD_COORDINATE_BOX:
+    out->u.box[0] = x->lo, out->u.box[1] = x->hi, out->u.box[2] = y->lo, out->u.box[3] = y->hi;
+    break;
+  case DYD_COORDINATE_PLAIN:
+    out->u.man[0] = x->plain.man, out->u.man[1] = y->plain.man;
+    out->exp[0] = (int16_t)x->plain.exp, out->exp[1] = (int16_t)y->plain.exp; /* at most 60 */
+    break;
+  case DYD_COORDINATE_REAL:
+    out->u.real[0] = x->real, out->u.real[1] = y->real;
+    break;
+  }
+}
+
+/* *out becomes the point; takes over reals, also on failure, and leaves both coordinates empty. */
+static dyd_status staged_put(staged_point *out, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  dyd_coordinate_kind kind = staged_kind(x->kind, y->kind);
+  if (kind == DYD_COORDINATE_REAL) st = dyd_coordinate_make_real(x);
+  if (st == DYD_OK && kind == DYD_COORDINATE_REAL) st = dyd_coordinate_make_real(y);
+  if (st != DYD_OK) {
+    dyd_coordinate_clear(x);
+    dyd_coordinate_clear(y);
+    return dyd_fail(err, st, "%s", dyd_status_text(st));
+  }
+  staged_join(out, kind, x, y);
+  x->kind = y->kind = DYD_COORDINATE_DOUBLE;
+  return DYD_OK;
+}
+
+/* Appends a point; takes over reals, also on failure, and leaves both coordinates empty. */
+static dyd_status stage_add(stage *s, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
+  if (!stage_make_room(s)) {
+    dyd_coordinate_clear(x);
+    dyd_coordinate_clear(y);
+    return dyd_fail_nomem(err);
+  }
+  dyd_status st = staged_put(staged_at(s, s->count), x, y, err);
+  s->count += st == DYD_OK;
+  return st;
+}
+
+/* The coordinates of a point, which is empty afterwards: the inverse of staged_join. */
+static void staged_split(dyd_coordinate *x, dyd_coordinate *y, staged_point *p) {
+  dyd_coordinate *c[2] = {x, y};
+  for (int a = 0; a < 2; a++) {
+    *c[a] = (dyd_coordinate){.kind = (dyd_coordinate_kind)p->kind};
+    if (p->kind == DYD_COORDINATE_BOX)
+      c[a]->lo = p->u.box[2 * a], c[a]->hi = p->u.box[2 * a + 1];
+    else if (p->kind == DYD_COORDINATE_PLAIN)
+      c[a]->plain = (dyd_plain){p->u.man[a], p->exp[a]};
+    else if (p->kind == DYD_COORDINATE_REAL)
+      c[a]->real = p->u.real[a];
+    else
+      *c[a] = (dyd_coordinate){.kind = DYD_COORDINATE_BINARY, .lo = p->u.box[a], .hi = p->u.box[a]};
+  }
+  p->kind = DYD_COORDINATE_DOUBLE;
+}
+
+static void swap_coordinates(dyd_coordinate *a, dyd_coordinate *b) {
+  dyd_coordinate c = *a;
+  *a = *b;
+  *b = c;
+}
+
+/* Point k gets the coordinates that are to be taken, and keeps the others; reals and coordinates as above. */
+static dyd_status stage_replace(stage *s, size_t k, dyd_coordinate *x, dyd_coordinate *y, const bool take[2],
+                                dyd_error *err) {
+  dyd_coordinate old[2];
+  staged_split(&old[0], &old[1], staged_at(s, k));
+  if (take[0]) swap_coordinates(&old[0], x);
+  if (take[1]) swap_coordinates(&old[1], y);
+  dyd_coordinate_clear(x);
+  dyd_coordinate_clear(y);
+  return staged_put(staged_at(s, k), &old[0], &old[1], err);
+}
+
+enum { BULK = 1024 };
+
+/* Point k, if it is there and of that kind. */
+static const staged_point *staged_if(const stage *s, size_t k, dyd_coordinate_kind kind) {
+  const staged_point *p = k < s->count ? staged_at(s, k) : NULL;
+  return p && p->kind == (int16_t)kind ? p : NULL;
+}
+
+/* The points from `first` on that are of the given kind, at most BULK; *count tells how many were added. */
+static dyd_status commit_points(size_t *count, dyd_engine *e, const stage *s, size_t first, dyd_error *err) {
+  const staged_point *p;
+  double x[BULK], y[BULK];
+  size_t n = 0;
+  for (; n < BULK && (p = staged_if(s, first + n, DYD_COORDINATE_DOUBLE)); n++) {
+    x[n] = p->u.box[0];
+    y[n] = p->u.box[1];
+  }
+  *count = n;
+  return dyd_engine_append_points(e, n, x, y, err);
+}
+
+static dyd_status commit_boxes(size_t *count, dyd_engine *e, const stage *s, size_t first, dyd_error *err) {
+  const staged_point *p;
+  double end[4][BULK];
+  size_t n = 0;
+  for (; n < BULK && (p = staged_if(s, first + n, DYD_COORDINATE_BOX)); n++)
+    for (int k = 0; k < 4; k++) end[k][n] = p->u.box[k];
+  *count = n;
+  return dyd_engine_append_boxes(e, n, end[0], end[1], end[2], end[3], err);
+}
+
+static dyd_plain plain_of(const staged_point *p, int axis) {
+  return (dyd_plain){p->u.man[axis], p->exp[axis]};
+}
+
+/* One pair of decimals of any size. */
+static dyd_status commit_wide(dyd_engine *e, const staged_point *p, dyd_error *err) {
+  dyd_rect r;
+  mpq_t x, y;
+  dyd_rect_init(&r);
+  mpq_inits(x, y, NULL);
+  dyd_plain_get_q(x, plain_of(p, 0));
+  dyd_plain_get_q(y, plain_of(p, 1));
+  dyd_status st = dyd_rect_set_q(&r, x, y);
+  if (st == DYD_OK) st = dyd_engine_append_rect(e, &r, err);
+  mpq_clears(x, y, NULL);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+/* The decimals from `first` on that fit single words, at most BULK. */
+static dyd_status commit_words(size_t *count, dyd_engine *e, const stage *s, size_t first, dyd_error *err) {
+  const staged_point *p;
+  dyd_words xy[2 * BULK];
+  size_t n = 0;
+  for (; n < BULK && (p = staged_if(s, first + n, DYD_COORDINATE_PLAIN)); n++)
+    if (!dyd_plain_get_words(&xy[2 * n], plain_of(p, 0)) || !dyd_plain_get_words(&xy[2 * n + 1], plain_of(p, 1))) break;
+  *count = n;
+  return dyd_engine_append_words(e, n, xy, err);
+}
+
+static dyd_status commit_plain(size_t *count, dyd_engine *e, const stage *s, size_t first, dyd_error *err) {
+  dyd_status st = commit_words(count, e, s, first, err);
+  if (st != DYD_OK || *count) return st;
+  *count = 1;
+  return commit_wide(e, staged_at(s, first), err);
+}
+
+static dyd_status commit_fixed(dyd_engine *e, const staged_point *p, dyd_error *err) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_interval_set(&r.x, dyd_real_interval(p->u.real[0]));
+  dyd_interval_set(&r.y, dyd_real_interval(p->u.real[1]));
+  dyd_status st = dyd_engine_append_rect(e, &r, err);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+static dyd_status commit_reals(dyd_engine *e, staged_point *p, dyd_error *err) {
+  if (dyd_real_is_final(p->u.real[0]) && dyd_real_is_final(p->u.real[1])) {
+    dyd_status st = commit_fixed(e, p, err);
+    staged_drop(p);
+    return st;
+  }
+  dyd_stream *stream = NULL;
+  p->kind = DYD_COORDINATE_DOUBLE; /* the stream takes both reals over */
+  dyd_status st = dyd_stream_from_reals(&stream, p->u.real[0], p->u.real[1]);
+  return st != DYD_OK ? st : dyd_engine_append_stream(e, stream, err);
+}
+
+static dyd_status stage_commit_from(size_t *count, dyd_engine *e, stage *s, size_t first, dyd_error *err) {
+  staged_point *p = staged_at(s, first);
+  *count = 1;
+  switch ((dyd_coordinate_kind)p->kind) {
+  case DYD_COORDINATE_DOUBLE:
+  case DYD_COORDINATE_BINARY:
+    return commit_points(count, e, s, first, err);
+  case DYD_COORDINATE_BOX:
+    return commit_boxes(count, e, s, first, err);
+  case DYD_COORDINATE_PLAIN:
+    return commit_plain(count, e, s, first, err);
+  case DYD_COORDINATE_REAL:
+    break;
+  }
+  return commit_reals(e, p, err);
+}
+
+/* Adds all points to e in order, those that are doubles in bulk. The stage is empty afterwards.
+ * Fails only when memory is exhausted or e has run already. */
+static dyd_status stage_commit(dyd_engine *e, stage *s, dyd_error *err) {
+  dyd_status st = dyd_engine_reserve(e, s->count);
+  for (size_t k = 0, count = 1; k < s->count && st == DYD_OK; k += count) st = stage_commit_from(&count, e, s, k, err);
+  stage_clear(s);
+  return st != DYD_OK && !err->message[0] ? dyd_fail(err, st, "%s", dyd_status_text(st)) : st;
+}
+
+/* ---- places by their nominal coordinates ---- */
+
+/* A place where points are. width: of the rectangle that its first point, or the merged one, has in x and y. */
+typedef struct nominal {
+  uint64_t hash;
+  size_t text, length; /* the key */
+  size_t point, count; /* its first point, and how many rows give this place */
+  double width[2];
+} nominal;
+
+/* Invariant: slot[] holds numbers of items plus 1, 0 where free; slots is 0 or a power of 2 above 1.5 count. */
+typedef struct nominals {
+  nominal *item;
+  size_t count, cap;
+  size_t *slot, slots;
+  char *text;
+  size_t used, text_cap;
+} nominals;
+
+static void nominals_clear(nominals *n) {
+  free(n->item);
+  free(n->slot);
+  free(n->text);
+  *n = (nominals){0};
+}
+
+static bool key_put(nominals *n, const char *text, size_t length) {
+  if (!dyd_reserve((void **)&n->text, &n->text_cap, n->used + length + 1, 1)) return false;
+  memcpy(n->text + n->used, text, length);
+  n->used += length;
+  return true;
+}
+
+static bool key_put_plain(nominals *n, dyd_plain p) {
+  char text[48];
+  for (; p.man && p.man % 10 == 0; p.exp++) p.man /= 10;
+  int length = snprintf(text, sizeof text, "%" PRId64 "e%d ", p.man, p.man ? p.exp : 0);
+  return key_put(n, text, (size_t)length);
+}
+
+/* Destroys q, which is man / den * 10^ten with den coprime to 10 and man not divisible by 10: "mek" or "p/qek". */
+static dyd_status key_put_rational(nominals *n, mpq_t q) {
+  mpz_ptr man = mpq_numref(q), den = mpq_denref(q);
+  mpz_t factor;
+  mpz_init_set_ui(factor, 2);
+  mp_bitcnt_t twos = mpz_remove(den, den, factor);
+  mpz_set_ui(factor, 5);
+  mp_bitcnt_t fives = mpz_remove(den, den, factor);
+  int64_t ten = -(int64_t)(twos > fives ? twos : fives);
+  mpz_ui_pow_ui(factor, twos > fives ? 5 : 2, twos > fives ? twos - fives : fives - twos);
+  mpz_mul(man, man, factor);
+  mpz_set_ui(factor, 10);
+  ten = mpz_sgn(man) ? ten + (int64_t)mpz_remove(man, man, factor) : 0;
+  mpz_clear(factor);
+  size_t most = mpz_sizeinbase(man, 10) + mpz_sizeinbase(den, 10) + 32;
+  if (!dyd_reserve((void **)&n->text, &n->text_cap, n->used + most, 1)) return DYD_E_NOMEM;
+  char *to = n->text + n->used;
+  n->used += (size_t)(mpz_cmp_ui(den, 1) ? gmp_snprintf(to, most, "%Zd/%Zde%" PRId64 " ", man, den, ten)
+                                         : gmp_snprintf(to, most, "%Zde%" PRId64 " ", man, ten));
+  return DYD_OK;
+}
+
+/* Where a radius begins, or the end of the text. */
+static size_t nominal_length(const dyd_span *s) {
+  int depth = 0;
+  for (size_t k = 0; k + 1 < s->length; k++) {
+    const char *p = s->text + k;
+    depth += (*p == '(') - (*p == ')');
+    if (!depth && (memcmp(p, "+-", 2) == 0 || memcmp(p, "\xC2\xB1", 2) == 0)) return k;
+  }
+  return s->length;
+}
+
+/* The middle of "[a,b]". */
+static dyd_status parse_middle(mpq_t out, const char *text, size_t length) {
+  const char *end = text + length, *comma = text;
+  mpq_t other;
+  int depth = 0;
+  for (; comma < end && (*comma != ',' || depth != 1); comma++)
+    depth += (*comma == '(' || *comma == '[') - (*comma == ')' || *comma == ']');
+  if (comma == end || end[-1] != ']') return DYD_E_PARSE;
+  mpq_init(other);
+  dyd_status st = dyd_real_parse_exact(out, text + 1, (size_t)(comma - text) - 1);
+  if (st == DYD_OK) st = dyd_real_parse_exact(other, comma + 1, (size_t)(end - comma) - 2);
+  if (st == DYD_OK) mpq_add(out, out, other);
+  if (st == DYD_OK) mpq_div_2exp(out, out, 1);
+  mpq_clear(other);
+  return st;
+}
+
+static dyd_status key_put_coordinate(nominals *n, const dyd_span *s) {
+  size_t length = nominal_length(s);
+  dyd_plain plain;
+  if (dyd_plain_scan(&plain, s->text, length)) return key_put_plain(n, plain) ? DYD_OK : DYD_E_NOMEM;
+  mpq_t q;
+  mpq_init(q);
+  dyd_status st = s->text[0] == '[' ? parse_middle(q, s->text, length) : dyd_real_parse_exact(q, s->text, length);
+  if (st == DYD_OK)
+    st = key_put_rational(n, q);
+  else if (st != DYD_E_NOMEM)
+    st = key_put(n, s->text, length) && key_put(n, " ", 1) ? DYD_OK : DYD_E_NOMEM;
+  mpq_clear(q);
+  return st;
+}
+
+/* FNV-1a, with its high half stirred in, as slots are taken by low bits. */
+static uint64_t hash_text(const char *text, size_t length) {
+  uint64_t h = UINT64_C(14695981039346656037);
+  for (size_t k = 0; k < length; k++) h = (h ^ (unsigned char)text[k]) * UINT64_C(1099511628211);
+  return h ^ h >> 32;
+}
+
+/* The slot of the key, or the free one where it belongs. */
+static size_t *slot_find(const nominals *n, uint64_t hash, const char *key, size_t length) {
+  for (size_t k = (size_t)hash & (n->slots - 1);; k = (k + 1) & (n->slots - 1)) {
+    if (!n->slot[k]) return &n->slot[k];
+    const nominal *i = &n->item[n->slot[k] - 1];
+    if (i->hash == hash && i->length == length && memcmp(n->text + i->text, key, length) == 0) return &n->slot[k];
+  }
+}
+
+static bool slots_grow(nominals *n) {
+  if (n->slots && n->slots / 3 * 2 > n->count) return true;
+  size_t slots = n->slots ? 2 * n->slots : 1024;
+  size_t *slot = calloc(slots, sizeof *slot);
+  if (!slot) return false;
+  free(n->slot);
+  n->slot = slot;
+  n->slots = slots;
+  for (size_t k = 0; k < n->count; k++) {
+    const nominal *i = &n->item[k];
+    *slot_find(n, i->hash, n->text + i->text, i->length) = k + 1;
+  }
+  return true;
+}
+
+/* The place of the two coordinates, counted once more; *out is borrowed until the next call. Equal exact numbers (the
+ * middle of an interval, a value without its radius) are equal however they are written; other expressions are when
+ * their texts are equal. A new place has count 1. DYD_E_NOMEM. */
+static dyd_status nominals_find(nominal **out, nominals *n, const dyd_span span[2]) {
+  size_t begin = n->used;
+  dyd_status st = key_put_coordinate(n, &span[0]);
+  if (st == DYD_OK) st = key_put_coordinate(n, &span[1]);
+  if (st == DYD_OK && (!slots_grow(n) || !dyd_reserve((void **)&n->item, &n->cap, n->count + 1, sizeof *n->item)))
+    st = DYD_E_NOMEM;
+  if (st != DYD_OK) return st;
+  size_t length = n->used - begin;
+  uint64_t hash = hash_text(n->text + begin, length);
+  size_t *slot = slot_find(n, hash, n->text + begin, length);
+  if (*slot)
+    n->used = begin;
+  else
+    n->item[n->count++] = (nominal){.hash = hash, .text = begin, .length = length};
+  if (!*slot) *slot = n->count;
+  *out = &n->item[*slot - 1];
+  (*out)->count++;
+  return DYD_OK;
+}
+
+/* ---- rows ---- */
+
+/* Invariant: every row so far is in report.rows, and, where labels are kept, in labels. */
+typedef struct intake {
+  const dyd_read_options *o; /* borrowed */
+  mpq_t radius, scale;       /* of all points; of what columns hold */
+  const dyd_unit *unit;      /* of radii that state none, on the sphere; NULL: there is none */
+  dyd_manner manner[2];      /* of x and y in the present row */
+  double kept[2];            /* radii of this row that do not widen it, rounded up */
+  stage stage;
+  dyd_labels labels;
+  nominals places;
+  dyd_read_report report;
+  char *plain; /* fields with points in place of commas */
+  size_t plain_cap;
+} intake;
+
+/* ---- radii ---- */
+
+/* mpq_get_d rounds towards zero. */
+static double radius_above(const mpq_t radius) {
+  mpq_t back;
+  double down = mpq_get_d(radius);
+  mpq_init(back);
+  if (isfinite(down)) mpq_set_d(back, down);
+  bool exact = mpq_equal(back, radius);
+  mpq_clear(back);
+  return exact ? down : nextafter(down, INFINITY);
+}
+
+/* Beyond doubles the radius goes the general way. */
+static void manner_set_radius(dyd_manner *m, const mpq_t radius) {
+  mpq_set(m->radius, radius);
+  m->widen = mpq_sgn(radius) > 0;
+  m->radius_up = radius_above(radius);
+}
+
+static dyd_status radius_fail(const intake *in, const dyd_span *span, dyd_error *err) {
+  return dyd_span_fail(
+      err, span, 0,
+      in->o->degrees ? "the radius is not an exact number >= 0 and a unit; give one such as 0.01deg, 30m or 2km"
+                     : "the radius is not an exact number >= 0; give one such as 0.01 or 1/64 (units: with `sphere`)");
+}
+
+static dyd_status radius_fail_unit(const dyd_span *span, dyd_error *err) {
+  char message[160];
+  snprintf(message, sizeof message, "the radius %.*s has no unit; state a unit: `radius_unit` m (" DYD_UNIT_NAMES ")",
+           (int)(span->length < 20 ? span->length : 20), span->text);
+  dyd_span_fail(err, span, 0, message);
+  return DYD_E_ARG;
+}
+
+/* Of a field: out, scaled; *ground: in metres. */
+static dyd_status intake_read_radius(mpq_t out, bool *ground, const intake *in, const dyd_span *span, dyd_error *err) {
+  *ground = false;
+  dyd_status st = in->o->degrees ? dyd_radius_parse(out, ground, span->text, span->length, in->unit)
+                                 : dyd_real_parse_exact(out, span->text, span->length);
+  if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (st == DYD_E_DOMAIN) return radius_fail_unit(span, err);
+  if (st == DYD_OK) mpq_mul(out, out, in->scale);
+  return st != DYD_OK || mpq_sgn(out) < 0 ? radius_fail(in, span, err) : DYD_OK;
+}
+
+/* Each row with columns of radii has its own: what they say is added to the radius of all points, or kept. */
+static dyd_status intake_radius(intake *in, int axis, const dyd_span *span, dyd_error *err) {
+  mpq_t own;
+  bool ground;
+  mpq_init(own);
+  dyd_status st = intake_read_radius(own, &ground, in, span, err);
+  if (st == DYD_OK) {
+    bool keep = ground || in->o->keep_radii;
+    in->kept[axis] = keep ? radius_above(own) : 0;
+    if (keep) mpq_set_ui(own, 0, 1);
+    mpq_add(own, own, in->radius);
+    manner_set_radius(&in->manner[axis], own);
+  }
+  mpq_clear(own);
+  if (st == DYD_OK && !isfinite(in->kept[axis]))
+    st = dyd_span_fail(err, span, 0, "the radius is above the range of doubles, about 1.8e308; give a smaller one");
+  if (st == DYD_OK && axis && in->kept[0] != in->kept[1])
+    st = dyd_span_fail(err, span, 0,
+                       "the radii in x and in y differ, and here a point has one; name one column of them");
+  return st;
+}
+
+/* The radius of all points, the unit and the scale. */
+static dyd_status intake_radius_of_all(intake *in, dyd_error *err) {
+  const char *text = in->o->radius, *unit = in->o->radius_unit, *scale = in->o->radius_scale;
+  mpq_set_ui(in->scale, 1, 1);
+  dyd_status st = dyd_unit_take(&in->unit, in->scale, unit, scale, err);
+  if (st != DYD_OK) return st;
+  if (unit && !in->o->degrees)
+    return dyd_fail(err, DYD_E_ARG,
+                    "in the plane radii are in the unit of the coordinates; for others scale them, such as millimetres "
+                    "where coordinates are metres: `radius_scale` 0.001");
+  st = text ? dyd_real_parse_exact(in->radius, text, strlen(text)) : DYD_OK;
+  if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (st != DYD_OK || mpq_sgn(in->radius) < 0)
+    return dyd_fail(
+        err, DYD_E_ARG,
+        "the radius \"%.60s\" is not an exact number >= 0; give one such as 0.01 or 1/64 (units: with `sphere`)", text);
+  mpq_mul(in->radius, in->radius, in->scale);
+  for (int a = 0; a < 2; a++) manner_set_radius(&in->manner[a], in->radius);
+  return DYD_OK;
+}
+
+/* what: "the cost". */
+static dyd_status intake_number(double *out, const dyd_span *span, const char *what, dyd_error *err) {
+  char message[160];
+  mpq_t own;
+  mpq_init(own);
+  dyd_status st = dyd_real_parse_exact(own, span->text, span->length);
+  *out = st == DYD_OK ? mpq_get_d(own) : 0;
+  mpq_clear(own);
+  if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (*out > 0 && isfinite(*out)) return DYD_OK;
+  snprintf(message, sizeof message, "%s is not an exact number above 0; give one such as 2 or 0.5", what);
+  return dyd_span_fail(err, span, 0, message);
+}
+
+/* ---- life ---- */
+
+static dyd_status intake_check(const dyd_read_options *o, dyd_error *err) {
+  const char *about = o->id               ? "`id`"
+                      : o->radius_columns ? "`radius_columns`"
+                      : o->cost_column    ? "`cost_column`"
+                      : o->sigma_column   ? "`sigma_column`"
+                      : o->delimiter      ? "`delimiter`"
+                                          : NULL;
+  if (o->columns || !about) return DYD_OK;
+  return dyd_fail(err, DYD_E_ARG, "%s is about columns; name those of x and y, too: `columns` NAME,NAME", about);
+}
+
+/* DYD_E_ARG when the options are not of their form; intake_clear comes after it in any case. */
+static dyd_status intake_init(intake *in, const dyd_read_options *o, dyd_error *err) {
+  *in = (intake){.o = o, .report = {DYD_SIZED(dyd_read_report)}};
+  mpq_inits(in->radius, in->scale, NULL);
+  for (int a = 0; a < 2; a++) {
+    in->manner[a].measured = o->measured;
+    mpq_init(in->manner[a].radius);
+  }
+  dyd_status st = intake_check(o, err);
+  return st == DYD_OK ? intake_radius_of_all(in, err) : st;
+}
+
+static void intake_clear(intake *in) {
+  free(in->plain);
+  nominals_clear(&in->places);
+  dyd_labels_clear(&in->labels);
+  stage_clear(&in->stage);
+  for (int a = 0; a < 2; a++) mpq_clear(in->manner[a].radius);
+  mpq_clears(in->radius, in->scale, NULL);
+}
+
+/* Do points have what stands beside their rectangles? */
+static bool intake_numbers(const intake *in) {
+  const dyd_read_options *o = in->o;
+  return o->cost_column || o->sigma_column || (o->radius_columns && (o->keep_radii || o->degrees));
+}
+
+/* Or rows and points may differ, or points have identifiers. */
+static bool intake_labels(const intake *in) {
+  return in->o->id || in->o->skip_missing || in->o->merge || intake_numbers(in);
+}
+
+/* ---- fields ---- */
+
+static bool is_word(const char *text, size_t length, const char *word) {
+  if (length != strlen(word)) return false;
+  for (size_t k = 0; k < length; k++)
+    if ((text[k] | 0x20) != word[k]) return false;
+  return true;
+}
+
+/* Nothing, NA, NaN (printf signs it) or null, in any case. */
+static bool is_missing(const dyd_span *s) {
+  size_t sign = s->length && (*s->text == '-' || *s->text == '+');
+  return !s->length || is_word(s->text, s->length, "na") || is_word(s->text, s->length, "null") ||
+         is_word(s->text + sign, s->length - sign, "nan");
+}
+
+static dyd_status fail_missing_field(const dyd_span *s, dyd_csv_role role, dyd_error *err) {
+  char message[160];
+  const char *what = role == DYD_CSV_COST       ? "cost"
+                     : role == DYD_CSV_SIGMA    ? "standard deviation"
+                     : role >= DYD_CSV_RADIUS_X ? "radius"
+                                                : "coordinate";
+  if (s->length)
+    snprintf(message, sizeof message, "the %s is missing (%.*s); fill it in, or leave such rows out: `skip_missing`",
+             what, (int)s->length, s->text);
+  else
+    snprintf(message, sizeof message, "the %s is empty; fill it in, or leave such rows out: `skip_missing`", what);
+  return dyd_span_fail(err, s, 0, message);
+}
+
+/* A comma in such a field is a decimal comma; within brackets it separates. */
+static bool has_comma(const dyd_span *s) {
+  return s->length && memchr(s->text, ',', s->length) && !memchr(s->text, '(', s->length) &&
+         !memchr(s->text, '[', s->length);
+}
+
+/* Copies of fields with commas get points in their place. */
+static dyd_status take_commas(intake *in, dyd_span span[DYD_CSV_ROLES], dyd_error *err) {
+  size_t size = 0;
+  for (int k = 0; k < DYD_CSV_ID; k++) size += span[k].length;
+  if (!dyd_reserve((void **)&in->plain, &in->plain_cap, size + 1, 1)) return dyd_fail_nomem(err);
+  char *at = in->plain;
+  for (int k = 0; k < DYD_CSV_ID; k++) {
+    if (!has_comma(&span[k])) continue;
+    memcpy(at, span[k].text, span[k].length);
+    span[k].text = at;
+    for (char *end = at + span[k].length; at < end; at++)
+      if (*at == ',') *at = '.';
+  }
+  return DYD_OK;
+}
+
+/* Behind what is wrong with a coordinate, where a comma may be the reason. */
+static dyd_status hint_comma(dyd_status st, const intake *in, const dyd_span *s, dyd_error *err) {
+  size_t length = strlen(err->message);
+  if (st == DYD_E_PARSE && !in->o->decimal_comma && has_comma(s))
+    snprintf(err->message + length, sizeof err->message - length,
+             "; where commas stand for decimal points, give `decimal_comma`");
+  return st;
+}
+
+/* ---- places given more than once ---- */
+
+/* The width that the coordinate has in the end, about. */
+static double final_width(const dyd_coordinate *c, const dyd_manner *manner) {
+  if (c->kind == DYD_COORDINATE_BOX) return c->hi - c->lo;
+  if (c->kind != DYD_COORDINATE_REAL) return 0;
+  if (!dyd_real_is_final(c->real)) return manner->widen ? 2 * manner->radius_up : 0;
+  double end[2];
+  dyd_interval_get_d(&end[0], &end[1], dyd_real_interval(c->real));
+  return end[1] - end[0];
+}
+
+/* A rectangle inside both is that of the smaller width in each coordinate, as they have their centre in common. A
+ * radius that is kept goes with its rectangle: of rows with different ones, one is taken, inside the other if it can
+ * be. */
+static dyd_status intake_merge(intake *in, nominal *place, dyd_coordinate c[2], const double width[2], dyd_error *err) {
+  size_t point = place->point;
+  double *kept = &in->labels.number[point].of[DYD_ROW_RADIUS];
+  bool less = in->kept[0] < *kept && width[0] <= place->width[0] && width[1] <= place->width[1];
+  bool same = in->kept[0] == *kept;
+  const bool take[2] = {(same || less) && width[0] < place->width[0], (same || less) && width[1] < place->width[1]};
+  if (less) *kept = in->kept[0];
+  for (int a = 0; a < 2; a++)
+    if (take[a]) place->width[a] = width[a];
+  dyd_status st = stage_replace(&in->stage, point, &c[0], &c[1], take, err);
+  if (st != DYD_OK) return st;
+  in->report.merged++;
+  return dyd_labels_merge(&in->labels, point) ? DYD_OK : dyd_fail_nomem(err);
+}
+
+/* Stages a point that is read; takes over reals, also on failure. */
+static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_ROLES], dyd_coordinate c[2], dyd_error *err) {
+  const double width[2] = {final_width(&c[0], &in->manner[0]), final_width(&c[1], &in->manner[1])};
+  nominal *place = NULL;
+  const dyd_span *id = &span[DYD_CSV_ID], *cost = &span[DYD_CSV_COST], *sigma = &span[DYD_CSV_SIGMA];
+  dyd_row_numbers own = dyd_no_row_numbers;
+  if (in->o->merge || width[0] > 0 || width[1] > 0 || (in->o->degrees && in->kept[0] > 0)) {
+    if (nominals_find(&place, &in->places, span) != DYD_OK) {
+      for (int a = 0; a < 2; a++) dyd_coordinate_clear(&c[a]);
+      return dyd_fail_nomem(err);
+    }
+    if (place->count > 1 && in->o->merge) return intake_merge(in, place, c, width, err);
+    if (place->count > 1) in->report.shared += place->count == 2 ? 2 : 1;
+    if (place->count == 1) place->point = in->stage.count;
+    if (place->count == 1) memcpy(place->width, width, sizeof width);
+  }
+  dyd_status st = stage_add(&in->stage, &c[0], &c[1], err);
+  if (st != DYD_OK || !intake_labels(in)) return st;
+  own.of[DYD_ROW_RADIUS] = in->kept[0];
+  if (cost->text) st = intake_number(&own.of[DYD_ROW_COST], cost, "the cost", err);
+  if (st == DYD_OK && sigma->text) st = intake_number(&own.of[DYD_ROW_SIGMA], sigma, "the standard deviation", err);
+  if (st != DYD_OK) return st;
+  return dyd_labels_add(&in->labels, id->text, id->length, &own) ? DYD_OK : dyd_fail_nomem(err);
+}
+
+/* Is all of the coordinate beyond 90? Of computable numbers that is not known yet. */
+static bool is_beyond_poles(const dyd_coordinate *c) {
+  double lo = c->lo, hi = c->hi;
+  if (c->kind == DYD_COORDINATE_PLAIN) return dyd_plain_get_rounded(&lo, c->plain, DYD_UP) && fabs(lo) > 90;
+  if (c->kind == DYD_COORDINATE_REAL && !dyd_real_is_final(c->real)) return false;
+  if (c->kind == DYD_COORDINATE_REAL) dyd_interval_get_d(&lo, &hi, dyd_real_interval(c->real));
+  return lo > 90 || hi < -90;
+}
+
+static dyd_status intake_skip(intake *in, const dyd_span *s, dyd_csv_role role, dyd_error *err) {
+  if (!in->o->skip_missing) return fail_missing_field(s, role, err);
+  in->report.missing++;
+  dyd_labels_skip(&in->labels);
+  return DYD_OK;
+}
+
+/* Takes in one row: fields by their roles, text = NULL where there is none. span is changed. */
+static dyd_status intake_row(intake *in, dyd_span span[DYD_CSV_ROLES], dyd_error *err) {
+  dyd_coordinate c[2] = {{.kind = DYD_COORDINATE_DOUBLE}, {.kind = DYD_COORDINATE_DOUBLE}};
+  dyd_status st = DYD_OK;
+  in->report.rows++;
+  for (int k = 0; k < DYD_CSV_ID; k++)
+    if (span[k].text && is_missing(&span[k])) return intake_skip(in, &span[k], (dyd_csv_role)k, err);
+  if (in->o->decimal_comma) st = take_commas(in, span, err);
+  for (int a = 0; st == DYD_OK && a < 2; a++) {
+    if (span[DYD_CSV_RADIUS_X + a].text) st = intake_radius(in, a, &span[DYD_CSV_RADIUS_X + a], err);
+    if (st == DYD_OK) st = hint_comma(dyd_coordinate_read(&c[a], &span[a], &in->manner[a], err), in, &span[a], err);
+  }
+  if (st == DYD_OK && in->o->degrees && is_beyond_poles(&c[1]))
+    st = dyd_span_fail(err, &span[1], 0, "the latitude is beyond 90 degrees; longitude comes first, then latitude");
+  if (st == DYD_OK) return intake_point(in, span, c, err);
+  dyd_coordinate_clear(&c[1]);
+  dyd_coordinate_clear(&c[0]);
+  return st;
+}
+
+/* Adds all points to e, with their labels; the stage is empty afterwards. */
+static dyd_status intake_commit(dyd_engine *e, intake *in, dyd_error *err) {
+  const dyd_labels *own = &in->labels;
+  dyd_labels all = {0};
+  bool labelled = own->has_ids || intake_numbers(in) || in->report.missing || in->report.merged;
+  if (labelled && dyd_labels_join(&all, e, own) != DYD_OK) return dyd_fail_nomem(err);
+  dyd_status st = stage_commit(e, &in->stage, err);
+  if (st == DYD_OK && labelled)
+    dyd_labels_give(e, &all);
+  else
+    dyd_labels_clear(&all);
+  return st;
+}
+
+/* ---- files and texts ---- */
+
 /* Behind what is wrong with the first line, where that may be a header. */
-static dyd_status hint_header(dyd_status st, const dyd_line *line, const dyd_intake *in, dyd_error *err) {
+static dyd_status hint_header(dyd_status st, const dyd_line *line, const intake *in, dyd_error *err) {
   size_t length = strlen(err->message);
   if (st == DYD_E_PARSE && in->report.rows <= 1 && !in->stage.count)
     dyd_csv_hint(err->message + length, sizeof err->message - length, line);
   return st;
 }
 
-static dyd_status read_points_file(dyd_intake *in, dyd_text *text, dyd_error *err) {
+static dyd_status read_points_file(intake *in, dyd_text *text, dyd_error *err) {
   for (;;) {
     dyd_line line;
     dyd_span span[DYD_CSV_ROLES] = {{0}};
@@ -23,12 +797,12 @@ static dyd_status read_points_file(dyd_intake *in, dyd_text *text, dyd_error *er
     dyd_status st = dyd_text_next(&line, text, err);
     if (st != DYD_OK || !line.text) return st;
     st = dyd_points_split(span, &count, &line, in->o->decimal_comma ? ' ' : ',', err);
-    if (st == DYD_OK && count) st = dyd_intake_row(in, span, err);
+    if (st == DYD_OK && count) st = intake_row(in, span, err);
     if (st != DYD_OK) return hint_header(st, &line, in, err);
   }
 }
 
-static dyd_status read_csv_file(dyd_intake *in, dyd_text *text, dyd_error *err) {
+static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
   dyd_csv csv;
   size_t count = 1;
   dyd_status st = dyd_csv_open(&csv, text, in->o, err);
@@ -38,7 +812,7 @@ static dyd_status read_csv_file(dyd_intake *in, dyd_text *text, dyd_error *err) 
   while (st == DYD_OK && count) {
     dyd_span span[DYD_CSV_ROLES] = {{0}};
     st = dyd_csv_next(span, &count, &csv, err);
-    if (st == DYD_OK && count) st = dyd_intake_row(in, span, err);
+    if (st == DYD_OK && count) st = intake_row(in, span, err);
   }
   dyd_csv_clear(&csv);
   return st;
@@ -46,13 +820,13 @@ static dyd_status read_csv_file(dyd_intake *in, dyd_text *text, dyd_error *err) 
 
 /* Adds the points of text, which is ready to be read; err is not NULL. */
 static dyd_status points_read_text(dyd_engine *e, dyd_text *text, const dyd_read_options *o, dyd_error *err) {
-  dyd_intake in;
-  dyd_status st = dyd_intake_init(&in, o, err);
+  intake in;
+  dyd_status st = intake_init(&in, o, err);
   if (st == DYD_OK && o->report) st = dyd_abi_check(o->report, sizeof o->report->struct_size, "dyd_read_report", err);
   if (st == DYD_OK) st = o->columns ? read_csv_file(&in, text, err) : read_points_file(&in, text, err);
-  if (st == DYD_OK) st = dyd_intake_commit(e, &in, err);
+  if (st == DYD_OK) st = intake_commit(e, &in, err);
   if (st == DYD_OK && o->report) dyd_abi_give(o->report, &in.report, sizeof in.report);
-  dyd_intake_clear(&in);
+  intake_clear(&in);
   return st;
 }
 

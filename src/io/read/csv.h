@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The two layouts of input: the points file and separated text with a header. Both give spans of text. */
-#ifndef DYD_IO_READ_SOURCE_H
-#define DYD_IO_READ_SOURCE_H
+#ifndef DYD_IO_READ_CSV_H
+#define DYD_IO_READ_CSV_H
 
 #include "io/read/text.h"
 #include "sphere/units.h"
@@ -57,17 +57,6 @@ void dyd_csv_clear(dyd_csv *csv);
 /* The fields of the next record, blanks around them removed; those that are not wanted are left as they are. *count is
  * 0 at the end, else above. Borrowed until the next call. */
 dyd_status dyd_csv_next(dyd_span field[DYD_CSV_ROLES], size_t *count, dyd_csv *csv, dyd_error *err);
-
-/* ---- for the header ---- */
-
-/* The next record that is not an empty line; text = NULL at the end. */
-dyd_status dyd_csv_record(dyd_line *out, dyd_csv *csv, dyd_error *err);
-/* Splits it into csv->field. */
-dyd_status dyd_csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err);
-/* Takes off blanks at both ends. */
-void dyd_span_trim(dyd_span *s);
-/* "commas", "a comma". Static storage. */
-const char *dyd_delimiter_name(char delimiter, bool many);
 /* Where a first line looks like a header, what is to be typed for it: "; if this is ..."; else the empty text. */
 void dyd_csv_hint(char *out, size_t size, const dyd_line *line);
 
