@@ -255,6 +255,16 @@ DYD_API bool dyd_engine_merged(size_t *row, size_t *point, const dyd_engine *e, 
  * than when the result was made: it holds for them all the same, and the next run begins by bringing it up to date. */
 DYD_API dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_options *options,
                                   dyd_error *err);
+
+/* The statuses of n points in one call, for programs that need nothing else of an engine.
+ * out      pairs that are not illegal, i < j, sorted; empty before; the caller clears it with dyd_pair_list_clear
+ * xy       x0 y0 x1 y1 ...: 2 n doubles, borrowed for the call
+ * radius   each point lies in the square of this half-width about its x, y; 0: exact points
+ * options  as of dyd_engine_run, NULL selects the defaults; err may be NULL
+ * Returns DYD_OK also where pairs stay open (their status says so), or a code below 0 with *out unchanged: DYD_E_ARG for
+ * NaN, infinities and a radius below 0. */
+DYD_API dyd_status dyd_delaunay_of(dyd_pair_list *out, size_t n, const double *xy, double radius,
+                                   const dyd_engine_options *options, dyd_error *err);
 /* Asks a run to stop soon, with outcome cancelled. Async-signal-safe, from any thread. Sticky until the next
  * run has ended with it. */
 DYD_API void dyd_engine_cancel(dyd_engine *e);

@@ -265,3 +265,26 @@ dyd_status dyd_engine_append_source(dyd_engine *e, size_t n, const dyd_source *s
   if (!e) return refuse_source(source, err);
   return appended(e, add_source(e, true, n, source), err);
 }
+
+/* ---- in one call ---- */
+
+dyd_status dyd_delaunay_of(dyd_pair_list *out, size_t n, const double *xy, double radius,
+                           const dyd_engine_options *options, dyd_error *err) {
+  const dyd_column xys[2] = {{xy, 2 * sizeof *xy}, {xy ? xy + 1 : NULL, 2 * sizeof *xy}},
+                   radii[2] = {{&radius, 0}, {&radius, 0}};
+  dyd_engine *e = NULL;
+  dyd_outcome outcome;
+  if (!out || (n && !xy)) return dyd_fail_null(err);
+  dyd_status st = dyd_engine_new(&e);
+  if (st != DYD_OK) return dyd_fail_nomem(err);
+  st = dyd_engine_append_columns(e, n, xys, radius == 0 ? NULL : radii, err);
+  if (st == DYD_OK) st = dyd_engine_run(&outcome, e, options, err);
+  if (st == DYD_OK) {
+    st = dyd_delaunay_pairs(out, dyd_engine_delaunay(e));
+    if (st != DYD_OK)
+      dyd_fail(err, st,
+               "no pair is known: the budget was spent before the first stage was complete, or memory is exhausted");
+  }
+  dyd_engine_free(e);
+  return st;
+}

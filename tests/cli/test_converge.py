@@ -321,10 +321,10 @@ def test_sweep():
         expect(run('converge', '--label', wrong, 'none'), 2, err='--label .*NAME=VALUE,NAME=VALUE')
 
 
-def test_sweeps_of_readme():
-    """The commands that README hands to GNU parallel and to Slurm, for two seeds, as these run them: braces filled in;
+def test_sweeps_of_the_guide():
+    """The commands that the guide hands to GNU parallel and to Slurm, for two seeds, as these run them: braces filled in;
     by sh, with the number of the task in the environment."""
-    with open(os.path.join(os.path.dirname(__file__), '../../README.md'), encoding='utf-8') as f:
+    with open(os.path.join(os.path.dirname(__file__), '../guide/convergence.md'), encoding='utf-8') as f:
         (one, array) = re.findall(r"^    (?:parallel|sbatch [^']*) '(dyadel converge [^']*)'", f.read(), re.MULTILINE)
     with tempfile.TemporaryDirectory() as folder:
         os.symlink(os.path.abspath(COMMAND), os.path.join(folder, 'dyadel'))

@@ -240,15 +240,11 @@ def test_pdf_and_png():
                     assert f.read(4) == magic
 
 
-def test_picture_of_readme():
+def test_picture_of_all_kinds():
     picture = run('delaunay', os.path.join(DATA, 'picture.txt'), '--format', 'svg')
     expect(picture, 3)
     with open(os.path.join(DATA, 'picture.svg'), encoding='utf-8') as f:
         assert f.read() == picture.out, 'tests/data/picture.svg is out of date'
-    discs = run('delaunay', '--discs', '--columns', 'east,north', '--radius-column', 'accuracy', os.path.join(DATA, 'gps.csv'),
-                '--format', 'svg')
-    with open(os.path.join(DATA, 'gps.svg'), encoding='utf-8') as f:
-        assert f.read() == discs.out, 'tests/data/gps.svg is out of date'
 
 
 def test_no_points_in_all_formats():

@@ -458,14 +458,63 @@ static void test_readme(void **state) {
   dyd_engine_free(engine);
 }
 
+/* dyd_delaunay_of gives what an engine with the same points gives, and leaves its output on failure. */
+static void test_one_call(void **state) {
+  (void)state;
+  const double xy[] = {0, 0, 3, 0, 3, 2.75, 0, 2.5, 1, 1}, wrong[] = {0, NAN};
+  dyd_pair_list list = {0}, same = {0};
+  dyd_error err;
+  for (int n = 0; n <= 5; n++)
+    for (double radius = 0; radius < 1; radius += 0.25) {
+      dyd_engine *e = NULL;
+      dyd_outcome outcome;
+      assert_int_equal(DYD_OK, dyd_delaunay_of(&list, (size_t)n, xy, radius, NULL, &err));
+      assert_int_equal(DYD_OK, dyd_engine_new(&e));
+      for (int k = 0; k < n; k++) {
+        double x0 = xy[2 * k] - radius, x1 = xy[2 * k] + radius, y0 = xy[2 * k + 1] - radius,
+               y1 = xy[2 * k + 1] + radius;
+        assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 1, &x0, &x1, &y0, &y1));
+      }
+      assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, NULL, &err));
+      assert_int_equal(DYD_OK, dyd_delaunay_pairs(&same, dyd_engine_delaunay(e)));
+      assert_int_equal(list.count, same.count);
+      for (size_t k = 0; k < same.count; k++) {
+        assert_int_equal(list.item[k].i, same.item[k].i);
+        assert_int_equal(list.item[k].j, same.item[k].j);
+        assert_int_equal(list.item[k].status, same.item[k].status);
+      }
+      dyd_engine_free(e);
+      dyd_pair_list_clear(&same);
+      if (n < 5 || radius < 0.75) dyd_pair_list_clear(&list);
+    }
+  size_t before = list.count;
+  assert_int_equal(DYD_E_ARG, dyd_delaunay_of(&list, 1, wrong, 0, NULL, &err));
+  assert_int_equal(DYD_E_ARG, dyd_delaunay_of(&list, 5, xy, -1, NULL, &err));
+  assert_int_equal(DYD_E_ARG, dyd_delaunay_of(&list, 5, NULL, 0, NULL, &err));
+  assert_int_equal(DYD_E_ARG, dyd_delaunay_of(NULL, 5, xy, 0, NULL, NULL));
+  dyd_engine_options late = {DYD_SIZED(dyd_engine_options)};
+  dyd_engine_options_init(&late);
+  late.seconds = 1e-9;
+  assert_true(dyd_delaunay_of(&list, 5, xy, 0.5, &late, &err) < 0);
+  assert_int_equal(before, list.count);
+  dyd_pair_list_clear(&list);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_fixed_points),      cmocka_unit_test(test_computable_points),
-      cmocka_unit_test(test_proved_points),     cmocka_unit_test(test_source),
-      cmocka_unit_test(test_refused),           cmocka_unit_test(test_callback),
-      cmocka_unit_test(test_counters),          cmocka_unit_test(test_remeasure_boxes),
-      cmocka_unit_test(test_contradiction),     cmocka_unit_test(test_remeasure_computable),
-      cmocka_unit_test(test_wrong_measurement), cmocka_unit_test(test_readme),
+      cmocka_unit_test(test_one_call),
+      cmocka_unit_test(test_fixed_points),
+      cmocka_unit_test(test_computable_points),
+      cmocka_unit_test(test_proved_points),
+      cmocka_unit_test(test_source),
+      cmocka_unit_test(test_refused),
+      cmocka_unit_test(test_callback),
+      cmocka_unit_test(test_counters),
+      cmocka_unit_test(test_remeasure_boxes),
+      cmocka_unit_test(test_contradiction),
+      cmocka_unit_test(test_remeasure_computable),
+      cmocka_unit_test(test_wrong_measurement),
+      cmocka_unit_test(test_readme),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
