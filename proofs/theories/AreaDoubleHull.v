@@ -62,7 +62,7 @@ Definition cross (x y : daxis) : dd :=
   dd_add (dd_mul (dwb x) (dd_add (dwa y) (dwb y))) (dd_mul (dwa x) (dd_add (dlow y) (dhigh y))).
 
 (* C src/metric/measure_filter.c dyd_filter_partial_edge_area2
-  axis x, y;
+  hull_axis x, y;
   if (!area2_axis_set(&x, a, b) || !area2_axis_set(&y, a + 2, b + 2)) return false;
   int in_x = x.b_low + x.b_high, in_y = y.b_low + y.b_high;
   if (in_x + in_y > 2) {

@@ -4,7 +4,7 @@ From Coq Require Import Reals Lra Lia Psatz.
 From Dyadel Require Import Plane Distance Orientation.
 Open Scope R_scope.
 
-(* Intervals and their operations as in src/voronoi/stream_vertex.c. *)
+(* Intervals and their operations as in src/voronoi/vertex.c. *)
 Record span : Type := Span { lo : R; hi : R }.
 Definition holds (s : span) (x : R) : Prop := lo s <= x <= hi s.
 Definition least4 (a b c d : R) : R := Rmin (Rmin (Rmin a b) c) d.

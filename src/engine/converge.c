@@ -12,7 +12,7 @@
 #include "base/flag.h"
 #include "engine/digest.h"
 #include "engine/goal_voronoi.h"
-#include "metric/voronoi_bounds.h"
+#include "metric/bounds.h"
 #include <dyadel/metric.h>
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Goals on the Voronoi diagram: whether they hold, and what each pair contributes.
  *
- * The bounds themselves are certified (metric/voronoi_bounds.c). The numbers of pairs that steer the refinement need no
+ * The bounds themselves are certified (metric/bounds.c). The numbers of pairs that steer the refinement need no
  * proof: for the Hausdorff bound they are widths of strips, or, below the goal, the very terms it is the maximum of;
  * for the area, four times that term (the width of the strip in which the pair is undecided, twice over) times the
  * smaller reach of the two cells (half its length). Where all numbers together stay below the goal and the area does

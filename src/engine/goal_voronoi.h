@@ -4,7 +4,7 @@
 #define DYD_ENGINE_GOAL_VORONOI_H
 
 #include "engine/state.h"
-#include "metric/voronoi_bounds.h"
+#include "metric/bounds.h"
 
 static inline bool dyd_goal_is_voronoi(dyd_goal goal) {
   return goal == DYD_GOAL_VORONOI_AREA || goal == DYD_GOAL_VORONOI_HAUSDORFF;

@@ -6,7 +6,7 @@
 #include "io/decimal.h"
 #include "io/dual.h"
 #include "io/output.h"
-#include "metric/voronoi_bounds.h"
+#include "metric/bounds.h"
 
 /* One cell: bounds of its areas in W and the box of Pos_i n W, all rounded outward. Invariant: present = Pos_i may meet
  * W; exact = the polygon is the whole cell, but for the rounding of its vertices. */

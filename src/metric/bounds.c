@@ -1,5 +1,32 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Certified upper bounds on what the partial triangulation leaves open (mathematics: section 8).
+/* Upper bounds on what the partial triangulation leaves open, and the partial Voronoi diagram on a window (mathematics:
+ * section 8).
+ *
+ * [AREA-V] The inner polygons lie in the Int_i, which are disjoint: U has at most the area of W less theirs.
+ *
+ * [HAUS-V] Let z be in U, p a choice, p_a nearest to z, and j the site with the smallest ds_j(z) among the others.
+ * z is not in Int_a, so ds_j(z) <= dl_a(z). Both are possible at z: ds_a <= |z - p_a| <= |z - p_k| <= dl_k for all k,
+ * and ds_j <= ds_k <= dl_k for k other than a. So |z - p_j| <= ds_j + diam R_j <= dl_a + diam R_j <= |z - p_a| + diam
+ * R_a + diam R_j, and z is at most
+ *   (|z-p_j|^2 - |z-p_a|^2) / (2 |p_a - p_j|) <= (diam R_a + diam R_j)(dl_a(z) + dl_j(z)) / (2 dist(R_a,R_j))
+ * away from the bisector of p_a and p_j. On the way there it leaves the cell of p_a, at the latest on the bisector: it
+ * meets the true diagram: z is within the width of the strip of a and j. And where p_k is not p_a, it is not in the
+ * cell of p_a, so the segment from z to it meets the diagram: z is at most dl_k(z) away, for each k with R_k disjoint
+ * from R_a, j possibly among them; and at most max(dl_k, dl_l)(z), for any R_k, R_l that are disjoint, since one of
+ * p_k, p_l is not p_a. z lies in Pos_a n Pos_j n W, where dl_a, dl_j are at most their largest values at the vertices
+ * of the outer polygons (dl is convex), and the others are bounded over boxes (bounds_filter.c). Where nothing of this
+ * is known: if any two rectangles are disjoint, z is within the diameter of W and all sites of a point that is not p_a.
+ */
+#include "metric/bounds.h"
+
+#include "base/abi.h"
+#include "base/alloc.h"
+#include "dyadic/raw.h"
+#include "metric/bounds_filter.h"
+#include "rect/sites_table.h"
+#include "voronoi/shape.h"
+
+/* ---- the triangulation ----
  *
  * Fix a choice p, let G be its Delaunay graph as the union of the segments p_i p_j of its Delaunay edges, and
  * U the union of the partial edges Ed(R_i,R_j) over the possible pairs. Every Delaunay edge of p is a possible pair
@@ -23,7 +50,152 @@
  * Rounding: terms are rounded up by at most 2^-80 of themselves. A sum of fewer than 2^40 non-negative terms at 128
  * bits adds at most 2^-87 of itself, a maximum nothing, and the last rounding, to 64 bits, 2^-63. Bounds so
  * small that 64 bits would reach below 2^-DYD_EXP_LIMIT are rounded up to a multiple of that instead. */
-#include "metric/bounds.h"
+
+/* ---- one pair ----
+ *
+ * The exact rung forms squares of lengths and twice the area as rationals and rounds up at most four times at
+ * DYD_MEASURE_PREC bits (value, square root, sum): the excess is below 8 * 2^-127 of the value. */
+
+/* May pairs of site i be measured in doubles? */
+static bool measure_in_doubles(const dyd_measure *m, size_t i) {
+  return m->filter && dyd_sites_in_doubles(m->sites, i);
+}
+
+void dyd_measure_init(dyd_measure *m, const dyd_sites *sites) {
+  m->sites = sites;
+  m->filter = dyd_filter_measure_usable();
+  dyd_rect_init(&m->a);
+  dyd_rect_init(&m->b);
+  for (size_t k = 0; k < 8; k++) mpq_init(m->end[k]);
+  mpq_inits(m->sum, m->term, NULL);
+  mpfr_init2(m->t, DYD_MEASURE_PREC);
+}
+
+void dyd_measure_clear(dyd_measure *m) {
+  mpfr_clear(m->t);
+  mpq_clears(m->sum, m->term, NULL);
+  for (size_t k = 0; k < 8; k++) mpq_clear(m->end[k]);
+  dyd_rect_clear(&m->b);
+  dyd_rect_clear(&m->a);
+}
+
+static void mpfr_from_dd(mpfr_ptr out, const double dd[2]) {
+  mpfr_set_d(out, dd[0], MPFR_RNDU);
+  mpfr_add_d(out, out, dd[1], MPFR_RNDU);
+}
+
+/* Fetches R_i into a and end[0..3], R_j into b and end[4..7], in the order x lower, x upper, y lower, y upper. */
+static dyd_status measure_fetch(dyd_measure *m, size_t i, size_t j) {
+  dyd_status st = dyd_sites_get(&m->a, m->sites, i);
+  if (st == DYD_OK) st = dyd_sites_get(&m->b, m->sites, j);
+  if (st != DYD_OK) return st;
+  dyd_interval_get_q(m->end[0], m->end[1], &m->a.x);
+  dyd_interval_get_q(m->end[2], m->end[3], &m->a.y);
+  dyd_interval_get_q(m->end[4], m->end[5], &m->b.x);
+  dyd_interval_get_q(m->end[6], m->end[7], &m->b.y);
+  return DYD_OK;
+}
+
+/* sum += max(p1 - q0, q1 - p0)^2 for the intervals at end[p] and end[q]. */
+static void add_farthest2(dyd_measure *m, size_t p, size_t q) {
+  mpq_t other;
+  mpq_init(other);
+  mpq_sub(m->term, m->end[p + 1], m->end[q]);
+  mpq_sub(other, m->end[q + 1], m->end[p]);
+  if (mpq_cmp(other, m->term) > 0) mpq_swap(other, m->term);
+  mpq_mul(m->term, m->term, m->term);
+  mpq_add(m->sum, m->sum, m->term);
+  mpq_clear(other);
+}
+
+/* out = the largest distance of a point of the rectangle at end[p] to one at end[q]; p = q: the diameter. */
+static void measure_farthest(mpfr_ptr out, dyd_measure *m, size_t p, size_t q) {
+  mpq_set_ui(m->sum, 0, 1);
+  add_farthest2(m, p, q);
+  add_farthest2(m, p + 2, q + 2);
+  mpfr_set_q(out, m->sum, MPFR_RNDU);
+  mpfr_sqrt(out, out, MPFR_RNDU);
+}
+
+dyd_status dyd_measure_area(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
+  mpfr_set_zero(out, 1);
+  if (dyd_sites_is_point(m->sites, i) && dyd_sites_is_point(m->sites, j)) return DYD_OK;
+  double a[4], b[4], dd[2];
+  if (measure_in_doubles(m, i) && measure_in_doubles(m, j)) {
+    dyd_sites_get_d(a, m->sites, i);
+    dyd_sites_get_d(b, m->sites, j);
+    if (dyd_filter_partial_edge_area2(dd, a, b)) {
+      mpfr_from_dd(out, dd);
+      mpfr_div_2ui(out, out, 1, MPFR_RNDU);
+      return DYD_OK;
+    }
+  }
+  dyd_status st = measure_fetch(m, i, j);
+  if (st != DYD_OK) return st;
+  dyd_partial_edge_area2(m->sum, &m->a, &m->b);
+  mpfr_set_q(out, m->sum, MPFR_RNDU);
+  mpfr_div_2ui(out, out, 1, MPFR_RNDU);
+  return DYD_OK;
+}
+
+dyd_status dyd_measure_diameter(mpfr_ptr out, dyd_measure *m, size_t i) {
+  mpfr_set_zero(out, 1);
+  if (dyd_sites_is_point(m->sites, i)) return DYD_OK;
+  double a[4], dd[2];
+  if (measure_in_doubles(m, i)) {
+    dyd_sites_get_d(a, m->sites, i);
+    if (dyd_filter_diameter(dd, a)) {
+      mpfr_from_dd(out, dd);
+      return DYD_OK;
+    }
+  }
+  dyd_status st = measure_fetch(m, i, i);
+  if (st == DYD_OK) measure_farthest(out, m, 0, 0);
+  return st;
+}
+
+dyd_status dyd_measure_reach(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
+  double a[4], b[4], dd[2];
+  if (measure_in_doubles(m, i) && measure_in_doubles(m, j)) {
+    dyd_sites_get_d(a, m->sites, i);
+    dyd_sites_get_d(b, m->sites, j);
+    if (dyd_filter_reach(dd, a, b)) {
+      mpfr_from_dd(out, dd);
+      return DYD_OK;
+    }
+  }
+  dyd_status st = measure_fetch(m, i, j);
+  if (st != DYD_OK) return st;
+  measure_farthest(out, m, 0, 0);
+  measure_farthest(m->t, m, 4, 4);
+  mpfr_max(m->t, m->t, out, MPFR_RNDU);
+  measure_farthest(out, m, 0, 4);
+  mpfr_div_2ui(out, out, 1, MPFR_RNDU);
+  mpfr_add(out, out, m->t, MPFR_RNDU);
+  return DYD_OK;
+}
+
+/* sum += the square of the gap between the intervals at end[p] and end[q]. */
+static void add_gap2(dyd_measure *m, size_t p, size_t q) {
+  mpq_sub(m->term, m->end[q], m->end[p + 1]);
+  if (mpq_sgn(m->term) <= 0) mpq_sub(m->term, m->end[p], m->end[q + 1]);
+  if (mpq_sgn(m->term) <= 0) return;
+  mpq_mul(m->term, m->term, m->term);
+  mpq_add(m->sum, m->sum, m->term);
+}
+
+/* The smallest distance of a point of R_i to one of R_j, rounded down: not above the true value t and not below
+ * (1 - 2^-80) t. */
+static dyd_status measure_gap(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
+  dyd_status st = measure_fetch(m, i, j);
+  if (st != DYD_OK) return st;
+  mpq_set_ui(m->sum, 0, 1);
+  add_gap2(m, 0, 4);
+  add_gap2(m, 2, 6);
+  mpfr_set_q(out, m->sum, MPFR_RNDD);
+  mpfr_sqrt(out, out, MPFR_RNDD);
+  return DYD_OK;
+}
 
 dyd_status dyd_bound_area(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs) {
   dyd_status st = DYD_OK;
@@ -63,7 +235,8 @@ dyd_status dyd_bound_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair_list
   return st;
 }
 
-dyd_status dyd_bound_to_dyadic(dyd_dyadic *out, mpfr_srcptr x) {
+/* out = x >= 0 rounded up to 64 bits, and up to the least positive dyadic. DYD_E_RANGE when x is too large. */
+static dyd_status bound_to_dyadic(dyd_dyadic *out, mpfr_srcptr x) {
   if (mpfr_zero_p(x)) return dyd_dyadic_set_si_2exp(out, 0, 0);
   if (!mpfr_regular_p(x)) return DYD_E_RANGE;
   if (mpfr_cmp_ui_2exp(x, 1, -(mpfr_exp_t)DYD_EXP_LIMIT) <= 0) return dyd_dyadic_set_si_2exp(out, 1, -DYD_EXP_LIMIT);
@@ -106,7 +279,7 @@ static dyd_status metric_bound(dyd_dyadic *out, const dyd_delaunay *pd, bound_fn
     dyd_measure_init(&m, dyd_delaunay_sites(pd));
     mpfr_init2(x, DYD_MEASURE_PREC);
     st = f(x, &m, &pairs);
-    if (st == DYD_OK) st = dyd_bound_to_dyadic(out, x);
+    if (st == DYD_OK) st = bound_to_dyadic(out, x);
     mpfr_clear(x);
     dyd_measure_clear(&m);
   }
@@ -122,4 +295,321 @@ dyd_status dyd_metric_area(dyd_dyadic *out, const dyd_delaunay *pd) {
 dyd_status dyd_metric_hausdorff(dyd_dyadic *out, const dyd_delaunay *pd) {
   if (!pd) return DYD_E_ARG;
   return metric_bound(out, pd, dyd_bound_hausdorff);
+}
+
+/* Areas in W are below 2^(2 e), polygons are within 2^-bits: sums need some e + bits more digits than a bound. */
+static mpfr_prec_t sum_precision(const dyd_rect *window, int64_t bits) {
+  const dyd_dyadic *end[4] = {&window->x.lo, &window->x.hi, &window->y.lo, &window->y.hi};
+  int64_t most = 0;
+  for (int k = 0; k < 4; k++) {
+    int64_t e = end[k]->exp + dyd_bits(end[k]->man);
+    if (e > most) most = e;
+  }
+  return DYD_MEASURE_PREC + (bits + 2 * most > 0 ? (mpfr_prec_t)(bits + 2 * most) : 0);
+}
+
+dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits) {
+  size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
+  *s = (dyd_voronoi_sums){
+      .pd = pd, .window = window, .bits = bits, .most = HUGE_VAL, .exact = true, .room = dyd_delaunay_room(pd)};
+  mpfr_inits2(sum_precision(window, bits), s->inner, s->term, (mpfr_ptr)0);
+  mpfr_set_zero(s->inner, 1);
+  dyd_dyadic_init(&s->area2);
+  uint64_t bytes = dyd_bytes_times(n, sizeof *s->reach + sizeof *s->second);
+  if (!dyd_room_has(&s->room, bytes, "the diagram")) return DYD_E_NOMEM;
+  s->room.held += bytes;
+  s->reach = dyd_alloc(n, sizeof *s->reach);
+  s->second = dyd_alloc(n, sizeof *s->second);
+  if (!s->reach || !s->second) return DYD_E_NOMEM;
+  for (size_t i = 0; i < n; i++) s->reach[i] = s->second[i] = -1;
+  return DYD_OK;
+}
+
+void dyd_voronoi_sums_clear(dyd_voronoi_sums *s) {
+  free(s->second);
+  free(s->reach);
+  dyd_dyadic_clear(&s->area2);
+  mpfr_clears(s->inner, s->term, (mpfr_ptr)0);
+}
+
+static void mpfr_from_dyadic(mpfr_ptr out, const dyd_dyadic *x, mpfr_rnd_t rnd) {
+  mpfr_set_z_2exp(out, x->man, (mpfr_exp_t)x->exp, rnd);
+}
+
+static dyd_status add_exact_shape(double area[2], dyd_voronoi_sums *s, const dyd_shape *shape) {
+  dyd_status st = dyd_shape_area2(&s->area2, shape, true);
+  if (st != DYD_OK) return st;
+  mpfr_from_dyadic(s->term, &s->area2, MPFR_RNDU);
+  mpfr_div_2ui(s->term, s->term, 1, MPFR_RNDU);
+  area[1] = mpfr_get_d(s->term, MPFR_RNDU);
+  st = dyd_shape_area2(&s->area2, shape, false);
+  if (st != DYD_OK) return st;
+  mpfr_from_dyadic(s->term, &s->area2, MPFR_RNDD);
+  mpfr_div_2ui(s->term, s->term, 1, MPFR_RNDD);
+  area[0] = mpfr_get_d(s->term, MPFR_RNDD);
+  mpfr_add(s->inner, s->inner, s->term, MPFR_RNDD);
+  return DYD_OK;
+}
+
+/* Adds the shape of site i (no alias). */
+static dyd_status add_shape(double area[2], dyd_voronoi_sums *s, uint32_t i, const dyd_shape *shape) {
+  double box[4];
+  dyd_sites_get_d(box, dyd_delaunay_sites(s->pd), i);
+  s->reach[i] = dyd_filter_reach_of_shape(shape, box);
+  s->added++;
+  s->inexact += !shape->exact;
+  if (!shape->in_doubles || shape->on_grid) return add_exact_shape(area, s, shape);
+  area[0] = shape->area[0];
+  area[1] = shape->area[1];
+  mpfr_add_d(s->inner, s->inner, area[0], MPFR_RNDD);
+  return DYD_OK;
+}
+
+/* The shape of site i, or what stands for it. */
+static dyd_status find_shape(dyd_shape *shape, dyd_voronoi_sums *s, uint32_t i, const dyd_window *w) {
+  dyd_status st = dyd_shape_find(shape, s->pd, i, w, s->bits);
+  if (st != DYD_CANCELLED || !s->cut) return st;
+  ++*s->cut;
+  return dyd_shape_set_unknown(shape, s->window);
+}
+
+dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, void *context) {
+  size_t n = dyd_sites_count(dyd_delaunay_sites(s->pd));
+  dyd_shape shape = {0};
+  dyd_window w;
+  dyd_status st = dyd_window_init(&w, s->window);
+  w.cancel = s->cancel;
+  w.room = &s->room;
+  if (st == DYD_OK && s->exact) dyd_window_set_grid(&w);
+  for (size_t i = 0; i < n && st == DYD_OK; i++) {
+    double area[2];
+    if (dyd_delaunay_alias(s->pd, (uint32_t)i) != i) continue;
+    st = find_shape(&shape, s, (uint32_t)i, &w);
+    if (st == DYD_OK) st = add_shape(area, s, (uint32_t)i, &shape);
+    if (st == DYD_OK && visit) st = visit(context, (uint32_t)i, &shape, area);
+  }
+  dyd_shape_clear(&shape);
+  return st;
+}
+
+/* ---- area ---- */
+
+void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s) {
+  dyd_dyadic side[2], area;
+  for (int k = 0; k < 2; k++) dyd_dyadic_init(&side[k]);
+  dyd_dyadic_init(&area);
+  mpfr_t exact;
+  mpfr_init2(exact, mpfr_get_prec(s->inner));
+  mpfr_set_inf(out, 1);
+  if (dyd_dyadic_sub(&side[0], &s->window->x.hi, &s->window->x.lo) == DYD_OK &&
+      dyd_dyadic_sub(&side[1], &s->window->y.hi, &s->window->y.lo) == DYD_OK &&
+      dyd_dyadic_mul(&area, &side[0], &side[1]) == DYD_OK) {
+    mpfr_from_dyadic(exact, &area, MPFR_RNDU);
+    mpfr_sub(out, exact, s->inner, MPFR_RNDU);
+    bool whole = s->added && !s->inexact; /* cells of exact points fill W */
+    if (whole || mpfr_sgn(out) < 0) mpfr_set_zero(out, 1);
+  }
+  mpfr_clear(exact);
+  dyd_dyadic_clear(&area);
+  for (int k = 0; k < 2; k++) dyd_dyadic_clear(&side[k]);
+}
+
+/* ---- Hausdorff ---- */
+
+dyd_status dyd_voronoi_pair_width(mpfr_ptr out, bool *finite, const dyd_voronoi_sums *s, dyd_measure *m,
+                                  const dyd_pair *pair) {
+  double a = s->reach[pair->i], b = s->reach[pair->j];
+  *finite = true;
+  mpfr_set_zero(out, 1);
+  const dyd_sites *sites = m->sites;
+  if (a < 0 || b < 0 || (dyd_sites_is_point(sites, pair->i) && dyd_sites_is_point(sites, pair->j))) return DYD_OK;
+  mpfr_t gap, other;
+  mpfr_inits2(DYD_MEASURE_PREC, gap, other, (mpfr_ptr)0);
+  dyd_status st = measure_gap(gap, m, pair->i, pair->j);
+  *finite = st != DYD_OK || !mpfr_zero_p(gap);
+  if (st == DYD_OK) st = dyd_measure_diameter(out, m, pair->i);
+  if (st == DYD_OK) st = dyd_measure_diameter(other, m, pair->j);
+  if (st == DYD_OK && *finite) {
+    mpfr_add(out, out, other, MPFR_RNDU);
+    mpfr_set_d(other, a, MPFR_RNDU);
+    mpfr_add_d(other, other, b, MPFR_RNDU);
+    mpfr_mul(out, out, other, MPFR_RNDU);
+    mpfr_div(out, out, gap, MPFR_RNDU);
+    mpfr_div_2ui(out, out, 1, MPFR_RNDU);
+    double most = a > b ? a : b;
+    if (mpfr_cmp_d(out, most) > 0) mpfr_set_d(out, most, MPFR_RNDU);
+  }
+  mpfr_clears(gap, other, (mpfr_ptr)0);
+  return st;
+}
+
+dyd_status dyd_voronoi_pair_second(double *out, dyd_voronoi_sums *s, const dyd_pair *pair) {
+  const uint32_t end[2] = {pair->i, pair->j};
+  dyd_status st = DYD_OK;
+  *out = 0;
+  for (int k = 0; k < 2 && st == DYD_OK && *out < HUGE_VAL; k++) {
+    double *second = &s->second[end[k]];
+    if (*second < 0) st = dyd_filter_second(second, s->pd, end[k], s->window, s->reach[end[k]], s->most, s->cancel);
+    if (*second > *out) *out = *second;
+  }
+  return st;
+}
+
+/* What one possible pair asks of the bound: the width, or the distance of other points where that is smaller. The
+ * latter is not looked for where the width is at most `enough`. *known = false: there is neither. */
+static dyd_status pair_distance(mpfr_ptr out, bool *known, dyd_voronoi_sums *s, dyd_measure *m, const dyd_pair *pair,
+                                mpfr_srcptr enough) {
+  double second;
+  dyd_status st = dyd_voronoi_pair_width(out, known, s, m, pair);
+  if (st != DYD_OK || (*known && mpfr_cmp(out, enough) <= 0)) return st;
+  st = dyd_voronoi_pair_second(&second, s, pair);
+  if (st == DYD_OK && second < HUGE_VAL && (!*known || mpfr_cmp_d(out, second) > 0)) {
+    mpfr_set_d(out, second, MPFR_RNDU);
+    *known = true;
+  }
+  return st;
+}
+
+/* Can the pair not be above `most`? */
+static bool pair_is_small(const dyd_voronoi_sums *s, const dyd_pair *pair, mpfr_srcptr most) {
+  double a[4], b[4], ra = s->reach[pair->i], rb = s->reach[pair->j];
+  if (ra < 0 || rb < 0) return true;
+  dyd_sites_get_d(a, dyd_delaunay_sites(s->pd), pair->i);
+  dyd_sites_get_d(b, dyd_delaunay_sites(s->pd), pair->j);
+  double value = dyd_filter_voronoi_pair(a, b, ra, rb);
+  return value < HUGE_VAL && mpfr_cmp_d(most, value) >= 0;
+}
+
+dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, dyd_voronoi_sums *s, const dyd_pair_list *pairs) {
+  dyd_measure m;
+  mpfr_t one;
+  bool open = false;
+  dyd_status st = DYD_OK;
+  dyd_measure_init(&m, dyd_delaunay_sites(s->pd));
+  mpfr_init2(one, DYD_MEASURE_PREC);
+  mpfr_set_zero(out, 1);
+  *finite = true;
+  for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
+    bool known;
+    if (dyd_flag_is_set(s->cancel)) st = DYD_CANCELLED;
+    if (st != DYD_OK) break;
+    if (pair_is_small(s, &pairs->item[k], out)) continue;
+    st = pair_distance(one, &known, s, &m, &pairs->item[k], out);
+    open |= !known;
+    if (known) mpfr_max(out, out, one, MPFR_RNDU);
+  }
+  if (st == DYD_OK && open) {
+    double extent = dyd_filter_extent(finite, m.sites, s->window);
+    if (*finite && !(extent < HUGE_VAL)) *finite = false;
+    if (*finite)
+      mpfr_set_d(out, extent, MPFR_RNDU);
+    else
+      mpfr_set_zero(out, 1);
+  }
+  if (mpfr_inf_p(out)) { /* beyond the doubles that reaches are kept in */
+    *finite = false;
+    mpfr_set_zero(out, 1);
+  }
+  mpfr_clear(one);
+  dyd_measure_clear(&m);
+  return st;
+}
+
+/* ---- public ---- */
+
+dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, dyd_voronoi_sums *s) {
+  dyd_pair_list pairs = {0};
+  mpfr_t area, hausdorff;
+  mpfr_inits2(DYD_MEASURE_PREC, area, hausdorff, (mpfr_ptr)0);
+  dyd_status st = dyd_room_has(&s->room, dyd_pairs_bytes(s->pd, dyd_least_bounding(s->pd)), "the bounds of the diagram")
+                      ? DYD_OK
+                      : DYD_E_NOMEM;
+  if (st == DYD_OK) st = dyd_pairs_take(&pairs, s->pd, dyd_least_bounding(s->pd));
+  dyd_voronoi_area(area, s);
+  if (st == DYD_OK) st = dyd_voronoi_hausdorff(hausdorff, &out->finite, s, &pairs);
+  if (st == DYD_CANCELLED && s->cut) { /* not known */
+    st = DYD_OK;
+    out->finite = false;
+    mpfr_set_zero(hausdorff, 1);
+  }
+  if (st == DYD_OK) st = bound_to_dyadic(&out->area, area);
+  if (st == DYD_OK) st = bound_to_dyadic(&out->hausdorff, hausdorff);
+  mpfr_clears(area, hausdorff, (mpfr_ptr)0);
+  dyd_pair_list_clear(&pairs);
+  return st;
+}
+
+dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits,
+                              const volatile int *cancel) {
+  dyd_voronoi_sums s;
+  dyd_voronoi_bounds b;
+  dyd_window w;
+  if (dyd_abi_check(out, sizeof *out, "dyd_voronoi_bounds", NULL) != DYD_OK) return DYD_E_ARG;
+  if (bits < -DYD_EXP_LIMIT / 4 || bits > DYD_EXP_LIMIT / 4) return DYD_E_ARG;
+  dyd_status st = dyd_window_init(&w, window);
+  if (st != DYD_OK) return st;
+  if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
+  dyd_voronoi_bounds_init(&b);
+  st = dyd_voronoi_sums_init(&s, pd, window, bits);
+  s.cancel = cancel;
+  if (st == DYD_OK) st = dyd_voronoi_sums_all(&s, NULL, NULL);
+  if (st == DYD_OK) st = dyd_voronoi_sums_bounds(&b, &s);
+  if (st == DYD_OK) {
+    dyd_dyadic_swap(&out->area, &b.area);
+    dyd_dyadic_swap(&out->hausdorff, &b.hausdorff);
+    out->finite = b.finite;
+  }
+  dyd_voronoi_sums_clear(&s);
+  dyd_voronoi_bounds_clear(&b);
+  return st;
+}
+
+/* The perimeters of N cells of equal area in W are about 4 sqrt(N area(W)) in all, plus the perimeter of W. */
+int64_t dyd_metric_flattening(const dyd_delaunay *pd, const dyd_rect *window, int64_t goal_bits) {
+  if (!pd) return 0;
+  mpfr_t side[2], length;
+  size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
+  mpfr_inits2(64, side[0], side[1], length, (mpfr_ptr)0);
+  for (int a = 0; a < 2; a++) {
+    const dyd_interval *s = a ? &window->y : &window->x;
+    mpfr_from_dyadic(side[a], &s->hi, MPFR_RNDU);
+    mpfr_from_dyadic(length, &s->lo, MPFR_RNDD);
+    mpfr_sub(side[a], side[a], length, MPFR_RNDU);
+  }
+  mpfr_add(length, side[0], side[1], MPFR_RNDU);
+  mpfr_mul_ui(length, length, 2, MPFR_RNDU);
+  mpfr_mul(side[0], side[0], side[1], MPFR_RNDU);
+  mpfr_mul_ui(side[0], side[0], n ? (unsigned long)n : 1, MPFR_RNDU);
+  mpfr_sqrt(side[0], side[0], MPFR_RNDU);
+  mpfr_mul_ui(side[0], side[0], 4, MPFR_RNDU);
+  mpfr_add(length, length, side[0], MPFR_RNDU);
+  int64_t bits = goal_bits + 3 + (mpfr_regular_p(length) ? (int64_t)mpfr_get_exp(length) : 0);
+  mpfr_clears(side[0], side[1], length, (mpfr_ptr)0);
+  return bits;
+}
+
+/* The e with 2^e <= the shorter side < 2^(e+1). */
+static int64_t log2_short_side(const dyd_rect *window) {
+  const dyd_interval *side[2] = {&window->x, &window->y};
+  dyd_dyadic length;
+  int64_t least = INT64_MAX;
+  dyd_dyadic_init(&length);
+  for (int a = 0; a < 2; a++) {
+    if (dyd_dyadic_sub(&length, &side[a]->hi, &side[a]->lo) != DYD_OK) continue;
+    int64_t log2 = length.exp + dyd_bits(length.man) - 1;
+    if (log2 < least) least = log2;
+  }
+  dyd_dyadic_clear(&length);
+  return least;
+}
+
+/* With a total perimeter L of N cells, a cell has about the size L / (4 N); but it is no wider than the window, which
+ * tells more where one side of that is very short. */
+int64_t dyd_metric_coarseness(const dyd_delaunay *pd, const dyd_rect *window) {
+  if (!pd) return 0;
+  size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
+  int64_t log2_n = 0, log2_length = dyd_metric_flattening(pd, window, 0) - 3;
+  while (log2_n < 60 && (size_t)1 << log2_n < n) log2_n++;
+  int64_t bits = log2_n + 6 - log2_length, least = -log2_short_side(window);
+  return bits > least ? bits : least;
 }

@@ -1,10 +1,42 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The bounds as MPFR numbers, for comparing with a goal without leaving the exponent range of dyadics. */
+/* Upper bounds on what is undecided of the triangulation and of the Voronoi diagram, as MPFR numbers: for comparing
+ * with a goal without leaving the exponent range of dyadics. */
 #ifndef DYD_METRIC_BOUNDS_H
 #define DYD_METRIC_BOUNDS_H
 
-#include "metric/measure.h"
+#include "voronoi/shape.h"
 #include <dyadel/metric.h>
+#include <dyadel/sites.h>
+#include <mpfr.h>
+
+/* ---- one pair ----
+ *
+ * Every value given is not below the true value t and not above (1 + 2^-80) t (for t > 0; 0 for t = 0), on both
+ * rungs: doubles where they hold the rectangles exactly, rationals and MPFR otherwise. */
+
+/* Precision of the values given and of sums of them; any caller may use another. */
+#define DYD_MEASURE_PREC 128
+
+/* A place to measure the pairs of one table of sites in. Borrows the sites. */
+typedef struct dyd_measure {
+  const dyd_sites *sites;
+  bool filter; /* false: exact rung only */
+  dyd_rect a, b;
+  mpq_t end[8], sum, term;
+  mpfr_t t;
+} dyd_measure;
+
+void dyd_measure_init(dyd_measure *m, const dyd_sites *sites);
+void dyd_measure_clear(dyd_measure *m);
+
+/* Area of Ed(R_i,R_j). out is initialised by the caller; so below. */
+dyd_status dyd_measure_area(mpfr_ptr out, dyd_measure *m, size_t i, size_t j);
+/* Largest distance of two points of R_i. */
+dyd_status dyd_measure_diameter(mpfr_ptr out, dyd_measure *m, size_t i);
+/* Half the largest distance of a point of R_i to one of R_j, plus the larger diameter. */
+dyd_status dyd_measure_reach(mpfr_ptr out, dyd_measure *m, size_t i, size_t j);
+
+/* ---- the triangulation ---- */
 
 /* The bounds of metric.h with the list of possible pairs and a place to measure in at hand. out is initialised by
  * the caller at DYD_MEASURE_PREC bits or more. Rounded up by at most 2^-70 of itself. */
@@ -14,7 +46,52 @@ dyd_status dyd_bound_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair_list
 /* What one possible pair adds to (area) or asks of (Hausdorff) the bound. */
 dyd_status dyd_bound_pair_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair *pair);
 
-/* out = x >= 0 rounded up to 64 bits, and up to the least positive dyadic. DYD_E_RANGE when x is too large. */
-dyd_status dyd_bound_to_dyadic(dyd_dyadic *out, mpfr_srcptr x);
+/* ---- the Voronoi diagram, cell by cell ---- */
+
+/* Invariant: inner <= the areas of the inner polygons added; reach[i] >= dl_i over Pos_i n W, -1 where that is
+ * empty or i was not added; second[i]: what dyd_filter_second gives for `most`
+ * (HUGE_VAL: always what is known), -1 until it is asked for.
+ * cancel: checked by all work on these sums; NULL: never. cut: NULL: a shape that is cancelled ends the walk with
+ * DYD_CANCELLED; else dyd_shape_set_unknown stands for it and those after it, and they are counted here. Both are set
+ * by the caller after dyd_voronoi_sums_init. */
+typedef struct dyd_voronoi_sums {
+  const dyd_delaunay *pd;
+  const dyd_rect *window;
+  mpfr_t inner, term;
+  int64_t bits;
+  dyd_dyadic area2;
+  const volatile int *cancel;
+  size_t *cut;
+  dyd_room room; /* what max_bytes leaves beside the triangulation */
+  double *reach, *second, most;
+  bool exact; /* cells of exact points are not flattened; false: their polygons are proved, vertex by vertex */
+  size_t added, inexact; /* shapes; those that are not the whole cell */
+} dyd_voronoi_sums;
+
+/* bits: of the polygons to come; sums are kept so precise that rounding does not spoil what these give. */
+dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits);
+void dyd_voronoi_sums_clear(dyd_voronoi_sums *s);
+
+/* After all sites: initialised by the caller at DYD_MEASURE_PREC bits or more. */
+void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s);
+/* *finite as in dyd_voronoi_bounds. */
+dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, dyd_voronoi_sums *s, const dyd_pair_list *pairs);
+
+/* Both as dyadics; *out is initialised by the caller. */
+dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, dyd_voronoi_sums *s);
+
+/* How far off points of the strip in which a possible pair is undetermined can be, by its width; *finite = false when
+ * the rectangles meet. */
+dyd_status dyd_voronoi_pair_width(mpfr_ptr out, bool *finite, const dyd_voronoi_sums *s, dyd_measure *m,
+                                  const dyd_pair *pair);
+/* The same by other points near it; HUGE_VAL: nothing is known, or it is above s->most. */
+dyd_status dyd_voronoi_pair_second(double *out, dyd_voronoi_sums *s, const dyd_pair *pair);
+
+/* Called for every site that stands for itself, in order, with doubles area[0] <= area of Int_i n W and
+ * area[1] >= area of Pos_i n W. */
+typedef dyd_status (*dyd_voronoi_visit)(void *context, uint32_t i, const dyd_shape *shape, const double area[2]);
+/* Makes the polygons of all cells once, adds them up and shows them to `visit`, whose status ends the walk unless it is
+ * DYD_OK. visit may be NULL. */
+dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, void *context);
 
 #endif

@@ -20,7 +20,7 @@
  * sum (3): below 32 u^2 = 2^-101; twice an area is a sum of at most four products of sums: 3 + 7 + 9 < 32 as well.
  * inflate adds 2^-87 of the leading part, computed with an error below 2^-105 of it: the result is an upper
  * bound, and exceeds the truth by less than 2^-86 of it. */
-#include "metric/measure_filter.h"
+#include "metric/bounds_filter.h"
 
 #include <fenv.h>
 #include <math.h>
@@ -77,12 +77,12 @@ static void dd_inflate(double out[2], dd x) {
 /* One axis of two intervals [a0,a1], [b0,b1]. Invariant: all in range.
  *   wa, wb  widths;   b_low: b0 < a0;   b_high: b1 > a1 (b sticks out there)
  *   low = |b0 - a0|, high = |b1 - a1| */
-typedef struct axis {
+typedef struct hull_axis {
   dd wa, wb, low, high;
   bool b_low, b_high;
-} axis;
+} hull_axis;
 
-static bool area2_axis_set(axis *out, const double a[2], const double b[2]) {
+static bool area2_axis_set(hull_axis *out, const double a[2], const double b[2]) {
   out->b_low = b[0] < a[0];
   out->b_high = b[1] > a[1];
   out->wa = dd_sub_d(a[1], a[0]);
@@ -94,7 +94,7 @@ static bool area2_axis_set(axis *out, const double a[2], const double b[2]) {
 }
 
 /* b sticks out of a on one side of x only, by p: 2 wa ha + p (ha + hb). */
-static dd area2_one(const axis *x, const axis *y) {
+static dd area2_one(const hull_axis *x, const hull_axis *y) {
   dd p = x->b_low ? x->low : x->high;
   dd whole = dd_mul(x->wa, y->wa), part = dd_mul(p, dd_add(y->wa, y->wb));
   return dd_add(dd_add(whole, whole), part);
@@ -102,7 +102,7 @@ static dd area2_one(const axis *x, const axis *y) {
 
 /* b sticks out on one side of x, by p, and one of y, by s; a on the two others, by r in x:
  * wa H + p hb + wb H + r ha with H = ha + s. */
-static dd area2_corner(const axis *x, const axis *y) {
+static dd area2_corner(const hull_axis *x, const hull_axis *y) {
   dd p = x->b_low ? x->low : x->high, r = x->b_low ? x->high : x->low;
   dd tall = dd_add(y->wa, y->b_low ? y->low : y->high);
   dd left = dd_add(dd_mul(x->wa, tall), dd_mul(p, y->wb));
@@ -110,7 +110,7 @@ static dd area2_corner(const axis *x, const axis *y) {
 }
 
 /* b sticks out on both sides of x, a on both sides of y, by q and s: wb (ha + hb) + wa (q + s). */
-static dd area2_cross(const axis *x, const axis *y) {
+static dd area2_cross(const hull_axis *x, const hull_axis *y) {
   return dd_add(dd_mul(x->wb, dd_add(y->wa, y->wb)), dd_mul(x->wa, dd_add(y->low, y->high)));
 }
 
@@ -119,7 +119,7 @@ static dd area2_cross(const axis *x, const axis *y) {
  * for the corner case with W = wa + p = wb + r, H = ha + s = hb + q it is 2 W H - p q - r s, where
  * W H - p q = wa H + p hb and W H - r s = wb H + r ha; the others likewise. */
 bool dyd_filter_partial_edge_area2(double out[2], const double a[4], const double b[4]) {
-  axis x, y;
+  hull_axis x, y;
   if (!area2_axis_set(&x, a, b) || !area2_axis_set(&y, a + 2, b + 2)) return false;
   int in_x = x.b_low + x.b_high, in_y = y.b_low + y.b_high;
   if (in_x + in_y > 2) {

@@ -5,7 +5,7 @@
  * checker's own tests do not take is left out. */
 #include "base/alloc.h"
 #include "checker/checker.h"
-#include "metric/voronoi_bounds.h"
+#include "metric/bounds.h"
 #include "prove/proof.h"
 #include <inttypes.h>
 

@@ -8,7 +8,7 @@
  * sign in the pane: the arc is one branch, monotone in both coordinates, and its part in the pane is connected. It
  * cannot run along the border of a pane, since s, the corner q or the corner opposite s would then lie in both
  * rectangles; along a side of the window it can. For singletons a and b no cut is needed. */
-#include "voronoi/bisector.h"
+#include "voronoi/exact_cell.h"
 
 #include "base/invariant.h"
 

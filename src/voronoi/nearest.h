@@ -6,8 +6,6 @@
 #include "delaunay/state.h"
 #include "skeleton/blocks.h"
 
-/* ---- nearest_filter.c ---- */
-
 /* Vertices that hold all that are possibly nearest to some point of q. Every vertex that surely nearer sites rule out
  * is left out, up to rounding. *vertex is owned by the caller. */
 dyd_status dyd_near_candidates(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, const dyd_rect *q);
@@ -33,19 +31,5 @@ dyd_truth dyd_filter_blocks(const dyd_bbox *c, const dyd_near_site *k, const dyd
 size_t dyd_filter_blocker(const dyd_bbox *c, const dyd_near_site *site, size_t count, size_t i);
 /* The slack of a site whose outward box is b: 0 when doubles hold it. */
 double dyd_filter_slack(const dyd_bbox *b, bool in_doubles);
-
-/* ---- nearest_side.c ---- */
-
-/* Scratch of the walk. */
-typedef struct dyd_near_work {
-  mpq_t at, root; /* the place on the side: at + sqrt(root) */
-  mpq_t far, near, d, p, q, s, t, mid;
-} dyd_near_work;
-void dyd_near_work_init(dyd_near_work *w);
-void dyd_near_work_clear(dyd_near_work *w);
-
-/* Does a point of the side lie in Pos_i as far as the other sites of the list tell [NEAR-2]? Exact. */
-bool dyd_near_side_meets(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *site, size_t count, size_t i,
-                         bool no_filter);
 
 #endif

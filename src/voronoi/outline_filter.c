@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The boundary of a region in doubles: arcs, cuts, a sample between two cuts, pieces, the chain of them. What the exact
- * work does (exact_cell_pieces.c, exact_cell_window.c, exact_cell_link.c), where no comparison is in doubt.
+ * work does (exact_cell.c), where no comparison is in doubt.
  *
  * [OUTLINE-1] Every true end or meeting point lies in the box of a spot: the formulas are the exact ones in intervals,
  * and a formula that could give a point or none ends the work. So the order of cuts along an arc, the sides of samples
@@ -11,7 +11,448 @@
 
 #include "delaunay/memory.h"
 #include "rect/sites_table.h"
+
+#include <dyadel/voronoi.h>
 #include <stdlib.h>
+
+/* ---- points ---- */
+
+int dyd_outline_order(bool *unsure, dyd_iv a, dyd_iv b) {
+  if (a.lo > b.hi) return 1;
+  if (a.hi < b.lo) return -1;
+  if (!(a.lo == a.hi && b.lo == b.hi)) *unsure = true;
+  return 0;
+}
+
+/* A lower or upper bound of the squared distance to box k of all points in c. */
+static double outline_distance2(const dyd_outline *o, const dyd_bbox *c, size_t k, bool farthest, bool upper) {
+  const double *e = o->near[k].outer;
+  const dyd_bbox b = {{e[0], e[1], e[2], e[3]}};
+  if (farthest) return upper ? dyd_dl2_upper(c, &b) : dyd_dl2_lower(c, &b, o->slack[k]);
+  return upper ? dyd_ds2_upper(c, &b, o->slack[k]) : dyd_ds2_lower(c, &b);
+}
+
+/* Does someone other than `own` surely take all points of the box away from it? *doubt (or NULL): someone may take a
+ * point. */
+static bool outline_taken(bool *doubt, dyd_outline *o, size_t own, const dyd_iv at[2]) {
+  const dyd_bbox c = {{at[0].lo, at[0].hi, at[1].lo, at[1].hi}};
+  double least = outline_distance2(o, &c, o->count, !o->outer, false);
+  double most = doubt ? outline_distance2(o, &c, o->count, !o->outer, true) : 0;
+  for (size_t m = 0; m <= o->count; m++) {
+    size_t k = m ? m - 1 : o->taker;
+    if (k >= o->count || k == own || o->drop[k]) continue;
+    if (outline_distance2(o, &c, k, o->outer, true) < least) return o->taker = k, true;
+    if (doubt && !(outline_distance2(o, &c, k, o->outer, false) > most)) *doubt = true;
+  }
+  return false;
+}
+
+/* The elementary arcs of voronoi/bisector.c in intervals: the same panes in the same order, each decision certain. */
+
+/* Marks on one axis: ends of the window, the middle of the far rectangle, ends of the near one. */
+enum { WINDOW_LO, WINDOW_HI, MIDDLE, NEAR_LO, NEAR_HI, MARKS };
+
+/* at: as given; to: relative to the origin. */
+typedef struct ruler {
+  dyd_iv at[MARKS], to[MARKS], far_at[2], far_to[2];
+  bool far_thin, near_thin, of_window[2];
+} ruler;
+
+/* A closed strip between two marks, and what the rectangles show in it: q is a mark, or fixed = false. */
+typedef struct strip {
+  int lo, hi, q, far_end;
+  bool fixed, above, over;
+} strip;
+
+static int marks_order(bool *unsure, const ruler *r, int a, int b) {
+  return a == b ? 0 : dyd_outline_order(unsure, r->at[a], r->at[b]);
+}
+
+static void ruler_set(ruler *r, dyd_outline *o, size_t far, size_t near, int axis) {
+  for (int e = 0; e < 2; e++) {
+    r->at[WINDOW_LO + e] = o->bound[2 * axis + e];
+    r->to[WINDOW_LO + e] = dyd_iv_sub(o->bound[2 * axis + e], dyd_iv_point(o->origin[axis]));
+    r->of_window[e] = o->of_window[2 * axis + e];
+    r->at[NEAR_LO + e] = o->box[near].end[2 * axis + e];
+    r->to[NEAR_LO + e] = o->near[near].end[2 * axis + e];
+    r->far_at[e] = o->box[far].end[2 * axis + e];
+    r->far_to[e] = o->near[far].end[2 * axis + e];
+  }
+  r->far_thin = o->thin[far][axis];
+  r->near_thin = o->thin[near][axis];
+  r->at[MIDDLE] = r->far_thin ? r->far_at[0] : dyd_iv_scale(dyd_iv_add(r->far_at[0], r->far_at[1]), 0.5);
+  r->to[MIDDLE] = r->far_thin ? r->far_to[0] : dyd_iv_scale(dyd_iv_add(r->far_to[0], r->far_to[1]), 0.5);
+}
+
+static size_t ruler_add_cut(int list[3], size_t n, bool *unsure, const ruler *r, int mark) {
+  if (marks_order(unsure, r, mark, WINDOW_LO) <= 0 || marks_order(unsure, r, mark, WINDOW_HI) >= 0) return n;
+  size_t k = n;
+  while (k > 0 && marks_order(unsure, r, list[k - 1], mark) > 0) k--;
+  if (k > 0 && !marks_order(unsure, r, list[k - 1], mark)) return n;
+  for (size_t m = n; m > k; m--) list[m] = list[m - 1];
+  list[k] = mark;
+  return n + 1;
+}
+
+static size_t ruler_set_strips(strip out[4], bool *unsure, const ruler *r, bool near_point) {
+  int list[3];
+  size_t n = 0;
+  if (!(r->far_thin && near_point)) n = ruler_add_cut(list, n, unsure, r, MIDDLE);
+  if (!r->near_thin) n = ruler_add_cut(list, n, unsure, r, NEAR_LO);
+  if (!r->near_thin) n = ruler_add_cut(list, n, unsure, r, NEAR_HI);
+  for (size_t k = 0; k <= n; k++) {
+    strip *s = &out[k];
+    s->lo = k > 0 ? list[k - 1] : WINDOW_LO;
+    s->hi = k < n ? list[k] : WINDOW_HI;
+    s->above = marks_order(unsure, r, s->lo, MIDDLE) >= 0;
+    s->far_end = r->far_thin || s->above ? 0 : 1;
+    s->over = marks_order(unsure, r, s->lo, NEAR_HI) >= 0;
+    bool under = marks_order(unsure, r, s->hi, NEAR_LO) <= 0;
+    s->q = s->over && !r->near_thin ? NEAR_HI : NEAR_LO;
+    s->fixed = s->over || under || r->near_thin;
+  }
+  return n + 1;
+}
+
+/* The point of an arc at t along its axis. */
+/* ---- points of an arc ---- */
+static dyd_outline_spot outline_arc_at(const dyd_outline_arc *a, dyd_iv t) {
+  dyd_outline_spot p = {.side = {-1, -1}};
+  p.at[a->axis] = t;
+  p.at[1 - a->axis] = dyd_filter_arc_other(&a->shape, a->axis, t);
+  return p;
+}
+
+/* Encloses coordinate k of all points of an arc. */
+static dyd_iv outline_arc_span(const dyd_outline_arc *a, int k) {
+  dyd_iv p = a->end[0].at[k], q = a->end[1].at[k]; /* monotone between them [ARC-1] */
+  if (!isfinite(p.lo + p.hi + q.lo + q.hi)) return DYD_IV_UNKNOWN;
+  return (dyd_iv){p.lo < q.lo ? p.lo : q.lo, p.hi > q.hi ? p.hi : q.hi};
+}
+
+/* Where the other coordinate is `level`; 0: there, else which side of the level the parabola stays on. */
+static int arc_across(dyd_iv *t, bool *unsure, const dyd_outline_arc *a, dyd_iv level) {
+  int k = a->axis, o = 1 - k;
+  const dyd_iv *s = a->shape.s, *q = a->shape.q;
+  dyd_iv above = dyd_iv_sub(level, dyd_iv_scale(dyd_iv_add(q[o], s[o]), 0.5));
+  if (!a->shape.parabola) {
+    dyd_iv slope = dyd_iv_div(dyd_iv_sub(q[o], s[o]), dyd_iv_sub(q[k], s[k]));
+    *t = dyd_iv_sub(dyd_iv_scale(dyd_iv_add(q[k], s[k]), 0.5), dyd_iv_mul(slope, above));
+    return 0;
+  }
+  dyd_iv square = dyd_iv_mul(dyd_iv_scale(dyd_iv_sub(s[o], q[o]), 2), above);
+  int sign = dyd_iv_sign(square);
+  if (!sign) *unsure = true;
+  if (sign < 0) return -a->tilt[o];
+  dyd_iv root = dyd_iv_sqrt(square);
+  *t = a->branch > 0 ? dyd_iv_add(s[k], root) : dyd_iv_sub(s[k], root);
+  return 0;
+}
+
+/* ---- clipping ---- */
+
+/* Which end of the window the ends of the pane of an arc are, lower and upper along both axes; else -1. */
+typedef struct pane_sides {
+  int end[2][2];
+} pane_sides;
+
+static int window_side(const ruler *r, int mark) {
+  return mark == WINDOW_LO && r->of_window[0] ? 0 : mark == WINDOW_HI && r->of_window[1] ? 1 : -1;
+}
+
+/* Sign of dv/dt. */
+static int outline_arc_slope(const dyd_outline_arc *a) {
+  int k = a->axis, across = a->tilt[1 - k];
+  return a->shape.parabola ? -across * a->branch : -across * a->tilt[k];
+}
+
+/* A line along its axis: in the pane? */
+static bool level_in_pane(bool *unsure, const dyd_outline_arc *a) {
+  int o = 1 - a->axis;
+  dyd_iv level = dyd_iv_scale(dyd_iv_add(a->shape.q[o], a->shape.s[o]), 0.5);
+  return dyd_outline_order(unsure, level, a->lo[o]) > 0 && dyd_outline_order(unsure, level, a->hi[o]) < 0;
+}
+
+static bool outline_clip_across(dyd_outline_arc *a, bool *unsure, const pane_sides *m) {
+  int k = a->axis, o = 1 - k, grows = outline_arc_slope(a);
+  if (!grows) return level_in_pane(unsure, a);
+  for (int e = 0; e < 2; e++) {
+    dyd_iv level = e ? a->hi[o] : a->lo[o], t = DYD_IV_UNKNOWN;
+    int missed = arc_across(&t, unsure, a, level), to = grows > 0 ? e : 1 - e;
+    if (missed && (missed > 0) == (e == 1)) return false;
+    if (missed) continue;
+    int sign = dyd_outline_order(unsure, t, a->end[to].at[k]);
+    if (to ? sign >= 0 : sign <= 0) continue;
+    a->end[to].at[k] = t;
+    a->end[to].at[o] = level;
+    a->end[to].side[k] = -1;
+    a->end[to].side[o] = m->end[o][e];
+  }
+  return true;
+}
+
+static bool outline_clip(dyd_outline_arc *a, bool *unsure, const pane_sides *m) {
+  int k = a->axis;
+  for (int e = 0; e < 2; e++) {
+    a->end[e] = outline_arc_at(a, e ? a->hi[k] : a->lo[k]);
+    a->end[e].side[k] = m->end[k][e];
+  }
+  if (!outline_clip_across(a, unsure, m)) return false;
+  bool closed = false;
+  int order = dyd_outline_order(&closed, a->end[0].at[k], a->end[1].at[k]);
+  if (closed || !order) *unsure = true;
+  return order < 0;
+}
+
+/* ---- arcs ---- */
+
+/* Which coordinate to go along. *either: not known. */
+static int outline_axis(bool *either, const dyd_filter_arc *a, bool side_y) {
+  if (a->parabola) return side_y ? 0 : 1;
+  dyd_iv n[2];
+  for (int k = 0; k < 2; k++) {
+    dyd_iv d = dyd_iv_sub(a->q[k], a->s[k]);
+    n[k] = (dyd_iv){fmax(0, fmax(d.lo, -d.hi)), fmax(-d.lo, d.hi)};
+  }
+  return dyd_outline_order(either, n[0], n[1]) <= 0 ? 0 : 1;
+}
+
+static int outline_feature(const strip s[2]) {
+  if (!s[0].fixed) return s[1].q == NEAR_HI ? DYD_SIDE_Y1 : DYD_SIDE_Y0;
+  if (!s[1].fixed) return s[0].q == NEAR_HI ? DYD_SIDE_X1 : DYD_SIDE_X0;
+  return (s[0].q == NEAR_HI) + 2 * (s[1].q == NEAR_HI);
+}
+
+/* As curve_set_arc. */
+static bool outline_set_arc(dyd_outline_arc *a, pane_sides *m, bool *unsure, const ruler r[2], const strip s[2]) {
+  if (!s[0].fixed && !s[1].fixed) return false;
+  for (int k = 0; k < 2; k++) {
+    a->shape.s[k] = r[k].far_to[s[k].far_end];
+    a->shape.q[k] = s[k].fixed ? r[k].to[s[k].q] : DYD_IV_UNKNOWN;
+    a->lo[k] = r[k].to[s[k].lo];
+    a->hi[k] = r[k].to[s[k].hi];
+    a->tilt[k] = s[k].fixed ? dyd_outline_order(unsure, r[k].at[s[k].q], r[k].far_at[s[k].far_end]) : 0;
+    a->near_side[k] = s[k].over ? 1 : -1;
+    m->end[k][0] = window_side(&r[k], s[k].lo);
+    m->end[k][1] = window_side(&r[k], s[k].hi);
+  }
+  a->corner = s[0].far_end + 2 * s[1].far_end;
+  a->feature = outline_feature(s);
+  a->shape.parabola = !s[0].fixed || !s[1].fixed;
+  a->either = false;
+  a->axis = outline_axis(&a->either, &a->shape, !s[0].fixed);
+  a->branch = !a->shape.parabola ? 0 : s[a->axis].above ? 1 : -1;
+  return a->tilt[1 - a->axis] && !dyd_filter_no_arc(&a->shape, a->axis, a->branch, a->lo, a->hi);
+}
+
+/* All of it? Its boundary points are boundary of nothing then, and cuts there decide nothing. */
+static bool arc_is_taken(dyd_outline *o, const dyd_outline_arc *a) {
+  const dyd_iv box[2] = {outline_arc_span(a, 0), outline_arc_span(a, 1)};
+  return outline_taken(NULL, o, a->curve, box);
+}
+
+static void outline_add_curve(dyd_outline *o, uint32_t other) {
+  size_t far = o->outer ? other : o->count, near = o->outer ? o->count : other;
+  ruler r[2];
+  strip x[4], y[4];
+  for (int k = 0; k < 2; k++) ruler_set(&r[k], o, far, near, k);
+  bool near_point = r[0].near_thin && r[1].near_thin;
+  size_t columns = ruler_set_strips(x, &o->unsure, &r[0], near_point),
+         rows = ruler_set_strips(y, &o->unsure, &r[1], near_point);
+  for (size_t k = 0; k < columns * rows && !o->unsure; k++) {
+    const strip s[2] = {x[k / rows], y[k % rows]};
+    dyd_outline_arc *a = &o->arc[o->arcs];
+    pane_sides m;
+    if (o->arcs == DYD_OUTLINE_ARCS) {
+      o->unsure = true;
+    } else if (outline_set_arc(a, &m, &o->unsure, r, s) && outline_clip(a, &o->unsure, &m)) {
+      a->curve = other;
+      o->arcs += !arc_is_taken(o, a);
+    }
+  }
+}
+
+/* The arcs of the curves of all others, but for those that are taken away. What is in doubt sets
+ * o->unsure. */
+static void outline_find_arcs(dyd_outline *o) {
+  o->arcs = 0;
+  for (uint32_t k = 0; k < o->count && !o->unsure; k++)
+    if (!o->drop[k]) outline_add_curve(o, k);
+}
+
+/* ---- where the curves of two others cross, arc by arc ----
+ *
+ * Let a, b be arcs of the curves of j and k. A point of both lies in their boxes, and in panes with the same far corner
+ * (Int) or the same near feature (Pos) of the site, or on the border of panes, which is never certain. Relative to the
+ * far corner s of a, the point at u along the axis of a has the other coordinate w(u) = w0 + w1 u + w2 u^2, and what b
+ * asks of it is A u^2 + B u + C = 0:
+ *   as far from the point d as from 0 (the near corner of k for Int, the far corner of k for Pos): d.p = |d|^2 / 2;
+ *   for Int and a near side of k at D, across the axis of a or along it, with a straight: |p|^2 = (p_o - D)^2;
+ *   with a of the near side D' too, where |p| = |w - D'|: w = (D + D') / 2, or +-(u - D) = w - D', the signs being
+ *   those of the panes, in which the point is beyond both sides. */
+
+/* Coefficients; degree 1: square means nothing. */
+typedef struct quadratic {
+  dyd_iv square, line, rest;
+  int degree;
+} quadratic;
+
+/* w0 + w1 u + w2 u^2 */
+typedef struct profile {
+  dyd_iv w0, w1, w2;
+} profile;
+
+static profile profile_of(const dyd_outline_arc *a) {
+  int k = a->axis, o = 1 - k;
+  const dyd_iv *s = a->shape.s, *q = a->shape.q;
+  dyd_iv n = dyd_iv_sub(q[o], s[o]), zero = dyd_iv_point(0), half = dyd_iv_scale(n, 0.5);
+  if (a->shape.parabola) return (profile){half, zero, dyd_iv_div(dyd_iv_point(-0.5), n)};
+  dyd_iv m = dyd_iv_sub(q[k], s[k]), slope = dyd_iv_div(m, n);
+  return (profile){dyd_iv_add(half, dyd_iv_scale(dyd_iv_mul(slope, m), 0.5)), dyd_iv_neg(slope), zero};
+}
+
+/* d.p = |d|^2 / 2 */
+static quadratic meet_point(const dyd_outline_arc *a, const profile *w, const dyd_iv d[2]) {
+  dyd_iv along = d[a->axis], across = d[1 - a->axis];
+  dyd_iv half = dyd_iv_scale(dyd_iv_add(dyd_iv_sqr(along), dyd_iv_sqr(across)), 0.5);
+  return (quadratic){.square = dyd_iv_mul(across, w->w2),
+                     .line = dyd_iv_add(along, dyd_iv_mul(across, w->w1)),
+                     .rest = dyd_iv_sub(dyd_iv_mul(across, w->w0), half),
+                     .degree = a->shape.parabola ? 2 : 1};
+}
+
+/* a straight, b of a side at D: |p|^2 = (p_o - D)^2, o the axis across the side. */
+static quadratic meet_side(const dyd_outline_arc *a, const profile *w, dyd_iv side, int across_side) {
+  dyd_iv twice = dyd_iv_scale(side, 2), square = dyd_iv_sqr(side);
+  if (across_side != a->axis)
+    return (quadratic){dyd_iv_point(1), dyd_iv_mul(twice, w->w1), dyd_iv_sub(dyd_iv_mul(twice, w->w0), square), 2};
+  return (quadratic){dyd_iv_sqr(w->w1), dyd_iv_add(dyd_iv_scale(dyd_iv_mul(w->w0, w->w1), 2), twice),
+                     dyd_iv_sub(dyd_iv_sqr(w->w0), square), 2};
+}
+
+/* Both of sides. */
+static quadratic meet_sides(const dyd_outline_arc *a, const dyd_outline_arc *b, const profile *w, dyd_iv own,
+                            dyd_iv side) {
+  if (a->axis == b->axis)
+    return (quadratic){w->w2, dyd_iv_point(0), dyd_iv_sub(w->w0, dyd_iv_scale(dyd_iv_add(own, side), 0.5)), 2};
+  int same = a->near_side[1 - a->axis] * b->near_side[1 - b->axis];
+  dyd_iv up = dyd_iv_sub(w->w0, own);
+  quadratic f = {w->w2, dyd_iv_point(-1), dyd_iv_add(up, side), 2};
+  if (same < 0) f = (quadratic){dyd_iv_neg(w->w2), dyd_iv_point(-1), dyd_iv_sub(side, up), 2};
+  return f;
+}
+
+/* false: not a finite number of points, for all that is known. */
+static bool meet_equation(quadratic *out, const dyd_outline *o, const dyd_outline_arc *a, const dyd_outline_arc *b,
+                          const profile *w) {
+  const dyd_iv *s = a->shape.s, *to = o->outer ? b->shape.s : b->shape.q;
+  if (o->outer || !b->shape.parabola) {
+    const dyd_iv d[2] = {dyd_iv_sub(to[0], s[0]), dyd_iv_sub(to[1], s[1])};
+    *out = meet_point(a, w, d);
+    return true;
+  }
+  int across = 1 - b->axis;
+  dyd_iv side = dyd_iv_sub(to[across], s[across]);
+  if (!a->shape.parabola) {
+    *out = meet_side(a, w, side, across);
+    return true;
+  }
+  dyd_iv own = dyd_iv_sub(a->shape.q[1 - a->axis], s[1 - a->axis]);
+  *out = meet_sides(a, b, w, own, side);
+  return a->axis != b->axis || dyd_iv_sign(dyd_iv_sub(own, side)) != 0;
+}
+
+/* ---- roots ---- */
+
+static double iv_least(dyd_iv a) {
+  return a.lo > 0 ? a.lo : a.hi < 0 ? -a.hi : 0;
+}
+
+static double iv_most(dyd_iv a) {
+  return isfinite(a.lo + a.hi) ? fmax(fabs(a.lo), fabs(a.hi)) : HUGE_VAL;
+}
+
+/* num / den, unless it is surely beyond reach; false: not known. */
+static bool add_quotient(dyd_iv root[2], int *count, dyd_iv num, dyd_iv den, double reach) {
+  if (dyd_iv_sign(den)) {
+    root[(*count)++] = dyd_iv_div(num, den);
+    return true;
+  }
+  return iv_least(num) > dyd_up(dyd_up(iv_most(den) * reach));
+}
+
+/* Roots of absolute value up to reach; false: not known. */
+static bool find_roots(dyd_iv root[2], int *count, const quadratic *f, double reach) {
+  *count = 0;
+  if (f->degree == 1) return add_quotient(root, count, dyd_iv_neg(f->rest), f->line, reach);
+  dyd_iv d = dyd_iv_sub(dyd_iv_sqr(f->line), dyd_iv_scale(dyd_iv_mul(f->square, f->rest), 4));
+  int sign = dyd_iv_sign(d), turn = dyd_iv_sign(f->line);
+  if (sign <= 0) return sign < 0;
+  dyd_iv s = dyd_iv_sqrt(d);
+  if (!turn) {
+    dyd_iv twice = dyd_iv_scale(f->square, 2), minus = dyd_iv_neg(f->line);
+    return add_quotient(root, count, dyd_iv_add(minus, s), twice, reach) &&
+           add_quotient(root, count, dyd_iv_sub(minus, s), twice, reach);
+  }
+  dyd_iv q = dyd_iv_scale(dyd_iv_neg(turn > 0 ? dyd_iv_add(f->line, s) : dyd_iv_sub(f->line, s)), 0.5);
+  return add_quotient(root, count, f->rest, q, reach) && add_quotient(root, count, q, f->square, reach);
+}
+
+/* ---- meets ---- */
+
+static bool boxes_apart(const dyd_outline_arc *a, const dyd_outline_arc *b) {
+  for (int k = 0; k < 2; k++) {
+    dyd_iv p = outline_arc_span(a, k), q = outline_arc_span(b, k);
+    if (p.hi < q.lo || q.hi < p.lo) return true;
+  }
+  return false;
+}
+
+/* Is the point of arc a in the pane of b? */
+static bool pane_holds(bool *unsure, const dyd_outline_arc *b, const dyd_outline_spot *p) {
+  for (int k = 0; k < 2; k++)
+    if (dyd_outline_order(unsure, p->at[k], b->lo[k]) < 0 || dyd_outline_order(unsure, p->at[k], b->hi[k]) > 0)
+      return false;
+  return true;
+}
+
+static void add_meet(dyd_outline *o, uint32_t a, uint32_t b, dyd_iv u) {
+  const dyd_outline_arc *p = &o->arc[a], *q = &o->arc[b];
+  dyd_iv t = dyd_iv_add(p->shape.s[p->axis], u);
+  bool unsure = false;
+  if (dyd_outline_order(&unsure, t, p->end[0].at[p->axis]) < 0) return;
+  if (dyd_outline_order(&unsure, t, p->end[1].at[p->axis]) > 0) return;
+  dyd_outline_spot spot = outline_arc_at(p, t);
+  if (!pane_holds(&unsure, q, &spot)) return;
+  if (unsure || o->meets == DYD_OUTLINE_MEETS)
+    o->unsure = true;
+  else
+    o->meet[o->meets++] = (dyd_outline_meet){{a, b}, spot};
+}
+
+static void arcs_meet(dyd_outline *o, uint32_t a, uint32_t b, const profile *w) {
+  const dyd_outline_arc *p = &o->arc[a], *q = &o->arc[b];
+  dyd_iv root[2], range = dyd_iv_sub((dyd_iv){p->end[0].at[p->axis].lo, p->end[1].at[p->axis].hi}, p->shape.s[p->axis]);
+  quadratic f;
+  int count;
+  if (o->outer ? p->feature != q->feature : p->corner != q->corner) return;
+  if (boxes_apart(p, q)) return;
+  if (!meet_equation(&f, o, p, q, w) || !find_roots(root, &count, &f, iv_most(range))) {
+    o->unsure = true;
+    return;
+  }
+  for (int k = 0; k < count; k++) add_meet(o, a, b, root[k]);
+}
+
+/* Where the curves cross. */
+static void outline_find_meets(dyd_outline *o) {
+  o->meets = 0;
+  for (uint32_t a = 0; a < o->arcs && !o->unsure; a++) {
+    profile w = profile_of(&o->arc[a]);
+    for (uint32_t b = a + 1; b < o->arcs && !o->unsure; b++)
+      if (o->arc[a].curve != o->arc[b].curve) arcs_meet(o, a, b, &w);
+  }
+}
 
 /* ---- the site and the others ---- */
 
@@ -127,7 +568,7 @@ static bool ring_is_taken(dyd_outline *o, const double ring[4]) {
     double from = ring[2 * along], length = ring[2 * along + 1] - from;
     for (int part = 0; part < PARTS; part++) {
       at[along] = (dyd_iv){from + length * part / PARTS, from + length * (part + 1) / PARTS};
-      if (!dyd_outline_taken(NULL, o, o->count, at)) return false;
+      if (!outline_taken(NULL, o, o->count, at)) return false;
     }
   }
   return true;
@@ -182,7 +623,7 @@ dyd_iv dyd_outline_coordinate(const dyd_outline *o, const dyd_outline_spot *p, i
 /* ---- samples ---- */
 
 static bool point_is_taken(dyd_outline *o, size_t own, const dyd_iv at[2]) {
-  bool doubt = false, taken = dyd_outline_taken(&doubt, o, own, at);
+  bool doubt = false, taken = outline_taken(&doubt, o, own, at);
   if (doubt && !taken) o->unsure = true;
   return taken;
 }
@@ -231,7 +672,7 @@ static void outline_arc_pieces(dyd_outline *o, uint32_t a) {
   size_t before = o->pieces;
   for (size_t k = 0; k + 1 < count && !o->unsure; k++) {
     dyd_iv t = coordinate_between(o, o->cut[k]->at[p->axis], o->cut[k + 1]->at[p->axis]);
-    dyd_outline_spot sample = dyd_outline_arc_at(p, t);
+    dyd_outline_spot sample = outline_arc_at(p, t);
     if (!point_is_taken(o, p->curve, sample.at)) add_part(o, p->curve, p, grows, k);
   }
   if (p->either && o->pieces > before + 1) o->unsure = true; /* in which order? */
@@ -315,8 +756,8 @@ bool dyd_filter_outline(dyd_outline *o, const dyd_rect *window, bool outer) {
   if (!outline_place(o, window) && !outer) return !o->unsure;
   if (outer) limit_by_ring(o);
   set_bounds(o);
-  dyd_outline_find_arcs(o);
-  if (!o->unsure) dyd_outline_find_meets(o);
+  outline_find_arcs(o);
+  if (!o->unsure) outline_find_meets(o);
   for (uint32_t a = 0; a < o->arcs && !o->unsure; a++) outline_arc_pieces(o, a);
   for (int side = 0; side < 4 && !o->unsure; side++) outline_side_pieces(o, side);
   if (o->unsure) return false;

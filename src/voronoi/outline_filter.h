@@ -74,21 +74,8 @@ bool dyd_filter_outline(dyd_outline *o, const dyd_rect *window, bool outer);
 /* Coordinate a of a point, not relative to the origin. */
 dyd_iv dyd_outline_coordinate(const dyd_outline *o, const dyd_outline_spot *p, int a);
 
-/* outline_point_filter.c. Order of a and b; equal only as numbers that are known. Sets *unsure where it is not known.
+/* Order of a and b; equal only as numbers that are known. Sets *unsure where it is not known.
  */
 int dyd_outline_order(bool *unsure, dyd_iv a, dyd_iv b);
-/* Does someone other than `own` surely take all points of the box away from it? *doubt (or NULL): someone may take a
- * point. */
-bool dyd_outline_taken(bool *doubt, dyd_outline *o, size_t own, const dyd_iv at[2]);
-
-/* outline_arc_filter.c: the arcs of the curves of all others, but for those that are taken away. What is in doubt sets
- * o->unsure. */
-void dyd_outline_find_arcs(dyd_outline *o);
-/* The point of an arc at t along its axis. */
-dyd_outline_spot dyd_outline_arc_at(const dyd_outline_arc *a, dyd_iv t);
-/* Encloses coordinate k of all points of an arc. */
-dyd_iv dyd_outline_arc_span(const dyd_outline_arc *a, int k);
-/* outline_meet_filter.c: where the curves cross. */
-void dyd_outline_find_meets(dyd_outline *o);
 
 #endif

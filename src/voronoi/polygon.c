@@ -1,10 +1,21 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Exact work on polygons with dyadic vertices: turns, hulls, areas, simplicity. */
-#include "voronoi/polygon.h"
+/* Polygons with dyadic vertices: exact work on them, and those of a cell, from its exact boundary. In a window no chain
+ * means no cell: where the cell is all of the window, its chain is the window's sides.
+ *
+ * Samples of the boundary are moved a little off it, rounded, and proved exactly; where rounding spoils one, it is
+ * taken anew with more bits. This ends: inwards, the samples move towards a point g inside the open convex set Int_i n
+ * W, so that the segment's end has a disc around it inside the set; outwards, they move along the ray from their
+ * nearest point of R_i, on which ds_i grows by the length of the step and every dl_k by less, unless R_k meets R_i.
+ *
+ * Moves are at most 2^-(bits+2), chords are within 2^-(bits+1) of their arcs. [POLY-1] [POLY-2] */
+#include "voronoi/shape.h"
 
 #include "base/alloc.h"
 #include "base/flag.h"
 #include "dyadic/raw.h"
+#include "rect/rect.h"
+#include "voronoi/exact_cell.h"
+#include "voronoi/sample.h"
 
 void dyd_polygon_clear(dyd_polygon *p) {
   for (size_t k = 0; k < p->count; k++) dyd_point_clear(&p->vertex[k]);
@@ -59,6 +70,7 @@ static void raws_init(raw *r, size_t n) {
     r[k].exp = 0;
   }
 }
+
 static void raws_clear(raw *r, size_t n) {
   for (size_t k = 0; k < n; k++) mpz_clear(r[k].man);
 }
@@ -220,4 +232,473 @@ dyd_status dyd_polygon_copy(dyd_polygon *out, const dyd_polygon *p) {
   }
   *out = copy;
   return DYD_OK;
+}
+
+/* ---- simple polygons cut to a window, one side after another ----
+ *
+ * Along the line of a side, a simple polygon is inside between the first and the second point at which its boundary
+ * crosses, between the third and the fourth, and so on. The pieces of the boundary on the window's side are joined
+ * along these intervals. Crossings are rational: the lower end of an interval is rounded down and the upper one up,
+ * along the line, so the result holds all inner points of the polygon, and none beyond the line [POLY-3]. */
+
+/* One side of W: points with sign * (coordinate - level) > 0 are beyond it. */
+typedef struct window_side {
+  int axis, sign;
+  const dyd_dyadic *level;
+} window_side;
+
+/* Where the boundary crosses the line: behind vertex `after`; out: it goes beyond. */
+typedef struct crossing {
+  mpq_t at;
+  size_t after;
+  bool out, used;
+} crossing;
+
+static const dyd_dyadic *coordinate_of(const dyd_point *z, int axis) {
+  return axis ? &z->y : &z->x;
+}
+
+/* side[k] > 0: vertex k is beyond. Vertices on the line count as inside, unless they only touch it from beyond.
+ * Returns how many are beyond. */
+static size_t find_sides(int *side, const dyd_polygon *p, const window_side *w) {
+  size_t n = p->count, beyond = 0, from = n;
+  for (size_t k = 0; k < n; k++) {
+    side[k] = w->sign * dyd_dyadic_cmp(coordinate_of(&p->vertex[k], w->axis), w->level);
+    if (side[k] > 0) from = k;
+  }
+  for (size_t q = 1; from < n && q <= n; q++) {
+    size_t k = (from + q) % n, first = q;
+    if (side[k]) continue;
+    while (!side[(from + q) % n]) q++;
+    bool touches = side[(from + first - 1) % n] > 0 && side[(from + q) % n] > 0;
+    for (size_t r = first; touches && r < q; r++) side[(from + r) % n] = 1;
+  }
+  for (size_t k = 0; k < n; k++) beyond += side[k] > 0;
+  return beyond;
+}
+
+/* The other coordinate of the point of pq on the line. */
+static void crossing_place(mpq_t out, const dyd_point *p, const dyd_point *q, const window_side *w) {
+  mpq_t a, b, t;
+  mpq_inits(a, b, t, NULL);
+  dyd_dyadic_get_q(a, coordinate_of(p, w->axis));
+  dyd_dyadic_get_q(b, coordinate_of(q, w->axis));
+  dyd_dyadic_get_q(t, w->level);
+  mpq_sub(t, t, a);
+  mpq_sub(b, b, a);
+  mpq_div(t, t, b);
+  dyd_dyadic_get_q(out, coordinate_of(p, 1 - w->axis));
+  dyd_dyadic_get_q(a, coordinate_of(q, 1 - w->axis));
+  mpq_sub(a, a, out);
+  mpq_mul(a, a, t);
+  mpq_add(out, out, a);
+  mpq_clears(a, b, t, NULL);
+}
+
+static int compare_crossings(const void *a, const void *b) {
+  const crossing *p = a, *q = b;
+  return mpq_cmp(p->at, q->at);
+}
+
+static crossing *find_crossings(size_t *count, const int *side, const dyd_polygon *p, const window_side *w) {
+  crossing *c = dyd_alloc(p->count + 1, sizeof *c);
+  *count = 0;
+  for (size_t k = 0; c && k < p->count; k++) {
+    size_t next = (k + 1) % p->count;
+    if ((side[k] > 0) == (side[next] > 0)) continue;
+    crossing *x = &c[(*count)++];
+    *x = (crossing){.after = k, .out = side[next] > 0};
+    mpq_init(x->at);
+    crossing_place(x->at, &p->vertex[k], &p->vertex[next], w);
+  }
+  if (*count) qsort(c, *count, sizeof *c, compare_crossings);
+  return c;
+}
+
+static dyd_status add_vertex(dyd_polygon *out, const dyd_point *z) {
+  dyd_point *to = &out->vertex[out->count++];
+  dyd_point_init(to);
+  dyd_point_set(to, z);
+  return DYD_OK;
+}
+
+/* The crossing, rounded along the line. */
+static dyd_status add_crossing(dyd_polygon *out, const crossing *c, size_t number, const window_side *w, int64_t bits) {
+  dyd_point *to = &out->vertex[out->count++];
+  dyd_point_init(to);
+  dyd_dyadic_set(w->axis ? &to->y : &to->x, w->level);
+  return dyd_dyadic_round_q(w->axis ? &to->x : &to->y, c->at, -bits, number & 1 ? DYD_UP : DYD_DOWN);
+}
+
+/* The crossing at which the boundary that comes in at c goes out again. */
+static size_t crossing_out(const crossing *c, size_t count, size_t from, size_t n, const int *side) {
+  size_t k = (c[from].after + 1) % n, out = 0;
+  while (side[(k + 1) % n] <= 0) k = (k + 1) % n;
+  while (out < count && (c[out].after != k || !c[out].out)) out++;
+  return out;
+}
+
+/* The ring that comes in at crossing `first`. */
+static dyd_status take_ring(dyd_polygon *out, crossing *c, size_t count, size_t first, const dyd_polygon *p,
+                            const int *side, const window_side *w, int64_t bits) {
+  size_t n = p->count, in = first;
+  out->vertex = dyd_alloc(n + 2 * count, sizeof *out->vertex);
+  if (!out->vertex) return DYD_E_NOMEM;
+  dyd_status st = DYD_OK;
+  do {
+    size_t leaves = crossing_out(c, count, in, n, side);
+    c[in].used = true;
+    st = add_crossing(out, &c[in], in, w, bits);
+    for (size_t k = c[in].after; st == DYD_OK && k != c[leaves].after;) {
+      k = (k + 1) % n;
+      st = add_vertex(out, &p->vertex[k]);
+    }
+    if (st == DYD_OK) st = add_crossing(out, &c[leaves], leaves, w, bits);
+    in = leaves ^ 1;
+  } while (st == DYD_OK && in != first && in < count && !c[in].out && !c[in].used);
+  return st;
+}
+
+/* Appends what of p is not beyond the side; p is taken over. */
+static dyd_status cut_polygon(dyd_polygon_list *out, dyd_polygon *p, const window_side *w, int64_t bits) {
+  size_t count = 0;
+  int *side = dyd_alloc(p->count + 1, sizeof *side);
+  if (!side) return DYD_E_NOMEM;
+  size_t beyond = find_sides(side, p, w);
+  if (!beyond) out->item[out->count++] = *p, *p = (dyd_polygon){0};
+  crossing *c = beyond && beyond < p->count ? find_crossings(&count, side, p, w) : NULL;
+  dyd_status st = beyond && beyond < p->count && !c ? DYD_E_NOMEM : DYD_OK;
+  for (size_t k = 0; k < count && st == DYD_OK; k++)
+    if (!c[k].out && !c[k].used) st = take_ring(&out->item[out->count++], c, count, k, p, side, w, bits);
+  for (size_t k = 0; k < count; k++) mpq_clear(c[k].at);
+  free(c);
+  free(side);
+  return st;
+}
+
+/* One side: a polygon of n vertices becomes at most n / 2 of them. */
+static dyd_status cut_list(dyd_polygon_list *l, const window_side *w, int64_t bits) {
+  size_t room = 1;
+  for (size_t k = 0; k < l->count; k++) room += l->item[k].count;
+  dyd_polygon_list out = {.item = calloc(room, sizeof *out.item)};
+  dyd_status st = out.item ? DYD_OK : DYD_E_NOMEM;
+  for (size_t k = 0; k < l->count && st == DYD_OK; k++) st = cut_polygon(&out, &l->item[k], w, bits);
+  dyd_polygon_list_clear(l);
+  *l = out;
+  return st;
+}
+
+/* Drops polygons without area; *simple: the others are simple. */
+static dyd_status check_list(bool *simple, dyd_polygon_list *l, const volatile int *cancel) {
+  dyd_dyadic area2;
+  size_t kept = 0;
+  dyd_status st = DYD_OK;
+  dyd_dyadic_init(&area2);
+  *simple = true;
+  for (size_t k = 0; k < l->count && st == DYD_OK; k++) {
+    bool good = true;
+    st = dyd_polygon_area2(&area2, &l->item[k]);
+    bool some = dyd_dyadic_sgn(&area2) > 0;
+    if (st == DYD_OK && some) st = dyd_polygon_is_simple(&good, &l->item[k], cancel);
+    if (!some) dyd_polygon_clear(&l->item[k]);
+    *simple = *simple && good;
+    dyd_polygon p = l->item[k];
+    l->item[k] = (dyd_polygon){0};
+    if (some) l->item[kept++] = p;
+  }
+  if (st == DYD_OK) l->count = kept;
+  dyd_dyadic_clear(&area2);
+  return st;
+}
+
+static bool list_is_within(const dyd_polygon_list *l, const dyd_rect *window) {
+  for (size_t p = 0; p < l->count; p++)
+    for (size_t k = 0; k < l->item[p].count; k++)
+      if (!dyd_rect_holds(window, &l->item[p].vertex[k])) return false;
+  return true;
+}
+
+dyd_status dyd_polygons_clip(bool *simple, dyd_polygon_list *l, const dyd_rect *window, int64_t bits,
+                             const volatile int *cancel) {
+  const window_side side[4] = {
+      {0, -1, &window->x.lo}, {0, 1, &window->x.hi}, {1, -1, &window->y.lo}, {1, 1, &window->y.hi}};
+  dyd_status st = DYD_OK;
+  *simple = true;
+  if (list_is_within(l, window)) return st;
+  for (int k = 0; k < 4 && st == DYD_OK; k++)
+    st = dyd_flag_is_set(cancel) ? DYD_CANCELLED : cut_list(l, &side[k], bits);
+  return st == DYD_OK ? check_list(simple, l, cancel) : st;
+}
+
+/* ---- the polygons of a cell ---- */
+
+/* FINER: bits by which polygons that cross themselves are made finer. Parabolas take twice as many chords for two bits,
+ * so what was too coarse costs less than what is fine enough. */
+enum { FIRST_EXTRA = 8, MOST_EXTRA = 1 << 15, MOST_ANEW = 1 << 13, FINER = 2 };
+
+typedef struct work {
+  dyd_cell_sites sites;
+  uint32_t own;
+  const dyd_rect *window;
+  int64_t bits;
+  const volatile int *cancel;
+  dyd_room *room;
+  dyd_boundary boundary;
+  dyd_arc_samples samples;
+  dyd_point goal; /* of inward moves: a point inside */
+  mpq_t x, y, s, t;
+} work;
+
+/* On a window, or one as wide as that. */
+static dyd_status polygon_work_init(work *w, const dyd_delaunay *pd, uint32_t i, const dyd_rect *rect,
+                                    const dyd_window *window, int64_t bits) {
+  *w = (work){.own = i, .window = rect, .bits = bits, .cancel = window->cancel, .room = window->room};
+  dyd_point_init(&w->goal);
+  mpq_inits(w->x, w->y, w->s, w->t, NULL);
+  return dyd_cell_sites_init(&w->sites, pd, i);
+}
+
+static void polygon_work_clear(work *w) {
+  mpq_clears(w->x, w->y, w->s, w->t, NULL);
+  dyd_point_clear(&w->goal);
+  free(w->samples.item);
+  dyd_boundary_clear(&w->boundary);
+  dyd_cell_sites_clear(&w->sites);
+}
+
+/* z += (x, y) 2^-shift with shift such that the move has between 2^-(bits+5) and 2^-(bits+2), or the whole of (x, y) if
+ * that is shorter and not `stretch`; rounded to multiples of 2^-fine. */
+static dyd_status move_by_step(dyd_point *z, work *w, bool stretch, int64_t fine) {
+  int64_t shift = dyd_log2_length(w->x, w->y) + w->bits + 2;
+  if (shift < 1 && !stretch) shift = 1;
+  for (int axis = 0; axis < 2; axis++) {
+    mpq_ptr d = axis ? w->y : w->x;
+    if (shift >= 0)
+      mpq_div_2exp(d, d, (mp_bitcnt_t)shift);
+    else
+      mpq_mul_2exp(d, d, (mp_bitcnt_t)-shift);
+    dyd_dyadic_get_q(w->s, axis ? &z->y : &z->x);
+    mpq_add(d, d, w->s);
+    dyd_status st = dyd_dyadic_round_q(axis ? &z->y : &z->x, d, -fine, DYD_DOWN);
+    if (st != DYD_OK) return st;
+  }
+  return DYD_OK;
+}
+
+/* ---- inward ---- */
+
+/* goal = the mean of the samples, rounded: inside when fine is large enough. */
+static dyd_status find_inner_goal(bool *out, work *w, int64_t fine) {
+  dyd_point z;
+  dyd_point_init(&z);
+  mpq_t x, y;
+  mpq_inits(x, y, NULL);
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < w->samples.count && st == DYD_OK; k++) {
+    if (dyd_flag_is_set(w->cancel)) st = DYD_CANCELLED;
+    if (st == DYD_OK) st = dyd_sample_point(&z, &w->samples.item[k], &w->sites, w->own, fine);
+    dyd_dyadic_get_q(w->s, &z.x);
+    mpq_add(x, x, w->s);
+    dyd_dyadic_get_q(w->s, &z.y);
+    mpq_add(y, y, w->s);
+  }
+  mpq_set_ui(w->s, w->samples.count, 1);
+  mpq_div(x, x, w->s);
+  mpq_div(y, y, w->s);
+  if (st == DYD_OK) st = dyd_dyadic_round_q(&w->goal.x, x, -fine, DYD_DOWN);
+  if (st == DYD_OK) st = dyd_dyadic_round_q(&w->goal.y, y, -fine, DYD_DOWN);
+  *out = st == DYD_OK && dyd_rect_holds(w->window, &w->goal) && dyd_cell_holds(&w->sites, &w->goal);
+  mpq_clears(x, y, NULL);
+  dyd_point_clear(&z);
+  return st;
+}
+
+static dyd_status place_inner(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine) {
+  dyd_status st = dyd_sample_point(z, at, &w->sites, w->own, fine);
+  if (st != DYD_OK) return st;
+  dyd_dyadic_get_q(w->s, &z->x);
+  dyd_dyadic_get_q(w->x, &w->goal.x);
+  mpq_sub(w->x, w->x, w->s);
+  dyd_dyadic_get_q(w->s, &z->y);
+  dyd_dyadic_get_q(w->y, &w->goal.y);
+  mpq_sub(w->y, w->y, w->s);
+  st = move_by_step(z, w, false, fine);
+  *out = st == DYD_OK && dyd_rect_holds(w->window, z) && dyd_cell_holds(&w->sites, z);
+  return st;
+}
+
+/* ---- outward ---- */
+
+/* (x, y) = z minus its nearest point in R_i. */
+static void set_away(work *w, const dyd_point *z) {
+  const dyd_rect *r = &w->sites.own;
+  for (int axis = 0; axis < 2; axis++) {
+    mpq_ptr d = axis ? w->y : w->x;
+    dyd_interval_get_q(w->s, w->t, axis ? &r->y : &r->x);
+    dyd_dyadic_get_q(d, axis ? &z->y : &z->x);
+    if (mpq_cmp(d, w->s) <= 0)
+      mpq_sub(d, d, w->s);
+    else if (mpq_cmp(d, w->t) >= 0)
+      mpq_sub(d, d, w->t);
+    else
+      mpq_set_ui(d, 0, 1);
+  }
+}
+
+/* Is z in C_ki for the far site k of the arc? Window arcs ask nothing. */
+static bool beyond_arc(const work *w, const dyd_arc *arc, const dyd_point *z) {
+  return arc->kind == DYD_ARC_WINDOW ||
+         dyd_nearer(z, dyd_cell_site(&w->sites, arc->far_site), &w->sites.own) == DYD_TRUE;
+}
+
+static dyd_status place_outer(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine) {
+  dyd_status st = dyd_sample_point(z, at, &w->sites, w->own, fine);
+  if (st != DYD_OK) return st;
+  if (at->arc->kind == DYD_ARC_WINDOW && at->before->kind == DYD_ARC_WINDOW) {
+    *out = true; /* a corner of W: its edges need no proof */
+    return DYD_OK;
+  }
+  set_away(w, z);
+  st = move_by_step(z, w, true, fine);
+  *out = st == DYD_OK && beyond_arc(w, at->arc, z) && beyond_arc(w, at->before, z);
+  return st;
+}
+
+/* ---- both ---- */
+
+typedef dyd_status (*place_fn)(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine);
+
+/* Proved points for all samples. */
+static dyd_status place_samples(dyd_polygon *out, work *w, place_fn place, int64_t extra) {
+  const dyd_arc_samples *all = &w->samples;
+  out->vertex = dyd_alloc(all->count, sizeof *out->vertex);
+  if (!out->vertex) return DYD_E_NOMEM;
+  dyd_status st = DYD_OK;
+  for (; out->count < all->count && st == DYD_OK; out->count++) {
+    dyd_point *z = &out->vertex[out->count];
+    dyd_point_init(z);
+    bool done = false;
+    if (dyd_flag_is_set(w->cancel)) st = DYD_CANCELLED;
+    for (int64_t e = extra; !done && st == DYD_OK; e *= 2)
+      st = e > MOST_EXTRA ? DYD_E_RANGE : place(&done, z, w, &all->item[out->count], w->bits + e);
+  }
+  return st;
+}
+
+static dyd_status exact_inner(dyd_polygon *out, work *w) {
+  bool found = false;
+  dyd_status st = dyd_chain_samples(&w->samples, &w->boundary.chain[0], &w->sites, w->own, w->bits + 1, w->room);
+  for (int64_t extra = FIRST_EXTRA; !found && st == DYD_OK; extra *= 2)
+    st = extra > MOST_EXTRA ? DYD_E_RANGE : find_inner_goal(&found, w, w->bits + extra);
+  if (st == DYD_OK) st = place_samples(out, w, place_inner, FIRST_EXTRA);
+  return st == DYD_OK ? dyd_polygon_make_convex(out) : st;
+}
+
+dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i, const dyd_window *window,
+                           int64_t bits) {
+  work w;
+  dyd_polygon polygon = {0};
+  dyd_status st = polygon_work_init(&w, pd, i, window->rect, window, bits);
+  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, false, window->rect, w.room, w.cancel);
+  if (st == DYD_OK && w.boundary.count) st = exact_inner(&polygon, &w);
+  if (st == DYD_OK) {
+    dyd_polygon_clear(out);
+    *out = polygon;
+    polygon = (dyd_polygon){0};
+  }
+  dyd_polygon_clear(&polygon);
+  polygon_work_clear(&w);
+  return st;
+}
+
+/* One part; taken anew with more bits while it crosses itself. Where arcs come nearer to each other than samples of
+ * that number can follow, scales are too far apart for polygons: DYD_E_RANGE. */
+static dyd_status exact_outer_part(dyd_polygon *out, work *w, const dyd_chain *chain) {
+  int64_t bits = w->bits;
+  bool simple = false;
+  dyd_status st = DYD_OK;
+  for (int64_t extra = 0; !simple && st == DYD_OK; extra += FINER) {
+    if (extra > MOST_EXTRA) return DYD_E_RANGE;
+    dyd_polygon_clear(out);
+    w->samples.count = 0;
+    w->bits = bits + extra;
+    st = dyd_chain_samples(&w->samples, chain, &w->sites, w->own, w->bits + 1, w->room);
+    if (st == DYD_OK && extra > 0 && w->samples.count > MOST_ANEW) st = DYD_E_RANGE;
+    if (st == DYD_OK) st = place_samples(out, w, place_outer, FIRST_EXTRA);
+    if (st == DYD_OK) st = dyd_polygon_is_simple(&simple, out, w->cancel);
+  }
+  w->bits = bits;
+  return st;
+}
+
+/* A polygon that comes out clockwise winds round no point of Pos_i n W: its part was outside of W, and is left out. */
+static dyd_status drop_if_clockwise(dyd_polygon_list *l) {
+  dyd_dyadic area2;
+  dyd_dyadic_init(&area2);
+  dyd_status st = dyd_polygon_area2(&area2, &l->item[l->count - 1]);
+  if (st == DYD_OK && dyd_dyadic_sgn(&area2) <= 0) dyd_polygon_clear(&l->item[--l->count]);
+  dyd_dyadic_clear(&area2);
+  return st;
+}
+
+static dyd_status exact_outer_parts(dyd_polygon_list *out, work *w) {
+  dyd_polygon_list_clear(out);
+  out->item = calloc(w->boundary.count, sizeof *out->item);
+  if (!out->item) return DYD_E_NOMEM;
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < w->boundary.count && st == DYD_OK; k++) {
+    st = exact_outer_part(&out->item[out->count++], w, &w->boundary.chain[k]);
+    if (st == DYD_OK) st = drop_if_clockwise(out);
+  }
+  return st;
+}
+
+/* Cut to W; taken anew with more bits while that spoils one. */
+static dyd_status exact_outer(dyd_polygon_list *out, work *w, const dyd_rect *window) {
+  int64_t bits = w->bits;
+  bool simple = false;
+  dyd_status st = DYD_OK;
+  for (int64_t extra = 0; !simple && st == DYD_OK; extra += FINER) {
+    if (extra > MOST_EXTRA) return DYD_E_RANGE;
+    w->bits = bits + extra;
+    st = exact_outer_parts(out, w);
+    if (st == DYD_OK) st = dyd_polygons_clip(&simple, out, window, w->bits + DYD_CLIP_EXTRA, w->cancel);
+  }
+  w->bits = bits;
+  return st;
+}
+
+dyd_status dyd_window_enlarge(dyd_rect *out, const dyd_rect *window, int64_t bits) {
+  dyd_dyadic margin;
+  dyd_dyadic_init(&margin);
+  dyd_status st = dyd_dyadic_set_si_2exp(&margin, 1, -(bits + 1));
+  dyd_rect_set(out, window);
+  for (int axis = 0; axis < 2 && st == DYD_OK; axis++) {
+    dyd_interval *side = axis ? &out->y : &out->x;
+    st = dyd_dyadic_sub(&side->lo, &side->lo, &margin);
+    if (st == DYD_OK) st = dyd_dyadic_add(&side->hi, &side->hi, &margin);
+  }
+  dyd_dyadic_clear(&margin);
+  return st;
+}
+
+dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, const dyd_window *window,
+                           int64_t bits) {
+  work w;
+  dyd_polygon_list list = {0};
+  dyd_rect wide;
+  dyd_rect_init(&wide);
+  dyd_status st = polygon_work_init(&w, pd, i, &wide, window, bits);
+  if (st == DYD_OK) st = dyd_window_enlarge(&wide, window->rect, bits);
+  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, true, &wide, w.room, w.cancel);
+  if (st == DYD_OK && w.boundary.count) st = exact_outer(&list, &w, window->rect);
+  if (st == DYD_OK) {
+    dyd_polygon_list_clear(out);
+    *out = list;
+    list = (dyd_polygon_list){0};
+  }
+  dyd_polygon_list_clear(&list);
+  polygon_work_clear(&w);
+  dyd_rect_clear(&wide);
+  return st;
 }

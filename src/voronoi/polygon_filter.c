@@ -1,19 +1,133 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The polygons of polygon_exact.c, number by number, from the boundary in doubles.
+/* The polygons of polygon.c, number by number, from the boundary in doubles.
  *
  * All points of that rung are multiples of some 2^-scale. Here they are integers of at most GRID bits, so that sums,
  * means, steps and turns are exact; where a coordinate is rounded to the grid its enclosure has to lie between two
  * neighbours there, and where a point is proved the bounds of [FLT-DST] have to say yes or no. So the polygons are the
  * same ones, or nothing is said [OUTLINE-1]. */
 #include "base/alloc.h"
-#include "voronoi/grid_polygon.h"
 #include "voronoi/outline_filter.h"
 #include "voronoi/sample.h"
 #include "voronoi/shape.h"
 
+#include <limits.h>
 #include <stdlib.h>
 
-enum { GRID = DYD_GRID_BITS, FIRST_EXTRA = 8, FINER = 2, SAMPLES = 1 << 14 };
+enum { GRID = 50, FIRST_EXTRA = 8, FINER = 2, SAMPLES = 1 << 14 };
+
+/* ---- polygons on a grid: turns and areas fit into 128 bits ---- */
+
+/* A point times 2^scale. */
+typedef struct grid_point {
+  int64_t at[2];
+  int scale;
+} grid_point;
+
+typedef struct grid_polygon {
+  grid_point *vertex;
+  size_t count, cap;
+} grid_polygon;
+
+/* All vertices on the finest of their grids; false: they do not fit there. */
+static bool grid_align(grid_polygon *p) {
+  int scale = INT_MIN;
+  bool fits = true;
+  for (size_t k = 0; k < p->count; k++)
+    if (p->vertex[k].scale > scale) scale = p->vertex[k].scale;
+  for (size_t k = 0; k < p->count; k++) {
+    grid_point *z = &p->vertex[k];
+    int up = scale - z->scale;
+    for (int a = 0; a < 2; a++) {
+      if (up > GRID || llabs(z->at[a]) >> (GRID + 2 - up)) fits = false;
+      if (fits) z->at[a] = (int64_t)((uint64_t)z->at[a] << up);
+    }
+    z->scale = scale;
+  }
+  return fits;
+}
+
+/* Twice the area of a, b, c, with its sign. */
+static dyd_i128 grid_turn(const grid_point *a, const grid_point *b, const grid_point *c) {
+  return (dyd_i128)(b->at[0] - a->at[0]) * (c->at[1] - a->at[1]) -
+         (dyd_i128)(b->at[1] - a->at[1]) * (c->at[0] - a->at[0]);
+}
+
+static int compare_grid(const void *a, const void *b) {
+  const grid_point *p = a, *q = b;
+  for (int k = 0; k < 2; k++)
+    if (p->at[k] != q->at[k]) return p->at[k] < q->at[k] ? -1 : 1;
+  return 0;
+}
+
+static size_t grid_extend(grid_point *chain, size_t kept, size_t floor, grid_point z) {
+  while (kept >= floor + 2 && grid_turn(&chain[kept - 2], &chain[kept - 1], &z) <= 0) kept--;
+  chain[kept++] = z;
+  return kept;
+}
+
+/* As dyd_polygon_make_convex. The hull is made behind the vertices. */
+static dyd_status grid_make_convex(grid_polygon *p) {
+  size_t n = p->count, kept = 0;
+  if (!dyd_reserve((void **)&p->vertex, &p->cap, 3 * n + 1, sizeof *p->vertex)) return DYD_E_NOMEM;
+  grid_point *z = p->vertex, *chain = z + n;
+  qsort(z, n, sizeof *z, compare_grid);
+  for (size_t k = 0; k < n; k++) kept = grid_extend(chain, kept, 0, z[k]);
+  size_t floor = kept ? kept - 1 : 0;
+  for (size_t k = n; k-- > 1;) kept = grid_extend(chain, kept, floor, z[k - 1]);
+  kept = kept ? kept - 1 : 0;
+  p->count = kept >= 3 ? kept : 0;
+  for (size_t k = 0; k < p->count; k++) z[k] = chain[k];
+  return DYD_OK;
+}
+
+static int64_t min64(int64_t a, int64_t b) {
+  return a < b ? a : b;
+}
+
+/* Do the closed boxes of the edges from a and from c meet? */
+static bool grid_edges_near(const grid_point *a, const grid_point *b, const grid_point *c, const grid_point *d) {
+  for (int k = 0; k < 2; k++)
+    if (-min64(-a->at[k], -b->at[k]) < min64(c->at[k], d->at[k]) ||
+        -min64(-c->at[k], -d->at[k]) < min64(a->at[k], b->at[k]))
+      return false;
+  return true;
+}
+
+/* Does no edge meet another but in the common vertex of neighbours? *known = false: edges only seem to meet, by a turn
+ * that is 0. O(n^2). */
+static bool grid_is_simple(bool *known, const grid_polygon *p) {
+  const grid_point *z = p->vertex;
+  size_t n = p->count;
+  for (size_t j = 0; j < n; j++) {
+    const grid_point *c = &z[j], *d = &z[j + 1 == n ? 0 : j + 1];
+    if (!grid_turn(c, d, &z[(j + 2) % n])) *known = false;
+    for (size_t i = 0; i + 1 < j; i++) {
+      const grid_point *a = &z[i], *b = &z[i + 1];
+      if ((j + 1 == n && i == 0) || !grid_edges_near(a, b, c, d)) continue;
+      dyd_i128 s = grid_turn(a, b, c), t = grid_turn(a, b, d), u = grid_turn(c, d, a), v = grid_turn(c, d, b);
+      if (!s || !t || !u || !v) *known = false;
+      if ((s < 0) != (t < 0) && (u < 0) != (v < 0)) return false;
+    }
+  }
+  return n >= 3;
+}
+
+/* As dyd_polygon_is_simple takes out repeats. */
+static void grid_drop_repeats(grid_polygon *p) {
+  size_t kept = 0, n = p->count;
+  for (size_t k = 0; k < n; k++)
+    if (n == 1 || compare_grid(&p->vertex[k], &p->vertex[kept ? kept - 1 : n - 1])) p->vertex[kept++] = p->vertex[k];
+  p->count = kept;
+}
+
+/* Twice the area, with its sign, of an aligned one. */
+static dyd_i128 grid_area2(const grid_polygon *p) {
+  dyd_i128 sum = 0;
+  for (size_t k = 1; k + 1 < p->count; k++) sum += grid_turn(&p->vertex[0], &p->vertex[k], &p->vertex[k + 1]);
+  return sum;
+}
+
+/* ---- the work ---- */
 
 /* As dyd_arc_sample. */
 typedef struct grid_sample {
@@ -28,9 +142,9 @@ typedef struct grid_work {
   uint32_t own;
   int bits;
   grid_sample *sample;
-  dyd_grid_polygon polygon;
+  grid_polygon polygon;
   size_t samples, sample_cap;
-  dyd_grid_point goal;
+  grid_point goal;
   double window[4];
   dyd_rect rect; /* of the site */
   mpq_t end[2][2], away[2];
@@ -111,8 +225,8 @@ static dyd_status grid_samples(grid_work *w) {
 }
 
 /* As dyd_sample_point: on the grid 2^-(bits+1). */
-static dyd_grid_point sample_on_grid(grid_work *w, const grid_sample *s, int bits) {
-  dyd_grid_point z = {.scale = bits + 1};
+static grid_point sample_on_grid(grid_work *w, const grid_sample *s, int bits) {
+  grid_point z = {.scale = bits + 1};
   const dyd_outline_piece *p = s->part;
   bool whole;
   if (!s->step) {
@@ -132,7 +246,7 @@ static dyd_grid_point sample_on_grid(grid_work *w, const grid_sample *s, int bit
 
 /* ---- proofs ---- */
 
-static dyd_bbox grid_box(const dyd_grid_point *z) {
+static dyd_bbox grid_box(const grid_point *z) {
   double x = grid_double(z->at[0], z->scale), y = grid_double(z->at[1], z->scale);
   return (dyd_bbox){{x, x, y, y}};
 }
@@ -150,7 +264,7 @@ static bool grid_nearer(grid_work *w, const dyd_bbox *c, const dyd_box *a, const
 }
 
 /* In Int_i n W? */
-static bool grid_inside(grid_work *w, const dyd_grid_point *z) {
+static bool grid_inside(grid_work *w, const grid_point *z) {
   const dyd_outline *o = w->o;
   dyd_bbox c = grid_box(z);
   if (!(w->window[0] <= c.e[0] && c.e[1] <= w->window[1] && w->window[2] <= c.e[2] && c.e[3] <= w->window[3]))
@@ -172,7 +286,7 @@ static int64_t floor_quotient(dyd_i128 n, dyd_i128 d) {
 static bool grid_goal(grid_work *w, int fine) {
   dyd_i128 sum[2] = {0, 0};
   for (size_t k = 0; k < w->samples && w->known; k++) {
-    dyd_grid_point z = sample_on_grid(w, &w->sample[k], fine);
+    grid_point z = sample_on_grid(w, &w->sample[k], fine);
     for (int a = 0; a < 2; a++) sum[a] += z.at[a];
   }
   w->goal.scale = fine;
@@ -181,7 +295,7 @@ static bool grid_goal(grid_work *w, int fine) {
 }
 
 /* As place_inner, with move_by_step in integers. */
-static bool grid_place_inner(dyd_grid_point *z, grid_work *w, const grid_sample *s, int fine) {
+static bool grid_place_inner(grid_point *z, grid_work *w, const grid_sample *s, int fine) {
   *z = sample_on_grid(w, s, fine);
   if (!w->known) return false;
   int scale = z->scale > w->goal.scale ? z->scale : w->goal.scale;
@@ -216,7 +330,7 @@ static dyd_iv coordinate_away(int *end, bool *known, double at, const dyd_iv sid
 
 /* dyd_log2_length of a point's distances to the ends of the site that are not doubles: it depends on their fractions.
  */
-static int64_t grid_log2_exact(grid_work *w, const dyd_grid_point *z, const int end[2]) {
+static int64_t grid_log2_exact(grid_work *w, const grid_point *z, const int end[2]) {
   if (!w->fetched) {
     const dyd_interval *side[2] = {&w->rect.x, &w->rect.y};
     if (dyd_sites_get(&w->rect, dyd_delaunay_sites(w->pd), w->own) != DYD_OK) return w->known = false, 0;
@@ -246,7 +360,7 @@ static bool grid_beyond(grid_work *w, const dyd_outline_piece *p, const dyd_bbox
 }
 
 /* As place_outer. */
-static bool grid_place_outer(dyd_grid_point *z, grid_work *w, const grid_sample *s, int fine) {
+static bool grid_place_outer(grid_point *z, grid_work *w, const grid_sample *s, int fine) {
   *z = sample_on_grid(w, s, fine);
   if (!w->known || (!s->part->arc && !s->before->arc)) return w->known;
   const dyd_box *own = &w->o->box[w->o->count];
@@ -270,10 +384,10 @@ static bool grid_place_outer(dyd_grid_point *z, grid_work *w, const grid_sample 
 
 /* ---- both ---- */
 
-typedef bool (*grid_place)(dyd_grid_point *z, grid_work *w, const grid_sample *s, int fine);
+typedef bool (*grid_place)(grid_point *z, grid_work *w, const grid_sample *s, int fine);
 
 static dyd_status grid_place_all(grid_work *w, grid_place place) {
-  dyd_grid_polygon *p = &w->polygon;
+  grid_polygon *p = &w->polygon;
   if (!dyd_reserve((void **)&p->vertex, &p->cap, 2 * w->samples + 1, sizeof *p->vertex)) return DYD_E_NOMEM;
   p->count = 0;
   for (size_t k = 0; k < w->samples && w->known; k++) {
@@ -287,13 +401,13 @@ static dyd_status grid_place_all(grid_work *w, grid_place place) {
 /* ---- the polygons ---- */
 
 static dyd_status grid_deliver(dyd_grid_area *area, dyd_xy **out, size_t *cap, uint32_t *count, const grid_work *w) {
-  const dyd_grid_polygon *p = &w->polygon;
+  const grid_polygon *p = &w->polygon;
   if (!dyd_reserve((void **)out, cap, p->count, sizeof **out)) return DYD_E_NOMEM;
   for (size_t k = 0; k < p->count; k++)
     (*out)[k] = (dyd_xy){grid_double(p->vertex[k].at[0], p->vertex[k].scale),
                          grid_double(p->vertex[k].at[1], p->vertex[k].scale)};
   *count = (uint32_t)p->count;
-  *area = (dyd_grid_area){dyd_grid_area2(p), p->count ? p->vertex[0].scale : 0};
+  *area = (dyd_grid_area){grid_area2(p), p->count ? p->vertex[0].scale : 0};
   return DYD_OK;
 }
 
@@ -304,8 +418,8 @@ static dyd_status grid_inner(grid_work *w) {
   int extra = FIRST_EXTRA;
   while (st == DYD_OK && w->known && !grid_goal(w, w->bits + extra)) extra *= 2;
   if (st == DYD_OK && w->known) st = grid_place_all(w, grid_place_inner);
-  if (st == DYD_OK && w->known) w->known = dyd_grid_align(&w->polygon);
-  return st == DYD_OK && w->known ? dyd_grid_make_convex(&w->polygon) : st;
+  if (st == DYD_OK && w->known) w->known = grid_align(&w->polygon);
+  return st == DYD_OK && w->known ? grid_make_convex(&w->polygon) : st;
 }
 
 /* As exact_outer_part, and drop_if_clockwise. */
@@ -319,16 +433,16 @@ static dyd_status grid_outer(grid_work *w) {
     st = grid_samples(w);
     if (st == DYD_OK && w->known) st = grid_place_all(w, grid_place_outer);
     if (st != DYD_OK || !w->known) break;
-    w->known = dyd_grid_align(&w->polygon);
-    dyd_grid_drop_repeats(&w->polygon);
-    simple = w->known && dyd_grid_is_simple(&w->known, &w->polygon);
+    w->known = grid_align(&w->polygon);
+    grid_drop_repeats(&w->polygon);
+    simple = w->known && grid_is_simple(&w->known, &w->polygon);
   }
   w->bits = bits;
-  if (w->known && dyd_grid_area2(&w->polygon) <= 0) w->polygon.count = 0;
+  if (w->known && grid_area2(&w->polygon) <= 0) w->polygon.count = 0;
   return st;
 }
 
-/* W enlarged as in polygon_exact.c; the window of doubles for points inside. */
+/* W enlarged as in polygon.c; the window of doubles for points inside. */
 static dyd_status grid_shape(bool *done, dyd_shape *s, grid_work *w, const dyd_window *window) {
   dyd_rect wide;
   dyd_status st = DYD_OK;

@@ -1,13 +1,20 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The proved polygons of one cell on a window, in doubles where doubles do, else in dyadics.
  *
- * Both rungs leave an inner polygon in Int_i n W [POLY-1] and outer polygons round Pos_i n W [POLY-2]. */
+ * Both rungs leave an inner polygon in Int_i n W [POLY-1] and outer polygons round Pos_i n W [POLY-2].
+ *
+ * [GRP-1] For exact points Int_i and Pos_i are the inside and the closure of one cell: the intersection of the
+ * half-planes of the legal partners of i. A tie adds nothing: k sites on one empty circle have one vertex in common,
+ * and the closed cells of two of them that are not neighbours on the circle meet in that vertex alone; those of two
+ * sites of a chain on the hull that are not neighbours do not meet. So the cost of a cell does not depend on how many
+ * pairs are ties. Such a cell is one convex polygon on the window. Its vertices are rounded to the nearest multiple of
+ * 2^-grid, halves up, and not beyond the window; points on a side of the window stay there. That depends on the exact
+ * vertex alone, so all cells around it get the same numbers. */
 #ifndef DYD_VORONOI_SHAPE_H
 #define DYD_VORONOI_SHAPE_H
 
 #include "delaunay/memory.h"
 #include "delaunay/state.h"
-#include "voronoi/grid_polygon.h"
 #include <dyadel/voronoi.h>
 
 /* The window W. Invariant: dyadic ends, positive area; d[] are doubles within W: xlo, xhi, ylo, yhi. cancel: work on a
@@ -16,13 +23,23 @@
 typedef struct dyd_window {
   const dyd_rect *rect;
   double d[4];
-  bool exact; /* cells of exact points are made exactly, see point_cell.h, and rounded to multiples of 2^-grid */
+  bool exact; /* cells of exact points are made exactly and rounded to multiples of 2^-grid */
   int grid;
   const volatile int *cancel;
   dyd_room *room;
 } dyd_window;
-/* DYD_E_ARG unless W is as it has to be. */
+/* Returns DYD_E_ARG unless W is as it has to be. */
 dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect);
+/* Sets the grid of the window: w->exact = false where doubles do not hold its ends, or multiples of 2^-grid are too
+ * coarse for it. */
+void dyd_window_set_grid(dyd_window *w);
+
+__extension__ typedef __int128 dyd_i128;
+/* twice * 2^(-2 scale) */
+typedef struct dyd_grid_area {
+  dyd_i128 twice;
+  int scale;
+} dyd_grid_area;
 
 struct dyd_outline;
 
@@ -60,24 +77,47 @@ dyd_status dyd_shape_area2(dyd_dyadic *out, const dyd_shape *s, bool outer);
 dyd_status dyd_shape_inner(dyd_polygon *out, const dyd_shape *s);
 dyd_status dyd_shape_outer(dyd_polygon_list *out, const dyd_shape *s);
 
+/* ---- rungs ---- */
+
 /* shape_filter.c: the rung in doubles. DYD_OK with *done telling whether it succeeded, or DYD_E_NOMEM. */
 dyd_status dyd_filter_shape(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint32_t v, const dyd_window *w,
                             int64_t bits);
+/* The same for a cell of exact points that is certainly inside W, or certainly beyond one of its sides; x is NaN at
+ * vertices whose rounding is in doubt. */
+dyd_status dyd_filter_point_cell(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint32_t v, uint32_t degree,
+                                 const dyd_window *w);
 
 /* polygon_filter.c: the polygons of the rung in dyadics, from boundaries in doubles. As dyd_filter_shape. */
 dyd_status dyd_filter_polygons(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w,
                                int64_t bits);
 
 /* Cuts the outer polygon of a shape in doubles to W; where it reaches beyond, all become exact ones, as those of
- * polygon_exact.c are: crossings are multiples of 2^-(bits + DYD_CLIP_EXTRA). *done = false: finer ones are needed. */
+ * polygon.c are: crossings are multiples of 2^-(bits + DYD_CLIP_EXTRA). *done = false: finer ones are needed. */
 enum { DYD_CLIP_EXTRA = 8 };
 dyd_status dyd_shape_clip(bool *done, dyd_shape *s, const dyd_window *w, int64_t bits);
 
-/* polygon_exact.c: the rung in dyadics, from the exact boundaries. */
+/* polygon.c: the rung in dyadics, from the exact boundaries. */
 dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i, const dyd_window *w, int64_t bits);
 dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, const dyd_window *w,
                            int64_t bits);
 /* W enlarged by 2^-(bits+1) on each side, so that its boundary and all within 2^-(bits+2) of it is outside of W. */
 dyd_status dyd_window_enlarge(dyd_rect *out, const dyd_rect *window, int64_t bits);
+
+/* ---- polygon.c: exact work on polygons with dyadic vertices ---- */
+
+/* The vertices become those of their convex hull, counter-clockwise; none when they lie on a line. O(n log n). */
+dyd_status dyd_polygon_make_convex(dyd_polygon *p);
+/* Does no edge meet another one but in the common vertex of neighbours? Repeated consecutive vertices are taken out
+ * first. O(n^2) comparisons of doubles, exact steps only where boxes of edges meet. DYD_CANCELLED once *cancel, which
+ * may be NULL, is set. */
+dyd_status dyd_polygon_is_simple(bool *out, dyd_polygon *p, const volatile int *cancel);
+/* Cuts simple polygons, counter-clockwise, to the window: the new ones lie in it and hold what of the old ones did;
+ * where they cross its sides they are rounded outward along them, to multiples of 2^-bits. *simple = false: rounding,
+ * or a vertex on a side, has spoiled one, and finer polygons are needed. DYD_CANCELLED once *cancel is set. Cost: a
+ * sort of the crossings of each side. */
+dyd_status dyd_polygons_clip(bool *simple, dyd_polygon_list *l, const dyd_rect *window, int64_t bits,
+                             const volatile int *cancel);
+/* A copy; out is empty before. */
+dyd_status dyd_polygon_copy(dyd_polygon *out, const dyd_polygon *p);
 
 #endif

@@ -11,7 +11,9 @@
  * Int_i, Pos_i lie in the hull of the outer vertices, so they are within max |inner_t - outer_t| of the inner polygon:
  * that is required to be at most 2^-bits. Where anything is not sure the exact rung does the cell. [SHAPE-1] */
 #include "base/alloc.h"
+#include "predicate/interval_filter.h"
 #include "voronoi/shape.h"
+#include "voronoi/vertex_filter.h"
 
 #include <math.h>
 

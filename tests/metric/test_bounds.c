@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* [AREA-T], [HAUS-T], [AREA-V]: the bounds against random choices of points, whose Delaunay graphs come from the
  * oracle. */
-#include "metric/voronoi_bounds.h"
+#include "metric/bounds.h"
 #include "oracle/oracle.h"
 #include "oracle/oracle_gen.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Areas and lengths of pairs against a literal oracle: the hull of eight corners in rationals [AREA-T]. */
-#include "metric/measure.h"
-#include "metric/measure_filter.h"
+#include "metric/bounds.h"
+#include "metric/bounds_filter.h"
 #include "support/random.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 #include <stdarg.h>
 
 #include "delaunay/harness.h"
-#include "metric/voronoi_filter.h"
+#include "metric/bounds_filter.h"
 #include "support/thin_case.h"
 #include "voronoi/plane.h"
 #include <cmocka.h>

@@ -6,7 +6,6 @@
 #include <stdarg.h>
 
 #include "support/random.h"
-#include "voronoi/polygon.h"
 #include "voronoi/shape.h"
 #include <cmocka.h>
 #include <dyadel/stream.h>
