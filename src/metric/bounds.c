@@ -56,11 +56,6 @@
  * The exact rung forms squares of lengths and twice the area as rationals and rounds up at most four times at
  * DYD_MEASURE_PREC bits (value, square root, sum): the excess is below 8 * 2^-127 of the value. */
 
-/* May pairs of site i be measured in doubles? */
-static bool measure_in_doubles(const dyd_measure *m, size_t i) {
-  return m->filter && dyd_sites_in_doubles(m->sites, i);
-}
-
 void dyd_measure_init(dyd_measure *m, const dyd_sites *sites) {
   m->sites = sites;
   m->filter = dyd_filter_measure_usable();
@@ -77,11 +72,6 @@ void dyd_measure_clear(dyd_measure *m) {
   for (size_t k = 0; k < 8; k++) mpq_clear(m->end[k]);
   dyd_rect_clear(&m->b);
   dyd_rect_clear(&m->a);
-}
-
-static void mpfr_from_dd(mpfr_ptr out, const double dd[2]) {
-  mpfr_set_d(out, dd[0], MPFR_RNDU);
-  mpfr_add_d(out, out, dd[1], MPFR_RNDU);
 }
 
 /* Fetches R_i into a and end[0..3], R_j into b and end[4..7], in the order x lower, x upper, y lower, y upper. */
@@ -117,53 +107,48 @@ static void measure_farthest(mpfr_ptr out, dyd_measure *m, size_t p, size_t q) {
   mpfr_sqrt(out, out, MPFR_RNDU);
 }
 
+/* A filter of one rectangle or of two; false where it declines, or doubles do not hold them. */
+typedef bool (*measure_filter)(double out[2], const double a[4], const double b[4]);
+
+static bool measure_in_doubles(mpfr_ptr out, const dyd_measure *m, size_t i, size_t j, measure_filter f) {
+  double a[4], b[4], dd[2];
+  if (!m->filter || !dyd_sites_in_doubles(m->sites, i) || !dyd_sites_in_doubles(m->sites, j)) return false;
+  dyd_sites_get_d(a, m->sites, i);
+  dyd_sites_get_d(b, m->sites, j);
+  if (!f(dd, a, b)) return false;
+  mpfr_set_d(out, dd[0], MPFR_RNDU);
+  mpfr_add_d(out, out, dd[1], MPFR_RNDU);
+  return true;
+}
+
 dyd_status dyd_measure_area(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
   mpfr_set_zero(out, 1);
   if (dyd_sites_is_point(m->sites, i) && dyd_sites_is_point(m->sites, j)) return DYD_OK;
-  double a[4], b[4], dd[2];
-  if (measure_in_doubles(m, i) && measure_in_doubles(m, j)) {
-    dyd_sites_get_d(a, m->sites, i);
-    dyd_sites_get_d(b, m->sites, j);
-    if (dyd_filter_partial_edge_area2(dd, a, b)) {
-      mpfr_from_dd(out, dd);
-      mpfr_div_2ui(out, out, 1, MPFR_RNDU);
-      return DYD_OK;
-    }
+  if (!measure_in_doubles(out, m, i, j, dyd_filter_partial_edge_area2)) {
+    dyd_status st = measure_fetch(m, i, j);
+    if (st != DYD_OK) return st;
+    dyd_partial_edge_area2(m->sum, &m->a, &m->b);
+    mpfr_set_q(out, m->sum, MPFR_RNDU);
   }
-  dyd_status st = measure_fetch(m, i, j);
-  if (st != DYD_OK) return st;
-  dyd_partial_edge_area2(m->sum, &m->a, &m->b);
-  mpfr_set_q(out, m->sum, MPFR_RNDU);
   mpfr_div_2ui(out, out, 1, MPFR_RNDU);
   return DYD_OK;
 }
 
+static bool filter_diameter(double out[2], const double a[4], const double b[4]) {
+  (void)b;
+  return dyd_filter_diameter(out, a);
+}
+
 dyd_status dyd_measure_diameter(mpfr_ptr out, dyd_measure *m, size_t i) {
   mpfr_set_zero(out, 1);
-  if (dyd_sites_is_point(m->sites, i)) return DYD_OK;
-  double a[4], dd[2];
-  if (measure_in_doubles(m, i)) {
-    dyd_sites_get_d(a, m->sites, i);
-    if (dyd_filter_diameter(dd, a)) {
-      mpfr_from_dd(out, dd);
-      return DYD_OK;
-    }
-  }
+  if (dyd_sites_is_point(m->sites, i) || measure_in_doubles(out, m, i, i, filter_diameter)) return DYD_OK;
   dyd_status st = measure_fetch(m, i, i);
   if (st == DYD_OK) measure_farthest(out, m, 0, 0);
   return st;
 }
 
 dyd_status dyd_measure_reach(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
-  double a[4], b[4], dd[2];
-  if (measure_in_doubles(m, i) && measure_in_doubles(m, j)) {
-    dyd_sites_get_d(a, m->sites, i);
-    dyd_sites_get_d(b, m->sites, j);
-    if (dyd_filter_reach(dd, a, b)) {
-      mpfr_from_dd(out, dd);
-      return DYD_OK;
-    }
-  }
+  if (measure_in_doubles(out, m, i, j, dyd_filter_reach)) return DYD_OK;
   dyd_status st = measure_fetch(m, i, j);
   if (st != DYD_OK) return st;
   measure_farthest(out, m, 0, 0);
@@ -197,19 +182,6 @@ static dyd_status measure_gap(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) 
   return DYD_OK;
 }
 
-dyd_status dyd_bound_area(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs) {
-  dyd_status st = DYD_OK;
-  mpfr_t term;
-  mpfr_init2(term, DYD_MEASURE_PREC);
-  mpfr_set_zero(out, 1);
-  for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
-    st = dyd_measure_area(term, m, pairs->item[k].i, pairs->item[k].j);
-    mpfr_add(out, out, term, MPFR_RNDU);
-  }
-  mpfr_clear(term);
-  return st;
-}
-
 dyd_status dyd_bound_pair_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair *pair) {
   if (pair->status != DYD_LEGAL) return dyd_measure_reach(out, m, pair->i, pair->j);
   dyd_status st = dyd_measure_diameter(out, m, pair->i);
@@ -222,17 +194,27 @@ dyd_status dyd_bound_pair_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair
   return st;
 }
 
-dyd_status dyd_bound_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs) {
+/* The sum over the pairs of their areas, or the most that one asks of the distance. */
+static dyd_status bound_over(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs, bool area) {
   dyd_status st = DYD_OK;
   mpfr_t term;
   mpfr_init2(term, DYD_MEASURE_PREC);
   mpfr_set_zero(out, 1);
   for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
-    st = dyd_bound_pair_hausdorff(term, m, &pairs->item[k]);
-    mpfr_max(out, out, term, MPFR_RNDU);
+    const dyd_pair *p = &pairs->item[k];
+    st = area ? dyd_measure_area(term, m, p->i, p->j) : dyd_bound_pair_hausdorff(term, m, p);
+    (area ? mpfr_add : mpfr_max)(out, out, term, MPFR_RNDU);
   }
   mpfr_clear(term);
   return st;
+}
+
+dyd_status dyd_bound_area(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs) {
+  return bound_over(out, m, pairs, true);
+}
+
+dyd_status dyd_bound_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs) {
+  return bound_over(out, m, pairs, false);
 }
 
 /* out = x >= 0 rounded up to 64 bits, and up to the least positive dyadic. DYD_E_RANGE when x is too large. */
@@ -266,9 +248,8 @@ static bool bounds_are_zero(const dyd_delaunay *pd) {
   return zero;
 }
 
-typedef dyd_status (*bound_fn)(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs);
-
-static dyd_status metric_bound(dyd_dyadic *out, const dyd_delaunay *pd, bound_fn f) {
+static dyd_status metric_bound(dyd_dyadic *out, const dyd_delaunay *pd, bool area) {
+  if (!pd) return DYD_E_ARG;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   if (bounds_are_zero(pd)) return dyd_dyadic_set_si_2exp(out, 0, 0);
   dyd_pair_list pairs = {0};
@@ -278,7 +259,7 @@ static dyd_status metric_bound(dyd_dyadic *out, const dyd_delaunay *pd, bound_fn
   if (st == DYD_OK) {
     dyd_measure_init(&m, dyd_delaunay_sites(pd));
     mpfr_init2(x, DYD_MEASURE_PREC);
-    st = f(x, &m, &pairs);
+    st = bound_over(x, &m, &pairs, area);
     if (st == DYD_OK) st = bound_to_dyadic(out, x);
     mpfr_clear(x);
     dyd_measure_clear(&m);
@@ -288,13 +269,11 @@ static dyd_status metric_bound(dyd_dyadic *out, const dyd_delaunay *pd, bound_fn
 }
 
 dyd_status dyd_metric_area(dyd_dyadic *out, const dyd_delaunay *pd) {
-  if (!pd) return DYD_E_ARG;
-  return metric_bound(out, pd, dyd_bound_area);
+  return metric_bound(out, pd, true);
 }
 
 dyd_status dyd_metric_hausdorff(dyd_dyadic *out, const dyd_delaunay *pd) {
-  if (!pd) return DYD_E_ARG;
-  return metric_bound(out, pd, dyd_bound_hausdorff);
+  return metric_bound(out, pd, false);
 }
 
 /* Areas in W are below 2^(2 e), polygons are within 2^-bits: sums need some e + bits more digits than a bound. */
@@ -336,19 +315,19 @@ static void mpfr_from_dyadic(mpfr_ptr out, const dyd_dyadic *x, mpfr_rnd_t rnd) 
   mpfr_set_z_2exp(out, x->man, (mpfr_exp_t)x->exp, rnd);
 }
 
+/* area[outer] = the area of the polygons, rounded outward; so is s->term, of the inner one. */
 static dyd_status add_exact_shape(double area[2], dyd_voronoi_sums *s, const dyd_shape *shape) {
-  dyd_status st = dyd_shape_area2(&s->area2, shape, true);
-  if (st != DYD_OK) return st;
-  mpfr_from_dyadic(s->term, &s->area2, MPFR_RNDU);
-  mpfr_div_2ui(s->term, s->term, 1, MPFR_RNDU);
-  area[1] = mpfr_get_d(s->term, MPFR_RNDU);
-  st = dyd_shape_area2(&s->area2, shape, false);
-  if (st != DYD_OK) return st;
-  mpfr_from_dyadic(s->term, &s->area2, MPFR_RNDD);
-  mpfr_div_2ui(s->term, s->term, 1, MPFR_RNDD);
-  area[0] = mpfr_get_d(s->term, MPFR_RNDD);
+  dyd_status st = DYD_OK;
+  for (int outer = 1; outer >= 0 && st == DYD_OK; outer--) {
+    mpfr_rnd_t rnd = outer ? MPFR_RNDU : MPFR_RNDD;
+    st = dyd_shape_area2(&s->area2, shape, outer);
+    if (st != DYD_OK) return st;
+    mpfr_from_dyadic(s->term, &s->area2, rnd);
+    mpfr_div_2ui(s->term, s->term, 1, rnd);
+    area[outer] = mpfr_get_d(s->term, rnd);
+  }
   mpfr_add(s->inner, s->inner, s->term, MPFR_RNDD);
-  return DYD_OK;
+  return st;
 }
 
 /* Adds the shape of site i (no alias). */

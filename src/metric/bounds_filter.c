@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "base/flag.h"
 #include "delaunay/memory.h"
+#include "skeleton/rects_filter.h"
 
 #include <math.h>
 
@@ -32,10 +33,6 @@ typedef struct second_search {
   double best, most, *far;
   const volatile int *cancel;
 } second_search;
-
-static bool boxes_are_apart(const dyd_bbox *a, const dyd_bbox *b) {
-  return a->e[1] < b->e[0] || b->e[1] < a->e[0] || a->e[3] < b->e[2] || b->e[3] < a->e[2];
-}
 
 static bool second_is_blocked_by(const dyd_bbox corner[4], const double near[4], const dyd_bbox *k) {
   for (int q = 0; q < 4; q++)
@@ -68,7 +65,7 @@ static bool second_is_inside(const second_search *s, const dyd_bbox *c) {
 static double second_least(const second_search *s, size_t from) {
   double least = HUGE_VAL;
   for (size_t k = 0; k < s->count; k++)
-    if (s->far[k] < least && boxes_are_apart(&s->box[from], &s->box[k])) least = s->far[k];
+    if (s->far[k] < least && dyd_boxes_disjoint(&s->box[from], &s->box[k])) least = s->far[k];
   return least;
 }
 
@@ -143,13 +140,6 @@ dyd_status dyd_filter_second(double *out, const dyd_delaunay *pd, uint32_t i, co
   return st;
 }
 
-#define SAFE (1 + 32 * 0x1p-53)
-
-static dyd_bbox box_of_dyadic_point(const dyd_point *z) {
-  return (dyd_bbox){{dyd_dyadic_get_d(&z->x, DYD_DOWN), dyd_dyadic_get_d(&z->x, DYD_UP),
-                     dyd_dyadic_get_d(&z->y, DYD_DOWN), dyd_dyadic_get_d(&z->y, DYD_UP)}};
-}
-
 double dyd_filter_reach_of_shape(const dyd_shape *s, const double box[4]) {
   dyd_bbox own = {{box[0], box[1], box[2], box[3]}};
   double most = -1;
@@ -162,7 +152,7 @@ double dyd_filter_reach_of_shape(const dyd_shape *s, const double box[4]) {
   }
   for (size_t p = 0; p < s->outer_exact.count; p++)
     for (size_t k = 0; k < s->outer_exact.item[p].count; k++) {
-      dyd_bbox c = box_of_dyadic_point(&s->outer_exact.item[p].vertex[k]);
+      dyd_bbox c = dyd_point_box(&s->outer_exact.item[p].vertex[k]);
       double d = dyd_dl2_upper(&c, &own);
       most = d <= DBL_MAX ? dyd_max(most, d) : HUGE_VAL;
     }

@@ -241,6 +241,10 @@ dyd_status dyd_polygon_copy(dyd_polygon *out, const dyd_polygon *p) {
  * along these intervals. Crossings are rational: the lower end of an interval is rounded down and the upper one up,
  * along the line, so the result holds all inner points of the polygon, and none beyond the line [POLY-3]. */
 
+static const dyd_dyadic *coordinate_of(const dyd_point *z, int axis) {
+  return axis ? &z->y : &z->x;
+}
+
 /* One side of W: points with sign * (coordinate - level) > 0 are beyond it. */
 typedef struct window_side {
   int axis, sign;
@@ -253,10 +257,6 @@ typedef struct crossing {
   size_t after;
   bool out, used;
 } crossing;
-
-static const dyd_dyadic *coordinate_of(const dyd_point *z, int axis) {
-  return axis ? &z->y : &z->x;
-}
 
 /* side[k] > 0: vertex k is beyond. Vertices on the line count as inside, unless they only touch it from beyond.
  * Returns how many are beyond. */
@@ -439,50 +439,33 @@ enum { FIRST_EXTRA = 8, MOST_EXTRA = 1 << 15, MOST_ANEW = 1 << 13, FINER = 2 };
 typedef struct work {
   dyd_cell_sites sites;
   uint32_t own;
-  const dyd_rect *window;
+  const dyd_rect *window; /* W, or one that is wider */
   int64_t bits;
   const volatile int *cancel;
   dyd_room *room;
   dyd_boundary boundary;
   dyd_arc_samples samples;
   dyd_point goal; /* of inward moves: a point inside */
-  mpq_t x, y, s, t;
+  mpq_t d[2], s, t;
 } work;
 
-/* On a window, or one as wide as that. */
-static dyd_status polygon_work_init(work *w, const dyd_delaunay *pd, uint32_t i, const dyd_rect *rect,
-                                    const dyd_window *window, int64_t bits) {
-  *w = (work){.own = i, .window = rect, .bits = bits, .cancel = window->cancel, .room = window->room};
-  dyd_point_init(&w->goal);
-  mpq_inits(w->x, w->y, w->s, w->t, NULL);
-  return dyd_cell_sites_init(&w->sites, pd, i);
-}
-
-static void polygon_work_clear(work *w) {
-  mpq_clears(w->x, w->y, w->s, w->t, NULL);
-  dyd_point_clear(&w->goal);
-  free(w->samples.item);
-  dyd_boundary_clear(&w->boundary);
-  dyd_cell_sites_clear(&w->sites);
-}
-
-/* z += (x, y) 2^-shift with shift such that the move has between 2^-(bits+5) and 2^-(bits+2), or the whole of (x, y) if
- * that is shorter and not `stretch`; rounded to multiples of 2^-fine. */
+/* z += d 2^-shift with shift such that the move has between 2^-(bits+5) and 2^-(bits+2), or the whole of d if that is
+ * shorter and not `stretch`; rounded to multiples of 2^-fine. */
 static dyd_status move_by_step(dyd_point *z, work *w, bool stretch, int64_t fine) {
-  int64_t shift = dyd_log2_length(w->x, w->y) + w->bits + 2;
+  int64_t shift = dyd_log2_length(w->d[0], w->d[1]) + w->bits + 2;
+  dyd_status st = DYD_OK;
   if (shift < 1 && !stretch) shift = 1;
-  for (int axis = 0; axis < 2; axis++) {
-    mpq_ptr d = axis ? w->y : w->x;
+  for (int axis = 0; axis < 2 && st == DYD_OK; axis++) {
+    mpq_ptr d = w->d[axis];
     if (shift >= 0)
       mpq_div_2exp(d, d, (mp_bitcnt_t)shift);
     else
       mpq_mul_2exp(d, d, (mp_bitcnt_t)-shift);
-    dyd_dyadic_get_q(w->s, axis ? &z->y : &z->x);
+    dyd_dyadic_get_q(w->s, coordinate_of(z, axis));
     mpq_add(d, d, w->s);
-    dyd_status st = dyd_dyadic_round_q(axis ? &z->y : &z->x, d, -fine, DYD_DOWN);
-    if (st != DYD_OK) return st;
+    st = dyd_dyadic_round_q(axis ? &z->y : &z->x, d, -fine, DYD_DOWN);
   }
-  return DYD_OK;
+  return st;
 }
 
 /* ---- inward ---- */
@@ -490,25 +473,23 @@ static dyd_status move_by_step(dyd_point *z, work *w, bool stretch, int64_t fine
 /* goal = the mean of the samples, rounded: inside when fine is large enough. */
 static dyd_status find_inner_goal(bool *out, work *w, int64_t fine) {
   dyd_point z;
-  dyd_point_init(&z);
-  mpq_t x, y;
-  mpq_inits(x, y, NULL);
   dyd_status st = DYD_OK;
+  dyd_point_init(&z);
+  for (int a = 0; a < 2; a++) mpq_set_ui(w->d[a], 0, 1);
   for (size_t k = 0; k < w->samples.count && st == DYD_OK; k++) {
     if (dyd_flag_is_set(w->cancel)) st = DYD_CANCELLED;
     if (st == DYD_OK) st = dyd_sample_point(&z, &w->samples.item[k], &w->sites, w->own, fine);
-    dyd_dyadic_get_q(w->s, &z.x);
-    mpq_add(x, x, w->s);
-    dyd_dyadic_get_q(w->s, &z.y);
-    mpq_add(y, y, w->s);
+    for (int a = 0; a < 2; a++) {
+      dyd_dyadic_get_q(w->s, coordinate_of(&z, a));
+      mpq_add(w->d[a], w->d[a], w->s);
+    }
   }
   mpq_set_ui(w->s, w->samples.count, 1);
-  mpq_div(x, x, w->s);
-  mpq_div(y, y, w->s);
-  if (st == DYD_OK) st = dyd_dyadic_round_q(&w->goal.x, x, -fine, DYD_DOWN);
-  if (st == DYD_OK) st = dyd_dyadic_round_q(&w->goal.y, y, -fine, DYD_DOWN);
+  for (int a = 0; a < 2 && st == DYD_OK; a++) {
+    mpq_div(w->d[a], w->d[a], w->s);
+    st = dyd_dyadic_round_q(a ? &w->goal.y : &w->goal.x, w->d[a], -fine, DYD_DOWN);
+  }
   *out = st == DYD_OK && dyd_rect_holds(w->window, &w->goal) && dyd_cell_holds(&w->sites, &w->goal);
-  mpq_clears(x, y, NULL);
   dyd_point_clear(&z);
   return st;
 }
@@ -516,12 +497,11 @@ static dyd_status find_inner_goal(bool *out, work *w, int64_t fine) {
 static dyd_status place_inner(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine) {
   dyd_status st = dyd_sample_point(z, at, &w->sites, w->own, fine);
   if (st != DYD_OK) return st;
-  dyd_dyadic_get_q(w->s, &z->x);
-  dyd_dyadic_get_q(w->x, &w->goal.x);
-  mpq_sub(w->x, w->x, w->s);
-  dyd_dyadic_get_q(w->s, &z->y);
-  dyd_dyadic_get_q(w->y, &w->goal.y);
-  mpq_sub(w->y, w->y, w->s);
+  for (int a = 0; a < 2; a++) {
+    dyd_dyadic_get_q(w->s, coordinate_of(z, a));
+    dyd_dyadic_get_q(w->d[a], coordinate_of(&w->goal, a));
+    mpq_sub(w->d[a], w->d[a], w->s);
+  }
   st = move_by_step(z, w, false, fine);
   *out = st == DYD_OK && dyd_rect_holds(w->window, z) && dyd_cell_holds(&w->sites, z);
   return st;
@@ -529,11 +509,11 @@ static dyd_status place_inner(bool *out, dyd_point *z, work *w, const dyd_arc_sa
 
 /* ---- outward ---- */
 
-/* (x, y) = z minus its nearest point in R_i. */
+/* d = z minus its nearest point in R_i. */
 static void set_away(work *w, const dyd_point *z) {
   const dyd_rect *r = &w->sites.own;
   for (int axis = 0; axis < 2; axis++) {
-    mpq_ptr d = axis ? w->y : w->x;
+    mpq_ptr d = w->d[axis];
     dyd_interval_get_q(w->s, w->t, axis ? &r->y : &r->x);
     dyd_dyadic_get_q(d, axis ? &z->y : &z->x);
     if (mpq_cmp(d, w->s) <= 0)
@@ -592,23 +572,6 @@ static dyd_status exact_inner(dyd_polygon *out, work *w) {
     st = extra > MOST_EXTRA ? DYD_E_RANGE : find_inner_goal(&found, w, w->bits + extra);
   if (st == DYD_OK) st = place_samples(out, w, place_inner, FIRST_EXTRA);
   return st == DYD_OK ? dyd_polygon_make_convex(out) : st;
-}
-
-dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i, const dyd_window *window,
-                           int64_t bits) {
-  work w;
-  dyd_polygon polygon = {0};
-  dyd_status st = polygon_work_init(&w, pd, i, window->rect, window, bits);
-  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, false, window->rect, w.room, w.cancel);
-  if (st == DYD_OK && w.boundary.count) st = exact_inner(&polygon, &w);
-  if (st == DYD_OK) {
-    dyd_polygon_clear(out);
-    *out = polygon;
-    polygon = (dyd_polygon){0};
-  }
-  dyd_polygon_clear(&polygon);
-  polygon_work_clear(&w);
-  return st;
 }
 
 /* One part; taken anew with more bits while it crosses itself. Where arcs come nearer to each other than samples of
@@ -682,23 +645,25 @@ dyd_status dyd_window_enlarge(dyd_rect *out, const dyd_rect *window, int64_t bit
   return st;
 }
 
-dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, const dyd_window *window,
-                           int64_t bits) {
-  work w;
-  dyd_polygon_list list = {0};
+dyd_status dyd_exact_polygons(dyd_polygon *inner, dyd_polygon_list *outer, const dyd_delaunay *pd, uint32_t i,
+                              const dyd_window *window, int64_t bits) {
+  work w = {.own = i, .window = window->rect, .bits = bits, .cancel = window->cancel, .room = window->room};
   dyd_rect wide;
   dyd_rect_init(&wide);
-  dyd_status st = polygon_work_init(&w, pd, i, &wide, window, bits);
+  dyd_point_init(&w.goal);
+  mpq_inits(w.d[0], w.d[1], w.s, w.t, NULL);
+  dyd_status st = dyd_cell_sites_init(&w.sites, pd, i);
+  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, false, w.window, w.room, w.cancel);
+  if (st == DYD_OK && w.boundary.count) st = exact_inner(inner, &w);
   if (st == DYD_OK) st = dyd_window_enlarge(&wide, window->rect, bits);
-  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, true, &wide, w.room, w.cancel);
-  if (st == DYD_OK && w.boundary.count) st = exact_outer(&list, &w, window->rect);
-  if (st == DYD_OK) {
-    dyd_polygon_list_clear(out);
-    *out = list;
-    list = (dyd_polygon_list){0};
-  }
-  dyd_polygon_list_clear(&list);
-  polygon_work_clear(&w);
+  w.window = &wide;
+  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, true, w.window, w.room, w.cancel);
+  if (st == DYD_OK && w.boundary.count) st = exact_outer(outer, &w, window->rect);
+  mpq_clears(w.d[0], w.d[1], w.s, w.t, NULL);
+  dyd_point_clear(&w.goal);
+  free(w.samples.item);
+  dyd_boundary_clear(&w.boundary);
+  dyd_cell_sites_clear(&w.sites);
   dyd_rect_clear(&wide);
   return st;
 }

@@ -129,10 +129,21 @@ static dyd_status arc_end_point(dyd_point *out, const dyd_arc_end *end, int64_t 
   return st;
 }
 
-/* n^2 >= (length^2 / |q|) 2^bits / 8; both are destroyed. */
-static dyd_status count_steps(uint32_t *out, mpq_t length, mpq_t q, int64_t bits) {
+/* The coordinates of both ends of an arc along its directrix, within 2^-bits. */
+static dyd_status arc_ends_along(mpq_t begin, mpq_t end, const dyd_arc *arc, int along, int64_t bits) {
+  dyd_point z;
+  dyd_point_init(&z);
+  dyd_status st = arc_end_point(&z, &arc->begin, bits);
+  dyd_dyadic_get_q(begin, along ? &z.y : &z.x);
+  if (st == DYD_OK) st = arc_end_point(&z, &arc->end, bits);
+  dyd_dyadic_get_q(end, along ? &z.y : &z.x);
+  dyd_point_clear(&z);
+  return st;
+}
+
+/* n^2 >= (length^2 / |q|) 2^bits / 8; length is destroyed. */
+static dyd_status count_steps(uint32_t *out, mpq_t length, const mpq_t q, int64_t bits) {
   mpq_mul(length, length, length);
-  mpq_abs(q, q);
   mpq_div(length, length, q);
   int64_t twice = mpq_sgn(length) ? dyd_q_log2_above(length) + bits - 3 : -1;
   int64_t shift = twice <= 0 ? 0 : (twice + 1) / 2;
@@ -169,11 +180,7 @@ dyd_status dyd_parabola_steps(uint32_t *out, const dyd_sites *sites, const uint3
  * the number of parts: below 1 for d^2 <= q 2^-bits. Where the parabola is much narrower than 2^-bits, as near sites
  * that are small against the window, that takes more bits than the parts themselves. */
 static int64_t length_bits(const mpq_t q, int64_t bits) {
-  mpq_t size;
-  mpq_init(size);
-  mpq_abs(size, q);
-  int64_t log2 = dyd_q_log2_above(size);
-  mpq_clear(size);
+  int64_t log2 = dyd_q_log2_above(q);
   return log2 >= -bits - DYD_NARROW ? bits + 4 : (bits - log2) / 2 + 3;
 }
 
@@ -183,27 +190,15 @@ static dyd_status arc_count_steps(uint32_t *out, const dyd_arc *arc, const dyd_c
   *out = 1;
   if (arc->kind != DYD_ARC_PARABOLA) return DYD_OK;
   parabola p;
-  dyd_point a, b;
-  mpq_t length, q;
+  mpq_t begin, end, q;
   parabola_init(&p);
-  dyd_point_init(&a);
-  dyd_point_init(&b);
-  mpq_inits(length, q, NULL);
+  mpq_inits(begin, end, q, NULL);
   parabola_set(&p, arc, s, own);
   mpq_sub(q, p.focus[1 - p.along], p.directrix);
-  int64_t fine = length_bits(q, bits);
-  dyd_status st = arc_end_point(&a, &arc->begin, fine);
-  if (st == DYD_OK) st = arc_end_point(&b, &arc->end, fine);
-  if (st == DYD_OK) {
-    dyd_dyadic_get_q(length, p.along ? &a.y : &a.x);
-    dyd_dyadic_get_q(q, p.along ? &b.y : &b.x);
-    mpq_sub(length, length, q);
-    mpq_sub(q, p.focus[1 - p.along], p.directrix);
-    st = count_steps(out, length, q, bits);
-  }
-  mpq_clears(length, q, NULL);
-  dyd_point_clear(&b);
-  dyd_point_clear(&a);
+  dyd_status st = arc_ends_along(begin, end, arc, p.along, length_bits(q, bits));
+  mpq_sub(begin, begin, end);
+  if (st == DYD_OK) st = count_steps(out, begin, q, bits);
+  mpq_clears(begin, end, q, NULL);
   parabola_clear(&p);
   return st;
 }
@@ -233,45 +228,26 @@ dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const
   return DYD_OK;
 }
 
-/* t = the dyadic abscissa number step of the arc, up to 2^-bits between its ends. */
-static dyd_status sample_abscissa(mpq_t t, const dyd_arc_sample *at, const parabola *p, int64_t bits) {
-  dyd_point a, b;
-  mpq_t u;
-  dyd_point_init(&a);
-  dyd_point_init(&b);
-  mpq_init(u);
-  dyd_status st = arc_end_point(&a, &at->arc->begin, bits);
-  if (st == DYD_OK) st = arc_end_point(&b, &at->arc->end, bits);
-  if (st == DYD_OK) {
-    dyd_dyadic_get_q(t, p->along ? &a.y : &a.x);
-    dyd_dyadic_get_q(u, p->along ? &b.y : &b.x);
+dyd_status dyd_sample_point(dyd_point *out, const dyd_arc_sample *at, const dyd_cell_sites *s, uint32_t own,
+                            int64_t bits) {
+  if (at->step == 0) return arc_end_point(out, &at->arc->begin, bits);
+  parabola p;
+  mpq_t t, u;
+  parabola_init(&p);
+  mpq_inits(t, u, NULL);
+  parabola_set(&p, at->arc, s, own);
+  dyd_status st = arc_ends_along(t, u, at->arc, p.along, bits);
+  if (st == DYD_OK) { /* the part number step of steps */
     mpq_sub(u, u, t);
     mpz_mul_ui(mpq_numref(u), mpq_numref(u), at->step);
     mpz_mul_ui(mpq_denref(u), mpq_denref(u), at->steps);
     mpq_canonicalize(u);
     mpq_add(t, t, u);
-  }
-  mpq_clear(u);
-  dyd_point_clear(&b);
-  dyd_point_clear(&a);
-  return st;
-}
-
-dyd_status dyd_sample_point(dyd_point *out, const dyd_arc_sample *at, const dyd_cell_sites *s, uint32_t own,
-                            int64_t bits) {
-  if (at->step == 0) return arc_end_point(out, &at->arc->begin, bits);
-  parabola p;
-  mpq_t t, across;
-  parabola_init(&p);
-  mpq_inits(t, across, NULL);
-  parabola_set(&p, at->arc, s, own);
-  dyd_status st = sample_abscissa(t, at, &p, bits);
-  if (st == DYD_OK) {
-    parabola_at(across, &p, t);
+    parabola_at(u, &p, t);
     st = dyd_dyadic_round_q(p.along ? &out->y : &out->x, t, -(bits + 1), DYD_DOWN);
   }
-  if (st == DYD_OK) st = dyd_dyadic_round_q(p.along ? &out->x : &out->y, across, -(bits + 1), DYD_DOWN);
-  mpq_clears(t, across, NULL);
+  if (st == DYD_OK) st = dyd_dyadic_round_q(p.along ? &out->x : &out->y, u, -(bits + 1), DYD_DOWN);
+  mpq_clears(t, u, NULL);
   parabola_clear(&p);
   return st;
 }

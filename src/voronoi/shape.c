@@ -559,9 +559,7 @@ dyd_status dyd_shape_find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, cons
     if (st != DYD_OK || done) return st;
   }
   shape_empty(s);
-  dyd_status st = dyd_exact_inner(&s->inner_exact, pd, i, w, bits);
-  if (st == DYD_OK) st = dyd_exact_outer(&s->outer_exact, pd, i, w, bits);
-  return st;
+  return dyd_exact_polygons(&s->inner_exact, &s->outer_exact, pd, i, w, bits);
 }
 
 /* ---- copies and areas ---- */
@@ -639,46 +637,40 @@ dyd_status dyd_shape_area2(dyd_dyadic *out, const dyd_shape *s, bool outer) {
 
 /* ---- public ---- */
 
-static dyd_status shape_find_public(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window,
-                                    int64_t bits) {
+/* The inner polygon, or (inner = NULL) the outer ones. */
+static dyd_status shape_polygons(dyd_polygon *inner, dyd_polygon_list *outer, const dyd_delaunay *pd, uint32_t i,
+                                 const dyd_rect *window, int64_t bits) {
   dyd_window w;
-  dyd_room room = dyd_delaunay_room(pd);
-  if (i >= pd->sk.n || bits < -DYD_EXP_LIMIT / 4 || bits > DYD_EXP_LIMIT / 4) return DYD_E_ARG;
+  if (!pd || i >= pd->sk.n || bits < -DYD_EXP_LIMIT / 4 || bits > DYD_EXP_LIMIT / 4) return DYD_E_ARG;
   dyd_status st = dyd_window_init(&w, window);
   if (st != DYD_OK) return st;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
+  dyd_room room = dyd_delaunay_room(pd);
+  dyd_shape s = {0};
+  dyd_polygon p = {0};
+  dyd_polygon_list l = {0};
   w.room = &room;
-  return dyd_shape_find(s, pd, dyd_delaunay_alias(pd, i), &w, bits);
+  st = dyd_shape_find(&s, pd, dyd_delaunay_alias(pd, i), &w, bits);
+  if (st == DYD_OK) st = inner ? dyd_shape_inner(&p, &s) : dyd_shape_outer(&l, &s);
+  if (st == DYD_OK && inner) {
+    dyd_polygon_clear(inner);
+    *inner = p;
+  } else if (st == DYD_OK) {
+    dyd_polygon_list_clear(outer);
+    *outer = l;
+  }
+  dyd_shape_clear(&s);
+  return st;
 }
 
 dyd_status dyd_voronoi_inner_polygon(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window,
                                      int64_t bits) {
-  if (!pd) return DYD_E_ARG;
-  dyd_shape s = {0};
-  dyd_polygon p = {0};
-  dyd_status st = shape_find_public(&s, pd, i, window, bits);
-  if (st == DYD_OK) st = dyd_shape_inner(&p, &s);
-  if (st == DYD_OK) {
-    dyd_polygon_clear(out);
-    *out = p;
-  }
-  dyd_shape_clear(&s);
-  return st;
+  return shape_polygons(out, NULL, pd, i, window, bits);
 }
 
 dyd_status dyd_voronoi_outer_polygon(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window,
                                      int64_t bits) {
-  if (!pd) return DYD_E_ARG;
-  dyd_shape s = {0};
-  dyd_polygon_list l = {0};
-  dyd_status st = shape_find_public(&s, pd, i, window, bits);
-  if (st == DYD_OK) st = dyd_shape_outer(&l, &s);
-  if (st == DYD_OK) {
-    dyd_polygon_list_clear(out);
-    *out = l;
-  }
-  dyd_shape_clear(&s);
-  return st;
+  return shape_polygons(NULL, out, pd, i, window, bits);
 }
 
 dyd_status dyd_voronoi_exact_area(mpq_t out, bool *exact, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {

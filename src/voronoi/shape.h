@@ -96,10 +96,10 @@ dyd_status dyd_filter_polygons(bool *done, dyd_shape *s, const dyd_delaunay *pd,
 enum { DYD_CLIP_EXTRA = 8 };
 dyd_status dyd_shape_clip(bool *done, dyd_shape *s, const dyd_window *w, int64_t bits);
 
-/* polygon.c: the rung in dyadics, from the exact boundaries. */
-dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i, const dyd_window *w, int64_t bits);
-dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, const dyd_window *w,
-                           int64_t bits);
+/* polygon.c: the rung in dyadics, from the exact boundaries. Both are empty before; on failure the caller clears them.
+ */
+dyd_status dyd_exact_polygons(dyd_polygon *inner, dyd_polygon_list *outer, const dyd_delaunay *pd, uint32_t i,
+                              const dyd_window *w, int64_t bits);
 /* W enlarged by 2^-(bits+1) on each side, so that its boundary and all within 2^-(bits+2) of it is outside of W. */
 dyd_status dyd_window_enlarge(dyd_rect *out, const dyd_rect *window, int64_t bits);
 

@@ -77,21 +77,16 @@ dyd_status dyd_voronoi_region(dyd_rect *out, bool *any, const dyd_delaunay *pd, 
 
 enum { CENTRES = 6 };
 
-static void take_centre(dyd_surd_point *out, const dyd_circle *k) {
-  mpz_set(out->ax, k->ax);
-  mpz_set(out->bx, k->bx);
-  mpz_set(out->ay, k->ay);
-  mpz_set(out->by, k->by);
-  mpz_set(out->c, k->c);
-  mpz_set(out->d, k->d);
-}
-
 dyd_status dyd_partial_centre(dyd_surd_point out[6], const dyd_rect *a, const dyd_rect *b, const dyd_rect *c) {
   dyd_partial_disc d;
   dyd_partial_disc_init(&d);
   dyd_partial_disc_set(&d, a, b, c);
   bool known = d.known;
-  for (int k = 0; known && k < CENTRES; k++) take_centre(&out[k], &d.circle[k]);
+  for (int k = 0; known && k < CENTRES; k++) {
+    const dyd_circle *o = &d.circle[k]; /* borrowed limbs */
+    dyd_surd_point_set(&out[k],
+                       &(dyd_surd_point){{o->ax[0]}, {o->bx[0]}, {o->ay[0]}, {o->by[0]}, {o->c[0]}, {o->d[0]}});
+  }
   dyd_partial_disc_clear(&d);
   return known ? DYD_OK : DYD_E_ARG;
 }
@@ -423,7 +418,28 @@ dyd_status dyd_stream_voronoi_vertex(dyd_stream **out, dyd_stream *a, dyd_stream
   return st;
 }
 
-/* Is t a sure triangle of pd? v becomes its vertices. */
+/* ---- vertices of certain triangles ---- */
+
+/* The rectangle of the centre of three sites: counter-clockwise, or (turn) certainly oriented. */
+static dyd_status enclose_centre(dyd_rect *out, const dyd_sites *sites, const uint32_t corner[3], int64_t bits,
+                                 bool turn) {
+  dyd_rect r[3];
+  dyd_status st = DYD_OK;
+  for (int k = 0; k < 3; k++) {
+    dyd_rect_init(&r[k]);
+    if (st == DYD_OK) st = dyd_sites_get(&r[k], sites, corner[k]);
+  }
+  if (st == DYD_OK && turn) {
+    dyd_sure sign = dyd_orientation(&r[0], &r[1], &r[2]);
+    if (sign == DYD_SURE_MINUS) dyd_rect_swap(&r[1], &r[2]);
+    if (sign == DYD_UNSURE) st = DYD_E_RANGE;
+  }
+  if (st == DYD_OK) st = dyd_partial_centre_enclose(out, &r[0], &r[1], &r[2], bits);
+  for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);
+  return st;
+}
+
+/* Is t a certain triangle of pd? v becomes its vertices. */
 static bool triangle_is_sure(const dyd_delaunay *pd, const dyd_triangle *t, uint32_t v[3]) {
   for (int k = 0; k < 3; k++) {
     if (t->v[k] >= pd->sk.n) return false;
@@ -443,15 +459,7 @@ dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_t
     if (box.e[1] - box.e[0] < limit && box.e[3] - box.e[2] < limit)
       return dyd_rect_set_d(out, box.e[0], box.e[1], box.e[2], box.e[3]);
   }
-  dyd_rect r[3];
-  dyd_status st = DYD_OK;
-  for (int k = 0; k < 3; k++) {
-    dyd_rect_init(&r[k]);
-    if (st == DYD_OK) st = dyd_sites_get(&r[k], pd->sk.rects.sites, t->v[k]);
-  }
-  if (st == DYD_OK) st = dyd_partial_centre_enclose(out, &r[0], &r[1], &r[2], bits);
-  for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);
-  return st;
+  return enclose_centre(out, pd->sk.rects.sites, t->v, bits, false);
 }
 
 /* ---- vertices of tied faces ---- */
@@ -474,22 +482,6 @@ static void spread_corners(uint32_t corner[3], const dyd_sites *sites, const dyd
   }
 }
 
-/* The rectangle of the centre of three sites, which have to be surely oriented. */
-static dyd_status enclose_centre(dyd_rect *out, const dyd_sites *sites, const uint32_t corner[3], int64_t bits) {
-  dyd_rect r[3];
-  dyd_status st = DYD_OK;
-  for (int k = 0; k < 3; k++) {
-    dyd_rect_init(&r[k]);
-    if (st == DYD_OK) st = dyd_sites_get(&r[k], sites, corner[k]);
-  }
-  dyd_sure turn = st == DYD_OK ? dyd_orientation(&r[0], &r[1], &r[2]) : DYD_UNSURE;
-  if (turn == DYD_SURE_MINUS) dyd_rect_swap(&r[1], &r[2]);
-  if (st == DYD_OK && turn == DYD_UNSURE) st = DYD_E_RANGE;
-  if (st == DYD_OK) st = dyd_partial_centre_enclose(out, &r[0], &r[1], &r[2], bits);
-  for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);
-  return st;
-}
-
 dyd_status dyd_voronoi_tied_vertex(dyd_rect *out, bool *tied, const dyd_delaunay *pd, size_t f, int64_t bits) {
   if (!pd) return DYD_E_ARG;
   dyd_index_list sites = {0};
@@ -501,7 +493,7 @@ dyd_status dyd_voronoi_tied_vertex(dyd_rect *out, bool *tied, const dyd_delaunay
   dyd_status st = dyd_delaunay_face(&sites, &outer, pd, f);
   if (st == DYD_OK) {
     spread_corners(corner, pd->sk.rects.sites, &sites);
-    st = enclose_centre(out, pd->sk.rects.sites, corner, bits);
+    st = enclose_centre(out, pd->sk.rects.sites, corner, bits, true);
   }
   dyd_index_list_clear(&sites);
   return st;

@@ -93,8 +93,7 @@ static void check_cell(size_t kind, dyd_shape *s, const dyd_delaunay *pd, uint32
   cells[kind]++;
   done[kind] += found;
   if (!found) return;
-  assert_int_equal(dyd_exact_inner(&inner, pd, i, w, bits), DYD_OK);
-  assert_int_equal(dyd_exact_outer(&outer, pd, i, w, bits), DYD_OK);
+  assert_int_equal(dyd_exact_polygons(&inner, &outer, pd, i, w, bits), DYD_OK);
   assert_int_equal(dyd_shape_inner(&copy, s), DYD_OK);
   assert_int_equal(dyd_shape_outer(&copies, s), DYD_OK);
   same_polygon(&inner, &copy);
