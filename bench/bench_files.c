@@ -48,7 +48,7 @@ static void write_all(series *s, const dyd_engine *e, int k) {
   if (!out) bench_die("files", "no temporary file");
   dyd_error_clear(&err);
   bench_meter meter = bench_start();
-  check(dyd_write_delaunay(out, e, (dyd_format)k, &err), &err);
+  check(dyd_write(out, e, DYD_CONTENT_DELAUNAY, (dyd_format)k, NULL, &err), &err);
   if (fflush(out)) bench_die("files", "writing failed");
   bench_series_add(&s->write[k], bench_stop(&meter));
   s->written[k] = (size_t)ftell(out);

@@ -111,7 +111,7 @@ typedef enum dyd_format {
   DYD_FORMAT_PNG,
   DYD_FORMAT_HTML
 } dyd_format;
-/* What the functions below write. */
+/* What dyd_write writes. */
 typedef enum dyd_content {
   DYD_CONTENT_NONE = 0, /* what no format holds */
   DYD_CONTENT_DELAUNAY,
@@ -174,70 +174,8 @@ DYD_API const char *dyd_format_about(dyd_format format);
  * storage. */
 DYD_API const char *dyd_layer_name(dyd_content of, size_t k);
 DYD_API bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *name);
-/* Can the format hold it? Where not, the writers below return DYD_E_ARG with a message that names those that can. */
+/* Can the format hold it? Where not, dyd_write returns DYD_E_ARG with a message that names those that can. */
 DYD_API bool dyd_format_holds(dyd_format format, dyd_content content);
-
-/* Writes the current result of e. DYD_E_ARG when e has none; DYD_E_IO when a write fails. */
-DYD_API dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format format, dyd_error *err);
-/* The same; svg, pdf, png and html show the part of the plane in `window` (positive area; NULL: everything), other
- * formats do not depend on it. DYD_E_RANGE when doubles cannot hold a picture so near, and for html when more than
- * 300000 pairs would be shown. */
-DYD_API dyd_status dyd_write_delaunay_window(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_format format,
-                                             dyd_error *err);
-
-typedef struct dyd_delaunay_output {
-  size_t struct_size;     /* set by DYD_SIZED */
-  const dyd_rect *window; /* what svg, pdf, png and html show: positive area; NULL: everything */
-  dyd_content layer;      /* what csv, wkt and geojson hold, and html shows first; DYD_CONTENT_NONE: the pairs */
-  const dyd_pair_list
-      *pairs;    /* written in place of those of e, as pairs in csv, wkt, geojson and pictures; NULL: none */
-  unsigned epsg; /* EPSG number of the coordinates' reference system, for geojson and json; 0: none is claimed */
-  const dyd_history *history;     /* of the run, for html; NULL: only the result is shown. DYD_E_ARG with pairs, and
-                                     where it ends with other pairs than the result */
-  const dyd_tolerance *tolerance; /* of the result, with points, for html; NULL: none is told */
-  const volatile int *cancel;     /* as in dyd_graph_edges: DYD_CANCELLED, and no graph is written; NULL: none */
-  dyd_list_ties ties;
-} dyd_delaunay_output;
-/* The same as o says; NULL: as dyd_write_delaunay. DYD_E_ARG when the format does not hold the layer. */
-DYD_API dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delaunay_output *o,
-                                         dyd_format format, dyd_error *err);
-
-typedef struct dyd_voronoi_options {
-  size_t struct_size;         /* set by DYD_SIZED */
-  const dyd_rect *window;     /* dyadic ends, positive area; NULL: dyd_voronoi_window */
-  int64_t flatten_bits;       /* polygons within 2^-flatten_bits of their cells */
-  bool flatten_set;           /* false: a choice that suits the mean size of cells */
-  dyd_voronoi_bounds *bounds; /* initialised by the caller; receives the bounds that were written; may be NULL */
-  /* Once *cancel is set the rest is written quickly, and true all the same: nothing of a cell is sure, all of the
-   * window possible; boundaries are null in json; regions are the window, vertices unbounded, the distance is not
-   * known. May be NULL. cut: how many cells and regions that befell; may be NULL. */
-  const volatile int *cancel;
-  size_t *cut;
-  dyd_content layer;          /* what csv, wkt and geojson hold, and html shows first; DYD_CONTENT_NONE: the cells */
-  unsigned epsg;              /* as in dyd_delaunay_output */
-  const dyd_history *history; /* of the run, for html; as in dyd_delaunay_output */
-} dyd_voronoi_options;
-
-/* Writes the Voronoi diagram of the current result of e. o may be NULL.
- * DYD_CAPPED when neighbours are missing since the cap on pairs was met; DYD_E_ARG when the format does not hold the
- * layer. */
-DYD_API dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_options *o, dyd_format format,
-                                     dyd_error *err);
-
-/* The partial bisector of the points in a and b (numbered 0, 1): the arcs of both curves with exact ends. outcome:
- * how narrowing them ended. DYD_E_RANGE when doubles cannot hold the picture. */
-DYD_API dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_rect *b, dyd_outcome outcome,
-                                      dyd_format format, dyd_error *err);
-/* The partial disc of r[0], r[1], r[2]: orientation, the six critical circles exactly and enclosed, the box of the
- * partial centre, and Con of r[3 .. n-1]. DYD_E_ARG for n < 3, DYD_E_RANGE when doubles cannot hold the picture. */
-DYD_API dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n, dyd_outcome outcome, dyd_format format,
-                                  dyd_error *err);
-
-/* The same of the first two, or the first n, points of e: rows and identifiers name them. */
-DYD_API dyd_status dyd_write_bisector_named(FILE *out, const dyd_engine *e, const dyd_rect *a, const dyd_rect *b,
-                                            dyd_outcome outcome, dyd_format format, dyd_error *err);
-DYD_API dyd_status dyd_write_disc_named(FILE *out, const dyd_engine *e, const dyd_rect *const *r, size_t n,
-                                        dyd_outcome outcome, dyd_format format, dyd_error *err);
 
 /* What dyd_engine_nearest found; all borrowed. Begun with DYD_SIZED. */
 typedef struct dyd_nearest_answer {
@@ -248,83 +186,81 @@ typedef struct dyd_nearest_answer {
   dyd_outcome outcome;
   bool tied; /* dyd_engine_nearest_tied */
 } dyd_nearest_answer;
-/* The points of e that are possibly, or the one that is surely nearest, with bounds of their distances. DYD_E_ARG when
- * e has no result, DYD_E_RANGE when doubles cannot hold the picture. */
-DYD_API dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_nearest_answer *answer,
-                                     dyd_format format, dyd_error *err);
 
-/* The same of many places, numbered from 0; outcome: of all of them. */
-DYD_API dyd_status dyd_write_places(FILE *out, const dyd_engine *e, const dyd_nearest_answer *const *answer,
-                                    size_t count, dyd_outcome outcome, dyd_format format, dyd_error *err);
-
-typedef struct dyd_tolerance_output {
-  size_t struct_size;     /* set by DYD_SIZED */
-  const dyd_rect *window; /* what svg, pdf and png show: positive area; NULL: everything */
-  dyd_content layer;      /* what csv, wkt and geojson hold; DYD_CONTENT_NONE: the pairs */
-  unsigned epsg;          /* as in dyd_delaunay_output */
-} dyd_tolerance_output;
-/* Writes the tolerances t of the current result of e; o may be NULL. Numbers lo are rounded down, hi up. Pictures
- * colour edges by the death. DYD_E_ARG when the format does not hold the layer, or radii were not asked for. */
-DYD_API dyd_status dyd_write_tolerance(FILE *out, const dyd_engine *e, const dyd_tolerance *t,
-                                       const dyd_tolerance_output *o, dyd_format format, dyd_error *err);
-
-typedef struct dyd_sphere_output {
+/* What is written, and how; all borrowed. Fields that do not belong to the content are not looked at. */
+typedef struct dyd_write_options {
   size_t struct_size; /* set by DYD_SIZED */
-  /* What csv, wkt and geojson hold, of the triangulation or the diagram; json holds all of it. DYD_CONTENT_NONE: the
-   * pairs. */
-  dyd_content layer;
-  unsigned epsg; /* as in dyd_delaunay_output; 0: longitude and latitude (CRS84) in geojson */
-  /* What svg, pdf and png show: degrees, positive area; longitudes modulo 360, as in [170, 200]. NULL: everything. */
+
+  const dyd_sphere *sphere;       /* for contents of a sphere */
+  const dyd_tolerance *tolerance; /* tolerances of the result; also for html of the triangulation: with points; NULL:
+                                     none is told there */
+  const dyd_survey *plan;
+  const dyd_convergence *stages; /* for tables of convergence and their plot, of a run */
+  const dyd_check_report *report;
+  const dyd_rect *const *rect; /* a disc: of the first three, and where the others are; a bisector: of the first */
+  size_t rects;                /* two */
+  const dyd_nearest_answer *const *answer; /* of one place (DYD_CONTENT_NEAREST), or of places numbered from 0 */
+  size_t answers;
+  dyd_outcome outcome; /* of discs, bisectors and places: how narrowing ended */
+
+  /* Of the diagram: dyadic ends, positive area; NULL: dyd_voronoi_window. Of others: what pictures and html show, in
+   * degrees on a sphere, where longitudes are modulo 360, as in [170, 200]; positive area; NULL: everything. */
   const dyd_rect *window;
-  double max_arc; /* sides of cells in wkt and geojson are divided into arcs of so many degrees; 0: 1, at most 90 */
-} dyd_sphere_output;
-/* Writes the current result of s; o may be NULL. In wkt and geojson edges are great circles, a place at every 2 degrees
- * at most, cut where they cross the meridian of 180 degrees; of triangles that hold more than half of the sphere the
- * geometry is empty. Cells that are known all around are valid polygons: one for each part beside the meridian of 180
- * degrees; one that holds a pole goes up that meridian, along the pole's parallel and down again. Of one point the cell
- * is the globe, of two they are its halves. DYD_E_ARG when there is no result yet, the format does not hold the layer,
- * or max_arc is out of range. */
-DYD_API dyd_status dyd_write_sphere(FILE *out, const dyd_sphere *s, const dyd_sphere_output *o, dyd_format format,
-                                    dyd_error *err);
+  unsigned epsg; /* EPSG number of the coordinates' reference system, for geojson and json; 0: none is claimed, on a
+                    sphere longitude and latitude (CRS84) in geojson */
+  const volatile int *cancel; /* of graphs as in dyd_graph_edges: DYD_CANCELLED. Of the diagram: once it is set the rest
+                                 is written quickly, and true all the same: nothing of a cell is sure, all of the window
+                                 possible; boundaries are null in json; regions are the window, vertices unbounded, the
+                                 distance is not known. NULL: none */
+  const dyd_history *history; /* of the run, a stage for each row of `stages`, for html; NULL: only the result is shown.
+                                 DYD_E_ARG with pairs, and where it ends with other pairs than the result */
 
-typedef struct dyd_plan_output {
-  size_t struct_size; /* set by DYD_SIZED */
-  bool next;          /* the first row only */
-  unsigned epsg;      /* as in dyd_delaunay_output */
-} dyd_plan_output;
-/* Writes the plan s for the current result of e; o may be NULL. Widths now are rounded up, those needed down. */
-DYD_API dyd_status dyd_write_plan(FILE *out, const dyd_engine *e, const dyd_survey *s, const dyd_plan_output *o,
-                                  dyd_format format, dyd_error *err);
+  const dyd_pair_list *pairs; /* of the triangulation: written in place of its pairs, in csv, wkt, geojson and pictures;
+                                 NULL: none */
+  dyd_list_ties ties;
 
-/* Writes a table of convergence; DYD_E_ARG when there was no run. Bounds and widths are rounded up, and the output says
- * so. times = false leaves the seconds out: then equal runs give equal bytes. */
-DYD_API dyd_status dyd_write_convergence(FILE *out, const dyd_convergence *c, dyd_format format, bool times,
-                                         dyd_error *err);
+  int64_t flatten_bits;       /* of the diagram: polygons within 2^-flatten_bits of their cells */
+  bool flatten_set;           /* false: a choice that suits the mean size of cells */
+  dyd_voronoi_bounds *bounds; /* initialised by the caller; receives the bounds that were written; may be NULL */
+  size_t *cut;                /* receives how many cells and regions `cancel` befell; may be NULL */
+  double max_arc; /* sides of cells of a sphere in wkt and geojson are divided into arcs of so many degrees; 0: 1, at
+                     most 90 */
 
-typedef struct dyd_convergence_output {
-  size_t struct_size;         /* set by DYD_SIZED */
-  bool times;                 /* as in dyd_write_convergence */
-  const dyd_engine *engine;   /* that ran, and its history, a stage for each row: html needs both, */
-  const dyd_history *history; /* other formats do not look */
-  const dyd_rect *window;     /* what html shows: positive area; NULL: everything */
-  /* "NAME=VALUE,NAME=VALUE": columns before the others in csv, "label" in json; no quotes, backslashes and control
-   * characters. NULL: none. no_header: csv has rows only, so that tables of several runs are one when they are put
-   * behind each other. */
+  bool next;  /* of a plan the first row only */
+  bool times; /* tables of convergence: seconds, too; without them equal runs give equal bytes */
+  /* "NAME=VALUE,NAME=VALUE": columns of that table before the others in csv, "label" in json; no quotes, backslashes
+   * and control characters. NULL: none. no_header: csv has rows only, so that tables of several runs are one when they
+   * are put behind each other. */
   const char *label;
   bool no_header;
-} dyd_convergence_output;
+} dyd_write_options;
 /* Is this such a label, whose names differ? */
 DYD_API bool dyd_label_fits(const char *label);
-/* The same as o says, also in html: the result with a slider over the rows. DYD_E_ARG for html without what it needs,
- * where stages and rows are not as many, and for a label of another form. */
-DYD_API dyd_status dyd_write_convergence_as(FILE *out, const dyd_convergence *c, const dyd_convergence_output *o,
-                                            dyd_format format, dyd_error *err);
 
-/* Draws bounds and counts against stages on logarithmic scales; DYD_E_ARG when there was no run. */
-DYD_API dyd_status dyd_plot_convergence(FILE *out, const dyd_convergence *c, dyd_format format, dyd_error *err);
-
-/* What a run of the harness found, and how much it tried; not its schedule. */
-DYD_API dyd_status dyd_write_check(FILE *out, const dyd_check_report *r, dyd_format format, dyd_error *err);
+/* Writes the content. Numbers are exact, or rounded to a side that the output states. o may be NULL.
+ *
+ * e: whose current result is written, of the triangulation, the diagram, tolerances, plans and nearest points. Of discs
+ * and bisectors: whose first points they are of, so that its rows and identifiers name them; NULL: numbers do. Of
+ * tables of convergence: that ran, for html. Not looked at for contents of a sphere, the plot and the report.
+ *
+ * DYD_CONTENT_BISECTOR: the arcs of both curves with exact ends. DYD_CONTENT_DISC: orientation, the six critical
+ * circles exactly and enclosed, the box of the partial centre, and Con of the other rectangles. DYD_CONTENT_NEAREST and
+ * DYD_CONTENT_PLACES: the points that are possibly, or the one that is surely nearest, with bounds of their distances.
+ * DYD_CONTENT_PLOT: bounds and counts against stages on logarithmic scales. Pictures of tolerances colour edges by the
+ * death.
+ *
+ * On a sphere, in wkt and geojson, edges are great circles, a place at every 2 degrees at most, cut where they cross
+ * the meridian of 180 degrees; of triangles that hold more than half of the sphere the geometry is empty. Cells that
+ * are known all around are valid polygons: one for each part beside the meridian of 180 degrees; one that holds a pole
+ * goes up that meridian, along the pole's parallel and down again. Of one point the cell is the globe, of two they are
+ * its halves.
+ *
+ * DYD_E_ARG when the format does not hold the content, an object that it needs is missing, or has no result, and for
+ * options out of range. DYD_CAPPED for diagrams when neighbours are missing since the cap on pairs was met. DYD_E_RANGE
+ * when doubles cannot hold a picture, and for html when more than 300000 pairs would be shown. DYD_E_IO when a write
+ * fails. err may be NULL. */
+DYD_API dyd_status dyd_write(FILE *out, const dyd_engine *e, dyd_content content, dyd_format format,
+                             const dyd_write_options *o, dyd_error *err);
 
 /* One line "XLO XHI YLO YHI" for each of `count` sites from `first` on: exact numbers in the forms that
  * dyd_rect_narrow_text and the reader take. DYD_E_ARG when there are not so many sites; DYD_E_IO, DYD_E_NOMEM. */

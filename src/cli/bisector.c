@@ -13,7 +13,8 @@ static bool bisector_wants(const cli_pieces *p, size_t i) {
 
 static dyd_status bisector_print(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const cli_pieces *p = what;
-  return dyd_write_bisector_named(out, p->session.engine, p->rect[0], p->rect[1], p->outcome, o->format, err);
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .rect = p->rect, .rects = 2, .outcome = p->outcome};
+  return dyd_write(out, p->session.engine, o->content, o->format, &how, err);
 }
 
 int cli_bisector(const cli_options *o) {

@@ -108,7 +108,8 @@ static int read_schedule_file(given_moves *s, const char *name) {
 /* ---- the report ---- */
 
 static dyd_status print_check(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
-  return dyd_write_check(out, what, o->format, err);
+  return dyd_write(out, NULL, o->content, o->format, &(dyd_write_options){DYD_SIZED(dyd_write_options), .report = what},
+                   err);
 }
 
 static int tell_check(const dyd_check_report *r, const cli_options *o) {

@@ -10,9 +10,10 @@ typedef struct result {
 
 static dyd_status print_table(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const result *r = what;
-  const dyd_convergence_output how = {
-      DYD_SIZED(dyd_convergence_output), !o->no_times, r->engine, o->history, o->view, o->label, o->no_header};
-  return dyd_write_convergence_as(out, r->table, &how, o->format, err);
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .stages = r->table, .times = !o->no_times,
+                                 .history = o->history,        .window = o->view,  .label = o->label,
+                                 .no_header = o->no_header};
+  return dyd_write(out, r->engine, o->content, o->format, &how, err);
 }
 
 /* By the name of the plot's file; false when no format of that ending holds a plot. */
@@ -23,7 +24,8 @@ static bool plot_format(dyd_format *out, const char *name) {
 static dyd_status print_plot(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   dyd_format format = o->format;
   plot_format(&format, o->plot);
-  return dyd_plot_convergence(out, ((const result *)what)->table, format, err);
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .stages = ((const result *)what)->table};
+  return dyd_write(out, NULL, DYD_CONTENT_PLOT, format, &how, err);
 }
 
 /* Table and plot, as far as they were made. */

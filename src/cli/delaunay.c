@@ -20,9 +20,15 @@ static dyd_status write_pairs(FILE *out, const dyd_engine *e, const dyd_pair_lis
                               dyd_error *err) {
   dyd_tolerance *tolerance = NULL;
   if (!pairs && o->format == DYD_FORMAT_HTML) tolerance = find_tolerance(dyd_engine_delaunay(e));
-  const dyd_delaunay_output how = {DYD_SIZED(dyd_delaunay_output), o->view,   o->content,         pairs,       o->epsg,
-                                   pairs ? NULL : o->history,      tolerance, cli_signals_flag(), o->list_ties};
-  dyd_status st = dyd_write_delaunay_as(out, e, &how, o->format, err);
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options),
+                                 .window = o->view,
+                                 .pairs = pairs,
+                                 .epsg = o->epsg,
+                                 .history = pairs ? NULL : o->history,
+                                 .tolerance = tolerance,
+                                 .cancel = cli_signals_flag(),
+                                 .ties = o->list_ties};
+  dyd_status st = dyd_write(out, e, o->content, o->format, &how, err);
   dyd_tolerance_free(tolerance);
   return st;
 }

@@ -26,7 +26,9 @@ static bool disc_wants(const cli_pieces *p, size_t i) {
 
 static dyd_status disc_print(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const cli_pieces *p = what;
-  return dyd_write_disc_named(out, p->session.engine, p->rect, p->count, p->outcome, o->format, err);
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .rect = p->rect, .rects = p->count,
+                                 .outcome = p->outcome};
+  return dyd_write(out, p->session.engine, o->content, o->format, &how, err);
 }
 
 int cli_disc(const cli_options *o) {

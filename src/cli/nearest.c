@@ -147,10 +147,11 @@ static const dyd_nearest_answer **list_answers(const query *q) {
 
 static dyd_status write_answer(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const query *q = what;
-  if (!o->queries) return dyd_write_nearest(out, q->engine, &q->place[0].answer, o->format, err);
   const dyd_nearest_answer **list = list_answers(q);
   if (!list) return DYD_E_NOMEM;
-  dyd_status st = dyd_write_places(out, q->engine, list, q->answered, q->outcome, o->format, err);
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .answer = list, .answers = q->answered,
+                                 .outcome = q->outcome};
+  dyd_status st = dyd_write(out, q->engine, o->content, o->format, &how, err);
   free(list);
   return st;
 }

@@ -105,8 +105,8 @@ static int plan_options(plan_run *r, const cli_options *o) {
 
 static dyd_status plan_write(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const plan_run *r = what;
-  const dyd_plan_output how = {DYD_SIZED(dyd_plan_output), o->next, o->epsg};
-  return dyd_write_plan(out, r->engine, r->survey, &how, o->format, err);
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .plan = r->survey, .next = o->next, .epsg = o->epsg};
+  return dyd_write(out, r->engine, o->content, o->format, &how, err);
 }
 
 /* Points are named by their rows in the file; the number of that point, one that does not exist where there is none. */

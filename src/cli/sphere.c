@@ -3,8 +3,9 @@
 #include "cli.h"
 
 static dyd_status sphere_write(FILE *out, const void *sphere, const cli_options *o, dyd_error *err) {
-  const dyd_sphere_output how = {DYD_SIZED(dyd_sphere_output), o->content, o->epsg, o->view, o->max_arc};
-  return dyd_write_sphere(out, sphere, &how, o->format, err);
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .sphere = sphere, .epsg = o->epsg, .window = o->view,
+                                 .max_arc = o->max_arc};
+  return dyd_write(out, NULL, o->content, o->format, &how, err);
 }
 
 static dyd_status sphere_write_certificate(FILE *out, const void *sphere, const cli_options *o, dyd_error *err) {

@@ -16,9 +16,9 @@ typedef struct tolerance_run {
 
 static dyd_status tolerance_write(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const tolerance_run *r = what;
-  const dyd_tolerance_output how = {DYD_SIZED(dyd_tolerance_output), o->window ? &r->window : NULL, o->content,
-                                    o->epsg};
-  return dyd_write_tolerance(out, r->engine, r->tolerance, &how, o->format, err);
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .tolerance = r->tolerance,
+                                 .window = o->window ? &r->window : NULL, .epsg = o->epsg};
+  return dyd_write(out, r->engine, o->content, o->format, &how, err);
 }
 
 /* A number of each point, as its row says. */

@@ -28,17 +28,12 @@ static int voronoi_run(bool *known, cli_session *s, dyd_rect *window, const dyd_
 }
 
 static dyd_status voronoi_write(FILE *out, const void *engine, const cli_options *o, dyd_error *err) {
-  dyd_voronoi_options options = {DYD_SIZED(dyd_voronoi_options),
-                                 .flatten_bits = o->flatten_bits,
-                                 .flatten_set = o->flatten_set,
-                                 .window = o->engine.window,
-                                 .bounds = o->bounds,
-                                 .layer = o->content,
-                                 .epsg = o->epsg,
-                                 .cancel = cli_deadline_flag(),
-                                 .cut = o->cut,
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options),  .flatten_bits = o->flatten_bits,
+                                 .flatten_set = o->flatten_set, .window = o->engine.window,
+                                 .bounds = o->bounds,           .epsg = o->epsg,
+                                 .cancel = cli_deadline_flag(), .cut = o->cut,
                                  .history = o->history};
-  return dyd_write_voronoi(out, engine, &options, o->format, err);
+  return dyd_write(out, engine, o->content, o->format, &how, err);
 }
 
 /* The diagram, where there is one. */

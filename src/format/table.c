@@ -7,17 +7,19 @@
 
 #include "base/error.h"
 #include "base/room.h"
+#include "io/table.h"
 #include "picture/canvas.h"
 #include <string.h>
 #include <strings.h>
 
 typedef dyd_writer *const writers[DYD_CONTENTS];
-extern writers dyd_csv_writers, dyd_json_writers, dyd_wkt_writers, dyd_geojson_writers, dyd_obj_writers,
-    dyd_vtk_writers, dyd_picture_writers, dyd_html_writers;
+extern writers dyd_csv_writers, dyd_json_writers, dyd_obj_writers, dyd_vtk_writers, dyd_picture_writers,
+    dyd_html_writers;
 
 static const struct {
   const char *name, *ending, *about;
-  dyd_writer *const *write;
+  dyd_writer *const *write; /* by content; NULL: none but layers */
+  enum { NO_LAYERS, ALL_LAYERS, GEOGRAPHIC } layers;
   const char *also; /* another ending that suits it; that of the format that it is a kind of */
   bool binary;
   bool (*there)(void); /* NULL: always; else it may be missing from this library */
@@ -28,13 +30,13 @@ static const struct {
     [DYD_FORMAT_CSV] = {"csv", "csv",
                         "a table: of delaunay one line for each pair that is possible (i,j,status), of converge one "
                         "for each stage",
-                        dyd_csv_writers, .plain = {0, 0, 20}},
+                        dyd_csv_writers, ALL_LAYERS, .plain = {0, 0, 20}},
     [DYD_FORMAT_JSON] = {"json", "json",
                          "everything: rectangles reached, statuses or exact arcs, outcome, bounds, counters",
                          dyd_json_writers, .plain = {0, 0, 48}},
-    [DYD_FORMAT_WKT] = {"wkt", "wkt", "a CSV table with a geometry per line, as QGIS and ogr2ogr read it",
-                        dyd_wkt_writers, "csv", .plain = {0, 55, 20}},
-    [DYD_FORMAT_GEOJSON] = {"geojson", "geojson", "a FeatureCollection", dyd_geojson_writers, "json",
+    [DYD_FORMAT_WKT] = {"wkt", "wkt", "a CSV table with a geometry per line, as QGIS and ogr2ogr read it", NULL,
+                        GEOGRAPHIC, "csv", .plain = {0, 55, 20}},
+    [DYD_FORMAT_GEOJSON] = {"geojson", "geojson", "a FeatureCollection", NULL, GEOGRAPHIC, "json",
                             .plain = {0, 55, 20}},
     [DYD_FORMAT_OBJ] = {"obj", "obj", "vertices, legal edges, sure triangles", dyd_obj_writers, .plain = {0, 110, 20}},
     [DYD_FORMAT_SVG] = {"svg", "svg", "a picture with legend and scale", dyd_picture_writers, .plain = {0, 630, 36},
@@ -87,55 +89,37 @@ const char *dyd_format_about(dyd_format format) {
   return (size_t)format < FORMATS ? formats[format].about : NULL;
 }
 
-static const struct {
-  const char *name;
-  dyd_content of, layer;
-} layers[] = {{"pairs", DYD_CONTENT_DELAUNAY, DYD_CONTENT_DELAUNAY},
-              {"points", DYD_CONTENT_DELAUNAY, DYD_CONTENT_POINTS},
-              {"triangles", DYD_CONTENT_DELAUNAY, DYD_CONTENT_TRIANGLES},
-              {"graph:nearest", DYD_CONTENT_DELAUNAY, DYD_CONTENT_GRAPH_NEAREST},
-              {"graph:gabriel", DYD_CONTENT_DELAUNAY, DYD_CONTENT_GRAPH_GABRIEL},
-              {"graph:mst", DYD_CONTENT_DELAUNAY, DYD_CONTENT_GRAPH_MST},
-              {"aliases", DYD_CONTENT_DELAUNAY, DYD_CONTENT_ALIASES},
-              {"ties", DYD_CONTENT_DELAUNAY, DYD_CONTENT_TIES},
-              {"cells", DYD_CONTENT_VORONOI, DYD_CONTENT_VORONOI},
-              {"vertices", DYD_CONTENT_VORONOI, DYD_CONTENT_VERTICES},
-              {"regions", DYD_CONTENT_VORONOI, DYD_CONTENT_REGIONS},
-              {"edges", DYD_CONTENT_VORONOI, DYD_CONTENT_EDGES},
-              {"aliases", DYD_CONTENT_VORONOI, DYD_CONTENT_VORONOI_ALIASES},
-              {"pairs", DYD_CONTENT_TOLERANCE, DYD_CONTENT_TOLERANCE},
-              {"points", DYD_CONTENT_TOLERANCE, DYD_CONTENT_RADII},
-              {"barcode", DYD_CONTENT_TOLERANCE, DYD_CONTENT_BARCODE},
-              {"pairs", DYD_CONTENT_SPHERE, DYD_CONTENT_SPHERE},
-              {"points", DYD_CONTENT_SPHERE, DYD_CONTENT_SPHERE_POINTS},
-              {"triangles", DYD_CONTENT_SPHERE, DYD_CONTENT_SPHERE_TRIANGLES},
-              {"cells", DYD_CONTENT_SPHERE_VORONOI, DYD_CONTENT_SPHERE_VORONOI},
-              {"vertices", DYD_CONTENT_SPHERE_VORONOI, DYD_CONTENT_SPHERE_VERTICES},
-              {"regions", DYD_CONTENT_SPHERE_VORONOI, DYD_CONTENT_SPHERE_REGIONS}};
-enum { LAYERS = sizeof layers / sizeof *layers };
-
 const char *dyd_layer_name(dyd_content of, size_t k) {
-  size_t l = 0;
-  for (;; l++) {
-    if (l == LAYERS) return NULL;
-    if (layers[l].of == of && k-- == 0) return layers[l].name;
-  }
+  const dyd_layer *layer;
+  for (size_t l = 0; (layer = dyd_layer_at(l)); l++)
+    if (layer->name && layer->of == of && k-- == 0) return layer->name;
+  return NULL;
 }
 
 bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *name) {
-  size_t l = 0;
-  while (l < LAYERS && !(layers[l].of == of && strcmp(layers[l].name, name) == 0)) l++;
-  if (l < LAYERS) *out = layers[l].layer;
-  return l < LAYERS;
+  const dyd_layer *layer;
+  for (size_t l = 0; (layer = dyd_layer_at(l)); l++)
+    if (layer->name && layer->of == of && strcmp(layer->name, name) == 0) {
+      *out = layer->content;
+      return true;
+    }
+  return false;
 }
 
 static bool format_is_missing(dyd_format format) {
   return formats[format].there && !formats[format].there();
 }
 
+/* NULL: the format cannot hold that. */
+static dyd_writer *writer_of(dyd_format format, dyd_content content) {
+  if ((size_t)format >= FORMATS || (size_t)content >= DYD_CONTENTS || format_is_missing(format)) return NULL;
+  const dyd_layer *layer = formats[format].layers == NO_LAYERS ? NULL : dyd_layer_of(content);
+  if (layer && (layer->geographic || formats[format].layers == ALL_LAYERS)) return dyd_layer_write;
+  return formats[format].write ? formats[format].write[content] : NULL;
+}
+
 bool dyd_format_holds(dyd_format format, dyd_content content) {
-  if ((size_t)format >= FORMATS || (size_t)content >= DYD_CONTENTS) return false;
-  return formats[format].write[content] && !format_is_missing(format);
+  return writer_of(format, content);
 }
 
 uint64_t dyd_format_bytes(dyd_format format, bool diagram, uint64_t sites, uint64_t pairs) {
@@ -165,12 +149,14 @@ static dyd_status refuse_format(dyd_format format, dyd_content content, dyd_erro
   return dyd_fail(err, DYD_E_ARG, "%s cannot hold this; give %s", formats[format].name, names);
 }
 
-dyd_status dyd_format_write(FILE *out, dyd_format format, dyd_content content, const void *what, dyd_error *err) {
+dyd_status dyd_format_write(const dyd_output *given, dyd_error *err) {
   dyd_error own;
-  dyd_output o = {out, format, what, err ? err : &own, content};
+  dyd_output o = *given;
+  dyd_writer *write = writer_of(o.format, o.content);
+  o.err = err ? err : &own;
   dyd_error_clear(o.err);
-  if (!dyd_format_holds(format, content)) return refuse_format(format, content, err);
-  dyd_status st = formats[format].write[content](&o);
-  if (st == DYD_OK) return dyd_output_end(out, err);
+  if (!write) return refuse_format(o.format, o.content, err);
+  dyd_status st = write(&o);
+  if (st == DYD_OK) return dyd_output_end(o.out, err);
   return o.err->message[0] ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
 }

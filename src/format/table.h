@@ -5,9 +5,9 @@
 
 #include "io/output.h"
 
-/* Writes `what`, of the type that output.h says for this content. DYD_E_ARG where the format cannot hold it.
- * err may be NULL. */
-dyd_status dyd_format_write(FILE *out, dyd_format format, dyd_content content, const void *what, dyd_error *err);
+/* Writes o->what, of the type that output.h says for this content; o->err is not looked at. DYD_E_ARG where the format
+ * cannot hold it. err may be NULL. */
+dyd_status dyd_format_write(const dyd_output *o, dyd_error *err);
 
 /* What writing a result of so many sites and pairs takes in memory beside it, by estimate; or its diagram, beside what
  * the writers of that ask for. */

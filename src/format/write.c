@@ -1,51 +1,48 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The writers of the library: each makes what is to be written ready, and the table of formats does the rest. */
+/* dyd_write: makes what is to be written ready, and the table of formats does the rest. */
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
 #include "delaunay/memory.h"
 #include "format/table.h"
+#include "io/decimal.h"
 #include "io/diagram.h"
-#include "io/result.h"
+#include "io/table.h"
 #include <inttypes.h>
 #include <string.h>
 
-/* The result of e; NULL with *err filled when there is none. */
-static const dyd_delaunay *result_of(const dyd_engine *e, dyd_error *err) {
-  if (err) dyd_error_clear(err);
-  const dyd_delaunay *pd = dyd_engine_delaunay(e);
-  if (!pd) dyd_fail(err, DYD_E_ARG, "there is no result yet");
-  return pd;
+/* Writes a content; `to` says where and what, but for what belongs to the content. */
+typedef dyd_status content_writer(dyd_output *to, dyd_write_options *o, dyd_error *err);
+
+static dyd_status write_what(dyd_output *to, const void *what, dyd_error *err) {
+  to->what = what;
+  return dyd_format_write(to, err);
 }
 
-static void result_sites(dyd_result *r) {
+static dyd_status fail_status(dyd_status st, dyd_error *err) {
+  return dyd_fail(err, st, "%s", dyd_status_text(st));
+}
+
+/* ---- the triangulation ---- */
+
+/* The result of the engine. */
+static dyd_status result_init(dyd_result *r, dyd_output *to, const dyd_write_options *o, dyd_error *err) {
+  if (!to->engine) return dyd_fail_null(err);
+  *r = (dyd_result){.out = to->out,
+                    .engine = to->engine,
+                    .pd = dyd_engine_delaunay(to->engine),
+                    .window = o->window,
+                    .epsg = o->epsg,
+                    .discs = o->pairs,
+                    .next = o->next,
+                    .history = o->history,
+                    .tolerance = o->tolerance,
+                    .survey = o->plan};
+  if (!r->pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
   r->sites = dyd_delaunay_sites(r->pd);
   r->count = dyd_sites_count(r->sites);
-}
-
-dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format format, dyd_error *err) {
-  if (!e) return dyd_fail_null(err);
-  return dyd_write_delaunay_window(out, e, NULL, format, err);
-}
-
-dyd_status dyd_write_delaunay_window(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_format format,
-                                     dyd_error *err) {
-  if (!e) return dyd_fail_null(err);
-  const dyd_delaunay_output o = {DYD_SIZED(dyd_delaunay_output), .window = window};
-  return dyd_write_delaunay_as(out, e, &o, format, err);
-}
-
-/* What is written: the layer asked for, which is one of `of`. */
-static dyd_content layer_of(dyd_content layer, dyd_content of) {
-  return layer == DYD_CONTENT_NONE ? of : layer;
-}
-
-static dyd_status refuse_layer(dyd_content layer, dyd_content of, dyd_error *err) {
-  dyd_content found;
-  for (size_t k = 0; dyd_layer_name(of, k); k++)
-    if (dyd_layer_from_name(&found, of, dyd_layer_name(of, k)) && found == layer_of(layer, of)) return DYD_OK;
-  return dyd_fail(err, DYD_E_ARG, "content number %d is no layer of this", (int)layer);
+  return DYD_OK;
 }
 
 static const struct {
@@ -74,9 +71,10 @@ static dyd_status pairs_of_graph(dyd_result *r) {
 }
 
 /* What is written in place of the pairs, if the layer is a graph. */
-static dyd_status result_graph(bool *graph, dyd_result *r, const dyd_delaunay_output *o, dyd_error *err) {
+static dyd_status result_graph(bool *graph, dyd_result *r, dyd_content layer, const dyd_write_options *o,
+                               dyd_error *err) {
   size_t k = 0;
-  while (k < GRAPH_LAYERS && graph_layers[k].layer != o->layer) k++;
+  while (k < GRAPH_LAYERS && graph_layers[k].layer != layer) k++;
   *graph = k < GRAPH_LAYERS;
   if (!*graph) return DYD_OK;
   r->graph_name = graph_layers[k].name;
@@ -95,61 +93,83 @@ static dyd_status grant_output(const dyd_delaunay *pd, dyd_format format, bool d
 
 /* Graphs, and other formats, tell of more than what discs decide. */
 static bool holds_discs(dyd_content layer, dyd_format format) {
-  bool pairs = layer == DYD_CONTENT_NONE || layer == DYD_CONTENT_DELAUNAY;
-  bool known = layer == DYD_CONTENT_POINTS || layer == DYD_CONTENT_TRIANGLES || layer == DYD_CONTENT_ALIASES;
-  return (pairs || known) && format != DYD_FORMAT_JSON && format != DYD_FORMAT_OBJ && format != DYD_FORMAT_VTK;
+  bool known = layer == DYD_CONTENT_DELAUNAY || layer == DYD_CONTENT_POINTS || layer == DYD_CONTENT_TRIANGLES ||
+               layer == DYD_CONTENT_ALIASES;
+  return known && format != DYD_FORMAT_JSON && format != DYD_FORMAT_OBJ && format != DYD_FORMAT_VTK;
 }
 
 /* Are ties found while rows of pairs are written, so that no list of them is made? */
-static bool rows_hold_ties(const dyd_result *r, dyd_content layer, dyd_format format, const dyd_delaunay_output *o) {
+static bool rows_hold_ties(const dyd_result *r, const dyd_output *to, const dyd_write_options *o) {
   size_t count[4];
   dyd_delaunay_count(count, r->pd);
-  bool rows = format == DYD_FORMAT_CSV || format == DYD_FORMAT_WKT || format == DYD_FORMAT_GEOJSON;
-  return rows && layer == DYD_CONTENT_DELAUNAY && !o->pairs && o->ties == DYD_LIST_TIES_PAIRS && count[DYD_TIE];
+  bool rows = to->format == DYD_FORMAT_CSV || to->format == DYD_FORMAT_WKT || to->format == DYD_FORMAT_GEOJSON;
+  return rows && to->content == DYD_CONTENT_DELAUNAY && !o->pairs && o->ties == DYD_LIST_TIES_PAIRS && count[DYD_TIE];
 }
 
-dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delaunay_output *options, dyd_format format,
-                                 dyd_error *err) {
-  if (err) dyd_error_clear(err);
-  dyd_delaunay_output o;
-  if (dyd_abi_take(&o, sizeof o, options, "dyd_delaunay_output", err) != DYD_OK) return DYD_E_ARG;
-  if (refuse_layer(o.layer, DYD_CONTENT_DELAUNAY, err) != DYD_OK) return DYD_E_ARG;
-  dyd_result r = {.out = out,
-                  .engine = e,
-                  .pd = result_of(e, err),
-                  .window = o.window,
-                  .epsg = o.epsg,
-                  .discs = o.pairs,
-                  .history = o.history,
-                  .tolerance = o.tolerance};
-  if (!r.pd) return DYD_E_ARG;
-  if (o.pairs && !holds_discs(o.layer, format))
+static dyd_status write_delaunay(dyd_output *to, dyd_write_options *o, dyd_error *err) {
+  dyd_result r;
+  bool graph;
+  dyd_status st = result_init(&r, to, o, err);
+  if (st != DYD_OK) return st;
+  if (o->pairs && !holds_discs(to->content, to->format))
     return dyd_fail(
         err, DYD_E_ARG,
         "statuses of discs are written as pairs, points or triangles: in csv, wkt, geojson, or pairs in svg, pdf, "
         "png or html");
-  bool graph;
-  dyd_content layer = layer_of(o.layer, DYD_CONTENT_DELAUNAY);
-  if (o.ties == DYD_LIST_TIES_GROUPS && layer == DYD_CONTENT_DELAUNAY && format == DYD_FORMAT_CSV)
-    layer = DYD_CONTENT_TIES;
-  result_sites(&r);
-  r.ties_apart = rows_hold_ties(&r, layer, format, &o);
-  dyd_pair_status least = o.ties || r.ties_apart || layer == DYD_CONTENT_POINTS ? DYD_INDETERMINATE : DYD_TIE;
-  dyd_status st = grant_output(r.pd, format, false, o.pairs, least, err);
+  if (o->ties == DYD_LIST_TIES_GROUPS && to->content == DYD_CONTENT_DELAUNAY && to->format == DYD_FORMAT_CSV)
+    to->content = DYD_CONTENT_TIES;
+  r.ties_apart = rows_hold_ties(&r, to, o);
+  dyd_pair_status least = o->ties || r.ties_apart || to->content == DYD_CONTENT_POINTS ? DYD_INDETERMINATE : DYD_TIE;
+  st = grant_output(r.pd, to->format, false, o->pairs, least, err);
   if (st != DYD_OK) return st;
-  st = result_graph(&graph, &r, &o, err);
+  st = result_graph(&graph, &r, to->content, o, err);
   if (graph) r.history = NULL, r.tolerance = NULL; /* they tell of the triangulation */
-  bool pairs = !graph && !o.pairs && layer != DYD_CONTENT_TIES && layer != DYD_CONTENT_ALIASES;
+  bool pairs = !graph && !o->pairs && to->content != DYD_CONTENT_TIES && to->content != DYD_CONTENT_ALIASES;
   if (st == DYD_OK && pairs) st = dyd_pairs_take(&r.pairs, r.pd, least);
-  if (o.pairs) r.pairs = *o.pairs;
+  if (o->pairs) r.pairs = *o->pairs;
   if (st == DYD_OK)
-    st = dyd_format_write(out, format, layer, &r, err);
+    st = write_what(to, &r, err);
   else if (!err || err->code != st)
-    dyd_fail(err, st, "%s", dyd_status_text(st));
-  if (!o.pairs) dyd_pair_list_clear(&r.pairs);
+    fail_status(st, err);
+  if (!o->pairs) dyd_pair_list_clear(&r.pairs);
   dyd_graph_list_clear(&r.graph);
   return st;
 }
+
+/* Tolerances and plans. */
+static dyd_status write_motion(dyd_output *to, dyd_write_options *o, dyd_error *err) {
+  dyd_result r;
+  dyd_status st = result_init(&r, to, o, err);
+  if (st != DYD_OK) return st;
+  if (to->content == DYD_CONTENT_PLAN ? !o->plan : !o->tolerance) return dyd_fail_null(err);
+  if (to->content == DYD_CONTENT_RADII && !dyd_tolerance_points(o->tolerance))
+    return dyd_fail(err, DYD_E_ARG, "how far points may be from their places was not asked for");
+  return write_what(to, &r, err);
+}
+
+static dyd_status write_sphere(dyd_output *to, dyd_write_options *o, dyd_error *err) {
+  if (!o->sphere) return dyd_fail_null(err);
+  if (!(o->max_arc >= 0 && o->max_arc <= 90))
+    return dyd_fail(err, DYD_E_ARG, "max_arc is in degrees, above 0 and at most 90");
+  const dyd_engine *places = dyd_sphere_places(o->sphere);
+  dyd_result r = {.out = to->out,
+                  .engine = places,
+                  .sphere = o->sphere,
+                  .pd = dyd_engine_delaunay(dyd_sphere_images(o->sphere)),
+                  .count = dyd_engine_count(places),
+                  .epsg = o->epsg,
+                  .window = o->window,
+                  .max_arc = o->max_arc > 0 ? o->max_arc : 1};
+  if (!r.pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
+  to->engine = places;
+  to->sphere = o->sphere;
+  dyd_status st = dyd_sphere_pairs(&r.pairs, o->sphere);
+  st = st == DYD_OK ? write_what(to, &r, err) : fail_status(st, err);
+  dyd_pair_list_clear(&r.pairs);
+  return st;
+}
+
+/* ---- the Voronoi diagram ---- */
 
 /* Numbers out of range come from polygons that are too fine; pictures tell of their own. */
 static dyd_status tell_fineness(dyd_status st, const dyd_diagram *d, dyd_error *err) {
@@ -166,29 +186,24 @@ static bool has_vertices(dyd_content layer, dyd_format format) {
   return !layered || (layer != DYD_CONTENT_VORONOI && layer != DYD_CONTENT_REGIONS);
 }
 
-dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_options *options, dyd_format format,
-                             dyd_error *err) {
-  if (err) dyd_error_clear(err);
-  dyd_voronoi_options o;
-  dyd_status st = dyd_abi_take(&o, sizeof o, options, "dyd_voronoi_options", err);
-  if (st == DYD_OK && o.bounds) st = dyd_abi_check(o.bounds, sizeof *o.bounds, "dyd_voronoi_bounds", err);
-  if (st != DYD_OK) return st;
-  const dyd_delaunay *pd = result_of(e, err);
-  if (!pd || refuse_layer(o.layer, DYD_CONTENT_VORONOI, err) != DYD_OK) return DYD_E_ARG;
-  if (dyd_delaunay_is_capped(pd))
-    return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise `max_pairs`");
-  st = grant_output(pd, format, true, NULL, DYD_LEGAL, err);
-  if (st != DYD_OK) return st;
+static dyd_status write_voronoi(dyd_output *to, dyd_write_options *o, dyd_error *err) {
+  dyd_result r;
   dyd_diagram d;
-  dyd_room room = dyd_delaunay_room(pd);
-  dyd_voronoi_bounds bounds, *wanted = o.bounds;
+  dyd_voronoi_bounds bounds, *wanted = o->bounds;
   size_t cut;
+  dyd_status st = o->bounds ? dyd_abi_check(o->bounds, sizeof *o->bounds, "dyd_voronoi_bounds", err) : DYD_OK;
+  if (st == DYD_OK) st = result_init(&r, to, o, err);
+  if (st != DYD_OK) return st;
+  if (dyd_delaunay_is_capped(r.pd))
+    return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise `max_pairs`");
+  st = grant_output(r.pd, to->format, true, NULL, DYD_LEGAL, err);
+  if (st != DYD_OK) return st;
+  dyd_room room = dyd_delaunay_room(r.pd);
   dyd_voronoi_bounds_init(&bounds);
-  o.bounds = &bounds;
-  if (!o.cut) o.cut = &cut;
-  st = dyd_diagram_init(&d, out, e, &o, has_vertices(layer_of(o.layer, DYD_CONTENT_VORONOI), format), &room, err);
-  if (st == DYD_OK)
-    st = tell_fineness(dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_VORONOI), &d, err), &d, err);
+  o->bounds = &bounds;
+  if (!o->cut) o->cut = &cut;
+  st = dyd_diagram_init(&d, to, o, has_vertices(to->content, to->format), &room, err);
+  if (st == DYD_OK) st = tell_fineness(write_what(to, &d, err), &d, err);
   if (st == DYD_E_NOMEM && room.refused) dyd_fail_room(err, &room);
   if (st == DYD_OK && wanted) {
     dyd_dyadic_swap(&wanted->area, &bounds.area);
@@ -200,16 +215,7 @@ dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_o
   return st;
 }
 
-/* A table without a run has nothing to tell. */
-static dyd_status stages_check(const dyd_convergence *c, dyd_error *err) {
-  if (err) dyd_error_clear(err);
-  return c->options ? DYD_OK : dyd_fail(err, DYD_E_ARG, "the table is empty: there was no run");
-}
-
-dyd_status dyd_write_convergence(FILE *out, const dyd_convergence *c, dyd_format format, bool times, dyd_error *err) {
-  const dyd_convergence_output o = {DYD_SIZED(dyd_convergence_output), .times = times};
-  return dyd_write_convergence_as(out, c, &o, format, err);
-}
+/* ---- tables ---- */
 
 /* Does the name begin one of the items in list, each up to a comma? */
 static bool item_is_listed(const char *list, const char *name, size_t length) {
@@ -233,54 +239,40 @@ bool dyd_label_fits(const char *label) {
   }
 }
 
-dyd_status dyd_write_convergence_as(FILE *out, const dyd_convergence *c, const dyd_convergence_output *options,
-                                    dyd_format format, dyd_error *err) {
-  dyd_convergence_output o;
-  if (stages_check(c, err) != DYD_OK) return DYD_E_ARG;
-  if (dyd_abi_take(&o, sizeof o, options, "dyd_convergence_output", err) != DYD_OK) return DYD_E_ARG;
-  if (o.label && !dyd_label_fits(o.label))
-    return dyd_fail(err, DYD_E_ARG, "the label \"%.60s\" is none; give NAME=VALUE,NAME=VALUE", o.label);
-  dyd_stage_table table = {.stages = c, .times = o.times, .label = o.label, .no_header = o.no_header};
-  if (format != DYD_FORMAT_HTML) return dyd_format_write(out, format, DYD_CONTENT_CONVERGENCE, &table, err);
-  if (!o.engine || !o.history) return dyd_fail(err, DYD_E_ARG, "html shows the points: give engine and history");
-  dyd_result r = {
-      .out = out, .engine = o.engine, .pd = result_of(o.engine, err), .window = o.window, .history = o.history};
-  if (!r.pd) return DYD_E_ARG;
-  result_sites(&r);
+/* A table without a run has nothing to tell. */
+static dyd_status write_stages(dyd_output *to, dyd_write_options *o, dyd_error *err) {
+  if (!o->stages || !o->stages->options) return dyd_fail(err, DYD_E_ARG, "the table is empty: there was no run");
+  if (to->content == DYD_CONTENT_PLOT) return write_what(to, o->stages, err);
+  if (o->label && !dyd_label_fits(o->label))
+    return dyd_fail(err, DYD_E_ARG, "the label \"%.60s\" is none; give NAME=VALUE,NAME=VALUE", o->label);
+  dyd_stage_table table = {.stages = o->stages, .times = o->times, .label = o->label, .no_header = o->no_header};
+  if (to->format != DYD_FORMAT_HTML) return write_what(to, &table, err);
+  if (!to->engine || !o->history) return dyd_fail(err, DYD_E_ARG, "html shows the points: give engine and history");
+  dyd_result r;
+  dyd_status st = result_init(&r, to, o, err);
+  if (st != DYD_OK) return st;
   table.result = &r;
-  dyd_status st = dyd_delaunay_pairs(&r.pairs, r.pd);
-  if (st != DYD_OK)
-    dyd_fail(err, st, "%s", dyd_status_text(st));
-  else
-    st = dyd_format_write(out, format, DYD_CONTENT_CONVERGENCE, &table, err);
+  st = dyd_delaunay_pairs(&r.pairs, r.pd);
+  st = st == DYD_OK ? write_what(to, &table, err) : fail_status(st, err);
   dyd_pair_list_clear(&r.pairs);
   return st;
 }
 
-dyd_status dyd_plot_convergence(FILE *out, const dyd_convergence *c, dyd_format format, dyd_error *err) {
-  if (stages_check(c, err) != DYD_OK) return DYD_E_ARG;
-  return dyd_format_write(out, format, DYD_CONTENT_PLOT, c, err);
-}
-
-dyd_status dyd_write_check(FILE *out, const dyd_check_report *report, dyd_format format, dyd_error *err) {
-  if (err) dyd_error_clear(err);
+static dyd_status write_check(dyd_output *to, dyd_write_options *o, dyd_error *err) {
   dyd_check_report r;
-  if (dyd_abi_take(&r, sizeof r, report, "dyd_check_report", err) != DYD_OK) return DYD_E_ARG;
-  return dyd_format_write(out, format, DYD_CONTENT_CHECK, &r, err);
+  if (!o->report) return dyd_fail_null(err);
+  if (dyd_abi_take(&r, sizeof r, o->report, "dyd_check_report", err) != DYD_OK) return DYD_E_ARG;
+  return write_what(to, &r, err);
 }
 
-dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n, dyd_outcome outcome, dyd_format format,
-                          dyd_error *err) {
-  return dyd_write_disc_named(out, NULL, r, n, outcome, format, err);
-}
+/* ---- answers ---- */
 
-dyd_status dyd_write_disc_named(FILE *out, const dyd_engine *e, const dyd_rect *const *r, size_t n, dyd_outcome outcome,
-                                dyd_format format, dyd_error *err) {
-  if (n < 3) return dyd_fail(err, DYD_E_ARG, "a disc needs three points");
+static dyd_status write_disc(dyd_output *to, dyd_write_options *o, dyd_error *err) {
+  if (o->rects < 3) return dyd_fail(err, DYD_E_ARG, "a disc needs three points");
   dyd_partial_disc disc;
   dyd_partial_disc_init(&disc);
-  dyd_partial_disc_set(&disc, r[0], r[1], r[2]);
-  dyd_status st = dyd_format_write(out, format, DYD_CONTENT_DISC, &(dyd_disc_output){&disc, r, n, outcome, e}, err);
+  dyd_partial_disc_set(&disc, o->rect[0], o->rect[1], o->rect[2]);
+  dyd_status st = write_what(to, &(dyd_disc_output){&disc, o->rect, o->rects, o->outcome, to->engine}, err);
   dyd_partial_disc_clear(&disc);
   return st;
 }
@@ -294,107 +286,94 @@ static void swap_names(dyd_boundary *curve) {
     }
 }
 
-dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_rect *b, dyd_outcome outcome, dyd_format format,
-                              dyd_error *err) {
-  return dyd_write_bisector_named(out, NULL, a, b, outcome, format, err);
-}
-
-dyd_status dyd_write_bisector_named(FILE *out, const dyd_engine *e, const dyd_rect *a, const dyd_rect *b,
-                                    dyd_outcome outcome, dyd_format format, dyd_error *err) {
+static dyd_status write_bisector(dyd_output *to, dyd_write_options *o, dyd_error *err) {
   dyd_boundary curve[2] = {{0}, {0}};
+  if (o->rects < 2) return dyd_fail(err, DYD_E_ARG, "a bisector needs two points");
+  const dyd_rect *a = o->rect[0], *b = o->rect[1];
   dyd_status st = dyd_bisector(&curve[0], a, b);
   if (st == DYD_OK) st = dyd_bisector(&curve[1], b, a);
   swap_names(&curve[1]);
-  if (st == DYD_OK)
-    st = dyd_format_write(out, format, DYD_CONTENT_BISECTOR, &(dyd_bisector_output){{a, b}, curve, outcome, e}, err);
-  else
-    dyd_fail(err, st, "%s", dyd_status_text(st));
+  st = st == DYD_OK ? write_what(to, &(dyd_bisector_output){{a, b}, curve, o->outcome, to->engine}, err)
+                    : fail_status(st, err);
   for (int k = 2; k-- > 0;) dyd_boundary_clear(&curve[k]);
   return st;
 }
 
-/* The answers as this library knows them are in own[0 .. count - 1]. */
-static dyd_status write_answers(FILE *out, const dyd_engine *e, dyd_nearest_answer *own, dyd_nearest_output *what,
-                                dyd_content content, dyd_format format, dyd_error *err) {
-  const dyd_nearest_answer *const *given = what->answer;
-  const dyd_nearest_answer **taken = dyd_alloc(what->count, sizeof(const dyd_nearest_answer *));
-  dyd_status st = taken ? DYD_OK : dyd_fail(err, DYD_E_NOMEM, "%s", dyd_status_text(DYD_E_NOMEM));
-  for (size_t q = 0; q < what->count && st == DYD_OK; q++) {
-    st = dyd_abi_take(&own[q], sizeof own[q], given[q], "dyd_nearest_answer", err);
+/* The answers as this library knows them are own[0 .. answers - 1]; taken[] points at them. */
+static dyd_status take_answers(dyd_nearest_answer *own, const dyd_nearest_answer **taken, const dyd_write_options *o,
+                               dyd_error *err) {
+  dyd_status st = own && taken ? DYD_OK : fail_status(DYD_E_NOMEM, err);
+  for (size_t q = 0; q < o->answers && st == DYD_OK; q++) {
+    st = dyd_abi_take(&own[q], sizeof own[q], o->answer[q], "dyd_nearest_answer", err);
     if (st == DYD_OK && (!own[q].at || !own[q].found))
       st = dyd_fail(err, DYD_E_ARG, "there is no answer to be written");
-    if (st == DYD_OK) taken[q] = &own[q];
+    taken[q] = &own[q];
   }
-  what->answer = taken;
-  what->engine = e;
-  if (st == DYD_OK) what->pd = result_of(e, err);
-  if (st == DYD_OK) st = what->pd ? dyd_format_write(out, format, content, what, err) : DYD_E_ARG;
-  free(taken);
   return st;
 }
 
-dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_nearest_answer *answer, dyd_format format,
-                             dyd_error *err) {
-  if (err) dyd_error_clear(err);
-  dyd_nearest_answer own;
-  dyd_nearest_output what = {.answer = &answer, .count = 1};
-  return write_answers(out, e, &own, &what, DYD_CONTENT_NEAREST, format, err);
-}
-
-dyd_status dyd_write_places(FILE *out, const dyd_engine *e, const dyd_nearest_answer *const *answer, size_t count,
-                            dyd_outcome outcome, dyd_format format, dyd_error *err) {
-  if (!e) return dyd_fail_null(err);
-  if (err) dyd_error_clear(err);
-  dyd_nearest_answer *own = dyd_alloc(count, sizeof *own);
-  if (!own) return dyd_fail(err, DYD_E_NOMEM, "%s", dyd_status_text(DYD_E_NOMEM));
-  dyd_nearest_output what = {.answer = answer, .count = count, .outcome = outcome};
-  dyd_status st = write_answers(out, e, own, &what, DYD_CONTENT_PLACES, format, err);
+static dyd_status write_nearest(dyd_output *to, dyd_write_options *o, dyd_error *err) {
+  if (to->content == DYD_CONTENT_NEAREST && o->answers != 1)
+    return dyd_fail(err, DYD_E_ARG, "there is no answer to be written");
+  dyd_nearest_answer *own = dyd_alloc(o->answers, sizeof *own);
+  const dyd_nearest_answer **taken = dyd_alloc(o->answers, sizeof(const dyd_nearest_answer *));
+  dyd_result r;
+  dyd_status st = take_answers(own, taken, o, err);
+  if (st == DYD_OK) st = result_init(&r, to, o, err);
+  if (st == DYD_OK) st = write_what(to, &(dyd_nearest_output){r.engine, r.pd, taken, o->answers, o->outcome}, err);
+  free(taken);
   free(own);
   return st;
 }
 
-dyd_status dyd_write_tolerance(FILE *out, const dyd_engine *e, const dyd_tolerance *t,
-                               const dyd_tolerance_output *options, dyd_format format, dyd_error *err) {
+/* ---- all ---- */
+
+static content_writer *const writers[DYD_CONTENTS] = {
+    [DYD_CONTENT_DELAUNAY] = write_delaunay,     [DYD_CONTENT_VORONOI] = write_voronoi,
+    [DYD_CONTENT_CONVERGENCE] = write_stages,    [DYD_CONTENT_PLOT] = write_stages,
+    [DYD_CONTENT_CHECK] = write_check,           [DYD_CONTENT_DISC] = write_disc,
+    [DYD_CONTENT_BISECTOR] = write_bisector,     [DYD_CONTENT_NEAREST] = write_nearest,
+    [DYD_CONTENT_PLACES] = write_nearest,        [DYD_CONTENT_PLAN] = write_motion,
+    [DYD_CONTENT_TOLERANCE] = write_motion,      [DYD_CONTENT_SPHERE] = write_sphere,
+    [DYD_CONTENT_SPHERE_VORONOI] = write_sphere,
+};
+
+dyd_status dyd_write(FILE *out, const dyd_engine *e, dyd_content content, dyd_format format,
+                     const dyd_write_options *options, dyd_error *err) {
+  dyd_write_options o;
   if (err) dyd_error_clear(err);
-  dyd_tolerance_output o;
-  if (dyd_abi_take(&o, sizeof o, options, "dyd_tolerance_output", err) != DYD_OK) return DYD_E_ARG;
-  if (refuse_layer(o.layer, DYD_CONTENT_TOLERANCE, err) != DYD_OK) return DYD_E_ARG;
-  if (o.layer == DYD_CONTENT_RADII && !dyd_tolerance_points(t))
-    return dyd_fail(err, DYD_E_ARG, "how far points may be from their places was not asked for");
-  dyd_result r = {.out = out, .engine = e, .pd = result_of(e, err), .window = o.window, .epsg = o.epsg};
-  if (!r.pd) return DYD_E_ARG;
-  result_sites(&r);
-  return dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_TOLERANCE), &(dyd_tolerance_result){&r, t}, err);
+  if (dyd_abi_take(&o, sizeof o, options, "dyd_write_options", err) != DYD_OK) return DYD_E_ARG;
+  const dyd_layer *layer = dyd_layer_of(content);
+  content_writer *write = layer ? writers[layer->of] : (size_t)content < DYD_CONTENTS ? writers[content] : NULL;
+  if (!write) return dyd_fail(err, DYD_E_ARG, "there is no content number %d", (int)content);
+  dyd_output to = {.out = out, .format = format, .content = content, .engine = e, .epsg = o.epsg};
+  return write(&to, &o, err);
 }
 
-dyd_status dyd_write_sphere(FILE *out, const dyd_sphere *s, const dyd_sphere_output *options, dyd_format format,
-                            dyd_error *err) {
-  if (err) dyd_error_clear(err);
-  dyd_sphere_output o;
-  if (dyd_abi_take(&o, sizeof o, options, "dyd_sphere_output", err) != DYD_OK) return DYD_E_ARG;
-  if (refuse_layer(o.layer, DYD_CONTENT_SPHERE, err) != DYD_OK &&
-      refuse_layer(o.layer, DYD_CONTENT_SPHERE_VORONOI, err) != DYD_OK)
-    return DYD_E_ARG;
-  if (!result_of(dyd_sphere_images(s), err)) return DYD_E_ARG;
-  if (!(o.max_arc >= 0 && o.max_arc <= 90))
-    return dyd_fail(err, DYD_E_ARG, "max_arc is in degrees, above 0 and at most 90");
-  dyd_sphere_result r = {.sphere = s, .epsg = o.epsg, .window = o.window, .max_arc = o.max_arc > 0 ? o.max_arc : 1};
-  dyd_status st = dyd_sphere_pairs(&r.pairs, s);
-  if (st == DYD_OK)
-    st = dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_SPHERE), &r, err);
-  else
-    dyd_fail(err, st, "%s", dyd_status_text(st));
-  dyd_pair_list_clear(&r.pairs);
+/* ---- exact rectangles as plain text, for programs that cannot read dyd_rect ---- */
+
+static dyd_status put_side(FILE *out, const dyd_interval *a, char behind) {
+  char *lo = dyd_end_text(a, false), *hi = dyd_end_text(a, true);
+  dyd_status st = lo && hi ? DYD_OK : DYD_E_NOMEM;
+  if (st == DYD_OK) fprintf(out, "%s %s%c", lo, hi, behind);
+  free(lo);
+  free(hi);
   return st;
 }
 
-dyd_status dyd_write_plan(FILE *out, const dyd_engine *e, const dyd_survey *s, const dyd_plan_output *options,
-                          dyd_format format, dyd_error *err) {
-  if (err) dyd_error_clear(err);
-  dyd_plan_output o;
-  if (dyd_abi_take(&o, sizeof o, options, "dyd_plan_output", err) != DYD_OK) return DYD_E_ARG;
-  dyd_result r = {.out = out, .engine = e, .pd = result_of(e, err), .epsg = o.epsg};
-  if (!r.pd) return DYD_E_ARG;
-  result_sites(&r);
-  return dyd_format_write(out, format, DYD_CONTENT_PLAN, &(dyd_plan_result){&r, s, o.next}, err);
+dyd_status dyd_write_rects(FILE *out, const dyd_sites *sites, size_t first, size_t count, dyd_error *err) {
+  if (!sites) return dyd_fail_null(err);
+  dyd_rect r;
+  dyd_status st = DYD_OK;
+  if (first > dyd_sites_count(sites) || count > dyd_sites_count(sites) - first)
+    return dyd_fail(err, DYD_E_ARG, "there are %zu points; ask for some of them", dyd_sites_count(sites));
+  dyd_rect_init(&r);
+  for (size_t i = first; st == DYD_OK && i < first + count; i++) {
+    st = dyd_sites_get(&r, sites, i);
+    if (st == DYD_OK) st = put_side(out, &r.x, ' ');
+    if (st == DYD_OK) st = put_side(out, &r.y, '\n');
+  }
+  dyd_rect_clear(&r);
+  if (st == DYD_OK && ferror(out)) return dyd_fail(err, DYD_E_IO, "writing rectangles failed");
+  return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
 }

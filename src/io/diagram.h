@@ -1,12 +1,41 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What the writers of the Voronoi diagram share. */
+/* What the writers of the Voronoi diagram share: cells, vertices, edges on a window. */
 #ifndef DYD_IO_DIAGRAM_H
 #define DYD_IO_DIAGRAM_H
 
 #include "io/decimal.h"
-#include "io/dual.h"
 #include "io/output.h"
 #include "metric/bounds.h"
+
+/* ---- sure edges: one for each legal pair, between vertices of sure triangles and of ties ---- */
+
+typedef enum dyd_dual_kind {
+  DYD_DUAL_OPEN = 0, /* ends in the region of an undecided face */
+  DYD_DUAL_VERTEX,   /* at the vertex of a sure triangle, or of a tied face */
+  DYD_DUAL_RAY       /* unbounded, for every choice; beyond a tied chain, for the true points */
+} dyd_dual_kind;
+
+typedef struct dyd_dual_end {
+  dyd_dual_kind kind;
+  size_t vertex;       /* number of the triangle; of a tied face: beyond the triangles */
+  double direction[4]; /* of a ray: bounds of both components of a vector along it, rounded outward */
+} dyd_dual_end;
+
+/* end[0] is on the left of the way from i to j, end[1] on its right. */
+typedef struct dyd_dual_edge {
+  uint32_t i, j;
+  dyd_dual_end end[2];
+} dyd_dual_edge;
+
+/* Where the face is among those that are tied, ascending; NULL: it is none of them. */
+const size_t *dyd_dual_tied(const size_t *tied, size_t ties, size_t face);
+
+/* tied: faces of pd whose sites are on one circle, ascending. *out is new, sorted by i and j; release with free().
+ * DYD_E_NOMEM, too, when *room has none. */
+dyd_status dyd_dual_edges(dyd_dual_edge **out, size_t *count, const dyd_delaunay *pd,
+                          const dyd_triangle_list *triangles, const size_t *tied, size_t ties, dyd_room *room);
+
+/* ---- the diagram ---- */
 
 /* One cell: bounds of its areas in W and the box of Pos_i n W, all rounded outward. Invariant: present = Pos_i may meet
  * W; exact = the polygon is the whole cell, but for the rounding of its vertices. */
@@ -35,15 +64,15 @@ typedef struct dyd_diagram {
   double (*vertex)[4];        /* enclosures of the Voronoi vertices of both; infinite ends: not known in doubles */
   int64_t vertex_bits;        /* exact enclosures are asked for with these bits */
   dyd_voronoi_bounds *bounds; /* found when the cells are visited */
-  const volatile int *cancel; /* see dyd_voronoi_options; NULL: never */
+  const volatile int *cancel; /* see dyd_write_options; NULL: never */
   dyd_room *room;             /* what max_bytes leaves beside the triangulation */
   size_t *cut;                /* the cells and regions that it cut, counted when they are visited */
 } dyd_diagram;
 
 /* Makes everything but the bounds; triangles and their vertices only if `vertices`. o->bounds and o->cut are there;
- * room is borrowed as long as *d is used. Of e there has to be a result that is not capped. An error is told;
+ * room is borrowed as long as *d is used. Of to->engine there has to be a result that is not capped. An error is told;
  * dyd_diagram_clear comes after it in any case. */
-dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, const dyd_voronoi_options *o, bool vertices,
+dyd_status dyd_diagram_init(dyd_diagram *d, const dyd_output *to, const dyd_write_options *o, bool vertices,
                             dyd_room *room, dyd_error *err);
 void dyd_diagram_clear(dyd_diagram *d);
 

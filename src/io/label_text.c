@@ -5,11 +5,6 @@
 #include <stdbool.h>
 #include <string.h>
 
-const char *dyd_csv_id_head(const dyd_engine *e, size_t count) {
-  static const char *const head[] = {",id", ",id_i", ",id_i,id_j", ",id_i,id_j,id_k"};
-  return dyd_engine_id(e, 0) ? head[count] : "";
-}
-
 void dyd_sink_csv_text(dyd_sink *s, const char *text) {
   size_t n = strlen(text);
   if (!text[strcspn(text, ",;\t|\"\r\n")] && text[0] != ' ' && (!n || text[n - 1] != ' ')) {
@@ -19,16 +14,6 @@ void dyd_sink_csv_text(dyd_sink *s, const char *text) {
   dyd_sink_text(s, "\"");
   for (; *text; text++) dyd_sink_put(s, *text == '"' ? "\"\"" : text, *text == '"' ? 2 : 1);
   dyd_sink_text(s, "\"");
-}
-
-void dyd_csv_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t count) {
-  dyd_sink s;
-  dyd_sink_begin(&s, out);
-  for (size_t k = 0; k < (count ? count : 1) && dyd_engine_id(e, site[k]); k++) {
-    dyd_sink_text(&s, ",");
-    dyd_sink_csv_text(&s, dyd_engine_id(e, site[k]));
-  }
-  dyd_sink_flush(&s);
 }
 
 /* The length of the character of UTF-8 at p: 1 to 4; 0: it is none (RFC 3629: shortest forms, no surrogates). */
@@ -56,28 +41,6 @@ void dyd_sink_json_text(dyd_sink *s, const char *text) {
       dyd_sink_put(s, (const char *)p, n);
   }
   dyd_sink_text(s, "\"");
-}
-
-void dyd_json_text(FILE *out, const char *text) {
-  dyd_sink s;
-  dyd_sink_begin(&s, out);
-  dyd_sink_json_text(&s, text);
-  dyd_sink_flush(&s);
-}
-
-void dyd_sink_json_ids(dyd_sink *s, const dyd_engine *e, const uint32_t *site, size_t count) {
-  static const char *const name[] = {", \"id_i\": ", ", \"id_j\": ", ", \"id_k\": "};
-  for (size_t k = 0; k < (count ? count : 1) && dyd_engine_id(e, site[k]); k++) {
-    dyd_sink_text(s, count ? name[k] : ", \"id\": ");
-    dyd_sink_json_text(s, dyd_engine_id(e, site[k]));
-  }
-}
-
-void dyd_json_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t count) {
-  dyd_sink s;
-  dyd_sink_begin(&s, out);
-  dyd_sink_json_ids(&s, e, site, count);
-  dyd_sink_flush(&s);
 }
 
 /* Is it worth a place in a picture? */

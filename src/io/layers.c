@@ -1,221 +1,476 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The layers of the triangulation: pairs, points, triangles. In wkt and geojson one place stands for each rectangle. */
-#include "base/alloc.h"
-#include "io/diagram.h"
-#include "io/parts.h"
-#include "io/result.h"
+/* The table of layers, and those of the triangulation, of tolerances and plans.
+ *
+ * A new layer: its constant in dyadel/io.h; here its columns, its rows and its row of the table. In wkt and geojson one
+ * place stands for each rectangle; on a sphere, for where a point may be in degrees, and sides are great circles. */
 #include "io/table.h"
 
-static dyd_table_head layer_head(const dyd_output *o, const char *const *column, dyd_geometry geometry) {
-  const dyd_result *r = o->what;
-  return (dyd_table_head){o->out, o->format, column, geometry, r->epsg, r->engine, NULL};
+#include "base/alloc.h"
+#include "base/prefetch.h"
+#include "base/sort.h"
+#include "io/diagram.h"
+#include "io/geodesic.h"
+#include <math.h>
+
+enum { TRIANGLE_ARC = 2 }; /* degrees */
+
+/* ---- comments of csv ---- */
+
+static dyd_status alias_comments(dyd_table *t, const dyd_output *o) {
+  dyd_csv_aliases(o->out, t->engine, t->sphere);
+  return DYD_OK;
 }
 
-/* The places of all sites; none for csv. */
-static dyd_status layer_places(dyd_place **out, const dyd_output *o) {
-  char bound[DYD_DECIMAL_SIZE];
-  return o->format == DYD_FORMAT_CSV ? DYD_OK : dyd_result_places(out, bound, o->what, o->err);
+static dyd_status capped_faces(const dyd_result *r, FILE *out) {
+  dyd_index_list face = {0};
+  dyd_status st = DYD_OK;
+  for (size_t f = 0; f < dyd_delaunay_undecided_faces(r->pd) && st == DYD_OK; f++) {
+    bool outer;
+    st = dyd_delaunay_face(&face, &outer, r->pd, f);
+    if (st != DYD_OK) break;
+    fputs("# face ", out);
+    dyd_put_rows(out, r->engine, &face, " ");
+    fputs("\n", out);
+  }
+  dyd_index_list_clear(&face);
+  return st;
 }
 
-/* In csv: aliases, and the faces within which more may be possible than is listed or counted. */
-static dyd_status layer_comments(const dyd_output *o) {
+/* Aliases, and the faces within which more may be possible than is listed or counted. */
+static dyd_status pair_comments(dyd_table *t, const dyd_output *o) {
   const dyd_result *r = o->what;
-  if (o->format != DYD_FORMAT_CSV) return DYD_OK;
-  dyd_csv_aliases(o->out, r->engine);
+  alias_comments(t, o);
   if (!dyd_delaunay_is_capped(r->pd)) return DYD_OK;
-  fputs("# capped: pairs within one of these faces may be possible though they are not listed\n", o->out);
-  return dyd_result_faces(r, "# face ", "# face ", " ", "\n");
+  fputs(r->sphere ? "# capped: further pairs may be possible\n"
+                  : "# capped: pairs within one of these faces may be possible though they are not listed\n",
+        o->out);
+  return r->sphere ? DYD_OK : capped_faces(r, o->out);
 }
+
+static dyd_status point_comments(dyd_table *t, const dyd_output *o) {
+  dyd_status st = pair_comments(t, o);
+  fputs(t->sphere ? "# rounding: lo down, hi up\n" : "# rounding: lo down, hi up; empty: beyond doubles\n", o->out);
+  return st;
+}
+
+/* ---- pairs ---- */
 
 /* A line between two sites. */
-static void pair_row(dyd_table *t, const dyd_place *place, uint32_t i, uint32_t j, const char *status) {
+static dyd_status row_line(dyd_table *t, size_t i, size_t j) {
   dyd_row_begin(t);
-  if (place) {
-    dyd_row_place(t, &place[i]);
-    dyd_row_place(t, &place[j]);
-  }
-  dyd_row_pair(t, i, j, status);
-  dyd_row_end(t);
+  if (t->box) return dyd_row_arc(t, t->box[i], t->box[j]);
+  dyd_row_spot(t, i);
+  dyd_row_spot(t, j);
+  return DYD_OK;
 }
 
-typedef dyd_status pair_rows(dyd_table *t, const dyd_result *r, const dyd_place *place);
+static dyd_status row_pair(dyd_table *t, uint32_t i, uint32_t j, const char *status) {
+  dyd_status st = row_line(t, i, j);
+  dyd_row_site(t, i);
+  dyd_row_site(t, j);
+  dyd_row_word(t, status);
+  dyd_row_id(t, i);
+  dyd_row_id(t, j);
+  dyd_row_end(t);
+  return st;
+}
 
 /* The pairs of i and later sites: of those that are not listed from *next on, ties. */
-static dyd_status rows_of_site(dyd_table *t, const dyd_result *r, const dyd_place *place, uint32_t i, size_t *next) {
+static dyd_status pairs_of_site(dyd_table *t, const dyd_result *r, uint32_t i, size_t *next) {
   dyd_index_list near = {0};
   dyd_status st = dyd_delaunay_neighbours(&near, r->pd, i, DYD_TIE);
-  for (size_t q = 0; q < near.count; q++) {
+  for (size_t q = 0; q < near.count && st == DYD_OK; q++) {
     const dyd_pair *p = *next < r->pairs.count ? &r->pairs.item[*next] : NULL;
     bool listed = p && p->i == i && p->j == near.item[q];
     if (near.item[q] < i) continue;
     *next += listed;
-    pair_row(t, place, i, near.item[q], dyd_pair_status_text(listed ? p->status : DYD_TIE));
+    st = row_pair(t, i, near.item[q], dyd_pair_status_text(listed ? p->status : DYD_TIE));
   }
   dyd_index_list_clear(&near);
   return st;
 }
 
 /* Places are asked for ahead: those of the second sites lie anywhere. */
-static dyd_status rows_of_triangulation(dyd_table *t, const dyd_result *r, const dyd_place *place) {
+static dyd_status rows_of_pairs(dyd_table *t, const dyd_output *o) {
   enum { AHEAD = 12 };
+  const dyd_result *r = o->what;
   size_t next = 0;
   dyd_status st = DYD_OK;
-  for (size_t i = 0; r->ties_apart && i < r->count && st == DYD_OK; i++)
-    if (dyd_delaunay_alias(r->pd, (uint32_t)i) == i) st = rows_of_site(t, r, place, (uint32_t)i, &next);
-  if (r->ties_apart) return st;
-  for (size_t k = 0; k < r->pairs.count; k++) {
+  for (uint32_t i = 0; r->ties_apart && i < r->count && st == DYD_OK; i++)
+    if (dyd_delaunay_alias(r->pd, i) == i) st = pairs_of_site(t, r, i, &next);
+  for (size_t k = 0; !r->ties_apart && k < r->pairs.count && st == DYD_OK; k++) {
     const dyd_pair *p = &r->pairs.item[k];
-    if (place && k + AHEAD < r->pairs.count) dyd_place_fetch(&place[p[AHEAD].j]);
-    pair_row(t, place, p->i, p->j, dyd_pair_status_text(p->status));
+    if (t->place && k + AHEAD < r->pairs.count) {
+      dyd_prefetch(t->place[p[AHEAD].j].x);
+      dyd_prefetch(t->place[p[AHEAD].j].length);
+    }
+    st = row_pair(t, p->i, p->j, dyd_pair_status_text(p->status));
   }
-  return DYD_OK;
-}
-
-static dyd_status rows_of_graph(dyd_table *t, const dyd_result *r, const dyd_place *place) {
-  for (size_t k = 0; k < r->graph.count; k++) {
-    const dyd_graph_edge *e = &r->graph.item[k];
-    pair_row(t, place, e->i, e->j, e->sure ? "sure" : "possible");
-  }
-  return DYD_OK;
-}
-
-static dyd_status layer_of_pairs(const dyd_output *o, pair_rows *rows, dyd_status (*comments)(const dyd_output *)) {
-  const dyd_table_head head = layer_head(o, dyd_columns_of_pairs, DYD_GEOMETRY_LINE);
-  dyd_place *place = NULL;
-  dyd_table t;
-  dyd_status st = layer_places(&place, o);
-  if (st == DYD_OK) st = comments(o);
-  if (st == DYD_OK) {
-    dyd_table_begin(&t, &head);
-    st = rows(&t, o->what, place);
-    dyd_table_end(&t);
-  }
-  free(place);
   return st;
 }
 
-dyd_status dyd_layer_pairs(const dyd_output *o) {
-  return layer_of_pairs(o, rows_of_triangulation, layer_comments);
-}
-
-static dyd_status graph_comments(const dyd_output *o) {
-  if (o->format == DYD_FORMAT_CSV) dyd_csv_aliases(o->out, ((const dyd_result *)o->what)->engine);
+static dyd_status rows_of_graph(dyd_table *t, const dyd_output *o) {
+  const dyd_result *r = o->what;
+  for (size_t k = 0; k < r->graph.count; k++)
+    row_pair(t, r->graph.item[k].i, r->graph.item[k].j, r->graph.item[k].sure ? "sure" : "possible");
   return DYD_OK;
 }
 
-dyd_status dyd_layer_graph(const dyd_output *o) {
-  return layer_of_pairs(o, rows_of_graph, graph_comments);
+/* ---- points ---- */
+
+/* Where site i may be. */
+static dyd_status site_box(double box[4], const dyd_result *r, uint32_t i) {
+  dyd_rect place;
+  dyd_status st = DYD_OK;
+  if (!r->sphere) {
+    dyd_sites_get_d(box, r->sites, i);
+    return DYD_OK;
+  }
+  dyd_rect_init(&place);
+  st = dyd_sphere_rect(&place, r->sphere, i);
+  dyd_rect_get_d(box, &place);
+  dyd_rect_clear(&place);
+  return st;
 }
 
-static void point_row(dyd_table *t, const dyd_result *r, size_t i, const dyd_place *place, const dyd_site_row *row) {
-  double box[4];
-  dyd_sites_get_d(box, r->sites, i);
-  dyd_row_begin(t);
-  if (place) dyd_row_place(t, &place[i]);
-  dyd_row_site(t, i);
-  dyd_row_id(t, i);
-  dyd_row_box(t, box);
-  dyd_row_index(t, row->partners[DYD_LEGAL]);
-  dyd_row_index(t, row->partners[DYD_INDETERMINATE]);
-  dyd_row_index(t, row->partners[DYD_TIE]);
-  dyd_row_text(t, row->hull);
-  dyd_row_end(t);
-}
-
-dyd_status dyd_layer_points(const dyd_output *o) {
-  static const char *const column[] = {"i",   "id",   "xlo", "xhi", "ylo", "yhi", "legal", "indeterminate",
-                                       "tie", "hull", NULL};
+static dyd_status rows_of_points(dyd_table *t, const dyd_output *o) {
   const dyd_result *r = o->what;
-  const dyd_table_head head = layer_head(o, column, DYD_GEOMETRY_POINT);
-  dyd_place *place = NULL;
   dyd_site_row *rows = NULL;
-  dyd_table t;
-  dyd_status st = layer_places(&place, o);
-  if (st == DYD_OK) st = dyd_result_sites(&rows, r);
-  if (st == DYD_OK) st = layer_comments(o);
-  if (st == DYD_OK) {
-    if (o->format == DYD_FORMAT_CSV) fputs("# rounding: lo down, hi up; empty: beyond doubles\n", o->out);
-    dyd_table_begin(&t, &head);
-    for (size_t i = 0; i < r->count; i++) point_row(&t, r, i, place, &rows[i]);
-    dyd_table_end(&t);
+  dyd_status st = dyd_result_sites(&rows, r);
+  for (uint32_t i = 0; i < r->count && st == DYD_OK; i++) {
+    double box[4];
+    st = site_box(box, r, i);
+    dyd_row_begin(t);
+    dyd_row_spot(t, i);
+    dyd_row_site(t, i);
+    dyd_row_id(t, i);
+    dyd_row_box(t, box);
+    for (int status = DYD_LEGAL; status >= DYD_TIE; status--) dyd_row_index(t, rows[i].partners[status]);
+    dyd_row_word(t, rows[i].hull);
+    dyd_row_end(t);
   }
   free(rows);
-  free(place);
   return st;
 }
 
 /* Rows without a point of their own, at the place of the one they have in common. */
-dyd_status dyd_layer_aliases(const dyd_output *o) {
-  static const char *const column[] = {"i", "of", NULL};
-  const dyd_diagram *d = o->content == DYD_CONTENT_VORONOI_ALIASES ? o->what : NULL;
-  const dyd_result *r = d ? NULL : o->what;
-  const dyd_table_head head = {
-      o->out, o->format, column, DYD_GEOMETRY_POINT, d ? d->epsg : r->epsg, d ? d->engine : r->engine, NULL};
-  dyd_alias_walk w = {.e = head.engine};
-  dyd_table t;
-  dyd_table_begin(&t, &head);
+static dyd_status rows_of_aliases(dyd_table *t, const dyd_output *o) {
+  (void)o;
+  dyd_alias_walk w = {.e = t->engine};
   while (dyd_alias_next(&w)) {
     double box[4];
-    dyd_sites_get_d(box, d ? d->sites : r->sites, w.site);
-    dyd_row_begin(&t);
-    if (dyd_box_is_finite(box)) dyd_row_at(&t, box);
-    dyd_row_index(&t, w.row);
-    dyd_row_index(&t, w.of);
-    dyd_row_end(&t);
+    dyd_sites_get_d(box, dyd_engine_sites(t->engine), w.site);
+    dyd_row_begin(t);
+    if (dyd_box_is_finite(box)) dyd_row_at(t, box);
+    dyd_row_index(t, w.row);
+    dyd_row_index(t, w.of);
+    dyd_row_end(t);
   }
-  dyd_table_end(&t);
   return DYD_OK;
 }
 
 /* ---- ties ---- */
 
-const char *dyd_group_text(dyd_group_kind kind) {
-  static const char *const text[] = {"circle", "chain", "pair"};
-  return text[kind];
-}
-
-static dyd_status group_row(void *context, dyd_group_kind kind, const dyd_index_list *sites) {
+static dyd_status row_group(void *context, dyd_group_kind kind, const dyd_index_list *sites) {
   dyd_table *t = context;
   dyd_row_begin(t);
-  dyd_row_text(t, dyd_group_text(kind));
+  dyd_row_word(t, dyd_group_text(kind));
   dyd_status st = dyd_row_sites(t, sites);
   dyd_row_end(t);
   return st;
 }
 
-/* In csv: a row for each group. */
-dyd_status dyd_layer_ties(const dyd_output *o) {
-  static const char *const column[] = {"kind", "sites", NULL};
-  const dyd_table_head head = layer_head(o, column, DYD_GEOMETRY_POINT);
-  dyd_table t;
-  dyd_table_begin(&t, &head);
-  dyd_status st = dyd_delaunay_each_group(((const dyd_result *)o->what)->pd, group_row, &t);
-  dyd_table_end(&t);
+static dyd_status rows_of_ties(dyd_table *t, const dyd_output *o) {
+  return dyd_delaunay_each_group(((const dyd_result *)o->what)->pd, row_group, t);
+}
+
+/* ---- triangles ---- */
+
+/* A triangle that is no less than half of the sphere has the other side of its corners on its left. */
+static dyd_status triangle_outline(dyd_table *t, const uint32_t v[3]) {
+  dyd_lon_lat corner[3];
+  dyd_side side[3];
+  for (int c = 0; !t->box && c < 4; c++) dyd_row_spot(t, v[c % 3]);
+  if (!t->box) return DYD_OK;
+  for (int c = 0; c < 3; c++) corner[c] = dyd_lon_lat_of(t->box[v[c]]);
+  for (int c = 0; c < 3; c++) side[c] = (dyd_side){.from = corner[c], .to = corner[(c + 1) % 3]};
+  return dyd_turns_left(corner) ? dyd_row_around(t, side, 3, TRIANGLE_ARC) : DYD_OK;
+}
+
+static dyd_status rows_of_triangles(dyd_table *t, const dyd_output *o) {
+  dyd_triangle_list list = {0};
+  dyd_status st = dyd_result_triangles(&list, o->what);
+  for (size_t k = 0; k < list.count && st == DYD_OK; k++) {
+    dyd_row_begin(t);
+    st = triangle_outline(t, list.item[k].v);
+    dyd_row_three(t, list.item[k].v, false);
+    dyd_row_three(t, list.item[k].v, true);
+    dyd_row_end(t);
+  }
+  dyd_triangle_list_clear(&list);
   return st;
 }
 
-dyd_status dyd_layer_triangles(const dyd_output *o) {
-  static const char *const column[] = {"i", "j", "k", "id_i", "id_j", "id_k", NULL};
+/* ---- tolerances ---- */
+
+/* Aliases, and the tolerance of the whole; what is missing. */
+static dyd_status tolerance_comments(dyd_table *t, const dyd_output *o) {
   const dyd_result *r = o->what;
-  const dyd_table_head head = layer_head(o, column, DYD_GEOMETRY_POLYGON);
-  dyd_triangle_list list = {0};
-  dyd_place *place = NULL;
-  dyd_table t;
-  dyd_status st = layer_places(&place, o);
-  if (st == DYD_OK && r->discs) st = dyd_disc_triangles(&list, &r->pairs, r->pd);
-  if (st == DYD_OK && !r->discs) st = dyd_delaunay_triangles(&list, r->pd);
-  if (st == DYD_OK && o->format == DYD_FORMAT_CSV) dyd_csv_aliases(o->out, r->engine);
-  if (st == DYD_OK) dyd_table_begin(&t, &head);
-  for (size_t k = 0; k < list.count && st == DYD_OK; k++) {
-    const uint32_t *v = list.item[k].v;
-    dyd_row_begin(&t);
-    for (int c = 0; place && c < 4; c++) dyd_row_place(&t, &place[v[c % 3]]);
-    for (int c = 0; c < 3; c++) dyd_row_site(&t, v[c]);
-    for (int c = 0; c < 3; c++) dyd_row_id(&t, v[c]);
-    dyd_row_end(&t);
+  double lo, hi;
+  size_t edges, births;
+  alias_comments(t, o);
+  dyd_tolerance_whole(&lo, &hi, r->tolerance);
+  fputs("# tolerance ", o->out);
+  dyd_decimal_put(o->out, lo, DYD_DOWN, "inf");
+  fputs(" ", o->out);
+  dyd_decimal_put(o->out, hi, DYD_UP, "inf");
+  fputs("\n", o->out);
+  if (!dyd_tolerance_is_cut(&edges, &births, r->tolerance)) return DYD_OK;
+  fprintf(o->out, "# cut: %zu edges have no row; ", edges);
+  if (births == SIZE_MAX)
+    fputs("births were not looked for\n", o->out);
+  else
+    fprintf(o->out, "%zu pairs that may be born have none\n", births);
+  return DYD_OK;
+}
+
+/* Empty where nobody binds. */
+static void row_binding(dyd_table *t, uint32_t k) {
+  if (k == DYD_NO_SITE)
+    dyd_row_decimal(t, NAN, DYD_DOWN);
+  else
+    dyd_row_site(t, k);
+}
+
+static dyd_status rows_of_events(dyd_table *t, const dyd_output *o) {
+  const dyd_tolerance *tolerance = ((const dyd_result *)o->what)->tolerance;
+  const double *chance = dyd_tolerance_chances(tolerance);
+  const dyd_tolerance_row *row;
+  for (size_t n = dyd_tolerance_rows(&row, tolerance); n--; row++) {
+    row_line(t, row->i, row->j);
+    dyd_row_site(t, row->i);
+    dyd_row_site(t, row->j);
+    dyd_row_word(t, dyd_tolerance_event_text(row->event));
+    dyd_row_decimal(t, row->lo, DYD_DOWN);
+    dyd_row_decimal(t, row->hi, DYD_UP);
+    row_binding(t, row->k);
+    row_binding(t, row->l);
+    if (chance) dyd_row_decimal(t, *chance++, DYD_DOWN);
+    dyd_row_id(t, row->i);
+    dyd_row_id(t, row->j);
+    dyd_row_end(t);
   }
-  if (st == DYD_OK) dyd_table_end(&t);
-  dyd_triangle_list_clear(&list);
-  free(place);
+  return DYD_OK;
+}
+
+static dyd_status rows_of_radii(dyd_table *t, const dyd_output *o) {
+  const dyd_result *r = o->what;
+  const double *radius = dyd_tolerance_points(r->tolerance);
+  for (size_t i = 0; i < r->count; i++) {
+    dyd_row_begin(t);
+    dyd_row_spot(t, i);
+    dyd_row_site(t, i);
+    dyd_row_id(t, i);
+    dyd_row_decimal(t, radius[i], DYD_DOWN);
+    dyd_row_end(t);
+  }
+  return DYD_OK;
+}
+
+/* The first of the ascending numbers that is above x. */
+static size_t count_up_to(const double *sorted, size_t count, double x) {
+  size_t lo = 0, hi = count;
+  while (lo < hi) {
+    size_t mid = lo + (hi - lo) / 2;
+    if (sorted[mid] > x)
+      hi = mid;
+    else
+      lo = mid + 1;
+  }
+  return lo;
+}
+
+/* Accuracies 1, 2 and 5 times powers of ten, from below the first death to where the last edge is gone. The number
+ * shown is the text, so counts are those of an accuracy rounded up. */
+static void rows_of_deaths(dyd_table *t, const double *death, size_t count, size_t edges) {
+  static const int step[3] = {1, 2, 5};
+  size_t first = count_up_to(death, count, 0);
+  if (first == count) return;
+  int exp = (int)floor(log10(death[first]));
+  for (size_t k = 0;; k++) {
+    char text[24];
+    snprintf(text, sizeof text, "%de%d", step[k % 3], exp + (int)(k / 3));
+    size_t gone = count_up_to(death, count, nextafter(strtod(text, NULL), INFINITY));
+    dyd_row_begin(t);
+    dyd_row_word(t, text);
+    dyd_row_index(t, edges - gone);
+    dyd_row_index(t, gone);
+    dyd_row_end(t);
+    if (gone == count) return;
+  }
+}
+
+static dyd_status rows_of_barcode(dyd_table *t, const dyd_output *o) {
+  const dyd_tolerance *tolerance = ((const dyd_result *)o->what)->tolerance;
+  const dyd_tolerance_row *row;
+  size_t rows = dyd_tolerance_rows(&row, tolerance), count = 0, edges, births;
+  if (dyd_tolerance_is_cut(&edges, &births, tolerance)) return DYD_CANCELLED;
+  double *death = malloc((rows + 1) * sizeof *death);
+  if (!death) return DYD_E_NOMEM;
+  for (size_t k = 0; k < rows; k++) {
+    edges += row[k].event == DYD_EVENT_DEATH;
+    if (row[k].event == DYD_EVENT_DEATH && isfinite(row[k].lo)) death[count++] = row[k].lo;
+  }
+  qsort(death, count, sizeof *death, dyd_compare_double);
+  rows_of_deaths(t, death, count, edges);
+  free(death);
+  return DYD_OK;
+}
+
+/* ---- plans ---- */
+
+static dyd_status plan_comments(dyd_table *t, const dyd_output *o) {
+  const dyd_survey *plan = ((const dyd_result *)o->what)->survey;
+  const dyd_survey_row *row;
+  size_t open, ties, left, rows = dyd_survey_rows(&row, plan);
+  dyd_survey_count(&open, &ties, &left, plan);
+  alias_comments(t, o);
+  if (dyd_survey_is_cut(plan))
+    fprintf(o->out, "# cut: the plan is not finished: %zu of %zu pairs are open after its first %zu points\n", left,
+            open, rows);
+  else if (left)
+    fprintf(o->out, "# plan %zu points: not sufficient, %zu of %zu pairs stay open\n", rows, left, open);
+  else
+    fprintf(
+        o->out,
+        "# plan %zu points: sufficient if they turn out within these accuracies of their nominal places; verified\n",
+        rows);
+  if (ties)
+    fprintf(o->out, "# ties %zu: pairs that no accuracy decides, if points are at their nominal places\n", ties);
+  return DYD_OK;
+}
+
+static dyd_status rows_of_plan(dyd_table *t, const dyd_output *o) {
+  const dyd_result *r = o->what;
+  const dyd_survey_row *row;
+  size_t rows = dyd_survey_rows(&row, r->survey);
+  for (size_t k = 0; k < rows && (k == 0 || !r->next); k++) {
+    dyd_row_begin(t);
+    dyd_row_spot(t, row[k].site);
+    dyd_row_index(t, k + 1);
+    dyd_row_site(t, row[k].site);
+    dyd_row_decimal(t, row[k].now, DYD_UP);
+    dyd_row_decimal(t, row[k].needed, DYD_DOWN);
+    dyd_row_index(t, row[k].decided);
+    dyd_row_index(t, row[k].left);
+    dyd_row_id(t, row[k].site);
+    dyd_row_end(t);
+  }
+  return DYD_OK;
+}
+
+/* ---- the table ---- */
+
+#define POINT DYD_GEOMETRY_POINT
+#define LINE DYD_GEOMETRY_LINE
+#define POLYGON DYD_GEOMETRY_POLYGON
+#define LINES DYD_GEOMETRY_LINES
+#define POLYGONS DYD_GEOMETRY_POLYGONS
+#define IN(name) DYD_CONTENT_##name
+#define PAIRS "i,j,status,id_i,id_j"
+#define POINTS "i,id,xlo,xhi,ylo,yhi,legal,indeterminate,tie,hull"
+#define TRIANGLES "i,j,k,id_i,id_j,id_k"
+
+/* content, name, layer of, in wkt and geojson, drawn at sites, geometry, comments, rows, columns */
+static const dyd_layer layers[] = {
+    {IN(DELAUNAY), "pairs", IN(DELAUNAY), true, true, LINE, pair_comments, rows_of_pairs, PAIRS},
+    {IN(POINTS), "points", IN(DELAUNAY), true, true, POINT, point_comments, rows_of_points, POINTS},
+    {IN(TRIANGLES), "triangles", IN(DELAUNAY), true, true, POLYGON, alias_comments, rows_of_triangles, TRIANGLES},
+    {IN(GRAPH_NEAREST), "graph:nearest", IN(DELAUNAY), true, true, LINE, alias_comments, rows_of_graph, PAIRS},
+    {IN(GRAPH_GABRIEL), "graph:gabriel", IN(DELAUNAY), true, true, LINE, alias_comments, rows_of_graph, PAIRS},
+    {IN(GRAPH_MST), "graph:mst", IN(DELAUNAY), true, true, LINE, alias_comments, rows_of_graph, PAIRS},
+    {IN(ALIASES), "aliases", IN(DELAUNAY), true, false, POINT, NULL, rows_of_aliases, "i,of"},
+    {IN(TIES), "ties", IN(DELAUNAY), false, false, POINT, NULL, rows_of_ties, "kind,sites"},
+    {IN(VORONOI), "cells", IN(VORONOI), true, false, POLYGON, dyd_cell_comments, dyd_cell_rows,
+     "?kind,i,id,xlo,xhi,ylo,yhi,area_lo,area_hi,undetermined"},
+    {IN(VERTICES), "vertices", IN(VORONOI), true, false, POINT, dyd_vertex_comments, dyd_vertex_rows,
+     "i,j,k,xlo,xhi,ylo,yhi,id_i,id_j,id_k"},
+    {IN(REGIONS), "regions", IN(VORONOI), true, false, POLYGON, dyd_diagram_comments, dyd_region_rows,
+     "face,xlo,xhi,ylo,yhi,sites"},
+    {IN(EDGES), "edges", IN(VORONOI), true, false, LINE, dyd_diagram_comments, dyd_edge_rows,
+     "i,j,left,right,id_i,id_j"},
+    {IN(VORONOI_ALIASES), "aliases", IN(VORONOI), true, false, POINT, NULL, rows_of_aliases, "i,of"},
+    {IN(TOLERANCE), "pairs", IN(TOLERANCE), true, true, LINE, tolerance_comments, rows_of_events,
+     "i,j,event,lo,hi,k,l,?probability,id_i,id_j"},
+    {IN(RADII), "points", IN(TOLERANCE), true, true, POINT, tolerance_comments, rows_of_radii, "i,id,rho"},
+    {IN(BARCODE), "barcode", IN(TOLERANCE), false, false, POINT, tolerance_comments, rows_of_barcode,
+     "accuracy,certain,open"},
+    {IN(PLAN), NULL, IN(PLAN), true, true, POINT, plan_comments, rows_of_plan,
+     "rank,i,half_width_now,half_width_needed,pairs_decided,pairs_left,id"},
+    {IN(SPHERE), "pairs", IN(SPHERE), true, true, LINES, pair_comments, rows_of_pairs, PAIRS},
+    {IN(SPHERE_POINTS), "points", IN(SPHERE), true, true, POINT, point_comments, rows_of_points, POINTS},
+    {IN(SPHERE_TRIANGLES), "triangles", IN(SPHERE), true, true, POLYGONS, alias_comments, rows_of_triangles, TRIANGLES},
+    {IN(SPHERE_VORONOI), "cells", IN(SPHERE_VORONOI), true, false, POLYGONS, alias_comments, dyd_globe_cell_rows,
+     "i,id,complete,vertices"},
+    {IN(SPHERE_VERTICES), "vertices", IN(SPHERE_VORONOI), true, false, POINT, dyd_globe_vertex_comments,
+     dyd_globe_vertex_rows, "i,j,k,id_i,id_j,id_k,xlo,xhi,ylo,yhi"},
+    {IN(SPHERE_REGIONS), "regions", IN(SPHERE_VORONOI), false, false, POINT, alias_comments, dyd_globe_region_rows,
+     "face,status,sites"},
+    {IN(CHECK), NULL, IN(CHECK), false, false, POINT, NULL, dyd_check_rows,
+     "fault,schedules,stages,pairs,cells,floors,seed,moves"},
+    {IN(DISC), NULL, IN(DISC), false, false, POINT, dyd_disc_comments, dyd_disc_rows, "i,con,id"},
+    {IN(BISECTOR), NULL, IN(BISECTOR), false, false, POINT, dyd_bisector_comments, dyd_bisector_rows,
+     "far,near,kind,corner,feature,begin,begin_x,begin_y,begin_xlo,begin_xhi,begin_ylo,begin_yhi,end,end_x,end_y,"
+     "end_xlo,end_xhi,end_ylo,end_yhi,id_far,id_near"},
+    {IN(NEAREST), NULL, IN(NEAREST), false, false, POINT, dyd_nearest_comments, dyd_nearest_rows, "i,status,lo,hi,id"},
+    {IN(PLACES), NULL, IN(PLACES), false, false, POINT, dyd_nearest_comments, dyd_nearest_rows, "q,i,status,lo,hi,id"},
+};
+
+const dyd_layer *dyd_layer_at(size_t k) {
+  return k < sizeof layers / sizeof *layers ? &layers[k] : NULL;
+}
+
+const dyd_layer *dyd_layer_of(dyd_content content) {
+  size_t k = 0;
+  while (dyd_layer_at(k) && layers[k].content != content) k++;
+  return dyd_layer_at(k);
+}
+
+/* ---- writing ---- */
+
+/* Where the sites of a layer are drawn. */
+static dyd_status layer_places(dyd_table *t, const dyd_output *o) {
+  const dyd_result *r = o->what;
+  dyd_status st = DYD_OK;
+  if (!t->layer->sites || o->format == DYD_FORMAT_CSV) return DYD_OK;
+  if (t->sphere) return dyd_sphere_boxes(&t->box, t->sphere);
+  t->place = dyd_alloc(r->count, sizeof *t->place);
+  if (!t->place) return DYD_E_NOMEM;
+  for (size_t i = 0; i < r->count && st == DYD_OK; i++) {
+    double box[4];
+    st = dyd_result_box(box, r, i, o->err);
+    if (st == DYD_OK) dyd_place_set(&t->place[i], box);
+  }
+  return st;
+}
+
+/* Are there columns that may be left out? */
+static bool is_whole(const dyd_output *o) {
+  if (o->content != DYD_CONTENT_TOLERANCE) return o->format != DYD_FORMAT_CSV;
+  return dyd_tolerance_chances(((const dyd_result *)o->what)->tolerance);
+}
+
+dyd_status dyd_layer_write(const dyd_output *o) {
+  dyd_table t = {.layer = dyd_layer_of(o->content), .engine = o->engine, .sphere = o->sphere};
+  dyd_status st = layer_places(&t, o);
+  if (st == DYD_OK && o->format == DYD_FORMAT_CSV && t.layer->comments) st = t.layer->comments(&t, o);
+  if (st == DYD_OK) {
+    dyd_table_begin(&t, o, is_whole(o));
+    st = t.layer->rows(&t, o);
+    dyd_table_end(&t);
+  }
+  free(t.kept);
+  free(t.box);
+  free(t.place);
   return st;
 }

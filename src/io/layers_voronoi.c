@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The layers of the Voronoi diagram: cells, vertices, regions, edges. */
+/* The layers of Voronoi diagrams: cells, vertices, regions, edges of the plane; cells as cyclic lists of vertices,
+ * vertices in boxes of degrees, and undecided regions by their sites, of a sphere. */
+#define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "base/alloc.h"
 #include "io/diagram.h"
-#include "io/dual.h"
-#include "io/parts.h"
+#include "io/sphere_cells.h"
 #include "io/table.h"
+#include <inttypes.h>
 #include <math.h>
-
-static dyd_table_head diagram_head(const dyd_output *o, const char *const *column, dyd_geometry geometry) {
-  const dyd_diagram *d = o->what;
-  return (dyd_table_head){o->out, o->format, column, geometry, d->epsg, d->engine, NULL};
-}
 
 /* ---- comments of csv ---- */
 
@@ -20,11 +17,10 @@ static void put_bound(FILE *out, const char *name, const dyd_dyadic *bound) {
   fputs("\n", out);
 }
 
-/* In csv; the bounds are known. */
-static dyd_status diagram_comments(const dyd_output *o) {
+/* The bounds are known. */
+static dyd_status put_bounds(const dyd_output *o) {
   const dyd_diagram *d = o->what;
-  if (o->format != DYD_FORMAT_CSV) return DYD_OK;
-  dyd_csv_aliases(o->out, d->engine);
+  dyd_csv_aliases(o->out, d->engine, NULL);
   fputs("# window ", o->out);
   dyd_status st = dyd_put_window(o->out, &d->window, "", " ");
   fputs("\n", o->out);
@@ -42,10 +38,15 @@ static dyd_status keep_row(void *context, uint32_t i, const dyd_shape *shape, co
   return DYD_OK;
 }
 
-/* Finds the bounds, and writes the comments. */
-static dyd_status diagram_begin(const dyd_output *o) {
+dyd_status dyd_diagram_comments(dyd_table *t, const dyd_output *o) {
+  (void)t;
   dyd_status st = dyd_diagram_visit(o->what, keep_row, NULL);
-  return st == DYD_OK ? diagram_comments(o) : st;
+  return st == DYD_OK ? put_bounds(o) : st;
+}
+
+/* Where there are no comments, the bounds are found all the same: the caller wants them. */
+static dyd_status find_bounds(const dyd_table *t, const dyd_diagram *d) {
+  return dyd_table_is_drawn(t) ? dyd_diagram_visit(d, keep_row, NULL) : DYD_OK;
 }
 
 /* ---- cells ---- */
@@ -60,32 +61,17 @@ static void cell_values(dyd_table *t, size_t i, const dyd_cell_row *row) {
   dyd_row_end(t);
 }
 
-static dyd_status cells_csv(const dyd_output *o) {
-  static const char *const column[] = {"i",   "id",      "xlo",     "xhi",          "ylo",
-                                       "yhi", "area_lo", "area_hi", "undetermined", NULL};
+/* Cells give the bounds, which come first. */
+dyd_status dyd_cell_comments(dyd_table *t, const dyd_output *o) {
   const dyd_diagram *d = o->what;
-  const dyd_table_head head = diagram_head(o, column, DYD_GEOMETRY_POLYGON);
   uint64_t bytes = dyd_bytes_times(d->count, sizeof(dyd_cell_row));
-  dyd_cell_row *rows = NULL;
-  if (dyd_room_has(d->room, bytes, "the rows of the cells")) rows = calloc(d->count ? d->count : 1, sizeof *rows);
+  if (dyd_room_has(d->room, bytes, "the rows of the cells"))
+    t->kept = calloc(d->count ? d->count : 1, sizeof(dyd_cell_row));
   d->room->beside += bytes;
-  dyd_table t;
-  dyd_status st = rows ? dyd_diagram_visit(d, keep_row, rows) : DYD_E_NOMEM;
-  if (st == DYD_OK) st = diagram_comments(o);
-  if (st == DYD_OK) {
-    dyd_table_begin(&t, &head);
-    for (size_t i = 0; i < d->count; i++) {
-      if (!rows[i].present) continue;
-      dyd_row_begin(&t);
-      cell_values(&t, i, &rows[i]);
-    }
-    dyd_table_end(&t);
-  }
-  free(rows);
-  return st;
+  dyd_status st = t->kept ? dyd_diagram_visit(d, keep_row, t->kept) : DYD_E_NOMEM;
+  return st == DYD_OK ? put_bounds(o) : st;
 }
 
-/* A row of wkt or geojson. */
 static void cell_polygon(dyd_table *t, const char *kind, uint32_t i, const dyd_polygon *p, const dyd_cell_row *row) {
   if (p->count < 3) return;
   dyd_row_begin(t);
@@ -97,7 +83,7 @@ static void cell_polygon(dyd_table *t, const char *kind, uint32_t i, const dyd_p
     if (row->rounding > 0) place.error = nextafter(place.error + row->rounding, INFINITY);
     dyd_row_place(t, &place);
   }
-  dyd_row_text(t, kind);
+  dyd_row_word(t, kind);
   cell_values(t, i, row);
 }
 
@@ -115,16 +101,16 @@ static dyd_status cell_polygons(void *context, uint32_t i, const dyd_shape *shap
 }
 
 /* A line for each cell in csv; polygons in wkt and geojson. */
-dyd_status dyd_layer_cells(const dyd_output *o) {
-  static const char *const column[] = {"kind", "i",       "id",      "xlo",          "xhi", "ylo",
-                                       "yhi",  "area_lo", "area_hi", "undetermined", NULL};
-  const dyd_table_head head = diagram_head(o, column, DYD_GEOMETRY_POLYGON);
-  dyd_table t;
-  if (o->format == DYD_FORMAT_CSV) return cells_csv(o);
-  dyd_table_begin(&t, &head);
-  dyd_status st = dyd_diagram_visit(o->what, cell_polygons, &t);
-  dyd_table_end(&t);
-  return st;
+dyd_status dyd_cell_rows(dyd_table *t, const dyd_output *o) {
+  const dyd_diagram *d = o->what;
+  const dyd_cell_row *rows = t->kept;
+  if (dyd_table_is_drawn(t)) return dyd_diagram_visit(d, cell_polygons, t);
+  for (size_t i = 0; i < d->count; i++) {
+    if (!rows[i].present) continue;
+    dyd_row_begin(t);
+    cell_values(t, i, &rows[i]);
+  }
+  return DYD_OK;
 }
 
 /* ---- vertices ---- */
@@ -133,41 +119,41 @@ static dyd_status exact_vertex(dyd_table *t, const dyd_diagram *d, size_t k) {
   char *text[4];
   dyd_status st = dyd_diagram_vertex(text, d, k);
   for (int m = 0; m < 4; m++) {
-    if (st == DYD_OK) dyd_row_text(t, text[m]);
+    if (st == DYD_OK) dyd_row_word(t, text[m]);
     free(text[m]);
   }
   return st;
 }
 
-/* In csv: all sites of vertices that have more than three. */
-static dyd_status tied_comments(const dyd_output *o) {
+/* All sites of vertices that have more than three. */
+dyd_status dyd_vertex_comments(dyd_table *t, const dyd_output *o) {
   const dyd_diagram *d = o->what;
-  dyd_status st = DYD_OK;
-  if (o->format != DYD_FORMAT_CSV) return st;
+  dyd_status st = dyd_diagram_comments(t, o);
   for (size_t k = d->triangles.count; k < dyd_diagram_vertices(d) && st == DYD_OK; k++) {
     dyd_index_list sites = {0};
     st = dyd_diagram_vertex_sites(&sites, d, k);
-    if (st == DYD_OK) fputs("# tie", o->out);
-    for (size_t q = 0; q < sites.count; q++) fprintf(o->out, " %zu", dyd_engine_row(d->engine, sites.item[q]));
-    if (st == DYD_OK) fputs("\n", o->out);
+    if (st != DYD_OK) break;
+    fputs("# tie ", o->out);
+    dyd_put_rows(o->out, d->engine, &sites, " ");
+    fputs("\n", o->out);
     dyd_index_list_clear(&sites);
   }
   return st;
 }
 
 /* The row of vertex k; of a tied one with its first three sites. */
-static dyd_status row_vertex(dyd_table *t, const dyd_diagram *d, size_t k, const double box[4], bool exact) {
+static dyd_status row_vertex(dyd_table *t, const dyd_diagram *d, size_t k, bool exact) {
   dyd_index_list sites = {0};
   dyd_status st = dyd_diagram_vertex_sites(&sites, d, k);
   if (st != DYD_OK) return st;
   dyd_row_begin(t);
-  dyd_row_at(t, box);
-  for (int c = 0; c < 3; c++) dyd_row_site(t, sites.item[c]);
+  dyd_row_at(t, d->vertex[k]);
+  dyd_row_three(t, sites.item, false);
   if (exact)
     st = exact_vertex(t, d, k);
   else
-    dyd_row_box(t, box);
-  for (int c = 0; c < 3; c++) dyd_row_id(t, sites.item[c]);
+    dyd_row_box(t, d->vertex[k]);
+  dyd_row_three(t, sites.item, true);
   dyd_row_end(t);
   dyd_index_list_clear(&sites);
   return st;
@@ -175,59 +161,40 @@ static dyd_status row_vertex(dyd_table *t, const dyd_diagram *d, size_t k, const
 
 /* wkt and geojson hold those that can be drawn and whose enclosure meets the window. Where a goal asks for more than
  * decimals of 17 digits show, the enclosures are exact numbers in csv. */
-dyd_status dyd_layer_vertices(const dyd_output *o) {
-  static const char *const column[] = {"i", "j", "k", "xlo", "xhi", "ylo", "yhi", "id_i", "id_j", "id_k", NULL};
+dyd_status dyd_vertex_rows(dyd_table *t, const dyd_output *o) {
   const dyd_diagram *d = o->what;
-  const dyd_table_head head = diagram_head(o, column, DYD_GEOMETRY_POINT);
-  bool csv = o->format == DYD_FORMAT_CSV;
+  bool csv = !dyd_table_is_drawn(t);
   int64_t goal_bits;
   bool exact = csv && dyd_engine_goal(&goal_bits, d->engine) == DYD_GOAL_VORONOI_HAUSDORFF && goal_bits > 32;
-  dyd_table t;
-  dyd_status st = diagram_begin(o);
-  if (st == DYD_OK) st = tied_comments(o);
-  if (st == DYD_OK) dyd_table_begin(&t, &head);
-  for (size_t k = 0; k < dyd_diagram_vertices(d) && st == DYD_OK; k++) {
-    if (csv || dyd_diagram_vertex_in_window(d, k)) st = row_vertex(&t, d, k, d->vertex[k], exact);
-  }
-  if (st == DYD_OK) dyd_table_end(&t);
+  dyd_status st = find_bounds(t, d);
+  for (size_t k = 0; k < dyd_diagram_vertices(d) && st == DYD_OK; k++)
+    if (csv || dyd_diagram_vertex_in_window(d, k)) st = row_vertex(t, d, k, exact);
   return st;
 }
 
 /* ---- regions ---- */
 
-typedef struct regions {
-  dyd_table t;
-  const dyd_diagram *d;
-} regions;
-
-static dyd_status layer_region(void *context, size_t face, const double box[4]) {
-  regions *g = context;
+static dyd_status row_region(void *context, size_t face, const double box[4]) {
+  dyd_table *t = context;
   dyd_index_list sites = {0};
   bool outer;
   if (!box) return DYD_OK;
-  dyd_status st = dyd_delaunay_face(&sites, &outer, g->d->pd, face);
+  dyd_status st = dyd_delaunay_face(&sites, &outer, dyd_engine_delaunay(t->engine), face);
   if (st == DYD_OK) {
-    dyd_row_begin(&g->t);
-    dyd_row_outline(&g->t, box);
-    dyd_row_index(&g->t, face);
-    dyd_row_box(&g->t, box);
-    st = dyd_row_sites(&g->t, &sites);
-    dyd_row_end(&g->t);
+    dyd_row_begin(t);
+    dyd_row_outline(t, box);
+    dyd_row_index(t, face);
+    dyd_row_box(t, box);
+    st = dyd_row_sites(t, &sites);
+    dyd_row_end(t);
   }
   dyd_index_list_clear(&sites);
   return st;
 }
 
-dyd_status dyd_layer_regions(const dyd_output *o) {
-  static const char *const column[] = {"face", "xlo", "xhi", "ylo", "yhi", "sites", NULL};
-  const dyd_table_head head = diagram_head(o, column, DYD_GEOMETRY_POLYGON);
-  regions g = {.d = o->what};
-  dyd_status st = diagram_begin(o);
-  if (st != DYD_OK) return st;
-  dyd_table_begin(&g.t, &head);
-  st = dyd_diagram_regions(g.d, layer_region, &g);
-  dyd_table_end(&g.t);
-  return st;
+dyd_status dyd_region_rows(dyd_table *t, const dyd_output *o) {
+  dyd_status st = find_bounds(t, o->what);
+  return st == DYD_OK ? dyd_diagram_regions(o->what, row_region, t) : st;
 }
 
 /* ---- edges ---- */
@@ -260,36 +227,130 @@ static dyd_status edge_value(dyd_table *t, const dyd_diagram *d, const dyd_dual_
   if (vertex)
     snprintf(text, sizeof text, "%zu",
              dyd_engine_row(d->engine, third_corner(&d->triangles.item[to->vertex], e->i, e->j)));
-  dyd_row_text(t, text);
+  dyd_row_word(t, text);
   return DYD_OK;
 }
 
 /* csv lists all; wkt and geojson those with two ends that can be drawn. */
-dyd_status dyd_layer_edges(const dyd_output *o) {
-  static const char *const column[] = {"i", "j", "left", "right", "id_i", "id_j", NULL};
+dyd_status dyd_edge_rows(dyd_table *t, const dyd_output *o) {
   const dyd_diagram *d = o->what;
-  const dyd_table_head head = diagram_head(o, column, DYD_GEOMETRY_LINE);
   dyd_dual_edge *edge = NULL;
   size_t count = 0;
-  dyd_table t;
-  dyd_status st = diagram_begin(o);
+  dyd_status st = find_bounds(t, d);
   if (st == DYD_OK) st = dyd_dual_edges(&edge, &count, d->pd, &d->triangles, d->tied, d->ties, d->room);
-  if (st != DYD_OK) return st;
-  dyd_table_begin(&t, &head);
   for (size_t k = 0; k < count && st == DYD_OK; k++) {
     double box[2][4];
     bool drawn = dyd_diagram_edge(box, d, &edge[k]);
-    if (!drawn && o->format != DYD_FORMAT_CSV) continue;
-    dyd_row_begin(&t);
-    for (int end = 0; drawn && end < 2; end++) dyd_row_at(&t, box[end]);
-    dyd_row_site(&t, edge[k].i);
-    dyd_row_site(&t, edge[k].j);
-    for (int end = 0; end < 2 && st == DYD_OK; end++) st = edge_value(&t, d, &edge[k], end);
-    dyd_row_id(&t, edge[k].i);
-    dyd_row_id(&t, edge[k].j);
-    dyd_row_end(&t);
+    if (!drawn && dyd_table_is_drawn(t)) continue;
+    dyd_row_begin(t);
+    for (int end = 0; drawn && end < 2; end++) dyd_row_at(t, box[end]);
+    dyd_row_site(t, edge[k].i);
+    dyd_row_site(t, edge[k].j);
+    for (int end = 0; end < 2 && st == DYD_OK; end++) st = edge_value(t, d, &edge[k], end);
+    dyd_row_id(t, edge[k].i);
+    dyd_row_id(t, edge[k].j);
+    dyd_row_end(t);
   }
-  dyd_table_end(&t);
   free(edge);
+  return st;
+}
+
+/* ---- cells of a sphere ---- */
+
+/* The vertices of a cell, "3 7 9", with a star before those that an undecided region comes before; the caller's. */
+static char *cell_nodes(const dyd_sphere_cells *c, size_t i) {
+  char *text = NULL;
+  size_t length = 0;
+  FILE *list = open_memstream(&text, &length);
+  for (size_t k = c->first[i]; list && k < c->first[i + 1]; k++)
+    fprintf(list, "%s%s%" PRIu32, k > c->first[i] ? " " : "", c->gap[k] ? "* " : "", c->of[k]);
+  if (list && fclose(list) == 0) return text;
+  free(text);
+  return NULL;
+}
+
+/* How far a vertex may be from where it is shown; at a pole longitudes are one. */
+static double node_error(const dyd_sphere_node *v) {
+  double lon = v->at.lon + 360 * nearbyint((v->box[0] / 2 + v->box[1] / 2 - v->at.lon) / 360);
+  double x = fabs(v->at.lat) == 90 ? 0 : fmax(lon - v->box[0], v->box[1] - lon);
+  return fmax(x, fmax(v->at.lat - v->box[2], v->box[3] - v->at.lat));
+}
+
+/* The polygon of a cell that is known all around. */
+static dyd_status cell_outline(dyd_table *t, const dyd_sphere_cells *c, double most, uint32_t i) {
+  size_t n = c->first[i + 1] - c->first[i];
+  double error = 0;
+  if (!dyd_table_is_drawn(t) || !c->closed[i]) return DYD_OK;
+  dyd_side *side = dyd_alloc(n + 1, sizeof *side);
+  if (!side) return DYD_E_NOMEM;
+  for (size_t k = 0; k < n; k++) side[k] = dyd_sphere_cell_side(c, i, k);
+  n += dyd_sphere_cell_is_half(&side[n], c, t->sphere, i);
+  dyd_status st = dyd_row_around(t, side, n, most);
+  for (size_t k = c->first[i]; k < c->first[i + 1]; k++) error = fmax(error, node_error(&c->node[c->of[k]]));
+  t->error += error;
+  free(side);
+  return st;
+}
+
+static dyd_status row_cell(dyd_table *t, const dyd_sphere_cells *c, double most, uint32_t i) {
+  char *nodes = cell_nodes(c, i);
+  if (!nodes) return DYD_E_NOMEM;
+  dyd_row_begin(t);
+  dyd_status st = cell_outline(t, c, most, i);
+  dyd_row_site(t, i);
+  dyd_row_id(t, i);
+  dyd_row_word(t, c->closed[i] ? "yes" : "no");
+  dyd_row_word(t, nodes);
+  dyd_row_end(t);
+  free(nodes);
+  return st;
+}
+
+dyd_status dyd_globe_cell_rows(dyd_table *t, const dyd_output *o) {
+  const dyd_result *r = o->what;
+  dyd_sphere_cells c = {0};
+  dyd_status st = dyd_sphere_cells_find(&c, r->sphere, o->err);
+  for (uint32_t i = 0; i < r->count && st == DYD_OK; i++)
+    if (dyd_sphere_alias(r->sphere, i) == i) st = row_cell(t, &c, r->max_arc, i);
+  dyd_sphere_cells_clear(&c);
+  return st;
+}
+
+dyd_status dyd_globe_vertex_comments(dyd_table *t, const dyd_output *o) {
+  dyd_csv_aliases(o->out, t->engine, t->sphere);
+  fputs("# rounding: lo down, hi up\n", o->out);
+  return DYD_OK;
+}
+
+dyd_status dyd_globe_vertex_rows(dyd_table *t, const dyd_output *o) {
+  dyd_sphere_cells c = {0};
+  dyd_status st = dyd_sphere_cells_find(&c, t->sphere, o->err);
+  for (size_t k = 0; k < c.nodes && st == DYD_OK; k++) {
+    dyd_row_begin(t);
+    dyd_row_at(t, c.node[k].box);
+    dyd_row_three(t, c.node[k].of.v, false);
+    dyd_row_three(t, c.node[k].of.v, true);
+    dyd_row_box(t, c.node[k].box);
+    dyd_row_end(t);
+  }
+  dyd_sphere_cells_clear(&c);
+  return st;
+}
+
+dyd_status dyd_globe_region_rows(dyd_table *t, const dyd_output *o) {
+  (void)o;
+  dyd_index_list sites = {0};
+  dyd_status st = DYD_OK;
+  for (size_t f = 0; f < dyd_sphere_faces(t->sphere) && st == DYD_OK; f++) {
+    bool tie;
+    st = dyd_sphere_face(&sites, &tie, t->sphere, f);
+    if (st != DYD_OK) break;
+    dyd_row_begin(t);
+    dyd_row_index(t, f);
+    dyd_row_word(t, tie ? "tie" : "indeterminate");
+    st = dyd_row_sites(t, &sites);
+    dyd_row_end(t);
+  }
+  dyd_index_list_clear(&sites);
   return st;
 }

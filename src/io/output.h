@@ -15,17 +15,20 @@ typedef struct dyd_output {
   dyd_format format;
   const void *what; /* the type that belongs to the content */
   dyd_error *err;
-  dyd_content content; /* for writers of several */
+  dyd_content content;      /* for writers of several */
+  const dyd_engine *engine; /* whose rows and identifiers name sites; NULL: their numbers do */
+  const dyd_sphere *sphere; /* coordinates are degrees on it; NULL: a plane */
+  unsigned epsg;            /* the reference system of the coordinates; 0: none is claimed */
 } dyd_output;
 
 typedef dyd_status dyd_writer(const dyd_output *o);
 /* The writers of a format are an array by content, NULL where it cannot hold that: dyd_NAME_writers, in the file that
- * writes it. */
+ * writes it. Layers have none, they are rows (table.h). */
 enum { DYD_CONTENTS = DYD_CONTENT_TIES + 1 };
 
-/* `what` by content: dyd_result (result.h) and dyd_diagram (diagram.h), also of their layers, dyd_stage_table,
- * dyd_convergence, dyd_check_report, dyd_disc_output, dyd_bisector_output, dyd_nearest_output, dyd_tolerance_result,
- * also of its layers, dyd_plan_result, dyd_sphere_result, also of its layers. */
+/* `what` by content: dyd_diagram (diagram.h) of a Voronoi diagram of the plane and its layers; dyd_stage_table,
+ * dyd_convergence, dyd_check_report, dyd_disc_output, dyd_bisector_output, dyd_nearest_output; of all others a
+ * dyd_result (result.h). */
 typedef struct dyd_stage_table {
   const dyd_convergence *stages;
   bool times;
@@ -59,37 +62,8 @@ typedef struct dyd_nearest_output {
   dyd_outcome outcome; /* of all */
 } dyd_nearest_output;
 
-typedef struct dyd_tolerance_result {
-  struct dyd_result *result; /* of the nominal places (result.h) */
-  const dyd_tolerance *tolerance;
-} dyd_tolerance_result;
-
-typedef struct dyd_plan_result {
-  struct dyd_result *result;
-  const dyd_survey *survey;
-  bool next;
-} dyd_plan_result;
-
-typedef struct dyd_sphere_result {
-  const dyd_sphere *sphere;
-  dyd_pair_list pairs;
-  unsigned epsg;
-  const dyd_rect *window; /* what pictures show, in degrees; NULL: everything */
-  double max_arc;         /* sides of cells are divided into arcs of so many degrees at most */
-} dyd_sphere_result;
-
 /* Writers that such arrays take from other files. */
-dyd_writer dyd_layer_pairs, dyd_layer_points, dyd_layer_triangles, dyd_layer_graph;
-dyd_writer dyd_layer_aliases, dyd_layer_ties;
-dyd_writer dyd_layer_cells, dyd_layer_vertices, dyd_layer_regions, dyd_layer_edges;
-dyd_writer dyd_voronoi_json, dyd_voronoi_vtk;
-dyd_writer dyd_plan_rows;
-dyd_writer dyd_layer_tolerance, dyd_layer_radii, dyd_layer_barcode, dyd_tolerance_json;
-dyd_writer dyd_convergence_csv, dyd_convergence_json, dyd_check_csv, dyd_check_json;
-dyd_writer dyd_disc_csv, dyd_disc_json, dyd_bisector_csv, dyd_bisector_json, dyd_nearest_csv, dyd_nearest_json;
-dyd_writer dyd_sphere_layer_pairs, dyd_sphere_layer_points, dyd_sphere_layer_triangles, dyd_sphere_json;
-dyd_writer dyd_sphere_layer_cells, dyd_sphere_layer_vertices, dyd_sphere_layer_regions, dyd_sphere_voronoi_json;
-dyd_writer dyd_places_csv, dyd_places_json;
+dyd_writer dyd_convergence_json, dyd_check_json, dyd_disc_json, dyd_bisector_json, dyd_nearest_json;
 
 /* The end of a file: DYD_E_IO with a message unless everything went out. */
 dyd_status dyd_output_end(FILE *out, dyd_error *err);

@@ -1,41 +1,53 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What the writers of the triangulation share, and the end of every file. */
+/* What the writers share: the result of a plane or of a sphere, words, and the end of every file. */
 #include "io/result.h"
+
 #include "base/alloc.h"
 #include "base/error.h"
 #include <errno.h>
 #include <math.h>
 #include <string.h>
 
-const char *dyd_pair_status_text(dyd_pair_status status) {
-  static const char *const text[] = {
-      [DYD_ILLEGAL] = "illegal", [DYD_TIE] = "tie", [DYD_INDETERMINATE] = "indeterminate", [DYD_LEGAL] = "legal"};
-  return text[status];
+/* ---- a result of a plane or of a sphere ---- */
+
+dyd_outcome dyd_result_outcome(const dyd_result *r) {
+  return r->sphere ? dyd_sphere_outcome(r->sphere) : dyd_engine_outcome(r->engine);
 }
 
-dyd_status dyd_result_box(double box[4], const dyd_result *r, size_t i, dyd_error *err) {
-  dyd_sites_get_d(box, r->sites, i);
-  if (isfinite(box[0]) && isfinite(box[1]) && isfinite(box[2]) && isfinite(box[3])) return DYD_OK;
-  if (err) err->point = i;
-  return dyd_fail(err, DYD_E_RANGE,
-                  "point %zu lies beyond the largest double, which this format cannot show; use csv or json", i);
+uint32_t dyd_result_alias(const dyd_result *r, uint32_t i) {
+  return r->sphere ? dyd_sphere_alias(r->sphere, i) : dyd_delaunay_alias(r->pd, i);
 }
 
-dyd_status dyd_result_places(dyd_place **out, char bound[DYD_DECIMAL_SIZE], const dyd_result *r, dyd_error *err) {
-  dyd_place *places = dyd_alloc(r->count, sizeof *places);
-  dyd_status st = places ? DYD_OK : DYD_E_NOMEM;
-  double box[4], most = 0;
-  for (size_t i = 0; i < r->count && st == DYD_OK; i++) {
-    st = dyd_result_box(box, r, i, err);
-    if (st != DYD_OK) break;
-    dyd_place_set(&places[i], box);
-    most = fmax(most, places[i].error);
+dyd_status dyd_result_rect(dyd_rect *out, const dyd_result *r, uint32_t i) {
+  return r->sphere ? dyd_sphere_rect(out, r->sphere, i) : dyd_sites_get(out, r->sites, i);
+}
+
+dyd_status dyd_result_triangles(dyd_triangle_list *out, const dyd_result *r) {
+  if (r->sphere) return dyd_sphere_triangles(out, r->sphere);
+  return r->discs ? dyd_disc_triangles(out, &r->pairs, r->pd) : dyd_delaunay_triangles(out, r->pd);
+}
+
+void dyd_result_count(size_t count[4], const dyd_result *r) {
+  for (int k = 0; k < 4; k++) count[k] = 0;
+  if (!r->sphere) dyd_delaunay_count(count, r->pd);
+  for (size_t k = 0; r->sphere && k < r->pairs.count; k++) count[r->pairs.item[k].status]++;
+}
+
+dyd_status dyd_sphere_boxes(double (**out)[4], const dyd_sphere *s) {
+  size_t n = dyd_engine_count(dyd_sphere_places(s));
+  double(*box)[4] = dyd_alloc(n, sizeof *box);
+  dyd_rect r;
+  dyd_status st = box ? DYD_OK : DYD_E_NOMEM;
+  dyd_rect_init(&r);
+  for (uint32_t i = 0; i < n && st == DYD_OK; i++) {
+    st = dyd_sphere_rect(&r, s, i);
+    if (st == DYD_OK) dyd_rect_get_d(box[i], &r);
   }
-  dyd_decimal_directed(bound, most, 2, DYD_UP);
+  dyd_rect_clear(&r);
   if (st == DYD_OK)
-    *out = places;
+    *out = box;
   else
-    free(places);
+    free(box);
   return st;
 }
 
@@ -45,7 +57,7 @@ static void mark_hull(dyd_site_row *rows, const dyd_index_list *list, const char
 
 static dyd_status find_hull(dyd_site_row *rows, const dyd_result *r) {
   dyd_index_list sure = {0}, possible = {0};
-  dyd_status st = dyd_delaunay_hull_vertices(&sure, &possible, r->pd);
+  dyd_status st = r->sphere ? DYD_OK : dyd_delaunay_hull_vertices(&sure, &possible, r->pd);
   for (size_t i = 0; i < r->count; i++) rows[i].hull = "not";
   mark_hull(rows, &possible, "possibly");
   mark_hull(rows, &sure, "surely");
@@ -65,22 +77,23 @@ static dyd_status count_ties(void *context, dyd_group_kind kind, const dyd_index
   return DYD_OK;
 }
 
-/* Ties come as groups, whether pairs hold them or not. */
+/* In the plane ties come as groups, whether pairs hold them or not. */
 dyd_status dyd_result_sites(dyd_site_row **out, const dyd_result *r) {
   dyd_site_row *rows = calloc(r->count ? r->count : 1, sizeof *rows);
   dyd_status st = rows ? find_hull(rows, r) : DYD_E_NOMEM;
+  bool groups = !r->discs && !r->sphere;
   if (st != DYD_OK) {
     free(rows);
     return st;
   }
-  if (!r->discs) st = dyd_delaunay_each_group(r->pd, count_ties, rows);
+  if (groups) st = dyd_delaunay_each_group(r->pd, count_ties, rows);
   for (size_t k = 0; k < r->pairs.count; k++) {
     const dyd_pair *p = &r->pairs.item[k];
-    if (p->status == DYD_TIE && !r->discs) continue;
+    if (p->status == DYD_TIE && groups) continue;
     rows[p->i].partners[p->status]++;
     rows[p->j].partners[p->status]++;
   }
-  for (size_t i = 0; i < r->count; i++) rows[i] = rows[dyd_delaunay_alias(r->pd, (uint32_t)i)];
+  for (uint32_t i = 0; i < r->count; i++) rows[i] = rows[dyd_result_alias(r, i)];
   if (st == DYD_OK)
     *out = rows;
   else
@@ -88,24 +101,76 @@ dyd_status dyd_result_sites(dyd_site_row **out, const dyd_result *r) {
   return st;
 }
 
+/* ---- of the plane ---- */
+
+dyd_status dyd_result_box(double box[4], const dyd_result *r, size_t i, dyd_error *err) {
+  dyd_sites_get_d(box, r->sites, i);
+  if (isfinite(box[0]) && isfinite(box[1]) && isfinite(box[2]) && isfinite(box[3])) return DYD_OK;
+  if (err) err->point = i;
+  return dyd_fail(err, DYD_E_RANGE,
+                  "point %zu lies beyond the largest double, which this format cannot show; use csv or json", i);
+}
+
+/* ---- words and texts ---- */
+
+const char *dyd_pair_status_text(dyd_pair_status status) {
+  static const char *const text[] = {
+      [DYD_ILLEGAL] = "illegal", [DYD_TIE] = "tie", [DYD_INDETERMINATE] = "indeterminate", [DYD_LEGAL] = "legal"};
+  return text[status];
+}
+
+const char *dyd_group_text(dyd_group_kind kind) {
+  static const char *const text[] = {"circle", "chain", "pair"};
+  return text[kind];
+}
+
+const char *dyd_schedule_text(dyd_schedule schedule) {
+  return schedule == DYD_SCHEDULE_UNIFORM ? "uniform" : "adaptive";
+}
+
 void dyd_put_rows(FILE *out, const dyd_engine *e, const dyd_index_list *list, const char *between) {
   for (size_t k = 0; k < list->count; k++) fprintf(out, "%s%zu", k ? between : "", dyd_engine_row(e, list->item[k]));
 }
 
-dyd_status dyd_result_faces(const dyd_result *r, const char *first, const char *next, const char *between,
-                            const char *end) {
-  dyd_index_list face = {0};
-  dyd_status st = DYD_OK;
-  for (size_t f = 0; f < dyd_delaunay_undecided_faces(r->pd) && st == DYD_OK; f++) {
-    bool outer;
-    st = dyd_delaunay_face(&face, &outer, r->pd, f);
-    if (st != DYD_OK) break;
-    fputs(f ? next : first, r->out);
-    dyd_put_rows(r->out, r->engine, &face, between);
-    fputs(end, r->out);
+dyd_status dyd_put_window(FILE *out, const dyd_rect *w, const char *quote, const char *between) {
+  const dyd_dyadic *end[] = {&w->x.lo, &w->x.hi, &w->y.lo, &w->y.hi};
+  for (int k = 0; k < 4; k++) {
+    char *text = dyd_dyadic_get_str(end[k]);
+    if (!text) return DYD_E_NOMEM;
+    fprintf(out, "%s%s%s%s", k ? between : "", quote, text, quote);
+    free(text);
   }
-  dyd_index_list_clear(&face);
-  return st;
+  return DYD_OK;
+}
+
+bool dyd_tolerance_is_cut(size_t *edges, size_t *births, const dyd_tolerance *t) {
+  dyd_tolerance_left(edges, births, t);
+  return *edges || *births;
+}
+
+static size_t alias_of(const dyd_alias_walk *w, size_t i) {
+  return w->s ? dyd_sphere_alias(w->s, (uint32_t)i) : dyd_delaunay_alias(dyd_engine_delaunay(w->e), (uint32_t)i);
+}
+
+bool dyd_alias_next(dyd_alias_walk *w) {
+  size_t count = w->s ? dyd_engine_count(w->e) : dyd_sites_count(dyd_delaunay_sites(dyd_engine_delaunay(w->e)));
+  size_t row, point;
+  while (w->i < count && alias_of(w, w->i) == w->i) w->i++;
+  bool alias = w->i < count, merged = dyd_engine_merged(&row, &point, w->e, w->merged);
+  if (!alias && !merged) return false;
+  if (merged && (!alias || row < dyd_engine_row(w->e, w->i)))
+    w->merged++;
+  else
+    row = dyd_engine_row(w->e, point = w->i++);
+  w->row = row;
+  w->site = alias_of(w, point);
+  w->of = dyd_engine_row(w->e, alias_of(w, point));
+  return true;
+}
+
+void dyd_csv_aliases(FILE *out, const dyd_engine *e, const dyd_sphere *s) {
+  dyd_alias_walk w = {.e = e, .s = s};
+  while (dyd_alias_next(&w)) fprintf(out, "# alias %zu %zu\n", w.row, w.of);
 }
 
 dyd_status dyd_output_end(FILE *out, dyd_error *err) {

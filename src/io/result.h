@@ -1,27 +1,31 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What the writers share: the result to be written and the places where sites are drawn. */
+/* What the writers share: the result to be written, of a plane or of a sphere. */
 #ifndef DYD_IO_RESULT_H
 #define DYD_IO_RESULT_H
 
+#include "io/decimal.h"
 #include "io/output.h"
-#include "io/place.h"
 
 /* All borrowed but pairs and graph. */
 typedef struct dyd_result {
   FILE *out;
-  const dyd_engine *engine;
-  const dyd_delaunay *pd;
-  const dyd_sites *sites;
-  size_t count; /* sites, aliases included */
+  const dyd_engine *engine; /* whose rows and identifiers name sites; on a sphere that of its places */
+  const dyd_sphere *sphere; /* the sites are places of it; NULL: a plane */
+  const dyd_delaunay *pd;   /* of the plane, or of the images of the sphere */
+  const dyd_sites *sites;   /* of the plane */
+  size_t count;             /* sites, aliases included */
   dyd_pair_list pairs;
   bool ties_apart;        /* rows of pairs hold ties, which `pairs` does not */
   const char *graph_name; /* what is written in place of the triangulation, whose edges `pairs` are; NULL: nothing */
   dyd_graph_list graph;   /* its edges; owned, too */
   const dyd_rect *window; /* what pictures show; NULL: everything */
   unsigned epsg;          /* the reference system of the coordinates; 0: not known */
+  double max_arc;         /* sides of cells of a sphere are divided into arcs of so many degrees at most */
   bool discs;             /* pairs are those of discs */
+  bool next;              /* of a plan the first row only */
   const dyd_history *history;     /* ends with pairs; NULL: not known */
   const dyd_tolerance *tolerance; /* NULL: not known */
+  const dyd_survey *survey;       /* the plan, where one is written */
 } dyd_result;
 
 /* What is known of a site. */
@@ -30,46 +34,56 @@ typedef struct dyd_site_row {
   const char *hull;   /* is it a corner of the hull: "surely", "possibly" (or on its boundary), "not" */
 } dyd_site_row;
 
-/* The coordinates of a vector in space, rounded. */
-typedef struct dyd_vector_text {
-  char at[3][DYD_DECIMAL_SIZE];
-} dyd_vector_text;
+/* ---- a result of a plane or of a sphere ---- */
+
+dyd_outcome dyd_result_outcome(const dyd_result *r);
+/* The site that stands for site i. */
+uint32_t dyd_result_alias(const dyd_result *r, uint32_t i);
+/* Where site i may be; on a sphere in degrees. */
+dyd_status dyd_result_rect(dyd_rect *out, const dyd_result *r, uint32_t i);
+/* The sure triangles. */
+dyd_status dyd_result_triangles(dyd_triangle_list *out, const dyd_result *r);
+/* How many pairs of each status there are. */
+void dyd_result_count(size_t count[4], const dyd_result *r);
+/* Of every site; aliases as the site they stand for; on a sphere no point is on the hull. *out is released with free().
+ */
+dyd_status dyd_result_sites(dyd_site_row **out, const dyd_result *r);
+/* Where each place of a sphere may be, in degrees. Released with free(). */
+dyd_status dyd_sphere_boxes(double (**out)[4], const dyd_sphere *s);
+
+/* ---- of the plane ---- */
+
+/* The box of site i; DYD_E_RANGE with a message that names the site when it is not finite in doubles. */
+dyd_status dyd_result_box(double box[4], const dyd_result *r, size_t i, dyd_error *err);
+
+/* ---- words and texts ---- */
 
 /* "legal", "indeterminate", "tie", "illegal". */
 const char *dyd_pair_status_text(dyd_pair_status status);
 /* "circle", "chain", "pair". */
 const char *dyd_group_text(dyd_group_kind kind);
-/* The box of site i; DYD_E_RANGE with a message that names the site when it is not finite in doubles. */
-dyd_status dyd_result_box(double box[4], const dyd_result *r, size_t i, dyd_error *err);
-/* The places of all sites; *out is released with free(). `bound` is the largest error among them, two digits rounded
- * up. */
-dyd_status dyd_result_places(dyd_place **out, char bound[DYD_DECIMAL_SIZE], const dyd_result *r, dyd_error *err);
-
-/* Of every site; aliases as the site they stand for. *out is released with free(). */
-dyd_status dyd_result_sites(dyd_site_row **out, const dyd_result *r);
-
-/* Of every place of a sphere, on which no point is on the hull; and its vector. Released with free(); bound as above.
- */
-dyd_status dyd_sphere_sites(dyd_site_row **out, const dyd_sphere_result *r);
-dyd_status dyd_sphere_vectors(dyd_vector_text **out, char bound[DYD_DECIMAL_SIZE], const dyd_sphere_result *r,
-                              dyd_error *err);
-/* Where each place may be, in degrees. Released with free(). */
-typedef struct dyd_degree_box {
-  double end[4];
-} dyd_degree_box;
-dyd_status dyd_sphere_boxes(dyd_degree_box **out, const dyd_sphere *s);
-/* What meshes take from it: pairs, borrowed, and the engine of places. */
-dyd_result dyd_sphere_mesh(const dyd_output *o);
-
-/* "NAME": [{"i": .., "j": .., "status": ..}, ..]; "triangles": [[i, j, k], ..]; "counters": {..}: numbers are rows. */
-void dyd_json_pairs(FILE *out, const dyd_engine *e, const char *name, const dyd_pair_list *pairs);
-void dyd_json_triangles(FILE *out, const dyd_engine *e, const dyd_triangle_list *list);
-void dyd_json_counters(FILE *out, const dyd_engine *e);
-
+/* "adaptive", "uniform". */
+const char *dyd_schedule_text(dyd_schedule schedule);
 /* The rows of sites: "3, 7, 9". */
 void dyd_put_rows(FILE *out, const dyd_engine *e, const dyd_index_list *list, const char *between);
-/* The sites of each undecided face, behind `first` or `next`, before `end`. */
-dyd_status dyd_result_faces(const dyd_result *r, const char *first, const char *next, const char *between,
-                            const char *end);
+/* The four ends of a window with dyadic ends, as exact texts, each between `quote`. */
+dyd_status dyd_put_window(FILE *out, const dyd_rect *w, const char *quote, const char *between);
+
+/* What has no row, since work was cancelled; births: SIZE_MAX: they were not looked for. false: all has. */
+bool dyd_tolerance_is_cut(size_t *edges, size_t *births, const dyd_tolerance *t);
+
+/* Goes over the rows that have a point in common with an earlier one, ascending: aliases of the triangulation, and rows
+ * that were merged when they were read. Begin with e, and s where it is that of the places of a sphere. */
+typedef struct dyd_alias_walk {
+  const dyd_engine *e;
+  const dyd_sphere *s; /* NULL: of a plane */
+  size_t i, merged;    /* where to look on */
+  size_t row, of;      /* what was found: rows; */
+  size_t site;         /* of the latter */
+} dyd_alias_walk;
+/* false: there is no other one. */
+bool dyd_alias_next(dyd_alias_walk *w);
+/* "# alias 7 3" for each alias or merged row of the result of e, or of the places e of a sphere, a line each. */
+void dyd_csv_aliases(FILE *out, const dyd_engine *e, const dyd_sphere *s);
 
 #endif

@@ -135,10 +135,10 @@ static dyd_status cells_close(dyd_sphere_cells *c, const dyd_sphere *s) {
 }
 
 static dyd_status middles_find(dyd_sphere_cells *c, const dyd_sphere *s) {
-  dyd_degree_box *box = NULL;
+  double(*box)[4] = NULL;
   dyd_status st = dyd_sphere_boxes(&box, s);
   c->middle = st == DYD_OK ? dyd_alloc(c->places, sizeof *c->middle) : NULL;
-  for (size_t i = 0; i < c->places && c->middle; i++) c->middle[i] = dyd_lon_lat_of(box[i].end);
+  for (size_t i = 0; i < c->places && c->middle; i++) c->middle[i] = dyd_lon_lat_of(box[i]);
   free(box);
   return st == DYD_OK && !c->middle ? DYD_E_NOMEM : st;
 }

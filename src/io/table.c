@@ -3,16 +3,9 @@
 #include "io/table.h"
 
 #include "base/alloc.h"
-
 #include "io/label_text.h"
-
 #include <math.h>
 #include <string.h>
-
-/* What programs take for "no reference system". Left out, or null, they take the coordinates for degrees. */
-static const char no_system[] =
-    "ENGCRS[\\\"Undefined Cartesian SRS\\\",EDATUM[\\\"unknown\\\"],CS[Cartesian,2],"
-    "AXIS[\\\"x\\\",unspecified],AXIS[\\\"y\\\",unspecified],LENGTHUNIT[\\\"unknown\\\",1]]";
 
 void dyd_place_set(dyd_place *out, const double box[4]) {
   double error[2];
@@ -25,151 +18,184 @@ static void table_put(dyd_table *t, const char *text) {
   dyd_sink_text(&t->to, text);
 }
 
-/* ---- geometry ---- */
+/* ---- encoders ---- */
 
-/* parts: how they begin, and the end when there are none; open is "" for them, as the first part opens. */
-static const struct {
-  const char *name[2], *open[2], *close[2]; /* of wkt, of geojson */
-  const char *first[2], *next[2], *none[2];
-} geometries[] = {[DYD_GEOMETRY_POINT] = {{"POINT", "Point"}, {"(", ""}, {")", ""}, {NULL}, {NULL}, {NULL}},
-                  [DYD_GEOMETRY_LINE] = {{"LINESTRING", "LineString"}, {"(", "["}, {")", "]"}, {NULL}, {NULL}, {NULL}},
-                  [DYD_GEOMETRY_POLYGON] = {{"POLYGON", "Polygon"}, {"((", "[["}, {"))", "]]"}, {NULL}, {NULL}, {NULL}},
-                  [DYD_GEOMETRY_LINES] = {{"MULTILINESTRING", "MultiLineString"},
-                                          {"", ""},
-                                          {"))", "]]"},
-                                          {"((", "[["},
-                                          {"), (", "], ["},
-                                          {"EMPTY", "[]"}},
-                  [DYD_GEOMETRY_POLYGONS] = {{"MULTIPOLYGON", "MultiPolygon"},
-                                             {"", ""},
-                                             {")))", "]]]"},
-                                             {"(((", "[[["},
-                                             {")), ((", "]], [["},
-                                             {"EMPTY", "[]"}}};
+/* How a kind of geometry is written. first, next: how its parts begin; none: the end where there are no parts. */
+typedef struct shape_words {
+  const char *name, *open, *close, *first, *next, *none;
+} shape_words;
+
+/* A format of rows. */
+typedef struct dyd_encoder {
+  const shape_words *shape; /* by dyd_geometry; NULL: rows have no geometry */
+  bool brackets;            /* around each place */
+  bool named;               /* values come behind their names; else names are in the head */
+  size_t comma;             /* length of what the first row leaves out of row[0] */
+  const char *row[2];       /* before and behind the name of the geometry */
+  const char *lead[2];      /* before the first value, and before others */
+  const char *end;          /* of a row */
+  const char *quote, *none; /* around words; a value that there is not */
+  void (*text)(dyd_sink *to, const char *text);
+  void (*head)(dyd_table *t, const dyd_output *o);
+  void (*tail)(dyd_table *t);
+} dyd_encoder;
+
+/* Names are those of the columns that there are. */
+static void csv_head(dyd_table *t, const dyd_output *o) {
+  (void)o;
+  if (t->encode->shape) table_put(t, "WKT,");
+  for (size_t k = 0; k + 1 < t->columns; k++) {
+    if (k) table_put(t, ",");
+    dyd_sink_put(&t->to, t->name[k], strcspn(t->name[k], ","));
+  }
+  table_put(t, t->encode->shape ? ",max_coordinate_error\n" : "\n");
+}
+
+/* What programs take for "no reference system". Left out, or null, they take the coordinates for degrees. */
+static const char no_system[] =
+    "ENGCRS[\\\"Undefined Cartesian SRS\\\",EDATUM[\\\"unknown\\\"],CS[Cartesian,2],"
+    "AXIS[\\\"x\\\",unspecified],AXIS[\\\"y\\\",unspecified],LENGTHUNIT[\\\"unknown\\\",1]]";
+
+static void geojson_head(dyd_table *t, const dyd_output *o) {
+  table_put(t, "{\"type\": \"FeatureCollection\",\n\"crs\": {\"type\": \"name\", \"properties\": {\"name\": \"");
+  if (o->epsg) {
+    table_put(t, "urn:ogc:def:crs:EPSG::");
+    dyd_sink_index(&t->to, o->epsg);
+  } else {
+    table_put(t, t->sphere ? "urn:ogc:def:crs:OGC:1.3:CRS84" : no_system);
+  }
+  dyd_outcome outcome = t->sphere ? dyd_sphere_outcome(t->sphere) : dyd_engine_outcome(t->engine);
+  table_put(t,
+            "\"}},\n\"rounding\": \"a coordinate differs from every point that it stands for by at most "
+            "max_coordinate_error; numbers called lo, rho, probability or half_width_needed are rounded down, others "
+            "that are not whole up\",\n\"outcome\": \"");
+  table_put(t, dyd_outcome_text(outcome));
+  table_put(t, "\",\n\"features\": [");
+}
+
+static void geojson_tail(dyd_table *t) {
+  char most[DYD_DECIMAL_SIZE];
+  dyd_decimal_directed(most, t->most, 2, DYD_UP);
+  table_put(t, "\n],\n\"max_coordinate_error\": ");
+  table_put(t, most);
+  table_put(t, "}\n");
+}
+
+static const shape_words wkt_shapes[] = {
+    [DYD_GEOMETRY_POINT] = {"POINT", "(", ")", NULL, NULL, NULL},
+    [DYD_GEOMETRY_LINE] = {"LINESTRING", "(", ")", NULL, NULL, NULL},
+    [DYD_GEOMETRY_POLYGON] = {"POLYGON", "((", "))", NULL, NULL, NULL},
+    [DYD_GEOMETRY_LINES] = {"MULTILINESTRING", "", "))", "((", "), (", "EMPTY"},
+    [DYD_GEOMETRY_POLYGONS] = {"MULTIPOLYGON", "", ")))", "(((", ")), ((", "EMPTY"},
+};
+
+static const shape_words geojson_shapes[] = {
+    [DYD_GEOMETRY_POINT] = {"Point", "", "", NULL, NULL, NULL},
+    [DYD_GEOMETRY_LINE] = {"LineString", "[", "]", NULL, NULL, NULL},
+    [DYD_GEOMETRY_POLYGON] = {"Polygon", "[[", "]]", NULL, NULL, NULL},
+    [DYD_GEOMETRY_LINES] = {"MultiLineString", "", "]]", "[[", "], [", "[]"},
+    [DYD_GEOMETRY_POLYGONS] = {"MultiPolygon", "", "]]]", "[[[", "]], [[", "[]"},
+};
+
+static const dyd_encoder encoders[] = {
+    [DYD_FORMAT_CSV] =
+        {.lead = {"", ","}, .end = "\n", .quote = "", .none = "", .text = dyd_sink_csv_text, .head = csv_head},
+    [DYD_FORMAT_WKT] = {.shape = wkt_shapes,
+                        .row = {"\"", " "},
+                        .lead = {"\",", ","},
+                        .end = "\n",
+                        .quote = "",
+                        .none = "",
+                        .text = dyd_sink_csv_text,
+                        .head = csv_head},
+    [DYD_FORMAT_GEOJSON] = {.shape = geojson_shapes,
+                            .brackets = true,
+                            .named = true,
+                            .comma = 1,
+                            .row = {",\n{\"type\": \"Feature\", \"geometry\": {\"type\": \"", "\", \"coordinates\": "},
+                            .lead = {"}, \"properties\": {", ", "},
+                            .end = "}}",
+                            .quote = "\"",
+                            .none = "null",
+                            .text = dyd_sink_json_text,
+                            .head = geojson_head,
+                            .tail = geojson_tail},
+};
 
 /* ---- before and after the rows ---- */
 
-static void geojson_head(const dyd_table_head *h) {
-  fputs("{\"type\": \"FeatureCollection\",\n\"crs\": {\"type\": \"name\", \"properties\": {\"name\": \"", h->out);
-  if (h->epsg)
-    fprintf(h->out, "urn:ogc:def:crs:EPSG::%u", h->epsg);
-  else if (h->sphere)
-    fputs("urn:ogc:def:crs:OGC:1.3:CRS84", h->out);
-  else
-    fputs(no_system, h->out);
-  dyd_outcome outcome = h->sphere ? dyd_sphere_outcome(h->sphere) : dyd_engine_outcome(h->engine);
-  fprintf(h->out,
-          "\"}},\n\"rounding\": \"a coordinate differs from every point that it stands for by at most "
-          "max_coordinate_error; numbers called lo, rho, probability or half_width_needed are rounded down, others "
-          "that are not "
-          "whole up\",\n"
-          "\"outcome\": \"%s\",\n\"features\": [",
-          dyd_outcome_text(outcome));
-}
-
-/* Is there a column of that name? */
-static bool has_column(const dyd_table_head *h, const char *name) {
-  return strncmp(name, "id", 2) != 0 || dyd_engine_id(h->engine, 0);
-}
-
-/* name NULL: of the last column. */
+/* What comes before the values of a column, behind the end of the geometry. */
 static void table_lead(dyd_table *t, const char *name) {
   dyd_table_lead *l = &t->lead[t->columns];
-  const char *between = t->columns ? ", " : "}, \"properties\": {";
-  if (t->json)
-    l->length = (size_t)snprintf(l->text, sizeof l->text, "%s\"%s\": ", between, name ? name : "max_coordinate_error");
-  else
-    l->length = (size_t)snprintf(l->text, sizeof l->text, "%s", t->columns ? "," : t->bare ? "" : "\",");
-  t->columns++;
+  const char *between = t->encode->lead[t->columns > 0];
+  bool named = t->encode->named;
+  l->length = (size_t)snprintf(l->text, sizeof l->text, "%s%s%.*s%s", between, named ? "\"" : "",
+                               named ? (int)strcspn(name, ",") : 0, name, named ? "\": " : "");
+  t->name[t->columns++] = name;
 }
 
-/* What rows begin with, and what comes before their values, behind the end of the geometry. */
-static void table_leads(dyd_table *t) {
-  const dyd_table_head *h = t->head;
-  const char *name = geometries[h->geometry].name[t->json], *open = geometries[h->geometry].open[t->json];
-  t->columns = 0;
-  for (size_t k = 0; h->column[k]; k++)
-    if (has_column(h, h->column[k])) table_lead(t, h->column[k]);
-  table_lead(t, NULL);
-  t->begin.length = (size_t)snprintf(t->begin.text, sizeof t->begin.text,
-                                     t->json ? ",\n{\"type\": \"Feature\", \"geometry\": {\"type\": \"%s\", "
-                                               "\"coordinates\": %s"
-                                             : "\"%s %s",
-                                     name, open);
-}
-
-void dyd_table_begin(dyd_table *t, const dyd_table_head *head) {
-  t->head = head;
-  t->json = head->format == DYD_FORMAT_GEOJSON;
-  t->bare = head->format == DYD_FORMAT_CSV;
-  t->rows = 0;
+void dyd_table_begin(dyd_table *t, const dyd_output *o, bool optional) {
+  const dyd_encoder *e = t->encode = &encoders[o->format];
+  bool ids = dyd_engine_id(t->engine, 0);
+  t->rows = t->columns = t->begin.length = 0;
   t->most = 0;
-  table_leads(t);
-  dyd_sink_begin(&t->to, head->out);
-  if (t->json) {
-    geojson_head(head);
-    return;
+  for (const char *name = t->layer->columns; name; name = strchr(name, ','), name += name != NULL)
+    if (*name == '?' ? optional : ids || strncmp(name, "id", 2) != 0) table_lead(t, name + (*name == '?'));
+  table_lead(t, "max_coordinate_error");
+  if (e->shape) {
+    const shape_words *shape = &e->shape[t->layer->geometry];
+    t->begin.length = (size_t)snprintf(t->begin.text, sizeof t->begin.text, "%s%s%s%s", e->row[0], shape->name,
+                                       e->row[1], shape->open);
   }
-  if (!t->bare) table_put(t, "WKT,");
-  for (size_t k = 0; head->column[k]; k++) {
-    if (!has_column(head, head->column[k])) continue;
-    if (k) table_put(t, ",");
-    table_put(t, head->column[k]);
-  }
-  table_put(t, t->bare ? "\n" : ",max_coordinate_error\n");
+  dyd_sink_begin(&t->to, o->out);
+  e->head(t, o);
 }
 
 void dyd_table_end(dyd_table *t) {
-  char most[DYD_DECIMAL_SIZE];
-  if (t->json) {
-    dyd_decimal_directed(most, t->most, 2, DYD_UP);
-    table_put(t, "\n],\n\"max_coordinate_error\": ");
-    table_put(t, most);
-    table_put(t, "}\n");
-  }
+  if (t->encode->tail) t->encode->tail(t);
   dyd_sink_flush(&t->to);
+}
+
+bool dyd_table_is_drawn(const dyd_table *t) {
+  return t->encode->shape;
 }
 
 /* ---- rows ---- */
 
 void dyd_row_begin(dyd_table *t) {
-  size_t comma = t->json && !t->rows; /* there is none before the first */
+  size_t comma = t->rows ? 0 : t->encode->comma;
   t->places = t->values = t->parts = 0;
   t->error = 0;
-  if (!t->bare) dyd_sink_put(&t->to, t->begin.text + comma, t->begin.length - comma);
+  dyd_sink_put(&t->to, t->begin.text + comma, t->begin.length - comma);
 }
 
 void dyd_row_part(dyd_table *t) {
-  if (t->bare) return;
-  table_put(t, (t->parts++ ? geometries[t->head->geometry].next : geometries[t->head->geometry].first)[t->json]);
+  if (!t->encode->shape) return;
+  const shape_words *shape = &t->encode->shape[t->layer->geometry];
+  table_put(t, t->parts++ ? shape->next : shape->first);
   t->places = 0;
 }
 
-/* What ends the geometry. */
-static const char *geometry_end(const dyd_table *t) {
-  dyd_geometry g = t->head->geometry;
-  return (geometries[g].none[0] && !t->parts ? geometries[g].none : geometries[g].close)[t->json];
-}
-
 void dyd_row_place(dyd_table *t, const dyd_place *place) {
-  if (t->bare) return;
+  const dyd_encoder *e = t->encode;
+  if (!e->shape) return;
   char *p = dyd_sink_room(&t->to, 2 * DYD_DECIMAL_SIZE + 8);
   if (t->places++) memcpy(p, ", ", 2), p += 2;
-  if (t->json) *p++ = '[';
+  if (e->brackets) *p++ = '[';
   memcpy(p, place->x, sizeof place->x);
   p += place->length[0];
-  if (t->json) *p++ = ',';
+  if (e->brackets) *p++ = ',';
   *p++ = ' ';
   memcpy(p, place->y, sizeof place->y);
   p += place->length[1];
-  if (t->json) *p++ = ']';
+  if (e->brackets) *p++ = ']';
   t->to.end = p;
   t->error = fmax(t->error, place->error);
 }
 
 void dyd_row_at(dyd_table *t, const double box[4]) {
   dyd_place place;
-  if (t->bare) return;
+  if (!t->encode->shape) return;
   dyd_place_set(&place, box);
   dyd_row_place(t, &place);
 }
@@ -182,12 +208,24 @@ void dyd_row_outline(dyd_table *t, const double box[4]) {
   }
 }
 
+void dyd_row_spot(dyd_table *t, size_t i) {
+  if (t->box)
+    dyd_row_at(t, t->box[i]);
+  else if (t->place)
+    dyd_row_place(t, &t->place[i]);
+}
+
 /* ---- values ---- */
+
+static void end_geometry(dyd_table *t) {
+  const shape_words *shape = &t->encode->shape[t->layer->geometry];
+  table_put(t, shape->none && !t->parts ? shape->none : shape->close);
+}
 
 /* What comes before a value. */
 static void value_begin(dyd_table *t) {
   const dyd_table_lead *l = &t->lead[t->values];
-  if (!t->values++ && !t->bare) table_put(t, geometry_end(t));
+  if (!t->values++ && t->encode->shape) end_geometry(t);
   dyd_sink_put(&t->to, l->text, l->length);
 }
 
@@ -197,34 +235,25 @@ void dyd_row_index(dyd_table *t, size_t i) {
 }
 
 void dyd_row_site(dyd_table *t, size_t i) {
-  dyd_row_index(t, dyd_engine_row(t->head->engine, i));
+  dyd_row_index(t, dyd_engine_row(t->engine, i));
 }
 
 void dyd_row_id(dyd_table *t, size_t i) {
-  const char *id = dyd_engine_id(t->head->engine, i);
+  const char *id = dyd_engine_id(t->engine, i);
   if (!id) return;
   value_begin(t);
-  if (t->json)
-    dyd_sink_json_text(&t->to, id);
-  else
-    dyd_sink_csv_text(&t->to, id);
+  t->encode->text(&t->to, id);
 }
 
-void dyd_row_text(dyd_table *t, const char *text) {
+void dyd_row_three(dyd_table *t, const uint32_t site[3], bool ids) {
+  for (int c = 0; c < 3; c++) (ids ? dyd_row_id : dyd_row_site)(t, site[c]);
+}
+
+void dyd_row_word(dyd_table *t, const char *text) {
   value_begin(t);
-  if (t->json) table_put(t, "\"");
+  table_put(t, t->encode->quote);
   table_put(t, text);
-  if (t->json) table_put(t, "\"");
-}
-
-const char *const dyd_columns_of_pairs[] = {"i", "j", "status", "id_i", "id_j", NULL};
-
-void dyd_row_pair(dyd_table *t, size_t i, size_t j, const char *status) {
-  dyd_row_site(t, i);
-  dyd_row_site(t, j);
-  dyd_row_text(t, status);
-  dyd_row_id(t, i);
-  dyd_row_id(t, j);
+  table_put(t, t->encode->quote);
 }
 
 static void row_number(dyd_table *t, double x, int digits, dyd_round dir) {
@@ -232,7 +261,7 @@ static void row_number(dyd_table *t, double x, int digits, dyd_round dir) {
   if (isfinite(x))
     t->to.end += dyd_decimal_directed(dyd_sink_room(&t->to, DYD_DECIMAL_SIZE), x, digits, dir);
   else
-    table_put(t, t->json ? "null" : "");
+    table_put(t, t->encode->none);
 }
 
 void dyd_row_decimal(dyd_table *t, double x, dyd_round dir) {
@@ -249,15 +278,21 @@ dyd_status dyd_row_sites(dyd_table *t, const dyd_index_list *list) {
   if (!text) return DYD_E_NOMEM;
   *end = 0;
   for (size_t k = 0; k < list->count; k++)
-    end += snprintf(end, DIGITS + 1, "%s%zu", k ? " " : "", dyd_engine_row(t->head->engine, list->item[k]));
-  dyd_row_text(t, text);
+    end += snprintf(end, DIGITS + 1, "%s%zu", k ? " " : "", dyd_engine_row(t->engine, list->item[k]));
+  dyd_row_word(t, text);
   free(text);
   return DYD_OK;
 }
 
+FILE *dyd_row_file(dyd_table *t) {
+  value_begin(t);
+  dyd_sink_flush(&t->to);
+  return t->to.out;
+}
+
 void dyd_row_end(dyd_table *t) {
-  if (!t->bare) row_number(t, t->error, 2, DYD_UP);
-  table_put(t, t->json ? "}}" : "\n");
+  if (t->encode->shape) row_number(t, t->error, 2, DYD_UP);
+  table_put(t, t->encode->end);
   t->most = fmax(t->most, t->error);
   t->rows++;
 }

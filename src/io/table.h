@@ -1,25 +1,33 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Layers: tables with a row for each feature, as csv, as wkt (csv with a column WKT) or as geojson.
  *
- * The one place where columns are put together. Columns are plain (numbers and texts), and all rows have the same kind
+ * A layer is a row of the table in layers.c: its name, columns and kind of geometry, and a function that writes its
+ * rows; an encoder (table.c) writes any layer. Columns are plain (numbers and texts), and all rows have the same kind
  * of geometry, so that programs that know one kind a table (Shapefile, GeoPackage) take them. A row is written from
  * left to right:
  *
- *     dyd_table_begin(&t, &head);
- *     for each feature
- *       dyd_row_begin(&t);
- *       dyd_row_place(&t, ..);                            its geometry; csv leaves it out
- *       dyd_row_site(&t, i); dyd_row_text(&t, "legal");  one value for each column
- *       dyd_row_end(&t);
- *     dyd_table_end(&t);
+ *     dyd_row_begin(t);
+ *     dyd_row_spot(t, i);                             its geometry; csv leaves it out
+ *     dyd_row_site(t, i); dyd_row_word(t, "legal");   one value for each column
+ *     dyd_row_end(t);
  *
  * wkt and geojson get a last column by themselves: max_coordinate_error, how far at most a coordinate of the geometry
  * is from what it stands for, rounded up. */
 #ifndef DYD_IO_TABLE_H
 #define DYD_IO_TABLE_H
 
-#include "io/output.h"
-#include "io/place.h"
+#include "io/decimal.h"
+#include "io/result.h"
+
+/* Short decimals that stand for a box. Invariant: every point of the box is within `error` of it in x and in y. */
+typedef struct dyd_place {
+  char x[DYD_DECIMAL_SIZE], y[DYD_DECIMAL_SIZE];
+  double error;
+  unsigned char length[2]; /* of x, of y */
+} dyd_place;
+
+/* Of a box with finite ends: x lower, x upper, y lower, y upper. */
+void dyd_place_set(dyd_place *out, const double box[4]);
 
 typedef enum dyd_geometry {
   DYD_GEOMETRY_POINT,
@@ -29,38 +37,66 @@ typedef enum dyd_geometry {
   DYD_GEOMETRY_POLYGONS
 } dyd_geometry;
 
-/* All borrowed while the table is written. */
-typedef struct dyd_table_head {
-  FILE *out;
-  dyd_format format;         /* csv, wkt or geojson */
-  const char *const *column; /* names, up to a NULL; those that begin with "id" only where points have identifiers */
+typedef struct dyd_table dyd_table;
+/* Part of a layer; the table is begun for rows, not for comments. */
+typedef dyd_status dyd_layer_part(dyd_table *t, const dyd_output *o);
+
+typedef struct dyd_layer {
+  dyd_content content;
+  const char *name; /* by which commands know it; NULL: `of` has a single layer */
+  dyd_content of;   /* whose layer it is */
+  bool geographic;  /* wkt and geojson hold it, too */
+  bool sites;       /* features are drawn at sites, see dyd_row_spot */
   dyd_geometry geometry;
-  unsigned epsg; /* the reference system of the coordinates; 0: none is claimed */
-  const dyd_engine *engine;
-  const dyd_sphere *sphere; /* coordinates are degrees on it, and `engine` is that of its places; NULL: a plane */
-} dyd_table_head;
+  dyd_layer_part *comments; /* writes the lines of csv before the header; NULL: there are none */
+  dyd_layer_part *rows;
+  /* Separated by commas. Those that begin with "id" are there where points have identifiers; with "?", left out: in wkt
+   * and geojson, or, of tolerances, where chances are known. */
+  const char *columns;
+} dyd_layer;
+
+/* The k-th layer, and that of a content; NULL where there is none. Layers of one thing stand in their order. */
+const dyd_layer *dyd_layer_at(size_t k);
+const dyd_layer *dyd_layer_of(dyd_content content);
+/* Writes o->content, which is a layer, in csv, wkt or geojson. */
+dyd_writer dyd_layer_write;
+/* The parts of layers in other files than layers.c. */
+dyd_layer_part dyd_cell_comments, dyd_vertex_comments, dyd_diagram_comments, dyd_globe_vertex_comments;
+dyd_layer_part dyd_disc_comments, dyd_bisector_comments, dyd_nearest_comments;
+dyd_layer_part dyd_cell_rows, dyd_vertex_rows, dyd_region_rows, dyd_edge_rows;
+dyd_layer_part dyd_globe_cell_rows, dyd_globe_vertex_rows, dyd_globe_region_rows;
+dyd_layer_part dyd_check_rows, dyd_disc_rows, dyd_bisector_rows, dyd_nearest_rows, dyd_place_rows;
 
 /* A piece that all rows have, put together once. */
 typedef struct dyd_table_lead {
   size_t length;
   char text[80];
 } dyd_table_lead;
-enum { DYD_TABLE_COLUMNS = 16 };
+enum { DYD_TABLE_COLUMNS = 32 };
 
 /* Invariant: lead[0 .. columns) are before the values of those columns that there are, and before that of the error. */
-typedef struct dyd_table {
-  const dyd_table_head *head;
-  bool json, bare; /* geojson; csv, without geometry */
+struct dyd_table {
+  const dyd_layer *layer;           /* borrowed, as what follows */
+  const struct dyd_encoder *encode; /* table.c */
+  const dyd_engine *engine;         /* whose rows and identifiers name sites */
+  const dyd_sphere *sphere;         /* coordinates are degrees on it; NULL: a plane */
+  dyd_place *place;                 /* of the sites of a plane; NULL: nothing is drawn at them; owned, as */
+  double (*box)[4];                 /* of those of a sphere, */
+  void *kept;                       /* what comments keep for rows */
   dyd_table_lead begin, lead[DYD_TABLE_COLUMNS];
+  const char *name[DYD_TABLE_COLUMNS]; /* each up to a comma */
   size_t columns;
   size_t rows, places, values; /* so far; the latter two of this row, places since the part began */
   size_t parts;                /* of this row */
   double error, most;          /* of the coordinates of this row, of all */
   dyd_sink to;
-} dyd_table;
+};
 
-void dyd_table_begin(dyd_table *t, const dyd_table_head *head);
+/* Whether columns that begin with "?" are there. */
+void dyd_table_begin(dyd_table *t, const dyd_output *o, bool optional);
 void dyd_table_end(dyd_table *t);
+/* Have rows a geometry? */
+bool dyd_table_is_drawn(const dyd_table *t);
 
 void dyd_row_begin(dyd_table *t);
 void dyd_row_end(dyd_table *t);
@@ -72,20 +108,23 @@ void dyd_row_place(dyd_table *t, const dyd_place *place);
 void dyd_row_at(dyd_table *t, const double box[4]);
 /* The four corners of a box, as a polygon. */
 void dyd_row_outline(dyd_table *t, const double box[4]);
-void dyd_row_index(dyd_table *t, size_t i);
-/* The number of a site in its file; its identifier, which is left out where there are none. */
+/* Site i as the geometry. */
+void dyd_row_spot(dyd_table *t, size_t i);
+/* The numbers of the row of a site; its identifier, which is left out where there are none. */
 void dyd_row_site(dyd_table *t, size_t i);
 void dyd_row_id(dyd_table *t, size_t i);
+/* Those of three sites. */
+void dyd_row_three(dyd_table *t, const uint32_t site[3], bool ids);
 /* The numbers of the sites in their file, separated by blanks. */
 dyd_status dyd_row_sites(dyd_table *t, const dyd_index_list *list);
-/* The columns of pairs: i, j, status, id_i, id_j; and what they say of one. */
-extern const char *const dyd_columns_of_pairs[];
-void dyd_row_pair(dyd_table *t, size_t i, size_t j, const char *status);
+void dyd_row_index(dyd_table *t, size_t i);
 /* Our own words and numbers: nothing needs quoting in csv. */
-void dyd_row_text(dyd_table *t, const char *text);
+void dyd_row_word(dyd_table *t, const char *text);
 /* A decimal rounded in direction dir; none where x is not finite. */
 void dyd_row_decimal(dyd_table *t, double x, dyd_round dir);
 /* Four of them: the ends of a box, rounded outward. */
 void dyd_row_box(dyd_table *t, const double box[4]);
+/* In csv, a value, or several with commas, that is written to the file. */
+FILE *dyd_row_file(dyd_table *t);
 
 #endif

@@ -11,7 +11,6 @@
 #include "engine/ties.h"
 #include "io/decimal.h"
 #include "io/output.h"
-#include "io/parts.h"
 #include "io/read/text.h"
 #include "io/result.h"
 

@@ -1,23 +1,33 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The json format. Of the triangulation everything the engine states, written piece by piece so that memory stays
- * small. */
-#include "io/label_text.h"
-#include "io/parts.h"
+/* The json format: everything that is stated of a triangulation, a Voronoi diagram, tolerances; of a plane or a sphere.
+ * It is written piece by piece, so that memory stays small. */
+#include "io/diagram.h"
+#include "io/json.h"
 #include "io/result.h"
-#include <dyadel/voronoi.h>
-#include <inttypes.h>
+#include "io/sphere_cells.h"
+#include "voronoi/exact_cell.h"
 #include <stdlib.h>
+
+static void json_count(dyd_json *j, size_t sites, const size_t count[4]) {
+  dyd_json_object(j, "count", DYD_JSON_FLAT);
+  dyd_json_index(j, "sites", sites);
+  dyd_json_index(j, "legal", count[DYD_LEGAL]);
+  dyd_json_index(j, "indeterminate", count[DYD_INDETERMINATE]);
+  dyd_json_index(j, "tie", count[DYD_TIE]);
+  dyd_json_close(j, 1);
+}
+
+/* ---- sites ---- */
 
 static bool same_words(const dyd_words *a, const dyd_words *b) {
   return a->man == b->man && a->den == b->den && a->exp == b->exp;
 }
 
 /* What dyd_json_sides writes, where the rectangle is of single words; else false, and nothing. */
-static bool json_short_sides(dyd_sink *s, const dyd_result *r, size_t i) {
-  static const char *const before[4] = {"\"x\": [\"", "\", \"", "\"], \"y\": [\"", "\", \""};
+static bool json_short_sides(dyd_json *j, const dyd_result *r, size_t i) {
   dyd_words end[4];
   char text[4][DYD_WORDS_SIZE], *stop[4];
-  if (!dyd_sites_get_words(end, r->sites, i)) return false;
+  if (r->sphere || !dyd_sites_get_words(end, r->sites, i)) return false;
   for (int k = 0; k < 4; k++) {
     bool again = k & 1 && same_words(&end[k], &end[k - 1]);
     stop[k] = again ? stop[k - 1] - text[k - 1] + text[k] : dyd_words_put(text[k], &end[k]);
@@ -25,179 +35,509 @@ static bool json_short_sides(dyd_sink *s, const dyd_result *r, size_t i) {
     if (again) memcpy(text[k], text[k - 1], DYD_WORDS_SIZE);
   }
   for (int k = 0; k < 4; k++) {
-    dyd_sink_text(s, before[k]);
-    dyd_sink_put(s, text[k], (size_t)(stop[k] - text[k]));
+    if (k % 2 == 0) dyd_json_name(j, k ? "y" : "x");
+    dyd_sink_text(&j->to, k & 1 ? "\", \"" : "[\"");
+    dyd_sink_put(&j->to, text[k], (size_t)(stop[k] - text[k]));
+    if (k & 1) dyd_sink_put(&j->to, "\"]", 2);
   }
-  dyd_sink_text(s, "\"]");
   return true;
 }
 
-static dyd_status json_sides_of(dyd_sink *s, const dyd_result *r, size_t i, dyd_rect *rect) {
-  if (json_short_sides(s, r, i)) return DYD_OK;
-  dyd_status st = dyd_sites_get(rect, r->sites, i);
-  dyd_sink_flush(s);
-  return st == DYD_OK ? dyd_json_sides(r->out, rect, ", ") : st;
-}
-
-static dyd_status json_site(dyd_sink *s, const dyd_result *r, size_t i, const dyd_site_row *row, dyd_rect *rect) {
+/* On a sphere nothing is counted. */
+static void json_site(dyd_json *j, const dyd_result *r, uint32_t i, const dyd_site_row *row, dyd_rect *rect) {
   double box[4];
-  dyd_sites_get_d(box, r->sites, i);
-  dyd_sink_text(s, i ? ",\n{\"i\": " : "\n{\"i\": ");
-  dyd_sink_index(s, dyd_engine_row(r->engine, i));
-  dyd_sink_text(s, ", ");
-  dyd_status st = json_sides_of(s, r, i, rect);
-  dyd_sink_text(s, ", ");
-  dyd_sink_json_box(s, "_decimal", box);
-  dyd_sink_json_ids(s, r->engine, &(const uint32_t){(uint32_t)i}, 0);
-  dyd_sink_text(s, ", \"legal\": ");
-  dyd_sink_index(s, row->partners[DYD_LEGAL]);
-  dyd_sink_text(s, ", \"indeterminate\": ");
-  dyd_sink_index(s, row->partners[DYD_INDETERMINATE]);
-  dyd_sink_text(s, ", \"tie\": ");
-  dyd_sink_index(s, row->partners[DYD_TIE]);
-  dyd_sink_text(s, ", \"hull\": \"");
-  dyd_sink_text(s, row->hull);
-  dyd_sink_text(s, "\"}");
-  return st;
+  dyd_json_object(j, NULL, DYD_JSON_FLAT);
+  dyd_json_site(j, "i", r->engine, i);
+  if (json_short_sides(j, r, i)) {
+    dyd_sites_get_d(box, r->sites, i);
+  } else if (dyd_json_good(j, dyd_result_rect(rect, r, i))) {
+    dyd_json_sides(j, rect);
+    dyd_rect_get_d(box, rect);
+  }
+  if (j->st == DYD_OK) dyd_json_box(j, "_decimal", box);
+  dyd_json_ids(j, r->engine, &i, 0);
+  if (row) {
+    dyd_json_index(j, "legal", row->partners[DYD_LEGAL]);
+    dyd_json_index(j, "indeterminate", row->partners[DYD_INDETERMINATE]);
+    dyd_json_index(j, "tie", row->partners[DYD_TIE]);
+    dyd_json_word(j, "hull", row->hull);
+  }
+  dyd_json_close(j, 1);
 }
 
-static dyd_status json_sites(const dyd_result *r) {
-  dyd_sink s;
+static void json_sites(dyd_json *j, const dyd_result *r) {
   dyd_rect rect;
   dyd_site_row *rows = NULL;
   dyd_rect_init(&rect);
-  dyd_status st = dyd_result_sites(&rows, r);
-  dyd_sink_begin(&s, r->out);
-  dyd_sink_text(&s, "\"sites\": [");
-  for (size_t i = 0; i < r->count && st == DYD_OK; i++) st = json_site(&s, r, i, &rows[i], &rect);
+  if (!r->sphere) dyd_json_good(j, dyd_result_sites(&rows, r));
+  dyd_json_array(j, "sites", DYD_JSON_LIST);
+  for (uint32_t i = 0; i < r->count && j->st == DYD_OK; i++) json_site(j, r, i, rows ? &rows[i] : NULL, &rect);
+  dyd_json_close(j, 1);
   free(rows);
-  dyd_sink_text(&s, "\n],\n");
-  dyd_sink_flush(&s);
-  dyd_json_aliases(r->out, r->engine, ",\n");
   dyd_rect_clear(&rect);
-  return st;
 }
 
-static dyd_status json_triangles(const dyd_result *r) {
-  dyd_triangle_list list = {0};
-  dyd_status st = dyd_delaunay_triangles(&list, r->pd);
-  dyd_json_triangles(r->out, r->engine, &list);
-  dyd_triangle_list_clear(&list);
-  return st;
-}
+/* ---- the triangulation ---- */
 
+/* Ties as groups, each in the order of its circle or line. */
 typedef struct json_groups {
-  const dyd_result *r;
-  bool any;
+  dyd_json *j;
+  const dyd_engine *e;
 } json_groups;
 
 static dyd_status json_group(void *context, dyd_group_kind kind, const dyd_index_list *sites) {
-  json_groups *g = context;
-  fprintf(g->r->out, "%s\n{\"kind\": \"%s\", \"sites\": [", g->any ? "," : "", dyd_group_text(kind));
-  dyd_put_rows(g->r->out, g->r->engine, sites, ", ");
-  fputs("]}", g->r->out);
-  g->any = true;
+  const json_groups *g = context;
+  dyd_json_object(g->j, NULL, DYD_JSON_FLAT);
+  dyd_json_word(g->j, "kind", dyd_group_text(kind));
+  dyd_json_sites(g->j, "sites", g->e, sites);
+  dyd_json_close(g->j, 1);
   return DYD_OK;
 }
 
-/* Ties as groups, each in the order of its circle or line. */
-static dyd_status json_ties(const dyd_result *r) {
-  json_groups g = {r, false};
-  fputs("\"ties\": [", r->out);
-  dyd_status st = dyd_delaunay_each_group(r->pd, json_group, &g);
-  fputs("\n],\n", r->out);
-  return st;
+static void json_ties(dyd_json *j, const dyd_result *r) {
+  json_groups g = {j, r->engine};
+  dyd_json_array(j, "ties", DYD_JSON_LIST);
+  dyd_json_good(j, dyd_delaunay_each_group(r->pd, json_group, &g));
+  dyd_json_close(j, 1);
+}
+
+/* Only for a capped result: pairs within one of these faces may be possible without being listed. */
+static void json_faces(dyd_json *j, const dyd_result *r) {
+  dyd_index_list face = {0};
+  bool outer;
+  if (!dyd_delaunay_is_capped(r->pd)) return;
+  dyd_json_array(j, "faces", DYD_JSON_ROWS);
+  for (size_t f = 0; f < dyd_delaunay_undecided_faces(r->pd); f++) {
+    if (!dyd_json_good(j, dyd_delaunay_face(&face, &outer, r->pd, f))) break;
+    dyd_json_sites(j, NULL, r->engine, &face);
+  }
+  dyd_json_close(j, 1);
+  dyd_index_list_clear(&face);
 }
 
 /* The hull: possible pairs as hull edges; "capped" when they are too many to be listed. */
-static dyd_status json_hull(const dyd_result *r) {
+static void json_hull(dyd_json *j, const dyd_result *r) {
   dyd_hull hull = {0};
   dyd_status st = dyd_delaunay_partial_hull(&hull, r->pd);
-  bool capped = st == DYD_CAPPED;
-  if (capped) st = DYD_OK;
-  fprintf(r->out, "\"hull\": {\"capped\": %s,\n\"sure_vertices\": [", capped ? "true" : "false");
-  dyd_put_rows(r->out, r->engine, &hull.sure_vertices, ", ");
-  fputs("],\n\"possible_vertices\": [", r->out);
-  dyd_put_rows(r->out, r->engine, &hull.possible_vertices, ", ");
-  fputs("],\n", r->out);
-  dyd_json_pairs(r->out, r->engine, "edges", &hull.pairs);
-  fputs("},\n", r->out);
+  dyd_json_good(j, st == DYD_CAPPED ? DYD_OK : st);
+  dyd_json_object(j, "hull", DYD_JSON_LINES);
+  dyd_json_bool(j, "capped", st == DYD_CAPPED);
+  dyd_json_sites(j, "sure_vertices", r->engine, &hull.sure_vertices);
+  dyd_json_sites(j, "possible_vertices", r->engine, &hull.possible_vertices);
+  dyd_json_pairs(j, "edges", r->engine, &hull.pairs);
+  dyd_json_close(j, 1);
   dyd_hull_clear(&hull);
-  return st;
 }
 
 /* No bounds exist for a capped result: its pairs are not all known. */
-static dyd_status json_bounds(const dyd_result *r) {
+static void json_bounds(dyd_json *j, const dyd_result *r) {
   dyd_dyadic area, hausdorff;
   dyd_dyadic_init(&area);
   dyd_dyadic_init(&hausdorff);
   dyd_status st = dyd_engine_bounds(&area, &hausdorff, r->engine);
-  bool known = st == DYD_OK;
-  if (st != DYD_E_NOMEM) st = DYD_OK;
-  fputs(known ? "\"bounds\": {" : "\"bounds\": null,\n", r->out);
-  if (known) {
-    st = dyd_json_bound(r->out, "area", &area);
-    fputs(", ", r->out);
-    if (st == DYD_OK) st = dyd_json_bound(r->out, "hausdorff", &hausdorff);
-    fputs("},\n", r->out);
+  if (st == DYD_OK) {
+    dyd_json_object(j, "bounds", DYD_JSON_FLAT);
+    dyd_json_bound(j, "area", &area);
+    dyd_json_bound(j, "hausdorff", &hausdorff);
+    dyd_json_close(j, 1);
+  } else if (dyd_json_good(j, st == DYD_E_NOMEM ? st : DYD_OK)) {
+    dyd_json_raw(j, "bounds", "null");
   }
   dyd_dyadic_clear(&area);
   dyd_dyadic_clear(&hausdorff);
-  return st;
 }
 
-static void json_head(const dyd_result *r) {
+static void json_head(dyd_json *j, const dyd_result *r) {
   size_t count[4];
   int64_t bits;
   dyd_goal goal = dyd_engine_goal(&bits, r->engine);
-  dyd_delaunay_count(count, r->pd);
-  dyd_json_head(r->out, "dyadel delaunay 1");
-  dyd_json_crs(r->out, r->epsg);
-  fprintf(r->out,
-          "\"rounding\": \"x, y and exact are exact; x_decimal and y_decimal are rounded outward: the first down, the "
-          "second up; decimal is rounded up; null is beyond the largest double\",\n"
-          "\"outcome\": \"%s\",\n\"goal\": \"%s\",\n",
-          dyd_outcome_text(dyd_engine_outcome(r->engine)), dyd_goal_text(goal));
-  if (goal != DYD_GOAL_DECIDED) fprintf(r->out, "\"goal_bits\": %" PRId64 ",\n", bits);
-  fprintf(r->out,
-          "\"capped\": %s,\n\"count\": {\"sites\": %zu, \"legal\": %zu, \"indeterminate\": %zu, \"tie\": %zu},\n",
-          dyd_delaunay_is_capped(r->pd) ? "true" : "false", r->count, count[DYD_LEGAL], count[DYD_INDETERMINATE],
-          count[DYD_TIE]);
+  dyd_json_head(j, r->sphere ? "dyadel sphere 1" : "dyadel delaunay 1", r->epsg);
+  dyd_json_word(j, "rounding",
+                r->sphere ? "x (longitude) and y (latitude) are degrees: exact where both ends are equal, else rounded "
+                            "outward; x_decimal and y_decimal are rounded outward: the first down, the second up"
+                          : "x, y and exact are exact; x_decimal and y_decimal are rounded outward: the first down, "
+                            "the second up; decimal is rounded up; null is beyond the largest double");
+  if (r->sphere) dyd_json_word(j, "surface", "sphere");
+  dyd_json_word(j, "outcome", dyd_outcome_text(dyd_result_outcome(r)));
+  if (!r->sphere) dyd_json_word(j, "goal", dyd_goal_text(goal));
+  if (!r->sphere && goal != DYD_GOAL_DECIDED) dyd_json_signed(j, "goal_bits", bits);
+  dyd_json_bool(j, "capped", dyd_delaunay_is_capped(r->pd));
+  dyd_result_count(count, r);
+  json_count(j, r->count, count);
+  if (r->sphere && dyd_sphere_centre(r->sphere) != DYD_NO_PLACE)
+    dyd_json_site(j, "projected_from", r->engine, dyd_sphere_centre(r->sphere));
 }
 
-/* Only for a capped result: pairs within one of these faces may be possible without being listed. */
-static dyd_status json_faces(const dyd_result *r) {
-  if (!dyd_delaunay_is_capped(r->pd)) return DYD_OK;
-  fputs("\"faces\": [", r->out);
-  dyd_status st = dyd_result_faces(r, "\n[", ",\n[", ", ", "]");
-  fputs("],\n", r->out);
-  return st;
-}
-
-static dyd_status json_delaunay(const dyd_output *o) {
+static dyd_status delaunay_json(const dyd_output *o) {
   const dyd_result *r = o->what;
-  json_head(r);
-  dyd_status st = json_bounds(r);
-  if (st == DYD_OK) st = json_sites(r);
-  dyd_json_pairs(r->out, r->engine, "pairs", &r->pairs);
-  fputs(",\n", r->out);
-  if (st == DYD_OK) st = json_ties(r);
-  if (st == DYD_OK) st = json_faces(r);
-  if (st == DYD_OK) st = json_triangles(r);
-  if (st == DYD_OK) st = json_hull(r);
-  dyd_json_counters(r->out, r->engine);
-  fputs("}\n", r->out);
+  dyd_triangle_list triangles = {0};
+  dyd_json j;
+  dyd_json_begin(&j, o->out);
+  json_head(&j, r);
+  if (!r->sphere) json_bounds(&j, r);
+  if (j.st == DYD_OK) json_sites(&j, r);
+  dyd_json_aliases(&j, r->engine, r->sphere);
+  dyd_json_pairs(&j, "pairs", r->engine, &r->pairs);
+  if (!r->sphere && j.st == DYD_OK) json_ties(&j, r);
+  if (!r->sphere && j.st == DYD_OK) json_faces(&j, r);
+  dyd_json_good(&j, dyd_result_triangles(&triangles, r));
+  dyd_json_triangles(&j, r->engine, &triangles);
+  if (!r->sphere && j.st == DYD_OK) json_hull(&j, r);
+  dyd_json_counters(&j, r->sphere ? dyd_sphere_images(r->sphere) : r->engine);
+  dyd_triangle_list_clear(&triangles);
+  return dyd_json_end(&j, "\n}\n");
+}
+
+/* ---- cells ---- */
+
+static void polygon_json(dyd_json *j, const char *name, const dyd_polygon *p) {
+  dyd_json_array(j, name, DYD_JSON_FLAT);
+  for (size_t k = 0; k < p->count && j->st == DYD_OK; k++) {
+    dyd_json_array(j, NULL, DYD_JSON_FLAT);
+    dyd_json_dyadic(j, NULL, &p->vertex[k].x);
+    dyd_json_dyadic(j, NULL, &p->vertex[k].y);
+    dyd_json_close(j, 1);
+  }
+  dyd_json_close(j, 1);
+}
+
+/* What is known of an exact cell. */
+static void exact_json(dyd_json *j, const dyd_diagram *d, uint32_t i, const dyd_cell_row *row) {
+  mpq_t area;
+  bool exact = false;
+  if (!row->exact) return;
+  mpq_init(area);
+  if (dyd_json_good(j, dyd_voronoi_exact_area(area, &exact, d->pd, i, &d->window)) && exact) {
+    dyd_json_rational(j, "exact_area", area);
+    dyd_json_decimal(j, "vertex_error", row->rounding, DYD_UP);
+  }
+  mpq_clear(area);
+}
+
+static void polygons_json(dyd_json *j, const dyd_shape *shape) {
+  dyd_polygon inner = {0};
+  dyd_polygon_list outer = {0};
+  if (dyd_json_good(j, dyd_shape_inner(&inner, shape))) dyd_json_good(j, dyd_shape_outer(&outer, shape));
+  polygon_json(j, "inner", &inner);
+  dyd_json_break(j, ",\n");
+  dyd_json_array(j, "outer", DYD_JSON_LINES);
+  for (size_t k = 0; k < outer.count; k++) polygon_json(j, NULL, &outer.item[k]);
+  dyd_json_close(j, 1);
+  dyd_polygon_list_clear(&outer);
+  dyd_polygon_clear(&inner);
+}
+
+typedef struct diagram_json {
+  const dyd_diagram *d;
+  dyd_json j;
+  dyd_point_texts texts;
+} diagram_json;
+
+static void region_boundary_json(diagram_json *c, uint32_t i, bool outer) {
+  dyd_boundary boundary = {0};
+  const char *name = outer ? "pos" : "int";
+  dyd_status st = dyd_cell_region(&boundary, c->d->pd, i, outer, NULL, c->d->room, c->d->cancel);
+  dyd_json_break(&c->j, ",\n");
+  if (st == DYD_CANCELLED)
+    dyd_json_raw(&c->j, name, "null");
+  else if (dyd_json_good(&c->j, st))
+    dyd_json_boundary(&c->j, name, &boundary, &c->texts);
+  dyd_boundary_clear(&boundary);
+}
+
+static dyd_status cell_json(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
+  diagram_json *c = context;
+  dyd_json *j = &c->j;
+  dyd_json_object(j, NULL, DYD_JSON_FLAT);
+  dyd_json_site(j, "i", c->d->engine, i);
+  dyd_json_ids(j, c->d->engine, &i, 0);
+  dyd_json_decimals(j, "area", row->area[0], row->area[1]);
+  dyd_json_decimal(j, "undetermined", dyd_cell_undetermined(row), DYD_UP);
+  dyd_json_box(j, "", row->present ? row->box : NULL);
+  dyd_json_break(j, ",\n");
+  exact_json(j, c->d, i, row);
+  if (j->st == DYD_OK) polygons_json(j, shape);
+  if (j->st == DYD_OK) region_boundary_json(c, i, false);
+  if (j->st == DYD_OK) region_boundary_json(c, i, true);
+  dyd_json_close(j, 1);
+  return j->st;
+}
+
+/* ---- vertices, edges, regions ---- */
+
+static void exact_box_json(dyd_json *j, const dyd_diagram *d, size_t k) {
+  char *text[4];
+  if (dyd_json_good(j, dyd_diagram_vertex(text, d, k)))
+    for (int m = 0; m < 4; m++) {
+      if (m % 2 == 0) dyd_json_array(j, m ? "y_exact" : "x_exact", DYD_JSON_FLAT);
+      dyd_json_word(j, NULL, text[m]);
+      if (m & 1) dyd_json_close(j, 1);
+    }
+  for (int m = 0; m < 4; m++) free(text[m]);
+}
+
+static void vertices_json(dyd_json *j, const dyd_diagram *d) {
+  dyd_json_array(j, "vertices", DYD_JSON_LIST);
+  for (size_t k = 0; k < dyd_diagram_vertices(d) && j->st == DYD_OK; k++) {
+    dyd_index_list sites = {0};
+    dyd_json_good(j, dyd_diagram_vertex_sites(&sites, d, k));
+    dyd_json_object(j, NULL, DYD_JSON_FLAT);
+    dyd_json_sites(j, "sites", d->engine, &sites);
+    dyd_index_list_clear(&sites);
+    dyd_json_box(j, "", d->vertex[k]);
+    if (j->st == DYD_OK) exact_box_json(j, d, k);
+    dyd_json_close(j, 1);
+  }
+  dyd_json_close(j, 1);
+}
+
+static void dual_end_json(dyd_json *j, const char *name, const dyd_dual_end *end) {
+  if (end->kind == DYD_DUAL_VERTEX) {
+    dyd_json_index(j, name, end->vertex);
+  } else if (end->kind == DYD_DUAL_RAY) {
+    dyd_json_object(j, name, DYD_JSON_FLAT);
+    dyd_json_object(j, "ray", DYD_JSON_FLAT);
+    dyd_json_box(j, "", end->direction);
+    dyd_json_close(j, 2);
+  } else {
+    dyd_json_raw(j, name, "null");
+  }
+}
+
+static void dual_edges_json(dyd_json *j, const dyd_diagram *d) {
+  dyd_dual_edge *edge = NULL;
+  size_t count = 0;
+  dyd_json_good(j, dyd_dual_edges(&edge, &count, d->pd, &d->triangles, d->tied, d->ties, d->room));
+  dyd_json_array(j, "edges", DYD_JSON_LIST);
+  for (size_t k = 0; k < count; k++) {
+    dyd_json_object(j, NULL, DYD_JSON_FLAT);
+    dyd_json_site(j, "i", d->engine, edge[k].i);
+    dyd_json_site(j, "j", d->engine, edge[k].j);
+    dual_end_json(j, "from", &edge[k].end[0]);
+    dual_end_json(j, "to", &edge[k].end[1]);
+    dyd_json_close(j, 1);
+  }
+  dyd_json_close(j, 1);
+  free(edge);
+}
+
+static dyd_status region_json(void *context, size_t face, const double box[4]) {
+  diagram_json *c = context;
+  dyd_index_list sites = {0};
+  bool outer;
+  dyd_status st = dyd_delaunay_face(&sites, &outer, c->d->pd, face);
+  dyd_json_object(&c->j, NULL, DYD_JSON_FLAT);
+  dyd_json_sites(&c->j, "sites", c->d->engine, &sites);
+  dyd_json_box(&c->j, "", box);
+  dyd_json_close(&c->j, 1);
+  dyd_index_list_clear(&sites);
   return st;
 }
 
-dyd_writer *const dyd_json_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = json_delaunay,
-                                                    [DYD_CONTENT_VORONOI] = dyd_voronoi_json,
+/* ---- the diagram ---- */
+
+static void diagram_head_json(dyd_json *j, const dyd_diagram *d) {
+  size_t count[4];
+  int64_t bits;
+  dyd_goal goal = dyd_engine_goal(&bits, d->engine);
+  dyd_delaunay_count(count, d->pd);
+  dyd_json_head(j, "dyadel voronoi 1", d->epsg);
+  dyd_json_word(j, "rounding",
+                "texts are exact numbers; pairs of numbers are rounded outward: the first down, the second up; null is "
+                "unbounded or beyond the largest double; inner and outer of a cell with vertex_error are that cell, "
+                "with vertices rounded by at most so much in each coordinate");
+  dyd_json_word(j, "outcome", dyd_outcome_text(dyd_engine_outcome(d->engine)));
+  dyd_json_word(j, "goal", dyd_goal_text(goal));
+  dyd_json_signed(j, "goal_bits", bits);
+  dyd_json_signed(j, "flatten_bits", d->bits);
+  json_count(j, d->count, count);
+  dyd_json_rect(j, "window", &d->window);
+  dyd_json_aliases(j, d->engine, NULL);
+}
+
+static dyd_status voronoi_json(const dyd_output *o) {
+  const dyd_diagram *d = o->what;
+  diagram_json c = {.d = d, .texts = {.engine = d->engine}};
+  dyd_json *j = &c.j;
+  dyd_json_begin(j, o->out);
+  diagram_head_json(j, d);
+  dyd_json_array(j, "cells", DYD_JSON_LIST);
+  if (j->st == DYD_OK) dyd_json_good(j, dyd_diagram_visit(d, cell_json, &c));
+  dyd_point_texts_clear(&c.texts);
+  dyd_json_close(j, 1);
+  if (j->st == DYD_OK) vertices_json(j, d);
+  if (j->st == DYD_OK) dual_edges_json(j, d);
+  dyd_json_array(j, "regions", DYD_JSON_LIST);
+  if (j->st == DYD_OK) dyd_json_good(j, dyd_diagram_regions(d, region_json, &c));
+  dyd_json_close(j, 1);
+  dyd_json_object(j, "bounds", DYD_JSON_FLAT);
+  dyd_json_bound(j, "undetermined_area", &d->bounds->area);
+  dyd_json_bound(j, "distance_to_true_diagram", d->bounds->finite ? &d->bounds->hausdorff : NULL);
+  dyd_json_close(j, 1);
+  return dyd_json_end(j, "\n}\n");
+}
+
+/* ---- the diagram of a sphere ---- */
+
+static void globe_cells_json(dyd_json *j, const dyd_result *r, const dyd_sphere_cells *c) {
+  dyd_json_array(j, "cells", DYD_JSON_LIST);
+  for (uint32_t i = 0; i < c->places; i++) {
+    if (dyd_sphere_alias(r->sphere, i) != i) continue;
+    dyd_json_object(j, NULL, DYD_JSON_FLAT);
+    dyd_json_site(j, "i", r->engine, i);
+    dyd_json_ids(j, r->engine, &i, 0);
+    dyd_json_bool(j, "complete", c->closed[i]);
+    dyd_json_array(j, "vertices", DYD_JSON_FLAT);
+    for (size_t k = c->first[i]; k < c->first[i + 1]; k++) {
+      if (c->gap[k]) dyd_json_raw(j, NULL, "null");
+      dyd_json_index(j, NULL, c->of[k]);
+    }
+    dyd_json_close(j, 2);
+  }
+  dyd_json_close(j, 1);
+}
+
+static void globe_regions_json(dyd_json *j, const dyd_result *r) {
+  dyd_index_list sites = {0};
+  bool tie;
+  dyd_json_array(j, "regions", DYD_JSON_LIST);
+  for (size_t f = 0; f < dyd_sphere_faces(r->sphere); f++) {
+    if (!dyd_json_good(j, dyd_sphere_face(&sites, &tie, r->sphere, f))) break;
+    dyd_json_object(j, NULL, DYD_JSON_FLAT);
+    dyd_json_index(j, "face", f);
+    dyd_json_word(j, "status", tie ? "tie" : "indeterminate");
+    dyd_json_sites(j, "sites", r->engine, &sites);
+    dyd_json_close(j, 1);
+  }
+  dyd_json_close(j, 1);
+  dyd_index_list_clear(&sites);
+}
+
+static void globe_diagram_json(dyd_json *j, const dyd_result *r, const dyd_sphere_cells *c) {
+  dyd_json_head(j, "dyadel sphere voronoi 1", r->epsg);
+  dyd_json_word(j, "rounding",
+                "x (longitude) and y (latitude) are degrees, rounded outward: the first down, the second up; null "
+                "among the vertices of a cell: an undecided region is next");
+  dyd_json_word(j, "surface", "sphere");
+  dyd_json_word(j, "outcome", dyd_outcome_text(dyd_result_outcome(r)));
+  dyd_json_array(j, "vertices", DYD_JSON_LIST);
+  for (size_t k = 0; k < c->nodes; k++) {
+    static const char *const name[3] = {"i", "j", "k"};
+    dyd_json_object(j, NULL, DYD_JSON_FLAT);
+    for (int l = 0; l < 3; l++) dyd_json_site(j, name[l], r->engine, c->node[k].of.v[l]);
+    dyd_json_box(j, "", c->node[k].box);
+    dyd_json_close(j, 1);
+  }
+  dyd_json_close(j, 1);
+  globe_cells_json(j, r, c);
+  globe_regions_json(j, r);
+  dyd_json_aliases(j, r->engine, r->sphere);
+  dyd_json_counters(j, dyd_sphere_images(r->sphere));
+}
+
+static dyd_status globe_voronoi_json(const dyd_output *o) {
+  const dyd_result *r = o->what;
+  dyd_sphere_cells c = {0};
+  dyd_json j;
+  dyd_status st = dyd_sphere_cells_find(&c, r->sphere, o->err);
+  if (st == DYD_OK) {
+    dyd_json_begin(&j, o->out);
+    globe_diagram_json(&j, r, &c);
+    st = dyd_json_end(&j, "\n}\n");
+  }
+  dyd_sphere_cells_clear(&c);
+  return st;
+}
+
+/* ---- tolerances ---- */
+
+static void site_or_null_json(dyd_json *j, const char *name, const dyd_engine *e, uint32_t k) {
+  if (k == DYD_NO_SITE)
+    dyd_json_raw(j, name, "null");
+  else
+    dyd_json_site(j, name, e, k);
+}
+
+/* "exact": the squares under both roots of 2 t = |sqrt(plus) - sqrt(minus)|. */
+static void event_json(dyd_json *j, const dyd_result *r, size_t number, const dyd_tolerance_row *row, mpq_t q[2]) {
+  const double *chance = dyd_tolerance_chances(r->tolerance);
+  dyd_json_object(j, NULL, DYD_JSON_FLAT);
+  dyd_json_site(j, "i", r->engine, row->i);
+  dyd_json_site(j, "j", r->engine, row->j);
+  dyd_json_word(j, "event", dyd_tolerance_event_text(row->event));
+  dyd_json_decimals(j, "bounds", row->lo, row->hi);
+  site_or_null_json(j, "k", r->engine, row->k);
+  site_or_null_json(j, "l", r->engine, row->l);
+  if (chance) dyd_json_decimal(j, "probability", chance[number], DYD_DOWN);
+  dyd_status st = dyd_tolerance_exact(q[0], q[1], r->tolerance, number);
+  if (st == DYD_OK) {
+    dyd_json_rational(j, "plus", q[0]);
+    dyd_json_rational(j, "minus", q[1]);
+  } else if (st != DYD_E_ARG) { /* which is: there is no exact form */
+    dyd_json_good(j, st);
+  }
+  dyd_json_close(j, 1);
+}
+
+static void events_json(dyd_json *j, const dyd_result *r) {
+  const dyd_tolerance_row *row;
+  size_t rows = dyd_tolerance_rows(&row, r->tolerance);
+  mpq_t q[2];
+  mpq_inits(q[0], q[1], NULL);
+  dyd_json_array(j, "pairs", DYD_JSON_LIST);
+  for (size_t k = 0; k < rows && j->st == DYD_OK; k++) event_json(j, r, k, &row[k], q);
+  dyd_json_close(j, 1);
+  mpq_clears(q[0], q[1], NULL);
+}
+
+static void missing_json(dyd_json *j, const dyd_tolerance *t) {
+  size_t edges, births;
+  if (!dyd_tolerance_is_cut(&edges, &births, t)) return;
+  dyd_json_object(j, "without_row", DYD_JSON_FLAT);
+  dyd_json_index(j, "edges", edges);
+  if (births == SIZE_MAX)
+    dyd_json_raw(j, "births", "null");
+  else
+    dyd_json_index(j, "births", births);
+  dyd_json_close(j, 1);
+}
+
+static dyd_status tolerance_json(const dyd_output *o) {
+  const dyd_result *r = o->what;
+  const double *radius = dyd_tolerance_points(r->tolerance);
+  bool box = dyd_tolerance_metric(r->tolerance) == DYD_METRIC_BOX;
+  double lo, hi;
+  dyd_json j;
+  dyd_json_begin(&j, o->out);
+  dyd_json_head(&j, "dyadel tolerance 1", r->epsg);
+  if (box) dyd_json_word(&j, "metric", "box");
+  dyd_json_word(&j, "rounding",
+                box ? "bounds are rounded outward: the first down, the second up, null is infinite; rho and "
+                      "probability are rounded down"
+                    : "bounds are rounded outward: the first down, the second up, null is infinite; twice the event is "
+                      "exactly |sqrt(plus) - sqrt(minus)|; rho and probability are rounded down");
+  dyd_tolerance_whole(&lo, &hi, r->tolerance);
+  dyd_json_decimals(&j, "tolerance", lo, hi);
+  missing_json(&j, r->tolerance);
+  events_json(&j, r);
+  dyd_json_array(&j, "rho", DYD_JSON_FLAT);
+  for (size_t i = 0; radius && i < r->count; i++) {
+    if (i && i % 8 == 0) dyd_json_break(&j, ",\n");
+    dyd_json_decimal(&j, NULL, radius[i], DYD_DOWN);
+  }
+  dyd_json_close(&j, 1);
+  dyd_json_aliases(&j, r->engine, NULL);
+  return dyd_json_end(&j, "}\n");
+}
+
+dyd_writer *const dyd_json_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = delaunay_json,
+                                                    [DYD_CONTENT_VORONOI] = voronoi_json,
                                                     [DYD_CONTENT_CONVERGENCE] = dyd_convergence_json,
                                                     [DYD_CONTENT_CHECK] = dyd_check_json,
                                                     [DYD_CONTENT_DISC] = dyd_disc_json,
                                                     [DYD_CONTENT_BISECTOR] = dyd_bisector_json,
                                                     [DYD_CONTENT_NEAREST] = dyd_nearest_json,
-                                                    [DYD_CONTENT_PLACES] = dyd_places_json,
-                                                    [DYD_CONTENT_TOLERANCE] = dyd_tolerance_json,
-                                                    [DYD_CONTENT_SPHERE] = dyd_sphere_json,
-                                                    [DYD_CONTENT_SPHERE_VORONOI] = dyd_sphere_voronoi_json};
+                                                    [DYD_CONTENT_PLACES] = dyd_nearest_json,
+                                                    [DYD_CONTENT_TOLERANCE] = tolerance_json,
+                                                    [DYD_CONTENT_SPHERE] = delaunay_json,
+                                                    [DYD_CONTENT_SPHERE_VORONOI] = globe_voronoi_json};

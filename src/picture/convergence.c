@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The plot of a table of convergence: bounds and counts against stages, logarithmic, as svg, pdf or png. */
-#include "io/parts.h"
+#include "io/result.h"
 #include "picture/panel.h"
 #include "picture/picture.h"
 #include <math.h>

@@ -24,7 +24,7 @@ static const struct {
 
 /* cells: of the diagram, NULL: edges are drawn. */
 typedef struct sphere_drawing {
-  const dyd_sphere_result *r;
+  const dyd_result *r;
   const dyd_sphere_cells *cells;
   double (*box)[4];              /* of places, whose middles are on the map */
   size_t count, sites, shown[4]; /* sites, shown: places and edges in the frame */
@@ -304,7 +304,7 @@ dyd_status dyd_sphere_picture(const dyd_output *o) {
 }
 
 dyd_status dyd_sphere_voronoi_picture(const dyd_output *o) {
-  const dyd_sphere_result *r = o->what;
+  const dyd_result *r = o->what;
   dyd_sphere_cells cells = {0};
   dyd_status st = dyd_sphere_cells_find(&cells, r->sphere, o->err);
   if (st == DYD_OK) st = sphere_draw(o, &cells, "Voronoi diagram of a sphere");

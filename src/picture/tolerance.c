@@ -141,9 +141,8 @@ static dyd_status tolerance_see(tolerance_drawing *g, dyd_error *err) {
 }
 
 dyd_status dyd_tolerance_picture(const dyd_output *o) {
-  const dyd_tolerance_result *what = o->what;
-  const dyd_result *r = what->result;
-  tolerance_drawing g = {.r = r, .t = what->tolerance, .marks = dyd_site_marks_of(r->pd, r->engine, DYD_PICTURE_BAND)};
+  const dyd_result *r = o->what;
+  tolerance_drawing g = {.r = r, .t = r->tolerance, .marks = dyd_site_marks_of(r->pd, r->engine, DYD_PICTURE_BAND)};
   g.rows = dyd_tolerance_rows(&g.row, g.t);
   dyd_status st = find_classes(&g);
   if (st == DYD_OK) st = tolerance_see(&g, o->err);

@@ -10,9 +10,9 @@ static PyObject *table_text(const dyd_convergence *table, const char *name, bool
   dyd_error_clear(&err);
   if (!dyd_format_from_name(&format, name)) return PyErr_Format(PyExc_ValueError, "there is no format \"%s\"", name);
   if (!dydpy_text_open(&text)) return NULL;
-  dyd_status st = dyd_format_holds(format, DYD_CONTENT_CONVERGENCE)
-                      ? dyd_write_convergence(text.file, table, format, times, &err)
-                      : dyd_plot_convergence(text.file, table, format, &err);
+  const dyd_write_options o = {DYD_SIZED(dyd_write_options), .stages = table, .times = times};
+  bool rows = dyd_format_holds(format, DYD_CONTENT_CONVERGENCE);
+  dyd_status st = dyd_write(text.file, NULL, rows ? DYD_CONTENT_CONVERGENCE : DYD_CONTENT_PLOT, format, &o, &err);
   return dydpy_text_close(&text, &err, st);
 }
 

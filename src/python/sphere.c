@@ -130,16 +130,16 @@ static PyObject *globe_written(PyObject *object, const char *format, const char 
   dydpy_text text;
   dyd_error err;
   dyd_format form;
-  dyd_sphere_output o = {DYD_SIZED(dyd_sphere_output), .epsg = epsg};
-  if (!dydpy_form(&form, &o.layer, of, format, layer)) return NULL;
-  if (o.layer == DYD_CONTENT_NONE) o.layer = of;
-  const dyd_sphere *s = globe_enter(object);
-  if (!s) return NULL;
+  dyd_content content;
+  dyd_write_options o = {DYD_SIZED(dyd_write_options), .epsg = epsg};
+  if (!dydpy_form(&form, &content, of, format, layer)) return NULL;
+  o.sphere = globe_enter(object);
+  if (!o.sphere) return NULL;
   dyd_status st = DYD_E_NOMEM;
   bool opened = dydpy_text_open(&text);
   if (opened) {
     PyThreadState *thread = PyEval_SaveThread();
-    st = dyd_write_sphere(text.file, s, &o, form, &err);
+    st = dyd_write(text.file, NULL, content, form, &o, &err);
     PyEval_RestoreThread(thread);
   }
   dydpy_leave((dydpy_engine *)object);

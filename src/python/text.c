@@ -37,7 +37,7 @@ PyObject *dydpy_formats(PyObject *module, PyObject *none) {
 }
 
 bool dydpy_form(dyd_format *format, dyd_content *layer, dyd_content of, const char *name, const char *layer_name) {
-  *layer = DYD_CONTENT_NONE;
+  *layer = of;
   if (!dyd_format_from_name(format, name)) {
     PyErr_Format(PyExc_ValueError, "there is no format \"%s\"; see dyadel.formats()", name);
     return false;
@@ -83,10 +83,9 @@ PyObject *dydpy_write(PyObject *object, PyObject *args) {
   if (!PyArg_ParseTuple(args, "szOI", &format, &layer, &window, &t.epsg)) return NULL;
   if (!dydpy_form(&t.format, &t.layer, DYD_CONTENT_DELAUNAY, format, layer) || !order_begin(&t, self, window))
     return NULL;
-  const dyd_delaunay_output o = {DYD_SIZED(dyd_delaunay_output), .window = t.windowed ? &t.window : NULL,
-                                 .layer = t.layer, .epsg = t.epsg};
+  const dyd_write_options o = {DYD_SIZED(dyd_write_options), .window = t.windowed ? &t.window : NULL, .epsg = t.epsg};
   PyThreadState *thread = PyEval_SaveThread();
-  dyd_status st = dyd_write_delaunay_as(t.text.file, self->engine, &o, t.format, &err);
+  dyd_status st = dyd_write(t.text.file, self->engine, t.layer, t.format, &o, &err);
   PyEval_RestoreThread(thread);
   return order_end(&t, self, &err, st);
 }
@@ -100,17 +99,16 @@ PyObject *dydpy_write_voronoi(PyObject *object, PyObject *args) {
   volatile int cancel = 0;
   dydpy_guard guard;
   if (!PyArg_ParseTuple(args, "szOOI", &format, &layer, &window, &bits, &t.epsg)) return NULL;
-  dyd_voronoi_options o = {DYD_SIZED(dyd_voronoi_options), .cancel = &cancel, .flatten_set = bits != Py_None};
+  dyd_write_options o = {DYD_SIZED(dyd_write_options), .cancel = &cancel, .flatten_set = bits != Py_None};
   if (o.flatten_set) o.flatten_bits = PyLong_AsLongLong(bits);
   if (PyErr_Occurred() || !dydpy_form(&t.format, &t.layer, DYD_CONTENT_VORONOI, format, layer) ||
       !order_begin(&t, self, window))
     return NULL;
   o.window = t.windowed ? &t.window : NULL;
-  o.layer = t.layer;
   o.epsg = t.epsg;
   dydpy_guard_begin(&guard, NULL, &cancel);
   PyThreadState *thread = PyEval_SaveThread();
-  dyd_status st = dyd_write_voronoi(t.text.file, self->engine, &o, t.format, &err);
+  dyd_status st = dyd_write(t.text.file, self->engine, t.layer, t.format, &o, &err);
   PyEval_RestoreThread(thread);
   dydpy_guard_end(&guard);
   return order_end(&t, self, &err, st == DYD_CAPPED ? DYD_E_ARG : st);

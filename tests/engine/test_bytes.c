@@ -236,11 +236,11 @@ static void test_results_are_kept(void **state) {
 /* ---- what is made of a result ---- */
 
 static void write_diagram(dyd_status *st, const dyd_engine *e, int64_t bits, dyd_format format, dyd_error *err) {
-  const dyd_voronoi_options o = {DYD_SIZED(dyd_voronoi_options), .window = &square, .flatten_set = true,
-                                 .flatten_bits = bits};
+  const dyd_write_options o = {DYD_SIZED(dyd_write_options), .window = &square, .flatten_set = true,
+                               .flatten_bits = bits};
   FILE *out = fopen("/dev/null", "w");
   assert_non_null(out);
-  *st = dyd_write_voronoi(out, e, &o, format, err);
+  *st = dyd_write(out, e, DYD_CONTENT_VORONOI, format, &o, err);
   fclose(out);
 }
 static void use_vertices(dyd_status *st, const dyd_engine *e, dyd_error *err) {
@@ -306,7 +306,7 @@ static void use_triangles(dyd_status *st, const dyd_engine *e, dyd_error *err) {
 static void write_format(dyd_status *st, const dyd_engine *e, dyd_format format, dyd_error *err) {
   FILE *out = fopen("/dev/null", "w");
   assert_non_null(out);
-  *st = dyd_write_delaunay(out, e, format, err);
+  *st = dyd_write(out, e, DYD_CONTENT_DELAUNAY, format, NULL, err);
   fclose(out);
 }
 static void use_csv(dyd_status *st, const dyd_engine *e, dyd_error *err) {

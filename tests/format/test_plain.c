@@ -28,7 +28,7 @@ static char *written(dyd_status wanted, dyd_format format, dyd_error *err) {
   dyd_engine *e = four_points();
   FILE *out = open_memstream(&text, &size);
   assert_non_null(out);
-  assert_int_equal(dyd_write_delaunay(out, e, format, err), wanted);
+  assert_int_equal(dyd_write(out, e, DYD_CONTENT_DELAUNAY, format, NULL, err), wanted);
   fclose(out);
   dyd_engine_free(e);
   return text;

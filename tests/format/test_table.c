@@ -79,7 +79,6 @@ static void example_clear(example *x) {
 /* The points of the example need not be exact for a plan, but for tolerances: three others. */
 static dyd_status write_tolerance(FILE *out, dyd_content content, dyd_format format, dyd_error *err) {
   const dyd_tolerance_options options = {DYD_SIZED(dyd_tolerance_options), .points = true};
-  const dyd_tolerance_output o = {DYD_SIZED(dyd_tolerance_output), .layer = content};
   dyd_engine *e;
   dyd_tolerance *t;
   dyd_outcome outcome;
@@ -87,22 +86,14 @@ static dyd_status write_tolerance(FILE *out, dyd_content content, dyd_format for
   assert_int_equal(dyd_engine_add_points(e, 3, (const double[]){0, 3, 1}, (const double[]){0, 0, 2}), DYD_OK);
   assert_int_equal(dyd_engine_run(&outcome, e, NULL, NULL), DYD_OK);
   assert_int_equal(dyd_tolerance_new(&t, dyd_engine_delaunay(e), &options, NULL), DYD_OK);
-  dyd_status st = dyd_write_tolerance(out, e, t, &o, format, err);
+  const dyd_write_options o = {DYD_SIZED(dyd_write_options), .tolerance = t};
+  dyd_status st = dyd_write(out, e, content, format, &o, err);
   dyd_tolerance_free(t);
   dyd_engine_free(e);
   return st;
 }
 
-static dyd_status write_plan(FILE *out, const dyd_engine *e, dyd_format format, dyd_error *err) {
-  dyd_survey *s;
-  assert_int_equal(dyd_survey_new(&s, dyd_engine_delaunay(e), NULL, NULL), DYD_OK);
-  dyd_status st = dyd_write_plan(out, e, s, NULL, format, err);
-  dyd_survey_free(s);
-  return st;
-}
-
 static dyd_status write_sphere(FILE *out, dyd_content content, dyd_format format, dyd_error *err) {
-  const dyd_sphere_output o = {DYD_SIZED(dyd_sphere_output), .layer = content};
   dyd_engine *places;
   dyd_sphere *s;
   dyd_outcome outcome;
@@ -110,55 +101,34 @@ static dyd_status write_sphere(FILE *out, dyd_content content, dyd_format format
   assert_int_equal(
       dyd_engine_add_points(places, 4, (const double[]){0, 90, 10, -120}, (const double[]){0, 10, 80, -45}), DYD_OK);
   assert_int_equal(dyd_sphere_new(&s, places, NULL, NULL), DYD_OK);
+  const dyd_write_options o = {DYD_SIZED(dyd_write_options), .sphere = s};
+  assert_int_equal(dyd_write(out, NULL, content, format, &o, err), DYD_E_ARG); /* there is no result yet */
   assert_int_equal(dyd_sphere_run(&outcome, s, NULL, NULL), DYD_OK);
-  dyd_status st = dyd_write_sphere(out, s, &o, format, err);
+  dyd_status st = dyd_write(out, NULL, content, format, &o, err);
   dyd_sphere_free(s);
   dyd_engine_free(places);
   return st;
 }
 
+/* All options that contents need, but those that need a result of their own. */
 static dyd_status write_content(FILE *out, const example *x, dyd_content content, dyd_format format, dyd_error *err) {
   const dyd_rect *const r[] = {&x->r[0], &x->r[1], &x->r[2]};
   const dyd_nearest_answer answer = {DYD_SIZED(dyd_nearest_answer), r[0], &x->nearest, true, DYD_OUTCOME_DECIDED};
+  const dyd_nearest_answer *const answers = &answer;
+  dyd_write_options o = {DYD_SIZED(dyd_write_options),
+                         .history = x->history,
+                         .stages = &x->stages,
+                         .report = &x->report,
+                         .rect = r,
+                         .rects = 3,
+                         .answer = &answers,
+                         .answers = 1};
+  dyd_survey *s = NULL;
   switch (content) {
-  case DYD_CONTENT_DELAUNAY:
-    return dyd_write_delaunay(out, x->e, format, err);
-  case DYD_CONTENT_VORONOI:
-    return dyd_write_voronoi(out, x->e, NULL, format, err);
-  case DYD_CONTENT_CONVERGENCE:
-    return dyd_write_convergence_as(
-        out, &x->stages,
-        &(dyd_convergence_output){DYD_SIZED(dyd_convergence_output), .engine = x->e, .history = x->history}, format,
-        err);
-  case DYD_CONTENT_PLOT:
-    return dyd_plot_convergence(out, &x->stages, format, err);
-  case DYD_CONTENT_CHECK:
-    return dyd_write_check(out, &x->report, format, err);
-  case DYD_CONTENT_DISC:
-    return dyd_write_disc(out, r, 3, DYD_OUTCOME_DECIDED, format, err);
-  case DYD_CONTENT_BISECTOR:
-    return dyd_write_bisector(out, r[0], r[1], DYD_OUTCOME_DECIDED, format, err);
-  case DYD_CONTENT_POINTS:
-  case DYD_CONTENT_TRIANGLES:
-  case DYD_CONTENT_GRAPH_NEAREST:
-  case DYD_CONTENT_GRAPH_GABRIEL:
-  case DYD_CONTENT_GRAPH_MST:
-  case DYD_CONTENT_ALIASES:
-  case DYD_CONTENT_TIES:
-    return dyd_write_delaunay_as(out, x->e, &(dyd_delaunay_output){DYD_SIZED(dyd_delaunay_output), .layer = content},
-                                 format, err);
-  case DYD_CONTENT_VERTICES:
-  case DYD_CONTENT_REGIONS:
-  case DYD_CONTENT_EDGES:
-  case DYD_CONTENT_VORONOI_ALIASES:
-    return dyd_write_voronoi(out, x->e, &(dyd_voronoi_options){DYD_SIZED(dyd_voronoi_options), .layer = content},
-                             format, err);
   case DYD_CONTENT_TOLERANCE:
   case DYD_CONTENT_RADII:
   case DYD_CONTENT_BARCODE:
     return write_tolerance(out, content, format, err);
-  case DYD_CONTENT_PLAN:
-    return write_plan(out, x->e, format, err);
   case DYD_CONTENT_SPHERE:
   case DYD_CONTENT_SPHERE_POINTS:
   case DYD_CONTENT_SPHERE_TRIANGLES:
@@ -166,11 +136,16 @@ static dyd_status write_content(FILE *out, const example *x, dyd_content content
   case DYD_CONTENT_SPHERE_VERTICES:
   case DYD_CONTENT_SPHERE_REGIONS:
     return write_sphere(out, content, format, err);
-  case DYD_CONTENT_PLACES:
-    return dyd_write_places(out, x->e, &(const dyd_nearest_answer *){&answer}, 1, DYD_OUTCOME_DECIDED, format, err);
+  case DYD_CONTENT_PLAN:
+    assert_int_equal(dyd_survey_new(&s, dyd_engine_delaunay(x->e), NULL, NULL), DYD_OK);
+    o.plan = s;
+    break;
   default:
-    return dyd_write_nearest(out, x->e, &answer, format, err);
+    break;
   }
+  dyd_status st = dyd_write(out, x->e, content, format, &o, err);
+  dyd_survey_free(s);
+  return st;
 }
 
 /* Names of layers lead back to them; a layer of the one is none of the other. */
@@ -192,12 +167,22 @@ static void test_layers(void **state) {
     }
   assert_int_equal(count, 19);
   assert_null(dyd_layer_name(DYD_CONTENT_CHECK, 0));
+}
+
+/* What a content needs and is not given is told of, as are contents that do not exist. */
+static void test_missing(void **state) {
+  (void)state;
   example x;
   dyd_error err;
   example_init(&x);
-  const dyd_delaunay_output wrong = {DYD_SIZED(dyd_delaunay_output), .layer = DYD_CONTENT_EDGES};
-  assert_int_equal(dyd_write_delaunay_as(stdout, x.e, &wrong, DYD_FORMAT_CSV, &err), DYD_E_ARG);
-  assert_non_null(strstr(err.message, "no layer of this"));
+  for (int content = 0; content <= CONTENTS; content++) {
+    assert_int_equal(dyd_write(stdout, NULL, (dyd_content)content, DYD_FORMAT_CSV, NULL, &err), DYD_E_ARG);
+    assert_true(err.message[0]);
+  }
+  assert_non_null(strstr(err.message, "there is no content"));
+  assert_int_equal(dyd_write(stdout, x.e, DYD_CONTENT_TOLERANCE, DYD_FORMAT_CSV, NULL, &err), DYD_E_ARG);
+  assert_int_equal(dyd_write(stdout, x.e, DYD_CONTENT_PLAN, DYD_FORMAT_CSV, NULL, &err), DYD_E_ARG);
+  assert_int_equal(dyd_write(stdout, x.e, DYD_CONTENT_NEAREST, DYD_FORMAT_CSV, NULL, &err), DYD_E_ARG);
   example_clear(&x);
 }
 
@@ -256,6 +241,7 @@ static void test_full_device(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_names), cmocka_unit_test(test_layers),
-                                     cmocka_unit_test(test_writers), cmocka_unit_test(test_full_device)};
+                                     cmocka_unit_test(test_missing), cmocka_unit_test(test_writers),
+                                     cmocka_unit_test(test_full_device)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -168,7 +168,7 @@ static dyd_status read_points(fixture *f, const void *s, dyd_error *err) {
 }
 
 static dyd_status write_voronoi(fixture *f, const void *s, dyd_error *err) {
-  return dyd_write_voronoi(f->sink, f->e, s, DYD_FORMAT_CSV, err);
+  return dyd_write(f->sink, f->e, DYD_CONTENT_VORONOI, DYD_FORMAT_CSV, s, err);
 }
 
 typedef struct taking {
@@ -192,7 +192,7 @@ static const taking takings[] = {
     {"dyd_oracle_options", sizeof(dyd_oracle_options), oracle_new},
     {"dyd_read_options", sizeof(dyd_read_options), add_text},
     {"dyd_read_options", sizeof(dyd_read_options), read_points},
-    {"dyd_voronoi_options", sizeof(dyd_voronoi_options), write_voronoi},
+    {"dyd_write_options", sizeof(dyd_write_options), write_voronoi},
 };
 
 /* The call with a struct of exactly `size` bytes, all 0 but for its size and the byte at `at` (0: none). */
@@ -310,12 +310,13 @@ static void test_kept(void **state) {
   dyd_convergence_clear(&table);
   dyd_check_report_clear(&report);
   assert_true(table.struct_size == 0 && report.struct_size == 0);
-  assert_int_equal(DYD_E_ARG, dyd_write_check(f->sink, &report, DYD_FORMAT_CSV, &err));
+  const dyd_write_options o = {DYD_SIZED(dyd_write_options), .stages = &table, .report = &report};
+  assert_int_equal(DYD_E_ARG, dyd_write(f->sink, NULL, DYD_CONTENT_CHECK, DYD_FORMAT_CSV, &o, &err));
   assert_non_null(strstr(err.message, "dyd_check_report s = {DYD_SIZED(dyd_check_report)}"));
   table.struct_size = sizeof table;
-  assert_int_equal(DYD_E_ARG, dyd_write_convergence(f->sink, &table, DYD_FORMAT_CSV, true, &err));
+  assert_int_equal(DYD_E_ARG, dyd_write(f->sink, NULL, DYD_CONTENT_CONVERGENCE, DYD_FORMAT_CSV, &o, &err));
   assert_non_null(strstr(err.message, "no run"));
-  assert_int_equal(DYD_E_ARG, dyd_plot_convergence(f->sink, &table, DYD_FORMAT_SVG, &err));
+  assert_int_equal(DYD_E_ARG, dyd_write(f->sink, NULL, DYD_CONTENT_PLOT, DYD_FORMAT_SVG, &o, &err));
   assert_non_null(strstr(err.message, "no run"));
   dyd_engine_free(e);
 }
@@ -377,16 +378,18 @@ static void test_small(void **state) {
   assert_int_equal(DYD_OK, dyd_rect_set_d(&window, 0, 1, 0, 1));
   b.struct_size = 0;
   assert_int_equal(DYD_E_ARG, dyd_metric_voronoi(&b, dyd_engine_delaunay(f->e), &window, 10, NULL));
-  dyd_voronoi_options o = {DYD_SIZED(dyd_voronoi_options), .window = &window, .bounds = &b};
-  assert_int_equal(DYD_E_ARG, dyd_write_voronoi(f->sink, f->e, &o, DYD_FORMAT_CSV, &err));
+  const dyd_nearest_answer *const answer = &a;
+  const dyd_write_options o = {DYD_SIZED(dyd_write_options), .window = &window, .bounds = &b, .answer = &answer,
+                               .answers = 1};
+  assert_int_equal(DYD_E_ARG, dyd_write(f->sink, f->e, DYD_CONTENT_VORONOI, DYD_FORMAT_CSV, &o, &err));
   assert_non_null(strstr(err.message, "dyd_voronoi_bounds"));
   b.struct_size = sizeof b;
   assert_int_equal(DYD_OK, dyd_metric_voronoi(&b, dyd_engine_delaunay(f->e), &window, 10, NULL));
-  assert_int_equal(DYD_OK, dyd_write_voronoi(f->sink, f->e, &o, DYD_FORMAT_CSV, &err));
-  assert_int_equal(DYD_E_ARG, dyd_write_nearest(f->sink, f->e, &a, DYD_FORMAT_CSV, &err));
+  assert_int_equal(DYD_OK, dyd_write(f->sink, f->e, DYD_CONTENT_VORONOI, DYD_FORMAT_CSV, &o, &err));
+  assert_int_equal(DYD_E_ARG, dyd_write(f->sink, f->e, DYD_CONTENT_NEAREST, DYD_FORMAT_CSV, &o, &err));
   assert_non_null(strstr(err.message, "no answer"));
   a.struct_size = 0;
-  assert_int_equal(DYD_E_ARG, dyd_write_nearest(f->sink, f->e, &a, DYD_FORMAT_CSV, &err));
+  assert_int_equal(DYD_E_ARG, dyd_write(f->sink, f->e, DYD_CONTENT_NEAREST, DYD_FORMAT_CSV, &o, &err));
   assert_non_null(strstr(err.message, "DYD_SIZED(dyd_nearest_answer)"));
   dyd_voronoi_bounds_clear(&b);
   dyd_rect_clear(&window);

@@ -4,18 +4,18 @@
 #include "picture/html/html.h"
 #include "picture/html/scene.h"
 
-#include "io/parts.h"
+#include "io/json.h"
 
 /* Up to which motion of all points nothing changes at all. */
 static dyd_status html_whole(FILE *out, const void *result) {
   const dyd_result *r = result;
   double lo, hi;
+  dyd_json j;
   if (!r->tolerance) return DYD_OK;
   dyd_tolerance_whole(&lo, &hi, r->tolerance);
-  fputs("\"tolerance\": ", out);
-  dyd_json_decimals(out, lo, hi);
-  fputs(",\n", out);
-  return DYD_OK;
+  dyd_json_begin(&j, out);
+  dyd_json_decimals(&j, "tolerance", lo, hi);
+  return dyd_json_end(&j, ",\n");
 }
 
 static dyd_status html_pairs_page(FILE *to, const dyd_output *o) {

@@ -4,8 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
-#include "io/label_text.h"
-#include "io/parts.h"
+#include "io/json.h"
 #include "picture/html/list.h"
 #include "picture/picture.h"
 #include <inttypes.h>
@@ -147,19 +146,20 @@ static const char *layer_name(dyd_content content) {
 dyd_status dyd_html_head(FILE *out, const dyd_result *r, const char *kind, dyd_content content) {
   int64_t bits;
   dyd_goal goal = dyd_engine_goal(&bits, r->engine);
-  dyd_json_head(out, "dyadel html 1");
-  dyd_json_crs(out, r->epsg);
+  dyd_json j;
+  dyd_json_begin(&j, out);
+  dyd_json_head(&j, "dyadel html 1", r->epsg);
+  dyd_json_end(&j, ",\n");
   fprintf(out,
           "\"kind\": \"%s\", \"layer\": \"%s\", \"outcome\": \"%s\", \"goal\": \"%s\", \"goal_bits\": %" PRId64
           ", \"capped\": %s, \"discs\": %s,\n\"sites\": %zu, \"window\": ",
           kind, layer_name(content), dyd_outcome_text(dyd_engine_outcome(r->engine)), dyd_goal_text(goal), bits,
           dyd_delaunay_is_capped(r->pd) ? "true" : "false", r->discs ? "true" : "false", r->count);
-  dyd_status st = DYD_OK;
-  fputs(r->window ? "[" : "null", out);
-  if (r->window) st = dyd_put_window(out, r->window, "\"", ", ");
-  fputs(r->window ? "],\n" : ",\n", out);
-  if (r->graph_name) fprintf(out, "\"graph\": \"%s\",\n", r->graph_name);
-  return st;
+  dyd_json_begin(&j, out);
+  dyd_json_window(&j, NULL, r->window, ", ");
+  if (r->graph_name) dyd_json_break(&j, ",\n");
+  if (r->graph_name) dyd_json_word(&j, "graph", r->graph_name);
+  return dyd_json_end(&j, ",\n");
 }
 
 /* ---- points ---- */
@@ -167,31 +167,36 @@ dyd_status dyd_html_head(FILE *out, const dyd_result *r, const char *kind, dyd_c
 static dyd_status html_point(const html_scene *s, uint32_t i, const dyd_site_row *row) {
   const double *radius = s->r->tolerance ? dyd_tolerance_points(s->r->tolerance) : NULL;
   dyd_rect rect;
+  dyd_json j;
   dyd_rect_init(&rect);
-  dyd_status st = dyd_sites_get(&rect, s->r->sites, i);
-  fprintf(s->out, "%s{\"i\": %zu, ", s->number[i] ? ",\n" : "\n", dyd_engine_row(s->r->engine, i));
-  if (st == DYD_OK) st = dyd_json_sides(s->out, &rect, ", ");
-  dyd_json_ids(s->out, s->r->engine, &i, 0);
-  fprintf(s->out, ", \"hull\": \"%s\"", row->hull);
+  dyd_json_begin(&j, s->out);
+  dyd_json_break(&j, s->number[i] ? ",\n" : "\n");
+  dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+  dyd_json_site(&j, "i", s->r->engine, i);
+  if (dyd_json_good(&j, dyd_sites_get(&rect, s->r->sites, i))) dyd_json_sides(&j, &rect);
+  dyd_json_ids(&j, s->r->engine, &i, 0);
+  dyd_json_word(&j, "hull", row->hull);
   if (radius) {
     char text[DYD_DECIMAL_SIZE] = "null"; /* no motion changes anything */
     if (isfinite(radius[i])) dyd_decimal_directed(text, radius[i], 6, DYD_DOWN);
-    fprintf(s->out, ", \"rho\": %s", text);
+    dyd_json_raw(&j, "rho", text);
   }
-  fputs("}", s->out);
   dyd_rect_clear(&rect);
-  return st;
+  return dyd_json_end(&j, "}");
 }
 
 static dyd_status html_points(const html_scene *s) {
   dyd_site_row *rows = NULL;
+  dyd_json j;
   dyd_status st = dyd_result_sites(&rows, s->r);
   fputs("\"points\": [", s->out);
   for (uint32_t i = 0; i < s->r->count && st == DYD_OK; i++)
     if (s->number[i] != NOT_SHOWN) st = html_point(s, i, &rows[i]);
   fputs("],\n", s->out);
   free(rows);
-  dyd_json_aliases(s->out, s->r->engine, ",\n");
+  dyd_json_begin(&j, s->out);
+  dyd_json_aliases(&j, s->r->engine, NULL);
+  dyd_json_end(&j, ",\n");
   return st;
 }
 

@@ -6,13 +6,12 @@
 #include "picture/html/scene.h"
 
 #include "base/alloc.h"
-#include "io/label_text.h"
-#include "io/parts.h"
+#include "io/json.h"
 
 /* number: of places on the page, which aliases are not. */
 typedef struct html_globe {
   FILE *out;
-  const dyd_sphere_result *r;
+  const dyd_result *r;
   uint32_t *number;
 } html_globe;
 
@@ -20,22 +19,24 @@ static dyd_status html_globe_points(html_globe *g) {
   const dyd_engine *places = dyd_sphere_places(g->r->sphere);
   uint32_t shown = 0;
   dyd_rect rect;
-  dyd_status st = DYD_OK;
+  dyd_json j;
   dyd_rect_init(&rect);
-  fputs("\"points\": [", g->out);
-  for (uint32_t i = 0; i < dyd_engine_count(places) && st == DYD_OK; i++) {
+  dyd_json_begin(&j, g->out);
+  dyd_json_array(&j, "points", DYD_JSON_ROWS);
+  for (uint32_t i = 0; i < dyd_engine_count(places) && j.st == DYD_OK; i++) {
     if (dyd_sphere_alias(g->r->sphere, i) != i) continue;
-    fprintf(g->out, "%s{\"i\": %zu, ", shown ? ",\n" : "\n", dyd_engine_row(places, i));
     g->number[i] = shown++;
-    st = dyd_sphere_rect(&rect, g->r->sphere, i);
-    if (st == DYD_OK) st = dyd_json_sides(g->out, &rect, ", ");
-    dyd_json_ids(g->out, places, &i, 0);
-    fputs("}", g->out);
+    dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+    dyd_json_site(&j, "i", places, i);
+    if (dyd_json_good(&j, dyd_sphere_rect(&rect, g->r->sphere, i))) dyd_json_sides(&j, &rect);
+    dyd_json_ids(&j, places, &i, 0);
+    dyd_json_close(&j, 1);
   }
-  fputs("],\n", g->out);
+  dyd_json_close(&j, 1);
   dyd_rect_clear(&rect);
-  dyd_json_sphere_aliases(g->out, g->r->sphere, ",\n");
-  return st;
+  dyd_json_break(&j, ",\n");
+  dyd_json_aliases(&j, places, g->r->sphere);
+  return dyd_json_end(&j, ",\n");
 }
 
 static dyd_status html_globe_triangles(const html_globe *g) {
@@ -70,7 +71,7 @@ static void html_globe_pairs(const html_globe *g) {
 }
 
 static dyd_status html_globe_page(FILE *to, const dyd_output *o) {
-  const dyd_sphere_result *s = o->what;
+  const dyd_result *s = o->what;
   const dyd_engine *images = dyd_sphere_images(s->sphere);
   const dyd_result r = {.engine = images,
                         .pd = dyd_engine_delaunay(images),

@@ -10,8 +10,7 @@
 
 #include "base/error.h"
 #include "io/diagram.h"
-#include "io/dual.h"
-#include "io/parts.h"
+#include "io/json.h"
 #include "picture/picture.h"
 #include <inttypes.h>
 #include <math.h>
@@ -63,14 +62,17 @@ static dyd_status html_cell(void *context, uint32_t i, const dyd_shape *shape, c
   html_diagram *g = context;
   dyd_polygon inner = {0};
   dyd_polygon_list outer = {0};
+  dyd_json j;
   if (!row->present) return DYD_OK;
   dyd_status st = dyd_shape_inner(&inner, shape);
   if (st == DYD_OK) st = dyd_shape_outer(&outer, shape);
-  fprintf(g->out, "%s{\"i\": %zu, \"area\": ", g->any ? ",\n" : "\n", dyd_engine_row(g->d->engine, i));
-  dyd_json_decimals(g->out, row->area[0], row->area[1]);
-  fputs(", \"undetermined\": ", g->out);
-  dyd_decimal_put(g->out, dyd_cell_undetermined(row), DYD_UP, "null");
-  fputs(", \"inner\": ", g->out);
+  dyd_json_begin(&j, g->out);
+  dyd_json_break(&j, g->any ? ",\n" : "\n");
+  dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+  dyd_json_site(&j, "i", g->d->engine, i);
+  dyd_json_decimals(&j, "area", row->area[0], row->area[1]);
+  dyd_json_decimal(&j, "undetermined", dyd_cell_undetermined(row), DYD_UP);
+  dyd_json_file(&j, "inner");
   put_polygon(g, &inner);
   fputs(", \"outer\": [", g->out);
   for (size_t k = 0; k < outer.count; k++) {
@@ -88,36 +90,35 @@ static dyd_status html_cell(void *context, uint32_t i, const dyd_shape *shape, c
 
 static dyd_status html_vertices(html_diagram *g) {
   const dyd_diagram *d = g->d;
-  const char *between = "\n";
-  dyd_status st = DYD_OK;
-  fputs("\"vertices\": [", g->out);
-  for (size_t k = 0; k < dyd_diagram_vertices(d) && st == DYD_OK; k++) {
+  dyd_json j;
+  dyd_json_begin(&j, g->out);
+  dyd_json_array(&j, "vertices", DYD_JSON_ROWS);
+  for (size_t k = 0; k < dyd_diagram_vertices(d) && j.st == DYD_OK; k++) {
     dyd_index_list sites = {0};
     if (!dyd_diagram_vertex_in_window(d, k)) continue;
-    st = dyd_diagram_vertex_sites(&sites, d, k);
-    fprintf(g->out, "%s{\"sites\": [", between);
-    dyd_put_rows(g->out, d->engine, &sites, ", ");
-    fputs("], ", g->out);
-    dyd_json_box(g->out, "", d->vertex[k]);
-    fputs("}", g->out);
+    dyd_json_good(&j, dyd_diagram_vertex_sites(&sites, d, k));
+    dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+    dyd_json_sites(&j, "sites", d->engine, &sites);
+    dyd_json_box(&j, "", d->vertex[k]);
+    dyd_json_close(&j, 1);
     dyd_index_list_clear(&sites);
-    between = ",\n";
   }
-  fputs("],\n", g->out);
-  return st;
+  return dyd_json_end(&j, "],\n");
 }
 
 static dyd_status html_region(void *context, size_t face, const double box[4]) {
   html_diagram *g = context;
   dyd_index_list sites = {0};
   bool outer;
+  dyd_json j;
   if (!box) return DYD_OK;
   dyd_status st = dyd_delaunay_face(&sites, &outer, g->d->pd, face);
-  fprintf(g->out, "%s{\"sites\": [", g->any ? ",\n" : "\n");
-  dyd_put_rows(g->out, g->d->engine, &sites, ", ");
-  fputs("], ", g->out);
-  dyd_json_box(g->out, "", box);
-  fputs("}", g->out);
+  dyd_json_begin(&j, g->out);
+  dyd_json_break(&j, g->any ? ",\n" : "\n");
+  dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+  dyd_json_sites(&j, "sites", g->d->engine, &sites);
+  dyd_json_box(&j, "", box);
+  dyd_json_end(&j, "}");
   g->any = true;
   dyd_index_list_clear(&sites);
   return st;
@@ -154,6 +155,7 @@ static dyd_status html_diagram_parts(FILE *to, const void *diagram) {
   const dyd_diagram *d = diagram;
   html_diagram g = {.out = to, .d = d};
   int unit = diagram_unit(&g);
+  dyd_json j;
   fprintf(to, "\"unit\": %d, \"origin\": [", unit);
   dyd_decimal_put_near(to, g.origin[0]);
   fputs(", ", to);
@@ -161,11 +163,11 @@ static dyd_status html_diagram_parts(FILE *to, const void *diagram) {
   fprintf(to, "], \"flatten_bits\": %" PRId64 ",\n\"cells\": [", d->bits);
   dyd_status st = dyd_diagram_visit(d, html_cell, &g);
   fputs("],\n", to);
-  if (st == DYD_OK) st = dyd_json_bound(to, "undetermined_area", &d->bounds->area);
-  fputs(",\n", to);
-  if (st == DYD_OK)
-    st = dyd_json_bound(to, "distance_to_true_diagram", d->bounds->finite ? &d->bounds->hausdorff : NULL);
-  fputs(",\n", to);
+  dyd_json_begin(&j, to);
+  dyd_json_bound(&j, "undetermined_area", &d->bounds->area);
+  dyd_json_break(&j, ",\n");
+  dyd_json_bound(&j, "distance_to_true_diagram", d->bounds->finite ? &d->bounds->hausdorff : NULL);
+  if (st == DYD_OK) st = dyd_json_end(&j, ",\n");
   if (st == DYD_OK) st = html_vertices(&g);
   g.any = false;
   fputs("\"regions\": [", to);

@@ -1,0 +1,544 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Answers to single questions as csv and json: a partial disc, a bisector, nearest sites, what the harness found, the
+ * table of convergence. */
+#include "io/decimal.h"
+#include "io/json.h"
+#include "io/label_text.h"
+#include "io/table.h"
+#include <inttypes.h>
+#include <math.h>
+
+/* ---- the partial disc of three points, and where the others are ---- */
+
+enum { CIRCLES = 6 };
+
+static const char *const circle_names[CIRCLES] = {"FCC", "CFC", "CCF", "CFF", "FCF", "FFC"};
+
+static const char *con_text(dyd_sure con) {
+  return con == DYD_SURE_PLUS ? "inside" : con == DYD_SURE_MINUS ? "outside" : "unknown";
+}
+
+static const char *orientation_text(dyd_sure s) {
+  return s == DYD_SURE_PLUS ? "counter-clockwise" : s == DYD_SURE_MINUS ? "clockwise" : "unknown";
+}
+
+typedef void circle_visit(void *context, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2);
+
+static void disc_each_circle(const dyd_partial_disc *d, circle_visit visit, void *context) {
+  dyd_surd_point centre, radius2;
+  dyd_surd_point_init(&centre);
+  dyd_surd_point_init(&radius2);
+  for (int k = 0; k < CIRCLES && d->known; k++) {
+    dyd_exact_circle(&centre, &radius2, &d->circle[k]);
+    visit(context, k, &centre, &radius2);
+  }
+  dyd_surd_point_clear(&radius2);
+  dyd_surd_point_clear(&centre);
+}
+
+/* The smallest box in doubles around the six centres: it holds the partial centre [CEN-1]. */
+static void disc_grow_box(void *context, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2) {
+  double *box = context, b[4];
+  (void)number, (void)radius2;
+  dyd_exact_enclose(b, centre);
+  for (int k = 0; k < 4; k++) box[k] = k & 1 ? fmax(box[k], b[k]) : fmin(box[k], b[k]);
+}
+
+static void disc_csv_box(FILE *out, const double box[4]) {
+  fputs(" within xlo ", out);
+  dyd_exact_decimals(out, box[0], box[1], " xhi ");
+  fputs(" ylo ", out);
+  dyd_exact_decimals(out, box[2], box[3], " yhi ");
+}
+
+static void disc_csv_circle(void *context, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2) {
+  FILE *out = context;
+  double box[4], lo, hi;
+  fprintf(out, "# circle %s x ", circle_names[number]);
+  dyd_exact_text(out, centre->ax, centre->bx, centre->c, centre->d);
+  fputs(" y ", out);
+  dyd_exact_text(out, centre->ay, centre->by, centre->c, centre->d);
+  fputs(" radius^2 ", out);
+  dyd_exact_text(out, radius2->ax, radius2->bx, radius2->c, radius2->d);
+  fprintf(out, "\n# circle %s", circle_names[number]);
+  dyd_exact_enclose(box, centre);
+  disc_csv_box(out, box);
+  fputs(" rlo ", out);
+  dyd_exact_enclose_root(&lo, &hi, radius2);
+  dyd_exact_decimals(out, lo, hi, " rhi ");
+  fputs("\n", out);
+}
+
+dyd_status dyd_disc_comments(dyd_table *t, const dyd_output *o) {
+  const dyd_disc_output *c = o->what;
+  FILE *out = o->out;
+  (void)t;
+  fprintf(out, "# orientation of %zu %zu %zu: %s\n", dyd_engine_row(c->engine, 0), dyd_engine_row(c->engine, 1),
+          dyd_engine_row(c->engine, 2), orientation_text(dyd_orientation(c->r[0], c->r[1], c->r[2])));
+  fputs(
+      "# critical circles: F encloses, C touches the rectangles 0 1 2; x, y, radius^2 exact, lo rounded down, hi up\n",
+      out);
+  disc_each_circle(c->disc, disc_csv_circle, out);
+  if (c->disc->known) {
+    double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+    disc_each_circle(c->disc, disc_grow_box, box);
+    fputs("# partial centre", out);
+    disc_csv_box(out, box);
+    fputs("\n", out);
+  }
+  return DYD_OK;
+}
+
+dyd_status dyd_disc_rows(dyd_table *t, const dyd_output *o) {
+  const dyd_disc_output *c = o->what;
+  for (size_t i = 3; i < c->n; i++) {
+    dyd_row_begin(t);
+    dyd_row_site(t, i);
+    dyd_row_word(t, con_text(dyd_partial_disc_con(c->disc, c->r[i])));
+    dyd_row_id(t, i);
+    dyd_row_end(t);
+  }
+  return DYD_OK;
+}
+
+static void json_surd(dyd_json *j, const char *name, mpz_srcptr a, mpz_srcptr b, const dyd_surd_point *p) {
+  FILE *out = dyd_json_file(j, name);
+  fputs("\"", out);
+  dyd_exact_text(out, a, b, p->c, p->d);
+  fputs("\"", out);
+}
+
+static void disc_json_circle(void *context, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2) {
+  dyd_json *j = context;
+  double box[4], lo, hi;
+  dyd_json_object(j, NULL, DYD_JSON_FLAT);
+  dyd_json_word(j, "labels", circle_names[number]);
+  json_surd(j, "x", centre->ax, centre->bx, centre);
+  json_surd(j, "y", centre->ay, centre->by, centre);
+  json_surd(j, "radius_squared", radius2->ax, radius2->bx, radius2);
+  dyd_exact_enclose(box, centre);
+  dyd_json_box(j, "_decimal", box);
+  dyd_exact_enclose_root(&lo, &hi, radius2);
+  dyd_json_decimals(j, "radius_decimal", lo, hi);
+  dyd_json_close(j, 1);
+}
+
+static void disc_json_centre(dyd_json *j, const dyd_partial_disc *d) {
+  double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+  if (!d->known) {
+    dyd_json_raw(j, "partial_centre", "null");
+    return;
+  }
+  disc_each_circle(d, disc_grow_box, box);
+  dyd_json_object(j, "partial_centre", DYD_JSON_FLAT);
+  dyd_json_box(j, "_decimal", box);
+  dyd_json_close(j, 1);
+}
+
+static void json_rectangles(dyd_json *j, const dyd_rect *const *r, size_t n) {
+  dyd_json_array(j, "rectangles", DYD_JSON_LINES);
+  for (size_t i = 0; i < n && j->st == DYD_OK; i++) dyd_json_rect(j, NULL, r[i]);
+  dyd_json_close(j, 1);
+}
+
+dyd_status dyd_disc_json(const dyd_output *o) {
+  const dyd_disc_output *c = o->what;
+  dyd_json j;
+  dyd_json_begin(&j, o->out);
+  dyd_json_head_outward(&j, "dyadel disc 1", c->outcome);
+  json_rectangles(&j, c->r, c->n);
+  dyd_json_word(&j, "orientation", orientation_text(dyd_orientation(c->r[0], c->r[1], c->r[2])));
+  dyd_json_array(&j, "circles", DYD_JSON_LIST);
+  disc_each_circle(c->disc, disc_json_circle, &j);
+  dyd_json_close(&j, 1);
+  disc_json_centre(&j, c->disc);
+  dyd_json_array(&j, "con", DYD_JSON_LIST);
+  for (uint32_t i = 3; i < c->n; i++) {
+    dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+    dyd_json_site(&j, "i", c->engine, i);
+    dyd_json_word(&j, "con", con_text(dyd_partial_disc_con(c->disc, c->r[i])));
+    dyd_json_ids(&j, c->engine, &i, 0);
+    dyd_json_close(&j, 1);
+  }
+  dyd_json_close(&j, 1);
+  return dyd_json_end(&j, "\n}\n");
+}
+
+/* ---- the partial bisector of two points ---- */
+
+dyd_status dyd_bisector_comments(dyd_table *t, const dyd_output *o) {
+  (void)t;
+  fputs("# arcs of dl_far = ds_near, nearer to far on the left; x, y exact, lo rounded down, hi rounded up\n", o->out);
+  if (!((const dyd_bisector_output *)o->what)->curve[0].count)
+    fputs("# the rectangles meet: nothing is surely nearer to one of them\n", o->out);
+  return DYD_OK;
+}
+
+/* x and y exactly, and their enclosures: six values. */
+static void row_arc_end(dyd_table *t, const dyd_arc_end *end) {
+  const dyd_surd_point *p = &end->at;
+  double box[4];
+  dyd_row_word(t, dyd_end_names[end->kind]);
+  for (int k = 0; k < 6 && end->kind == DYD_END_INFINITE; k++) dyd_row_word(t, "");
+  if (end->kind == DYD_END_INFINITE) return;
+  dyd_exact_text(dyd_row_file(t), p->ax, p->bx, p->c, p->d);
+  dyd_exact_text(dyd_row_file(t), p->ay, p->by, p->c, p->d);
+  dyd_exact_enclose(box, p);
+  dyd_exact_decimals(dyd_row_file(t), box[0], box[1], ",");
+  dyd_exact_decimals(dyd_row_file(t), box[2], box[3], ",");
+}
+
+dyd_status dyd_bisector_rows(dyd_table *t, const dyd_output *o) {
+  const dyd_boundary *curve = ((const dyd_bisector_output *)o->what)->curve;
+  for (const dyd_boundary *b = curve; b < curve + 2; b++)
+    for (size_t m = 0; m < b->count; m++)
+      for (const dyd_arc *a = b->chain[m].arc; a < b->chain[m].arc + b->chain[m].count; a++) {
+        dyd_row_begin(t);
+        dyd_row_site(t, a->far_site);
+        dyd_row_site(t, a->near_site);
+        dyd_row_word(t, dyd_arc_names[a->kind]);
+        dyd_row_word(t, dyd_feature_names[a->corner]);
+        dyd_row_word(t, dyd_feature_names[a->feature]);
+        row_arc_end(t, &a->begin);
+        row_arc_end(t, &a->end);
+        dyd_row_id(t, a->far_site);
+        dyd_row_id(t, a->near_site);
+        dyd_row_end(t);
+      }
+  return DYD_OK;
+}
+
+dyd_status dyd_bisector_json(const dyd_output *o) {
+  const dyd_bisector_output *b = o->what;
+  dyd_point_texts texts = {.engine = b->engine};
+  dyd_json j;
+  dyd_json_begin(&j, o->out);
+  dyd_json_head_outward(&j, "dyadel bisector 1", b->outcome);
+  json_rectangles(&j, b->r, 2);
+  dyd_json_array(&j, "curves", DYD_JSON_LIST);
+  for (uint32_t far = 0; far < 2 && j.st == DYD_OK; far++) {
+    dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+    dyd_json_site(&j, "far", b->engine, far);
+    dyd_json_site(&j, "near", b->engine, 1 - far);
+    if (dyd_engine_id(b->engine, 0)) {
+      dyd_json_text(&j, "id_far", dyd_engine_id(b->engine, far));
+      dyd_json_text(&j, "id_near", dyd_engine_id(b->engine, 1 - far));
+    }
+    dyd_json_boundary(&j, "boundary", &b->curve[far], &texts);
+    dyd_json_close(&j, 1);
+  }
+  dyd_json_close(&j, 1);
+  dyd_point_texts_clear(&texts);
+  return dyd_json_end(&j, "\n}\n");
+}
+
+/* ---- nearest sites of one place or of many ---- */
+
+static const char *nearest_status(const dyd_nearest_answer *a) {
+  return a->sure ? "sure" : "possible";
+}
+
+/* The distance from the place to site i, whatever both are. scratch: a rectangle. */
+static dyd_status nearest_distance(double bounds[2], const dyd_nearest_output *n, const dyd_nearest_answer *a,
+                                   uint32_t i, dyd_rect *scratch) {
+  dyd_status st = dyd_sites_get(scratch, dyd_delaunay_sites(n->pd), i);
+  if (st == DYD_OK) dyd_rect_distance(&bounds[0], &bounds[1], a->at, scratch);
+  return st;
+}
+
+/* A line for each tie: its points, after the place where there are many. */
+dyd_status dyd_nearest_comments(dyd_table *t, const dyd_output *o) {
+  const dyd_nearest_output *n = o->what;
+  dyd_csv_aliases(o->out, t->engine, NULL);
+  for (size_t q = 0; q < n->count; q++) {
+    if (!n->answer[q]->tied) continue;
+    fputs("# tie ", o->out);
+    if (o->content == DYD_CONTENT_PLACES) fprintf(o->out, "%zu: ", q);
+    dyd_put_rows(o->out, n->engine, n->answer[q]->found, " ");
+    fputs("\n", o->out);
+  }
+  fputs("# rounding: lo down, hi up; empty: beyond doubles\n", o->out);
+  return DYD_OK;
+}
+
+/* They begin with the number of the place where there are many. */
+dyd_status dyd_nearest_rows(dyd_table *t, const dyd_output *o) {
+  const dyd_nearest_output *n = o->what;
+  dyd_rect scratch;
+  dyd_status st = DYD_OK;
+  dyd_rect_init(&scratch);
+  for (size_t q = 0; q < n->count; q++) {
+    const dyd_nearest_answer *a = n->answer[q];
+    for (size_t k = 0; k < a->found->count && st == DYD_OK; k++) {
+      uint32_t i = a->found->item[k];
+      double bounds[2];
+      st = nearest_distance(bounds, n, a, i, &scratch);
+      if (st != DYD_OK) break;
+      dyd_row_begin(t);
+      if (o->content == DYD_CONTENT_PLACES) dyd_row_index(t, q);
+      dyd_row_site(t, i);
+      dyd_row_word(t, nearest_status(a));
+      dyd_row_decimal(t, bounds[0], DYD_DOWN);
+      dyd_row_decimal(t, bounds[1], DYD_UP);
+      dyd_row_id(t, i);
+      dyd_row_end(t);
+    }
+  }
+  dyd_rect_clear(&scratch);
+  return st;
+}
+
+static void nearest_json_list(dyd_json *j, const dyd_nearest_output *n, const dyd_nearest_answer *a,
+                              dyd_rect *scratch) {
+  double bounds[2];
+  dyd_json_bool(j, "tied", a->tied);
+  dyd_json_break(j, ", ");
+  dyd_json_array(j, "nearest", DYD_JSON_LIST);
+  for (const uint32_t *i = a->found->item; i < a->found->item + a->found->count; i++) {
+    if (!dyd_json_good(j, nearest_distance(bounds, n, a, *i, scratch))) break;
+    dyd_json_object(j, NULL, DYD_JSON_FLAT);
+    dyd_json_site(j, "i", n->engine, *i);
+    dyd_json_word(j, "status", nearest_status(a));
+    dyd_json_decimals(j, "distance", bounds[0], bounds[1]);
+    dyd_json_ids(j, n->engine, i, 0);
+    dyd_json_close(j, 1);
+  }
+  dyd_json_close(j, 1);
+}
+
+dyd_status dyd_nearest_json(const dyd_output *o) {
+  const dyd_nearest_output *n = o->what;
+  bool many = o->content == DYD_CONTENT_PLACES;
+  dyd_rect scratch;
+  dyd_json j;
+  dyd_rect_init(&scratch);
+  dyd_json_begin(&j, o->out);
+  dyd_json_head_outward(&j, many ? "dyadel nearest places 1" : "dyadel nearest 1",
+                        many ? n->outcome : n->answer[0]->outcome);
+  if (many) dyd_json_array(&j, "places", DYD_JSON_LIST);
+  for (size_t q = 0; q < n->count && j.st == DYD_OK; q++) {
+    if (many) {
+      dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+      dyd_json_index(&j, "q", q);
+      dyd_json_word(&j, "outcome", dyd_outcome_text(n->answer[q]->outcome));
+    }
+    dyd_json_sides(&j, n->answer[q]->at);
+    nearest_json_list(&j, n, n->answer[q], &scratch);
+    if (many) dyd_json_close(&j, 1);
+  }
+  if (many) dyd_json_close(&j, 1);
+  dyd_json_aliases(&j, n->engine, NULL);
+  dyd_rect_clear(&scratch);
+  return dyd_json_end(&j, "}\n");
+}
+
+/* ---- what the harness found ---- */
+
+typedef struct check_counts {
+  const char *name[7];
+  uint64_t n[7];
+} check_counts;
+
+static check_counts counts_of_check(const dyd_check_report *r) {
+  return (check_counts){{"schedules", "stages", "pairs", "cells", "floors", "seed", "moves"},
+                        {r->schedules, r->stages, r->pairs, r->cells, r->floors, r->seed, r->moves}};
+}
+
+dyd_status dyd_check_rows(dyd_table *t, const dyd_output *o) {
+  const dyd_check_report *r = o->what;
+  const check_counts counts = counts_of_check(r);
+  dyd_row_begin(t);
+  dyd_row_word(t, dyd_check_fault_text(r->fault));
+  for (int k = 0; k < 7; k++) dyd_row_index(t, counts.n[k]);
+  dyd_row_end(t);
+  return DYD_OK;
+}
+
+dyd_status dyd_check_json(const dyd_output *o) {
+  const dyd_check_report *r = o->what;
+  const check_counts counts = counts_of_check(r);
+  dyd_json j;
+  dyd_json_begin(&j, o->out);
+  dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+  dyd_json_word(&j, "fault", dyd_check_fault_text(r->fault));
+  for (int k = 0; k < 7; k++) dyd_json_index(&j, counts.name[k], counts.n[k]);
+  return dyd_json_end(&j, "}\n");
+}
+
+/* ---- the table of convergence ---- */
+
+enum { DIGITS = 6 };
+
+static size_t possible_pairs(const dyd_stage_row *r) {
+  return r->count[DYD_LEGAL] + r->count[DYD_INDETERMINATE] + r->count[DYD_TIE];
+}
+
+/* Milliseconds, rounded up. */
+static double row_seconds(const dyd_stage_row *r) {
+  return ceil(r->seconds * 1000) / 1000;
+}
+
+/* The name, or the value, of an item; returns the next one. */
+static const char *label_item(FILE *out, const char *item, bool value) {
+  size_t name = strcspn(item, "="), length = strcspn(item, ",");
+  const char *from = value ? item + name + 1 : item;
+  fprintf(out, "%.*s", (int)(value ? length - name - 1 : name), from);
+  return item[length] ? item + length + 1 : NULL;
+}
+
+static void label_csv(FILE *out, const char *label, bool values) {
+  for (const char *item = label; item;) {
+    item = label_item(out, item, values);
+    fputs(",", out);
+  }
+}
+
+static void label_json(dyd_json *j, const char *label) {
+  dyd_json_object(j, "label", DYD_JSON_FLAT);
+  for (const char *item = label; item;) {
+    FILE *out = dyd_json_file(j, NULL);
+    fputs("\"", out);
+    label_item(out, item, false);
+    fputs("\": \"", out);
+    item = label_item(out, item, true);
+    fputs("\"", out);
+  }
+  dyd_json_close(j, 1);
+}
+
+static void table_csv_bound(FILE *out, const dyd_dyadic *x, bool known) {
+  char text[DYD_DECIMAL_SIZE] = "";
+  if (known) dyd_decimal_dyadic(text, x, DIGITS, DYD_UP);
+  fprintf(out, ",%s", text);
+}
+
+static void table_csv_goal(FILE *out, const dyd_engine_options *o) {
+  fputs(dyd_goal_text(o->goal), out);
+  if (o->goal != DYD_GOAL_DECIDED) fprintf(out, " 2^%" PRId64, -o->goal_bits);
+}
+
+const char dyd_stage_columns[] =
+    "stage,bits_least,bits_most,bits_total,width_largest,width_median,possible,legal,indeterminate,tie,faces,area,"
+    "hausdorff,v_area,v_hausdorff,filter,integer,exact,calls,statuses,seconds";
+
+static dyd_status table_csv_head(FILE *out, const dyd_convergence *c, const char *label, bool times) {
+  const dyd_engine_options *o = c->options;
+  fprintf(out, "# schedule %s; goal ", dyd_schedule_text(o->schedule));
+  table_csv_goal(out, o);
+  fprintf(out, "; first stage %" PRId64 " bits, then ", o->start_bits);
+  if (o->step_bits)
+    fprintf(out, "steps of %" PRId64, o->step_bits);
+  else
+    fputs("geometric growth", out);
+  fprintf(out, "; at most %" PRId64 " bits; outcome %s\n", o->max_bits, dyd_outcome_text(c->outcome));
+  dyd_status st = DYD_OK;
+  if (c->window) {
+    fputs("# v_area and v_hausdorff are of the Voronoi diagram on the window ", out);
+    st = dyd_put_window(out, c->window, "", ",");
+    fputs("\n", out);
+  }
+  fputs("# widths, areas and Hausdorff distances are upper bounds, decimals rounded up; empty: not known\n"
+        "# bits, decisions (filter, integer, exact) and calls are counted from the start; statuses is a digest of all "
+        "pairs with their statuses\n",
+        out);
+  fprintf(out, "# no random choice is made: there is no seed, and every run gives this table%s\n",
+          times ? ", seconds (rounded up) aside" : "");
+  label_csv(out, label, false);
+  fprintf(out, "%.*s\n", (int)(strlen(dyd_stage_columns) - (times ? 0 : strlen(",seconds"))), dyd_stage_columns);
+  return st;
+}
+
+/* With a point, whatever the caller's locale has between units and thousandths. */
+static void put_seconds(FILE *out, double seconds) {
+  uint64_t thousandths = (uint64_t)(1000 * seconds + 0.5);
+  fprintf(out, "%" PRIu64 ".%03" PRIu64, thousandths / 1000, thousandths % 1000);
+}
+
+static void table_csv_row(FILE *out, const dyd_stage_row *r, bool times) {
+  fprintf(out, "%" PRIu64 ",%" PRId64 ",%" PRId64 ",%" PRIu64, r->stage, r->bits_least, r->bits_most, r->bits_total);
+  table_csv_bound(out, &r->width_largest, true);
+  table_csv_bound(out, &r->width_median, true);
+  fprintf(out, ",%zu,%zu,%zu,%zu,%zu", possible_pairs(r), r->count[DYD_LEGAL], r->count[DYD_INDETERMINATE],
+          r->count[DYD_TIE], r->undecided_faces);
+  table_csv_bound(out, &r->area, r->bounded);
+  table_csv_bound(out, &r->hausdorff, r->bounded);
+  table_csv_bound(out, &r->v_area, r->voronoi);
+  table_csv_bound(out, &r->v_hausdorff, r->voronoi);
+  fprintf(out, ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%016" PRIx64, r->rungs.filter, r->rungs.integer,
+          r->rungs.exact, r->calls, r->digest);
+  if (times) fputs(",", out);
+  if (times) put_seconds(out, row_seconds(r));
+  fputs("\n", out);
+}
+
+static dyd_status convergence_csv(const dyd_output *o) {
+  const dyd_stage_table *t = o->what;
+  dyd_status st = t->no_header ? DYD_OK : table_csv_head(o->out, t->stages, t->label, t->times);
+  for (size_t k = 0; k < t->stages->count; k++) {
+    label_csv(o->out, t->label, true);
+    table_csv_row(o->out, t->stages->row[k], t->times);
+  }
+  return st;
+}
+
+/* The only rows that are no layer: labels are columns, too. */
+dyd_writer *const dyd_csv_writers[DYD_CONTENTS] = {[DYD_CONTENT_CONVERGENCE] = convergence_csv};
+
+static void stages_json_head(dyd_json *j, const dyd_convergence *c) {
+  const dyd_engine_options *o = c->options;
+  dyd_json_head(j, "dyadel converge 1", 0);
+  dyd_json_word(j, "rounding",
+                "widths and bounds are upper bounds; exact is exact, decimal is rounded up; null is not known, or "
+                "beyond the largest double; seconds are rounded up");
+  dyd_json_word(j, "schedule", dyd_schedule_text(o->schedule));
+  dyd_json_word(j, "goal", dyd_goal_text(o->goal));
+  dyd_json_signed(j, "goal_bits", o->goal_bits);
+  dyd_json_signed(j, "start_bits", o->start_bits);
+  dyd_json_signed(j, "step_bits", o->step_bits);
+  dyd_json_signed(j, "max_bits", o->max_bits);
+  dyd_json_raw(j, "seed", "null");
+  dyd_json_word(j, "outcome", dyd_outcome_text(c->outcome));
+  dyd_json_window(j, "window", c->window, ",");
+}
+
+static void stage_json(dyd_json *j, const dyd_stage_row *r, bool times) {
+  char digest[17];
+  dyd_json_object(j, NULL, DYD_JSON_FLAT);
+  dyd_json_index(j, "stage", r->stage);
+  dyd_json_signed(j, "bits_least", r->bits_least);
+  dyd_json_signed(j, "bits_most", r->bits_most);
+  dyd_json_index(j, "bits_total", r->bits_total);
+  dyd_json_break(j, ",\n ");
+  dyd_json_index(j, "possible", possible_pairs(r));
+  dyd_json_index(j, "legal", r->count[DYD_LEGAL]);
+  dyd_json_index(j, "indeterminate", r->count[DYD_INDETERMINATE]);
+  dyd_json_index(j, "tie", r->count[DYD_TIE]);
+  dyd_json_index(j, "faces", r->undecided_faces);
+  dyd_json_bound(j, "width_largest", &r->width_largest);
+  dyd_json_bound(j, "width_median", &r->width_median);
+  dyd_json_bound(j, "area", r->bounded ? &r->area : NULL);
+  dyd_json_bound(j, "hausdorff", r->bounded ? &r->hausdorff : NULL);
+  dyd_json_bound(j, "v_area", r->voronoi ? &r->v_area : NULL);
+  dyd_json_bound(j, "v_hausdorff", r->voronoi ? &r->v_hausdorff : NULL);
+  dyd_json_break(j, ",\n ");
+  dyd_json_index(j, "filter", r->rungs.filter);
+  dyd_json_index(j, "integer", r->rungs.integer);
+  dyd_json_index(j, "exact", r->rungs.exact);
+  dyd_json_index(j, "calls", r->calls);
+  snprintf(digest, sizeof digest, "%016" PRIx64, r->digest);
+  dyd_json_word(j, "statuses", digest);
+  if (times) put_seconds(dyd_json_file(j, "seconds"), row_seconds(r));
+  dyd_json_close(j, 1);
+}
+
+dyd_status dyd_convergence_json(const dyd_output *o) {
+  const dyd_stage_table *t = o->what;
+  dyd_json j;
+  dyd_json_begin(&j, o->out);
+  stages_json_head(&j, t->stages);
+  if (t->label) label_json(&j, t->label);
+  dyd_json_array(&j, "stages", DYD_JSON_LIST);
+  for (size_t k = 0; k < t->stages->count; k++) stage_json(&j, t->stages->row[k], t->times);
+  dyd_json_close(&j, 1);
+  return dyd_json_end(&j, "}\n");
+}
