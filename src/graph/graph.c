@@ -1,11 +1,422 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Graphs of neighbours: the public call. */
+/* The graphs: nearest neighbours [NNG-1], Gabriel [GAB-1], minimum spanning tree [MST-1]. */
 #include "graph/graph.h"
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/flag.h"
 #include "base/float_filter.h"
 #include "delaunay/state.h"
+#include "rect/sites_table.h"
+
+/* ---- lists of edges ---- */
+
+void dyd_graph_list_clear(dyd_graph_list *l) {
+  free(l->item);
+  *l = (dyd_graph_list){0};
+}
+
+static dyd_status graph_add(dyd_graph_work *w, uint32_t i, uint32_t j, bool sure) {
+  if (!dyd_reserve((void **)&w->out.item, &w->cap, w->out.count + 1, sizeof *w->out.item)) return DYD_E_NOMEM;
+  w->out.item[w->out.count++] = (dyd_graph_edge){i, j, sure};
+  return DYD_OK;
+}
+
+/* ---- lengths of pairs ---- */
+
+/* Adds the square of what counts along one side. */
+static void add_side2(mpq_ptr sum, const dyd_interval *a, const dyd_interval *b, bool largest) {
+  mpq_t alo, ahi, blo, bhi;
+  mpq_inits(alo, ahi, blo, bhi, NULL);
+  dyd_interval_get_q(alo, ahi, a);
+  dyd_interval_get_q(blo, bhi, b);
+  mpq_sub(ahi, ahi, blo); /* how far a reaches beyond b, and b beyond a */
+  mpq_sub(bhi, bhi, alo);
+  mpq_ptr d = ahi;
+  if (largest ? mpq_cmp(bhi, ahi) > 0 : mpq_cmp(bhi, ahi) < 0) d = bhi;
+  if (largest || mpq_sgn(d) < 0) {
+    mpq_mul(d, d, d);
+    mpq_add(sum, sum, d);
+  }
+  mpq_clears(alo, ahi, blo, bhi, NULL);
+}
+
+static void exact_length(mpq_ptr out, const dyd_length *l) {
+  const dyd_pair *p = &l->of->pairs.item[l->pair];
+  dyd_rect a, b;
+  dyd_rect_init(&a);
+  dyd_rect_init(&b);
+  dyd_sites_get(&a, l->of->sites, p->i);
+  dyd_sites_get(&b, l->of->sites, p->j);
+  mpq_set_ui(out, 0, 1);
+  add_side2(out, &a.x, &b.x, l->largest);
+  add_side2(out, &a.y, &b.y, l->largest);
+  dyd_rect_clear(&b);
+  dyd_rect_clear(&a);
+}
+
+/* Sign of a - b. */
+static int length_compare(const dyd_length *a, const dyd_length *b) {
+  if (a->hi < b->lo) return -1;
+  if (b->hi < a->lo) return 1;
+  if (a->lo == a->hi && b->lo == b->hi) return 0;
+  if (a->pair == b->pair && a->largest == b->largest) return 0;
+  mpq_t x, y;
+  mpq_inits(x, y, NULL);
+  exact_length(x, a);
+  exact_length(y, b);
+  int sign = mpq_cmp(x, y);
+  mpq_clears(x, y, NULL);
+  return sign;
+}
+
+/* By length; for qsort. */
+static int length_order(const void *a, const void *b) {
+  return length_compare(a, b);
+}
+
+/* ---- nearest neighbours ---- */
+
+/* Only for exact points i, which have one distance to each: the least of the largest distances of all but one decides
+ * about that one, so a hub takes time by its degree. */
+static dyd_status nearest_of_point(dyd_graph_work *w, uint32_t i) {
+  dyd_reach *r = &w->reach;
+  mpz_t least[2], own; /* the two least of dl^2 */
+  size_t who = 0;
+  mpz_inits(least[0], least[1], own, NULL);
+  dyd_status st = DYD_OK;
+  for (size_t k = 1; k < r->count; k++) {
+    dyd_irect_dl2(own, r->grid[0].x0, r->grid[0].y0, &r->grid[k]);
+    bool first = !who || mpz_cmp(own, least[0]) < 0;
+    if (first) mpz_swap(least[0], least[1]);
+    if (first || k == 2 || mpz_cmp(own, least[1]) < 0) mpz_set(least[first ? 0 : 1], own);
+    if (first) who = k;
+  }
+  for (size_t k = 1; k < r->count && st == DYD_OK; k++) {
+    dyd_irect_ds2(own, r->grid[0].x0, r->grid[0].y0, &r->grid[k]);
+    if (r->count > 2 && mpz_cmp(own, least[who == k]) > 0) continue;
+    bool sure = who == k && dyd_reach_is_nearest(r, k);
+    st = graph_add(w, i, w->other[k - 1], sure);
+  }
+  mpz_clears(least[0], least[1], own, NULL);
+  return st;
+}
+
+/* Of w->other[number] as the nearest one to i. *loaded: w->reach holds i and all others. */
+static dyd_status status_as_nearest(dyd_graph_status *out, dyd_graph_work *w, bool *loaded, uint32_t i, size_t number) {
+  dyd_graph_verdict v = dyd_filter_nearest(w, i, w->other[number]);
+  *out = v.status;
+  if (v.known) return DYD_OK;
+  if (!*loaded) {
+    dyd_status st = dyd_reach_load(&w->reach, w->sites, i, w->other, w->others);
+    if (st != DYD_OK) return st;
+    *loaded = true;
+  }
+  if (dyd_reach_is_nearest(&w->reach, number + 1))
+    *out = DYD_GRAPH_SURE;
+  else
+    *out = dyd_reach_may_be_nearest(&w->reach, number + 1) ? DYD_GRAPH_POSSIBLE : DYD_GRAPH_NEVER;
+  return DYD_OK;
+}
+
+/* So many candidates of an exact point are compared by their distances at once. */
+enum { NEAREST_MANY = 8 };
+
+static dyd_status nearest_of(dyd_graph_work *w, uint32_t i) {
+  bool loaded = false;
+  dyd_status st = DYD_OK;
+  dyd_filter_nearest_few(w, i);
+  if (w->others > NEAREST_MANY && dyd_sites_is_point(w->sites, i)) {
+    st = dyd_reach_load(&w->reach, w->sites, i, w->other, w->others);
+    return st == DYD_OK ? nearest_of_point(w, i) : st;
+  }
+  for (size_t k = 0; k < w->others && st == DYD_OK; k++) {
+    dyd_graph_status status;
+    st = status_as_nearest(&status, w, &loaded, i, k);
+    if (st == DYD_OK && status != DYD_GRAPH_NEVER) st = graph_add(w, i, w->other[k], status == DYD_GRAPH_SURE);
+  }
+  return st;
+}
+
+static dyd_status nearest_graph(dyd_graph_work *w) {
+  dyd_status st = DYD_OK;
+  for (uint32_t i = 0; i < w->n && st == DYD_OK; i++)
+    st = dyd_flag_is_set(w->cancel) ? DYD_CANCELLED : nearest_of(w, i);
+  return st;
+}
+
+/* ---- Gabriel ---- */
+
+static size_t degree_of(const dyd_graph_work *w, uint32_t i) {
+  return w->start[i + 1] - w->start[i];
+}
+
+static size_t partner_number(const dyd_graph_work *w, uint32_t i, uint32_t j) {
+  size_t k = 0;
+  while (w->partner[w->start[i] + k] != j) k++;
+  return k;
+}
+
+static dyd_status gabriel_status(dyd_graph_status *out, dyd_graph_work *w, uint32_t i, uint32_t j) {
+  if (degree_of(w, j) < degree_of(w, i)) {
+    uint32_t other = i;
+    i = j, j = other;
+  }
+  dyd_graph_verdict v = dyd_filter_gabriel(w, i, j);
+  *out = v.status;
+  if (v.known) return DYD_OK;
+  dyd_status st = dyd_reach_load(&w->reach, w->sites, i, &w->partner[w->start[i]], degree_of(w, i));
+  if (st != DYD_OK) return st;
+  size_t number = partner_number(w, i, j) + 1;
+  if (dyd_reach_is_gabriel(&w->reach, number))
+    *out = DYD_GRAPH_SURE;
+  else
+    *out = dyd_reach_may_be_gabriel(&w->reach, number) ? DYD_GRAPH_POSSIBLE : DYD_GRAPH_NEVER;
+  return DYD_OK;
+}
+
+static dyd_status gabriel_graph(dyd_graph_work *w) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < w->pairs.count && st == DYD_OK; k++) {
+    const dyd_pair *p = &w->pairs.item[k];
+    dyd_graph_status status;
+    if (dyd_flag_is_set(w->cancel)) return DYD_CANCELLED;
+    st = gabriel_status(&status, w, p->i, p->j);
+    if (st == DYD_OK && status != DYD_GRAPH_NEVER) st = graph_add(w, p->i, p->j, status == DYD_GRAPH_SURE);
+  }
+  return st;
+}
+
+/* ---- the minimum spanning tree ---- */
+
+/* By the least and the largest length of each pair [MST-1].
+ *
+ * never   legal pairs that are surely shorter join i and j, or ij is never an edge of the Gabriel graph
+ * sure    other pairs, not among those, that may be as short do not join i and j: the bottleneck between i and j by
+ *         least lengths is in the spanning tree by least lengths, or, where ij is in that itself, the first pair that
+ *         closes a circle with it; or j is surely the nearest one to i, or i to j */
+
+/* Sets of sites; a set's `at` is its top in the tree. */
+typedef struct span_sets {
+  uint32_t *up;
+} span_sets;
+
+static uint32_t set_of(span_sets *s, uint32_t i) {
+  while (s->up[i] != i) {
+    s->up[i] = s->up[s->up[i]];
+    i = s->up[i];
+  }
+  return i;
+}
+
+static void sets_begin(span_sets *s, size_t n) {
+  for (size_t i = 0; i < n; i++) s->up[i] = (uint32_t)i;
+}
+
+enum { SPAN_NONE = UINT32_MAX };
+
+/* least, largest: of all pairs, sorted. nearest: who is surely that to each site; SPAN_NONE: nobody. replaced: by pair,
+ * the number in least[] of the first pair that closes a circle with it, where it is in the tree; SPAN_NONE: none. tree:
+ * is it? Neither counts pairs that are in no minimum spanning tree. */
+typedef struct span_work {
+  dyd_graph_work *w;
+  dyd_length *least, *largest;
+  uint32_t *replaced, *nearest;
+  bool *tree, *never;
+  span_sets sets;
+  /* the tree by least lengths: towards the root */
+  uint32_t *parent, *link, *depth;
+  size_t *start;
+  uint32_t *edge; /* pairs of the tree at each site */
+} span_work;
+
+/* Sorting lengths may take as much again as one list of them. */
+static bool span_has_room(const span_work *s) {
+  uint64_t pair = 3 * sizeof *s->least + sizeof *s->replaced + sizeof *s->tree + sizeof *s->never;
+  uint64_t site = 7 * sizeof(uint32_t) + sizeof *s->start;
+  uint64_t bytes = dyd_bytes_times(s->w->pairs.count, pair) + dyd_bytes_times(s->w->n, site);
+  return dyd_room_has(&s->w->room, bytes, "the spanning tree");
+}
+
+static bool span_alloc(span_work *s) {
+  size_t n = s->w->n, pairs = s->w->pairs.count;
+  s->least = dyd_alloc(pairs, sizeof *s->least);
+  s->largest = dyd_alloc(pairs, sizeof *s->largest);
+  s->replaced = dyd_alloc(pairs, sizeof *s->replaced);
+  s->nearest = dyd_alloc(n, sizeof *s->nearest);
+  s->tree = calloc(pairs + 1, sizeof *s->tree);
+  s->never = calloc(pairs + 1, sizeof *s->never);
+  s->sets.up = dyd_alloc(n, sizeof *s->sets.up);
+  s->parent = dyd_alloc(n, sizeof *s->parent);
+  s->link = dyd_alloc(n, sizeof *s->link);
+  s->depth = dyd_alloc(n, sizeof *s->depth);
+  s->start = calloc(n + 2, sizeof *s->start);
+  s->edge = dyd_alloc(2 * n, sizeof *s->edge);
+  return s->least && s->largest && s->replaced && s->nearest && s->tree && s->never && s->sets.up && s->parent &&
+         s->link && s->depth && s->start && s->edge;
+}
+
+static void spanning_work_clear(span_work *s) {
+  free(s->least);
+  free(s->largest);
+  free(s->replaced);
+  free(s->nearest);
+  free(s->tree);
+  free(s->never);
+  free(s->sets.up);
+  free(s->parent);
+  free(s->link);
+  free(s->depth);
+  free(s->start);
+  free(s->edge);
+}
+
+static void sort_lengths(span_work *s) {
+  size_t pairs = s->w->pairs.count;
+  for (uint32_t p = 0; p < pairs; p++) {
+    s->least[p] = dyd_filter_length(s->w, p, false);
+    s->largest[p] = dyd_filter_length(s->w, p, true);
+  }
+  qsort(s->least, pairs, sizeof *s->least, length_order);
+  qsort(s->largest, pairs, sizeof *s->largest, length_order);
+}
+
+/* Legal pairs stay legal, so what they join stays joined when rectangles shrink. */
+static void find_never(span_work *s) {
+  const dyd_pair *pair = s->w->pairs.item;
+  size_t next = 0;
+  sets_begin(&s->sets, s->w->n);
+  for (size_t q = 0; q < s->w->pairs.count; q++) {
+    for (; next < s->w->pairs.count && length_compare(&s->largest[next], &s->least[q]) < 0; next++) {
+      const dyd_pair *p = &pair[s->largest[next].pair];
+      if (p->status == DYD_LEGAL) s->sets.up[set_of(&s->sets, p->i)] = set_of(&s->sets, p->j);
+    }
+    const dyd_pair *p = &pair[s->least[q].pair];
+    s->never[s->least[q].pair] = set_of(&s->sets, p->i) == set_of(&s->sets, p->j);
+  }
+}
+
+static dyd_status find_never_gabriel(span_work *s) {
+  const dyd_pair *pair = s->w->pairs.item;
+  dyd_status st = DYD_OK;
+  for (size_t p = 0; p < s->w->pairs.count && st == DYD_OK; p++) {
+    dyd_graph_status status;
+    if (s->never[p]) continue;
+    st = dyd_flag_is_set(s->w->cancel) ? DYD_CANCELLED : gabriel_status(&status, s->w, pair[p].i, pair[p].j);
+    s->never[p] = st == DYD_OK && status == DYD_GRAPH_NEVER;
+  }
+  return st;
+}
+
+static void find_tree(span_work *s) {
+  sets_begin(&s->sets, s->w->n);
+  for (size_t q = 0; q < s->w->pairs.count; q++) {
+    const dyd_pair *p = &s->w->pairs.item[s->least[q].pair];
+    if (s->never[s->least[q].pair]) continue;
+    uint32_t a = set_of(&s->sets, p->i), b = set_of(&s->sets, p->j);
+    s->tree[s->least[q].pair] = a != b;
+    s->sets.up[a] = b;
+  }
+}
+
+/* The pairs of the tree at each site. */
+static void deal_tree(span_work *s) {
+  const dyd_pair *pair = s->w->pairs.item;
+  for (size_t p = 0; p < s->w->pairs.count; p++) {
+    if (!s->tree[p]) continue;
+    s->start[pair[p].i + 2]++;
+    s->start[pair[p].j + 2]++;
+  }
+  for (size_t i = 2; i <= s->w->n + 1; i++) s->start[i] += s->start[i - 1];
+  for (uint32_t p = 0; p < s->w->pairs.count; p++) {
+    if (!s->tree[p]) continue;
+    s->edge[s->start[pair[p].i + 1]++] = p;
+    s->edge[s->start[pair[p].j + 1]++] = p;
+  }
+}
+
+/* Hangs every tree on one of its sites. `queue`: room for all. */
+static void root_trees(span_work *s, uint32_t *queue) {
+  size_t head = 0, tail = 0;
+  for (uint32_t i = 0; i < s->w->n; i++) s->parent[i] = SPAN_NONE;
+  for (uint32_t i = 0; i < s->w->n; i++) {
+    if (s->parent[i] != SPAN_NONE) continue;
+    s->parent[i] = i, s->depth[i] = 0, s->link[i] = SPAN_NONE;
+    for (queue[tail++] = i; head < tail; head++) {
+      uint32_t v = queue[head];
+      for (size_t k = s->start[v]; k < s->start[v + 1]; k++) {
+        const dyd_pair *p = &s->w->pairs.item[s->edge[k]];
+        uint32_t other = p->i == v ? p->j : p->i;
+        if (s->parent[other] != SPAN_NONE) continue;
+        s->parent[other] = v, s->depth[other] = s->depth[v] + 1, s->link[other] = s->edge[k];
+        queue[tail++] = other;
+      }
+    }
+  }
+}
+
+/* The other pairs, shortest first: each is the first around the links of the tree between its ends that none was
+ * around before; those are passed over from then on. */
+static void find_replacements(span_work *s) {
+  for (size_t p = 0; p < s->w->pairs.count; p++) s->replaced[p] = SPAN_NONE;
+  sets_begin(&s->sets, s->w->n);
+  for (size_t q = 0; q < s->w->pairs.count; q++) {
+    const dyd_pair *p = &s->w->pairs.item[s->least[q].pair];
+    if (s->tree[s->least[q].pair] || s->never[s->least[q].pair]) continue;
+    uint32_t a = set_of(&s->sets, p->i), b = set_of(&s->sets, p->j);
+    while (a != b) {
+      uint32_t *lower = s->depth[a] >= s->depth[b] ? &a : &b;
+      s->replaced[s->link[*lower]] = (uint32_t)q;
+      s->sets.up[*lower] = s->parent[*lower];
+      *lower = set_of(&s->sets, *lower);
+    }
+  }
+}
+
+static bool is_surely_shortest(const span_work *s, uint32_t p) {
+  if (!s->tree[p]) return false;
+  dyd_length own = dyd_filter_length(s->w, p, true);
+  return s->replaced[p] == SPAN_NONE || length_compare(&own, &s->least[s->replaced[p]]) < 0;
+}
+
+/* Who is surely nearest to each site. */
+static dyd_status find_sure_nearest(span_work *s) {
+  dyd_graph_list *l = &s->w->out;
+  dyd_status st = nearest_graph(s->w);
+  for (size_t i = 0; i < s->w->n; i++) s->nearest[i] = SPAN_NONE;
+  for (size_t k = 0; k < l->count; k++)
+    if (l->item[k].sure) s->nearest[l->item[k].i] = l->item[k].j;
+  l->count = 0;
+  return st;
+}
+
+static dyd_status span_pair(const span_work *s, uint32_t number) {
+  uint32_t i = s->w->pairs.item[number].i, j = s->w->pairs.item[number].j;
+  if (s->never[number]) return DYD_OK;
+  return graph_add(s->w, i, j, s->nearest[i] == j || s->nearest[j] == i || is_surely_shortest(s, number));
+}
+
+static dyd_status spanning_graph(dyd_graph_work *w) {
+  span_work s = {.w = w};
+  dyd_status st = span_has_room(&s) && span_alloc(&s) ? DYD_OK : DYD_E_NOMEM;
+  if (st == DYD_OK) {
+    sort_lengths(&s);
+    find_never(&s);
+    st = find_never_gabriel(&s);
+  }
+  if (st == DYD_OK) {
+    find_tree(&s);
+    deal_tree(&s);
+    root_trees(&s, s.sets.up);
+    find_replacements(&s);
+    st = find_sure_nearest(&s);
+  }
+  for (uint32_t p = 0; p < w->pairs.count && st == DYD_OK; p++) st = span_pair(&s, p);
+  spanning_work_clear(&s);
+  return st;
+}
+
+/* ---- the public call ---- */
 
 /* Pairs are sorted, so each list comes out ascending. */
 static void deal_partners(dyd_graph_work *w) {
@@ -69,7 +480,7 @@ static void graph_work_clear(dyd_graph_work *w) {
 dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_graph graph, const volatile int *cancel,
                            dyd_error *err) {
   if (!pd) return dyd_fail_null(err);
-  static dyd_status (*const make[])(dyd_graph_work *) = {dyd_nearest_graph, dyd_gabriel_graph, dyd_spanning_graph};
+  static dyd_status (*const make[])(dyd_graph_work *) = {nearest_graph, gabriel_graph, spanning_graph};
   if (err) dyd_error_clear(err);
   if (dyd_float_check(err) != DYD_OK) return DYD_E_ARG;
   if ((size_t)graph >= sizeof make / sizeof *make)

@@ -1,17 +1,41 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What graphs of neighbours are worked out with. All of them have possible pairs of the triangulation only, and who
- * decides about a pair of i is a possible partner of i [NNG-1] [GAB-1].
+/* Graphs of neighbours. All of them consist of possible pairs of the triangulation, and only possible partners of i
+ * decide a pair of i [NNG-1] [GAB-1].
  *
  *   graph_filter.c   one pair in doubles
- *   reach.c, clip.c  one pair exactly
- *   nearest.c, gabriel.c, spanning.c, lengths_filter.c   the graphs */
+ *   reach.c          one pair exactly
+ *   graph.c          the graphs */
 #ifndef DYD_GRAPH_GRAPH_H
 #define DYD_GRAPH_GRAPH_H
 
 #include "delaunay/memory.h"
-#include "graph/reach.h"
+#include "rect/irect.h"
 #include "skeleton/distance_filter.h"
 #include <dyadel/graph.h>
+
+/* Rectangles that are compared exactly. Invariant: rect and grid are initialised up to made; grid[0 .. count-1] are in
+ * use, all multiplied by one factor, so that all ends are multiples of 4. */
+typedef struct dyd_reach {
+  dyd_rect *rect;
+  const dyd_rect **in;
+  dyd_irect *grid;
+  bool *mark;
+  size_t count, made;
+  mpz_t rho, d, e; /* scratch */
+} dyd_reach;
+
+void dyd_reach_init(dyd_reach *r);
+void dyd_reach_clear(dyd_reach *r);
+/* grid[0] becomes site i, grid[1 ..] the others. DYD_E_NOMEM, DYD_E_RANGE as dyd_sites_get. */
+dyd_status dyd_reach_load(dyd_reach *r, const dyd_sites *sites, uint32_t i, const uint32_t *other, size_t count);
+/* Returns true if number j (from 1) is nearest to number 0 for some choice (ties included), for every choice (alone).
+ */
+bool dyd_reach_may_be_nearest(dyd_reach *r, size_t j);
+bool dyd_reach_is_nearest(dyd_reach *r, size_t j);
+/* Returns true if the open disc with diameter 0 j is free of the others for some choice, the closed one for every
+ * choice. */
+bool dyd_reach_may_be_gabriel(dyd_reach *r, size_t j);
+bool dyd_reach_is_gabriel(dyd_reach *r, size_t j);
 
 /* pairs: the possible ones, of at least the status `least`. partner[start[i] .. start[i + 1] - 1]: those of site i,
  * ascending. */
@@ -40,18 +64,19 @@ typedef struct dyd_graph_verdict {
   dyd_graph_status status;
 } dyd_graph_verdict;
 
-dyd_status dyd_graph_add(dyd_graph_work *w, uint32_t i, uint32_t j, bool sure);
+/* The squared length of pair number `pair`, least or largest, is in [lo, hi]; lo = hi: it is that. */
+typedef struct dyd_length {
+  const dyd_graph_work *of;
+  double lo, hi;
+  uint32_t pair;
+  bool largest;
+} dyd_length;
 
 /* graph_filter.c. w->other becomes the partners of i that may be nearest to it; only they decide [NNG-1]. */
 void dyd_filter_nearest_few(dyd_graph_work *w, uint32_t i);
 dyd_graph_verdict dyd_filter_nearest(const dyd_graph_work *w, uint32_t i, uint32_t j);
 /* Against the partners of i. */
 dyd_graph_verdict dyd_filter_gabriel(const dyd_graph_work *w, uint32_t i, uint32_t j);
-
-dyd_status dyd_gabriel_status(dyd_graph_status *out, dyd_graph_work *w, uint32_t i, uint32_t j);
-
-dyd_status dyd_nearest_graph(dyd_graph_work *w);
-dyd_status dyd_gabriel_graph(dyd_graph_work *w);
-dyd_status dyd_spanning_graph(dyd_graph_work *w);
+dyd_length dyd_filter_length(const dyd_graph_work *w, uint32_t pair, bool largest);
 
 #endif

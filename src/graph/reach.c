@@ -1,9 +1,219 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Neighbours among a few rectangles, in integers. */
-#include "graph/reach.h"
+/* What a few rectangles decide exactly about neighbours of the first of them, in integers [NNG-1] [GAB-1].
+ *
+ * "For some choice" is a place in a box where no third rectangle is too near for all choices. For the nearest neighbour
+ * that is a place x in R_i with ds_j(x) <= dl_k(x) for all k; for the Gabriel graph, whose edges are diameters of empty
+ * discs, a middle m of points of R_i and R_j with r(m) <= dl_k(m), r(m) half the least distance of two points with that
+ * middle: by each coordinate the larger of the distances of m to both sides. So both ask whether
+ *
+ *     min over k of dl_k(x)^2 - rho(x),   rho = rho_x + rho_y,   rho_a = max over one or two sides of ds^2
+ *
+ * is anywhere in a box at least 0. Cut along the ends of the sides, and where those of two are equally far, rho_a is 0
+ * or (x_a - e)^2. There dl_k^2 - rho is convex: a k that is too near at four corners is so in between. Cut through the
+ * middles of the k as well, each dl_k is the distance of one corner; where that of k is the least of all, a convex
+ * polygon, the convex function dl_k^2 - rho is largest at one of its corners, which are rational. */
+#include "graph/graph.h"
 
 #include "base/alloc.h"
-#include "graph/clip.h"
+
+/* ---- polygons in a box ---- */
+
+typedef struct dyd_clip_point {
+  mpz_t at[2];
+} dyd_clip_point;
+
+/* Points, and a level: level^2 (x, y) is the sum of (x - level[0])^2, unless flat[0], and the like of y. */
+typedef struct dyd_clip {
+  const dyd_irect *box; /* borrowed */
+  mpz_t level[2];
+  bool flat[2];
+  dyd_clip_point *point;
+  size_t count, cap;
+} dyd_clip;
+
+static void clip_init(dyd_clip *c, const dyd_irect *box) {
+  *c = (dyd_clip){.box = box};
+  mpz_inits(c->level[0], c->level[1], NULL);
+}
+
+static void clip_clear(dyd_clip *c) {
+  for (size_t k = 0; k < c->count; k++) mpz_clears(c->point[k].at[0], c->point[k].at[1], NULL);
+  free(c->point);
+  mpz_clears(c->level[0], c->level[1], NULL);
+}
+
+/* NULL: this coordinate does not count. */
+static void clip_level(dyd_clip *c, int axis, mpz_srcptr at) {
+  c->flat[axis] = !at;
+  if (at) mpz_set(c->level[axis], at);
+}
+
+/* The largest level in the box against the least distance of the point to the box, both squared. */
+static bool is_far(const dyd_clip *c, mpz_srcptr x, mpz_srcptr y) {
+  mpz_t most, d, t;
+  mpz_inits(most, d, t, NULL);
+  for (int axis = 0; axis < 2; axis++) {
+    mpz_sub(d, dyd_irect_end(c->box, axis, 0), c->level[axis]);
+    mpz_sub(t, dyd_irect_end(c->box, axis, 1), c->level[axis]);
+    mpz_srcptr longer = mpz_cmpabs(d, t) > 0 ? d : t;
+    if (!c->flat[axis]) mpz_addmul(most, longer, longer);
+  }
+  dyd_irect_ds2(d, x, y, c->box);
+  bool far = mpz_cmp(d, most) >= 0;
+  mpz_clears(most, d, t, NULL);
+  return far;
+}
+
+/* One point more; a point that is far enough from everywhere in the box is left out. false: memory is exhausted. */
+static bool clip_add(dyd_clip *c, mpz_srcptr x, mpz_srcptr y) {
+  if (is_far(c, x, y)) return true;
+  if (!dyd_reserve((void **)&c->point, &c->cap, c->count + 1, sizeof *c->point)) return false;
+  mpz_init_set(c->point[c->count].at[0], x);
+  mpz_init_set(c->point[c->count].at[1], y);
+  c->count++;
+  return true;
+}
+
+typedef struct clip_corner {
+  mpq_t at[2];
+} clip_corner;
+
+/* Invariant: corners are initialised up to made; in order, perhaps of a segment or a point only. */
+typedef struct clip_polygon {
+  clip_corner *corner;
+  size_t count, made, cap;
+} clip_polygon;
+
+static bool polygon_room(clip_polygon *p) {
+  if (p->count < p->made) return true;
+  if (!dyd_reserve((void **)&p->corner, &p->cap, p->made + 1, sizeof *p->corner)) return false;
+  mpq_inits(p->corner[p->made].at[0], p->corner[p->made].at[1], NULL);
+  p->made++;
+  return true;
+}
+
+static void polygon_clear(clip_polygon *p) {
+  for (size_t k = 0; k < p->made; k++) mpq_clears(p->corner[k].at[0], p->corner[k].at[1], NULL);
+  free(p->corner);
+}
+
+static bool polygon_box(clip_polygon *p, const dyd_irect *box) {
+  p->count = 0;
+  for (int c = 0; c < 4; c++) {
+    if (!polygon_room(p)) return false;
+    mpq_set_z(p->corner[p->count].at[0], dyd_irect_end(box, 0, c == 1 || c == 2));
+    mpq_set_z(p->corner[p->count].at[1], dyd_irect_end(box, 1, c >= 2));
+    p->count++;
+  }
+  return true;
+}
+
+/* *out = 2 (k - l).m + |l|^2 - |k|^2: at least 0 where k is as near as l. */
+static void nearer_by(mpq_ptr out, const clip_corner *m, const dyd_clip_point *k, const dyd_clip_point *l) {
+  mpq_t s, t;
+  mpq_inits(s, t, NULL);
+  mpq_set_ui(out, 0, 1);
+  for (int axis = 0; axis < 2; axis++) {
+    mpz_sub(mpq_numref(s), k->at[axis], l->at[axis]);
+    mpz_add(mpq_numref(t), k->at[axis], l->at[axis]);
+    mpq_sub(t, m->at[axis], t);
+    mpq_add(t, t, m->at[axis]);
+    mpz_set_ui(mpq_denref(s), 1);
+    mpq_mul(s, s, t);
+    mpq_add(out, out, s);
+    mpq_set_ui(t, 0, 1);
+  }
+  mpq_clears(s, t, NULL);
+}
+
+/* The place between a and b where a value that is f at a and g at b, of opposite signs, is 0. */
+static bool polygon_between(clip_polygon *to, const clip_corner *a, const clip_corner *b, mpq_srcptr f, mpq_srcptr g) {
+  mpq_t w, t;
+  if (!polygon_room(to)) return false;
+  mpq_inits(w, t, NULL);
+  mpq_sub(w, f, g);
+  mpq_div(w, f, w);
+  for (int axis = 0; axis < 2; axis++) {
+    mpq_sub(t, b->at[axis], a->at[axis]);
+    mpq_mul(t, t, w);
+    mpq_add(to->corner[to->count].at[axis], a->at[axis], t);
+  }
+  to->count++;
+  mpq_clears(w, t, NULL);
+  return true;
+}
+
+static bool polygon_keep(clip_polygon *to, const clip_corner *a) {
+  if (!polygon_room(to)) return false;
+  mpq_set(to->corner[to->count].at[0], a->at[0]);
+  mpq_set(to->corner[to->count].at[1], a->at[1]);
+  to->count++;
+  return true;
+}
+
+/* The part of `from` that is as near to k as to l. */
+static bool polygon_cut(clip_polygon *to, const clip_polygon *from, const dyd_clip_point *k, const dyd_clip_point *l) {
+  mpq_t f, g;
+  bool good = true;
+  mpq_inits(f, g, NULL);
+  to->count = 0;
+  for (size_t q = 0; q < from->count && good; q++) {
+    const clip_corner *a = &from->corner[q], *b = &from->corner[(q + 1) % from->count];
+    nearer_by(f, a, k, l);
+    nearer_by(g, b, k, l);
+    if (mpq_sgn(f) >= 0) good = polygon_keep(to, a);
+    if (good && mpq_sgn(f) * mpq_sgn(g) < 0) good = polygon_between(to, a, b, f, g);
+  }
+  mpq_clears(f, g, NULL);
+  return good;
+}
+
+/* Is the point k as far as the level? */
+static bool corner_has_room(const dyd_clip *c, const clip_corner *m, const dyd_clip_point *k) {
+  mpq_t sum, t;
+  mpq_inits(sum, t, NULL);
+  for (int axis = 0; axis < 2; axis++) {
+    mpq_set_z(t, k->at[axis]);
+    mpq_sub(t, m->at[axis], t);
+    mpq_mul(t, t, t);
+    mpq_add(sum, sum, t);
+    mpq_set_z(t, c->level[axis]);
+    mpq_sub(t, m->at[axis], t);
+    mpq_mul(t, t, t);
+    if (!c->flat[axis]) mpq_sub(sum, sum, t);
+  }
+  bool room = mpq_sgn(sum) >= 0;
+  mpq_clears(sum, t, NULL);
+  return room;
+}
+
+/* Where k is the nearest of all: a polygon, cut by one bisector after another. The squared distance to k less the
+ * squared level is convex there, so it is largest at a corner. */
+static bool point_has_room(bool *room, const dyd_clip *c, clip_polygon p[2], size_t k) {
+  int now = 0;
+  if (!polygon_box(&p[0], c->box)) return false;
+  for (size_t l = 0; l < c->count && p[now].count; l++) {
+    if (l == k) continue;
+    if (!polygon_cut(&p[!now], &p[now], &c->point[k], &c->point[l])) return false;
+    now = !now;
+  }
+  for (size_t q = 0; q < p[now].count && !*room; q++) *room = corner_has_room(c, &p[now].corner[q], &c->point[k]);
+  return true;
+}
+
+/* *room: somewhere in the box all points are at least as far as the level there. O(count^2). false: memory is
+ * exhausted. */
+static bool clip_has_room(bool *room, const dyd_clip *c) {
+  clip_polygon p[2] = {{0}, {0}};
+  bool good = true;
+  *room = c->count == 0;
+  for (size_t k = 0; k < c->count && good && !*room; k++) good = point_has_room(room, c, p, k);
+  polygon_clear(&p[0]);
+  polygon_clear(&p[1]);
+  return good;
+}
+
+/* ---- loading ---- */
 
 void dyd_reach_init(dyd_reach *r) {
   *r = (dyd_reach){0};
@@ -21,8 +231,6 @@ void dyd_reach_clear(dyd_reach *r) {
   free(r->mark);
   mpz_clears(r->rho, r->d, r->e, NULL);
 }
-
-/* ---- loading ---- */
 
 static bool reach_room(dyd_reach *r, size_t count) {
   size_t cap[4] = {r->made, r->made, r->made, r->made};
@@ -64,6 +272,7 @@ dyd_status dyd_reach_load(dyd_reach *r, const dyd_sites *sites, uint32_t i, cons
 static mpz_srcptr corner_x(const dyd_irect *g, int c) {
   return dyd_irect_end(g, 0, c & 1);
 }
+
 static mpz_srcptr corner_y(const dyd_irect *g, int c) {
   return dyd_irect_end(g, 1, c >> 1);
 }
@@ -225,8 +434,8 @@ static bool leaf_has_room(reach_quest *q, const dyd_irect *box) {
   dyd_clip c;
   mpz_t e[2], t, middle;
   mpz_inits(e[0], e[1], t, middle, NULL);
-  dyd_clip_init(&c, box);
-  for (int axis = 0; axis < 2; axis++) dyd_clip_level(&c, axis, rho_form(e[axis], t, q, box, axis) ? e[axis] : NULL);
+  clip_init(&c, box);
+  for (int axis = 0; axis < 2; axis++) clip_level(&c, axis, rho_form(e[axis], t, q, box, axis) ? e[axis] : NULL);
   for (size_t k = 1; k < r->count && !q->failed; k++) {
     if (k == q->j) continue;
     mpz_srcptr far[2];
@@ -236,11 +445,11 @@ static bool leaf_has_room(reach_quest *q, const dyd_irect *box) {
       mpz_add(t, dyd_irect_end(g, axis, 0), dyd_irect_end(g, axis, 1));
       far[axis] = dyd_irect_end(g, axis, mpz_cmp(middle, t) < 0);
     }
-    q->failed = !dyd_clip_add(&c, far[0], far[1]);
+    q->failed = !clip_add(&c, far[0], far[1]);
   }
   bool room = false;
-  q->failed = q->failed || !dyd_clip_has_room(&room, &c);
-  dyd_clip_clear(&c);
+  q->failed = q->failed || !clip_has_room(&room, &c);
+  clip_clear(&c);
   mpz_clears(e[0], e[1], t, middle, NULL);
   return room;
 }

@@ -5,9 +5,479 @@
  * checker's own tests do not take is left out. */
 #include "base/alloc.h"
 #include "checker/checker.h"
+#include "checker/parts.h"
 #include "metric/bounds.h"
 #include "prove/proof.h"
+
 #include <inttypes.h>
+
+/* Corners of a certificate: a direction in which a site is surely beyond the parts of the rim on either side.
+ *
+ * All differences of a point of those sites and a point of the corner's rectangle must lie in an open half-plane; they
+ * span a cone, and a direction at an obtuse angle to both of its sides will do. Integers only. */
+
+/* The walk of the unbounded face as sites, and which of them may be corners. */
+typedef struct rim {
+  uint32_t *walk, *site;
+  size_t count;
+  bool *corner; /* by site */
+} rim;
+
+static dyd_status make_rim(rim *r, const dyd_proof *p) {
+  dyd_status st = dyd_cert_walk(&r->walk, &r->count, &p->graph, dyd_cert_outer(&p->graph));
+  if (st != DYD_OK) return st;
+  r->site = dyd_alloc(r->count, sizeof *r->site);
+  if (!r->site) return DYD_E_NOMEM;
+  for (size_t q = 0; q < r->count; q++) r->site[q] = dyd_cert_origin(&p->graph, r->walk[q]);
+  uint32_t *copy = dyd_alloc(r->count, sizeof *copy), *times = calloc(p->sites.count, sizeof *times);
+  r->corner = dyd_alloc(p->sites.count, sizeof *r->corner);
+  size_t kept = 0;
+  if (copy && times && r->corner) {
+    for (size_t q = 0; q < r->count; q++)
+      if (times[r->site[q]]++ == 0) copy[kept++] = r->site[q];
+    st = dyd_cert_hull(r->corner, &p->sites, copy, kept);
+    for (size_t q = 0; q < r->count; q++)
+      if (times[r->site[q]] > 1) r->corner[r->site[q]] = false;
+  } else {
+    st = DYD_E_NOMEM;
+  }
+  free(copy);
+  free(times);
+  return st;
+}
+
+/* A cone of directions: all d with first x d >= 0 >= last x d. */
+typedef struct cone {
+  dyd_exact first[2], last[2];
+  bool empty, broken; /* broken: a half-plane or more */
+} cone;
+
+/* Sign of the cross product, exactly. */
+static int cone_cross(const dyd_exact a[2], const dyd_exact b[2]) {
+  dyd_exact s, t;
+  dyd_exact_init(&s);
+  dyd_exact_init(&t);
+  dyd_exact_mul(&s, &a[0], &b[1]);
+  dyd_exact_mul(&t, &a[1], &b[0]);
+  int sign = dyd_exact_cmp(&s, &t);
+  dyd_exact_clear(&s);
+  dyd_exact_clear(&t);
+  return sign;
+}
+
+static int cone_dot(const dyd_exact a[2], const dyd_exact b[2]) {
+  dyd_exact s, t;
+  dyd_exact_init(&s);
+  dyd_exact_init(&t);
+  dyd_exact_mul(&s, &a[0], &b[0]);
+  dyd_exact_mul(&t, &a[1], &b[1]);
+  dyd_exact_add(&s, &s, &t);
+  int sign = dyd_exact_sgn(&s);
+  dyd_exact_clear(&s);
+  dyd_exact_clear(&t);
+  return sign;
+}
+
+static void set_direction(dyd_exact out[2], const dyd_exact d[2]) {
+  dyd_exact_set(&out[0], &d[0]);
+  dyd_exact_set(&out[1], &d[1]);
+}
+
+static void cone_widen(cone *k, const dyd_exact d[2]) {
+  if (k->broken) return;
+  if (!dyd_exact_sgn(&d[0]) && !dyd_exact_sgn(&d[1])) {
+    k->broken = true;
+  } else if (k->empty) {
+    set_direction(k->first, d);
+    set_direction(k->last, d);
+    k->empty = false;
+  } else {
+    int a = cone_cross(k->first, d), b = cone_cross(d, k->last);
+    if (a >= 0 && b >= 0 && (a || b || cone_dot(k->first, d) > 0)) return; /* inside */
+    bool before = a < 0 && cone_cross(d, k->last) > 0, after = b < 0 && cone_cross(k->first, d) > 0;
+    if (before)
+      set_direction(k->first, d);
+    else if (after)
+      set_direction(k->last, d);
+    else
+      k->broken = true;
+  }
+}
+
+/* The cone takes in all differences of a point of w and a point of v. */
+static void cone_take_in(cone *k, const dyd_cert_sites *s, uint32_t v, uint32_t w) {
+  dyd_cert_fraction end[2][2];
+  dyd_exact d[2];
+  for (int q = 0; q < 4; q++) dyd_cert_fraction_init(&end[q / 2][q % 2]);
+  dyd_exact_init(&d[0]);
+  dyd_exact_init(&d[1]);
+  for (int a = 0; a < 2; a++) {
+    const dyd_cert_side *from = &s->site[v].side[a], *to = &s->site[w].side[a];
+    dyd_cert_fraction_sub(&end[a][0], &to->lo, dyd_cert_den(to), dyd_cert_high(from), dyd_cert_den(from));
+    dyd_cert_fraction_sub(&end[a][1], dyd_cert_high(to), dyd_cert_den(to), &from->lo, dyd_cert_den(from));
+  }
+  for (int q = 0; q < 4; q++) {
+    const dyd_cert_fraction *x = &end[0][q / 2], *y = &end[1][q % 2];
+    dyd_exact_set(&d[0], &x->num);
+    dyd_exact_set(&d[1], &y->num);
+    if (!y->whole) dyd_exact_mul_z(&d[0], &d[0], y->den);
+    if (!x->whole) dyd_exact_mul_z(&d[1], &d[1], x->den);
+    cone_widen(k, (const dyd_exact *)d);
+  }
+  for (int q = 0; q < 4; q++) dyd_cert_fraction_clear(&end[q / 2][q % 2]);
+  dyd_exact_clear(&d[0]);
+  dyd_exact_clear(&d[1]);
+}
+
+/* ---- a direction ---- */
+
+/* Scales d to about `bits` bits, rounding. */
+static void cut_direction(dyd_exact out[2], const dyd_exact d[2], int64_t bits) {
+  int64_t x = dyd_exact_top(&d[0]), y = dyd_exact_top(&d[1]), top = x > y ? x : y;
+  for (int a = 0; a < 2; a++) {
+    dyd_proof_round(&out[a], &d[a], top - bits);
+    out[a].exp -= top - bits;
+  }
+}
+
+/* out = d turned a quarter, counter-clockwise for sign = 1. */
+static void turn_quarter(dyd_exact out[2], const dyd_exact d[2], int sign) {
+  dyd_exact_set(&out[0], &d[1]);
+  dyd_exact_set(&out[1], &d[0]);
+  mpz_neg(out[sign > 0 ? 0 : 1].man, out[sign > 0 ? 0 : 1].man);
+}
+
+/* u = a direction at an obtuse angle to the sides of the cone, as far as so many bits allow. */
+static void cone_choose(dyd_exact u[2], const cone *k, int64_t bits) {
+  dyd_exact a[2], b[2], t[2];
+  for (int q = 0; q < 2; q++) {
+    dyd_exact_init(&a[q]);
+    dyd_exact_init(&b[q]);
+    dyd_exact_init(&t[q]);
+  }
+  bool wide = cone_dot(k->first, k->last) <= 0;
+  cut_direction(a, k->first, bits);
+  cut_direction(b, k->last, bits);
+  if (wide) {
+    turn_quarter(t, (const dyd_exact *)a, -1);
+    turn_quarter(a, (const dyd_exact *)b, 1);
+  } else {
+    set_direction(t, (const dyd_exact *)b);
+  }
+  for (int q = 0; q < 2; q++) {
+    dyd_exact_add(&u[q], &a[q], &t[q]);
+    if (!wide) mpz_neg(u[q].man, u[q].man);
+    dyd_proof_trim(&u[q]);
+    dyd_exact_clear(&a[q]);
+    dyd_exact_clear(&b[q]);
+    dyd_exact_clear(&t[q]);
+  }
+}
+
+/* Two lists of sites. */
+typedef struct crowds {
+  const uint32_t *site[2];
+  size_t count[2];
+} crowds;
+
+/* For the sites beside v: takes them into the cone (u = NULL), or asks whether v is beyond them all in direction u. */
+static bool each_beside(cone *k, const dyd_exact *u, const dyd_proof *p, uint32_t v, const crowds *beside) {
+  for (int way = 0; way < 2; way++) {
+    for (size_t m = 0; m < beside->count[way]; m++) {
+      uint32_t w = beside->site[way][m];
+      if (w == v) continue;
+      if (!u)
+        cone_take_in(k, &p->sites, v, w);
+      else if (dyd_cert_compare_heights(&p->sites, u, w, v) >= 0)
+        return false;
+      if (k->broken) return false;
+    }
+  }
+  return true;
+}
+
+static bool find_direction(dyd_exact u[2], const dyd_proof *p, uint32_t v, const crowds *beside) {
+  cone k = {.empty = true};
+  for (int a = 0; a < 2; a++) {
+    dyd_exact_init(&k.first[a]);
+    dyd_exact_init(&k.last[a]);
+  }
+  bool found = false;
+  if (each_beside(&k, NULL, p, v, beside) && !k.empty)
+    for (int64_t bits = 3; bits <= (int64_t)1 << 14 && !found; bits += bits / 2 + 1) {
+      cone_choose(u, &k, bits);
+      found = each_beside(&k, u, p, v, beside);
+    }
+  for (int a = 0; a < 2; a++) {
+    dyd_exact_clear(&k.first[a]);
+    dyd_exact_clear(&k.last[a]);
+  }
+  return found;
+}
+
+bool dyd_proof_find_direction(dyd_exact u[2], const dyd_proof *p, uint32_t v, const uint32_t *site, size_t count) {
+  const crowds all = {{site, NULL}, {count, 0}};
+  return find_direction(u, p, v, &all);
+}
+
+/* ---- all corners ---- */
+
+/* The sites of the two groups at the corner at position q. */
+static crowds groups_beside(const rim *r, const dyd_cert_parts *parts, size_t q) {
+  crowds out;
+  for (int way = 0; way < 2; way++) {
+    uint32_t group = parts->group[way ? q : (q + r->count - 1) % r->count];
+    out.site[way] = parts->site + parts->start[group];
+    out.count[way] = parts->start[group + 1] - parts->start[group];
+  }
+  return out;
+}
+
+static dyd_status keep_corner(dyd_proof *p, uint32_t v, const dyd_exact u[2]) {
+  if (!dyd_reserve((void **)&p->corner, &p->corner_cap, p->corners + 1, sizeof *p->corner)) return DYD_E_NOMEM;
+  dyd_cert_corner *c = &p->corner[p->corners++];
+  c->i = v;
+  for (int a = 0; a < 2; a++) {
+    dyd_exact_init(&c->u[a]);
+    dyd_exact_set(&c->u[a], &u[a]);
+  }
+  return DYD_OK;
+}
+
+static bool have_corner(const rim *r) {
+  for (size_t q = 0; q < r->count; q++)
+    if (r->corner[r->site[q]]) return true;
+  return false;
+}
+
+void dyd_proof_drop_corners(dyd_proof *p) {
+  for (size_t q = 0; q < p->corners; q++) {
+    dyd_exact_clear(&p->corner[q].u[0]);
+    dyd_exact_clear(&p->corner[q].u[1]);
+  }
+  p->corners = 0;
+}
+
+/* Keeps the corners that have a direction; *again: some have none and are corners no more, so parts have grown. */
+static dyd_status try_corners(bool *again, dyd_proof *p, rim *r) {
+  dyd_cert_parts parts;
+  dyd_exact u[2];
+  *again = false;
+  dyd_proof_drop_corners(p);
+  dyd_status st = dyd_cert_parts_init(&parts, &p->graph, r->walk, r->count, r->corner);
+  if (st != DYD_OK) return st;
+  dyd_exact_init(&u[0]);
+  dyd_exact_init(&u[1]);
+  for (size_t q = 0; q < r->count && st == DYD_OK; q++) {
+    if (!r->corner[r->site[q]]) continue;
+    const crowds beside = groups_beside(r, &parts, q);
+    if (find_direction(u, p, r->site[q], &beside)) {
+      st = keep_corner(p, r->site[q], (const dyd_exact *)u);
+    } else {
+      r->corner[r->site[q]] = false;
+      *again = true;
+    }
+  }
+  dyd_exact_clear(&u[0]);
+  dyd_exact_clear(&u[1]);
+  dyd_cert_parts_clear(&parts);
+  return st;
+}
+
+static int compare_corner_sites(const void *a, const void *b) {
+  uint32_t x = ((const dyd_cert_corner *)a)->i, y = ((const dyd_cert_corner *)b)->i;
+  return (x > y) - (x < y);
+}
+
+static dyd_status rim_corners(dyd_proof *p) {
+  if (!p->graph.connected || p->graph.count == 0) return DYD_OK;
+  rim r = {0};
+  dyd_status st = make_rim(&r, p);
+  for (bool again = true; again && st == DYD_OK;) {
+    again = false;
+    if (have_corner(&r))
+      st = try_corners(&again, p, &r);
+    else
+      dyd_proof_drop_corners(p);
+  }
+  if (p->corners) qsort(p->corner, p->corners, sizeof *p->corner, compare_corner_sites);
+  free(r.walk);
+  free(r.site);
+  free(r.corner);
+  return st;
+}
+
+dyd_status dyd_proof_find_faces(dyd_proof *p) {
+  uint32_t bad = DYD_CERT_NONE;
+  dyd_status st = dyd_cert_graph_init(&p->graph, &p->sites, &p->legal, &p->bridges);
+  if (st == DYD_OK) st = rim_corners(p);
+  if (st == DYD_OK) st = dyd_cert_faces_init(&p->faces, &bad, &p->graph, p->corner, p->corners);
+  return st;
+}
+
+/* Bridges of a certificate.
+ *
+ * The strictly Delaunay edges of distinct points connect them (a shortest spanning tree consists of such
+ * edges), and they do not cross legal edges, which are strictly Delaunay for these points too. So the triangulation
+ * of the places, computed as of exact points, has bridges enough, each with a witness. */
+
+/* ---- places ---- */
+
+/* The place of a site as an exact point. */
+static dyd_status place_rect(dyd_rect *out, const dyd_cert_site *s) {
+  dyd_status st = DYD_OK;
+  for (int a = 0; a < 2 && st == DYD_OK; a++) {
+    mpz_srcptr den;
+    const dyd_exact *at = dyd_cert_place(&den, s, a);
+    dyd_interval *side = a ? &out->y : &out->x;
+    dyd_dyadic v;
+    mpq_t q;
+    dyd_dyadic_init(&v);
+    mpq_init(q);
+    st = dyd_dyadic_set_z_2exp(&v, at->man, at->exp);
+    dyd_dyadic_get_q(q, &v);
+    if (den) mpz_mul(mpq_denref(q), mpq_denref(q), den);
+    if (den) mpq_canonicalize(q);
+    if (st == DYD_OK) st = dyd_interval_set_q(side, q);
+    mpq_clear(q);
+    dyd_dyadic_clear(&v);
+  }
+  return st;
+}
+
+/* Moves a place that another site has too to a point of the rectangle that depends on the number of the site. */
+static dyd_status move_place(dyd_cert_site *s, uint32_t i, unsigned round) {
+  dyd_exact at[2], width;
+  dyd_exact_init(&width);
+  uint64_t part[2] = {i, (i + 1) * UINT64_C(0x9E3779B97F4A7C15) >> 32};
+  dyd_status st = DYD_OK;
+  for (int a = 0; a < 2; a++) {
+    dyd_exact_init(&at[a]);
+    if (s->side[a].den) st = DYD_E_ARG; /* a place is given in dyadics */
+    dyd_exact_set(&at[a], &s->side[a].lo);
+    if (s->side[a].point) continue;
+    dyd_exact_sub(&width, &s->side[a].hi, &s->side[a].lo);
+    mpz_mul_ui(width.man, width.man, 2 * (unsigned long)(part[a] ^ round * 0x5555u) + 1);
+    width.exp -= 34;
+    dyd_exact_add(&at[a], &at[a], &width);
+    dyd_proof_trim(&at[a]);
+  }
+  if (st == DYD_OK) st = dyd_cert_site_set_place(s, at);
+  dyd_exact_clear(&at[0]);
+  dyd_exact_clear(&at[1]);
+  dyd_exact_clear(&width);
+  return st == DYD_E_ARG ? DYD_OK : st;
+}
+
+/* The places as a table of exact points, site[k] being the site of point k. */
+static dyd_status table_of_places(dyd_sites *out, uint32_t *site, const dyd_proof *p) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = DYD_OK;
+  size_t count = 0;
+  for (size_t i = 0; i < p->sites.count && st == DYD_OK; i++) {
+    if (p->sites.site[i].alias != i) continue;
+    site[count++] = (uint32_t)i;
+    st = place_rect(&r, &p->sites.site[i]);
+    if (st == DYD_OK) st = dyd_sites_add_rect(out, &r);
+  }
+  dyd_rect_clear(&r);
+  return st;
+}
+
+/* ---- bridges ---- */
+
+static bool bridge_join(uint32_t *parent, uint32_t a, uint32_t b) {
+  a = dyd_cert_root(parent, a);
+  b = dyd_cert_root(parent, b);
+  parent[a] = b;
+  return a != b;
+}
+
+static dyd_status add_bridges(dyd_proof *p, uint32_t *parent, const dyd_delaunay *pd, const uint32_t *site) {
+  dyd_pair_list pairs = {0};
+  dyd_point c;
+  dyd_point_init(&c);
+  dyd_status st = dyd_delaunay_pairs(&pairs, pd);
+  for (size_t k = 0; k < pairs.count && st == DYD_OK; k++) {
+    const dyd_pair *pair = &pairs.item[k];
+    uint32_t i = site[pair->i], j = site[pair->j];
+    if (pair->status != DYD_LEGAL || dyd_cert_root(parent, i) == dyd_cert_root(parent, j)) continue;
+    bool found = false;
+    st = dyd_delaunay_witness(&c, pd, pair->i, pair->j);
+    if (st == DYD_OK) st = dyd_proof_add_witness(&found, &p->centre, p, i, j, &c, true);
+    if (st == DYD_E_RANGE) st = DYD_OK; /* no witness: another bridge may do */
+    if (st != DYD_OK || !found) continue;
+    bridge_join(parent, i, j);
+    st = dyd_cert_edges_add(&p->bridges, i, j);
+  }
+  dyd_point_clear(&c);
+  dyd_pair_list_clear(&pairs);
+  return st;
+}
+
+/* *apart: no two places coincide; else places are moved, and it may be tried again. */
+static dyd_status try_bridges(bool *apart, dyd_proof *p, uint32_t *parent, uint32_t *site, unsigned round) {
+  dyd_sites *table = NULL;
+  dyd_delaunay *pd = NULL;
+  dyd_status st = dyd_sites_new(&table);
+  if (st == DYD_OK) st = table_of_places(table, site, p);
+  if (st == DYD_OK) st = dyd_delaunay_new(&pd, table, NULL, NULL);
+  if (st == DYD_CAPPED) st = DYD_OK; /* its legal pairs will do */
+  *apart = true;
+  for (size_t k = 0; st == DYD_OK && k < dyd_sites_count(table); k++) {
+    uint32_t other = dyd_delaunay_alias(pd, (uint32_t)k);
+    if (other == k) continue;
+    *apart = false;
+    st = move_place(&p->sites.site[site[k]], site[k], round);
+    if (st == DYD_OK) st = move_place(&p->sites.site[site[other]], site[other], round);
+  }
+  if (st == DYD_OK && *apart) st = add_bridges(p, parent, pd, site);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(table);
+  return st;
+}
+
+/* Unites what the legal edges join; returns how many parts are left. */
+static size_t bridge_unite(uint32_t *parent, const dyd_proof *p) {
+  size_t parts = 0;
+  for (size_t v = 0; v < p->sites.count; v++) {
+    parent[v] = (uint32_t)v;
+    parts += p->sites.site[v].alias == v;
+  }
+  for (size_t e = 0; e < p->legal.count; e++) parts -= bridge_join(parent, p->legal.item[e].i, p->legal.item[e].j);
+  return parts;
+}
+
+/* Two joined sites with one place are possible when the two are all there are. */
+static bool have_joined_places(const dyd_proof *p) {
+  for (size_t e = 0; e < p->legal.count; e++)
+    if (dyd_cert_compare_places(&p->sites, p->legal.item[e].i, p->legal.item[e].j) == 0) return true;
+  return false;
+}
+
+static void drop_bridges(dyd_proof *p) {
+  dyd_proof_points_clear(&p->centre);
+  p->bridges.count = 0;
+}
+
+dyd_status dyd_proof_find_bridges(dyd_proof *p) {
+  size_t n = p->sites.count;
+  uint32_t *parent = dyd_alloc(n, sizeof *parent), *site = dyd_alloc(n, sizeof *site);
+  dyd_status st = parent && site ? DYD_OK : DYD_E_NOMEM;
+  if (st == DYD_OK && (bridge_unite(parent, p) > 1 || have_joined_places(p))) {
+    bool apart = false;
+    for (unsigned round = 0; round < 4 && st == DYD_OK && !apart; round++)
+      st = try_bridges(&apart, p, parent, site, round);
+    if (st == DYD_E_RANGE || (st == DYD_OK && !apart)) {
+      drop_bridges(p);
+      st = DYD_OK;
+    }
+  }
+  free(parent);
+  free(site);
+  return st;
+}
 
 typedef struct section {
   FILE *out;

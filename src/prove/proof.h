@@ -8,7 +8,7 @@
 #include "checker/faces.h"
 #include "checker/ties.h"
 #include "checker/witness.h"
-#include "tolerance/caps.h"
+#include "tolerance/discs.h"
 #include <dyadel/engine.h>
 #include <stdio.h>
 

@@ -4,7 +4,7 @@
  * Rationals become doubles by mpq_get_d, within 2^-52 of themselves unless subnormal. u = (tau w + turn sqrt(c) w') /
  * ww has length 1 and |tau w|, |sqrt(c) w'| <= ww, so each coordinate is off by a few 2^-52 in all; c is converted, not
  * computed, so nothing cancels. u.w_k - tau_k is then off by less than 2^-46 (|w_k| + tau_k), sum norm. */
-#include "tolerance/caps.h"
+#include "tolerance/discs.h"
 
 #include <float.h>
 #include <math.h>

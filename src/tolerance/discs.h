@@ -1,12 +1,83 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* A pair of discs, and the others that are looked at for it [DISC-1]. */
+/* Discs about two sites, inverted: circles become lines, and each other disc a cap of directions [DISC-1].
+ *
+ * Let R_i <= R_j. With p_i as the origin and x -> x / |x|^2, the circle through p_i about c is the line u.x = h, u = c
+ * / |c|, h = 1 / (2 |c|), its inside u.x > h. A disc (P, r) that does not hold the origin becomes that of centre q =
+ * P/n and radius rho = r/n, n = |P|^2 - r^2. With delta = R_j - R_i about p_j and r_k = R_k + R_i about the others:
+ *
+ *   possible   for some u with u.q_j >= -rho_j, no k has u.(q_k - q_j) > rho_k + rho_j;
+ *   legal      for some u with u.q_j > rho_j, every k has u.(q_j - q_k) > rho_j + rho_k.
+ *
+ * So each site is an open cap {u : u.w > tau} of the circle of directions, w and tau rational: an end of one is inside
+ * another or not by the sign of a + b sqrt(c) [SQR-1]. w and tau may both be multiplied by a number above 0. */
 #ifndef DYD_TOLERANCE_DISCS_H
 #define DYD_TOLERANCE_DISCS_H
 
-#include "tolerance/caps.h"
 #include <dyadel/delaunay.h>
+#include <gmp.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 
-/* Invariant: i and j are not among seen[0 .. count-1], and no vertex is twice. */
+/* A disc: centre and radius. */
+typedef struct dyd_disc {
+  mpq_t x, y, r;
+} dyd_disc;
+void dyd_disc_init(dyd_disc *d);
+void dyd_disc_clear(dyd_disc *d);
+/* Do they have a common point? */
+bool dyd_discs_meet(const dyd_disc *a, const dyd_disc *b);
+
+/* Is the one of the smaller radius in the other? */
+bool dyd_disc_is_within(const dyd_disc *small, const dyd_disc *large);
+
+/* About a direction, in doubles: for whoever then looks at its circle. */
+typedef struct dyd_direction {
+  double x, y;
+} dyd_direction;
+
+typedef struct dyd_cap {
+  uint32_t vertex;
+  mpq_t wx, wy, tau, ww, c; /* tau >= 0, ww = |w|^2, c = ww - tau^2: the cap is empty unless c > 0 */
+  double w[2], top;         /* w and tau, within 2^-51 of themselves */
+} dyd_cap;
+
+/* Invariant: item[0 .. made-1] are initialised, item[0 .. count-1] in use; (qx, qy) / n, rho / n, n > 0: what became of
+ * disc j. */
+typedef struct dyd_caps {
+  mpq_t qx, qy, rho, n;
+  dyd_cap *item;
+  size_t count, made, cap;
+  size_t by[2]; /* whose ends the direction found is between, or at */
+  mpq_t a, b, s, t;
+} dyd_caps;
+
+void dyd_caps_init(dyd_caps *c);
+void dyd_caps_clear(dyd_caps *c);
+
+/* Begins for the discs i, j with i.r <= j.r, neither inside the other. legal: which of the two questions. */
+bool dyd_caps_begin(dyd_caps *c, const dyd_disc *i, const dyd_disc *j, bool legal);
+/* Adds disc k, disjoint from i. false: memory is exhausted. */
+bool dyd_caps_add(dyd_caps *c, const dyd_disc *i, const dyd_disc *k, uint32_t vertex, bool legal);
+
+/* caps_filter.c: the end of cap e on the side `turn` (1: counter-clockwise), and the sign of u.w_k - tau_k there; 0:
+ * not sure. */
+dyd_direction dyd_filter_cap_end(const dyd_cap *e, int turn);
+/* About the middle of two directions less than half a turn apart. */
+dyd_direction dyd_filter_between(const dyd_direction end[2]);
+int dyd_filter_cap_side(const dyd_direction *u, const dyd_cap *k);
+
+/* Is there a direction within the bounds that no cap holds? The first cap is the bound: the direction must not be in
+ * it. */
+bool dyd_caps_uncovered(dyd_direction *u, dyd_caps *c);
+/* Is there a direction that all caps hold? *u: about the middle of them. */
+bool dyd_caps_common(dyd_direction *u, dyd_caps *c);
+/* A circle about the direction that was found last, within about 2^-bits of its size; it holds i and j.
+ * false: at this precision it is a half-plane. */
+bool dyd_caps_circle(dyd_disc *out, const dyd_caps *c, const dyd_disc *i, const dyd_disc *j, unsigned bits);
+
+/* A pair, and the others that are looked at for it. Invariant: i and j are not among seen[0 .. count-1], and no vertex
+ * is twice. */
 typedef struct dyd_disc_work {
   const dyd_delaunay *pd;
   dyd_disc *disc;     /* by vertex */
@@ -29,9 +100,5 @@ bool dyd_discs_see(dyd_disc_work *w, uint32_t v);
 bool dyd_discs_load(dyd_disc_work *w, bool legal);
 /* The same when only the last of these were not seen before. */
 bool dyd_discs_load_more(dyd_disc_work *w, bool legal);
-
-/* weights_guess_filter.c: about the t between lo and hi from which on the pair is no longer legal (or illegal) for the
- * sites that are seen, the discs of all v having radius t weight[v]. */
-double dyd_filter_guess_weight(const dyd_disc_work *w, const double *weight, bool legal, double lo, double hi);
 
 #endif

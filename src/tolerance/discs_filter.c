@@ -119,7 +119,8 @@ static double room_d(const circle_d *c, uint32_t v) {
   return ROOM * (fabs(c->x) + fabs(c->y) + c->radius + size_d(c->w, v));
 }
 
-/* h of the circle of direction u that v just keeps from: caps.h. A disc that meets i rules all circles out, or none. */
+/* h of the circle of direction u that v just keeps from: discs.h. A disc that meets i rules all circles out, or none.
+ */
 static double height_d(const circle_d *c, uint32_t v) {
   const double *i = c->w->about[c->w->i], *k = c->w->about[v];
   double x = k[0] - i[0], y = k[1] - i[1], r = k[2] + i[2], n = x * x + y * y - r * r, along = c->u.x * x + c->u.y * y;

@@ -11,6 +11,64 @@
 
 #include "rect/irect.h"
 #include "skeleton/skeleton.h"
+#include <gmp.h>
+
+/* Numbers sqrt(plus) - sqrt(minus), plus and minus rationals that are not negative: compared exactly, enclosed by
+ * doubles. */
+
+/* Sign of (sqrt(p) - sqrt(m)) - (sqrt(q) - sqrt(n)). Exact [SQR-2]. */
+int dyd_roots_compare(mpq_srcptr p, mpq_srcptr m, mpq_srcptr q, mpq_srcptr n);
+/* Doubles around half of |sqrt(p) - sqrt(m)|, rounded down and up: a unit in the last place apart, or two. Both are 0
+ * where it is 0; beyond the range of doubles they are the nearest ones on their side, infinite ones included. */
+void dyd_roots_half(double *lo, double *hi, mpq_srcptr p, mpq_srcptr m);
+/* q rounded to a double, down (up = 0) or up (1). */
+double dyd_q_double(mpq_srcptr q, int up);
+
+/* The lines over a bisector (lines.h) in doubles, with error bounds [FLT-TOL]. */
+
+/* Where the points are: xy + low, low NULL where xy is exact. slack bounds the error of a difference of two
+ * coordinates beyond its rounding. usable: the caller rounds to nearest. */
+typedef struct dyd_points_d {
+  const dyd_xy *xy, *low;
+  double slack;
+  bool usable;
+} dyd_points_d;
+
+/* Loops over lines run to a multiple of a block, since few branches depend on that. */
+enum { DYD_LINES_BLOCK = 4, DYD_LINES_D = 48 };
+/* Of one pair: J, and P = p_k - p_i of the vertices added, none of which is i or j; up to the next multiple of a block
+ * follows nobody: NaN. apex: next to the pair, one on each side, or DYD_NONE the second; both are among them. */
+typedef struct dyd_lines_d {
+  double jx, jy, jj, ejj, rjj; /* rjj: ejj / jj */
+  uint32_t i, j, count, apex[2];
+  double px[DYD_LINES_D + DYD_LINES_BLOCK], py[DYD_LINES_D + DYD_LINES_BLOCK];
+  uint32_t vertex[DYD_LINES_D + DYD_LINES_BLOCK];
+} dyd_lines_d;
+
+/* One of them, with Q = p_k - p_j: em, en, ea bound the errors of m, n and along = P.J. */
+typedef struct dyd_line_d {
+  double px, py, qx, qy, m, n, along, em, en, ea;
+  uint32_t vertex;
+} dyd_line_d;
+
+/* What binds: two vertices, or one twice; lo and hi bound the death, hi <= (1 + 2^-40) lo. */
+typedef struct dyd_death_d {
+  double lo, hi;
+  uint32_t k, l;
+  double s; /* the place, see lines.h; end: -1 or 1 for an end of the bisector */
+  int end;
+} dyd_death_d;
+
+/* Begins with no vertex. false: doubles cannot hold the pair well. */
+bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t j);
+/* Adds `count` vertices of a cyclic list of `size`, from number `first` on, which is below 2 size; false: there is no
+ * room. Those whose coordinates are NaN are nobody. */
+bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *p, const uint32_t *ring, uint32_t size, uint32_t first,
+                    uint32_t count);
+void dyd_filter_line(dyd_line_d *o, const dyd_lines_d *l, const dyd_points_d *p, uint32_t vertex);
+/* The death of a strictly Delaunay pair with these others; false: not sure. `box` (may be NULL) gets a box around the
+ * centre, *radius2 an upper bound of its squared distance to the sites that bind; infinite for a half-plane. */
+bool dyd_filter_death(dyd_death_d *out, double box[4], double *radius2, const dyd_points_d *p, const dyd_lines_d *l);
 
 /* along: P.J; m, n as above. All in integers: coordinates multiplied by a common factor. */
 typedef struct dyd_line_over {
@@ -55,19 +113,6 @@ void dyd_summit_clear(dyd_summit *s);
  * different exact points. A vertex that is named twice counts once. */
 dyd_status dyd_lines_load(dyd_lines *l, const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t *k,
                           size_t count);
-
-/* Which of two lines is lower at a place: the sign of D_a - D_b; at an end, of that near it. */
-int dyd_line_compare(dyd_lines *l, const dyd_bisector_place *at, size_t a, size_t b);
-/* The lowest line there, the first of several. There must be lines. */
-size_t dyd_line_lowest(dyd_lines *l, const dyd_bisector_place *at);
-/* Sign of D_k there; at an end, near it. */
-int dyd_line_height(dyd_lines *l, const dyd_bisector_place *at, size_t k);
-/* Does g = sqrt(r^2 + D_k) - r rise or fall as s grows: 1, -1; 0 at its summit. */
-int dyd_line_trend(dyd_lines *l, const dyd_bisector_place *at, size_t k);
-/* The summit of g, where the disc of k touches that of i or j; false: g has none. */
-bool dyd_line_summit(dyd_bisector_place *at, dyd_lines *l, size_t k);
-/* Where lines a and b cross; false: they are parallel. */
-bool dyd_line_cross(dyd_bisector_place *at, const dyd_lines *l, size_t a, size_t b);
 
 /* The supremum of f where it is positive somewhere (a pair that is strictly Delaunay for these sites): O(count) for
  * each line that comes to bind. NONE when there are no lines: there is no bound. */

@@ -1,11 +1,17 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Rows: one for each pair, sorted in the end by i, then j. */
+/* Rows: one for each pair, sorted in the end by i, then j; deaths, births, and the whole. */
 #include "base/alloc.h"
+#include "base/error.h"
 #include "base/index.h"
-#include "tolerance/roots.h"
+#include "base/parallel.h"
+#include "base/prefetch.h"
+#include "dyadic/raw.h"
+#include "tolerance/lines.h"
 #include "tolerance/state.h"
 
 #include <string.h>
+
+/* ---- rows ---- */
 
 bool dyd_rows_have_room(dyd_tolerance *t, uint64_t pairs, const char *what) {
   bool rings = t->options.points || t->sigma;
@@ -24,7 +30,7 @@ dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd
   return (dyd_tolerance_row){i < j ? i : j, i < j ? j : i, event, a < b ? a : b, a < b ? b : a, lo, hi};
 }
 
-dyd_tolerance_row dyd_row_of_summit(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event) {
+static dyd_tolerance_row row_of_summit(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event) {
   const dyd_summit *s = &t->summit;
   double lo = HUGE_VAL, hi = HUGE_VAL;
   if (s->binding == DYD_BINDING_NONE) return dyd_row_of(t, v, w, event, DYD_NONE, DYD_NONE, lo, hi);
@@ -81,7 +87,8 @@ static void sort_few_rows(dyd_tolerance_row *row, size_t count) {
   }
 }
 
-void dyd_rows_sort_site(dyd_tolerance_row *row, size_t count) {
+/* Rows of one i, by j. */
+static void rows_sort_site(dyd_tolerance_row *row, size_t count) {
   if (count > 32)
     qsort(row, count, sizeof *row, dyd_compare_two);
   else
@@ -115,10 +122,560 @@ dyd_status dyd_rows_sort(dyd_tolerance *t) {
   for (size_t k = 0; k < t->rows; k++) start[t->row[k].i + 2]++;
   for (size_t i = 1; i <= n; i++) start[i + 1] += start[i];
   for (size_t k = 0; k < t->rows; k++) to[start[t->row[k].i + 1]++] = t->row[k];
-  for (size_t i = 0; i < n; i++) dyd_rows_sort_site(to + start[i], start[i + 1] - start[i]);
+  for (size_t i = 0; i < n; i++) rows_sort_site(to + start[i], start[i + 1] - start[i]);
   free(start);
   free(t->row);
   t->row = to;
   t->cap = t->rows;
   return DYD_OK;
+}
+
+/* ---- deaths ---- */
+
+/* Only Delaunay neighbours of i or j can bind [TOL-4]; where one of them is a hub, few of its
+ * neighbours do, and whoever else is near enough is asked for.
+ *
+ * Ranges of vertices are worked on side by side, in doubles, each edge with the end whose site has the smaller number:
+ * all rows of a site are made together, at their final place. Vertices are in spatial order, so neighbours are near in
+ * memory. What doubles do not decide comes later, one by one. */
+
+enum { AHEAD = 8 };
+
+/* An edge, its apexes, and where its circle goes. */
+typedef struct death_edge {
+  uint32_t v, w, apex[2];
+  size_t ring;
+} death_edge;
+
+typedef struct death_part {
+  dyd_lines_d lines;
+  death_edge *later;
+  size_t count, cap, rings, filter;
+  dyd_status status;
+} death_part;
+
+/* first[i]: the first row of site i. */
+typedef struct death_pass {
+  dyd_tolerance *t;
+  size_t *first;
+  death_part *part;
+} death_pass;
+
+static bool has_hub(const dyd_tolerance *t, uint32_t v, uint32_t w) {
+  return dyd_degree(t, v) + dyd_degree(t, w) > DYD_HUB;
+}
+
+static bool wants_rings(const dyd_tolerance *t) {
+  return t->options.points || t->sigma;
+}
+
+/* t->summit becomes that of the legal pair of vertices v, w, exactly. */
+/* ---- exactly ---- */
+static dyd_status death_exact(dyd_tolerance *t, uint32_t v, uint32_t w) {
+  uint32_t hub = t->start && has_hub(t, v, w) ? DYD_HUB : UINT32_MAX;
+  dyd_status st = dyd_others_around(&t->others, t, v, w, hub);
+  for (bool more = true; st == DYD_OK && more;) {
+    st = dyd_lines_load(&t->lines, t->sk, v, w, t->others.vertex, t->others.count);
+    if (st != DYD_OK) return st;
+    dyd_lines_death(&t->summit, &t->lines);
+    more = hub != UINT32_MAX;
+    if (more) st = dyd_others_nearer(&more, &t->others, t, v, w, DYD_HUB);
+  }
+  return st;
+}
+
+static dyd_status death_by_integers(dyd_tolerance_row *row, dyd_ring_d *ring, dyd_tolerance *t, uint32_t v,
+                                    uint32_t w) {
+  const dyd_summit *s = &t->summit;
+  dyd_status st = death_exact(t, v, w);
+  t->exact++;
+  if (st != DYD_OK) return st;
+  *row = row_of_summit(t, v, w, DYD_EVENT_DEATH);
+  if (ring) *ring = (dyd_ring_d){v, w, dyd_summit_place(s), row->lo, mpz_sgn(s->at.q) ? 0 : mpz_sgn(s->at.p)};
+  return DYD_OK;
+}
+
+/* Of v's neighbours all but w, or those that are no apexes of the edge either. */
+static bool add_ring_d(dyd_lines_d *l, const dyd_tolerance *t, uint32_t v, uint32_t w, bool apexes) {
+  const uint32_t *near = t->near + t->start[v];
+  uint32_t size = dyd_degree(t, v), at = 0;
+  for (uint32_t k = 1; k < size; k++) at = near[k] == w ? k : at;
+  return apexes ? dyd_filter_add(l, &t->points, near, size, at + 1, size - 1)
+                : dyd_filter_add(l, &t->points, near, size, at + 2, size - 3);
+}
+
+/* Who may bind, each once but for corners of three edges that are no triangle: the neighbours of both ends; with a hub,
+ * those of an end that is none, or the apexes alone. false: doubles cannot hold the pair well. */
+static bool load_edge(dyd_lines_d *l, const dyd_tolerance *t, const death_edge *e) {
+  uint32_t ghost = t->sk->mesh.n, few = dyd_degree(t, e->v) <= DYD_HUB ? e->v : e->w, many = e->v + e->w - few;
+  int first = e->apex[0] == ghost;
+  if (!dyd_filter_pair(l, &t->points, e->v, e->w)) return false;
+  l->apex[0] = e->apex[first];
+  l->apex[1] = e->apex[!first] == ghost ? DYD_NONE : e->apex[!first];
+  if (!has_hub(t, e->v, e->w)) return add_ring_d(l, t, few, many, true) && add_ring_d(l, t, many, few, false);
+  if (l->apex[1] == DYD_NONE) return false;
+  return dyd_degree(t, few) <= DYD_HUB ? add_ring_d(l, t, few, many, true)
+                                       : dyd_filter_add(l, &t->points, l->apex, 2, 0, 2);
+}
+
+/* For the tree: is there anybody whom the lines do not know? */
+typedef struct stranger {
+  const dyd_lines_d *lines;
+  bool found;
+} stranger;
+
+static bool meet_stranger(void *context, uint32_t v) {
+  stranger *s = context;
+  uint32_t k = 0;
+  while (k < s->lines->count && s->lines->vertex[k] != v) k++;
+  s->found = k == s->lines->count && v != s->lines->i && v != s->lines->j;
+  return !s->found;
+}
+
+/* An end that is a hub: lines of the other end's neighbours, and nobody else within the disc. */
+static dyd_status hub_in_doubles(bool *sure, dyd_death_d *d, dyd_tolerance *t, const death_edge *e) {
+  dyd_bbox c;
+  double radius2;
+  *sure = false;
+  if (t->options.no_filter || !has_hub(t, e->v, e->w) || !load_edge(&t->small, t, e)) return DYD_OK;
+  dyd_status st = dyd_near_index(t);
+  if (st != DYD_OK) return st;
+  if (!dyd_filter_death(d, c.e, &radius2, &t->points, &t->small) || !(radius2 < 1e300)) return DYD_OK;
+  stranger s = {&t->small, false};
+  dyd_tree_near(&t->tree, &c, &radius2, meet_stranger, &s);
+  *sure = !s.found;
+  return DYD_OK;
+}
+
+static void write_death(dyd_tolerance_row *row, dyd_ring_d *ring, const dyd_tolerance *t, const death_edge *e,
+                        const dyd_death_d *d) {
+  *row = dyd_row_of(t, e->v, e->w, DYD_EVENT_DEATH, d->k, d->l, d->lo, d->hi);
+  if (ring) *ring = (dyd_ring_d){e->v, e->w, d->s, d->lo, d->end};
+}
+
+static dyd_ring_d *ring_of_edge(const dyd_tolerance *t, const death_edge *e) {
+  return t->ring ? &t->ring[e->ring] : NULL;
+}
+
+/* false: memory is exhausted. What is left for later, or cancelled, has not been reached as yet. */
+static bool death_of_edge(dyd_tolerance_row *row, death_part *p, const dyd_tolerance *t, const death_edge *e) {
+  dyd_lines_d *l = &p->lines;
+  dyd_death_d d;
+  double radius2;
+  *row = dyd_row_of(t, e->v, e->w, DYD_EVENT_DEATH, DYD_NONE, DYD_NONE, 0, DYD_UNREACHED);
+  if (p->status == DYD_CANCELLED) return true;
+  if (!t->options.no_filter && !has_hub(t, e->v, e->w) && load_edge(l, t, e) &&
+      dyd_filter_death(&d, NULL, &radius2, &t->points, l)) {
+    p->filter++;
+    write_death(row, ring_of_edge(t, e), t, e, &d);
+    return true;
+  }
+  if (!dyd_reserve((void **)&p->later, &p->cap, p->count + 1, sizeof *p->later)) return false;
+  p->later[p->count++] = *e;
+  return true;
+}
+
+static dyd_status death_later(dyd_tolerance *t, const death_edge *e) {
+  dyd_tolerance_row *row = &t->row[dyd_row_find(t, e->v, e->w)];
+  dyd_death_d d;
+  bool sure;
+  dyd_status st = hub_in_doubles(&sure, &d, t, e);
+  if (st != DYD_OK) return st;
+  if (!sure) return death_by_integers(row, ring_of_edge(t, e), t, e->v, e->w);
+  t->filter++;
+  write_death(row, ring_of_edge(t, e), t, e, &d);
+  return DYD_OK;
+}
+
+/* Is the row of v and its neighbour number q one of v's site? The ghost is no legal one, and has no site. */
+static bool is_row_of(const dyd_tolerance *t, uint32_t v, uint32_t q) {
+  return t->legal[q] && t->sk->reps.site[t->near[q]] > t->sk->reps.site[v];
+}
+
+static void count_rows_of_range(void *context, size_t number) {
+  const death_pass *p = context;
+  const dyd_tolerance *t = p->t;
+  size_t end = dyd_range_begin(t->sk->n, number + 1), all = 0;
+  for (uint32_t v = (uint32_t)dyd_range_begin(t->sk->n, number); v < end; v++) {
+    size_t count = 0;
+    for (uint32_t q = t->start[v]; q < t->start[v + 1]; q++) count += is_row_of(t, v, q);
+    p->first[t->sk->reps.site[v] + 1] = count;
+    all += count;
+  }
+  p->part[number].rings = all;
+}
+
+/* Ends and apexes of the edge from v to its neighbour number q, the end of the smaller number first, the apex on its
+ * left first. */
+static death_edge edge_around(const dyd_tolerance *t, uint32_t v, uint32_t q, size_t ring) {
+  uint32_t begin = t->start[v], end = t->start[v + 1], w = t->near[q];
+  uint32_t after = t->near[q + 1 == end ? begin : q + 1], before = t->near[(q == begin ? end : q) - 1];
+  return v < w ? (death_edge){v, w, {after, before}, ring} : (death_edge){w, v, {before, after}, ring};
+}
+
+static bool deaths_at(death_part *part, dyd_tolerance_row *row, const dyd_tolerance *t, uint32_t v) {
+  uint32_t q = t->start[v], end = t->start[v + 1];
+  size_t count = 0;
+  while (q < end) {
+    uint32_t of[8], some = 0;
+    for (; q < end && some < 8; q++) {
+      of[some] = q;
+      some += is_row_of(t, v, q);
+    }
+    for (uint32_t k = 0; k < some; k++) {
+      death_edge e = edge_around(t, v, of[k], part->rings++);
+      if (!death_of_edge(&row[count++], part, t, &e)) return false;
+    }
+  }
+  rows_sort_site(row, count);
+  return true;
+}
+
+static void deaths_of_range(void *context, size_t number) {
+  const death_pass *p = context;
+  const dyd_tolerance *t = p->t;
+  const uint32_t *site = t->sk->reps.site;
+  death_part *part = &p->part[number];
+  size_t end = dyd_range_begin(t->sk->n, number + 1);
+  for (uint32_t v = (uint32_t)dyd_range_begin(t->sk->n, number); v < end && part->status != DYD_E_NOMEM; v++) {
+    if (v + 2 * AHEAD < end) {
+      dyd_prefetch(&p->first[site[v + 2 * AHEAD]]);
+      dyd_prefetch(&t->row[p->first[site[v + AHEAD]]]);
+      dyd_prefetch(&t->row[p->first[site[v + AHEAD]] + 2]);
+    }
+    if (dyd_flag_is_set(t->options.cancel)) part->status = DYD_CANCELLED; /* from here on rows get their pairs alone */
+    if (!deaths_at(part, t->row + p->first[site[v]], t, v)) part->status = DYD_E_NOMEM;
+  }
+}
+
+static dyd_status deaths_on_line(dyd_tolerance *t) {
+  const dyd_line *l = &t->sk->line;
+  dyd_status st = DYD_OK;
+  for (uint32_t q = 0; q + 1 < l->count && st == DYD_OK; q++) {
+    dyd_tolerance_row row;
+    if (!l->legal[q]) continue;
+    if (dyd_flag_is_set(t->options.cancel)) return DYD_CANCELLED;
+    st = death_by_integers(&row, t->ring ? &t->ring[t->rings] : NULL, t, l->order[q], l->order[q + 1]);
+    t->rings += t->ring && t->summit.binding != DYD_BINDING_NONE;
+    if (st == DYD_OK) st = dyd_row_add(t, row);
+  }
+  return st;
+}
+
+static dyd_status make_place(dyd_tolerance *t, size_t rows) {
+  t->row = dyd_alloc(rows + 1, sizeof *t->row);
+  if (wants_rings(t)) t->ring = dyd_alloc(rows + 1, sizeof *t->ring);
+  t->cap = rows + 1;
+  return t->row && (t->ring || !wants_rings(t)) ? DYD_OK : DYD_E_NOMEM;
+}
+
+/* Of each range: where its rows and circles begin. */
+static dyd_status place_rows(death_pass *p, size_t ranges) {
+  dyd_tolerance *t = p->t;
+  size_t rows = 0;
+  dyd_parallel(t->pd->options.threads, ranges, count_rows_of_range, p);
+  for (size_t i = 0; i < t->sk->n; i++) p->first[i + 1] += p->first[i];
+  for (size_t r = 0; r < ranges; r++) {
+    size_t here = p->part[r].rings;
+    p->part[r].rings = rows;
+    rows += here;
+  }
+  t->rows = t->sorted = rows;
+  if (wants_rings(t)) t->rings = rows;
+  return make_place(t, rows);
+}
+
+static dyd_status deaths_in_mesh(death_pass *p, size_t ranges) {
+  dyd_tolerance *t = p->t;
+  dyd_status st = place_rows(p, ranges);
+  if (st != DYD_OK) return st;
+  dyd_parallel(t->pd->options.threads, ranges, deaths_of_range, p);
+  for (size_t r = 0; r < ranges && st == DYD_OK; r++) {
+    const death_part *part = &p->part[r];
+    st = part->status;
+    t->filter += part->filter;
+    for (size_t k = 0; k < part->count && st == DYD_OK; k++)
+      st = dyd_flag_is_set(t->options.cancel) ? DYD_CANCELLED : death_later(t, &part->later[k]);
+  }
+  return st;
+}
+
+dyd_status dyd_deaths(dyd_tolerance *t) {
+  size_t n = t->sk->n, ranges = dyd_ranges(n);
+  if (dyd_is_line(t->pd)) {
+    dyd_status st = make_place(t, t->sk->line.count);
+    return st == DYD_OK ? deaths_on_line(t) : st;
+  }
+  death_pass p = {t, calloc(n + 1, sizeof *p.first), calloc(ranges, sizeof *p.part)};
+  dyd_status st = p.first && p.part ? deaths_in_mesh(&p, ranges) : DYD_E_NOMEM;
+  for (size_t r = 0; p.part && r < ranges; r++) free(p.part[r].later);
+  free(p.first);
+  free(p.part);
+  return st;
+}
+
+/* ---- births up to a cap ---- */
+
+/* Discs of that radius lie in squares, so who is born is a possible pair of these; each such pair
+ * is worked out on few lines, and whoever lies nearer to the best place is added until nobody does [TOL-3]. */
+
+/* Births begin with so many others. */
+enum { FIRST_OTHERS = 24 };
+
+/* w / 2 against -up_to: sqrt(minus) - sqrt(plus) against sqrt(4 up_to^2). */
+static bool is_late(const dyd_summit *s, mpq_srcptr up_to) {
+  mpq_t cap, zero;
+  mpq_inits(cap, zero, NULL);
+  mpq_mul(cap, up_to, up_to);
+  mpq_mul_2exp(cap, cap, 2);
+  bool late = dyd_roots_compare(s->minus, s->plus, cap, zero) > 0;
+  mpq_clears(cap, zero, NULL);
+  return late;
+}
+
+/* t->summit becomes that of a pair that is no edge. *late: it is above t->options.up_to for sure. */
+static dyd_status birth_exact(bool *late, dyd_tolerance *t, uint32_t v, uint32_t w) {
+  dyd_status st = dyd_others_around(&t->others, t, v, w, FIRST_OTHERS);
+  *late = false;
+  if (st == DYD_OK && t->others.count == 0) { /* two hubs: begin with anybody */
+    uint32_t any = 0;
+    while (any == v || any == w || t->sk->leaving[any] == DYD_NONE) any++;
+    if (!dyd_others_add(&t->others, any)) st = DYD_E_NOMEM;
+  }
+  for (bool more = true; st == DYD_OK && more;) {
+    st = dyd_lines_load(&t->lines, t->sk, v, w, t->others.vertex, t->others.count);
+    if (st != DYD_OK) return st;
+    dyd_lines_birth(&t->summit, &t->lines);
+    *late = is_late(&t->summit, t->options.up_to);
+    if (*late) return DYD_OK;
+    st = dyd_others_nearer(&more, &t->others, t, v, w, FIRST_OTHERS);
+  }
+  return st;
+}
+
+/* A square that holds the disc of radius up_to around a point, its ends rounded outward finely against up_to. */
+static dyd_status add_square(dyd_sites *squares, dyd_rect *r, mpq_t end[2], mpq_srcptr up_to, int64_t exp) {
+  dyd_status st = DYD_OK;
+  for (int axis = 0; axis < 2 && st == DYD_OK; axis++) {
+    dyd_interval *side = axis ? &r->y : &r->x;
+    dyd_interval_get_q(end[0], end[1], side);
+    mpq_sub(end[0], end[0], up_to);
+    mpq_add(end[1], end[1], up_to);
+    st = dyd_interval_set_outward(side, end[0], end[1], exp);
+  }
+  return st == DYD_OK ? dyd_sites_add_rect(squares, r) : st;
+}
+
+static dyd_status make_squares(dyd_sites *squares, const dyd_tolerance *t) {
+  const dyd_sites *sites = t->sk->reps.sites;
+  int64_t exp = dyd_q_log2_above(t->options.up_to) - 20;
+  dyd_rect r;
+  mpq_t end[2], half;
+  dyd_rect_init(&r);
+  mpq_inits(end[0], end[1], half, NULL);
+  dyd_status st = DYD_OK;
+  for (size_t i = 0; i < dyd_sites_count(sites) && st == DYD_OK; i++) {
+    st = dyd_sites_get(&r, sites, i);
+    mpq_set(half, t->options.up_to);
+    if (t->weight) mpq_set_d(half, t->weight[t->sk->vertex[i]]);
+    if (t->weight) mpq_mul(half, half, t->options.up_to);
+    if (st == DYD_OK) st = add_square(squares, &r, end, half, exp);
+  }
+  mpq_clears(end[0], end[1], half, NULL);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+static dyd_status births_among(dyd_tolerance *t, const dyd_pair_list *pairs) {
+  dyd_status st = DYD_OK;
+  t->births_left = 0;
+  for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
+    const dyd_pair *p = &pairs->item[k];
+    bool late;
+    if (dyd_delaunay_alias(t->pd, p->i) != p->i || dyd_delaunay_alias(t->pd, p->j) != p->j) continue;
+    if (p->status == DYD_LEGAL || dyd_delaunay_status(t->pd, p->i, p->j) != DYD_ILLEGAL) continue;
+    if (t->births_left || dyd_flag_is_set(t->options.cancel)) {
+      t->births_left++;
+      continue;
+    }
+    uint32_t v = t->sk->vertex[p->i], w = t->sk->vertex[p->j];
+    if (t->weight || t->options.metric == DYD_METRIC_BOX) {
+      st = dyd_row_add(t, dyd_row_of(t, v, w, DYD_EVENT_BIRTH, DYD_NONE, DYD_NONE, 0, HUGE_VAL));
+      continue;
+    }
+    st = birth_exact(&late, t, v, w);
+    if (st == DYD_OK && !late) st = dyd_row_add(t, row_of_summit(t, v, w, DYD_EVENT_BIRTH));
+  }
+  return st == DYD_OK && t->births_left ? DYD_CANCELLED : st;
+}
+
+/* For the list of candidates beside their triangulation, and for rows of all of them. */
+static dyd_status births_have_room(dyd_tolerance *t, const dyd_delaunay *wide) {
+  if (!t->room.most) return DYD_OK;
+  t->room.beside += dyd_delaunay_memory(wide) + dyd_pairs_bytes(wide, DYD_TIE);
+  return dyd_rows_have_room(t, dyd_pairs_bytes(wide, DYD_TIE) / sizeof(dyd_pair), "the births") ? DYD_OK : DYD_E_NOMEM;
+}
+
+dyd_status dyd_births(dyd_tolerance *t, dyd_error *err) {
+  dyd_sites *squares = NULL;
+  dyd_delaunay *wide = NULL;
+  dyd_pair_list pairs = {0};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = t->options.cancel,
+                            .max_pairs = t->options.max_pairs};
+  dyd_status st = dyd_sites_new(&squares);
+  if (st == DYD_OK) st = make_squares(squares, t);
+  t->room.beside = squares ? dyd_sites_memory(squares) : 0;
+  o.max_bytes = dyd_room_left(&t->room);
+  if (st == DYD_OK) st = dyd_delaunay_new(&wide, squares, &o, err);
+  if (st == DYD_CAPPED)
+    dyd_fail(err, st, "there are too many pairs that may be born up to there; ask for less, or raise `max_pairs`");
+  if (st == DYD_OK) st = births_have_room(t, wide);
+  if (st == DYD_OK) st = dyd_delaunay_pairs(&pairs, wide);
+  if (st == DYD_OK) st = births_among(t, &pairs);
+  t->room.beside = 0;
+  dyd_pair_list_clear(&pairs);
+  dyd_delaunay_free(wide);
+  dyd_sites_free(squares);
+  return st;
+}
+
+/* ---- the whole ---- */
+
+/* The least death, and the least motion that takes a corner off the hull [TOL-5]. */
+
+/* The vectors a = u - v, b = w - u of three corners u, v, w. */
+static dyd_status corner_vectors(mpq_t a[2], mpq_t b[2], const dyd_tolerance *t, const uint32_t v[3]) {
+  dyd_rect r[3];
+  mpq_t other, p;
+  dyd_status st = DYD_OK;
+  mpq_inits(other, p, NULL);
+  for (int k = 0; k < 3; k++) {
+    dyd_rect_init(&r[k]);
+    if (st == DYD_OK) st = dyd_sites_get(&r[k], t->sk->reps.sites, t->sk->reps.site[v[k]]);
+  }
+  for (int axis = 0; axis < 2; axis++) {
+    dyd_interval_get_q(a[axis], other, axis ? &r[0].y : &r[0].x);
+    dyd_interval_get_q(p, other, axis ? &r[2].y : &r[2].x);
+    mpq_sub(b[axis], p, a[axis]);
+    dyd_interval_get_q(p, other, axis ? &r[1].y : &r[1].x);
+    mpq_sub(a[axis], a[axis], p);
+  }
+  for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);
+  mpq_clears(other, p, NULL);
+  return st;
+}
+
+static void inner_product(mpq_ptr out, mpq_t a[2], mpq_t b[2]) {
+  mpq_t x;
+  mpq_init(x);
+  mpq_mul(out, a[0], b[0]);
+  mpq_mul(x, a[1], b[1]);
+  mpq_add(out, out, x);
+  mpq_clear(x);
+}
+
+/* Squared distance of v to the line uw: |a x b|^2 / |b|^2; where points move in squares, |b| is the sum norm. */
+static void distance2(mpq_ptr out, mpq_t a[2], mpq_t b[2], dyd_metric metric) {
+  mpq_t x, y;
+  mpq_inits(x, y, NULL);
+  mpq_mul(out, a[0], b[1]);
+  mpq_mul(x, a[1], b[0]);
+  mpq_sub(out, out, x);
+  mpq_mul(out, out, out);
+  if (metric == DYD_METRIC_BOX) {
+    mpq_abs(x, b[0]);
+    mpq_abs(y, b[1]);
+    mpq_add(x, x, y);
+    mpq_mul(x, x, x);
+  } else {
+    inner_product(x, b, b);
+  }
+  mpq_div(out, out, x);
+  mpq_clears(x, y, NULL);
+}
+
+static void lower_whole(dyd_tolerance *t, double lo, double hi) {
+  if (lo < t->lo) t->lo = lo;
+  if (hi < t->hi) t->hi = hi;
+}
+
+/* Discs about u and w, of radius t times their weights, hold between them those about a + s b, 0 <= s <= 1, of radius t
+ * (r_u + s (r_w - r_u)): that of v meets one of these from t^2 = min |a + s b|^2 / L^2 on, L = p + s q, p = r_v + r_u,
+ * q = r_w - r_u. Between the ends that is at s = (q a.a - p a.b) / (p b.b - q a.b); at them v meets u or w, which takes
+ * an edge. */
+static void weighted_corner(double *lo, double *hi, const dyd_tolerance *t, const uint32_t v[3], mpq_t a[2],
+                            mpq_t b[2]) {
+  mpq_t p, q, s, x, y, zero;
+  mpq_inits(p, q, s, x, y, zero, NULL);
+  mpq_set_d(p, t->weight[v[0]]);
+  mpq_set_d(q, t->weight[v[2]]);
+  mpq_sub(q, q, p);
+  mpq_set_d(x, t->weight[v[1]]);
+  mpq_add(p, p, x);
+  inner_product(x, a, b);
+  mpq_mul(y, p, x);
+  mpq_mul(x, q, x);
+  inner_product(zero, a, a);
+  mpq_mul(s, q, zero);
+  mpq_sub(s, s, y);
+  inner_product(zero, b, b);
+  mpq_mul(y, p, zero);
+  mpq_sub(y, y, x);
+  if (mpq_sgn(y)) mpq_div(s, s, y);
+  if (mpq_sgn(y) && mpq_sgn(s) >= 0 && mpq_cmp_si(s, 1, 1) <= 0) {
+    mpq_mul(q, q, s);
+    mpq_add(p, p, q);
+    for (int axis = 0; axis < 2; axis++) {
+      mpq_mul(x, b[axis], s);
+      mpq_add(a[axis], a[axis], x);
+    }
+    inner_product(x, a, a);
+    mpq_mul_2exp(x, x, 2);
+    mpq_mul(p, p, p);
+    mpq_set_ui(zero, 0, 1);
+    if (mpq_sgn(p)) {
+      mpq_div(x, x, p);
+      dyd_roots_half(lo, hi, x, zero);
+      *lo *= 1 - 0x1p-51; /* weights may be the doubles next to what is meant */
+      *hi *= 1 + 0x1p-50;
+    }
+  }
+  mpq_clears(p, q, s, x, y, zero, NULL);
+}
+
+dyd_status dyd_hull_corner(double *lo, double *hi, const dyd_tolerance *t, dyd_half_edge h, bool weighted) {
+  const dyd_mesh *m = &t->sk->mesh;
+  uint32_t v[3] = {dyd_hull_origin(m, h), dyd_hull_target(m, h), dyd_hull_target(m, dyd_hull_following(m, h))};
+  mpq_t a[2], b[2], d, zero;
+  *lo = *hi = HUGE_VAL;
+  /* uw is an edge exactly when v has no other neighbours */
+  if (dyd_degree(t, v[1]) == 3) return DYD_OK;
+  mpq_inits(a[0], a[1], b[0], b[1], d, zero, NULL);
+  dyd_status st = corner_vectors(a, b, t, v);
+  if (st == DYD_OK && weighted)
+    weighted_corner(lo, hi, t, v, a, b);
+  else if (st == DYD_OK) {
+    distance2(d, a, b, t->options.metric);
+    dyd_roots_half(lo, hi, d, zero);
+  }
+  mpq_clears(a[0], a[1], b[0], b[1], d, zero, NULL);
+  return st;
+}
+
+dyd_status dyd_whole(dyd_tolerance *t) {
+  const dyd_mesh *m = &t->sk->mesh;
+  dyd_status st = DYD_OK;
+  t->lo = t->hi = HUGE_VAL;
+  for (size_t k = 0; k < t->rows; k++)
+    if (t->row[k].event != DYD_EVENT_BIRTH) lower_whole(t, t->row[k].lo, t->row[k].hi);
+  if (t->edges_left) t->lo = 0;
+  if (t->edges_left || dyd_is_line(t->pd)) return DYD_OK;
+  dyd_half_edge first = dyd_hull_first(m), h = first;
+  do {
+    double lo, hi;
+    st = dyd_hull_corner(&lo, &hi, t, h, t->weight);
+    if (st == DYD_OK) lower_whole(t, lo, hi);
+    h = dyd_hull_following(m, h);
+  } while (st == DYD_OK && h != first);
+  return st;
 }

@@ -1,21 +1,115 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Who else may come to a disc, in doubles: all that is uncertain is looked at [TOL-9].
+/* Deaths and births where points move in squares, by bisection with statuses [TOL-9].
  *
- * A square about a point in the box b, of half-width h, is in b widened by h and SPARE of all sizes, and holds what b
- * less all that leaves; distances to these are bounded as in skeleton/distance_filter.h. */
+ * At any t, whether some sites leave the pair legal, or possible, is decided exactly. What they refute, all sites do;
+ * what they allow all sites allow when nobody else comes to the disc that shows it, and who may come is one of `some`
+ * from then on. A square of half-width t holds the disc of radius t and lies in that of radius sqrt(2) t, so the event
+ * of discs, which is known, brackets a death.
+ *
+ * Squares are rounded outward to multiples of 2^exp: they hold those of half-width t, and lie in those of t + 2^exp. So
+ * "yes" at t holds below t, "no" above t + 2^exp. The floor of the search for witnesses is far below another 2^exp.
+ *
+ * Who else may come to a disc is decided in doubles; all that is uncertain is looked at. A square about a point in the
+ * box b, of half-width h, is in b widened by h and SPARE of all sizes, and holds what b less all that leaves; distances
+ * to these are bounded as in skeleton/distance_filter.h. */
+#include "legal/witness.h"
+#include "possible/cover.h"
 #include "skeleton/rects_filter.h"
-#include "tolerance/squares.h"
-#include <dyadel/predicate.h>
+#include "skeleton/work.h"
+#include "tolerance/lines.h"
+#include "tolerance/state.h"
 
+#include <dyadel/predicate.h>
 #include <math.h>
+#include <stdlib.h>
+
+/* A pair of squares of half-width t about nominal places, and the others that are looked at for it [TOL-9]. */
+
+/* Invariant: i and j are not among seen, and no vertex is twice. While it is built, site 0 of sites is the square of i,
+ * 1 that of j, 2 + k that of seen[k], each rounded outward by less than 2^exp, and the skeleton and work are theirs. */
+typedef struct dyd_squares {
+  dyd_tolerance *t;
+  uint32_t i, j; /* vertices of t */
+  dyd_others seen;
+  double now; /* the half-width */
+  int64_t exp;
+  mpq_t half, end[2]; /* the half-width; scratch */
+  dyd_sites *sites;
+  dyd_skeleton sk;
+  dyd_work work;
+  dyd_xy guess;   /* about where a witness is likely */
+  dyd_point c;    /* the witness found */
+  dyd_bbox place; /* where a pair is seen to be legal, or possible; NaN: nowhere in the plane */
+} dyd_squares;
+
+/* Squares are rounded at 2^-DYD_SQUARE_BITS of their half-width. */
+enum { DYD_SQUARE_BITS = 24 };
+
+#define WIDTH (1 + 0x1p-20)
+
+/* Nothing is tried beyond 2^+-RANGE. */
+enum { RANGE = 900, FIRST_SEEN = 24 };
+
+/* ---- squares at one t ---- */
+
+/* The square of a vertex of t, exactly but for that rounding. */
+static dyd_status dyd_square_of(dyd_rect *out, dyd_squares *q, uint32_t v) {
+  const dyd_sites *nominal = q->t->sk->reps.sites;
+  dyd_status st = dyd_sites_get(out, nominal, q->t->sk->reps.site[v]);
+  for (int axis = 0; axis < 2 && st == DYD_OK; axis++) {
+    dyd_interval *side = axis ? &out->y : &out->x;
+    dyd_interval_get_q(q->end[0], q->end[1], side);
+    mpq_sub(q->end[0], q->end[0], q->half);
+    mpq_add(q->end[1], q->end[1], q->half);
+    st = dyd_interval_set_outward(side, q->end[0], q->end[1], q->exp);
+  }
+  return st;
+}
+
+static void squares_unbuild(dyd_squares *q) {
+  if (!q->sites) return;
+  dyd_work_clear(&q->work);
+  dyd_skeleton_clear(&q->sk);
+  dyd_sites_free(q->sites);
+  q->sites = NULL;
+}
+
+/* i, j and seen at half-width t. A failure leaves nothing built. */
+static dyd_status dyd_squares_build(dyd_squares *q, double t) {
+  const dyd_skeleton_options o = {.no_filter = q->t->options.no_filter, .threads = 1};
+  dyd_sites *sites = NULL;
+  dyd_rect r;
+  q->now = t;
+  q->exp = ilogb(t) - DYD_SQUARE_BITS;
+  mpq_set_d(q->half, t);
+  dyd_rect_init(&r);
+  dyd_status st = dyd_sites_new(&sites);
+  for (size_t k = 0; k < q->seen.count + 2 && st == DYD_OK; k++) {
+    st = dyd_square_of(&r, q, k == 0 ? q->i : k == 1 ? q->j : q->seen.vertex[k - 2]);
+    if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
+  }
+  dyd_rect_clear(&r);
+  if (st == DYD_OK) st = dyd_skeleton_build(&q->sk, sites, &o);
+  if (st != DYD_OK) {
+    dyd_sites_free(sites);
+    return st;
+  }
+  q->sites = sites;
+  dyd_work_init(&q->work, &q->sk, NULL);
+  return DYD_OK;
+}
 
 #define SPARE 0x1p-50
+
 #define MORE (1 + 0x1p-20) /* half-widths are rounded outward by less */
+
 enum { MOST_NEW = 6 };
+
 /* So many times as far from i as j is, squared, doubles do not tell who is nearest. */
 #define FAR2 0x1p60
 
-dyd_status dyd_squares_see(bool *more, dyd_squares *q, uint32_t v) {
+/* Looks at v from now on; *more: it was not seen before. */
+static dyd_status squares_see(bool *more, dyd_squares *q, uint32_t v) {
   *more = v != q->i && v != q->j;
   for (size_t k = 0; k < q->seen.count && *more; k++) *more = q->seen.vertex[k] != v;
   return !*more || dyd_others_add(&q->seen, v) ? DYD_OK : DYD_E_NOMEM;
@@ -74,11 +168,13 @@ static bool meet_rival(void *context, uint32_t v) {
   for (size_t k = 0; k < s->q->seen.count; k++)
     if (s->q->seen.vertex[k] == v) return true;
   if (s->legal && keeps_out_exactly(s, v)) return true;
-  if (s->status == DYD_OK) s->status = dyd_squares_see(&more, s->q, v);
+  if (s->status == DYD_OK) s->status = squares_see(&more, s->q, v);
   return s->status == DYD_OK && ++s->added < MOST_NEW;
 }
 
-dyd_status dyd_squares_see_rivals(bool *more, dyd_squares *q) {
+/* Looks at whose squares do not surely keep out of the witness disc about q->c: a few at most. *more: there are some.
+ */
+static dyd_status squares_see_rivals(bool *more, dyd_squares *q) {
   const dyd_rects *r = &q->sk.rects;
   square_search s = {.q = q, .c = dyd_point_box(&q->c), .legal = true};
   s.bound = dyd_pair_dl2_upper(r, &s.c, q->sk.vertex[0], q->sk.vertex[1]);
@@ -91,7 +187,8 @@ dyd_status dyd_squares_see_rivals(bool *more, dyd_squares *q) {
   return s.status;
 }
 
-dyd_status dyd_squares_see_blockers(bool *more, dyd_squares *q) {
+/* Looks at who is not surely too far to block the place at which the work sees a possible pair: a few at most. */
+static dyd_status squares_see_blockers(bool *more, dyd_squares *q) {
   const dyd_work *w = &q->work;
   const dyd_rects *r = &q->sk.rects;
   uint32_t v[2] = {q->sk.vertex[0], q->sk.vertex[1]};
@@ -120,8 +217,9 @@ static dyd_xy nominal_place(const dyd_squares *q, uint32_t v) {
   return q->t->sk->reps.xy[v];
 }
 
+/* About where the circle that binds in the plane of exact points is, for a row of these. */
 /* Where the bisectors of ij and kl cross: the middle of the widest annulus. */
-dyd_xy dyd_squares_guess(const dyd_squares *q, uint32_t k, uint32_t l) {
+static dyd_xy squares_guess(const dyd_squares *q, uint32_t k, uint32_t l) {
   dyd_xy i = nominal_place(q, q->i), j = nominal_place(q, q->j), middle = {i.x / 2 + j.x / 2, i.y / 2 + j.y / 2};
   if (k == DYD_NO_SITE || l == DYD_NO_SITE) return middle;
   dyd_xy a = nominal_place(q, q->t->sk->vertex[k]), b = nominal_place(q, q->t->sk->vertex[l]);
@@ -138,7 +236,9 @@ static void bring_forward(dyd_others *o, size_t to, uint32_t v) {
   o->vertex[to] = v;
 }
 
-void dyd_squares_bind(uint32_t *k, uint32_t *l, dyd_squares *q, bool far) {
+/* Puts the two of seen first that are about nearest to q->place, one on each side of ij, by their nearest points, or
+ * `far` ones; *k < *l become their vertices, DYD_NONE where there is none. Unchanged where doubles do not tell. */
+static void squares_bind(uint32_t *k, uint32_t *l, dyd_squares *q, bool far) {
   dyd_xy i = nominal_place(q, q->i), j = nominal_place(q, q->j), c = {q->place.e[0], q->place.e[2]};
   double jx = j.x - i.x, jy = j.y - i.y, cx = c.x - i.x, cy = c.y - i.y, least[2] = {HUGE_VAL, HUGE_VAL};
   size_t best[2] = {SIZE_MAX, SIZE_MAX};
@@ -160,3 +260,155 @@ void dyd_squares_bind(uint32_t *k, uint32_t *l, dyd_squares *q, bool far) {
   bring_forward(&q->seen, 0, *k);
   bring_forward(&q->seen, 1, *l);
 }
+
+/* ---- statuses at one t ---- */
+
+typedef dyd_status squares_question(dyd_truth *answer, dyd_squares *q, double t);
+
+static dyd_status squares_are_legal(dyd_truth *answer, dyd_squares *q, double t) {
+  dyd_status st = DYD_OK;
+  for (bool more = true; more && st == DYD_OK;) {
+    st = dyd_squares_build(q, t);
+    if (st != DYD_OK) return st;
+    const uint32_t *v = q->sk.vertex;
+    uint32_t across[2] = {v[2], q->seen.count > 1 ? v[3] : v[2]};
+    more = false;
+    st = dyd_witness_decide(answer, &q->c, &q->work, &q->sk, v[0], v[1], q->guess, q->seen.count > 1 ? across : NULL);
+    if (st == DYD_OK && *answer == DYD_TRUE) st = squares_see_rivals(&more, q);
+    squares_unbuild(q);
+  }
+  if (st != DYD_OK || *answer != DYD_TRUE) return st;
+  uint32_t k, l;
+  squares_bind(&k, &l, q, false);
+  return DYD_OK;
+}
+
+/* A common point is as near as can be, whoever else there is. */
+static dyd_status squares_meet(bool *meet, dyd_squares *q) {
+  dyd_rect r[2];
+  for (int k = 0; k < 2; k++) dyd_rect_init(&r[k]);
+  dyd_status st = dyd_sites_get(&r[0], q->sites, 0);
+  if (st == DYD_OK) st = dyd_sites_get(&r[1], q->sites, 1);
+  *meet = st == DYD_OK && dyd_rect_meets(&r[0], &r[1]);
+  for (int k = 0; k < 2; k++) dyd_rect_clear(&r[k]);
+  return st;
+}
+
+static dyd_status squares_are_illegal(dyd_truth *answer, dyd_squares *q, double t) {
+  static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
+  dyd_status st = DYD_OK;
+  for (bool more = true; more && st == DYD_OK;) {
+    bool meet, possible = true;
+    st = dyd_squares_build(q, t);
+    if (st != DYD_OK) return st;
+    more = false;
+    const uint32_t *v = q->sk.vertex;
+    st = squares_meet(&meet, q);
+    if (st == DYD_OK && !meet) st = dyd_cover_possible(&possible, &q->work, &q->sk, v[0], v[1], no_hint);
+    if (st == DYD_OK && !meet && possible) st = squares_see_blockers(&more, q);
+    *answer = possible ? DYD_FALSE : DYD_TRUE;
+    squares_unbuild(q);
+  }
+  return st;
+}
+
+/* ---- where it changes ---- */
+
+/* Yes at *lo, or *lo is 0; no at *hi. Until they are near to each other, or no answer is found. */
+static dyd_status squares_halve(double *lo, double *hi, dyd_squares *q, squares_question *ask) {
+  dyd_status st = DYD_OK;
+  while (*hi > *lo * WIDTH && st == DYD_OK) {
+    double mid = 4 * *lo >= *hi ? *lo + (*hi - *lo) / 2 : *hi / 4, over = mid + ldexp(mid, 2 - DYD_SQUARE_BITS);
+    dyd_truth answer = DYD_UNKNOWN;
+    if (!(mid > *lo && over < *hi && mid > ldexp(1, -RANGE) && mid < ldexp(1, RANGE))) return DYD_OK;
+    st = ask(&answer, q, mid);
+    if (answer == DYD_UNKNOWN) return st;
+    *(answer == DYD_TRUE ? lo : hi) = answer == DYD_TRUE ? mid : over;
+  }
+  return st;
+}
+
+/* ---- rows ---- */
+
+static dyd_status squares_see_all(dyd_squares *q, const uint32_t *vertex, size_t count) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < count && st == DYD_OK; k++) {
+    bool more;
+    st = squares_see(&more, q, vertex[k]);
+  }
+  return st;
+}
+
+/* The sites of the row, and some around it. */
+static dyd_status squares_begin(dyd_squares *q, const dyd_tolerance_row *row) {
+  const dyd_tolerance *t = q->t;
+  const uint32_t *vertex = t->sk->vertex;
+  dyd_status st = DYD_OK;
+  bool more;
+  q->i = vertex[row->i];
+  q->j = vertex[row->j];
+  q->seen.count = 0;
+  q->place = (dyd_bbox){{NAN, NAN, NAN, NAN}};
+  if (row->k != DYD_NO_SITE) st = squares_see(&more, q, vertex[row->k]);
+  if (row->l != DYD_NO_SITE && st == DYD_OK) st = squares_see(&more, q, vertex[row->l]);
+  if (st == DYD_OK) st = dyd_others_around(&q->t->others, t, q->i, q->j, FIRST_SEEN);
+  if (st == DYD_OK) st = squares_see_all(q, t->others.vertex, t->others.count);
+  uint32_t any = 0; /* two hubs: begin with anybody */
+  while (any == q->i || any == q->j || dyd_mesh_alias(&t->sk->mesh, any) != DYD_NONE) any++;
+  return st == DYD_OK && !q->seen.count ? squares_see(&more, q, any) : st;
+}
+
+static void row_bind(dyd_tolerance_row *row, dyd_squares *q, bool far) {
+  const uint32_t *site = q->t->sk->reps.site;
+  uint32_t k, l;
+  squares_bind(&k, &l, q, far);
+  if (k == DYD_NONE) return;
+  row->k = site[k];
+  row->l = l == DYD_NONE ? DYD_NO_SITE : site[l];
+  if (row->l >= row->k) return;
+  row->k = site[l];
+  row->l = site[k];
+}
+
+/* The death for discs is at most sqrt(2) times that for squares. */
+static dyd_status square_death(dyd_squares *q, dyd_tolerance_row *row) {
+  if (row->lo == HUGE_VAL) return DYD_OK;
+  dyd_status st = squares_begin(q, row);
+  q->guess = squares_guess(q, row->k, row->l);
+  row->lo *= 0.70710678118654746 * (1 - 0x1p-50);
+  if (st == DYD_OK) st = squares_halve(&row->lo, &row->hi, q, squares_are_legal);
+  if (st == DYD_OK) row_bind(row, q, false);
+  return st;
+}
+
+/* *late: it is above t->options.up_to for sure. */
+static dyd_status square_birth(bool *late, dyd_squares *q, dyd_tolerance_row *row) {
+  dyd_truth illegal = DYD_UNKNOWN;
+  double up_to = dyd_q_double(q->t->options.up_to, 1);
+  dyd_status st = squares_begin(q, row);
+  if (st == DYD_OK) st = squares_are_illegal(&illegal, q, up_to);
+  *late = st == DYD_OK && illegal == DYD_TRUE;
+  row->lo = 0;
+  row->hi = up_to + ldexp(up_to, 2 - DYD_SQUARE_BITS);
+  if (st == DYD_OK && !*late) st = squares_halve(&row->lo, &row->hi, q, squares_are_illegal);
+  if (st == DYD_OK && !*late) row_bind(row, q, true);
+  return st;
+}
+
+static dyd_status square_row(bool *late, dyd_tolerance_row *row, void *squares) {
+  return row->event == DYD_EVENT_DEATH ? square_death(squares, row) : square_birth(late, squares, row);
+}
+
+dyd_status dyd_square_rows(dyd_tolerance *t) {
+  dyd_squares q = {.t = t};
+  mpq_inits(q.half, q.end[0], q.end[1], NULL);
+  dyd_point_init(&q.c);
+  dyd_status st = dyd_near_index(t);
+  if (st == DYD_OK) st = dyd_rows_rework(t, square_row, &q);
+  dyd_point_clear(&q.c);
+  mpq_clears(q.half, q.end[0], q.end[1], NULL);
+  free(q.seen.vertex);
+  return st;
+}
+
+/* The squares of a few sites at one t, and their skeleton. */

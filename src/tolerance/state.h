@@ -1,22 +1,20 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What tolerances are worked out with, and what is kept.
  *
- *   lines.c, summit.c   one pair: the other sites as lines over its bisector, exactly
- *   lines_filter.c      the same in doubles
- *   roots.c             numbers sqrt(p) - sqrt(m)
- *   near_filter.c       which sites a pair needs; who else is near
- *   deaths.c, births.c  all pairs
- *   whole.c             the whole; points_filter.c: each point; chance_filter.c: probabilities
- *   weights_filter.c    the same where points have weights; weights_guess_filter.c: about where it changes
- *   squares.c           the same where they move in squares
- *   rows.c, tolerance.c the sorted rows; the public calls */
+ *   lines.c           one pair: the other sites as lines over its bisector, exactly
+ *   lines_filter.c    the same in doubles
+ *   near_filter.c     the sites that a pair needs; the others near a place
+ *   rows.c            all pairs, sorted; the whole
+ *   points_filter.c   each point; probabilities
+ *   weights_filter.c  all pairs where points have weights
+ *   squares_filter.c  all pairs where points move in squares
+ *   tolerance.c       the public calls */
 #ifndef DYD_TOLERANCE_STATE_H
 #define DYD_TOLERANCE_STATE_H
 
 #include "delaunay/memory.h"
 #include "delaunay/undecided.h"
 #include "tolerance/lines.h"
-#include "tolerance/lines_filter.h"
 #include <dyadel/tolerance.h>
 
 /* Vertices that are looked at for one pair. */
@@ -85,15 +83,12 @@ dyd_status dyd_others_around(dyd_others *o, const dyd_tolerance *t, uint32_t v, 
 dyd_status dyd_others_nearer(bool *more, dyd_others *o, dyd_tolerance *t, uint32_t i, uint32_t j, size_t most);
 
 dyd_status dyd_deaths(dyd_tolerance *t);
-/* t->summit becomes that of the legal pair of vertices v, w, exactly. */
-dyd_status dyd_death_exact(dyd_tolerance *t, uint32_t v, uint32_t w);
 dyd_status dyd_births(dyd_tolerance *t, dyd_error *err);
-/* t->summit becomes that of a pair that is no edge. *late: it is above t->options.up_to for sure. */
-dyd_status dyd_birth_exact(bool *late, dyd_tolerance *t, uint32_t v, uint32_t w);
 /* Where points have weights: the deaths and births found so far become those with weights, without births above
  * up_to. What is given as birth is only listed. */
 dyd_status dyd_weigh(dyd_tolerance *t);
-/* squares.c: the deaths found so far become those for squares, and what is given as birth, without those above up_to.
+/* squares_filter.c: the deaths found so far become those for squares, and what is given as birth, without those above
+ * up_to.
  */
 dyd_status dyd_square_rows(dyd_tolerance *t);
 dyd_status dyd_whole(dyd_tolerance *t);
@@ -102,13 +97,12 @@ dyd_status dyd_whole(dyd_tolerance *t);
  * between them. */
 dyd_status dyd_hull_corner(double *lo, double *hi, const dyd_tolerance *t, dyd_half_edge h, bool weighted);
 dyd_status dyd_points_radius(dyd_tolerance *t);
-/* chance_filter.c: after dyd_rows_sort. */
+/* After dyd_rows_sort. */
 dyd_status dyd_chances(dyd_tolerance *t);
 
 /* rows.c: the row of vertices v, w; with the value and binding of t->summit. */
 dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event, uint32_t k,
                              uint32_t l, double lo, double hi);
-dyd_tolerance_row dyd_row_of_summit(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event);
 /* The upper end of a row that work did not reach before it was cancelled. */
 #define DYD_UNREACHED (-1.0)
 /* Rows but ties become what `work` makes of them, and those go that it finds too late. DYD_CANCELLED: rows that were
@@ -118,8 +112,6 @@ dyd_status dyd_rows_rework(dyd_tolerance *t, dyd_row_work *work, void *user);
 /* After work that was cancelled: takes marked rows out, and counts what has none. */
 void dyd_rows_reached(dyd_tolerance *t);
 dyd_status dyd_row_add(dyd_tolerance *t, dyd_tolerance_row row);
-/* Rows of one i, by j. */
-void dyd_rows_sort_site(dyd_tolerance_row *row, size_t count);
 /* The number of the row of v, w; all are sorted. */
 size_t dyd_row_find(const dyd_tolerance *t, uint32_t v, uint32_t w);
 dyd_status dyd_rows_sort(dyd_tolerance *t);

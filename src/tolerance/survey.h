@@ -53,10 +53,8 @@ struct dyd_survey {
   bool cut; /* cancelled: the rows are that draft */
 };
 
-/* survey_rects.c */
+/* survey_face.c */
 dyd_status dyd_survey_load(dyd_survey *s, const dyd_sites *sites);
-/* The rectangle of site i once measured, if `measured`, else as it is. */
-dyd_status dyd_survey_rect(dyd_rect *out, const dyd_survey *s, uint32_t i, bool measured);
 /* A new triangulation of all sites, the chosen ones measured; of the centres of all. */
 dyd_status dyd_survey_triangulate(dyd_delaunay **pd, dyd_sites **sites, const dyd_survey *s, bool centres);
 bool dyd_survey_is_open(const dyd_delaunay *pd, const dyd_pair *p);
@@ -66,7 +64,7 @@ size_t dyd_survey_open(const dyd_survey *s, const dyd_delaunay *pd);
 double dyd_survey_needed(const dyd_survey *s, uint32_t i);
 double dyd_survey_now(const dyd_survey *s, uint32_t i);
 
-/* survey_index.c: sorts the targets, finds s->first and s->at; fills in s->open; releases them. */
+/* survey_face.c: sorts the targets, finds s->first and s->at; fills in s->open; releases them. */
 dyd_status dyd_survey_index_targets(dyd_survey *s);
 dyd_status dyd_survey_index_faces(dyd_survey *s, const dyd_delaunay *pd);
 void dyd_survey_index_clear(dyd_survey *s);
@@ -78,7 +76,7 @@ enum { DYD_SURVEY_LARGE = 8 };
 enum { DYD_SURVEY_LARGE = 16 };
 #endif
 
-/* survey_measure.c: sites are measured one by one in a triangulation of all. open[k]: is target k; degree[i]: how many
+/* survey_face.c: sites are measured one by one in a triangulation of all. open[k]: is target k; degree[i]: how many
  * open ones end at site i. */
 typedef struct dyd_measuring {
   dyd_survey *s;
@@ -91,17 +89,12 @@ typedef struct dyd_measuring {
 /* Sites as they are chosen now. To be ended, whatever it returns. */
 dyd_status dyd_measuring_begin(dyd_measuring *m, dyd_survey *s);
 void dyd_measuring_end(dyd_measuring *m);
-/* *decided: so many targets that were open are not, with this site measured. */
-dyd_status dyd_measuring_site(size_t *decided, dyd_measuring *m, uint32_t i);
 /* The same; it is the next site of the draft. */
 dyd_status dyd_measuring_draft(size_t *decided, dyd_measuring *m, uint32_t i);
 
-/* survey_crowd.c: chooses in large faces of the triangulation, as sites are chosen now, until they are small or nothing
+/* survey_face.c: chooses in large faces of the triangulation, as sites are chosen now, until they are small or nothing
  * in them is open or can be measured; appends to s->face, and to the draft. */
 dyd_status dyd_survey_crowds(dyd_measuring *m);
-
-/* survey_face.c: the number of a site among these, ascending, or DYD_NONE. */
-uint32_t dyd_survey_number_in(const dyd_index_list *sites, uint32_t site);
 /* Chooses among the sites of face f of pd so that its targets are decided; appends to s->face. */
 dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t f);
 /* How many targets of the face with these sites (ascending) are open as things stand. */
@@ -109,7 +102,7 @@ dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_ind
 /* Would more targets of the face with these sites (ascending) be open, were this one of them not measured? */
 dyd_status dyd_survey_face_needs(bool *needs, dyd_survey *s, const dyd_index_list *sites, uint32_t site);
 
-/* survey_measure.c: what each row decides after those before it. */
+/* survey_face.c: what each row decides after those before it. */
 dyd_status dyd_survey_count_left(dyd_survey *s);
 
 #endif

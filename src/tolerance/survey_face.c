@@ -5,10 +5,445 @@
 #include "base/alloc.h"
 #include "base/flag.h"
 #include "base/index.h"
+#include "base/invariant.h"
+#include "delaunay/index_list.h"
+#include "tolerance/lines.h"
 #include "tolerance/survey.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+/* Rectangles as they are, and as they would be after measuring. */
+
+static void load_site(dyd_survey_site *p) {
+  mpq_t lo, hi;
+  mpq_inits(lo, hi, NULL);
+  dyd_interval_get_q(lo, hi, &p->rect.x);
+  mpq_add(p->x, lo, hi);
+  mpq_sub(p->half, hi, lo);
+  dyd_interval_get_q(lo, hi, &p->rect.y);
+  mpq_add(p->y, lo, hi);
+  mpq_sub(hi, hi, lo);
+  if (mpq_cmp(hi, p->half) > 0) mpq_set(p->half, hi);
+  mpq_div_2exp(p->x, p->x, 1);
+  mpq_div_2exp(p->y, p->y, 1);
+  mpq_div_2exp(p->half, p->half, 1);
+  mpq_clears(lo, hi, NULL);
+}
+
+/* Of each site its rectangle, centre and half-width, twelve numbers: with their digits, and what allocators add. */
+static bool survey_has_room(dyd_survey *s, size_t sites) {
+  enum { NUMBERS = 12, BLOCK = 32 };
+  uint64_t bytes = dyd_bytes_times(sites, sizeof *s->site + NUMBERS * BLOCK);
+  if (!dyd_room_has(&s->room, bytes, "the plan")) return false;
+  s->room.held += bytes;
+  return true;
+}
+
+dyd_status dyd_survey_load(dyd_survey *s, const dyd_sites *sites) {
+  if (!survey_has_room(s, dyd_sites_count(sites))) return DYD_E_NOMEM;
+  s->site = dyd_alloc(dyd_sites_count(sites), sizeof *s->site);
+  if (!s->site) return DYD_E_NOMEM;
+  dyd_status st = DYD_OK;
+  for (size_t i = 0; i < dyd_sites_count(sites) && st == DYD_OK; i++) {
+    dyd_survey_site *p = &s->site[s->sites++];
+    dyd_rect_init(&p->rect);
+    mpq_inits(p->x, p->y, p->half, NULL);
+    p->chosen = false;
+    p->coarser = 0;
+    st = dyd_sites_get(&p->rect, sites, i);
+    if (st == DYD_OK) load_site(p);
+  }
+  return st;
+}
+
+/* min(scale 2^coarser unit, half) */
+static void accuracy_of(mpq_ptr out, const dyd_survey *s, uint32_t i) {
+  const dyd_survey_site *p = &s->site[i];
+  mpq_mul(out, s->scale, s->options.accuracy ? s->options.accuracy : p->half);
+  mpq_mul_2exp(out, out, p->coarser);
+  if (mpq_cmp(out, p->half) > 0) mpq_set(out, p->half);
+}
+
+/* The part of the side within a of the centre; rounded outward, so that the plan never says less than is needed. */
+static dyd_status cut_to_accuracy(dyd_interval *side, mpq_srcptr centre, mpq_srcptr a, mpq_t end[2]) {
+  dyd_interval near;
+  if (dyd_interval_is_point(side)) return DYD_OK;
+  dyd_interval_init(&near);
+  mpq_sub(end[0], centre, a);
+  mpq_add(end[1], centre, a);
+  int64_t bits = dyd_interval_bits(side);
+  dyd_status st = dyd_interval_set_outward(&near, end[0], end[1], -bits - 120);
+  if (st == DYD_OK) st = dyd_interval_intersect(side, side, &near);
+  dyd_interval_clear(&near);
+  return st;
+}
+
+/* The rectangle of site i once measured, if `measured`, else as it is. */
+static dyd_status survey_rect(dyd_rect *out, const dyd_survey *s, uint32_t i, bool measured) {
+  const dyd_survey_site *p = &s->site[i];
+  dyd_rect_set(out, &p->rect);
+  if (!measured) return DYD_OK;
+  mpq_t a, end[2];
+  mpq_inits(a, end[0], end[1], NULL);
+  accuracy_of(a, s, i);
+  dyd_status st = cut_to_accuracy(&out->x, p->x, a, end);
+  if (st == DYD_OK) st = cut_to_accuracy(&out->y, p->y, a, end);
+  mpq_clears(a, end[0], end[1], NULL);
+  return st;
+}
+
+dyd_status dyd_survey_triangulate(dyd_delaunay **pd, dyd_sites **sites, const dyd_survey *s, bool centres) {
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = s->options.cancel};
+  dyd_room room = s->room;
+  dyd_error err = {0};
+  dyd_rect r;
+  dyd_rect_init(&r);
+  *pd = NULL;
+  dyd_status st = dyd_sites_new(sites);
+  for (uint32_t i = 0; i < s->sites && st == DYD_OK; i++) {
+    st = centres ? dyd_rect_set_q(&r, s->site[i].x, s->site[i].y) : survey_rect(&r, s, i, s->site[i].chosen);
+    if (st == DYD_OK) st = dyd_sites_add_rect(*sites, &r);
+  }
+  if (room.most && st == DYD_OK) room.beside = dyd_sites_memory(*sites);
+  o.max_bytes = dyd_room_left(&room);
+  if (st == DYD_OK) st = dyd_delaunay_new(pd, *sites, &o, &err);
+  dyd_rect_clear(&r);
+  if (s->err && st < 0 && err.code == st) *s->err = err;
+  return st == DYD_CAPPED ? DYD_OK : st;
+}
+
+bool dyd_survey_is_open(const dyd_delaunay *pd, const dyd_pair *p) {
+  dyd_pair_status status = dyd_delaunay_status(pd, p->i, p->j);
+  return status == DYD_INDETERMINATE || status == DYD_TIE;
+}
+
+size_t dyd_survey_open(const dyd_survey *s, const dyd_delaunay *pd) {
+  size_t open = 0;
+  for (size_t k = 0; k < s->target.count; k++) open += dyd_survey_is_open(pd, &s->target.item[k]);
+  return open;
+}
+
+double dyd_survey_needed(const dyd_survey *s, uint32_t i) {
+  mpq_t a;
+  mpq_init(a);
+  accuracy_of(a, s, i);
+  double out = dyd_q_double(a, 0);
+  mpq_clear(a);
+  return out;
+}
+
+double dyd_survey_now(const dyd_survey *s, uint32_t i) {
+  return dyd_q_double(s->site[i].half, 1);
+}
+
+/* In which faces and targets a site is, so that nobody looks through all of them. */
+
+/* s->at: each target at its lower end and at its upper one. */
+static dyd_status index_ends(dyd_survey *s) {
+  const dyd_pair_list *t = &s->target;
+  s->first = calloc(s->sites + 2, sizeof *s->first);
+  s->at = dyd_alloc(2 * t->count, sizeof *s->at);
+  if (!s->first || !s->at) return DYD_E_NOMEM;
+  size_t *next =
+      s->first + 1; /* where the next target of each site goes: when all are there, where those after begin */
+  for (size_t k = 0; k < t->count; k++) next[t->item[k].i + 1]++, next[t->item[k].j + 1]++;
+  for (size_t i = 0; i < s->sites; i++) next[i + 1] += next[i];
+  for (size_t k = 0; k < t->count; k++) s->at[next[t->item[k].i]++] = k, s->at[next[t->item[k].j]++] = k;
+  return DYD_OK;
+}
+
+dyd_status dyd_survey_index_targets(dyd_survey *s) {
+  dyd_pair_list *t = &s->target;
+  for (size_t k = 0; k < t->count; k++) {
+    dyd_pair p = t->item[k];
+    if (p.i > p.j) t->item[k] = (dyd_pair){p.j, p.i, p.status};
+  }
+  if (t->count) qsort(t->item, t->count, sizeof *t->item, dyd_compare_two);
+  return index_ends(s);
+}
+
+/* ---- where to look ---- */
+
+static bool is_of_owner(const dyd_survey_faces *open, size_t f, uint32_t site) {
+  return open->owner[f] == DYD_NONE || open->owner[f] == site;
+}
+
+/* open.start[i + 1]: where the next face of site i goes; when all are there, where those of the next site begin. */
+static dyd_status index_sites(dyd_survey_faces *open, size_t sites) {
+  size_t total = 0;
+  for (size_t f = 0; f < open->count; f++) total += open->face[f].count;
+  open->start = calloc(sites + 2, sizeof *open->start);
+  open->of = dyd_alloc(total, sizeof *open->of);
+  if (!open->start || !open->of) return DYD_E_NOMEM;
+  size_t *next = open->start + 1;
+  for (size_t f = 0; f < open->count; f++)
+    for (size_t k = 0; k < open->face[f].count; k++) {
+      uint32_t i = open->face[f].item[k];
+      next[i + 1] += is_of_owner(open, f, i);
+    }
+  for (size_t i = 0; i < sites; i++) next[i + 1] += next[i];
+  for (size_t f = 0; f < open->count; f++)
+    for (size_t k = 0; k < open->face[f].count; k++) {
+      uint32_t i = open->face[f].item[k];
+      if (is_of_owner(open, f, i)) open->of[next[i]++] = (uint32_t)f;
+    }
+  return DYD_OK;
+}
+
+/* A site, its possible neighbours without the plan, and the possible neighbours of all these with it: what the site can
+ * change has an end among the former [LOC-4], and who can be in the way of that is mostly among the latter. */
+static dyd_status find_those_near(dyd_index_list *out, const dyd_delaunay *pd, const dyd_delaunay *planned,
+                                  uint32_t site) {
+  dyd_index_list near = {0};
+  size_t cap = 0;
+  dyd_status st = dyd_delaunay_neighbours(&near, pd, site, DYD_TIE);
+  if (st == DYD_OK) st = dyd_index_list_add(out, &cap, near.item, near.count);
+  if (st == DYD_OK) st = dyd_index_list_add(out, &cap, &site, 1);
+  for (size_t k = 0, first = out->count; k < first && st == DYD_OK; k++) {
+    st = dyd_delaunay_neighbours(&near, planned, out->item[k], DYD_TIE);
+    if (st == DYD_OK) st = dyd_index_list_add(out, &cap, near.item, near.count);
+  }
+  dyd_index_list_sort(out);
+  dyd_index_list_clear(&near);
+  return st;
+}
+
+/* Faces that are not large; *large, where there are others, and each of their sites. */
+static dyd_status add_faces(bool *large, bool *is_in_large, dyd_survey_faces *open, const dyd_delaunay *pd) {
+  bool outer;
+  dyd_status st = DYD_OK;
+  *large = false;
+  for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd) && st == DYD_OK; f++) {
+    dyd_index_list *face = &open->face[open->count];
+    st = dyd_delaunay_face(face, &outer, pd, f);
+    if (st == DYD_OK && face->count <= DYD_SURVEY_LARGE) {
+      open->owner[open->count++] = DYD_NONE;
+      continue;
+    }
+    *large = true;
+    for (size_t k = 0; k < face->count; k++) is_in_large[face->item[k]] = true;
+    dyd_index_list_clear(face);
+  }
+  return st;
+}
+
+static dyd_status add_those_in_large(dyd_survey *s, const bool *is_in_large, const dyd_delaunay *pd) {
+  dyd_delaunay *planned = NULL;
+  dyd_sites *sites = NULL;
+  dyd_status st = dyd_survey_triangulate(&planned, &sites, s, false);
+  for (uint32_t i = 0; i < s->sites && st == DYD_OK; i++) {
+    if (!is_in_large[i] || !s->site[i].chosen) continue;
+    s->open.owner[s->open.count] = i;
+    st = find_those_near(&s->open.face[s->open.count++], pd, planned, i);
+  }
+  dyd_delaunay_free(planned);
+  dyd_sites_free(sites);
+  return st;
+}
+
+dyd_status dyd_survey_index_faces(dyd_survey *s, const dyd_delaunay *pd) {
+  dyd_survey_faces *open = &s->open;
+  size_t most = dyd_delaunay_undecided_faces(pd) + s->sites + 1;
+  bool large = false, *is_in_large = calloc(s->sites + 1, sizeof *is_in_large);
+  open->face = calloc(most, sizeof *open->face);
+  open->owner = dyd_alloc(most, sizeof *open->owner);
+  dyd_status st = is_in_large && open->face && open->owner ? DYD_OK : DYD_E_NOMEM;
+  if (st == DYD_OK) st = add_faces(&large, is_in_large, open, pd);
+  if (st == DYD_OK && large) st = add_those_in_large(s, is_in_large, pd);
+  if (st == DYD_OK) st = index_sites(open, s->sites);
+  free(is_in_large);
+  return st;
+}
+
+void dyd_survey_index_clear(dyd_survey *s) {
+  for (size_t f = 0; s->open.face && f < s->open.count; f++) dyd_index_list_clear(&s->open.face[f]);
+  free(s->open.face);
+  free(s->open.owner);
+  free(s->open.start);
+  free(s->open.of);
+  free(s->first);
+  free(s->at);
+}
+
+/* Sites are measured one by one in a triangulation of all; what each row of a plan decides after the rows before. A
+ * pair whose status changes has an end at the site or at a possible neighbour of it [LOC-4]: only these are looked at.
+ */
+
+dyd_status dyd_measuring_begin(dyd_measuring *m, dyd_survey *s) {
+  *m = (dyd_measuring){.s = s};
+  m->open = calloc(s->target.count + 1, sizeof *m->open);
+  m->degree = calloc(s->sites + 1, sizeof *m->degree);
+  if (!m->open || !m->degree) return DYD_E_NOMEM;
+  dyd_status st = dyd_survey_triangulate(&m->now, &m->sites, s, false);
+  for (size_t k = 0; k < s->target.count && st == DYD_OK; k++) {
+    const dyd_pair *p = &s->target.item[k];
+    m->open[k] = dyd_survey_is_open(m->now, p);
+    if (m->open[k]) m->left++, m->degree[p->i]++, m->degree[p->j]++;
+  }
+  return st;
+}
+
+void dyd_measuring_end(dyd_measuring *m) {
+  dyd_delaunay_free(m->now);
+  dyd_sites_free(m->sites);
+  free(m->open);
+  free(m->degree);
+}
+
+static void note_decided(dyd_measuring *m, uint32_t i) {
+  const dyd_survey *s = m->s;
+  for (size_t q = s->first[i]; q < s->first[i + 1] && m->degree[i]; q++) {
+    const dyd_pair *p = &s->target.item[s->at[q]];
+    if (!m->open[s->at[q]] || dyd_survey_is_open(m->now, p)) continue;
+    m->open[s->at[q]] = false;
+    m->left--, m->degree[p->i]--, m->degree[p->j]--;
+  }
+}
+
+/* Where there are more open pairs than can be stored, neighbours are not all listed. */
+static void note_decided_near(dyd_measuring *m, uint32_t i, const dyd_index_list *near) {
+  note_decided(m, i);
+  for (size_t k = 0; k < near->count; k++) note_decided(m, near->item[k]);
+  for (uint32_t k = 0; k < m->s->sites && dyd_delaunay_is_capped(m->now); k++) note_decided(m, k);
+}
+
+/* *decided: so many targets that were open are not, with this site measured. */
+static dyd_status measuring_site(size_t *decided, dyd_measuring *m, uint32_t i) {
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = m->s->options.cancel};
+  dyd_index_list near = {0};
+  size_t before = m->left;
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = survey_rect(&r, m->s, i, true);
+  if (st == DYD_OK) st = dyd_delaunay_neighbours(&near, m->now, i, DYD_TIE);
+  if (st == DYD_OK) st = dyd_sites_narrow(m->sites, i, &r);
+  if (st == DYD_OK) st = dyd_delaunay_update(m->now, &i, 1, &o, m->s->err);
+  if (st == DYD_CAPPED) st = DYD_OK;
+  if (st == DYD_OK) note_decided_near(m, i, &near);
+  *decided = before - m->left;
+  dyd_index_list_clear(&near);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+dyd_status dyd_measuring_draft(size_t *decided, dyd_measuring *m, uint32_t i) {
+  dyd_survey *s = m->s;
+  dyd_status st = measuring_site(decided, m, i);
+  if (st != DYD_OK) return st;
+  if (!dyd_reserve((void **)&s->draft.row, &s->draft_cap, s->draft.count + 1, sizeof *s->draft.row)) return DYD_E_NOMEM;
+  s->draft.row[s->draft.count++] =
+      (dyd_survey_row){i, dyd_survey_now(s, i), dyd_survey_needed(s, i), *decided, m->left};
+  return DYD_OK;
+}
+
+dyd_status dyd_survey_count_left(dyd_survey *s) {
+  dyd_measuring m;
+  if (!s->rows) return DYD_OK;
+  for (size_t k = 0; k < s->rows; k++) s->site[s->row[k].site].chosen = false;
+  dyd_status st = dyd_measuring_begin(&m, s);
+  for (size_t k = 0; k < s->rows && st == DYD_OK; k++) {
+    st = measuring_site(&s->row[k].decided, &m, s->row[k].site);
+    s->row[k].left = m.left;
+  }
+  DYD_INVARIANT(st != DYD_OK || m.left == s->left);
+  for (size_t k = 0; k < s->rows; k++) s->site[s->row[k].site].chosen = true;
+  dyd_measuring_end(&m);
+  return st;
+}
+
+/* Large faces. To try every site of one, as survey_face.c does, takes as many triangulations as it has sites, for each
+ * row; so the ends of most open targets for their cost are measured one after the other, until it has fallen into small
+ * faces, which are worked on with care. Whoever was not needed goes afterwards, as everywhere. */
+
+/* Of the sites that can be measured, one in so many is, before it is looked again at where faces are large. */
+enum { SHARE = 16 };
+
+typedef struct crowd_site {
+  double worth; /* open targets that end there, for its cost */
+  uint32_t site;
+} crowd_site;
+
+static int compare_worth(const void *a, const void *b) {
+  const crowd_site *x = a, *y = b;
+  if (x->worth != y->worth) return x->worth > y->worth ? -1 : 1;
+  return (x->site > y->site) - (x->site < y->site);
+}
+
+static double worth_of(const dyd_measuring *m, uint32_t i) {
+  return (double)m->degree[i] / (m->s->options.cost ? m->s->options.cost[i] : 1);
+}
+
+/* Marks sites of large faces at which open targets end and that can be measured. */
+static dyd_status mark_crowd(bool *mark, const dyd_measuring *m) {
+  dyd_index_list face = {0};
+  bool outer;
+  dyd_status st = DYD_OK;
+  for (size_t f = 0; f < dyd_delaunay_undecided_faces(m->now) && st == DYD_OK; f++) {
+    st = dyd_delaunay_face(&face, &outer, m->now, f);
+    for (size_t k = 0; k < face.count && st == DYD_OK && face.count > DYD_SURVEY_LARGE; k++) {
+      const dyd_survey_site *p = &m->s->site[face.item[k]];
+      mark[face.item[k]] = m->degree[face.item[k]] && !p->chosen && mpq_sgn(p->half) > 0;
+    }
+  }
+  dyd_index_list_clear(&face);
+  return st;
+}
+
+/* They are moved to *crowd, and the marks taken away. */
+static size_t list_crowd(crowd_site *crowd, bool *mark, const dyd_measuring *m) {
+  size_t count = 0;
+  for (uint32_t i = 0; i < m->s->sites; i++)
+    if (mark[i]) {
+      mark[i] = false;
+      crowd[count++] = (crowd_site){worth_of(m, i), i};
+    }
+  if (count) qsort(crowd, count, sizeof *crowd, compare_worth);
+  return count;
+}
+
+/* Measures the first ones, but for those that are by now worth less than the last of these was: their turn comes. */
+static dyd_status measure_first(dyd_face_rows *rows, dyd_measuring *m, const crowd_site *crowd, size_t count) {
+  size_t first = count / SHARE + 1 < count ? count / SHARE + 1 : count;
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < first && st == DYD_OK; k++) {
+    uint32_t i = crowd[k].site;
+    if (worth_of(m, i) < crowd[first - 1].worth) continue;
+    dyd_survey_row *row = &rows->row[rows->count++];
+    *row = (dyd_survey_row){.site = i};
+    m->s->site[i].chosen = true;
+    st = dyd_measuring_draft(&row->decided, m, i);
+  }
+  return st;
+}
+
+static dyd_status measure_crowds(dyd_face_rows *rows, dyd_measuring *m) {
+  const dyd_survey *s = m->s;
+  bool *mark = calloc(s->sites + 1, sizeof *mark);
+  crowd_site *crowd = dyd_alloc(s->sites, sizeof *crowd);
+  rows->row = dyd_alloc(s->sites, sizeof *rows->row);
+  dyd_status st = mark && crowd && rows->row ? DYD_OK : DYD_E_NOMEM;
+  for (size_t count = 1; count && st == DYD_OK;) {
+    st = mark_crowd(mark, m);
+    count = list_crowd(crowd, mark, m);
+    if (st == DYD_OK) st = measure_first(rows, m, crowd, count);
+  }
+  free(mark);
+  free(crowd);
+  return st;
+}
+
+dyd_status dyd_survey_crowds(dyd_measuring *m) {
+  dyd_survey *s = m->s;
+  if (!dyd_reserve((void **)&s->face, &s->face_cap, s->faces + 1, sizeof *s->face)) return DYD_E_NOMEM;
+  dyd_face_rows rows = {0};
+  dyd_status st = measure_crowds(&rows, m);
+  if (rows.count)
+    s->face[s->faces++] = rows;
+  else
+    free(rows.row);
+  return st;
+}
 
 /* Sites and targets by their numbers in the face; measured[k]: how it is tried. */
 typedef struct face_try {
@@ -21,7 +456,8 @@ typedef struct face_try {
   size_t chosen;
 } face_try;
 
-uint32_t dyd_survey_number_in(const dyd_index_list *sites, uint32_t site) {
+/* survey_face.c: the number of a site among these, ascending, or DYD_NONE. */
+static uint32_t survey_number_in(const dyd_index_list *sites, uint32_t site) {
   const uint32_t *at = bsearch(&site, sites->item, sites->count, sizeof site, dyd_compare_index);
   return at ? (uint32_t)(at - sites->item) : DYD_NONE;
 }
@@ -36,7 +472,7 @@ static dyd_status try_face(size_t *open_pairs, size_t *open, const face_try *f) 
   dyd_rect_init(&r);
   dyd_status st = dyd_sites_new(&sites);
   for (size_t k = 0; k < f->sites.count && st == DYD_OK; k++) {
-    st = dyd_survey_rect(&r, f->s, f->sites.item[k], f->measured[k]);
+    st = survey_rect(&r, f->s, f->sites.item[k], f->measured[k]);
     if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
   }
   if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, NULL);
@@ -157,7 +593,7 @@ static void take_targets(face_try *f) {
   for (size_t a = 0; a < f->sites.count; a++)
     for (size_t k = s->first[f->sites.item[a]]; k < s->first[f->sites.item[a] + 1]; k++) {
       const dyd_pair *p = &s->target.item[s->at[k]];
-      uint32_t j = p->i == f->sites.item[a] ? dyd_survey_number_in(&f->sites, p->j) : DYD_NONE;
+      uint32_t j = p->i == f->sites.item[a] ? survey_number_in(&f->sites, p->j) : DYD_NONE;
       if (j != DYD_NONE) f->target[f->targets++] = (dyd_pair){(uint32_t)a, j, p->status};
     }
 }
@@ -198,7 +634,7 @@ dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t face) {
 dyd_status dyd_survey_face_needs(bool *needs, dyd_survey *s, const dyd_index_list *sites, uint32_t site) {
   face_try f = {.s = s, .sites = *sites};
   size_t *open = NULL, with, without;
-  uint32_t k = dyd_survey_number_in(sites, site);
+  uint32_t k = survey_number_in(sites, site);
   *needs = false;
   dyd_status st = face_begin(&f, &open);
   if (st == DYD_OK) st = try_face(&with, NULL, &f);
