@@ -13,281 +13,14 @@
 #include "base/error.h"
 #include "engine/add.h"
 #include "engine/labels.h"
-#include "io/read/coordinate.h"
 #include "io/read/csv.h"
+#include "io/read/stage.h"
 
 #include <dyadel/io.h>
 #include <dyadel/stream.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
-
-/* ---- staged points ---- */
-
-/* A point takes the most special kind of its coordinates; doubles fit all kinds. */
-typedef struct staged_point {
-  int16_t kind;   /* a dyd_coordinate_kind */
-  int16_t exp[2]; /* PLAIN */
-  union {
-    double box[4]; /* DOUBLE: x, y. BOX: x0, x1, y0, y1 */
-    int64_t man[2];
-    dyd_real *real[2];
-  } u;
-} staged_point;
-
-/* 40 bytes per point, and what reals hold. */
-typedef struct stage {
-  size_t count;
-  staged_point **piece; /* the points, in pieces of one length; of the first one, first_cap has been allocated */
-  size_t pieces, piece_cap, first_cap;
-} stage;
-
-static void staged_drop(staged_point *p) {
-  if (p->kind != DYD_COORDINATE_REAL) return;
-  dyd_real_free(p->u.real[0]);
-  dyd_real_free(p->u.real[1]);
-  p->kind = DYD_COORDINATE_DOUBLE;
-}
-
-/* Points in a piece: one of full length is in large pages, and none is copied. In the armed build few points need
- * several. */
-#ifdef DYD_ARMED
-enum { PIECE = 16 };
-#else
-enum { PIECE = 1 << 17 };
-#endif
-
-static staged_point *staged_at(const stage *s, size_t k) {
-  return &s->piece[k / PIECE][k % PIECE];
-}
-
-static void stage_clear(stage *s) {
-  for (size_t k = 0; k < s->count; k++) staged_drop(staged_at(s, k));
-  for (size_t k = 0; k < s->pieces; k++) free(s->piece[k]);
-  free(s->piece);
-  *s = (stage){0};
-}
-
-/* Room for one more point: the first piece grows, so that few points take little. */
-static bool stage_make_room(stage *s) {
-  size_t k = s->count / PIECE;
-  if (k == s->pieces) {
-    if (!dyd_reserve((void **)&s->piece, &s->piece_cap, k + 1, sizeof *s->piece)) return false;
-    s->piece[k] = k ? dyd_alloc(PIECE, sizeof **s->piece) : NULL;
-    if (k && !s->piece[k]) return false;
-    s->pieces++;
-  }
-  return k || dyd_reserve((void **)&s->piece[0], &s->first_cap, s->count + 1, sizeof **s->piece);
-}
-
-/* DOUBLE stands for BINARY, too, but beside a PLAIN coordinate. */
-static dyd_coordinate_kind staged_kind(dyd_coordinate_kind a, dyd_coordinate_kind b) {
-  if (a == DYD_COORDINATE_BINARY && b != DYD_COORDINATE_PLAIN) a = DYD_COORDINATE_DOUBLE;
-  if (b == DYD_COORDINATE_BINARY && a != DYD_COORDINATE_PLAIN) b = DYD_COORDINATE_DOUBLE;
-  if (a == b) return a;
-  if (a == DYD_COORDINATE_DOUBLE && b != DYD_COORDINATE_REAL) return b;
-  if (b == DYD_COORDINATE_DOUBLE && a != DYD_COORDINATE_REAL) return a;
-  return DYD_COORDINATE_REAL;
-}
-
-static void staged_join(staged_point *out, dyd_coordinate_kind kind, const dyd_coordinate *x, const dyd_coordinate *y) {
-  *out = (staged_point){.kind = (int16_t)kind};
-  switch (kind) {
-  case DYD_COORDINATE_DOUBLE:
-  case DYD_COORDINATE_BINARY:
-    out->u.box[0] = x->lo, out->u.box[1] = y->lo;
-    break;
-  case DYD_COORDINATE_BOX:
-    out->u.box[0] = x->lo, out->u.box[1] = x->hi, out->u.box[2] = y->lo, out->u.box[3] = y->hi;
-    break;
-  case DYD_COORDINATE_PLAIN:
-    out->u.man[0] = x->plain.man, out->u.man[1] = y->plain.man;
-    out->exp[0] = (int16_t)x->plain.exp, out->exp[1] = (int16_t)y->plain.exp; /* at most 60 */
-    break;
-  case DYD_COORDINATE_REAL:
-    out->u.real[0] = x->real, out->u.real[1] = y->real;
-    break;
-  }
-}
-
-/* *out becomes the point; takes over reals, also on failure, and leaves both coordinates empty. */
-static dyd_status staged_put(staged_point *out, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
-  dyd_status st = DYD_OK;
-  dyd_coordinate_kind kind = staged_kind(x->kind, y->kind);
-  if (kind == DYD_COORDINATE_REAL) st = dyd_coordinate_make_real(x);
-  if (st == DYD_OK && kind == DYD_COORDINATE_REAL) st = dyd_coordinate_make_real(y);
-  if (st != DYD_OK) {
-    dyd_coordinate_clear(x);
-    dyd_coordinate_clear(y);
-    return dyd_fail(err, st, "%s", dyd_status_text(st));
-  }
-  staged_join(out, kind, x, y);
-  x->kind = y->kind = DYD_COORDINATE_DOUBLE;
-  return DYD_OK;
-}
-
-/* Appends a point; takes over reals, also on failure, and leaves both coordinates empty. */
-static dyd_status stage_add(stage *s, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
-  if (!stage_make_room(s)) {
-    dyd_coordinate_clear(x);
-    dyd_coordinate_clear(y);
-    return dyd_fail_nomem(err);
-  }
-  dyd_status st = staged_put(staged_at(s, s->count), x, y, err);
-  s->count += st == DYD_OK;
-  return st;
-}
-
-/* The coordinates of a point, which is empty afterwards: the inverse of staged_join. */
-static void staged_split(dyd_coordinate *x, dyd_coordinate *y, staged_point *p) {
-  dyd_coordinate *c[2] = {x, y};
-  for (int a = 0; a < 2; a++) {
-    *c[a] = (dyd_coordinate){.kind = (dyd_coordinate_kind)p->kind};
-    if (p->kind == DYD_COORDINATE_BOX)
-      c[a]->lo = p->u.box[2 * a], c[a]->hi = p->u.box[2 * a + 1];
-    else if (p->kind == DYD_COORDINATE_PLAIN)
-      c[a]->plain = (dyd_plain){p->u.man[a], p->exp[a]};
-    else if (p->kind == DYD_COORDINATE_REAL)
-      c[a]->real = p->u.real[a];
-    else
-      *c[a] = (dyd_coordinate){.kind = DYD_COORDINATE_BINARY, .lo = p->u.box[a], .hi = p->u.box[a]};
-  }
-  p->kind = DYD_COORDINATE_DOUBLE;
-}
-
-static void swap_coordinates(dyd_coordinate *a, dyd_coordinate *b) {
-  dyd_coordinate c = *a;
-  *a = *b;
-  *b = c;
-}
-
-/* Point k gets the coordinates that are to be taken, and keeps the others; reals and coordinates as above. */
-static dyd_status stage_replace(stage *s, size_t k, dyd_coordinate *x, dyd_coordinate *y, const bool take[2],
-                                dyd_error *err) {
-  dyd_coordinate old[2];
-  staged_split(&old[0], &old[1], staged_at(s, k));
-  if (take[0]) swap_coordinates(&old[0], x);
-  if (take[1]) swap_coordinates(&old[1], y);
-  dyd_coordinate_clear(x);
-  dyd_coordinate_clear(y);
-  return staged_put(staged_at(s, k), &old[0], &old[1], err);
-}
-
-enum { BULK = 1024 };
-
-/* Point k, if it is there and of that kind. */
-static const staged_point *staged_if(const stage *s, size_t k, dyd_coordinate_kind kind) {
-  const staged_point *p = k < s->count ? staged_at(s, k) : NULL;
-  return p && p->kind == (int16_t)kind ? p : NULL;
-}
-
-/* The points from `first` on that are of the given kind, at most BULK; *count tells how many were added. */
-static dyd_status commit_points(size_t *count, dyd_engine *e, const stage *s, size_t first, dyd_error *err) {
-  const staged_point *p;
-  double x[BULK], y[BULK];
-  size_t n = 0;
-  for (; n < BULK && (p = staged_if(s, first + n, DYD_COORDINATE_DOUBLE)); n++) {
-    x[n] = p->u.box[0];
-    y[n] = p->u.box[1];
-  }
-  *count = n;
-  return dyd_engine_append_points(e, n, x, y, err);
-}
-
-static dyd_status commit_boxes(size_t *count, dyd_engine *e, const stage *s, size_t first, dyd_error *err) {
-  const staged_point *p;
-  double end[4][BULK];
-  size_t n = 0;
-  for (; n < BULK && (p = staged_if(s, first + n, DYD_COORDINATE_BOX)); n++)
-    for (int k = 0; k < 4; k++) end[k][n] = p->u.box[k];
-  *count = n;
-  return dyd_engine_append_boxes(e, n, end[0], end[1], end[2], end[3], err);
-}
-
-static dyd_plain plain_of(const staged_point *p, int axis) {
-  return (dyd_plain){p->u.man[axis], p->exp[axis]};
-}
-
-/* One pair of decimals of any size. */
-static dyd_status commit_wide(dyd_engine *e, const staged_point *p, dyd_error *err) {
-  dyd_rect r;
-  mpq_t x, y;
-  dyd_rect_init(&r);
-  mpq_inits(x, y, NULL);
-  dyd_plain_get_q(x, plain_of(p, 0));
-  dyd_plain_get_q(y, plain_of(p, 1));
-  dyd_status st = dyd_rect_set_q(&r, x, y);
-  if (st == DYD_OK) st = dyd_engine_append_rect(e, &r, err);
-  mpq_clears(x, y, NULL);
-  dyd_rect_clear(&r);
-  return st;
-}
-
-/* The decimals from `first` on that fit single words, at most BULK. */
-static dyd_status commit_words(size_t *count, dyd_engine *e, const stage *s, size_t first, dyd_error *err) {
-  const staged_point *p;
-  dyd_words xy[2 * BULK];
-  size_t n = 0;
-  for (; n < BULK && (p = staged_if(s, first + n, DYD_COORDINATE_PLAIN)); n++)
-    if (!dyd_plain_get_words(&xy[2 * n], plain_of(p, 0)) || !dyd_plain_get_words(&xy[2 * n + 1], plain_of(p, 1))) break;
-  *count = n;
-  return dyd_engine_append_words(e, n, xy, err);
-}
-
-static dyd_status commit_plain(size_t *count, dyd_engine *e, const stage *s, size_t first, dyd_error *err) {
-  dyd_status st = commit_words(count, e, s, first, err);
-  if (st != DYD_OK || *count) return st;
-  *count = 1;
-  return commit_wide(e, staged_at(s, first), err);
-}
-
-static dyd_status commit_fixed(dyd_engine *e, const staged_point *p, dyd_error *err) {
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_interval_set(&r.x, dyd_real_interval(p->u.real[0]));
-  dyd_interval_set(&r.y, dyd_real_interval(p->u.real[1]));
-  dyd_status st = dyd_engine_append_rect(e, &r, err);
-  dyd_rect_clear(&r);
-  return st;
-}
-
-static dyd_status commit_reals(dyd_engine *e, staged_point *p, dyd_error *err) {
-  if (dyd_real_is_final(p->u.real[0]) && dyd_real_is_final(p->u.real[1])) {
-    dyd_status st = commit_fixed(e, p, err);
-    staged_drop(p);
-    return st;
-  }
-  dyd_stream *stream = NULL;
-  p->kind = DYD_COORDINATE_DOUBLE; /* the stream takes both reals over */
-  dyd_status st = dyd_stream_from_reals(&stream, p->u.real[0], p->u.real[1]);
-  return st != DYD_OK ? st : dyd_engine_append_stream(e, stream, err);
-}
-
-static dyd_status stage_commit_from(size_t *count, dyd_engine *e, stage *s, size_t first, dyd_error *err) {
-  staged_point *p = staged_at(s, first);
-  *count = 1;
-  switch ((dyd_coordinate_kind)p->kind) {
-  case DYD_COORDINATE_DOUBLE:
-  case DYD_COORDINATE_BINARY:
-    return commit_points(count, e, s, first, err);
-  case DYD_COORDINATE_BOX:
-    return commit_boxes(count, e, s, first, err);
-  case DYD_COORDINATE_PLAIN:
-    return commit_plain(count, e, s, first, err);
-  case DYD_COORDINATE_REAL:
-    break;
-  }
-  return commit_reals(e, p, err);
-}
-
-/* Adds all points to e in order, those that are doubles in bulk. The stage is empty afterwards.
- * Fails only when memory is exhausted or e has run already. */
-static dyd_status stage_commit(dyd_engine *e, stage *s, dyd_error *err) {
-  dyd_status st = dyd_engine_reserve(e, s->count);
-  for (size_t k = 0, count = 1; k < s->count && st == DYD_OK; k += count) st = stage_commit_from(&count, e, s, k, err);
-  stage_clear(s);
-  return st != DYD_OK && !err->message[0] ? dyd_fail(err, st, "%s", dyd_status_text(st)) : st;
-}
 
 /* ---- places by their nominal coordinates ---- */
 
@@ -457,7 +190,7 @@ typedef struct intake {
   const dyd_unit *unit;      /* of radii that state none, on the sphere; NULL: there is none */
   dyd_manner manner[2];      /* of x and y in the present row */
   double kept[2];            /* radii of this row that do not widen it, rounded up */
-  stage stage;
+  dyd_stage stage;
   dyd_labels labels;
   nominals places;
   dyd_read_report report;
@@ -597,7 +330,7 @@ static void intake_clear(intake *in) {
   free(in->plain);
   nominals_clear(&in->places);
   dyd_labels_clear(&in->labels);
-  stage_clear(&in->stage);
+  dyd_stage_clear(&in->stage);
   for (int a = 0; a < 2; a++) mpq_clear(in->manner[a].radius);
   mpq_clears(in->radius, in->scale, NULL);
 }
@@ -698,7 +431,7 @@ static dyd_status intake_merge(intake *in, nominal *place, dyd_coordinate c[2], 
   if (less) *kept = in->kept[0];
   for (int a = 0; a < 2; a++)
     if (take[a]) place->width[a] = width[a];
-  dyd_status st = stage_replace(&in->stage, point, &c[0], &c[1], take, err);
+  dyd_status st = dyd_stage_replace(&in->stage, point, &c[0], &c[1], take, err);
   if (st != DYD_OK) return st;
   in->report.merged++;
   return dyd_labels_merge(&in->labels, point) ? DYD_OK : dyd_fail_nomem(err);
@@ -720,7 +453,7 @@ static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_ROLES], d
     if (place->count == 1) place->point = in->stage.count;
     if (place->count == 1) memcpy(place->width, width, sizeof width);
   }
-  dyd_status st = stage_add(&in->stage, &c[0], &c[1], err);
+  dyd_status st = dyd_stage_add(&in->stage, &c[0], &c[1], err);
   if (st != DYD_OK || !intake_labels(in)) return st;
   own.of[DYD_ROW_RADIUS] = in->kept[0];
   if (cost->text) st = intake_number(&own.of[DYD_ROW_COST], cost, "the cost", err);
@@ -771,7 +504,7 @@ static dyd_status intake_commit(dyd_engine *e, intake *in, dyd_error *err) {
   dyd_labels all = {0};
   bool labelled = own->has_ids || intake_numbers(in) || in->report.missing || in->report.merged;
   if (labelled && dyd_labels_join(&all, e, own) != DYD_OK) return dyd_fail_nomem(err);
-  dyd_status st = stage_commit(e, &in->stage, err);
+  dyd_status st = dyd_stage_commit(e, &in->stage, err);
   if (st == DYD_OK && labelled)
     dyd_labels_give(e, &all);
   else

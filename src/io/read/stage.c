@@ -1,0 +1,261 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Points read but not yet given to the engine: kept back so that bad input adds nothing. */
+#include "io/read/stage.h"
+
+#include "base/alloc.h"
+#include "base/error.h"
+#include "engine/add.h"
+
+/* A point takes the most special kind of its coordinates; doubles fit all kinds. */
+struct dyd_staged {
+  int16_t kind;   /* a dyd_coordinate_kind */
+  int16_t exp[2]; /* PLAIN */
+  union {
+    double box[4]; /* DOUBLE: x, y. BOX: x0, x1, y0, y1 */
+    int64_t man[2];
+    dyd_real *real[2];
+  } u;
+};
+
+static void staged_drop(dyd_staged *p) {
+  if (p->kind != DYD_COORDINATE_REAL) return;
+  dyd_real_free(p->u.real[0]);
+  dyd_real_free(p->u.real[1]);
+  p->kind = DYD_COORDINATE_DOUBLE;
+}
+
+/* Points in a piece: one of full length is in large pages, and none is copied. In the armed build few points need
+ * several. */
+#ifdef DYD_ARMED
+enum { PIECE = 16 };
+#else
+enum { PIECE = 1 << 17 };
+#endif
+
+static dyd_staged *staged_at(const dyd_stage *s, size_t k) {
+  return &s->piece[k / PIECE][k % PIECE];
+}
+
+void dyd_stage_clear(dyd_stage *s) {
+  for (size_t k = 0; k < s->count; k++) staged_drop(staged_at(s, k));
+  for (size_t k = 0; k < s->pieces; k++) free(s->piece[k]);
+  free(s->piece);
+  *s = (dyd_stage){0};
+}
+
+/* Room for one more point: the first piece grows, so that few points take little. */
+static bool stage_make_room(dyd_stage *s) {
+  size_t k = s->count / PIECE;
+  if (k == s->pieces) {
+    if (!dyd_reserve((void **)&s->piece, &s->piece_cap, k + 1, sizeof *s->piece)) return false;
+    s->piece[k] = k ? dyd_alloc(PIECE, sizeof **s->piece) : NULL;
+    if (k && !s->piece[k]) return false;
+    s->pieces++;
+  }
+  return k || dyd_reserve((void **)&s->piece[0], &s->first_cap, s->count + 1, sizeof **s->piece);
+}
+
+/* DOUBLE stands for BINARY, too, but beside a PLAIN coordinate. */
+static dyd_coordinate_kind staged_kind(dyd_coordinate_kind a, dyd_coordinate_kind b) {
+  if (a == DYD_COORDINATE_BINARY && b != DYD_COORDINATE_PLAIN) a = DYD_COORDINATE_DOUBLE;
+  if (b == DYD_COORDINATE_BINARY && a != DYD_COORDINATE_PLAIN) b = DYD_COORDINATE_DOUBLE;
+  if (a == b) return a;
+  if (a == DYD_COORDINATE_DOUBLE && b != DYD_COORDINATE_REAL) return b;
+  if (b == DYD_COORDINATE_DOUBLE && a != DYD_COORDINATE_REAL) return a;
+  return DYD_COORDINATE_REAL;
+}
+
+static void staged_join(dyd_staged *out, dyd_coordinate_kind kind, const dyd_coordinate *x, const dyd_coordinate *y) {
+  *out = (dyd_staged){.kind = (int16_t)kind};
+  switch (kind) {
+  case DYD_COORDINATE_DOUBLE:
+  case DYD_COORDINATE_BINARY:
+    out->u.box[0] = x->lo, out->u.box[1] = y->lo;
+    break;
+  case DYD_COORDINATE_BOX:
+    out->u.box[0] = x->lo, out->u.box[1] = x->hi, out->u.box[2] = y->lo, out->u.box[3] = y->hi;
+    break;
+  case DYD_COORDINATE_PLAIN:
+    out->u.man[0] = x->plain.man, out->u.man[1] = y->plain.man;
+    out->exp[0] = (int16_t)x->plain.exp, out->exp[1] = (int16_t)y->plain.exp; /* at most 60 */
+    break;
+  case DYD_COORDINATE_REAL:
+    out->u.real[0] = x->real, out->u.real[1] = y->real;
+    break;
+  }
+}
+
+/* *out becomes the point; takes over reals, also on failure, and leaves both coordinates empty. */
+static dyd_status staged_put(dyd_staged *out, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  dyd_coordinate_kind kind = staged_kind(x->kind, y->kind);
+  if (kind == DYD_COORDINATE_REAL) st = dyd_coordinate_make_real(x);
+  if (st == DYD_OK && kind == DYD_COORDINATE_REAL) st = dyd_coordinate_make_real(y);
+  if (st != DYD_OK) {
+    dyd_coordinate_clear(x);
+    dyd_coordinate_clear(y);
+    return dyd_fail(err, st, "%s", dyd_status_text(st));
+  }
+  staged_join(out, kind, x, y);
+  x->kind = y->kind = DYD_COORDINATE_DOUBLE;
+  return DYD_OK;
+}
+
+dyd_status dyd_stage_add(dyd_stage *s, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
+  if (!stage_make_room(s)) {
+    dyd_coordinate_clear(x);
+    dyd_coordinate_clear(y);
+    return dyd_fail_nomem(err);
+  }
+  dyd_status st = staged_put(staged_at(s, s->count), x, y, err);
+  s->count += st == DYD_OK;
+  return st;
+}
+
+/* The coordinates of a point, which is empty afterwards: the inverse of staged_join. */
+static void staged_split(dyd_coordinate *x, dyd_coordinate *y, dyd_staged *p) {
+  dyd_coordinate *c[2] = {x, y};
+  for (int a = 0; a < 2; a++) {
+    *c[a] = (dyd_coordinate){.kind = (dyd_coordinate_kind)p->kind};
+    if (p->kind == DYD_COORDINATE_BOX)
+      c[a]->lo = p->u.box[2 * a], c[a]->hi = p->u.box[2 * a + 1];
+    else if (p->kind == DYD_COORDINATE_PLAIN)
+      c[a]->plain = (dyd_plain){p->u.man[a], p->exp[a]};
+    else if (p->kind == DYD_COORDINATE_REAL)
+      c[a]->real = p->u.real[a];
+    else
+      *c[a] = (dyd_coordinate){.kind = DYD_COORDINATE_BINARY, .lo = p->u.box[a], .hi = p->u.box[a]};
+  }
+  p->kind = DYD_COORDINATE_DOUBLE;
+}
+
+static void swap_coordinates(dyd_coordinate *a, dyd_coordinate *b) {
+  dyd_coordinate c = *a;
+  *a = *b;
+  *b = c;
+}
+
+dyd_status dyd_stage_replace(dyd_stage *s, size_t k, dyd_coordinate *x, dyd_coordinate *y, const bool take[2],
+                             dyd_error *err) {
+  dyd_coordinate old[2];
+  staged_split(&old[0], &old[1], staged_at(s, k));
+  if (take[0]) swap_coordinates(&old[0], x);
+  if (take[1]) swap_coordinates(&old[1], y);
+  dyd_coordinate_clear(x);
+  dyd_coordinate_clear(y);
+  return staged_put(staged_at(s, k), &old[0], &old[1], err);
+}
+
+enum { BULK = 1024 };
+
+/* Point k, if it is there and of that kind. */
+static const dyd_staged *staged_if(const dyd_stage *s, size_t k, dyd_coordinate_kind kind) {
+  const dyd_staged *p = k < s->count ? staged_at(s, k) : NULL;
+  return p && p->kind == (int16_t)kind ? p : NULL;
+}
+
+/* The points from `first` on that are of the given kind, at most BULK; *count tells how many were added. */
+static dyd_status commit_points(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
+  const dyd_staged *p;
+  double x[BULK], y[BULK];
+  size_t n = 0;
+  for (; n < BULK && (p = staged_if(s, first + n, DYD_COORDINATE_DOUBLE)); n++) {
+    x[n] = p->u.box[0];
+    y[n] = p->u.box[1];
+  }
+  *count = n;
+  return dyd_engine_append_points(e, n, x, y, err);
+}
+
+static dyd_status commit_boxes(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
+  const dyd_staged *p;
+  double end[4][BULK];
+  size_t n = 0;
+  for (; n < BULK && (p = staged_if(s, first + n, DYD_COORDINATE_BOX)); n++)
+    for (int k = 0; k < 4; k++) end[k][n] = p->u.box[k];
+  *count = n;
+  return dyd_engine_append_boxes(e, n, end[0], end[1], end[2], end[3], err);
+}
+
+static dyd_plain plain_of(const dyd_staged *p, int axis) {
+  return (dyd_plain){p->u.man[axis], p->exp[axis]};
+}
+
+/* One pair of decimals of any size. */
+static dyd_status commit_wide(dyd_engine *e, const dyd_staged *p, dyd_error *err) {
+  dyd_rect r;
+  mpq_t x, y;
+  dyd_rect_init(&r);
+  mpq_inits(x, y, NULL);
+  dyd_plain_get_q(x, plain_of(p, 0));
+  dyd_plain_get_q(y, plain_of(p, 1));
+  dyd_status st = dyd_rect_set_q(&r, x, y);
+  if (st == DYD_OK) st = dyd_engine_append_rect(e, &r, err);
+  mpq_clears(x, y, NULL);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+/* The decimals from `first` on that fit single words, at most BULK. */
+static dyd_status commit_words(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
+  const dyd_staged *p;
+  dyd_words xy[2 * BULK];
+  size_t n = 0;
+  for (; n < BULK && (p = staged_if(s, first + n, DYD_COORDINATE_PLAIN)); n++)
+    if (!dyd_plain_get_words(&xy[2 * n], plain_of(p, 0)) || !dyd_plain_get_words(&xy[2 * n + 1], plain_of(p, 1))) break;
+  *count = n;
+  return dyd_engine_append_words(e, n, xy, err);
+}
+
+static dyd_status commit_plain(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
+  dyd_status st = commit_words(count, e, s, first, err);
+  if (st != DYD_OK || *count) return st;
+  *count = 1;
+  return commit_wide(e, staged_at(s, first), err);
+}
+
+static dyd_status commit_fixed(dyd_engine *e, const dyd_staged *p, dyd_error *err) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_interval_set(&r.x, dyd_real_interval(p->u.real[0]));
+  dyd_interval_set(&r.y, dyd_real_interval(p->u.real[1]));
+  dyd_status st = dyd_engine_append_rect(e, &r, err);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+static dyd_status commit_reals(dyd_engine *e, dyd_staged *p, dyd_error *err) {
+  if (dyd_real_is_final(p->u.real[0]) && dyd_real_is_final(p->u.real[1])) {
+    dyd_status st = commit_fixed(e, p, err);
+    staged_drop(p);
+    return st;
+  }
+  dyd_stream *stream = NULL;
+  p->kind = DYD_COORDINATE_DOUBLE; /* the stream takes both reals over */
+  dyd_status st = dyd_stream_from_reals(&stream, p->u.real[0], p->u.real[1]);
+  return st != DYD_OK ? st : dyd_engine_append_stream(e, stream, err);
+}
+
+static dyd_status stage_commit_from(size_t *count, dyd_engine *e, dyd_stage *s, size_t first, dyd_error *err) {
+  dyd_staged *p = staged_at(s, first);
+  *count = 1;
+  switch ((dyd_coordinate_kind)p->kind) {
+  case DYD_COORDINATE_DOUBLE:
+  case DYD_COORDINATE_BINARY:
+    return commit_points(count, e, s, first, err);
+  case DYD_COORDINATE_BOX:
+    return commit_boxes(count, e, s, first, err);
+  case DYD_COORDINATE_PLAIN:
+    return commit_plain(count, e, s, first, err);
+  case DYD_COORDINATE_REAL:
+    break;
+  }
+  return commit_reals(e, p, err);
+}
+
+dyd_status dyd_stage_commit(dyd_engine *e, dyd_stage *s, dyd_error *err) {
+  dyd_status st = dyd_engine_reserve(e, s->count);
+  for (size_t k = 0, count = 1; k < s->count && st == DYD_OK; k += count) st = stage_commit_from(&count, e, s, k, err);
+  dyd_stage_clear(s);
+  return st != DYD_OK && !err->message[0] ? dyd_fail(err, st, "%s", dyd_status_text(st)) : st;
+}
