@@ -261,8 +261,8 @@ DYD_API dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd
  * xy       x0 y0 x1 y1 ...: 2 n doubles, borrowed for the call
  * radius   each point lies in the square of this half-width about its x, y; 0: exact points
  * options  as of dyd_engine_run, NULL selects the defaults; err may be NULL
- * Returns DYD_OK also where pairs stay open (their status says so), or a code below 0 with *out unchanged: DYD_E_ARG for
- * NaN, infinities and a radius below 0. */
+ * Returns DYD_OK also where pairs stay open (their status says so), or a code below 0 with *out unchanged: DYD_E_ARG
+ * for NaN, infinities and a radius below 0. */
 DYD_API dyd_status dyd_delaunay_of(dyd_pair_list *out, size_t n, const double *xy, double radius,
                                    const dyd_engine_options *options, dyd_error *err);
 /* Asks a run to stop soon, with outcome cancelled. Async-signal-safe, from any thread. Sticky until the next
