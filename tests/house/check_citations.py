@@ -133,7 +133,7 @@ def check_links(path, text):
 
 def check_quoted(root, text, code):
     """Paths and functions that a guide names."""
-    text = re.sub(r'```.*?```', '', text.partition('\n## Three exercises')[0], flags=re.S)
+    text = re.sub(r'```.*?```', '', text.partition('\n## Exercises')[0], flags=re.S)
     for name in QUOTED_FILE.findall(text):
         if 'NAME' not in name and not (root / name).exists():
             yield f'there is no {name}'
