@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Edges by the two triangles beside them alone, and the sum of turns round a polygon. */
-#include "legal/near_filter.h"
+#include "legal/star_filter.h"
 #include "vectors.h"
 #include "voronoi/shape_filter.c" /* functions are static */
 

@@ -139,8 +139,8 @@ dyd_status dyd_checker_pairs(dyd_checker *c);
 /*@ requires empty(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
 dyd_status dyd_checker_run(dyd_checker *c);
 
-/* Structs that begin with their size, of which base/abi.c touches no byte beyond it: WP's memory does not follow casts
- * from pointers to void. */
+/* Structs that begin with their size, of which base/error.c touches no byte beyond it: WP's memory does not follow
+ * casts from pointers to void. */
 typedef dyd_certificate_report *report_of;
 /*@ requires \valid_read(&theirs->struct_size) && (err == \null || \valid(err)); assigns *err; exits \false; */
 dyd_status check_report(const dyd_certificate_report *theirs, dyd_error *err);

@@ -7,14 +7,14 @@ From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient F
   FiltersInterval FiltersNearRound FiltersNearCode.
 Open Scope R_scope.
 
-(* [FLT-DIR] src/skeleton/tree_filter.c: double r = px + py + {} * (fabs(px) + fabs(py)) *)
+(* [FLT-DIR] src/skeleton/rects_filter.c: double r = px + py + {} * (fabs(px) + fabs(py)) *)
 Definition c_reach : const := (1, -50)%Z.
 (* [FLT-DIR] src/skeleton/rects_filter.c: double slack = {} * (fabs(ux) * mx *)
 Definition c_height : const := (1, -48)%Z.
 (* [FLT-DIR] src/skeleton/rects_filter.c: fabs(uy) * my) + {} * (mx + my) *)
 Definition c_height_cut : const := (1, -898)%Z.
 
-(* C src/skeleton/tree_filter.c reach
+(* C src/skeleton/rects_filter.c reach
   double px = ux * (ux > 0 ? b->e[1] : b->e[0]), py = uy * (uy > 0 ? b->e[3] : b->e[2]);
   double r = px + py + 8 * 0x1p-53 * (fabs(px) + fabs(py)) + DYD_TINY;
   return isnan(r) ? INFINITY : r;

@@ -34,7 +34,7 @@ Qed.
   return a < b ? a : b;
 *)
 Definition fmin (a b : double) : double := if lt a b then a else b.
-(* C src/skeleton/tree_filter.c hull
+(* C src/skeleton/rects_filter.c hull
   h->e[0] = dyd_min(h->e[0], b->e[0]);
   h->e[1] = dyd_max(h->e[1], b->e[1]);
   h->e[2] = dyd_min(h->e[2], b->e[2]);
@@ -224,7 +224,7 @@ Proof.
   - now apply H.
 Qed.
 
-(** The corner of a box that is nearest along u, as a box: own_height of src/possible/hull.c. *)
+(** The corner of a box that is nearest along u, as a box: own_height of src/skeleton/hull.c. *)
 Definition nearer_end (ux lower upper : double) : double := if gt ux (lit c_zero) then lower else upper.
 Definition nearer_corner (p : bbox) (ux uy : double) : bbox :=
   let x := nearer_end ux (e0 p) (e1 p) in let y := nearer_end uy (e2 p) (e3 p) in

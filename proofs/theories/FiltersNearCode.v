@@ -8,23 +8,23 @@ From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient F
 From Dyadel Require Import Plane Distance Cells Legal FiltersNearPlane.
 Open Scope R_scope.
 
-(* [WIT-NEAR] src/legal/near_filter.h: if (!(a1 - ea >= {} && *)
+(* [WIT-NEAR] src/legal/star_filter.h: if (!(a1 - ea >= {} && *)
 Definition c_near_a1 : const := (1, -100)%Z.
-(* [WIT-NEAR] src/legal/near_filter.h: && a2 - ea >= {} && *)
+(* [WIT-NEAR] src/legal/star_filter.h: && a2 - ea >= {} && *)
 Definition c_near_a2 : const := (1, -100)%Z.
-(* [WIT-NEAR] src/legal/near_filter.h: && s <= {} && *)
+(* [WIT-NEAR] src/legal/star_filter.h: && s <= {} && *)
 Definition c_near_most : const := (1, 98)%Z.
-(* [WIT-NEAR] src/legal/near_filter.h: && det >= {} && *)
+(* [WIT-NEAR] src/legal/star_filter.h: && det >= {} && *)
 Definition c_near_least : const := (1, -300)%Z.
-(* [WIT-NEAR] src/legal/near_filter.h: det >= 0x1p-300 && {} * reach <= m *)
+(* [WIT-NEAR] src/legal/star_filter.h: det >= 0x1p-300 && {} * reach <= m *)
 Definition c_near_ratio : const := (25, 3)%Z.
 
-(* C src/legal/near_filter.h dyd_square_distance
+(* C src/legal/star_filter.h dyd_square_distance
   double x = a.x - b.x, y = a.y - b.y;
   return x * x + y * y;
 *)
 Definition square_distance (ax ay bx by_ : double) : double := lift (ax - bx) (ay - by_).
-(* C src/legal/near_filter.h dyd_filter_edge_near
+(* C src/legal/star_filter.h dyd_filter_edge_near
   double jx = j.x - i.x, jy = j.y - i.y, ux = u.x - i.x, uy = u.y - i.y, vx = v.x - i.x, vy = v.y - i.y;
   double lj = jx * jx + jy * jy, lu = ux * ux + uy * uy, lv = vx * vx + vy * vy, s = lj + lu + lv;
   double a1 = jx * uy - jy * ux, a2 = vx * jy - vy * jx, cross = ux * vy - uy * vx;

@@ -7,18 +7,18 @@ From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient F
 From Dyadel Require Import Plane Distance Cells Legal FiltersNearPlane FiltersNearCode.
 Open Scope R_scope.
 
-(* [WIT-HULL] src/legal/near_filter.h: double a1 = (jx * uy - jy * ux) - {} * (lj + lu); *)
+(* [WIT-HULL] src/legal/star_filter.h: double a1 = (jx * uy - jy * ux) - {} * (lj + lu); *)
 Definition c_hull_side : const := (4728779608739021, -104)%Z.
-(* [WIT-HULL] src/legal/near_filter.h: if (!(a1 >= {} && *)
+(* [WIT-HULL] src/legal/star_filter.h: if (!(a1 >= {} && *)
 Definition c_hull_a1 : const := (1, -100)%Z.
-(* [WIT-HULL] src/legal/near_filter.h: && lj + lu <= {} && *)
+(* [WIT-HULL] src/legal/star_filter.h: && lj + lu <= {} && *)
 Definition c_hull_most : const := (1, 98)%Z.
-(* [WIT-HULL] src/legal/near_filter.h: lj + lu <= 0x1p98 && {} * reach <= m *)
+(* [WIT-HULL] src/legal/star_filter.h: lj + lu <= 0x1p98 && {} * reach <= m *)
 Definition c_hull_ratio : const := (25, 3)%Z.
-(* [WIT-HULL] src/legal/near_filter.h: return {} * reach * sqrt(lu * lw) < m * a1; *)
+(* [WIT-HULL] src/legal/star_filter.h: return {} * reach * sqrt(lu * lw) < m * a1; *)
 Definition c_hull_k : const := (6839841934068941, -47)%Z.
 
-(* C src/legal/near_filter.h dyd_filter_hull_edge_near
+(* C src/legal/star_filter.h dyd_filter_hull_edge_near
   double jx = j.x - i.x, jy = j.y - i.y, ux = u.x - i.x, uy = u.y - i.y;
   double lj = jx * jx + jy * jy, lu = ux * ux + uy * uy, lw = dyd_square_distance(j, u);
   double a1 = (jx * uy - jy * ux) - 2.1 * 0x1p-53 * (lj + lu);
@@ -177,8 +177,8 @@ Qed.
 
 (** ** The reach and the bound m that dyd_certify_near hands over *)
 
-(* [WIT-NEAR] src/legal/near_filter.c: .reach = reach > {} ? reach *)
-(* [WIT-NEAR] src/legal/near_filter.c: ? reach : {}}; *)
+(* [WIT-NEAR] src/legal/star_filter.c: .reach = reach > {} ? reach *)
+(* [WIT-NEAR] src/legal/star_filter.c: ? reach : {}}; *)
 Definition c_near_floor : const := (1, -300)%Z.
 (* Any positive value will do for the distance that is tried first, dyd_short_edge. *)
 Definition near_reach (reach : double) : double := if gt reach (lit c_near_floor) then reach else lit c_near_floor.

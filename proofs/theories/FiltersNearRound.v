@@ -6,11 +6,11 @@ From Flocq Require Import Core Binary.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient FiltersIncircle FiltersIncircleAt.
 Open Scope R_scope.
 
-(* [WIT-NEAR] src/legal/near_filter.h: double ea = {} * s, *)
+(* [WIT-NEAR] src/legal/star_filter.h: double ea = {} * s, *)
 Definition c_near_side : const := (4728779608739021, -104)%Z.
-(* [WIT-NEAR] src/legal/near_filter.h: lv * a1) - {} * s * s; *)
+(* [WIT-NEAR] src/legal/star_filter.h: lv * a1) - {} * s * s; *)
 Definition c_near_det : const := (2281771080410813, -102)%Z.
-(* [WIT-NEAR] src/legal/near_filter.h: k = {} * reach; *)
+(* [WIT-NEAR] src/legal/star_filter.h: k = {} * reach; *)
 Definition c_near_k : const := (6839841934068941, -48)%Z.
 
 (** ** Powers of two as decimal numbers *)

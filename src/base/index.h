@@ -27,4 +27,10 @@ static inline void *dyd_find_index(const uint32_t *index, const void *item, size
   return count ? bsearch(index, item, count, size, dyd_compare_index) : NULL;
 }
 
+/* Doubles, ascending; no NaN. */
+static inline int dyd_compare_double(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
 #endif

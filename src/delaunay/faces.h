@@ -3,7 +3,33 @@
 #ifndef DYD_DELAUNAY_FACES_H
 #define DYD_DELAUNAY_FACES_H
 
-#include "delaunay/narrowed.h"
+#include "delaunay/state.h"
+#include "skeleton/work.h"
+
+/* A large face few of whose vertices were narrowed: what of it can change, and its pairs after that [LOC-4].
+ *
+ * A pair of others becomes impossible only when somebody narrowed was a possible neighbour of both and now blocks them;
+ * an edge becomes certain only at one who was narrowed, or at a possible neighbour of one. So the rest is kept. */
+
+/* So many vertices of a face are few. */
+enum { DYD_FEW = 16 };
+
+/* mark: of each vertex, the ghost last, what faces.c notes of it; NULL: nothing is known, all of the face is looked
+ * at. old: the face as it was; its pairs are in the table. certain: some edge of it has become so. */
+typedef struct dyd_narrowed {
+  uint32_t vertex[DYD_FEW], count;
+  uint8_t *mark;
+  dyd_face old;
+  bool certain;
+} dyd_narrowed;
+
+/* What it means for face f of the table that the sites listed were narrowed, whose boxes have followed; the skeleton
+ * and the pairs are those from before. To be cleared. */
+dyd_status dyd_narrowed_init(dyd_narrowed *n, const dyd_delaunay *pd, uint32_t f, const uint32_t *changed,
+                             size_t count);
+void dyd_narrowed_clear(dyd_narrowed *n);
+/* Can an edge of the face become certain? */
+bool dyd_narrowed_reaches(const dyd_narrowed *n, const dyd_mesh *m, dyd_half_edge h);
 
 /* Finds and closes all undecided faces among the triangles tri[0..count-1] (NULL: all), which are marked as decided,
  * and adds them to the table. On failure the faces added so far are taken back. */

@@ -30,7 +30,7 @@ int dyd_hull_cross(dyd_hull_corner a, dyd_hull_corner b, dyd_hull_corner c, dyd_
 int dyd_hull_compare(int axis, dyd_hull_corner a, dyd_hull_corner b);
 void dyd_extreme_enclose(dyd_extreme *x);
 
-/* ---- partial_hull_chain.c ---- */
+/* ---- partial_hull.c ---- */
 
 /* Pairs of indices of extremes, i < j. */
 typedef struct dyd_hull_pairs {
@@ -38,9 +38,5 @@ typedef struct dyd_hull_pairs {
   size_t count, cap, most;
   bool capped; /* there are more than `most` */
 } dyd_hull_pairs;
-
-/* For the directions u >= 0: marks the extremes that are possible on the hull, and appends the pairs that are possible
- * edges, some of them possibly twice [HST-1]. pairs NULL: only marks. */
-dyd_status dyd_hull_quadrant(dyd_hull_pairs *pairs, dyd_extreme *x, size_t count);
 
 #endif

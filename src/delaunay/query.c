@@ -2,10 +2,149 @@
 /* Reading the statuses: pairs, neighbours, triangles, faces, hull. */
 #include "base/abi.h"
 #include "base/alloc.h"
+#include "base/error.h"
 #include "delaunay/index_list.h"
+#include "delaunay/memory.h"
+#include "delaunay/state.h"
+#include "delaunay/ties.h"
 #include "delaunay/undecided.h"
+#include "legal/witness.h"
+#include "skeleton/centre_filter.h"
 
+#include <math.h>
 #include <string.h>
+
+/* ---- the hull ---- */
+
+static dyd_status line_ends(dyd_index_list *out, const dyd_skeleton *sk) {
+  const dyd_line *l = &sk->line;
+  uint32_t ends = l->count < 2 ? l->count : 2;
+  uint32_t *item = dyd_alloc(ends, sizeof *item);
+  if (!item) return DYD_E_NOMEM;
+  for (uint32_t q = 0; q < ends; q++) item[q] = sk->reps.site[l->order[q ? l->count - 1 : 0]];
+  dyd_index_list_clear(out);
+  *out = (dyd_index_list){ends, item};
+  return DYD_OK;
+}
+
+dyd_status dyd_delaunay_hull(dyd_index_list *out, const dyd_delaunay *pd) {
+  if (!pd) return DYD_E_ARG;
+  const dyd_mesh *m = &pd->sk.mesh;
+  dyd_half_edge last = dyd_hull_first(m), h = last;
+  size_t count = 0, cap = 0;
+  uint32_t *item = NULL;
+  if (last == DYD_NONE) return line_ends(out, &pd->sk);
+  do {
+    h = dyd_hull_following(m, h);
+    if (!dyd_reserve((void **)&item, &cap, count + 1, sizeof *item)) return free(item), DYD_E_NOMEM;
+    item[count++] = pd->sk.reps.site[dyd_hull_target(m, h)];
+  } while (h != last);
+  dyd_index_list_clear(out);
+  *out = (dyd_index_list){count, item};
+  return DYD_OK;
+}
+
+/* ---- witnesses ---- */
+
+static uint32_t degree(const dyd_skeleton *sk, uint32_t v) {
+  dyd_half_edge first = sk->leaving[v], h = first;
+  uint32_t count = 0;
+  do count++;
+  while ((h = dyd_edge_turn(&sk->mesh, h)) != first);
+  return count;
+}
+
+/* v and the other ends of its edges. */
+static void add_star(dyd_rects *few, uint32_t *item, uint32_t *count, const dyd_skeleton *sk, uint32_t v) {
+  dyd_half_edge first = sk->leaving[v], h = first;
+  dyd_rects_set_box(few, item[(*count)++] = v);
+  do {
+    uint32_t w = dyd_edge_target(&sk->mesh, h);
+    if (w != sk->mesh.n) dyd_rects_set_box(few, item[(*count)++] = w);
+    h = dyd_edge_turn(&sk->mesh, h);
+  } while (h != first);
+}
+
+/* Exact points have no boxes of their own. For a centre nearer to i and j than to all their Delaunay neighbours nobody
+ * else is nearer (see [FLT-STAR]), so a tree over these neighbours will do; on a line, one over all. */
+static dyd_status few_rects(dyd_rects *few, const dyd_skeleton *sk, uint32_t v, uint32_t w) {
+  bool line = sk->mesh.count == 0;
+  size_t size = line ? sk->line.count : (size_t)degree(sk, v) + degree(sk, w) + 2;
+  uint32_t *item = dyd_alloc(size, sizeof *item), count = 0;
+  *few = (dyd_rects){.sites = sk->rects.sites, .site = sk->rects.site};
+  few->box = dyd_alloc(sk->n, sizeof *few->box);
+  if (!few->box || !item) return free(item), DYD_E_NOMEM;
+  for (uint32_t q = 0; line && q < size; q++) dyd_rects_set_box(few, item[count++] = sk->line.order[q]);
+  if (!line) {
+    add_star(few, item, &count, sk, v);
+    add_star(few, item, &count, sk, w);
+  }
+  return dyd_tree_init(&few->tree, item, count, few->box);
+}
+
+static dyd_status find_witness(dyd_point *out, dyd_work *work, const dyd_skeleton *sk, uint32_t v, uint32_t w) {
+  dyd_half_edge h = dyd_find_edge(sk, v, w);
+  dyd_xy guess = h == DYD_NONE ? (dyd_xy){NAN, NAN} : dyd_edge_centre(sk, h);
+  bool found;
+  dyd_status st = dyd_witness_search(&found, out, work, sk, v, w, guess, NULL);
+  if (st == DYD_OK && !found) st = dyd_witness_far(&found, out, work, sk, v, w);
+  return st == DYD_OK && !found ? DYD_E_RANGE : st;
+}
+
+dyd_status dyd_delaunay_witness(dyd_point *out, const dyd_delaunay *pd, uint32_t i, uint32_t j) {
+  if (!pd) return DYD_E_ARG;
+  if (dyd_delaunay_status(pd, i, j) != DYD_LEGAL) return DYD_E_ARG;
+  const dyd_skeleton *sk = &pd->sk;
+  uint32_t v = sk->vertex[i], w = sk->vertex[j];
+  dyd_rects few = {0};
+  dyd_work work;
+  dyd_status st = sk->rects.box ? DYD_OK : few_rects(&few, sk, v, w);
+  dyd_work_init(&work, sk, NULL);
+  if (few.box) work.rects = &few;
+  if (st == DYD_OK) st = find_witness(out, &work, sk, v, w);
+  dyd_work_clear(&work);
+  dyd_tree_clear(&few.tree);
+  free(few.box);
+  return st;
+}
+
+/* ---- memory ---- */
+
+dyd_room dyd_delaunay_room(const dyd_delaunay *pd) {
+  uint64_t most = pd->options.max_bytes;
+  return (dyd_room){.most = most, .held = most ? dyd_delaunay_memory(pd) : 0};
+}
+
+void dyd_delaunay_allow(dyd_delaunay *pd, uint64_t max_bytes) {
+  pd->options.max_bytes = max_bytes;
+}
+
+bool dyd_delaunay_is_bounded(const dyd_delaunay *pd) {
+  return pd->options.max_bytes != 0;
+}
+
+dyd_status dyd_delaunay_grant(const dyd_delaunay *pd, uint64_t bytes, const char *what, dyd_error *err) {
+  dyd_room room = dyd_delaunay_room(pd);
+  return dyd_room_has(&room, bytes, what) ? DYD_OK : dyd_fail_room(err, &room);
+}
+
+dyd_pair_status dyd_least_bounding(const dyd_delaunay *pd) {
+  return pd->sk.all_points ? DYD_INDETERMINATE : DYD_TIE;
+}
+
+uint64_t dyd_pairs_bytes(const dyd_delaunay *pd, dyd_pair_status least) {
+  size_t count[4];
+  dyd_delaunay_count(count, pd);
+  return dyd_bytes_times(count[DYD_LEGAL] + (least <= DYD_INDETERMINATE ? count[DYD_INDETERMINATE] : 0) +
+                             (least <= DYD_TIE ? count[DYD_TIE] : 0),
+                         sizeof(dyd_pair));
+}
+
+/* Sorted with their numbers in the mesh, then listed. */
+uint64_t dyd_triangles_bytes(const dyd_delaunay *pd) {
+  return dyd_bytes_times(pd->sk.mesh.count, 2 * sizeof(dyd_triangle) + sizeof(uint32_t)) +
+         dyd_bytes_times((uint64_t)pd->sk.n + 1, sizeof(uint32_t));
+}
 
 void dyd_pair_list_clear(dyd_pair_list *l) {
   free(l->item);
@@ -162,4 +301,82 @@ dyd_status dyd_delaunay_face_pairs(dyd_pair_list *out, const dyd_delaunay *pd, s
   dyd_pair_list_clear(out);
   *out = (dyd_pair_list){c.count, c.item};
   return DYD_OK;
+}
+
+/* ---- ties as groups: the sites of one circle, in its order, or of one line of the hull ---- */
+
+typedef struct group_list {
+  uint32_t *site;
+  size_t count, cap;
+  bool chain;
+} group_list;
+
+static dyd_status group_add(group_list *g, uint32_t site) {
+  if (!dyd_reserve((void **)&g->site, &g->cap, g->count + 1, sizeof *g->site)) return DYD_E_NOMEM;
+  g->site[g->count++] = site;
+  return DYD_OK;
+}
+
+/* Around the rim from h on; a chain begins behind the ghost. */
+static dyd_status group_walk(group_list *g, const dyd_delaunay *pd, dyd_half_edge h) {
+  const dyd_mesh *m = &pd->sk.mesh;
+  dyd_half_edge first = h;
+  dyd_status st = DYD_OK;
+  do {
+    g->chain = dyd_edge_origin(m, h) == m->n;
+    if (!g->chain) h = dyd_tie_next(&pd->sk, h);
+  } while (!g->chain && h != first);
+  first = h;
+  do {
+    uint32_t v = dyd_edge_origin(m, h);
+    if (v != m->n) st = group_add(g, pd->sk.reps.site[v]);
+    h = dyd_tie_next(&pd->sk, h);
+  } while (st == DYD_OK && h != first);
+  return st;
+}
+
+static dyd_status group_of_line(group_list *g, const dyd_line *l, const uint32_t *site) {
+  dyd_status st = DYD_OK;
+  g->chain = true;
+  for (uint32_t q = 0; q < l->count && st == DYD_OK; q++) st = group_add(g, site[l->order[q]]);
+  return st;
+}
+
+/* Where to walk around tied face f; DYD_NONE where its rim is not one cycle. */
+static dyd_half_edge group_start(const dyd_delaunay *pd, size_t f) {
+  bool chain;
+  return pd->open.kind == DYD_TIED ? dyd_tie_start(pd, f) : dyd_rim_start(&chain, pd, &pd->open.face[f]);
+}
+
+/* Visits the pairs of a face whose rim is not one cycle, one by one. */
+static dyd_status visit_pairs_of_face(const dyd_delaunay *pd, size_t f, dyd_group_fn visit, void *user) {
+  dyd_pair_list pairs = {0};
+  dyd_status st = dyd_delaunay_face_pairs(&pairs, pd, f);
+  for (size_t k = 0; k < pairs.count && st == DYD_OK; k++)
+    st = visit(user, DYD_GROUP_PAIR, &(dyd_index_list){2, (uint32_t[]){pairs.item[k].i, pairs.item[k].j}});
+  dyd_pair_list_clear(&pairs);
+  return st;
+}
+
+dyd_status dyd_delaunay_each_group(const dyd_delaunay *pd, dyd_group_fn visit, void *user) {
+  if (!pd) return DYD_E_ARG;
+  group_list g = {0};
+  dyd_status st = DYD_OK;
+  bool line = pd->open.kind == DYD_LINE, all = false; /* a chain of all sites has a face on each side */
+  for (size_t f = 0; f < pd->open.count && st == DYD_OK; f++) {
+    if (dyd_open_status_of(pd, f) != DYD_TIE) continue;
+    dyd_half_edge start = line ? 0 : group_start(pd, f);
+    if (start == DYD_NONE) {
+      st = visit_pairs_of_face(pd, f, visit, user);
+      continue;
+    }
+    g.count = 0;
+    st = line ? group_of_line(&g, &pd->sk.line, pd->sk.reps.site) : group_walk(&g, pd, start);
+    bool again = all;
+    all = all || (g.chain && 2 * g.count == (size_t)pd->sk.mesh.count + 2);
+    const dyd_index_list sites = {g.count, g.site};
+    if (st == DYD_OK && !again) st = visit(user, g.chain ? DYD_GROUP_CHAIN : DYD_GROUP_CIRCLE, &sites);
+  }
+  free(g.site);
+  return st;
 }

@@ -36,7 +36,7 @@ typedef struct dyd_face {
   uint32_t tris;
   uint32_t pairs, hidden; /* how many, and how many of them are hidden */
   bool outer, tie, capped, postponed, polygon;
-  bool proved; /* a tie of points that are not all exact: proved.h */
+  bool proved; /* a tie of points that are not all exact: ties.c */
 } dyd_face;
 
 /* How what is undecided is stored: LISTED, triangles joined by uncertain edges are faces, each with the list of its

@@ -1,9 +1,168 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Finding the faces of exact points, and their vertices. */
+/* Finding faces that are ties: of exact points, and of points that are proved to be on one circle or line.
+ *
+ * [TIE-3] A face whose rim is one cycle of certain edges through all its vertices, and whose true points are on one
+ * circle: the rim is Delaunay for every choice, so the triangles inside use these vertices only, one of them has an
+ * empty disc, and that disc has all of them on its circle. So all pairs that are not on the rim are weakly Delaunay,
+ * and never strictly. A rim that passes through the ghost is a chain on the hull: if its true points are on one line,
+ * all others are on one side of it, and a half-plane takes the place of the disc. */
 #include "delaunay/ties.h"
 
 #include "base/alloc.h"
 #include "delaunay/face_table.h"
+#include "delaunay/undecided.h"
+
+/* vertex[0..count-1]: the rim, counter-clockwise; a chain begins behind the ghost, which is left out. */
+typedef struct rim {
+  uint32_t *vertex, *site;
+  uint32_t count;
+  bool chain;
+} rim;
+
+static void rim_clear(rim *r) {
+  free(r->vertex);
+  free(r->site);
+}
+
+static bool has_inexact_vertex(const dyd_delaunay *pd, const rim *r) {
+  for (uint32_t q = 0; q < r->count; q++)
+    if (!dyd_vertex_is_point(&pd->sk, r->vertex[q])) return true;
+  return false;
+}
+
+/* The triangles are connected; if they are joined like a tree, t of them have t + 2 sides that no other shares, and one
+ * cycle passes through all of these. */
+dyd_half_edge dyd_rim_start(bool *chain, const dyd_delaunay *pd, const dyd_face *face) {
+  const dyd_skeleton *sk = &pd->sk;
+  dyd_half_edge start = DYD_NONE;
+  uint32_t sides = 0;
+  *chain = false;
+  for (uint32_t q = 0; q < face->tris; q++) {
+    uint32_t t = pd->open.tri[face->first_tri + q];
+    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++) {
+      if (!dyd_edge_is_certain(sk, h)) continue;
+      sides++;
+      bool ghost = dyd_edge_origin(&sk->mesh, h) == sk->mesh.n;
+      if (ghost || start == DYD_NONE) start = h;
+      *chain = *chain || ghost;
+    }
+  }
+  return sides == face->tris + 2 ? start : DYD_NONE;
+}
+
+static dyd_status are_distinct(bool *distinct, const uint32_t *v, uint32_t count) {
+  uint32_t *sorted = dyd_alloc(count, sizeof *sorted);
+  if (!sorted) return DYD_E_NOMEM;
+  *distinct = true;
+  for (uint32_t q = 0; q < count; q++) sorted[q] = v[q];
+  qsort(sorted, count, sizeof *sorted, dyd_compare_index);
+  for (uint32_t q = 1; q < count && *distinct; q++) *distinct = sorted[q] != sorted[q - 1];
+  free(sorted);
+  return DYD_OK;
+}
+
+/* Walks around the face. *found: it is a polygon, or a chain, in which something is open. */
+static dyd_status rim_find(bool *found, rim *r, const dyd_delaunay *pd, const dyd_face *face) {
+  const dyd_skeleton *sk = &pd->sk;
+  dyd_half_edge h = dyd_rim_start(&r->chain, pd, face);
+  *found = false;
+  if (h == DYD_NONE || face->tris < 2) return DYD_OK;
+  r->vertex = dyd_alloc(face->tris + 2, sizeof *r->vertex);
+  r->site = dyd_alloc(face->tris + 2, sizeof *r->site);
+  if (!r->vertex || !r->site) return DYD_E_NOMEM;
+  uint32_t ghosts = 0;
+  for (uint32_t q = 0; q < face->tris + 2; q++, h = dyd_tie_next(sk, h)) {
+    uint32_t v = dyd_edge_origin(&sk->mesh, h);
+    ghosts += v == sk->mesh.n;
+    if (v == sk->mesh.n) continue;
+    r->site[r->count] = sk->reps.site[v];
+    r->vertex[r->count++] = v;
+  }
+  return ghosts == r->chain ? are_distinct(found, r->vertex, r->count) : DYD_OK;
+}
+
+/* ---- pairs ---- */
+
+static bool is_on_rim(const rim *r, uint32_t p, uint32_t q) {
+  return q == p + 1 || (!r->chain && p == 0 && q + 1 == r->count);
+}
+
+/* All pairs but those of the rim; *good: none of them is legal. */
+static dyd_status rim_pairs(bool *good, dyd_vertex_pair **pair, size_t *count, const dyd_delaunay *pd, const rim *r) {
+  uint64_t m = r->count;
+  dyd_vertex_pair *list = dyd_alloc(m * (m - 1) / 2, sizeof *list);
+  size_t n = 0;
+  *good = true;
+  if (!list) return DYD_E_NOMEM;
+  for (uint32_t p = 0; p < r->count && *good; p++)
+    for (uint32_t q = p + 1; q < r->count && *good; q++) {
+      uint32_t v = r->vertex[p], w = r->vertex[q];
+      if (is_on_rim(r, p, q)) continue;
+      *good = !dyd_is_legal(&pd->sk, v, w);
+      list[n++] = v < w ? (dyd_vertex_pair){v, w, 0} : (dyd_vertex_pair){w, v, 0};
+    }
+  qsort(list, n, sizeof *list, dyd_compare_vertex_pair);
+  *pair = list;
+  *count = n;
+  return DYD_OK;
+}
+
+/* Do all sites but aliases lie on the chain? Then another face has it from its other side. */
+static bool is_everything(const dyd_delaunay *pd, const rim *r) {
+  return r->chain && 2 * (uint64_t)r->count == (uint64_t)pd->sk.mesh.count + 2;
+}
+
+static dyd_status store_tie(dyd_delaunay *pd, size_t g, const rim *r) {
+  dyd_vertex_pair *pair = NULL;
+  size_t count = 0;
+  bool good;
+  dyd_status st = rim_pairs(&good, &pair, &count, pd, r);
+  if (st == DYD_OK && good) {
+    dyd_face as = {.pairs = (uint32_t)count, .outer = r->chain, .tie = true, .proved = true};
+    as.polygon = !is_everything(pd, r);
+    st = dyd_table_store(pd, g, as, pair);
+  }
+  free(pair);
+  return st;
+}
+
+/* ---- asking ---- */
+
+static dyd_status ask_rim(bool *proved, const dyd_delaunay *pd, dyd_work *w, const rim *r) {
+  uint64_t m = r->count, pairs = m * (m - 1) / 2;
+  *proved = false;
+  if (m < (r->chain ? 3 : 4) || !has_inexact_vertex(pd, r)) return DYD_OK;
+  if (pd->open.live_pairs > pd->max_pairs || pairs > pd->max_pairs - pd->open.live_pairs) return DYD_OK;
+  dyd_relation relation = r->chain ? DYD_COLLINEAR : DYD_COCIRCULAR;
+  return pd->options.prove(proved, pd->options.prove_user, relation, r->site, r->count, w->err);
+}
+
+dyd_status dyd_prove_face(dyd_delaunay *pd, dyd_work *w, size_t g) {
+  rim r = {0};
+  bool found = false, proved = false;
+  if (!pd->options.prove) return DYD_OK;
+  dyd_status st = rim_find(&found, &r, pd, &pd->open.face[g]);
+  if (st == DYD_OK && found) st = ask_rim(&proved, pd, w, &r);
+  if (st == DYD_OK && proved) st = store_tie(pd, g, &r);
+  w->counters.faces += st == DYD_OK && proved;
+  rim_clear(&r);
+  return st;
+}
+
+dyd_status dyd_prove_line(dyd_delaunay *pd, dyd_work *w) {
+  const dyd_line *l = &pd->sk.line;
+  dyd_status st = DYD_OK;
+  pd->line_tie = pd->sk.all_points;
+  if (pd->line_tie || !pd->options.prove || l->count < 3) return st;
+  for (uint32_t q = 0; q + 1 < l->count; q++)
+    if (!l->legal[q]) return st;
+  uint32_t *site = dyd_alloc(l->count, sizeof *site);
+  if (!site) return DYD_E_NOMEM;
+  for (uint32_t q = 0; q < l->count; q++) site[q] = pd->sk.reps.site[l->order[q]];
+  st = pd->options.prove(&pd->line_tie, pd->options.prove_user, DYD_COLLINEAR, site, l->count, w->err);
+  free(site);
+  return st;
+}
 
 /* Invariant: list[0..count-1] are triangles of the face in work. */
 typedef struct tie_flood {

@@ -7,13 +7,11 @@
  * [TIE-1]. */
 #include "legal/certify.h"
 
-#include "legal/hull.h"
-#include "legal/marks.h"
 #include "legal/star_filter.h"
 #include "legal/witness.h"
 #include "skeleton/centre_filter.h"
 #include "skeleton/circumcentre.h"
-#include "skeleton/mesh_fixed.h"
+#include "skeleton/hull.h"
 #include "skeleton/predicates.h"
 #include "skeleton/rects_filter.h"
 

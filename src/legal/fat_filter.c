@@ -22,7 +22,7 @@
  * from a are off by u times (distance + |o|). Distance ds and radius r = |o| have fewer than 10 factors 1+u. So ds >=
  * 1.001 (r + E) + 4e leaves room for all. Half-plane: every corner on the inner side, by E |ab| (1 + 2^-20) + 2^-48 of
  * the two terms (4.1 u) + 2^-900. What is not sure, infinite or NaN counts as met. */
-#include "legal/fat_filter.h"
+#include "legal/star_filter.h"
 
 #include "base/alloc.h"
 #include "skeleton/mesh_filter.h"

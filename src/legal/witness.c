@@ -10,10 +10,10 @@
  * First in doubles (witness_filter.c), which is enough for nearly all; else with exact half-planes. */
 #include "legal/witness.h"
 
-#include "legal/hull.h"
 #include "legal/planes.h"
 #include "legal/witness_filter.h"
 #include "skeleton/circumcentre.h"
+#include "skeleton/hull.h"
 #include "skeleton/rects_filter.h"
 #include <dyadel/predicate.h>
 

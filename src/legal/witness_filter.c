@@ -72,6 +72,7 @@ static void witness_evaluate_d(quick *q, dyd_xy c) {
 static double witness_farther_end(double c, double lo, double hi) {
   return c - lo > hi - c ? lo : hi;
 }
+
 static double witness_nearest_d(double c, double lo, double hi) {
   return c < lo ? lo : c > hi ? hi : c;
 }

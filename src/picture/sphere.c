@@ -3,7 +3,7 @@
  * great circles. What spans more than half of the globe is shown on all of it. */
 #include "base/alloc.h"
 #include "base/error.h"
-#include "base/sort.h"
+#include "base/index.h"
 #include "io/geodesic.h"
 #include "io/sphere_cells.h"
 #include "picture/picture.h"

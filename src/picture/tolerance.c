@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The picture of tolerances: edges coloured by how much they bear, from what is lost first to what is lost last. */
 #include "base/error.h"
-#include "base/sort.h"
+#include "base/index.h"
 #include "io/decimal.h"
 #include "picture/picture.h"
 #include <math.h>

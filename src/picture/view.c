@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Views: which part of the plane a picture shows, where it is on the page. */
 #include "base/error.h"
-#include "base/sort.h"
+#include "base/index.h"
 #include "picture/picture.h"
 #include <math.h>
 #include <stdlib.h>

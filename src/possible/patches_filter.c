@@ -8,14 +8,105 @@
  * plane with its directions, since neighbours share lines or rays bit by bit. Whoever has the least dl at a point of a
  * patch is possibly nearest there and never leaves its list, so the list alone tells M(c) from below: sites of the list
  * with ds(c) <= M(c) are possible neighbours of one another. Distances are bounded as in skeleton/distance_filter.h
- * [FLT-DST], heights as in skeleton/tree_filter.c [FLT-DIR]; NaN and infinities compare false and prove nothing. */
+ * [FLT-DST], heights as in skeleton/rects_filter.c [FLT-DIR]; NaN and infinities compare false and prove nothing. */
 #include "possible/patches_filter.h"
 
 #include "base/alloc.h"
-#include "possible/plane_filter.h"
+#include "predicate/predicate_filter.h"
+#include "skeleton/distance_filter.h"
 #include "skeleton/rects_filter.h"
 
 #include <math.h>
+#include <stdbool.h>
+
+/* How far rectangles are from a corner of a part of the plane, as a number to compare at that corner: the squared
+ * distance [FLT-DST], or minus the height for a corner at infinity [FLT-DIR]. */
+
+/* A point, or a direction. */
+typedef struct dyd_plane_corner {
+  double x, y;
+  bool far;
+} dyd_plane_corner;
+
+static inline double dyd_height_error(double px, double py) {
+  return 8 * 0x1p-53 * (fabs(px) + fabs(py)) + DYD_TINY;
+}
+
+/* Lower bound of -u.x over a box that reaches `slack` farther. */
+static inline double dyd_depth_lower(double ux, double uy, double x, double y, double slack) {
+  double px = ux * x, py = uy * y, s = (fabs(ux) + fabs(uy)) * slack;
+  return -(px + py + s) - dyd_height_error(px, py) - 4 * 0x1p-53 * s;
+}
+static inline double dyd_depth_upper(double ux, double uy, double x, double y, double slack) {
+  return -dyd_depth_lower(-ux, -uy, x, y, slack);
+}
+
+/* Upper bound of the farthest of a rectangle. */
+static inline double dyd_farthest_upper(const dyd_plane_corner *v, const dyd_bbox *b) {
+  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
+  if (!v->far) return dyd_dl2_upper(&c, b);
+  return dyd_depth_upper(v->x, v->y, v->x > 0 ? b->e[0] : b->e[1], v->y > 0 ? b->e[2] : b->e[3], 0);
+}
+/* Lower bound of the closest. */
+static inline double dyd_closest_lower(const dyd_plane_corner *v, const dyd_bbox *b) {
+  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
+  if (!v->far) return dyd_ds2_lower(&c, b);
+  return dyd_depth_lower(v->x, v->y, v->x > 0 ? b->e[1] : b->e[0], v->y > 0 ? b->e[3] : b->e[2], 0);
+}
+/* The bounds from the other side; slack: by how much the box may be wider than the rectangle. */
+static inline double dyd_farthest_lower(const dyd_plane_corner *v, const dyd_bbox *b, double slack) {
+  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
+  if (!v->far) return dyd_dl2_lower(&c, b, slack);
+  return dyd_depth_lower(v->x, v->y, v->x > 0 ? b->e[0] : b->e[1], v->y > 0 ? b->e[2] : b->e[3], slack);
+}
+static inline double dyd_closest_upper(const dyd_plane_corner *v, const dyd_bbox *b, double slack) {
+  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
+  if (!v->far) return dyd_ds2_upper(&c, b, slack);
+  return dyd_depth_upper(v->x, v->y, v->x > 0 ? b->e[1] : b->e[0], v->y > 0 ? b->e[3] : b->e[2], slack);
+}
+
+/* If ds_i(c), ds_j(c) <= M(c), the least dl_k(c) of all k, then c is a centre of ij [POS-1]. Any c will do; the bounds
+ * are those of skeleton/distance_filter.h [FLT-DST]. NaN proves nothing. */
+
+/* least: a lower bound of the least dl^2 of those visited; bound: an upper one, of all. */
+typedef struct search {
+  const dyd_rects *rects;
+  dyd_bbox c;
+  double least, bound;
+} search;
+
+static bool lower_least(void *context, uint32_t k) {
+  search *m = context;
+  const dyd_bbox *box = &m->rects->box[k];
+  double value = dyd_dl2_lower(&m->c, box, dyd_box_slack(m->rects, k));
+  m->least = isnan(value) ? -INFINITY : dyd_min(value, m->least);
+  m->bound = dyd_min(dyd_dl2_upper(&m->c, box), m->bound);
+  return true;
+}
+
+void dyd_filter_clique(bool *near, const dyd_rects *r, dyd_xy c, const uint32_t *vertex, size_t count) {
+  search m = {r, {{c.x, c.x, c.y, c.y}}, INFINITY, INFINITY};
+  dyd_tree_near(&r->tree, &m.c, &m.bound, lower_least, &m);
+  for (size_t k = 0; k < count; k++)
+    near[k] = dyd_ds2_upper(&m.c, &r->box[vertex[k]], dyd_box_slack(r, vertex[k])) <= m.least;
+}
+
+/* ---- quads: the predicate layer's interval filters on outward boxes ---- */
+
+static dyd_bbox hull_box(const dyd_bbox *a, const dyd_bbox *b) {
+  return (dyd_bbox){
+      {dyd_min(a->e[0], b->e[0]), dyd_max(a->e[1], b->e[1]), dyd_min(a->e[2], b->e[2]), dyd_max(a->e[3], b->e[3])}};
+}
+
+bool dyd_surely_not_displaced(const dyd_skeleton *sk, uint32_t i, uint32_t j, uint32_t k, uint32_t l) {
+  const dyd_bbox *box = sk->rects.box;
+  if (sk->mesh.no_filter) return false;
+  dyd_bbox ij = hull_box(&box[i], &box[j]), kl = hull_box(&box[k], &box[l]);
+  if (dyd_boxes_disjoint(&ij, &kl)) return true;
+  dyd_sure turn = dyd_filter_orientation(box[i].e, box[j].e, box[k].e);
+  if (turn == DYD_UNSURE) return false;
+  return (int)dyd_filter_incircle(box[i].e, box[j].e, box[k].e, box[l].e) == -(int)turn;
+}
 
 /* Lists up to SHORT are looked at pair by pair, longer ones when cutting makes them no shorter, and pairs of lists up
  * to LONG are noted. DEEP: how often a patch is cut for the pairs noted in the last pass. COARSE: a patch is, while so

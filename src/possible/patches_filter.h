@@ -9,6 +9,8 @@
 #include "possible/pair_map.h"
 #include "skeleton/mesh.h"
 #include "skeleton/rects.h"
+#include "skeleton/reps.h"
+#include "skeleton/work.h"
 
 /* The members' vertices, ascending; the map of pairs, in which only pairs without a state are asked for; found gives a
  * pair its state that is shown to be possible, decide gives it to one of which patches do not tell enough; both set
@@ -26,5 +28,12 @@ typedef struct dyd_patches {
 
 /* *complete: every possible pair of members has its state. Else the doubles do not tell enough, or *enough was set. */
 dyd_status dyd_patches_run(bool *complete, const dyd_patches *c);
+
+/* Surely kl cannot displace ij: their hulls' boxes are disjoint, or l is surely outside the circle of i, j, k [QUAD-1].
+ */
+bool dyd_surely_not_displaced(const dyd_skeleton *sk, uint32_t i, uint32_t j, uint32_t k, uint32_t l);
+
+/* near[k]: vertex[k] is surely possibly nearest at c, so that all who are make possible pairs [POS-1]. */
+void dyd_filter_clique(bool *near, const dyd_rects *r, dyd_xy c, const uint32_t *vertex, size_t count);
 
 #endif

@@ -5,11 +5,11 @@
  * interior. A pair is legal iff a disc holds both rectangles and meets no other, that is iff the segment hull(R_i u
  * R_j) of the line meets no other rectangle (the disc over that segment does it; any disc meets the line in a segment).
  * With two sites the pair is legal [LINE-1]. */
-#include "skeleton/line.h"
+#include "skeleton/skeleton.h"
 
 #include "base/alloc.h"
 #include "rect/irect.h"
-#include "skeleton/mesh_start.h"
+#include "skeleton/mesh_build.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Building a skeleton: at once, or from strips. */
+/* Building a skeleton, at once or from strips; checking it. */
 #ifndef DYD_SKELETON_MESH_BUILD_H
 #define DYD_SKELETON_MESH_BUILD_H
 
@@ -15,5 +15,24 @@ dyd_status dyd_mesh_build(dyd_mesh *m, dyd_reps *reps, const uint32_t *local, ui
  * depends on the strips, not on the number of threads. */
 dyd_status dyd_mesh_build_strips(dyd_mesh *m, dyd_reps *reps, const dyd_strips *strips, bool no_filter,
                                  const volatile int *cancel, unsigned threads);
+
+/* Sets xy (a copy for a part of the vertices) and the filter constants. */
+dyd_status dyd_mesh_coordinates(dyd_mesh *m);
+/* A point that coincides with a vertex becomes its alias, anything else gives way; so points have to come first. Where
+ * the order is another one, as that of several strips is, vertices are taken in two rounds: is it the turn of v? */
+void dyd_mesh_set_rounds(dyd_mesh *m);
+dyd_status dyd_mesh_set_alias(dyd_mesh *m, uint32_t v, uint32_t of);
+/* Representatives have been chosen anew: the filter constants follow. */
+void dyd_mesh_follow(dyd_mesh *m);
+/* Gives back what only building needs. */
+void dyd_mesh_trim(dyd_mesh *m);
+void dyd_mesh_clear(dyd_mesh *m);
+
+/* Twins agree, triangles turn left, every edge is locally (weakly) Delaunay, the hull is one cycle that turns once:
+ * hence the whole is a Delaunay triangulation. Exact; O(n). */
+bool dyd_mesh_is_valid(const dyd_mesh *m);
+
+/* Do vertical lines divide the strips of representatives? */
+bool dyd_strips_are_apart(const dyd_reps *reps, const dyd_strips *strips);
 
 #endif

@@ -28,7 +28,7 @@
 #ifndef DYD_SKELETON_MESH_FILTER_H
 #define DYD_SKELETON_MESH_FILTER_H
 
-#include "skeleton/half_edge.h"
+#include "skeleton/mesh.h"
 
 #include <math.h>
 

@@ -2,8 +2,397 @@
 /* The rungs in their order: filter, fixed-size integers, GMP. */
 #include "skeleton/predicates.h"
 
-#include "skeleton/mesh_exact.h"
-#include "skeleton/mesh_fixed.h"
+#include "base/alloc.h"
+#include "rect/irect.h"
+#include "skeleton/mesh.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- fixed-size integers ----
+ *
+ * Coordinates are below 2^60, so differences are below 2^61, products of two below 2^122, cross products and lifts
+ * below 2^123, and the three products of the in-circle determinant below 2^246: their sum fits 256 bits [FIX-1]. */
+
+__extension__ typedef __int128 i128;
+
+__extension__ typedef unsigned __int128 u128;
+
+/* Invariant: z != NULL: z[v - first] are the coordinates of v times den 2^-low; else they are xy[v] * 2^-unit, exactly,
+ * and below 2^(high - unit). */
+struct dyd_fixed {
+  int unit, high;
+  uint32_t first;
+  unsigned long den;
+  int64_t low, (*z)[2];
+};
+
+enum { COORDINATE_BITS = 60 };
+
+void dyd_fixed_free(dyd_fixed *f) {
+  if (!f) return;
+  free(f->z);
+  free(f);
+}
+
+/* x = man * 2^exp, man odd; x finite, not 0 and not subnormal (false otherwise). */
+static bool exponent_range(int *low, int *high, double x) {
+  uint64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  int e = (int)(bits >> 52 & 2047);
+  uint64_t man = (bits & ((UINT64_C(1) << 52) - 1)) | UINT64_C(1) << 52;
+  if (x == 0) return true;
+  if (e == 0) return false;
+  int l = e - 1075 + __builtin_ctzll(man), h = e - 1022;
+  if (l < *low) *low = l;
+  if (h > *high) *high = h;
+  return true;
+}
+
+/* The same for every finite x. */
+static void widen_range(int *low, int *high, double x) {
+  int e;
+  if (exponent_range(low, high, x)) return;
+  int64_t man = (int64_t)ldexp(frexp(x, &e), 53);
+  int l = e - 53 + __builtin_ctzll((uint64_t)man);
+  if (l < *low) *low = l;
+  if (e > *high) *high = e;
+}
+
+/* The unit is the lowest bit of all coordinates; false when they span too many bits. */
+static bool set_range(dyd_fixed *f, int low, int high) {
+  f->unit = low == INT32_MAX ? 0 : low;
+  f->high = low == INT32_MAX ? 0 : high;
+  return f->high - f->unit <= COORDINATE_BITS;
+}
+
+static bool prepare_doubles(dyd_fixed *f, const dyd_mesh *m) {
+  int low = INT32_MAX, high = INT32_MIN;
+  for (uint32_t v = m->begin; v < m->end; v++) {
+    widen_range(&low, &high, m->xy[v].x);
+    widen_range(&low, &high, m->xy[v].y);
+  }
+  return set_range(f, low, high);
+}
+
+/* The common denominator and the least binary exponent of all representatives; false when they are too big. */
+static bool common_scale(mpz_t lcm, int64_t *low, dyd_rect *q, const dyd_mesh *m) {
+  mpz_set_ui(lcm, 1);
+  *low = INT64_MAX;
+  for (uint32_t v = m->begin; v < m->end; v++) {
+    if (dyd_reps_get(q, m->reps, dyd_mesh_rep(m, v)) != DYD_OK) return false;
+    const dyd_interval *side[2] = {&q->x, &q->y};
+    for (int a = 0; a < 2; a++) {
+      mpz_lcm(lcm, lcm, side[a]->den);
+      if (mpz_sizeinbase(lcm, 2) > COORDINATE_BITS) return false;
+      if (mpz_sgn(side[a]->lo.man) && side[a]->lo.exp < *low) *low = side[a]->lo.exp;
+    }
+  }
+  return true;
+}
+
+static bool scaled(int64_t *out, mpz_t t, const dyd_interval *a, const mpz_t lcm, int64_t low) {
+  if (mpz_sgn(a->lo.man) == 0) return *out = 0, true;
+  if (a->lo.exp - low > COORDINATE_BITS) return false;
+  mpz_divexact(t, lcm, a->den);
+  mpz_mul(t, t, a->lo.man);
+  mpz_mul_2exp(t, t, (mp_bitcnt_t)(a->lo.exp - low));
+  if (mpz_sizeinbase(t, 2) > COORDINATE_BITS) return false;
+  *out = mpz_get_si(t);
+  return true;
+}
+
+static bool prepare_rationals(dyd_fixed *f, const dyd_mesh *m) {
+  mpz_t lcm, t;
+  dyd_rect q;
+  mpz_init(lcm);
+  mpz_init(t);
+  dyd_rect_init(&q);
+  bool good = common_scale(lcm, &f->low, &q, m);
+  if (good) f->z = dyd_alloc(m->end - m->begin, sizeof *f->z);
+  good = good && f->z;
+  f->first = m->begin;
+  f->den = mpz_get_ui(lcm);
+  for (uint32_t v = m->begin; v < m->end && good; v++) {
+    int64_t *z = f->z[v - f->first];
+    good = dyd_reps_get(&q, m->reps, dyd_mesh_rep(m, v)) == DYD_OK && scaled(&z[0], t, &q.x, lcm, f->low) &&
+           scaled(&z[1], t, &q.y, lcm, f->low);
+  }
+  dyd_rect_clear(&q);
+  mpz_clear(t);
+  mpz_clear(lcm);
+  return good;
+}
+
+static void install(dyd_mesh *m, dyd_fixed *f) {
+  m->exact_s = f && !f->z && f->unit >= -240 && f->unit <= 220 ? ldexp(1, 26 + 2 * f->unit) : -1;
+  m->fixed = f;
+  m->no_fixed = !f;
+}
+
+void dyd_fixed_prepare(dyd_mesh *m) {
+  if (m->fixed || m->no_fixed || m->no_filter) return;
+  dyd_fixed *f = calloc(1, sizeof *f);
+  if (f && !(m->reps->code ? prepare_rationals(f, m) : prepare_doubles(f, m))) {
+    dyd_fixed_free(f);
+    f = NULL;
+  }
+  install(m, f);
+}
+
+/* f, of m, gets the coordinates of its right neighbour. */
+static bool append_rationals(dyd_fixed *f, const dyd_fixed *g, const dyd_mesh *m, const dyd_mesh *right) {
+  size_t left = m->end - m->begin, more = right->end - right->begin;
+  if (f->den != g->den || f->low != g->low) return false;
+  int64_t(*z)[2] = realloc(f->z, (left + more) * sizeof *z);
+  if (!z) return false;
+  memcpy(z + left, g->z, more * sizeof *z);
+  f->z = z;
+  return true;
+}
+
+static bool join_ranges(dyd_fixed *f, const dyd_fixed *g) {
+  return set_range(f, f->unit < g->unit ? f->unit : g->unit, f->high > g->high ? f->high : g->high);
+}
+
+/* Fractions that both do not know cost too much for the few questions of a seam. */
+void dyd_fixed_join(dyd_mesh *m, const dyd_mesh *right) {
+  dyd_fixed *f = m->fixed;
+  const dyd_fixed *g = right->fixed;
+  bool fractions = m->reps->code;
+  if (f && g && (fractions ? append_rationals(f, g, m, right) : join_ranges(f, g))) {
+    install(m, f);
+    return;
+  }
+  dyd_fixed_free(f);
+  m->fixed = NULL;
+  m->no_fixed = m->no_fixed || right->no_fixed || (f && g) || fractions;
+  m->exact_s = m->no_fixed ? -1 : 0;
+}
+
+void dyd_fixed_take(dyd_mesh *m, dyd_mesh *whole) {
+  m->fixed = whole->fixed;
+  m->no_fixed = whole->no_fixed && !m->reps->code; /* of all fractions it was not tried */
+  m->exact_s = whole->exact_s;
+  whole->fixed = NULL;
+}
+
+static void coordinates(int64_t z[2], const dyd_mesh *m, uint32_t v) {
+  const dyd_fixed *f = m->fixed;
+  if (f->z) {
+    z[0] = f->z[v - f->first][0];
+    z[1] = f->z[v - f->first][1];
+  } else {
+    z[0] = (int64_t)ldexp(m->xy[v].x, -f->unit);
+    z[1] = (int64_t)ldexp(m->xy[v].y, -f->unit);
+  }
+}
+
+static void difference(int64_t d[2], const dyd_mesh *m, uint32_t v, const int64_t p[2]) {
+  coordinates(d, m, v);
+  d[0] -= p[0];
+  d[1] -= p[1];
+}
+
+static i128 cross(const int64_t a[2], const int64_t b[2]) {
+  return (i128)a[0] * b[1] - (i128)a[1] * b[0];
+}
+
+static i128 lift(const int64_t a[2]) {
+  return (i128)a[0] * a[0] + (i128)a[1] * a[1];
+}
+
+int dyd_fixed_orient(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
+  int64_t zc[2], da[2], db[2];
+  coordinates(zc, m, c);
+  difference(da, m, a, zc);
+  difference(db, m, b, zc);
+  i128 d = cross(da, db);
+  return (d > 0) - (d < 0);
+}
+
+/* A 256-bit two's complement number, low half first. */
+typedef struct i256 {
+  u128 low, high;
+} i256;
+
+/* lift >= 0 times cross, signed. */
+static i256 product(i128 lift_value, i128 cross_value) {
+  bool negative = cross_value < 0;
+  u128 x = (u128)lift_value, y = negative ? -(u128)cross_value : (u128)cross_value;
+  uint64_t x0 = (uint64_t)x, x1 = (uint64_t)(x >> 64), y0 = (uint64_t)y, y1 = (uint64_t)(y >> 64);
+  u128 p00 = (u128)x0 * y0, p01 = (u128)x0 * y1, p10 = (u128)x1 * y0, p11 = (u128)x1 * y1;
+  u128 middle = (p00 >> 64) + (uint64_t)p01 + (uint64_t)p10;
+  i256 r = {(uint64_t)p00 | middle << 64, p11 + (p01 >> 64) + (p10 >> 64) + (middle >> 64)};
+  if (negative) {
+    r.low = -r.low;
+    r.high = ~r.high + (r.low == 0);
+  }
+  return r;
+}
+
+static i256 sum(i256 a, i256 b) {
+  i256 r = {a.low + b.low, a.high + b.high};
+  r.high += r.low < a.low;
+  return r;
+}
+
+/* The four points as integers on their own common scale; false when they span too many bits. */
+static bool near_coordinates(int64_t z[4][2], const dyd_mesh *m, const uint32_t v[4]) {
+  int low = INT32_MAX, high = INT32_MIN;
+  for (unsigned k = 0; k < 4; k++)
+    if (!exponent_range(&low, &high, m->xy[v[k]].x) || !exponent_range(&low, &high, m->xy[v[k]].y)) return false;
+  if (low == INT32_MAX) low = high = 0;
+  if (high - low > COORDINATE_BITS || low < -1000 || low > 900) return false;
+  uint64_t bits = (uint64_t)(1023 - low) << 52;
+  double scale;
+  memcpy(&scale, &bits, sizeof scale);
+  for (unsigned k = 0; k < 4; k++) {
+    z[k][0] = (int64_t)(m->xy[v[k]].x * scale);
+    z[k][1] = (int64_t)(m->xy[v[k]].y * scale);
+  }
+  return true;
+}
+
+bool dyd_fixed_incircle(int *sign, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
+  int64_t z[4][2];
+  if (m->fixed && m->fixed->z) {
+    const uint32_t v[4] = {a, b, c, p};
+    for (unsigned k = 0; k < 4; k++) coordinates(z[k], m, v[k]);
+  } else if (m->reps->code || !near_coordinates(z, m, (const uint32_t[]){a, b, c, p}))
+    return false;
+  for (unsigned k = 0; k < 3; k++)
+    for (unsigned i = 0; i < 2; i++) z[k][i] -= z[3][i];
+  i256 d = product(lift(z[0]), cross(z[1], z[2]));
+  d = sum(d, product(lift(z[1]), cross(z[2], z[0])));
+  d = sum(d, product(lift(z[2]), cross(z[0], z[1])));
+  if ((i128)d.high < 0)
+    *sign = -1;
+  else
+    *sign = d.high != 0 || d.low != 0;
+  return true;
+}
+
+/* ---- GMP integers on a common scale ---- */
+
+typedef struct scaled_points {
+  dyd_irect p[4];
+  size_t count;
+} scaled_points;
+
+/* Cannot fail: every representative lies in the exponent range, since its rectangle does. */
+static void points_load(scaled_points *s, const dyd_mesh *m, const uint32_t *v, size_t count) {
+  dyd_rect r[4];
+  const dyd_rect *in[4] = {NULL};
+  s->count = count;
+  for (size_t k = 0; k < count; k++) {
+    dyd_irect_init(&s->p[k]);
+    dyd_rect_init(&r[k]);
+    (void)dyd_reps_get(&r[k], m->reps, dyd_mesh_rep(m, v[k]));
+    in[k] = &r[k];
+  }
+  dyd_irects_scale(s->p, in, count, NULL, NULL);
+  for (size_t k = 0; k < count; k++) dyd_rect_clear(&r[k]);
+}
+
+static void points_unload(scaled_points *s) {
+  for (size_t k = 0; k < s->count; k++) dyd_irect_clear(&s->p[k]);
+}
+
+/* Moves the origin to the last point. */
+static void points_recentre(scaled_points *s) {
+  const dyd_irect *o = &s->p[s->count - 1];
+  for (size_t k = 0; k + 1 < s->count; k++) {
+    mpz_sub(s->p[k].x0, s->p[k].x0, o->x0);
+    mpz_sub(s->p[k].y0, s->p[k].y0, o->y0);
+  }
+}
+
+static void points_cross(mpz_t out, mpz_t t, const dyd_irect *a, const dyd_irect *b) {
+  mpz_mul(out, a->x0, b->y0);
+  mpz_mul(t, a->y0, b->x0);
+  mpz_sub(out, out, t);
+}
+
+int dyd_mesh_orient_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
+  scaled_points s;
+  mpz_t d, t;
+  mpz_init(d);
+  mpz_init(t);
+  points_load(&s, m, (const uint32_t[]){a, b, c}, 3);
+  points_recentre(&s);
+  points_cross(d, t, &s.p[0], &s.p[1]);
+  int sign = mpz_sgn(d);
+  points_unload(&s);
+  mpz_clear(t);
+  mpz_clear(d);
+  return sign;
+}
+
+int dyd_mesh_incircle_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
+  scaled_points s;
+  mpz_t d, l, x, t;
+  mpz_inits(d, l, x, t, NULL);
+  points_load(&s, m, (const uint32_t[]){a, b, c, p}, 4);
+  points_recentre(&s);
+  for (unsigned k = 0; k < 3; k++) {
+    const dyd_irect *q = &s.p[k];
+    mpz_mul(l, q->x0, q->x0);
+    mpz_addmul(l, q->y0, q->y0);
+    points_cross(x, t, &s.p[dyd_next(k)], &s.p[dyd_prev(k)]);
+    mpz_addmul(d, l, x);
+  }
+  int sign = mpz_sgn(d);
+  points_unload(&s);
+  mpz_clears(d, l, x, t, NULL);
+  return sign;
+}
+
+int dyd_mesh_compare(const dyd_mesh *m, uint32_t a, uint32_t b) {
+  double x = m->xy[a].x - m->xy[b].x, y = m->xy[a].y - m->xy[b].y;
+  if (!m->reps->code || fabs(x) > 4 * m->reps->delta) return x != 0 ? (x > 0) - (x < 0) : (y > 0) - (y < 0);
+  scaled_points s;
+  points_load(&s, m, (const uint32_t[]){a, b}, 2);
+  int sign = mpz_cmp(s.p[0].x0, s.p[1].x0);
+  if (!sign) sign = mpz_cmp(s.p[0].y0, s.p[1].y0);
+  points_unload(&s);
+  return (sign > 0) - (sign < 0);
+}
+
+static bool is_strictly_between(double a, double b, double p) {
+  return a < b ? a < p && p < b : b < p && p < a;
+}
+
+bool dyd_mesh_between(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t p) {
+  if (!m->reps->code && !m->no_filter) /* on one line either coordinate tells, unless it is the same for all */
+    return is_strictly_between(m->xy[a].x, m->xy[b].x, m->xy[p].x) ||
+           is_strictly_between(m->xy[a].y, m->xy[b].y, m->xy[p].y);
+  scaled_points s;
+  mpz_t d;
+  mpz_init(d);
+  points_load(&s, m, (const uint32_t[]){a, b, p}, 3);
+  points_recentre(&s);
+  mpz_mul(d, s.p[0].x0, s.p[1].x0);
+  mpz_addmul(d, s.p[0].y0, s.p[1].y0);
+  bool between = mpz_sgn(d) < 0;
+  points_unload(&s);
+  mpz_clear(d);
+  return between;
+}
+
+bool dyd_mesh_same(const dyd_mesh *m, uint32_t a, uint32_t b) {
+  uint32_t u = dyd_mesh_rep(m, a), v = dyd_mesh_rep(m, b);
+  if (m->xy[a].x != m->xy[b].x || m->xy[a].y != m->xy[b].y) return false;
+  if (dyd_reps_is_double(m->reps, u) && dyd_reps_is_double(m->reps, v)) return true;
+  dyd_rect p, q;
+  dyd_rect_init(&p);
+  dyd_rect_init(&q);
+  bool same =
+      dyd_reps_get(&p, m->reps, u) == DYD_OK && dyd_reps_get(&q, m->reps, v) == DYD_OK && dyd_rect_equal(&p, &q);
+  dyd_rect_clear(&q);
+  dyd_rect_clear(&p);
+  return same;
+}
 
 static int orient_slow(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
   if (!m->no_filter) {

@@ -5,16 +5,123 @@
 #include "base/alloc.h"
 #include "base/invariant.h"
 #include "base/parallel.h"
-#include "skeleton/blocks.h"
 #include "skeleton/mesh_build.h"
-#include "skeleton/mesh_invariant.h"
-#include "skeleton/mesh_start.h"
 
 #include <string.h>
 
+static void blocks_clear(dyd_skeleton *sk);
+
+/* ---- edges ---- */
+
+dyd_half_edge dyd_find_edge(const dyd_skeleton *sk, uint32_t v, uint32_t w) {
+  dyd_half_edge first = sk->leaving[v], h = first;
+  if (first == DYD_NONE) return DYD_NONE;
+  do {
+    if (dyd_edge_target(&sk->mesh, h) == w) return h;
+    h = dyd_edge_turn(&sk->mesh, h);
+  } while (h != first);
+  return DYD_NONE;
+}
+
+bool dyd_is_legal(const dyd_skeleton *sk, uint32_t v, uint32_t w) {
+  dyd_half_edge h = dyd_find_edge(sk, v, w);
+  return h != DYD_NONE && dyd_edge_is_certain(sk, h);
+}
+
+uint64_t dyd_certain_corners(const dyd_skeleton *sk) {
+  const dyd_mesh *m = &sk->mesh;
+  uint64_t corners = 0;
+  dyd_half_edge first = dyd_hull_first(m), h = first;
+  if (first == DYD_NONE) return 0;
+  do {
+    corners += dyd_edge_is_certain(sk, dyd_edge_prev(h));
+    h = dyd_hull_following(m, h);
+  } while (h != first);
+  return corners;
+}
+
+/* Bits of certain[] are halves of edges. */
+uint64_t dyd_certain_edges(const dyd_skeleton *sk) {
+  const dyd_mesh *m = &sk->mesh;
+  uint64_t halves = 0;
+  for (uint32_t t = 0; t < m->count; t++)
+    halves += (sk->certain[t] & 1u) + (sk->certain[t] >> 1 & 1u) + (sk->certain[t] >> 2 & 1u);
+  return halves / 2 - dyd_certain_corners(sk);
+}
+
+static bool is_listed(const uint32_t *list, int count, uint32_t v) {
+  for (int k = 0; k < count; k++)
+    if (list[k] == v) return true;
+  return false;
+}
+
+int dyd_neighbours(uint32_t *out, int room, const dyd_skeleton *sk, uint32_t i, uint32_t j) {
+  const dyd_mesh *m = &sk->mesh;
+  int count = 0, before;
+  for (int k = 0; k < 2; k++) {
+    dyd_half_edge first = sk->leaving[k ? j : i], h = first;
+    before = count;
+    if (first == DYD_NONE) continue;
+    do {
+      uint32_t v = dyd_edge_target(m, h);
+      if (v != m->n && v != i && v != j && count < room && !is_listed(out, before, v)) out[count++] = v;
+      h = dyd_edge_turn(m, h);
+    } while (h != first);
+  }
+  return count;
+}
+
+/* ---- a coarse box tree for results that have no tree over single vertices: exact points, and collinear sites ----
+ *
+ * Vertices are in spatial order, so a block of consecutive ones has a small box. Boxes are outward: those of the
+ * representatives where these are the points, of the table of sites otherwise. It costs about 1.3 bytes a vertex. */
+
+static void block_widen(dyd_bbox *h, const dyd_bbox *b) {
+  for (int a = 0; a < 4; a += 2) {
+    h->e[a] = dyd_min(h->e[a], b->e[a]);
+    h->e[a + 1] = dyd_max(h->e[a + 1], b->e[a + 1]);
+  }
+}
+
+void dyd_vertex_box(dyd_bbox *out, const dyd_skeleton *sk, uint32_t v) {
+  if (sk->rects.box) {
+    *out = sk->rects.box[v];
+  } else if (sk->all_points && dyd_reps_is_double(&sk->reps, v)) {
+    dyd_xy p = sk->reps.xy[v];
+    *out = (dyd_bbox){{p.x, p.x, p.y, p.y}};
+  } else {
+    dyd_sites_get_d(out->e, sk->rects.sites, sk->reps.site[v]);
+  }
+}
+
+/* Builds sk->block and sk->blocks over all vertices, aliases included; needs reps and all_points. On failure
+ * blocks_clear is due as well. */
+static dyd_status blocks_build(dyd_skeleton *sk) {
+  uint32_t count = sk->n / DYD_BLOCK + (sk->n % DYD_BLOCK != 0);
+  uint32_t *item = dyd_alloc(count, sizeof *item);
+  sk->block = dyd_alloc(count, sizeof *sk->block);
+  if (!item || !sk->block) return free(item), DYD_E_NOMEM;
+  for (uint32_t b = 0; b < count; b++) {
+    dyd_bbox one;
+    item[b] = b;
+    dyd_vertex_box(&sk->block[b], sk, b * DYD_BLOCK);
+    for (uint32_t v = b * DYD_BLOCK + 1; v < dyd_block_end(sk, b); v++) {
+      dyd_vertex_box(&one, sk, v);
+      block_widen(&sk->block[b], &one);
+    }
+  }
+  return dyd_tree_init(&sk->blocks, item, count, sk->block);
+}
+
+static void blocks_clear(dyd_skeleton *sk) {
+  dyd_tree_clear(&sk->blocks);
+  free(sk->block);
+  sk->block = NULL;
+}
+
 void dyd_skeleton_clear(dyd_skeleton *sk) {
   dyd_tree_clear(&sk->rects.tree);
-  dyd_blocks_clear(sk);
+  blocks_clear(sk);
   dyd_mesh_clear(&sk->mesh);
   dyd_line_clear(&sk->line);
   dyd_reps_clear(&sk->reps);
@@ -133,7 +240,7 @@ static dyd_status build_maps(dyd_skeleton *sk, unsigned threads) {
 
 static dyd_status build_boxes(dyd_skeleton *sk) {
   if (sk->all_points || sk->mesh.collinear) {
-    dyd_status st = dyd_blocks_build(sk); /* while the boxes are at hand in this order */
+    dyd_status st = blocks_build(sk); /* while the boxes are at hand in this order */
     free(sk->rects.box);
     sk->rects.box = NULL;
     return st;

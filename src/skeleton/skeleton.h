@@ -7,9 +7,28 @@
 #ifndef DYD_SKELETON_SKELETON_H
 #define DYD_SKELETON_SKELETON_H
 
-#include "skeleton/half_edge.h"
-#include "skeleton/line.h"
+#include "skeleton/mesh.h"
 #include "skeleton/rects.h"
+
+/* The path that takes the place of triangles when every choice of points is collinear, or there are at most two sites.
+ * The vertices that are no aliases, along the common line. legal[q]: order[q], order[q+1] is legal. rank[order[q]] is
+ * q. is_end[0], is_end[1]: the first, the last is surely an end of the line, alone. count = 0: no line. */
+typedef struct dyd_line {
+  uint32_t count;
+  uint32_t *order, *rank;
+  bool *legal, is_end[2];
+} dyd_line;
+
+/* From the rectangles of the n vertices. Those that turn out to be the same exact point become aliases in m. */
+dyd_status dyd_line_build(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, uint32_t n);
+void dyd_line_clear(dyd_line *l);
+/* Are these neighbours on the line, and legal? */
+bool dyd_line_is_legal(const dyd_line *l, uint32_t v, uint32_t w);
+/* Is v an end of the line, and apart from all others, for every choice? */
+bool dyd_line_is_end(const dyd_line *l, uint32_t v);
+size_t dyd_line_legal_pairs(const dyd_line *l);
+/* Number of pairs that are possible and not legal. */
+size_t dyd_line_open_pairs(const dyd_line *l);
 
 typedef struct dyd_skeleton {
   uint32_t n;
@@ -21,7 +40,7 @@ typedef struct dyd_skeleton {
   uint8_t *certain;       /* triangle -> bit k: half-edge k is certain */
   bool all_points;        /* every site is an exact point */
   dyd_rects rects;        /* of the vertices in the mesh; neither boxes nor tree when all_points or on a line */
-  dyd_bbox *block;        /* then: boxes of blocks of vertices (blocks.h), and the tree over them */
+  dyd_bbox *block;        /* then: boxes of blocks of DYD_BLOCK vertices, and the tree over them */
   dyd_tree blocks;
 } dyd_skeleton;
 
@@ -70,5 +89,13 @@ uint64_t dyd_certain_edges(const dyd_skeleton *sk);
 uint64_t dyd_certain_corners(const dyd_skeleton *sk);
 /* The neighbours of i and of j, without repeats, the ghost, i and j. At most `room`; returns how many. */
 int dyd_neighbours(uint32_t *out, int room, const dyd_skeleton *sk, uint32_t i, uint32_t j);
+
+enum { DYD_BLOCK = 32 };
+/* One beyond the last vertex of block b. */
+static inline uint32_t dyd_block_end(const dyd_skeleton *sk, uint32_t b) {
+  return sk->n - b * DYD_BLOCK < DYD_BLOCK ? sk->n : (b + 1) * DYD_BLOCK;
+}
+/* An outward box of the rectangle of v. */
+void dyd_vertex_box(dyd_bbox *out, const dyd_skeleton *sk, uint32_t v);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Steps of ball arithmetic that may take long: Arb looks at no flag, so those of very many digits are made by a thread
  * of their own, on copies. */
-#include "base/apart.h"
+#include "base/parallel.h"
 #include "stream/ball.h"
 
 #include <stdlib.h>

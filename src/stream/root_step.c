@@ -12,9 +12,9 @@
 #include "stream/ball.h"
 #include "stream/root.h"
 
-#include "base/apart.h"
 #include "base/error.h"
 #include "base/flag.h"
+#include "base/parallel.h"
 #include <stdlib.h>
 
 static void root_load(fmpz_poly_t p, const dyd_root *r) {

@@ -4,7 +4,7 @@
 #define DYD_VORONOI_NEAREST_H
 
 #include "delaunay/state.h"
-#include "skeleton/blocks.h"
+#include "skeleton/skeleton.h"
 
 /* Vertices that hold all that are possibly nearest to some point of q. Every vertex that surely nearer sites rule out
  * is left out, up to rounding. *vertex is owned by the caller. */

@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "base/apart.h"
 #include "base/clock.h"
+#include "base/parallel.h"
 
 /* Works until it is told that it may end. */
 typedef struct job {

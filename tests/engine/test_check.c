@@ -4,7 +4,7 @@
  */
 #include "help.h"
 
-#include "possible/quad_filter.h"
+#include "possible/patches_filter.h"
 #include "predicate/circle.h"
 #include <string.h>
 

@@ -16,7 +16,7 @@ import sys
 import tempfile
 
 MESH, DISTANCE = 'src/skeleton/mesh_filter.h', 'src/skeleton/distance_filter.h'
-NEAR, INTERVAL = 'src/legal/near_filter.h', 'src/predicate/interval_filter.h'
+NEAR, INTERVAL = 'src/legal/star_filter.h', 'src/predicate/interval_filter.h'
 STAR = 'src/legal/star_filter.c'
 # file, text, its replacement, script that must notice, word in its complaint
 FAULTS = [
@@ -29,14 +29,14 @@ FAULTS = [
     (NEAR, 'k * (lv * lz) * (a1 + ea)', 'k * (lv * lz) * (a1 - ea)', 'constants', 'dyd_filter_edge_near'),
     (NEAR, 'return 48.6 * reach * sqrt(lu * lw)', 'return 48.6 * (reach * sqrt(lu * lw))', 'constants', 'dyd_filter_hull_edge_near'),
     (INTERVAL, 'if (!(b.lo > 0 || b.hi < 0))', 'if (!(b.lo >= 0 || b.hi < 0))', 'constants', 'dyd_iv_div'),
-    ('src/skeleton/tree_filter.c', 'px + py + 8 * 0x1p-53', 'px + py + 2 * 0x1p-53', 'constants', 'c_reach'),
+    ('src/skeleton/rects_filter.c', 'px + py + 8 * 0x1p-53', 'px + py + 2 * 0x1p-53', 'constants', 'c_reach'),
     ('src/skeleton/scale_set_filter.c', '* 4 * 0x1p-52 * fabs(x)', '* 1 * 0x1p-53 * fabs(x)', 'constants', 'c_scale'),
     (STAR, 'double wide = (rho + p->reach) * DYD_UP_FACTOR', 'double wide = rho + p->reach', 'constants', 'certify_edges'),
     (STAR, 'need + 8 * 0x1p-53', 'need + 2 * 0x1p-53', 'constants', 'c_star_hull'),
     (STAR, '2 * (largest + 3 * sk->reps.delta)', '2 * (largest + 2 * sk->reps.delta)', 'constants', 'z_star_three'),
     ('src/stream/expr_filter.c', 'if (b.lo <= 0 && b.hi >= 0)', 'if (b.lo < 0 && b.hi > 0)', 'constants', 'divide'),
     ('src/predicate/predicate_filter.c', 'i ? dyd_iv_sub(bl, root) : dyd_iv_add(bl, root)', 'dyd_iv_add(bl, root)', 'constants', 'point_and_line'),
-    ('src/legal/near_filter.c', 'reach : 0x1p-300}', 'reach : 0x1p-500}', 'constants', 'c_near_floor'),
+    ('src/legal/star_filter.c', 'reach : 0x1p-300}', 'reach : 0x1p-500}', 'constants', 'c_near_floor'),
     ('src/skeleton/rects_filter.c', 'isnan(h) ? -INFINITY : h', 'isnan(h) ? INFINITY : h', 'constants', 'dyd_height_lower'),
     ('src/dyadic/sqrt_sign.c', 'if (nb - 3 >= na) return -1;', 'if (nb - 2 >= na) return -1;', 'constants', 'compare_squares'),
     ('src/predicate/circle.c', 'mpz_submul(out->a[k], out->b[k], out->t);', 'mpz_addmul(out->a[k], out->b[k], out->t);',
@@ -81,8 +81,8 @@ FAULTS = [
 # file, text, its replacement (all occurrences), what renew_quotes.py says
 CHANGES = [
     ('src/predicate/predicate_filter.c', 'det2', 'twice', 'names only (det2 -> twice)'),
-    ('src/skeleton/mesh_fixed.c', 'product(', 'fixed_product(', 'fixed_product of src/skeleton/mesh_fixed.c: the place only'),
-    ('src/skeleton/mesh_fixed.c', 'r.low < a.low', 'r.low <= a.low', 'prove anew: fixed_incircle_correct, sum_correct'),
+    ('src/skeleton/predicates.c', 'product(', 'fixed_product(', 'fixed_product of src/skeleton/predicates.c: the place only'),
+    ('src/skeleton/predicates.c', 'r.low < a.low', 'r.low <= a.low', 'prove anew: fixed_incircle_correct, sum_correct'),
     ('src/metric/measure_filter.c', 'return two_sum(a, -b);', 'return two_sum(b, -a);', 'compare dd_sub_d'),
 ]
 

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "legal/exact_lp.h"
+#include "legal/planes.h"
 #include "support/random.h"
 
 enum { MOST = 12 };

@@ -5,8 +5,7 @@
 #include <stdarg.h>
 
 #include "legal/certify.h"
-#include "legal/fat_filter.h"
-#include "legal/near_filter.h"
+#include "legal/star_filter.h"
 #include "support/random.h"
 
 #include <cmocka.h>

@@ -5,9 +5,8 @@
 #include <stdarg.h>
 
 #include "delaunay/read_case.h"
-#include "legal/hull.h"
-#include "legal/near_filter.h"
 #include "legal/star_filter.h"
+#include "skeleton/hull.h"
 #include <cmocka.h>
 #include <math.h>
 

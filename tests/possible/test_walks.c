@@ -6,10 +6,9 @@
 
 #include "delaunay/read_case.h"
 #include "delaunay/state.h"
-#include "legal/hull.h"
 #include "possible/cover.h"
 #include "possible/cover_filter.h"
-#include "possible/hull.h"
+#include "skeleton/hull.h"
 #include <cmocka.h>
 #include <string.h>
 

@@ -5,8 +5,8 @@
 #include <stdarg.h>
 
 #include "delaunay/read_case.h"
-#include "skeleton/order.h"
 #include "skeleton/rects_filter.h"
+#include "skeleton/reps.h"
 #include "skeleton/scale_set.h"
 #include "skeleton/skeleton.h"
 #include <cmocka.h>

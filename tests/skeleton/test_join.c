@@ -4,11 +4,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
-#include "skeleton/join.h"
 #include "skeleton/mesh_build.h"
-#include "skeleton/mesh_exact.h"
-#include "skeleton/mesh_invariant.h"
-#include "skeleton/mesh_start.h"
 #include "skeleton/predicates.h"
 #include "support/random.h"
 #include <cmocka.h>

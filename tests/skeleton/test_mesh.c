@@ -4,9 +4,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
-#include "skeleton/mesh_exact.h"
-#include "skeleton/mesh_fixed.h"
-#include "skeleton/mesh_start.h"
+#include "skeleton/mesh_build.h"
 #include "skeleton/predicates.h"
 #include "support/random.h"
 #include <cmocka.h>

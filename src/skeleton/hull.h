@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Which vertices are surely on the convex hull (mathematics: sections 3, 6). */
-#ifndef DYD_LEGAL_HULL_H
-#define DYD_LEGAL_HULL_H
+/* Which vertices are certainly, which are possibly on the convex hull (mathematics: sections 3, 6). */
+#ifndef DYD_SKELETON_HULL_H
+#define DYD_SKELETON_HULL_H
 
 #include "skeleton/work.h"
 
@@ -13,5 +13,8 @@ dyd_status dyd_hull_sure(bool *sure, dyd_work *w, const dyd_skeleton *sk, uint32
  * far enough out in the direction u are witnesses of ij [HUL-3]. Exact. */
 dyd_status dyd_hull_direction(bool *found, mpz_t ux, mpz_t uy, dyd_work *w, const dyd_skeleton *sk, uint32_t i,
                               uint32_t j);
+
+/* Does some direction u have max_{R_v} u.x >= min_{R_k} u.x for all k [HUL-1]? Exact. */
+dyd_status dyd_hull_possible(bool *possible, dyd_work *w, const dyd_skeleton *sk, uint32_t v);
 
 #endif
