@@ -25,83 +25,37 @@ void dyd_curve_clear(dyd_curve *c) {
   mpz_clears(c->middle[0], c->middle[1], NULL);
 }
 
-/* ---- slabs ---- */
+/* ---- marks ---- */
 
-/* A closed strip along one axis: what the rectangles show in it. far_bit, near_bit choose the upper end of the side;
- * near_free: the foot on the side. */
-typedef struct slab {
-  mpz_srcptr lo, hi, s, q;
-  dyd_iv lo_d, hi_d, s_d, q_d;
-  int far_bit, near_bit;
-} slab;
-
-typedef struct cut {
-  mpz_srcptr at;
-  dyd_iv near;
-} cut;
-
-/* The input of one axis. */
+/* The marks of one axis; those of the window are NULL when there is none. _d: the same in doubles. */
 typedef struct side_set {
-  mpz_srcptr far[2], near[2], window[2], middle;
-  dyd_iv far_d[2], near_d[2], window_d[2], middle_d;
+  mpz_srcptr at[DYD_MARKS], far[2];
+  dyd_iv at_d[DYD_MARKS], far_d[2];
+  dyd_marks marks;
 } side_set;
+
+static int side_set_order(const void *axis, int a, int b) {
+  const side_set *s = axis;
+  if (a == b) return 0;
+  if (!s->at[a]) return a == DYD_WINDOW_LO ? -1 : 1;
+  if (!s->at[b]) return b == DYD_WINDOW_LO ? 1 : -1;
+  return mpz_cmp(s->at[a], s->at[b]);
+}
 
 static void side_set_init(side_set *s, const dyd_scaled *far, const dyd_scaled *near, const dyd_scaled *window,
                           int axis, mpz_srcptr middle) {
   for (int e = 0; e < 2; e++) {
     s->far[e] = dyd_irect_end(&far->r, axis, e);
-    s->near[e] = dyd_irect_end(&near->r, axis, e);
-    s->window[e] = window ? dyd_irect_end(&window->r, axis, e) : NULL;
     s->far_d[e] = far->box.end[2 * axis + e];
-    s->near_d[e] = near->box.end[2 * axis + e];
-    s->window_d[e] = window ? window->box.end[2 * axis + e] : DYD_IV_UNKNOWN;
+    s->at[DYD_NEAR_LO + e] = dyd_irect_end(&near->r, axis, e);
+    s->at_d[DYD_NEAR_LO + e] = near->box.end[2 * axis + e];
+    s->at[DYD_WINDOW_LO + e] = window ? dyd_irect_end(&window->r, axis, e) : NULL;
+    s->at_d[DYD_WINDOW_LO + e] = window ? window->box.end[2 * axis + e] : DYD_IV_UNKNOWN;
   }
-  s->middle = middle;
-  s->middle_d = dyd_iv_scale(dyd_iv_add(s->far_d[0], s->far_d[1]), 0.5);
-}
-
-/* Adds a cut, kept in ascending order without repeats, if it is strictly inside the window. */
-static size_t add_slab_cut(cut *list, size_t n, const side_set *s, mpz_srcptr at, dyd_iv near) {
-  if (s->window[0] && (mpz_cmp(at, s->window[0]) <= 0 || mpz_cmp(at, s->window[1]) >= 0)) return n;
-  size_t k = n;
-  while (k > 0 && mpz_cmp(list[k - 1].at, at) > 0) k--;
-  if (k > 0 && !mpz_cmp(list[k - 1].at, at)) return n;
-  for (size_t m = n; m > k; m--) list[m] = list[m - 1];
-  list[k] = (cut){at, near};
-  return n + 1;
-}
-
-/* What the rectangles show in the slab lo .. hi. */
-static void show_slab(slab *out, const side_set *s, bool far_thin, bool near_thin) {
-  bool above = out->lo && mpz_cmp(out->lo, s->middle) >= 0;
-  out->far_bit = far_thin || above ? 0 : 1;
-  out->s = s->far[out->far_bit];
-  out->s_d = s->far_d[out->far_bit];
-  bool over = out->lo && mpz_cmp(out->lo, s->near[1]) >= 0, under = out->hi && mpz_cmp(out->hi, s->near[0]) <= 0;
-  out->near_bit = over && !near_thin;
-  bool fixed = over || under || near_thin;
-  out->q = fixed ? s->near[out->near_bit] : NULL;
-  out->q_d = fixed ? s->near_d[out->near_bit] : DYD_IV_UNKNOWN;
-}
-
-/* The slabs of one axis, lowest first; points: both rectangles are singletons. */
-static size_t curve_set_slabs(slab out[4], const side_set *s, bool near_point) {
-  bool far_thin = !mpz_cmp(s->far[0], s->far[1]), near_thin = !mpz_cmp(s->near[0], s->near[1]);
-  cut list[3];
-  size_t n = 0;
-  if (!(far_thin && near_point)) n = add_slab_cut(list, n, s, s->middle, s->middle_d);
-  if (!near_thin) {
-    n = add_slab_cut(list, n, s, s->near[0], s->near_d[0]);
-    n = add_slab_cut(list, n, s, s->near[1], s->near_d[1]);
-  }
-  for (size_t k = 0; k <= n; k++) {
-    out[k].lo = k > 0 ? list[k - 1].at : s->window[0];
-    out[k].lo_d = k > 0 ? list[k - 1].near : s->window_d[0];
-    out[k].hi = k < n ? list[k].at : s->window[1];
-    out[k].hi_d = k < n ? list[k].near : s->window_d[1];
-    show_slab(&out[k], s, far_thin, near_thin);
-  }
-  return n + 1;
+  s->at[DYD_MIDDLE] = middle;
+  s->at_d[DYD_MIDDLE] = dyd_iv_scale(dyd_iv_add(s->far_d[0], s->far_d[1]), 0.5);
+  s->marks =
+      (dyd_marks){side_set_order, s, !mpz_cmp(s->far[0], s->far[1]), !mpz_cmp(s->at[DYD_NEAR_LO], s->at[DYD_NEAR_HI])};
 }
 
 /* ---- points of an arc ---- */
@@ -268,40 +222,28 @@ static int arc_choose_axis(const dyd_elementary *a) {
   return axis;
 }
 
-/* Sign of t - s_k in the pane. */
-static int arc_choose_branch(const dyd_elementary *a) {
-  int k = a->axis;
-  if (a->lo[k] && mpz_cmp(a->lo[k], a->s[k]) >= 0) return 1;
-  DYD_INVARIANT(a->hi[k] && mpz_cmp(a->hi[k], a->s[k]) <= 0);
-  return -1;
-}
-
-static dyd_feature_kind feature_name(const slab *x, const slab *y) {
-  if (!x->q) return y->near_bit ? DYD_SIDE_Y1 : DYD_SIDE_Y0;
-  if (!y->q) return x->near_bit ? DYD_SIDE_X1 : DYD_SIDE_X0;
-  return (dyd_feature_kind)(x->near_bit + 2 * y->near_bit);
-}
-
-/* The arc of the pane x times y; false: the pane is the near rectangle, or surely without an arc. */
-static bool curve_set_arc(dyd_elementary *a, const slab *x, const slab *y) {
-  const slab *pane[2] = {x, y};
+/* The arc of the pane of two strips; false: the pane is the near rectangle, or certainly without an arc. The branch is
+ * the sign of t - s_k in the pane, which the middle separates from s. */
+static bool curve_set_arc(dyd_elementary *a, const side_set s[2], const dyd_strip t[2]) {
   dyd_iv lo[2], hi[2];
-  if (!x->q && !y->q) return false;
+  if (!t[0].fixed && !t[1].fixed) return false;
   for (int k = 0; k < 2; k++) {
-    a->s[k] = pane[k]->s;
-    a->q[k] = pane[k]->q;
-    a->lo[k] = pane[k]->lo;
-    a->hi[k] = pane[k]->hi;
-    a->shape.s[k] = pane[k]->s_d;
-    a->shape.q[k] = pane[k]->q_d;
-    lo[k] = pane[k]->lo_d;
-    hi[k] = pane[k]->hi_d;
+    a->s[k] = s[k].far[t[k].far_end];
+    a->q[k] = t[k].fixed ? s[k].at[t[k].q] : NULL;
+    a->lo[k] = s[k].at[t[k].lo];
+    a->hi[k] = s[k].at[t[k].hi];
+    a->shape.s[k] = s[k].far_d[t[k].far_end];
+    a->shape.q[k] = t[k].fixed ? s[k].at_d[t[k].q] : DYD_IV_UNKNOWN;
+    lo[k] = s[k].at_d[t[k].lo];
+    hi[k] = s[k].at_d[t[k].hi];
   }
-  a->corner = (dyd_feature_kind)(x->far_bit + 2 * y->far_bit);
-  a->feature = feature_name(x, y);
-  a->parabola = a->shape.parabola = !x->q || !y->q;
+  a->corner = (dyd_feature_kind)(t[0].far_end + 2 * t[1].far_end);
+  a->feature = dyd_strips_feature(t);
+  a->parabola = a->shape.parabola = !t[0].fixed || !t[1].fixed;
   a->axis = arc_choose_axis(a);
-  a->branch = a->parabola ? arc_choose_branch(a) : 0;
+  a->branch = !a->parabola ? 0 : t[a->axis].above ? 1 : -1;
+  DYD_INVARIANT(a->branch != 1 || mpz_cmp(a->lo[a->axis], a->s[a->axis]) >= 0);
+  DYD_INVARIANT(a->branch != -1 || mpz_cmp(a->hi[a->axis], a->s[a->axis]) <= 0);
   int o = 1 - a->axis, across = mpz_cmp(a->s[o], a->q[o]);
   if (!across) return false; /* a focus on the directrix, outside of the pane: the rectangles are disjoint */
   a->direction = (across > 0) == (a->axis == 0) ? 1 : -1;
@@ -310,26 +252,26 @@ static bool curve_set_arc(dyd_elementary *a, const slab *x, const slab *y) {
 
 void dyd_curve_set(dyd_curve *out, const dyd_scaled *far, const dyd_scaled *near, const dyd_scaled *window, int side,
                    int64_t shift) {
-  slab x[4], y[4];
+  dyd_strip x[4], y[4];
   side_set s[2];
   dyd_surd_point p;
   dyd_surd_point_init(&p);
-  bool near_point = !mpz_cmp(near->r.x0, near->r.x1) && !mpz_cmp(near->r.y0, near->r.y1);
   for (int k = 0; k < 2; k++) {
     mpz_add(out->middle[k], dyd_irect_end(&far->r, k, 0), dyd_irect_end(&far->r, k, 1));
     mpz_tdiv_q_2exp(out->middle[k], out->middle[k], 1);
     side_set_init(&s[k], far, near, window, k, out->middle[k]);
   }
-  size_t columns = curve_set_slabs(x, &s[0], near_point), rows = curve_set_slabs(y, &s[1], near_point);
+  bool near_point = s[0].marks.near_thin && s[1].marks.near_thin;
+  size_t columns = dyd_marks_strips(x, &s[0].marks, near_point), rows = dyd_marks_strips(y, &s[1].marks, near_point);
   out->count = 0;
-  for (size_t c = 0; c < columns; c++)
-    for (size_t r = 0; r < rows; r++) {
-      dyd_elementary *a = &out->arc[out->count];
-      if (!curve_set_arc(a, &x[c], &y[r]) || !clip_arc(a, &p, side)) continue;
-      for (int e = 0; e < 2; e++)
-        if (!a->end[e].infinite) dyd_filter_spot_box(&a->end[e], shift);
-      out->count++;
-    }
+  for (size_t k = 0; k < columns * rows; k++) {
+    dyd_elementary *a = &out->arc[out->count];
+    const dyd_strip t[2] = {x[k / rows], y[k % rows]};
+    if (!curve_set_arc(a, s, t) || !clip_arc(a, &p, side)) continue;
+    for (int e = 0; e < 2; e++)
+      if (!a->end[e].infinite) dyd_filter_spot_box(&a->end[e], shift);
+    out->count++;
+  }
   dyd_surd_point_clear(&p);
 }
 

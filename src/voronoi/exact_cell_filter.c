@@ -139,3 +139,42 @@ bool dyd_filter_no_arc(const dyd_filter_arc *arc, int axis, int branch, const dy
   }
   return arc_difference(arc, axis, least).lo > 0 || arc_difference(arc, axis, most).hi < 0;
 }
+
+/* ---- panes ---- */
+
+static size_t marks_add_cut(int list[3], size_t n, const dyd_marks *m, int mark) {
+  if (m->order(m->axis, mark, DYD_WINDOW_LO) <= 0 || m->order(m->axis, mark, DYD_WINDOW_HI) >= 0) return n;
+  size_t k = n;
+  while (k > 0 && m->order(m->axis, list[k - 1], mark) > 0) k--;
+  if (k > 0 && !m->order(m->axis, list[k - 1], mark)) return n;
+  for (size_t q = n; q > k; q--) list[q] = list[q - 1];
+  list[k] = mark;
+  return n + 1;
+}
+
+size_t dyd_marks_strips(dyd_strip out[4], const dyd_marks *m, bool near_point) {
+  int list[3];
+  size_t n = 0;
+  if (!(m->far_thin && near_point)) n = marks_add_cut(list, n, m, DYD_MIDDLE);
+  if (!m->near_thin) n = marks_add_cut(list, n, m, DYD_NEAR_LO);
+  if (!m->near_thin) n = marks_add_cut(list, n, m, DYD_NEAR_HI);
+  for (size_t k = 0; k <= n; k++) {
+    dyd_strip *s = &out[k];
+    s->lo = k > 0 ? list[k - 1] : DYD_WINDOW_LO;
+    s->hi = k < n ? list[k] : DYD_WINDOW_HI;
+    s->above = m->order(m->axis, s->lo, DYD_MIDDLE) >= 0;
+    s->far_end = m->far_thin || s->above ? 0 : 1;
+    s->over = m->order(m->axis, s->lo, DYD_NEAR_HI) >= 0;
+    bool under = m->order(m->axis, s->hi, DYD_NEAR_LO) <= 0;
+    s->q = s->over && !m->near_thin ? DYD_NEAR_HI : DYD_NEAR_LO;
+    s->fixed = s->over || under || m->near_thin;
+  }
+  return n + 1;
+}
+
+dyd_feature_kind dyd_strips_feature(const dyd_strip s[2]) {
+  bool upper[2] = {s[0].q == DYD_NEAR_HI, s[1].q == DYD_NEAR_HI};
+  if (!s[0].fixed) return upper[1] ? DYD_SIDE_Y1 : DYD_SIDE_Y0;
+  if (!s[1].fixed) return upper[0] ? DYD_SIDE_X1 : DYD_SIDE_X0;
+  return (dyd_feature_kind)(upper[0] + 2 * upper[1]);
+}

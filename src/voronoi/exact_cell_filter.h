@@ -59,4 +59,28 @@ bool dyd_filter_sample(dyd_sample *out, const dyd_filter_arc *arc, dyd_iv level,
  * at corners. branch: sign of (coordinate along the directrix) - (that of s) in the pane, for parabolas. */
 bool dyd_filter_no_arc(const dyd_filter_arc *arc, int axis, int branch, const dyd_iv lo[2], const dyd_iv hi[2]);
 
+/* ---- panes: strips of both axes ---- */
+
+/* Marks on one axis: ends of the window, the middle of the far rectangle, ends of the near one. */
+enum { DYD_WINDOW_LO, DYD_WINDOW_HI, DYD_MIDDLE, DYD_NEAR_LO, DYD_NEAR_HI, DYD_MARKS };
+
+/* A closed strip between two marks, and what the rectangles show in it: the far one its end far_end, the near one the
+ * mark q, or (fixed = false) the foot of the perpendicular on its side. above: beyond the middle; over: beyond the near
+ * rectangle. */
+typedef struct dyd_strip {
+  int lo, hi, q, far_end;
+  bool fixed, above, over;
+} dyd_strip;
+
+/* What is known of one axis. order: of two marks. thin: the side of the far, of the near rectangle is one number. */
+typedef struct dyd_marks {
+  int (*order)(const void *axis, int a, int b);
+  const void *axis;
+  bool far_thin, near_thin;
+} dyd_marks;
+/* The strips of one axis, lowest first; returns how many. near_point: both sides of the near rectangle are thin. */
+size_t dyd_marks_strips(dyd_strip out[4], const dyd_marks *m, bool near_point);
+/* What the near rectangle shows in the pane of two strips. */
+dyd_feature_kind dyd_strips_feature(const dyd_strip s[2]);
+
 #endif

@@ -47,75 +47,39 @@ static bool outline_taken(bool *doubt, dyd_outline *o, size_t own, const dyd_iv 
   return false;
 }
 
-/* The elementary arcs of voronoi/bisector.c in intervals: the same panes in the same order, each decision certain. */
+/* ---- the elementary arcs of bisector.c in intervals ---- */
 
-/* Marks on one axis: ends of the window, the middle of the far rectangle, ends of the near one. */
-enum { WINDOW_LO, WINDOW_HI, MIDDLE, NEAR_LO, NEAR_HI, MARKS };
-
-/* at: as given; to: relative to the origin. */
+/* at: as given; to: relative to the origin. unsure: set where the order of marks is not known. */
 typedef struct ruler {
-  dyd_iv at[MARKS], to[MARKS], far_at[2], far_to[2];
-  bool far_thin, near_thin, of_window[2];
+  dyd_iv at[DYD_MARKS], to[DYD_MARKS], far_at[2], far_to[2];
+  bool of_window[2], *unsure;
+  dyd_marks marks;
 } ruler;
 
-/* A closed strip between two marks, and what the rectangles show in it: q is a mark, or fixed = false. */
-typedef struct strip {
-  int lo, hi, q, far_end;
-  bool fixed, above, over;
-} strip;
-
-static int marks_order(bool *unsure, const ruler *r, int a, int b) {
-  return a == b ? 0 : dyd_outline_order(unsure, r->at[a], r->at[b]);
+static int ruler_order(const void *axis, int a, int b) {
+  const ruler *r = axis;
+  return a == b ? 0 : dyd_outline_order(r->unsure, r->at[a], r->at[b]);
 }
 
 static void ruler_set(ruler *r, dyd_outline *o, size_t far, size_t near, int axis) {
   for (int e = 0; e < 2; e++) {
-    r->at[WINDOW_LO + e] = o->bound[2 * axis + e];
-    r->to[WINDOW_LO + e] = dyd_iv_sub(o->bound[2 * axis + e], dyd_iv_point(o->origin[axis]));
+    r->at[DYD_WINDOW_LO + e] = o->bound[2 * axis + e];
+    r->to[DYD_WINDOW_LO + e] = dyd_iv_sub(o->bound[2 * axis + e], dyd_iv_point(o->origin[axis]));
     r->of_window[e] = o->of_window[2 * axis + e];
-    r->at[NEAR_LO + e] = o->box[near].end[2 * axis + e];
-    r->to[NEAR_LO + e] = o->near[near].end[2 * axis + e];
+    r->at[DYD_NEAR_LO + e] = o->box[near].end[2 * axis + e];
+    r->to[DYD_NEAR_LO + e] = o->near[near].end[2 * axis + e];
     r->far_at[e] = o->box[far].end[2 * axis + e];
     r->far_to[e] = o->near[far].end[2 * axis + e];
   }
-  r->far_thin = o->thin[far][axis];
-  r->near_thin = o->thin[near][axis];
-  r->at[MIDDLE] = r->far_thin ? r->far_at[0] : dyd_iv_scale(dyd_iv_add(r->far_at[0], r->far_at[1]), 0.5);
-  r->to[MIDDLE] = r->far_thin ? r->far_to[0] : dyd_iv_scale(dyd_iv_add(r->far_to[0], r->far_to[1]), 0.5);
+  r->unsure = &o->unsure;
+  r->marks = (dyd_marks){ruler_order, r, o->thin[far][axis], o->thin[near][axis]};
+  r->at[DYD_MIDDLE] = r->marks.far_thin ? r->far_at[0] : dyd_iv_scale(dyd_iv_add(r->far_at[0], r->far_at[1]), 0.5);
+  r->to[DYD_MIDDLE] = r->marks.far_thin ? r->far_to[0] : dyd_iv_scale(dyd_iv_add(r->far_to[0], r->far_to[1]), 0.5);
 }
 
-static size_t ruler_add_cut(int list[3], size_t n, bool *unsure, const ruler *r, int mark) {
-  if (marks_order(unsure, r, mark, WINDOW_LO) <= 0 || marks_order(unsure, r, mark, WINDOW_HI) >= 0) return n;
-  size_t k = n;
-  while (k > 0 && marks_order(unsure, r, list[k - 1], mark) > 0) k--;
-  if (k > 0 && !marks_order(unsure, r, list[k - 1], mark)) return n;
-  for (size_t m = n; m > k; m--) list[m] = list[m - 1];
-  list[k] = mark;
-  return n + 1;
-}
-
-static size_t ruler_set_strips(strip out[4], bool *unsure, const ruler *r, bool near_point) {
-  int list[3];
-  size_t n = 0;
-  if (!(r->far_thin && near_point)) n = ruler_add_cut(list, n, unsure, r, MIDDLE);
-  if (!r->near_thin) n = ruler_add_cut(list, n, unsure, r, NEAR_LO);
-  if (!r->near_thin) n = ruler_add_cut(list, n, unsure, r, NEAR_HI);
-  for (size_t k = 0; k <= n; k++) {
-    strip *s = &out[k];
-    s->lo = k > 0 ? list[k - 1] : WINDOW_LO;
-    s->hi = k < n ? list[k] : WINDOW_HI;
-    s->above = marks_order(unsure, r, s->lo, MIDDLE) >= 0;
-    s->far_end = r->far_thin || s->above ? 0 : 1;
-    s->over = marks_order(unsure, r, s->lo, NEAR_HI) >= 0;
-    bool under = marks_order(unsure, r, s->hi, NEAR_LO) <= 0;
-    s->q = s->over && !r->near_thin ? NEAR_HI : NEAR_LO;
-    s->fixed = s->over || under || r->near_thin;
-  }
-  return n + 1;
-}
+/* ---- points of an arc ---- */
 
 /* The point of an arc at t along its axis. */
-/* ---- points of an arc ---- */
 static dyd_outline_spot outline_arc_at(const dyd_outline_arc *a, dyd_iv t) {
   dyd_outline_spot p = {.side = {-1, -1}};
   p.at[a->axis] = t;
@@ -157,7 +121,7 @@ typedef struct pane_sides {
 } pane_sides;
 
 static int window_side(const ruler *r, int mark) {
-  return mark == WINDOW_LO && r->of_window[0] ? 0 : mark == WINDOW_HI && r->of_window[1] ? 1 : -1;
+  return mark == DYD_WINDOW_LO && r->of_window[0] ? 0 : mark == DYD_WINDOW_HI && r->of_window[1] ? 1 : -1;
 }
 
 /* Sign of dv/dt. */
@@ -217,14 +181,8 @@ static int outline_axis(bool *either, const dyd_filter_arc *a, bool side_y) {
   return dyd_outline_order(either, n[0], n[1]) <= 0 ? 0 : 1;
 }
 
-static int outline_feature(const strip s[2]) {
-  if (!s[0].fixed) return s[1].q == NEAR_HI ? DYD_SIDE_Y1 : DYD_SIDE_Y0;
-  if (!s[1].fixed) return s[0].q == NEAR_HI ? DYD_SIDE_X1 : DYD_SIDE_X0;
-  return (s[0].q == NEAR_HI) + 2 * (s[1].q == NEAR_HI);
-}
-
 /* As curve_set_arc. */
-static bool outline_set_arc(dyd_outline_arc *a, pane_sides *m, bool *unsure, const ruler r[2], const strip s[2]) {
+static bool outline_set_arc(dyd_outline_arc *a, pane_sides *m, bool *unsure, const ruler r[2], const dyd_strip s[2]) {
   if (!s[0].fixed && !s[1].fixed) return false;
   for (int k = 0; k < 2; k++) {
     a->shape.s[k] = r[k].far_to[s[k].far_end];
@@ -237,7 +195,7 @@ static bool outline_set_arc(dyd_outline_arc *a, pane_sides *m, bool *unsure, con
     m->end[k][1] = window_side(&r[k], s[k].hi);
   }
   a->corner = s[0].far_end + 2 * s[1].far_end;
-  a->feature = outline_feature(s);
+  a->feature = (int)dyd_strips_feature(s);
   a->shape.parabola = !s[0].fixed || !s[1].fixed;
   a->either = false;
   a->axis = outline_axis(&a->either, &a->shape, !s[0].fixed);
@@ -254,13 +212,12 @@ static bool arc_is_taken(dyd_outline *o, const dyd_outline_arc *a) {
 static void outline_add_curve(dyd_outline *o, uint32_t other) {
   size_t far = o->outer ? other : o->count, near = o->outer ? o->count : other;
   ruler r[2];
-  strip x[4], y[4];
+  dyd_strip x[4], y[4];
   for (int k = 0; k < 2; k++) ruler_set(&r[k], o, far, near, k);
-  bool near_point = r[0].near_thin && r[1].near_thin;
-  size_t columns = ruler_set_strips(x, &o->unsure, &r[0], near_point),
-         rows = ruler_set_strips(y, &o->unsure, &r[1], near_point);
+  bool near_point = r[0].marks.near_thin && r[1].marks.near_thin;
+  size_t columns = dyd_marks_strips(x, &r[0].marks, near_point), rows = dyd_marks_strips(y, &r[1].marks, near_point);
   for (size_t k = 0; k < columns * rows && !o->unsure; k++) {
-    const strip s[2] = {x[k / rows], y[k % rows]};
+    const dyd_strip s[2] = {x[k / rows], y[k % rows]};
     dyd_outline_arc *a = &o->arc[o->arcs];
     pane_sides m;
     if (o->arcs == DYD_OUTLINE_ARCS) {
