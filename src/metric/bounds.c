@@ -14,8 +14,8 @@
  * cell of p_a, so the segment from z to it meets the diagram: z is at most dl_k(z) away, for each k with R_k disjoint
  * from R_a, j possibly among them; and at most max(dl_k, dl_l)(z), for any R_k, R_l that are disjoint, since one of
  * p_k, p_l is not p_a. z lies in Pos_a n Pos_j n W, where dl_a, dl_j are at most their largest values at the vertices
- * of the outer polygons (dl is convex), and the others are bounded over boxes (bounds_filter.c). Where nothing of this
- * is known: if any two rectangles are disjoint, z is within the diameter of W and all sites of a point that is not p_a.
+ * of the outer polygons (dl is convex), and the others are bounded over boxes (bounds_filter.c). If none of these is
+ * known and any two rectangles are disjoint, z is within the diameter of W and all sites of a point that is not p_a.
  */
 #include "metric/bounds.h"
 
@@ -45,7 +45,7 @@
  *   points coincide, G is that point: an edge between coinciding points is the point.)
  * Ties count as any possible pair: a choice of diagonals in a cocircular set may leave such an edge out.
  *
- * Fewer than two sites, aliases not counted: there is no edge, G and U are both empty, and both bounds are 0.
+ * With fewer than two sites, aliases not counted, G and U are empty and both bounds are 0.
  *
  * Rounding: terms are rounded up by at most 2^-80 of themselves. A sum of fewer than 2^40 non-negative terms at 128
  * bits adds at most 2^-87 of itself, a maximum nothing, and the last rounding, to 64 bits, 2^-63. Bounds so
@@ -194,7 +194,7 @@ dyd_status dyd_bound_pair_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair
   return st;
 }
 
-/* The sum over the pairs of their areas, or the most that one asks of the distance. */
+/* The sum of the areas of the pairs, or the largest distance of one pair. */
 static dyd_status bound_over(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs, bool area) {
   dyd_status st = DYD_OK;
   mpfr_t term;
@@ -344,7 +344,7 @@ static dyd_status add_shape(double area[2], dyd_voronoi_sums *s, uint32_t i, con
   return DYD_OK;
 }
 
-/* The shape of site i, or what stands for it. */
+/* The shape of site i, or an unknown one once the work is cancelled. */
 static dyd_status find_shape(dyd_shape *shape, dyd_voronoi_sums *s, uint32_t i, const dyd_window *w) {
   dyd_status st = dyd_shape_find(shape, s->pd, i, w, s->bits);
   if (st != DYD_CANCELLED || !s->cut) return st;
@@ -434,8 +434,8 @@ dyd_status dyd_voronoi_pair_second(double *out, dyd_voronoi_sums *s, const dyd_p
   return st;
 }
 
-/* What one possible pair asks of the bound: the width, or the distance of other points where that is smaller. The
- * latter is not looked for where the width is at most `enough`. *known = false: there is neither. */
+/* The bound for one possible pair: its width, or the distance of other points where that is smaller. The latter is not
+ * computed where the width is at most `enough`. *known = false: there is neither. */
 static dyd_status pair_distance(mpfr_ptr out, bool *known, dyd_voronoi_sums *s, dyd_measure *m, const dyd_pair *pair,
                                 mpfr_srcptr enough) {
   double second;

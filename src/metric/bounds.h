@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Upper bounds on what is undecided of the triangulation and of the Voronoi diagram, as MPFR numbers: for comparing
+/* Upper bounds on the undecided part of the triangulation and of the Voronoi diagram, as MPFR numbers: for comparing
  * with a goal without leaving the exponent range of dyadics. */
 #ifndef DYD_METRIC_BOUNDS_H
 #define DYD_METRIC_BOUNDS_H
@@ -43,16 +43,16 @@ dyd_status dyd_measure_reach(mpfr_ptr out, dyd_measure *m, size_t i, size_t j);
 dyd_status dyd_bound_area(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs);
 dyd_status dyd_bound_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs);
 
-/* What one possible pair adds to (area) or asks of (Hausdorff) the bound. */
+/* The distance bound of one possible pair. */
 dyd_status dyd_bound_pair_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair *pair);
 
 /* ---- the Voronoi diagram, cell by cell ---- */
 
 /* Invariant: inner <= the areas of the inner polygons added; reach[i] >= dl_i over Pos_i n W, -1 where that is
- * empty or i was not added; second[i]: what dyd_filter_second gives for `most`
- * (HUGE_VAL: always what is known), -1 until it is asked for.
+ * empty or i was not added; second[i]: the result of dyd_filter_second for `most`
+ * (HUGE_VAL: no limit), -1 until it is computed.
  * cancel: checked by all work on these sums; NULL: never. cut: NULL: a shape that is cancelled ends the walk with
- * DYD_CANCELLED; else dyd_shape_set_unknown stands for it and those after it, and they are counted here. Both are set
+ * DYD_CANCELLED; else it and all later ones become unknown shapes (dyd_shape_set_unknown), counted here. Both are set
  * by the caller after dyd_voronoi_sums_init. */
 typedef struct dyd_voronoi_sums {
   const dyd_delaunay *pd;
@@ -62,10 +62,10 @@ typedef struct dyd_voronoi_sums {
   dyd_dyadic area2;
   const volatile int *cancel;
   size_t *cut;
-  dyd_room room; /* what max_bytes leaves beside the triangulation */
+  dyd_room room; /* what max_bytes leaves besides the triangulation */
   double *reach, *second, most;
   bool exact; /* cells of exact points are not flattened; false: their polygons are proved, vertex by vertex */
-  size_t added, inexact; /* shapes; those that are not the whole cell */
+  size_t added, inexact; /* shapes; of them, how many are not the whole cell */
 } dyd_voronoi_sums;
 
 /* bits: of the polygons to come; sums are kept so precise that rounding does not spoil what these give. */
@@ -84,10 +84,10 @@ dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, dyd_voronoi_sums *s)
  * the rectangles meet. */
 dyd_status dyd_voronoi_pair_width(mpfr_ptr out, bool *finite, const dyd_voronoi_sums *s, dyd_measure *m,
                                   const dyd_pair *pair);
-/* The same by other points near it; HUGE_VAL: nothing is known, or it is above s->most. */
+/* The same by other points near it; HUGE_VAL: unknown, or above s->most. */
 dyd_status dyd_voronoi_pair_second(double *out, dyd_voronoi_sums *s, const dyd_pair *pair);
 
-/* Called for every site that stands for itself, in order, with doubles area[0] <= area of Int_i n W and
+/* Called for every site that is not an alias, in order, with doubles area[0] <= area of Int_i n W and
  * area[1] >= area of Pos_i n W. */
 typedef dyd_status (*dyd_voronoi_visit)(void *context, uint32_t i, const dyd_shape *shape, const double area[2]);
 /* Makes the polygons of all cells once, adds them up and shows them to `visit`, whose status ends the walk unless it is

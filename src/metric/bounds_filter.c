@@ -40,7 +40,7 @@ static bool second_is_blocked_by(const dyd_bbox corner[4], const double near[4],
   return true;
 }
 
-/* Does nobody have to be the nearest but another one: is c outside of Pos_i? */
+/* Returns true if some other site is certainly nearer in all of c: c is outside of Pos_i. */
 static bool second_is_outside(const second_search *s, const dyd_bbox *c) {
   dyd_bbox corner[4];
   double near[4];

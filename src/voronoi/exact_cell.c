@@ -163,8 +163,8 @@ void dyd_boundary_clear(dyd_boundary *b) {
  * Inside W the boundary of the region consists of pieces of the curves, and of points at which a curve touches W from
  * outside. So along a side the region can begin or end only at an end of an arc on that side (arcs that are one point
  * included, so that no sample meets a touching point). Between two such ends a sample decides; a stretch that lies on
- * the boundary of the region itself is no piece of the window (the curve's arc is one, if it has the region on the side
- * of W). */
+ * the boundary of the region itself does not count as a piece of the window (the curve's arc is one, if it has the
+ * region on the side of W). */
 
 /* Adds s if it lies strictly inside the side. */
 static dyd_status cut_side(dyd_exact_cell *c, size_t *count, int side, const dyd_spot *s) {
@@ -387,7 +387,7 @@ dyd_status dyd_cell_find_pieces(dyd_exact_cell *c) {
  *
  * Each piece ends where exactly one other begins, since the region has no pinched point in the plane: Int_i is convex,
  * and near a point outside R_i the segments towards R_i, all in Pos_i, run in nearly one direction. A curve may touch
- * a side of the window; there each goes on by itself, so a piece is first joined to the next one of its own curve.
+ * a side of the window; there each continues alone, so a piece is first joined to the next one of its own curve.
  * Neighbours that differ in nothing but a cut become one arc. */
 
 #define NONE SIZE_MAX

@@ -43,8 +43,9 @@ typedef struct dyd_scaled {
   dyd_box box;
 } dyd_scaled;
 
-/* The arcs of disjoint rectangles far, near, borrowed as long as *out is used. With a window (else NULL), what lies in
- * it; of arcs along a side of the window those that have the region inside: C_ab (side = 1), or its complement (-1). */
+/* The arcs of disjoint rectangles far, near, borrowed as long as *out is used. With a window (else NULL), their parts
+ * in it; of arcs along a side of the window, the ones with the region inside: C_ab (side = 1), or its complement (-1).
+ */
 void dyd_curve_set(dyd_curve *out, const dyd_scaled *far, const dyd_scaled *near, const dyd_scaled *window, int side,
                    int64_t shift);
 
@@ -53,11 +54,11 @@ bool dyd_elementary_holds(const dyd_elementary *a, const dyd_spot *p);
 /* out = the point of the arc's line or branch of parabola whose coordinate a->axis is num / 2^bits. */
 void dyd_elementary_at(dyd_surd_point *out, const dyd_elementary *a, mpz_srcptr num, int64_t bits);
 
-/* What is asked: the region of site `site` against `count` others.
+/* The task: the region of site `site` against `count` others.
  * rect: the rectangle of `site`, of the others, and of the window if there is one; site numbers ascending. outer: Pos,
  * else Int. pd: only pairs of others that it calls possible share a vertex; NULL: all may. keep_all: without
- * dyd_cell_prune, for comparison. cancel: the work ends with DYD_CANCELLED once *cancel is set; may be NULL. room: for
- * what is large; NULL: no bound. All borrowed. */
+ * dyd_cell_prune, for comparison. cancel: the work ends with DYD_CANCELLED once *cancel is set; may be NULL. room:
+ * memory budget; NULL: no bound. All borrowed. */
 typedef struct dyd_cell_task {
   uint32_t site;
   const uint32_t *other;
@@ -84,7 +85,7 @@ typedef struct dyd_meet {
   dyd_spot spot;
 } dyd_meet;
 
-/* What all parts of the work on a cell look at: the rectangles of the site and of the window in one scale. */
+/* Shared by all parts of the work on a cell: the rectangles of the site and of the window in one scale. */
 typedef struct dyd_cell_frame {
   dyd_touch fixed_touch, other_touch;
   dyd_scaled fixed, window;
@@ -109,7 +110,7 @@ typedef struct dyd_exact_cell {
   dyd_piece *piece;
   size_t pieces, piece_cap;
   dyd_sample sample;
-  size_t taker;         /* who took the last sample: likely takes the next */
+  size_t taker;         /* the other that took the last sample: it likely takes the next */
   const dyd_spot **cut; /* scratch: cuts of one arc */
   size_t cut_cap;
 } dyd_exact_cell;
@@ -118,7 +119,8 @@ typedef struct dyd_exact_cell {
  * the at most ten lines that bound panes of the three rectangles at most twice, so it runs through at most 21 panes,
  * and each holds at most two. */
 enum { DYD_CELL_CIRCLES = 43 };
-/* The same for a point. */
+/* Sign of (distance of p to other k) - (distance to the fixed rectangle), each closest or farthest as the task has it.
+ */
 int dyd_cell_spot_side(const dyd_exact_cell *c, const dyd_spot *p, size_t k);
 /* Sign of (coordinate of p) - (that of q). */
 int dyd_cell_spot_cmp(const dyd_spot *p, const dyd_spot *q, int axis);
@@ -130,10 +132,10 @@ static inline int dyd_window_axis(int side) {
 /* Fills curve, meet, piece, empty before; and their release. */
 dyd_status dyd_cell_find_pieces(dyd_exact_cell *c);
 void dyd_cell_forget(dyd_exact_cell *c);
-/* task and frame are borrowed; other and site are owned, but not what other points to. */
+/* task and frame are borrowed; the arrays other and site are owned, the numbers in other are not. */
 void dyd_cell_init(dyd_exact_cell *c, const dyd_cell_task *task, const dyd_cell_frame *frame);
 void dyd_cell_clear(dyd_exact_cell *c);
-/* Leaves out others that surely do not bound the region, before the pieces are looked for. [PRUNE-1] */
+/* Removes others that certainly do not bound the region, before the search for pieces. [PRUNE-1] */
 dyd_status dyd_cell_prune(dyd_exact_cell *c);
 /* The boundary of Int_i or (outer) Pos_i; window NULL: in the whole plane. As dyd_voronoi_int and its kin, and
  * DYD_CANCELLED once *cancel, which may be NULL, is set; room may be NULL. */

@@ -4,7 +4,7 @@
  * [CELL-2] Under every choice the true cell of i is bounded by its Delaunay neighbours, which are possible neighbours.
  * So a point nearer to R_i than to all possible neighbours is in every true cell, hence in Int_i; and a point of Ext_i,
  * under the choice with p_i closest to it and all others farthest, is nearer to some Delaunay neighbour of i, hence in
- * C_ji for a possible neighbour j. Nobody else needs to be looked at. */
+ * C_ji for a possible neighbour j. No other site matters. */
 #include "base/alloc.h"
 #include "delaunay/memory.h"
 #include "delaunay/state.h"
@@ -18,30 +18,30 @@
 
 /* ---- pruning: which of many others bound a cell in a window ----
  *
- * The rest is left out before the exact work, which is cubic in their number.
+ * The rest is removed before the exact work, which is cubic in their number.
  *
  * Let A be some of the others, G_A the closure of the interior of their region in the window (of its part in the window
  * that has area). Its boundary consists of the pieces that A gives; if other k has D_k > r on all of these, closed,
- * then D_k > r on G_A, and k neither has pieces of its own nor takes any away, whoever else comes to A [PRUNE-1]. So A
- * starts with the neighbours in the skeleton; every other is compared with the pieces of A once, and either left out,
- * or taken into A, or kept without use. One of A that no longer touches the pieces is left out as well.
+ * then D_k > r on G_A, and k neither has pieces of its own nor takes any away, whatever is added to A [PRUNE-1]. So A
+ * starts with the neighbours in the skeleton; every other is compared with the pieces of A once, and either
+ * removed, or taken into A, or kept without use. One of A that no longer touches the pieces is removed as well.
  *
  * D_k > r on a piece: it lies in the box of its ends, as arcs are monotone in both coordinates [ARC-1], which doubles
  * may tell. For Int, D_k > r is the convex C_ik, so the ends of a straight piece tell. For Pos, dl_k >= |c - x| for a
  * corner x of R_k, while ds_i = dl_j = |c - s| on the curve of j with far corner s, and ds_i <= |c - y| for a corner y
  * of R_i; a difference of two squares of such is linear in c, so the ends of a straight piece tell again. Else both
- * ends tell if no critical circle of i, j, k has its centre on the piece. What is not sure is kept. */
+ * ends tell if no critical circle of i, j, k has its centre on the piece. In doubt the other is kept. */
 
-/* FEW: below, the exact work is quicker than leaving out. */
+/* FEW: below, the exact work is quicker than pruning. */
 enum { FEW = 16, BATCH = 12, MOST_PICKS = 48, MOST_REBUILDS = 80 };
 
 typedef enum relation { CLEAR, TOUCHES, CUTS } relation;
 
-/* of an other: not compared yet, left out, kept, in A, cuts a piece */
+/* State of an other: not compared yet, removed, kept, in A, cuts a piece. */
 enum { NEW, OUT, KEPT, PICKED, CUTTING };
 
 /* sub: the pieces of the region of c->other[pick[..picks)], everything else borrowed from c. built: how many of pick
- * that was; those left out since do not change the region. */
+ * that was; the ones removed since do not change the region. */
 typedef struct prune {
   dyd_exact_cell sub;
   dyd_cell_task task;
@@ -49,7 +49,7 @@ typedef struct prune {
   dyd_icircle circle[DYD_CELL_CIRCLES];
   size_t *pick, picks, rebuilds;
   uint8_t *state;
-  bool joined; /* those that no longer touch may leave A */
+  bool joined; /* members that no longer touch may leave A */
 } prune;
 
 /* ---- one piece ---- */
@@ -266,7 +266,7 @@ dyd_status dyd_cell_prune(dyd_exact_cell *c) {
   return st;
 }
 
-/* *site = the site whose cell is asked for by i. */
+/* *site = the site that i is an alias of, or i. */
 static dyd_status find_cell_site(uint32_t *site, const dyd_delaunay *pd, uint32_t i) {
   if (i >= dyd_sites_count(dyd_delaunay_sites(pd))) return DYD_E_ARG;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;

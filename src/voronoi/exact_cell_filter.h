@@ -72,7 +72,7 @@ typedef struct dyd_strip {
   bool fixed, above, over;
 } dyd_strip;
 
-/* What is known of one axis. order: of two marks. thin: the side of the far, of the near rectangle is one number. */
+/* The marks of one axis. order: of two of them. thin: the side of the far, of the near rectangle is one number. */
 typedef struct dyd_marks {
   int (*order)(const void *axis, int a, int b);
   const void *axis;

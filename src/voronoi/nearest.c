@@ -19,9 +19,10 @@
  * A walk along the side, as the cover walk of the triangulation.
  * On the line of the side let t be the coordinate. Site k blocks the t with f_k = dl_k^2 - ds_i^2 < 0: C_ki is open and
  * convex, so that is one open interval. Pos_i meets the side iff the intervals of all other sites do not cover it.
- * Walk: start at the lower end; nobody blocks there: it meets. Else go to the upper end of a blocker's interval, which
+ * Walk: start at the lower end; if no site blocks there, Pos_i meets the side. Else go to the upper end of a blocker's
+ * interval, which
  * this blocker leaves free; beyond the side: it does not meet. Each step is at the end of another interval, farther on,
- * so there are at most as many as sites [NEAR-2].
+ * so there is at most one step for each site [NEAR-2].
  *
  * With s the farther end of R_k along the axis (the upper one for t <= the middle), and D = (distance across to the
  * farther end of R_k)^2 - (distance across to R_i)^2:
@@ -158,7 +159,7 @@ static bool place_advance(dyd_near_work *w, const dyd_near_side *side, const dyd
   return true;
 }
 
-/* Somebody who blocks the place, with D and the middle set; count: nobody. */
+/* Returns a site that blocks the place, with D and the middle set; count: none. */
 static size_t side_find_blocker(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *site, size_t count,
                                 size_t i, bool no_filter) {
   dyd_bbox c;

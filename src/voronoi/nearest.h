@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Nearest sites: who can be concerned, and the exact tests on a side of the query. */
+/* Nearest sites: candidates, and tests in doubles on a side of the query. */
 #ifndef DYD_VORONOI_NEAREST_H
 #define DYD_VORONOI_NEAREST_H
 
 #include "delaunay/state.h"
 #include "skeleton/skeleton.h"
 
-/* Vertices that hold all that are possibly nearest to some point of q. Every vertex that surely nearer sites rule out
- * is left out, up to rounding. *vertex is owned by the caller. */
+/* Finds vertices, among them all that are possibly nearest to some point of q. Up to rounding, none is among them that
+ * certainly nearer sites rule out. *vertex is owned by the caller. */
 dyd_status dyd_near_candidates(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, const dyd_rect *q);
 
 /* A rational rectangle x0 x1 y0 y1, its outward box, and by how much that may be too large. */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Who can be nearest to a point of the query rectangle, by bounds of distances in doubles [FLT-DST].
+/* Candidates for the nearest site of a point of the query rectangle, by bounds of distances in doubles [FLT-DST].
  *
  * Let B be an upper bound of min_k max_{c in q} dl_k(c)^2. A site that is possibly nearest to some c in q has ds(c)^2
  * <= min_k dl_k(c)^2 <= B, so its box comes within sqrt(B) of q. The box of a tree node that holds a site bounds that
- * site's dl from above: a descent towards q gives a first B, one search of the tree the final one and everybody within.
+ * site's dl from above: a descent towards q gives a first B, one search of the tree the final one and all candidates.
  */
 #include "base/alloc.h"
 #include "dyadic/raw.h"

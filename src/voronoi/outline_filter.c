@@ -229,8 +229,7 @@ static void outline_add_curve(dyd_outline *o, uint32_t other) {
   }
 }
 
-/* The arcs of the curves of all others, but for those that are taken away. What is in doubt sets
- * o->unsure. */
+/* Finds the arcs of the curves of all others, except arcs that are taken away. Sets o->unsure in doubt. */
 static void outline_find_arcs(dyd_outline *o) {
   o->arcs = 0;
   for (uint32_t k = 0; k < o->count && !o->unsure; k++)
@@ -241,8 +240,8 @@ static void outline_find_arcs(dyd_outline *o) {
  *
  * Let a, b be arcs of the curves of j and k. A point of both lies in their boxes, and in panes with the same far corner
  * (Int) or the same near feature (Pos) of the site, or on the border of panes, which is never certain. Relative to the
- * far corner s of a, the point at u along the axis of a has the other coordinate w(u) = w0 + w1 u + w2 u^2, and what b
- * asks of it is A u^2 + B u + C = 0:
+ * far corner s of a, the point at u along the axis of a has the other coordinate w(u) = w0 + w1 u + w2 u^2, and b
+ * demands A u^2 + B u + C = 0:
  *   as far from the point d as from 0 (the near corner of k for Int, the far corner of k for Pos): d.p = |d|^2 / 2;
  *   for Int and a near side of k at D, across the axis of a or along it, with a straight: |p|^2 = (p_o - D)^2;
  *   with a of the near side D' too, where |p| = |w - D'|: w = (D + D') / 2, or +-(u - D) = w - D', the signs being

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The boundary of a region in a window in doubles: what dyd_cell_boundary finds exactly, with boxes in place of points.
+/* The boundary of a region in a window in doubles: what dyd_cell_boundary finds exactly, with boxes instead of points.
  *
  * Each step of the exact work is done in intervals that hold, and each decision is taken only where these leave no
- * doubt; else nothing is said and the exact rung does the cell [OUTLINE-1]. */
+ * doubt; else the filter declines and the exact rung does the cell [OUTLINE-1]. */
 #ifndef DYD_VORONOI_OUTLINE_FILTER_H
 #define DYD_VORONOI_OUTLINE_FILTER_H
 

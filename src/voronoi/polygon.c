@@ -112,7 +112,7 @@ static int compare_vertices(const void *a, const void *b) {
   return c ? c : dyd_dyadic_cmp(&p->y, &q->y);
 }
 
-/* Extends the chain of `kept` borrowed points by z, popping what is no left turn; stays above `floor`. */
+/* Extends the chain of `kept` borrowed points by z, popping vertices without a left turn; stays above `floor`. */
 static size_t extend_chain(const dyd_point **chain, size_t kept, size_t floor, const dyd_point *z) {
   while (kept >= floor + 2 && turn_sign(chain[kept - 2], chain[kept - 1], z) <= 0) kept--;
   chain[kept++] = z;
@@ -433,7 +433,7 @@ dyd_status dyd_polygons_clip(bool *simple, dyd_polygon_list *l, const dyd_rect *
 /* ---- the polygons of a cell ---- */
 
 /* FINER: bits by which polygons that cross themselves are made finer. Parabolas take twice as many chords for two bits,
- * so what was too coarse costs less than what is fine enough. */
+ * so coarse attempts cost less than the one that is fine enough. */
 enum { FIRST_EXTRA = 8, MOST_EXTRA = 1 << 15, MOST_ANEW = 1 << 13, FINER = 2 };
 
 typedef struct work {
@@ -594,7 +594,7 @@ static dyd_status exact_outer_part(dyd_polygon *out, work *w, const dyd_chain *c
   return st;
 }
 
-/* A polygon that comes out clockwise winds round no point of Pos_i n W: its part was outside of W, and is left out. */
+/* A polygon that comes out clockwise winds round no point of Pos_i n W: its part was outside of W, and is dropped. */
 static dyd_status drop_if_clockwise(dyd_polygon_list *l) {
   dyd_dyadic area2;
   dyd_dyadic_init(&area2);

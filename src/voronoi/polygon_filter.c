@@ -4,7 +4,7 @@
  * All points of that rung are multiples of some 2^-scale. Here they are integers of at most GRID bits, so that sums,
  * means, steps and turns are exact; where a coordinate is rounded to the grid its enclosure has to lie between two
  * neighbours there, and where a point is proved the bounds of [FLT-DST] have to say yes or no. So the polygons are the
- * same ones, or nothing is said [OUTLINE-1]. */
+ * same ones, or the filter declines [OUTLINE-1]. */
 #include "base/alloc.h"
 #include "voronoi/outline_filter.h"
 #include "voronoi/sample.h"

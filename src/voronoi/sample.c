@@ -204,7 +204,7 @@ static dyd_status arc_count_steps(uint32_t *out, const dyd_arc *arc, const dyd_c
 }
 
 /* Of a sample, of the polygons that it is a corner of (one at work, its hull or its copy, the inner one while the outer
- * one is made), and of the box of its edge: coordinates of so many bits, and some more. */
+ * one is made), and of the box of its edge: coordinates of `bits` bits and some more. */
 static uint64_t bytes_of_sample(int64_t bits) {
   enum { POLYGONS = 3, BLOCK = 24, MORE = 96 };
   uint64_t digits = (uint64_t)(bits > 0 ? bits + MORE : MORE) / 8 + BLOCK;

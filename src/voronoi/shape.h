@@ -18,8 +18,8 @@
 #include <dyadel/voronoi.h>
 
 /* The window W. Invariant: dyadic ends, positive area; d[] are doubles within W: xlo, xhi, ylo, yhi. cancel: work on a
- * shape ends with DYD_CANCELLED once *cancel is set; NULL, as dyd_window_init leaves it: never. room: for what is
- * large; NULL, as above: no bound. exact: false, as dyd_window_init leaves it, wherever polygons have to be proved. */
+ * shape ends with DYD_CANCELLED once *cancel is set; NULL, as dyd_window_init leaves it: never. room: memory
+ * budget; NULL, as above: no bound. exact: false, as dyd_window_init leaves it, wherever polygons have to be proved. */
 typedef struct dyd_window {
   const dyd_rect *rect;
   double d[4];
@@ -69,7 +69,7 @@ void dyd_shape_clear(dyd_shape *s);
 /* The shape of the cell of site i (not an alias): every point of Int_i n W is within 2^-bits of the inner polygon, the
  * outer ones reach at most 2^-bits beyond Pos_i. pd is not capped. */
 dyd_status dyd_shape_find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w, int64_t bits);
-/* What is true of any cell: nothing is surely in it, all of W possibly. */
+/* Sets what holds for any cell: no point is certainly in it, all of W possibly. */
 dyd_status dyd_shape_set_unknown(dyd_shape *s, const dyd_rect *window);
 /* Twice the area of the inner polygon, or of all outer ones together. Exact. */
 dyd_status dyd_shape_area2(dyd_dyadic *out, const dyd_shape *s, bool outer);

@@ -124,8 +124,8 @@ static bool shape_star(double *area, double *error, dyd_xy o, const dyd_xy *z, u
   return crossings == 1;
 }
 
-/* Leaves out vertices that spoil convexity (as rounding does where three circles nearly coincide), then asks for sure
- * left turns everywhere. `flat` bounds the squared distance at which a vertex left out may stand for another. */
+/* Drops vertices that spoil convexity (as rounding does where three circles nearly coincide), then asks for sure
+ * left turns everywhere. `flat` bounds the squared distance of a dropped vertex from one that is kept. */
 static bool shape_make_convex(dyd_shape *s, uint32_t n, double flat) {
   uint32_t kept = 0;
   for (uint32_t t = 0; t < n; t++) {

@@ -17,7 +17,7 @@
 
 /* ---- regions of undecided faces ---- */
 
-/* The ends of the pairs and all their possible neighbours: nobody else bounds their cells [CELL-2]. */
+/* The ends of the pairs and all their possible neighbours: no other site bounds their cells [CELL-2]. */
 static dyd_status region_sites(dyd_index_list *out, const dyd_delaunay *pd, const dyd_pair_list *pairs) {
   dyd_index_list near = {0};
   size_t cap = 0;
@@ -378,7 +378,7 @@ static dyd_status vertex_domain_fail(dyd_error *err, const vertex *v, int64_t bi
                   (long long)bits);
 }
 
-/* The next precision to try: r lacks some bits; r = NULL: nothing is known yet. */
+/* The next precision to try: r lacks some bits; r = NULL: no enclosure yet. */
 static int64_t vertex_next_bits(int64_t bits, const dyd_rect *r, int64_t want) {
   int64_t size = bits < 0 ? -bits : bits, step = size < 16 ? 16 : size;
   int64_t missing = r ? want - dyd_rect_bits(r) + LEAST_EXTRA : step;
@@ -464,7 +464,7 @@ dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_t
 
 /* ---- vertices of tied faces ---- */
 
-/* corner[0..2]: sites far apart: the first, who is farthest from it, who is farthest from the line of both. */
+/* corner[0..2]: sites far apart: the first, the farthest from it, the farthest from the line through both. */
 static void spread_corners(uint32_t corner[3], const dyd_sites *sites, const dyd_index_list *list) {
   double at[3][2], e[4], best[3] = {0, -1, -1};
   for (int k = 0; k < 3; k++) {
@@ -501,7 +501,7 @@ dyd_status dyd_voronoi_tied_vertex(dyd_rect *out, bool *tied, const dyd_delaunay
 
 /* ---- windows ---- */
 
-/* The margin on each side of an extent: a quarter of it; other, or 1, stands in for nothing. */
+/* The margin on each side of an extent: a quarter of it; if that is 0, other, or 1. */
 static double window_margin(double lo, double hi, double other) {
   double size = hi / 4 - lo / 4;
   return size > 0 ? size : other > 0 ? other : 1;

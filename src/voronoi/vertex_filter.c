@@ -143,15 +143,15 @@ dyd_status dyd_filter_point_cell(bool *done, dyd_shape *s, const dyd_delaunay *p
 
 /* ---- boxes round the part of the diagram that belongs to an undecided face, by bisection [REGION-1] ----
  *
- * Every vertex of the diagram, for any choice, that is no vertex of a sure triangle is the circumcentre of a triangle
+ * Every vertex of the diagram, for any choice, except those of certain triangles, is the circumcentre of a triangle
  * ijl of some face with an edge ij that is not legal, so it lies in Pos_i n Pos_j n Pos_l, and l is a possible
- * neighbour of i. For a box of centres Q, site i is left out when some k blocks it: dl_k < ds_i in all of Q, by ranges
- * over Q or, since C_ki is convex, at its four corners, with the bounds of [FLT-DST]. Who is left out blocks nobody
- * whom k does not block, so the list of sites shrinks from box to part, and with it the list of pairs. Q is dropped
- * when no pair or fewer than three sites are left. What is left after bisection is enclosed, and the enclosure bisected
- * again while that pays. */
+ * neighbour of i. For a box of centres Q, site i is removed when some k blocks it: dl_k < ds_i in all of Q, by ranges
+ * over Q or, since C_ki is convex, at its four corners, with the bounds of [FLT-DST]. A removed site blocks no
+ * site that k does not block, so the list of sites shrinks from box to part, and with it the list of pairs. Q is
+ * dropped when no pair or fewer than three sites are left. The boxes left after bisection are enclosed, and the
+ * enclosure bisected again while that pays. */
 
-/* BLOCKERS: how many sites of a box are tried as blockers at corners; leaving some out only makes the box larger. */
+/* BLOCKERS: how many sites of a box are tried as blockers at corners; fewer of them only make the box larger. */
 enum { COARSE = 3, FINE = 5, BLOCKERS = 64 };
 
 /* Ends as places in site[]. */
@@ -190,7 +190,7 @@ static void grow_found(search *s, const dyd_bbox *c) {
   }
 }
 
-/* ---- who is possible in a box ---- */
+/* ---- sites possible in a box ---- */
 
 /* Keeps the sites of list[from .. from+count) that ranges do not exclude; returns how many. */
 static size_t region_keep_near(search *s, const dyd_bbox *c, size_t from, size_t count) {
@@ -208,7 +208,7 @@ static bool is_blocked(double far[BLOCKERS][4], size_t blockers, const double ne
   return false;
 }
 
-/* Keeps those that nobody blocks at the corners. Nobody blocks himself, as far >= near. */
+/* Keeps the sites that no other blocks at the corners. No site blocks itself, as far >= near. */
 static size_t region_keep_open(search *s, const dyd_bbox *c, size_t from, size_t count) {
   double far[BLOCKERS][4], near[4];
   dyd_bbox corner[4];
@@ -235,7 +235,7 @@ static size_t region_keep_pairs(search *s, const region_lists *at) {
   return kept - at->pairs;
 }
 
-/* Cuts the lists down to what is possible in the box: in place. */
+/* Cuts the lists down to the sites and pairs possible in the box. */
 static void region_cut(region_lists *at, search *s, const dyd_bbox *c) {
   at->site_count = region_keep_near(s, c, at->sites, at->site_count);
   at->site_count = region_keep_open(s, c, at->sites, at->site_count);
