@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The parts of the command: options, sessions, output files, signals, progress. It uses the public headers only.
+/* The parts of the command. It uses the public headers only.
  *
- *   main.c       finds out what is asked and does it
+ *   main.c       the words, then help or a command
  *   table.c      all commands and options: parsing, help, manual page and completion come from there
- *   options.c    arguments to cli_options; values.c: the value of one option; suggest.c: "did you mean"
- *   complain.c   messages
- *   help*.c      --help, the manual page, completion scripts
- *   session.c    what commands share: read points, run the engine, write a result, exit status
- *   COMMAND.c    one file for each command */
+ *   options.c    arguments to cli_options, values of options
+ *   help.c       --help, the manual page, completion scripts
+ *   session.c    runs a command: reads points, runs the engine, writes a result and a trace, exit status
+ *   output.c     result files, whole or not at all
+ *   process.c    messages, signals, time limit, memory, progress
+ *
+ * The other files hold the commands, a row cli_work each. */
 #ifndef DYD_CLI_CLI_H
 #define DYD_CLI_CLI_H
 
@@ -50,10 +52,9 @@ typedef struct cli_options {
   bool format_set;
   const char *layer; /* a name */
   dyd_list_ties list_ties;
-  dyd_content content;  /* what is written: the layer, or all that the command says */
-  unsigned epsg;        /* 0: not given */
-  const char *window;   /* checked text: see cli_window_read */
-  const dyd_rect *view; /* delaunay: the window read, which pictures show */
+  dyd_content content; /* the layer, or the whole content of the command */
+  unsigned epsg;       /* 0: not given */
+  const char *window;  /* checked text: see cli_window_read */
   int64_t flatten_bits;
   bool flatten_set;
   double max_arc; /* degrees; 0: default */
@@ -68,58 +69,34 @@ typedef struct cli_options {
   const char *label;
   bool discs;         /* delaunay: radii are discs */
   bool sphere, plane; /* points are longitude and latitude on a sphere; coordinates of a plane, whatever named */
-  dyd_voronoi_bounds *bounds; /* voronoi: where the bounds of what is written go */
-  size_t *cut;                /* voronoi: where the number of cells and regions goes that the deadline cut */
-  dyd_history *history;       /* where each stage is noted, for html; NULL: nowhere */
-  bool proved;                /* verify: by the checker that is proved */
+  bool proved;        /* verify: by the checker that is proved */
   bool stats, quiet, version;
-  bool accept_fixpoint; /* exit status 0 in place of CLI_FIXPOINT */
+  bool accept_fixpoint; /* exit status 0 instead of CLI_FIXPOINT */
   const char *help;     /* "" (--help), or the kind of --help=KIND */
 } cli_options;
 
 /* options.c: 0, or CLI_USAGE after a message. */
 int cli_options_read(cli_options *out, int argc, char **argv);
 
-/* complain.c: prints "dyadel: ..." to standard error. */
+/* process.c: prints "dyadel: ..." to standard error. */
 void cli_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
-/* The same for what is no failure: --quiet leaves it out. */
+/* Prints a note, unless --quiet was given. */
 void cli_note(const cli_options *o, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: left out. */
+/* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: without FILE. */
 void cli_complain_at(const char *file, const dyd_error *err);
 /* The same of a point of e, which is named by its row. */
 void cli_complain_of(const dyd_engine *e, const char *file, const dyd_error *err);
 /* Returns CLI_FAILED. */
 int cli_complain_memory(void);
 
-/* window.c: --window XLO,XHI,YLO,YHI. Ends that are no dyadics are rounded outward (dyd_real_from_interval).
+/* options.c: --window XLO,XHI,YLO,YHI. Ends that are no dyadics are rounded outward (dyd_real_from_interval).
  * out is initialised by the caller; 0, or an exit status after a message. */
 int cli_window_read(dyd_rect *out, const char *text);
 
-/* window.c: an exact number that is not negative, of the option --name; 0, or CLI_USAGE after a message. */
+/* options.c: an exact number that is not negative, of the option --name; 0, or CLI_USAGE after a message. */
 int cli_number_read(mpq_ptr out, const char *name, const char *text);
 
-/* One function for each command, in a file of its own; returns the exit status. */
-int cli_delaunay(const cli_options *o);
-int cli_voronoi(const cli_options *o);
-/* sphere.c: delaunay and voronoi with --sphere. */
-int cli_sphere(const cli_options *o);
-/* For reading points as longitude and latitude. */
-void cli_options_degrees(cli_options *o);
-int cli_check(const cli_options *o);
-int cli_converge(const cli_options *o);
-int cli_nearest(const cli_options *o);
-int cli_tolerance(const cli_options *o);
-int cli_plan(const cli_options *o);
-int cli_verify(const cli_options *o);
-/* proved.c: verify with --proved; `still`, the sites that stay, or NULL; `more` goes behind what is reported. */
-int cli_verify_proved(const cli_options *o, FILE *still, const char *more);
-int cli_disc(const cli_options *o);
-int cli_bisector(const cli_options *o);
-
-/* oracle.c: adds the points that the programs of --oracle serve. 0, or an exit status after a message. */
-int cli_oracle_read(dyd_engine *e, const cli_options *o);
-
-/* files.c: 0, or CLI_USAGE after a message when an output is an input or another output, or a picture would go to a
+/* output.c: 0, or CLI_USAGE after a message when an output is an input or another output, or a picture would go to a
  * terminal. Nothing is read or written. */
 int cli_files_check(const cli_options *o);
 /* The file `name` ("-": standard input), read as bytes; NULL after a message that ends with the advice. */
@@ -133,85 +110,94 @@ typedef struct cli_output {
   char *target, *temporary; /* where it is to appear, NULL when written in place; its name till then, NULL: none */
 } cli_output;
 
-/* session.c: an engine with the points of the file (or oracle), and what goes on around it. */
+/* ---- a command at work: session.c ---- */
+
+typedef struct cli_session cli_session;
+/* Prints the result; err is clear. Returns an error with *err filled, else DYD_OK. */
+typedef dyd_status (*cli_print_fn)(FILE *out, const cli_session *s, dyd_error *err);
+/* Asks the engine of s; options are complete. */
+typedef dyd_status (*cli_run_fn)(cli_session *s, const dyd_engine_options *options, dyd_error *err);
+
+/* The row of a command. cli_work_run does the rest: it reads the points, writes the result and its certificate,
+ * ends the trace. Functions may be NULL, but for find. */
+typedef struct cli_work {
+  size_t size;                                             /* of s->state: zero before begin */
+  bool bare;                                               /* no engine, no points are read */
+  const struct cli_work *(*instead)(const cli_options *o); /* the row that these options ask for; NULL: this one */
+  /* Before points are read: what options contradict, other inputs. 0, or an exit status after a message. */
+  int (*begin)(cli_session *s);
+  /* Finds the result: sets s->known if there is one, else reports why not. 0, or an exit status after a message. */
+  int (*find)(cli_session *s);
+  cli_print_fn write, prove; /* the result; its certificate */
+  /* After all is written with this status: reports what the result leaves open. Returns the exit status. */
+  int (*summary)(cli_session *s, int status);
+  void (*end)(cli_session *s); /* frees what state holds; also after a begin that failed */
+} cli_work;
+extern const cli_work cli_delaunay, cli_voronoi, cli_sphere, cli_converge, cli_check, cli_verify, cli_disc,
+    cli_bisector, cli_nearest, cli_tolerance, cli_plan;
+
 typedef struct cli_progress cli_progress;
-typedef struct cli_session {
-  const cli_options *options; /* borrowed */
+struct cli_session {
+  const cli_work *work;
+  cli_options o; /* its own */
+  void *state;
   dyd_engine *engine;
-  cli_progress *progress;               /* may be NULL */
+  cli_progress *progress; /* may be NULL */
+  dyd_outcome outcome;    /* of the last question to the engine */
+  bool known;             /* there is a result to write */
+  int written;            /* exit status of writing it */
+  dyd_rect window;
+  const dyd_rect *view;                 /* the window given; NULL: none */
+  dyd_history *history;                 /* of the stages, for html; NULL: none */
   double begun, share;                  /* of the time that is left, the engine's */
   bool forgot;                          /* memory was exhausted when a stage was noted */
-  const dyd_pair_list *discs;           /* what was written of discs, borrowed; NULL: of none */
-  const dyd_voronoi_bounds *bounds;     /* of the diagram written, borrowed; NULL: of none */
-  const dyd_converge_options *converge; /* what a trace tells of them, borrowed; NULL: of none */
+  const dyd_pair_list *discs;           /* pairs of discs, borrowed; NULL: none */
+  const dyd_voronoi_bounds *bounds;     /* of the diagram written, borrowed; NULL: none */
+  const dyd_converge_options *converge; /* for the trace, borrowed; NULL: none */
   dyd_trace *trace;                     /* NULL: none is written, or it has not begun */
   cli_output trace_file;
-} cli_session;
+};
 
-/* trace.c. Gives the engine, not run yet, the answers of --resume. 0, or an exit status after a message. */
-int cli_trace_resume(const cli_session *s);
-/* Makes progress and --trace part of a run's options; the trace begins with the first. Status as above. */
-int cli_trace_attach(dyd_engine_options *options, cli_session *s);
-/* Ends the trace, if there is one. Status as above. */
-int cli_trace_end(cli_session *s, dyd_outcome outcome);
+/* All of a command. Returns the exit status. */
+int cli_work_run(const cli_work *work, const cli_options *o);
 
-/* Prints `what`; err is clear. Returns an error with *err filled, else DYD_OK. */
-typedef dyd_status (*cli_print_fn)(FILE *out, const void *what, const cli_options *o, dyd_error *err);
-
-/* history.c: makes o->history where the format shows stages; NULL otherwise. 0, or CLI_FAILED after a message. Release
- * with dyd_history_free. */
-int cli_history_open(cli_options *o);
-/* Notes the result of a stage there, if it is. Where memory is exhausted the run ends, and with it the command. */
-void cli_history_note(cli_session *s);
-
-/* All of a command that reads, runs, and prints one result: `print` gets the engine. Returns the exit status. */
-int cli_session_all(const cli_options *o, cli_print_fn print);
-
-/* Adds the points of the file or oracle to e. 0, or an exit status after a message. noting: notes tell what was left
- * out or is strange. */
+/* Adds the points of the file or oracle to e. 0, or an exit status after a message. noting: prints notes on
+ * skipped rows and doubtful input. */
 int cli_points_read(dyd_engine *e, const cli_options *o);
 int cli_points_read_noting(dyd_engine *e, const cli_options *o);
-/* The same in steps. Each returns 0, or an exit status after a message; cli_session_close comes after any of them. */
-int cli_session_open(cli_session *s, const cli_options *o);
-/* Runs with options (progress and signals are added). 0 whatever the outcome, DYD_OUTCOME_ERROR aside: then
- * CLI_FAILED, and dyd_engine_delaunay tells whether there is a result all the same. */
-int cli_session_run(cli_session *s, const dyd_engine_options *options);
-/* The same, with something done around dyd_engine_run: run is called with the options completed. */
-typedef dyd_status (*cli_run_fn)(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err);
-int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_run_fn run, void *user);
+/* For reading points as longitude and latitude. */
+void cli_options_degrees(cli_options *o);
+/* Gives the engine, not run yet, the answers of --resume. 0, or an exit status after a message. */
+int cli_trace_resume(const cli_session *s);
+/* Runs with options; progress, trace and signals are added. 0 whatever the outcome, DYD_OUTCOME_ERROR aside: then
+ * CLI_FAILED, and there may still be a result (dyd_engine_delaunay). */
+int cli_session_run(cli_session *s, const dyd_engine_options *options, cli_run_fn run);
+/* dyd_engine_run, a cli_run_fn. */
+dyd_status cli_run_engine(cli_session *s, const dyd_engine_options *options, dyd_error *err);
 /* Comes before a result is written: takes the bar off a terminal that the result goes to. */
 void cli_session_settle(cli_session *s);
+/* Reports that the run ended before `what`: "the points were known". */
+void cli_session_lacks(cli_session *s, dyd_outcome outcome, const char *what);
+/* The same with the remedy for work that was cut short ("the plan was"). Returns the exit status. */
+int cli_session_stopped(cli_session *s, const char *what);
 /* Was the last run neither cancelled nor cut by the end of time, and is there a result? */
 bool cli_run_was_whole(const dyd_engine *e);
-/* Says that there is nothing to write, as the work ended before `what` ("the plan was") known, and how to mend that. */
-int cli_session_stopped(const cli_session *s, const char *what);
-/* Work that was cut short has a result all the same: says what is missing of it, and DYD_OK; other statuses stay. */
+/* DYD_CANCELLED, a partial result: reports the missing part, and returns DYD_OK. Returns other statuses unchanged. */
 dyd_status cli_session_cut(dyd_status st, const dyd_error *err);
 /* Exit status where work was cut short, by the end of time or on request. */
 int cli_exit_cut(void);
-/* Writes the certificate that the options ask for, after results were written with this status. Returns the status of
- * all. */
-int cli_session_certificate(cli_session *s, int status, cli_print_fn print, const void *what);
-/* Prints the result, from the engine, to --output, when there is one (otherwise says so). */
-int cli_session_write(cli_session *s, cli_print_fn print);
-/* Writes anything to the file `name` (NULL: standard output), whole or not at all. 0, or CLI_FAILED after a message. */
-int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, const void *what);
-/* Prints notes and --stats as the outcome of the engine and `status` ask for, frees s; returns the exit status: that
- * of the outcome where status is 0. */
-int cli_session_close(cli_session *s, int status);
 int cli_exit_status(dyd_outcome outcome);
 /* Why no more is known, and what to do. Static storage. */
 const char *cli_outcome_advice(const dyd_engine *e);
-/* goal.c: one line that tells which bound was asked for, which is reached, why it is no better (advice), and what to
- * do. false, and nothing said, where no bound was asked for. */
-bool cli_note_goal(const cli_session *s, const char *advice);
-/* The goals of --until, for the diagram in place of the triangulation. */
+/* Writes anything to the file `name` (NULL: standard output), whole or not at all. 0, or an exit status after a
+ * message. */
+int cli_write_file(const char *name, const cli_session *s, cli_print_fn print);
+/* The summary of a triangulation: undecided pairs and the reason, notes on radii and equal points, --stats. */
+int cli_pairs_summary(cli_session *s, int status);
+/* The goals of --until, for the diagram instead of the triangulation. */
 dyd_goal cli_voronoi_goal(dyd_goal goal);
-
-/* notes.c: a line when radii were given and most of the rectangles meet another one. pd may be NULL. */
-void cli_note_spacing(const dyd_delaunay *pd, const cli_options *o);
-/* A line when points have no row in wkt or geojson, since they coincide with others. pd may be NULL. */
-void cli_note_aliases(const dyd_delaunay *pd, const cli_options *o);
+/* Prints counters if --stats was given. */
+void cli_session_stats(const cli_session *s, const dyd_sphere *sphere);
 
 /* output.c. name NULL: standard output. false after a message. */
 bool cli_output_open(cli_output *out, const char *name);
@@ -219,11 +205,8 @@ bool cli_output_open(cli_output *out, const char *name);
 bool cli_output_appear(cli_output *out);
 /* Makes the file appear under its name, and closes it; false after a message. */
 bool cli_output_finish(cli_output *out, const cli_options *o);
-/* Removes what was written so far; nothing to do after cli_output_finish. */
+/* Removes the file begun; does nothing after cli_output_finish. */
 void cli_output_drop(cli_output *out);
-/* Where writing to the file of this name ends up, links followed, also one that leads to no file; release with free().
- * NULL: memory is exhausted. */
-char *cli_output_target(const char *name);
 /* Did a reader go away from a pipe before all was written to it? */
 bool cli_output_lost_reader(void);
 /* Writing to the stream, opened as `name` (NULL: standard output), failed. Is it as its reader went away? Then that is
@@ -232,52 +215,134 @@ bool cli_output_note_reader(FILE *stream, const char *name, const cli_options *o
 /* Sees to it that the descriptors 0, 1, 2 are taken, so that no file of ours gets one of them. */
 bool cli_guard_descriptors(void);
 
-/* signals.c: from now on the first SIGINT, SIGTERM or SIGHUP cancels the engine, the next one ends the process. NULL:
+/* process.c: from now on the first SIGINT, SIGTERM or SIGHUP cancels the engine, the next one ends the process. NULL:
  * the first one ends it. */
 void cli_signals_cancel(dyd_engine *e);
 /* The file `temporary` (borrowed) is removed when a signal ends the process; cli_signals_keep takes that back. */
 void cli_signals_remove(const char *temporary);
 void cli_signals_keep(const char *temporary);
-/* Removes these files; async-signal-safe. */
-void cli_signals_unlink(void);
 /* Holds all signals back, until they are released with what *before says. */
 void cli_signals_hold(sigset_t *before);
 void cli_signals_release(const sigset_t *before);
-/* Starts a thread that takes no signals: those that the main thread holds back stay held back. */
-bool cli_signals_spare(pthread_t *out, void *(*work)(void *), void *user);
-/* Raises the flag below; async-signal-safe, from any thread. */
-void cli_signals_stop(void);
 /* Set to 1 by the signal that cancels the engine, and at the deadline: for work on what the engine has found. */
 const volatile int *cli_signals_flag(void);
 
-/* memory.c: when memory for long numbers is exhausted the process ends with CLI_FAILED after a message. Before anything
- * else. */
+/* process.c: when memory for long numbers is exhausted the process ends with CLI_FAILED after a message. Before
+ * anything else. */
 void cli_memory_guard(void);
 
-/* deadline.c: what --timeout gives the whole command. seconds <= 0: no limit. */
+/* process.c: the time limit of the whole command. seconds <= 0: no limit. */
 void cli_deadline_start(double seconds);
-/* What is being done now, as in "reading"; static text. */
+/* Names the present work, "reading"; static text. */
 void cli_deadline_phase(const char *what);
 /* All is written and told; what follows (programs of an oracle are given time to end) may be cut, with this status. */
 void cli_deadline_written(int status);
-/* Of the seconds left, such a share, above 0; 0: there is no limit. For options of the engine. */
+/* Returns this share of the seconds left, above 0; 0 without a limit. For options of the engine. */
 double cli_deadline_left(double share);
-/* Set to 1 at the deadline, by another thread: for those who take a flag to be cancelled by. */
+/* A cancellation flag that another thread sets to 1 at the deadline. */
 const volatile int *cli_deadline_flag(void);
 bool cli_deadline_passed(void);
 /* Seconds of a clock that only goes forward. */
 double cli_clock(void);
 
-/* progress.c: NULL when quiet or out of memory: all functions take NULL. */
+/* process.c: NULL when quiet or out of memory: all functions take NULL. */
 cli_progress *cli_progress_start(bool quiet);
-/* What is being done now ("reading"); static text. */
+/* Names the present work, "reading"; static text. */
 void cli_progress_phase(cli_progress *p, const char *phase);
 /* For dyd_engine_options.progress; user is the cli_progress. */
 void cli_progress_stage(void *user, const dyd_progress *stage);
 /* Wipes the bar off the terminal and frees p. */
 void cli_progress_stop(cli_progress *p);
 
-/* stats.c: what --stats prints. `seconds` since the command began. */
-void cli_stats(FILE *out, const dyd_engine *e, const dyd_sphere *sphere, const dyd_pair_list *discs, double seconds);
+/* ---- the table of commands and options: the one source of parsing, help, manual page and completion ---- */
+
+/* A command, as the number of its bit in sets of commands. */
+typedef enum cli_command_number {
+  CLI_DELAUNAY,
+  CLI_VORONOI,
+  CLI_CONVERGE,
+  CLI_CHECK,
+  CLI_VERIFY,
+  CLI_DISC,
+  CLI_BISECTOR,
+  CLI_NEAREST,
+  CLI_TOLERANCE,
+  CLI_PLAN,
+  CLI_COMMANDS
+} cli_command_number;
+
+/* What the value of an option is: how it is read, and what completion offers for it. */
+typedef enum cli_kind {
+  CLI_FLAG,    /* no value; a bool is set */
+  CLI_TEXT,    /* any text */
+  CLI_FILE,    /* the name of a file that is written */
+  CLI_SOURCE,  /* the name of a file that is read */
+  CLI_INTEGER, /* least..most, into an integer of `width` bytes */
+  CLI_SECONDS, /* a double above 0 */
+  CLI_DEGREES, /* the same, up to 90 */
+  CLI_GOAL,    /* decided, area:M, hausdorff:M */
+  CLI_CHOICE,  /* one of words, as its number, into a bool or an enum */
+  CLI_FORMAT,  /* a format of the command */
+  CLI_LAYER,   /* a layer of what the command writes */
+  CLI_CRS,     /* EPSG:N */
+  CLI_WINDOW,  /* XLO,XHI,YLO,YHI */
+  CLI_HELP     /* nothing, or =KIND */
+} cli_kind;
+static inline bool cli_kind_is_file(cli_kind kind) {
+  return kind == CLI_FILE || kind == CLI_SOURCE;
+}
+
+typedef enum cli_group { CLI_INPUT, CLI_REFINEMENT, CLI_OUTPUT, CLI_EXPERIMENTS, CLI_OTHER, CLI_GROUPS } cli_group;
+
+typedef struct cli_option {
+  const char *name;
+  char letter;          /* 0: none */
+  const char *argument; /* placeholder of the value; NULL: takes none */
+  cli_kind kind;
+  unsigned commands; /* the set of commands that take it */
+  cli_group group;
+  const char *help; /* one line, or lines; no full stop. Of formats: NULL, the list is made */
+  size_t offset;    /* of the value in cli_options */
+  size_t width;     /* and its size */
+  long long least, most;
+  const char *words; /* that completion offers, with a blank between two; NULL: none */
+  size_t given;      /* offset of a bool that is set, 0: none */
+} cli_option;
+
+typedef struct cli_command {
+  const char *name;
+  const char *operands; /* "FILE", "FILE X Y", "CERT" */
+  const char *line;     /* one line, without a full stop */
+  const char *about;    /* a paragraph or more for its help and the manual page, lines of at most 79 characters */
+  dyd_content content;  /* of its result; the first format that holds it is the default */
+  const cli_work *work;
+} cli_command;
+
+extern const cli_command cli_commands[CLI_COMMANDS];
+extern const cli_option cli_option_table[];
+extern const size_t cli_option_count;
+extern const char *const cli_group_names[CLI_GROUPS];
+
+/* The set of all commands. */
+#define CLI_ALL ((1u << CLI_COMMANDS) - 1)
+/* Does the option exist for one of these commands? */
+bool cli_option_exists(const cli_option *option, unsigned commands);
+/* NULL when there is none of that name. */
+const cli_command *cli_command_find(const char *name);
+/* The names of the layers of what these commands write, separated. */
+void cli_layers_print(FILE *out, unsigned commands, const char *separator);
+/* The set with this command alone. */
+unsigned cli_command_bit(const cli_command *c);
+/* The names of a set of commands, separated. */
+void cli_commands_print(FILE *out, unsigned commands, const char *separator);
+/* The names of the formats that some of these commands write, separated; the first is marked when `mark` says so ("csv
+ * (default), json"). */
+void cli_formats_print(FILE *out, unsigned commands, const char *separator, bool mark);
+
+/* help.c: command NULL: help on everything. */
+void cli_help(FILE *out, const cli_command *command);
+void cli_help_man(FILE *out);
+void cli_help_bash(FILE *out);
+void cli_help_zsh(FILE *out);
 
 #endif

@@ -1,163 +1,355 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* dyadel converge FILE: a run stage by stage, as a table and a plot; traces of runs, and replays of these. */
+/* dyadel converge FILE: a run stage by stage, as a table and a plot, and replays of traces; dyadel check FILE: random
+ * refinement schedules over the points, and what broke. */
 #include "cli.h"
 
-/* engine: that ran; NULL: a trace was replayed. */
-typedef struct result {
-  const dyd_convergence *table;
-  const dyd_engine *engine;
-} result;
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
 
-static dyd_status print_table(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
-  const result *r = what;
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .stages = r->table, .times = !o->no_times,
-                                 .history = o->history,        .window = o->view,  .label = o->label,
-                                 .no_header = o->no_header};
-  return dyd_write(out, r->engine, o->content, o->format, &how, err);
-}
+/* ---- converge: a run ---- */
+
+typedef struct converge_run {
+  dyd_convergence table;
+  dyd_converge_options how;
+  dyd_voronoi_bounds bounds;
+  dyd_status replayed; /* how a replay ended */
+} converge_run;
 
 /* By the name of the plot's file; false when no format of that ending holds a plot. */
 static bool plot_format(dyd_format *out, const char *name) {
   return dyd_format_from_file(out, name) && dyd_format_holds(*out, DYD_CONTENT_PLOT);
 }
 
-static dyd_status print_plot(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
-  dyd_format format = o->format;
-  plot_format(&format, o->plot);
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .stages = ((const result *)what)->table};
+static const cli_work work_replay;
+
+static const cli_work *converge_instead(const cli_options *o) {
+  return o->replay ? &work_replay : NULL;
+}
+
+static int converge_begin(cli_session *s) {
+  const cli_options *o = &s->o;
+  converge_run *r = s->state;
+  dyd_format format;
+  r->table = (dyd_convergence){DYD_SIZED(dyd_convergence)};
+  r->how = (dyd_converge_options){DYD_SIZED(dyd_converge_options), .no_voronoi = o->no_voronoi};
+  dyd_voronoi_bounds_init(&r->bounds);
+  if (o->of_voronoi) s->o.engine.goal = cli_voronoi_goal(o->engine.goal);
+  if (!o->start_set) s->o.engine.start_bits = 4;
+  if (o->plot && !plot_format(&format, o->plot))
+    cli_complain("--plot \"%s\" does not say what kind of picture is wanted; end it in .svg, .pdf or .png", o->plot);
+  else if (o->label && !dyd_label_fits(o->label))
+    cli_complain("--label \"%s\" is not understood; give NAME=VALUE,NAME=VALUE without quotes and "
+                 "backslashes, names that differ, and none that is a column of the table",
+                 o->label);
+  else if (o->of_voronoi && o->no_voronoi)
+    cli_complain("--of voronoi needs the bounds that --no-voronoi leaves out; leave one of the two away");
+  else if (o->replay && o->format == DYD_FORMAT_HTML)
+    cli_complain("html shows the points, which --replay does without; run converge on them");
+  else
+    return 0;
+  return CLI_USAGE;
+}
+
+static dyd_status converge_run_engine(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
+  converge_run *r = s->state;
+  return dyd_converge_run(&r->table, s->engine, options, &r->how, err);
+}
+
+static dyd_status write_plot(FILE *out, const cli_session *s, dyd_error *err) {
+  dyd_format format = s->o.format;
+  plot_format(&format, s->o.plot);
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .stages = &((converge_run *)s->state)->table};
   return dyd_write(out, NULL, DYD_CONTENT_PLOT, format, &how, err);
 }
 
-/* Table and plot, as far as they were made. */
-static int write_results(const dyd_convergence *table, const dyd_engine *e, const cli_options *o) {
-  const result r = {table, e};
-  if (!table->count) return 0;
-  int status = o->plot ? cli_write_file(o->plot, o, print_plot, &r) : 0;
-  int written = cli_write_file(o->output, o, print_table, &r);
-  return status ? status : written;
+/* Sets s->known, and draws the plot, as far as the table was made. */
+static int converge_found(cli_session *s) {
+  s->known = ((converge_run *)s->state)->table.count > 0;
+  return s->known && s->o.plot ? cli_write_file(s->o.plot, s, write_plot) : 0;
 }
 
-/* ---- a run ---- */
-
-typedef struct run {
-  const cli_options *o;
-  dyd_convergence table;
-  dyd_converge_options converge;
-} run;
-
-static dyd_status converge_run(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
-  run *r = user;
-  return dyd_converge_run(&r->table, e, options, &r->converge, err);
+/* The last row; NULL: none. */
+static const dyd_stage_row *last_stage(const converge_run *r) {
+  return r->table.count ? r->table.row[r->table.count - 1] : NULL;
 }
 
-/* The bounds of the diagram in the last row, for the note on the goal. */
-static void take_bounds(dyd_voronoi_bounds *out, cli_session *s, const dyd_convergence *table) {
-  const dyd_stage_row *last = table->count ? table->row[table->count - 1] : NULL;
-  if (!last || !last->voronoi) return;
-  dyd_dyadic_set(&out->area, &last->v_area);
-  dyd_dyadic_set(&out->hausdorff, &last->v_hausdorff);
-  out->finite = true;
-  s->bounds = out;
+static int converge_find(cli_session *s) {
+  converge_run *r = s->state;
+  r->how.window = s->view;
+  s->converge = &r->how;
+  int status = cli_session_run(s, &s->o.engine, converge_run_engine);
+  cli_session_settle(s);
+  if (status == 0 && !r->table.count) cli_session_lacks(s, r->table.outcome, "the first stage was complete");
+  int drawn = converge_found(s);
+  const dyd_stage_row *last = last_stage(r);
+  if (last && last->voronoi) { /* for the note on the goal */
+    dyd_dyadic_set(&r->bounds.area, &last->v_area);
+    dyd_dyadic_set(&r->bounds.hausdorff, &last->v_hausdorff);
+    r->bounds.finite = true;
+    s->bounds = &r->bounds;
+  }
+  return status ? status : drawn;
+}
+
+static dyd_status converge_write(FILE *out, const cli_session *s, dyd_error *err) {
+  const cli_options *o = &s->o;
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options),
+                                 .stages = &((converge_run *)s->state)->table,
+                                 .times = !o->no_times,
+                                 .history = s->history,
+                                 .window = s->view,
+                                 .label = o->label,
+                                 .no_header = o->no_header};
+  return dyd_write(out, s->engine, o->content, o->format, &how, err);
 }
 
 /* The last row lacks bounds since no time was left for them: says so. Returns the exit status. */
-static int note_cut(const dyd_convergence *table, const cli_options *o) {
-  const dyd_stage_row *last = table->count ? table->row[table->count - 1] : NULL;
-  if (!last || !cli_deadline_passed() || (last->bounded && (last->voronoi || !table->window))) return 0;
-  if (!o->quiet)
-    cli_complain("budget: the time is used up: bounds of stage %llu are left out; raise --timeout",
-                 (unsigned long long)last->stage);
+static int note_cut(const cli_session *s) {
+  const converge_run *r = s->state;
+  const dyd_stage_row *last = last_stage(r);
+  if (!last || !cli_deadline_passed() || (last->bounded && (last->voronoi || !r->table.window))) return 0;
+  cli_note(&s->o, "budget: the time is used up: bounds of stage %llu are left out; raise --timeout",
+           (unsigned long long)last->stage);
   return CLI_BUDGET;
 }
 
 /* A curve takes more points than geometric growth gives: says which steps do. */
-static void note_steps(const dyd_convergence *table, const cli_options *o) {
+static void note_steps(const cli_session *s) {
   enum { FEW = 12, ENOUGH = 24 };
-  if (!o->plot || o->quiet || o->engine.step_bits || !table->count || table->count >= FEW) return;
+  const dyd_convergence *table = &((converge_run *)s->state)->table;
+  if (!s->o.plot || s->o.engine.step_bits || !table->count || table->count >= FEW) return;
   int64_t bits = table->row[table->count - 1]->bits_most - table->row[0]->bits_most,
           step = (bits + ENOUGH - 1) / ENOUGH;
   if (bits <= 0) return;
-  cli_complain("the plot has %zu stages, in which precision grows geometrically; --step-bits %lld draws up to %lld",
-               table->count, (long long)step, (long long)(bits / step + 1));
+  cli_note(&s->o, "the plot has %zu stages, in which precision grows geometrically; --step-bits %lld draws up to %lld",
+           table->count, (long long)step, (long long)(bits / step + 1));
 }
 
-static int converge_points(cli_options *o) {
-  cli_session s = {.options = o};
-  dyd_voronoi_bounds bounds;
-  run r = {o, {DYD_SIZED(dyd_convergence)}, {DYD_SIZED(dyd_converge_options)}};
-  dyd_rect window;
-  dyd_engine_options options = o->engine;
-  dyd_rect_init(&window);
-  int status = o->window ? cli_window_read(&window, o->window) : 0;
-  if (o->window) o->view = r.converge.window = &window;
-  r.converge.no_voronoi = o->no_voronoi;
-  if (o->of_voronoi) options.goal = cli_voronoi_goal(options.goal);
-  if (!o->start_set) options.start_bits = 4;
-  dyd_voronoi_bounds_init(&bounds);
-  if (status == 0) status = cli_session_open(&s, o);
-  if (status == 0) status = cli_history_open(o);
-  if (status == 0) {
-    s.converge = &r.converge;
-    status = cli_session_run_by(&s, &options, converge_run, &r);
-    cli_session_settle(&s);
-    if (status == 0 && !r.table.count)
-      cli_complain("%s before the first stage was complete: there is no result to write",
-                   dyd_outcome_text(r.table.outcome));
-    int written = write_results(&r.table, s.engine, o);
-    if (status == 0) status = written;
-    take_bounds(&bounds, &s, &r.table);
-    note_steps(&r.table, o);
-    if (status == 0) status = note_cut(&r.table, o);
-  }
-  status = cli_session_close(&s, status);
-  dyd_voronoi_bounds_clear(&bounds);
-  dyd_convergence_clear(&r.table);
-  dyd_history_free(o->history);
-  dyd_rect_clear(&window);
-  return status;
+static int converge_summary(cli_session *s, int status) {
+  note_steps(s);
+  return cli_pairs_summary(s, status ? status : note_cut(s));
 }
 
-/* ---- a replay ---- */
+static void converge_end(cli_session *s) {
+  converge_run *r = s->state;
+  dyd_voronoi_bounds_clear(&r->bounds);
+  dyd_convergence_clear(&r->table);
+}
 
-static int converge_replay(const cli_options *o) {
-  FILE *in = cli_input_open(o->replay, "check the name of the trace");
+const cli_work cli_converge = {.size = sizeof(converge_run),
+                               .instead = converge_instead,
+                               .begin = converge_begin,
+                               .find = converge_find,
+                               .write = converge_write,
+                               .summary = converge_summary,
+                               .end = converge_end};
+
+/* ---- converge --replay ---- */
+
+static int replay_find(cli_session *s) {
+  converge_run *r = s->state;
+  FILE *in = cli_input_open(s->o.replay, "check the name of the trace");
   if (!in) return CLI_FAILED;
-  dyd_convergence table = {DYD_SIZED(dyd_convergence)};
   const dyd_converge_options how = {DYD_SIZED(dyd_converge_options), .cancel = cli_deadline_flag()};
   dyd_error err;
-  dyd_status st = dyd_trace_replay(&table, in, &how, &err);
-  const bool late = st == DYD_CANCELLED;
+  r->replayed = dyd_trace_replay(&r->table, in, &how, &err);
   cli_input_close(in);
-  if (late)
-    cli_complain("the time is used up after %zu stages of the trace; raise --timeout", table.count);
-  else if (st != DYD_OK)
-    cli_complain_at(o->replay, &err);
-  int status = st == DYD_E_NOMEM ? CLI_FAILED : write_results(&table, NULL, o);
-  if (!status) status = late ? CLI_BUDGET : st != DYD_OK ? CLI_FAILED : cli_exit_status(table.outcome);
-  dyd_convergence_clear(&table);
-  return status;
+  if (r->replayed == DYD_CANCELLED)
+    cli_complain("the time is used up after %zu stages of the trace; raise --timeout", r->table.count);
+  else if (r->replayed != DYD_OK)
+    cli_complain_at(s->o.replay, &err);
+  return r->replayed == DYD_E_NOMEM ? CLI_FAILED : converge_found(s);
 }
 
-int cli_converge(const cli_options *o) {
-  dyd_format format;
-  if (o->plot && !plot_format(&format, o->plot)) {
-    cli_complain("--plot \"%s\" does not say what kind of picture is wanted; end it in .svg, .pdf or .png", o->plot);
-    return CLI_USAGE;
-  }
-  if (o->label && !dyd_label_fits(o->label)) {
-    cli_complain("--label \"%s\" is not understood; give NAME=VALUE,NAME=VALUE without quotes and "
-                 "backslashes, names that differ, and none that is a column of the table",
-                 o->label);
-    return CLI_USAGE;
-  }
-  if (o->of_voronoi && o->no_voronoi) {
-    cli_complain("--of voronoi needs the bounds that --no-voronoi leaves out; leave one of the two away");
-    return CLI_USAGE;
-  }
-  if (o->replay && o->format == DYD_FORMAT_HTML) {
-    cli_complain("html shows the points, which --replay does without; run converge on them");
-    return CLI_USAGE;
-  }
-  cli_options own = *o; /* with window and history */
-  return o->replay ? converge_replay(o) : converge_points(&own);
+static int replay_summary(cli_session *s, int status) {
+  const converge_run *r = s->state;
+  if (status) return status;
+  if (r->replayed == DYD_CANCELLED) return CLI_BUDGET;
+  return r->replayed != DYD_OK ? CLI_FAILED : cli_exit_status(r->table.outcome);
 }
+
+static const cli_work work_replay = {.size = sizeof(converge_run),
+                                     .bare = true,
+                                     .begin = converge_begin,
+                                     .find = replay_find,
+                                     .write = converge_write,
+                                     .summary = replay_summary,
+                                     .end = converge_end};
+
+/* ---- check: the schedule of a file ---- */
+
+typedef struct given_place {
+  size_t line, column;
+} given_place;
+
+/* options come first; moves of a file, and where each names its point. */
+typedef struct check_run {
+  dyd_check_options options;
+  dyd_check_report report;
+  dyd_check_move *move;
+  given_place *place;
+  size_t count, cap;
+  const cli_options *o;
+  int status;       /* of reading the points */
+  bool noted, late; /* points are read for each schedule; notes are printed once */
+} check_run;
+
+static dyd_status add_given_move(check_run *s, const dyd_check_move *m, const dyd_record *row, dyd_error *err) {
+  if (s->count == s->cap) {
+    size_t cap = 2 * s->cap + 64;
+    dyd_check_move *move = realloc(s->move, cap * sizeof *move);
+    if (move) s->move = move;
+    given_place *place = realloc(s->place, cap * sizeof *place);
+    if (place) s->place = place;
+    if (!move || !place) return dyd_error_set(err, DYD_E_NOMEM, dyd_status_text(DYD_E_NOMEM));
+    s->cap = cap;
+  }
+  dyd_record_place(err, row, 1);
+  s->place[s->count] = (given_place){err->line, err->column};
+  s->move[s->count++] = *m;
+  return DYD_OK;
+}
+
+static dyd_status refuse_move(const dyd_record *row, size_t field, const char *what, dyd_error *err) {
+  dyd_record_place(err, row, field);
+  return dyd_error_set(err, DYD_E_PARSE, what);
+}
+
+static bool row_is_named(const dyd_record *row, const char *name) {
+  size_t length;
+  const char *text = dyd_record_field(&length, row, 0);
+  return row->fields == 2 && length == strlen(name) && memcmp(text, name, length) == 0;
+}
+
+static dyd_status read_given_move(void *user, const dyd_record *row, dyd_error *err) {
+  check_run *s = user;
+  int64_t value[3] = {0};
+  if (row_is_named(row, "base") && dyd_record_integer(&s->options.base_bits, row, 1, 1, DYD_EXP_LIMIT / 2))
+    return DYD_OK;
+  if (row_is_named(row, "seed") && dyd_record_integer(&value[0], row, 1, 0, INT64_MAX))
+    return s->options.seed = (uint64_t)value[0], DYD_OK;
+  for (size_t k = 0; k < 4; k++)
+    if (k == 3 ? row->fields > 3
+               : !dyd_record_integer(&value[k], row, k, k != 1, k == 2 ? DYD_EXP_LIMIT / 2 : UINT32_MAX))
+      return refuse_move(row, k, "this is not a move; give STAGE POINT BITS, stages from 1, points from 0", err);
+  if (s->count && s->move[s->count - 1].stage > value[0])
+    return refuse_move(row, 0, "this stage comes after a later one; sort the moves by STAGE", err);
+  return add_given_move(s, &(dyd_check_move){(uint32_t)value[0], (uint32_t)value[1], value[2]}, row, err);
+}
+
+static int read_schedule_file(check_run *s, const char *name) {
+  dyd_error err;
+  FILE *in = cli_input_open(name, "give a schedule that check wrote by --trace");
+  if (!in) return CLI_FAILED;
+  dyd_status st = dyd_read_records(in, ' ', read_given_move, s, &err);
+  cli_input_close(in);
+  if (st != DYD_OK) cli_complain_at(name, &err);
+  return st == DYD_OK ? 0 : CLI_FAILED;
+}
+
+static int schedules_begin(cli_session *s) {
+  const cli_options *o = &s->o;
+  check_run *r = s->state;
+  r->o = o;
+  r->options = (dyd_check_options){DYD_SIZED(dyd_check_options),
+                                   .seed = o->seed_set ? o->seed : 1,
+                                   .schedules = o->schedules,
+                                   .seconds = o->engine.seconds,
+                                   .max_bits = o->max_bits_set ? o->engine.max_bits : 0,
+                                   .tie_bits = o->engine.tie_bits,
+                                   .no_ties = o->engine.no_ties};
+  r->report = (dyd_check_report){DYD_SIZED(dyd_check_report)};
+  if (!o->oracle && strcmp(o->file, "-") == 0) {
+    cli_complain("check reads the points once for each schedule; give a file in place of standard input");
+    return CLI_USAGE;
+  }
+  return o->replay ? read_schedule_file(r, o->replay) : 0;
+}
+
+/* ---- check: the run ---- */
+
+static dyd_status open_checked_points(dyd_engine **out, void *user, dyd_error *err) {
+  check_run *r = user;
+  (void)err;
+  dyd_status st = dyd_engine_new(out);
+  if (st != DYD_OK) return st;
+  r->status = (r->noted ? cli_points_read : cli_points_read_noting)(*out, r->o);
+  r->noted = true;
+  if (!r->status) return DYD_OK;
+  dyd_engine_free(*out);
+  *out = NULL;
+  return DYD_E_IO;
+}
+
+/* The library numbers the moves, the reader of the message sees the lines. */
+static int complain_check(const check_run *r, dyd_status st, dyd_error *err) {
+  if (!err->message[0]) dyd_error_set(err, st, dyd_status_text(st));
+  const given_place *place = err->line ? &r->place[err->line - 1] : &(given_place){0};
+  err->line = place->line, err->column = place->column;
+  cli_complain_at(place->line ? r->o->replay : NULL, err);
+  return CLI_FAILED;
+}
+
+static int schedules_find(cli_session *s) {
+  check_run *r = s->state;
+  dyd_error err;
+  dyd_error_clear(&err);
+  s->progress = cli_progress_start(s->o.quiet);
+  cli_progress_phase(s->progress, "checking");
+  dyd_status st = s->o.replay
+                      ? dyd_check_replay(&r->report, open_checked_points, r, r->move, r->count, &r->options, &err)
+                      : dyd_check_run(&r->report, open_checked_points, r, &r->options, &err);
+  cli_progress_stop(s->progress);
+  s->progress = NULL;
+  r->late = st == DYD_CANCELLED; /* with a report of the schedules until then */
+  s->known = st == DYD_OK || r->late;
+  return s->known ? 0 : r->status ? r->status : complain_check(r, st, &err);
+}
+
+static dyd_status schedules_write(FILE *out, const cli_session *s, dyd_error *err) {
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .report = &((check_run *)s->state)->report};
+  return dyd_write(out, NULL, s->o.content, s->o.format, &how, err);
+}
+
+/* The schedule as text. The message is kept on one line, so that it stays a comment. */
+static dyd_status write_schedule(FILE *out, const cli_session *s, dyd_error *err) {
+  const dyd_check_report *r = &((check_run *)s->state)->report;
+  (void)err;
+  fputs("# dyadel check schedule: ", out);
+  for (const char *c = r->message; *c; c++) fputc((unsigned char)*c < ' ' ? ' ' : *c, out);
+  fprintf(out, "\n# base BITS; seed S; stage POINT BITS\nbase %" PRId64 "\nseed %" PRIu64 "\n", r->base_bits, r->seed);
+  for (size_t k = 0; k < r->moves; k++)
+    fprintf(out, "%u %u %" PRId64 "\n", (unsigned)r->move[k].stage, (unsigned)r->move[k].point, r->move[k].bits);
+  return DYD_OK;
+}
+
+static int schedules_summary(cli_session *s, int status) {
+  const check_run *run = s->state;
+  const dyd_check_report *r = &run->report;
+  if (status) return status;
+  if (r->fault == DYD_CHECK_FINE && run->late)
+    cli_complain("the time is used up after %" PRIu64 " schedules; raise --timeout", r->schedules);
+  if (r->fault == DYD_CHECK_FINE) return run->late ? CLI_BUDGET : CLI_OK;
+  cli_complain("%s: %s", dyd_check_fault_text(r->fault), r->message);
+  if (!s->o.trace)
+    cli_complain("%zu moves show it (seed %" PRIu64 "); --trace FILE writes them", r->moves, r->seed);
+  else if (cli_write_file(s->o.trace, s, write_schedule) == 0)
+    cli_complain("%zu moves show it: --replay %s", r->moves, s->o.trace);
+  return CLI_FAILED;
+}
+
+static void schedules_end(cli_session *s) {
+  check_run *r = s->state;
+  dyd_check_report_clear(&r->report);
+  free(r->move);
+  free(r->place);
+}
+
+const cli_work cli_check = {.size = sizeof(check_run),
+                            .bare = true,
+                            .begin = schedules_begin,
+                            .find = schedules_find,
+                            .write = schedules_write,
+                            .summary = schedules_summary,
+                            .end = schedules_end};

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* dyadel delaunay FILE: read, run, write. A window is what pictures and pages show. */
+/* dyadel delaunay FILE and dyadel voronoi FILE, in the plane and on a sphere: read, run, write. */
 #include "cli.h"
+
+/* ---- delaunay: a window is what pictures and pages show ---- */
 
 /* Of points that are all exact, as far as time allows; NULL: not known. */
 static dyd_tolerance *find_tolerance(const dyd_delaunay *pd) {
@@ -15,112 +17,320 @@ static dyd_tolerance *find_tolerance(const dyd_delaunay *pd) {
   return NULL;
 }
 
-/* pairs: of discs; NULL: those of the engine. */
-static dyd_status write_pairs(FILE *out, const dyd_engine *e, const dyd_pair_list *pairs, const cli_options *o,
-                              dyd_error *err) {
+static const cli_work work_discs;
+
+static const cli_work *delaunay_instead(const cli_options *o) {
+  return o->sphere ? &cli_sphere : o->discs ? &work_discs : NULL;
+}
+
+static int delaunay_begin(cli_session *s) {
+  if (!s->o.certificate || s->o.content != DYD_CONTENT_GRAPH_MST) return 0;
+  cli_complain("no certificate proves a minimum spanning tree: leave --certificate or --layer graph:mst out");
+  return CLI_USAGE;
+}
+
+/* Statuses found before a point failed stay true: they are written, and the exit status reports the failure. */
+static int delaunay_find(cli_session *s) {
+  int status = cli_session_run(s, &s->o.engine, cli_run_engine);
+  s->known = dyd_engine_delaunay(s->engine);
+  if (!status && !s->known) cli_session_lacks(s, s->outcome, "the first triangulation was complete");
+  return status;
+}
+
+/* The pairs of s->discs, if there are any; else those of the engine. */
+static dyd_status delaunay_write(FILE *out, const cli_session *s, dyd_error *err) {
+  const cli_options *o = &s->o;
   dyd_tolerance *tolerance = NULL;
-  if (!pairs && o->format == DYD_FORMAT_HTML) tolerance = find_tolerance(dyd_engine_delaunay(e));
+  if (!s->discs && o->format == DYD_FORMAT_HTML) tolerance = find_tolerance(dyd_engine_delaunay(s->engine));
   const dyd_write_options how = {DYD_SIZED(dyd_write_options),
-                                 .window = o->view,
-                                 .pairs = pairs,
+                                 .window = s->view,
+                                 .pairs = s->discs,
                                  .epsg = o->epsg,
-                                 .history = pairs ? NULL : o->history,
+                                 .history = s->discs ? NULL : s->history,
                                  .tolerance = tolerance,
                                  .cancel = cli_signals_flag(),
                                  .ties = o->list_ties};
-  dyd_status st = dyd_write(out, e, o->content, o->format, &how, err);
+  dyd_status st = dyd_write(out, s->engine, o->content, o->format, &how, err);
   dyd_tolerance_free(tolerance);
   return st;
 }
 
-static dyd_status delaunay_write(FILE *out, const void *engine, const cli_options *o, dyd_error *err) {
-  return write_pairs(out, engine, NULL, o, err);
+/* Of the diagram, where the engine has a window; else of the pairs, and the graph of --layer. */
+static dyd_status write_certificate(FILE *out, const cli_session *s, dyd_error *err) {
+  const dyd_content content = s->o.content;
+  if (s->o.engine.window) return dyd_write_voronoi_certificate(out, s->engine, s->o.engine.window, err);
+  dyd_graph_list list = {0};
+  dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .discs = s->discs};
+  dyd_status st = DYD_OK;
+  if (!s->discs && (content == DYD_CONTENT_GRAPH_NEAREST || content == DYD_CONTENT_GRAPH_GABRIEL)) {
+    parts.kind = content == DYD_CONTENT_GRAPH_GABRIEL ? DYD_GRAPH_GABRIEL : DYD_GRAPH_NEAREST;
+    parts.graph = &list;
+    st = dyd_graph_edges(&list, dyd_engine_delaunay(s->engine), (dyd_graph)parts.kind, cli_signals_flag(), err);
+  }
+  if (st == DYD_OK) st = dyd_write_certificate_parts(out, s->engine, &parts, err);
+  dyd_graph_list_clear(&list);
+  return st;
 }
 
-/* ---- discs ---- */
+const cli_work cli_delaunay = {.instead = delaunay_instead,
+                               .begin = delaunay_begin,
+                               .find = delaunay_find,
+                               .write = delaunay_write,
+                               .prove = write_certificate,
+                               .summary = cli_pairs_summary};
+
+/* ---- delaunay --discs ---- */
 
 typedef struct disc_result {
-  const dyd_engine *engine;
   dyd_pair_list pairs;
+  bool cut; /* not all pairs were reached */
 } disc_result;
 
-static dyd_status discs_write(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
-  const disc_result *r = what;
-  return write_pairs(out, r->engine, &r->pairs, o, err);
-}
-
-static dyd_status discs_certificate(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
-  const disc_result *r = what;
-  (void)o;
-  const dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .discs = &r->pairs};
-  return dyd_write_certificate_parts(out, r->engine, &parts, err);
-}
-
-/* What is open among the discs: exit status, and a note. cut: not all pairs were reached. */
-static int discs_outcome(const disc_result *r, bool cut, const cli_options *o) {
-  size_t count[4] = {0};
-  for (size_t k = 0; k < r->pairs.count; k++) count[r->pairs.item[k].status]++;
-  dyd_outcome outcome = dyd_engine_outcome(r->engine);
-  if (cut) return cli_exit_cut();
-  if (!dyd_delaunay_is_capped(dyd_engine_delaunay(r->engine)) && count[DYD_INDETERMINATE] + count[DYD_TIE] == 0)
-    return CLI_OK;
-  if (!o->quiet)
-    cli_complain("%s: %zu legal, %zu indeterminate, %zu tie among the discs; %s", dyd_outcome_text(outcome),
-                 count[DYD_LEGAL], count[DYD_INDETERMINATE], count[DYD_TIE], cli_outcome_advice(r->engine));
-  return cli_exit_status(outcome);
-}
-
-static int discs_result(cli_session *s, disc_result *r, const cli_options *o) {
+static int disc_pairs_find(cli_session *s) {
+  disc_result *r = s->state;
   dyd_error err;
-  r->engine = s->engine;
-  int status = cli_session_run(s, &o->engine);
-  if (status) return status;
-  if (!dyd_engine_delaunay(s->engine)) return cli_session_write(s, delaunay_write);
+  int status = delaunay_find(s);
+  s->known = s->known && !status;
+  if (!s->known) return status;
   cli_progress_phase(s->progress, "the discs");
   dyd_status st = dyd_disc_pairs_until(&r->pairs, dyd_engine_delaunay(s->engine), cli_signals_flag(), &err);
+  s->known = st >= 0;
   if (st < 0) {
-    cli_complain_at(o->file, &err);
+    cli_complain_at(s->o.file, &err);
     return CLI_FAILED;
   }
   cli_session_cut(st, &err);
   s->discs = &r->pairs;
-  cli_session_settle(s);
-  status = cli_write_file(o->output, o, discs_write, r);
-  if (st == DYD_OK || cli_deadline_passed()) status = cli_session_certificate(s, status, discs_certificate, r);
-  return status ? status : discs_outcome(r, st == DYD_CANCELLED, o);
+  r->cut = st == DYD_CANCELLED;
+  if (r->cut && !cli_deadline_passed()) s->o.certificate = NULL;
+  return 0;
 }
 
-static int delaunay_discs(cli_options *o) {
-  const cli_options as_given = *o;
-  disc_result r = {0};
-  cli_session s;
-  int status = cli_session_open(&s, o);
-  if (!status) {
-    status = discs_result(&s, &r, &as_given);
-    o->quiet = true; /* the session would tell of the squares */
-  }
-  int end = cli_session_close(&s, status);
-  dyd_pair_list_clear(&r.pairs);
-  return o->quiet && status == CLI_OK ? CLI_OK : end;
+/* Counts pairs by status. */
+static void count_pairs(size_t count[4], const dyd_pair_list *pairs) {
+  for (int k = 0; k < 4; k++) count[k] = 0;
+  for (size_t k = 0; k < pairs->count; k++) count[pairs->item[k].status]++;
 }
 
-int cli_delaunay(const cli_options *o) {
-  cli_options own = *o; /* with the window read */
-  dyd_rect window;
-  if (o->certificate && o->content == DYD_CONTENT_GRAPH_MST) {
-    cli_complain("no certificate proves a minimum spanning tree: leave --certificate or --layer graph:mst out");
-    return CLI_USAGE;
-  }
-  if (o->sphere) return cli_sphere(o);
-  dyd_rect_init(&window);
-  int status = 0;
-  if (o->window) {
-    own.view = &window;
-    status = cli_window_read(&window, o->window);
-  }
-  if (!status) status = cli_history_open(&own);
-  if (!status) status = o->discs ? delaunay_discs(&own) : cli_session_all(&own, delaunay_write);
-  dyd_history_free(own.history);
-  dyd_rect_clear(&window);
+/* Reports the undecided pairs of the discs. Returns the exit status. */
+static int disc_pairs_outcome(const cli_session *s) {
+  const disc_result *r = s->state;
+  size_t count[4];
+  if (!s->known) return cli_exit_status(s->outcome);
+  if (r->cut) return cli_exit_cut();
+  count_pairs(count, &r->pairs);
+  if (!dyd_delaunay_is_capped(dyd_engine_delaunay(s->engine)) && count[DYD_INDETERMINATE] + count[DYD_TIE] == 0)
+    return CLI_OK;
+  cli_note(&s->o, "%s: %zu legal, %zu indeterminate, %zu tie among the discs; %s", dyd_outcome_text(s->outcome),
+           count[DYD_LEGAL], count[DYD_INDETERMINATE], count[DYD_TIE], cli_outcome_advice(s->engine));
+  return cli_exit_status(s->outcome);
+}
+
+static int disc_pairs_summary(cli_session *s, int status) {
+  if (!status) status = disc_pairs_outcome(s);
+  cli_session_stats(s, NULL);
   return status;
 }
+
+static void disc_pairs_end(cli_session *s) {
+  dyd_pair_list_clear(&((disc_result *)s->state)->pairs);
+}
+
+static const cli_work work_discs = {.size = sizeof(disc_result),
+                                    .begin = delaunay_begin,
+                                    .find = disc_pairs_find,
+                                    .write = delaunay_write,
+                                    .prove = write_certificate,
+                                    .summary = disc_pairs_summary,
+                                    .end = disc_pairs_end};
+
+/* ---- voronoi ---- */
+
+typedef struct voronoi_result {
+  dyd_voronoi_bounds bounds;
+  size_t cut; /* cells and regions that were not worked out */
+} voronoi_result;
+
+static const cli_work *voronoi_instead(const cli_options *o) {
+  return o->sphere ? &cli_sphere : NULL;
+}
+
+static int voronoi_begin(cli_session *s) {
+  dyd_voronoi_bounds_init(&((voronoi_result *)s->state)->bounds);
+  s->o.engine.goal = cli_voronoi_goal(s->o.engine.goal);
+  s->o.engine.window = &s->window;
+  s->share = 0.75; /* the cells get some of the time, too */
+  if (!(s->o.max_arc > 0)) return 0;
+  cli_complain("--max-arc is about the globe; give --sphere or leave it away");
+  return CLI_USAGE;
+}
+
+/* Sets the default window, which needs to know where the points are: a first stage. false after a message. */
+static bool voronoi_window(int *status, cli_session *s) {
+  dyd_engine_options first = s->o.engine;
+  first.goal = DYD_GOAL_DECIDED;
+  first.max_stages = 1;
+  *status = cli_session_run(s, &first, cli_run_engine);
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
+  if (!pd || dyd_voronoi_window(&s->window, dyd_delaunay_sites(pd)) == DYD_OK) return true;
+  cli_complain("the points span more than doubles hold; give --window XLO,XHI,YLO,YHI");
+  return false;
+}
+
+static int voronoi_find(cli_session *s) {
+  int status = 0;
+  if (!s->view && !voronoi_window(&status, s)) return status ? status : CLI_FAILED;
+  if (!status && (s->view || cli_run_was_whole(s->engine))) status = cli_session_run(s, &s->o.engine, cli_run_engine);
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
+  s->known = pd && !dyd_delaunay_is_capped(pd);
+  if (pd && !s->known)
+    cli_complain("neighbours are missing, so no diagram is written: %s", cli_outcome_advice(s->engine));
+  else if (!pd && !status)
+    cli_session_lacks(s, s->outcome, "the first triangulation was complete");
+  return status;
+}
+
+static dyd_status voronoi_write(FILE *out, const cli_session *s, dyd_error *err) {
+  voronoi_result *r = s->state;
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options),
+                                 .flatten_bits = s->o.flatten_bits,
+                                 .flatten_set = s->o.flatten_set,
+                                 .window = s->o.engine.window,
+                                 .bounds = &r->bounds,
+                                 .epsg = s->o.epsg,
+                                 .cancel = cli_deadline_flag(),
+                                 .cut = &r->cut,
+                                 .history = s->history};
+  return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
+}
+
+static int voronoi_summary(cli_session *s, int status) {
+  const voronoi_result *r = s->state;
+  if (s->known && (!s->written || s->written == CLI_BUDGET)) {
+    s->bounds = &r->bounds;
+    if (r->cut)
+      cli_note(&s->o,
+               "budget: the time is used up: %zu cells or regions are not worked out, and the window stands for "
+               "them; raise --timeout",
+               r->cut);
+    if (r->cut && !status) status = CLI_BUDGET;
+  }
+  return cli_pairs_summary(s, status);
+}
+
+static void voronoi_end(cli_session *s) {
+  dyd_voronoi_bounds_clear(&((voronoi_result *)s->state)->bounds);
+}
+
+const cli_work cli_voronoi = {.size = sizeof(voronoi_result),
+                              .instead = voronoi_instead,
+                              .begin = voronoi_begin,
+                              .find = voronoi_find,
+                              .write = voronoi_write,
+                              .prove = write_certificate,
+                              .summary = voronoi_summary,
+                              .end = voronoi_end};
+
+/* ---- --sphere: the points of the file are places, their images are run ---- */
+
+typedef struct sphere_run {
+  dyd_sphere *sphere;
+  dyd_engine *places;          /* s->engine holds the images then; NULL: it holds the places */
+  const char *radius, *resume; /* options that are about images */
+} sphere_run;
+
+static int places_on_sphere_begin(cli_session *s) {
+  cli_options *o = &s->o;
+  sphere_run *r = s->state;
+  const char *what = o->discs                             ? "--discs"
+                     : o->flatten_set                     ? "--flatten"
+                     : o->engine.goal != DYD_GOAL_DECIDED ? "--until"
+                                                          : NULL;
+  bool picture = o->format == DYD_FORMAT_SVG || o->format == DYD_FORMAT_PDF || o->format == DYD_FORMAT_PNG;
+  r->radius = o->read.radius;
+  r->resume = o->resume;
+  o->resume = NULL; /* traces hold answers of images */
+  cli_options_degrees(o);
+  if (delaunay_begin(s)) return CLI_USAGE;
+  if (what)
+    cli_complain("%s is about the plane; leave %s or --sphere away", what, what);
+  else if (o->window && !picture)
+    cli_complain("on a sphere --window is the part that a picture shows; give svg, pdf or png, or leave it away");
+  else
+    return 0;
+  return CLI_USAGE;
+}
+
+static dyd_status sphere_run_images(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
+  dyd_outcome outcome;
+  return dyd_sphere_run(&outcome, ((sphere_run *)s->state)->sphere, options, err);
+}
+
+static int sphere_find(cli_session *s) {
+  sphere_run *r = s->state;
+  cli_options *o = &s->o;
+  dyd_engine_options run = o->engine;
+  dyd_error err;
+  o->read.radius = r->radius;
+  o->resume = r->resume;
+  const dyd_sphere_options how = {DYD_SIZED(dyd_sphere_options), .radius = o->read.radius,
+                                  .radius_unit = o->read.radius_unit, .radius_scale = o->read.radius_scale};
+  dyd_status st = dyd_sphere_new(&r->sphere, s->engine, &how, &err);
+  if (st != DYD_OK) {
+    cli_complain_of(s->engine, st == DYD_E_ARG ? NULL : o->file, &err);
+    return st == DYD_E_ARG ? CLI_USAGE : CLI_FAILED;
+  }
+  if (!o->start_set) run.start_bits = 0;
+  r->places = s->engine;
+  s->engine = dyd_sphere_engine(r->sphere);
+  int status = o->resume ? cli_trace_resume(s) : 0;
+  if (!status) status = cli_session_run(s, &run, sphere_run_images);
+  s->known = dyd_engine_delaunay(s->engine);
+  return status || s->known ? status : cli_session_stopped(s, "the triangulation was");
+}
+
+static dyd_status sphere_write(FILE *out, const cli_session *s, dyd_error *err) {
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .sphere = ((sphere_run *)s->state)->sphere,
+                                 .epsg = s->o.epsg, .window = s->view, .max_arc = s->o.max_arc};
+  return dyd_write(out, NULL, s->o.content, s->o.format, &how, err);
+}
+
+static dyd_status sphere_prove(FILE *out, const cli_session *s, dyd_error *err) {
+  return dyd_write_sphere_certificate(out, ((sphere_run *)s->state)->sphere, err);
+}
+
+static const char *sphere_advice(const cli_session *s) {
+  if (dyd_engine_outcome(s->engine) != DYD_OUTCOME_DECIDED) return cli_outcome_advice(s->engine);
+  return "pairs around the gap that all is projected from stay open; smaller radii decide more";
+}
+
+static int sphere_summary(cli_session *s, int status) {
+  const dyd_sphere *sphere = ((sphere_run *)s->state)->sphere;
+  dyd_pair_list pairs = {0};
+  size_t count[4];
+  if (!s->known) return status;
+  cli_session_stats(s, sphere);
+  dyd_outcome outcome = dyd_sphere_outcome(sphere);
+  if (status || outcome == DYD_OUTCOME_DECIDED) return status;
+  if (dyd_sphere_pairs(&pairs, sphere) != DYD_OK) return cli_complain_memory();
+  count_pairs(count, &pairs);
+  dyd_pair_list_clear(&pairs);
+  cli_note(&s->o, "%s: %zu legal, %zu indeterminate, %zu tie; %s", dyd_outcome_text(outcome), count[DYD_LEGAL],
+           count[DYD_INDETERMINATE], count[DYD_TIE], sphere_advice(s));
+  return cli_exit_status(outcome);
+}
+
+/* The sphere owns its images. */
+static void sphere_end(cli_session *s) {
+  sphere_run *r = s->state;
+  if (r->places) s->engine = r->places;
+  dyd_sphere_free(r->sphere);
+}
+
+const cli_work cli_sphere = {.size = sizeof(sphere_run),
+                             .begin = places_on_sphere_begin,
+                             .find = sphere_find,
+                             .write = sphere_write,
+                             .prove = sphere_prove,
+                             .summary = sphere_summary,
+                             .end = sphere_end};

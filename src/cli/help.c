@@ -1,7 +1,111 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* --help: of everything, or of one command. */
-#include "table.h"
+/* --help, the manual page, completion scripts. */
+#include "cli.h"
+
 #include <string.h>
+
+/* ---- the prose of help and manual page ----
+ *
+ * Plain text; the manual page escapes what troff would take for its own. */
+
+/* Day of the last change of these texts, as the manual page shows it. */
+#define MANUAL_DATE "November 21, 2026"
+
+/* A paragraph "TERM\tMEANING"; lists end with NULL. */
+typedef struct help_term {
+  const char *term, *meaning;
+} help_term;
+
+static const char help_summary[] =
+    "Delaunay triangulation and Voronoi diagram of points that are exact, imprecise or computable\n"
+    "reals. What is stated holds for every choice of points in the rectangles.";
+
+static const char help_file_text[] = "FILE has one point per line: two coordinates separated by blanks or one comma.\n"
+                                     "\"#\" starts a comment; \"-\" is standard input. Points are numbered from 0.";
+
+static const help_term help_coordinate_forms[] = {
+    {"-3.25 1e-3 22/7", "decimal, integer, rational: exact"},
+    {"0x1.8p-3 5*2^-20", "hexadecimal float, dyadic: exact"},
+    {"[1.2,1.3]", "interval: fixed, never refined"},
+    {"1.25+-0.01", "value with radius: the interval"},
+    {"sqrt(2)+pi/4", "expression: a computable real, refined on demand. Known are + - * / ^, pi e, sqrt cbrt exp log "
+                     "sin cos tan asin acos atan sinh cosh tanh abs min max; blanks are allowed inside parentheses"},
+    {"root(x^5-x-1, 1, 2)", "the root of the polynomial between 1 and 2; it may stand in expressions"},
+    {NULL, NULL}};
+
+static const help_term help_exit_statuses[] = {
+    {"0", "decided (no pair is open), or certified (the bound asked for holds)"},
+    {"1", "bad input, a failed point, or a failure to read or write; what was known before a point failed is written"},
+    {"2", "bad usage"},
+    {"3", "fixpoint: nothing that is open can be refined (ties, fixed rectangles)"},
+    {"4", "budget: bits, pairs or time are used up"},
+    {"5", "cancelled (Ctrl-C: the first one stops the work and writes what is known)"},
+    {NULL, NULL}};
+
+static const help_term help_examples[] = {
+    {"dyadel delaunay points.txt", "edges as csv"},
+    {"dyadel delaunay --columns longitude,latitude --measured --format svg -o map.svg airports.csv",
+     "a picture of columns of measured decimals"},
+    {"dyadel delaunay --columns x,y --radius-column accuracy --id name --skip-missing -o edges.csv survey.csv.gz",
+     "points with their own accuracies; the result names them"},
+    {"dyadel delaunay --until hausdorff:40 points.txt", "refine until edges are known to 2^-40"},
+    {"dyadel delaunay --certificate c.txt points.txt && dyadel verify c.txt", "edges, and a check of what proves them"},
+    {"dyadel converge --schedule uniform --step-bits 8 --plot run.svg points.txt",
+     "how bounds and statuses develop with the precision"},
+    {NULL, NULL}};
+
+static const help_term help_results[] = {
+    {"csv, wkt, geojson",
+     "one layer each (see --layer), with plain columns and one kind of geometry. A point stands for its rectangle; "
+     "max_coordinate_error bounds, rounded up, how far in x or y any point of the rectangle is from it: 0 for "
+     "coordinates "
+     "printed exactly. Without --crs geojson claims no reference system; programs that see none would take the "
+     "coordinates "
+     "for degrees. csv of delaunay: \"# alias 7 3\" for each point 7 that is the same as point 3, then i,j,status, "
+     "sorted; where the cap on pairs was met, \"# capped\" and \"# face i j k ...\" name the faces within which "
+     "further "
+     "pairs may be possible. csv of voronoi: two bounds in comments, the area that is undetermined, and how far an "
+     "undetermined point can be from the true diagram."},
+    {"json",
+     "delaunay: the rectangles reached (exact, and as decimals rounded outward), aliases, pairs, sure triangles, "
+     "outcome, bounds of area and Hausdorff distance (exact, and rounded up), counters. voronoi: besides these "
+     "the exact boundaries, arc by arc (line or parabola, focus, feature, ends as (a + b sqrt(c)) / d), the "
+     "polygons, edges with their vertices, rays with bounds of their directions. Exact numbers are texts m*2^e "
+     "or p/q."},
+    {"obj", "vertices \"v x y 0\", legal edges l, sure triangles f; how far vertices are off is in a comment."},
+    {"svg, pdf, png",
+     "Lines that would be one mass are shown by their density; a crowd too small to see is told of with "
+     "the --window that shows it. In svg text is text, and what is drawn has an id (pair-3-7) and a "
+     "title. The picture of nearest shows the disc that is surely free of points, the ring that surely "
+     "holds the nearest one, and who reaches into it."},
+    {"polygons of voronoi", "For every point an inner polygon, all of whose points are surely nearest to it, and outer "
+                            "polygons that hold all points possibly nearest; vertices are dyadic, so that anybody can "
+                            "check them by comparing distances in integers. The cell of an exact point among exact "
+                            "points is one polygon (kind exact), whose vertices are rounded by at most vertex_error. "
+                            "All lie in the window."},
+    {"converge", "One line for each stage: bits asked for (least, most, total), largest and median width, pairs by "
+                 "status, undecided faces, bounds of the triangulation and of the diagram on the window, decisions per "
+                 "rung, calls, a digest of all statuses, seconds. Widths and bounds are rounded up."},
+    {"--trace FILE", "one JSON object per line; the format is in dyadel/io.h, that of certificates in "
+                     "dyadel/certificate.h"},
+    {NULL, NULL}};
+
+static const char help_oracle_text[] =
+    "With --oracle, a program (sh -c COMMAND) takes the place of FILE. It prints \"points N\"; then for each line "
+    "\"refine I B\" that it reads, it answers one line \"I XLO XHI YLO YHI\": exact numbers (any plain form of the "
+    "points "
+    "file) between which point I lies, aiming at widths of 2^-B, inside its former answers for I. It may add the word "
+    "\"fixed\" when that can never be narrowed. Where points cost differently, it begins with \"points N cost C ... "
+    "C\", one "
+    "number above 0 for each, and cheap ones are asked before dear ones. It flushes after every line, answers in the "
+    "order of the requests, and "
+    "ends when its input ends. Of K programs, number I modulo K is always asked for point I. Results do not depend on "
+    "--oracle-jobs and --oracle-batch. A program that dies, is silent, or answers what is not an answer ends the run "
+    "with exit status 1 and a message that names the point and the request; what was known before is written all the "
+    "same. No process is left behind, even when dyadel itself is killed. Begin COMMAND with exec when it is a single "
+    "program, so that no shell stands between.";
+
+/* ---- --help: of everything, or of one command ---- */
 
 enum { COLUMN = 24 };
 
@@ -67,7 +171,7 @@ void cli_help(FILE *out, const cli_command *command) {
   if (command) {
     fprintf(out, "Usage: dyadel %s [OPTION...] %s\n%s\n\n", command->name, command->operands, command->about);
   } else {
-    fprintf(out, "Usage: dyadel COMMAND [OPTION...] FILE\n%s\n\nCommands\n", cli_summary);
+    fprintf(out, "Usage: dyadel COMMAND [OPTION...] FILE\n%s\n\nCommands\n", help_summary);
     for (size_t c = 0; c < CLI_COMMANDS; c++) {
       char usage[64];
       snprintf(usage, sizeof usage, "%s %s", cli_commands[c].name, cli_commands[c].operands);
@@ -75,10 +179,321 @@ void cli_help(FILE *out, const cli_command *command) {
     }
     fputs("\n", out);
   }
-  if (!command || strncmp(command->operands, "FILE", 4) == 0) fprintf(out, "%s\n\n", cli_file_text);
+  if (!command || strncmp(command->operands, "FILE", 4) == 0) fprintf(out, "%s\n\n", help_file_text);
   help_options(out, command ? cli_command_bit(command) : CLI_ALL);
   fputs("\nExit status: 0 decided or certified, 1 bad input or failure, 2 bad usage,\n"
         "3 fixpoint (ties or fixed rectangles), 4 budget spent, 5 cancelled.\n"
         "Results are written for 0, 3, 4 and 5.\n",
+        out);
+}
+
+/* ---- the manual page, in the mdoc macros ---- */
+
+/* Text between macros. A line must not begin with a control character, a backslash is written \e, and a hyphen that
+ * is to be copied from the page as it is typed is written \-. */
+static void man_letter(FILE *out, char c) {
+  if (c == '\\')
+    fputs("\\e", out);
+  else if (c == '-')
+    fputs("\\-", out);
+  else
+    fputc(c, out);
+}
+
+/* Text in lines of moderate length; a sentence begins on a new line. */
+static void man_text(FILE *out, const char *t) {
+  int column = 0;
+  for (; *t; t++) {
+    bool blank = *t == ' ' || *t == '\n';
+    bool sentence = blank && column && t[-1] == '.' && t[1] >= 'A' && t[1] <= 'Z';
+    if (sentence || *t == '\n' || (blank && column + (int)strcspn(t + 1, " \n") > 70)) {
+      fputc('\n', out);
+      column = 0;
+      continue;
+    }
+    if (column == 0 && (*t == '.' || *t == '\'')) fputs("\\&", out);
+    man_letter(out, *t);
+    column++;
+  }
+  fputs("\n", out);
+}
+
+/* An argument of a macro. */
+static void man_quoted(FILE *out, const char *t) {
+  fputc('"', out);
+  for (; *t; t++) {
+    if (*t == '"')
+      fputs("\\(dq", out);
+    else
+      man_letter(out, *t);
+  }
+  fputc('"', out);
+}
+
+static void man_terms(FILE *out, const help_term *t, const char *macro) {
+  fputs(".Bl -tag -width Ds\n", out);
+  for (; t->term; t++) {
+    fprintf(out, ".It %s ", macro);
+    man_quoted(out, t->term);
+    fputs("\n", out);
+    man_text(out, t->meaning);
+  }
+  fputs(".El\n", out);
+}
+
+static void man_takers(FILE *out, const cli_option *o) {
+  if (o->commands == CLI_ALL) return;
+  fputs("(", out);
+  cli_commands_print(out, o->commands, ", ");
+  fputs(")\n", out);
+}
+
+static void man_option(FILE *out, const cli_option *o) {
+  fputs(".It ", out);
+  if (o->letter) fprintf(out, "Fl %c , ", o->letter);
+  fprintf(out, "Fl \\-%s", o->name);
+  if (o->kind == CLI_HELP)
+    fprintf(out, " Ns Op = Ns Ar %s", o->argument);
+  else if (o->argument)
+    fprintf(out, " Ar %s", o->argument);
+  fputs("\n", out);
+  if (o->kind == CLI_FORMAT) {
+    cli_formats_print(out, o->commands, ", ", true);
+    fputs("\n", out);
+  } else {
+    man_text(out, o->help);
+  }
+  man_takers(out, o);
+}
+
+static void man_options(FILE *out) {
+  for (int g = 0; g < CLI_GROUPS; g++) {
+    bool any = false;
+    for (size_t k = 0; k < cli_option_count; k++) {
+      const cli_option *o = &cli_option_table[k];
+      if (o->group != (cli_group)g) continue;
+      if (!any) fprintf(out, ".Ss %s\n.Bl -tag -width Ds\n", cli_group_names[g]);
+      any = true;
+      man_option(out, o);
+    }
+    if (any) fputs(".El\n", out);
+  }
+}
+
+static void man_commands(FILE *out) {
+  fputs(".Bl -tag -width Ds\n", out);
+  for (size_t c = 0; c < CLI_COMMANDS; c++) {
+    fprintf(out, ".It Cm %s Ar %s\n", cli_commands[c].name, cli_commands[c].operands);
+    man_text(out, cli_commands[c].about);
+  }
+  fputs(".El\n", out);
+}
+
+static void man_formats(FILE *out) {
+  fputs(".Bl -tag -width Ds\n", out);
+  for (unsigned f = 0; dyd_format_name((dyd_format)f); f++) {
+    fprintf(out, ".It Cm %s\n", dyd_format_name((dyd_format)f));
+    man_text(out, dyd_format_about((dyd_format)f));
+  }
+  fputs(".El\n", out);
+}
+
+void cli_help_man(FILE *out) {
+  fputs(".\\\" SPDX-License-Identifier: LGPL-3.0-or-later\n.Dd " MANUAL_DATE "\n.Dt DYADEL 1\n.Os\n"
+        ".Sh NAME\n.Nm dyadel\n.Nd Delaunay and Voronoi of computable points\n.Sh SYNOPSIS\n",
+        out);
+  for (size_t c = 0; c < CLI_COMMANDS; c++)
+    fprintf(out, ".Nm\n.Cm %s\n.Op Ar option ...\n.Ar %s\n", cli_commands[c].name, cli_commands[c].operands);
+  fputs(".Sh DESCRIPTION\n", out);
+  man_text(out, help_summary);
+  fputs(".Pp\nThe commands are:\n", out);
+  man_commands(out);
+  fputs(".Ss The points file\n", out);
+  man_text(out, help_file_text);
+  fputs("A coordinate is one of\n", out);
+  man_terms(out, help_coordinate_forms, "Li");
+  fputs(".Sh OPTIONS\n", out);
+  man_text(out, "Commands in parentheses are those that take the option; where none is named, all do.");
+  man_options(out);
+  fputs(".Sh FORMATS\n", out);
+  man_text(out,
+           "No format holds a rounded number without saying to which side, or by how much at most, it is rounded.");
+  man_formats(out);
+  fputs(".Ss What is in them\n", out);
+  man_terms(out, help_results, "Li");
+  fputs(".Sh PROGRAMS THAT SERVE POINTS\n", out);
+  man_text(out, help_oracle_text);
+  fputs(".Sh EXIT STATUS\n", out);
+  man_terms(out, help_exit_statuses, "Li");
+  fputs(".Pp\n", out);
+  man_text(out, "Results are written for 0, 3, 4 and 5; they are true and complete for the rectangles reached.");
+  fputs(".Sh EXAMPLES\n", out);
+  man_terms(out, help_examples, "Li");
+}
+
+static void option_names(FILE *out, unsigned commands) {
+  for (size_t k = 0; k < cli_option_count; k++) {
+    const cli_option *o = &cli_option_table[k];
+    if (!cli_option_exists(o, commands)) continue;
+    fprintf(out, " --%s", o->name);
+    if (o->letter) fprintf(out, " -%c", o->letter);
+  }
+}
+
+/* ---- completion for bash ---- */
+
+/* The pattern of a case for the option: "--output|-o)". */
+static void bash_pattern(FILE *out, const cli_option *o) {
+  fprintf(out, "    --%s", o->name);
+  if (o->letter) fprintf(out, "|-%c", o->letter);
+  fputs(") ", out);
+}
+
+static void bash_formats(FILE *out, unsigned commands) {
+  cli_formats_print(out, commands, " ", false);
+}
+
+static void bash_layers(FILE *out, unsigned commands) {
+  cli_layers_print(out, commands, " ");
+}
+
+/* The patterns of a case on the command, with its words, and those of no command. */
+static void bash_words(FILE *out, const char *indent, void (*words)(FILE *out, unsigned commands)) {
+  for (size_t c = 0; c <= CLI_COMMANDS; c++) {
+    bool any = c == CLI_COMMANDS;
+    fprintf(out, "%s%s) words='", indent, any ? "*" : cli_commands[c].name);
+    words(out, any ? CLI_ALL : cli_command_bit(&cli_commands[c]));
+    fputs("' ;;\n", out);
+  }
+}
+
+static void bash_value(FILE *out, const cli_option *o) {
+  if (o->kind == CLI_FLAG || cli_kind_is_file(o->kind)) return; /* bash offers files without help */
+  bash_pattern(out, o);
+  if (o->kind == CLI_FORMAT || o->kind == CLI_LAYER) {
+    fputs("case $command in\n", out);
+    bash_words(out, "      ", o->kind == CLI_FORMAT ? bash_formats : bash_layers);
+    fputs("      esac ;;\n", out);
+  } else if (o->words) {
+    fprintf(out, "words='%s' ;;\n", o->words);
+  } else if (o->kind == CLI_HELP) {
+    fputs("[[ $equals ]] && words='man bash zsh' ;;\n", out);
+  } else {
+    fputs("words=' ' ;;\n", out);
+  }
+}
+
+void cli_help_bash(FILE *out) {
+  fputs("# SPDX-License-Identifier: LGPL-3.0-or-later\n# Completion of dyadel for bash.\n"
+        "_dyadel() {\n"
+        "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command='' words='' equals='' k\n"
+        "  COMPREPLY=()\n"
+        "  # bash takes --format=js for three words\n"
+        "  if [[ $cur == = ]]; then cur='' equals=1\n"
+        "  elif [[ $prev == = ]]; then prev=${COMP_WORDS[COMP_CWORD-2]} equals=1; fi\n"
+        "  for ((k = 1; k < COMP_CWORD; k++)); do\n"
+        "    case ${COMP_WORDS[k]} in\n"
+        "    ",
+        out);
+  cli_commands_print(out, CLI_ALL, "|");
+  fputs(") command=${COMP_WORDS[k]}; break ;;\n    esac\n  done\n  case $prev in\n", out);
+  for (size_t k = 0; k < cli_option_count; k++) bash_value(out, &cli_option_table[k]);
+  for (size_t k = 0; k < cli_option_count; k++) {
+    const cli_option *o = &cli_option_table[k];
+    if (!cli_kind_is_file(o->kind)) continue;
+    bash_pattern(out, o);
+    fputs("return ;;\n", out);
+  }
+  fputs("  esac\n  if [[ -z $words && $cur == -* ]]; then\n    case $command in\n", out);
+  bash_words(out, "    ", option_names);
+  fputs("    esac\n  elif [[ -z $words && -z $command ]]; then words='", out);
+  cli_commands_print(out, CLI_ALL, " ");
+  fputs("'; fi\n"
+        "  [[ $words ]] || return # names of files\n"
+        "  compopt +o default 2>/dev/null\n"
+        "  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$cur\")\n"
+        "  [[ ${COMPREPLY[0]-} == *: ]] && compopt -o nospace 2>/dev/null\n"
+        "  return 0\n"
+        "}\n"
+        "complete -o default -F _dyadel dyadel\n",
+        out);
+}
+
+/* ---- completion for zsh ---- */
+
+/* Text inside '...' and inside the brackets of a description. */
+static void zsh_text(FILE *out, const char *t) {
+  for (; *t; t++) {
+    if (*t == '\'')
+      fputs("'\\''", out);
+    else if (*t == '[' || *t == ']' || *t == ':' || *t == '\\')
+      fprintf(out, "\\%c", *t);
+    else
+      fputc(*t == '\n' ? ' ' : *t, out);
+  }
+}
+
+static void zsh_option(FILE *out, const cli_option *o, const cli_command *c) {
+  fputs("      ", out);
+  if (o->letter)
+    fprintf(out, "'(-%c --%s)'{-%c%s,--%s%s}'", o->letter, o->name, o->letter,
+            o->argument && o->kind != CLI_HELP ? "+" : "", o->name, o->argument && o->kind != CLI_HELP ? "=" : "");
+  else
+    fprintf(out, "'--%s%s", o->name, o->argument ? "=" : "");
+  fputs("[", out);
+  zsh_text(out, o->help ? o->help : "format of the result");
+  fputs("]", out);
+  if (o->argument && o->kind != CLI_HELP) fprintf(out, ":%s:", o->argument);
+  if (cli_kind_is_file(o->kind)) fputs("_files", out);
+  if (o->words) {
+    fputs("(", out);
+    zsh_text(out, o->words);
+    fputs(")", out);
+  }
+  if (o->kind == CLI_FORMAT || o->kind == CLI_LAYER) {
+    fputs("(", out);
+    if (o->kind == CLI_FORMAT)
+      cli_formats_print(out, cli_command_bit(c), " ", false);
+    else
+      cli_layers_print(out, cli_command_bit(c), " ");
+    fputs(")", out);
+  }
+  fputs("'\n", out);
+}
+
+static void zsh_command(FILE *out, const cli_command *c) {
+  fprintf(out, "    %s) options=(\n", c->name);
+  for (size_t k = 0; k < cli_option_count; k++)
+    if (cli_option_exists(&cli_option_table[k], cli_command_bit(c))) zsh_option(out, &cli_option_table[k], c);
+  fputs("      '1:file:_files'\n      '*:number:'\n      ) ;;\n", out);
+}
+
+void cli_help_zsh(FILE *out) {
+  fputs("#compdef dyadel\n# SPDX-License-Identifier: LGPL-3.0-or-later\n# Completion of dyadel for zsh.\n"
+        "_dyadel() {\n"
+        "  local -a commands options\n"
+        "  local context state state_descr line\n"
+        "  typeset -A opt_args\n"
+        "  commands=(\n",
+        out);
+  for (size_t c = 0; c < CLI_COMMANDS; c++) {
+    fprintf(out, "    '%s:", cli_commands[c].name);
+    zsh_text(out, cli_commands[c].line);
+    fputs("'\n", out);
+  }
+  fputs("  )\n"
+        "  _arguments -C '(-h --help)'{-h,--help}'[help]' '--version[the version]' '1:command:->command' "
+        "'*::argument:->arguments' && return\n"
+        "  case $state in\n"
+        "  command) _describe command commands ;;\n"
+        "  arguments)\n"
+        "    case $line[1] in\n",
+        out);
+  for (size_t c = 0; c < CLI_COMMANDS; c++) zsh_command(out, &cli_commands[c]);
+  fputs("    esac\n"
+        "    _arguments $options ;;\n"
+        "  esac\n"
+        "}\n"
+        "_dyadel \"$@\"\n",
         out);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The command dyadel: finds out what is asked and does it. */
-#include "table.h"
+/* The command dyadel. */
+#include "cli.h"
 #include <signal.h>
 #include <string.h>
 
@@ -34,7 +34,7 @@ static int run_command(const cli_options *o) {
   }
   int status = cli_files_check(o);
   cli_deadline_start(o->engine.seconds);
-  if (!status) status = cli_command_find(o->command)->run(o);
+  if (!status) status = cli_work_run(cli_command_find(o->command)->work, o);
   return status == CLI_FIXPOINT && o->accept_fixpoint ? CLI_OK : status;
 }
 
@@ -42,8 +42,8 @@ int main(int argc, char **argv) {
   cli_options options;
   if (!cli_guard_descriptors()) return CLI_FAILED;
   cli_memory_guard();
-  /* A reader that goes away is noticed at the writing, so that other files are finished and all is told. In the end the
-   * process dies of it as others do, unless whoever started it has it ignored. */
+  /* A broken pipe is noticed when writing fails, so that other files are finished and all messages printed. At the end
+   * the process dies of SIGPIPE as others do, unless the parent ignores it. */
   void (*before)(int) = signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN); /* a file that may grow no more is noticed at the writing, too */
   int status = cli_options_read(&options, argc, argv);

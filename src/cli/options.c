@@ -2,14 +2,285 @@
 /* Arguments to cli_options, by the table: options may stand before or after the command and its operands.
  *
  * What begins with a minus sign and a digit or a point is an operand, not an option: coordinates may be negative. */
-#include "table.h"
+#include "cli.h"
+
 #include <ctype.h>
+#include <errno.h>
 #include <getopt.h>
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
+#include <strings.h>
+
+/* ---- "did you mean" ----
+ *
+ * The name nearest to the typed one, in edits of one character (Damerau and Levenshtein, in the form
+ * where no piece is edited twice). */
+
+enum { LONGEST = 63 };
+
+static size_t least_size(size_t a, size_t b) {
+  return a < b ? a : b;
+}
+
+/* The number of insertions, deletions, changes and swaps of neighbours from a to b; LONGEST for long words. */
+static size_t edit_distance(const char *a, const char *b) {
+  size_t m = strlen(a), n = strlen(b), d[LONGEST + 1][LONGEST + 1];
+  if (m > LONGEST || n > LONGEST) return LONGEST;
+  for (size_t i = 0; i <= m; i++) {
+    for (size_t j = 0; j <= n; j++) {
+      if (i == 0 || j == 0) {
+        d[i][j] = i + j;
+        continue;
+      }
+      d[i][j] = least_size(least_size(d[i - 1][j], d[i][j - 1]) + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1]));
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = least_size(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  }
+  return d[m][n];
+}
+
+/* the candidate (0 and on, up to a NULL) most like `name`, NULL when none is like it. A name that begins as
+ * `name` does, or a few typing errors away. */
+static const char *suggest_name(const char *name, const char *(*candidate)(size_t k)) {
+  const char *best = NULL, *one;
+  size_t length = strlen(name), least = length < 3 ? length : 2 + length / 3; /* a third of the letters may be wrong */
+  for (size_t k = 0; (one = candidate(k)); k++) {
+    size_t d = length > 1 && strncmp(name, one, length) == 0 ? 0 : edit_distance(name, one);
+    if (d >= least) continue;
+    least = d;
+    best = one;
+  }
+  return best;
+}
+
+/* ---- values: text to what the table says, or a message with what to give instead ---- */
+
+/* Splits at the commas outside parentheses: there are to be exactly four numbers. */
+static dyd_status read_window_ends(mpq_t end[4], const char *text) {
+  size_t k = 0;
+  int depth = 0;
+  for (const char *from = text, *at = text;; at++) {
+    depth += (*at == '(') - (*at == ')');
+    if (*at && (*at != ',' || depth)) continue;
+    dyd_status st = k == 4 ? DYD_E_PARSE : dyd_real_parse_exact(end[k++], from, (size_t)(at - from));
+    if (st != DYD_OK) return st;
+    if (!*at) return k == 4 ? DYD_OK : DYD_E_PARSE;
+    from = at + 1;
+  }
+}
+
+static dyd_status round_window_side(dyd_interval *out, const mpq_t lo, const mpq_t hi) {
+  dyd_real *real = NULL;
+  dyd_status st = dyd_real_from_interval(&real, lo, hi);
+  if (st == DYD_OK) dyd_interval_set(out, dyd_real_interval(real));
+  dyd_real_free(real);
+  return st;
+}
+
+int cli_window_read(dyd_rect *out, const char *text) {
+  const char *wrong = NULL;
+  mpq_t end[4];
+  for (int k = 0; k < 4; k++) mpq_init(end[k]);
+  dyd_status st = read_window_ends(end, text);
+  if (st != DYD_OK)
+    wrong = "is not four exact numbers; give XLO,XHI,YLO,YHI such as -1,2.5,0,1/3";
+  else if (mpq_cmp(end[0], end[1]) > 0 || mpq_cmp(end[2], end[3]) > 0)
+    wrong = "has its ends in the wrong order; give the lower end of x, the upper end of x, then those of y";
+  else if (mpq_equal(end[0], end[1]) || mpq_equal(end[2], end[3]))
+    wrong = "has no area; give XLO < XHI and YLO < YHI";
+  else if ((st = round_window_side(&out->x, end[0], end[1])) != DYD_OK ||
+           (st = round_window_side(&out->y, end[2], end[3])) != DYD_OK)
+    wrong = "lies beyond the range of numbers; give smaller ones";
+  for (int k = 0; k < 4; k++) mpq_clear(end[k]);
+  if (!wrong) return 0;
+  if (st == DYD_E_NOMEM) return cli_complain_memory();
+  cli_complain("--window \"%s\" %s", text, wrong);
+  return CLI_USAGE;
+}
+
+int cli_number_read(mpq_ptr out, const char *name, const char *text) {
+  dyd_status st = dyd_real_parse_exact(out, text, strlen(text));
+  if (st == DYD_OK && mpq_sgn(out) >= 0) return 0;
+  if (st == DYD_E_NOMEM) return cli_complain_memory();
+  cli_complain("--%s \"%s\" is not understood; give an exact number of 0 or more, such as 0.01", name, text);
+  return CLI_USAGE;
+}
+
+static bool value_usage(const cli_option *option, const char *value, const char *wanted) {
+  cli_complain("--%s \"%s\" is not understood; give %s", option->name, value, wanted);
+  return false;
+}
+
+static bool value_scan_integer(long long *out, const char *text, long long least, long long most) {
+  char *end;
+  errno = 0;
+  *out = strtoll(text, &end, 10);
+  return end != text && !*end && errno == 0 && *out >= least && *out <= most;
+}
+
+static bool value_integer(void *place, const cli_option *option, const char *text) {
+  long long value;
+  if (!value_scan_integer(&value, text, option->least, option->most)) {
+    char wanted[96];
+    snprintf(wanted, sizeof wanted, "a whole number from %lld to %lld", option->least, option->most);
+    return value_usage(option, text, wanted);
+  }
+  if (option->width == sizeof(unsigned)) {
+    *(unsigned *)place = (unsigned)value;
+  } else {
+    /* int64_t, uint64_t and size_t hold these values the same way. */
+    int64_t wide = value;
+    memcpy(place, &wide, sizeof wide);
+  }
+  return true;
+}
+
+static bool value_number(double *place, const cli_option *option, const char *text) {
+  char *end;
+  double value = strtod(text, &end);
+  bool seconds = option->kind == CLI_SECONDS;
+  if (end == text || *end || !isfinite(value) || value <= 0 || (!seconds && value > 90))
+    return value_usage(option, text, seconds ? "a number of seconds above 0" : "degrees above 0, at most 90");
+  *place = value;
+  return true;
+}
+
+static bool value_goal(dyd_engine_options *e, const cli_option *option, const char *text) {
+  const char *colon = strchr(text, ':');
+  size_t length = colon ? (size_t)(colon - text) : strlen(text);
+  long long bits = 0;
+  e->goal = DYD_GOAL_DECIDED;
+  if (!colon && strcmp(text, "decided") == 0) return true;
+  if (length == 4 && strncmp(text, "area", 4) == 0) e->goal = DYD_GOAL_AREA;
+  if (length == 9 && strncmp(text, "hausdorff", 9) == 0) e->goal = DYD_GOAL_HAUSDORFF;
+  if (!colon || e->goal == DYD_GOAL_DECIDED || !value_scan_integer(&bits, colon + 1, -DYD_EXP_LIMIT, DYD_EXP_LIMIT))
+    return value_usage(option, text, "decided, area:M or hausdorff:M with a whole number M");
+  e->goal_bits = bits;
+  return true;
+}
+
+/* The first word of a list with blanks between words; NULL: none is left. */
+static const char *next_word(size_t *length, const char *list) {
+  list += strspn(list, " ");
+  *length = strcspn(list, " ");
+  return *length ? list : NULL;
+}
+
+static bool choice_usage(const cli_option *option, const char *text) {
+  char wanted[96] = "";
+  size_t length, next;
+  for (const char *word = option->words; (word = next_word(&length, word)); word += length) {
+    const char *after = word + length, *then = next_word(&next, after);
+    const char *between = !then ? "" : next_word(&next, then + next) ? ", " : " or ";
+    snprintf(wanted + strlen(wanted), sizeof wanted - strlen(wanted), "%.*s%s", (int)length, word, between);
+  }
+  return value_usage(option, text, wanted);
+}
+
+static bool value_choice(void *place, const cli_option *option, const char *text) {
+  size_t length;
+  unsigned k = 0;
+  for (const char *word = option->words; (word = next_word(&length, word)); word += length, k++) {
+    if (strlen(text) != length || strncmp(word, text, length) != 0) continue;
+    if (option->width == sizeof(bool))
+      *(bool *)place = k;
+    else
+      *(unsigned *)place = k; /* as wide as these enums */
+    return true;
+  }
+  return choice_usage(option, text);
+}
+
+/* Whether the command writes it is seen later, when the command is known. */
+static bool value_format(dyd_format *place, const cli_option *option, const char *text) {
+  if (dyd_format_from_name(place, text)) return true;
+  fprintf(stderr, "dyadel: --%s \"%s\" is not understood; give ", option->name, text);
+  cli_formats_print(stderr, CLI_ALL, ", ", false);
+  fputs("\n", stderr);
+  return false;
+}
+
+/* Whether it is one of the command is seen later. */
+static bool value_layer(const char **place, const cli_option *option, const char *text) {
+  dyd_content layer;
+  *place = text;
+  for (unsigned c = 0; c < CLI_COMMANDS; c++)
+    if (dyd_layer_from_name(&layer, cli_commands[c].content, text)) return true;
+  fprintf(stderr, "dyadel: --%s \"%s\" is not understood; give ", option->name, text);
+  cli_layers_print(stderr, CLI_ALL, ", ");
+  fputs("\n", stderr);
+  return false;
+}
+
+static bool value_crs(unsigned *place, const cli_option *option, const char *text) {
+  long long number;
+  if (strncasecmp(text, "EPSG:", 5) != 0 || !value_scan_integer(&number, text + 5, 1, 999999))
+    return value_usage(option, text, "EPSG: and a number, such as EPSG:32632");
+  *place = (unsigned)number;
+  return true;
+}
+
+static int check_window(const char *text) {
+  dyd_rect window;
+  dyd_rect_init(&window);
+  int status = cli_window_read(&window, text);
+  dyd_rect_clear(&window);
+  return status;
+}
+
+static bool value_text(const char **place, const cli_option *option, const char *text) {
+  if (!*text) return value_usage(option, text, option->kind != CLI_TEXT ? "the name of a file" : option->argument);
+  *place = text;
+  return true;
+}
+
+static bool value_any(cli_options *o, const cli_option *option, const char *text) {
+  void *place = (char *)o + option->offset;
+  if (option->given) *(bool *)((char *)o + option->given) = true;
+  switch (option->kind) {
+  case CLI_FLAG:
+    return *(bool *)place = true;
+  case CLI_WINDOW:
+  case CLI_TEXT:
+  case CLI_FILE:
+  case CLI_SOURCE:
+    return value_text(place, option, text);
+  case CLI_INTEGER:
+    return value_integer(place, option, text);
+  case CLI_SECONDS:
+  case CLI_DEGREES:
+    return value_number(place, option, text);
+  case CLI_GOAL:
+    return value_goal(place, option, text);
+  case CLI_CHOICE:
+    return value_choice(place, option, text);
+  case CLI_FORMAT:
+    return value_format(place, option, text);
+  case CLI_LAYER:
+    return value_layer(place, option, text);
+  case CLI_CRS:
+    return value_crs(place, option, text);
+  case CLI_HELP:
+    *(const char **)place = text ? text : "";
+    return true;
+  }
+  return false;
+}
+
+/* reads the value of an option into *o; 0, or an exit status after a message. */
+static int value_read(cli_options *o, const cli_option *option, const char *text) {
+  int status = option->kind == CLI_WINDOW ? check_window(text) : 0;
+  if (status) return status;
+  return value_any(o, option, text) ? 0 : CLI_USAGE;
+}
+
+/* ---- arguments ---- */
 
 enum { MOST_OPTIONS = 96, MOST_OPERANDS = 5, FIRST_VALUE = 256 };
 
-/* What was found before the command is known. Invariant: seen[k] when option k was given. */
+/* Options and operands, before the command is known. Invariant: seen[k] when option k was given. */
 typedef struct scan {
   struct option known[MOST_OPTIONS + 1];
   char letters[2 * MOST_OPTIONS + 3];
@@ -49,7 +320,7 @@ static int complain_unknown(const char *argument) {
   char name[64];
   snprintf(name, sizeof name, "%s", argument + strspn(argument, "-"));
   name[strcspn(name, "=")] = 0;
-  const char *best = cli_suggest(name, option_name);
+  const char *best = suggest_name(name, option_name);
   if (best)
     cli_complain("there is no option %s; did you mean --%s?", argument, best);
   else
@@ -99,7 +370,7 @@ static int scan_all(scan *s, cli_options *o, int argc, char **argv) {
       if (value == '?' || value == ':') return complain_option(value, a);
       size_t k = option_number(value);
       s->seen[k] = true;
-      status = cli_value_read(o, &cli_option_table[k], optarg);
+      status = value_read(o, &cli_option_table[k], optarg);
     }
     if (status) return status;
   }
@@ -113,7 +384,7 @@ static const char *command_name(size_t k) {
 }
 
 static int unknown_command(const char *name) {
-  const char *best = cli_suggest(name, command_name);
+  const char *best = suggest_name(name, command_name);
   if (best)
     cli_complain("there is no command \"%s\"; did you mean %s?", name, best);
   else
@@ -168,7 +439,7 @@ static int layer_fits(cli_options *o, const cli_command *c) {
   return CLI_USAGE;
 }
 
-/* The format, which has to hold what is written; the first that does where none is given. */
+/* The format has to hold the content; without --format, the first that does is taken. */
 static int format_fits(cli_options *o, const cli_command *c) {
   while (!o->format_set && dyd_format_name(o->format) && !dyd_format_holds(o->format, o->content)) o->format++;
   if (!o->format_set || dyd_format_holds(o->format, o->content)) return 0;
@@ -198,7 +469,7 @@ static int format_from_output(cli_options *o, const cli_command *c) {
   return CLI_USAGE;
 }
 
-/* Hands the operands behind the command's name to their fields. With an oracle or a trace there is no file, with a
+/* Hands the operands behind the command's name to their fields. An oracle or a trace replaces the file, with a
  * file of places no place. */
 static int place_operands(cli_options *o, const scan *s, const cli_command *c) {
   const char *operands = o->queries ? "FILE" : c->operands;

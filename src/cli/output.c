@@ -4,6 +4,7 @@
  * ends. */
 #define _GNU_SOURCE /* O_TMPFILE */
 #include "cli.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -34,7 +35,7 @@ bool cli_output_lost_reader(void) {
   return lost_reader;
 }
 
-/* Pipes and sockets tell of it whatever became of errno. */
+/* Pipes and sockets report it even after errno has changed. */
 static bool is_broken(FILE *stream) {
   struct pollfd end = {.fd = fileno(stream), .events = POLLOUT};
   return poll(&end, 1, 0) > 0 && end.revents & POLLERR;
@@ -64,7 +65,9 @@ static char *follow_link(const char *name) {
   return path;
 }
 
-char *cli_output_target(const char *name) {
+/* Where writing to the file of this name ends up, links followed, also one that leads to no file; release with free().
+ * NULL: memory is exhausted. */
+static char *output_target(const char *name) {
   char *path = realpath(name, NULL);
   if (path) return path;
   enum { MOST_LINKS = 40 };
@@ -117,7 +120,7 @@ static int open_unnamed(const char *target) {
   return -1;
 }
 
-/* Links never replace what is there: where the place is taken, the file gets a name beside it, to be renamed. */
+/* A link never replaces a file: if the name is taken, the file gets another name next to it, to be renamed. */
 static bool link_beside(cli_output *out, const char *path) {
   enum { MOST_TRIES = 1000 };
   size_t size = strlen(out->target) + 32;
@@ -152,7 +155,7 @@ static bool output_place(cli_output *out, int fd) {
   return true;
 }
 
-/* The same with signals held back, so that none comes while the file has a name that nobody knows of; then the folder
+/* The same with signals held back, so that none comes while the name is not registered yet; then the folder
  * goes to the disk as well, where it can. */
 static bool output_appear(cli_output *out, int fd) {
   sigset_t before;
@@ -171,7 +174,7 @@ static bool output_appear(cli_output *out, int fd) {
 
 /* ---- opening and ending ---- */
 
-/* A file with a name of its own, which signals remove. None comes while nobody knows of the file. */
+/* A file with a name of its own, which signals remove. They are held back until the name is registered. */
 static int open_named(cli_output *out) {
   sigset_t before;
   size_t size = strlen(out->target) + sizeof ".XXXXXX";
@@ -210,7 +213,7 @@ bool cli_output_open(cli_output *out, const char *name) {
     return out->stream ? true : output_fail(name);
   }
   out->stream = NULL;
-  out->target = cli_output_target(name);
+  out->target = output_target(name);
   bool done = out->target ? open_temporary(out, exists ? info.st_mode & 0777 : default_mode()) : output_fail(name);
   if (!done) cli_output_drop(out);
   return done;
@@ -252,4 +255,104 @@ void cli_output_drop(cli_output *out) {
   free(out->temporary);
   free(out->target);
   *out = (cli_output){0};
+}
+
+/* ---- files of the command line ----
+ *
+ * Before anything is read: no output may be an input, or another output; no picture goes to
+ * a terminal. */
+
+enum { MOST_FILES = 16 };
+
+/* A file that is named by the arguments, or a standard stream. For one that does not exist: that of its folder, and its
+ * name in there. */
+typedef struct named_file {
+  const char *option, *name;
+  bool written, known, exists;
+  dev_t device;
+  ino_t inode;
+  char *last;
+} named_file;
+
+static void named_identify(named_file *f, const struct stat *info) {
+  f->known = true;
+  f->device = info->st_dev;
+  f->inode = info->st_ino;
+}
+
+/* Only regular files may not be used twice. false: memory is exhausted. */
+static bool named_open(named_file *f, int descriptor) {
+  struct stat info;
+  f->exists = descriptor >= 0 ? fstat(descriptor, &info) == 0 : stat(f->name, &info) == 0;
+  if (f->exists && S_ISREG(info.st_mode)) named_identify(f, &info);
+  char *path = !f->exists && descriptor < 0 && f->written ? output_target(f->name) : NULL;
+  if (!path) return true; /* opening it will tell */
+  char *slash = strrchr(path, '/');
+  f->last = strdup(slash ? slash + 1 : path);
+  if (slash) slash[slash == path ? 1 : 0] = 0;
+  if (f->last && stat(slash ? path : ".", &info) == 0) named_identify(f, &info);
+  free(path);
+  return f->last != NULL;
+}
+
+static bool named_equal(const named_file *a, const named_file *b) {
+  if (!a->known || !b->known || a->exists != b->exists || a->device != b->device || a->inode != b->inode) return false;
+  return a->exists || strcmp(a->last, b->last) == 0;
+}
+
+/* All files of the options, then the operand, then standard streams in use. */
+static size_t list_files(named_file file[MOST_FILES], const cli_options *o) {
+  size_t n = 0;
+  for (size_t k = 0; k < cli_option_count && n < MOST_FILES - 2; k++) {
+    const cli_option *option = &cli_option_table[k];
+    if (!cli_kind_is_file(option->kind)) continue;
+    const char *name = *(const char *const *)((const char *)o + option->offset);
+    if (name) file[n++] = (named_file){.option = option->name, .name = name, .written = option->kind == CLI_FILE};
+  }
+  if (o->file) file[n++] = (named_file){.name = o->file};
+  if (!o->output) file[n++] = (named_file){.name = "standard output", .written = true};
+  return n;
+}
+
+static void complain_equal(const named_file *a, const named_file *b) {
+  const named_file *out = a->written ? a : b, *other = a->written ? b : a;
+  const char *dash = out->option ? "--" : "", *option = out->option ? out->option : "";
+  if (other->written)
+    cli_complain("%s%s%s%s and --%s %s are the same file; give each result a file of its own", dash, option,
+                 *option ? " " : "", out->name, other->option, other->name);
+  else
+    cli_complain("%s%s%s%s is the file that is read; give another one for what is written", dash, option,
+                 *option ? " " : "", out->name);
+}
+
+int cli_files_check(const cli_options *o) {
+  named_file file[MOST_FILES];
+  size_t n = list_files(file, o);
+  int status = 0;
+  for (size_t k = 0; k < n && !status; k++) {
+    int descriptor = -1;
+    if (!file[k].option && file[k].written) descriptor = STDOUT_FILENO;
+    if (!file[k].written && strcmp(file[k].name, "-") == 0) descriptor = STDIN_FILENO;
+    if (!named_open(&file[k], descriptor)) status = cli_complain_memory();
+    for (size_t m = 0; m < k && !status; m++) {
+      if ((!file[k].written && !file[m].written) || !named_equal(&file[k], &file[m])) continue;
+      complain_equal(&file[k], &file[m]);
+      status = CLI_USAGE;
+    }
+  }
+  for (size_t k = 0; k < n; k++) free(file[k].last);
+  if (status || o->output || !dyd_format_is_binary(o->format) || !isatty(STDOUT_FILENO)) return status;
+  cli_complain("%s is nothing for a terminal; give a file: -o NAME.%s", dyd_format_name(o->format),
+               dyd_format_name(o->format));
+  return CLI_USAGE;
+}
+
+FILE *cli_input_open(const char *name, const char *advice) {
+  FILE *in = strcmp(name, "-") == 0 ? stdin : fopen(name, "rb");
+  if (!in) cli_complain("%s: cannot open: %s; %s", name, strerror(errno), advice);
+  return in;
+}
+
+void cli_input_close(FILE *in) {
+  if (in != stdin) fclose(in);
 }

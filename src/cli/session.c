@@ -1,12 +1,61 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What commands share: an engine with the points, a run with progress and signals, a result file, exit statuses. */
+/* A command at work: it reads points into an engine, runs it with progress, signals and a trace, writes a result file
+ * and its certificate, reports undecided pairs, and ends with an exit status. */
 #include "cli.h"
+
 #include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 /* ---- reading ---- */
+
+static int oracle_add(dyd_engine *e, dyd_oracle *oracle) {
+  dyd_source source = {DYD_SIZED(dyd_source)};
+  dyd_status st = dyd_oracle_source(&source, oracle, NULL);
+  if (st == DYD_OK) st = dyd_engine_add_source(e, dyd_oracle_count(oracle), &source, NULL);
+  if (st == DYD_OK) return 0;
+  cli_complain("the points of the oracle cannot be added: %s", dyd_status_text(st));
+  return CLI_FAILED;
+}
+
+/* Adds the points that the programs of --oracle serve. 0, or an exit status after a message. */
+static int session_read_oracle(dyd_engine *e, const cli_options *o) {
+  const dyd_read_options *r = &o->read;
+  const char *no = r->columns          ? "--columns"
+                   : r->measured       ? "--measured"
+                   : r->radius         ? "--radius"
+                   : r->radius_columns ? "--radius-column"
+                   : r->radius_unit    ? "--radius-unit"
+                   : r->radius_scale   ? "--radius-scale"
+                   : r->id             ? "--id"
+                   : r->delimiter      ? "--delimiter"
+                   : r->decimal_comma  ? "--decimal-comma"
+                   : r->skip_missing   ? "--skip-missing"
+                   : r->merge          ? "--merge"
+                   : r->cost_column    ? "--cost-column"
+                                       : NULL;
+  if (no) {
+    cli_complain("%s is for points files; leave it out, and let the oracle %s", no,
+                 strcmp(no, "--cost-column") ? "answer with what you mean" : "begin with \"points N cost C ... C\"");
+    return CLI_USAGE;
+  }
+  dyd_oracle *oracle = NULL;
+  dyd_error err;
+  dyd_error_clear(&err);
+  const dyd_oracle_options options = {DYD_SIZED(dyd_oracle_options), .jobs = o->oracle_jobs, .batch = o->oracle_batch,
+                                      .retries = o->oracle_retries, .seconds = o->oracle_timeout};
+  if (dyd_oracle_new(&oracle, o->oracle, &options, &err) != DYD_OK) {
+    cli_complain("%s", err.message);
+    return CLI_FAILED;
+  }
+  int status = oracle_add(e, oracle);
+  dyd_oracle_free(oracle);
+  return status;
+}
 
 static int session_read_file(dyd_engine *e, const cli_options *o, dyd_read_report *report) {
   FILE *in = cli_input_open(o->file, "check the name of the points file");
@@ -30,7 +79,7 @@ static int session_read_file(dyd_engine *e, const cli_options *o, dyd_read_repor
 }
 
 int cli_points_read(dyd_engine *e, const cli_options *o) {
-  return o->oracle ? cli_oracle_read(e, o) : session_read_file(e, o, NULL);
+  return o->oracle ? session_read_oracle(e, o) : session_read_file(e, o, NULL);
 }
 
 /* Can all points be places on the globe? */
@@ -46,7 +95,7 @@ static bool points_are_degrees(const dyd_engine *e) {
 }
 
 int cli_points_read_noting(dyd_engine *e, const cli_options *o) {
-  if (o->oracle) return cli_oracle_read(e, o);
+  if (o->oracle) return session_read_oracle(e, o);
   dyd_read_report r = {DYD_SIZED(dyd_read_report)};
   int status = session_read_file(e, o, &r);
   if (status) return status;
@@ -74,42 +123,138 @@ int cli_points_read_noting(dyd_engine *e, const cli_options *o) {
   return 0;
 }
 
-int cli_session_open(cli_session *s, const cli_options *o) {
-  *s = (cli_session){.options = o, .begun = cli_clock(), .share = 1};
-  if (dyd_engine_new(&s->engine) != DYD_OK) return cli_complain_memory();
-  s->progress = cli_progress_start(o->quiet);
-  cli_progress_phase(s->progress, "reading");
-  int status = cli_points_read_noting(s->engine, o);
-  return status == 0 && o->resume ? cli_trace_resume(s) : status;
+void cli_options_degrees(cli_options *o) {
+  o->read.degrees = true;
+  o->read.radius = NULL; /* it may have a unit, and widens places */
+}
+
+/* ---- traces ----
+ *
+ * A trace appears when it has begun: with the answers of --resume, if there are any. From then on it gets a line for
+ * each answer as it comes, so that it is there when the run is killed, and goes to the disk in short intervals. */
+
+static uint64_t digest_bytes(uint64_t digest, const char *byte, size_t count) {
+  for (size_t k = 0; k < count; k++) digest = (digest ^ (unsigned char)byte[k]) * 1099511628211u;
+  return digest;
+}
+
+/* FNV-1a of the points file and of what says which points are in it. false: it cannot be read twice. */
+static bool digest_input(char text[17], const cli_options *o) {
+  const char *const words[] = {o->read.columns,     o->read.radius,       o->read.radius_columns,
+                               o->read.radius_unit, o->read.radius_scale, o->read.delimiter};
+  uint64_t digest = 14695981039346656037u;
+  char part[4096];
+  size_t count;
+  FILE *in = o->file && strcmp(o->file, "-") != 0 && !o->oracle ? fopen(o->file, "rb") : NULL;
+  if (!in) return false;
+  while ((count = fread(part, 1, sizeof part, in)) > 0) digest = digest_bytes(digest, part, count);
+  bool good = !ferror(in);
+  fclose(in);
+  for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+    if (words[k]) digest = digest_bytes(digest, words[k], strlen(words[k]) + 1);
+  snprintf(text, 17, "%016llx", (unsigned long long)digest);
+  return good;
+}
+
+int cli_trace_resume(const cli_session *s) {
+  const cli_options *o = &s->o;
+  char input[17];
+  dyd_recall_report r = {DYD_SIZED(dyd_recall_report)};
+  dyd_error err;
+  FILE *in = cli_input_open(o->resume, "check the name of the trace");
+  if (!in) return CLI_FAILED;
+  dyd_status st = dyd_trace_recall(&r, s->engine, in, digest_input(input, o) ? input : NULL, &err);
+  cli_input_close(in);
+  if (st != DYD_OK) {
+    cli_complain_at(o->resume, &err);
+    return CLI_FAILED;
+  }
+  cli_note(o, "%s: %zu answers are taken from this trace%s", o->resume, r.answers,
+           r.cut ? "; its last line is cut short, and left out" : "");
+  return 0;
+}
+
+enum { SYNC_SECONDS = 5 };
+
+/* Begins the trace with the first run. */
+static int trace_begin(cli_session *s, const dyd_engine_options *options) {
+  const cli_options *o = &s->o;
+  char input[17];
+  dyd_error err;
+  if (!cli_output_open(&s->trace_file, o->trace)) return CLI_FAILED;
+  setvbuf(s->trace_file.stream, NULL, _IOLBF, BUFSIZ);
+  const char *name = digest_input(input, o) ? input : NULL;
+  dyd_status st = dyd_trace_new(&s->trace, s->trace_file.stream, s->engine, name, options, s->converge, &err);
+  if (st == DYD_OK) st = dyd_trace_sync(s->trace, o->trace_sync > 0 ? o->trace_sync : SYNC_SECONDS, &err);
+  if (st != DYD_OK) cli_complain("%s: %s; choose another place with --trace", o->trace, err.message);
+  return st == DYD_OK && cli_output_appear(&s->trace_file) ? 0 : CLI_FAILED;
+}
+
+/* Notes the result of a stage where the format shows stages. Where memory is exhausted the run ends, and with it the
+ * command. */
+static void note_stage(cli_session *s) {
+  if (!s->history || s->forgot) return;
+  s->forgot = dyd_history_note(s->history, dyd_engine_delaunay(s->engine)) != DYD_OK;
+  if (s->forgot) dyd_engine_cancel(s->engine);
+}
+
+static void trace_stage(void *user, const dyd_progress *p) {
+  cli_session *s = user;
+  cli_progress_stage(s->progress, p);
+  note_stage(s);
+  if (s->trace) dyd_trace_stage(s->trace, p);
+}
+
+/* Makes progress and --trace part of a run's options; the trace begins with the first. 0, or an exit status after a
+ * message. */
+static int trace_attach(dyd_engine_options *options, cli_session *s) {
+  int status = s->o.trace && !s->trace ? trace_begin(s, options) : 0;
+  options->progress = trace_stage;
+  options->progress_user = s;
+  options->trace = s->trace ? dyd_trace_step : NULL;
+  options->trace_user = s->trace;
+  return status;
+}
+
+/* Ends the trace, if there is one. 0, or an exit status after a message. */
+static int trace_end(cli_session *s) {
+  dyd_error err;
+  if (!s->trace_file.stream) return 0;
+  dyd_error_clear(&err);
+  dyd_status st = s->trace ? dyd_trace_end(s->trace, s->outcome, &err) : DYD_OK;
+  bool good = fclose(s->trace_file.stream) == 0;
+  s->trace = NULL;
+  s->trace_file.stream = NULL;
+  cli_output_drop(&s->trace_file);
+  if (st == DYD_OK && good) return 0;
+  cli_complain("%s: %s; choose another place with --trace", s->o.trace, st == DYD_OK ? strerror(errno) : err.message);
+  return CLI_FAILED;
 }
 
 /* ---- running ---- */
 
-int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_run_fn run, void *user) {
+int cli_session_run(cli_session *s, const dyd_engine_options *options, cli_run_fn run) {
   cli_progress_phase(s->progress, "triangulating");
   dyd_engine_options o = *options;
   o.seconds = cli_deadline_left(s->share);
-  int status = cli_trace_attach(&o, s);
+  int status = trace_attach(&o, s);
   if (status) return status;
   dyd_error err;
   dyd_error_clear(&err);
   cli_signals_cancel(s->engine);
-  dyd_status st = run(s->engine, &o, user, &err);
+  s->outcome = DYD_OUTCOME_NONE;
+  dyd_status st = run(s, &o, &err);
   cli_signals_cancel(NULL);
+  if (s->outcome == DYD_OUTCOME_NONE) s->outcome = dyd_engine_outcome(s->engine);
   if (s->forgot) return cli_complain_memory();
   if (st == DYD_OK) return 0;
-  cli_complain_of(s->engine, s->options->file, &err);
+  cli_complain_of(s->engine, s->o.file, &err);
   return CLI_FAILED;
 }
 
-static dyd_status session_run_once(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
-  (void)user;
+dyd_status cli_run_engine(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
   dyd_outcome outcome;
-  return dyd_engine_run(&outcome, e, options, err);
-}
-
-int cli_session_run(cli_session *s, const dyd_engine_options *options) {
-  return cli_session_run_by(s, options, session_run_once, NULL);
+  return dyd_engine_run(&outcome, s->engine, options, err);
 }
 
 int cli_exit_status(dyd_outcome outcome) {
@@ -148,105 +293,6 @@ const char *cli_outcome_advice(const dyd_engine *e) {
   }
 }
 
-/* One line about a result that leaves something open. */
-static void session_note_outcome(const cli_session *s) {
-  const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
-  dyd_outcome outcome = dyd_engine_outcome(s->engine);
-  if (!pd || outcome == DYD_OUTCOME_DECIDED || outcome == DYD_OUTCOME_CERTIFIED) return;
-  if (cli_note_goal(s, cli_outcome_advice(s->engine))) return;
-  size_t count[4];
-  dyd_delaunay_count(count, pd);
-  cli_complain("%s: %zu legal, %zu indeterminate, %zu tie; %s", dyd_outcome_text(outcome), count[DYD_LEGAL],
-               count[DYD_INDETERMINATE], count[DYD_TIE], cli_outcome_advice(s->engine));
-}
-
-/* ---- writing ---- */
-
-/* Nothing is written since work was cut: says why. Exit status. */
-static int write_was_cut(dyd_status st, const cli_options *o, const dyd_error *err) {
-  if (cli_deadline_passed()) {
-    cli_complain("budget: the time was used up before the result was known: nothing is written; raise --timeout");
-    return CLI_BUDGET;
-  }
-  if (st == DYD_CAPPED)
-    cli_complain_at(o->file, err);
-  else
-    cli_complain("cancelled before the result was known: nothing is written");
-  return st == DYD_CAPPED ? CLI_BUDGET : CLI_CANCELLED;
-}
-
-int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, const void *what) {
-  cli_output out;
-  if (!cli_output_open(&out, name)) return CLI_FAILED;
-  dyd_error err;
-  dyd_error_clear(&err);
-  dyd_status st = print(out.stream, what, o, &err);
-  bool done = st == DYD_OK;
-  if (st > 0) {
-    cli_output_drop(&out);
-    return write_was_cut(st, o, &err);
-  }
-  if (st == DYD_E_IO && !cli_output_note_reader(out.stream, name, o))
-    cli_complain("%s: %s; choose another place with -o", name ? name : "standard output", err.message);
-  else if (!done && st != DYD_E_IO)
-    cli_complain_at(o->file, &err);
-  if (done)
-    done = cli_output_finish(&out, o);
-  else
-    cli_output_drop(&out);
-  return done ? 0 : CLI_FAILED;
-}
-
-/* The graph of --layer, or nothing, beside the pairs. */
-static dyd_status print_graph_certificate(FILE *out, const dyd_engine *e, const cli_options *o, dyd_error *err) {
-  dyd_graph_list list = {0};
-  dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts)};
-  dyd_status st = DYD_OK;
-  if (o->content == DYD_CONTENT_GRAPH_NEAREST || o->content == DYD_CONTENT_GRAPH_GABRIEL) {
-    parts.kind = o->content == DYD_CONTENT_GRAPH_GABRIEL ? DYD_GRAPH_GABRIEL : DYD_GRAPH_NEAREST;
-    parts.graph = &list;
-    st = dyd_graph_edges(&list, dyd_engine_delaunay(e), (dyd_graph)parts.kind, cli_signals_flag(), err);
-  }
-  if (st == DYD_OK) st = dyd_write_certificate_parts(out, e, &parts, err);
-  dyd_graph_list_clear(&list);
-  return st;
-}
-
-static dyd_status session_print_certificate(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
-  const dyd_rect *window = o->engine.window;
-  return window ? dyd_write_voronoi_certificate(out, what, window, err) : print_graph_certificate(out, what, o, err);
-}
-
-void cli_session_settle(cli_session *s) {
-  cli_progress_phase(s->progress, "writing");
-  if (s->options->output || !isatty(STDOUT_FILENO)) return;
-  cli_progress_stop(s->progress);
-  s->progress = NULL;
-}
-
-int cli_session_certificate(cli_session *s, int status, cli_print_fn print, const void *what) {
-  const char *certificate = s->options->certificate;
-  if (!certificate || (status && !cli_output_lost_reader())) return status;
-  if (cli_deadline_passed()) {
-    cli_complain("budget: the time is used up, so no certificate is written; raise --timeout");
-    return CLI_BUDGET;
-  }
-  cli_progress_phase(s->progress, "the certificate");
-  int written = cli_write_file(certificate, s->options, print, what);
-  return status ? status : written;
-}
-
-int cli_session_write(cli_session *s, cli_print_fn print) {
-  cli_session_settle(s);
-  if (!dyd_engine_delaunay(s->engine)) {
-    cli_complain("%s before the first triangulation was complete: there is no result to write",
-                 dyd_outcome_text(dyd_engine_outcome(s->engine)));
-    return 0;
-  }
-  int status = cli_write_file(s->options->output, s->options, print, s->engine);
-  return cli_session_certificate(s, status, session_print_certificate, s->engine);
-}
-
 /* Without a result, no budget but that of time was there. */
 static bool session_is_late(const dyd_engine *e) {
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
@@ -269,42 +315,362 @@ int cli_exit_cut(void) {
   return cli_deadline_passed() ? CLI_BUDGET : CLI_CANCELLED;
 }
 
+void cli_session_settle(cli_session *s) {
+  cli_progress_phase(s->progress, "writing");
+  if (s->o.output || !isatty(STDOUT_FILENO)) return;
+  cli_progress_stop(s->progress);
+  s->progress = NULL;
+}
+
+void cli_session_lacks(cli_session *s, dyd_outcome outcome, const char *what) {
+  cli_session_settle(s);
+  cli_complain("%s before %s: there is no result to write", dyd_outcome_text(outcome), what);
+}
+
 /* The engine may see the end of time a little before the flag is raised. */
-int cli_session_stopped(const cli_session *s, const char *what) {
+int cli_session_stopped(cli_session *s, const char *what) {
+  cli_session_settle(s);
   bool late = cli_deadline_passed() || session_is_late(s->engine);
   cli_complain("%s before %s known: there is no result to write%s", late ? "budget: the time was used up" : "cancelled",
                what, late ? "; raise --timeout" : "");
   return late ? CLI_BUDGET : CLI_CANCELLED;
 }
 
-int cli_session_close(cli_session *s, int status) {
-  const cli_options *o = s->options;
-  cli_progress_stop(s->progress);
-  if (s->engine) {
-    dyd_outcome outcome = dyd_engine_outcome(s->engine);
-    int traced = cli_trace_end(s, outcome);
-    if (status == 0) status = traced ? traced : cli_exit_status(outcome);
-    if (!o->quiet && status != CLI_OK && status != CLI_USAGE) session_note_outcome(s);
-    cli_note_aliases(dyd_engine_delaunay(s->engine), o);
-    if (status != CLI_OK && status != CLI_USAGE) cli_note_spacing(dyd_engine_delaunay(s->engine), o);
-    if (o->stats && outcome != DYD_OUTCOME_NONE) cli_stats(stderr, s->engine, NULL, s->discs, cli_clock() - s->begun);
+/* ---- writing ---- */
+
+/* Nothing is written since work was cut: says why. Exit status. */
+static int write_was_cut(dyd_status st, const cli_options *o, const dyd_error *err) {
+  if (cli_deadline_passed()) {
+    cli_complain("budget: the time was used up before the result was known: nothing is written; raise --timeout");
+    return CLI_BUDGET;
   }
-  cli_deadline_written(status);
-  dyd_engine_free(s->engine);
-  *s = (cli_session){0};
+  if (st == DYD_CAPPED)
+    cli_complain_at(o->file, err);
+  else
+    cli_complain("cancelled before the result was known: nothing is written");
+  return st == DYD_CAPPED ? CLI_BUDGET : CLI_CANCELLED;
+}
+
+int cli_write_file(const char *name, const cli_session *s, cli_print_fn print) {
+  const cli_options *o = &s->o;
+  cli_output out;
+  if (!cli_output_open(&out, name)) return CLI_FAILED;
+  dyd_error err;
+  dyd_error_clear(&err);
+  dyd_status st = print(out.stream, s, &err);
+  bool done = st == DYD_OK;
+  if (st > 0) {
+    cli_output_drop(&out);
+    return write_was_cut(st, o, &err);
+  }
+  if (st == DYD_E_IO && !cli_output_note_reader(out.stream, name, o))
+    cli_complain("%s: %s; choose another place with -o", name ? name : "standard output", err.message);
+  else if (!done && st != DYD_E_IO)
+    cli_complain_at(o->file, &err);
+  if (done)
+    done = cli_output_finish(&out, o);
+  else
+    cli_output_drop(&out);
+  return done ? 0 : CLI_FAILED;
+}
+
+/* The certificate that the options ask for, after results were written with this status. Returns the status of all. */
+static int session_prove(cli_session *s, int status) {
+  const char *certificate = s->o.certificate;
+  if (!certificate || !s->work->prove || (status && !cli_output_lost_reader())) return status;
+  if (cli_deadline_passed()) {
+    cli_complain("budget: the time is used up, so no certificate is written; raise --timeout");
+    return CLI_BUDGET;
+  }
+  cli_progress_phase(s->progress, "the certificate");
+  int written = cli_write_file(certificate, s, s->work->prove);
+  return status ? status : written;
+}
+
+/* ---- summaries ----
+ *
+ * A bound m * 2^e > 0 with k bits in m is at most 2^(k+e), or 2^(k+e-1) when m = 1: bounds are printed as such
+ * powers, as goals are given. */
+
+static const char *goal_subject(dyd_goal goal) {
+  static const char *const subject[] = {[DYD_GOAL_AREA] = "the undetermined area of the triangulation",
+                                        [DYD_GOAL_HAUSDORFF] = "the distance to the true triangulation",
+                                        [DYD_GOAL_VORONOI_AREA] = "the undetermined area of the diagram",
+                                        [DYD_GOAL_VORONOI_HAUSDORFF] = "the distance to the true diagram"};
+  return subject[goal];
+}
+
+dyd_goal cli_voronoi_goal(dyd_goal goal) {
+  if (goal == DYD_GOAL_AREA) return DYD_GOAL_VORONOI_AREA;
+  return goal == DYD_GOAL_HAUSDORFF ? DYD_GOAL_VORONOI_HAUSDORFF : goal;
+}
+
+static bool goal_is_area(dyd_goal goal) {
+  return goal == DYD_GOAL_AREA || goal == DYD_GOAL_VORONOI_AREA;
+}
+
+/* The bound reached; false when none is known. */
+static bool goal_reached(dyd_dyadic *out, const cli_session *s, dyd_goal goal) {
+  bool known = false;
+  dyd_dyadic other;
+  dyd_dyadic_init(&other);
+  if (goal == DYD_GOAL_AREA)
+    known = dyd_engine_bounds(out, &other, s->engine) == DYD_OK;
+  else if (goal == DYD_GOAL_HAUSDORFF)
+    known = dyd_engine_bounds(&other, out, s->engine) == DYD_OK;
+  else if (s->bounds)
+    known = goal_is_area(goal) || s->bounds->finite;
+  if (known && goal == DYD_GOAL_VORONOI_AREA) dyd_dyadic_set(out, &s->bounds->area);
+  if (known && goal == DYD_GOAL_VORONOI_HAUSDORFF) dyd_dyadic_set(out, &s->bounds->hausdorff);
+  dyd_dyadic_clear(&other);
+  return known && dyd_dyadic_sgn(out) > 0;
+}
+
+/* The least e with bound <= 2^e. */
+static int64_t power_above(const dyd_dyadic *bound) {
+  int64_t top = bound->exp + (int64_t)mpz_sizeinbase(bound->man, 2);
+  return mpz_cmp_ui(bound->man, 1) == 0 ? top - 1 : top;
+}
+
+/* One line about a bound that was asked for and not reached: why it is no better (advice), and what to do. false, and
+ * nothing said, where no bound was asked for. */
+static bool note_goal(const cli_session *s, const char *advice) {
+  int64_t bits;
+  dyd_goal goal = dyd_engine_goal(&bits, s->engine);
+  if (goal == DYD_GOAL_DECIDED) return false;
+  const char *outcome = dyd_outcome_text(dyd_engine_outcome(s->engine)),
+             *name = goal_is_area(goal) ? "area" : "hausdorff";
+  dyd_dyadic bound;
+  dyd_dyadic_init(&bound);
+  if (goal_reached(&bound, s, goal)) {
+    int64_t power = power_above(&bound);
+    cli_complain("%s: %s is at most 2^%" PRId64 ", not 2^%" PRId64 " as asked; %s; --until %s:%" PRId64 " holds",
+                 outcome, goal_subject(goal), power, -bits, advice, name, -power);
+  } else {
+    cli_complain("%s: %s is not known to be at most 2^%" PRId64 ", as asked; no bound is known; %s", outcome,
+                 goal_subject(goal), -bits, advice);
+  }
+  dyd_dyadic_clear(&bound);
+  return true;
+}
+
+/* One line about a result that leaves something open. */
+static void session_note_outcome(const cli_session *s) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
+  dyd_outcome outcome = dyd_engine_outcome(s->engine);
+  if (!pd || outcome == DYD_OUTCOME_DECIDED || outcome == DYD_OUTCOME_CERTIFIED) return;
+  if (note_goal(s, cli_outcome_advice(s->engine))) return;
+  size_t count[4];
+  dyd_delaunay_count(count, pd);
+  cli_complain("%s: %zu legal, %zu indeterminate, %zu tie; %s", dyd_outcome_text(outcome), count[DYD_LEGAL],
+               count[DYD_INDETERMINATE], count[DYD_TIE], cli_outcome_advice(s->engine));
+}
+
+/* Rectangles that meet can be chosen as points arbitrarily near to each other, so their pair is possible: going over
+ * the possible pairs finds all of them. */
+
+static bool note_is_wide(const double b[4]) {
+  return b[1] > b[0] || b[3] > b[2];
+}
+
+/* Counts rectangles (points are none), and those among them that meet another site. false: memory is exhausted. */
+static bool count_meetings(size_t *rectangles, size_t *meeting, const dyd_delaunay *pd) {
+  const dyd_sites *sites = dyd_delaunay_sites(pd);
+  size_t n = dyd_sites_count(sites);
+  bool *meets = calloc(n ? n : 1, sizeof *meets);
+  dyd_pair_list pairs = {0};
+  bool good = meets && dyd_delaunay_pairs(&pairs, pd) == DYD_OK;
+  for (size_t k = 0; k < pairs.count; k++) {
+    double a[4], b[4];
+    dyd_sites_get_d(a, sites, pairs.item[k].i);
+    dyd_sites_get_d(b, sites, pairs.item[k].j);
+    if (a[0] <= b[1] && b[0] <= a[1] && a[2] <= b[3] && b[2] <= a[3])
+      meets[pairs.item[k].i] = meets[pairs.item[k].j] = true;
+  }
+  *rectangles = *meeting = 0;
+  for (size_t i = 0; good && i < n; i++) {
+    double b[4];
+    dyd_sites_get_d(b, sites, i);
+    *rectangles += note_is_wide(b);
+    *meeting += note_is_wide(b) && meets[i];
+  }
+  dyd_pair_list_clear(&pairs);
+  free(meets);
+  return good;
+}
+
+/* A line when radii were given and most of the rectangles meet another one. */
+static void note_spacing(const dyd_delaunay *pd, const cli_options *o) {
+  size_t rectangles, meeting;
+  if (!pd || o->quiet || (!o->read.radius && !o->read.radius_columns)) return;
+  if (!count_meetings(&rectangles, &meeting, pd) || 2 * meeting <= rectangles) return;
+  cli_note(o,
+           "the radius is large for the spacing of the points: %zu of %zu rectangles meet another one, so that few "
+           "edges can be sure; a smaller radius decides more",
+           meeting, rectangles);
+}
+
+/* A line when points have no row in wkt or geojson, since they coincide with others. */
+static void note_aliases(const dyd_delaunay *pd, const cli_options *o) {
+  bool of_points = o->content == DYD_CONTENT_DELAUNAY || o->content == DYD_CONTENT_VORONOI ||
+                   o->content == DYD_CONTENT_GRAPH_NEAREST || o->content == DYD_CONTENT_GRAPH_GABRIEL ||
+                   o->content == DYD_CONTENT_GRAPH_MST;
+  size_t aliases = 0, n = pd ? dyd_sites_count(dyd_delaunay_sites(pd)) : 0;
+  if (!of_points || (o->format != DYD_FORMAT_WKT && o->format != DYD_FORMAT_GEOJSON)) return;
+  for (size_t i = 0; i < n; i++) aliases += dyd_delaunay_alias(pd, (uint32_t)i) != i;
+  if (aliases)
+    cli_note(o, "%zu points coincide with earlier ones and have no row of their own (list them: --layer aliases)",
+             aliases);
+}
+
+/* ---- statistics: one "name value" per line ---- */
+
+static void stats_line(FILE *out, const char *name, uint64_t value) {
+  fprintf(out, "%-26s %" PRIu64 "\n", name, value);
+}
+
+/* discs: their pairs; NULL: those of rectangles count. */
+static void plane_count(size_t count[4], size_t *aliases, const dyd_delaunay *pd, const dyd_pair_list *discs) {
+  size_t sites = dyd_sites_count(dyd_delaunay_sites(pd));
+  for (size_t i = 0; i < sites; i++) *aliases += dyd_delaunay_alias(pd, (uint32_t)i) != i;
+  if (!discs) dyd_delaunay_count(count, pd);
+  for (size_t k = 0; discs && k < discs->count; k++) count[discs->item[k].status]++;
+}
+
+/* Of the places, not of their images. */
+static void sphere_count(size_t count[4], size_t *aliases, const dyd_sphere *sphere) {
+  dyd_pair_list pairs = {0};
+  size_t places = dyd_engine_count(dyd_sphere_places(sphere));
+  for (size_t i = 0; i < places; i++) *aliases += dyd_sphere_alias(sphere, (uint32_t)i) != i;
+  if (dyd_sphere_pairs(&pairs, sphere) == DYD_OK)
+    for (size_t k = 0; k < pairs.count; k++) count[pairs.item[k].status]++;
+  dyd_pair_list_clear(&pairs);
+}
+
+static void result_stats(FILE *out, const dyd_delaunay *pd, const dyd_sphere *sphere, const dyd_pair_list *discs) {
+  size_t count[4] = {0}, aliases = 0;
+  if (sphere)
+    sphere_count(count, &aliases, sphere);
+  else
+    plane_count(count, &aliases, pd, discs);
+  stats_line(out, "aliases", aliases);
+  stats_line(out, "pairs legal", count[DYD_LEGAL]);
+  stats_line(out, "pairs indeterminate", count[DYD_INDETERMINATE]);
+  stats_line(out, "pairs tie", count[DYD_TIE]);
+  fprintf(out, "%-26s %s\n", "capped", dyd_delaunay_is_capped(pd) ? "yes" : "no");
+  stats_line(out, "bytes triangulation", dyd_delaunay_memory(pd));
+  stats_line(out, "bytes sites", dyd_sites_memory(dyd_delaunay_sites(pd)));
+}
+
+static const char *budget_text(dyd_budget b) {
+  static const char *const text[] = {
+      [DYD_BUDGET_NONE] = "none",   [DYD_BUDGET_BITS] = "bits",   [DYD_BUDGET_STAGES] = "stages",
+      [DYD_BUDGET_CALLS] = "calls", [DYD_BUDGET_PAIRS] = "pairs", [DYD_BUDGET_SECONDS] = "seconds"};
+  return text[b];
+}
+
+static void tie_stats(FILE *out, const dyd_tie_counters *t) {
+  stats_line(out, "zero tests", t->tests);
+  stats_line(out, "zero by identity", t->by_identity);
+  stats_line(out, "zero by bound", t->by_bound);
+  stats_line(out, "not zero", t->nonzero);
+  stats_line(out, "zero or not, unknown", t->unknown);
+  fprintf(out, "%-26s %" PRId64 "\n%-26s %" PRId64 "\n%-26s %.3f\n", "bits in tests, most", t->bits_most,
+          "degree in tests, most", t->degree_most, "seconds in tests", t->seconds);
+}
+
+static void session_print_stats(FILE *out, const dyd_engine *e, const dyd_sphere *sphere, const dyd_pair_list *discs,
+                                double seconds) {
+  dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
+  dyd_engine_get_counters(&c, e, NULL);
+  fprintf(out, "%-26s %s\n", "outcome", dyd_outcome_text(sphere ? dyd_sphere_outcome(sphere) : dyd_engine_outcome(e)));
+  fprintf(out, "%-26s %s\n", "budget spent", budget_text(c.spent));
+  stats_line(out, "points", dyd_engine_count(sphere ? dyd_sphere_places(sphere) : e));
+  if (dyd_engine_delaunay(e)) result_stats(out, dyd_engine_delaunay(e), sphere, discs);
+  stats_line(out, "undecided faces", c.undecided_faces);
+  stats_line(out, "stages", c.stages);
+  stats_line(out, "stream calls", c.calls);
+  fprintf(out, "%-26s %" PRId64 "\n%-26s %" PRId64 "\n", "bits asked, least", c.bits_least, "bits asked, most",
+          c.bits_most);
+  stats_line(out, "bits asked, total", c.bits_total);
+  stats_line(out, "decisions in doubles", c.delaunay.filter);
+  stats_line(out, "decisions in integers", c.delaunay.integer);
+  stats_line(out, "decisions in GMP", c.delaunay.exact);
+  stats_line(out, "witnesses guessed", c.delaunay.witness_guess);
+  stats_line(out, "witnesses searched", c.delaunay.witness_search);
+  stats_line(out, "cover walks", c.delaunay.cover_walks);
+  stats_line(out, "faces worked on", c.delaunay.faces);
+  tie_stats(out, &c.ties);
+  fprintf(out, "%-26s %.3f\n%-26s %.3f\n", "seconds in the engine", c.seconds, "seconds in all", seconds);
+  struct rusage usage;
+  if (getrusage(RUSAGE_SELF, &usage) == 0) stats_line(out, "KiB of memory at most", (uint64_t)usage.ru_maxrss);
+}
+
+void cli_session_stats(const cli_session *s, const dyd_sphere *sphere) {
+  if (!s->o.stats || (!sphere && dyd_engine_outcome(s->engine) == DYD_OUTCOME_NONE)) return;
+  session_print_stats(stderr, s->engine, sphere, s->discs, cli_clock() - s->begun);
+}
+
+int cli_pairs_summary(cli_session *s, int status) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
+  if (status == CLI_OK) status = cli_exit_status(dyd_engine_outcome(s->engine));
+  if (status != CLI_OK && !s->o.quiet) session_note_outcome(s);
+  note_aliases(pd, &s->o);
+  if (status != CLI_OK) note_spacing(pd, &s->o);
+  cli_session_stats(s, NULL);
   return status;
 }
 
-int cli_session_all(const cli_options *o, cli_print_fn print) {
-  cli_session s;
-  int status = cli_session_open(&s, o);
-  if (status == 0) {
-    status = cli_session_run(&s, &o->engine);
-    /* What was stated before a point failed stays true: it is written, and the exit status tells of the failure. */
-    if (status == 0 || dyd_engine_delaunay(s.engine)) {
-      int written = cli_session_write(&s, print);
-      if (status == 0) status = written;
-    }
+/* ---- a command ---- */
+
+/* The window, and what begin looks at. */
+static int work_begin(cli_session *s) {
+  int status = s->work->begin ? s->work->begin(s) : 0;
+  if (!status && s->o.window) {
+    s->view = &s->window;
+    status = cli_window_read(&s->window, s->o.window);
   }
-  return cli_session_close(&s, status);
+  if (!status && s->o.format == DYD_FORMAT_HTML && !s->o.sphere && dyd_history_new(&s->history) != DYD_OK)
+    return cli_complain_memory();
+  return status;
+}
+
+static int work_open(cli_session *s) {
+  if (dyd_engine_new(&s->engine) != DYD_OK) return cli_complain_memory();
+  s->progress = cli_progress_start(s->o.quiet);
+  cli_progress_phase(s->progress, "reading");
+  int status = cli_points_read_noting(s->engine, &s->o);
+  return status == 0 && s->o.resume ? cli_trace_resume(s) : status;
+}
+
+/* Frees s after all was written with this status; the exit status. */
+static int work_close(cli_session *s, int status) {
+  cli_progress_stop(s->progress);
+  int traced = trace_end(s);
+  if (!status) status = traced;
+  if (s->work->summary && (s->engine || s->work->bare)) status = s->work->summary(s, status);
+  cli_deadline_written(status);
+  if (s->work->end && s->state) s->work->end(s);
+  free(s->state);
+  dyd_engine_free(s->engine);
+  dyd_history_free(s->history);
+  dyd_rect_clear(&s->window);
+  return status;
+}
+
+int cli_work_run(const cli_work *work, const cli_options *o) {
+  cli_session s = {.work = work, .o = *o, .begun = cli_clock(), .share = 1};
+  const cli_work *instead = work->instead ? work->instead(o) : NULL;
+  if (instead) s.work = instead;
+  dyd_rect_init(&s.window);
+  s.state = calloc(1, s.work->size + 1);
+  int status = s.state ? work_begin(&s) : cli_complain_memory();
+  if (!status && !s.work->bare) status = work_open(&s);
+  if (!status) status = s.work->find(&s);
+  cli_session_settle(&s);
+  if (s.known && s.work->write) {
+    s.written = session_prove(&s, cli_write_file(s.o.output, &s, s.work->write));
+    if (!status) status = s.written;
+  }
+  return work_close(&s, status);
 }

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The table of commands and options.
  *
- * A new command: its row in cli_commands, `int cli_NAME(const cli_options *o)` in NAME.c, its declaration in cli.h.
+ * A new command: its row in cli_commands, and its cli_work, declared in cli.h.
  * A new option: its row in cli_option_table and its field in cli_options. The rest follows: parsing, messages, help,
  * manual page, completion. */
-#include "table.h"
+#include "cli.h"
 #include <string.h>
 
 #define BIT(number) (1u << (number))
 #define AT(field) .offset = offsetof(cli_options, field), .width = sizeof(((cli_options *)0)->field)
 #define RANGE(low, high) .least = (low), .most = (high)
+#define WORDS(text) .words = (text)
 #define GIVEN(field) .given = offsetof(cli_options, field)
 
 enum {
@@ -26,18 +27,18 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                       "in the rectangles are, or one place if the two meet), indeterminate (an edge for some\n"
                       "choice), a tie (as indeterminate, but no refinement can decide it), or not listed\n"
                       "(never an edge).",
-                      DYD_CONTENT_DELAUNAY, cli_delaunay},
+                      DYD_CONTENT_DELAUNAY, &cli_delaunay},
     [CLI_VORONOI] = {"voronoi", "FILE", "the cells of the points on a window, with certified bounds",
                      "Voronoi diagram of the points on a window: for each point the part of the window that\n"
                      "is surely and the part that is possibly nearest to it, the vertices that are sure with\n"
                      "enclosures, and bounds of what is undetermined. The goals area:M and hausdorff:M of\n"
                      "--until are those of the diagram.",
-                     DYD_CONTENT_VORONOI, cli_voronoi},
+                     DYD_CONTENT_VORONOI, &cli_voronoi},
     [CLI_CONVERGE] = {"converge", "FILE", "a run stage by stage, as a table",
                       "The run of delaunay, with one line for each stage: precision asked for, widths,\n"
                       "statuses, bounds of what is open, decisions, calls of points, seconds. The first\n"
                       "stage asks for 4 bits, unless told otherwise.",
-                      DYD_CONTENT_CONVERGENCE, cli_converge},
+                      DYD_CONTENT_CONVERGENCE, &cli_converge},
     [CLI_CHECK] = {"check", "FILE", "try random refinement schedules, and look for broken promises",
                    "Runs random refinement schedules over the points and checks, after each stage, that\n"
                    "rectangles are nested and shrink as asked, that no status is retracted, that cells only\n"
@@ -45,42 +46,42 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                    "agree. The first schedule narrows each point step by step up to --max-bits.\n"
                    "A fault is shown by the shortest schedule found, which --trace writes and --replay\n"
                    "repeats. Exit status 0: no fault; 1: a fault.",
-                   DYD_CONTENT_CHECK, cli_check},
+                   DYD_CONTENT_CHECK, &cli_check},
     [CLI_VERIFY] = {"verify", "CERT", "check a certificate, in integers, without the engine",
                     "Checks a certificate that --certificate wrote. Exit status 0: everything that it states is\n"
                     "proved; 3: accepted, but something that it states is not proved, and named; 1: rejected,\n"
                     "with the line and the reason. With --points FILE, and the options that FILE is read by, it\n"
                     "also has to be about these points.",
-                    DYD_CONTENT_NONE, cli_verify},
+                    DYD_CONTENT_NONE, &cli_verify},
     [CLI_DISC] = {"disc", "FILE", "the partial disc of the first three points, and where the others are",
                   "The six critical circles of the first three points, exactly, the box of all centres\n"
                   "of circles through them, and for each other point whether it is surely inside or\n"
                   "outside of all these circles. Points are refined until that is known.",
-                  DYD_CONTENT_DISC, cli_disc},
+                  DYD_CONTENT_DISC, &cli_disc},
     [CLI_BISECTOR] = {"bisector", "FILE", "the partial bisector of the first two points",
                       "The two curves that bound what is surely nearer to the one point, and to the other:\n"
                       "each a chain of at most seven arcs of lines and parabolas, with exact ends. The\n"
                       "points are refined until their rectangles are disjoint.",
-                      DYD_CONTENT_BISECTOR, cli_bisector},
+                      DYD_CONTENT_BISECTOR, &cli_bisector},
     [CLI_NEAREST] = {"nearest", "FILE X Y", "which points are surely, which are possibly nearest to a place",
                      "The points that are nearest to the place (X,Y), coordinates of any form: sure when\n"
                      "exactly one is, whatever the points in the rectangles are; possible otherwise; with\n"
                      "bounds of the distance. The place and the points concerned are refined until one is\n"
                      "sure. --queries FILE asks of many places at once.",
-                     DYD_CONTENT_NEAREST, cli_nearest},
+                     DYD_CONTENT_NEAREST, &cli_nearest},
     [CLI_TOLERANCE] = {"tolerance", "FILE", "how far the points may move before edges are lost or born",
                        "For exact points: for every edge the distance up to which all points may move at\n"
                        "once before it may be lost (death), for other pairs that before which none becomes\n"
                        "an edge (birth), for every point how far it may be from its place, and the like for\n"
                        "the whole. Numbers lo are rounded down, hi up, at most 2^-40 of themselves apart;\n"
                        "empty: never. k and l are the points that bind.",
-                       DYD_CONTENT_TOLERANCE, cli_tolerance},
+                       DYD_CONTENT_TOLERANCE, &cli_tolerance},
     [CLI_PLAN] = {"plan", "FILE", "which points to measure next, and how accurately, so that all is decided",
                   "For points known as rectangles: a list of points, the most telling first, so that no\n"
                   "pair is left open if they turn out within half_width_needed of the middles of their\n"
                   "rectangles. That is proved by one triangulation. Pairs that tie if all points are in\n"
                   "the middle are left aside. Exit status 3: some pairs stay open all the same.",
-                  DYD_CONTENT_PLAN, cli_plan},
+                  DYD_CONTENT_PLAN, &cli_plan},
 };
 
 const char *const cli_group_names[CLI_GROUPS] = {[CLI_INPUT] = "Input",
@@ -163,9 +164,9 @@ const cli_option cli_option_table[] = {
      "in place of X Y: a file of places, in the forms of a points\nfile; one triangulation answers all", AT(queries)},
 
     {"until", 0, "GOAL", CLI_GOAL, RUN, CLI_REFINEMENT, "decided (default), area:M or hausdorff:M (bound 2^-M)",
-     AT(engine)},
-    {"of", 0, "WHAT", CLI_SUBJECT, BIT(CLI_CONVERGE), CLI_REFINEMENT,
-     "whose bound --until means: delaunay (default) or voronoi", AT(of_voronoi)},
+     AT(engine), WORDS("decided area: hausdorff:")},
+    {"of", 0, "WHAT", CLI_CHOICE, BIT(CLI_CONVERGE), CLI_REFINEMENT,
+     "whose bound --until means: delaunay (default) or voronoi", AT(of_voronoi), WORDS("delaunay voronoi")},
     {"max-bits", 0, "B", CLI_INTEGER, REFINE, CLI_REFINEMENT,
      "precision at which to give up (default 4096; check: 192)", AT(engine.max_bits), RANGE(1, DYD_EXP_LIMIT),
      GIVEN(max_bits_set)},
@@ -173,16 +174,17 @@ const cli_option cli_option_table[] = {
      "cap on stored pairs (default 4000000 + 16 per point)", AT(engine.max_pairs), RANGE(1, (long long)1 << 40)},
     {"timeout", 0, "SECONDS", CLI_SECONDS, CLI_ALL, CLI_REFINEMENT, "end after this time, reading and writing included",
      AT(engine.seconds)},
-    {"schedule", 0, "WHICH", CLI_SCHEDULE, RUN, CLI_REFINEMENT,
-     "adaptive (default): refine what is undecided;\nuniform: refine all points", AT(engine.schedule)},
+    {"schedule", 0, "WHICH", CLI_CHOICE, RUN, CLI_REFINEMENT,
+     "adaptive (default): refine what is undecided;\nuniform: refine all points", AT(engine.schedule),
+     WORDS("adaptive uniform")},
     {"start-bits", 0, "B", CLI_INTEGER, RUN, CLI_REFINEMENT, "precision of the first stage (default 64; converge: 4)",
      AT(engine.start_bits), RANGE(1, DYD_EXP_LIMIT), GIVEN(start_set)},
     {"step-bits", 0, "K", CLI_INTEGER, RUN, CLI_REFINEMENT, "refine in steps of K bits (default: geometric growth)",
      AT(engine.step_bits), RANGE(1, DYD_EXP_LIMIT)},
-    {"ties", 0, "WHICH", CLI_TIES, RUN | BIT(CLI_NEAREST), CLI_REFINEMENT,
+    {"ties", 0, "WHICH", CLI_CHOICE, RUN | BIT(CLI_NEAREST), CLI_REFINEMENT,
      "prove (default): prove that points given by expressions\nand roots are the same, on one line or circle; off: do "
      "not",
-     AT(engine.no_ties)},
+     AT(engine.no_ties), WORDS("prove off")},
     {"tie-bits", 0, "B", CLI_INTEGER, RUN | BIT(CLI_NEAREST), CLI_REFINEMENT,
      "precision at which to give up a proof (default 131072)", AT(engine.tie_bits), RANGE(1, 1 << 26)},
     {"threads", 0, "T", CLI_INTEGER, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_REFINEMENT,
@@ -208,10 +210,10 @@ const cli_option cli_option_table[] = {
     {"next", 0, NULL, CLI_FLAG, BIT(CLI_PLAN), CLI_OUTPUT, "only the first point to measure", AT(next)},
     {"up-to", 0, "EPS", CLI_TEXT, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "also births: pairs that may become edges when points\nmove by EPS at most; an exact number", AT(up_to)},
-    {"metric", 0, "WHICH", CLI_METRIC, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
+    {"metric", 0, "WHICH", CLI_CHOICE, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "euclid (default): points move in discs; box: x and y each\nby as much, in squares, bounds 2^-20 of themselves "
      "apart",
-     AT(metric)},
+     AT(metric), WORDS("euclid box")},
     {"sigma", 0, "S", CLI_TEXT, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "also a lower bound of each edge's probability, for normal\nerrors of standard deviation S in x and in y",
      AT(sigma)},
@@ -228,12 +230,13 @@ const cli_option cli_option_table[] = {
      "many\n"
      "edges are certain at which accuracy)",
      AT(layer)},
-    {"list-ties", 0, "HOW", CLI_LIST_TIES, BIT(CLI_DELAUNAY), CLI_OUTPUT,
+    {"list-ties", 0, "HOW", CLI_CHOICE, BIT(CLI_DELAUNAY), CLI_OUTPUT,
      "pairs (default): a row for each tied pair; groups: csv\nlists the circles and lines that the tied points are on\n"
      "in place of pairs (kind,sites); none: no tied pair",
-     AT(list_ties)},
+     AT(list_ties), WORDS("pairs groups none")},
     {"crs", 0, "EPSG:N", CLI_CRS, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_OUTPUT,
-     "the reference system of the coordinates, for geojson and\njson (default: none is claimed)", AT(epsg)},
+     "the reference system of the coordinates, for geojson and\njson (default: none is claimed)", AT(epsg),
+     WORDS("EPSG:")},
     {"output", 'o', "FILE", CLI_FILE, CLI_ALL, CLI_OUTPUT,
      "write to FILE, whole or not at all; its ending, such as\n.svg, chooses the format", AT(output)},
     {"certificate", 0, "FILE", CLI_FILE, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_NEAREST), CLI_OUTPUT,

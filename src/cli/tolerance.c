@@ -1,27 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* dyadel tolerance FILE: how far the points may move. */
+/* dyadel tolerance FILE: how far the points may move; dyadel plan FILE: what to measure next. */
 #include "cli.h"
+
 #include <stdlib.h>
 
-typedef struct tolerance_run {
-  dyd_tolerance *tolerance;
-  const dyd_engine *engine;
-  mpq_t up_to, sigma;
-  double *weight, *sigmas;
-  dyd_metric metric;
-  bool cut;
-  bool points; /* are radii of points written? They take longer than all edges */
-  dyd_rect window;
-} tolerance_run;
-
-static dyd_status tolerance_write(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
-  const tolerance_run *r = what;
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .tolerance = r->tolerance,
-                                 .window = o->window ? &r->window : NULL, .epsg = o->epsg};
-  return dyd_write(out, r->engine, o->content, o->format, &how, err);
-}
-
-/* A number of each point, as its row says. */
+/* A number of each point, as its row says. NULL: memory is exhausted. */
 static double *of_each_point(const dyd_engine *e, double (*number)(const dyd_engine *e, size_t i)) {
   size_t n = dyd_engine_count(e);
   double *out = malloc((n + 1) * sizeof *out);
@@ -29,44 +12,14 @@ static double *of_each_point(const dyd_engine *e, double (*number)(const dyd_eng
   return out;
 }
 
-/* How far points move, each by its own measure, stands in the column of radii. */
-static int tolerance_columns(tolerance_run *r, const cli_options *o) {
-  if (o->read.radius_columns) r->weight = of_each_point(r->engine, dyd_engine_radius);
-  if (o->read.sigma_column) r->sigmas = of_each_point(r->engine, dyd_engine_sigma);
-  bool good = !r->weight == !o->read.radius_columns && !r->sigmas == !o->read.sigma_column;
-  return good ? 0 : cli_complain_memory();
-}
+/* ---- tolerance ---- */
 
-/* The triangulation of the points as they are, and what it tolerates. */
-static dyd_status tolerance_find(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
-  tolerance_run *r = user;
-  dyd_outcome outcome;
-  dyd_engine_options once = *options;
-  dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .points = r->points, .max_pairs = options->max_pairs,
-                             .cancel = cli_signals_flag(), .metric = r->metric};
-  once.max_stages = 1;
-  dyd_status st = dyd_engine_run(&outcome, e, &once, err);
-  if (st != DYD_OK || !cli_run_was_whole(e)) return st;
-  if (mpq_sgn(r->up_to)) o.up_to = r->up_to;
-  o.sigma = mpq_get_d(r->sigma);
-  o.weight = r->weight;
-  o.sigmas = r->sigmas;
-  st = dyd_tolerance_new(&r->tolerance, dyd_engine_delaunay(e), &o, err);
-  r->cut = st == DYD_CANCELLED;
-  return cli_session_cut(st, err);
-}
-
-static int tolerance_all(cli_session *s, tolerance_run *r, const cli_options *o) {
-  r->engine = s->engine;
-  int status = tolerance_columns(r, o);
-  if (!status) status = cli_session_run_by(s, &o->engine, tolerance_find, r);
-  cli_session_settle(s);
-  /* radii and counts come of all edges */
-  bool parts = o->content != DYD_CONTENT_RADII && o->content != DYD_CONTENT_BARCODE;
-  if (!status && (!r->tolerance || (r->cut && !parts))) return cli_session_stopped(s, "the tolerances were");
-  if (!status) status = cli_write_file(o->output, o, tolerance_write, r);
-  return !status && r->cut ? cli_exit_cut() : status;
-}
+typedef struct tolerance_run {
+  dyd_tolerance *tolerance;
+  mpq_t up_to, sigma;
+  double *weight, *sigmas;
+  bool cut;
+} tolerance_run;
 
 /* Above 0, and a double that is. */
 static int sigma_read(mpq_ptr out, const char *text) {
@@ -76,7 +29,7 @@ static int sigma_read(mpq_ptr out, const char *text) {
   return CLI_USAGE;
 }
 
-/* What may not be given together. */
+/* Options that exclude each other. */
 static int tolerance_contradictions(const cli_options *o) {
   bool sigmas = o->sigma && o->read.sigma_column, weights = o->metric == DYD_METRIC_BOX && o->read.radius_columns;
   bool chances =
@@ -87,29 +40,261 @@ static int tolerance_contradictions(const cli_options *o) {
   return sigmas || chances || weights ? CLI_USAGE : 0;
 }
 
-int cli_tolerance(const cli_options *o) {
-  tolerance_run r = {.metric = o->metric, .points = o->content == DYD_CONTENT_RADII || o->format == DYD_FORMAT_JSON};
-  cli_options own = *o;
-  cli_session s;
-  own.read.keep_radii = true;
-  mpq_inits(r.up_to, r.sigma, NULL);
-  dyd_rect_init(&r.window);
-  int status = o->up_to ? cli_number_read(r.up_to, "up-to", o->up_to) : 0;
-  if (!status && o->sigma) status = sigma_read(r.sigma, o->sigma);
-  if (!status) status = tolerance_contradictions(o);
-  if (!status && o->window) status = cli_window_read(&r.window, o->window);
-  if (!status) {
-    status = cli_session_open(&s, &own);
-    if (!status) status = tolerance_all(&s, &r, o);
-    own.quiet = true; /* ties are events here, nothing left open */
-    dyd_tolerance_free(r.tolerance);
-    r.tolerance = NULL;
-    int end = cli_session_close(&s, status ? status : CLI_USAGE);
-    if (status) status = end;
+static int tolerance_begin(cli_session *s) {
+  tolerance_run *r = s->state;
+  const cli_options *o = &s->o;
+  s->o.read.keep_radii = true;
+  mpq_inits(r->up_to, r->sigma, NULL);
+  int status = o->up_to ? cli_number_read(r->up_to, "up-to", o->up_to) : 0;
+  if (!status && o->sigma) status = sigma_read(r->sigma, o->sigma);
+  return status ? status : tolerance_contradictions(o);
+}
+
+/* The column of radii holds how far each point moves. */
+static int tolerance_columns(cli_session *s) {
+  tolerance_run *r = s->state;
+  const dyd_read_options *read = &s->o.read;
+  if (read->radius_columns) r->weight = of_each_point(s->engine, dyd_engine_radius);
+  if (read->sigma_column) r->sigmas = of_each_point(s->engine, dyd_engine_sigma);
+  bool good = !r->weight == !read->radius_columns && !r->sigmas == !read->sigma_column;
+  return good ? 0 : cli_complain_memory();
+}
+
+/* The triangulation of the points as they are, and its tolerances. Radii of points, which take longer than all
+ * edges, only where they are written. */
+static dyd_status tolerance_run_engine(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
+  tolerance_run *r = s->state;
+  dyd_engine_options once = *options;
+  dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options),
+                             .points = s->o.content == DYD_CONTENT_RADII || s->o.format == DYD_FORMAT_JSON,
+                             .max_pairs = options->max_pairs, .cancel = cli_signals_flag(), .metric = s->o.metric};
+  once.max_stages = 1;
+  dyd_status st = cli_run_engine(s, &once, err);
+  if (st != DYD_OK || !cli_run_was_whole(s->engine)) return st;
+  if (mpq_sgn(r->up_to)) o.up_to = r->up_to;
+  o.sigma = mpq_get_d(r->sigma);
+  o.weight = r->weight;
+  o.sigmas = r->sigmas;
+  st = dyd_tolerance_new(&r->tolerance, dyd_engine_delaunay(s->engine), &o, err);
+  r->cut = st == DYD_CANCELLED;
+  return cli_session_cut(st, err);
+}
+
+/* Of work that was cut short, pairs can be written; radii and counts come of all edges. */
+static int tolerance_find(cli_session *s) {
+  const tolerance_run *r = s->state;
+  int status = tolerance_columns(s);
+  if (!status) status = cli_session_run(s, &s->o.engine, tolerance_run_engine);
+  bool parts = s->o.content != DYD_CONTENT_RADII && s->o.content != DYD_CONTENT_BARCODE;
+  s->known = !status && r->tolerance && (!r->cut || parts);
+  return status || s->known ? status : cli_session_stopped(s, "the tolerances were");
+}
+
+static dyd_status tolerance_write(FILE *out, const cli_session *s, dyd_error *err) {
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .tolerance = ((tolerance_run *)s->state)->tolerance,
+                                 .window = s->view, .epsg = s->o.epsg};
+  return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
+}
+
+/* Ties are events here, nothing left open. */
+static int tolerance_summary(cli_session *s, int status) {
+  return !status && ((tolerance_run *)s->state)->cut ? cli_exit_cut() : status;
+}
+
+static void tolerance_end(cli_session *s) {
+  tolerance_run *r = s->state;
+  dyd_tolerance_free(r->tolerance);
+  free(r->weight);
+  free(r->sigmas);
+  mpq_clears(r->up_to, r->sigma, NULL);
+}
+
+const cli_work cli_tolerance = {.size = sizeof(tolerance_run),
+                                .begin = tolerance_begin,
+                                .find = tolerance_find,
+                                .write = tolerance_write,
+                                .summary = tolerance_summary,
+                                .end = tolerance_end};
+
+/* ---- plan: the input ---- */
+
+typedef struct plan_run {
+  dyd_survey *survey;
+  mpq_t accuracy;
+  dyd_pair_list pairs;
+  size_t *line; /* of each pair in its file */
+  uint32_t site;
+  double *cost;
+} plan_run;
+
+static bool plan_add_pair(plan_run *r, uint32_t i, uint32_t j, size_t line) {
+  dyd_pair_list *l = &r->pairs;
+  if (l->count % 1024 == 0) {
+    dyd_pair *more = realloc(l->item, (l->count + 1024) * sizeof *more);
+    if (more) l->item = more;
+    size_t *lines = realloc(r->line, (l->count + 1024) * sizeof *lines);
+    if (lines) r->line = lines;
+    if (!more || !lines) return false;
   }
-  free(r.weight);
-  free(r.sigmas);
-  dyd_rect_clear(&r.window);
-  mpq_clears(r.up_to, r.sigma, NULL);
+  r->line[l->count] = line;
+  l->item[l->count++] = (dyd_pair){i < j ? i : j, i < j ? j : i, DYD_INDETERMINATE};
+  return true;
+}
+
+/* Where the ends of a pair are in a row; set by a header. */
+typedef struct pairs_columns {
+  plan_run *run;
+  bool begun;
+  size_t column[2];
+} pairs_columns;
+
+/* A header names the columns i and j; other columns may stand anywhere. */
+static bool pairs_header(pairs_columns *p, const dyd_record *row) {
+  bool found[2] = {false, false};
+  for (size_t k = 0; k < row->fields; k++) {
+    size_t length;
+    const char *name = dyd_record_field(&length, row, k);
+    for (size_t end = 0; end < 2; end++)
+      if (length == 1 && *name == "ij"[end]) found[end] = true, p->column[end] = k;
+  }
+  return found[0] && found[1];
+}
+
+static dyd_status pairs_refuse(const dyd_record *row, size_t field, dyd_error *err) {
+  dyd_record_place(err, row, field);
+  return dyd_error_set(err, DYD_E_PARSE,
+                       "this is no pair of different points; give their numbers i,j first, or name the columns i and j "
+                       "in a header");
+}
+
+static dyd_status pairs_row(void *user, const dyd_record *row, dyd_error *err) {
+  pairs_columns *p = user;
+  int64_t end[2];
+  const bool header = !p->begun && pairs_header(p, row);
+  p->begun = true;
+  if (header) return DYD_OK;
+  for (size_t k = 0; k < 2; k++)
+    if (!dyd_record_integer(&end[k], row, p->column[k], 0, UINT32_MAX)) return pairs_refuse(row, p->column[k], err);
+  if (end[0] == end[1]) return pairs_refuse(row, p->column[1], err);
+  dyd_record_place(err, row, p->column[0]);
+  if (plan_add_pair(p->run, (uint32_t)end[0], (uint32_t)end[1], err->line)) return DYD_OK;
+  return dyd_error_set(err, DYD_E_NOMEM, dyd_status_text(DYD_E_NOMEM));
+}
+
+static int pairs_read(plan_run *r, const char *file) {
+  pairs_columns columns = {.run = r, .column = {0, 1}};
+  dyd_error err;
+  FILE *in = cli_input_open(file, "check the name of the file of pairs");
+  if (!in) return CLI_FAILED;
+  dyd_status st = dyd_read_records(in, 0, pairs_row, &columns, &err);
+  cli_input_close(in);
+  if (st != DYD_OK) cli_complain_at(file, &err);
+  return st == DYD_OK ? 0 : CLI_FAILED;
+}
+
+static int plan_begin(cli_session *s) {
+  plan_run *r = s->state;
+  const cli_options *o = &s->o;
+  mpq_init(r->accuracy);
+  int status = o->accuracy ? cli_number_read(r->accuracy, "accuracy", o->accuracy) : 0;
+  if (!status && o->accuracy && mpq_sgn(r->accuracy) == 0) {
+    cli_complain("--accuracy \"%s\" is not understood; nothing is measured exactly: give a number above 0",
+                 o->accuracy);
+    return CLI_USAGE;
+  }
+  if (!status && o->pairs) status = pairs_read(r, o->pairs);
+  r->site = o->site;
   return status;
 }
+
+/* ---- plan: the plan ---- */
+
+/* Points are named by their rows in the file; the number of that point, one that does not exist where there is none. */
+static uint32_t point_of_row(const dyd_engine *e, uint32_t row) {
+  size_t lo = 0, hi = dyd_engine_count(e);
+  while (lo < hi) {
+    size_t mid = lo + (hi - lo) / 2;
+    if (dyd_engine_row(e, mid) < row)
+      lo = mid + 1;
+    else
+      hi = mid;
+  }
+  return lo < dyd_engine_count(e) && dyd_engine_row(e, lo) == row ? (uint32_t)lo : UINT32_MAX;
+}
+
+/* Pairs and site: from rows to points. */
+static int plan_find_points(cli_session *s) {
+  plan_run *r = s->state;
+  const cli_options *o = &s->o;
+  if (o->site_set && (r->site = point_of_row(s->engine, r->site)) == UINT32_MAX) {
+    cli_complain("there is no point %lu; give --site the number of one, from 0", (unsigned long)o->site);
+    return CLI_FAILED;
+  }
+  for (size_t k = 0; k < r->pairs.count; k++) {
+    uint32_t *end[2] = {&r->pairs.item[k].i, &r->pairs.item[k].j};
+    for (int x = 0; x < 2; x++) {
+      unsigned long row = *end[x];
+      if ((*end[x] = point_of_row(s->engine, *end[x])) != UINT32_MAX) continue;
+      cli_complain("%s:%zu: there is no point %lu; give pairs of points that are there, numbered from 0", o->pairs,
+                   r->line[k], row);
+      return CLI_FAILED;
+    }
+  }
+  return 0;
+}
+
+static dyd_status plan_run_engine(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
+  plan_run *r = s->state;
+  dyd_status st = cli_run_engine(s, options, err);
+  if (st != DYD_OK || !cli_run_was_whole(s->engine)) return st;
+  r->cost = of_each_point(s->engine, dyd_engine_cost);
+  if (!r->cost) return DYD_E_NOMEM;
+  const dyd_survey_options how = {DYD_SIZED(dyd_survey_options),
+                                  .pairs = s->o.pairs ? &r->pairs : NULL,
+                                  .window = s->view,
+                                  .site = s->o.site_set ? &r->site : NULL,
+                                  .accuracy = s->o.accuracy ? r->accuracy : NULL,
+                                  .cost = r->cost,
+                                  .cancel = cli_signals_flag()};
+  st = dyd_survey_new(&r->survey, dyd_engine_delaunay(s->engine), &how, err);
+  return r->survey ? cli_session_cut(st, err) : st == DYD_CANCELLED ? DYD_OK : st;
+}
+
+static int plan_find(cli_session *s) {
+  int status = plan_find_points(s);
+  if (!status) status = cli_session_run(s, &s->o.engine, plan_run_engine);
+  s->known = !status && ((plan_run *)s->state)->survey;
+  return status || s->known ? status : cli_session_stopped(s, "the plan was");
+}
+
+static dyd_status plan_write(FILE *out, const cli_session *s, dyd_error *err) {
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .plan = ((plan_run *)s->state)->survey,
+                                 .next = s->o.next, .epsg = s->o.epsg};
+  return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
+}
+
+static int plan_summary(cli_session *s, int status) {
+  const plan_run *r = s->state;
+  size_t open, ties, left;
+  if (status) return status;
+  if (dyd_survey_is_cut(r->survey)) return cli_exit_cut();
+  dyd_survey_count(&open, &ties, &left, r->survey);
+  if (left) cli_note(&s->o, "%zu of %zu pairs stay open with this plan; give a finer --accuracy", left, open);
+  return left ? CLI_FIXPOINT : CLI_OK;
+}
+
+static void plan_end(cli_session *s) {
+  plan_run *r = s->state;
+  dyd_survey_free(r->survey);
+  free(r->cost);
+  free(r->line);
+  dyd_pair_list_clear(&r->pairs);
+  mpq_clear(r->accuracy);
+}
+
+const cli_work cli_plan = {.size = sizeof(plan_run),
+                           .begin = plan_begin,
+                           .find = plan_find,
+                           .write = plan_write,
+                           .summary = plan_summary,
+                           .end = plan_end};

@@ -1,8 +1,118 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* dyadel verify CERT: checks a certificate and says what of it is proved and what is not. */
+/* dyadel verify CERT: checks a certificate and reports its proved and unproved parts. */
 #include "cli.h"
+
 #include <errno.h>
 #include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <signal.h>
+#include <sys/prctl.h>
+#endif
+
+/* dyadel verify --proved: the check is done by dyadel-proved, a program of its own, extracted from the
+ * proofs in Coq. */
+
+#define PROGRAM "dyadel-proved"
+
+enum { CANNOT_RUN = 127 };
+
+/* Where the program is, by how the folder of this command ends: as installed, and as built. */
+static const struct {
+  const char *end, *instead;
+} PLACE[] = {{"/", "/"}, {"/bin/", "/libexec/"}, {"/src/cli/", "/proofs/"}};
+
+enum { PLACES = sizeof PLACE / sizeof *PLACE };
+
+/* Sets *at to where `end` begins in the folder; returns false if the folder does not end in it. */
+static bool folder_ends(size_t *at, const char *folder, const char *end) {
+  size_t length = strlen(folder), tail = strlen(end);
+  if (tail > length) return false;
+  *at = length - tail;
+  return strcmp(folder + *at, end) == 0;
+}
+
+/* Sets path to the folder of this command, "" where it is not known. */
+static void folder_find(char *path, size_t size) {
+  ssize_t length = readlink("/proc/self/exe", path, size);
+  if (length >= (ssize_t)size) length = 0;
+  while (length > 0 && path[length - 1] != '/') length--;
+  path[length > 0 ? length : 0] = 0;
+}
+
+/* Sets path to the program in one of the places, or to its name, for PATH to find it. */
+static void proved_find(char *path, size_t size, const char *folder) {
+  size_t at;
+  for (int k = 0; k < PLACES; k++) {
+    if (!folder_ends(&at, folder, PLACE[k].end)) continue;
+    snprintf(path, size, "%.*s%s" PROGRAM, (int)at, folder, PLACE[k].instead);
+    if (access(path, X_OK) == 0) return;
+  }
+  snprintf(path, size, PROGRAM);
+}
+
+/* Reports the missing program, where it was looked for, and the remedy. */
+static void complain_missing(const char *folder) {
+  size_t at;
+  if (folder_ends(&at, folder, PLACE[PLACES - 1].end))
+    cli_complain("there is no " PROGRAM " in %.*s%s or in PATH (to build it, which needs coqc, ocamlfind and Zarith: "
+                 "meson configure -Dproofs=enabled %.*s && ninja -C %.*s)",
+                 (int)at, folder, PLACE[PLACES - 1].instead, (int)at, folder, (int)at, folder);
+  else
+    cli_complain("there is no " PROGRAM " in %s%sPATH (omit --proved, or install " PROGRAM
+                 " from a build of dyadel with meson setup -Dproofs=enabled)",
+                 folder, *folder ? " or in " : "");
+}
+
+/* Becomes the program, by functions only that may follow fork. `still` becomes its standard input (-1: no list). */
+static void proved_become(int out, int still, const char *path, const char *file) {
+  const char *option = still < 0 ? NULL : "--still"; /* NULL ends the arguments */
+#ifdef __linux__
+  prctl(PR_SET_PDEATHSIG, SIGKILL); /* whatever ends the command ends it */
+#endif
+  if (dup2(out, STDOUT_FILENO) < 0) _exit(CANNOT_RUN);
+  if (still >= 0 && dup2(still, STDIN_FILENO) < 0) _exit(CANNOT_RUN);
+  execlp(path, PROGRAM, file, option, "-", (char *)NULL);
+  _exit(CANNOT_RUN);
+}
+
+/* Runs the program to its end; its exit status, which means what ours does. */
+static int proved_run(int out, int still, const char *file) {
+  char folder[4096], path[sizeof folder + 64];
+  int how = 0;
+  folder_find(folder, sizeof folder);
+  proved_find(path, sizeof path, folder);
+  pid_t child = fork();
+  if (child == 0) proved_become(out, still, path, file);
+  while (child > 0 && waitpid(child, &how, 0) < 0)
+    if (errno != EINTR) child = -1;
+  if (child < 0) {
+    cli_complain("cannot run " PROGRAM ": %s", strerror(errno));
+    return CLI_FAILED;
+  }
+  if (WIFEXITED(how) && WEXITSTATUS(how) != CANNOT_RUN) return WEXITSTATUS(how);
+  if (WIFEXITED(how))
+    complain_missing(folder);
+  else
+    cli_complain("%s: not judged: " PROGRAM " was ended by signal %d", file, WTERMSIG(how));
+  return CLI_FAILED;
+}
+
+/* `still`: the sites that stay, or NULL; `more` follows the report. */
+static int verify_proved(const cli_options *o, FILE *still, const char *more) {
+  cli_output out;
+  cli_deadline_phase("checking the certificate");
+  if (!cli_output_open(&out, o->output)) return CLI_FAILED;
+  if (still) rewind(still); /* what the child reads from */
+  int status = proved_run(fileno(out.stream), still ? fileno(still) : -1, o->file);
+  if (status == CLI_OK || status == CLI_FIXPOINT) {
+    fputs(more, out.stream);
+    return cli_output_finish(&out, o) ? status : CLI_FAILED;
+  }
+  cli_output_drop(&out);
+  return status;
+}
 
 static void print_pairs(FILE *out, const dyd_certificate_report *r) {
   fprintf(out, "checked: %zu legal pairs, each by its witness against all sites\n", r->legal);
@@ -68,7 +178,7 @@ static void print_proved(FILE *out, const dyd_certificate_report *r) {
   if (!(r->gaps & DYD_GAP_OUTCOME)) fprintf(out, "checked: the outcome %s\n", r->outcome);
 }
 
-/* What is left open, so that there is nothing to prove. */
+/* Undecided pairs, without anything to prove. */
 static void print_open(FILE *out, const dyd_certificate_report *r) {
   if (r->indeterminate) fprintf(out, "open: %zu indeterminate pairs, of which nothing is stated\n", r->indeterminate);
   if (r->capped)
@@ -125,9 +235,9 @@ static void print_gaps(FILE *out, const dyd_certificate_report *r) {
   if (r->unlocated) fprintf(out, "not proved: that %zu of the points given lie in its rectangles\n", r->unlocated);
 }
 
-static dyd_status print_verified(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
-  const dyd_certificate_report *r = what;
-  (void)o, (void)err;
+static dyd_status print_verified(FILE *out, const cli_session *s, dyd_error *err) {
+  const dyd_certificate_report *r = s->state;
+  (void)err;
   if (r->gaps)
     fputs("accepted, not all of it proved: see what is not proved below\n", out);
   else
@@ -141,7 +251,8 @@ static dyd_status print_verified(FILE *out, const void *what, const cli_options 
   return DYD_OK;
 }
 
-/* Reads the points of --points into a new engine and checks against them; what stays goes to `still` (or NULL). */
+/* Reads the points of --points into a new engine and checks against them; fixed sites are listed in `still` (or NULL).
+ */
 static dyd_status verify_points(int *status, dyd_certificate_report *report, FILE *still, FILE *in,
                                 const cli_options *o, dyd_error *err) {
   dyd_engine *e = NULL;
@@ -170,7 +281,7 @@ static int complain_rejected(const cli_options *o, const dyd_error *err) {
   return CLI_FAILED;
 }
 
-/* Checks it here; what is wrong was told of, or the report is filled. */
+/* Checks it in this program: fills the report, or returns an exit status after a message. */
 static int verify_here(dyd_certificate_report *report, FILE *still, const cli_options *o) {
   FILE *in = cli_input_open(o->file, "check the name of the certificate");
   if (!in) return CLI_FAILED;
@@ -187,43 +298,56 @@ static int verify_here(dyd_certificate_report *report, FILE *still, const cli_op
 
 /* The proved checker does not read points: it checks the certificate, this program that they are those of it, and which
  * of them stay. */
-static int verify_proved_of(const cli_options *o) {
-  dyd_certificate_report r = {DYD_SIZED(dyd_certificate_report)};
+static int verify_proved_of(cli_session *s) {
+  const cli_options *o = &s->o;
+  const dyd_certificate_report *r = s->state;
   char more[200];
   FILE *still = tmpfile();
   if (!still) {
     cli_complain("cannot make a temporary file: %s", strerror(errno));
     return CLI_FAILED;
   }
-  int status = verify_here(&r, still, o);
-  size_t others = r.undescribed + r.unlocated;
+  int status = verify_here(s->state, still, o);
+  size_t others = r->undescribed + r->unlocated;
   if (others)
     snprintf(more, sizeof more, "not proved: that %zu of the points given are those of the certificate\n", others);
   else
     snprintf(more, sizeof more,
              "compared by dyadel itself: the points given lie in its rectangles, and which of them stay there\n");
-  if (!status) status = cli_verify_proved(o, still, more);
+  if (!status) status = verify_proved(o, still, more);
   fclose(still);
   return status == CLI_OK && others ? CLI_FIXPOINT : status;
 }
 
 /* "-" can be read once. */
-static bool reads_twice(const cli_options *o) {
-  if (!o->points || strcmp(o->file, "-") != 0) return false;
+static int verify_begin(cli_session *s) {
+  const cli_options *o = &s->o;
+  *(dyd_certificate_report *)s->state = (dyd_certificate_report){DYD_SIZED(dyd_certificate_report)};
+  if (!o->points || strcmp(o->file, "-") != 0) return 0;
   if (strcmp(o->points, "-") == 0)
     cli_complain("standard input cannot be both the certificate and the points; give a file for one of them");
   else if (o->proved)
     cli_complain("with --proved and --points the certificate is read twice; give a file in place of \"-\"");
   else
-    return false;
-  return true;
+    return 0;
+  return CLI_USAGE;
 }
 
-int cli_verify(const cli_options *o) {
-  dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
-  if (reads_twice(o)) return CLI_USAGE;
-  if (o->proved) return o->points ? verify_proved_of(o) : cli_verify_proved(o, NULL, "");
-  int status = verify_here(&report, NULL, o);
-  if (!status) status = cli_write_file(o->output, o, print_verified, &report);
-  return status || !report.gaps ? status : CLI_FIXPOINT;
+static int verify_find(cli_session *s) {
+  if (s->o.proved) return s->o.points ? verify_proved_of(s) : verify_proved(&s->o, NULL, "");
+  int status = verify_here(s->state, NULL, &s->o);
+  s->known = status == 0;
+  return status;
 }
+
+static int verify_summary(cli_session *s, int status) {
+  const dyd_certificate_report *r = s->state;
+  return !status && s->known && r->gaps ? CLI_FIXPOINT : status;
+}
+
+const cli_work cli_verify = {.size = sizeof(dyd_certificate_report),
+                             .bare = true,
+                             .begin = verify_begin,
+                             .find = verify_find,
+                             .write = print_verified,
+                             .summary = verify_summary};
