@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What the files of this folder share: the module dyadel._dyadel, which the package dyadel (Python) stands on.
+/* Shared by the files of this folder: the module dyadel._dyadel, the base of the package dyadel (Python).
  *
  * Everything here holds the GIL unless it says otherwise; work of the library is done without it. A callback that
  * raises leaves its exception where Python keeps it, in the thread, and makes the library fail; later callbacks see it
- * and fail at once, and whoever called the library raises it, unchanged. */
+ * and fail at once, and the caller of the library raises it, unchanged. */
 #ifndef DYD_PYTHON_MODULE_H
 #define DYD_PYTHON_MODULE_H
 
@@ -13,7 +13,7 @@
 #include <dyadel/dyadel.h>
 #include <signal.h>
 
-/* ---- use.c: exceptions ---- */
+/* ---- module.c: exceptions ---- */
 
 /* A reference to package.name, NULL with an exception set. */
 PyObject *dydpy_import(const char *package, const char *name);
@@ -27,14 +27,14 @@ typedef struct dydpy_entry {
 } dydpy_entry;
 PyObject *dydpy_dict(const dydpy_entry *entry, size_t count);
 
-/* ---- buffer.c: memory of the library as an object that numpy reads without a copy ---- */
+/* ---- memory of the library as an object that numpy reads without a copy ---- */
 
 /* Takes over `bytes`, released by free(), also on failure. */
 PyObject *dydpy_buffer_new(void *bytes, size_t size);
 
-/* ---- interrupt.c: Ctrl-C ends what the library does in the main thread ---- */
+/* ---- Ctrl-C ends what the library does in the main thread ---- */
 
-/* Between begin and end SIGINT raises *flag and cancels engine (either may be NULL), then does what it did before. Does
+/* Between begin and end SIGINT raises *flag and cancels engine (either may be NULL), then has its former effect. Does
  * nothing in other threads, and where Python does not handle the signal. They nest. */
 typedef struct dydpy_guard {
   dyd_engine *engine;
@@ -46,15 +46,11 @@ typedef struct dydpy_guard {
 void dydpy_guard_begin(dydpy_guard *g, dyd_engine *engine, volatile int *flag);
 /* -1 with an exception set: that of a callback, or of Python's handler (KeyboardInterrupt). */
 int dydpy_guard_end(dydpy_guard *g);
-/* Notes the identity of the main thread; -1 with an exception set. */
-int dydpy_guard_prepare(void);
 
-/* ---- values.c: numbers of Python ---- */
+/* ---- points.c: numbers of Python ---- */
 
 /* The exact value of an int, float, fraction or anything that dyadel._values knows: 0, or -1 with an exception set. */
 int dydpy_rational(mpq_t out, PyObject *value);
-/* Any coordinate, intervals and expressions included; the caller's. */
-int dydpy_real(dyd_real **out, PyObject *value);
 /* The answer of a narrow callback: four ends, perhaps "fixed", or two coordinates. *r: as the callback was given it.
  * DYD_OK, DYD_FIXED, or an error with err filled or an exception set. */
 dyd_status dydpy_answer(dyd_rect *r, PyObject *answer, dyd_error *err);
@@ -65,7 +61,7 @@ PyObject *dydpy_rect_ends(const dyd_rect *r);
 /* (numerator, denominator); None for NULL. */
 PyObject *dydpy_dyadic(const dyd_dyadic *x);
 
-/* ---- callbacks.c ---- */
+/* ---- run.c: functions of Python ---- */
 
 /* A source over a Python function narrow(point, bits), which is borrowed as long as the source is used. false with an
  * exception set. */
@@ -74,11 +70,10 @@ bool dydpy_source_new(dyd_source *out, PyObject *narrow);
 typedef struct dydpy_progress_user {
   PyObject *function; /* NULL or None: none */
   dyd_engine *engine; /* cancelled when the function raises */
-  dyd_trace *trace;   /* told of the stage, too; NULL: none */
+  dyd_trace *trace;   /* gets the stage, too; NULL: none */
 } dydpy_progress_user;
-void dydpy_progress(void *user, const dyd_progress *p);
 
-/* ---- engine.c, sphere.c, use.c: the types Engine and Sphere ---- */
+/* ---- module.c: the types Engine and Sphere ---- */
 
 typedef struct dydpy_engine {
   PyObject_HEAD dyd_engine *engine;
@@ -92,18 +87,33 @@ typedef struct dydpy_engine {
 } dydpy_engine;
 /* Borrowed; NULL with an exception set. */
 PyTypeObject *dydpy_engine_type(void);
-extern PyType_Spec dydpy_sphere_spec;
-
-/* object.c: slots of both types. */
-int dydpy_object_traverse(PyObject *self, visitproc visit, void *arg);
-int dydpy_object_clear(PyObject *object);
-void dydpy_object_dealloc(PyObject *self);
 
 /* Begins and ends a call that uses the engine: false with RuntimeError when another one is at work. */
 bool dydpy_enter(dydpy_engine *self);
 void dydpy_leave(dydpy_engine *self);
 /* The result, with the engine entered; NULL with an exception set (and not entered) when there is none. */
 const dyd_delaunay *dydpy_enter_result(dydpy_engine *self);
+
+/* A call of the library: begin enters the engine and releases the GIL, end takes it again and raises what failed. */
+typedef struct dydpy_call {
+  dydpy_engine *self;     /* NULL: none */
+  const dyd_delaunay *pd; /* its result; NULL: none was asked for */
+  volatile int cancel;    /* Ctrl-C raises it, with DYDPY_CANCELS */
+  dyd_error err;
+  dydpy_guard guard;
+  int how;
+  PyThreadState *thread;
+} dydpy_call;
+/* RESULT: there has to be one. CANCELS: Ctrl-C raises c->cancel; REFINES: it cancels the engine.
+ * HOLDS: the GIL is kept. */
+enum { DYDPY_RESULT = 1, DYDPY_CANCELS = 2, DYDPY_REFINES = 4, DYDPY_HOLDS = 8 };
+/* self: an Engine or a Sphere, or NULL. false with an exception set, and nothing to end. */
+bool dydpy_begin(dydpy_call *c, PyObject *self, int how);
+/* After the work returned st: false with an exception set unless st is DYD_OK and no callback raised. */
+bool dydpy_end(dydpy_call *c, dyd_status st);
+/* The same: None, or NULL with an exception set. */
+PyObject *dydpy_end_none(dydpy_call *c, dyd_status st);
+
 /* Fills in options from a dict of numbers, a window and costs, which are borrowed until dydpy_options_clear. */
 typedef struct dydpy_options {
   dyd_engine_options o;
@@ -122,11 +132,8 @@ int dydpy_stream(dyd_stream **out, PyObject *point, PyObject *radii);
 size_t dydpy_points(const dydpy_engine *self);
 /* The point of that number; false with IndexError when there is none. */
 bool dydpy_site(uint32_t *out, dydpy_engine *self, Py_ssize_t number);
-/* Ends a call that entered: None, or the failure raised. */
-PyObject *dydpy_done(dydpy_engine *self, dyd_status st, const dyd_error *err);
 
-/* Methods of Engine; the table in engine.c says what they take and give. Those of points.c, trace.c, run.c, results.c,
- * text.c, questions.c, converge.c. */
+/* Methods; the tables in module.c have their arguments and results. */
 PyObject *dydpy_append_array(PyObject *self, PyObject *args);
 PyObject *dydpy_append_boxes(PyObject *self, PyObject *args);
 PyObject *dydpy_append_values(PyObject *self, PyObject *args);
@@ -139,6 +146,7 @@ PyObject *dydpy_trace_end(PyObject *self, PyObject *none);
 PyObject *dydpy_run(PyObject *self, PyObject *options);
 PyObject *dydpy_cancel(PyObject *self, PyObject *none);
 PyObject *dydpy_count(PyObject *self, PyObject *none);
+PyObject *dydpy_centre(PyObject *self, PyObject *none);
 PyObject *dydpy_outcome(PyObject *self, PyObject *none);
 PyObject *dydpy_counters(PyObject *self, PyObject *none);
 PyObject *dydpy_counts(PyObject *self, PyObject *none);
@@ -162,17 +170,10 @@ PyObject *dydpy_tolerance(PyObject *self, PyObject *args);
 PyObject *dydpy_plan(PyObject *self, PyObject *args);
 PyObject *dydpy_converge(PyObject *self, PyObject *args);
 
-/* ---- trace.c, converge.c ---- */
-
 /* Ends the trace, if there is one; err may be NULL. */
 dyd_status dydpy_trace_close(dydpy_engine *self, dyd_error *err);
-/* (outcome, csv, svg) of a table. */
-PyObject *dydpy_convergence(const dyd_convergence *table, bool times);
 
-/* ---- text.c ---- */
-
-/* A format and a layer of `of`, by their names (layer_name NULL: none); false with ValueError. */
-bool dydpy_form(dyd_format *format, dyd_content *layer, dyd_content of, const char *name, const char *layer_name);
+/* ---- texts: results.c ---- */
 
 /* Writes to memory. */
 typedef struct dydpy_text {
@@ -181,8 +182,8 @@ typedef struct dydpy_text {
   size_t size;
 } dydpy_text;
 bool dydpy_text_open(dydpy_text *t);
-/* bytes, or NULL with what err and status tell raised. */
-PyObject *dydpy_text_close(dydpy_text *t, const dyd_error *err, dyd_status status);
+/* bytes; NULL where the text is not good (an exception is set), or with MemoryError. */
+PyObject *dydpy_text_close(dydpy_text *t, bool good);
 /* Of the module. */
 PyObject *dydpy_formats(PyObject *module, PyObject *none);
 PyObject *dydpy_replay(PyObject *module, PyObject *args);

@@ -2,8 +2,306 @@
 /* Points into an engine: arrays as they lie in memory, values of any kind, functions, texts. */
 #include "module.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Numbers of Python, exactly: int, float, str, and all that has a numerator and denominator or as_integer_ratio().
+ * Others (mpmath, sympy, python-flint) become one of these, a text or a pair of ends in dyadel._values. */
+
+/* ---- rational values ---- */
+
+/* An int, or a value that converts to one (__index__, as numpy's and gmpy2's, or int()). */
+static int integer_of(mpz_t out, PyObject *value) {
+  int overflow;
+  PyObject *whole = PyLong_Check(value) ? Py_NewRef(value) : PyNumber_Index(value);
+  if (!whole) {
+    PyErr_Clear();
+    whole = PyNumber_Long(value);
+  }
+  if (!whole) return -1;
+  long small = PyLong_AsLongAndOverflow(whole, &overflow);
+  if (!overflow) {
+    mpz_set_si(out, small);
+    Py_DECREF(whole);
+    return small == -1 && PyErr_Occurred() ? -1 : 0;
+  }
+  PyObject *digits = PyNumber_ToBase(whole, 16); /* "0x1f", "-0x1f" */
+  const char *text = digits ? PyUnicode_AsUTF8AndSize(digits, NULL) : NULL;
+  if (text) mpz_set_str(out, text + (*text == '-' ? 3 : 2), 16);
+  if (text && *text == '-') mpz_neg(out, out);
+  Py_XDECREF(digits);
+  Py_DECREF(whole);
+  return text ? 0 : -1;
+}
+
+static int quotient_of(mpq_t out, PyObject *numerator, PyObject *denominator) {
+  if (integer_of(mpq_numref(out), numerator) < 0 || integer_of(mpq_denref(out), denominator) < 0) return -1;
+  if (mpz_sgn(mpq_denref(out)) == 0) {
+    PyErr_SetString(PyExc_ZeroDivisionError, "a fraction with denominator 0");
+    return -1;
+  }
+  mpq_canonicalize(out);
+  return 0;
+}
+
+static int double_of(mpq_t out, double value) {
+  if (!isfinite(value)) {
+    PyErr_Format(PyExc_ValueError, "%s is no coordinate; coordinates are finite numbers",
+                 isnan(value) ? "nan"
+                 : value > 0  ? "inf"
+                              : "-inf");
+    return -1;
+  }
+  mpq_set_d(out, value);
+  return 0;
+}
+
+static int exact_text_of(mpq_t out, PyObject *text) {
+  Py_ssize_t length;
+  const char *bytes = PyUnicode_AsUTF8AndSize(text, &length);
+  if (!bytes) return -1;
+  dyd_status st = dyd_real_parse_exact(out, bytes, (size_t)length);
+  if (st == DYD_OK) return 0;
+  PyErr_Format(PyExc_ValueError, "%R is no exact number: %s", text, dyd_status_text(st));
+  return -1;
+}
+
+/* The attribute, NULL without an exception where there is none. */
+static PyObject *attribute_of(PyObject *value, const char *name) {
+  PyObject *found = PyObject_GetAttrString(value, name);
+  if (!found && PyErr_ExceptionMatches(PyExc_AttributeError)) PyErr_Clear();
+  return found;
+}
+
+/* 1: done, 0: it has no such parts, -1: an exception is set. */
+static int parts_of(mpq_t out, PyObject *value) {
+  PyObject *numerator = attribute_of(value, "numerator");
+  PyObject *denominator = numerator ? attribute_of(value, "denominator") : NULL;
+  int found = PyErr_Occurred() ? -1 : 0;
+  if (denominator && !PyCallable_Check(denominator)) found = quotient_of(out, numerator, denominator) < 0 ? -1 : 1;
+  Py_XDECREF(denominator);
+  Py_XDECREF(numerator);
+  return found;
+}
+
+static int ratio_of(mpq_t out, PyObject *value) {
+  PyObject *method = attribute_of(value, "as_integer_ratio");
+  if (!method) return PyErr_Occurred() ? -1 : 0;
+  PyObject *ratio = PyObject_CallNoArgs(method), *numerator = NULL, *denominator = NULL;
+  Py_DECREF(method);
+  if (!ratio) return -1;
+  numerator = PySequence_GetItem(ratio, 0);
+  denominator = numerator ? PySequence_GetItem(ratio, 1) : NULL;
+  int found = denominator && quotient_of(out, numerator, denominator) == 0 ? 1 : -1;
+  Py_XDECREF(denominator);
+  Py_XDECREF(numerator);
+  Py_DECREF(ratio);
+  return found;
+}
+
+/* What needs no other module: 1, 0 or -1 as above. */
+static int plain_rational(mpq_t out, PyObject *value) {
+  if (PyLong_Check(value)) {
+    mpz_set_ui(mpq_denref(out), 1);
+    return integer_of(mpq_numref(out), value) < 0 ? -1 : 1;
+  }
+  if (PyFloat_Check(value)) return double_of(out, PyFloat_AsDouble(value)) < 0 ? -1 : 1;
+  if (PyUnicode_Check(value) || PyTuple_Check(value) || PyList_Check(value)) return 0;
+  int found = parts_of(out, value);
+  return found ? found : ratio_of(out, value);
+}
+
+/* The int, text or pair that dyadel._values makes of it. */
+static PyObject *simplified(PyObject *value) {
+  PyObject *function = dydpy_import("dyadel._values", "simplify");
+  PyObject *simple = function ? PyObject_CallFunctionObjArgs(function, value, NULL) : NULL;
+  Py_XDECREF(function);
+  return simple;
+}
+
+int dydpy_rational(mpq_t out, PyObject *value) {
+  int found = plain_rational(out, value);
+  if (found) return found < 0 ? -1 : 0;
+  PyObject *simple = PyUnicode_Check(value) ? Py_NewRef(value) : simplified(value);
+  if (!simple) return -1;
+  if (PyUnicode_Check(simple)) {
+    found = exact_text_of(out, simple) < 0 ? -1 : 1;
+  } else {
+    found = plain_rational(out, simple);
+    if (!found) PyErr_Format(PyExc_TypeError, "%R is an interval; one exact number is wanted here", value);
+  }
+  Py_DECREF(simple);
+  return found > 0 ? 0 : -1;
+}
+
+/* ---- coordinates ---- */
+
+static int ends_of(mpq_t lo, mpq_t hi, PyObject *pair) {
+  int found = -1;
+  PyObject *low = PySequence_GetItem(pair, 0), *high = low ? PySequence_GetItem(pair, 1) : NULL;
+  if (high) found = dydpy_rational(lo, low) < 0 || dydpy_rational(hi, high) < 0 ? -1 : 0;
+  if (!found && mpq_cmp(lo, hi) > 0) {
+    PyErr_Format(PyExc_ValueError, "the lower end of %R is above the upper one; exchange them", pair);
+    found = -1;
+  }
+  Py_XDECREF(high);
+  Py_XDECREF(low);
+  return found;
+}
+
+static bool is_pair(PyObject *value) {
+  return (PyTuple_Check(value) || PyList_Check(value)) && PySequence_Size(value) == 2;
+}
+
+/* An exact number or an interval: 1, 0 for a text, or -1. */
+static int interval_of(mpq_t lo, mpq_t hi, PyObject *value) {
+  int found = plain_rational(lo, value);
+  if (found > 0) mpq_set(hi, lo);
+  if (found || PyUnicode_Check(value)) return found;
+  if (is_pair(value)) return ends_of(lo, hi, value) < 0 ? -1 : 1;
+  PyObject *simple = simplified(value);
+  if (!simple) return -1;
+  found = is_pair(simple) ? (ends_of(lo, hi, simple) < 0 ? -1 : 1) : plain_rational(lo, simple);
+  if (found > 0 && !is_pair(simple)) mpq_set(hi, lo);
+  Py_DECREF(simple);
+  return found;
+}
+
+static int real_of_text(dyd_real **out, PyObject *value) {
+  Py_ssize_t length;
+  dyd_error err;
+  PyObject *simple = PyUnicode_Check(value) ? Py_NewRef(value) : simplified(value);
+  const char *text = simple ? PyUnicode_AsUTF8AndSize(simple, &length) : NULL;
+  dyd_error_clear(&err);
+  dyd_status st = text ? dyd_real_parse(out, text, (size_t)length, &err) : DYD_OK;
+  if (st != DYD_OK) dydpy_raise(&err, st);
+  Py_XDECREF(simple);
+  return text && st == DYD_OK ? 0 : -1;
+}
+
+/* Any coordinate, intervals and expressions included; the caller's. */
+static int real_of(dyd_real **out, PyObject *value) {
+  mpq_t lo, hi;
+  mpq_inits(lo, hi, NULL);
+  int found = interval_of(lo, hi, value);
+  if (found > 0) {
+    dyd_status st = dyd_real_from_interval(out, lo, hi);
+    if (st != DYD_OK) {
+      dydpy_raise(NULL, st);
+      found = -1;
+    }
+  }
+  mpq_clears(lo, hi, NULL);
+  return found == 0 ? real_of_text(out, value) : found < 0 ? -1 : 0;
+}
+
+/* ---- answers and windows ---- */
+
+/* Two coordinates as four ends; texts are exact numbers. */
+static int sides_of(mpq_t end[4], PyObject *answer) {
+  int found = 0;
+  for (int k = 0; found >= 0 && k < 2; k++) {
+    PyObject *side = PySequence_GetItem(answer, k);
+    found = side ? interval_of(end[2 * k], end[2 * k + 1], side) : -1;
+    if (side && found == 0) {
+      found = dydpy_rational(end[2 * k], side);
+      mpq_set(end[2 * k + 1], end[2 * k]);
+    }
+    Py_XDECREF(side);
+  }
+  return found < 0 ? -1 : 0;
+}
+
+static int numbers_of(mpq_t end[4], PyObject *answer) {
+  int found = 0;
+  for (int k = 0; found >= 0 && k < 4; k++) {
+    PyObject *number = PySequence_GetItem(answer, k);
+    found = number ? dydpy_rational(end[k], number) : -1;
+    Py_XDECREF(number);
+  }
+  return found;
+}
+
+/* Is there a fifth element that is true? -1 with an exception set. */
+static int answer_is_fixed(PyObject *answer) {
+  PyObject *fixed = PySequence_GetItem(answer, 4);
+  int truth = fixed ? PyObject_IsTrue(fixed) : -1;
+  Py_XDECREF(fixed);
+  return truth;
+}
+
+dyd_status dydpy_answer(dyd_rect *r, PyObject *answer, dyd_error *err) {
+  mpq_t end[4];
+  Py_ssize_t count = PyUnicode_Check(answer) ? 0 : PySequence_Size(answer);
+  if (count != 2 && count != 4 && count != 5) {
+    PyErr_Clear();
+    PyErr_Format(PyExc_TypeError,
+                 "a point was answered %R; wanted are four numbers xlo, xhi, ylo, yhi, and True behind "
+                 "them when they are final, or two coordinates",
+                 answer);
+    return DYD_E_STREAM;
+  }
+  for (int k = 0; k < 4; k++) mpq_init(end[k]);
+  int fixed = count == 5 ? answer_is_fixed(answer) : 0;
+  int found = fixed < 0 ? -1 : count == 2 ? sides_of(end, answer) : numbers_of(end, answer);
+  dyd_status st = found < 0 ? DYD_E_STREAM : dyd_rect_narrow_q(r, (const mpq_t *)end, err);
+  for (int k = 0; k < 4; k++) mpq_clear(end[k]);
+  return st == DYD_OK && fixed ? DYD_FIXED : st;
+}
+
+int dydpy_window(dyd_rect *r, bool *given, PyObject *window) {
+  dyd_error err;
+  dyd_error_clear(&err);
+  *given = window != Py_None;
+  if (!*given) return 0;
+  dyd_status st = dydpy_answer(r, window, &err);
+  if (st < 0) dydpy_raise(&err, st);
+  return st < 0 ? -1 : 0;
+}
+
+/* ---- back ---- */
+
+static PyObject *integer_new(const mpz_t z) {
+  char *digits = mpz_get_str(NULL, 16, z);
+  PyObject *value = digits ? PyLong_FromString(digits, NULL, 16) : PyErr_NoMemory();
+  void (*release)(void *, size_t);
+  mp_get_memory_functions(NULL, NULL, &release);
+  if (digits) release(digits, strlen(digits) + 1);
+  return value;
+}
+
+static PyObject *rational_new(const mpq_t q) {
+  PyObject *numerator = integer_new(mpq_numref(q)), *denominator = integer_new(mpq_denref(q));
+  PyObject *pair = numerator && denominator ? PyTuple_Pack(2, numerator, denominator) : NULL;
+  Py_XDECREF(numerator);
+  Py_XDECREF(denominator);
+  return pair;
+}
+
+PyObject *dydpy_rect_ends(const dyd_rect *r) {
+  mpq_t end[4];
+  PyObject *all = PyTuple_New(4);
+  for (int k = 0; k < 4; k++) mpq_init(end[k]);
+  dyd_interval_get_q(end[0], end[1], &r->x);
+  dyd_interval_get_q(end[2], end[3], &r->y);
+  for (int k = 0; all && k < 4; k++) {
+    PyObject *one = rational_new(end[k]);
+    if (!one || PyTuple_SetItem(all, k, one) < 0) Py_CLEAR(all);
+  }
+  for (int k = 0; k < 4; k++) mpq_clear(end[k]);
+  return all;
+}
+
+PyObject *dydpy_dyadic(const dyd_dyadic *x) {
+  if (!x) Py_RETURN_NONE;
+  mpq_t q;
+  mpq_init(q);
+  dyd_dyadic_get_q(q, x);
+  PyObject *value = rational_new(q);
+  mpq_clear(q);
+  return value;
+}
 
 /* Does the view hold doubles, `axes` columns of `rows` (or one row for all)? Fills in the columns. */
 static bool columns_of(dyd_column out[2], const Py_buffer *view, Py_ssize_t rows) {
@@ -18,52 +316,41 @@ static bool columns_of(dyd_column out[2], const Py_buffer *view, Py_ssize_t rows
   return true;
 }
 
-static dyd_status append_views(dydpy_engine *self, const Py_buffer *xy, const dyd_column at[2],
-                               const dyd_column *radius, dyd_error *err) {
-  PyThreadState *thread = PyEval_SaveThread();
-  dyd_status st = dyd_engine_append_columns(self->engine, (size_t)xy->shape[0], at, radius, err);
-  PyEval_RestoreThread(thread);
-  return st;
-}
-
-PyObject *dydpy_append_array(PyObject *object, PyObject *args) {
-  dydpy_engine *self = (dydpy_engine *)object;
+PyObject *dydpy_append_array(PyObject *self, PyObject *args) {
   PyObject *points, *radii, *done = NULL;
   Py_buffer xy = {0}, r = {0};
   dyd_column at[2], by[2];
-  dyd_error err;
+  dydpy_call c;
   if (!PyArg_ParseTuple(args, "OO", &points, &radii)) return NULL;
   if (PyObject_GetBuffer(points, &xy, PyBUF_STRIDED_RO | PyBUF_FORMAT) < 0) return NULL;
   bool with = radii != Py_None, good = !with || PyObject_GetBuffer(radii, &r, PyBUF_STRIDED_RO | PyBUF_FORMAT) == 0;
-  good = good && columns_of(at, &xy, -1) && (!with || columns_of(by, &r, xy.shape[0])) && dydpy_enter(self);
-  if (good) {
-    dyd_status st = append_views(self, &xy, at, with ? by : NULL, &err);
-    done = dydpy_done(self, st, &err);
-  }
+  good = good && columns_of(at, &xy, -1) && (!with || columns_of(by, &r, xy.shape[0])) && dydpy_begin(&c, self, 0);
+  if (good)
+    done = dydpy_end_none(&c,
+                          dyd_engine_append_columns(c.self->engine, (size_t)xy.shape[0], at, with ? by : NULL, &c.err));
   if (r.obj) PyBuffer_Release(&r);
   PyBuffer_Release(&xy);
   return done;
 }
 
 /* Four contiguous arrays of doubles. */
-PyObject *dydpy_append_boxes(PyObject *object, PyObject *args) {
-  dydpy_engine *self = (dydpy_engine *)object;
+PyObject *dydpy_append_boxes(PyObject *self, PyObject *args) {
   const double *end[4];
   Py_ssize_t size[4];
-  dyd_error err;
+  dydpy_call c;
   if (!PyArg_ParseTuple(args, "y#y#y#y#", &end[0], &size[0], &end[1], &size[1], &end[2], &size[2], &end[3], &size[3]))
     return NULL;
   if (size[1] != size[0] || size[2] != size[0] || size[3] != size[0])
     return PyErr_Format(PyExc_ValueError, "arrays of different lengths");
-  if (!dydpy_enter(self)) return NULL;
+  if (!dydpy_begin(&c, self, 0)) return NULL;
   size_t count = (size_t)size[0] / sizeof(double);
-  return dydpy_done(self, dyd_engine_append_boxes(self->engine, count, end[0], end[1], end[2], end[3], &err), &err);
+  return dydpy_end_none(&c, dyd_engine_append_boxes(c.self->engine, count, end[0], end[1], end[2], end[3], &c.err));
 }
 
 /* One coordinate, widened by a radius (NULL: none). */
 static int widened_real(dyd_real **out, PyObject *value, PyObject *radius) {
   mpq_t by;
-  if (dydpy_real(out, value) < 0) return -1;
+  if (real_of(out, value) < 0) return -1;
   if (!radius) return 0;
   mpq_init(by);
   int status = dydpy_rational(by, radius);
@@ -142,46 +429,44 @@ static size_t make_streams(dyd_stream **stream, size_t count, PyObject *list, Py
 }
 
 /* All are understood before the first is added. */
-PyObject *dydpy_append_values(PyObject *object, PyObject *args) {
-  dydpy_engine *self = (dydpy_engine *)object;
+PyObject *dydpy_append_values(PyObject *self, PyObject *args) {
   PyObject *list, *radii;
-  dyd_error err;
+  dydpy_call c;
   if (!PyArg_ParseTuple(args, "O!O", &PyList_Type, &list, &radii)) return NULL;
   size_t count = (size_t)PyList_Size(list);
   dyd_stream **stream = calloc(count + 1, sizeof *stream);
   if (!stream) return PyErr_NoMemory();
   size_t made = make_streams(stream, count, list, radii);
-  if (made < count) name_point(dyd_engine_count(self->engine) + made);
-  bool good = made == count && dydpy_enter(self);
-  dyd_status st = good ? append_streams(self, stream, count, &err) : DYD_E_ARG;
-  for (size_t k = 0; !good && k < made; k++) dyd_stream_free(stream[k]);
+  if (made < count) name_point(dydpy_points((dydpy_engine *)self) + made);
+  PyObject *done = NULL;
+  if (made == count && dydpy_begin(&c, self, 0))
+    done = dydpy_end_none(&c, append_streams(c.self, stream, count, &c.err));
+  else
+    for (size_t k = 0; k < made; k++) dyd_stream_free(stream[k]);
   free(stream);
-  return good ? dydpy_done(self, st, &err) : NULL;
+  return done;
 }
 
 /* append_source(n, narrow) */
-PyObject *dydpy_append_source(PyObject *object, PyObject *args) {
-  dydpy_engine *self = (dydpy_engine *)object;
+PyObject *dydpy_append_source(PyObject *self, PyObject *args) {
   Py_ssize_t count;
   PyObject *narrow;
   dyd_source source;
-  dyd_error err;
+  dydpy_call c;
   if (!PyArg_ParseTuple(args, "nO", &count, &narrow)) return NULL;
   if (count < 0) return PyErr_Format(PyExc_ValueError, "a source of %zd points; give 0 or more", count);
-  if (!dydpy_source_new(&source, narrow) || PyList_Append(self->functions, narrow) < 0) return NULL;
-  return dydpy_enter(self)
-             ? dydpy_done(self, dyd_engine_append_source(self->engine, (size_t)count, &source, &err), &err)
-             : NULL;
+  if (!dydpy_source_new(&source, narrow) || PyList_Append(((dydpy_engine *)self)->functions, narrow) < 0) return NULL;
+  if (!dydpy_begin(&c, self, 0)) return NULL;
+  return dydpy_end_none(&c, dyd_engine_append_source(c.self->engine, (size_t)count, &source, &c.err));
 }
 
 /* append_text(text, options): what a points file holds */
-PyObject *dydpy_append_text(PyObject *object, PyObject *args) {
-  dydpy_engine *self = (dydpy_engine *)object;
+PyObject *dydpy_append_text(PyObject *self, PyObject *args) {
   dyd_read_options o = {DYD_SIZED(dyd_read_options)};
   const char *text;
   Py_ssize_t length;
   int measured, decimal_comma, skip_missing, merge, degrees;
-  dyd_error err;
+  dydpy_call c;
   if (!PyArg_ParseTuple(args, "y#zpzzzzpppzzp", &text, &length, &o.columns, &measured, &o.radius, &o.radius_columns,
                         &o.id, &o.delimiter, &decimal_comma, &skip_missing, &merge, &o.radius_unit, &o.radius_scale,
                         &degrees))
@@ -191,26 +476,22 @@ PyObject *dydpy_append_text(PyObject *object, PyObject *args) {
   o.skip_missing = skip_missing;
   o.merge = merge;
   o.degrees = degrees;
-  if (!dydpy_enter(self)) return NULL;
-  PyThreadState *thread = PyEval_SaveThread();
-  dyd_status st = dyd_engine_append_text(self->engine, text, (size_t)length, &o, &err);
-  PyEval_RestoreThread(thread);
-  return dydpy_done(self, st, &err);
+  if (!dydpy_begin(&c, self, 0)) return NULL;
+  return dydpy_end_none(&c, dyd_engine_append_text(c.self->engine, text, (size_t)length, &o, &c.err));
 }
 
 /* remeasure(i, (xlo, xhi, ylo, yhi)) */
-PyObject *dydpy_remeasure(PyObject *object, PyObject *args) {
-  dydpy_engine *self = (dydpy_engine *)object;
+PyObject *dydpy_remeasure(PyObject *self, PyObject *args) {
   Py_ssize_t number;
   uint32_t site;
   PyObject *ends, *done = NULL;
   bool given;
   dyd_rect r;
-  dyd_error err;
-  if (!PyArg_ParseTuple(args, "nO", &number, &ends) || !dydpy_site(&site, self, number)) return NULL;
+  dydpy_call c;
+  if (!PyArg_ParseTuple(args, "nO", &number, &ends) || !dydpy_site(&site, (dydpy_engine *)self, number)) return NULL;
   dyd_rect_init(&r);
-  if (dydpy_window(&r, &given, ends) == 0 && dydpy_enter(self))
-    done = dydpy_done(self, dyd_engine_remeasure(self->engine, site, &r, &err), &err);
+  if (dydpy_window(&r, &given, ends) == 0 && dydpy_begin(&c, self, 0))
+    done = dydpy_end_none(&c, dyd_engine_remeasure(c.self->engine, site, &r, &c.err));
   dyd_rect_clear(&r);
   return done;
 }

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What an engine has found, as numbers and as memory that numpy reads. */
+/* What an engine or a sphere has found, as numbers, as memory that numpy reads, and in the formats of the command;
+ * questions that take a while; certificates and their check. Numbers of a sphere's points are those of its places. */
 #include "module.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- single answers ---- */
 
@@ -28,14 +30,11 @@ static PyObject *spent_name(dyd_budget spent) {
 }
 
 PyObject *dydpy_counters(PyObject *object, PyObject *none) {
-  dydpy_engine *self = (dydpy_engine *)object;
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
-  dyd_error err;
+  dydpy_call call;
   (void)none;
-  if (!dydpy_enter(self)) return NULL;
-  dyd_status st = dyd_engine_get_counters(&c, self->engine, &err);
-  dydpy_leave(self);
-  if (st != DYD_OK) return dydpy_raise(&err, st);
+  if (!dydpy_begin(&call, object, 0) || !dydpy_end(&call, dyd_engine_get_counters(&c, call.self->engine, &call.err)))
+    return NULL;
   const dydpy_entry entry[] = {
       {"stages", PyLong_FromUnsignedLongLong(c.stages)},
       {"calls", PyLong_FromUnsignedLongLong(c.calls)},
@@ -79,162 +78,465 @@ PyObject *dydpy_pair_status(PyObject *object, PyObject *args) {
 }
 
 PyObject *dydpy_bounds(PyObject *object, PyObject *none) {
-  dydpy_engine *self = (dydpy_engine *)object;
   dyd_dyadic area, hausdorff;
   PyObject *both = NULL;
+  dydpy_call c;
   (void)none;
-  if (!dydpy_enter_result(self)) return NULL;
+  if (!dydpy_begin(&c, object, DYDPY_RESULT)) return NULL;
   dyd_dyadic_init(&area);
   dyd_dyadic_init(&hausdorff);
-  dyd_status st = dyd_engine_bounds(&area, &hausdorff, self->engine);
-  dydpy_leave(self);
-  if (st == DYD_OK)
+  if (dydpy_end(&c, dyd_engine_bounds(&area, &hausdorff, c.self->engine)))
     both = Py_BuildValue("NN", dydpy_dyadic(&area), dydpy_dyadic(&hausdorff));
-  else
-    dydpy_raise(NULL, st);
   dyd_dyadic_clear(&hausdorff);
   dyd_dyadic_clear(&area);
   return both;
 }
 
 PyObject *dydpy_rect(PyObject *object, PyObject *site) {
-  dydpy_engine *self = (dydpy_engine *)object;
-  dyd_rect r;
   PyObject *ends = NULL;
   Py_ssize_t number = PyLong_AsSsize_t(site);
   uint32_t i;
-  if (PyErr_Occurred() || !dydpy_site(&i, self, number) || !dydpy_enter(self)) return NULL;
+  dyd_rect r;
+  dydpy_call c;
+  if (PyErr_Occurred() || !dydpy_site(&i, (dydpy_engine *)object, number) || !dydpy_begin(&c, object, 0)) return NULL;
   dyd_rect_init(&r);
-  bool known = dyd_engine_knows(self->engine, i);
-  dyd_status st = known ? dyd_sites_get(&r, dyd_engine_sites(self->engine), i) : DYD_E_ARG;
-  dydpy_leave(self);
-  if (st == DYD_OK)
-    ends = dydpy_rect_ends(&r);
-  else
-    PyErr_Format(PyExc_RuntimeError, "point %zd has not been asked yet; call refine()", number);
+  bool known = c.self->sphere || dyd_engine_knows(c.self->engine, i);
+  dyd_status st = !known           ? DYD_OK
+                  : c.self->sphere ? dyd_sphere_rect(&r, c.self->sphere, i)
+                                   : dyd_sites_get(&r, dyd_engine_sites(c.self->engine), i);
+  if (dydpy_end(&c, st) && known) ends = dydpy_rect_ends(&r);
+  if (!known) PyErr_Format(PyExc_RuntimeError, "point %zd has not been asked yet; call refine()", number);
   dyd_rect_clear(&r);
   return ends;
 }
 
 PyObject *dydpy_window_of(PyObject *object, PyObject *none) {
-  dydpy_engine *self = (dydpy_engine *)object;
+  PyObject *ends = NULL;
   dyd_rect r;
+  dydpy_call c;
   (void)none;
-  const dyd_delaunay *pd = dydpy_enter_result(self);
-  if (!pd) return NULL;
+  if (!dydpy_begin(&c, object, DYDPY_RESULT)) return NULL;
   dyd_rect_init(&r);
-  dyd_status st = dyd_voronoi_window(&r, dyd_delaunay_sites(pd));
-  dydpy_leave(self);
-  PyObject *ends = st == DYD_OK ? dydpy_rect_ends(&r) : dydpy_raise(NULL, st);
+  if (dydpy_end(&c, dyd_voronoi_window(&r, dyd_delaunay_sites(c.pd)))) ends = dydpy_rect_ends(&r);
   dyd_rect_clear(&r);
   return ends;
 }
 
+PyObject *dydpy_centre(PyObject *self, PyObject *none) {
+  uint32_t centre = dyd_sphere_centre(((dydpy_engine *)self)->sphere);
+  (void)none;
+  if (centre == DYD_NO_PLACE) Py_RETURN_NONE;
+  return PyLong_FromUnsignedLong(centre);
+}
+
 /* ---- arrays ---- */
 
-/* Takes over the array. */
-static PyObject *array_new(void *item, size_t count, size_t size) {
-  return dydpy_buffer_new(item, count * size);
+/* An array that a call which ended well or not has made: takes it over. */
+static PyObject *array_new(bool good, void *item, size_t count, size_t size) {
+  if (good) return dydpy_buffer_new(item, count * size);
+  free(item);
+  return NULL;
 }
 
-typedef dyd_status (*pairs_fn)(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err);
-
-static dyd_status pairs_of_boxes(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err) {
-  (void)err;
-  return dyd_delaunay_pairs(out, pd);
-}
-
-static PyObject *pairs_found(PyObject *object, pairs_fn find) {
-  dydpy_engine *self = (dydpy_engine *)object;
-  dyd_pair_list list = {0};
-  dyd_error err;
-  const dyd_delaunay *pd = dydpy_enter_result(self);
-  if (!pd) return NULL;
-  dyd_error_clear(&err);
-  PyThreadState *thread = PyEval_SaveThread();
-  dyd_status st = find(&list, pd, &err);
-  PyEval_RestoreThread(thread);
-  dydpy_leave(self);
-  if (st == DYD_OK) return array_new(list.item, list.count, sizeof *list.item);
-  dyd_pair_list_clear(&list);
-  return dydpy_raise(&err, st);
+static PyObject *copied(const void *from, size_t size) {
+  void *to = malloc(size + 1);
+  if (!to) return PyErr_NoMemory();
+  if (size) memcpy(to, from, size);
+  return dydpy_buffer_new(to, size);
 }
 
 PyObject *dydpy_pairs(PyObject *self, PyObject *none) {
+  dyd_pair_list list = {0};
+  dydpy_call c;
   (void)none;
-  return pairs_found(self, pairs_of_boxes);
+  if (!dydpy_begin(&c, self, DYDPY_RESULT)) return NULL;
+  bool good = dydpy_end(&c, c.self->sphere ? dyd_sphere_pairs(&list, c.self->sphere) : dyd_delaunay_pairs(&list, c.pd));
+  return array_new(good, list.item, list.count, sizeof *list.item);
 }
 
 PyObject *dydpy_discs(PyObject *self, PyObject *none) {
+  dyd_pair_list list = {0};
+  dydpy_call c;
   (void)none;
-  return pairs_found(self, dyd_disc_pairs);
+  if (!dydpy_begin(&c, self, DYDPY_RESULT)) return NULL;
+  bool good = dydpy_end(&c, dyd_disc_pairs(&list, c.pd, &c.err));
+  return array_new(good, list.item, list.count, sizeof *list.item);
 }
 
-PyObject *dydpy_triangles(PyObject *object, PyObject *none) {
-  dydpy_engine *self = (dydpy_engine *)object;
+/* On a sphere corners only; neighbours are found in Python. */
+PyObject *dydpy_triangles(PyObject *self, PyObject *none) {
   dyd_triangle_list list = {0}, beyond = {0};
+  dydpy_call c;
   (void)none;
-  const dyd_delaunay *pd = dydpy_enter_result(self);
-  if (!pd) return NULL;
-  PyThreadState *thread = PyEval_SaveThread();
-  dyd_status st = dyd_delaunay_triangles_as_found(&list, &beyond, pd);
-  PyEval_RestoreThread(thread);
-  dydpy_leave(self);
-  if (st != DYD_OK) return dydpy_raise(NULL, st);
-  return Py_BuildValue("NN", array_new(list.item, list.count, sizeof *list.item),
-                       array_new(beyond.item, beyond.count, sizeof *beyond.item));
-}
-
-PyObject *dydpy_aliases(PyObject *object, PyObject *none) {
-  dydpy_engine *self = (dydpy_engine *)object;
-  (void)none;
-  const dyd_delaunay *pd = dydpy_enter_result(self);
-  if (!pd) return NULL;
-  size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
-  uint32_t *alias = malloc((n + 1) * sizeof *alias);
-  for (size_t i = 0; alias && i < n; i++) alias[i] = dyd_delaunay_alias(pd, (uint32_t)i);
-  dydpy_leave(self);
-  return alias ? array_new(alias, n, sizeof *alias) : PyErr_NoMemory();
-}
-
-PyObject *dydpy_hull(PyObject *object, PyObject *none) {
-  dydpy_engine *self = (dydpy_engine *)object;
-  dyd_index_list sure = {0}, possible = {0};
-  (void)none;
-  const dyd_delaunay *pd = dydpy_enter_result(self);
-  if (!pd) return NULL;
-  dyd_status st = dyd_delaunay_hull_vertices(&sure, &possible, pd);
-  dydpy_leave(self);
-  if (st != DYD_OK) return dydpy_raise(NULL, st);
-  return Py_BuildValue("NN", array_new(sure.item, sure.count, sizeof *sure.item),
-                       array_new(possible.item, possible.count, sizeof *possible.item));
-}
-
-PyObject *dydpy_boxes(PyObject *object, PyObject *none) {
-  dydpy_engine *self = (dydpy_engine *)object;
-  (void)none;
-  if (!dydpy_enter(self)) return NULL;
-  size_t n = dyd_engine_count(self->engine);
-  double *box = malloc((4 * n + 1) * sizeof *box);
-  if (box) dyd_sites_copy_d(box, dyd_engine_sites(self->engine), 0, n);
-  dydpy_leave(self);
-  return box ? array_new(box, 4 * n, sizeof *box) : PyErr_NoMemory();
-}
-
-PyObject *dydpy_rects(PyObject *object, PyObject *none) {
-  dydpy_engine *self = (dydpy_engine *)object;
-  dydpy_text text;
-  dyd_error err;
-  (void)none;
-  dyd_error_clear(&err);
-  if (!dydpy_enter(self)) return NULL;
-  if (!dydpy_text_open(&text)) {
-    dydpy_leave(self);
+  if (!dydpy_begin(&c, self, DYDPY_RESULT)) return NULL;
+  if (!dydpy_end(&c, c.self->sphere ? dyd_sphere_triangles(&list, c.self->sphere)
+                                    : dyd_delaunay_triangles_as_found(&list, &beyond, c.pd)))
     return NULL;
+  return Py_BuildValue("NN", array_new(true, list.item, list.count, sizeof *list.item),
+                       array_new(true, beyond.item, beyond.count, sizeof *beyond.item));
+}
+
+PyObject *dydpy_aliases(PyObject *self, PyObject *none) {
+  dydpy_call c;
+  (void)none;
+  const dyd_sphere *sphere = ((dydpy_engine *)self)->sphere;
+  if (!dydpy_begin(&c, self, sphere ? 0 : DYDPY_RESULT)) return NULL;
+  size_t n = dydpy_points(c.self);
+  uint32_t *alias = malloc((n + 1) * sizeof *alias);
+  for (uint32_t i = 0; alias && i < n; i++)
+    alias[i] = sphere ? dyd_sphere_alias(sphere, i) : dyd_delaunay_alias(c.pd, i);
+  bool good = dydpy_end(&c, alias ? DYD_OK : DYD_E_NOMEM);
+  return array_new(good, alias, n, sizeof *alias);
+}
+
+PyObject *dydpy_hull(PyObject *self, PyObject *none) {
+  dyd_index_list sure = {0}, possible = {0};
+  dydpy_call c;
+  (void)none;
+  if (!dydpy_begin(&c, self, DYDPY_RESULT) || !dydpy_end(&c, dyd_delaunay_hull_vertices(&sure, &possible, c.pd)))
+    return NULL;
+  return Py_BuildValue("NN", array_new(true, sure.item, sure.count, sizeof *sure.item),
+                       array_new(true, possible.item, possible.count, sizeof *possible.item));
+}
+
+/* In degrees, of places. */
+static dyd_status boxes_of_places(double *box, const dyd_sphere *sphere, size_t n) {
+  dyd_status st = DYD_OK;
+  dyd_rect r;
+  dyd_rect_init(&r);
+  for (uint32_t i = 0; i < n && st == DYD_OK; i++) {
+    st = dyd_sphere_rect(&r, sphere, i);
+    if (st == DYD_OK) dyd_rect_get_d(box + 4 * (size_t)i, &r);
   }
-  PyThreadState *thread = PyEval_SaveThread();
-  dyd_status st = dyd_write_rects(text.file, dyd_engine_sites(self->engine), 0, dyd_engine_count(self->engine), &err);
-  PyEval_RestoreThread(thread);
-  dydpy_leave(self);
-  return dydpy_text_close(&text, &err, st);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+PyObject *dydpy_boxes(PyObject *self, PyObject *none) {
+  dydpy_call c;
+  (void)none;
+  if (!dydpy_begin(&c, self, 0)) return NULL;
+  size_t n = dydpy_points(c.self);
+  double *box = malloc((4 * n + 1) * sizeof *box);
+  dyd_status st = box ? DYD_OK : DYD_E_NOMEM;
+  if (box && c.self->sphere) st = boxes_of_places(box, c.self->sphere, n);
+  if (box && !c.self->sphere) dyd_sites_copy_d(box, dyd_engine_sites(c.self->engine), 0, n);
+  bool good = dydpy_end(&c, st);
+  return array_new(good, box, 4 * n, sizeof *box);
+}
+
+/* ---- nearest ---- */
+
+PyObject *dydpy_nearest(PyObject *self, PyObject *args) {
+  PyObject *point, *dict, *answer = NULL;
+  dyd_index_list found = {0};
+  dyd_outcome outcome;
+  bool sure = false;
+  dydpy_options o;
+  dyd_stream *at = NULL;
+  dydpy_call c;
+  if (!PyArg_ParseTuple(args, "OO!", &point, &PyDict_Type, &dict) || dydpy_stream(&at, point, NULL) < 0) return NULL;
+  if (dydpy_options_init(&o, (dydpy_engine *)self, dict) == 0) {
+    if (dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_REFINES) &&
+        dydpy_end(&c, dyd_engine_nearest(&found, &sure, &outcome, c.self->engine, at, &o.o, &c.err)))
+      answer = Py_BuildValue("NNNsN", copied(found.item, found.count * sizeof *found.item), PyBool_FromLong(sure),
+                             PyBool_FromLong(dyd_engine_nearest_tied(c.self->engine)), dyd_outcome_text(outcome),
+                             dydpy_rect_ends(dyd_stream_rect(at)));
+    dydpy_options_clear(&o);
+  }
+  dyd_index_list_clear(&found);
+  dyd_stream_free(at);
+  return answer;
+}
+
+/* ---- graphs ---- */
+
+/* As three numbers, which numpy reads as it reads pairs. Takes over the list. */
+static PyObject *graph_found(dyd_graph_list *list) {
+  int32_t *row = malloc((3 * list->count + 1) * sizeof *row);
+  for (size_t k = 0; row && k < list->count; k++) {
+    const dyd_graph_edge *edge = &list->item[k];
+    row[3 * k] = (int32_t)edge->i;
+    row[3 * k + 1] = (int32_t)edge->j;
+    row[3 * k + 2] = edge->sure;
+  }
+  size_t size = 3 * list->count * sizeof *row;
+  dyd_graph_list_clear(list);
+  return row ? dydpy_buffer_new(row, size) : PyErr_NoMemory();
+}
+
+PyObject *dydpy_graph(PyObject *self, PyObject *args) {
+  dyd_graph_list list = {0};
+  int graph;
+  dydpy_call c;
+  if (!PyArg_ParseTuple(args, "i", &graph) || !dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_CANCELS)) return NULL;
+  if (dydpy_end(&c, dyd_graph_edges(&list, c.pd, (dyd_graph)graph, &c.cancel, &c.err))) return graph_found(&list);
+  dyd_graph_list_clear(&list);
+  return NULL;
+}
+
+/* ---- tolerance ---- */
+
+/* None where they were not asked for. */
+static PyObject *doubles_or_none(const double *value, size_t count) {
+  return value ? copied(value, count * sizeof *value) : Py_NewRef(Py_None);
+}
+
+static PyObject *tolerance_found(const dyd_tolerance *t, size_t points) {
+  const dyd_tolerance_row *row;
+  double lo, hi;
+  size_t rows = dyd_tolerance_rows(&row, t);
+  dyd_tolerance_whole(&lo, &hi, t);
+  return Py_BuildValue("N(dd)NN", copied(row, rows * sizeof *row), lo, hi,
+                       doubles_or_none(dyd_tolerance_points(t), points),
+                       doubles_or_none(dyd_tolerance_chances(t), rows));
+}
+
+PyObject *dydpy_tolerance(PyObject *self, PyObject *args) {
+  PyObject *up_to, *found = NULL;
+  int points, box;
+  Py_ssize_t max_pairs;
+  double sigma;
+  mpq_t most;
+  dyd_tolerance *t = NULL;
+  dydpy_call c;
+  if (!PyArg_ParseTuple(args, "Opndp", &up_to, &points, &max_pairs, &sigma, &box)) return NULL;
+  const dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options),
+                                   .points = points,
+                                   .max_pairs = (size_t)max_pairs,
+                                   .sigma = sigma,
+                                   .metric = box ? DYD_METRIC_BOX : DYD_METRIC_EUCLID,
+                                   .up_to = up_to == Py_None ? NULL : most,
+                                   .cancel = &c.cancel};
+  mpq_init(most);
+  if ((up_to == Py_None || dydpy_rational(most, up_to) == 0) && dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_CANCELS) &&
+      dydpy_end(&c, dyd_tolerance_new(&t, c.pd, &o, &c.err)))
+    found = tolerance_found(t, dyd_engine_count(c.self->engine));
+  dyd_tolerance_free(t);
+  mpq_clear(most);
+  return found;
+}
+
+/* ---- plan ---- */
+
+static PyObject *plan_found(const dyd_survey *s) {
+  const dyd_survey_row *row;
+  size_t open, ties, left, rows = dyd_survey_rows(&row, s);
+  dyd_survey_count(&open, &ties, &left, s);
+  return Py_BuildValue("N(nnn)", copied(row, rows * sizeof *row), (Py_ssize_t)open, (Py_ssize_t)ties, (Py_ssize_t)left);
+}
+
+PyObject *dydpy_plan(PyObject *self, PyObject *args) {
+  PyObject *accuracy, *window, *site, *found = NULL;
+  dyd_survey *survey = NULL;
+  dyd_rect view;
+  bool windowed = false;
+  uint32_t only = 0;
+  mpq_t exact;
+  dydpy_call c;
+  if (!PyArg_ParseTuple(args, "OOO", &accuracy, &window, &site)) return NULL;
+  if (site != Py_None && !dydpy_site(&only, (dydpy_engine *)self, PyLong_AsSsize_t(site))) return NULL;
+  mpq_init(exact);
+  dyd_rect_init(&view);
+  if (!PyErr_Occurred() && (accuracy == Py_None || dydpy_rational(exact, accuracy) == 0) &&
+      dydpy_window(&view, &windowed, window) == 0 && dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_CANCELS)) {
+    const dyd_survey_options o = {DYD_SIZED(dyd_survey_options), .window = windowed ? &view : NULL,
+                                  .site = site != Py_None ? &only : NULL,
+                                  .accuracy = accuracy != Py_None ? exact : NULL, .cancel = &c.cancel};
+    if (dydpy_end(&c, dyd_survey_new(&survey, c.pd, &o, &c.err))) found = plan_found(survey);
+  }
+  dyd_survey_free(survey);
+  dyd_rect_clear(&view);
+  mpq_clear(exact);
+  return found;
+}
+
+/* ---- texts ---- */
+
+bool dydpy_text_open(dydpy_text *t) {
+  *t = (dydpy_text){0};
+  t->file = open_memstream(&t->bytes, &t->size);
+  if (!t->file) PyErr_NoMemory();
+  return t->file != NULL;
+}
+
+PyObject *dydpy_text_close(dydpy_text *t, bool good) {
+  bool whole = fclose(t->file) == 0;
+  PyObject *bytes = NULL;
+  if (good && !whole) PyErr_NoMemory();
+  if (good && whole) bytes = PyBytes_FromStringAndSize(t->bytes, (Py_ssize_t)t->size);
+  free(t->bytes);
+  return bytes;
+}
+
+PyObject *dydpy_formats(PyObject *module, PyObject *none) {
+  PyObject *list = PyList_New(0);
+  (void)module, (void)none;
+  for (int k = 0; list && dyd_format_name((dyd_format)k); k++) {
+    PyObject *row = Py_BuildValue("ssN", dyd_format_name((dyd_format)k), dyd_format_about((dyd_format)k),
+                                  PyBool_FromLong(dyd_format_is_binary((dyd_format)k)));
+    if (!row || PyList_Append(list, row) < 0) Py_CLEAR(list);
+    Py_XDECREF(row);
+  }
+  return list;
+}
+
+/* A text being written by a call. */
+typedef struct text_order {
+  dyd_format format;
+  dyd_content layer;
+  dyd_rect window;
+  const dyd_rect *view; /* the window; NULL: none */
+  dydpy_text text;
+  dydpy_call call;
+} text_order;
+
+/* A format and a layer of `of`, by their names (layer_name NULL: none); false with ValueError. */
+static bool order_form(text_order *t, dyd_content of, const char *name, const char *layer_name) {
+  t->layer = of;
+  if (!dyd_format_from_name(&t->format, name)) {
+    PyErr_Format(PyExc_ValueError, "there is no format \"%s\"; see dyadel.formats()", name);
+    return false;
+  }
+  if (!layer_name || dyd_layer_from_name(&t->layer, of, layer_name)) return true;
+  PyErr_Format(PyExc_ValueError, "there is no layer \"%s\"", layer_name);
+  return false;
+}
+
+/* Begins the call; false with an exception set and nothing to end. */
+static bool order_begin(text_order *t, PyObject *self, PyObject *window, int how) {
+  bool windowed = false;
+  dyd_rect_init(&t->window);
+  if (dydpy_window(&t->window, &windowed, window) == 0 && dydpy_text_open(&t->text)) {
+    t->view = windowed ? &t->window : NULL;
+    if (dydpy_begin(&t->call, self, how)) return true;
+    dydpy_text_close(&t->text, false);
+  }
+  dyd_rect_clear(&t->window);
+  return false;
+}
+
+static PyObject *order_end(text_order *t, dyd_status st) {
+  bool good = dydpy_end(&t->call, st);
+  dyd_rect_clear(&t->window);
+  return dydpy_text_close(&t->text, good);
+}
+
+/* Writes the content of the order, and ends it. */
+static PyObject *order_write(text_order *t, dyd_write_options *o) {
+  o->sphere = t->call.self->sphere;
+  o->window = t->view;
+  o->cancel = &t->call.cancel;
+  const dyd_engine *e = o->sphere ? NULL : t->call.self->engine;
+  dyd_status st = dyd_write(t->text.file, e, t->layer, t->format, o, &t->call.err);
+  return order_end(t, st == DYD_CAPPED ? DYD_E_ARG : st);
+}
+
+PyObject *dydpy_write(PyObject *self, PyObject *args) {
+  const bool globe = ((dydpy_engine *)self)->sphere;
+  dyd_write_options o = {DYD_SIZED(dyd_write_options)};
+  const char *format, *layer;
+  PyObject *window;
+  text_order t;
+  if (!PyArg_ParseTuple(args, "szOI", &format, &layer, &window, &o.epsg)) return NULL;
+  if (globe && window != Py_None)
+    return PyErr_Format(PyExc_ValueError, "a window is a part of the plane; leave it away");
+  if (!order_form(&t, globe ? DYD_CONTENT_SPHERE : DYD_CONTENT_DELAUNAY, format, layer) ||
+      !order_begin(&t, self, window, DYDPY_RESULT | DYDPY_CANCELS))
+    return NULL;
+  return order_write(&t, &o);
+}
+
+PyObject *dydpy_write_voronoi(PyObject *self, PyObject *args) {
+  const bool globe = ((dydpy_engine *)self)->sphere;
+  dyd_write_options o = {DYD_SIZED(dyd_write_options)};
+  const char *format, *layer;
+  PyObject *window, *bits;
+  text_order t;
+  if (!PyArg_ParseTuple(args, "szOOI", &format, &layer, &window, &bits, &o.epsg)) return NULL;
+  o.flatten_set = bits != Py_None;
+  if (o.flatten_set) o.flatten_bits = PyLong_AsLongLong(bits);
+  if (PyErr_Occurred() || !order_form(&t, globe ? DYD_CONTENT_SPHERE_VORONOI : DYD_CONTENT_VORONOI, format, layer) ||
+      !order_begin(&t, self, window, DYDPY_RESULT | DYDPY_CANCELS))
+    return NULL;
+  return order_write(&t, &o);
+}
+
+PyObject *dydpy_rects(PyObject *self, PyObject *none) {
+  text_order t;
+  (void)none;
+  if (!order_begin(&t, self, Py_None, 0)) return NULL;
+  const dyd_engine *e = t.call.self->engine;
+  return order_end(&t, dyd_write_rects(t.text.file, dyd_engine_sites(e), 0, dyd_engine_count(e), &t.call.err));
+}
+
+/* ---- certificates ---- */
+
+PyObject *dydpy_certificate(PyObject *self, PyObject *args) {
+  int diagram;
+  PyObject *window;
+  text_order t;
+  if (!PyArg_ParseTuple(args, "pO", &diagram, &window) || !order_begin(&t, self, window, DYDPY_RESULT)) return NULL;
+  const dydpy_engine *of = t.call.self;
+  dyd_error *err = &t.call.err;
+  return order_end(&t, diagram      ? dyd_write_voronoi_certificate(t.text.file, of->engine, t.view, err)
+                       : of->sphere ? dyd_write_sphere_certificate(t.text.file, of->sphere, err)
+                                    : dyd_write_certificate(t.text.file, of->engine, err));
+}
+
+static PyObject *report_of(const dyd_certificate_report *r) {
+  const dydpy_entry entry[] = {
+      {"outcome", PyUnicode_FromString(r->outcome)},
+      {"goal", PyUnicode_FromString(r->goal)},
+      {"goal_bits", PyLong_FromLongLong(r->goal_bits)},
+      {"capped", PyBool_FromLong(r->capped)},
+      {"points", PyLong_FromSize_t(r->sites)},
+      {"aliases", PyLong_FromSize_t(r->aliases)},
+      {"legal", PyLong_FromSize_t(r->legal)},
+      {"legal_unproved", PyLong_FromSize_t(r->legal_unproved)},
+      {"indeterminate", PyLong_FromSize_t(r->indeterminate)},
+      {"ties", PyLong_FromSize_t(r->tie)},
+      {"ties_unproved", PyLong_FromSize_t(r->ties_unproved)},
+      {"unproved", PyLong_FromUnsignedLongLong(r->unproved)},
+      {"triangles", PyLong_FromSize_t(r->triangles)},
+      {"diagram", PyBool_FromLong(r->diagram)},
+      {"bound", PyBool_FromLong(r->bound)},
+      {"unlocated", PyLong_FromSize_t(r->unlocated)},
+      {"aliases_unproved", PyLong_FromSize_t(r->aliases_unproved)},
+      {"proved", PyBool_FromLong(r->gaps == 0)},
+  };
+  return dydpy_dict(entry, sizeof entry / sizeof *entry);
+}
+
+/* of: an Engine, or NULL. */
+static PyObject *verify_with(FILE *in, PyObject *of, const dyd_sphere_options *sphere, const dyd_engine_options *o) {
+  dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
+  dydpy_call c;
+  if (!dydpy_begin(&c, of, DYDPY_REFINES)) return NULL;
+  dyd_status st = of ? dyd_verify_certificate_on(&report, NULL, in, c.self->engine, false, sphere, o, &c.err)
+                     : dyd_verify_certificate(&report, in, &c.err);
+  return dydpy_end(&c, st) ? report_of(&report) : NULL;
+}
+
+PyObject *dydpy_verify(PyObject *module, PyObject *args) {
+  char *bytes;
+  Py_ssize_t length;
+  PyObject *of, *dict, *report = NULL;
+  dydpy_options o;
+  int sphere;
+  dyd_sphere_options on = {DYD_SIZED(dyd_sphere_options)};
+  (void)module;
+  if (!PyArg_ParseTuple(args, "s#OpzzzO!", &bytes, &length, &of, &sphere, &on.radius, &on.radius_unit, &on.radius_scale,
+                        &PyDict_Type, &dict))
+    return NULL;
+  if (of == Py_None) of = NULL;
+  if (dydpy_options_init(&o, (dydpy_engine *)of, dict) < 0) return NULL;
+  FILE *in = fmemopen(bytes, length ? (size_t)length : 1, "r");
+  if (in)
+    report = verify_with(in, of, sphere ? &on : NULL, &o.o);
+  else
+    PyErr_NoMemory();
+  if (in) fclose(in);
+  dydpy_options_clear(&o);
+  return report;
 }

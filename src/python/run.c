@@ -1,8 +1,344 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Options from a dict, and runs. */
+/* Runs: their options, the functions of Python that they call, their traces and tables; the harness. */
 #include "module.h"
 
+#include <errno.h>
 #include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- functions of Python that the library calls: points that are narrowed, and progress ---- */
+
+static dyd_status call_narrow(dyd_rect *out, PyObject *narrow, const dyd_request *request, dyd_error *err) {
+  PyObject *answer = PyObject_CallFunction(narrow, "nL", (Py_ssize_t)request->point, (long long)request->bits);
+  if (!answer) return DYD_E_STREAM;
+  dyd_status st = dydpy_answer(out, answer, err);
+  Py_DECREF(answer);
+  return st;
+}
+
+static dyd_status source_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
+  PyGILState_STATE gil = PyGILState_Ensure();
+  dyd_status st = PyErr_Occurred() ? DYD_E_STREAM : call_narrow(out, user, request, err);
+  if (PyErr_Occurred()) st = dyd_error_set(err, DYD_E_STREAM, "the function raised an exception");
+  PyGILState_Release(gil);
+  return st;
+}
+
+bool dydpy_source_new(dyd_source *out, PyObject *narrow) {
+  if (!PyCallable_Check(narrow)) {
+    PyErr_SetString(PyExc_TypeError, "a source needs a function narrow(point, bits)");
+    return false;
+  }
+  *out = (dyd_source){DYD_SIZED(dyd_source), .narrow = source_narrow, .user = narrow};
+  return true;
+}
+
+static void progress_told(void *user, const dyd_progress *p) {
+  const dydpy_progress_user *u = user;
+  if (u->trace) dyd_trace_stage(u->trace, p);
+  if (!u->function || u->function == Py_None) return;
+  PyGILState_STATE gil = PyGILState_Ensure();
+  PyObject *done = NULL;
+  if (!PyErr_Occurred())
+    done = PyObject_CallFunction(u->function, "{s:K,s:L,s:n,s:n,s:n,s:n,s:n,s:d}", "stage",
+                                 (unsigned long long)p->stage, "bits", (long long)p->bits, "points",
+                                 (Py_ssize_t)p->sites, "legal", (Py_ssize_t)p->count[DYD_LEGAL], "indeterminate",
+                                 (Py_ssize_t)p->count[DYD_INDETERMINATE], "ties", (Py_ssize_t)p->count[DYD_TIE],
+                                 "undecided_faces", (Py_ssize_t)p->undecided_faces, "seconds", p->seconds);
+  if (!done) dyd_engine_cancel(u->engine);
+  Py_XDECREF(done);
+  PyGILState_Release(gil);
+}
+
+/* ---- traces: each answer of a point is in its file before the next request ---- */
+
+/* Raises OSError with the name as the user gave it. */
+static FILE *file_open(const char *path, const char *mode, const char *given) {
+  FILE *file = fopen(path, mode);
+  PyObject *name = file ? NULL : PyUnicode_DecodeFSDefault(given);
+  if (name) PyErr_SetFromErrnoWithFilenameObject(PyExc_OSError, name);
+  Py_XDECREF(name);
+  return file;
+}
+
+enum { SYNC_SECONDS = 5 };
+
+/* Begins the trace in a file beside its place, with the answers of an earlier one, and puts it there. A device or
+ * a pipe is written in place. */
+static dyd_status trace_place(dydpy_engine *self, const char *path, const char *beside, const dyd_engine_options *o,
+                              const dyd_converge_options *converge, dyd_error *err) {
+  struct stat info;
+  const bool direct = stat(path, &info) == 0 && !S_ISREG(info.st_mode);
+  self->trace_file = file_open(direct ? path : beside, "w", path);
+  if (!self->trace_file) return DYD_E_IO;
+  setvbuf(self->trace_file, NULL, _IOLBF, BUFSIZ);
+  dyd_status st = dyd_trace_new(&self->trace, self->trace_file, self->engine, NULL, o, converge, err);
+  if (st == DYD_OK) st = dyd_trace_sync(self->trace, SYNC_SECONDS, err);
+  if (st == DYD_OK && !direct && rename(beside, path) != 0) st = dyd_error_set(err, DYD_E_IO, strerror(errno));
+  if (st == DYD_OK) return st;
+  dyd_error unused;
+  dydpy_trace_close(self, &unused);
+  if (!direct) unlink(beside);
+  return st;
+}
+
+/* With the engine entered. converge: None, or a window and whether to omit bounds of the diagram. */
+static dyd_status trace_open(dydpy_engine *self, const char *path, const dyd_engine_options *o,
+                             const dyd_converge_options *converge, dyd_error *err) {
+  const size_t size = strlen(path) + sizeof ".new";
+  char *beside = malloc(size);
+  if (!beside) return dyd_error_set(err, DYD_E_NOMEM, dyd_status_text(DYD_E_NOMEM));
+  snprintf(beside, size, "%s.new", path);
+  dyd_status st = trace_place(self, path, beside, o, converge, err);
+  free(beside);
+  return st;
+}
+
+/* trace_begin(path, options, (window, no_voronoi) or None) */
+PyObject *dydpy_trace_begin(PyObject *object, PyObject *args) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  const char *path;
+  PyObject *dict, *converge, *window = Py_None, *done = NULL;
+  int no_voronoi = 0;
+  bool windowed = false;
+  dydpy_options o;
+  dyd_rect view;
+  dydpy_call call;
+  if (!PyArg_ParseTuple(args, "yO!O", &path, &PyDict_Type, &dict, &converge)) return NULL;
+  if (converge != Py_None && !PyArg_ParseTuple(converge, "Op", &window, &no_voronoi)) return NULL;
+  if (dydpy_options_init(&o, self, dict) < 0) return NULL;
+  dyd_rect_init(&view);
+  if (dydpy_window(&view, &windowed, window) == 0 && dydpy_begin(&call, object, DYDPY_HOLDS)) {
+    const dyd_converge_options c = {DYD_SIZED(dyd_converge_options), .window = windowed ? &view : NULL,
+                                    .no_voronoi = no_voronoi};
+    done = dydpy_end_none(&call, trace_open(self, path, &o.o, converge != Py_None ? &c : NULL, &call.err));
+  }
+  dyd_rect_clear(&view);
+  dydpy_options_clear(&o);
+  return done;
+}
+
+dyd_status dydpy_trace_close(dydpy_engine *self, dyd_error *err) {
+  FILE *file = self->trace_file;
+  dyd_status st = self->trace ? dyd_trace_end(self->trace, dyd_engine_outcome(self->engine), err) : DYD_OK;
+  self->trace = NULL;
+  self->trace_file = NULL;
+  if (file && fclose(file) != 0 && st == DYD_OK) st = dyd_error_set(err, DYD_E_IO, "the trace cannot be written");
+  return st;
+}
+
+PyObject *dydpy_trace_end(PyObject *object, PyObject *none) {
+  dydpy_call c;
+  (void)none;
+  return dydpy_begin(&c, object, 0) ? dydpy_end_none(&c, dydpy_trace_close(c.self, &c.err)) : NULL;
+}
+
+/* recall(path) -> answers taken */
+PyObject *dydpy_recall(PyObject *object, PyObject *args) {
+  dyd_recall_report report = {DYD_SIZED(dyd_recall_report)};
+  const char *path;
+  dydpy_call c;
+  if (!PyArg_ParseTuple(args, "y", &path)) return NULL;
+  FILE *in = file_open(path, "r", path);
+  if (!in) return NULL;
+  bool good = dydpy_begin(&c, object, 0);
+  good = good && dydpy_end(&c, dyd_trace_recall(&report, c.self->engine, in, NULL, &c.err));
+  fclose(in);
+  return good ? PyLong_FromSize_t(report.answers) : NULL;
+}
+
+/* ---- runs stage by stage, as tables ---- */
+
+/* Writes the table, or draws it, whatever the run returned. */
+static PyObject *table_text(const dyd_convergence *table, const char *name, bool times) {
+  dyd_format format;
+  dydpy_text text;
+  dyd_error err;
+  dyd_error_clear(&err);
+  if (!dyd_format_from_name(&format, name)) return PyErr_Format(PyExc_ValueError, "there is no format \"%s\"", name);
+  if (!dydpy_text_open(&text)) return NULL;
+  const dyd_write_options o = {DYD_SIZED(dyd_write_options), .stages = table, .times = times};
+  bool rows = dyd_format_holds(format, DYD_CONTENT_CONVERGENCE);
+  dyd_status st = dyd_write(text.file, NULL, rows ? DYD_CONTENT_CONVERGENCE : DYD_CONTENT_PLOT, format, &o, &err);
+  if (st < 0) dydpy_raise(&err, st);
+  return dydpy_text_close(&text, st >= 0);
+}
+
+/* (outcome, csv, svg) of a table, which is cleared; NULL unless the call that made it went well. */
+static PyObject *table_found(bool good, dyd_convergence *table, bool times) {
+  PyObject *found = NULL;
+  if (good)
+    found = Py_BuildValue("sNN", dyd_outcome_text(table->outcome), table_text(table, "csv", times),
+                          table_text(table, "svg", times));
+  dyd_convergence_clear(table);
+  return found;
+}
+
+/* replay(path) -> (outcome, csv, svg) */
+PyObject *dydpy_replay(PyObject *module, PyObject *args) {
+  dyd_convergence table = {DYD_SIZED(dyd_convergence)};
+  const char *path;
+  dydpy_call c;
+  (void)module;
+  if (!PyArg_ParseTuple(args, "y", &path)) return NULL;
+  FILE *in = file_open(path, "r", path);
+  if (!in) return NULL;
+  bool good = dydpy_begin(&c, NULL, 0) && dydpy_end(&c, dyd_trace_replay(&table, in, NULL, &c.err));
+  fclose(in);
+  return table_found(good, &table, false);
+}
+
+PyObject *dydpy_converge(PyObject *self, PyObject *args) {
+  PyObject *dict, *window;
+  int no_voronoi, times;
+  bool windowed = false;
+  dyd_convergence table = {DYD_SIZED(dyd_convergence)};
+  dydpy_options o;
+  dyd_rect view;
+  dydpy_call c;
+  if (!PyArg_ParseTuple(args, "O!Opp", &PyDict_Type, &dict, &window, &no_voronoi, &times)) return NULL;
+  if (dydpy_options_init(&o, (dydpy_engine *)self, dict) < 0) return NULL;
+  dyd_rect_init(&view);
+  bool good = dydpy_window(&view, &windowed, window) == 0 && dydpy_begin(&c, self, DYDPY_REFINES);
+  const dyd_converge_options how = {DYD_SIZED(dyd_converge_options), .window = windowed ? &view : NULL,
+                                    .no_voronoi = no_voronoi};
+  good = good && dydpy_end(&c, dyd_converge_run(&table, c.self->engine, &o.o, &how, &c.err));
+  dyd_rect_clear(&view);
+  dydpy_options_clear(&o);
+  return table_found(good, &table, times);
+}
+
+/* ---- check: the harness of monotone refinement over points of Python ---- */
+
+/* make: a function without arguments that returns a new Engine; kept: all of them, as they own the functions that their
+ * engines call. */
+typedef struct harness_user {
+  PyObject *make, *kept, *progress;
+  volatile int *cancel;
+} harness_user;
+
+/* Takes the library's engine out of the object that make() returned. */
+static dyd_status harness_take(dyd_engine **out, harness_user *u) {
+  PyObject *made = PyErr_Occurred() ? NULL : PyObject_CallNoArgs(u->make);
+  if (!made) return DYD_E_STREAM;
+  dydpy_engine *self = (dydpy_engine *)made;
+  *out = self->engine;
+  self->engine = NULL;
+  int status = PyList_Append(u->kept, made);
+  Py_DECREF(made);
+  return status < 0 ? DYD_E_NOMEM : DYD_OK;
+}
+
+static dyd_status harness_open(dyd_engine **out, void *user, dyd_error *err) {
+  PyGILState_STATE gil = PyGILState_Ensure();
+  dyd_status st = harness_take(out, user);
+  if (st != DYD_OK) dyd_error_set(err, st, "the points cannot be made");
+  PyGILState_Release(gil);
+  return st;
+}
+
+static void harness_progress(void *user, unsigned schedule, unsigned of) {
+  harness_user *u = user;
+  PyGILState_STATE gil = PyGILState_Ensure();
+  bool fine = !PyErr_Occurred() && PyErr_CheckSignals() == 0;
+  PyObject *done = fine && u->progress != Py_None ? PyObject_CallFunction(u->progress, "II", schedule, of) : NULL;
+  if (PyErr_Occurred()) *u->cancel = 1;
+  Py_XDECREF(done);
+  PyGILState_Release(gil);
+}
+
+/* ---- arguments and results of check ---- */
+
+/* [(stage, point, bits), ...]; NULL with an exception set, or for None. */
+static dyd_check_move *moves_of(size_t *count, PyObject *list) {
+  *count = 0;
+  if (list == Py_None) return NULL;
+  Py_ssize_t size = PyList_Size(list);
+  dyd_check_move *move = size < 0 ? NULL : calloc((size_t)size + 1, sizeof *move);
+  if (!move && size >= 0) PyErr_NoMemory();
+  for (Py_ssize_t k = 0; move && k < size; k++) {
+    long long bits;
+    Py_ssize_t stage, point;
+    bool good = PyArg_ParseTuple(PyList_GetItem(list, k), "nnL", &stage, &point, &bits);
+    if (good && (stage < 1 || point < 0 || stage > UINT32_MAX || point > UINT32_MAX))
+      PyErr_SetString(PyExc_ValueError, "a move is (stage, point, bits), stages from 1, points from 0");
+    if (PyErr_Occurred()) {
+      free(move);
+      return NULL;
+    }
+    move[k] = (dyd_check_move){(uint32_t)stage, (uint32_t)point, bits};
+  }
+  *count = size < 0 ? 0 : (size_t)size;
+  return move;
+}
+
+static PyObject *moves_new(const dyd_check_report *r) {
+  PyObject *list = PyList_New(0);
+  for (size_t k = 0; list && k < r->moves; k++) {
+    PyObject *move = Py_BuildValue("IIL", r->move[k].stage, r->move[k].point, (long long)r->move[k].bits);
+    if (!move || PyList_Append(list, move) < 0) Py_CLEAR(list);
+    Py_XDECREF(move);
+  }
+  return list;
+}
+
+static PyObject *harness_found(const dyd_check_report *r) {
+  const dydpy_entry entry[] = {
+      {"fault", PyUnicode_FromString(dyd_check_fault_text(r->fault))},
+      {"message", PyUnicode_FromString(r->message)},
+      {"seed", PyLong_FromUnsignedLongLong(r->seed)},
+      {"base_bits", PyLong_FromLongLong(r->base_bits)},
+      {"moves", moves_new(r)},
+      {"schedules", PyLong_FromUnsignedLongLong(r->schedules)},
+      {"stages", PyLong_FromUnsignedLongLong(r->stages)},
+      {"pairs", PyLong_FromUnsignedLongLong(r->pairs)},
+      {"cells", PyLong_FromUnsignedLongLong(r->cells)},
+  };
+  return dydpy_dict(entry, sizeof entry / sizeof *entry);
+}
+
+static PyObject *harness_run(harness_user *u, dyd_check_options *o, const dyd_check_move *move, size_t moves) {
+  dyd_check_report report = {DYD_SIZED(dyd_check_report)};
+  PyObject *found = NULL;
+  dydpy_call c;
+  u->cancel = &c.cancel;
+  o->cancel = &c.cancel;
+  o->progress = harness_progress;
+  o->progress_user = u;
+  if (!dydpy_begin(&c, NULL, DYDPY_CANCELS)) return NULL;
+  dyd_status st = move ? dyd_check_replay(&report, harness_open, u, move, moves, o, &c.err)
+                       : dyd_check_run(&report, harness_open, u, o, &c.err);
+  if (dydpy_end(&c, st < 0 ? st : DYD_OK)) found = harness_found(&report);
+  dyd_check_report_clear(&report);
+  return found;
+}
+
+PyObject *dydpy_check(PyObject *module, PyObject *args) {
+  harness_user u = {.progress = Py_None};
+  dyd_check_options o = {DYD_SIZED(dyd_check_options)};
+  unsigned long long seed;
+  long long base_bits, max_bits, slack_bits;
+  PyObject *list;
+  size_t count;
+  (void)module;
+  if (!PyArg_ParseTuple(args, "OKIILLLdOO", &u.make, &seed, &o.schedules, &o.stages, &base_bits, &max_bits, &slack_bits,
+                        &o.seconds, &list, &u.progress))
+    return NULL;
+  o.seed = seed;
+  o.base_bits = base_bits;
+  o.max_bits = max_bits;
+  o.slack_bits = slack_bits;
+  dyd_check_move *move = moves_of(&count, list);
+  if (PyErr_Occurred()) return NULL;
+  u.kept = PyList_New(0);
+  PyObject *found = u.kept ? harness_run(&u, &o, move, count) : NULL;
+  Py_XDECREF(u.kept);
+  free(move);
+  return found;
+}
 
 typedef enum option_kind {
   OPTION_ENUM,
@@ -70,7 +406,7 @@ int dydpy_options_init(dydpy_options *out, dydpy_engine *self, PyObject *dict) {
   if (given) out->o.window = &out->window;
   out->progress = (dydpy_progress_user){progress, self ? self->engine : NULL, self ? self->trace : NULL};
   if (self && (self->trace || (progress && progress != Py_None))) {
-    out->o.progress = dydpy_progress;
+    out->o.progress = progress_told;
     out->o.progress_user = &out->progress;
     out->o.trace = self->trace ? dyd_trace_step : NULL;
     out->o.trace_user = self->trace;
@@ -85,7 +421,7 @@ void dydpy_options_clear(dydpy_options *o) {
   dyd_rect_clear(&o->window);
 }
 
-/* One run; *again: an interrupt ended it, and whoever handles interrupts wants to go on. */
+/* One run; *again: an interrupt ended it, and the handler of interrupts raised nothing. */
 static dyd_status run_once(bool *again, dydpy_engine *self, const dyd_engine_options *o, dyd_error *err) {
   dyd_outcome outcome;
   dydpy_guard guard;
@@ -105,17 +441,14 @@ static dyd_status run_once(bool *again, dydpy_engine *self, const dyd_engine_opt
 PyObject *dydpy_run(PyObject *object, PyObject *dict) {
   dydpy_engine *self = (dydpy_engine *)object;
   dydpy_options o;
-  dyd_error err;
   dyd_status st = DYD_OK;
+  dydpy_call c;
   if (!PyDict_Check(dict)) return PyErr_Format(PyExc_TypeError, "options are a dict");
   if (dydpy_options_init(&o, self, dict) < 0) return NULL;
-  bool again = dydpy_enter(self), entered = again;
-  while (again) st = run_once(&again, self, &o.o, &err);
+  bool entered = dydpy_begin(&c, object, DYDPY_HOLDS), again = entered;
+  while (again) st = run_once(&again, self, &o.o, &c.err);
   dydpy_options_clear(&o);
-  if (!entered) return NULL;
-  PyObject *done = dydpy_done(self, st, &err);
-  if (done && PyErr_Occurred()) Py_CLEAR(done);
-  return done;
+  return entered ? dydpy_end_none(&c, st) : NULL;
 }
 
 PyObject *dydpy_cancel(PyObject *self, PyObject *none) {
