@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The command dyadel-tiles: its words, one job, the exit status. */
-#include "carry.h"
+#include "tiles/tiles.h"
 
 #include <errno.h>
 #ifdef __GLIBC__
@@ -227,7 +227,7 @@ static int csv_main(const main_options *o) {
   }
   dyd_status st = tiles_write_csv(out, o->file, &err);
   if (out != stdout && fclose(out) != 0 && st == DYD_OK)
-    st = tiles_fail(&err, DYD_E_IO, "cannot write: %s", strerror(errno));
+    st = dyd_fail(&err, DYD_E_IO, "cannot write: %s", strerror(errno));
   if (st == DYD_OK) return 0;
   main_complain("%s", err.message[0] ? err.message : dyd_status_text(st));
   if (out != stdout) unlink(o->output);
@@ -254,7 +254,7 @@ static int run_words(main_options *o) {
 int main(int count, char **arg) {
   main_options o = {.job = {.halo = 3, .corners = 16, .nearest = 8}};
 #ifdef M_MMAP_THRESHOLD
-  mallopt(M_MMAP_THRESHOLD, 1 << 18); /* what is freed is gone, whatever else has been freed before */
+  mallopt(M_MMAP_THRESHOLD, 1 << 18); /* freed memory goes back to the system at once */
 #endif
   for (int k = 1; k < count; k++) {
     if (strcmp(arg[k], "--help") == 0 || strcmp(arg[k], "--version") == 0) {

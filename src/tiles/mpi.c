@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Mail by MPI: lengths first, then pieces that MPI can count. */
-#include "carry.h"
+#include "tiles/tiles.h"
 
 #include <mpi.h>
 #include <stdlib.h>
@@ -44,7 +44,7 @@ static size_t post_pieces(MPI_Request *request, const tiles_mail *m, size_t othe
   return count;
 }
 
-/* Lengths of what comes, and room for it; the number of pieces both ways. */
+/* Exchanges lengths and reserves memory; *pieces is the number of pieces both ways. */
 static dyd_status expect_mail(size_t *pieces, tile *t, dyd_error *err) {
   const size_t ranks = t->job->ranks;
   uint64_t *length = calloc(2 * ranks, sizeof *length);
@@ -58,7 +58,7 @@ static dyd_status expect_mail(size_t *pieces, tile *t, dyd_error *err) {
   *pieces = 0;
   for (size_t r = 0; fits && r < ranks; r++) {
     t->in[r].count = 0;
-    fits = tiles_reserve((void **)&t->in[r].bytes, &t->in[r].room, length[ranks + r], 1);
+    fits = dyd_reserve((void **)&t->in[r].bytes, &t->in[r].room, length[ranks + r], 1);
     t->in[r].count = length[ranks + r];
     *pieces += pieces_of(t->in[r].count) + pieces_of(t->out[r].count);
     if (r != t->rank) t->counters.sent += t->out[r].count;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Parts: what one rank states, as a file; and what is told of all. */
-#include "state.h"
+/* Parts, the results of one rank as a file; the manifest; parts joined to csv. */
+#include "tiles/tiles.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -8,6 +8,54 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+/* ---- files that appear whole or not at all ---- */
+
+char *tiles_path(const char *folder, const char *name) {
+  size_t size = strlen(folder) + strlen(name) + 2;
+  char *path = malloc(size);
+  if (path) snprintf(path, size, "%s/%s", folder, name);
+  return path;
+}
+
+static void tiles_part_name(char name[32], size_t rank) {
+  snprintf(name, 32, "part-%05zu.bin", rank);
+}
+
+static dyd_status file_fail(const tiles_file *f, dyd_error *err) {
+  return dyd_fail(err, DYD_E_IO,
+                  "%s: cannot write: %s; make room there, then go on with --restart, or choose another folder with -o",
+                  f->name, strerror(errno));
+}
+
+static void file_clear(tiles_file *f) {
+  free(f->name);
+  free(f->temporary);
+  *f = (tiles_file){0};
+}
+
+static dyd_status tiles_file_open(tiles_file *f, const char *folder, const char *name, dyd_error *err) {
+  char beside[64];
+  snprintf(beside, sizeof beside, ".%.40s.new", name);
+  *f = (tiles_file){.name = tiles_path(folder, name), .temporary = tiles_path(folder, beside)};
+  dyd_status st = f->name && f->temporary ? DYD_OK : tiles_no_memory(err);
+  if (st == DYD_OK) f->stream = fopen(f->temporary, "wb");
+  if (st == DYD_OK && !f->stream) st = file_fail(f, err);
+  if (st != DYD_OK) file_clear(f);
+  return st;
+}
+
+/* st, or what writing failed with; the file is there when that is DYD_OK. */
+static dyd_status tiles_file_close(tiles_file *f, dyd_status st, dyd_error *err) {
+  if (!f->stream) return st;
+  bool kept = fflush(f->stream) == 0 && !ferror(f->stream) && fsync(fileno(f->stream)) == 0;
+  if (!kept && st == DYD_OK) st = file_fail(f, err);
+  kept = fclose(f->stream) == 0;
+  if (st == DYD_OK && (!kept || rename(f->temporary, f->name) != 0)) st = file_fail(f, err);
+  if (st != DYD_OK) unlink(f->temporary);
+  file_clear(f);
+  return st;
+}
 
 /* ---- records ---- */
 
@@ -19,7 +67,7 @@ static void record_encode(unsigned char *out, const tiles_row *r) {
   for (unsigned k = 0; k < 4; k++) out[16 + k] = (unsigned char)(r->status >> 8 * k);
 }
 
-tiles_row tiles_row_decode(const unsigned char in[TILES_RECORD]) {
+static tiles_row tiles_row_decode(const unsigned char in[TILES_RECORD]) {
   tiles_row r = {0};
   for (unsigned k = 8; k-- > 0;) {
     r.i = r.i << 8 | in[k];
@@ -31,6 +79,7 @@ tiles_row tiles_row_decode(const unsigned char in[TILES_RECORD]) {
 
 /* Fowler, Noll, Vo: one byte changed changes the sum. */
 static const uint64_t sum_begin = 14695981039346656037u;
+
 static uint64_t sum_bytes(uint64_t sum, const void *bytes, size_t count) {
   for (const unsigned char *byte = bytes; count-- > 0; byte++) sum = (sum ^ *byte) * 1099511628211u;
   return sum;
@@ -50,11 +99,13 @@ static bool put_sum(FILE *out, uint64_t sum) {
   return fwrite(bytes, sizeof bytes, 1, out) == 1;
 }
 
-bool tiles_part_sum(uint64_t *out, FILE *in) {
+/* Sets *out to the sum over a part; false where the one written behind it is another. Then and there `in` is at its
+ * begin. */
+static bool tiles_part_sum(uint64_t *out, FILE *in) {
   unsigned char bytes[1 << 16];
   uint64_t sum = sum_begin, told = 0;
   rewind(in);
-  /* The last eight bytes of what has been read are kept back. */
+  /* The last eight bytes read are kept back. */
   size_t kept = 0;
   for (size_t got; (got = fread(bytes + kept, 1, sizeof bytes - kept, in)) > 0;) {
     const size_t have = kept + got, done = have > TILES_SUM ? have - TILES_SUM : 0;
@@ -74,12 +125,12 @@ static bool get_row(tiles_row *r, FILE *in) {
   return true;
 }
 
-/* ---- the spool, and what is parked ---- */
+/* ---- the spool, and parked places ---- */
 
 static dyd_status spool_fail(const tile *t, dyd_error *err) {
-  return tiles_fail(err, DYD_E_IO,
-                    "%s: cannot write the working files of rank %zu: %s; make room there, then go on with --restart",
-                    t->job->folder, t->rank, strerror(errno));
+  return dyd_fail(err, DYD_E_IO,
+                  "%s: cannot write the working files of rank %zu: %s; make room there, then go on with --restart",
+                  t->job->folder, t->rank, strerror(errno));
 }
 
 /* A file without a name: nothing is left of it however the process ends. */
@@ -112,8 +163,8 @@ dyd_status tile_unpark(tile *t, dyd_error *err) {
   fclose(t->parked);
   t->parked = NULL;
   return got == count ? DYD_OK
-                      : tiles_fail(err, DYD_E_IO, "%s: cannot read what rank %zu wrote there; go on with --restart",
-                                   t->job->folder, t->rank);
+                      : dyd_fail(err, DYD_E_IO, "%s: cannot read what rank %zu wrote there; go on with --restart",
+                                 t->job->folder, t->rank);
 }
 
 dyd_status tile_spool(tile *t, const tiles_rows *rows, dyd_error *err) {
@@ -202,7 +253,8 @@ dyd_status tile_write_part(tile *t, dyd_error *err) {
 
 /* ---- finding one that is there ---- */
 
-json_t *tiles_part_header(FILE *in) {
+/* The header of a part; `in` is behind it then. NULL: there is none. */
+static json_t *tiles_part_header(FILE *in) {
   json_t *j = json_loadf(in, JSON_DISABLE_EOF_CHECK, NULL);
   if (!j) return NULL;
   rewind(in);
@@ -214,7 +266,7 @@ static uint64_t header_number(const json_t *j, const char *key) {
   return (uint64_t)json_integer_value(json_object_get(j, key));
 }
 
-/* Is it of this rank in this job? What the run found is left out of the comparison. */
+/* Is it of this rank in this job? Results of the run are not compared. */
 static bool suits(const json_t *found, json_t *wanted) {
   static const char *const same[] = {"format", "rank", "own", "ranks", "points", "boxes", "max_pairs", "digest"};
   bool equal = found && wanted;
@@ -327,6 +379,172 @@ dyd_status tile_write_manifest(tile *t, dyd_error *err) {
                         (json_int_t)all.aliases);
   bool fits = put_json_line(f.stream, &(uint64_t){0}, j);
   if (!fits)
-    st = tiles_fail(err, DYD_E_IO, "%s/manifest.json: cannot write; is the name of the input UTF-8?", t->job->folder);
+    st = dyd_fail(err, DYD_E_IO, "%s/manifest.json: cannot write; is the name of the input UTF-8?", t->job->folder);
   return tiles_file_close(&f, st, err);
+}
+
+/* ---- parts joined: the csv of `dyadel delaunay` ---- */
+
+/* A part being read: its next record. */
+typedef struct part_reader {
+  FILE *in;
+  uint64_t pairs, aliases; /* left */
+  tiles_row row;
+} part_reader;
+
+typedef struct part_readers {
+  const char *folder;
+  size_t count;
+  part_reader *item; /* those with pairs left form a heap by i, the first `open` ones */
+  size_t open;
+  tiles_rows aliases;
+} part_readers;
+
+static bool reader_next(part_reader *p) {
+  unsigned char bytes[TILES_RECORD];
+  if (fread(bytes, sizeof bytes, 1, p->in) != 1) return false;
+  p->row = tiles_row_decode(bytes);
+  return true;
+}
+
+static dyd_status reader_fail(const part_readers *all, const char *name, const char *what, dyd_error *err) {
+  return dyd_fail(err, DYD_E_IO, "%s/%s: %s; complete the folder by dyadel-tiles delaunay with --restart", all->folder,
+                  name, what);
+}
+
+/* Opens the part, whose bytes have the sum that the manifest tells. */
+static dyd_status reader_open(part_reader *p, const part_readers *all, const char *name, const char *told,
+                              dyd_error *err) {
+  char sum[20] = "";
+  uint64_t found;
+  char *path = tiles_path(all->folder, name);
+  p->in = path ? fopen(path, "rb") : NULL;
+  free(path);
+  if (!p->in) return reader_fail(all, name, strerror(errno), err);
+  const bool whole = tiles_part_sum(&found, p->in);
+  snprintf(sum, sizeof sum, "%016" PRIx64, found);
+  if (!whole || strcmp(sum, told) != 0)
+    return reader_fail(all, name, "it was changed since it was written: its digest is another", err);
+  json_t *j = tiles_part_header(p->in);
+  if (!j) return reader_fail(all, name, "is no part", err);
+  p->pairs = (uint64_t)json_integer_value(json_object_get(j, "pairs"));
+  p->aliases = (uint64_t)json_integer_value(json_object_get(j, "aliases"));
+  json_decref(j);
+  return DYD_OK;
+}
+
+static dyd_status readers_open(part_readers *all, const json_t *manifest, dyd_error *err) {
+  const json_t *parts = json_object_get(manifest, "parts"), *sums = json_object_get(manifest, "sums");
+  const char *format = json_string_value(json_object_get(manifest, "format"));
+  const size_t count = json_array_size(parts);
+  dyd_status st = DYD_OK;
+  if (!format || strcmp(format, "dyadel tiles 2") != 0 || !count || json_array_size(sums) != count ||
+      json_integer_value(json_object_get(manifest, "ranks")) != (json_int_t)count)
+    return reader_fail(all, "manifest.json", "this is no manifest of the format \"dyadel tiles 2\"", err);
+  all->item = calloc(count, sizeof *all->item);
+  if (!all->item) return tiles_no_memory(err);
+  for (size_t k = 0; st == DYD_OK && k < count; k++) {
+    const char *name = json_string_value(json_array_get(parts, k)), *sum = json_string_value(json_array_get(sums, k));
+    st = name && sum ? reader_open(&all->item[all->count++], all, name, sum, err)
+                     : reader_fail(all, "manifest.json", "a part has no name or no digest", err);
+  }
+  return st;
+}
+
+static int compare_aliases(const void *a, const void *b) {
+  const tiles_row *p = a, *q = b;
+  return (p->i > q->i) - (p->i < q->i);
+}
+
+/* They stand behind the pairs. */
+static dyd_status reader_aliases(part_readers *all, part_reader *p, dyd_error *err) {
+  const off_t body = ftello(p->in);
+  if (fseeko(p->in, body + (off_t)(p->pairs * TILES_RECORD), SEEK_SET) != 0) return DYD_E_IO;
+  for (; p->aliases > 0; p->aliases--) {
+    if (!reader_next(p)) return reader_fail(all, "", "a part is cut short", err);
+    tiles_rows *a = &all->aliases;
+    if (!dyd_reserve((void **)&a->item, &a->room, a->count + 1, sizeof *a->item)) return tiles_no_memory(err);
+    a->item[a->count++] = p->row;
+  }
+  return fseeko(p->in, body, SEEK_SET) == 0 ? DYD_OK : DYD_E_IO;
+}
+
+static dyd_status write_aliases(FILE *out, part_readers *all, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; st == DYD_OK && k < all->count; k++) st = reader_aliases(all, &all->item[k], err);
+  if (all->aliases.count) qsort(all->aliases.item, all->aliases.count, sizeof *all->aliases.item, compare_aliases);
+  for (size_t k = 0; st == DYD_OK && k < all->aliases.count; k++)
+    fprintf(out, "# alias %" PRIu64 " %" PRIu64 "\n", all->aliases.item[k].i, all->aliases.item[k].j);
+  return st;
+}
+
+static void reader_sift(part_readers *all, size_t k) {
+  part_reader moved = all->item[k];
+  for (size_t child; (child = 2 * k + 1) < all->open; k = child) {
+    if (child + 1 < all->open && all->item[child + 1].row.i < all->item[child].row.i) child++;
+    if (moved.row.i <= all->item[child].row.i) break;
+    all->item[k] = all->item[child];
+  }
+  all->item[k] = moved;
+}
+
+static void swap_readers(part_readers *all, size_t a, size_t b) {
+  part_reader kept = all->item[a];
+  all->item[a] = all->item[b];
+  all->item[b] = kept;
+}
+
+static dyd_status heap_of_readers(part_readers *all, dyd_error *err) {
+  all->open = all->count;
+  for (size_t k = 0; k < all->open;) {
+    part_reader *p = &all->item[k];
+    if (p->pairs == 0)
+      swap_readers(all, k, --all->open);
+    else if (p->pairs--, reader_next(p))
+      k++;
+    else
+      return reader_fail(all, "", "a part is cut short", err);
+  }
+  for (size_t k = all->open; k-- > 0;) reader_sift(all, k);
+  return DYD_OK;
+}
+
+static dyd_status write_part_pairs(FILE *out, part_readers *all, dyd_error *err) {
+  static const char *const word[] = {"illegal", "tie", "indeterminate", "legal"};
+  dyd_status st = heap_of_readers(all, err);
+  while (st == DYD_OK && all->open > 0) {
+    part_reader *p = &all->item[0];
+    fprintf(out, "%" PRIu64 ",%" PRIu64 ",%s\n", p->row.i, p->row.j, word[p->row.status & 3]);
+    if (p->pairs == 0)
+      swap_readers(all, 0, --all->open);
+    else if (p->pairs--, !reader_next(p))
+      st = reader_fail(all, "", "a part is cut short", err);
+    reader_sift(all, 0);
+  }
+  return st;
+}
+
+static void readers_close(part_readers *all) {
+  for (size_t k = 0; k < all->count; k++)
+    if (all->item[k].in) fclose(all->item[k].in);
+  free(all->item);
+  free(all->aliases.item);
+}
+
+dyd_status tiles_write_csv(FILE *out, const char *folder, dyd_error *err) {
+  part_readers all = {.folder = folder};
+  char *path = tiles_path(folder, "manifest.json");
+  if (!path) return tiles_no_memory(err);
+  json_t *j = json_load_file(path, 0, NULL);
+  free(path);
+  if (!j) return reader_fail(&all, "manifest.json", "is not there, or none", err);
+  dyd_status st = readers_open(&all, j, err);
+  if (st == DYD_OK) st = write_aliases(out, &all, err);
+  if (st == DYD_OK && fputs("i,j,status\n", out) == EOF) st = DYD_E_IO;
+  if (st == DYD_OK) st = write_part_pairs(out, &all, err);
+  if (st == DYD_OK && (fflush(out) != 0 || ferror(out)))
+    st = dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno));
+  readers_close(&all);
+  json_decref(j);
+  return st;
 }

@@ -3,11 +3,11 @@
  *
  * Coordinates are relative to the lower left corner o of the site's box: differences of two doubles, each wrong by
  * 2^-53 of itself at most, also below the least normal number. Knots of the chain are whatever doubles come out of the
- * construction, which proves nothing; what is claimed of them is checked (spoke_is_nearer, spoke_is_beyond, knots_turn)
+ * construction, which proves nothing; the claims are checked (spoke_is_nearer, spoke_is_beyond, knots_turn)
  * with margins above the errors: a sum of products of such differences and of sums of two is wrong by less than 2^-49
  * of the same sum of absolute values, and by 2^-1070 where products underflow. Comparisons are such that NaN and
  * infinities fail them: nothing is above an infinite bound. */
-#include "reach.h"
+#include "tiles/tiles.h"
 
 #include <float.h>
 #include <math.h>
@@ -23,7 +23,7 @@ typedef struct tiles_spoke {
   double mx, my, half[2], far;
   double nx, ny, x, y; /* of the quadrant at work */
   size_t number;
-  bool gap; /* nobody bounds the cell between the one before and this one */
+  bool gap; /* no partner bounds the cell between the one before and this one */
   tiles_box box;
 } tiles_spoke;
 
@@ -41,7 +41,7 @@ typedef struct reach_work {
   bool thick;    /* there are rectangles */
 } reach_work;
 
-/* ---- what is checked ---- */
+/* ---- checks ---- */
 
 static tiles_box reach_box(const tiles_box *b, double ox, double oy) {
   return (tiles_box){b->x0 - ox, b->x1 - ox, b->y0 - oy, b->y1 - oy};
@@ -94,7 +94,7 @@ static double reach_cross(double ax, double ay, double bx, double by) {
 
 static bool reach_knot(reach_work *w, double x, double y, bool far) {
   tiles_reach *r = w->out;
-  if (!tiles_reserve((void **)&r->knot, &r->room_knot, w->knots + 1, sizeof *r->knot)) return false;
+  if (!dyd_reserve((void **)&r->knot, &r->room_knot, w->knots + 1, sizeof *r->knot)) return false;
   r->knot[w->knots++] = (tiles_knot){x, y, far};
   return true;
 }
@@ -140,7 +140,7 @@ static bool spokes_meet(tiles_knot *c, const reach_work *w, const tiles_spoke *a
   return false;
 }
 
-/* The directions into which the cell goes on. */
+/* The directions in which the cell is unbounded. */
 static bool reach_ends(bool *fits, reach_work *w, const tiles_spoke *a, const tiles_spoke *b) {
   double last[2], first[2];
   *fits = spoke_end(last, w, a, 1) && spoke_end(first, w, b, -1);
@@ -177,7 +177,7 @@ static void sort_spokes(tiles_spoke *s, size_t n) {
   }
 }
 
-/* Half a hull: behind s[from .. at-1], s[k] in place of what it makes needless. */
+/* Half a hull: behind s[from .. at-1], s[k] instead of those that it makes needless. */
 static size_t hull_push(tiles_spoke *s, size_t from, size_t at, const tiles_spoke *next) {
   while (at >= from + 2 && !(reach_cross(s[at - 1].x - s[at - 2].x, s[at - 1].y - s[at - 2].y, next->x - s[at - 2].x,
                                          next->y - s[at - 2].y) > 0))
@@ -200,7 +200,7 @@ static size_t hull_of_spokes(tiles_spoke *out, tiles_spoke *s, size_t n) {
 static bool reach_spokes(reach_work *w, const tiles_view *v, uint32_t i, const tiles_partners *p) {
   enum { PARTS = 8 };
   tiles_reach *r = w->out;
-  if (!tiles_reserve((void **)&r->spoke, &r->room_spoke, PARTS * (p->count + 1), sizeof *r->spoke)) return false;
+  if (!dyd_reserve((void **)&r->spoke, &r->room_spoke, PARTS * (p->count + 1), sizeof *r->spoke)) return false;
   tiles_box own = tiles_view_box(v, i);
   w->own = reach_box(&own, own.x0, own.y0);
   w->cx = w->own.x1 / 2;
@@ -311,7 +311,7 @@ bool tiles_reach_find(tiles_reach *out, const tiles_view *v, uint32_t i, const t
   reach_work w = {.out = out};
   bool fits;
   if (!reach_spokes(&w, v, i, p) || !reach_chain(&fits, &w) ||
-      !tiles_reserve((void **)&out->item, &out->room, w.knots + 1, sizeof *out->item))
+      !dyd_reserve((void **)&out->item, &out->room, w.knots + 1, sizeof *out->item))
     return false;
   const tiles_box own = tiles_view_box(v, i);
   out->count = 0;

@@ -1,14 +1,137 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What one rank states: pairs on which nothing that it has not seen has an influence [REACH-1] [TILE-1].
+/* The statements of one rank: pairs on which no unseen site has an influence [REACH-1] [TILE-1].
  *
  * The first triangulation, of all own sites and the halo, settles nearly all of them. Those left, their partners and
- * the ghosts are the fringe: it is triangulated by itself, and grows by what owners (the rank itself is one) answer. */
-#include "state.h"
+ * the ghosts are the fringe: it is triangulated alone, and grows by the answers of owners (the rank itself is one). */
+#include "tiles/tiles.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Of a site: somebody unseen may meet what it depends on; its pairs are not settled. */
+/* ---- the tree over own sites ---- */
+
+enum { LEAF = 32 };
+
+typedef struct tree_maker {
+  tiles_tree *t;
+  const tiles_sites *s;
+  unsigned along; /* which coordinate is compared: 0 x, 1 y */
+} tree_maker;
+
+static double key_of(const tree_maker *m, size_t k) {
+  const double *e = m->s->end + m->t->order[k] * (size_t)m->s->dim;
+  return e[m->along * (m->s->dim / 2)];
+}
+
+static void swap_order(uint32_t *order, size_t a, size_t b) {
+  uint32_t kept = order[a];
+  order[a] = order[b];
+  order[b] = kept;
+}
+
+/* Puts order[lo .. hi] such that no key before `at` is larger than a key from there on (Hoare's selection). */
+static void tree_select(const tree_maker *m, ptrdiff_t lo, ptrdiff_t hi, ptrdiff_t at) {
+  while (lo < hi) {
+    double pivot = key_of(m, (size_t)at);
+    ptrdiff_t i = lo, j = hi;
+    while (i <= j) {
+      while (key_of(m, (size_t)i) < pivot) i++;
+      while (key_of(m, (size_t)j) > pivot) j--;
+      if (i <= j) swap_order(m->t->order, (size_t)i++, (size_t)j--);
+    }
+    if (j < at) lo = i;
+    if (at < i) hi = j;
+  }
+}
+
+static tiles_box box_of_range(const tree_maker *m, size_t lo, size_t hi) {
+  tiles_box all = tiles_box_empty();
+  for (size_t k = lo; k < hi; k++) {
+    tiles_box b = tiles_sites_box(m->s, m->t->order[k]);
+    tiles_box_join(&all, &b);
+  }
+  return all;
+}
+
+static void tree_node(tree_maker *m, size_t node, size_t lo, size_t hi) {
+  tiles_box *box = &m->t->box[node];
+  *box = box_of_range(m, lo, hi);
+  if (hi - lo <= LEAF) return;
+  size_t middle = lo + (hi - lo) / 2;
+  m->along = tiles_box_is_tall(box);
+  tree_select(m, (ptrdiff_t)lo, (ptrdiff_t)hi - 1, (ptrdiff_t)middle);
+  tree_node(m, 2 * node, lo, middle);
+  tree_node(m, 2 * node + 1, middle, hi);
+}
+
+static bool tiles_tree_make(tiles_tree *t, const tiles_sites *s) {
+  size_t nodes = 2;
+  for (size_t n = s->count; n > LEAF; n = (n + 1) / 2) nodes *= 2;
+  *t = (tiles_tree){.count = s->count};
+  if (s->count == 0) return true;
+  t->order = malloc(s->count * sizeof *t->order);
+  t->box = malloc(nodes * sizeof *t->box);
+  if (!t->order || !t->box) return false;
+  for (size_t k = 0; k < s->count; k++) t->order[k] = (uint32_t)k;
+  tree_maker m = {t, s, 0};
+  tree_node(&m, 1, 0, s->count);
+  return true;
+}
+
+void tiles_tree_clear(tiles_tree *t) {
+  free(t->order);
+  free(t->box);
+  *t = (tiles_tree){0};
+}
+
+static bool is_too_late(const tiles_search *q, double score) {
+  return score == INFINITY || (q->count == q->most && score >= q->score[q->count - 1]);
+}
+
+static bool search_take(tiles_search *q, uint32_t site, double score) {
+  if (q->count < q->most) {
+    if (!dyd_reserve((void **)&q->site, &q->room_site, q->count + 1, sizeof *q->site)) return false;
+    if (!dyd_reserve((void **)&q->score, &q->room_score, q->count + 1, sizeof *q->score)) return false;
+    q->count++;
+  }
+  size_t at = q->count - 1;
+  for (; at > 0 && q->score[at - 1] > score; at--) {
+    q->score[at] = q->score[at - 1];
+    q->site[at] = q->site[at - 1];
+  }
+  q->site[at] = site;
+  q->score[at] = score;
+  return true;
+}
+
+static bool search_node(tiles_search *q, const tiles_tree *t, const tiles_sites *s, size_t node, size_t lo, size_t hi) {
+  if (is_too_late(q, tiles_disc_score(q->disc, &t->box[node]))) return true;
+  if (hi - lo > LEAF) {
+    size_t middle = lo + (hi - lo) / 2;
+    return search_node(q, t, s, 2 * node, lo, middle) && search_node(q, t, s, 2 * node + 1, middle, hi);
+  }
+  for (size_t k = lo; k < hi; k++) {
+    if (tiles_set_has(q->skip, t->order[k]) || (q->alias && q->alias[t->order[k]])) continue;
+    tiles_box b = tiles_sites_box(s, t->order[k]);
+    double score = tiles_disc_score(q->disc, &b);
+    if (!is_too_late(q, score) && !search_take(q, t->order[k], score)) return false;
+  }
+  return true;
+}
+
+static bool tiles_tree_search(tiles_search *q, const tiles_tree *t, const tiles_sites *s) {
+  q->count = 0;
+  return t->count == 0 || search_node(q, t, s, 1, 0, t->count);
+}
+
+void tiles_search_clear(tiles_search *q) {
+  free(q->site);
+  free(q->score);
+  *q = (tiles_search){.disc = q->disc};
+}
+
+/* Marks of a site: an unseen site may meet its discs; its pairs are not settled. */
 enum { MET = 1, LATE = 2 };
 
 /* ---- discs ---- */
@@ -45,7 +168,7 @@ static dyd_status reach_is_unmet(bool *clear, tile *t, const tiles_view *v, uint
 
 static dyd_status note_alias(tile *t, size_t i, uint32_t of, dyd_error *err) {
   tiles_rows *a = &t->aliases;
-  if (!tiles_reserve((void **)&a->item, &a->room, a->count + 1, sizeof *a->item)) return tiles_no_memory(err);
+  if (!dyd_reserve((void **)&a->item, &a->room, a->count + 1, sizeof *a->item)) return tiles_no_memory(err);
   a->item[a->count++] = (tiles_row){t->own.number[i], t->own.number[of], 0};
   return DYD_OK;
 }
@@ -73,7 +196,7 @@ static dyd_status mark_site(tile *t, const tiles_view *v, uint32_t i, dyd_error 
   return st;
 }
 
-/* A legal pair with a rectangle stays one when nobody meets what its ends depend on. */
+/* A legal pair with a rectangle stays one when no site meets the discs of its ends. */
 static dyd_status legal_marks(tile *t, const tiles_view *v, dyd_error *err) {
   dyd_status st = DYD_OK;
   for (uint32_t i = 0; st == DYD_OK && i < t->own.count; i++) {
@@ -97,7 +220,7 @@ static dyd_status wide_marks(tile *t, const tiles_view *v, dyd_error *err) {
   return st == DYD_OK ? legal_marks(t, v, err) : st;
 }
 
-/* Rows of what is settled go out; the rest becomes the fringe. */
+/* Rows of settled sites go out; the other sites become the fringe. */
 static dyd_status first_rows(tile *t, const tiles_view *v, dyd_error *err) {
   enum { AT_ONCE = 1 << 12 };
   const bool wide = tile_has_wide(t);
@@ -143,7 +266,7 @@ static dyd_status first_fringe(tile *t, const tiles_view *v, dyd_error *err) {
   return fits ? DYD_OK : tiles_no_memory(err);
 }
 
-/* While the engine has the places of all, nobody else has: this is when a rank needs the most memory. */
+/* Now a rank needs the most memory: only the engine keeps places. */
 static dyd_status first_settle(tile *t, dyd_error *err) {
   tiles_view v;
   dyd_status st = tile_load(&v, t, &t->own, &t->ghosts, err);
@@ -157,19 +280,6 @@ static dyd_status first_settle(tile *t, dyd_error *err) {
   t->mark = NULL;
   tile_end_engine(t);
   return st == DYD_OK ? tile_unpark(t, err) : st;
-}
-
-dyd_status tile_first(tile *t, dyd_error *err) {
-  for (size_t r = 0; r < t->job->ranks; r++) {
-    size_t read = 0;
-    if (r != t->rank && !tiles_sites_take(&t->ghosts, &t->in[r], &read)) return tiles_no_memory(err);
-    tiles_mail_clear(&t->in[r]);
-  }
-  t->counters.ghosts = t->ghosts.count;
-  dyd_status st = !t->done && t->own.count ? first_settle(t, err) : DYD_OK;
-  tiles_sites_clear(&t->ghosts);
-  if (st == DYD_OK && !tiles_tree_make(&t->tree, &t->own)) st = tiles_no_memory(err);
-  return st == DYD_OK && !t->done ? tile_fringe(t, err) : st;
 }
 
 /* ---- the fringe ---- */
@@ -204,7 +314,7 @@ static dyd_status fringe_witness(tile *t, const tiles_view *v, uint32_t i, uint3
   const double centre[2] = {dyd_dyadic_get_d(&c.x, DYD_DOWN), dyd_dyadic_get_d(&c.y, DYD_DOWN)};
   tiles_disc d = tiles_witness_disc(centre, &a, &b);
   dyd_point_clear(&c);
-  return st == DYD_OK ? fringe_ask(t, &d, err) : tiles_fail(err, st, "%s", dyd_status_text(st));
+  return st == DYD_OK ? fringe_ask(t, &d, err) : dyd_fail(err, st, "%s", dyd_status_text(st));
 }
 
 static dyd_status fringe_legal(tile *t, const tiles_view *v, uint32_t i, dyd_error *err) {
@@ -240,7 +350,7 @@ static dyd_status fringe_finish(tile *t, const tiles_view *v, dyd_error *err) {
   return st;
 }
 
-dyd_status tile_fringe(tile *t, dyd_error *err) {
+static dyd_status tile_fringe(tile *t, dyd_error *err) {
   static const tiles_sites none = {.dim = 2};
   tiles_view v = {&t->fringe, &none, NULL};
   dyd_status st = DYD_OK;
@@ -253,7 +363,21 @@ dyd_status tile_fringe(tile *t, dyd_error *err) {
   return st;
 }
 
-/* ---- rounds ---- */
+/* ---- steps ---- */
+
+/* Triangulates; out: discs. */
+static dyd_status tile_first(tile *t, dyd_error *err) {
+  for (size_t r = 0; r < t->job->ranks; r++) {
+    size_t read = 0;
+    if (r != t->rank && !tiles_sites_take(&t->ghosts, &t->in[r], &read)) return tiles_no_memory(err);
+    tiles_mail_clear(&t->in[r]);
+  }
+  t->counters.ghosts = t->ghosts.count;
+  dyd_status st = !t->done && t->own.count ? first_settle(t, err) : DYD_OK;
+  tiles_sites_clear(&t->ghosts);
+  if (st == DYD_OK && !tiles_tree_make(&t->tree, &t->own)) st = tiles_no_memory(err);
+  return st == DYD_OK && !t->done ? tile_fringe(t, err) : st;
+}
 
 static dyd_status answer_disc(tile *t, size_t r, const tiles_disc *d, dyd_error *err) {
   tiles_search *q = &t->search;
@@ -269,7 +393,8 @@ static dyd_status answer_disc(tile *t, size_t r, const tiles_disc *d, dyd_error 
   return fits ? DYD_OK : tiles_no_memory(err);
 }
 
-dyd_status tile_answer(tile *t, dyd_error *err) {
+/* Out: the nearest sites in the discs asked for. */
+static dyd_status tile_answer(tile *t, dyd_error *err) {
   dyd_status st = DYD_OK;
   for (size_t r = 0; r < t->job->ranks; r++) {
     tiles_disc d;
@@ -281,7 +406,8 @@ dyd_status tile_answer(tile *t, dyd_error *err) {
   return st;
 }
 
-dyd_status tile_extend(tile *t, dyd_error *err) {
+/* Triangulates the fringe; out: discs. */
+static dyd_status tile_extend(tile *t, dyd_error *err) {
   const size_t before = t->fringe.count;
   for (size_t r = 0; r < t->job->ranks; r++) {
     size_t read = 0;
@@ -297,6 +423,70 @@ dyd_status tile_extend(tile *t, dyd_error *err) {
   return fringe_finish(t, &v, err);
 }
 
-dyd_status tile_report(tile *t, dyd_error *err) {
+/* At the end; out: counters, to rank 0. */
+static dyd_status tile_report(tile *t, dyd_error *err) {
   return tiles_mail_put(&t->out[0], &t->counters, sizeof t->counters) ? DYD_OK : tiles_no_memory(err);
+}
+
+/* ---- the order of steps, and mail within one process ---- */
+
+static dyd_status carry_in_memory(tile *member, size_t count, dyd_error *err) {
+  (void)err;
+  for (size_t from = 0; from < count; from++)
+    for (size_t to = 0; to < count; to++) {
+      tiles_mail *mail = &member[from].out[to];
+      if (from != to) member[from].counters.sent += mail->count;
+      tiles_mail_clear(&member[to].in[from]);
+      member[to].in[from] = *mail;
+      *mail = (tiles_mail){0};
+    }
+  return DYD_OK;
+}
+
+static bool any_in_memory(bool here) {
+  return here;
+}
+
+const tiles_carrier tiles_in_memory = {carry_in_memory, any_in_memory};
+
+typedef dyd_status step_fn(tile *t, dyd_error *err);
+
+typedef struct step_crew {
+  tile *member;
+  size_t count;
+  const tiles_carrier *by;
+  bool elsewhere;
+  dyd_error *err;
+} step_crew;
+
+/* One step of all; false: a rank failed. */
+static bool step_all(dyd_status *st, step_crew *c, step_fn *step) {
+  for (size_t k = 0; *st == DYD_OK && k < c->count; k++) *st = step(&c->member[k], c->err);
+  if (c->by->any(*st != DYD_OK)) {
+    c->elsewhere = *st == DYD_OK;
+    return false;
+  }
+  *st = c->by->carry(c->member, c->count, c->err);
+  return *st == DYD_OK;
+}
+
+static bool anybody_asks(const step_crew *c) {
+  bool here = false;
+  for (size_t k = 0; k < c->count; k++) here |= c->member[k].asked > 0;
+  return c->by->any(here);
+}
+
+dyd_status tiles_drive(tile *member, size_t count, const tiles_carrier *by, bool *elsewhere, dyd_error *err) {
+  static step_fn *const begin[] = {tile_survey, tile_read, tile_split, tile_own, tile_halo, tile_first};
+  step_crew c = {member, count, by, false, err};
+  dyd_status st = DYD_OK;
+  bool on = true;
+  for (size_t k = 0; on && k < sizeof begin / sizeof *begin; k++) on = step_all(&st, &c, begin[k]);
+  while (on && anybody_asks(&c)) on = step_all(&st, &c, tile_answer) && step_all(&st, &c, tile_extend);
+  if (on && step_all(&st, &c, tile_report)) {
+    if (member[0].rank == 0) st = tile_write_manifest(&member[0], err);
+    c.elsewhere = by->any(st != DYD_OK) && st == DYD_OK;
+  }
+  *elsewhere = c.elsewhere;
+  return st;
 }

@@ -2,10 +2,12 @@
 /* Points as lines of decimals: a rank reads the lines that begin in its slice of the file, by dyd_read_records, once to
  * count them and their digits, and once for the numbers.
  *
- * Statuses stay what they are when all coordinates are multiplied by the same power of ten. Where that makes them whole
+ * Statuses do not change when all coordinates are multiplied by the same power of ten. Where that makes them whole
  * numbers of at most 15 digits, which doubles hold, points are exact; else each number becomes the interval between the
  * doubles next to it. */
-#include "state.h"
+#include "dyadic/raw.h"
+#include "stream/number.h"
+#include "tiles/tiles.h"
 
 #include <dyadel/io.h>
 #include <errno.h>
@@ -43,36 +45,22 @@ typedef struct text_slice {
 
 /* ---- numbers ---- */
 
-static bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 static bool decimal_of(text_decimal *d, const text_field *f) {
-  enum { ROOM = 18, FAR = 100000 };
-  const char *c = f->text, *end = c + f->length;
-  const bool negative = c < end && *c == '-';
-  long digits = 0, shift = 0;
-  bool point = false, any = false;
+  enum { ROOM = 18 };
+  dyd_literal l;
+  const bool negative = f->length && *f->text == '-';
+  long digits = 0;
   *d = (text_decimal){0};
-  for (c += c < end && (*c == '-' || *c == '+'); c < end && (is_digit(*c) || (*c == '.' && !point)); c++) {
-    point |= *c == '.';
-    if (*c == '.') continue;
-    any = true;
-    d->after += point;
-    digits += digits || *c != '0';
-    if (digits <= ROOM) d->mantissa = 10 * d->mantissa + (*c - '0');
+  if (!dyd_literal_scan(&l, f->text, f->length, negative || (f->length && *f->text == '+'))) return false;
+  for (size_t k = l.first; k < l.mantissa_end; k++) {
+    if (f->text[k] == '.') continue;
+    digits += digits || f->text[k] != '0';
+    if (digits <= ROOM) d->mantissa = 10 * d->mantissa + (f->text[k] - '0');
   }
-  if (c < end && (*c == 'e' || *c == 'E') && any) {
-    const bool down = ++c < end && *c == '-';
-    c += c < end && (*c == '-' || *c == '+');
-    any = c < end;
-    for (; c < end && is_digit(*c); c++) shift = shift < FAR ? 10 * shift + (*c - '0') : FAR;
-    d->after += down ? shift : -shift;
-  }
-  if (digits == 0) d->after = 0;
+  if (digits) d->after = (long)((int64_t)l.fraction - l.exponent);
   d->before = digits > d->after ? digits - d->after : 0;
   if (negative) d->mantissa = -d->mantissa;
-  return any && c == end;
+  return !l.hex && l.end == f->length;
 }
 
 /* Times 10^after, a whole number of at most MOST_DIGITS digits. */
@@ -82,26 +70,22 @@ static double text_scaled(const text_decimal *d, long after) {
   return value;
 }
 
-/* The double below, or above, unless it is the number. */
+/* The double below, or above, unless it is the number; NAN beyond the range of exponents. */
 static double text_rounded(const text_field *f, bool up) {
-  mpq_t exact, near;
-  mpq_inits(exact, near, NULL);
-  double value = NAN;
-  if (dyd_real_parse_exact(exact, f->text, f->length) == DYD_OK) value = mpq_get_d(exact); /* towards 0 */
-  if (isfinite(value)) {
-    mpq_set_d(near, value);
-    int side = mpq_cmp(near, exact);
-    if (up ? side < 0 : side > 0) value = nextafter(value, up ? INFINITY : -INFINITY);
-  }
-  mpq_clears(exact, near, NULL);
+  mpq_t exact;
+  mpq_init(exact);
+  const bool known = dyd_real_parse_exact(exact, f->text, f->length) == DYD_OK;
+  const dyd_round side = up ? DYD_UP : DYD_DOWN;
+  double value = known ? dyd_raw_quotient_get_d(mpq_numref(exact), 0, mpq_denref(exact), side) : NAN;
+  mpq_clear(exact);
   return value;
 }
 
 /* ---- lines ---- */
 
 static dyd_status read_fail(const tile *t, dyd_error *err) {
-  return tiles_fail(err, DYD_E_IO, "%s: cannot read: %s; every rank needs to see the file", t->job->input,
-                    strerror(errno));
+  return dyd_fail(err, DYD_E_IO, "%s: cannot read: %s; every rank needs to see the file", t->job->input,
+                  strerror(errno));
 }
 
 /* Goes to the first line that begins in the slice. */
@@ -152,8 +136,8 @@ static dyd_status slice_read(text_slice *s, dyd_record_fn fn, dyd_error *err) {
   if (st == DYD_OK) {
     st = dyd_read_records(lines, ' ', fn, s, &why);
     if (st == DYD_E_PARSE) slice_count_lines(s, &why);
-    if (st == DYD_E_PARSE) tiles_fail(err, st, "%s:%zu:%zu: %s", s->t->job->input, why.line, why.column, why.message);
-    if (st != DYD_OK && st != DYD_E_PARSE) tiles_fail(err, st, "%s: %s", s->t->job->input, why.message);
+    if (st == DYD_E_PARSE) dyd_fail(err, st, "%s:%zu:%zu: %s", s->t->job->input, why.line, why.column, why.message);
+    if (st != DYD_OK && st != DYD_E_PARSE) dyd_fail(err, st, "%s: %s", s->t->job->input, why.message);
   }
   if (lines) fclose(lines);
   if (s->in) fclose(s->in);
@@ -223,14 +207,14 @@ dyd_status tile_survey(tile *t, dyd_error *err) {
   return st;
 }
 
-/* What all found; how many points are before those of this rank. */
+/* Adds up the surveys; *first: how many points are before those of this rank. */
 static dyd_status take_surveys(tiles_survey *all, uint64_t *first, tile *t, dyd_error *err) {
   *all = (tiles_survey){0};
   for (size_t r = 0; r < t->job->ranks; r++) {
     tiles_survey one;
     size_t read = 0;
     if (!tiles_mail_take(&one, sizeof one, &t->in[r], &read))
-      return tiles_fail(err, DYD_E_IO, "rank %zu: the mail of rank %zu is cut short; restart", t->rank, r);
+      return dyd_fail(err, DYD_E_IO, "rank %zu: the mail of rank %zu is cut short; restart", t->rank, r);
     tiles_mail_clear(&t->in[r]);
     if (r == t->rank) *first = all->rows;
     all->rows += one.rows;

@@ -11,9 +11,11 @@ import sys
 
 # What a layer may include besides itself: everything below it. layers in one bracket are side by side.
 LAYERS = [['base'], ['dyadic'], ['rect', 'checker'], ['stream', 'predicate'], ['skeleton'], ['legal', 'possible'], ['delaunay'], ['tolerance', 'graph'],
-          ['voronoi'], ['metric'], ['engine'], ['sphere'], ['io'], ['prove', 'picture'], ['format']]
+          ['voronoi'], ['metric'], ['engine'], ['sphere'], ['io'], ['prove', 'picture', 'tiles'], ['format']]
 # Rooms that see the library as its users do.
-OUTSIDE = {'cli': 'the command', 'python': 'the Python module', 'tiles': 'dyadel-tiles'}
+OUTSIDE = {'cli': 'the command', 'python': 'the Python module'}
+# Rooms that may name options of a command in messages.
+COMMANDS = {*OUTSIDE, 'tiles'}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 # Public headers in the order of the layers; a header may include only those before it.
 PUBLIC = ['status', 'dyadic certificate', 'rect', 'stream sites', 'oracle', 'predicate delaunay', 'tolerance survey graph', 'arc', 'voronoi', 'compose', 'metric', 'engine', 'converge check sphere', 'io', 'dyadel']
@@ -93,9 +95,9 @@ OPTION = re.compile(r'"[^"\n]*--[a-z][a-z-]+[^"\n]*"')
 
 
 def check_options(path, text, layer):
-    """Messages of the library name fields, `max_pairs`; the command prints its own options instead (cli/complain.c)."""
+    """Messages of the library name fields, `max_pairs`; the command prints its own options instead (cli/process.c)."""
     for number, line in enumerate(text.splitlines(), 1):
-        if layer not in OUTSIDE and OPTION.search(line):
+        if layer not in COMMANDS and OPTION.search(line):
             yield f'{path}:{number}: the library names an option of the command: {line.strip()}'
 
 

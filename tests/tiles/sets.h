@@ -4,7 +4,7 @@
 #define DYD_TESTS_TILES_SETS_H
 
 #include "support/random.h"
-#include "tiles/state.h"
+#include "tiles/tiles.h"
 
 enum { SETS_MOST = 160 };
 

@@ -6,7 +6,7 @@
 
 #include "tiles/sets.h"
 
-#include "tiles/carry.h"
+#include "tiles/tiles.h"
 #include <cmocka.h>
 #include <inttypes.h>
 #include <math.h>
