@@ -80,8 +80,10 @@ bool dyd_caps_circle(dyd_disc *out, const dyd_caps *c, const dyd_disc *i, const 
  * is twice. */
 typedef struct dyd_disc_work {
   const dyd_delaunay *pd;
-  dyd_disc *disc;     /* by vertex */
-  double (*about)[3]; /* x, y, r of these in doubles, where statuses are asked for */
+  dyd_disc *disc;       /* by vertex */
+  double (*about)[3];   /* x, y, r of these in doubles */
+  const double *weight; /* by vertex: radii are weight[v] * now; NULL: those of `about` */
+  double now;
   dyd_caps caps;
   uint32_t i, j; /* vertices, the smaller disc first */
   uint32_t *seen;
@@ -98,7 +100,18 @@ bool dyd_discs_see(dyd_disc_work *w, uint32_t v);
 /* The caps of all that are seen; false: one of them meets i or j, so that there is no witness. Who meets one of them
  * blocks nothing. */
 bool dyd_discs_load(dyd_disc_work *w, bool legal);
-/* The same when only the last of these were not seen before. */
-bool dyd_discs_load_more(dyd_disc_work *w, bool legal);
+
+/* discs_filter.c. A circle in doubles, or, with `line`, the half-plane beyond height along (x, y). clear: how far
+ * others have to keep from it, beyond what distances are off by. */
+typedef struct dyd_circle_d {
+  dyd_disc_work *w;
+  bool legal, line;
+  double x, y, radius, height, clear;
+} dyd_circle_d;
+
+double dyd_filter_radius(const dyd_disc_work *w, uint32_t v);
+double dyd_filter_distance(const dyd_circle_d *c, uint32_t v);
+/* Returns true if disc v is outside for sure (legal), or not inside for sure. */
+bool dyd_filter_keeps_clear(const dyd_circle_d *c, uint32_t v);
 
 #endif

@@ -95,42 +95,51 @@ static void see_neighbour(void *context, uint32_t v, uint32_t w, dyd_pair_status
   if (d->count < FIRST_SEEN) dyd_discs_see(d, w);
 }
 
-/* The circle of direction u, about; reach: the squares that come so near are looked at. worst: of those in the way that
- * are not seen yet, the highest found so far (height_d), or DYD_NONE. */
-typedef struct circle_d {
-  dyd_disc_work *w;
-  dyd_direction u;
-  double x, y, radius, reach, highest;
-  bool legal, good;
-  uint32_t worst;
-} circle_d;
-
-static double size_d(const dyd_disc_work *w, uint32_t v) {
-  const double *d = w->about[v];
-  return fabs(d[0]) + fabs(d[1]) + d[2];
+double dyd_filter_radius(const dyd_disc_work *w, uint32_t v) {
+  return w->weight ? w->weight[v] * w->now : w->about[v][2];
 }
 
-static double distance_d(const circle_d *c, uint32_t v) {
+static double size_d(const dyd_disc_work *w, uint32_t v) {
+  return fabs(w->about[v][0]) + fabs(w->about[v][1]) + dyd_filter_radius(w, v);
+}
+
+double dyd_filter_distance(const dyd_circle_d *c, uint32_t v) {
   return hypot(c->w->about[v][0] - c->x, c->w->about[v][1] - c->y);
 }
 
 /* How much all is off by, with v. */
-static double room_d(const circle_d *c, uint32_t v) {
-  return ROOM * (fabs(c->x) + fabs(c->y) + c->radius + size_d(c->w, v));
+static double room_d(const dyd_circle_d *c, uint32_t v) {
+  return ROOM * (size_d(c->w, v) + (c->line ? fabs(c->height) : fabs(c->x) + fabs(c->y) + c->radius)) + c->clear;
 }
+
+bool dyd_filter_keeps_clear(const dyd_circle_d *c, uint32_t v) {
+  double r = dyd_filter_radius(c->w, v), room = room_d(c, v);
+  if (c->line) return c->x * c->w->about[v][0] + c->y * c->w->about[v][1] + (c->legal ? r : -r) < c->height - room;
+  return dyd_filter_distance(c, v) + (c->legal ? -r : r) > c->radius + room;
+}
+
+/* The circle of direction u, about; reach: the squares that come so near are looked at. worst: of those in the way that
+ * are not seen yet, the highest found so far (height_d), or DYD_NONE. */
+typedef struct circle_d {
+  dyd_circle_d at;
+  dyd_direction u;
+  double reach, highest;
+  bool good;
+  uint32_t worst;
+} circle_d;
 
 /* h of the circle of direction u that v just keeps from: discs.h. A disc that meets i rules all circles out, or none.
  */
 static double height_d(const circle_d *c, uint32_t v) {
-  const double *i = c->w->about[c->w->i], *k = c->w->about[v];
+  const double *i = c->at.w->about[c->at.w->i], *k = c->at.w->about[v];
   double x = k[0] - i[0], y = k[1] - i[1], r = k[2] + i[2], n = x * x + y * y - r * r, along = c->u.x * x + c->u.y * y;
-  if (!(n > 0)) return c->legal ? HUGE_VAL : -HUGE_VAL;
-  return (c->legal ? along + r : along - r) / n;
+  if (!(n > 0)) return c->at.legal ? HUGE_VAL : -HUGE_VAL;
+  return (c->at.legal ? along + r : along - r) / n;
 }
 
 /* The visitor of trees: goes on unless v is higher than the circle, and than the worst so far. */
 static bool keep_worst(circle_d *c, uint32_t v) {
-  double height = is_seen(c->w, v) ? -HUGE_VAL : height_d(c, v);
+  double height = is_seen(c->at.w, v) ? -HUGE_VAL : height_d(c, v);
   if (!(height > c->highest)) return true;
   c->worst = v;
   c->highest = height;
@@ -140,8 +149,7 @@ static bool keep_worst(circle_d *c, uint32_t v) {
 /* legal: v must be outside for sure; possible: v blocks when its disc is inside, about. */
 static bool meet_square(void *context, uint32_t v) {
   circle_d *c = context;
-  double r = c->w->about[v][2], d = distance_d(c, v);
-  if (v == c->w->i || v == c->w->j || (c->legal ? d - r : d + r) > c->radius + room_d(c, v)) return true;
+  if (v == c->at.w->i || v == c->at.w->j || dyd_filter_keeps_clear(&c->at, v)) return true;
   c->good = false;
   return c->highest < HUGE_VAL && keep_worst(c, v);
 }
@@ -152,7 +160,7 @@ static bool meet_square(void *context, uint32_t v) {
  * the search. */
 typedef struct circle_q {
   dyd_disc_work *w;
-  circle_d about;
+  dyd_circle_d about;
   dyd_disc disc;
   bool one, clear;
 } circle_q;
@@ -162,8 +170,7 @@ static bool meet_square_exactly(void *context, uint32_t v) {
   circle_q *c = context;
   const dyd_disc *k = &c->w->disc[v];
   if (v == c->w->i || v == c->w->j) return true;
-  double r = c->w->about[v][2], d = distance_d(&c->about, v);
-  if (d - r > c->about.radius + room_d(&c->about, v) || !dyd_discs_meet(k, &c->disc)) return true;
+  if (dyd_filter_keeps_clear(&c->about, v) || !dyd_discs_meet(k, &c->disc)) return true;
   c->clear = false;
   if (!c->one) dyd_discs_see(c->w, v);
   return !c->one && !c->w->failed;
@@ -176,7 +183,7 @@ static void visit_exactly(circle_q *c) {
   const dyd_bbox at = {{x, x, y, y}};
   double radius2 = reach * reach * (1 + ROOM);
   if (!(reach < FARTHEST)) return;
-  c->about = (circle_d){.w = c->w, .x = x, .y = y, .radius = r};
+  c->about = (dyd_circle_d){.w = c->w, .legal = true, .x = x, .y = y, .radius = r};
   c->clear = true;
   dyd_tree_near(&c->w->pd->sk.rects.tree, &at, &radius2, meet_square_exactly, c);
 }
@@ -198,38 +205,36 @@ static bool place_circle_of(circle_d *c, dyd_disc_work *w, dyd_direction u, bool
   const double *i = w->about[w->i], *j = w->about[w->j];
   double jx = j[0] - i[0], jy = j[1] - i[1], delta = j[2] - i[2], n = jx * jx + jy * jy - delta * delta;
   double h = (u.x * jx + u.y * jy + (legal ? -delta : delta)) / n;
-  *c = (circle_d){.w = w, .x = i[0] + u.x / (2 * h), .y = i[1] + u.y / (2 * h), .legal = legal};
-  c->u = u;
-  c->worst = DYD_NONE;
-  c->highest = h > 0 ? h * (1 - ROOM) : 0;
-  double a = distance_d(c, w->i), ri = i[2], b = distance_d(c, w->j), rj = j[2];
-  c->radius = legal ? fmax(a + ri, b + rj) : fmax(a - ri, b - rj);
-  double room = room_d(c, w->i) + room_d(c, w->j);
-  c->radius += legal ? room : 0;
-  c->reach = c->radius + 2 * room;
+  *c = (circle_d){.u = u, .worst = DYD_NONE, .highest = h > 0 ? h * (1 - ROOM) : 0};
+  c->at = (dyd_circle_d){.w = w, .x = i[0] + u.x / (2 * h), .y = i[1] + u.y / (2 * h), .legal = legal};
+  double a = dyd_filter_distance(&c->at, w->i), ri = i[2], b = dyd_filter_distance(&c->at, w->j), rj = j[2];
+  c->at.radius = legal ? fmax(a + ri, b + rj) : fmax(a - ri, b - rj);
+  double room = room_d(&c->at, w->i) + room_d(&c->at, w->j);
+  c->at.radius += legal ? room : 0;
+  c->reach = c->at.radius + 2 * room;
   c->good = h > 0 && c->reach < FARTHEST;
   return c->good;
 }
 
 static void visit_circle(circle_d *c) {
-  const dyd_bbox at = {{c->x, c->x, c->y, c->y}};
+  const dyd_bbox at = {{c->at.x, c->at.x, c->at.y, c->at.y}};
   double radius2 = c->reach * c->reach * (1 + ROOM);
-  if (c->reach > 0) dyd_tree_near(&c->w->pd->sk.rects.tree, &at, &radius2, meet_square, c);
+  if (c->reach > 0) dyd_tree_near(&c->at.w->pd->sk.rects.tree, &at, &radius2, meet_square, c);
 }
 
 /* Whoever is higher still is in the smaller circle that the worst allows. */
 static bool see_worst(circle_d *c) {
-  const double *i = c->w->about[c->w->i];
+  const double *i = c->at.w->about[c->at.w->i];
   uint32_t last = DYD_NONE;
   while (c->worst != last && c->highest > 0 && isfinite(c->highest)) {
     double distance = 1 / (2 * c->highest), r = i[2];
     last = c->worst;
-    c->x = i[0] + c->u.x * distance;
-    c->y = i[1] + c->u.y * distance;
-    c->radius = c->reach = distance + (c->legal ? r : -r);
+    c->at.x = i[0] + c->u.x * distance;
+    c->at.y = i[1] + c->u.y * distance;
+    c->at.radius = c->reach = distance + (c->at.legal ? r : -r);
     visit_circle(c);
   }
-  return c->worst != DYD_NONE && dyd_discs_see(c->w, c->worst);
+  return c->worst != DYD_NONE && dyd_discs_see(c->at.w, c->worst);
 }
 
 static bool meet_beyond(void *context, uint32_t v) {
@@ -238,29 +243,22 @@ static bool meet_beyond(void *context, uint32_t v) {
 
 /* Far circles: everybody beyond the tangent of i, about. */
 static void look_beyond(circle_d *c) {
-  const double *i = c->w->about[c->w->i];
+  const double *i = c->at.w->about[c->at.w->i];
   double height = c->u.x * i[0] + c->u.y * i[1];
-  dyd_tree_beyond(&c->w->pd->sk.rects.tree, c->u.x, c->u.y, &height, meet_beyond, c);
+  dyd_tree_beyond(&c->at.w->pd->sk.rects.tree, c->u.x, c->u.y, &height, meet_beyond, c);
 }
 
 /* ---- one pair ---- */
 
-bool dyd_discs_load(dyd_disc_work *w, bool legal) {
-  w->loaded = 0;
-  if (!dyd_caps_begin(&w->caps, &w->disc[w->i], &w->disc[w->j], legal)) w->failed = true;
-  return dyd_discs_load_more(w, legal);
-}
-
 static bool vertices_meet(const dyd_disc_work *w, uint32_t v, uint32_t k) {
-  if (w->about) {
-    const double *a = w->about[v], *b = w->about[k];
-    double gap = hypot(b[0] - a[0], b[1] - a[1]) - (a[2] + b[2]);
-    if (fabs(gap) > ROOM * (size_d(w, v) + size_d(w, k))) return gap < 0;
-  }
+  const double *a = w->about[v], *b = w->about[k];
+  double gap = hypot(b[0] - a[0], b[1] - a[1]) - (dyd_filter_radius(w, v) + dyd_filter_radius(w, k));
+  if (fabs(gap) > ROOM * (size_d(w, v) + size_d(w, k))) return gap < 0;
   return dyd_discs_meet(&w->disc[v], &w->disc[k]);
 }
 
-bool dyd_discs_load_more(dyd_disc_work *w, bool legal) {
+/* The caps of those seen that have none yet. */
+static bool load_more(dyd_disc_work *w, bool legal) {
   for (; w->loaded < w->count && !w->failed; w->loaded++) {
     uint32_t v = w->seen[w->loaded];
     bool meets = vertices_meet(w, w->i, v) || vertices_meet(w, w->j, v);
@@ -270,12 +268,18 @@ bool dyd_discs_load_more(dyd_disc_work *w, bool legal) {
   return !w->failed;
 }
 
+bool dyd_discs_load(dyd_disc_work *w, bool legal) {
+  w->loaded = 0;
+  if (!dyd_caps_begin(&w->caps, &w->disc[w->i], &w->disc[w->j], legal)) w->failed = true;
+  return load_more(w, legal);
+}
+
 static bool discs_are_legal(dyd_disc_work *w) {
   for (int round = 0; round < MOST_ROUNDS; round++) {
     circle_d c;
     dyd_direction u;
     DYD_INVARIANT(2 * round < MOST_ROUNDS); /* the worst first: a few are enough */
-    if (!(round ? dyd_discs_load_more : dyd_discs_load)(w, true) || !dyd_caps_common(&u, &w->caps)) return false;
+    if (!(round ? load_more : dyd_discs_load)(w, true) || !dyd_caps_common(&u, &w->caps)) return false;
     bool placed = place_circle_of(&c, w, u, true);
     size_t had = w->count;
     if (placed) visit_circle(&c);
@@ -303,7 +307,7 @@ static bool discs_are_possible(dyd_disc_work *w) {
     circle_d c;
     dyd_direction u;
     DYD_INVARIANT(2 * round < MOST_ROUNDS); /* the worst first: a few are enough */
-    if (!(round ? dyd_discs_load_more : dyd_discs_load)(w, false)) return true;
+    if (!(round ? load_more : dyd_discs_load)(w, false)) return true;
     if (!dyd_caps_uncovered(&u, &w->caps)) return false;
     if (place_circle_of(&c, w, u, false))
       visit_circle(&c);

@@ -184,6 +184,7 @@ static void weigh_pair(weight_work *g, uint32_t v, uint32_t w) {
 
 static void weigh_all(weight_work *g, double t) {
   mpq_set_d(g->now, t);
+  g->discs.now = t;
   weigh_disc(g, g->discs.i);
   weigh_disc(g, g->discs.j);
   for (size_t k = 0; k < g->discs.count; k++) weigh_disc(g, g->discs.seen[k]);
@@ -191,86 +192,59 @@ static void weigh_all(weight_work *g, double t) {
 
 /* ---- everybody else ---- */
 
-/* A circle, or, with `line`, the half-plane beyond height along (x, y). clear: by how much others have to keep clear of
- * it, beyond what distances are off by. */
+/* added: how many discs were not clear of it, and are seen now. */
 typedef struct weight_circle {
+  dyd_circle_d at;
   weight_work *g;
-  bool legal, line;
-  double x, y, radius, height, clear;
   size_t added;
 } weight_circle;
 
-static double at_d(const weight_work *g, uint32_t v, int axis) {
-  const dyd_disc *d = &g->discs.disc[v];
-  return mpq_get_d(axis ? d->y : d->x);
-}
-
-static double radius_d(const weight_work *g, uint32_t v) {
-  return g->t->weight[v] * mpq_get_d(g->now);
-}
-
-static double distance_to(const weight_circle *c, uint32_t v) {
-  return hypot(at_d(c->g, v, 0) - c->x, at_d(c->g, v, 1) - c->y);
-}
-
-static double room_of(const weight_circle *c, uint32_t v) {
-  double size = fabs(at_d(c->g, v, 0)) + fabs(at_d(c->g, v, 1)) + radius_d(c->g, v);
-  return ROOM * (size + (c->line ? fabs(c->height) : fabs(c->x) + fabs(c->y) + c->radius)) + c->clear;
-}
-
-static bool keeps_clear(const weight_circle *c, uint32_t v) {
-  double r = radius_d(c->g, v), room = room_of(c, v);
-  if (c->line) return c->x * at_d(c->g, v, 0) + c->y * at_d(c->g, v, 1) + (c->legal ? r : -r) < c->height - room;
-  return c->legal ? distance_to(c, v) - r > c->radius + room : distance_to(c, v) + r > c->radius + room;
-}
-
 static bool meet_other(void *context, uint32_t v) {
   weight_circle *c = context;
-  if (keeps_clear(c, v) || !dyd_discs_see(&c->g->discs, v)) return !c->g->discs.failed;
+  if (dyd_filter_keeps_clear(&c->at, v) || !dyd_discs_see(&c->g->discs, v)) return !c->g->discs.failed;
   weigh_disc(c->g, v);
   return ++c->added < MOST_NEW;
 }
 
 /* Is everybody else clear of it? Otherwise some are seen now. */
-static bool all_are_clear(weight_circle *c) {
-  const dyd_tolerance *t = c->g->t;
-  double others = c->legal ? mpq_get_d(c->g->now) * t->heaviest : 0, reach = c->radius + others;
+static bool all_are_clear(weight_work *g, const dyd_circle_d *c) {
+  const dyd_tolerance *t = g->t;
+  weight_circle others = {.at = *c, .g = g};
+  double most = c->legal ? g->discs.now * t->heaviest : 0, reach = c->radius + most;
   double size = fabs(c->x) + fabs(c->y) + reach;
   size += t->sk->mesh.extent[0] + t->sk->mesh.extent[1];
   const dyd_bbox at = {{c->x, c->x, c->y, c->y}};
-  double height = c->height - others - 16 * ROOM * (size + fabs(c->height)) - c->clear;
+  double height = c->height - most - 16 * ROOM * (size + fabs(c->height)) - c->clear;
   double radius2 = reach + 16 * ROOM * size + c->clear;
   radius2 *= radius2 * (1 + ROOM);
-  c->added = 0;
   if (c->line)
-    dyd_tree_beyond(&t->tree, c->x, c->y, &height, meet_other, c);
+    dyd_tree_beyond(&t->tree, c->x, c->y, &height, meet_other, &others);
   else
-    dyd_tree_near(&t->tree, &at, &radius2, meet_other, c);
-  return c->added == 0 && !c->g->discs.failed;
+    dyd_tree_near(&t->tree, &at, &radius2, meet_other, &others);
+  return others.added == 0 && !g->discs.failed;
 }
 
 /* The circle of direction u; false: doubles cannot place it. */
-static bool circle_of_direction(weight_circle *c, weight_work *g, dyd_direction u, bool legal) {
-  const dyd_disc_work *w = &g->discs;
-  double jx = at_d(g, w->j, 0) - at_d(g, w->i, 0), jy = at_d(g, w->j, 1) - at_d(g, w->i, 1), size = hypot(jx, jy);
-  double ri = radius_d(g, w->i), rj = radius_d(g, w->j), delta = rj - ri, n = size * size - delta * delta;
+static bool circle_of_direction(dyd_circle_d *c, weight_work *g, dyd_direction u, bool legal) {
+  dyd_disc_work *w = &g->discs;
+  const double *i = w->about[w->i], *j = w->about[w->j];
+  double jx = j[0] - i[0], jy = j[1] - i[1], size = hypot(jx, jy);
+  double ri = dyd_filter_radius(w, w->i), rj = dyd_filter_radius(w, w->j), delta = rj - ri;
+  double n = size * size - delta * delta, coordinates = fabs(i[0]) + fabs(i[1]) + fabs(j[0]) + fabs(j[1]);
   double num = u.x * jx + u.y * jy + (legal ? -delta : delta), from = 1 / (2 * num / n);
-  double coordinates =
-      fabs(at_d(g, w->i, 0)) + fabs(at_d(g, w->i, 1)) + fabs(at_d(g, w->j, 0)) + fabs(at_d(g, w->j, 1));
   double doubt = (TURN * size + 0x1p-49 * (size + delta + coordinates)) / fabs(num) +
                  0x1p-48 * (size * size + delta * delta + size * coordinates) / n;
-  *c = (weight_circle){.g = g, .legal = legal};
+  *c = (dyd_circle_d){.w = w, .legal = legal};
   if (!(n > 0x1p-20 * size * size && n > 0x1p-400 && n < 0x1p400)) return false;
   if (num > 0 && doubt < 0.25) {
-    c->x = at_d(g, w->i, 0) + u.x * from;
-    c->y = at_d(g, w->i, 1) + u.y * from;
-    double a = distance_to(c, w->i), b = distance_to(c, w->j);
-    c->radius = legal ? a + ri : a - ri;
-    c->radius = legal ? fmax(c->radius, b + rj) : fmax(c->radius, b - rj);
+    c->x = i[0] + u.x * from;
+    c->y = i[1] + u.y * from;
+    double a = dyd_filter_distance(c, w->i), b = dyd_filter_distance(c, w->j);
+    c->radius = legal ? fmax(a + ri, b + rj) : fmax(a - ri, b - rj);
     c->clear = 2 * fabs(from) * (2 * doubt + TURN) + ROOM * coordinates;
     return c->radius < 1e150 && c->clear < 1e150;
   }
-  double a = u.x * at_d(g, w->i, 0) + u.y * at_d(g, w->i, 1), b = u.x * at_d(g, w->j, 0) + u.y * at_d(g, w->j, 1);
+  double a = u.x * i[0] + u.y * i[1], b = u.x * j[0] + u.y * j[1];
   c->line = true;
   c->x = u.x;
   c->y = u.y;
@@ -289,7 +263,8 @@ static bool is_some_common(dyd_direction *u, weight_work *g) {
   dyd_direction a = dyd_filter_cap_end(&w->caps.item[w->caps.by[0]], -1);
   dyd_direction b = dyd_filter_cap_end(&w->caps.item[w->caps.by[1]], 1);
   if (hypot(a.x + b.x, a.y + b.y) > 0x1p-8) return true;
-  double x = at_d(g, w->j, 0) - at_d(g, w->i, 0), y = at_d(g, w->j, 1) - at_d(g, w->i, 1), size = hypot(x, y);
+  const double *i = w->about[w->i], *j = w->about[w->j];
+  double x = j[0] - i[0], y = j[1] - i[1], size = hypot(x, y);
   *u = (dyd_direction){x / size, y / size};
   return true;
 }
@@ -297,49 +272,34 @@ static bool is_some_common(dyd_direction *u, weight_work *g) {
 /* The disc of i is in that of j, which is the best witness then. */
 static dyd_truth is_larger_legal(weight_work *g) {
   dyd_disc_work *w = &g->discs;
+  const double *j = w->about[w->j];
+  const dyd_circle_d c = {.w = w, .legal = true, .x = j[0], .y = j[1], .radius = dyd_filter_radius(w, w->j)};
   for (;;) {
     for (size_t k = 0; k < w->count; k++)
       if (dyd_discs_meet(&w->disc[w->j], &w->disc[w->seen[k]])) return DYD_FALSE;
-    weight_circle c = {
-        .g = g, .legal = true, .x = at_d(g, w->j, 0), .y = at_d(g, w->j, 1), .radius = radius_d(g, w->j)};
-    if (all_are_clear(&c)) return DYD_TRUE;
+    if (all_are_clear(g, &c)) return DYD_TRUE;
     if (w->failed) return DYD_UNKNOWN;
   }
 }
 
-static dyd_truth is_legal_at(weight_work *g, double t) {
+/* legal: is the pair legal; else: is it illegal? */
+static dyd_truth weights_hold_at(weight_work *g, double t, bool legal) {
   dyd_disc_work *w = &g->discs;
   weigh_all(g, t);
-  if (dyd_disc_is_within(&w->disc[w->i], &w->disc[w->j])) return is_larger_legal(g);
+  if (legal && dyd_disc_is_within(&w->disc[w->i], &w->disc[w->j])) return is_larger_legal(g);
+  if (!legal && dyd_discs_meet(&w->disc[w->i], &w->disc[w->j])) return DYD_FALSE;
   for (;;) {
     dyd_direction u;
-    weight_circle c;
-    bool some = is_some_common(&u, g);
+    dyd_circle_d c;
+    bool some = legal ? is_some_common(&u, g) : dyd_discs_load(w, false) && dyd_caps_uncovered(&u, &w->caps);
     if (w->failed) return DYD_UNKNOWN;
-    if (!some) return DYD_FALSE;
-    if (!circle_of_direction(&c, g, u, true)) return DYD_UNKNOWN;
-    if (all_are_clear(&c)) return DYD_TRUE;
-  }
-}
-
-static dyd_truth is_illegal_at(weight_work *g, double t) {
-  dyd_disc_work *w = &g->discs;
-  weigh_all(g, t);
-  if (dyd_discs_meet(&w->disc[w->i], &w->disc[w->j])) return DYD_FALSE;
-  for (;;) {
-    dyd_direction u;
-    weight_circle c;
-    bool some = dyd_discs_load(w, false) && dyd_caps_uncovered(&u, &w->caps);
-    if (w->failed) return DYD_UNKNOWN;
-    if (!some) return DYD_TRUE;
-    if (!circle_of_direction(&c, g, u, false)) return DYD_UNKNOWN;
-    if (all_are_clear(&c)) return DYD_FALSE;
+    if (!some) return legal ? DYD_FALSE : DYD_TRUE;
+    if (!circle_of_direction(&c, g, u, legal)) return DYD_UNKNOWN;
+    if (all_are_clear(g, &c)) return legal ? DYD_TRUE : DYD_FALSE;
   }
 }
 
 /* ---- where it changes ---- */
-
-typedef dyd_truth weight_question(weight_work *g, double t);
 
 /* Where to ask next. First beside a guess, below and above in turn and farther off each time: mostly these are all. */
 static double next_try(const weight_work *g, double lo, double hi, bool legal, int guesses) {
@@ -350,11 +310,11 @@ static double next_try(const weight_work *g, double lo, double hi, bool legal, i
 }
 
 /* The question is true at *lo, or *lo is 0, and false at *hi. Until they are near to each other, or it is not known. */
-static void halve(double *lo, double *hi, weight_work *g, weight_question *is_below) {
+static void halve(double *lo, double *hi, weight_work *g, bool legal) {
   int guesses = 0;
   for (int k = 0; k<MOST_STEPS && * hi> * lo * WIDTH; k++) {
-    double mid = next_try(g, *lo, *hi, is_below == is_legal_at, guesses++);
-    dyd_truth below = mid > 0 ? is_below(g, mid) : DYD_UNKNOWN;
+    double mid = next_try(g, *lo, *hi, legal, guesses++);
+    dyd_truth below = mid > 0 ? weights_hold_at(g, mid, legal) : DYD_UNKNOWN;
     if (below == DYD_UNKNOWN && guesses <= GUESSES) {
       guesses = GUESSES;
       continue;
@@ -364,11 +324,11 @@ static void halve(double *lo, double *hi, weight_work *g, weight_question *is_be
   }
 }
 
-/* From *lo on, where it is true, to *hi, where it is false; infinite: nowhere. */
-static void find_above(double *lo, double *hi, weight_work *g, weight_question *is_below) {
+/* From *lo on, where the pair is legal, to *hi, where it is not; infinite: nowhere. */
+static void find_above(double *lo, double *hi, weight_work *g) {
   dyd_truth below = DYD_TRUE;
   for (*hi = *lo * 2; *hi < 0x1p900; *hi *= 2) {
-    below = is_below(g, *hi);
+    below = weights_hold_at(g, *hi, true);
     if (below == DYD_FALSE) return;
     if (below == DYD_TRUE) *lo = *hi;
   }
@@ -398,10 +358,10 @@ static uint32_t site_of_cap(const weight_work *g, size_t k) {
 }
 
 /* Who binds: the caps about the direction that is still allowed at t. */
-static void find_binding(dyd_tolerance_row *row, weight_work *g, double t, weight_question *ask) {
+static void find_binding(dyd_tolerance_row *row, weight_work *g, double t, bool legal) {
   dyd_caps *c = &g->discs.caps;
   c->count = 0;
-  ask(g, t);
+  weights_hold_at(g, t, legal);
   row->k = row->l = DYD_NO_SITE;
   if (!c->count) return;
   size_t a = c->by[0], b = c->by[0] == c->by[1] ? next_cap_to(c, a) : c->by[1];
@@ -410,8 +370,8 @@ static void find_binding(dyd_tolerance_row *row, weight_work *g, double t, weigh
   row->l = k == l ? DYD_NO_SITE : k < l ? l : k;
 }
 
-static void row_weigh(weight_work *g, dyd_tolerance_row *row, double lo, double hi, weight_question *ask) {
-  find_binding(row, g, ask == is_legal_at ? lo : hi, ask);
+static void row_weigh(weight_work *g, dyd_tolerance_row *row, double lo, double hi, bool legal) {
+  find_binding(row, g, legal ? lo : hi, legal);
   row->lo = lo * (1 - SPARE);
   row->hi = hi * (1 + 2 * SPARE);
 }
@@ -433,11 +393,11 @@ static dyd_status weigh_death(weight_work *g, dyd_tolerance_row *row) {
     dyd_status st = see_around(g, g->discs.i, g->discs.j);
     if (st != DYD_OK) return st;
     if (!(lo > 0x1p-900 && lo < 0x1p900)) lo = 0;
-    if (lo > 0) find_above(&lo, &hi, g, is_legal_at);
-    if (hi < HUGE_VAL) halve(&lo, &hi, g, is_legal_at);
+    if (lo > 0) find_above(&lo, &hi, g);
+    if (hi < HUGE_VAL) halve(&lo, &hi, g, true);
   }
   if (hi < HUGE_VAL)
-    row_weigh(g, row, lo, hi, is_legal_at);
+    row_weigh(g, row, lo, hi, true);
   else
     *row = (dyd_tolerance_row){row->i, row->j, row->event, DYD_NO_SITE, DYD_NO_SITE, t->heaviest > 0 ? lo : hi, hi};
   return g->discs.failed ? DYD_E_NOMEM : DYD_OK;
@@ -450,10 +410,10 @@ static dyd_status weigh_birth(bool *late, weight_work *g, dyd_tolerance_row *row
   weigh_pair(g, t->sk->vertex[row->i], t->sk->vertex[row->j]);
   dyd_status st = see_around(g, g->discs.i, g->discs.j);
   if (st != DYD_OK) return st;
-  *late = is_illegal_at(g, hi) == DYD_TRUE;
+  *late = weights_hold_at(g, hi, false) == DYD_TRUE;
   if (*late) return DYD_OK;
-  halve(&lo, &hi, g, is_illegal_at);
-  row_weigh(g, row, lo, hi, is_illegal_at);
+  halve(&lo, &hi, g, false);
+  row_weigh(g, row, lo, hi, false);
   return g->discs.failed ? DYD_E_NOMEM : DYD_OK;
 }
 
@@ -464,7 +424,9 @@ static dyd_status weights_begin(weight_work *g) {
   mpq_t other;
   dyd_rect r;
   dyd_status st = dyd_near_index(g->t);
-  g->discs.disc = dyd_alloc(sk->n, sizeof *g->discs.disc);
+  g->discs.weight = g->t->weight;
+  g->discs.about = dyd_alloc(sk->n, sizeof *g->discs.about);
+  g->discs.disc = g->discs.about ? dyd_alloc(sk->n, sizeof *g->discs.disc) : NULL;
   if (!g->discs.disc) return DYD_E_NOMEM;
   for (uint32_t v = 0; v < sk->n; v++) dyd_disc_init(&g->discs.disc[v]);
   dyd_rect_init(&r);
@@ -473,6 +435,8 @@ static dyd_status weights_begin(weight_work *g) {
     st = dyd_sites_get(&r, sk->reps.sites, sk->reps.site[v]);
     dyd_interval_get_q(g->discs.disc[v].x, other, &r.x);
     dyd_interval_get_q(g->discs.disc[v].y, other, &r.y);
+    g->discs.about[v][0] = mpq_get_d(g->discs.disc[v].x);
+    g->discs.about[v][1] = mpq_get_d(g->discs.disc[v].y);
   }
   mpq_clear(other);
   dyd_rect_clear(&r);
@@ -482,6 +446,7 @@ static dyd_status weights_begin(weight_work *g) {
 static void weights_end(weight_work *g) {
   for (uint32_t v = 0; g->discs.disc && v < g->t->sk->n; v++) dyd_disc_clear(&g->discs.disc[v]);
   free(g->discs.disc);
+  free(g->discs.about);
   free(g->discs.seen);
   dyd_caps_clear(&g->discs.caps);
   mpq_clear(g->now);
