@@ -31,21 +31,10 @@ typedef struct dyd_clip {
   size_t count, cap;
 } dyd_clip;
 
-static void clip_init(dyd_clip *c, const dyd_irect *box) {
-  *c = (dyd_clip){.box = box};
-  mpz_inits(c->level[0], c->level[1], NULL);
-}
-
 static void clip_clear(dyd_clip *c) {
   for (size_t k = 0; k < c->count; k++) mpz_clears(c->point[k].at[0], c->point[k].at[1], NULL);
   free(c->point);
   mpz_clears(c->level[0], c->level[1], NULL);
-}
-
-/* NULL: this coordinate does not count. */
-static void clip_level(dyd_clip *c, int axis, mpz_srcptr at) {
-  c->flat[axis] = !at;
-  if (at) mpz_set(c->level[axis], at);
 }
 
 /* The largest level in the box against the least distance of the point to the box, both squared. */
@@ -84,12 +73,14 @@ typedef struct clip_polygon {
   size_t count, made, cap;
 } clip_polygon;
 
-static bool polygon_room(clip_polygon *p) {
-  if (p->count < p->made) return true;
-  if (!dyd_reserve((void **)&p->corner, &p->cap, p->made + 1, sizeof *p->corner)) return false;
-  mpq_inits(p->corner[p->made].at[0], p->corner[p->made].at[1], NULL);
-  p->made++;
-  return true;
+/* One corner more; NULL: memory is exhausted. */
+static clip_corner *polygon_add(clip_polygon *p) {
+  if (p->count == p->made) {
+    if (!dyd_reserve((void **)&p->corner, &p->cap, p->made + 1, sizeof *p->corner)) return NULL;
+    mpq_inits(p->corner[p->made].at[0], p->corner[p->made].at[1], NULL);
+    p->made++;
+  }
+  return &p->corner[p->count++];
 }
 
 static void polygon_clear(clip_polygon *p) {
@@ -100,10 +91,10 @@ static void polygon_clear(clip_polygon *p) {
 static bool polygon_box(clip_polygon *p, const dyd_irect *box) {
   p->count = 0;
   for (int c = 0; c < 4; c++) {
-    if (!polygon_room(p)) return false;
-    mpq_set_z(p->corner[p->count].at[0], dyd_irect_end(box, 0, c == 1 || c == 2));
-    mpq_set_z(p->corner[p->count].at[1], dyd_irect_end(box, 1, c >= 2));
-    p->count++;
+    clip_corner *to = polygon_add(p);
+    if (!to) return false;
+    mpq_set_z(to->at[0], dyd_irect_end(box, 0, c == 1 || c == 2));
+    mpq_set_z(to->at[1], dyd_irect_end(box, 1, c >= 2));
   }
   return true;
 }
@@ -126,29 +117,27 @@ static void nearer_by(mpq_ptr out, const clip_corner *m, const dyd_clip_point *k
   mpq_clears(s, t, NULL);
 }
 
-/* The place between a and b where a value that is f at a and g at b, of opposite signs, is 0. */
-static bool polygon_between(clip_polygon *to, const clip_corner *a, const clip_corner *b, mpq_srcptr f, mpq_srcptr g) {
+/* Adds the place between a and b where a value that is f at a and g at b, of opposite signs, is 0. */
+static bool polygon_between(clip_polygon *p, const clip_corner *a, const clip_corner *b, mpq_srcptr f, mpq_srcptr g) {
   mpq_t w, t;
-  if (!polygon_room(to)) return false;
+  clip_corner *to = polygon_add(p);
+  if (!to) return false;
   mpq_inits(w, t, NULL);
   mpq_sub(w, f, g);
   mpq_div(w, f, w);
   for (int axis = 0; axis < 2; axis++) {
     mpq_sub(t, b->at[axis], a->at[axis]);
     mpq_mul(t, t, w);
-    mpq_add(to->corner[to->count].at[axis], a->at[axis], t);
+    mpq_add(to->at[axis], a->at[axis], t);
   }
-  to->count++;
   mpq_clears(w, t, NULL);
   return true;
 }
 
-static bool polygon_keep(clip_polygon *to, const clip_corner *a) {
-  if (!polygon_room(to)) return false;
-  mpq_set(to->corner[to->count].at[0], a->at[0]);
-  mpq_set(to->corner[to->count].at[1], a->at[1]);
-  to->count++;
-  return true;
+static bool polygon_keep(clip_polygon *p, const clip_corner *a) {
+  clip_corner *to = polygon_add(p);
+  for (int axis = 0; axis < 2 && to; axis++) mpq_set(to->at[axis], a->at[axis]);
+  return to;
 }
 
 /* The part of `from` that is as near to k as to l. */
@@ -168,7 +157,7 @@ static bool polygon_cut(clip_polygon *to, const clip_polygon *from, const dyd_cl
   return good;
 }
 
-/* Is the point k as far as the level? */
+/* Returns true if the point k is as far as the level. */
 static bool corner_has_room(const dyd_clip *c, const clip_corner *m, const dyd_clip_point *k) {
   mpq_t sum, t;
   mpq_inits(sum, t, NULL);
@@ -248,13 +237,6 @@ static bool reach_room(dyd_reach *r, size_t count) {
   return true;
 }
 
-static void times_four(dyd_irect *g) {
-  mpz_mul_2exp(g->x0, g->x0, 2);
-  mpz_mul_2exp(g->x1, g->x1, 2);
-  mpz_mul_2exp(g->y0, g->y0, 2);
-  mpz_mul_2exp(g->y1, g->y1, 2);
-}
-
 dyd_status dyd_reach_load(dyd_reach *r, const dyd_sites *sites, uint32_t i, const uint32_t *other, size_t count) {
   if (!reach_room(r, count + 1)) return DYD_E_NOMEM;
   dyd_status st = dyd_sites_get(&r->rect[0], sites, i);
@@ -262,25 +244,19 @@ dyd_status dyd_reach_load(dyd_reach *r, const dyd_sites *sites, uint32_t i, cons
   if (st != DYD_OK) return st;
   r->count = count + 1;
   dyd_irects_scale(r->grid, r->in, r->count, NULL, NULL);
-  for (size_t k = 0; k < r->count; k++) times_four(&r->grid[k]);
+  for (size_t k = 0; k < r->count; k++) {
+    mpz_ptr end[4] = {r->grid[k].x0, r->grid[k].x1, r->grid[k].y0, r->grid[k].y1};
+    for (int e = 0; e < 4; e++) mpz_mul_2exp(end[e], end[e], 2);
+  }
   return DYD_OK;
 }
 
 /* ---- for every choice ---- */
 
-/* Corner c of a rectangle. */
-static mpz_srcptr corner_x(const dyd_irect *g, int c) {
-  return dyd_irect_end(g, 0, c & 1);
-}
-
-static mpz_srcptr corner_y(const dyd_irect *g, int c) {
-  return dyd_irect_end(g, 1, c >> 1);
-}
-
 /* dl_j^2 - ds_k^2 is a maximum of functions that are affine in x: largest at a corner of R_0. */
 bool dyd_reach_is_nearest(dyd_reach *r, size_t j) {
   for (int c = 0; c < 4; c++) {
-    mpz_srcptr x = corner_x(&r->grid[0], c), y = corner_y(&r->grid[0], c);
+    mpz_srcptr x = dyd_irect_end(&r->grid[0], 0, c & 1), y = dyd_irect_end(&r->grid[0], 1, c >> 1);
     dyd_irect_dl2(r->d, x, y, &r->grid[j]);
     for (size_t k = 1; k < r->count; k++) {
       if (k == j) continue;
@@ -357,27 +333,27 @@ static void set_rho(const reach_quest *q, mpz_srcptr x, mpz_srcptr y) {
   }
 }
 
-/* Marks lose whoever is not too near there; is nobody? */
+/* Clears the marks of those that are not too near there; returns true if none is too near. */
 static bool corner_is_free(const reach_quest *q, mpz_srcptr x, mpz_srcptr y) {
   dyd_reach *r = q->r;
-  bool nobody = true;
+  bool is_free = true;
   set_rho(q, x, y);
   for (size_t k = 1; k < r->count; k++) {
     if (k == q->j) continue;
     dyd_irect_dl2(r->d, x, y, &r->grid[k]);
     if (mpz_cmp(r->d, r->rho) < 0)
-      nobody = false;
+      is_free = false;
     else
       r->mark[k] = false;
   }
-  return nobody;
+  return is_free;
 }
 
-/* One of the corners is free; otherwise the marks say who is too near at all of them. */
+/* Returns true if a corner is free; otherwise the marks are of those too near at all of them. */
 static bool has_free_corner(const reach_quest *q, const dyd_irect *box) {
   for (size_t k = 0; k < q->r->count; k++) q->r->mark[k] = k && k != q->j;
   for (int c = 0; c < 4; c++)
-    if (corner_is_free(q, corner_x(box, c), corner_y(box, c))) return true;
+    if (corner_is_free(q, dyd_irect_end(box, 0, c & 1), dyd_irect_end(box, 1, c >> 1))) return true;
   return false;
 }
 
@@ -431,11 +407,10 @@ static bool rho_form(mpz_ptr e, mpz_ptr t, const reach_quest *q, const dyd_irect
 /* A box in which each dl is the distance of one corner: of k, the one farthest from the middle of the box. */
 static bool leaf_has_room(reach_quest *q, const dyd_irect *box) {
   dyd_reach *r = q->r;
-  dyd_clip c;
-  mpz_t e[2], t, middle;
-  mpz_inits(e[0], e[1], t, middle, NULL);
-  clip_init(&c, box);
-  for (int axis = 0; axis < 2; axis++) clip_level(&c, axis, rho_form(e[axis], t, q, box, axis) ? e[axis] : NULL);
+  dyd_clip c = {.box = box};
+  mpz_t t, middle;
+  mpz_inits(c.level[0], c.level[1], t, middle, NULL);
+  for (int axis = 0; axis < 2; axis++) c.flat[axis] = !rho_form(c.level[axis], t, q, box, axis);
   for (size_t k = 1; k < r->count && !q->failed; k++) {
     if (k == q->j) continue;
     mpz_srcptr far[2];
@@ -450,7 +425,7 @@ static bool leaf_has_room(reach_quest *q, const dyd_irect *box) {
   bool room = false;
   q->failed = q->failed || !clip_has_room(&room, &c);
   clip_clear(&c);
-  mpz_clears(e[0], e[1], t, middle, NULL);
+  mpz_clears(t, middle, NULL);
   return room;
 }
 
@@ -470,7 +445,7 @@ static bool half_has_room(reach_quest *q, const dyd_irect *box, int axis, mpz_sr
   return room;
 }
 
-/* Is there a place in the box where nobody is too near? Each cut is made once on every way down. */
+/* Returns true if none is too near at some place in the box. Each cut is made once on every way down. */
 static bool box_has_room(reach_quest *q, const dyd_irect *box) {
   if (q->failed) return false;
   if (has_free_corner(q, box)) return true;
@@ -523,14 +498,11 @@ bool dyd_reach_may_be_gabriel(dyd_reach *r, size_t j) {
   const dyd_irect *a = &r->grid[0], *b = &r->grid[j];
   dyd_irect middle;
   dyd_irect_init(&middle);
-  mpz_add(middle.x0, a->x0, b->x0);
-  mpz_add(middle.x1, a->x1, b->x1);
-  mpz_add(middle.y0, a->y0, b->y0);
-  mpz_add(middle.y1, a->y1, b->y1);
-  mpz_fdiv_q_2exp(middle.x0, middle.x0, 1);
-  mpz_fdiv_q_2exp(middle.x1, middle.x1, 1);
-  mpz_fdiv_q_2exp(middle.y0, middle.y0, 1);
-  mpz_fdiv_q_2exp(middle.y1, middle.y1, 1);
+  mpz_ptr end[4] = {middle.x0, middle.x1, middle.y0, middle.y1};
+  for (int k = 0; k < 4; k++) {
+    mpz_add(end[k], dyd_irect_end(a, k / 2, k % 2), dyd_irect_end(b, k / 2, k % 2));
+    mpz_fdiv_q_2exp(end[k], end[k], 1);
+  }
   bool may = quest_has_room(&q, &middle);
   dyd_irect_clear(&middle);
   return may;
