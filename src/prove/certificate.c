@@ -110,46 +110,31 @@ static void certificate_sites(FILE *out, const dyd_proof *p) {
   fprintf(out, "sites %zu\n", p->sites.count);
   for (size_t i = 0; i < p->sites.count; i++) {
     const dyd_cert_site *s = &p->sites.site[i];
-    if (s->alias != i) {
-      fprintf(out, "= %" PRIu32 "\n", s->alias);
-      continue;
-    }
-    dyd_proof_put_side(out, &s->side[0]);
-    putc(' ', out);
-    dyd_proof_put_side(out, &s->side[1]);
-    putc('\n', out);
+    if (s->alias != i)
+      dyd_proof_put(out, "= %i\n", s->alias);
+    else
+      dyd_proof_put(out, "%s %s\n", &s->side[0], &s->side[1]);
   }
 }
 
 static void certificate_edges(FILE *out, const char *name, const dyd_cert_edges *edges,
                               const dyd_proof_points *centre) {
   fprintf(out, "%s %zu\n", name, edges->count);
-  for (size_t e = 0; e < edges->count; e++) {
-    fprintf(out, "%" PRIu32 " %" PRIu32 " ", edges->item[e].i, edges->item[e].j);
-    dyd_proof_put_point(out, (const dyd_exact *)centre->item[e]);
-    putc('\n', out);
-  }
+  for (size_t e = 0; e < edges->count; e++)
+    dyd_proof_put(out, "%i %i %p\n", edges->item[e].i, edges->item[e].j, centre->item[e]);
 }
 
 static void certificate_places(FILE *out, const dyd_proof *p) {
   size_t count = 0;
   for (size_t i = 0; i < p->sites.count; i++) count += p->sites.site[i].place != NULL;
   fprintf(out, "places %zu\n", count);
-  for (size_t i = 0; i < p->sites.count; i++) {
-    if (!p->sites.site[i].place) continue;
-    fprintf(out, "%zu ", i);
-    dyd_proof_put_point(out, (const dyd_exact *)p->sites.site[i].place);
-    putc('\n', out);
-  }
+  for (uint32_t i = 0; i < p->sites.count; i++)
+    if (p->sites.site[i].place) dyd_proof_put(out, "%i %p\n", i, p->sites.site[i].place);
 }
 
 static void certificate_corners(FILE *out, const dyd_proof *p) {
   fprintf(out, "corners %zu\n", p->corners);
-  for (size_t q = 0; q < p->corners; q++) {
-    fprintf(out, "%" PRIu32 " ", p->corner[q].i);
-    dyd_proof_put_point(out, (const dyd_exact *)p->corner[q].u);
-    putc('\n', out);
-  }
+  for (size_t q = 0; q < p->corners; q++) dyd_proof_put(out, "%i %p\n", p->corner[q].i, p->corner[q].u);
 }
 
 /* ---- the end ---- */
@@ -158,9 +143,8 @@ static void certificate_bound(FILE *out, const char *name, const dyd_dyadic *bou
   dyd_exact x;
   dyd_exact_init(&x);
   dyd_proof_set(&x, bound);
-  fprintf(out, "%s ", name);
-  dyd_proof_put_number(out, &x);
-  putc('\n', out);
+  fputs(name, out);
+  dyd_proof_put(out, " %n\n", &x);
   dyd_exact_clear(&x);
 }
 
@@ -325,8 +309,7 @@ static void put_near_bound(FILE *out, double bound) {
   dyd_exact x;
   dyd_exact_init(&x);
   bool finite = near_bound_set(&x, bound);
-  fputs(finite ? " " : " none", out);
-  if (finite) dyd_proof_put_number(out, &x);
+  dyd_proof_put(out, finite ? " %n" : " none", &x);
   dyd_exact_clear(&x);
 }
 
@@ -359,7 +342,7 @@ static dyd_status put_near_site(FILE *out, const dyd_proof *p, const dyd_rect *a
   if (st != DYD_OK) return st;
   dyd_rect_distance(&lo, &hi, at, scratch);
   widen_near_bounds(&lo, &hi, place, &p->sites.site[i]);
-  fprintf(out, " %" PRIu32, i);
+  dyd_proof_put(out, " %i", i);
   put_near_bound(out, lo);
   put_near_bound(out, hi);
   return DYD_OK;
@@ -369,12 +352,7 @@ static dyd_status put_near_place(FILE *out, const dyd_proof *p, const dyd_neares
   dyd_cert_sites at;
   dyd_cert_sites_init(&at);
   dyd_status st = dyd_proof_add_site(&at, a->at);
-  if (st == DYD_OK) {
-    dyd_proof_put_side(out, &at.site[0].side[0]);
-    putc(' ', out);
-    dyd_proof_put_side(out, &at.site[0].side[1]);
-    fputs(a->sure ? " c" : " p", out);
-  }
+  if (st == DYD_OK) dyd_proof_put(out, a->sure ? "%s %s c" : "%s %s p", &at.site[0].side[0], &at.site[0].side[1]);
   for (size_t k = 0; k < a->found->count && st == DYD_OK; k++)
     st = put_near_site(out, p, a->at, &at.site[0], a->found->item[k], scratch);
   putc('\n', out);

@@ -52,30 +52,24 @@ typedef struct cone {
   bool empty, broken; /* broken: a half-plane or more */
 } cone;
 
-/* Sign of the cross product, exactly. */
-static int cone_cross(const dyd_exact a[2], const dyd_exact b[2]) {
-  dyd_exact s, t;
-  dyd_exact_init(&s);
-  dyd_exact_init(&t);
-  dyd_exact_mul(&s, &a[0], &b[1]);
-  dyd_exact_mul(&t, &a[1], &b[0]);
-  int sign = dyd_exact_cmp(&s, &t);
-  dyd_exact_clear(&s);
-  dyd_exact_clear(&t);
+/* Sign of the cross product, or of the inner one. */
+static int cone_product(const dyd_exact a[2], const dyd_exact b[2], bool inner) {
+  dyd_exact s[2];
+  dyd_proof_init(s, 2);
+  dyd_exact_mul(&s[0], &a[0], &b[!inner]);
+  dyd_exact_mul(&s[1], &a[1], &b[inner]);
+  if (inner) mpz_neg(s[1].man, s[1].man);
+  int sign = dyd_exact_cmp(&s[0], &s[1]);
+  dyd_proof_clear(s, 2);
   return sign;
 }
 
+static int cone_cross(const dyd_exact a[2], const dyd_exact b[2]) {
+  return cone_product(a, b, false);
+}
+
 static int cone_dot(const dyd_exact a[2], const dyd_exact b[2]) {
-  dyd_exact s, t;
-  dyd_exact_init(&s);
-  dyd_exact_init(&t);
-  dyd_exact_mul(&s, &a[0], &b[0]);
-  dyd_exact_mul(&t, &a[1], &b[1]);
-  dyd_exact_add(&s, &s, &t);
-  int sign = dyd_exact_sgn(&s);
-  dyd_exact_clear(&s);
-  dyd_exact_clear(&t);
-  return sign;
+  return cone_product(a, b, true);
 }
 
 static void set_direction(dyd_exact out[2], const dyd_exact d[2]) {
@@ -109,8 +103,7 @@ static void cone_take_in(cone *k, const dyd_cert_sites *s, uint32_t v, uint32_t 
   dyd_cert_fraction end[2][2];
   dyd_exact d[2];
   for (int q = 0; q < 4; q++) dyd_cert_fraction_init(&end[q / 2][q % 2]);
-  dyd_exact_init(&d[0]);
-  dyd_exact_init(&d[1]);
+  dyd_proof_init(d, 2);
   for (int a = 0; a < 2; a++) {
     const dyd_cert_side *from = &s->site[v].side[a], *to = &s->site[w].side[a];
     dyd_cert_fraction_sub(&end[a][0], &to->lo, dyd_cert_den(to), dyd_cert_high(from), dyd_cert_den(from));
@@ -125,8 +118,7 @@ static void cone_take_in(cone *k, const dyd_cert_sites *s, uint32_t v, uint32_t 
     cone_widen(k, (const dyd_exact *)d);
   }
   for (int q = 0; q < 4; q++) dyd_cert_fraction_clear(&end[q / 2][q % 2]);
-  dyd_exact_clear(&d[0]);
-  dyd_exact_clear(&d[1]);
+  dyd_proof_clear(d, 2);
 }
 
 /* ---- a direction ---- */
@@ -149,12 +141,8 @@ static void turn_quarter(dyd_exact out[2], const dyd_exact d[2], int sign) {
 
 /* u = a direction at an obtuse angle to the sides of the cone, as far as so many bits allow. */
 static void cone_choose(dyd_exact u[2], const cone *k, int64_t bits) {
-  dyd_exact a[2], b[2], t[2];
-  for (int q = 0; q < 2; q++) {
-    dyd_exact_init(&a[q]);
-    dyd_exact_init(&b[q]);
-    dyd_exact_init(&t[q]);
-  }
+  dyd_exact all[6], *a = all, *b = all + 2, *t = all + 4;
+  dyd_proof_init(all, 6);
   bool wide = cone_dot(k->first, k->last) <= 0;
   cut_direction(a, k->first, bits);
   cut_direction(b, k->last, bits);
@@ -168,10 +156,8 @@ static void cone_choose(dyd_exact u[2], const cone *k, int64_t bits) {
     dyd_exact_add(&u[q], &a[q], &t[q]);
     if (!wide) mpz_neg(u[q].man, u[q].man);
     dyd_proof_trim(&u[q]);
-    dyd_exact_clear(&a[q]);
-    dyd_exact_clear(&b[q]);
-    dyd_exact_clear(&t[q]);
   }
+  dyd_proof_clear(all, 6);
 }
 
 /* Two lists of sites. */
@@ -198,20 +184,16 @@ static bool each_beside(cone *k, const dyd_exact *u, const dyd_proof *p, uint32_
 
 static bool find_direction(dyd_exact u[2], const dyd_proof *p, uint32_t v, const crowds *beside) {
   cone k = {.empty = true};
-  for (int a = 0; a < 2; a++) {
-    dyd_exact_init(&k.first[a]);
-    dyd_exact_init(&k.last[a]);
-  }
+  dyd_proof_init(k.first, 2);
+  dyd_proof_init(k.last, 2);
   bool found = false;
   if (each_beside(&k, NULL, p, v, beside) && !k.empty)
     for (int64_t bits = 3; bits <= (int64_t)1 << 14 && !found; bits += bits / 2 + 1) {
       cone_choose(u, &k, bits);
       found = each_beside(&k, u, p, v, beside);
     }
-  for (int a = 0; a < 2; a++) {
-    dyd_exact_clear(&k.first[a]);
-    dyd_exact_clear(&k.last[a]);
-  }
+  dyd_proof_clear(k.first, 2);
+  dyd_proof_clear(k.last, 2);
   return found;
 }
 
@@ -237,10 +219,8 @@ static dyd_status keep_corner(dyd_proof *p, uint32_t v, const dyd_exact u[2]) {
   if (!dyd_reserve((void **)&p->corner, &p->corner_cap, p->corners + 1, sizeof *p->corner)) return DYD_E_NOMEM;
   dyd_cert_corner *c = &p->corner[p->corners++];
   c->i = v;
-  for (int a = 0; a < 2; a++) {
-    dyd_exact_init(&c->u[a]);
-    dyd_exact_set(&c->u[a], &u[a]);
-  }
+  dyd_proof_init(c->u, 2);
+  set_direction(c->u, u);
   return DYD_OK;
 }
 
@@ -251,10 +231,7 @@ static bool have_corner(const rim *r) {
 }
 
 void dyd_proof_drop_corners(dyd_proof *p) {
-  for (size_t q = 0; q < p->corners; q++) {
-    dyd_exact_clear(&p->corner[q].u[0]);
-    dyd_exact_clear(&p->corner[q].u[1]);
-  }
+  for (size_t q = 0; q < p->corners; q++) dyd_proof_clear(p->corner[q].u, 2);
   p->corners = 0;
 }
 
@@ -266,8 +243,7 @@ static dyd_status try_corners(bool *again, dyd_proof *p, rim *r) {
   dyd_proof_drop_corners(p);
   dyd_status st = dyd_cert_parts_init(&parts, &p->graph, r->walk, r->count, r->corner);
   if (st != DYD_OK) return st;
-  dyd_exact_init(&u[0]);
-  dyd_exact_init(&u[1]);
+  dyd_proof_init(u, 2);
   for (size_t q = 0; q < r->count && st == DYD_OK; q++) {
     if (!r->corner[r->site[q]]) continue;
     const crowds beside = groups_beside(r, &parts, q);
@@ -278,8 +254,7 @@ static dyd_status try_corners(bool *again, dyd_proof *p, rim *r) {
       *again = true;
     }
   }
-  dyd_exact_clear(&u[0]);
-  dyd_exact_clear(&u[1]);
+  dyd_proof_clear(u, 2);
   dyd_cert_parts_clear(&parts);
   return st;
 }
@@ -512,11 +487,8 @@ static dyd_status section_polygon(void *context, uint32_t i, const dyd_shape *sh
   }
   dyd_polygon_clear(&polygon);
   if (st != DYD_OK || !polygon_passes(s, i)) return st;
-  fprintf(s->out, "%" PRIu32, i);
-  for (size_t k = 0; k < s->polygon.points; k++) {
-    putc(' ', s->out);
-    dyd_proof_put_point(s->out, (const dyd_exact *)s->polygon.point[k]);
-  }
+  dyd_proof_put(s->out, "%i", i);
+  for (size_t k = 0; k < s->polygon.points; k++) dyd_proof_put(s->out, " %p", s->polygon.point[k]);
   putc('\n', s->out);
   dyd_cert_polygon_area2(&s->area2, &s->polygon);
   return DYD_OK;
@@ -539,9 +511,7 @@ static void section_area(section *s) {
   s->area2.exp--;
   dyd_exact_sub(&left, &left, &s->area2);
   exact_round_up(&left);
-  fputs("undetermined ", s->out);
-  dyd_proof_put_number(s->out, &left);
-  putc('\n', s->out);
+  dyd_proof_put(s->out, "undetermined %n\n", &left);
   dyd_exact_clear(&left);
 }
 
@@ -582,9 +552,7 @@ static dyd_status section_distance(const section *s, const dyd_voronoi_bounds *b
   mpz_set_ui(goal.man, 1);
   goal.exp = -bits;
   dyd_status st = section_prove_distance(&proved, &bound, s, asked ? &goal : NULL);
-  fputs("distance ", s->out);
-  dyd_proof_put_number(s->out, &bound);
-  fputs(proved ? "\n" : " unproved\n", s->out);
+  dyd_proof_put(s->out, proved ? "distance %n\n" : "distance %n unproved\n", &bound);
   dyd_exact_clear(&bound);
   dyd_exact_clear(&goal);
   return st;
@@ -626,12 +594,7 @@ static dyd_status section_write(section *s, const dyd_rect *window) {
   dyd_voronoi_bounds_init(&bounds);
   st = dyd_voronoi_sums_init(&sums, s->proof->pd, window, bits);
   sums.exact = false;
-  fputs("window", s->out);
-  for (int k = 0; k < 4; k++) {
-    putc(' ', s->out);
-    dyd_proof_put_number(s->out, &s->window.e[k]);
-  }
-  fputs("\npolygons\n", s->out);
+  dyd_proof_put(s->out, "window %p %p\npolygons\n", &s->window.e[0], &s->window.e[2]);
   if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, section_polygon, s);
   if (st == DYD_OK) st = dyd_voronoi_sums_bounds(&bounds, &sums);
   if (st == DYD_OK) section_area(s);

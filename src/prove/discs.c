@@ -171,15 +171,9 @@ static dyd_status pair_put_chain(FILE *out, dyd_cert_chain *chain, blockers *nea
   bool found;
   dyd_status st = pair_chain(&found, chain, near, p, l);
   if (st != DYD_OK || !found) return st;
-  fprintf(out, "n %" PRIu32 " %" PRIu32 " ", l->i, l->j);
-  dyd_proof_put_point(out, (const dyd_exact *)chain->u[0]);
-  for (size_t q = 0; q < chain->points; q++) {
-    fprintf(out, " %" PRIu32 " ", chain->blocker[q]);
-    dyd_proof_put_point(out, (const dyd_exact *)chain->point[q]);
-  }
-  fprintf(out, " %" PRIu32 " ", chain->blocker[chain->points]);
-  dyd_proof_put_point(out, (const dyd_exact *)chain->u[1]);
-  putc('\n', out);
+  dyd_proof_put(out, "n %i %i %p", l->i, l->j, chain->u[0]);
+  for (size_t q = 0; q < chain->points; q++) dyd_proof_put(out, " %i %p", chain->blocker[q], chain->point[q]);
+  dyd_proof_put(out, " %i %p\n", chain->blocker[chain->points], chain->u[1]);
   dyd_cert_faces_cover(&p->faces, l->i, l->j);
   return dyd_cert_edges_add(&p->chained, l->i, l->j);
 }
@@ -516,25 +510,13 @@ static dyd_status find_disc_witness(bool *found, disc_proof *w, uint32_t i, uint
 
 /* ---- writing ---- */
 
-static void put_disc(FILE *out, const dyd_cert_disc *d) {
-  dyd_proof_put_number(out, &d->x);
-  putc(' ', out);
-  dyd_proof_put_number(out, &d->y);
-  putc(' ', out);
-  dyd_proof_put_number(out, &d->r);
-  putc('\n', out);
-}
-
 static dyd_status put_refined(FILE *out, disc_proof *w, const dyd_pair *q, bool legal) {
   bool found = false;
   dyd_status st = legal ? find_disc_witness(&found, w, q->i, q->j) : find_caps(&found, w, q->i, q->j);
   if (st != DYD_OK) return st;
-  fprintf(out, "%c %" PRIu32 " %" PRIu32, legal ? 'l' : 'n', q->i, q->j);
-  if (found && legal) {
-    putc(' ', out);
-    dyd_proof_put_point(out, w->at);
-  }
-  for (size_t k = 0; found && !legal && k < w->chosen_count; k++) fprintf(out, " %" PRIu32, w->chosen[k]);
+  dyd_proof_put(out, legal ? "l %i %i" : "n %i %i", q->i, q->j);
+  if (found && legal) dyd_proof_put(out, " %p", w->at);
+  for (size_t k = 0; found && !legal && k < w->chosen_count; k++) dyd_proof_put(out, " %i", w->chosen[k]);
   putc('\n', out);
   return DYD_OK;
 }
@@ -561,8 +543,7 @@ static dyd_status each_refined(size_t *count, FILE *out, disc_proof *w) {
 static void init_search(disc_proof *w) {
   mpf_ptr all[] = {w->u.x, w->u.y, w->from.x, w->from.y, w->to.x, w->to.y, w->end.x, w->end.y, w->s, w->t, w->best};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) mpf_init2(all[k], PRECISION);
-  dyd_exact_init(&w->at[0]);
-  dyd_exact_init(&w->at[1]);
+  dyd_proof_init(w->at, 2);
   dyd_cert_caps_init(&w->all);
   dyd_cert_caps_init(&w->some);
 }
@@ -572,8 +553,7 @@ static void clear_search(disc_proof *w) {
   dyd_cert_caps_clear(&w->all);
   dyd_cert_caps_clear(&w->some);
   for (size_t i = 0; w->disc && i < w->p->sites.count; i++) dyd_cert_disc_clear(&w->disc[i]);
-  dyd_exact_clear(&w->at[0]);
-  dyd_exact_clear(&w->at[1]);
+  dyd_proof_clear(w->at, 2);
   free(w->disc);
   free(w->start);
   free(w->partner);
@@ -607,7 +587,7 @@ static dyd_status put_discs(FILE *out, disc_proof *w) {
   for (size_t i = 0; i < w->p->sites.count; i++) count += w->p->sites.site[i].alias == i;
   fprintf(out, "discs %zu%s\n", count, fixed ? " fixed" : "");
   for (size_t i = 0; i < w->p->sites.count; i++)
-    if (w->p->sites.site[i].alias == i) put_disc(out, &w->disc[i]);
+    if (w->p->sites.site[i].alias == i) dyd_proof_put(out, "%n %n %n\n", &w->disc[i].x, &w->disc[i].y, &w->disc[i].r);
   each_refined(&count, NULL, w);
   fprintf(out, "refined %zu\n", count);
   return each_refined(&count, out, w);

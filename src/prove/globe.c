@@ -11,7 +11,7 @@ static dyd_status put_interval(FILE *out, const dyd_interval *a) {
   dyd_cert_sites_init(&one);
   dyd_cert_site *site = dyd_cert_sites_add(&one);
   dyd_status st = site ? dyd_proof_set_side(&site->side[0], a) : DYD_E_NOMEM;
-  if (st == DYD_OK) dyd_proof_put_side(out, &site->side[0]);
+  if (st == DYD_OK) dyd_proof_put(out, "%s", &site->side[0]);
   dyd_cert_sites_clear(&one);
   return st;
 }
@@ -38,7 +38,7 @@ static dyd_status put_metres(FILE *out, double metres) {
 
 static dyd_status put_eye(FILE *out, const dyd_sphere *s) {
   if (!s->free && s->count) {
-    fprintf(out, "eye %" PRIu32 "\n", s->centre);
+    dyd_proof_put(out, "eye %i\n", s->centre);
     return DYD_OK;
   }
   fputs("eye gap ", out);
@@ -85,7 +85,7 @@ static dyd_status put_stated_place(FILE *out, const dyd_sphere *s, uint32_t i, d
   putc(' ', out);
   if (st == DYD_OK) st = put_interval(out, &r->y);
   if (st == DYD_OK) st = put_metres(out, dyd_engine_radius(s->places, i));
-  if (s->alias[i] != i) fprintf(out, " = %" PRIu32, s->alias[i]);
+  if (s->alias[i] != i) dyd_proof_put(out, " = %i", s->alias[i]);
   putc('\n', out);
   return st;
 }
@@ -121,12 +121,9 @@ static bool is_among_corners(const dyd_proof *p, uint32_t k) {
 static void put_direction(FILE *out, const dyd_proof *p, uint32_t k, const uint32_t *all, size_t count) {
   dyd_exact u[2];
   if (p->sites.count <= 2 || is_among_corners(p, k)) return;
-  for (int a = 0; a < 2; a++) dyd_exact_init(&u[a]);
-  if (dyd_proof_find_direction(u, p, k, all, count)) {
-    putc(' ', out);
-    dyd_proof_put_point(out, (const dyd_exact *)u);
-  }
-  for (int a = 0; a < 2; a++) dyd_exact_clear(&u[a]);
+  dyd_proof_init(u, 2);
+  if (dyd_proof_find_direction(u, p, k, all, count)) dyd_proof_put(out, " %p", u);
+  dyd_proof_clear(u, 2);
 }
 
 static void put_neighbour(FILE *out, const dyd_proof *p, char kind, uint32_t k, const uint32_t *all, size_t count) {

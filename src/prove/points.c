@@ -105,14 +105,6 @@ static dyd_status location_init(location *l, const dyd_cert_sites *s) {
 
 /* ---- discs of the certificate ---- */
 
-static void get_rational(mpq_ptr out, const dyd_exact *x) {
-  mpq_set_z(out, x->man);
-  if (x->exp < 0)
-    mpq_div_2exp(out, out, (mp_bitcnt_t)-x->exp);
-  else
-    mpq_mul_2exp(out, out, (mp_bitcnt_t)x->exp);
-}
-
 /* The disc of a rectangle: of a square the one in it, or (around) one that holds it. */
 static bool disc_of_point(dyd_disc *out, const dyd_rect *r, bool around) {
   if (!around) return dyd_disc_of_square(out, r);
@@ -135,9 +127,9 @@ static bool disc_of_point(dyd_disc *out, const dyd_rect *r, bool around) {
 static bool disc_holds_point(const dyd_cert_disc *d, const dyd_disc *own) {
   dyd_disc held;
   dyd_disc_init(&held);
-  get_rational(held.x, &d->x);
-  get_rational(held.y, &d->y);
-  get_rational(held.r, &d->r);
+  dyd_cert_exact_to_q(held.x, &d->x, NULL);
+  dyd_cert_exact_to_q(held.y, &d->y, NULL);
+  dyd_cert_exact_to_q(held.r, &d->r, NULL);
   bool holds = mpq_cmp(own->r, held.r) <= 0 && dyd_disc_is_within(own, &held);
   dyd_disc_clear(&held);
   return holds;

@@ -54,9 +54,12 @@ bool dyd_proof_find_direction(dyd_exact u[2], const dyd_proof *p, uint32_t v, co
 dyd_status dyd_proof_find_chain(bool *found, dyd_cert_chain *out, const dyd_proof *p, uint32_t i, uint32_t j,
                                 const uint32_t *near, size_t count);
 
-/* Writes a number, a point (two numbers). */
-void dyd_proof_put_number(FILE *out, const dyd_exact *x);
-void dyd_proof_put_point(FILE *out, const dyd_exact c[2]);
+/* Writes the format, and for %i a site (uint32_t), %n a number (const dyd_exact *), %p a point (of two numbers), %s a
+ * side (const dyd_cert_side *). */
+void dyd_proof_put(FILE *out, const char *format, ...);
+/* Initialises, clears so many numbers. */
+void dyd_proof_init(dyd_exact *x, size_t count);
+void dyd_proof_clear(dyd_exact *x, size_t count);
 /* Writes the section of the pairs; counts in the faces what is proved. */
 dyd_status dyd_proof_put_pairs(FILE *out, dyd_proof *p);
 
@@ -82,9 +85,8 @@ dyd_status dyd_proof_put_globe(FILE *out, const dyd_proof *p, const struct dyd_s
 /* The same places from a second eye; NULL: there is no result of any. */
 const struct dyd_sphere *dyd_proof_second(const struct dyd_sphere *s);
 
-/* Copies an interval into a side without a denominator yet; writes one. */
+/* Copies an interval into a side without a denominator yet. */
 dyd_status dyd_proof_set_side(dyd_cert_side *out, const dyd_interval *a);
-void dyd_proof_put_side(FILE *out, const dyd_cert_side *s);
 
 /* out = x. */
 void dyd_proof_set(dyd_exact *out, const dyd_dyadic *x);

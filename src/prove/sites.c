@@ -2,9 +2,11 @@
 /* Sites and witnesses in the form that the checker of certificates takes; witnesses shortened; numbers as they are
  * written. */
 #include "base/alloc.h"
+#include "checker/region.h"
 #include "prove/proof.h"
 #include "tolerance/discs.h"
 #include <inttypes.h>
+#include <stdarg.h>
 
 void dyd_proof_set(dyd_exact *out, const dyd_dyadic *x) {
   mpz_set(out->man, x->man);
@@ -25,11 +27,16 @@ dyd_status dyd_proof_add_site(dyd_cert_sites *out, const dyd_rect *r) {
   return st == DYD_OK ? dyd_proof_set_side(&site->side[1], &r->y) : st;
 }
 
+void dyd_proof_init(dyd_exact *x, size_t count) {
+  for (size_t k = 0; k < count; k++) dyd_exact_init(&x[k]);
+}
+
+void dyd_proof_clear(dyd_exact *x, size_t count) {
+  for (size_t k = 0; k < count; k++) dyd_exact_clear(&x[k]);
+}
+
 void dyd_proof_points_clear(dyd_proof_points *p) {
-  for (size_t q = 0; q < p->count; q++) {
-    dyd_exact_clear(&p->item[q][0]);
-    dyd_exact_clear(&p->item[q][1]);
-  }
+  for (size_t q = 0; q < p->count; q++) dyd_proof_clear(p->item[q], 2);
   free(p->item);
   *p = (dyd_proof_points){0};
 }
@@ -78,14 +85,10 @@ static int64_t size_of_distance(const dyd_exact c[2], const dyd_cert_site *s) {
   return top;
 }
 
-static int64_t lower_exponent(int64_t a, int64_t b) {
-  return a < b ? a : b;
-}
-
 /* Multiples of ever smaller powers of two, from a size like the distance on, until one is a witness. */
 static bool shorten_witness(dyd_exact out[2], const dyd_proof *p, uint32_t i, uint32_t j, const dyd_exact c[2],
                             bool places) {
-  int64_t last = lower_exponent(c[0].exp, c[1].exp), exp = size_of_distance(c, &p->sites.site[i]);
+  int64_t last = c[0].exp < c[1].exp ? c[0].exp : c[1].exp, exp = size_of_distance(c, &p->sites.site[i]);
   for (exp = exp == INT64_MIN ? last : exp - 2; exp > last; exp -= exp - last > 200 ? 32 : 2) {
     dyd_proof_round(&out[0], &c[0], exp);
     dyd_proof_round(&out[1], &c[1], exp);
@@ -100,20 +103,19 @@ dyd_status dyd_proof_add_witness(bool *found, dyd_proof_points *out, const dyd_p
                                  const dyd_point *c, bool places) {
   if (!dyd_reserve((void **)&out->item, &out->cap, out->count + 1, sizeof *out->item)) return DYD_E_NOMEM;
   dyd_exact from[2], *to = out->item[out->count];
-  for (int a = 0; a < 2; a++) {
-    dyd_exact_init(&from[a]);
-    dyd_exact_init(&to[a]);
-    dyd_proof_set(&from[a], a ? &c->y : &c->x);
-  }
+  dyd_proof_init(from, 2);
+  dyd_proof_init(to, 2);
+  dyd_proof_set(&from[0], &c->x);
+  dyd_proof_set(&from[1], &c->y);
   *found = shorten_witness(to, p, i, j, from, places);
-  if (*found) out->count++;
-  for (int a = 0; a < 2; a++) {
-    dyd_exact_clear(&from[a]);
-    if (*found)
-      dyd_proof_trim(&to[a]);
-    else
-      dyd_exact_clear(&to[a]);
+  dyd_proof_clear(from, 2);
+  if (!*found) {
+    dyd_proof_clear(to, 2);
+    return DYD_OK;
   }
+  dyd_proof_trim(&to[0]);
+  dyd_proof_trim(&to[1]);
+  out->count++;
   return DYD_OK;
 }
 
@@ -129,11 +131,7 @@ static void round_rational(dyd_exact *out, mpq_t lost, mpq_srcptr x, int64_t exp
     mpq_div_2exp(at, x, (mp_bitcnt_t)exp);
   mpz_fdiv_q(out->man, mpq_numref(at), mpq_denref(at));
   out->exp = exp;
-  mpq_set_z(at, out->man);
-  if (exp < 0)
-    mpq_div_2exp(at, at, (mp_bitcnt_t)-exp);
-  else
-    mpq_mul_2exp(at, at, (mp_bitcnt_t)exp);
+  dyd_cert_exact_to_q(at, out, NULL);
   mpq_sub(at, x, at);
   mpq_add(lost, lost, at);
   mpq_clear(at);
@@ -174,7 +172,7 @@ void dyd_proof_hold_disc(dyd_cert_disc *out, const dyd_disc *d) {
 
 /* ---- writing ---- */
 
-void dyd_proof_put_number(FILE *out, const dyd_exact *x) {
+static void put_number(FILE *out, const dyd_exact *x) {
   dyd_exact t;
   dyd_exact_init(&t);
   dyd_exact_set(&t, x);
@@ -184,8 +182,8 @@ void dyd_proof_put_number(FILE *out, const dyd_exact *x) {
   dyd_exact_clear(&t);
 }
 
-void dyd_proof_put_side(FILE *out, const dyd_cert_side *s) {
-  dyd_proof_put_number(out, &s->lo);
+static void proof_put_side(FILE *out, const dyd_cert_side *s) {
+  put_number(out, &s->lo);
   if (s->den) {
     putc('/', out);
     mpz_out_str(out, 10, *s->den);
@@ -195,12 +193,31 @@ void dyd_proof_put_side(FILE *out, const dyd_cert_side *s) {
   dyd_exact_init(&width);
   dyd_exact_sub(&width, &s->hi, &s->lo);
   putc('+', out);
-  dyd_proof_put_number(out, &width);
+  put_number(out, &width);
   dyd_exact_clear(&width);
 }
 
-void dyd_proof_put_point(FILE *out, const dyd_exact c[2]) {
-  dyd_proof_put_number(out, &c[0]);
-  putc(' ', out);
-  dyd_proof_put_number(out, &c[1]);
+void dyd_proof_put(FILE *out, const char *format, ...) {
+  va_list of;
+  va_start(of, format);
+  for (const char *at = format; *at; at++) {
+    const dyd_exact *x;
+    if (*at != '%') {
+      putc(*at, out);
+      continue;
+    }
+    switch (*++at) {
+    case 'i':
+      fprintf(out, "%" PRIu32, va_arg(of, uint32_t));
+      break;
+    case 's':
+      proof_put_side(out, va_arg(of, const dyd_cert_side *));
+      break;
+    default: /* a number, or two */
+      x = va_arg(of, const dyd_exact *);
+      put_number(out, x);
+      if (*at == 'p') putc(' ', out), put_number(out, x + 1);
+    }
+  }
+  va_end(of);
 }
