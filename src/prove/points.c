@@ -12,6 +12,7 @@
 #include "prove/proof.h"
 #include "sphere/state.h"
 #include "tolerance/discs.h"
+#include "tolerance/lines.h"
 
 /* The question put to the engine. found[i]: point i lies in the rectangle of its site; wrong: one that does not. */
 typedef struct location {
@@ -108,18 +109,14 @@ static dyd_status location_init(location *l, const dyd_cert_sites *s) {
 /* The disc of a rectangle: of a square the one in it, or (around) one that holds it. */
 static bool disc_of_point(dyd_disc *out, const dyd_rect *r, bool around) {
   if (!around) return dyd_disc_of_square(out, r);
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
-  mpq_set_ui(out->r, 0, 1);
-  for (int a = 0; a < 2; a++) { /* the sum of the half-widths is at least half of a diagonal */
-    dyd_interval_get_q(lo, hi, a ? &r->y : &r->x);
-    mpq_sub(a ? out->y : out->x, hi, lo);
-    mpq_add(out->r, out->r, a ? out->y : out->x);
-    mpq_add(a ? out->y : out->x, hi, lo);
-    mpq_div_2exp(a ? out->y : out->x, a ? out->y : out->x, 1);
-  }
-  mpq_div_2exp(out->r, out->r, 1);
-  mpq_clears(lo, hi, NULL);
+  mpq_t width; /* the sum of the half-widths is at least half of a diagonal */
+  mpq_init(width);
+  dyd_side_sum(out->x, out->r, &r->x);
+  dyd_side_sum(out->y, width, &r->y);
+  mpq_add(out->r, out->r, width);
+  mpq_ptr all[3] = {out->x, out->y, out->r};
+  for (int k = 0; k < 3; k++) mpq_div_2exp(all[k], all[k], 1);
+  mpq_clear(width);
   return true;
 }
 

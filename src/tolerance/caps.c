@@ -7,104 +7,6 @@
 #include <mpfr.h>
 #include <string.h>
 
-/* ---- circles ---- */
-
-/* A circle is as near as asked for; what is then stated of it is decided in rationals. */
-
-/* Adds the end of cap e on the side `turn` to u. */
-static void add_end(mpfr_t u[2], const dyd_cap *e, int turn) {
-  mpfr_t s, t, ww;
-  mpfr_inits2(mpfr_get_prec(u[0]), s, t, ww, (mpfr_ptr)0);
-  mpfr_set_q(ww, e->ww, MPFR_RNDN);
-  mpfr_set_q(s, e->c, MPFR_RNDN);
-  mpfr_sqrt(s, s, MPFR_RNDN);
-  if (turn < 0) mpfr_neg(s, s, MPFR_RNDN);
-  for (int a = 0; a < 2; a++) { /* (tau w + s w') / ww */
-    mpfr_set_q(t, e->tau, MPFR_RNDN);
-    mpfr_mul_q(t, t, a ? e->wy : e->wx, MPFR_RNDN);
-    mpfr_div(t, t, ww, MPFR_RNDN);
-    mpfr_add(u[a], u[a], t, MPFR_RNDN);
-    mpfr_mul_q(t, s, a ? e->wx : e->wy, MPFR_RNDN);
-    mpfr_div(t, t, ww, MPFR_RNDN);
-    (a ? mpfr_add : mpfr_sub)(u[a], u[a], t, MPFR_RNDN);
-  }
-  mpfr_clears(s, t, ww, (mpfr_ptr)0);
-}
-
-/* u: about the direction found last: the middle between two ends; the middle of a cap where these are its own. */
-static void circle_set_direction(mpfr_t u[2], const dyd_caps *c) {
-  const dyd_cap *a = &c->item[c->by[0]], *b = &c->item[c->by[1]];
-  mpfr_t length;
-  mpfr_init2(length, mpfr_get_prec(u[0]));
-  mpfr_set_zero(u[0], 1);
-  mpfr_set_zero(u[1], 1);
-  if (a == b) {
-    mpfr_set_q(u[0], a->wx, MPFR_RNDN);
-    mpfr_set_q(u[1], a->wy, MPFR_RNDN);
-  } else {
-    add_end(u, a, -1);
-    add_end(u, b, 1);
-  }
-  mpfr_hypot(length, u[0], u[1], MPFR_RNDN);
-  for (int k = 0; k < 2; k++) mpfr_div(u[k], u[k], length, MPFR_RNDN);
-  mpfr_clear(length);
-}
-
-/* d = 1 / (2 h), h = u.q_j - rho_j. false: h is not above 0. */
-static bool set_distance(mpfr_t d, mpfr_t u[2], const dyd_caps *c) {
-  mpfr_t t;
-  mpfr_init2(t, mpfr_get_prec(d));
-  mpfr_mul_q(d, u[0], c->qx, MPFR_RNDN);
-  mpfr_mul_q(t, u[1], c->qy, MPFR_RNDN);
-  mpfr_add(d, d, t, MPFR_RNDN);
-  mpfr_sub_q(d, d, c->rho, MPFR_RNDN);
-  mpfr_set_q(t, c->n, MPFR_RNDN);
-  bool above = mpfr_sgn(d) > 0;
-  mpfr_div(d, t, d, MPFR_RNDN);
-  mpfr_div_2ui(d, d, 1, MPFR_RNDN);
-  mpfr_clear(t);
-  return above && mpfr_number_p(d);
-}
-
-/* r becomes at least |c - k| + k.r, if it is less. */
-static void reach_to(dyd_disc *c, const dyd_disc *k, mpfr_prec_t bits) {
-  mpq_t x, y;
-  mpfr_t d;
-  mpq_inits(x, y, (mpq_ptr)0);
-  mpfr_init2(d, bits);
-  mpq_sub(x, c->x, k->x);
-  mpq_sub(y, c->y, k->y);
-  mpq_mul(x, x, x);
-  mpq_mul(y, y, y);
-  mpq_add(x, x, y);
-  mpfr_set_q(d, x, MPFR_RNDU);
-  mpfr_sqrt(d, d, MPFR_RNDU);
-  mpfr_get_q(x, d);
-  mpq_add(x, x, k->r);
-  if (mpq_cmp(x, c->r) > 0) mpq_set(c->r, x);
-  mpfr_clear(d);
-  mpq_clears(x, y, (mpq_ptr)0);
-}
-
-bool dyd_caps_circle(dyd_disc *out, const dyd_caps *c, const dyd_disc *i, const dyd_disc *j, unsigned bits) {
-  mpfr_t u[2], d;
-  mpfr_inits2((mpfr_prec_t)bits, u[0], u[1], d, (mpfr_ptr)0);
-  circle_set_direction(u, c);
-  bool above = set_distance(d, u, c);
-  mpq_ptr at[2] = {out->x, out->y};
-  for (int k = 0; k < 2 && above; k++) {
-    mpfr_mul(u[k], u[k], d, MPFR_RNDN);
-    above = mpfr_number_p(u[k]);
-    if (above) mpfr_get_q(at[k], u[k]);
-    mpq_add(at[k], at[k], k ? i->y : i->x);
-  }
-  mpq_set_ui(out->r, 0, 1);
-  if (above) reach_to(out, i, (mpfr_prec_t)bits);
-  if (above) reach_to(out, j, (mpfr_prec_t)bits);
-  mpfr_clears(u[0], u[1], d, (mpfr_ptr)0);
-  return above;
-}
-
 void dyd_disc_init(dyd_disc *d) {
   mpq_inits(d->x, d->y, d->r, NULL);
 }
@@ -137,26 +39,24 @@ static void squared_distance(mpq_ptr out, mpq_ptr spare, const dyd_disc *a, cons
   mpq_add(out, out, spare);
 }
 
-bool dyd_discs_meet(const dyd_disc *a, const dyd_disc *b) {
+/* Returns true if the centres are as near as the sum (sign = 1) or the difference of the radii. */
+static bool centres_are_near(const dyd_disc *a, const dyd_disc *b, int sign) {
   mpq_t d, s;
   mpq_inits(d, s, NULL);
   squared_distance(d, s, a, b);
-  mpq_add(s, a->r, b->r);
+  (sign < 0 ? mpq_sub : mpq_add)(s, a->r, b->r);
   mpq_mul(s, s, s);
-  bool meet = mpq_cmp(d, s) <= 0;
+  bool near = mpq_cmp(d, s) <= 0;
   mpq_clears(d, s, NULL);
-  return meet;
+  return near;
+}
+
+bool dyd_discs_meet(const dyd_disc *a, const dyd_disc *b) {
+  return centres_are_near(a, b, 1);
 }
 
 bool dyd_disc_is_within(const dyd_disc *small, const dyd_disc *large) {
-  mpq_t d, s;
-  mpq_inits(d, s, NULL);
-  squared_distance(d, s, small, large);
-  mpq_sub(s, large->r, small->r);
-  mpq_mul(s, s, s);
-  bool within = mpq_cmp(d, s) <= 0;
-  mpq_clears(d, s, NULL);
-  return within;
+  return centres_are_near(small, large, -1);
 }
 
 /* (x, y, r) / n, all positive multiples of k - i, r and |k - i|^2 - r^2 > 0: disc k inverted. n becomes about 1, so
@@ -176,6 +76,19 @@ static void invert(mpq_ptr x, mpq_ptr y, mpq_ptr r, mpq_ptr n, dyd_caps *c, cons
       mpq_mul_2exp(all[v], all[v], under - over);
 }
 
+/* Products of the axes of two caps. */
+static void cap_product(mpq_ptr out, mpq_ptr spare, const dyd_cap *e, const dyd_cap *k) {
+  mpq_mul(out, e->wx, k->wx);
+  mpq_mul(spare, e->wy, k->wy);
+  mpq_add(out, out, spare);
+}
+
+static void cap_cross(mpq_ptr out, mpq_ptr spare, const dyd_cap *e, const dyd_cap *k) {
+  mpq_mul(out, e->wx, k->wy);
+  mpq_mul(spare, e->wy, k->wx);
+  mpq_sub(out, out, spare);
+}
+
 /* ---- loading ---- */
 
 static dyd_cap *next_cap(dyd_caps *c) {
@@ -190,9 +103,7 @@ static dyd_cap *next_cap(dyd_caps *c) {
 }
 
 static void finish_cap(dyd_caps *c, dyd_cap *p) {
-  mpq_mul(p->ww, p->wx, p->wx);
-  mpq_mul(c->t, p->wy, p->wy);
-  mpq_add(p->ww, p->ww, c->t);
+  cap_product(p->ww, c->t, p, p);
   mpq_mul(c->t, p->tau, p->tau);
   mpq_sub(p->c, p->ww, c->t);
   p->w[0] = mpq_get_d(p->wx);
@@ -263,15 +174,11 @@ static int sign_of_root(dyd_caps *c, mpq_srcptr a, mpq_srcptr b, mpq_srcptr q) {
 static int end_against(dyd_caps *c, const dyd_cap *e, int turn, const dyd_direction *u, const dyd_cap *k) {
   int sure = dyd_filter_cap_side(u, k);
   if (sure) return sure;
-  mpq_mul(c->a, e->wx, k->wx);
-  mpq_mul(c->b, e->wy, k->wy);
-  mpq_add(c->a, c->a, c->b);
+  cap_product(c->a, c->s, e, k);
   mpq_mul(c->a, c->a, e->tau);
   mpq_mul(c->b, k->tau, e->ww);
   mpq_sub(c->a, c->a, c->b);
-  mpq_mul(c->b, e->wx, k->wy);
-  mpq_mul(c->s, e->wy, k->wx);
-  mpq_sub(c->b, c->b, c->s);
+  cap_cross(c->b, c->s, e, k);
   if (turn < 0) mpq_neg(c->b, c->b);
   return sign_of_root(c, c->a, c->b, e->c);
 }
@@ -280,13 +187,9 @@ static int end_against(dyd_caps *c, const dyd_cap *e, int turn, const dyd_direct
  * the same turn: the sign of the derivative (u').w_k, u' = the left turn of u. */
 static bool same_side(dyd_caps *c, const dyd_cap *e, int turn, const dyd_cap *k) {
   /* ww u'.w_k = tau (w'.w_k) - turn sqrt(c) (w.w_k) */
-  mpq_mul(c->a, e->wx, k->wy);
-  mpq_mul(c->s, e->wy, k->wx);
-  mpq_sub(c->a, c->a, c->s);
+  cap_cross(c->a, c->s, e, k);
   mpq_mul(c->a, c->a, e->tau);
-  mpq_mul(c->b, e->wx, k->wx);
-  mpq_mul(c->s, e->wy, k->wy);
-  mpq_add(c->b, c->b, c->s);
+  cap_product(c->b, c->s, e, k);
   if (turn > 0) mpq_neg(c->b, c->b);
   int rises = sign_of_root(c, c->a, c->b, e->c);
   return turn > 0 ? rises < 0 : rises > 0;
@@ -341,4 +244,98 @@ bool dyd_caps_common(dyd_direction *u, dyd_caps *c) {
   if (!found[0] || !found[1]) return false;
   *u = dyd_filter_between(end);
   return true;
+}
+
+/* ---- circles ---- */
+
+/* A circle is as near as asked for; what is then stated of it is decided in rationals. */
+
+/* Adds the end of cap e on the side `turn` to u. */
+static void add_end(mpfr_t u[2], const dyd_cap *e, int turn) {
+  mpfr_t s, t, ww;
+  mpfr_inits2(mpfr_get_prec(u[0]), s, t, ww, (mpfr_ptr)0);
+  mpfr_set_q(ww, e->ww, MPFR_RNDN);
+  mpfr_set_q(s, e->c, MPFR_RNDN);
+  mpfr_sqrt(s, s, MPFR_RNDN);
+  if (turn < 0) mpfr_neg(s, s, MPFR_RNDN);
+  for (int a = 0; a < 2; a++) { /* (tau w + s w') / ww */
+    mpfr_set_q(t, e->tau, MPFR_RNDN);
+    mpfr_mul_q(t, t, a ? e->wy : e->wx, MPFR_RNDN);
+    mpfr_div(t, t, ww, MPFR_RNDN);
+    mpfr_add(u[a], u[a], t, MPFR_RNDN);
+    mpfr_mul_q(t, s, a ? e->wx : e->wy, MPFR_RNDN);
+    mpfr_div(t, t, ww, MPFR_RNDN);
+    (a ? mpfr_add : mpfr_sub)(u[a], u[a], t, MPFR_RNDN);
+  }
+  mpfr_clears(s, t, ww, (mpfr_ptr)0);
+}
+
+/* u: about the direction found last: the middle between two ends; the middle of a cap where these are its own. */
+static void circle_set_direction(mpfr_t u[2], const dyd_caps *c) {
+  const dyd_cap *a = &c->item[c->by[0]], *b = &c->item[c->by[1]];
+  mpfr_t length;
+  mpfr_init2(length, mpfr_get_prec(u[0]));
+  mpfr_set_zero(u[0], 1);
+  mpfr_set_zero(u[1], 1);
+  if (a == b) {
+    mpfr_set_q(u[0], a->wx, MPFR_RNDN);
+    mpfr_set_q(u[1], a->wy, MPFR_RNDN);
+  } else {
+    add_end(u, a, -1);
+    add_end(u, b, 1);
+  }
+  mpfr_hypot(length, u[0], u[1], MPFR_RNDN);
+  for (int k = 0; k < 2; k++) mpfr_div(u[k], u[k], length, MPFR_RNDN);
+  mpfr_clear(length);
+}
+
+/* d = 1 / (2 h), h = u.q_j - rho_j. false: h is not above 0. */
+static bool set_distance(mpfr_t d, mpfr_t u[2], const dyd_caps *c) {
+  mpfr_t t;
+  mpfr_init2(t, mpfr_get_prec(d));
+  mpfr_mul_q(d, u[0], c->qx, MPFR_RNDN);
+  mpfr_mul_q(t, u[1], c->qy, MPFR_RNDN);
+  mpfr_add(d, d, t, MPFR_RNDN);
+  mpfr_sub_q(d, d, c->rho, MPFR_RNDN);
+  mpfr_set_q(t, c->n, MPFR_RNDN);
+  bool above = mpfr_sgn(d) > 0;
+  mpfr_div(d, t, d, MPFR_RNDN);
+  mpfr_div_2ui(d, d, 1, MPFR_RNDN);
+  mpfr_clear(t);
+  return above && mpfr_number_p(d);
+}
+
+/* r becomes at least |c - k| + k.r, if it is less. */
+static void reach_to(dyd_disc *c, const dyd_disc *k, mpfr_prec_t bits) {
+  mpq_t x, y;
+  mpfr_t d;
+  mpq_inits(x, y, (mpq_ptr)0);
+  mpfr_init2(d, bits);
+  squared_distance(x, y, c, k);
+  mpfr_set_q(d, x, MPFR_RNDU);
+  mpfr_sqrt(d, d, MPFR_RNDU);
+  mpfr_get_q(x, d);
+  mpq_add(x, x, k->r);
+  if (mpq_cmp(x, c->r) > 0) mpq_set(c->r, x);
+  mpfr_clear(d);
+  mpq_clears(x, y, (mpq_ptr)0);
+}
+
+bool dyd_caps_circle(dyd_disc *out, const dyd_caps *c, const dyd_disc *i, const dyd_disc *j, unsigned bits) {
+  mpfr_t u[2], d;
+  mpfr_inits2((mpfr_prec_t)bits, u[0], u[1], d, (mpfr_ptr)0);
+  circle_set_direction(u, c);
+  bool above = set_distance(d, u, c);
+  mpq_ptr at[2] = {out->x, out->y};
+  for (int k = 0; k < 2 && above; k++) {
+    mpfr_mul(u[k], u[k], d, MPFR_RNDN);
+    above = mpfr_number_p(u[k]);
+    if (above) mpfr_get_q(at[k], u[k]);
+    mpq_add(at[k], at[k], k ? i->y : i->x);
+  }
+  mpq_set_ui(out->r, 0, 1);
+  if (above) reach_to(out, i, (mpfr_prec_t)bits);
+  if (above) reach_to(out, j, (mpfr_prec_t)bits);
+  mpfr_clears(u[0], u[1], d, (mpfr_ptr)0);
+  return above;
 }

@@ -14,6 +14,7 @@
 #include "base/invariant.h"
 #include "delaunay/undecided.h"
 #include "tolerance/discs.h"
+#include "tolerance/lines.h"
 #include <dyadel/tolerance.h>
 
 #include <math.h>
@@ -27,14 +28,10 @@ enum { FIRST_SEEN = 10, MOST_ROUNDS = 400, LEAST_BITS = 128, MOST_BITS = 8192 };
 /* ---- discs ---- */
 
 bool dyd_disc_of_square(dyd_disc *d, const dyd_rect *r) {
-  mpq_t lo, hi, h, room;
-  mpq_inits(lo, hi, h, room, NULL);
-  dyd_interval_get_q(lo, hi, &r->x);
-  mpq_add(d->x, lo, hi);
-  mpq_sub(h, hi, lo);
-  dyd_interval_get_q(lo, hi, &r->y);
-  mpq_add(d->y, lo, hi);
-  mpq_sub(d->r, hi, lo);
+  mpq_t lo, h, room;
+  mpq_inits(lo, h, room, NULL);
+  dyd_side_sum(d->x, h, &r->x);
+  dyd_side_sum(d->y, d->r, &r->y);
   mpq_abs(lo, d->x);
   mpq_abs(room, d->y);
   mpq_add(room, room, lo);
@@ -50,7 +47,7 @@ bool dyd_disc_of_square(dyd_disc *d, const dyd_rect *r) {
   mpq_div_2exp(d->x, d->x, 1);
   mpq_div_2exp(d->y, d->y, 1);
   mpq_div_2exp(d->r, d->r, 1);
-  mpq_clears(lo, hi, h, room, NULL);
+  mpq_clears(lo, h, room, NULL);
   return square;
 }
 

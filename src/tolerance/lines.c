@@ -246,6 +246,30 @@ void dyd_roots_half(double *lo, double *hi, mpq_srcptr p, mpq_srcptr m) {
   mpq_clear(difference);
 }
 
+void dyd_side_sum(mpq_ptr sum, mpq_ptr width, const dyd_interval *side) {
+  mpq_t lo;
+  mpq_init(lo);
+  dyd_interval_get_q(lo, width, side);
+  mpq_add(sum, lo, width);
+  mpq_sub(width, width, lo);
+  mpq_clear(lo);
+}
+
+dyd_status dyd_rect_widen(dyd_rect *r, mpq_srcptr half, int64_t exp) {
+  dyd_status st = DYD_OK;
+  mpq_t end[2];
+  mpq_inits(end[0], end[1], NULL);
+  for (int axis = 0; axis < 2 && st == DYD_OK; axis++) {
+    dyd_interval *side = axis ? &r->y : &r->x;
+    dyd_interval_get_q(end[0], end[1], side);
+    mpq_sub(end[0], end[0], half);
+    mpq_add(end[1], end[1], half);
+    st = dyd_interval_set_outward(side, end[0], end[1], exp);
+  }
+  mpq_clears(end[0], end[1], NULL);
+  return st;
+}
+
 double dyd_q_double(mpq_srcptr q, int up) {
   mpfr_t x;
   mpfr_init2(x, 53);

@@ -21,6 +21,10 @@ int dyd_roots_compare(mpq_srcptr p, mpq_srcptr m, mpq_srcptr q, mpq_srcptr n);
 /* Doubles around half of |sqrt(p) - sqrt(m)|, rounded down and up: a unit in the last place apart, or two. Both are 0
  * where it is 0; beyond the range of doubles they are the nearest ones on their side, infinite ones included. */
 void dyd_roots_half(double *lo, double *hi, mpq_srcptr p, mpq_srcptr m);
+/* The sum of the ends of a side, twice its centre, and its width. */
+void dyd_side_sum(mpq_ptr sum, mpq_ptr width, const dyd_interval *side);
+/* Widens r on all sides by half, its ends rounded outward to multiples of 2^exp. DYD_E_NOMEM, DYD_E_RANGE. */
+dyd_status dyd_rect_widen(dyd_rect *r, mpq_srcptr half, int64_t exp);
 /* q rounded to a double, down (up = 0) or up (1). */
 double dyd_q_double(mpq_srcptr q, int up);
 

@@ -453,35 +453,24 @@ static dyd_status birth_exact(bool *late, dyd_tolerance *t, uint32_t v, uint32_t
   return st;
 }
 
-/* A square that holds the disc of radius up_to around a point, its ends rounded outward finely against up_to. */
-static dyd_status add_square(dyd_sites *squares, dyd_rect *r, mpq_t end[2], mpq_srcptr up_to, int64_t exp) {
-  dyd_status st = DYD_OK;
-  for (int axis = 0; axis < 2 && st == DYD_OK; axis++) {
-    dyd_interval *side = axis ? &r->y : &r->x;
-    dyd_interval_get_q(end[0], end[1], side);
-    mpq_sub(end[0], end[0], up_to);
-    mpq_add(end[1], end[1], up_to);
-    st = dyd_interval_set_outward(side, end[0], end[1], exp);
-  }
-  return st == DYD_OK ? dyd_sites_add_rect(squares, r) : st;
-}
-
+/* Squares that hold the discs of radius up_to around the points, their ends rounded outward finely against up_to. */
 static dyd_status make_squares(dyd_sites *squares, const dyd_tolerance *t) {
   const dyd_sites *sites = t->sk->reps.sites;
   int64_t exp = dyd_q_log2_above(t->options.up_to) - 20;
   dyd_rect r;
-  mpq_t end[2], half;
+  mpq_t half;
   dyd_rect_init(&r);
-  mpq_inits(end[0], end[1], half, NULL);
+  mpq_init(half);
   dyd_status st = DYD_OK;
   for (size_t i = 0; i < dyd_sites_count(sites) && st == DYD_OK; i++) {
     st = dyd_sites_get(&r, sites, i);
     mpq_set(half, t->options.up_to);
     if (t->weight) mpq_set_d(half, t->weight[t->sk->vertex[i]]);
     if (t->weight) mpq_mul(half, half, t->options.up_to);
-    if (st == DYD_OK) st = add_square(squares, &r, end, half, exp);
+    if (st == DYD_OK) st = dyd_rect_widen(&r, half, exp);
+    if (st == DYD_OK) st = dyd_sites_add_rect(squares, &r);
   }
-  mpq_clears(end[0], end[1], half, NULL);
+  mpq_clear(half);
   dyd_rect_clear(&r);
   return st;
 }

@@ -27,23 +27,23 @@
 
 /* Invariant: i and j are not among seen, and no vertex is twice. While it is built, site 0 of sites is the square of i,
  * 1 that of j, 2 + k that of seen[k], each rounded outward by less than 2^exp, and the skeleton and work are theirs. */
-typedef struct dyd_squares {
+typedef struct squares {
   dyd_tolerance *t;
   uint32_t i, j; /* vertices of t */
   dyd_others seen;
   double now; /* the half-width */
   int64_t exp;
-  mpq_t half, end[2]; /* the half-width; scratch */
+  mpq_t half; /* the same */
   dyd_sites *sites;
   dyd_skeleton sk;
   dyd_work work;
   dyd_xy guess;   /* about where a witness is likely */
   dyd_point c;    /* the witness found */
   dyd_bbox place; /* where a pair is seen to be legal, or possible; NaN: nowhere in the plane */
-} dyd_squares;
+} squares;
 
-/* Squares are rounded at 2^-DYD_SQUARE_BITS of their half-width. */
-enum { DYD_SQUARE_BITS = 24 };
+/* Squares are rounded at 2^-SQUARE_BITS of their half-width. */
+enum { SQUARE_BITS = 24 };
 
 #define WIDTH (1 + 0x1p-20)
 
@@ -53,20 +53,12 @@ enum { RANGE = 900, FIRST_SEEN = 24 };
 /* ---- squares at one t ---- */
 
 /* The square of a vertex of t, exactly but for that rounding. */
-static dyd_status dyd_square_of(dyd_rect *out, dyd_squares *q, uint32_t v) {
-  const dyd_sites *nominal = q->t->sk->reps.sites;
-  dyd_status st = dyd_sites_get(out, nominal, q->t->sk->reps.site[v]);
-  for (int axis = 0; axis < 2 && st == DYD_OK; axis++) {
-    dyd_interval *side = axis ? &out->y : &out->x;
-    dyd_interval_get_q(q->end[0], q->end[1], side);
-    mpq_sub(q->end[0], q->end[0], q->half);
-    mpq_add(q->end[1], q->end[1], q->half);
-    st = dyd_interval_set_outward(side, q->end[0], q->end[1], q->exp);
-  }
-  return st;
+static dyd_status square_of_vertex(dyd_rect *out, const squares *q, uint32_t v) {
+  dyd_status st = dyd_sites_get(out, q->t->sk->reps.sites, q->t->sk->reps.site[v]);
+  return st == DYD_OK ? dyd_rect_widen(out, q->half, q->exp) : st;
 }
 
-static void squares_unbuild(dyd_squares *q) {
+static void squares_unbuild(squares *q) {
   if (!q->sites) return;
   dyd_work_clear(&q->work);
   dyd_skeleton_clear(&q->sk);
@@ -75,17 +67,17 @@ static void squares_unbuild(dyd_squares *q) {
 }
 
 /* i, j and seen at half-width t. A failure leaves nothing built. */
-static dyd_status dyd_squares_build(dyd_squares *q, double t) {
+static dyd_status squares_build(squares *q, double t) {
   const dyd_skeleton_options o = {.no_filter = q->t->options.no_filter, .threads = 1};
   dyd_sites *sites = NULL;
   dyd_rect r;
   q->now = t;
-  q->exp = ilogb(t) - DYD_SQUARE_BITS;
+  q->exp = ilogb(t) - SQUARE_BITS;
   mpq_set_d(q->half, t);
   dyd_rect_init(&r);
   dyd_status st = dyd_sites_new(&sites);
   for (size_t k = 0; k < q->seen.count + 2 && st == DYD_OK; k++) {
-    st = dyd_square_of(&r, q, k == 0 ? q->i : k == 1 ? q->j : q->seen.vertex[k - 2]);
+    st = square_of_vertex(&r, q, k == 0 ? q->i : k == 1 ? q->j : q->seen.vertex[k - 2]);
     if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
   }
   dyd_rect_clear(&r);
@@ -109,7 +101,7 @@ enum { MOST_NEW = 6 };
 #define FAR2 0x1p60
 
 /* Looks at v from now on; *more: it was not seen before. */
-static dyd_status squares_see(bool *more, dyd_squares *q, uint32_t v) {
+static dyd_status squares_see(bool *more, squares *q, uint32_t v) {
   *more = v != q->i && v != q->j;
   for (size_t k = 0; k < q->seen.count && *more; k++) *more = q->seen.vertex[k] != v;
   return !*more || dyd_others_add(&q->seen, v) ? DYD_OK : DYD_E_NOMEM;
@@ -119,7 +111,7 @@ static dyd_status squares_see(bool *more, dyd_squares *q, uint32_t v) {
 
 /* bound: of squared distances from c; far: everybody who is met is looked at. */
 typedef struct square_search {
-  dyd_squares *q;
+  squares *q;
   dyd_bbox c;
   double bound;
   bool legal, far;
@@ -152,7 +144,7 @@ static bool keeps_out_exactly(square_search *s, uint32_t v) {
   dyd_rect r[3];
   bool out = true;
   for (int k = 0; k < 3; k++) dyd_rect_init(&r[k]);
-  s->status = dyd_square_of(&r[0], s->q, v);
+  s->status = square_of_vertex(&r[0], s->q, v);
   for (int k = 1; k < 3 && s->status == DYD_OK && out; k++) {
     s->status = dyd_sites_get(&r[k], s->q->sites, (size_t)k - 1);
     out = s->status == DYD_OK && dyd_compare_distance(&s->q->c, &r[k], DYD_FARTHEST, &r[0], DYD_CLOSEST) < 0;
@@ -174,7 +166,7 @@ static bool meet_rival(void *context, uint32_t v) {
 
 /* Looks at whose squares do not surely keep out of the witness disc about q->c: a few at most. *more: there are some.
  */
-static dyd_status squares_see_rivals(bool *more, dyd_squares *q) {
+static dyd_status squares_see_rivals(bool *more, squares *q) {
   const dyd_rects *r = &q->sk.rects;
   square_search s = {.q = q, .c = dyd_point_box(&q->c), .legal = true};
   s.bound = dyd_pair_dl2_upper(r, &s.c, q->sk.vertex[0], q->sk.vertex[1]);
@@ -188,7 +180,7 @@ static dyd_status squares_see_rivals(bool *more, dyd_squares *q) {
 }
 
 /* Looks at who is not surely too far to block the place at which the work sees a possible pair: a few at most. */
-static dyd_status squares_see_blockers(bool *more, dyd_squares *q) {
+static dyd_status squares_see_blockers(bool *more, squares *q) {
   const dyd_work *w = &q->work;
   const dyd_rects *r = &q->sk.rects;
   uint32_t v[2] = {q->sk.vertex[0], q->sk.vertex[1]};
@@ -213,13 +205,13 @@ static dyd_status squares_see_blockers(bool *more, dyd_squares *q) {
 
 /* ---- hints ---- */
 
-static dyd_xy nominal_place(const dyd_squares *q, uint32_t v) {
+static dyd_xy nominal_place(const squares *q, uint32_t v) {
   return q->t->sk->reps.xy[v];
 }
 
 /* About where the circle that binds in the plane of exact points is, for a row of these. */
 /* Where the bisectors of ij and kl cross: the middle of the widest annulus. */
-static dyd_xy squares_guess(const dyd_squares *q, uint32_t k, uint32_t l) {
+static dyd_xy squares_guess(const squares *q, uint32_t k, uint32_t l) {
   dyd_xy i = nominal_place(q, q->i), j = nominal_place(q, q->j), middle = {i.x / 2 + j.x / 2, i.y / 2 + j.y / 2};
   if (k == DYD_NO_SITE || l == DYD_NO_SITE) return middle;
   dyd_xy a = nominal_place(q, q->t->sk->vertex[k]), b = nominal_place(q, q->t->sk->vertex[l]);
@@ -238,7 +230,7 @@ static void bring_forward(dyd_others *o, size_t to, uint32_t v) {
 
 /* Puts the two of seen first that are about nearest to q->place, one on each side of ij, by their nearest points, or
  * `far` ones; *k < *l become their vertices, DYD_NONE where there is none. Unchanged where doubles do not tell. */
-static void squares_bind(uint32_t *k, uint32_t *l, dyd_squares *q, bool far) {
+static void squares_bind(uint32_t *k, uint32_t *l, squares *q, bool far) {
   dyd_xy i = nominal_place(q, q->i), j = nominal_place(q, q->j), c = {q->place.e[0], q->place.e[2]};
   double jx = j.x - i.x, jy = j.y - i.y, cx = c.x - i.x, cy = c.y - i.y, least[2] = {HUGE_VAL, HUGE_VAL};
   size_t best[2] = {SIZE_MAX, SIZE_MAX};
@@ -263,12 +255,12 @@ static void squares_bind(uint32_t *k, uint32_t *l, dyd_squares *q, bool far) {
 
 /* ---- statuses at one t ---- */
 
-typedef dyd_status squares_question(dyd_truth *answer, dyd_squares *q, double t);
+typedef dyd_status squares_question(dyd_truth *answer, squares *q, double t);
 
-static dyd_status squares_are_legal(dyd_truth *answer, dyd_squares *q, double t) {
+static dyd_status squares_are_legal(dyd_truth *answer, squares *q, double t) {
   dyd_status st = DYD_OK;
   for (bool more = true; more && st == DYD_OK;) {
-    st = dyd_squares_build(q, t);
+    st = squares_build(q, t);
     if (st != DYD_OK) return st;
     const uint32_t *v = q->sk.vertex;
     uint32_t across[2] = {v[2], q->seen.count > 1 ? v[3] : v[2]};
@@ -284,7 +276,7 @@ static dyd_status squares_are_legal(dyd_truth *answer, dyd_squares *q, double t)
 }
 
 /* A common point is as near as can be, whoever else there is. */
-static dyd_status squares_meet(bool *meet, dyd_squares *q) {
+static dyd_status squares_meet(bool *meet, squares *q) {
   dyd_rect r[2];
   for (int k = 0; k < 2; k++) dyd_rect_init(&r[k]);
   dyd_status st = dyd_sites_get(&r[0], q->sites, 0);
@@ -294,12 +286,12 @@ static dyd_status squares_meet(bool *meet, dyd_squares *q) {
   return st;
 }
 
-static dyd_status squares_are_illegal(dyd_truth *answer, dyd_squares *q, double t) {
+static dyd_status squares_are_illegal(dyd_truth *answer, squares *q, double t) {
   static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
   dyd_status st = DYD_OK;
   for (bool more = true; more && st == DYD_OK;) {
     bool meet, possible = true;
-    st = dyd_squares_build(q, t);
+    st = squares_build(q, t);
     if (st != DYD_OK) return st;
     more = false;
     const uint32_t *v = q->sk.vertex;
@@ -315,10 +307,10 @@ static dyd_status squares_are_illegal(dyd_truth *answer, dyd_squares *q, double 
 /* ---- where it changes ---- */
 
 /* Yes at *lo, or *lo is 0; no at *hi. Until they are near to each other, or no answer is found. */
-static dyd_status squares_halve(double *lo, double *hi, dyd_squares *q, squares_question *ask) {
+static dyd_status squares_halve(double *lo, double *hi, squares *q, squares_question *ask) {
   dyd_status st = DYD_OK;
   while (*hi > *lo * WIDTH && st == DYD_OK) {
-    double mid = 4 * *lo >= *hi ? *lo + (*hi - *lo) / 2 : *hi / 4, over = mid + ldexp(mid, 2 - DYD_SQUARE_BITS);
+    double mid = 4 * *lo >= *hi ? *lo + (*hi - *lo) / 2 : *hi / 4, over = mid + ldexp(mid, 2 - SQUARE_BITS);
     dyd_truth answer = DYD_UNKNOWN;
     if (!(mid > *lo && over < *hi && mid > ldexp(1, -RANGE) && mid < ldexp(1, RANGE))) return DYD_OK;
     st = ask(&answer, q, mid);
@@ -330,17 +322,8 @@ static dyd_status squares_halve(double *lo, double *hi, dyd_squares *q, squares_
 
 /* ---- rows ---- */
 
-static dyd_status squares_see_all(dyd_squares *q, const uint32_t *vertex, size_t count) {
-  dyd_status st = DYD_OK;
-  for (size_t k = 0; k < count && st == DYD_OK; k++) {
-    bool more;
-    st = squares_see(&more, q, vertex[k]);
-  }
-  return st;
-}
-
 /* The sites of the row, and some around it. */
-static dyd_status squares_begin(dyd_squares *q, const dyd_tolerance_row *row) {
+static dyd_status squares_begin(squares *q, const dyd_tolerance_row *row) {
   const dyd_tolerance *t = q->t;
   const uint32_t *vertex = t->sk->vertex;
   dyd_status st = DYD_OK;
@@ -352,13 +335,13 @@ static dyd_status squares_begin(dyd_squares *q, const dyd_tolerance_row *row) {
   if (row->k != DYD_NO_SITE) st = squares_see(&more, q, vertex[row->k]);
   if (row->l != DYD_NO_SITE && st == DYD_OK) st = squares_see(&more, q, vertex[row->l]);
   if (st == DYD_OK) st = dyd_others_around(&q->t->others, t, q->i, q->j, FIRST_SEEN);
-  if (st == DYD_OK) st = squares_see_all(q, t->others.vertex, t->others.count);
+  for (size_t k = 0; k < t->others.count && st == DYD_OK; k++) st = squares_see(&more, q, t->others.vertex[k]);
   uint32_t any = 0; /* two hubs: begin with anybody */
   while (any == q->i || any == q->j || dyd_mesh_alias(&t->sk->mesh, any) != DYD_NONE) any++;
   return st == DYD_OK && !q->seen.count ? squares_see(&more, q, any) : st;
 }
 
-static void row_bind(dyd_tolerance_row *row, dyd_squares *q, bool far) {
+static void row_bind(dyd_tolerance_row *row, squares *q, bool far) {
   const uint32_t *site = q->t->sk->reps.site;
   uint32_t k, l;
   squares_bind(&k, &l, q, far);
@@ -371,7 +354,7 @@ static void row_bind(dyd_tolerance_row *row, dyd_squares *q, bool far) {
 }
 
 /* The death for discs is at most sqrt(2) times that for squares. */
-static dyd_status square_death(dyd_squares *q, dyd_tolerance_row *row) {
+static dyd_status square_death(squares *q, dyd_tolerance_row *row) {
   if (row->lo == HUGE_VAL) return DYD_OK;
   dyd_status st = squares_begin(q, row);
   q->guess = squares_guess(q, row->k, row->l);
@@ -382,31 +365,31 @@ static dyd_status square_death(dyd_squares *q, dyd_tolerance_row *row) {
 }
 
 /* *late: it is above t->options.up_to for sure. */
-static dyd_status square_birth(bool *late, dyd_squares *q, dyd_tolerance_row *row) {
+static dyd_status square_birth(bool *late, squares *q, dyd_tolerance_row *row) {
   dyd_truth illegal = DYD_UNKNOWN;
   double up_to = dyd_q_double(q->t->options.up_to, 1);
   dyd_status st = squares_begin(q, row);
   if (st == DYD_OK) st = squares_are_illegal(&illegal, q, up_to);
   *late = st == DYD_OK && illegal == DYD_TRUE;
   row->lo = 0;
-  row->hi = up_to + ldexp(up_to, 2 - DYD_SQUARE_BITS);
+  row->hi = up_to + ldexp(up_to, 2 - SQUARE_BITS);
   if (st == DYD_OK && !*late) st = squares_halve(&row->lo, &row->hi, q, squares_are_illegal);
   if (st == DYD_OK && !*late) row_bind(row, q, true);
   return st;
 }
 
-static dyd_status square_row(bool *late, dyd_tolerance_row *row, void *squares) {
-  return row->event == DYD_EVENT_DEATH ? square_death(squares, row) : square_birth(late, squares, row);
+static dyd_status square_row(bool *late, dyd_tolerance_row *row, void *user) {
+  return row->event == DYD_EVENT_DEATH ? square_death(user, row) : square_birth(late, user, row);
 }
 
 dyd_status dyd_square_rows(dyd_tolerance *t) {
-  dyd_squares q = {.t = t};
-  mpq_inits(q.half, q.end[0], q.end[1], NULL);
+  squares q = {.t = t};
+  mpq_init(q.half);
   dyd_point_init(&q.c);
   dyd_status st = dyd_near_index(t);
   if (st == DYD_OK) st = dyd_rows_rework(t, square_row, &q);
   dyd_point_clear(&q.c);
-  mpq_clears(q.half, q.end[0], q.end[1], NULL);
+  mpq_clear(q.half);
   free(q.seen.vertex);
   return st;
 }

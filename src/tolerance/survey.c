@@ -245,19 +245,17 @@ static dyd_status choose_finely_enough(dyd_survey *s, const dyd_delaunay *pd) {
 
 /* ---- the common factor ---- */
 
-/* Is nothing more left open than before at this scale? */
+/* *holds: no more is left open at this scale than before; s keeps it. */
 static dyd_status holds_at(bool *holds, dyd_survey *s, mpq_srcptr scale) {
-  dyd_delaunay *pd = NULL;
-  dyd_sites *sites = NULL;
+  size_t before = s->left;
   mpq_t old;
   mpq_init(old);
   mpq_set(old, s->scale);
   mpq_set(s->scale, scale);
-  dyd_status st = dyd_survey_triangulate(&pd, &sites, s, false);
-  *holds = st == DYD_OK && dyd_survey_open(s, pd) <= s->left;
+  dyd_status st = recount_left(s, NULL);
+  *holds = st == DYD_OK && s->left <= before;
   if (!*holds) mpq_set(s->scale, old);
-  dyd_delaunay_free(pd);
-  dyd_sites_free(sites);
+  s->left = before;
   mpq_clear(old);
   return st;
 }

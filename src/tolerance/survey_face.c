@@ -16,19 +16,15 @@
 /* Rectangles as they are, and as they would be after measuring. */
 
 static void load_site(dyd_survey_site *p) {
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
-  dyd_interval_get_q(lo, hi, &p->rect.x);
-  mpq_add(p->x, lo, hi);
-  mpq_sub(p->half, hi, lo);
-  dyd_interval_get_q(lo, hi, &p->rect.y);
-  mpq_add(p->y, lo, hi);
-  mpq_sub(hi, hi, lo);
-  if (mpq_cmp(hi, p->half) > 0) mpq_set(p->half, hi);
+  mpq_t height;
+  mpq_init(height);
+  dyd_side_sum(p->x, p->half, &p->rect.x);
+  dyd_side_sum(p->y, height, &p->rect.y);
+  if (mpq_cmp(height, p->half) > 0) mpq_set(p->half, height);
   mpq_div_2exp(p->x, p->x, 1);
   mpq_div_2exp(p->y, p->y, 1);
   mpq_div_2exp(p->half, p->half, 1);
-  mpq_clears(lo, hi, NULL);
+  mpq_clear(height);
 }
 
 /* Of each site its rectangle, centre and half-width, twelve numbers: with their digits, and what allocators add. */

@@ -18,12 +18,15 @@ const char *dyd_metric_text(dyd_metric metric) {
 
 /* ---- making ---- */
 
+static dyd_status fail_at(dyd_error *err, uint32_t i, const char *why) {
+  if (err) err->point = i;
+  return dyd_fail(err, DYD_E_ARG, "%s", why);
+}
+
 static dyd_status check_points(const dyd_tolerance *t, dyd_error *err) {
   for (uint32_t i = 0; i < t->sk->n; i++)
-    if (!dyd_sites_is_point(t->sk->reps.sites, i)) {
-      if (err) err->point = i;
-      return dyd_fail(err, DYD_E_ARG, "tolerances are those of exact points; give this one by plain numbers");
-    }
+    if (!dyd_sites_is_point(t->sk->reps.sites, i))
+      return fail_at(err, i, "tolerances are those of exact points; give this one by plain numbers");
   if (dyd_delaunay_is_capped(t->pd))
     return dyd_fail(err, DYD_CAPPED, "there are more ties than can be stored; raise `max_pairs`");
   if (t->options.up_to && mpq_sgn(t->options.up_to) < 0)
@@ -32,17 +35,11 @@ static dyd_status check_points(const dyd_tolerance *t, dyd_error *err) {
     return dyd_fail(err, DYD_E_ARG,
                     "squares that grow by weights are not looked at; leave weights, or the metric, away");
   for (uint32_t i = 0; t->options.weight && i < t->sk->n; i++)
-    if (!(t->options.weight[i] >= 0 && t->options.weight[i] <= 0x1p400)) {
-      if (err) err->point = i;
-      return dyd_fail(err, DYD_E_ARG,
-                      "the weight of a point is not a number >= 0, below 2^400; give one such as 0, 1 or 2.5");
-    }
+    if (!(t->options.weight[i] >= 0 && t->options.weight[i] <= 0x1p400))
+      return fail_at(err, i, "the weight of a point is not a number >= 0, below 2^400; give one such as 0, 1 or 2.5");
   for (uint32_t i = 0; t->options.sigmas && i < t->sk->n; i++)
-    if (!(t->options.sigmas[i] > 0 && t->options.sigmas[i] < HUGE_VAL)) {
-      if (err) err->point = i;
-      return dyd_fail(err, DYD_E_ARG,
-                      "the standard deviation of a point is not a number above 0; give one such as 0.01");
-    }
+    if (!(t->options.sigmas[i] > 0 && t->options.sigmas[i] < HUGE_VAL))
+      return fail_at(err, i, "the standard deviation of a point is not a number above 0; give one such as 0.01");
   if (!(t->options.sigma >= 0 && t->options.sigma < HUGE_VAL))
     return dyd_fail(err, DYD_E_ARG, "a standard deviation that is no positive number: give one, or 0 for none");
   return DYD_OK;
