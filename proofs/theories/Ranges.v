@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Ranges with ends among -1, 0, 1 and none, from the form of an expression [RANGE-1]: src/stream/expr_range.c,
+(* Ranges with ends among -1, 0, 1 and none, from the form of an expression [RANGE-1]: src/stream/expr.c,
   function
    by function. *)
 From Coq Require Import Reals ZArith Lra Lia Psatz List Bool.

@@ -45,7 +45,7 @@ typedef struct ask {
   dyd_error err;
 } ask;
 
-/* The finest request that streams take (stream/nest.c). */
+/* The finest request that streams take (stream/real.c). */
 #define MOST_BITS (DYD_EXP_LIMIT - 64)
 #define MOST_TIE_BITS ((int64_t)1 << 26)
 

@@ -14,7 +14,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "engine/points.h"
-#include "stream/algebra/describe.h"
+#include "stream/algebra/form.h"
 #include "stream/algebra/zero.h"
 
 #include <string.h>

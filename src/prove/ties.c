@@ -8,8 +8,8 @@
 #include "base/alloc.h"
 #include "checker/parts.h"
 #include "prove/proof.h"
-#include "stream/algebra/normal.h"
 #include "stream/algebra/ring.h"
+#include "stream/algebra/zero.h"
 #include "stream/ball.h"
 
 #include <inttypes.h>

@@ -6,6 +6,10 @@
  * nothing is known yet; it is never assumed that the value is inside. */
 #include "stream/ball.h"
 
+#include "base/parallel.h"
+
+#include <stdlib.h>
+
 typedef void (*ball_fn)(arb_t out, const arb_t x, slong prec);
 
 void dyd_ball_set_z_2exp(arb_ptr out, mpz_srcptr man, slong exp) {
@@ -177,7 +181,8 @@ static void ball_plain_function(arb_ptr x, dyd_op op, slong prec) {
     function[op](x, x, prec);
 }
 
-dyd_defined dyd_ball_unary(arb_ptr x, dyd_op op, dyd_range range, long exponent, slong prec) {
+/* x = op(x), where the value lies in `range` in any case. x is unspecified unless DYD_DEFINED is returned. */
+static dyd_defined ball_unary(arb_ptr x, dyd_op op, dyd_range range, long exponent, slong prec) {
   switch (op) {
   case DYD_OP_SQRT:
     return ball_square_root(x, range, prec);
@@ -199,7 +204,8 @@ dyd_defined dyd_ball_unary(arb_ptr x, dyd_op op, dyd_range range, long exponent,
   }
 }
 
-dyd_defined dyd_ball_binary(arb_ptr x, dyd_op op, arb_srcptr y, slong prec) {
+/* x = op(x, y). */
+static dyd_defined ball_binary(arb_ptr x, dyd_op op, arb_srcptr y, slong prec) {
   static void (*const function[])(arb_t, const arb_t, const arb_t,
                                   slong) = {[DYD_OP_ADD] = arb_add, [DYD_OP_SUB] = arb_sub, [DYD_OP_MUL] = arb_mul,
                                             [DYD_OP_DIV] = arb_div, [DYD_OP_MIN] = arb_min, [DYD_OP_MAX] = arb_max};
@@ -233,4 +239,137 @@ dyd_defined dyd_ball_check(arb_ptr x, slong *exponent) {
   }
   mag_clear(m);
   return d;
+}
+
+/* Steps of ball arithmetic that may take long: Arb looks at no flag, so those of very many digits are made by a thread
+ * of their own, on copies. */
+
+/* From these precisions on a step may take a tenth of a second: functions; arithmetic and roots. */
+enum { LONG_FUNCTION = 1 << 18, LONG_ARITHMETIC = 1 << 22 };
+
+static bool step_is_long(const dyd_ball_step *s) {
+  bool function =
+      s->op == DYD_OP_PI || s->op == DYD_OP_E || s->op == DYD_OP_POW || (s->op >= DYD_OP_EXP && s->op <= DYD_OP_TANH);
+  return s->prec >= (function ? LONG_FUNCTION : LONG_ARITHMETIC);
+}
+
+static dyd_defined step_now(arb_ptr x, const dyd_ball_step *s) {
+  if (s->op == DYD_OP_PI)
+    arb_const_pi(x, s->prec);
+  else if (s->op == DYD_OP_E)
+    arb_const_e(x, s->prec);
+  else if (dyd_op_is_binary(s->op))
+    return ball_binary(x, s->op, s->y, s->prec);
+  else
+    return ball_unary(x, s->op, s->range, s->exponent, s->prec);
+  return DYD_DEFINED;
+}
+
+typedef struct long_step {
+  dyd_ball_step step;
+  arb_t x, y;
+  dyd_defined result;
+} long_step;
+
+static void long_step_run(void *job) {
+  long_step *l = job;
+  l->result = step_now(l->x, &l->step);
+  flint_cleanup(); /* the caches of this thread */
+}
+
+static void long_step_drop(void *job) {
+  long_step *l = job;
+  arb_clear(l->y);
+  arb_clear(l->x);
+  free(l);
+  flint_cleanup();
+}
+
+static long_step *long_step_new(arb_srcptr x, const dyd_ball_step *s) {
+  long_step *l = malloc(sizeof *l);
+  if (!l) return NULL;
+  l->step = *s;
+  arb_init(l->x);
+  arb_init(l->y);
+  arb_set(l->x, x);
+  if (s->y) arb_set(l->y, s->y);
+  l->step.y = l->y;
+  return l;
+}
+
+dyd_defined dyd_ball_apply(arb_ptr x, const dyd_ball_step *s, const volatile int *stop) {
+  long_step *l = stop && step_is_long(s) ? long_step_new(x, s) : NULL;
+  if (!l) return step_now(x, s);
+  if (!dyd_apart(long_step_run, long_step_drop, l, stop)) return DYD_UNDEFINED_YET;
+  dyd_defined result = l->result;
+  arb_swap(x, l->x);
+  arb_clear(l->y);
+  arb_clear(l->x);
+  free(l);
+  return result;
+}
+
+/* From balls to intervals with short dyadic ends.
+ *
+ * [ENC-2] The ends are the floor of the lower and the ceiling of the upper bound on the grid of multiples of
+ * 2^exp; the bounds themselves are exact, so the ball lies inside. */
+
+slong dyd_ball_radius_exponent(arb_srcptr x) {
+  if (mag_is_zero(arb_radref(x))) return -4 * DYD_BALL_LIMIT;
+  if (fmpz_cmp_si(MAG_EXPREF(arb_radref(x)), -4 * DYD_BALL_LIMIT) < 0) return -4 * DYD_BALL_LIMIT;
+  return fmpz_get_si(MAG_EXPREF(arb_radref(x))); /* a radius is below 2^its exponent */
+}
+
+/* out = x rounded to the grid. */
+static dyd_status ball_grid_end(dyd_dyadic *out, arf_t x, int64_t exp, dyd_round dir) {
+  fmpz_t f;
+  mpz_t z;
+  fmpz_init(f);
+  mpz_init(z);
+  arf_mul_2exp_si(x, x, (slong)-exp);
+  arf_get_fmpz(f, x, dir == DYD_DOWN ? ARF_RND_FLOOR : ARF_RND_CEIL);
+  fmpz_get_mpz(z, f);
+  dyd_status st = dyd_dyadic_set_z_2exp(out, z, exp);
+  mpz_clear(z);
+  fmpz_clear(f);
+  return st;
+}
+
+/* The point itself when the ball is exact and within range. */
+static dyd_status ball_exact_point(dyd_dyadic *out, arb_srcptr x) {
+  fmpz_t man, exp;
+  mpz_t z;
+  fmpz_init(man);
+  fmpz_init(exp);
+  mpz_init(z);
+  arf_get_fmpz_2exp(man, exp, arb_midref(x));
+  fmpz_get_mpz(z, man);
+  dyd_status st = fmpz_fits_si(exp) ? dyd_dyadic_set_z_2exp(out, z, (int64_t)fmpz_get_si(exp)) : DYD_E_RANGE;
+  mpz_clear(z);
+  fmpz_clear(exp);
+  fmpz_clear(man);
+  return st;
+}
+
+dyd_status dyd_ball_interval(dyd_interval *out, arb_srcptr x, int64_t exp) {
+  dyd_dyadic lo, hi;
+  arf_t end;
+  dyd_dyadic_init(&lo);
+  dyd_dyadic_init(&hi);
+  arf_init(end);
+  dyd_status st = DYD_E_RANGE;
+  if (arb_is_exact(x)) st = ball_exact_point(&lo, x);
+  if (st == DYD_OK) {
+    dyd_dyadic_set(&hi, &lo);
+  } else {
+    arb_get_lbound_arf(end, x, ARF_PREC_EXACT);
+    st = ball_grid_end(&lo, end, exp, DYD_DOWN);
+    arb_get_ubound_arf(end, x, ARF_PREC_EXACT);
+    if (st == DYD_OK) st = ball_grid_end(&hi, end, exp, DYD_UP);
+  }
+  if (st == DYD_OK) st = dyd_interval_set_ends(out, &lo, &hi);
+  arf_clear(end);
+  dyd_dyadic_clear(&hi);
+  dyd_dyadic_clear(&lo);
+  return st;
 }

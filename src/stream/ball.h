@@ -19,10 +19,6 @@ typedef enum dyd_defined {
 #define DYD_BALL_LIMIT ((slong)1 << 21)
 
 void dyd_ball_set_q(arb_ptr out, mpq_srcptr q, slong prec);
-/* x = op(x), where the value lies in `range` in any case. x is unspecified unless DYD_DEFINED is returned. */
-dyd_defined dyd_ball_unary(arb_ptr x, dyd_op op, dyd_range range, long exponent, slong prec);
-/* x = op(x, y). */
-dyd_defined dyd_ball_binary(arb_ptr x, dyd_op op, arb_srcptr y, slong prec);
 /* One step: a function of x, an operation on x and y, or pi or e, to `prec` bits; range and exponent as above. */
 typedef struct dyd_ball_step {
   dyd_op op;

@@ -6,8 +6,39 @@
 #ifndef DYD_STREAM_EXPR_H
 #define DYD_STREAM_EXPR_H
 
-#include "stream/constant.h"
+#include "stream/number.h"
 #include <dyadel/stream.h>
+
+/* Rational constants of expressions: two words where these suffice, a rational of its own otherwise. */
+
+/* den > 0: the value is num / den in lowest terms, |num| and den below 2^62; den = 0: the value is *big, owned. */
+typedef struct dyd_constant {
+  union {
+    int64_t num;
+    mpq_ptr big;
+  } u;
+  int64_t den;
+} dyd_constant;
+
+static inline bool dyd_constant_is_short(const dyd_constant *c) {
+  return c->den != 0;
+}
+
+/* A place in which a short constant looks like a rational. */
+typedef struct dyd_constant_view {
+  mpq_t q;
+  mp_limb_t limb[2];
+} dyd_constant_view;
+
+void dyd_constant_clear(dyd_constant *c);
+/* c (0/1 or any value before) = q. DYD_OK or DYD_E_NOMEM (c unchanged). */
+dyd_status dyd_constant_set(dyd_constant *c, mpq_srcptr q);
+/* The value; borrowed from c and *view. */
+mpq_srcptr dyd_constant_get(dyd_constant_view *view, const dyd_constant *c);
+/* Bits of numerator and denominator together, each at least 1. */
+size_t dyd_constant_bits(const dyd_constant *c);
+/* Sign of c - k, |k| <= 1. */
+int dyd_constant_cmp(const dyd_constant *c, int k);
 
 /* Bounds that keep hostile text cheap: nesting, nodes, roots, and bits of all rationals computed while folding. */
 #define DYD_EXPR_DEPTH 200
@@ -128,8 +159,6 @@ dyd_status dyd_fold_binary(dyd_constant *x, dyd_op op, const dyd_constant *y);
  * point. *extra is the precision beyond bits that sufficed last time (start: DYD_EXPR_EXTRA).
  * DYD_E_DOMAIN when a function stays undefined, DYD_E_RANGE when a number leaves the range; with column. */
 #define DYD_EXPR_EXTRA 48
-dyd_status dyd_expr_enclose(dyd_interval *out, int64_t *extra, const dyd_expr *e, const dyd_request *request,
-                            dyd_error *err);
 /* Tells at low precision whether the expression is surely undefined or out of range. Errors as above. */
 dyd_status dyd_expr_probe(const dyd_expr *e, dyd_error *err);
 

@@ -39,8 +39,6 @@ dyd_status dyd_real_set_claim(dyd_real *x, dyd_real *claim, dyd_error *err);
 /* The value of the expression that was parsed into d, which is left without constants and roots. */
 struct dyd_draft;
 dyd_status dyd_real_new_expr(dyd_real **out, struct dyd_draft *d);
-/* A real that is final from the start; swaps *value into it. */
-dyd_status dyd_real_new_fixed(dyd_real **out, dyd_interval *value);
 /* From now on errors of x have this line, and their columns count from `column` on: the place in a file of the
  * text that x was parsed from. */
 void dyd_real_place(dyd_real *x, size_t line, size_t column);

@@ -4,12 +4,379 @@
  * [ROOT-2] The square-free factors f_i of p with p = c prod f_i^i: where p changes its sign, the product g of the
  * f_i with odd i changes it too, and conversely; g has simple roots only. So g stands for p from then on. */
 #include "stream/root.h"
+
+#include "base/alloc.h"
+#include "base/parallel.h"
+#include "base/error.h"
+#include "base/flag.h"
+#include "stream/ball.h"
 #include "stream/real.h"
 
-#include "base/error.h"
 #include <flint/fmpq.h>
 #include <flint/fmpz_poly.h>
 #include <flint/fmpz_poly_factor.h>
+#include <stdlib.h>
+
+/* Roots as values: made, copied, freed. */
+
+void dyd_root_free(dyd_root *r) {
+  if (!r) return;
+  for (size_t k = 0; k < r->count; k++) mpz_clear(r->coeff[k]);
+  free(r->coeff);
+  mpz_clear(r->slot);
+  mpq_clears(r->lo, r->hi, NULL);
+  free(r);
+}
+
+/* With `count` coefficients, all 0; to be freed. NULL: memory is exhausted. */
+static dyd_root *root_alloc(size_t count) {
+  dyd_root *r = dyd_alloc(1, sizeof *r);
+  if (!r) return NULL;
+  *r = (dyd_root){.jump = 2};
+  mpq_inits(r->lo, r->hi, NULL);
+  mpz_init(r->slot);
+  r->coeff = dyd_alloc(count, sizeof *r->coeff);
+  if (!r->coeff) return dyd_root_free(r), NULL;
+  for (; r->count < count; r->count++) mpz_init(r->coeff[r->count]);
+  return r;
+}
+
+dyd_status dyd_root_copy(dyd_root **out, const dyd_root *r) {
+  dyd_root *c = root_alloc(r->count);
+  if (!c) return DYD_E_NOMEM;
+  for (size_t k = 0; k < r->count; k++) mpz_set(c->coeff[k], r->coeff[k]);
+  mpq_set(c->lo, r->lo);
+  mpq_set(c->hi, r->hi);
+  mpz_set(c->slot, r->slot);
+  c->on_grid = r->on_grid;
+  c->exact = r->exact;
+  c->isolated = r->isolated;
+  c->sign_left = r->sign_left;
+  c->s = r->s;
+  c->jump = r->jump;
+  *out = c;
+  return DYD_OK;
+}
+
+/* Narrowing the bracket of a root by exact signs.
+ *
+ * [ROOT-1] Every bracket has opposite signs at its ends, so it holds a root (intermediate values). Signs come
+ * from ball arithmetic at a precision that is doubled until the ball excludes 0 or is the exact number, so they
+ * are exact. Three phases, of which the first two do not depend on the width asked for, so that it is always the
+ * same root that is found:
+ *   1. from the given ends to a slot (c, c+1) 2^-s;
+ *   2. bisection until the derivative has no zero on the slot: exactly one, simple root is left;
+ *   3. quadratic interval refinement (Abbott 2006): the secant through the ends proposes one of 2^j parts, two
+ *      signs confirm or refute it; j doubles with each success and halves with each failure. */
+
+void dyd_root_polynomial(fmpz_poly_t p, const dyd_root *r) {
+  fmpz_t c;
+  fmpz_init(c);
+  for (size_t k = r->count; k-- > 0;) {
+    fmpz_set_mpz(c, r->coeff[k]);
+    fmpz_poly_set_coeff_fmpz(p, (slong)k, c);
+  }
+  fmpz_clear(c);
+}
+
+static slong start_precision(mpz_srcptr m) {
+  return 64 + (slong)mpz_sizeinbase(m, 2);
+}
+
+/* The exact sign at m 2^-s. */
+static int root_sign_at(const fmpz_poly_t p, mpz_srcptr m, int64_t s) {
+  arb_t x, y;
+  arb_init(x);
+  arb_init(y);
+  dyd_ball_set_z_2exp(x, m, (slong)-s);
+  for (slong prec = start_precision(m);; prec *= 2) {
+    arb_fmpz_poly_evaluate_arb(y, p, x, prec);
+    if (!arb_contains_zero(y) || arb_is_exact(y)) break;
+  }
+  int sign = arf_sgn(arb_midref(y));
+  arb_clear(y);
+  arb_clear(x);
+  return sign;
+}
+
+/* Makes m 2^-s the exact root when sign says so. */
+static bool root_hit(dyd_root *r, int sign, mpz_srcptr m, int64_t s) {
+  if (sign) return false;
+  mpz_set(r->slot, m);
+  r->s = s;
+  r->on_grid = r->exact = true;
+  return true;
+}
+
+/* q = floor or ceiling of x 2^s. */
+static void to_grid(mpz_ptr q, mpq_srcptr x, int64_t s, dyd_round dir) {
+  mpq_t t;
+  mpq_init(t);
+  if (s >= 0) {
+    mpq_mul_2exp(t, x, (mp_bitcnt_t)s);
+  } else {
+    mpq_div_2exp(t, x, (mp_bitcnt_t)-s);
+  }
+  if (dir == DYD_UP) {
+    mpz_cdiv_q(q, mpq_numref(t), mpq_denref(t));
+  } else {
+    mpz_fdiv_q(q, mpq_numref(t), mpq_denref(t));
+  }
+  mpq_clear(t);
+}
+
+/* x = m 2^-s. */
+static void from_grid(mpq_ptr x, mpz_srcptr m, int64_t s) {
+  mpq_set_z(x, m);
+  if (s >= 0) {
+    mpq_div_2exp(x, x, (mp_bitcnt_t)s);
+  } else {
+    mpq_mul_2exp(x, x, (mp_bitcnt_t)-s);
+  }
+}
+
+/* An s with 4 * 2^-s < hi - lo < 16 * 2^-s. */
+static int64_t grid_for(const dyd_root *r) {
+  mpq_t w;
+  mpq_init(w);
+  mpq_sub(w, r->hi, r->lo);
+  int64_t s = (int64_t)mpz_sizeinbase(mpq_denref(w), 2) - (int64_t)mpz_sizeinbase(mpq_numref(w), 2) + 3;
+  mpq_clear(w);
+  return s;
+}
+
+/* Between the grid points first < last lies the sign change: bisects the slots. */
+static void root_choose_slot(dyd_root *r, const fmpz_poly_t p, mpz_ptr first, mpz_ptr last, int64_t s) {
+  mpz_t middle;
+  mpz_init(middle);
+  for (;;) {
+    mpz_add(middle, first, last);
+    mpz_fdiv_q_2exp(middle, middle, 1);
+    if (mpz_cmp(middle, first) == 0) break;
+    int sign = root_sign_at(p, middle, s);
+    if (root_hit(r, sign, middle, s)) break;
+    mpz_set(sign == r->sign_left ? first : last, middle);
+  }
+  if (!r->exact) {
+    mpz_set(r->slot, first);
+    r->s = s;
+    r->on_grid = true;
+  }
+  mpz_clear(middle);
+}
+
+/* Phase 1. The bracket (lo,hi) has inner grid points first <= last; the sign change is left of first, right of last,
+ * or between them. In the first two cases the bracket becomes four times narrower at least. */
+static dyd_status root_enter_grid(dyd_root *r, const fmpz_poly_t p, dyd_error *err) {
+  int64_t s = grid_for(r);
+  if (s > DYD_EXP_LIMIT) {
+    return dyd_fail(err, DYD_E_RANGE, "the root lies too close to an end of its interval; give another interval");
+  }
+  mpz_t first, last;
+  mpz_inits(first, last, NULL);
+  to_grid(first, r->lo, s, DYD_UP);
+  to_grid(last, r->hi, s, DYD_DOWN);
+  int left = root_sign_at(p, first, s), right = root_sign_at(p, last, s);
+  bool done = root_hit(r, left, first, s) || root_hit(r, right, last, s);
+  if (!done && left != r->sign_left) {
+    from_grid(r->hi, first, s);
+  } else if (!done && right == r->sign_left) {
+    from_grid(r->lo, last, s);
+  } else if (!done) {
+    root_choose_slot(r, p, first, last, s);
+  }
+  mpz_clears(first, last, NULL);
+  return DYD_OK;
+}
+
+/* Does p' have no zero on the slot? */
+static bool is_isolated(const dyd_root *r, const fmpz_poly_t p) {
+  fmpz_poly_t d;
+  arb_t x, y;
+  fmpz_poly_init(d);
+  arb_init(x);
+  arb_init(y);
+  fmpz_poly_derivative(d, p);
+  arf_set_mpz(arb_midref(x), r->slot);
+  arb_mul_2exp_si(x, x, 1);
+  arb_add_ui(x, x, 1, ARF_PREC_EXACT);
+  mag_one(arb_radref(x));
+  arb_mul_2exp_si(x, x, (slong)-r->s - 1);
+  arb_fmpz_poly_evaluate_arb_horner(y, d, x, start_precision(r->slot));
+  bool result = !arb_contains_zero(y);
+  arb_clear(y);
+  arb_clear(x);
+  fmpz_poly_clear(d);
+  return result;
+}
+
+static void root_bisect(dyd_root *r, const fmpz_poly_t p) {
+  mpz_t middle;
+  mpz_init(middle);
+  mpz_mul_2exp(middle, r->slot, 1);
+  mpz_add_ui(middle, middle, 1);
+  int sign = root_sign_at(p, middle, r->s + 1);
+  if (!root_hit(r, sign, middle, r->s + 1)) {
+    mpz_sub_ui(r->slot, middle, sign == r->sign_left ? 0 : 1);
+    r->s++;
+  }
+  mpz_clear(middle);
+}
+
+/* The secant's proposal m, 0 < m < 2^j, for the root at (slot 2^j + m) 2^-(s+j). Only a guess. */
+static void root_propose(mpz_ptr m, const dyd_root *r, const fmpz_poly_t p, unsigned j) {
+  arb_t x, a, b;
+  arb_init(x);
+  arb_init(a);
+  arb_init(b);
+  slong prec = start_precision(r->slot) + 2 * (slong)j;
+  dyd_ball_set_z_2exp(x, r->slot, (slong)-r->s);
+  arb_fmpz_poly_evaluate_arb(a, p, x, prec);
+  dyd_ball_set_z_2exp(x, r->slot, 0);
+  arb_add_ui(x, x, 1, ARF_PREC_EXACT);
+  arb_mul_2exp_si(x, x, (slong)-r->s);
+  arb_fmpz_poly_evaluate_arb(b, p, x, prec);
+  arb_sub(b, a, b, prec);
+  arb_div(a, a, b, prec);
+  mpz_set_ui(m, 0);
+  if (arb_is_finite(a)) {
+    fmpz_t f;
+    fmpz_init(f);
+    arf_mul_2exp_si(arb_midref(a), arb_midref(a), (slong)j);
+    if (arf_cmpabs_2exp_si(arb_midref(a), (slong)j + 1) < 0) arf_get_fmpz(f, arb_midref(a), ARF_RND_NEAR);
+    fmpz_get_mpz(m, f);
+    fmpz_clear(f);
+  }
+  arb_clear(b);
+  arb_clear(a);
+  arb_clear(x);
+}
+
+/* Holds m within 1 .. 2^j - 1. */
+static void root_clamp(mpz_ptr m, unsigned j) {
+  mpz_t most;
+  mpz_init_set_ui(most, 1);
+  mpz_mul_2exp(most, most, j);
+  mpz_sub_ui(most, most, 1);
+  if (mpz_sgn(m) <= 0) mpz_set_ui(m, 1);
+  if (mpz_cmp(m, most) > 0) mpz_set(m, most);
+  mpz_clear(most);
+}
+
+/* Phase 3: tries the part beside the proposal. false: refuted, r unchanged. */
+static bool root_quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
+  mpz_t m, base, other;
+  mpz_inits(m, base, other, NULL);
+  root_propose(m, r, p, j);
+  root_clamp(m, j);
+  mpz_mul_2exp(base, r->slot, j);
+  mpz_add(m, m, base);
+  int64_t s = r->s + j;
+  int sign = root_sign_at(p, m, s), next = sign;
+  bool found = root_hit(r, sign, m, s);
+  if (!found) {
+    bool left = sign == r->sign_left; /* the root is to the right of m */
+    if (left) {
+      mpz_add_ui(other, m, 1);
+    } else {
+      mpz_sub_ui(other, m, 1);
+    }
+    next = root_sign_at(p, other, s);
+    found = root_hit(r, next, other, s);
+    if (!found && next != sign) {
+      mpz_set(r->slot, left ? m : other);
+      r->s = s;
+      found = true;
+    }
+  }
+  mpz_clears(m, base, other, NULL);
+  return found;
+}
+
+static void grid_step(dyd_root *r, const fmpz_poly_t p, int64_t target) {
+  if (!r->isolated) {
+    r->isolated = is_isolated(r, p);
+    if (!r->isolated) root_bisect(r, p);
+    return;
+  }
+  unsigned j = r->jump;
+  if ((int64_t)j > target - r->s) j = target > r->s ? (unsigned)(target - r->s) : 1;
+  if (j < 2) {
+    root_bisect(r, p);
+    if (r->jump < 2) r->jump = 2;
+  } else if (root_quadratic(r, p, j)) {
+    if (r->jump < 1u << 20) r->jump *= 2;
+  } else {
+    r->jump = j / 2;
+  }
+}
+
+bool dyd_root_is_narrow(const dyd_root *r, int64_t bits) {
+  if (r->on_grid) return r->exact || r->s >= bits;
+  return grid_for(r) >= bits + 5;
+}
+
+static dyd_status root_step_now(dyd_root *r, int64_t target, dyd_error *err) {
+  fmpz_poly_t p;
+  dyd_status st = DYD_OK;
+  fmpz_poly_init(p);
+  dyd_root_polynomial(p, r);
+  if (!r->on_grid) {
+    st = root_enter_grid(r, p, err);
+  } else if (!r->exact) {
+    grid_step(r, p, target);
+  }
+  fmpz_poly_clear(p);
+  return st;
+}
+
+/* ---- steps that may take long ---- */
+
+/* Such a step is made on a copy, by a thread of its own. */
+typedef struct root_errand {
+  dyd_root *root;
+  int64_t target;
+  dyd_error err;
+  dyd_status status;
+} root_errand;
+
+static void root_errand_run(void *job) {
+  root_errand *e = job;
+  e->status = root_step_now(e->root, e->target, &e->err);
+  flint_cleanup(); /* the caches of this thread */
+}
+
+static void root_errand_drop(void *job) {
+  root_errand *e = job;
+  dyd_root_free(e->root);
+  free(e);
+}
+
+/* Signs are found with at most so many bits as the degree times those of the place: from a million on, a step may take
+ * a tenth of a second. */
+static bool root_step_is_long(const dyd_root *r) {
+  enum { LONG = 1 << 20 };
+  size_t bits = r->jump + mpz_sizeinbase(r->slot, 2);
+  if (!r->on_grid) bits = mpz_sizeinbase(mpq_numref(r->hi), 2) + mpz_sizeinbase(mpq_denref(r->hi), 2);
+  return r->count > LONG / bits;
+}
+
+dyd_status dyd_root_step(dyd_root *r, int64_t target, const volatile int *stop, dyd_error *err) {
+  if (dyd_flag_is_set(stop)) return DYD_CANCELLED;
+  root_errand *e = stop && root_step_is_long(r) ? malloc(sizeof *e) : NULL;
+  if (!e) return root_step_now(r, target, err);
+  *e = (root_errand){.target = target, .status = DYD_E_NOMEM};
+  dyd_error_clear(&e->err);
+  if (dyd_root_copy(&e->root, r) != DYD_OK) return free(e), dyd_fail_nomem(err);
+  if (!dyd_apart(root_errand_run, root_errand_drop, e, stop)) return DYD_CANCELLED;
+  dyd_root before = *r;
+  dyd_status st = e->status;
+  if (st != DYD_OK && err) *err = e->err;
+  *r = *e->root;
+  *e->root = before;
+  root_errand_drop(e);
+  return st;
+}
 
 static void root_release(void *user) {
   dyd_root_free(user);
@@ -88,7 +455,7 @@ static int sign_at_q(const fmpz_poly_t p, const mpq_t x) {
 }
 
 static dyd_status root_new(dyd_real **out, const fmpz_poly_t g, const mpq_t lo, const mpq_t hi) {
-  dyd_root *r = dyd_root_alloc((size_t)fmpz_poly_length(g));
+  dyd_root *r = root_alloc((size_t)fmpz_poly_length(g));
   fmpz_t c;
   if (!r) return DYD_E_NOMEM;
   fmpz_init(c);
@@ -166,5 +533,75 @@ dyd_status dyd_real_root(dyd_real **out, const mpq_t *coeff, size_t count, const
   fmpz_poly_clear(p);
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (st == DYD_E_RANGE) return dyd_fail(err, st, "the root leaves the range of numbers; scale the input");
+  return st;
+}
+
+/* Callbacks that are said to be roots of polynomials. */
+
+/* p becomes (1 + x)^n p((lo + hi x) / (1 + x)) times a number: its positive zeros are those of p between lo and hi. */
+static void zoom_in(fmpz_poly_t p, const mpq_t lo, const mpq_t hi) {
+  fmpz_poly_t sum, near, far, power;
+  slong n = fmpz_poly_degree(p);
+  mpz_t den, z;
+  mpz_inits(den, z, NULL);
+  fmpz_poly_init(sum);
+  fmpz_poly_init(near);
+  fmpz_poly_init(far);
+  fmpz_poly_init(power);
+  mpz_lcm(den, mpq_denref(lo), mpq_denref(hi));
+  for (int k = 0; k < 2; k++) { /* near = (lo + hi x) den, far = (1 + x) den */
+    mpz_divexact(z, den, mpq_denref(k ? hi : lo));
+    mpz_mul(z, z, mpq_numref(k ? hi : lo));
+    fmpz_t c;
+    fmpz_init(c);
+    fmpz_set_mpz(c, z);
+    fmpz_poly_set_coeff_fmpz(near, k, c);
+    fmpz_set_mpz(c, den);
+    fmpz_poly_set_coeff_fmpz(far, k, c);
+    fmpz_clear(c);
+  }
+  fmpz_poly_set_ui(power, 1); /* Horner's rule: the powers of far grow from the highest coefficient down */
+  for (slong e = n; e >= 0; e--) {
+    fmpz_poly_mul(sum, sum, near);
+    fmpz_poly_scalar_addmul_fmpz(sum, power, fmpz_poly_get_coeff_ptr(p, e));
+    fmpz_poly_mul(power, power, far);
+  }
+  fmpz_poly_swap(p, sum);
+  fmpz_poly_clear(power);
+  fmpz_poly_clear(far);
+  fmpz_poly_clear(near);
+  fmpz_poly_clear(sum);
+  mpz_clears(den, z, NULL);
+}
+
+/* Does the root lie alone in (lo, hi)? Its polynomial has simple zeros and is not 0 at the ends; positive zeros of q(x)
+ * are half the zeros of q(x^2). */
+static bool root_is_alone(const dyd_root *r, const mpq_t lo, const mpq_t hi) {
+  fmpz_poly_t p, squared;
+  fmpz_poly_init(p);
+  fmpz_poly_init(squared);
+  dyd_root_polynomial(p, r);
+  zoom_in(p, lo, hi);
+  fmpz_poly_inflate(squared, p, 2);
+  slong roots = fmpz_poly_num_real_roots(squared);
+  fmpz_poly_clear(squared);
+  fmpz_poly_clear(p);
+  return roots == 2;
+}
+
+dyd_status dyd_real_claim_root(dyd_real *x, const mpq_t *coeff, size_t count, const mpq_t lo, const mpq_t hi,
+                               dyd_error *err) {
+  const void *object;
+  dyd_real *root = NULL;
+  if (!x || dyd_real_is_final(x) || dyd_real_object(&object, x) != DYD_REAL_OPAQUE)
+    return dyd_fail(err, DYD_E_ARG,
+                    "only what comes from a callback, and is not known to be exact, can be claimed to be "
+                    "a root, and once");
+  dyd_status st = dyd_real_root(&root, coeff, count, lo, hi, err);
+  if (st != DYD_OK) return st;
+  if (dyd_real_object(&object, root) == DYD_REAL_ROOT && !root_is_alone(object, lo, hi))
+    st = dyd_fail(err, DYD_E_ARG, "the polynomial has several roots in the interval; give a shorter one");
+  if (st == DYD_OK) st = dyd_real_set_claim(x, root, err);
+  if (st != DYD_OK) dyd_real_free(root);
   return st;
 }

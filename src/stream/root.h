@@ -4,6 +4,7 @@
 #define DYD_STREAM_ROOT_H
 
 #include <dyadel/stream.h>
+#include <flint/fmpz_poly.h>
 
 /* Largest degree; largest product of a degree and the bits of a coefficient or of an end of the bracket. */
 #define DYD_ROOT_DEGREE ((size_t)1000)
@@ -29,10 +30,10 @@ typedef struct dyd_root {
 dyd_status dyd_root_step(dyd_root *r, int64_t target, const volatile int *stop, dyd_error *err);
 /* Is the bracket at most 2^-bits wide (or the root known exactly)? */
 bool dyd_root_is_narrow(const dyd_root *r, int64_t bits);
-/* With `count` coefficients, all 0; to be freed. NULL: memory is exhausted. */
-dyd_root *dyd_root_alloc(size_t count);
 /* A copy with a bracket of its own; to be freed. DYD_OK or DYD_E_NOMEM. */
 dyd_status dyd_root_copy(dyd_root **out, const dyd_root *r);
 void dyd_root_free(dyd_root *r);
+/* p, which is 0, becomes the polynomial of r. */
+void dyd_root_polynomial(fmpz_poly_t p, const dyd_root *r);
 
 #endif

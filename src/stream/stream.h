@@ -39,9 +39,6 @@ dyd_stream_kind dyd_stream_object(const void **object, const dyd_stream *s);
 dyd_status dyd_stream_new_enclosing(dyd_stream **out, const dyd_source *source, bool final);
 /* A stream that is final from the start; swaps *value into it. */
 dyd_status dyd_stream_new_fixed(dyd_stream **out, dyd_rect *value);
-/* The same with a context of `size` bytes in one block with the stream, as dyd_real_new_inside. */
-dyd_status dyd_stream_new_inside(dyd_stream **out, void **user, size_t size, dyd_narrow_fn narrow,
-                                 dyd_release_fn release);
 /* The same as dyd_real_glance for both sides of a point. */
 bool dyd_stream_glance(dyd_double_span out[2], const dyd_stream *s, int64_t bits);
 /* The greatest bits for which dyd_stream_glance succeeds; INT64_MIN when there is none. */
@@ -59,7 +56,5 @@ dyd_status dyd_stream_narrow_until(dyd_stream *s, int64_t bits, int64_t max_bits
  * polynomials. */
 uint64_t dyd_stream_bytes(const dyd_stream *s);
 uint64_t dyd_stream_work_bytes(const dyd_stream *s, int64_t bits);
-/* The context of s if `narrow` is its callback, else NULL. Borrowed. */
-void *dyd_stream_user(const dyd_stream *s, dyd_narrow_fn narrow);
 
 #endif

@@ -4,7 +4,7 @@
 #include "engine/help.h"
 
 #include "base/error.h"
-#include "stream/algebra/describe.h"
+#include "stream/algebra/form.h"
 #include "stream/algebra/zero.h"
 #include <dyadel/certificate.h>
 

@@ -57,7 +57,7 @@ FAULTS = [
     ('include/dyadel/rect.h', '(mathematics: section 1)', '(section 1)', 'citations', 'of what?'),
     ('tests/engine/test_outcomes.c', 'section 10, case 3', 'mathematics: section 10, case 30', 'citations', 'no item 30'),
     ('src/metric/measure_filter.c', 'Popescu 2017', 'Popescu 2018', 'citations', 'Popescu 2018'),
-    ('src/stream/root_step.c', 'Abbott 2006', 'Abbot 2006', 'citations', 'Abbot 2006'),
+    ('src/stream/root.c', 'Abbott 2006', 'Abbot 2006', 'citations', 'Abbot 2006'),
     ('src/predicate/predicate_filter.c', 'predicate/circle.c', 'predicate/circles.c', 'citations', 'predicate/circles.c'),
     ('include/dyadel/compose.h', '(stream.h)', '(streams.h)', 'citations', 'streams.h in this folder'),
     ('proofs/mathematics.md', '## 9. Output', '## 8. Output', 'citations', 'used twice'),

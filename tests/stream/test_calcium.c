@@ -3,7 +3,7 @@
  */
 #include "harness.h"
 
-#include "stream/algebra/describe.h"
+#include "stream/algebra/form.h"
 #include "stream/algebra/zero.h"
 
 #include <calcium/ca.h>

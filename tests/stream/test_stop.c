@@ -4,7 +4,7 @@
 #include "harness.h"
 
 #include "base/clock.h"
-#include "stream/algebra/describe.h"
+#include "stream/algebra/form.h"
 #include "stream/real.h"
 
 #include <pthread.h>

@@ -2,8 +2,7 @@
 /* [IDN-1] [SEP-1] The zero test: what is 0 and has to be proved, what is not 0 and must never be, what nobody knows. */
 #include "harness.h"
 
-#include "stream/algebra/describe.h"
-#include "stream/algebra/normal.h"
+#include "stream/algebra/form.h"
 #include "stream/algebra/zero.h"
 
 #include <stdio.h>

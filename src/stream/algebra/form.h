@@ -11,6 +11,7 @@
 #include "stream/arb.h"
 #include "stream/expr.h"
 #include "stream/root.h"
+#include <dyadel/stream.h>
 
 /* Operations beside those of expressions. ROOT: object is the dyd_root; OPAQUE: object and b say whose value it is;
  * CLAIM: the value of `object` is that of a, as the caller says. */
@@ -69,10 +70,6 @@ uint32_t dyd_forms_number(dyd_forms *f, mpq_srcptr q);
 uint32_t dyd_forms_leaf(dyd_forms *f, dyd_op op);
 uint32_t dyd_forms_unary(dyd_forms *f, dyd_op op, uint32_t a, int32_t exponent);
 uint32_t dyd_forms_binary(dyd_forms *f, dyd_op op, uint32_t a, uint32_t b);
-uint32_t dyd_forms_root(dyd_forms *f, const dyd_root *r);
-uint32_t dyd_forms_claim(dyd_forms *f, const void *object, uint32_t a);
-/* now: where the value lies; NULL: anywhere. */
-uint32_t dyd_forms_opaque(dyd_forms *f, const void *object, uint32_t part, const dyd_interval *now);
 
 /* Is it made of no other form? */
 static inline bool dyd_form_is_leaf(const dyd_form *n) {
@@ -88,5 +85,20 @@ static inline mpq_srcptr dyd_form_number(const dyd_forms *f, uint32_t n) {
 /* A ball that holds the value of n, computed to about prec bits; not finite where nothing is known. Every operation in
  * it is taken to be defined. Borrowed until the next call. */
 arb_srcptr dyd_forms_value(dyd_forms *f, uint32_t n, slong prec);
+
+/* Reals and points as forms. */
+
+/* The form of x; DYD_NONE where it is not one number. x is borrowed for the life of f. */
+uint32_t dyd_forms_real(dyd_forms *f, const dyd_real *x);
+/* The forms of both coordinates of a stream, or of the point r, a rectangle that is a point; DYD_NONE where nothing is
+ * known of one. */
+dyd_form_point dyd_forms_stream(dyd_forms *f, const dyd_stream *s);
+dyd_form_point dyd_forms_rect(dyd_forms *f, const dyd_rect *r);
+
+/* Forms that are 0 where three points are on one line, where four are on one circle or line. */
+uint32_t dyd_forms_collinear(dyd_forms *f, const dyd_form_point p[3]);
+uint32_t dyd_forms_cocircular(dyd_forms *f, const dyd_form_point p[4]);
+/* The square of the distance of two points. */
+uint32_t dyd_forms_distance2(dyd_forms *f, dyd_form_point p, dyd_form_point q);
 
 #endif

@@ -6,7 +6,7 @@
 #ifndef DYD_STREAM_ALGEBRA_LEAVES_H
 #define DYD_STREAM_ALGEBRA_LEAVES_H
 
-#include "stream/algebra/fraction.h"
+#include "stream/algebra/ring.h"
 
 /* x = the real root of u, op DYD_OP_SQRT (u >= 0) or DYD_OP_CBRT. */
 bool dyd_leaf_radical(dyd_fraction *x, dyd_ring *r, dyd_op op, const dyd_fraction *u);
@@ -17,7 +17,5 @@ bool dyd_leaf_root(dyd_fraction *x, dyd_ring *r, uint32_t node);
 /* x = a free variable: op of u (which may be NULL) for equal operands the same, or the form `node`, if op is
  * DYD_OP_CONST. */
 bool dyd_leaf_free(dyd_fraction *x, dyd_ring *r, dyd_op op, const dyd_fraction *u, uint32_t node);
-/* The leaf pi; -1: there is none yet. */
-slong dyd_leaf_pi(const dyd_ring *r);
 
 #endif

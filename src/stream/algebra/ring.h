@@ -89,12 +89,28 @@ static inline slong dyd_ring_var(const dyd_ring *r, slong k) {
 slong dyd_ring_add_leaf(dyd_ring *r, dyd_leaf_kind kind, dyd_op op);
 /* x = the leaf. */
 void dyd_ring_gen(fmpz_mpoly_t x, const dyd_ring *r, slong k);
-/* p = p modulo the relations; x = a b. false: beyond the limits. */
-bool dyd_ring_reduce(fmpz_mpoly_t p, const dyd_ring *r);
-bool dyd_ring_mul(fmpz_mpoly_t x, const dyd_ring *r, const fmpz_mpoly_t a, const fmpz_mpoly_t b);
 /* out >= |p| for all conjugates of its leaves, all of which are whole. */
 void dyd_ring_bound(mag_t out, const dyd_ring *r, const fmpz_mpoly_t p);
 /* Is it a polynomial in algebraic integers? */
 bool dyd_ring_is_whole(const dyd_ring *r, const fmpz_mpoly_t p);
+
+/* Fractions of polynomials in the leaves. */
+
+void dyd_fraction_set(dyd_fraction *x, const dyd_fraction *y, const dyd_ring *r);
+/* x = the rational number num / den, den != 0. */
+void dyd_fraction_set_number(dyd_fraction *x, const fmpz_t num, const fmpz_t den, const dyd_ring *r);
+/* x = leaf k / den, den > 0. */
+void dyd_fraction_set_leaf(dyd_fraction *x, slong k, const fmpz_t den, const dyd_ring *r);
+/* x = x op y, op one of + - * /; x = x^n. Operands may be the same. false: beyond the limits, or a division by what is
+ * 0 as far as can be seen; x is unspecified then. */
+bool dyd_fraction_apply(dyd_fraction *x, dyd_op op, const dyd_fraction *y, const dyd_ring *r);
+bool dyd_fraction_power(dyd_fraction *x, slong n, const dyd_ring *r);
+/* Divides out common integer factors; the leading coefficient of the denominator becomes positive. */
+void dyd_fraction_lowest(dyd_fraction *x, const dyd_ring *r);
+bool dyd_fraction_equal(const dyd_fraction *x, const dyd_fraction *y, const dyd_ring *r);
+/* Is the leading coefficient of the numerator negative? */
+static inline bool dyd_fraction_leads_negative(const dyd_fraction *x) {
+  return x->num->length && fmpz_sgn(x->num->coeffs) < 0;
+}
 
 #endif

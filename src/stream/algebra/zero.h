@@ -6,6 +6,13 @@
 #include "base/room.h"
 #include "stream/algebra/ring.h"
 
+/* From a form to a fraction of polynomials in the leaves. */
+
+/* Makes the fractions of the forms given; until then leaves are not settled. */
+dyd_status dyd_ring_settle(dyd_ring *r, const uint32_t *node, size_t count);
+/* The fraction of form n; NULL: not known, or beyond the limits. Borrowed. */
+const dyd_fraction *dyd_ring_fraction(dyd_ring *r, uint32_t n);
+
 /* The precision that tests begin with, in bits. */
 enum { DYD_ZERO_FIRST_BITS = 128 };
 
