@@ -4,7 +4,7 @@
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "base/alloc.h"
 #include "io/diagram.h"
-#include "io/sphere_cells.h"
+#include "io/geodesic.h"
 #include "io/table.h"
 #include <inttypes.h>
 #include <math.h>

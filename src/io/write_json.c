@@ -2,9 +2,9 @@
 /* The json format: everything that is stated of a triangulation, a Voronoi diagram, tolerances; of a plane or a sphere.
  * It is written piece by piece, so that memory stays small. */
 #include "io/diagram.h"
+#include "io/geodesic.h"
 #include "io/json.h"
 #include "io/result.h"
-#include "io/sphere_cells.h"
 #include "voronoi/exact_cell.h"
 #include <stdlib.h>
 

@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "io/geodesic.h"
-#include "io/sphere_cells.h"
 #include "picture/picture.h"
 #include <math.h>
 
