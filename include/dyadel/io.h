@@ -113,7 +113,7 @@ typedef enum dyd_format {
 } dyd_format;
 /* What dyd_write writes. */
 typedef enum dyd_content {
-  DYD_CONTENT_NONE = 0, /* what no format holds */
+  DYD_CONTENT_NONE = 0, /* no format holds it */
   DYD_CONTENT_DELAUNAY,
   DYD_CONTENT_VORONOI,
   DYD_CONTENT_CONVERGENCE, /* the table */
@@ -152,7 +152,7 @@ typedef enum dyd_content {
 /* How ties are listed beside other pairs. */
 typedef enum dyd_list_ties {
   DYD_LIST_TIES_PAIRS = 0, /* a row for each pair: k sites of a circle have k (k - 3) / 2 */
-  DYD_LIST_TIES_GROUPS,    /* csv: the groups, in place of the pairs; json has them always, and then only them */
+  DYD_LIST_TIES_GROUPS,    /* csv: the groups instead of the pairs; json always has the groups, and then only them */
   DYD_LIST_TIES_NONE
 } dyd_list_ties;
 
@@ -167,14 +167,14 @@ DYD_API bool dyd_format_suits_file(dyd_format format, const char *file);
 DYD_API bool dyd_format_is_binary(dyd_format format);
 /* The name of a format; NULL behind the last one, so that counting up from 0 lists them all. Static storage. */
 DYD_API const char *dyd_format_name(dyd_format format);
-/* What it is, in words without a full stop; NULL as above. Static storage. */
+/* A description without a full stop; NULL as above. Static storage. */
 DYD_API const char *dyd_format_about(dyd_format format);
 /* The layers of DYD_CONTENT_DELAUNAY, _VORONOI, _TOLERANCE, _SPHERE and _SPHERE_VORONOI: the k-th name, the default
- * first, NULL behind the last one; and the content that a name ("points") stands for, false when there is none. Static
+ * first, NULL behind the last one; and the content of a name ("points"), false when there is none. Static
  * storage. */
 DYD_API const char *dyd_layer_name(dyd_content of, size_t k);
 DYD_API bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *name);
-/* Can the format hold it? Where not, dyd_write returns DYD_E_ARG with a message that names those that can. */
+/* Can the format hold it? Where not, dyd_write returns DYD_E_ARG with a message that names the formats that can. */
 DYD_API bool dyd_format_holds(dyd_format format, dyd_content content);
 
 /* What dyd_engine_nearest found; all borrowed. Begun with DYD_SIZED. */
@@ -187,13 +187,13 @@ typedef struct dyd_nearest_answer {
   bool tied; /* dyd_engine_nearest_tied */
 } dyd_nearest_answer;
 
-/* What is written, and how; all borrowed. Fields that do not belong to the content are not looked at. */
+/* Input and options of dyd_write; all borrowed. Fields that do not belong to the content are ignored. */
 typedef struct dyd_write_options {
   size_t struct_size; /* set by DYD_SIZED */
 
-  const dyd_sphere *sphere;       /* for contents of a sphere */
-  const dyd_tolerance *tolerance; /* tolerances of the result; also for html of the triangulation: with points; NULL:
-                                     none is told there */
+  const dyd_sphere *sphere; /* for contents of a sphere */
+  const dyd_tolerance
+      *tolerance; /* tolerances of the result; also for html of the triangulation: with points; NULL: html shows none */
   const dyd_survey *plan;
   const dyd_convergence *stages; /* for tables of convergence and their plot, of a run */
   const dyd_check_report *report;
@@ -215,7 +215,7 @@ typedef struct dyd_write_options {
   const dyd_history *history; /* of the run, a stage for each row of `stages`, for html; NULL: only the result is shown.
                                  DYD_E_ARG with pairs, and where it ends with other pairs than the result */
 
-  const dyd_pair_list *pairs; /* of the triangulation: written in place of its pairs, in csv, wkt, geojson and pictures;
+  const dyd_pair_list *pairs; /* of the triangulation: written instead of its pairs, in csv, wkt, geojson and pictures;
                                  NULL: none */
   dyd_list_ties ties;
 
@@ -223,8 +223,8 @@ typedef struct dyd_write_options {
   bool flatten_set;           /* false: a choice that suits the mean size of cells */
   dyd_voronoi_bounds *bounds; /* initialised by the caller; receives the bounds that were written; may be NULL */
   size_t *cut;                /* receives how many cells and regions `cancel` befell; may be NULL */
-  double max_arc; /* sides of cells of a sphere in wkt and geojson are divided into arcs of so many degrees; 0: 1, at
-                     most 90 */
+  double max_arc; /* sides of cells of a sphere in wkt and geojson are divided into arcs of at most this many degrees;
+                     0: 1; not above 90 */
 
   bool next;  /* of a plan the first row only */
   bool times; /* tables of convergence: seconds, too; without them equal runs give equal bytes */
@@ -241,7 +241,7 @@ DYD_API bool dyd_label_fits(const char *label);
  *
  * e: whose current result is written, of the triangulation, the diagram, tolerances, plans and nearest points. Of discs
  * and bisectors: whose first points they are of, so that its rows and identifiers name them; NULL: numbers do. Of
- * tables of convergence: that ran, for html. Not looked at for contents of a sphere, the plot and the report.
+ * tables of convergence: that ran, for html. Ignored for contents of a sphere, the plot and the report.
  *
  * DYD_CONTENT_BISECTOR: the arcs of both curves with exact ends. DYD_CONTENT_DISC: orientation, the six critical
  * circles exactly and enclosed, the box of the partial centre, and Con of the other rectangles. DYD_CONTENT_NEAREST and
@@ -251,7 +251,7 @@ DYD_API bool dyd_label_fits(const char *label);
  *
  * On a sphere, in wkt and geojson, edges are great circles, a place at every 2 degrees at most, cut where they cross
  * the meridian of 180 degrees; of triangles that hold more than half of the sphere the geometry is empty. Cells that
- * are known all around are valid polygons: one for each part beside the meridian of 180 degrees; one that holds a pole
+ * are known all around are valid polygons: one for each part between meridians of 180 degrees; one that holds a pole
  * goes up that meridian, along the pole's parallel and down again. Of one point the cell is the globe, of two they are
  * its halves.
  *

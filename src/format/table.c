@@ -2,7 +2,7 @@
 /* The table of formats.
  *
  * A new format: its constant in dyadel/io.h; a file of writers, in that folder's meson.build; its row here. The
- * command's options, help, manual page and completion follow. What it can hold is what it has writers for. */
+ * command's options, help, manual page and completion follow. A format holds the contents that it has writers for. */
 #include "format/table.h"
 
 #include "base/error.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* dyd_write: makes what is to be written ready, and the table of formats does the rest. */
+/* dyd_write: prepares the content; the table of formats does the rest. */
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
@@ -70,7 +70,7 @@ static dyd_status pairs_of_graph(dyd_result *r) {
   return DYD_OK;
 }
 
-/* What is written in place of the pairs, if the layer is a graph. */
+/* The edges, which are written instead of the pairs, if the layer is a graph. */
 static dyd_status result_graph(bool *graph, dyd_result *r, dyd_content layer, const dyd_write_options *o,
                                dyd_error *err) {
   size_t k = 0;
@@ -91,7 +91,7 @@ static dyd_status grant_output(const dyd_delaunay *pd, dyd_format format, bool d
   return dyd_delaunay_grant(pd, bytes, "this output", err);
 }
 
-/* Graphs, and other formats, tell of more than what discs decide. */
+/* Graphs and other formats state more than discs decide. */
 static bool holds_discs(dyd_content layer, dyd_format format) {
   bool known = layer == DYD_CONTENT_DELAUNAY || layer == DYD_CONTENT_POINTS || layer == DYD_CONTENT_TRIANGLES ||
                layer == DYD_CONTENT_ALIASES;
@@ -123,7 +123,7 @@ static dyd_status write_delaunay(dyd_output *to, dyd_write_options *o, dyd_error
   st = grant_output(r.pd, to->format, false, o->pairs, least, err);
   if (st != DYD_OK) return st;
   st = result_graph(&graph, &r, to->content, o, err);
-  if (graph) r.history = NULL, r.tolerance = NULL; /* they tell of the triangulation */
+  if (graph) r.history = NULL, r.tolerance = NULL; /* both are about the triangulation */
   bool pairs = !graph && !o->pairs && to->content != DYD_CONTENT_TIES && to->content != DYD_CONTENT_ALIASES;
   if (st == DYD_OK && pairs) st = dyd_pairs_take(&r.pairs, r.pd, least);
   if (o->pairs) r.pairs = *o->pairs;
@@ -171,7 +171,7 @@ static dyd_status write_sphere(dyd_output *to, dyd_write_options *o, dyd_error *
 
 /* ---- the Voronoi diagram ---- */
 
-/* Numbers out of range come from polygons that are too fine; pictures tell of their own. */
+/* Numbers out of range come from polygons that are too fine; pictures report their own errors. */
 static dyd_status tell_fineness(dyd_status st, const dyd_diagram *d, dyd_error *err) {
   if (st != DYD_E_RANGE || !err || strcmp(err->message, dyd_status_text(st)) != 0) return st;
   return dyd_fail(err, st,

@@ -277,7 +277,7 @@ static void dual_join_ties(dyd_dual_edge *e, const dyd_delaunay *pd, const dual_
   }
 }
 
-/* A sure hull edge with a vertex on one side has its ray on the other. Where both sides are open, nothing is said. */
+/* A sure hull edge with a vertex on one side has its ray on the other. Where both sides are open, no ray is known. */
 static dyd_status dual_join_rays(dyd_dual_edge *edge, size_t count, const dyd_delaunay *pd) {
   dyd_hull hull = {0};
   dyd_status st = dyd_delaunay_partial_hull(&hull, pd);
@@ -400,8 +400,8 @@ static dyd_status coarsen_flattening(dyd_diagram *d) {
   return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
-/* Fine enough for the eye, and for the goal on the area where there was one. Where that was not reached, what is
- * undetermined hides the flattening, and polygons as fine as the goal could be endless: only as fine as it helps. */
+/* Fine enough for the eye, and for the goal on the area if there was one. If that was not reached, the undetermined
+ * area hides the flattening, and polygons as fine as the goal could be endless: then only as fine as it helps. */
 static dyd_status choose_flattening(dyd_diagram *d) {
   enum { STEP = 6 };
   int64_t goal_bits;

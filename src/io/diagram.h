@@ -27,7 +27,7 @@ typedef struct dyd_dual_edge {
   dyd_dual_end end[2];
 } dyd_dual_edge;
 
-/* Where the face is among those that are tied, ascending; NULL: it is none of them. */
+/* Position of the face in the ascending list of tied faces; NULL: it is not tied. */
 const size_t *dyd_dual_tied(const size_t *tied, size_t ties, size_t face);
 
 /* tied: faces of pd whose sites are on one circle, ascending. *out is new, sorted by i and j; release with free().
@@ -45,7 +45,7 @@ typedef struct dyd_cell_row {
   double rounding; /* of the vertices of an exact one, in each coordinate; else 0 */
 } dyd_cell_row;
 
-/* Which share of what may be the cell is not surely so, rounded up. */
+/* The undetermined share of the possible cell, rounded up. */
 double dyd_cell_undetermined(const dyd_cell_row *row);
 
 /* All borrowed but the window and the lists. */
@@ -62,24 +62,24 @@ typedef struct dyd_diagram {
   dyd_triangle_list triangles;
   size_t *tied, ties;         /* undecided faces whose sites are on one circle */
   double (*vertex)[4];        /* enclosures of the Voronoi vertices of both; infinite ends: not known in doubles */
-  int64_t vertex_bits;        /* exact enclosures are asked for with these bits */
+  int64_t vertex_bits;        /* precision of exact enclosures */
   dyd_voronoi_bounds *bounds; /* found when the cells are visited */
   const volatile int *cancel; /* see dyd_write_options; NULL: never */
-  dyd_room *room;             /* what max_bytes leaves beside the triangulation */
+  dyd_room *room;             /* memory that max_bytes leaves for the diagram */
   size_t *cut;                /* the cells and regions that it cut, counted when they are visited */
 } dyd_diagram;
 
 /* Makes everything but the bounds; triangles and their vertices only if `vertices`. o->bounds and o->cut are there;
- * room is borrowed as long as *d is used. Of to->engine there has to be a result that is not capped. An error is told;
- * dyd_diagram_clear comes after it in any case. */
+ * room is borrowed as long as *d is used. Of to->engine there has to be a result that is not capped. Fills *err on
+ * failure; the caller calls dyd_diagram_clear in any case. */
 dyd_status dyd_diagram_init(dyd_diagram *d, const dyd_output *to, const dyd_write_options *o, bool vertices,
                             dyd_room *room, dyd_error *err);
 void dyd_diagram_clear(dyd_diagram *d);
 
-/* Called for every site that stands for itself, in order. */
+/* Called in order for every site but aliases. */
 typedef dyd_status (*dyd_cell_visit)(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row);
-/* Makes the polygons of all cells once, shows them to `visit`, and finds the bounds. Once *d->cancel is set the window
- * stands for cells and regions. */
+/* Makes the polygons of all cells once, shows them to `visit`, and finds the bounds. Once *d->cancel is set, cells and
+ * regions are the whole window. */
 dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *context);
 
 /* Called for every undecided face in order, with the box of its vertices in the window, rounded outward; NULL: there

@@ -3,9 +3,9 @@
  *
  * Longitudes are unrolled along a way, each within 180 degrees of the one before. A closed way that does not come back
  * to where it began turns around a pole, the north one if it went east: it is followed twice, closed over the pole, and
- * cut to all longitudes once. Of others, what lies between -180 + 360 k and 180 + 360 k is a part. A pole on the way is
- * a line of the map, from the longitude where the way comes to where it leaves. What is convex meets each meridian in
- * one piece, so each part is one polygon. */
+ * cut to all longitudes once. Other ways are divided into the parts between -180 + 360 k and 180 + 360 k. A pole on the
+ * way is a line of the map, from the longitude where the way comes to where it leaves. A convex region meets each
+ * meridian in one piece, so each part is one polygon. */
 #include "io/geodesic.h"
 
 #include "base/alloc.h"
@@ -231,7 +231,7 @@ static dyd_lon_lat way_cut(dyd_lon_lat a, dyd_lon_lat b, double lon) {
   return (dyd_lon_lat){lon, a.lat + (b.lat - a.lat) * (lon - a.lon) / (b.lon - a.lon)};
 }
 
-/* A place of the way: its ends are what they stand for. */
+/* A place of the way; its ends are the boxes given. */
 static void arc_put(dyd_table *t, const dyd_lon_lat *p, size_t k, size_t n, double turn, const double *const end[2]) {
   const double *box = k == 0 ? end[0] : k + 1 == n ? end[1] : NULL;
   if (box && dyd_lon_lat_of(box).lon == p[k].lon - turn)
@@ -266,7 +266,7 @@ dyd_status dyd_row_arc(dyd_table *t, const double a[4], const double b[4]) {
   return DYD_OK;
 }
 
-/* Keeps what is on the side of the longitude (side 1: east of it) of a closed way; returns how many places. */
+/* Keeps the part of a closed way on one side of the longitude (1: east); returns the number of places. */
 static size_t around_clip(dyd_lon_lat *out, const dyd_lon_lat *p, size_t n, double lon, int side) {
   size_t count = 0;
   for (size_t k = 0; k < n; k++) {
@@ -443,7 +443,7 @@ static size_t nodes_walk(bool *cycle, dyd_sphere_cells *c, size_t n, corner_view
   return n;
 }
 
-/* The cell seen in view[0 .. count-1]: chains that have a beginning first, then what is a cycle. */
+/* The cell seen in view[0 .. count-1]: first the chains that have a beginning, then cycles. */
 static size_t cell_walk(dyd_sphere_cells *c, size_t n, corner_view *view, size_t count) {
   bool cycle = false, all = count > 0;
   for (size_t k = 0; k < count; k++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* A streaming writer of JSON. It sets the commas, quotes and line breaks; callers say what stands where:
+/* A streaming writer of JSON. It sets the commas, quotes and line breaks; callers name the members:
  *
  *     dyd_json_begin(&j, out);
  *     dyd_json_object(&j, NULL, DYD_JSON_LINES);
@@ -27,52 +27,98 @@ typedef enum dyd_json_form {
 
 enum { DYD_JSON_DEPTH = 12 };
 
-/* Invariant: level[0 .. depth) are the open objects and arrays; `before` is what the next member begins with. */
+/* The text before the first member, between members, and before the closing bracket, by form: at most 4 bytes. */
+typedef struct dyd_json_breaks {
+  const char *first, *between, *close;
+} dyd_json_breaks;
+extern const dyd_json_breaks dyd_json_forms[];
+
+/* Invariant: level[1 .. depth] are the open objects and arrays; `before` is what the next member begins with. */
 typedef struct dyd_json {
   dyd_sink to;
   dyd_status st; /* the first failure; nothing needs to be asked before the end */
   size_t depth;
   struct {
     const char *before;
-    dyd_json_form form;
+    const dyd_json_breaks *form;
     char bracket;
   } level[DYD_JSON_DEPTH + 1];
 } dyd_json;
 
-/* Between begin and end nobody else writes to out. */
+/* Between begin and end, `out` must not be written to by others. */
 void dyd_json_begin(dyd_json *j, FILE *out);
-/* Puts `end`, which closes what is open still; returns the first failure. */
+/* Puts `end`, which closes the outermost object; returns the first failure. */
 dyd_status dyd_json_end(dyd_json *j, const char *end);
 /* Records a failure; returns whether there was none so far. */
 bool dyd_json_good(dyd_json *j, dyd_status st);
 
-/* The name, after which the caller puts one value to j->to. */
-void dyd_json_name(dyd_json *j, const char *name);
+/* The name, after which the caller puts one value to j->to. Inline, as are others below, so that the length of a
+ * literal is a constant: large results have millions of members. */
+static inline void dyd_json_name(dyd_json *j, const char *name) {
+  size_t length = name ? strlen(name) : 0;
+  char *p = dyd_sink_room(&j->to, length + 16);
+  for (const char *c = j->level[j->depth].before; *c;) *p++ = *c++;
+  if (name) {
+    *p++ = '"';
+    memcpy(p, name, length);
+    memcpy(p + length, "\": ", 3);
+    p += length + 3;
+  }
+  j->to.end = p;
+  j->level[j->depth].before = j->level[j->depth].form->between;
+}
 /* The same for a value that goes to a file: nothing of it is held back. */
 FILE *dyd_json_file(dyd_json *j, const char *name);
-void dyd_json_object(dyd_json *j, const char *name, dyd_json_form form);
-void dyd_json_array(dyd_json *j, const char *name, dyd_json_form form);
-/* Closes so many objects and arrays. */
-void dyd_json_close(dyd_json *j, int count);
+static inline void dyd_json_open(dyd_json *j, const char *name, dyd_json_form form, char open, char close) {
+  dyd_json_name(j, name);
+  *j->to.end++ = open; /* there is room behind a name */
+  j->depth++;
+  j->level[j->depth].form = &dyd_json_forms[form];
+  j->level[j->depth].before = dyd_json_forms[form].first;
+  j->level[j->depth].bracket = close;
+}
+static inline void dyd_json_object(dyd_json *j, const char *name, dyd_json_form form) {
+  dyd_json_open(j, name, form, '{', '}');
+}
+static inline void dyd_json_array(dyd_json *j, const char *name, dyd_json_form form) {
+  dyd_json_open(j, name, form, '[', ']');
+}
+/* Closes `count` objects and arrays. */
+static inline void dyd_json_close(dyd_json *j, int count) {
+  for (; count--; j->depth--) {
+    char *p = dyd_sink_room(&j->to, 8);
+    for (const char *c = j->level[j->depth].form->close; *c;) *p++ = *c++;
+    *p++ = j->level[j->depth].bracket;
+    j->to.end = p;
+  }
+}
 /* The next member comes behind `between`: a comma and another line break than that of the form. */
 void dyd_json_break(dyd_json *j, const char *between);
 
 /* ---- values ---- */
 
-void dyd_json_index(dyd_json *j, const char *name, uint64_t n);
+static inline void dyd_json_index(dyd_json *j, const char *name, uint64_t n) {
+  dyd_json_name(j, name);
+  dyd_sink_index(&j->to, n);
+}
 void dyd_json_signed(dyd_json *j, const char *name, int64_t n);
-void dyd_json_word(dyd_json *j, const char *name, const char *text);
+static inline void dyd_json_word(dyd_json *j, const char *name, const char *text) {
+  dyd_json_name(j, name);
+  *j->to.end++ = '"';
+  dyd_sink_text(&j->to, text);
+  dyd_sink_put(&j->to, "\"", 1);
+}
 /* A text of users. */
 void dyd_json_text(dyd_json *j, const char *name, const char *text);
 void dyd_json_bool(dyd_json *j, const char *name, bool b);
-/* A value as it is: null, or what was put together before. */
+/* A value as it is, such as null. */
 void dyd_json_raw(dyd_json *j, const char *name, const char *text);
 /* A decimal; null where x is not finite. */
 void dyd_json_decimal(dyd_json *j, const char *name, double x, dyd_round dir);
 /* [lo, hi], rounded outward. */
 void dyd_json_decimals(dyd_json *j, const char *name, double lo, double hi);
-/* "x<suffix>": [lo, hi], "y<suffix>": [lo, hi]; NULL: null. */
-void dyd_json_box(dyd_json *j, const char *suffix, const double *box);
+/* "x": [lo, hi], "y": [lo, hi]; decimal: "x_decimal", "y_decimal", beside exact ones; NULL: null. */
+void dyd_json_box(dyd_json *j, bool decimal, const double *box);
 void dyd_json_integer(dyd_json *j, const char *name, mpz_srcptr n);
 void dyd_json_rational(dyd_json *j, const char *name, mpq_srcptr q);
 void dyd_json_dyadic(dyd_json *j, const char *name, const dyd_dyadic *x);
@@ -92,7 +138,9 @@ void dyd_json_head(dyd_json *j, const char *format, unsigned epsg);
 /* The same with the outcome, where pairs of numbers are rounded outward and texts are exact. */
 void dyd_json_head_outward(dyd_json *j, const char *format, dyd_outcome outcome);
 /* The row of a site; identifiers "id_i", "id_j", ..; "id" of a single one (count 0), where there are any. */
-void dyd_json_site(dyd_json *j, const char *name, const dyd_engine *e, size_t i);
+static inline void dyd_json_site(dyd_json *j, const char *name, const dyd_engine *e, size_t i) {
+  dyd_json_index(j, name, dyd_engine_row(e, i));
+}
 void dyd_json_ids(dyd_json *j, const dyd_engine *e, const uint32_t *site, size_t count);
 /* The rows of sites, in an array. */
 void dyd_json_sites(dyd_json *j, const char *name, const dyd_engine *e, const dyd_index_list *list);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The table of layers, and those of the triangulation, of tolerances and plans.
  *
- * A new layer: its constant in dyadel/io.h; here its columns, its rows and its row of the table. In wkt and geojson one
- * place stands for each rectangle; on a sphere, for where a point may be in degrees, and sides are great circles. */
+ * A new layer: its constant in dyadel/io.h; here its columns, its rows and its row of the table. In wkt and geojson
+ * each rectangle is drawn as one place; on a sphere places are in degrees, and sides are great circles. */
 #include "io/table.h"
 
 #include "base/alloc.h"
@@ -75,7 +75,7 @@ static dyd_status row_pair(dyd_table *t, uint32_t i, uint32_t j, const char *sta
   return st;
 }
 
-/* The pairs of i and later sites: of those that are not listed from *next on, ties. */
+/* The pairs of i and later sites; pairs that the list does not have from *next on are ties. */
 static dyd_status pairs_of_site(dyd_table *t, const dyd_result *r, uint32_t i, size_t *next) {
   dyd_index_list near = {0};
   dyd_status st = dyd_delaunay_neighbours(&near, r->pd, i, DYD_TIE);
@@ -90,7 +90,7 @@ static dyd_status pairs_of_site(dyd_table *t, const dyd_result *r, uint32_t i, s
   return st;
 }
 
-/* Places are asked for ahead: those of the second sites lie anywhere. */
+/* Places of the second sites are prefetched, since they lie anywhere in memory. */
 static dyd_status rows_of_pairs(dyd_table *t, const dyd_output *o) {
   enum { AHEAD = 12 };
   const dyd_result *r = o->what;
@@ -213,7 +213,7 @@ static dyd_status rows_of_triangles(dyd_table *t, const dyd_output *o) {
 
 /* ---- tolerances ---- */
 
-/* Aliases, and the tolerance of the whole; what is missing. */
+/* Aliases, the tolerance of the whole, and the number of missing rows. */
 static dyd_status tolerance_comments(dyd_table *t, const dyd_output *o) {
   const dyd_result *r = o->what;
   double lo, hi;
@@ -234,7 +234,7 @@ static dyd_status tolerance_comments(dyd_table *t, const dyd_output *o) {
   return DYD_OK;
 }
 
-/* Empty where nobody binds. */
+/* Empty where no site binds. */
 static void row_binding(dyd_table *t, uint32_t k) {
   if (k == DYD_NO_SITE)
     dyd_row_decimal(t, NAN, DYD_DOWN);
@@ -442,7 +442,7 @@ const dyd_layer *dyd_layer_of(dyd_content content) {
 static dyd_status layer_places(dyd_table *t, const dyd_output *o) {
   const dyd_result *r = o->what;
   dyd_status st = DYD_OK;
-  if (!t->layer->sites || o->format == DYD_FORMAT_CSV) return DYD_OK;
+  if (!t->layer->sites || !t->drawn) return DYD_OK;
   if (t->sphere) return dyd_sphere_boxes(&t->box, t->sphere);
   t->place = dyd_alloc(r->count, sizeof *t->place);
   if (!t->place) return DYD_E_NOMEM;
@@ -454,18 +454,21 @@ static dyd_status layer_places(dyd_table *t, const dyd_output *o) {
   return st;
 }
 
-/* Are there columns that may be left out? */
-static bool is_whole(const dyd_output *o) {
-  if (o->content != DYD_CONTENT_TOLERANCE) return o->format != DYD_FORMAT_CSV;
+/* Are the optional columns there? */
+static bool is_whole(const dyd_table *t, const dyd_output *o) {
+  if (o->content != DYD_CONTENT_TOLERANCE) return t->drawn;
   return dyd_tolerance_chances(((const dyd_result *)o->what)->tolerance);
 }
 
 dyd_status dyd_layer_write(const dyd_output *o) {
-  dyd_table t = {.layer = dyd_layer_of(o->content), .engine = o->engine, .sphere = o->sphere};
+  dyd_table t = {.layer = dyd_layer_of(o->content),
+                 .engine = o->engine,
+                 .sphere = o->sphere,
+                 .drawn = dyd_format_draws(o->format)};
   dyd_status st = layer_places(&t, o);
-  if (st == DYD_OK && o->format == DYD_FORMAT_CSV && t.layer->comments) st = t.layer->comments(&t, o);
+  if (st == DYD_OK && !t.drawn && t.layer->comments) st = t.layer->comments(&t, o);
   if (st == DYD_OK) {
-    dyd_table_begin(&t, o, is_whole(o));
+    dyd_table_begin(&t, o, is_whole(&t, o));
     st = t.layer->rows(&t, o);
     dyd_table_end(&t);
   }

@@ -44,9 +44,9 @@ dyd_status dyd_diagram_comments(dyd_table *t, const dyd_output *o) {
   return st == DYD_OK ? put_bounds(o) : st;
 }
 
-/* Where there are no comments, the bounds are found all the same: the caller wants them. */
+/* Formats without comments find the bounds as well, since the caller receives them. */
 static dyd_status find_bounds(const dyd_table *t, const dyd_diagram *d) {
-  return dyd_table_is_drawn(t) ? dyd_diagram_visit(d, keep_row, NULL) : DYD_OK;
+  return t->drawn ? dyd_diagram_visit(d, keep_row, NULL) : DYD_OK;
 }
 
 /* ---- cells ---- */
@@ -104,7 +104,7 @@ static dyd_status cell_polygons(void *context, uint32_t i, const dyd_shape *shap
 dyd_status dyd_cell_rows(dyd_table *t, const dyd_output *o) {
   const dyd_diagram *d = o->what;
   const dyd_cell_row *rows = t->kept;
-  if (dyd_table_is_drawn(t)) return dyd_diagram_visit(d, cell_polygons, t);
+  if (t->drawn) return dyd_diagram_visit(d, cell_polygons, t);
   for (size_t i = 0; i < d->count; i++) {
     if (!rows[i].present) continue;
     dyd_row_begin(t);
@@ -159,11 +159,11 @@ static dyd_status row_vertex(dyd_table *t, const dyd_diagram *d, size_t k, bool 
   return st;
 }
 
-/* wkt and geojson hold those that can be drawn and whose enclosure meets the window. Where a goal asks for more than
- * decimals of 17 digits show, the enclosures are exact numbers in csv. */
+/* wkt and geojson hold the vertices that can be drawn and whose enclosure meets the window. Where a goal asks for more
+ * than decimals of 17 digits show, the enclosures are exact numbers in csv. */
 dyd_status dyd_vertex_rows(dyd_table *t, const dyd_output *o) {
   const dyd_diagram *d = o->what;
-  bool csv = !dyd_table_is_drawn(t);
+  bool csv = !t->drawn;
   int64_t goal_bits;
   bool exact = csv && dyd_engine_goal(&goal_bits, d->engine) == DYD_GOAL_VORONOI_HAUSDORFF && goal_bits > 32;
   dyd_status st = find_bounds(t, d);
@@ -241,7 +241,7 @@ dyd_status dyd_edge_rows(dyd_table *t, const dyd_output *o) {
   for (size_t k = 0; k < count && st == DYD_OK; k++) {
     double box[2][4];
     bool drawn = dyd_diagram_edge(box, d, &edge[k]);
-    if (!drawn && dyd_table_is_drawn(t)) continue;
+    if (!drawn && t->drawn) continue;
     dyd_row_begin(t);
     for (int end = 0; drawn && end < 2; end++) dyd_row_at(t, box[end]);
     dyd_row_site(t, edge[k].i);
@@ -257,7 +257,7 @@ dyd_status dyd_edge_rows(dyd_table *t, const dyd_output *o) {
 
 /* ---- cells of a sphere ---- */
 
-/* The vertices of a cell, "3 7 9", with a star before those that an undecided region comes before; the caller's. */
+/* The vertices of a cell, "3 7 9", with a star where an undecided region comes first; owned by the caller. */
 static char *cell_nodes(const dyd_sphere_cells *c, size_t i) {
   char *text = NULL;
   size_t length = 0;
@@ -280,7 +280,7 @@ static double node_error(const dyd_sphere_node *v) {
 static dyd_status cell_outline(dyd_table *t, const dyd_sphere_cells *c, double most, uint32_t i) {
   size_t n = c->first[i + 1] - c->first[i];
   double error = 0;
-  if (!dyd_table_is_drawn(t) || !c->closed[i]) return DYD_OK;
+  if (!t->drawn || !c->closed[i]) return DYD_OK;
   dyd_side *side = dyd_alloc(n + 1, sizeof *side);
   if (!side) return DYD_E_NOMEM;
   for (size_t k = 0; k < n; k++) side[k] = dyd_sphere_cell_side(c, i, k);

@@ -15,20 +15,21 @@ typedef struct dyd_result {
   const dyd_sites *sites;   /* of the plane */
   size_t count;             /* sites, aliases included */
   dyd_pair_list pairs;
-  bool ties_apart;        /* rows of pairs hold ties, which `pairs` does not */
-  const char *graph_name; /* what is written in place of the triangulation, whose edges `pairs` are; NULL: nothing */
-  dyd_graph_list graph;   /* its edges; owned, too */
-  const dyd_rect *window; /* what pictures show; NULL: everything */
-  unsigned epsg;          /* the reference system of the coordinates; 0: not known */
-  double max_arc;         /* sides of cells of a sphere are divided into arcs of so many degrees at most */
-  bool discs;             /* pairs are those of discs */
-  bool next;              /* of a plan the first row only */
+  bool ties_apart; /* rows of pairs hold ties, which `pairs` does not */
+  const char
+      *graph_name;      /* the graph that is written instead of the triangulation; `pairs` are its edges; NULL: none */
+  dyd_graph_list graph; /* its edges; owned, too */
+  const dyd_rect *window;         /* what pictures show; NULL: everything */
+  unsigned epsg;                  /* the reference system of the coordinates; 0: not known */
+  double max_arc;                 /* longest arc, in degrees, of a side of a cell of a sphere */
+  bool discs;                     /* pairs are those of discs */
+  bool next;                      /* of a plan the first row only */
   const dyd_history *history;     /* ends with pairs; NULL: not known */
   const dyd_tolerance *tolerance; /* NULL: not known */
   const dyd_survey *survey;       /* the plan, where one is written */
 } dyd_result;
 
-/* What is known of a site. */
+/* Properties of a site. */
 typedef struct dyd_site_row {
   size_t partners[4]; /* by dyd_pair_status; entry DYD_ILLEGAL is 0 */
   const char *hull;   /* is it a corner of the hull: "surely", "possibly" (or on its boundary), "not" */
@@ -37,7 +38,7 @@ typedef struct dyd_site_row {
 /* ---- a result of a plane or of a sphere ---- */
 
 dyd_outcome dyd_result_outcome(const dyd_result *r);
-/* The site that stands for site i. */
+/* The lowest site at the place of site i. */
 uint32_t dyd_result_alias(const dyd_result *r, uint32_t i);
 /* Where site i may be; on a sphere in degrees. */
 dyd_status dyd_result_rect(dyd_rect *out, const dyd_result *r, uint32_t i);
@@ -45,7 +46,8 @@ dyd_status dyd_result_rect(dyd_rect *out, const dyd_result *r, uint32_t i);
 dyd_status dyd_result_triangles(dyd_triangle_list *out, const dyd_result *r);
 /* How many pairs of each status there are. */
 void dyd_result_count(size_t count[4], const dyd_result *r);
-/* Of every site; aliases as the site they stand for; on a sphere no point is on the hull. *out is released with free().
+/* For every site; aliases have the row of their lowest site; on a sphere no point is on the hull. *out is released with
+ * free().
  */
 dyd_status dyd_result_sites(dyd_site_row **out, const dyd_result *r);
 /* Where each place of a sphere may be, in degrees. Released with free(). */
@@ -69,7 +71,8 @@ void dyd_put_rows(FILE *out, const dyd_engine *e, const dyd_index_list *list, co
 /* The four ends of a window with dyadic ends, as exact texts, each between `quote`. */
 dyd_status dyd_put_window(FILE *out, const dyd_rect *w, const char *quote, const char *between);
 
-/* What has no row, since work was cancelled; births: SIZE_MAX: they were not looked for. false: all has. */
+/* The number of edges and births without a row, since work was cancelled; births: SIZE_MAX: not searched. false: none
+ * is missing. */
 bool dyd_tolerance_is_cut(size_t *edges, size_t *births, const dyd_tolerance *t);
 
 /* Goes over the rows that have a point in common with an earlier one, ascending: aliases of the triangulation, and rows
@@ -78,7 +81,7 @@ typedef struct dyd_alias_walk {
   const dyd_engine *e;
   const dyd_sphere *s; /* NULL: of a plane */
   size_t i, merged;    /* where to look on */
-  size_t row, of;      /* what was found: rows; */
+  size_t row, of;      /* the row found, and the earlier row; */
   size_t site;         /* of the latter */
 } dyd_alias_walk;
 /* false: there is no other one. */

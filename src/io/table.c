@@ -20,7 +20,7 @@ static void table_put(dyd_table *t, const char *text) {
 
 /* ---- encoders ---- */
 
-/* How a kind of geometry is written. first, next: how its parts begin; none: the end where there are no parts. */
+/* How a kind of geometry is written. first, next: how its parts begin; none: the end without any part. */
 typedef struct shape_words {
   const char *name, *open, *close, *first, *next, *none;
 } shape_words;
@@ -30,28 +30,28 @@ typedef struct dyd_encoder {
   const shape_words *shape; /* by dyd_geometry; NULL: rows have no geometry */
   bool brackets;            /* around each place */
   bool named;               /* values come behind their names; else names are in the head */
-  size_t comma;             /* length of what the first row leaves out of row[0] */
+  size_t comma;             /* bytes of row[0] that the first row skips */
   const char *row[2];       /* before and behind the name of the geometry */
   const char *lead[2];      /* before the first value, and before others */
   const char *end;          /* of a row */
-  const char *quote, *none; /* around words; a value that there is not */
+  const char *quote, *none; /* around words; a missing value */
   void (*text)(dyd_sink *to, const char *text);
   void (*head)(dyd_table *t, const dyd_output *o);
   void (*tail)(dyd_table *t);
 } dyd_encoder;
 
-/* Names are those of the columns that there are. */
+/* Names of all columns. */
 static void csv_head(dyd_table *t, const dyd_output *o) {
   (void)o;
   if (t->encode->shape) table_put(t, "WKT,");
   for (size_t k = 0; k + 1 < t->columns; k++) {
-    if (k) table_put(t, ",");
+    if (k) table_put(t, t->encode->lead[1]);
     dyd_sink_put(&t->to, t->name[k], strcspn(t->name[k], ","));
   }
   table_put(t, t->encode->shape ? ",max_coordinate_error\n" : "\n");
 }
 
-/* What programs take for "no reference system". Left out, or null, they take the coordinates for degrees. */
+/* How to state "no reference system". Without it, programs assume degrees. */
 static const char no_system[] =
     "ENGCRS[\\\"Undefined Cartesian SRS\\\",EDATUM[\\\"unknown\\\"],CS[Cartesian,2],"
     "AXIS[\\\"x\\\",unspecified],AXIS[\\\"y\\\",unspecified],LENGTHUNIT[\\\"unknown\\\",1]]";
@@ -124,7 +124,7 @@ static const dyd_encoder encoders[] = {
 
 /* ---- before and after the rows ---- */
 
-/* What comes before the values of a column, behind the end of the geometry. */
+/* The text before the values of a column, behind the end of the geometry. */
 static void table_lead(dyd_table *t, const char *name) {
   dyd_table_lead *l = &t->lead[t->columns];
   const char *between = t->encode->lead[t->columns > 0];
@@ -151,13 +151,13 @@ void dyd_table_begin(dyd_table *t, const dyd_output *o, bool optional) {
   e->head(t, o);
 }
 
+bool dyd_format_draws(dyd_format format) {
+  return encoders[format].shape;
+}
+
 void dyd_table_end(dyd_table *t) {
   if (t->encode->tail) t->encode->tail(t);
   dyd_sink_flush(&t->to);
-}
-
-bool dyd_table_is_drawn(const dyd_table *t) {
-  return t->encode->shape;
 }
 
 /* ---- rows ---- */
@@ -222,7 +222,7 @@ static void end_geometry(dyd_table *t) {
   table_put(t, shape->none && !t->parts ? shape->none : shape->close);
 }
 
-/* What comes before a value. */
+/* The text before a value. */
 static void value_begin(dyd_table *t) {
   const dyd_table_lead *l = &t->lead[t->values];
   if (!t->values++ && t->encode->shape) end_geometry(t);

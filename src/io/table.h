@@ -7,19 +7,19 @@
  * left to right:
  *
  *     dyd_row_begin(t);
- *     dyd_row_spot(t, i);                             its geometry; csv leaves it out
+ *     dyd_row_spot(t, i);                             its geometry; csv has none
  *     dyd_row_site(t, i); dyd_row_word(t, "legal");   one value for each column
  *     dyd_row_end(t);
  *
- * wkt and geojson get a last column by themselves: max_coordinate_error, how far at most a coordinate of the geometry
- * is from what it stands for, rounded up. */
+ * wkt and geojson have one more column, max_coordinate_error: the largest distance of a coordinate of the geometry from
+ * the exact one, rounded up. */
 #ifndef DYD_IO_TABLE_H
 #define DYD_IO_TABLE_H
 
 #include "io/decimal.h"
 #include "io/result.h"
 
-/* Short decimals that stand for a box. Invariant: every point of the box is within `error` of it in x and in y. */
+/* Short decimals that represent a box. Invariant: every point of the box is within `error` of it in x and in y. */
 typedef struct dyd_place {
   char x[DYD_DECIMAL_SIZE], y[DYD_DECIMAL_SIZE];
   double error;
@@ -50,12 +50,13 @@ typedef struct dyd_layer {
   dyd_geometry geometry;
   dyd_layer_part *comments; /* writes the lines of csv before the header; NULL: there are none */
   dyd_layer_part *rows;
-  /* Separated by commas. Those that begin with "id" are there where points have identifiers; with "?", left out: in wkt
-   * and geojson, or, of tolerances, where chances are known. */
+  /* Separated by commas. Columns that begin with "id" exist if points have identifiers. Columns with "?" before their
+   * name exist in wkt and geojson only; of tolerances, if chances are known. */
   const char *columns;
 } dyd_layer;
 
-/* The k-th layer, and that of a content; NULL where there is none. Layers of one thing stand in their order. */
+/* The k-th layer, and that of a content; NULL where there is none. The order is that in which the layers of a command
+ * are listed. */
 const dyd_layer *dyd_layer_at(size_t k);
 const dyd_layer *dyd_layer_of(dyd_content content);
 /* Writes o->content, which is a layer, in csv, wkt or geojson. */
@@ -74,12 +75,13 @@ typedef struct dyd_table_lead {
 } dyd_table_lead;
 enum { DYD_TABLE_COLUMNS = 32 };
 
-/* Invariant: lead[0 .. columns) are before the values of those columns that there are, and before that of the error. */
+/* Invariant: lead[0 .. columns) are the texts before the values of the columns, the error included. */
 struct dyd_table {
   const dyd_layer *layer;           /* borrowed, as what follows */
   const struct dyd_encoder *encode; /* table.c */
   const dyd_engine *engine;         /* whose rows and identifiers name sites */
   const dyd_sphere *sphere;         /* coordinates are degrees on it; NULL: a plane */
+  bool drawn;                       /* rows have a geometry */
   dyd_place *place;                 /* of the sites of a plane; NULL: nothing is drawn at them; owned, as */
   double (*box)[4];                 /* of those of a sphere, */
   void *kept;                       /* what comments keep for rows */
@@ -95,8 +97,8 @@ struct dyd_table {
 /* Whether columns that begin with "?" are there. */
 void dyd_table_begin(dyd_table *t, const dyd_output *o, bool optional);
 void dyd_table_end(dyd_table *t);
-/* Have rows a geometry? */
-bool dyd_table_is_drawn(const dyd_table *t);
+/* Does a format of rows have a geometry? */
+bool dyd_format_draws(dyd_format format);
 
 void dyd_row_begin(dyd_table *t);
 void dyd_row_end(dyd_table *t);
@@ -104,13 +106,13 @@ void dyd_row_end(dyd_table *t);
 void dyd_row_part(dyd_table *t);
 /* The next place of the geometry; a polygon repeats its first. */
 void dyd_row_place(dyd_table *t, const dyd_place *place);
-/* The same for what stands for a box: x lower, x upper, y lower, y upper, finite. */
+/* The same for the place of a box: x lower, x upper, y lower, y upper, finite. */
 void dyd_row_at(dyd_table *t, const double box[4]);
 /* The four corners of a box, as a polygon. */
 void dyd_row_outline(dyd_table *t, const double box[4]);
 /* Site i as the geometry. */
 void dyd_row_spot(dyd_table *t, size_t i);
-/* The numbers of the row of a site; its identifier, which is left out where there are none. */
+/* The numbers of the row of a site; its identifier, or nothing if points have none. */
 void dyd_row_site(dyd_table *t, size_t i);
 void dyd_row_id(dyd_table *t, size_t i);
 /* Those of three sites. */

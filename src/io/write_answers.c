@@ -481,7 +481,7 @@ static dyd_status convergence_csv(const dyd_output *o) {
   return st;
 }
 
-/* The only rows that are no layer: labels are columns, too. */
+/* These rows are not a layer, since labels are columns, too. */
 dyd_writer *const dyd_csv_writers[DYD_CONTENTS] = {[DYD_CONTENT_CONVERGENCE] = convergence_csv};
 
 static void stages_json_head(dyd_json *j, const dyd_convergence *c) {

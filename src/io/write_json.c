@@ -201,7 +201,7 @@ static void polygon_json(dyd_json *j, const char *name, const dyd_polygon *p) {
   dyd_json_close(j, 1);
 }
 
-/* What is known of an exact cell. */
+/* Area and rounding of an exact cell. */
 static void exact_json(dyd_json *j, const dyd_diagram *d, uint32_t i, const dyd_cell_row *row) {
   mpq_t area;
   bool exact = false;

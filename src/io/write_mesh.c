@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Formats of meshes: obj, and legacy vtk polygon data. Of a triangulation one place stands for the rectangle of a site,
- * on a sphere for a vector of length 1; the head says how far at most the rectangle reaches from it. Of a Voronoi
- * diagram vtk holds lines and polygons with their sites and kinds. */
+/* Formats of meshes: obj, and legacy vtk polygon data. In a triangulation each site is one place in its rectangle, on a
+ * sphere a vector of length 1; the head states the largest distance in the rectangle from it. Of a Voronoi diagram vtk
+ * holds lines and polygons with their sites and kinds. */
 #include "base/alloc.h"
 #include "io/diagram.h"
 #include "io/json.h"
@@ -17,7 +17,7 @@ typedef struct mesh_place {
 typedef struct mesh {
   const dyd_result *r;
   mesh_place *place;
-  char bound[DYD_DECIMAL_SIZE]; /* the largest distance from a place to what it stands for, in a coordinate */
+  char bound[DYD_DECIMAL_SIZE]; /* the largest distance of a place from the exact one, in a coordinate */
   dyd_triangle_list triangles;
 } mesh;
 
@@ -300,7 +300,7 @@ static dyd_status gather_all(gathered *g) {
   return st == DYD_OK ? gather_edges(g) : st;
 }
 
-/* A section of those that are edges, or that are not. */
+/* A section of the edges, or of all others. */
 static void vtk_figures(const gathered *g, const char *name, bool edges) {
   FILE *out = g->d->out;
   size_t count = 0, size = 0;
