@@ -9,19 +9,17 @@
 #include "voronoi/surd_point.h"
 #include <stdlib.h>
 
-static const struct {
-  const char *first, *between, *close;
-} forms[] = {[DYD_JSON_FLAT] = {"", ", ", ""},
-             [DYD_JSON_LINES] = {"", ",\n", ""},
-             [DYD_JSON_LIST] = {"\n", ",\n", "\n"},
-             [DYD_JSON_ROWS] = {"\n", ",\n", ""}};
+const dyd_json_breaks dyd_json_forms[] = {[DYD_JSON_FLAT] = {"", ", ", ""},
+                                          [DYD_JSON_LINES] = {"", ",\n", ""},
+                                          [DYD_JSON_LIST] = {"\n", ",\n", "\n"},
+                                          [DYD_JSON_ROWS] = {"\n", ",\n", ""}};
 
 void dyd_json_begin(dyd_json *j, FILE *out) {
   dyd_sink_begin(&j->to, out);
   j->st = DYD_OK;
   j->depth = 0;
   j->level[0].before = "";
-  j->level[0].form = DYD_JSON_FLAT;
+  j->level[0].form = &dyd_json_forms[DYD_JSON_FLAT];
 }
 
 dyd_status dyd_json_end(dyd_json *j, const char *end) {
@@ -35,50 +33,10 @@ bool dyd_json_good(dyd_json *j, dyd_status st) {
   return j->st == DYD_OK;
 }
 
-void dyd_json_name(dyd_json *j, const char *name) {
-  const char *before = j->level[j->depth].before;
-  size_t comma = strlen(before), length = name ? strlen(name) : 0;
-  char *p = dyd_sink_room(&j->to, comma + length + 4);
-  memcpy(p, before, comma);
-  p += comma;
-  if (name) {
-    *p++ = '"';
-    memcpy(p, name, length);
-    memcpy(p + length, "\": ", 3);
-    p += length + 3;
-  }
-  j->to.end = p;
-  j->level[j->depth].before = forms[j->level[j->depth].form].between;
-}
-
 FILE *dyd_json_file(dyd_json *j, const char *name) {
   dyd_json_name(j, name);
   dyd_sink_flush(&j->to);
   return j->to.out;
-}
-
-static void json_open(dyd_json *j, const char *name, char bracket, dyd_json_form form) {
-  dyd_json_name(j, name);
-  dyd_sink_put(&j->to, &bracket, 1);
-  j->depth++;
-  j->level[j->depth].before = forms[form].first;
-  j->level[j->depth].form = form;
-  j->level[j->depth].bracket = bracket == '{' ? '}' : ']';
-}
-
-void dyd_json_object(dyd_json *j, const char *name, dyd_json_form form) {
-  json_open(j, name, '{', form);
-}
-
-void dyd_json_array(dyd_json *j, const char *name, dyd_json_form form) {
-  json_open(j, name, '[', form);
-}
-
-void dyd_json_close(dyd_json *j, int count) {
-  for (; count--; j->depth--) {
-    dyd_sink_text(&j->to, forms[j->level[j->depth].form].close);
-    dyd_sink_put(&j->to, &j->level[j->depth].bracket, 1);
-  }
 }
 
 void dyd_json_break(dyd_json *j, const char *between) {
@@ -87,22 +45,10 @@ void dyd_json_break(dyd_json *j, const char *between) {
 
 /* ---- values ---- */
 
-void dyd_json_index(dyd_json *j, const char *name, uint64_t n) {
-  dyd_json_name(j, name);
-  dyd_sink_index(&j->to, n);
-}
-
 void dyd_json_signed(dyd_json *j, const char *name, int64_t n) {
   dyd_json_name(j, name);
   if (n < 0) dyd_sink_put(&j->to, "-", 1);
   dyd_sink_index(&j->to, n < 0 ? -(uint64_t)n : (uint64_t)n);
-}
-
-void dyd_json_word(dyd_json *j, const char *name, const char *text) {
-  dyd_json_name(j, name);
-  dyd_sink_put(&j->to, "\"", 1);
-  dyd_sink_text(&j->to, text);
-  dyd_sink_put(&j->to, "\"", 1);
 }
 
 void dyd_json_text(dyd_json *j, const char *name, const char *text) {
@@ -133,10 +79,9 @@ void dyd_json_decimals(dyd_json *j, const char *name, double lo, double hi) {
   dyd_sink_put(&j->to, "]", 1);
 }
 
-void dyd_json_box(dyd_json *j, const char *suffix, const double *box) {
+void dyd_json_box(dyd_json *j, bool decimal, const double *box) {
   for (int axis = 0; axis < 2; axis++) {
-    char name[16] = {axis ? 'y' : 'x'};
-    strcpy(name + 1, suffix);
+    const char *name = decimal ? axis ? "y_decimal" : "x_decimal" : axis ? "y" : "x";
     if (box)
       dyd_json_decimals(j, name, box[2 * axis], box[2 * axis + 1]);
     else
@@ -221,10 +166,6 @@ void dyd_json_head_outward(dyd_json *j, const char *format, dyd_outcome outcome)
   dyd_json_word(j, "outcome", dyd_outcome_text(outcome));
 }
 
-void dyd_json_site(dyd_json *j, const char *name, const dyd_engine *e, size_t i) {
-  dyd_json_index(j, name, dyd_engine_row(e, i));
-}
-
 void dyd_json_ids(dyd_json *j, const dyd_engine *e, const uint32_t *site, size_t count) {
   static const char *const name[] = {"id_i", "id_j", "id_k"};
   for (size_t k = 0; k < (count ? count : 1) && dyd_engine_id(e, site[k]); k++)
@@ -249,14 +190,19 @@ void dyd_json_aliases(dyd_json *j, const dyd_engine *e, const dyd_sphere *s) {
   dyd_json_close(j, 1);
 }
 
+/* Put together here, as most members of large results are of these two kinds. */
 void dyd_json_pairs(dyd_json *j, const char *name, const dyd_engine *e, const dyd_pair_list *pairs) {
+  dyd_sink *s = &j->to;
   dyd_json_array(j, name, DYD_JSON_LIST);
   for (size_t k = 0; k < pairs->count; k++) {
-    dyd_json_object(j, NULL, DYD_JSON_FLAT);
-    dyd_json_site(j, "i", e, pairs->item[k].i);
-    dyd_json_site(j, "j", e, pairs->item[k].j);
-    dyd_json_word(j, "status", dyd_pair_status_text(pairs->item[k].status));
-    dyd_json_close(j, 1);
+    const dyd_pair *p = &pairs->item[k];
+    dyd_sink_text(s, k ? ",\n{\"i\": " : "\n{\"i\": ");
+    dyd_sink_index(s, dyd_engine_row(e, p->i));
+    dyd_sink_text(s, ", \"j\": ");
+    dyd_sink_index(s, dyd_engine_row(e, p->j));
+    dyd_sink_text(s, ", \"status\": \"");
+    dyd_sink_text(s, dyd_pair_status_text(p->status));
+    dyd_sink_text(s, "\"}");
   }
   dyd_json_close(j, 1);
 }
@@ -264,10 +210,12 @@ void dyd_json_pairs(dyd_json *j, const char *name, const dyd_engine *e, const dy
 void dyd_json_triangles(dyd_json *j, const dyd_engine *e, const dyd_triangle_list *list) {
   dyd_json_array(j, "triangles", DYD_JSON_FLAT);
   for (size_t k = 0; k < list->count; k++) {
-    if (k && k % 8 == 0) dyd_json_break(j, ",\n");
-    dyd_json_array(j, NULL, DYD_JSON_FLAT);
-    for (int c = 0; c < 3; c++) dyd_json_site(j, NULL, e, list->item[k].v[c]);
-    dyd_json_close(j, 1);
+    if (k) dyd_sink_text(&j->to, k % 8 ? ", " : ",\n");
+    for (int c = 0; c < 3; c++) {
+      dyd_sink_text(&j->to, c ? ", " : "[");
+      dyd_sink_index(&j->to, dyd_engine_row(e, list->item[k].v[c]));
+    }
+    dyd_sink_text(&j->to, "]");
   }
   dyd_json_close(j, 1);
 }
@@ -334,7 +282,7 @@ static dyd_status surd_point_json(FILE *out, const dyd_surd_point *p) {
   dyd_rect_init(&r);
   if (dyd_json_good(&j, dyd_surd_point_enclose(&r, p, 64))) {
     dyd_rect_get_d(box, &r);
-    dyd_json_box(&j, "_decimal", box);
+    dyd_json_box(&j, true, box);
   }
   dyd_rect_clear(&r);
   return dyd_json_end(&j, "}");

@@ -6,8 +6,8 @@
 #include "io/table.h"
 
 #include "base/alloc.h"
-#include "base/index.h"
 #include "base/prefetch.h"
+#include "base/index.h"
 #include "io/diagram.h"
 #include "io/geodesic.h"
 #include <math.h>
@@ -59,8 +59,9 @@ static dyd_status point_comments(dyd_table *t, const dyd_output *o) {
 static dyd_status row_line(dyd_table *t, size_t i, size_t j) {
   dyd_row_begin(t);
   if (t->box) return dyd_row_arc(t, t->box[i], t->box[j]);
-  dyd_row_spot(t, i);
-  dyd_row_spot(t, j);
+  if (!t->place) return DYD_OK;
+  dyd_row_place(t, &t->place[i]);
+  dyd_row_place(t, &t->place[j]);
   return DYD_OK;
 }
 

@@ -18,6 +18,13 @@ static void table_put(dyd_table *t, const char *text) {
   dyd_sink_text(&t->to, text);
 }
 
+/* The same of at most 8 bytes, mostly none or one. */
+static inline void table_put_short(dyd_table *t, const char *text) {
+  char *p = dyd_sink_room(&t->to, 8);
+  while (*text) *p++ = *text++;
+  t->to.end = p;
+}
+
 /* ---- encoders ---- */
 
 /* How a kind of geometry is written. first, next: how its parts begin; none: the end without any part. */
@@ -166,7 +173,7 @@ void dyd_row_begin(dyd_table *t) {
   size_t comma = t->rows ? 0 : t->encode->comma;
   t->places = t->values = t->parts = 0;
   t->error = 0;
-  dyd_sink_put(&t->to, t->begin.text + comma, t->begin.length - comma);
+  if (t->begin.length) dyd_sink_put(&t->to, t->begin.text + comma, t->begin.length - comma);
 }
 
 void dyd_row_part(dyd_table *t) {
@@ -219,7 +226,7 @@ void dyd_row_spot(dyd_table *t, size_t i) {
 
 static void end_geometry(dyd_table *t) {
   const shape_words *shape = &t->encode->shape[t->layer->geometry];
-  table_put(t, shape->none && !t->parts ? shape->none : shape->close);
+  table_put_short(t, shape->none && !t->parts ? shape->none : shape->close);
 }
 
 /* The text before a value. */
@@ -251,9 +258,9 @@ void dyd_row_three(dyd_table *t, const uint32_t site[3], bool ids) {
 
 void dyd_row_word(dyd_table *t, const char *text) {
   value_begin(t);
-  table_put(t, t->encode->quote);
+  table_put_short(t, t->encode->quote);
   table_put(t, text);
-  table_put(t, t->encode->quote);
+  table_put_short(t, t->encode->quote);
 }
 
 static void row_number(dyd_table *t, double x, int digits, dyd_round dir) {
@@ -292,7 +299,7 @@ FILE *dyd_row_file(dyd_table *t) {
 
 void dyd_row_end(dyd_table *t) {
   if (t->encode->shape) row_number(t, t->error, 2, DYD_UP);
-  table_put(t, t->encode->end);
+  table_put_short(t, t->encode->end);
   t->most = fmax(t->most, t->error);
   t->rows++;
 }

@@ -117,7 +117,7 @@ static void disc_json_circle(void *context, int number, const dyd_surd_point *ce
   json_surd(j, "y", centre->ay, centre->by, centre);
   json_surd(j, "radius_squared", radius2->ax, radius2->bx, radius2);
   dyd_exact_enclose(box, centre);
-  dyd_json_box(j, "_decimal", box);
+  dyd_json_box(j, true, box);
   dyd_exact_enclose_root(&lo, &hi, radius2);
   dyd_json_decimals(j, "radius_decimal", lo, hi);
   dyd_json_close(j, 1);
@@ -131,7 +131,7 @@ static void disc_json_centre(dyd_json *j, const dyd_partial_disc *d) {
   }
   disc_each_circle(d, disc_grow_box, box);
   dyd_json_object(j, "partial_centre", DYD_JSON_FLAT);
-  dyd_json_box(j, "_decimal", box);
+  dyd_json_box(j, true, box);
   dyd_json_close(j, 1);
 }
 

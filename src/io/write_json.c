@@ -54,7 +54,7 @@ static void json_site(dyd_json *j, const dyd_result *r, uint32_t i, const dyd_si
     dyd_json_sides(j, rect);
     dyd_rect_get_d(box, rect);
   }
-  if (j->st == DYD_OK) dyd_json_box(j, "_decimal", box);
+  if (j->st == DYD_OK) dyd_json_box(j, true, box);
   dyd_json_ids(j, r->engine, &i, 0);
   if (row) {
     dyd_json_index(j, "legal", row->partners[DYD_LEGAL]);
@@ -253,7 +253,7 @@ static dyd_status cell_json(void *context, uint32_t i, const dyd_shape *shape, c
   dyd_json_ids(j, c->d->engine, &i, 0);
   dyd_json_decimals(j, "area", row->area[0], row->area[1]);
   dyd_json_decimal(j, "undetermined", dyd_cell_undetermined(row), DYD_UP);
-  dyd_json_box(j, "", row->present ? row->box : NULL);
+  dyd_json_box(j, false, row->present ? row->box : NULL);
   dyd_json_break(j, ",\n");
   exact_json(j, c->d, i, row);
   if (j->st == DYD_OK) polygons_json(j, shape);
@@ -284,7 +284,7 @@ static void vertices_json(dyd_json *j, const dyd_diagram *d) {
     dyd_json_object(j, NULL, DYD_JSON_FLAT);
     dyd_json_sites(j, "sites", d->engine, &sites);
     dyd_index_list_clear(&sites);
-    dyd_json_box(j, "", d->vertex[k]);
+    dyd_json_box(j, false, d->vertex[k]);
     if (j->st == DYD_OK) exact_box_json(j, d, k);
     dyd_json_close(j, 1);
   }
@@ -297,7 +297,7 @@ static void dual_end_json(dyd_json *j, const char *name, const dyd_dual_end *end
   } else if (end->kind == DYD_DUAL_RAY) {
     dyd_json_object(j, name, DYD_JSON_FLAT);
     dyd_json_object(j, "ray", DYD_JSON_FLAT);
-    dyd_json_box(j, "", end->direction);
+    dyd_json_box(j, false, end->direction);
     dyd_json_close(j, 2);
   } else {
     dyd_json_raw(j, name, "null");
@@ -328,7 +328,7 @@ static dyd_status region_json(void *context, size_t face, const double box[4]) {
   dyd_status st = dyd_delaunay_face(&sites, &outer, c->d->pd, face);
   dyd_json_object(&c->j, NULL, DYD_JSON_FLAT);
   dyd_json_sites(&c->j, "sites", c->d->engine, &sites);
-  dyd_json_box(&c->j, "", box);
+  dyd_json_box(&c->j, false, box);
   dyd_json_close(&c->j, 1);
   dyd_index_list_clear(&sites);
   return st;
@@ -425,7 +425,7 @@ static void globe_diagram_json(dyd_json *j, const dyd_result *r, const dyd_spher
     static const char *const name[3] = {"i", "j", "k"};
     dyd_json_object(j, NULL, DYD_JSON_FLAT);
     for (int l = 0; l < 3; l++) dyd_json_site(j, name[l], r->engine, c->node[k].of.v[l]);
-    dyd_json_box(j, "", c->node[k].box);
+    dyd_json_box(j, false, c->node[k].box);
     dyd_json_close(j, 1);
   }
   dyd_json_close(j, 1);
