@@ -99,7 +99,7 @@ static dyd_status html_vertices(html_diagram *g) {
     dyd_json_good(&j, dyd_diagram_vertex_sites(&sites, d, k));
     dyd_json_object(&j, NULL, DYD_JSON_FLAT);
     dyd_json_sites(&j, "sites", d->engine, &sites);
-    dyd_json_box(&j, "", d->vertex[k]);
+    dyd_json_box(&j, false, d->vertex[k]);
     dyd_json_close(&j, 1);
     dyd_index_list_clear(&sites);
   }
@@ -117,7 +117,7 @@ static dyd_status html_region(void *context, size_t face, const double box[4]) {
   dyd_json_break(&j, g->any ? ",\n" : "\n");
   dyd_json_object(&j, NULL, DYD_JSON_FLAT);
   dyd_json_sites(&j, "sites", g->d->engine, &sites);
-  dyd_json_box(&j, "", box);
+  dyd_json_box(&j, false, box);
   dyd_json_end(&j, "}");
   g->any = true;
   dyd_index_list_clear(&sites);
