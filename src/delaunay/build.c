@@ -136,7 +136,7 @@ static uint32_t to_whole(const part *p, uint32_t v) {
 
 static dyd_status part_triangulate(part *p) {
   dyd_skeleton *sk = &p->pd->sk;
-  dyd_status st = dyd_mesh_build(&p->mesh, &sk->reps, p->vertex, p->vertices, sk->mesh.no_filter, p->w->cancel);
+  dyd_status st = dyd_mesh_build(&p->mesh, &sk->reps, p->vertex, p->vertices, sk->mesh.no_filter, p->w->run->cancel);
   if (st != DYD_OK) return st;
   dyd_tally_add(&p->w->counters, &p->mesh.tally, sk->mesh.no_filter);
   p->leaving = dyd_alloc((size_t)p->vertices + 1, sizeof *p->leaving);
@@ -498,10 +498,9 @@ static dyd_status dyd_update(dyd_delaunay *pd, const uint32_t *changed, size_t c
   if (pd->open.kind == DYD_LINE) return count ? rebuild(pd, err) : DYD_OK;
   if (count == 0 || pd->open.count == 0 || pd->open.kind == DYD_TIED) return DYD_OK;
   bool fits = true;
+  const dyd_run run = {.cancel = pd->options.cancel, .threads = pd->options.threads, .err = err};
   dyd_work w;
-  dyd_work_init(&w, &pd->sk, pd->options.cancel);
-  w.threads = pd->options.threads;
-  w.err = err;
+  dyd_work_init(&w, &pd->sk, &run);
   w.room = pd->room;
   w.room.held = dyd_delaunay_memory(pd);
   dyd_status st = update_faces(&fits, pd, &w, changed, count);
@@ -606,7 +605,7 @@ static void line_find(dyd_delaunay *pd, dyd_error *err) {
 static dyd_status build_statuses(dyd_delaunay *pd, dyd_work *w, dyd_known known) {
   if (pd->open.kind == DYD_LINE) {
     dyd_status proved = dyd_prove_line(pd, w);
-    if (proved == DYD_OK) line_find(pd, w->err);
+    if (proved == DYD_OK) line_find(pd, w->run->err);
     return proved;
   }
   bool tied = pd->open.kind == DYD_TIED;
@@ -623,11 +622,9 @@ static dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known 
   dyd_status st = dyd_skeleton_build(&pd->sk, sites, &o);
   if (st != DYD_OK) return st;
   pd->joins = sites->joins;
+  const dyd_run run = {.cancel = o.cancel, .threads = o.threads, .keep_cut = pd->options.keep_cut, .err = err};
   dyd_work w;
-  dyd_work_init(&w, &pd->sk, o.cancel);
-  w.threads = o.threads;
-  w.err = err;
-  w.keep_cut = pd->options.keep_cut;
+  dyd_work_init(&w, &pd->sk, &run);
   w.room = pd->room;
   pd->open.kind = pd->sk.mesh.collinear ? DYD_LINE : pd->sk.all_points ? DYD_TIED : DYD_LISTED;
   st = build_statuses(pd, &w, known);

@@ -175,7 +175,7 @@ static bool is_polygon(const closing *c) {
     uint32_t t = c->tri[q];
     ghosts += dyd_is_ghost_triangle(&c->sk->mesh, t);
     for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++)
-      if (!dyd_edge_is_certain(c->sk, h) && !dyd_edge_is_tie(c->w, c->sk, h)) return false;
+      if (!dyd_edge_is_certain(c->sk, h) && !dyd_edge_is_tie(&c->w->tally, &c->sk->mesh, h)) return false;
   }
   return ghosts == 0 || ghosts == c->tris;
 }
@@ -315,9 +315,9 @@ static dyd_status closing_decide(void *context, bool *enough, uint32_t a, uint32
   static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
   closing *c = context;
   const uint32_t *v = c->out->vertex;
-  bool possible;
-  dyd_status st = dyd_cover_possible(&possible, c->w, c->sk, v[a], v[b], no_hint);
-  if (st == DYD_OK) st = possible ? add_possible(c, a, b) : closing_add(c, a, b, DYD_PAIR_IMPOSSIBLE);
+  dyd_cover found;
+  dyd_status st = dyd_cover_possible(&found, c->w, c->sk, v[a], v[b], no_hint);
+  if (st == DYD_OK) st = found.possible ? add_possible(c, a, b) : closing_add(c, a, b, DYD_PAIR_IMPOSSIBLE);
   *enough = c->full || c->known == c->all;
   return st;
 }
@@ -325,7 +325,7 @@ static dyd_status closing_decide(void *context, bool *enough, uint32_t a, uint32
 /* *done: all possible pairs have been found. */
 static dyd_status close_by_patches(bool *done, closing *c) {
   dyd_patches patches = {.rects = &c->sk->rects,
-                         .cancel = c->w->cancel,
+                         .cancel = c->w->run->cancel,
                          .vertex = c->out->vertex,
                          .vertices = c->out->vertices,
                          .map = &c->map,
@@ -372,13 +372,13 @@ static dyd_status closing_flip(closing *c, uint32_t i, uint32_t j, uint32_t k, u
   uint32_t ghost = c->out->vertices;
   const uint32_t *v = c->out->vertex;
   const uint32_t hint[2] = {i == ghost ? DYD_NONE : v[i], j == ghost ? DYD_NONE : v[j]};
-  bool possible = true;
+  dyd_cover found;
   if (k == ghost || l == ghost || dyd_pair_map_get(&c->map, k, l) != DYD_PAIR_UNKNOWN) return DYD_OK;
   if (i != ghost && j != ghost && dyd_surely_not_displaced(c->sk, v[i], v[j], v[k], v[l])) return DYD_OK;
-  dyd_status st = dyd_cover_possible(&possible, c->w, c->sk, v[k], v[l], hint);
+  dyd_status st = dyd_cover_possible(&found, c->w, c->sk, v[k], v[l], hint);
   if (st != DYD_OK) return st;
-  st = possible ? add_possible(c, k, l) : closing_add(c, k, l, DYD_PAIR_IMPOSSIBLE);
-  if (st == DYD_OK && possible && c->w->walked) st = closing_try_centre(c, v[k], v[l], hint[0]);
+  st = found.possible ? add_possible(c, k, l) : closing_add(c, k, l, DYD_PAIR_IMPOSSIBLE);
+  if (st == DYD_OK && found.possible && found.walked) st = closing_try_centre(c, v[k], v[l], hint[0]);
   return st;
 }
 
@@ -495,10 +495,10 @@ dyd_status dyd_closure_run(dyd_closure *out, dyd_work *w, const dyd_skeleton *sk
     else
       st = all_pairs(&c);
   } else if (st == DYD_OK && !postponed) {
-    st = w->keep_cut && dyd_work_cancelled(w) ? DYD_CANCELLED : closing_run(&c);
+    st = w->run->keep_cut && dyd_work_cancelled(w) ? DYD_CANCELLED : closing_run(&c);
     if (st == DYD_OK) st = closing_collect(&c, c.map.links);
   }
-  if (st == DYD_CANCELLED && w->keep_cut) {
+  if (st == DYD_CANCELLED && w->run->keep_cut) {
     c.full = true;
     st = DYD_OK;
   }

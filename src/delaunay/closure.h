@@ -17,8 +17,8 @@ typedef struct dyd_closure {
 } dyd_closure;
 
 /* Finds the pairs of the face made of the triangles tri[0..tris-1], joined by uncertain edges. At most `room` pairs are
- * kept; beyond that, where the face is postponed, or where work is stopped and w->keep_cut, only skeleton edges and
- * `capped`. */
+ * kept; beyond that, where the face is postponed, or where work is stopped and w->run->keep_cut, only skeleton edges
+ * and `capped`. */
 dyd_status dyd_closure_run(dyd_closure *out, dyd_work *w, const dyd_skeleton *sk, const uint32_t *tri, uint32_t tris,
                            size_t room, bool postponed);
 void dyd_closure_clear(dyd_closure *c);

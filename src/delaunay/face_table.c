@@ -293,12 +293,12 @@ void dyd_table_delete(dyd_undecided *f, dyd_face *face, dyd_vertex_pair *at) {
 
 void dyd_report_cap(dyd_work *w, const dyd_delaunay *pd, const uint32_t *v, size_t n) {
   const uint32_t *site = pd->sk.reps.site;
-  if (w->keep_cut && dyd_work_cancelled(w)) {
-    dyd_fail(w->err, DYD_CAPPED, "work was stopped before all undecided faces were closed");
+  if (w->run->keep_cut && dyd_work_cancelled(w)) {
+    dyd_fail(w->run->err, DYD_CAPPED, "work was stopped before all undecided faces were closed");
     return;
   }
   dyd_fail(
-      w->err, DYD_CAPPED,
+      w->run->err, DYD_CAPPED,
       "more than %zu undecided pairs to store: %zu sites around sites %u, %u, %u have too many possible neighbours "
       "(nearly cocircular, collinear or overlapping); raise the cap on pairs, or give narrower rectangles",
       pd->max_pairs, n, site[v[0]], site[v[n / 2]], site[v[n - 1]]);

@@ -171,12 +171,13 @@ static dyd_status settle_doubts(doubt *d, const dyd_narrowed *n, dyd_work *w, co
   while (d->pairs && st == DYD_OK) {
     uint32_t q = d->pair[--d->pairs];
     dyd_vertex_pair p = pd->open.pair[n->old.first_pair + q];
-    bool of_others = !((n->mark[p.i] | n->mark[p.j]) & CHANGED), possible = true;
+    bool of_others = !((n->mark[p.i] | n->mark[p.j]) & CHANGED);
+    dyd_cover found;
     const uint32_t hint[2] = {of_others ? n->vertex[0] : DYD_NONE, DYD_NONE};
     if (dyd_work_cancelled(w)) return DYD_CANCELLED;
-    st = dyd_cover_possible(&possible, w, &pd->sk, p.i, p.j, hint);
-    d->gone[q] = !possible;
-    if (possible && !w->walked) clear_doubts(d, n, pd, w->centre);
+    st = dyd_cover_possible(&found, w, &pd->sk, p.i, p.j, hint);
+    d->gone[q] = !found.possible;
+    if (found.possible && !found.walked) clear_doubts(d, n, pd, (dyd_xy){found.place.e[0], found.place.e[2]});
   }
   return st;
 }
@@ -251,7 +252,7 @@ static void settle_points(bool *any, dyd_skeleton *sk, dyd_work *w, const uint32
   if (!is_all_points(sk, tri, tris)) return;
   for (size_t q = 0; q < tris; q++)
     for (dyd_half_edge h = dyd_edge_of(tri[q], 0); h < dyd_edge_end(tri[q]); h++)
-      if (!dyd_edge_is_certain(sk, h) && dyd_point_edge_is_certain(w, sk, h)) {
+      if (!dyd_edge_is_certain(sk, h) && dyd_point_edge_is_certain(&w->tally, &sk->mesh, h)) {
         dyd_set_certain(sk, h, true);
         *any = true;
       }
@@ -359,7 +360,7 @@ static void close_range(void *context, size_t number) {
     const dyd_face *f = &b->pd->open.face[b->first + k];
     if (f->proved) continue;
     st = DYD_CANCELLED;
-    if (w->keep_cut || !dyd_work_cancelled(w)) st = closures_run_one(&b->out[k], b->pd, w, f, b->room);
+    if (w->run->keep_cut || !dyd_work_cancelled(w)) st = closures_run_one(&b->out[k], b->pd, w, f, b->room);
     w->counters.faces++;
   }
   b->status[number] = st;
@@ -376,9 +377,9 @@ static dyd_status closures_run(dyd_closure *out, const dyd_delaunay *pd, dyd_wor
   memset(out, 0, count * sizeof *out);
   for (size_t r = 0; r < ranges && !alone; r++) {
     dyd_work_fork(&b.work[r], w, &pd->sk);
-    dyd_room_share(&b.work[r].room, w->threads);
+    dyd_room_share(&b.work[r].room, w->run->threads);
   }
-  dyd_parallel(w->threads, ranges, close_range, &b);
+  dyd_parallel(w->run->threads, ranges, close_range, &b);
   for (size_t r = 0; r < ranges; r++) {
     if (st == DYD_OK) st = b.status[r];
     if (!alone) dyd_work_join(w, &b.work[r]);
@@ -456,7 +457,7 @@ static dyd_status find_and_close(dyd_delaunay *pd, dyd_work *w, const uint32_t *
   dyd_undecided before = pd->open;
   dyd_status st = find_faces(pd, w, tri, tri ? count : pd->sk.mesh.count);
   for (size_t g = before.count; g < pd->open.count && st == DYD_OK; g++) st = dyd_prove_face(pd, w, g);
-  if (st == DYD_CANCELLED && w->keep_cut) st = DYD_OK;
+  if (st == DYD_CANCELLED && w->run->keep_cut) st = DYD_OK;
   if (st == DYD_OK) st = narrowed ? close_parts(pd, w, before.count, narrowed) : close_faces(pd, w, before.count);
   if (st != DYD_OK) dyd_table_roll_back(pd, &before);
   return st;
@@ -488,11 +489,11 @@ static dyd_status find_ended(dyd_vertex_pair **ended, size_t *count, dyd_delauna
   for (uint32_t q = 0; q < old->pairs && st == DYD_OK; q++) {
     dyd_vertex_pair p = f->pair[old->first_pair + q];
     dyd_face *owner = NULL;
-    bool possible = false;
+    dyd_cover found = {0};
     if (!dyd_table_may_list(&star, pd, p.i)) continue;
     if (!dyd_table_listed(&owner, pd, p, 0, fresh) || dyd_table_listed(&owner, pd, p, fresh, f->count)) continue;
-    if (!dyd_is_legal(&pd->sk, p.i, p.j)) st = dyd_cover_possible(&possible, w, &pd->sk, p.i, p.j, no_hint);
-    if (st != DYD_OK || possible) continue;
+    if (!dyd_is_legal(&pd->sk, p.i, p.j)) st = dyd_cover_possible(&found, w, &pd->sk, p.i, p.j, no_hint);
+    if (st != DYD_OK || found.possible) continue;
     if (!dyd_reserve((void **)ended, &cap, *count + 1, sizeof **ended)) return DYD_E_NOMEM;
     (*ended)[(*count)++] = p;
   }

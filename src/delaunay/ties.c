@@ -134,7 +134,7 @@ static dyd_status ask_rim(bool *proved, const dyd_delaunay *pd, dyd_work *w, con
   if (m < (r->chain ? 3 : 4) || !has_inexact_vertex(pd, r)) return DYD_OK;
   if (pd->open.live_pairs > pd->max_pairs || pairs > pd->max_pairs - pd->open.live_pairs) return DYD_OK;
   dyd_relation relation = r->chain ? DYD_COLLINEAR : DYD_COCIRCULAR;
-  return pd->options.prove(proved, pd->options.prove_user, relation, r->site, r->count, w->err);
+  return pd->options.prove(proved, pd->options.prove_user, relation, r->site, r->count, w->run->err);
 }
 
 dyd_status dyd_prove_face(dyd_delaunay *pd, dyd_work *w, size_t g) {
@@ -159,7 +159,7 @@ dyd_status dyd_prove_line(dyd_delaunay *pd, dyd_work *w) {
   uint32_t *site = dyd_alloc(l->count, sizeof *site);
   if (!site) return DYD_E_NOMEM;
   for (uint32_t q = 0; q < l->count; q++) site[q] = pd->sk.reps.site[l->order[q]];
-  st = pd->options.prove(&pd->line_tie, pd->options.prove_user, DYD_COLLINEAR, site, l->count, w->err);
+  st = pd->options.prove(&pd->line_tie, pd->options.prove_user, DYD_COLLINEAR, site, l->count, w->run->err);
   free(site);
   return st;
 }

@@ -18,19 +18,18 @@
 #include <string.h>
 
 /* Sign of the vertex beyond an edge against the circle of its triangle: < 0 strictly outside. */
-static int beyond_sign(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
-  const uint32_t *v = sk->mesh.tri[dyd_edge_triangle(h)].v;
-  return dyd_mesh_incircle(&w->tally, &sk->mesh, v[0], v[1], v[2], dyd_edge_across(&sk->mesh, h));
+static int beyond_sign(dyd_tally *tally, const dyd_mesh *m, dyd_half_edge h) {
+  const uint32_t *v = m->tri[dyd_edge_triangle(h)].v;
+  return dyd_mesh_incircle(tally, m, v[0], v[1], v[2], dyd_edge_across(m, h));
 }
 
-bool dyd_edge_is_tie(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
-  return beyond_sign(w, sk, h) == 0;
+bool dyd_edge_is_tie(dyd_tally *tally, const dyd_mesh *m, dyd_half_edge h) {
+  return beyond_sign(tally, m, h) == 0;
 }
 
-bool dyd_point_edge_is_certain(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
-  const dyd_mesh *m = &sk->mesh;
+bool dyd_point_edge_is_certain(dyd_tally *tally, const dyd_mesh *m, dyd_half_edge h) {
   bool hull = dyd_edge_apex(m, h) == m->n || dyd_edge_across(m, h) == m->n;
-  return hull || beyond_sign(w, sk, h) < 0;
+  return hull || beyond_sign(tally, m, h) < 0;
 }
 
 /* ---- exact points ---- */
@@ -40,7 +39,7 @@ static void decide_point_edges(void *context, size_t number) {
   dyd_marks *range = &p->task[number];
   for (uint32_t t = range->first; t < range->end; t++)
     for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++)
-      if (dyd_edge_is_first(&p->sk->mesh, h) && dyd_point_edge_is_certain(&range->work, p->sk, h))
+      if (dyd_edge_is_first(&p->sk->mesh, h) && dyd_point_edge_is_certain(&range->work.tally, &p->sk->mesh, h))
         dyd_mark(range, p->sk, h);
 }
 
@@ -52,7 +51,7 @@ static bool is_exact_tie(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
   const uint32_t four[4] = {v[0], v[1], v[2], dyd_edge_across(&sk->mesh, h)};
   for (unsigned q = 0; q < 4; q++)
     if (four[q] == sk->mesh.n || !dyd_vertex_is_point(sk, four[q])) return false;
-  return dyd_edge_is_tie(w, sk, h);
+  return dyd_edge_is_tie(&w->tally, &sk->mesh, h);
 }
 
 /* A rectangle that meets R_i or R_j is never outside of a disc that holds both: in a crowd that of a vertex across. */
@@ -121,7 +120,7 @@ static dyd_status certify_pass(dyd_skeleton *sk, dyd_work *w, dyd_task *task) {
   if (sk->all_points || sk->reps.code) dyd_fixed_prepare(&sk->mesh); /* before several ask for it; else few will */
   dyd_status st = dyd_mark_tasks_init(&p, sk, w);
   if (st != DYD_OK) return st;
-  dyd_parallel(w->threads, p.count, task, &p);
+  dyd_parallel(w->run->threads, p.count, task, &p);
   return dyd_mark_tasks_settle(&p, true);
 }
 

@@ -122,7 +122,7 @@ static void measure_range(void *context, size_t number) {
 
 static void measure_edges(near_pass *p) {
   double least2 = DBL_MAX;
-  dyd_parallel(p->w->threads, p->tasks.count, measure_range, p);
+  dyd_parallel(p->w->run->threads, p->tasks.count, measure_range, p);
   for (size_t r = 0; r < p->tasks.count; r++)
     if (p->shortest2[r] < least2) least2 = p->shortest2[r];
   p->least = sqrt(least2);
@@ -180,7 +180,7 @@ dyd_status dyd_certify_near(dyd_skeleton *sk, dyd_work *w, double reach, const u
   dyd_status st = dyd_mark_tasks_init(&p.tasks, sk, w);
   if (st == DYD_OK) {
     measure_edges(&p);
-    dyd_parallel(w->threads, p.tasks.count, near_of_range, &p);
+    dyd_parallel(w->run->threads, p.tasks.count, near_of_range, &p);
     st = dyd_mark_tasks_settle(&p.tasks, true);
   }
   free(p.close);
@@ -385,9 +385,9 @@ static void find_open(void *context, size_t number) {
 static dyd_status pass_over_stars(pass *p) {
   dyd_status st = dyd_mark_tasks_init(&p->tasks, p->sk, p->w);
   if (st != DYD_OK) return st;
-  dyd_parallel(p->w->threads, p->tasks.count, find_open, p);
-  dyd_parallel(p->w->threads, dyd_ranges(p->sk->n), stars_of_range, p);
-  dyd_parallel(p->w->threads, p->tasks.count, join_halves, p);
+  dyd_parallel(p->w->run->threads, p->tasks.count, find_open, p);
+  dyd_parallel(p->w->run->threads, dyd_ranges(p->sk->n), stars_of_range, p);
+  dyd_parallel(p->w->run->threads, p->tasks.count, join_halves, p);
   st = dyd_mark_tasks_settle(&p->tasks, false);
   uint64_t edges = dyd_certain_edges(p->sk);
   p->w->counters.filter += edges + dyd_certain_corners(p->sk);

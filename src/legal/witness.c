@@ -39,7 +39,7 @@ typedef struct search {
 } search;
 
 static void witness_search_init(search *s, const dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j) {
-  *s = (search){.rects = w->rects, .no_filter = sk->mesh.no_filter, .i = i, .j = j, .cancel = w->cancel};
+  *s = (search){.rects = w->rects, .no_filter = sk->mesh.no_filter, .i = i, .j = j, .cancel = w->run->cancel};
   dyd_rect_init(&s->own[0]);
   dyd_rect_init(&s->own[1]);
   dyd_rect_init(&s->rival);
@@ -193,7 +193,7 @@ static dyd_status witness_search_exactly(dyd_truth *exists, dyd_point *c, dyd_wo
   dyd_plane_list *planes = malloc(sizeof *planes);
   search s;
   if (!planes) return DYD_E_NOMEM;
-  dyd_planes_init(planes, w->cancel);
+  dyd_planes_init(planes, w->run->cancel);
   witness_search_init(&s, w, sk, i, j);
   s.planes = planes;
   witness_set_start(&s.c, sk, i, guess);
@@ -247,7 +247,7 @@ dyd_status dyd_witness_search(bool *found, dyd_point *c, dyd_work *w, const dyd_
                               dyd_xy guess, const uint32_t across[2]) {
   *found = false;
   witness_order(&i, &j);
-  dyd_truth quick = dyd_filter_witness(&guess, w, sk, i, j);
+  dyd_truth quick = dyd_filter_witness(&guess, w->rects, sk, i, j);
   if (quick == DYD_UNKNOWN || (quick == DYD_TRUE && sk->mesh.no_filter)) {
     dyd_truth exists = DYD_UNKNOWN;
     if (across && !sk->mesh.no_filter && witness_look_between(found, c, w, sk, i, j, across)) return DYD_OK;
@@ -263,7 +263,7 @@ dyd_status dyd_witness_search(bool *found, dyd_point *c, dyd_work *w, const dyd_
 dyd_status dyd_witness_decide(dyd_truth *exists, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i,
                               uint32_t j, dyd_xy guess, const uint32_t across[2]) {
   witness_order(&i, &j);
-  *exists = sk->mesh.no_filter ? DYD_UNKNOWN : dyd_filter_witness(&guess, w, sk, i, j);
+  *exists = sk->mesh.no_filter ? DYD_UNKNOWN : dyd_filter_witness(&guess, w->rects, sk, i, j);
   if (*exists == DYD_TRUE) {
     witness_set_start(c, sk, i, guess);
     return DYD_OK;

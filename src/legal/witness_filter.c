@@ -168,9 +168,9 @@ static dyd_truth witness_move(quick *q, dyd_xy *c) {
   return DYD_TRUE;
 }
 
-dyd_truth dyd_filter_witness(dyd_xy *c, const dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j) {
+dyd_truth dyd_filter_witness(dyd_xy *c, const dyd_rects *rects, const dyd_skeleton *sk, uint32_t i, uint32_t j) {
   cut_points from[DYD_LP_CUTS];
-  quick q = {.rects = w->rects, .i = i, .j = j, .from = from};
+  quick q = {.rects = rects, .i = i, .j = j, .from = from};
   if (!isfinite(c->x) || !isfinite(c->y)) return DYD_UNKNOWN;
   q.neighbours = dyd_neighbours(q.neighbour, MAX_NEIGHBOURS, sk, i, j);
   for (int step = 0; step < STEPS; step++) {

@@ -171,14 +171,14 @@ static bool cover_start(walk *k) {
   return cover_member(&q, k, k->i) && cover_member(&q, k, k->j);
 }
 
-dyd_status dyd_cover_possible(bool *possible, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
+dyd_status dyd_cover_possible(dyd_cover *out, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
                               const uint32_t hint[2]) {
   walk k = {.w = w, .sk = sk, .i = i, .j = j, .hint = hint, .end = -1, .status = DYD_OK};
   k.blocker = k.last = DYD_NONE;
-  dyd_truth quick = sk->mesh.no_filter ? DYD_UNKNOWN : dyd_filter_cover(&w->centre, sk, i, j, hint);
-  *possible = quick != DYD_FALSE;
-  w->walked = quick == DYD_UNKNOWN;
-  if (!w->walked) return DYD_OK;
+  dyd_xy c = {0, 0};
+  dyd_truth quick = sk->mesh.no_filter ? DYD_UNKNOWN : dyd_filter_cover(&c, sk, i, j, hint);
+  *out = (dyd_cover){quick != DYD_FALSE, .walked = quick == DYD_UNKNOWN, .place = {{c.x, c.x, c.y, c.y}}};
+  if (!out->walked) return DYD_OK;
   if (!cover_start(&k)) return k.status;
   const dyd_irect *a = &w->set.rect[0], *b = &w->set.rect[1];
   if (dyd_irects_meet(a, b)) return DYD_OK;
@@ -188,12 +188,13 @@ dyd_status dyd_cover_possible(bool *possible, dyd_work *w, const dyd_skeleton *s
   if (k.status == DYD_OK && k.blocker != DYD_NONE) cover_ask_end(&k, -1);
   while (k.status == DYD_OK && k.blocker != DYD_NONE) {
     if (!cover_advance(&k)) {
-      *possible = k.status != DYD_OK;
+      out->possible = k.status != DYD_OK;
       return k.status;
     }
     cover_ask_circle(&k);
   }
-  w->far = k.end != 0;
-  w->place = k.centre;
+  out->far = k.end != 0;
+  out->place = k.centre;
+  if (out->far) dyd_direction_d(out->u, w->u[0], w->u[1]);
   return k.status;
 }

@@ -4,8 +4,9 @@
 
 #include "skeleton/predicates.h"
 
-void dyd_work_init(dyd_work *w, const dyd_skeleton *sk, const volatile int *cancel) {
-  *w = (dyd_work){.rects = &sk->rects, .cancel = cancel, .threads = 1};
+void dyd_work_init(dyd_work *w, const dyd_skeleton *sk, const dyd_run *run) {
+  static const dyd_run alone = {.threads = 1};
+  *w = (dyd_work){.run = run ? run : &alone, .rects = &sk->rects};
   dyd_scale_set_init(&w->set, &sk->rects);
   dyd_icircle_init(&w->here);
   for (int k = 0; k < DYD_CIRCLES; k++) dyd_icircle_init(&w->next[k]);
@@ -20,8 +21,7 @@ void dyd_work_clear(dyd_work *w) {
 }
 
 void dyd_work_fork(dyd_work *task, const dyd_work *w, const dyd_skeleton *sk) {
-  dyd_work_init(task, sk, w->cancel);
-  task->keep_cut = w->keep_cut;
+  dyd_work_init(task, sk, w->run);
   task->room = w->room;
 }
 

@@ -179,17 +179,13 @@ static dyd_status squares_see_rivals(bool *more, squares *q) {
   return s.status;
 }
 
-/* Looks at who is not surely too far to block the place at which the work sees a possible pair: a few at most. */
-static dyd_status squares_see_blockers(bool *more, squares *q) {
-  const dyd_work *w = &q->work;
+/* Looks at the few vertices that are not certainly too far to block the place where the pair is seen to be possible. */
+static dyd_status squares_see_blockers(bool *more, squares *q, const dyd_cover *at) {
   const dyd_rects *r = &q->sk.rects;
   uint32_t v[2] = {q->sk.vertex[0], q->sk.vertex[1]};
-  square_search s = {.q = q, .c = {{w->centre.x, w->centre.x, w->centre.y, w->centre.y}}};
-  if (w->walked) s.c = w->place;
-  s.far = w->walked && w->far;
+  square_search s = {.q = q, .c = at->place, .far = at->far};
   if (s.far) {
-    double u[2];
-    dyd_direction_d(u, w->u[0], w->u[1]);
+    const double *u = at->u;
     double height =
         dyd_min(dyd_height_lower(r, u[0], u[1], &r->box[v[0]]), dyd_height_lower(r, u[0], u[1], &r->box[v[1]]));
     q->place = (dyd_bbox){{NAN, NAN, NAN, NAN}};
@@ -290,15 +286,16 @@ static dyd_status squares_are_illegal(dyd_truth *answer, squares *q, double t) {
   static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
   dyd_status st = DYD_OK;
   for (bool more = true; more && st == DYD_OK;) {
-    bool meet, possible = true;
+    bool meet;
+    dyd_cover found = {.possible = true};
     st = squares_build(q, t);
     if (st != DYD_OK) return st;
     more = false;
     const uint32_t *v = q->sk.vertex;
     st = squares_meet(&meet, q);
-    if (st == DYD_OK && !meet) st = dyd_cover_possible(&possible, &q->work, &q->sk, v[0], v[1], no_hint);
-    if (st == DYD_OK && !meet && possible) st = squares_see_blockers(&more, q);
-    *answer = possible ? DYD_FALSE : DYD_TRUE;
+    if (st == DYD_OK && !meet) st = dyd_cover_possible(&found, &q->work, &q->sk, v[0], v[1], no_hint);
+    if (st == DYD_OK && !meet && found.possible) st = squares_see_blockers(&more, q, &found);
+    *answer = found.possible ? DYD_FALSE : DYD_TRUE;
     squares_unbuild(q);
   }
   return st;

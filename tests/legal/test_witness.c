@@ -84,7 +84,7 @@ static dyd_xy make_guess(test_random *r, const dyd_bbox *a, const dyd_bbox *b) {
 
 static void look_at_pair(verdicts *v, dyd_work *w, dyd_skeleton *sk, test_random *r, uint32_t i, uint32_t j) {
   dyd_xy guess = make_guess(r, &sk->rects.box[i], &sk->rects.box[j]), at = guess;
-  dyd_truth exact = DYD_UNKNOWN, quick = dyd_filter_witness(&at, w, sk, i, j);
+  dyd_truth exact = DYD_UNKNOWN, quick = dyd_filter_witness(&at, w->rects, sk, i, j);
   bool found = true, met = end_is_met(sk, i, j);
   dyd_point c;
   dyd_point_init(&c);

@@ -205,7 +205,7 @@ static bool covers(char *message, harness *h, const orc_case *c, const dyd_skele
   for (uint32_t v = 0; v < sk->n && good; v++)
     for (uint32_t v2 = 0; v2 < sk->n && good; v2++) {
       uint32_t hint[2] = {DYD_NONE, DYD_NONE};
-      bool possible = false;
+      dyd_cover found = {0};
       if (v == v2) continue;
       for (int q = 0; q < 2; q++)
         if (test_chance(&h->random, 2)) hint[q] = (uint32_t)test_below(&h->random, sk->n);
@@ -213,10 +213,10 @@ static bool covers(char *message, harness *h, const orc_case *c, const dyd_skele
       size_t mark = orc_mark(&h->pool);
       bool want = orc_possible(&h->pool, c, i, j);
       orc_release(&h->pool, mark);
-      if (dyd_cover_possible(&possible, &w, sk, v, v2, hint) != DYD_OK)
+      if (dyd_cover_possible(&found, &w, sk, v, v2, hint) != DYD_OK)
         good = wrong(message, "cover of %u %u fails", i, j);
-      else if (possible != want)
-        good = wrong(message, "pair %u %u: possible %d, oracle %d", i, j, possible, want);
+      else if (found.possible != want)
+        good = wrong(message, "pair %u %u: possible %d, oracle %d", i, j, found.possible, want);
       good = good && quick_right(message, sk, v, v2, hint, want);
       h->pairs++;
       h->undecided += !want;
@@ -347,7 +347,7 @@ static void test_street(void **state) {
   for (int left_out = -112; left_out <= 113; left_out += 45) {
     dyd_sites *s = NULL;
     dyd_work w;
-    bool possible;
+    dyd_cover found;
     assert_int_equal(dyd_sites_new(&s), DYD_OK);
     for (int k = 0; k < 2; k++) assert_int_equal(dyd_sites_add_boxes(s, 1, &lo, &hi, &side[k], &side[k]), DYD_OK);
     for (int k = -112; k <= 112; k++) {
@@ -357,8 +357,8 @@ static void test_street(void **state) {
     dyd_delaunay *pd = harness_engine(message, s, NULL);
     assert_non_null(pd);
     dyd_work_init(&w, &pd->sk, NULL);
-    assert_int_equal(dyd_cover_possible(&possible, &w, &pd->sk, pd->sk.vertex[0], pd->sk.vertex[1], no_hint), DYD_OK);
-    if (possible != (left_out < 112)) fail_msg("without %d: %d", left_out, possible);
+    assert_int_equal(dyd_cover_possible(&found, &w, &pd->sk, pd->sk.vertex[0], pd->sk.vertex[1], no_hint), DYD_OK);
+    if (found.possible != (left_out < 112)) fail_msg("without %d: %d", left_out, found.possible);
     dyd_work_clear(&w);
     dyd_delaunay_free(pd);
     dyd_sites_free(s);
