@@ -119,7 +119,7 @@ static dyd_status status_as_nearest(dyd_graph_status *out, dyd_graph_work *w, bo
   return DYD_OK;
 }
 
-/* So many candidates of an exact point are compared by their distances at once. */
+/* With more candidates than these, those of an exact point are compared by their distances. */
 enum { NEAREST_MANY = 8 };
 
 static dyd_status nearest_of(dyd_graph_work *w, uint32_t i) {
@@ -215,9 +215,9 @@ static void sets_begin(span_sets *s, size_t n) {
 
 enum { SPAN_NONE = UINT32_MAX };
 
-/* least, largest: of all pairs, sorted. nearest: who is surely that to each site; SPAN_NONE: nobody. replaced: by pair,
- * the number in least[] of the first pair that closes a circle with it, where it is in the tree; SPAN_NONE: none. tree:
- * is it? Neither counts pairs that are in no minimum spanning tree. */
+/* least, largest: of all pairs, sorted. nearest: the certainly nearest site to each site, or SPAN_NONE. replaced: by
+ * pair, the number in least[] of the first pair that closes a circle with it, where it is in the tree; SPAN_NONE: none.
+ * tree: is it? Neither counts pairs that are in no minimum spanning tree. */
 typedef struct span_work {
   dyd_graph_work *w;
   dyd_length *least, *largest;
@@ -281,7 +281,7 @@ static void sort_lengths(span_work *s) {
   qsort(s->largest, pairs, sizeof *s->largest, length_order);
 }
 
-/* Legal pairs stay legal, so what they join stays joined when rectangles shrink. */
+/* Legal pairs stay legal, so sites that they join stay joined when rectangles shrink. */
 static void find_never(span_work *s) {
   const dyd_pair *pair = s->w->pairs.item;
   size_t next = 0;
@@ -379,7 +379,7 @@ static bool is_surely_shortest(const span_work *s, uint32_t p) {
   return s->replaced[p] == SPAN_NONE || length_compare(&own, &s->least[s->replaced[p]]) < 0;
 }
 
-/* Who is surely nearest to each site. */
+/* The certainly nearest site to each site. */
 static dyd_status find_sure_nearest(span_work *s) {
   dyd_graph_list *l = &s->w->out;
   dyd_status st = nearest_graph(s->w);
@@ -442,7 +442,7 @@ static bool graph_has_room(dyd_graph_work *w) {
   return true;
 }
 
-/* What is looked at exactly: rectangles of so many partners. */
+/* For the exact rung: rectangles of `most` partners. */
 static bool partners_have_room(dyd_graph_work *w, size_t most) {
   enum { NUMBERS = 10, BLOCK = 40 };
   uint64_t each = sizeof *w->other + sizeof *w->reach.rect + sizeof *w->reach.grid + NUMBERS * BLOCK;

@@ -50,14 +50,14 @@ typedef struct dyd_graph_work {
   uint32_t *partner;
   dyd_bbox *box; /* outward; of each site */
   dyd_reach reach;
-  dyd_room room;   /* what max_bytes leaves beside the triangulation */
+  dyd_room room;   /* what the triangulation leaves of max_bytes */
   uint32_t *other; /* scratch, as long as the longest list of partners */
   size_t others;
   dyd_graph_list out;
   size_t cap;
 } dyd_graph_work;
 
-/* What is known of a pair. */
+/* The verdict on a pair, if it is known. */
 typedef enum dyd_graph_status { DYD_GRAPH_NEVER, DYD_GRAPH_POSSIBLE, DYD_GRAPH_SURE } dyd_graph_status;
 typedef struct dyd_graph_verdict {
   bool known;

@@ -137,7 +137,7 @@ static dyd_bbox farthest_place(const dyd_bbox *b, const dyd_bbox *from) {
   return (dyd_bbox){{x, x, y, y}};
 }
 
-/* Is somebody in the closed disc for some choice? Tried: i and j far apart. */
+/* Returns true if a site is in the closed disc for some choice. The choice tried: i and j far apart. */
 static bool has_gabriel_rival(const dyd_graph_work *w, uint32_t i, uint32_t j) {
   const uint32_t *k = &w->partner[w->start[i]];
   dyd_bbox q = farthest_place(&w->box[j], &w->box[i]), p = farthest_place(&w->box[i], &q), m = middle_box(&p, &q);

@@ -53,7 +53,7 @@ static bool is_far(const dyd_clip *c, mpz_srcptr x, mpz_srcptr y) {
   return far;
 }
 
-/* One point more; a point that is far enough from everywhere in the box is left out. false: memory is exhausted. */
+/* Adds a point, unless it is far enough from everywhere in the box. false: memory is exhausted. */
 static bool clip_add(dyd_clip *c, mpz_srcptr x, mpz_srcptr y) {
   if (is_far(c, x, y)) return true;
   if (!dyd_reserve((void **)&c->point, &c->cap, c->count + 1, sizeof *c->point)) return false;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Writes certificates (certificate.h has the format).
  *
- * Everything that needs a proof is put before the checker's own tests first; what they do not take is written as
+ * Everything that needs a proof is put before the checker's own tests first; a statement that they reject is written as
  * unproved. */
 #include "base/abi.h"
 #include "base/alloc.h"

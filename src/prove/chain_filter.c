@@ -2,7 +2,7 @@
 /* Looks for a chain that proves a pair illegal (certificate.h, [CERT-4]).
  *
  * Doubles follow the curve of the centres with ds_i = ds_j from one end to the other: from a blocker's interval to the
- * next one that overlaps it, with a point in each overlap. Rounding errors only make the search fail: what it finds is
+ * next one that overlaps it, with a point in each overlap. Rounding errors only make the search fail: a chain found is
  * shortened and kept if the exact checker takes it. */
 #include "prove/proof.h"
 #include <math.h>
@@ -72,7 +72,7 @@ static double gap_between(double a0, double a1, double b0, double b1) {
 }
 
 /* A point of the curve. The square of ds_i less that of ds_j grows along d: at twice the way, along d, from the point
- * of R_i nearest to it to the one of R_j. Newton's steps, halved where they leave what is known of the place. */
+ * of R_i nearest to it to the one of R_j. Newton's steps, halved where they leave the interval known for the place. */
 static xy point_at(const curve *c, double t) {
   const double *a = c->box[0], *b = c->box[1];
   double along = t / (1 - t * t), lo = -8 * (1 + fabs(along)), hi = -lo, s = 0;
@@ -268,7 +268,7 @@ static bool chain_walk(dyd_cert_chain *out, const curve *c, uint32_t i, uint32_t
   return true;
 }
 
-/* Rounds all numbers to so many bits of the curve's scale; directions to `bits` bits. */
+/* Rounds all numbers to `bits` bits of the curve's scale, directions to `bits` bits. */
 static void round_chain(dyd_cert_chain *to, const dyd_cert_chain *from, const curve *c, int bits) {
   int size;
   frexp(c->unit, &size);

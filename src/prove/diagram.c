@@ -2,7 +2,7 @@
 /* The section of a certificate on the Voronoi diagram: the window, inner polygons, bounds.
  *
  * The polygons are those of the bounds in metric.h, vertex by vertex, so that no area is lost; a polygon that the
- * checker's own tests do not take is left out. */
+ * checker's own tests reject is not written. */
 #include "base/alloc.h"
 #include "checker/checker.h"
 #include "checker/parts.h"
@@ -139,7 +139,7 @@ static void turn_quarter(dyd_exact out[2], const dyd_exact d[2], int sign) {
   mpz_neg(out[sign > 0 ? 0 : 1].man, out[sign > 0 ? 0 : 1].man);
 }
 
-/* u = a direction at an obtuse angle to the sides of the cone, as far as so many bits allow. */
+/* u = a direction at an obtuse angle to the sides of the cone, as far as `bits` bits allow. */
 static void cone_choose(dyd_exact u[2], const cone *k, int64_t bits) {
   dyd_exact all[6], *a = all, *b = all + 2, *t = all + 4;
   dyd_proof_init(all, 6);

@@ -20,7 +20,7 @@
  * Blockers are looked for first among those of the pairs just before with the same site i, as a few sites round i block
  * most others; then among the sites of the set and the neighbours of the two; then among all. */
 
-/* After so much work (a blocker looked at is 1, a search CHAIN_PAIR beside) the search for chains gives up. */
+/* Effort after which the search for chains gives up: 1 for each blocker tried, CHAIN_PAIR for each search. */
 #define CHAIN_EFFORT ((uint64_t)300 * 1000 * 1000)
 
 #define CHAIN_PAIR 200
@@ -196,7 +196,7 @@ static dyd_status pair_put_lines(FILE *out, dyd_proof *p, const lines *l) {
   return st;
 }
 
-/* What no line proves, boxes may. */
+/* Boxes may prove pairs that no line proves. */
 static dyd_status pair_put_boxes(FILE *out, dyd_proof *p) {
   const dyd_cert_known known = {{&p->legal, &p->open, &p->chained}};
   uint64_t before = dyd_cert_faces_left(&p->faces);

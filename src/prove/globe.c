@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The section of a certificate on a sphere: places, radii, the eye, who may be its neighbours. */
+/* The section of a certificate on a sphere: places, radii, the eye, its possible neighbours. */
 #include "base/alloc.h"
 #include "prove/proof.h"
 #include "rect/rect.h"
@@ -66,7 +66,7 @@ static dyd_status put_radius(FILE *out, const dyd_sphere *s) {
   return st;
 }
 
-/* Each eye has streams of its own: what is stated lies in what both know. */
+/* Each eye has streams of its own: the rectangle stated lies in those of both. */
 static dyd_status place_narrowest(dyd_rect *out, const dyd_sphere *s, uint32_t i) {
   dyd_rect other;
   dyd_status st = dyd_sphere_stated(out, s, i);

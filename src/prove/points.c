@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Is a certificate about these points [CERT-8]?
  *
- * What it proves of its rectangles is true of the points when these lie in them, site by site. A fixed point is a
- * rectangle, whose points are all meant: it has to be that of its site. Any other point is narrowed until it is seen
- * where it lies; one that is what the certificate describes, number by number, was seen there by the checker. */
+ * A proof about its rectangles holds for the points when these lie in them, site by site. A fixed point is a rectangle,
+ * whose points are all meant: it has to be that of its site. Any other point is narrowed until it is seen where it
+ * lies; one that is what the certificate describes, number by number, was seen there by the checker. */
 #include "engine/points.h"
 #include "base/abi.h"
 #include "base/alloc.h"
@@ -155,7 +155,7 @@ static dyd_status locate_in_discs(location *l, dyd_checker *c, const dyd_engine 
 
 /* ---- all ---- */
 
-/* still[i]: no call narrows point i any more, and its site is no wider. */
+/* still[i]: no call narrows point i any more, and its site is as narrow. */
 static dyd_status list_still(bool *still, const location *l, const dyd_engine *e) {
   dyd_rect r;
   dyd_rect_init(&r);
@@ -255,7 +255,7 @@ static dyd_status checker_locate(dyd_checker *c, bool discs, FILE *still, dyd_en
   st = dyd_proof_compare_points(l.found, &c->report.undescribed, &c->ties, e);
   if (st == DYD_OK) st = dyd_engine_ask(&outcome, e, &question, options, c->in.err);
   if (st == DYD_OK && outcome == DYD_OUTCOME_CANCELLED) st = DYD_CANCELLED;
-  /* once more: some are known to be exact only now */
+  /* again: some are known to be exact only now */
   if (st == DYD_OK) st = dyd_proof_compare_points(l.found, &c->report.undescribed, &c->ties, e);
   if (st == DYD_OK && !l.why) st = locate_in_discs(&l, c, e, discs);
   if (st == DYD_OK) st = location_settle(c, still, &l, e);

@@ -48,7 +48,7 @@ dyd_status dyd_proof_find_bridges(dyd_proof *p);
 /* The graph, the corners and the faces. */
 dyd_status dyd_proof_find_faces(dyd_proof *p);
 void dyd_proof_drop_corners(dyd_proof *p);
-/* Looks for a direction in which site v is surely beyond all sites of the list, itself left out; u is initialised. */
+/* Looks for a direction in which site v is certainly beyond all other sites of the list; u is initialised. */
 bool dyd_proof_find_direction(dyd_exact u[2], const dyd_proof *p, uint32_t v, const uint32_t *site, size_t count);
 /* Looks for a chain that proves the pair of an open set illegal. Sites `near` are tried as blockers. */
 dyd_status dyd_proof_find_chain(bool *found, dyd_cert_chain *out, const dyd_proof *p, uint32_t i, uint32_t j,
@@ -57,10 +57,10 @@ dyd_status dyd_proof_find_chain(bool *found, dyd_cert_chain *out, const dyd_proo
 /* Writes the format, and for %i a site (uint32_t), %n a number (const dyd_exact *), %p a point (of two numbers), %s a
  * side (const dyd_cert_side *). */
 void dyd_proof_put(FILE *out, const char *format, ...);
-/* Initialises, clears so many numbers. */
+/* Initialises, clears `count` numbers. */
 void dyd_proof_init(dyd_exact *x, size_t count);
 void dyd_proof_clear(dyd_exact *x, size_t count);
-/* Writes the section of the pairs; counts in the faces what is proved. */
+/* Writes the section of the pairs; counts the proved pairs in the faces. */
 dyd_status dyd_proof_put_pairs(FILE *out, dyd_proof *p);
 
 /* Writes what points are, where ties or aliases follow from it that the checker sees. */
@@ -82,7 +82,7 @@ dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window
 struct dyd_sphere;
 /* Writes the section on a sphere, of whose images the sites are. again: the places are those of a section before. */
 dyd_status dyd_proof_put_globe(FILE *out, const dyd_proof *p, const struct dyd_sphere *s, bool again);
-/* The same places from a second eye; NULL: there is no result of any. */
+/* The same places from a second eye; NULL: it has no result. */
 const struct dyd_sphere *dyd_proof_second(const struct dyd_sphere *s);
 
 /* Copies an interval into a side without a denominator yet. */

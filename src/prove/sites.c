@@ -121,7 +121,7 @@ dyd_status dyd_proof_add_witness(bool *found, dyd_proof_points *out, const dyd_p
 
 /* ---- discs ---- */
 
-/* x rounded down to a multiple of 2^exp; what is lost is added to *lost. */
+/* x rounded down to a multiple of 2^exp; the difference is added to *lost. */
 static void round_rational(dyd_exact *out, mpq_t lost, mpq_srcptr x, int64_t exp) {
   mpq_t at;
   mpq_init(at);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What points are, and what of it proves ties and aliases [CERT-10], in blocks.
  *
- * The checker reads a block before it is written; facts that it does not take are left out. That points are the same
- * is about them as they were given; for other facts those that are exact are numbers. All facts of one of these two
- * kinds share a block; where that is too much for the checker, each has its own. */
+ * The checker reads a block before it is written; facts that it rejects are not written. That points are the same is
+ * about them as they were given; for other facts exact points are numbers. All facts of one of these two kinds share a
+ * block; where that is too much for the checker, each has its own. */
 #include "engine/ties.h"
 #include "base/alloc.h"
 #include "checker/parts.h"
@@ -21,7 +21,7 @@
 #define DYD_PROOF_BRACKET ((slong)4096)
 
 /* A block while it is written. given: points are described as they were given. line[n]: of form n, DYD_NONE: none yet;
- * lines: so many there are. Invariant: site is ascending, at[k] belongs to site[k]. */
+ * lines: their count. Invariant: site is ascending, at[k] belongs to site[k]. */
 typedef struct dyd_proof_block {
   const dyd_proof *proof;
   dyd_forms forms;
@@ -285,7 +285,7 @@ static bool put_leaves(dyd_proof_block *b) {
   return true;
 }
 
-/* What is stated of a root is what the engine found it to be. */
+/* A root is stated to be the fraction that the engine found. */
 static bool put_form(dyd_proof_block *b, uint32_t n) {
   const dyd_form f = b->forms.node[n];
   bool stated = f.op == DYD_OP_SQRT || f.op == DYD_OP_CBRT || f.op == DYD_FORM_ROOT;
@@ -334,7 +334,7 @@ static bool proof_put_numbers(dyd_proof_block *b) {
 
 /* Are points what a certificate describes? Number by number, as they are made of others. */
 
-/* line[n]: the number that form n is; form[k]: the form that number k, of which nothing is known, is. */
+/* line[n]: the number that form n is; form[k]: the form that number k, from a callback, is. */
 typedef struct comparison {
   dyd_forms forms;
   const dyd_cert_algebra *numbers;
@@ -636,7 +636,7 @@ static bool fact_counts(const dyd_proof *p, const fact *f) {
   return true;
 }
 
-/* Those that are about the same place, or the others. */
+/* The facts about the same place, or the others. */
 static dyd_status facts_gather(fact **list, size_t *count, const dyd_proof *p, bool same) {
   fact f;
   size_t cap = 0;

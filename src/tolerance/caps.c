@@ -248,7 +248,7 @@ bool dyd_caps_common(dyd_direction *u, dyd_caps *c) {
 
 /* ---- circles ---- */
 
-/* A circle is as near as asked for; what is then stated of it is decided in rationals. */
+/* A circle is as near as asked for; statements about it are decided in rationals. */
 
 /* Adds the end of cap e on the side `turn` to u. */
 static void add_end(mpfr_t u[2], const dyd_cap *e, int turn) {

@@ -31,7 +31,7 @@ bool dyd_discs_meet(const dyd_disc *a, const dyd_disc *b);
 /* Is the one of the smaller radius in the other? */
 bool dyd_disc_is_within(const dyd_disc *small, const dyd_disc *large);
 
-/* About a direction, in doubles: for whoever then looks at its circle. */
+/* A direction in doubles, approximately; its circle is tested afterwards. */
 typedef struct dyd_direction {
   double x, y;
 } dyd_direction;
@@ -76,8 +76,8 @@ bool dyd_caps_common(dyd_direction *u, dyd_caps *c);
  * false: at this precision it is a half-plane. */
 bool dyd_caps_circle(dyd_disc *out, const dyd_caps *c, const dyd_disc *i, const dyd_disc *j, unsigned bits);
 
-/* A pair, and the others that are looked at for it. Invariant: i and j are not among seen[0 .. count-1], and no vertex
- * is twice. */
+/* A pair, and the other discs considered for it. Invariant: i and j are not among seen[0 .. count-1], and no vertex is
+ * twice. */
 typedef struct dyd_disc_work {
   const dyd_delaunay *pd;
   dyd_disc *disc;       /* by vertex */
@@ -92,13 +92,13 @@ typedef struct dyd_disc_work {
   const volatile int *cancel; /* ends what dyd_disc_pairs_until does; may be NULL */
 } dyd_disc_work;
 
-/* The disc in a square, whose ends may have been rounded outward by less than 2^-50 of what they are: so is the disc.
- * false: it is no square. */
+/* The disc in a square, whose ends may have been rounded outward by less than 2^-50 of their size: so is the disc.
+ * false: the rectangle is not a square. */
 bool dyd_disc_of_square(dyd_disc *d, const dyd_rect *r);
 /* Looks at v from now on; false: it is i, j or seen already, or memory is exhausted. */
 bool dyd_discs_see(dyd_disc_work *w, uint32_t v);
-/* The caps of all that are seen; false: one of them meets i or j, so that there is no witness. Who meets one of them
- * blocks nothing. */
+/* The caps of all discs seen. false: legal, and one of them meets i or j, so that none is a witness. A disc that meets
+ * i or j blocks nothing. */
 bool dyd_discs_load(dyd_disc_work *w, bool legal);
 
 /* discs_filter.c. A circle in doubles, or, with `line`, the half-plane beyond height along (x, y). clear: how far

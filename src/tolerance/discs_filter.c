@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Statuses of discs [DISC-1]: what squares leave indeterminate is decided for the discs in them.
  *
- * Who has to be looked at for a pair is found by searching the squares about one circle after another. Illegal is
- * proved by caps of finitely many sites, exactly; of those in a circle's way the one is taken whose cap reaches highest
- * in its direction, so that few are needed. Legal is proved by a witness: a centre of doubles, checked against
- * everybody whose square comes as near as the farther of both discs. |c - p| and the sums with radii are within ROOM =
- * 2^-48 of all sizes met (a few roundings each); what is closer than that is compared in rationals, with a centre as
- * precise as it takes, up to MOST_BITS of its size. */
+ * The discs that matter for a pair are found by searching the squares about one circle after another. Illegal is proved
+ * by caps of finitely many sites, exactly; of those in a circle's way the one is taken whose cap reaches highest in its
+ * direction, so that few are needed. Legal is proved by a witness: a centre of doubles, checked against every disc
+ * whose square comes as near as the farther of both discs. |c - p| and the sums with radii are within ROOM = 2^-48 of
+ * all sizes met (a few roundings each); closer distances are compared in rationals, with a centre as precise as it
+ * takes, up to MOST_BITS of its size. */
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/flag.h"
@@ -71,7 +71,7 @@ static dyd_status make_discs(dyd_disc_work *w, dyd_error *err) {
   return st;
 }
 
-/* ---- who is looked at ---- */
+/* ---- the discs considered ---- */
 
 static bool is_seen(const dyd_disc_work *w, uint32_t v) {
   size_t k = 0;
@@ -115,8 +115,8 @@ bool dyd_filter_keeps_clear(const dyd_circle_d *c, uint32_t v) {
   return dyd_filter_distance(c, v) + (c->legal ? -r : r) > c->radius + room;
 }
 
-/* The circle of direction u, about; reach: the squares that come so near are looked at. worst: of those in the way that
- * are not seen yet, the highest found so far (height_d), or DYD_NONE. */
+/* The circle of direction u, about; reach: squares that come so near are visited. worst: of those in the way that are
+ * not seen yet, the highest found so far (height_d), or DYD_NONE. */
 typedef struct circle_d {
   dyd_circle_d at;
   dyd_direction u;
@@ -134,7 +134,7 @@ static double height_d(const circle_d *c, uint32_t v) {
   return (c->at.legal ? along + r : along - r) / n;
 }
 
-/* The visitor of trees: goes on unless v is higher than the circle, and than the worst so far. */
+/* The visitor of trees: continues unless v is higher than the circle, and than the worst so far. */
 static bool keep_worst(circle_d *c, uint32_t v) {
   double height = is_seen(c->at.w, v) ? -HUGE_VAL : height_d(c, v);
   if (!(height > c->highest)) return true;
@@ -219,7 +219,7 @@ static void visit_circle(circle_d *c) {
   if (c->reach > 0) dyd_tree_near(&c->at.w->pd->sk.rects.tree, &at, &radius2, meet_square, c);
 }
 
-/* Whoever is higher still is in the smaller circle that the worst allows. */
+/* A still higher disc is in the smaller circle that the worst allows. */
 static bool see_worst(circle_d *c) {
   const double *i = c->at.w->about[c->at.w->i];
   uint32_t last = DYD_NONE;
@@ -238,7 +238,7 @@ static bool meet_beyond(void *context, uint32_t v) {
   return keep_worst(context, v);
 }
 
-/* Far circles: everybody beyond the tangent of i, about. */
+/* Far circles: all discs beyond the tangent of i, about. */
 static void look_beyond(circle_d *c) {
   const double *i = c->at.w->about[c->at.w->i];
   double height = c->u.x * i[0] + c->u.y * i[1];
@@ -317,8 +317,8 @@ static bool discs_are_possible(dyd_disc_work *w) {
 
 /* ---- squares in discs ---- */
 
-/* A square in the disc that v stands for, if there is one: half-width r / sqrt(2) less INSIDE of all sizes. The disc is
- * known within 2^-49 of these, x and its ends in doubles within 2^-50. */
+/* A square in the disc of v, if there is one: half-width r / sqrt(2) less INSIDE of all sizes. The disc is known within
+ * 2^-49 of these, x and its ends in doubles within 2^-50. */
 static bool add_inner_square(dyd_sites *sites, dyd_status *st, const dyd_disc_work *w, uint32_t v) {
   const double *d = w->about[v];
   double half = mpq_sgn(w->disc[v].r) ? (d[2] - INSIDE * size_d(w, v)) * ROOT_HALF : 0;
@@ -354,8 +354,8 @@ static dyd_status triangulate_inside(dyd_delaunay **out, dyd_sites **sites, cons
 
 /* ---- all pairs ---- */
 
-/* inside: what squares in the discs say. What is legal for the discs is for these, what is possible for these is for
- * the discs. */
+/* inside: the statuses of squares in the discs. A pair legal for the discs is legal for these, a pair possible for
+ * these is possible for the discs. */
 static dyd_pair_status discs_status(dyd_disc_work *w, uint32_t i, uint32_t j, const dyd_delaunay *inside) {
   dyd_pair_status known = inside ? dyd_delaunay_status(inside, i, j) : DYD_TIE;
   if (known == DYD_INDETERMINATE) return known;
@@ -414,7 +414,7 @@ static dyd_status discs_begin(dyd_disc_work *w, dyd_error *err) {
   return make_discs(w, err);
 }
 
-/* What is to be said of pairs that are listed, and not all of them decided. */
+/* The status and message where pairs are listed, and not all of them are decided. */
 static dyd_status discs_end(const dyd_disc_work *w, dyd_status st, size_t left, size_t count, dyd_error *err) {
   if (st == DYD_CANCELLED)
     return dyd_fail(err, st, "%zu of %zu pairs were not reached: they have the statuses of squares", left, count);

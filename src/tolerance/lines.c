@@ -129,8 +129,7 @@ static int line_height(dyd_lines *l, const dyd_bisector_place *at, size_t k) {
 
 /* Does g = sqrt(r^2 + D_k) - r rise or fall as s grows: 1, -1; 0 at its summit. */
 /* g' = A / R - S / r up to a positive factor, A = p jj - 2 q n, S = p jj; where A and S have one sign, A^2 r^2 - S^2
- * R^2 is p^2 (n^2 - jj m) - p q n jj + q^2 n^2 up to another. At an end q = 0 stands for an infinitely small q > 0:
- * when p^2
+ * R^2 is p^2 (n^2 - jj m) - p q n jj + q^2 n^2 up to another. At an end q = 0 means an infinitely small q > 0: when p^2
  * (...) is 0, the sign is that of -p n. */
 static int line_trend(dyd_lines *l, const dyd_bisector_place *at, size_t k) {
   const dyd_line_over *o = &l->item[k];
@@ -280,8 +279,7 @@ double dyd_q_double(mpq_srcptr q, int up) {
   return out;
 }
 
-/* Where f is largest: deaths, where the way up is clear, and births, where all corners are looked at [TOL-2] [TOL-3].
- */
+/* Where f is largest: deaths, where the way up is clear, and births, where all corners are tried [TOL-2] [TOL-3]. */
 
 void dyd_summit_init(dyd_summit *s) {
   s->binding = DYD_BINDING_NONE;

@@ -41,7 +41,7 @@ typedef struct dyd_points_d {
 /* Loops over lines run to a multiple of a block, since few branches depend on that. */
 enum { DYD_LINES_BLOCK = 4, DYD_LINES_D = 48 };
 /* Of one pair: J, and P = p_k - p_i of the vertices added, none of which is i or j; up to the next multiple of a block
- * follows nobody: NaN. apex: next to the pair, one on each side, or DYD_NONE the second; both are among them. */
+ * follow NaN. apex: next to the pair, one on each side, or DYD_NONE the second; both are among them. */
 typedef struct dyd_lines_d {
   double jx, jy, jj, ejj, rjj; /* rjj: ejj / jj */
   uint32_t i, j, count, apex[2];
@@ -66,7 +66,7 @@ typedef struct dyd_death_d {
 /* Begins with no vertex. false: doubles cannot hold the pair well. */
 bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t j);
 /* Adds `count` vertices of a cyclic list of `size`, from number `first` on, which is below 2 size; false: there is no
- * room. Those whose coordinates are NaN are nobody. */
+ * room. Vertices with NaN as coordinates do not count. */
 bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *p, const uint32_t *ring, uint32_t size, uint32_t first,
                     uint32_t count);
 void dyd_filter_line(dyd_line_d *o, const dyd_lines_d *l, const dyd_points_d *p, uint32_t vertex);
@@ -119,7 +119,7 @@ dyd_status dyd_lines_load(dyd_lines *l, const dyd_skeleton *sk, uint32_t i, uint
                           size_t count);
 
 /* The supremum of f where it is positive somewhere (a pair that is strictly Delaunay for these sites): O(count) for
- * each line that comes to bind. NONE when there are no lines: there is no bound. */
+ * each line that comes to bind. NONE without lines: f has no bound. */
 void dyd_lines_death(dyd_summit *out, dyd_lines *l);
 /* The supremum of f where it is nowhere positive: the best corner of the envelope, or end. O(count^2). */
 void dyd_lines_birth(dyd_summit *out, dyd_lines *l);

@@ -13,12 +13,12 @@
  * error is that of D, plus half the larger of those of r^2 and D, plus 5 u. Bounds are sums of a few terms, each with a
  * few roundings: the factor GENEROUS covers them.
  *
- * Who else is how low is told by distances from the centre, without lines. Let c = c(s) for the s computed, P any of
- * the points, M the larger of |c|^2 and |P - c|^2, R = ejj / jj >= 6 u + 4 slack / |J|. The vector P - c is off by less
- * than 7.2 u sqrt(M), as |J| / 2 and |s J| are at most |c|, and by 5 slack / |J| sqrt(M); its computed square by less
- * than 4 R M. With es |J| <= K |c|, K < 2^-12, the line at the true place is off from that at s by 2 |n| es <= 4 K M.
- * So with M of one that binds (the others being farther from c than i), whoever has a computed square above (1 + 12 K +
- * 12 R) times its own is higher at the true place. */
+ * How low other lines are follows from distances to the centre. Let c = c(s) for the s computed, P any of the points, M
+ * the larger of |c|^2 and |P - c|^2, R = ejj / jj >= 6 u + 4 slack / |J|. The vector P - c is off by less than 7.2 u
+ * sqrt(M), as |J| / 2 and |s J| are at most |c|, and by 5 slack / |J| sqrt(M); its computed square by less than 4 R M.
+ * With es |J| <= K |c|, K < 2^-12, the line at the true place is off from that at s by 2 |n| es <= 4 K M. So with M of
+ * one that binds (the others being farther from c than i), a point with a computed square above (1 + 12 K + 12 R) times
+ * its own is higher at the true place. */
 #include "tolerance/lines.h"
 
 #include <float.h>
@@ -304,8 +304,8 @@ static bool next_d(climb_d *c) {
   return true;
 }
 
-/* Those who may be as near to the centre as what binds, if anything does: all whose distance, squared, is at most the
- * top; at an end, how far out they are. NaN is nobody. */
+/* The points that may be as near to the centre as those that bind, if any do: all whose squared distance is at most the
+ * top; at an end, how far out they are. NaN does not count. */
 typedef struct near_d {
   double e[DYD_LINES_D], top;
   uint32_t number[DYD_LINES_D], count;
@@ -327,7 +327,7 @@ static void measure_d(near_d *o, const climb_d *c) {
   }
 }
 
-/* Who of the others, but those that bind, has the lowest line there. DYD_NONE: nobody. */
+/* The point with the lowest line there, except those that bind. DYD_NONE: there is none. */
 static uint32_t lowest_d(double *distance, const climb_d *c, const near_d *near) {
   uint32_t best = DYD_NONE;
   *distance = HUGE_VAL;
@@ -341,7 +341,7 @@ static uint32_t lowest_d(double *distance, const climb_d *c, const near_d *near)
   return best;
 }
 
-/* The lowest of those who may be as near as what binds. *alone: there is none, for sure. */
+/* The lowest of the points that may be as near as those that bind. *alone: certainly none is. */
 static uint32_t beside_binding(bool *alone, double *distance, climb_d *c) {
   const dyd_line_d *a = c->kind == SUMMIT ? c->one : c->rising, *b = c->kind == SUMMIT ? c->one : c->falling;
   bool binds = !c->at.end && (c->kind == CROSSING || c->kind == SUMMIT);

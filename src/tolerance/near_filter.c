@@ -158,7 +158,7 @@ dyd_status dyd_others_around(dyd_others *o, const dyd_tolerance *t, uint32_t v, 
   return good ? DYD_OK : DYD_E_NOMEM;
 }
 
-/* ---- who is nearer ---- */
+/* ---- nearer vertices ---- */
 
 typedef struct gather {
   dyd_others *others;
@@ -183,10 +183,10 @@ static void gather_beyond(gather *g, const dyd_tolerance *t) {
   const dyd_lines *l = &t->lines;
   double x = mpz_get_d(l->jy) * -mpz_sgn(s->at.p), y = mpz_get_d(l->jx) * mpz_sgn(s->at.p), size = hypot(x, y);
   const double *b = t->box[l->item[s->a].vertex].e;
-  if (!isfinite(size)) size = x = y = 0; /* beyond doubles: everybody is asked */
+  if (!isfinite(size)) size = x = y = 0; /* beyond doubles: all are visited */
   double ux = size > 0 ? x / size : 0, uy = size > 0 ? y / size : 0;
   double height = ux * b[ux > 0 ? 0 : 1] + uy * b[uy > 0 ? 2 : 3];
-  /* u is off by less than 2^-50, which counts by how far along the line somebody else may lie */
+  /* u is off by less than 2^-50, which counts by how far along the line another point may lie */
   height -= 0x1p-48 * (t->sk->mesh.extent[0] + t->sk->mesh.extent[1] + fabs(height));
   dyd_tree_beyond(&t->tree, ux, uy, &height, gather_new, g);
 }

@@ -2,14 +2,14 @@
 /* How far each point may be from its place, rounded down [TOL-6].
  *
  * For every legal edge ij there is a circle about c(s) (lines.h), between i, j and all others: its radius is r + half,
- * where half is about half of f(s). Any double s will do. While no point comes to that circle, the edge stays. With
- * D the line of k at s, k is g = D / (sqrt(r^2 + D) + r) - half away from it: nothing cancels that is as large as r, so
+ * where half is about half of f(s). Any double s will do. While no point comes to that circle, the edge stays. With D
+ * the line of k at s, k is g = D / (sqrt(r^2 + D) + r) - half away from it: nothing cancels that is as large as r, so
  * errors are a few u of the distances between the points. At an end (half-planes) g is -p n / |J|.
  *
  * D has an error e_D (height_bound); g grows with D at most by 1 / (sqrt(r^2 + D) + r); the rest of the formula has a
- * relative error below 8 u. Everybody is looked for whom the circle may concern more than what is known of them: a
- * branch of the tree is left out when it is farther from the circle, less errors, than the largest radius in it.
- * Circles within a window concern nobody who is farther from the window than his radius, so the tree is asked for each
+ * relative error below 8 u. The search is for points that the circle may limit below the radius known so far: a branch
+ * of the tree is skipped when it is farther from the circle, less errors, than the largest radius in it. Circles within
+ * a window do not limit a point that is farther from the window than its radius, so the tree is searched once for each
  * window.
  *
  * In the max norm, with (a, b) the sizes of the coordinates of c - p, a >= b, and m the radius of the circle, the
@@ -35,10 +35,10 @@
  *   inside    a sum over slabs across the direction from c: what the slab holds, times what of it is in a rectangle
  *             within the disc; or a square within a disc about p_i.
  *
- * Whoever is farther than REACH sigma outside counts as MISS each. Phi is concave above 0: between two entries of a
- * table, rounded down, the chord is below it, by at most Phi'' h^2 / 8 < 0.242 / 8 / 512^2 < 1.16e-7. Entries are
- * lowered by 1e-13, which covers what is rounded (|x| < 10: a few 2^-50), and UP leaves as much. Distances are bounded
- * as [FLT-DST] has it; quotients and products, each off by 2^-53 of itself, are lowered by LESS. */
+ * Each point farther than REACH sigma outside counts as MISS. Phi is concave above 0: between two entries of a table,
+ * rounded down, the chord is below it, by at most Phi'' h^2 / 8 < 0.242 / 8 / 512^2 < 1.16e-7. Entries are lowered by
+ * 1e-13, which covers roundings (|x| < 10: a few 2^-50), and UP leaves as much. Distances are bounded as [FLT-DST] has
+ * it; quotients and products, each off by 2^-53 of itself, are lowered by LESS. */
 
 enum { PER_UNIT = 512, REACH = 9, ENTRIES = PER_UNIT * REACH + 2, SLABS = 48 };
 
@@ -48,7 +48,7 @@ enum { PER_UNIT = 512, REACH = 9, ENTRIES = PER_UNIT * REACH + 2, SLABS = 48 };
 
 #define LESS (1 - 0x1p-45)
 
-#define FAR 0x1p20 /* a half-plane is a disc so many times as large as all */
+#define FAR 0x1p20 /* a half-plane is a disc this many times as large as all */
 
 #define NEVER 0x1p-40
 
@@ -187,7 +187,7 @@ enum { NEAR_MOST = 128 };
 typedef struct radius_pass {
   dyd_tolerance *t;
   double *radius; /* by vertex */
-  double *most;   /* by node of the tree: the largest radius in it; NULL: only ends are looked at */
+  double *most;   /* by node of the tree: the largest radius in it; NULL: only ends are updated */
   dyd_lines_d lines;
   const dyd_ring_d *ring;
   double c[2], middle, doubt; /* centre, radius of the circle, bound of their errors; at an end: direction, offset */
@@ -218,7 +218,7 @@ static double height_bound(const dyd_line_d *o, double s) {
   return o->em + 2 * fabs(s) * o->en + 4 * U * (fabs(o->m) + 2 * fabs(o->n * s));
 }
 
-/* A lower bound of g; what is not a number counts as 0. */
+/* A lower bound of g; NaN counts as 0. */
 static double gap_of(const dyd_lines_d *l, const dyd_line_d *o, const dyd_ring_d *ring) {
   double g;
   if (ring->end) {
@@ -242,7 +242,7 @@ static double square_gap(const radius_pass *p, double x, double y, double gap, b
   return D / (a + b + sqrt(2 * m * m - (a - b) * (a - b))) * (1 - 0x1p-40);
 }
 
-/* What the circle allows k, who is none of its ends. */
+/* The radius that the circle allows k, which is not one of its ends. */
 static double radius_beside(const radius_pass *p, uint32_t k) {
   dyd_line_d line;
   dyd_filter_line(&line, &p->lines, &p->t->points, k);
@@ -299,7 +299,7 @@ static bool is_clear_of_window(const radius_pass *p, const dyd_bbox *b, double r
 
 typedef bool clear_test(const radius_pass *p, const dyd_bbox *b, double radius);
 
-/* Everybody who is not clear; false: there is no room for all. */
+/* Visits all points that are not clear; false: the visitor ended it. */
 static bool visit_branch(radius_pass *p, clear_test *clear, bool (*visit)(radius_pass *p, uint32_t k), int level,
                          size_t node) {
   const dyd_tree *t = &p->t->tree;
@@ -344,7 +344,7 @@ static void visit_others(radius_pass *p) {
     if (!is_clear_of_circle(p, &p->t->box[p->near[q]], radius_now(&p->radius[p->near[q]]))) look_at(p, p->near[q]);
 }
 
-/* Whom the tree left out is not concerned. */
+/* Checks that the circle does not limit a point that the tree skipped. */
 static void check_others(const radius_pass *p) {
 #ifdef DYD_ARMED
   enum { FEW = 2000 };
@@ -373,7 +373,7 @@ static bool make_most(radius_pass *p) {
   return true;
 }
 
-/* Its ends, or, later, everybody else. Where doubles cannot hold the pair, nothing is known of anybody. */
+/* Its ends, or, in the second pass, all other points. Where doubles cannot hold the pair, all radii become 0. */
 static void pass_ring(radius_pass *p, const dyd_ring_d *ring) {
   const dyd_tolerance *t = p->t;
   dyd_lines_d *l = &p->lines;
@@ -404,7 +404,7 @@ static void pass_rings(radius_pass *p) {
   dyd_parallel(p->t->pd->options.threads, dyd_ranges(p->t->rings), pass_range, p);
 }
 
-/* What is tied may be decided by the least motion of whoever is in the face. */
+/* A tie may be decided by the least motion of any point of the face. */
 static dyd_status clear_tied(radius_pass *p) {
   const dyd_delaunay *pd = p->t->pd;
   dyd_status st = DYD_OK;

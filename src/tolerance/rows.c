@@ -132,8 +132,8 @@ dyd_status dyd_rows_sort(dyd_tolerance *t) {
 
 /* ---- deaths ---- */
 
-/* Only Delaunay neighbours of i or j can bind [TOL-4]; where one of them is a hub, few of its
- * neighbours do, and whoever else is near enough is asked for.
+/* Only Delaunay neighbours of i or j can bind [TOL-4]; where one of them is a hub, few of its neighbours do, and a
+ * search finds the others that are near enough.
  *
  * Ranges of vertices are worked on side by side, in doubles, each edge with the end whose site has the smaller number:
  * all rows of a site are made together, at their final place. Vertices are in spatial order, so neighbours are near in
@@ -195,7 +195,7 @@ static dyd_status death_by_integers(dyd_tolerance_row *row, dyd_ring_d *ring, dy
   return DYD_OK;
 }
 
-/* Of v's neighbours all but w, or those that are no apexes of the edge either. */
+/* The neighbours of v except w, or except w and the apexes of the edge. */
 static bool add_ring_d(dyd_lines_d *l, const dyd_tolerance *t, uint32_t v, uint32_t w, bool apexes) {
   const uint32_t *near = t->near + t->start[v];
   uint32_t size = dyd_degree(t, v), at = 0;
@@ -204,8 +204,8 @@ static bool add_ring_d(dyd_lines_d *l, const dyd_tolerance *t, uint32_t v, uint3
                 : dyd_filter_add(l, &t->points, near, size, at + 2, size - 3);
 }
 
-/* Who may bind, each once but for corners of three edges that are no triangle: the neighbours of both ends; with a hub,
- * those of an end that is none, or the apexes alone. false: doubles cannot hold the pair well. */
+/* The points that may bind, each once except corners of three edges without a triangle: the neighbours of both ends;
+ * with a hub, those of an end that is none, or the apexes alone. false: doubles cannot hold the pair well. */
 static bool load_edge(dyd_lines_d *l, const dyd_tolerance *t, const death_edge *e) {
   uint32_t ghost = t->sk->mesh.n, few = dyd_degree(t, e->v) <= DYD_HUB ? e->v : e->w, many = e->v + e->w - few;
   int first = e->apex[0] == ghost;
@@ -218,7 +218,7 @@ static bool load_edge(dyd_lines_d *l, const dyd_tolerance *t, const death_edge *
                                        : dyd_filter_add(l, &t->points, l->apex, 2, 0, 2);
 }
 
-/* For the tree: is there anybody whom the lines do not know? */
+/* For the tree: has it a point without a line? */
 typedef struct stranger {
   const dyd_lines_d *lines;
   bool found;
@@ -232,7 +232,7 @@ static bool meet_stranger(void *context, uint32_t v) {
   return !s->found;
 }
 
-/* An end that is a hub: lines of the other end's neighbours, and nobody else within the disc. */
+/* An end that is a hub: lines of the other end's neighbours, and no other point within the disc. */
 static dyd_status hub_in_doubles(bool *sure, dyd_death_d *d, dyd_tolerance *t, const death_edge *e) {
   dyd_bbox c;
   double radius2;
@@ -257,7 +257,7 @@ static dyd_ring_d *ring_of_edge(const dyd_tolerance *t, const death_edge *e) {
   return t->ring ? &t->ring[e->ring] : NULL;
 }
 
-/* false: memory is exhausted. What is left for later, or cancelled, has not been reached as yet. */
+/* false: memory is exhausted. Rows put off or cancelled are marked as not reached. */
 static bool death_of_edge(dyd_tolerance_row *row, death_part *p, const dyd_tolerance *t, const death_edge *e) {
   dyd_lines_d *l = &p->lines;
   dyd_death_d d;
@@ -416,10 +416,10 @@ dyd_status dyd_deaths(dyd_tolerance *t) {
 
 /* ---- births up to a cap ---- */
 
-/* Discs of that radius lie in squares, so who is born is a possible pair of these; each such pair
- * is worked out on few lines, and whoever lies nearer to the best place is added until nobody does [TOL-3]. */
+/* Discs of that radius lie in squares, so a pair that is born is a possible pair of these; each such pair is worked out
+ * on few lines, and points nearer to the best place are added until there are none [TOL-3]. */
 
-/* Births begin with so many others. */
+/* The search for a birth begins with at most so many neighbours. */
 enum { FIRST_OTHERS = 24 };
 
 /* w / 2 against -up_to: sqrt(minus) - sqrt(plus) against sqrt(4 up_to^2). */
@@ -433,11 +433,11 @@ static bool is_late(const dyd_summit *s, mpq_srcptr up_to) {
   return late;
 }
 
-/* t->summit becomes that of a pair that is no edge. *late: it is above t->options.up_to for sure. */
+/* Sets t->summit to that of a pair without an edge. *late: it is certainly above t->options.up_to. */
 static dyd_status birth_exact(bool *late, dyd_tolerance *t, uint32_t v, uint32_t w) {
   dyd_status st = dyd_others_around(&t->others, t, v, w, FIRST_OTHERS);
   *late = false;
-  if (st == DYD_OK && t->others.count == 0) { /* two hubs: begin with anybody */
+  if (st == DYD_OK && t->others.count == 0) { /* two hubs: begin with any point */
     uint32_t any = 0;
     while (any == v || any == w || t->sk->leaving[any] == DYD_NONE) any++;
     if (!dyd_others_add(&t->others, any)) st = DYD_E_NOMEM;
@@ -625,7 +625,7 @@ static void weighted_corner(double *lo, double *hi, const dyd_tolerance *t, cons
     if (mpq_sgn(p)) {
       mpq_div(x, x, p);
       dyd_roots_half(lo, hi, x, zero);
-      *lo *= 1 - 0x1p-51; /* weights may be the doubles next to what is meant */
+      *lo *= 1 - 0x1p-51; /* weights may be the doubles next to the intended ones */
       *hi *= 1 + 0x1p-50;
     }
   }

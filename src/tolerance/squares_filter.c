@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Deaths and births where points move in squares, by bisection with statuses [TOL-9].
  *
- * At any t, whether some sites leave the pair legal, or possible, is decided exactly. What they refute, all sites do;
- * what they allow all sites allow when nobody else comes to the disc that shows it, and who may come is one of `some`
- * from then on. A square of half-width t holds the disc of radius t and lies in that of radius sqrt(2) t, so the event
- * of discs, which is known, brackets a death.
+ * At any t, whether some sites leave the pair legal, or possible, is decided exactly. A pair that they refute is
+ * refuted by all sites; one that they allow is allowed by all when no other site comes to the disc that shows it, and a
+ * site that may come is one of `some` from then on. A square of half-width t holds the disc of radius t and lies in
+ * that of radius sqrt(2) t, so the event of discs, which is known, brackets a death.
  *
  * Squares are rounded outward to multiples of 2^exp: they hold those of half-width t, and lie in those of t + 2^exp. So
  * "yes" at t holds below t, "no" above t + 2^exp. The floor of the search for witnesses is far below another 2^exp.
  *
- * Who else may come to a disc is decided in doubles; all that is uncertain is looked at. A square about a point in the
- * box b, of half-width h, is in b widened by h and SPARE of all sizes, and holds what b less all that leaves; distances
- * to these are bounded as in skeleton/distance_filter.h. */
+ * Doubles decide which other sites may come to a disc; all uncertain ones are added. A square about a point in the box
+ * b, of half-width h, is in b widened by h and SPARE of all sizes, and holds what b less all that leaves; distances to
+ * these are bounded as in skeleton/distance_filter.h. */
 #include "legal/witness.h"
 #include "possible/cover.h"
 #include "skeleton/rects_filter.h"
@@ -23,7 +23,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A pair of squares of half-width t about nominal places, and the others that are looked at for it [TOL-9]. */
+/* A pair of squares of half-width t about nominal places, and the other sites considered for it [TOL-9]. */
 
 /* Invariant: i and j are not among seen, and no vertex is twice. While it is built, site 0 of sites is the square of i,
  * 1 that of j, 2 + k that of seen[k], each rounded outward by less than 2^exp, and the skeleton and work are theirs. */
@@ -97,7 +97,8 @@ static dyd_status squares_build(squares *q, double t) {
 
 enum { MOST_NEW = 6 };
 
-/* So many times as far from i as j is, squared, doubles do not tell who is nearest. */
+/* Beyond this squared ratio of the distances from i to the centre and to j, doubles do not show which site is nearest.
+ */
 #define FAR2 0x1p60
 
 /* Looks at v from now on; *more: it was not seen before. */
@@ -109,7 +110,7 @@ static dyd_status squares_see(bool *more, squares *q, uint32_t v) {
 
 /* ---- searches ---- */
 
-/* bound: of squared distances from c; far: everybody who is met is looked at. */
+/* bound: of squared distances from c; far: every site met is added. */
 typedef struct square_search {
   squares *q;
   dyd_bbox c;
@@ -179,7 +180,7 @@ static dyd_status squares_see_rivals(bool *more, squares *q) {
   return s.status;
 }
 
-/* Looks at the few vertices that are not certainly too far to block the place where the pair is seen to be possible. */
+/* Adds a few sites that may be near enough to block the place where the pair is seen to be possible. */
 static dyd_status squares_see_blockers(bool *more, squares *q, const dyd_cover *at) {
   const dyd_rects *r = &q->sk.rects;
   uint32_t v[2] = {q->sk.vertex[0], q->sk.vertex[1]};
@@ -271,7 +272,7 @@ static dyd_status squares_are_legal(dyd_truth *answer, squares *q, double t) {
   return DYD_OK;
 }
 
-/* A common point is as near as can be, whoever else there is. */
+/* A common point is possible whatever other sites there are. */
 static dyd_status squares_meet(bool *meet, squares *q) {
   dyd_rect r[2];
   for (int k = 0; k < 2; k++) dyd_rect_init(&r[k]);
@@ -333,7 +334,7 @@ static dyd_status squares_begin(squares *q, const dyd_tolerance_row *row) {
   if (row->l != DYD_NO_SITE && st == DYD_OK) st = squares_see(&more, q, vertex[row->l]);
   if (st == DYD_OK) st = dyd_others_around(&q->t->others, t, q->i, q->j, FIRST_SEEN);
   for (size_t k = 0; k < t->others.count && st == DYD_OK; k++) st = squares_see(&more, q, t->others.vertex[k]);
-  uint32_t any = 0; /* two hubs: begin with anybody */
+  uint32_t any = 0; /* two hubs: begin with any point */
   while (any == q->i || any == q->j || dyd_mesh_alias(&t->sk->mesh, any) != DYD_NONE) any++;
   return st == DYD_OK && !q->seen.count ? squares_see(&more, q, any) : st;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What tolerances are worked out with, and what is kept.
+/* The state of a computation of tolerances, and its results.
  *
  *   lines.c           one pair: the other sites as lines over its bisector, exactly
  *   lines_filter.c    the same in doubles
@@ -17,7 +17,7 @@
 #include "tolerance/lines.h"
 #include <dyadel/tolerance.h>
 
-/* Vertices that are looked at for one pair. */
+/* Vertices considered for one pair. */
 typedef struct dyd_others {
   uint32_t *vertex;
   size_t count, cap;
@@ -34,7 +34,7 @@ struct dyd_tolerance {
   const dyd_delaunay *pd;
   const dyd_skeleton *sk;
   dyd_tolerance_options options;
-  dyd_room room; /* what max_bytes leaves beside the triangulation */
+  dyd_room room; /* what the triangulation leaves of max_bytes */
   dyd_tolerance_row *row;
   size_t rows, cap, sorted;       /* sorted: rows of deaths that are */
   size_t edges_left, births_left; /* of work that was cancelled: dyd_tolerance_left */
@@ -44,7 +44,7 @@ struct dyd_tolerance {
   double lo, hi;         /* of the whole */
   double *radius;
   double *chance;   /* of each row, once sorted, where sigma was given */
-  dyd_ring_d *ring; /* of all edges, where radii or probabilities are asked for */
+  dyd_ring_d *ring; /* of all edges, for radii or probabilities */
   size_t rings;
   uint64_t filter, exact;
   /* scratch */
@@ -71,24 +71,23 @@ static inline uint32_t dyd_degree(const dyd_tolerance *t, uint32_t v) {
 void dyd_near_clear(dyd_tolerance *t);
 /* Makes the tree over all vertices, unless there is one. */
 dyd_status dyd_near_index(dyd_tolerance *t);
-/* rows.c: is there room for the rows of so many pairs, with what is kept of each and what sorting takes? They are held
- * from then on. */
+/* rows.c. Returns true, and holds the bytes, if the budget has room for the rows of `pairs` pairs, their circles and
+ * their sorting. */
 bool dyd_rows_have_room(dyd_tolerance *t, uint64_t pairs, const char *what);
 bool dyd_others_add(dyd_others *o, uint32_t v);
 /* *o becomes the neighbours of v and w in the skeleton, but v, w and the ghost; of an end of more than `most`
- * neighbours only those that are next to the other end. Repeats are possible. */
+ * neighbours only the ones next to the other end. Repeats are possible. */
 dyd_status dyd_others_around(dyd_others *o, const dyd_tolerance *t, uint32_t v, uint32_t w, uint32_t most);
-/* Adds to *o who may lie as near to the place of t->summit as what binds there (at an end: as far out), and is neither
- * i nor j nor among the lines: at most `most`. *more: some were added. */
+/* Adds to *o at most `most` vertices, other than i, j and those of the lines, that may lie as near to the place of
+ * t->summit as those that bind there (at an end: as far out). *more: some were added. */
 dyd_status dyd_others_nearer(bool *more, dyd_others *o, dyd_tolerance *t, uint32_t i, uint32_t j, size_t most);
 
 dyd_status dyd_deaths(dyd_tolerance *t);
 dyd_status dyd_births(dyd_tolerance *t, dyd_error *err);
-/* Where points have weights: the deaths and births found so far become those with weights, without births above
- * up_to. What is given as birth is only listed. */
+/* Where points have weights: the deaths and births found so far become those with weights, without births above up_to.
+ * Births given are only listed. */
 dyd_status dyd_weigh(dyd_tolerance *t);
-/* squares_filter.c: the deaths found so far become those for squares, and what is given as birth, without those above
- * up_to.
+/* squares_filter.c: the deaths found so far become those for squares, and the births listed, without those above up_to.
  */
 dyd_status dyd_square_rows(dyd_tolerance *t);
 dyd_status dyd_whole(dyd_tolerance *t);
@@ -109,7 +108,7 @@ dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd
  * not reached are marked. */
 typedef dyd_status dyd_row_work(bool *late, dyd_tolerance_row *row, void *user);
 dyd_status dyd_rows_rework(dyd_tolerance *t, dyd_row_work *work, void *user);
-/* After work that was cancelled: takes marked rows out, and counts what has none. */
+/* After work that was cancelled: removes marked rows, and counts the pairs without one. */
 void dyd_rows_reached(dyd_tolerance *t);
 dyd_status dyd_row_add(dyd_tolerance *t, dyd_tolerance_row row);
 /* The number of the row of v, w; all are sorted. */

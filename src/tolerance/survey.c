@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* Where no accuracy is given, these shares of each half-width are tried until one decides; and rounds of the work on
- * faces, of which more than one is needed where what a face needs shows only beside the others. */
+ * faces, of which more than one is needed where the needs of a face show only together with the others. */
 static const int finer[] = {10, 20, 40};
 enum { FINER = sizeof finer / sizeof *finer, ROUNDS = 8, STEPS = 4 };
 
@@ -29,7 +29,7 @@ static bool is_asked(const dyd_survey_options *o, const dyd_survey *s, const dyd
   return !o->window || dyd_rect_meets(&s->site[p->i].rect, o->window) || dyd_rect_meets(&s->site[p->j].rect, o->window);
 }
 
-/* How many ties dyd_least_bounding leaves out: they are those of the nominal places, which are the points. */
+/* Number of ties that dyd_least_bounding omits: those of the nominal places, which are the points. */
 static size_t ties_left_out(const dyd_delaunay *pd) {
   size_t count[4];
   dyd_delaunay_count(count, pd);
@@ -108,7 +108,7 @@ static dyd_status recount_left(dyd_survey *s, bool *near) {
   return st;
 }
 
-/* In all faces of pd, one by one; what each chooses is measured in the triangulation of all. */
+/* In all faces of pd, one by one; the sites chosen are measured in the triangulation of all. */
 static dyd_status choose_in_faces(dyd_measuring *m, const dyd_delaunay *pd) {
   dyd_survey *s = m->s;
   dyd_status st = DYD_OK;
@@ -121,7 +121,7 @@ static dyd_status choose_in_faces(dyd_measuring *m, const dyd_delaunay *pd) {
   return st;
 }
 
-/* In large faces; then in all faces of the triangulation with what was chosen, as long as that helps. */
+/* In large faces; then in all faces of the triangulation with the chosen sites measured, as long as that helps. */
 static dyd_status measure_rounds(dyd_measuring *m, const dyd_delaunay *pd) {
   dyd_survey *s = m->s;
   dyd_status st = has_large_face(pd) ? dyd_survey_crowds(m) : DYD_OK;
@@ -159,7 +159,7 @@ static void settle_rows(dyd_survey *s) {
   }
 }
 
-/* Those who are near (NULL: all) and have a row are measured, and no coarser than the common factor says. */
+/* Sites near (NULL: all) that have a row are measured, and no coarser than the common factor says. */
 static void restore_rows(dyd_survey *s, const bool *near) {
   for (size_t f = 0; f < s->faces; f++)
     for (size_t k = 0; k < s->face[f].count; k++) {
@@ -184,8 +184,8 @@ static dyd_status restore_open(dyd_survey *s, size_t before) {
   return st;
 }
 
-/* What one face needed another one may have made needless: faces tell. A pair that is decided within its face may be
- * open beside the others, where a disc about both ends has room; then sites are taken back. */
+/* A site that one face needed may have become needless by another one: faces show it. A pair that is decided within its
+ * face may be open together with the others, where a disc about both ends has room; then sites are taken back. */
 static dyd_status unchoose_by_faces(dyd_survey *s) {
   size_t before = s->left;
   dyd_status st = DYD_OK;
@@ -224,7 +224,7 @@ static size_t count_rows(const dyd_survey *s) {
   return rows;
 }
 
-/* Leaves out what is not needed. */
+/* Removes rows that are not needed. */
 static dyd_status prune(dyd_survey *s) {
   return count_rows(s) * s->sites <= SMALL ? unchoose_by_all(s) : unchoose_by_faces(s);
 }
@@ -309,7 +309,7 @@ static dyd_status loosen_site(dyd_survey *s, uint32_t site) {
   return st;
 }
 
-/* Faces tell; all together are looked at in the end, and where they should not hold, the common factor alone counts. */
+/* Faces decide; all together are checked in the end, and where they fail, the common factor alone counts. */
 static dyd_status loosen_each(dyd_survey *s) {
   size_t before = s->left;
   dyd_status st = DYD_OK;
@@ -332,7 +332,7 @@ static int compare_ranks(const void *a, const void *b) {
   return (x->k > y->k) - (x->k < y->k);
 }
 
-/* The rows of all faces, always the most telling of those that come next; each face keeps its own order. A row that
+/* The rows of all faces, always the one that decides most of those next; each face keeps its own order. A row that
  * tells more than one before it comes right after that one: so they are sorted by the least so far. */
 static dyd_status merge_rows(dyd_survey *s) {
   size_t total = count_rows(s);

@@ -20,9 +20,9 @@ typedef struct dyd_face_rows {
   size_t count;
 } dyd_face_rows;
 
-/* Where it is looked what a site does: the undecided faces of the triangulation, and for each site in the plan that is
- * in a large one, whoever is near it (owner: this site; else DYD_NONE). The sites of each are ascending; those of site
- * i are of[start[i]] to of[start[i + 1] - 1]. */
+/* Where the effect of a site is examined: the undecided faces of the triangulation, and for each site of the plan in a
+ * large one, the sites near it (owner: this site; else DYD_NONE). The sites of each are ascending; those of site i are
+ * of[start[i]] to of[start[i + 1] - 1]. */
 typedef struct dyd_survey_faces {
   dyd_index_list *face;
   uint32_t *owner;
@@ -35,7 +35,7 @@ typedef struct dyd_survey_faces {
  * (unit NULL). */
 struct dyd_survey {
   dyd_survey_options options;
-  dyd_room room;  /* what max_bytes leaves beside the triangulation */
+  dyd_room room;  /* what the triangulation leaves of max_bytes */
   dyd_error *err; /* of the call that makes it; borrowed, may be NULL */
   size_t sites;
   dyd_survey_site *site;
@@ -102,7 +102,7 @@ dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_ind
 /* Would more targets of the face with these sites (ascending) be open, were this one of them not measured? */
 dyd_status dyd_survey_face_needs(bool *needs, dyd_survey *s, const dyd_index_list *sites, uint32_t site);
 
-/* survey_face.c: what each row decides after those before it. */
+/* survey_face.c: sets how many pairs each row decides after the rows before it. */
 dyd_status dyd_survey_count_left(dyd_survey *s);
 
 #endif

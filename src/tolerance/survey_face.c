@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The plan of one undecided face. What happens in it depends on its own sites alone [LOC-1], so each try is a
- * triangulation of these: greedily the site that leaves fewest of its targets open, then whoever is not needed goes.
+ * triangulation of these: greedily the site that leaves fewest of its targets open, then sites that are not needed go.
  * Whether the plan is enough is seen on all sites in the end. */
 #include "base/alloc.h"
 #include "base/flag.h"
@@ -133,7 +133,7 @@ double dyd_survey_now(const dyd_survey *s, uint32_t i) {
   return dyd_q_double(s->site[i].half, 1);
 }
 
-/* In which faces and targets a site is, so that nobody looks through all of them. */
+/* The faces and targets of each site, to avoid searching all of them. */
 
 /* s->at: each target at its lower end and at its upper one. */
 static dyd_status index_ends(dyd_survey *s) {
@@ -188,7 +188,7 @@ static dyd_status index_sites(dyd_survey_faces *open, size_t sites) {
 }
 
 /* A site, its possible neighbours without the plan, and the possible neighbours of all these with it: what the site can
- * change has an end among the former [LOC-4], and who can be in the way of that is mostly among the latter. */
+ * change has an end among the former [LOC-4], and sites that can be in the way of that are mostly among the latter. */
 static dyd_status find_those_near(dyd_index_list *out, const dyd_delaunay *pd, const dyd_delaunay *planned,
                                   uint32_t site) {
   dyd_index_list near = {0};
@@ -262,9 +262,9 @@ void dyd_survey_index_clear(dyd_survey *s) {
   free(s->at);
 }
 
-/* Sites are measured one by one in a triangulation of all; what each row of a plan decides after the rows before. A
- * pair whose status changes has an end at the site or at a possible neighbour of it [LOC-4]: only these are looked at.
- */
+/* Sites are measured one by one in a triangulation of all; how many targets each row of a plan decides after the rows
+ * before. A pair whose status changes has an end at the site or at a possible neighbour of it [LOC-4]: only these are
+ * examined. */
 
 dyd_status dyd_measuring_begin(dyd_measuring *m, dyd_survey *s) {
   *m = (dyd_measuring){.s = s};
@@ -304,7 +304,7 @@ static void note_decided_near(dyd_measuring *m, uint32_t i, const dyd_index_list
   for (uint32_t k = 0; k < m->s->sites && dyd_delaunay_is_capped(m->now); k++) note_decided(m, k);
 }
 
-/* *decided: so many targets that were open are not, with this site measured. */
+/* *decided: how many targets this measurement decides. */
 static dyd_status measuring_site(size_t *decided, dyd_measuring *m, uint32_t i) {
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = m->s->options.cancel};
   dyd_index_list near = {0};
@@ -350,9 +350,9 @@ dyd_status dyd_survey_count_left(dyd_survey *s) {
 
 /* Large faces. To try every site of one, as survey_face.c does, takes as many triangulations as it has sites, for each
  * row; so the ends of most open targets for their cost are measured one after the other, until it has fallen into small
- * faces, which are worked on with care. Whoever was not needed goes afterwards, as everywhere. */
+ * faces, which are worked on with care. Sites that were not needed go afterwards, as everywhere. */
 
-/* Of the sites that can be measured, one in so many is, before it is looked again at where faces are large. */
+/* One in SHARE of the sites that can be measured is, before large faces are sought again. */
 enum { SHARE = 16 };
 
 typedef struct crowd_site {
@@ -398,7 +398,7 @@ static size_t list_crowd(crowd_site *crowd, bool *mark, const dyd_measuring *m) 
   return count;
 }
 
-/* Measures the first ones, but for those that are by now worth less than the last of these was: their turn comes. */
+/* Measures the first ones, except sites that are by now worth less than the last of these was: their turn comes. */
 static dyd_status measure_first(dyd_face_rows *rows, dyd_measuring *m, const crowd_site *crowd, size_t count) {
   size_t first = count / SHARE + 1 < count ? count / SHARE + 1 : count;
   dyd_status st = DYD_OK;
@@ -555,7 +555,7 @@ static dyd_status drop_sites(face_try *f) {
   return st;
 }
 
-/* The rows, in the order chosen, with what each decides in the face. */
+/* The rows, in the order chosen, with the number of pairs each decides in the face. */
 static dyd_status write_rows(face_try *f) {
   dyd_survey *s = f->s;
   if (!f->chosen) return DYD_OK;
@@ -576,7 +576,7 @@ static dyd_status write_rows(face_try *f) {
   return st;
 }
 
-/* Room for as many as have an end here. */
+/* Allocates for all targets with an end here. */
 static bool make_targets(face_try *f) {
   size_t most = 0;
   for (size_t a = 0; a < f->sites.count; a++) most += f->s->first[f->sites.item[a] + 1] - f->s->first[f->sites.item[a]];

@@ -70,7 +70,7 @@ static dyd_status take_by_vertex(double **out, double *largest, const dyd_skelet
   return DYD_OK;
 }
 
-/* May work go on, if only to bring in what is known? */
+/* Returns true if the work may continue, if only to collect the results so far. */
 static bool may_go_on(dyd_status st) {
   return st == DYD_OK || st == DYD_CANCELLED;
 }
@@ -79,7 +79,7 @@ static void join_status(dyd_status *st, dyd_status next) {
   if (next != DYD_OK) *st = next;
 }
 
-/* All rows; or those that were reached: DYD_CANCELLED. */
+/* All rows; with DYD_CANCELLED, the rows reached. */
 static dyd_status tolerance_rows(dyd_tolerance *t, dyd_error *err) {
   tie_rows ties = {t, DYD_OK};
   const dyd_tolerance_options *o = &t->options;
@@ -120,7 +120,7 @@ static dyd_status tolerance_work(dyd_tolerance *t, dyd_error *err) {
   return st;
 }
 
-/* What is missing of work that was cancelled. */
+/* Reports how much is missing after a cancelled run. */
 static dyd_status tell_left(const dyd_tolerance *t, dyd_error *err) {
   if (!t->edges_left && !t->births_left)
     return dyd_fail(err, DYD_CANCELLED, "all pairs were reached, but not all radii or probabilities");

@@ -2,11 +2,11 @@
 /* Deaths and births where each point has a weight: it moves by at most t times that [TOL-8].
  *
  * At any t the discs are given, and whether a pair is legal, or possible, for some of the sites is decided exactly by
- * caps of directions [DISC-1]. So t is bracketed and halved. For all sites: what some of them refute, all do; what they
- * allow is allowed by all when everybody else keeps clear of a circle of theirs, which is looked at in doubles: c = p_i
- * + u / (2 h) with a direction u that is off by at most TURN, so c by `doubt`; distances are off by ROOM of all sizes
- * (a few roundings each). Who does not keep clear for sure is one of `some` from then on. So nothing is decided by
- * doubles that is near.
+ * caps of directions [DISC-1]. So t is bracketed and halved. For all sites: a pair that some of them refute is refuted
+ * by all; one that they allow is allowed by all when all others keep clear of a circle of theirs, which doubles check:
+ * c = p_i + u / (2 h) with a direction u that is off by at most TURN, so c by `doubt`; distances are off by ROOM of all
+ * sizes (a few roundings each). A site that may not keep clear is one of `some` from then on. So doubles decide only
+ * far sites.
  *
  * h = (u.J -+ delta) / n, n = J^2 - delta^2, delta = R_j - R_i: its relative error is at most (TURN |J| + 2^-49 (|J| +
  * delta)) / |u.J -+ delta| + 2^-48 (J^2 + delta^2) / n, and that of c - p_i twice this, while it is below 1/4, plus
@@ -20,8 +20,8 @@
 
 /* ---- a guess ---- */
 
-/* About where the answer for a pair of weighted discs changes, in doubles: a guess. What is stated of it is asked
- * exactly on both sides [TOL-8].
+/* About where the answer for a pair of weighted discs changes, in doubles: a guess, which exact questions on both sides
+ * confirm [TOL-8].
  *
  * Caps as in discs.h, as arcs of angles: u.w > tau is acos(tau / |w|) to both sides of w. */
 
@@ -34,7 +34,7 @@ typedef struct guess_site {
   double x, y, weight;
 } guess_site;
 
-/* half: 0 where there is no direction. */
+/* half: 0 where it is empty. */
 typedef struct guess_arc {
   double middle, half;
 } guess_arc;
@@ -82,7 +82,7 @@ static bool guess_meets(const guess *g, const guess_site *s, double t) {
          hypot(s->x - g->j.x, s->y - g->j.y) <= t * (s->weight + g->j.weight);
 }
 
-/* false: somebody meets i or j, so that nothing is legal. */
+/* false: a disc meets i or j, so that the pair is not legal. */
 static bool guess_arcs(guess *g, double t) {
   double q[3], p[3], sign = g->legal ? -1 : 1;
   guess_invert(q, &g->j, t * (g->j.weight - g->weight));
@@ -100,7 +100,7 @@ static bool guess_arcs(guess *g, double t) {
 
 /* ---- answers ---- */
 
-/* From -pi to pi. Arcs are at most half a turn, so what all have in common is one arc about the first. */
+/* From -pi to pi. Arcs are at most half a turn, so their common part is one arc about the first. */
 static bool guess_have_common(const guess *g) {
   double lo = -g->arc[0].half, hi = g->arc[0].half;
   for (size_t k = 1; k < g->arcs; k++) {
@@ -130,7 +130,7 @@ static bool guess_is_below(guess *g, double t) {
   double size = hypot(g->j.x, g->j.y);
   if (!g->legal) return size > t * (g->j.weight + g->weight) && guess_arcs(g, t) && guess_cover_all(g);
   if (size > t * (g->j.weight - g->weight)) return guess_arcs(g, t) && guess_have_common(g);
-  size_t k = 0; /* the disc of i is in that of j, which nobody may meet */
+  size_t k = 0; /* the disc of i is in that of j, which no other may meet */
   while (k < g->count &&
          !(hypot(g->other[k].x - g->j.x, g->other[k].y - g->j.y) <= t * (g->other[k].weight + g->j.weight)))
     k++;
@@ -155,7 +155,7 @@ static double filter_guess_weight(const dyd_disc_work *w, const double *weight, 
 
 #define WIDTH (1 + 0x1p-41)
 
-#define SPARE 0x1p-51 /* weights may be the doubles next to what is meant */
+#define SPARE 0x1p-51 /* weights may be the doubles next to the intended ones */
 
 #define NEAR 0x1p-43 /* how far beside a guess is asked at first */
 
@@ -190,7 +190,7 @@ static void weigh_all(weight_work *g, double t) {
   for (size_t k = 0; k < g->discs.count; k++) weigh_disc(g, g->discs.seen[k]);
 }
 
-/* ---- everybody else ---- */
+/* ---- all others ---- */
 
 /* added: how many discs were not clear of it, and are seen now. */
 typedef struct weight_circle {
@@ -206,7 +206,7 @@ static bool meet_other(void *context, uint32_t v) {
   return ++c->added < MOST_NEW;
 }
 
-/* Is everybody else clear of it? Otherwise some are seen now. */
+/* Returns true if all others are clear of it. Otherwise some are seen now. */
 static bool all_are_clear(weight_work *g, const dyd_circle_d *c) {
   const dyd_tolerance *t = g->t;
   weight_circle others = {.at = *c, .g = g};
@@ -357,7 +357,7 @@ static uint32_t site_of_cap(const weight_work *g, size_t k) {
   return v == UINT32_MAX ? DYD_NO_SITE : g->t->sk->reps.site[v];
 }
 
-/* Who binds: the caps about the direction that is still allowed at t. */
+/* The sites that bind: the caps about the direction that is still allowed at t. */
 static void find_binding(dyd_tolerance_row *row, weight_work *g, double t, bool legal) {
   dyd_caps *c = &g->discs.caps;
   c->count = 0;
