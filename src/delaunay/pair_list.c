@@ -362,6 +362,19 @@ dyd_status dyd_pairs_take(dyd_pair_list *out, const dyd_delaunay *pd, dyd_pair_s
   return st == DYD_OK ? dyd_pairs_list(out, pd, least) : st;
 }
 
+dyd_status dyd_pairs_deal(size_t **start, uint32_t **partner, const dyd_pair_list *l, size_t n) {
+  size_t *at = *start = calloc(n + 2, sizeof **start);
+  *partner = dyd_alloc(2 * l->count, sizeof **partner);
+  if (!at || !*partner) return DYD_E_NOMEM;
+  for (size_t k = 0; k < l->count; k++) at[l->item[k].i + 2]++, at[l->item[k].j + 2]++;
+  for (size_t i = 2; i <= n + 1; i++) at[i] += at[i - 1];
+  for (size_t k = 0; k < l->count; k++) {
+    (*partner)[at[l->item[k].i + 1]++] = l->item[k].j;
+    (*partner)[at[l->item[k].j + 1]++] = l->item[k].i;
+  }
+  return DYD_OK;
+}
+
 dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd) {
   return pd ? dyd_pairs_take(out, pd, DYD_TIE) : DYD_E_ARG;
 }

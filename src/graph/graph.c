@@ -196,21 +196,17 @@ static dyd_status gabriel_graph(dyd_graph_work *w) {
  *         least lengths is in the spanning tree by least lengths, or, where ij is in that itself, the first pair that
  *         closes a circle with it; or j is surely the nearest one to i, or i to j */
 
-/* Sets of sites; a set's `at` is its top in the tree. */
-typedef struct span_sets {
-  uint32_t *up;
-} span_sets;
-
-static uint32_t set_of(span_sets *s, uint32_t i) {
-  while (s->up[i] != i) {
-    s->up[i] = s->up[s->up[i]];
-    i = s->up[i];
+/* The top of the set of site i in the forest `up`. */
+static uint32_t set_of(uint32_t *up, uint32_t i) {
+  while (up[i] != i) {
+    up[i] = up[up[i]];
+    i = up[i];
   }
   return i;
 }
 
-static void sets_begin(span_sets *s, size_t n) {
-  for (size_t i = 0; i < n; i++) s->up[i] = (uint32_t)i;
+static void sets_begin(uint32_t *up, size_t n) {
+  for (size_t i = 0; i < n; i++) up[i] = (uint32_t)i;
 }
 
 enum { SPAN_NONE = UINT32_MAX };
@@ -223,7 +219,7 @@ typedef struct span_work {
   dyd_length *least, *largest;
   uint32_t *replaced, *nearest;
   bool *tree, *never;
-  span_sets sets;
+  uint32_t *up; /* sets of sites */
   /* the tree by least lengths: towards the root */
   uint32_t *parent, *link, *depth;
   size_t *start;
@@ -246,14 +242,14 @@ static bool span_alloc(span_work *s) {
   s->nearest = dyd_alloc(n, sizeof *s->nearest);
   s->tree = calloc(pairs + 1, sizeof *s->tree);
   s->never = calloc(pairs + 1, sizeof *s->never);
-  s->sets.up = dyd_alloc(n, sizeof *s->sets.up);
+  s->up = dyd_alloc(n, sizeof *s->up);
   s->parent = dyd_alloc(n, sizeof *s->parent);
   s->link = dyd_alloc(n, sizeof *s->link);
   s->depth = dyd_alloc(n, sizeof *s->depth);
   s->start = calloc(n + 2, sizeof *s->start);
   s->edge = dyd_alloc(2 * n, sizeof *s->edge);
-  return s->least && s->largest && s->replaced && s->nearest && s->tree && s->never && s->sets.up && s->parent &&
-         s->link && s->depth && s->start && s->edge;
+  return s->least && s->largest && s->replaced && s->nearest && s->tree && s->never && s->up && s->parent && s->link &&
+         s->depth && s->start && s->edge;
 }
 
 static void spanning_work_clear(span_work *s) {
@@ -263,7 +259,7 @@ static void spanning_work_clear(span_work *s) {
   free(s->nearest);
   free(s->tree);
   free(s->never);
-  free(s->sets.up);
+  free(s->up);
   free(s->parent);
   free(s->link);
   free(s->depth);
@@ -285,14 +281,14 @@ static void sort_lengths(span_work *s) {
 static void find_never(span_work *s) {
   const dyd_pair *pair = s->w->pairs.item;
   size_t next = 0;
-  sets_begin(&s->sets, s->w->n);
+  sets_begin(s->up, s->w->n);
   for (size_t q = 0; q < s->w->pairs.count; q++) {
     for (; next < s->w->pairs.count && length_compare(&s->largest[next], &s->least[q]) < 0; next++) {
       const dyd_pair *p = &pair[s->largest[next].pair];
-      if (p->status == DYD_LEGAL) s->sets.up[set_of(&s->sets, p->i)] = set_of(&s->sets, p->j);
+      if (p->status == DYD_LEGAL) s->up[set_of(s->up, p->i)] = set_of(s->up, p->j);
     }
     const dyd_pair *p = &pair[s->least[q].pair];
-    s->never[s->least[q].pair] = set_of(&s->sets, p->i) == set_of(&s->sets, p->j);
+    s->never[s->least[q].pair] = set_of(s->up, p->i) == set_of(s->up, p->j);
   }
 }
 
@@ -309,13 +305,13 @@ static dyd_status find_never_gabriel(span_work *s) {
 }
 
 static void find_tree(span_work *s) {
-  sets_begin(&s->sets, s->w->n);
+  sets_begin(s->up, s->w->n);
   for (size_t q = 0; q < s->w->pairs.count; q++) {
     const dyd_pair *p = &s->w->pairs.item[s->least[q].pair];
     if (s->never[s->least[q].pair]) continue;
-    uint32_t a = set_of(&s->sets, p->i), b = set_of(&s->sets, p->j);
+    uint32_t a = set_of(s->up, p->i), b = set_of(s->up, p->j);
     s->tree[s->least[q].pair] = a != b;
-    s->sets.up[a] = b;
+    s->up[a] = b;
   }
 }
 
@@ -359,16 +355,16 @@ static void root_trees(span_work *s, uint32_t *queue) {
  * around before; those are passed over from then on. */
 static void find_replacements(span_work *s) {
   for (size_t p = 0; p < s->w->pairs.count; p++) s->replaced[p] = SPAN_NONE;
-  sets_begin(&s->sets, s->w->n);
+  sets_begin(s->up, s->w->n);
   for (size_t q = 0; q < s->w->pairs.count; q++) {
     const dyd_pair *p = &s->w->pairs.item[s->least[q].pair];
     if (s->tree[s->least[q].pair] || s->never[s->least[q].pair]) continue;
-    uint32_t a = set_of(&s->sets, p->i), b = set_of(&s->sets, p->j);
+    uint32_t a = set_of(s->up, p->i), b = set_of(s->up, p->j);
     while (a != b) {
       uint32_t *lower = s->depth[a] >= s->depth[b] ? &a : &b;
       s->replaced[s->link[*lower]] = (uint32_t)q;
-      s->sets.up[*lower] = s->parent[*lower];
-      *lower = set_of(&s->sets, *lower);
+      s->up[*lower] = s->parent[*lower];
+      *lower = set_of(s->up, *lower);
     }
   }
 }
@@ -407,7 +403,7 @@ static dyd_status spanning_graph(dyd_graph_work *w) {
   if (st == DYD_OK) {
     find_tree(&s);
     deal_tree(&s);
-    root_trees(&s, s.sets.up);
+    root_trees(&s, s.up);
     find_replacements(&s);
     st = find_sure_nearest(&s);
   }
@@ -417,20 +413,6 @@ static dyd_status spanning_graph(dyd_graph_work *w) {
 }
 
 /* ---- the public call ---- */
-
-/* Pairs are sorted, so each list comes out ascending. */
-static void deal_partners(dyd_graph_work *w) {
-  const dyd_pair_list *l = &w->pairs;
-  for (size_t k = 0; k < l->count; k++) {
-    w->start[l->item[k].i + 2]++;
-    w->start[l->item[k].j + 2]++;
-  }
-  for (size_t i = 2; i <= w->n + 1; i++) w->start[i] += w->start[i - 1];
-  for (size_t k = 0; k < l->count; k++) {
-    w->partner[w->start[l->item[k].i + 1]++] = l->item[k].j;
-    w->partner[w->start[l->item[k].j + 1]++] = l->item[k].i;
-  }
-}
 
 /* The partners and boxes, and a list of edges that grows. */
 static bool graph_has_room(dyd_graph_work *w) {
@@ -454,11 +436,9 @@ static dyd_status graph_prepare(dyd_graph_work *w) {
   dyd_status st = dyd_pairs_take(&w->pairs, w->pd, w->least);
   if (st != DYD_OK) return st;
   size_t most = 0;
-  w->start = calloc(w->n + 2, sizeof *w->start);
-  w->partner = dyd_alloc(2 * w->pairs.count, sizeof *w->partner);
   w->box = dyd_alloc(w->n, sizeof *w->box);
-  if (!w->start || !w->partner || !w->box) return DYD_E_NOMEM;
-  deal_partners(w);
+  st = w->box ? dyd_pairs_deal(&w->start, &w->partner, &w->pairs, w->n) : DYD_E_NOMEM;
+  if (st != DYD_OK) return st;
   for (size_t i = 0; i < w->n; i++) {
     dyd_sites_get_d(w->box[i].e, w->sites, i);
     if (w->start[i + 1] - w->start[i] > most) most = w->start[i + 1] - w->start[i];

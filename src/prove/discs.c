@@ -9,6 +9,7 @@
 #include "base/index.h"
 #include "checker/caps.h"
 #include "checker/checker.h"
+#include "delaunay/memory.h"
 #include "engine/points.h"
 #include "prove/proof.h"
 
@@ -561,24 +562,6 @@ static void clear_search(disc_proof *w) {
   free(w->chosen);
 }
 
-static dyd_status deal_pairs(disc_proof *w) {
-  const dyd_pair_list *l = &w->p->pairs;
-  size_t n = w->p->sites.count;
-  w->start = calloc(n + 2, sizeof *w->start);
-  w->partner = dyd_alloc(2 * l->count, sizeof *w->partner);
-  if (!w->start || !w->partner) return DYD_E_NOMEM;
-  for (size_t k = 0; k < l->count; k++) {
-    w->start[l->item[k].i + 2]++;
-    w->start[l->item[k].j + 2]++;
-  }
-  for (size_t i = 2; i <= n + 1; i++) w->start[i] += w->start[i - 1];
-  for (size_t k = 0; k < l->count; k++) {
-    w->partner[w->start[l->item[k].i + 1]++] = l->item[k].j;
-    w->partner[w->start[l->item[k].j + 1]++] = l->item[k].i;
-  }
-  return DYD_OK;
-}
-
 static dyd_status put_discs(FILE *out, disc_proof *w) {
   size_t count = 0;
   bool fixed;
@@ -598,7 +581,7 @@ dyd_status dyd_proof_put_discs(FILE *out, const dyd_proof *p, const dyd_pair_lis
   init_search(&w);
   w.disc = dyd_alloc(p->sites.count, sizeof *w.disc);
   for (size_t i = 0; w.disc && i < p->sites.count; i++) dyd_cert_disc_init(&w.disc[i]);
-  dyd_status st = w.disc ? deal_pairs(&w) : DYD_E_NOMEM;
+  dyd_status st = w.disc ? dyd_pairs_deal(&w.start, &w.partner, &p->pairs, p->sites.count) : DYD_E_NOMEM;
   if (st == DYD_OK) st = put_discs(out, &w);
   clear_search(&w);
   return st;

@@ -86,8 +86,7 @@ static dyd_status mark_near(bool *near, const dyd_delaunay *pd, uint32_t i) {
 }
 
 static void forget_rows(dyd_survey *s) {
-  for (size_t f = 0; f < s->faces; f++) free(s->face[f].row);
-  s->faces = s->draft.count = 0;
+  s->chosens = s->drafts = s->faces = 0;
   for (size_t i = 0; i < s->sites; i++) s->site[i].chosen = false;
 }
 
@@ -113,10 +112,10 @@ static dyd_status choose_in_faces(dyd_measuring *m, const dyd_delaunay *pd) {
   dyd_survey *s = m->s;
   dyd_status st = DYD_OK;
   for (size_t f = 0; st == DYD_OK && f < dyd_delaunay_undecided_faces(pd); f++) {
-    size_t decided, faces = s->faces;
+    size_t decided, before = s->chosens;
     st = dyd_survey_face(s, pd, f);
-    for (size_t k = 0; s->faces > faces && st == DYD_OK && k < s->face[faces].count; k++)
-      st = dyd_measuring_draft(&decided, m, s->face[faces].row[k].site);
+    for (size_t k = before; k < s->chosens && st == DYD_OK; k++)
+      st = dyd_measuring_draft(&decided, m, s->chosen[k].row.site);
   }
   return st;
 }
@@ -128,12 +127,12 @@ static dyd_status measure_rounds(dyd_measuring *m, const dyd_delaunay *pd) {
   for (int round = 0; round < ROUNDS && m->left && st == DYD_OK; round++) {
     dyd_delaunay *now = NULL;
     dyd_sites *sites = NULL;
-    size_t faces = s->faces;
-    if (faces) st = dyd_survey_triangulate(&now, &sites, s, false);
-    if (st == DYD_OK) st = choose_in_faces(m, faces ? now : pd);
+    size_t before = s->chosens;
+    if (before) st = dyd_survey_triangulate(&now, &sites, s, false);
+    if (st == DYD_OK) st = choose_in_faces(m, before ? now : pd);
     dyd_delaunay_free(now);
     dyd_sites_free(sites);
-    if (s->faces == faces) break;
+    if (s->chosens == before) break;
   }
   return st;
 }
@@ -150,24 +149,20 @@ static dyd_status choose_rounds(dyd_survey *s, const dyd_delaunay *pd) {
 
 /* Takes rows out whose sites are not chosen. */
 static void settle_rows(dyd_survey *s) {
-  for (size_t f = 0; f < s->faces; f++) {
-    dyd_face_rows *r = &s->face[f];
-    size_t kept = 0;
-    for (size_t k = 0; k < r->count; k++)
-      if (s->site[r->row[k].site].chosen) r->row[kept++] = r->row[k];
-    r->count = kept;
-  }
+  size_t kept = 0;
+  for (size_t k = 0; k < s->chosens; k++)
+    if (s->site[s->chosen[k].row.site].chosen) s->chosen[kept++] = s->chosen[k];
+  s->chosens = kept;
 }
 
 /* Sites near (NULL: all) that have a row are measured, and no coarser than the common factor says. */
 static void restore_rows(dyd_survey *s, const bool *near) {
-  for (size_t f = 0; f < s->faces; f++)
-    for (size_t k = 0; k < s->face[f].count; k++) {
-      dyd_survey_site *p = &s->site[s->face[f].row[k].site];
-      if (near && !near[s->face[f].row[k].site]) continue;
-      p->chosen = true;
-      p->coarser = 0;
-    }
+  for (size_t k = 0; k < s->chosens; k++) {
+    uint32_t site = s->chosen[k].row.site;
+    if (near && !near[site]) continue;
+    s->site[site].chosen = true;
+    s->site[site].coarser = 0;
+  }
 }
 
 /* Where more is open than the `before` that were, those near are taken back, as often as that may help; then all. */
@@ -189,14 +184,13 @@ static dyd_status restore_open(dyd_survey *s, size_t before) {
 static dyd_status unchoose_by_faces(dyd_survey *s) {
   size_t before = s->left;
   dyd_status st = DYD_OK;
-  for (size_t f = 0; f < s->faces; f++)
-    for (size_t k = 0; k < s->face[f].count && st == DYD_OK; k++) {
-      uint32_t site = s->face[f].row[k].site;
-      bool needs = false;
-      for (size_t q = s->open.start[site]; q < s->open.start[site + 1] && !needs && st == DYD_OK; q++)
-        st = dyd_survey_face_needs(&needs, s, &s->open.face[s->open.of[q]], site);
-      if (st == DYD_OK && !needs) s->site[site].chosen = false;
-    }
+  for (size_t k = 0; k < s->chosens && st == DYD_OK; k++) {
+    uint32_t site = s->chosen[k].row.site;
+    bool needs = false;
+    for (size_t q = s->open.start[site]; q < s->open.start[site + 1] && !needs && st == DYD_OK; q++)
+      st = dyd_survey_face_needs(&needs, s, &s->open.face[s->open.of[q]], site);
+    if (st == DYD_OK && !needs) s->site[site].chosen = false;
+  }
   if (st == DYD_OK) st = restore_open(s, before);
   settle_rows(s);
   return st;
@@ -206,27 +200,20 @@ static dyd_status unchoose_by_faces(dyd_survey *s) {
 static dyd_status unchoose_by_all(dyd_survey *s) {
   size_t before = s->left;
   dyd_status st = DYD_OK;
-  for (size_t f = 0; f < s->faces; f++)
-    for (size_t k = 0; k < s->face[f].count && st == DYD_OK; k++) {
-      bool *chosen = &s->site[s->face[f].row[k].site].chosen;
-      *chosen = false;
-      st = recount_left(s, NULL);
-      *chosen = s->left > before;
-    }
+  for (size_t k = 0; k < s->chosens && st == DYD_OK; k++) {
+    bool *chosen = &s->site[s->chosen[k].row.site].chosen;
+    *chosen = false;
+    st = recount_left(s, NULL);
+    *chosen = s->left > before;
+  }
   s->left = before;
   settle_rows(s);
   return st;
 }
 
-static size_t count_rows(const dyd_survey *s) {
-  size_t rows = 0;
-  for (size_t f = 0; f < s->faces; f++) rows += s->face[f].count;
-  return rows;
-}
-
 /* Removes rows that are not needed. */
 static dyd_status prune(dyd_survey *s) {
-  return count_rows(s) * s->sites <= SMALL ? unchoose_by_all(s) : unchoose_by_faces(s);
+  return s->chosens * s->sites <= SMALL ? unchoose_by_all(s) : unchoose_by_faces(s);
 }
 
 static dyd_status choose_finely_enough(dyd_survey *s, const dyd_delaunay *pd) {
@@ -263,7 +250,7 @@ static dyd_status holds_at(bool *holds, dyd_survey *s, mpq_srcptr scale) {
 /* Doubling as long as it holds, then halving the step. */
 static dyd_status loosen(dyd_survey *s) {
   mpq_t next, step;
-  bool holds = s->faces > 0;
+  bool holds = s->chosens > 0;
   dyd_status st = DYD_OK;
   mpq_inits(next, step, NULL);
   for (int k = 0; k < 64 && holds && st == DYD_OK; k++) {
@@ -272,7 +259,7 @@ static dyd_status loosen(dyd_survey *s) {
     st = holds_at(&holds, s, next);
   }
   mpq_div_2exp(step, s->scale, 1);
-  for (int k = 0; k < STEPS && s->faces && st == DYD_OK; k++) {
+  for (int k = 0; k < STEPS && s->chosens && st == DYD_OK; k++) {
     mpq_add(next, s->scale, step);
     if (s->options.accuracy || mpq_cmp_ui(next, 1, 1) < 0) st = holds_at(&holds, s, next);
     mpq_div_2exp(step, step, 1);
@@ -313,8 +300,7 @@ static dyd_status loosen_site(dyd_survey *s, uint32_t site) {
 static dyd_status loosen_each(dyd_survey *s) {
   size_t before = s->left;
   dyd_status st = DYD_OK;
-  for (size_t f = 0; f < s->faces; f++)
-    for (size_t k = 0; k < s->face[f].count && st == DYD_OK; k++) st = loosen_site(s, s->face[f].row[k].site);
+  for (size_t k = 0; k < s->chosens && st == DYD_OK; k++) st = loosen_site(s, s->chosen[k].row.site);
   return st == DYD_OK ? restore_open(s, before) : st;
 }
 
@@ -322,32 +308,30 @@ static dyd_status loosen_each(dyd_survey *s) {
 
 /* A row and the least that it or one before it in its face decides. */
 typedef struct row_rank {
-  size_t least, face, k;
+  size_t least, k;
 } row_rank;
 
 static int compare_ranks(const void *a, const void *b) {
   const row_rank *x = a, *y = b;
   if (x->least != y->least) return x->least > y->least ? -1 : 1;
-  if (x->face != y->face) return x->face < y->face ? -1 : 1;
   return (x->k > y->k) - (x->k < y->k);
 }
 
 /* The rows of all faces, always the one that decides most of those next; each face keeps its own order. A row that
  * tells more than one before it comes right after that one: so they are sorted by the least so far. */
 static dyd_status merge_rows(dyd_survey *s) {
-  size_t total = count_rows(s);
+  size_t total = s->chosens, least = SIZE_MAX;
   row_rank *rank = dyd_alloc(total, sizeof *rank);
   s->row = dyd_alloc(total, sizeof *s->row);
   dyd_status st = rank && s->row ? DYD_OK : DYD_E_NOMEM;
-  size_t n = 0;
-  for (size_t f = 0; f < s->faces && st == DYD_OK; f++)
-    for (size_t k = 0, least = SIZE_MAX; k < s->face[f].count; k++) {
-      if (s->face[f].row[k].decided < least) least = s->face[f].row[k].decided;
-      rank[n++] = (row_rank){least, f, k};
-    }
-  if (n) qsort(rank, n, sizeof *rank, compare_ranks);
-  for (; s->rows < n; s->rows++) {
-    dyd_survey_row row = s->face[rank[s->rows].face].row[rank[s->rows].k];
+  for (size_t k = 0; k < total && st == DYD_OK; k++) {
+    const dyd_face_row *c = &s->chosen[k];
+    if (k == 0 || c->face != c[-1].face || c->row.decided < least) least = c->row.decided;
+    rank[k] = (row_rank){least, k};
+  }
+  if (total && st == DYD_OK) qsort(rank, total, sizeof *rank, compare_ranks);
+  for (; s->rows < total && st == DYD_OK; s->rows++) {
+    dyd_survey_row row = s->chosen[rank[s->rows].k].row;
     row.now = dyd_survey_now(s, row.site);
     row.needed = dyd_survey_needed(s, row.site);
     s->row[s->rows] = row;
@@ -384,9 +368,9 @@ static dyd_status survey_check(const dyd_survey *s, const dyd_delaunay *pd, dyd_
 /* Work was cancelled when targets were known. */
 static dyd_status keep_draft(dyd_survey *s, dyd_error *err) {
   free(s->row);
-  s->row = s->draft.row;
-  s->rows = s->draft.count;
-  s->draft = (dyd_face_rows){0};
+  s->row = s->draft;
+  s->rows = s->drafts;
+  s->draft = NULL;
   s->left = s->rows ? s->row[s->rows - 1].left : s->target.count;
   s->cut = true;
   return dyd_fail(err, DYD_CANCELLED, "the plan is not finished: %zu of %zu pairs are open after its first %zu points",
@@ -420,16 +404,15 @@ dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_su
 
 void dyd_survey_free(dyd_survey *s) {
   if (!s) return;
-  forget_rows(s);
   for (size_t i = 0; i < s->sites; i++) {
     dyd_rect_clear(&s->site[i].rect);
     mpq_clears(s->site[i].x, s->site[i].y, s->site[i].half, NULL);
   }
   dyd_survey_index_clear(s);
   free(s->site);
-  free(s->face);
+  free(s->chosen);
   free(s->row);
-  free(s->draft.row);
+  free(s->draft);
   dyd_pair_list_clear(&s->target);
   mpq_clear(s->scale);
   free(s);

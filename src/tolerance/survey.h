@@ -15,10 +15,11 @@ typedef struct dyd_survey_site {
   unsigned coarser; /* its accuracy is that of the common factor times 2^coarser */
 } dyd_survey_site;
 
-typedef struct dyd_face_rows {
-  dyd_survey_row *row;
-  size_t count;
-} dyd_face_rows;
+/* face: in which face its site was chosen, from 0. */
+typedef struct dyd_face_row {
+  dyd_survey_row row;
+  size_t face;
+} dyd_face_row;
 
 /* Where the effect of a site is examined: the undecided faces of the triangulation, and for each site of the plan in a
  * large one, the sites near it (owner: this site; else DYD_NONE). The sites of each are ascending; those of site i are
@@ -44,12 +45,12 @@ struct dyd_survey {
   dyd_survey_faces open;
   size_t ties, left;
   mpq_t scale;
-  dyd_face_rows *face; /* of every face worked on, in the order to measure */
-  size_t faces, face_cap;
+  dyd_face_row *chosen; /* rows of one face after the other, each face in the order to measure */
+  size_t chosens, chosen_cap, faces;
   dyd_survey_row *row;
   size_t rows;
-  dyd_face_rows draft; /* sites chosen so far, in that order, counted in a triangulation of all; while work lasts */
-  size_t draft_cap;
+  dyd_survey_row *draft; /* sites chosen so far, in that order, counted in a triangulation of all; while work lasts */
+  size_t drafts, draft_cap;
   bool cut; /* cancelled: the rows are that draft */
 };
 
@@ -93,9 +94,9 @@ void dyd_measuring_end(dyd_measuring *m);
 dyd_status dyd_measuring_draft(size_t *decided, dyd_measuring *m, uint32_t i);
 
 /* survey_face.c: chooses in large faces of the triangulation, as sites are chosen now, until they are small or nothing
- * in them is open or can be measured; appends to s->face, and to the draft. */
+ * in them is open or can be measured; appends to s->chosen, and to the draft. */
 dyd_status dyd_survey_crowds(dyd_measuring *m);
-/* Chooses among the sites of face f of pd so that its targets are decided; appends to s->face. */
+/* Chooses among the sites of face f of pd so that its targets are decided; appends to s->chosen. */
 dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t f);
 /* How many targets of the face with these sites (ascending) are open as things stand. */
 dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_index_list *sites);

@@ -266,6 +266,14 @@ void dyd_survey_index_clear(dyd_survey *s) {
  * before. A pair whose status changes has an end at the site or at a possible neighbour of it [LOC-4]: only these are
  * examined. */
 
+/* Appends the next row of the face worked on. */
+static dyd_status choose_site(dyd_survey *s, uint32_t site, size_t decided) {
+  if (!dyd_reserve((void **)&s->chosen, &s->chosen_cap, s->chosens + 1, sizeof *s->chosen)) return DYD_E_NOMEM;
+  s->chosen[s->chosens++] = (dyd_face_row){{.site = site, .decided = decided}, s->faces};
+  s->site[site].chosen = true;
+  return DYD_OK;
+}
+
 dyd_status dyd_measuring_begin(dyd_measuring *m, dyd_survey *s) {
   *m = (dyd_measuring){.s = s};
   m->open = calloc(s->target.count + 1, sizeof *m->open);
@@ -327,9 +335,8 @@ dyd_status dyd_measuring_draft(size_t *decided, dyd_measuring *m, uint32_t i) {
   dyd_survey *s = m->s;
   dyd_status st = measuring_site(decided, m, i);
   if (st != DYD_OK) return st;
-  if (!dyd_reserve((void **)&s->draft.row, &s->draft_cap, s->draft.count + 1, sizeof *s->draft.row)) return DYD_E_NOMEM;
-  s->draft.row[s->draft.count++] =
-      (dyd_survey_row){i, dyd_survey_now(s, i), dyd_survey_needed(s, i), *decided, m->left};
+  if (!dyd_reserve((void **)&s->draft, &s->draft_cap, s->drafts + 1, sizeof *s->draft)) return DYD_E_NOMEM;
+  s->draft[s->drafts++] = (dyd_survey_row){i, dyd_survey_now(s, i), dyd_survey_needed(s, i), *decided, m->left};
   return DYD_OK;
 }
 
@@ -399,45 +406,32 @@ static size_t list_crowd(crowd_site *crowd, bool *mark, const dyd_measuring *m) 
 }
 
 /* Measures the first ones, except sites that are by now worth less than the last of these was: their turn comes. */
-static dyd_status measure_first(dyd_face_rows *rows, dyd_measuring *m, const crowd_site *crowd, size_t count) {
+static dyd_status measure_first(dyd_measuring *m, const crowd_site *crowd, size_t count) {
   size_t first = count / SHARE + 1 < count ? count / SHARE + 1 : count;
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < first && st == DYD_OK; k++) {
     uint32_t i = crowd[k].site;
     if (worth_of(m, i) < crowd[first - 1].worth) continue;
-    dyd_survey_row *row = &rows->row[rows->count++];
-    *row = (dyd_survey_row){.site = i};
-    m->s->site[i].chosen = true;
-    st = dyd_measuring_draft(&row->decided, m, i);
+    size_t decided;
+    st = dyd_measuring_draft(&decided, m, i);
+    if (st == DYD_OK) st = choose_site(m->s, i, decided);
   }
-  return st;
-}
-
-static dyd_status measure_crowds(dyd_face_rows *rows, dyd_measuring *m) {
-  const dyd_survey *s = m->s;
-  bool *mark = calloc(s->sites + 1, sizeof *mark);
-  crowd_site *crowd = dyd_alloc(s->sites, sizeof *crowd);
-  rows->row = dyd_alloc(s->sites, sizeof *rows->row);
-  dyd_status st = mark && crowd && rows->row ? DYD_OK : DYD_E_NOMEM;
-  for (size_t count = 1; count && st == DYD_OK;) {
-    st = mark_crowd(mark, m);
-    count = list_crowd(crowd, mark, m);
-    if (st == DYD_OK) st = measure_first(rows, m, crowd, count);
-  }
-  free(mark);
-  free(crowd);
   return st;
 }
 
 dyd_status dyd_survey_crowds(dyd_measuring *m) {
   dyd_survey *s = m->s;
-  if (!dyd_reserve((void **)&s->face, &s->face_cap, s->faces + 1, sizeof *s->face)) return DYD_E_NOMEM;
-  dyd_face_rows rows = {0};
-  dyd_status st = measure_crowds(&rows, m);
-  if (rows.count)
-    s->face[s->faces++] = rows;
-  else
-    free(rows.row);
+  bool *mark = calloc(s->sites + 1, sizeof *mark);
+  crowd_site *crowd = dyd_alloc(s->sites, sizeof *crowd);
+  dyd_status st = mark && crowd ? DYD_OK : DYD_E_NOMEM;
+  for (size_t count = 1; count && st == DYD_OK;) {
+    st = mark_crowd(mark, m);
+    count = list_crowd(crowd, mark, m);
+    if (st == DYD_OK) st = measure_first(m, crowd, count);
+  }
+  s->faces++;
+  free(mark);
+  free(crowd);
   return st;
 }
 
@@ -557,22 +551,17 @@ static dyd_status drop_sites(face_try *f) {
 
 /* The rows, in the order chosen, with the number of pairs each decides in the face. */
 static dyd_status write_rows(face_try *f) {
-  dyd_survey *s = f->s;
-  if (!f->chosen) return DYD_OK;
-  if (!dyd_reserve((void **)&s->face, &s->face_cap, s->faces + 1, sizeof *s->face)) return DYD_E_NOMEM;
-  dyd_face_rows *rows = &s->face[s->faces++];
-  *rows = (dyd_face_rows){.row = dyd_alloc(f->chosen, sizeof *rows->row)};
-  if (!rows->row) return DYD_E_NOMEM;
-  for (size_t q = 0; q < f->chosen; q++) f->measured[f->order[q]] = false;
   size_t before, after;
+  if (!f->chosen) return DYD_OK;
+  for (size_t q = 0; q < f->chosen; q++) f->measured[f->order[q]] = false;
   dyd_status st = try_face(&before, NULL, f);
   for (size_t q = 0; q < f->chosen && st == DYD_OK; q++) {
     f->measured[f->order[q]] = true;
-    s->site[f->sites.item[f->order[q]]].chosen = true;
     st = try_face(&after, NULL, f);
-    rows->row[rows->count++] = (dyd_survey_row){f->sites.item[f->order[q]], 0, 0, before - after, 0};
+    if (st == DYD_OK) st = choose_site(f->s, f->sites.item[f->order[q]], before - after);
     before = after;
   }
+  f->s->faces++;
   return st;
 }
 

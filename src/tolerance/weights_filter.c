@@ -47,17 +47,16 @@ typedef struct guess {
   guess_arc arc[MOST_SITES + 1];
 } guess;
 
-static bool guess_load(guess *g, const dyd_disc_work *w, const double *weight, bool legal) {
-  const dyd_disc *i = &w->disc[w->i];
-  double x = mpq_get_d(i->x), y = mpq_get_d(i->y);
+static bool guess_load(guess *g, const dyd_disc_work *w, bool legal) {
+  const double *i = w->about[w->i];
   g->legal = legal;
-  g->weight = weight[w->i];
+  g->weight = w->weight[w->i];
   g->count = w->count;
   if (w->count > MOST_SITES) return false;
   for (size_t k = 0; k <= w->count; k++) {
     uint32_t v = k < w->count ? w->seen[k] : w->j;
     guess_site *s = k < w->count ? &g->other[k] : &g->j;
-    *s = (guess_site){mpq_get_d(w->disc[v].x) - x, mpq_get_d(w->disc[v].y) - y, weight[v]};
+    *s = (guess_site){w->about[v][0] - i[0], w->about[v][1] - i[1], w->weight[v]};
   }
   return true;
 }
@@ -139,9 +138,9 @@ static bool guess_is_below(guess *g, double t) {
 
 /* About the t between lo and hi from which on the pair is no longer legal (or illegal) for the
  * sites that are seen, the discs of all v having radius t weight[v]. */
-static double filter_guess_weight(const dyd_disc_work *w, const double *weight, bool legal, double lo, double hi) {
+static double filter_guess_weight(const dyd_disc_work *w, bool legal, double lo, double hi) {
   guess g;
-  if (!guess_load(&g, w, weight, legal)) return lo / 2 + hi / 2;
+  if (!guess_load(&g, w, legal)) return lo / 2 + hi / 2;
   for (int k = 0; k < STEPS; k++) {
     double mid = 4 * lo >= hi ? lo + (hi - lo) / 2 : hi / 4;
     *(guess_is_below(&g, mid) ? &lo : &hi) = mid;
@@ -305,7 +304,7 @@ static dyd_truth weights_hold_at(weight_work *g, double t, bool legal) {
 static double next_try(const weight_work *g, double lo, double hi, bool legal, int guesses) {
   double middle = 4 * lo >= hi ? lo + (hi - lo) / 2 : hi / 4, off = ldexp(NEAR, guesses / 2 * 4);
   if (guesses >= GUESSES) return middle;
-  double at = filter_guess_weight(&g->discs, g->t->weight, legal, lo, hi) * (guesses % 2 ? 1 + off : 1 - off);
+  double at = filter_guess_weight(&g->discs, legal, lo, hi) * (guesses % 2 ? 1 + off : 1 - off);
   return at > lo && at < hi ? at : middle;
 }
 
