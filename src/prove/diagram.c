@@ -4,6 +4,7 @@
  * The polygons are those of the bounds in metric.h, vertex by vertex, so that no area is lost; a polygon that the
  * checker's own tests reject is not written. */
 #include "base/alloc.h"
+#include "base/index.h"
 #include "checker/checker.h"
 #include "checker/parts.h"
 #include "metric/bounds.h"
@@ -259,11 +260,6 @@ static dyd_status try_corners(bool *again, dyd_proof *p, rim *r) {
   return st;
 }
 
-static int compare_corner_sites(const void *a, const void *b) {
-  uint32_t x = ((const dyd_cert_corner *)a)->i, y = ((const dyd_cert_corner *)b)->i;
-  return (x > y) - (x < y);
-}
-
 static dyd_status rim_corners(dyd_proof *p) {
   if (!p->graph.connected || p->graph.count == 0) return DYD_OK;
   rim r = {0};
@@ -275,7 +271,7 @@ static dyd_status rim_corners(dyd_proof *p) {
     else
       dyd_proof_drop_corners(p);
   }
-  if (p->corners) qsort(p->corner, p->corners, sizeof *p->corner, compare_corner_sites);
+  if (p->corners) qsort(p->corner, p->corners, sizeof *p->corner, dyd_compare_index);
   free(r.walk);
   free(r.site);
   free(r.corner);
@@ -431,11 +427,6 @@ static bool have_joined_places(const dyd_proof *p) {
   return false;
 }
 
-static void drop_bridges(dyd_proof *p) {
-  dyd_proof_points_clear(&p->centre);
-  p->bridges.count = 0;
-}
-
 dyd_status dyd_proof_find_bridges(dyd_proof *p) {
   size_t n = p->sites.count;
   uint32_t *parent = dyd_alloc(n, sizeof *parent), *site = dyd_alloc(n, sizeof *site);
@@ -445,7 +436,8 @@ dyd_status dyd_proof_find_bridges(dyd_proof *p) {
     for (unsigned round = 0; round < 4 && st == DYD_OK && !apart; round++)
       st = try_bridges(&apart, p, parent, site, round);
     if (st == DYD_E_RANGE || (st == DYD_OK && !apart)) {
-      drop_bridges(p);
+      dyd_proof_points_clear(&p->centre);
+      p->bridges.count = 0;
       st = DYD_OK;
     }
   }

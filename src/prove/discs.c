@@ -238,8 +238,8 @@ typedef struct disc_proof {
   uint32_t *near, *chosen;
   size_t near_count, near_cap, chosen_count, chosen_cap;
   dyd_cert_caps all, some;
-  dyd_exact at[2];         /* the witness found last */
-  vector u, from, to, end; /* scratch */
+  dyd_exact at[2];               /* the witness found last */
+  vector u, from, to, end, axis; /* scratch */
   mpf_t s, t, best;
 } disc_proof;
 
@@ -277,11 +277,11 @@ static void set_float(mpf_ptr out, const dyd_exact *x) {
 }
 
 /* out = u.w - tau. */
-static void height_in_cap(mpf_ptr out, disc_proof *w, const vector *u, const dyd_cert_cap *k) {
+static void height_in_cap(mpf_ptr out, disc_proof *w, const dyd_cert_cap *k) {
   set_float(w->s, &k->wx);
-  mpf_mul(out, w->s, u->x);
+  mpf_mul(out, w->s, w->u.x);
   set_float(w->s, &k->wy);
-  mpf_mul(w->s, w->s, u->y);
+  mpf_mul(w->s, w->s, w->u.y);
   mpf_add(out, out, w->s);
   set_float(w->s, &k->tau);
   mpf_sub(out, out, w->s);
@@ -296,26 +296,22 @@ static int turn_of(disc_proof *w, const vector *a, const vector *b) {
 
 /* The end of a cap that is not empty. */
 static void end_of_cap(vector *out, disc_proof *w, const dyd_cert_cap *e, int turn) {
-  vector v;
-  mpf_inits(v.x, v.y, NULL);
-  mpf_set_prec(v.x, PRECISION);
-  mpf_set_prec(v.y, PRECISION);
+  const vector *v = &w->axis;
   set_float(w->t, &e->c);
   mpf_sqrt(w->t, w->t);
   if (turn < 0) mpf_neg(w->t, w->t);
-  set_float(v.x, &e->wx);
-  set_float(v.y, &e->wy);
+  set_float(w->axis.x, &e->wx);
+  set_float(w->axis.y, &e->wy);
   set_float(w->s, &e->tau);
-  mpf_mul(out->x, w->s, v.x);
-  mpf_mul(out->y, w->s, v.y);
-  mpf_mul(w->s, w->t, v.y);
+  mpf_mul(out->x, w->s, v->x);
+  mpf_mul(out->y, w->s, v->y);
+  mpf_mul(w->s, w->t, v->y);
   mpf_sub(out->x, out->x, w->s);
-  mpf_mul(w->s, w->t, v.x);
+  mpf_mul(w->s, w->t, v->x);
   mpf_add(out->y, out->y, w->s);
   set_float(w->s, &e->ww);
   mpf_div(out->x, out->x, w->s);
   mpf_div(out->y, out->y, w->s);
-  mpf_clears(v.x, v.y, NULL);
 }
 
 /* Makes its length 1; false: it is 0. */
@@ -356,10 +352,10 @@ static dyd_status begin_pair(bool *good, disc_proof *w, uint32_t i, uint32_t j) 
 /* ---- illegal ---- */
 
 /* The cap that holds u, and highest, as circles go: (u.w - tau) / n; false: none does. */
-static bool highest_cap(size_t *out, disc_proof *w, const vector *u, size_t from) {
+static bool highest_cap(size_t *out, disc_proof *w) {
   mpf_set_ui(w->best, 0);
-  for (size_t k = from; k < w->all.count; k++) {
-    height_in_cap(w->t, w, u, &w->all.item[k]);
+  for (size_t k = 1; k < w->all.count; k++) {
+    height_in_cap(w->t, w, &w->all.item[k]);
     set_float(w->s, &w->all.item[k].n);
     mpf_div(w->t, w->t, w->s);
     if (mpf_cmp(w->t, w->best) <= 0) continue;
@@ -370,7 +366,7 @@ static bool highest_cap(size_t *out, disc_proof *w, const vector *u, size_t from
 }
 
 /* All other sites, when those near leave a direction. */
-static dyd_status add_everybody(disc_proof *w, uint32_t i, uint32_t j) {
+static dyd_status add_all_sites(disc_proof *w, uint32_t i, uint32_t j) {
   dyd_status st = DYD_OK;
   for (uint32_t v = 0; v < w->p->sites.count && st == DYD_OK; v++)
     if (w->p->sites.site[v].alias == v) st = add_near(w, v, i, j);
@@ -396,11 +392,11 @@ static dyd_status find_caps(bool *found, disc_proof *w, uint32_t i, uint32_t j) 
     *found = dyd_cert_caps_cover(&end, &w->some);
     if (*found || end == w->some.count) break;
     end_of_cap(&w->u, w, &w->some.item[end], 1);
-    bool blocked = highest_cap(&k, w, &w->u, 1);
+    bool blocked = highest_cap(&k, w);
     if (!blocked && !all) {
-      st = add_everybody(w, i, j);
+      st = add_all_sites(w, i, j);
       all = true;
-      blocked = st == DYD_OK && highest_cap(&k, w, &w->u, 1);
+      blocked = st == DYD_OK && highest_cap(&k, w);
     }
     if (!blocked) break;
     if (st == DYD_OK) st = choose_cap(w, k);
@@ -412,12 +408,10 @@ static dyd_status find_caps(bool *found, disc_proof *w, uint32_t i, uint32_t j) 
 
 /* Cuts the arc from w->from to w->to, at most half a turn, to its part in the cap. */
 static void narrow_arc(disc_proof *w, const dyd_cert_cap *k) {
-  bool inside[2];
   vector *const ends[2] = {&w->from, &w->to};
   for (int side = 0; side < 2; side++) {
     end_of_cap(&w->end, w, k, side ? 1 : -1);
-    inside[side] = turn_of(w, &w->from, &w->end) >= 0 && turn_of(w, &w->end, &w->to) >= 0;
-    if (!inside[side]) continue;
+    if (turn_of(w, &w->from, &w->end) < 0 || turn_of(w, &w->end, &w->to) < 0) continue;
     mpf_set(ends[side]->x, w->end.x);
     mpf_set(ends[side]->y, w->end.y);
   }
@@ -459,31 +453,28 @@ static void put_rounded(dyd_exact *x, disc_proof *w, const dyd_exact *a, mpf_src
 /* The centre p_i + u / (2 h), h = (u.P_j - delta) / N_j, with as few digits as make it a witness; or *other is one too
  * near. */
 static bool round_centre(dyd_exact at[2], uint32_t *other, disc_proof *w, uint32_t i, uint32_t j) {
-  vector to;
+  vector *to = &w->end;
   long top;
   const dyd_proof *p = w->p;
   bool good = false;
-  mpf_init2(to.x, PRECISION);
-  mpf_init2(to.y, PRECISION);
   mpf_neg(w->u.x, w->u.x);
   mpf_neg(w->u.y, w->u.y);
-  height_in_cap(w->best, w, &w->u, &w->all.item[0]); /* of the opposite: u.P_j - delta */
+  height_in_cap(w->best, w, &w->all.item[0]); /* of the opposite: u.P_j - delta */
   mpf_neg(w->u.x, w->u.x);
   mpf_neg(w->u.y, w->u.y);
   set_float(w->s, &w->all.nj);
   if (mpf_sgn(w->best) > 0) {
     mpf_div(w->best, w->s, w->best);
     mpf_div_2exp(w->best, w->best, 1);
-    mpf_mul(to.x, w->u.x, w->best);
-    mpf_mul(to.y, w->u.y, w->best);
+    mpf_mul(to->x, w->u.x, w->best);
+    mpf_mul(to->y, w->u.y, w->best);
     mpf_get_d_2exp(&top, w->best);
     for (int bits = 4; bits < PRECISION && !good; bits += bits < 64 ? 4 : 32) {
-      put_rounded(&at[0], w, &w->all.i->x, to.x, top - bits);
-      put_rounded(&at[1], w, &w->all.i->y, to.y, top - bits);
+      put_rounded(&at[0], w, &w->all.i->x, to->x, top - bits);
+      put_rounded(&at[1], w, &w->all.i->y, to->y, top - bits);
       good = dyd_cert_is_disc_witness(other, &p->sites, &p->tree, w->disc, i, j, at);
     }
   }
-  mpf_clears(to.x, to.y, NULL);
   return good;
 }
 
@@ -542,7 +533,8 @@ static dyd_status each_refined(size_t *count, FILE *out, disc_proof *w) {
 /* ---- the section ---- */
 
 static void init_search(disc_proof *w) {
-  mpf_ptr all[] = {w->u.x, w->u.y, w->from.x, w->from.y, w->to.x, w->to.y, w->end.x, w->end.y, w->s, w->t, w->best};
+  mpf_ptr all[] = {w->u.x,   w->u.y,    w->from.x, w->from.y, w->to.x, w->to.y, w->end.x,
+                   w->end.y, w->axis.x, w->axis.y, w->s,      w->t,    w->best};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) mpf_init2(all[k], PRECISION);
   dyd_proof_init(w->at, 2);
   dyd_cert_caps_init(&w->all);
@@ -550,7 +542,8 @@ static void init_search(disc_proof *w) {
 }
 
 static void clear_search(disc_proof *w) {
-  mpf_clears(w->u.x, w->u.y, w->from.x, w->from.y, w->to.x, w->to.y, w->end.x, w->end.y, w->s, w->t, w->best, NULL);
+  mpf_clears(w->u.x, w->u.y, w->from.x, w->from.y, w->to.x, w->to.y, w->end.x, w->end.y, w->axis.x, w->axis.y, w->s,
+             w->t, w->best, NULL);
   dyd_cert_caps_clear(&w->all);
   dyd_cert_caps_clear(&w->some);
   for (size_t i = 0; w->disc && i < w->p->sites.count; i++) dyd_cert_disc_clear(&w->disc[i]);

@@ -72,12 +72,8 @@ static int64_t size_of_distance(const dyd_exact c[2], const dyd_cert_site *s) {
   for (int a = 0; a < 2; a++) {
     mpz_srcptr den;
     const dyd_exact *at = dyd_cert_place(&den, s, a);
-    mpz_t q;
-    mpz_init(q);
-    dyd_exact_floor(q, at, den, at->exp - 64);
-    mpz_set(d.man, q);
+    dyd_exact_floor(d.man, at, den, at->exp - 64);
     d.exp = at->exp - 64;
-    mpz_clear(q);
     dyd_exact_sub(&d, &c[a], &d);
     if (dyd_exact_top(&d) > top) top = dyd_exact_top(&d);
   }

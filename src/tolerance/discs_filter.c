@@ -135,7 +135,8 @@ static double height_d(const circle_d *c, uint32_t v) {
 }
 
 /* The visitor of trees: continues unless v is higher than the circle, and than the worst so far. */
-static bool keep_worst(circle_d *c, uint32_t v) {
+static bool keep_worst(void *context, uint32_t v) {
+  circle_d *c = context;
   double height = is_seen(c->at.w, v) ? -HUGE_VAL : height_d(c, v);
   if (!(height > c->highest)) return true;
   c->worst = v;
@@ -234,15 +235,11 @@ static bool see_worst(circle_d *c) {
   return c->worst != DYD_NONE && dyd_discs_see(c->at.w, c->worst);
 }
 
-static bool meet_beyond(void *context, uint32_t v) {
-  return keep_worst(context, v);
-}
-
 /* Far circles: all discs beyond the tangent of i, about. */
 static void look_beyond(circle_d *c) {
   const double *i = c->at.w->about[c->at.w->i];
   double height = c->u.x * i[0] + c->u.y * i[1];
-  dyd_tree_beyond(&c->at.w->pd->sk.rects.tree, c->u.x, c->u.y, &height, meet_beyond, c);
+  dyd_tree_beyond(&c->at.w->pd->sk.rects.tree, c->u.x, c->u.y, &height, keep_worst, c);
 }
 
 /* ---- one pair ---- */

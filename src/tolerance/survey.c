@@ -211,11 +211,6 @@ static dyd_status unchoose_by_all(dyd_survey *s) {
   return st;
 }
 
-/* Removes rows that are not needed. */
-static dyd_status prune(dyd_survey *s) {
-  return s->chosens * s->sites <= SMALL ? unchoose_by_all(s) : unchoose_by_faces(s);
-}
-
 static dyd_status choose_finely_enough(dyd_survey *s, const dyd_delaunay *pd) {
   dyd_status st = DYD_OK;
   mpq_set_ui(s->scale, 1, 1);
@@ -343,7 +338,7 @@ static dyd_status merge_rows(dyd_survey *s) {
 /* The plan made small, and its accuracies coarse; then its rows. */
 static dyd_status simplify(dyd_survey *s, const dyd_delaunay *pd) {
   dyd_status st = dyd_survey_index_faces(s, pd);
-  if (st == DYD_OK) st = prune(s);
+  if (st == DYD_OK) st = s->chosens * s->sites <= SMALL ? unchoose_by_all(s) : unchoose_by_faces(s);
   if (st == DYD_OK) st = loosen(s);
   if (st == DYD_OK) st = loosen_each(s);
   if (st == DYD_OK) st = merge_rows(s);
