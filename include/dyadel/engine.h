@@ -149,9 +149,9 @@ typedef struct dyd_engine_options {
    * so many bits for each proof; 0: default 2^17. */
   int64_t tie_bits;
   bool no_ties;
-  /* What asking each point once more costs, above 0; NULL: what its row said (dyd_engine_cost). The adaptive schedule
-   * lets points wait that cost more than twice as much as the cheapest of those that a face wants narrower, until as
-   * much was spent beside them. dyd_engine_count(e) numbers, borrowed during the run. */
+  /* What asking each point once more costs, above 0; NULL: what its row said (DYD_ROW_COST of io.h). The adaptive
+   * schedule lets points wait that cost more than twice as much as the cheapest of those that a face wants narrower,
+   * until as much was spent beside them. dyd_engine_count(e) numbers, borrowed during the run. */
   const double *cost;
   /* Memory that the engine may hold while it works, points included, by its own estimate; 0: no bound. Before more is
    * asked for (half-edges, faces, pairs, sums of the bounds, digits of the points, proofs of ties) the run ends with
@@ -235,13 +235,6 @@ DYD_API size_t dyd_engine_count(const dyd_engine *e);
 DYD_API size_t dyd_engine_row(const dyd_engine *e, size_t i);
 /* Its identifier, "" without one; NULL: no point has one. Terminated, any bytes; borrowed until points are added. */
 DYD_API const char *dyd_engine_id(const dyd_engine *e, size_t i);
-/* What measuring point i once more costs, as its row said (dyd_read_options.cost_column); 1 where none did. */
-DYD_API double dyd_engine_cost(const dyd_engine *e, size_t i);
-/* The radius in its row that is not in its rectangle (dyd_read_options.degrees, keep_radii), rounded up; 0 where there
- * is none. */
-DYD_API double dyd_engine_radius(const dyd_engine *e, size_t i);
-/* The standard deviation of its errors, as its row said (dyd_read_options.sigma_column); 0 where none did. */
-DYD_API double dyd_engine_sigma(const dyd_engine *e, size_t i);
 /* The k-th row, ascending, that was taken as one with an earlier one, and the point that stands for both; false: there
  * are no more. */
 DYD_API bool dyd_engine_merged(size_t *row, size_t *point, const dyd_engine *e, size_t k);

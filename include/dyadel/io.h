@@ -45,16 +45,40 @@ typedef struct dyd_read_options {
   /* x and y are longitude and latitude: a latitude beyond 90 degrees is an error with its line and column, columns
    * whose names say the other order are DYD_E_ARG, and so are radii in a column without a unit: "30m", "2 km", that of
    * radius_unit, or that in the column's name ("sde(m)", "s [mm]", "accuracyInMeters"). Lengths are no part of the
-   * rectangle, but kept in metres (dyd_engine_radius). */
+   * rectangle, but kept in metres (DYD_ROW_RADIUS). */
   bool degrees;
-  const char *cost_column;  /* "NAME": what measuring a point once more costs (dyd_engine_cost) */
-  const char *sigma_column; /* "NAME": the standard deviation of a point's errors (dyd_engine_sigma) */
-  bool keep_radii;          /* radii in a column do not widen points, but are kept (dyd_engine_radius) */
+  const char *cost_column;  /* "NAME": the cost of measuring a point again (DYD_ROW_COST) */
+  const char *sigma_column; /* "NAME": the standard deviation of a point's errors (DYD_ROW_SIGMA) */
+  bool keep_radii;          /* radii in a column do not widen points, but are kept (DYD_ROW_RADIUS) */
   /* "m", "mm", "cm", "km", "ft", "in", "deg", "arcmin" or "arcsec": the unit of radii without one; with `degrees` only,
    * as in the plane radii are in the unit of the coordinates. NULL: none. */
   const char *radius_unit;
   const char *radius_scale; /* an exact number above 0 that all radii are multiplied by; NULL: 1 */
 } dyd_read_options;
+
+/* A field of dyd_read_options but struct_size and report, for programs that set fields by name or look at all. */
+typedef struct dyd_read_field {
+  size_t struct_size; /* set by the library */
+  const char *name;   /* "radius_columns" */
+  size_t offset;      /* in dyd_read_options: of a bool, or of a const char * that NULL does not set */
+  bool flag;          /* it is a bool */
+  bool table;         /* needs `columns`: it is about the columns of a table, or what separates them */
+  bool points;        /* decides which points a text holds: the same text with another value may hold others */
+  bool text;          /* says how a text is read: it means nothing for points that come from elsewhere */
+} dyd_read_field;
+/* Returns field k, from 0; NULL after the last. *value (unless NULL) becomes what options say: the text, "true" for a
+ * bool that is set, NULL for what is not set, and for options NULL. Borrowed. O(1) */
+DYD_API const dyd_read_field *dyd_read_field_at(const char **value, const dyd_read_options *options, size_t k);
+
+/* A number in the row of a point, beside its coordinates. */
+typedef enum dyd_row_number {
+  DYD_ROW_COST,   /* of measuring the point again (dyd_read_options.cost_column); 1 where the row has none */
+  DYD_ROW_RADIUS, /* that does not widen its rectangle (degrees, keep_radii), rounded up; 0 where the row has none */
+  DYD_ROW_SIGMA,  /* the standard deviation of its errors (sigma_column); 0 where the row has none */
+  DYD_ROW_NUMBERS
+} dyd_row_number;
+/* Returns this number of point i. O(1) */
+DYD_API double dyd_engine_number(const dyd_engine *e, size_t i, dyd_row_number which);
 
 /* Reads points from `in` up to its end and adds them to e (nothing is added on failure). What gzip or zstd packed is
  * read as it is. options may be NULL.

@@ -37,7 +37,7 @@ typedef struct dyd_sphere_options {
  * never run; borrowed until dyd_sphere_free, and not to be changed. options may be NULL. Streams are narrowed to 32
  * bits. Where each point may be the same as another one, or radii are wide, so that a point would widen all images,
  * a place between points is projected from, if there is one: then pairs around that may stay open [SPH-5]. A point
- * whose row has a radius in metres (dyd_engine_radius) lies within it, in addition to options. DYD_E_ARG: a radius
+ * whose row has a radius in metres (DYD_ROW_RADIUS of io.h) lies within it, in addition to options. DYD_E_ARG: a radius
  * in the options that is not understood, has no unit, or is larger than that of the earth. DYD_E_DOMAIN, with the point
  * where it is one: a latitude beyond 90 degrees, points that leave no place of the sphere free. O(N log N). */
 DYD_API dyd_status dyd_sphere_new(dyd_sphere **out, dyd_engine *places, const dyd_sphere_options *options,

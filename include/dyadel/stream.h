@@ -69,8 +69,8 @@ typedef struct dyd_source {
   dyd_release_fn release;
   void *user;
   dyd_announce_fn announce;
-  /* What asking each of its points once more costs, above 0 (dyd_engine_cost): the adaptive schedule asks cheap ones
-   * before dear ones. Borrowed, and read by the call that adds the source to an engine only. */
+  /* What asking each of its points once more costs, above 0 (DYD_ROW_COST of io.h): the adaptive schedule asks cheap
+   * ones before dear ones. Borrowed, and read by the call that adds the source to an engine only. */
   const double *cost;
 } dyd_source;
 

@@ -22,27 +22,25 @@ static int oracle_add(dyd_engine *e, dyd_oracle *oracle) {
   return CLI_FAILED;
 }
 
-/* Adds the points that the programs of --oracle serve. 0, or an exit status after a message. */
-static int session_read_oracle(dyd_engine *e, const cli_options *o) {
-  const dyd_read_options *r = &o->read;
-  const char *no = r->columns          ? "--columns"
-                   : r->measured       ? "--measured"
-                   : r->radius         ? "--radius"
-                   : r->radius_columns ? "--radius-column"
-                   : r->radius_unit    ? "--radius-unit"
-                   : r->radius_scale   ? "--radius-scale"
-                   : r->id             ? "--id"
-                   : r->delimiter      ? "--delimiter"
-                   : r->decimal_comma  ? "--decimal-comma"
-                   : r->skip_missing   ? "--skip-missing"
-                   : r->merge          ? "--merge"
-                   : r->cost_column    ? "--cost-column"
-                                       : NULL;
-  if (no) {
-    cli_complain("%s is for points files; leave it out, and let the oracle %s", no,
-                 strcmp(no, "--cost-column") ? "answer with what you mean" : "begin with \"points N cost C ... C\"");
+/* Options that say how a text is read mean nothing for the answers of a program. */
+static int oracle_refuse(const dyd_read_options *read) {
+  const dyd_read_field *field;
+  const char *value;
+  for (size_t k = 0; (field = dyd_read_field_at(&value, read, k)); k++) {
+    if (!value || !field->text) continue;
+    cli_complain("`%s` is for points files; leave it out, and %s", field->name,
+                 strcmp(field->name, "cost_column") == 0    ? "let the oracle begin with \"points N cost C ... C\""
+                 : strcmp(field->name, "sigma_column") == 0 ? "give --sigma"
+                                                            : "let the oracle answer with what you mean");
     return CLI_USAGE;
   }
+  return 0;
+}
+
+/* Adds the points that the programs of --oracle serve. 0, or an exit status after a message. */
+static int session_read_oracle(dyd_engine *e, const cli_options *o) {
+  int status = oracle_refuse(&o->read);
+  if (status) return status;
   dyd_oracle *oracle = NULL;
   dyd_error err;
   dyd_error_clear(&err);
@@ -52,7 +50,7 @@ static int session_read_oracle(dyd_engine *e, const cli_options *o) {
     cli_complain("%s", err.message);
     return CLI_FAILED;
   }
-  int status = oracle_add(e, oracle);
+  status = oracle_add(e, oracle);
   dyd_oracle_free(oracle);
   return status;
 }
@@ -140,8 +138,8 @@ static uint64_t digest_bytes(uint64_t digest, const char *byte, size_t count) {
 
 /* FNV-1a of the points file and of what says which points are in it. false: it cannot be read twice. */
 static bool digest_input(char text[17], const cli_options *o) {
-  const char *const words[] = {o->read.columns,     o->read.radius,       o->read.radius_columns,
-                               o->read.radius_unit, o->read.radius_scale, o->read.delimiter};
+  const dyd_read_field *field;
+  const char *value;
   uint64_t digest = 14695981039346656037u;
   char part[4096];
   size_t count;
@@ -150,8 +148,11 @@ static bool digest_input(char text[17], const cli_options *o) {
   while ((count = fread(part, 1, sizeof part, in)) > 0) digest = digest_bytes(digest, part, count);
   bool good = !ferror(in);
   fclose(in);
-  for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-    if (words[k]) digest = digest_bytes(digest, words[k], strlen(words[k]) + 1);
+  for (size_t k = 0; (field = dyd_read_field_at(&value, &o->read, k)); k++) {
+    if (!value || !field->points) continue;
+    digest = digest_bytes(digest, field->name, strlen(field->name) + 1);
+    digest = digest_bytes(digest, value, strlen(value) + 1);
+  }
   snprintf(text, 17, "%016llx", (unsigned long long)digest);
   return good;
 }

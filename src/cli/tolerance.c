@@ -5,10 +5,10 @@
 #include <stdlib.h>
 
 /* A number of each point, as its row says. NULL: memory is exhausted. */
-static double *of_each_point(const dyd_engine *e, double (*number)(const dyd_engine *e, size_t i)) {
+static double *of_each_point(const dyd_engine *e, dyd_row_number which) {
   size_t n = dyd_engine_count(e);
   double *out = malloc((n + 1) * sizeof *out);
-  for (size_t i = 0; out && i < n; i++) out[i] = number(e, i);
+  for (size_t i = 0; out && i < n; i++) out[i] = dyd_engine_number(e, i, which);
   return out;
 }
 
@@ -54,8 +54,8 @@ static int tolerance_begin(cli_session *s) {
 static int tolerance_columns(cli_session *s) {
   tolerance_run *r = s->state;
   const dyd_read_options *read = &s->o.read;
-  if (read->radius_columns) r->weight = of_each_point(s->engine, dyd_engine_radius);
-  if (read->sigma_column) r->sigmas = of_each_point(s->engine, dyd_engine_sigma);
+  if (read->radius_columns) r->weight = of_each_point(s->engine, DYD_ROW_RADIUS);
+  if (read->sigma_column) r->sigmas = of_each_point(s->engine, DYD_ROW_SIGMA);
   bool good = !r->weight == !read->radius_columns && !r->sigmas == !read->sigma_column;
   return good ? 0 : cli_complain_memory();
 }
@@ -247,7 +247,7 @@ static dyd_status plan_run_engine(cli_session *s, const dyd_engine_options *opti
   plan_run *r = s->state;
   dyd_status st = cli_run_engine(s, options, err);
   if (st != DYD_OK || !cli_run_was_whole(s->engine)) return st;
-  r->cost = of_each_point(s->engine, dyd_engine_cost);
+  r->cost = of_each_point(s->engine, DYD_ROW_COST);
   if (!r->cost) return DYD_E_NOMEM;
   const dyd_survey_options how = {DYD_SIZED(dyd_survey_options),
                                   .pairs = s->o.pairs ? &r->pairs : NULL,

@@ -104,20 +104,8 @@ const char *dyd_engine_id(const dyd_engine *e, size_t i) {
   return i < l->points ? l->text + l->id[i] : "";
 }
 
-static double row_number_of(const dyd_engine *e, size_t i, dyd_row_number which) {
+double dyd_engine_number(const dyd_engine *e, size_t i, dyd_row_number which) {
   return (e && i < e->labels.points ? e->labels.number[i] : dyd_no_row_numbers).of[which];
-}
-
-double dyd_engine_cost(const dyd_engine *e, size_t i) {
-  return row_number_of(e, i, DYD_ROW_COST);
-}
-
-double dyd_engine_radius(const dyd_engine *e, size_t i) {
-  return row_number_of(e, i, DYD_ROW_RADIUS);
-}
-
-double dyd_engine_sigma(const dyd_engine *e, size_t i) {
-  return row_number_of(e, i, DYD_ROW_SIGMA);
 }
 
 bool dyd_engine_merged(size_t *row, size_t *point, const dyd_engine *e, size_t k) {

@@ -4,14 +4,13 @@
 #ifndef DYD_ENGINE_LABELS_H
 #define DYD_ENGINE_LABELS_H
 
-#include <dyadel/engine.h>
+#include <dyadel/io.h>
 
-/* What stands in a row besides, and what stands for it where it does not. */
-typedef enum dyd_row_number { DYD_ROW_COST, DYD_ROW_RADIUS, DYD_ROW_SIGMA, DYD_ROW_NUMBERS } dyd_row_number;
+/* The numbers of a row; without any: a cost of 1, the others 0. */
 typedef struct dyd_row_numbers {
   double of[DYD_ROW_NUMBERS];
 } dyd_row_numbers;
-static const dyd_row_numbers dyd_no_row_numbers = {{1, 0, 0}};
+static const dyd_row_numbers dyd_no_row_numbers = {{[DYD_ROW_COST] = 1}};
 
 /* A row that was taken as one with the row of a point. */
 typedef struct dyd_merged_row {

@@ -7,6 +7,7 @@
  * The cheapest never wait, so a plan is empty only where it was. Like all of the schedule this only chooses what to
  * narrow. */
 #include "engine/thrift.h"
+#include <dyadel/io.h>
 
 #include "base/alloc.h"
 #include "engine/points.h"
@@ -17,7 +18,7 @@
 #define DEAR 2
 
 static double thrift_cost(const dyd_plan *p, uint32_t site) {
-  return p->o->cost ? p->o->cost[site] : dyd_engine_cost(p->e, site);
+  return p->o->cost ? p->o->cost[site] : dyd_engine_number(p->e, site, DYD_ROW_COST);
 }
 
 bool dyd_thrift_costs_are_good(const dyd_engine *e, const dyd_engine_options *o) {

@@ -4,6 +4,7 @@
 #include "prove/proof.h"
 #include "rect/rect.h"
 #include "sphere/state.h"
+#include <dyadel/io.h>
 #include <inttypes.h>
 
 static dyd_status put_interval(FILE *out, const dyd_interval *a) {
@@ -84,7 +85,7 @@ static dyd_status put_stated_place(FILE *out, const dyd_sphere *s, uint32_t i, d
   if (st == DYD_OK) st = put_interval(out, &r->x);
   putc(' ', out);
   if (st == DYD_OK) st = put_interval(out, &r->y);
-  if (st == DYD_OK) st = put_metres(out, dyd_engine_radius(s->places, i));
+  if (st == DYD_OK) st = put_metres(out, dyd_engine_number(s->places, i, DYD_ROW_RADIUS));
   if (s->alias[i] != i) dyd_proof_put(out, " = %i", s->alias[i]);
   putc('\n', out);
   return st;

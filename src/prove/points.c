@@ -13,6 +13,7 @@
 #include "sphere/state.h"
 #include "tolerance/discs.h"
 #include "tolerance/lines.h"
+#include <dyadel/io.h>
 
 /* The question put to the engine. found[i]: point i lies in the rectangle of its site; wrong: one that does not. */
 typedef struct location {
@@ -221,7 +222,7 @@ static dyd_status compare_metres(const dyd_checker *c, const dyd_engine *e) {
   bool same = true;
   mpq_inits(given, stated, NULL);
   for (; i < c->globe.place.count && same; i++) {
-    mpq_set_d(given, dyd_engine_radius(e, i));
+    mpq_set_d(given, dyd_engine_number(e, i, DYD_ROW_RADIUS));
     dyd_cert_exact_to_q(stated, &c->globe.metres[i], NULL);
     same = mpq_equal(given, stated);
   }

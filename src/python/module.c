@@ -293,9 +293,7 @@ static PyMethodDef engine_methods[] = {
      "append_boxes(xlo, xhi, ylo, yhi): contiguous arrays of doubles"},
     {"append_values", dydpy_append_values, METH_VARARGS, "append_values([(x, y), ...], [(rx, ry), ...] or None)"},
     {"append_source", dydpy_append_source, METH_VARARGS, "append_source(n, narrow)"},
-    {"append_text", dydpy_append_text, METH_VARARGS,
-     "append_text(bytes, columns, measured, radius, radius_columns, id, delimiter, decimal_comma, skip_missing, "
-     "merge, radius_unit, radius_scale, degrees)"},
+    {"append_text", dydpy_append_text, METH_VARARGS, "append_text(bytes, options): fields of dyd_read_options by name"},
     {"remeasure", dydpy_remeasure, METH_VARARGS, "remeasure(i, (xlo, xhi, ylo, yhi))"},
     {"recall", dydpy_recall, METH_VARARGS, "recall(path) -> int: answers taken from a trace"},
     {"trace_begin", dydpy_trace_begin, METH_VARARGS, "trace_begin(path, options, (window, no_voronoi) or None)"},

@@ -460,22 +460,36 @@ PyObject *dydpy_append_source(PyObject *self, PyObject *args) {
   return dydpy_end_none(&c, dyd_engine_append_source(c.self->engine, (size_t)count, &source, &c.err));
 }
 
-/* append_text(text, options): what a points file holds */
+/* Sets the field to what dict holds under its name, borrowed; *given counts such fields. -1 with an exception set. */
+static int read_option_set(dyd_read_options *o, Py_ssize_t *given, const dyd_read_field *field, PyObject *dict) {
+  PyObject *value = PyDict_GetItemString(dict, field->name);
+  char *at = (char *)o + field->offset;
+  if (!value) return 0;
+  ++*given;
+  if (value == Py_None) return 0;
+  if (field->flag) {
+    int truth = PyObject_IsTrue(value);
+    *(bool *)at = truth > 0;
+    return truth < 0 ? -1 : 0;
+  }
+  const char *text = PyUnicode_AsUTF8AndSize(value, NULL);
+  memcpy(at, &text, sizeof text);
+  return text ? 0 : -1;
+}
+
+/* append_text(text, options): what a points file holds; options has fields of dyd_read_options by name */
 PyObject *dydpy_append_text(PyObject *self, PyObject *args) {
   dyd_read_options o = {DYD_SIZED(dyd_read_options)};
+  const dyd_read_field *field;
   const char *text;
-  Py_ssize_t length;
-  int measured, decimal_comma, skip_missing, merge, degrees;
+  Py_ssize_t length, given = 0;
+  PyObject *options;
   dydpy_call c;
-  if (!PyArg_ParseTuple(args, "y#zpzzzzpppzzp", &text, &length, &o.columns, &measured, &o.radius, &o.radius_columns,
-                        &o.id, &o.delimiter, &decimal_comma, &skip_missing, &merge, &o.radius_unit, &o.radius_scale,
-                        &degrees))
-    return NULL;
-  o.measured = measured;
-  o.decimal_comma = decimal_comma;
-  o.skip_missing = skip_missing;
-  o.merge = merge;
-  o.degrees = degrees;
+  if (!PyArg_ParseTuple(args, "y#O!", &text, &length, &PyDict_Type, &options)) return NULL;
+  for (size_t k = 0; (field = dyd_read_field_at(NULL, NULL, k)); k++)
+    if (read_option_set(&o, &given, field, options) < 0) return NULL;
+  if (given != PyDict_Size(options))
+    return PyErr_Format(PyExc_TypeError, "unknown reading options in %R; see help(dyadel.Text)", options);
   if (!dydpy_begin(&c, self, 0)) return NULL;
   return dydpy_end_none(&c, dyd_engine_append_text(c.self->engine, text, (size_t)length, &o, &c.err));
 }

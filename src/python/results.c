@@ -292,6 +292,31 @@ static PyObject *tolerance_found(const dyd_tolerance *t, size_t points) {
                        doubles_or_none(dyd_tolerance_chances(t), rows));
 }
 
+/* *out becomes the numbers of all points, the caller's; NULL where each is 0. DYD_E_NOMEM. */
+static dyd_status row_numbers(double **out, const dyd_engine *e, dyd_row_number which) {
+  size_t n = dyd_engine_count(e);
+  bool any = false;
+  double *number = malloc((n + 1) * sizeof *number);
+  if (!number) return DYD_E_NOMEM;
+  for (size_t i = 0; i < n; i++) any |= (number[i] = dyd_engine_number(e, i, which)) > 0;
+  *out = any ? number : NULL;
+  if (!any) free(number);
+  return DYD_OK;
+}
+
+/* Standard deviations and weights are those that the rows of a text gave. */
+static dyd_status tolerance_new(dyd_tolerance **out, dydpy_call *c, dyd_tolerance_options *o) {
+  double *weight = NULL, *sigmas = NULL;
+  dyd_status st = row_numbers(&weight, c->self->engine, DYD_ROW_RADIUS);
+  if (st == DYD_OK && o->sigma == 0) st = row_numbers(&sigmas, c->self->engine, DYD_ROW_SIGMA);
+  o->weight = weight;
+  o->sigmas = sigmas;
+  if (st == DYD_OK) st = dyd_tolerance_new(out, c->pd, o, &c->err);
+  free(weight);
+  free(sigmas);
+  return st;
+}
+
 PyObject *dydpy_tolerance(PyObject *self, PyObject *args) {
   PyObject *up_to, *found = NULL;
   int points, box;
@@ -301,16 +326,16 @@ PyObject *dydpy_tolerance(PyObject *self, PyObject *args) {
   dyd_tolerance *t = NULL;
   dydpy_call c;
   if (!PyArg_ParseTuple(args, "Opndp", &up_to, &points, &max_pairs, &sigma, &box)) return NULL;
-  const dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options),
-                                   .points = points,
-                                   .max_pairs = (size_t)max_pairs,
-                                   .sigma = sigma,
-                                   .metric = box ? DYD_METRIC_BOX : DYD_METRIC_EUCLID,
-                                   .up_to = up_to == Py_None ? NULL : most,
-                                   .cancel = &c.cancel};
+  dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options),
+                             .points = points,
+                             .max_pairs = (size_t)max_pairs,
+                             .sigma = sigma,
+                             .metric = box ? DYD_METRIC_BOX : DYD_METRIC_EUCLID,
+                             .up_to = up_to == Py_None ? NULL : most,
+                             .cancel = &c.cancel};
   mpq_init(most);
   if ((up_to == Py_None || dydpy_rational(most, up_to) == 0) && dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_CANCELS) &&
-      dydpy_end(&c, dyd_tolerance_new(&t, c.pd, &o, &c.err)))
+      dydpy_end(&c, tolerance_new(&t, &c, &o)))
     found = tolerance_found(t, dyd_engine_count(c.self->engine));
   dyd_tolerance_free(t);
   mpq_clear(most);

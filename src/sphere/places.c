@@ -3,6 +3,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "sphere/state.h"
+#include <dyadel/io.h>
 #include <string.h>
 
 dyd_status dyd_sphere_stated(dyd_rect *out, const dyd_sphere *s, uint32_t i) {
@@ -13,7 +14,7 @@ dyd_status dyd_sphere_stated(dyd_rect *out, const dyd_sphere *s, uint32_t i) {
 
 /* All within this angle, in radians, of a place of the rectangle are meant. */
 static void place_angle(mpq_ptr out, const dyd_sphere *s, uint32_t i) {
-  double metres = dyd_engine_radius(s->places, i);
+  double metres = dyd_engine_number(s->places, i, DYD_ROW_RADIUS);
   mpq_set_d(out, metres > 0 ? metres : 0);
   mpq_mul(out, out, s->metre);
   mpq_add(out, out, s->angle);
@@ -43,7 +44,7 @@ dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_e
 static bool place_is_plain(double box[4], const dyd_sphere *s, uint32_t i) {
   const dyd_sites *sites = dyd_engine_sites(s->places);
   if (!dyd_sphere_is_fixed(s, i) || !dyd_sites_is_point(sites, i) || mpq_sgn(s->degrees) || mpq_sgn(s->angle) ||
-      dyd_engine_radius(s->places, i) > 0)
+      dyd_engine_number(s->places, i, DYD_ROW_RADIUS) > 0)
     return false;
   dyd_sites_get_d(box, sites, i);
   return box[0] > -180 && box[1] < 180 && box[2] > -90 && box[3] < 90;

@@ -8,6 +8,7 @@
 #include "engine/ties.h"
 #include "sphere/state.h"
 #include "sphere/units.h"
+#include <dyadel/io.h>
 #include <string.h>
 
 enum { FIRST_BITS = 32, START_BITS = 40 };
@@ -37,7 +38,7 @@ static dyd_status images_label(const dyd_sphere *s) {
   for (size_t k = 0; k < s->with_image && good; k++) {
     const char *id = dyd_engine_id(s->places, s->of[k]);
     dyd_row_numbers own = dyd_no_row_numbers;
-    own.of[DYD_ROW_COST] = dyd_engine_cost(s->places, s->of[k]);
+    own.of[DYD_ROW_COST] = dyd_engine_number(s->places, s->of[k], DYD_ROW_COST);
     labels.rows = dyd_engine_row(s->places, s->of[k]);
     good = dyd_labels_add(&labels, id, id ? strlen(id) : 0, &own);
   }

@@ -304,7 +304,8 @@ def test_refused():
         f.write('other.txt', POINTS.replace('sqrt(2)', 'sqrt(5)'))
         refuse(good, 'a trace of 11 points, and there are 12', line=1, points='more.txt')
         refuse(good, 'another input', line=1, points='other.txt')
-        refuse(good, 'another input', '--radius', '0.5', line=1)
+        for option in ('--radius=0.5', '--measured', '--decimal-comma', '--skip-missing', '--merge'):
+            refuse(good, 'another input', option, line=1)
         refuse(['{}'], 'no trace of the format')
         refuse([''], 'no JSON|no trace')
         refuse(good[:1] + ['nonsense', good[first]], 'no JSON object', line=2)
@@ -320,6 +321,29 @@ def test_refused():
         expect(f.run('delaunay', '--resume', 'good', '--trace', 'good', 'points.txt'), 2, err='is the file that is read')
         expect(f.run('delaunay', '--trace', 'no/trace', 'points.txt'), 1, err='cannot write.*choose another place')
         expect(f.run('check', '--resume', 'good', 'points.txt'), 2, err='check does not take --resume')
+
+
+def test_reading_options():
+    """A trace goes with the options that its points were read by. Those that say nothing of the points may change."""
+    table = 'a,b,c,n\n' + ''.join(f'sqrt({k}),{k * k % 7},{k % 3 + 1},p{k}\n' for k in range(2, 9))
+    points = {'--measured': (), '--skip-missing': (), '--merge': (), '--decimal-comma': (), '--delimiter': (',',),
+              '--radius': ('1/1000',), '--radius-column': ('c',), '--radius-scale': ('1/5000',)}
+    names = {'--id': ('n',), '--cost-column': ('c',)}
+    with Folder() as f:
+        f.write('t.csv', table)
+        def ask(*options):
+            return f.run('delaunay', '--columns', 'a,b', 't.csv', '--quiet', '--ties', 'off', '--max-bits', '200', *options)
+        for option, value in {**points, **names}.items():
+            whole = ask(option, *value, '--trace', 'whole')
+            again = ask(option, *value, '--resume', 'whole')
+            assert (again.code, again.out) == (whole.code, whole.out) and whole.code in (0, 3, 4), (option, again)
+            other = ask('--resume', 'whole')
+            if option in points:
+                expect(other, 1, r'\A\Z', 'whole:1:1: this is the trace of another input')
+            else:
+                assert other.code == whole.code, (option, other)
+        ask('--radius', '1/8', '--trace', 'whole')
+        expect(ask('--radius-scale', '1/8', '--resume', 'whole'), 1, r'\A\Z', 'the trace of another input')
 
 
 main(globals())

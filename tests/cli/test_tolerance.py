@@ -209,6 +209,8 @@ def test_sigma_column():
         expect(run('tolerance', '--columns', 'x,y', '--sigma-column', 's', '-', stdin=f'x,y,s\n0,0,1\n1,0,{wrong}\n'), 1, r'\A\Z', r'-:3:5: the standard deviation is not an exact number above 0; give')
     expect(run('tolerance', '--columns', 'x,y', '--sigma-column', 's', '--sigma', '1', '-', stdin='x,y,s\n'), 2, r'\A\Z', 'contradict each other')
     expect(run('tolerance', '--sigma-column', 's', '-', stdin='0 0\n'), 2, r'\A\Z', '--sigma-column is about columns')
+    expect(run('tolerance', '--sigma-column', 's', '--oracle', 'echo points 0'), 2, r'\A\Z',
+           '--sigma-column is for points files; leave it out, and give --sigma')
 
 
 def test_weights():

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Costs of points: what is spent with and without them, and that nothing else depends on them. */
 #include "engine/help.h"
+#include <dyadel/io.h>
 
 #include <math.h>
 #include <string.h>
@@ -159,7 +160,7 @@ static void test_costs_of_sources(void **state) {
   }
   assert_int_equal(6, dyd_engine_count(e));
   for (size_t k = 0; k < 6; k++) {
-    assert_true(dyd_engine_cost(e, k) == told[k]);
+    assert_true(dyd_engine_number(e, k, DYD_ROW_COST) == told[k]);
     assert_int_equal(k, dyd_engine_row(e, k));
     assert_null(dyd_engine_id(e, k));
   }

@@ -52,6 +52,32 @@ def test_airports():
     assert np.array_equal(dyadel.delaunay(wide.boxes).pairs, wide.pairs), 'boxes are input again'
 
 
+def test_reading_options():
+    """Every field of dyd_read_options that the command has is one of Text: it acts as there, and as in other calls."""
+    table = 'x,y,c,s,w,n\n' + ''.join(f'"sqrt({k})","cbrt({k * k + 1})",{1 + 9 * (k % 3)},0.{k % 4 + 1},{k % 3},p{k}\n' for k in range(2, 14))
+    costs = [1 + 9 * (k % 3) for k in range(2, 14)]
+    def work(*points, **options):
+        counters = dyadel.delaunay(*points, start_bits=2, **options).counters
+        return {name: value for name, value in counters.items() if 'seconds' not in name}
+    told = work(dyadel.Text(table, 'x,y', cost_column='c'))
+    assert told == work(dyadel.Text(table, 'x,y'), cost=costs) != work(dyadel.Text(table, 'x,y'))
+    exact = 'x,y,s,w\n' + ''.join(f'{x},{y},0.25,{x + 1}\n' for x, y in [(0, 0), (4, 0), (5, 3), (1, 4), (2, 1)])
+    def tolerance(*names, **options):
+        table = dyadel.tolerance(dyadel.Text(exact, 'x,y', **options), **({'sigma': 0.25} if 'sigma' in names else {}))
+        return {name: table[name].tolist() for name in table}
+    assert tolerance(sigma_column='s') == tolerance('sigma') != tolerance()
+    for twice in (1, 2):  # twice the weights: half the motion
+        scaled = tolerance(radius_columns='w', keep_radii=True, radius_scale=str(twice))
+        assert scaled['lo'] != tolerance()['lo'] and scaled['event'].count('death') == tolerance()['event'].count('death')
+        lo = [v / twice for v in scaled['hi']] if twice == 1 else lo
+        assert all(v <= 1.0001 * l / twice for v, l in zip(scaled['lo'], lo)), (scaled, lo)
+    assert dyadel.delaunay(dyadel.Text('x;y\n1,5;2\n0;0\n', 'x,y', decimal_comma=True, delimiter=';')).boxes[0, 0] == 1.5
+    assert len(dyadel.delaunay(dyadel.Text('x,y\n1,2\n1,2\nNA,3\n', 'x,y', merge=True, skip_missing=True))) == 1
+    for wrong in ({'radius_column': 'w'}, {'columns': 'x,y', 'radius': 0.5}, {'measured': None, 'id ': 'n'}):
+        harness.raised(TypeError, dyadel.delaunay, dyadel.Text('0 0\n', **wrong))
+    harness.raised(TypeError, dyadel.Text, '0 0\n', degrees=True)
+
+
 def test_boxes_and_rects():
     points = [('sqrt(2)', '1/3'), (0.5, (1, 2)), (Fraction(1, 10), 7)]
     d = dyadel.delaunay(points)

@@ -93,9 +93,8 @@ static const char delimiters[] = ",;\t|";
 
 /* ---- what is wanted ---- */
 
-/* The names in `text`, at least `least`, at most `most`, for the roles from `first` on. */
-static dyd_status read_names(dyd_csv *csv, const char *text, const char *option, dyd_csv_role first, size_t least,
-                             size_t most, dyd_error *err) {
+dyd_status dyd_csv_ask(dyd_csv *csv, int first, size_t least, size_t most, const char *text, const char *option,
+                       dyd_error *err) {
   dyd_line line = {text, strlen(text), 0};
   csv->delimiter = ',';
   dyd_status split = line.length ? csv_split(csv, &line, NULL) : DYD_E_ARG;
@@ -109,24 +108,13 @@ static dyd_status read_names(dyd_csv *csv, const char *text, const char *option,
   for (size_t k = 0; k < most; k++) {
     dyd_span *field = &csv->field[k < csv->fields ? k : 0];
     span_trim(field);
-    dyd_csv_want *want = &csv->want[first + k];
+    dyd_csv_want *want = &csv->want[(size_t)first + k];
     *want = (dyd_csv_want){dyd_alloc(field->length + 1, 1), field->text != field->at, option};
     if (!want->name) return dyd_fail_nomem(err);
     memcpy(want->name, field->text, field->length);
     want->name[field->length] = 0;
   }
   return DYD_OK;
-}
-
-static dyd_status read_wanted(dyd_csv *csv, const dyd_read_options *o, dyd_error *err) {
-  dyd_status st = read_names(csv, o->columns, "`columns`", DYD_CSV_X, 2, 2, err);
-  if (st == DYD_OK && o->radius_columns)
-    st = read_names(csv, o->radius_columns, "`radius_columns`", DYD_CSV_RADIUS_X, 1, 2, err);
-  if (st == DYD_OK && o->cost_column) st = read_names(csv, o->cost_column, "`cost_column`", DYD_CSV_COST, 1, 1, err);
-  if (st == DYD_OK && o->sigma_column)
-    st = read_names(csv, o->sigma_column, "`sigma_column`", DYD_CSV_SIGMA, 1, 1, err);
-  if (st == DYD_OK && o->id) st = read_names(csv, o->id, "`id`", DYD_CSV_ID, 1, 1, err);
-  return st;
 }
 
 /* 0: the header tells. */
@@ -192,7 +180,7 @@ static dyd_status fail_missing(const dyd_csv *csv, const dyd_csv_want *want, dyd
              names, want->name);
   else
     snprintf(message, sizeof message,
-             "no column is called \"%.60s\"; the header's names are: %s; give one of these, or its number, to %s",
+             "no column is called \"%.60s\"; the header's names are: %s; give one of these, or its number, to `%s`",
              want->name, names, want->option);
   return header_fail(csv, 0, err, message);
 }
@@ -204,7 +192,7 @@ static dyd_status find_numbered(size_t *out, const dyd_csv *csv, const dyd_csv_w
   bool named = count_named(&first, &last, csv, want->name, false);
   if (named && first + 1 != number) {
     snprintf(message, sizeof message,
-             "%s is the name of column %zu: for that one, put the name into quotes: %s '\"%s\"'; for column %s, give "
+             "%s is the name of column %zu: for that one, put the name into quotes: `%s` '\"%s\"'; for column %s, give "
              "its name",
              want->name, first + 1, want->option, want->name, want->name);
     return header_fail(csv, first, err, message);
@@ -239,7 +227,7 @@ static dyd_status find_column(size_t *out, const dyd_csv *csv, const dyd_csv_wan
 
 static dyd_status find_columns(dyd_csv *csv, dyd_error *err) {
   dyd_status st = DYD_OK;
-  for (int k = 0; k < DYD_CSV_ROLES && st == DYD_OK; k++)
+  for (int k = 0; k < DYD_CSV_MOST && st == DYD_OK; k++)
     if (csv->want[k].name) st = find_column(&csv->column[k], csv, &csv->want[k], err);
   return st;
 }
@@ -311,7 +299,7 @@ static bool ends_with_part(const dyd_span *f, const char *word) {
   return !letter || (lower_letter(before) == before && lower_letter(first) != first);
 }
 
-static bool is_called(const dyd_csv *csv, dyd_csv_role role, const axis_words *w) {
+static bool is_called(const dyd_csv *csv, int role, const axis_words *w) {
   const dyd_span *f = &csv->field[csv->column[role]];
   for (size_t k = 0; k < f->length; k++)
     if (has_word(f, k, w->any)) return true;
@@ -320,14 +308,14 @@ static bool is_called(const dyd_csv *csv, dyd_csv_role role, const axis_words *w
 }
 
 /* What the names of the columns say of them. On the sphere, columns in the other order are refused. */
-static dyd_status read_meanings(dyd_csv *csv, const dyd_read_options *o, dyd_error *err) {
+static dyd_status read_meanings(dyd_csv *csv, bool degrees, dyd_error *err) {
   const dyd_span *x = &csv->field[csv->column[DYD_CSV_X]], *y = &csv->field[csv->column[DYD_CSV_Y]];
   const dyd_span *radius = csv->want[DYD_CSV_RADIUS_X].name ? &csv->field[csv->column[DYD_CSV_RADIUS_X]] : NULL;
   bool x_lat = is_called(csv, DYD_CSV_X, &latitude), y_lon = is_called(csv, DYD_CSV_Y, &longitude);
   csv->degrees = is_called(csv, DYD_CSV_X, &longitude) && is_called(csv, DYD_CSV_Y, &latitude);
   csv->swapped = (x_lat || is_called(csv, DYD_CSV_X, &northing)) && (y_lon || is_called(csv, DYD_CSV_Y, &easting));
   csv->unit = radius ? dyd_unit_of_column(radius->text, radius->length) : NULL;
-  if (!csv->swapped || !o->degrees) return DYD_OK;
+  if (!csv->swapped || !degrees) return DYD_OK;
   return dyd_fail(err, DYD_E_ARG,
                   "by their names the columns are latitude and longitude; longitude comes first: `columns` %.*s,%.*s",
                   (int)(y->length < 60 ? y->length : 60), y->text, (int)(x->length < 60 ? x->length : 60), x->text);
@@ -362,14 +350,12 @@ static dyd_status header_read(dyd_csv *csv, char delimiter, dyd_error *err) {
   return dyd_fail(err, DYD_E_PARSE, "the file has no header; its first line must name the columns");
 }
 
-dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const dyd_read_options *o, dyd_error *err) {
-  *csv = (dyd_csv){.text = text};
-  char delimiter;
-  dyd_status st = read_wanted(csv, o, err);
-  if (st == DYD_OK) st = read_delimiter(&delimiter, o->delimiter, err);
-  if (st == DYD_OK) st = header_read(csv, delimiter, err);
+dyd_status dyd_csv_open(dyd_csv *csv, const char *delimiter, bool degrees, dyd_error *err) {
+  char given;
+  dyd_status st = read_delimiter(&given, delimiter, err);
+  if (st == DYD_OK) st = header_read(csv, given, err);
   csv->columns = csv->fields;
-  return st == DYD_OK ? read_meanings(csv, o, err) : st;
+  return st == DYD_OK ? read_meanings(csv, degrees, err) : st;
 }
 
 /* ---- a file that is taken for a points file ---- */
@@ -480,7 +466,7 @@ void dyd_record_place(dyd_error *err, const dyd_record *row, size_t k) {
 }
 
 void dyd_csv_clear(dyd_csv *csv) {
-  for (int k = 0; k < DYD_CSV_ROLES; k++) free(csv->want[k].name);
+  for (int k = 0; k < DYD_CSV_MOST; k++) free(csv->want[k].name);
   free(csv->record);
   free(csv->plain);
   free(csv->field);
@@ -608,7 +594,7 @@ static const char *delimiter_name(char delimiter, bool many) {
   return many ? "delimiters" : "a delimiter";
 }
 
-dyd_status dyd_csv_next(dyd_span field[DYD_CSV_ROLES], size_t *count, dyd_csv *csv, dyd_error *err) {
+dyd_status dyd_csv_next(dyd_span field[DYD_CSV_MOST], size_t *count, dyd_csv *csv, dyd_error *err) {
   dyd_line line;
   *count = 0;
   dyd_status st = csv_record(&line, csv, err);
@@ -620,7 +606,7 @@ dyd_status dyd_csv_next(dyd_span field[DYD_CSV_ROLES], size_t *count, dyd_csv *c
     return dyd_fail(err, DYD_E_PARSE, "this record has %zu fields, the header %zu; quote fields that hold %s",
                     csv->fields, csv->columns, delimiter_name(csv->delimiter, true));
   }
-  for (int k = 0; k < DYD_CSV_ROLES; k++) {
+  for (int k = 0; k < DYD_CSV_MOST; k++) {
     if (!csv->want[k].name) continue;
     field[k] = csv->field[csv->column[k]];
     span_trim(&field[k]);

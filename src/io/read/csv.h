@@ -11,52 +11,48 @@
  * blank: nothing else does. */
 dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_line *line, char comma, dyd_error *err);
 
-/* What a column is wanted for. */
-typedef enum dyd_csv_role {
-  DYD_CSV_X,
-  DYD_CSV_Y,
-  DYD_CSV_RADIUS_X,
-  DYD_CSV_RADIUS_Y,
-  DYD_CSV_COST,
-  DYD_CSV_SIGMA,
-  DYD_CSV_ID,
-  DYD_CSV_ROLES
-} dyd_csv_role;
+/* What a column is wanted for. Roles from DYD_CSV_OTHER on are the caller's. */
+enum { DYD_CSV_X, DYD_CSV_Y, DYD_CSV_RADIUS_X, DYD_CSV_RADIUS_Y, DYD_CSV_OTHER, DYD_CSV_MOST = 24 };
 
 /* A column as the caller names it. name = NULL: none is wanted. quoted: digits are a name, no number. */
 typedef struct dyd_csv_want {
   char *name;
   bool quoted;
-  const char *option; /* for messages: "`id`" */
+  const char *option; /* the field that names it, for messages */
 } dyd_csv_want;
 
-/* Separated text (RFC 4180) being read. */
+/* Separated text (RFC 4180) being read. Initialise with {.text = ...}. */
 typedef struct dyd_csv {
   dyd_text *text; /* borrowed */
   char delimiter;
-  dyd_csv_want want[DYD_CSV_ROLES];
-  size_t column[DYD_CSV_ROLES]; /* where they are, from 0 */
-  size_t columns;               /* how many the header has */
-  bool degrees, swapped;        /* x and y are called longitude and latitude; latitude and longitude */
-  const dyd_unit *unit;         /* that the name of the column of radii states; NULL: none */
-  bool comments;                /* records that begin with # are passed over */
-  char *record;                 /* the current record, when it spans lines */
-  size_t record_cap;            /* */
-  char *plain;                  /* unquoted fields of the current record */
-  size_t plain_cap, used;       /* */
+  dyd_csv_want want[DYD_CSV_MOST];
+  size_t column[DYD_CSV_MOST]; /* where they are, from 0 */
+  size_t columns;              /* how many the header has */
+  bool degrees, swapped;       /* x and y are called longitude and latitude; latitude and longitude */
+  const dyd_unit *unit;        /* that the name of the column of radii states; NULL: none */
+  bool comments;               /* records that begin with # are passed over */
+  char *record;                /* the current record, when it spans lines */
+  size_t record_cap;           /* */
+  char *plain;                 /* unquoted fields of the current record */
+  size_t plain_cap, used;      /* */
   dyd_span *field;
   size_t fields, field_cap;
 } dyd_csv;
 
-/* Takes the names of the columns from the options (quoted as in RFC 4180 when they hold commas), then reads the header,
- * which tells the delimiter unless the options do; lines of # before it that have not got the columns are passed over.
- * DYD_E_ARG when options are not of their form, or none names x and y;
- * DYD_E_PARSE when the header has not got each column once. */
-dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const dyd_read_options *o, dyd_error *err);
+/* Asks for the columns that `text` names, at least `least` and at most `most`, for the roles from `first` on; a single
+ * name stands for all. Names with commas are quoted as in RFC 4180. option names the field of the options, borrowed.
+ * DYD_E_ARG when the text is not of this form; DYD_E_NOMEM. */
+dyd_status dyd_csv_ask(dyd_csv *csv, int first, size_t least, size_t most, const char *text, const char *option,
+                       dyd_error *err);
+/* Reads the header. It tells the delimiter if this is NULL. Lines of # before it that do not have the columns are
+ * skipped. degrees: columns called latitude and longitude, in this order, are an error. Called once, after the columns
+ * of x and y were asked for. DYD_E_ARG when delimiter is not of its form; DYD_E_PARSE when the header does not have
+ * each column once. */
+dyd_status dyd_csv_open(dyd_csv *csv, const char *delimiter, bool degrees, dyd_error *err);
 void dyd_csv_clear(dyd_csv *csv);
 /* The fields of the next record, blanks around them removed; those that are not wanted are left as they are. *count is
  * 0 at the end, else above. Borrowed until the next call. */
-dyd_status dyd_csv_next(dyd_span field[DYD_CSV_ROLES], size_t *count, dyd_csv *csv, dyd_error *err);
+dyd_status dyd_csv_next(dyd_span field[DYD_CSV_MOST], size_t *count, dyd_csv *csv, dyd_error *err);
 /* Where a first line looks like a header, what is to be typed for it: "; if this is ..."; else the empty text. */
 void dyd_csv_hint(char *out, size_t size, const dyd_line *line);
 

@@ -22,6 +22,63 @@
 #include <math.h>
 #include <string.h>
 
+/* ---- the reading options ---- */
+
+/* What a column holds besides those of csv.h: numbers (a dyd_row_number more), then texts, which may be empty. */
+enum { ROLE_NUMBER = DYD_CSV_OTHER, ROLE_ID = ROLE_NUMBER + DYD_ROW_NUMBERS, ROLES };
+_Static_assert((int)ROLES <= (int)DYD_CSV_MOST, "each role has a column");
+
+#define OF(field) sizeof(dyd_read_field), #field, offsetof(dyd_read_options, field)
+
+/* A field; the roles of the columns that it names, from `role` on, at least `least` and at most `most` of them (0: it
+ * names none); and what these hold. */
+static const struct read_option {
+  dyd_read_field field;
+  int role;
+  size_t least, most;
+  const char *holds;
+} read_option[] = {
+    {{OF(columns), .points = true, .text = true}, DYD_CSV_X, 2, 2, "coordinate"},
+    {.field = {OF(measured), .flag = true, .points = true, .text = true}},
+    {.field = {OF(radius), .points = true, .text = true}},
+    {.field = {OF(radius_unit), .points = true, .text = true}},
+    {.field = {OF(radius_scale), .points = true, .text = true}},
+    {{OF(id), .table = true, .text = true}, ROLE_ID, 1, 1, "identifier"},
+    {{OF(radius_columns), .table = true, .points = true, .text = true}, DYD_CSV_RADIUS_X, 1, 2, "radius"},
+    {{OF(cost_column), .table = true, .text = true}, ROLE_NUMBER + DYD_ROW_COST, 1, 1, "cost"},
+    {{OF(sigma_column), .table = true, .text = true}, ROLE_NUMBER + DYD_ROW_SIGMA, 1, 1, "standard deviation"},
+    {.field = {OF(delimiter), .table = true, .points = true, .text = true}},
+    {.field = {OF(decimal_comma), .flag = true, .points = true, .text = true}},
+    {.field = {OF(skip_missing), .flag = true, .points = true, .text = true}},
+    {.field = {OF(merge), .flag = true, .points = true, .text = true}},
+    {.field = {OF(degrees), .flag = true, .points = true}},
+    {.field = {OF(keep_radii), .flag = true, .points = true}},
+};
+
+enum { READ_OPTIONS = sizeof read_option / sizeof *read_option };
+
+/* The text at the field; NULL where options are older than it, or do not set it. */
+static const char *field_value(const dyd_read_options *o, const dyd_read_field *f) {
+  if (!o || f->offset + (f->flag ? sizeof(bool) : sizeof(char *)) > o->struct_size) return NULL;
+  const char *at = (const char *)o + f->offset, *value;
+  if (f->flag) return *(const bool *)at ? "true" : NULL;
+  memcpy(&value, at, sizeof value);
+  return value;
+}
+
+const dyd_read_field *dyd_read_field_at(const char **value, const dyd_read_options *options, size_t k) {
+  const dyd_read_field *field = k < READ_OPTIONS ? &read_option[k].field : NULL;
+  if (value) *value = field ? field_value(options, field) : NULL;
+  return field;
+}
+
+/* What a column of this role holds. */
+static const char *role_holds(int role) {
+  const struct read_option *option = read_option;
+  while (role < option->role || role >= option->role + (int)option->most) option++;
+  return option->holds;
+}
+
 /* ---- places by their nominal coordinates ---- */
 
 /* A place where points are. width: of the rectangle that its first point, or the merged one, has in x and y. */
@@ -287,8 +344,7 @@ static dyd_status intake_radius_of_all(intake *in, dyd_error *err) {
   return DYD_OK;
 }
 
-/* what: "the cost". */
-static dyd_status intake_number(double *out, const dyd_span *span, const char *what, dyd_error *err) {
+static dyd_status intake_number(double *out, const dyd_span *span, int role, dyd_error *err) {
   char message[160];
   mpq_t own;
   mpq_init(own);
@@ -297,21 +353,21 @@ static dyd_status intake_number(double *out, const dyd_span *span, const char *w
   mpq_clear(own);
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (*out > 0 && isfinite(*out)) return DYD_OK;
-  snprintf(message, sizeof message, "%s is not an exact number above 0; give one such as 2 or 0.5", what);
+  snprintf(message, sizeof message, "the %s is not an exact number above 0; give one such as 2 or 0.5",
+           role_holds(role));
   return dyd_span_fail(err, span, 0, message);
 }
 
 /* ---- life ---- */
 
 static dyd_status intake_check(const dyd_read_options *o, dyd_error *err) {
-  const char *about = o->id               ? "`id`"
-                      : o->radius_columns ? "`radius_columns`"
-                      : o->cost_column    ? "`cost_column`"
-                      : o->sigma_column   ? "`sigma_column`"
-                      : o->delimiter      ? "`delimiter`"
-                                          : NULL;
-  if (o->columns || !about) return DYD_OK;
-  return dyd_fail(err, DYD_E_ARG, "%s is about columns; name those of x and y, too: `columns` NAME,NAME", about);
+  for (size_t k = 0; k < READ_OPTIONS && !o->columns; k++) {
+    const dyd_read_field *f = &read_option[k].field;
+    if (f->table && field_value(o, f))
+      return dyd_fail(err, DYD_E_ARG, "`%s` is about columns; name those of x and y, too: `columns` NAME,NAME",
+                      f->name);
+  }
+  return DYD_OK;
 }
 
 /* DYD_E_ARG when the options are not of their form; intake_clear comes after it in any case. */
@@ -362,12 +418,9 @@ static bool is_missing(const dyd_span *s) {
          is_word(s->text + sign, s->length - sign, "nan");
 }
 
-static dyd_status fail_missing_field(const dyd_span *s, dyd_csv_role role, dyd_error *err) {
+static dyd_status fail_missing_field(const dyd_span *s, int role, dyd_error *err) {
   char message[160];
-  const char *what = role == DYD_CSV_COST       ? "cost"
-                     : role == DYD_CSV_SIGMA    ? "standard deviation"
-                     : role >= DYD_CSV_RADIUS_X ? "radius"
-                                                : "coordinate";
+  const char *what = role_holds(role);
   if (s->length)
     snprintf(message, sizeof message, "the %s is missing (%.*s); fill it in, or leave such rows out: `skip_missing`",
              what, (int)s->length, s->text);
@@ -383,12 +436,12 @@ static bool has_comma(const dyd_span *s) {
 }
 
 /* Copies of fields with commas get points in their place. */
-static dyd_status take_commas(intake *in, dyd_span span[DYD_CSV_ROLES], dyd_error *err) {
+static dyd_status take_commas(intake *in, dyd_span span[DYD_CSV_MOST], dyd_error *err) {
   size_t size = 0;
-  for (int k = 0; k < DYD_CSV_ID; k++) size += span[k].length;
+  for (int k = 0; k < ROLE_ID; k++) size += span[k].length;
   if (!dyd_reserve((void **)&in->plain, &in->plain_cap, size + 1, 1)) return dyd_fail_nomem(err);
   char *at = in->plain;
-  for (int k = 0; k < DYD_CSV_ID; k++) {
+  for (int k = 0; k < ROLE_ID; k++) {
     if (!has_comma(&span[k])) continue;
     memcpy(at, span[k].text, span[k].length);
     span[k].text = at;
@@ -438,10 +491,10 @@ static dyd_status intake_merge(intake *in, nominal *place, dyd_coordinate c[2], 
 }
 
 /* Stages a point that is read; takes over reals, also on failure. */
-static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_ROLES], dyd_coordinate c[2], dyd_error *err) {
+static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_MOST], dyd_coordinate c[2], dyd_error *err) {
   const double width[2] = {final_width(&c[0], &in->manner[0]), final_width(&c[1], &in->manner[1])};
   nominal *place = NULL;
-  const dyd_span *id = &span[DYD_CSV_ID], *cost = &span[DYD_CSV_COST], *sigma = &span[DYD_CSV_SIGMA];
+  const dyd_span *id = &span[ROLE_ID];
   dyd_row_numbers own = dyd_no_row_numbers;
   if (in->o->merge || width[0] > 0 || width[1] > 0 || (in->o->degrees && in->kept[0] > 0)) {
     if (nominals_find(&place, &in->places, span) != DYD_OK) {
@@ -456,8 +509,8 @@ static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_ROLES], d
   dyd_status st = dyd_stage_add(&in->stage, &c[0], &c[1], err);
   if (st != DYD_OK || !intake_labels(in)) return st;
   own.of[DYD_ROW_RADIUS] = in->kept[0];
-  if (cost->text) st = intake_number(&own.of[DYD_ROW_COST], cost, "the cost", err);
-  if (st == DYD_OK && sigma->text) st = intake_number(&own.of[DYD_ROW_SIGMA], sigma, "the standard deviation", err);
+  for (int k = ROLE_NUMBER; k < ROLE_ID && st == DYD_OK; k++)
+    if (span[k].text) st = intake_number(&own.of[k - ROLE_NUMBER], &span[k], k, err);
   if (st != DYD_OK) return st;
   return dyd_labels_add(&in->labels, id->text, id->length, &own) ? DYD_OK : dyd_fail_nomem(err);
 }
@@ -471,7 +524,7 @@ static bool is_beyond_poles(const dyd_coordinate *c) {
   return lo > 90 || hi < -90;
 }
 
-static dyd_status intake_skip(intake *in, const dyd_span *s, dyd_csv_role role, dyd_error *err) {
+static dyd_status intake_skip(intake *in, const dyd_span *s, int role, dyd_error *err) {
   if (!in->o->skip_missing) return fail_missing_field(s, role, err);
   in->report.missing++;
   dyd_labels_skip(&in->labels);
@@ -479,12 +532,12 @@ static dyd_status intake_skip(intake *in, const dyd_span *s, dyd_csv_role role, 
 }
 
 /* Takes in one row: fields by their roles, text = NULL where there is none. span is changed. */
-static dyd_status intake_row(intake *in, dyd_span span[DYD_CSV_ROLES], dyd_error *err) {
+static dyd_status intake_row(intake *in, dyd_span span[DYD_CSV_MOST], dyd_error *err) {
   dyd_coordinate c[2] = {{.kind = DYD_COORDINATE_DOUBLE}, {.kind = DYD_COORDINATE_DOUBLE}};
   dyd_status st = DYD_OK;
   in->report.rows++;
-  for (int k = 0; k < DYD_CSV_ID; k++)
-    if (span[k].text && is_missing(&span[k])) return intake_skip(in, &span[k], (dyd_csv_role)k, err);
+  for (int k = 0; k < ROLE_ID; k++)
+    if (span[k].text && is_missing(&span[k])) return intake_skip(in, &span[k], k, err);
   if (in->o->decimal_comma) st = take_commas(in, span, err);
   for (int a = 0; st == DYD_OK && a < 2; a++) {
     if (span[DYD_CSV_RADIUS_X + a].text) st = intake_radius(in, a, &span[DYD_CSV_RADIUS_X + a], err);
@@ -525,7 +578,7 @@ static dyd_status hint_header(dyd_status st, const dyd_line *line, const intake 
 static dyd_status read_points_file(intake *in, dyd_text *text, dyd_error *err) {
   for (;;) {
     dyd_line line;
-    dyd_span span[DYD_CSV_ROLES] = {{0}};
+    dyd_span span[DYD_CSV_MOST] = {{0}};
     size_t count;
     dyd_status st = dyd_text_next(&line, text, err);
     if (st != DYD_OK || !line.text) return st;
@@ -535,15 +588,26 @@ static dyd_status read_points_file(intake *in, dyd_text *text, dyd_error *err) {
   }
 }
 
+/* Asks for the columns that the options name, and reads the header. */
+static dyd_status csv_begin(dyd_csv *csv, const dyd_read_options *o, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < READ_OPTIONS && st == DYD_OK; k++) {
+    const struct read_option *r = &read_option[k];
+    const char *value = r->most ? field_value(o, &r->field) : NULL;
+    if (value) st = dyd_csv_ask(csv, r->role, r->least, r->most, value, r->field.name, err);
+  }
+  return st == DYD_OK ? dyd_csv_open(csv, o->delimiter, o->degrees, err) : st;
+}
+
 static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
-  dyd_csv csv;
+  dyd_csv csv = {.text = text};
   size_t count = 1;
-  dyd_status st = dyd_csv_open(&csv, text, in->o, err);
+  dyd_status st = csv_begin(&csv, in->o, err);
   in->report.degrees = csv.degrees;
   in->report.swapped = csv.swapped;
   if (!in->unit) in->unit = csv.unit;
   while (st == DYD_OK && count) {
-    dyd_span span[DYD_CSV_ROLES] = {{0}};
+    dyd_span span[DYD_CSV_MOST] = {{0}};
     st = dyd_csv_next(span, &count, &csv, err);
     if (st == DYD_OK && count) st = intake_row(in, span, err);
   }

@@ -89,9 +89,10 @@ def tolerance(points: Any, up_to: Any = None, radii: bool = False, sigma: float 
 
     up_to: also births, pairs that may become edges when points move by at most so much (an exact number, in units of the
     points); radii: also how far each point may be from its place; sigma: also the probability of each edge when every
-    coordinate has an independent normal error of this standard deviation (a float, in units of the points); metric: 'euclid', points move
-    in discs, or 'box', in squares: x and y each by as much (lo and hi are 2^-20 of themselves apart); options: those of
-    delaunay.
+    coordinate has an independent normal error of this standard deviation (a float, in units of the points; without it
+    that of the sigma_column of a Text); metric: 'euclid', points move in discs, or 'box', in squares: x and y each by as
+    much (lo and hi are 2^-20 of themselves apart); options: those of delaunay. With a Text that has radius_columns and
+    keep_radii=True each point moves in proportion to its radius.
     """
     return _in_plane(points, **options).tolerance(up_to, radii, sigma, metric)
 

@@ -26,26 +26,24 @@ class Source:
     narrow: Callable[[int, int], Sequence[Any]]
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, init=False)
 class Text:
-    """The text of a points file or, with columns="NAME,NAME", of a table with a header, as the command reads them.
+    """The text of a points file or, with columns='NAME,NAME', of a table with a header, as the command reads them.
 
-    measured: 47.61 is [47.605,47.615]; radius, radius_columns: each point is widened; id: column of names; the others
-    as the options of the command (see `dyadel help delaunay`). Packed bytes (gzip, zstd) are read as they are.
+    Options are fields of dyd_read_options (dyadel/io.h): measured=True reads 47.61 as [47.605,47.615]; radius and
+    radius_columns widen each point; cost_column, sigma_column and id name columns that belong to each point;
+    keep_radii=True makes radii in columns the weights of `tolerance`; the others are options of the command (see `dyadel
+    help delaunay`). Packed bytes (gzip, zstd) are read as they are.
     """
 
     text: str | bytes
-    columns: str | None = None
-    measured: bool = False
-    radius: str | None = None
-    radius_columns: str | None = None
-    id: str | None = None
-    delimiter: str | None = None
-    decimal_comma: bool = False
-    skip_missing: bool = False
-    merge: bool = False
-    radius_unit: str | None = None
-    radius_scale: str | None = None
+    options: dict[str, str | bool | None]
+
+    def __init__(self, text: str | bytes, columns: str | None = None, **options: str | bool | None):
+        if 'degrees' in options:
+            raise TypeError('degrees is no option of Text; give sphere=True to the call that takes the text')
+        object.__setattr__(self, 'text', text)
+        object.__setattr__(self, 'options', {'columns': columns, **options})
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str], **how: Any) -> Text:
@@ -110,8 +108,8 @@ def append_points(engine: _dyadel.Engine, points: Any, radius: Any = None, degre
         if isinstance(points, Source):
             engine.append_source(points.n, points.narrow)
         else:
-            how = [getattr(points, field.name) for field in dataclasses.fields(points)[1:]] + [degrees]
-            engine.append_text(points.text.encode() if isinstance(points.text, str) else points.text, *how)
+            text = points.text.encode() if isinstance(points.text, str) else points.text
+            engine.append_text(text, {**points.options, 'degrees': degrees})
         return True
     array = _as_array(points)
     by = None if array is None or radius is None else _radius_array(radius, len(array))

@@ -24,10 +24,12 @@ def append_places(engine: _dyadel.Engine, points: Any, radius: Any = None,
     """As append_points, of longitudes and latitudes; then the radius that is kept beside the points, its unit and scale."""
     scale = None
     if isinstance(points, Text):
-        scale = points.radius_scale
-        radius_unit = points.radius_unit if radius_unit is None else radius_unit
-        if radius is None and points.radius is not None:
-            points, radius = dataclasses.replace(points, radius=None), points.radius
+        how: dict[str, Any] = dict(points.options)
+        scale = how.get('radius_scale')
+        radius_unit = how.get('radius_unit') if radius_unit is None else radius_unit
+        if radius is None and how.get('radius') is not None:
+            radius = how.pop('radius')
+            points = Text(points.text, **how)
     radius = _with_unit(radius, radius_unit)
     if radius is not None and not isinstance(radius, str):
         points, radius = _with_radii(points, radius, radius_unit), None
