@@ -251,7 +251,8 @@ typedef struct intake {
   dyd_labels labels;
   nominals places;
   dyd_read_report report;
-  char *plain; /* fields with points in place of commas */
+  bool numbers; /* points have numbers beside their rectangles */
+  char *plain;  /* fields with points in place of commas */
   size_t plain_cap;
 } intake;
 
@@ -378,6 +379,11 @@ static dyd_status intake_init(intake *in, const dyd_read_options *o, dyd_error *
     in->manner[a].measured = o->measured;
     mpq_init(in->manner[a].radius);
   }
+  in->numbers = o->radius_columns && (o->keep_radii || o->degrees);
+  for (size_t k = 0; k < READ_OPTIONS; k++) {
+    const struct read_option *r = &read_option[k];
+    if (r->role >= ROLE_NUMBER && r->role < ROLE_ID && field_value(o, &r->field)) in->numbers = true;
+  }
   dyd_status st = intake_check(o, err);
   return st == DYD_OK ? intake_radius_of_all(in, err) : st;
 }
@@ -391,15 +397,9 @@ static void intake_clear(intake *in) {
   mpq_clears(in->radius, in->scale, NULL);
 }
 
-/* Do points have what stands beside their rectangles? */
-static bool intake_numbers(const intake *in) {
-  const dyd_read_options *o = in->o;
-  return o->cost_column || o->sigma_column || (o->radius_columns && (o->keep_radii || o->degrees));
-}
-
-/* Or rows and points may differ, or points have identifiers. */
+/* Returns true if rows and points may differ, or points have identifiers or numbers. */
 static bool intake_labels(const intake *in) {
-  return in->o->id || in->o->skip_missing || in->o->merge || intake_numbers(in);
+  return in->o->id || in->o->skip_missing || in->o->merge || in->numbers;
 }
 
 /* ---- fields ---- */
@@ -555,7 +555,7 @@ static dyd_status intake_row(intake *in, dyd_span span[DYD_CSV_MOST], dyd_error 
 static dyd_status intake_commit(dyd_engine *e, intake *in, dyd_error *err) {
   const dyd_labels *own = &in->labels;
   dyd_labels all = {0};
-  bool labelled = own->has_ids || intake_numbers(in) || in->report.missing || in->report.merged;
+  bool labelled = own->has_ids || in->numbers || in->report.missing || in->report.merged;
   if (labelled && dyd_labels_join(&all, e, own) != DYD_OK) return dyd_fail_nomem(err);
   dyd_status st = dyd_stage_commit(e, &in->stage, err);
   if (st == DYD_OK && labelled)
