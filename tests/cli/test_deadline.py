@@ -304,6 +304,11 @@ def test_discs_and_graphs_that_are_cut():
     assert all(row['status'] != 'legal' or status[row['i'], row['j']] == 'legal' for row in rows_of(result))
 
 
+def test_discs_without_a_result():
+    """Where the time is used up before a first triangulation, the exit status says so."""
+    expect(run('delaunay', '--discs', '--radius', '0.1', '--timeout', '0.000001', '-', stdin='1 2\n3 4\n5 7\n'), 4, r'\A\Z', 'no result')
+
+
 def catches_interrupts(process):
     with open(f'/proc/{process.pid}/status', encoding='ascii') as status:
         caught = next(int(line.split()[1], 16) for line in status if line.startswith('SigCgt'))

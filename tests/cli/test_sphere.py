@@ -679,6 +679,14 @@ def test_certificate():
         expect(run('verify', 'c', cwd=folder), 0, 'accepted, all of it proved(.|\n)*6 on a sphere, projected from one of them: 5 images')
 
 
+def test_trace():
+    """It ends with the outcome of the run on the sphere."""
+    with tempfile.TemporaryDirectory() as folder:
+        expect(run('delaunay', '--sphere', '--trace', 't', '-', stdin=OCTAHEDRON, cwd=folder), 0, 'i,j,status')
+        with open(os.path.join(folder, 't'), encoding='utf-8') as trace:
+            assert json.loads(trace.readlines()[-1])['outcome'] == 'decided'
+
+
 def test_refusals():
     expect(run('delaunay', '--sphere', '-', stdin='0 0\n47 91\n'), 1, r'\A\Z', r'2:4: .*latitude is beyond 90 degrees')
     expect(run('delaunay', '--sphere', '-', stdin='0 0\n47 50+sqrt(2000)\n'), 1, r'\A\Z', r'point 1: .*latitude is beyond 90 degrees')
