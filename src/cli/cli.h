@@ -80,6 +80,9 @@ int cli_options_read(cli_options *out, int argc, char **argv);
 
 /* process.c: prints "dyadel: ..." to standard error. */
 void cli_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* The same; return CLI_USAGE and CLI_FAILED. */
+int cli_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
+int cli_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* Prints a note, unless --quiet was given. */
 void cli_note(const cli_options *o, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: without FILE. */
@@ -161,10 +164,9 @@ struct cli_session {
 /* All of a command. Returns the exit status. */
 int cli_work_run(const cli_work *work, const cli_options *o);
 
-/* Adds the points of the file or oracle to e. 0, or an exit status after a message. noting: prints notes on
- * skipped rows and doubtful input. */
-int cli_points_read(dyd_engine *e, const cli_options *o);
-int cli_points_read_noting(dyd_engine *e, const cli_options *o);
+/* Adds the points of the file or oracle to e. 0, or an exit status after a message. noting: prints notes on skipped
+ * rows and doubtful input. */
+int cli_points_read(dyd_engine *e, const cli_options *o, bool noting);
 /* For reading points as longitude and latitude. */
 void cli_options_degrees(cli_options *o);
 /* Gives the engine, not run yet, the answers of --resume. 0, or an exit status after a message. */

@@ -260,10 +260,8 @@ static int schedules_begin(cli_session *s) {
                                    .tie_bits = o->engine.tie_bits,
                                    .no_ties = o->engine.no_ties};
   r->report = (dyd_check_report){DYD_SIZED(dyd_check_report)};
-  if (!o->oracle && strcmp(o->file, "-") == 0) {
-    cli_complain("check reads the points once for each schedule; give a file in place of standard input");
-    return CLI_USAGE;
-  }
+  if (!o->oracle && strcmp(o->file, "-") == 0)
+    return cli_usage("check reads the points once for each schedule; give a file in place of standard input");
   return o->replay ? read_schedule_file(r, o->replay) : 0;
 }
 
@@ -274,7 +272,7 @@ static dyd_status open_checked_points(dyd_engine **out, void *user, dyd_error *e
   (void)err;
   dyd_status st = dyd_engine_new(out);
   if (st != DYD_OK) return st;
-  r->status = (r->noted ? cli_points_read : cli_points_read_noting)(*out, r->o);
+  r->status = cli_points_read(*out, r->o, !r->noted);
   r->noted = true;
   if (!r->status) return DYD_OK;
   dyd_engine_free(*out);

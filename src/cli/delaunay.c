@@ -25,8 +25,7 @@ static const cli_work *delaunay_instead(const cli_options *o) {
 
 static int delaunay_begin(cli_session *s) {
   if (!s->o.certificate || s->o.content != DYD_CONTENT_GRAPH_MST) return 0;
-  cli_complain("no certificate proves a minimum spanning tree: leave --certificate or --layer graph:mst out");
-  return CLI_USAGE;
+  return cli_usage("no certificate proves a minimum spanning tree: leave --certificate or --layer graph:mst out");
 }
 
 /* Statuses found before a point failed stay true: they are written, and the exit status reports the failure. */
@@ -161,8 +160,7 @@ static int voronoi_begin(cli_session *s) {
   s->o.engine.window = &s->window;
   s->share = 0.75; /* the cells get some of the time, too */
   if (!(s->o.max_arc > 0)) return 0;
-  cli_complain("--max-arc is about the globe; give --sphere or leave it away");
-  return CLI_USAGE;
+  return cli_usage("--max-arc is about the globe; give --sphere or leave it away");
 }
 
 /* Sets the default window, which needs to know where the points are: a first stage. false after a message. */

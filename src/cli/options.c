@@ -96,16 +96,14 @@ int cli_window_read(dyd_rect *out, const char *text) {
   for (int k = 0; k < 4; k++) mpq_clear(end[k]);
   if (!wrong) return 0;
   if (st == DYD_E_NOMEM) return cli_complain_memory();
-  cli_complain("--window \"%s\" %s", text, wrong);
-  return CLI_USAGE;
+  return cli_usage("--window \"%s\" %s", text, wrong);
 }
 
 int cli_number_read(mpq_ptr out, const char *name, const char *text) {
   dyd_status st = dyd_real_parse_exact(out, text, strlen(text));
   if (st == DYD_OK && mpq_sgn(out) >= 0) return 0;
   if (st == DYD_E_NOMEM) return cli_complain_memory();
-  cli_complain("--%s \"%s\" is not understood; give an exact number of 0 or more, such as 0.01", name, text);
-  return CLI_USAGE;
+  return cli_usage("--%s \"%s\" is not understood; give an exact number of 0 or more, such as 0.01", name, text);
 }
 
 static bool value_usage(const cli_option *option, const char *value, const char *wanted) {
@@ -321,11 +319,8 @@ static int complain_unknown(const char *argument) {
   snprintf(name, sizeof name, "%s", argument + strspn(argument, "-"));
   name[strcspn(name, "=")] = 0;
   const char *best = suggest_name(name, option_name);
-  if (best)
-    cli_complain("there is no option %s; did you mean --%s?", argument, best);
-  else
-    cli_complain("there is no option %s; see dyadel --help", argument);
-  return CLI_USAGE;
+  if (best) return cli_usage("there is no option %s; did you mean --%s?", argument, best);
+  return cli_usage("there is no option %s; see dyadel --help", argument);
 }
 
 static int complain_option(int kind, const char *argument) {
@@ -350,8 +345,7 @@ static int scan_operand(scan *s, const char *text) {
     s->operand[s->operands++] = text;
     return 0;
   }
-  cli_complain("\"%s\" is one argument too many; see dyadel --help", text);
-  return CLI_USAGE;
+  return cli_usage("\"%s\" is one argument too many; see dyadel --help", text);
 }
 
 static int scan_all(scan *s, cli_options *o, int argc, char **argv) {
@@ -402,27 +396,23 @@ static bool trace_has_points(const cli_options *o, const cli_command *c) {
 /* What contradicts itself. */
 static int sphere_fits(const cli_options *o) {
   if (!o->sphere || !o->plane) return 0;
-  cli_complain("--sphere and --plane contradict each other; leave one of them away");
-  return CLI_USAGE;
+  return cli_usage("--sphere and --plane contradict each other; leave one of them away");
 }
 
 static int options_fit(const cli_options *o, const bool *seen, const cli_command *c) {
   for (size_t k = 0; k < cli_option_count; k++) {
     if (!seen[k] || cli_option_exists(&cli_option_table[k], cli_command_bit(c))) continue;
-    cli_complain("%s does not take --%s; see dyadel %s --help", c->name, cli_option_table[k].name, c->name);
-    return CLI_USAGE;
+    return cli_usage("%s does not take --%s; see dyadel %s --help", c->name, cli_option_table[k].name, c->name);
   }
   for (size_t k = 0; trace_has_points(o, c) && k < cli_option_count; k++) {
     cli_group group = cli_option_table[k].group;
     const bool timeout = cli_option_table[k].offset == offsetof(cli_options, engine.seconds);
     if (!seen[k] || timeout || (group != CLI_INPUT && group != CLI_REFINEMENT)) continue;
-    cli_complain("--replay takes points and options from the trace; leave --%s away", cli_option_table[k].name);
-    return CLI_USAGE;
+    return cli_usage("--replay takes points and options from the trace; leave --%s away", cli_option_table[k].name);
   }
   for (size_t k = 0; c == &cli_commands[CLI_VERIFY] && !o->points && k < cli_option_count; k++) {
     if (!seen[k] || cli_option_table[k].group != CLI_INPUT) continue;
-    cli_complain("--%s says how points are read; give their file with --points", cli_option_table[k].name);
-    return CLI_USAGE;
+    return cli_usage("--%s says how points are read; give their file with --points", cli_option_table[k].name);
   }
   return 0;
 }
@@ -465,8 +455,8 @@ static int format_from_output(cli_options *o, const cli_command *c) {
   if (!o->format_set) o->format_set = dyd_format_from_file(&o->format, o->output);
   if (dyd_format_suits_file(o->format, o->output)) return 0;
   const char *name = dyd_format_name(o->format);
-  cli_complain("-o %s is no name for %s; leave --format %s away, or end the name in .%s", o->output, name, name, name);
-  return CLI_USAGE;
+  return cli_usage("-o %s is no name for %s; leave --format %s away, or end the name in .%s", o->output, name, name,
+                   name);
 }
 
 /* Hands the operands behind the command's name to their fields. An oracle or a trace replaces the file, with a
@@ -482,26 +472,19 @@ static int place_operands(cli_options *o, const scan *s, const cli_command *c) {
     place[wanted++] = &o->at[1];
   }
   size_t given = s->operands - 1;
-  if (given > wanted) {
-    cli_complain("\"%s\" is one argument too many; give dyadel %s %s", s->operand[wanted + 1], c->name,
-                 file ? operands : operands + strcspn(operands, " "));
-    return CLI_USAGE;
-  }
+  if (given > wanted)
+    return cli_usage("\"%s\" is one argument too many; give dyadel %s %s", s->operand[wanted + 1], c->name,
+                     file ? operands : operands + strcspn(operands, " "));
   for (size_t k = 0; k < given; k++) *place[k] = s->operand[k + 1];
   if (given == wanted) return 0;
   if (given == 0 && file && strncmp(operands, "FILE", 4) == 0)
-    cli_complain("the points file is missing; give its name, or - for standard input");
-  else
-    cli_complain("an argument is missing; give dyadel %s %s", c->name, operands);
-  return CLI_USAGE;
+    return cli_usage("the points file is missing; give its name, or - for standard input");
+  return cli_usage("an argument is missing; give dyadel %s %s", c->name, operands);
 }
 
 /* dyadel help [COMMAND] is dyadel [COMMAND] --help. */
 static int options_help(cli_options *o, const scan *s) {
-  if (s->operands > 2) {
-    cli_complain("\"%s\" is one argument too many; give dyadel help COMMAND", s->operand[2]);
-    return CLI_USAGE;
-  }
+  if (s->operands > 2) return cli_usage("\"%s\" is one argument too many; give dyadel help COMMAND", s->operand[2]);
   if (!o->help) o->help = "";
   if (s->operands < 2) return 0;
   if (!cli_command_find(s->operand[1])) return unknown_command(s->operand[1]);
@@ -518,8 +501,7 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   if (status) return status;
   if (s.operands == 0) {
     if (out->help || out->version) return 0;
-    cli_complain("a command is missing; try: dyadel delaunay FILE, or dyadel --help");
-    return CLI_USAGE;
+    return cli_usage("a command is missing; try: dyadel delaunay FILE, or dyadel --help");
   }
   if (strcmp(s.operand[0], "help") == 0) return options_help(out, &s);
   const cli_command *c = cli_command_find(s.operand[0]);

@@ -342,9 +342,8 @@ int cli_files_check(const cli_options *o) {
   }
   for (size_t k = 0; k < n; k++) free(file[k].last);
   if (status || o->output || !dyd_format_is_binary(o->format) || !isatty(STDOUT_FILENO)) return status;
-  cli_complain("%s is nothing for a terminal; give a file: -o NAME.%s", dyd_format_name(o->format),
-               dyd_format_name(o->format));
-  return CLI_USAGE;
+  return cli_usage("%s is nothing for a terminal; give a file: -o NAME.%s", dyd_format_name(o->format),
+                   dyd_format_name(o->format));
 }
 
 FILE *cli_input_open(const char *name, const char *advice) {

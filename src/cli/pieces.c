@@ -78,11 +78,9 @@ static bool pieces_reserve(cli_pieces *p, size_t count) {
 static int pieces_find(cli_session *s, size_t least, size_t most) {
   cli_pieces *p = s->state;
   size_t count = dyd_engine_count(s->engine);
-  if (count < least) {
-    cli_complain("%s: %zu points are needed, here are %zu; give more", s->o.file ? s->o.file : "the oracle", least,
-                 count);
-    return CLI_FAILED;
-  }
+  if (count < least)
+    return cli_fail("%s: %zu points are needed, here are %zu; give more", s->o.file ? s->o.file : "the oracle", least,
+                    count);
   p->first = least;
   p->bits = FIRST_BITS;
   if (!pieces_reserve(p, count < most ? count : most)) return cli_complain_memory();
@@ -192,8 +190,7 @@ static int read_real(dyd_real **out, const char *name, const char *text) {
   dyd_status st = dyd_real_parse(out, text, strlen(text), &err);
   if (st >= 0) return 0;
   if (st == DYD_E_NOMEM) return cli_complain_memory();
-  cli_complain("%s \"%s\", column %zu: %s", name, text, err.column, err.message);
-  return CLI_USAGE;
+  return cli_usage("%s \"%s\", column %zu: %s", name, text, err.column, err.message);
 }
 
 static int read_place(dyd_stream **out, const cli_options *o) {
@@ -215,7 +212,7 @@ static int places_reserve(query *q, size_t count) {
 /* The points of the file become places: streams that stay when their engine goes. */
 static int places_read_file(query *q, dyd_engine *from, const cli_options *o) {
   cli_options file = {.file = o->queries, .read = {DYD_SIZED(dyd_read_options)}};
-  int status = cli_points_read(from, &file);
+  int status = cli_points_read(from, &file, false);
   if (!status) status = places_reserve(q, dyd_engine_count(from));
   for (size_t k = 0; k < q->count && !status; k++)
     if (dyd_engine_stream(&q->place[k].at, from, (uint32_t)k) != DYD_OK) status = cli_complain_memory();
@@ -230,10 +227,8 @@ static int places_read(cli_session *s) {
     int status = places_reserve(q, 1);
     return status ? status : read_place(&q->place[0].at, o);
   }
-  if (o->file && strcmp(o->file, "-") == 0 && strcmp(o->queries, "-") == 0) {
-    cli_complain("points and places cannot both come from standard input; give the name of a file for one of them");
-    return CLI_USAGE;
-  }
+  if (o->file && strcmp(o->file, "-") == 0 && strcmp(o->queries, "-") == 0)
+    return cli_usage("points and places cannot both come from standard input; give the name of a file for one of them");
   int status = dyd_engine_new(&from) == DYD_OK ? places_read_file(q, from, o) : cli_complain_memory();
   dyd_engine_free(from);
   return status;

@@ -62,6 +62,22 @@ void cli_complain(const char *format, ...) {
   va_end(args);
 }
 
+int cli_usage(const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  complain_list(format, args);
+  va_end(args);
+  return CLI_USAGE;
+}
+
+int cli_fail(const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  complain_list(format, args);
+  va_end(args);
+  return CLI_FAILED;
+}
+
 void cli_note(const cli_options *o, const char *format, ...) {
   va_list args;
   va_start(args, format);
@@ -70,8 +86,7 @@ void cli_note(const cli_options *o, const char *format, ...) {
 }
 
 int cli_complain_memory(void) {
-  cli_complain("memory is exhausted; close other programs");
-  return CLI_FAILED;
+  return cli_fail("memory is exhausted; close other programs");
 }
 
 void cli_complain_of(const dyd_engine *e, const char *file, const dyd_error *err) {

@@ -18,8 +18,7 @@ static int oracle_add(dyd_engine *e, dyd_oracle *oracle) {
   dyd_status st = dyd_oracle_source(&source, oracle, NULL);
   if (st == DYD_OK) st = dyd_engine_add_source(e, dyd_oracle_count(oracle), &source, NULL);
   if (st == DYD_OK) return 0;
-  cli_complain("the points of the oracle cannot be added: %s", dyd_status_text(st));
-  return CLI_FAILED;
+  return cli_fail("the points of the oracle cannot be added: %s", dyd_status_text(st));
 }
 
 /* Options that say how a text is read mean nothing for the answers of a program. */
@@ -28,11 +27,10 @@ static int oracle_refuse(const dyd_read_options *read) {
   const char *value;
   for (size_t k = 0; (field = dyd_read_field_at(&value, read, k)); k++) {
     if (!value || !field->text) continue;
-    cli_complain("`%s` is for points files; leave it out, and %s", field->name,
-                 strcmp(field->name, "cost_column") == 0    ? "let the oracle begin with \"points N cost C ... C\""
-                 : strcmp(field->name, "sigma_column") == 0 ? "give --sigma"
-                                                            : "let the oracle answer with what you mean");
-    return CLI_USAGE;
+    return cli_usage("`%s` is for points files; leave it out, and %s", field->name,
+                     strcmp(field->name, "cost_column") == 0    ? "let the oracle begin with \"points N cost C ... C\""
+                     : strcmp(field->name, "sigma_column") == 0 ? "give --sigma"
+                                                                : "let the oracle answer with what you mean");
   }
   return 0;
 }
@@ -46,11 +44,16 @@ static int session_read_oracle(dyd_engine *e, const cli_options *o) {
   dyd_error_clear(&err);
   const dyd_oracle_options options = {DYD_SIZED(dyd_oracle_options), .jobs = o->oracle_jobs, .batch = o->oracle_batch,
                                       .retries = o->oracle_retries, .seconds = o->oracle_timeout};
+<<<<<<< HEAD
   if (dyd_oracle_new(&oracle, o->oracle, &options, &err) != DYD_OK) {
     cli_complain("%s", err.message);
     return CLI_FAILED;
   }
   status = oracle_add(e, oracle);
+=======
+  if (dyd_oracle_new(&oracle, o->oracle, &options, &err) != DYD_OK) return cli_fail("%s", err.message);
+  int status = oracle_add(e, oracle);
+>>>>>>> d10eacab (Print and return what failed in one call, lines of a report if they hold)
   dyd_oracle_free(oracle);
   return status;
 }
@@ -76,10 +79,6 @@ static int session_read_file(dyd_engine *e, const cli_options *o, dyd_read_repor
   return st == DYD_OK ? 0 : st == DYD_E_ARG ? CLI_USAGE : CLI_FAILED;
 }
 
-int cli_points_read(dyd_engine *e, const cli_options *o) {
-  return o->oracle ? session_read_oracle(e, o) : session_read_file(e, o, NULL);
-}
-
 /* Can all points be places on the globe? */
 static bool points_are_degrees(const dyd_engine *e) {
   double b[4];
@@ -92,11 +91,11 @@ static bool points_are_degrees(const dyd_engine *e) {
   return good;
 }
 
-int cli_points_read_noting(dyd_engine *e, const cli_options *o) {
+int cli_points_read(dyd_engine *e, const cli_options *o, bool noting) {
   if (o->oracle) return session_read_oracle(e, o);
   dyd_read_report r = {DYD_SIZED(dyd_read_report)};
   int status = session_read_file(e, o, &r);
-  if (status) return status;
+  if (status || !noting) return status;
   if (!r.rows) cli_note(o, "%s: there are no points in this file", o->file);
   if (r.missing)
     cli_note(o, "%s: %zu of %zu rows are left out, as a coordinate or radius is missing; the others keep their numbers",
@@ -228,8 +227,8 @@ static int trace_end(cli_session *s) {
   s->trace_file.stream = NULL;
   cli_output_drop(&s->trace_file);
   if (st == DYD_OK && good) return 0;
-  cli_complain("%s: %s; choose another place with --trace", s->o.trace, st == DYD_OK ? strerror(errno) : err.message);
-  return CLI_FAILED;
+  return cli_fail("%s: %s; choose another place with --trace", s->o.trace,
+                  st == DYD_OK ? strerror(errno) : err.message);
 }
 
 /* ---- running ---- */
@@ -640,7 +639,7 @@ static int work_open(cli_session *s) {
   if (dyd_engine_new(&s->engine) != DYD_OK) return cli_complain_memory();
   s->progress = cli_progress_start(s->o.quiet);
   cli_progress_phase(s->progress, "reading");
-  int status = cli_points_read_noting(s->engine, &s->o);
+  int status = cli_points_read(s->engine, &s->o, true);
   return status == 0 && s->o.resume ? cli_trace_resume(s) : status;
 }
 

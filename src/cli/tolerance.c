@@ -25,8 +25,7 @@ typedef struct tolerance_run {
 static int sigma_read(mpq_ptr out, const char *text) {
   int status = cli_number_read(out, "sigma", text);
   if (status || (mpq_get_d(out) >= 1e-300 && mpq_get_d(out) <= 1e300)) return status;
-  cli_complain("--sigma \"%s\" is not understood; give a number above 0, such as 0.01", text);
-  return CLI_USAGE;
+  return cli_usage("--sigma \"%s\" is not understood; give a number above 0, such as 0.01", text);
 }
 
 /* Options that exclude each other. */
@@ -197,11 +196,9 @@ static int plan_begin(cli_session *s) {
   const cli_options *o = &s->o;
   mpq_init(r->accuracy);
   int status = o->accuracy ? cli_number_read(r->accuracy, "accuracy", o->accuracy) : 0;
-  if (!status && o->accuracy && mpq_sgn(r->accuracy) == 0) {
-    cli_complain("--accuracy \"%s\" is not understood; nothing is measured exactly: give a number above 0",
-                 o->accuracy);
-    return CLI_USAGE;
-  }
+  if (!status && o->accuracy && mpq_sgn(r->accuracy) == 0)
+    return cli_usage("--accuracy \"%s\" is not understood; nothing is measured exactly: give a number above 0",
+                     o->accuracy);
   if (!status && o->pairs) status = pairs_read(r, o->pairs);
   r->site = o->site;
   return status;
@@ -226,18 +223,15 @@ static uint32_t point_of_row(const dyd_engine *e, uint32_t row) {
 static int plan_find_points(cli_session *s) {
   plan_run *r = s->state;
   const cli_options *o = &s->o;
-  if (o->site_set && (r->site = point_of_row(s->engine, r->site)) == UINT32_MAX) {
-    cli_complain("there is no point %lu; give --site the number of one, from 0", (unsigned long)o->site);
-    return CLI_FAILED;
-  }
+  if (o->site_set && (r->site = point_of_row(s->engine, r->site)) == UINT32_MAX)
+    return cli_fail("there is no point %lu; give --site the number of one, from 0", (unsigned long)o->site);
   for (size_t k = 0; k < r->pairs.count; k++) {
     uint32_t *end[2] = {&r->pairs.item[k].i, &r->pairs.item[k].j};
     for (int x = 0; x < 2; x++) {
       unsigned long row = *end[x];
       if ((*end[x] = point_of_row(s->engine, *end[x])) != UINT32_MAX) continue;
-      cli_complain("%s:%zu: there is no point %lu; give pairs of points that are there, numbered from 0", o->pairs,
-                   r->line[k], row);
-      return CLI_FAILED;
+      return cli_fail("%s:%zu: there is no point %lu; give pairs of points that are there, numbered from 0", o->pairs,
+                      r->line[k], row);
     }
   }
   return 0;

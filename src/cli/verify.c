@@ -3,6 +3,7 @@
 #include "cli.h"
 
 #include <errno.h>
+#include <stdarg.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -87,10 +88,7 @@ static int proved_run(int out, int still, const char *file) {
   if (child == 0) proved_become(out, still, path, file);
   while (child > 0 && waitpid(child, &how, 0) < 0)
     if (errno != EINTR) child = -1;
-  if (child < 0) {
-    cli_complain("cannot run " PROGRAM ": %s", strerror(errno));
-    return CLI_FAILED;
-  }
+  if (child < 0) return cli_fail("cannot run " PROGRAM ": %s", strerror(errno));
   if (WIFEXITED(how) && WEXITSTATUS(how) != CANNOT_RUN) return WEXITSTATUS(how);
   if (WIFEXITED(how))
     complain_missing(folder);
@@ -114,46 +112,50 @@ static int verify_proved(const cli_options *o, FILE *still, const char *more) {
   return status;
 }
 
+/* Prints a line if `when` is true. */
+__attribute__((format(printf, 3, 4))) static void print_if(FILE *out, bool when, const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  if (when) vfprintf(out, format, args);
+  va_end(args);
+}
+
 static void print_pairs(FILE *out, const dyd_certificate_report *r) {
   fprintf(out, "checked: %zu legal pairs, each by its witness against all sites\n", r->legal);
-  if (r->sphere && !r->gap)
-    fprintf(out, "checked: %zu legal pairs with the place that is projected from\n", r->legal_around);
-  if (r->second) fprintf(out, "checked: from a gap between them as well: %zu legal pairs\n", r->second_legal);
-  if (r->connected)
-    fprintf(out, "checked: %zu sure triangles, %zu sure corners of the hull\n", r->triangles, r->corners);
-  if (r->illegal_chains)
-    fprintf(out, "checked: %zu illegal pairs within undecided faces, each by its chain\n", r->illegal_chains);
-  if (r->illegal_boxes)
-    fprintf(out, "checked: %llu illegal pairs within undecided faces, by boxes that cover the plane\n",
-            (unsigned long long)r->illegal_boxes);
-  if (!r->unproved && !r->capped && !r->around_unproved)
-    fprintf(out, "checked: all pairs that are not listed%s are illegal\n",
-            r->gap ? ", nor of two neighbours of the gap," : "");
-  if ((r->area || r->hausdorff) && !(r->gaps & DYD_GAP_BOUNDS))
-    fputs("checked: the bounds of area and Hausdorff distance\n", out);
-  if (r->diagram)
-    fprintf(out, "checked: the undetermined area of the diagram, by %zu polygons inside cells\n", r->polygons);
-  if (r->distance_proved) fputs("checked: the distance of undetermined points to the diagram\n", out);
-  if (r->identities || r->tie_bounds)
-    fprintf(out, "checked: what points are described to be: %zu identities, %zu bounds\n", r->identities,
-            r->tie_bounds);
-  if (r->tie > r->ties_unproved)
-    fprintf(out, "checked: %zu ties, on empty circles or lines of the hull\n", r->tie - r->ties_unproved);
+  print_if(out, r->sphere && !r->gap, "checked: %zu legal pairs with the place that is projected from\n",
+           r->legal_around);
+  print_if(out, r->second, "checked: from a gap between them as well: %zu legal pairs\n", r->second_legal);
+  print_if(out, r->connected, "checked: %zu sure triangles, %zu sure corners of the hull\n", r->triangles, r->corners);
+  print_if(out, r->illegal_chains, "checked: %zu illegal pairs within undecided faces, each by its chain\n",
+           r->illegal_chains);
+  print_if(out, r->illegal_boxes, "checked: %llu illegal pairs within undecided faces, by boxes that cover the plane\n",
+           (unsigned long long)r->illegal_boxes);
+  print_if(out, !r->unproved && !r->capped && !r->around_unproved,
+           "checked: all pairs that are not listed%s are illegal\n",
+           r->gap ? ", nor of two neighbours of the gap," : "");
+  print_if(out, (r->area || r->hausdorff) && !(r->gaps & DYD_GAP_BOUNDS),
+           "checked: the bounds of area and Hausdorff distance\n");
+  print_if(out, r->diagram, "checked: the undetermined area of the diagram, by %zu polygons inside cells\n",
+           r->polygons);
+  print_if(out, r->distance_proved, "checked: the distance of undetermined points to the diagram\n");
+  print_if(out, r->identities || r->tie_bounds,
+           "checked: what points are described to be: %zu identities, %zu bounds\n", r->identities, r->tie_bounds);
+  print_if(out, r->tie > r->ties_unproved, "checked: %zu ties, on empty circles or lines of the hull\n",
+           r->tie - r->ties_unproved);
 }
 
 static void print_parts(FILE *out, const dyd_certificate_report *r) {
-  if (r->discs)
-    fprintf(out, "checked: %zu more legal pairs of the discs by witnesses, %zu illegal ones by blockers\n",
-            r->discs_legal, r->discs_illegal);
-  if (r->graph)
-    fprintf(out, "checked: %zu of %zu edges of the graph %s are certain\n", r->graph_certain, r->graph_rows, r->graph);
-  if (r->graph && !(r->gaps & DYD_GAP_GRAPH)) fputs("checked: pairs without a row are no edges of it\n", out);
+  print_if(out, r->discs, "checked: %zu more legal pairs of the discs by witnesses, %zu illegal ones by blockers\n",
+           r->discs_legal, r->discs_illegal);
+  print_if(out, r->graph, "checked: %zu of %zu edges of the graph %s are certain\n", r->graph_certain, r->graph_rows,
+           r->graph);
+  print_if(out, r->graph && !(r->gaps & DYD_GAP_GRAPH), "checked: pairs without a row are no edges of it\n");
 }
 
 static void print_places(FILE *out, const dyd_certificate_report *r) {
   fprintf(out, "checked: %zu of %zu places have a certain nearest site\n", r->places_certain, r->places);
-  if (!r->near_unproved)
-    fputs("checked: sites that are not listed are not nearest, distances lie in their bounds\n", out);
+  print_if(out, !r->near_unproved,
+           "checked: sites that are not listed are not nearest, distances lie in their bounds\n");
 }
 
 static void print_proved(FILE *out, const dyd_certificate_report *r) {
@@ -162,28 +164,25 @@ static void print_proved(FILE *out, const dyd_certificate_report *r) {
             r->gap ? "a gap between them" : "one of them", r->sites);
   else
     fprintf(out, "sites: %zu, of which %zu aliases\n", r->sites, r->aliases);
-  if (r->discs)
-    fprintf(out, "about: points in %zu discs%s\n", r->discs, r->discs_fixed ? ", which nothing narrows" : "");
-  if (r->bound && !r->unlocated)
-    fprintf(out, "checked: the points given %s%s\n",
-            r->sphere ? "are its places, with their radii" : "lie in its rectangles",
-            r->discs && !r->undescribed ? " and discs" : "");
-  if (r->sphere && !r->images_unproved) fputs("checked: each image lies in its rectangle, radii included\n", out);
+  print_if(out, r->discs, "about: points in %zu discs%s\n", r->discs, r->discs_fixed ? ", which nothing narrows" : "");
+  print_if(out, r->bound && !r->unlocated, "checked: the points given %s%s\n",
+           r->sphere ? "are its places, with their radii" : "lie in its rectangles",
+           r->discs && !r->undescribed ? " and discs" : "");
+  print_if(out, r->sphere && !r->images_unproved, "checked: each image lies in its rectangle, radii included\n");
   if (strcmp(r->goal, "nearest") == 0) {
     print_places(out, r);
   } else {
     print_pairs(out, r);
     print_parts(out, r);
   }
-  if (!(r->gaps & DYD_GAP_OUTCOME)) fprintf(out, "checked: the outcome %s\n", r->outcome);
+  print_if(out, !(r->gaps & DYD_GAP_OUTCOME), "checked: the outcome %s\n", r->outcome);
 }
 
 /* Undecided pairs, without anything to prove. */
 static void print_open(FILE *out, const dyd_certificate_report *r) {
-  if (r->indeterminate) fprintf(out, "open: %zu indeterminate pairs, of which nothing is stated\n", r->indeterminate);
-  if (r->capped)
-    fprintf(out, "open: %llu pairs within %zu undecided faces: the cap was met, nothing is stated\n",
-            (unsigned long long)r->unproved, r->undecided_sets);
+  print_if(out, r->indeterminate, "open: %zu indeterminate pairs, of which nothing is stated\n", r->indeterminate);
+  print_if(out, r->capped, "open: %llu pairs within %zu undecided faces: the cap was met, nothing is stated\n",
+           (unsigned long long)r->unproved, r->undecided_sets);
 }
 
 /* Why an outcome is no more than a word. */
@@ -196,43 +195,39 @@ static const char *outcome_reason(const dyd_certificate_report *r) {
 }
 
 static void print_part_gaps(FILE *out, const dyd_certificate_report *r) {
-  if (r->gaps & DYD_GAP_DISCS)
-    fprintf(out, "not proved: the statuses of %zu pairs of the discs, which have no witness or blockers\n",
-            r->discs_unproved);
-  if (r->gaps & DYD_GAP_GRAPH)
-    fprintf(out, "not proved: that pairs without a row are no edges of the graph %s (%llu possible ones)\n", r->graph,
-            (unsigned long long)r->graph_unproved);
-  if (r->gaps & DYD_GAP_NEAREST)
-    fprintf(out, "not proved: that %llu sites are not nearest to places that do not list them\n",
-            (unsigned long long)r->near_unproved);
+  print_if(out, r->gaps & DYD_GAP_DISCS,
+           "not proved: the statuses of %zu pairs of the discs, which have no witness or blockers\n",
+           r->discs_unproved);
+  print_if(out, r->gaps & DYD_GAP_GRAPH,
+           "not proved: that pairs without a row are no edges of the graph %s (%llu possible ones)\n", r->graph,
+           (unsigned long long)r->graph_unproved);
+  print_if(out, r->gaps & DYD_GAP_NEAREST,
+           "not proved: that %llu sites are not nearest to places that do not list them\n",
+           (unsigned long long)r->near_unproved);
 }
 
 static void print_gaps(FILE *out, const dyd_certificate_report *r) {
-  if (r->gaps & DYD_GAP_IMAGES)
-    fprintf(out, "not proved: that %zu rectangles hold the images of their places\n", r->images_unproved);
-  if (r->gaps & DYD_GAP_AROUND)
-    fprintf(out, "not proved: that %zu images that are not listed are no neighbours of what is projected from\n",
-            r->around_unproved);
-  if (r->gaps & DYD_GAP_LEGAL)
-    fprintf(out, "not proved: that %zu pairs without a witness are legal\n", r->legal_unproved);
-  if (r->gaps & DYD_GAP_ILLEGAL)
-    fprintf(out, "not proved: that %llu pairs within %zu undecided faces are illegal\n",
-            (unsigned long long)r->unproved, r->undecided_sets);
-  if (r->gaps & DYD_GAP_TIES) fprintf(out, "not proved: that %zu pairs are ties\n", r->ties_unproved);
-  if (r->gaps & DYD_GAP_CLAIMS)
-    fprintf(out, "not proved: that %zu callbacks are the roots that their authors say they are\n", r->claims);
-  if (r->gaps & DYD_GAP_ALIASES)
-    fprintf(out, "not proved: that %zu aliases of points that are not exact are the same points\n",
-            r->aliases_unproved);
-  if (r->gaps & DYD_GAP_BOUNDS)
-    fputs("not proved: the bounds of area and Hausdorff distance, as more pairs may be possible\n", out);
-  if (r->gaps & DYD_GAP_DISTANCE) fputs("not proved: the distance of undetermined points to the diagram\n", out);
+  print_if(out, r->gaps & DYD_GAP_IMAGES, "not proved: that %zu rectangles hold the images of their places\n",
+           r->images_unproved);
+  print_if(out, r->gaps & DYD_GAP_AROUND,
+           "not proved: that %zu images that are not listed are no neighbours of what is projected from\n",
+           r->around_unproved);
+  print_if(out, r->gaps & DYD_GAP_LEGAL, "not proved: that %zu pairs without a witness are legal\n", r->legal_unproved);
+  print_if(out, r->gaps & DYD_GAP_ILLEGAL, "not proved: that %llu pairs within %zu undecided faces are illegal\n",
+           (unsigned long long)r->unproved, r->undecided_sets);
+  print_if(out, r->gaps & DYD_GAP_TIES, "not proved: that %zu pairs are ties\n", r->ties_unproved);
+  print_if(out, r->gaps & DYD_GAP_CLAIMS,
+           "not proved: that %zu callbacks are the roots that their authors say they are\n", r->claims);
+  print_if(out, r->gaps & DYD_GAP_ALIASES,
+           "not proved: that %zu aliases of points that are not exact are the same points\n", r->aliases_unproved);
+  print_if(out, r->gaps & DYD_GAP_BOUNDS,
+           "not proved: the bounds of area and Hausdorff distance, as more pairs may be possible\n");
+  print_if(out, r->gaps & DYD_GAP_DISTANCE, "not proved: the distance of undetermined points to the diagram\n");
   print_part_gaps(out, r);
-  if (r->gaps & DYD_GAP_OUTCOME) fprintf(out, "not proved: the outcome %s (%s)\n", r->outcome, outcome_reason(r));
-  if (r->undescribed)
-    fprintf(out, "not proved: that %zu of the points given are what the certificate describes%s\n", r->undescribed,
-            r->discs ? " (if radii are those of discs: --discs)" : "");
-  if (r->unlocated) fprintf(out, "not proved: that %zu of the points given lie in its rectangles\n", r->unlocated);
+  print_if(out, r->gaps & DYD_GAP_OUTCOME, "not proved: the outcome %s (%s)\n", r->outcome, outcome_reason(r));
+  print_if(out, r->undescribed, "not proved: that %zu of the points given are what the certificate describes%s\n",
+           r->undescribed, r->discs ? " (if radii are those of discs: --discs)" : "");
+  print_if(out, r->unlocated, "not proved: that %zu of the points given lie in its rectangles\n", r->unlocated);
 }
 
 static dyd_status print_verified(FILE *out, const cli_session *s, dyd_error *err) {
@@ -263,7 +258,7 @@ static dyd_status verify_points(int *status, dyd_certificate_report *report, FIL
   if (o->sphere) cli_options_degrees(&reading);
   dyd_status st = dyd_engine_new(&e);
   if (st != DYD_OK) return dyd_error_set(err, st, dyd_status_text(st));
-  *status = cli_points_read(e, &reading);
+  *status = cli_points_read(e, &reading, false);
   if (*status == 0)
     st = dyd_verify_certificate_on(report, still, in, e, o->discs, o->sphere ? &sphere : NULL, &o->engine, err);
   dyd_engine_free(e);
@@ -303,10 +298,7 @@ static int verify_proved_of(cli_session *s) {
   const dyd_certificate_report *r = s->state;
   char more[200];
   FILE *still = tmpfile();
-  if (!still) {
-    cli_complain("cannot make a temporary file: %s", strerror(errno));
-    return CLI_FAILED;
-  }
+  if (!still) return cli_fail("cannot make a temporary file: %s", strerror(errno));
   int status = verify_here(s->state, still, o);
   size_t others = r->undescribed + r->unlocated;
   if (others)
