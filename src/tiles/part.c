@@ -400,13 +400,6 @@ typedef struct part_readers {
   tiles_rows aliases;
 } part_readers;
 
-static bool reader_next(part_reader *p) {
-  unsigned char bytes[TILES_RECORD];
-  if (fread(bytes, sizeof bytes, 1, p->in) != 1) return false;
-  p->row = tiles_row_decode(bytes);
-  return true;
-}
-
 static dyd_status reader_fail(const part_readers *all, const char *name, const char *what, dyd_error *err) {
   return dyd_fail(err, DYD_E_IO, "%s/%s: %s; complete the folder by dyadel-tiles delaunay with --restart", all->folder,
                   name, what);
@@ -451,20 +444,14 @@ static dyd_status readers_open(part_readers *all, const json_t *manifest, dyd_er
   return st;
 }
 
-static int compare_aliases(const void *a, const void *b) {
-  const tiles_row *p = a, *q = b;
-  return (p->i > q->i) - (p->i < q->i);
-}
-
 /* They stand behind the pairs. */
 static dyd_status reader_aliases(part_readers *all, part_reader *p, dyd_error *err) {
   const off_t body = ftello(p->in);
   if (fseeko(p->in, body + (off_t)(p->pairs * TILES_RECORD), SEEK_SET) != 0) return DYD_E_IO;
   for (; p->aliases > 0; p->aliases--) {
-    if (!reader_next(p)) return reader_fail(all, "", "a part is cut short", err);
-    tiles_rows *a = &all->aliases;
-    if (!dyd_reserve((void **)&a->item, &a->room, a->count + 1, sizeof *a->item)) return tiles_no_memory(err);
-    a->item[a->count++] = p->row;
+    if (!get_row(&p->row, p->in)) return reader_fail(all, "", "a part is cut short", err);
+    dyd_status st = tiles_rows_add(&all->aliases, p->row, err);
+    if (st != DYD_OK) return st;
   }
   return fseeko(p->in, body, SEEK_SET) == 0 ? DYD_OK : DYD_E_IO;
 }
@@ -472,7 +459,7 @@ static dyd_status reader_aliases(part_readers *all, part_reader *p, dyd_error *e
 static dyd_status write_aliases(FILE *out, part_readers *all, dyd_error *err) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; st == DYD_OK && k < all->count; k++) st = reader_aliases(all, &all->item[k], err);
-  if (all->aliases.count) qsort(all->aliases.item, all->aliases.count, sizeof *all->aliases.item, compare_aliases);
+  tiles_rows_sort(&all->aliases, 0);
   for (size_t k = 0; st == DYD_OK && k < all->aliases.count; k++)
     fprintf(out, "# alias %" PRIu64 " %" PRIu64 "\n", all->aliases.item[k].i, all->aliases.item[k].j);
   return st;
@@ -500,7 +487,7 @@ static dyd_status heap_of_readers(part_readers *all, dyd_error *err) {
     part_reader *p = &all->item[k];
     if (p->pairs == 0)
       swap_readers(all, k, --all->open);
-    else if (p->pairs--, reader_next(p))
+    else if (p->pairs--, get_row(&p->row, p->in))
       k++;
     else
       return reader_fail(all, "", "a part is cut short", err);
@@ -517,7 +504,7 @@ static dyd_status write_part_pairs(FILE *out, part_readers *all, dyd_error *err)
     fprintf(out, "%" PRIu64 ",%" PRIu64 ",%s\n", p->row.i, p->row.j, word[p->row.status & 3]);
     if (p->pairs == 0)
       swap_readers(all, 0, --all->open);
-    else if (p->pairs--, !reader_next(p))
+    else if (p->pairs--, !get_row(&p->row, p->in))
       st = reader_fail(all, "", "a part is cut short", err);
     reader_sift(all, 0);
   }

@@ -166,13 +166,6 @@ static dyd_status reach_is_unmet(bool *clear, tile *t, const tiles_view *v, uint
 
 /* ---- the first triangulation ---- */
 
-static dyd_status note_alias(tile *t, size_t i, uint32_t of, dyd_error *err) {
-  tiles_rows *a = &t->aliases;
-  if (!dyd_reserve((void **)&a->item, &a->room, a->count + 1, sizeof *a->item)) return tiles_no_memory(err);
-  a->item[a->count++] = (tiles_row){t->own.number[i], t->own.number[of], 0};
-  return DYD_OK;
-}
-
 /* Equal points have one owner, since places have one. */
 static dyd_status first_aliases(tile *t, const tiles_view *v, dyd_error *err) {
   const dyd_delaunay *pd = dyd_engine_delaunay(t->engine);
@@ -182,7 +175,8 @@ static dyd_status first_aliases(tile *t, const tiles_view *v, dyd_error *err) {
   for (size_t i = 0; st == DYD_OK && i < tiles_view_count(v); i++) {
     uint32_t of = dyd_delaunay_alias(pd, (uint32_t)i);
     t->alias[i] = of != i;
-    if (of != i && i < t->own.count) st = note_alias(t, i, of, err);
+    if (of != i && i < t->own.count)
+      st = tiles_rows_add(&t->aliases, (tiles_row){t->own.number[i], t->own.number[of], 0}, err);
   }
   return st;
 }

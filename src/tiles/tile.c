@@ -261,19 +261,27 @@ static int compare_tile_rows(const void *a, const void *b) {
   return (p->j > q->j) - (p->j < q->j);
 }
 
+void tiles_rows_sort(tiles_rows *rows, size_t from) {
+  if (rows->count > from + 1) qsort(rows->item + from, rows->count - from, sizeof *rows->item, compare_tile_rows);
+}
+
+dyd_status tiles_rows_add(tiles_rows *rows, tiles_row row, dyd_error *err) {
+  if (!dyd_reserve((void **)&rows->item, &rows->room, rows->count + 1, sizeof *rows->item)) return tiles_no_memory(err);
+  rows->item[rows->count++] = row;
+  return DYD_OK;
+}
+
 dyd_status tile_rows_of(tiles_rows *rows, tile *t, const tiles_view *v, uint32_t i, dyd_error *err) {
-  tiles_partners p;
+  tiles_partners p = {0};
   const uint64_t own = tiles_view_number(v, i);
   const size_t from = rows->count;
   dyd_status st = tile_partners(&p, t, i, err);
-  if (st != DYD_OK) return st;
-  if (!dyd_reserve((void **)&rows->item, &rows->room, from + p.count, sizeof *rows->item)) return tiles_no_memory(err);
-  for (size_t k = 0; k < p.count; k++) {
+  for (size_t k = 0; st == DYD_OK && k < p.count; k++) {
     uint64_t number = tiles_view_number(v, TILES_SITE(p.item[k]));
-    if (number > own) rows->item[rows->count++] = (tiles_row){own, number, TILES_STATUS(p.item[k])};
+    if (number > own) st = tiles_rows_add(rows, (tiles_row){own, number, TILES_STATUS(p.item[k])}, err);
   }
-  if (rows->count > from + 1) qsort(rows->item + from, rows->count - from, sizeof *rows->item, compare_tile_rows);
-  return DYD_OK;
+  tiles_rows_sort(rows, from);
+  return st;
 }
 
 enum { SAMPLES = 1 << 16 };

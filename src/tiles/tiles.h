@@ -220,6 +220,9 @@ typedef struct tiles_rows {
   size_t count, room;
   tiles_row *item;
 } tiles_rows;
+dyd_status tiles_rows_add(tiles_rows *rows, tiles_row row, dyd_error *err);
+/* Sorts rows `from` and on by i, then j. */
+void tiles_rows_sort(tiles_rows *rows, size_t from);
 
 typedef struct tile {
   const tiles_job *job;
