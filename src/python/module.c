@@ -216,41 +216,29 @@ bool dydpy_site(uint32_t *out, dydpy_engine *self, Py_ssize_t number) {
   return there;
 }
 
-bool dydpy_enter(dydpy_engine *self) {
-  if (self->busy || !self->engine) {
+/* Enters; false with RuntimeError when another call is at work, or there is no result. */
+static bool call_enter(dydpy_call *c) {
+  dydpy_engine *self = c->self;
+  const bool wants = c->how & DYDPY_RESULT;
+  c->pd = wants && !self->busy && self->engine ? dyd_engine_delaunay(self->engine) : NULL;
+  if (self->busy)
     PyErr_SetString(PyExc_RuntimeError,
-                    self->busy ? "this triangulation is at work in another call; wait for it, or use one of its own"
-                               : "this engine is gone");
-    return false;
-  }
-  self->busy = true;
-  return true;
-}
-
-void dydpy_leave(dydpy_engine *self) {
-  self->busy = false;
-}
-
-const dyd_delaunay *dydpy_enter_result(dydpy_engine *self) {
-  if (!dydpy_enter(self)) return NULL;
-  const dyd_delaunay *pd = dyd_engine_delaunay(self->engine);
-  if (pd) return pd;
-  dydpy_leave(self);
-  PyErr_SetString(PyExc_RuntimeError, "there is no result yet; call refine()");
-  return NULL;
+                    "this triangulation is at work in another call; wait for it, or use one of its own");
+  else if (!self->engine)
+    PyErr_SetString(PyExc_RuntimeError, "this engine is gone");
+  else if (wants && !c->pd)
+    PyErr_SetString(PyExc_RuntimeError, "there is no result yet; call refine()");
+  else
+    return self->busy = true;
+  return false;
 }
 
 bool dydpy_begin(dydpy_call *c, PyObject *self, int how) {
   c->self = (dydpy_engine *)self;
-  c->pd = NULL;
   c->cancel = 0;
   c->how = how;
   dyd_error_clear(&c->err);
-  if (how & DYDPY_RESULT)
-    c->pd = dydpy_enter_result(c->self);
-  else if (self && !dydpy_enter(c->self))
-    return false;
-  if (how & DYDPY_RESULT && !c->pd) return false;
+  if (self && !call_enter(c)) return false;
   if (how & (DYDPY_CANCELS | DYDPY_REFINES))
     dydpy_guard_begin(&c->guard, self && how & DYDPY_REFINES ? c->self->engine : NULL, &c->cancel);
   c->thread = how & DYDPY_HOLDS ? NULL : PyEval_SaveThread();
@@ -260,7 +248,7 @@ bool dydpy_begin(dydpy_call *c, PyObject *self, int how) {
 /* Images are named by their places. */
 bool dydpy_end(dydpy_call *c, dyd_status st) {
   if (c->thread) PyEval_RestoreThread(c->thread);
-  if (c->self) dydpy_leave(c->self);
+  if (c->self) c->self->busy = false;
   if (c->how & (DYDPY_CANCELS | DYDPY_REFINES)) dydpy_guard_end(&c->guard);
   if (c->self && c->self->sphere && c->err.point != DYD_NO_POINT)
     c->err.point = dyd_sphere_place(c->self->sphere, (uint32_t)c->err.point);

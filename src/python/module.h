@@ -88,13 +88,8 @@ typedef struct dydpy_engine {
 /* Borrowed; NULL with an exception set. */
 PyTypeObject *dydpy_engine_type(void);
 
-/* Begins and ends a call that uses the engine: false with RuntimeError when another one is at work. */
-bool dydpy_enter(dydpy_engine *self);
-void dydpy_leave(dydpy_engine *self);
-/* The result, with the engine entered; NULL with an exception set (and not entered) when there is none. */
-const dyd_delaunay *dydpy_enter_result(dydpy_engine *self);
-
-/* A call of the library: begin enters the engine and releases the GIL, end takes it again and raises what failed. */
+/* A call of the library: begin enters the engine, or raises RuntimeError when another call is at work, and releases the
+ * GIL; end takes it again and raises what failed. */
 typedef struct dydpy_call {
   dydpy_engine *self;     /* NULL: none */
   const dyd_delaunay *pd; /* its result; NULL: none was asked for */

@@ -13,13 +13,12 @@ PyObject *dydpy_count(PyObject *self, PyObject *none) {
   return PyLong_FromSize_t(dydpy_points((dydpy_engine *)self));
 }
 
-PyObject *dydpy_outcome(PyObject *object, PyObject *none) {
-  dydpy_engine *self = (dydpy_engine *)object;
+PyObject *dydpy_outcome(PyObject *self, PyObject *none) {
+  dydpy_call c;
   (void)none;
-  if (!dydpy_enter(self)) return NULL;
-  dyd_outcome outcome = self->sphere ? dyd_sphere_outcome(self->sphere) : dyd_engine_outcome(self->engine);
-  dydpy_leave(self);
-  return PyUnicode_FromString(dyd_outcome_text(outcome));
+  if (!dydpy_begin(&c, self, DYDPY_HOLDS)) return NULL;
+  dyd_outcome outcome = c.self->sphere ? dyd_sphere_outcome(c.self->sphere) : dyd_engine_outcome(c.self->engine);
+  return dydpy_end(&c, DYD_OK) ? PyUnicode_FromString(dyd_outcome_text(outcome)) : NULL;
 }
 
 static PyObject *spent_name(dyd_budget spent) {
@@ -52,29 +51,26 @@ PyObject *dydpy_counters(PyObject *object, PyObject *none) {
   return dydpy_dict(entry, sizeof entry / sizeof *entry);
 }
 
-PyObject *dydpy_counts(PyObject *object, PyObject *none) {
-  dydpy_engine *self = (dydpy_engine *)object;
+PyObject *dydpy_counts(PyObject *self, PyObject *none) {
   size_t count[4];
+  dydpy_call c;
   (void)none;
-  const dyd_delaunay *pd = dydpy_enter_result(self);
-  if (!pd) return NULL;
-  dyd_delaunay_count(count, pd);
-  dydpy_leave(self);
+  if (!dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_HOLDS)) return NULL;
+  dyd_delaunay_count(count, c.pd);
+  if (!dydpy_end(&c, DYD_OK)) return NULL;
   return Py_BuildValue("nnn", (Py_ssize_t)count[DYD_LEGAL], (Py_ssize_t)count[DYD_INDETERMINATE],
                        (Py_ssize_t)count[DYD_TIE]);
 }
 
-PyObject *dydpy_pair_status(PyObject *object, PyObject *args) {
-  dydpy_engine *self = (dydpy_engine *)object;
+PyObject *dydpy_pair_status(PyObject *self, PyObject *args) {
   Py_ssize_t i, j;
   uint32_t first, second;
-  if (!PyArg_ParseTuple(args, "nn", &i, &j) || !dydpy_site(&first, self, i) || !dydpy_site(&second, self, j))
+  dydpy_call c;
+  if (!PyArg_ParseTuple(args, "nn", &i, &j) || !dydpy_site(&first, (dydpy_engine *)self, i) ||
+      !dydpy_site(&second, (dydpy_engine *)self, j) || !dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_HOLDS))
     return NULL;
-  const dyd_delaunay *pd = dydpy_enter_result(self);
-  if (!pd) return NULL;
-  dyd_pair_status status = dyd_delaunay_status(pd, first, second);
-  dydpy_leave(self);
-  return PyLong_FromLong(status);
+  dyd_pair_status status = dyd_delaunay_status(c.pd, first, second);
+  return dydpy_end(&c, DYD_OK) ? PyLong_FromLong(status) : NULL;
 }
 
 PyObject *dydpy_bounds(PyObject *object, PyObject *none) {
