@@ -183,7 +183,7 @@ typedef struct given_place {
   size_t line, column;
 } given_place;
 
-/* options come first; moves of a file, and where each names its point. */
+/* The moves of a file, and where each names its point; the run and its report. */
 typedef struct check_run {
   dyd_check_options options;
   dyd_check_report report;

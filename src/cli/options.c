@@ -41,7 +41,7 @@ static size_t edit_distance(const char *a, const char *b) {
   return d[m][n];
 }
 
-/* the candidate (0 and on, up to a NULL) most like `name`, NULL when none is like it. A name that begins as
+/* Returns the candidate (0 and on, up to a NULL) most like `name`, NULL when none is like it. A name that begins as
  * `name` does, or a few typing errors away. */
 static const char *suggest_name(const char *name, const char *(*candidate)(size_t k)) {
   const char *best = NULL, *one;
@@ -267,7 +267,7 @@ static bool value_any(cli_options *o, const cli_option *option, const char *text
   return false;
 }
 
-/* reads the value of an option into *o; 0, or an exit status after a message. */
+/* Reads the value of an option into *o. 0, or an exit status after a message. */
 static int value_read(cli_options *o, const cli_option *option, const char *text) {
   int status = option->kind == CLI_WINDOW ? check_window(text) : 0;
   if (status) return status;

@@ -45,7 +45,7 @@ static dyd_status tiles_file_open(tiles_file *f, const char *folder, const char 
   return st;
 }
 
-/* st, or what writing failed with; the file is there when that is DYD_OK. */
+/* Returns st, or the error of writing; the file is there when that is DYD_OK. */
 static dyd_status tiles_file_close(tiles_file *f, dyd_status st, dyd_error *err) {
   if (!f->stream) return st;
   bool kept = fflush(f->stream) == 0 && !ferror(f->stream) && fsync(fileno(f->stream)) == 0;
