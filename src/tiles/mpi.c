@@ -58,7 +58,7 @@ static dyd_status expect_mail(size_t *pieces, tile *t, dyd_error *err) {
   *pieces = 0;
   for (size_t r = 0; fits && r < ranks; r++) {
     t->in[r].count = 0;
-    fits = dyd_reserve((void **)&t->in[r].bytes, &t->in[r].room, length[ranks + r], 1);
+    fits = dyd_reserve((void **)&t->in[r].bytes, &t->in[r].cap, length[ranks + r], 1);
     t->in[r].count = length[ranks + r];
     *pieces += pieces_of(t->in[r].count) + pieces_of(t->out[r].count);
     if (r != t->rank) t->counters.sent += t->out[r].count;

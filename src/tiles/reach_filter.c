@@ -94,7 +94,7 @@ static double reach_cross(double ax, double ay, double bx, double by) {
 
 static bool reach_knot(reach_work *w, double x, double y, bool far) {
   tiles_reach *r = w->out;
-  if (!dyd_reserve((void **)&r->knot, &r->room_knot, w->knots + 1, sizeof *r->knot)) return false;
+  if (!dyd_reserve((void **)&r->knot, &r->cap_knot, w->knots + 1, sizeof *r->knot)) return false;
   r->knot[w->knots++] = (tiles_knot){x, y, far};
   return true;
 }
@@ -196,11 +196,11 @@ static size_t hull_of_spokes(tiles_spoke *out, tiles_spoke *s, size_t n) {
   return n == 1 ? 1 : at - 1;
 }
 
-/* Spokes; then room for those of a quadrant, for their hull, and for the border. */
+/* Spokes; then space for those of a quadrant, for their hull, and for the border. */
 static bool reach_spokes(reach_work *w, const tiles_view *v, uint32_t i, const tiles_partners *p) {
   enum { PARTS = 8 };
   tiles_reach *r = w->out;
-  if (!dyd_reserve((void **)&r->spoke, &r->room_spoke, PARTS * (p->count + 1), sizeof *r->spoke)) return false;
+  if (!dyd_reserve((void **)&r->spoke, &r->cap_spoke, PARTS * (p->count + 1), sizeof *r->spoke)) return false;
   tiles_box own = tiles_view_box(v, i);
   w->own = reach_box(&own, own.x0, own.y0);
   w->cx = w->own.x1 / 2;
@@ -311,7 +311,7 @@ bool tiles_reach_find(tiles_reach *out, const tiles_view *v, uint32_t i, const t
   reach_work w = {.out = out};
   bool fits;
   if (!reach_spokes(&w, v, i, p) || !reach_chain(&fits, &w) ||
-      !dyd_reserve((void **)&out->item, &out->room, w.knots + 1, sizeof *out->item))
+      !dyd_reserve((void **)&out->item, &out->cap, w.knots + 1, sizeof *out->item))
     return false;
   const tiles_box own = tiles_view_box(v, i);
   out->count = 0;

@@ -91,8 +91,8 @@ static bool is_too_late(const tiles_search *q, double score) {
 
 static bool search_take(tiles_search *q, uint32_t site, double score) {
   if (q->count < q->most) {
-    if (!dyd_reserve((void **)&q->site, &q->room_site, q->count + 1, sizeof *q->site)) return false;
-    if (!dyd_reserve((void **)&q->score, &q->room_score, q->count + 1, sizeof *q->score)) return false;
+    if (!dyd_reserve((void **)&q->site, &q->cap_site, q->count + 1, sizeof *q->site)) return false;
+    if (!dyd_reserve((void **)&q->score, &q->cap_score, q->count + 1, sizeof *q->score)) return false;
     q->count++;
   }
   size_t at = q->count - 1;

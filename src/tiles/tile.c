@@ -19,7 +19,7 @@ dyd_status tiles_no_memory(dyd_error *err) {
 
 bool tiles_mail_put(tiles_mail *m, const void *bytes, size_t count) {
   if (count == 0) return true;
-  if (!dyd_reserve((void **)&m->bytes, &m->room, m->count + count, 1)) return false;
+  if (!dyd_reserve((void **)&m->bytes, &m->cap, m->count + count, 1)) return false;
   memcpy(m->bytes + m->count, bytes, count);
   m->count += count;
   return true;
@@ -38,8 +38,8 @@ void tiles_mail_clear(tiles_mail *m) {
 }
 
 bool tiles_sites_reserve(tiles_sites *s, size_t count) {
-  return dyd_reserve((void **)&s->number, &s->room_number, count, sizeof *s->number) &&
-         dyd_reserve((void **)&s->end, &s->room_end, count * s->dim, sizeof *s->end);
+  return dyd_reserve((void **)&s->number, &s->cap_number, count, sizeof *s->number) &&
+         dyd_reserve((void **)&s->end, &s->cap_end, count * s->dim, sizeof *s->end);
 }
 
 bool tiles_sites_add(tiles_sites *s, uint64_t number, const double *end) {
@@ -80,7 +80,7 @@ void tiles_sites_clear(tiles_sites *s) {
 void tiles_sites_end(tiles_sites *s) {
   free(s->end);
   s->end = NULL;
-  s->room_end = 0;
+  s->cap_end = 0;
 }
 
 tiles_box tiles_view_box(const tiles_view *v, size_t k) {
@@ -102,20 +102,20 @@ bool tiles_sites_copy(tiles_sites *s, const tiles_view *v, size_t k) {
 /* ---- sets ---- */
 
 static size_t set_place(const tiles_set *s, uint32_t site) {
-  size_t at = (site * 2654435769u) & (s->room - 1);
-  while (s->slot[at] && s->slot[at] != site + 1) at = (at + 1) & (s->room - 1);
+  size_t at = (site * 2654435769u) & (s->cap - 1);
+  while (s->slot[at] && s->slot[at] != site + 1) at = (at + 1) & (s->cap - 1);
   return at;
 }
 
 bool tiles_set_has(const tiles_set *s, uint32_t site) {
-  return s->room && s->slot[set_place(s, site)];
+  return s->cap && s->slot[set_place(s, site)];
 }
 
 static bool set_grow(tiles_set *s) {
-  tiles_set wider = {.room = s->room ? 2 * s->room : 64};
-  wider.slot = calloc(wider.room, sizeof *wider.slot);
+  tiles_set wider = {.cap = s->cap ? 2 * s->cap : 64};
+  wider.slot = calloc(wider.cap, sizeof *wider.slot);
   if (!wider.slot) return false;
-  for (size_t k = 0; k < s->room; k++)
+  for (size_t k = 0; k < s->cap; k++)
     if (s->slot[k]) wider.slot[set_place(&wider, s->slot[k] - 1)] = s->slot[k];
   free(s->slot);
   wider.count = s->count;
@@ -124,7 +124,7 @@ static bool set_grow(tiles_set *s) {
 }
 
 bool tiles_set_add(tiles_set *s, uint32_t site) {
-  if (2 * (s->count + 1) > s->room && !set_grow(s)) return false;
+  if (2 * (s->count + 1) > s->cap && !set_grow(s)) return false;
   size_t at = set_place(s, site);
   if (!s->slot[at]) s->count++;
   s->slot[at] = site + 1;
@@ -233,12 +233,11 @@ static bool list_partners(tiles_graph *g, const dyd_delaunay *pd, uint32_t first
   const uint32_t most = sites / PARTS < LEAST ? LEAST : sites / PARTS, left = sites - first;
   g->first = first;
   g->count = left < most ? left : most;
-  if (!dyd_reserve((void **)&g->start, &g->room_start, g->count + 2, sizeof *g->start)) return false;
+  if (!dyd_reserve((void **)&g->start, &g->cap_start, g->count + 2, sizeof *g->start)) return false;
   memset(g->start, 0, (g->count + 2) * sizeof *g->start);
   dyd_delaunay_each_pair(pd, count_partners, g);
   for (size_t k = 2; k < g->count + 2; k++) g->start[k] += g->start[k - 1];
-  if (!dyd_reserve((void **)&g->partner, &g->room_partner, g->start[g->count + 1] + 1, sizeof *g->partner))
-    return false;
+  if (!dyd_reserve((void **)&g->partner, &g->cap_partner, g->start[g->count + 1] + 1, sizeof *g->partner)) return false;
   dyd_delaunay_each_pair(pd, place_partners, g);
   return true;
 }
@@ -266,7 +265,7 @@ void tiles_rows_sort(tiles_rows *rows, size_t from) {
 }
 
 dyd_status tiles_rows_add(tiles_rows *rows, tiles_row row, dyd_error *err) {
-  if (!dyd_reserve((void **)&rows->item, &rows->room, rows->count + 1, sizeof *rows->item)) return tiles_no_memory(err);
+  if (!dyd_reserve((void **)&rows->item, &rows->cap, rows->count + 1, sizeof *rows->item)) return tiles_no_memory(err);
   rows->item[rows->count++] = row;
   return DYD_OK;
 }

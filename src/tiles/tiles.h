@@ -25,7 +25,7 @@ dyd_status tiles_no_memory(dyd_error *err);
 /* Bytes from one rank to another. */
 typedef struct tiles_mail {
   unsigned char *bytes;
-  size_t count, room;
+  size_t count, cap;
 } tiles_mail;
 bool tiles_mail_put(tiles_mail *m, const void *bytes, size_t count);
 /* Takes `count` bytes off the front, which *read counts; false: there are not so many. */
@@ -41,7 +41,7 @@ typedef struct tiles_box {
 /* Rows of a number and `dim` doubles: x y, or, of boxes, xlo xhi ylo yhi. Exact. */
 typedef struct tiles_sites {
   unsigned dim; /* 2 or 4 */
-  size_t count, room_number, room_end;
+  size_t count, cap_number, cap_end;
   uint64_t *number;
   double *end;
 } tiles_sites;
@@ -74,8 +74,8 @@ bool tiles_sites_copy(tiles_sites *s, const tiles_view *v, size_t k);
 
 /* A set of own sites, those of another rank. */
 typedef struct tiles_set {
-  size_t count, room; /* room: 0 or a power of two, more than count */
-  uint32_t *slot;     /* site + 1; 0: free */
+  size_t count, cap; /* cap: 0 or a power of two, more than count */
+  uint32_t *slot;    /* site + 1; 0: free */
 } tiles_set;
 bool tiles_set_has(const tiles_set *s, uint32_t site);
 bool tiles_set_add(tiles_set *s, uint32_t site);
@@ -90,11 +90,11 @@ typedef struct tiles_disc {
 
 /* Begun as {0}; kept from site to site, for its memory. */
 typedef struct tiles_reach {
-  size_t count, room;
+  size_t count, cap;
   tiles_disc *item;
   struct tiles_spoke *spoke; /* scratch */
   struct tiles_knot *knot;
-  size_t room_spoke, room_knot;
+  size_t cap_spoke, cap_knot;
 } tiles_reach;
 void tiles_reach_clear(tiles_reach *r);
 
@@ -154,7 +154,7 @@ typedef struct tiles_search {
   const bool *alias; /* which others to skip; NULL: none */
   size_t most;
   /* The answer, ascending by score; cleared by the caller. */
-  size_t count, room_site, room_score;
+  size_t count, cap_site, cap_score;
   uint32_t *site;
   double *score;
 } tiles_search;
@@ -209,7 +209,7 @@ typedef struct tiles_graph {
   uint32_t first, count;
   size_t *start; /* count + 2 */
   uint32_t *partner;
-  size_t room_start, room_partner;
+  size_t cap_start, cap_partner;
 } tiles_graph;
 
 typedef struct tiles_row {
@@ -217,7 +217,7 @@ typedef struct tiles_row {
   uint32_t status;
 } tiles_row;
 typedef struct tiles_rows {
-  size_t count, room;
+  size_t count, cap;
   tiles_row *item;
 } tiles_rows;
 dyd_status tiles_rows_add(tiles_rows *rows, tiles_row row, dyd_error *err);
