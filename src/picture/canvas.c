@@ -1,8 +1,194 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Pages: paths, and what is common to all kinds. */
+/* Pages: paths, what is common to all kinds, and svg, where text stays text and elements can be named. */
 #include "base/alloc.h"
 #include "base/error.h"
 #include "picture/canvas_path.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+/* ---- svg: pieces ---- */
+
+/* To hundredths, with a point in every locale; what is beyond any page is brought near. */
+static void put_length(dyd_sink *to, double x) {
+  int64_t n = llround(fmin(fmax(x, -1e12), 1e12) * 100);
+  uint64_t size = (uint64_t)(n < 0 ? -n : n), rest = size % 100;
+  char *p = dyd_sink_room(to, DYD_INDEX_SIZE + sizeof "-.25");
+  if (n < 0) *p++ = '-';
+  p = dyd_put_digits(p, size / 100);
+  if (rest) *p++ = '.', *p++ = (char)('0' + rest / 10);
+  if (rest % 10) *p++ = (char)('0' + rest % 10);
+  to->end = p;
+}
+
+static void put_lengths(dyd_sink *to, const char *before, const double *x, int count) {
+  dyd_sink_text(to, before);
+  for (int k = 0; k < count; k++) {
+    if (k) dyd_sink_text(to, " ");
+    put_length(to, x[k]);
+  }
+}
+
+static void put_attribute(dyd_sink *to, const char *name, double x) {
+  dyd_sink_text(to, " ");
+  dyd_sink_text(to, name);
+  dyd_sink_text(to, "=\"");
+  put_length(to, x);
+  dyd_sink_text(to, "\"");
+}
+
+static void put_escaped(dyd_sink *to, const char *text) {
+  for (; *text; text++) {
+    const char *entity = *text == '<' ? "&lt;" : *text == '>' ? "&gt;" : *text == '&' ? "&amp;" : NULL;
+    if (*text == '"') entity = "&quot;";
+    dyd_sink_put(to, entity ? entity : text, entity ? strlen(entity) : 1);
+  }
+}
+
+/* An arc to its end; a full circle needs two. */
+static void put_arc(dyd_sink *to, const double z[6]) {
+  double sweep = z[4] - z[3];
+  int parts = sweep > 6 ? 2 : 1;
+  for (int k = 1; k <= parts; k++) {
+    double turn = z[3] + sweep * k / parts, end[2] = {z[0] + z[2] * cos(turn), z[1] + z[2] * sin(turn)};
+    put_lengths(to, "A", (const double[]){z[2], z[2]}, 2);
+    put_lengths(to, sweep / parts > 3.1416 ? " 0 1 1 " : " 0 0 1 ", end, 2);
+  }
+}
+
+static void put_path(dyd_canvas *c) {
+  dyd_sink *to = &c->to;
+  dyd_sink_text(to, " d=\"");
+  for (size_t k = 0; k < c->count; k++) {
+    const double *z = c->step[k].z;
+    switch (c->step[k].kind) {
+    case DYD_STROKE_MOVE:
+      put_lengths(to, "M", z, 2);
+      break;
+    case DYD_STROKE_LINE:
+      put_lengths(to, "L", z, 2);
+      break;
+    case DYD_STROKE_CURVE:
+      put_lengths(to, "C", z, 6);
+      break;
+    case DYD_STROKE_ARC:
+      put_lengths(to, k ? "L" : "M", (const double[]){z[0] + z[2] * cos(z[3]), z[1] + z[2] * sin(z[3])}, 2);
+      put_arc(to, z);
+      break;
+    case DYD_STROKE_CLOSE:
+      dyd_sink_text(to, "Z");
+    }
+  }
+  dyd_sink_text(to, "\"");
+}
+
+/* ---- svg: groups of one paint ---- */
+
+static void put_colour(dyd_sink *to, const char *name, unsigned rgb) {
+  char text[] = "#rrggbb";
+  snprintf(text + 1, sizeof text - 1, "%06x", rgb & 0xffffff);
+  dyd_sink_text(to, " ");
+  dyd_sink_text(to, name);
+  dyd_sink_text(to, "=\"");
+  dyd_sink_text(to, rgb == DYD_NO_COLOUR ? "none" : text);
+  dyd_sink_text(to, "\"");
+}
+
+static bool same_paint(const dyd_paint *a, const dyd_paint *b) {
+  return a->fill == b->fill && a->stroke == b->stroke && a->alpha == b->alpha && a->width == b->width &&
+         a->on == b->on && a->off == b->off;
+}
+
+static void close_group(dyd_canvas *c) {
+  if (c->open) dyd_sink_text(&c->to, "</g>\n");
+  c->open = false;
+}
+
+static void open_group(dyd_canvas *c, const dyd_paint *p) {
+  if (c->open && same_paint(p, &c->shared)) return;
+  close_group(c);
+  dyd_sink_text(&c->to, "<g");
+  put_colour(&c->to, "fill", p->fill);
+  if (p->fill != DYD_NO_COLOUR && p->alpha < 1) put_attribute(&c->to, "fill-opacity", p->alpha);
+  if (p->stroke != DYD_NO_COLOUR) {
+    put_colour(&c->to, "stroke", p->stroke);
+    put_attribute(&c->to, "stroke-width", p->width);
+    if (p->off > 0) {
+      put_lengths(&c->to, " stroke-dasharray=\"", (const double[]){p->on, p->off}, 2);
+      dyd_sink_text(&c->to, "\"");
+    }
+  }
+  dyd_sink_text(&c->to, ">\n");
+  c->open = true;
+  c->shared = *p;
+}
+
+/* ---- svg: the page ---- */
+static void svg_begin(dyd_canvas *c, double width, double height, const char *title) {
+  dyd_sink_begin(&c->to, c->out);
+  dyd_sink_text(&c->to, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"");
+  put_attribute(&c->to, "width", width);
+  put_attribute(&c->to, "height", height);
+  put_lengths(&c->to, " viewBox=\"0 0 ", (const double[]){width, height}, 2);
+  dyd_sink_text(&c->to, "\" font-family=\"sans-serif\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<title>");
+  put_escaped(&c->to, title);
+  dyd_sink_text(&c->to, "</title>\n");
+}
+
+static void svg_end(dyd_canvas *c) {
+  close_group(c);
+  dyd_sink_text(&c->to, "</svg>\n");
+  dyd_sink_flush(&c->to);
+}
+
+static void svg_paint(dyd_canvas *c, const dyd_paint *paint) {
+  if (c->count == 0) return;
+  open_group(c, paint);
+  dyd_sink_text(&c->to, "<path");
+  if (c->id[0]) {
+    dyd_sink_text(&c->to, " id=\"");
+    dyd_sink_text(&c->to, c->id);
+    dyd_sink_text(&c->to, "\"");
+  }
+  put_path(c);
+  if (!c->title[0]) {
+    dyd_sink_text(&c->to, "/>\n");
+    return;
+  }
+  dyd_sink_text(&c->to, "><title>");
+  put_escaped(&c->to, c->title);
+  dyd_sink_text(&c->to, "</title></path>\n");
+}
+
+static void svg_clip(dyd_canvas *c) {
+  close_group(c);
+  dyd_sink_text(&c->to, "<clipPath id=\"clip");
+  dyd_sink_index(&c->to, ++c->clips);
+  dyd_sink_text(&c->to, "\"><path");
+  put_path(c);
+  dyd_sink_text(&c->to, "/></clipPath>\n<g clip-path=\"url(#clip");
+  dyd_sink_index(&c->to, c->clips);
+  dyd_sink_text(&c->to, ")\">\n");
+}
+
+static void svg_unclip(dyd_canvas *c) {
+  close_group(c);
+  dyd_sink_text(&c->to, "</g>\n");
+}
+
+static void svg_text(dyd_canvas *c, double x, double y, double align, double size, bool halo, const char *text) {
+  close_group(c);
+  dyd_sink_text(&c->to, "<text");
+  put_attribute(&c->to, "x", x);
+  put_attribute(&c->to, "y", y);
+  put_attribute(&c->to, "font-size", size);
+  if (align > 0) dyd_sink_text(&c->to, align < 1 ? " text-anchor=\"middle\"" : " text-anchor=\"end\"");
+  if (halo) dyd_sink_text(&c->to, " stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\"");
+  dyd_sink_text(&c->to, ">");
+  put_escaped(&c->to, text);
+  dyd_sink_text(&c->to, "</text>\n");
+}
 
 static const double full_turn = 6.283185307179586;
 
@@ -57,7 +243,7 @@ static bool is_svg(const dyd_canvas *c) {
 
 void dyd_canvas_paint(dyd_canvas *c, const dyd_paint *paint) {
   if (is_svg(c))
-    dyd_svg_paint(c, paint);
+    svg_paint(c, paint);
   else
     dyd_cairo_paint(c, paint);
   c->count = 0;
@@ -66,7 +252,7 @@ void dyd_canvas_paint(dyd_canvas *c, const dyd_paint *paint) {
 
 void dyd_canvas_clip(dyd_canvas *c) {
   if (is_svg(c))
-    dyd_svg_clip(c);
+    svg_clip(c);
   else
     dyd_cairo_clip(c);
   c->count = 0;
@@ -74,7 +260,7 @@ void dyd_canvas_clip(dyd_canvas *c) {
 
 void dyd_canvas_unclip(dyd_canvas *c) {
   if (is_svg(c))
-    dyd_svg_unclip(c);
+    svg_unclip(c);
   else
     dyd_cairo_unclip(c);
 }
@@ -90,9 +276,33 @@ double dyd_canvas_width(dyd_canvas *c, double size, const char *text) {
 
 void dyd_canvas_text(dyd_canvas *c, double x, double y, double align, double size, bool halo, const char *text) {
   if (is_svg(c))
-    dyd_svg_text(c, x, y, align, size, halo, text);
+    svg_text(c, x, y, align, size, halo, text);
   else
     dyd_cairo_text(c, x - align * dyd_canvas_width(c, size, text), y, halo, text);
+}
+
+void dyd_picture_stroke(dyd_canvas *c, unsigned rgb, double width, double on, double off) {
+  double unit = fmax(width, 0.7);
+  dyd_canvas_paint(c, &(dyd_paint){DYD_NO_COLOUR, rgb, 1, width, on * unit, off * unit});
+}
+
+void dyd_picture_fill(dyd_canvas *c, unsigned rgb) {
+  dyd_canvas_paint(c, &(dyd_paint){rgb, DYD_NO_COLOUR, 1, 0, 0, 0});
+}
+
+void dyd_picture_shape(dyd_canvas *c, unsigned fill, double alpha, unsigned edge, double width) {
+  dyd_canvas_paint(c, &(dyd_paint){fill, edge, alpha, width, 0, 0});
+}
+
+void dyd_picture_line(dyd_canvas *c, double z[2][2], unsigned rgb, double width, double on, double off) {
+  dyd_canvas_move(c, z[0][0], z[0][1]);
+  dyd_canvas_line(c, z[1][0], z[1][1]);
+  dyd_picture_stroke(c, rgb, width, on, off);
+}
+
+void dyd_picture_dot(dyd_canvas *c, double x, double y, double radius, unsigned fill, unsigned edge) {
+  dyd_canvas_circle(c, x, y, radius);
+  dyd_picture_shape(c, fill, 1, edge, 1.2);
 }
 
 /* ---- pages ---- */
@@ -103,7 +313,7 @@ dyd_canvas *dyd_canvas_new(const dyd_output *o, double width, double height, con
   c->format = o->format;
   c->out = o->out;
   dyd_cairo_begin(c, width, height);
-  if (is_svg(c)) dyd_svg_begin(c, width, height, title);
+  if (is_svg(c)) svg_begin(c, width, height, title);
   dyd_canvas_box(c, 0, 0, width, height);
   dyd_canvas_paint(c, &(dyd_paint){0xffffff, DYD_NO_COLOUR, 1, 0, 0, 0});
   return c;
@@ -111,7 +321,7 @@ dyd_canvas *dyd_canvas_new(const dyd_output *o, double width, double height, con
 
 dyd_status dyd_canvas_end(dyd_canvas *c, dyd_status st, dyd_error *err) {
   if (!c) return DYD_E_NOMEM;
-  if (is_svg(c)) dyd_svg_end(c);
+  if (is_svg(c)) svg_end(c);
   st = dyd_cairo_end(c, st, err);
   free(c->step);
   free(c);

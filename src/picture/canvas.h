@@ -44,6 +44,14 @@ void dyd_canvas_box(dyd_canvas *c, double x, double y, double width, double heig
 /* ---- what becomes of it ---- */
 
 void dyd_canvas_paint(dyd_canvas *c, const dyd_paint *paint);
+/* The path so far, which is gone then. Dash in line widths; off = 0: full. */
+void dyd_picture_stroke(dyd_canvas *c, unsigned rgb, double width, double on, double off);
+void dyd_picture_fill(dyd_canvas *c, unsigned rgb);
+/* Filled, with an edge of half the lightness. */
+void dyd_picture_shape(dyd_canvas *c, unsigned fill, double alpha, unsigned edge, double width);
+/* A line of an edge. */
+void dyd_picture_line(dyd_canvas *c, double z[2][2], unsigned rgb, double width, double on, double off);
+void dyd_picture_dot(dyd_canvas *c, double x, double y, double radius, unsigned fill, unsigned edge);
 /* Until dyd_canvas_unclip only what is inside of the path is shown; they nest. */
 void dyd_canvas_clip(dyd_canvas *c);
 void dyd_canvas_unclip(dyd_canvas *c);

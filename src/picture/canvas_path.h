@@ -45,13 +45,4 @@ void dyd_cairo_unclip(dyd_canvas *c);
 double dyd_cairo_width(dyd_canvas *c, double size, const char *text);
 void dyd_cairo_text(dyd_canvas *c, double x, double y, bool halo, const char *text);
 
-/* ---- canvas_svg.c ---- */
-
-void dyd_svg_begin(dyd_canvas *c, double width, double height, const char *title);
-void dyd_svg_end(dyd_canvas *c);
-void dyd_svg_paint(dyd_canvas *c, const dyd_paint *paint);
-void dyd_svg_clip(dyd_canvas *c);
-void dyd_svg_unclip(dyd_canvas *c);
-void dyd_svg_text(dyd_canvas *c, double x, double y, double align, double size, bool halo, const char *text);
-
 #endif

@@ -1,9 +1,184 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The plot of a table of convergence: bounds and counts against stages, logarithmic, as svg, pdf or png. */
 #include "io/result.h"
-#include "picture/panel.h"
+#include "picture/canvas.h"
 #include "picture/picture.h"
+
+#include <dyadel/converge.h>
+#include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
+
+/* One curve, told apart by colour, by dash and by marker, so that grey does as well. */
+typedef struct plot_series {
+  const char *name;
+  unsigned rgb;
+  double dash;   /* length; 0: a full line */
+  unsigned mark; /* sides of the marker: 0 (a ring) or 3, 4, 5 */
+} plot_series;
+
+enum { PANEL_MOST = 6 }; /* curves */
+
+/* Invariant: low < high, count <= PANEL_MOST; zero is drawn on the bottom line, below low. */
+typedef struct plot_panel {
+  double x, y, width, height; /* of the frame */
+  double low, high;           /* on its scale */
+  const char *id, *title;
+  const plot_series *series;
+  size_t count;
+  /* A number of the row for each curve, on the panel's scale; NAN where it is not known, -INFINITY for zero. */
+  void (*values)(double *out, const dyd_stage_row *r);
+} plot_panel;
+
+static const double turn = 6.283185307179586;
+
+static double panel_value(const plot_panel *p, size_t series, const dyd_stage_row *r) {
+  double value[PANEL_MOST];
+  p->values(value, r);
+  return value[series];
+}
+
+/* Sets low and high from the values. */
+static void panel_fit(plot_panel *p, const dyd_convergence *c) {
+  double low = INFINITY, high = -INFINITY;
+  for (size_t s = 0; s < p->count; s++)
+    for (size_t k = 0; k < c->count; k++) {
+      double v = panel_value(p, s, c->row[k]);
+      if (isfinite(v)) low = fmin(low, v), high = fmax(high, v);
+    }
+  bool any = low <= high;
+  p->low = any ? floor(low) : 0;
+  p->high = any ? fmax(ceil(high), p->low + 1) : 1;
+}
+
+static double panel_x(const plot_panel *p, const dyd_convergence *c, size_t row) {
+  double inner = p->width - 40;
+  return p->x + 20 + (c->count < 2 ? inner / 2 : inner * (double)row / (double)(c->count - 1));
+}
+
+/* The lowest 18 points belong to zero. */
+static double panel_y(const plot_panel *p, double value) {
+  if (value == -INFINITY) return p->y + p->height - 6;
+  return p->y + p->height - 18 - (p->height - 26) * (value - p->low) / (p->high - p->low);
+}
+
+/* ---- ticks ---- */
+
+/* The least step of a series 1, 2, 4, 8 .. (base 2) or 1, 2, 3 .. that gives at most eight ticks. */
+static double tick_step(const plot_panel *p, int base) {
+  double step = 1;
+  while ((p->high - p->low) / step > 8) step = base == 2 ? 2 * step : step + 1;
+  return step;
+}
+
+static void grid_line(dyd_canvas *on, double x0, double y0, double x1, double y1) {
+  double z[2][2] = {{x0, y0}, {x1, y1}};
+  dyd_picture_line(on, z, 0xdbdbdb, 0.6, 0, 0);
+}
+
+static void draw_levels(dyd_canvas *on, const plot_panel *p, int base) {
+  char label[40];
+  double step = tick_step(p, base);
+  for (double v = ceil(p->low / step) * step; v <= p->high; v += step) {
+    double y = panel_y(p, v);
+    grid_line(on, p->x, y, p->x + p->width, y);
+    if (base == 10 && v < 7)
+      snprintf(label, sizeof label, "%.0f", pow(10, v));
+    else
+      snprintf(label, sizeof label, "%d^%.0f", base, v);
+    dyd_canvas_text(on, p->x - 6, y + 3.5, 1, 10, false, label);
+  }
+  double zero = panel_y(p, -INFINITY);
+  dyd_canvas_text(on, p->x - 6, zero + 3.5, 1, 10, false, "0");
+}
+
+static void draw_stages(dyd_canvas *on, const plot_panel *p, const dyd_convergence *c) {
+  size_t step = c->count / 16 + 1;
+  char label[40];
+  for (size_t k = 0; k < c->count; k += step) {
+    double x = panel_x(p, c, k), foot = p->y + p->height;
+    grid_line(on, x, p->y, x, foot);
+    snprintf(label, sizeof label, "%" PRIu64, c->row[k]->stage);
+    dyd_canvas_text(on, x, foot + 13, 0.5, 10, false, label);
+    snprintf(label, sizeof label, "%" PRId64, c->row[k]->bits_most);
+    dyd_canvas_text(on, x, foot + 25, 0.5, 9, false, label);
+  }
+  dyd_canvas_text(on, p->x - 6, p->y + p->height + 13, 1, 10, false, "stage");
+  dyd_canvas_text(on, p->x - 6, p->y + p->height + 25, 1, 9, false, "bits");
+}
+
+/* ---- curves ---- */
+
+static void draw_series_mark(dyd_canvas *on, const plot_series *s, double x, double y) {
+  const double radius = 3.4;
+  if (s->mark == 0) dyd_canvas_circle(on, x, y, radius);
+  for (unsigned k = 0; k < s->mark; k++) {
+    double angle = turn * (k / (double)s->mark - 0.25);
+    dyd_canvas_line(on, x + radius * cos(angle), y + radius * sin(angle));
+  }
+  if (s->mark) dyd_canvas_close(on);
+  dyd_picture_shape(on, 0xffffff, 1, s->rgb, 1.2);
+}
+
+static void stroke_series(dyd_canvas *on, const plot_series *s) {
+  dyd_canvas_paint(on, &(dyd_paint){DYD_NO_COLOUR, s->rgb, 1, 1.5, s->dash, s->dash});
+}
+
+static void draw_curve(dyd_canvas *on, const plot_panel *p, size_t s, const dyd_convergence *c) {
+  char id[48];
+  bool gap = true;
+  for (size_t k = 0; k < c->count; k++) {
+    double v = panel_value(p, s, c->row[k]);
+    if (!isnan(v) && gap)
+      dyd_canvas_move(on, panel_x(p, c, k), panel_y(p, v));
+    else if (!isnan(v))
+      dyd_canvas_line(on, panel_x(p, c, k), panel_y(p, v));
+    gap = isnan(v);
+  }
+  snprintf(id, sizeof id, "%s-%zu", p->id, s);
+  dyd_canvas_name(on, id, p->series[s].name);
+  stroke_series(on, &p->series[s]);
+  for (size_t k = 0; k < c->count; k++) {
+    double v = panel_value(p, s, c->row[k]);
+    if (isnan(v)) continue;
+    char title[80];
+    snprintf(id, sizeof id, "%s-%zu-%zu", p->id, s, k);
+    snprintf(title, sizeof title, "%s, stage %" PRIu64 ", %" PRId64 " bits", p->series[s].name, c->row[k]->stage,
+             c->row[k]->bits_most);
+    dyd_canvas_name(on, id, title);
+    draw_series_mark(on, &p->series[s], panel_x(p, c, k), panel_y(p, v));
+  }
+}
+
+static bool has_values(const plot_panel *p, size_t s, const dyd_convergence *c) {
+  for (size_t k = 0; k < c->count; k++)
+    if (!isnan(panel_value(p, s, c->row[k]))) return true;
+  return false;
+}
+
+static void draw_key(dyd_canvas *on, const plot_series *s, double x, double y) {
+  dyd_canvas_move(on, x, y);
+  dyd_canvas_line(on, x + 30, y);
+  stroke_series(on, s);
+  draw_series_mark(on, s, x + 15, y);
+  dyd_canvas_text(on, x + 38, y + 3.5, 0, 10.5, false, s->name);
+}
+
+/* Frame, ticks (labels base^k), curves, legend. */
+static void panel_draw(dyd_canvas *on, const plot_panel *p, const dyd_convergence *c, int base) {
+  dyd_canvas_text(on, p->x, p->y - 7, 0, 12, false, p->title);
+  draw_levels(on, p, base);
+  draw_stages(on, p, c);
+  dyd_canvas_box(on, p->x, p->y, p->width, p->height);
+  dyd_picture_stroke(on, 0x333333, 0.8, 0, 0);
+  double key = p->y + 8;
+  for (size_t s = 0; s < p->count; s++) {
+    if (!has_values(p, s, c)) continue;
+    draw_curve(on, p, s, c);
+    draw_key(on, &p->series[s], p->x + p->width + 14, key);
+    key += 19;
+  }
+}
 
 enum { WIDTH = 860, HEIGHT = 640 };
 
@@ -33,35 +208,36 @@ static void plot_counts(double *out, const dyd_stage_row *r) {
 }
 
 /* Colours after Okabe and Ito, told apart by all kinds of sight. */
-static const dyd_series bounds[] = {
+static const plot_series bounds[] = {
     {"triangulation: area", 0x0072b2, 0, 0}, {"triangulation: distance", 0xd55e00, 0, 3},
     {"diagram: area", 0x56b4e9, 6, 0},       {"diagram: distance", 0xe69f00, 6, 3},
     {"largest width", 0x4d4d4d, 2, 4},       {"median width", 0x999999, 2, 5}};
-static const dyd_series counts[] = {{"possible pairs", 0x000000, 0, 0},
-                                    {"legal", 0x009e73, 0, 4},
-                                    {"indeterminate", 0xd55e00, 0, 3},
-                                    {"ties", 0xcc79a7, 6, 5},
-                                    {"faces undecided", 0x0072b2, 2, 0}};
+
+static const plot_series counts[] = {{"possible pairs", 0x000000, 0, 0},
+                                     {"legal", 0x009e73, 0, 4},
+                                     {"indeterminate", 0xd55e00, 0, 3},
+                                     {"ties", 0xcc79a7, 6, 5},
+                                     {"faces undecided", 0x0072b2, 2, 0}};
 
 /* ---- the page ---- */
 
 static void plot_draw(dyd_canvas *on, const dyd_convergence *c) {
-  dyd_panel top = {70,         66,
-                   570,        290,
-                   0,          1,
-                   "bound",    "Upper bounds and widths (powers of 2, in units of the coordinates)",
-                   bounds,     sizeof bounds / sizeof *bounds,
-                   plot_bounds};
-  dyd_panel bottom = {
+  plot_panel top = {70,         66,
+                    570,        290,
+                    0,          1,
+                    "bound",    "Upper bounds and widths (powers of 2, in units of the coordinates)",
+                    bounds,     sizeof bounds / sizeof *bounds,
+                    plot_bounds};
+  plot_panel bottom = {
       70, 426, 570, 150, 0, 1, "count", "Pairs and faces", counts, sizeof counts / sizeof *counts, plot_counts};
   char title[120];
   snprintf(title, sizeof title, "dyadel converge: %s schedule, outcome %s", dyd_schedule_text(c->options->schedule),
            dyd_outcome_text(c->outcome));
   dyd_canvas_text(on, 70, 32, 0, 15, false, title);
-  dyd_panel_fit(&top, c);
-  dyd_panel_fit(&bottom, c);
-  dyd_panel_draw(on, &top, c, 2);
-  dyd_panel_draw(on, &bottom, c, 10);
+  panel_fit(&top, c);
+  panel_fit(&bottom, c);
+  panel_draw(on, &top, c, 2);
+  panel_draw(on, &bottom, c, 10);
 }
 
 dyd_status dyd_convergence_picture(const dyd_output *o) {

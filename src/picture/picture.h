@@ -62,18 +62,11 @@ void dyd_view_pad(double box[4]);
 dyd_status dyd_view_write(const dyd_output *o, const dyd_view *v, const char *title, dyd_draw_fn inside,
                           dyd_draw_fn legend, void *context);
 void dyd_view_frame_path(dyd_canvas *c, const dyd_view *v);
-
-/* ---- axes.c ---- */
-
-/* Coordinates along the frame. */
-void dyd_axes_draw(dyd_canvas *c, const dyd_view *v);
 /* The greatest of 1, 2, 5 times a power of ten that is at most `most`: digit * 10^exponent. false: there is none that
  * doubles hold. */
 bool dyd_round_step(int *digit, int *exponent, double most);
 /* "2.5", "-300", "5e-301": n * 10^exponent exactly. */
 void dyd_tick_text(char *out, size_t size, int64_t n, int exponent);
-
-/* ---- clipping ---- */
 
 /* More vertices than any polygon has that is cut. */
 enum { DYD_CLIP_MOST = 24 };
@@ -87,14 +80,6 @@ int dyd_clip_convex(double z[DYD_CLIP_MOST][2], int n, const double box[4]);
 /* What is undetermined, in all pictures. */
 #define DYD_PICTURE_BAND 0xe69f00
 
-/* The path so far, which is gone then. Dash in line widths; off = 0: full. */
-void dyd_picture_stroke(dyd_canvas *c, unsigned rgb, double width, double on, double off);
-void dyd_picture_fill(dyd_canvas *c, unsigned rgb);
-/* Filled, with an edge of half the lightness. */
-void dyd_picture_shape(dyd_canvas *c, unsigned fill, double alpha, unsigned edge, double width);
-/* A line of an edge. */
-void dyd_picture_line(dyd_canvas *c, double z[2][2], unsigned rgb, double width, double on, double off);
-void dyd_picture_dot(dyd_canvas *c, double x, double y, double radius, unsigned fill, unsigned edge);
 /* A box on the page. */
 void dyd_picture_box(dyd_canvas *c, const dyd_view *v, const double box[4]);
 
@@ -102,15 +87,11 @@ void dyd_picture_box(dyd_canvas *c, const dyd_view *v, const double box[4]);
  * of the view. It has the name "point-I", and its coordinates, with its identifier, for a title. Returns what was
  * drawn. */
 typedef enum dyd_site_mark { DYD_MARK_NONE, DYD_MARK_DOT, DYD_MARK_RECTANGLE } dyd_site_mark;
-dyd_site_mark dyd_picture_site(dyd_canvas *c, const dyd_view *v, const double box[4], const dyd_engine *e, size_t site,
-                               unsigned rgb);
 /* The next element is of the pair i, j of e: it has the name "pair-I-J", and `what` behind both for a title. */
 void dyd_picture_name_pair(dyd_canvas *c, const dyd_engine *e, size_t i, size_t j, const char *what);
 /* A rectangle, however small it is, filled with rgb. */
 void dyd_picture_marked(dyd_canvas *c, const dyd_view *v, const double box[4], const dyd_engine *e, size_t site,
                         unsigned rgb);
-
-/* ---- numbers.c ---- */
 
 /* Numbers or identifiers of sites where there is room: on no rectangle, on no other number, inside of the frame. */
 typedef struct dyd_numbers {
@@ -161,8 +142,6 @@ void dyd_legend_dot(dyd_legend *l, unsigned fill, unsigned edge, const char *tex
 void dyd_legend_text(dyd_legend *l, const char *text);
 /* Where most sites are, when they are in a small part of the view. */
 void dyd_legend_crowd(dyd_legend *l, const dyd_site_marks *m);
-
-/* ---- density.c ---- */
 
 /* Of how many lines on a square is drawn, and how: from one line on; full squares only, as legal pairs, as ties. */
 typedef struct dyd_density_levels dyd_density_levels;

@@ -1,13 +1,25 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Views: which part of the plane a picture shows, where it is on the page. */
+/* Views: which part of the plane a picture shows, where it is on the page; coordinates along its frame; cutting to it.
+ *
+ * Positions far outside of a page do not fit the numbers that cairo draws with: they would come back from the other
+ * side. So lines and convex polygons are cut to a box before they are drawn. The box is an intersection of four
+ * half-planes; cutting by one after the other keeps segments segments and convex polygons convex. */
 #include "base/error.h"
 #include "base/index.h"
 #include "picture/picture.h"
+
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define SIDE 1000.0 /* of the drawing */
 #define EDGE DYD_VIEW_EDGE
+#define FOOT 140.0 /* room of coordinates and legend */
+#define SIZE 12
+#define WIDEST 240.0 /* between ticks along x; along y there is more room for labels */
+#define HIGHEST 140.0
+#define LONGEST 80.0 /* a label wider than this says by how much it differs from the first */
 
 /* ---- what is shown ---- */
 
@@ -111,6 +123,7 @@ double dyd_view_spacing(const dyd_delaunay *pd, const dyd_pair_list *pairs, cons
 double dyd_view_x(const dyd_view *v, double x) {
   return (x - v->left) * v->scale + DYD_VIEW_LEFT;
 }
+
 double dyd_view_y(const dyd_view *v, double y) {
   return (v->top - y) * v->scale + EDGE;
 }
@@ -126,6 +139,158 @@ bool dyd_view_sees(const dyd_view *v, const double box[4]) {
          f[2] <= dyd_view_y(v, box[2]);
 }
 
+void dyd_picture_box(dyd_canvas *c, const dyd_view *v, const double b[4]) {
+  dyd_canvas_box(c, dyd_view_x(v, b[0]), dyd_view_y(v, b[3]), (b[1] - b[0]) * v->scale, (b[3] - b[2]) * v->scale);
+}
+
 void dyd_view_frame_path(dyd_canvas *c, const dyd_view *v) {
   dyd_canvas_box(c, v->frame[0], v->frame[2], v->frame[1] - v->frame[0], v->frame[3] - v->frame[2]);
+}
+
+/* ---- coordinates ---- */
+
+bool dyd_round_step(int *digit, int *exponent, double most) {
+  static const int digits[] = {5, 2, 1};
+  if (!(most > 1e-300) || !isfinite(most)) return false;
+  *exponent = (int)floor(log10(most));
+  for (int k = 0; k < 3; k++) {
+    *digit = digits[k];
+    if (*digit * pow(10, *exponent) <= most) return true;
+  }
+  *exponent -= 1; /* log10 was rounded up */
+  *digit = 5;
+  return true;
+}
+
+void dyd_tick_text(char *out, size_t size, int64_t n, int exponent) {
+  char digits[24];
+  while (n && n % 10 == 0) n /= 10, exponent++;
+  snprintf(digits, sizeof digits, "%" PRId64, n < 0 ? -n : n);
+  const char *sign = n < 0 ? "-" : "";
+  int count = (int)strlen(digits), point = count + exponent;
+  if (n == 0)
+    snprintf(out, size, "0");
+  else if (exponent >= 0 && point <= 7)
+    snprintf(out, size, "%s%s%.*s", sign, digits, exponent, "000000");
+  else if (exponent < 0 && point > 0)
+    snprintf(out, size, "%s%.*s.%s", sign, point, digits, digits + point);
+  else if (exponent < 0 && point > -4)
+    snprintf(out, size, "%s0.%.*s%s", sign, -point, "0000", digits);
+  else
+    snprintf(out, size, "%s%se%d", sign, digits, exponent);
+}
+
+/* The ticks along one side: n * digit * 10^exponent for n = first .. last. */
+typedef struct ticks {
+  int digit, exponent;
+  int64_t first, last;
+} ticks;
+
+static bool find_ticks(ticks *t, double low, double high, double most) {
+  if (!dyd_round_step(&t->digit, &t->exponent, most)) return false;
+  double step = t->digit * pow(10, t->exponent);
+  if (!(fabs(low) / step < 4e15 && fabs(high) / step < 4e15)) return false;
+  t->first = (int64_t)ceil(low / step);
+  t->last = (int64_t)floor(high / step);
+  return t->last - t->first < 40;
+}
+
+/* Whole numbers where they are short, else by how much they differ from the first. */
+static void tick_label(char *out, size_t size, dyd_canvas *c, const ticks *t, int64_t n) {
+  dyd_tick_text(out, size, n * t->digit, t->exponent);
+  if (n == t->first || dyd_canvas_width(c, SIZE, out) <= LONGEST) return;
+  *out = '+';
+  dyd_tick_text(out + 1, size - 1, (n - t->first) * t->digit, t->exponent);
+}
+
+static void draw_tick(dyd_canvas *c, double x, double y, double across, double down) {
+  double z[2][2] = {{x, y}, {x + across, y + down}};
+  dyd_picture_line(c, z, 0x222222, 1, 0, 0);
+}
+
+static void axis_along(dyd_canvas *c, const dyd_view *v, double low, double high, bool vertical) {
+  const double *f = v->frame;
+  char label[48];
+  ticks t;
+  if (!find_ticks(&t, low, high, (vertical ? HIGHEST : WIDEST) / v->scale)) return;
+  double step = t.digit * pow(10, t.exponent);
+  for (int64_t n = t.first; n <= t.last; n++) {
+    tick_label(label, sizeof label, c, &t, n);
+    double at = vertical ? dyd_view_y(v, (double)n * step) : dyd_view_x(v, (double)n * step);
+    if (vertical) {
+      draw_tick(c, f[0], at, -5, 0);
+      bool wide = dyd_canvas_width(c, SIZE, label) > LONGEST; /* it begins at the rim of the page */
+      dyd_canvas_text(c, wide ? 4 : f[0] - 8, wide ? at - 6 : at + 4, wide ? 0 : 1, SIZE, wide, label);
+    } else {
+      draw_tick(c, at, f[3], 0, 5);
+      dyd_canvas_text(c, at, f[3] + 18, 0.5, SIZE, false, label);
+    }
+  }
+}
+
+/* Coordinates along the frame. */
+static void axes_draw(dyd_canvas *c, const dyd_view *v) {
+  const double *f = v->frame;
+  dyd_view_frame_path(c, v);
+  dyd_picture_stroke(c, 0x222222, 1, 0, 0);
+  double left = v->left + (f[0] - DYD_VIEW_LEFT) / v->scale, top = v->top - (f[2] - DYD_VIEW_EDGE) / v->scale;
+  axis_along(c, v, left, left + (f[1] - f[0]) / v->scale, false);
+  axis_along(c, v, top - (f[3] - f[2]) / v->scale, top, true);
+}
+
+/* ---- cutting ---- */
+
+/* How far z is inside of side k of the box. */
+static double clip_depth(const double z[2], const double box[4], int k) {
+  double inside = z[k >> 1] - box[k];
+  return k & 1 ? -inside : inside;
+}
+
+/* Where pq, of depths a and b of different signs, meets side k. */
+static void clip_meet(double out[2], const double p[2], const double q[2], double a, double b, const double box[4],
+                      int k) {
+  int along = 1 - (k >> 1);
+  double at = p[along] + a / (a - b) * (q[along] - p[along]);
+  out[k >> 1] = box[k];
+  out[along] = at;
+}
+
+bool dyd_clip_segment(double z[2][2], const double box[4]) {
+  for (int k = 0; k < 4; k++) {
+    double a = clip_depth(z[0], box, k), b = clip_depth(z[1], box, k);
+    if (a < 0 && b < 0) return false;
+    if (a < 0 || b < 0) clip_meet(z[a < 0 ? 0 : 1], z[0], z[1], a, b, box, k);
+  }
+  return true;
+}
+
+int dyd_clip_convex(double z[DYD_CLIP_MOST][2], int n, const double box[4]) {
+  double kept[DYD_CLIP_MOST][2];
+  for (int k = 0; k < 4 && n > 0; k++) {
+    int count = 0;
+    for (int c = 0; c < n; c++) {
+      const double *p = z[c], *q = z[c + 1 < n ? c + 1 : 0];
+      double a = clip_depth(p, box, k), b = clip_depth(q, box, k);
+      if (a >= 0 && count < DYD_CLIP_MOST) memcpy(kept[count++], p, sizeof kept[0]);
+      if ((a >= 0) != (b >= 0) && count < DYD_CLIP_MOST) clip_meet(kept[count++], p, q, a, b, box, k);
+    }
+    memcpy(z, kept, (size_t)count * sizeof kept[0]);
+    n = count;
+  }
+  return n;
+}
+
+/* ---- the page ---- */
+
+dyd_status dyd_view_write(const dyd_output *o, const dyd_view *v, const char *title, dyd_draw_fn inside,
+                          dyd_draw_fn legend, void *context) {
+  dyd_canvas *c = dyd_canvas_new(o, ceil(v->width + DYD_VIEW_LEFT + EDGE), ceil(v->height + EDGE + FOOT), title);
+  if (!c) return DYD_E_NOMEM;
+  dyd_view_frame_path(c, v);
+  dyd_canvas_clip(c);
+  inside(c, context);
+  dyd_canvas_unclip(c);
+  axes_draw(c, v);
+  legend(c, context);
+  return dyd_canvas_end(c, DYD_OK, o->err);
 }

@@ -7,7 +7,7 @@
  * 10^-19 t: 4 u t in all. cos t = 1 - z h, h = 1/2 - z ..., off by 1 u, so z h by 1.3 u, the difference by u / 2, by t
  * 1.2 u, the series by 10^-17: 3.1 u in all. TURN_ERROR = 8 u is more, also when added to what it is about and rounded.
  * Between the ends of a box of angles sine and cosine change by its width in radians at most. */
-#include "sphere/image_filter.h"
+#include "sphere/state.h"
 
 #define DEGREE 0.017453292519943295
 #define MORE_THAN_DEGREE 0.0175

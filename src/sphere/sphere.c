@@ -1,17 +1,30 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Life of a sphere: places and streams of an engine, the engine of images. */
+/* A sphere: places and streams of an engine, the engine of images; statuses and triangles, by the numbers of the
+ * places.
+ *
+ * [SPH-1] A circle on the sphere without the centre q inside goes to a circle in the plane with the same points inside;
+ * one through q to a line, the side of the plane away from what was inside. So pairs of other places are as their
+ * images are, half-planes included, and a pair with q is possible or sure as the image is a corner of the hull. Where
+ * it is on the hull, but no corner, it is on a line with others: a tie where all that is open there are ties.
+ *
+ * [SPH-5] A centre that is no place is one point more: what is sure with it is sure without, and what becomes possible
+ * without it are pairs of places that may be its neighbours. */
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/index.h"
 #include "engine/points.h"
 #include "engine/ties.h"
+#include "rect/rect.h"
 #include "sphere/state.h"
 #include "sphere/units.h"
+
 #include <dyadel/io.h>
 #include <string.h>
 
-enum { FIRST_BITS = 32, START_BITS = 40 };
+/* MOST_ABOUT: neighbours of a centre that is no place, whose pairs are listed. */
+enum { FIRST_BITS = 32, START_BITS = 40, MOST_ABOUT = 4096 };
 
 /* ---- places ---- */
 
@@ -262,5 +275,332 @@ dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_
   if (st == DYD_OK && *outcome == DYD_OUTCOME_FIXPOINT && s->eye.spot.stays)
     st = second_run(outcome, s, &o, dyd_seconds() - begun, err);
   if (st == DYD_OK) *outcome = dyd_sphere_outcome(s);
+  return st;
+}
+
+/* ---- pairs ---- */
+
+/* The images in face f; *tie: its pairs are ties. Where no pair is open, only the hull is: a tie if all are on a line.
+ */
+static dyd_status face_look(dyd_index_list *face, bool *outer, bool *tie, const dyd_sphere *s, size_t f) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
+  dyd_pair_list pairs = {0};
+  dyd_status st = dyd_delaunay_face(face, outer, pd, f);
+  if (st == DYD_OK) st = dyd_delaunay_face_pairs(&pairs, pd, f);
+  *tie = !dyd_delaunay_is_capped(pd);
+  for (size_t k = 0; k < pairs.count; k++) *tie = *tie && pairs.item[k].status == DYD_TIE;
+  if (st == DYD_OK && *tie && !pairs.count) {
+    *tie = false;
+    if (*outer && face->count > 2) st = dyd_sphere_on_circle(tie, s, true, face->item, face->count, NULL);
+  }
+  dyd_pair_list_clear(&pairs);
+  return st;
+}
+
+/* Of images in outer faces: whose pairs are all ties, or not. */
+enum { IN_NONE, IN_TIE, IN_OPEN };
+
+static dyd_status mark_outer(uint8_t *in, const dyd_sphere *s) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
+  dyd_status st = DYD_OK;
+  for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd) && st == DYD_OK; f++) {
+    dyd_index_list face = {0};
+    bool outer, tie;
+    st = face_look(&face, &outer, &tie, s, f);
+    for (size_t k = 0; k < face.count && outer; k++)
+      if (in[face.item[k]] != IN_OPEN) in[face.item[k]] = tie ? IN_TIE : IN_OPEN;
+    dyd_index_list_clear(&face);
+  }
+  return st;
+}
+
+size_t dyd_sphere_faces(const dyd_sphere *s) {
+  if (!s) return 0;
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
+  return pd ? dyd_delaunay_undecided_faces(pd) + s->free : 0;
+}
+
+/* About a centre that is no place: all that may be its neighbours. */
+static dyd_status face_of_gap(dyd_index_list *face, bool *tie, const dyd_delaunay *pd) {
+  dyd_index_list sure = {0};
+  *tie = false;
+  dyd_status st = dyd_delaunay_hull_vertices(&sure, face, pd);
+  dyd_index_list_clear(&sure);
+  return st;
+}
+
+dyd_status dyd_sphere_face(dyd_index_list *out, bool *tie, const dyd_sphere *s, size_t f) {
+  if (!s) return DYD_E_ARG;
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
+  dyd_index_list face = {0};
+  bool outer = false;
+  if (!pd || f >= dyd_sphere_faces(s)) return DYD_E_ARG;
+  bool gap = f == dyd_delaunay_undecided_faces(pd);
+  dyd_status st = gap ? face_of_gap(&face, tie, pd) : face_look(&face, &outer, tie, s, f);
+  uint32_t *item = st == DYD_OK ? dyd_alloc(face.count + 1, sizeof *item) : NULL;
+  if (st == DYD_OK && !item) st = DYD_E_NOMEM;
+  if (st == DYD_OK) {
+    for (size_t k = 0; k < face.count; k++) item[k] = s->of[face.item[k]];
+    item[face.count] = s->centre;
+    size_t n = face.count + (outer && !s->free);
+    qsort(item, n, sizeof *item, dyd_compare_index);
+    dyd_index_list_clear(out);
+    *out = (dyd_index_list){n, item};
+  }
+  dyd_index_list_clear(&face);
+  return st;
+}
+
+/* Of an image that may be no corner of the hull. One of two is a corner, or the same place as the other. */
+static dyd_pair_status status_on_hull(const dyd_sphere *s, uint8_t in) {
+  if (s->with_image <= 2) return DYD_LEGAL;
+  return in == IN_TIE ? DYD_TIE : DYD_INDETERMINATE;
+}
+
+dyd_status dyd_sphere_about_centre(dyd_pair_status *status, const dyd_sphere *s) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
+  dyd_index_list sure = {0}, possible = {0};
+  uint8_t *in = calloc(s->with_image + 1, sizeof *in);
+  dyd_status st = in ? mark_outer(in, s) : DYD_E_NOMEM;
+  if (st == DYD_OK) st = dyd_delaunay_hull_vertices(&sure, &possible, pd);
+  for (size_t k = 0; k < s->with_image; k++) status[k] = DYD_ILLEGAL;
+  for (size_t k = 0; k < possible.count; k++)
+    status[possible.item[k]] = status_on_hull(s, in ? in[possible.item[k]] : IN_OPEN);
+  for (size_t k = 0; k < sure.count; k++) status[sure.item[k]] = DYD_LEGAL;
+  dyd_index_list_clear(&possible);
+  dyd_index_list_clear(&sure);
+  free(in);
+  return st;
+}
+
+static dyd_pair pair_of(uint32_t i, uint32_t j, dyd_pair_status status) {
+  return i < j ? (dyd_pair){i, j, status} : (dyd_pair){j, i, status};
+}
+
+static const dyd_pair *pair_find(const dyd_pair_list *l, uint32_t i, uint32_t j) {
+  const dyd_pair key = pair_of(i, j, DYD_LEGAL);
+  return l->count ? bsearch(&key, l->item, l->count, sizeof key, dyd_compare_two) : NULL;
+}
+
+/* The pairs of the centre; about one that is no place, pairs of its neighbours that are not among the others. */
+static size_t pairs_about_centre(dyd_pair *item, const dyd_sphere *s, const dyd_pair_list *images,
+                                 const dyd_pair_status *status) {
+  size_t n = 0;
+  for (uint32_t k = 0; k < s->with_image; k++) {
+    if (status[k] == DYD_ILLEGAL) continue;
+    if (!s->free) item[n++] = pair_of(s->of[k], s->centre, status[k]);
+    for (uint32_t l = 0; s->free && l < k; l++)
+      if (status[l] != DYD_ILLEGAL && !pair_find(images, k, l))
+        item[n++] = pair_of(s->of[k], s->of[l], DYD_INDETERMINATE);
+  }
+  return n;
+}
+
+/* Merges the sorted items from `first` on, fewer, with the sorted ones before. */
+static dyd_status pairs_merge(dyd_pair *item, size_t first, size_t n) {
+  dyd_pair *late = dyd_alloc(n - first, sizeof *late);
+  if (!late) return DYD_E_NOMEM;
+  for (size_t k = first; k < n; k++) late[k - first] = item[k];
+  for (size_t at = n, left = n - first; left;) {
+    bool early = first && dyd_compare_two(&item[first - 1], &late[left - 1]) > 0;
+    item[--at] = early ? item[--first] : late[--left];
+  }
+  free(late);
+  return DYD_OK;
+}
+
+/* The pairs of images by their places, which keeps their order, and those about the centre; sorted. */
+static dyd_status pairs_join(dyd_pair_list *out, const dyd_sphere *s, const dyd_pair_list *images,
+                             const dyd_pair_status *status) {
+  size_t n = 0, about = 0;
+  for (size_t k = 0; k < s->with_image; k++) about += status[k] != DYD_ILLEGAL;
+  if (s->free && about > MOST_ABOUT) return DYD_E_RANGE;
+  dyd_pair *item = dyd_alloc(images->count + (s->free ? about * about : about), sizeof *item);
+  if (!item) return DYD_E_NOMEM;
+  for (; n < images->count; n++)
+    item[n] = pair_of(s->of[images->item[n].i], s->of[images->item[n].j], images->item[n].status);
+  n += pairs_about_centre(item + n, s, images, status);
+  qsort(item + images->count, n - images->count, sizeof *item, dyd_compare_two);
+  dyd_status st = pairs_merge(item, images->count, n);
+  if (st != DYD_OK) {
+    free(item);
+    return st;
+  }
+  dyd_pair_list_clear(out);
+  *out = (dyd_pair_list){n, item};
+  return DYD_OK;
+}
+
+static dyd_status pairs_seen(dyd_pair_list *out, const dyd_sphere *s) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
+  if (!pd) return DYD_E_ARG;
+  dyd_pair_list images = {0};
+  dyd_pair_status *status = dyd_alloc(s->with_image, sizeof *status);
+  dyd_status st = status ? dyd_delaunay_pairs(&images, pd) : DYD_E_NOMEM;
+  if (st == DYD_OK) st = dyd_sphere_about_centre(status, s);
+  if (st == DYD_OK) st = pairs_join(out, s, &images, status);
+  dyd_pair_list_clear(&images);
+  free(status);
+  return st;
+}
+
+/* What is indeterminate becomes what it is from another eye. */
+static void pairs_improve(dyd_pair_list *l, const dyd_pair_list *other) {
+  size_t n = 0;
+  for (size_t k = 0; k < l->count; k++) {
+    const dyd_pair *p = &l->item[k], *q = p;
+    if (p->status == DYD_INDETERMINATE) q = pair_find(other, p->i, p->j);
+    if (q) l->item[n++] = *q;
+  }
+  l->count = n;
+}
+
+dyd_status dyd_sphere_pairs(dyd_pair_list *out, const dyd_sphere *s) {
+  if (!s) return DYD_E_ARG;
+  dyd_pair_list other = {0};
+  dyd_status st = pairs_seen(out, s);
+  if (st != DYD_OK || !s->second || !dyd_engine_delaunay(s->second->images)) return st;
+  st = pairs_seen(&other, s->second);
+  if (st == DYD_OK) pairs_improve(out, &other);
+  dyd_pair_list_clear(&other);
+  return st == DYD_E_NOMEM ? st : DYD_OK;
+}
+
+static bool pairs_are_legal(const dyd_sphere *s) {
+  dyd_pair_list pairs = {0};
+  bool legal = dyd_sphere_pairs(&pairs, s) == DYD_OK;
+  for (size_t k = 0; k < pairs.count; k++) legal = legal && pairs.item[k].status == DYD_LEGAL;
+  dyd_pair_list_clear(&pairs);
+  return legal;
+}
+
+dyd_outcome dyd_sphere_outcome(const dyd_sphere *s) {
+  if (!s) return DYD_OUTCOME_NONE;
+  dyd_outcome outcome = dyd_engine_outcome(s->images);
+  if (s->free && outcome == DYD_OUTCOME_DECIDED) return pairs_are_legal(s) ? outcome : DYD_OUTCOME_FIXPOINT;
+  if (!s->second || outcome != DYD_OUTCOME_FIXPOINT) return outcome;
+  if (pairs_are_legal(s)) return DYD_OUTCOME_DECIDED;
+  dyd_outcome other = dyd_engine_outcome(s->second->images);
+  return other == DYD_OUTCOME_CANCELLED || other == DYD_OUTCOME_BUDGET ? other : outcome;
+}
+
+/* ---- triangles ---- */
+
+static int compare_triangles(const void *a, const void *b) {
+  const dyd_triangle *x = a, *y = b;
+  for (int k = 0; k < 3; k++)
+    if (x->v[k] != y->v[k]) return x->v[k] < y->v[k] ? -1 : 1;
+  return 0;
+}
+
+/* The lowest number first. */
+static dyd_triangle triangle_of(uint32_t a, uint32_t b, uint32_t c) {
+  if (a < b && a < c) return (dyd_triangle){{a, b, c}};
+  return b < c ? (dyd_triangle){{b, c, a}} : (dyd_triangle){{c, a, b}};
+}
+
+static bool pair_is_legal(const dyd_pair_list *l, uint32_t i, uint32_t j) {
+  const dyd_pair *p = pair_find(l, i, j);
+  return p && p->status == DYD_LEGAL;
+}
+
+/* Images seen along the way out from q have their orientation from outside turned round twice: once by looking from
+ * below, once by the axes (x east, y north, from the antipode's side); what is counter-clockwise in the plane is
+ * clockwise from outside. Beyond a sure side of the hull is a triangle with q. */
+static dyd_status triangles_join(dyd_triangle_list *out, const dyd_sphere *s, const dyd_triangle_list *images,
+                                 const dyd_index_list *around, const dyd_hull *hull) {
+  dyd_triangle *item = dyd_alloc(images->count + around->count, sizeof *item);
+  size_t n = 0;
+  if (!item) return DYD_E_NOMEM;
+  for (; n < images->count; n++) {
+    const uint32_t *v = images->item[n].v;
+    item[n] = triangle_of(s->of[v[0]], s->of[v[2]], s->of[v[1]]);
+  }
+  for (size_t k = 0; k < around->count && around->count > 1; k++) {
+    uint32_t a = around->item[k], b = around->item[k + 1 < around->count ? k + 1 : 0];
+    if (pair_is_legal(&hull->pairs, a, b)) item[n++] = triangle_of(s->of[a], s->of[b], s->centre);
+  }
+  qsort(item, n, sizeof *item, compare_triangles);
+  dyd_triangle_list_clear(out);
+  *out = (dyd_triangle_list){n, item};
+  return DYD_OK;
+}
+
+dyd_status dyd_sphere_triangles(dyd_triangle_list *out, const dyd_sphere *s) {
+  if (!s) return DYD_E_ARG;
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
+  if (!pd) return DYD_E_ARG;
+  dyd_triangle_list images = {0};
+  dyd_index_list around = {0};
+  dyd_hull hull = {0};
+  dyd_status st = dyd_delaunay_triangles(&images, pd);
+  if (st == DYD_OK && !s->free) st = dyd_delaunay_hull(&around, pd);
+  if (st == DYD_OK && !s->free) st = dyd_delaunay_partial_hull(&hull, pd);
+  if (st == DYD_CAPPED) st = DYD_OK; /* then no side of the hull is listed */
+  if (st == DYD_OK) st = triangles_join(out, s, &images, &around, &hull);
+  dyd_hull_clear(&hull);
+  dyd_index_list_clear(&around);
+  dyd_triangle_list_clear(&images);
+  return st;
+}
+
+/* ---- circles ---- */
+
+/* A walk over the ties of images. */
+typedef struct circle_walk {
+  const dyd_sphere *s;
+  dyd_group_fn visit;
+  void *user;
+} circle_walk;
+
+/* [SPH-1] [SPH-4] Images of one circle are places of one, seen from the other side. A line of the hull, followed
+ * clockwise about it, is a circle with the centre; one that holds all images is empty on both sides. */
+static dyd_status circle_tell(void *user, dyd_group_kind kind, const dyd_index_list *images) {
+  const circle_walk *w = user;
+  bool chain = kind == DYD_GROUP_CHAIN;
+  if (kind == DYD_GROUP_PAIR || (chain && w->s->free)) return DYD_OK;
+  dyd_index_list circle = {images->count + chain, NULL};
+  circle.item = dyd_alloc(circle.count, sizeof *circle.item);
+  if (!circle.item) return DYD_E_NOMEM;
+  circle.item[0] = w->s->centre;
+  for (size_t k = 0; k < images->count; k++) circle.item[circle.count - 1 - k] = w->s->of[images->item[k]];
+  dyd_status st = w->visit(w->user, DYD_GROUP_CIRCLE, &circle);
+  for (size_t k = 0; k < images->count; k++) circle.item[circle.count - images->count + k] = w->s->of[images->item[k]];
+  if (st == DYD_OK && chain && images->count == w->s->with_image) st = w->visit(w->user, DYD_GROUP_CIRCLE, &circle);
+  dyd_index_list_clear(&circle);
+  return st;
+}
+
+dyd_status dyd_sphere_each_circle(const dyd_sphere *s, dyd_group_fn visit, void *user) {
+  if (!s || !visit) return DYD_E_ARG;
+  return dyd_delaunay_each_group(dyd_engine_delaunay(s->images), circle_tell, &(circle_walk){s, visit, user});
+}
+
+/* ---- places ---- */
+
+static dyd_status spot_side(dyd_interval *out, const dyd_spot *spot, int a) {
+  mpq_t lo, hi;
+  mpq_inits(lo, hi, NULL);
+  mpq_sub(lo, spot->mid[a], spot->half[a]);
+  mpq_add(hi, spot->mid[a], spot->half[a]);
+  dyd_status st = mpq_equal(lo, hi) ? dyd_interval_set_q(out, lo) : dyd_interval_set_outward(out, lo, hi, -64);
+  mpq_clears(lo, hi, NULL);
+  return st;
+}
+
+dyd_status dyd_sphere_rect(dyd_rect *out, const dyd_sphere *s, uint32_t i) {
+  if (!s) return DYD_E_ARG;
+  dyd_spot spot;
+  dyd_rect r;
+  if (i >= s->count) return DYD_E_ARG;
+  dyd_spot_init(&spot);
+  dyd_rect_init(&r);
+  dyd_status st = dyd_sphere_spot(&spot, s, i, NULL);
+  if (st == DYD_OK) dyd_spot_box(&spot);
+  if (st == DYD_OK) st = spot_side(&r.x, &spot, 0);
+  if (st == DYD_OK) st = spot_side(&r.y, &spot, 1);
+  if (st == DYD_OK) dyd_rect_swap(out, &r);
+  dyd_rect_clear(&r);
+  dyd_spot_clear(&spot);
   return st;
 }

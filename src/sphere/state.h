@@ -1,22 +1,82 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What a sphere holds, for the files of this folder:
  *
- *   sphere.c         life: places and streams of an engine, the engine of images
- *   spot.c           where a point may be, in degrees
+ *   sphere.c         life; statuses and triangles, by the numbers of the places
  *   places.c         where the places are, and which are the same
  *   units.c          radii as text
  *   choose_filter.c  from which place is projected
- *   source.c         images, as the engine of images asks for them
- *   project.c        enclosures of images; image_filter.c: in doubles
+ *   project.c        images of places; image_filter.c: in doubles
  *   ties.c           which places are on one circle
- *   cyclic.c         sums of roots of unity: are they 0?
- *   vertex.c         Voronoi vertices
- *   result.c         statuses and triangles, by the numbers of the places */
+ *   vertex.c         Voronoi vertices */
 #ifndef DYD_SPHERE_STATE_H
 #define DYD_SPHERE_STATE_H
 
-#include "sphere/project.h"
+#include "predicate/interval_filter.h"
+#include "stream/arb.h"
+
 #include <dyadel/sphere.h>
+#include <math.h>
+
+/* ---- places.c: regions ---- */
+
+/* The region of a place: all points within `angle` radians of a point of a box of degrees, longitude and latitude each
+ * within half[] of mid[]. `stays`: it never becomes exact, whatever a stream is asked. */
+typedef struct dyd_spot {
+  mpq_t mid[2], half[2], angle;
+  bool stays;
+} dyd_spot;
+
+/* The same in doubles, rounded outward: longitude lower, upper, latitude lower, upper. */
+typedef struct dyd_spot_d {
+  double box[4], angle;
+} dyd_spot_d;
+
+void dyd_spot_init(dyd_spot *s);
+void dyd_spot_clear(dyd_spot *s);
+/* Sets s to the rectangle r of degrees, widened by `more` on each side, with no angle; longitudes are taken modulo 360.
+ * Where its latitudes reach beyond a pole, or are the pole, all longitudes stand for each other: beyond, the spot is
+ * all of the cap; a pole itself has longitude 0. Returns false if no latitude of r is within 90. */
+bool dyd_spot_set(dyd_spot *s, const dyd_rect *r, mpq_srcptr more);
+bool dyd_spot_is_exact(const dyd_spot *s);
+/* Widens the box of s to hold all of s; the angle becomes 0. */
+void dyd_spot_box(dyd_spot *s);
+/* Returns true if the region may be exact: a double, or between two next to each other. */
+static inline bool dyd_spot_d_is_tight(const dyd_spot_d *p) {
+  return p->angle == 0 && nextafter(p->box[0], 720) >= p->box[1] && nextafter(p->box[2], 720) >= p->box[3];
+}
+
+/* ---- project.c: images ---- */
+
+/* The place that is projected from, with what many images have in common at one precision. Init, then set spot, and
+ * prec to 0 when it changes. */
+typedef struct dyd_eye {
+  dyd_spot spot;                       /* a box: its angle is 0 */
+  slong prec;                          /* of what follows, 0: not known */
+  arb_struct unit, lon, lat, sin, cos; /* pi / 360; degrees; of the latitude */
+  const volatile int *stop;            /* NULL, or a flag that ends dyd_project early, with false */
+} dyd_eye;
+enum { DYD_EYE_BALLS = 5 };
+
+void dyd_eye_init(dyd_eye *e);
+void dyd_eye_clear(dyd_eye *e);
+
+/* Encloses the images of all places of s, its angle included, seen from any place of the eye [SPH-2]: x, y. prec: bits
+ * of the computation. Returns false where something of s is also in the eye, or so near that thousands of pieces do not
+ * tell them apart. */
+bool dyd_project(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec);
+
+/* The eye enclosed in doubles, where it is an exact place: degrees; sine and cosine of the latitude. */
+typedef struct dyd_eye_d {
+  dyd_iv lon, lat, sin, cos;
+} dyd_eye_d;
+void dyd_eye_enclose(dyd_eye_d *out, dyd_eye *e);
+
+/* image_filter.c: box: x lower and upper, y lower and upper end of the image, for all of a narrow region and all that
+ * the eye encloses [FLT-SPH]; at most about 2^-(bits + 1) (1 + x^2 + y^2) wide, so 2^-bits radians on the sphere.
+ * Returns false where that is not known, as for a region with an angle. */
+bool dyd_filter_image(double box[4], const dyd_spot_d *place, const dyd_eye_d *eye, int64_t bits);
+
+/* ---- the sphere ---- */
 
 /* Invariant: of[] ascends: the places that have an image, which are all but the centre and aliases. alias[i] <= i is
  * the lowest place at the same point as i. stream is NULL, or has an entry for each place, NULL where it is fixed. */
@@ -38,20 +98,18 @@ struct dyd_sphere {
   dyd_sphere *second;
 };
 
+static inline bool dyd_sphere_is_fixed(const dyd_sphere *s, uint32_t i) {
+  return !s->stream || !s->stream[i];
+}
+
 /* places.c: the region of place i, as it is known now, with all that widens it: rectangle, stream, the radius of its
  * row and those in the options. Nothing else reads these. DYD_E_DOMAIN where its latitude is beyond a pole, or its
  * angle above 1; DYD_E_NOMEM. */
 dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
 /* Encloses the same in doubles; quick for exact places. */
 dyd_status dyd_sphere_spot_d(dyd_spot_d *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
-/* Sets out to the radius in the options: metres on the ground, or degrees. DYD_E_ARG where it is none; DYD_E_NOMEM. */
-dyd_status dyd_sphere_radius(mpq_ptr out, bool *ground, const dyd_sphere_options *o, dyd_error *err);
 /* What was given of place i, as it is known now: without radii. */
 dyd_status dyd_sphere_stated(dyd_rect *out, const dyd_sphere *s, uint32_t i);
-static inline bool dyd_sphere_is_fixed(const dyd_sphere *s, uint32_t i) {
-  return !s->stream || !s->stream[i];
-}
-
 /* Fills in alias; looks at all places, DYD_E_DOMAIN as above. */
 dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err);
 
@@ -60,18 +118,41 @@ dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err);
 dyd_status dyd_sphere_choose(dyd_sphere *s, dyd_error *err);
 /* Sets the centre to a place in a gap, `free`; leaves s as it is if there is none. */
 dyd_status dyd_sphere_choose_gap(dyd_sphere *s, dyd_error *err);
-/* source.c: adds the images to s->images. */
+
+/* project.c: adds the images to s->images. */
 dyd_status dyd_sphere_add_images(dyd_sphere *s, dyd_error *err);
-/* source.c: narrows places and centre as if images that a trace gave had been asked for, so that what is said of images
- * holds for all choices in the rectangles of their places. */
+/* Narrows places and centre as if images that a trace gave had been asked for, so that what is said of images holds for
+ * all choices in the rectangles of their places. */
 dyd_status dyd_sphere_narrow_recalled(dyd_sphere *s, int64_t max_bits, dyd_error *err);
-/* ties.c: proves that images are of exact places on one circle, with the centre if that is asked for. */
+
+/* ---- ties.c ---- */
+
+__extension__ typedef __int128 dyd_turns;
+
+/* Orders below this are taken: products with small primes stay in 128 bits. */
+#define DYD_CYCLIC_MOST ((dyd_turns)1 << 110)
+
+/* c times the root of unity e / n of a turn; n is that of the sum. */
+typedef struct dyd_root_term {
+  dyd_turns e;
+  int64_t c;
+} dyd_root_term;
+
+/* *zero: sum c exp(2 pi i e / n) over the terms is 0. Decided exactly for all 0 < n < DYD_CYCLIC_MOST, |e| < n and
+ * |c| < 2^31, count < 2^31 [SPH-3]; the terms are destroyed. DYD_OK or DYD_E_NOMEM. */
+dyd_status dyd_cyclic_is_zero(bool *zero, dyd_root_term *term, size_t count, dyd_turns n);
+/* Proves that images are of exact places on one circle, with the centre if that is asked for. */
 dyd_status dyd_sphere_on_circle(bool *proved, const dyd_sphere *s, bool centre, const uint32_t *site, size_t count,
                                 dyd_error *err);
-/* result.c: what each image is to the centre; in a gap, to a point there. */
-dyd_status dyd_sphere_about_centre(dyd_pair_status *status, const dyd_sphere *s);
 /* As dyd_prove_fn; user is a dyd_sphere, sites are images. */
 dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                             dyd_error *err);
+
+/* ---- sphere.c ---- */
+
+/* Sets out to the radius in the options: metres on the ground, or degrees. DYD_E_ARG where it is none; DYD_E_NOMEM. */
+dyd_status dyd_sphere_radius(mpq_ptr out, bool *ground, const dyd_sphere_options *o, dyd_error *err);
+/* What each image is to the centre; in a gap, to a point there. */
+dyd_status dyd_sphere_about_centre(dyd_pair_status *status, const dyd_sphere *s);
 
 #endif

@@ -3,7 +3,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
-#include "sphere/project.h"
+#include "sphere/state.h"
 #include "support/random.h"
 #include <cmocka.h>
 #include <math.h>

@@ -1,0 +1,651 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The html format: a page in one file, moved with the hand. What is drawn is rounded; what a page says is not.
+ *
+ * The page itself is the same for all; its data are one JSON object, packed by zlib, as base64. The page is made of the
+ * texts in page/ when the library is built (pack.py); its Content-Security-Policy allows the script and style in it, by
+ * their digests, and nothing else: no request can leave it.
+ *
+ * Data hold points, pairs stage by stage and triangles, of everything or of a window. Pages of a sphere show degrees as
+ * a map, and what was reached in the end. Pages of a diagram have cells as polygons, vertices, regions and edges in
+ * addition. Polygons are drawn, so their vertices are rounded to multiples of a unit 2^u, from the lower left corner of
+ * the window on: at most a quarter of what the polygons themselves are off their cells, or 2^-44 of the window. The
+ * page tells. */
+#define _POSIX_C_SOURCE 200809L /* open_memstream */
+#define ZLIB_CONST              /* what is packed is read only */
+#include "base/alloc.h"
+#include "base/error.h"
+#include "engine/history.h"
+#include "io/diagram.h"
+#include "io/json.h"
+#include "io/output.h"
+#include "io/result.h"
+#include "picture/picture.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+/* ---- the file ---- */
+
+/* Made by pack.py. */
+extern const unsigned char dyd_html_before[], dyd_html_after[];
+extern const size_t dyd_html_before_size, dyd_html_after_size;
+
+enum { GROUPS = 1 << 12, BLOCK = 3 * GROUPS }; /* of three bytes */
+
+/* A line of base64 (RFC 4648). */
+static void put_base64(FILE *out, const unsigned char *p, size_t size) {
+  static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  char line[4 * GROUPS + 1], *to = line;
+  for (size_t k = 0; k < size; k += 3) {
+    unsigned a = p[k], b = k + 1 < size ? p[k + 1] : 0, c = k + 2 < size ? p[k + 2] : 0, word = a << 16 | b << 8 | c;
+    *to++ = digit[word >> 18];
+    *to++ = digit[word >> 12 & 63];
+    *to++ = k + 1 < size ? digit[word >> 6 & 63] : '=';
+    *to++ = k + 2 < size ? digit[word & 63] : '=';
+  }
+  *to++ = '\n';
+  fwrite(line, 1, (size_t)(to - line), out);
+}
+
+/* The text is given to zlib in pieces that its counters hold. */
+static dyd_status put_packed(FILE *out, const char *text, size_t size) {
+  enum { PIECE = 1 << 20 };
+  unsigned char block[BLOCK];
+  z_stream z = {.next_out = block, .avail_out = BLOCK};
+  if (deflateInit(&z, Z_BEST_COMPRESSION) != Z_OK) return DYD_E_NOMEM;
+  for (int state = Z_OK; state != Z_STREAM_END;) {
+    if (z.avail_in == 0 && size) {
+      z.next_in = (const unsigned char *)text;
+      z.avail_in = size < PIECE ? (uInt)size : PIECE;
+      text += z.avail_in;
+      size -= z.avail_in;
+    }
+    state = deflate(&z, size || z.avail_in ? Z_NO_FLUSH : Z_FINISH);
+    if (z.avail_out && state != Z_STREAM_END) continue;
+    put_base64(out, block, BLOCK - z.avail_out);
+    z.next_out = block;
+    z.avail_out = BLOCK;
+  }
+  deflateEnd(&z);
+  return DYD_OK;
+}
+
+/* Writes JSON to `to`. */
+typedef dyd_status (*html_data_fn)(FILE *to, const dyd_output *o);
+
+/* A page with the data that `data` writes. */
+static dyd_status html_write(const dyd_output *o, html_data_fn data) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *to = open_memstream(&text, &size);
+  if (!to) return DYD_E_NOMEM;
+  dyd_status st = data(to, o);
+  if (fclose(to) != 0 && st == DYD_OK) st = DYD_E_NOMEM;
+  if (st == DYD_OK) {
+    fwrite(dyd_html_before, 1, dyd_html_before_size, o->out);
+    st = put_packed(o->out, text, size);
+    fwrite(dyd_html_after, 1, dyd_html_after_size, o->out);
+  }
+  free(text);
+  return st;
+}
+
+/* ---- lists ---- */
+
+/* A list of points by their numbers on the page, as differences, which pack well: of pairs (i, j), sorted, i less that
+ * of the pair before, and j - i; of triangles the same of their first corners, and the others less these. */
+typedef struct html_list {
+  FILE *out;
+  const char *between;
+  uint32_t before; /* the first number of the last thing */
+} html_list;
+
+/* "NAME": [ */
+static void html_list_begin(html_list *l, FILE *out, const char *name) {
+  *l = (html_list){.out = out, .between = ""};
+  fprintf(out, "\"%s\": [", name);
+}
+
+/* A thing of `count` numbers. Modulo 2^32: a page of so few points reads what is less than 0 as such. */
+static void html_list_put(html_list *l, const uint32_t *number, int count) {
+  fprintf(l->out, "%s%" PRId32, l->between, (int32_t)(number[0] - l->before));
+  for (int k = 1; k < count; k++) fprintf(l->out, ",%" PRId32, (int32_t)(number[k] - number[0]));
+  l->before = number[0];
+  l->between = ",";
+}
+
+static void html_list_end(html_list *l) {
+  fputc(']', l->out);
+}
+
+/* Pairs; and changes of statuses, all stages together. A page that holds more is no longer moved with ease. */
+enum { MOST_PAIRS = 300000, MOST_CHANGES = 4 * MOST_PAIRS };
+
+#define NOT_SHOWN UINT32_MAX
+
+/* Writes members of a page of its own, each with a comma behind. */
+typedef dyd_status (*html_own_fn)(FILE *out, const void *user);
+
+/* All borrowed but number and made. Set r and kind, and what differs from the triangulation of a plane. */
+typedef struct html_scene {
+  FILE *out; /* JSON */
+  const dyd_result *r;
+  const char *kind; /* "delaunay", "voronoi", "converge" */
+  html_own_fn own;
+  const void *user;
+  const dyd_history *history; /* NULL: of a globe, whose pairs are those of r */
+  dyd_history *made;          /* one stage, where none was given */
+  const dyd_rect *shown;      /* the window; NULL: everything, as of a globe */
+  double window[4];           /* counts where there is one */
+  uint32_t *number;           /* of sites on the page */
+  size_t points;              /* on the page */
+} html_scene;
+
+/* ---- what is shown ---- */
+
+static void scene_middle(double z[2], const html_scene *s, uint32_t i) {
+  double b[4];
+  dyd_sites_get_d(b, s->r->sites, i);
+  for (int axis = 0; axis < 2; axis++) z[axis] = b[2 * axis] / 2 + b[2 * axis + 1] / 2;
+}
+
+/* Does the line of the pair meet the window? As pictures count it. */
+static bool scene_sees_pair(const html_scene *s, const dyd_pair *p) {
+  double z[2][2];
+  if (!s->shown) return true;
+  scene_middle(z[0], s, p->i);
+  scene_middle(z[1], s, p->j);
+  return dyd_clip_segment(z, s->window);
+}
+
+static bool scene_sees_site(const html_scene *s, uint32_t i) {
+  double b[4];
+  const double *w = s->window;
+  if (!s->shown) return true;
+  dyd_sites_get_d(b, s->r->sites, i);
+  return b[0] <= w[1] && w[0] <= b[1] && b[2] <= w[3] && w[2] <= b[3];
+}
+
+/* Points in the window, and the ends of lines across it. */
+static void scene_number_points(html_scene *s) {
+  const dyd_history *h = s->history;
+  for (uint32_t i = 0; i < s->r->count; i++) s->number[i] = scene_sees_site(s, i) ? 0 : NOT_SHOWN;
+  for (size_t k = 0; s->shown && k < h->changes; k++)
+    if (scene_sees_pair(s, &h->change[k])) s->number[h->change[k].i] = s->number[h->change[k].j] = 0;
+  for (uint32_t i = 0; i < s->r->count; i++) {
+    if ((s->r->sphere ? dyd_sphere_alias(s->r->sphere, i) : dyd_delaunay_alias(s->r->pd, i)) != i)
+      s->number[i] = NOT_SHOWN;
+    if (s->number[i] != NOT_SHOWN) s->number[i] = (uint32_t)s->points++;
+  }
+}
+
+static size_t count_seen(const html_scene *s, const dyd_pair *pair, size_t count) {
+  size_t seen = 0;
+  for (size_t k = 0; k < count; k++) seen += scene_sees_pair(s, &pair[k]);
+  return seen;
+}
+
+/* DYD_E_RANGE with advice where a page cannot show so many. */
+static dyd_status html_check_pairs(size_t pairs, const char *where, const char *advice, dyd_error *err) {
+  if (pairs <= MOST_PAIRS) return DYD_OK;
+  return dyd_fail(err, DYD_E_RANGE, "html shows at most %d pairs, and there are %zu%s; give %s%sanother format",
+                  MOST_PAIRS, pairs, where, advice, *advice ? ", or " : "");
+}
+
+static dyd_status scene_check_size(const html_scene *s, dyd_error *err) {
+  const dyd_history *h = s->history;
+  if (s->r->sphere) return html_check_pairs(s->r->pairs.count, "", "", err);
+  size_t pairs = count_seen(s, h->last.item, h->last.count), changes = count_seen(s, h->change, h->changes);
+  const char *where = s->shown ? " in this window" : "",
+             *advice = s->shown ? "a smaller `window`" : "a part of the plane, `window` XLO,XHI,YLO,YHI";
+  dyd_status st = html_check_pairs(pairs, where, advice, err);
+  if (st != DYD_OK || changes <= MOST_CHANGES) return st;
+  return dyd_fail(err, DYD_E_RANGE,
+                  "html shows at most %d changes of pairs, and the stages have %zu%s; raise `start_bits`, or give %s",
+                  MOST_CHANGES, changes, where, advice);
+}
+
+static bool same_pairs(const dyd_pair_list *a, const dyd_pair_list *b) {
+  size_t k = 0;
+  while (a->count == b->count && k < a->count && a->item[k].i == b->item[k].i && a->item[k].j == b->item[k].j &&
+         a->item[k].status == b->item[k].status)
+    k++;
+  return k == a->count;
+}
+
+/* The history given, or one of a single stage. */
+static dyd_status scene_find_history(html_scene *s, dyd_error *err) {
+  dyd_pair_list pairs = {s->r->pairs.count, NULL};
+  s->history = s->r->history;
+  if (s->history && same_pairs(&s->history->last, &s->r->pairs)) return DYD_OK;
+  if (s->history) return dyd_fail(err, DYD_E_ARG, "the history does not end with the pairs of this result");
+  pairs.item = dyd_alloc(pairs.count, sizeof *pairs.item);
+  if (!pairs.item) return DYD_E_NOMEM;
+  if (pairs.count) memcpy(pairs.item, s->r->pairs.item, pairs.count * sizeof *pairs.item);
+  dyd_status st = dyd_history_new(&s->made);
+  if (st == DYD_OK) st = dyd_history_add(s->made, s->r->pd, &pairs);
+  s->history = s->made;
+  dyd_pair_list_clear(&pairs);
+  return st;
+}
+
+static dyd_status html_scene_init(html_scene *s, dyd_error *err) {
+  double box[4];
+  s->shown = s->r->sphere ? NULL : s->r->window;
+  if (s->shown) dyd_rect_get_d(s->window, s->shown);
+  dyd_status st = s->r->sphere ? DYD_OK : scene_find_history(s, err);
+  for (size_t i = 0; i < s->r->count && !s->r->sphere && st == DYD_OK; i++) st = dyd_result_box(box, s->r, i, err);
+  if (st == DYD_OK) st = scene_check_size(s, err);
+  if (st != DYD_OK) return st;
+  s->number = dyd_alloc(s->r->count, sizeof *s->number);
+  if (!s->number) return DYD_E_NOMEM;
+  scene_number_points(s);
+  return DYD_OK;
+}
+
+/* ---- head ---- */
+
+/* By the names that commands have for them; of graphs the pairs. */
+static const char *layer_name(dyd_content content) {
+  static const char *const name[DYD_CONTENTS] = {
+      [DYD_CONTENT_POINTS] = "points",        [DYD_CONTENT_TRIANGLES] = "triangles",
+      [DYD_CONTENT_VORONOI] = "cells",        [DYD_CONTENT_VERTICES] = "vertices",
+      [DYD_CONTENT_REGIONS] = "regions",      [DYD_CONTENT_EDGES] = "edges",
+      [DYD_CONTENT_SPHERE_POINTS] = "points", [DYD_CONTENT_SPHERE_TRIANGLES] = "triangles"};
+  return name[content] ? name[content] : "pairs";
+}
+
+/* The opening of the object. content: the layer to be seen first. */
+static dyd_status html_head(const html_scene *s, dyd_content content) {
+  FILE *out = s->out;
+  const dyd_result *r = s->r;
+  const dyd_engine *e = r->sphere ? dyd_sphere_images(r->sphere) : r->engine;
+  int64_t bits;
+  dyd_goal goal = dyd_engine_goal(&bits, e);
+  dyd_json j;
+  dyd_json_begin(&j, out);
+  dyd_json_head(&j, "dyadel html 1", r->epsg);
+  dyd_json_end(&j, ",\n");
+  fprintf(out,
+          "\"kind\": \"%s\", \"layer\": \"%s\", \"outcome\": \"%s\", \"goal\": \"%s\", \"goal_bits\": %" PRId64
+          ", \"capped\": %s, \"discs\": %s,\n\"sites\": %zu, \"window\": ",
+          s->kind, layer_name(content), dyd_outcome_text(dyd_engine_outcome(e)), dyd_goal_text(goal), bits,
+          dyd_delaunay_is_capped(r->pd) ? "true" : "false", r->discs ? "true" : "false", r->count);
+  dyd_json_begin(&j, out);
+  dyd_json_window(&j, NULL, s->shown, ", ");
+  if (r->graph_name) dyd_json_break(&j, ",\n");
+  if (r->graph_name) dyd_json_word(&j, "graph", r->graph_name);
+  return dyd_json_end(&j, ",\n");
+}
+
+/* ---- points ---- */
+
+/* row: NULL on a globe, where no point is on the hull. */
+static dyd_status html_point(const html_scene *s, uint32_t i, const dyd_site_row *row) {
+  const double *radius = s->r->tolerance ? dyd_tolerance_points(s->r->tolerance) : NULL;
+  dyd_rect rect;
+  dyd_json j;
+  dyd_rect_init(&rect);
+  dyd_json_begin(&j, s->out);
+  dyd_json_break(&j, s->number[i] ? ",\n" : "\n");
+  dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+  dyd_json_site(&j, "i", s->r->engine, i);
+  if (dyd_json_good(&j, s->r->sphere ? dyd_sphere_rect(&rect, s->r->sphere, i) : dyd_sites_get(&rect, s->r->sites, i)))
+    dyd_json_sides(&j, &rect);
+  dyd_json_ids(&j, s->r->engine, &i, 0);
+  if (row) dyd_json_word(&j, "hull", row->hull);
+  if (radius) {
+    char text[DYD_DECIMAL_SIZE] = "null"; /* no motion changes anything */
+    if (isfinite(radius[i])) dyd_decimal_directed(text, radius[i], 6, DYD_DOWN);
+    dyd_json_raw(&j, "rho", text);
+  }
+  dyd_rect_clear(&rect);
+  return dyd_json_end(&j, "}");
+}
+
+static dyd_status html_points(const html_scene *s) {
+  dyd_site_row *rows = NULL;
+  dyd_json j;
+  dyd_status st = s->r->sphere ? DYD_OK : dyd_result_sites(&rows, s->r);
+  fputs("\"points\": [", s->out);
+  for (uint32_t i = 0; i < s->r->count && st == DYD_OK; i++)
+    if (s->number[i] != NOT_SHOWN) st = html_point(s, i, rows ? &rows[i] : NULL);
+  fputs("],\n", s->out);
+  free(rows);
+  dyd_json_begin(&j, s->out);
+  dyd_json_aliases(&j, s->r->engine, s->r->sphere);
+  dyd_json_end(&j, ",\n");
+  return st;
+}
+
+/* With all its sides: the page tells by them from which stage on a triangle is sure. */
+static bool scene_sees_triangle(const html_scene *s, const uint32_t v[3]) {
+  bool seen = true;
+  for (int c = 0; seen && c < 3; c++) seen = scene_sees_pair(s, &(dyd_pair){v[c], v[(c + 1) % 3], DYD_LEGAL});
+  return seen;
+}
+
+/* Beside a graph there are none. */
+static dyd_status html_triangles(const html_scene *s) {
+  dyd_triangle_list list = {0};
+  html_list l;
+  dyd_status st = s->r->graph_name ? DYD_OK
+                  : s->r->sphere   ? dyd_sphere_triangles(&list, s->r->sphere)
+                                   : dyd_delaunay_triangles(&list, s->r->pd);
+  html_list_begin(&l, s->out, "triangles");
+  for (size_t k = 0; k < list.count; k++) {
+    const uint32_t *v = list.item[k].v;
+    if (scene_sees_triangle(s, v))
+      html_list_put(&l, (uint32_t[]){s->number[v[0]], s->number[v[1]], s->number[v[2]]}, 3);
+  }
+  html_list_end(&l);
+  fputs(",\n", s->out);
+  dyd_triangle_list_clear(&list);
+  return st;
+}
+
+/* ---- stages ---- */
+
+static void html_changes(const html_scene *s, size_t stage, dyd_pair_status status) {
+  const dyd_history *h = s->history;
+  const dyd_pair *pair = h ? h->change : s->r->pairs.item;
+  size_t end = h ? dyd_history_changes_end(h, stage) : s->r->pairs.count;
+  html_list l;
+  html_list_begin(&l, s->out, dyd_pair_status_text(status));
+  for (const dyd_pair *p = pair + (h ? h->change_begin[stage] : 0); p < pair + end; p++)
+    if (p->status == status && scene_sees_pair(s, p))
+      html_list_put(&l, (uint32_t[]){s->number[p->i], s->number[p->j]}, 2);
+  html_list_end(&l);
+  fputs(", ", s->out);
+}
+
+/* Is box number k of the history the one that its site has in the end? */
+static bool is_last_box(const html_scene *s, size_t k) {
+  const dyd_history_box *b = &s->history->box[k];
+  double now[4];
+  dyd_sites_get_d(now, s->r->sites, b->site);
+  return s->history->last_box[b->site] == k && memcmp(now, b->box, sizeof now) == 0;
+}
+
+/* The boxes of a stage: those of points that are narrower in the end, rounded outward; else the point alone, but for
+ * the first stage, where that goes without saying. */
+static void html_boxes(const html_scene *s, size_t stage, bool last) {
+  const dyd_history *h = s->history;
+  const char *between = "";
+  fprintf(s->out, "\"%s\": [", last ? "final" : "boxes");
+  for (size_t k = h ? h->box_begin[stage] : 0; h && k < dyd_history_boxes_end(h, stage); k++) {
+    uint32_t n = s->number[h->box[k].site];
+    if (n == NOT_SHOWN || is_last_box(s, k) != last || (last && stage == 0)) continue;
+    fprintf(s->out, "%s%" PRIu32, between, n);
+    for (int e = 0; e < 4 && !last; e++) {
+      fputc(',', s->out);
+      dyd_decimal_put(s->out, h->box[k].box[e], e & 1 ? DYD_UP : DYD_DOWN, "null");
+    }
+    between = ",";
+  }
+  fputs("]", s->out);
+}
+
+static dyd_status html_body(const html_scene *s) {
+  dyd_status st = html_points(s);
+  if (st == DYD_OK) st = html_triangles(s);
+  fputs("\"stages\": [", s->out);
+  for (size_t k = 0; k < (s->history ? s->history->stages : 1); k++) {
+    fputs(k ? ",\n{" : "\n{", s->out);
+    for (int status = DYD_ILLEGAL; status <= DYD_LEGAL; status++) html_changes(s, k, (dyd_pair_status)status);
+    html_boxes(s, k, false);
+    fputs(", ", s->out);
+    html_boxes(s, k, true);
+    fputs("}", s->out);
+  }
+  fputs("\n]", s->out);
+  return st;
+}
+
+/* The object of a page: its head, what is its own, then "points", "aliases", "triangles", "stages". */
+static dyd_status html_scene_write(html_scene *s, const dyd_output *o) {
+  dyd_status st = html_scene_init(s, o->err);
+  if (st == DYD_OK) st = html_head(s, o->content);
+  if (st == DYD_OK) st = s->own(s->out, s->user);
+  if (st == DYD_OK) st = html_body(s);
+  fputs("}\n", s->out);
+  dyd_history_free(s->made);
+  free(s->number);
+  return st;
+}
+
+/* ---- runs, triangulations, graphs ---- */
+
+/* The table of convergence, as json has it; the page shows its row beside the triangulation. */
+static dyd_status html_table(FILE *out, const void *output) {
+  dyd_output table = *(const dyd_output *)output;
+  table.out = out;
+  table.format = DYD_FORMAT_JSON;
+  fputs("\"convergence\": ", out);
+  dyd_status st = dyd_convergence_json(&table);
+  fputs(",\n", out);
+  return st;
+}
+
+static dyd_status html_run(FILE *to, const dyd_output *o) {
+  const dyd_stage_table *t = o->what;
+  if (t->result->history->stages != t->stages->count)
+    return dyd_fail(o->err, DYD_E_ARG, "the history has other stages than the table has rows");
+  return html_scene_write(&(html_scene){.out = to, .r = t->result, .kind = "converge", .own = html_table, .user = o},
+                          o);
+}
+
+static dyd_status html_convergence(const dyd_output *o) {
+  return html_write(o, html_run);
+}
+
+/* Which surface; up to which motion of all points nothing changes at all. */
+static dyd_status html_whole(FILE *out, const void *result) {
+  const dyd_result *r = result;
+  double lo, hi;
+  if (r->sphere) fputs("\"surface\": \"sphere\",\n", out);
+  dyd_json j;
+  if (!r->tolerance) return DYD_OK;
+  dyd_tolerance_whole(&lo, &hi, r->tolerance);
+  dyd_json_begin(&j, out);
+  dyd_json_decimals(&j, "tolerance", lo, hi);
+  return dyd_json_end(&j, ",\n");
+}
+
+static dyd_status html_pairs_page(FILE *to, const dyd_output *o) {
+  return html_scene_write(
+      &(html_scene){.out = to, .r = o->what, .kind = "delaunay", .own = html_whole, .user = o->what}, o);
+}
+
+static dyd_status html_triangulation(const dyd_output *o) {
+  return html_write(o, html_pairs_page);
+}
+
+/* ---- diagrams ---- */
+
+/* All borrowed. */
+typedef struct html_diagram {
+  FILE *out;
+  const dyd_diagram *d;
+  double origin[2], unit;
+  bool any; /* is there one in the list that is written? */
+} html_diagram;
+
+static int diagram_unit(html_diagram *g) {
+  enum { FINER = 2, DIGITS = 44, LEAST = -1000 };
+  double w[4];
+  dyd_rect_get_d(w, &g->d->window);
+  int window = ilogb(fmax(w[1] - w[0], w[3] - w[2])) - DIGITS;
+  int64_t wanted = -g->d->bits - FINER;
+  int unit = wanted < window ? window : wanted > window + DIGITS ? window + DIGITS : (int)wanted;
+  if (unit < LEAST) unit = LEAST;
+  g->origin[0] = w[0];
+  g->origin[1] = w[2];
+  g->unit = ldexp(1, unit);
+  return unit;
+}
+
+/* The number of units; last is that of the place before, and becomes this one. */
+static void put_place(html_diagram *g, double x, double y, int64_t last[2], const char *before) {
+  int64_t now[2] = {(int64_t)llround((x - g->origin[0]) / g->unit), (int64_t)llround((y - g->origin[1]) / g->unit)};
+  fprintf(g->out, "%s%" PRId64 ",%" PRId64, before, now[0] - last[0], now[1] - last[1]);
+  last[0] = now[0];
+  last[1] = now[1];
+}
+
+static void put_polygon(html_diagram *g, const dyd_polygon *p) {
+  int64_t last[2] = {0, 0};
+  fputc('[', g->out);
+  for (size_t k = 0; k < p->count; k++)
+    put_place(g, dyd_dyadic_get_d(&p->vertex[k].x, DYD_DOWN), dyd_dyadic_get_d(&p->vertex[k].y, DYD_DOWN), last,
+              k ? "," : "");
+  fputc(']', g->out);
+}
+
+static dyd_status html_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
+  html_diagram *g = context;
+  dyd_polygon inner = {0};
+  dyd_polygon_list outer = {0};
+  dyd_json j;
+  if (!row->present) return DYD_OK;
+  dyd_status st = dyd_shape_inner(&inner, shape);
+  if (st == DYD_OK) st = dyd_shape_outer(&outer, shape);
+  dyd_json_begin(&j, g->out);
+  dyd_json_break(&j, g->any ? ",\n" : "\n");
+  dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+  dyd_json_site(&j, "i", g->d->engine, i);
+  dyd_json_decimals(&j, "area", row->area[0], row->area[1]);
+  dyd_json_decimal(&j, "undetermined", dyd_cell_undetermined(row), DYD_UP);
+  dyd_json_file(&j, "inner");
+  put_polygon(g, &inner);
+  fputs(", \"outer\": [", g->out);
+  for (size_t k = 0; k < outer.count; k++) {
+    if (k) fputc(',', g->out);
+    put_polygon(g, &outer.item[k]);
+  }
+  fputs("]}", g->out);
+  g->any = true;
+  dyd_polygon_list_clear(&outer);
+  dyd_polygon_clear(&inner);
+  return st;
+}
+
+static dyd_status html_vertices(html_diagram *g) {
+  const dyd_diagram *d = g->d;
+  dyd_json j;
+  dyd_json_begin(&j, g->out);
+  dyd_json_array(&j, "vertices", DYD_JSON_ROWS);
+  for (size_t k = 0; k < dyd_diagram_vertices(d) && j.st == DYD_OK; k++) {
+    dyd_index_list sites = {0};
+    if (!dyd_diagram_vertex_in_window(d, k)) continue;
+    dyd_json_good(&j, dyd_diagram_vertex_sites(&sites, d, k));
+    dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+    dyd_json_sites(&j, "sites", d->engine, &sites);
+    dyd_json_box(&j, false, d->vertex[k]);
+    dyd_json_close(&j, 1);
+    dyd_index_list_clear(&sites);
+  }
+  return dyd_json_end(&j, "],\n");
+}
+
+static dyd_status html_region(void *context, size_t face, const double box[4]) {
+  html_diagram *g = context;
+  dyd_index_list sites = {0};
+  bool outer;
+  dyd_json j;
+  if (!box) return DYD_OK;
+  dyd_status st = dyd_delaunay_face(&sites, &outer, g->d->pd, face);
+  dyd_json_begin(&j, g->out);
+  dyd_json_break(&j, g->any ? ",\n" : "\n");
+  dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+  dyd_json_sites(&j, "sites", g->d->engine, &sites);
+  dyd_json_box(&j, false, box);
+  dyd_json_end(&j, "}");
+  g->any = true;
+  dyd_index_list_clear(&sites);
+  return st;
+}
+
+/* Those of which both ends are known, as lines between the middles of these. */
+static dyd_status html_edges(html_diagram *g) {
+  dyd_dual_edge *edge = NULL;
+  size_t count = 0;
+  double box[2][4];
+  dyd_status st = dyd_dual_edges(&edge, &count, g->d->pd, &g->d->triangles, g->d->tied, g->d->ties, g->d->room);
+  const char *between = "";
+  fputs("\"edges\": [", g->out);
+  for (size_t k = 0; k < count; k++) {
+    int64_t last[2] = {0, 0};
+    double z[2][2], w[4];
+    if (!dyd_diagram_edge(box, g->d, &edge[k])) continue;
+    for (int c = 0; c < 4; c++) z[c >> 1][c & 1] = box[c >> 1][2 * (c & 1)] / 2 + box[c >> 1][2 * (c & 1) + 1] / 2;
+    dyd_rect_get_d(w, &g->d->window);
+    if (!dyd_clip_segment(z, w)) continue;
+    put_place(g, z[0][0], z[0][1], last, between);
+    put_place(g, z[1][0], z[1][1], last, ",");
+    between = ",";
+  }
+  fputs("],\n", g->out);
+  free(edge);
+  return st;
+}
+
+/* Cells come first, as they give the bounds. */
+static dyd_status html_diagram_parts(FILE *to, const void *diagram) {
+  const dyd_diagram *d = diagram;
+  html_diagram g = {.out = to, .d = d};
+  int unit = diagram_unit(&g);
+  dyd_json j;
+  fprintf(to, "\"unit\": %d, \"origin\": [", unit);
+  dyd_decimal_put_near(to, g.origin[0]);
+  fputs(", ", to);
+  dyd_decimal_put_near(to, g.origin[1]);
+  fprintf(to, "], \"flatten_bits\": %" PRId64 ",\n\"cells\": [", d->bits);
+  dyd_status st = dyd_diagram_visit(d, html_cell, &g);
+  fputs("],\n", to);
+  dyd_json_begin(&j, to);
+  dyd_json_bound(&j, "undetermined_area", &d->bounds->area);
+  dyd_json_break(&j, ",\n");
+  dyd_json_bound(&j, "distance_to_true_diagram", d->bounds->finite ? &d->bounds->hausdorff : NULL);
+  if (st == DYD_OK) st = dyd_json_end(&j, ",\n");
+  if (st == DYD_OK) st = html_vertices(&g);
+  g.any = false;
+  fputs("\"regions\": [", to);
+  if (st == DYD_OK) st = dyd_diagram_regions(d, html_region, &g);
+  fputs("],\n", to);
+  return st == DYD_OK ? html_edges(&g) : st;
+}
+
+static dyd_status html_cells_page(FILE *to, const dyd_output *o) {
+  const dyd_diagram *d = o->what;
+  dyd_result r = {.out = to,
+                  .engine = d->engine,
+                  .pd = d->pd,
+                  .sites = d->sites,
+                  .count = d->count,
+                  .window = &d->window,
+                  .epsg = d->epsg,
+                  .history = d->history};
+  dyd_status st = dyd_delaunay_pairs(&r.pairs, d->pd);
+  if (st == DYD_OK)
+    st =
+        html_scene_write(&(html_scene){.out = to, .r = &r, .kind = "voronoi", .own = html_diagram_parts, .user = d}, o);
+  dyd_pair_list_clear(&r.pairs);
+  return st;
+}
+
+static dyd_status html_diagram_page(const dyd_output *o) {
+  return html_write(o, html_cells_page);
+}
+
+dyd_writer *const dyd_html_writers[DYD_CONTENTS] = {
+    [DYD_CONTENT_DELAUNAY] = html_triangulation,      [DYD_CONTENT_POINTS] = html_triangulation,
+    [DYD_CONTENT_TRIANGLES] = html_triangulation,     [DYD_CONTENT_GRAPH_NEAREST] = html_triangulation,
+    [DYD_CONTENT_GRAPH_GABRIEL] = html_triangulation, [DYD_CONTENT_GRAPH_MST] = html_triangulation,
+    [DYD_CONTENT_CONVERGENCE] = html_convergence,     [DYD_CONTENT_VORONOI] = html_diagram_page,
+    [DYD_CONTENT_VERTICES] = html_diagram_page,       [DYD_CONTENT_REGIONS] = html_diagram_page,
+    [DYD_CONTENT_EDGES] = html_diagram_page,          [DYD_CONTENT_SPHERE] = html_triangulation,
+    [DYD_CONTENT_SPHERE_POINTS] = html_triangulation, [DYD_CONTENT_SPHERE_TRIANGLES] = html_triangulation};
