@@ -385,14 +385,12 @@ static bool project_exact(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, s
   return good;
 }
 
-bool dyd_project(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec) {
-  const dyd_spot *q = &e->spot;
+static bool project_sight(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec) {
   sight g;
   piece p;
-  if (dyd_spot_is_exact(s) && dyd_spot_is_exact(q)) return project_exact(x, y, s, e, prec);
   sight_init(&g, s->angle, prec);
   piece_init(&p);
-  piece_set(&p, s, q, prec);
+  piece_set(&p, s, &e->spot, prec);
   g.stop = e->stop;
   g.wide = false;
   for (int k = 0; k < VARIABLES; k++) g.wide = g.wide || !mag_is_zero(&p.half[k]);
@@ -404,6 +402,31 @@ bool dyd_project(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec
   }
   piece_clear(&p);
   sight_clear(&g);
+  return good;
+}
+
+/* Sets out to a disc about a pole that holds s, a region of all longitudes: its angle is that of s and
+ * 174532925199432958 / 10^19 > pi / 180 for each degree of latitude. As a box it would be cut into pieces, the more the
+ * smaller it is. Returns false if s does not reach a pole. */
+static bool spot_about_pole(dyd_spot *out, const dyd_spot *s) {
+  mpq_abs(out->mid[1], s->mid[1]);
+  mpq_add(out->mid[1], out->mid[1], s->half[1]);
+  if (mpq_cmp_si(s->half[0], 180, 1) < 0 || mpq_cmp_si(out->mid[1], 90, 1) != 0) return false;
+  mpq_set_si(out->mid[1], 90 * mpq_sgn(s->mid[1]), 1);
+  mpq_set_ui(out->angle, 174532925199432958, 10000000000000000000u);
+  mpq_canonicalize(out->angle);
+  mpq_mul(out->angle, out->angle, s->half[1]);
+  mpq_mul_2exp(out->angle, out->angle, 1);
+  mpq_add(out->angle, out->angle, s->angle);
+  return mpq_cmp_si(out->angle, 1, 1) <= 0;
+}
+
+bool dyd_project(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec) {
+  dyd_spot disc;
+  if (dyd_spot_is_exact(s) && dyd_spot_is_exact(&e->spot)) return project_exact(x, y, s, e, prec);
+  dyd_spot_init(&disc);
+  bool good = project_sight(x, y, spot_about_pole(&disc, s) ? &disc : s, e, prec);
+  dyd_spot_clear(&disc);
   return good;
 }
 
