@@ -2,8 +2,10 @@
 /* Where the places are, and which are the same. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "engine/state.h"
 #include "rect/rect.h"
 #include "sphere/state.h"
+#include "stream/algebra/zero.h"
 #include "stream/ball.h"
 
 #include <dyadel/io.h>
@@ -208,13 +210,68 @@ dyd_status dyd_sphere_spot_d(dyd_spot_d *out, const dyd_sphere *s, uint32_t i, d
   return st;
 }
 
+/* ---- what computable places are ---- */
+
+/* Sets q to the number that form n is, where its normal form is one [IDN-1]. */
+static bool form_is_rational(mpq_ptr q, dyd_algebra *a, uint32_t n) {
+  const dyd_fraction *x = n == DYD_NONE ? NULL : dyd_ring_fraction(&a->ring, n);
+  fmpz_t part;
+  if (!x || !fmpz_mpoly_is_fmpz(x->num, a->ring.ctx) || !fmpz_mpoly_is_fmpz(x->den, a->ring.ctx)) return false;
+  for (int k = 0; k < 2; k++) {
+    fmpz_init(part);
+    fmpz_mpoly_get_fmpz(part, k ? x->den : x->num, a->ring.ctx);
+    fmpz_get_mpz(k ? mpq_denref(q) : mpq_numref(q), part);
+    fmpz_clear(part);
+  }
+  mpq_canonicalize(q);
+  return true;
+}
+
+/* Sets out to the exact place that the forms are; a pole has longitude 0, whatever the form of its longitude. */
+static bool forms_are_exact(dyd_rect *out, dyd_algebra *a, dyd_form_point at) {
+  mpq_t x, y;
+  mpq_inits(x, y, NULL);
+  bool good = form_is_rational(y, a, at.y);
+  bool pole = good && (mpq_cmp_si(y, 90, 1) == 0 || mpq_cmp_si(y, -90, 1) == 0);
+  good = good && (pole || form_is_rational(x, a, at.x));
+  good = good && dyd_interval_set_q(&out->x, x) == DYD_OK && dyd_interval_set_q(&out->y, y) == DYD_OK;
+  mpq_clears(x, y, NULL);
+  return good;
+}
+
+static dyd_status place_becomes(dyd_sphere *s, uint32_t i, const dyd_rect *r) {
+  dyd_stream *exact;
+  dyd_status st = dyd_stream_from_rect(&exact, r);
+  if (st != DYD_OK) return st;
+  dyd_stream_free(s->stream[i]);
+  s->stream[i] = exact;
+  return DYD_OK;
+}
+
+dyd_status dyd_sphere_recognise(dyd_sphere *s, uint32_t i, dyd_error *err) {
+  dyd_algebra a;
+  dyd_rect r;
+  if (dyd_sphere_is_fixed(s, i) || dyd_stream_is_final(s->stream[i])) return DYD_OK;
+  dyd_status st = dyd_algebra_open(&a, DYD_TIE_BITS, &s->images->stop);
+  dyd_rect_init(&r);
+  dyd_form_point at = dyd_forms_stream(&a.forms, s->stream[i]);
+  if (st == DYD_OK && at.y != DYD_NONE) st = dyd_algebra_settle(&a, &at.x, 2);
+  if (st == DYD_OK && a.settled && forms_are_exact(&r, &a, at)) st = place_becomes(s, i, &r);
+  dyd_rect_clear(&r);
+  dyd_algebra_close(&a);
+  return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
+}
+
 /* ---- aliases ---- */
 
-/* A place that may be exact, by its degrees rounded down: equal places have equal ones. */
+/* A place that may be exact, by its degrees rounded down: equal places have equal ones. Where there are computable
+ * places, by a square of 2^-FINE degrees that the true place may be in. */
 typedef struct rounded_place {
   double at[2];
   uint32_t place;
 } rounded_place;
+
+enum { FINE = 28, MOST_SQUARES = 4 };
 
 static int compare_rounded(const void *a, const void *b) {
   const rounded_place *x = a, *y = b;
@@ -223,15 +280,17 @@ static int compare_rounded(const void *a, const void *b) {
   return (x->place > y->place) - (x->place < y->place);
 }
 
-/* Among places with equal rounded degrees: each becomes an alias of the first that is equal to it. */
+/* Among places with equal rounded degrees: each becomes an alias of the first that is equal to it. Computable ones are
+ * recognised here, so that those that are alone cost nothing. */
 static dyd_status aliases_in_run(dyd_sphere *s, const rounded_place *run, size_t count, dyd_error *err) {
   dyd_spot a, b;
   dyd_status st = DYD_OK;
   dyd_spot_init(&a);
   dyd_spot_init(&b);
-  for (size_t k = 1; k < count && st == DYD_OK; k++) {
+  for (size_t k = 0; k < count && st == DYD_OK; k++) {
     uint32_t i = run[k].place;
-    st = dyd_sphere_spot(&a, s, i, err);
+    st = dyd_sphere_recognise(s, i, err);
+    if (st == DYD_OK) st = dyd_sphere_spot(&a, s, i, err);
     if (st != DYD_OK || !dyd_spot_is_exact(&a)) continue;
     for (size_t l = 0; l < k && s->alias[i] == i && st == DYD_OK; l++) {
       uint32_t j = run[l].place;
@@ -246,15 +305,37 @@ static dyd_status aliases_in_run(dyd_sphere *s, const rounded_place *run, size_t
   return st;
 }
 
-/* Looks at all places, which finds latitudes that are none; lists those that may be exact. */
+/* The squares that p meets; none where it is wide. Returns how many. */
+static size_t squares_put(rounded_place out[MOST_SQUARES], const dyd_spot_d *p, uint32_t i) {
+  const double turn = ldexp(360, FINE);
+  double end[4];
+  size_t n = 0;
+  for (int k = 0; k < 4; k++) end[k] = floor(ldexp(p->box[k], FINE));
+  if (!(p->angle == 0 && end[1] - end[0] <= 1 && end[3] - end[2] <= 1)) return 0;
+  for (double x = end[0]; x <= end[1]; x++)
+    for (double y = end[2]; y <= end[3]; y++)
+      out[n++] = (rounded_place){{(x < -turn / 2 ? x + turn : x >= turn / 2 ? x - turn : x) + 0., y + 0.}, i};
+  return n;
+}
+
+/* Looks at all places, which finds latitudes that are none; lists those that may be exact. Near a pole the longitude of
+ * a computable place is any, so that it has to be recognised first. */
 static dyd_status places_round(rounded_place *out, size_t *count, dyd_sphere *s, dyd_error *err) {
   for (uint32_t i = 0; i < s->count; i++) {
     dyd_spot_d p;
     dyd_status st = dyd_sphere_spot_d(&p, s, i, err);
     s->alias[i] = i;
+    bool fixed = dyd_sphere_is_fixed(s, i);
+    if (st == DYD_OK && !fixed && p.box[1] - p.box[0] >= 360) {
+      st = dyd_sphere_recognise(s, i, err);
+      if (st == DYD_OK) st = dyd_sphere_spot_d(&p, s, i, err);
+    }
     if (st != DYD_OK) return st;
-    if (!dyd_sphere_is_fixed(s, i) || !dyd_spot_d_is_tight(&p)) continue;
-    out[(*count)++] = (rounded_place){{p.box[0] + 0., p.box[2] + 0.}, i}; /* no -0 */
+    if (fixed && !dyd_spot_d_is_tight(&p)) continue;
+    if (s->stream)
+      *count += squares_put(out + *count, &p, i);
+    else
+      out[(*count)++] = (rounded_place){{p.box[0] + 0., p.box[2] + 0.}, i}; /* no -0 */
   }
   return DYD_OK;
 }
@@ -285,7 +366,7 @@ static dyd_status places_thin(rounded_place *place, size_t *count) {
 }
 
 dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err) {
-  rounded_place *place = dyd_alloc(s->count, sizeof *place);
+  rounded_place *place = dyd_alloc(s->count * (s->stream ? MOST_SQUARES : 1), sizeof *place);
   size_t count = 0;
   dyd_status st = place ? places_round(place, &count, s, err) : dyd_fail_nomem(err);
   if (st == DYD_OK && places_thin(place, &count) != DYD_OK) st = dyd_fail_nomem(err);
@@ -294,6 +375,7 @@ dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err) {
     for (end = k + 1; end < count && !memcmp(place[end].at, place[k].at, sizeof place->at);) end++;
     if (end > k + 1) st = aliases_in_run(s, place + k, end - k, err);
   }
+  for (uint32_t i = 0; i < s->count && st == DYD_OK; i++) s->alias[i] = s->alias[s->alias[i]];
   free(place);
   return st;
 }

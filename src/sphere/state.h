@@ -110,6 +110,9 @@ dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_e
 dyd_status dyd_sphere_spot_d(dyd_spot_d *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
 /* What was given of place i, as it is known now: without radii. */
 dyd_status dyd_sphere_stated(dyd_rect *out, const dyd_sphere *s, uint32_t i);
+/* Makes a computable place exact where the normal forms of its coordinates are rational numbers, or its latitude is
+ * that of a pole. */
+dyd_status dyd_sphere_recognise(dyd_sphere *s, uint32_t i, dyd_error *err);
 /* Fills in alias; looks at all places, DYD_E_DOMAIN as above. */
 dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err);
 

@@ -300,7 +300,12 @@ dyd_status dyd_sphere_on_circle(bool *proved, const dyd_sphere *s, bool centre, 
 
 dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                             dyd_error *err) {
+  dyd_sphere *s = user;
+  bool line = relation == DYD_COLLINEAR;
+  dyd_status st = DYD_OK;
   *proved = false;
   if (relation == DYD_COINCIDENT) return DYD_OK;
-  return dyd_sphere_on_circle(proved, user, relation == DYD_COLLINEAR, site, count, err);
+  for (size_t k = 0; k < count && st == DYD_OK; k++) st = dyd_sphere_recognise(s, s->of[site[k]], err);
+  if (st == DYD_OK && line && !s->free) st = dyd_sphere_recognise(s, s->centre, err);
+  return st == DYD_OK ? dyd_sphere_on_circle(proved, s, line, site, count, err) : st;
 }

@@ -687,6 +687,32 @@ def test_trace():
             assert json.loads(trace.readlines()[-1])['outcome'] == 'decided'
 
 
+def test_computable_places():
+    """Places by their values, whatever they are written as: equal ones are one, modulo 360 and at poles."""
+    same = ['cbrt(125)*(-700807/5000)/5 (-19637/5000)+pi-pi', '(-117549/1250)+sqrt(64)-8 (-10063/250)+sqrt(36)-6',
+            '(sqrt(7)+1)*(sqrt(7)-1)*(-1375251/10000)/6 18.1148',
+            '(sqrt(7)+1)*(sqrt(7)-1)*(-567549/1250)/6 (sqrt(2)+1)*(sqrt(2)-1)*(-10063/250)/1']
+    rows = {
+        'by their numbers': (same, '# alias 3 1\n', '0,1,legal\n0,2,legal\n1,2,legal\n'),
+        'exact and computable': (['18/10 2', 'sqrt(81)/5 sqrt(4)', '10 10'], '# alias 1 0\n', '0,2,legal\n'),
+        'a pole': (['sqrt(2) 89+sin(3)^2+cos(3)^2', '7 90', '10 10', '5 89.99'], '# alias 1 0\n',
+                   '0,2,legal\n0,3,legal\n2,3,legal\n'),
+        'near a pole': (['69 (-90/1)+pi-pi', '144 -89.98'], '', '0,1,legal\n'),
+        'on one circle': (['10+pi-pi 30', '(sqrt(7)+1)*(sqrt(7)-1)*20/6 sqrt(900)', '40 30*(sin(3)^2+cos(3)^2)', '70+e-e 30'], '',
+                          '0,1,legal\n0,2,tie\n0,3,legal\n1,2,legal\n1,3,tie\n2,3,legal\n'),
+        'about a pole, not known to be it': (['69 -90+log(2)+log(3)-log(6)', '144 -89.98', '10 10'], '',
+                                             '0,1,legal\n0,2,legal\n1,2,legal\n')}
+    for what, (places, aliases, pairs) in rows.items():
+        text = '\n'.join(places) + '\n'
+        got = run('delaunay', '--sphere', '--quiet', '-', stdin=text)
+        assert got.code == (3 if 'tie' in pairs else 0) and got.out == aliases + 'i,j,status\n' + pairs, (what, got)
+        with tempfile.TemporaryDirectory() as folder:
+            run('delaunay', '--sphere', '--quiet', '--certificate', 'c', '-', stdin=text, cwd=folder)
+            assert run('verify', 'c', cwd=folder).code == 0, what
+    unknown = '69 -90+log(2)+log(3)-log(6)\n144 -90\n10 10\n40 -20\n'
+    expect(run('delaunay', '--sphere', '-', stdin=unknown), 4, '0,1,legal\n0,2,indeterminate', 'the precision is used up')
+
+
 def test_refusals():
     expect(run('delaunay', '--sphere', '-', stdin='0 0\n47 91\n'), 1, r'\A\Z', r'2:4: .*latitude is beyond 90 degrees')
     expect(run('delaunay', '--sphere', '-', stdin='0 0\n47 50+sqrt(2000)\n'), 1, r'\A\Z', r'point 1: .*latitude is beyond 90 degrees')

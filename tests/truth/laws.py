@@ -145,13 +145,14 @@ def judge_witness(judge, case, claims, last, rand):
 
 def judge_aliases(judge, case, claims):
     """An alias is one exact place; equal exact places are aliases."""
-    if case.extra == 'merge' or case.true or case.kind in ('real with radius', 'boxes asked for') or \
-            case.kind == 'disguised' and case.geometry == 'sphere':
+    if case.extra == 'merge' or case.true or case.kind in ('real with radius', 'boxes asked for'):
         return
     seen = {}
     for k, s in enumerate(case.sites):
         r = s.region
         still = r[3] == 0 if r[0] in ('disc', 'cap') else r[1] == r[2] and r[3] == r[4]
+        if case.geometry == 'sphere' and r[0] not in ('disc', 'cap'):
+            still = still or r[3] == r[4] and abs(r[3]) == 90  # a pole, whatever its longitude
         if not still:
             judge(k not in claims['aliases'], 'point %d has a region, but is an alias', k)
             continue
