@@ -122,14 +122,13 @@ static void slope_set(sight *g, int k, int axis, int side) {
 /* Grows the end by the least (side < 0) or greatest value of one image coordinate over the piece [SPH-2]: at an end of
  * each variable where the slope by it has one sign, else at its middle, and the slope times its half-width off. */
 static void piece_bound(sight *g, const piece *p, int axis, int side) {
-  arb_struct at[VARIABLES];
+  arb_ptr at = _arb_vec_init(VARIABLES);
   mag_t off, more;
   arf_struct *end = &g->end[2 * axis + (side > 0)];
   mag_init(off);
   mag_init(more);
   for (int k = 0; k < VARIABLES; k++) {
-    arb_init(&at[k]);
-    arb_set(&at[k], &p->mid[k]);
+    arb_set(at + k, &p->mid[k]);
     if (mag_is_zero(&p->half[k])) continue;
     slope_set(g, k, axis, side);
     int way = arb_is_positive(g->slope) - arb_is_negative(g->slope);
@@ -137,9 +136,9 @@ static void piece_bound(sight *g, const piece *p, int axis, int side) {
     if (!way) mag_addmul(off, more, &p->half[k]);
     arf_set_mag(arb_midref(g->slope), &p->half[k]);
     mag_zero(arb_radref(g->slope));
-    arb_addmul_si(&at[k], g->slope, way * side, g->prec);
+    arb_addmul_si(at + k, g->slope, way * side, g->prec);
   }
-  view_set(&g->at, &at[0], &at[1], &at[2], g);
+  view_set(&g->at, at, at + 1, at + 2, g);
   view_value(g->number, &g->at, axis, side, g);
   mag_add(arb_radref(g->number), arb_radref(g->number), off);
   if (side < 0)
@@ -147,7 +146,7 @@ static void piece_bound(sight *g, const piece *p, int axis, int side) {
   else
     arb_get_ubound_arf(g->limit, g->number, g->prec);
   if (!g->any || arf_cmp(g->limit, end) * side > 0 || arf_is_nan(g->limit)) arf_set(end, g->limit);
-  for (int k = 0; k < VARIABLES; k++) arb_clear(&at[k]);
+  _arb_vec_clear(at, VARIABLES);
   mag_clear(more);
   mag_clear(off);
 }
@@ -163,23 +162,22 @@ static void piece_add(sight *g, const piece *p) {
 /* Sets the view over the box. Is the box narrow for its distance from q, E > 2^8 half^2, and for the sphere? *widest:
  * the variable to be cut. */
 static bool piece_is_narrow(int *widest, sight *g, const piece *p) {
-  arb_t box[VARIABLES];
+  arb_ptr box = _arb_vec_init(VARIABLES);
   mag_t least, square;
   mag_init(least);
   mag_init(square);
   *widest = 0;
   for (int k = 0; k < VARIABLES; k++) {
-    arb_init(box[k]);
-    arb_set(box[k], &p->mid[k]);
-    arb_add_error_mag(box[k], &p->half[k]);
+    arb_set(box + k, &p->mid[k]);
+    arb_add_error_mag(box + k, &p->half[k]);
     if (mag_cmp(&p->half[k], &p->half[*widest]) > 0) *widest = k;
   }
-  view_set(&g->over, box[0], box[1], box[2], g);
+  view_set(&g->over, box, box + 1, box + 2, g);
   arb_get_mag_lower(least, &g->over.E);
   mag_mul(square, &p->half[*widest], &p->half[*widest]);
   mag_mul_2exp_si(square, square, 8);
   bool narrow = arb_is_positive(&g->over.E) && mag_cmp(square, least) <= 0;
-  for (int k = 0; k < VARIABLES; k++) arb_clear(box[k]);
+  _arb_vec_clear(box, VARIABLES);
   mag_clear(square);
   mag_clear(least);
   return narrow;
@@ -239,9 +237,7 @@ static bool sight_cover(sight *g, const piece *all, int depth) {
 
 /* out = q degrees in radians, half: upper bound of h degrees. */
 static void radians(arb_t out, mag_t half, mpq_srcptr q, mpq_srcptr h, slong prec) {
-  arb_t pi, t;
-  arb_init(pi);
-  arb_init(t);
+  arb_ptr pi = _arb_vec_init(2), t = pi + 1;
   arb_const_pi(pi, prec);
   arb_div_ui(pi, pi, 180, prec);
   dyd_ball_set_q(out, q, prec);
@@ -249,8 +245,7 @@ static void radians(arb_t out, mag_t half, mpq_srcptr q, mpq_srcptr h, slong pre
   dyd_ball_set_q(t, h, MAG_BITS + 2);
   arb_mul(t, t, pi, MAG_BITS + 2);
   arb_get_mag(half, t);
-  arb_clear(t);
-  arb_clear(pi);
+  _arb_vec_clear(pi, 2);
 }
 
 static void sight_init(sight *g, mpq_srcptr angle, slong prec) {
@@ -324,7 +319,7 @@ static void eye_prepare(dyd_eye *e, slong prec) {
   arb_sin_cos_pi(&e->sin, &e->cos, &e->sin, prec);
 }
 
-static dyd_iv ball_in_doubles(const arb_t x) {
+dyd_iv dyd_ball_ends(arb_srcptr x) {
   arf_t end;
   arf_init(end);
   arb_get_lbound_arf(end, x, EYE_BITS);
@@ -337,16 +332,12 @@ static dyd_iv ball_in_doubles(const arb_t x) {
 
 void dyd_eye_enclose(dyd_eye_d *out, dyd_eye *e) {
   eye_prepare(e, EYE_BITS);
-  *out = (dyd_eye_d){ball_in_doubles(&e->lon), ball_in_doubles(&e->lat), ball_in_doubles(&e->sin),
-                     ball_in_doubles(&e->cos)};
+  *out = (dyd_eye_d){dyd_ball_ends(&e->lon), dyd_ball_ends(&e->lat), dyd_ball_ends(&e->sin), dyd_ball_ends(&e->cos)};
 }
 
 /* Of one place in balls of degrees, seen from an exact place: three sines at half the angles. */
 static bool project_degrees(arb_ptr x, arb_ptr y, arb_srcptr lon, arb_srcptr lat, dyd_eye *e, slong prec) {
-  arb_t f, D, w;
-  arb_init(f);
-  arb_init(D);
-  arb_init(w);
+  arb_ptr f = _arb_vec_init(3), D = f + 1, w = f + 2;
   eye_prepare(e, prec);
   arb_sub(w, lon, &e->lon, prec);
   arb_mul(w, w, &e->unit, prec);
@@ -367,21 +358,16 @@ static bool project_degrees(arb_ptr x, arb_ptr y, arb_srcptr lon, arb_srcptr lat
   bool good = arb_is_positive(D);
   if (good) arb_div(x, x, D, prec);
   if (good) arb_div(y, y, D, prec);
-  arb_clear(w);
-  arb_clear(D);
-  arb_clear(f);
+  _arb_vec_clear(f, 3);
   return good;
 }
 
 static bool project_exact(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec) {
-  arb_t lon, lat;
-  arb_init(lon);
-  arb_init(lat);
+  arb_ptr lon = _arb_vec_init(2), lat = lon + 1;
   dyd_ball_set_q(lon, s->mid[0], prec);
   dyd_ball_set_q(lat, s->mid[1], prec);
   bool good = project_degrees(x, y, lon, lat, e, prec);
-  arb_clear(lat);
-  arb_clear(lon);
+  _arb_vec_clear(lon, 2);
   return good;
 }
 

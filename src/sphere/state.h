@@ -65,6 +65,8 @@ void dyd_eye_clear(dyd_eye *e);
  * tell them apart. */
 bool dyd_project(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec);
 
+/* The ends of a ball, rounded outward. */
+dyd_iv dyd_ball_ends(arb_srcptr x);
 /* The eye enclosed in doubles, where it is an exact place: degrees; sine and cosine of the latitude. */
 typedef struct dyd_eye_d {
   dyd_iv lon, lat, sin, cos;

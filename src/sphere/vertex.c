@@ -14,29 +14,32 @@
 
 enum { PREC = 128 };
 
+/* x = degrees, half: off by so many, and shifted by those of `from` (NULL: none), in units of pi. */
+static void half_turns(arb_ptr x, mpq_srcptr degrees, mpq_srcptr half, mpq_srcptr from) {
+  mpq_t shifted;
+  mag_t error;
+  mpq_init(shifted);
+  mag_init(error);
+  dyd_ball_set_q(x, half, PREC);
+  arb_get_mag(error, x);
+  mpq_set(shifted, degrees);
+  if (from) mpq_sub(shifted, shifted, from);
+  dyd_ball_set_q(x, shifted, PREC);
+  arb_add_error_mag(x, error);
+  arb_div_ui(x, x, 180, PREC);
+  mag_clear(error);
+  mpq_clear(shifted);
+}
+
 /* v = the vector of all places of the spot. */
 static void spot_vector(arb_ptr v, const dyd_spot *spot) {
-  arb_t angle[2], sin, cos;
-  mag_t half;
-  arb_init(sin);
-  arb_init(cos);
-  mag_init(half);
-  for (int a = 0; a < 2; a++) {
-    arb_init(angle[a]);
-    dyd_ball_set_q(angle[a], spot->half[a], PREC);
-    arb_get_mag(half, angle[a]);
-    dyd_ball_set_q(angle[a], spot->mid[a], PREC);
-    arb_add_error_mag(angle[a], half);
-    arb_div_ui(angle[a], angle[a], 180, PREC);
-  }
-  arb_sin_cos_pi(v + 2, cos, angle[1], PREC);
-  arb_sin_cos_pi(sin, v, angle[0], PREC);
+  arb_ptr angle = _arb_vec_init(4), sin = angle + 2, cos = angle + 3;
+  for (int a = 0; a < 2; a++) half_turns(angle + a, spot->mid[a], spot->half[a], NULL);
+  arb_sin_cos_pi(v + 2, cos, angle + 1, PREC);
+  arb_sin_cos_pi(sin, v, angle, PREC);
   arb_mul(v + 1, sin, cos, PREC);
   arb_mul(v, v, cos, PREC);
-  for (int a = 0; a < 2; a++) arb_clear(angle[a]);
-  mag_clear(half);
-  arb_clear(cos);
-  arb_clear(sin);
+  _arb_vec_clear(angle, 4);
 }
 
 /* n = (b - a) x (c - a); v: a, b, c, of which b and c are lost. */
@@ -54,33 +57,23 @@ static void normal_set(arb_ptr n, arb_ptr v) {
 
 /* Lower and upper ends of an angle, in degrees, shifted by so many. */
 static void degrees_out(double out[2], arb_t angle, double shift) {
-  arb_t pi, t;
-  arf_t end;
-  arb_init(pi);
-  arb_init(t);
-  arf_init(end);
+  arb_ptr pi = _arb_vec_init(2), t = pi + 1;
   arb_const_pi(pi, PREC);
   arb_mul_ui(t, angle, 180, PREC);
   arb_div(t, t, pi, PREC);
   arb_set_d(pi, shift);
   arb_add(t, t, pi, PREC);
-  arb_get_lbound_arf(end, t, PREC);
-  out[0] = arf_get_d(end, ARF_RND_FLOOR);
-  arb_get_ubound_arf(end, t, PREC);
-  out[1] = arf_get_d(end, ARF_RND_CEIL);
-  arf_clear(end);
-  arb_clear(t);
-  arb_clear(pi);
+  const dyd_iv ends = dyd_ball_ends(t);
+  out[0] = ends.lo;
+  out[1] = ends.hi;
+  _arb_vec_clear(pi, 2);
 }
 
 /* Turns the direction n about the axis by a whole number of degrees, so that it is near longitude 0; *shift: these. */
 static void turn_near(double *shift, arb_ptr n) {
-  arb_t s, c, x;
+  arb_ptr s = _arb_vec_init(3), c = s + 1, x = s + 2;
   double lon = atan2(arf_get_d(arb_midref(n + 1), ARF_RND_NEAR), arf_get_d(arb_midref(n), ARF_RND_NEAR));
   *shift = nearbyint(lon * 57.29577951308232);
-  arb_init(s);
-  arb_init(c);
-  arb_init(x);
   arb_set_d(x, *shift);
   arb_div_ui(x, x, 180, PREC);
   arb_sin_cos_pi(s, c, x, PREC);
@@ -89,17 +82,13 @@ static void turn_near(double *shift, arb_ptr n) {
   arb_mul(n + 1, n + 1, c, PREC);
   arb_submul(n + 1, n, s, PREC);
   arb_swap(n, x);
-  arb_clear(x);
-  arb_clear(c);
-  arb_clear(s);
+  _arb_vec_clear(s, 3);
 }
 
 /* The box of the direction n. Where it may be along the axis, all longitudes. */
 static void box_of_direction(double box[4], arb_ptr n) {
-  arb_t lon, lat;
+  arb_ptr lon = _arb_vec_init(2), lat = lon + 1;
   double shift;
-  arb_init(lon);
-  arb_init(lat);
   turn_near(&shift, n);
   arb_atan2(lon, n + 1, n, PREC);
   degrees_out(&box[0], lon, shift);
@@ -110,8 +99,7 @@ static void box_of_direction(double box[4], arb_ptr n) {
   if (!(box[1] - box[0] < 360)) box[0] = -180, box[1] = 180;
   box[2] = fmax(box[2], -90); /* NaN, too, where nothing is known */
   box[3] = fmin(box[3], 90);
-  arb_clear(lat);
-  arb_clear(lon);
+  _arb_vec_clear(lon, 2);
 }
 
 /* Axes at a place: where it is, in degrees, and cosine and sine of its longitude and of its latitude. */
@@ -146,32 +134,11 @@ static void axes_set(axes *f, arb_srcptr n) {
   arb_clear(angle);
 }
 
-/* x = degrees, half: off by so many, and shifted by those of `from` (NULL: none), in units of pi. */
-static void half_turns(arb_ptr x, mpq_srcptr degrees, mpq_srcptr half, mpq_srcptr from) {
-  mpq_t shifted;
-  mag_t error;
-  mpq_init(shifted);
-  mag_init(error);
-  dyd_ball_set_q(x, half, PREC);
-  arb_get_mag(error, x);
-  mpq_set(shifted, degrees);
-  if (from) mpq_sub(shifted, shifted, from);
-  dyd_ball_set_q(x, shifted, PREC);
-  arb_add_error_mag(x, error);
-  arb_div_ui(x, x, 180, PREC);
-  mag_clear(error);
-  mpq_clear(shifted);
-}
-
 /* v = how far east, north and above the place of the axes all places of the spot are: with d of longitude, f and f0 of
  * latitude and h = 2 cos f sin^2(d/2), these are cos f sin d, sin(f - f0) + h sin f0, -2 sin^2((f - f0)/2) - h cos f0.
  */
 static void axes_see(arb_ptr v, const axes *f, const dyd_spot *spot) {
-  arb_t d, u, across, cos;
-  arb_init(d);
-  arb_init(u);
-  arb_init(across);
-  arb_init(cos);
+  arb_ptr d = _arb_vec_init(4), u = d + 1, across = d + 2, cos = d + 3;
   half_turns(d, spot->mid[0], spot->half[0], f->at[0]);
   half_turns(u, spot->mid[1], spot->half[1], NULL);
   arb_cos_pi(cos, u, PREC);
@@ -191,10 +158,7 @@ static void axes_see(arb_ptr v, const axes *f, const dyd_spot *spot) {
   arb_mul_2exp_si(v + 2, v + 2, 1);
   arb_addmul(v + 2, across, &f->turn[2], PREC);
   arb_neg(v + 2, v + 2);
-  arb_clear(cos);
-  arb_clear(across);
-  arb_clear(u);
-  arb_clear(d);
+  _arb_vec_clear(d, 4);
 }
 
 /* n, from these axes, becomes a direction from those of the globe. Of length about 1 where that goes: else
@@ -242,16 +206,12 @@ dyd_status dyd_sphere_vector(double box[6], const dyd_sphere *s, uint32_t i, dyd
   if (!s) return dyd_fail_null(err);
   if (i >= s->count) return dyd_fail(err, DYD_E_ARG, "there is no point %lu", (unsigned long)i);
   arb_ptr v = _arb_vec_init(3);
-  arf_t end;
-  arf_init(end);
   dyd_status st = place_vector(v, s, i, err);
   for (int a = 0; a < 3 && st == DYD_OK; a++) {
-    arb_get_lbound_arf(end, v + a, PREC);
-    box[2 * a] = fmax(arf_get_d(end, ARF_RND_FLOOR), -1);
-    arb_get_ubound_arf(end, v + a, PREC);
-    box[2 * a + 1] = fmin(arf_get_d(end, ARF_RND_CEIL), 1);
+    const dyd_iv ends = dyd_ball_ends(v + a);
+    box[2 * a] = fmax(ends.lo, -1);
+    box[2 * a + 1] = fmin(ends.hi, 1);
   }
-  arf_clear(end);
   _arb_vec_clear(v, 3);
   return st;
 }
