@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Pages: paths, what is common to all kinds, and svg, where text stays text and elements can be named. */
+#include "picture/canvas.h"
 #include "base/alloc.h"
 #include "base/error.h"
-#include "picture/canvas_path.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What cairo draws: pdf and png; and how wide texts are. */
 #include "base/error.h"
-#include "picture/canvas_path.h"
+#include "picture/canvas.h"
 #include <cairo-pdf.h>
 #include <errno.h>
 #include <math.h>

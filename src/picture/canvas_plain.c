@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* In place of canvas_cairo.c where the library was built without cairo: svg alone is drawn. */
-#include "picture/canvas_path.h"
+#include "picture/canvas.h"
 
 bool dyd_cairo_is_there(void) {
   return false;

@@ -230,6 +230,22 @@ void dyd_legend_dot(dyd_legend *l, unsigned fill, unsigned edge, const char *tex
   legend_words(l, 8, text);
 }
 
+void dyd_legend_marks(dyd_legend *l, const dyd_site_marks *m, unsigned rgb) {
+  char text[80];
+  const char *shape = l->view->discs ? "disc" : "rectangle";
+  snprintf(text, sizeof text, "%s of a point", shape);
+  if (m->drawn[DYD_MARK_RECTANGLE]) dyd_legend_patch(l, rgb, text);
+  snprintf(text, sizeof text, l->view->dots ? "point, or the middle of its %s" : "point, or a %s so small", shape);
+  if (m->drawn[DYD_MARK_DOT]) dyd_legend_dot(l, 0x222222, 0x222222, text);
+}
+
+void dyd_points_text(char *out, size_t size, size_t inside, size_t count, bool window) {
+  if (window)
+    snprintf(out, size, "%zu of %zu points (and the lines counted) in this window", inside, count);
+  else
+    snprintf(out, size, "%zu points", count);
+}
+
 /* How many characters of the text fit the line: up to a blank, or the end. `line` receives them. */
 static size_t legend_fit(dyd_legend *l, char *line, size_t size, const char *text) {
   size_t fits = 0;

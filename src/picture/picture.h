@@ -54,7 +54,11 @@ void dyd_view_middle(double z[2], const dyd_view *v, const double box[4]);
 dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, const dyd_pair_list *pairs, dyd_error *err);
 /* Does a box meet the frame? */
 bool dyd_view_sees(const dyd_view *v, const double box[4]);
-/* *box (xlo, xhi, ylo, yhi) grows to hold r; DYD_E_RANGE with a message unless doubles can hold it. */
+/* *box (xlo, xhi, ylo, yhi) grows to hold b. */
+void dyd_view_hold(double box[4], const double b[4]);
+/* Sets box to the window; DYD_E_ARG with a message where it has no area. */
+dyd_status dyd_view_window(double box[4], const dyd_rect *window, dyd_error *err);
+/* *box grows to hold r; DYD_E_RANGE with a message unless doubles can hold it. */
 dyd_status dyd_view_grow(double box[4], const dyd_rect *r, dyd_error *err);
 /* *box grows by a margin on all sides, and to the shape of a page. */
 void dyd_view_pad(double box[4]);
@@ -138,6 +142,10 @@ void dyd_legend_begin(dyd_legend *l, dyd_canvas *c, const dyd_view *v);
 void dyd_legend_line(dyd_legend *l, unsigned rgb, double on, double off, const char *text);
 void dyd_legend_patch(dyd_legend *l, unsigned rgb, const char *text);
 void dyd_legend_dot(dyd_legend *l, unsigned fill, unsigned edge, const char *text);
+/* Of the rectangles, or discs, and dots that were drawn. */
+void dyd_legend_marks(dyd_legend *l, const dyd_site_marks *m, unsigned rgb);
+/* "N points"; where a window is given, how many of them are in it. */
+void dyd_points_text(char *out, size_t size, size_t inside, size_t count, bool window);
 /* A sentence, on lines of its own. */
 void dyd_legend_text(dyd_legend *l, const char *text);
 /* Where most sites are, when they are in a small part of the view. */

@@ -171,13 +171,9 @@ static void sphere_legend(dyd_canvas *c, void *context) {
   if (d->cells) dyd_legend_line(&l, kind[2].rgb, 0, 0, "side of a cell");
   snprintf(text, sizeof text, " of %zu indeterminate pairs across a square", d->shown[DYD_INDETERMINATE]);
   if (d->crowded) dyd_density_legend(&l, &d->open, text);
-  if (d->marks.drawn[DYD_MARK_RECTANGLE]) dyd_legend_patch(&l, RECTANGLE, "rectangle of a point");
-  if (d->marks.drawn[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, "point, or a rectangle so small");
+  dyd_legend_marks(&l, &d->marks, RECTANGLE);
   dyd_legend_line(&l, GRATICULE, 0, 0, "graticule, degrees");
-  if (d->r->window)
-    snprintf(points, sizeof points, "%zu of %zu points (and the lines counted) in this window", d->sites, d->count);
-  else
-    snprintf(points, sizeof points, "%zu points", d->count);
+  dyd_points_text(points, sizeof points, d->sites, d->count, d->r->window);
   snprintf(text, sizeof text, "%s on a sphere, outcome %s, %zu undecided faces; great circles on a plate carr\u00e9e",
            points, dyd_outcome_text(dyd_sphere_outcome(d->r->sphere)), dyd_sphere_faces(d->r->sphere));
   dyd_legend_text(&l, text);
@@ -237,8 +233,7 @@ static dyd_status find_seam(sphere_drawing *d) {
 /* The surroundings of the places, or the whole map. */
 static void find_surroundings(double all[4], const sphere_drawing *d) {
   all[0] = all[2] = INFINITY, all[1] = all[3] = -INFINITY;
-  for (size_t i = 0; i < d->count; i++)
-    for (int k = 0; k < 4; k++) all[k] = k & 1 ? fmax(all[k], d->box[i][k]) : fmin(all[k], d->box[i][k]);
+  for (size_t i = 0; i < d->count; i++) dyd_view_hold(all, d->box[i]);
   if (d->count && all[1] - all[0] < 180)
     dyd_view_pad(all);
   else
@@ -260,8 +255,8 @@ static dyd_status find_crowd(sphere_drawing *d) {
 }
 
 static dyd_status find_window(double all[4], sphere_drawing *d, dyd_error *err) {
-  dyd_rect_get_d(all, d->r->window);
-  if (!(all[0] < all[1] && all[2] < all[3])) return dyd_fail(err, DYD_E_ARG, "the window has no area");
+  dyd_status st = dyd_view_window(all, d->r->window, err);
+  if (st != DYD_OK) return st;
   if (!(all[1] - all[0] <= 360 && fabs(all[0]) <= 720 && all[2] >= -90 && all[3] <= 90))
     return dyd_fail(err, DYD_E_ARG,
                     "a window on a sphere is at most 360 degrees of longitude wide, and within -90 and 90 of latitude");

@@ -6,6 +6,7 @@
  * half-planes; cutting by one after the other keeps segments segments and convex polygons convex. */
 #include "base/error.h"
 #include "base/index.h"
+#include "io/diagram.h"
 #include "picture/picture.h"
 
 #include <inttypes.h>
@@ -27,14 +28,21 @@ static dyd_status beyond_doubles(dyd_error *err) {
   return dyd_fail(err, DYD_E_RANGE, "the points are too far apart or too close for a picture; use csv or json");
 }
 
+void dyd_view_hold(double box[4], const double b[4]) {
+  for (int k = 0; k < 4; k++) box[k] = k & 1 ? fmax(box[k], b[k]) : fmin(box[k], b[k]);
+}
+
 dyd_status dyd_view_grow(double box[4], const dyd_rect *r, dyd_error *err) {
   double b[4];
   dyd_rect_get_d(b, r);
-  for (int k = 0; k < 4; k++) {
-    if (!isfinite(b[k])) return beyond_doubles(err);
-    box[k] = k & 1 ? fmax(box[k], b[k]) : fmin(box[k], b[k]);
-  }
+  if (!dyd_box_is_finite(b)) return beyond_doubles(err);
+  dyd_view_hold(box, b);
   return DYD_OK;
+}
+
+dyd_status dyd_view_window(double box[4], const dyd_rect *window, dyd_error *err) {
+  dyd_rect_get_d(box, window);
+  return box[0] < box[1] && box[2] < box[3] ? DYD_OK : dyd_fail(err, DYD_E_ARG, "the window has no area");
 }
 
 void dyd_view_pad(double box[4]) {
@@ -71,7 +79,7 @@ dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, const dyd_pair_list *p
     double b[4];
     dyd_status st = dyd_result_box(b, r, i, err);
     if (st != DYD_OK) return st;
-    for (int k = 0; k < 4; k++) all[k] = k & 1 ? fmax(all[k], b[k]) : fmin(all[k], b[k]);
+    dyd_view_hold(all, b);
   }
   if (r->count == 0) all[0] = all[1] = all[2] = all[3] = 0;
   double rim = 0.04 * fmax(all[1] - all[0], all[3] - all[2]);

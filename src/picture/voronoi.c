@@ -103,8 +103,9 @@ static dyd_status voronoi_vertices(voronoi_drawing *g) {
 }
 
 static void bound_text(char *out, size_t size, const dyd_voronoi_bounds *b) {
-  char area[DYD_DECIMAL_SIZE], far[DYD_DECIMAL_SIZE] = "unknown";
-  dyd_decimal_directed(area, dyd_dyadic_get_d(&b->area, DYD_UP), 3, DYD_UP);
+  char area[DYD_DECIMAL_SIZE] = "unknown", far[DYD_DECIMAL_SIZE] = "unknown";
+  double most = dyd_dyadic_get_d(&b->area, DYD_UP);
+  if (isfinite(most)) dyd_decimal_directed(area, most, 3, DYD_UP);
   if (b->finite) dyd_decimal_directed(far, dyd_dyadic_get_d(&b->hausdorff, DYD_UP), 3, DYD_UP);
   snprintf(out, size, "undetermined area at most %s, within %s of the true diagram", area, far);
 }
@@ -117,8 +118,7 @@ static void voronoi_legend(dyd_canvas *c, void *context) {
   dyd_legend_begin(&l, c, &g->view);
   if (g->cell) dyd_legend_patch(&l, tints[0], "surely nearest to one point (any light tint)");
   if (dyd_dyadic_sgn(&g->d->bounds->area) > 0) dyd_legend_patch(&l, DYD_PICTURE_BAND, "undetermined");
-  if (g->marks.drawn[DYD_MARK_RECTANGLE]) dyd_legend_patch(&l, 0x9b9b9b, "rectangle of a point");
-  if (g->marks.drawn[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, "point, or a rectangle so small");
+  dyd_legend_marks(&l, &g->marks, 0x9b9b9b);
   if (g->vertex) dyd_legend_line(&l, 0x0072b2, 0, 0, "box: a sure vertex is in it");
   if (g->region) dyd_legend_line(&l, 0xd55e00, 4, 2.5, "box: undecided vertices");
   bound_text(bounds, sizeof bounds, g->d->bounds);
