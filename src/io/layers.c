@@ -6,8 +6,8 @@
 #include "io/table.h"
 
 #include "base/alloc.h"
-#include "base/prefetch.h"
 #include "base/index.h"
+#include "base/prefetch.h"
 #include "io/diagram.h"
 #include "io/geodesic.h"
 #include <math.h>
