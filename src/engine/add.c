@@ -8,10 +8,13 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "engine/labels.h"
 #include "engine/points.h"
+#include "engine/state.h"
 #include "rect/columns_filter.h"
 
 #include <math.h>
+#include <string.h>
 
 /* ---- when, and what was wrong ---- */
 

@@ -18,14 +18,130 @@
 
 #include "base/abi.h"
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/float_filter.h"
-#include "engine/aliases.h"
-#include "engine/bytes.h"
+#include "base/parallel.h"
+#include "delaunay/memory.h"
+#include "engine/goal_voronoi.h"
+#include "engine/plan.h"
 #include "engine/points.h"
-#include "engine/settle_firm.h"
+#include "engine/settle.h"
 #include "engine/ties.h"
-#include "engine/watch.h"
+#include "stream/stream.h"
+
+/* What points take in memory, now and when they are narrower. */
+
+/* Ends that doubles do not hold are kept by the stream, and packed in the table of sites: four numbers each. */
+enum { ENDS = 8, END = 24 };
+
+static uint64_t bytes_of_ends(int64_t bits) {
+  return bits > 53 ? ENDS * ((uint64_t)bits / 8 + END) : 0;
+}
+
+/* What the points take: their rectangles, records and streams. O(points). */
+static uint64_t engine_point_bytes(const dyd_engine *e) {
+  uint64_t bytes = dyd_sites_memory(e->sites) + e->point_cap * sizeof *e->point + e->change_cap * sizeof *e->changed;
+  for (size_t k = 0; k < e->points; k++) {
+    const dyd_refinable *p = &e->point[k];
+    bytes += dyd_stream_bytes(p->stream) + (p->asked ? bytes_of_ends(p->bits) / 2 : 0); /* half is in the table */
+  }
+  return bytes;
+}
+
+/* What is made of the result later has what the points leave of so many bytes; 0: no bound. */
+static void engine_allow(dyd_engine *e, uint64_t most) {
+  const dyd_room room = {.most = most, .beside = most ? engine_point_bytes(e) : 0};
+  if (e->pd) dyd_delaunay_allow(e->pd, dyd_room_left(&room));
+}
+
+/* What carrying out a plan will take beside that: longer ends, and the digits computed with. O(plan). */
+static uint64_t plan_bytes(const dyd_plan *p) {
+  uint64_t stays = dyd_bytes_times(p->count, sizeof *p->item), most = 0;
+  for (size_t k = 0; k < p->count; k++) {
+    const dyd_refinable *point = dyd_plan_point(p, &p->item[k]);
+    uint64_t work = dyd_stream_work_bytes(point->stream, p->item[k].bits);
+    stays = dyd_bytes_add(stays, bytes_of_ends(p->item[k].bits) - (point->asked ? bytes_of_ends(point->bits) : 0));
+    if (work > most) most = work;
+  }
+  return dyd_bytes_add(stays, most);
+}
+
+/* What judging the result takes: bounds list all pairs, and those of the diagram have two numbers a cell. O(points). */
+static uint64_t goal_bytes(const dyd_engine *e, const dyd_engine_options *o) {
+  if (o->goal == DYD_GOAL_DECIDED) return 0;
+  uint64_t bytes = dyd_pairs_bytes(e->pd, dyd_goal_is_voronoi(o->goal) ? dyd_least_bounding(e->pd) : DYD_TIE);
+  if (dyd_goal_is_voronoi(o->goal)) bytes += 2 * sizeof(double) * dyd_sites_count(e->sites);
+  return bytes + (o->goal == DYD_GOAL_VORONOI_HAUSDORFF ? dyd_triangles_bytes(e->pd) : 0);
+}
+
+/* The clock of a run, and a helper thread that raises a flag at the deadline. */
+
+/* Longer limits than this, about thirty years, are none. */
+#define LONGEST 1e9
+
+static void *watch_wait(void *arg) {
+  dyd_watch *w = arg;
+  int late = 0;
+  pthread_mutex_lock(&w->lock);
+  while (!w->over && !late) late = pthread_cond_timedwait(&w->bell, &w->lock, &w->deadline);
+  if (!w->over) __atomic_store_n(w->flag, 1, __ATOMIC_SEQ_CST);
+  pthread_mutex_unlock(&w->lock);
+  return NULL;
+}
+
+static bool watch_init_bell(pthread_cond_t *bell) {
+  pthread_condattr_t attr;
+  if (pthread_condattr_init(&attr)) return false;
+  bool done = !pthread_condattr_setclock(&attr, CLOCK_MONOTONIC) && !pthread_cond_init(bell, &attr);
+  pthread_condattr_destroy(&attr);
+  return done;
+}
+
+static bool watch_start_helper(dyd_watch *w) {
+  if (pthread_mutex_init(&w->lock, NULL)) return false;
+  if (watch_init_bell(&w->bell)) {
+    if (dyd_start_helpers(&w->thread, 1, watch_wait, w)) return true;
+    pthread_cond_destroy(&w->bell);
+  }
+  pthread_mutex_destroy(&w->lock);
+  return false;
+}
+
+void dyd_watch_start(dyd_watch *w, double seconds, volatile int *flag) {
+  w->start = dyd_seconds();
+  w->seconds = seconds;
+  w->limited = seconds > 0 && seconds < LONGEST;
+  w->running = w->over = false;
+  w->flag = flag;
+  if (!w->limited) return;
+  double end = w->start + seconds;
+  w->deadline.tv_sec = (time_t)end;
+  w->deadline.tv_nsec = (long)((end - (double)w->deadline.tv_sec) * 1e9);
+  w->running = watch_start_helper(w);
+}
+
+void dyd_watch_stop(dyd_watch *w) {
+  if (!w->running) return;
+  pthread_mutex_lock(&w->lock);
+  w->over = true;
+  pthread_cond_signal(&w->bell);
+  pthread_mutex_unlock(&w->lock);
+  pthread_join(w->thread, NULL);
+  pthread_cond_destroy(&w->bell);
+  pthread_mutex_destroy(&w->lock);
+  w->running = false;
+}
+
+/* Wall-clock seconds since the start. */
+static double watch_seconds(const dyd_watch *w) {
+  return dyd_seconds() - w->start;
+}
+
+/* Is there a deadline, and has it passed? */
+static bool watch_is_late(const dyd_watch *w) {
+  return w->limited && watch_seconds(w) >= w->seconds;
+}
 
 /* One ask. end is DYD_OUTCOME_NONE until it is known how it ends; again: the plan just carried out asked for the
  * question before the triangulation; bits: the greatest precision asked for in this stage. */
@@ -47,6 +163,7 @@ typedef struct ask {
 
 /* The finest request that streams take (stream/real.c). */
 #define MOST_BITS (DYD_EXP_LIMIT - 64)
+
 #define MOST_TIE_BITS ((int64_t)1 << 26)
 
 bool dyd_ask_options(dyd_engine_options *o) {
@@ -69,7 +186,7 @@ static void ask_end_budget(ask *a, dyd_budget spent) {
 static bool ask_is_stopped(ask *a) {
   if (dyd_flag_get(&a->e->cancelled))
     a->end = DYD_OUTCOME_CANCELLED;
-  else if (dyd_watch_is_late(&a->watch))
+  else if (watch_is_late(&a->watch))
     ask_end_budget(a, DYD_BUDGET_SECONDS);
   return a->end != DYD_OUTCOME_NONE;
 }
@@ -105,16 +222,16 @@ static void ask_end_exhausted(ask *a) {
 /* Is there room to carry out the plan? */
 static dyd_status ask_room_to_narrow(ask *a) {
   if (!a->room.most) return DYD_OK;
-  a->room.beside = dyd_engine_point_bytes(a->e);
+  a->room.beside = engine_point_bytes(a->e);
   a->room.held = a->e->pd ? dyd_delaunay_memory(a->e->pd) : 0;
-  return dyd_room_has(&a->room, dyd_plan_bytes(&a->plan), "narrowing the points") ? DYD_OK : DYD_E_NOMEM;
+  return dyd_room_has(&a->room, plan_bytes(&a->plan), "narrowing the points") ? DYD_OK : DYD_E_NOMEM;
 }
 
 /* What the points leave for the triangulation; 0: no bound. */
 static dyd_status ask_room_to_triangulate(uint64_t *left, ask *a) {
   *left = 0;
   if (!a->room.most) return DYD_OK;
-  a->room.beside = dyd_engine_point_bytes(a->e);
+  a->room.beside = engine_point_bytes(a->e);
   a->room.held = a->e->pd ? dyd_delaunay_memory(a->e->pd) : 0;
   *left = a->room.most > a->room.beside ? a->room.most - a->room.beside : 1;
   return dyd_room_has(&a->room, 1, "the points") ? DYD_OK : DYD_E_NOMEM;
@@ -129,7 +246,7 @@ static dyd_status ask_room_to_judge(ask *a) {
   uint64_t peak = a->room.beside + c.bytes_most;
   if (peak > a->room.peak) a->room.peak = peak;
   a->room.held = dyd_delaunay_memory(a->e->pd);
-  return dyd_room_has(&a->room, dyd_goal_bytes(a->e, &a->o), "the bound") ? DYD_OK : DYD_E_NOMEM;
+  return dyd_room_has(&a->room, goal_bytes(a->e, &a->o), "the bound") ? DYD_OK : DYD_E_NOMEM;
 }
 
 /* ---- narrowing ---- */
@@ -209,7 +326,7 @@ static void ask_report(const ask *a) {
   p.bits = a->bits == INT64_MIN ? 0 : a->bits;
   dyd_delaunay_count(p.count, e->pd);
   p.undecided_faces = dyd_delaunay_undecided_faces(e->pd);
-  p.seconds = e->seconds + dyd_watch_seconds(&a->watch);
+  p.seconds = e->seconds + watch_seconds(&a->watch);
   a->o.progress(a->o.progress_user, &p);
 }
 
@@ -406,14 +523,14 @@ static dyd_status ask_timed(ask *a) {
   e->tie_bits = a->o.tie_bits;
   a->room = (dyd_room){.most = a->o.max_bytes};
   e->room = &a->room;
-  if (a->q->triangulate) dyd_engine_allow(e, a->o.max_bytes);
+  if (a->q->triangulate) engine_allow(e, a->o.max_bytes);
   dyd_watch_start(&a->watch, a->o.seconds, &e->stop);
   dyd_status st = ask_loop(a);
   dyd_watch_stop(&a->watch);
   e->room = NULL;
-  if (a->q->triangulate) dyd_engine_allow(e, a->o.max_bytes);
+  if (a->q->triangulate) engine_allow(e, a->o.max_bytes);
   if (a->room.peak > e->bytes_most) e->bytes_most = a->room.peak;
-  e->seconds += dyd_watch_seconds(&a->watch);
+  e->seconds += watch_seconds(&a->watch);
   dyd_flag_set(&e->busy, 0);
   if (st == DYD_OK && a->end == DYD_OUTCOME_CANCELLED) dyd_flag_set(&e->cancelled, 0);
   return st;

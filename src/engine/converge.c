@@ -10,8 +10,8 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/flag.h"
-#include "engine/digest.h"
 #include "engine/goal_voronoi.h"
+#include "engine/record.h"
 #include "metric/bounds.h"
 #include <dyadel/metric.h>
 

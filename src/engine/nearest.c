@@ -3,7 +3,7 @@
  *
  * Only sites that are possibly nearest matter: where i is not listed, its distance to every point of the query is above
  * the least dl of some other site, and stays so [NEAR-3]. The result pd serves as an index; sites narrowed since it was
- * made only make its boxes wider than they need be. Precision goes up in levels, as in schedule.c: at each level
+ * made only make its boxes wider than they need be. Precision goes up in levels, as in run.c: at each level
  * whoever concerned was asked for less is asked for the level.
  *
  * Whoever is nearest is listed. If all that are listed are equally far from the point, all of them are nearest, and no
@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "engine/plan.h"
 #include "engine/points.h"
-#include "engine/settle_firm.h"
+#include "engine/settle.h"
 #include "engine/ties.h"
 #include <dyadel/voronoi.h>
 

@@ -51,7 +51,7 @@ void dyd_plan_mark_alone(dyd_plan *p, const dyd_refinable *point, int64_t bits, 
 dyd_want *dyd_plan_find(const dyd_plan *p, const dyd_refinable *point);
 /* The points never asked, for the first stage. */
 void dyd_plan_first(dyd_plan *p);
-/* announce.c: tells the sources that want to know which of their points a plan, sorted, has, in the order in which
+/* Tells the sources that want to know which of their points a plan, sorted, has, in the order in which
  * narrowing will come to them; `most` points of such sources at most. */
 void dyd_plan_announce(const dyd_plan *p, uint64_t most);
 

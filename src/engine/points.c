@@ -11,7 +11,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
-#include "engine/recall.h"
+#include "engine/record.h"
 #include "rect/rect.h"
 #include "rect/sites_table.h"
 #include "stream/real.h"

@@ -1,10 +1,650 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* A run: the question whether its goal holds. */
 #include "base/abi.h"
+#include "base/alloc.h"
 #include "base/error.h"
+#include "base/index.h"
+#include "delaunay/memory.h"
+#include "delaunay/undecided.h"
 #include "engine/ask.h"
+#include "engine/coarse.h"
 #include "engine/goal_voronoi.h"
-#include "engine/schedule.h"
+#include "engine/plan.h"
+#include "engine/points.h"
+#include "engine/scout.h"
+#include "engine/settle.h"
+#include "metric/bounds.h"
+
+#include <dyadel/io.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+/* How coarse the sites of a face are, compared with the distances to their neighbours.
+ *
+ * Whether a disc through some sites holds another depends on all of them about equally, each relative to its distance
+ * from the nearest one. So a pair of points 2^-200 apart has to be known to 200 bits more than the points around it:
+ * as long as two rectangles meet, no disc can hold one and avoid the other, and refining the rest is in vain.
+ *
+ * All this only chooses what to refine; what is stated does not depend on it. */
+
+/* How many sites that follow in the order of x are looked at. */
+#define NEXT 4
+
+/* ---- exponents ---- */
+
+/* The exponent of hi - lo for ends of intervals; INT64_MIN unless it is positive. */
+static dyd_status exponent_above(int64_t *out, const dyd_interval *low, bool low_end_up, const dyd_interval *high,
+                                 bool high_end_up) {
+  dyd_status st = DYD_OK;
+  *out = INT64_MIN;
+  if (mpz_cmp_ui(low->den, 1) == 0 && mpz_cmp_ui(high->den, 1) == 0) {
+    dyd_dyadic d;
+    dyd_dyadic_init(&d);
+    st = dyd_dyadic_sub(&d, high_end_up ? &high->hi : &high->lo, low_end_up ? &low->hi : &low->lo);
+    if (st == DYD_OK && dyd_dyadic_sgn(&d) > 0) *out = d.exp + (int64_t)mpz_sizeinbase(d.man, 2);
+    dyd_dyadic_clear(&d);
+    return st;
+  }
+  mpq_t a[2], b[2];
+  mpq_inits(a[0], a[1], b[0], b[1], (mpq_ptr)0);
+  dyd_interval_get_q(a[0], a[1], low);
+  dyd_interval_get_q(b[0], b[1], high);
+  mpq_sub(a[0], b[high_end_up], a[low_end_up]);
+  if (mpq_sgn(a[0]) > 0)
+    *out = (int64_t)mpz_sizeinbase(mpq_numref(a[0]), 2) - (int64_t)mpz_sizeinbase(mpq_denref(a[0]), 2) + 1;
+  mpq_clears(a[0], a[1], b[0], b[1], (mpq_ptr)0);
+  return st;
+}
+
+/* Raises *out to the exponent of one of the two differences of ends, where it is larger. */
+static dyd_status exponent_raise(int64_t *out, const dyd_interval *low, bool low_end_up, const dyd_interval *high,
+                                 bool high_end_up) {
+  int64_t e;
+  dyd_status st = exponent_above(&e, low, low_end_up, high, high_end_up);
+  if (st == DYD_OK && e > *out) *out = e;
+  return st;
+}
+
+static dyd_status coarse_find_width(dyd_coarse_site *s) {
+  s->width = INT64_MIN;
+  dyd_status st = exponent_raise(&s->width, &s->rect.x, false, &s->rect.x, true);
+  return st != DYD_OK ? st : exponent_raise(&s->width, &s->rect.y, false, &s->rect.y, true);
+}
+
+/* Lets two sites know of one another. */
+static dyd_status coarse_meet(dyd_coarse_site *a, dyd_coarse_site *b) {
+  int64_t e = a->width > b->width ? a->width : b->width;
+  const dyd_interval *side[2][2] = {{&a->rect.x, &b->rect.x}, {&a->rect.y, &b->rect.y}};
+  dyd_status st = DYD_OK;
+  for (int k = 0; st == DYD_OK && k < 2; k++) {
+    st = exponent_raise(&e, side[k][0], true, side[k][1], false);
+    if (st == DYD_OK) st = exponent_raise(&e, side[k][1], true, side[k][0], false);
+  }
+  if (st != DYD_OK || e == INT64_MIN) return st;
+  if (e < a->scale) a->scale = e;
+  if (e < b->scale) b->scale = e;
+  return DYD_OK;
+}
+
+/* ---- faces ---- */
+
+static dyd_coarse_site *coarse_find(const dyd_coarse *c, uint32_t site) {
+  const uint32_t *at = dyd_find_index(&site, c->sites.item, c->sites.count, sizeof site);
+  return at ? &c->item[at - c->sites.item] : NULL;
+}
+
+static dyd_status coarse_fetch(dyd_coarse *c, const dyd_delaunay *pd, size_t f) {
+  bool outer;
+  dyd_status st = dyd_delaunay_face(&c->sites, &outer, pd, f);
+  if (st != DYD_OK) return st;
+  c->item = dyd_alloc(c->sites.count, sizeof *c->item);
+  if (!c->item) return DYD_E_NOMEM;
+  for (size_t k = 0; k < c->sites.count; k++) {
+    dyd_rect_init(&c->item[k].rect);
+    c->item[k].scale = INT64_MAX;
+  }
+  for (size_t k = 0; st == DYD_OK && k < c->sites.count; k++) {
+    st = dyd_sites_get(&c->item[k].rect, dyd_delaunay_sites(pd), c->sites.item[k]);
+    if (st == DYD_OK) st = coarse_find_width(&c->item[k]);
+  }
+  return st;
+}
+
+/* By left ends, then by lower ends; equal ones by their place, so that the order is always the same. */
+static int coarse_compare_place(const void *a, const void *b) {
+  const dyd_coarse_site *s = *(dyd_coarse_site *const *)a, *t = *(dyd_coarse_site *const *)b;
+  int c = dyd_dyadic_cmp(&s->rect.x.lo, &t->rect.x.lo);
+  if (c == 0) c = dyd_dyadic_cmp(&s->rect.y.lo, &t->rect.y.lo);
+  return c ? c : (s > t) - (s < t);
+}
+
+static dyd_status coarse_meet_next(dyd_coarse *c) {
+  dyd_status st = DYD_OK;
+  dyd_coarse_site **order = dyd_alloc(c->sites.count, sizeof *order);
+  if (!order) return DYD_E_NOMEM;
+  for (size_t k = 0; k < c->sites.count; k++) order[k] = &c->item[k];
+  qsort(order, c->sites.count, sizeof *order, coarse_compare_place);
+  for (size_t k = 0; k < c->sites.count; k++)
+    for (size_t l = k + 1; st == DYD_OK && l < c->sites.count && l <= k + NEXT; l++)
+      st = coarse_meet(order[k], order[l]);
+  free(order);
+  return st;
+}
+
+dyd_status dyd_coarse_set(dyd_coarse *out, const dyd_delaunay *pd, size_t f, const dyd_pair_list *pairs) {
+  dyd_status st = coarse_fetch(out, pd, f);
+  for (size_t k = 0; st == DYD_OK && k < pairs->count; k++) {
+    dyd_coarse_site *a = coarse_find(out, pairs->item[k].i), *b = coarse_find(out, pairs->item[k].j);
+    if (a && b) st = coarse_meet(a, b);
+  }
+  return st != DYD_OK ? st : coarse_meet_next(out);
+}
+
+void dyd_coarse_clear(dyd_coarse *c) {
+  for (size_t k = 0; c->item && k < c->sites.count; k++) dyd_rect_clear(&c->item[k].rect);
+  free(c->item);
+  dyd_index_list_clear(&c->sites);
+  *c = (dyd_coarse){0};
+}
+
+int64_t dyd_coarse_bits(const dyd_coarse *c, uint32_t site) {
+  const dyd_coarse_site *s = coarse_find(c, site);
+  if (!s || s->width == INT64_MIN || s->scale == INT64_MAX) return INT64_MAX;
+  return s->scale - s->width;
+}
+
+/* Of the points that a face wants narrower, those that cost at most EXPENSIVE times as much as the cheapest are asked;
+ * the others wait, since what is narrowed may decide the face without them. None waits longer than until as much was
+ * spent beside it as it costs: so waiting at most doubles what is spent. What has waited then goes at once to the
+ * finest precision of the face: what one call asks for costs nothing, and it need not take the steps of the others.
+ *
+ * The cheapest never wait, so a plan is empty only where it was. Like all of the schedule this only chooses what to
+ * narrow. */
+
+enum { EXPENSIVE = 2 };
+
+/* Which points wait, kept from judgement to judgement of a run. Init with waiting_init. waited: of each point of the
+ * engine, what was spent on others of its faces while it was left out; NULL: all points cost the same, and nobody
+ * waits. */
+typedef struct dyd_waiting {
+  double *waited;
+  dyd_plan face; /* what one face wants */
+} dyd_waiting;
+
+static double waiting_cost(const dyd_plan *p, uint32_t site) {
+  return p->o->cost ? p->o->cost[site] : dyd_engine_number(p->e, site, DYD_ROW_COST);
+}
+
+/* Is every cost a number above 0? */
+static bool waiting_costs_are_good(const dyd_engine *e, const dyd_engine_options *o) {
+  size_t n = o->cost ? dyd_engine_count(e) : 0, k = 0;
+  while (k < n && o->cost[k] > 0 && o->cost[k] < HUGE_VAL) k++;
+  return k == n;
+}
+
+/* Borrows e and o, which has costs that are above 0, or none. DYD_E_NOMEM. */
+static dyd_status waiting_init(dyd_waiting *t, const dyd_engine *e, const dyd_engine_options *o) {
+  *t = (dyd_waiting){.waited = NULL};
+  dyd_plan_init(&t->face, e, o, NULL, 0);
+  bool differ = false;
+  for (size_t k = 1; k < e->points && !differ; k++)
+    differ = waiting_cost(&t->face, e->point[k].site) != waiting_cost(&t->face, e->point[0].site);
+  if (differ) t->waited = calloc(e->points, sizeof *t->waited);
+  return t->face.failed == DYD_OK && !t->waited == !differ ? DYD_OK : DYD_E_NOMEM;
+}
+
+static void waiting_clear(dyd_waiting *t) {
+  dyd_plan_clear(&t->face);
+  free(t->waited);
+  *t = (dyd_waiting){.waited = NULL};
+}
+
+/* Where the wants of the next face go: `plan` itself where none waits. */
+static dyd_plan *waiting_face(dyd_waiting *t, dyd_plan *plan) {
+  return t->waited ? &t->face : plan;
+}
+
+/* The finest precision that one of the sites was asked for. */
+static int64_t waiting_finest(const dyd_engine *e, const dyd_index_list *sites) {
+  int64_t finest = INT64_MIN;
+  for (size_t k = 0; k < sites->count; k++) {
+    const dyd_refinable *p = dyd_engine_find(e, sites->item[k]);
+    if (p && p->asked && p->bits > finest) finest = p->bits;
+  }
+  return finest;
+}
+
+/* The least cost of what the face wants, and what all that is not expensive costs. */
+static double waiting_least(double *spent, const dyd_plan *face) {
+  double least = HUGE_VAL;
+  for (size_t k = 0; k < face->count; k++)
+    least = fmin(least, waiting_cost(face, dyd_plan_point(face, &face->item[k])->site));
+  *spent = 0;
+  for (size_t k = 0; k < face->count; k++) {
+    double cost = waiting_cost(face, dyd_plan_point(face, &face->item[k])->site);
+    if (cost <= EXPENSIVE * least) *spent += cost;
+  }
+  return least;
+}
+
+/* The wants of the face with these sites go to the plan, but for those that wait. */
+static void waiting_choose(dyd_plan *plan, dyd_waiting *t, const dyd_index_list *sites) {
+  dyd_plan *face = &t->face;
+  double spent, least = waiting_least(&spent, face);
+  if (!t->waited) return;
+  for (size_t k = 0; k < face->count; k++) {
+    const dyd_want *w = &face->item[k];
+    const dyd_refinable *p = dyd_plan_point(face, w);
+    double cost = waiting_cost(face, p->site), *waited = &t->waited[p - plan->e->point];
+    if (cost > EXPENSIVE * least && *waited < cost) {
+      *waited += spent;
+      continue;
+    }
+    int64_t finest = *waited > 0 && !plan->o->step_bits ? waiting_finest(plan->e, sites) : w->bits;
+    dyd_plan_mark(plan, p, finest > w->bits ? finest : w->bits, w->reason, w->i, w->j);
+    *waited = 0;
+  }
+  if (face->failed) plan->failed = face->failed;
+  plan->blocked = plan->blocked || face->blocked;
+  dyd_plan_empty(face);
+}
+
+/* Which points to narrow next, and how far (mathematics: section 7).
+ *
+ * Towards "decided": in each undecided face, those ends of indeterminate pairs that are coarsest for their surroundings
+ * (dyd_coarse); where no end can be narrowed further, the coarsest sites of the face, since a blocker may be what keeps
+ * a pair open. Sites of the face that are no ends follow one step behind, so that a wide blocker is not left alone
+ * while the ends are refined for nothing. Where pairs of a face are missing, since it met the cap or was postponed, all
+ * its sites are refined.
+ *
+ * Pairs of which it is known that no refinement decides them (settle.c) count for nothing here.
+ *
+ * Towards "Hausdorff bound 2^-M": the bound is the largest of one number per pair (metric/bounds.c). For legal pairs it
+ * is the larger diameter, so every point with a diameter above 2^-M is narrowed; for the others, as above, but only in
+ * faces with an indeterminate pair whose number is above 2^-M.
+ *
+ * Towards "area bound 2^-M": of P possible pairs whose areas sum to more than 2^-M at least one is above the share 2^-M
+ * / P; the ends of all these are narrowed. Where none of them can be, the points in pairs of at least half the area of
+ * the largest pair with a point that can.
+ *
+ * Towards bounds on the Voronoi diagram the same is done with other numbers of the pairs (goal_voronoi.c).
+ *
+ * Where a tie was tried and is none, it is known at which bit that showed (ties.c): all its points in the face go there
+ * at once. In faces of many points a few go ahead of the others, to tell how far these must go (scout.c). Where points
+ * have costs, expensive ones wait for cheap ones (dyd_waiting).
+ *
+ * Every rule marks a point whenever one that matters can be narrowed, and every mark asks for more than before
+ * (plan.c): the loop ends. */
+
+/* Who goes ahead, and who waits. scouts NULL: nobody goes ahead. */
+typedef struct dyd_helpers {
+  dyd_scouts *scouts;
+  dyd_waiting *waiting;
+} dyd_helpers;
+
+/* ---- undecided faces ---- */
+
+/* The step of a point that lacks `excess` bits: at least as far as the next precision. */
+static int64_t excess_step(const dyd_refinable *p, int64_t excess, const dyd_engine_options *o) {
+  int64_t target = dyd_bits_raised(p->bits, excess < 0 ? 0 : excess, o->max_bits), step = dyd_bits_grown(p->bits, o);
+  return target > step && !o->step_bits ? target : step;
+}
+
+/* Must the pair be refined? m = NULL: always; otherwise when its Hausdorff number is above the goal. */
+static dyd_status pair_matters(bool *out, mpfr_ptr number, dyd_measure *m, const dyd_pair *pair,
+                               const dyd_engine_options *o) {
+  *out = pair->status == DYD_INDETERMINATE;
+  if (!*out || !m) return DYD_OK;
+  dyd_status st = dyd_bound_pair_hausdorff(number, m, pair);
+  *out = st != DYD_OK || mpfr_cmp_ui_2exp(number, 1, (mpfr_exp_t)-o->goal_bits) > 0;
+  return st;
+}
+
+/* Removes the pairs that need not be refined, or for which that is in vain. */
+static dyd_status keep_pairs(dyd_pair_list *pairs, dyd_measure *m, const dyd_settled *settled,
+                             const dyd_engine_options *o) {
+  dyd_status st = DYD_OK;
+  mpfr_t number;
+  mpfr_init2(number, DYD_MEASURE_PREC);
+  size_t kept = 0;
+  for (size_t k = 0; st == DYD_OK && k < pairs->count; k++) {
+    bool matters;
+    st = pair_matters(&matters, number, m, &pairs->item[k], o);
+    matters = matters && !dyd_is_settled(settled, &pairs->item[k]);
+    if (st == DYD_OK && matters) pairs->item[kept++] = pairs->item[k];
+  }
+  pairs->count = kept;
+  mpfr_clear(number);
+  return st;
+}
+
+/* Sites known about as well as the least known one are refined with it: up to twice its bits. */
+static int64_t companion_bits(int64_t least) {
+  return least > INT64_MAX / 4 ? INT64_MAX : 2 * least + 2;
+}
+
+static int64_t lesser_bits(int64_t a, int64_t b) {
+  return a < b ? a : b;
+}
+
+/* The step of a point that is known to `relative` bits of its distances: to twice as many, where these are few of its
+ * bits. Where it meets a neighbour the distance is not known, and all of its bits are doubled. */
+static int64_t relative_step(const dyd_refinable *p, int64_t relative, const dyd_engine_options *o) {
+  if (o->step_bits || relative < 16 || relative > p->bits / 2) return dyd_bits_grown(p->bits, o);
+  return dyd_bits_raised(p->bits, relative, o->max_bits);
+}
+
+/* Was a tie tried with the point, and is it known that it takes more bits to see that there is none (ties.c)? */
+static bool lacks_needed(const dyd_refinable *p, const dyd_engine_options *o) {
+  return lesser_bits(p->needed, o->max_bits) > p->bits && !o->step_bits && o->goal == DYD_GOAL_DECIDED;
+}
+
+/* Is that known of a site of the face? Then nobody has to be sent to learn it. */
+static bool any_lacks_needed(const dyd_coarse *c, const dyd_plan *plan) {
+  for (size_t k = 0; k < c->sites.count; k++) {
+    const dyd_refinable *p = dyd_engine_find(plan->e, c->sites.item[k]);
+    if (p && !p->final && lacks_needed(p, plan->o)) return true;
+  }
+  return false;
+}
+
+static int64_t face_step(const dyd_refinable *p, int64_t relative, const dyd_engine_options *o) {
+  int64_t step = relative_step(p, relative, o);
+  return lacks_needed(p, o) && p->needed > step ? p->needed : step;
+}
+
+/* The relative precision up to which ends are refined: beyond it they wait for the coarsest site of the face, which may
+ * be what keeps their pairs open. */
+static int64_t bits_worth(dyd_plan *plan, const dyd_coarse *c) {
+  int64_t least = INT64_MAX;
+  for (size_t k = 0; k < c->sites.count; k++)
+    if (dyd_plan_can_narrow(plan, dyd_engine_find(plan->e, c->sites.item[k])))
+      least = lesser_bits(least, dyd_coarse_bits(c, c->sites.item[k]));
+  return least > INT64_MAX / 4 ? INT64_MAX : least + least / 2;
+}
+
+/* Marks the coarsest of the ends of pairs that can be narrowed, up to the precision `worth`; *least becomes their
+ * relative precision. Returns false if no end can be narrowed. */
+static bool mark_ends(int64_t *least, dyd_plan *plan, const dyd_coarse *c, const dyd_pair_list *pairs, int64_t worth) {
+  bool any = false;
+  *least = INT64_MAX;
+  for (int pass = 0; pass < 2; pass++) {
+    for (size_t k = 0; k < 2 * pairs->count; k++) {
+      const dyd_pair *pair = &pairs->item[k / 2];
+      const dyd_refinable *p = dyd_engine_find(plan->e, k % 2 ? pair->j : pair->i);
+      if (!dyd_plan_can_narrow(plan, p)) continue;
+      int64_t relative = dyd_coarse_bits(c, p->site);
+      any = true;
+      if (pass == 0)
+        *least = lesser_bits(*least, relative);
+      else if ((relative <= companion_bits(*least) && relative <= worth) || lacks_needed(p, plan->o))
+        dyd_plan_mark(plan, p, face_step(p, relative, plan->o), DYD_REASON_END, pair->i, pair->j);
+    }
+  }
+  return any;
+}
+
+/* Marks the sites of the face that are coarser than the ends; where no end can be narrowed, the coarsest of all. */
+static void mark_blockers(dyd_plan *plan, const dyd_coarse *c, bool ends, int64_t least) {
+  int64_t limit = ends ? least - 1 : INT64_MAX;
+  for (int pass = ends ? 1 : 0; pass < 2; pass++) {
+    for (size_t k = 0; k < c->sites.count; k++) {
+      const dyd_refinable *p = dyd_engine_find(plan->e, c->sites.item[k]);
+      if (!dyd_plan_can_narrow(plan, p)) continue;
+      int64_t relative = dyd_coarse_bits(c, p->site);
+      if (pass == 0)
+        limit = lesser_bits(limit, relative);
+      else if (relative <= limit || lacks_needed(p, plan->o))
+        dyd_plan_mark_alone(plan, p, face_step(p, relative, plan->o), DYD_REASON_BLOCKER);
+    }
+    if (pass == 0) limit = companion_bits(limit);
+  }
+}
+
+/* Marks all sites of a face whose pairs are not all known: to twice their bits, or to where a tie was seen to be none.
+ * Nothing tells yet which of them are enough. Scouts need pairs that cross: each site with one half of the face on. */
+static dyd_status plan_capped(dyd_plan *plan, dyd_helpers *h, size_t f) {
+  dyd_index_list sites = {0};
+  bool outer, lacks = false;
+  dyd_status st = dyd_delaunay_face(&sites, &outer, plan->e->pd, f);
+  dyd_pair_list across = {st == DYD_OK ? sites.count : 0, dyd_alloc(sites.count, sizeof *across.item)};
+  if (!across.item) st = DYD_E_NOMEM;
+  for (size_t k = 0; st == DYD_OK && k < sites.count; k++) {
+    const dyd_refinable *p = dyd_engine_find(plan->e, sites.item[k]);
+    across.item[k] = (dyd_pair){sites.item[k], sites.item[(k + sites.count / 2) % sites.count], DYD_INDETERMINATE};
+    if (!dyd_plan_can_narrow(plan, p)) continue;
+    int64_t bits = dyd_bits_grown(p->bits, plan->o);
+    lacks = lacks || lacks_needed(p, plan->o);
+    dyd_plan_mark_alone(plan, p, lacks_needed(p, plan->o) && p->needed > bits ? p->needed : bits, DYD_REASON_BLOCKER);
+  }
+  bool scouts = h->scouts && !lacks && dyd_open_is_postponed(plan->e->pd, f);
+  if (st == DYD_OK && scouts) st = dyd_scouts_add(h->scouts, plan, &across);
+  dyd_pair_list_clear(&across);
+  dyd_index_list_clear(&sites);
+  return st;
+}
+
+static dyd_status plan_face(dyd_plan *plan, dyd_helpers *h, size_t f, dyd_measure *m, const dyd_settled *settled) {
+  const dyd_delaunay *pd = plan->e->pd;
+  if (dyd_open_is_capped(pd, f)) return plan_capped(plan, h, f);
+  dyd_coarse c = {0};
+  dyd_pair_list pairs = {0};
+  dyd_status st = dyd_delaunay_face_pairs(&pairs, pd, f);
+  if (st == DYD_OK) st = keep_pairs(&pairs, m, settled, plan->o);
+  if (st == DYD_OK && pairs.count) st = dyd_coarse_set(&c, pd, f, &pairs);
+  if (st == DYD_OK && pairs.count) {
+    int64_t least;
+    dyd_plan *wants = waiting_face(h->waiting, plan);
+    /* Where points have costs the coarsest may be expensive, and wait themselves. */
+    bool ends = mark_ends(&least, wants, &c, &pairs, h->waiting->waited ? INT64_MAX : bits_worth(plan, &c));
+    mark_blockers(wants, &c, ends, least);
+    waiting_choose(plan, h->waiting, &c.sites);
+    if (ends && h->scouts && !any_lacks_needed(&c, plan)) st = dyd_scouts_add(h->scouts, plan, &pairs);
+  }
+  dyd_coarse_clear(&c);
+  dyd_pair_list_clear(&pairs);
+  return st;
+}
+
+static dyd_status plan_faces(dyd_plan *plan, dyd_helpers *h, dyd_measure *m, const dyd_settled *settled) {
+  dyd_status st = DYD_OK;
+  size_t faces = dyd_delaunay_undecided_faces(plan->e->pd);
+  for (size_t f = 0; st == DYD_OK && f < faces; f++) st = plan_face(plan, h, f, m, settled);
+  return st;
+}
+
+/* ---- bounds ---- */
+
+static dyd_status plan_hausdorff(dyd_plan *plan, dyd_helpers *h, dyd_measure *m) {
+  const dyd_settled none = {0}; /* a pair that stays indeterminate may still come below the bound */
+  const dyd_engine *e = plan->e;
+  const dyd_engine_options *o = plan->o;
+  dyd_status st = plan_faces(plan, h, m, &none);
+  mpfr_t diameter;
+  mpfr_init2(diameter, DYD_MEASURE_PREC);
+  for (size_t k = 0; st == DYD_OK && k < e->points; k++) {
+    const dyd_refinable *p = &e->point[k];
+    if (p->final) continue;
+    st = dyd_measure_diameter(diameter, m, p->site);
+    if (mpfr_cmp_ui_2exp(diameter, 1, (mpfr_exp_t)-o->goal_bits) <= 0 || !dyd_plan_can_narrow(plan, p)) continue;
+    /* Widths of 2^-b give a diameter of at most sqrt(2) 2^-b. */
+    dyd_plan_mark_alone(plan, p,
+                        p->bits <= o->goal_bits && !o->step_bits ? o->goal_bits + 1 : dyd_bits_grown(p->bits, plan->o),
+                        DYD_REASON_BOUND);
+  }
+  mpfr_clear(diameter);
+  return st;
+}
+
+/* What a pair contributes to the bound; infinite when it has to be refined before anything is known. */
+static dyd_status pair_number(mpfr_ptr out, dyd_measure *m, dyd_voronoi_sums *sums, const dyd_pair *pair,
+                              const dyd_engine_options *o) {
+  return sums ? dyd_goal_voronoi_number(out, sums, m, pair, o) : dyd_measure_area(out, m, pair->i, pair->j);
+}
+
+/* Marks the ends of pairs with a number above `least`, so that the numbers shrink below `share`;
+ * *largest becomes the largest number of a pair with an end that can be narrowed. */
+static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_measure *m, dyd_voronoi_sums *sums,
+                             const dyd_pair_list *pairs, mpfr_srcptr least, mpfr_srcptr share) {
+  const dyd_engine_options *o = plan->o;
+  dyd_status st = DYD_OK;
+  mpfr_t value;
+  mpfr_init2(value, DYD_MEASURE_PREC);
+  mpfr_set_zero(largest, 1);
+  for (size_t k = 0; st == DYD_OK && k < pairs->count; k++) {
+    const uint32_t end[2] = {pairs->item[k].i, pairs->item[k].j};
+    st = pair_number(value, m, sums, &pairs->item[k], o);
+    if (st != DYD_OK || mpfr_zero_p(value)) continue;
+    int64_t excess = mpfr_inf_p(value) ? 0 : (int64_t)mpfr_get_exp(value) - (int64_t)mpfr_get_exp(share) + 2;
+    for (int a = 0; a < 2; a++) {
+      const dyd_refinable *p = dyd_engine_find(plan->e, end[a]);
+      if (!dyd_plan_can_narrow(plan, p)) continue;
+      mpfr_max(largest, largest, value, MPFR_RNDU);
+      if (mpfr_cmp(value, least) > 0)
+        dyd_plan_mark(plan, p, excess_step(p, excess, o), DYD_REASON_BOUND, end[0], end[1]);
+    }
+  }
+  mpfr_clear(value);
+  return st;
+}
+
+/* The ends of the pairs whose numbers are above 2^-M, or above the share 2^-M / P of P pairs; where none of them can be
+ * narrowed, those of at least half the largest number with an end that can. */
+static dyd_status plan_bound(dyd_plan *plan, dyd_measure *m, dyd_voronoi_sums *sums, bool shared) {
+  dyd_pair_list pairs = {0};
+  mpfr_t share, largest, unused;
+  mpfr_inits2(DYD_MEASURE_PREC, share, largest, unused, (mpfr_ptr)0);
+  dyd_status st = dyd_pairs_list(&pairs, plan->e->pd, DYD_TIE);
+  if (st == DYD_OK && pairs.count) {
+    mpfr_set_ui_2exp(share, 1, (mpfr_exp_t)-plan->o->goal_bits, MPFR_RNDD);
+    if (shared) mpfr_div_ui(share, share, (unsigned long)pairs.count, MPFR_RNDD);
+    st = mark_bound(plan, largest, m, sums, &pairs, share, share);
+    if (st == DYD_OK && plan->count == 0 && !mpfr_zero_p(largest)) {
+      mpfr_div_2ui(largest, largest, 1, MPFR_RNDD);
+      st = mark_bound(plan, unused, m, sums, &pairs, largest, share);
+    }
+  }
+  mpfr_clears(share, largest, unused, (mpfr_ptr)0);
+  dyd_pair_list_clear(&pairs);
+  return st;
+}
+
+/* Marks the ends of sure triangles whose Voronoi vertex may be in the window and is enclosed in more than 2^-M. */
+static dyd_status plan_vertices(dyd_plan *plan) {
+  const dyd_engine_options *o = plan->o;
+  dyd_triangle_list list = {0};
+  dyd_status st = dyd_delaunay_triangles(&list, plan->e->pd);
+  for (size_t k = 0; k < list.count && st == DYD_OK; k++) {
+    const uint32_t *v = list.item[k].v;
+    int64_t excess;
+    st = dyd_goal_vertex_excess(&excess, plan->e, &list.item[k], o);
+    for (int m = 0; m < 3 && st == DYD_OK && excess > 0; m++) {
+      const dyd_refinable *p = dyd_engine_find(plan->e, v[m]);
+      if (dyd_plan_can_narrow(plan, p))
+        dyd_plan_mark(plan, p, excess_step(p, excess, o), DYD_REASON_BOUND, v[m], v[(m + 1) % 3]);
+    }
+  }
+  dyd_triangle_list_clear(&list);
+  return st;
+}
+
+/* Replaces the marks by: every point to one precision, a step above the least so far. */
+static void plan_uniform(dyd_plan *plan) {
+  const dyd_engine *e = plan->e;
+  int64_t least = INT64_MAX;
+  for (size_t k = 0; k < e->points; k++)
+    if (!e->point[k].final && e->point[k].bits < least) least = e->point[k].bits;
+  dyd_plan_empty(plan);
+  int64_t level = lesser_bits(dyd_bits_grown(least, plan->o), plan->o->max_bits);
+  for (size_t k = 0; k < e->points; k++)
+    if (!e->point[k].final && e->point[k].bits < level)
+      dyd_plan_mark_alone(plan, &e->point[k], level, DYD_REASON_UNIFORM);
+}
+
+static dyd_status plan_decided(dyd_plan *plan, dyd_helpers *h, dyd_settled *settled) {
+  dyd_status st = dyd_delaunay_is_capped(plan->e->pd) ? DYD_OK : dyd_settle(settled, plan);
+  return st == DYD_OK ? plan_faces(plan, h, NULL, settled) : st;
+}
+
+static dyd_status plan_all(dyd_plan *plan, dyd_helpers *h, dyd_settled *settled, dyd_measure *m,
+                           dyd_voronoi_sums *sums) {
+  const dyd_engine_options *o = plan->o;
+  if (o->step_bits || o->schedule != DYD_SCHEDULE_ADAPTIVE || h->waiting->waited) h->scouts = NULL;
+  if (o->goal == DYD_GOAL_DECIDED || dyd_delaunay_is_capped(plan->e->pd)) return plan_decided(plan, h, settled);
+  if (o->goal == DYD_GOAL_HAUSDORFF) return plan_hausdorff(plan, h, m);
+  if (o->goal == DYD_GOAL_AREA) return plan_bound(plan, m, NULL, true);
+  /* Where the bound on the diagram holds already, and sums are not kept, only vertices are left to be narrowed. */
+  dyd_status st = sums ? plan_bound(plan, m, sums, o->goal == DYD_GOAL_VORONOI_AREA) : DYD_OK;
+  if (st == DYD_OK && o->goal == DYD_GOAL_VORONOI_HAUSDORFF) st = plan_vertices(plan);
+  return st;
+}
+
+/* ---- goals ---- */
+
+static dyd_status goal_bound_holds(bool *out, dyd_measure *m, const dyd_engine *e, const dyd_engine_options *o) {
+  dyd_pair_list pairs = {0};
+  mpfr_t bound;
+  mpfr_init2(bound, DYD_MEASURE_PREC);
+  dyd_status st = dyd_pairs_list(&pairs, e->pd, DYD_TIE);
+  if (st == DYD_OK)
+    st = o->goal == DYD_GOAL_AREA ? dyd_bound_area(bound, m, &pairs) : dyd_bound_hausdorff(bound, m, &pairs);
+  *out = st == DYD_OK && mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
+  mpfr_clear(bound);
+  dyd_pair_list_clear(&pairs);
+  return st;
+}
+
+/* The bound holds, and no vertex is left that is too wide and could be narrowed. */
+static dyd_status goal_voronoi_and_vertices_hold(bool *out, dyd_voronoi_sums **sums, const dyd_engine *e,
+                                                 const dyd_engine_options *o) {
+  dyd_status st = dyd_goal_voronoi_holds(out, sums, e, o);
+  if (st != DYD_OK || !*out || o->goal != DYD_GOAL_VORONOI_HAUSDORFF) return st;
+  dyd_plan plan;
+  dyd_plan_init(&plan, e, o, NULL, 0);
+  st = plan_vertices(&plan);
+  if (st == DYD_OK) st = plan.failed;
+  *out = st == DYD_OK && plan.count == 0;
+  dyd_plan_clear(&plan);
+  return st;
+}
+
+static dyd_status goal_holds(bool *out, dyd_measure *m, dyd_voronoi_sums **sums, const dyd_engine *e,
+                             const dyd_engine_options *o) {
+  *out = false;
+  if (dyd_delaunay_is_capped(e->pd)) return DYD_OK;
+  if (dyd_goal_is_voronoi(o->goal)) return goal_voronoi_and_vertices_hold(out, sums, e, o);
+  if (o->goal != DYD_GOAL_DECIDED) return goal_bound_holds(out, m, e, o);
+  size_t count[4];
+  dyd_delaunay_count(count, e->pd);
+  *out = count[DYD_INDETERMINATE] == 0 && count[DYD_TIE] == 0;
+  return DYD_OK;
+}
+
+/* Else a plan is empty, whatever the goal. */
+static bool any_point_is_left(const dyd_engine *e) {
+  for (size_t k = 0; k < e->points; k++)
+    if (!e->point[k].final) return true;
+  return false;
+}
+
+/* Does the goal hold for the result, which is up to date? Otherwise *plan, empty, becomes what to narrow towards it;
+ * adds to *scouts, just initialised, what may go ahead, and to *waiting and *settled, kept from judgement to judgement
+ * of a run, who waits, and which pairs no refinement decides. DYD_CANCELLED when e->stop was seen. */
+static dyd_status schedule_judge(bool *holds, dyd_plan *plan, dyd_scouts *scouts, dyd_waiting *waiting,
+                                 dyd_settled *settled) {
+  dyd_helpers h = {scouts, waiting};
+  dyd_measure m;
+  dyd_voronoi_sums *sums = NULL;
+  dyd_measure_init(&m, plan->e->sites);
+  dyd_status st = goal_holds(holds, &m, &sums, plan->e, plan->o);
+  if (st == DYD_OK && !*holds && any_point_is_left(plan->e)) st = plan_all(plan, &h, settled, &m, sums);
+  if (st == DYD_OK) st = plan->failed;
+  if (st == DYD_OK && plan->count && plan->o->schedule == DYD_SCHEDULE_UNIFORM) plan_uniform(plan);
+  dyd_goal_sums_free(&sums);
+  dyd_measure_clear(&m);
+  return st;
+}
 
 #define MOST_GOAL_BITS ((int64_t)1 << 40)
 
@@ -12,7 +652,7 @@
  * waits for them. */
 typedef struct goal_question {
   dyd_scouts scouts;
-  dyd_thrift thrift;
+  dyd_waiting waiting;
   dyd_settled settled;
   dyd_plan held;
   uint64_t stage;
@@ -26,7 +666,7 @@ static dyd_status goal_ask(bool *answered, dyd_plan *plan, void *user, const dyd
   if (q->scouts.count == 0 || q->stage != e->stages) {
     dyd_scouts_clear(&q->scouts);
     dyd_plan_empty(&q->held);
-    dyd_status st = dyd_schedule_judge(answered, plan, &q->scouts, &q->thrift, &q->settled);
+    dyd_status st = schedule_judge(answered, plan, &q->scouts, &q->waiting, &q->settled);
     if (st != DYD_OK || q->scouts.count == 0) return st;
     q->stage = e->stages;
     dyd_plan all = *plan; /* waits */
@@ -58,10 +698,10 @@ static dyd_status goal_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine
   e->postpones = o->goal == DYD_GOAL_DECIDED && o->schedule == DYD_SCHEDULE_ADAPTIVE && !o->step_bits &&
                  !o->max_stages && !o->max_calls;
   dyd_plan_init(&g.held, e, o, NULL, 0);
-  dyd_status st = dyd_thrift_init(&g.thrift, e, o);
+  dyd_status st = waiting_init(&g.waiting, e, o);
   st = st == DYD_OK ? dyd_ask(outcome, &e->spent, e, &question, o, err) : dyd_fail_nomem(err);
   e->postpones = false;
-  dyd_thrift_clear(&g.thrift);
+  waiting_clear(&g.waiting);
   dyd_plan_clear(&g.held);
   dyd_scouts_clear(&g.scouts);
   dyd_settled_clear(&g.settled);
@@ -78,7 +718,7 @@ dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_
   if (st != DYD_OK) return st;
   e->spent = DYD_BUDGET_NONE;
   st = dyd_abi_take(&o, sizeof o, options, "dyd_engine_options", err);
-  if (st == DYD_OK && !dyd_thrift_costs_are_good(e, &o))
+  if (st == DYD_OK && !waiting_costs_are_good(e, &o))
     st = dyd_fail(err, DYD_E_ARG, "the cost of a point is not above 0");
   else if (st == DYD_OK && dyd_ask_options(&o) && goal_options_are_good(&o))
     st = goal_run(outcome, e, &o, err);

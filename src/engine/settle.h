@@ -4,7 +4,42 @@
 #define DYD_ENGINE_SETTLE_H
 
 #include "engine/plan.h"
-#include "engine/settle_face.h"
+#include "engine/state.h"
+
+/* Cores of sites [SET-3] and firm ones [SET-2]. */
+
+/* Sets *r to the rectangle of `site` with its core in place of each side that has one, an interval that no refinement
+ * leaves: core[0] for x, core[1] for y. A side that is fixed is its own core; one with a radius has a core once the
+ * centre is known to within the radius. */
+dyd_status dyd_site_get_core(dyd_rect *r, bool core[2], const dyd_engine *e, uint32_t site);
+/* Sets *eps to 0 or a power of 2 that is at least the distance of any two points of a rectangle that differ only along
+ * sides without a core. */
+dyd_status dyd_firm_eps(dyd_dyadic *eps, const dyd_engine *e);
+/* Raises *eps to what that is for one site. */
+dyd_status dyd_firm_raise(dyd_dyadic *eps, const dyd_engine *e, uint32_t site);
+/* Sets *out to the core of a guest, with a point for each side that has none, and raises *eps as dyd_firm_eps does. */
+dyd_status dyd_firm_place(dyd_rect *out, dyd_dyadic *eps, const dyd_stream *at);
+/* Adds the core of site number k of the engine: less eps if it is firm, else with a point for each side that has no
+ * core. */
+dyd_status dyd_firm_add(dyd_sites *sites, bool *firm, const dyd_engine *e, const dyd_dyadic *eps, uint32_t k);
+
+/* Pairs of one undecided face, looked at one by one [SET-1]. */
+
+/* possible: the pair is an edge for some choice of places in cores, wherever points are along the others;
+ * unsure: it is not legal wherever they are narrowed to. */
+typedef struct dyd_settled_pair {
+  uint32_t i, j;
+  bool possible, unsure;
+} dyd_settled_pair;
+
+static inline bool dyd_pair_is_settled(const dyd_settled_pair *p) {
+  return p->possible && p->unsure;
+}
+
+/* Looks at open pairs of a face with the given sites, and writes down what is found. *work, in sites looked at, becomes
+ * less; at 0 no more is done. DYD_CANCELLED when e->stop was seen. Nothing is found where no side has a core. */
+dyd_status dyd_settle_face(dyd_settled_pair *pair, uint64_t *random, size_t *work, const dyd_engine *e, size_t pairs,
+                           const dyd_index_list *face);
 
 /* What is known about pairs, for ever unless points are measured again. Init with {0}. Invariant: item is
  * sorted by i, j, without repeats; next: from so many bits on it is worth trying again. */

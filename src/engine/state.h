@@ -1,28 +1,18 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What an engine holds, for the files of this folder:
  *
- *   engine.c        life, counters, results
+ *   engine.c        life, counters, results, and what points are called where they were read
  *   add.c           adding points
  *   points.c        asking one point to narrow, measuring one again
- *   recall.c        answers of an earlier run
- *   labels.c        what points are called where they were read
+ *   record.c        answers of an earlier run; the statuses of each stage
  *   compose.c       points of the engine as streams
  *   plan.c          which points to narrow, and how far: a value
- *   ask.c           the one loop: a question, its plan, narrowing, triangulating, until it is answered
- *   run.c           the question of a run: does the goal hold?
- *   schedule.c      what to narrow where it does not
- *   scout.c         a few points that go ahead of the others
- *   thrift.c        dear points that wait for cheap ones
- *   settle.c        pairs that no refinement decides
- *   coarse.c        which sites of a face are coarse for their distances
- *   goal_voronoi.c  goals on the Voronoi diagram
- *   nearest.c       the question after the nearest sites of a computable point
- *   aliases.c       points that are proved to be the same place
- *   ties.c          what is proved about true points, for ties
- *   bytes.c         what is held, and what a plan will take
- *   watch.c         the clock, and stopping work at a deadline
- *   converge.c      tables of runs, stage by stage
- *   check.c, check_stage.c  the harness of monotone refinement */
+ *   ask.c           the one loop: a question, its plan, narrowing, triangulating, until it is answered; memory,
+ * deadline run.c           the question of a run: does the goal hold, and what to narrow where it does not scout.c a
+ * few points that go ahead of the others settle.c        pairs that no refinement decides goal_voronoi.c  goals on the
+ * Voronoi diagram nearest.c       the question after the nearest sites of a computable point ties.c          what is
+ * proved about true points: ties, and points that are the same place converge.c      tables of runs, stage by stage
+ *   check.c         the harness of monotone refinement */
 #ifndef DYD_ENGINE_STATE_H
 #define DYD_ENGINE_STATE_H
 

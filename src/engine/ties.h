@@ -6,6 +6,13 @@
 #include "engine/state.h"
 #include "stream/algebra/form.h"
 
+/* Points that are proved to be the same place. */
+
+/* Joins the sites of pd, a triangulation of e's sites, that are proved to be the same [TIE-4]; *any: some are, and pd
+ * is to be brought up to date. Looks at sites that share an undecided face and whose rectangles meet: others are
+ * different, or so wide that they are asked for more. */
+dyd_status dyd_aliases_find(bool *any, dyd_engine *e, const dyd_delaunay *pd, dyd_error *err);
+
 /* As dyd_prove_fn, for the points of the engine `user`; what was asked before is remembered. */
 dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                           dyd_error *err);

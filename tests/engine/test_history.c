@@ -3,7 +3,7 @@
 #include "engine/help.h"
 #include "support/failing_memory.h"
 
-#include "engine/history.h"
+#include "engine/record.h"
 #include <dyadel/io.h>
 #include <string.h>
 

@@ -3,7 +3,7 @@
  * whatever these points are [SET-1] [SET-2]; what can be decided is decided; wide streams are asked no more than that
  * needs. */
 #include "engine/help.h"
-#include "engine/settle_face.h"
+#include "engine/settle.h"
 
 #include <math.h>
 

@@ -4,7 +4,6 @@
  * nothing else is left. */
 #include "engine/help.h"
 #include "engine/settle.h"
-#include "engine/settle_firm.h"
 #include "oracle/oracle.h"
 
 #include <math.h>

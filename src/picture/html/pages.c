@@ -14,7 +14,7 @@
 #define ZLIB_CONST              /* what is packed is read only */
 #include "base/alloc.h"
 #include "base/error.h"
-#include "engine/history.h"
+#include "engine/record.h"
 #include "io/diagram.h"
 #include "io/json.h"
 #include "io/output.h"
