@@ -143,16 +143,11 @@ dyd_status dyd_firm_add(dyd_sites *sites, bool *firm, const dyd_engine *e, const
 /* Pairs of one face: what stays open wherever the points are that can be narrowed [SET-1].
  *
  * A side has a core, which no refinement leaves, or can be narrowed to any point of it. A disc to which both ends may
- * reach along their cores, wherever they are along the others, while nobody else has to meet it, makes a pair possible
- * for good. Points of both ends that four points show to be in no disc of their own, make it never legal. First a few
- * choices of points in cores are triangulated, all others being as they are: a witness there is such a disc for
- * some of them, and what is illegal there is never legal. */
-
-/* Random choices for one face. */
-enum { RANDOM = 4 };
+ * reach along their cores, wherever they are along the others, while no other site has to meet it, makes a pair
+ * possible for good. Points of both ends that four points show to be in no disc of their own, make it never legal. */
 
 /* site: those of the face and their legal neighbours, ascending; rect and guess: one for each of them; pair: what is
- * looked at; left: how many of these are not settled; work: what is left of it for all faces. */
+ * looked at; work: what is left of it for all faces. */
 typedef struct settling {
   const dyd_engine *e;
   dyd_index_list site;
@@ -160,7 +155,7 @@ typedef struct settling {
   dyd_rect *rect;
   dyd_settle_site *guess;
   dyd_settled_pair *pair;
-  size_t pairs, left;
+  size_t pairs;
   size_t *work;
   bool mixed; /* some side has a core that is no point */
 } settling;
@@ -262,8 +257,8 @@ static dyd_status disc_spares(bool *out, const dyd_engine *e, const dyd_point *c
   return st;
 }
 
-/* Is there a disc around c that shows that the pair is possible, wherever points are that can be narrowed? *met: who
- * meets it. */
+/* Is there a disc around c that shows that the pair is possible, wherever points are that can be narrowed? *met: the
+ * sites that meet it. */
 static dyd_status disc_joins(bool *out, dyd_index_list *met, const settling *s, const dyd_point *c,
                              const dyd_settled_pair *p) {
   const size_t end[2] = {settling_place(s, p->i), settling_place(s, p->j)};
@@ -363,77 +358,18 @@ static void settling_part(const settling *s, dyd_settled_pair *p) {
   for (int k = 0; k < 4; k++) dyd_rect_clear(&r[k]);
 }
 
-/* ---- a choice for all pairs ---- */
-
-static dyd_status settling_add_site(dyd_sites *sites, const settling *s, size_t k) {
-  dyd_rect r;
-  dyd_rect_init(&r);
-  settling_choose(&r, s, k, s->guess[k].at);
-  dyd_status st = dyd_sites_add_rect(sites, &r);
-  dyd_rect_clear(&r);
-  return st;
-}
-
-/* What the choice tells about a pair. */
-static dyd_status settling_look(dyd_settled_pair *p, const settling *s, const dyd_delaunay *pd) {
-  uint32_t a = (uint32_t)settling_place(s, p->i), b = (uint32_t)settling_place(s, p->j);
-  if (dyd_delaunay_alias(pd, a) == dyd_delaunay_alias(pd, b)) return DYD_OK;
-  dyd_pair_status status = dyd_delaunay_status(pd, a, b);
-  p->unsure = p->unsure || status == DYD_ILLEGAL;
-  if (status != DYD_LEGAL || p->possible) return DYD_OK;
-  dyd_index_list met = {0};
-  dyd_point c;
-  dyd_point_init(&c);
-  dyd_status st = dyd_delaunay_witness(&c, pd, a, b);
-  if (st == DYD_OK) st = disc_joins(&p->possible, &met, s, &c, p);
-  dyd_point_clear(&c);
-  dyd_index_list_clear(&met);
-  return st == DYD_E_RANGE ? DYD_OK : st; /* no witness was found */
-}
-
-/* Triangulates the choice, and looks at all pairs that are not settled. */
-static dyd_status settling_try(settling *s) {
-  dyd_sites *sites = NULL;
-  dyd_delaunay *pd = NULL;
-  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = &s->e->stop};
-  dyd_status st = dyd_sites_new(&sites);
-  for (size_t k = 0; st == DYD_OK && k < s->site.count; k++) st = settling_add_site(sites, s, k);
-  if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, NULL);
-  if (st == DYD_CAPPED) st = DYD_OK;
-  for (size_t k = 0; st == DYD_OK && k < s->pairs; k++) {
-    if (dyd_pair_is_settled(&s->pair[k])) continue;
-    st = settling_look(&s->pair[k], s, pd);
-    s->left -= dyd_pair_is_settled(&s->pair[k]);
-  }
-  settling_spend(s);
-  dyd_delaunay_free(pd);
-  dyd_sites_free(sites);
-  return st;
-}
-
-static dyd_status settling_try_all(settling *s, uint64_t *random) {
-  dyd_filter_choose_middles(s->guess, s->site.count);
-  dyd_status st = settling_try(s);
-  for (int k = 0; st == DYD_OK && s->left && *s->work && k < RANDOM; k++) {
-    dyd_filter_choose_any(s->guess, s->site.count, random);
-    st = settling_try(s);
-  }
-  return st;
-}
-
 /* ---- one pair after the other ---- */
 
 static dyd_status settling_do_pair(settling *s, dyd_settled_pair *p, bool thorough) {
   dyd_status st = p->possible ? DYD_OK : settling_join(s, p, thorough);
   if (st == DYD_OK && !p->unsure && !thorough) settling_part(s, p);
-  s->left -= dyd_pair_is_settled(p);
   settling_spend(s);
   return st == DYD_OK && dyd_flag_get(&s->e->stop) ? DYD_CANCELLED : st;
 }
 
-static dyd_status settling_run(settling *s, uint64_t *random) {
-  dyd_status st = settling_try_all(s, random);
-  for (size_t k = 0; st == DYD_OK && s->left && *s->work && k < 2 * s->pairs; k++) {
+static dyd_status settling_run(settling *s) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; st == DYD_OK && *s->work && k < 2 * s->pairs; k++) {
     dyd_settled_pair *p = &s->pair[k % s->pairs];
     if (!dyd_pair_is_settled(p)) st = settling_do_pair(s, p, k >= s->pairs);
   }
@@ -452,11 +388,11 @@ static dyd_status settling_begin(settling *s, const dyd_index_list *face) {
   return st == DYD_OK ? settling_take_rects(s) : st;
 }
 
-dyd_status dyd_settle_face(dyd_settled_pair *pair, uint64_t *random, size_t *work, const dyd_engine *e, size_t pairs,
+dyd_status dyd_settle_face(dyd_settled_pair *pair, size_t *work, const dyd_engine *e, size_t pairs,
                            const dyd_index_list *face) {
-  settling s = {.e = e, .pair = pair, .pairs = pairs, .left = pairs, .work = work};
+  settling s = {.e = e, .pair = pair, .pairs = pairs, .work = work};
   dyd_status st = settling_begin(&s, face);
-  if (st == DYD_OK && s.mixed) st = settling_run(&s, random);
+  if (st == DYD_OK && s.mixed) st = settling_run(&s);
   settling_clear(&s);
   return st;
 }
@@ -572,7 +508,7 @@ static dyd_status settle_face_pairs(dyd_settled *fresh, dyd_settled *s, size_t *
   dyd_status st = dyd_delaunay_face(&face, &outer, e->pd, f);
   if (st == DYD_OK && any_can_narrow(e, &face)) st = take_pairs(fresh, s, e, eps, f, firm);
   if (st == DYD_OK && !firm && fresh->count > first)
-    st = dyd_settle_face(&fresh->item[first], &s->random, work, e, fresh->count - first, &face);
+    st = dyd_settle_face(&fresh->item[first], work, e, fresh->count - first, &face);
   dyd_index_list_clear(&face);
   return st;
 }

@@ -38,7 +38,7 @@ static inline bool dyd_pair_is_settled(const dyd_settled_pair *p) {
 
 /* Looks at open pairs of a face with the given sites, and writes down what is found. *work, in sites looked at, becomes
  * less; at 0 no more is done. DYD_CANCELLED when e->stop was seen. Nothing is found where no side has a core. */
-dyd_status dyd_settle_face(dyd_settled_pair *pair, uint64_t *random, size_t *work, const dyd_engine *e, size_t pairs,
+dyd_status dyd_settle_face(dyd_settled_pair *pair, size_t *work, const dyd_engine *e, size_t pairs,
                            const dyd_index_list *face);
 
 /* What is known about pairs, for ever unless points are measured again. Init with {0}. Invariant: item is
@@ -47,7 +47,6 @@ typedef struct dyd_settled {
   dyd_settled_pair *item;
   size_t count, cap;
   int64_t next;
-  uint64_t random;
 } dyd_settled;
 
 void dyd_settled_clear(dyd_settled *s);

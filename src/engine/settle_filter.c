@@ -378,16 +378,3 @@ bool dyd_filter_find_centre(double c[2], const dyd_settle_site *site, size_t cou
   c[1] = best.at[1];
   return best.room > 0;
 }
-
-void dyd_filter_choose_middles(dyd_settle_site *site, size_t count) {
-  for (size_t k = 0; k < count; k++)
-    for (int a = 0; a < 2; a++) site[k].at[a] = site_middle(&site[k], a);
-}
-
-void dyd_filter_choose_any(dyd_settle_site *site, size_t count, uint64_t *random) {
-  for (size_t k = 0; k < 2 * count; k++) {
-    const double *side = &site[k / 2].box[2 * (k % 2)];
-    *random = *random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    site[k / 2].at[k % 2] = side[0] + (side[1] - side[0]) * ((double)(*random >> 11) * 0x1p-53);
-  }
-}

@@ -8,21 +8,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A site: its outward box (x lower, x upper, y lower, y upper), along which sides its point may be chosen, and the
- * choice. */
+/* A site: its outward box (x lower, x upper, y lower, y upper), and along which sides its point may be chosen. */
 typedef struct dyd_settle_site {
   double box[4];
   bool core[2];
-  double at[2];
 } dyd_settle_site;
 
-/* The middles. */
-void dyd_filter_choose_middles(dyd_settle_site *site, size_t count);
-/* Anywhere. */
-void dyd_filter_choose_any(dyd_settle_site *site, size_t count, uint64_t *random);
 /* The centre of a disc that holds points of sites i and j, and of each other site not all, by choices along cores
- * sides, wherever points are along the others; of such centres one with much room. false: none with any room was found.
- * thorough: looks about ten times as long. */
+ * sides, wherever points are along the others; of such centres one with much room. false: none with any room was
+ * found. thorough: looks about ten times as long. */
 bool dyd_filter_find_centre(double c[2], const dyd_settle_site *site, size_t count, size_t i, size_t j, bool thorough);
 
 /* Four points at[k] of site[k]. inside: number 3 is among the three others, all of them of the two ends; else 0 and 1

@@ -124,14 +124,13 @@ static void test_settled(void **state) {
 static void check_few(size_t said[2], const dyd_engine *e, test_random *r, size_t fixed) {
   enum { FEW = 5, PAIRS = FEW * (FEW - 1) / 2 };
   size_t work = SIZE_MAX, count = 0;
-  uint64_t random = 1;
   uint32_t few[FEW];
   dyd_settled_pair pair[PAIRS];
   for (uint32_t k = 0; k < FEW; k++) few[k] = (uint32_t)(k * dyd_engine_count(e) / FEW);
   for (uint32_t k = 0; k < FEW * FEW; k++)
     if (k / FEW < k % FEW) pair[count++] = (dyd_settled_pair){few[k / FEW], few[k % FEW], false, false};
   const dyd_index_list face = {.item = few, .count = FEW};
-  assert_int_equal(DYD_OK, dyd_settle_face(pair, &random, &work, e, count, &face));
+  assert_int_equal(DYD_OK, dyd_settle_face(pair, &work, e, count, &face));
   for (int n = 0; n < 20; n++) {
     dyd_sites *then;
     dyd_delaunay *pd = narrowed(&then, e, r, fixed);

@@ -180,14 +180,13 @@ static void test_few(void **state) {
     dyd_settled_pair pair[FEW * FEW];
     uint32_t few[FEW];
     size_t count = 0, work = SIZE_MAX;
-    uint64_t random = round;
     half_case_new(&c, &r, 96);
     run_coarsely(&c, &o, test_between(&r, 1, 3));
     for (uint32_t k = 0; k < FEW; k++) few[k] = (uint32_t)(k * c.n / FEW);
     for (uint32_t k = 0; k < FEW * FEW; k++)
       if (k / FEW < k % FEW) pair[count++] = (dyd_settled_pair){few[k / FEW], few[k % FEW], false, false};
     const dyd_index_list face = {.item = few, .count = FEW};
-    assert_int_equal(DYD_OK, dyd_settle_face(pair, &random, &work, c.e, count, &face));
+    assert_int_equal(DYD_OK, dyd_settle_face(pair, &work, c.e, count, &face));
     check_all_said(&c, pair, count, &r);
     for (size_t k = 0; k < count; k++) possible += pair[k].possible, unsure += pair[k].unsure;
     dyd_engine_free(c.e);
