@@ -44,16 +44,8 @@ static int session_read_oracle(dyd_engine *e, const cli_options *o) {
   dyd_error_clear(&err);
   const dyd_oracle_options options = {DYD_SIZED(dyd_oracle_options), .jobs = o->oracle_jobs, .batch = o->oracle_batch,
                                       .retries = o->oracle_retries, .seconds = o->oracle_timeout};
-<<<<<<< HEAD
-  if (dyd_oracle_new(&oracle, o->oracle, &options, &err) != DYD_OK) {
-    cli_complain("%s", err.message);
-    return CLI_FAILED;
-  }
-  status = oracle_add(e, oracle);
-=======
   if (dyd_oracle_new(&oracle, o->oracle, &options, &err) != DYD_OK) return cli_fail("%s", err.message);
-  int status = oracle_add(e, oracle);
->>>>>>> d10eacab (Print and return what failed in one call, lines of a report if they hold)
+  status = oracle_add(e, oracle);
   dyd_oracle_free(oracle);
   return status;
 }
