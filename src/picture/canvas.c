@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Pages: paths, what is common to all kinds, and svg, where text stays text and elements can be named. */
+/* Pages: paths, what all kinds share, and svg, in which text stays text and elements have names. */
 #include "picture/canvas.h"
 #include "base/alloc.h"
 #include "base/error.h"
@@ -10,7 +10,7 @@
 
 /* ---- svg: pieces ---- */
 
-/* To hundredths, with a point in every locale; what is beyond any page is brought near. */
+/* To hundredths, with a point in every locale; lengths beyond any page are clamped. */
 static void put_length(dyd_sink *to, double x) {
   int64_t n = llround(fmin(fmax(x, -1e12), 1e12) * 100);
   uint64_t size = (uint64_t)(n < 0 ? -n : n), rest = size % 100;

@@ -3,7 +3,7 @@
  *
  * Lengths in pixels of svg (points of pdf, half pixels of png), y downward. A path is collected, and gone when it is
  * painted. In svg text is text, elements can have an id and a title, which viewers show where the pointer is, and
- * neighbours of the same paint share a group; the others leave names out. */
+ * neighbours of the same paint share a group; the other formats ignore names. */
 #ifndef DYD_PICTURE_CANVAS_H
 #define DYD_PICTURE_CANVAS_H
 
@@ -27,7 +27,7 @@ typedef struct dyd_paint {
 
 /* Begins a page in the format of o, white; NULL when memory is exhausted. */
 dyd_canvas *dyd_canvas_new(const dyd_output *o, double width, double height, const char *title);
-/* Completes the page (unless st tells of an error) and frees c; returns st, or what went wrong. */
+/* Completes the page (unless st is an error) and frees c; returns st, or the error of writing. */
 dyd_status dyd_canvas_end(dyd_canvas *c, dyd_status st, dyd_error *err);
 
 /* ---- the path ---- */
@@ -53,7 +53,7 @@ void dyd_picture_shape(dyd_canvas *c, unsigned fill, double alpha, unsigned edge
 /* A line of an edge. */
 void dyd_picture_line(dyd_canvas *c, double z[2][2], unsigned rgb, double width, double on, double off);
 void dyd_picture_dot(dyd_canvas *c, double x, double y, double radius, unsigned fill, unsigned edge);
-/* Until dyd_canvas_unclip only what is inside of the path is shown; they nest. */
+/* Until dyd_canvas_unclip only the inside of the path is shown; clips nest. */
 void dyd_canvas_clip(dyd_canvas *c);
 void dyd_canvas_unclip(dyd_canvas *c);
 /* The next element painted has this id (unique on the page) and this title. Both are copied. */
@@ -91,14 +91,14 @@ struct dyd_canvas {
   bool failed; /* memory ran out */
   bool open;   /* svg: a group with the paint `shared` */
   dyd_paint shared;
-  unsigned clips; /* svg: so many so far */
+  unsigned clips; /* svg: how many there are */
   char id[80], title[160];
 };
 
 /* ---- canvas_cairo.c; canvas_plain.c where the library was built without it ---- */
 
 void dyd_cairo_begin(dyd_canvas *c, double width, double height);
-/* Hands over what was drawn; returns st, or what went wrong. */
+/* Hands over what was drawn; returns st, or the error of writing. */
 dyd_status dyd_cairo_end(dyd_canvas *c, dyd_status st, dyd_error *err);
 void dyd_cairo_paint(dyd_canvas *c, const dyd_paint *p);
 void dyd_cairo_clip(dyd_canvas *c);

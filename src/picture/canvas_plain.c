@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* In place of canvas_cairo.c where the library was built without cairo: svg alone is drawn. */
+/* Instead of canvas_cairo.c where the library was built without cairo: only svg is drawn. */
 #include "picture/canvas.h"
 
 bool dyd_cairo_is_there(void) {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Pictures of edges: the triangulation, with rectangles, edges and partial edges by status and sure triangles; graphs;
- * tolerances, edges coloured by how much they bear, from what is lost first to what is lost last. And what pictures can
- * show. */
+ * tolerances, edges coloured by the motion that they survive. And the table of pictures. */
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
@@ -39,7 +38,7 @@ typedef struct delaunay_drawing {
   bool any_wide;          /* some rectangle is more than a dot */
   bool there[3];          /* some pair has this style */
   dyd_density dense[3];   /* of lines of each style: all squares of OPEN, where it is crowded; else full ones */
-  bool crowded;           /* those of OPEN are drawn in place of its lines */
+  bool crowded;           /* those of OPEN are drawn instead of its lines */
   bool triangle, region[4], squares; /* was drawn; full squares */
   dyd_site_marks marks;
 } delaunay_drawing;
@@ -82,7 +81,7 @@ static bool line_of(double z[2][2], const delaunay_drawing *d, const dyd_pair *p
   return dyd_clip_segment(z, frame);
 }
 
-/* Do full squares stand for all that would be seen of n places and what is between them? */
+/* Returns true if full squares cover n places and all between them. */
 static bool is_covered(const dyd_density *by, double z[][2], int n) {
   double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
   if (!by->count) return false;
@@ -256,7 +255,7 @@ static void delaunay_inside(dyd_canvas *c, void *context) {
   dyd_site_marks_draw(&d->marks, c, &d->view);
 }
 
-/* ---- what is shown ---- */
+/* ---- the part shown ---- */
 
 /* The possible pairs, unless others are shown. */
 static const dyd_pair_list *picture_pairs(const dyd_result *r) {
@@ -312,7 +311,7 @@ static dyd_status see_window(delaunay_drawing *d, dyd_error *err) {
   return DYD_OK;
 }
 
-/* Would the rectangles hide most of what is in the frame? */
+/* Returns true if the rectangles would hide most of the frame. */
 static bool are_rectangles_a_mass(const delaunay_drawing *d) {
   const double *f = d->view.frame;
   double area = 0, z[4];
@@ -324,7 +323,7 @@ static bool are_rectangles_a_mass(const delaunay_drawing *d) {
   return area > (f[1] - f[0]) * (f[3] - f[2]) / 4;
 }
 
-/* Of lines that are too many to be named, full squares are drawn in place of what is in them. */
+/* Where lines are too many to be named, full squares are drawn instead of them. */
 static dyd_status find_density(delaunay_drawing *d) {
   static const dyd_density_levels *const levels[3] = {&dyd_density_full_grey, &dyd_density_all, &dyd_density_full};
   for (int k = 0; k < 3; k++)
@@ -504,7 +503,7 @@ dyd_status dyd_tolerance_picture(const dyd_output *o) {
                       : st;
 }
 
-/* ---- what pictures can show ---- */
+/* ---- the table of pictures ---- */
 
 dyd_writer *const dyd_picture_writers[DYD_CONTENTS] = {
     [DYD_CONTENT_DELAUNAY] = dyd_delaunay_picture,      [DYD_CONTENT_VORONOI] = dyd_voronoi_picture,

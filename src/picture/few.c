@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Pictures of one question about few points: a partial disc, a partial bisector, which points are nearest to a place.
  *
- * A partial disc: what is surely inside of the circle of three points is the intersection of the three discs that
- * enclose one rectangle, surely outside is what is in none of the three that enclose two; the six critical circles and
+ * A partial disc: the certain inside of the circle of three points is the intersection of the three discs that enclose
+ * one rectangle, the certain outside is in none of the three that enclose two; the six critical circles and
  * their centres are drawn, and the other points.
  *
- * A partial bisector: what is surely nearer to the one point, to the other, and the band between. A parabola v(t)
+ * A partial bisector: the part certainly nearer to the one point, to the other, and the band between. A parabola v(t)
  * between t0 and t1 is the quadratic Bezier curve whose middle point has t = (t0 + t1) / 2 and lies on the tangent at
- * the first end: v = v(t0) + v'(t0) (t1 - t0) / 2. Arcs with an end at infinity are lines. What is surely nearer to a
- * point is convex, and goes on to infinity between the ends of its chain.
+ * the first end: v = v(t0) + v'(t0) (t1 - t0) / 2. Arcs with an end at infinity are lines. The part certainly nearer
+ * to a point is convex and infinite between the ends of its chain.
  *
  * Nearest points: for a place c in the rectangle Q no point lies nearer than m = min_k ds(Q, R_k), and one lies within
  * M = min_k dl(Q, R_k), where ds and dl are the least and largest distances of points of Q and R_k. So all that is
@@ -51,7 +51,7 @@ enum { CIRCLES = 6, ONCE = 3, WHITE = 0xffffff };
 
 #define TRIPLE 0x777777
 #define LARGE 1e5 /* radius in points from where only the part near the picture is drawn */
-#define MOST 1e13 /* radius from where doubles do not tell where the circle is, to hundredths of a point */
+#define MOST 1e13 /* radius from which doubles do not give the circle to hundredths of a point */
 
 typedef struct disc_drawing {
   const dyd_partial_disc *d;
@@ -332,7 +332,7 @@ static void piece_path(dyd_canvas *c, const dyd_view *v, const piece *p) {
                    dyd_view_y(v, inner[1][1]), dyd_view_x(v, p->at[2][0]), dyd_view_y(v, p->at[2][1]));
 }
 
-/* What is on the left of the chain, closed far outside of the picture. */
+/* The part on the left of the chain, closed far outside of the picture. */
 static void fill_left(dyd_canvas *c, const bisector_drawing *d, const dyd_chain *chain, unsigned rgb) {
   piece p = {0};
   double begin[2] = {0}, *end = p.at[2], n[2];
@@ -463,7 +463,7 @@ typedef struct nearest_drawing {
   const dyd_engine *engine;
   dyd_view view;
   double place[4], near, far; /* Q, m, M */
-  size_t count;               /* sites that stand for themselves */
+  size_t count;               /* sites that are no duplicates */
   bool others;                /* some that are surely not nearest are drawn */
 } nearest_drawing;
 
@@ -497,7 +497,7 @@ static dyd_status nearest_view(nearest_drawing *g, dyd_error *err) {
   return dyd_view_fit(&g->view, box, spacing, err);
 }
 
-/* What is within `reach` of the place: a rectangle with round corners. */
+/* All within `reach` of the place: a rectangle with round corners. */
 static void around_path(dyd_canvas *c, const nearest_drawing *g, double reach) {
   const double quarter = acos(0.0);
   double r = reach * g->view.scale;
@@ -524,7 +524,7 @@ static void nearest_circles(dyd_canvas *c, const nearest_drawing *g) {
   dyd_picture_stroke(c, 0x222222, 1.5, 4, 2.5);
 }
 
-/* Calls for every site that is drawn, those that are possibly nearest last (first: the other way round). */
+/* Calls for every site that is drawn, possibly nearest ones last (first: the other way round). */
 typedef void (*nearest_visit)(dyd_canvas *c, nearest_drawing *g, dyd_numbers *l, const double box[4], size_t i,
                               bool found);
 

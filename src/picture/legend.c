@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Legends: what colours and lines mean, how long a length is, where the points are when they are too close to see.
  *
- * And how many lines cross each small square of the page: what is shown in place of lines that would be one mass. Where
- * only full squares are drawn, lines that are in such squares alone are left out, and so is what they would hide. */
+ * And how many lines cross each small square of the page: squares are shown instead of lines that would be one mass.
+ * Where only full squares are drawn, lines and marks inside of them are omitted. */
 #include "io/decimal.h"
 #include "picture/picture.h"
 
@@ -200,7 +200,7 @@ static void legend_room(dyd_legend *l, double wide) {
   l->y += ROW;
 }
 
-/* The text beside what was drawn at l->x, of width `mark`. */
+/* The text next to the mark at l->x, of width `mark`. */
 static void legend_words(dyd_legend *l, double mark, const char *text) {
   dyd_canvas_text(l->canvas, l->x + mark + 6, l->y + 5, 0, SIZE, false, text);
   l->x += mark + 30 + dyd_canvas_width(l->canvas, SIZE, text);

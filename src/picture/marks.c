@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Sites in a view, with their numbers or identifiers where there is room.
  *
- * For numbers the page is divided into small squares; what is drawn takes those that it meets, and a number stands at
- * the first of eight places around its site whose squares are all free. */
+ * For numbers the page is divided into small squares; a drawn mark takes the squares that it meets, and a number is
+ * written at the first of eight places around its site whose squares are all free. */
 #include "io/decimal.h"
 #include "io/diagram.h"
 #include "io/label_text.h"
@@ -54,7 +54,7 @@ static dyd_site_mark picture_site(dyd_canvas *c, const dyd_view *v, const double
     dyd_picture_fill(c, 0x222222);
     return DYD_MARK_DOT;
   }
-  /* What is far outside does not fit the numbers of a page. */
+  /* Lengths far outside do not fit the numbers of a page. */
   if (v->discs && x1 - x0 < LARGEST_DISC) {
     dyd_canvas_circle(c, x0 / 2 + x1 / 2, y0 / 2 + y1 / 2, (x1 - x0) / 2);
   } else {
@@ -171,7 +171,7 @@ dyd_site_marks dyd_site_marks_of(const dyd_delaunay *pd, const dyd_engine *e, un
       .engine = e, .count = dyd_sites_count(dyd_delaunay_sites(pd)), .box = plane_site_box, .context = pd, .rgb = rgb};
 }
 
-/* Is nothing of the mark beside the squares that are drawn in its place? */
+/* Returns true if the squares drawn instead of the mark cover all of it. */
 static bool is_mark_covered(const dyd_site_marks *m, const dyd_view *v, const double box[4]) {
   double z[4];
   if (!m->under) return false;

@@ -12,12 +12,12 @@
 
 typedef void (*dyd_draw_fn)(dyd_canvas *c, void *context);
 
-/* The writers of pictures, which differ by what they show. */
+/* The writers of pictures. */
 dyd_writer dyd_delaunay_picture, dyd_voronoi_picture, dyd_convergence_picture;
 dyd_writer dyd_sphere_picture, dyd_sphere_voronoi_picture;
 dyd_writer dyd_disc_picture, dyd_bisector_picture, dyd_nearest_picture, dyd_tolerance_picture;
 
-/* So many lines and triangles have a name each; beyond, a file would be all names. */
+/* Up to this count each line and triangle has a name; beyond, a file would be all names. */
 enum { DYD_PICTURE_NAMES = 40000 };
 
 /* ---- views ---- */
@@ -33,8 +33,8 @@ typedef struct dyd_view {
   double apart;            /* about the distance of neighbours on the page */
   double line, dot;        /* width of lines, radius of dots */
   bool dots;               /* all sites are dots, as rectangles would be one mass */
-  bool discs;              /* rectangles stand for the discs in them */
-  double frame[4];         /* x lower, x upper, y lower, y upper on the page: shown is what is inside */
+  bool discs;              /* rectangles are drawn as the discs in them */
+  double frame[4];         /* x lower, x upper, y lower, y upper on the page: the inside is shown */
   const char *unit;        /* of the coordinates, for the scale; NULL: not known */
 } dyd_view;
 
@@ -81,15 +81,15 @@ int dyd_clip_convex(double z[DYD_CLIP_MOST][2], int n, const double box[4]);
 
 /* ---- drawing ---- */
 
-/* What is undetermined, in all pictures. */
+/* The undetermined part, in all pictures. */
 #define DYD_PICTURE_BAND 0xe69f00
 
 /* A box on the page. */
 void dyd_picture_box(dyd_canvas *c, const dyd_view *v, const double box[4]);
 
 /* A site as it can be seen: a rectangle, or disc, filled with rgb where it is large enough, else a dot; nothing outside
- * of the view. It has the name "point-I", and its coordinates, with its identifier, for a title. Returns what was
- * drawn. */
+ * of the view. It has the name "point-I", and its coordinates, with its identifier, for a title. Returns the kind
+ * of mark. */
 typedef enum dyd_site_mark { DYD_MARK_NONE, DYD_MARK_DOT, DYD_MARK_RECTANGLE } dyd_site_mark;
 /* The next element is of the pair i, j of e: it has the name "pair-I-J", and `what` behind both for a title. */
 void dyd_picture_name_pair(dyd_canvas *c, const dyd_engine *e, size_t i, size_t j, const char *what);
@@ -107,30 +107,30 @@ typedef struct dyd_numbers {
 /* false: memory is exhausted. */
 bool dyd_numbers_init(dyd_numbers *l, const dyd_view *v);
 void dyd_numbers_clear(dyd_numbers *l);
-/* Nothing may stand on this box, or on the dot that stands for it. */
+/* Keeps numbers off this box, or the dot drawn for it. */
 void dyd_numbers_keep_off(dyd_numbers *l, const double box[4]);
 /* Writes what a site of e is called beside its box, if there is room. */
 void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double size, const dyd_engine *e, size_t site);
 
-/* Sites that are drawn; `box` is false for those that are not. */
+/* Sites that are drawn; `box` returns false for sites that are not. */
 typedef struct dyd_site_marks {
   const dyd_engine *engine; /* names them */
   size_t count;
   bool (*box)(double out[4], const void *context, size_t i);
   const void *context;
   unsigned rgb;                       /* of rectangles */
-  const struct dyd_density *under;    /* marks that its squares cover are left out; NULL: none are */
+  const struct dyd_density *under;    /* marks that its squares cover are omitted; NULL: none are */
   bool drawn[DYD_MARK_RECTANGLE + 1]; /* which marks were */
 } dyd_site_marks;
 
-/* The sites that stand for themselves; what doubles cannot hold is left out. */
+/* The sites that are no duplicates and whose boxes doubles hold. */
 dyd_site_marks dyd_site_marks_of(const dyd_delaunay *pd, const dyd_engine *e, unsigned rgb);
 /* All of them, with their numbers where neighbours are far enough apart. */
 void dyd_site_marks_draw(dyd_site_marks *m, dyd_canvas *c, const dyd_view *v);
 
 /* ---- legend.c ---- */
 
-/* Entries from left to right, then in the next line; beside the first lines a bar of round length. */
+/* Entries from left to right, then in the next line; next to the first lines a bar of round length. */
 typedef struct dyd_legend {
   dyd_canvas *canvas;
   const dyd_view *view;
@@ -138,7 +138,7 @@ typedef struct dyd_legend {
 } dyd_legend;
 
 void dyd_legend_begin(dyd_legend *l, dyd_canvas *c, const dyd_view *v);
-/* A line, a patch, a dot and what it means. */
+/* A line, a patch, a dot and its meaning. */
 void dyd_legend_line(dyd_legend *l, unsigned rgb, double on, double off, const char *text);
 void dyd_legend_patch(dyd_legend *l, unsigned rgb, const char *text);
 void dyd_legend_dot(dyd_legend *l, unsigned fill, unsigned edge, const char *text);

@@ -31,7 +31,7 @@ typedef struct sphere_drawing {
   dyd_view view;
   dyd_site_marks marks;
   dyd_density open; /* of indeterminate edges */
-  bool crowded;     /* it is drawn in place of them */
+  bool crowded;     /* it is drawn instead of them */
   dyd_canvas *canvas;
   /* The line at hand: where it is on the page; is it in the frame, and of an indeterminate edge? */
   double at[2];
@@ -51,7 +51,7 @@ static void arc_draw(sphere_drawing *d, bool begin, double x, double y) {
     dyd_canvas_line(d->canvas, x, y);
 }
 
-/* What is in the frame is counted. */
+/* Counts the part in the frame. */
 static void arc_count(sphere_drawing *d, bool begin, double x, double y) {
   double z[2][2] = {{d->at[0], d->at[1]}, {x, y}};
   if (begin) dyd_density_begin(&d->open);
@@ -70,7 +70,7 @@ static double map_longitude(const sphere_drawing *d, double lon) {
   return lon - 360 * floor((lon - d->seam) / 360);
 }
 
-/* Beyond the seam it goes on at the other side of the map. */
+/* Beyond the seam it continues at the other side of the map. */
 static void side_follow(sphere_drawing *d, const dyd_side *side, bool whole, arc_step step) {
   dyd_lon_lat *p = NULL;
   size_t n = 0;
@@ -180,7 +180,7 @@ static void sphere_legend(dyd_canvas *c, void *context) {
   dyd_legend_crowd(&l, &d->marks);
 }
 
-/* The usual length of an edge on the map, in degrees: of those that begin in the box (NULL: of all). */
+/* The usual length of an edge on the map, in degrees: of edges that begin in the box (NULL: of all). */
 static double sphere_spacing(const sphere_drawing *d, const double box[4]) {
   enum { SAMPLES = 1000 };
   double length[SAMPLES];
@@ -195,7 +195,7 @@ static double sphere_spacing(const sphere_drawing *d, const double box[4]) {
   return dyd_view_median(length, n);
 }
 
-/* ---- what is shown ---- */
+/* ---- the part shown ---- */
 
 static bool sphere_site_box(double out[4], const void *context, size_t i) {
   const sphere_drawing *d = context;

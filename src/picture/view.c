@@ -22,7 +22,7 @@
 #define HIGHEST 140.0
 #define LONGEST 80.0 /* a label wider than this says by how much it differs from the first */
 
-/* ---- what is shown ---- */
+/* ---- the part shown ---- */
 
 static dyd_status beyond_doubles(dyd_error *err) {
   return dyd_fail(err, DYD_E_RANGE, "the points are too far apart or too close for a picture; use csv or json");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The picture of the Voronoi diagram: what is surely nearest to a point, the undetermined rest of the window,
+/* The picture of the Voronoi diagram: the part certainly nearest to a point, the undetermined rest of the window,
  * rectangles, sure vertices, regions of undecided faces. */
 #include "io/diagram.h"
 #include "picture/picture.h"
@@ -62,7 +62,7 @@ static dyd_status voronoi_region(void *context, size_t face, const double box[4]
   char id[48], title[80];
   if (dyd_dual_tied(g->d->tied, g->d->ties, face)) return DYD_OK;
   if (!box || (box[1] - box[0] + box[3] - box[2]) * g->view.scale > 60 * g->view.dot)
-    return DYD_OK;                              /* a large one would hide what it is about */
+    return DYD_OK;                              /* a large one would hide its surroundings */
   double pad = 2 * g->view.dot / g->view.scale, /* so that it is seen however small */
       show[4] = {box[0] - pad, box[1] + pad, box[2] - pad, box[3] + pad};
   snprintf(id, sizeof id, "region-%zu", face);

@@ -281,7 +281,7 @@ static int compare_rounded(const void *a, const void *b) {
 }
 
 /* Among places with equal rounded degrees: each becomes an alias of the first that is equal to it. Computable ones are
- * recognised here, so that those that are alone cost nothing. */
+ * recognised here, so that single ones cost nothing. */
 static dyd_status aliases_in_run(dyd_sphere *s, const rounded_place *run, size_t count, dyd_error *err) {
   dyd_spot a, b;
   dyd_status st = DYD_OK;
@@ -318,8 +318,8 @@ static size_t squares_put(rounded_place out[MOST_SQUARES], const dyd_spot_d *p, 
   return n;
 }
 
-/* Looks at all places, which finds latitudes that are none; lists those that may be exact. Near a pole the longitude of
- * a computable place is any, so that it has to be recognised first. */
+/* Looks at all places, which finds latitudes that are none; lists places that may be exact. Near a pole the longitude
+ * of a computable place is any, so that it has to be recognised first. */
 static dyd_status places_round(rounded_place *out, size_t *count, dyd_sphere *s, dyd_error *err) {
   for (uint32_t i = 0; i < s->count; i++) {
     dyd_spot_d p;
@@ -348,7 +348,7 @@ static size_t bucket_of(const rounded_place *p, size_t buckets) {
   return (size_t)((mixed ^ mixed >> 32) & (buckets - 1));
 }
 
-/* Keeps those that share a bucket with another one, which are few: others need not be sorted. */
+/* Keeps the few that share a bucket with another one: others need not be sorted. */
 static dyd_status places_thin(rounded_place *place, size_t *count) {
   size_t buckets = 1, kept = 0;
   while (buckets / 8 < *count) buckets *= 2;

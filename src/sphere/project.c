@@ -34,13 +34,13 @@ typedef struct view {
 
 enum { VIEW_BALLS = sizeof(view) / sizeof(arb_struct) };
 
-/* What all pieces share. */
+/* Shared by all pieces. */
 typedef struct sight {
   arb_t size, lost; /* sin a, 2 sin^2(a/2) */
   view at, over;
   arb_t slope, number;
   arb_struct by[3];  /* derivatives of D, X and Y */
-  arf_struct end[4]; /* what is found of x and y: lower and upper ends */
+  arf_struct end[4]; /* x and y so far: lower and upper ends */
   arf_t limit;
   bool wide, any;
   slong prec;
@@ -418,12 +418,12 @@ bool dyd_project(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec
 
 /* ---- what the engine of images asks for ---- */
 
-/* What is asked for is a width of the image; the widths of place and centre that it takes, and the bits of the
- * computation, are found by trying: what is missing is added. Images of wide places, or seen from a wide centre, or of
- * circles, stay wide; they are final once their place and centre are, or are narrow beside what is wide. */
+/* A request is a width of the image; the widths of place and centre that it takes, and the bits of the computation, are
+ * found by trying: missing bits are added. Images of wide places, or seen from a wide centre, or of
+ * circles, stay wide; they are final once their place and centre are, or are narrow next to the wide one. */
 enum { GUARD = 64, SPARE = 8, TRIES = 12, WIDE_BITS = 128 };
 
-/* What is asked of an image. */
+/* A request for an image. */
 typedef struct image_wish {
   int64_t bits, max_bits;
   const volatile int *stop; /* as in dyd_request */
@@ -503,7 +503,7 @@ static dyd_status image_find(image *m, const image_wish *w, dyd_error *err) {
   return seen ? DYD_OK : image_fail(m, err);
 }
 
-/* Rounds outward, keeps to what was known before. */
+/* Rounds outward and intersects with the image before. */
 static dyd_status image_give(dyd_rect *out, const image *m, bool known, int64_t bits) {
   dyd_rect now;
   slong width = image_width(m) - 16;

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The html format: a page in one file, moved with the hand. What is drawn is rounded; what a page says is not.
+/* The html format: a page in one file, moved with the hand. Drawings are rounded, texts are not.
  *
  * The page itself is the same for all; its data are one JSON object, packed by zlib, as base64. The page is made of the
  * texts in page/ when the library is built (pack.py); its Content-Security-Policy allows the script and style in it, by
  * their digests, and nothing else: no request can leave it.
  *
  * Data hold points, pairs stage by stage and triangles, of everything or of a window. Pages of a sphere show degrees as
- * a map, and what was reached in the end. Pages of a diagram have cells as polygons, vertices, regions and edges in
+ * a map, and the final result. Pages of a diagram have cells as polygons, vertices, regions and edges in
  * addition. Polygons are drawn, so their vertices are rounded to multiples of a unit 2^u, from the lower left corner of
  * the window on: at most a quarter of what the polygons themselves are off their cells, or 2^-44 of the window. The
  * page tells. */
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
-#define ZLIB_CONST              /* what is packed is read only */
+#define ZLIB_CONST              /* packed data are read only */
 #include "base/alloc.h"
 #include "base/error.h"
 #include "engine/record.h"
@@ -109,7 +109,7 @@ static void html_list_begin(html_list *l, FILE *out, const char *name) {
   fprintf(out, "\"%s\": [", name);
 }
 
-/* A thing of `count` numbers. Modulo 2^32: a page of so few points reads what is less than 0 as such. */
+/* A thing of `count` numbers. Modulo 2^32: a page has few enough points to read these as negative. */
 static void html_list_put(html_list *l, const uint32_t *number, int count) {
   fprintf(l->out, "%s%" PRId32, l->between, (int32_t)(number[0] - l->before));
   for (int k = 1; k < count; k++) fprintf(l->out, ",%" PRId32, (int32_t)(number[k] - number[0]));
@@ -144,7 +144,7 @@ typedef struct html_scene {
   size_t points;              /* on the page */
 } html_scene;
 
-/* ---- what is shown ---- */
+/* ---- the part shown ---- */
 
 static void scene_middle(double z[2], const html_scene *s, uint32_t i) {
   double b[4];
@@ -405,7 +405,7 @@ static dyd_status html_body(const html_scene *s) {
   return st;
 }
 
-/* The object of a page: its head, what is its own, then "points", "aliases", "triangles", "stages". */
+/* The object of a page: its head, its own members, then "points", "aliases", "triangles", "stages". */
 static dyd_status html_scene_write(html_scene *s, const dyd_output *o) {
   dyd_status st = html_scene_init(s, o->err);
   if (st == DYD_OK) st = html_head(s, o->content);
@@ -419,7 +419,7 @@ static dyd_status html_scene_write(html_scene *s, const dyd_output *o) {
 
 /* ---- runs, triangulations, graphs ---- */
 
-/* The table of convergence, as json has it; the page shows its row beside the triangulation. */
+/* The table of convergence, as json has it; the page shows its row next to the triangulation. */
 static dyd_status html_table(FILE *out, const void *output) {
   dyd_output table = *(const dyd_output *)output;
   table.out = out;
