@@ -12,19 +12,6 @@
 
 #include "base/invariant.h"
 
-void dyd_curve_init(dyd_curve *c) {
-  c->count = 0;
-  mpz_inits(c->middle[0], c->middle[1], NULL);
-  for (size_t k = 0; k < DYD_CURVE_ARCS; k++)
-    for (int e = 0; e < 2; e++) dyd_surd_point_init(&c->arc[k].end[e].at);
-}
-
-void dyd_curve_clear(dyd_curve *c) {
-  for (size_t k = DYD_CURVE_ARCS; k-- > 0;)
-    for (int e = 2; e-- > 0;) dyd_surd_point_clear(&c->arc[k].end[e].at);
-  mpz_clears(c->middle[0], c->middle[1], NULL);
-}
-
 /* ---- marks ---- */
 
 /* The marks of one axis; those of the window are NULL when there is none. _d: the same in doubles. */
@@ -250,29 +237,30 @@ static bool curve_set_arc(dyd_elementary *a, const side_set s[2], const dyd_stri
   return !dyd_filter_no_arc(&a->shape, a->axis, a->branch, lo, hi);
 }
 
-void dyd_curve_set(dyd_curve *out, const dyd_scaled *far, const dyd_scaled *near, const dyd_scaled *window, int side,
-                   int64_t shift) {
+size_t dyd_curve_set(dyd_elementary *out, mpz_t middle[2], const dyd_scaled *far, const dyd_scaled *near,
+                     const dyd_scaled *window, int side, int64_t shift) {
   dyd_strip x[4], y[4];
   side_set s[2];
   dyd_surd_point p;
   dyd_surd_point_init(&p);
   for (int k = 0; k < 2; k++) {
-    mpz_add(out->middle[k], dyd_irect_end(&far->r, k, 0), dyd_irect_end(&far->r, k, 1));
-    mpz_tdiv_q_2exp(out->middle[k], out->middle[k], 1);
-    side_set_init(&s[k], far, near, window, k, out->middle[k]);
+    mpz_add(middle[k], dyd_irect_end(&far->r, k, 0), dyd_irect_end(&far->r, k, 1));
+    mpz_tdiv_q_2exp(middle[k], middle[k], 1);
+    side_set_init(&s[k], far, near, window, k, middle[k]);
   }
   bool near_point = s[0].marks.near_thin && s[1].marks.near_thin;
   size_t columns = dyd_marks_strips(x, &s[0].marks, near_point), rows = dyd_marks_strips(y, &s[1].marks, near_point);
-  out->count = 0;
+  size_t count = 0;
   for (size_t k = 0; k < columns * rows; k++) {
-    dyd_elementary *a = &out->arc[out->count];
+    dyd_elementary *a = &out[count];
     const dyd_strip t[2] = {x[k / rows], y[k % rows]};
     if (!curve_set_arc(a, s, t) || !clip_arc(a, &p, side)) continue;
     for (int e = 0; e < 2; e++)
       if (!a->end[e].infinite) dyd_filter_spot_box(&a->end[e], shift);
-    out->count++;
+    count++;
   }
   dyd_surd_point_clear(&p);
+  return count;
 }
 
 bool dyd_elementary_holds(const dyd_elementary *a, const dyd_spot *p) {

@@ -19,28 +19,89 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Part of an arc of curve `curve` (or of side curve - count of the window, arc = NULL), in the direction that has the
+ * region on the left. begin, end: borrowed from the curves, the meets or the corners. */
+typedef struct cell_piece {
+  size_t curve;
+  const dyd_elementary *arc;
+  const dyd_spot *begin, *end;
+} cell_piece;
+
+/* Points at which the curves of two others cross. */
+typedef struct cell_meet {
+  uint32_t curve[2];
+  dyd_spot spot;
+} cell_meet;
+
+/* Shared by all parts of the work on a cell: the rectangles of the site and of the window in one scale. */
+typedef struct cell_frame {
+  dyd_touch fixed_touch, other_touch;
+  dyd_scaled fixed, window;
+  mpz_t man, ox, oy;
+  int64_t exp, shift;
+  dyd_spot corner[4]; /* of the window: x0 y0, x1 y0, x1 y1, x0 y1 */
+} cell_frame;
+
+/* The curve of an other: its arcs without those that others take; owned. */
+typedef struct cell_curve {
+  mpz_t middle[2];
+  size_t count;
+  dyd_elementary *arc;
+} cell_curve;
+
+/* Coordinates are F (x - o) for the caller's x: F = man * 2^exp, even on rectangles; o = the centre of `fixed`, about.
+ * curve[k]: the boundary of C_ik (Int) or C_ki (Pos), count = 0 if the rectangles meet. kept: the rectangles that do
+ * not meet `fixed`, the only ones that matter to Pos; Int is empty when there are others. */
+typedef struct exact_cell {
+  const dyd_cell_task *task;
+  const cell_frame *frame; /* borrowed */
+  size_t count;
+  uint32_t *site;
+  dyd_scaled *other;
+  cell_curve *curve;
+  cell_meet *meet;
+  size_t meets, meet_cap;
+  uint64_t bytes; /* of the curves, and of the digits of the meets */
+  cell_piece *piece;
+  size_t pieces, piece_cap;
+  dyd_sample sample;
+  size_t taker;         /* the other that took the last sample: it likely takes the next */
+  const dyd_spot **cut; /* scratch: cuts of one arc */
+  size_t cut_cap;
+} exact_cell;
+
+/* How many circles two curves of one rectangle can share, a circle too many included: a convex curve crosses each of
+ * the at most ten lines that bound panes of the three rectangles at most twice, so it runs through at most 21 panes,
+ * and each holds at most two. */
+enum { CELL_CIRCLES = 43 };
+
+/* Side of the window: bottom, right, top, left. Its axis. */
+static inline int window_axis(int side) {
+  return side & 1;
+}
+
 /* ---- samples and sides ---- */
 
-int dyd_cell_spot_side(const dyd_exact_cell *c, const dyd_spot *p, size_t k) {
+static int cell_spot_side(const exact_cell *c, const dyd_spot *p, size_t k) {
   int sign = dyd_filter_side(p, &c->other[k].box, c->frame->other_touch, &c->frame->fixed.box, c->frame->fixed_touch);
   return sign ? sign
               : dyd_surd_point_side(&p->at, &c->other[k].r, c->frame->other_touch, &c->frame->fixed.r,
                                     c->frame->fixed_touch);
 }
 
-static mpz_srcptr window_level(const dyd_exact_cell *c, int side) {
+static mpz_srcptr window_level(const exact_cell *c, int side) {
   const dyd_irect *w = &c->frame->window.r;
   return side == 0 ? w->y0 : side == 1 ? w->x1 : side == 2 ? w->y1 : w->x0;
 }
 
-static void sample_make_exact(const dyd_exact_cell *c, dyd_sample *s, const dyd_elementary *arc, int window_side) {
+static void sample_make_exact(const exact_cell *c, dyd_sample *s, const dyd_elementary *arc, int window_side) {
   dyd_surd_point *p = &s->spot.at;
   s->known = true;
   if (arc) {
     dyd_elementary_at(p, arc, s->num, s->bits);
     return;
   }
-  int axis = dyd_window_axis(window_side);
+  int axis = window_axis(window_side);
   mpz_set(axis ? p->ay : p->ax, s->num);
   mpz_mul_2exp(axis ? p->ax : p->ay, window_level(c, window_side), (mp_bitcnt_t)s->bits);
   dyd_surd_point_drop_root(p);
@@ -49,7 +110,7 @@ static void sample_make_exact(const dyd_exact_cell *c, dyd_sample *s, const dyd_
 }
 
 /* Is the sample nearer to (sign = -1), as far from (0), or farther from (1) other k than the radius dl_i or ds_i? */
-static int cell_side(const dyd_exact_cell *c, dyd_sample *s, const dyd_elementary *arc, int window_side, size_t k) {
+static int cell_side(const exact_cell *c, dyd_sample *s, const dyd_elementary *arc, int window_side, size_t k) {
   int sign =
       dyd_filter_side(&s->spot, &c->other[k].box, c->frame->other_touch, &c->frame->fixed.box, c->frame->fixed_touch);
   if (sign) return sign;
@@ -75,10 +136,10 @@ static void sample_between(dyd_sample *s, const dyd_spot *low, const dyd_spot *h
 }
 
 /* A sample strictly between two points, on an arc or (arc = NULL) on a side of the window. */
-static void cell_sample(dyd_exact_cell *c, const dyd_elementary *arc, int window_side, const dyd_spot *low,
+static void cell_sample(exact_cell *c, const dyd_elementary *arc, int window_side, const dyd_spot *low,
                         const dyd_spot *high) {
   dyd_sample *s = &c->sample;
-  int axis = arc ? arc->axis : dyd_window_axis(window_side);
+  int axis = arc ? arc->axis : window_axis(window_side);
   static const int end[4] = {2, 1, 3, 0};
   dyd_iv level = arc ? DYD_IV_UNKNOWN : c->frame->window.box.end[end[window_side]];
   if (dyd_filter_sample(s, arc ? &arc->shape : NULL, level, axis, low, high, c->frame->shift)) return;
@@ -90,23 +151,23 @@ static void cell_sample(dyd_exact_cell *c, const dyd_elementary *arc, int window
 
 /* ---- cuts and pieces ---- */
 
-static dyd_status cell_add_cut(dyd_exact_cell *c, size_t *count, const dyd_spot *s) {
+static dyd_status cell_add_cut(exact_cell *c, size_t *count, const dyd_spot *s) {
   if (!dyd_reserve((void **)&c->cut, &c->cut_cap, *count + 1, sizeof *c->cut)) return DYD_E_NOMEM;
   c->cut[(*count)++] = s;
   return DYD_OK;
 }
 
-int dyd_cell_spot_cmp(const dyd_spot *p, const dyd_spot *q, int axis) {
+static int cell_spot_cmp(const dyd_spot *p, const dyd_spot *q, int axis) {
   int sign = dyd_filter_spot_cmp(p, q, axis);
   return sign ? sign : dyd_surd_point_cmp(&p->at, &q->at, axis);
 }
 
 static int compare_cut_x(const void *p, const void *q) {
-  return dyd_cell_spot_cmp(*(const dyd_spot *const *)p, *(const dyd_spot *const *)q, 0);
+  return cell_spot_cmp(*(const dyd_spot *const *)p, *(const dyd_spot *const *)q, 0);
 }
 
 static int compare_cut_y(const void *p, const void *q) {
-  return dyd_cell_spot_cmp(*(const dyd_spot *const *)p, *(const dyd_spot *const *)q, 1);
+  return cell_spot_cmp(*(const dyd_spot *const *)p, *(const dyd_spot *const *)q, 1);
 }
 
 /* Sorts cuts along axis, drops repeats; returns how many are left. */
@@ -114,11 +175,11 @@ static size_t cell_sort_cuts(const dyd_spot **cut, size_t count, int axis) {
   if (count > 1) qsort(cut, count, sizeof(const dyd_spot *), axis ? compare_cut_y : compare_cut_x);
   size_t kept = 0;
   for (size_t k = 0; k < count; k++)
-    if (!kept || dyd_cell_spot_cmp(cut[kept - 1], cut[k], axis)) cut[kept++] = cut[k];
+    if (!kept || cell_spot_cmp(cut[kept - 1], cut[k], axis)) cut[kept++] = cut[k];
   return kept;
 }
 
-static dyd_status cell_add_piece(dyd_exact_cell *c, dyd_piece p) {
+static dyd_status cell_add_piece(exact_cell *c, cell_piece p) {
   if (!dyd_reserve((void **)&c->piece, &c->piece_cap, c->pieces + 1, sizeof *c->piece)) return DYD_E_NOMEM;
   c->piece[c->pieces++] = p;
   return DYD_OK;
@@ -167,8 +228,8 @@ void dyd_boundary_clear(dyd_boundary *b) {
  * region on the side of W). */
 
 /* Adds s if it lies strictly inside the side. */
-static dyd_status cut_side(dyd_exact_cell *c, size_t *count, int side, const dyd_spot *s) {
-  int axis = dyd_window_axis(side);
+static dyd_status cut_side(exact_cell *c, size_t *count, int side, const dyd_spot *s) {
+  int axis = window_axis(side);
   const dyd_irect *w = &c->frame->window.r;
   if (s->infinite || dyd_surd_point_cmp_z(&s->at, 1 - axis, window_level(c, side))) return DYD_OK;
   if (dyd_surd_point_cmp_z(&s->at, axis, dyd_irect_end(w, axis, 0)) <= 0) return DYD_OK;
@@ -176,7 +237,7 @@ static dyd_status cut_side(dyd_exact_cell *c, size_t *count, int side, const dyd
   return cell_add_cut(c, count, s);
 }
 
-static dyd_status side_find_cuts(dyd_exact_cell *c, size_t *count, int side) {
+static dyd_status side_find_cuts(exact_cell *c, size_t *count, int side) {
   *count = 0;
   for (size_t j = 0; j < c->count; j++)
     for (size_t a = 0; a < c->curve[j].count; a++)
@@ -187,31 +248,31 @@ static dyd_status side_find_cuts(dyd_exact_cell *c, size_t *count, int side) {
   return DYD_OK;
 }
 
-static bool side_is_inside(dyd_exact_cell *c, int side) {
+static bool side_is_inside(exact_cell *c, int side) {
   for (size_t k = 0; k < c->count; k++)
     if (cell_side(c, &c->sample, NULL, side, k) <= 0) return false;
   return true;
 }
 
-static dyd_status side_pieces(dyd_exact_cell *c, int side) {
+static dyd_status side_pieces(exact_cell *c, int side) {
   size_t count;
   bool grows = side < 2;
   const dyd_spot *first = &c->frame->corner[side], *last = &c->frame->corner[(side + 1) & 3];
   const dyd_spot *lowest = grows ? first : last, *highest = grows ? last : first;
   dyd_status st = side_find_cuts(c, &count, side);
   if (st != DYD_OK) return st;
-  count = cell_sort_cuts(c->cut, count, dyd_window_axis(side));
+  count = cell_sort_cuts(c->cut, count, window_axis(side));
   for (size_t k = 0; k <= count && st == DYD_OK; k++) {
     const dyd_spot *low = k ? c->cut[k - 1] : lowest, *high = k < count ? c->cut[k] : highest;
     cell_sample(c, NULL, side, low, high);
     if (side_is_inside(c, side))
-      st = cell_add_piece(c, (dyd_piece){c->count + (size_t)side, NULL, grows ? low : high, grows ? high : low});
+      st = cell_add_piece(c, (cell_piece){c->count + (size_t)side, NULL, grows ? low : high, grows ? high : low});
   }
   return st;
 }
 
 /* The pieces of the sides of the window strictly inside the region. */
-static dyd_status cell_window_pieces(dyd_exact_cell *c) {
+static dyd_status cell_window_pieces(exact_cell *c) {
   dyd_status st = DYD_OK;
   for (int side = 0; side < 4 && st == DYD_OK; side++) st = side_pieces(c, side);
   return st;
@@ -220,18 +281,18 @@ static dyd_status cell_window_pieces(dyd_exact_cell *c) {
 /* ---- cuts of an arc ---- */
 
 /* Adds s if it is strictly inside the arc. */
-static dyd_status cut_arc(dyd_exact_cell *c, size_t *count, const dyd_elementary *a, const dyd_spot *s) {
+static dyd_status cut_arc(exact_cell *c, size_t *count, const dyd_elementary *a, const dyd_spot *s) {
   if (s->infinite || !dyd_elementary_holds(a, s)) return DYD_OK;
-  if (!a->end[0].infinite && dyd_cell_spot_cmp(s, &a->end[0], a->axis) <= 0) return DYD_OK;
-  if (!a->end[1].infinite && dyd_cell_spot_cmp(s, &a->end[1], a->axis) >= 0) return DYD_OK;
+  if (!a->end[0].infinite && cell_spot_cmp(s, &a->end[0], a->axis) <= 0) return DYD_OK;
+  if (!a->end[1].infinite && cell_spot_cmp(s, &a->end[1], a->axis) >= 0) return DYD_OK;
   return cell_add_cut(c, count, s);
 }
 
 /* All cuts of an arc, unsorted. */
-static dyd_status arc_find_cuts(dyd_exact_cell *c, size_t *count, const dyd_elementary *a, size_t j) {
+static dyd_status arc_find_cuts(exact_cell *c, size_t *count, const dyd_elementary *a, size_t j) {
   *count = 0;
   for (size_t m = 0; m < c->meets; m++) {
-    const dyd_meet *meet = &c->meet[m];
+    const cell_meet *meet = &c->meet[m];
     if (meet->curve[0] != j && meet->curve[1] != j) continue;
     dyd_status st = cut_arc(c, count, a, &meet->spot);
     if (st != DYD_OK) return st;
@@ -242,21 +303,21 @@ static dyd_status arc_find_cuts(dyd_exact_cell *c, size_t *count, const dyd_elem
 /* ---- pieces of an arc ---- */
 
 /* Does k take the sample on curve j away from it? */
-static bool other_takes_sample(dyd_exact_cell *c, const dyd_elementary *a, size_t j, size_t k) {
+static bool other_takes_sample(exact_cell *c, const dyd_elementary *a, size_t j, size_t k) {
   if (k == j) return false;
   int sign = cell_side(c, &c->sample, a, 0, k);
   return sign < 0 || (!sign && k < j);
 }
 
 /* Is the sample on curve j a point of the boundary that counts for j? Who took the last one is asked first. */
-static bool sample_is_kept(dyd_exact_cell *c, const dyd_elementary *a, size_t j) {
+static bool sample_is_kept(exact_cell *c, const dyd_elementary *a, size_t j) {
   if (c->taker < c->count && other_takes_sample(c, a, j, c->taker)) return false;
   for (size_t k = 0; k < c->count; k++)
     if (k != c->taker && other_takes_sample(c, a, j, k)) return c->taker = k, false;
   return true;
 }
 
-static dyd_status arc_pieces(dyd_exact_cell *c, size_t j, const dyd_elementary *a) {
+static dyd_status arc_pieces(exact_cell *c, size_t j, const dyd_elementary *a) {
   size_t count;
   if (a->point) return DYD_OK;
   dyd_status st = arc_find_cuts(c, &count, a, j);
@@ -267,30 +328,30 @@ static dyd_status arc_pieces(dyd_exact_cell *c, size_t j, const dyd_elementary *
   for (size_t k = 0; k <= count && st == DYD_OK; k++) {
     const dyd_spot *low = k ? c->cut[k - 1] : &a->end[0], *high = k < count ? c->cut[k] : &a->end[1];
     cell_sample(c, a, 0, low, high);
-    if (sample_is_kept(c, a, j)) st = cell_add_piece(c, (dyd_piece){j, a, grows ? low : high, grows ? high : low});
+    if (sample_is_kept(c, a, j)) st = cell_add_piece(c, (cell_piece){j, a, grows ? low : high, grows ? high : low});
   }
   return st;
 }
 
 /* ---- meets ---- */
 
-static bool cell_has_room(const dyd_exact_cell *c, uint64_t bytes) {
+static bool cell_has_room(const exact_cell *c, uint64_t bytes) {
   return !c->task->room || dyd_room_has(c->task->room, dyd_bytes_add(c->bytes, bytes), "the boundary of a cell");
 }
 
 /* For one meet more, with what reserving takes while it copies. */
-static bool meets_have_room(dyd_exact_cell *c, const dyd_icircle *circle) {
+static bool meets_have_room(exact_cell *c, const dyd_icircle *circle) {
   enum { NUMBERS = 6, BLOCK = 16 };
   mpz_srcptr widest = mpz_size(circle->ax) > mpz_size(circle->ay) ? circle->ax : circle->ay;
   c->bytes += NUMBERS * (BLOCK + sizeof(mp_limb_t) * mpz_size(widest));
   return c->meets < c->meet_cap || cell_has_room(c, dyd_bytes_times(3 * c->meets + 16, sizeof *c->meet));
 }
 
-static dyd_status curves_add_meet(dyd_exact_cell *c, size_t j, size_t k, dyd_icircle *circle) {
+static dyd_status curves_add_meet(exact_cell *c, size_t j, size_t k, dyd_icircle *circle) {
   if (!meets_have_room(c, circle)) return DYD_E_NOMEM;
   if (!dyd_reserve((void **)&c->meet, &c->meet_cap, c->meets + 1, sizeof *c->meet)) return DYD_E_NOMEM;
-  dyd_meet *m = &c->meet[c->meets++];
-  *m = (dyd_meet){.curve = {(uint32_t)j, (uint32_t)k}};
+  cell_meet *m = &c->meet[c->meets++];
+  *m = (cell_meet){.curve = {(uint32_t)j, (uint32_t)k}};
   dyd_surd_point *p = &m->spot.at;
   dyd_surd_point_init(p);
   mpz_swap(p->ax, circle->ax);
@@ -303,14 +364,15 @@ static dyd_status curves_add_meet(dyd_exact_cell *c, size_t j, size_t k, dyd_ici
   return DYD_OK;
 }
 
-static bool curves_may_meet(const dyd_exact_cell *c, size_t j, size_t k) {
+static bool curves_may_meet(const exact_cell *c, size_t j, size_t k) {
   const dyd_delaunay *pd = c->task->pd;
+  if (!c->curve[j].count || !c->curve[k].count) return false;
   return !pd || dyd_delaunay_status(pd, c->site[j], c->site[k]) != DYD_ILLEGAL;
 }
 
-static dyd_status curves_find_meets(dyd_exact_cell *c) {
-  dyd_icircle circle[DYD_CELL_CIRCLES];
-  for (int m = 0; m < DYD_CELL_CIRCLES; m++) dyd_icircle_init(&circle[m]);
+static dyd_status curves_find_meets(exact_cell *c) {
+  dyd_icircle circle[CELL_CIRCLES];
+  for (int m = 0; m < CELL_CIRCLES; m++) dyd_icircle_init(&circle[m]);
   const dyd_touch touch[3] = {c->frame->fixed_touch, c->frame->other_touch, c->frame->other_touch};
   dyd_status st = DYD_OK;
   for (size_t j = 0; j < c->count; j++)
@@ -318,32 +380,25 @@ static dyd_status curves_find_meets(dyd_exact_cell *c) {
       if (dyd_flag_is_set(c->task->cancel)) st = DYD_CANCELLED;
       if (st != DYD_OK || !curves_may_meet(c, j, k)) continue;
       const dyd_irect *r[3] = {&c->frame->fixed.r, &c->other[j].r, &c->other[k].r};
-      size_t found = dyd_icircles(circle, DYD_CELL_CIRCLES, r, touch);
-      DYD_INVARIANT(found < DYD_CELL_CIRCLES);
+      size_t found = dyd_icircles(circle, CELL_CIRCLES, r, touch);
+      DYD_INVARIANT(found < CELL_CIRCLES);
       for (size_t m = 0; m < found && st == DYD_OK; m++) st = curves_add_meet(c, j, k, &circle[m]);
     }
-  for (int m = DYD_CELL_CIRCLES; m-- > 0;) dyd_icircle_clear(&circle[m]);
+  for (int m = CELL_CIRCLES; m-- > 0;) dyd_icircle_clear(&circle[m]);
   return st;
 }
 
 /* ---- all pieces ---- */
 
-void dyd_cell_forget(dyd_exact_cell *c) {
-  free(c->cut);
-  free(c->piece);
-  for (size_t m = c->meets; m-- > 0;) dyd_surd_point_clear(&c->meet[m].spot.at);
-  free(c->meet);
-  if (c->curve)
-    for (size_t k = c->count; k-- > 0;) dyd_curve_clear(&c->curve[k]);
-  free(c->curve);
-  c->cut = NULL;
-  c->piece = NULL;
-  c->meet = NULL;
-  c->curve = NULL;
-  c->cut_cap = c->pieces = c->piece_cap = c->meets = c->meet_cap = 0;
+static void ends_init(dyd_elementary *a) {
+  for (int e = 0; e < 2; e++) dyd_surd_point_init(&a->end[e].at);
 }
 
-void dyd_cell_init(dyd_exact_cell *c, const dyd_cell_task *task, const dyd_cell_frame *frame) {
+static void ends_clear(dyd_elementary *a) {
+  for (int e = 2; e-- > 0;) dyd_surd_point_clear(&a->end[e].at);
+}
+
+static void cell_init(exact_cell *c, const dyd_cell_task *task, const cell_frame *frame) {
   memset(c, 0, sizeof *c);
   c->task = task;
   c->frame = frame;
@@ -351,30 +406,66 @@ void dyd_cell_init(dyd_exact_cell *c, const dyd_cell_task *task, const dyd_cell_
   dyd_surd_point_init(&c->sample.spot.at);
 }
 
-void dyd_cell_clear(dyd_exact_cell *c) {
-  dyd_cell_forget(c);
+static void cell_clear(exact_cell *c) {
+  free(c->cut);
+  free(c->piece);
+  for (size_t m = c->meets; m-- > 0;) dyd_surd_point_clear(&c->meet[m].spot.at);
+  free(c->meet);
+  if (c->curve)
+    for (size_t k = c->count; k-- > 0;) {
+      for (size_t a = c->curve[k].count; a-- > 0;) ends_clear(&c->curve[k].arc[a]);
+      free(c->curve[k].arc);
+      mpz_clears(c->curve[k].middle[0], c->curve[k].middle[1], NULL);
+    }
+  free(c->curve);
   free(c->other);
   free(c->site);
   dyd_surd_point_clear(&c->sample.spot.at);
   mpz_clear(c->sample.num);
 }
 
-static dyd_status cell_set_curves(dyd_exact_cell *c) {
-  c->bytes = dyd_bytes_times(c->count, sizeof *c->curve);
-  if (!cell_has_room(c, 0)) return DYD_E_NOMEM;
-  c->curve = dyd_alloc(c->count, sizeof *c->curve);
-  if (!c->curve) return DYD_E_NOMEM;
-  const dyd_scaled *window = c->task->windowed ? &c->frame->window : NULL;
-  for (size_t k = 0; k < c->count; k++) {
-    dyd_curve_init(&c->curve[k]);
-    const dyd_scaled *far = c->task->outer ? &c->other[k] : &c->frame->fixed,
-                     *near = c->task->outer ? &c->frame->fixed : &c->other[k];
-    dyd_curve_set(&c->curve[k], far, near, window, c->task->outer ? -1 : 1, c->frame->shift);
+/* The arcs of curve k without those that others take: these have no pieces, and meets on them are no cuts [PRUNE-1].
+ * found: scratch. */
+static dyd_status cell_set_curve(exact_cell *c, dyd_takers *takers, dyd_elementary *found, size_t k) {
+  bool outer = c->task->outer;
+  cell_curve *curve = &c->curve[k];
+  const dyd_scaled *window = c->task->windowed ? &c->frame->window : NULL,
+                   *far = outer ? &c->other[k] : &c->frame->fixed, *near = outer ? &c->frame->fixed : &c->other[k];
+  size_t count = dyd_curve_set(found, curve->middle, far, near, window, outer ? -1 : 1, c->frame->shift), kept = 0;
+  for (size_t m = 0; m < count; m++) {
+    dyd_elementary a = found[m];
+    if (!c->task->keep_all && dyd_filter_arc_taken(takers, k, &a.shape, a.axis, a.end)) continue;
+    found[m] = found[kept];
+    found[kept++] = a;
+  }
+  if (!kept) return DYD_OK;
+  c->bytes += dyd_bytes_times(kept, sizeof *curve->arc);
+  curve->arc = cell_has_room(c, 0) ? dyd_alloc(kept, sizeof *curve->arc) : NULL;
+  if (!curve->arc) return DYD_E_NOMEM;
+  for (; curve->count < kept; curve->count++) {
+    curve->arc[curve->count] = found[curve->count];
+    ends_init(&found[curve->count]);
   }
   return DYD_OK;
 }
 
-dyd_status dyd_cell_find_pieces(dyd_exact_cell *c) {
+static dyd_status cell_set_curves(exact_cell *c) {
+  dyd_takers takers = {c->other, &c->frame->fixed, c->count, c->count, c->frame->other_touch, c->frame->fixed_touch};
+  dyd_elementary found[DYD_CURVE_ARCS];
+  c->bytes = dyd_bytes_times(c->count, sizeof *c->curve);
+  if (!cell_has_room(c, 0)) return DYD_E_NOMEM;
+  c->curve = calloc(c->count ? c->count : 1, sizeof *c->curve);
+  if (!c->curve) return DYD_E_NOMEM;
+  for (size_t k = 0; k < c->count; k++) mpz_inits(c->curve[k].middle[0], c->curve[k].middle[1], NULL);
+  for (size_t m = 0; m < DYD_CURVE_ARCS; m++) ends_init(&found[m]);
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < c->count && st == DYD_OK; k++)
+    st = dyd_flag_is_set(c->task->cancel) ? DYD_CANCELLED : cell_set_curve(c, &takers, found, k);
+  for (size_t m = DYD_CURVE_ARCS; m-- > 0;) ends_clear(&found[m]);
+  return st;
+}
+
+static dyd_status cell_find_pieces(exact_cell *c) {
   dyd_status st = cell_set_curves(c);
   if (st == DYD_OK) st = curves_find_meets(c);
   for (size_t j = 0; j < c->count && st == DYD_OK; j++)
@@ -421,7 +512,7 @@ static bool same_spot(const dyd_spot *p, const dyd_spot *q) {
 }
 
 /* Joins every loose end of a finite piece to a loose beginning; own: of the same curve only. */
-static void links_join(links *l, const dyd_exact_cell *c, bool own) {
+static void links_join(links *l, const exact_cell *c, bool own) {
   for (size_t p = 0; p < c->pieces; p++) {
     if (c->piece[p].end->infinite || l->next[p] != NONE) continue;
     for (size_t q = 0; q < c->pieces; q++) {
@@ -435,8 +526,8 @@ static void links_join(links *l, const dyd_exact_cell *c, bool own) {
   }
 }
 
-/* Are the piece p and its successor one arc? */
-static bool links_are_smooth(const links *l, const dyd_exact_cell *c, size_t p) {
+/* Are the cell_piece p and its successor one arc? */
+static bool links_are_smooth(const links *l, const exact_cell *c, size_t p) {
   size_t n = l->next[p];
   if (n == NONE || c->piece[p].curve != c->piece[n].curve) return false;
   const dyd_elementary *a = c->piece[p].arc, *b = c->piece[n].arc;
@@ -445,7 +536,7 @@ static bool links_are_smooth(const links *l, const dyd_exact_cell *c, size_t p) 
 
 /* ---- writing ---- */
 
-static dyd_arc_end links_end_kind(const dyd_exact_cell *c, const dyd_piece *p, const dyd_piece *other,
+static dyd_arc_end links_end_kind(const exact_cell *c, const cell_piece *p, const cell_piece *other,
                                   const dyd_spot *at) {
   dyd_arc_end e = {.kind = DYD_END_WINDOW};
   if (!other) {
@@ -454,7 +545,7 @@ static dyd_arc_end links_end_kind(const dyd_exact_cell *c, const dyd_piece *p, c
     e.kind = p->arc->corner != other->arc->corner ? DYD_END_AXIS : DYD_END_FEATURE;
   } else if (p->arc && other->arc) {
     size_t k = 0;
-    while (k < c->count && (k == p->curve || dyd_cell_spot_side(c, at, k))) k++;
+    while (k < c->count && (k == p->curve || cell_spot_side(c, at, k))) k++;
     DYD_INVARIANT(k < c->count);
     e.kind = DYD_END_SITES;
     e.site = c->site[k < c->count ? k : other->curve];
@@ -463,7 +554,7 @@ static dyd_arc_end links_end_kind(const dyd_exact_cell *c, const dyd_piece *p, c
 }
 
 /* other: the piece beyond this end. */
-static void links_write_end(dyd_arc_end *out, const dyd_exact_cell *c, const dyd_piece *p, const dyd_piece *other,
+static void links_write_end(dyd_arc_end *out, const exact_cell *c, const cell_piece *p, const cell_piece *other,
                             const dyd_spot *at) {
   dyd_arc_end e = links_end_kind(c, p, other, at);
   out->kind = e.kind;
@@ -474,10 +565,10 @@ static void links_write_end(dyd_arc_end *out, const dyd_exact_cell *c, const dyd
 }
 
 /* The arc made of the pieces from first to last. */
-static void links_write_arc(dyd_arc *out, const dyd_exact_cell *c, const links *l, size_t first, size_t last) {
-  const dyd_piece *f = &c->piece[first], *t = &c->piece[last];
-  const dyd_piece *before = l->last[first] == NONE ? NULL : &c->piece[l->last[first]];
-  const dyd_piece *after = l->next[last] == NONE ? NULL : &c->piece[l->next[last]];
+static void links_write_arc(dyd_arc *out, const exact_cell *c, const links *l, size_t first, size_t last) {
+  const cell_piece *f = &c->piece[first], *t = &c->piece[last];
+  const cell_piece *before = l->last[first] == NONE ? NULL : &c->piece[l->last[first]];
+  const cell_piece *after = l->next[last] == NONE ? NULL : &c->piece[l->next[last]];
   out->kind = DYD_ARC_WINDOW;
   if (f->arc) {
     uint32_t i = c->task->site, j = c->site[f->curve];
@@ -492,7 +583,7 @@ static void links_write_arc(dyd_arc *out, const dyd_exact_cell *c, const links *
 }
 
 /* Where the chain through p starts: at infinity, or after a break. */
-static size_t links_chain_start(const links *l, const dyd_exact_cell *c, size_t p) {
+static size_t links_chain_start(const links *l, const exact_cell *c, size_t p) {
   size_t start = p;
   while (l->last[start] != NONE && l->last[start] != p) start = l->last[start];
   if (l->last[start] == NONE) return start;
@@ -501,7 +592,7 @@ static size_t links_chain_start(const links *l, const dyd_exact_cell *c, size_t 
   return q;
 }
 
-static dyd_status links_write_chain(dyd_boundary *out, links *l, const dyd_exact_cell *c, size_t start) {
+static dyd_status links_write_chain(dyd_boundary *out, links *l, const exact_cell *c, size_t start) {
   size_t arcs = 0, p = start;
   do {
     l->done[p] = true;
@@ -522,7 +613,7 @@ static dyd_status links_write_chain(dyd_boundary *out, links *l, const dyd_exact
   return DYD_OK;
 }
 
-static dyd_status links_write_all(dyd_boundary *out, links *l, const dyd_exact_cell *c) {
+static dyd_status links_write_all(dyd_boundary *out, links *l, const exact_cell *c) {
   out->chain = dyd_alloc(c->pieces, sizeof *out->chain);
   if (!out->chain) return DYD_E_NOMEM;
   dyd_status st = DYD_OK;
@@ -536,7 +627,7 @@ static dyd_status links_write_all(dyd_boundary *out, links *l, const dyd_exact_c
 }
 
 /* Joins the pieces to chains. *out is empty before; on failure the caller clears it. */
-static dyd_status cell_link(dyd_boundary *out, const dyd_exact_cell *c) {
+static dyd_status cell_link(dyd_boundary *out, const exact_cell *c) {
   links l;
   dyd_status st = links_init(&l, c->pieces);
   if (st == DYD_OK) {
@@ -568,7 +659,7 @@ static size_t irect_bits(const dyd_irect *r) {
 }
 
 /* Scales all rectangles; the doubled origin is kept for the way back. Products of four doubles stay below 2^1000. */
-static void cell_frame_scale(dyd_cell_frame *c, const dyd_cell_task *task, dyd_irect *r, size_t n) {
+static void cell_frame_scale(cell_frame *c, const dyd_cell_task *task, dyd_irect *r, size_t n) {
   dyd_irects_scale(r, task->rect, n, c->man, &c->exp);
   mpz_set(c->ox, r[0].x0);
   mpz_set(c->oy, r[0].y0);
@@ -590,7 +681,7 @@ static void scaled_take(dyd_scaled *out, dyd_irect *r, int64_t shift) {
   dyd_filter_irect_box(&out->box, &out->r, shift);
 }
 
-static void cell_frame_set_corners(dyd_cell_frame *c) {
+static void cell_frame_set_corners(cell_frame *c) {
   const dyd_irect *w = &c->window.r;
   for (int k = 0; k < 4; k++) {
     mpz_set(c->corner[k].at.ax, k == 1 || k == 2 ? w->x1 : w->x0);
@@ -600,7 +691,7 @@ static void cell_frame_set_corners(dyd_cell_frame *c) {
 }
 
 /* Fills fixed, window, other, site; *blocked: some other meets the fixed rectangle. */
-static dyd_status cell_set_rects(bool *blocked, dyd_exact_cell *c, dyd_cell_frame *frame) {
+static dyd_status cell_set_rects(bool *blocked, exact_cell *c, cell_frame *frame) {
   const dyd_cell_task *t = c->task;
   size_t n = t->count + 1 + (t->windowed ? 1 : 0);
   dyd_irect *r = dyd_alloc(n, sizeof *r);
@@ -631,7 +722,7 @@ static dyd_status cell_set_rects(bool *blocked, dyd_exact_cell *c, dyd_cell_fram
 
 /* ---- the whole ---- */
 
-static void cell_frame_init(dyd_cell_frame *f, const dyd_cell_task *task) {
+static void cell_frame_init(cell_frame *f, const dyd_cell_task *task) {
   memset(f, 0, sizeof *f);
   f->fixed_touch = task->outer ? DYD_CLOSEST : DYD_FARTHEST;
   f->other_touch = task->outer ? DYD_FARTHEST : DYD_CLOSEST;
@@ -641,7 +732,7 @@ static void cell_frame_init(dyd_cell_frame *f, const dyd_cell_task *task) {
   for (int k = 0; k < 4; k++) dyd_surd_point_init(&f->corner[k].at);
 }
 
-static void cell_frame_clear(dyd_cell_frame *f) {
+static void cell_frame_clear(cell_frame *f) {
   for (int k = 4; k-- > 0;) dyd_surd_point_clear(&f->corner[k].at);
   mpz_clears(f->man, f->ox, f->oy, NULL);
   dyd_irect_clear(&f->window.r);
@@ -649,26 +740,25 @@ static void cell_frame_clear(dyd_cell_frame *f) {
 }
 
 /* No boundary at all: the plane, or nothing? */
-static bool cell_is_whole(const dyd_exact_cell *c) {
+static bool cell_is_whole(const exact_cell *c) {
   return !c->task->windowed && (c->task->outer || !c->task->count);
 }
 
 dyd_status dyd_cell_boundary(dyd_boundary *out, const dyd_cell_task *task) {
-  dyd_cell_frame frame;
-  dyd_exact_cell c;
+  cell_frame frame;
+  exact_cell c;
   dyd_boundary b = {0};
   bool blocked = false;
   cell_frame_init(&frame, task);
-  dyd_cell_init(&c, task, &frame);
+  cell_init(&c, task, &frame);
   dyd_status st = cell_set_rects(&blocked, &c, &frame);
   if (st == DYD_OK && (task->outer || !blocked)) {
-    st = dyd_cell_prune(&c);
-    if (st == DYD_OK) st = dyd_cell_find_pieces(&c);
+    st = cell_find_pieces(&c);
     if (st == DYD_OK && c.pieces) st = cell_link(&b, &c);
     if (!c.pieces) b.whole = cell_is_whole(&c);
   }
   for (size_t k = c.count; k-- > 0;) dyd_irect_clear(&c.other[k].r);
-  dyd_cell_clear(&c);
+  cell_clear(&c);
   cell_frame_clear(&frame);
   if (st != DYD_OK) return dyd_boundary_clear(&b), st;
   dyd_boundary_clear(out);

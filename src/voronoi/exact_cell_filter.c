@@ -48,13 +48,6 @@ bool dyd_filter_spot_beside(const dyd_spot *p, const dyd_spot *low, const dyd_sp
   return false;
 }
 
-void dyd_filter_spot_span(dyd_spot *out, const dyd_spot *p, const dyd_spot *q) {
-  for (int k = 0; k < 4; k++) {
-    double a = p->box[k], b = q->box[k];
-    out->box[k] = !(a == a) || !(b == b) ? a + b : (k & 1 ? a > b : a < b) ? a : b; /* NaN stays */
-  }
-}
-
 int dyd_filter_side(const dyd_spot *p, const dyd_box *a, dyd_touch ta, const dyd_box *b, dyd_touch tb) {
   dyd_iv x = spot_along(p, 0), y = spot_along(p, 1);
   dyd_iv da = dyd_filter_distance2(x, y, a, ta), db = dyd_filter_distance2(x, y, b, tb);
@@ -138,6 +131,43 @@ bool dyd_filter_no_arc(const dyd_filter_arc *arc, int axis, int branch, const dy
     most[a] = grows[a] > 0 ? hi[a] : lo[a];
   }
   return arc_difference(arc, axis, least).lo > 0 || arc_difference(arc, axis, most).hi < 0;
+}
+
+/* ---- arcs that others take ---- */
+
+static bool box_is_taken(dyd_takers *t, size_t own, const dyd_iv at[2]) {
+  dyd_iv radius = dyd_filter_distance2(at[0], at[1], &t->fixed->box, t->fixed_touch);
+  for (size_t m = 0; m <= t->count; m++) {
+    size_t k = m ? m - 1 : t->taker;
+    if (k >= t->count || k == own) continue;
+    if (dyd_filter_distance2(at[0], at[1], &t->other[k].box, t->other_touch).hi < radius.lo) return t->taker = k, true;
+  }
+  return false;
+}
+
+/* The part of the arc between two points; it lies in the box of both [ARC-1]. */
+static bool stretch_is_taken(dyd_takers *t, size_t own, const dyd_filter_arc *arc, int axis, const dyd_iv low[2],
+                             const dyd_iv high[2], int depth) {
+  dyd_iv at[2], middle[2];
+  for (int k = 0; k < 2; k++) {
+    if (!isfinite(low[k].lo + low[k].hi + high[k].lo + high[k].hi)) return false;
+    at[k] = (dyd_iv){fmin(low[k].lo, high[k].lo), fmax(low[k].hi, high[k].hi)};
+  }
+  if (box_is_taken(t, own, at)) return true;
+  double mid = low[axis].hi / 2 + high[axis].lo / 2;
+  if (!depth || !(low[axis].hi < mid && mid < high[axis].lo)) return false;
+  middle[axis] = dyd_iv_point(mid);
+  middle[1 - axis] = dyd_filter_arc_other(arc, axis, middle[axis]);
+  return stretch_is_taken(t, own, arc, axis, low, middle, depth - 1) &&
+         stretch_is_taken(t, own, arc, axis, middle, high, depth - 1);
+}
+
+bool dyd_filter_arc_taken(dyd_takers *t, size_t own, const dyd_filter_arc *arc, int axis, const dyd_spot end[2]) {
+  enum { DEPTH = 3 };
+  if (end[0].infinite || end[1].infinite) return false;
+  const dyd_iv low[2] = {spot_along(&end[0], 0), spot_along(&end[0], 1)},
+               high[2] = {spot_along(&end[1], 0), spot_along(&end[1], 1)};
+  return stretch_is_taken(t, own, arc, axis, low, high, DEPTH);
 }
 
 /* ---- panes ---- */

@@ -34,8 +34,6 @@ void dyd_filter_irect_box(dyd_box *out, const dyd_irect *r, int64_t shift);
 int dyd_filter_spot_cmp(const dyd_spot *p, const dyd_spot *q, int axis);
 /* The box of p is surely not met by the smallest box around both ends (infinite ones included). */
 bool dyd_filter_spot_beside(const dyd_spot *p, const dyd_spot *low, const dyd_spot *high);
-/* The box of out, nothing else, becomes the smallest box around both finite ends. */
-void dyd_filter_spot_span(dyd_spot *out, const dyd_spot *p, const dyd_spot *q);
 /* Sign of (distance of p to a) - (distance of p to b), 0: not known. */
 int dyd_filter_side(const dyd_spot *p, const dyd_box *a, dyd_touch ta, const dyd_box *b, dyd_touch tb);
 
@@ -58,6 +56,22 @@ bool dyd_filter_sample(dyd_sample *out, const dyd_filter_arc *arc, dyd_iv level,
  * where there is no bound)? The difference of squares is monotone in each coordinate there [ARC-1], so its extremes are
  * at corners. branch: sign of (coordinate along the directrix) - (that of s) in the pane, for parabolas. */
 bool dyd_filter_no_arc(const dyd_filter_arc *arc, int axis, int branch, const dyd_iv lo[2], const dyd_iv hi[2]);
+
+/* A rectangle with its doubles. Invariant: all ends are even, so that middles are integers. */
+typedef struct dyd_scaled {
+  dyd_irect r;
+  dyd_box box;
+} dyd_scaled;
+
+/* The rectangles of a cell: the radius is the distance to `fixed`; another takes a point if it is nearer. taker: the
+ * one that took the last, likely takes the next. */
+typedef struct dyd_takers {
+  const dyd_scaled *other, *fixed;
+  size_t count, taker;
+  dyd_touch other_touch, fixed_touch;
+} dyd_takers;
+/* Returns true if others than `own` certainly take all of an arc along `axis`, cut in boxes where need be [PRUNE-1]. */
+bool dyd_filter_arc_taken(dyd_takers *t, size_t own, const dyd_filter_arc *arc, int axis, const dyd_spot end[2]);
 
 /* ---- panes: strips of both axes ---- */
 

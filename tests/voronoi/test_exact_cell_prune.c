@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* [PRUNE-1] Cells in a window with and without leaving out others beforehand: the same arcs, number by number.
+/* [PRUNE-1] Cells in a window with and without leaving out arcs that others take: the same arcs, number by number.
  *
  * Up to forty rectangles: nearly or exactly cocircular, on a lattice with shared corners and sides, overlapping;
  * windows anywhere, tiny ones, and some with sides on the lattice. */
