@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Adding points to an engine, before its first run and later.
  *
- * What is stated speaks of all points, so points that come later end the result: the next run triangulates anew, from
- * the rectangles reached. Statements are monotone for the points that there are, not for more of them. */
+ * Statements are about all points, so later points end the result: the next run triangulates anew, from
+ * the rectangles reached. Statements are monotone for the points at hand, not for more of them. */
 #include "engine/add.h"
 
 #include "base/abi.h"
@@ -16,7 +16,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- when, and what was wrong ---- */
+/* ---- when points may come ---- */
 
 dyd_status dyd_engine_may_add(dyd_engine *e, bool later) {
   dyd_error_clear(&e->refused);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The one loop: ask, narrow what the question wants, triangulate where it looks at the triangulation, ask again
+/* The loop: ask, narrow what the question wants, triangulate where it looks at the triangulation, ask again
  * (mathematics: section 7).
  *
  * Between stages the checks come in this order, and the first that holds is the outcome:
@@ -13,7 +13,7 @@
  *   - cancelled or out of time: narrowed sites stay listed in `changed`; the statements of the result were made for the
  *     wider rectangles of its last stage, and hold for the narrower ones as well (legal and illegal are for ever,
  *     the possible pairs listed include all that are possible now). The next run begins by bringing it up to date.
- * Points narrowed are never asked for the same again, so a later ask goes on where this one stopped. */
+ * Points narrowed are never asked for the same again, so a later ask continues where this one stopped. */
 #include "engine/ask.h"
 
 #include "base/abi.h"
@@ -473,7 +473,7 @@ static dyd_status ask_stage(ask *a) {
   return failed != DYD_OK ? failed : st;
 }
 
-/* Guests are asked for the first precision, come what may: a question about a point of which nothing is known has no
+/* Guests are asked for the first precision, come what may: a question about an unknown point has no
  * answer. */
 static dyd_status ask_guests(ask *a) {
   dyd_status st = DYD_OK;
@@ -489,7 +489,7 @@ static dyd_status ask_guests(ask *a) {
   return st;
 }
 
-/* A question that looks at rectangles has seen those that are reached, however it ends. */
+/* A question that looks at rectangles has seen the rectangles reached, however it ends. */
 static dyd_status ask_last(ask *a) {
   bool answered, stopped = a->end == DYD_OUTCOME_CANCELLED || a->spent == DYD_BUDGET_SECONDS;
   if (a->q->triangulate || !stopped) return DYD_OK;

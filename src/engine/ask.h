@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The one loop. */
+/* The loop of all questions. */
 #ifndef DYD_ENGINE_ASK_H
 #define DYD_ENGINE_ASK_H
 

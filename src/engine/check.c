@@ -21,18 +21,18 @@
 #include <string.h>
 
 /* A site whose polygons of the last stage are kept. */
-typedef struct dyd_watched {
+typedef struct watched_cell {
   uint32_t site;
   dyd_polygon inner;
   dyd_polygon_list outer;
-} dyd_watched;
+} watched_cell;
 
 /* One schedule under way. */
-typedef struct dyd_check_state {
+typedef struct check_state {
   dyd_engine *e;
   dyd_delaunay *pd;     /* NULL before the first stage */
   dyd_pair_list before; /* pairs after the last stage */
-  dyd_watched *watched;
+  watched_cell *watched;
   size_t watch_count;
   dyd_rect window;
   bool windowed;
@@ -42,17 +42,17 @@ typedef struct dyd_check_state {
   dyd_check_report *report;   /* counters; fault and message when one is found */
   uint32_t *changed;
   size_t changes, change_cap;
-} dyd_check_state;
+} check_state;
 
 /* What the harness compares after each stage. Only exact comparisons; random numbers choose what to look at. */
 
 /* What stops a triangulation at once: the deadline where there is one. */
-static const volatile int *check_flag(const dyd_check_state *s) {
+static const volatile int *check_flag(const check_state *s) {
   return s->o->cancel && !(s->o->seconds > 0) ? s->o->cancel : &s->e->stop;
 }
 
 /* Is the time over, or was it cancelled? */
-static bool check_is_over(const dyd_check_state *s) {
+static bool check_is_over(const check_state *s) {
   return dyd_flag_get(&s->e->stop) || (s->o->cancel && dyd_flag_get(s->o->cancel));
 }
 
@@ -65,7 +65,7 @@ static uint64_t check_below(uint64_t *random, uint64_t n) {
 }
 
 /* Notes a fault; returns DYD_OK. */
-static dyd_status dyd_check_found(dyd_check_state *s, dyd_check_fault fault, const char *format, ...) {
+static dyd_status check_found(check_state *s, dyd_check_fault fault, const char *format, ...) {
   va_list list;
   if (s->report->fault != DYD_CHECK_FINE) return DYD_OK;
   s->report->fault = fault;
@@ -75,13 +75,14 @@ static dyd_status dyd_check_found(dyd_check_state *s, dyd_check_fault fault, con
   return DYD_OK;
 }
 
-static bool fault_found(const dyd_check_state *s) {
+static bool fault_found(const check_state *s) {
   return s->report->fault != DYD_CHECK_FINE;
 }
 
-/* Narrows point i to b bits and checks the stream. */
 /* ---- streams ---- */
-static dyd_status check_narrow(dyd_check_state *s, uint32_t point, int64_t bits) {
+
+/* Narrows a point to `bits` and checks the stream. */
+static dyd_status check_narrow(check_state *s, uint32_t point, int64_t bits) {
   const dyd_refinable *found = dyd_engine_find(s->e, point);
   dyd_error err;
   uint64_t calls = 0;
@@ -92,8 +93,8 @@ static dyd_status check_narrow(dyd_check_state *s, uint32_t point, int64_t bits)
   dyd_status st = dyd_engine_narrow(p, &calls, s->e, bits, s->o->max_bits, &err);
   if (st == DYD_E_NOMEM || st == DYD_CANCELLED) return st;
   if (st != DYD_OK)
-    return dyd_check_found(s, DYD_CHECK_STREAM, "point %u, asked for %lld bits: %s", (unsigned)point, (long long)bits,
-                           err.message);
+    return check_found(s, DYD_CHECK_STREAM, "point %u, asked for %lld bits: %s", (unsigned)point, (long long)bits,
+                       err.message);
   if (!dyd_reserve((void **)&s->changed, &s->change_cap, s->changes + 1, sizeof *s->changed)) return DYD_E_NOMEM;
   s->changed[s->changes++] = point;
   if (p->final) return DYD_OK;
@@ -102,8 +103,8 @@ static dyd_status check_narrow(dyd_check_state *s, uint32_t point, int64_t bits)
   st = dyd_sites_get(&r, s->e->sites, point);
   int64_t least = bits - s->o->slack_bits;
   if (st == DYD_OK && !(p->stream ? dyd_stream_reaches(p->stream, &r, least) : dyd_rect_bits(&r) >= least))
-    dyd_check_found(s, DYD_CHECK_RATE, "point %u, asked for %lld bits, is only within 2^%lld", (unsigned)point,
-                    (long long)bits, -(long long)dyd_rect_bits(&r));
+    check_found(s, DYD_CHECK_RATE, "point %u, asked for %lld bits, is only within 2^%lld", (unsigned)point,
+                (long long)bits, -(long long)dyd_rect_bits(&r));
   dyd_rect_clear(&r);
   return st;
 }
@@ -120,10 +121,10 @@ static const char *pair_word(dyd_pair_status st) {
 }
 
 /* What is said of one pair before and now. */
-typedef void (*pair_visit)(dyd_check_state *s, const dyd_pair *pair, dyd_pair_status before, dyd_pair_status now);
+typedef void (*pair_visit)(check_state *s, const dyd_pair *pair, dyd_pair_status before, dyd_pair_status now);
 
 /* Merges two sorted lists. */
-static void pairs_compare_lists(dyd_check_state *s, const dyd_pair_list *before, const dyd_pair_list *now,
+static void pairs_compare_lists(check_state *s, const dyd_pair_list *before, const dyd_pair_list *now,
                                 pair_visit visit) {
   size_t a = 0, b = 0;
   while ((a < before->count || b < now->count) && !fault_found(s)) {
@@ -136,28 +137,28 @@ static void pairs_compare_lists(dyd_check_state *s, const dyd_pair_list *before,
   }
 }
 
-static void not_retracted(dyd_check_state *s, const dyd_pair *p, dyd_pair_status before, dyd_pair_status now) {
+static void not_retracted(check_state *s, const dyd_pair *p, dyd_pair_status before, dyd_pair_status now) {
   if (is_alias(s->pd, p->i) || is_alias(s->pd, p->j)) return; /* became one exact point with another */
   bool settled = before == DYD_LEGAL || (before == DYD_TIE && !s->o->no_ties);
   if (before == DYD_ILLEGAL || (settled && now != before))
-    dyd_check_found(s, DYD_CHECK_RETRACT, "pair %u %u was %s and is %s", (unsigned)p->i, (unsigned)p->j,
-                    pair_word(before), pair_word(now));
+    check_found(s, DYD_CHECK_RETRACT, "pair %u %u was %s and is %s", (unsigned)p->i, (unsigned)p->j, pair_word(before),
+                pair_word(now));
 }
 
-static void same_or_floor(dyd_check_state *s, const dyd_pair *p, dyd_pair_status before, dyd_pair_status now) {
+static void same_or_floor(check_state *s, const dyd_pair *p, dyd_pair_status before, dyd_pair_status now) {
   bool floor = (before == DYD_LEGAL && now == DYD_INDETERMINATE) || (before == DYD_INDETERMINATE && now == DYD_LEGAL);
   s->report->floors += floor;
   if (before != now && !floor)
-    dyd_check_found(s, DYD_CHECK_PATH, "pair %u %u is %s, but %s in a fresh run from the same rectangles",
-                    (unsigned)p->i, (unsigned)p->j, pair_word(before), pair_word(now));
+    check_found(s, DYD_CHECK_PATH, "pair %u %u is %s, but %s in a fresh run from the same rectangles", (unsigned)p->i,
+                (unsigned)p->j, pair_word(before), pair_word(now));
 }
 
-static dyd_delaunay_options check_options(const dyd_check_state *s) {
+static dyd_delaunay_options check_options(const check_state *s) {
   return (dyd_delaunay_options){DYD_SIZED(dyd_delaunay_options), .cancel = check_flag(s),
                                 .prove = s->o->no_ties ? NULL : dyd_ties_prove, .prove_user = s->e};
 }
 
-static dyd_status check_path(dyd_check_state *s) {
+static dyd_status check_path(check_state *s) {
   dyd_delaunay *fresh = NULL;
   dyd_pair_list pairs = {0};
   dyd_delaunay_options options = check_options(s);
@@ -184,7 +185,7 @@ static void choice_point(mpq_t out, uint64_t *random, const dyd_interval *a) {
   mpq_clear(hi);
 }
 
-static dyd_status choose_all(dyd_sites *out, dyd_check_state *s) {
+static dyd_status choose_all(dyd_sites *out, check_state *s) {
   dyd_rect r, point;
   mpq_t x, y;
   dyd_rect_init(&r);
@@ -206,25 +207,25 @@ static dyd_status choose_all(dyd_sites *out, dyd_check_state *s) {
   return st;
 }
 
-/* Statuses `exact` of the choice against those of the rectangles: pairs whose points coincide are left out. */
-static void compare_choice(dyd_check_state *s, const dyd_delaunay *exact, const dyd_pair_list *pairs) {
+/* Statuses `exact` of the choice against those of the rectangles: pairs whose points coincide are omitted. */
+static void compare_choice(check_state *s, const dyd_delaunay *exact, const dyd_pair_list *pairs) {
   for (size_t k = 0; k < s->before.count && !fault_found(s); k++) {
     const dyd_pair *p = &s->before.item[k];
     if (p->status != DYD_LEGAL || is_alias(exact, p->i) || is_alias(exact, p->j)) continue;
     if (dyd_delaunay_status(exact, p->i, p->j) != DYD_LEGAL)
-      dyd_check_found(s, DYD_CHECK_CHOICE, "pair %u %u is legal, but not an edge for a choice of points",
-                      (unsigned)p->i, (unsigned)p->j);
+      check_found(s, DYD_CHECK_CHOICE, "pair %u %u is legal, but not an edge for a choice of points", (unsigned)p->i,
+                  (unsigned)p->j);
   }
   for (size_t k = 0; k < pairs->count && !fault_found(s); k++) {
     const dyd_pair *p = &pairs->item[k];
     if (is_alias(s->pd, p->i) || is_alias(s->pd, p->j)) continue;
     if (dyd_delaunay_status(s->pd, p->i, p->j) == DYD_ILLEGAL)
-      dyd_check_found(s, DYD_CHECK_CHOICE, "pair %u %u is illegal, but an edge for a choice of points", (unsigned)p->i,
-                      (unsigned)p->j);
+      check_found(s, DYD_CHECK_CHOICE, "pair %u %u is illegal, but an edge for a choice of points", (unsigned)p->i,
+                  (unsigned)p->j);
   }
 }
 
-static dyd_status check_choice(dyd_check_state *s) {
+static dyd_status check_choice(check_state *s) {
   dyd_sites *sites = NULL;
   dyd_delaunay *exact = NULL;
   dyd_pair_list pairs = {0};
@@ -242,14 +243,13 @@ static dyd_status check_choice(dyd_check_state *s) {
 
 /* ---- cells ---- */
 
-static void watched_forget(dyd_watched *w) {
+static void watched_forget(watched_cell *w) {
   dyd_polygon_clear(&w->inner);
   dyd_polygon_list_clear(&w->outer);
 }
 
 /* Are both points in one C_ji for a possible neighbour j? */
-static dyd_status edge_is_outside(bool *out, const dyd_check_state *s, uint32_t i, const dyd_point *a,
-                                  const dyd_point *b) {
+static dyd_status edge_is_outside(bool *out, const check_state *s, uint32_t i, const dyd_point *a, const dyd_point *b) {
   dyd_index_list list = {0};
   dyd_rect own, other;
   dyd_rect_init(&own);
@@ -266,8 +266,7 @@ static dyd_status edge_is_outside(bool *out, const dyd_check_state *s, uint32_t 
   return st;
 }
 
-static dyd_status point_is_on_side(bool *out, const dyd_check_state *s, uint32_t i, const dyd_point *c,
-                                   dyd_truth side) {
+static dyd_status point_is_on_side(bool *out, const check_state *s, uint32_t i, const dyd_point *c, dyd_truth side) {
   dyd_truth truth = DYD_UNKNOWN;
   dyd_status st = dyd_cell_point_side(&truth, s->pd, i, c);
   *out = truth == side;
@@ -282,7 +281,7 @@ static bool is_inside_window(const dyd_rect *w, const dyd_point *z) {
 
 /* Where the edge was in Ext_i by a neighbour that is none any more, its ends are at least; of edges that end at the
  * window nothing is stated. */
-static dyd_status outer_edge_holds(bool *out, const dyd_check_state *s, uint32_t i, const dyd_point *a,
+static dyd_status outer_edge_holds(bool *out, const check_state *s, uint32_t i, const dyd_point *a,
                                    const dyd_point *b) {
   *out = !is_inside_window(&s->window, a) || !is_inside_window(&s->window, b);
   dyd_status st = *out ? DYD_OK : edge_is_outside(out, s, i, a, b);
@@ -292,14 +291,13 @@ static dyd_status outer_edge_holds(bool *out, const dyd_check_state *s, uint32_t
 }
 
 /* The inner vertices are still in Int_i, the outer ones in the window still in Ext_i. */
-static dyd_status check_cell(dyd_check_state *s, const dyd_watched *w) {
+static dyd_status check_cell(check_state *s, const watched_cell *w) {
   dyd_status st = DYD_OK;
   if (is_alias(s->pd, w->site)) return DYD_OK;
   for (size_t k = 0; k < w->inner.count && st == DYD_OK && !fault_found(s); k++) {
     bool inside;
     st = point_is_on_side(&inside, s, w->site, &w->inner.vertex[k], DYD_TRUE);
-    if (st == DYD_OK && !inside)
-      dyd_check_found(s, DYD_CHECK_CELL, "Int of site %u has lost a point", (unsigned)w->site);
+    if (st == DYD_OK && !inside) check_found(s, DYD_CHECK_CELL, "Int of site %u has lost a point", (unsigned)w->site);
   }
   for (size_t p = 0; p < w->outer.count; p++)
     for (size_t k = 0; k < w->outer.item[p].count && st == DYD_OK && !fault_found(s); k++) {
@@ -308,13 +306,13 @@ static dyd_status check_cell(dyd_check_state *s, const dyd_watched *w) {
       bool outside;
       st = outer_edge_holds(&outside, s, w->site, a, b);
       if (st == DYD_OK && !outside)
-        dyd_check_found(s, DYD_CHECK_CELL, "Ext of site %u has lost a point", (unsigned)w->site);
+        check_found(s, DYD_CHECK_CELL, "Ext of site %u has lost a point", (unsigned)w->site);
     }
   s->report->cells++;
   return st;
 }
 
-static dyd_status watched_make(dyd_watched *w, dyd_check_state *s) {
+static dyd_status watched_make(watched_cell *w, check_state *s) {
   size_t n = dyd_sites_count(s->e->sites);
   int64_t bits = dyd_metric_coarseness(s->pd, &s->window) + 6;
   watched_forget(w);
@@ -324,7 +322,7 @@ static dyd_status watched_make(dyd_watched *w, dyd_check_state *s) {
   return st == DYD_E_RANGE ? DYD_OK : st; /* scales too far apart for polygons: nothing to watch */
 }
 
-static dyd_status check_cells(dyd_check_state *s, bool last) {
+static dyd_status check_cells(check_state *s, bool last) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < s->watch_count && st == DYD_OK; k++) st = check_cell(s, &s->watched[k]);
   if (last || s->o->no_cells || !dyd_sites_count(s->e->sites) || dyd_delaunay_is_capped(s->pd)) return st;
@@ -340,7 +338,7 @@ static dyd_status check_cells(dyd_check_state *s, bool last) {
 
 /* ---- a stage ---- */
 
-static dyd_status check_triangulate(bool *capped, dyd_check_state *s) {
+static dyd_status check_triangulate(bool *capped, check_state *s) {
   const dyd_delaunay_options options = check_options(s);
   bool joined = true;
   dyd_status st = DYD_OK;
@@ -357,7 +355,7 @@ static dyd_status check_triangulate(bool *capped, dyd_check_state *s) {
 }
 
 /* Triangulates and checks everything; the last stage also against a fresh run and random choices. */
-static dyd_status dyd_check_stage(dyd_check_state *s, bool last) {
+static dyd_status check_stage(check_state *s, bool last) {
   bool first = !s->pd, capped;
   dyd_pair_list now = {0};
   if (check_is_over(s)) return DYD_CANCELLED;
@@ -375,7 +373,7 @@ static dyd_status dyd_check_stage(dyd_check_state *s, bool last) {
   return st;
 }
 
-static void check_state_clear(dyd_check_state *s) {
+static void check_state_clear(check_state *s) {
   for (size_t k = 0; s->watched && k < s->o->cells; k++) watched_forget(&s->watched[k]);
   free(s->watched);
   free(s->changed);
@@ -439,8 +437,7 @@ static dyd_status schedule_fits(const moves *m, const dyd_engine *e, dyd_error *
 }
 
 /* Opens the points, starts the clock and asks all points for base_bits. */
-static dyd_status schedule_start(dyd_check_state *s, dyd_check_open_fn open, void *user, const moves *m,
-                                 dyd_error *err) {
+static dyd_status schedule_start(check_state *s, dyd_check_open_fn open, void *user, const moves *m, dyd_error *err) {
   dyd_status st = open(&s->e, user, err);
   if (st == DYD_OK) st = schedule_fits(m, s->e, err);
   if (st == DYD_OK) s->e->tie_bits = s->o->tie_bits;
@@ -455,16 +452,16 @@ static dyd_status schedule_start(dyd_check_state *s, dyd_check_open_fn open, voi
 /* Runs a schedule; counters and the fault go to *report. */
 static dyd_status schedule_play(dyd_check_report *report, dyd_check_open_fn open, void *user, const moves *m,
                                 uint64_t seed, const dyd_check_options *o, dyd_error *err) {
-  dyd_check_state s = {.o = o, .report = report, .random = seed};
+  check_state s = {.o = o, .report = report, .random = seed};
   dyd_rect_init(&s.window);
   dyd_status st = schedule_start(&s, open, user, m, err);
   size_t k = 0;
-  if (st == DYD_OK && report->fault == DYD_CHECK_FINE) st = dyd_check_stage(&s, m->count == 0);
+  if (st == DYD_OK && report->fault == DYD_CHECK_FINE) st = check_stage(&s, m->count == 0);
   while (st == DYD_OK && report->fault == DYD_CHECK_FINE && k < m->count) {
     uint32_t stage = m->item[k].stage;
     for (; k < m->count && m->item[k].stage == stage && st == DYD_OK && report->fault == DYD_CHECK_FINE; k++)
       st = check_narrow(&s, m->item[k].point, m->item[k].bits);
-    if (st == DYD_OK && report->fault == DYD_CHECK_FINE) st = dyd_check_stage(&s, k == m->count);
+    if (st == DYD_OK && report->fault == DYD_CHECK_FINE) st = check_stage(&s, k == m->count);
   }
   if (s.e) dyd_watch_stop(&s.watch);
   check_state_clear(&s);
@@ -587,7 +584,7 @@ static dyd_status schedule_try_without(bool *cut, moves *m, size_t from, size_t 
   return st;
 }
 
-/* Leaves out ever smaller parts while the fault stays, until no single move can be left out. */
+/* Omits ever smaller parts while the fault stays, until no single move can be omitted. */
 static dyd_status schedule_cut_down(moves *m, dyd_check_fault fault, dyd_check_open_fn open, void *user, uint64_t seed,
                                     const dyd_check_options *o) {
   dyd_status st = DYD_OK;

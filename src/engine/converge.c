@@ -176,7 +176,7 @@ static dyd_status find_voronoi(dyd_voronoi_bounds *b, const dyd_delaunay *pd, co
   return st;
 }
 
-/* Bounds that cannot be had (a capped result, rectangles that all meet, numbers out of range, no time) are left out. */
+/* Bounds that cannot be had (a capped result, rectangles that all meet, numbers out of range, no time) are omitted. */
 static dyd_status measure_voronoi(dyd_stage_row *row, const dyd_convergence *out, const dyd_delaunay *pd,
                                   const volatile int *cancel) {
   dyd_voronoi_bounds b;
@@ -274,7 +274,7 @@ static void recorder_stage(void *user, const dyd_progress *p) {
   r->spent += dyd_seconds() - begun;
 }
 
-/* Did the run end with its stages, or with nothing left to decide, so that one with another goal can go on? */
+/* Did the run end with its stages, or with nothing left to decide, so that one with another goal can continue? */
 static bool converge_goes_on(const dyd_engine *e) {
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
   dyd_engine_get_counters(&c, e, NULL);

@@ -250,7 +250,7 @@ void dyd_labels_give(dyd_engine *e, dyd_labels *l) {
   *l = (dyd_labels){0};
 }
 
-/* ---- what they tell ---- */
+/* ---- answers ---- */
 
 size_t dyd_engine_row(const dyd_engine *e, size_t i) {
   if (!e) return i;

@@ -35,7 +35,7 @@ typedef struct dyd_labels {
 void dyd_labels_clear(dyd_labels *l);
 /* The next point, of row l->rows; id (length bytes, copied) may be NULL. false: memory is exhausted. */
 bool dyd_labels_add(dyd_labels *l, const char *id, size_t length, const dyd_row_numbers *number);
-/* The next row, which is that of `point` once more. false: memory is exhausted. */
+/* The next row, which is that of `point` again. false: memory is exhausted. */
 bool dyd_labels_merge(dyd_labels *l, size_t point);
 /* The next row, which gives no point. */
 void dyd_labels_skip(dyd_labels *l);

@@ -4,9 +4,9 @@
  * Only sites that are possibly nearest matter: where i is not listed, its distance to every point of the query is above
  * the least dl of some other site, and stays so [NEAR-3]. The result pd serves as an index; sites narrowed since it was
  * made only make its boxes wider than they need be. Precision goes up in levels, as in run.c: at each level
- * whoever concerned was asked for less is asked for the level.
+ * each site concerned that was asked for less is asked for the level.
  *
- * Whoever is nearest is listed. If all that are listed are equally far from the point, all of them are nearest, and no
+ * The nearest sites are listed. If all that are listed are equally far from the point, all of them are nearest, and no
  * refinement changes that: a tie. It is looked for when the list has changed [NEAR-4]. */
 #include "base/alloc.h"
 #include "base/error.h"
@@ -36,7 +36,7 @@ static void nearest_mark(bool *open, dyd_plan *plan, const dyd_refinable *p, int
   if (!p->asked || p->bits < level) dyd_plan_mark_alone(plan, p, level, DYD_REASON_QUESTION);
 }
 
-/* Raises the level until somebody is below it. */
+/* Raises the level until some site is below it. */
 static void nearest_plan(nearest_question *q, dyd_plan *plan) {
   if (q->level == INT64_MIN) q->level = dyd_bits_first(plan->o);
   for (bool open = false;; q->level = dyd_bits_grown(q->level, plan->o)) {
@@ -68,15 +68,8 @@ static dyd_status nearest_try_tie(nearest_question *q, const dyd_engine_options 
   return st;
 }
 
-/* Adds the sites listed, as they are in the problem of [NEAR-5]. firm: one flag for each of them. */
-static dyd_status nearest_add_firm(dyd_sites *sites, bool *firm, const nearest_question *q, const dyd_dyadic *eps) {
-  dyd_status st = DYD_OK;
-  for (size_t k = 0; st == DYD_OK && k < q->near.count; k++)
-    st = dyd_firm_add(sites, &firm[k], q->e, eps, q->near.item[k]);
-  return st;
-}
-
-/* Counts the firm sites that may be nearest to some point of `at`, by a triangulation of the sites listed. */
+/* Counts the firm sites that may be nearest to some point of `at`, by a triangulation of the sites listed, as they are
+ * in the problem of [NEAR-5]. */
 static dyd_status nearest_count_firm(size_t *count, const nearest_question *q, const dyd_rect *at,
                                      const dyd_dyadic *eps) {
   dyd_sites *sites = NULL;
@@ -86,7 +79,8 @@ static dyd_status nearest_count_firm(size_t *count, const nearest_question *q, c
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = &q->e->stop};
   dyd_status st = firm ? dyd_sites_new(&sites) : DYD_E_NOMEM;
   *count = 0;
-  if (st == DYD_OK) st = nearest_add_firm(sites, firm, q, eps);
+  for (size_t k = 0; st == DYD_OK && k < q->near.count; k++)
+    st = dyd_firm_add(sites, &firm[k], q->e, eps, q->near.item[k]);
   if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, NULL);
   if (st == DYD_OK) st = dyd_nearest_rect(&near, &sure, pd, at);
   for (size_t k = 0; st == DYD_OK && k < near.count; k++) *count += firm[near.item[k]];

@@ -45,7 +45,7 @@ void dyd_plan_sort(dyd_plan *p) {
 /* ---- growth ---- */
 
 /* The precision of the first stage. Where none is given it is 64, or what doubles give, if that is worth a stage: most
- * points need no more. Those that do go on as if they had been asked for 64. */
+ * points need no more. Points that need more continue as if they had been asked for 64. */
 #define FIRST_BITS 64
 
 #define FIRST_IN_DOUBLES 24
@@ -153,7 +153,7 @@ static bool announce_is_due(dyd_rect *scratch, const dyd_refinable *p, const dyd
 }
 
 /* Wants first .. end-1 are those of one source: tells it of them; *left is how many calls there may be. What cannot be
- * told, for lack of memory or because the request is refused, is left out. */
+ * told, for lack of memory or because the request is refused, is omitted. */
 static void announce_source(uint64_t *left, const dyd_plan *plan, size_t first, size_t end) {
   const dyd_engine *e = plan->e;
   const dyd_source *source = &e->source[dyd_plan_point(plan, &plan->item[first])->source].source;

@@ -175,7 +175,7 @@ static bool point_narrow_in_doubles(dyd_refinable *p, uint64_t *calls, dyd_engin
   return true;
 }
 
-/* Asks whoever knows p: an earlier run, its stream, its source. What was recalled is met with what is answered later,
+/* Asks the holder of p: an earlier run, its stream, its source. What was recalled is met with what is answered later,
  * since its stream does not know that it has answered before. */
 static dyd_status point_ask(dyd_rect *r, bool *final, dyd_refinable *p, const dyd_engine *e, int64_t bits,
                             int64_t max_bits, dyd_error *err) {

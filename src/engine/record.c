@@ -58,7 +58,7 @@ static bool history_add_change(dyd_history *h, const dyd_pair *p, dyd_pair_statu
   return true;
 }
 
-/* What is in one of the lists alone, or in both with another status. */
+/* Visits pairs in one of the lists alone, or in both with another status. */
 static bool history_add_changes(dyd_history *h, const dyd_pair_list *now) {
   const dyd_pair_list *last = &h->last;
   bool good = true;

@@ -29,7 +29,7 @@ typedef struct dyd_history_box {
 
 /* Invariant: change[] of a stage are sorted by i, then j, and tell of pairs whose status (dyd_pair_status) is another
  * one than after the stage before; before the first one all are illegal. box[] likewise, ascending; the first stage has
- * all sites that stand for themselves. The end of a stage is where the next one begins, of the last one the count. */
+ * all sites that are no aliases. The end of a stage is where the next one begins, of the last one the count. */
 struct dyd_history {
   size_t stages, changes, boxes, sites;
   size_t *change_begin, *box_begin; /* by stage */

@@ -24,11 +24,11 @@
  *
  * Whether a disc through some sites holds another depends on all of them about equally, each relative to its distance
  * from the nearest one. So a pair of points 2^-200 apart has to be known to 200 bits more than the points around it:
- * as long as two rectangles meet, no disc can hold one and avoid the other, and refining the rest is in vain.
+ * as long as two rectangles meet, no disc can hold one and avoid the other, and refining the rest is useless.
  *
  * All this only chooses what to refine; what is stated does not depend on it. */
 
-/* How many sites that follow in the order of x are looked at. */
+/* Number of the sites that follow in the order of x and are examined. */
 #define NEXT 4
 
 /* ---- exponents ---- */
@@ -165,8 +165,8 @@ int64_t dyd_coarse_bits(const dyd_coarse *c, uint32_t site) {
 enum { EXPENSIVE = 2 };
 
 /* Which points wait, kept from judgement to judgement of a run. Init with waiting_init. waited: of each point of the
- * engine, what was spent on others of its faces while it was left out; NULL: all points cost the same, and nobody
- * waits. */
+ * engine, what was spent on others of its faces while it was omitted; NULL: all points cost the same, and none waits.
+ */
 typedef struct dyd_waiting {
   double *waited;
   dyd_plan face; /* what one face wants */
@@ -200,11 +200,6 @@ static void waiting_clear(dyd_waiting *t) {
   *t = (dyd_waiting){.waited = NULL};
 }
 
-/* Where the wants of the next face go: `plan` itself where none waits. */
-static dyd_plan *waiting_face(dyd_waiting *t, dyd_plan *plan) {
-  return t->waited ? &t->face : plan;
-}
-
 /* The finest precision that one of the sites was asked for. */
 static int64_t waiting_finest(const dyd_engine *e, const dyd_index_list *sites) {
   int64_t finest = INT64_MIN;
@@ -228,7 +223,7 @@ static double waiting_least(double *spent, const dyd_plan *face) {
   return least;
 }
 
-/* The wants of the face with these sites go to the plan, but for those that wait. */
+/* The wants of the face with these sites go to the plan, but for wants that wait. */
 static void waiting_choose(dyd_plan *plan, dyd_waiting *t, const dyd_index_list *sites) {
   dyd_plan *face = &t->face;
   double spent, least = waiting_least(&spent, face);
@@ -277,7 +272,7 @@ static void waiting_choose(dyd_plan *plan, dyd_waiting *t, const dyd_index_list 
  * Every rule marks a point whenever one that matters can be narrowed, and every mark asks for more than before
  * (plan.c): the loop ends. */
 
-/* Who goes ahead, and who waits. scouts NULL: nobody goes ahead. */
+/* Sites that go ahead, and sites that wait. scouts NULL: none goes ahead. */
 typedef struct dyd_helpers {
   dyd_scouts *scouts;
   dyd_waiting *waiting;
@@ -301,7 +296,7 @@ static dyd_status pair_matters(bool *out, mpfr_ptr number, dyd_measure *m, const
   return st;
 }
 
-/* Removes the pairs that need not be refined, or for which that is in vain. */
+/* Removes the pairs that need not be refined, or for which that is useless. */
 static dyd_status keep_pairs(dyd_pair_list *pairs, dyd_measure *m, const dyd_settled *settled,
                              const dyd_engine_options *o) {
   dyd_status st = DYD_OK;
@@ -340,7 +335,7 @@ static bool lacks_needed(const dyd_refinable *p, const dyd_engine_options *o) {
   return lesser_bits(p->needed, o->max_bits) > p->bits && !o->step_bits && o->goal == DYD_GOAL_DECIDED;
 }
 
-/* Is that known of a site of the face? Then nobody has to be sent to learn it. */
+/* Is that known of a site of the face? Then no scout has to be sent to learn it. */
 static bool any_lacks_needed(const dyd_coarse *c, const dyd_plan *plan) {
   for (size_t k = 0; k < c->sites.count; k++) {
     const dyd_refinable *p = dyd_engine_find(plan->e, c->sites.item[k]);
@@ -435,7 +430,7 @@ static dyd_status plan_face(dyd_plan *plan, dyd_helpers *h, size_t f, dyd_measur
   if (st == DYD_OK && pairs.count) st = dyd_coarse_set(&c, pd, f, &pairs);
   if (st == DYD_OK && pairs.count) {
     int64_t least;
-    dyd_plan *wants = waiting_face(h->waiting, plan);
+    dyd_plan *wants = h->waiting->waited ? &h->waiting->face : plan; /* where none waits they go to the plan itself */
     /* Where points have costs the coarsest may be expensive, and wait themselves. */
     bool ends = mark_ends(&least, wants, &c, &pairs, h->waiting->waited ? INT64_MAX : bits_worth(plan, &c));
     mark_blockers(wants, &c, ends, least);
@@ -477,12 +472,6 @@ static dyd_status plan_hausdorff(dyd_plan *plan, dyd_helpers *h, dyd_measure *m)
   return st;
 }
 
-/* What a pair contributes to the bound; infinite when it has to be refined before anything is known. */
-static dyd_status pair_number(mpfr_ptr out, dyd_measure *m, dyd_voronoi_sums *sums, const dyd_pair *pair,
-                              const dyd_engine_options *o) {
-  return sums ? dyd_goal_voronoi_number(out, sums, m, pair, o) : dyd_measure_area(out, m, pair->i, pair->j);
-}
-
 /* Marks the ends of pairs with a number above `least`, so that the numbers shrink below `share`;
  * *largest becomes the largest number of a pair with an end that can be narrowed. */
 static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_measure *m, dyd_voronoi_sums *sums,
@@ -494,7 +483,9 @@ static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_measure *m, d
   mpfr_set_zero(largest, 1);
   for (size_t k = 0; st == DYD_OK && k < pairs->count; k++) {
     const uint32_t end[2] = {pairs->item[k].i, pairs->item[k].j};
-    st = pair_number(value, m, sums, &pairs->item[k], o);
+    /* infinite: it has to be refined before anything is known */
+    st =
+        sums ? dyd_goal_voronoi_number(value, sums, m, &pairs->item[k], o) : dyd_measure_area(value, m, end[0], end[1]);
     if (st != DYD_OK || mpfr_zero_p(value)) continue;
     int64_t excess = mpfr_inf_p(value) ? 0 : (int64_t)mpfr_get_exp(value) - (int64_t)mpfr_get_exp(share) + 2;
     for (int a = 0; a < 2; a++) {
@@ -562,16 +553,15 @@ static void plan_uniform(dyd_plan *plan) {
       dyd_plan_mark_alone(plan, &e->point[k], level, DYD_REASON_UNIFORM);
 }
 
-static dyd_status plan_decided(dyd_plan *plan, dyd_helpers *h, dyd_settled *settled) {
-  dyd_status st = dyd_delaunay_is_capped(plan->e->pd) ? DYD_OK : dyd_settle(settled, plan);
-  return st == DYD_OK ? plan_faces(plan, h, NULL, settled) : st;
-}
-
 static dyd_status plan_all(dyd_plan *plan, dyd_helpers *h, dyd_settled *settled, dyd_measure *m,
                            dyd_voronoi_sums *sums) {
   const dyd_engine_options *o = plan->o;
   if (o->step_bits || o->schedule != DYD_SCHEDULE_ADAPTIVE || h->waiting->waited) h->scouts = NULL;
-  if (o->goal == DYD_GOAL_DECIDED || dyd_delaunay_is_capped(plan->e->pd)) return plan_decided(plan, h, settled);
+  bool capped = dyd_delaunay_is_capped(plan->e->pd);
+  if (o->goal == DYD_GOAL_DECIDED || capped) {
+    dyd_status settling = capped ? DYD_OK : dyd_settle(settled, plan);
+    return settling == DYD_OK ? plan_faces(plan, h, NULL, settled) : settling;
+  }
   if (o->goal == DYD_GOAL_HAUSDORFF) return plan_hausdorff(plan, h, m);
   if (o->goal == DYD_GOAL_AREA) return plan_bound(plan, m, NULL, true);
   /* Where the bound on the diagram holds already, and sums are not kept, only vertices are left to be narrowed. */
@@ -694,7 +684,7 @@ static dyd_status goal_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine
   const dyd_question question = {DYD_SIZED(dyd_question), .ask = goal_ask, .user = &g, .triangulate = true};
   e->goal = o->goal;
   e->goal_bits = o->goal_bits;
-  /* Where a stage may be the last one, or bounds are asked for, all pairs are needed at once. */
+  /* Where a stage may be the last one, or bounds are wanted, all pairs are needed at once. */
   e->postpones = o->goal == DYD_GOAL_DECIDED && o->schedule == DYD_SCHEDULE_ADAPTIVE && !o->step_bits &&
                  !o->max_stages && !o->max_calls;
   dyd_plan_init(&g.held, e, o, NULL, 0);

@@ -19,12 +19,12 @@
 #include <dyadel/predicate.h>
 #include <string.h>
 
-/* How often the quad rule is asked for one pair, and for four in all, and how many pairs are looked at, for each quad
+/* How often the quad rule is asked for one pair, and for four in all, and how many pairs are examined, for each quad
  * to be found. The stride is a prime beyond the number of pairs, so that it leads to all of them. */
 #define TRIES 8
 #define STEPS 256
 #define STRIDE ((size_t)2654435761)
-/* Beyond so many bits the steps of scouts are shorter. */
+/* Beyond this many bits the steps of scouts are shorter. */
 #define DEAR 1024
 /* The bits asked beyond those that decide a quad: this, and one in 64. */
 #define MARGIN 8
@@ -196,7 +196,8 @@ static int64_t scout_step(int64_t b, int64_t most) {
   return dyd_bits_raised(b, b < 16 ? 16 : b < DEAR ? b : b / 2, most);
 }
 
-/* Sends the scouts of a quad that can go on: for what the plan wanted at first, then for more. How many there are. */
+/* Sends the scouts of a quad that can continue: for what the plan wanted at first, then for more. How many there are.
+ */
 static size_t race_send_quad(dyd_plan *out, dyd_plan *held, const dyd_quad_sites *q) {
   size_t sent = 0;
   for (int k = 0; k < 4; k++) {
@@ -214,7 +215,7 @@ static size_t race_send_quad(dyd_plan *out, dyd_plan *held, const dyd_quad_sites
   return sent;
 }
 
-/* Judges one race, and sends the scouts on when it goes on. */
+/* Judges one race, and sends the scouts on when it continues. */
 static dyd_status race_run(dyd_plan *out, dyd_race *race, dyd_plan *held) {
   dyd_status st = DYD_OK;
   size_t sent = 0;

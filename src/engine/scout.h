@@ -12,7 +12,7 @@ typedef struct dyd_quad_sites {
   uint32_t v[4];
 } dyd_quad_sites;
 
-/* The scouts of one face. over: no quad can be taken further; bits > 0: a quad is decided, and about so many bits of
+/* The scouts of one face. over: no quad can be taken further; bits > 0: a quad is decided, and about that many bits of
  * its points were needed for it.
  * Invariant: quads >= 2, no site twice. */
 typedef struct dyd_race {
@@ -34,8 +34,8 @@ void dyd_scouts_clear(dyd_scouts *s);
 /* Looks for quads among the indeterminate pairs of a face with ends in the plan; adds a race when there are two or
  * more. */
 dyd_status dyd_scouts_add(dyd_scouts *s, const dyd_plan *plan, const dyd_pair_list *pairs);
-/* Judges the quads of all races; *out, empty, becomes the scouts of races that go on, which are narrowed further, while
- * all else in `held` waits. Nothing in *out: all races are over. */
+/* Judges the quads of all races; *out, empty, becomes the scouts of races that continue, which are narrowed further,
+ * while all else in `held` waits. Nothing in *out: all races are over. */
 dyd_status dyd_scouts_next(dyd_plan *out, dyd_scouts *s, dyd_plan *held);
 /* *out, empty, becomes what has waited, with more for the ends of decided races. */
 void dyd_scouts_finish(dyd_plan *out, const dyd_scouts *s, const dyd_plan *held);

@@ -6,7 +6,7 @@
  * along sides without a core be farther apart than eps. A site is firm if both its sides have cores wider than 2 eps.
  * Pairs of firm sites: all sites are triangulated once, the firm ones with their cores less eps on each side, the
  * others with any place along each side without a core. A pair that is neither legal nor illegal there is so wherever
- * these points are. Other pairs are looked at one by one. */
+ * these points are. Other pairs are examined one by one. */
 #include "engine/settle.h"
 
 #include "base/alloc.h"
@@ -81,60 +81,53 @@ dyd_status dyd_firm_place(dyd_rect *out, dyd_dyadic *eps, const dyd_stream *at) 
   return st == DYD_OK ? rect_collapse(out, core, false) : st;
 }
 
-/* *out, unless it is NULL: a, smaller by eps on each side. *can: is it wide enough? */
-static dyd_status side_shrink(dyd_interval *out, bool *can, const dyd_interval *a, const dyd_dyadic *eps) {
+/* a becomes smaller by eps on each side, if it is wide enough: *can. */
+static dyd_status side_shrink(dyd_interval *a, bool *can, const dyd_dyadic *eps) {
   dyd_dyadic lo, hi;
   dyd_dyadic_init(&lo);
   dyd_dyadic_init(&hi);
   dyd_status st = dyd_dyadic_add(&lo, &a->lo, eps);
   if (st == DYD_OK) st = dyd_dyadic_sub(&hi, &a->hi, eps);
   *can = st == DYD_OK && !dyd_interval_is_point(a) && dyd_dyadic_cmp(&lo, &hi) < 0;
-  if (*can && out) st = dyd_interval_set_ends(out, &lo, &hi);
+  if (*can) st = dyd_interval_set_ends(a, &lo, &hi);
   dyd_dyadic_clear(&hi);
   dyd_dyadic_clear(&lo);
   return st;
 }
 
-/* Sets *out, unless it is NULL, to r less eps on each side, if r is wide enough: *can. out = r is allowed. */
-static dyd_status firm_shrink(dyd_rect *out, bool *can, const dyd_rect *r, const dyd_dyadic *eps) {
-  bool wide[2] = {false, false};
+/* Sets *r to the core of a site: less eps on each side if it is firm, all of it if a side is too narrow for that, and a
+ * point instead of each side that has no core. */
+static dyd_status site_get_firm(dyd_rect *r, bool *firm, const dyd_engine *e, const dyd_dyadic *eps, uint32_t site) {
+  bool core[2], wide[2] = {false, false};
   dyd_rect s;
+  *firm = false;
+  dyd_status st = dyd_site_get_core(r, core, e, site);
+  if (st != DYD_OK) return st;
+  if (!core[0] || !core[1]) return rect_collapse(r, core, false);
   dyd_rect_init(&s);
-  dyd_status st = side_shrink(&s.x, &wide[0], &r->x, eps);
-  if (st == DYD_OK) st = side_shrink(&s.y, &wide[1], &r->y, eps);
-  *can = st == DYD_OK && wide[0] && wide[1];
-  if (*can && out) dyd_rect_swap(out, &s);
+  dyd_rect_set(&s, r);
+  st = side_shrink(&s.x, &wide[0], eps);
+  if (st == DYD_OK) st = side_shrink(&s.y, &wide[1], eps);
+  *firm = st == DYD_OK && wide[0] && wide[1];
+  if (*firm) dyd_rect_swap(r, &s);
   dyd_rect_clear(&s);
   return st;
 }
 
 /* Are the cores of both ends firm? */
 static dyd_status pair_is_firm(bool *out, const dyd_engine *e, const dyd_dyadic *eps, const dyd_pair *pair) {
-  const uint32_t end[2] = {pair->i, pair->j};
-  dyd_status st = DYD_OK;
   dyd_rect r;
-  *out = true;
   dyd_rect_init(&r);
-  for (int k = 0; st == DYD_OK && *out && k < 2; k++) {
-    bool core[2];
-    st = dyd_site_get_core(&r, core, e, end[k]);
-    *out = core[0] && core[1];
-    if (st == DYD_OK && *out) st = firm_shrink(NULL, out, &r, eps);
-  }
+  dyd_status st = site_get_firm(&r, out, e, eps, pair->i);
+  if (st == DYD_OK && *out) st = site_get_firm(&r, out, e, eps, pair->j);
   dyd_rect_clear(&r);
   return st;
 }
 
 dyd_status dyd_firm_add(dyd_sites *sites, bool *firm, const dyd_engine *e, const dyd_dyadic *eps, uint32_t k) {
   dyd_rect r;
-  bool core[2];
-  *firm = false;
   dyd_rect_init(&r);
-  dyd_status st = dyd_site_get_core(&r, core, e, k);
-  if (st == DYD_OK && core[0] && core[1])
-    st = firm_shrink(&r, firm, &r, eps);
-  else if (st == DYD_OK)
-    st = rect_collapse(&r, core, false);
+  dyd_status st = site_get_firm(&r, firm, e, eps, k);
   if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
   dyd_rect_clear(&r);
   return st;
@@ -147,7 +140,7 @@ dyd_status dyd_firm_add(dyd_sites *sites, bool *firm, const dyd_engine *e, const
  * possible for good. Points of both ends that four points show to be in no disc of their own, make it never legal. */
 
 /* site: those of the face and their legal neighbours, ascending; rect and guess: one for each of them; pair: what is
- * looked at; work: what is left of it for all faces. */
+ * examined; work: what is left of it for all faces. */
 typedef struct settling {
   const dyd_engine *e;
   dyd_index_list site;
@@ -397,8 +390,8 @@ dyd_status dyd_settle_face(dyd_settled_pair *pair, size_t *work, const dyd_engin
   return st;
 }
 
-/* From so many bits on pairs without a radius are worth a look; how many sites may be looked at in all, for each site
- * and besides. In the armed build coarse points are looked at. */
+/* From this many bits on pairs without a radius are worth a look; how many sites may be examined in all, for each site
+ * and besides. In the armed build coarse points are examined. */
 #ifdef DYD_ARMED
 
 enum { FIRST_BITS = 2 };
@@ -416,7 +409,7 @@ void dyd_settled_clear(dyd_settled *s) {
   *s = (dyd_settled){0};
 }
 
-/* ---- what is known ---- */
+/* ---- pairs settled ---- */
 
 static const dyd_settled_pair *settled_find(const dyd_settled *s, uint32_t i, uint32_t j) {
   const dyd_settled_pair key = {.i = i, .j = j};
@@ -557,7 +550,7 @@ static dyd_status any_core(bool *out, const dyd_engine *e) {
   return st;
 }
 
-/* From FIRST_BITS on, and when all pairs are looked at for the first time, if radii may be what keeps them open. */
+/* From FIRST_BITS on, and when all pairs are examined for the first time, if radii may be what keeps them open. */
 static dyd_status settle_is_due(bool *out, const dyd_settled *s, const dyd_plan *plan, int64_t bits) {
   int64_t due = s->next > FIRST_BITS ? s->next : FIRST_BITS;
   *out = bits >= due || bits >= plan->o->max_bits;

@@ -8,7 +8,7 @@
 
 /* Cores of sites [SET-3] and firm ones [SET-2]. */
 
-/* Sets *r to the rectangle of `site` with its core in place of each side that has one, an interval that no refinement
+/* Sets *r to the rectangle of `site` with its core instead of each side that has one, an interval that no refinement
  * leaves: core[0] for x, core[1] for y. A side that is fixed is its own core; one with a radius has a core once the
  * centre is known to within the radius. */
 dyd_status dyd_site_get_core(dyd_rect *r, bool core[2], const dyd_engine *e, uint32_t site);
@@ -23,7 +23,7 @@ dyd_status dyd_firm_place(dyd_rect *out, dyd_dyadic *eps, const dyd_stream *at);
  * core. */
 dyd_status dyd_firm_add(dyd_sites *sites, bool *firm, const dyd_engine *e, const dyd_dyadic *eps, uint32_t k);
 
-/* Pairs of one undecided face, looked at one by one [SET-1]. */
+/* Pairs of one undecided face, examined one by one [SET-1]. */
 
 /* possible: the pair is an edge for some choice of places in cores, wherever points are along the others;
  * unsure: it is not legal wherever they are narrowed to. */
@@ -36,13 +36,13 @@ static inline bool dyd_pair_is_settled(const dyd_settled_pair *p) {
   return p->possible && p->unsure;
 }
 
-/* Looks at open pairs of a face with the given sites, and writes down what is found. *work, in sites looked at, becomes
+/* Looks at open pairs of a face with the given sites, and writes down what is found. *work, in sites examined, becomes
  * less; at 0 no more is done. DYD_CANCELLED when e->stop was seen. Nothing is found where no side has a core. */
 dyd_status dyd_settle_face(dyd_settled_pair *pair, size_t *work, const dyd_engine *e, size_t pairs,
                            const dyd_index_list *face);
 
 /* What is known about pairs, for ever unless points are measured again. Init with {0}. Invariant: item is
- * sorted by i, j, without repeats; next: from so many bits on it is worth trying again. */
+ * sorted by i, j, without repeats; next: from that many bits on it is worth trying again. */
 typedef struct dyd_settled {
   dyd_settled_pair *item;
   size_t count, cap;

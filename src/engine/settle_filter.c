@@ -39,12 +39,12 @@ typedef struct cutting {
   double excess;
 } cutting;
 
-static double square_of(double x) {
+static double square(double x) {
   return x * x;
 }
 
 static double spot_distance2(const spot *a, const double c[2]) {
-  return square_of(a->at[0] - c[0]) + square_of(a->at[1] - c[1]);
+  return square(a->at[0] - c[0]) + square(a->at[1] - c[1]);
 }
 
 /* Twice the area of a, b, c. */
@@ -177,7 +177,7 @@ static const double offset[] = {0, 0.125, 0.25, 0.5, 1, 2, 4, 16, 64, 4096};
 
 enum { BEST = 20, GAPS = 32, ALONG = 64, STEPS = 40, MORE_STEPS = 150 };
 
-/* A question: sites i and j among `count`. last: who left least room the last time, and is looked at first. */
+/* A question: sites i and j among `count`. last: who left least room the last time, and is examined first. */
 typedef struct joining {
   const dyd_settle_site *site;
   size_t count, i, j, last;
@@ -187,16 +187,8 @@ typedef struct centre {
   double at[2], room, step;
 } centre;
 
-static double clamped(double v, double lo, double hi) {
-  return v < lo ? lo : v > hi ? hi : v;
-}
-
-static double square(double x) {
-  return x * x;
-}
-
 static double side_near2(const double side[2], double v) {
-  return square(v - clamped(v, side[0], side[1]));
+  return square(v < side[0] ? side[0] - v : v > side[1] ? v - side[1] : 0);
 }
 
 static double side_far2(const double side[2], double v) {
@@ -326,7 +318,7 @@ static void pencil_blocked(double *lo, double *hi, const pencil *p, const dyd_se
   }
 }
 
-/* *t goes up to where nobody is in the way; *end is how far that goes. */
+/* *t goes up to where no site is in the way; *end is how far that goes. */
 static void pencil_next_gap(double *t, double *end, const pencil *p, const joining *q) {
   for (bool moved = true; moved;) {
     *end = HUGE_VAL;

@@ -7,11 +7,14 @@
  *   record.c        answers of an earlier run; the statuses of each stage
  *   compose.c       points of the engine as streams
  *   plan.c          which points to narrow, and how far: a value
- *   ask.c           the one loop: a question, its plan, narrowing, triangulating, until it is answered; memory,
- * deadline run.c           the question of a run: does the goal hold, and what to narrow where it does not scout.c a
- * few points that go ahead of the others settle.c        pairs that no refinement decides goal_voronoi.c  goals on the
- * Voronoi diagram nearest.c       the question after the nearest sites of a computable point ties.c          what is
- * proved about true points: ties, and points that are the same place converge.c      tables of runs, stage by stage
+ *   ask.c           the loop: a question, its plan, narrowing, triangulating, until it is answered
+ *   run.c           the question of a run: does the goal hold, and what to narrow where it does not
+ *   scout.c         a few points that go ahead of the others
+ *   settle.c        pairs that no refinement decides
+ *   goal_voronoi.c  goals on the Voronoi diagram
+ *   nearest.c       the question after the nearest sites of a computable point
+ *   ties.c          proofs about true points: ties, and points that are the same place
+ *   converge.c      tables of runs, stage by stage
  *   check.c         the harness of monotone refinement */
 #ifndef DYD_ENGINE_STATE_H
 #define DYD_ENGINE_STATE_H
@@ -19,7 +22,7 @@
 #include "base/room.h"
 #include "engine/labels.h"
 
-/* Bits for a proof that true points are the same, on one line or circle, unless others are asked for. */
+/* Bits for a proof that true points are the same, on one line or circle, unless others are given. */
 #define DYD_TIE_BITS ((int64_t)1 << 17)
 
 /* A point that can be asked to narrow. Everything else about a site is in the table of sites.
@@ -93,7 +96,7 @@ struct dyd_engine {
   int64_t proof_bits; /* the tie_bits pd was last worked on with; 0: no ties were looked for */
   dyd_tie_counters tie_counters;
   bool nearest_tied;   /* what the last question after nearest sites listed is a tie */
-  dyd_prove_fn prover; /* who is asked about ties in place of ties.c; NULL: nobody */
+  dyd_prove_fn prover; /* the callback asked about ties instead of ties.c; NULL: none */
   void *prover_user;
   dyd_room *room;         /* of the question at work; NULL: none is */
   uint64_t bytes_most;    /* what rooms have seen */

@@ -77,7 +77,7 @@ static dyd_status try_pair(bool *any, dyd_engine *e, const candidate *a, const c
   return st;
 }
 
-/* A sweep from left to right over those that are described. */
+/* A sweep from left to right over the described sites. */
 static dyd_status try_group(bool *any, dyd_engine *e, const uint32_t *site, size_t count, dyd_error *err) {
   candidate *c = dyd_alloc(count, sizeof *c);
   size_t n = 0;
@@ -206,7 +206,7 @@ static dyd_status describe_all(bool *known, question *q) {
   return q->algebra.forms.failed ? DYD_E_NOMEM : st;
 }
 
-/* ---- what is to be 0 ---- */
+/* ---- forms that are 0 ---- */
 
 static void put_coincident(question *q) {
   dyd_forms *f = &q->algebra.forms;
@@ -269,7 +269,7 @@ static bool put_zeros(question *q) {
   }
 }
 
-/* ---- what was tried and is not 0 ---- */
+/* ---- ties refuted ---- */
 
 /* Differences of coordinates are below 2^this in absolute value. */
 static int64_t question_scale(question *q) {
@@ -375,7 +375,7 @@ static dyd_status question_answer(dyd_zero *out, bool *final, question *q) {
   return st;
 }
 
-/* Notes at the points of a question what they need. */
+/* Notes at the points of a question the bits they need. */
 static void note_need(const question *q) {
   for (size_t k = 0; k < q->count && q->needed; k++) {
     dyd_refinable *p = dyd_find_index(&q->site[k], q->e->point, q->e->points, sizeof *q->e->point);
@@ -383,7 +383,7 @@ static void note_need(const question *q) {
   }
 }
 
-/* ---- what was asked before ---- */
+/* ---- answers kept ---- */
 
 static size_t ties_answer_place(dyd_relation relation, const uint32_t *site, size_t count) {
   uint64_t h = (uint64_t)relation + count;

@@ -21,7 +21,7 @@ dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const
 void dyd_engine_set_prover(dyd_engine *e, dyd_prove_fn fn, void *user);
 /* What was proved, in the order in which it was: number k, from 0. false: so many there are not. *site is borrowed. */
 bool dyd_ties_proved(dyd_relation *relation, const uint32_t **site, size_t *count, const dyd_engine *e, size_t k);
-/* The forms of a site's coordinates; DYD_NONE where nothing is known of what they are. What is exact is a number,
+/* The forms of a site's coordinates; DYD_NONE where they are unknown. What is exact is a number,
  * unless the point as it was given is asked for. */
 dyd_status dyd_ties_describe(dyd_form_point *out, dyd_forms *f, const dyd_engine *e, uint32_t i, bool given);
 /* *tied: the sites (two at least) are proved to be equally far from `at`. Otherwise *needed is the precision at which

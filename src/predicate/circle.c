@@ -172,7 +172,7 @@ int dyd_icircle_compare(const dyd_icircle *k, const dyd_icircle *l, int axis) {
 
 /* Cutting an axis into the slabs of predicate/pane.h.
  *
- * Bounds are kept doubled, since the middle of an integer interval may be a half. Slabs of width 0 are left out:
+ * Bounds are kept doubled, since the middle of an integer interval may be a half. Slabs of width 0 are omitted:
  * they are part of their neighbours, which are closed. */
 
 static void axis_init(dyd_axis *a) {

@@ -35,7 +35,7 @@ typedef struct dyd_word_point {
 /* Invariant: upper[a] = NULL means that every site is an exact double point (lower and upper ends are the same array);
  * exact[i] or word[i] that are not 0 (where the arrays are not NULL, and never both) mean that its doubles do not hold
  * the rectangle of site i: it is *exact[i], or the point point[word[i] - 1], for ever. Infinite doubles stand for the
- * whole plane, of a site of which nothing is known yet: the square whose ends are the largest dyadics of 64 bits. */
+ * whole plane, of a site that is unknown yet: the square whose ends are the largest dyadics of 64 bits. */
 struct dyd_sites {
   size_t count, cap;
   double *lower[2]; /* x, y; rounded down */

@@ -3,7 +3,7 @@
  *
  * Functions with an edge in their domain are evaluated at the two ends of the ball, after the ends are cut to
  * what is known of the value [RANGE-1]: all of them are monotone. Where the ball still sticks out of the domain,
- * nothing is known yet; it is never assumed that the value is inside. */
+ * the result is unknown yet; it is never assumed that the value is inside. */
 #include "stream/ball.h"
 
 #include "base/parallel.h"

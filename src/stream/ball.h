@@ -27,7 +27,7 @@ typedef struct dyd_ball_step {
   arb_srcptr y; /* NULL: there is none */
   slong prec;
 } dyd_ball_step;
-/* x = the result. A step that may take long ends early once *stop is set (NULL: nobody can): DYD_UNDEFINED_YET, and x
+/* x = the result. A step that may take long ends early once *stop is set (NULL: no flag): DYD_UNDEFINED_YET, and x
  * is as it was. */
 dyd_defined dyd_ball_apply(arb_ptr x, const dyd_ball_step *s, const volatile int *stop);
 /* Is |x| surely beyond 2^e? */

@@ -242,15 +242,6 @@ static dyd_range range_pow(dyd_range a, long n) {
   return base;
 }
 
-/* exp and log: monotone, 0 <-> 1. */
-static dyd_range range_exp(dyd_range a) {
-  return range_make(a.lo >= 0 ? 1 : 0, a.hi <= 0 ? 1 : NONE);
-}
-
-static dyd_range range_log(dyd_range a) {
-  return range_make(a.lo >= 1 ? 0 : -NONE, a.hi <= 1 ? 0 : NONE);
-}
-
 /* Odd increasing functions: the sign is kept. */
 static dyd_range range_sign(dyd_range a) {
   return range_make(a.lo >= 0 ? 0 : -NONE, a.hi <= 0 ? 0 : NONE);
@@ -266,10 +257,10 @@ static dyd_range range_function(dyd_op op, dyd_range a) {
     return range_meet(range_make(0, NONE), range_make(a.lo, a.hi >= 0 ? a.hi : 0));
   case DYD_OP_CBRT:
     return a;
-  case DYD_OP_EXP:
-    return range_exp(a);
-  case DYD_OP_LOG:
-    return range_log(a);
+  case DYD_OP_EXP: /* monotone, 0 -> 1 */
+    return range_make(a.lo >= 0 ? 1 : 0, a.hi <= 0 ? 1 : NONE);
+  case DYD_OP_LOG: /* monotone, 1 -> 0 */
+    return range_make(a.lo >= 1 ? 0 : -NONE, a.hi <= 1 ? 0 : NONE);
   case DYD_OP_SIN:
   case DYD_OP_COS:
     return range_make(-1, 1);

@@ -94,7 +94,7 @@ typedef struct dyd_range {
 typedef struct dyd_node {
   unsigned char op; /* a dyd_op */
   dyd_range range;
-  uint32_t column;  /* of the operator or name in the text, from 1; the largest number stands for all beyond */
+  uint32_t column;  /* of the operator or name in the text, from 1; the largest number means all beyond */
   int32_t argument; /* DYD_OP_POW: the exponent, within +- DYD_EXP_LIMIT; DYD_OP_CONST, DYD_OP_ROOT: index
                      of the constant or root */
 } dyd_node;

@@ -7,6 +7,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/flag.h"
 #include "stream/number.h"
 #include "stream/oracle_answer.h"
 #include "stream/oracle_worker.h"
@@ -231,7 +232,7 @@ dyd_status dyd_rect_narrow_q(dyd_rect *r, const mpq_t end[4], dyd_error *err) {
 }
 
 /* How long programs may take to end by themselves, or one that is replaced by a signal; how often the stop flag is
- * looked at. */
+ * examined. */
 #define GRACE_SECONDS 1.0
 
 #define STOP_SECONDS 0.25
@@ -283,17 +284,13 @@ static void oracle_fail_silent(const dyd_oracle *o, dyd_worker *w) {
                     o->seconds, deaf);
 }
 
-static bool stop_is_raised(const volatile int *stop) {
-  return stop && __atomic_load_n(stop, __ATOMIC_SEQ_CST);
-}
-
 /* Until the first request of w that is wanted is answered (DYD_OK), w has failed (its code), or *stop is raised
- * (DYD_CANCELLED). The clock starts anew with each line of w, and what has come is read before it is looked at. */
+ * (DYD_CANCELLED). The clock starts anew with each line of w, and what has come is read before it is examined. */
 static dyd_status wait_for_answer(dyd_oracle *o, dyd_worker *w, const volatile int *stop) {
   double begun = dyd_seconds(), left = o->seconds;
   while (!dyd_worker_is_answered(w)) {
     if (dyd_worker_is_lost(w)) return w->code;
-    if (stop_is_raised(stop)) return DYD_CANCELLED;
+    if (dyd_flag_is_set(stop)) return DYD_CANCELLED;
     exchange_lines(o, left < SLICE_SECONDS ? left : SLICE_SECONDS);
     left = (w->heard > begun ? w->heard : begun) + o->seconds - dyd_seconds();
     if (left > 0) continue;
@@ -336,8 +333,8 @@ static dyd_status program_read_count(size_t *count, dyd_oracle *o, unsigned k, c
                   o->points, k, *count);
 }
 
-/* Starts program k in place of one that failed. Its requests wait until it has told its count, and are sent again
- * unless they were answered. On failure it has failed once more. */
+/* Starts program k instead of one that failed. Its requests wait until it has told its count, and are sent again
+ * unless they were answered. On failure it has failed again. */
 static dyd_status program_restart(dyd_oracle *o, unsigned k, const volatile int *stop) {
   dyd_worker *w = &o->worker[k], old = *w;
   char how[100];

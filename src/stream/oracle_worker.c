@@ -28,7 +28,7 @@
 /* A shell command that runs beside the caller.
  *
  * The command is the leader of a process group of its own. A second shell in the group, the watcher, reads from a pipe
- * that nobody writes to, the lifeline: when the last writing end is closed, by dyd_oracle_free or because the process
+ * without a writer, the lifeline: when the last writing end is closed, by dyd_oracle_free or because the process
  * that holds it is dead, it kills the group, itself included. A leader that has ended is left unreaped to the last, so
  * that the number of the group cannot become that of a stranger. */
 
@@ -130,7 +130,7 @@ static int spawn_command(pid_t *pid, const char *command, unsigned number, int i
   return why;
 }
 
-/* Ends the group when the lifeline does: whoever can ends in an orderly way, as programs that have to tell others do.
+/* Ends the group when the lifeline does: each that can ends in an orderly way, as programs that have to tell others do.
  */
 static int spawn_watcher(pid_t *pid, pid_t group, int lifeline) {
   char leader[24];
@@ -180,7 +180,7 @@ dyd_status dyd_process_start(dyd_process *p, const char *command, unsigned job, 
 
 /* ---- looking ---- */
 
-/* 1 ended, 0 runs, -1 the caller's process has reaped it or lets nobody wait. */
+/* 1 ended, 0 runs, -1 the caller's process has reaped it or does not allow waiting. */
 static int process_look(siginfo_t *info, pid_t pid) {
   info->si_pid = 0;
   int failed = waitid(P_PID, (id_t)pid, info, WEXITED | WNOHANG | WNOWAIT);

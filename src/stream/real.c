@@ -78,7 +78,7 @@ static int nest_digits(const nest_ends *n) {
   return digits < 17 ? 17 : digits < NEST_DIGITS ? (int)digits : NEST_DIGITS;
 }
 
-/* Where they are long, most of the digits that both have are left out. */
+/* Where they are long, most of the digits that both have are omitted. */
 static void nest_show(char shown[2][NEST_SHOWN], const nest_ends *n) {
   static char const none[] = "(memory is exhausted)";
   const int digits = nest_digits(n);

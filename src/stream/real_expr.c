@@ -21,7 +21,7 @@ typedef struct machine {
   slong exponent;    /* every ball so far is below 2^exponent in magnitude */
   dyd_status failed; /* what a root could not be narrowed by, told in *err */
   dyd_error *err;
-  const volatile int *stop; /* NULL: nobody can */
+  const volatile int *stop; /* NULL: no flag */
 } machine;
 
 static slong machine_stack_need(const dyd_expr *e) {

@@ -352,7 +352,7 @@ static void root_errand_drop(void *job) {
   free(e);
 }
 
-/* Signs are found with at most so many bits as the degree times those of the place: from a million on, a step may take
+/* Signs are found with at most as many bits as the degree times those of the place: from a million on, a step may take
  * a tenth of a second. */
 static bool root_step_is_long(const dyd_root *r) {
   enum { LONG = 1 << 20 };

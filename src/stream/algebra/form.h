@@ -64,7 +64,7 @@ typedef struct dyd_forms {
 
 void dyd_forms_init(dyd_forms *f);
 void dyd_forms_clear(dyd_forms *f);
-/* The number of a form, new or known. DYD_NONE: nothing is known of the value; so it is where an operand is DYD_NONE,
+/* The number of a form, new or known. DYD_NONE: the value is unknown; so it is where an operand is DYD_NONE,
  * where forms are too many or too deep, and where memory is exhausted. */
 uint32_t dyd_forms_number(dyd_forms *f, mpq_srcptr q);
 uint32_t dyd_forms_leaf(dyd_forms *f, dyd_op op);
@@ -75,23 +75,20 @@ uint32_t dyd_forms_binary(dyd_forms *f, dyd_op op, uint32_t a, uint32_t b);
 static inline bool dyd_form_is_leaf(const dyd_form *n) {
   return dyd_op_is_leaf((dyd_op)n->op) || n->op == DYD_FORM_ROOT || n->op == DYD_FORM_OPAQUE;
 }
-static inline bool dyd_form_is_number(const dyd_forms *f, uint32_t n) {
-  return f->node[n].op == DYD_OP_CONST;
-}
 static inline mpq_srcptr dyd_form_number(const dyd_forms *f, uint32_t n) {
   return f->constant[f->node[n].a];
 }
 
-/* A ball that holds the value of n, computed to about prec bits; not finite where nothing is known. Every operation in
- * it is taken to be defined. Borrowed until the next call. */
+/* A ball that holds the value of n, computed to about prec bits; not finite where the value is unknown. Every operation
+ * in it is taken to be defined. Borrowed until the next call. */
 arb_srcptr dyd_forms_value(dyd_forms *f, uint32_t n, slong prec);
 
 /* Reals and points as forms. */
 
 /* The form of x; DYD_NONE where it is not one number. x is borrowed for the life of f. */
 uint32_t dyd_forms_real(dyd_forms *f, const dyd_real *x);
-/* The forms of both coordinates of a stream, or of the point r, a rectangle that is a point; DYD_NONE where nothing is
- * known of one. */
+/* The forms of both coordinates of a stream, or of the point r, a rectangle that is a point; DYD_NONE for one that is
+ * unknown. */
 dyd_form_point dyd_forms_stream(dyd_forms *f, const dyd_stream *s);
 dyd_form_point dyd_forms_rect(dyd_forms *f, const dyd_rect *r);
 

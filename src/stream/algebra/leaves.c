@@ -212,7 +212,7 @@ bool dyd_leaf_radical(dyd_fraction *x, dyd_ring *r, dyd_op op, const dyd_fractio
  * the monic integer polynomial a^(n-1) f(t / a). Two roots of one f of degree n are different or the same: distinct
  * ones are more than n^-(n+2)/2 |f|^-(n-1) apart (Mahler 1964, f without multiple zeros). */
 
-/* Degree and bits up to which factors are looked for; bits of a relation; bits looked at to tell roots apart. */
+/* Degree and bits up to which factors are searched for; bits of a relation; bits examined to tell roots apart. */
 enum { FACTOR_DEGREE = 32, FACTOR_BITS = 4096, RELATION_BITS = 1 << 20, APART_BITS = 1 << 14 };
 
 /* How many factors may vanish at x, and the last of them. */
@@ -527,14 +527,10 @@ static bool place_in_cycle(ulong *k, bool *far, dyd_ring *r, fmpq_t turn) {
 
 /* ---- other angles ---- */
 
-static bool keys_are_equal(const dyd_leaf *l, dyd_leaf_kind kind, const dyd_fraction *u, const dyd_ring *r) {
-  return l->kind == kind && dyd_fraction_equal(&l->key, u, r);
-}
-
 /* The leaf of the cosine of u; the sine follows. */
 static slong angle_leaf(dyd_ring *r, const dyd_fraction *u) {
   for (slong l = 0; l < r->leaves; l++)
-    if (keys_are_equal(&r->leaf[l], DYD_LEAF_COS, u, r)) return l;
+    if (r->leaf[l].kind == DYD_LEAF_COS && dyd_fraction_equal(&r->leaf[l].key, u, r)) return l;
   slong c = dyd_ring_add_leaf(r, DYD_LEAF_COS, DYD_OP_COS), s = dyd_ring_add_leaf(r, DYD_LEAF_SIN, DYD_OP_SIN);
   if (c < 0 || s < 0) return -1;
   dyd_fraction_set(&r->leaf[c].key, u, r);

@@ -278,12 +278,6 @@ static bool fraction_sum(dyd_fraction *x, bool minus, const dyd_fraction *y, con
   return fits;
 }
 
-/* x = 1 / x. */
-static bool fraction_invert(dyd_fraction *x, const dyd_ring *r) {
-  fmpz_mpoly_swap(x->num, x->den, r->ctx);
-  return !fmpz_mpoly_is_zero(x->den, r->ctx);
-}
-
 bool dyd_fraction_apply(dyd_fraction *x, dyd_op op, const dyd_fraction *y, const dyd_ring *r) {
   bool fits;
   if (op == DYD_OP_ADD || op == DYD_OP_SUB) {
@@ -305,8 +299,11 @@ bool dyd_fraction_apply(dyd_fraction *x, dyd_op op, const dyd_fraction *y, const
 
 bool dyd_fraction_power(dyd_fraction *x, slong n, const dyd_ring *r) {
   dyd_fraction square = {0};
-  bool fits = n >= 0 || fraction_invert(x, r);
-  if (n < 0) n = -n;
+  if (n < 0) {
+    fmpz_mpoly_swap(x->num, x->den, r->ctx);
+    n = -n;
+  }
+  bool fits = !fmpz_mpoly_is_zero(x->den, r->ctx);
   fmpz_mpoly_init(square.num, r->ctx);
   fmpz_mpoly_init(square.den, r->ctx);
   dyd_fraction_set(&square, x, r);

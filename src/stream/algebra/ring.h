@@ -2,10 +2,10 @@
 /* Polynomials in the leaves of some forms, modulo relations that the true values of the leaves satisfy.
  *
  * Leaves are shared by value: square and cube roots of rational numbers are products of those of a coprime base; all
- * cosines and sines of rational multiples of pi are polynomials in one 2 cos(2 pi / N). A leaf of which nothing is
- * known but that it is itself is a free variable. The relation of leaf k is monic in it, and its other coefficients are
- * polynomials in leaves before k: so leading monomials are powers of different variables, and reduced polynomials are
- * unique. A reduced polynomial that is 0 has the value 0 [IDN-1].
+ * cosines and sines of rational multiples of pi are polynomials in one 2 cos(2 pi / N). A leaf that is known only by
+ * its identity is a free variable. The relation of leaf k is monic in it, and its other coefficients are polynomials in
+ * leaves before k: so leading monomials are powers of different variables, and reduced polynomials are unique. A
+ * reduced polynomial that is 0 has the value 0 [IDN-1].
  *
  * A form is a fraction of two such polynomials; the true value of the denominator is not 0. */
 #ifndef DYD_STREAM_ALGEBRA_RING_H
@@ -55,7 +55,7 @@ typedef struct dyd_leaf {
 } dyd_leaf;
 
 /* stale: room, base or order had to grow: all fractions have to be made again. frac[n]: NULL: not yet made; `none`:
- * nothing is known. Invariant: base is coprime, greater than 1, without perfect powers. */
+ * the form is unknown. Invariant: base is coprime, greater than 1, without perfect powers. */
 typedef struct dyd_ring {
   dyd_forms *forms;
   fmpz_mpoly_ctx_t ctx;

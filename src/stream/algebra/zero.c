@@ -22,7 +22,7 @@ typedef struct dyd_separation {
  * Divisors are not 0, since what the forms describe is defined [ENC-1]. Where a sign has to be known it is read off a
  * ball; a function whose sign stays open is a free variable. */
 
-/* Greatest exponent; bits looked at for a sign. */
+/* Greatest exponent; bits examined for a sign. */
 enum { MOST_EXPONENT = 1 << 12, SIGN_BITS = 1024 };
 
 /* x = op of two other forms, by way of their fractions. */
@@ -120,7 +120,7 @@ static bool normal_hyperbolic(dyd_fraction *x, dyd_ring *r, dyd_op op, const dyd
 
 static bool normal_tangent(dyd_fraction *x, dyd_ring *r, const dyd_fraction *u) {
   dyd_fraction *c = dyd_fraction_new(r);
-  /* both are looked at, so that the order of the cycle grows at once */
+  /* both are examined, so that the order of the cycle grows at once */
   bool cosine = c && dyd_leaf_cosine(c, r, DYD_OP_COS, u), sine = dyd_leaf_cosine(x, r, DYD_OP_SIN, u);
   bool fits = cosine && sine && dyd_fraction_apply(x, DYD_OP_DIV, c, r);
   dyd_fraction_free(c, r);

@@ -30,7 +30,7 @@ typedef struct dyd_algebra {
   dyd_ring ring;
   bool settled;
   slong most;                 /* bits computed with at most */
-  const volatile int *cancel; /* NULL: nobody can */
+  const volatile int *cancel; /* NULL: no flag */
   dyd_room *room;             /* NULL: no bound; what it refuses stays unknown */
   dyd_zero_counts count;
   slong shown; /* bits at which the last value refuted was seen not to be 0 */
