@@ -6,9 +6,9 @@
 #include "stream/root.h"
 
 #include "base/alloc.h"
-#include "base/parallel.h"
 #include "base/error.h"
 #include "base/flag.h"
+#include "base/parallel.h"
 #include "stream/ball.h"
 #include "stream/real.h"
 
