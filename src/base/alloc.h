@@ -7,8 +7,9 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* A hint: what is large (1 MiB) and belongs to p is asked of the system in large pages. Triangulations jump through
- * memory, and small pages cost them a tenth of their time. Without such pages, nothing happens. Returns p. */
+/* Hints to the system that the bytes from p on, if they are many (1 MiB), should lie in large pages. Triangulations
+ * jump through memory, and small pages cost them a tenth of their time. Without such pages, nothing happens. Returns p.
+ */
 void *dyd_alloc_in_large_pages(void *p, size_t bytes);
 
 /* count * size bytes, not cleared; never NULL for count = 0 unless memory is exhausted. Release with free(). */

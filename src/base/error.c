@@ -11,7 +11,7 @@
 
 /* ---- structs that begin with their size ---- */
 
-/* A size above this is no size: the struct was never initialised. */
+/* Larger sizes come from structs that were never initialised. */
 #define MOST_BYTES 65536
 
 static size_t abi_size(const void *theirs) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* A flag by which long work is told to end. */
+/* Cancellation flag. */
 #ifndef DYD_BASE_FLAG_H
 #define DYD_BASE_FLAG_H
 

@@ -42,7 +42,7 @@ static bool float_rounds_to_nearest(void) {
   return even == 1 && up > 1 && minus == -1 && down < -1;
 }
 
-/* The product is rounded by itself, so that nothing is left when it is taken away. No macro tells of it. */
+/* Without contraction the product is rounded before the subtraction, and the difference is 0. No macro says so. */
 static bool float_contracts(void) {
   volatile double factor = 1 + 0x1p-30, square = factor * factor;
   double x = factor;

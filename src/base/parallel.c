@@ -29,7 +29,7 @@ static void *errand_run(void *arg) {
   return NULL;
 }
 
-/* The flag may be set by a signal handler, which can wake nobody: so it is looked at again and again. */
+/* A signal handler, which cannot wake a thread, may set the flag: so it is polled. */
 static void errand_wait(const errand *e, const volatile int *stop) {
   struct timespec pause = {.tv_nsec = 20000};
   while (__atomic_load_n(&e->state, __ATOMIC_ACQUIRE) == AT_WORK && !dyd_flag_is_set(stop)) {

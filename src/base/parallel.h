@@ -45,9 +45,9 @@ static inline size_t dyd_range_begin(size_t count, size_t number) {
  * Long work that cannot be interrupted, such as one function of millions of digits: a thread of its own does it, so
  * that the caller can leave. */
 
-/* Does work(job) in another thread. true: it is done. false: *stop was set before; the thread goes on without anybody
- * waiting, and calls drop(job) at its end: until then all that job points to is its own. stop NULL, and where no thread
- * can be had: the calling thread does it. */
+/* Does work(job) in another thread. true: it is done. false: *stop was set before; the thread continues without a
+ * waiting caller, and calls drop(job) at its end: until then all that job points to is its own. stop NULL, and where no
+ * thread can be had: the calling thread does it. */
 bool dyd_apart(void (*work)(void *job), void (*drop)(void *job), void *job, const volatile int *stop);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Memory that a run may hold, by estimates that are asked for before what is large is made.
+/* Memory budget of a run: large allocations are estimated and checked before they are made.
  *
- * An estimate counts what the arrays to come will take when they are full; what stays is `held`. So a run is refused
- * while there still is memory, which GMP, MPFR and FLINT, which end the process without it, cannot do. */
+ * An estimate counts the bytes of the coming arrays when they are full; arrays that stay are `held`. So a run is
+ * refused while there still is memory, which GMP, MPFR and FLINT, which end the process without it, cannot do. */
 #ifndef DYD_BASE_ROOM_H
 #define DYD_BASE_ROOM_H
 
@@ -13,8 +13,8 @@
 /* All in bytes. Invariant: refused is NULL, or static and says for what `wanted`, more than `most`, was asked. */
 typedef struct dyd_room {
   uint64_t most;         /* 0: no bound, and nothing is counted */
-  uint64_t beside, held; /* by others, all along; by what is at work, now */
-  uint64_t peak;         /* the most that was asked for at once and granted, with what was held */
+  uint64_t beside, held; /* by others, during the whole run; by the present step */
+  uint64_t peak;         /* the largest granted sum of held and estimated bytes */
   uint64_t wanted;
   const char *refused;
 } dyd_room;
@@ -26,7 +26,7 @@ static inline uint64_t dyd_bytes_times(uint64_t count, uint64_t size) {
   return size && count > UINT64_MAX / size ? UINT64_MAX : count * size;
 }
 
-/* Is there room for `more` beside what is held? `what` is static. */
+/* Returns true if `more` bytes fit beside those held. `what`, a static string, names their use. */
 static inline bool dyd_room_has(dyd_room *r, uint64_t more, const char *what) {
   uint64_t all = dyd_bytes_add(dyd_bytes_add(r->beside, r->held), more);
   if (!r->most) return true;
@@ -39,13 +39,13 @@ static inline bool dyd_room_has(dyd_room *r, uint64_t more, const char *what) {
   return true;
 }
 
-/* What is left for somebody else; 0: no bound. */
+/* Returns the bytes left; 0 without a bound. */
 static inline uint64_t dyd_room_left(const dyd_room *r) {
   uint64_t taken = dyd_bytes_add(r->beside, r->held);
   return !r->most ? 0 : r->most > taken ? r->most - taken : 1;
 }
 
-/* A part of what is left, for one of so many (0: one) at work side by side. */
+/* Cuts the budget to the share of one of `parts` parallel tasks (0 counts as 1). */
 static inline void dyd_room_share(dyd_room *r, unsigned parts) {
   uint64_t taken = dyd_bytes_add(r->beside, r->held);
   if (parts > 1 && r->most > taken) r->most = taken + (r->most - taken) / parts;

@@ -27,7 +27,7 @@ void dyd_table_share_out(dyd_delaunay *pd, uint32_t g);
 /* Takes face g out; the last one gets its number. Puts it in again: there is room for it. */
 void dyd_table_take_out(dyd_delaunay *pd, uint32_t g);
 void dyd_table_put_back(dyd_delaunay *pd, const dyd_face *face);
-/* Drops what replaced faces have left over, once it is more than what is in use. Without memory, later. */
+/* Drops leftovers of replaced faces once they outnumber the entries in use. Does nothing if memory is exhausted. */
 void dyd_table_compact(dyd_undecided *f);
 /* Do faces but `self`, numbered at least `from` and below `to`, have triangles at v? What is known of the last vertex
  * asked about is kept: pairs come sorted. Begin with v = DYD_NONE. */
@@ -57,7 +57,7 @@ enum { DYD_FEW_PAIRS = 4 };
 enum { DYD_FEW_PAIRS = 64 };
 #endif
 
-/* Says who has too many possible neighbours: the n vertices v, or the sites of a line. */
+/* Reports the n vertices v that have too many possible neighbours. */
 void dyd_report_cap(dyd_work *w, const dyd_delaunay *pd, const uint32_t *v, size_t n);
 
 #endif

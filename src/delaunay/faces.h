@@ -8,10 +8,10 @@
 
 /* A large face few of whose vertices were narrowed: what of it can change, and its pairs after that [LOC-4].
  *
- * A pair of others becomes impossible only when somebody narrowed was a possible neighbour of both and now blocks them;
- * an edge becomes certain only at one who was narrowed, or at a possible neighbour of one. So the rest is kept. */
+ * A pair of others becomes impossible only when a narrowed vertex was a possible neighbour of both and now blocks them;
+ * an edge becomes certain only at a narrowed vertex, or at a possible neighbour of one. So the rest is kept. */
 
-/* So many vertices of a face are few. */
+/* Up to this number, narrowed vertices of a face are few. */
 enum { DYD_FEW = 16 };
 
 /* mark: of each vertex, the ghost last, what faces.c notes of it; NULL: nothing is known, all of the face is looked

@@ -7,7 +7,7 @@
 #include "base/index.h"
 #include <dyadel/delaunay.h>
 
-/* Behind those that are there; *cap: the room of the list. */
+/* Appends count items; *cap is the capacity of the list. */
 static inline dyd_status dyd_index_list_add(dyd_index_list *l, size_t *cap, const uint32_t *item, size_t count) {
   if (!dyd_reserve((void **)&l->item, cap, l->count + count, sizeof *l->item)) return DYD_E_NOMEM;
   for (size_t k = 0; k < count; k++) l->item[l->count++] = item[k];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Memory for what is made of a result. */
+/* Memory budget of lists that are made from a result. */
 #ifndef DYD_DELAUNAY_MEMORY_H
 #define DYD_DELAUNAY_MEMORY_H
 
@@ -15,7 +15,7 @@ bool dyd_delaunay_is_bounded(const dyd_delaunay *pd);
 /* DYD_OK when so much may be made of the result at once; else DYD_E_NOMEM, with what took too much in *err (may be
  * NULL). `what` is static. */
 dyd_status dyd_delaunay_grant(const dyd_delaunay *pd, uint64_t bytes, const char *what, dyd_error *err);
-/* The least status of the pairs that cells, areas, spanning trees and plans look at. Ties of exact points are left out:
+/* The least status of the pairs that cells, areas, spanning trees and plans look at. Ties of exact points are ignored:
  * the common boundary of two such cells is one point or nothing [GRP-1], and a face of k sites has about k^2 / 2 of
  * them. Ties that were proved count, since their rectangles say less than what was proved. */
 dyd_pair_status dyd_least_bounding(const dyd_delaunay *pd);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What is undecided, whatever stores it: faces, their vertices and pairs; and the walk over all possible pairs.
+/* Undecided faces, their vertices and pairs, in any storage; and the walk over all possible pairs.
  *
  * The walks are inline, so that visitors are. */
 #ifndef DYD_DELAUNAY_UNDECIDED_H
@@ -49,7 +49,8 @@ static inline void dyd_each_listed(const dyd_delaunay *pd, size_t f, dyd_pair_vi
   }
 }
 
-/* So many vertices of a rim are paired with the later ones in one walk; in the armed build small faces need several. */
+/* Number of vertices of a rim that are paired with the later ones in one walk; in the armed build small faces need
+ * several. */
 #ifdef DYD_ARMED
 enum { DYD_RIM_PART = 3 };
 #else

@@ -29,7 +29,7 @@ void dyd_exact_centre_clear(dyd_exact_centre *p);
 
 /* The half-planes h[0..3] must be the sides x > -m, x < m, y > -m, y < m of a square (w = |a| or |b|). z <= 0
  * afterwards says that the open half-planes have no common point [LP-1]. false: no end after many steps, or no memory,
- * or *cancel (NULL: nobody can) is set. */
+ * or *cancel (may be NULL) is set. */
 bool dyd_exact_lp(dyd_exact_centre *out, const dyd_half_plane *h, size_t count, const volatile int *cancel);
 
 enum { DYD_PLANES = 1024 };
@@ -40,7 +40,7 @@ typedef struct dyd_plane_list {
   dyd_half_plane h[DYD_PLANES];
   size_t count, made;
   int64_t low, top;
-  const volatile int *cancel; /* NULL: nobody can */
+  const volatile int *cancel; /* may be NULL */
 } dyd_plane_list;
 
 void dyd_planes_init(dyd_plane_list *l, const volatile int *cancel);

@@ -6,8 +6,8 @@
  * and only centres on beta (or at its two ends at infinity, the directions of the outer common tangents) matter: moving
  * c towards the farther rectangle keeps the inequality. Each other k blocks the open part of beta where dl_k < ds_i,
  * one interval or two rays; its finite ends are critical circles closest-closest-farthest of (i, j, k). A k that meets
- * R_i or R_j never blocks: a common point is no nearer than ds. The walk starts at t = -inf: nobody blocks there:
- * possible. Else it goes to the far end of a blocker's interval, asks who blocks there; nobody: possible; no far end:
+ * R_i or R_j never blocks: a common point is no nearer than ds. The walk starts at t = -inf. If no vertex blocks
+ * the place, the pair is possible. Else the walk goes on to the far end of the blocker's interval; if there is none,
  * beta is covered, the pair is illegal [COV-1]. */
 #include "possible/cover.h"
 
@@ -24,7 +24,7 @@ typedef struct walk {
   const uint32_t *hint; /* two vertices asked before all others */
   int axis;
   int end;          /* -1, 1: at infinity; 0: at the circle w->here */
-  uint32_t blocker; /* of the current place, DYD_NONE: nobody found */
+  uint32_t blocker; /* of the current place, DYD_NONE: none found */
   uint32_t last;    /* whose interval ends at w->here: does not block there */
   double bound;     /* squared radius from above, or height from below */
   dyd_bbox centre;

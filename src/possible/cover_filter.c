@@ -3,11 +3,11 @@
  *
  * [COV-2] What k blocks of beta = {ds_i = ds_j} is connected if k does not block one of its ends strictly. So a chain
  * of such k, the first of which blocks the end at -inf, the last the end at inf, and each of which blocks a point of
- * beta together with the next one, covers beta: the pair is impossible. A centre nearer to which nobody is shows that
- * it is possible [POS-1].
+ * beta together with the next one, covers beta: the pair is impossible. A centre to which no other vertex is nearer
+ * shows that it is possible [POS-1].
  *
  * Where to look needs no bound: from the blocker of one place go to where its part of beta seems to end. Just behind
- * somebody else blocks, or nobody, which the tree confirms. */
+ * another vertex blocks, or none does, which the tree confirms. */
 #include "possible/cover_filter.h"
 
 #include "predicate/predicate_filter.h"
@@ -210,7 +210,7 @@ static bool seems_blocked(const quick *q, uint32_t k, double t) {
   return place_far2(&p, &q->sk->rects.box[k]) < p.ds2;
 }
 
-/* About who is nearest among the hints and neighbours, if nearer than i and j. */
+/* The vertex that is about nearest among hints and neighbours, if nearer than i and j. */
 static uint32_t likely_blocker(quick *q, const dyd_place *p) {
   double least = p->ds2;
   uint32_t best = DYD_NONE;
@@ -243,7 +243,7 @@ static bool perhaps_nearer(void *context, uint32_t k) {
   return false;
 }
 
-/* Somebody who is perhaps nearer than i or j; DYD_NONE: surely nobody, so the pair is possible [POS-1]. */
+/* A vertex that is perhaps nearer than i or j; DYD_NONE: certainly none, so the pair is possible [POS-1]. */
 static uint32_t any_blocker(const quick *q, const dyd_place *p) {
   search s = {q, {{p->at[0], p->at[0], p->at[1], p->at[1]}}, 0, DYD_NONE};
   s.bound = dyd_pair_ds2_upper(&q->sk->rects, &s.c, q->beta.i, q->beta.j);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Pairs of small numbers with a state, and who is paired with whom: the working memory of a closure. */
+/* Pairs of small numbers with a state, and the partners of each number: the working memory of a closure. */
 #ifndef DYD_POSSIBLE_PAIR_MAP_H
 #define DYD_POSSIBLE_PAIR_MAP_H
 

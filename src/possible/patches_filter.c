@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Patches of the plane, and who is possibly nearest in them.
+/* Patches of the plane, and the sites that are possibly nearest in them.
  *
  * [PLANE-1] C_ki = {c : dl_k(c) < ds_i(c)} is convex. So when the corners of a convex patch are in C_ki, i is nowhere
  * in the patch possibly nearest, and no pair of i has a centre there (ij is possible iff Pos_i and Pos_j meet). A patch
  * is a square, or a strip outside the root square between two rays; the far corners of a strip are the directions u of
  * its rays, and there C_ki means min u.x over R_k > max u.x over R_i, as for centres at infinity. The patches cover the
- * plane with its directions, since neighbours share lines or rays bit by bit. Whoever has the least dl at a point of a
- * patch is possibly nearest there and never leaves its list, so the list alone tells M(c) from below: sites of the list
- * with ds(c) <= M(c) are possible neighbours of one another. Distances are bounded as in skeleton/distance_filter.h
- * [FLT-DST], heights as in skeleton/rects_filter.c [FLT-DIR]; NaN and infinities compare false and prove nothing. */
+ * plane with its directions, since neighbours share lines or rays bit by bit. The site with the least dl at a point of
+ * a patch is possibly nearest there and never leaves its list, so the list alone tells M(c) from below: sites of the
+ * list with ds(c) <= M(c) are possible neighbours of one another. Distances are bounded as in
+ * skeleton/distance_filter.h [FLT-DST], heights as in skeleton/rects_filter.c [FLT-DIR]; NaN and infinities compare
+ * false and prove nothing. */
 #include "possible/patches_filter.h"
 
 #include "base/alloc.h"
@@ -127,7 +128,7 @@ enum {
   WORK = 1000
 };
 
-/* Somebody in a patch. member: as such possibly nearest there, with open pairs; else DYD_NONE. rival: may have the
+/* A vertex in a patch. member: as such possibly nearest there, with open pairs; else DYD_NONE. rival: may have the
  * least dl. */
 typedef struct entry {
   uint32_t vertex, member;
@@ -215,7 +216,7 @@ static void measure_closest(double at[4], const plane *p, uint32_t vertex, const
   for (int k = 0; k < 4; k++) at[k] = dyd_lower(s[k & 1] + s[2 + (k >> 1)]);
 }
 
-/* Who is nearest at the worst corner, and who at each corner. Returns how many. */
+/* Finds the nearest vertices at the worst corner and at each corner. Returns their number. */
 static int choose_dominators(dominator best[DOMINATORS], const plane *p, const patch *q, const dyd_plane_corner v[4]) {
   double least[DOMINATORS] = {INFINITY, INFINITY, INFINITY, INFINITY, INFINITY};
   dominator all[DOMINATORS] = {{DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}};
@@ -256,8 +257,8 @@ static dyd_plane_corner centre_of(const plane *p, const patch *q) {
   return q->side < 0 ? (dyd_plane_corner){x, y, false} : ray(p, q->side, x, true);
 }
 
-/* An upper bound of dl at the centre for whoever has the least dl anywhere in a square: dl changes by at most the way,
- * so it is at most the least one at the centre, and twice the way to the farthest corner. Infinite for strips. */
+/* An upper bound of dl at the centre for the vertex with the least dl anywhere in a square: dl changes by at most the
+ * way, so it is at most the least one at the centre, and twice the way to the farthest corner. Infinite for strips. */
 static double rival_limit(const patch *q, const dyd_plane_corner *centre, double least2) {
   if (q->side >= 0) return INFINITY;
   double dx = dyd_max(q->x1 - centre->x, centre->x - q->x0), dy = dyd_max(q->y1 - centre->y, centre->y - q->y0);
@@ -341,7 +342,7 @@ static void patches_try_centre(plane *p, patch *q) {
   q->coarse = q->depth < FINE && q->count > COARSE * (near ? near : 1);
 }
 
-/* Tells of the pair of the list if it is open and shown, else keeps it if it is open and the patch is listed. */
+/* Reports the pair of the list if it is open and shown, else keeps it if it is open and the patch is listed. */
 static dyd_status consider(plane *p, patch *q, size_t a, size_t b) {
   const entry *i = &p->entry[q->first + a], *j = &p->entry[q->first + b];
   if (i->member == DYD_NONE || j->member == DYD_NONE || !is_open(p, i, j)) return DYD_OK;

@@ -33,7 +33,7 @@ dyd_status dyd_patches_run(bool *complete, const dyd_patches *c);
  */
 bool dyd_surely_not_displaced(const dyd_skeleton *sk, uint32_t i, uint32_t j, uint32_t k, uint32_t l);
 
-/* near[k]: vertex[k] is surely possibly nearest at c, so that all who are make possible pairs [POS-1]. */
+/* near[k]: vertex[k] is certainly possibly nearest at c; all such vertices make possible pairs [POS-1]. */
 void dyd_filter_clique(bool *near, const dyd_rects *r, dyd_xy c, const uint32_t *vertex, size_t count);
 
 #endif

@@ -77,7 +77,7 @@ static inline uint32_t dyd_mesh_alias(const dyd_mesh *m, uint32_t v) {
 /* Half-edges: the one name for a place in a triangulation.
  *
  * Half-edge 4 t + k of triangle t is opposite v[k] and runs from v[k+1] to v[k+2], counter-clockwise, t on its left.
- * Its twin runs back, in the triangle beyond. Of two twins the one with the smaller number is "first". Nobody else
+ * Its twin runs back, in the triangle beyond. Of two twins the one with the smaller number is "first". No other code
  * takes half-edges apart. */
 
 /* Corner after, before corner k of a triangle. */

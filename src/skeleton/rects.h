@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The rectangles by vertex: exact ones in the table of sites, boxes in doubles around them, a tree over these.
  *
- * That is all a question about discs needs: whoever is not in the tree is nobody. */
+ * Questions about discs need no more: only the vertices in the tree count. */
 #ifndef DYD_SKELETON_RECTS_H
 #define DYD_SKELETON_RECTS_H
 
@@ -13,10 +13,10 @@
 
 #include <stdbool.h>
 
-/* A packed tree of boxes over the vertices in spatial order: who can be near, who can lie beyond a line.
+/* A packed tree of boxes over the vertices in spatial order: which can be near, which can lie beyond a line.
  *
  * Every node holds the hull of 8 consecutive vertices or nodes, so extents count, not only centres. Answers are
- * conservative: everybody who might qualify is visited. */
+ * conservative: every vertex that might qualify is visited. */
 
 enum { DYD_TREE_FANOUT = 8, DYD_TREE_LEVELS = 12 };
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Who can block a centre: distance bounds of vertices in doubles. */
+/* Which vertices can block a centre: distance bounds in doubles. */
 #ifndef DYD_SKELETON_RECTS_FILTER_H
 #define DYD_SKELETON_RECTS_FILTER_H
 
@@ -21,8 +21,8 @@ double dyd_pair_dl2_upper(const dyd_rects *r, const dyd_bbox *c, uint32_t i, uin
 double dyd_pair_ds2_upper(const dyd_rects *r, const dyd_bbox *c, uint32_t i, uint32_t j);
 /* Is dl_k^2 >= bound for all centres in c, surely? */
 bool dyd_surely_not_nearer(const dyd_rects *r, const dyd_bbox *c, uint32_t k, double bound);
-/* Somebody surely nearer than i and j to all centres in c, dl_k < ds_i, ds_j: the one of least dl_k by its upper bound.
- * DYD_NONE: not known. */
+/* A vertex certainly nearer than i and j to all centres in c, dl_k < ds_i, ds_j: the one of least dl_k by its upper
+ * bound. DYD_NONE: not known. */
 uint32_t dyd_surely_nearest(const dyd_rects *r, const dyd_bbox *c, uint32_t i, uint32_t j);
 /* Do the boxes of i and j surely not meet? */
 static inline bool dyd_boxes_disjoint(const dyd_bbox *a, const dyd_bbox *b) {

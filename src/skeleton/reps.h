@@ -46,8 +46,8 @@ static inline bool dyd_reps_is_double(const dyd_reps *r, uint32_t v) {
 /* Many sites are divided by vertical lines into strips, which are triangulated one by one and joined. */
 enum { DYD_STRIPS = 8 };
 
-/* Strip s has the vertices begin[s] .. begin[s + 1] - 1. Each strip is meant to lie left of the next; whoever relies on
- * it asks the representatives. */
+/* Strip s has the vertices begin[s] .. begin[s + 1] - 1. Each strip is meant to lie left of the next; code that relies
+ * on it compares the representatives. */
 typedef struct dyd_strips {
   unsigned count;
   uint32_t begin[DYD_STRIPS + 1];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* A growing set of vertices with their rectangles as integers in one common scale, for the exact walks.
  *
- * The common factor is lcm * 2^-low. A newcomer may refine it; then all members are multiplied by `growth`, and whoever
- * keeps numbers in the old scale multiplies them too (dyd_scale_add says so). Directions need no change. */
+ * The common factor is lcm * 2^-low. A newcomer may refine it; then all members are multiplied by `growth`, and callers
+ * that keep numbers in the old scale multiply them too (dyd_scale_add says so). Directions need no change. */
 #ifndef DYD_SKELETON_SCALE_SET_H
 #define DYD_SKELETON_SCALE_SET_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What questions about a skeleton need beside it: the run that they belong to, and the scratch of one thread.
+/* The run that questions about a skeleton belong to, and the scratch of one thread.
  *
- * Questions take a const skeleton and a work, write to that work only, and return what they find. */
+ * Questions take a const skeleton and a work, write to that work only, and return their findings. */
 #ifndef DYD_SKELETON_WORK_H
 #define DYD_SKELETON_WORK_H
 
@@ -13,7 +13,7 @@
 /* A site has at most this many critical circles with two others [CRIT-1]. */
 enum { DYD_CIRCLES = 8 };
 
-/* What is the same for all threads of a run. */
+/* Settings that all threads of a run share. */
 typedef struct dyd_run {
   const volatile int *cancel; /* NULL: the run cannot be cancelled */
   unsigned threads;           /* for passes over everything */
@@ -24,8 +24,8 @@ typedef struct dyd_run {
 /* Of one thread. */
 typedef struct dyd_work {
   const dyd_run *run;     /* borrowed */
-  const dyd_rects *rects; /* those that are asked: of all vertices, unless fewer will do; borrowed */
-  dyd_room room;          /* for what is large */
+  const dyd_rects *rects; /* of all vertices, or of the few that suffice; borrowed */
+  dyd_room room;          /* for large allocations */
   dyd_tally tally;        /* of the predicates of the mesh */
   dyd_delaunay_counters counters;
   dyd_scale_set set; /* scratch of the exact walks, reused from question to question */
