@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Writing a trace: one line of JSON for each narrowing and for each stage. All texts are our own words and numbers, so
- * nothing needs escaping. A line is made in memory, and written with the digest of all lines so far. */
+/* Traces, whose format io.h describes: written, read back into an engine (recall), and replayed.
+ *
+ * A line of JSON for each narrowing and for each stage, made in memory and written with the digest of all lines so far.
+ * All texts are words of the library and numbers, so nothing needs escaping.
+ *
+ * Recall gives an engine the answers of a trace, which may end anywhere, also within a line: the run that wrote it may
+ * have been killed. Replay puts the rectangles of a trace into a table of sites, stage by stage, and triangulates as
+ * the engine did; no stream is asked. Both check that every rectangle is inside the one before [NEST-1]. */
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/clock.h"
@@ -26,38 +32,214 @@
 #include <string.h>
 #include <unistd.h>
 
-/* What writing and reading traces share: the words of the format, documented in io.h. */
+#define FORMAT "dyadel trace 2"
 
-#define DYD_TRACE_FORMAT "dyadel trace 2"
-
-/* The last goal and schedule of a trace; their words are dyd_goal_text and dyd_schedule_text. */
-enum { DYD_TRACE_GOAL = DYD_GOAL_VORONOI_HAUSDORFF, DYD_TRACE_SCHEDULE = DYD_SCHEDULE_UNIFORM };
+/* The last goal and schedule that a trace can have. */
+enum { LAST_GOAL = DYD_GOAL_VORONOI_HAUSDORFF, LAST_SCHEDULE = DYD_SCHEDULE_UNIFORM };
 static const char *const relation_name[] = {
     [DYD_COINCIDENT] = "coincident", [DYD_COLLINEAR] = "collinear", [DYD_COCIRCULAR] = "cocircular"};
 
-/* The values in a line of a trace; each function returns false when there is none of that kind. */
+#define SUM_BEGIN UINT64_C(14695981039346656037)
 
-/* FNV-1a, where it has come to before, of more bytes. */
-#define DYD_TRACE_SUM_BEGIN UINT64_C(14695981039346656037)
-
-/* What a trace says was proved about points. */
-
-typedef struct dyd_trace_proof {
-  dyd_relation relation;
-  size_t count;
-  uint32_t *site;
-} dyd_trace_proof;
-
-/* Init with {0}. Sites are below `points`; joined: so many of them have been looked at for points that are the same. */
-typedef struct dyd_trace_proofs {
-  dyd_trace_proof *item;
-  size_t count, cap, joined;
-} dyd_trace_proofs;
-
+/* FNV-1a of the bytes before, continued. */
 static uint64_t trace_sum(uint64_t sum, const char *text, size_t length) {
   for (size_t k = 0; k < length; k++) sum = (sum ^ (unsigned char)text[k]) * 1099511628211u;
   return sum;
 }
+
+/* ---- writing ---- */
+
+/* Invariant: seen[i] tells whether point i was narrowed; NULL once the fixed points are written. line: what is written
+ * of the line under way, in text[0 .. size) once it is flushed. sync < 0: nobody asked for it. */
+struct dyd_trace {
+  FILE *out, *line;
+  char *text;
+  size_t size;
+  uint64_t sum;
+  double sync, synced; /* seconds; of dyd_seconds */
+  const dyd_engine *e;
+  size_t proofs; /* written */
+  size_t points;
+  bool *seen;
+  dyd_status failed;
+};
+
+/* To the disk. What cannot be synced, such as a pipe, need not be. */
+static dyd_status trace_to_disk(dyd_trace *t) {
+  const bool done = fflush(t->out) == 0 && (fdatasync(fileno(t->out)) == 0 || errno == EINVAL || errno == EROFS ||
+                                            errno == EBADF || errno == ENOTSUP);
+  t->synced = dyd_seconds();
+  return done ? DYD_OK : DYD_E_IO;
+}
+
+/* Ends the line. */
+static dyd_status trace_line(dyd_trace *t) {
+  if (fflush(t->line) != 0) return DYD_E_NOMEM;
+  t->sum = trace_sum(t->sum, t->text, t->size);
+  fwrite(t->text, 1, t->size, t->out);
+  fprintf(t->out, ",\"sum\":\"%016" PRIx64 "\"}\n", t->sum);
+  rewind(t->line);
+  return t->sync >= 0 && dyd_seconds() - t->synced >= t->sync ? trace_to_disk(t) : DYD_OK;
+}
+
+dyd_status dyd_trace_sync(dyd_trace *t, double seconds, dyd_error *err) {
+  if (!t || !(seconds >= 0)) return dyd_fail(err, DYD_E_ARG, "a trace, and a number of seconds from 0 on, are needed");
+  t->sync = seconds;
+  return trace_to_disk(t) == DYD_OK ? DYD_OK : dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno));
+}
+
+static dyd_status trace_head(dyd_trace *t, const char *input, const dyd_engine_options *o,
+                             const dyd_converge_options *c) {
+  dyd_status st = DYD_OK;
+  fprintf(t->line, "{\"format\":\"" FORMAT "\",\"points\":%zu", t->points);
+  if (input) fprintf(t->line, ",\"input\":\"%s\"", input);
+  fprintf(t->line,
+          ",\"schedule\":\"%s\",\"goal\":\"%s\",\"goal_bits\":%" PRId64 ",\"start_bits\":%" PRId64
+          ",\"step_bits\":%" PRId64 ",\"max_bits\":%" PRId64 ",\"max_pairs\":%zu",
+          dyd_schedule_text(o->schedule), dyd_goal_text(o->goal), o->goal_bits, o->start_bits, o->step_bits,
+          o->max_bits, o->max_pairs);
+  if (c->no_voronoi) fputs(",\"no_voronoi\":true", t->line);
+  if (c->window) {
+    fputs(",\"window\":[", t->line);
+    st = dyd_put_window(t->line, c->window, "\"", ",");
+    fputs("]", t->line);
+  }
+  return st == DYD_OK ? trace_line(t) : st;
+}
+
+static void trace_free(dyd_trace *t) {
+  if (t->line) fclose(t->line);
+  free(t->text);
+  free(t->seen);
+  free(t);
+}
+
+static dyd_status trace_side(FILE *out, const char *name, const dyd_interval *a) {
+  char *lo = dyd_end_text(a, false), *hi = dyd_end_text(a, true);
+  dyd_status st = lo && hi ? DYD_OK : DYD_E_NOMEM;
+  if (st == DYD_OK) fprintf(out, ",\"%s\":[\"%s\",\"%s\"]", name, lo, hi);
+  free(lo);
+  free(hi);
+  return st;
+}
+
+/* Ends the line with the rectangle. */
+static dyd_status trace_rect(dyd_trace *t, const dyd_rect *r) {
+  dyd_status st = trace_side(t->line, "x", &r->x);
+  if (st == DYD_OK) st = trace_side(t->line, "y", &r->y);
+  return st == DYD_OK ? trace_line(t) : st;
+}
+
+/* An answer of an earlier trace. */
+static dyd_status trace_kept(void *user, uint32_t site, int64_t bits, const dyd_rect *r, bool final) {
+  dyd_trace *t = user;
+  fprintf(t->line, "{\"kept\":true,\"point\":%" PRIu32 ",\"bits\":%" PRId64, site, bits);
+  if (final) fputs(",\"final\":true", t->line);
+  return trace_rect(t, r);
+}
+
+dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const char *input,
+                         const dyd_engine_options *options, const dyd_converge_options *converge, dyd_error *err) {
+  dyd_engine_options defaults, o;
+  dyd_converge_options c;
+  dyd_engine_options_init(&defaults);
+  dyd_status st = dyd_abi_take(&o, sizeof o, options ? options : &defaults, "dyd_engine_options", err);
+  if (st == DYD_OK) st = dyd_abi_take(&c, sizeof c, converge, "dyd_converge_options", err);
+  if (st != DYD_OK) return st;
+  if ((unsigned)o.goal > LAST_GOAL || (unsigned)o.schedule > LAST_SCHEDULE)
+    return dyd_fail(err, DYD_E_ARG, "a trace cannot tell of this goal or schedule");
+  dyd_trace *t = calloc(1, sizeof *t);
+  if (!t) return dyd_fail_nomem(err);
+  t->out = f;
+  t->e = e;
+  t->points = dyd_engine_count(e);
+  t->sum = SUM_BEGIN;
+  t->sync = -1;
+  t->seen = calloc(t->points + 1, sizeof *t->seen);
+  t->line = open_memstream(&t->text, &t->size);
+  if (!t->seen || !t->line) {
+    trace_free(t);
+    return dyd_fail_nomem(err);
+  }
+  t->failed = trace_head(t, input, &o, &c);
+  if (t->failed == DYD_OK) t->failed = dyd_recall_each(e->recall, trace_kept, t);
+  *out = t;
+  return DYD_OK;
+}
+
+void dyd_trace_step(void *trace, const dyd_step *step) {
+  dyd_trace *t = trace;
+  if (t->failed != DYD_OK) return;
+  if (t->seen) t->seen[step->site] = true;
+  fprintf(t->line, "{\"stage\":%" PRIu64 ",\"point\":%" PRIu32 ",\"bits\":%" PRId64 ",\"called\":%s,\"why\":\"%s\"",
+          step->stage, step->site, step->bits, step->called ? "true" : "false", dyd_reason_text(step->reason));
+  if (step->final) fputs(",\"final\":true", t->line);
+  if (step->i != step->j) fprintf(t->line, ",\"pair\":[%" PRIu32 ",%" PRIu32 "]", step->i, step->j);
+  t->failed = trace_rect(t, step->rect);
+}
+
+/* Lines of the points that were not asked: they are fixed. */
+static dyd_status trace_fixed(dyd_trace *t, const dyd_delaunay *pd) {
+  dyd_status st = DYD_OK;
+  dyd_rect rect;
+  dyd_rect_init(&rect);
+  for (size_t i = 0; st == DYD_OK && i < t->points; i++) {
+    if (t->seen[i]) continue;
+    st = dyd_sites_get(&rect, dyd_delaunay_sites(pd), i);
+    fprintf(t->line, "{\"stage\":1,\"point\":%zu,\"why\":\"fixed\"", i);
+    if (st == DYD_OK) st = trace_rect(t, &rect);
+  }
+  dyd_rect_clear(&rect);
+  free(t->seen);
+  t->seen = NULL;
+  return st;
+}
+
+/* What was proved in the stage: rectangles do not tell. */
+static dyd_status trace_proofs(dyd_trace *t) {
+  dyd_relation relation;
+  const uint32_t *site;
+  size_t count;
+  for (; dyd_ties_proved(&relation, &site, &count, t->e, t->proofs); t->proofs++) {
+    fprintf(t->line, "{\"proved\":\"%s\",\"points\":[", relation_name[relation]);
+    for (size_t k = 0; k < count; k++) fprintf(t->line, k ? ",%" PRIu32 : "%" PRIu32, site[k]);
+    fputs("]", t->line);
+    dyd_status st = trace_line(t);
+    if (st != DYD_OK) return st;
+  }
+  return DYD_OK;
+}
+
+void dyd_trace_stage(void *trace, const dyd_progress *p) {
+  dyd_trace *t = trace;
+  uint64_t digest;
+  const dyd_delaunay *pd = dyd_engine_delaunay(t->e);
+  if (t->failed == DYD_OK && t->seen) t->failed = trace_fixed(t, pd);
+  if (t->failed == DYD_OK) t->failed = dyd_digest_pairs(&digest, pd);
+  if (t->failed == DYD_OK) t->failed = trace_proofs(t);
+  if (t->failed != DYD_OK) return;
+  fprintf(t->line,
+          "{\"stage\":%" PRIu64
+          ",\"done\":true,\"legal\":%zu,\"indeterminate\":%zu,\"tie\":%zu,\"statuses\":\"%016" PRIx64 "\"",
+          p->stage, p->count[DYD_LEGAL], p->count[DYD_INDETERMINATE], p->count[DYD_TIE], digest);
+  t->failed = trace_line(t);
+}
+
+dyd_status dyd_trace_end(dyd_trace *t, dyd_outcome outcome, dyd_error *err) {
+  if (!t) return dyd_fail_null(err);
+  dyd_status st = t->failed;
+  fprintf(t->line, "{\"outcome\":\"%s\"", dyd_outcome_text(outcome));
+  if (st == DYD_OK) st = trace_line(t);
+  if (st == DYD_OK && t->sync >= 0) st = trace_to_disk(t);
+  if (st == DYD_OK)
+    st = dyd_output_end(t->out, err);
+  else
+    dyd_fail(err, st, "%s", dyd_status_text(st));
+  trace_free(t);
+  return st;
+}
+
+/* ---- values in a line; each function returns false when there is none of that kind ---- */
 
 /* Takes the sum over the line, of which it is not part, into *sum: is it the one that the line ends with? */
 static bool trace_is_sealed(uint64_t *sum, const char *text, size_t length) {
@@ -96,7 +278,7 @@ static bool trace_ends(dyd_interval *out, const json_t *list, size_t from) {
 }
 
 /* The side "x" or "y" of a rectangle. */
-static bool dyd_trace_side(dyd_interval *out, const json_t *line, const char *name) {
+static bool read_side(dyd_interval *out, const json_t *line, const char *name) {
   const json_t *side = json_object_get(line, name);
   const char *lo = json_string_value(json_array_get(side, 0)), *hi = json_string_value(json_array_get(side, 1));
   if (!lo || !hi || json_array_size(side) != 2) return false;
@@ -105,12 +287,24 @@ static bool dyd_trace_side(dyd_interval *out, const json_t *line, const char *na
   return trace_ends(out, side, 0);
 }
 
-/* Proofs of a trace stand for the expressions that are not in it. */
+/* ---- proofs, which stand for the expressions that are not in a trace ---- */
 
-static void trace_proofs_clear(dyd_trace_proofs *p) {
+typedef struct trace_proof {
+  dyd_relation relation;
+  size_t count;
+  uint32_t *site;
+} trace_proof;
+
+/* Init with {0}. Sites are below `points`; joined: so many of them have been looked at for points that are the same. */
+typedef struct proof_list {
+  trace_proof *item;
+  size_t count, cap, joined;
+} proof_list;
+
+static void trace_proofs_clear(proof_list *p) {
   for (size_t k = 0; k < p->count; k++) free(p->item[k].site);
   free(p->item);
-  *p = (dyd_trace_proofs){0};
+  *p = (proof_list){0};
 }
 
 static bool proof_relation(dyd_relation *out, const char *name) {
@@ -123,9 +317,9 @@ static bool proof_relation(dyd_relation *out, const char *name) {
 }
 
 /* Reads the line {"proved":RELATION,"points":[...]}. DYD_E_PARSE: it is none; DYD_E_NOMEM. */
-static dyd_status trace_proofs_read(dyd_trace_proofs *p, const json_t *line, size_t points) {
+static dyd_status trace_proofs_read(proof_list *p, const json_t *line, size_t points) {
   const json_t *list = json_object_get(line, "points");
-  dyd_trace_proof proof = {.count = json_array_size(list)};
+  trace_proof proof = {.count = json_array_size(list)};
   if (proof.count < 2 || !proof_relation(&proof.relation, json_string_value(json_object_get(line, "proved"))))
     return DYD_E_PARSE;
   if (!dyd_reserve((void **)&p->item, &p->cap, p->count + 1, sizeof *p->item)) return DYD_E_NOMEM;
@@ -141,10 +335,10 @@ static dyd_status trace_proofs_read(dyd_trace_proofs *p, const json_t *line, siz
   return DYD_OK;
 }
 
-/* A dyd_prove_fn; user is a dyd_trace_proofs. */
+/* A dyd_prove_fn; user is a proof_list. */
 static dyd_status trace_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                               dyd_error *err) {
-  const dyd_trace_proofs *p = user;
+  const proof_list *p = user;
   (void)err;
   *proved = false;
   for (size_t k = 0; k < p->count && !*proved; k++)
@@ -154,11 +348,11 @@ static dyd_status trace_prove(bool *proved, void *user, dyd_relation relation, c
 }
 
 /* Joins sites that are the same since the last call; *any: some are. */
-static dyd_status trace_join(bool *any, dyd_trace_proofs *p, dyd_sites *sites) {
+static dyd_status trace_join(bool *any, proof_list *p, dyd_sites *sites) {
   dyd_status st = DYD_OK;
   *any = false;
   for (; p->joined < p->count && st == DYD_OK; p->joined++) {
-    const dyd_trace_proof *proof = &p->item[p->joined];
+    const trace_proof *proof = &p->item[p->joined];
     if (proof->relation != DYD_COINCIDENT) continue;
     st = dyd_sites_join(sites, proof->site[0], proof->site[1]);
     *any = true;
@@ -166,8 +360,7 @@ static dyd_status trace_join(bool *any, dyd_trace_proofs *p, dyd_sites *sites) {
   return st;
 }
 
-/* Reading the answers of a trace back into an engine. The trace may end anywhere, within a line too: the run that wrote
- * it may have been killed. */
+/* ---- recall ---- */
 
 typedef struct recall {
   dyd_engine *e;
@@ -189,8 +382,7 @@ static dyd_status recall_fail(const recall *r, const char *what) {
 static dyd_status recall_head(recall *r, const json_t *line) {
   int64_t points;
   const char *input = json_string_value(json_object_get(line, "input"));
-  if (!trace_has_text(line, "format", DYD_TRACE_FORMAT))
-    return recall_fail(r, "this is no trace of the format \"" DYD_TRACE_FORMAT "\"");
+  if (!trace_has_text(line, "format", FORMAT)) return recall_fail(r, "this is no trace of the format \"" FORMAT "\"");
   if (!trace_integer(&points, line, "points", 0, INT64_MAX)) return recall_fail(r, "the number of points is missing");
   size_t count = dyd_engine_count(r->e);
   if ((uint64_t)points != count)
@@ -234,7 +426,7 @@ static dyd_status recall_step(recall *r, const json_t *line) {
   if (kept) r->kept[point] = bits;
   dyd_rect rect;
   dyd_rect_init(&rect);
-  dyd_status st = dyd_trace_side(&rect.x, line, "x") && dyd_trace_side(&rect.y, line, "y")
+  dyd_status st = read_side(&rect.x, line, "x") && read_side(&rect.y, line, "y")
                       ? recall_answer(r, (size_t)point, bits, &rect, json_is_true(json_object_get(line, "final")))
                       : recall_fail(r, "this is no rectangle");
   dyd_rect_clear(&rect);
@@ -269,11 +461,8 @@ static dyd_status recall_lines(recall *r, dyd_text *text) {
 
 dyd_status dyd_trace_recall(dyd_recall_report *out, dyd_engine *e, FILE *in, const char *input, dyd_error *err) {
   dyd_error local;
-  recall r = {.e = e,
-              .input = input,
-              .sum = DYD_TRACE_SUM_BEGIN,
-              .report = {DYD_SIZED(dyd_recall_report)},
-              .err = err ? err : &local};
+  recall r = {
+      .e = e, .input = input, .sum = SUM_BEGIN, .report = {DYD_SIZED(dyd_recall_report)}, .err = err ? err : &local};
   dyd_text text;
   dyd_error_clear(r.err);
   if (out) {
@@ -293,8 +482,7 @@ dyd_status dyd_trace_recall(dyd_recall_report *out, dyd_engine *e, FILE *in, con
   return st;
 }
 
-/* Replaying a trace: the rectangles it names are put into a table of sites, stage by stage, and triangulated as the
- * engine did; no stream is asked. That every rectangle is inside the one before is checked [NEST-1]. */
+/* ---- replay ---- */
 
 /* A point of the trace. rect holds its first rectangle until the table of sites is made. */
 typedef struct replay_point {
@@ -316,7 +504,7 @@ typedef struct replay {
   uint32_t *changed;
   size_t changes, change_cap;
   uint64_t calls, sum;
-  dyd_trace_proofs proofs;
+  proof_list proofs;
   bool ended;
 } replay;
 
@@ -324,24 +512,20 @@ static dyd_status replay_fail(const replay *r, const char *what) {
   return dyd_fail(r->err, DYD_E_PARSE, "%s; give a trace as dyadel wrote it", what);
 }
 
-/* ---- values ---- */
-
 /* A goal or schedule by its word; false when there is none of that name. */
 static bool json_get_goal(dyd_goal *out, const json_t *line) {
   int k = 0;
-  while (k <= DYD_TRACE_GOAL && !trace_has_text(line, "goal", dyd_goal_text((dyd_goal)k))) k++;
+  while (k <= LAST_GOAL && !trace_has_text(line, "goal", dyd_goal_text((dyd_goal)k))) k++;
   *out = (dyd_goal)k;
-  return k <= DYD_TRACE_GOAL;
+  return k <= LAST_GOAL;
 }
 
 static bool json_get_schedule(dyd_schedule *out, const json_t *line) {
   int k = 0;
-  while (k <= DYD_TRACE_SCHEDULE && !trace_has_text(line, "schedule", dyd_schedule_text((dyd_schedule)k))) k++;
+  while (k <= LAST_SCHEDULE && !trace_has_text(line, "schedule", dyd_schedule_text((dyd_schedule)k))) k++;
   *out = (dyd_schedule)k;
-  return k <= DYD_TRACE_SCHEDULE;
+  return k <= LAST_SCHEDULE;
 }
-
-/* ---- lines ---- */
 
 /* The window of the bounds of V, when one was given. */
 static bool replay_window(replay *r, const json_t *line) {
@@ -359,8 +543,7 @@ static dyd_status replay_head(replay *r, const json_t *line) {
   if (!o) o = r->out->options = malloc(sizeof *o);
   if (!o) return dyd_fail_nomem(r->err);
   dyd_engine_options_init(o);
-  if (!trace_has_text(line, "format", DYD_TRACE_FORMAT))
-    return replay_fail(r, "this is no trace of the format \"" DYD_TRACE_FORMAT "\"");
+  if (!trace_has_text(line, "format", FORMAT)) return replay_fail(r, "this is no trace of the format \"" FORMAT "\"");
   if (!trace_integer(&points, line, "points", 0, (int64_t)DYD_MAX_SITES) ||
       !trace_integer(&o->goal_bits, line, "goal_bits", INT64_MIN, INT64_MAX) ||
       !trace_integer(&o->start_bits, line, "start_bits", INT64_MIN, INT64_MAX) ||
@@ -410,7 +593,7 @@ static dyd_status replay_step(replay *r, const json_t *line) {
   if (called) r->calls++;
   dyd_rect rect;
   dyd_rect_init(&rect);
-  dyd_status st = dyd_trace_side(&rect.x, line, "x") && dyd_trace_side(&rect.y, line, "y")
+  dyd_status st = read_side(&rect.x, line, "x") && read_side(&rect.y, line, "y")
                       ? replay_rect(r, (size_t)point, &rect, called)
                       : replay_fail(r, "this is no rectangle");
   dyd_rect_clear(&rect);
@@ -536,7 +719,7 @@ static void replay_clear(replay *r) {
 
 dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_options *converge, dyd_error *err) {
   dyd_error local;
-  replay r = {.out = out, .sum = DYD_TRACE_SUM_BEGIN, .err = err ? err : &local};
+  replay r = {.out = out, .sum = SUM_BEGIN, .err = err ? err : &local};
   dyd_status st = dyd_abi_check(out, sizeof *out, "dyd_convergence", err);
   if (st == DYD_OK) st = dyd_abi_take(&r.converge, sizeof r.converge, converge, "dyd_converge_options", err);
   if (st != DYD_OK) return st;
@@ -560,197 +743,5 @@ dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_o
   }
   dyd_text_clear(&text);
   replay_clear(&r);
-  return st;
-}
-
-/* Invariant: seen[i] tells whether point i was narrowed; NULL once the fixed points are written. line: what is written
- * of the line under way, in text[0 .. size) once it is flushed. sync < 0: nobody asked for it. */
-struct dyd_trace {
-  FILE *out, *line;
-  char *text;
-  size_t size;
-  uint64_t sum;
-  double sync, synced; /* seconds; of dyd_seconds */
-  const dyd_engine *e;
-  size_t proofs; /* written */
-  size_t points;
-  bool *seen;
-  dyd_status failed;
-};
-
-/* ---- lines ---- */
-
-/* To the disk. What cannot be synced, such as a pipe, need not be. */
-static dyd_status trace_to_disk(dyd_trace *t) {
-  const bool done = fflush(t->out) == 0 && (fdatasync(fileno(t->out)) == 0 || errno == EINVAL || errno == EROFS ||
-                                            errno == EBADF || errno == ENOTSUP);
-  t->synced = dyd_seconds();
-  return done ? DYD_OK : DYD_E_IO;
-}
-
-/* Ends the line. */
-static dyd_status trace_line(dyd_trace *t) {
-  if (fflush(t->line) != 0) return DYD_E_NOMEM;
-  t->sum = trace_sum(t->sum, t->text, t->size);
-  fwrite(t->text, 1, t->size, t->out);
-  fprintf(t->out, ",\"sum\":\"%016" PRIx64 "\"}\n", t->sum);
-  rewind(t->line);
-  return t->sync >= 0 && dyd_seconds() - t->synced >= t->sync ? trace_to_disk(t) : DYD_OK;
-}
-
-dyd_status dyd_trace_sync(dyd_trace *t, double seconds, dyd_error *err) {
-  if (!t || !(seconds >= 0)) return dyd_fail(err, DYD_E_ARG, "a trace, and a number of seconds from 0 on, are needed");
-  t->sync = seconds;
-  return trace_to_disk(t) == DYD_OK ? DYD_OK : dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno));
-}
-
-static dyd_status trace_head(dyd_trace *t, const char *input, const dyd_engine_options *o,
-                             const dyd_converge_options *c) {
-  dyd_status st = DYD_OK;
-  fprintf(t->line, "{\"format\":\"" DYD_TRACE_FORMAT "\",\"points\":%zu", t->points);
-  if (input) fprintf(t->line, ",\"input\":\"%s\"", input);
-  fprintf(t->line,
-          ",\"schedule\":\"%s\",\"goal\":\"%s\",\"goal_bits\":%" PRId64 ",\"start_bits\":%" PRId64
-          ",\"step_bits\":%" PRId64 ",\"max_bits\":%" PRId64 ",\"max_pairs\":%zu",
-          dyd_schedule_text(o->schedule), dyd_goal_text(o->goal), o->goal_bits, o->start_bits, o->step_bits,
-          o->max_bits, o->max_pairs);
-  if (c->no_voronoi) fputs(",\"no_voronoi\":true", t->line);
-  if (c->window) {
-    fputs(",\"window\":[", t->line);
-    st = dyd_put_window(t->line, c->window, "\"", ",");
-    fputs("]", t->line);
-  }
-  return st == DYD_OK ? trace_line(t) : st;
-}
-
-static void trace_free(dyd_trace *t) {
-  if (t->line) fclose(t->line);
-  free(t->text);
-  free(t->seen);
-  free(t);
-}
-
-static dyd_status trace_side(FILE *out, const char *name, const dyd_interval *a) {
-  char *lo = dyd_end_text(a, false), *hi = dyd_end_text(a, true);
-  dyd_status st = lo && hi ? DYD_OK : DYD_E_NOMEM;
-  if (st == DYD_OK) fprintf(out, ",\"%s\":[\"%s\",\"%s\"]", name, lo, hi);
-  free(lo);
-  free(hi);
-  return st;
-}
-
-/* Ends the line with the rectangle. */
-static dyd_status trace_rect(dyd_trace *t, const dyd_rect *r) {
-  dyd_status st = trace_side(t->line, "x", &r->x);
-  if (st == DYD_OK) st = trace_side(t->line, "y", &r->y);
-  return st == DYD_OK ? trace_line(t) : st;
-}
-
-/* An answer of an earlier trace. */
-static dyd_status trace_kept(void *user, uint32_t site, int64_t bits, const dyd_rect *r, bool final) {
-  dyd_trace *t = user;
-  fprintf(t->line, "{\"kept\":true,\"point\":%" PRIu32 ",\"bits\":%" PRId64, site, bits);
-  if (final) fputs(",\"final\":true", t->line);
-  return trace_rect(t, r);
-}
-
-dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const char *input,
-                         const dyd_engine_options *options, const dyd_converge_options *converge, dyd_error *err) {
-  dyd_engine_options defaults, o;
-  dyd_converge_options c;
-  dyd_engine_options_init(&defaults);
-  dyd_status st = dyd_abi_take(&o, sizeof o, options ? options : &defaults, "dyd_engine_options", err);
-  if (st == DYD_OK) st = dyd_abi_take(&c, sizeof c, converge, "dyd_converge_options", err);
-  if (st != DYD_OK) return st;
-  if ((unsigned)o.goal > DYD_TRACE_GOAL || (unsigned)o.schedule > DYD_TRACE_SCHEDULE)
-    return dyd_fail(err, DYD_E_ARG, "a trace cannot tell of this goal or schedule");
-  dyd_trace *t = calloc(1, sizeof *t);
-  if (!t) return dyd_fail_nomem(err);
-  t->out = f;
-  t->e = e;
-  t->points = dyd_engine_count(e);
-  t->sum = DYD_TRACE_SUM_BEGIN;
-  t->sync = -1;
-  t->seen = calloc(t->points + 1, sizeof *t->seen);
-  t->line = open_memstream(&t->text, &t->size);
-  if (!t->seen || !t->line) {
-    trace_free(t);
-    return dyd_fail_nomem(err);
-  }
-  t->failed = trace_head(t, input, &o, &c);
-  if (t->failed == DYD_OK) t->failed = dyd_recall_each(e->recall, trace_kept, t);
-  *out = t;
-  return DYD_OK;
-}
-
-void dyd_trace_step(void *trace, const dyd_step *step) {
-  dyd_trace *t = trace;
-  if (t->failed != DYD_OK) return;
-  if (t->seen) t->seen[step->site] = true;
-  fprintf(t->line, "{\"stage\":%" PRIu64 ",\"point\":%" PRIu32 ",\"bits\":%" PRId64 ",\"called\":%s,\"why\":\"%s\"",
-          step->stage, step->site, step->bits, step->called ? "true" : "false", dyd_reason_text(step->reason));
-  if (step->final) fputs(",\"final\":true", t->line);
-  if (step->i != step->j) fprintf(t->line, ",\"pair\":[%" PRIu32 ",%" PRIu32 "]", step->i, step->j);
-  t->failed = trace_rect(t, step->rect);
-}
-
-/* Lines of the points that were not asked: they are fixed. */
-static dyd_status trace_fixed(dyd_trace *t, const dyd_delaunay *pd) {
-  dyd_status st = DYD_OK;
-  dyd_rect rect;
-  dyd_rect_init(&rect);
-  for (size_t i = 0; st == DYD_OK && i < t->points; i++) {
-    if (t->seen[i]) continue;
-    st = dyd_sites_get(&rect, dyd_delaunay_sites(pd), i);
-    fprintf(t->line, "{\"stage\":1,\"point\":%zu,\"why\":\"fixed\"", i);
-    if (st == DYD_OK) st = trace_rect(t, &rect);
-  }
-  dyd_rect_clear(&rect);
-  free(t->seen);
-  t->seen = NULL;
-  return st;
-}
-
-/* What was proved in the stage: rectangles do not tell. */
-static dyd_status trace_proofs(dyd_trace *t) {
-  dyd_relation relation;
-  const uint32_t *site;
-  size_t count;
-  for (; dyd_ties_proved(&relation, &site, &count, t->e, t->proofs); t->proofs++) {
-    fprintf(t->line, "{\"proved\":\"%s\",\"points\":[", relation_name[relation]);
-    for (size_t k = 0; k < count; k++) fprintf(t->line, k ? ",%" PRIu32 : "%" PRIu32, site[k]);
-    fputs("]", t->line);
-    dyd_status st = trace_line(t);
-    if (st != DYD_OK) return st;
-  }
-  return DYD_OK;
-}
-
-void dyd_trace_stage(void *trace, const dyd_progress *p) {
-  dyd_trace *t = trace;
-  uint64_t digest;
-  const dyd_delaunay *pd = dyd_engine_delaunay(t->e);
-  if (t->failed == DYD_OK && t->seen) t->failed = trace_fixed(t, pd);
-  if (t->failed == DYD_OK) t->failed = dyd_digest_pairs(&digest, pd);
-  if (t->failed == DYD_OK) t->failed = trace_proofs(t);
-  if (t->failed != DYD_OK) return;
-  fprintf(t->line,
-          "{\"stage\":%" PRIu64
-          ",\"done\":true,\"legal\":%zu,\"indeterminate\":%zu,\"tie\":%zu,\"statuses\":\"%016" PRIx64 "\"",
-          p->stage, p->count[DYD_LEGAL], p->count[DYD_INDETERMINATE], p->count[DYD_TIE], digest);
-  t->failed = trace_line(t);
-}
-
-dyd_status dyd_trace_end(dyd_trace *t, dyd_outcome outcome, dyd_error *err) {
-  if (!t) return dyd_fail_null(err);
-  dyd_status st = t->failed;
-  fprintf(t->line, "{\"outcome\":\"%s\"", dyd_outcome_text(outcome));
-  if (st == DYD_OK) st = trace_line(t);
-  if (st == DYD_OK && t->sync >= 0) st = trace_to_disk(t);
-  if (st == DYD_OK)
-    st = dyd_output_end(t->out, err);
-  else
-    dyd_fail(err, st, "%s", dyd_status_text(st));
-  trace_free(t);
   return st;
 }

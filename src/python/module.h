@@ -77,10 +77,11 @@ typedef struct dydpy_progress_user {
 
 typedef struct dydpy_engine {
   PyObject_HEAD dyd_engine *engine;
-  bool busy;           /* a call is at work, perhaps without the GIL */
-  bool late;           /* an interrupt came too late for the last run: it cancels the next one, which is begun again */
-  PyObject *functions; /* of its sources: a list that owns them, and that the garbage collector sees */
-  FILE *trace_file;    /* with trace: of the runs to come; NULL: they leave none */
+  bool busy;            /* a call is at work, perhaps without the GIL */
+  bool weights, sigmas; /* texts gave points weights (keep_radii); standard deviations */
+  bool late;            /* an interrupt came too late for the last run: it cancels the next one, which is begun again */
+  PyObject *functions;  /* of its sources: a list that owns them, and that the garbage collector sees */
+  FILE *trace_file;     /* with trace: of the runs to come; NULL: they leave none */
   dyd_trace *trace;
   dyd_sphere *sphere; /* whose images the engine holds, and owns it; NULL: a plane */
   PyObject *places;   /* the Engine of its places */

@@ -491,6 +491,8 @@ PyObject *dydpy_append_text(PyObject *self, PyObject *args) {
   if (given != PyDict_Size(options))
     return PyErr_Format(PyExc_TypeError, "unknown reading options in %R; see help(dyadel.Text)", options);
   if (!dydpy_begin(&c, self, 0)) return NULL;
+  c.self->weights |= o.keep_radii && o.radius_columns;
+  c.self->sigmas |= o.sigma_column != NULL;
   return dydpy_end_none(&c, dyd_engine_append_text(c.self->engine, text, (size_t)length, &o, &c.err));
 }
 

@@ -288,23 +288,21 @@ static PyObject *tolerance_found(const dyd_tolerance *t, size_t points) {
                        doubles_or_none(dyd_tolerance_chances(t), rows));
 }
 
-/* *out becomes the numbers of all points, the caller's; NULL where each is 0. DYD_E_NOMEM. */
+/* *out becomes the numbers of all points, the caller's. DYD_E_NOMEM. */
 static dyd_status row_numbers(double **out, const dyd_engine *e, dyd_row_number which) {
   size_t n = dyd_engine_count(e);
-  bool any = false;
   double *number = malloc((n + 1) * sizeof *number);
   if (!number) return DYD_E_NOMEM;
-  for (size_t i = 0; i < n; i++) any |= (number[i] = dyd_engine_number(e, i, which)) > 0;
-  *out = any ? number : NULL;
-  if (!any) free(number);
+  for (size_t i = 0; i < n; i++) number[i] = dyd_engine_number(e, i, which);
+  *out = number;
   return DYD_OK;
 }
 
-/* Standard deviations and weights are those that the rows of a text gave. */
+/* With the weights and the standard deviations that a text gave. */
 static dyd_status tolerance_new(dyd_tolerance **out, dydpy_call *c, dyd_tolerance_options *o) {
   double *weight = NULL, *sigmas = NULL;
-  dyd_status st = row_numbers(&weight, c->self->engine, DYD_ROW_RADIUS);
-  if (st == DYD_OK && o->sigma == 0) st = row_numbers(&sigmas, c->self->engine, DYD_ROW_SIGMA);
+  dyd_status st = c->self->weights ? row_numbers(&weight, c->self->engine, DYD_ROW_RADIUS) : DYD_OK;
+  if (st == DYD_OK && c->self->sigmas && o->sigma == 0) st = row_numbers(&sigmas, c->self->engine, DYD_ROW_SIGMA);
   o->weight = weight;
   o->sigmas = sigmas;
   if (st == DYD_OK) st = dyd_tolerance_new(out, c->pd, o, &c->err);

@@ -66,6 +66,8 @@ def test_reading_options():
         table = dyadel.tolerance(dyadel.Text(exact, 'x,y', **options), **({'sigma': 0.25} if 'sigma' in names else {}))
         return {name: table[name].tolist() for name in table}
     assert tolerance(sigma_column='s') == tolerance('sigma') != tolerance()
+    still = dyadel.tolerance(dyadel.Text('x,y,w\n0,0,0\n1,0,0\n0,1,0\n', 'x,y', radius_columns='w', keep_radii=True))
+    assert len(still['lo']) and np.isinf(still['lo']).all(), 'a weight of 0: no motion'
     for twice in (1, 2):  # twice the weights: half the motion
         scaled = tolerance(radius_columns='w', keep_radii=True, radius_scale=str(twice))
         assert scaled['lo'] != tolerance()['lo'] and scaled['event'].count('death') == tolerance()['event'].count('death')
