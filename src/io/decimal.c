@@ -120,6 +120,7 @@ size_t dyd_decimal_directed(char out[DYD_DECIMAL_SIZE], double x, int digits, dy
   decimal_cut cut;
   strcpy(out, "0");
   if (x == 0) return 1;
+  if (isinf(x)) return (size_t)snprintf(out, DYD_DECIMAL_SIZE, "%s", x > 0 ? "inf" : "-inf");
   char text[40];
   mpfr_exp_t exp;
   mpfr_t value;

@@ -10,7 +10,7 @@
 /* Sign, 17 digits, point, exponent or zeros, terminator. */
 #define DYD_DECIMAL_SIZE 32
 
-/* The decimal of at most `digits` (2..17) significant digits next to the finite double x in direction dir. A reader
+/* The decimal of at most `digits` (2..17) significant digits next to x in direction dir; "inf", "-inf". A reader
  * that takes it for a double, in any rounding that is monotone, stays on that side of x. Returns its length. */
 size_t dyd_decimal_directed(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd_round dir);
 /* A short decimal for some double r in [lo,hi] (finite): r is the nearest double to the decimal. *error is an upper

@@ -169,6 +169,18 @@ static void read_decimal(mpq_t out, const char *text) {
   assert_int_equal(dyd_parse_number(out, text, strlen(text), NULL), DYD_OK);
 }
 
+/* Infinities have words, as bounds of figures in doubles may be infinite. */
+static void test_decimal_infinite(void **state) {
+  (void)state;
+  char text[DYD_DECIMAL_SIZE];
+  for (int digits = 2; digits <= 17; digits += 5) {
+    assert_int_equal(dyd_decimal_directed(text, INFINITY, digits, DYD_UP), 3);
+    assert_string_equal(text, "inf");
+    assert_int_equal(dyd_decimal_directed(text, -INFINITY, digits, DYD_DOWN), 4);
+    assert_string_equal(text, "-inf");
+  }
+}
+
 static void test_directed(void **state) {
   (void)state;
   test_random r = test_random_start("directed");
@@ -339,9 +351,9 @@ static void test_digits(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_plain),         cmocka_unit_test(test_hex),
-                                     cmocka_unit_test(test_plain_refuses), cmocka_unit_test(test_directed),
-                                     cmocka_unit_test(test_within),        cmocka_unit_test(test_fewest_digits),
-                                     cmocka_unit_test(test_ends),          cmocka_unit_test(test_digits)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_decimal_infinite), cmocka_unit_test(test_plain),    cmocka_unit_test(test_hex),
+      cmocka_unit_test(test_plain_refuses),    cmocka_unit_test(test_directed), cmocka_unit_test(test_within),
+      cmocka_unit_test(test_fewest_digits),    cmocka_unit_test(test_ends),     cmocka_unit_test(test_digits)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
