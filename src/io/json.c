@@ -89,7 +89,7 @@ void dyd_json_box(dyd_json *j, bool decimal, const double *box) {
   }
 }
 
-void dyd_json_integer(dyd_json *j, const char *name, mpz_srcptr n) {
+static void json_integer(dyd_json *j, const char *name, mpz_srcptr n) {
   enum { LONG = DYD_SINK_BLOCK / 2 };
   if (mpz_sizeinbase(n, 10) > LONG) {
     gmp_fprintf(dyd_json_file(j, name), "\"%Zd\"", n);
@@ -273,12 +273,12 @@ static dyd_status surd_point_json(FILE *out, const dyd_surd_point *p) {
   dyd_json_object(&j, NULL, DYD_JSON_FLAT);
   for (int axis = 0; axis < 2; axis++) {
     dyd_json_object(&j, axis ? "y" : "x", DYD_JSON_FLAT);
-    dyd_json_integer(&j, "a", axis ? p->ay : p->ax);
-    dyd_json_integer(&j, "b", axis ? p->by : p->bx);
+    json_integer(&j, "a", axis ? p->ay : p->ax);
+    json_integer(&j, "b", axis ? p->by : p->bx);
     dyd_json_close(&j, 1);
   }
-  dyd_json_integer(&j, "c", p->c);
-  dyd_json_integer(&j, "d", p->d);
+  json_integer(&j, "c", p->c);
+  json_integer(&j, "d", p->d);
   dyd_rect_init(&r);
   if (dyd_json_good(&j, dyd_surd_point_enclose(&r, p, 64))) {
     dyd_rect_get_d(box, &r);

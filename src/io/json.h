@@ -119,7 +119,6 @@ void dyd_json_decimal(dyd_json *j, const char *name, double x, dyd_round dir);
 void dyd_json_decimals(dyd_json *j, const char *name, double lo, double hi);
 /* "x": [lo, hi], "y": [lo, hi]; decimal: "x_decimal", "y_decimal", beside exact ones; NULL: null. */
 void dyd_json_box(dyd_json *j, bool decimal, const double *box);
-void dyd_json_integer(dyd_json *j, const char *name, mpz_srcptr n);
 void dyd_json_rational(dyd_json *j, const char *name, mpq_srcptr q);
 void dyd_json_dyadic(dyd_json *j, const char *name, const dyd_dyadic *x);
 /* {"exact": "m*2^e", "decimal": rounded up}; null where the value is not known (NULL). */

@@ -14,7 +14,8 @@ dyd_outcome dyd_result_outcome(const dyd_result *r) {
   return r->sphere ? dyd_sphere_outcome(r->sphere) : dyd_engine_outcome(r->engine);
 }
 
-uint32_t dyd_result_alias(const dyd_result *r, uint32_t i) {
+/* The lowest site at the place of site i. */
+static uint32_t result_alias(const dyd_result *r, uint32_t i) {
   return r->sphere ? dyd_sphere_alias(r->sphere, i) : dyd_delaunay_alias(r->pd, i);
 }
 
@@ -93,7 +94,7 @@ dyd_status dyd_result_sites(dyd_site_row **out, const dyd_result *r) {
     rows[p->i].partners[p->status]++;
     rows[p->j].partners[p->status]++;
   }
-  for (uint32_t i = 0; i < r->count; i++) rows[i] = rows[dyd_result_alias(r, i)];
+  for (uint32_t i = 0; i < r->count; i++) rows[i] = rows[result_alias(r, i)];
   if (st == DYD_OK)
     *out = rows;
   else

@@ -38,8 +38,6 @@ typedef struct dyd_site_row {
 /* ---- a result of a plane or of a sphere ---- */
 
 dyd_outcome dyd_result_outcome(const dyd_result *r);
-/* The lowest site at the place of site i. */
-uint32_t dyd_result_alias(const dyd_result *r, uint32_t i);
 /* Where site i may be; on a sphere in degrees. */
 dyd_status dyd_result_rect(dyd_rect *out, const dyd_result *r, uint32_t i);
 /* The sure triangles. */
