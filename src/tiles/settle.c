@@ -359,8 +359,7 @@ static dyd_status tile_fringe(tile *t, dyd_error *err) {
 
 /* ---- steps ---- */
 
-/* Triangulates; out: discs. */
-static dyd_status tile_first(tile *t, dyd_error *err) {
+dyd_status tile_first(tile *t, dyd_error *err) {
   for (size_t r = 0; r < t->job->ranks; r++) {
     size_t read = 0;
     if (r != t->rank && !tiles_sites_take(&t->ghosts, &t->in[r], &read)) return tiles_no_memory(err);
@@ -387,8 +386,7 @@ static dyd_status answer_disc(tile *t, size_t r, const tiles_disc *d, dyd_error 
   return fits ? DYD_OK : tiles_no_memory(err);
 }
 
-/* Out: the nearest sites in the discs asked for. */
-static dyd_status tile_answer(tile *t, dyd_error *err) {
+dyd_status tile_answer(tile *t, dyd_error *err) {
   dyd_status st = DYD_OK;
   for (size_t r = 0; r < t->job->ranks; r++) {
     tiles_disc d;
@@ -400,8 +398,7 @@ static dyd_status tile_answer(tile *t, dyd_error *err) {
   return st;
 }
 
-/* Triangulates the fringe; out: discs. */
-static dyd_status tile_extend(tile *t, dyd_error *err) {
+dyd_status tile_extend(tile *t, dyd_error *err) {
   const size_t before = t->fringe.count;
   for (size_t r = 0; r < t->job->ranks; r++) {
     size_t read = 0;
@@ -417,70 +414,6 @@ static dyd_status tile_extend(tile *t, dyd_error *err) {
   return fringe_finish(t, &v, err);
 }
 
-/* At the end; out: counters, to rank 0. */
-static dyd_status tile_report(tile *t, dyd_error *err) {
+dyd_status tile_report(tile *t, dyd_error *err) {
   return tiles_mail_put(&t->out[0], &t->counters, sizeof t->counters) ? DYD_OK : tiles_no_memory(err);
-}
-
-/* ---- the order of steps, and mail within one process ---- */
-
-static dyd_status carry_in_memory(tile *member, size_t count, dyd_error *err) {
-  (void)err;
-  for (size_t from = 0; from < count; from++)
-    for (size_t to = 0; to < count; to++) {
-      tiles_mail *mail = &member[from].out[to];
-      if (from != to) member[from].counters.sent += mail->count;
-      tiles_mail_clear(&member[to].in[from]);
-      member[to].in[from] = *mail;
-      *mail = (tiles_mail){0};
-    }
-  return DYD_OK;
-}
-
-static bool any_in_memory(bool here) {
-  return here;
-}
-
-const tiles_carrier tiles_in_memory = {carry_in_memory, any_in_memory};
-
-typedef dyd_status step_fn(tile *t, dyd_error *err);
-
-typedef struct step_crew {
-  tile *member;
-  size_t count;
-  const tiles_carrier *by;
-  bool elsewhere;
-  dyd_error *err;
-} step_crew;
-
-/* One step of all; false: a rank failed. */
-static bool step_all(dyd_status *st, step_crew *c, step_fn *step) {
-  for (size_t k = 0; *st == DYD_OK && k < c->count; k++) *st = step(&c->member[k], c->err);
-  if (c->by->any(*st != DYD_OK)) {
-    c->elsewhere = *st == DYD_OK;
-    return false;
-  }
-  *st = c->by->carry(c->member, c->count, c->err);
-  return *st == DYD_OK;
-}
-
-static bool anybody_asks(const step_crew *c) {
-  bool here = false;
-  for (size_t k = 0; k < c->count; k++) here |= c->member[k].asked > 0;
-  return c->by->any(here);
-}
-
-dyd_status tiles_drive(tile *member, size_t count, const tiles_carrier *by, bool *elsewhere, dyd_error *err) {
-  static step_fn *const begin[] = {tile_survey, tile_read, tile_split, tile_own, tile_halo, tile_first};
-  step_crew c = {member, count, by, false, err};
-  dyd_status st = DYD_OK;
-  bool on = true;
-  for (size_t k = 0; on && k < sizeof begin / sizeof *begin; k++) on = step_all(&st, &c, begin[k]);
-  while (on && anybody_asks(&c)) on = step_all(&st, &c, tile_answer) && step_all(&st, &c, tile_extend);
-  if (on && step_all(&st, &c, tile_report)) {
-    if (member[0].rank == 0) st = tile_write_manifest(&member[0], err);
-    c.elsewhere = by->any(st != DYD_OK) && st == DYD_OK;
-  }
-  *elsewhere = c.elsewhere;
-  return st;
 }

@@ -79,6 +79,7 @@ typedef struct tiles_set {
 } tiles_set;
 bool tiles_set_has(const tiles_set *s, uint32_t site);
 bool tiles_set_add(tiles_set *s, uint32_t site);
+void tiles_set_clear(tiles_set *s);
 
 /* ---- what the pairs of a site may depend on: discs and half-planes [REACH-1] ---- */
 
@@ -211,6 +212,7 @@ typedef struct tiles_graph {
   uint32_t *partner;
   size_t cap_start, cap_partner;
 } tiles_graph;
+void tiles_graph_clear(tiles_graph *g);
 
 typedef struct tiles_row {
   uint64_t i, j;
@@ -251,13 +253,17 @@ typedef struct tile {
 dyd_status tile_new(tile *t, const tiles_job *job, size_t rank, dyd_error *err);
 void tile_free(tile *t);
 
-/* The first steps, in this order; those of settle.c follow, see tiles_drive. Each takes the mail in t->in and writes
- * t->out. *err names the remedy. */
+/* The steps, in this order; tile_answer and tile_extend again while any rank asks. Each takes the mail in t->in and
+ * writes t->out. *err names the remedy. */
 dyd_status tile_survey(tile *t, dyd_error *err); /* counts in its slice of a text; out: the counts */
 dyd_status tile_read(tile *t, dyd_error *err);   /* its slice of the input; out: a sample of it */
 dyd_status tile_split(tile *t, dyd_error *err);  /* boxes of the plane; out: points to their owners */
 dyd_status tile_own(tile *t, dyd_error *err);    /* its own sites; out: where they are, and corners of their hull */
 dyd_status tile_halo(tile *t, dyd_error *err);   /* out: sites near the boxes of others */
+dyd_status tile_first(tile *t, dyd_error *err);  /* triangulates; out: discs */
+dyd_status tile_answer(tile *t, dyd_error *err); /* out: the nearest sites in the discs asked for */
+dyd_status tile_extend(tile *t, dyd_error *err); /* triangulates the fringe; out: discs */
+dyd_status tile_report(tile *t, dyd_error *err); /* at the end; out: counters, to rank 0 */
 
 /* For the steps themselves. */
 dyd_status tile_read_text(tile *t, dyd_error *err);
