@@ -13,7 +13,7 @@
 #include <dyadel/dyadel.h>
 #include <signal.h>
 
-/* ---- module.c: exceptions ---- */
+/* ---- call.c: exceptions ---- */
 
 /* A reference to package.name, NULL with an exception set. */
 PyObject *dydpy_import(const char *package, const char *name);
@@ -46,6 +46,8 @@ typedef struct dydpy_guard {
 void dydpy_guard_begin(dydpy_guard *g, dyd_engine *engine, volatile int *flag);
 /* -1 with an exception set: that of a callback, or of Python's handler (KeyboardInterrupt). */
 int dydpy_guard_end(dydpy_guard *g);
+/* Notes the identity of the main thread; -1 with an exception set. */
+int dydpy_guard_prepare(void);
 
 /* ---- points.c: numbers of Python ---- */
 
@@ -61,7 +63,7 @@ PyObject *dydpy_rect_ends(const dyd_rect *r);
 /* (numerator, denominator); None for NULL. */
 PyObject *dydpy_dyadic(const dyd_dyadic *x);
 
-/* ---- run.c: functions of Python ---- */
+/* ---- points.c: functions of Python ---- */
 
 /* A source over a Python function narrow(point, bits), which is borrowed as long as the source is used. false with an
  * exception set. */
@@ -169,7 +171,7 @@ PyObject *dydpy_converge(PyObject *self, PyObject *args);
 /* Ends the trace, if there is one; err may be NULL. */
 dyd_status dydpy_trace_close(dydpy_engine *self, dyd_error *err);
 
-/* ---- texts: results.c ---- */
+/* ---- call.c: texts ---- */
 
 /* Writes to memory. */
 typedef struct dydpy_text {

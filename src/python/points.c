@@ -303,6 +303,35 @@ PyObject *dydpy_dyadic(const dyd_dyadic *x) {
   return value;
 }
 
+/* ---- functions of Python that narrow points ---- */
+
+static dyd_status call_narrow(dyd_rect *out, PyObject *narrow, const dyd_request *request, dyd_error *err) {
+  PyObject *answer = PyObject_CallFunction(narrow, "nL", (Py_ssize_t)request->point, (long long)request->bits);
+  if (!answer) return DYD_E_STREAM;
+  dyd_status st = dydpy_answer(out, answer, err);
+  Py_DECREF(answer);
+  return st;
+}
+
+static dyd_status source_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
+  PyGILState_STATE gil = PyGILState_Ensure();
+  dyd_status st = PyErr_Occurred() ? DYD_E_STREAM : call_narrow(out, user, request, err);
+  if (PyErr_Occurred()) st = dyd_error_set(err, DYD_E_STREAM, "the function raised an exception");
+  PyGILState_Release(gil);
+  return st;
+}
+
+bool dydpy_source_new(dyd_source *out, PyObject *narrow) {
+  if (!PyCallable_Check(narrow)) {
+    PyErr_SetString(PyExc_TypeError, "a source needs a function narrow(point, bits)");
+    return false;
+  }
+  *out = (dyd_source){DYD_SIZED(dyd_source), .narrow = source_narrow, .user = narrow};
+  return true;
+}
+
+/* ---- points into an engine ---- */
+
 /* Does the view hold doubles, `axes` columns of `rows` (or one row for all)? Fills in the columns. */
 static bool columns_of(dyd_column out[2], const Py_buffer *view, Py_ssize_t rows) {
   bool doubles = view->itemsize == sizeof(double) && view->format && strcmp(view->format, "d") == 0;

@@ -372,22 +372,6 @@ PyObject *dydpy_plan(PyObject *self, PyObject *args) {
 
 /* ---- texts ---- */
 
-bool dydpy_text_open(dydpy_text *t) {
-  *t = (dydpy_text){0};
-  t->file = open_memstream(&t->bytes, &t->size);
-  if (!t->file) PyErr_NoMemory();
-  return t->file != NULL;
-}
-
-PyObject *dydpy_text_close(dydpy_text *t, bool good) {
-  bool whole = fclose(t->file) == 0;
-  PyObject *bytes = NULL;
-  if (good && !whole) PyErr_NoMemory();
-  if (good && whole) bytes = PyBytes_FromStringAndSize(t->bytes, (Py_ssize_t)t->size);
-  free(t->bytes);
-  return bytes;
-}
-
 PyObject *dydpy_formats(PyObject *module, PyObject *none) {
   PyObject *list = PyList_New(0);
   (void)module, (void)none;
