@@ -38,7 +38,7 @@ static void ask_lead_in_range(answer *a, const double *x) {
 /* ---- rectangles ---- */
 
 static void ask_axis(answer *a, const double *x) {
-  axis y;
+  hull_axis y;
   bool good = area2_axis_set(&y, x, x + 2);
   say_dd(a, y.wa);
   say_dd(a, y.wb);
@@ -48,8 +48,8 @@ static void ask_axis(answer *a, const double *x) {
   say_integer(a, y.b_high);
   say_integer(a, good);
 }
-static void ask_axes(answer *a, const double *x, dd (*of)(const axis *, const axis *)) {
-  axis p, q;
+static void ask_axes(answer *a, const double *x, dd (*of)(const hull_axis *, const hull_axis *)) {
+  hull_axis p, q;
   area2_axis_set(&p, x, x + 2);
   area2_axis_set(&q, x + 4, x + 6);
   say_dd(a, of(&p, &q));

@@ -13,7 +13,6 @@
 #include "base/error.h"
 #include "base/flag.h"
 #include "engine/record.h"
-#include "engine/record.h"
 #include "engine/ties.h"
 #include "io/decimal.h"
 #include "io/output.h"
