@@ -18,7 +18,7 @@ sys.dont_write_bytecode = True
 import definitions  # noqa: E402
 from faults import faults, with_fault  # noqa: E402
 
-UNITS = ('areas', 'boxes', 'circles', 'expressions', 'fixed', 'intervals', 'near', 'panes', 'plane', 'stars', 'vectors')
+UNITS = ('areas', 'boxes', 'circles', 'expressions', 'fixed', 'intervals', 'near', 'plane', 'stars', 'vectors')
 FLAGS = ['-std=c11', '-O1', '-w', '-ffp-contract=off', '-D_POSIX_C_SOURCE=200809L', '-DDYD_VERSION="0"']
 
 

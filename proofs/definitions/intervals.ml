@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* intervals.c, expressions.c, panes.c and areas.c *)
+(* intervals.c, expressions.c and areas.c *)
 open Filters
 open Harness
 

@@ -75,7 +75,6 @@ void vectors_of_expressions(const kind *k);
 void vectors_of_fixed(const kind *k);
 void vectors_of_intervals(const kind *k);
 void vectors_of_near(const kind *k);
-void vectors_of_panes(const kind *k);
 void vectors_of_plane(const kind *k);
 void vectors_of_stars(const kind *k);
 

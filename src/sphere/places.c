@@ -255,7 +255,8 @@ dyd_status dyd_sphere_recognise(dyd_sphere *s, uint32_t i, dyd_error *err) {
   dyd_status st = dyd_algebra_open(&a, DYD_TIE_BITS, &s->images->stop);
   dyd_rect_init(&r);
   dyd_form_point at = dyd_forms_stream(&a.forms, s->stream[i]);
-  if (st == DYD_OK && at.y != DYD_NONE) st = dyd_algebra_settle(&a, &at.x, 2);
+  bool both = at.x != DYD_NONE; /* a longitude that is measured may be that of a pole */
+  if (st == DYD_OK && at.y != DYD_NONE) st = dyd_algebra_settle(&a, both ? &at.x : &at.y, both ? 2 : 1);
   if (st == DYD_OK && a.settled && forms_are_exact(&r, &a, at)) st = place_becomes(s, i, &r);
   dyd_rect_clear(&r);
   dyd_algebra_close(&a);

@@ -709,6 +709,8 @@ def test_computable_places():
         with tempfile.TemporaryDirectory() as folder:
             run('delaunay', '--sphere', '--quiet', '--certificate', 'c', '-', stdin=text, cwd=folder)
             assert run('verify', 'c', cwd=folder).code == 0, what
+    half = '100 sqrt(3)\nsqrt(2) sqrt(3)\n100 2/7\npi/7 -40\n'  # one coordinate measured, the other computable
+    assert run('delaunay', '--sphere', '--quiet', '--measured', '-', stdin=half).out.startswith('i,j,status\n0,2,')
     unknown = '69 -90+log(2)+log(3)-log(6)\n144 -90\n10 10\n40 -20\n'
     expect(run('delaunay', '--sphere', '-', stdin=unknown), 4, '0,1,legal\n0,2,indeterminate', 'the precision is used up')
 
