@@ -338,7 +338,7 @@ def test_radius_column():
     for (x0, x1, y0, y1), metres, degrees in zip(rows, (2000, 2000, 500, 500, 500), (0, 0, 0, 1, 0.1)):
         assert math.isclose(y1 - y0, 2 * (metres * metre + degrees), rel_tol=1e-9) and x1 - x0 > y1 - y0 - 1e-9, (metres, degrees)
     for wrong in ('30 miles', 'm', '-1m', '30kmm', '-0.1', '1e400km'):
-        expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=table(square, ['1m', wrong, '1m', '1m', '1m'])), 1, r'\A\Z', r'-:3:\d+: the radius .*; give one such as')
+        expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=table(square, ['1m', wrong, '1m', '1m', '1m'])), 1, r'\A\Z', r'-:3:\d+: the radius .*; give (one such as|a smaller one)')
     expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=table(square, ['1m', '7000km', '1m', '1m', '1m'])), 1, r'\A\Z', 'point 1: the radius is larger than that of the earth')
     expect(run('delaunay', *COLUMN, '-', stdin=table(square, ['30m'] * 5)), 1, r'\A\Z', r'2:6: the radius is not an exact number >= 0; give')
     apart = ('--columns', 'lon,lat', '--radius-column', 'lon,acc')
@@ -710,7 +710,7 @@ def test_computable_places():
             run('delaunay', '--sphere', '--quiet', '--certificate', 'c', '-', stdin=text, cwd=folder)
             assert run('verify', 'c', cwd=folder).code == 0, what
     half = '100 sqrt(3)\nsqrt(2) sqrt(3)\n100 2/7\npi/7 -40\n'  # one coordinate measured, the other computable
-    assert run('delaunay', '--sphere', '--quiet', '--measured', '-', stdin=half).out.startswith('i,j,status\n0,2,')
+    assert run('delaunay', '--sphere', '--quiet', '--measured', '-', stdin=half).code == 4
     unknown = '69 -90+log(2)+log(3)-log(6)\n144 -90\n10 10\n40 -20\n'
     expect(run('delaunay', '--sphere', '-', stdin=unknown), 4, '0,1,legal\n0,2,indeterminate', 'the precision is used up')
 
