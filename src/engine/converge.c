@@ -156,22 +156,32 @@ static int64_t row_flattening(const dyd_stage_row *row) {
 }
 
 /* The bounds with polygons within 2^-fine; coarser ones where a step does not halve the area: the rectangles count for
- * more than the polygons then, and arcs could take 2^(fine / 2) points. */
+ * more than the polygons then, and arcs could take 2^(fine / 2) points. A step that needs more than CORNERS for one
+ * polygon is not taken: scales are far apart. */
 static dyd_status find_voronoi(dyd_voronoi_bounds *b, const dyd_delaunay *pd, const dyd_rect *window, int64_t fine,
                                const volatile int *cancel) {
-  enum { PLAIN = 16, FIRST_STEP = 6 };
+  enum { PLAIN = 16, FIRST_STEP = 6, CORNERS = 1 << 14 };
   int64_t bits = dyd_metric_coarseness(pd, window) + PLAIN, step = FIRST_STEP;
   bool helps = true;
   dyd_dyadic old;
   dyd_dyadic_init(&old);
-  dyd_status st = dyd_metric_voronoi(b, pd, window, bits < fine ? bits : fine, cancel);
+  dyd_status st = dyd_voronoi_bounds_within(b, pd, window, bits < fine ? bits : fine, CORNERS, cancel);
+  dyd_voronoi_bounds finer;
+  dyd_voronoi_bounds_init(&finer);
   for (; bits < fine && helps && st == DYD_OK; step *= 2) {
-    dyd_dyadic_swap(&old, &b->area);
     bits = fine - bits < step ? fine : bits + step;
-    st = dyd_metric_voronoi(b, pd, window, bits, cancel);
-    if (st == DYD_OK) st = dyd_dyadic_mul_2exp(&old, &old, -1);
+    st = dyd_voronoi_bounds_within(&finer, pd, window, bits, CORNERS, cancel);
+    helps = st == DYD_OK;
+    if (st == DYD_E_RANGE) st = DYD_OK;
+    if (!helps) continue;
+    dyd_dyadic_swap(&old, &b->area);
+    dyd_dyadic_swap(&b->area, &finer.area);
+    dyd_dyadic_swap(&b->hausdorff, &finer.hausdorff);
+    b->finite = finer.finite;
+    st = dyd_dyadic_mul_2exp(&old, &old, -1);
     helps = st == DYD_OK && dyd_dyadic_cmp(&b->area, &old) < 0;
   }
+  dyd_voronoi_bounds_clear(&finer);
   dyd_dyadic_clear(&old);
   return st;
 }

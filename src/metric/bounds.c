@@ -359,6 +359,7 @@ dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, vo
   dyd_status st = dyd_window_init(&w, s->window);
   w.cancel = s->cancel;
   w.room = &s->room;
+  w.most = s->corners;
   if (st == DYD_OK && s->exact) dyd_window_set_grid(&w);
   for (size_t i = 0; i < n && st == DYD_OK; i++) {
     double area[2];
@@ -518,8 +519,8 @@ dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, dyd_voronoi_sums *s)
   return st;
 }
 
-dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits,
-                              const volatile int *cancel) {
+dyd_status dyd_voronoi_bounds_within(dyd_voronoi_bounds *out, const dyd_delaunay *pd, const dyd_rect *window,
+                                     int64_t bits, size_t corners, const volatile int *cancel) {
   dyd_voronoi_sums s;
   dyd_voronoi_bounds b;
   dyd_window w;
@@ -531,6 +532,7 @@ dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, c
   dyd_voronoi_bounds_init(&b);
   st = dyd_voronoi_sums_init(&s, pd, window, bits);
   s.cancel = cancel;
+  s.corners = corners;
   if (st == DYD_OK) st = dyd_voronoi_sums_all(&s, NULL, NULL);
   if (st == DYD_OK) st = dyd_voronoi_sums_bounds(&b, &s);
   if (st == DYD_OK) {
@@ -541,6 +543,11 @@ dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, c
   dyd_voronoi_sums_clear(&s);
   dyd_voronoi_bounds_clear(&b);
   return st;
+}
+
+dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits,
+                              const volatile int *cancel) {
+  return dyd_voronoi_bounds_within(out, pd, window, bits, 0, cancel);
 }
 
 /* The perimeters of N cells of equal area in W are about 4 sqrt(N area(W)) in all, plus the perimeter of W. */

@@ -62,11 +62,16 @@ typedef struct dyd_voronoi_sums {
   dyd_dyadic area2;
   const volatile int *cancel;
   size_t *cut;
-  dyd_room room; /* what max_bytes leaves besides the triangulation */
+  dyd_room room;  /* what max_bytes leaves besides the triangulation */
+  size_t corners; /* that one polygon may have, as in dyd_window */
   double *reach, *second, most;
   bool exact; /* cells of exact points are not flattened; false: their polygons are proved, vertex by vertex */
   size_t added, inexact; /* shapes; of them, how many are not the whole cell */
 } dyd_voronoi_sums;
+
+/* As dyd_metric_voronoi; DYD_E_RANGE also where a polygon would have more than so many corners (0: as there). */
+dyd_status dyd_voronoi_bounds_within(dyd_voronoi_bounds *out, const dyd_delaunay *pd, const dyd_rect *window,
+                                     int64_t bits, size_t corners, const volatile int *cancel);
 
 /* bits: of the polygons to come; sums are kept so precise that rounding does not spoil what these give. */
 dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits);

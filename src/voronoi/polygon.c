@@ -647,7 +647,12 @@ dyd_status dyd_window_enlarge(dyd_rect *out, const dyd_rect *window, int64_t bit
 
 dyd_status dyd_exact_polygons(dyd_polygon *inner, dyd_polygon_list *outer, const dyd_delaunay *pd, uint32_t i,
                               const dyd_window *window, int64_t bits) {
-  work w = {.own = i, .window = window->rect, .bits = bits, .cancel = window->cancel, .room = window->room};
+  work w = {.own = i,
+            .window = window->rect,
+            .bits = bits,
+            .cancel = window->cancel,
+            .room = window->room,
+            .samples = {.most = window->most}};
   dyd_rect wide;
   dyd_rect_init(&wide);
   dyd_point_init(&w.goal);

@@ -9,8 +9,6 @@
 
 #include <string.h>
 
-enum { MOST_STEPS = 1 << 24 };
-
 /* ---- the sites of a cell ---- */
 
 dyd_status dyd_cell_sites_init(dyd_cell_sites *s, const dyd_delaunay *pd, uint32_t i) {
@@ -218,7 +216,7 @@ dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const
     uint32_t steps;
     dyd_status st = arc_count_steps(&steps, arc, s, own, bits);
     if (st != DYD_OK) return st;
-    if (out->count + steps > MOST_STEPS) return DYD_E_RANGE;
+    if (out->count + steps > (out->most ? out->most : DYD_MOST_SAMPLES)) return DYD_E_RANGE;
     uint64_t bytes = dyd_bytes_times(out->count + steps, bytes_of_sample(bits));
     if (room && !dyd_room_has(room, bytes, "the corners of a polygon")) return DYD_E_NOMEM;
     if (!dyd_reserve((void **)&out->item, &out->cap, out->count + steps, sizeof *out->item)) return DYD_E_NOMEM;

@@ -29,15 +29,16 @@ typedef struct dyd_arc_sample {
   uint32_t step, steps;
 } dyd_arc_sample;
 
-/* Owned. */
+/* Owned. most: the largest count allowed, 0: DYD_MOST_SAMPLES. */
+enum { DYD_MOST_SAMPLES = 1 << 24 };
 typedef struct dyd_arc_samples {
-  size_t count, cap;
+  size_t count, cap, most;
   dyd_arc_sample *item;
 } dyd_arc_samples;
 
 /* The samples of a closed chain, so close that every chord is within 2^-bits of its arc. far and near give the
- * rectangles of sites. Appended to *out. DYD_E_RANGE when more than 2^24 would be needed; DYD_E_NOMEM when *room (NULL:
- * no bound) has none for polygons with corners there. */
+ * rectangles of sites. Appended to *out. DYD_E_RANGE when more than `most` would be needed; DYD_E_NOMEM when *room
+ * (NULL: no bound) has none for polygons with corners there. */
 dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const dyd_cell_sites *s, uint32_t own,
                              int64_t bits, dyd_room *room);
 /* log2 of the length of (x, y), rounded up by at most 2; INT64_MIN / 2 where that is 0. */

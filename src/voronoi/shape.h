@@ -27,6 +27,7 @@ typedef struct dyd_window {
   int grid;
   const volatile int *cancel;
   dyd_room *room;
+  size_t most; /* corners that one polygon may have; 0: DYD_MOST_SAMPLES */
 } dyd_window;
 /* Returns DYD_E_ARG unless W is as it has to be. */
 dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect);

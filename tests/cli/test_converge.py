@@ -321,6 +321,15 @@ def test_sweep():
         expect(run('converge', '--label', wrong, 'none'), 2, err='--label .*NAME=VALUE,NAME=VALUE')
 
 
+def test_scales_far_apart():
+    """Points near 2^-500 in boxes of the first stage: polygons of arcs that small would have too many corners, and the table ends."""
+    text = ''.join(f'{x}*2^-500 ({y}*2^-500)*(sin({k})^2+cos({k})^2)\n' for k, (x, y) in enumerate([(-80, -21), (58, -9), (-25, 13), (87, 34)]))
+    table = run('converge', '--no-times', '--quiet', '-', stdin=text)
+    assert table.code == 0
+    last = [line for line in table.out.splitlines() if line[0].isdigit()][-1].split(',')
+    assert last[7] == '5' and last[13], 'five legal pairs, a bound of the diagram'
+
+
 def test_sweeps_of_the_guide():
     """The commands that the guide hands to GNU parallel and to Slurm, for two seeds, as these run them: braces filled in;
     by sh, with the number of the task in the environment."""
