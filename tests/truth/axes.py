@@ -476,10 +476,10 @@ REALS = (('sqrt({})', lambda m, k: m.sqrt(k)), ('exp({}/20)', lambda m, k: m.exp
 
 
 def real(rand):
-    """A computable real as text, and its value to 2600 bits."""
+    """A computable real as text, and its value to 6000 bits: finer than any interval that is asked for."""
     form, value = rand.choice(REALS)
     k = rand.randint(2, 30)
-    with mpmath.workprec(2600):
+    with mpmath.workprec(6000):
         v = mpmath.mpf(value(mpmath, k))
         return form.format(k), (-1 if v < 0 else 1) * abs(Q(int(v.man))) * Q(2) ** int(v.exp)
 

@@ -60,13 +60,14 @@ def shown(q):
 # ---- readers ----
 
 def number(text):
-    """m*2^e, p/q or a decimal as a fraction; None for nothing."""
+    """m*2^e, m*2^e/d, p/q or a decimal as a fraction; None for nothing."""
     if text in (None, ''):
         return None
     if not isinstance(text, str):
         return text if isinstance(text, Q) else Q(text)
     m, star, e = text.partition('*2^')
-    return Q(m) * Q(2) ** int(e) if star else Q(text)
+    e, _, d = e.partition('/')
+    return Q(m) * Q(2) ** int(e) / int(d or 1) if star else Q(text)
 
 
 def parsed(text):

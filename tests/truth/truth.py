@@ -324,7 +324,7 @@ def first_of_equal(case):
     seen, out = {}, []
     if case.extra == 'merge':
         return sorted(set(case.merged.values()))
-    if case.kind == 'callback':  # nobody knows that two of them are equal
+    if case.form == 'program' or case.kind == 'callback':  # nobody knows that two of them are equal
         return list(range(len(case.sites)))
     for k, s in enumerate(case.sites):
         r = s.region
