@@ -104,7 +104,8 @@ DYD_API void dyd_tolerance_rungs(uint64_t *filter, uint64_t *exact, const dyd_to
 /* Statuses of the pairs when each point lies in a disc: the one in its square, the site of pd. Discs are in squares, so
  * only pairs that squares leave indeterminate can change: to legal (a disc holds both and meets no other), to illegal
  * (a disc that meets both always holds another one), or they stay. Sorted; *out is replaced. Sound for every choice in
- * the discs; squares are taken as rounded outward, so what hangs on 2^-48 of all sizes may stay indeterminate [DISC-1].
+ * the discs. Rectangles of dyd_sites_add_rect are taken as they are, but for 2^-60 of their width; others, or narrowed
+ * ones, as squares rounded outward, so what hangs on 2^-48 of all sizes may stay indeterminate [DISC-1].
  * DYD_E_ARG for a site that is no square (err names it); DYD_CAPPED when pd is: *out holds the pairs that pd lists. A
  * few searches for each such pair. */
 DYD_API dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err);

@@ -248,21 +248,17 @@ typedef struct disc_proof {
 /* *fixed: nothing narrows any of them. */
 static dyd_status gather_discs(bool *fixed, disc_proof *w) {
   const dyd_sites *sites = dyd_delaunay_sites(w->p->pd);
-  dyd_rect r;
   dyd_disc d;
   dyd_status st = DYD_OK;
   *fixed = true;
-  dyd_rect_init(&r);
   dyd_disc_init(&d);
   for (size_t i = 0; i < w->p->sites.count && st == DYD_OK; i++) {
     const dyd_refinable *point = dyd_engine_find(w->p->engine, (uint32_t)i);
     *fixed = *fixed && (!point || point->final);
-    st = dyd_sites_get(&r, sites, i);
-    if (st == DYD_OK && !dyd_disc_of_square(&d, &r)) st = DYD_E_ARG;
+    st = dyd_disc_of_site(&d, sites, i);
     if (st == DYD_OK) dyd_proof_hold_disc(&w->disc[i], &d);
   }
   dyd_disc_clear(&d);
-  dyd_rect_clear(&r);
   return st;
 }
 

@@ -107,18 +107,23 @@ static dyd_status location_init(location *l, const dyd_cert_sites *s) {
 
 /* ---- discs of the certificate ---- */
 
-/* The disc of a rectangle: of a square the one in it, or (around) one that holds it. */
-static bool disc_of_point(dyd_disc *out, const dyd_rect *r, bool around) {
-  if (!around) return dyd_disc_of_square(out, r);
-  mpq_t width; /* the sum of the half-widths is at least half of a diagonal */
+/* A disc that holds the rectangle of a site: the sum of the half-widths is at least half of a diagonal. */
+static dyd_status disc_around_site(dyd_disc *out, const dyd_sites *s, size_t i) {
+  dyd_rect r;
+  mpq_t width;
   mpq_init(width);
-  dyd_side_sum(out->x, out->r, &r->x);
-  dyd_side_sum(out->y, width, &r->y);
-  mpq_add(out->r, out->r, width);
-  mpq_ptr all[3] = {out->x, out->y, out->r};
-  for (int k = 0; k < 3; k++) mpq_div_2exp(all[k], all[k], 1);
+  dyd_rect_init(&r);
+  dyd_status st = dyd_sites_get(&r, s, i);
+  if (st == DYD_OK) {
+    dyd_side_sum(out->x, out->r, &r.x);
+    dyd_side_sum(out->y, width, &r.y);
+    mpq_add(out->r, out->r, width);
+    mpq_ptr all[3] = {out->x, out->y, out->r};
+    for (int k = 0; k < 3; k++) mpq_div_2exp(all[k], all[k], 1);
+  }
+  dyd_rect_clear(&r);
   mpq_clear(width);
-  return true;
+  return st;
 }
 
 /* Does the disc of the certificate hold that of the point? */
@@ -135,22 +140,21 @@ static bool disc_holds_point(const dyd_cert_disc *d, const dyd_disc *own) {
 
 /* Adds to the report the points that are not seen to lie in their discs. A fixed one does or does not. */
 static dyd_status locate_in_discs(location *l, dyd_checker *c, const dyd_engine *e, bool discs) {
-  dyd_rect r;
+  const dyd_sites *sites = dyd_engine_sites(e);
   dyd_disc d;
   dyd_status st = DYD_OK;
-  dyd_rect_init(&r);
   dyd_disc_init(&d);
   for (uint32_t i = 0; c->disc && i < l->count && st == DYD_OK; i++) {
-    st = dyd_sites_get(&r, dyd_engine_sites(e), i);
-    if (st != DYD_OK) break;
-    bool square = disc_of_point(&d, &r, !discs);
+    st = (discs ? dyd_disc_of_site : disc_around_site)(&d, sites, i);
+    const bool square = st != DYD_E_ARG;
+    if (square && st != DYD_OK) break;
+    st = DYD_OK;
     if (square && disc_holds_point(&c->disc[c->sites.site[i].alias], &d)) continue;
     if (discs && !dyd_engine_find(e, i))
       location_wrong(l, i, square ? "has a disc that does not hold that of the point" : "is that of no disc");
     c->report.undescribed++;
   }
   dyd_disc_clear(&d);
-  dyd_rect_clear(&r);
   return st;
 }
 

@@ -250,6 +250,7 @@ void dyd_sites_free(dyd_sites *s) {
   free(s->word);
   free(s->point);
   free(s->joined);
+  free(s->given);
   for (int a = 0; a < 2; a++) {
     free(s->lower[a]);
     free(s->upper[a]);
@@ -513,9 +514,13 @@ dyd_status dyd_sites_add_rect(dyd_sites *s, const dyd_rect *r) {
   if (!s) return DYD_E_ARG;
   dyd_status st = dyd_sites_reserve(s, 1);
   if (st != DYD_OK) return st;
+  if (!dyd_reserve((void **)&s->given, &s->given_cap, s->count + 1, sizeof *s->given)) return DYD_E_NOMEM;
   st = sites_put(s, s->count, r, NULL);
-  if (st == DYD_OK) s->count++;
-  return st;
+  if (st != DYD_OK) return st;
+  memset(s->given + s->given_count, 0, s->count - s->given_count);
+  s->given[s->count++] = 1;
+  s->given_count = s->count;
+  return DYD_OK;
 }
 
 dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {
@@ -525,7 +530,10 @@ dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {
   dyd_rect_init(&now);
   dyd_status st = dyd_sites_get(&now, s, i);
   if (st == DYD_OK && !dyd_rect_contains(&now, r)) st = DYD_E_NESTING;
-  if (st == DYD_OK && !dyd_sites_in_words(s, i)) st = sites_put(s, i, r, s->exact ? s->exact[i] : NULL);
+  if (st == DYD_OK && !dyd_sites_in_words(s, i)) {
+    st = sites_put(s, i, r, s->exact ? s->exact[i] : NULL);
+    if (i < s->given_count) s->given[i] = 0;
+  }
   dyd_rect_clear(&now);
   return st;
 }
@@ -549,6 +557,7 @@ dyd_status dyd_sites_narrow_d(dyd_sites *s, size_t i, const double box[4]) {
     s->lower[a][i] = box[2 * a];
     s->upper[a][i] = box[2 * a + 1];
   }
+  if (i < s->given_count) s->given[i] = 0;
   return DYD_OK;
 }
 
@@ -556,5 +565,6 @@ size_t dyd_sites_memory(const dyd_sites *s) {
   if (!s) return 0;
   size_t arrays = 2 + (s->upper[0] != NULL) + (s->upper[1] != NULL) + (s->exact != NULL);
   size_t words = (s->word ? s->cap * sizeof *s->word : 0) + s->point_cap * sizeof *s->point;
-  return sizeof *s + s->cap * arrays * sizeof(double) + s->packed_bytes + words + s->joined_count * sizeof *s->joined;
+  return sizeof *s + s->cap * arrays * sizeof(double) + s->packed_bytes + words + s->joined_count * sizeof *s->joined +
+         s->given_cap * sizeof *s->given;
 }

@@ -47,6 +47,8 @@ struct dyd_sites {
   size_t points, point_cap;
   uint32_t *joined; /* of sites below joined_count: the lowest site known to be the same place; NULL: none are joined */
   size_t joined_count, joins; /* joins made */
+  uint8_t *given;             /* of sites below given_count: dyd_sites_is_given; NULL: none is */
+  size_t given_count, given_cap;
 };
 
 /* Room for `more` further sites in every array there is. */
@@ -60,6 +62,10 @@ dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n);
 /* As dyd_sites_narrow, for the rectangle [box[0],box[1]] x [box[2],box[3]] of finite doubles, without -0. */
 dyd_status dyd_sites_narrow_d(dyd_sites *s, size_t i, const double box[4]);
 
+/* Was site i added as an exact rectangle, and not narrowed since? Nothing but who made it rounded its ends. */
+static inline bool dyd_sites_is_given(const dyd_sites *s, size_t i) {
+  return i < s->given_count && s->given[i];
+}
 static inline double dyd_sites_lo(const dyd_sites *s, int axis, size_t i) {
   return s->lower[axis][i];
 }

@@ -92,9 +92,10 @@ typedef struct dyd_disc_work {
   const volatile int *cancel; /* ends what dyd_disc_pairs_until does; may be NULL */
 } dyd_disc_work;
 
-/* The disc in a square, whose ends may have been rounded outward by less than 2^-50 of their size: so is the disc.
- * false: the rectangle is not a square. */
-bool dyd_disc_of_square(dyd_disc *d, const dyd_rect *r);
+/* The disc in the square of a site, larger by what the ends may have been rounded by: less than 2^-61 of the width for
+ * sites given as exact rectangles, of others 2^-50 of the coordinates, up to the disc around the square. DYD_E_ARG: the
+ * rectangle is not a square. */
+dyd_status dyd_disc_of_site(dyd_disc *d, const dyd_sites *s, size_t i);
 /* Looks at v from now on; false: it is i, j or seen already, or memory is exhausted. */
 bool dyd_discs_see(dyd_disc_work *w, uint32_t v);
 /* The caps of all discs seen. false: legal, and one of them meets i or j, so that none is a witness. A disc that meets

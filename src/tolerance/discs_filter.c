@@ -13,6 +13,7 @@
 #include "base/index.h"
 #include "base/invariant.h"
 #include "delaunay/undecided.h"
+#include "rect/sites_table.h"
 #include "tolerance/discs.h"
 #include "tolerance/lines.h"
 #include <dyadel/tolerance.h>
@@ -27,7 +28,10 @@ enum { FIRST_SEEN = 10, MOST_ROUNDS = 400, LEAST_BITS = 128, MOST_BITS = 8192 };
 
 /* ---- discs ---- */
 
-bool dyd_disc_of_square(dyd_disc *d, const dyd_rect *r) {
+/* The disc in a square, wider by 2^-60 of itself for what the ends of a rectangle that was given exactly were rounded
+ * by, or else by 2^-50 of the coordinates, but no wider than the disc around the square, which needs 27/64 of itself
+ * more. false: the rectangle is not a square. */
+static bool disc_of_square(dyd_disc *d, const dyd_rect *r, bool given) {
   mpq_t lo, h, room;
   mpq_inits(lo, h, room, NULL);
   dyd_side_sum(d->x, h, &r->x);
@@ -41,9 +45,12 @@ bool dyd_disc_of_square(dyd_disc *d, const dyd_rect *r) {
   mpq_sub(lo, h, d->r);
   mpq_abs(lo, lo);
   bool square = mpq_cmp(lo, room) <= 0;
-  bool point = !mpq_sgn(h) && !mpq_sgn(d->r);
   if (mpq_cmp(h, d->r) > 0) mpq_set(d->r, h);
-  if (!point) mpq_add(d->r, d->r, room);
+  mpq_set_ui(h, 27, 64);
+  mpq_mul(h, h, d->r);
+  if (mpq_cmp(room, h) > 0) mpq_set(room, h);
+  if (given) mpq_div_2exp(room, d->r, 60);
+  if (mpq_sgn(d->r)) mpq_add(d->r, d->r, room);
   mpq_div_2exp(d->x, d->x, 1);
   mpq_div_2exp(d->y, d->y, 1);
   mpq_div_2exp(d->r, d->r, 1);
@@ -51,23 +58,28 @@ bool dyd_disc_of_square(dyd_disc *d, const dyd_rect *r) {
   return square;
 }
 
+dyd_status dyd_disc_of_site(dyd_disc *d, const dyd_sites *s, size_t i) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = dyd_sites_get(&r, s, i);
+  if (st == DYD_OK && !disc_of_square(d, &r, dyd_sites_is_given(s, i))) st = DYD_E_ARG;
+  dyd_rect_clear(&r);
+  return st;
+}
+
 static dyd_status make_discs(dyd_disc_work *w, dyd_error *err) {
   const dyd_skeleton *sk = &w->pd->sk;
-  dyd_rect r;
   dyd_status st = DYD_OK;
-  dyd_rect_init(&r);
   for (uint32_t v = 0; v < sk->n && st == DYD_OK; v++) {
     uint32_t site = sk->reps.site[v];
-    st = dyd_sites_get(&r, sk->reps.sites, site);
-    bool square = st == DYD_OK && dyd_disc_of_square(&w->disc[v], &r);
+    st = dyd_disc_of_site(&w->disc[v], sk->reps.sites, site);
     w->about[v][0] = mpq_get_d(w->disc[v].x);
     w->about[v][1] = mpq_get_d(w->disc[v].y);
     w->about[v][2] = mpq_get_d(w->disc[v].r);
-    if (st != DYD_OK || square) continue;
+    if (st != DYD_E_ARG) continue;
     if (err) err->point = site;
     st = dyd_fail(err, DYD_E_ARG, "a disc needs one radius, the same in x and y");
   }
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -456,8 +468,7 @@ static dyd_status triangulate_centres(dyd_delaunay **out, dyd_sites **sites, con
   dyd_rect_init(&r);
   dyd_status st = dyd_sites_new(sites);
   for (size_t i = 0; i < dyd_sites_count(squares) && st == DYD_OK; i++) {
-    st = dyd_sites_get(&r, squares, i);
-    if (st == DYD_OK && !dyd_disc_of_square(&d, &r)) st = DYD_E_ARG;
+    st = dyd_disc_of_site(&d, squares, i);
     if (st == DYD_OK) st = dyd_rect_set_q(&r, d.x, d.y);
     if (st == DYD_OK) st = dyd_sites_add_rect(*sites, &r);
   }

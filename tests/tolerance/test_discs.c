@@ -369,10 +369,65 @@ static void test_far_centre(void **state) {
   }
 }
 
+/* The square about (10^12, 10^9) + (x, y) / 10^4 with half-width 3.5 / 10^4, its ends known to 2^-200. */
+static void make_fine_square(dyd_rect *r, long x, long y) {
+  mpq_t at, lo, hi, half;
+  mpq_inits(at, lo, hi, half, NULL);
+  mpq_set_ui(half, 7, 20000);
+  mpq_canonicalize(half);
+  for (int axis = 0; axis < 2; axis++) {
+    mpq_set_si(at, axis ? y : x, 10000);
+    mpq_canonicalize(at);
+    mpq_set_d(lo, axis ? 1e9 : 1e12);
+    mpq_add(at, at, lo);
+    mpq_sub(lo, at, half);
+    mpq_add(hi, at, half);
+    assert_int_equal(dyd_interval_set_outward(axis ? &r->y : &r->x, lo, hi, -200), DYD_OK);
+  }
+  mpq_clears(at, lo, hi, half, NULL);
+}
+
+enum { FINE = 9 };
+
+static dyd_pair_status status_of_fine(const dyd_sites *sites) {
+  dyd_delaunay *pd;
+  dyd_pair_list l = {0};
+  assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, NULL), DYD_OK);
+  assert_int_equal(dyd_disc_pairs(&l, pd, NULL), DYD_OK);
+  dyd_pair_status s = status_in(&l, 4, 6);
+  dyd_pair_list_clear(&l);
+  dyd_delaunay_free(pd);
+  return s;
+}
+
+/* Exact squares far from 0 have the discs in them, not ones larger by what doubles there would be rounded by, of which
+ * 4,6 is not legal. Narrowed ones may have been rounded. */
+static void test_given(void **state) {
+  (void)state;
+  static const long at[FINE][2] = {{-50, 9},  {-24, -49}, {-31, 47}, {36, 42}, {-33, 31},
+                                   {13, -31}, {-23, 42},  {34, -18}, {-21, -2}};
+  dyd_sites *sites;
+  dyd_rect r;
+  dyd_rect_init(&r);
+  assert_int_equal(dyd_sites_new(&sites), DYD_OK);
+  for (size_t k = 0; k < FINE; k++) {
+    make_fine_square(&r, at[k][0], at[k][1]);
+    assert_int_equal(dyd_sites_add_rect(sites, &r), DYD_OK);
+  }
+  assert_int_equal(status_of_fine(sites), DYD_LEGAL);
+  for (size_t k = 0; k < FINE; k++) {
+    assert_int_equal(dyd_sites_get(&r, sites, k), DYD_OK);
+    assert_int_equal(dyd_sites_narrow(sites, k, &r), DYD_OK);
+  }
+  assert_int_equal(status_of_fine(sites), DYD_INDETERMINATE);
+  dyd_sites_free(sites);
+  dyd_rect_clear(&r);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_equal_discs), cmocka_unit_test(test_choices),
                                      cmocka_unit_test(test_triangles),   cmocka_unit_test(test_cancelled),
                                      cmocka_unit_test(test_refused),     cmocka_unit_test(test_many),
-                                     cmocka_unit_test(test_far_centre)};
+                                     cmocka_unit_test(test_far_centre),  cmocka_unit_test(test_given)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
