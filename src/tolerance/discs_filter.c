@@ -24,7 +24,7 @@
 #define FARTHEST 0x1p500
 #define INSIDE 0x1p-46
 #define ROOT_HALF 0x1.6a09e667f3bccp-1 /* below it */
-enum { FIRST_SEEN = 10, MOST_ROUNDS = 400, LEAST_BITS = 128, MOST_BITS = 8192 };
+enum { FIRST_SEEN = 10, MOST_ROUNDS = 400, LEAST_BITS = 128, MOST_BITS = 8192, MOST_EXPONENT = 240 };
 
 /* ---- discs ---- */
 
@@ -67,12 +67,18 @@ dyd_status dyd_disc_of_site(dyd_disc *d, const dyd_sites *s, size_t i) {
   return st;
 }
 
+static void scale_disc(dyd_disc *d, int by) {
+  mpq_ptr all[3] = {d->x, d->y, d->r};
+  for (int k = 0; k < 3; k++) (by < 0 ? mpq_div_2exp : mpq_mul_2exp)(all[k], all[k], (mp_bitcnt_t)abs(by));
+}
+
 static dyd_status make_discs(dyd_disc_work *w, dyd_error *err) {
   const dyd_skeleton *sk = &w->pd->sk;
   dyd_status st = DYD_OK;
   for (uint32_t v = 0; v < sk->n && st == DYD_OK; v++) {
     uint32_t site = sk->reps.site[v];
-    st = dyd_disc_of_site(&w->disc[v], sk->reps.sites, site);
+    st = dyd_disc_of_site(&w->disc[v], w->sites, site);
+    if (w->scale) scale_disc(&w->disc[v], w->scale);
     w->about[v][0] = mpq_get_d(w->disc[v].x);
     w->about[v][1] = mpq_get_d(w->disc[v].y);
     w->about[v][2] = mpq_get_d(w->disc[v].r);
@@ -405,17 +411,52 @@ static dyd_status decide_discs(dyd_disc_work *w, size_t *left, dyd_pair_list *li
   return w->failed ? DYD_E_NOMEM : st;
 }
 
+/* By which power of two all is multiplied, so that squares of distances are doubles: 0 where they are. */
+static int scale_of_sites(const dyd_sites *s) {
+  double most = 0;
+  for (size_t i = 0; i < dyd_sites_count(s); i++) {
+    double end[4];
+    dyd_sites_get_d(end, s, i);
+    for (int k = 0; k < 4; k++) most = fmax(most, fabs(end[k]));
+  }
+  if (!isfinite(most) || most == 0) return 0;
+  int exp = ilogb(most);
+  return abs(exp) > MOST_EXPONENT ? -exp : 0;
+}
+
+/* Triangulates the sites, multiplied by 2^scale, in place of pd. */
+static dyd_status triangulate_scaled(dyd_disc_work *w) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = dyd_sites_new(&w->scaled_sites);
+  for (size_t i = 0; i < dyd_sites_count(w->sites) && st == DYD_OK; i++) {
+    st = dyd_sites_get(&r, w->sites, i);
+    dyd_dyadic *end[4] = {&r.x.lo, &r.x.hi, &r.y.lo, &r.y.hi};
+    for (int k = 0; k < 4; k++) end[k]->exp += mpz_sgn(end[k]->man) ? w->scale : 0;
+    if (st == DYD_OK) st = dyd_sites_add_rect(w->scaled_sites, &r);
+  }
+  dyd_rect_clear(&r);
+  if (st == DYD_OK) st = dyd_delaunay_new(&w->scaled, w->scaled_sites, NULL, NULL);
+  if (w->scaled) w->pd = w->scaled;
+  return st == DYD_CAPPED ? DYD_OK : st;
+}
+
 static void discs_clear(dyd_disc_work *w) {
   dyd_caps_clear(&w->caps);
   for (uint32_t v = 0; w->disc && v < w->pd->sk.n; v++) dyd_disc_clear(&w->disc[v]);
   free(w->disc);
   free(w->about);
   free(w->seen);
+  dyd_delaunay_free(w->scaled);
+  dyd_sites_free(w->scaled_sites);
 }
 
 static dyd_status discs_begin(dyd_disc_work *w, dyd_error *err) {
-  uint32_t n = w->pd->sk.n;
   dyd_caps_init(&w->caps);
+  w->scale = scale_of_sites(w->sites);
+  dyd_status st = w->scale ? triangulate_scaled(w) : DYD_OK;
+  if (st != DYD_OK) return st;
+  uint32_t n = w->pd->sk.n;
   w->about = dyd_alloc(n, sizeof *w->about);
   w->disc = w->about ? dyd_alloc(n, sizeof *w->disc) : NULL;
   if (!w->disc) return dyd_fail_nomem(err);
@@ -436,7 +477,7 @@ static dyd_status discs_end(const dyd_disc_work *w, dyd_status st, size_t left, 
 dyd_status dyd_disc_pairs_until(dyd_pair_list *out, const dyd_delaunay *pd, const volatile int *cancel,
                                 dyd_error *err) {
   if (!pd || !out) return dyd_fail_null(err);
-  dyd_disc_work w = {.pd = pd, .cancel = cancel};
+  dyd_disc_work w = {.pd = pd, .sites = pd->sk.reps.sites, .cancel = cancel};
   dyd_pair_list list = {0};
   size_t left = 0;
   if (err) dyd_error_clear(err);
@@ -444,6 +485,7 @@ dyd_status dyd_disc_pairs_until(dyd_pair_list *out, const dyd_delaunay *pd, cons
   if (st == DYD_OK) st = dyd_delaunay_pairs(&list, pd);
   if (st == DYD_OK && pd->sk.rects.tree.count) st = decide_discs(&w, &left, &list);
   discs_clear(&w);
+  w.pd = pd;
   st = discs_end(&w, st, left, list.count, err);
   if (st == DYD_OK || st == DYD_CAPPED || st == DYD_CANCELLED) {
     dyd_pair_list_clear(out);

@@ -369,6 +369,30 @@ static void test_far_centre(void **state) {
   }
 }
 
+/* Powers of two change nothing, however large or small squares of distances become. */
+static void test_scaled(void **state) {
+  (void)state;
+  static const double powers[] = {0x1p250, 0x1p900, 0x1p-250, 0x1p-900};
+  test_random r = test_random_start("scaled discs");
+  size_t decided = 0;
+  for (size_t k = 0; k < test_cases(40); k++) {
+    disc_case c;
+    make_discs_case(&c, &r, false);
+    dyd_pair_list here = pairs_of_discs(&c);
+    double by = powers[test_below(&r, 4)];
+    for (size_t i = 0; i < c.n; i++) c.x[i] *= by, c.y[i] *= by, c.r[i] *= by;
+    dyd_pair_list there = pairs_of_discs(&c);
+    assert_int_equal(here.count, there.count);
+    for (size_t i = 0; i < here.count; i++) {
+      assert_int_equal(here.item[i].status, status_in(&there, here.item[i].i, here.item[i].j));
+      decided += here.item[i].status == DYD_LEGAL;
+    }
+    dyd_pair_list_clear(&here);
+    dyd_pair_list_clear(&there);
+  }
+  assert_true(decided > 0);
+}
+
 /* The square about (10^12, 10^9) + (x, y) / 10^4 with half-width 3.5 / 10^4, its ends known to 2^-200. */
 static void make_fine_square(dyd_rect *r, long x, long y) {
   mpq_t at, lo, hi, half;
@@ -425,9 +449,9 @@ static void test_given(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_equal_discs), cmocka_unit_test(test_choices),
-                                     cmocka_unit_test(test_triangles),   cmocka_unit_test(test_cancelled),
-                                     cmocka_unit_test(test_refused),     cmocka_unit_test(test_many),
-                                     cmocka_unit_test(test_far_centre),  cmocka_unit_test(test_given)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_equal_discs), cmocka_unit_test(test_choices), cmocka_unit_test(test_triangles),
+      cmocka_unit_test(test_cancelled),   cmocka_unit_test(test_refused), cmocka_unit_test(test_many),
+      cmocka_unit_test(test_far_centre),  cmocka_unit_test(test_given),   cmocka_unit_test(test_scaled)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
