@@ -24,7 +24,14 @@
 #define FARTHEST 0x1p500
 #define INSIDE 0x1p-46
 #define ROOT_HALF 0x1.6a09e667f3bccp-1 /* below it */
-enum { FIRST_SEEN = 10, MOST_ROUNDS = 400, LEAST_BITS = 128, MOST_BITS = 8192, MOST_EXPONENT = 240 };
+enum {
+  FIRST_SEEN = 10,
+  MOST_ROUNDS = 400,
+  LEAST_BITS = 128,
+  MOST_BITS = 8192,
+  MOST_EXPONENT = 240,
+  FARTHEST_EXPONENT = 1 << 20
+};
 
 /* ---- discs ---- */
 
@@ -341,7 +348,7 @@ static bool add_inner_square(dyd_sites *sites, dyd_status *st, const dyd_disc_wo
   mpq_t x;
   mpq_init(x);
   bool inside = half > 0;
-  if (!inside && half == 0) { /* points, where doubles hold them */
+  if (!inside && half == 0 && isfinite(d[0]) && isfinite(d[1])) { /* points, where doubles hold them */
     mpq_set_d(x, d[0]);
     inside = mpq_equal(x, w->disc[v].x);
     mpq_set_d(x, d[1]);
@@ -411,17 +418,37 @@ static dyd_status decide_discs(dyd_disc_work *w, size_t *left, dyd_pair_list *li
   return w->failed ? DYD_E_NOMEM : st;
 }
 
-/* By which power of two all is multiplied, so that squares of distances are doubles: 0 where they are. */
-static int scale_of_sites(const dyd_sites *s) {
-  double most = 0;
-  for (size_t i = 0; i < dyd_sites_count(s); i++) {
-    double end[4];
-    dyd_sites_get_d(end, s, i);
-    for (int k = 0; k < 4; k++) most = fmax(most, fabs(end[k]));
+/* About the exponent of the largest end of a site. */
+static int64_t exponent_of_site(const dyd_sites *s, size_t i) {
+  double d[4], most = 0;
+  dyd_sites_get_d(d, s, i);
+  for (int k = 0; k < 4; k++) most = fmax(most, fabs(d[k]));
+  if (isfinite(most)) return most > 0 ? ilogb(most) : INT64_MIN;
+  dyd_rect r;
+  dyd_rect_init(&r);
+  int64_t exp = INT64_MAX;
+  if (dyd_sites_get(&r, s, i) == DYD_OK) {
+    const dyd_dyadic *end[4] = {&r.x.lo, &r.x.hi, &r.y.lo, &r.y.hi};
+    exp = 0;
+    for (int k = 0; k < 4; k++) {
+      int64_t top = end[k]->exp + (int64_t)mpz_sizeinbase(end[k]->man, 2);
+      exp = top > exp ? top : exp;
+    }
   }
-  if (!isfinite(most) || most == 0) return 0;
-  int exp = ilogb(most);
-  return abs(exp) > MOST_EXPONENT ? -exp : 0;
+  dyd_rect_clear(&r);
+  return exp;
+}
+
+/* By which power of two all is multiplied, so that squares of distances are doubles: 0 where they are, or where a site
+ * is as good as unknown. */
+static int scale_of_sites(const dyd_sites *s) {
+  int64_t most = INT64_MIN;
+  for (size_t i = 0; i < dyd_sites_count(s); i++) {
+    int64_t exp = exponent_of_site(s, i);
+    most = exp > most ? exp : most;
+  }
+  bool plain = most >= -MOST_EXPONENT && most <= MOST_EXPONENT;
+  return plain || most < -FARTHEST_EXPONENT || most > FARTHEST_EXPONENT ? 0 : (int)-most;
 }
 
 /* Triangulates the sites, multiplied by 2^scale, in place of pd. */
