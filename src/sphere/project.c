@@ -159,26 +159,48 @@ static void piece_add(sight *g, const piece *p) {
 
 /* ---- pieces ---- */
 
-/* Sets the view over the box. Is the box narrow for its distance from q, E > 2^8 half^2, and for the sphere? *widest:
- * the variable to be cut. */
+/* Sets *step to how far places move by half the width of variable k, at most: longitudes move them by cos f as much as
+ * latitudes do. So that they are narrow for a turn as well, no longitude is taken for shorter than the angle at which
+ * places are seen from q, E >= least. */
+static void piece_step(mag_t step, const sight *g, const piece *p, int k, const mag_t least) {
+  mag_t across;
+  mag_set(step, &p->half[k]);
+  if (k) return;
+  mag_init(across);
+  mag_mul_2exp_si(across, least, -1);
+  mag_sqrt(across, across);
+  arb_get_mag(step, &g->over.cf);
+  mag_max(step, step, across);
+  mag_mul(step, step, &p->half[0]);
+  mag_clear(across);
+}
+
+/* Sets the view over the box. Is the box narrow for its distance from q, E > 2^8 step^2? *widest: the variable to be
+ * cut, that of the longest step. */
 static bool piece_is_narrow(int *widest, sight *g, const piece *p) {
   arb_ptr box = _arb_vec_init(VARIABLES);
-  mag_t least, square;
+  mag_t least, most, step;
   mag_init(least);
-  mag_init(square);
-  *widest = 0;
+  mag_init(most);
+  mag_init(step);
   for (int k = 0; k < VARIABLES; k++) {
     arb_set(box + k, &p->mid[k]);
     arb_add_error_mag(box + k, &p->half[k]);
-    if (mag_cmp(&p->half[k], &p->half[*widest]) > 0) *widest = k;
   }
   view_set(&g->over, box, box + 1, box + 2, g);
   arb_get_mag_lower(least, &g->over.E);
-  mag_mul(square, &p->half[*widest], &p->half[*widest]);
-  mag_mul_2exp_si(square, square, 8);
-  bool narrow = arb_is_positive(&g->over.E) && mag_cmp(square, least) <= 0;
+  *widest = 0;
+  for (int k = 0; k < VARIABLES; k++) {
+    piece_step(step, g, p, k, least);
+    if (mag_cmp(step, most) > 0) *widest = k;
+    mag_max(most, most, step);
+  }
+  mag_mul(most, most, most);
+  mag_mul_2exp_si(most, most, 8);
+  bool narrow = arb_is_positive(&g->over.E) && mag_cmp(most, least) <= 0;
   _arb_vec_clear(box, VARIABLES);
-  mag_clear(square);
+  mag_clear(step);
+  mag_clear(most);
   mag_clear(least);
   return narrow;
 }
@@ -392,8 +414,8 @@ static bool project_sight(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, s
 }
 
 /* Sets out to a disc about a pole that holds s, a region of all longitudes: its angle is that of s and
- * 174532925199432958 / 10^19 > pi / 180 for each degree of latitude. As a box it would be cut into pieces, the more the
- * smaller it is. Returns false if s does not reach a pole. */
+ * 174532925199432958 / 10^19 > pi / 180 for each degree of latitude. As a box it would be cut into many pieces. Returns
+ * false if s does not reach a pole. */
 static bool spot_about_pole(dyd_spot *out, const dyd_spot *s) {
   mpq_abs(out->mid[1], s->mid[1]);
   mpq_add(out->mid[1], out->mid[1], s->half[1]);

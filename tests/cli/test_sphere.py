@@ -291,6 +291,14 @@ def test_choices_within_boxes():
             assert not refuted(got, choice), (SEED, k, half, places, choice)
 
 
+def test_thin_boxes_about_poles():
+    """Next to a pole many degrees of longitude are few metres."""
+    near = '-5+-0.15 89.99+-0.005\n-163±0.25 90±0\n115±0.375 88±0.375\n'
+    expect(run('delaunay', '--sphere', '-', stdin='22 -90\n[-113.5,-112.5] [-89.995,-89.985]\n'), 0, '^0,1,legal$')
+    expect(run('delaunay', '--sphere', '-', stdin=near), 0, '^0,1,legal\n0,2,legal\n1,2,legal$')
+    expect(run('voronoi', '--sphere', '--layer', 'vertices', '-', stdin=near), 0)
+
+
 def test_radius():
     """Degrees widen longitude and latitude; metres are a distance on the ground."""
     square = '0 60\n1 60\n0 60.5\n1 60.5\n50 0\n'

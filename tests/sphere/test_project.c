@@ -136,6 +136,39 @@ static void test_widths(void **state) {
   dyd_spot_clear(&spot);
 }
 
+/* Next to a pole, where boxes of many degrees are thin: from the pole, or from a place or a box on the other side of
+ * it. The image is not much wider than that of a disc about the box is. */
+static void test_about_poles(void **state) {
+  test_random r;
+  dyd_spot spot;
+  dyd_eye eye;
+  arb_t x, y;
+  (void)state;
+  r = test_random_start("images about poles");
+  dyd_spot_init(&spot);
+  dyd_eye_init(&eye);
+  arb_init(x);
+  arb_init(y);
+  for (int k = 0; k < 300; k++) {
+    double far = pow(0.1, 1 + test_below(&r, 5)), side = test_chance(&r, 2) ? 1 : -1, lon = 360 * test_unit(&r) - 180;
+    double eye_far = test_chance(&r, 3) ? 0 : far * test_unit(&r),
+           eye_half = test_chance(&r, 2) ? 0 : 5 * test_unit(&r);
+    spot_case s = {lon, side * (90 - far), {40 * test_unit(&r), far * test_unit(&r) / 4}};
+    spot_case q = {eye_far > 0 ? lon + 180 : 0, side * (90 - eye_far), {0, 0}};
+    if (eye_far > 0) q.half[0] = eye_half, q.half[1] = eye_far * eye_half / 90;
+    set_spot(&spot, &s);
+    set_spot(&eye.spot, &q);
+    eye.prec = 0;
+    assert_true(dyd_project(x, y, &spot, &eye, 128));
+    double apart = (far - s.half[1]) * (double)degree; /* the image is as far as 2 / apart */
+    assert_true(mag_get_d(arb_radref(x)) < 3 / apart && mag_get_d(arb_radref(y)) < 3 / apart);
+  }
+  arb_clear(y);
+  arb_clear(x);
+  dyd_eye_clear(&eye);
+  dyd_spot_clear(&spot);
+}
+
 /* ---- in doubles ---- */
 
 /* Anywhere, at whole quarters of a turn, next to a pole; `at`: next to that, at times after many turns. */
@@ -216,6 +249,6 @@ static void test_doubles(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_images), cmocka_unit_test(test_widths),
-                                     cmocka_unit_test(test_doubles)};
+                                     cmocka_unit_test(test_about_poles), cmocka_unit_test(test_doubles)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
