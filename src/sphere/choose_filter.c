@@ -74,10 +74,10 @@ static room_guess guess_room(const ball_guess *g, size_t n, const ball_guess *fr
   return r;
 }
 
-/* Better ones are greater; 0 where it is not apart from all. */
+/* Better ones are greater; 0 where it is not apart from all, or touches one, as far as doubles tell. */
 static double guess_score(const ball_guess *g, size_t n, const ball_guess *from) {
   const room_guess r = guess_room(g, n, from, 0);
-  if (r.left <= 0) return 0;
+  if (r.left <= EVEN * r.distance) return 0;
   return from->eye == 0 ? 1e9 + r.distance : r.distance / from->eye;
 }
 

@@ -297,6 +297,8 @@ def test_thin_boxes_about_poles():
     expect(run('delaunay', '--sphere', '-', stdin='22 -90\n[-113.5,-112.5] [-89.995,-89.985]\n'), 0, '^0,1,legal$')
     expect(run('delaunay', '--sphere', '-', stdin=near), 0, '^0,1,legal\n0,2,legal\n1,2,legal$')
     expect(run('voronoi', '--sphere', '--layer', 'vertices', '-', stdin=near), 0)
+    touching = '129 [-90,-89.99875]\n[48.98125,49.21875] -90\n-107 [-89.9925,-89.77125]\n'  # its end is the pole
+    expect(run('delaunay', '--sphere', '-', stdin=touching), 3, '^0,1,legal\n0,2,indeterminate\n1,2,indeterminate$')
 
 
 def test_radius():
