@@ -322,8 +322,9 @@ def test_sweep():
 
 
 def test_scales_far_apart():
-    """Points near 2^-500 in boxes of the first stage: polygons of arcs that small would have too many corners, and the table ends."""
-    text = ''.join(f'{x}*2^-500 ({y}*2^-500)*(sin({k})^2+cos({k})^2)\n' for k, (x, y) in enumerate([(-80, -21), (58, -9), (-25, 13), (87, 34)]))
+    """Points near 2^-500 in wide boxes of the first stages: polygons of such small arcs would have too many corners."""
+    text = ('-5*2^-496 sqrt(5)*sqrt(5)*(-33*2^-500)/5\nsqrt(8)*sqrt(8)*(29*2^-499)/8 (-9*2^-499)+sqrt(81)-9\n'
+            '-25*2^-500 min(13*2^-500,13*2^-500)\n(87*2^-500)+pi-pi (17*2^-499)*(sin(5)^2+cos(5)^2)\n')
     table = run('converge', '--no-times', '--quiet', '-', stdin=text)
     assert table.code == 0
     last = [line for line in table.out.splitlines() if line[0].isdigit()][-1].split(',')
