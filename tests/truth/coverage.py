@@ -5,9 +5,11 @@ The command prints its own table (--help=bash): commands, and of each the option
 these has to be typed by a row of the pairs of seed 1, or to have a reason here why not. A reason for what is no longer
 there, or is typed, fails, too."""
 import os
+import pathlib
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import faults as seeded
 import stated
 import truth
 from product import Product
@@ -68,6 +70,11 @@ def offered(offers):
                 yield from ((c, f'{option}={w.rstrip(":")}') for w in words)
 
 
+def holds_once(name, text):
+    path = pathlib.Path(__file__).resolve().parents[2] / 'src' / name
+    return path.exists() and path.read_text(encoding='utf-8').count(text) == 1
+
+
 def main():
     a = sys.argv[1:]
     given = {k[2:]: v for k, v in zip(a[1::2], a[2::2])}
@@ -86,6 +93,8 @@ def main():
         if key in found and key in reasons:
             faults.append(f'{word}: a row types it; its reason in coverage.py can go')
     faults += [f'{" ".join(r)}: the command offers no such thing; its reason in coverage.py can go' for r in REASONS if r not in used]
+    faults += [f'faults.py: src/{name} does not hold once the text that fault {k} replaces: {old}'
+               for k, (_, name, old, _) in enumerate(seeded.FAULTS) if not holds_once(name, old)]
     print(*faults, sep='\n')
     print(f'{len(list(offered(space.offers)))} things offered, {len(faults)} faults')
     return bool(faults)
