@@ -368,5 +368,5 @@ bool dyd_filter_find_centre(double c[2], const dyd_settle_site *site, size_t cou
   centre best = centre_find(&q, thorough);
   c[0] = best.at[0];
   c[1] = best.at[1];
-  return best.room > 0;
+  return best.room > 0 && isfinite(c[0]) && isfinite(c[1]);
 }
