@@ -488,6 +488,7 @@ dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect) {
   w->cancel = NULL;
   w->room = NULL;
   w->exact = false;
+  w->most = 0;
   for (int a = 0; a < 2; a++) {
     if (mpz_cmp_ui(side[a]->den, 1) != 0 || dyd_dyadic_cmp(&side[a]->lo, &side[a]->hi) >= 0) return DYD_E_ARG;
     w->d[2 * a] = dyd_dyadic_get_d(&side[a]->lo, DYD_UP);
