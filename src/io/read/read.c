@@ -119,20 +119,35 @@ static bool key_put_plain(nominals *n, dyd_plain p) {
   return key_put(n, text, (size_t)length);
 }
 
+/* Divides z, not 0, by p as often as it goes; returns how often. Short numbers are divided one digit after the other.
+ */
+static mp_bitcnt_t take_out(mpz_ptr z, unsigned long p) {
+  enum { SHORT = 4 };
+  mp_bitcnt_t times = 0;
+  if (mpz_size(z) <= SHORT) {
+    for (; mpz_divisible_ui_p(z, p); times++) mpz_divexact_ui(z, z, p);
+    return times;
+  }
+  mpz_t factor;
+  mpz_init_set_ui(factor, p);
+  times = mpz_remove(z, z, factor);
+  mpz_clear(factor);
+  return times;
+}
+
 /* Destroys q, which is man / den * 10^ten with den coprime to 10 and man not divisible by 10: "mek" or "p/qek". */
 static dyd_status key_put_rational(nominals *n, mpq_t q) {
   mpz_ptr man = mpq_numref(q), den = mpq_denref(q);
   mpz_t factor;
-  mpz_init_set_ui(factor, 2);
-  mp_bitcnt_t twos = mpz_remove(den, den, factor);
-  mpz_set_ui(factor, 5);
-  mp_bitcnt_t fives = mpz_remove(den, den, factor);
+  mpz_init(factor);
+  mp_bitcnt_t twos = mpz_scan1(den, 0);
+  mpz_tdiv_q_2exp(den, den, twos);
+  mp_bitcnt_t fives = take_out(den, 5);
   int64_t ten = -(int64_t)(twos > fives ? twos : fives);
   mpz_ui_pow_ui(factor, twos > fives ? 5 : 2, twos > fives ? twos - fives : fives - twos);
   mpz_mul(man, man, factor);
-  mpz_set_ui(factor, 10);
-  ten = mpz_sgn(man) ? ten + (int64_t)mpz_remove(man, man, factor) : 0;
   mpz_clear(factor);
+  ten = mpz_sgn(man) ? ten + (int64_t)take_out(man, 10) : 0;
   size_t most = mpz_sizeinbase(man, 10) + mpz_sizeinbase(den, 10) + 32;
   if (!dyd_reserve((void **)&n->text, &n->text_cap, n->used + most, 1)) return DYD_E_NOMEM;
   char *to = n->text + n->used;
