@@ -63,10 +63,11 @@ static dyd_status trace_place(dydpy_engine *self, const char *path, const char *
 /* With the engine entered. converge: None, or a window and whether to omit bounds of the diagram. */
 static dyd_status trace_open(dydpy_engine *self, const char *path, const dyd_engine_options *o,
                              const dyd_converge_options *converge, dyd_error *err) {
-  const size_t size = strlen(path) + sizeof ".new";
-  char *beside = malloc(size);
+  const size_t length = strlen(path);
+  char *beside = malloc(length + sizeof ".new");
   if (!beside) return dyd_error_set(err, DYD_E_NOMEM, dyd_status_text(DYD_E_NOMEM));
-  snprintf(beside, size, "%s.new", path);
+  memcpy(beside, path, length);
+  memcpy(beside + length, ".new", sizeof ".new");
   dyd_status st = trace_place(self, path, beside, o, converge, err);
   free(beside);
   return st;
