@@ -4,6 +4,7 @@
 #include "engine/record.h"
 
 #include "base/alloc.h"
+#include "base/digest.h"
 #include "base/error.h"
 #include "base/index.h"
 #include "delaunay/memory.h"
@@ -12,15 +13,15 @@
 #include <string.h>
 
 static uint64_t digest_word(uint64_t digest, uint32_t word) {
-  for (int k = 0; k < 4; k++) digest = (digest ^ (word >> 8 * k & 255)) * 1099511628211u;
-  return digest;
+  const unsigned char byte[4] = {word & 255, word >> 8 & 255, word >> 16 & 255, word >> 24};
+  return dyd_digest(digest, byte, sizeof byte);
 }
 
 dyd_status dyd_digest_pairs(uint64_t *out, const dyd_delaunay *pd) {
   dyd_pair_list pairs = {0};
   dyd_status st = dyd_pairs_list(&pairs, pd, DYD_TIE);
   if (st != DYD_OK) return st;
-  *out = 14695981039346656037u;
+  *out = DYD_DIGEST_BEGIN;
   for (size_t k = 0; k < pairs.count; k++) {
     *out = digest_word(*out, pairs.item[k].i);
     *out = digest_word(*out, pairs.item[k].j);

@@ -10,6 +10,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "base/digest.h"
 #include "base/error.h"
 #include "base/flag.h"
 #include "engine/record.h"
@@ -37,14 +38,6 @@
 enum { LAST_GOAL = DYD_GOAL_VORONOI_HAUSDORFF, LAST_SCHEDULE = DYD_SCHEDULE_UNIFORM };
 static const char *const relation_name[] = {
     [DYD_COINCIDENT] = "coincident", [DYD_COLLINEAR] = "collinear", [DYD_COCIRCULAR] = "cocircular"};
-
-#define SUM_BEGIN UINT64_C(14695981039346656037)
-
-/* FNV-1a of the bytes before, continued. */
-static uint64_t trace_sum(uint64_t sum, const char *text, size_t length) {
-  for (size_t k = 0; k < length; k++) sum = (sum ^ (unsigned char)text[k]) * 1099511628211u;
-  return sum;
-}
 
 /* ---- writing ---- */
 
@@ -74,7 +67,7 @@ static dyd_status trace_to_disk(dyd_trace *t) {
 /* Ends the line. */
 static dyd_status trace_line(dyd_trace *t) {
   if (fflush(t->line) != 0) return DYD_E_NOMEM;
-  t->sum = trace_sum(t->sum, t->text, t->size);
+  t->sum = dyd_digest(t->sum, t->text, t->size);
   fwrite(t->text, 1, t->size, t->out);
   fprintf(t->out, ",\"sum\":\"%016" PRIx64 "\"}\n", t->sum);
   rewind(t->line);
@@ -152,7 +145,7 @@ dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const ch
   t->out = f;
   t->e = e;
   t->points = dyd_engine_count(e);
-  t->sum = SUM_BEGIN;
+  t->sum = DYD_DIGEST_BEGIN;
   t->sync = -1;
   t->seen = calloc(t->points + 1, sizeof *t->seen);
   t->line = open_memstream(&t->text, &t->size);
@@ -245,7 +238,7 @@ static bool trace_is_sealed(uint64_t *sum, const char *text, size_t length) {
   enum { SEAL = sizeof ",\"sum\":\"0123456789abcdef\"}" - 1 };
   char seal[SEAL + 1];
   if (length < SEAL) return false;
-  *sum = trace_sum(*sum, text, length - SEAL);
+  *sum = dyd_digest(*sum, text, length - SEAL);
   snprintf(seal, sizeof seal, ",\"sum\":\"%016" PRIx64 "\"}", *sum);
   return memcmp(text + length - SEAL, seal, SEAL) == 0;
 }
@@ -460,8 +453,11 @@ static dyd_status recall_lines(recall *r, dyd_text *text) {
 
 dyd_status dyd_trace_recall(dyd_recall_report *out, dyd_engine *e, FILE *in, const char *input, dyd_error *err) {
   dyd_error local;
-  recall r = {
-      .e = e, .input = input, .sum = SUM_BEGIN, .report = {DYD_SIZED(dyd_recall_report)}, .err = err ? err : &local};
+  recall r = {.e = e,
+              .input = input,
+              .sum = DYD_DIGEST_BEGIN,
+              .report = {DYD_SIZED(dyd_recall_report)},
+              .err = err ? err : &local};
   dyd_text text;
   dyd_error_clear(r.err);
   if (out) {
@@ -718,7 +714,7 @@ static void replay_clear(replay *r) {
 
 dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_options *converge, dyd_error *err) {
   dyd_error local;
-  replay r = {.out = out, .sum = SUM_BEGIN, .err = err ? err : &local};
+  replay r = {.out = out, .sum = DYD_DIGEST_BEGIN, .err = err ? err : &local};
   dyd_status st = dyd_abi_check(out, sizeof *out, "dyd_convergence", err);
   if (st == DYD_OK) st = dyd_abi_take(&r.converge, sizeof r.converge, converge, "dyd_converge_options", err);
   if (st != DYD_OK) return st;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Parts, the results of one rank as a file; the manifest; parts joined to csv. */
+#include "base/digest.h"
 #include "tiles/tiles.h"
 
 #include <errno.h>
@@ -77,18 +78,10 @@ static tiles_row tiles_row_decode(const unsigned char in[TILES_RECORD]) {
   return r;
 }
 
-/* Fowler, Noll, Vo: one byte changed changes the sum. */
-static const uint64_t sum_begin = 14695981039346656037u;
-
-static uint64_t sum_bytes(uint64_t sum, const void *bytes, size_t count) {
-  for (const unsigned char *byte = bytes; count-- > 0; byte++) sum = (sum ^ *byte) * 1099511628211u;
-  return sum;
-}
-
 static bool put_row(FILE *out, uint64_t *sum, const tiles_row *r) {
   unsigned char bytes[TILES_RECORD];
   record_encode(bytes, r);
-  *sum = sum_bytes(*sum, bytes, sizeof bytes);
+  *sum = dyd_digest(*sum, bytes, sizeof bytes);
   return fwrite(bytes, sizeof bytes, 1, out) == 1;
 }
 
@@ -103,13 +96,13 @@ static bool put_sum(FILE *out, uint64_t sum) {
  * begin. */
 static bool tiles_part_sum(uint64_t *out, FILE *in) {
   unsigned char bytes[1 << 16];
-  uint64_t sum = sum_begin, told = 0;
+  uint64_t sum = DYD_DIGEST_BEGIN, told = 0;
   rewind(in);
   /* The last eight bytes read are kept back. */
   size_t kept = 0;
   for (size_t got; (got = fread(bytes + kept, 1, sizeof bytes - kept, in)) > 0;) {
     const size_t have = kept + got, done = have > TILES_SUM ? have - TILES_SUM : 0;
-    sum = sum_bytes(sum, bytes, done);
+    sum = dyd_digest(sum, bytes, done);
     memmove(bytes, bytes + done, kept = have - done);
   }
   for (size_t k = kept; k-- > 0;) told = told << 8 | bytes[k];
@@ -178,14 +171,14 @@ dyd_status tile_spool(tile *t, const tiles_rows *rows, dyd_error *err) {
 
 /* ---- the header ---- */
 
-/* A sum over their bytes (Fowler, Noll, Vo). */
+/* As dyd_digest, of words of 64 bits. */
 uint64_t tile_digest(const tile *t) {
   const tiles_sites *s = &t->own;
-  uint64_t sum = 14695981039346656037u;
+  uint64_t sum = DYD_DIGEST_BEGIN;
   for (size_t k = 0; k < s->count; k++) {
     uint64_t word[5] = {s->number[k]};
     memcpy(word + 1, s->end + k * s->dim, s->dim * sizeof(double));
-    for (unsigned w = 0; w <= s->dim; w++) sum = (sum ^ word[w]) * 1099511628211u;
+    for (unsigned w = 0; w <= s->dim; w++) sum = (sum ^ word[w]) * DYD_DIGEST_PRIME;
   }
   return sum;
 }
@@ -208,7 +201,7 @@ static json_t *header_of(const tile *t) {
 static bool put_json_line(FILE *out, uint64_t *sum, json_t *j) {
   char *text = j ? json_dumps(j, JSON_COMPACT) : NULL;
   bool fits = text && fprintf(out, "%s\n", text) > 0;
-  if (text) *sum = sum_bytes(sum_bytes(*sum, text, strlen(text)), "\n", 1);
+  if (text) *sum = dyd_digest(dyd_digest(*sum, text, strlen(text)), "\n", 1);
   free(text);
   json_decref(j);
   return fits;
@@ -240,7 +233,7 @@ dyd_status tile_write_part(tile *t, dyd_error *err) {
   dyd_status st = tiles_file_open(&f, t->job->folder, name, err);
   if (st != DYD_OK) return st;
   uint64_t *sum = &t->counters.sum;
-  *sum = sum_begin;
+  *sum = DYD_DIGEST_BEGIN;
   bool fits = put_json_line(f.stream, sum, header_of(t)) && join_rows(f.stream, sum, t->spool, &t->rows);
   for (size_t k = 0; fits && k < t->aliases.count; k++) fits = put_row(f.stream, sum, &t->aliases.item[k]);
   fits = fits && put_sum(f.stream, *sum);

@@ -451,7 +451,7 @@ static int scale_of_sites(const dyd_sites *s) {
   return plain || most < -FARTHEST_EXPONENT || most > FARTHEST_EXPONENT ? 0 : (int)-most;
 }
 
-/* Triangulates the sites, multiplied by 2^scale, in place of pd. */
+/* Triangulates the sites, multiplied by 2^scale, in place of pd; cancelled: all stays as it is. */
 static dyd_status triangulate_scaled(dyd_disc_work *w) {
   dyd_rect r;
   dyd_rect_init(&r);
@@ -463,9 +463,13 @@ static dyd_status triangulate_scaled(dyd_disc_work *w) {
     if (st == DYD_OK) st = dyd_sites_add_rect(w->scaled_sites, &r);
   }
   dyd_rect_clear(&r);
-  if (st == DYD_OK) st = dyd_delaunay_new(&w->scaled, w->scaled_sites, NULL, NULL);
-  if (w->scaled) w->pd = w->scaled;
-  return st == DYD_CAPPED ? DYD_OK : st;
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = w->cancel};
+  if (st == DYD_OK) st = dyd_delaunay_new(&w->scaled, w->scaled_sites, &o, NULL);
+  if (w->scaled)
+    w->pd = w->scaled;
+  else
+    w->scale = 0;
+  return st == DYD_CAPPED || st == DYD_CANCELLED ? DYD_OK : st;
 }
 
 static void discs_clear(dyd_disc_work *w) {

@@ -10,6 +10,7 @@
  * terms for another rational. */
 #include "base/abi.h"
 #include "base/alloc.h"
+#include "base/digest.h"
 #include "base/error.h"
 #include "engine/add.h"
 #include "engine/labels.h"
@@ -199,10 +200,9 @@ static dyd_status key_put_coordinate(nominals *n, const dyd_span *s) {
   return st;
 }
 
-/* FNV-1a, with its high half stirred in, as slots are taken by low bits. */
+/* The digest with its high half stirred in, as slots are taken by low bits. */
 static uint64_t hash_text(const char *text, size_t length) {
-  uint64_t h = UINT64_C(14695981039346656037);
-  for (size_t k = 0; k < length; k++) h = (h ^ (unsigned char)text[k]) * UINT64_C(1099511628211);
+  uint64_t h = dyd_digest(DYD_DIGEST_BEGIN, text, length);
   return h ^ h >> 32;
 }
 
