@@ -393,6 +393,34 @@ static void test_scaled(void **state) {
   assert_true(decided > 0);
 }
 
+/* Cancelled before it begins, at a scale that is triangulated anew: the pairs keep the statuses of squares. */
+static void test_scaled_cancelled(void **state) {
+  (void)state;
+  test_random r = test_random_start("cancelled discs");
+  const volatile int cancel = 1;
+  size_t open = 0;
+  for (size_t k = 0; k < test_cases(40); k++) {
+    disc_case c;
+    dyd_sites *sites;
+    dyd_error err;
+    dyd_pair_list l = {0};
+    make_discs_case(&c, &r, false);
+    for (size_t i = 0; i < c.n; i++) c.x[i] *= 0x1p300, c.y[i] *= 0x1p300, c.r[i] *= 0x1p300;
+    dyd_delaunay *pd = triangulate(&sites, &c, true);
+    dyd_status st = dyd_disc_pairs_until(&l, pd, &cancel, &err);
+    for (size_t i = 0; i < l.count; i++) {
+      assert_int_equal(l.item[i].status, dyd_delaunay_status(pd, l.item[i].i, l.item[i].j));
+      if (l.item[i].status != DYD_INDETERMINATE) continue;
+      assert_int_equal(st, DYD_CANCELLED);
+      open++;
+    }
+    dyd_pair_list_clear(&l);
+    dyd_delaunay_free(pd);
+    dyd_sites_free(sites);
+  }
+  assert_true(open > 0);
+}
+
 /* The square about (10^12, 10^9) + (x, y) / 10^4 with half-width 3.5 / 10^4, its ends known to 2^-200. */
 static void make_fine_square(dyd_rect *r, long x, long y) {
   mpq_t at, lo, hi, half;
@@ -449,9 +477,10 @@ static void test_given(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_equal_discs), cmocka_unit_test(test_choices), cmocka_unit_test(test_triangles),
-      cmocka_unit_test(test_cancelled),   cmocka_unit_test(test_refused), cmocka_unit_test(test_many),
-      cmocka_unit_test(test_far_centre),  cmocka_unit_test(test_given),   cmocka_unit_test(test_scaled)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_equal_discs), cmocka_unit_test(test_choices),
+                                     cmocka_unit_test(test_triangles),   cmocka_unit_test(test_cancelled),
+                                     cmocka_unit_test(test_refused),     cmocka_unit_test(test_many),
+                                     cmocka_unit_test(test_far_centre),  cmocka_unit_test(test_given),
+                                     cmocka_unit_test(test_scaled),      cmocka_unit_test(test_scaled_cancelled)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
