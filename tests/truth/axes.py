@@ -605,7 +605,8 @@ def form_numbers(case, put):
 def form_program(case, put):
     """The answers of a program: places as fractions, or boxes that stay."""
     text = ''.join(f'{a} {b} {c} {d}\n' for a, b, c, d in (s.region[1:] for s in case.sites))
-    return ['--oracle', 'exec python3 ' + put.here('points.py') + ' ' + put('answers.txt', text)]
+    return ['--oracle', 'exec python3 ' + put.here('points.py') + ' ' + put('answers.txt', text),
+            *([] if case.row['extra'] == 'retries' else ['--oracle-timeout', '600'])]
 
 
 FORMS = {'text': form_text, 'comma': form_comma, 'stdin': form_stdin, 'gzip': form_gzip, 'csv': form_csv,
