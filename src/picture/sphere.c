@@ -99,6 +99,7 @@ static void draw_graticule(sphere_drawing *d) {
   int digit, exponent;
   if (!dyd_round_step(&digit, &exponent, span / 6)) return;
   double step = span > 180 ? 30 : digit * pow(10, exponent);
+  if (step < 0x1p-40) return; /* 720 degrees have an ulp of 2^-43 */
   for (double x = ceil(left / step) * step; x <= right; x += step) {
     arc_to(d, arc_draw, true, x, fmax(bottom, -90));
     arc_to(d, arc_draw, false, x, fmin(v->top, 90));

@@ -626,6 +626,10 @@ def test_pictures():
             assert result.out.count('id="point-') == text.count('\n') and 'graticule' in result.out
         for form, magic in (('pdf', '%PDF'), ('png', '\x89PNG')):
             assert run(command, '--sphere', '--format', form, '-', stdin=OCTAHEDRON, binary=True).out.startswith(magic)
+    for tiny in ('[-35.9,-35.9] 53/1', '-35.9 53', '12.3 4.5\n12.30000000000000001 4.5'):  # lines of the map below an ulp
+        for command in ('delaunay', 'voronoi'):
+            assert '<svg' in run(command, '--sphere', '--format', 'svg', '-', stdin=tiny + '\n').out
+    assert '<svg' in run('delaunay', '--sphere', '--format', 'svg', '--window=12.3,12.300000000000001,4,4.5', '-', stdin='12.3 4.4\n').out
     drawn = run('delaunay', '--sphere', '--format', 'svg', *AIRPORTS).out
     assert 'legal: 10122' in drawn and drawn.count('id="point-') == 3376
 
