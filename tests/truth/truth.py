@@ -481,7 +481,11 @@ class Run:
             print(f'noticed by case {number}, the {self.cases}th: {judge.refuted[0]} ({case.row})', file=self.out)
         if self.findings.count(key) > 2 or self.against:
             return
-        small, j = shrink(case, self.space, self.product, self.effort)
+        try:
+            small, j = shrink(case, self.space, self.product, self.effort)
+        except Exception as e:  # the case as it is says more than the end of a soak
+            small, j = case, None
+            print(f'not shrunk: {e!r}', file=self.out)
         j = j or judge
         print(f'\n*** refuted: case {number} of seed {self.seed} ({", ".join(f"{a} {v}" for a, v in case.row.items())})',
               described(small, self.product), '; '.join(j.refuted[:3]),
