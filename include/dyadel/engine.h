@@ -15,6 +15,7 @@
 #define DYADEL_ENGINE_H
 
 #include <dyadel/delaunay.h>
+#include <dyadel/graph.h>
 #include <dyadel/stream.h>
 #include <string.h>
 
@@ -367,6 +368,15 @@ DYD_API dyd_status dyd_engine_nearest(dyd_index_list *out, bool *sure, dyd_outco
  * because all is exact, or proved from what coordinates are (unless options->no_ties)? Then each of them is nearest,
  * for good, and the outcome is fixpoint. false before the first, and after one that failed. */
 DYD_API bool dyd_engine_nearest_tied(const dyd_engine *e);
+
+/* The edges of a graph of neighbours, as dyd_graph_edges has them, after refining the points about which they are not
+ * yet certain. Outcomes: decided (each edge listed is certain); fixpoint (no refinement makes the others certain: fixed
+ * or equal distances of fixed points, radii that stay [NEAR-6]); budget; cancelled. Equal distances of points that are
+ * not exact end with budget: they are not proved. *out is right for the rectangles reached; refined later it only loses
+ * edges that are not certain. DYD_CANCELLED if it was cancelled, or the time ended, before any were found: *out is as
+ * before, as on errors. options and errors as in dyd_engine_ask. */
+DYD_API dyd_status dyd_engine_graph(dyd_graph_list *out, dyd_outcome *outcome, dyd_engine *e, dyd_graph graph,
+                                    const dyd_engine_options *options, dyd_error *err);
 
 #ifdef __cplusplus
 }

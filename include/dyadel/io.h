@@ -239,8 +239,9 @@ typedef struct dyd_write_options {
   const dyd_history *history; /* of the run, a stage for each row of `stages`, for html; NULL: only the result is shown.
                                  DYD_E_ARG with pairs, and where it ends with other pairs than the result */
 
-  const dyd_pair_list *pairs; /* of the triangulation: written instead of its pairs, in csv, wkt, geojson and pictures;
-                                 NULL: none */
+  const dyd_graph_list *graph; /* of a layer that is a graph: its edges (dyd_engine_graph); NULL: they are found */
+  const dyd_pair_list *pairs;  /* of the triangulation: written instead of its pairs, in csv, wkt, geojson and pictures;
+                                  NULL: none */
   dyd_list_ties ties;
 
   int64_t flatten_bits;       /* of the diagram: polygons within 2^-flatten_bits of their cells */

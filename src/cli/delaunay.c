@@ -28,21 +28,53 @@ static int delaunay_begin(cli_session *s) {
   return cli_usage("no certificate proves a minimum spanning tree: leave --certificate or --layer graph:mst out");
 }
 
+typedef struct delaunay_result {
+  dyd_graph_list graph; /* of a layer that is a graph, if known */
+  bool known;
+} delaunay_result;
+
 /* Statuses found before a point failed stay true: they are written, and the exit status reports the failure. */
-static int delaunay_find(cli_session *s) {
+static int pairs_find(cli_session *s) {
   int status = cli_session_run(s, &s->o.engine, cli_run_engine);
   s->known = dyd_engine_delaunay(s->engine);
   if (!status && !s->known) cli_session_lacks(s, s->outcome, "the first triangulation was complete");
   return status;
 }
 
+/* Sets *graph to that of the layer; false: it is none. */
+static bool layer_is_graph(dyd_graph *graph, dyd_content layer) {
+  *graph = layer == DYD_CONTENT_GRAPH_MST       ? DYD_GRAPH_MST
+           : layer == DYD_CONTENT_GRAPH_GABRIEL ? DYD_GRAPH_GABRIEL
+                                                : DYD_GRAPH_NEAREST;
+  return *graph != DYD_GRAPH_NEAREST || layer == DYD_CONTENT_GRAPH_NEAREST;
+}
+
+static dyd_status run_graph(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
+  delaunay_result *r = s->state;
+  dyd_graph graph;
+  layer_is_graph(&graph, s->o.content);
+  dyd_status st = dyd_engine_graph(&r->graph, &s->outcome, s->engine, graph, options, err);
+  r->known = st == DYD_OK;
+  if (!r->known) s->outcome = DYD_OUTCOME_NONE;
+  return st > 0 ? DYD_OK : st;
+}
+
+static int delaunay_find(cli_session *s) {
+  dyd_graph graph;
+  int status = pairs_find(s);
+  if (status || !layer_is_graph(&graph, s->o.content) || !cli_run_was_whole(s->engine)) return status;
+  return cli_session_run(s, &s->o.engine, run_graph);
+}
+
 /* The pairs of s->discs, if there are any; else those of the engine. */
 static dyd_status delaunay_write(FILE *out, const cli_session *s, dyd_error *err) {
   const cli_options *o = &s->o;
   dyd_tolerance *tolerance = NULL;
+  const delaunay_result *r = s->discs ? NULL : s->state;
   if (!s->discs && o->format == DYD_FORMAT_HTML) tolerance = find_tolerance(dyd_engine_delaunay(s->engine));
   const dyd_write_options how = {DYD_SIZED(dyd_write_options),
                                  .window = s->view,
+                                 .graph = r && r->known ? &r->graph : NULL,
                                  .pairs = s->discs,
                                  .epsg = o->epsg,
                                  .history = s->discs ? NULL : s->history,
@@ -71,12 +103,30 @@ static dyd_status write_certificate(FILE *out, const cli_session *s, dyd_error *
   return st;
 }
 
-const cli_work cli_delaunay = {.instead = delaunay_instead,
+/* Of a graph, how many of its edges are certain. */
+static int delaunay_summary(cli_session *s, int status) {
+  const delaunay_result *r = s->state;
+  size_t sure = 0;
+  status = cli_pairs_summary(s, status);
+  if (!r->known || cli_exit_status(s->outcome) <= status) return status;
+  for (size_t k = 0; k < r->graph.count; k++) sure += r->graph.item[k].sure;
+  cli_note(&s->o, "%s: %zu edges of the graph are certain, %zu possible", dyd_outcome_text(s->outcome), sure,
+           r->graph.count - sure);
+  return cli_exit_status(s->outcome);
+}
+
+static void delaunay_end(cli_session *s) {
+  dyd_graph_list_clear(&((delaunay_result *)s->state)->graph);
+}
+
+const cli_work cli_delaunay = {.size = sizeof(delaunay_result),
+                               .instead = delaunay_instead,
                                .begin = delaunay_begin,
                                .find = delaunay_find,
                                .write = delaunay_write,
                                .prove = write_certificate,
-                               .summary = cli_pairs_summary};
+                               .summary = delaunay_summary,
+                               .end = delaunay_end};
 
 /* ---- delaunay --discs ---- */
 
@@ -88,7 +138,7 @@ typedef struct disc_result {
 static int disc_pairs_find(cli_session *s) {
   disc_result *r = s->state;
   dyd_error err;
-  int status = delaunay_find(s);
+  int status = pairs_find(s);
   s->known = s->known && !status;
   if (!s->known) return status;
   cli_progress_phase(s->progress, "the discs");

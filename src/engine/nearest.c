@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Nearest sites of a computable point: narrow the point and the sites concerned until one is surely nearest.
+/* Nearest sites of a computable point, and graphs of neighbours: narrow the point and the sites concerned until one is
+ * surely nearest.
  *
  * Only sites that are possibly nearest matter: where i is not listed, its distance to every point of the query is above
  * the least dl of some other site, and stays so [NEAR-3]. The result pd serves as an index; sites narrowed since it was
@@ -10,13 +11,16 @@
  * refinement changes that: a tie. It is looked for when the list has changed [NEAR-4]. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/index.h"
 #include "engine/plan.h"
 #include "engine/points.h"
 #include "engine/settle.h"
 #include "engine/ties.h"
+#include <dyadel/graph.h>
 #include <dyadel/voronoi.h>
 
 #include <stdlib.h>
+#include <string.h>
 
 /* level: the precision worked towards, INT64_MIN at first; the point asked about is the only guest. tried: how many
  * were listed when a tie was looked for last. */
@@ -36,16 +40,15 @@ static void nearest_mark(bool *open, dyd_plan *plan, const dyd_refinable *p, int
   if (!p->asked || p->bits < level) dyd_plan_mark_alone(plan, p, level, DYD_REASON_QUESTION);
 }
 
-/* Raises the level until some site is below it. */
-static void nearest_plan(nearest_question *q, dyd_plan *plan) {
-  if (q->level == INT64_MIN) q->level = dyd_bits_first(plan->o);
-  for (bool open = false;; q->level = dyd_bits_grown(q->level, plan->o)) {
-    if (q->level > plan->o->max_bits) q->level = plan->o->max_bits;
-    nearest_mark(&open, plan, plan->guest, q->level);
-    for (size_t k = 0; k < q->near.count; k++)
-      nearest_mark(&open, plan, dyd_engine_find(plan->e, q->near.item[k]), q->level);
+/* Raises the level until the guest or some site of the list is below it. */
+static void nearest_plan(int64_t *level, dyd_plan *plan, const dyd_index_list *site) {
+  if (*level == INT64_MIN) *level = dyd_bits_first(plan->o);
+  for (bool open = false;; *level = dyd_bits_grown(*level, plan->o)) {
+    if (*level > plan->o->max_bits) *level = plan->o->max_bits;
+    for (size_t k = 0; k < plan->guests; k++) nearest_mark(&open, plan, &plan->guest[k], *level);
+    for (size_t k = 0; k < site->count; k++) nearest_mark(&open, plan, dyd_engine_find(plan->e, site->item[k]), *level);
     plan->blocked = open;
-    if (plan->count || plan->failed || !open || q->level == plan->o->max_bits) return;
+    if (plan->count || plan->failed || !open || *level == plan->o->max_bits) return;
   }
 }
 
@@ -115,7 +118,7 @@ static dyd_status nearest_ask(bool *answered, dyd_plan *plan, void *user, const 
   if (st == DYD_OK && q->near.count > 1) st = nearest_try_tie(q, plan->o, err);
   bool settled = q->sure || q->tied || q->near.count == 0;
   if (st == DYD_OK && !settled && q->near.count > 1) st = nearest_is_settled(&settled, q);
-  if (st == DYD_OK && !settled) nearest_plan(q, plan);
+  if (st == DYD_OK && !settled) nearest_plan(&q->level, plan, &q->near);
   return st;
 }
 
@@ -143,4 +146,105 @@ dyd_status dyd_engine_nearest(dyd_index_list *out, bool *sure, dyd_outcome *outc
 bool dyd_engine_nearest_tied(const dyd_engine *e) {
   if (!e) return false;
   return e->nearest_tied;
+}
+
+/* ---- graphs of neighbours ---- */
+
+/* site: where edges are that refinement may make certain; seen: of each site, is it in the list; known: edges are those
+ * of some rectangles reached. core, firm: as graph_find_core finds them; moving: some site is not firm. */
+typedef struct graph_question {
+  dyd_graph graph;
+  int64_t level;
+  dyd_graph_list edges, core;
+  dyd_index_list site;
+  bool *seen, *firm, moving, known;
+} graph_question;
+
+static void graph_take(graph_question *q, uint32_t i) {
+  if (!q->seen[i]) q->site.item[q->site.count++] = i;
+  q->seen[i] = true;
+}
+
+/* The ends of an edge, and the sites next to both: what may be in the disc of a Gabriel edge. */
+static dyd_status graph_take_edge(graph_question *q, const dyd_delaunay *pd, const dyd_graph_edge *edge) {
+  dyd_index_list near[2] = {{0}, {0}};
+  dyd_status st = dyd_delaunay_neighbours(&near[0], pd, edge->i, DYD_TIE);
+  if (st == DYD_OK) st = dyd_delaunay_neighbours(&near[1], pd, edge->j, DYD_TIE);
+  graph_take(q, edge->i);
+  graph_take(q, edge->j);
+  for (size_t a = 0, b = 0; st == DYD_OK && a < near[0].count && b < near[1].count;) {
+    uint32_t i = near[0].item[a], j = near[1].item[b];
+    if (i == j) graph_take(q, i);
+    a += i <= j, b += j <= i;
+  }
+  for (int k = 0; k < 2; k++) dyd_index_list_clear(&near[k]);
+  return st;
+}
+
+/* The edges of the cores, less 4 eps where a site is firm [NEAR-6]. */
+static dyd_status graph_find_core(graph_question *q, const dyd_plan *plan, dyd_error *err) {
+  dyd_sites *sites = NULL;
+  dyd_delaunay *pd = NULL;
+  dyd_dyadic eps;
+  dyd_dyadic_init(&eps);
+  dyd_graph_list_clear(&q->core);
+  dyd_status st = dyd_firm_eps(&eps, plan->e);
+  q->moving = dyd_dyadic_sgn(&eps) != 0;
+  for (int k = 0; st == DYD_OK && k < 2; k++) st = dyd_dyadic_add(&eps, &eps, &eps);
+  if (st == DYD_OK) st = dyd_firm_triangulate(&pd, &sites, q->firm, plan, &eps);
+  if (st == DYD_OK) st = dyd_graph_edges(&q->core, pd, q->graph, &plan->e->stop, err);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  dyd_dyadic_clear(&eps);
+  return st == DYD_CAPPED ? DYD_OK : st;
+}
+
+/* Is the edge possible and not certain for good [NEAR-6]? */
+static bool graph_is_settled(const graph_question *q, const dyd_graph_edge *edge) {
+  bool ends = q->firm[edge->j] && (q->graph == DYD_GRAPH_NEAREST || q->firm[edge->i]);
+  if (q->moving && (q->graph == DYD_GRAPH_MST || !ends)) return false;
+  const dyd_graph_edge *same =
+      q->core.count ? bsearch(edge, q->core.item, q->core.count, sizeof *edge, dyd_compare_two) : NULL;
+  return same && !same->sure;
+}
+
+static dyd_status graph_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
+  graph_question *q = user;
+  size_t sites = dyd_sites_count(e->sites);
+  dyd_status st = dyd_graph_edges(&q->edges, e->pd, q->graph, &e->stop, err);
+  *answered = st == DYD_OK;
+  q->known |= *answered;
+  for (size_t k = 0; *answered && k < q->edges.count; k++) *answered = q->edges.item[k].sure;
+  if (st != DYD_OK || *answered) return st;
+  if (!q->seen) q->seen = dyd_alloc(sites, sizeof *q->seen);
+  if (!q->firm) q->firm = dyd_alloc(sites, sizeof *q->firm);
+  if (!q->site.item) q->site.item = dyd_alloc(sites, sizeof *q->site.item);
+  if (!q->seen || !q->firm || !q->site.item) return DYD_E_NOMEM;
+  memset(q->seen, 0, sites * sizeof *q->seen);
+  q->site.count = 0;
+  st = graph_find_core(q, plan, err);
+  for (size_t k = 0; st == DYD_OK && k < q->edges.count; k++)
+    if (!q->edges.item[k].sure && !graph_is_settled(q, &q->edges.item[k]))
+      st = graph_take_edge(q, e->pd, &q->edges.item[k]);
+  if (st == DYD_OK) nearest_plan(&q->level, plan, &q->site);
+  return st;
+}
+
+dyd_status dyd_engine_graph(dyd_graph_list *out, dyd_outcome *outcome, dyd_engine *e, dyd_graph graph,
+                            const dyd_engine_options *options, dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
+  graph_question q = {.graph = graph, .level = INT64_MIN};
+  const dyd_question question = {DYD_SIZED(dyd_question), .ask = graph_ask, .user = &q, .triangulate = true};
+  *outcome = DYD_OUTCOME_ERROR;
+  if (e->pd && dyd_delaunay_is_capped(e->pd))
+    return dyd_fail(err, DYD_CAPPED, "there are more pairs than can be stored");
+  dyd_status st = dyd_engine_ask(outcome, e, &question, options, err);
+  if (st == DYD_OK && !q.known) st = DYD_CANCELLED;
+  dyd_graph_list_clear(st == DYD_OK ? out : &q.edges);
+  if (st == DYD_OK) *out = q.edges;
+  dyd_graph_list_clear(&q.core);
+  dyd_index_list_clear(&q.site);
+  free(q.firm);
+  free(q.seen);
+  return st;
 }

@@ -78,7 +78,11 @@ static dyd_status result_graph(bool *graph, dyd_result *r, dyd_content layer, co
   *graph = k < GRAPH_LAYERS;
   if (!*graph) return DYD_OK;
   r->graph_name = graph_layers[k].name;
-  dyd_status st = dyd_graph_edges(&r->graph, r->pd, graph_layers[k].graph, o->cancel, err);
+  dyd_status st = DYD_OK;
+  if (o->graph)
+    r->graph = *o->graph;
+  else
+    st = dyd_graph_edges(&r->graph, r->pd, graph_layers[k].graph, o->cancel, err);
   return st == DYD_OK ? pairs_of_graph(r) : st;
 }
 
@@ -132,7 +136,7 @@ static dyd_status write_delaunay(dyd_output *to, dyd_write_options *o, dyd_error
   else if (!err || err->code != st)
     fail_status(st, err);
   if (!o->pairs) dyd_pair_list_clear(&r.pairs);
-  dyd_graph_list_clear(&r.graph);
+  if (!o->graph) dyd_graph_list_clear(&r.graph);
   return st;
 }
 

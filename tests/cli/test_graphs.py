@@ -246,6 +246,19 @@ def test_monotone():
             before = after
 
 
+def test_refined():
+    """Points are refined until edges of the graph are certain, not only pairs; the exit status tells what is left."""
+    near = 'sqrt(2) 0\n0 0\n-sqrt(2)*3/5 -sqrt(2)*4/5+2^-%d\n'
+    for bits in (40, 140, 700):
+        result = run('delaunay', '--layer', 'graph:nearest', '-', stdin=near % bits)
+        assert result.code == 0 and 'possible' not in result.out and '1,2,' in result.out, result
+    result = run('delaunay', '--layer', 'graph:nearest', '--max-bits', '200', '-', stdin=near % 700)
+    expect(result, 4, r'(?s).*1,0,possible\n1,2,possible', 'budget: 2 edges of the graph are certain, 2 possible')
+    expect(run('delaunay', '--layer', 'graph:nearest', '-', stdin='0 0\n1 0\n0.5 3\n'), 3, r'(?s).*2,0,possible',
+           'fixpoint: 2 edges of the graph are certain, 2 possible')
+    expect(run('delaunay', '--layer', 'graph:mst', '--radius', '0.3', '-', stdin='sqrt(2) 0\n0 0\n0 sqrt(2)\n'), 3, '(?s).*')
+
+
 def test_few_points():
     for g in GRAPHS:
         assert edges(g, []) == edges(g, [(1, 1, 2, 2)]) == {}

@@ -559,11 +559,70 @@ static void test_nearest(void **state) {
   }
 }
 
+/* Graphs of neighbours: what stays possible for good ends with few bits [NEAR-6], what does not is refined until it is
+ * certain; equal distances of points that are not exact are not proved. */
+static void test_graphs(void **state) {
+  (void)state;
+  static const struct {
+    const char *at[4][2];
+    size_t certain[3], possible[3];
+    dyd_outcome outcome[3];
+    int64_t bits;
+  } sets[] = {
+      /* all with radii */
+      {{{"0+-0.1", "sqrt(2)-sqrt(2)+-0.1"}, {"sqrt(2)+-0.1", "0+-0.1"}, {"0+-0.1", "sqrt(2)+-0.1"}},
+       {2, 2, 2},
+       {2, 1, 0},
+       {DYD_OUTCOME_FIXPOINT, DYD_OUTCOME_FIXPOINT, DYD_OUTCOME_DECIDED},
+       64},
+      /* the ends have radii, what is next to them has none: a Gabriel edge for some of their places */
+      {{{"sqrt(2)+-0.1", "0+-0.1"}, {"-sqrt(2)+-0.1", "0+-0.1"}, {"sqrt(3)-sqrt(3)", "sqrt(2)"}},
+       {2, 2, 2},
+       {2, 1, 0},
+       {DYD_OUTCOME_FIXPOINT, DYD_OUTCOME_FIXPOINT, DYD_OUTCOME_DECIDED},
+       64},
+      /* 2 is nearer to 0 by 2^-140 */
+      {{{"0", "0"}, {"sqrt(2)", "0"}, {"-sqrt(2)*3/5", "-sqrt(2)*4/5+2^-140"}},
+       {3, 2, 2},
+       {0, 0, 0},
+       {DYD_OUTCOME_DECIDED, DYD_OUTCOME_DECIDED, DYD_OUTCOME_DECIDED},
+       300},
+      /* 1 and 2 are equally far */
+      {{{"0", "0"}, {"sqrt(2)", "0"}, {"-sqrt(2)*3/5", "sqrt(2)*4/5"}},
+       {2, 2, 2},
+       {2, 0, 0},
+       {DYD_OUTCOME_BUDGET, DYD_OUTCOME_DECIDED, DYD_OUTCOME_DECIDED},
+       400},
+  };
+  for (size_t k = 0; k < sizeof sets / sizeof *sets; k++) {
+    for (int g = 0; g < 3; g++) {
+      dyd_engine *e = engine_new();
+      dyd_graph_list list = {0};
+      dyd_outcome outcome;
+      for (int i = 0; i < 4 && sets[k].at[i][0]; i++) engine_add_text(e, sets[k].at[i][0], sets[k].at[i][1]);
+      dyd_engine_options o;
+      dyd_engine_options_init(&o);
+      o.start_bits = 20;
+      o.max_bits = 400;
+      assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, &o, NULL));
+      assert_int_equal(DYD_OK, dyd_engine_graph(&list, &outcome, e, (dyd_graph)g, &o, NULL));
+      size_t certain = 0;
+      for (size_t n = 0; n < list.count; n++) certain += list.item[n].sure;
+      assert_int_equal(sets[k].certain[g], certain);
+      assert_int_equal(sets[k].certain[g] + sets[k].possible[g], list.count);
+      assert_int_equal(sets[k].outcome[g], outcome);
+      assert_true(engine_counters(e).bits_most <= sets[k].bits);
+      dyd_graph_list_clear(&list);
+      dyd_engine_free(e);
+    }
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_few),         cmocka_unit_test(test_faces),          cmocka_unit_test(test_runs),
       cmocka_unit_test(test_sides),       cmocka_unit_test(test_fixed_for_good), cmocka_unit_test(test_text),
       cmocka_unit_test(test_shared),      cmocka_unit_test(test_measured),       cmocka_unit_test(test_radius),
-      cmocka_unit_test(test_near_radius), cmocka_unit_test(test_nearest)};
+      cmocka_unit_test(test_near_radius), cmocka_unit_test(test_nearest),        cmocka_unit_test(test_graphs)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -69,6 +69,9 @@ def judge_all(judge, case, product, status, claims, err, last, rand, effort):
         judge_exit(judge, case, status, claims)
         judge_decided(judge, case, claims, last)
         judge_witness(judge, case, claims, last, rand)
+    if case.stated.startswith('graph') and 'edges' in claims and case.form not in ('python', 'capi') and case.extra != 'accept fixpoint':
+        left = sorted(e for e, word in claims['edges'].items() if word == 'possible')
+        judge(status != 0 or not left, 'exit 0, but %s are only possible', left[:3])
     if claims.get('aliases') is not None:
         judge_aliases(judge, case, claims)
     extra = {'rho': judge_rho, 'plan': judge_plan, 'tolerance': judge_motion, 'layer tolerance': judge_motion}.get(case.stated)
