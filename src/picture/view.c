@@ -45,7 +45,16 @@ dyd_status dyd_view_window(double box[4], const dyd_rect *window, dyd_error *err
   return box[0] < box[1] && box[2] < box[3] ? DYD_OK : dyd_fail(err, DYD_E_ARG, "the window has no area");
 }
 
+/* A box that is no wider than what doubles round becomes its middle: a point that is no double. */
+static void box_collapse(double box[4]) {
+  double size = fmax(box[1] - box[0], box[3] - box[2]), far = 0;
+  for (int k = 0; k < 4; k++) far = fmax(far, fabs(box[k]));
+  if (!(size <= 0x1p-50 * far)) return;
+  for (int k = 0; k < 4; k += 2) box[k] = box[k + 1] = box[k] / 2 + box[k + 1] / 2;
+}
+
 void dyd_view_pad(double box[4]) {
+  box_collapse(box);
   double w = box[1] - box[0], h = box[3] - box[2], size = fmax(w, h);
   if (size == 0) size = 1;
   double wide = (fmax(w, size) - w) / 2 + 0.1 * size, high = (fmax(h, 0.6 * size) - h) / 2 + 0.1 * size;
@@ -82,6 +91,7 @@ dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, const dyd_pair_list *p
     dyd_view_hold(all, b);
   }
   if (r->count == 0) all[0] = all[1] = all[2] = all[3] = 0;
+  box_collapse(all);
   double rim = 0.04 * fmax(all[1] - all[0], all[3] - all[2]);
   for (int k = 0; k < 4; k++) all[k] += k & 1 ? rim : -rim;
   return dyd_view_fit(v, all, dyd_view_spacing(r->pd, pairs, NULL), err);

@@ -619,7 +619,7 @@ def test_voronoi_layers():
 def test_pictures():
     """Well-formed, all marks in it, a graticule, nothing that runs across the map from side to side."""
     for command in ('delaunay', 'voronoi'):
-        for text in ('', '1 2\n', '10 50\n11 50\n10 51\n', OCTAHEDRON + '170 20\n-170 10\n'):
+        for text in ('', '1 2\n', '-35.9 53\n', '10 50\n11 50\n10 51\n', OCTAHEDRON + '170 20\n-170 10\n'):
             result = run(command, '--sphere', '--format', 'svg', '-', stdin=text)
             expect(result, 0, '<svg')
             xml.etree.ElementTree.fromstring(result.out)
@@ -644,6 +644,8 @@ def test_window():
         assert f'{len(inside)} of 7 points (and the lines counted) in this window' in drawn, window
         edges = sum(i in inside or j in inside for i, j, _ in pairs)
         assert re.findall('>legal: ([0-9]+)<', drawn) == [str(edges)] * (edges > 0), (window, edges)
+    for narrow in ('-35.90000000000001,-35.9,53,53.00000000000001', '-35.9,-35.8,53,53.1'):  # finer than doubles tell apart
+        assert '<svg' in run('delaunay', '--sphere', '--format', 'svg', f'--window={narrow}', '-', stdin='-35.9 53\n').out
     tall = run('delaunay', '--sphere', '--format', 'svg', '--window=178,180,-21,-15', '-', stdin=text).out  # beside the bar
     end, bar = re.search('<text x="([0-9.]+)"[^>]*>([^<]* degrees?)<', tall).groups()
     row = re.search('>([^<]* in this window[^<]*)<', tall)[1]
