@@ -375,6 +375,8 @@ static bool ask_narrows(void *user, uint32_t site) {
 static dyd_status ask_triangulate(ask *a, bool failed, dyd_error *err) {
   dyd_engine *e = a->e;
   uint64_t max_bytes;
+  void *prover;
+  dyd_prove_fn prove = dyd_engine_prover(&prover, e, &a->o);
   dyd_status st = ask_room_to_triangulate(&max_bytes, a);
   if (st != DYD_OK) return st;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options),
@@ -382,10 +384,8 @@ static dyd_status ask_triangulate(ask *a, bool failed, dyd_error *err) {
                                   .cancel = &e->stop,
                                   .threads = a->o.threads,
                                   .no_filter = a->o.no_filter,
-                                  .prove = a->o.no_ties ? NULL
-                                           : e->prover  ? e->prover
-                                                        : dyd_ties_prove,
-                                  .prove_user = e->prover ? e->prover_user : e,
+                                  .prove = prove,
+                                  .prove_user = prover,
                                   .keep_cut = !e->pd,
                                   .narrows = e->postpones && !failed ? ask_narrows : NULL,
                                   .narrows_user = a,

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Pairs that stay indeterminate whatever is refined [SET-1] [SET-2].
+/* Pairs that stay indeterminate whatever is refined [SET-1] [SET-2] [SET-4].
  *
  * A side of a rectangle may have a core, an interval that no refinement leaves [SET-3]: all of a fixed side, and what
  * is within the radius of every place that the centre of a side may have. Let no two points of a rectangle that differ
  * along sides without a core be farther apart than eps. A site is firm if both its sides have cores wider than 2 eps.
  * Pairs of firm sites: all sites are triangulated once, the firm ones with their cores less eps on each side, the
  * others with any place along each side without a core. A pair that is neither legal nor illegal there is so wherever
- * these points are. Other pairs are examined one by one. */
+ * these points are. Other pairs are examined one by one; those of exact points that are proved to be on one circle or
+ * line, together. */
 #include "engine/settle.h"
 
 #include "base/alloc.h"
@@ -150,7 +151,8 @@ typedef struct settling {
   dyd_settled_pair *pair;
   size_t pairs;
   size_t *work;
-  bool mixed; /* some side has a core that is no point */
+  const dyd_settled *known; /* who proves circles; NULL: nobody */
+  bool mixed;               /* some side has a core that is no point */
 } settling;
 
 static void settling_drop_rects(settling *s) {
@@ -369,6 +371,175 @@ static dyd_status settling_run(settling *s) {
   return st;
 }
 
+/* ---- circles and lines that are proved [SET-4] ---- */
+
+/* A circle through the first three members, or a line; members by their places among the sites of a face. */
+typedef struct settled_circle {
+  bool line;
+  size_t *member;
+  size_t count;
+} settled_circle;
+
+/* Predicates of rectangles are exact where they are close: as much as many sites in doubles. */
+enum { COST_PREDICATE = 16, COST_PROOF = 1 << 12, MOST_SEEDS = 64 };
+
+static void settling_pay(const settling *s, size_t cost) {
+  *s->work -= *s->work < cost ? *s->work : cost;
+}
+
+/* Is there a true point of site number k, as far as its rectangle tells? */
+static bool settling_is_exact(const settling *s, size_t k) {
+  const bool *core = s->guess[k].core;
+  return (!core[0] || dyd_interval_is_point(&s->rect[k].x)) && (!core[1] || dyd_interval_is_point(&s->rect[k].y));
+}
+
+static bool may_be_on(const settling *s, const settled_circle *c, size_t k) {
+  const dyd_rect *a = &s->rect[c->member[0]], *b = &s->rect[c->member[1]], *r = &s->rect[k];
+  settling_pay(s, COST_PREDICATE);
+  if (c->line) return dyd_orientation(a, b, r) == DYD_UNSURE;
+  return dyd_con(r, a, b, &s->rect[c->member[2]]) == DYD_UNSURE;
+}
+
+/* Is site number k proved to be on the circle with the first three members, on the line with the first two? */
+static dyd_status circle_prove(bool *on, const settling *s, const settled_circle *c, size_t k) {
+  uint32_t site[4];
+  size_t first = c->line ? 2 : 3;
+  for (size_t m = 0; m < first; m++) site[m] = s->site.item[c->member[m]];
+  site[first] = s->site.item[k];
+  settling_pay(s, COST_PROOF);
+  return s->known->prove(on, s->known->prove_user, c->line ? DYD_COLLINEAR : DYD_COCIRCULAR, site, first + 1, NULL);
+}
+
+/* Adds all sites that are proved to be on the circle. */
+static dyd_status circle_fill(settled_circle *c, const settling *s) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; st == DYD_OK && k < s->site.count && *s->work; k++) {
+    bool member = !settling_is_exact(s, k), on = false;
+    for (size_t m = 0; m < (c->line ? 2 : 3); m++) member = member || c->member[m] == k;
+    if (member || !may_be_on(s, c, k)) continue;
+    st = circle_prove(&on, s, c, k);
+    if (on) c->member[c->count++] = k;
+  }
+  return st;
+}
+
+/* Is all of r surely on the side `way` of the line, or, whatever way is, outside of the circle? */
+static bool surely_beside(const settling *s, const settled_circle *c, dyd_sure way, const dyd_rect *r) {
+  const dyd_rect *a = &s->rect[c->member[0]], *b = &s->rect[c->member[1]];
+  if (c->line) return dyd_orientation(a, b, r) == way;
+  return dyd_con(r, a, b, &s->rect[c->member[2]]) == DYD_SURE_MINUS;
+}
+
+/* The same for some choice along the cores of r: its corners are tried. */
+static bool core_is_beside(const settling *s, const settled_circle *c, dyd_sure way, const dyd_rect *r,
+                           const bool core[2]) {
+  bool found = false;
+  dyd_rect q;
+  dyd_rect_init(&q);
+  for (int k = 0; k < 4 && !found; k++) {
+    dyd_rect_set(&q, r);
+    const dyd_dyadic *x = k & 1 ? &r->x.hi : &r->x.lo, *y = k & 2 ? &r->y.hi : &r->y.lo;
+    bool good = !core[0] || dyd_interval_set_ends(&q.x, x, x) == DYD_OK;
+    good = good && (!core[1] || dyd_interval_set_ends(&q.y, y, y) == DYD_OK);
+    found = good && surely_beside(s, c, way, &q);
+  }
+  dyd_rect_clear(&q);
+  return found;
+}
+
+static bool circle_has(const settling *s, const settled_circle *c, uint32_t site) {
+  for (size_t m = 0; m < c->count; m++)
+    if (s->site.item[c->member[m]] == site) return true;
+  return false;
+}
+
+/* Need no site but members be inside of the circle, or beyond the line from the side `way`? */
+static dyd_status circle_is_empty(bool *out, const settling *s, const settled_circle *c, dyd_sure way) {
+  dyd_status st = DYD_OK;
+  dyd_rect r;
+  dyd_rect_init(&r);
+  *out = true;
+  for (uint32_t k = 0; st == DYD_OK && *out && k < dyd_sites_count(s->e->sites); k++) {
+    bool core[2];
+    if (dyd_delaunay_alias(s->e->pd, k) != k || circle_has(s, c, k)) continue;
+    settling_pay(s, 1);
+    st = dyd_site_get_core(&r, core, s->e, k);
+    *out = st == DYD_OK && core_is_beside(s, c, way, &r, core);
+  }
+  dyd_rect_clear(&r);
+  return st;
+}
+
+static bool surely_before(const dyd_interval *a, const dyd_interval *b) {
+  return dyd_dyadic_cmp(&a->hi, &b->lo) < 0;
+}
+
+/* Is b between a and c, all on one line? */
+static bool surely_between(const dyd_rect *a, const dyd_rect *b, const dyd_rect *c) {
+  return (surely_before(&a->x, &b->x) && surely_before(&b->x, &c->x)) ||
+         (surely_before(&c->x, &b->x) && surely_before(&b->x, &a->x)) ||
+         (surely_before(&a->y, &b->y) && surely_before(&b->y, &c->y)) ||
+         (surely_before(&c->y, &b->y) && surely_before(&b->y, &a->y));
+}
+
+/* Does no disc hold both ends, and nobody else of the circle? */
+static bool circle_parts(const settling *s, const settled_circle *c, const dyd_settled_pair *p) {
+  const dyd_rect *i = &s->rect[settling_place(s, p->i)], *j = &s->rect[settling_place(s, p->j)];
+  bool left = false, right = false;
+  for (size_t m = 0; m < c->count && !(left && right); m++) {
+    const dyd_rect *k = &s->rect[c->member[m]];
+    if (k == i || k == j) continue;
+    dyd_sure way = c->line ? DYD_UNSURE : dyd_orientation(i, j, k);
+    bool between = c->line && surely_between(i, k, j);
+    left = left || between || way == DYD_SURE_PLUS;
+    right = right || between || way == DYD_SURE_MINUS;
+  }
+  return left && right;
+}
+
+/* Writes down what the circle tells of pairs. */
+static dyd_status circle_tell_pairs(const settling *s, const settled_circle *c) {
+  bool empty, other = false;
+  dyd_status st = circle_is_empty(&empty, s, c, DYD_SURE_PLUS);
+  if (st == DYD_OK && c->line && !empty) st = circle_is_empty(&other, s, c, DYD_SURE_MINUS);
+  for (size_t k = 0; st == DYD_OK && k < s->pairs; k++) {
+    dyd_settled_pair *p = &s->pair[k];
+    if (dyd_pair_is_settled(p) || !circle_has(s, c, p->i) || !circle_has(s, c, p->j)) continue;
+    p->possible = p->possible || empty || other;
+    p->unsure = p->unsure || circle_parts(s, c, p);
+  }
+  return st;
+}
+
+/* Tries the circles, or lines, through both ends of a pair and another site. */
+static dyd_status settling_circle_pair(settling *s, settled_circle *c, const dyd_settled_pair *p) {
+  size_t i = settling_place(s, p->i), j = settling_place(s, p->j), seeds = 0;
+  dyd_status st = DYD_OK;
+  if (!settling_is_exact(s, i) || !settling_is_exact(s, j)) return DYD_OK;
+  for (size_t k = 0; st == DYD_OK && k < s->site.count && !dyd_pair_is_settled(p) && *s->work; k++) {
+    if (k == i || k == j || !settling_is_exact(s, k) || seeds++ == MOST_SEEDS) continue;
+    *c = (settled_circle){.member = c->member, .count = 3};
+    c->member[0] = i;
+    c->member[1] = j;
+    c->member[2] = k;
+    c->line = dyd_orientation(&s->rect[i], &s->rect[j], &s->rect[k]) == DYD_UNSURE;
+    if (c->line) c->count = 2;
+    st = circle_fill(c, s);
+    if (st == DYD_OK && c->count > (c->line ? 2 : 3)) st = circle_tell_pairs(s, c);
+    if (st == DYD_OK && dyd_flag_get(&s->e->stop)) st = DYD_CANCELLED;
+  }
+  return st;
+}
+
+static dyd_status settling_circles(settling *s) {
+  settled_circle c = {.member = dyd_alloc(s->site.count, sizeof *c.member)};
+  dyd_status st = c.member ? DYD_OK : DYD_E_NOMEM;
+  for (size_t k = 0; st == DYD_OK && k < s->pairs; k++)
+    if (!dyd_pair_is_settled(&s->pair[k])) st = settling_circle_pair(s, &c, &s->pair[k]);
+  free(c.member);
+  return st;
+}
+
 /* The sites of the face and their legal neighbours. */
 static dyd_status settling_begin(settling *s, const dyd_index_list *face) {
   dyd_status st = settling_append(s, face);
@@ -381,11 +552,12 @@ static dyd_status settling_begin(settling *s, const dyd_index_list *face) {
   return st == DYD_OK ? settling_take_rects(s) : st;
 }
 
-dyd_status dyd_settle_face(dyd_settled_pair *pair, size_t *work, const dyd_engine *e, size_t pairs,
-                           const dyd_index_list *face) {
-  settling s = {.e = e, .pair = pair, .pairs = pairs, .work = work};
+dyd_status dyd_settle_face(dyd_settled_pair *pair, size_t *work, const dyd_settled *known, const dyd_engine *e,
+                           size_t pairs, const dyd_index_list *face) {
+  settling s = {.e = e, .pair = pair, .pairs = pairs, .work = work, .known = known};
   dyd_status st = settling_begin(&s, face);
   if (st == DYD_OK && s.mixed) st = settling_run(&s);
+  if (st == DYD_OK && s.mixed && known && known->prove) st = settling_circles(&s);
   settling_clear(&s);
   return st;
 }
@@ -507,7 +679,7 @@ static dyd_status settle_face_pairs(dyd_settled *fresh, dyd_settled *s, size_t *
   dyd_status st = dyd_delaunay_face(&face, &outer, e->pd, f);
   if (st == DYD_OK && any_can_narrow(e, &face)) st = take_pairs(fresh, s, e, eps, f, firm);
   if (st == DYD_OK && !firm && fresh->count > first)
-    st = dyd_settle_face(&fresh->item[first], work, e, fresh->count - first, &face);
+    st = dyd_settle_face(&fresh->item[first], work, s, e, fresh->count - first, &face);
   dyd_index_list_clear(&face);
   return st;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Pairs that no refinement decides, since that hangs on where points are in their cores [SET-1] [SET-2]. */
+/* Pairs that no refinement decides, since that hangs on where points are in their cores [SET-1] [SET-2] [SET-4]. */
 #ifndef DYD_ENGINE_SETTLE_H
 #define DYD_ENGINE_SETTLE_H
 
@@ -28,7 +28,7 @@ dyd_status dyd_firm_add(dyd_sites *sites, bool *firm, const dyd_engine *e, const
 dyd_status dyd_firm_triangulate(dyd_delaunay **pd, dyd_sites **sites, bool *firm, const dyd_plan *plan,
                                 const dyd_dyadic *eps);
 
-/* Pairs of one undecided face, examined one by one [SET-1]. */
+/* Pairs of one undecided face, examined one by one [SET-1] [SET-4]. */
 
 /* possible: the pair is an edge for some choice of places in cores, wherever points are along the others;
  * unsure: it is not legal wherever they are narrowed to. */
@@ -41,18 +41,22 @@ static inline bool dyd_pair_is_settled(const dyd_settled_pair *p) {
   return p->possible && p->unsure;
 }
 
-/* Looks at open pairs of a face with the given sites, and writes down what is found. *work, in sites examined, becomes
- * less; at 0 no more is done. DYD_CANCELLED when e->stop was seen. Nothing is found where no side has a core. */
-dyd_status dyd_settle_face(dyd_settled_pair *pair, size_t *work, const dyd_engine *e, size_t pairs,
-                           const dyd_index_list *face);
-
 /* What is known about pairs, for ever unless points are measured again. Init with {0}. Invariant: item is
- * sorted by i, j, without repeats; next: from that many bits on it is worth trying again. */
+ * sorted by i, j, without repeats; next: from that many bits on it is worth trying again; prove: who
+ * proves that true points are on one circle or line, NULL: nobody. */
 typedef struct dyd_settled {
   dyd_settled_pair *item;
   size_t count, cap;
   int64_t next;
+  dyd_prove_fn prove;
+  void *prove_user;
 } dyd_settled;
+
+/* Looks at open pairs of a face with the given sites, and writes down what is found. *work, in sites examined, becomes
+ * less; at 0 no more is done. known: who proves; may be NULL. DYD_CANCELLED when e->stop was seen. Nothing is found
+ * where no side has a core. */
+dyd_status dyd_settle_face(dyd_settled_pair *pair, size_t *work, const dyd_settled *known, const dyd_engine *e,
+                           size_t pairs, const dyd_index_list *face);
 
 void dyd_settled_clear(dyd_settled *s);
 /* Is the pair indeterminate for good? */

@@ -434,6 +434,12 @@ void dyd_engine_set_prover(dyd_engine *e, dyd_prove_fn fn, void *user) {
   e->prover_user = user;
 }
 
+dyd_prove_fn dyd_engine_prover(void **user, dyd_engine *e, const dyd_engine_options *o) {
+  *user = e->prover ? e->prover_user : e;
+  if (o->no_ties) return NULL;
+  return e->prover ? e->prover : dyd_ties_prove;
+}
+
 dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                           dyd_error *err) {
   answer *a = NULL;

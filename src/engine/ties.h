@@ -19,6 +19,8 @@ dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const
 /* From now on fn, with user (borrowed), is asked about the true points of e: somebody who knows what they are made of.
  */
 void dyd_engine_set_prover(dyd_engine *e, dyd_prove_fn fn, void *user);
+/* Who is asked, with *user; NULL under no_ties. */
+dyd_prove_fn dyd_engine_prover(void **user, dyd_engine *e, const dyd_engine_options *o);
 /* What was proved, in the order in which it was: number k, from 0. false: so many there are not. *site is borrowed. */
 bool dyd_ties_proved(dyd_relation *relation, const uint32_t **site, size_t *count, const dyd_engine *e, size_t k);
 /* The forms of a site's coordinates; DYD_NONE where they are unknown. What is exact is a number,

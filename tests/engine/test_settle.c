@@ -130,7 +130,7 @@ static void check_few(size_t said[2], const dyd_engine *e, test_random *r, size_
   for (uint32_t k = 0; k < FEW * FEW; k++)
     if (k / FEW < k % FEW) pair[count++] = (dyd_settled_pair){few[k / FEW], few[k % FEW], false, false};
   const dyd_index_list face = {.item = few, .count = FEW};
-  assert_int_equal(DYD_OK, dyd_settle_face(pair, &work, e, count, &face));
+  assert_int_equal(DYD_OK, dyd_settle_face(pair, &work, NULL, e, count, &face));
   for (int n = 0; n < 20; n++) {
     dyd_sites *then;
     dyd_delaunay *pd = narrowed(&then, e, r, fixed);

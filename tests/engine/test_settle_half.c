@@ -186,7 +186,7 @@ static void test_few(void **state) {
     for (uint32_t k = 0; k < FEW * FEW; k++)
       if (k / FEW < k % FEW) pair[count++] = (dyd_settled_pair){few[k / FEW], few[k % FEW], false, false};
     const dyd_index_list face = {.item = few, .count = FEW};
-    assert_int_equal(DYD_OK, dyd_settle_face(pair, &work, c.e, count, &face));
+    assert_int_equal(DYD_OK, dyd_settle_face(pair, &work, NULL, c.e, count, &face));
     check_all_said(&c, pair, count, &r);
     for (size_t k = 0; k < count; k++) possible += pair[k].possible, unsure += pair[k].unsure;
     dyd_engine_free(c.e);

@@ -1,0 +1,250 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Exact points on circles and lines beside regions [SET-4]: pairs that are said to stay open do, for rectangles that go
+ * on to hold the true points, by the literal oracle; and runs end there, with points that the engine proves to be on
+ * one circle itself. */
+#include "engine/help.h"
+#include "engine/settle.h"
+#include "engine/ties.h"
+#include "oracle/oracle.h"
+
+#include <math.h>
+
+enum { MOST_SITES = 8 };
+
+/* Sites: boxes, and places that are hidden in rectangles as wide as asked; all in 64ths. Boxes are off the grid of
+ * places, so that their corners are on no circle of these. */
+enum { UNIT = 64 };
+
+typedef struct circled {
+  dyd_engine *e;
+  size_t n;
+  bool box[MOST_SITES];
+  int at[MOST_SITES][2], half[MOST_SITES][2];
+  test_random random;
+} circled;
+
+typedef struct hidden_side {
+  circled *c;
+  int at;
+} hidden_side;
+
+static dyd_status hidden_narrow(dyd_interval *out, void *user, const dyd_request *q, dyd_error *err) {
+  hidden_side *s = user;
+  double w = ldexp(1, -(int)q->bits), below = w * (double)test_below(&s->c->random, 9) / 8, had[2] = {-1e9, 1e9};
+  (void)err;
+  if (!dyd_interval_is_point(out)) dyd_interval_get_d(&had[0], &had[1], out);
+  return dyd_interval_set_d(out, fmax(had[0], (double)s->at / UNIT - below),
+                            fmin(had[1], (double)s->at / UNIT + (w - below)));
+}
+
+/* Twice the area of a triangle, and the in-circle determinant. */
+static long area_of(const int *a, const int *b, const int *c) {
+  return (long)(b[0] - a[0]) * (c[1] - a[1]) - (long)(c[0] - a[0]) * (b[1] - a[1]);
+}
+
+static long power_of(const int *a, const int *b, const int *c, const int *d) {
+  const int *p[3] = {a, b, c};
+  long sum = 0;
+  for (int k = 0; k < 3; k++) {
+    long x = p[k][0] - d[0], y = p[k][1] - d[1];
+    sum += (x * x + y * y) * area_of(d, p[(k + 1) % 3], p[(k + 2) % 3]);
+  }
+  return sum;
+}
+
+static dyd_status hidden_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
+                               dyd_error *err) {
+  const circled *c = user;
+  (void)err;
+  *proved = relation != DYD_COINCIDENT;
+  for (size_t k = 0; k < count; k++) *proved = *proved && !c->box[site[k]];
+  for (size_t k = 2; k < count && *proved && relation == DYD_COLLINEAR; k++)
+    *proved = area_of(c->at[site[0]], c->at[site[1]], c->at[site[k]]) == 0;
+  if (*proved && relation == DYD_COCIRCULAR) *proved = area_of(c->at[site[0]], c->at[site[1]], c->at[site[2]]) != 0;
+  for (size_t k = 3; k < count && *proved && relation == DYD_COCIRCULAR; k++)
+    *proved = power_of(c->at[site[0]], c->at[site[1]], c->at[site[2]], c->at[site[k]]) == 0;
+  return DYD_OK;
+}
+
+static bool is_new_place(const circled *c, const int *at) {
+  for (size_t k = 0; k < c->n; k++)
+    if (c->at[k][0] == at[0] && c->at[k][1] == at[1]) return false;
+  return true;
+}
+
+static void draw_place(int *at, test_random *r, bool line) {
+  static const int round[12][2] = {{5, 0},  {4, 3},   {3, 4},   {0, 5},  {-3, 4}, {-4, 3},
+                                   {-5, 0}, {-4, -3}, {-3, -4}, {0, -5}, {3, -4}, {4, -3}};
+  const int *of = round[test_below(r, 12)];
+  bool known = test_chance(r, 5) ? false : true;
+  for (int a = 0; a < 2; a++) at[a] = UNIT * (known && !line ? of[a] : (int)test_between(r, -6, 6));
+  if (known && line) at[1] = 2 * UNIT + at[0] / 2;
+}
+
+static void circled_add(circled *c, hidden_side side[2], bool box, const int *at, test_random *r) {
+  dyd_real *x[2];
+  dyd_stream *s;
+  mpq_t end[2];
+  mpq_inits(end[0], end[1], NULL);
+  c->box[c->n] = box;
+  for (int a = 0; a < 2; a++) {
+    c->at[c->n][a] = at[a] + (box ? 2 * (int)test_between(r, -4, 4) + 1 : 0);
+    c->half[c->n][a] = box ? 4 * (int)test_between(r, 1, 20) : 0;
+    side[a] = (hidden_side){c, at[a]};
+    mpq_set_si(end[0], c->at[c->n][a] - c->half[c->n][a], UNIT);
+    mpq_set_si(end[1], c->at[c->n][a] + c->half[c->n][a], UNIT);
+    mpq_canonicalize(end[0]);
+    mpq_canonicalize(end[1]);
+    assert_int_equal(DYD_OK, box ? dyd_real_from_interval(&x[a], end[0], end[1])
+                                 : dyd_real_new(&x[a], hidden_narrow, NULL, &side[a]));
+  }
+  c->n++;
+  assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, x[0], x[1]));
+  assert_int_equal(DYD_OK, dyd_engine_add_stream(c->e, s));
+  mpq_clears(end[0], end[1], NULL);
+}
+
+static void circled_new(circled *c, hidden_side side[MOST_SITES][2], test_random *r) {
+  bool line = test_chance(r, 4);
+  size_t n = (size_t)test_between(r, 5, MOST_SITES), boxes = 0;
+  *c = (circled){.e = engine_new(), .random = *r};
+  test_below(r, 2);
+  while (c->n < n) {
+    int at[2];
+    draw_place(at, r, line);
+    bool box = test_chance(r, 5) || (c->n + 1 == n && !boxes);
+    if (!is_new_place(c, at)) continue;
+    boxes += box;
+    circled_add(c, side[c->n], box, at, r);
+  }
+  dyd_engine_set_prover(c->e, hidden_prove, c);
+}
+
+/* Boxes as they are; the others narrowed to their places, or to something that holds them. */
+static void circled_narrow(orc_case *out, const circled *c, test_random *r, bool whole) {
+  out->n = 0;
+  for (size_t k = 0; k < c->n; k++) {
+    orc_rect *q = &out->rect[out->n++];
+    for (int a = 0; a < 2; a++) {
+      int below = whole || c->box[k] ? 0 : (int)test_below(r, 3),
+          above = whole || c->box[k] ? 0 : (int)test_below(r, 3);
+      mpq_set_si(q->e[2 * a], 64L * (c->at[k][a] - c->half[k][a]) - below, 4096);
+      mpq_set_si(q->e[2 * a + 1], 64L * (c->at[k][a] + c->half[k][a]) + above, 4096);
+      mpq_canonicalize(q->e[2 * a]);
+      mpq_canonicalize(q->e[2 * a + 1]);
+    }
+  }
+}
+
+static void check_circled(const circled *c, const dyd_settled_pair *pair, size_t count, test_random *r) {
+  enum { WAYS = 4 };
+  orc_pool pool;
+  orc_case now;
+  orc_pool_init(&pool);
+  orc_case_init(&now);
+  size_t mark = orc_mark(&pool);
+  for (int way = 0; way < WAYS; way++) {
+    circled_narrow(&now, c, r, way == 0);
+    for (size_t k = 0; k < count; k++) {
+      if (pair[k].possible) assert_true(orc_possible(&pool, &now, pair[k].i, pair[k].j));
+      if (pair[k].unsure) assert_false(orc_legal(NULL, NULL, &pool, &now, pair[k].i, pair[k].j));
+      orc_release(&pool, mark);
+    }
+  }
+  orc_case_clear(&now);
+  orc_pool_clear(&pool);
+}
+
+/* All pairs of all sites as if they were of one face, with nothing known of them; proved: by the prover. */
+static size_t settle_circled(circled *c, test_random *r, bool proved) {
+  dyd_settled_pair pair[MOST_SITES * MOST_SITES];
+  uint32_t site[MOST_SITES];
+  size_t count = 0, work = SIZE_MAX, settled = 0;
+  dyd_settled by = {.prove = hidden_prove, .prove_user = c};
+  for (uint32_t k = 0; k < c->n; k++) site[k] = k;
+  for (uint32_t i = 0; i < c->n; i++)
+    for (uint32_t j = i + 1; j < c->n; j++) pair[count++] = (dyd_settled_pair){i, j, false, false};
+  const dyd_index_list face = {.item = site, .count = c->n};
+  assert_int_equal(DYD_OK, dyd_settle_face(pair, &work, proved ? &by : NULL, c->e, count, &face));
+  check_circled(c, pair, count, r);
+  for (size_t k = 0; k < count; k++) settled += dyd_pair_is_settled(&pair[k]);
+  return settled;
+}
+
+static void test_pairs(void **state) {
+  (void)state;
+  test_random r = test_random_start(__func__);
+  size_t with = 0, without = 0, rounds = test_cases(150);
+  for (size_t round = 0; round < rounds; round++) {
+    circled c;
+    hidden_side side[MOST_SITES][2];
+    dyd_engine_options o;
+    dyd_outcome outcome;
+    circled_new(&c, side, &r);
+    dyd_engine_options_init(&o);
+    o.start_bits = o.max_bits = test_between(&r, 3, 20);
+    assert_int_equal(DYD_OK, dyd_engine_run(&outcome, c.e, &o, NULL));
+    with += settle_circled(&c, &r, true);
+    without += settle_circled(&c, &r, false);
+    dyd_engine_free(c.e);
+  }
+  print_message("%zu pairs settled, %zu of them without a circle\n", with, without);
+  assert_true(with > without + rounds);
+}
+
+/* Ends in vain, and what is open stays so. */
+static void test_run_ends(void **state) {
+  (void)state;
+  test_random r = test_random_start(__func__);
+  size_t ends[6] = {0}, rounds = test_cases(80);
+  for (size_t round = 0; round < rounds; round++) {
+    circled c;
+    hidden_side side[MOST_SITES][2];
+    dyd_engine_options o;
+    dyd_outcome outcome;
+    dyd_pair_list pairs = {0};
+    circled_new(&c, side, &r);
+    dyd_engine_options_init(&o);
+    o.max_bits = 46;
+    assert_int_equal(DYD_OK, dyd_engine_run(&outcome, c.e, &o, NULL));
+    ends[outcome]++;
+    assert_int_equal(DYD_OK, dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(c.e)));
+    for (size_t k = 0; outcome == DYD_OUTCOME_FIXPOINT && k < pairs.count; k++) {
+      const dyd_settled_pair open = {pairs.item[k].i, pairs.item[k].j, true, true};
+      if (pairs.item[k].status == DYD_INDETERMINATE) check_circled(&c, &open, 1, &r);
+    }
+    dyd_pair_list_clear(&pairs);
+    dyd_engine_free(c.e);
+  }
+  print_message("of %zu runs %zu decided, %zu in vain, %zu at the budget\n", rounds, ends[DYD_OUTCOME_DECIDED],
+                ends[DYD_OUTCOME_FIXPOINT], ends[DYD_OUTCOME_BUDGET]);
+  assert_true(ends[DYD_OUTCOME_FIXPOINT] > rounds / 2 && ends[DYD_OUTCOME_BUDGET] < rounds / 10);
+}
+
+/* Roots on one circle, and on one line, beside a box that reaches across. */
+static void test_roots(void **state) {
+  static const char *const at[2][4][2] = {
+      {{"sqrt(2)", "0"}, {"0", "sqrt(2)"}, {"-sqrt(2)", "0"}, {"0", "-sqrt(2)"}},
+      {{"sqrt(2)", "0"}, {"2*sqrt(2)", "0"}, {"-sqrt(2)", "0"}, {"3*sqrt(2)", "0"}}};
+  (void)state;
+  for (int line = 0; line < 2; line++) {
+    dyd_engine *e = engine_new();
+    dyd_engine_options o;
+    dyd_rect r;
+    dyd_rect_init(&r);
+    for (int k = 0; k < 4; k++) engine_add_text(e, at[line][k][0], at[line][k][1]);
+    assert_int_equal(DYD_OK, dyd_rect_set_d(&r, 0.875, 1.5, line ? -0.125 : 1, line ? 3 : 1.25));
+    assert_int_equal(DYD_OK, dyd_engine_add_rect(e, &r));
+    engine_run(e, NULL, DYD_OUTCOME_FIXPOINT);
+    dyd_engine_options_init(&o);
+    assert_true(engine_counters(e).bits_most < o.max_bits);
+    dyd_rect_clear(&r);
+    dyd_engine_free(e);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_pairs), cmocka_unit_test(test_run_ends),
+                                     cmocka_unit_test(test_roots)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
