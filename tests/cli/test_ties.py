@@ -98,6 +98,18 @@ def test_aliases():
         expect(run('check', 'points', '--schedules', '2', cwd=points_folder(points)), 0, '^fine,2,')
 
 
+def test_equal_points_on_common_lines():
+    """Many equal radicals of large squares, on seven lines: as many aliases as there are pairs, at once."""
+    count_of = 400
+    points = text([(x, k % 7) for k in range(1, count_of + 1) for x in (f'sqrt({8 * k * k})', f'{2 * k}*sqrt(2)')])
+    found = run('delaunay', '-', '--layer', 'aliases', stdin=points, timeout=60)
+    expect(found, 3)
+    rows = [tuple(map(int, line.split(','))) for line in found.out.splitlines() if line[:1].isdigit()]
+    assert rows == [(2 * k + 1, 2 * k) for k in range(count_of)], rows[:9]
+    points = text([(f'sqrt({8 * k * k})', k % 7) for k in range(1, 2001)])
+    expect(run('delaunay', '-', '--stats', stdin=points, timeout=60), 3, err='^zero or not, unknown +0$')
+
+
 def test_roots_of_large_degree():
     """Of degree 1000, and no more: products of two are the same by identity, at once."""
     one, two = 'root(x^1000-x-1,1,2)*root(x^999-x-1,1,2)', 'root(x^999-x-1,1,3/2)*root(x^1000-x-1,1,3/2)'

@@ -162,7 +162,7 @@ static void test_unknown(void **state) {
   for (size_t k = 0; k < sizeof pair / sizeof *pair; k++) expect(DYD_ZERO_UNKNOWN, pair[k][0], pair[k][1]);
 }
 
-/* f of n primes added up, and again the other way round. */
+/* f of n primes added up, and again the other way round; f is what stands before the prime, which ")" follows. */
 static void expect_sums(const char *f, int n, dyd_zero zero, dyd_zero_counts *count) {
   char left[2048] = "0", right[2048] = "0", term[40], keep[2048];
   for (int p = 3, k = 0; k < n; p += 2) {
@@ -170,13 +170,30 @@ static void expect_sums(const char *f, int n, dyd_zero zero, dyd_zero_counts *co
     for (int q = 3; q * q <= p; q += 2) prime = prime && p % q;
     if (!prime) continue;
     k++;
-    snprintf(term, sizeof term, "%s(%d)", f, p);
+    snprintf(term, sizeof term, "%s%d)", f, p);
     strcat(strcat(left, "+"), term);
     snprintf(keep, sizeof keep, "%s+%.1990s", term, right);
     memcpy(right, keep, sizeof right);
   }
   dyd_zero found = compare(count, left, right, TIE_BITS);
   if (found != zero) fail_msg("%d %s: %d, not %d", n, f, found, zero);
+}
+
+/* Roots of k-th powers of many primes have one leaf in common. */
+static void test_powers_in_radicands(void **state) {
+  (void)state;
+  for (int cube = 0; cube < 2; cube++) {
+    char left[8192] = "0", right[40];
+    long sum = 0;
+    for (int k = 1; k <= 200; k++) {
+      size_t end = strlen(left);
+      long radicand = cube ? 16L * k * k * k : 8L * k * k;
+      snprintf(left + end, sizeof left - end, "+%s(%ld)", cube ? "cbrt" : "sqrt", radicand);
+      sum += 2L * k;
+    }
+    snprintf(right, sizeof right, "%ld*%s(2)", sum, cube ? "cbrt" : "sqrt");
+    assert_int_equal(compare(NULL, left, right, TIE_BITS), DYD_ZERO_PROVED);
+  }
 }
 
 /* Forms are so many, and so deep, and no more. */
@@ -223,10 +240,10 @@ static void test_caps(void **state) {
   }
   /* degrees that no bound can be told of do no harm to the identity */
   dyd_zero_counts c;
-  expect_sums("sqrt", 50, DYD_ZERO_PROVED, &c);
+  expect_sums("sqrt(", 50, DYD_ZERO_PROVED, &c);
   assert_int_equal(c.by_identity, 1);
-  expect_sums("sqrt", 80, DYD_ZERO_UNKNOWN, &c); /* elements of the base, and leaves */
-  expect_sums("log", 80, DYD_ZERO_UNKNOWN, &c);  /* leaves */
+  expect_sums("sqrt(", 80, DYD_ZERO_UNKNOWN, &c); /* elements of the base, and leaves */
+  expect_sums("log(", 80, DYD_ZERO_UNKNOWN, &c);  /* leaves */
   /* by few bits nothing that needs more is proved, and nothing else changes */
   assert_int_equal(compare(NULL, "cbrt(2+sqrt(5))+cbrt(2-sqrt(5))", "1", 128), DYD_ZERO_PROVED);
   assert_int_equal(compare(NULL, "cbrt(2+sqrt(5))+cbrt(2-sqrt(5))", "1", 16), DYD_ZERO_UNKNOWN);
@@ -415,11 +432,17 @@ static void test_intervals(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_equal),      cmocka_unit_test(test_identities),
-      cmocka_unit_test(test_different),  cmocka_unit_test(test_unknown),
-      cmocka_unit_test(test_caps),       cmocka_unit_test(test_forms_caps),
-      cmocka_unit_test(test_callbacks),  cmocka_unit_test(test_intervals),
-      cmocka_unit_test(test_ways_agree), cmocka_unit_test(test_random_identities),
+      cmocka_unit_test(test_equal),
+      cmocka_unit_test(test_identities),
+      cmocka_unit_test(test_different),
+      cmocka_unit_test(test_unknown),
+      cmocka_unit_test(test_caps),
+      cmocka_unit_test(test_powers_in_radicands),
+      cmocka_unit_test(test_forms_caps),
+      cmocka_unit_test(test_callbacks),
+      cmocka_unit_test(test_intervals),
+      cmocka_unit_test(test_ways_agree),
+      cmocka_unit_test(test_random_identities),
       cmocka_unit_test(test_moved_ties),
   };
   return cmocka_run_group_tests(tests, NULL, release_caches);

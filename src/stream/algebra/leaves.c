@@ -11,6 +11,7 @@
 
 #include <flint/fmpq.h>
 #include <flint/fmpz_poly_factor.h>
+#include <flint/ulong_extras.h>
 
 enum { MOST_BASES = 64 };
 
@@ -86,6 +87,20 @@ static slong radical_leaf(dyd_ring *r, dyd_op op, const fmpz_t base, slong k) {
   return l;
 }
 
+/* Takes k-th powers of primes out of n > 0, and multiplies *root by what they are powers of, so that the base need not
+ * hold those primes. Numbers of more than a word are left as they are: their primes may be out of reach. */
+static void take_out_powers(fmpz_t root, fmpz_t n, slong k) {
+  n_factor_t prime;
+  if (!fmpz_abs_fits_ui(n)) return;
+  n_factor_init(&prime);
+  n_factor(&prime, fmpz_get_ui(n), 0);
+  for (int f = 0; f < prime.num; f++)
+    for (slong e = prime.exp[f]; e >= k; e -= k) {
+      fmpz_mul_ui(root, root, prime.p[f]);
+      for (slong m = 0; m < k; m++) fmpz_divexact_ui(n, n, prime.p[f]);
+    }
+}
+
 /* x = the k-th root of n > 0, an integer; n becomes what the base does not know. */
 static bool radical_over_base(fmpz_mpoly_t x, dyd_ring *r, dyd_op op, fmpz_t n, slong k) {
   bool fits = true;
@@ -95,6 +110,7 @@ static bool radical_over_base(fmpz_mpoly_t x, dyd_ring *r, dyd_op op, fmpz_t n, 
   fmpz_init(power);
   fmpz_mpoly_init(root, r->ctx);
   fmpz_mpoly_one(x, r->ctx);
+  take_out_powers(factor, n, k);
   for (slong b = 0; b < r->bases && fits; b++) {
     slong e = fmpz_remove(n, n, r->base + b), rest = e % k;
     fmpz_pow_ui(power, r->base + b, (ulong)(e / k));
