@@ -124,11 +124,18 @@ static void put_end(FILE *out, mpz_t *end) {
   mpz_out_str(out, 10, end[1]);
 }
 
-/* Writes "root" with the polynomial of these coefficients, the greatest positive, that vanishes at the form. false: no
- * bracket is seen to hold one root. */
-static bool put_root(dyd_proof_block *b, uint32_t node, mpz_t *coeff, size_t count) {
-  dyd_cert_bracket r = {.coeff = coeff, .count = count};
+/* Writes "root" with the polynomial f, or minus it, the greatest coefficient positive, that vanishes at the form.
+ * false: no bracket is seen to hold one root. */
+static bool put_root(dyd_proof_block *b, uint32_t node, const fmpz_poly_t f) {
+  const size_t count = (size_t)fmpz_poly_length(f);
+  dyd_cert_bracket r = {.coeff = dyd_alloc(count, sizeof *r.coeff), .count = count};
   bool single = false;
+  if (!r.coeff) return false;
+  for (size_t k = 0; k < count; k++) {
+    mpz_init(r.coeff[k]);
+    fmpz_get_mpz(r.coeff[k], fmpz_poly_get_coeff_ptr(f, (slong)k));
+    if (fmpz_sgn(fmpz_poly_lead(f)) < 0) mpz_neg(r.coeff[k], r.coeff[k]);
+  }
   mpz_inits(r.end[0], r.end[1], r.end[2], r.end[3], NULL);
   for (slong prec = 32; prec <= DYD_PROOF_BRACKET && !single; prec *= 2) {
     bracket_from_value(&r, b, node, prec);
@@ -138,86 +145,46 @@ static bool put_root(dyd_proof_block *b, uint32_t node, mpz_t *coeff, size_t cou
     fputs("root", b->out);
     put_end(b->out, &r.end[0]);
     put_end(b->out, &r.end[2]);
-    for (size_t k = 0; k < count; k++) {
-      putc(k ? ',' : ' ', b->out);
-      mpz_out_str(b->out, 10, coeff[k]);
-    }
   }
+  for (size_t k = 0; k < count; k++) {
+    if (single) putc(k ? ',' : ' ', b->out);
+    if (single) mpz_out_str(b->out, 10, r.coeff[k]);
+    mpz_clear(r.coeff[k]);
+  }
+  free(r.coeff);
   mpz_clears(r.end[0], r.end[1], r.end[2], r.end[3], NULL);
   return single;
-}
-
-static mpz_t *coefficients_alloc(size_t count) {
-  mpz_t *c = dyd_alloc(count, sizeof *c);
-  for (size_t k = 0; c && k < count; k++) mpz_init(c[k]);
-  return c;
-}
-
-static void coefficients_free(mpz_t *c, size_t count) {
-  for (size_t k = 0; c && k < count; k++) mpz_clear(c[k]);
-  free(c);
 }
 
 /* From the relation t^n + ..., t = a x: the coefficient of t^e is f_e a^(n - 1 - e). */
 static bool put_root_leaf(dyd_proof_block *b, slong l) {
   const dyd_leaf *leaf = &b->ring.leaf[l];
-  size_t n = (size_t)leaf->degree;
   ulong exponent[DYD_RING_LEAVES];
-  mpz_t *f = coefficients_alloc(n + 1);
-  if (!f) return false;
-  mpz_t power;
-  mpz_init_set_ui(power, 1);
-  fmpz_get_mpz(f[n], leaf->base);
+  fmpz_poly_t f;
+  fmpz_t power;
+  fmpz_poly_init(f);
+  fmpz_init(power);
+  fmpz_poly_set_coeff_fmpz(f, leaf->degree, leaf->base);
   for (slong t = 0; t < leaf->relation->length; t++) {
     fmpz_mpoly_get_term_exp_ui(exponent, leaf->relation, t, b->ring.ctx);
-    size_t e = exponent[dyd_ring_var(&b->ring, l)];
-    if (e == n) continue;
-    fmpz_get_mpz(f[e], leaf->relation->coeffs + t);
-    mpz_pow_ui(power, f[n], n - 1 - e);
-    mpz_divexact(f[e], f[e], power);
+    slong e = (slong)exponent[dyd_ring_var(&b->ring, l)];
+    if (e == leaf->degree) continue;
+    fmpz_pow_ui(power, leaf->base, (ulong)(leaf->degree - 1 - e));
+    fmpz_divexact(power, leaf->relation->coeffs + t, power);
+    fmpz_poly_set_coeff_fmpz(f, e, power);
   }
-  bool written = put_root(b, leaf->node, f, n + 1);
-  mpz_clear(power);
-  coefficients_free(f, n + 1);
-  return written;
-}
-
-static bool put_root_form(dyd_proof_block *b, uint32_t node) {
-  const dyd_root *root = b->forms.node[node].root;
-  mpz_t *f = coefficients_alloc(root->count);
-  if (!f) return false;
-  for (size_t k = 0; k < root->count; k++) {
-    mpz_set(f[k], root->coeff[k]);
-    if (mpz_sgn(root->coeff[root->count - 1]) < 0) mpz_neg(f[k], f[k]);
-  }
-  bool written = put_root(b, node, f, root->count);
-  coefficients_free(f, root->count);
+  bool written = put_root(b, leaf->node, f);
+  fmpz_clear(power);
+  fmpz_poly_clear(f);
   return written;
 }
 
 /* The checker's name of an operation on forms; NULL: it has none. */
 /* ---- lines ---- */
 static const char *proof_op_text(unsigned op) {
-  switch (op) {
-  case DYD_OP_ADD:
-    return "+";
-  case DYD_OP_SUB:
-    return "-";
-  case DYD_OP_MUL:
-    return "*";
-  case DYD_OP_DIV:
-    return "/";
-  case DYD_OP_NEG:
-    return "neg";
-  case DYD_OP_POW:
-    return "^";
-  case DYD_OP_PI:
-    return "pi";
-  case DYD_FORM_CLAIM:
-    return "claim";
-  default:
-    return op > DYD_OP_X && op <= DYD_OP_ABS && op != DYD_OP_ROOT ? dyd_op_name((dyd_op)op) : NULL;
-  }
+  if (op == DYD_OP_NEG) return "neg";
+  if (op == DYD_FORM_CLAIM) return "claim";
+  return op > DYD_OP_ABS || op == DYD_OP_CONST || op == DYD_OP_X || op == DYD_OP_ROOT ? NULL : dyd_op_name((dyd_op)op);
 }
 
 /* "= key", and the function of it. */
@@ -292,7 +259,7 @@ static bool put_form(dyd_proof_block *b, uint32_t n) {
   const dyd_fraction *x = stated ? dyd_ring_fraction(&b->ring, n) : NULL;
   if ((stated && !x) || f.op == DYD_FORM_OPAQUE) return false;
   if (f.op == DYD_FORM_ROOT) {
-    if (!put_root_form(b, n)) return false;
+    if (!put_root(b, n, b->forms.node[n].root->poly)) return false;
   } else if (f.op == DYD_OP_CONST) {
     gmp_fprintf(b->out, "= %Qd", dyd_form_number(&b->forms, n));
   } else {
@@ -344,12 +311,19 @@ typedef struct comparison {
 
 /* The polynomials are the same up to the sign, and the root is in the bracket, which holds one. */
 static bool is_same_root(comparison *c, uint32_t n, const dyd_cert_bracket *r) {
-  const dyd_root *root = c->forms.node[n].root;
-  if (!r || root->count != r->count) return false;
-  int sign = mpz_sgn(root->coeff[root->count - 1]);
-  for (size_t k = 0; k < r->count; k++)
-    if (mpz_cmpabs(root->coeff[k], r->coeff[k]) || mpz_sgn(root->coeff[k]) != sign * mpz_sgn(r->coeff[k])) return false;
-  bool inside = false;
+  const fmpz_poly_struct *f = c->forms.node[n].root->poly;
+  if (!r || (size_t)f->length != r->count) return false;
+  bool inside = true;
+  fmpz_t given;
+  fmpz_init(given);
+  for (size_t k = 0; k < r->count; k++) {
+    fmpz_set_mpz(given, r->coeff[k]);
+    if (fmpz_sgn(fmpz_poly_lead(f)) < 0) fmpz_neg(given, given);
+    inside = inside && fmpz_equal(given, f->coeffs + k);
+  }
+  fmpz_clear(given);
+  if (!inside) return false;
+  inside = false;
   arb_t x, end;
   mpq_t q;
   arb_init(x);

@@ -21,30 +21,27 @@
 
 void dyd_root_free(dyd_root *r) {
   if (!r) return;
-  for (size_t k = 0; k < r->count; k++) mpz_clear(r->coeff[k]);
-  free(r->coeff);
+  fmpz_poly_clear(r->poly);
   mpz_clear(r->slot);
   mpq_clears(r->lo, r->hi, NULL);
   free(r);
 }
 
-/* With `count` coefficients, all 0; to be freed. NULL: memory is exhausted. */
-static dyd_root *root_alloc(size_t count) {
+/* Of the polynomial p; to be freed. NULL: memory is exhausted. */
+static dyd_root *root_alloc(const fmpz_poly_t p) {
   dyd_root *r = dyd_alloc(1, sizeof *r);
   if (!r) return NULL;
   *r = (dyd_root){.jump = 2};
   mpq_inits(r->lo, r->hi, NULL);
   mpz_init(r->slot);
-  r->coeff = dyd_alloc(count, sizeof *r->coeff);
-  if (!r->coeff) return dyd_root_free(r), NULL;
-  for (; r->count < count; r->count++) mpz_init(r->coeff[r->count]);
+  fmpz_poly_init(r->poly);
+  fmpz_poly_set(r->poly, p);
   return r;
 }
 
 dyd_status dyd_root_copy(dyd_root **out, const dyd_root *r) {
-  dyd_root *c = root_alloc(r->count);
+  dyd_root *c = root_alloc(r->poly);
   if (!c) return DYD_E_NOMEM;
-  for (size_t k = 0; k < r->count; k++) mpz_set(c->coeff[k], r->coeff[k]);
   mpq_set(c->lo, r->lo);
   mpq_set(c->hi, r->hi);
   mpz_set(c->slot, r->slot);
@@ -69,28 +66,18 @@ dyd_status dyd_root_copy(dyd_root **out, const dyd_root *r) {
  *   3. quadratic interval refinement (Abbott 2006): the secant through the ends proposes one of 2^j parts, two
  *      signs confirm or refute it; j doubles with each success and halves with each failure. */
 
-void dyd_root_polynomial(fmpz_poly_t p, const dyd_root *r) {
-  fmpz_t c;
-  fmpz_init(c);
-  for (size_t k = r->count; k-- > 0;) {
-    fmpz_set_mpz(c, r->coeff[k]);
-    fmpz_poly_set_coeff_fmpz(p, (slong)k, c);
-  }
-  fmpz_clear(c);
-}
-
 static slong start_precision(mpz_srcptr m) {
   return 64 + (slong)mpz_sizeinbase(m, 2);
 }
 
 /* The exact sign at m 2^-s. */
-static int root_sign_at(const fmpz_poly_t p, mpz_srcptr m, int64_t s) {
+static int root_sign_at(const dyd_root *r, mpz_srcptr m, int64_t s) {
   arb_t x, y;
   arb_init(x);
   arb_init(y);
   dyd_ball_set_z_2exp(x, m, (slong)-s);
   for (slong prec = start_precision(m);; prec *= 2) {
-    arb_fmpz_poly_evaluate_arb(y, p, x, prec);
+    arb_fmpz_poly_evaluate_arb(y, r->poly, x, prec);
     if (!arb_contains_zero(y) || arb_is_exact(y)) break;
   }
   int sign = arf_sgn(arb_midref(y));
@@ -146,14 +133,14 @@ static int64_t grid_for(const dyd_root *r) {
 }
 
 /* Between the grid points first < last lies the sign change: bisects the slots. */
-static void root_choose_slot(dyd_root *r, const fmpz_poly_t p, mpz_ptr first, mpz_ptr last, int64_t s) {
+static void root_choose_slot(dyd_root *r, mpz_ptr first, mpz_ptr last, int64_t s) {
   mpz_t middle;
   mpz_init(middle);
   for (;;) {
     mpz_add(middle, first, last);
     mpz_fdiv_q_2exp(middle, middle, 1);
     if (mpz_cmp(middle, first) == 0) break;
-    int sign = root_sign_at(p, middle, s);
+    int sign = root_sign_at(r, middle, s);
     if (root_hit(r, sign, middle, s)) break;
     mpz_set(sign == r->sign_left ? first : last, middle);
   }
@@ -167,7 +154,7 @@ static void root_choose_slot(dyd_root *r, const fmpz_poly_t p, mpz_ptr first, mp
 
 /* Phase 1. The bracket (lo,hi) has inner grid points first <= last; the sign change is left of first, right of last,
  * or between them. In the first two cases the bracket becomes four times narrower at least. */
-static dyd_status root_enter_grid(dyd_root *r, const fmpz_poly_t p, dyd_error *err) {
+static dyd_status root_enter_grid(dyd_root *r, dyd_error *err) {
   int64_t s = grid_for(r);
   if (s > DYD_EXP_LIMIT) {
     return dyd_fail(err, DYD_E_RANGE, "the root lies too close to an end of its interval; give another interval");
@@ -176,27 +163,27 @@ static dyd_status root_enter_grid(dyd_root *r, const fmpz_poly_t p, dyd_error *e
   mpz_inits(first, last, NULL);
   to_grid(first, r->lo, s, DYD_UP);
   to_grid(last, r->hi, s, DYD_DOWN);
-  int left = root_sign_at(p, first, s), right = root_sign_at(p, last, s);
+  int left = root_sign_at(r, first, s), right = root_sign_at(r, last, s);
   bool done = root_hit(r, left, first, s) || root_hit(r, right, last, s);
   if (!done && left != r->sign_left) {
     from_grid(r->hi, first, s);
   } else if (!done && right == r->sign_left) {
     from_grid(r->lo, last, s);
   } else if (!done) {
-    root_choose_slot(r, p, first, last, s);
+    root_choose_slot(r, first, last, s);
   }
   mpz_clears(first, last, NULL);
   return DYD_OK;
 }
 
 /* Does p' have no zero on the slot? */
-static bool is_isolated(const dyd_root *r, const fmpz_poly_t p) {
+static bool is_isolated(const dyd_root *r) {
   fmpz_poly_t d;
   arb_t x, y;
   fmpz_poly_init(d);
   arb_init(x);
   arb_init(y);
-  fmpz_poly_derivative(d, p);
+  fmpz_poly_derivative(d, r->poly);
   arf_set_mpz(arb_midref(x), r->slot);
   arb_mul_2exp_si(x, x, 1);
   arb_add_ui(x, x, 1, ARF_PREC_EXACT);
@@ -210,12 +197,12 @@ static bool is_isolated(const dyd_root *r, const fmpz_poly_t p) {
   return result;
 }
 
-static void root_bisect(dyd_root *r, const fmpz_poly_t p) {
+static void root_bisect(dyd_root *r) {
   mpz_t middle;
   mpz_init(middle);
   mpz_mul_2exp(middle, r->slot, 1);
   mpz_add_ui(middle, middle, 1);
-  int sign = root_sign_at(p, middle, r->s + 1);
+  int sign = root_sign_at(r, middle, r->s + 1);
   if (!root_hit(r, sign, middle, r->s + 1)) {
     mpz_sub_ui(r->slot, middle, sign == r->sign_left ? 0 : 1);
     r->s++;
@@ -224,18 +211,18 @@ static void root_bisect(dyd_root *r, const fmpz_poly_t p) {
 }
 
 /* The secant's proposal m, 0 < m < 2^j, for the root at (slot 2^j + m) 2^-(s+j). Only a guess. */
-static void root_propose(mpz_ptr m, const dyd_root *r, const fmpz_poly_t p, unsigned j) {
+static void root_propose(mpz_ptr m, const dyd_root *r, unsigned j) {
   arb_t x, a, b;
   arb_init(x);
   arb_init(a);
   arb_init(b);
   slong prec = start_precision(r->slot) + 2 * (slong)j;
   dyd_ball_set_z_2exp(x, r->slot, (slong)-r->s);
-  arb_fmpz_poly_evaluate_arb(a, p, x, prec);
+  arb_fmpz_poly_evaluate_arb(a, r->poly, x, prec);
   dyd_ball_set_z_2exp(x, r->slot, 0);
   arb_add_ui(x, x, 1, ARF_PREC_EXACT);
   arb_mul_2exp_si(x, x, (slong)-r->s);
-  arb_fmpz_poly_evaluate_arb(b, p, x, prec);
+  arb_fmpz_poly_evaluate_arb(b, r->poly, x, prec);
   arb_sub(b, a, b, prec);
   arb_div(a, a, b, prec);
   mpz_set_ui(m, 0);
@@ -264,15 +251,15 @@ static void root_clamp(mpz_ptr m, unsigned j) {
 }
 
 /* Phase 3: tries the part beside the proposal. false: refuted, r unchanged. */
-static bool root_quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
+static bool root_quadratic(dyd_root *r, unsigned j) {
   mpz_t m, base, other;
   mpz_inits(m, base, other, NULL);
-  root_propose(m, r, p, j);
+  root_propose(m, r, j);
   root_clamp(m, j);
   mpz_mul_2exp(base, r->slot, j);
   mpz_add(m, m, base);
   int64_t s = r->s + j;
-  int sign = root_sign_at(p, m, s), next = sign;
+  int sign = root_sign_at(r, m, s), next = sign;
   bool found = root_hit(r, sign, m, s);
   if (!found) {
     bool left = sign == r->sign_left; /* the root is to the right of m */
@@ -281,7 +268,7 @@ static bool root_quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
     } else {
       mpz_sub_ui(other, m, 1);
     }
-    next = root_sign_at(p, other, s);
+    next = root_sign_at(r, other, s);
     found = root_hit(r, next, other, s);
     if (!found && next != sign) {
       mpz_set(r->slot, left ? m : other);
@@ -293,18 +280,18 @@ static bool root_quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
   return found;
 }
 
-static void grid_step(dyd_root *r, const fmpz_poly_t p, int64_t target) {
+static void grid_step(dyd_root *r, int64_t target) {
   if (!r->isolated) {
-    r->isolated = is_isolated(r, p);
-    if (!r->isolated) root_bisect(r, p);
+    r->isolated = is_isolated(r);
+    if (!r->isolated) root_bisect(r);
     return;
   }
   unsigned j = r->jump;
   if ((int64_t)j > target - r->s) j = target > r->s ? (unsigned)(target - r->s) : 1;
   if (j < 2) {
-    root_bisect(r, p);
+    root_bisect(r);
     if (r->jump < 2) r->jump = 2;
-  } else if (root_quadratic(r, p, j)) {
+  } else if (root_quadratic(r, j)) {
     if (r->jump < 1u << 20) r->jump *= 2;
   } else {
     r->jump = j / 2;
@@ -317,17 +304,9 @@ bool dyd_root_is_narrow(const dyd_root *r, int64_t bits) {
 }
 
 static dyd_status root_step_now(dyd_root *r, int64_t target, dyd_error *err) {
-  fmpz_poly_t p;
-  dyd_status st = DYD_OK;
-  fmpz_poly_init(p);
-  dyd_root_polynomial(p, r);
-  if (!r->on_grid) {
-    st = root_enter_grid(r, p, err);
-  } else if (!r->exact) {
-    grid_step(r, p, target);
-  }
-  fmpz_poly_clear(p);
-  return st;
+  if (!r->on_grid) return root_enter_grid(r, err);
+  if (!r->exact) grid_step(r, target);
+  return DYD_OK;
 }
 
 /* ---- steps that may take long ---- */
@@ -358,7 +337,7 @@ static bool root_step_is_long(const dyd_root *r) {
   enum { LONG = 1 << 20 };
   size_t bits = r->jump + mpz_sizeinbase(r->slot, 2);
   if (!r->on_grid) bits = mpz_sizeinbase(mpq_numref(r->hi), 2) + mpz_sizeinbase(mpq_denref(r->hi), 2);
-  return r->count > LONG / bits;
+  return (size_t)fmpz_poly_length(r->poly) > LONG / bits;
 }
 
 dyd_status dyd_root_step(dyd_root *r, int64_t target, const volatile int *stop, dyd_error *err) {
@@ -455,15 +434,8 @@ static int sign_at_q(const fmpz_poly_t p, const mpq_t x) {
 }
 
 static dyd_status root_new(dyd_real **out, const fmpz_poly_t g, const mpq_t lo, const mpq_t hi) {
-  dyd_root *r = root_alloc((size_t)fmpz_poly_length(g));
-  fmpz_t c;
+  dyd_root *r = root_alloc(g);
   if (!r) return DYD_E_NOMEM;
-  fmpz_init(c);
-  for (size_t k = 0; k < r->count; k++) {
-    fmpz_poly_get_coeff_fmpz(c, g, (slong)k);
-    fmpz_get_mpz(r->coeff[k], c);
-  }
-  fmpz_clear(c);
   r->sign_left = sign_at_q(g, lo);
   mpq_set(r->lo, lo);
   mpq_set(r->hi, hi);
@@ -580,7 +552,7 @@ static bool root_is_alone(const dyd_root *r, const mpq_t lo, const mpq_t hi) {
   fmpz_poly_t p, squared;
   fmpz_poly_init(p);
   fmpz_poly_init(squared);
-  dyd_root_polynomial(p, r);
+  fmpz_poly_set(p, r->poly);
   zoom_in(p, lo, hi);
   fmpz_poly_inflate(squared, p, 2);
   slong roots = fmpz_poly_num_real_roots(squared);

@@ -10,13 +10,12 @@
 #define DYD_ROOT_DEGREE ((size_t)1000)
 #define DYD_ROOT_WORK ((size_t)1 << 22)
 
-/* A root of the integer polynomial sum coeff[k] x^k, all of whose roots are simple, between two places of opposite
+/* A root of the integer polynomial poly, all of whose roots are simple, between two places of opposite
  * sign. sign_left = -1 or 1 is the sign at the left one.
  * Invariant: !on_grid: the root lies in the open interval (lo,hi); on_grid: in the open interval
  * (slot, slot + 1) 2^-s, or it is the point slot 2^-s when exact. isolated: the slot holds one root only. */
 typedef struct dyd_root {
-  mpz_t *coeff;
-  size_t count;
+  fmpz_poly_t poly;
   mpq_t lo, hi;
   bool on_grid, exact, isolated;
   int sign_left;
@@ -33,7 +32,5 @@ bool dyd_root_is_narrow(const dyd_root *r, int64_t bits);
 /* A copy with a bracket of its own; to be freed. DYD_OK or DYD_E_NOMEM. */
 dyd_status dyd_root_copy(dyd_root **out, const dyd_root *r);
 void dyd_root_free(dyd_root *r);
-/* p, which is 0, becomes the polynomial of r. */
-void dyd_root_polynomial(fmpz_poly_t p, const dyd_root *r);
 
 #endif

@@ -500,7 +500,8 @@ static uint64_t bytes_of_interval(const dyd_interval *x) {
 
 static uint64_t bytes_of_root(const dyd_root *r) {
   uint64_t bytes = sizeof *r + bytes_of_number(r->slot);
-  for (size_t k = 0; k < r->count; k++) bytes += bytes_of_number(r->coeff[k]);
+  for (slong k = 0; k < r->poly->length; k++)
+    bytes += NUMBER + (uint64_t)fmpz_size(r->poly->coeffs + k) * sizeof(mp_limb_t);
   return bytes;
 }
 
@@ -531,7 +532,7 @@ static uint64_t numbers_at_work(const dyd_real *x) {
   case DYD_REAL_EXPR:
     return FUNCTION + 2 * ((const dyd_expr *)object)->count;
   case DYD_REAL_ROOT:
-    return FUNCTION + 2 * ((const dyd_root *)object)->count;
+    return FUNCTION + 2 * (uint64_t)((const dyd_root *)object)->poly->length;
   default:
     return OTHERS;
   }

@@ -409,8 +409,7 @@ static bool root_is_leaf(dyd_fraction *x, dyd_ring *r, const fmpz_poly_t f, uint
 bool dyd_leaf_root(dyd_fraction *x, dyd_ring *r, uint32_t node) {
   fmpz_poly_t f;
   fmpz_poly_init(f);
-  dyd_root_polynomial(f, r->forms->node[node].root);
-  fmpz_poly_primitive_part(f, f);
+  fmpz_poly_primitive_part(f, r->forms->node[node].root->poly);
   keep_own_factor(f, r, node);
   if (fmpz_sgn(fmpz_poly_lead(f)) < 0) fmpz_poly_neg(f, f);
   slong n = fmpz_poly_degree(f);
