@@ -236,6 +236,10 @@ DYD_API size_t dyd_engine_count(const dyd_engine *e);
 DYD_API size_t dyd_engine_row(const dyd_engine *e, size_t i);
 /* Its identifier, "" without one; NULL: no point has one. Terminated, any bytes; borrowed until points are added. */
 DYD_API const char *dyd_engine_id(const dyd_engine *e, size_t i);
+/* Names the n points added last: row[k], ascending and above the rows of the points before, and id[k], which may be
+ * NULL; id NULL: none has an identifier. Copied. Before a sphere is made of e. DYD_E_ARG when there are fewer points or
+ * rows do not ascend, or rows were merged; DYD_E_NOMEM. O(points) */
+DYD_API dyd_status dyd_engine_name(dyd_engine *e, size_t n, const size_t *row, const char *const *id);
 /* The k-th row, ascending, that was taken as one with an earlier one, and the point that stands for both; false: there
  * are no more. */
 DYD_API bool dyd_engine_merged(size_t *row, size_t *point, const dyd_engine *e, size_t k);

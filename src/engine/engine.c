@@ -250,6 +250,26 @@ void dyd_labels_give(dyd_engine *e, dyd_labels *l) {
   *l = (dyd_labels){0};
 }
 
+dyd_status dyd_engine_name(dyd_engine *e, size_t n, const size_t *row, const char *const *id) {
+  if (!e || (n && !row)) return DYD_E_ARG;
+  dyd_labels all = {0}, *old = &e->labels;
+  const size_t count = dyd_sites_count(e->sites), first = n < count ? count - n : 0;
+  bool good = n <= count && !old->merges;
+  for (size_t k = 0; good && k < n; k++)
+    good = row[k] >= (k ? row[k - 1] + 1 : first ? dyd_engine_row(e, first - 1) + 1 : 0);
+  if (!good) return DYD_E_ARG;
+  for (size_t i = 0; good && i < count; i++) {
+    const char *own = i < first ? dyd_engine_id(e, i) : id ? id[i - first] : NULL;
+    all.rows = i < first ? dyd_engine_row(e, i) : row[i - first];
+    good = dyd_labels_add(&all, own, own ? strlen(own) : 0, i < old->points ? &old->number[i] : &dyd_no_row_numbers);
+  }
+  if (good)
+    dyd_labels_give(e, &all);
+  else
+    dyd_labels_clear(&all);
+  return good ? DYD_OK : DYD_E_NOMEM;
+}
+
 /* ---- answers ---- */
 
 size_t dyd_engine_row(const dyd_engine *e, size_t i) {

@@ -54,6 +54,8 @@ static PyMethodDef engine_methods[] = {
     {"append_values", dydpy_append_values, METH_VARARGS, "append_values([(x, y), ...], [(rx, ry), ...] or None)"},
     {"append_source", dydpy_append_source, METH_VARARGS, "append_source(n, narrow)"},
     {"append_text", dydpy_append_text, METH_VARARGS, "append_text(bytes, options): fields of dyd_read_options by name"},
+    {"name", dydpy_name, METH_VARARGS, "name(rows, ids or None): the points added last"},
+    {"names", dydpy_names, METH_NOARGS, "names() -> (Buffer of int64 rows, list of ids or None)"},
     {"remeasure", dydpy_remeasure, METH_VARARGS, "remeasure(i, (xlo, xhi, ylo, yhi))"},
     {"recall", dydpy_recall, METH_VARARGS, "recall(path) -> int: answers taken from a trace"},
     {"trace_begin", dydpy_trace_begin, METH_VARARGS, "trace_begin(path, options, (window, no_voronoi) or None)"},

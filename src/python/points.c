@@ -47,7 +47,7 @@ static int quotient_of(mpq_t out, PyObject *numerator, PyObject *denominator) {
 
 static int double_of(mpq_t out, double value) {
   if (!isfinite(value)) {
-    PyErr_Format(PyExc_ValueError, "%s is no coordinate; coordinates are finite numbers",
+    PyErr_Format(PyExc_ValueError, "%s is not a coordinate; coordinates are finite numbers",
                  isnan(value) ? "nan"
                  : value > 0  ? "inf"
                               : "-inf");
@@ -63,7 +63,7 @@ static int exact_text_of(mpq_t out, PyObject *text) {
   if (!bytes) return -1;
   dyd_status st = dyd_real_parse_exact(out, bytes, (size_t)length);
   if (st == DYD_OK) return 0;
-  PyErr_Format(PyExc_ValueError, "%R is no exact number: %s", text, dyd_status_text(st));
+  PyErr_Format(PyExc_ValueError, "%R is not an exact number: %s", text, dyd_status_text(st));
   return -1;
 }
 
@@ -129,7 +129,7 @@ int dydpy_rational(mpq_t out, PyObject *value) {
     found = exact_text_of(out, simple) < 0 ? -1 : 1;
   } else {
     found = plain_rational(out, simple);
-    if (!found) PyErr_Format(PyExc_TypeError, "%R is an interval; one exact number is wanted here", value);
+    if (!found) PyErr_Format(PyExc_TypeError, "expected one exact number, not the interval %R", value);
   }
   Py_DECREF(simple);
   return found > 0 ? 0 : -1;
@@ -142,7 +142,7 @@ static int ends_of(mpq_t lo, mpq_t hi, PyObject *pair) {
   PyObject *low = PySequence_GetItem(pair, 0), *high = low ? PySequence_GetItem(pair, 1) : NULL;
   if (high) found = dydpy_rational(lo, low) < 0 || dydpy_rational(hi, high) < 0 ? -1 : 0;
   if (!found && mpq_cmp(lo, hi) > 0) {
-    PyErr_Format(PyExc_ValueError, "the lower end of %R is above the upper one; exchange them", pair);
+    PyErr_Format(PyExc_ValueError, "the lower end of %R is above the upper end (exchange them)", pair);
     found = -1;
   }
   Py_XDECREF(high);
@@ -196,6 +196,28 @@ static int real_of(dyd_real **out, PyObject *value) {
   return found == 0 ? real_of_text(out, value) : found < 0 ? -1 : 0;
 }
 
+/* ---- where an exception came from ---- */
+
+/* Puts the place in front of the message, and the point on the exception, where it takes them. */
+static void blame(size_t point, PyObject *place) {
+  PyObject *type, *value, *trace;
+  PyErr_Fetch(&type, &value, &trace);
+  PyErr_NormalizeException(&type, &value, &trace);
+  PyObject *number = PyLong_FromSize_t(point), *old = PyObject_GetAttrString(value, "args");
+  PyObject *text = old && PyTuple_Size(old) == 1 ? PyTuple_GetItem(old, 0) : NULL;
+  PyObject *whole = place && text && PyUnicode_Check(text) ? PyUnicode_FromFormat("%U: %U", place, text) : NULL;
+  PyObject *made = whole ? PyTuple_Pack(1, whole) : NULL;
+  if (made) PyObject_SetAttrString(value, "args", made);
+  if (number) PyObject_SetAttrString(value, "point", number);
+  PyErr_Clear();
+  Py_XDECREF(made);
+  Py_XDECREF(whole);
+  Py_XDECREF(old);
+  Py_XDECREF(number);
+  Py_XDECREF(place);
+  PyErr_Restore(type, value, trace);
+}
+
 /* ---- answers and windows ---- */
 
 /* Two coordinates as four ends; texts are exact numbers. */
@@ -237,8 +259,8 @@ dyd_status dydpy_answer(dyd_rect *r, PyObject *answer, dyd_error *err) {
   if (count != 2 && count != 4 && count != 5) {
     PyErr_Clear();
     PyErr_Format(PyExc_TypeError,
-                 "a point was answered %R; wanted are four numbers xlo, xhi, ylo, yhi, and True behind "
-                 "them when they are final, or two coordinates",
+                 "the function returned %R; return two coordinates, or four numbers xlo, xhi, ylo, yhi, and True after "
+                 "them if the rectangle cannot be narrowed further",
                  answer);
     return DYD_E_STREAM;
   }
@@ -309,6 +331,9 @@ static dyd_status call_narrow(dyd_rect *out, PyObject *narrow, const dyd_request
   PyObject *answer = PyObject_CallFunction(narrow, "nL", (Py_ssize_t)request->point, (long long)request->bits);
   if (!answer) return DYD_E_STREAM;
   dyd_status st = dydpy_answer(out, answer, err);
+  if (PyErr_Occurred())
+    blame(request->point,
+          PyUnicode_FromFormat("point %zd, asked for %lld bits", (Py_ssize_t)request->point, (long long)request->bits));
   Py_DECREF(answer);
   return st;
 }
@@ -336,7 +361,7 @@ bool dydpy_source_new(dyd_source *out, PyObject *narrow) {
 static bool columns_of(dyd_column out[2], const Py_buffer *view, Py_ssize_t rows) {
   bool doubles = view->itemsize == sizeof(double) && view->format && strcmp(view->format, "d") == 0;
   if (!doubles || view->ndim != 2 || view->shape[1] != 2 || (view->shape[0] != rows && rows >= 0)) {
-    PyErr_SetString(PyExc_ValueError, "wanted is an array of doubles of shape (N, 2)");
+    PyErr_SetString(PyExc_ValueError, "expected an array of doubles of shape (N, 2)");
     return false;
   }
   for (int a = 0; a < 2; a++)
@@ -400,7 +425,7 @@ static bool both_of(PyObject *both[2], PyObject *pair, const char *what) {
   both[0] = both[1] = NULL;
   if (PyUnicode_Check(pair) || PySequence_Size(pair) != 2) {
     PyErr_Clear();
-    PyErr_Format(PyExc_ValueError, "%R is no %s; give a pair", pair, what);
+    PyErr_Format(PyExc_ValueError, "%R is not a pair of %s", pair, what);
     return false;
   }
   both[0] = PySequence_GetItem(pair, 0);
@@ -411,7 +436,7 @@ static bool both_of(PyObject *both[2], PyObject *pair, const char *what) {
 int dydpy_stream(dyd_stream **out, PyObject *point, PyObject *radii) {
   PyObject *xy[2] = {NULL, NULL}, *by[2] = {NULL, NULL};
   dyd_real *side[2] = {NULL, NULL};
-  bool good = both_of(xy, point, "point") && (!radii || both_of(by, radii, "pair of radii"));
+  bool good = both_of(xy, point, "coordinates") && (!radii || both_of(by, radii, "radii"));
   for (int a = 0; good && a < 2; a++) good = widened_real(&side[a], xy[a], by[a]) == 0;
   for (int a = 0; a < 2; a++) {
     Py_XDECREF(xy[a]);
@@ -422,17 +447,6 @@ int dydpy_stream(dyd_stream **out, PyObject *point, PyObject *radii) {
   dyd_status st = dyd_stream_from_reals(out, side[0], side[1]);
   if (st != DYD_OK) dydpy_raise(NULL, st);
   return st == DYD_OK ? 0 : -1;
-}
-
-/* Says which point it was, where the exception is one that takes it. */
-static void name_point(size_t point) {
-  PyObject *type, *value, *trace;
-  PyErr_Fetch(&type, &value, &trace);
-  PyErr_NormalizeException(&type, &value, &trace);
-  PyObject *number = PyLong_FromSize_t(point);
-  if (!number || PyObject_SetAttrString(value, "point", number) < 0) PyErr_Clear();
-  Py_XDECREF(number);
-  PyErr_Restore(type, value, trace);
 }
 
 static dyd_status append_streams(dydpy_engine *self, dyd_stream **stream, size_t count, dyd_error *err) {
@@ -466,7 +480,8 @@ PyObject *dydpy_append_values(PyObject *self, PyObject *args) {
   dyd_stream **stream = calloc(count + 1, sizeof *stream);
   if (!stream) return PyErr_NoMemory();
   size_t made = make_streams(stream, count, list, radii);
-  if (made < count) name_point(dydpy_points((dydpy_engine *)self) + made);
+  if (made < count)
+    blame(dydpy_points((dydpy_engine *)self) + made, PyUnicode_FromFormat("element %zu of points", made));
   PyObject *done = NULL;
   if (made == count && dydpy_begin(&c, self, 0))
     done = dydpy_end_none(&c, append_streams(c.self, stream, count, &c.err));
@@ -483,10 +498,54 @@ PyObject *dydpy_append_source(PyObject *self, PyObject *args) {
   dyd_source source;
   dydpy_call c;
   if (!PyArg_ParseTuple(args, "nO", &count, &narrow)) return NULL;
-  if (count < 0) return PyErr_Format(PyExc_ValueError, "a source of %zd points; give 0 or more", count);
+  if (count < 0) return PyErr_Format(PyExc_ValueError, "a source cannot have %zd points", count);
   if (!dydpy_source_new(&source, narrow) || PyList_Append(((dydpy_engine *)self)->functions, narrow) < 0) return NULL;
   if (!dydpy_begin(&c, self, 0)) return NULL;
   return dydpy_end_none(&c, dyd_engine_append_source(c.self->engine, (size_t)count, &source, &c.err));
+}
+
+/* name(rows, ids): of the points added last; rows: a buffer of size_t; ids: a list of texts, or None */
+PyObject *dydpy_name(PyObject *self, PyObject *args) {
+  const char *rows;
+  Py_ssize_t size;
+  PyObject *ids;
+  dydpy_call c;
+  if (!PyArg_ParseTuple(args, "y#O", &rows, &size, &ids)) return NULL;
+  size_t count = (size_t)size / sizeof(size_t);
+  const char **id = calloc(count + 1, sizeof *id);
+  if (!id) return PyErr_NoMemory();
+  for (size_t k = 0; ids != Py_None && k < count && !PyErr_Occurred(); k++) {
+    PyObject *text = PyList_GetItem(ids, (Py_ssize_t)k);
+    id[k] = text ? PyUnicode_AsUTF8AndSize(text, NULL) : NULL;
+  }
+  PyObject *done = NULL;
+  if (!PyErr_Occurred() && dydpy_begin(&c, self, DYDPY_HOLDS))
+    done = dydpy_end_none(
+        &c, dyd_engine_name(c.self->engine, count, (const size_t *)(const void *)rows, ids == Py_None ? NULL : id));
+  free(id);
+  return done;
+}
+
+/* names() -> (rows, ids or None): of all points */
+PyObject *dydpy_names(PyObject *self, PyObject *none) {
+  dydpy_call c;
+  (void)none;
+  if (!dydpy_begin(&c, self, DYDPY_HOLDS)) return NULL;
+  const dyd_engine *e = c.self->engine;
+  const size_t count = dyd_engine_count(e);
+  int64_t *row = malloc((count + 1) * sizeof *row);
+  PyObject *ids = dyd_engine_id(e, 0) ? PyList_New((Py_ssize_t)count) : Py_NewRef(Py_None);
+  for (size_t i = 0; row && i < count; i++) {
+    const char *id = dyd_engine_id(e, i);
+    row[i] = (int64_t)dyd_engine_row(e, i);
+    if (id && ids) PyList_SetItem(ids, (Py_ssize_t)i, PyUnicode_DecodeUTF8(id, (Py_ssize_t)strlen(id), "replace"));
+  }
+  PyObject *rows = row ? dydpy_buffer_new(row, count * sizeof *row) : PyErr_NoMemory();
+  if (!dydpy_end(&c, DYD_OK)) Py_CLEAR(rows);
+  PyObject *both = rows && ids ? PyTuple_Pack(2, rows, ids) : NULL;
+  Py_XDECREF(rows);
+  Py_XDECREF(ids);
+  return both;
 }
 
 /* Sets the field to what dict holds under its name, borrowed; *given counts such fields. -1 with an exception set. */
@@ -518,7 +577,7 @@ PyObject *dydpy_append_text(PyObject *self, PyObject *args) {
   for (size_t k = 0; (field = dyd_read_field_at(NULL, NULL, k)); k++)
     if (read_option_set(&o, &given, field, options) < 0) return NULL;
   if (given != PyDict_Size(options))
-    return PyErr_Format(PyExc_TypeError, "unknown reading options in %R; see help(dyadel.Text)", options);
+    return PyErr_Format(PyExc_TypeError, "unknown option of Text in %R; see help(dyadel.Text)", options);
   if (!dydpy_begin(&c, self, 0)) return NULL;
   c.self->weights |= o.keep_radii && o.radius_columns;
   c.self->sigmas |= o.sigma_column != NULL;

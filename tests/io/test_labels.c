@@ -80,7 +80,32 @@ static void test_shared_places(void **state) {
   dyd_engine_free(e);
 }
 
+/* Points of arrays are named by the caller: those before keep their names, and what is refused changes nothing. */
+static void test_named_by_caller(void **state) {
+  (void)state;
+  dyd_engine *e = NULL;
+  const double x[] = {1, 2, 3}, y[] = {4, 5, 6};
+  const dyd_read_options o = {DYD_SIZED(dyd_read_options)};
+  assert_int_equal(dyd_engine_new(&e), DYD_OK);
+  assert_int_equal(dyd_engine_name(e, 1, (const size_t[]){0}, NULL), DYD_E_ARG);
+  assert_int_equal(dyd_engine_name(e, 0, NULL, NULL), DYD_OK);
+  add_file(e, "0 0\n1 1\n", &o, DYD_OK);
+  assert_int_equal(dyd_engine_add_points(e, 3, x, y), DYD_OK);
+  check_points(e, 5, (const size_t[]){0, 1, 2, 3, 4}, NULL);
+  assert_int_equal(dyd_engine_name(e, 3, (const size_t[]){2, 5, 7}, NULL), DYD_OK);
+  check_points(e, 5, (const size_t[]){0, 1, 2, 5, 7}, NULL);
+  assert_int_equal(dyd_engine_name(e, 3, (const size_t[]){3, 3, 4}, NULL), DYD_E_ARG);
+  assert_int_equal(dyd_engine_name(e, 3, (const size_t[]){1, 3, 4}, NULL), DYD_E_ARG);
+  assert_int_equal(dyd_engine_name(e, 6, (const size_t[]){0, 1, 2, 3, 4, 5}, NULL), DYD_E_ARG);
+  assert_int_equal(dyd_engine_name(e, 2, (const size_t[]){6, 9}, (const char *const[]){"a", NULL}), DYD_OK);
+  check_points(e, 5, (const size_t[]){0, 1, 2, 6, 9}, (const char *const[]){"", "", "", "a", ""});
+  add_file(e, "7 7\n", &o, DYD_OK);
+  check_points(e, 6, (const size_t[]){0, 1, 2, 6, 9, 10}, (const char *const[]){"", "", "", "a", "", ""});
+  dyd_engine_free(e);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_several_files), cmocka_unit_test(test_shared_places)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_named_by_caller), cmocka_unit_test(test_several_files),
+                                     cmocka_unit_test(test_shared_places)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -135,7 +135,7 @@ def test_refused():
     cases = [(dict(until='hausdorff:3'), 'about the plane'), (dict(window=(0, 1, 0, 1)), 'about the plane'),
              (dict(radius='3 parsec'), 'is not an exact number'), (dict(radius=20), "state a unit: radius_unit='m'"),
              (dict(radius='0.01'), "state a unit: radius_unit='m'"), (dict(radius=[1] * 6), "state a unit: radius_unit='m'"),
-             (dict(radius=3, radius_unit='miles'), 'is not a unit of radii'), (dict(radius=[1], radius_unit='m'), '1 radii of 6 points'),
+             (dict(radius=3, radius_unit='miles'), 'is not a unit of radii'), (dict(radius=[1], radius_unit='m'), 'radius has 1 values for 6 points'),
              (dict(radius=[(1, 2)] * 6, radius_unit='m'), 'one radius'),
              (dict(radius='-1m'), 'is not an exact number'), (dict(radius='7000km'), 'larger than that of the earth')]
     for options, words in cases:

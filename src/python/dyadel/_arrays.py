@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 Ints = NDArray[np.int32]
 Floats = NDArray[np.float64]
+Longs = NDArray[np.int64]
 #: xlo, xhi, ylo, yhi
 Rect = tuple[Fraction, Fraction, Fraction, Fraction]
 
@@ -17,6 +18,11 @@ Rect = tuple[Fraction, Fraction, Fraction, Fraction]
 def ints(buffer: Any) -> Ints:
     """Memory of the library as numbers, without a copy."""
     return np.frombuffer(buffer, np.int32)
+
+
+def longs(buffer: Any) -> Longs:
+    """Memory of the library as numbers, without a copy."""
+    return np.frombuffer(buffer, np.int64)
 
 
 def floats(buffer: Any) -> Floats:

@@ -2,44 +2,52 @@
 """What users call first: points in, and an answer out."""
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any, Literal, overload
 
-from ._options import Path, engine_options
+from ._inputs import is_geographic
+from ._options import INPUTS, Path, engine_options, split_inputs, takes_options
 from ._questions import Plan, Tolerance
 from ._sphere import Sphere
-from ._statuses import Statuses
 from ._triangulation import Delaunay
 
 
 @overload
-def delaunay(points: Any, radius: Any = None, *, sphere: Literal[False] = False, trace: Path | None = None,
-             resume: Path | None = None, **options: Any) -> Delaunay: ...
+def delaunay(points: Any, radius: Any = None, *, sphere: Literal[False] | None = None, trace: Path | None = None,
+             resume: Path | None = None, order: str | None = None, skip_missing: bool = False, ids: Any = None, crs: Any = None,
+             **options: Any) -> Delaunay: ...
 
 
 @overload
 def delaunay(points: Any, radius: Any = None, *, sphere: Literal[True], radius_unit: str | None = None,
-             trace: Path | None = None, resume: Path | None = None, **options: Any) -> Sphere: ...
+             trace: Path | None = None, resume: Path | None = None, order: str | None = None, skip_missing: bool = False,
+             ids: Any = None, crs: Any = None, **options: Any) -> Sphere: ...
 
 
 @overload
 def delaunay(points: Any, radius: Any = None, *, sphere: bool, **options: Any) -> Delaunay | Sphere: ...
 
 
-def delaunay(points: Any, radius: Any = None, *, sphere: bool = False, radius_unit: str | None = None,
+@takes_options(*INPUTS)
+def delaunay(points: Any, radius: Any = None, *, sphere: bool | None = None, radius_unit: str | None = None,
              trace: Path | None = None, resume: Path | None = None, **options: Any) -> Delaunay | Sphere:
     """Triangulates points that need not be known exactly.
 
     points   array (N, 2) of floats, taken exactly as they are, without a copy; array (N, 4) of boxes xlo, xhi, ylo, yhi;
+             a DataFrame of two columns (or of four: minx, miny, maxx, maxy), a GeoDataFrame, a GeoSeries, points of shapely;
              a list of pairs of coordinates: int, float, Fraction, Decimal, a text such as 'sqrt(2)' or '[1.2,1.3]', a
              pair of ends, numbers of numpy, gmpy2, mpmath (mpf, iv.mpf), sympy and python-flint, mixed as need be;
              a Source; a Text
-    radius   half-width of the square around each point: a number, N of them, or (N, 2) for x and y; with an array of
-             floats the box is rounded outward to doubles, other numbers ('0.01', Fraction, Decimal) are exact, and slow
+    radius   half-width of the square around each point: a number, N of them, (N, 2) for x and y, or the name of a column
+             of the DataFrame; with an array of floats the box is rounded outward to doubles, other numbers ('0.01', Fraction, Decimal) are exact, and slow
     sphere   points are longitude and latitude in degrees, neighbours those on the globe; the result is a Sphere. Radii have
              a unit: a text such as '30m', '2km' (on the ground), '0.01deg', or numbers and
     radius_unit  'm', 'mm', 'cm', 'km', 'ft', 'in', 'deg', 'arcmin' or 'arcsec'
+    order    of boxes: 'xxyy' as above, or 'xyxy': minx, miny, maxx, maxy, as gdf.bounds has them
+    skip_missing  leave out masked rows and rows with nan, None or a text such as NA; otherwise they are an error. Points are
+             numbered without them: d.rows[k] is the row of point k
+    ids      a name for each row, or the name of a column: `ids` of the result, and columns of what it writes
+    crs      reference system of the points; by default that of a GeoDataFrame. Degrees need sphere=True or sphere=False
     trace    name of a file that receives each answer of a point as it comes, and what each stage states; a run that ended
              early, however it did, goes on from there with
     resume   name of such a file: its answers are taken in place of asking again. Points and options have to be the same
@@ -51,38 +59,22 @@ def delaunay(points: Any, radius: Any = None, *, sphere: bool = False, radius_un
     a run.
 
     """
+    if sphere is None and is_geographic(options.get('crs') or getattr(points, 'crs', None)):
+        raise ValueError('the coordinates are degrees, as their crs says; give sphere=True for distances on the globe, or '
+                         'sphere=False to take degrees for a plane')
     if not sphere:
         if radius_unit is not None:
-            raise ValueError('in the plane radii are in the unit of the coordinates; give sphere=True, or leave radius_unit out')
-        return _in_plane(points, radius, trace, resume, **options)
-    globe = Sphere(points, radius, radius_unit)
-    with _kept_with_errors(globe), globe._traced(trace, resume, options):
+            raise ValueError('in the plane radii are in the unit of the coordinates; give sphere=True, or remove radius_unit')
+        return Delaunay(points, radius, trace=trace, resume=resume, **options)
+    globe = Sphere(points, radius, radius_unit, **split_inputs(options))
+    with globe._kept_with_errors(), globe._traced(trace, resume, options):
         return globe.refine(**options)
 
 
 delaunay.__doc__ = f'{delaunay.__doc__}{engine_options.__doc__}'.replace('What Engine.run takes.', 'Options:')
 
 
-def _in_plane(points: Any, radius: Any = None, trace: Path | None = None, resume: Path | None = None,
-              **options: Any) -> Delaunay:
-    d = Delaunay()
-    with _kept_with_errors(d):
-        d._append(points, radius)
-        with d._traced(trace, resume, options):
-            return d.refine(**options)
-
-
-@contextlib.contextmanager
-def _kept_with_errors(d: Statuses) -> Iterator[None]:
-    """As `result` of what is raised; exceptions with slots have no room for it."""
-    try:
-        yield
-    except BaseException as error:
-        with contextlib.suppress(AttributeError):
-            setattr(error, 'result', d)
-        raise
-
-
+@takes_options(*INPUTS, 'radius', 'trace', 'resume')
 def tolerance(points: Any, up_to: Any = None, radii: bool = False, sigma: float | None = None,
               metric: str = 'euclid', **options: Any) -> Tolerance:
     """How far exact points (as delaunay takes them) may move: for every edge, every point, the whole.
@@ -94,9 +86,10 @@ def tolerance(points: Any, up_to: Any = None, radii: bool = False, sigma: float 
     much (lo and hi are 2^-20 of themselves apart); options: those of delaunay. With a Text that has radius_columns and
     keep_radii=True each point moves in proportion to its radius.
     """
-    return _in_plane(points, **options).tolerance(up_to, radii, sigma, metric)
+    return Delaunay(points, **options).tolerance(up_to, radii, sigma, metric)
 
 
+@takes_options(*INPUTS, 'trace', 'resume')
 def plan(points: Any, radius: Any = None, accuracy: Any = None, window: Sequence[Any] | None = None,
          site: int | None = None, **options: Any) -> Plan:
     """Which points to measure next, and how accurately, so that all is decided.
@@ -104,4 +97,4 @@ def plan(points: Any, radius: Any = None, accuracy: Any = None, window: Sequence
     accuracy: what a measurement gives at best, in units of the points; window, site: only pairs that reach into
     (xlo, xhi, ylo, yhi), or that end at this point; points, radius, options: as for delaunay.
     """
-    return _in_plane(points, radius, **options).plan(accuracy, window, site)
+    return Delaunay(points, radius, **options).plan(accuracy, window, site)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _dyadel
 from ._errors import BrokenPromise
+from ._options import INPUTS, takes_options
 from ._points import append_points
 
 if TYPE_CHECKING:
@@ -15,9 +16,10 @@ if TYPE_CHECKING:
 Move = tuple[int, int, int]
 
 
+@takes_options(*INPUTS)
 def check(points: Any, radius: Any = None, *, moves: Sequence[Move] | None = None, schedules: int = 100, seed: int = 1,
           stages: int = 6, base_bits: int = 8, max_bits: int = 192, slack_bits: int = 16, timeout: float | None = None,
-          progress: Callable[[int, int], object] | None = None) -> dict[str, Any]:
+          progress: Callable[[int, int], object] | None = None, **inputs: Any) -> dict[str, Any]:
     """Runs random refinement schedules over points (as delaunay takes them) and looks for broken promises: rectangles
     that are not nested or not as narrow as asked for, statuses that are taken back, cells that shrink.
 
@@ -34,7 +36,7 @@ def check(points: Any, radius: Any = None, *, moves: Sequence[Move] | None = Non
 
     def make() -> _dyadel.Engine:
         engine = _dyadel.Engine()
-        append_points(engine, points, radius)
+        append_points(engine, points, radius, **inputs)
         return engine
     given = None if moves is None else sorted((stage, point, bits) for stage, point, bits in moves)
     report = _dyadel.check(make, seed, schedules, stages, base_bits, max_bits, slack_bits, timeout or 0.0, given,

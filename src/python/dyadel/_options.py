@@ -2,9 +2,12 @@
 """How far a run goes: the keywords that delaunay, refine, append, converge and others share."""
 from __future__ import annotations
 
+import difflib
+import functools
+import inspect
 import os
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,6 +15,37 @@ from numpy.typing import ArrayLike
 Path = str | os.PathLike[str]
 GOALS = ('decided', 'area', 'hausdorff', 'voronoi area', 'voronoi hausdorff')
 SCHEDULES = ('adaptive', 'uniform')
+#: What else functions take that take points.
+INPUTS = ('order', 'skip_missing', 'ids', 'crs')
+AT_LEAST = {'max_bits': 1, 'max_pairs': 1, 'threads': 1, 'step_bits': 0, 'max_stages': 0, 'max_calls': 0,
+            'tie_bits': 0, 'max_bytes': 0}
+Arguments = ParamSpec('Arguments')
+Result = TypeVar('Result')
+
+
+def takes_options(*more: str) -> Callable[[Callable[Arguments, Result]], Callable[Arguments, Result]]:
+    """A decorator of functions with **options, those of engine_options and `more`: others are a TypeError that names the
+    function and the nearest keyword."""
+    def decorate(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
+        own = [name for name, p in inspect.signature(function).parameters.items() if p.kind is not p.VAR_KEYWORD]
+        known = [*own, *more, *inspect.signature(engine_options).parameters]
+        name = function.__qualname__.removesuffix('.__init__')
+
+        @functools.wraps(function)
+        def checked(*args: Arguments.args, **options: Arguments.kwargs) -> Result:
+            for option in options:
+                if option not in known:
+                    near = difflib.get_close_matches(option, known, 1)
+                    raise TypeError(f'{name}() got an unexpected keyword argument {option!r}' +
+                                    (f'; did you mean {near[0]!r}?' if near else ''))
+            return function(*args, **options)
+        return checked
+    return decorate
+
+
+def split_inputs(options: dict[str, Any]) -> dict[str, Any]:
+    """Takes what is about points out of options."""
+    return {name: options.pop(name) for name in INPUTS if name in options}
 
 
 def engine_options(*, until: str = 'decided', timeout: float | None = None, max_bits: int = 4096,
@@ -45,8 +79,11 @@ def engine_options(*, until: str = 'decided', timeout: float | None = None, max_
                          f'{", ".join(GOALS[1:])}')
     if schedule not in SCHEDULES:
         raise ValueError(f'schedule={schedule!r}; give "adaptive" or "uniform"')
-    if max_bits < 1:
-        raise ValueError(f'max_bits={max_bits}; give the finest precision, at least 1')
+    for name, value in (('max_bits', max_bits), ('max_pairs', max_pairs), ('threads', threads), ('step_bits', step_bits),
+                        ('max_stages', max_stages), ('max_calls', max_calls), ('tie_bits', tie_bits),
+                        ('max_bytes', max_bytes)):
+        if value is not None and value < AT_LEAST[name]:
+            raise ValueError(f'{name}={value}; give at least {AT_LEAST[name]}')
     given = {'goal': GOALS.index(goal), 'goal_bits': int(bits or 0), 'schedule': SCHEDULES.index(schedule),
              'seconds': None if timeout is None else max(float(timeout), 1e-9), 'max_bits': max_bits,
              'max_pairs': max_pairs, 'threads': threads, 'start_bits': start_bits, 'step_bits': step_bits,

@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _dyadel
 from ._arrays import Floats
+from ._inputs import Given, doubles_of, take
 
 
 @dataclasses.dataclass(frozen=True)
@@ -41,7 +42,7 @@ class Text:
 
     def __init__(self, text: str | bytes, columns: str | None = None, **options: str | bool | None):
         if 'degrees' in options:
-            raise TypeError('degrees is no option of Text; give sphere=True to the call that takes the text')
+            raise TypeError('degrees is not an option of Text; give sphere=True to the call that takes the text')
         object.__setattr__(self, 'text', text)
         object.__setattr__(self, 'options', {'columns': columns, **options})
 
@@ -52,31 +53,18 @@ class Text:
             return cls(file.read(), **how)
 
 
-def _as_array(points: Any) -> Floats | None:
-    """An array of doubles with the same numbers, or None where there is none: lists, objects, integers beyond 2^53."""
-    if isinstance(points, (list, tuple)) or not hasattr(points, '__array__'):
-        return None
-    array = np.asarray(points)
-    if array.dtype == np.float64:
-        return array
-    if array.dtype.kind == 'f' and array.dtype.itemsize < 8:
-        return array.astype(np.float64)
-    small = array.dtype.kind in 'iu' and (not array.size or (array.max() <= 2**53 and array.min() >= -2**53))
-    return array.astype(np.float64) if small else None
-
-
 def _radius_array(radius: Any, n: int) -> Floats | None:
     """Doubles (n, 2) with the same numbers, or None where there are none."""
     if isinstance(radius, (int, float)) and (isinstance(radius, float) or abs(radius) <= 2**53):
         array = np.asarray(float(radius))
     else:
-        found = _as_array(radius)
+        found = doubles_of(radius)
         if found is None:
             return None
         array = found
-    if array.ndim == 1:
-        array = array[:, np.newaxis]
-    return np.broadcast_to(array, (n, 2))
+    if array.ndim not in (0, 1, 2) or array.ndim and array.shape not in ((n,), (1,), (n, 1), (n, 2), (1, 2)):
+        raise ValueError(f'radius must be one number, or have shape ({n},) or ({n}, 2), not {array.shape}')
+    return np.broadcast_to(array[:, np.newaxis] if array.ndim == 1 else array, (n, 2))
 
 
 def _radius_list(radius: Any, n: int) -> list[Any]:
@@ -84,7 +72,7 @@ def _radius_list(radius: Any, n: int) -> list[Any]:
     if isinstance(radius, (list, tuple)) or hasattr(radius, '__array__') and np.ndim(radius):
         radii = list(radius)
         if len(radii) != n:
-            raise ValueError(f'{len(radii)} radii of {n} points')
+            raise ValueError(f'radius has {len(radii)} values for {n} points')
     else:
         radii = [radius] * n
     return [tuple(r) if isinstance(r, (list, tuple, np.ndarray)) else (r, r) for r in radii]
@@ -97,24 +85,53 @@ def _append_boxes(engine: _dyadel.Engine, boxes: Floats) -> None:
         engine.append_boxes(*(np.ascontiguousarray(boxes[:, k]) for k in range(4)))
 
 
-def append_points(engine: _dyadel.Engine, points: Any, radius: Any = None, degrees: bool = False) -> bool:
-    """Adds points of any kind; False: they are boxes of doubles, which the engine holds, and nobody need remember them.
+def given_of(points: Any, radius: Any = None, **inputs: Any) -> Given:
+    """Points and radius in plain form; inputs: order, skip_missing, ids, crs."""
+    if isinstance(points, Given):
+        return points
+    if not isinstance(points, (Source, Text)):
+        return take(points, radius, **inputs)
+    if radius is not None:
+        raise ValueError('radius is for arrays and lists of points' + '; give Text(..., radius=...)' * isinstance(points, Text))
+    ids, crs = inputs.pop('ids', None), inputs.pop('crs', None)
+    wrong = [name for name, value in inputs.items() if value] + ['ids'] * (ids is not None and isinstance(points, Text))
+    if wrong:
+        raise ValueError(f'{wrong[0]} is for arrays and lists of points' + ('; a Text has the options id and skip_missing'
+                                                                            * isinstance(points, Text)))
+    if ids is not None and len(ids) != getattr(points, 'n', 0):
+        raise ValueError(f'{len(ids)} ids for {getattr(points, "n", 0)} points')
+    return Given(points, None, None, getattr(points, 'n', 0), None if ids is None else [str(name) for name in ids], crs)
+
+
+def append_given(engine: _dyadel.Engine, given: Given, degrees: bool = False) -> bool:
+    """Adds points in plain form, with their names; False: they are boxes of doubles, which the engine holds.
 
     degrees: a text is told where a latitude is beyond 90.
     """
-    if isinstance(points, (Source, Text)):
-        if radius is not None:
-            raise ValueError('radius is for arrays and lists of points')
-        if isinstance(points, Source):
-            engine.append_source(points.n, points.narrow)
-        else:
-            text = points.text.encode() if isinstance(points.text, str) else points.text
-            engine.append_text(text, {**points.options, 'degrees': degrees})
+    kept = _append(engine, given.points, given.radius, degrees)
+    if given.ids is not None or given.rows is not None or given.before:
+        rows = np.arange(given.count) if given.rows is None else given.rows
+        engine.name(np.ascontiguousarray(rows + given.before, np.uintp), given.ids)
+    return kept
+
+
+def append_points(engine: _dyadel.Engine, points: Any, radius: Any = None, **inputs: Any) -> bool:
+    """The same from points of any kind."""
+    return append_given(engine, given_of(points, radius, **inputs))
+
+
+def _append(engine: _dyadel.Engine, points: Any, radius: Any, degrees: bool) -> bool:
+    if isinstance(points, Source):
+        engine.append_source(points.n, points.narrow)
         return True
-    array = _as_array(points)
+    if isinstance(points, Text):
+        text = points.text.encode() if isinstance(points.text, str) else points.text
+        engine.append_text(text, {**points.options, 'degrees': degrees})
+        return True
+    array = doubles_of(points)
     by = None if array is None or radius is None else _radius_array(radius, len(array))
     if array is not None and (radius is None or by is not None):
-        if array.ndim == 2 and array.shape[1] == 4 and by is None:
+        if array.shape[1] == 4 and by is None:
             _append_boxes(engine, array)
         else:
             engine.append_array(array if array.dtype.isnative else array.astype(np.float64), by)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _dyadel
 from ._arrays import Floats, Ints, floats, ints
-from ._options import Path, engine_options
+from ._options import INPUTS, Path, engine_options, split_inputs, takes_options
 from ._points import append_points
 
 EVENTS = np.array(['death', 'birth', 'tie'])
@@ -198,6 +198,7 @@ def _column(cells: Sequence[str]) -> NDArray[Any]:
     return np.array([int(cell) if whole else float(cell or 'nan') for cell in cells])
 
 
+@takes_options(*INPUTS)
 def converge(points: Any, radius: Any = None, window: Sequence[Any] | None = None, diagram: bool = True,
              times: bool = True, start_bits: int = 4, trace: Path | None = None, resume: Path | None = None,
              **options: Any) -> Convergence:
@@ -207,7 +208,7 @@ def converge(points: Any, radius: Any = None, window: Sequence[Any] | None = Non
     seconds, so that equal runs give equal tables; points, radius, trace, resume, options: as for delaunay.
     """
     engine = _dyadel.Engine()
-    append_points(engine, points, radius)
+    append_points(engine, points, radius, **split_inputs(options))
     ready = engine_options(start_bits=start_bits, **options)
     if resume is not None:
         engine.recall(os.fsencode(resume))
@@ -238,6 +239,7 @@ class Verdict(NamedTuple):
     report: dict[str, Any]
 
 
+@takes_options(*INPUTS)
 def verify(certificate: bytes, points: Any = None, radius: Any = None, sphere: bool = False,
            radius_unit: str | None = None, **options: Any) -> Verdict:
     """Checks a certificate in integers, with no code of the engine; points: and that it is about these.
@@ -247,13 +249,14 @@ def verify(certificate: bytes, points: Any = None, radius: Any = None, sphere: b
     Error with code 'parse' and the line when it is rejected.
     """
     engine = None
+    inputs = split_inputs(options)
     kept: tuple[str | None, str | None, str | None] = (None, None, None)
     if points is not None:
         engine = _dyadel.Engine()
         if sphere:
             from ._sphere import append_places  # which imports this module
-            kept = append_places(engine, points, radius, radius_unit)[1:]
+            kept = append_places(engine, points, radius, radius_unit, **inputs)[1:]
         else:
-            append_points(engine, points, radius)
+            append_points(engine, points, radius, **inputs)
     report = _dyadel.verify(certificate, engine, sphere, *kept, engine_options(**options))
     return Verdict(report['proved'], report['outcome'], report)

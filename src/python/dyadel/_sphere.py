@@ -11,8 +11,9 @@ import numpy as np
 
 from . import _dyadel, _geometry
 from ._arrays import Floats, Ints, floats, ints
-from ._options import engine_options
-from ._points import Text, append_points
+from ._inputs import Given
+from ._options import INPUTS, engine_options, takes_options
+from ._points import Text, append_given, given_of
 from ._statuses import STATUS, Statuses
 
 #: What is about the plane: runs on a sphere go on until all is decided.
@@ -20,9 +21,12 @@ OF_THE_PLANE = ('until', 'window')
 
 
 def append_places(engine: _dyadel.Engine, points: Any, radius: Any = None,
-                  radius_unit: str | None = None) -> tuple[bool, Any, str | None, Any]:
-    """As append_points, of longitudes and latitudes; then the radius that is kept beside the points, its unit and scale."""
+                  radius_unit: str | None = None, **inputs: Any) -> tuple[Given, Any, str | None, Any]:
+    """As append_given, of longitudes and latitudes; then the radius that is kept beside the points, its unit and scale."""
     scale = None
+    one = radius if np.ndim(radius) == 0 and not hasattr(radius, 'iloc') and radius not in getattr(points, 'columns', ()) else None
+    given = given_of(points, None if radius is one else radius, **inputs)
+    points, radius = given.points, given.radius if one is None else one
     if isinstance(points, Text):
         how: dict[str, Any] = dict(points.options)
         scale = how.get('radius_scale')
@@ -33,7 +37,10 @@ def append_places(engine: _dyadel.Engine, points: Any, radius: Any = None,
     radius = _with_unit(radius, radius_unit)
     if radius is not None and not isinstance(radius, str):
         points, radius = _with_radii(points, radius, radius_unit), None
-    return append_points(engine, points, degrees=True), radius, radius_unit, scale
+    given.points, given.radius = points, None
+    if not append_given(engine, given, degrees=True):
+        given.points = None
+    return given, radius, radius_unit, scale
 
 
 class SphereCell(NamedTuple):
@@ -50,7 +57,7 @@ class SphereVoronoi:
     def __init__(self, of: Sphere) -> None:
         self._of = of
         self.data: dict[str, Any] = json.loads(of._engine.write_voronoi('json', None, None, None, 0))
-        self._cell = {row['i']: row for row in self.data['cells']}
+        self._cell = {row['i']: row for row in self.data['cells']}  # by rows
         self._alias = dict(self.data['aliases'])
 
     def __len__(self) -> int:
@@ -59,6 +66,7 @@ class SphereVoronoi:
     def __getitem__(self, i: int) -> SphereCell:
         if not 0 <= i < len(self):
             raise IndexError(f'there are {len(self)} points')
+        i = int(self._of.rows[i])
         row = self._cell[self._alias.get(i, i)]
         return SphereCell(row['vertices'], row['complete'])
 
@@ -71,7 +79,8 @@ class SphereVoronoi:
     @property
     def corners(self) -> Ints:
         """(V, 3): the points of which each vertex is the centre."""
-        return np.array([[row[name] for name in 'ijk'] for row in self.data['vertices']], np.int32).reshape(-1, 3)
+        rows = np.array([[row[name] for name in 'ijk'] for row in self.data['vertices']], np.int64).reshape(-1, 3)
+        return np.searchsorted(self._of.rows, rows).astype(np.int32)
 
     @property
     def regions(self) -> list[dict[str, Any]]:
@@ -108,19 +117,21 @@ class Sphere(Statuses):
 
     _engine: _dyadel.Sphere
 
-    def __init__(self, points: Any, radius: Any = None, radius_unit: str | None = None) -> None:
+    @takes_options(*INPUTS)
+    def __init__(self, points: Any, radius: Any = None, radius_unit: str | None = None, **inputs: Any) -> None:
         super().__init__()
-        self._places = _dyadel.Engine()
-        kept, radius, unit, scale = append_places(self._places, points, radius, radius_unit)
-        self._given = points if kept else None, radius, unit
+        self._named = self._places = _dyadel.Engine()
+        given, radius, unit, scale = append_places(self._places, points, radius, radius_unit, **inputs)
+        self._given, self.crs = (given, radius, unit), given.crs
         self._engine = _dyadel.Sphere(self._places, radius, None if radius is None else unit, scale)
 
+    @takes_options()
     def refine(self, **options: Any) -> Sphere:
         """Runs until all is decided, or nothing more can be; options are those of delaunay. Returns itself."""
         merged = {**self._options, **options}
         for name in OF_THE_PLANE:
             if merged.get(name) not in (None, 'decided'):
-                raise ValueError(f'{name}={merged[name]!r} is about the plane; leave it or sphere=True away')
+                raise ValueError(f'{name}={merged[name]!r} is about the plane; remove it, or sphere=True')
         ready = engine_options(**merged)
         self._options = {name: value for name, value in merged.items() if name != 'timeout'}
         self._cache, self._outcome = {}, None
@@ -158,9 +169,10 @@ class Sphere(Statuses):
     def __reduce__(self) -> tuple[Any, ...]:
         """What was given: a copy is triangulated anew."""
         options = {name: value for name, value in self._options.items() if name != 'progress'}
-        points, radius, unit = self._given
-        boxes = floats(self._places.boxes()).reshape(-1, 4).copy() if points is None else points
-        return _restore_sphere, ((boxes, radius, unit), options, self.outcome)
+        given, radius, unit = self._given
+        if given.points is None:
+            given = dataclasses.replace(given, points=floats(self._places.boxes()).reshape(-1, 4).copy())
+        return _restore_sphere, ((given, radius, unit), options, self.outcome)
 
 
 def beyond_sides(corners: Ints, n: int) -> Ints:
@@ -196,15 +208,15 @@ def _with_radii(points: Any, radii: Any, unit: str | None) -> Text:
     """A table of points with a radius each."""
     rows, radii = list(points), list(radii)
     if len(rows) != len(radii):
-        raise ValueError(f'{len(radii)} radii of {len(rows)} points')
+        raise ValueError(f'radius has {len(radii)} values for {len(rows)} points')
     if any(np.ndim(r) for r in radii):
         raise ValueError('on the globe a point has one radius, not one for x and one for y')
     text = ''.join(f'"{_as_text(x)}","{_as_text(y)}","{_as_text(r)}"\n' for (x, y), r in zip(rows, radii))
     return Text('x,y,r\n' + text, columns='x,y', radius_columns='r', radius_unit=unit)
 
 
-def _restore_sphere(given: tuple[Any, Any, Any], options: dict[str, Any], outcome: str) -> Sphere:
-    d = Sphere(*given)
+def _restore_sphere(made: tuple[Given, Any, Any], options: dict[str, Any], outcome: str) -> Sphere:
+    d = Sphere(*made)
     if outcome not in ('none', 'error'):
         d.refine(**options)
     d._options, d._outcome = options, outcome

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import importlib
 import json
 import os
 from collections.abc import Callable, Iterator
@@ -11,7 +12,8 @@ from typing import Any, TypeVar
 import numpy as np
 
 from . import _dyadel, _geometry
-from ._arrays import Floats, Ints, Rect, floats, ints, rect_of
+from ._arrays import Floats, Ints, Longs, Rect, floats, ints, longs, rect_of
+from ._inputs import epsg_of
 from ._options import Path, engine_options
 
 STATUS = ('illegal', 'tie', 'indeterminate', 'legal')
@@ -23,6 +25,9 @@ class Statuses:
     """Statuses of pairs, sure triangles, and the rectangles for which they hold. Points are numbered from 0."""
 
     _engine: _dyadel.Engine | _dyadel.Sphere
+    _named: _dyadel.Engine
+    #: The coordinate reference system of the points, as given or as a GeoDataFrame has it; None: not known.
+    crs: Any = None
     #: How many answers were taken from the trace given as `resume`: of points, or of their images in the plane.
     recalled: int = 0
 
@@ -51,6 +56,16 @@ class Statuses:
             yield
         finally:
             self._engine.trace_end()
+
+    @contextlib.contextmanager
+    def _kept_with_errors(self) -> Iterator[None]:
+        """As `result` of what is raised; exceptions with slots have no such attribute."""
+        try:
+            yield
+        except BaseException as error:
+            with contextlib.suppress(AttributeError):
+                setattr(error, 'result', self)
+            raise
 
     def cancel(self) -> None:
         """Asks a run to end soon, with outcome 'cancelled'; from any thread."""
@@ -117,6 +132,16 @@ class Statuses:
         """Rectangles reached, rounded outward to doubles: (N, 4) xlo, xhi, ylo, yhi."""
         return self._once('boxes', lambda: floats(self._engine.boxes()).reshape(-1, 4))
 
+    @property
+    def rows(self) -> Longs:
+        """(N,): the row of each point in what was given: rows[k] is k unless rows were left out or merged."""
+        return self._once('rows', lambda: longs(self._named.names()[0]))
+
+    @property
+    def ids(self) -> list[str] | None:
+        """The identifier of each point, '' without one; None: no point has one."""
+        return self._named.names()[1]
+
     def rect(self, i: int) -> Rect:
         """The rectangle reached of point i, exactly: xlo, xhi, ylo, yhi."""
         return rect_of(self._engine.rect(i))
@@ -126,15 +151,21 @@ class Statuses:
         """What it took: stages, calls, bits_least, bits_most, bits_total, seconds, spent (which budget), decisions by rung."""
         return self._engine.counters()
 
-    def write(self, format: str = 'csv', layer: str | None = None, window: Any = None, epsg: int = 0) -> str | bytes:
+    def write(self, format: str = 'csv', layer: str | None = None, window: Any = None, epsg: int | None = None) -> str | bytes:
         """The result in a format of the command ('csv', 'json', 'geojson', 'svg', 'html', ...); bytes of those that are no
         text.
 
         layer: as `dyadel delaunay --layer`: 'pairs', 'points', 'triangles', of the plane also 'graph:nearest',
         'graph:gabriel', 'graph:mst'; window: what pictures of the plane show, (xlo, xhi, ylo, yhi); epsg: number of the
-        reference system.
+        reference system, by default that of `crs`. Rows are named by `rows`, and by `ids`.
         """
-        return _geometry.text_of(format, self._engine.write(format, layer, window, epsg))
+        return _geometry.text_of(format, self._engine.write(format, layer, window, epsg_of(self.crs) if epsg is None else epsg))
+
+    def to_geodataframe(self, layer: str | None = None) -> Any:
+        """A layer ('pairs', 'points', 'triangles', 'graph:mst', ...) as a GeoDataFrame with the CRS of the points."""
+        geopandas: Any = importlib.import_module('geopandas')
+        features = json.loads(self._engine.write('geojson', layer, None, 0))['features']
+        return geopandas.GeoDataFrame.from_features(features, crs=self.crs)
 
     @property
     def __geo_interface__(self) -> dict[str, Any]:

@@ -2,14 +2,16 @@
 """Points in the plane in, statuses out: the triangulation, and what is asked of it."""
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
 from . import _dyadel, _geometry
 from ._arrays import Ints, Rect, ints, rect_of
-from ._options import engine_options
-from ._points import append_points
+from ._inputs import Given
+from ._options import INPUTS, Path, engine_options, split_inputs, takes_options
+from ._points import append_given, given_of
 from ._questions import Graph, Nearest, Plan, Tolerance, graph_of, nearest_to, plan_of, tolerance_of
 from ._statuses import STATUS, Statuses
 from ._voronoi import Voronoi
@@ -27,18 +29,27 @@ class Delaunay(Statuses):
 
     Every statement holds for all choices of points in the rectangles reached. Points are numbered from 0. Calls from
     several threads, and from callbacks, are refused while one is at work (RuntimeError), but for cancel().
+    Delaunay(points, radius, **options) is delaunay(points, radius, **options) in the plane.
     """
 
     _engine: _dyadel.Engine
 
-    def __init__(self) -> None:
+    @takes_options(*INPUTS)
+    def __init__(self, points: Any = None, radius: Any = None, *, trace: Path | None = None, resume: Path | None = None,
+                 **options: Any) -> None:
         super().__init__()
-        self._engine = _dyadel.Engine()
-        self._log: list[tuple[int, Any, Any]] = []  # what was given that boxes of doubles do not hold: (count, points, radius)
+        self._named = self._engine = _dyadel.Engine()
+        self._log: list[Given] = []  # what was given; without points where boxes of doubles hold them
         self._measured: set[int] = set()
+        if points is not None:
+            with self._kept_with_errors():
+                self._append(points, radius, **split_inputs(options))
+                with self._traced(trace, resume, options):
+                    self.refine(**options)
 
     # ---- runs ----
 
+    @takes_options()
     def refine(self, **options: Any) -> Delaunay:
         """Runs until a goal is reached; options are those of delaunay, others stay as they were. Returns itself.
 
@@ -59,14 +70,16 @@ class Delaunay(Statuses):
             self._engine.run({'max_stages': 1})
         return rect_of(self._engine.window())
 
+    @takes_options(*INPUTS)
     def append(self, points: Any, radius: Any = None, **options: Any) -> Delaunay:
         """Adds points, numbered on, of any kind that delaunay takes, and refines. Returns itself.
 
         Among more points a legal pair may become illegal.
         """
-        self._append(points, radius)
+        self._append(points, radius, **split_inputs(options))
         return self.refine(**options)
 
+    @takes_options()
     def remeasure(self, i: int, point: Sequence[Any], **options: Any) -> Delaunay:
         """Point i has been measured again: it also lies in (xlo, xhi, ylo, yhi), or in two intervals. Refines.
 
@@ -76,12 +89,20 @@ class Delaunay(Statuses):
         self._measured.add(i)
         return self.refine(**options)
 
-    def _append(self, points: Any, radius: Any = None) -> None:
+    def _append(self, points: Any, radius: Any = None, **inputs: Any) -> None:
+        given = given_of(points, radius, **inputs)
+        given.before = sum(log.count for log in self._log) if any(log.rows is not None for log in self._log) else 0
+        self._add(given)
+
+    def _add(self, given: Given) -> None:
         before = self._engine.count()
         self._cache = {}
-        kept = append_points(self._engine, points, radius)
-        count = self._engine.count() - before
-        self._log.append((count, points, radius) if kept else (count, None, None))
+        kept = append_given(self._engine, given)
+        if not kept:
+            given.points = given.radius = None
+        given.added = self._engine.count() - before
+        self.crs = self.crs or given.crs
+        self._log.append(given)
 
     # ---- statuses ----
 
@@ -118,6 +139,7 @@ class Delaunay(Statuses):
 
     # ---- questions ----
 
+    @takes_options()
     def nearest(self, x: Any, y: Any, **options: Any) -> Nearest:
         """Which points are possibly nearest to the place (x, y), any coordinates; refines until one surely is.
 
@@ -126,6 +148,7 @@ class Delaunay(Statuses):
         self._cache = {}
         return nearest_to(self._engine, x, y, engine_options(**options))
 
+    @takes_options()
     def voronoi(self, window: Sequence[Any] | None = None, until: str | None = None, flatten: int | None = None,
                 **options: Any) -> Voronoi:
         """The Voronoi diagram on a window (xlo, xhi, ylo, yhi); default: the box of the points enlarged by half.
@@ -172,21 +195,21 @@ class Delaunay(Statuses):
     def __reduce__(self) -> tuple[Any, ...]:
         """What was given, and how far rectangles came: a copy triangulates these, and goes on from there."""
         boxes, rects, first = self.boxes, self.rects(), 0
-        log: list[tuple[Any, Any]] = []
+        log: list[Given] = []
         narrowed: dict[int, str] = {}
-        for count, points, radius in self._log:
-            rows = range(first, first + count)
-            narrowed.update((i, rects[i]) for i in rows if points is not None or i in self._measured)
-            log.append((boxes[first:first + count].copy() if points is None else points, radius))
-            first += count
+        for given in self._log:
+            own = range(first, first + given.added)
+            narrowed.update((i, rects[i]) for i in own if given.points is not None or i in self._measured)
+            log.append(given if given.points is not None else dataclasses.replace(given, points=boxes[own.start:own.stop].copy()))
+            first += given.added
         options = {name: value for name, value in self._options.items() if name != 'progress'}
         return _restore, (log, narrowed, options, self.outcome)
 
 
-def _restore(log: Iterable[tuple[Any, Any]], narrowed: dict[int, str], options: dict[str, Any], outcome: str) -> Delaunay:
+def _restore(log: Iterable[Given], narrowed: dict[int, str], options: dict[str, Any], outcome: str) -> Delaunay:
     d = Delaunay()
-    for points, radius in log:
-        d._append(points, radius)
+    for given in log:
+        d._add(given)
     for i, rect in narrowed.items():
         d._engine.remeasure(i, rect.split())
     if outcome not in ('none', 'error'):

@@ -10,13 +10,17 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from . import _dyadel, _geometry
-from ._arrays import Floats, Rect, exact
+from ._arrays import Floats, Longs, Rect, exact
 
 
 class Triangulation(Protocol):
     """Of what it is the diagram."""
 
     _engine: _dyadel.Engine
+
+    @property
+    def rows(self) -> Longs:
+        """The row of each point."""
 
     def __len__(self) -> int:
         """How many points."""
@@ -42,10 +46,12 @@ def _polygon(vertices: Sequence[Sequence[str]]) -> Floats:
 class Voronoi:
     """Cells with proved bounds, as they were when it was made. Iterate over it, or index it, for the cell of a point."""
 
-    def __init__(self, d: Triangulation, window: Sequence[Any] | None, flatten_bits: int | None = None) -> None:
+    def __init__(self, d: Triangulation, window: Sequence[Any] | None = None, flatten_bits: int | None = None) -> None:
+        if not hasattr(d, '_engine'):
+            raise TypeError('Voronoi is made of a triangulation: call dyadel.delaunay(points).voronoi()')
         self._of, self._window, self._flatten = d, window, flatten_bits
         self.data: dict[str, Any] = json.loads(d._engine.write_voronoi('json', None, window, flatten_bits, 0))
-        self._cell = {row['i']: row for row in self.data['cells']}
+        self._cell = {row['i']: row for row in self.data['cells']}  # by rows
 
     @property
     def window(self) -> Rect:
@@ -73,6 +79,7 @@ class Voronoi:
     def __getitem__(self, i: int) -> Cell:
         if not 0 <= i < len(self):
             raise IndexError(f'there are {len(self)} points')
+        i = int(self._of.rows[i])
         row = self._cell[i] if i in self._cell else self._cell[dict(self.data['aliases'])[i]]
         low, high = row['area']
         return Cell(_polygon(row['inner']), [_polygon(part) for part in row['outer']], (low, high))

@@ -1,0 +1,267 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Points as users have them (arrays, masked arrays, DataFrames, geometries) as arrays of doubles or lists of numbers.
+
+Neither pandas, shapely nor geopandas is imported here: their objects bring them.
+"""
+from __future__ import annotations
+
+import dataclasses
+import sys
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._arrays import Floats, Longs
+from ._errors import Error
+
+#: Texts that stand for a missing coordinate, as in a file of points.
+MISSING = ('', 'na', 'n/a', '#n/a', 'nan', 'null', 'none', '-', '<na>')
+ORDERS = {'xxyy': [0, 1, 2, 3], 'xyxy': [0, 2, 1, 3]}
+masked: Any = np.ma
+BOUNDS = ['minx', 'miny', 'maxx', 'maxy']
+
+
+@dataclasses.dataclass
+class Given:
+    """points: an array of doubles (N, 2), (N, 4) xlo, xhi, ylo, yhi, a list of pairs, a Source or a Text. rows: the number of
+    each point's row among `count`; None: none was left out. ids: a text for each point, or None."""
+
+    points: Any
+    radius: Any = None
+    rows: Longs | None = None
+    count: int = 0
+    ids: list[str] | None = None
+    crs: Any = None
+    before: int = 0  # rows of the points before
+    added: int = 0  # points
+
+    def leave_out(self, missing: NDArray[np.bool_], skip: bool, what: str) -> None:
+        """Leaves out rows that are missing, or raises an Error that names them."""
+        gone = np.flatnonzero(missing)
+        if gone.size and not skip:
+            shown = ', '.join(map(str, gone[:3])) + (f' and {gone.size - 3} more' if gone.size > 3 else '')
+            raise Error(f'row{"s" * (gone.size > 1)} {shown} of points: {what} (skip_missing=True leaves such rows out)',
+                        point=int(gone[0]))
+        if gone.size:
+            kept = np.flatnonzero(~missing)
+            self.points, self.radius, self.ids = (_rows_of(value, kept, len(missing))
+                                                  for value in (self.points, self.radius, self.ids))
+            self.rows = kept if self.rows is None else self.rows[kept]
+
+
+def _rows_of(value: Any, kept: Longs, count: int) -> Any:
+    """Those rows of a value that has `count`; one for all stays."""
+    if isinstance(value, np.ndarray):
+        return value[kept] if value.ndim and len(value) == count else value
+    return [value[k] for k in kept] if isinstance(value, (list, tuple)) and len(value) == count else value
+
+
+def doubles_of(value: Any) -> Floats | None:
+    """An array of doubles with the same numbers, or None where there is none: lists, objects, integers beyond 2^53."""
+    if isinstance(value, (list, tuple)) or not hasattr(value, '__array__'):
+        return None
+    array = np.asarray(value)
+    if array.dtype == np.float64:
+        return array
+    if array.dtype.kind == 'f' and array.dtype.itemsize < 8:
+        return array.astype(np.float64)
+    small = array.dtype.kind in 'iu' and (not array.size or (array.max() <= 2**53 and array.min() >= -2**53))
+    return array.astype(np.float64) if small else None
+
+
+# ---- reference systems ----
+
+
+def epsg_of(crs: Any) -> int:
+    """The number of a reference system given as 2056, 'EPSG:2056', or by pyproj; 0: none is known."""
+    if isinstance(crs, str) and crs.upper().startswith('EPSG:'):
+        return int(crs[5:])
+    number = crs if isinstance(crs, int) else crs.to_epsg() if hasattr(crs, 'to_epsg') else None
+    return number or 0
+
+
+def is_geographic(crs: Any) -> bool:
+    """True where coordinates are known to be degrees."""
+    return bool(getattr(crs, 'is_geographic', epsg_of(crs) == 4326))
+
+
+# ---- all kinds ----
+
+
+def take(points: Any, radius: Any = None, *, order: str | None = None, skip_missing: bool = False, ids: Any = None,
+         crs: Any = None) -> Given:
+    """Points of any kind but Source and Text, and their radius, in plain form."""
+    if order not in (None, *ORDERS):
+        raise ValueError(f"order={order!r}; give 'xxyy' (xlo, xhi, ylo, yhi) or 'xyxy' (minx, miny, maxx, maxy)")
+    crs = getattr(points, 'crs', None) if crs is None else crs
+    if isinstance(radius, str) and radius in getattr(points, 'columns', ()):
+        radius = points[radius]
+    if isinstance(ids, str):
+        if ids not in getattr(points, 'columns', ()):
+            raise ValueError(f'ids={ids!r}: points have no such column; give one text for each point')
+        ids = points[ids]
+    points = getattr(points, 'geometry', points) if hasattr(points, 'columns') else points
+    missing: NDArray[np.bool_] | None = None
+    framed = hasattr(points, 'columns')
+    if framed:
+        points, order = _frame(points, order)
+    elif hasattr(points, 'geom_type') or _are_geometries(points):
+        points = _places(points)
+    elif hasattr(points, 'iloc') or hasattr(points, '__array__') and np.ndim(points) != 2:
+        raise ValueError(f'points must have shape (N, 2) or (N, 4), not {np.shape(points)}')
+    if masked.isMaskedArray(points):
+        missing = masked.getmaskarray(points).any(axis=1)
+        points = masked.getdata(points)
+    points = points if hasattr(points, '__len__') else list(points)
+    given = Given(_matrix(points), _radii(radius), count=len(points), crs=crs)
+    if ids is not None:
+        given.ids = [str(name) for name in ids]
+        if len(given.ids) != given.count:
+            raise ValueError(f'{len(given.ids)} ids for {given.count} points')
+    if missing is not None:
+        given.leave_out(missing, skip_missing, 'the coordinates are masked')
+    _leave_out_unknown(given, skip_missing, skip_missing or framed)
+    if isinstance(given.points, np.ndarray) and given.points.shape[1] == 4:
+        given.points = _ordered(given.points, order)
+    elif order is not None and not framed:
+        raise ValueError(f'order={order!r} is for boxes, points of shape (N, 4)')
+    return given
+
+
+def _leave_out_unknown(given: Given, skip: bool, look: bool) -> None:
+    """Rows without a coordinate (of lists if `look`), and those without a radius."""
+    if isinstance(given.points, np.ndarray):
+        if given.points.size and np.isnan(np.sum(given.points)):
+            given.leave_out(np.isnan(given.points).any(axis=1), skip, 'a coordinate is nan, not a finite number')
+    elif look:
+        given.leave_out(np.array([_is_missing(row) for row in given.points], bool), skip, 'a coordinate is missing')
+    hidden = masked.isMaskedArray(given.radius)
+    if hidden or isinstance(given.radius, np.ndarray) and given.radius.dtype.kind == 'f':
+        unknown = masked.getmaskarray(given.radius) if hidden else np.isnan(given.radius)
+        given.radius = masked.getdata(given.radius)
+        if unknown.any():
+            each = unknown.reshape(len(unknown), -1).any(axis=1) if unknown.ndim else np.full(len(given.points), True)
+            if len(each) != len(given.points):
+                raise ValueError(f'radius has {len(each)} values for {len(given.points)} points')
+            given.leave_out(each, skip, 'the radius is missing')
+
+
+def _is_missing(row: Any) -> bool:
+    """None or nan or a text such as NA in place of a point or of a coordinate."""
+    if row is None:
+        return True
+    return isinstance(row, (list, tuple, np.ndarray)) and any(
+        value is None or isinstance(value, str) and value.strip().lower() in MISSING
+        or not isinstance(value, (str, list, tuple)) and _is_nan(value) for value in row)
+
+
+def _is_nan(value: Any) -> bool:
+    """For numbers that are not themselves: nan of floats, numpy, Decimal, mpmath."""
+    different = value != value  # noqa: PLR0124
+    return isinstance(different, (bool, np.bool_)) and bool(different)
+
+
+def _matrix(points: Any) -> Any:
+    """An array of doubles (N, 2) or (N, 4), or a list of rows."""
+    array = doubles_of(points)
+    if array is None:
+        return [tuple(row) if isinstance(row, np.ndarray) else row for row in points]
+    if array.ndim != 2 or array.shape[1] not in (2, 4):
+        hint = '; pass points.T' * (array.shape[0] == 2) or '; pass points[:, :2]' * (array.shape[1:] == (3,))
+        raise ValueError(f'points must have shape (N, 2) or (N, 4), not {array.shape}{hint}')
+    return array
+
+
+def _radii(radius: Any) -> Any:
+    """A Series as its values."""
+    return _column(radius) if hasattr(radius, 'iloc') else radius
+
+
+# ---- boxes ----
+
+
+def _overlap(low: Floats, high: Floats) -> float:
+    """The share of pairs of intervals that overlap."""
+    count = len(low)
+    apart = count * count - np.searchsorted(np.sort(low), high, 'right').sum()
+    return 1 - 2 * float(apart) / max(count * (count - 1), 1)
+
+
+def _looks_like_bounds(boxes: Floats) -> bool:
+    """True where all rows are rectangles minx, miny, maxx, maxy, and as xlo, xhi, ylo, yhi one is inverted, or most overlap
+    and are the larger ones."""
+    a, b, c, d = boxes.T
+    if not len(boxes) or (a > c).any() or (b > d).any():
+        return False
+    if (a > b).any() or (c > d).any():
+        return True
+    return len(a) > 1 and _overlap(a, b) > 0.5 and _overlap(c, d) > 0.5 and float(np.sum(b - a + d - c)) > float(np.sum(c - a + d - b))
+
+
+def _ordered(boxes: Floats, order: str | None) -> Floats:
+    """As xlo, xhi, ylo, yhi."""
+    if order is None and _looks_like_bounds(boxes):
+        raise ValueError("every row of points is a rectangle as (minx, miny, maxx, maxy), but not as (xlo, xhi, ylo, yhi): give "
+                         "order='xyxy' for the first, as of gdf.bounds, or order='xxyy' for the second")
+    return boxes if order is None else boxes[:, np.array(ORDERS[order])]
+
+
+# ---- pandas ----
+
+
+def _column(series: Any) -> Any:
+    """The values of a column: floats where they are floats, else a list; missing ones are nan."""
+    if isinstance(series.dtype, np.dtype) and series.dtype.kind != 'O':
+        return series.to_numpy()
+    values = [float('nan') if _is_missing([value]) or value is getattr(series.array, 'na_value', None) or str(value) == '<NA>'
+              else value for value in series]
+    if all(isinstance(value, float) or isinstance(value, int) and abs(value) <= 2**53 for value in values):
+        return np.array(values, np.float64)
+    return values
+
+
+def _frame(frame: Any, order: str | None) -> tuple[Any, str | None]:
+    """The rows of a DataFrame of two columns, or of four of boxes."""
+    names = list(frame.columns)
+    if set(BOUNDS) <= set(names):
+        frame, order, names = frame[BOUNDS], 'xyxy', BOUNDS
+    if len(names) not in (2, 4):
+        raise ValueError(f'points is a DataFrame with the columns {", ".join(map(str, names))}; pass the two columns of '
+                         "coordinates, such as df[['x', 'y']]")
+    columns = [_column(frame.iloc[:, k]) for k in range(len(names))]
+    for name, column in zip(names, columns):
+        if isinstance(column, np.ndarray) and column.dtype.kind not in 'fiub':
+            raise TypeError(f'column {name!r} of points has values of type {column.dtype}, not numbers')
+    doubles = [column for column in map(doubles_of, columns) if column is not None]
+    if len(doubles) == len(columns):
+        return np.column_stack(doubles), order
+    lists = [column.tolist() if isinstance(column, np.ndarray) else column for column in columns]
+    if len(lists) == 4:
+        lists = [list(zip(*(lists[k] for k in ORDERS[order or 'xxyy'][side:side + 2]))) for side in (0, 2)]
+    return list(zip(*lists)), order
+
+
+# ---- geometries ----
+
+
+def _are_geometries(points: Any) -> bool:
+    """A list or an array of objects whose first known one is a geometry of shapely."""
+    if not isinstance(points, (list, tuple, np.ndarray)) or isinstance(points, np.ndarray) and points.dtype != object:
+        return False
+    return hasattr(next((point for point in points if point is not None), None), 'geom_type')
+
+
+def _places(geometries: Any) -> Floats:
+    """The coordinates of points; nan for those that are missing or empty."""
+    one = not isinstance(geometries, (list, tuple, np.ndarray)) and isinstance(geometries.geom_type, str)
+    parts = list(getattr(geometries, 'geoms', [geometries]) if one else geometries)
+    for k, point in enumerate(parts):
+        if point is not None and not point.is_empty and point.geom_type != 'Point':
+            raise TypeError(f'element {k} of points is a {point.geom_type}, not a Point (take points.centroid, or '
+                            'points.explode() of a MultiPoint)')
+    fast = getattr(sys.modules['shapely'], 'get_x', None)
+    if fast is not None:  # shapely 2
+        return np.column_stack((fast(parts), sys.modules['shapely'].get_y(parts))).reshape(-1, 2)
+    return np.array([(float('nan'),) * 2 if point is None or point.is_empty else (point.x, point.y) for point in parts],
+                    np.float64).reshape(-1, 2)
