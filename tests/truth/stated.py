@@ -128,6 +128,9 @@ def vtk(text):
         elif w[0] == 'SCALARS':
             out[block, w[1]] = words[k + 1:k + 1 + n]
             k += 1 + n
+        elif w[0] == 'row':  # where rows have other numbers than points
+            out['row'] = words[k:k + int(w[2])]
+            k += int(w[2])
     return out
 
 
@@ -159,16 +162,23 @@ def read_pairs(case, out, err, form):
         d = vtk(out)
         names = {'1': 'tie', '2': 'indeterminate', '3': 'legal'}
         status = d.get(('CELL_DATA', 'status'), [])
-        c['pairs'] = {tuple(sorted(map(int, l[1:3]))): names[s.strip()] for l, s in zip(d.get('LINES', []), status)}
-        c['triangles'] = [tuple(map(int, l[1:])) for l in d.get('POLYGONS', [])]
+        row_of = (lambda v: int(d['row'][int(v)])) if 'row' in d else int
+        c['pairs'] = {tuple(sorted(map(row_of, l[1:3]))): names[s.strip()] for l, s in zip(d.get('LINES', []), status)}
+        c['triangles'] = [tuple(map(row_of, l[1:])) for l in d.get('POLYGONS', [])]
         c['aliases'] = None
     elif form == 'obj':
         c['listed only'] = True
-        for l in out.splitlines():
-            w = l.split()
-            if w and w[0] == 'l':
-                c['pairs'][tuple(sorted(int(v) - 1 for v in w[1:]))] = 'legal'
-        c['triangles'] = [tuple(int(v) - 1 for v in l.split()[1:]) for l in out.splitlines() if l.startswith('f ')]
+        row, rows_of = None, []  # "# row N" before a vertex whose row has another number than the vertex
+        for w in (l.split() for l in out.splitlines()):
+            if w[:2] == ['#', 'row']:
+                row = int(w[2].rstrip(','))
+            elif w and w[0] == 'v':
+                rows_of.append(len(rows_of) if row is None else row)
+                row = None
+        item = {k: [tuple(rows_of[int(v) - 1] for v in l.split()[1:]) for l in out.splitlines() if l.startswith(k + ' ')]
+                for k in 'lf'}
+        c['pairs'] = {tuple(sorted(p)): 'legal' for p in item['l']}
+        c['triangles'] = item['f']
         c['aliases'] = None
     else:
         r, notes = rows(out, form)
