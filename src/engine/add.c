@@ -12,6 +12,8 @@
 #include "engine/points.h"
 #include "engine/state.h"
 #include "rect/columns_filter.h"
+#include "rect/sites_table.h"
+#include "stream/stream.h"
 
 #include <math.h>
 #include <string.h>
@@ -165,12 +167,14 @@ dyd_status dyd_engine_append_words(dyd_engine *e, size_t n, const dyd_words *xy,
 
 /* ---- streams and sources ---- */
 
-/* Appends n sites with records like p; the site number is filled in. Nothing on failure. */
+/* Appends n sites with records like p; the site number is filled in. Nothing on failure. Of what sources tell is known
+ * that it encloses places. */
 static dyd_status points_add_refinable(dyd_engine *e, size_t n, dyd_refinable p) {
   size_t first = dyd_sites_count(e->sites);
   if (n > DYD_MAX_SITES) return DYD_E_RANGE;
   if (!dyd_reserve((void **)&e->point, &e->point_cap, e->points + n, sizeof *e->point)) return DYD_E_NOMEM;
-  dyd_status st = dyd_sites_add_planes(e->sites, n);
+  dyd_site_kind kind = p.stream ? dyd_stream_site_kind(p.stream) : DYD_SITE_BARE;
+  dyd_status st = dyd_sites_add_planes(e->sites, n, kind);
   if (st != DYD_OK) return st;
   for (size_t k = 0; k < n; k++) {
     p.site = (uint32_t)(first + k);

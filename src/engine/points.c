@@ -221,6 +221,7 @@ dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, i
     p->bits = bits;
     p->final = final;
     p->asked = true;
+    if (final) st = dyd_sites_set_kind(e->sites, p->site, 1, DYD_SITE_ANY);
   }
   dyd_rect_clear(&r);
   return st == DYD_OK || st == DYD_CANCELLED ? st : point_blame(p, st, err);
@@ -242,6 +243,7 @@ static dyd_status site_put_measured(dyd_engine *e, uint32_t i, const dyd_rect *r
   if (st == DYD_OK && p) {
     p->measured = true;
     p->final = p->final || dyd_rect_is_point(r);
+    st = dyd_sites_set_kind(e->sites, i, 1, p->final ? DYD_SITE_ANY : DYD_SITE_BARE);
   }
   if (st == DYD_OK && e->pd) e->changed[e->changes++] = i;
   return st;

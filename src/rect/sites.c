@@ -250,7 +250,7 @@ void dyd_sites_free(dyd_sites *s) {
   free(s->word);
   free(s->point);
   free(s->joined);
-  free(s->given);
+  free(s->kind);
   for (int a = 0; a < 2; a++) {
     free(s->lower[a]);
     free(s->upper[a]);
@@ -340,9 +340,21 @@ dyd_status dyd_sites_add_columns(dyd_sites *s, size_t n, const dyd_column xy[2],
   return DYD_OK;
 }
 
-dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n) {
+dyd_status dyd_sites_set_kind(dyd_sites *s, size_t i, size_t n, dyd_site_kind kind) {
+  if (i + n > s->kind_count) {
+    if (kind == DYD_SITE_ANY && i >= s->kind_count) return DYD_OK;
+    if (!dyd_reserve((void **)&s->kind, &s->kind_cap, i + n, sizeof *s->kind)) return DYD_E_NOMEM;
+    memset(s->kind + s->kind_count, DYD_SITE_ANY, i + n - s->kind_count);
+    s->kind_count = i + n;
+  }
+  memset(s->kind + i, (int)kind, n);
+  return DYD_OK;
+}
+
+dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n, dyd_site_kind kind) {
   dyd_status st = dyd_sites_reserve(s, n);
   if (st == DYD_OK) st = sites_split_ends(s);
+  if (st == DYD_OK && !dyd_reserve((void **)&s->kind, &s->kind_cap, s->count + n, sizeof *s->kind)) st = DYD_E_NOMEM;
   if (st != DYD_OK) return st;
   for (size_t i = s->count; i < s->count + n; i++) {
     for (int a = 0; a < 2; a++) {
@@ -351,7 +363,7 @@ dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n) {
     }
   }
   sites_append_held(s, n);
-  return DYD_OK;
+  return dyd_sites_set_kind(s, s->count - n, n, kind);
 }
 
 /* ---- packing ---- */
@@ -514,13 +526,14 @@ dyd_status dyd_sites_add_rect(dyd_sites *s, const dyd_rect *r) {
   if (!s) return DYD_E_ARG;
   dyd_status st = dyd_sites_reserve(s, 1);
   if (st != DYD_OK) return st;
-  if (!dyd_reserve((void **)&s->given, &s->given_cap, s->count + 1, sizeof *s->given)) return DYD_E_NOMEM;
+  if (!dyd_reserve((void **)&s->kind, &s->kind_cap, s->count + 1, sizeof *s->kind)) return DYD_E_NOMEM;
   st = sites_put(s, s->count, r, NULL);
-  if (st != DYD_OK) return st;
-  memset(s->given + s->given_count, 0, s->count - s->given_count);
-  s->given[s->count++] = 1;
-  s->given_count = s->count;
-  return DYD_OK;
+  return st == DYD_OK ? dyd_sites_set_kind(s, s->count++, 1, DYD_SITE_GIVEN) : st;
+}
+
+/* A rectangle that was given is narrowed. */
+static void kind_narrow(dyd_sites *s, size_t i) {
+  if (dyd_sites_kind(s, i) == DYD_SITE_GIVEN) s->kind[i] = DYD_SITE_ANY;
 }
 
 dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {
@@ -532,7 +545,7 @@ dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {
   if (st == DYD_OK && !dyd_rect_contains(&now, r)) st = DYD_E_NESTING;
   if (st == DYD_OK && !dyd_sites_in_words(s, i)) {
     st = sites_put(s, i, r, s->exact ? s->exact[i] : NULL);
-    if (i < s->given_count) s->given[i] = 0;
+    kind_narrow(s, i);
   }
   dyd_rect_clear(&now);
   return st;
@@ -557,7 +570,7 @@ dyd_status dyd_sites_narrow_d(dyd_sites *s, size_t i, const double box[4]) {
     s->lower[a][i] = box[2 * a];
     s->upper[a][i] = box[2 * a + 1];
   }
-  if (i < s->given_count) s->given[i] = 0;
+  kind_narrow(s, i);
   return DYD_OK;
 }
 
@@ -566,5 +579,5 @@ size_t dyd_sites_memory(const dyd_sites *s) {
   size_t arrays = 2 + (s->upper[0] != NULL) + (s->upper[1] != NULL) + (s->exact != NULL);
   size_t words = (s->word ? s->cap * sizeof *s->word : 0) + s->point_cap * sizeof *s->point;
   return sizeof *s + s->cap * arrays * sizeof(double) + s->packed_bytes + words + s->joined_count * sizeof *s->joined +
-         s->given_cap * sizeof *s->given;
+         s->kind_cap * sizeof *s->kind;
 }

@@ -47,8 +47,8 @@ struct dyd_sites {
   size_t points, point_cap;
   uint32_t *joined; /* of sites below joined_count: the lowest site known to be the same place; NULL: none are joined */
   size_t joined_count, joins; /* joins made */
-  uint8_t *given;             /* of sites below given_count: dyd_sites_is_given; NULL: none is */
-  size_t given_count, given_cap;
+  uint8_t *kind;              /* of sites below kind_count: dyd_site_kind; NULL: all are of any kind */
+  size_t kind_count, kind_cap;
 };
 
 /* Room for `more` further sites in every array there is. */
@@ -57,15 +57,20 @@ dyd_status dyd_sites_reserve(dyd_sites *s, size_t more);
 dyd_status dyd_sites_add_words(dyd_sites *s, size_t n, const dyd_words *xy);
 /* The ends x lower, x upper, y lower, y upper of site i; false where one of them is not of single words. */
 bool dyd_sites_get_words(dyd_words end[4], const dyd_sites *s, size_t i);
-/* Appends n sites that hold the whole plane; none on failure. */
-dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n);
 /* As dyd_sites_narrow, for the rectangle [box[0],box[1]] x [box[2],box[3]] of finite doubles, without -0. */
 dyd_status dyd_sites_narrow_d(dyd_sites *s, size_t i, const double box[4]);
 
-/* Was site i added as an exact rectangle, and not narrowed since? Nothing but who made it rounded its ends. */
-static inline bool dyd_sites_is_given(const dyd_sites *s, size_t i) {
-  return i < s->given_count && s->given[i];
+/* What is known of a site beside its rectangle. GIVEN: it was added as an exact one, and not narrowed since, so nothing
+ * but who made it rounded its ends. Of sites that can be narrowed, BARE: it encloses one place, with no radius about
+ * it; ROUND: all within one radius of a place, as [DISC-4] has it. */
+typedef enum dyd_site_kind { DYD_SITE_ANY, DYD_SITE_GIVEN, DYD_SITE_BARE, DYD_SITE_ROUND } dyd_site_kind;
+static inline dyd_site_kind dyd_sites_kind(const dyd_sites *s, size_t i) {
+  return i < s->kind_count ? (dyd_site_kind)s->kind[i] : DYD_SITE_ANY;
 }
+/* Of n sites from i on, which there are. DYD_E_NOMEM. */
+dyd_status dyd_sites_set_kind(dyd_sites *s, size_t i, size_t n, dyd_site_kind kind);
+/* Appends n sites of this kind that hold the whole plane; none on failure. */
+dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n, dyd_site_kind kind);
 static inline double dyd_sites_lo(const dyd_sites *s, int axis, size_t i) {
   return s->lower[axis][i];
 }

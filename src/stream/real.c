@@ -526,6 +526,17 @@ static void real_radius(mpq_t radius, const dyd_real *x) {
   for (const widened *w; (w = dyd_real_user(x, widened_narrow)); x = w->x) mpq_add(radius, radius, w->radius);
 }
 
+void dyd_real_radius(mpq_t radius, const dyd_real *x) {
+  mpq_t lo;
+  real_radius(radius, x);
+  if (!dyd_real_is_final(x)) return;
+  mpq_init(lo);
+  dyd_interval_get_q(lo, radius, dyd_real_interval(x));
+  mpq_sub(radius, radius, lo);
+  mpq_div_2exp(radius, radius, 1);
+  mpq_clear(lo);
+}
+
 bool dyd_real_reaches(const dyd_real *x, const dyd_interval *now, int64_t bits) {
   if (dyd_real_is_final(x)) return true;
   mpq_t lo, hi, most, radius;

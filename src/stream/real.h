@@ -55,6 +55,8 @@ void *dyd_real_user(const dyd_real *x, dyd_narrow_real_fn narrow);
 /* Is `now`, an interval that x gave, at most 2^-bits wider than x can ever be (known for final and for widened reals;
  * of others: than a point)? */
 bool dyd_real_reaches(const dyd_real *x, const dyd_interval *now, int64_t bits);
+/* Sets radius to the sum of the radii around x; of a final real to half of its width. */
+void dyd_real_radius(mpq_t radius, const dyd_real *x);
 /* Sets *core to an interval that every interval which x gives from now on contains [SET-3], and *has. Known are final
  * reals and those that are widened by a radius; of others *has is false. now: an interval that contains all that x
  * gives from now on (NULL: not known; out = now is allowed). */

@@ -471,6 +471,37 @@ dyd_status dyd_stream_core(dyd_rect *r, bool core[2], const dyd_stream *s, bool 
   return st == DYD_OK ? side_core(&r->y, &core[1], p->y, narrower) : st;
 }
 
+/* Sets radius to that of a side, and adds to `off` what it may be rounded by: 2^-50 of the ends of a final one. */
+static void side_radius(mpq_t radius, mpq_t off, const dyd_real *x) {
+  mpq_t lo, hi;
+  dyd_real_radius(radius, x);
+  if (!dyd_real_is_final(x)) return;
+  mpq_inits(lo, hi, NULL);
+  dyd_interval_get_q(lo, hi, dyd_real_interval(x));
+  mpq_abs(lo, lo);
+  mpq_abs(hi, hi);
+  mpq_add(lo, lo, hi);
+  mpq_div_2exp(lo, lo, 50);
+  mpq_add(off, off, lo);
+  mpq_clears(lo, hi, NULL);
+}
+
+dyd_site_kind dyd_stream_site_kind(const dyd_stream *s) {
+  const dyd_stream_pair *p = stream_user(s, pair_narrow);
+  mpq_t x, y, off;
+  if (!p) return DYD_SITE_BARE;
+  mpq_inits(x, y, off, NULL);
+  side_radius(x, off, p->x);
+  side_radius(y, off, p->y);
+  bool bare = mpq_sgn(x) == 0 && mpq_sgn(y) == 0;
+  bool round = mpq_sgn(x) && mpq_sgn(y);
+  mpq_sub(y, y, x);
+  mpq_abs(y, y);
+  round = round && mpq_cmp(y, off) <= 0;
+  mpq_clears(x, y, off, NULL);
+  return bare ? DYD_SITE_BARE : round ? DYD_SITE_ROUND : DYD_SITE_ANY;
+}
+
 bool dyd_stream_glance(dyd_double_span out[2], const dyd_stream *s, int64_t bits) {
   const dyd_stream_pair *p = stream_user(s, pair_narrow);
   if (!p || dyd_stream_rect(s)) return false;

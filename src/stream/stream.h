@@ -3,6 +3,7 @@
 #ifndef DYD_STREAM_STREAM_H
 #define DYD_STREAM_STREAM_H
 
+#include "rect/sites_table.h"
 #include "stream/expr_filter.h"
 #include <dyadel/stream.h>
 
@@ -49,6 +50,9 @@ bool dyd_stream_reaches(const dyd_stream *s, const dyd_rect *now, int64_t bits);
 /* Replaces each side of r, a rectangle that s gave, by its core (dyd_real_core), where one is known: core[0] for x,
  * core[1] for y. narrower: r is what such a rectangle has in common with others. */
 dyd_status dyd_stream_core(dyd_rect *r, bool core[2], const dyd_stream *s, bool narrower);
+/* What the rectangles of s are while it is not final; ANY: radii differ, by more than what 2^-60 of them is rounded by.
+ */
+dyd_site_kind dyd_stream_site_kind(const dyd_stream *s);
 /* As dyd_stream_narrow; stop as for dyd_real_narrow_until. */
 dyd_status dyd_stream_narrow_until(dyd_stream *s, int64_t bits, int64_t max_bits, const volatile int *stop,
                                    dyd_error *err);

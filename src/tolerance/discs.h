@@ -97,7 +97,8 @@ typedef struct dyd_disc_work {
 } dyd_disc_work;
 
 /* The disc in the square of a site, larger by what the ends may have been rounded by: less than 2^-61 of the width for
- * sites given as exact rectangles, of others 2^-50 of the coordinates, up to the disc around the square. DYD_E_ARG: the
+ * sites given as exact rectangles, of others 2^-50 of the coordinates, up to the disc around the square. Of sites that
+ * enclose a place without a radius, and may be narrowed, a disc that holds the rectangle [DISC-5]. DYD_E_ARG: the
  * rectangle is not a square. */
 dyd_status dyd_disc_of_site(dyd_disc *d, const dyd_sites *s, size_t i);
 /* Looks at v from now on; false: it is i, j or seen already, or memory is exhausted. */

@@ -37,8 +37,9 @@ enum {
 
 /* The disc in a square, wider by 2^-60 of itself for what the ends of a rectangle that was given exactly were rounded
  * by, or else by 2^-50 of the coordinates, but no wider than the disc around the square, which needs 27/64 of itself
- * more. false: the rectangle is not a square. */
-static bool disc_of_square(dyd_disc *d, const dyd_rect *r, bool given) {
+ * more. Of a bare site, a disc that holds the rectangle [DISC-5]. false: the rectangle should be a square, and is not.
+ */
+static bool disc_of_square(dyd_disc *d, const dyd_rect *r, dyd_site_kind kind) {
   mpq_t lo, h, room;
   mpq_inits(lo, h, room, NULL);
   dyd_side_sum(d->x, h, &r->x);
@@ -51,13 +52,16 @@ static bool disc_of_square(dyd_disc *d, const dyd_rect *r, bool given) {
   mpq_div_2exp(room, room, 50);
   mpq_sub(lo, h, d->r);
   mpq_abs(lo, lo);
-  bool square = mpq_cmp(lo, room) <= 0;
-  if (mpq_cmp(h, d->r) > 0) mpq_set(d->r, h);
+  bool bare = kind == DYD_SITE_BARE, square = bare || kind == DYD_SITE_ROUND || mpq_cmp(lo, room) <= 0;
+  if (bare)
+    mpq_add(d->r, d->r, h);
+  else if (mpq_cmp(h, d->r) > 0)
+    mpq_set(d->r, h);
   mpq_set_ui(h, 27, 64);
   mpq_mul(h, h, d->r);
   if (mpq_cmp(room, h) > 0) mpq_set(room, h);
-  if (given) mpq_div_2exp(room, d->r, 60);
-  if (mpq_sgn(d->r)) mpq_add(d->r, d->r, room);
+  if (kind == DYD_SITE_GIVEN) mpq_div_2exp(room, d->r, 60);
+  if (mpq_sgn(d->r) && !bare) mpq_add(d->r, d->r, room);
   mpq_div_2exp(d->x, d->x, 1);
   mpq_div_2exp(d->y, d->y, 1);
   mpq_div_2exp(d->r, d->r, 1);
@@ -69,7 +73,7 @@ dyd_status dyd_disc_of_site(dyd_disc *d, const dyd_sites *s, size_t i) {
   dyd_rect r;
   dyd_rect_init(&r);
   dyd_status st = dyd_sites_get(&r, s, i);
-  if (st == DYD_OK && !disc_of_square(d, &r, dyd_sites_is_given(s, i))) st = DYD_E_ARG;
+  if (st == DYD_OK && !disc_of_square(d, &r, dyd_sites_kind(s, i))) st = DYD_E_ARG;
   dyd_rect_clear(&r);
   return st;
 }

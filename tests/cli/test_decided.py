@@ -9,6 +9,7 @@ import json
 import os
 import random
 import re
+import tempfile
 from fractions import Fraction
 from itertools import combinations
 
@@ -100,6 +101,53 @@ def test_discs_of_computed_points_hold_them():
             half = (max(b - a for a, b in sides) + room) / 2
             off = [Fraction(t, 1 << BITS) - (a + b) / 2 for t, (a, b) in zip(true, sides)]
             assert half >= radius and sum(d * d for d in off) <= (half - radius) ** 2, (bits, texts, radius)
+
+
+def discs_of(points, bits, *more):
+    """Of a certificate: the sides and the disc of each point."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'cert')
+        result = run('delaunay', '-', '--discs', '--max-bits', str(bits), '--certificate', path, *more,
+                     stdin=''.join(f'{x} {y}\n' for x, y in points))
+        assert result.code in (0, 3, 4), (points, bits, result.err)
+        lines = open(path).read().splitlines()
+        assert run('verify', path).code in (0, 3)
+    n = len(points)
+    first, discs = (next(k for k, row in enumerate(lines) if row.startswith(word)) + 1 for word in ('sites ', 'discs '))
+    sides = [[(end(side.split('+')[0]), end(side)) for side in row.split()] for row in lines[first:first + n]]
+    return sides, [[end(number) for number in row.split()] for row in lines[discs:discs + n]]
+
+
+def end(text):
+    """m*2^e, or one that another number is added to."""
+    return sum(map(exact, text.split('+')))
+
+
+def test_discs_of_bare_points_hold_their_rectangles():
+    """Without a radius a point may be anywhere in the rectangle that was reached, in its corners too, and a narrower
+    rectangle has its disc inside of that before [DISC-5]."""
+    r = random.Random(SEED)
+    for _ in range(8):
+        points = [(r.choice([f'sqrt({r.randint(2, 99)})', '3', '-7/3']), f'exp(1/{r.randint(2, 9)})*{k}+{k}') for k in range(6)]
+        before = [None] * len(points)
+        for bits in (2, 3, 4, 6, 9, 20):
+            sides, discs = discs_of(points, bits)
+            for k, ((xs, ys), (x, y, radius)) in enumerate(zip(sides, discs)):
+                assert all((a - x) ** 2 + (b - y) ** 2 <= radius ** 2 for a in xs for b in ys), (points, bits, k)
+                if before[k]:
+                    was = before[k]
+                    assert was[2] >= radius and (was[0] - x) ** 2 + (was[1] - y) ** 2 <= (was[2] - radius) ** 2, (points, bits, k)
+                before[k] = x, y, radius
+
+
+def test_sides_that_rounding_makes_unequal():
+    """One side exact, the other computed: a disc all the same; radii that differ are refused."""
+    for point in (('3', 'sqrt(7)'), ('sqrt(2)', '1/3')):
+        for bits in (2, 3, 7, 30):
+            for radius in ((), ('--radius', '0.4'), ('--radius', '1e-30')):
+                discs_of([point, ('1', '1'), ('0', 'e')], bits, *radius)
+    refused = run('delaunay', '-', '--discs', stdin='3 sqrt(7)+-0.1\n1 1\n')
+    assert refused.code == 1 and 'one radius' in refused.err, refused
 
 
 def exact(text):

@@ -415,7 +415,7 @@ static void check_planes(bool exact_beside) {
   assert_int_equal(dyd_dyadic_set_si_2exp(&tiny->x.hi, 1, -5000), DYD_OK);
   if (exact_beside) assert_int_equal(dyd_sites_add_rect(p.s, tiny), DYD_OK);
   size_t first = dyd_sites_count(p.s);
-  assert_int_equal(dyd_sites_add_planes(p.s, 3), DYD_OK);
+  assert_int_equal(dyd_sites_add_planes(p.s, 3, DYD_SITE_BARE), DYD_OK);
   assert_int_equal(dyd_sites_count(p.s), first + 3);
   for (size_t i = first; i < first + 3; i++) {
     assert_false(dyd_sites_is_point(p.s, i));

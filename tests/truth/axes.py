@@ -536,10 +536,10 @@ KINDS = {  # name: function, geometries, forms
     'unit apart': (kind_unit_option, ('sphere',), TEXTS),
     'both': (kind_both, ('plane',), TABLES),
     'measured': (kind_measured, ('plane', 'sphere'), TEXTS),
-    'disguised': (kind_disguised, ('plane', 'sphere'), TEXTS + ('python',)),
-    'real': (kind_real, ('plane', 'sphere'), TEXTS + ('python',)),
-    'real with radius': (kind_real_radius, ('plane',), TEXTS),
-    'callback': (kind_callback, ('plane',), ('program', 'capi')),
+    'disguised': (kind_disguised, ('plane', 'sphere', 'discs'), TEXTS + ('python',)),
+    'real': (kind_real, ('plane', 'sphere', 'discs'), TEXTS + ('python',)),
+    'real with radius': (kind_real_radius, ('plane', 'discs'), TEXTS),
+    'callback': (kind_callback, ('plane', 'discs'), ('program', 'capi')),
     'boxes asked for': (kind_program_boxes, ('plane',), ('program',)),
     'column of units': (kind_column_units, ('sphere',), TABLES)}
 for _unit in UNITS:
@@ -604,7 +604,8 @@ def form_numbers(case, put):
 
 def form_program(case, put):
     """The answers of a program: places as fractions, or boxes that stay."""
-    text = ''.join(f'{a} {b} {c} {d}\n' for a, b, c, d in (s.region[1:] for s in case.sites))
+    boxes = (s.region[1:] if s.region[0] != 'disc' else (s.region[1], s.region[1], s.region[2], s.region[2]) for s in case.sites)
+    text = ''.join(f'{a} {b} {c} {d}\n' for a, b, c, d in boxes)
     return ['--oracle', 'exec python3 ' + put.here('points.py') + ' ' + put('answers.txt', text),
             *([] if case.row['extra'] == 'retries' else ['--oracle-timeout', '600'])]
 

@@ -110,8 +110,6 @@ class Space:
             return False
         if extra == 'few pairs' and (fmt in ('obj', 'svg') or g == 'sphere'):
             return False
-        if extra in ('certificate',) and g in ('sphere', 'discs'):
-            return False
         if extra == 'merge' and kind in ('both', 'interval', 'plusminus', 'columns', 'column of units'):
             return False
         return not (extra in ('trace', 'trace synced') and what in ('check', 'converge', 'converge of voronoi', 'converge of delaunay'))
