@@ -170,7 +170,8 @@ typedef enum dyd_content {
   DYD_CONTENT_SPHERE_REGIONS,
   DYD_CONTENT_ALIASES,         /* rows that have a point in common with an earlier one: a layer of the triangulation, */
   DYD_CONTENT_VORONOI_ALIASES, /* and of the diagram */
-  DYD_CONTENT_TIES             /* groups of ties */
+  DYD_CONTENT_TIES,            /* groups of ties */
+  DYD_CONTENT_TILES            /* a partition of the window (dyd_voronoi_tiles): a layer of the diagram */
 } dyd_content;
 
 /* How ties are listed beside other pairs. */
@@ -248,6 +249,7 @@ typedef struct dyd_write_options {
   bool flatten_set;           /* false: a choice that suits the mean size of cells */
   dyd_voronoi_bounds *bounds; /* initialised by the caller; receives the bounds that were written; may be NULL */
   size_t *cut;                /* receives how many cells and regions `cancel` befell; may be NULL */
+  size_t *coincident;         /* receives dyd_tiles.coincident of the tiles that were written; may be NULL */
   double max_arc; /* sides of cells of a sphere in wkt and geojson are divided into arcs of at most this many degrees;
                      0: 1; not above 90 */
 

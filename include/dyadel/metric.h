@@ -57,6 +57,40 @@ DYD_API int64_t dyd_metric_flattening(const dyd_delaunay *pd, const dyd_rect *wi
  * Hausdorff bound, which only needs to know how far cells reach. */
 DYD_API int64_t dyd_metric_coarseness(const dyd_delaunay *pd, const dyd_rect *window);
 
+/* ---- tiles ----
+ *
+ * A partition of a window, one polygon for each site, to be drawn and joined to tables: the Voronoi diagram of one
+ * point of each rectangle, its centre, which for an exact point is that point.
+ *
+ * Each vertex of that diagram on the window is rounded once, by at most half of a step of a grid in each coordinate,
+ * and all polygons around it have the same two doubles; crossings with the window's sides stay on them. So the areas
+ * of the polygons, as rationals, have exactly the window's area as their sum. Each polygon is simple and
+ * counter-clockwise [PART-1].
+ *
+ * Ring r, for r < count, is the polygon of site[r]: its vertices are xy[2 k], xy[2 k + 1] for
+ * offset[r] <= k < offset[r + 1], and the first is not repeated. Rings are in the order of the sites. A site has no
+ * ring where its cell has no area on the window, or none on the grid, or where its point is also that of a site of a
+ * lower number: `coincident` counts the latter, aliases included. Where a cell is as thin as the grid, it may have more
+ * rings than one.
+ *
+ * area[r] is the area of ring r, rounded up; bound[2 r] <= the area of the site's true cell on the window, wherever the
+ * points are, <= bound[2 r + 1]: the areas of its inner and its outer polygons. Owned: init with {0}. */
+typedef struct dyd_tiles {
+  size_t count, coincident;
+  uint32_t *site;
+  size_t *offset;
+  double *xy, *area, *bound;
+  double rounding; /* the most that a coordinate of a vertex was rounded by */
+} dyd_tiles;
+DYD_API void dyd_tiles_clear(dyd_tiles *t);
+/* *out is replaced. window as above, with doubles as its ends; bits: of the polygons that bound the areas, as in
+ * dyd_metric_voronoi. cancel may be NULL. DYD_CAPPED, DYD_CANCELLED, DYD_E_ARG, DYD_E_NOMEM leave *out as it was; so
+ * does DYD_E_RANGE: doubles do not hold the window's ends, or the window is so small and so far from the origin that
+ * they are too coarse for it. Cost: O(N) for exact points; else that of dyd_metric_voronoi, and a triangulation of the
+ * centres. */
+DYD_API dyd_status dyd_voronoi_tiles(dyd_tiles *out, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits,
+                                     const volatile int *cancel);
+
 #ifdef __cplusplus
 }
 #endif

@@ -197,7 +197,8 @@ static const cli_work work_discs = {.size = sizeof(disc_result),
 
 typedef struct voronoi_result {
   dyd_voronoi_bounds bounds;
-  size_t cut; /* cells and regions that were not worked out */
+  size_t cut;        /* cells and regions that were not worked out */
+  size_t coincident; /* points without a tile of their own */
 } voronoi_result;
 
 static const cli_work *voronoi_instead(const cli_options *o) {
@@ -248,6 +249,7 @@ static dyd_status voronoi_write(FILE *out, const cli_session *s, dyd_error *err)
                                  .epsg = s->o.epsg,
                                  .cancel = cli_deadline_flag(),
                                  .cut = &r->cut,
+                                 .coincident = &r->coincident,
                                  .history = s->history};
   return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
 }
@@ -261,6 +263,11 @@ static int voronoi_summary(cli_session *s, int status) {
                "budget: the time is used up: %zu cells or regions are not worked out, and the window stands for "
                "them; raise --timeout",
                r->cut);
+    if (r->coincident)
+      cli_note(&s->o,
+               "%zu points have the place or the centre of an earlier one and no tile of their own (coincident rows: "
+               "--layer aliases)",
+               r->coincident);
     if (r->cut && !status) status = CLI_BUDGET;
   }
   return cli_pairs_summary(s, status);

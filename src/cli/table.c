@@ -224,8 +224,8 @@ const cli_option cli_option_table[] = {
     {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE), CLI_OUTPUT,
      "what csv, wkt and geojson hold, and html shows first;\ndelaunay: pairs (default), points, triangles,\n"
      "graph:nearest, graph:gabriel, graph:mst (edges that are\nsure or possible; also pictures), aliases (rows that\n"
-     "have a point in common with an earlier one), ties;\nvoronoi: cells (default), vertices, regions, edges,\n"
-     "aliases; json and vtk hold all of them but graphs;\n"
+     "have a point in common with an earlier one), ties;\nvoronoi: cells (default), tiles (a partition), vertices,\n"
+     "regions, edges, aliases; json and vtk hold all of them but graphs;\n"
      "tolerance: pairs (default), points, barcode (csv: how "
      "many\n"
      "edges are certain at which accuracy)",

@@ -187,7 +187,7 @@ static dyd_status tell_fineness(dyd_status st, const dyd_diagram *d, dyd_error *
 /* Layers of cells and regions tell nothing of vertices. */
 static bool has_vertices(dyd_content layer, dyd_format format) {
   bool layered = format == DYD_FORMAT_CSV || format == DYD_FORMAT_WKT || format == DYD_FORMAT_GEOJSON;
-  return !layered || (layer != DYD_CONTENT_VORONOI && layer != DYD_CONTENT_REGIONS);
+  return !layered || (layer != DYD_CONTENT_VORONOI && layer != DYD_CONTENT_REGIONS && layer != DYD_CONTENT_TILES);
 }
 
 static dyd_status write_voronoi(dyd_output *to, dyd_write_options *o, dyd_error *err) {

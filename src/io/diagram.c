@@ -429,7 +429,8 @@ dyd_status dyd_diagram_init(dyd_diagram *d, const dyd_output *to, const dyd_writ
                      .bounds = o->bounds,
                      .cancel = o->cancel,
                      .room = room,
-                     .cut = o->cut};
+                     .cut = o->cut,
+                     .coincident = o->coincident};
   d->count = dyd_sites_count(d->sites);
   d->epsg = o->epsg;
   d->history = o->history;

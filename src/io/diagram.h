@@ -67,6 +67,7 @@ typedef struct dyd_diagram {
   const volatile int *cancel; /* see dyd_write_options; NULL: never */
   dyd_room *room;             /* memory that max_bytes leaves for the diagram */
   size_t *cut;                /* the cells and regions that it cut, counted when they are visited */
+  size_t *coincident;         /* receives how many sites have no tile of their own; NULL: not asked for */
 } dyd_diagram;
 
 /* Makes everything but the bounds; triangles and their vertices only if `vertices`. o->bounds and o->cut are there;

@@ -394,6 +394,8 @@ static const dyd_layer layers[] = {
     {IN(TIES), "ties", IN(DELAUNAY), false, false, POINT, NULL, rows_of_ties, "kind,sites"},
     {IN(VORONOI), "cells", IN(VORONOI), true, false, POLYGON, dyd_cell_comments, dyd_cell_rows,
      "?kind,i,id,xlo,xhi,ylo,yhi,area_lo,area_hi,undetermined"},
+    {IN(TILES), "tiles", IN(VORONOI), true, false, POLYGON, dyd_tile_comments, dyd_tile_rows,
+     "i,id,area,certain_area,area_lo,area_hi"},
     {IN(VERTICES), "vertices", IN(VORONOI), true, false, POINT, dyd_vertex_comments, dyd_vertex_rows,
      "i,j,k,xlo,xhi,ylo,yhi,id_i,id_j,id_k"},
     {IN(REGIONS), "regions", IN(VORONOI), true, false, POLYGON, dyd_diagram_comments, dyd_region_rows,

@@ -3,6 +3,7 @@
  * vertices in boxes of degrees, and undecided regions by their sites, of a sphere. */
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "base/alloc.h"
+#include "base/error.h"
 #include "io/diagram.h"
 #include "io/geodesic.h"
 #include "io/table.h"
@@ -111,6 +112,49 @@ dyd_status dyd_cell_rows(dyd_table *t, const dyd_output *o) {
     cell_values(t, i, &rows[i]);
   }
   return DYD_OK;
+}
+
+/* ---- tiles ---- */
+
+/* The comments do not need the tiles. */
+dyd_status dyd_tile_comments(dyd_table *t, const dyd_output *o) {
+  const dyd_diagram *d = o->what;
+  dyd_csv_aliases(o->out, t->engine, NULL);
+  fputs("# window ", o->out);
+  dyd_status st = dyd_put_window(o->out, &d->window, "", " ");
+  fputs("\n# rounding: area, area_hi up, certain_area, area_lo down\n", o->out);
+  return st;
+}
+
+static void row_tile(dyd_table *t, const dyd_tiles *tiles, size_t r) {
+  size_t first = tiles->offset[r], n = tiles->offset[r + 1] - first;
+  dyd_row_begin(t);
+  for (size_t k = 0; t->drawn && k <= n; k++) {
+    const double *z = &tiles->xy[2 * (first + k % n)];
+    dyd_row_at(t, (const double[]){z[0], z[0], z[1], z[1]});
+  }
+  t->error = nextafter(t->error + tiles->rounding, INFINITY);
+  dyd_row_site(t, tiles->site[r]);
+  dyd_row_id(t, tiles->site[r]);
+  dyd_row_decimal(t, tiles->area[r], DYD_UP);
+  dyd_row_decimal(t, tiles->bound[2 * r], DYD_DOWN);
+  dyd_row_decimal(t, tiles->bound[2 * r], DYD_DOWN);
+  dyd_row_decimal(t, tiles->bound[2 * r + 1], DYD_UP);
+  dyd_row_end(t);
+}
+
+dyd_status dyd_tile_rows(dyd_table *t, const dyd_output *o) {
+  const dyd_diagram *d = o->what;
+  dyd_tiles tiles = {0};
+  dyd_status st = dyd_tiles_find(&tiles, d->bounds, d->pd, &d->window, d->bits, d->cancel);
+  if (st == DYD_E_RANGE)
+    return dyd_fail(o->err, st,
+                    "doubles are too coarse for tiles on this window, or do not hold its ends; give a "
+                    "larger `window`, or points nearer to the origin");
+  for (size_t r = 0; r < tiles.count && st == DYD_OK; r++) row_tile(t, &tiles, r);
+  if (d->coincident) *d->coincident = tiles.coincident;
+  dyd_tiles_clear(&tiles);
+  return st;
 }
 
 /* ---- vertices ---- */

@@ -72,10 +72,10 @@ static void geojson_head(dyd_table *t, const dyd_output *o) {
     table_put(t, t->sphere ? "urn:ogc:def:crs:OGC:1.3:CRS84" : no_system);
   }
   dyd_outcome outcome = t->sphere ? dyd_sphere_outcome(t->sphere) : dyd_engine_outcome(t->engine);
-  table_put(t,
-            "\"}},\n\"rounding\": \"a coordinate differs from every point that it stands for by at most "
-            "max_coordinate_error; numbers called lo, rho, probability or half_width_needed are rounded down, others "
-            "that are not whole up\",\n\"outcome\": \"");
+  table_put(t, "\"}},\n\"rounding\": \"a coordinate differs from every point that it stands for by at most "
+               "max_coordinate_error; numbers called lo, rho, probability, certain_area or half_width_needed are "
+               "rounded down, others "
+               "that are not whole up\",\n\"outcome\": \"");
   table_put(t, dyd_outcome_text(outcome));
   table_put(t, "\",\n\"features\": [");
 }

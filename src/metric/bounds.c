@@ -360,7 +360,7 @@ dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, vo
   w.cancel = s->cancel;
   w.room = &s->room;
   w.most = s->corners;
-  if (st == DYD_OK && s->exact) dyd_window_set_grid(&w);
+  if (st == DYD_OK && s->exact) dyd_window_set_grid(&w, DYD_GRID_FINE);
   for (size_t i = 0; i < n && st == DYD_OK; i++) {
     double area[2];
     if (dyd_delaunay_alias(s->pd, (uint32_t)i) != i) continue;

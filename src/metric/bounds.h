@@ -36,6 +36,12 @@ dyd_status dyd_measure_diameter(mpfr_ptr out, dyd_measure *m, size_t i);
 /* Half the largest distance of a point of R_i to one of R_j, plus the larger diameter. */
 dyd_status dyd_measure_reach(mpfr_ptr out, dyd_measure *m, size_t i, size_t j);
 
+/* ---- tiles ---- */
+
+/* As dyd_voronoi_tiles; *bounds is set as by dyd_metric_voronoi, unless it is NULL. */
+dyd_status dyd_tiles_find(dyd_tiles *out, dyd_voronoi_bounds *bounds, const dyd_delaunay *pd, const dyd_rect *window,
+                          int64_t bits, const volatile int *cancel);
+
 /* ---- the triangulation ---- */
 
 /* The bounds of metric.h with the list of possible pairs and a place to measure in at hand. out is initialised by

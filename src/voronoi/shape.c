@@ -13,10 +13,11 @@
 
 /* ---- cells of exact points in rationals: the grid ---- */
 
-/* Multiples of 2^-grid in W have at most GRID_BITS bits; its shorter side has at least 2^FINE of them. */
-enum { GRID_BITS = 40, FINE = 20 };
+/* Multiples of 2^-grid in W have at most GRID_BITS bits, or MOST_BITS where its shorter side has less than
+ * 2^DYD_GRID_FINE of them else. */
+enum { GRID_BITS = 40, MOST_BITS = 50 };
 
-void dyd_window_set_grid(dyd_window *w) {
+void dyd_window_set_grid(dyd_window *w, int fine) {
   const dyd_interval *side[2] = {&w->rect->x, &w->rect->y};
   double most = 0, least = INFINITY;
   int exp;
@@ -29,7 +30,8 @@ void dyd_window_set_grid(dyd_window *w) {
   }
   (void)frexp(most, &exp);
   w->grid = GRID_BITS - exp;
-  w->exact = w->exact && abs(w->grid) < 900 && ldexp(least, w->grid) >= ldexp(1, FINE);
+  while (w->grid < MOST_BITS - exp && ldexp(least, w->grid) < ldexp(1, DYD_GRID_FINE)) w->grid++;
+  w->exact = w->exact && abs(w->grid) < 900 && ldexp(least, w->grid) >= ldexp(1, fine);
 }
 
 /* floor(x 2^grid / d + 1/2), d > 0; DYD_E_RANGE where that is beyond 2^62. */
@@ -443,6 +445,29 @@ static void drop_repeated(dyd_shape *s) {
   s->inner_count = kept < 3 ? 0 : kept;
 }
 
+dyd_status dyd_shape_edges(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w) {
+  clipping c;
+  uint32_t degree, v = pd->sk.vertex[i], kept = 0;
+  bool known;
+  dyd_status st = point_star(&known, &degree, s, pd, v);
+  if (st != DYD_OK || !known || !w->exact) return st == DYD_OK ? DYD_E_RANGE : st;
+  st = clipping_init(&c, degree);
+  if (st == DYD_OK) st = clip_all(&c, pd, v, s->fan, degree, w);
+  if (st == DYD_OK) st = clip_deliver(s, &c, w);
+  size_t room = st == DYD_OK ? c.count : 0;
+  if (!dyd_reserve((void **)&s->across, &s->across_cap, room + 1, sizeof *s->across)) st = DYD_E_NOMEM;
+  for (size_t k = 0; k < room && st == DYD_OK; k++) {
+    const dyd_xy *z = &s->inner[k], *next = &s->inner[k + 1 == room ? 0 : k + 1];
+    if (z->x == next->x && z->y == next->y) continue;
+    uint32_t edge = c.now[k].edge;
+    s->across[kept] = edge < 4 ? DYD_NONE : pd->sk.reps.site[s->fan[edge - 4]];
+    s->inner[kept++] = *z;
+  }
+  s->inner_count = kept;
+  clipping_clear(&c);
+  return st;
+}
+
 /* Makes the shape of site i on W, where the points concerned are exact; else *done = false. */
 static dyd_status dyd_point_cell(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w) {
   uint32_t v = pd->sk.vertex[i], degree;
@@ -505,6 +530,7 @@ void dyd_shape_clear(dyd_shape *s) {
   free(s->fan);
   free(s->fan_box);
   free(s->key);
+  free(s->across);
   free(s->outline);
   *s = (dyd_shape){0};
 }

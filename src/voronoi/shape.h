@@ -31,9 +31,10 @@ typedef struct dyd_window {
 } dyd_window;
 /* Returns DYD_E_ARG unless W is as it has to be. */
 dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect);
-/* Sets the grid of the window: w->exact = false where doubles do not hold its ends, or multiples of 2^-grid are too
- * coarse for it. */
-void dyd_window_set_grid(dyd_window *w);
+/* Sets the grid of the window, finer where the window is far from the origin: w->exact = false where doubles do not
+ * hold its ends, or its shorter side has less than 2^fine multiples of 2^-grid. */
+enum { DYD_GRID_FINE = 20 };
+void dyd_window_set_grid(dyd_window *w, int fine);
 
 __extension__ typedef __int128 dyd_i128;
 /* twice * 2^(-2 scale) */
@@ -58,11 +59,12 @@ typedef struct dyd_shape {
   dyd_grid_area grid_area[2];
   dyd_polygon inner_exact;
   dyd_polygon_list outer_exact;
-  uint32_t *fan; /* vertices round the site */
-  uint32_t *key; /* triangles that name the vertices of its cell */
+  uint32_t *fan;    /* vertices round the site */
+  uint32_t *key;    /* triangles that name the vertices of its cell */
+  uint32_t *across; /* see dyd_shape_edges */
   dyd_bbox *fan_box;
   struct dyd_outline *outline;
-  size_t inner_cap, outer_cap, fan_cap, box_cap, key_cap;
+  size_t inner_cap, outer_cap, fan_cap, box_cap, key_cap, across_cap;
 } dyd_shape;
 /* Release with dyd_shape_clear; init with {0}. */
 void dyd_shape_clear(dyd_shape *s);
@@ -70,6 +72,10 @@ void dyd_shape_clear(dyd_shape *s);
 /* The shape of the cell of site i (not an alias): every point of Int_i n W is within 2^-bits of the inner polygon, the
  * outer ones reach at most 2^-bits beyond Pos_i. pd is not capped. */
 dyd_status dyd_shape_find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w, int64_t bits);
+/* The cell of site i, an exact point with exact partners, in exact arithmetic: s->inner, in which repeated vertices are
+ * dropped, be it to less than three; the edge from s->inner[k] on is on the bisector with site s->across[k], DYD_NONE:
+ * on a side of W. DYD_E_RANGE where the cell is not exact. */
+dyd_status dyd_shape_edges(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w);
 /* Sets what holds for any cell: no point is certainly in it, all of W possibly. */
 dyd_status dyd_shape_set_unknown(dyd_shape *s, const dyd_rect *window);
 /* Twice the area of the inner polygon, or of all outer ones together. Exact. */
@@ -87,6 +93,9 @@ dyd_status dyd_filter_shape(bool *done, dyd_shape *s, const dyd_delaunay *pd, ui
  * vertices whose rounding is in doubt. */
 dyd_status dyd_filter_point_cell(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint32_t v, uint32_t degree,
                                  const dyd_window *w);
+
+/* Do all edges of the ring turn left for certain, once round? */
+bool dyd_filter_is_convex(const dyd_xy *z, size_t n);
 
 /* polygon_filter.c: the polygons of the rung in dyadics, from boundaries in doubles. As dyd_filter_shape. */
 dyd_status dyd_filter_polygons(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w,

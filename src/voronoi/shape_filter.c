@@ -124,6 +124,17 @@ static bool shape_star(double *area, double *error, dyd_xy o, const dyd_xy *z, u
   return crossings == 1;
 }
 
+bool dyd_filter_is_convex(const dyd_xy *z, size_t n) {
+  size_t lowest = 0;
+  for (size_t k = 0; k < n; k++) {
+    dyd_xy a = z[k], b = z[(k + 1) % n], c = z[(k + 2) % n];
+    double e;
+    if (!(double_turn(&e, a, b, c) > e)) return false;
+    lowest += b.y < a.y && c.y >= b.y;
+  }
+  return n >= 3 && lowest == 1;
+}
+
 /* Drops vertices that spoil convexity (as rounding does where three circles nearly coincide), then asks for sure
  * left turns everywhere. `flat` bounds the squared distance of a dropped vertex from one that is kept. */
 static bool shape_make_convex(dyd_shape *s, uint32_t n, double flat) {

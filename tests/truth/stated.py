@@ -401,6 +401,31 @@ def judge_cells(judge, case, c, ch):
     judge_between(judge, c, ch, polys)
 
 
+def read_tiles(case, out, err, form):
+    """Tiles as cells without boxes; in formats with a geometry also the rings, in doubles as programs read them."""
+    r, notes = rows(out, form)
+    c = {'aliases': aliases_of(notes, '') if form == 'csv' else None, 'window': case.window, 'cells': {}, 'rings': []}
+    for q in r:
+        c['cells'][int(q['i'])] = [number(q[k]) for k in ('area_lo', 'area_hi')] + [None] * 4
+        if 'at' in q:
+            at = [Q(float(t)) for t in q['at']]
+            c['rings'].append((list(zip(at[::2], at[1::2])), number(q['area'])))
+    return c
+
+
+def judge_tiles(judge, case, c, ch):
+    """The cell of every choice is within the bounds; the areas of the rings make up the window."""
+    judge_cells(judge, case, c, ch)
+    if not c['rings'] or 'summed' in c:
+        return
+    sums = [sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(ring, ring[1:])) for ring, _ in c['rings']]
+    for s, (ring, area) in zip(sums, c['rings']):
+        judge(0 < s <= 2 * area and ring[0] == ring[-1], 'a tile has area %s, not %s', shown(s / 2), shown(area))
+    xlo, xhi, ylo, yhi = c['window']
+    judge(sum(sums) == 2 * (xhi - xlo) * (yhi - ylo), 'the areas of tiles are not that of the window')
+    c['summed'] = True
+
+
 def judge_rounded(judge, k, e, inner, outer, poly):
     """The polygon of an exact cell: each corner is near one of the cell, and each of the cell near one of it."""
     judge([inner[0]] == outer or not inner[0], 'the inner and the outer polygon of the exact cell %d differ', k)
@@ -758,6 +783,7 @@ STATED = {
     **{'graph ' + g: Stated('delaunay', read_graph, judge_graph(g), layer='graph:' + g, formats=ROWS) for g in oracle.GRAPHS},
     'cells': Stated('voronoi', read_cells, judge_cells, formats=('csv', 'json', 'wkt', 'geojson'), layer=None),
     'layer cells': Stated('voronoi', read_cells, judge_cells, formats=ROWS, layer='cells'),
+    'tiles': Stated('voronoi', read_tiles, judge_tiles, layer='tiles', formats=ROWS),
     'vertices': Stated('voronoi', read_vertices, judge_vertices, layer='vertices', formats=ROWS,
                        geometries=('plane', 'sphere'), least=3),
     'edges': Stated('voronoi', read_edges, judge_edges, layer='edges', formats=('csv',)),

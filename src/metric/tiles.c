@@ -1,0 +1,463 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Tiles: the Voronoi diagram of one point of each rectangle on a window, as rings whose coordinates are doubles.
+ *
+ * Vertices are rounded to a grid, each once, so that rings share them bit by bit. Where a ring is not simple after
+ * that, a cell is about as thin as the grid, and edges pass over vertices of others. There edges are led through all
+ * vertices whose box of the grid they meet, on both sides alike [PART-1], until all rings are simple: a ring is cut
+ * where it touches itself, and what has no area is dropped. */
+#include "base/alloc.h"
+#include "base/error.h"
+#include "delaunay/memory.h"
+#include "metric/bounds.h"
+#include "metric/tiles_filter.h"
+#include <gmp.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A window takes at least 2^COARSEST steps of the grid. */
+enum { COARSEST = 3 };
+
+/* The ring of a cell that is worked on; the edge from z[k] on is shared with site across[k], or on the window's rim. */
+typedef struct loose_ring {
+  uint32_t site;
+  size_t count, cap, across_cap;
+  dyd_xy *z;
+  uint32_t *across;
+} loose_ring;
+
+/* pd: the triangulation of the representatives, of pd's own sites if they are points. loose_of[i]: 1 + place of the
+ * loose ring of site i, 0: none; NULL: no ring is loose. */
+typedef struct tiling {
+  dyd_tiles *out;
+  const dyd_delaunay *pd;
+  dyd_window w;
+  dyd_shape shape;
+  double *bound; /* two for each site; NULL: those of the shapes */
+  size_t ring_cap, offset_cap, xy_cap, area_cap, bound_cap, vertices;
+  loose_ring *loose;
+  size_t loose_count, loose_cap;
+  uint32_t *loose_of;
+} tiling;
+
+void dyd_tiles_clear(dyd_tiles *t) {
+  free(t->site);
+  free(t->offset);
+  free(t->xy);
+  free(t->area);
+  free(t->bound);
+  *t = (dyd_tiles){0};
+}
+
+/* ---- representatives ---- */
+
+static dyd_status add_centre(dyd_sites *to, const dyd_sites *of, size_t i) {
+  dyd_rect r;
+  mpq_t end[4];
+  for (int k = 0; k < 4; k++) mpq_init(end[k]);
+  dyd_rect_init(&r);
+  dyd_status st = dyd_sites_get(&r, of, i);
+  dyd_interval_get_q(end[0], end[1], &r.x);
+  dyd_interval_get_q(end[2], end[3], &r.y);
+  for (int k = 0; k < 4; k += 2) {
+    mpq_add(end[k], end[k], end[k + 1]);
+    mpq_div_2exp(end[k], end[k], 1);
+  }
+  if (st == DYD_OK) st = dyd_rect_set_q(&r, end[0], end[2]);
+  if (st == DYD_OK) st = dyd_sites_add_rect(to, &r);
+  dyd_rect_clear(&r);
+  for (int k = 0; k < 4; k++) mpq_clear(end[k]);
+  return st;
+}
+
+/* The triangulation of the centres of all rectangles; the caller frees both, whatever is returned. */
+static dyd_status tiling_of_centres(dyd_sites **sites, dyd_delaunay **pd, const dyd_sites *of,
+                                    const volatile int *cancel) {
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = cancel};
+  dyd_status st = dyd_sites_new(sites);
+  for (size_t i = 0; i < dyd_sites_count(of) && st == DYD_OK; i++) st = add_centre(*sites, of, i);
+  return st == DYD_OK ? dyd_delaunay_new(pd, *sites, &o, NULL) : st;
+}
+
+/* ---- rings that are done ---- */
+
+/* Twice the area of a ring, exactly. */
+static dyd_status ring_area2(dyd_dyadic *out, bool *simple, const dyd_xy *z, size_t n, const volatile int *cancel) {
+  dyd_polygon p = {.vertex = dyd_alloc(n, sizeof *p.vertex)};
+  if (!p.vertex) return DYD_E_NOMEM;
+  dyd_status st = DYD_OK;
+  for (; p.count < n; p.count++) {
+    dyd_point *v = &p.vertex[p.count];
+    dyd_point_init(v);
+    if (st == DYD_OK) st = dyd_dyadic_set_d(&v->x, z[p.count].x);
+    if (st == DYD_OK) st = dyd_dyadic_set_d(&v->y, z[p.count].y);
+  }
+  if (st == DYD_OK) st = dyd_polygon_area2(out, &p);
+  if (st == DYD_OK && simple) st = dyd_polygon_is_simple(simple, &p, cancel);
+  dyd_polygon_clear(&p);
+  return st;
+}
+
+/* Is it a simple polygon, counter-clockwise? */
+static dyd_status ring_is_good(bool *good, const tiling *t, const dyd_xy *z, size_t n) {
+  dyd_dyadic area2;
+  *good = n < 3 || dyd_filter_is_convex(z, n);
+  if (*good) return DYD_OK;
+  dyd_dyadic_init(&area2);
+  dyd_status st = ring_area2(&area2, good, z, n, t->w.cancel);
+  *good = *good && dyd_dyadic_sgn(&area2) > 0;
+  dyd_dyadic_clear(&area2);
+  return st;
+}
+
+static dyd_status ring_area(double *out, const tiling *t, const dyd_xy *z, size_t n) {
+  dyd_dyadic area2;
+  if (dyd_filter_grid_area(out, z, n, t->w.grid)) return DYD_OK;
+  dyd_dyadic_init(&area2);
+  dyd_status st = ring_area2(&area2, NULL, z, n, t->w.cancel);
+  if (st == DYD_OK) st = dyd_dyadic_mul_2exp(&area2, &area2, -1);
+  *out = dyd_dyadic_get_d(&area2, DYD_UP);
+  dyd_dyadic_clear(&area2);
+  return st;
+}
+
+static dyd_status append_ring(tiling *t, uint32_t site, const dyd_xy *z, size_t n, const double bound[2]) {
+  dyd_tiles *o = t->out;
+  size_t r = o->count, end = t->vertices + n;
+  if (!dyd_reserve((void **)&o->site, &t->ring_cap, r + 1, sizeof *o->site) ||
+      !dyd_reserve((void **)&o->offset, &t->offset_cap, r + 2, sizeof *o->offset) ||
+      !dyd_reserve((void **)&o->area, &t->area_cap, r + 1, sizeof *o->area) ||
+      !dyd_reserve((void **)&o->bound, &t->bound_cap, 2 * r + 2, sizeof *o->bound) ||
+      !dyd_reserve((void **)&o->xy, &t->xy_cap, 2 * end, sizeof *o->xy))
+    return DYD_E_NOMEM;
+  memcpy(o->xy + 2 * t->vertices, z, n * sizeof *z);
+  o->site[r] = site;
+  o->offset[r] = t->vertices;
+  o->offset[r + 1] = t->vertices = end;
+  memcpy(&o->bound[2 * r], t->bound ? &t->bound[2 * (size_t)site] : bound, 2 * sizeof *bound);
+  o->count++;
+  return ring_area(&o->area[r], t, z, n);
+}
+
+/* ---- loose rings ---- */
+
+static bool same_place(dyd_xy a, dyd_xy b) {
+  return a.x == b.x && a.y == b.y;
+}
+
+/* *out, borrowed until the next call: the loose ring of the site, made if it is not there. */
+static dyd_status loosen_ring(loose_ring **out, tiling *t, uint32_t site) {
+  if (!t->loose_of) t->loose_of = calloc(dyd_sites_count(dyd_delaunay_sites(t->pd)), sizeof *t->loose_of);
+  if (!t->loose_of) return DYD_E_NOMEM;
+  if (!t->loose_of[site]) {
+    if (!dyd_reserve((void **)&t->loose, &t->loose_cap, t->loose_count + 1, sizeof *t->loose)) return DYD_E_NOMEM;
+    dyd_status st = dyd_shape_edges(&t->shape, t->pd, site, &t->w);
+    if (st != DYD_OK) return st;
+    loose_ring r = {.site = site};
+    uint32_t n = t->shape.inner_count;
+    if (!dyd_reserve((void **)&r.z, &r.cap, n + 1, sizeof *r.z) ||
+        !dyd_reserve((void **)&r.across, &r.across_cap, n + 1, sizeof *r.across)) {
+      free(r.z);
+      return DYD_E_NOMEM;
+    }
+    for (r.count = 0; r.count < n; r.count++) {
+      r.z[r.count] = t->shape.inner[r.count];
+      r.across[r.count] = t->shape.across[r.count];
+    }
+    t->loose[t->loose_count++] = r;
+    t->loose_of[site] = (uint32_t)t->loose_count;
+  }
+  *out = &t->loose[t->loose_of[site] - 1];
+  return DYD_OK;
+}
+
+/* Leads the edge from z[k] on through v. */
+static dyd_status ring_insert(loose_ring *r, size_t k, dyd_xy v) {
+  if (!dyd_reserve((void **)&r->z, &r->cap, r->count + 1, sizeof *r->z) ||
+      !dyd_reserve((void **)&r->across, &r->across_cap, r->count + 1, sizeof *r->across))
+    return DYD_E_NOMEM;
+  memmove(&r->z[k + 2], &r->z[k + 1], (r->count - k - 1) * sizeof *r->z);
+  memmove(&r->across[k + 2], &r->across[k + 1], (r->count - k - 1) * sizeof *r->across);
+  r->z[k + 1] = v;
+  r->across[k + 1] = r->across[k];
+  r->count++;
+  return DYD_OK;
+}
+
+/* Numbers for exact questions about an edge and a vertex. */
+typedef struct edge_test {
+  mpq_t a[2], b[2], v[2], p[2], q[2], sum, term, limit;
+} edge_test;
+
+static void edge_test_each(edge_test *e, void (*fn)(mpq_ptr)) {
+  mpq_t *const all[] = {e->a, e->b, e->v, e->p, e->q};
+  for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+    for (int axis = 0; axis < 2; axis++) fn(all[k][axis]);
+  fn(e->sum);
+  fn(e->term);
+  fn(e->limit);
+}
+
+static void edge_test_set(mpq_t out[2], dyd_xy z) {
+  mpq_set_d(out[0], z.x);
+  mpq_set_d(out[1], z.y);
+}
+
+/* Is (v - a) (b - a) > 0? */
+static bool edge_goes_to(edge_test *e, mpq_t a[2], mpq_t b[2]) {
+  mpq_set_ui(e->sum, 0, 1);
+  for (int k = 0; k < 2; k++) {
+    mpq_sub(e->term, e->v[k], a[k]);
+    mpq_sub(e->limit, b[k], a[k]);
+    mpq_mul(e->term, e->term, e->limit);
+    mpq_add(e->sum, e->sum, e->term);
+  }
+  return mpq_sgn(e->sum) > 0;
+}
+
+static dyd_status edge_test_site(mpq_t out[2], const tiling *t, uint32_t site) {
+  dyd_rect r;
+  mpq_t hi;
+  dyd_rect_init(&r);
+  mpq_init(hi);
+  dyd_status st = dyd_sites_get(&r, dyd_delaunay_sites(t->pd), site);
+  dyd_interval_get_q(out[0], hi, &r.x);
+  dyd_interval_get_q(out[1], hi, &r.y);
+  mpq_clear(hi);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+/* Does the bisector of p and q meet the closed box of the grid around v? With d = q - p: is
+ * |2 d v - (|q|^2 - |p|^2)| <= 2^-grid (|dx| + |dy|)? */
+static bool bisector_meets(edge_test *e, int grid) {
+  mpq_set_ui(e->sum, 0, 1);
+  mpq_set_ui(e->limit, 0, 1);
+  for (int k = 0; k < 2; k++) {
+    mpq_t d;
+    mpq_init(d);
+    mpq_sub(d, e->q[k], e->p[k]);
+    mpq_add(e->term, e->v[k], e->v[k]);
+    mpq_sub(e->term, e->term, e->q[k]);
+    mpq_sub(e->term, e->term, e->p[k]);
+    mpq_mul(e->term, e->term, d);
+    mpq_add(e->sum, e->sum, e->term);
+    mpq_abs(d, d);
+    mpq_add(e->limit, e->limit, d);
+    mpq_clear(d);
+  }
+  if (grid >= 0)
+    mpq_div_2exp(e->limit, e->limit, (mp_bitcnt_t)grid);
+  else
+    mpq_mul_2exp(e->limit, e->limit, (mp_bitcnt_t)-grid);
+  mpq_abs(e->sum, e->sum);
+  return mpq_cmp(e->sum, e->limit) <= 0;
+}
+
+/* Is vertex v to become one of the edge from z[k] on? */
+static dyd_status edge_takes(bool *takes, edge_test *e, const tiling *t, const loose_ring *r, size_t k, dyd_xy v) {
+  dyd_xy a = r->z[k], b = r->z[(k + 1) % r->count];
+  *takes = false;
+  if (same_place(v, a) || same_place(v, b) || !dyd_filter_near_edge(a, b, v, t->w.grid)) return DYD_OK;
+  edge_test_set(e->a, a);
+  edge_test_set(e->b, b);
+  edge_test_set(e->v, v);
+  if (!edge_goes_to(e, e->a, e->b) || !edge_goes_to(e, e->b, e->a)) return DYD_OK;
+  if (r->across[k] == DYD_NONE) {
+    *takes = (a.x == b.x && v.x == a.x) || (a.y == b.y && v.y == a.y);
+    return DYD_OK;
+  }
+  dyd_status st = edge_test_site(e->p, t, r->site);
+  if (st == DYD_OK) st = edge_test_site(e->q, t, r->across[k]);
+  *takes = st == DYD_OK && bisector_meets(e, t->w.grid);
+  return st;
+}
+
+/* Leads the edge from z[k] of ring `place` on through v, on the other side, too. */
+static dyd_status split_edge(tiling *t, size_t place, size_t k, dyd_xy v) {
+  loose_ring *r = &t->loose[place], *other;
+  dyd_xy a = r->z[k], b = r->z[(k + 1) % r->count];
+  uint32_t site = r->site, across = r->across[k];
+  dyd_status st = ring_insert(r, k, v);
+  if (st != DYD_OK || across == DYD_NONE) return st;
+  st = loosen_ring(&other, t, across);
+  for (size_t l = 0; st == DYD_OK && l < other->count; l++)
+    if (other->across[l] == site && same_place(other->z[l], b) && same_place(other->z[(l + 1) % other->count], a))
+      return ring_insert(other, l, v);
+  return st == DYD_OK ? DYD_E_RANGE : st;
+}
+
+/* Leads edges of the ring through its own vertices until none is left; *any: some were. */
+static dyd_status settle_ring(bool *any, tiling *t, size_t place, edge_test *e) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < t->loose[place].count && st == DYD_OK; k++)
+    for (size_t v = 0; v < t->loose[place].count && st == DYD_OK; v++) {
+      bool takes;
+      dyd_xy z = t->loose[place].z[v];
+      st = edge_takes(&takes, e, t, &t->loose[place], k, z);
+      if (st != DYD_OK || !takes) continue;
+      st = split_edge(t, place, k, z);
+      *any = true;
+      v = (size_t)-1; /* the edge is a shorter one now */
+    }
+  return st;
+}
+
+static dyd_status settle_all(tiling *t) {
+  edge_test e;
+  bool any = true;
+  dyd_status st = DYD_OK;
+  edge_test_each(&e, mpq_init);
+  while (any && st == DYD_OK) {
+    any = false;
+    for (size_t k = 0; k < t->loose_count && st == DYD_OK; k++)
+      st = dyd_flag_is_set(t->w.cancel) ? DYD_CANCELLED : settle_ring(&any, t, k, &e);
+  }
+  edge_test_each(&e, mpq_clear);
+  return st;
+}
+
+/* Appends the loops of the ring: each is cut out where it comes back to a vertex. */
+static dyd_status append_loops(tiling *t, const loose_ring *r, const double bound[2]) {
+  dyd_xy *open = dyd_alloc(r->count + 1, sizeof *open);
+  size_t n = 0;
+  dyd_status st = open ? DYD_OK : DYD_E_NOMEM;
+  for (size_t k = 0; k <= r->count && st == DYD_OK && r->count; k++) {
+    dyd_xy z = r->z[k % r->count];
+    size_t from = 0;
+    bool good = true;
+    while (from < n && !same_place(open[from], z)) from++;
+    if (n - from >= 3) {
+      st = ring_is_good(&good, t, open + from, n - from);
+      if (st == DYD_OK && !good) st = DYD_E_RANGE;
+      if (st == DYD_OK) st = append_ring(t, r->site, open + from, n - from, bound);
+    }
+    n = from;
+    open[n++] = z;
+  }
+  free(open);
+  return st;
+}
+
+/* ---- all ---- */
+
+static bool tile_is_loose(const tiling *t, uint32_t i) {
+  return t->loose_of && t->loose_of[i];
+}
+
+/* The tile of site i, unless its ring is loose, or becomes so. last: no more rings become loose. */
+static dyd_status find_tile(tiling *t, uint32_t i, bool last) {
+  dyd_shape *s = &t->shape;
+  bool good;
+  dyd_status st = dyd_shape_find(s, t->pd, i, &t->w, 0);
+  if (st != DYD_OK) return st;
+  if (!s->exact) return DYD_E_RANGE;
+  double bound[2] = {s->area[0], s->area[1]};
+  if (last && tile_is_loose(t, i)) return append_loops(t, &t->loose[t->loose_of[i] - 1], bound);
+  st = ring_is_good(&good, t, s->inner, s->inner_count);
+  if (st != DYD_OK) return st;
+  if (!good) {
+    loose_ring *r;
+    return last ? DYD_E_RANGE : loosen_ring(&r, t, i);
+  }
+  return s->inner_count < 3 ? DYD_OK : append_ring(t, i, s->inner, s->inner_count, bound);
+}
+
+static dyd_status find_tiles(tiling *t, bool last) {
+  dyd_status st = DYD_OK;
+  size_t n = dyd_sites_count(dyd_delaunay_sites(t->pd));
+  t->out->count = t->out->coincident = t->vertices = 0;
+  for (uint32_t i = 0; i < n && st == DYD_OK; i++) {
+    if (dyd_delaunay_alias(t->pd, i) == i)
+      st = find_tile(t, i, last);
+    else
+      t->out->coincident++;
+  }
+  return st;
+}
+
+static dyd_status keep_bound(void *context, uint32_t i, const dyd_shape *shape, const double area[2]) {
+  double *bound = context;
+  (void)shape;
+  bound[2 * (size_t)i] = area[0];
+  bound[2 * (size_t)i + 1] = area[1];
+  return DYD_OK;
+}
+
+/* What is known of the areas of the true cells, and of the diagram. */
+static dyd_status bound_areas(double *bound, dyd_voronoi_bounds *bounds, const dyd_delaunay *pd, const dyd_rect *window,
+                              int64_t bits, const volatile int *cancel) {
+  dyd_voronoi_sums sums;
+  dyd_status st = dyd_voronoi_sums_init(&sums, pd, window, bits);
+  sums.cancel = cancel;
+  if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, keep_bound, bound);
+  if (st == DYD_OK && bounds) st = dyd_voronoi_sums_bounds(bounds, &sums);
+  dyd_voronoi_sums_clear(&sums);
+  return st;
+}
+
+/* Exact points leave nothing open. */
+static dyd_status bound_nothing(dyd_voronoi_bounds *bounds) {
+  dyd_status st = dyd_dyadic_set_si_2exp(&bounds->area, 0, 0);
+  bounds->finite = true;
+  return st == DYD_OK ? dyd_dyadic_set_si_2exp(&bounds->hausdorff, 0, 0) : st;
+}
+
+/* t->pd is there, of pd's own sites or of their centres. */
+static dyd_status tile_all(tiling *t, dyd_voronoi_bounds *bounds, const dyd_delaunay *pd, const dyd_rect *window,
+                           int64_t bits, const volatile int *cancel) {
+  size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
+  dyd_status st = dyd_window_init(&t->w, window);
+  if (st != DYD_OK) return st;
+  dyd_window_set_grid(&t->w, COARSEST);
+  t->w.cancel = cancel;
+  if (!t->w.exact) return DYD_E_RANGE;
+  t->out->rounding = ldexp(1, -t->w.grid - 1);
+  if (t->pd == pd) {
+    if (bounds) st = bound_nothing(bounds);
+  } else {
+    t->bound = calloc(2 * n + 1, sizeof *t->bound);
+    st = t->bound ? bound_areas(t->bound, bounds, pd, window, bits, cancel) : DYD_E_NOMEM;
+  }
+  if (st == DYD_OK) st = find_tiles(t, false);
+  if (st == DYD_OK && t->loose_count) st = settle_all(t);
+  return st == DYD_OK && t->loose_count ? find_tiles(t, true) : st;
+}
+
+static void tiling_clear(tiling *t) {
+  for (size_t k = 0; k < t->loose_count; k++) {
+    free(t->loose[k].z);
+    free(t->loose[k].across);
+  }
+  free(t->loose);
+  free(t->loose_of);
+  free(t->bound);
+  dyd_shape_clear(&t->shape);
+}
+
+dyd_status dyd_tiles_find(dyd_tiles *out, dyd_voronoi_bounds *bounds, const dyd_delaunay *pd, const dyd_rect *window,
+                          int64_t bits, const volatile int *cancel) {
+  dyd_tiles made = {0};
+  dyd_sites *sites = NULL;
+  dyd_delaunay *centres = NULL;
+  tiling t = {.out = &made, .pd = pd};
+  dyd_status st = DYD_OK;
+  if (!pd->sk.all_points) {
+    st = tiling_of_centres(&sites, &centres, dyd_delaunay_sites(pd), cancel);
+    t.pd = centres;
+  }
+  if (st == DYD_OK) st = tile_all(&t, bounds, pd, window, bits, cancel);
+  tiling_clear(&t);
+  dyd_delaunay_free(centres);
+  dyd_sites_free(sites);
+  dyd_tiles_clear(st == DYD_OK ? out : &made);
+  if (st == DYD_OK) *out = made;
+  return st;
+}
+
+dyd_status dyd_voronoi_tiles(dyd_tiles *out, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits,
+                             const volatile int *cancel) {
+  if (!out || !pd || !window) return DYD_E_ARG;
+  if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
+  return dyd_tiles_find(out, NULL, pd, window, bits, cancel);
+}

@@ -1,0 +1,271 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Tiles: a partition of the window for any points [PART-1], against cells cut from the window in exact rationals.
+
+Usage: test_tiles.py COMMAND DATA
+"""
+import csv
+import io
+import json
+import os
+import random
+import re
+import sys
+from fractions import Fraction
+
+from harness import expect, main, run
+
+try:
+    import shapely.geometry
+    import shapely.validation
+except ImportError:
+    print('skipped: shapely is not installed')
+    sys.exit(77)
+
+SEED = int(os.environ.get('DYADEL_TEST_SEED', '1'))
+CASES = int(float(os.environ.get('DYADEL_TEST_SCALE', '1')) * 1000)  # sets
+
+
+def rings_of(text):
+    """Of a table in wkt: (row, ring without its repeated end) for each row."""
+    out = []
+    for row in csv.DictReader(io.StringIO(text)):
+        places = re.fullmatch(r'POLYGON \(\((.*)\)\)', row['WKT']).group(1).split(', ')
+        ring = [tuple(Fraction(float(v)) for v in place.split(' ')) for place in places]
+        assert ring[0] == ring[-1] and len(ring) > 3
+        out.append((row, ring[:-1]))
+    return out
+
+
+def area2(ring):
+    return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:] + ring[:1]))
+
+
+def cut(ring, site, other):
+    """The part of a convex ring that is no farther from site than from other."""
+    normal = (other[0] - site[0], other[1] - site[1])
+    level = (other[0] ** 2 + other[1] ** 2 - site[0] ** 2 - site[1] ** 2) / 2
+    side = [z[0] * normal[0] + z[1] * normal[1] - level for z in ring]
+    out = []
+    for k, z in enumerate(ring):
+        m = (k + 1) % len(ring)
+        if side[k] <= 0:
+            out.append(z)
+        if side[k] * side[m] < 0:
+            t = side[k] / (side[k] - side[m])
+            out.append(tuple(z[a] + t * (ring[m][a] - z[a]) for a in (0, 1)))
+    return out
+
+
+def cells(points, window):
+    x0, x1, y0, y1 = window
+    found = {}
+    for i, p in enumerate(points):
+        if p in points[:i]:
+            continue
+        ring = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
+        for q in sorted(set(points) - {p}, key=lambda q, p=p: (q[0] - p[0]) ** 2 + (q[1] - p[1]) ** 2):
+            ring = cut(ring, p, q)
+            if not ring:
+                break
+        found[i] = ring
+    return found
+
+
+def check_partition(rings, window, what):
+    """Valid for GEOS, areas add up to the window's, and every edge but those of the rim is that of two rings."""
+    x0, x1, y0, y1 = window
+    assert sum(area2(ring) for _, ring in rings) == 2 * (x1 - x0) * (y1 - y0), what
+    edges = set()
+    for row, ring in rings:
+        assert area2(ring) > 0, what
+        said = shapely.validation.explain_validity(shapely.geometry.Polygon([tuple(map(float, z)) for z in ring]))
+        assert said == 'Valid Geometry', (what, row, said)
+        for a, b in zip(ring, ring[1:] + ring[:1]):
+            assert a != b and (a, b) not in edges, (what, row)
+            edges.add((a, b))
+        area = Fraction(row['area'])
+        assert area2(ring) <= 2 * area <= area2(ring) * (1 + Fraction(1, 2 ** 50)), (what, row)
+    for a, b in edges:
+        rim = (a[0] == b[0] in (x0, x1)) or (a[1] == b[1] in (y0, y1))
+        assert rim or (b, a) in edges, (what, [float(v) for v in a + b])
+
+
+def inside(ring, step):
+    """The distances by which the ring's vertices may be off, as the least and most areas of what it stands for."""
+    length = sum(abs(a[0] - b[0]) + abs(a[1] - b[1]) for a, b in zip(ring, ring[1:] + ring[:1]))
+    return step * (2 * length + 8 * len(ring) * step)
+
+
+def check_cells(rings, points, window, what):
+    """Of exact points: tiles are the cells but for rounding, and the bounds hold the areas of the cells."""
+    true = cells(points, window)
+    found = {}
+    for row, ring in rings:
+        found.setdefault(int(row['i']), []).append((row, ring))
+    for i, cell in true.items():
+        area = area2(cell) / 2 if cell else Fraction(0)
+        step = max((Fraction(row['max_coordinate_error']) for row, _ in rings), default=Fraction(0))
+        got = sum((area2(ring) / 2 for _, ring in found.get(i, [])), Fraction(0))
+        slack = inside(cell, 2 * step) if cell else 0
+        assert abs(got - area) <= slack, (what, i, float(got), float(area), float(slack))
+        for row, _ in found.get(i, []):
+            assert Fraction(row['area_lo']) <= area <= Fraction(row['area_hi']), (what, i, row)
+            assert Fraction(row['certain_area']) <= area, (what, i, row)
+    assert set(found) <= set(true), what
+
+
+def uniform(rng, n):
+    return [(rng.random(), rng.random()) for _ in range(n)]
+
+
+def grid(rng, n):
+    side, shift = max(2, int(n ** 0.5)), rng.choice((0, 1000003, 0.1))
+    return [(x * rng.choice((1, 1)) + shift, y - shift) for x in range(side) for y in range(side)]
+
+
+def jittered(rng, n):
+    tiny = 2.0 ** -rng.randrange(20, 53)
+    return [(x + tiny * rng.randrange(-3, 4), y + tiny * rng.randrange(-3, 4)) for x, y in grid(rng, n)]
+
+
+def line(rng, n):
+    a, b = rng.choice(((1, 0), (0, 1), (3, 5), (1, 2 ** 20)))
+    places = rng.sample(range(-3 * n, 3 * n), n)
+    return [(a * t, b * t) for t in places]
+
+
+def cluster(rng, n):
+    """Points at distances of about the last bits of their coordinates, and some far away."""
+    tiny = 2.0 ** -rng.randrange(30, 60)
+    cx, cy = rng.random(), rng.random()
+    near = [(cx + tiny * rng.randrange(-4, 5), cy + tiny * rng.randrange(-4, 5)) for _ in range(n)]
+    return near + uniform(rng, rng.randrange(5))
+
+
+def slanted(rng, n):
+    """Cells as long as the window and about as wide as a step of its grid."""
+    tiny, a, b = 2.0 ** -rng.randrange(36, 45), rng.randrange(-5, 6), rng.randrange(1, 6)
+    off = rng.choice((0, 2.0 ** -60))
+    places = rng.sample(range(rng.choice((1, 2, 3)) * n), n)
+    return [(tiny * a * t + off * rng.randrange(-9, 9), tiny * b * t + off * rng.randrange(-9, 9)) for t in places] + \
+        uniform(rng, rng.randrange(5))
+
+
+def circle(rng, n):
+    tiny = 2.0 ** -rng.randrange(40, 54)
+    all_of = [(x, y) for x in range(-65, 66) for y in range(-65, 66) if x * x + y * y == 4225]
+    return [(x + tiny * rng.randrange(-1, 2), y + tiny * rng.randrange(-1, 2)) for x, y in rng.sample(all_of, min(n, 30))]
+
+
+KINDS = (uniform, grid, jittered, line, cluster, slanted, circle)
+
+
+def random_window(rng, points):
+    """Around all points, or cutting through them, its ends doubles, on vertices now and then."""
+    xs, ys = [p[0] for p in points], [p[1] for p in points]
+    wide = max(max(xs) - min(xs), max(ys) - min(ys), 2.0 ** -20)
+    if rng.random() < 0.3:
+        return tuple(Fraction(v) for v in (-1, 2, -1, 2)) if wide < 3 else (
+            Fraction(min(xs) - 1), Fraction(max(xs) + 1), Fraction(min(ys) - 1), Fraction(max(ys) + 1))
+    x, y = rng.choice(points)
+    ends = [x - wide * rng.random(), x + wide * rng.random(), y - wide * rng.random(), y + wide * rng.random()]
+    if rng.random() < 0.3:
+        ends = [round(x) - 1.5, round(x) + 1.5, round(y) - 0.5, round(y) + 1.5]
+    return tuple(map(Fraction, ends))
+
+
+def numbers(points):
+    return ''.join(f'{float(x).hex()} {float(y).hex()}\n' for x, y in points)
+
+
+def window_option(window):
+    return '--window=' + ','.join(float(v).hex() for v in window)
+
+
+def tiles(text, window, *options):
+    found = run('voronoi', '-', '--layer', 'tiles', '--format', 'wkt', window_option(window), *options, stdin=text)
+    assert found.code in (0, 3), (text, window, found.err)
+    return rings_of(found.out)
+
+
+def one_set(rng, what):
+    kind = rng.choice(KINDS)
+    points = kind(rng, rng.randrange(1, 14))
+    window = random_window(rng, points)
+    if window[0] >= window[1] or window[2] >= window[3]:
+        return
+    text = numbers(points)
+    what = (what, kind.__name__, window_option(window), text)
+    rings = tiles(text, window)
+    check_partition(rings, window, what)
+    check_cells(rings, [tuple(Fraction(float(v)) for v in p) for p in points], window, what)
+
+
+def test_random_sets():
+    for k in range(CASES):
+        one_set(random.Random(f'{SEED} {k}'), k)
+
+
+def test_rectangles():
+    """Tiles are the cells of the centres, which is one choice: the bounds hold its areas."""
+    for k in range(CASES // 10):
+        rng = random.Random(f'{SEED} rectangles {k}')
+        boxes = []
+        for x, y in rng.choice((uniform, grid))(rng, rng.randrange(1, 10)):
+            x, y = Fraction(round(x * 1000), 1000), Fraction(round(y * 1000), 1000)
+            boxes.append([(c - w, c + v) for c in (x, y) for w in [Fraction(rng.randrange(200), 999)]
+                          for v in [rng.choice((w, 0, 2 * w))]])
+        text = ''.join(''.join('[{},{}] '.format(*side) for side in box) + '\n' for box in boxes)
+        centres = [tuple((lo + hi) / 2 for lo, hi in box) for box in boxes]
+        window = tuple(map(Fraction, (-1, 3, -1.25, 3)))
+        rings = tiles(text, window)
+        check_partition(rings, window, text)
+        check_cells(rings, centres, window, text)
+
+
+def test_computed_points():
+    """The vertices of polygons by cosines are tied, their rectangles are not: the partition holds all the same."""
+    for n in (3, 7, 24):
+        text = ''.join(f'cos(2*pi*{k}/{n}) sin(2*pi*{k}/{n})\n' for k in range(n)) + '5 5\n'
+        window = tuple(map(Fraction, (-2, 2, -2, 2)))
+        rings = tiles(text, window)
+        check_partition(rings, window, text)
+        assert len(rings) == n, (n, len(rings))
+
+
+def test_coincident_points():
+    """Who has no tile of its own is counted: aliases, and rectangles of one centre."""
+    said = run('voronoi', '-', '--layer', 'tiles', stdin='0 0\n0 0\n1 1\n')
+    expect(said, 0, r'^i,area,certain_area,area_lo,area_hi$', '^dyadel: 1 points have the place or the centre of an earlier one')
+    said = run('voronoi', '-', '--layer', 'tiles', stdin='[-1,1] 0\n[-2,2] 0\n5 5\n')
+    expect(said, 3, err='1 points have the place or the centre of an earlier one')
+
+
+def test_few_points():
+    """Of one point all of the window; of none nothing; a window far away has the tile of the nearest point."""
+    window = tuple(map(Fraction, (-1, 1, -1, 1)))
+    rings = tiles('0.25 3\n', window)
+    assert len(rings) == 1 and sorted(rings[0][1]) == [(-1, -1), (-1, 1), (1, -1), (1, 1)]
+    rings = tiles('0 0\n1 0\n0 1\n', tuple(map(Fraction, (5, 6, -9, -8))))
+    assert [row['i'] for row, _ in rings] == ['1']
+    said = run('voronoi', '-', '--layer', 'tiles', '--window=1e300,1.0000000000000003e300,0,1', stdin='0 0\n1 1\n')
+    expect(said, 1, err='doubles are too coarse for tiles on this window')
+
+
+def test_formats():
+    """csv and geojson state what wkt does."""
+    points = numbers(uniform(random.Random(SEED), 30))
+    wkt = run('voronoi', '-', '--layer', 'tiles', '--format', 'wkt', stdin=points).out
+    table = run('voronoi', '-', '--layer', 'tiles', stdin=points).out
+    text = [line.split('",', 1)[-1].replace('WKT,', '').rsplit(',', 1)[0] for line in wkt.splitlines()]
+    assert text == [line for line in table.splitlines() if not line.startswith('#')]
+    features = json.loads(run('voronoi', '-', '--layer', 'tiles', '--format', 'geojson', stdin=points).out)['features']
+    for (row, ring), feature in zip(rings_of(wkt), features):
+        assert feature['geometry']['type'] == 'Polygon'
+        assert [tuple(map(Fraction, z)) for z in feature['geometry']['coordinates'][0]] == ring + ring[:1]
+        assert all(float(row[name]) == feature['properties'][name] for name in row if name != 'WKT')
+
+
+if __name__ == '__main__':
+    main(globals())
