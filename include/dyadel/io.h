@@ -260,6 +260,9 @@ typedef struct dyd_write_options {
    * are put behind each other. */
   const char *label;
   bool no_header;
+  /* Receives, before csv is written, lines that begin with "# ": window, bounds, goal, aliases, how numbers are
+   * rounded. It may be the file that is written. NULL: none are written. */
+  FILE *comments;
 } dyd_write_options;
 /* Is this such a label, whose names differ? */
 DYD_API bool dyd_label_fits(const char *label);

@@ -7,6 +7,9 @@
  *   help.c       --help, the manual page, completion scripts
  *   session.c    runs a command: reads points, runs the engine, writes a result and a trace, exit status
  *   output.c     result files, whole or not at all
+ *   packed.c     packing them
+ *   spatial.c    which files take GDAL
+ *   gdal.c       reading and writing these, in the program dyadel-gdal
  *   process.c    messages, signals, time limit, memory, progress
  *
  * The other files hold the commands, a row cli_work each. */
@@ -54,7 +57,11 @@ typedef struct cli_options {
   dyd_list_ties list_ties;
   dyd_content content; /* the layer, or the whole content of the command */
   unsigned epsg;       /* 0: not given */
-  const char *window;  /* checked text: see cli_window_read */
+  const char *in_layer;
+  const char *driver; /* of GDAL, which writes the output; NULL: none does */
+  bool all_layers;    /* it gets all layers */
+  char *crs;          /* WKT of the reference system of the points file; NULL: not known; freed by no one */
+  const char *window; /* checked text: see cli_window_read */
   int64_t flatten_bits;
   bool flatten_set;
   double max_arc; /* degrees; 0: default */
@@ -71,6 +78,7 @@ typedef struct cli_options {
   bool sphere, plane; /* points are longitude and latitude on a sphere; coordinates of a plane, whatever named */
   bool proved;        /* verify: by the checker that is proved */
   bool stats, quiet, version;
+  bool comments;        /* csv begins with lines of "# " */
   bool accept_fixpoint; /* exit status 0 instead of CLI_FIXPOINT */
   const char *help;     /* "" (--help), or the kind of --help=KIND */
 } cli_options;
@@ -113,11 +121,40 @@ typedef struct cli_output {
   char *target, *temporary; /* where it is to appear, NULL when written in place; its name till then, NULL: none */
 } cli_output;
 
-/* ---- a command at work: session.c ---- */
+/* ---- files that take GDAL ---- */
+
+/* spatial.c: what kind of file GDAL has to read, "GeoPackage"; NULL: text, none, or not known. */
+const char *cli_spatial_kind(const char *name);
+/* The name of the driver of GDAL that writes files of this ending, and whether these hold several layers; NULL: none,
+ * also where ending is NULL. */
+const char *cli_spatial_driver(bool *layers, const char *ending);
+/* Becomes dyadel-gdal where the options take GDAL and this program has none. 0, or CLI_USAGE after a message. */
+int cli_spatial_switch(const cli_options *o, char **argv);
 
 typedef struct cli_session cli_session;
 /* Prints the result; err is clear. Returns an error with *err filled, else DYD_OK. */
 typedef dyd_status (*cli_print_fn)(FILE *out, const cli_session *s, dyd_error *err);
+
+/* What GDAL does, in gdal.c. */
+typedef struct cli_gdal {
+  /* Opens the points of the file as a table for dyd_read_points, and completes the options by which it is read, and the
+   * reference system. 0, or an exit status after a message. */
+  int (*open)(FILE **out, const char *name, cli_options *o);
+  /* Ends that. false after a message that reading failed. */
+  bool (*close)(FILE *in, const char *name);
+  /* Writes o.output, all layers or the one named. 0, or an exit status after a message. */
+  int (*write)(cli_session *s, cli_print_fn print);
+} cli_gdal;
+extern const cli_gdal *const cli_gdal_here; /* NULL in dyadel */
+
+/* packed.c: a stream that packs what is written to it by gzip or zstd, as the ending of the name says, and writes it to
+ * `to` (borrowed), the last of it when it is closed; NULL: the name has no such ending, or memory is exhausted. */
+FILE *cli_pack(FILE *to, const char *name);
+/* Has the name such an ending? *length: of what stands before it. */
+bool cli_name_is_packed(size_t *length, const char *name);
+
+/* ---- a command at work: session.c ---- */
+
 /* Asks the engine of s; options are complete. */
 typedef dyd_status (*cli_run_fn)(cli_session *s, const dyd_engine_options *options, dyd_error *err);
 
@@ -157,7 +194,10 @@ struct cli_session {
   const dyd_pair_list *discs;           /* pairs of discs, borrowed; NULL: none */
   const dyd_voronoi_bounds *bounds;     /* of the diagram written, borrowed; NULL: none */
   const dyd_converge_options *converge; /* for the trace, borrowed; NULL: none */
-  dyd_trace *trace;                     /* NULL: none is written, or it has not begun */
+  FILE *noted;                          /* takes the comments of csv, for standard error; NULL: they are not noted */
+  char *note;                           /* what it took */
+  size_t note_size;
+  dyd_trace *trace; /* NULL: none is written, or it has not begun */
   cli_output trace_file;
 };
 
@@ -166,7 +206,7 @@ int cli_work_run(const cli_work *work, const cli_options *o);
 
 /* Adds the points of the file or oracle to e. 0, or an exit status after a message. noting: prints notes on skipped
  * rows and doubtful input. */
-int cli_points_read(dyd_engine *e, const cli_options *o, bool noting);
+int cli_points_read(dyd_engine *e, cli_options *o, bool noting);
 /* For reading points as longitude and latitude. */
 void cli_options_degrees(cli_options *o);
 /* Gives the engine, not run yet, the answers of --resume. 0, or an exit status after a message. */
@@ -194,6 +234,8 @@ const char *cli_outcome_advice(const dyd_engine *e);
 /* Writes anything to the file `name` (NULL: standard output), whole or not at all. 0, or an exit status after a
  * message. */
 int cli_write_file(const char *name, const cli_session *s, cli_print_fn print);
+/* Where the comments of csv go that is written to out: into it, or aside. */
+FILE *cli_comments(FILE *out, const cli_session *s);
 /* The summary of a triangulation: undecided pairs and the reason, notes on radii and equal points, --stats. */
 int cli_pairs_summary(cli_session *s, int status);
 /* The goals of --until, for the diagram instead of the triangulation. */

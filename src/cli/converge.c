@@ -100,6 +100,7 @@ static dyd_status converge_write(FILE *out, const cli_session *s, dyd_error *err
                                  .history = s->history,
                                  .window = s->view,
                                  .label = o->label,
+                                 .comments = cli_comments(out, s),
                                  .no_header = o->no_header};
   return dyd_write(out, s->engine, o->content, o->format, &how, err);
 }
@@ -272,7 +273,8 @@ static dyd_status open_checked_points(dyd_engine **out, void *user, dyd_error *e
   (void)err;
   dyd_status st = dyd_engine_new(out);
   if (st != DYD_OK) return st;
-  r->status = cli_points_read(*out, r->o, !r->noted);
+  cli_options o = *r->o;
+  r->status = cli_points_read(*out, &o, !r->noted);
   r->noted = true;
   if (!r->status) return DYD_OK;
   dyd_engine_free(*out);

@@ -80,7 +80,8 @@ static dyd_status delaunay_write(FILE *out, const cli_session *s, dyd_error *err
                                  .history = s->discs ? NULL : s->history,
                                  .tolerance = tolerance,
                                  .cancel = cli_signals_flag(),
-                                 .ties = o->list_ties};
+                                 .ties = o->list_ties,
+                                 .comments = cli_comments(out, s)};
   dyd_status st = dyd_write(out, s->engine, o->content, o->format, &how, err);
   dyd_tolerance_free(tolerance);
   return st;
@@ -250,6 +251,7 @@ static dyd_status voronoi_write(FILE *out, const cli_session *s, dyd_error *err)
                                  .cancel = cli_deadline_flag(),
                                  .cut = &r->cut,
                                  .coincident = &r->coincident,
+                                 .comments = cli_comments(out, s),
                                  .history = s->history};
   return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
 }
@@ -345,8 +347,12 @@ static int sphere_find(cli_session *s) {
 }
 
 static dyd_status sphere_write(FILE *out, const cli_session *s, dyd_error *err) {
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .sphere = ((sphere_run *)s->state)->sphere,
-                                 .epsg = s->o.epsg, .window = s->view, .max_arc = s->o.max_arc};
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options),
+                                 .sphere = ((sphere_run *)s->state)->sphere,
+                                 .epsg = s->o.epsg,
+                                 .window = s->view,
+                                 .max_arc = s->o.max_arc,
+                                 .comments = cli_comments(out, s)};
   return dyd_write(out, NULL, s->o.content, s->o.format, &how, err);
 }
 

@@ -61,11 +61,14 @@ static const help_term help_results[] = {
      "coordinates "
      "printed exactly. Without --crs geojson claims no reference system; programs that see none would take the "
      "coordinates "
-     "for degrees. csv of delaunay: \"# alias 7 3\" for each point 7 that is the same as point 3, then i,j,status, "
-     "sorted; where the cap on pairs was met, \"# capped\" and \"# face i j k ...\" name the faces within which "
-     "further "
-     "pairs may be possible. csv of voronoi: two bounds in comments, the area that is undetermined, and how far an "
-     "undetermined point can be from the true diagram."},
+     "for degrees. csv is plain, the names of its columns first. --comments puts lines in front of it: \"# alias 7 3\" "
+     "for "
+     "each point 7 that is the same as point 3; where the cap on pairs was met, \"# capped\" and \"# face i j k ...\" "
+     "name the faces within which further pairs may be possible; of voronoi the window and two bounds, the area that "
+     "is "
+     "undetermined, and how far an undetermined point can be from the true diagram. Without it standard error gets "
+     "these, "
+     "in short. Files whose names end in .gz or .zst are packed."},
     {"json",
      "delaunay: the rectangles reached (exact, and as decimals rounded outward), aliases, pairs, sure triangles, "
      "outcome, bounds of area and Hausdorff distance (exact, and rounded up), counters. voronoi: besides these "

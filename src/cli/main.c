@@ -4,6 +4,10 @@
 #include <signal.h>
 #include <string.h>
 
+#ifndef DYD_GDAL
+const cli_gdal *const cli_gdal_here = NULL;
+#endif
+
 static int flush_output(const cli_options *o) {
   if (fflush(stdout) == 0 && !ferror(stdout)) return CLI_OK;
   if (!cli_output_note_reader(stdout, NULL, o)) cli_complain("cannot write to standard output");
@@ -42,11 +46,12 @@ int main(int argc, char **argv) {
   cli_options options;
   if (!cli_guard_descriptors()) return CLI_FAILED;
   cli_memory_guard();
+  int status = cli_options_read(&options, argc, argv);
+  if (!status) status = cli_spatial_switch(&options, argv);
   /* A broken pipe is noticed when writing fails, so that other files are finished and all messages printed. At the end
    * the process dies of SIGPIPE as others do, unless the parent ignores it. */
   void (*before)(int) = signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN); /* a file that may grow no more is noticed at the writing, too */
-  int status = cli_options_read(&options, argc, argv);
   if (!status) status = run_command(&options);
   if (cli_output_lost_reader() && before == SIG_DFL) {
     signal(SIGPIPE, SIG_DFL);

@@ -449,14 +449,76 @@ static int format_fits(cli_options *o, const cli_command *c) {
   return CLI_USAGE;
 }
 
-/* The ending of the file that is written chooses the format, and does not contradict the one given. */
+/* Behind the last dot of the file's name; NULL: there is none. */
+static const char *name_ending(const char *name) {
+  const char *slash = strrchr(name, '/'), *dot = strrchr(slash ? slash : name, '.');
+  return dot && dot[1] ? dot + 1 : NULL;
+}
+
+static int ending_unknown(const cli_options *o, const char *name, const cli_command *c) {
+  const char *ending = name_ending(name);
+  bool table = strcasecmp(ending, "xlsx") == 0 || strcasecmp(ending, "ods") == 0 || strcasecmp(ending, "xls") == 0;
+  fprintf(stderr, "dyadel: -o %s: no format is called %s; ", o->output, ending);
+  if (table) fputs("for a table end the name in .csv; ", stderr);
+  fputs("formats are ", stderr);
+  cli_formats_print(stderr, cli_command_bit(c), ", ", false);
+  fprintf(stderr, " (other names: with --format)\n");
+  return CLI_USAGE;
+}
+
+/* Rows go to GDAL as wkt, or as csv where they have no geometry. */
+static int format_of_driver(cli_options *o, bool several) {
+  if (o->format_set)
+    return cli_usage("-o %s says the format; leave --format %s away", o->output, dyd_format_name(o->format));
+  if (cli_name_is_packed(&(size_t){0}, o->output)) return cli_usage("-o %s: GDAL packs no such file", o->output);
+  o->all_layers = several && !o->layer;
+  o->format = dyd_format_holds(DYD_FORMAT_WKT, o->content) ? DYD_FORMAT_WKT : DYD_FORMAT_CSV;
+  o->format_set = true;
+  return 0;
+}
+
+/* The ending of the file that is written, .gz or .zst aside, chooses the format, and does not contradict the one given.
+ */
 static int format_from_output(cli_options *o, const cli_command *c) {
+  char name[4096];
+  size_t length;
   if (!o->output || c->content == DYD_CONTENT_NONE) return 0;
-  if (!o->format_set) o->format_set = dyd_format_from_file(&o->format, o->output);
-  if (dyd_format_suits_file(o->format, o->output)) return 0;
-  const char *name = dyd_format_name(o->format);
-  return cli_usage("-o %s is no name for %s; leave --format %s away, or end the name in .%s", o->output, name, name,
-                   name);
+  cli_name_is_packed(&length, o->output);
+  snprintf(name, sizeof name, "%.*s", (int)length, o->output);
+  bool known = dyd_format_from_file(o->format_set ? &(dyd_format){0} : &o->format, name);
+  const char *ending = name_ending(name);
+  bool several = false;
+  o->driver = known ? NULL : cli_spatial_driver(&several, ending);
+  if (o->driver) return format_of_driver(o, several);
+  if (!o->format_set && !known && ending && strcmp(ending, "txt") != 0) return ending_unknown(o, name, c);
+  o->format_set |= known;
+  if (dyd_format_suits_file(o->format, name)) return 0;
+  const char *format = dyd_format_name(o->format);
+  return cli_usage("-o %s is no name for %s; leave --format %s away, or end the name in .%s", o->output, format, format,
+                   format);
+}
+
+/* Longitude and latitude in degrees: WGS 84, ETRS89, NAD27, NAD83, GDA94, SIRGAS, GDA2020 and others much used. */
+static bool crs_is_degrees(unsigned epsg) {
+  static const unsigned of_degrees[] = {4326, 4979, 4258, 4267, 4269, 4283, 4674, 7844, 4617, 4167, 4490,
+                                        6318, 6668, 4612, 4148, 4171, 4277, 4314, 4275, 4265, 4230, 4322};
+  size_t k = 0, count = sizeof of_degrees / sizeof *of_degrees;
+  while (k < count && of_degrees[k] != epsg) k++;
+  return k < count;
+}
+
+/* Is there a place for the reference system in the format, and does it name what is written? */
+static int crs_fits(const cli_options *o) {
+  static const bool none[] = {
+      [DYD_FORMAT_CSV] = true, [DYD_FORMAT_WKT] = true, [DYD_FORMAT_OBJ] = true, [DYD_FORMAT_VTK] = true};
+  if (o->epsg && o->sphere && !crs_is_degrees(o->epsg))
+    return cli_usage("with --sphere coordinates are degrees, and EPSG:%u is not known as a system of degrees; give "
+                     "--crs EPSG:4326",
+                     o->epsg);
+  if (o->driver) return 0;
+  if (!o->epsg || (size_t)o->format >= sizeof none / sizeof *none || !none[o->format]) return 0;
+  return cli_usage("%s has no place for a reference system; leave --crs away, or give --format geojson",
+                   dyd_format_name(o->format));
 }
 
 /* Hands the operands behind the command's name to their fields. An oracle or a trace replaces the file, with a
@@ -513,5 +575,6 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   if (!status) status = layer_fits(out, c);
   if (!status) status = format_from_output(out, c);
   if (!status) status = format_fits(out, c);
+  if (!status) status = crs_fits(out);
   return status ? status : place_operands(out, &s, c);
 }

@@ -93,7 +93,7 @@ static int pieces_find(cli_session *s, size_t least, size_t most) {
 static dyd_status pieces_write(FILE *out, const cli_session *s, dyd_error *err) {
   const cli_pieces *p = s->state;
   const dyd_write_options how = {DYD_SIZED(dyd_write_options), .rect = p->rect, .rects = p->count,
-                                 .outcome = s->outcome};
+                                 .outcome = s->outcome, .comments = cli_comments(out, s)};
   return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
 }
 
@@ -211,7 +211,7 @@ static int places_reserve(query *q, size_t count) {
 
 /* The points of the file become places: streams that stay when their engine goes. */
 static int places_read_file(query *q, dyd_engine *from, const cli_options *o) {
-  cli_options file = {.file = o->queries, .read = {DYD_SIZED(dyd_read_options)}};
+  cli_options file = {.file = o->queries, .plane = true, .read = {DYD_SIZED(dyd_read_options)}};
   int status = cli_points_read(from, &file, false);
   if (!status) status = places_reserve(q, dyd_engine_count(from));
   for (size_t k = 0; k < q->count && !status; k++)
@@ -319,7 +319,7 @@ static dyd_status places_write(FILE *out, const cli_session *s, dyd_error *err) 
   const dyd_nearest_answer **list = list_answers(q);
   if (!list) return DYD_E_NOMEM;
   const dyd_write_options how = {DYD_SIZED(dyd_write_options), .answer = list, .answers = q->answered,
-                                 .outcome = q->outcome};
+                                 .outcome = q->outcome, .comments = cli_comments(out, s)};
   dyd_status st = dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
   free(list);
   return st;

@@ -50,8 +50,12 @@ static int session_read_oracle(dyd_engine *e, const cli_options *o) {
   return status;
 }
 
-static int session_read_file(dyd_engine *e, const cli_options *o, dyd_read_report *report) {
-  FILE *in = cli_input_open(o->file, "check the name of the points file");
+static int session_read_file(dyd_engine *e, cli_options *o, dyd_read_report *report) {
+  FILE *in;
+  const bool features = cli_gdal_here && (o->in_layer || cli_spatial_kind(o->file));
+  int opened = features ? cli_gdal_here->open(&in, o->file, o) : 0;
+  if (opened) return opened;
+  if (!features) in = cli_input_open(o->file, "check the name of the points file");
   if (!in) return CLI_FAILED;
   struct stat info;
   if (fstat(fileno(in), &info) == 0 && S_ISDIR(info.st_mode)) {
@@ -63,7 +67,14 @@ static int session_read_file(dyd_engine *e, const cli_options *o, dyd_read_repor
   dyd_read_options read = o->read;
   read.report = report;
   dyd_status st = dyd_read_points(e, in, &read, &err);
-  cli_input_close(in);
+  if (!features)
+    cli_input_close(in);
+  else if (!cli_gdal_here->close(in, o->file))
+    return CLI_FAILED;
+  if (features && err.line > 1) {
+    cli_complain("%s: feature %zu: %s", o->file, err.line - 2, err.message);
+    return CLI_FAILED;
+  }
   if (st == DYD_E_ARG)
     cli_complain("%s", err.message);
   else if (st != DYD_OK)
@@ -83,7 +94,7 @@ static bool points_are_degrees(const dyd_engine *e) {
   return good;
 }
 
-int cli_points_read(dyd_engine *e, const cli_options *o, bool noting) {
+int cli_points_read(dyd_engine *e, cli_options *o, bool noting) {
   if (o->oracle) return session_read_oracle(e, o);
   dyd_read_report r = {DYD_SIZED(dyd_read_report)};
   int status = session_read_file(e, o, &r);
@@ -349,7 +360,9 @@ int cli_write_file(const char *name, const cli_session *s, cli_print_fn print) {
   if (!cli_output_open(&out, name)) return CLI_FAILED;
   dyd_error err;
   dyd_error_clear(&err);
-  dyd_status st = print(out.stream, s, &err);
+  FILE *packed = name && name == o->output ? cli_pack(out.stream, name) : NULL;
+  dyd_status st = print(packed ? packed : out.stream, s, &err);
+  bool good = !packed || fclose(packed) == 0;
   bool done = st == DYD_OK;
   if (st > 0) {
     cli_output_drop(&out);
@@ -359,10 +372,11 @@ int cli_write_file(const char *name, const cli_session *s, cli_print_fn print) {
     cli_complain("%s: %s; choose another place with -o", name ? name : "standard output", err.message);
   else if (!done && st != DYD_E_IO)
     cli_complain_at(o->file, &err);
-  if (done)
+  if (done && good)
     done = cli_output_finish(&out, o);
-  else
-    cli_output_drop(&out);
+  else if (done)
+    done = cli_fail("%s: cannot write: %s; choose another place with -o", name, strerror(errno)) == CLI_OK;
+  if (!done) cli_output_drop(&out);
   return done ? 0 : CLI_FAILED;
 }
 
@@ -377,6 +391,43 @@ static int session_prove(cli_session *s, int status) {
   cli_progress_phase(s->progress, "the certificate");
   int written = cli_write_file(certificate, s, s->work->prove);
   return status ? status : written;
+}
+
+/* ---- comments of csv ----
+ *
+ * Without --comments standard error gets what they say of the whole result. */
+
+FILE *cli_comments(FILE *out, const cli_session *s) {
+  return s->o.comments ? out : s->noted;
+}
+
+/* Does the line say something that no other line of ours says? */
+static bool comment_is_summary(const char *line) {
+  static const char *const begin[] = {"window ", "undetermined_area", "distance_to", "tolerance ",      "plan ",
+                                      "ties ",   "orientation ",      "partial ",    "the rectangles ", "schedule "};
+  for (size_t k = 0; k < sizeof begin / sizeof *begin; k++)
+    if (strncmp(line, begin[k], strlen(begin[k])) == 0) return true;
+  return false;
+}
+
+/* The comments that were put aside, in one line. */
+static void note_comments(cli_session *s) {
+  char text[2048] = "";
+  size_t used = 0, aliases = 0, length;
+  if (s->noted && fclose(s->noted) == 0 && !s->written) {
+    for (const char *line = s->note; *line; line += length + (line[length] == '\n')) {
+      length = strcspn(line, "\n");
+      aliases += strncmp(line, "# alias", 7) == 0;
+      if (length < 2 || !comment_is_summary(line + 2) || used + length >= sizeof text) continue;
+      used += (size_t)snprintf(text + used, sizeof text - used, "%s%.*s", used ? "; " : "", (int)length - 2, line + 2);
+    }
+    for (char *comma = text; (comma = strchr(comma, ',')) && comma[1] != ' ';) *comma = ' ';
+    if (used) cli_note(&s->o, "%s", text);
+    if (aliases)
+      cli_note(&s->o, "points that coincide with earlier ones: %zu (--comments lists them in front of the table)",
+               aliases);
+  }
+  free(s->note);
 }
 
 /* ---- summaries ----
@@ -661,8 +712,11 @@ int cli_work_run(const cli_work *work, const cli_options *o) {
   if (!status) status = s.work->find(&s);
   cli_session_settle(&s);
   if (s.known && s.work->write) {
-    s.written = session_prove(&s, cli_write_file(s.o.output, &s, s.work->write));
+    if (s.o.format == DYD_FORMAT_CSV && !s.o.comments && !s.o.quiet) s.noted = open_memstream(&s.note, &s.note_size);
+    s.written = session_prove(&s, s.o.driver ? cli_gdal_here->write(&s, s.work->write)
+                                             : cli_write_file(s.o.output, &s, s.work->write));
     if (!status) status = s.written;
+    note_comments(&s);
   }
   return work_close(&s, status);
 }

@@ -3,6 +3,7 @@
  *
  * A new layer: its constant in dyadel/io.h; here its columns, its rows and its row of the table. In wkt and geojson
  * each rectangle is drawn as one place; on a sphere places are in degrees, and sides are great circles. */
+#define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "io/table.h"
 
 #include "base/alloc.h"
@@ -463,13 +464,26 @@ static bool is_whole(const dyd_table *t, const dyd_output *o) {
   return dyd_tolerance_chances(((const dyd_result *)o->what)->tolerance);
 }
 
+/* Comments find what rows need, also where they are not wanted. */
+static dyd_status layer_comments(dyd_table *t, const dyd_output *o) {
+  dyd_output to = *o;
+  char *text = NULL;
+  size_t size;
+  if (t->drawn || !t->layer->comments) return DYD_OK;
+  to.out = o->comments ? o->comments : open_memstream(&text, &size);
+  dyd_status st = to.out ? t->layer->comments(t, &to) : DYD_E_NOMEM;
+  if (to.out && !o->comments) fclose(to.out);
+  free(text);
+  return st;
+}
+
 dyd_status dyd_layer_write(const dyd_output *o) {
   dyd_table t = {.layer = dyd_layer_of(o->content),
                  .engine = o->engine,
                  .sphere = o->sphere,
                  .drawn = dyd_format_draws(o->format)};
   dyd_status st = layer_places(&t, o);
-  if (st == DYD_OK && !t.drawn && t.layer->comments) st = t.layer->comments(&t, o);
+  if (st == DYD_OK) st = layer_comments(&t, o);
   if (st == DYD_OK) {
     dyd_table_begin(&t, o, is_whole(&t, o));
     st = t.layer->rows(&t, o);

@@ -421,7 +421,7 @@ const char dyd_stage_columns[] =
     "stage,bits_least,bits_most,bits_total,width_largest,width_median,possible,legal,indeterminate,tie,faces,area,"
     "hausdorff,v_area,v_hausdorff,filter,integer,exact,calls,statuses,seconds";
 
-static dyd_status table_csv_head(FILE *out, const dyd_convergence *c, const char *label, bool times) {
+static dyd_status table_csv_comments(FILE *out, const dyd_convergence *c, bool times) {
   const dyd_engine_options *o = c->options;
   fprintf(out, "# schedule %s; goal ", dyd_schedule_text(o->schedule));
   table_csv_goal(out, o);
@@ -443,9 +443,12 @@ static dyd_status table_csv_head(FILE *out, const dyd_convergence *c, const char
         out);
   fprintf(out, "# no random choice is made: there is no seed, and every run gives this table%s\n",
           times ? ", seconds (rounded up) aside" : "");
+  return st;
+}
+
+static void table_csv_head(FILE *out, const char *label, bool times) {
   label_csv(out, label, false);
   fprintf(out, "%.*s\n", (int)(strlen(dyd_stage_columns) - (times ? 0 : strlen(",seconds"))), dyd_stage_columns);
-  return st;
 }
 
 /* With a point, whatever the caller's locale has between units and thousandths. */
@@ -473,7 +476,8 @@ static void table_csv_row(FILE *out, const dyd_stage_row *r, bool times) {
 
 static dyd_status convergence_csv(const dyd_output *o) {
   const dyd_stage_table *t = o->what;
-  dyd_status st = t->no_header ? DYD_OK : table_csv_head(o->out, t->stages, t->label, t->times);
+  dyd_status st = t->no_header || !o->comments ? DYD_OK : table_csv_comments(o->comments, t->stages, t->times);
+  if (!t->no_header) table_csv_head(o->out, t->label, t->times);
   for (size_t k = 0; k < t->stages->count; k++) {
     label_csv(o->out, t->label, true);
     table_csv_row(o->out, t->stages->row[k], t->times);

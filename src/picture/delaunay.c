@@ -352,6 +352,7 @@ dyd_status dyd_delaunay_picture(const dyd_output *o) {
   const char *title = d.r->graph_name ? d.r->graph_name : "partial Delaunay triangulation";
   if (st == DYD_OK && !d.r->graph_name) st = dyd_delaunay_triangles(&d.triangles, d.r->pd);
   if (st == DYD_OK) st = find_density(&d);
+  d.view.epsg = o->epsg;
   if (st == DYD_OK) st = dyd_view_write(o, &d.view, title, delaunay_inside, delaunay_legend, &d);
   dyd_triangle_list_clear(&d.triangles);
   for (int k = 0; k < 3; k++) dyd_density_clear(&d.dense[k]);
@@ -498,6 +499,7 @@ dyd_status dyd_tolerance_picture(const dyd_output *o) {
   g.rows = dyd_tolerance_rows(&g.row, g.t);
   dyd_status st = find_classes(&g);
   if (st == DYD_OK) st = tolerance_see(&g, o->err);
+  g.view.epsg = o->epsg;
   return st == DYD_OK ? dyd_view_write(o, &g.view, "tolerance of the Delaunay triangulation", tolerance_inside,
                                        tolerance_legend, &g)
                       : st;

@@ -170,8 +170,10 @@ static void legend_bar(dyd_legend *l) {
   if (!dyd_round_step(&digit, &exponent, 0.2 * v->width / v->scale)) return;
   char number[48], text[80];
   dyd_tick_text(number, sizeof number, digit, exponent);
+  char of[40] = " of the coordinates";
+  if (v->epsg) snprintf(of, sizeof of, " of EPSG:%u", v->epsg);
   snprintf(text, sizeof text, "%s %s%s%s", number, v->unit ? v->unit : "unit", strcmp(number, "1") == 0 ? "" : "s",
-           v->unit ? "" : " of the coordinates");
+           v->unit ? "" : of);
   double left = right - digit * pow(10, exponent) * v->scale;
   double line[3][2][2] = {{{left, y - 4}, {left, y + 4}}, {{left, y}, {right, y}}, {{right, y - 4}, {right, y + 4}}};
   for (int k = 0; k < 3; k++) dyd_picture_line(l->canvas, line[k], 0x222222, 1.5, 0, 0);

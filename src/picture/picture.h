@@ -36,6 +36,7 @@ typedef struct dyd_view {
   bool discs;              /* rectangles are drawn as the discs in them */
   double frame[4];         /* x lower, x upper, y lower, y upper on the page: the inside is shown */
   const char *unit;        /* of the coordinates, for the scale; NULL: not known */
+  unsigned epsg;           /* their reference system; 0: not known */
 } dyd_view;
 
 /* A view of the box (x lower, x upper, y lower, y upper) of something whose neighbours are about `spacing` apart (0:

@@ -77,6 +77,7 @@ dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_er
   v->apart = apart;
   v->dots = false;
   v->unit = NULL;
+  v->epsg = 0;
   v->frame[0] = DYD_VIEW_LEFT, v->frame[2] = EDGE;
   v->frame[1] = DYD_VIEW_LEFT + v->width, v->frame[3] = EDGE + v->height;
   return DYD_OK;

@@ -17,13 +17,13 @@ enum { EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_FIXPOINT = 3, EXIT_BUDGET = 4 };
 typedef struct main_options {
   const char *command, *file, *output;
   tiles_job job;
-  bool accept_fixpoint, stats;
+  bool accept_fixpoint, stats, comments;
 } main_options;
 
 static const char usage[] =
     "usage: mpirun -n P dyadel-tiles delaunay FILE -o FOLDER [OPTION...]\n"
     "       dyadel-tiles delaunay FILE -o FOLDER --tiles T [OPTION...]\n"
-    "       dyadel-tiles to-csv FOLDER [-o FILE]\n"
+    "       dyadel-tiles to-csv FOLDER [-o FILE] [--comments]\n"
     "\n"
     "The statuses of `dyadel delaunay` for points that one process cannot hold. Each of P processes owns a part of "
     "the\n"
@@ -40,6 +40,7 @@ static const char usage[] =
     "  --max-pairs K      each process stores K pairs beyond the skeleton at most\n"
     "  --accept-fixpoint  exit status 0 in place of 3: ties and rectangles that leave pairs open are expected\n"
     "  --stats            counters on standard error\n"
+    "  --comments         the csv begins with \"# alias I J\" for each point I equal to a point J with a lower number\n"
     "  --help, --version\n"
     "\n"
     "A part is a line of JSON (pairs, aliases: how many records), then records of i, j (64 bits) and status (32 bits,\n"
@@ -81,7 +82,8 @@ static int take_option(main_options *o, char **arg) {
   } flags[] = {{"--boxes", &o->job.boxes},
                {"--restart", &o->job.restart},
                {"--accept-fixpoint", &o->accept_fixpoint},
-               {"--stats", &o->stats}};
+               {"--stats", &o->stats},
+               {"--comments", &o->comments}};
   for (size_t k = 0; k < sizeof flags / sizeof *flags; k++)
     if (strcmp(word, flags[k].name) == 0) return *flags[k].flag = true, 1;
   if (strcmp(word, "--tiles") == 0) return number_of(&o->job.ranks, word, value, 100000) ? 2 : 0;
@@ -225,7 +227,7 @@ static int csv_main(const main_options *o) {
     main_complain("%s: cannot write: %s; choose another place with -o", o->output, strerror(errno));
     return EXIT_FAILED;
   }
-  dyd_status st = tiles_write_csv(out, o->file, &err);
+  dyd_status st = tiles_write_csv(out, o->file, o->comments, &err);
   if (out != stdout && fclose(out) != 0 && st == DYD_OK)
     st = dyd_fail(&err, DYD_E_IO, "cannot write: %s", strerror(errno));
   if (st == DYD_OK) return 0;

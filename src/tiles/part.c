@@ -511,7 +511,7 @@ static void readers_close(part_readers *all) {
   free(all->aliases.item);
 }
 
-dyd_status tiles_write_csv(FILE *out, const char *folder, dyd_error *err) {
+dyd_status tiles_write_csv(FILE *out, const char *folder, bool comments, dyd_error *err) {
   part_readers all = {.folder = folder};
   char *path = tiles_path(folder, "manifest.json");
   if (!path) return tiles_no_memory(err);
@@ -519,7 +519,7 @@ dyd_status tiles_write_csv(FILE *out, const char *folder, dyd_error *err) {
   free(path);
   if (!j) return reader_fail(&all, "manifest.json", "is not there, or none", err);
   dyd_status st = readers_open(&all, j, err);
-  if (st == DYD_OK) st = write_aliases(out, &all, err);
+  if (st == DYD_OK && comments) st = write_aliases(out, &all, err);
   if (st == DYD_OK && fputs("i,j,status\n", out) == EOF) st = DYD_E_IO;
   if (st == DYD_OK) st = write_part_pairs(out, &all, err);
   if (st == DYD_OK && (fflush(out) != 0 || ferror(out)))

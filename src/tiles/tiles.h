@@ -295,8 +295,8 @@ uint64_t tile_digest(const tile *t);
 dyd_status tile_find_part(tile *t, dyd_error *err);
 /* Rank 0, with the counters of all in its mail: manifest.json. */
 dyd_status tile_write_manifest(tile *t, dyd_error *err);
-/* The rows of all parts in a folder, as `dyadel delaunay` writes them. */
-dyd_status tiles_write_csv(FILE *out, const char *folder, dyd_error *err);
+/* The rows of all parts in a folder, as `dyadel delaunay` writes them; with comments: the aliases first. */
+dyd_status tiles_write_csv(FILE *out, const char *folder, bool comments, dyd_error *err);
 
 /* Name of a file in the folder; the caller frees it. NULL: memory is exhausted. */
 char *tiles_path(const char *folder, const char *name);

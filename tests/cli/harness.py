@@ -13,8 +13,14 @@ DATA = os.path.abspath(sys.argv[2])  # tests/data
 Run = collections.namedtuple('Run', 'code out err')
 
 
-def run(*args, stdin=b'', binary=False, **options):
-    """Runs the command in an empty folder (or options['cwd']). binary: the output is no text, bytes stand as they are."""
+TABLES = 'delaunay', 'voronoi', 'converge', 'disc', 'bisector', 'nearest', 'tolerance', 'plan'
+
+
+def run(*args, stdin=b'', binary=False, comments=True, **options):
+    """Runs the command in an empty folder (or options['cwd']). binary: the output is no text, bytes stand as they are.
+    comments: a table begins with them."""
+    if comments and args and args[0] in TABLES:
+        args = (args[0], '--comments', *args[1:])
     if isinstance(stdin, str):
         stdin = stdin.encode()
     options.setdefault('timeout', 240)

@@ -37,7 +37,7 @@ def start(*args, text, command=('delaunay',), **options):
     with tempfile.NamedTemporaryFile('w', suffix='.txt', delete=False) as f:
         f.write(text)
     options.setdefault('stdout', subprocess.PIPE)
-    process = subprocess.Popen([COMMAND, command[0], f.name, *command[1:], *args], stderr=subprocess.PIPE, **options)
+    process = subprocess.Popen([COMMAND, command[0], '--comments', f.name, *command[1:], *args], stderr=subprocess.PIPE, **options)
     process.points = f.name
     return process
 

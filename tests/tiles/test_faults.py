@@ -50,7 +50,7 @@ class Faults(unittest.TestCase):
         done = tiles(ranks, 'delaunay', self.file, '-o', self.out, '--restart')
         want, status = cases.expected(DYADEL, self.rows)
         self.assertEqual(done.returncode, status, done.stderr)
-        joined = subprocess.run([TILES, 'to-csv', self.out, '-o', str(self.at / 'all.csv')], capture_output=True)
+        joined = subprocess.run([TILES, 'to-csv', '--comments', self.out, '-o', str(self.at / 'all.csv')], capture_output=True)
         self.assertEqual(joined.returncode, 0, joined.stderr)
         self.assertTrue((self.at / 'all.csv').read_bytes() == want)
 
@@ -61,7 +61,7 @@ class Faults(unittest.TestCase):
         before = {p: p.stat().st_mtime_ns for p in parts}
         parts[2].unlink()
         (self.at / 'out' / 'manifest.json').unlink()
-        joined = subprocess.run([TILES, 'to-csv', self.out], capture_output=True, text=True)
+        joined = subprocess.run([TILES, 'to-csv', '--comments', self.out], capture_output=True, text=True)
         self.assertEqual(joined.returncode, 1)
         self.assertIn('--restart', joined.stderr)
         self.complete(4)
@@ -76,7 +76,7 @@ class Faults(unittest.TestCase):
         """One bit of a part or of the manifest is another one: to-csv says so, or the csv is the same; --restart mends it."""
         cases.write(self.at / 'in.bin', cases.repeated(300, random.Random(cases.SEED)))
         self.assertEqual(tiles(3, 'delaunay', self.file, '-o', self.out).returncode, 0)
-        want = subprocess.run([TILES, 'to-csv', self.out], capture_output=True).stdout
+        want = subprocess.run([TILES, 'to-csv', '--comments', self.out], capture_output=True).stdout
         r = random.Random(cases.SEED)
         for path in (*cases.parts_of(self.out), self.at / 'out' / 'manifest.json'):
             whole = path.read_bytes()
@@ -85,13 +85,13 @@ class Faults(unittest.TestCase):
                 flipped = bytearray(whole)
                 flipped[bit // 8] ^= 1 << bit % 8
                 path.write_bytes(flipped)
-                joined = subprocess.run([TILES, 'to-csv', self.out], capture_output=True)
+                joined = subprocess.run([TILES, 'to-csv', '--comments', self.out], capture_output=True)
                 if path.name.startswith('part') or joined.returncode or joined.stdout != want:
                     self.assertEqual((joined.returncode, joined.stdout), (1, b''), f'{path.name} bit {bit}')
                     self.assertIn(b'--restart', joined.stderr)
             self.assertIn(tiles(3, 'delaunay', self.file, '-o', self.out, '--restart').returncode, (0, 3))
             self.assertEqual(path.read_bytes(), whole)
-            self.assertEqual(subprocess.run([TILES, 'to-csv', self.out], capture_output=True).stdout, want)
+            self.assertEqual(subprocess.run([TILES, 'to-csv', '--comments', self.out], capture_output=True).stdout, want)
 
     def test_changed_input(self):
         """Two points of one rank change places: parts of its neighbours name them, and are not of the same job any more."""
@@ -134,7 +134,7 @@ class Faults(unittest.TestCase):
             if job.returncode != 0 and MPIRUN and len(found) > 1:
                 self.assertIn('signal 9', told)
             if (self.at / 'out' / 'manifest.json').exists():  # it was killed after its work
-                self.assertEqual(subprocess.run([TILES, 'to-csv', self.out], stdout=subprocess.DEVNULL).returncode, 0)
+                self.assertEqual(subprocess.run([TILES, 'to-csv', '--comments', self.out], stdout=subprocess.DEVNULL).returncode, 0)
             self.complete(3)
             shutil.rmtree(self.out)
 

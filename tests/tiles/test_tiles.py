@@ -44,7 +44,7 @@ class Union(unittest.TestCase):
             out = self.at / f'out{count}'
             done = self.run_tiles(count, str(file), '-o', str(out), *more)
             self.assertEqual(done.returncode, want[1], done.stderr)
-            joined = subprocess.run([TILES, 'to-csv', str(out)], capture_output=True)
+            joined = subprocess.run([TILES, 'to-csv', '--comments', str(out)], capture_output=True)
             self.assertEqual((joined.returncode, joined.stderr), (0, b''))
             self.assertTrue(joined.stdout == want[0], f'{count} ranks differ')
             self.check_parts(out, count, len(rows))
@@ -162,7 +162,7 @@ class Union(unittest.TestCase):
                     out = self.at / f'out{name}{count}'
                     done = self.run_tiles(count, str(self.at / name), '-o', str(out), '--accept-fixpoint')
                     self.assertEqual(done.returncode, 0, done.stderr)
-                    joined = subprocess.run([TILES, 'to-csv', str(out)], capture_output=True)
+                    joined = subprocess.run([TILES, 'to-csv', '--comments', str(out)], capture_output=True)
                     self.assertTrue(joined.stdout == want, f'{name} of {len(rows)}: {count} ranks differ')
                     self.check_parts(out, count, len(rows))
 
@@ -175,7 +175,7 @@ class Union(unittest.TestCase):
             for count in RANKS:
                 out = self.at / f'out{k}of{count}'
                 self.run_tiles(count, str(self.at / 'marked.txt'), '-o', str(out))
-                joined = subprocess.run([TILES, 'to-csv', str(out)], capture_output=True)
+                joined = subprocess.run([TILES, 'to-csv', '--comments', str(out)], capture_output=True)
                 self.assertEqual(joined.stdout, self.one_process('in.txt'))
 
     def test_text_of_boxes(self):
@@ -184,7 +184,7 @@ class Union(unittest.TestCase):
         (self.at / 'boxes.csv').write_text(''.join(','.join(f'{e / 100}' for e in row) + '\n' for row in ends))
         (self.at / 'in.txt').write_text(''.join('[{},{}] [{},{}]\n'.format(*(e / 100 for e in row)) for row in ends))
         self.run_tiles(4, str(self.at / 'boxes.csv'), '-o', str(self.at / 'out'), '--boxes')
-        joined = subprocess.run([TILES, 'to-csv', str(self.at / 'out')], capture_output=True)
+        joined = subprocess.run([TILES, 'to-csv', '--comments', str(self.at / 'out')], capture_output=True)
         self.assertTrue(joined.stdout == self.one_process('in.txt'))
 
     def test_wrong_text(self):

@@ -64,7 +64,7 @@ static char *text_of_parts(const tiles_job *job, tiles_counters *total) {
   *total = member[0].counters;
   for (size_t k = 0; k < job->ranks; k++) tile_free(&member[k]);
   FILE *out = open_memstream(&text, &size);
-  assert_int_equal(tiles_write_csv(out, job->folder, &err), DYD_OK);
+  assert_int_equal(tiles_write_csv(out, job->folder, true, &err), DYD_OK);
   fclose(out);
   return text;
 }

@@ -48,7 +48,7 @@ def ask_tiles(case, product):
     status, _, err = product.run(['delaunay', path, '--boxes', '-o', out, '--tiles', '3'], product.tiles)
     if status not in (0, 3, 4):
         return status, None, err
-    _, text, err = product.run(['to-csv', out], product.tiles)
+    _, text, err = product.run(['to-csv', '--comments', out], product.tiles)
     return status, stated.read_pairs(case, text, err, 'csv'), err
 
 

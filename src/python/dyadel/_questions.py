@@ -186,7 +186,7 @@ class Convergence(Table):
 
 
 def _convergence(outcome: str, csv: bytes, svg: bytes) -> Convergence:
-    lines = [line.split(',') for line in csv.decode().splitlines() if not line.startswith('#')]
+    lines = [line.split(',') for line in csv.decode().splitlines()]
     made = Convergence({name: np.array(cells) if name == 'statuses' else _column(cells) for name, *cells in zip(*lines)})
     made.outcome, made.csv, made.svg = outcome, csv.decode(), svg.decode()
     return made
