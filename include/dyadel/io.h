@@ -25,6 +25,13 @@ typedef struct dyd_read_report {
   size_t shared;  /* rectangles whose centre is that of another one, which leaves their neighbours undecided */
   bool degrees; /* the columns of x and y are called longitude and latitude: lon, lng, stop_lon, decimalLongitude .. */
   bool swapped; /* the column of x is called latitude or northing, that of y longitude or easting */
+  size_t commented; /* lines of a table that begin with # or % and have as many fields as others, so that they may be
+                       rows; they are left out as comments */
+  size_t recoded;   /* lines that are not UTF-8 and were read as Windows-1252, which includes Latin-1 */
+  /* Set also when the call fails since the file is neither a points file nor a table: the name of its format, a command
+   * that makes a table of the file called FILE (NULL: there is none), and the columns of x and y in that table (NULL:
+   * it is a points file). Static storage; kind = NULL: the file is read. */
+  const char *kind, *make, *make_columns;
 } dyd_read_report;
 
 /* Columns are named as in the header (quoted as in RFC 4180 when they hold commas; capitals count only where names
@@ -37,11 +44,12 @@ typedef struct dyd_read_options {
   const char *radius;         /* an exact number: widen every point by it on each side; NULL: none */
   const char *radius_columns; /* "NAME" or "NAME,NAME": widen each point by these columns as well, in x and y */
   const char *id;             /* "NAME": the column of identifiers (dyd_engine_id) */
-  const char *delimiter;      /* one character, or "tab"; NULL: of , ; tab and | the one that suits the header */
-  bool decimal_comma;         /* 47,61 is 47.61; commas within parentheses and brackets separate all the same */
-  bool skip_missing;          /* leave out rows with an empty field, NA, NaN or null for a coordinate or radius */
-  bool merge;                 /* equal nominal coordinates are one point: with the smaller radius */
-  dyd_read_report *report;    /* receives what was read; NULL: nowhere */
+  const char *delimiter;   /* one character, "tab" or "blank" (runs of blanks); NULL: the one that suits the header */
+  bool decimal_comma;      /* 47,61 is 47.61; commas within parentheses and brackets separate all the same */
+  bool skip_missing;       /* leave out rows in which a coordinate or radius is empty, NA, N/A, #N/A or another error of
+                              a spreadsheet, NaN, null, None, - or `missing` */
+  bool merge;              /* equal nominal coordinates are one point: with the smaller radius */
+  dyd_read_report *report; /* receives what was read; NULL: nowhere */
   /* x and y are longitude and latitude: a latitude beyond 90 degrees is an error with its line and column, columns
    * whose names say the other order are DYD_E_ARG, and so are radii in a column without a unit: "30m", "2 km", that of
    * radius_unit, or that in the column's name ("sde(m)", "s [mm]", "accuracyInMeters"). Lengths are no part of the
@@ -54,6 +62,11 @@ typedef struct dyd_read_options {
    * as in the plane radii are in the unit of the coordinates. NULL: none. */
   const char *radius_unit;
   const char *radius_scale; /* an exact number above 0 that all radii are multiplied by; NULL: 1 */
+  const char *thousands;    /* what is between groups of three digits: , . ' _ or "blank"; NULL: nothing */
+  const char *missing;      /* a further word, or number, that means nothing; NULL: none */
+  const char *skip_lines;   /* "N": leave out the first N lines; NULL: none */
+  bool no_header;           /* the table has no header: columns are named by numbers */
+  bool units_row;           /* the row behind the header holds units: no point, but the unit of radii */
 } dyd_read_options;
 
 /* A field of dyd_read_options but struct_size and report, for programs that set fields by name or look at all. */

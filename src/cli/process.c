@@ -31,19 +31,28 @@ static bool complain_field(FILE *out, const char *field, size_t length) {
   return false;
 }
 
-/* Prints a message: the library names fields of its options in backquotes. */
+/* Prints the byte, or, where a terminal might take it for a command, its number; returns how many bytes of a character
+ * are left. */
+static int complain_byte(FILE *out, const char *at, int left) {
+  unsigned char c = (unsigned char)*at;
+  bool inside = left > 0 && (c & 0xC0) == 0x80, first = c >= 0xC2 && c < 0xF5;
+  bool control = c < 0x20 || c == 0x7F || (c == 0xC2 && ((unsigned char)at[1] & 0xE0) == 0x80);
+  if (control || (c >= 0x80 && !inside && !first)) {
+    fprintf(out, "\\x%02X", c);
+    return 0;
+  }
+  fputc(c, out);
+  return inside ? left - 1 : !first ? 0 : c < 0xE0 ? 1 : c < 0xF0 ? 2 : 3;
+}
+
+/* Prints a message: the library names fields of its options in backquotes. What is said may come from strangers. */
 static void complain_print(FILE *out, const char *text) {
-  while (*text) {
-    size_t plain = strcspn(text, "`"), length;
-    fwrite(text, 1, plain, out);
-    text += plain;
-    if (!*text) return;
-    length = strspn(text + 1, "abcdefghijklmnopqrstuvwxyz_");
-    if (text[1 + length] == '`' && complain_field(out, text + 1, length)) {
+  for (int left = 0; *text;) {
+    size_t length = *text == '`' ? strspn(text + 1, "abcdefghijklmnopqrstuvwxyz_") : 0;
+    if (*text == '`' && text[1 + length] == '`' && complain_field(out, text + 1, length))
       text += length + 2;
-    } else {
-      fputc(*text++, out);
-    }
+    else
+      left = complain_byte(out, text++, left);
   }
 }
 

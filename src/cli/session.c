@@ -50,6 +50,39 @@ static int session_read_oracle(dyd_engine *e, const cli_options *o) {
   return status;
 }
 
+/* A file's name as a shell takes it. */
+static void shell_name(char *out, size_t size, const char *name) {
+  static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./-+:,=@%";
+  if (!name[strspn(name, plain)]) {
+    snprintf(out, size, "%s", name);
+    return;
+  }
+  size_t n = 0;
+  out[n++] = '\'';
+  for (; *name && n + 6 < size; name++) {
+    if (*name == '\'') n += (size_t)snprintf(out + n, size - n, "'\\'");
+    out[n++] = *name;
+  }
+  snprintf(out + n, size - n, "'");
+}
+
+/* The file has another format: names it, and the command to type. */
+static void complain_kind(const cli_options *o, const dyd_read_report *r) {
+  const char *make = r->make, *place;
+  char name[1024], line[2048] = "";
+  bool gdal = strncmp(make, "ogr2ogr", 7) == 0;
+  shell_name(name, sizeof name, strcmp(o->file, "-") != 0 ? o->file : gdal ? "/vsistdin/" : "/dev/stdin");
+  if ((place = strstr(make, "FILE"))) {
+    snprintf(line, sizeof line, "%.*s%s%s", (int)(place - make), make, name, place + strlen("FILE"));
+    make = line;
+  }
+  const char *columns = r->make_columns ? r->make_columns : "";
+  const char *option = !*columns ? "" : o->command ? " --columns " : " --query-columns ";
+  const char *before = !o->command ? " --queries" : o->points ? " CERT --points" : "";
+  cli_complain("%s: the file is %s; give %s | dyadel %s%s%s%s -", o->file, r->kind, make,
+               o->command ? o->command : "nearest FILE", option, columns, before);
+}
+
 static int session_read_file(dyd_engine *e, cli_options *o, dyd_read_report *report) {
   FILE *in;
   const bool features = cli_gdal_here && (o->in_layer || cli_spatial_kind(o->file));
@@ -75,7 +108,9 @@ static int session_read_file(dyd_engine *e, cli_options *o, dyd_read_report *rep
     cli_complain("%s: feature %zu: %s", o->file, err.line - 2, err.message);
     return CLI_FAILED;
   }
-  if (st == DYD_E_ARG)
+  if (report->kind && report->make)
+    complain_kind(o, report);
+  else if (st == DYD_E_ARG)
     cli_complain("%s", err.message);
   else if (st != DYD_OK)
     cli_complain_at(o->file, &err);
@@ -103,6 +138,14 @@ int cli_points_read(dyd_engine *e, cli_options *o, bool noting) {
   if (r.missing)
     cli_note(o, "%s: %zu of %zu rows are left out, as a coordinate or radius is missing; the others keep their numbers",
              o->file, r.missing, r.rows);
+  if (r.commented)
+    cli_note(o, "%s: lines that begin with # or %% and may be rows: %zu; they are left out as comments", o->file,
+             r.commented);
+  if (r.recoded)
+    cli_note(o,
+             "%s: lines that are not UTF-8: %zu; they are read as Windows-1252 (Latin-1); for another encoding give "
+             "iconv -f ENCODING -t UTF-8 %s | dyadel %s ... -",
+             o->file, r.recoded, o->file, o->command);
   if (r.merged) cli_note(o, "%s: %zu rows are merged with earlier ones of equal coordinates", o->file, r.merged);
   if (r.shared)
     cli_note(o,

@@ -103,9 +103,18 @@ const cli_option cli_option_table[] = {
      "alone), or numbers from 1",
      AT(read.columns)},
     {"delimiter", 0, "C", CLI_TEXT, TEXT, CLI_INPUT,
-     "what separates columns (default: of , ; tab and | the one\nthat suits the header); tab for a tab",
+     "what separates columns (default: of , ; tab, | and blanks the\none that suits the header); tab, or blank for "
+     "runs of "
+     "blanks",
      AT(read.delimiter)},
     {"decimal-comma", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "47,61 is 47.61", AT(read.decimal_comma)},
+    {"thousands", 0, "C", CLI_TEXT, TEXT, CLI_INPUT, "what is between thousands in numbers: , . ' _ or blank",
+     AT(read.thousands)},
+    {"no-header", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "the table has no header: --columns and the like are numbers",
+     AT(read.no_header)},
+    {"units-row", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
+     "the row behind the header holds units: no point, but with\n--sphere the unit of radii", AT(read.units_row)},
+    {"skip-lines", 0, "N", CLI_TEXT, TEXT, CLI_INPUT, "leave out the first N lines of FILE", AT(read.skip_lines)},
     {"radius-column", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT,
      "widen each point by the value in this column; NAME,NAME\nfor x and y apart; with --sphere each value, the "
      "column's\n"
@@ -129,8 +138,11 @@ const cli_option cli_option_table[] = {
      "are\ncolumns",
      AT(in_layer)},
     {"skip-missing", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
-     "leave out rows with an empty field, NA, NaN or null for a\ncoordinate; the others keep their row numbers",
+     "leave out rows whose coordinate or radius is missing: empty,\nNA, N/A, NaN, null, None, -, errors of a "
+     "spreadsheet; "
+     "the\nothers keep their row numbers",
      AT(read.skip_missing)},
+    {"missing", 0, "TEXT", CLI_TEXT, TEXT, CLI_INPUT, "what means missing besides, such as -9999", AT(read.missing)},
     {"merge", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "equal coordinates are one point, with the smallest of their\nradii",
      AT(read.merge)},
     {"measured", 0, NULL, CLI_FLAG, TEXT & ~BIT(CLI_TOLERANCE), CLI_INPUT,
@@ -273,7 +285,7 @@ const cli_option cli_option_table[] = {
      "leave seconds out: equal runs give equal bytes", AT(no_times)},
     {"label", 0, "NAME=VALUE,...", CLI_TEXT, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
      "columns before the others, which tell this run from others", AT(label)},
-    {"no-header", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
+    {"rows-only", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
      "csv: rows only, so that tables put behind each other are one", AT(no_header)},
     {"seed", 0, "S", CLI_INTEGER, BIT(CLI_CHECK), CLI_EXPERIMENTS, "seed of random choices; printed", AT(seed),
      RANGE(0, INT64_MAX), GIVEN(seed_set)},

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Identifiers of points in results. They come from files of users: any bytes may be in them. */
 #include "io/label_text.h"
+#include "io/read/text.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -16,21 +17,11 @@ void dyd_sink_csv_text(dyd_sink *s, const char *text) {
   dyd_sink_text(s, "\"");
 }
 
-/* The length of the character of UTF-8 at p: 1 to 4; 0: it is none (RFC 3629: shortest forms, no surrogates). */
-static size_t utf8_length(const unsigned char *p) {
-  size_t n = p[0] < 0x80 ? 1 : p[0] < 0xC2 ? 0 : p[0] < 0xE0 ? 2 : p[0] < 0xF0 ? 3 : p[0] < 0xF5 ? 4 : 0;
-  for (size_t k = 1; k < n; k++)
-    if ((p[k] & 0xC0) != 0x80) return 0;
-  if (n == 3 && ((p[0] == 0xE0 && p[1] < 0xA0) || (p[0] == 0xED && p[1] >= 0xA0))) return 0;
-  if (n == 4 && ((p[0] == 0xF0 && p[1] < 0x90) || (p[0] == 0xF4 && p[1] >= 0x90))) return 0;
-  return n;
-}
-
 void dyd_sink_json_text(dyd_sink *s, const char *text) {
   const unsigned char *p = (const unsigned char *)text;
   dyd_sink_text(s, "\"");
   for (size_t n; *p; p += n ? n : 1) {
-    n = utf8_length(p);
+    n = dyd_utf8_length((const char *)p, 4);
     if (!n)
       dyd_sink_text(s, "\\ufffd");
     else if (*p == '"' || *p == '\\')
@@ -48,7 +39,7 @@ static bool label_is_plain(const char *text) {
   const unsigned char *p = (const unsigned char *)text;
   if (!*p || strlen(text) >= DYD_LABEL_SIZE) return false;
   for (size_t n; *p; p += n) {
-    n = utf8_length(p);
+    n = dyd_utf8_length((const char *)p, 4);
     if (!n || *p < 0x20 || *p == 0x7f) return false;
   }
   return true;

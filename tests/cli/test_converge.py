@@ -308,7 +308,7 @@ def test_sweep():
             points = ''.join(f'sqrt({k}) {ord(seed)}*sin({k})\n' for k in range(n))
             label = f'n={n},name of the seed={seed}'
             how = ['--no-times', '--label', label, '-']
-            result = run('converge', *how, *(['--no-header'] if table else []), stdin=points)
+            result = run('converge', *how, *(['--rows-only'] if table else []), stdin=points)
             expect(result, 0)
             table += result.out
             json_labels.append(json.loads(run('converge', '--format', 'json', *how, stdin=points).out)['label'])

@@ -74,7 +74,8 @@ void fuzz_calls(const uint8_t *data, size_t size);
 /* A points file, by itself or measured and widened. */
 void fuzz_points(const uint8_t *data, size_t size) {
   const dyd_read_options wide = {DYD_SIZED(dyd_read_options), .measured = true, .radius = "1/64", .merge = true};
-  read_and_run(data, size, size % 2 ? &wide : NULL);
+  const dyd_read_options later = {DYD_SIZED(dyd_read_options), .skip_lines = "2", .skip_missing = true, .missing = "1"};
+  read_and_run(data, size, size % 2 ? &wide : size % 3 ? NULL : &later);
 }
 
 /* Separated text; its size chooses how it is read. */
@@ -85,6 +86,13 @@ void fuzz_csv(const uint8_t *data, size_t size) {
   o.id = size % 2 ? "name" : NULL;
   o.decimal_comma = size % 5 == 0;
   o.merge = size % 7 == 0;
+  o.no_header = size % 11 == 0;
+  if (o.no_header) o.columns = "1,2", o.id = o.radius_columns = NULL;
+  o.units_row = size % 13 == 0;
+  o.thousands = size % 17 == 0 ? "blank" : size % 17 == 1 ? "'" : NULL;
+  o.missing = size % 3 ? "-9" : NULL;
+  o.skip_lines = size % 19 == 0 ? "1" : NULL;
+  if (size % 4 == 3) o.delimiter = "blank";
   read_and_run(data, size, &o);
 }
 

@@ -10,6 +10,7 @@ import fractions
 import gzip
 import math
 import random
+import re
 
 import mpmath
 
@@ -384,6 +385,8 @@ def kind_unit_option(case, rand):
     way = rand.choice(('radius', 'column', 'name'))
     if case.form not in TABLES:
         way = 'radius'
+    if case.form == 'headless' and way == 'name':
+        way = 'column'
     if way == 'radius':
         r = size_in(case, rand, unit)
         case.args += ['--radius', decimal(r), '--radius-unit', unit]
@@ -522,8 +525,8 @@ def kind_program_boxes(case, rand):
     kind_interval(case, rand)
 
 
-TEXTS = ('text', 'comma', 'stdin', 'gzip', 'csv', 'semicolon', 'tab', 'bar', 'numbers')
-TABLES = ('csv', 'semicolon', 'tab', 'bar', 'numbers')
+TABLES = ('csv', 'semicolon', 'tab', 'bar', 'numbers', 'blanks', 'headless', 'units row', 'apart')
+TEXTS = ('text', 'comma', 'stdin', 'gzip', *TABLES)
 KINDS = {  # name: function, geometries, forms
     'exact': (kind_exact, ('plane', 'sphere', 'discs'), TEXTS + ('python', 'capi', 'tiles')),
     'interval': (kind_interval, ('plane', 'sphere'), TEXTS + ('python', 'capi', 'tiles')),
@@ -552,16 +555,18 @@ def lines(case, between=' '):
     return ''.join(between.join(s.text) + '\n' for s in case.sites)
 
 
-def table(case, d, names=('x', 'y'), comma=False):
+def table(case, d, names=('x', 'y'), comma=False, change=lambda t: t):
     """A table: a name, x, y, and what else the points have; columns that nobody reads between them."""
     def cell(t):
         t = t.replace('.', ',') if comma and not set('([') & set(t) else t
-        return f'"{t}"' if d in t or ',' in t else t
+        return change(f'"{t}"' if d in t or ',' in t else t)
     out = d.join(('name', names[0], 'cost', names[1], *case.names)) + '\n'
     for k, s in enumerate(case.sites):
         out += d.join((f'p{k}', cell(s.text[0]), str(k * 7 % 5 + 1), cell(s.text[1]), *map(cell, s.columns))) + '\n'
     if case.extra == 'missing':
-        out += d.join(('p', 'NA', '1', '', *('0' for _ in case.names))) + '\n'
+        out += d.join(('p', 'NA', '1', '-', *('0' for _ in case.names))) + '\n'
+    if case.extra == 'missing word':
+        out += d.join(('p', '-9999.0', '1', '7', *('0' for _ in case.names))) + '\n'
     return out
 
 
@@ -602,6 +607,35 @@ def form_numbers(case, put):
     return ['--columns', '2,4', put('points.csv', table(case, ','))]
 
 
+def form_blanks(case, put):
+    """Runs of blanks, comments, and a header that is one of them."""
+    names, *body = table(case, '   ').splitlines(keepends=True)
+    return ['--columns', 'x,y', '--delimiter', 'blank',
+            put('points.txt', '%% written by hand\n%  ' + names + ''.join(l + '# between\n' for l in body))]
+
+
+def form_headless(case, put):
+    """No header: columns by their numbers, behind lines that are left out."""
+    number = dict(zip(case.names, '56'))
+    case.args = [','.join(number.get(n, n) for n in w.split(',')) for w in case.args]
+    return ['--no-header', '--columns', '2,4', '--skip-lines', '2', put('points.csv', 'two\n' + table(case, ','))]
+
+
+def form_units_row(case, put):
+    """As a spreadsheet of another age writes: what separates, names, units, lines that end by CR."""
+    names, *body = table(case, ';').splitlines()
+    units = ['', 'deg', 'EUR', 'deg', *('' for _ in case.names)]
+    return ['--columns', 'x,y', '--units-row', put('points.csv', '\r'.join(['sep=;', names, ';'.join(units), *body, '']))]
+
+
+def form_apart(case, put):
+    """Thousands are apart."""
+    def apart(t):
+        m = re.fullmatch(r'([-+]?)(\d{4,})(\..*)?', t)
+        return m[1] + f'{int(m[2]):,}'.replace(',', "'") + (m[3] or '') if m and m[2][0] != '0' else t
+    return ['--columns', 'x,y', '--thousands', "'", put('points.csv', table(case, ',', change=apart))]
+
+
 def form_program(case, put):
     """The answers of a program: places as fractions, or boxes that stay."""
     boxes = (s.region[1:] if s.region[0] != 'disc' else (s.region[1], s.region[1], s.region[2], s.region[2]) for s in case.sites)
@@ -612,6 +646,7 @@ def form_program(case, put):
 
 FORMS = {'text': form_text, 'comma': form_comma, 'stdin': form_stdin, 'gzip': form_gzip, 'csv': form_csv,
          'semicolon': form_semicolon, 'tab': form_tab, 'bar': form_bar, 'numbers': form_numbers,
+         'blanks': form_blanks, 'headless': form_headless, 'units row': form_units_row, 'apart': form_apart,
          'program': form_program, 'python': None, 'capi': None, 'tiles': None}
 
 GEOMETRIES = {'plane': [], 'sphere': ['--sphere'], 'discs': ['--discs']}
@@ -639,6 +674,7 @@ EXTRAS = {
     'window': Extra(['--window=-1,1,-1,1']), 'crs': Extra(['--crs', 'EPSG:32632']),
     'accept fixpoint': Extra(['--accept-fixpoint']), 'plane': Extra(['--plane']),
     'id': Extra(['--id', 'name'], fits='table'), 'missing': Extra(['--skip-missing'], fits='table'),
+    'missing word': Extra(['--skip-missing', '--missing=-9999'], fits='table'),
     'merge': Extra(['--merge'], softens=True), 'cost': Extra(['--cost-column', 'cost'], fits='table'),
     'certificate': Extra(['--certificate', '@certificate'], check='certificate'),
     'trace': Extra(['--trace', '@trace'], check='resume'),

@@ -25,7 +25,7 @@ REASONS = {  # (command or *, option, format:F, layer:L or OPTION=word): why no 
     ('converge', '--trace-sync'): 'as --trace', ('converge', '--trace'): 'a trace of stages says what its table does', ('converge', '--resume'): 'as --trace',
     ('check', '--trace'): 'writes the schedule of a fault, and none is expected', ('check', '--replay'): 'as --trace',
     ('converge', '--replay'): 'as --trace', ('converge', '--plot'): PICTURE,
-    ('converge', '--no-header'): 'leaves the header out, and says nothing else',
+    ('converge', '--rows-only'): 'leaves the header out, and says nothing else',
     ('*', 'format:pdf'): PICTURE, ('*', 'format:png'): PICTURE,
     ('*', 'format:html'): 'a page holds the data of json: tests/html compares both',
     ('voronoi', 'format:svg'): PICTURE, ('voronoi', 'format:vtk'): 'holds what json does: tests/cli/test_voronoi.py compares',

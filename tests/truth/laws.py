@@ -329,7 +329,7 @@ def write_regions(regions, geometry, product):
 
 def judge_same(judge, case, product, claims, rand):
     """Applies one change: the statements of the changed points are the same; wider regions decide no more."""
-    if case.true or case.kind in ('disguised', 'real with radius') or case.extra in ('merge', 'missing') or not case.sites:
+    if case.true or case.kind in ('disguised', 'real with radius') or case.extra in ('merge', 'missing', 'missing word') or not case.sites:
         return
     name, change = rand.choice(list(SAME[case.geometry].items()))
     regions = [change(s.region, rand) for s in case.sites]

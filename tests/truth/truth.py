@@ -98,7 +98,8 @@ class Space:
         g, kind, form, shape, what, extra, fmt = (row.get(a) for a in ORDER)
         if e is None:
             return True
-        if e.fits == 'table' and form and form not in axes.TABLES or extra == 'id' and form == 'bar':
+        if e.fits == 'table' and form and form not in axes.TABLES or extra == 'id' and form == 'bar' \
+                or extra in ('id', 'cost') and form == 'headless':
             return False
         if e.fits == 'program' and form and form != 'program':
             return False

@@ -14,6 +14,7 @@
 static dyd_status csv_record(dyd_line *out, dyd_csv *csv, dyd_error *err);
 static dyd_status csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err);
 static void span_trim(dyd_span *s);
+static bool is_comment(const dyd_line *line);
 
 /* One line of a points file: two coordinates separated by blanks or one comma, and a comment.
  *
@@ -63,6 +64,7 @@ dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_lin
   const char *comment = memchr(line->text, '#', line->length);
   cursor c = {line->text, comment ? comment : line->text + line->length, line, comma};
   *count = 0;
+  if (is_comment(line)) return DYD_OK;
   if (points_separator(&c, 0))
     return points_fail(err, &c, "a coordinate is missing before this comma; give two coordinates");
   if (c.at == c.end) return DYD_OK;
@@ -89,7 +91,7 @@ dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_lin
  *
  * A column is wanted by its name or, in digits without quotes, by its number from 1. */
 
-static const char delimiters[] = ",;\t|";
+static const char delimiters[] = ",;\t| ";
 
 /* ---- what is wanted ---- */
 
@@ -109,6 +111,7 @@ dyd_status dyd_csv_ask(dyd_csv *csv, int first, size_t least, size_t most, const
     dyd_span *field = &csv->field[k < csv->fields ? k : 0];
     span_trim(field);
     dyd_csv_want *want = &csv->want[(size_t)first + k];
+    if (csv->roles <= first + (int)k) csv->roles = first + (int)k + 1;
     *want = (dyd_csv_want){dyd_alloc(field->length + 1, 1), field->text != field->at, option};
     if (!want->name) return dyd_fail_nomem(err);
     memcpy(want->name, field->text, field->length);
@@ -122,8 +125,10 @@ static dyd_status read_delimiter(char *out, const char *text, dyd_error *err) {
   *out = 0;
   if (!text) return DYD_OK;
   if (strcmp(text, "tab") == 0 || strcmp(text, "\\t") == 0) text = "\t";
+  if (strcmp(text, "blank") == 0) text = " ";
   if (!text[0] || text[1] || text[0] == '"' || text[0] == '\n' || text[0] == '\r' || (unsigned char)text[0] >= 128)
-    return dyd_fail(err, DYD_E_ARG, "\"%.20s\" cannot be a delimiter; give one character such as \";\", or tab", text);
+    return dyd_fail(err, DYD_E_ARG, "\"%.20s\" cannot be a delimiter; give one character such as \";\", tab or blank",
+                    text);
   *out = text[0];
   return DYD_OK;
 }
@@ -134,11 +139,20 @@ static char lower_letter(char c) {
   return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
 }
 
+static bool is_space(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+/* Blanks and ends of lines, any number of them, are equal. */
 static bool is_named(const dyd_span *field, const char *name, bool fold) {
-  if (field->length != strlen(name)) return false;
-  for (size_t k = 0; k < field->length; k++)
-    if (field->text[k] != name[k] && (!fold || lower_letter(field->text[k]) != lower_letter(name[k]))) return false;
-  return true;
+  const char *p = field->text, *end = p + field->length;
+  for (; p < end && *name; p++, name++) {
+    const bool space = is_space(*p) && is_space(*name);
+    while (space && p + 1 < end && is_space(p[1])) p++;
+    while (space && is_space(name[1])) name++;
+    if (!space && *p != *name && (!fold || lower_letter(*p) != lower_letter(*name))) return false;
+  }
+  return p == end && !*name;
 }
 
 /* How many columns have the name; *first and *last of them. */
@@ -162,6 +176,7 @@ static void list_names(char *out, size_t size, const dyd_csv *csv) {
       return;
     }
     used += (size_t)snprintf(out + used, size - used, "%s%.*s", k ? ", " : "", (int)f->length, f->text);
+    for (char *at = out; (at = strpbrk(at, "\r\n"));) *at = ' ';
   }
 }
 
@@ -189,7 +204,7 @@ static dyd_status fail_missing(const dyd_csv *csv, const dyd_csv_want *want, dyd
 static dyd_status find_numbered(size_t *out, const dyd_csv *csv, const dyd_csv_want *want, dyd_error *err) {
   char message[DYD_MESSAGE_SIZE];
   size_t first = 0, last = 0, number = strlen(want->name) < 9 ? (size_t)atol(want->name) : SIZE_MAX;
-  bool named = count_named(&first, &last, csv, want->name, false);
+  bool named = !csv->headless && count_named(&first, &last, csv, want->name, false);
   if (named && first + 1 != number) {
     snprintf(message, sizeof message,
              "%s is the name of column %zu: for that one, put the name into quotes: `%s` '\"%s\"'; for column %s, give "
@@ -198,16 +213,23 @@ static dyd_status find_numbered(size_t *out, const dyd_csv *csv, const dyd_csv_w
     return header_fail(csv, first, err, message);
   }
   if (number >= 1 && number <= csv->fields) return *out = number - 1, DYD_OK;
-  snprintf(message, sizeof message, "there is no column %.20s; the header has %zu, counted from 1", want->name,
-           csv->fields);
+  snprintf(message, sizeof message, "there is no column %.20s; the %s has %zu, counted from 1", want->name,
+           csv->headless ? "first line" : "header", csv->fields);
   return header_fail(csv, 0, err, message);
+}
+
+static bool is_numbered(const dyd_csv_want *want) {
+  return !want->quoted && want->name[0] && !want->name[strspn(want->name, "0123456789")];
 }
 
 static dyd_status find_column(size_t *out, const dyd_csv *csv, const dyd_csv_want *want, dyd_error *err) {
   char names[160], message[DYD_MESSAGE_SIZE];
   size_t first = 0, last = 0;
-  if (!want->quoted && want->name[0] && !want->name[strspn(want->name, "0123456789")])
-    return find_numbered(out, csv, want, err);
+  if (is_numbered(want)) return find_numbered(out, csv, want, err);
+  if (csv->headless)
+    return dyd_fail(err, DYD_E_ARG,
+                    "without a header columns have numbers, from 1, and no names such as \"%.60s\": `%s`", want->name,
+                    want->option);
   size_t found = count_named(&first, &last, csv, want->name, false), exact = found;
   if (!found) found = count_named(&first, &last, csv, want->name, true);
   if (found == 1) return *out = first, DYD_OK;
@@ -234,24 +256,32 @@ static dyd_status find_columns(dyd_csv *csv, dyd_error *err) {
 
 /* ---- the delimiter ---- */
 
+/* A mark of comments in front is no part of the first name. */
 static dyd_status header_split(dyd_csv *csv, const dyd_line *line, char delimiter, dyd_error *err) {
   csv->delimiter = delimiter;
   dyd_status st = csv_split(csv, line, err);
   for (size_t k = 0; k < csv->fields && st == DYD_OK; k++) span_trim(&csv->field[k]);
+  if (st != DYD_OK || !csv->fields || csv->headless || !is_comment(line)) return st;
+  dyd_span *first = &csv->field[0];
+  csv->marked = first->length == 1;
+  if (first->length > 1) first->text++, first->at++, first->length--;
+  span_trim(first);
   return st;
 }
 
 /* The delimiter that makes the most columns among those by which all wanted ones are found; when there is none, the one
- * that makes the most. */
+ * that makes the most. Blanks are tried last. */
 static dyd_status find_delimiter(char *best, dyd_csv *csv, const dyd_line *line, dyd_error *err) {
   size_t most = 0;
   bool found = false;
   *best = delimiters[0];
   for (const char *d = delimiters; *d; d++) {
+    if (*d == ' ' && found) break;
     dyd_status st = header_split(csv, line, *d, NULL);
     if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
     if (st != DYD_OK) continue;
     bool finds = find_columns(csv, NULL) == DYD_OK;
+    if (*d == ' ' && !finds) break;
     if (finds < found || (finds == found && csv->fields <= most)) continue;
     found = finds;
     most = csv->fields;
@@ -261,15 +291,19 @@ static dyd_status find_delimiter(char *best, dyd_csv *csv, const dyd_line *line,
 }
 
 /* Columns by number say nothing about a first line that is no header, but a point that would be lost. */
-static dyd_status refuse_numbers(const dyd_csv *csv, dyd_error *err) {
+static bool holds_numbers(const dyd_csv *csv) {
   dyd_plain p;
   for (int k = DYD_CSV_X; k <= DYD_CSV_Y; k++) {
     const dyd_span *f = &csv->field[csv->column[k]];
-    if (csv->want[k].quoted || is_named(f, csv->want[k].name, false)) return DYD_OK;
-    if (!dyd_plain_scan(&p, f->text, f->length)) return DYD_OK;
+    if (!is_numbered(&csv->want[k]) || !dyd_plain_scan(&p, f->text, f->length)) return false;
   }
-  return header_fail(csv, csv->column[DYD_CSV_X], err,
-                     "the first line must name the columns, but here it holds numbers; put a line of names before it");
+  return true;
+}
+
+static bool all_numbered(const dyd_csv *csv) {
+  for (int k = 0; k < DYD_CSV_MOST; k++)
+    if (csv->want[k].name && !is_numbered(&csv->want[k])) return false;
+  return true;
 }
 
 /* Words that the names of coordinates hold: anywhere in a name, at its begin, or as its last part (stop_lat, gpsLon).
@@ -307,6 +341,18 @@ static bool is_called(const dyd_csv *csv, int role, const axis_words *w) {
          ends_with_part(f, w->last[1]) || ends_with_part(f, w->last[2]);
 }
 
+static const char plain_letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.,";
+
+/* A name as `columns` takes it, at most 60 bytes of it. */
+static void put_name(char *out, size_t *used, const dyd_span *name) {
+  size_t length = name->length < 60 ? name->length : 60;
+  bool quoted = memchr(name->text, ',', length);
+  if (quoted) out[(*used)++] = '"';
+  memcpy(out + *used, name->text, length);
+  *used += length;
+  if (quoted) out[(*used)++] = '"';
+}
+
 /* What the names of the columns say of them. On the sphere, columns in the other order are refused. */
 static dyd_status read_meanings(dyd_csv *csv, bool degrees, dyd_error *err) {
   const dyd_span *x = &csv->field[csv->column[DYD_CSV_X]], *y = &csv->field[csv->column[DYD_CSV_Y]];
@@ -316,46 +362,100 @@ static dyd_status read_meanings(dyd_csv *csv, bool degrees, dyd_error *err) {
   csv->swapped = (x_lat || is_called(csv, DYD_CSV_X, &northing)) && (y_lon || is_called(csv, DYD_CSV_Y, &easting));
   csv->unit = radius ? dyd_unit_of_column(radius->text, radius->length) : NULL;
   if (!csv->swapped || !degrees) return DYD_OK;
+  char names[160];
+  size_t used = 0;
+  put_name(names, &used, y);
+  names[used++] = ',';
+  put_name(names, &used, x);
+  names[used] = 0;
+  const char *quote = names[strspn(names, plain_letters)] ? "'" : "";
   return dyd_fail(err, DYD_E_ARG,
-                  "by their names the columns are latitude and longitude; longitude comes first: `columns` %.*s,%.*s",
-                  (int)(y->length < 60 ? y->length : 60), y->text, (int)(x->length < 60 ? x->length : 60), x->text);
+                  "by their names the columns are latitude and longitude; longitude comes first: `columns` %s%s%s",
+                  quote, names, quote);
 }
 
-/* Takes the line for the header. delimiter 0: it tells. */
-static dyd_status header_take(dyd_csv *csv, const dyd_line *line, char delimiter, dyd_error *err) {
+/* Takes the line for the header, or for the first row. delimiter 0: it tells. commented: comments were before it. */
+static dyd_status header_take(dyd_csv *csv, const dyd_line *line, char delimiter, bool commented, dyd_error *err) {
   dyd_status st = delimiter ? DYD_OK : find_delimiter(&delimiter, csv, line, err);
   if (st == DYD_OK) st = header_split(csv, line, delimiter, err);
   if (st == DYD_OK) st = find_columns(csv, err);
-  return st == DYD_OK ? refuse_numbers(csv, err) : st;
+  if (st != DYD_OK || csv->headless || !holds_numbers(csv)) return st;
+  csv->headless = commented && all_numbered(csv);
+  if (csv->headless) return DYD_OK;
+  return header_fail(csv, csv->column[DYD_CSV_X], err,
+                     "the first line holds numbers, not the names of columns; where no line names them, give "
+                     "`no_header`, and where these are names, put them into quotes");
 }
 
-/* Lines before the header that begin with # and have not got the columns are comments, as what is written here has. One
- * that has as many fields as the line behind it, in which columns are missing as well, was the header. */
+/* The delimiter in a first line such as "sep=;"; 0: it is none. */
+static char delimiter_line(const dyd_line *line) {
+  const char *at = line->text;
+  bool quoted = line->length == 7 && at[0] == '"' && at[6] == '"';
+  if (line->number != 1 || (line->length != 5 && !quoted)) return 0;
+  return memcmp(at + quoted, "sep=", 4) == 0 || memcmp(at + quoted, "Sep=", 4) == 0 ? at[4 + quoted] : 0;
+}
+
+/* Lines before the header that begin with # or % and have not got the columns are comments, as what is written here
+ * has. One that has as many fields as the line behind it, in which columns are missing as well, was the header. Where
+ * all columns are numbers, all of them are comments, and a row may follow. */
 static dyd_status header_read(dyd_csv *csv, char delimiter, dyd_error *err) {
+  const bool numbered = all_numbered(csv);
+  bool commented = false;
+  size_t fields = 0; /* of the last comment, in which columns are missing, as `before` says */
   dyd_error before;
-  for (size_t fields = 0;; fields = csv->fields) {
+  for (;;) {
     dyd_line line;
     dyd_status st = csv_record(&line, csv, err);
     if (st != DYD_OK) return st;
     if (!line.text) break;
-    st = header_take(csv, &line, delimiter, err);
+    char told = delimiter_line(&line);
+    const bool comment = is_comment(&line);
+    if (told && !delimiter) delimiter = told;
+    commented = commented || comment;
+    if (told || (comment && numbered)) continue;
+    st = header_take(csv, &line, delimiter, commented, err);
     if (st != DYD_E_PARSE) return st;
-    if (line.text[0] != '#') {
-      if (err && fields == csv->fields) *err = before;
+    if (!comment) {
+      if (err && fields && fields == csv->fields) *err = before;
       return st;
     }
     if (err) before = *err;
+    fields = csv->fields;
   }
+  csv->fields = 0;
   if (err) err->line = err->column = 1;
-  return dyd_fail(err, DYD_E_PARSE, "the file has no header; its first line must name the columns");
+  return csv->headless ? DYD_OK
+                       : dyd_fail(err, DYD_E_PARSE, "the file has no header; its first line must name the columns");
+}
+
+/* Passes over the row behind the header; it may state the unit of radii. */
+static dyd_status units_read(dyd_csv *csv, dyd_error *err) {
+  dyd_span field[DYD_CSV_MOST];
+  dyd_plain p;
+  size_t count;
+  dyd_status st = dyd_csv_next(field, &count, csv, err);
+  if (st != DYD_OK || !count) return st;
+  if (dyd_plain_scan(&p, field[DYD_CSV_X].text, field[DYD_CSV_X].length))
+    return dyd_span_fail(err, &field[DYD_CSV_X], 0, "this row holds numbers, not units; remove `units_row`");
+  const dyd_span *radius = csv->want[DYD_CSV_RADIUS_X].name ? &field[DYD_CSV_RADIUS_X] : NULL;
+  const dyd_unit *unit = radius ? dyd_unit_find(radius->text, radius->length) : NULL;
+  if (radius && !unit) unit = dyd_unit_of_column(radius->text, radius->length);
+  if (unit) csv->unit = unit;
+  return DYD_OK;
 }
 
 dyd_status dyd_csv_open(dyd_csv *csv, const char *delimiter, bool degrees, dyd_error *err) {
   char given;
   dyd_status st = read_delimiter(&given, delimiter, err);
+  csv->comments = csv->headless;
   if (st == DYD_OK) st = header_read(csv, given, err);
+  csv->comments = true;
   csv->columns = csv->fields;
-  return st == DYD_OK ? read_meanings(csv, degrees, err) : st;
+  csv->fresh = true;
+  csv->trails = csv->fields > 1 && !csv->headless && !csv->field[csv->fields - 1].length;
+  csv->held = csv->headless && csv->fields;
+  if (st == DYD_OK && !csv->headless) st = read_meanings(csv, degrees, err);
+  return st == DYD_OK && csv->units_row ? units_read(csv, err) : st;
 }
 
 /* ---- a file that is taken for a points file ---- */
@@ -475,10 +575,39 @@ void dyd_csv_clear(dyd_csv *csv) {
 
 /* ---- records ---- */
 
-static bool odd_quotes(const char *text, size_t length) {
-  bool odd = false;
-  for (const char *end = text + length; (text = memchr(text, '"', (size_t)(end - text))); text++) odd = !odd;
-  return odd;
+static bool is_blank_line(const dyd_line *line) {
+  for (size_t k = 0; k < line->length; k++)
+    if (!is_points_blank(line->text[k])) return false;
+  return true;
+}
+
+/* Does it begin with # or %? What spreadsheets write for errors is no comment. */
+static bool is_comment(const dyd_line *line) {
+  const char *at = line->text, *end = at + line->length;
+  while (at < end && is_points_blank(*at)) at++;
+  return at < end && (*at == '%' || (*at == '#' && !dyd_is_sheet_error(at, (size_t)(end - at))));
+}
+
+bool dyd_is_sheet_error(const char *text, size_t length) {
+  static const char *const known[] = {"#N/A", "#VALUE!", "#REF!", "#DIV/0!", "#NUM!", "#NAME?", "#NULL!"};
+  for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+    if (length >= strlen(known[k]) && memcmp(text, known[k], strlen(known[k])) == 0) return true;
+  return false;
+}
+
+/* Is a quoted field open behind the text, which begins within one (inside) or with a field? */
+static bool leaves_quote_open(bool inside, const char *text, size_t length, char delimiter) {
+  bool begin = true;
+  if (!memchr(text, '"', length)) return inside;
+  for (const char *end = text + length; text < end; text++) {
+    if (inside && *text == '"' && text + 1 < end && text[1] == '"')
+      text++;
+    else if (*text == '"' && (inside || begin))
+      inside = !inside;
+    begin = delimiter ? *text == delimiter : *text && strchr(",;\t|", *text);
+    if (delimiter == ' ' && *text == '\t') begin = true;
+  }
+  return inside;
 }
 
 static dyd_status record_append(dyd_csv *csv, size_t *length, const dyd_line *line, dyd_error *err) {
@@ -493,11 +622,11 @@ static dyd_status record_append(dyd_csv *csv, size_t *length, const dyd_line *li
   return DYD_OK;
 }
 
-/* Appends lines until the quotes pair up. */
+/* Appends lines until the quoted field is closed. */
 static dyd_status record_join_lines(dyd_line *out, dyd_csv *csv, dyd_error *err) {
   size_t length = 0, first = out->number;
   dyd_status st = record_append(csv, &length, out, err);
-  for (bool odd = true; odd && st == DYD_OK;) {
+  for (bool open = true; open && st == DYD_OK;) {
     st = dyd_text_next(out, csv->text, err);
     if (st != DYD_OK) break;
     if (!out->text) {
@@ -505,7 +634,7 @@ static dyd_status record_join_lines(dyd_line *out, dyd_csv *csv, dyd_error *err)
       return dyd_span_fail(err, &span, (size_t)((char *)memchr(csv->record, '"', length) - csv->record),
                            "the quotes of this record do not pair up; close the quoted field");
     }
-    odd = !odd_quotes(out->text, out->length);
+    open = leaves_quote_open(true, out->text, out->length, csv->delimiter);
     st = record_append(csv, &length, out, err);
   }
   *out = (dyd_line){csv->record, length, first};
@@ -514,16 +643,45 @@ static dyd_status record_join_lines(dyd_line *out, dyd_csv *csv, dyd_error *err)
 
 /* ---- for the header ---- */
 
-/* The next record that is not an empty line; text = NULL at the end. */
+/* Counts a comment behind the header that would be a point without its mark. */
+static dyd_status note_comment(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
+  dyd_plain p;
+  if (!csv->columns || is_blank_line(line)) return DYD_OK;
+  size_t mark = strcspn(line->text, "#%") + 1;
+  const dyd_line rest = {line->text + mark, line->length - mark, line->number};
+  dyd_status st = csv_split(csv, &rest, NULL);
+  if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  bool point = st == DYD_OK && csv->fields == csv->columns;
+  for (int k = DYD_CSV_X; k <= DYD_CSV_Y && point; k++) {
+    dyd_span *f = &csv->field[csv->column[k]];
+    span_trim(f);
+    point = dyd_plain_scan(&p, f->text, f->length);
+  }
+  csv->commented += point;
+  return DYD_OK;
+}
+
+/* The next record that is not an empty line or a comment; text = NULL at the end. */
 static dyd_status csv_record(dyd_line *out, dyd_csv *csv, dyd_error *err) {
   dyd_status st;
-  do st = dyd_text_next(out, csv->text, err);
-  while (st == DYD_OK && out->text && (out->length == 0 || (csv->comments && out->text[0] == '#')));
-  if (st != DYD_OK || !out->text || !odd_quotes(out->text, out->length)) return st;
+  for (;;) {
+    st = dyd_text_next(out, csv->text, err);
+    if (st != DYD_OK || !out->text) return st;
+    if (csv->comments && is_comment(out))
+      st = note_comment(csv, out, err);
+    else if (!is_blank_line(out))
+      break;
+    if (st != DYD_OK) return st;
+  }
+  if (!leaves_quote_open(false, out->text, out->length, csv->delimiter)) return DYD_OK;
   return record_join_lines(out, csv, err);
 }
 
 /* ---- fields ---- */
+
+static bool is_delimiter(const dyd_csv *csv, char c) {
+  return c == csv->delimiter || (c == '\t' && csv->delimiter == ' ');
+}
 
 /* Unquotes the field whose opening quote is at *at; *at is moved behind the closing one. */
 static dyd_status record_quoted_field(dyd_span *field, const char **at, const char *end, dyd_csv *csv, dyd_error *err) {
@@ -538,7 +696,7 @@ static dyd_status record_quoted_field(dyd_span *field, const char **at, const ch
   }
   if (p == end) return dyd_span_fail(err, field, 0, "this quoted field is not closed; add a quote");
   *at = p + 1;
-  if (*at == end || **at == csv->delimiter) return DYD_OK;
+  if (*at == end || is_delimiter(csv, **at)) return DYD_OK;
   return dyd_span_fail(err, field, (size_t)(*at - field->at),
                        "text behind a closing quote; double the quotes inside a quoted field");
 }
@@ -546,10 +704,13 @@ static dyd_status record_quoted_field(dyd_span *field, const char **at, const ch
 static dyd_status record_field(dyd_span *field, const char **at, const char *end, dyd_csv *csv, dyd_error *err) {
   field->text = field->at = *at;
   if (*at < end && **at == '"') return record_quoted_field(field, at, end, csv, err);
-  const char *stop = memchr(*at, csv->delimiter, (size_t)(end - *at));
+  const char *stop = csv->delimiter == ' ' ? *at : memchr(*at, csv->delimiter, (size_t)(end - *at));
+  while (csv->delimiter == ' ' && stop < end && !is_delimiter(csv, *stop)) stop++;
   if (!stop) stop = end;
   field->length = (size_t)(stop - *at);
   const char *quote = memchr(*at, '"', field->length);
+  while (quote && memchr("0123456789.'", quote[-1], 12)) /* seconds */
+    quote = memchr(quote + 1, '"', (size_t)(stop - quote) - 1);
   *at = stop;
   if (!quote) return DYD_OK;
   return dyd_span_fail(err, field, (size_t)(quote - field->at),
@@ -562,6 +723,8 @@ static dyd_status csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err) 
   csv->used = csv->fields = 0;
   if (!dyd_reserve((void **)&csv->plain, &csv->plain_cap, line->length, 1)) return dyd_fail_nomem(err);
   for (;;) {
+    while (csv->delimiter == ' ' && at < end && is_points_blank(*at)) at++;
+    if (csv->delimiter == ' ' && at == end) return DYD_OK;
     if (!dyd_reserve((void **)&csv->field, &csv->field_cap, csv->fields + 1, sizeof *csv->field))
       return dyd_fail_nomem(err);
     dyd_span *field = &csv->field[csv->fields++];
@@ -578,8 +741,9 @@ static void span_trim(dyd_span *s) {
   while (s->length && (s->text[s->length - 1] == ' ' || s->text[s->length - 1] == '\t')) s->length--;
 }
 
-/* "commas", "a comma". Static storage. */
 /* ---- the next point ---- */
+
+/* "commas", "a comma". Static storage. */
 static const char *delimiter_name(char delimiter, bool many) {
   static const struct {
     char c;
@@ -594,19 +758,36 @@ static const char *delimiter_name(char delimiter, bool many) {
   return many ? "delimiters" : "a delimiter";
 }
 
+/* Has the first record behind the header fields that suit it? A mark that stands alone in the header is no column if
+ * they are one less; the same holds for an empty last name. */
+static bool fields_fit(dyd_csv *csv, bool first) {
+  size_t last = 0;
+  if (csv->fields == csv->columns + 1 && !csv->field[csv->columns].length) return csv->fields--, true;
+  if (!first || csv->fields + 1 != csv->columns || (!csv->marked && !csv->trails)) return false;
+  for (int k = 0; k < DYD_CSV_MOST; k++) {
+    if (!csv->want[k].name) continue;
+    csv->column[k] -= csv->marked && !is_numbered(&csv->want[k]);
+    if (csv->column[k] > last) last = csv->column[k];
+  }
+  csv->columns = csv->fields;
+  return last < csv->fields;
+}
+
 dyd_status dyd_csv_next(dyd_span field[DYD_CSV_MOST], size_t *count, dyd_csv *csv, dyd_error *err) {
   dyd_line line;
   *count = 0;
-  dyd_status st = csv_record(&line, csv, err);
-  if (st != DYD_OK || !line.text) return st;
-  st = csv_split(csv, &line, err);
+  dyd_status st = csv->held ? DYD_OK : csv_record(&line, csv, err);
+  if (st != DYD_OK || (!csv->held && !line.text)) return st;
+  if (!csv->held) st = csv_split(csv, &line, err);
+  const bool first = csv->fresh;
+  csv->held = csv->fresh = false;
   if (st != DYD_OK) return st;
-  if (csv->fields != csv->columns) {
+  if (csv->fields != csv->columns && !fields_fit(csv, first)) {
     if (err) dyd_span_position(&err->line, &err->column, &csv->field[0], 0);
-    return dyd_fail(err, DYD_E_PARSE, "this record has %zu fields, the header %zu; quote fields that hold %s",
-                    csv->fields, csv->columns, delimiter_name(csv->delimiter, true));
+    return dyd_fail(err, DYD_E_PARSE, "this record has %zu fields, the %s %zu; quote fields that hold %s", csv->fields,
+                    csv->headless ? "first one" : "header", csv->columns, delimiter_name(csv->delimiter, true));
   }
-  for (int k = 0; k < DYD_CSV_MOST; k++) {
+  for (int k = 0; k < csv->roles; k++) {
     if (!csv->want[k].name) continue;
     field[k] = csv->field[csv->column[k]];
     span_trim(&field[k]);

@@ -27,14 +27,20 @@ typedef struct dyd_csv {
   char delimiter;
   dyd_csv_want want[DYD_CSV_MOST];
   size_t column[DYD_CSV_MOST]; /* where they are, from 0 */
+  int roles;                   /* all that are wanted are smaller */
   size_t columns;              /* how many the header has */
   bool degrees, swapped;       /* x and y are called longitude and latitude; latitude and longitude */
-  const dyd_unit *unit;        /* that the name of the column of radii states; NULL: none */
-  bool comments;               /* records that begin with # are passed over */
-  char *record;                /* the current record, when it spans lines */
-  size_t record_cap;           /* */
-  char *plain;                 /* unquoted fields of the current record */
-  size_t plain_cap, used;      /* */
+  const dyd_unit *unit;        /* that the column of radii states; NULL: none */
+  bool headless, units_row;    /* set by the caller: no header; a row of units behind it */
+  bool comments;               /* records that begin with # or % are passed over */
+  bool fresh;                  /* no record behind the header has been read */
+  bool held, marked, trails; /* the record in `field` is the next; the header begins with # or % alone; its last name is
+                                empty */
+  size_t commented;          /* comments that would be points */
+  char *record;              /* the current record, when it spans lines */
+  size_t record_cap;         /* */
+  char *plain;               /* unquoted fields of the current record */
+  size_t plain_cap, used;    /* */
   dyd_span *field;
   size_t fields, field_cap;
 } dyd_csv;
@@ -44,15 +50,18 @@ typedef struct dyd_csv {
  * DYD_E_ARG when the text is not of this form; DYD_E_NOMEM. */
 dyd_status dyd_csv_ask(dyd_csv *csv, int first, size_t least, size_t most, const char *text, const char *option,
                        dyd_error *err);
-/* Reads the header. It tells the delimiter if this is NULL. Lines of # before it that do not have the columns are
- * skipped. degrees: columns called latitude and longitude, in this order, are an error. Called once, after the columns
- * of x and y were asked for. DYD_E_ARG when delimiter is not of its form; DYD_E_PARSE when the header does not have
- * each column once. */
+/* Reads the header. It tells the delimiter if this is NULL; "blank": runs of blanks. Lines of # or % before it that do
+ * not have the columns are skipped; so is a line such as "sep=;", which tells the delimiter, too. degrees: columns
+ * called latitude and longitude, in this order, are an error. Called once, after the columns of x and y were asked for.
+ * DYD_E_ARG when delimiter is not of its form, or columns of a file without a header are no numbers; DYD_E_PARSE when
+ * the header does not have each column once. */
 dyd_status dyd_csv_open(dyd_csv *csv, const char *delimiter, bool degrees, dyd_error *err);
 void dyd_csv_clear(dyd_csv *csv);
 /* The fields of the next record, blanks around them removed; those that are not wanted are left as they are. *count is
  * 0 at the end, else above. Borrowed until the next call. */
 dyd_status dyd_csv_next(dyd_span field[DYD_CSV_MOST], size_t *count, dyd_csv *csv, dyd_error *err);
+/* Does the text begin with what spreadsheets write for errors, such as #N/A? */
+bool dyd_is_sheet_error(const char *text, size_t length);
 /* Where a first line looks like a header, what is to be typed for it: "; if this is ..."; else the empty text. */
 void dyd_csv_hint(char *out, size_t size, const dyd_line *line);
 

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "engine/add.h"
 #include "engine/labels.h"
+#include "io/read/cell.h"
 #include "io/read/csv.h"
 #include "io/read/stage.h"
 
@@ -50,6 +51,11 @@ static const struct read_option {
     {{OF(sigma_column), .table = true, .text = true}, ROLE_NUMBER + DYD_ROW_SIGMA, 1, 1, "standard deviation"},
     {.field = {OF(delimiter), .table = true, .points = true, .text = true}},
     {.field = {OF(decimal_comma), .flag = true, .points = true, .text = true}},
+    {.field = {OF(no_header), .flag = true, .table = true, .points = true, .text = true}},
+    {.field = {OF(units_row), .flag = true, .table = true, .points = true, .text = true}},
+    {.field = {OF(skip_lines), .points = true, .text = true}},
+    {.field = {OF(thousands), .table = true, .points = true, .text = true}},
+    {.field = {OF(missing), .points = true, .text = true}},
     {.field = {OF(skip_missing), .flag = true, .points = true, .text = true}},
     {.field = {OF(merge), .flag = true, .points = true, .text = true}},
     {.field = {OF(degrees), .flag = true, .points = true}},
@@ -262,13 +268,15 @@ typedef struct intake {
   const dyd_unit *unit;      /* of radii that state none, on the sphere; NULL: there is none */
   dyd_manner manner[2];      /* of x and y in the present row */
   double kept[2];            /* radii of this row that do not widen it, rounded up */
+  bool ground;               /* the last radius is a length on the ground */
   dyd_stage stage;
   dyd_labels labels;
   nominals places;
   dyd_read_report report;
-  bool numbers; /* points have numbers beside their rectangles */
-  char *plain;  /* fields with points in place of commas */
-  size_t plain_cap;
+  dyd_style style;
+  int roles;                 /* numbers that rows have are in columns of smaller roles */
+  const dyd_file_kind *kind; /* of a cell that is no coordinate; NULL: none */
+  bool numbers;              /* points have numbers beside their rectangles */
 } intake;
 
 /* ---- radii ---- */
@@ -292,6 +300,10 @@ static void manner_set_radius(dyd_manner *m, const mpq_t radius) {
 }
 
 static dyd_status radius_fail(const intake *in, const dyd_span *span, dyd_error *err) {
+  if (!in->o->degrees && dyd_cell_number(span))
+    return dyd_span_fail(err, span, dyd_cell_number(span),
+                         "radii in the plane are in the unit of the coordinates: write the number without a unit, or "
+                         "convert all by `radius_scale`");
   return dyd_span_fail(
       err, span, 0,
       in->o->degrees ? "the radius is not an exact number >= 0 and a unit; give one such as 0.01deg, 30m or 2km"
@@ -317,10 +329,17 @@ static dyd_status intake_read_radius(mpq_t out, bool *ground, const intake *in, 
   return st != DYD_OK || mpq_sgn(out) < 0 ? radius_fail(in, span, err) : DYD_OK;
 }
 
+/* Of the disc around a box of lengths: at least sqrt(a^2 + b^2), which is m sqrt(1 + (n/m)^2) for the larger m and the
+ * smaller n; the factor is more than what the five operations lose, but for the smallest numbers. */
+static double radius_of_both(double a, double b) {
+  double m = fmax(a, b), n = fmin(a, b);
+  return m > 0 ? nextafter(m * sqrt(1 + n / m * (n / m)) * (1 + 0x1p-50), INFINITY) : 0;
+}
+
 /* Each row with columns of radii has its own: what they say is added to the radius of all points, or kept. */
 static dyd_status intake_radius(intake *in, int axis, const dyd_span *span, dyd_error *err) {
   mpq_t own;
-  bool ground;
+  bool ground = false;
   mpq_init(own);
   dyd_status st = intake_read_radius(own, &ground, in, span, err);
   if (st == DYD_OK) {
@@ -333,6 +352,9 @@ static dyd_status intake_radius(intake *in, int axis, const dyd_span *span, dyd_
   mpq_clear(own);
   if (st == DYD_OK && !isfinite(in->kept[axis]))
     st = dyd_span_fail(err, span, 0, "the radius is above the range of doubles, about 1.8e308; give a smaller one");
+  if (st == DYD_OK && axis && ground && in->ground)
+    in->kept[0] = in->kept[1] = radius_of_both(in->kept[0], in->kept[1]);
+  in->ground = ground;
   if (st == DYD_OK && axis && in->kept[0] != in->kept[1])
     st = dyd_span_fail(err, span, 0,
                        "the radii in x and in y differ, and here a point has one; name one column of them");
@@ -352,9 +374,12 @@ static dyd_status intake_radius_of_all(intake *in, dyd_error *err) {
   st = text ? dyd_real_parse_exact(in->radius, text, strlen(text)) : DYD_OK;
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (st != DYD_OK || mpq_sgn(in->radius) < 0)
-    return dyd_fail(
-        err, DYD_E_ARG,
-        "the radius \"%.60s\" is not an exact number >= 0; give one such as 0.01 or 1/64 (units: with `sphere`)", text);
+    return dyd_fail(err, DYD_E_ARG,
+                    dyd_cell_number(&(dyd_span){.text = text, .length = strlen(text)})
+                        ? "the radius \"%.60s\" has a unit, but radii in the plane are in the unit of the coordinates: "
+                          "give a number"
+                        : "the radius \"%.60s\" is not an exact number >= 0; give one such as 0.01 or 1/64",
+                    text);
   mpq_mul(in->radius, in->radius, in->scale);
   for (int a = 0; a < 2; a++) manner_set_radius(&in->manner[a], in->radius);
   return DYD_OK;
@@ -395,16 +420,20 @@ static dyd_status intake_init(intake *in, const dyd_read_options *o, dyd_error *
     mpq_init(in->manner[a].radius);
   }
   in->numbers = o->radius_columns && (o->keep_radii || o->degrees);
+  in->roles = DYD_CSV_Y + 1;
   for (size_t k = 0; k < READ_OPTIONS; k++) {
     const struct read_option *r = &read_option[k];
+    if (r->most && r->role < ROLE_ID && field_value(o, &r->field) && in->roles < r->role + (int)r->most)
+      in->roles = r->role + (int)r->most;
     if (r->role >= ROLE_NUMBER && r->role < ROLE_ID && field_value(o, &r->field)) in->numbers = true;
   }
   dyd_status st = intake_check(o, err);
+  if (st == DYD_OK) st = dyd_style_read(&in->style, o, err);
   return st == DYD_OK ? intake_radius_of_all(in, err) : st;
 }
 
 static void intake_clear(intake *in) {
-  free(in->plain);
+  dyd_style_clear(&in->style);
   nominals_clear(&in->places);
   dyd_labels_clear(&in->labels);
   dyd_stage_clear(&in->stage);
@@ -419,20 +448,6 @@ static bool intake_labels(const intake *in) {
 
 /* ---- fields ---- */
 
-static bool is_word(const char *text, size_t length, const char *word) {
-  if (length != strlen(word)) return false;
-  for (size_t k = 0; k < length; k++)
-    if ((text[k] | 0x20) != word[k]) return false;
-  return true;
-}
-
-/* Nothing, NA, NaN (printf signs it) or null, in any case. */
-static bool is_missing(const dyd_span *s) {
-  size_t sign = s->length && (*s->text == '-' || *s->text == '+');
-  return !s->length || is_word(s->text, s->length, "na") || is_word(s->text, s->length, "null") ||
-         is_word(s->text + sign, s->length - sign, "nan");
-}
-
 static dyd_status fail_missing_field(const dyd_span *s, int role, dyd_error *err) {
   char message[160];
   const char *what = role_holds(role);
@@ -442,37 +457,6 @@ static dyd_status fail_missing_field(const dyd_span *s, int role, dyd_error *err
   else
     snprintf(message, sizeof message, "the %s is empty; fill it in, or leave such rows out: `skip_missing`", what);
   return dyd_span_fail(err, s, 0, message);
-}
-
-/* A comma in such a field is a decimal comma; within brackets it separates. */
-static bool has_comma(const dyd_span *s) {
-  return s->length && memchr(s->text, ',', s->length) && !memchr(s->text, '(', s->length) &&
-         !memchr(s->text, '[', s->length);
-}
-
-/* Copies of fields with commas get points in their place. */
-static dyd_status take_commas(intake *in, dyd_span span[DYD_CSV_MOST], dyd_error *err) {
-  size_t size = 0;
-  for (int k = 0; k < ROLE_ID; k++) size += span[k].length;
-  if (!dyd_reserve((void **)&in->plain, &in->plain_cap, size + 1, 1)) return dyd_fail_nomem(err);
-  char *at = in->plain;
-  for (int k = 0; k < ROLE_ID; k++) {
-    if (!has_comma(&span[k])) continue;
-    memcpy(at, span[k].text, span[k].length);
-    span[k].text = at;
-    for (char *end = at + span[k].length; at < end; at++)
-      if (*at == ',') *at = '.';
-  }
-  return DYD_OK;
-}
-
-/* Behind what is wrong with a coordinate, where a comma may be the reason. */
-static dyd_status hint_comma(dyd_status st, const intake *in, const dyd_span *s, dyd_error *err) {
-  size_t length = strlen(err->message);
-  if (st == DYD_E_PARSE && !in->o->decimal_comma && has_comma(s))
-    snprintf(err->message + length, sizeof err->message - length,
-             "; where commas stand for decimal points, give `decimal_comma`");
-  return st;
 }
 
 /* ---- places given more than once ---- */
@@ -546,17 +530,25 @@ static dyd_status intake_skip(intake *in, const dyd_span *s, int role, dyd_error
   return DYD_OK;
 }
 
+static dyd_status intake_coordinate(dyd_coordinate *out, intake *in, int axis, const dyd_span *span, dyd_error *err) {
+  dyd_status st = dyd_coordinate_read(out, span, &in->manner[axis], err);
+  if (st == DYD_OK) return st;
+  if (st == DYD_E_PARSE && in->o->columns && (in->kind = dyd_kind_of_cell(span->text, span->length)))
+    return dyd_kind_fail(err, in->kind);
+  return dyd_cell_hint(st, &in->style, span, in->report.rows == 1, err);
+}
+
 /* Takes in one row: fields by their roles, text = NULL where there is none. span is changed. */
 static dyd_status intake_row(intake *in, dyd_span span[DYD_CSV_MOST], dyd_error *err) {
   dyd_coordinate c[2] = {{.kind = DYD_COORDINATE_DOUBLE}, {.kind = DYD_COORDINATE_DOUBLE}};
   dyd_status st = DYD_OK;
   in->report.rows++;
-  for (int k = 0; k < ROLE_ID; k++)
-    if (span[k].text && is_missing(&span[k])) return intake_skip(in, &span[k], k, err);
-  if (in->o->decimal_comma) st = take_commas(in, span, err);
+  for (int k = 0; k < in->roles; k++)
+    if (span[k].text && dyd_cell_is_missing(&in->style, &span[k])) return intake_skip(in, &span[k], k, err);
+  if (in->o->decimal_comma || in->style.thousands) st = dyd_cells_plain(&in->style, span, (size_t)in->roles, err);
   for (int a = 0; st == DYD_OK && a < 2; a++) {
     if (span[DYD_CSV_RADIUS_X + a].text) st = intake_radius(in, a, &span[DYD_CSV_RADIUS_X + a], err);
-    if (st == DYD_OK) st = hint_comma(dyd_coordinate_read(&c[a], &span[a], &in->manner[a], err), in, &span[a], err);
+    if (st == DYD_OK) st = intake_coordinate(&c[a], in, a, &span[a], err);
   }
   if (st == DYD_OK && in->o->degrees && is_beyond_poles(&c[1]))
     st = dyd_span_fail(err, &span[1], 0, "the latitude is beyond 90 degrees; longitude comes first, then latitude");
@@ -591,9 +583,9 @@ static dyd_status hint_header(dyd_status st, const dyd_line *line, const intake 
 }
 
 static dyd_status read_points_file(intake *in, dyd_text *text, dyd_error *err) {
+  dyd_span span[DYD_CSV_MOST] = {{0}};
   for (;;) {
     dyd_line line;
-    dyd_span span[DYD_CSV_MOST] = {{0}};
     size_t count;
     dyd_status st = dyd_text_next(&line, text, err);
     if (st != DYD_OK || !line.text) return st;
@@ -615,29 +607,51 @@ static dyd_status csv_begin(dyd_csv *csv, const dyd_read_options *o, dyd_error *
 }
 
 static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
-  dyd_csv csv = {.text = text};
+  dyd_csv csv = {.text = text, .headless = in->o->no_header, .units_row = in->o->units_row};
+  dyd_span span[DYD_CSV_MOST] = {{0}};
   size_t count = 1;
   dyd_status st = csv_begin(&csv, in->o, err);
   in->report.degrees = csv.degrees;
   in->report.swapped = csv.swapped;
   if (!in->unit) in->unit = csv.unit;
   while (st == DYD_OK && count) {
-    dyd_span span[DYD_CSV_MOST] = {{0}};
     st = dyd_csv_next(span, &count, &csv, err);
     if (st == DYD_OK && count) st = intake_row(in, span, err);
   }
+  in->report.commented = csv.commented;
+  if (st == DYD_OK && csv.delimiter == ',') st = dyd_style_settle(&in->style, err);
   dyd_csv_clear(&csv);
+  return st;
+}
+
+/* Passes over the first lines. */
+static dyd_status skip_lines(dyd_text *text, const char *many, dyd_error *err) {
+  dyd_line line;
+  dyd_status st = DYD_OK;
+  if (!many) return DYD_OK;
+  if (!*many || many[strspn(many, "0123456789")] || strlen(many) > 9)
+    return dyd_fail(err, DYD_E_ARG, "\"%.40s\" is not a number of lines; give one such as `skip_lines` 3", many);
+  for (long left = atol(many); left > 0 && st == DYD_OK; left--) {
+    st = dyd_text_next(&line, text, err);
+    if (st == DYD_OK && !line.text)
+      return dyd_fail(err, DYD_E_PARSE, "the file has fewer lines than `skip_lines` %s", many);
+  }
   return st;
 }
 
 /* Adds the points of text, which is ready to be read; err is not NULL. */
 static dyd_status points_read_text(dyd_engine *e, dyd_text *text, const dyd_read_options *o, dyd_error *err) {
   intake in;
+  text->data = true;
   dyd_status st = intake_init(&in, o, err);
   if (st == DYD_OK && o->report) st = dyd_abi_check(o->report, sizeof o->report->struct_size, "dyd_read_report", err);
+  if (st == DYD_OK) st = skip_lines(text, o->skip_lines, err);
   if (st == DYD_OK) st = o->columns ? read_csv_file(&in, text, err) : read_points_file(&in, text, err);
   if (st == DYD_OK) st = intake_commit(e, &in, err);
-  if (st == DYD_OK && o->report) dyd_abi_give(o->report, &in.report, sizeof in.report);
+  const dyd_file_kind *kind = text->kind ? text->kind : in.kind;
+  in.report.recoded = text->recoded;
+  if (kind) in.report.kind = kind->name, in.report.make = kind->make, in.report.make_columns = kind->columns;
+  if (o->report && (st == DYD_OK || kind)) dyd_abi_give(o->report, &in.report, sizeof in.report);
   intake_clear(&in);
   return st;
 }

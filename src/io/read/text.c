@@ -10,6 +10,7 @@
 #include "stream/number.h"
 
 #include <errno.h>
+#include <stdint.h>
 #include <string.h>
 #include <zlib.h>
 #include <zstd.h>
@@ -43,24 +44,6 @@ static bool begins_gzip(const unsigned char *p, size_t n) {
 /* A frame, or one to be skipped, as pzstd puts in front. */
 static bool begins_zstd(const unsigned char *p, size_t n) {
   return n >= 4 && (memcmp(p, "\x28\xB5\x2F\xFD", 4) == 0 || (p[0] >> 4 == 5 && memcmp(p + 1, "\x2A\x4D\x18", 3) == 0));
-}
-
-static dyd_status refuse_kind(const unsigned char *p, size_t n, dyd_error *err) {
-  static const struct {
-    char first[7];
-    size_t length;
-    const char *what;
-  } kind[] = {{"PK\3\4", 4, "a zip archive or a spreadsheet; save it as CSV"},
-              {"BZh", 3, "packed by bzip2; unpack it, or pack it by gzip or zstd"},
-              {"\xFD"
-               "7zXZ",
-               5, "packed by xz; unpack it, or pack it by gzip or zstd"},
-              {"\xFF\xFE", 2, "text in UTF-16; save it as UTF-8"},
-              {"\xFE\xFF", 2, "text in UTF-16; save it as UTF-8"}};
-  for (size_t k = 0; k < sizeof kind / sizeof *kind; k++)
-    if (n >= kind[k].length && memcmp(p, kind[k].first, kind[k].length) == 0)
-      return dyd_fail(err, DYD_E_PARSE, "the file is %s", kind[k].what);
-  return DYD_OK;
 }
 
 /* ---- unpacking ---- */
@@ -154,7 +137,6 @@ static dyd_status bytes_begin(size_t *got, char *out, size_t size, dyd_text *t, 
   size_t n;
   dyd_status st = bytes_read_file(&n, out, size < PACKED_BLOCK ? size : PACKED_BLOCK, t, err);
   t->begun = true;
-  if (st == DYD_OK) st = refuse_kind(first, n, err);
   if (st != DYD_OK) return st;
   if (begins_gzip(first, n) || begins_zstd(first, n)) {
     st = unpacker_new(t, out, n, err);
@@ -168,7 +150,7 @@ static dyd_status bytes_begin(size_t *got, char *out, size_t size, dyd_text *t, 
 }
 
 /* The next bytes, `size` of them unless the file ends: *got < size tells so. DYD_E_IO for reading, and for packed data
- * that are damaged or end early; DYD_E_PARSE for files of which the first bytes tell that they are no text. */
+ * that are damaged or end early. */
 static dyd_status bytes_read(size_t *got, char *out, size_t size, dyd_text *t, dyd_error *err) {
   if (!t->begun) return bytes_begin(got, out, size, t, err);
   return t->unpacker ? bytes_unpack(got, out, size, t, err) : bytes_read_file(got, out, size, t, err);
@@ -185,6 +167,7 @@ void dyd_text_clear(dyd_text *t) {
   if (t->unpacker) ZSTD_freeDStream(t->unpacker->zstd);
   free(t->unpacker);
   free(t->buffer);
+  free(t->recode);
   *t = (dyd_text){0};
 }
 
@@ -225,23 +208,33 @@ dyd_status dyd_text_init_copy(dyd_text *t, const char *text, size_t length) {
   *t = (dyd_text){.buffer = dyd_alloc(length, 1), .cap = length, .end = length, .ended = true};
   if (!t->buffer) return DYD_E_NOMEM;
   if (length) memcpy(t->buffer, text, length);
-  text_skip_mark(t);
   return DYD_OK;
 }
 
-/* Finds the line end in what is read, reading on as needed; *length is up to the LF or the end of the file. */
+/* What the first block shows: a format that is no text, and CR alone at the ends of lines. */
+static dyd_status text_begin(dyd_text *t, dyd_error *err) {
+  dyd_status st = t->end == t->start && !t->ended ? text_fill(t, err) : DYD_OK;
+  if (st != DYD_OK) return st;
+  text_skip_mark(t);
+  const char *first = t->end > t->start ? t->buffer + t->start : "";
+  size_t n = t->end - t->start;
+  t->newline = memchr(first, '\r', n) && !memchr(first, '\n', n) ? '\r' : '\n';
+  t->kind = dyd_kind_find(first, n, t->data);
+  return t->kind ? dyd_kind_fail(err, t->kind) : DYD_OK;
+}
+
+/* Finds the line end in what is read, reading on as needed; *length is up to it or to the end of the file. */
 static dyd_status text_find_end(size_t *length, bool *newline, dyd_text *t, dyd_error *err) {
   for (size_t seen = 0;;) {
     size_t have = t->end - t->start;
     const char *base = have ? t->buffer + t->start : NULL;
-    const char *found = have > seen ? memchr(base + seen, '\n', have - seen) : NULL;
+    const char *found = have > seen ? memchr(base + seen, t->newline, have - seen) : NULL;
     *newline = found != NULL;
     *length = found ? (size_t)(found - base) : have;
     if (found || t->ended || *length > DYD_TEXT_LINE_MAX) return DYD_OK;
     seen = have;
     dyd_status st = text_fill(t, err);
     if (st != DYD_OK) return st;
-    if (t->line == 0 && seen == 0) text_skip_mark(t);
   }
 }
 
@@ -254,15 +247,66 @@ static dyd_status refuse_line(const dyd_line *line, dyd_error *err) {
   return dyd_span_fail(err, &span, (size_t)(nul - line->text), "a NUL byte; give plain text in UTF-8");
 }
 
+size_t dyd_utf8_length(const char *text, size_t length) {
+  const unsigned char *p = (const unsigned char *)text;
+  size_t n = p[0] < 0x80 ? 1 : p[0] < 0xC2 ? 0 : p[0] < 0xE0 ? 2 : p[0] < 0xF0 ? 3 : p[0] < 0xF5 ? 4 : 0;
+  if (n > length) return 0;
+  for (size_t k = 1; k < n; k++)
+    if ((p[k] & 0xC0) != 0x80) return 0;
+  if (n == 3 && ((p[0] == 0xE0 && p[1] < 0xA0) || (p[0] == 0xED && p[1] >= 0xA0))) return 0;
+  if (n == 4 && ((p[0] == 0xF0 && p[1] < 0x90) || (p[0] == 0xF4 && p[1] >= 0x90))) return 0;
+  return n;
+}
+
+/* Not UTF-8? Whole words of ASCII are passed over. */
+static bool line_is_foreign(const dyd_line *line) {
+  uint64_t all = 0, word;
+  size_t k = 0;
+  for (; k + sizeof word <= line->length; k += sizeof word) {
+    memcpy(&word, line->text + k, sizeof word);
+    all |= word;
+  }
+  for (; k < line->length; k++) all |= (unsigned char)line->text[k];
+  if (!(all & UINT64_C(0x8080808080808080))) return false;
+  size_t n = 1;
+  for (k = 0; k < line->length && n; k += n) n = dyd_utf8_length(line->text + k, line->length - k);
+  return !n;
+}
+
+/* Characters 0x80 to 0x9F of Windows-1252; the others are those of Latin-1. */
+static const uint16_t windows[32] = {0x20AC, 0x81,   0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
+                                     0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0x8D,   0x017D, 0x8F,
+                                     0x90,   0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,
+                                     0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x9D,   0x017E, 0x0178};
+
+/* Recodes a line of Windows-1252 to UTF-8; it is borrowed until the next. */
+static dyd_status line_recode(dyd_line *line, dyd_text *t, dyd_error *err) {
+  if (!line_is_foreign(line)) return DYD_OK;
+  if (!dyd_reserve((void **)&t->recode, &t->recode_cap, 3 * line->length, 1)) return dyd_fail_nomem(err);
+  char *to = t->recode;
+  for (size_t k = 0; k < line->length; k++) {
+    unsigned c = (unsigned char)line->text[k];
+    if (c - 0x80 < 32) c = windows[c - 0x80];
+    if (c >= 0x800) *to++ = (char)(0xE0 | c >> 12);
+    if (c >= 0x80) *to++ = (char)(c >= 0x800 ? 0x80 | (c >> 6 & 0x3F) : 0xC0 | c >> 6);
+    *to++ = (char)(c >= 0x80 ? 0x80 | (c & 0x3F) : c);
+  }
+  *line = (dyd_line){t->recode, (size_t)(to - t->recode), line->number};
+  t->recoded++;
+  return DYD_OK;
+}
+
 dyd_status dyd_text_next(dyd_line *out, dyd_text *t, dyd_error *err) {
   size_t length;
   bool newline;
-  dyd_status st = text_find_end(&length, &newline, t, err);
+  dyd_status st = t->newline ? DYD_OK : text_begin(t, err);
+  if (st == DYD_OK) st = text_find_end(&length, &newline, t, err);
   if (st != DYD_OK) return st;
   *out = (dyd_line){0};
   if (!length && !newline) return DYD_OK;
   *out = (dyd_line){t->buffer + t->start, length, ++t->line};
   t->start += length + newline;
   if (out->length && out->text[out->length - 1] == '\r') out->length--;
-  return refuse_line(out, err);
+  st = refuse_line(out, err);
+  return st == DYD_OK && t->data ? line_recode(out, t, err) : st;
 }

@@ -3,6 +3,7 @@
 #ifndef DYD_IO_READ_TEXT_H
 #define DYD_IO_READ_TEXT_H
 
+#include "io/read/kind.h"
 #include <dyadel/status.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -22,12 +23,17 @@ typedef struct dyd_text {
   size_t cap, start, end;
   size_t line; /* number of the last line handed out */
   bool ended;
+  char newline; /* that ends lines, of files with CR alone the CR; 0 before the first line */
+  bool data;    /* set by the caller: points or a table; other formats are refused, Windows-1252 is recoded */
+  const dyd_file_kind *kind;  /* the format refused; NULL: none */
+  size_t recoded, recode_cap; /* lines that were no UTF-8 */
+  char *recode;
 } dyd_text;
 
 /* text = NULL stands for the end of the file. Borrowed until the next call of dyd_text_next. */
 typedef struct dyd_line {
   const char *text;
-  size_t length; /* without the line end (LF or CRLF) */
+  size_t length; /* without the line end (LF, CRLF or CR) */
   size_t number; /* from 1 */
 } dyd_line;
 
@@ -48,6 +54,9 @@ void dyd_text_clear(dyd_text *t);
 /* The next line. A byte order mark at the start of the file is skipped. DYD_E_PARSE for NUL bytes and over-long
  * lines, DYD_E_IO, DYD_E_NOMEM. */
 dyd_status dyd_text_next(dyd_line *out, dyd_text *t, dyd_error *err);
+/* The length of the UTF-8 character at `text`, from 1 to 4; 0 if none begins there (RFC 3629: shortest forms, no
+ * surrogates). */
+size_t dyd_utf8_length(const char *text, size_t length);
 /* The line and column (in characters of UTF-8, both from 1) of the byte `offset` bytes after span->at. */
 void dyd_span_position(size_t *line, size_t *column, const dyd_span *span, size_t offset);
 /* Fails with DYD_E_PARSE and `message` at that byte. */

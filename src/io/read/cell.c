@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Cells of tables as people write them: nothing in many words, commas for points, thousands apart.
+ *
+ * A number whose thousands are apart is a sign, one to three digits, and groups of a mark and three digits. "1,001" may
+ * be that or a decimal; which one is meant the options say. Where they only say that commas are decimal, in a table
+ * that has commas between its columns as well, a file in which each number with a comma may be of either kind is
+ * refused. */
+#include "io/read/cell.h"
+
+#include "base/alloc.h"
+#include "base/error.h"
+#include "io/read/coordinate.h"
+#include "io/read/csv.h"
+#include "sphere/units.h"
+
+#include <string.h>
+
+/* ---- options ---- */
+
+dyd_status dyd_style_read(dyd_style *out, const dyd_read_options *o, dyd_error *err) {
+  const char *c = o->thousands;
+  *out = (dyd_style){.o = o};
+  if (!c) return DYD_OK;
+  if (strcmp(c, "blank") == 0) c = " ";
+  if (strcmp(c, "\xE2\x80\x99") == 0) c = "'";
+  if (strlen(c) != 1 || !strchr(" ,.'_", *c))
+    return dyd_fail(err, DYD_E_ARG, "\"%.20s\" is not between thousands; `thousands` is one of , . ' _ or blank", c);
+  if (o->decimal_comma ? *c == ',' : *c == '.')
+    return dyd_fail(err, DYD_E_ARG, "%s",
+                    *c == ',' ? "commas are between thousands or decimal, not both: `thousands` or `decimal_comma`"
+                              : "points between thousands need commas before decimals: give `decimal_comma` as well");
+  out->thousands = *c;
+  return DYD_OK;
+}
+
+void dyd_style_clear(dyd_style *style) {
+  free(style->plain);
+  *style = (dyd_style){0};
+}
+
+/* ---- missing ---- */
+
+static bool is_word(const char *text, size_t length, const char *word) {
+  if (length != strlen(word)) return false;
+  for (size_t k = 0; k < length; k++)
+    if (text[k] != word[k] && (text[k] | 0x20) != word[k]) return false;
+  return true;
+}
+
+/* The same text, or the same decimal. */
+static bool is_the_missing(const char *missing, const dyd_span *s) {
+  dyd_plain a, b;
+  if (strlen(missing) == s->length && memcmp(missing, s->text, s->length) == 0) return true;
+  if (!dyd_plain_scan(&a, missing, strlen(missing)) || !dyd_plain_scan(&b, s->text, s->length)) return false;
+  for (dyd_plain *p = &a; p; p = p == &a ? &b : NULL)
+    for (; p->man && p->man % 10 == 0; p->exp++) p->man /= 10;
+  return a.man == b.man && (!a.man || a.exp == b.exp);
+}
+
+bool dyd_cell_is_missing(const dyd_style *style, const dyd_span *s) {
+  static const char *const words[] = {"na", "n/a", "nan", "null", "none", "-", "\\n"};
+  if (!s->length || (style->o->missing && is_the_missing(style->o->missing, s))) return true;
+  if (s->text[s->length - 1] >= '0' && s->text[s->length - 1] <= '9') return false;
+  size_t sign = *s->text == '-' || *s->text == '+';
+  for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+    if (is_word(s->text, s->length, words[k])) return true;
+  return is_word(s->text + sign, s->length - sign, "nan") ||
+         (*s->text == '#' && dyd_is_sheet_error(s->text, s->length));
+}
+
+/* ---- commas and thousands ---- */
+
+static bool is_digit(const char *at, const char *end) {
+  return at < end && *at >= '0' && *at <= '9';
+}
+
+/* The length of the mark at `at`; 0: it is another character. */
+static size_t mark_length(const char *at, const char *end, char mark) {
+  static const char *const blanks[] = {" ", "\xC2\xA0", "\xE2\x80\x89", "\xE2\x80\xAF"}, *const quotes[] = {
+                                                                                             "'", "\xE2\x80\x99"};
+  const char *const *known = mark == ' ' ? blanks : quotes;
+  size_t count = mark == ' ' ? 4 : mark == '\'' ? 2 : 0;
+  for (size_t k = 0; k < count; k++) {
+    size_t n = strlen(known[k]);
+    if ((size_t)(end - at) >= n && memcmp(at, known[k], n) == 0) return n;
+  }
+  return !count && at < end && *at == mark;
+}
+
+/* Where the whole part of a number ends whose thousands are apart; *groups behind the first. NULL: it is none. */
+static const char *groups_end(size_t *groups, const char *at, const char *end, char mark) {
+  size_t digits = 0, n;
+  *groups = 0;
+  if (at < end && (*at == '-' || *at == '+')) at++;
+  for (; is_digit(at, end); at++) digits++;
+  if (digits < 1 || digits > 3) return NULL;
+  for (; (n = mark_length(at, end, mark)); at += n + 3, ++*groups)
+    if (!is_digit(at + n, end) || !is_digit(at + n + 1, end) || !is_digit(at + n + 2, end)) return NULL;
+  return *groups && !is_digit(at, end) ? at : NULL;
+}
+
+/* Commas within brackets separate ends and arguments. */
+static bool has_brackets(const dyd_span *s) {
+  return memchr(s->text, '(', s->length) || memchr(s->text, '[', s->length);
+}
+
+static bool has_mark(const char *at, const char *end, char mark) {
+  for (; at < end; at++)
+    if (mark_length(at, end, mark)) return true;
+  return false;
+}
+
+static dyd_status fail_groups(const dyd_span *s, dyd_error *err) {
+  return dyd_span_fail(err, s, 0,
+                       "what `thousands` names is not between groups of three digits here; correct the number");
+}
+
+/* Rewrites the cell to *to, and moves that behind it. */
+static dyd_status cell_plain(dyd_style *style, dyd_span *s, char **to, dyd_error *err) {
+  const char *at = s->text, *end = at + s->length;
+  size_t groups;
+  const char *whole = style->thousands ? groups_end(&groups, at, end, style->thousands) : NULL;
+  if (style->thousands && style->thousands != ' ' && has_mark(whole ? whole : at, end, style->thousands))
+    return fail_groups(s, err);
+  bool commas = style->o->decimal_comma && memchr(at, ',', s->length);
+  if (!whole && !commas) return DYD_OK;
+  if (commas && !style->thousands && groups_end(&groups, at, end, ',') != end) style->settled = true;
+  if (commas && !style->doubt.text && !style->settled) {
+    style->doubt = *s;
+    dyd_span_position(&style->line, &style->column, s, 0);
+  }
+  s->text = *to;
+  for (size_t n; at < end; at++)
+    if (whole && at < whole && (n = mark_length(at, end, style->thousands)))
+      at += n - 1;
+    else
+      *(*to)++ = *at == ',' && commas ? '.' : *at;
+  s->length = (size_t)(*to - s->text);
+  return DYD_OK;
+}
+
+dyd_status dyd_cells_plain(dyd_style *style, dyd_span *cell, size_t count, dyd_error *err) {
+  size_t size = 1;
+  for (size_t k = 0; k < count; k++) size += cell[k].text ? cell[k].length : 0;
+  if (!dyd_reserve((void **)&style->plain, &style->plain_cap, size, 1)) return dyd_fail_nomem(err);
+  char *to = style->plain;
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < count && st == DYD_OK; k++)
+    if (cell[k].text && !has_brackets(&cell[k])) st = cell_plain(style, &cell[k], &to, err);
+  return st;
+}
+
+dyd_status dyd_style_settle(const dyd_style *style, dyd_error *err) {
+  if (!style->doubt.text || style->settled || style->thousands) return DYD_OK;
+  if (err) err->line = style->line, err->column = style->column;
+  return dyd_fail(
+      err, DYD_E_PARSE,
+      "commas separate columns, and each number with a comma may have it between thousands: give "
+      "`thousands` , in place of `decimal_comma` if they are, or `thousands` . as well if they are decimal");
+}
+
+/* ---- what may be meant ---- */
+
+size_t dyd_cell_number(const dyd_span *s) {
+  dyd_plain p;
+  size_t n = s->length;
+  while (n && ((s->text[n - 1] | 0x20) >= 'a' && (s->text[n - 1] | 0x20) <= 'z')) n--;
+  const dyd_unit *unit = dyd_unit_find(s->text + n, s->length - n);
+  while (n && s->text[n - 1] == ' ') n--;
+  return unit && dyd_plain_scan(&p, s->text, n) ? n : 0;
+}
+
+/* The groups of digits of a number, the decimals behind them, and what to give for it. */
+static bool hint_groups(char *out, size_t size, const dyd_span *s, char mark) {
+  const char *end = s->text + s->length;
+  size_t groups, used = 0;
+  const char *whole = groups_end(&groups, s->text, end, mark), *at = whole;
+  if (!whole) return false;
+  char point = at < end ? *at : 0;
+  if (at < end) at++;
+  while (is_digit(at, end)) at++;
+  if (at < end || (point && point != '.' && point != ',') || point == mark || s->length > 40) return false;
+  char number[48];
+  for (const char *p = s->text; p < end; p++)
+    if (*p == '-' || *p == '+' || is_digit(p, end) || p == whole) number[used++] = p == whole ? '.' : *p;
+  number[used] = 0;
+  snprintf(out, size, "; if this is %s, give `thousands` %s%s", number,
+           mark == ' '    ? "blank"
+           : mark == '\'' ? "\"'\""
+                          : (char[]){mark, 0},
+           point == ',' || mark == '.' ? " `decimal_comma`" : "");
+  if (mark == ',' && groups == 1 && !point) {
+    size_t n = strlen(out), head = (size_t)((const char *)memchr(s->text, ',', s->length) - s->text);
+    snprintf(out + n, size - n, "; if it is %.*s.%.*s, give `thousands` . `decimal_comma`", (int)head, s->text, 3,
+             s->text + head + 1);
+  }
+  return true;
+}
+
+static bool has_no_digit(const dyd_span *s) {
+  for (size_t k = 0; k < s->length; k++)
+    if (is_digit(s->text + k, s->text + s->length)) return false;
+  return true;
+}
+
+dyd_status dyd_cell_hint(dyd_status st, const dyd_style *style, const dyd_span *s, bool first, dyd_error *err) {
+  size_t length = strlen(err->message), size = sizeof err->message - length;
+  char *out = err->message + length;
+  const dyd_read_options *o = style->o;
+  const dyd_span written = {.text = o->decimal_comma ? s->at : s->text, .length = s->length};
+  if (st != DYD_E_PARSE || !s->length || has_brackets(s)) return st;
+  for (const char *mark = ",. '"; *mark && o->columns && !style->thousands; mark++)
+    if (hint_groups(out, size, &written, *mark)) return st;
+  if (!o->decimal_comma && memchr(s->text, ',', s->length))
+    snprintf(out, size, "; where commas stand for decimal points, give `decimal_comma`");
+  else if (dyd_cell_number(s))
+    snprintf(out, size, "; coordinates are numbers without a unit: give %.*s", (int)dyd_cell_number(s), s->text);
+  else if (first && o->columns && has_no_digit(s))
+    snprintf(out, size,
+             o->no_header ? "; if this line names the columns, remove `no_header`"
+                          : "; if this line holds units, give `units_row`");
+  return st;
+}

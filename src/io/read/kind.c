@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Which format a file has that is neither a points file nor a table, by its first bytes. */
+#define _GNU_SOURCE /* memmem, strncasecmp */
+#include "io/read/kind.h"
+
+#include "base/error.h"
+
+#include <string.h>
+#include <strings.h>
+
+#define TABLE(options) "ogr2ogr -f CSV /vsistdout/ " options " -lco GEOMETRY=AS_XY", "X,Y", NULL, true
+#define BYTES(text) text, sizeof(text) - 1
+
+/* What a file begins with, and what stands in its first bytes besides (NULL: anything). The first row that fits
+ * counts. data: text that only tables and points files cannot be. */
+static const struct kind_row {
+  const char *begin;
+  size_t length;
+  const char *within;
+  bool data;
+  dyd_file_kind kind;
+} kind_rows[] = {
+    {BYTES("PK\3\4"), ".shp", false, {"a zip archive with a Shapefile", TABLE("/vsizip/FILE")}},
+    {BYTES("PK\3\4"), ".kml", false, {"KML in a zip archive (KMZ)", TABLE("/vsizip/FILE")}},
+    {BYTES("PK\3\4"), NULL, false, {"a zip archive or a spreadsheet", NULL, NULL, "save it as CSV", false}},
+    {BYTES("\xD0\xCF\x11\xE0"), NULL, false, {"a spreadsheet", NULL, NULL, "save it as CSV", false}},
+    {BYTES("BZh"), NULL, false, {"packed by bzip2", NULL, NULL, "unpack it, or pack it by gzip or zstd", false}},
+    {BYTES("\xFD"
+           "7zXZ"),
+     NULL,
+     false,
+     {"packed by xz", NULL, NULL, "unpack it, or pack it by gzip or zstd", false}},
+    {BYTES("\xFF\xFE"), NULL, false, {"text in UTF-16", NULL, NULL, "save it as UTF-8", false}},
+    {BYTES("\xFE\xFF"), NULL, false, {"text in UTF-16", NULL, NULL, "save it as UTF-8", false}},
+    {BYTES("\0\0\x27\x0A"), NULL, true, {"a Shapefile", TABLE("FILE")}},
+    {BYTES("SQLite format 3"), NULL, true, {"an SQLite database, perhaps a GeoPackage", TABLE("FILE")}},
+    {BYTES("fgb\3"), NULL, true, {"FlatGeobuf", TABLE("FILE")}},
+    {BYTES("PAR1"), NULL, true, {"Parquet", TABLE("FILE")}},
+    {BYTES("ARROW1"), NULL, true, {"Arrow or Feather", TABLE("FILE")}},
+    {BYTES("\x93NUMPY"),
+     NULL,
+     true,
+     {"an array of NumPy", "python3 -c 'import sys, numpy; numpy.savetxt(sys.stdout, numpy.load(\"FILE\"), \"%r\")'",
+      NULL, NULL, false}},
+    {BYTES("LASF"), NULL, true, {"LAS or LAZ", NULL, NULL, "write x and y as text, by las2txt or pdal", false}},
+    {BYTES("%PDF"), NULL, true, {"PDF", NULL, NULL, "copy its table to a text file", false}},
+    {BYTES("<"), "<gpx", true, {"GPX", TABLE("FILE waypoints")}},
+    {BYTES("<"), "<kml", true, {"KML", TABLE("FILE")}},
+    {BYTES("<"), "<osm", true, {"OpenStreetMap XML", TABLE("FILE points")}},
+    {BYTES("<"), "<html", true, {"HTML", NULL, NULL, "save its table as CSV", false}},
+    {BYTES("<"), "gml", true, {"GML", TABLE("FILE")}},
+    {BYTES("<"), "<", true, {"XML or HTML", NULL, NULL, "save its table as CSV", false}},
+    {BYTES("{"), "\"Topology\"", true, {"TopoJSON", TABLE("FILE")}},
+    {BYTES("{"), "\"type\"", true, {"GeoJSON", TABLE("FILE")}},
+    {BYTES("{"), NULL, true, {"JSON", NULL, NULL, "make a table of it, for instance by jq", false}},
+    {BYTES("[{"), NULL, true, {"JSON", NULL, NULL, "make a table of it, for instance by jq", false}},
+    {BYTES("[["), NULL, true, {"JSON", "jq -r '.[] | @tsv' FILE", NULL, NULL, false}},
+};
+
+/* Words that begin a geometry in WKT. */
+static const char *const shapes[] = {"POINT",        "MULTIPOINT",         "LINESTRING", "MULTILINESTRING",   "POLYGON",
+                                     "MULTIPOLYGON", "GEOMETRYCOLLECTION", "TRIANGLE",   "POLYHEDRALSURFACE", "TIN"};
+static const dyd_file_kind wkt = {"WKT (geometries in words)", "sed 's/[A-Za-z()]//g' FILE | tr , '\\n'", NULL, NULL,
+                                  false},
+                           wkt_cells = {"a table with a column of WKT (geometries in words)",
+                                        TABLE("FILE -oo GEOM_POSSIBLE_NAMES=*geom*,*wkt*,*shape*,*point*")};
+
+/* "SRID=4326; POINT Z (" begins a geometry, "Point,X,Y" does not. */
+static bool is_wkt(const char *at, const char *end) {
+  static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+  const char *semicolon = end - at > 5 && !strncasecmp(at, "SRID=", 5) ? memchr(at, ';', (size_t)(end - at)) : NULL;
+  if (semicolon) at = semicolon + 1;
+  while (at < end && *at == ' ') at++;
+  const char *word = at;
+  while (at < end && memchr(letters, *at, sizeof letters - 1)) at++;
+  size_t length = (size_t)(at - word);
+  while (at < end && memchr(" ZMzm", *at, 5)) at++;
+  if (at == end || *at != '(') return false;
+  for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
+    if (strlen(shapes[k]) == length && !strncasecmp(shapes[k], word, length)) return true;
+  return false;
+}
+
+const dyd_file_kind *dyd_kind_find(const char *first, size_t length, bool data) {
+  enum { LOOKED_AT = 4096 };
+  const char *at = first, *end = first + (length < LOOKED_AT ? length : LOOKED_AT);
+  while (data && at < end && memchr(" \t\r\n", *at, 4)) at++;
+  for (size_t k = 0; k < sizeof kind_rows / sizeof *kind_rows; k++) {
+    const struct kind_row *r = &kind_rows[k];
+    if ((r->data && !data) || (size_t)(end - at) < r->length || memcmp(at, r->begin, r->length) != 0) continue;
+    if (!r->within || memmem(at, (size_t)(end - at), r->within, strlen(r->within))) return &r->kind;
+  }
+  return data && is_wkt(at, end) ? &wkt : NULL;
+}
+
+const dyd_file_kind *dyd_kind_of_cell(const char *text, size_t length) {
+  return is_wkt(text, text + length) ? &wkt_cells : NULL;
+}
+
+dyd_status dyd_kind_fail(dyd_error *err, const dyd_file_kind *kind) {
+  if (!kind->make) return dyd_fail(err, DYD_E_PARSE, "the file is %s; %s", kind->name, kind->remedy);
+  return dyd_fail(err, DYD_E_PARSE, "the file is %s; make %s of it: %s%s%s", kind->name,
+                  kind->columns ? "a table" : "a points file", kind->make, kind->columns ? "; its `columns` are " : "",
+                  kind->columns ? kind->columns : "");
+}

@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Tables as people have them: no header, blanks, units, thousands, missing words, other encodings and ends of lines. What
+may be meant in two ways is refused with what to give for each; what is no table is named with a command that makes one.
+
+Usage: test_tables.py COMMAND DATA
+"""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+
+from harness import COMMAND, expect, main, run
+
+HEAD = 'i,j,status\n'
+THREE = HEAD + '0,1,legal\n0,2,legal\n1,2,legal\n'
+
+# Options and text: each holds the points 1 2, 1234.5 5, 5 1000.
+SAME = [
+    ('--columns x,y', 'x,y\n1,2\n1234.5,5\n5,1000\n'),
+    ('--columns x,y --delimiter blank', 'x  y\n 1\t2\n1234.5   5  \n\n   \n5 1000\n'),
+    ('--columns x,y --delimiter blank', '"x"  "y z"  y\n 1 "a ""b" 2\n1234.5 c  5  \n5 d 1000\n'),
+    ('--columns x,y', 'x y n\n1 2 a\n1234.5 5 b\n5 1000 c\n'),
+    ('--columns x,y', '# written by hand\n# x y z\n1 2 3\n1234.5 5 3\n5 1000 3\n'),
+    ('--columns x,y', '% x y z\n1 2 3 1\n1234.5 5 3 1\n5 1000 3 1\n'.replace('% x y z', '% x y z w')),
+    ('--columns x,y', '% t x y\n01 00:00 1 2\n01 00:00 1234.5 5\n01 00:00 5 1000\n'),
+    ('--columns x,y', '#x\ty\n1\t2\n1234.5\t5\n5\t1000\n'),
+    ('--columns 1,2', '# x y\n1 2\n1234.5 5\n5 1000\n'),
+    ('--columns 1,2 --no-header', '1,2\n1234.5,5\n5,1000\n'),
+    ('--columns 2,1 --no-header', '# of today\n2;1\n% half\n5;1234.5\n1000;5\n'),
+    ('--columns 3,2 --no-header', 'a|2|1|\nb|5|1234.5|\nc|1000|5|\n'),
+    ('--columns 1,2 --no-header --skip-lines 3', 'a\n"b\n\n1,2\n1234.5,5\n5,1000\n'),
+    ('--skip-lines 1', 'x y\n1 2\n% comment\n  % another\n1234.5 5\n5 1000\n'),
+    ('--columns x,y --units-row', 'x,y\nm,m\n1,2\n1234.5,5\n5,1000\n'),
+    ('--columns x,y', 'sep=;\nx;y;a,b\n1;2;0\n1234.5;5;0\n5;1000;0\n'),
+    ('--columns x,y', '"sep=|"\nx|y\n1|2\n1234.5|5\n5|1000\n'),
+    ('--columns x,y', 'x,y,name,\n1,2,a\n1234.5,5,b\n5,1000,c\n'),
+    ('--columns x,y', 'x,y,name\n1,2,a,\n1234.5,5,b,\n5,1000,c,\n'),
+    ('--columns x,y', 'x,y\r1,2\r1234.5,5\r5,1000\r'),
+    ('', '1 2\r1234.5 5\r5 1000'),
+    ('--columns x,y --thousands ,', 'x,y\n1,2\n"1,234.5",5\n5,"1,000"\n'),
+    ('--columns x,y --decimal-comma --thousands .', 'x;y\n1;2\n1.234,5;5\n5;1.000\n'),
+    ('--columns x,y --decimal-comma --thousands blank', 'x;y\n1;2\n1 234,5;5\n5;1\u202f000\n'),
+    ('--columns x,y --decimal-comma --thousands blank', 'x;y\n1;2\n1\xa0234,5;5\n5;+1\u2009000\n'),
+    ('--columns x,y --thousands \'', "x;y\n1;2\n1'234.5;5\n5;1’000\n"),
+    ('--columns x,y --thousands ’', "x;y\n1;2\n1'234.5;5\n5;1’000\n"),
+    ('--columns x,y --thousands _', 'x;y\n1;2\n1_234.5;5\n5;1_000\n'),
+    ('--columns x,y --decimal-comma', 'x,y\n1,2\n"1234,5",5\n5,"1000,000"\n'),
+]
+
+
+def test_same_points():
+    for options, text in SAME:
+        for data in (text, text.replace('\n', '\r\n'), text.replace('\n', '\r')):
+            result = run('delaunay', *options.split(), '-', stdin=data)
+            assert (result.code, result.out, result.err) == (0, THREE, ''), (options, data, result)
+
+
+# Options and text; exit status and what is said.
+TOLD = [
+    ('--columns x,y', 'x,y\n999,5\n"1,001",7\n', 1, r'-:3:3: .*; if this is 1001, give --thousands ,; if it is 1.001, give --thousands . --decimal-comma$'),
+    ('--columns x,y', 'x,y\n"1,001.5",7\n', 1, r'; if this is 1001.5, give --thousands ,$'),
+    ('--columns x,y', 'x,y\n"-1,234,567",7\n', 1, r'; if this is -1234567, give --thousands ,$'),
+    ('--columns x,y', 'x;y\n3.456.789,12;7\n', 1, r'; if this is 3456789.12, give --thousands . --decimal-comma$'),
+    ('--columns x,y', 'x;y\n3.456.789;7\n', 1, r'; if this is 3456789, give --thousands . --decimal-comma$'),
+    ('--columns x,y', 'x;y\n691 000,5;7\n', 1, r'; if this is 691000.5, give --thousands blank --decimal-comma$'),
+    ('--columns x,y', 'x;y\n691\xa0000;7\n', 1, r'; if this is 691000, give --thousands blank$'),
+    ('--columns x,y', "x;y\n691'000;7\n", 1, r'; if this is 691000, give --thousands "\'"$'),
+    ('--columns x,y', 'x;y\n47,61;7\n', 1, r'; where commas stand for decimal points, give --decimal-comma$'),
+    ('--columns x,y --decimal-comma', 'x;y\n3.456.789,12;7\n', 1, r'; if this is 3456789.12, give --thousands . --decimal-comma$'),
+    ('--columns x,y --decimal-comma', 'x,y\n999,5\n"1,001",7\n', 1, r'-:3:2: .*give --thousands , in place of --decimal-comma if they are, or --thousands . as well'),
+    ('--columns x,y --decimal-comma --thousands .', 'x,y\n999,5\n"1,001",7\n', 0, ''),
+    ('--columns x,y --decimal-comma', 'x;y\n1,001;7\n', 0, ''),
+    ('--columns x,y --thousands ,', 'x,y\n"1,00",7\n', 1, r'-:2:2: what --thousands names is not between groups of three digits'),
+    ('--columns x,y --thousands ,', 'x,y\n"1,0001",7\n', 1, 'groups of three digits'),
+    ('--columns x,y --thousands ,', 'x,y\n"1234,000",7\n', 1, 'groups of three digits'),
+    ('--columns x,y --thousands ,', 'x,y\n"1,000.123,4",7\n', 1, 'groups of three digits'),
+    ('--columns x,y --thousands , --decimal-comma', 'x,y\n', 2, 'not both: --thousands or --decimal-comma$'),
+    ('--columns x,y --thousands .', 'x,y\n', 2, 'give --decimal-comma as well$'),
+    ('--columns x,y --thousands xx', 'x,y\n', 2, r'"xx" is not between thousands; --thousands is one of , \. \' _ or blank$'),
+    ('--thousands ,', '1 2\n', 2, '--thousands is about columns'),
+    ('--no-header', '1 2\n', 2, '--no-header is about columns'),
+    ('--units-row', '1 2\n', 2, '--units-row is about columns'),
+    ('--skip-lines x', '1 2\n', 2, 'give one such as --skip-lines 3$'),
+    ('--skip-lines 9', '1 2\n', 1, '-: the file has fewer lines than --skip-lines 9$'),
+    ('--columns x,y --no-header', '1,2\n', 2, 'without a header columns have numbers, .* "x": --columns$'),
+    ('--columns 1,3 --no-header', '1,2\n', 1, '-:1:1: there is no column 3; the first line has 2, counted from 1$'),
+    ('--columns 1,2 --no-header', 'x,y\n1,2\n', 1, '; if this line names the columns, remove --no-header$'),
+    ('--columns 1,2 --no-header', '1,2\n1,2,3\n', 1, '-:2:1: this record has 3 fields, the first one 2; quote'),
+    ('--columns 1,2 --no-header', '', 0, 'there are no points in this file'),
+    ('--columns 1,2', '1,2\n3,4\n', 1, r'-:1:1: the first line holds numbers, .*, give --no-header, and where these are names, put them into quotes$'),
+    ('--columns x,y', 'x,y\nm,m\n1,2\n', 1, r'-:2:1: .*; if this line holds units, give --units-row$'),
+    ('--columns x,y --units-row', 'x,y\n1,2\n', 1, r'-:2:1: this row holds numbers, not units; remove --units-row$'),
+    ('--columns x,y', 'x,y\n1,2 m\n', 1, r'; coordinates are numbers without a unit: give 2$'),
+    ('--columns x,y --radius-column r', 'x,y,r\n1,2,0.02 m\n', 1, r'-:2:9: radii in the plane are in the unit of the coordinates: .* by --radius-scale$'),
+    ('--radius 0.02m', '1 2\n', 2, 'the radius "0.02m" has a unit, but radii in the plane are in the unit of the coordinates'),
+    ('--columns x,y', 'x,y\n1,2\n#3,4\n% c,4\n', 0, r'begin with # or % and may be rows: 1; they are left out as comments$'),
+    ('--columns x,y', 'n,x,y\n%,1,2\n', 0, r'there are no points'),
+    ('--sphere --columns lat,lon', 'lon,lat\n1,2\n', 2, 'longitude comes first: --columns lon,lat$'),
+    ('--sphere --columns 1,2', 'Lat (deg),Lon (deg)\n1,2\n', 2, r"longitude comes first: --columns 'Lon \(deg\),Lat \(deg\)'$"),
+    ('--columns x,y', 'x,\x1b[31my\x9b2J\x07\n1,2\n', 1, r'names are: x, \\x1B\[31my›2J\\x07; give'),
+]
+
+
+def test_told():
+    for options, text, code, message in TOLD:
+        data = text if '\x9b' not in text else text.encode('latin-1')
+        expect(run('delaunay', *options.split(), '-', stdin=data), code, r'\A\Z' if code else '', r'\Adyadel: .*' + message if message else r'\A\Z')
+
+
+def test_missing_words():
+    """Each word that means nothing, in x and y and radii, with and without a remedy."""
+    words = ['', 'NA', 'N/A', '#N/A', 'NaN', 'nan', '-nan', 'null', 'NULL', 'None', 'none', '-', '\\N', '#VALUE!', '#DIV/0!', '-9999', '-9999.00', 'void']
+    for word in words:
+        extra = ['--missing', '-9999'] if '9999' in word else ['--missing', 'void'] if word == 'void' else []
+        for row in (f'{word},5,1', f'5,{word},1', f'5,1,{word}'):
+            text = f'x,y,r\n0,0,0.1\n{row}\n4,1,0.1\n2,6,0.1\n'
+            options = ['--columns', 'x,y', '--radius-column', 'r', *extra, '-']
+            expect(run('delaunay', *options, stdin=text), 1, r'\A\Z', r'-:3:\d: the .* is (missing|empty).*: --skip-missing$')
+            expect(run('delaunay', '--skip-missing', *options, stdin=text), 0, r'\A' + HEAD + '0,2,legal\n0,3,legal\n2,3,legal\n\\Z', '1 of 4 rows are left out')
+    for word in ('-5', '-0', '+', '--', 'N', 'nano'):
+        result = run('delaunay', '--skip-missing', '--missing', '9999', '--columns', 'x,y', '-', stdin=f'x,y\n0,0\n4,{word}\n2,6\n')
+        assert 'left out' not in result.err, (word, result)
+
+
+def test_encodings():
+    """Names of Latin-1 are read with a note; never U+FFFD."""
+    text = 'Stadt;Länge;Breite\nDüsseldorf;6.8;51.2\nKöln’s;6.9;50.9\nŁódź;7;52\n'
+    want = run('delaunay', '--plane', '--columns', 'Länge,Breite', '--id', 'Stadt', '-', stdin=text.replace('Łódź', 'Bonn'))
+    expect(want, 0, 'Düsseldorf,Köln’s', r'\A\Z')
+    got = run('delaunay', '--plane', '--columns', 'Länge,Breite', '--id', 'Stadt', '-', stdin=text.replace('Łódź', 'Bonn').encode('cp1252'))
+    assert got.out == want.out
+    expect(got, 0, '', r'-: lines that are not UTF-8: 3; they are read as Windows-1252 .*iconv -f ENCODING -t UTF-8 - \| dyadel delaunay \.\.\. -$')
+    for data in (b'1 2\n3 4\xb10.5\n', b'0x1p0 2 # \xfc\n3 4\n'):
+        expect(run('delaunay', '-', stdin=data), 0, HEAD + '0,1,legal', 'not UTF-8: 1;')
+
+
+def test_names_over_lines():
+    """A name may go over lines and have blanks of any number; it is written with one."""
+    text = '"Longitude\n(deg)","Lat   (deg)",n\n1,2,"a\nb"\n4,1,""\n2,6,"c, ""d"""\n'
+    expect(run('delaunay', '--plane', '--columns', 'longitude (deg),lat (deg)', '-', stdin=text), 0, r'\A' + THREE, r'\A\Z')
+    expect(run('delaunay', '--columns', 'x,y', '-', stdin=text), 1, '', r'names are: Longitude \(deg\), Lat   \(deg\), n;')
+
+
+def test_units_of_radii():
+    """A unit in the row of units counts, and lengths east and north are those of a box within a disc."""
+    for columns in ('r', 'e,n'):
+        text = 'lon lat r e n\ndeg deg m cm cm\n1 2 5 300 400\n1.01 2 5 300 400\n1 2.01 5 300 400\n'
+        options = ('--sphere', '--columns', 'lon,lat', '--radius-column', columns, '--delimiter', 'blank')
+        result = run('delaunay', *options, '--units-row', '-', stdin=text)
+        expect(result, 0, r'\A' + THREE, r'\A\Z')
+        expect(run('delaunay', *options, '-', stdin=text.replace('deg deg m cm cm\n', '')), 2, '', 'state a unit: --radius-unit')
+
+
+KINDS = [(b'{"type":"FeatureCollection","features":[]}', 'GeoJSON', 'ogr2ogr'), (b'\n <?xml version="1.0"?>\n<gpx>', 'GPX', 'waypoints'),
+         (b'<kml>', 'KML', 'ogr2ogr'), (b'<?xml?><osm>', 'OpenStreetMap XML', 'points'), (b'PAR1\x15\x04', 'Parquet', 'ogr2ogr'),
+         (b'\0\0\x27\x0a\0\0', 'a Shapefile', 'ogr2ogr'), (b'SQLite format 3\0', 'an SQLite database', 'ogr2ogr'), (b'fgb\3fgb\0', 'FlatGeobuf', 'ogr2ogr'),
+         (b'POINT (1 2)\n', 'WKT', 'sed'), (b'SRID=4326;POLYGON Z((1 2 3))', 'WKT', 'sed'), (b'[[1,2],[3,4]]', 'JSON', 'jq'),
+         (b'PK\3\4 a.shp', 'a zip archive with a Shapefile', '/vsizip/'), (b'PK\3\4 doc.kml', 'KML in a zip archive', '/vsizip/')]
+
+
+def test_other_formats():
+    """What a file is comes from its first bytes, packed or not; the command to type is one."""
+    for data, name, make in KINDS:
+        expect(run('delaunay', '-', stdin=data), 1, r'\A\Z', rf'\Adyadel: -: the file is {name}.*; give .*{make}.* \| dyadel delaunay (--columns X,Y )?-$')
+        expect(run('delaunay', '--columns', 'x,y', '-', stdin=data), 1, r'\A\Z', f'the file is {name}')
+    expect(run('delaunay', '-', stdin=b'{"a":1}'), 1, '', 'the file is JSON; make a table of it')
+    for data in (b'[0,1] 0\n', b'Point,X,Y\n'):
+        assert 'the file is' not in run('delaunay', '-', stdin=data).err
+    expect(run('delaunay', '--columns', 'g,g', '-', stdin='i;g\n1;POINT(1 2)\n'), 1, '', r'a table with a column of WKT .*GEOM_POSSIBLE_NAMES.* \| dyadel delaunay --columns X,Y -$')
+
+
+def test_commands_to_type():
+    """The command that a message gives does it, with names that a shell would split."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder)
+        files = {'a b.wkt': 'POINT (1 2)\nPOINT (4 1)\nPOINT (2 6)\n', "it's.wkt": 'POLYGON ((1 2, 4 1, 2 6, 1 2))\n'}
+        if shutil.which('ogr2ogr'):
+            files['c d.geojson'] = '{"type":"FeatureCollection","features":[' + ','.join(
+                '{"type":"Feature","properties":{"n":1},"geometry":{"type":"Point","coordinates":[%s]}}' % p for p in ('1,2', '4,1', '2,6')) + ']}'
+            files['w.csv'] = 'i,geometry\n1,POINT(1 2)\n2,POINT(4 1)\n3,POINT(2 6)\n'
+        for name, text in files.items():
+            (path / name).write_text(text)
+            told = run('delaunay', *(['--columns', 'geometry,geometry'] if name == 'w.csv' else []), name, cwd=folder)
+            command = re.search(r'; give (.*)$', told.err, re.M)[1]
+            env = {**os.environ, 'PATH': os.path.dirname(os.path.abspath(COMMAND)) + ':' + os.environ['PATH']}
+            done = subprocess.run(['sh', '-c', command], cwd=folder, env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+            assert done.stdout.decode().endswith(THREE), (command, done)
+
+
+def test_names_of_files():
+    """A name of a file cannot steer a terminal, and bytes of UTF-8 stay."""
+    with tempfile.TemporaryDirectory() as folder:
+        name = 'é\x1b]0;x\x07\x9b\n€.csv'
+        expect(run('delaunay', name, cwd=folder), 1, r'\A\Z', r'\Adyadel: é\\x1B\]0;x\\x07\\xC2\\x9B\\x0A€\.csv: cannot open')
+
+
+main(globals())
