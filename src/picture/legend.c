@@ -168,7 +168,7 @@ static void legend_bar(dyd_legend *l) {
   double right = DYD_VIEW_LEFT + v->width, y = l->y;
   l->bar = right;
   if (!dyd_round_step(&digit, &exponent, 0.2 * v->width / v->scale)) return;
-  char number[48], text[80];
+  char number[48], text[128];
   dyd_tick_text(number, sizeof number, digit, exponent);
   char of[40] = " of the coordinates";
   if (v->epsg) snprintf(of, sizeof of, " of EPSG:%u", v->epsg);

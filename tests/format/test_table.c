@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-enum { CONTENTS = DYD_CONTENT_TIES + 1 };
+enum { CONTENTS = DYD_CONTENT_TILES + 1 };
 
 static void test_names(void **state) {
   (void)state;
@@ -165,7 +165,7 @@ static void test_layers(void **state) {
       bool shared = strcmp(dyd_layer_name(of[k], l), "aliases") == 0;
       assert_int_equal(dyd_layer_from_name(&found, of[k ^ 1], dyd_layer_name(of[k], l)), shared);
     }
-  assert_int_equal(count, 19);
+  assert_int_equal(count, 20);
   assert_null(dyd_layer_name(DYD_CONTENT_CHECK, 0));
 }
 
