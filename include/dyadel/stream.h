@@ -87,8 +87,9 @@ DYD_API dyd_status dyd_real_from_q(dyd_real **out, const mpq_t q);
 /* The fixed interval [lo,hi]. Ends that are not dyadic are rounded outward once, by less than 2^-64 of the
  * width (or of the magnitude when smaller), so that the rectangle never changes. lo = hi is the exact point. */
 DYD_API dyd_status dyd_real_from_interval(dyd_real **out, const mpq_t lo, const mpq_t hi);
-/* Every coordinate form of the points file: decimal, rational, hexadecimal float, dyadic, [lo,hi],
- * value+-radius, expression, root(polynomial,lo,hi). On DYD_E_PARSE err has the column (from 1). */
+/* Every coordinate form of the points file: decimal, rational, hexadecimal float, dyadic, degrees with minutes and
+ * seconds (47°36'18.3"N, N47.605, 47:36:18.3), [lo,hi], value+-radius, expression, root(polynomial,lo,hi). On
+ * DYD_E_PARSE err has the column (from 1). */
 DYD_API dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_error *err);
 /* The same where the text is an exact number, [lo,hi] or value+-radius, or an expression whose value is rational: out
  * becomes the number, or the interval, rounded as dyd_real_from_interval says. DYD_E_PARSE for other expressions. */

@@ -155,12 +155,13 @@ int cli_points_read(dyd_engine *e, cli_options *o, bool noting) {
   if (r.swapped && !o->plane)
     cli_note(
         o,
-        "%s: by their names the columns are latitude and longitude, or northing and easting, and are taken as x and "
-        "y: a mirrored map; give the column of y first, or --plane if that is meant",
+        "%s: by their names or letters the columns are latitude and longitude, or northing and easting, and are taken "
+        "as x and y: a mirrored map; exchange the two, or give --plane if that is meant",
         o->file);
   if (r.degrees && !o->sphere && !o->plane && points_are_degrees(e))
     cli_note(o,
-             "%s: the columns are longitude and latitude by their names, and taken as coordinates in a plane; for "
+             "%s: the columns are longitude and latitude by their names or letters, and taken as coordinates in a "
+             "plane; for "
              "neighbours on the globe give delaunay or voronoi --sphere; --plane says that the plane is meant",
              o->file);
   return 0;

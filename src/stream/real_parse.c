@@ -7,6 +7,7 @@
  * real by itself. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "stream/degrees.h"
 #include "stream/expr.h"
 #include "stream/expr_filter.h"
 #include "stream/number.h"
@@ -378,11 +379,23 @@ static dyd_status read_plain_number(dyd_real **out, reader *r) {
   return st;
 }
 
+/* DYD_E_ARG: it is of another form. */
+static dyd_status read_degrees(dyd_real **out, reader *r) {
+  mpq_t lo, hi;
+  char letter;
+  mpq_inits(lo, hi, NULL);
+  dyd_status st = dyd_degrees_read(lo, hi, &letter, r->text, r->length, false, r->err);
+  if (st == DYD_OK) st = plain_fail(r, 0, dyd_real_from_q(out, lo));
+  mpq_clears(lo, hi, NULL);
+  return st;
+}
+
 dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_error *err) {
   reader r = {.text = text, .length = length, .err = err};
   if (!text && length) return dyd_fail(err, DYD_E_ARG, "no text was given");
   if (dyd_is_plain_number(text, length)) return read_plain_number(out, &r);
-  return read_real_coordinate(out, &r);
+  dyd_status st = read_degrees(out, &r);
+  return st == DYD_E_ARG ? read_real_coordinate(out, &r) : st;
 }
 
 dyd_status dyd_interval_set_text(dyd_interval *out, const char *text, size_t length, dyd_error *err) {

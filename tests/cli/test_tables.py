@@ -5,12 +5,15 @@ may be meant in two ways is refused with what to give for each; what is no table
 
 Usage: test_tables.py COMMAND DATA
 """
+import json
 import os
 import pathlib
+import random
 import re
 import shutil
 import subprocess
 import tempfile
+from fractions import Fraction
 
 from harness import COMMAND, expect, main, run
 
@@ -123,6 +126,79 @@ def test_missing_words():
     for word in ('-5', '-0', '+', '--', 'N', 'nano'):
         result = run('delaunay', '--skip-missing', '--missing', '9999', '--columns', 'x,y', '-', stdin=f'x,y\n0,0\n4,{word}\n2,6\n')
         assert 'left out' not in result.err, (word, result)
+
+
+def exact(text):
+    """m*2^e/d or p/q as a fraction."""
+    m, star, e = text.partition('*2^')
+    e, _, d = e.partition('/')
+    return Fraction(m) * Fraction(2) ** int(e) / int(d or 1) if star else Fraction(m)
+
+
+def read_exact(lines, *options):
+    result = run('delaunay', '--format', 'json', '-q', *options, '-', stdin=''.join(l + '\n' for l in lines))
+    assert result.code in (0, 3), result.err
+    return {s['i']: [exact(t) for t in (*s['x'], *s['y'])] for s in json.loads(result.out)['sites']}
+
+
+def degrees_forms():
+    """Texts and their values, at random."""
+    rand = random.Random(7)
+    for _ in range(400):
+        d, m, s = rand.randint(0, 89), rand.randint(0, 59), rand.randint(0, 59999)
+        seconds, minutes = f'{s // 1000}.{s % 1000:03}', f'{m}.{s:05}'
+        value, rough = d + Fraction(m, 60) + Fraction(s, 3600000), d + Fraction(minutes) / 60
+        sign, letter = rand.choice((('', 'N'), ('', 'E'), ('-', 'S'), ('-', 'W')))
+        a, b, c = rand.choice(('°', 'º', '˚', 'd')), rand.choice("'′’´"), rand.choice(('"', '″', "''", '”', '′′'))
+        for text, v in ((f'{d}{a}{m}{b}{seconds}{c}', value), (f'{d}:{m:02}:{seconds}', value), (f'{d}{a}{minutes}{b}', rough), (f'{d}{a}{m}{b}{seconds}', value),
+                        (f'{d}°', Fraction(d)), (f'{d}.{m:02}', Fraction(f'{d}.{m:02}')), (f'{d}:{minutes}', rough)):
+            written = text + letter if rand.random() < 0.5 else letter + text
+            yield written, v if sign == '' else -v
+            if letter not in text and text[-1:] in '"\'°':
+                yield text + letter.lower(), v if sign == '' else -v
+            if re.search('[°:]', text):
+                yield rand.choice((sign, sign.replace('-', '−'))) + text, v if sign == '' else -v
+
+
+def test_degrees():
+    """Every way to write degrees is the exact number, in lines and in tables; blanks may stand between."""
+    forms = list(degrees_forms())
+    want = {k: v for k, (_, v) in enumerate(forms)}
+    got = read_exact(f'{t} {k}' for k, (t, v) in enumerate(forms))
+    assert all(got[k][:2] == [want[k]] * 2 for k in want), [(forms[k], got[k]) for k in want if got[k][:2] != [want[k]] * 2][:3]
+    got = read_exact(['x;y', *(f'{t};{k}' if '"' not in t or k % 2 else '"' + t.replace('"', '""') + f'";{k}' for k, (t, v) in enumerate(forms))], '--columns', 'x,y')
+    assert all(got[k][:2] == [want[k]] * 2 for k in want)
+    spread = [re.sub(r"(?<=[°'\"])(?=\d)|(?=[NSEW])(?<=.)", ' ', t) for t, _ in forms]
+    spread = [t for t in spread if re.search('[NSEW]', t)] + ['47 36 18.3 N', 'E 8 1 40', '8 1 W']
+    whole = read_exact(['x', *spread], '--no-header', '--skip-lines', '1', '--delimiter', '|', '--columns', '1,1')
+    for between in (' ', ' , ', ',', '\t'):
+        split = read_exact(f'{a}{between}{a}' for a in spread)
+        assert split == whole, between
+    assert whole[len(spread) - 3][0] == 47 + Fraction(36, 60) + Fraction('18.3') / 3600
+    assert (whole[len(spread) - 2][0], whole[len(spread) - 1][0]) == (8 + Fraction(1, 36), -8 - Fraction(1, 60))
+
+
+def test_degrees_measured():
+    """The last digit is rounded, in its own unit; ends are outward by less than 2^-60."""
+    for text, middle, half in (('47°36\'18.3"', 47 + Fraction(36, 60) + Fraction('18.3') / 3600, Fraction('0.05') / 3600),
+                               ('47:36', 47 + Fraction(36, 60), Fraction(1, 120)), ('W8.5', -Fraction('8.5'), Fraction('0.05'))):
+        (xlo, xhi, _, _), = read_exact([text + ', 1'], '--measured').values()
+        assert 0 <= middle - half - xlo < Fraction(1, 2**60) and 0 <= xhi - middle - half < Fraction(1, 2**60), text
+
+
+def test_degrees_refused():
+    for text, column, why in (("47°60' 8", 4, 'minutes are below 60'), ('47:36:60 8', 7, 'seconds are below 60'), ("47.5°30' 8", 1, 'write whole degrees'),
+                              ('90.1N 8', 1, 'beyond 90 degrees'), ('8 361E', 3, 'beyond 360 degrees'), ('-47N 8', 1, 'remove one of them'), ('8 47 36 18', 6, 'more than two coordinates'),
+                              ("36' 8", 3, ''), ('47°36\'18.3"x 8', 3, ''), ('47d 8', 3, ''), ("1'2° 3", 2, ''), ('N 8', 1, '')):
+        result = run('delaunay', '-', stdin=text + '\n')
+        assert result.code == 1 and why in result.err and result.err.startswith(f'dyadel: -:1:{column}: '), (text, result)
+    for text in ('47N 8E', "47°36'N, 8"):
+        expect(run('delaunay', '--sphere', '-', stdin=text + '\n'), 1, r'\A\Z', '-:1:1: a latitude where the longitude is expected; give the longitude first')
+        expect(run('delaunay', '-', stdin=text + '\n'), 0, HEAD, 'a mirrored map; exchange the two')
+    expect(run('delaunay', '-', stdin='8E 47N\n9E 46N\n'), 0, HEAD, 'for neighbours on the globe')
+    expect(run('delaunay', '--sphere', '-', stdin='8E 47N\n9E 46N\n8:00 47:00\n'), 0, r'\A# alias 2 0\n' + HEAD + r'0,1,legal\n\Z', r'\A\Z')
+    expect(run('delaunay', '-', stdin='sqrt(4) exp(0)\ne E\n'), 1, '', '-:2:3: ')
+    expect(run('delaunay', '--radius', '5d', '-', stdin='0 0\n'), 2, '', 'the radius "5d" is not')
 
 
 def test_encodings():

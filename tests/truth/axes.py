@@ -274,6 +274,36 @@ def kind_exact(case, rand):
                            for c, t in zip(s.place, s.text))
 
 
+def sexagesimal(q, rand, letters):
+    """Degrees, minutes and seconds; the decimal where there are no short ones, or an expression."""
+    n = q.denominator
+    for p in (2, 3, 5):
+        while n % p == 0:
+            n //= p
+    if n != 1 or len(str(q.denominator)) > 12 or abs(q) > 10 ** 9:
+        return decimal(q)
+    d, m, s = math.floor(abs(q)), math.floor(abs(q) * 60) % 60, abs(q) * 3600 % 60
+    s = decimal(s)
+    if not re.fullmatch(r'[\d.]+', s):
+        return decimal(q)
+    m, s = (str(m).rjust(2, '0'), s if '.' in s else s.rjust(2, '0'))
+    sign, letter = ('-', '') if q < 0 else (rand.choice(('', '+')), '')
+    if letters and abs(q) <= 90 and rand.random() < 0.7:
+        sign, letter = '', letters[q < 0]
+    text = rand.choice((f'{d}°{m}\'{s}"', f'{d}º{m}′{s}″', f'{d}:{m}:{s}', f"{d}d{m}'{s}''"))
+    if letter and rand.random() < 0.3:
+        return f'{letter}{text}'
+    return f'{sign}{text}{letter}'
+
+
+def kind_degrees(case, rand):
+    plain(case)
+    case.exact = True
+    for s in case.sites:
+        s.text = tuple(sexagesimal(c, rand, letters if case.geometry == 'sphere' else '')
+                       for c, letters in zip(s.place, ('EW', 'NS')))
+
+
 def kind_interval(case, rand):
     plain(case)
     for s in case.sites:
@@ -529,6 +559,7 @@ TABLES = ('csv', 'semicolon', 'tab', 'bar', 'numbers', 'blanks', 'headless', 'un
 TEXTS = ('text', 'comma', 'stdin', 'gzip', *TABLES)
 KINDS = {  # name: function, geometries, forms
     'exact': (kind_exact, ('plane', 'sphere', 'discs'), TEXTS + ('python', 'capi', 'tiles')),
+    'degrees': (kind_degrees, ('plane', 'sphere'), TEXTS),
     'interval': (kind_interval, ('plane', 'sphere'), TEXTS + ('python', 'capi', 'tiles')),
     'plusminus': (kind_plusminus, ('plane', 'sphere'), TEXTS + ('python',)),
     'radius': (kind_radius, ('plane', 'discs'), TEXTS + ('python',)),
@@ -559,7 +590,7 @@ def table(case, d, names=('x', 'y'), comma=False, change=lambda t: t):
     """A table: a name, x, y, and what else the points have; columns that nobody reads between them."""
     def cell(t):
         t = t.replace('.', ',') if comma and not set('([') & set(t) else t
-        return change(f'"{t}"' if d in t or ',' in t else t)
+        return change('"' + t.replace('"', '""') + '"' if d in t or ',' in t or '"' in t else t)
     out = d.join(('name', names[0], 'cost', names[1], *case.names)) + '\n'
     for k, s in enumerate(case.sites):
         out += d.join((f'p{k}', cell(s.text[0]), str(k * 7 % 5 + 1), cell(s.text[1]), *map(cell, s.columns))) + '\n'

@@ -104,10 +104,15 @@ static bool has_brackets(const dyd_span *s) {
   return memchr(s->text, '(', s->length) || memchr(s->text, '[', s->length);
 }
 
+/* Is there a mark, and nothing but what decimals have? */
 static bool has_mark(const char *at, const char *end, char mark) {
-  for (; at < end; at++)
-    if (mark_length(at, end, mark)) return true;
-  return false;
+  size_t marks = 0;
+  for (size_t n; at < end; at += n ? n : 1) {
+    n = mark_length(at, end, mark);
+    marks += n > 0;
+    if (!n && !memchr("0123456789.,eE+-", *at, 16)) return false;
+  }
+  return marks;
 }
 
 static dyd_status fail_groups(const dyd_span *s, dyd_error *err) {

@@ -16,6 +16,7 @@
 
 #include "base/error.h"
 #include "io/decimal.h"
+#include "stream/degrees.h"
 #include "stream/number.h"
 #include "stream/real.h"
 
@@ -247,11 +248,17 @@ static bool looks_decimal(const dyd_span *span) {
 }
 
 static dyd_status coordinate_parse(dyd_real **out, const dyd_span *span, const dyd_manner *manner, dyd_error *err) {
-  if (!manner->measured || !looks_decimal(span)) return dyd_real_parse(out, span->text, span->length, err);
+  char letter;
   mpq_t lo, hi;
+  if (!manner->measured) return dyd_real_parse(out, span->text, span->length, err);
   mpq_inits(lo, hi, NULL);
-  dyd_status st = dyd_parse_measured(lo, hi, span->text, span->length, err);
-  if (st == DYD_OK) st = dyd_real_from_interval(out, lo, hi);
+  dyd_status st = dyd_degrees_read(lo, hi, &letter, span->text, span->length, true, err);
+  bool decimal = st == DYD_E_ARG && looks_decimal(span);
+  if (decimal) st = dyd_parse_measured(lo, hi, span->text, span->length, err);
+  if (st == DYD_E_ARG && !decimal)
+    st = dyd_real_parse(out, span->text, span->length, err);
+  else if (st == DYD_OK)
+    st = dyd_real_from_interval(out, lo, hi);
   mpq_clears(lo, hi, NULL);
   return st;
 }

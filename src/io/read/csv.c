@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "io/read/coordinate.h"
+#include "stream/degrees.h"
 
 #include <string.h>
 
@@ -60,6 +61,37 @@ static dyd_span points_coordinate(cursor *c) {
   return (dyd_span){begin, (size_t)(c->at - begin), begin, c->line->text, c->line->number};
 }
 
+static bool is_degrees(const char *begin, const char *end) {
+  mpq_t lo, hi;
+  char letter;
+  mpq_inits(lo, hi, NULL);
+  bool is = dyd_degrees_read(lo, hi, &letter, begin, (size_t)(end - begin), false, NULL) != DYD_E_ARG;
+  mpq_clears(lo, hi, NULL);
+  return is;
+}
+
+/* Degrees with blanks between minutes and seconds: the one place where both sides are such numbers. false: there is
+ * none, or there are several. */
+static bool degrees_split(dyd_span coordinate[2], const dyd_line *line, const char *end, char comma) {
+  const char *begin = line->text, *found = NULL, *next = NULL;
+  while (begin < end && is_points_blank(*begin)) begin++;
+  for (const char *at = begin; at < end && end - begin < 200; at++) {
+    if (!is_points_blank(*at) && *at != comma) continue;
+    const char *left = at;
+    int commas = 0;
+    for (; at < end && (is_points_blank(*at) || *at == comma); at++) commas += *at == comma;
+    if (commas > 1 || !is_degrees(begin, left) || !is_degrees(at, end)) continue;
+    if (found) return false;
+    found = left;
+    next = at;
+  }
+  if (!found) return false;
+  while (end > next && is_points_blank(end[-1])) end--;
+  coordinate[0] = (dyd_span){begin, (size_t)(found - begin), begin, line->text, line->number};
+  coordinate[1] = (dyd_span){next, (size_t)(end - next), next, line->text, line->number};
+  return true;
+}
+
 dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_line *line, char comma, dyd_error *err) {
   const char *comment = memchr(line->text, '#', line->length);
   cursor c = {line->text, comment ? comment : line->text + line->length, line, comma};
@@ -79,7 +111,7 @@ dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_lin
                            : "the line has one coordinate only; give two, separated by a blank or a comma");
   coordinate[1] = points_coordinate(&c);
   int commas = points_separator(&c, 0);
-  if (commas || c.at < c.end)
+  if ((commas || c.at < c.end) && !degrees_split(coordinate, line, c.end, comma))
     return points_fail(err, &c,
                        "more than two coordinates on this line; give two, and write expressions without blanks "
                        "outside parentheses");

@@ -17,6 +17,7 @@
 #include "io/read/cell.h"
 #include "io/read/csv.h"
 #include "io/read/stage.h"
+#include "stream/degrees.h"
 
 #include <dyadel/io.h>
 #include <dyadel/stream.h>
@@ -467,6 +468,7 @@ static double final_width(const dyd_coordinate *c, const dyd_manner *manner) {
   if (c->kind != DYD_COORDINATE_REAL) return 0;
   if (!dyd_real_is_final(c->real)) return manner->widen ? 2 * manner->radius_up : 0;
   double end[2];
+  if (dyd_interval_is_point(dyd_real_interval(c->real))) return 0;
   dyd_interval_get_d(&end[0], &end[1], dyd_real_interval(c->real));
   return end[1] - end[0];
 }
@@ -538,6 +540,24 @@ static dyd_status intake_coordinate(dyd_coordinate *out, intake *in, int axis, c
   return dyd_cell_hint(st, &in->style, span, in->report.rows == 1, err);
 }
 
+/* Letters of degrees say which coordinate it is. */
+static dyd_status intake_letter(intake *in, int axis, const dyd_coordinate *c, const dyd_span *span, dyd_error *err) {
+  if (c->kind != DYD_COORDINATE_REAL || !dyd_real_is_final(c->real)) return DYD_OK;
+  mpq_t lo, hi;
+  char letter = 0;
+  mpq_inits(lo, hi, NULL);
+  bool degrees = dyd_degrees_read(lo, hi, &letter, span->text, span->length, false, NULL) == DYD_OK && letter;
+  mpq_clears(lo, hi, NULL);
+  if (!degrees) return DYD_OK;
+  in->report.degrees = true;
+  if ((letter == 'N' || letter == 'S') == (axis == 1)) return DYD_OK;
+  in->report.swapped = true;
+  return !in->o->degrees ? DYD_OK
+                         : dyd_span_fail(err, span, 0,
+                                         axis ? "a longitude where the latitude is expected; give the longitude first"
+                                              : "a latitude where the longitude is expected; give the longitude first");
+}
+
 /* Takes in one row: fields by their roles, text = NULL where there is none. span is changed. */
 static dyd_status intake_row(intake *in, dyd_span span[DYD_CSV_MOST], dyd_error *err) {
   dyd_coordinate c[2] = {{.kind = DYD_COORDINATE_DOUBLE}, {.kind = DYD_COORDINATE_DOUBLE}};
@@ -549,6 +569,7 @@ static dyd_status intake_row(intake *in, dyd_span span[DYD_CSV_MOST], dyd_error 
   for (int a = 0; st == DYD_OK && a < 2; a++) {
     if (span[DYD_CSV_RADIUS_X + a].text) st = intake_radius(in, a, &span[DYD_CSV_RADIUS_X + a], err);
     if (st == DYD_OK) st = intake_coordinate(&c[a], in, a, &span[a], err);
+    if (st == DYD_OK) st = intake_letter(in, a, &c[a], &span[a], err);
   }
   if (st == DYD_OK && in->o->degrees && is_beyond_poles(&c[1]))
     st = dyd_span_fail(err, &span[1], 0, "the latitude is beyond 90 degrees; longitude comes first, then latitude");
