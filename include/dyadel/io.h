@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-/* What a file held. Begun with DYD_SIZED. */
+/* What a file held. Begun with DYD_SIZED. A call that fails sets it, too: to what was read before. */
 typedef struct dyd_read_report {
   size_t struct_size;
   size_t rows;    /* lines with a point, or records behind the header; also those that gave no point */
@@ -28,7 +28,7 @@ typedef struct dyd_read_report {
   size_t commented; /* lines of a table that begin with # or % and have as many fields as others, so that they may be
                        rows; they are left out as comments */
   size_t recoded;   /* lines that are not UTF-8 and were read as Windows-1252, which includes Latin-1 */
-  /* Set also when the call fails since the file is neither a points file nor a table: the name of its format, a command
+  /* Set when the file is neither a points file nor a table: the name of its format, a command
    * that makes a table of the file called FILE (NULL: there is none), and the columns of x and y in that table (NULL:
    * it is a points file). Static storage; kind = NULL: the file is read. */
   const char *kind, *make, *make_columns;
@@ -223,6 +223,11 @@ typedef struct dyd_nearest_answer {
   bool sure;
   dyd_outcome outcome;
   bool tied; /* dyd_engine_nearest_tied */
+  /* Of many places: what `q` is, where it is not the number of the answer; an identifier (NULL: none), which all places
+   * have if the first has one. */
+  bool placed;
+  size_t place;
+  const char *id;
 } dyd_nearest_answer;
 
 /* Input and options of dyd_write; all borrowed. Fields that do not belong to the content are ignored. */

@@ -64,7 +64,8 @@ typedef struct cli_options {
   const char *window; /* checked text: see cli_window_read */
   int64_t flatten_bits;
   bool flatten_set;
-  double max_arc; /* degrees; 0: default */
+  double max_arc;                       /* degrees; 0: default */
+  const char *query_columns, *query_id; /* of the file of queries */
   const char *certificate, *trace, *replay, *resume, *plot;
   double trace_sync; /* seconds; 0: default */
   uint64_t seed;
@@ -207,6 +208,9 @@ int cli_work_run(const cli_work *work, const cli_options *o);
 /* Adds the points of the file or oracle to e. 0, or an exit status after a message. noting: prints notes on skipped
  * rows and doubtful input. */
 int cli_points_read(dyd_engine *e, cli_options *o, bool noting);
+/* The same of the file of queries: a table where its header has --query-columns, or the names of --columns; else a
+ * points file. */
+int cli_places_read(dyd_engine *e, const cli_options *o);
 /* For reading points as longitude and latitude. */
 void cli_options_degrees(cli_options *o);
 /* Gives the engine, not run yet, the answers of --resume. 0, or an exit status after a message. */

@@ -25,6 +25,7 @@ static const char help_file_text[] = "FILE has one point per line: two coordinat
 
 static const help_term help_coordinate_forms[] = {
     {"-3.25 1e-3 22/7", "decimal, integer, rational: exact"},
+    {"47:36:18.3 N47.605", "degrees, minutes, seconds, in the usual forms: exact"},
     {"0x1.8p-3 5*2^-20", "hexadecimal float, dyadic: exact"},
     {"[1.2,1.3]", "interval: fixed, never refined"},
     {"1.25+-0.01", "value with radius: the interval"},

@@ -176,6 +176,8 @@ typedef struct place {
   dyd_stream *at;
   dyd_nearest_answer answer;
   dyd_index_list found;
+  size_t row; /* of its file */
+  char *id;   /* NULL: it has none */
 } place;
 
 typedef struct query {
@@ -211,11 +213,16 @@ static int places_reserve(query *q, size_t count) {
 
 /* The points of the file become places: streams that stay when their engine goes. */
 static int places_read_file(query *q, dyd_engine *from, const cli_options *o) {
-  cli_options file = {.file = o->queries, .plane = true, .read = {DYD_SIZED(dyd_read_options)}};
-  int status = cli_points_read(from, &file, false);
+  int status = cli_places_read(from, o);
   if (!status) status = places_reserve(q, dyd_engine_count(from));
   for (size_t k = 0; k < q->count && !status; k++)
     if (dyd_engine_stream(&q->place[k].at, from, (uint32_t)k) != DYD_OK) status = cli_complain_memory();
+  for (size_t k = 0; k < q->count && !status; k++) {
+    const char *id = dyd_engine_id(from, k);
+    q->place[k].row = dyd_engine_row(from, k);
+    q->place[k].id = id ? strdup(id) : NULL;
+    if (id && !q->place[k].id) status = cli_complain_memory();
+  }
   return status;
 }
 
@@ -223,6 +230,8 @@ static int places_read(cli_session *s) {
   const cli_options *o = &s->o;
   query *q = s->state;
   dyd_engine *from = NULL;
+  if (!o->queries && (o->query_columns || o->query_id))
+    return cli_usage("--%s is about a file of places; give --queries FILE", o->query_id ? "query-id" : "query-columns");
   if (!o->queries) {
     int status = places_reserve(q, 1);
     return status ? status : read_place(&q->place[0].at, o);
@@ -239,6 +248,7 @@ static void places_end(cli_session *s) {
   for (size_t k = 0; k < q->count; k++) {
     dyd_index_list_clear(&q->place[k].found);
     dyd_stream_free(q->place[k].at);
+    free(q->place[k].id);
   }
   free(q->place);
 }
@@ -254,7 +264,8 @@ static dyd_status name_place(dyd_status st, size_t k, const cli_session *s, dyd_
   if (st == DYD_OK || !s->o.queries || err->point < dyd_engine_count(s->engine)) return st;
   snprintf(message, sizeof message, "%s", err->message);
   err->point = DYD_NO_POINT;
-  snprintf(err->message, sizeof err->message, "place %zu of %s: %.180s", k, s->o.queries, message);
+  snprintf(err->message, sizeof err->message, "place %zu of %s: %.180s", ((query *)s->state)->place[k].row,
+           s->o.queries, message);
   return st;
 }
 
@@ -265,8 +276,15 @@ static dyd_status answer_place(cli_session *s, size_t k, const dyd_engine_option
   bool sure;
   dyd_status st = dyd_engine_nearest(&p->found, &sure, &outcome, s->engine, p->at, o, err);
   if (st != DYD_OK) return name_place(st, k, s, err);
-  p->answer = (dyd_nearest_answer){DYD_SIZED(dyd_nearest_answer),     dyd_stream_rect(p->at), &p->found, sure, outcome,
-                                   dyd_engine_nearest_tied(s->engine)};
+  p->answer = (dyd_nearest_answer){DYD_SIZED(dyd_nearest_answer),
+                                   dyd_stream_rect(p->at),
+                                   &p->found,
+                                   sure,
+                                   outcome,
+                                   dyd_engine_nearest_tied(s->engine),
+                                   true,
+                                   p->row,
+                                   p->id};
   q->answered++;
   q->outcome = worse_outcome(q->outcome, outcome);
   return DYD_OK;

@@ -83,19 +83,36 @@ static void complain_kind(const cli_options *o, const dyd_read_report *r) {
                o->command ? o->command : "nearest FILE", option, columns, before);
 }
 
+/* Opens the file; NULL after a message. */
+static FILE *session_open_file(const cli_options *o) {
+  struct stat info;
+  FILE *in = cli_input_open(o->file, "check the name of the points file");
+  if (!in || fstat(fileno(in), &info) != 0 || !S_ISDIR(info.st_mode)) return in;
+  cli_complain("%s: is a directory; give the name of a points file in it", o->file);
+  cli_input_close(in);
+  return NULL;
+}
+
+/* Says why the file could not be read; the exit status. */
+static int session_complain_read(const cli_options *o, dyd_status st, const dyd_read_report *report,
+                                 const dyd_error *err) {
+  if (st == DYD_OK) return 0;
+  if (report->kind && report->make)
+    complain_kind(o, report);
+  else if (st == DYD_E_ARG)
+    cli_complain("%s", err->message);
+  else
+    cli_complain_at(o->file, err);
+  return st == DYD_E_ARG ? CLI_USAGE : CLI_FAILED;
+}
+
 static int session_read_file(dyd_engine *e, cli_options *o, dyd_read_report *report) {
   FILE *in;
   const bool features = cli_gdal_here && (o->in_layer || cli_spatial_kind(o->file));
   int opened = features ? cli_gdal_here->open(&in, o->file, o) : 0;
   if (opened) return opened;
-  if (!features) in = cli_input_open(o->file, "check the name of the points file");
+  if (!features) in = session_open_file(o);
   if (!in) return CLI_FAILED;
-  struct stat info;
-  if (fstat(fileno(in), &info) == 0 && S_ISDIR(info.st_mode)) {
-    cli_complain("%s: is a directory; give the name of a points file in it", o->file);
-    cli_input_close(in);
-    return CLI_FAILED;
-  }
   dyd_error err;
   dyd_read_options read = o->read;
   read.report = report;
@@ -108,13 +125,7 @@ static int session_read_file(dyd_engine *e, cli_options *o, dyd_read_report *rep
     cli_complain("%s: feature %zu: %s", o->file, err.line - 2, err.message);
     return CLI_FAILED;
   }
-  if (report->kind && report->make)
-    complain_kind(o, report);
-  else if (st == DYD_E_ARG)
-    cli_complain("%s", err.message);
-  else if (st != DYD_OK)
-    cli_complain_at(o->file, &err);
-  return st == DYD_OK ? 0 : st == DYD_E_ARG ? CLI_USAGE : CLI_FAILED;
+  return session_complain_read(o, st, report, &err);
 }
 
 /* Can all points be places on the globe? */
@@ -129,23 +140,27 @@ static bool points_are_degrees(const dyd_engine *e) {
   return good;
 }
 
+static void note_lines(const cli_options *o, const dyd_read_report *r) {
+  if (!r->rows) cli_note(o, "%s: there are no points in this file", o->file);
+  if (r->missing)
+    cli_note(o, "%s: %zu of %zu rows are left out, as a coordinate or radius is missing; the others keep their numbers",
+             o->file, r->missing, r->rows);
+  if (r->commented)
+    cli_note(o, "%s: lines that begin with # or %% and may be rows: %zu; they are left out as comments", o->file,
+             r->commented);
+  if (r->recoded)
+    cli_note(o,
+             "%s: lines that are not UTF-8: %zu; they are read as Windows-1252 (Latin-1); for another encoding give "
+             "iconv -f ENCODING -t UTF-8 %s | dyadel %s ... -",
+             o->file, r->recoded, o->file, o->command ? o->command : "nearest FILE --queries");
+}
+
 int cli_points_read(dyd_engine *e, cli_options *o, bool noting) {
   if (o->oracle) return session_read_oracle(e, o);
   dyd_read_report r = {DYD_SIZED(dyd_read_report)};
   int status = session_read_file(e, o, &r);
   if (status || !noting) return status;
-  if (!r.rows) cli_note(o, "%s: there are no points in this file", o->file);
-  if (r.missing)
-    cli_note(o, "%s: %zu of %zu rows are left out, as a coordinate or radius is missing; the others keep their numbers",
-             o->file, r.missing, r.rows);
-  if (r.commented)
-    cli_note(o, "%s: lines that begin with # or %% and may be rows: %zu; they are left out as comments", o->file,
-             r.commented);
-  if (r.recoded)
-    cli_note(o,
-             "%s: lines that are not UTF-8: %zu; they are read as Windows-1252 (Latin-1); for another encoding give "
-             "iconv -f ENCODING -t UTF-8 %s | dyadel %s ... -",
-             o->file, r.recoded, o->file, o->command);
+  note_lines(o, &r);
   if (r.merged) cli_note(o, "%s: %zu rows are merged with earlier ones of equal coordinates", o->file, r.merged);
   if (r.shared)
     cli_note(o,
@@ -165,6 +180,88 @@ int cli_points_read(dyd_engine *e, cli_options *o, bool noting) {
              "neighbours on the globe give delaunay or voronoi --sphere; --plane says that the plane is meant",
              o->file);
   return 0;
+}
+
+/* ---- places ---- */
+
+/* Names the options of places where the message names those of points. */
+static void rename_options(dyd_error *err) {
+  static const char *const name[][2] = {{"`columns`", "--query-columns"}, {"`id`", "--query-id"}};
+  for (size_t k = 0; k < 2; k++) {
+    for (char *at; (at = strstr(err->message, name[k][0]));) {
+      char before[sizeof err->message];
+      size_t begin = (size_t)(at - err->message);
+      memcpy(before, err->message, sizeof before);
+      snprintf(at, sizeof err->message - begin, "%s%.*s", name[k][1], (int)(sizeof before - begin - 20),
+               before + begin + strlen(name[k][0]));
+    }
+  }
+}
+
+/* A file that can be read again; NULL after a message. */
+static FILE *places_open(const cli_options *o) {
+  char part[4096];
+  FILE *in = session_open_file(o);
+  if (!in || fseeko(in, 0, SEEK_SET) == 0) return in;
+  FILE *copy = tmpfile();
+  size_t n = 1;
+  while (copy && (n = fread(part, 1, sizeof part, in)) > 0 && fwrite(part, 1, n, copy) == n) continue;
+  if (!copy || n) cli_complain("%s: cannot be kept to be read: %s; give a file", o->file, strerror(errno));
+  cli_input_close(in);
+  if (copy && n) fclose(copy);
+  return n ? NULL : copy;
+}
+
+static bool names_numbers(const char *columns) {
+  return !columns[strspn(columns, "0123456789, ")];
+}
+
+/* The ways to read the file, in the order in which they are tried. */
+static size_t places_ways(dyd_read_options way[4], const cli_options *of) {
+  const dyd_read_options *r = &of->read;
+  const char *columns = of->query_columns;
+  if (!columns && r->columns && (of->query_id || !names_numbers(r->columns))) columns = r->columns;
+  dyd_read_options base = {DYD_SIZED(dyd_read_options), .decimal_comma = r->decimal_comma, .missing = r->missing,
+                           .skip_missing = r->skip_missing, .degrees = r->degrees};
+  size_t ways = 0;
+  if (columns) {
+    dyd_read_options *table = &way[ways++];
+    *table = base;
+    table->columns = columns;
+    table->id = of->query_id;
+    table->thousands = r->thousands;
+    if (r->delimiter) way[ways] = *table, way[ways++].delimiter = r->delimiter;
+    if (names_numbers(columns)) way[ways] = *table, way[ways++].no_header = true;
+  }
+  if (!of->query_columns && !of->query_id) way[ways++] = base;
+  return ways;
+}
+
+int cli_places_read(dyd_engine *e, const cli_options *of) {
+  cli_options o = {.file = of->queries, .quiet = of->quiet, .plane = true, .read = {DYD_SIZED(dyd_read_options)}};
+  dyd_read_options way[4];
+  dyd_read_report report;
+  dyd_error err;
+  if (cli_gdal_here && cli_spatial_kind(o.file)) {
+    o.read.id = of->query_id;
+    return cli_points_read(e, &o, false);
+  }
+  FILE *in = places_open(&o);
+  if (!in) return CLI_FAILED;
+  dyd_status st = DYD_E_PARSE;
+  size_t ways = places_ways(way, of);
+  for (size_t k = 0; k < ways && st == DYD_E_PARSE; k++) {
+    report = (dyd_read_report){DYD_SIZED(dyd_read_report)};
+    way[k].report = &report;
+    rewind(in);
+    st = dyd_read_points(e, in, &way[k], &err);
+    if (st == DYD_E_PARSE && (report.rows || report.kind)) break; /* the header is right */
+  }
+  cli_input_close(in);
+  if (st != DYD_OK) rename_options(&err);
+  int status = session_complain_read(&o, st, &report, &err);
+  if (!status) note_lines(&o, &report);
+  return status;
 }
 
 void cli_options_degrees(cli_options *o) {

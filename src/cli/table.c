@@ -177,7 +177,12 @@ const cli_option cli_option_table[] = {
      AT(oracle_timeout)},
 
     {"queries", 0, "FILE", CLI_SOURCE, BIT(CLI_NEAREST), CLI_INPUT,
-     "in place of X Y: a file of places, in the forms of a points\nfile; one triangulation answers all", AT(queries)},
+     "instead of X Y: a file of places, in any form that FILE may\nhave; one triangulation answers all", AT(queries)},
+    {"query-columns", 0, "X,Y", CLI_TEXT, BIT(CLI_NEAREST), CLI_INPUT,
+     "--columns of the file of places (default: the names of\n--columns, where its header has them)",
+     AT(query_columns)},
+    {"query-id", 0, "NAME", CLI_TEXT, BIT(CLI_NEAREST), CLI_INPUT,
+     "write what stands in this column of the file of places", AT(query_id)},
 
     {"until", 0, "GOAL", CLI_GOAL, RUN, CLI_REFINEMENT, "decided (default), area:M or hausdorff:M (bound 2^-M)",
      AT(engine), WORDS("decided area: hausdorff:")},

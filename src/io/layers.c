@@ -427,7 +427,8 @@ static const dyd_layer layers[] = {
      "far,near,kind,corner,feature,begin,begin_x,begin_y,begin_xlo,begin_xhi,begin_ylo,begin_yhi,end,end_x,end_y,"
      "end_xlo,end_xhi,end_ylo,end_yhi,id_far,id_near"},
     {IN(NEAREST), NULL, IN(NEAREST), false, false, POINT, dyd_nearest_comments, dyd_nearest_rows, "i,status,lo,hi,id"},
-    {IN(PLACES), NULL, IN(PLACES), false, false, POINT, dyd_nearest_comments, dyd_nearest_rows, "q,i,status,lo,hi,id"},
+    {IN(PLACES), NULL, IN(PLACES), false, false, POINT, dyd_nearest_comments, dyd_nearest_rows,
+     "q,?id_q,i,status,lo,hi,id"},
 };
 
 const dyd_layer *dyd_layer_at(size_t k) {
@@ -460,6 +461,7 @@ static dyd_status layer_places(dyd_table *t, const dyd_output *o) {
 
 /* Are the optional columns there? */
 static bool is_whole(const dyd_table *t, const dyd_output *o) {
+  if (o->content == DYD_CONTENT_PLACES) return dyd_nearest_named(o->what);
   if (o->content != DYD_CONTENT_TOLERANCE) return t->drawn;
   return dyd_tolerance_chances(((const dyd_result *)o->what)->tolerance);
 }

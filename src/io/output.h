@@ -62,6 +62,8 @@ typedef struct dyd_nearest_output {
   size_t count;        /* of places */
   dyd_outcome outcome; /* of all */
 } dyd_nearest_output;
+/* Have the places identifiers? */
+bool dyd_nearest_named(const dyd_nearest_output *n);
 
 /* Writers that such arrays take from other files. */
 dyd_writer dyd_convergence_json, dyd_check_json, dyd_disc_json, dyd_bisector_json, dyd_nearest_json;

@@ -245,11 +245,14 @@ void dyd_row_site(dyd_table *t, size_t i) {
   dyd_row_index(t, dyd_engine_row(t->engine, i));
 }
 
+void dyd_row_text(dyd_table *t, const char *text) {
+  value_begin(t);
+  t->encode->text(&t->to, text);
+}
+
 void dyd_row_id(dyd_table *t, size_t i) {
   const char *id = dyd_engine_id(t->engine, i);
-  if (!id) return;
-  value_begin(t);
-  t->encode->text(&t->to, id);
+  if (id) dyd_row_text(t, id);
 }
 
 void dyd_row_three(dyd_table *t, const uint32_t site[3], bool ids) {

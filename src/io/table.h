@@ -115,6 +115,7 @@ void dyd_row_outline(dyd_table *t, const double box[4]);
 void dyd_row_spot(dyd_table *t, size_t i);
 /* The numbers of the row of a site; its identifier, or nothing if points have none. */
 void dyd_row_site(dyd_table *t, size_t i);
+void dyd_row_text(dyd_table *t, const char *text);
 void dyd_row_id(dyd_table *t, size_t i);
 /* Those of three sites. */
 void dyd_row_three(dyd_table *t, const uint32_t site[3], bool ids);

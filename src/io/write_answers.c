@@ -246,6 +246,14 @@ static dyd_status nearest_distance(double bounds[2], const dyd_nearest_output *n
   return st;
 }
 
+bool dyd_nearest_named(const dyd_nearest_output *n) {
+  return n->count && n->answer[0]->id;
+}
+
+static size_t nearest_place(const dyd_nearest_output *n, size_t q) {
+  return n->answer[q]->placed ? n->answer[q]->place : q;
+}
+
 /* A line for each tie: its points, after the place where there are many. */
 dyd_status dyd_nearest_comments(dyd_table *t, const dyd_output *o) {
   const dyd_nearest_output *n = o->what;
@@ -253,7 +261,7 @@ dyd_status dyd_nearest_comments(dyd_table *t, const dyd_output *o) {
   for (size_t q = 0; q < n->count; q++) {
     if (!n->answer[q]->tied) continue;
     fputs("# tie ", o->out);
-    if (o->content == DYD_CONTENT_PLACES) fprintf(o->out, "%zu: ", q);
+    if (o->content == DYD_CONTENT_PLACES) fprintf(o->out, "%zu: ", nearest_place(n, q));
     dyd_put_rows(o->out, n->engine, n->answer[q]->found, " ");
     fputs("\n", o->out);
   }
@@ -275,7 +283,8 @@ dyd_status dyd_nearest_rows(dyd_table *t, const dyd_output *o) {
       st = nearest_distance(bounds, n, a, i, &scratch);
       if (st != DYD_OK) break;
       dyd_row_begin(t);
-      if (o->content == DYD_CONTENT_PLACES) dyd_row_index(t, q);
+      if (o->content == DYD_CONTENT_PLACES) dyd_row_index(t, nearest_place(n, q));
+      if (o->content == DYD_CONTENT_PLACES && dyd_nearest_named(n)) dyd_row_text(t, a->id ? a->id : "");
       dyd_row_site(t, i);
       dyd_row_word(t, nearest_status(a));
       dyd_row_decimal(t, bounds[0], DYD_DOWN);
@@ -319,7 +328,8 @@ dyd_status dyd_nearest_json(const dyd_output *o) {
   for (size_t q = 0; q < n->count && j.st == DYD_OK; q++) {
     if (many) {
       dyd_json_object(&j, NULL, DYD_JSON_FLAT);
-      dyd_json_index(&j, "q", q);
+      dyd_json_index(&j, "q", nearest_place(n, q));
+      if (dyd_nearest_named(n)) dyd_json_text(&j, "id_q", n->answer[q]->id ? n->answer[q]->id : "");
       dyd_json_word(&j, "outcome", dyd_outcome_text(n->answer[q]->outcome));
     }
     dyd_json_sides(&j, n->answer[q]->at);

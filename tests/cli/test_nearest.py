@@ -5,8 +5,10 @@
 Usage: test_nearest.py COMMAND DATA
 """
 import csv
+import gzip
 import json
 import os
+import pathlib
 import random
 import re
 import tempfile
@@ -253,6 +255,38 @@ def test_hundred_thousand_places():
         x, y = places[q]
         least = min((x - a)**2 + (y - b)**2 for a, b in airports)
         assert float(found[q]['lo'])**2 <= least * (1 + 1e-12) and least <= float(found[q]['hi'])**2 * (1 + 1e-12)
+
+
+def test_queries_of_any_form():
+    """Places may be what points may be: tables with columns of their own, without a header, packed, with names; numbers are
+    those of rows."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder)
+        (path / 's.csv').write_text('id,x,y\nA,12,5\nB,3,8\n')
+        given = ('nearest', 's.csv', '--columns', 'x,y', '--id', 'id', '--queries', '-')
+        plain = run(*given, stdin='11 5\n4 7\n', cwd=folder)
+        expect(plain, 0, r'^q,i,status,lo,hi,id\n0,0,sure,1,1,A\n1,1,sure,.*,B\n\Z', r'\A\Z')
+        for text, options in (('x,y\n11,5\n4,7\n', ()), ('cust;y;x\nc;5;11\nd;7;4\n', ()), ('c 11 5\nd 4 7\n', ('--query-columns', '2,3')),
+                              ('lat|lon\n5|11\n7|4\n', ('--query-columns', 'lon,lat')), ('# x y\n11 5\n4 7\n', ())):
+            for data in (text.encode(), gzip.compress(text.encode())):
+                assert run(*given, *options, stdin=data, cwd=folder) == plain, (text, options)
+            (path / 'q').write_text(text)
+            assert run(*given[:-1], 'q', *options, cwd=folder) == plain, (text, options)
+        named = ('--query-columns', 'x,y', '--query-id', 'who')
+        got = run(*given, *named, '--skip-missing', stdin='who;x;y\n"c, d";11;5\ne;-;7\n;4;7\n', cwd=folder)
+        expect(got, 0, r'^q,id_q,i,status,lo,hi,id\n0,"c, d",0,sure,1,1,A\n2,"?"?,1,sure,.*,B\n\Z', r'\Adyadel: -: 1 of 3 rows are left out')
+        whole = json.loads(run(*given, *named, '-q', '--format', 'json', stdin='who;x;y\nc;11;5\n', cwd=folder).out)
+        assert [(p['q'], p['id_q']) for p in whole['places']] == [(0, 'c')]
+        for text, options, message in (
+                ('cust;lon;lat\nc;11;5\n', (), r'-:1:.*; if this is CSV with a header, name two of its columns: --query-columns X,Y; they are: cust, lon, lat$'),
+                ('cust;lon;lat\nc;11;5\n', ('--query-columns', 'lon,latt'), r'-:1:1: no column is called "latt"; .* to --query-columns$'),
+                ('x;y\n11;5\n', ('--query-id', 'who'), r'-:1:1: no column is called "who"; .* to --query-id$'),
+                ('x,y\n1,b\n', (), '-:2:3: the name'), ('1 2\n3 b\n', (), '-:2:3: the name'),
+                ('{"type":"Feature"}', (), r'the file is GeoJSON; give ogr2ogr .* \| dyadel nearest FILE --query-columns X,Y --queries -$')):
+            expect(run(*given, *options, stdin=text, cwd=folder), 1, r'\A\Z', message)
+        for option in ('--query-id', '--query-columns'):
+            expect(run('nearest', 's.csv', '--columns', 'x,y', '1', '2', option, 'x,y', cwd=folder), 2, '', f'{option} is about a file of places; give --queries FILE$')
+        expect(run(*given[:-1], '.', cwd=folder), 1, '', 'is a directory')
 
 
 main(globals())

@@ -790,6 +790,7 @@ STATED = {
     'regions': Stated('voronoi', read_regions, judge_regions, layer='regions', formats=ROWS),
     'nearest': Stated('nearest', read_nearest, judge_nearest, formats=('csv', 'json')),
     'queries': Stated('nearest', read_queries, judge_queries, formats=('csv',)),
+    'queries of a table': Stated('nearest', read_queries, judge_queries, formats=('csv',)),
     'tolerance': Stated('tolerance', read_tolerance, judge_tolerance, formats=('csv', 'json', 'wkt', 'geojson'),
                         kinds=FIRM, least=2),
     'layer tolerance': Stated('tolerance', read_tolerance, judge_tolerance, layer='pairs', formats=ROWS, kinds=FIRM,

@@ -239,8 +239,14 @@ def command_of(case, product, keep=None):
     if what.command == 'voronoi' and case.geometry != 'sphere':
         words.append('--window=' + ','.join(axes.decimal(c) for c in case.window))
     if what.command == 'nearest':
-        words += [axes.decimal(c) for c in case.at] if case.stated == 'nearest' else [
-            '--queries', product('places.txt', ''.join(f'{axes.decimal(x)} {axes.decimal(y)}\n' for x, y in case.queries))]
+        places = [(axes.decimal(x), axes.decimal(y)) for x, y in case.queries]
+        if case.stated == 'nearest':
+            words += [axes.decimal(c) for c in case.at]
+        elif case.stated == 'queries':
+            words += ['--queries', product('places.txt', ''.join(f'{x} {y}\n' for x, y in places))]
+        else:
+            words += ['--query-columns', 'east,north', '--query-id', 'who', '--queries', product(
+                'places.csv', 'north;who;east\n' + ''.join(f'{y};place {k};{x}\n' for k, (x, y) in enumerate(places)))]
     for w in extra.args:
         words.append({'@unit': axes.decimal(case.up_to or case.unit), '@small': axes.decimal(case.unit / 100),
                       '@certificate': product.path('certificate'), '@trace': product.path('trace'),

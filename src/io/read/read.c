@@ -666,13 +666,14 @@ static dyd_status points_read_text(dyd_engine *e, dyd_text *text, const dyd_read
   text->data = true;
   dyd_status st = intake_init(&in, o, err);
   if (st == DYD_OK && o->report) st = dyd_abi_check(o->report, sizeof o->report->struct_size, "dyd_read_report", err);
+  const bool known = o->report && st == DYD_OK;
   if (st == DYD_OK) st = skip_lines(text, o->skip_lines, err);
   if (st == DYD_OK) st = o->columns ? read_csv_file(&in, text, err) : read_points_file(&in, text, err);
   if (st == DYD_OK) st = intake_commit(e, &in, err);
   const dyd_file_kind *kind = text->kind ? text->kind : in.kind;
   in.report.recoded = text->recoded;
   if (kind) in.report.kind = kind->name, in.report.make = kind->make, in.report.make_columns = kind->columns;
-  if (o->report && (st == DYD_OK || kind)) dyd_abi_give(o->report, &in.report, sizeof in.report);
+  if (known) dyd_abi_give(o->report, &in.report, sizeof in.report);
   intake_clear(&in);
   return st;
 }
