@@ -250,7 +250,7 @@ bool dyd_nearest_named(const dyd_nearest_output *n) {
   return n->count && n->answer[0]->id;
 }
 
-static size_t nearest_place(const dyd_nearest_output *n, size_t q) {
+static size_t answer_place_number(const dyd_nearest_output *n, size_t q) {
   return n->answer[q]->placed ? n->answer[q]->place : q;
 }
 
@@ -261,7 +261,7 @@ dyd_status dyd_nearest_comments(dyd_table *t, const dyd_output *o) {
   for (size_t q = 0; q < n->count; q++) {
     if (!n->answer[q]->tied) continue;
     fputs("# tie ", o->out);
-    if (o->content == DYD_CONTENT_PLACES) fprintf(o->out, "%zu: ", nearest_place(n, q));
+    if (o->content == DYD_CONTENT_PLACES) fprintf(o->out, "%zu: ", answer_place_number(n, q));
     dyd_put_rows(o->out, n->engine, n->answer[q]->found, " ");
     fputs("\n", o->out);
   }
@@ -283,7 +283,7 @@ dyd_status dyd_nearest_rows(dyd_table *t, const dyd_output *o) {
       st = nearest_distance(bounds, n, a, i, &scratch);
       if (st != DYD_OK) break;
       dyd_row_begin(t);
-      if (o->content == DYD_CONTENT_PLACES) dyd_row_index(t, nearest_place(n, q));
+      if (o->content == DYD_CONTENT_PLACES) dyd_row_index(t, answer_place_number(n, q));
       if (o->content == DYD_CONTENT_PLACES && dyd_nearest_named(n)) dyd_row_text(t, a->id ? a->id : "");
       dyd_row_site(t, i);
       dyd_row_word(t, nearest_status(a));
@@ -328,7 +328,7 @@ dyd_status dyd_nearest_json(const dyd_output *o) {
   for (size_t q = 0; q < n->count && j.st == DYD_OK; q++) {
     if (many) {
       dyd_json_object(&j, NULL, DYD_JSON_FLAT);
-      dyd_json_index(&j, "q", nearest_place(n, q));
+      dyd_json_index(&j, "q", answer_place_number(n, q));
       if (dyd_nearest_named(n)) dyd_json_text(&j, "id_q", n->answer[q]->id ? n->answer[q]->id : "");
       dyd_json_word(&j, "outcome", dyd_outcome_text(n->answer[q]->outcome));
     }

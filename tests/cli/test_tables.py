@@ -220,8 +220,18 @@ def test_names_over_lines():
     expect(run('delaunay', '--columns', 'x,y', '-', stdin=text), 1, '', r'names are: Longitude \(deg\), Lat   \(deg\), n;')
 
 
+def test_radii_east_and_north():
+    """Lengths east and north are those of a box within a disc: 3 m and 4 m are 5 m, hardly more."""
+    def boxes(*options):
+        out = read_exact(['lon,lat,r,e,n', *(f'{k},2,5,3,4' for k in range(3))], '--sphere', '--columns', 'lon,lat', '--radius-unit', 'm', *options)
+        return [float(b - a) for k in sorted(out) for a, b in (out[k][:2], out[k][2:])]
+    for wide, narrow in zip(boxes('--radius-column', 'e,n'), boxes('--radius-column', 'r')):
+        assert narrow <= wide <= narrow * (1 + 2**-40), (narrow, wide)
+    assert boxes('--radius-column', 'r,r') == boxes('--radius-column', 'r')
+
+
 def test_units_of_radii():
-    """A unit in the row of units counts, and lengths east and north are those of a box within a disc."""
+    """A unit in the row of units counts."""
     for columns in ('r', 'e,n'):
         text = 'lon lat r e n\ndeg deg m cm cm\n1 2 5 300 400\n1.01 2 5 300 400\n1 2.01 5 300 400\n'
         options = ('--sphere', '--columns', 'lon,lat', '--radius-column', columns, '--delimiter', 'blank')

@@ -270,6 +270,7 @@ typedef struct intake {
   dyd_manner manner[2];      /* of x and y in the present row */
   double kept[2];            /* radii of this row that do not widen it, rounded up */
   bool ground;               /* the last radius is a length on the ground */
+  const char *radius_at;     /* where it stands */
   dyd_stage stage;
   dyd_labels labels;
   nominals places;
@@ -353,9 +354,11 @@ static dyd_status intake_radius(intake *in, int axis, const dyd_span *span, dyd_
   mpq_clear(own);
   if (st == DYD_OK && !isfinite(in->kept[axis]))
     st = dyd_span_fail(err, span, 0, "the radius is above the range of doubles, about 1.8e308; give a smaller one");
-  if (st == DYD_OK && axis && ground && in->ground)
+  const bool apart = axis && span->at != in->radius_at;
+  if (st == DYD_OK && apart && ground && in->ground)
     in->kept[0] = in->kept[1] = radius_of_both(in->kept[0], in->kept[1]);
   in->ground = ground;
+  in->radius_at = span->at;
   if (st == DYD_OK && axis && in->kept[0] != in->kept[1])
     st = dyd_span_fail(err, span, 0,
                        "the radii in x and in y differ, and here a point has one; name one column of them");
