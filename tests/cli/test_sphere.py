@@ -350,7 +350,7 @@ def test_radius_column():
     for wrong in ('30 miles', 'm', '-1m', '30kmm', '-0.1', '1e400km'):
         expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=table(square, ['1m', wrong, '1m', '1m', '1m'])), 1, r'\A\Z', r'-:3:\d+: the radius .*; give (one such as|a smaller one)')
     expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=table(square, ['1m', '7000km', '1m', '1m', '1m'])), 1, r'\A\Z', 'point 1: the radius is larger than that of the earth')
-    expect(run('delaunay', *COLUMN, '-', stdin=table(square, ['30m'] * 5)), 1, r'\A\Z', r'2:6: the radius is not an exact number >= 0; give')
+    expect(run('delaunay', *COLUMN, '-', stdin=table(square, ['30m'] * 5)), 1, r'\A\Z', r'2:8: radii in the plane are in the unit of the coordinates')
     apart = ('--columns', 'lon,lat', '--radius-column', 'lon,acc')
     expect(run('delaunay', '--sphere', *apart, '-', stdin=table(square, ['30m'] * 5)), 1, r'\A\Z', r'2:6: the radii in x and in y differ.*; name one column')
 
