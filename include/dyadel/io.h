@@ -32,6 +32,7 @@ typedef struct dyd_read_report {
    * that makes a table of the file called FILE (NULL: there is none), and the columns of x and y in that table (NULL:
    * it is a points file). Static storage; kind = NULL: the file is read. */
   const char *kind, *make, *make_columns;
+  size_t vertices; /* points that are vertices of lines and polygons in well-known text */
 } dyd_read_report;
 
 /* Columns are named as in the header (quoted as in RFC 4180 when they hold commas; capitals count only where names

@@ -554,6 +554,13 @@ static int complain_writing(const cli_options *o, dyd_status st, const dyd_error
   return st == DYD_CAPPED ? CLI_BUDGET : st == DYD_CANCELLED ? cli_exit_cut() : CLI_FAILED;
 }
 
+/* Says which layers there are. */
+static void note_layers(const cli_options *o, GDALDatasetH set) {
+  char list[1024] = "";
+  list_layers(list, sizeof list, set);
+  cli_note(o, "%s (%s) holds %s", o->output, o->driver, list);
+}
+
 /* In the folder, which is beside the target. */
 static int write_in(const char *folder, const char *target, cli_session *s, cli_print_fn print) {
   const char *slash = strrchr(target, '/'), *base = slash ? slash + 1 : target;
@@ -570,7 +577,7 @@ static int write_in(const char *folder, const char *target, cli_session *s, cli_
   bool stepped = set && GDALDatasetStartTransaction(set, FALSE) == OGRERR_NONE;
   dyd_status st = set ? layers_write(set, crs, s, print, name, &err) : DYD_E_IO;
   if (st == DYD_OK && stepped && GDALDatasetCommitTransaction(set) != OGRERR_NONE) st = DYD_E_IO;
-  if (st == DYD_OK) CPLErrorReset();
+  if (st == DYD_OK) note_layers(&s->o, set), CPLErrorReset();
   if (set) GDALClose(set);
   if (st == DYD_OK && CPLGetLastErrorType() >= CE_Failure) st = DYD_E_IO;
   if (crs) OSRDestroySpatialReference(crs);

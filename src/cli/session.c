@@ -161,6 +161,7 @@ int cli_points_read(dyd_engine *e, cli_options *o, bool noting) {
   int status = session_read_file(e, o, &r);
   if (status || !noting) return status;
   note_lines(o, &r);
+  if (r.vertices) cli_note(o, "%s: the vertices of lines and polygons are the points: %zu", o->file, r.vertices);
   if (r.merged) cli_note(o, "%s: %zu rows are merged with earlier ones of equal coordinates", o->file, r.merged);
   if (r.shared)
     cli_note(o,
@@ -518,6 +519,7 @@ int cli_write_file(const char *name, const cli_session *s, cli_print_fn print) {
   else if (done)
     done = cli_fail("%s: cannot write: %s; choose another place with -o", name, strerror(errno)) == CLI_OK;
   if (!done) cli_output_drop(&out);
+  if (done && packed) cli_note(o, "%s holds %s, packed", name, dyd_format_name(o->format));
   return done ? 0 : CLI_FAILED;
 }
 

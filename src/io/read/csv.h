@@ -11,6 +11,17 @@
  * blank: nothing else does. */
 dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_line *line, char comma, dyd_error *err);
 
+/* The places of a geometry in well-known text, one after another; the place that closes a ring is left out. */
+typedef struct dyd_wkt {
+  dyd_span text, first[2]; /* of the ring */
+  const char *at, *end;
+  bool point, rings, inside; /* it is a point; it has rings; the first parenthesis is behind */
+} dyd_wkt;
+/* Does the text begin as a geometry does? */
+bool dyd_wkt_begin(dyd_wkt *w, const dyd_span *text);
+/* false: there are no more. */
+bool dyd_wkt_next(dyd_span place[2], dyd_wkt *w);
+
 /* What a column is wanted for. Roles from DYD_CSV_OTHER on are the caller's. */
 enum { DYD_CSV_X, DYD_CSV_Y, DYD_CSV_RADIUS_X, DYD_CSV_RADIUS_Y, DYD_CSV_OTHER, DYD_CSV_MOST = 24 };
 

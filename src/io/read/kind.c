@@ -60,9 +60,7 @@ static const struct kind_row {
 /* Words that begin a geometry in WKT. */
 static const char *const shapes[] = {"POINT",        "MULTIPOINT",         "LINESTRING", "MULTILINESTRING",   "POLYGON",
                                      "MULTIPOLYGON", "GEOMETRYCOLLECTION", "TRIANGLE",   "POLYHEDRALSURFACE", "TIN"};
-static const dyd_file_kind wkt = {"WKT (geometries in words)", "sed 's/[A-Za-z()]//g' FILE | tr , '\\n'", NULL, NULL,
-                                  false},
-                           wkt_cells = {"a table with a column of WKT (geometries in words)",
+static const dyd_file_kind wkt_cells = {"a table with a column of WKT (geometries in words)",
                                         TABLE("FILE -oo GEOM_POSSIBLE_NAMES=*geom*,*wkt*,*shape*,*point*")};
 
 /* "SRID=4326; POINT Z (" begins a geometry, "Point,X,Y" does not. */
@@ -90,7 +88,7 @@ const dyd_file_kind *dyd_kind_find(const char *first, size_t length, bool data) 
     if ((r->data && !data) || (size_t)(end - at) < r->length || memcmp(at, r->begin, r->length) != 0) continue;
     if (!r->within || memmem(at, (size_t)(end - at), r->within, strlen(r->within))) return &r->kind;
   }
-  return data && is_wkt(at, end) ? &wkt : NULL;
+  return NULL;
 }
 
 const dyd_file_kind *dyd_kind_of_cell(const char *text, size_t length) {

@@ -606,6 +606,19 @@ static dyd_status hint_header(dyd_status st, const dyd_line *line, const intake 
   return st;
 }
 
+/* A geometry in a line: its places are points. */
+static dyd_status read_geometry(intake *in, dyd_wkt *w, dyd_error *err) {
+  dyd_span place[2], span[DYD_CSV_MOST] = {{0}};
+  dyd_status st = DYD_OK;
+  while (st == DYD_OK && dyd_wkt_next(place, w)) {
+    memset(span, 0, sizeof span);
+    memcpy(span, place, sizeof place);
+    in->report.vertices += !w->point;
+    st = intake_row(in, span, err);
+  }
+  return st;
+}
+
 static dyd_status read_points_file(intake *in, dyd_text *text, dyd_error *err) {
   dyd_span span[DYD_CSV_MOST] = {{0}};
   for (;;) {
@@ -613,6 +626,12 @@ static dyd_status read_points_file(intake *in, dyd_text *text, dyd_error *err) {
     size_t count;
     dyd_status st = dyd_text_next(&line, text, err);
     if (st != DYD_OK || !line.text) return st;
+    dyd_wkt geometry;
+    if (dyd_wkt_begin(&geometry, &(dyd_span){line.text, line.length, line.text, line.text, line.number})) {
+      st = read_geometry(in, &geometry, err);
+      if (st != DYD_OK) return st;
+      continue;
+    }
     st = dyd_points_split(span, &count, &line, in->o->decimal_comma ? ' ' : ',', err);
     if (st == DYD_OK && count) st = intake_row(in, span, err);
     if (st != DYD_OK) return hint_header(st, &line, in, err);
@@ -640,6 +659,16 @@ static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
   if (!in->unit) in->unit = csv.unit;
   while (st == DYD_OK && count) {
     st = dyd_csv_next(span, &count, &csv, err);
+    dyd_wkt geometry;
+    if (st == DYD_OK && count && csv.column[DYD_CSV_X] == csv.column[DYD_CSV_Y] &&
+        dyd_wkt_begin(&geometry, &span[DYD_CSV_X])) {
+      if (!geometry.point)
+        st = dyd_span_fail(err, &span[DYD_CSV_X], 0,
+                           "this geometry is not a POINT; take one point of each, such as the "
+                           "centroid, or write its vertices as WKT alone, a geometry a line");
+      else if (!dyd_wkt_next(span, &geometry))
+        span[DYD_CSV_X].length = span[DYD_CSV_Y].length = 0;
+    }
     if (st == DYD_OK && count) st = intake_row(in, span, err);
   }
   in->report.commented = csv.commented;
