@@ -591,7 +591,9 @@ static int features_write(cli_session *s, cli_print_fn print) {
   if (!target) return cli_complain_memory();
   GDALAllRegister();
   CPLSetErrorHandler(CPLQuietErrorHandler);
-  snprintf(folder, sizeof folder, "%s.XXXXXX", target);
+  const char *slash = strrchr(target, '/');
+  /* No ending of the name is in that of the folder: GDAL would look for an archive there. */
+  snprintf(folder, sizeof folder, "%.*s.dyadel-XXXXXX", slash ? (int)(slash + 1 - target) : 0, target);
   int status = mkdtemp(folder)
                    ? write_in(folder, target, s, print)
                    : cli_fail("%s: cannot write: %s; choose another place with -o", s->o.output, strerror(errno));

@@ -79,8 +79,9 @@ static void complain_kind(const cli_options *o, const dyd_read_report *r) {
   const char *columns = r->make_columns ? r->make_columns : "";
   const char *option = !*columns ? "" : o->command ? " --columns " : " --query-columns ";
   const char *before = !o->command ? " --queries" : o->points ? " CERT --points" : "";
-  cli_complain("%s: the file is %s; give %s | dyadel %s%s%s%s -", o->file, r->kind, make,
-               o->command ? o->command : "nearest FILE", option, columns, before);
+  const char *install = gdal && strcmp(o->file, "-") != 0 ? ", or install dyadel-gdal, which reads such files" : "";
+  cli_complain("%s: the file is %s; give %s | dyadel %s%s%s%s -%s", o->file, r->kind, make,
+               o->command ? o->command : "nearest FILE", option, columns, before, install);
 }
 
 /* Opens the file; NULL after a message. */

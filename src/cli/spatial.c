@@ -78,22 +78,17 @@ const char *cli_spatial_driver(bool *layers, const char *ending) {
 
 /* ---- the program that has GDAL ---- */
 
-static const char ADVICE[] = "install dyadel-gdal, or build dyadel where libgdal-dev is installed; without it ";
-
-/* What there is to do without GDAL. */
+/* What there is to do without GDAL. Of files with a kind, reading says that. */
 static int complain_without(const cli_options *o) {
-  const char *input = o->file ? o->file : o->points, *kind = cli_spatial_kind(input);
-  if (o->queries && !kind) kind = cli_spatial_kind(input = o->queries);
-  if (kind || o->in_layer)
-    cli_complain("%s: reading %s takes GDAL: %sgive dyadel its points as a table: ogr2ogr -f CSV -lco GEOMETRY=AS_XY "
-                 "/vsistdout/ %s%s%s | dyadel %s --columns X,Y -",
-                 input, kind ? kind : "layers", ADVICE, input, o->in_layer ? " " : "", o->in_layer ? o->in_layer : "",
-                 o->command);
-  else
-    cli_complain("-o %s takes GDAL: %swrite geojson and convert it: dyadel %s ... -o out.geojson && ogr2ogr %s "
-                 "out.geojson",
-                 o->output, ADVICE, o->command, o->output);
-  return CLI_USAGE;
+  const char *file = o->file ? o->file : o->points, *missing = "this program was built without GDAL, and there is no "
+                                                               "dyadel-gdal (install it, or libgdal-dev to build it)";
+  if (o->driver)
+    return cli_usage("-o %s: %s; write geojson and convert it: dyadel %s ... -o out.geojson && ogr2ogr %s out.geojson",
+                     o->output, missing, o->command, o->output);
+  if (!o->in_layer && (!file || access(file, F_OK) == 0)) return 0;
+  return cli_usage("%s: %s; give the points as a table: ogr2ogr -f CSV /vsistdout/ -lco GEOMETRY=AS_XY %s %s | dyadel "
+                   "%s --columns X,Y -",
+                   file, missing, file, o->in_layer ? o->in_layer : "", o->command);
 }
 
 /* Becomes the program, which is beside this one, or in libexec beside its folder; returns where it is in neither. */
