@@ -45,6 +45,7 @@ typedef struct dyd_read_options {
   const char *radius;         /* an exact number: widen every point by it on each side; NULL: none */
   const char *radius_columns; /* "NAME" or "NAME,NAME": widen each point by these columns as well, in x and y */
   const char *id;             /* "NAME": the column of identifiers (dyd_engine_id) */
+  const char *carry;          /* "all" or "NAME,NAME": columns that layers of points repeat (dyd_engine_carried) */
   const char *delimiter;   /* one character, "tab" or "blank" (runs of blanks); NULL: the one that suits the header */
   bool decimal_comma;      /* 47,61 is 47.61; commas within parentheses and brackets separate all the same */
   bool skip_missing;       /* leave out rows in which a coordinate or radius is empty, NA, N/A, #N/A or another error of
@@ -91,6 +92,11 @@ typedef enum dyd_row_number {
   DYD_ROW_SIGMA,  /* the standard deviation of its errors (sigma_column); 0 where the row has none */
   DYD_ROW_NUMBERS
 } dyd_row_number;
+/* Returns the name of the k-th column that points carry (dyd_read_options.carry); NULL behind the last one. Borrowed.
+ */
+DYD_API const char *dyd_engine_carried_name(const dyd_engine *e, size_t k);
+/* Returns what stands in this column in the row of point i; "" where the point has no row in a file. Borrowed. O(k) */
+DYD_API const char *dyd_engine_carried(const dyd_engine *e, size_t i, size_t k);
 /* Returns this number of point i. O(1) */
 DYD_API double dyd_engine_number(const dyd_engine *e, size_t i, dyd_row_number which);
 
@@ -282,6 +288,8 @@ typedef struct dyd_write_options {
   /* Receives, before csv is written, lines that begin with "# ": window, bounds, goal, aliases, how numbers are
    * rounded. It may be the file that is written. NULL: none are written. */
   FILE *comments;
+  bool lengths; /* pairs and graphs of the plane: columns length_lo, length_hi, rounded outward */
+  bool clip;    /* edges of the diagram: cut to the window, and left out where they are certainly beyond it */
 } dyd_write_options;
 /* Is this such a label, whose names differ? */
 DYD_API bool dyd_label_fits(const char *label);

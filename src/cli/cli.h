@@ -79,7 +79,8 @@ typedef struct cli_options {
   bool sphere, plane; /* points are longitude and latitude on a sphere; coordinates of a plane, whatever named */
   bool proved;        /* verify: by the checker that is proved */
   bool stats, quiet, version;
-  bool comments;        /* csv begins with lines of "# " */
+  bool comments; /* csv begins with lines of "# " */
+  bool lengths;
   bool accept_fixpoint; /* exit status 0 instead of CLI_FIXPOINT */
   const char *help;     /* "" (--help), or the kind of --help=KIND */
 } cli_options;

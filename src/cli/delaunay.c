@@ -81,7 +81,8 @@ static dyd_status delaunay_write(FILE *out, const cli_session *s, dyd_error *err
                                  .tolerance = tolerance,
                                  .cancel = cli_signals_flag(),
                                  .ties = o->list_ties,
-                                 .comments = cli_comments(out, s)};
+                                 .comments = cli_comments(out, s),
+                                 .lengths = o->lengths};
   dyd_status st = dyd_write(out, s->engine, o->content, o->format, &how, err);
   dyd_tolerance_free(tolerance);
   return st;

@@ -72,6 +72,14 @@ typedef struct feature_source {
   char fault[512];
 } feature_source;
 
+enum { MOST_FIELDS = 256 };
+
+/* The fields of the points file, for columns that points carry. */
+static struct {
+  char name[64];
+  OGRFieldType type;
+} carried[MOST_FIELDS];
+
 static feature_source *source_open; /* of the file that is read: callbacks of FILE cannot be asked for theirs */
 
 static void put_double(growing *g, double x) {
@@ -162,7 +170,11 @@ static void source_header(feature_source *s) {
   if (s->shape) grow_text(&s->made, "geometry x,geometry y");
   for (int k = 0; k < s->fields; k++) {
     if (k || s->shape) grow_text(&s->made, ",");
-    grow_field(&s->made, OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(d, k)));
+    OGRFieldDefnH field = OGR_FD_GetFieldDefn(d, k);
+    grow_field(&s->made, OGR_Fld_GetNameRef(field));
+    if (k >= MOST_FIELDS) continue;
+    snprintf(carried[k].name, sizeof carried[k].name, "%s", OGR_Fld_GetNameRef(field));
+    carried[k].type = OGR_Fld_GetType(field);
   }
   grow_text(&s->made, "\n");
 }
@@ -320,8 +332,6 @@ static bool features_close(FILE *in, const char *name) {
 
 /* ---- writing ---- */
 
-enum { MOST_FIELDS = 64, LONGEST_FIELD = 1 << 24 };
-
 /* A table on its way to GDAL, record by record: the first one names the fields. */
 typedef struct feature_sink {
   GDALDatasetH set;
@@ -342,6 +352,12 @@ static bool title_is(const char *list, const char *title) {
   return false;
 }
 
+static bool title_is_carried(const char *title) {
+  size_t k = 0;
+  while (k < MOST_FIELDS && carried[k].name[0] && strcmp(carried[k].name, title) != 0) k++;
+  return k < MOST_FIELDS && carried[k].name[0];
+}
+
 static OGRFieldType type_of(const char *title) {
   if (title_is("i j k l q of left right rank face legal indeterminate tie pairs_decided pairs_left certain open "
                "vertices far "
@@ -352,6 +368,8 @@ static OGRFieldType type_of(const char *title) {
                "half_width_needed length_lo length_hi max_coordinate_error accuracy",
                title))
     return OFTReal;
+  for (size_t k = 0; k < MOST_FIELDS && carried[k].name[0]; k++)
+    if (strcmp(carried[k].name, title) == 0) return carried[k].type;
   return OFTString;
 }
 
@@ -403,7 +421,7 @@ static void set_feature_field(OGRFeatureH f, int at, const char *title, const ch
   if (!*text) return;
   if (type == OFTInteger64)
     OGR_F_SetFieldInteger64(f, at, strtoll(text, NULL, 10));
-  else if (type == OFTString)
+  else if (type != OFTReal || title_is_carried(title))
     OGR_F_SetFieldString(f, at, text);
   else if (loss > 0 && strcmp(title, "max_coordinate_error") == 0)
     OGR_F_SetFieldDouble(f, at, nextafter(decimal_toward(text, FE_UPWARD) + loss, INFINITY));
@@ -502,12 +520,14 @@ static dyd_status layers_write(GDALDatasetH set, OGRSpatialReferenceH crs, cli_s
   return st;
 }
 
-/* Of the options, else of the file, else of the sphere. NULL: none. */
+/* Of the options, else of the file, else of the sphere, else of a plane without units. */
 static OGRSpatialReferenceH system_of(const cli_options *o) {
   OGRSpatialReferenceH crs = OSRNewSpatialReference(NULL);
   OSRSetAxisMappingStrategy(crs, OAMS_TRADITIONAL_GIS_ORDER);
   unsigned epsg = o->epsg ? o->epsg : !o->crs && o->sphere ? 4326 : 0;
-  char *text = o->crs;
+  char plane[] = "ENGCRS[\"Undefined Cartesian SRS\",EDATUM[\"Undefined\"],CS[Cartesian,2],AXIS[\"x\",unspecified],"
+                 "AXIS[\"y\",unspecified],LENGTHUNIT[\"unknown\",1]]";
+  char *text = o->crs || strcmp(o->driver, "GPKG") != 0 ? o->crs : plane; /* GeoPackage would say degrees */
   if (epsg ? OSRImportFromEPSG(crs, (int)epsg) == OGRERR_NONE : text && OSRImportFromWkt(crs, &text) == OGRERR_NONE)
     return crs;
   OSRDestroySpatialReference(crs);

@@ -395,6 +395,7 @@ static bool trace_has_points(const cli_options *o, const cli_command *c) {
 
 /* What contradicts itself. */
 static int sphere_fits(const cli_options *o) {
+  if (o->sphere && o->lengths) return cli_usage("--length is about the plane; leave it or --sphere away");
   if (!o->sphere || !o->plane) return 0;
   return cli_usage("--sphere and --plane contradict each other; leave one of them away");
 }

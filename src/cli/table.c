@@ -133,6 +133,8 @@ const cli_option cli_option_table[] = {
      "are made\ncheap, not short",
      AT(read.cost_column)},
     {"id", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT, "write what stands in this column beside row numbers", AT(read.id)},
+    {"carry", 0, "NAME,...", CLI_TEXT, TEXT & ~BIT(CLI_VERIFY), CLI_INPUT,
+     "layers with a row for each point repeat these columns of\nFILE; all: all but x and y", AT(read.carry)},
     {"in-layer", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT,
      "the layer of a GeoPackage, GPX or other file that GDAL reads\n(default: the one that has points); its attributes "
      "are\ncolumns",
@@ -258,6 +260,8 @@ const cli_option cli_option_table[] = {
     {"crs", 0, "EPSG:N", CLI_CRS, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_OUTPUT,
      "the reference system of the coordinates, for geojson and\njson (default: none is claimed)", AT(epsg),
      WORDS("EPSG:")},
+    {"length", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY), CLI_OUTPUT,
+     "rows of pairs and graphs have bounds of the length: columns\nlength_lo and length_hi", AT(lengths)},
     {"comments", 0, NULL, CLI_FLAG, READ & ~BIT(CLI_CHECK), CLI_OUTPUT,
      "csv begins with lines of \"# \": window, bounds, goal, points\nthat coincide, how numbers are rounded",
      AT(comments)},

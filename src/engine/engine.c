@@ -171,6 +171,7 @@ void dyd_labels_clear(dyd_labels *l) {
   free(l->id);
   free(l->number);
   free(l->text);
+  free(l->names);
   free(l->merged);
   *l = (dyd_labels){0};
 }
@@ -179,16 +180,19 @@ bool dyd_labels_add(dyd_labels *l, const char *id, size_t length, const dyd_row_
   if (!dyd_reserve((void **)&l->row, &l->row_cap, l->points + 1, sizeof *l->row) ||
       !dyd_reserve((void **)&l->id, &l->id_cap, l->points + 1, sizeof *l->id) ||
       !dyd_reserve((void **)&l->number, &l->number_cap, l->points + 1, sizeof *l->number) ||
-      !dyd_reserve((void **)&l->text, &l->text_cap, l->used + length + 2, 1))
+      !dyd_reserve((void **)&l->text, &l->text_cap, l->used + length + 2 * (1 + l->carried), 1))
     return false;
-  if (!l->used) l->text[l->used++] = 0; /* place 0 is the empty text of those without identifier */
+  if (!l->used) { /* place 0 has the empty texts of those without identifier */
+    memset(l->text, 0, 1 + l->carried);
+    l->used = 1 + l->carried;
+  }
   l->row[l->points] = l->rows++;
   l->number[l->points] = *number;
   l->id[l->points++] = id ? l->used : 0;
   if (!id) return true;
   memcpy(l->text + l->used, id, length);
-  l->text[l->used + length] = 0;
-  l->used += length + 1;
+  memset(l->text + l->used + length, 0, 1 + l->carried);
+  l->used += length + 1 + l->carried;
   return l->has_ids = true;
 }
 
@@ -202,6 +206,13 @@ void dyd_labels_skip(dyd_labels *l) {
   l->rows++;
 }
 
+/* Of so many terminated texts, one after another, without the last end. */
+static size_t texts_length(const char *text, size_t count) {
+  size_t length = 0;
+  for (size_t k = 0; k < count; k++) length += strlen(text + length) + 1;
+  return length - 1;
+}
+
 /* `from`, its points counted on from out->points and its rows from out->rows. */
 static bool labels_append(dyd_labels *out, const dyd_labels *from) {
   size_t rows = out->rows, points = out->points;
@@ -209,7 +220,7 @@ static bool labels_append(dyd_labels *out, const dyd_labels *from) {
   for (size_t i = 0; good && i < from->points; i++) {
     const char *id = from->has_ids ? from->text + from->id[i] : NULL;
     out->rows = rows + from->row[i];
-    good = dyd_labels_add(out, id, id ? strlen(id) : 0, &from->number[i]);
+    good = dyd_labels_add(out, id, id ? texts_length(id, 1 + from->carried) : 0, &from->number[i]);
   }
   for (size_t k = 0; good && k < from->merges; k++) {
     out->rows = rows + from->merged[k].row;
@@ -220,8 +231,13 @@ static bool labels_append(dyd_labels *out, const dyd_labels *from) {
 }
 
 dyd_status dyd_labels_join(dyd_labels *out, const dyd_engine *e, const dyd_labels *more) {
-  dyd_labels all = {0};
-  bool good = labels_append(&all, &e->labels);
+  const dyd_labels *names = more->names ? more : &e->labels;
+  dyd_labels all = {.carried = names->carried,
+                    .anonymous = more->anonymous && (e->labels.anonymous || !e->labels.has_ids)};
+  size_t length = names->names ? texts_length(names->names, names->carried) + 1 : 0;
+  bool good = !length || (all.names = malloc(length));
+  if (length && good) memcpy(all.names, names->names, length);
+  good = good && labels_append(&all, &e->labels);
   while (good && all.points < dyd_sites_count(e->sites)) good = dyd_labels_add(&all, NULL, 0, &dyd_no_row_numbers);
   good = good && labels_append(&all, more);
   if (good)
@@ -279,9 +295,19 @@ size_t dyd_engine_row(const dyd_engine *e, size_t i) {
 }
 
 const char *dyd_engine_id(const dyd_engine *e, size_t i) {
-  if (!e || !e->labels.has_ids) return NULL;
+  if (!e || !e->labels.has_ids || e->labels.anonymous) return NULL;
   const dyd_labels *l = &e->labels;
   return i < l->points ? l->text + l->id[i] : "";
+}
+
+const char *dyd_engine_carried_name(const dyd_engine *e, size_t k) {
+  if (!e || k >= e->labels.carried) return NULL;
+  return e->labels.names + (k ? texts_length(e->labels.names, k) + 1 : 0);
+}
+
+const char *dyd_engine_carried(const dyd_engine *e, size_t i, size_t k) {
+  const dyd_labels *l = &e->labels;
+  return i < l->points && l->has_ids ? l->text + l->id[i] + texts_length(l->text + l->id[i], k + 1) + 1 : "";
 }
 
 double dyd_engine_number(const dyd_engine *e, size_t i, dyd_row_number which) {

@@ -30,10 +30,16 @@ typedef struct dyd_labels {
   dyd_merged_row *merged;
   size_t merges, merged_cap;
   bool has_ids;
+  /* Behind each identifier stand `carried` more texts, each terminated: what columns of these names hold, which are
+   * terminated, too; NULL: there are none. anonymous: identifiers are empty and count for nothing. */
+  size_t carried;
+  char *names;
+  bool anonymous;
 } dyd_labels;
 
 void dyd_labels_clear(dyd_labels *l);
-/* The next point, of row l->rows; id (length bytes, copied) may be NULL. false: memory is exhausted. */
+/* The next point, of row l->rows; id (length bytes, copied, with carried texts behind a NUL
+ * each) may be NULL. false: memory is exhausted. */
 bool dyd_labels_add(dyd_labels *l, const char *id, size_t length, const dyd_row_numbers *number);
 /* The next row, which is that of `point` again. false: memory is exhausted. */
 bool dyd_labels_merge(dyd_labels *l, size_t point);

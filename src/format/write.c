@@ -350,8 +350,14 @@ dyd_status dyd_write(FILE *out, const dyd_engine *e, dyd_content content, dyd_fo
   const dyd_layer *layer = dyd_layer_of(content);
   content_writer *write = layer ? writers[layer->of] : (size_t)content < DYD_CONTENTS ? writers[content] : NULL;
   if (!write) return dyd_fail(err, DYD_E_ARG, "there is no content number %d", (int)content);
-  dyd_output to = {
-      .out = out, .format = format, .content = content, .engine = e, .epsg = o.epsg, .comments = o.comments};
+  dyd_output to = {.out = out,
+                   .format = format,
+                   .content = content,
+                   .engine = e,
+                   .epsg = o.epsg,
+                   .comments = o.comments,
+                   .lengths = o.lengths,
+                   .clip = o.clip};
   return write(&to, &o, err);
 }
 

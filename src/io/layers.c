@@ -56,6 +56,22 @@ static dyd_status point_comments(dyd_table *t, const dyd_output *o) {
 
 /* ---- pairs ---- */
 
+/* Bounds of the distance of two sites, where they are wanted. */
+static dyd_status row_lengths(dyd_table *t, uint32_t i, uint32_t j) {
+  dyd_rect a, b;
+  double lo, hi;
+  if (!t->lengths || t->box) return DYD_OK;
+  dyd_rect_init(&a);
+  dyd_rect_init(&b);
+  dyd_status st = dyd_sites_get(&a, dyd_engine_sites(t->engine), i);
+  if (st == DYD_OK) st = dyd_sites_get(&b, dyd_engine_sites(t->engine), j);
+  if (st == DYD_OK) dyd_rect_distance(&lo, &hi, &a, &b);
+  if (st == DYD_OK) dyd_row_decimal(t, lo, DYD_DOWN), dyd_row_decimal(t, hi, DYD_UP);
+  dyd_rect_clear(&b);
+  dyd_rect_clear(&a);
+  return st;
+}
+
 /* A line between two sites. */
 static dyd_status row_line(dyd_table *t, size_t i, size_t j) {
   dyd_row_begin(t);
@@ -71,6 +87,7 @@ static dyd_status row_pair(dyd_table *t, uint32_t i, uint32_t j, const char *sta
   dyd_row_site(t, i);
   dyd_row_site(t, j);
   dyd_row_word(t, status);
+  if (st == DYD_OK) st = row_lengths(t, i, j);
   dyd_row_id(t, i);
   dyd_row_id(t, j);
   dyd_row_end(t);
@@ -146,6 +163,7 @@ static dyd_status rows_of_points(dyd_table *t, const dyd_output *o) {
     dyd_row_spot(t, i);
     dyd_row_site(t, i);
     dyd_row_id(t, i);
+    dyd_row_carried(t, i);
     dyd_row_box(t, box);
     for (int status = DYD_LEGAL; status >= DYD_TIE; status--) dyd_row_index(t, rows[i].partners[status]);
     dyd_row_word(t, rows[i].hull);
@@ -273,6 +291,7 @@ static dyd_status rows_of_radii(dyd_table *t, const dyd_output *o) {
     dyd_row_spot(t, i);
     dyd_row_site(t, i);
     dyd_row_id(t, i);
+    dyd_row_carried(t, i);
     dyd_row_decimal(t, radius[i], DYD_DOWN);
     dyd_row_end(t);
   }
@@ -366,6 +385,7 @@ static dyd_status rows_of_plan(dyd_table *t, const dyd_output *o) {
     dyd_row_index(t, row[k].decided);
     dyd_row_index(t, row[k].left);
     dyd_row_id(t, row[k].site);
+    dyd_row_carried(t, row[k].site);
     dyd_row_end(t);
   }
   return DYD_OK;
@@ -379,8 +399,8 @@ static dyd_status rows_of_plan(dyd_table *t, const dyd_output *o) {
 #define LINES DYD_GEOMETRY_LINES
 #define POLYGONS DYD_GEOMETRY_POLYGONS
 #define IN(name) DYD_CONTENT_##name
-#define PAIRS "i,j,status,id_i,id_j"
-#define POINTS "i,id,xlo,xhi,ylo,yhi,legal,indeterminate,tie,hull"
+#define PAIRS "i,j,status,?length_lo,?length_hi,id_i,id_j"
+#define POINTS "i,id,*,xlo,xhi,ylo,yhi,legal,indeterminate,tie,hull"
 #define TRIANGLES "i,j,k,id_i,id_j,id_k"
 
 /* content, name, layer of, in wkt and geojson, drawn at sites, geometry, comments, rows, columns */
@@ -394,9 +414,9 @@ static const dyd_layer layers[] = {
     {IN(ALIASES), "aliases", IN(DELAUNAY), true, false, POINT, NULL, rows_of_aliases, "i,of"},
     {IN(TIES), "ties", IN(DELAUNAY), false, false, POINT, NULL, rows_of_ties, "kind,sites"},
     {IN(VORONOI), "cells", IN(VORONOI), true, false, POLYGON, dyd_cell_comments, dyd_cell_rows,
-     "?kind,i,id,xlo,xhi,ylo,yhi,area_lo,area_hi,undetermined"},
+     "?kind,i,id,*,xlo,xhi,ylo,yhi,area_lo,area_hi,undetermined"},
     {IN(TILES), "tiles", IN(VORONOI), true, false, POLYGON, dyd_tile_comments, dyd_tile_rows,
-     "i,id,area,certain_area,area_lo,area_hi"},
+     "i,id,*,area,certain_area,area_lo,area_hi"},
     {IN(VERTICES), "vertices", IN(VORONOI), true, false, POINT, dyd_vertex_comments, dyd_vertex_rows,
      "i,j,k,xlo,xhi,ylo,yhi,id_i,id_j,id_k"},
     {IN(REGIONS), "regions", IN(VORONOI), true, false, POLYGON, dyd_diagram_comments, dyd_region_rows,
@@ -406,16 +426,16 @@ static const dyd_layer layers[] = {
     {IN(VORONOI_ALIASES), "aliases", IN(VORONOI), true, false, POINT, NULL, rows_of_aliases, "i,of"},
     {IN(TOLERANCE), "pairs", IN(TOLERANCE), true, true, LINE, tolerance_comments, rows_of_events,
      "i,j,event,lo,hi,k,l,?probability,id_i,id_j"},
-    {IN(RADII), "points", IN(TOLERANCE), true, true, POINT, tolerance_comments, rows_of_radii, "i,id,rho"},
+    {IN(RADII), "points", IN(TOLERANCE), true, true, POINT, tolerance_comments, rows_of_radii, "i,id,*,rho"},
     {IN(BARCODE), "barcode", IN(TOLERANCE), false, false, POINT, tolerance_comments, rows_of_barcode,
      "accuracy,certain,open"},
     {IN(PLAN), NULL, IN(PLAN), true, true, POINT, plan_comments, rows_of_plan,
-     "rank,i,half_width_now,half_width_needed,pairs_decided,pairs_left,id"},
+     "rank,i,half_width_now,half_width_needed,pairs_decided,pairs_left,id,*"},
     {IN(SPHERE), "pairs", IN(SPHERE), true, true, LINES, pair_comments, rows_of_pairs, PAIRS},
     {IN(SPHERE_POINTS), "points", IN(SPHERE), true, true, POINT, point_comments, rows_of_points, POINTS},
     {IN(SPHERE_TRIANGLES), "triangles", IN(SPHERE), true, true, POLYGONS, alias_comments, rows_of_triangles, TRIANGLES},
     {IN(SPHERE_VORONOI), "cells", IN(SPHERE_VORONOI), true, false, POLYGONS, alias_comments, dyd_globe_cell_rows,
-     "i,id,complete,vertices"},
+     "i,id,*,complete,vertices"},
     {IN(SPHERE_VERTICES), "vertices", IN(SPHERE_VORONOI), true, false, POINT, dyd_globe_vertex_comments,
      dyd_globe_vertex_rows, "i,j,k,id_i,id_j,id_k,xlo,xhi,ylo,yhi"},
     {IN(SPHERE_REGIONS), "regions", IN(SPHERE_VORONOI), false, false, POINT, alias_comments, dyd_globe_region_rows,
@@ -462,6 +482,7 @@ static dyd_status layer_places(dyd_table *t, const dyd_output *o) {
 /* Are the optional columns there? */
 static bool is_whole(const dyd_table *t, const dyd_output *o) {
   if (o->content == DYD_CONTENT_PLACES) return dyd_nearest_named(o->what);
+  if (t->layer->of == DYD_CONTENT_DELAUNAY || t->layer->of == DYD_CONTENT_SPHERE) return t->lengths;
   if (o->content != DYD_CONTENT_TOLERANCE) return t->drawn;
   return dyd_tolerance_chances(((const dyd_result *)o->what)->tolerance);
 }
@@ -483,6 +504,7 @@ dyd_status dyd_layer_write(const dyd_output *o) {
   dyd_table t = {.layer = dyd_layer_of(o->content),
                  .engine = o->engine,
                  .sphere = o->sphere,
+                 .lengths = o->lengths && !o->sphere,
                  .drawn = dyd_format_draws(o->format)};
   dyd_status st = layer_places(&t, o);
   if (st == DYD_OK) st = layer_comments(&t, o);

@@ -55,6 +55,7 @@ static dyd_status find_bounds(const dyd_table *t, const dyd_diagram *d) {
 static void cell_values(dyd_table *t, size_t i, const dyd_cell_row *row) {
   dyd_row_site(t, i);
   dyd_row_id(t, i);
+  dyd_row_carried(t, i);
   dyd_row_box(t, row->box);
   dyd_row_decimal(t, row->area[0], DYD_DOWN);
   dyd_row_decimal(t, row->area[1], DYD_UP);
@@ -136,6 +137,7 @@ static void row_tile(dyd_table *t, const dyd_tiles *tiles, size_t r) {
   t->error = nextafter(t->error + tiles->rounding, INFINITY);
   dyd_row_site(t, tiles->site[r]);
   dyd_row_id(t, tiles->site[r]);
+  dyd_row_carried(t, tiles->site[r]);
   dyd_row_decimal(t, tiles->area[r], DYD_UP);
   dyd_row_decimal(t, tiles->bound[2 * r], DYD_DOWN);
   dyd_row_decimal(t, tiles->bound[2 * r], DYD_DOWN);
@@ -343,6 +345,7 @@ static dyd_status row_cell(dyd_table *t, const dyd_sphere_cells *c, double most,
   dyd_status st = cell_outline(t, c, most, i);
   dyd_row_site(t, i);
   dyd_row_id(t, i);
+  dyd_row_carried(t, i);
   dyd_row_word(t, c->closed[i] ? "yes" : "no");
   dyd_row_word(t, nodes);
   dyd_row_end(t);

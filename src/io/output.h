@@ -20,6 +20,7 @@ typedef struct dyd_output {
   const dyd_sphere *sphere; /* coordinates are degrees on it; NULL: a plane */
   unsigned epsg;            /* the reference system of the coordinates; 0: none is claimed */
   FILE *comments;           /* of csv; NULL: none are written */
+  bool lengths, clip;       /* as in dyd_write_options */
 } dyd_output;
 
 typedef dyd_status dyd_writer(const dyd_output *o);

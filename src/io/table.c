@@ -6,6 +6,7 @@
 #include "io/label_text.h"
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 void dyd_place_set(dyd_place *out, const double box[4]) {
   double error[2];
@@ -47,13 +48,34 @@ typedef struct dyd_encoder {
   void (*tail)(dyd_table *t);
 } dyd_encoder;
 
+/* Is the name that of a column of the layer? The case of letters makes no difference in databases. */
+static bool name_is_taken(const dyd_table *t, const char *name) {
+  size_t k = 0, length = strlen(name);
+  while (k < t->columns && (length != strcspn(t->name[k], ",") || strncasecmp(name, t->name[k], length) != 0)) k++;
+  return k < t->columns || strcasecmp(name, "WKT") == 0;
+}
+
+/* The name of the k-th column that points carry; one that the layer has itself gets "_2". */
+static const char *carried_name(char *out, size_t size, const dyd_table *t, size_t k) {
+  const char *name = dyd_engine_carried_name(t->engine, k);
+  if (!name || !name_is_taken(t, name)) return name;
+  snprintf(out, size, "%s_2", name);
+  return out;
+}
+
 /* Names of all columns. */
 static void csv_head(dyd_table *t, const dyd_output *o) {
   (void)o;
   if (t->encode->shape) table_put(t, "WKT,");
   for (size_t k = 0; k + 1 < t->columns; k++) {
+    char own[256];
+    const char *name;
     if (k) table_put(t, t->encode->lead[1]);
-    dyd_sink_put(&t->to, t->name[k], strcspn(t->name[k], ","));
+    if (*t->name[k] != '*') dyd_sink_put(&t->to, t->name[k], strcspn(t->name[k], ","));
+    for (size_t c = 0; *t->name[k] == '*' && (name = carried_name(own, sizeof own, t, c)); c++) {
+      if (c) table_put(t, t->encode->lead[1]);
+      t->encode->text(&t->to, name);
+    }
   }
   table_put(t, t->encode->shape ? ",max_coordinate_error\n" : "\n");
 }
@@ -143,11 +165,12 @@ static void table_lead(dyd_table *t, const char *name) {
 
 void dyd_table_begin(dyd_table *t, const dyd_output *o, bool optional) {
   const dyd_encoder *e = t->encode = &encoders[o->format];
-  bool ids = dyd_engine_id(t->engine, 0);
+  bool ids = dyd_engine_id(t->engine, 0), carried = dyd_engine_carried_name(t->engine, 0);
   t->rows = t->columns = t->begin.length = 0;
   t->most = 0;
   for (const char *name = t->layer->columns; name; name = strchr(name, ','), name += name != NULL)
-    if (*name == '?' ? optional : ids || strncmp(name, "id", 2) != 0) table_lead(t, name + (*name == '?'));
+    if (*name == '*' ? carried : *name == '?' ? optional : ids || strncmp(name, "id", 2) != 0)
+      table_lead(t, name + (*name == '?'));
   table_lead(t, "max_coordinate_error");
   if (e->shape) {
     const shape_words *shape = &e->shape[t->layer->geometry];
@@ -253,6 +276,33 @@ void dyd_row_text(dyd_table *t, const char *text) {
 void dyd_row_id(dyd_table *t, size_t i) {
   const char *id = dyd_engine_id(t->engine, i);
   if (id) dyd_row_text(t, id);
+}
+
+/* Is the text a number in JSON? */
+static bool is_json_number(const char *s) {
+  size_t whole = strspn(s += *s == '-', "0123456789"), part = 1;
+  if (!whole || (whole > 1 && *s == '0')) return false;
+  s += whole;
+  if (*s == '.') part = strspn(s + 1, "0123456789"), s += 1 + part;
+  if (part && (*s == 'e' || *s == 'E'))
+    s += 1 + (s[1] == '-' || s[1] == '+'), part = strspn(s, "0123456789"), s += part;
+  return part && !*s;
+}
+
+void dyd_row_carried(dyd_table *t, size_t i) {
+  const dyd_encoder *e = t->encode;
+  char own[256];
+  const char *name;
+  for (size_t k = 0; (name = carried_name(own, sizeof own, t, k)); k++) {
+    const char *text = dyd_engine_carried(t->engine, i, k);
+    table_put(t, e->lead[1]);
+    if (e->named) e->text(&t->to, name), table_put_short(t, ": ");
+    if (e->named && (!*text || is_json_number(text)))
+      table_put(t, *text ? text : e->none);
+    else
+      e->text(&t->to, text);
+    t->values += !k;
+  }
 }
 
 void dyd_row_three(dyd_table *t, const uint32_t site[3], bool ids) {

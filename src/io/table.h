@@ -51,7 +51,8 @@ typedef struct dyd_layer {
   dyd_layer_part *comments; /* writes the lines of csv before the header; NULL: there are none */
   dyd_layer_part *rows;
   /* Separated by commas. Columns that begin with "id" exist if points have identifiers. Columns with "?" before their
-   * name exist in wkt and geojson only; of tolerances, if chances are known. */
+   * name exist in wkt and geojson only; of tolerances, if chances are known; of pairs, if lengths are wanted. "*"
+   * stands for the columns that points carry. */
   const char *columns;
 } dyd_layer;
 
@@ -85,6 +86,7 @@ struct dyd_table {
   bool drawn;                       /* rows have a geometry */
   dyd_place *place;                 /* of the sites of a plane; NULL: nothing is drawn at them; owned, as */
   double (*box)[4];                 /* of those of a sphere, */
+  bool lengths;                     /* pairs have them */
   void *kept;                       /* what comments keep for rows */
   dyd_table_lead begin, lead[DYD_TABLE_COLUMNS];
   const char *name[DYD_TABLE_COLUMNS]; /* each up to a comma */
@@ -117,6 +119,8 @@ void dyd_row_spot(dyd_table *t, size_t i);
 void dyd_row_site(dyd_table *t, size_t i);
 void dyd_row_text(dyd_table *t, const char *text);
 void dyd_row_id(dyd_table *t, size_t i);
+/* What it carries, or nothing. */
+void dyd_row_carried(dyd_table *t, size_t i);
 /* Those of three sites. */
 void dyd_row_three(dyd_table *t, const uint32_t site[3], bool ids);
 /* The numbers of the sites in their file, separated by blanks. */

@@ -204,6 +204,16 @@ def test_geopackage_holds_all():
             assert list(info(f.at('one.gpkg'))) == ['one']
 
 
+def test_carried_columns_keep_their_types():
+    with Folder() as f:
+        f.make('p.gpkg')
+        expect(f.run('delaunay', '--carry', 'acc,cost,name', '--layer', 'points', '-o', 'c.gpkg', 'p.gpkg'), 0)
+        fields = info(f.at('c.gpkg'))['c'][3]
+        assert [fields[k] for k in ('acc', 'cost', 'name')] == ['Real', 'Integer', 'String'], fields
+        rows = json.loads(ogr('ogr2ogr', '-f', 'GeoJSON', '/vsistdout/', f.at('c.gpkg')))['features']
+        assert [r['properties']['acc'] for r in rows] == [0.5, 0.25, 0.125, 0.0625, 0.3]
+
+
 def test_coordinates_are_within_their_error():
     """A double stands for a decimal: max_coordinate_error bounds what that loses, too; ends are rounded outward."""
     from fractions import Fraction as Q

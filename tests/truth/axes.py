@@ -704,7 +704,7 @@ EXTRAS = {
     'hausdorff': Extra(['--until', 'hausdorff:4'], softens=True), 'decided': Extra(['--until', 'decided']),
     'window': Extra(['--window=-1,1,-1,1']), 'crs': Extra(['--crs', 'EPSG:32632']),
     'accept fixpoint': Extra(['--accept-fixpoint']), 'plane': Extra(['--plane']),
-    'id': Extra(['--id', 'name'], fits='table'), 'missing': Extra(['--skip-missing'], fits='table'),
+    'id': Extra(['--id', 'name'], fits='table'), 'carry': Extra(['--carry', 'all'], fits='table'), 'length': Extra(['--length']), 'missing': Extra(['--skip-missing'], fits='table'),
     'missing word': Extra(['--skip-missing', '--missing=-9999'], fits='table'),
     'merge': Extra(['--merge'], softens=True), 'cost': Extra(['--cost-column', 'cost'], fits='table'),
     'certificate': Extra(['--certificate', '@certificate'], check='certificate'),

@@ -419,6 +419,56 @@ static dyd_status header_take(dyd_csv *csv, const dyd_line *line, char delimiter
                      "`no_header`, and where these are names, put them into quotes");
 }
 
+/* ---- columns that are carried ---- */
+
+/* Column k; the names of a file without a header are numbers. */
+static dyd_status carry_put(dyd_csv *csv, size_t k, dyd_error *err) {
+  char number[24];
+  snprintf(number, sizeof number, "%zu", k + 1);
+  const char *name = csv->headless ? number : csv->field[k].text;
+  size_t length = csv->headless ? strlen(number) : csv->field[k].length;
+  if (!dyd_reserve((void **)&csv->carried, &csv->carried_cap, csv->carries + 1, sizeof *csv->carried) ||
+      !dyd_reserve((void **)&csv->names, &csv->names_cap, csv->names_used + length + 1, 1))
+    return dyd_fail_nomem(err);
+  csv->carried[csv->carries++] = k;
+  memcpy(csv->names + csv->names_used, name, length);
+  csv->names[csv->names_used + length] = 0;
+  csv->names_used += length + 1;
+  return DYD_OK;
+}
+
+/* The columns named. */
+static dyd_status carry_named(dyd_csv *csv, dyd_error *err) {
+  dyd_csv list = {.delimiter = ','};
+  const dyd_line line = {csv->carry, strlen(csv->carry), 0};
+  dyd_status st = csv_split(&list, &line, err);
+  for (size_t k = 0; k < list.fields && st == DYD_OK; k++) {
+    dyd_span *f = &list.field[k];
+    size_t at;
+    span_trim(f);
+    char *name = dyd_alloc(f->length + 1, 1);
+    if (!name) st = dyd_fail_nomem(err);
+    if (name) memcpy(name, f->text, f->length), name[f->length] = 0;
+    const dyd_csv_want want = {name, f->text != f->at, "carry"};
+    if (st == DYD_OK) st = find_column(&at, csv, &want, err);
+    if (st == DYD_OK) st = carry_put(csv, at, err);
+    free(name);
+  }
+  dyd_csv_clear(&list);
+  return st;
+}
+
+/* The fields are those of the header. */
+static dyd_status carry_find(dyd_csv *csv, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  if (!csv->carry) return DYD_OK;
+  if (strcmp(csv->carry, "all") != 0) return carry_named(csv, err);
+  for (size_t k = 0; k < csv->fields && st == DYD_OK; k++)
+    if (k != csv->column[DYD_CSV_X] && k != csv->column[DYD_CSV_Y] && (csv->headless || csv->field[k].length))
+      st = carry_put(csv, k, err);
+  return st;
+}
+
 /* The delimiter in a first line such as "sep=;"; 0: it is none. */
 static char delimiter_line(const dyd_line *line) {
   const char *at = line->text;
@@ -487,6 +537,7 @@ dyd_status dyd_csv_open(dyd_csv *csv, const char *delimiter, bool degrees, dyd_e
   csv->trails = csv->fields > 1 && !csv->headless && !csv->field[csv->fields - 1].length;
   csv->held = csv->headless && csv->fields;
   if (st == DYD_OK && !csv->headless) st = read_meanings(csv, degrees, err);
+  if (st == DYD_OK) st = carry_find(csv, err);
   return st == DYD_OK && csv->units_row ? units_read(csv, err) : st;
 }
 
@@ -599,6 +650,8 @@ void dyd_record_place(dyd_error *err, const dyd_record *row, size_t k) {
 
 void dyd_csv_clear(dyd_csv *csv) {
   for (int k = 0; k < DYD_CSV_MOST; k++) free(csv->want[k].name);
+  free(csv->carried);
+  free(csv->names);
   free(csv->record);
   free(csv->plain);
   free(csv->field);

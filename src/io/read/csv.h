@@ -54,6 +54,11 @@ typedef struct dyd_csv {
   size_t plain_cap, used;    /* */
   dyd_span *field;
   size_t fields, field_cap;
+  const char *carry; /* set by the caller: "all", or names of columns; NULL: none */
+  size_t *carried;   /* where they are */
+  size_t carries, carried_cap;
+  char *names; /* theirs, terminated */
+  size_t names_used, names_cap;
 } dyd_csv;
 
 /* Asks for the columns that `text` names, at least `least` and at most `most`, for the roles from `first` on; a single

@@ -47,6 +47,7 @@ static const struct read_option {
     {.field = {OF(radius_unit), .points = true, .text = true}},
     {.field = {OF(radius_scale), .points = true, .text = true}},
     {{OF(id), .table = true, .text = true}, ROLE_ID, 1, 1, "identifier"},
+    {.field = {OF(carry), .table = true, .text = true}},
     {{OF(radius_columns), .table = true, .points = true, .text = true}, DYD_CSV_RADIUS_X, 1, 2, "radius"},
     {{OF(cost_column), .table = true, .text = true}, ROLE_NUMBER + DYD_ROW_COST, 1, 1, "cost"},
     {{OF(sigma_column), .table = true, .text = true}, ROLE_NUMBER + DYD_ROW_SIGMA, 1, 1, "standard deviation"},
@@ -279,6 +280,8 @@ typedef struct intake {
   int roles;                 /* numbers that rows have are in columns of smaller roles */
   const dyd_file_kind *kind; /* of a cell that is no coordinate; NULL: none */
   bool numbers;              /* points have numbers beside their rectangles */
+  char *label;               /* identifier and carried texts of the present row, a NUL between two */
+  size_t label_length, label_cap;
 } intake;
 
 /* ---- radii ---- */
@@ -437,6 +440,7 @@ static dyd_status intake_init(intake *in, const dyd_read_options *o, dyd_error *
 }
 
 static void intake_clear(intake *in) {
+  free(in->label);
   dyd_style_clear(&in->style);
   nominals_clear(&in->places);
   dyd_labels_clear(&in->labels);
@@ -447,7 +451,7 @@ static void intake_clear(intake *in) {
 
 /* Returns true if rows and points may differ, or points have identifiers or numbers. */
 static bool intake_labels(const intake *in) {
-  return in->o->id || in->o->skip_missing || in->o->merge || in->numbers;
+  return in->o->id || in->o->carry || in->o->skip_missing || in->o->merge || in->numbers;
 }
 
 /* ---- fields ---- */
@@ -516,7 +520,9 @@ static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_MOST], dy
   for (int k = ROLE_NUMBER; k < ROLE_ID && st == DYD_OK; k++)
     if (span[k].text) st = intake_number(&own.of[k - ROLE_NUMBER], &span[k], k, err);
   if (st != DYD_OK) return st;
-  return dyd_labels_add(&in->labels, id->text, id->length, &own) ? DYD_OK : dyd_fail_nomem(err);
+  const char *text = in->labels.names ? in->label : id->text;
+  size_t length = in->labels.names ? in->label_length : id->length;
+  return dyd_labels_add(&in->labels, text, length, &own) ? DYD_OK : dyd_fail_nomem(err);
 }
 
 /* Is all of the coordinate beyond 90? Of computable numbers that is not known yet. */
@@ -649,14 +655,39 @@ static dyd_status csv_begin(dyd_csv *csv, const dyd_read_options *o, dyd_error *
   return st == DYD_OK ? dyd_csv_open(csv, o->delimiter, o->degrees, err) : st;
 }
 
+/* Takes over the names of the columns that are carried. */
+static void carry_begin(intake *in, dyd_csv *csv) {
+  in->labels.carried = csv->carries;
+  in->labels.names = csv->names;
+  in->labels.anonymous = !in->o->id;
+  csv->names = NULL;
+}
+
+/* Puts the label of the present record together. */
+static dyd_status carry_row(intake *in, const dyd_csv *csv, const dyd_span *id, dyd_error *err) {
+  size_t size = id->length + csv->carries;
+  for (size_t k = 0; k < csv->carries; k++) size += csv->field[csv->carried[k]].length;
+  if (!dyd_reserve((void **)&in->label, &in->label_cap, size + 1, 1)) return dyd_fail_nomem(err);
+  char *at = in->label;
+  if (id->length) memcpy(at, id->text, id->length), at += id->length;
+  for (size_t k = 0; k < csv->carries; k++) {
+    const dyd_span *f = &csv->field[csv->carried[k]];
+    *at++ = 0;
+    if (f->length) memcpy(at, f->text, f->length), at += f->length;
+  }
+  in->label_length = size;
+  return DYD_OK;
+}
+
 static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
-  dyd_csv csv = {.text = text, .headless = in->o->no_header, .units_row = in->o->units_row};
+  dyd_csv csv = {.text = text, .headless = in->o->no_header, .units_row = in->o->units_row, .carry = in->o->carry};
   dyd_span span[DYD_CSV_MOST] = {{0}};
   size_t count = 1;
   dyd_status st = csv_begin(&csv, in->o, err);
   in->report.degrees = csv.degrees;
   in->report.swapped = csv.swapped;
   if (!in->unit) in->unit = csv.unit;
+  if (st == DYD_OK && csv.carries) carry_begin(in, &csv);
   while (st == DYD_OK && count) {
     st = dyd_csv_next(span, &count, &csv, err);
     dyd_wkt geometry;
@@ -669,6 +700,7 @@ static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
       else if (!dyd_wkt_next(span, &geometry))
         span[DYD_CSV_X].length = span[DYD_CSV_Y].length = 0;
     }
+    if (st == DYD_OK && count && csv.carries) st = carry_row(in, &csv, &span[ROLE_ID], err);
     if (st == DYD_OK && count) st = intake_row(in, span, err);
   }
   in->report.commented = csv.commented;
