@@ -148,7 +148,7 @@ static void row_tile(dyd_table *t, const dyd_tiles *tiles, size_t r) {
 dyd_status dyd_tile_rows(dyd_table *t, const dyd_output *o) {
   const dyd_diagram *d = o->what;
   dyd_tiles tiles = {0};
-  dyd_status st = dyd_tiles_find(&tiles, d->bounds, d->pd, &d->window, d->bits, d->cancel);
+  dyd_status st = dyd_tiles_find(&tiles, d->bounds, d->pd, &d->window, d->bits, !t->drawn, d->cancel);
   if (st == DYD_E_RANGE)
     return dyd_fail(o->err, st,
                     "doubles are too coarse for tiles on this window, or do not hold its ends; give a "

@@ -38,9 +38,9 @@ dyd_status dyd_measure_reach(mpfr_ptr out, dyd_measure *m, size_t i, size_t j);
 
 /* ---- tiles ---- */
 
-/* As dyd_voronoi_tiles; *bounds is set as by dyd_metric_voronoi, unless it is NULL. */
+/* As dyd_voronoi_tiles; *bounds is set as by dyd_metric_voronoi, unless it is NULL. areas_only: out->xy stays NULL. */
 dyd_status dyd_tiles_find(dyd_tiles *out, dyd_voronoi_bounds *bounds, const dyd_delaunay *pd, const dyd_rect *window,
-                          int64_t bits, const volatile int *cancel);
+                          int64_t bits, bool areas_only, const volatile int *cancel);
 
 /* ---- the triangulation ---- */
 

@@ -33,11 +33,15 @@ typedef struct tiling {
   const dyd_delaunay *pd;
   dyd_window w;
   dyd_shape shape;
-  double *bound; /* two for each site; NULL: those of the shapes */
+  bool areas_only; /* no xy */
+  double *bound;   /* two for each site; NULL: those of the shapes */
   size_t ring_cap, offset_cap, xy_cap, area_cap, bound_cap, vertices;
   loose_ring *loose;
   size_t loose_count, loose_cap;
   uint32_t *loose_of;
+  struct quick_tile *quick; /* for each site; NULL: not made */
+  dyd_xy *heap;             /* the rings of quick tiles */
+  size_t heap_count, heap_cap;
 } tiling;
 
 void dyd_tiles_clear(dyd_tiles *t) {
@@ -121,22 +125,34 @@ static dyd_status ring_area(double *out, const tiling *t, const dyd_xy *z, size_
   return st;
 }
 
-static dyd_status append_ring(tiling *t, uint32_t site, const dyd_xy *z, size_t n, const double bound[2]) {
+/* Room for so many rings with so many vertices. */
+static bool reserve_rings(tiling *t, size_t rings, size_t vertices) {
+  dyd_tiles *o = t->out;
+  return dyd_reserve((void **)&o->site, &t->ring_cap, rings, sizeof *o->site) &&
+         dyd_reserve((void **)&o->offset, &t->offset_cap, rings + 1, sizeof *o->offset) &&
+         dyd_reserve((void **)&o->area, &t->area_cap, rings, sizeof *o->area) &&
+         dyd_reserve((void **)&o->bound, &t->bound_cap, 2 * rings, sizeof *o->bound) &&
+         (t->areas_only || dyd_reserve((void **)&o->xy, &t->xy_cap, 2 * vertices, sizeof *o->xy));
+}
+
+static dyd_status append_ring(tiling *t, uint32_t site, const dyd_xy *z, size_t n, double area, const double bound[2]) {
   dyd_tiles *o = t->out;
   size_t r = o->count, end = t->vertices + n;
-  if (!dyd_reserve((void **)&o->site, &t->ring_cap, r + 1, sizeof *o->site) ||
-      !dyd_reserve((void **)&o->offset, &t->offset_cap, r + 2, sizeof *o->offset) ||
-      !dyd_reserve((void **)&o->area, &t->area_cap, r + 1, sizeof *o->area) ||
-      !dyd_reserve((void **)&o->bound, &t->bound_cap, 2 * r + 2, sizeof *o->bound) ||
-      !dyd_reserve((void **)&o->xy, &t->xy_cap, 2 * end, sizeof *o->xy))
-    return DYD_E_NOMEM;
-  memcpy(o->xy + 2 * t->vertices, z, n * sizeof *z);
+  if (!reserve_rings(t, r + 1, end)) return DYD_E_NOMEM;
+  if (!t->areas_only) memcpy(o->xy + 2 * t->vertices, z, n * sizeof *z);
   o->site[r] = site;
   o->offset[r] = t->vertices;
   o->offset[r + 1] = t->vertices = end;
   memcpy(&o->bound[2 * r], t->bound ? &t->bound[2 * (size_t)site] : bound, 2 * sizeof *bound);
+  o->area[r] = area;
   o->count++;
-  return ring_area(&o->area[r], t, z, n);
+  return DYD_OK;
+}
+
+static dyd_status measure_ring(tiling *t, uint32_t site, const dyd_xy *z, size_t n, const double bound[2]) {
+  double area = 0;
+  dyd_status st = ring_area(&area, t, z, n);
+  return st == DYD_OK ? append_ring(t, site, z, n, area, bound) : st;
 }
 
 /* ---- loose rings ---- */
@@ -330,12 +346,90 @@ static dyd_status append_loops(tiling *t, const loose_ring *r, const double boun
     if (n - from >= 3) {
       st = ring_is_good(&good, t, open + from, n - from);
       if (st == DYD_OK && !good) st = DYD_E_RANGE;
-      if (st == DYD_OK) st = append_ring(t, r->site, open + from, n - from, bound);
+      if (st == DYD_OK) st = measure_ring(t, r->site, open + from, n - from, bound);
     }
     n = from;
     open[n++] = z;
   }
   free(open);
+  return st;
+}
+
+/* ---- most cells at once ----
+ *
+ * The vertices of the diagram of exact points are the circumcentres of all triangles, also of those that share a circle
+ * with others. Each is found once; then cells whose vertices are all inside W are walked around, in the order of the
+ * mesh. */
+
+/* count = 0: to be made as a shape. Its ring is heap[first] on. */
+typedef struct quick_tile {
+  size_t first, count;
+  double area, bound[2];
+} quick_tile;
+
+static dyd_status find_centres(dyd_grid_centre *c, const tiling *t, double scale) {
+  const dyd_mesh *m = &t->pd->sk.mesh;
+  dyd_status st = DYD_OK;
+  for (uint32_t k = 0; k < m->count && st == DYD_OK; k++) {
+    c[k].error = (double)NAN;
+    if (dyd_is_ghost_triangle(m, k) || dyd_filter_grid_centre(&c[k], t->pd, k, &t->w, scale)) continue;
+    st = dyd_shape_centre(&c[k].z, t->pd, k, &t->w);
+    c[k].error = t->out->rounding;
+  }
+  return st;
+}
+
+/* The vertices of the cell of mesh vertex v: how many; 0: not all are known, or they are too many for so quick a look.
+ */
+enum { QUICK_VERTICES = 64 };
+static size_t cell_centres(const dyd_grid_centre **out, const dyd_grid_centre *c, const dyd_skeleton *sk, uint32_t v) {
+  dyd_half_edge first = sk->leaving[v], h = first;
+  size_t n = 0;
+  if (first == DYD_NONE) return 0;
+  do {
+    const dyd_grid_centre *z = &c[dyd_edge_triangle(h)];
+    if (n == QUICK_VERTICES || isnan(z->error)) return 0;
+    out[n++] = z;
+    h = dyd_edge_turn(&sk->mesh, h);
+  } while (h != first);
+  return n;
+}
+
+/* The ring at the end of the heap, which has room for it, becomes that of the quick tile, if it is convex. */
+static dyd_status quick_cell(quick_tile *q, tiling *t, const dyd_grid_centre *const *at, size_t n, double scale) {
+  dyd_xy *ring = t->heap + t->heap_count;
+  size_t count = dyd_filter_tile(ring, q->bound, at, n, &t->w, scale);
+  if (count < 3 || !dyd_filter_is_convex(ring, count)) return DYD_OK;
+  q->first = t->heap_count;
+  q->count = count;
+  t->vertices += count;
+  if (!t->areas_only) t->heap_count += count;
+  return ring_area(&q->area, t, ring, count);
+}
+
+static dyd_status quick_cells(tiling *t, const dyd_grid_centre *c, double scale) {
+  const dyd_skeleton *sk = &t->pd->sk;
+  dyd_status st = DYD_OK;
+  for (uint32_t v = 0; v < sk->n && st == DYD_OK; v++) {
+    const dyd_grid_centre *at[QUICK_VERTICES];
+    size_t n = cell_centres(at, c, sk, v);
+    if (n < 3) continue;
+    if (!dyd_reserve((void **)&t->heap, &t->heap_cap, t->heap_count + n, sizeof *t->heap)) return DYD_E_NOMEM;
+    st = quick_cell(&t->quick[sk->reps.site[v]], t, at, n, scale);
+    if ((v & 4095) == 0 && dyd_flag_is_set(t->w.cancel)) return DYD_CANCELLED;
+  }
+  return st == DYD_OK && !reserve_rings(t, sk->n, t->vertices) ? DYD_E_NOMEM : st;
+}
+
+static dyd_status find_quick_tiles(tiling *t) {
+  const dyd_skeleton *sk = &t->pd->sk;
+  if (sk->mesh.no_filter || sk->mesh.collinear) return DYD_OK;
+  double scale = ldexp(1, t->w.grid);
+  dyd_grid_centre *c = dyd_alloc(sk->mesh.count, sizeof *c);
+  t->quick = calloc(sk->n + 1, sizeof *t->quick);
+  dyd_status st = c && t->quick ? find_centres(c, t, scale) : DYD_E_NOMEM;
+  if (st == DYD_OK) st = quick_cells(t, c, scale);
+  free(c);
   return st;
 }
 
@@ -349,6 +443,9 @@ static bool tile_is_loose(const tiling *t, uint32_t i) {
 static dyd_status find_tile(tiling *t, uint32_t i, bool last) {
   dyd_shape *s = &t->shape;
   bool good;
+  const quick_tile *q = t->quick ? &t->quick[i] : NULL;
+  if (q && q->count && !tile_is_loose(t, i))
+    return append_ring(t, i, t->areas_only ? NULL : t->heap + q->first, q->count, q->area, q->bound);
   dyd_status st = dyd_shape_find(s, t->pd, i, &t->w, 0);
   if (st != DYD_OK) return st;
   if (!s->exact) return DYD_E_RANGE;
@@ -360,7 +457,7 @@ static dyd_status find_tile(tiling *t, uint32_t i, bool last) {
     loose_ring *r;
     return last ? DYD_E_RANGE : loosen_ring(&r, t, i);
   }
-  return s->inner_count < 3 ? DYD_OK : append_ring(t, i, s->inner, s->inner_count, bound);
+  return s->inner_count < 3 ? DYD_OK : measure_ring(t, i, s->inner, s->inner_count, bound);
 }
 
 static dyd_status find_tiles(tiling *t, bool last) {
@@ -419,6 +516,7 @@ static dyd_status tile_all(tiling *t, dyd_voronoi_bounds *bounds, const dyd_dela
     t->bound = calloc(2 * n + 1, sizeof *t->bound);
     st = t->bound ? bound_areas(t->bound, bounds, pd, window, bits, cancel) : DYD_E_NOMEM;
   }
+  if (st == DYD_OK) st = find_quick_tiles(t);
   if (st == DYD_OK) st = find_tiles(t, false);
   if (st == DYD_OK && t->loose_count) st = settle_all(t);
   return st == DYD_OK && t->loose_count ? find_tiles(t, true) : st;
@@ -431,16 +529,18 @@ static void tiling_clear(tiling *t) {
   }
   free(t->loose);
   free(t->loose_of);
+  free(t->quick);
+  free(t->heap);
   free(t->bound);
   dyd_shape_clear(&t->shape);
 }
 
 dyd_status dyd_tiles_find(dyd_tiles *out, dyd_voronoi_bounds *bounds, const dyd_delaunay *pd, const dyd_rect *window,
-                          int64_t bits, const volatile int *cancel) {
+                          int64_t bits, bool areas_only, const volatile int *cancel) {
   dyd_tiles made = {0};
   dyd_sites *sites = NULL;
   dyd_delaunay *centres = NULL;
-  tiling t = {.out = &made, .pd = pd};
+  tiling t = {.out = &made, .pd = pd, .areas_only = areas_only};
   dyd_status st = DYD_OK;
   if (!pd->sk.all_points) {
     st = tiling_of_centres(&sites, &centres, dyd_delaunay_sites(pd), cancel);
@@ -459,5 +559,5 @@ dyd_status dyd_voronoi_tiles(dyd_tiles *out, const dyd_delaunay *pd, const dyd_r
                              const volatile int *cancel) {
   if (!out || !pd || !window) return DYD_E_ARG;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
-  return dyd_tiles_find(out, NULL, pd, window, bits, cancel);
+  return dyd_tiles_find(out, NULL, pd, window, bits, false, cancel);
 }

@@ -40,6 +40,39 @@ bool dyd_filter_grid_area(double *out, const dyd_xy *z, size_t n, int grid) {
   return true;
 }
 
+/* floor(x scale + 1/2) / scale, not beyond the window. */
+static double tile_coordinate(double x, double scale, const double side[2]) {
+  double a = x * scale + 0.5;
+  int64_t n = (int64_t)a;
+  n -= (double)n > a;
+  x = (double)n / scale;
+  return x < side[0] ? side[0] : x > side[1] ? side[1] : x;
+}
+
+/* Vertices that are off by at most e_k in each coordinate change twice the area by at most the sum of
+ * e_k (|x_k+1 - x_k-1| + |y_k+1 - y_k-1|) + 2 e_k e_k+1. Differences from the first vertex, products and sums of n
+ * terms are off by less than (n + 8) u of the sum of the products' absolute values. */
+size_t dyd_filter_tile(dyd_xy *ring, double bound[2], const dyd_grid_centre *const *c, size_t n, const dyd_window *w,
+                       double scale) {
+  double sum = 0, size = 0, off = 0;
+  dyd_xy o = c[0]->z;
+  size_t kept = 0;
+  for (size_t k = 0; k < n; k++) {
+    const dyd_grid_centre *a = c[k ? k - 1 : n - 1], *z = c[k], *b = c[k + 1 < n ? k + 1 : 0];
+    double p = (z->z.x - o.x) * (b->z.y - o.y), q = (z->z.y - o.y) * (b->z.x - o.x);
+    sum += p - q;
+    size += fabs(p) + fabs(q);
+    off += z->error * (fabs(b->z.x - a->z.x) + fabs(b->z.y - a->z.y) + 2 * b->error);
+    dyd_xy to = {tile_coordinate(z->z.x, scale, w->d), tile_coordinate(z->z.y, scale, w->d + 2)};
+    if (!kept || to.x != ring[kept - 1].x || to.y != ring[kept - 1].y) ring[kept++] = to;
+  }
+  while (kept > 1 && ring[kept - 1].x == ring[0].x && ring[kept - 1].y == ring[0].y) kept--;
+  off = (off + size * (double)(n + 8) * 0x1p-52) * (1 + 0x1p-30) + 0x1p-1000;
+  bound[0] = fmax(nextafter((sum - off) / 2, -HUGE_VAL), 0);
+  bound[1] = nextafter((sum + off) / 2, HUGE_VAL);
+  return kept;
+}
+
 /* Boxes, with a step to spare, and the distance from the line: |(b - a) x (v - a)| is compared with twice what a
  * step of the grid allows; its rounding error is below 8 u of the products, which the doubled step covers only where
  * they are small, so it is added. */

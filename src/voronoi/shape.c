@@ -421,16 +421,21 @@ static dyd_status clip_cell(dyd_shape *s, const dyd_delaunay *pd, uint32_t v, ui
 
 /* ---- the cell of a point ---- */
 
+dyd_status dyd_shape_centre(dyd_xy *z, const dyd_delaunay *pd, uint32_t t, const dyd_window *w) {
+  int64_t n[2];
+  dyd_status st = centre_on_grid(n, pd, t, w);
+  if (st != DYD_OK) return st;
+  *z = (dyd_xy){fmin(fmax(ldexp((double)n[0], -w->grid), w->d[0]), w->d[1]),
+                fmin(fmax(ldexp((double)n[1], -w->grid), w->d[2]), w->d[3])};
+  return DYD_OK;
+}
+
 /* Rounds the vertices of a cell inside of W that doubles leave in doubt; those near a side may round to beyond it. */
 static dyd_status settle_vertices(dyd_shape *s, const dyd_delaunay *pd, const dyd_window *w) {
   dyd_status st = DYD_OK;
   for (uint32_t k = 0; k < s->inner_count && st == DYD_OK; k++) {
     dyd_xy *z = &s->inner[k];
-    int64_t n[2];
-    if (isnan(z->x)) {
-      st = centre_on_grid(n, pd, s->key[k], w);
-      if (st == DYD_OK) *z = (dyd_xy){ldexp((double)n[0], -w->grid), ldexp((double)n[1], -w->grid)};
-    }
+    if (isnan(z->x)) st = dyd_shape_centre(z, pd, s->key[k], w);
     *z = (dyd_xy){fmin(fmax(z->x, w->d[0]), w->d[1]), fmin(fmax(z->y, w->d[2]), w->d[3])};
   }
   return st;

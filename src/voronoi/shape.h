@@ -94,6 +94,16 @@ dyd_status dyd_filter_shape(bool *done, dyd_shape *s, const dyd_delaunay *pd, ui
 dyd_status dyd_filter_point_cell(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint32_t v, uint32_t degree,
                                  const dyd_window *w);
 
+/* A point near the circumcentre of a triangle of exact points: off by at most `error` in each coordinate, NaN: not
+ * known, or not certainly inside W. Both round to the same multiples of 2^-grid, halves up. */
+typedef struct dyd_grid_centre {
+  dyd_xy z;
+  double error;
+} dyd_grid_centre;
+/* false: the circumcentre of triangle t is inside W, and its rounding in doubt. scale = 2^grid. */
+bool dyd_filter_grid_centre(dyd_grid_centre *c, const dyd_delaunay *pd, uint32_t t, const dyd_window *w, double scale);
+/* The same exactly, of a vertex that is inside W. */
+dyd_status dyd_shape_centre(dyd_xy *z, const dyd_delaunay *pd, uint32_t t, const dyd_window *w);
 /* Do all edges of the ring turn left for certain, once round? */
 bool dyd_filter_is_convex(const dyd_xy *z, size_t n);
 

@@ -90,6 +90,27 @@ static bool round_to_grid(double *out, double lo, double hi, int grid) {
   return a == b && fabs(a) < 0x1p50;
 }
 
+/* The circumcentre of points that are doubles, in a box. With a = p1 - p0, b = p2 - p0, D = 2 a x b, N the numerators
+ * b_y |a|^2 - a_y |b|^2 and a_x |b|^2 - b_x |a|^2, it is p0 + N / D. Differences carry a relative error u, so products
+ * in N at most (1 + u)^7, those in D (1 + u)^3: N is off by less than 9 u (|b_y| |a|^2 + |a_y| |b|^2), D by less than
+ * 10 u (|a_x b_y| + |a_y b_x|), for which 16 u stand, also for their own rounding. What underflows is below 2^-1070 in
+ * N, and 2^-600 stands for that, as |D| >= 2^-400. */
+static bool points_vertex(dyd_bbox *out, dyd_xy p, dyd_xy q, dyd_xy r) {
+  const double u = 0x1p-53;
+  double ax = q.x - p.x, ay = q.y - p.y, bx = r.x - p.x, by = r.y - p.y;
+  double la = ax * ax + ay * ay, lb = bx * bx + by * by, d = 2 * (ax * by - ay * bx);
+  double least = fabs(d) - 16 * u * (fabs(ax * by) + fabs(ay * bx)), blur = fabs(d) - least;
+  if (!(least >= 0x1p-400)) return false;
+  double x = (by * la - ay * lb) / d, y = (ax * lb - bx * la) / d;
+  double ex = (16 * u * (fabs(by) * la + fabs(ay) * lb) + fabs(x) * blur * 2) / least * SAFE + 0x1p-600;
+  double ey = (16 * u * (fabs(ax) * lb + fabs(bx) * la) + fabs(y) * blur * 2) / least * SAFE + 0x1p-600;
+  double zx = p.x + x, zy = p.y + y;
+  ex += 4 * u * (fabs(x) + fabs(zx));
+  ey += 4 * u * (fabs(y) + fabs(zy));
+  *out = (dyd_bbox){{zx - ex, zx + ex, zy - ey, zy + ey}};
+  return ex < HUGE_VAL && ey < HUGE_VAL;
+}
+
 static bool box_is_inside(const dyd_bbox *b, const double w[4]) {
   return w[0] < b->e[0] && b->e[1] < w[1] && w[2] < b->e[2] && b->e[3] < w[3];
 }
@@ -115,6 +136,27 @@ static dyd_iv boxes_area2(const dyd_bbox *b, uint32_t n, dyd_xy o) {
     if (k) sum = dyd_iv_add(sum, dyd_iv_sub(dyd_iv_mul(x[was], y[is]), dyd_iv_mul(y[was], x[is])));
   }
   return sum;
+}
+
+/* As round_to_grid; scaling by a power of two is exact. */
+static bool rounds_alike(double lo, double hi, double scale) {
+  double a = lo * scale + 0.5, b = hi * scale + 0.5;
+  if (!(fabs(a) < 0x1p50 && fabs(b) < 0x1p50)) return false;
+  int64_t n = (int64_t)a, m = (int64_t)b;
+  return n - ((double)n > a) == m - ((double)m > b);
+}
+
+bool dyd_filter_grid_centre(dyd_grid_centre *c, const dyd_delaunay *pd, uint32_t t, const dyd_window *w, double scale) {
+  dyd_bbox b;
+  const uint32_t *v = pd->sk.mesh.tri[t].v;
+  const dyd_xy *xy = pd->sk.reps.xy;
+  c->error = (double)NAN;
+  if (pd->sk.reps.code ? !dyd_filter_vertex(&b, pd, v) : !points_vertex(&b, xy[v[0]], xy[v[1]], xy[v[2]])) return true;
+  if (!box_is_inside(&b, w->d)) return true;
+  if (!rounds_alike(b.e[0], b.e[1], scale) || !rounds_alike(b.e[2], b.e[3], scale)) return false;
+  c->z = (dyd_xy){b.e[0] / 2 + b.e[1] / 2, b.e[2] / 2 + b.e[3] / 2};
+  c->error = dyd_max(b.e[1] - b.e[0], b.e[3] - b.e[2]); /* twice what it is, less rounding */
+  return true;
 }
 
 dyd_status dyd_filter_point_cell(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint32_t v, uint32_t degree,
