@@ -81,6 +81,16 @@ dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *c
   return st;
 }
 
+dyd_status dyd_diagram_tiles(dyd_tiles *out, const dyd_diagram *d, bool areas_only, dyd_error *err) {
+  dyd_status st = dyd_tiles_find(out, d->bounds, d->pd, &d->window, d->bits, areas_only, d->cancel);
+  if (st == DYD_OK && d->coincident) *d->coincident = out->coincident;
+  if (st != DYD_E_RANGE) return st;
+  return dyd_fail(
+      err, st,
+      "doubles are too coarse for tiles on this window, or do not hold its ends; give a larger `window`, or "
+      "points nearer to the origin");
+}
+
 dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, void *context) {
   dyd_rect r;
   dyd_status st = DYD_OK;

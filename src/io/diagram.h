@@ -83,6 +83,9 @@ typedef dyd_status (*dyd_cell_visit)(void *context, uint32_t i, const dyd_shape 
  * regions are the whole window. */
 dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *context);
 
+/* The tiles; sets the bounds, too. areas_only as in dyd_tiles_find. Fills *err where doubles are too coarse. */
+dyd_status dyd_diagram_tiles(dyd_tiles *out, const dyd_diagram *d, bool areas_only, dyd_error *err);
+
 /* Called for every undecided face in order, with the box of its vertices in the window, rounded outward; NULL: there
  * are none. */
 typedef dyd_status (*dyd_region_visit)(void *context, size_t face, const double box[4]);

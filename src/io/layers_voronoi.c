@@ -3,7 +3,6 @@
  * vertices in boxes of degrees, and undecided regions by their sites, of a sphere. */
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "base/alloc.h"
-#include "base/error.h"
 #include "io/diagram.h"
 #include "io/geodesic.h"
 #include "io/table.h"
@@ -148,13 +147,8 @@ static void row_tile(dyd_table *t, const dyd_tiles *tiles, size_t r) {
 dyd_status dyd_tile_rows(dyd_table *t, const dyd_output *o) {
   const dyd_diagram *d = o->what;
   dyd_tiles tiles = {0};
-  dyd_status st = dyd_tiles_find(&tiles, d->bounds, d->pd, &d->window, d->bits, !t->drawn, d->cancel);
-  if (st == DYD_E_RANGE)
-    return dyd_fail(o->err, st,
-                    "doubles are too coarse for tiles on this window, or do not hold its ends; give a "
-                    "larger `window`, or points nearer to the origin");
+  dyd_status st = dyd_diagram_tiles(&tiles, d, !t->drawn, o->err);
   for (size_t r = 0; r < tiles.count && st == DYD_OK; r++) row_tile(t, &tiles, r);
-  if (d->coincident) *d->coincident = tiles.coincident;
   dyd_tiles_clear(&tiles);
   return st;
 }

@@ -7,6 +7,7 @@
 #include "io/json.h"
 #include "io/result.h"
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- the mesh of a triangulation ---- */
 
@@ -191,7 +192,14 @@ static dyd_status delaunay_vtk(const dyd_output *o) {
 /* ---- vtk of a Voronoi diagram ---- */
 
 /* What a line or polygon is; the numbers are those in the file. */
-typedef enum figure_kind { FIGURE_INNER, FIGURE_OUTER, FIGURE_VERTEX, FIGURE_REGION, FIGURE_EDGE } figure_kind;
+typedef enum figure_kind {
+  FIGURE_INNER,
+  FIGURE_OUTER,
+  FIGURE_VERTEX,
+  FIGURE_REGION,
+  FIGURE_EDGE,
+  FIGURE_TILE
+} figure_kind;
 
 /* Its corners are at[first .. first + count - 1]. */
 typedef struct figure {
@@ -287,6 +295,20 @@ static dyd_status gather_edges(gathered *g) {
   return st;
 }
 
+/* Tiles, kind 5. */
+static dyd_status gather_tiles(gathered *g, dyd_error *err) {
+  const dyd_diagram *d = g->d;
+  dyd_tiles tiles = {0};
+  dyd_status st = dyd_diagram_tiles(&tiles, d, false, err);
+  for (size_t r = 0; r < tiles.count && st == DYD_OK; r++) {
+    size_t first = tiles.offset[r], n = tiles.offset[r + 1] - first;
+    st = gather_figure(g, FIGURE_TILE, tiles.site[r], n);
+    if (st == DYD_OK) memcpy(g->at[g->points - n], &tiles.xy[2 * first], n * sizeof *g->at);
+  }
+  dyd_tiles_clear(&tiles);
+  return st;
+}
+
 static dyd_status gather_all(gathered *g) {
   const dyd_diagram *d = g->d;
   dyd_status st = dyd_diagram_visit(d, gather_cell, g);
@@ -329,13 +351,14 @@ static void vtk_numbers(const gathered *g, const char *name, bool kind) {
 
 static dyd_status voronoi_vtk(const dyd_output *o) {
   gathered g = {.d = o->what};
-  dyd_status st = gather_all(&g);
+  dyd_status st = o->content == DYD_CONTENT_TILES ? gather_tiles(&g, o->err) : gather_all(&g);
   if (st == DYD_OK) {
-    fprintf(o->out,
-            "# vtk DataFile Version 3.0\n"
-            "dyadel voronoi, outcome %s; kind 0 surely nearest, 1 possibly nearest, 2 box of a vertex, 3 undecided "
-            "region, 4 edge; coordinates within 2^-52 of themselves\nASCII\nDATASET POLYDATA\nPOINTS %zu double\n",
-            dyd_outcome_text(dyd_engine_outcome(g.d->engine)), g.points);
+    fprintf(
+        o->out,
+        "# vtk DataFile Version 3.0\n"
+        "dyadel voronoi, outcome %s; kind 0 surely nearest, 1 possibly nearest, 2 box of a vertex, 3 undecided "
+        "region, 4 edge, 5 tile; coordinates within 2^-52 of themselves\nASCII\nDATASET POLYDATA\nPOINTS %zu double\n",
+        dyd_outcome_text(dyd_engine_outcome(g.d->engine)), g.points);
     for (size_t k = 0; k < g.points; k++) {
       dyd_decimal_put_near(o->out, g.at[k][0]);
       fputs(" ", o->out);
@@ -355,5 +378,7 @@ static dyd_status voronoi_vtk(const dyd_output *o) {
 
 dyd_writer *const dyd_obj_writers[DYD_CONTENTS] = {
     [DYD_CONTENT_DELAUNAY] = delaunay_obj, [DYD_CONTENT_SPHERE] = delaunay_obj};
-dyd_writer *const dyd_vtk_writers[DYD_CONTENTS] = {
-    [DYD_CONTENT_DELAUNAY] = delaunay_vtk, [DYD_CONTENT_VORONOI] = voronoi_vtk, [DYD_CONTENT_SPHERE] = delaunay_vtk};
+dyd_writer *const dyd_vtk_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = delaunay_vtk,
+                                                   [DYD_CONTENT_VORONOI] = voronoi_vtk,
+                                                   [DYD_CONTENT_TILES] = voronoi_vtk,
+                                                   [DYD_CONTENT_SPHERE] = delaunay_vtk};

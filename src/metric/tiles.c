@@ -40,8 +40,8 @@ typedef struct tiling {
   size_t loose_count, loose_cap;
   uint32_t *loose_of;
   struct quick_tile *quick; /* for each site; NULL: not made */
-  dyd_xy *heap;             /* the rings of quick tiles */
-  size_t heap_count, heap_cap;
+  dyd_grid_centre *centre;  /* of each triangle, for them */
+  double scale;             /* 2^grid */
 } tiling;
 
 void dyd_tiles_clear(dyd_tiles *t) {
@@ -135,11 +135,12 @@ static bool reserve_rings(tiling *t, size_t rings, size_t vertices) {
          (t->areas_only || dyd_reserve((void **)&o->xy, &t->xy_cap, 2 * vertices, sizeof *o->xy));
 }
 
+/* z = NULL: its places follow. */
 static dyd_status append_ring(tiling *t, uint32_t site, const dyd_xy *z, size_t n, double area, const double bound[2]) {
   dyd_tiles *o = t->out;
   size_t r = o->count, end = t->vertices + n;
   if (!reserve_rings(t, r + 1, end)) return DYD_E_NOMEM;
-  if (!t->areas_only) memcpy(o->xy + 2 * t->vertices, z, n * sizeof *z);
+  if (z && !t->areas_only) memcpy(o->xy + 2 * t->vertices, z, n * sizeof *z);
   o->site[r] = site;
   o->offset[r] = t->vertices;
   o->offset[r + 1] = t->vertices = end;
@@ -361,76 +362,74 @@ static dyd_status append_loops(tiling *t, const loose_ring *r, const double boun
  * with others. Each is found once; then cells whose vertices are all inside W are walked around, in the order of the
  * mesh. */
 
-/* count = 0: to be made as a shape. Its ring is heap[first] on. */
+/* count = 0: to be made as a shape. Its ring is that of the tiles from vertex `first` on. */
 typedef struct quick_tile {
   size_t first, count;
   double area, bound[2];
 } quick_tile;
 
-static dyd_status find_centres(dyd_grid_centre *c, const tiling *t, double scale) {
+static dyd_status find_centres(const tiling *t) {
   const dyd_mesh *m = &t->pd->sk.mesh;
   dyd_status st = DYD_OK;
   for (uint32_t k = 0; k < m->count && st == DYD_OK; k++) {
-    c[k].error = (double)NAN;
-    if (dyd_is_ghost_triangle(m, k) || dyd_filter_grid_centre(&c[k], t->pd, k, &t->w, scale)) continue;
-    st = dyd_shape_centre(&c[k].z, t->pd, k, &t->w);
-    c[k].error = t->out->rounding;
+    dyd_grid_centre *c = &t->centre[k];
+    c->error = (double)NAN;
+    if (dyd_is_ghost_triangle(m, k) || dyd_filter_grid_centre(c, t->pd, k, &t->w, t->scale)) continue;
+    st = dyd_shape_centre(&c->z, t->pd, k, &t->w);
+    c->error = t->out->rounding;
   }
   return st;
 }
 
-/* The vertices of the cell of mesh vertex v: how many; 0: not all are known, or they are too many for so quick a look.
- */
+/* The ring of mesh vertex v: its vertices; 0: not all are known, or they are too many for so quick a look. */
 enum { QUICK_VERTICES = 64 };
-static size_t cell_centres(const dyd_grid_centre **out, const dyd_grid_centre *c, const dyd_skeleton *sk, uint32_t v) {
+static size_t quick_ring(dyd_xy ring[QUICK_VERTICES], double bound[2], const tiling *t, uint32_t v) {
+  const dyd_grid_centre *at[QUICK_VERTICES];
+  const dyd_skeleton *sk = &t->pd->sk;
   dyd_half_edge first = sk->leaving[v], h = first;
   size_t n = 0;
   if (first == DYD_NONE) return 0;
   do {
-    const dyd_grid_centre *z = &c[dyd_edge_triangle(h)];
+    const dyd_grid_centre *z = &t->centre[dyd_edge_triangle(h)];
     if (n == QUICK_VERTICES || isnan(z->error)) return 0;
-    out[n++] = z;
+    at[n++] = z;
     h = dyd_edge_turn(&sk->mesh, h);
   } while (h != first);
-  return n;
-}
-
-/* The ring at the end of the heap, which has room for it, becomes that of the quick tile, if it is convex. */
-static dyd_status quick_cell(quick_tile *q, tiling *t, const dyd_grid_centre *const *at, size_t n, double scale) {
-  dyd_xy *ring = t->heap + t->heap_count;
-  size_t count = dyd_filter_tile(ring, q->bound, at, n, &t->w, scale);
-  if (count < 3 || !dyd_filter_is_convex(ring, count)) return DYD_OK;
-  q->first = t->heap_count;
-  q->count = count;
-  t->vertices += count;
-  if (!t->areas_only) t->heap_count += count;
-  return ring_area(&q->area, t, ring, count);
-}
-
-static dyd_status quick_cells(tiling *t, const dyd_grid_centre *c, double scale) {
-  const dyd_skeleton *sk = &t->pd->sk;
-  dyd_status st = DYD_OK;
-  for (uint32_t v = 0; v < sk->n && st == DYD_OK; v++) {
-    const dyd_grid_centre *at[QUICK_VERTICES];
-    size_t n = cell_centres(at, c, sk, v);
-    if (n < 3) continue;
-    if (!dyd_reserve((void **)&t->heap, &t->heap_cap, t->heap_count + n, sizeof *t->heap)) return DYD_E_NOMEM;
-    st = quick_cell(&t->quick[sk->reps.site[v]], t, at, n, scale);
-    if ((v & 4095) == 0 && dyd_flag_is_set(t->w.cancel)) return DYD_CANCELLED;
-  }
-  return st == DYD_OK && !reserve_rings(t, sk->n, t->vertices) ? DYD_E_NOMEM : st;
+  return n < 3 ? 0 : dyd_filter_tile(ring, bound, at, n, &t->w, t->scale);
 }
 
 static dyd_status find_quick_tiles(tiling *t) {
   const dyd_skeleton *sk = &t->pd->sk;
+  dyd_xy ring[QUICK_VERTICES];
+  size_t vertices = 0;
   if (sk->mesh.no_filter || sk->mesh.collinear) return DYD_OK;
-  double scale = ldexp(1, t->w.grid);
-  dyd_grid_centre *c = dyd_alloc(sk->mesh.count, sizeof *c);
+  t->scale = ldexp(1, t->w.grid);
+  t->centre = dyd_alloc(sk->mesh.count, sizeof *t->centre);
   t->quick = calloc(sk->n + 1, sizeof *t->quick);
-  dyd_status st = c && t->quick ? find_centres(c, t, scale) : DYD_E_NOMEM;
-  if (st == DYD_OK) st = quick_cells(t, c, scale);
-  free(c);
-  return st;
+  dyd_status st = t->centre && t->quick ? find_centres(t) : DYD_E_NOMEM;
+  for (uint32_t v = 0; v < sk->n && st == DYD_OK; v++) {
+    quick_tile *q = &t->quick[sk->reps.site[v]];
+    size_t n = quick_ring(ring, q->bound, t, v);
+    if ((v & 4095) == 0 && dyd_flag_is_set(t->w.cancel)) st = DYD_CANCELLED;
+    if (n < 3 || !dyd_filter_is_convex(ring, n)) continue;
+    vertices += q->count = n;
+    st = ring_area(&q->area, t, ring, n);
+  }
+  return st == DYD_OK && !reserve_rings(t, sk->n, vertices) ? DYD_E_NOMEM : st;
+}
+
+/* Once it is known where the rings begin. */
+static void fill_quick_tiles(tiling *t) {
+  const dyd_skeleton *sk = &t->pd->sk;
+  dyd_xy ring[QUICK_VERTICES];
+  double bound[2];
+  for (uint32_t v = 0; t->quick && !t->areas_only && v < sk->n; v++) {
+    uint32_t site = sk->reps.site[v];
+    const quick_tile *q = &t->quick[site];
+    if (!q->count || sk->leaving[v] == DYD_NONE || (t->loose_of && t->loose_of[site])) continue;
+    size_t n = quick_ring(ring, bound, t, v);
+    memcpy(&t->out->xy[2 * q->first], ring, n * sizeof *ring);
+  }
 }
 
 /* ---- all ---- */
@@ -443,9 +442,11 @@ static bool tile_is_loose(const tiling *t, uint32_t i) {
 static dyd_status find_tile(tiling *t, uint32_t i, bool last) {
   dyd_shape *s = &t->shape;
   bool good;
-  const quick_tile *q = t->quick ? &t->quick[i] : NULL;
-  if (q && q->count && !tile_is_loose(t, i))
-    return append_ring(t, i, t->areas_only ? NULL : t->heap + q->first, q->count, q->area, q->bound);
+  quick_tile *q = t->quick ? &t->quick[i] : NULL;
+  if (q && q->count && !tile_is_loose(t, i)) {
+    q->first = t->vertices;
+    return append_ring(t, i, NULL, q->count, q->area, q->bound);
+  }
   dyd_status st = dyd_shape_find(s, t->pd, i, &t->w, 0);
   if (st != DYD_OK) return st;
   if (!s->exact) return DYD_E_RANGE;
@@ -519,7 +520,9 @@ static dyd_status tile_all(tiling *t, dyd_voronoi_bounds *bounds, const dyd_dela
   if (st == DYD_OK) st = find_quick_tiles(t);
   if (st == DYD_OK) st = find_tiles(t, false);
   if (st == DYD_OK && t->loose_count) st = settle_all(t);
-  return st == DYD_OK && t->loose_count ? find_tiles(t, true) : st;
+  if (st == DYD_OK && t->loose_count) st = find_tiles(t, true);
+  if (st == DYD_OK) fill_quick_tiles(t);
+  return st;
 }
 
 static void tiling_clear(tiling *t) {
@@ -530,7 +533,7 @@ static void tiling_clear(tiling *t) {
   free(t->loose);
   free(t->loose_of);
   free(t->quick);
-  free(t->heap);
+  free(t->centre);
   free(t->bound);
   dyd_shape_clear(&t->shape);
 }

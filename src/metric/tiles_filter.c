@@ -4,12 +4,12 @@
 
 #include <math.h>
 
-/* x 2^grid; scaling is exact, and so is the test. */
-static bool grid_number(int64_t *out, double x, int grid) {
-  double n = ldexp(x, grid);
-  if (!(fabs(n) < 0x1p52) || n != nearbyint(n)) return false;
+/* x scale, a power of two; that is exact, and so is the test. */
+static bool grid_number(int64_t *out, double x, double scale) {
+  double n = x * scale;
+  if (!(fabs(n) < 0x1p52)) return false;
   *out = (int64_t)n;
-  return true;
+  return (double)*out == n;
 }
 
 /* twice / 2, rounded up to a double, for twice >= 0. */
@@ -25,10 +25,11 @@ static double half_rounded_up(dyd_i128 twice) {
 bool dyd_filter_grid_area(double *out, const dyd_xy *z, size_t n, int grid) {
   dyd_i128 sum = 0;
   int64_t o[2], was[2], at[2];
-  if (n < 3 || n > (1u << 20) || !grid_number(&o[0], z[0].x, grid) || !grid_number(&o[1], z[0].y, grid)) return false;
+  double scale = ldexp(1, grid);
+  if (n < 3 || n > (1u << 20) || !grid_number(&o[0], z[0].x, scale) || !grid_number(&o[1], z[0].y, scale)) return false;
   was[0] = was[1] = 0;
   for (size_t k = 1; k < n; k++) {
-    if (!grid_number(&at[0], z[k].x, grid) || !grid_number(&at[1], z[k].y, grid)) return false;
+    if (!grid_number(&at[0], z[k].x, scale) || !grid_number(&at[1], z[k].y, scale)) return false;
     at[0] -= o[0];
     at[1] -= o[1];
     sum += (dyd_i128)was[0] * at[1] - (dyd_i128)was[1] * at[0];

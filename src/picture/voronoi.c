@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The picture of the Voronoi diagram: the part certainly nearest to a point, the undetermined rest of the window,
- * rectangles, sure vertices, regions of undecided faces. */
+ * rectangles, sure vertices, regions of undecided faces; or its tiles. */
 #include "io/diagram.h"
 #include "picture/picture.h"
 #include <math.h>
@@ -18,6 +18,8 @@ typedef struct voronoi_drawing {
   dyd_status st;
   double window[4];
   bool cell, vertex, region; /* was drawn */
+  dyd_error *err;
+  bool tiles; /* instead of what is certain */
   dyd_site_marks marks;
 } voronoi_drawing;
 
@@ -53,6 +55,21 @@ static dyd_status voronoi_cell(void *context, uint32_t i, const dyd_shape *shape
     g->cell = true;
   }
   dyd_polygon_clear(&inner);
+  return st;
+}
+
+static dyd_status voronoi_tiles(voronoi_drawing *g) {
+  const dyd_diagram *d = g->d;
+  dyd_tiles tiles = {0};
+  dyd_status st = dyd_diagram_tiles(&tiles, d, false, g->err);
+  for (size_t r = 0; r < tiles.count && st == DYD_OK; r++) {
+    name_of(g, "tile", "tile of", &tiles.site[r], 1);
+    for (size_t k = tiles.offset[r]; k < tiles.offset[r + 1]; k++)
+      dyd_canvas_line(g->canvas, dyd_view_x(&g->view, tiles.xy[2 * k]), dyd_view_y(&g->view, tiles.xy[2 * k + 1]));
+    dyd_canvas_close(g->canvas);
+    dyd_picture_shape(g->canvas, tints[tiles.site[r] % 4], 1, 0x0072b2, g->view.line * 0.6);
+  }
+  dyd_tiles_clear(&tiles);
   return st;
 }
 
@@ -116,8 +133,9 @@ static void voronoi_legend(dyd_canvas *c, void *context) {
   dyd_legend l;
   if (g->st != DYD_OK) return; /* then there are no bounds */
   dyd_legend_begin(&l, c, &g->view);
+  if (g->tiles) dyd_legend_patch(&l, tints[0], "tile of one point (any light tint)");
   if (g->cell) dyd_legend_patch(&l, tints[0], "surely nearest to one point (any light tint)");
-  if (dyd_dyadic_sgn(&g->d->bounds->area) > 0) dyd_legend_patch(&l, DYD_PICTURE_BAND, "undetermined");
+  if (!g->tiles && dyd_dyadic_sgn(&g->d->bounds->area) > 0) dyd_legend_patch(&l, DYD_PICTURE_BAND, "undetermined");
   dyd_legend_marks(&l, &g->marks, 0x9b9b9b);
   if (g->vertex) dyd_legend_line(&l, 0x0072b2, 0, 0, "box: a sure vertex is in it");
   if (g->region) dyd_legend_line(&l, 0xd55e00, 4, 2.5, "box: undecided vertices");
@@ -133,20 +151,25 @@ static void voronoi_inside(dyd_canvas *c, void *context) {
   g->canvas = c;
   dyd_view_frame_path(c, &g->view);
   dyd_picture_fill(c, DYD_PICTURE_BAND);
-  g->st = dyd_diagram_visit(g->d, voronoi_cell, g);
-  if (g->st == DYD_OK) g->st = dyd_diagram_regions(g->d, voronoi_region, g);
-  if (g->st == DYD_OK) g->st = voronoi_vertices(g);
+  g->st = g->tiles ? voronoi_tiles(g) : dyd_diagram_visit(g->d, voronoi_cell, g);
+  if (g->st == DYD_OK && !g->tiles) g->st = dyd_diagram_regions(g->d, voronoi_region, g);
+  if (g->st == DYD_OK && !g->tiles) g->st = voronoi_vertices(g);
   dyd_site_marks_draw(&g->marks, c, &g->view);
 }
 
 dyd_status dyd_voronoi_picture(const dyd_output *o) {
   const dyd_diagram *what = o->what;
-  voronoi_drawing g = {.d = what, .marks = dyd_site_marks_of(what->pd, what->engine, SITE)};
+  voronoi_drawing g = {.d = what,
+                       .err = o->err,
+                       .tiles = o->content == DYD_CONTENT_TILES,
+                       .marks = dyd_site_marks_of(what->pd, what->engine, SITE)};
   dyd_rect_get_d(g.window, &g.d->window);
   dyd_status st = dyd_view_fit(&g.view, g.window, dyd_view_spacing(g.d->pd, NULL, g.window), o->err);
   g.view.frame[0] = dyd_view_x(&g.view, g.window[0]), g.view.frame[1] = dyd_view_x(&g.view, g.window[1]);
   g.view.frame[2] = dyd_view_y(&g.view, g.window[3]), g.view.frame[3] = dyd_view_y(&g.view, g.window[2]);
   g.view.epsg = o->epsg;
-  if (st == DYD_OK) st = dyd_view_write(o, &g.view, "partial Voronoi diagram", voronoi_inside, voronoi_legend, &g);
+  if (st == DYD_OK)
+    st = dyd_view_write(o, &g.view, g.tiles ? "Voronoi tiles" : "partial Voronoi diagram", voronoi_inside,
+                        voronoi_legend, &g);
   return g.st == DYD_OK ? st : g.st;
 }

@@ -265,6 +265,13 @@ def test_formats():
         assert feature['geometry']['type'] == 'Polygon'
         assert [tuple(map(Fraction, z)) for z in feature['geometry']['coordinates'][0]] == ring + ring[:1]
         assert all(float(row[name]) == feature['properties'][name] for name in row if name != 'WKT')
+    mesh = run('voronoi', '-', '--layer', 'tiles', '--format', 'vtk', stdin=points).out.split('\n')
+    at = int(re.search(r'POINTS (\d+) double', '\n'.join(mesh)).group(1))
+    begin = mesh.index(f'POINTS {at} double') + 1
+    corners = [tuple(map(float, line.split()[:2])) for line in mesh[begin:begin + at]]
+    assert corners == [tuple(map(float, z)) for _, ring in rings_of(wkt) for z in ring]
+    picture = run('voronoi', '-', '--layer', 'tiles', '--format', 'svg', stdin=points).out
+    assert sorted(re.findall(r'id="tile-(\d+)"', picture)) == sorted(row['i'] for row, _ in rings_of(wkt))
 
 
 if __name__ == '__main__':
