@@ -5,7 +5,7 @@
 
 Usage: verdicts.py ROOT DYADEL_PROVED DYADEL [CASES]   (DYADEL_PROVED "-": without it; DYADEL_TEST_SCALE multiplies CASES)
 
-CASES true certificates (default 60) of up to nine points: exact ones, ties on circles and lines, boxes, crowds, points
+CASES true certificates (default 60; A-B: numbers A to B - 1) of up to nine points: exact ones, ties on circles and lines, boxes, crowds, points
 among boxes, roots and their ties, aliases, bounds and diagrams; and ten changes of each: lines, statuses, pairs, numbers,
 outcomes, counts, bounds and blocks, the counts put right afterwards. An oracle in exact numbers, below, judges each accepted
 certificate for many choices of the points. Verdicts are the exit statuses; where they differ, DIFFERENCES has the
@@ -821,17 +821,20 @@ def try_case(both, number):
 
 def main():
     root, proved, dyadel = pathlib.Path(sys.argv[1]), *sys.argv[2:4]
-    cases = int(sys.argv[4]) if len(sys.argv) > 4 else 60 * int(os.environ.get('DYADEL_TEST_SCALE', '1'))
+    first, last = 0, 60 * int(os.environ.get('DYADEL_TEST_SCALE', '1'))
+    if len(sys.argv) > 4:
+        *begin, last = map(int, sys.argv[4].split('-'))
+        first = sum(begin)
     total = Count()
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         both = Checkers(None if proved == '-' else proved, dyadel, folder)
-        for count in pool.map(lambda k: try_case(both, k), range(cases)):
+        for count in pool.map(lambda k: try_case(both, k), range(first, last)):
             total.verdicts += count.verdicts
             total.why += count.why
             total.judged, total.beyond = total.judged + count.judged, total.beyond + count.beyond
             total.faults += count.faults
             total.example = {**count.example, **total.example}
-    print(f'seed {SEED}, {cases} cases')
+    print(f'seed {SEED}, cases {first} to {last - 1}')
     for (name, here, there), many in sorted(total.verdicts.items()):
         print(f'{name}: verify {WORD[here]}, dyadel-proved {WORD[there]}: {many}')
     for why, many in total.why.most_common():

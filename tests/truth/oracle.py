@@ -269,6 +269,11 @@ def witness_holds(regions, i, j, c, sites):
 
 # ---- the sphere ----
 
+def exact(v):
+    """A number of mpmath as a fraction."""
+    return (-1 if v < 0 else 1) * abs(Q(int(v.man))) * Q(2) ** int(v.exp)
+
+
 class Sphere:
     """One choice of places: each is (longitude, latitude) in degrees, or (longitude, latitude, angle, bearing): the
     place at an angle (in radians, as a fraction) from there, in the direction `bearing` (in turns)."""
@@ -351,6 +356,19 @@ class Sphere:
                 return 1
             best = 0
         return best
+
+    def is_in(self, i, xlo, xhi, ylo, yhi):
+        """Is place i in these degrees, longitudes modulo 360? Places at an angle are known to 190 bits: those as near to
+        an end count as inside."""
+        near = 0
+        lon, lat = self.places[i][:2]
+        if len(self.places[i]) > 2:
+            near, v = Q(1, 2 ** 180), self.at(1)[i]
+            with mpmath.workprec(PRECISIONS[1]):
+                lon, lat = (exact(mpmath.atan2(a, b) * 180 / mpmath.pi) for a, b in
+                            ((v[1], v[0]), (v[2], mpmath.hypot(v[0], v[1]))))
+        pole = 90 - abs(lat) <= Q(1, 10 ** 9)
+        return ylo - near <= lat <= yhi + near and (pole or (lon - xlo + near) % 360 <= xhi - xlo + 2 * near)
 
     def distinct(self):
         v = self.at(1)

@@ -215,6 +215,7 @@ def judge_pairs(judge, case, c, ch):
     for t in c.get('triangles', ()):
         e = ch.triangle(*t)
         judge(e == 1 or globe and e == 0, 'triangle %s is not there', t)
+    judge_places(judge, case, c.get('rects', {}), ch)
     if globe:
         return
     for i, (x0, x1, y0, y1) in c.get('rects', {}).items():
@@ -250,7 +251,14 @@ def read_points(case, out, err, form):
             'boxes': {int(q['i']): [number(q[k]) for k in ('xlo', 'xhi', 'ylo', 'yhi')] for q in r}}
 
 
+def judge_places(judge, case, boxes, ch):
+    """What is written of a place on the sphere holds all that it may be."""
+    for i, box in boxes.items() if case.geometry == 'sphere' else ():
+        judge(None not in box and ch.is_in(i, *box), 'place %d is not in its box of degrees', i)
+
+
 def judge_points(judge, case, c, ch):
+    judge_places(judge, case, c.get('boxes', {}), ch)
     if case.geometry == 'sphere':
         return
     judge_hull(judge, case, c, ch)
