@@ -14,7 +14,7 @@ static void ask_reach(answer *a, const double *x) {
 }
 static void ask_hull(answer *a, const double *x) {
   dyd_bbox h = box_at(x), b = box_at(x + 4);
-  hull(&h, &b);
+  dyd_box_widen(&h, &b);
   say_doubles(a, h.e, 4);
 }
 static void ask_height_lower(answer *a, const double *x) {
@@ -59,7 +59,7 @@ static void choose_direction(double *x, unsigned inputs, const kind *k) {
 }
 
 static const function box[] = {{"reach", 6, ask_reach, choose_direction, 0, 0},
-                               {"hull", 8, ask_hull, choose_intervals, 0, 0},
+                               {"dyd_box_widen", 8, ask_hull, choose_intervals, 0, 0},
                                {"dyd_height_lower", 10, ask_height_lower, choose_direction, 0, 0},
                                {"dyd_scale_to_user", 5, ask_scale_to_user, choose_scale, 0, 0}};
 

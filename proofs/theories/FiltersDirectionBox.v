@@ -34,7 +34,7 @@ Qed.
   return a < b ? a : b;
 *)
 Definition fmin (a b : double) : double := if lt a b then a else b.
-(* C src/skeleton/rects_filter.c hull
+(* C src/skeleton/distance_filter.h dyd_box_widen
   h->e[0] = dyd_min(h->e[0], b->e[0]);
   h->e[1] = dyd_max(h->e[1], b->e[1]);
   h->e[2] = dyd_min(h->e[2], b->e[2]);

@@ -23,6 +23,77 @@
 #include <dyadel/delaunay.h>
 #include <string.h>
 
+/* ---- building ---- */
+
+/* Legal pairs known from before, as sites; they are in every skeleton and stay legal. */
+typedef struct dyd_known {
+  const dyd_pair *pair;
+  size_t count;
+} dyd_known;
+
+static void build_clear(dyd_delaunay *pd) {
+  dyd_table_clear(&pd->open);
+  dyd_skeleton_clear(&pd->sk);
+}
+
+static void mark_known(dyd_skeleton *sk, dyd_known known) {
+  for (size_t q = 0; q < known.count; q++) {
+    uint32_t v = sk->vertex[known.pair[q].i], w = sk->vertex[known.pair[q].j];
+    dyd_half_edge h = v == w ? DYD_NONE : dyd_find_edge(sk, v, w);
+    if (h != DYD_NONE) dyd_set_certain(sk, h, true);
+  }
+}
+
+/* All pairs of a line are possible: they count as one face. Ties are one group, which the cap does not count. */
+static void line_find(dyd_delaunay *pd, dyd_error *err) {
+  const dyd_line *l = &pd->sk.line;
+  size_t open = dyd_line_open_pairs(l);
+  pd->open.count = open > 0;
+  pd->open.capped = !pd->line_tie && open > pd->max_pairs;
+  if (pd->open.capped)
+    dyd_fail(err, DYD_CAPPED,
+             "%zu collinear sites (%u, %u, ...) have %zu possible pairs, more than the cap of %zu; raise the cap on "
+             "pairs",
+             (size_t)l->count, pd->sk.reps.site[l->order[0]], pd->sk.reps.site[l->order[1]], open, pd->max_pairs);
+}
+
+static dyd_status build_statuses(dyd_delaunay *pd, dyd_work *w, dyd_known known) {
+  if (pd->open.kind == DYD_LINE) {
+    dyd_status proved = dyd_prove_line(pd, w);
+    if (proved == DYD_OK) line_find(pd, w->run->err);
+    return proved;
+  }
+  bool tied = pd->open.kind == DYD_TIED;
+  dyd_status st = tied ? dyd_certify_points(&pd->sk, w) : dyd_certify_all(&pd->sk, w);
+  mark_known(&pd->sk, known);
+  if (st != DYD_OK) return st;
+  return tied ? dyd_ties_find(pd, w) : dyd_faces_find(pd, w, NULL, 0);
+}
+
+/* Fills an object that has only options and counters. err may be NULL. On failure it is cleared back to that. */
+static dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known known, dyd_error *err) {
+  const dyd_skeleton_options o = {pd->options.no_filter, pd->options.threads, pd->options.cancel};
+  if (!dyd_room_has(&pd->room, dyd_skeleton_bytes(sites), "the triangulation")) return DYD_E_NOMEM;
+  dyd_status st = dyd_skeleton_build(&pd->sk, sites, &o);
+  if (st != DYD_OK) return st;
+  pd->joins = sites->joins;
+  const dyd_run run = {.cancel = o.cancel, .threads = o.threads, .keep_cut = pd->options.keep_cut, .err = err};
+  dyd_work w;
+  dyd_work_init(&w, &pd->sk, &run);
+  w.room = pd->room;
+  pd->open.kind = pd->sk.mesh.collinear ? DYD_LINE : pd->sk.all_points ? DYD_TIED : DYD_LISTED;
+  st = build_statuses(pd, &w, known);
+  dyd_tally_add(&pd->counters, &pd->sk.mesh.tally, o.no_filter);
+  dyd_work_count(&pd->counters, &w, &pd->sk);
+  dyd_room_join(&pd->room, &w.room);
+  dyd_work_clear(&w);
+  if (st != DYD_OK)
+    build_clear(pd);
+  else
+    dyd_mesh_trim(&pd->sk.mesh);
+  return st;
+}
+
 /* ---- new triangles for one face ----
  *
  * The certain edges around (and inside) a face are edges of every skeleton, so they are edges of the Delaunay
@@ -248,7 +319,11 @@ static bool splice_is_needless(dyd_work *w, const dyd_skeleton *sk, const uint32
   return true;
 }
 
-/* moved: a representative may be moved so that it differs from another one. */
+/* Replaces the triangles tri[0..tris-1], a whole undecided face or all of one that is not Delaunay any more, by the
+ * skeleton of the present representatives. Edges inside become uncertain; the marks of the face table are not touched.
+ * moved: a representative may be moved so that it differs from another one. *fits: false if they cannot be treated
+ * alone (two sites have become the same exact point, or more has to change); nothing is changed then, nor on failure.
+ */
 static dyd_status splice(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris, bool moved) {
   part p = {.pd = pd, .w = w, .tri = tri, .tris = tris};
   dyd_status st = gather_rims(&p);
@@ -261,13 +336,6 @@ static dyd_status splice(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32
   }
   part_clear(&p);
   return st;
-}
-
-/* Replaces the triangles tri[0..tris-1], a whole undecided face, by the skeleton of the present representatives. Edges
- * inside become uncertain; the marks of the face table are not touched. *fits: false if the face cannot be treated
- * alone (two sites have become the same exact point); nothing is changed then, nor on failure. */
-static dyd_status splice_face(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris) {
-  return splice(fits, pd, w, tri, tris, true);
 }
 
 /* ---- a few vertices ---- */
@@ -301,17 +369,7 @@ static dyd_status splice_near(bool *fits, dyd_delaunay *pd, dyd_work *w, const u
   return st;
 }
 
-/* ---- building ---- */
-
-/* Legal pairs known from before, as sites; they are in every skeleton and stay legal. */
-typedef struct dyd_known {
-  const dyd_pair *pair;
-  size_t count;
-} dyd_known;
-
-static void build_clear(dyd_delaunay *pd);
-
-static dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known known, dyd_error *err);
+/* ---- bringing up to date ---- */
 
 /* After sites were narrowed: the undecided faces that hold one of them are worked on again, nothing else.
  *
@@ -348,16 +406,14 @@ static dyd_status rebuild(dyd_delaunay *pd, dyd_error *err) {
 /* One triangle of each face around v that is not listed yet. */
 static dyd_status note_faces(uint32_t **seed, size_t *count, size_t *cap, bool *noted, const dyd_delaunay *pd,
                              uint32_t v) {
-  dyd_half_edge first = pd->sk.leaving[v], h = first;
-  do {
+  dyd_half_edge first = pd->sk.leaving[v];
+  for (dyd_half_edge h = first; h != DYD_NONE; h = dyd_edge_around(&pd->sk.mesh, h, first)) {
     uint32_t t = dyd_edge_triangle(h), f = pd->open.of[t];
-    if (f != DYD_NONE && !noted[f]) {
-      noted[f] = true;
-      if (!dyd_reserve((void **)seed, cap, *count + 1, sizeof **seed)) return DYD_E_NOMEM;
-      (*seed)[(*count)++] = t;
-    }
-    h = dyd_edge_turn(&pd->sk.mesh, h);
-  } while (h != first);
+    if (f == DYD_NONE || noted[f]) continue;
+    noted[f] = true;
+    if (!dyd_reserve((void **)seed, cap, *count + 1, sizeof **seed)) return DYD_E_NOMEM;
+    (*seed)[(*count)++] = t;
+  }
   return DYD_OK;
 }
 
@@ -454,7 +510,7 @@ static dyd_status redo_face(dyd_delaunay *pd, dyd_work *w, dyd_narrowed *narrowe
   return st;
 }
 
-/* New triangles where they are needed; *fits as for splice_face. */
+/* New triangles where they are needed; *fits as for splice. */
 static dyd_status retriangulate(bool *fits, dyd_delaunay *pd, dyd_work *w, const dyd_narrowed *narrowed,
                                 const uint32_t *tri, uint32_t tris) {
   dyd_status st = DYD_OK;
@@ -462,10 +518,10 @@ static dyd_status retriangulate(bool *fits, dyd_delaunay *pd, dyd_work *w, const
   if (narrowed->mark) st = splice_near(fits, pd, w, tri, tris, narrowed->vertex, narrowed->count);
   if (st != DYD_OK || *fits) return st;
   *fits = splice_is_needless(w, &pd->sk, tri, tris);
-  return *fits ? DYD_OK : splice_face(fits, pd, w, tri, tris);
+  return *fits ? DYD_OK : splice(fits, pd, w, tri, tris, true);
 }
 
-/* *fits as for splice_face. */
+/* *fits as for splice. */
 static dyd_status work_on(bool *fits, dyd_delaunay *pd, dyd_work *w, uint32_t seed, const uint32_t *changed,
                           size_t count) {
   dyd_narrowed narrowed;
@@ -574,67 +630,4 @@ dyd_status dyd_delaunay_update(dyd_delaunay *pd, const uint32_t *changed, size_t
 bool dyd_delaunay_is_capped(const dyd_delaunay *pd) {
   if (!pd) return false;
   return pd->open.capped > 0;
-}
-
-static void build_clear(dyd_delaunay *pd) {
-  dyd_table_clear(&pd->open);
-  dyd_skeleton_clear(&pd->sk);
-}
-
-static void mark_known(dyd_skeleton *sk, dyd_known known) {
-  for (size_t q = 0; q < known.count; q++) {
-    uint32_t v = sk->vertex[known.pair[q].i], w = sk->vertex[known.pair[q].j];
-    dyd_half_edge h = v == w ? DYD_NONE : dyd_find_edge(sk, v, w);
-    if (h != DYD_NONE) dyd_set_certain(sk, h, true);
-  }
-}
-
-/* All pairs of a line are possible: they count as one face. Ties are one group, which the cap does not count. */
-static void line_find(dyd_delaunay *pd, dyd_error *err) {
-  const dyd_line *l = &pd->sk.line;
-  size_t open = dyd_line_open_pairs(l);
-  pd->open.count = open > 0;
-  pd->open.capped = !pd->line_tie && open > pd->max_pairs;
-  if (pd->open.capped)
-    dyd_fail(err, DYD_CAPPED,
-             "%zu collinear sites (%u, %u, ...) have %zu possible pairs, more than the cap of %zu; raise the cap on "
-             "pairs",
-             (size_t)l->count, pd->sk.reps.site[l->order[0]], pd->sk.reps.site[l->order[1]], open, pd->max_pairs);
-}
-
-static dyd_status build_statuses(dyd_delaunay *pd, dyd_work *w, dyd_known known) {
-  if (pd->open.kind == DYD_LINE) {
-    dyd_status proved = dyd_prove_line(pd, w);
-    if (proved == DYD_OK) line_find(pd, w->run->err);
-    return proved;
-  }
-  bool tied = pd->open.kind == DYD_TIED;
-  dyd_status st = tied ? dyd_certify_points(&pd->sk, w) : dyd_certify_all(&pd->sk, w);
-  mark_known(&pd->sk, known);
-  if (st != DYD_OK) return st;
-  return tied ? dyd_ties_find(pd, w) : dyd_faces_find(pd, w, NULL, 0);
-}
-
-/* Fills an object that has only options and counters. err may be NULL. On failure it is cleared back to that. */
-static dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known known, dyd_error *err) {
-  const dyd_skeleton_options o = {pd->options.no_filter, pd->options.threads, pd->options.cancel};
-  if (!dyd_room_has(&pd->room, dyd_skeleton_bytes(sites), "the triangulation")) return DYD_E_NOMEM;
-  dyd_status st = dyd_skeleton_build(&pd->sk, sites, &o);
-  if (st != DYD_OK) return st;
-  pd->joins = sites->joins;
-  const dyd_run run = {.cancel = o.cancel, .threads = o.threads, .keep_cut = pd->options.keep_cut, .err = err};
-  dyd_work w;
-  dyd_work_init(&w, &pd->sk, &run);
-  w.room = pd->room;
-  pd->open.kind = pd->sk.mesh.collinear ? DYD_LINE : pd->sk.all_points ? DYD_TIED : DYD_LISTED;
-  st = build_statuses(pd, &w, known);
-  dyd_tally_add(&pd->counters, &pd->sk.mesh.tally, o.no_filter);
-  dyd_work_count(&pd->counters, &w, &pd->sk);
-  dyd_room_join(&pd->room, &w.room);
-  dyd_work_clear(&w);
-  if (st != DYD_OK)
-    build_clear(pd);
-  else
-    dyd_mesh_trim(&pd->sk.mesh);
-  return st;
 }

@@ -115,8 +115,8 @@ void dyd_table_roll_back(dyd_delaunay *pd, const dyd_undecided *before) {
  * hidden, 0 only where it is shown, -1 both. */
 static dyd_vertex_pair *table_find(dyd_face **owner, const dyd_delaunay *pd, dyd_vertex_pair p, size_t from, size_t to,
                                    uint32_t self, int hidden) {
-  dyd_half_edge first = pd->sk.leaving[p.i], h = first;
-  do {
+  dyd_half_edge first = pd->sk.leaving[p.i];
+  for (dyd_half_edge h = first; h != DYD_NONE; h = dyd_edge_around(&pd->sk.mesh, h, first)) {
     uint32_t g = pd->open.of[dyd_edge_triangle(h)];
     bool asked = g != DYD_NONE && g != self && g >= from && g < to;
     dyd_vertex_pair *at = asked ? dyd_listed_pair(pd, g, p.i, p.j) : NULL;
@@ -124,21 +124,19 @@ static dyd_vertex_pair *table_find(dyd_face **owner, const dyd_delaunay *pd, dyd
       *owner = &pd->open.face[g];
       return at;
     }
-    h = dyd_edge_turn(&pd->sk.mesh, h);
-  } while (h != first);
+  }
   return NULL;
 }
 
 bool dyd_table_may_list(dyd_table_star *s, const dyd_delaunay *pd, uint32_t v) {
   if (v == s->v) return s->others;
-  dyd_half_edge first = pd->sk.leaving[v], h = first;
+  dyd_half_edge first = pd->sk.leaving[v];
   s->v = v;
   s->others = false;
-  do {
+  for (dyd_half_edge h = first; h != DYD_NONE && !s->others; h = dyd_edge_around(&pd->sk.mesh, h, first)) {
     uint32_t g = pd->open.of[dyd_edge_triangle(h)];
     s->others = g != DYD_NONE && g != s->self && g >= s->from && g < s->to;
-    h = dyd_edge_turn(&pd->sk.mesh, h);
-  } while (h != first && !s->others);
+  }
   return s->others;
 }
 

@@ -40,20 +40,11 @@ void dyd_narrowed_clear(dyd_narrowed *n) {
 
 /* ---- who can be concerned ---- */
 
-static bool is_corner_of(const dyd_delaunay *pd, uint32_t v, uint32_t f) {
-  dyd_half_edge first = pd->sk.leaving[v], h = first;
-  do {
-    if (pd->open.of[dyd_edge_triangle(h)] == f) return true;
-    h = dyd_edge_turn(&pd->sk.mesh, h);
-  } while (h != first);
-  return false;
-}
-
 /* false: they are too many. */
 static bool note_changed(dyd_narrowed *n, const dyd_delaunay *pd, uint32_t f, const uint32_t *changed, size_t count) {
   for (size_t q = 0; q < count; q++) {
     uint32_t v = pd->sk.vertex[changed[q]];
-    if (n->mark[v] || !is_corner_of(pd, v, f)) continue;
+    if (n->mark[v] || !dyd_is_corner_of(pd, v, f)) continue;
     if (n->count == DYD_FEW) return false;
     n->mark[v] = CHANGED;
     n->vertex[n->count++] = v;
@@ -74,12 +65,11 @@ static void note_neighbours(dyd_narrowed *n, const dyd_delaunay *pd) {
     if (n->mark[p->j] & CHANGED) note_near(n, pd, p->j, p->i);
   }
   for (uint32_t q = 0; q < n->count; q++) {
-    dyd_half_edge first = pd->sk.leaving[n->vertex[q]], h = first;
-    do {
+    dyd_half_edge first = pd->sk.leaving[n->vertex[q]];
+    for (dyd_half_edge h = first; h != DYD_NONE; h = dyd_edge_around(m, h, first)) {
       uint32_t v = dyd_edge_target(m, h);
       if (dyd_edge_is_certain(&pd->sk, h) && v != m->n) note_near(n, pd, n->vertex[q], v);
-      h = dyd_edge_turn(m, h);
-    } while (h != first);
+    }
   }
 }
 

@@ -43,15 +43,14 @@ static bool face_is_farther(around *a, uint32_t f) {
 
 /* The faces at v but `own`. */
 static bool star_is_farther(around *a, uint32_t v, uint32_t own) {
-  dyd_half_edge first = a->pd->sk.leaving[v], h = first;
+  dyd_half_edge first = a->pd->sk.leaving[v];
   uint32_t before = own;
-  do {
+  for (dyd_half_edge h = first; h != DYD_NONE; h = dyd_edge_around(&a->pd->sk.mesh, h, first)) {
     uint32_t t = dyd_edge_triangle(h), f = a->pd->open.of[t];
     if (f == DYD_NONE && !triangle_is_farther(a, t)) return false;
     if (f != DYD_NONE && f != own && f != before && !face_is_farther(a, f)) return false;
     before = f;
-    h = dyd_edge_turn(&a->pd->sk.mesh, h);
-  } while (h != first);
+  }
   return true;
 }
 

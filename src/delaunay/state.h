@@ -89,6 +89,13 @@ static inline uint32_t dyd_face_of(const dyd_delaunay *pd, uint32_t t) {
   return pd->open.of ? pd->open.of[t] : DYD_NONE;
 }
 
+/* Has face f a triangle at v? */
+static inline bool dyd_is_corner_of(const dyd_delaunay *pd, uint32_t v, uint32_t f) {
+  dyd_half_edge first = pd->sk.leaving[v], h = first;
+  while (h != DYD_NONE && dyd_face_of(pd, dyd_edge_triangle(h)) != f) h = dyd_edge_around(&pd->sk.mesh, h, first);
+  return h != DYD_NONE;
+}
+
 /* Is triangle t one for every choice: three legal edges around a face of the skeleton? A point that entered it would
  * first lie on an edge. */
 static inline bool dyd_triangle_is_sure(const dyd_delaunay *pd, uint32_t t) {

@@ -85,33 +85,24 @@ bool dyd_open_is_postponed(const dyd_delaunay *pd, size_t f) {
 
 /* ---- one pair ---- */
 
-static bool is_in_face(const dyd_delaunay *pd, uint32_t v, uint32_t face) {
-  dyd_half_edge first = pd->sk.leaving[v], h = first;
-  do {
-    if (dyd_face_of(pd, dyd_edge_triangle(h)) == face) return true;
-    h = dyd_edge_turn(&pd->sk.mesh, h);
-  } while (h != first);
-  return false;
-}
-
 /* The status of vw as far as face f, of which v is a vertex, tells. */
 static dyd_pair_status status_in_face(const dyd_delaunay *pd, uint32_t f, uint32_t v, uint32_t w) {
-  if (pd->open.kind == DYD_TIED) return is_in_face(pd, w, f) ? dyd_open_status_of(pd, f) : DYD_ILLEGAL;
+  if (pd->open.kind == DYD_TIED) return dyd_is_corner_of(pd, w, f) ? dyd_open_status_of(pd, f) : DYD_ILLEGAL;
   const dyd_vertex_pair *p = dyd_listed_pair(pd, f, v, w);
   return p && !p->hidden ? dyd_open_status_of(pd, f) : DYD_ILLEGAL;
 }
 
 /* In a capped face any pair may be possible. */
 static bool may_be_missing(const dyd_delaunay *pd, uint32_t f, uint32_t w) {
-  return pd->open.kind == DYD_LISTED && pd->open.face[f].capped && is_in_face(pd, w, f);
+  return pd->open.kind == DYD_LISTED && pd->open.face[f].capped && dyd_is_corner_of(pd, w, f);
 }
 
 dyd_pair_status dyd_open_status(const dyd_delaunay *pd, uint32_t v, uint32_t w) {
   if (pd->open.kind == DYD_LINE) return dyd_open_status_of(pd, 0);
-  dyd_half_edge first = pd->sk.leaving[v], h = first;
+  dyd_half_edge first = pd->sk.leaving[v];
   uint32_t before = DYD_NONE;
   bool missing = false;
-  do {
+  for (dyd_half_edge h = first; h != DYD_NONE; h = dyd_edge_around(&pd->sk.mesh, h, first)) {
     uint32_t f = dyd_face_of(pd, dyd_edge_triangle(h));
     if (f != DYD_NONE && f != before) {
       dyd_pair_status status = status_in_face(pd, f, v, w);
@@ -119,8 +110,7 @@ dyd_pair_status dyd_open_status(const dyd_delaunay *pd, uint32_t v, uint32_t w) 
       missing = missing || may_be_missing(pd, f, w);
     }
     before = f;
-    h = dyd_edge_turn(&pd->sk.mesh, h);
-  } while (h != first);
+  }
   return missing ? DYD_INDETERMINATE : DYD_ILLEGAL;
 }
 
@@ -249,9 +239,9 @@ void dyd_open_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_status least,
     each_on_line_at(pd, v, visit, context);
     return;
   }
-  dyd_half_edge first = pd->sk.leaving[v], h = first;
+  dyd_half_edge first = pd->sk.leaving[v];
   uint32_t before = DYD_NONE;
-  do {
+  for (dyd_half_edge h = first; h != DYD_NONE; h = dyd_edge_around(&pd->sk.mesh, h, first)) {
     uint32_t f = dyd_face_of(pd, dyd_edge_triangle(h));
     if (f != DYD_NONE && pd->open.kind == DYD_LISTED) {
       if (f != before) each_listed_at(pd, f, v, visit, context);
@@ -259,8 +249,7 @@ void dyd_open_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_status least,
       each_tied_at(pd, h, visit, context);
     }
     before = f;
-    h = dyd_edge_turn(&pd->sk.mesh, h);
-  } while (h != first);
+  }
 }
 
 void dyd_legal_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_visit visit, void *context) {
@@ -272,10 +261,8 @@ void dyd_legal_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_visit visit,
     return;
   }
   const dyd_mesh *m = &pd->sk.mesh;
-  dyd_half_edge first = pd->sk.leaving[v], h = first;
-  do {
+  dyd_half_edge first = pd->sk.leaving[v];
+  for (dyd_half_edge h = first; h != DYD_NONE; h = dyd_edge_around(m, h, first))
     if (dyd_edge_is_certain(&pd->sk, h) && dyd_edge_target(m, h) != m->n)
       visit(context, v, dyd_edge_target(m, h), DYD_LEGAL);
-    h = dyd_edge_turn(m, h);
-  } while (h != first);
 }

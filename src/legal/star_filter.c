@@ -276,11 +276,11 @@ typedef struct star {
 
 static bool read_star(star *s, const pass *p, uint32_t v) {
   const dyd_mesh *m = &p->sk->mesh;
-  dyd_half_edge h = p->sk->leaving[v], first = h;
+  dyd_half_edge first = p->sk->leaving[v];
   s->v = v;
   s->degree = 0;
   s->ghost = -1;
-  do {
+  for (dyd_half_edge h = first; h != DYD_NONE; h = dyd_edge_around(m, h, first)) {
     if (s->degree == MAX_DEGREE) return false;
     uint32_t w = dyd_edge_target(m, h);
     if (w == m->n) s->ghost = s->degree;
@@ -289,8 +289,7 @@ static bool read_star(star *s, const pass *p, uint32_t v) {
     s->y[s->degree] = m->xy[w].y;
     s->centre[s->degree] = dyd_triangle_centre(m, dyd_edge_triangle(h));
     s->degree++;
-    h = dyd_edge_turn(m, h);
-  } while (h != first);
+  }
   return true;
 }
 

@@ -35,6 +35,14 @@ static inline double dyd_upper(double x) {
   return x * DYD_UP_FACTOR + DYD_TINY;
 }
 
+/* *h becomes the box around both. */
+static inline void dyd_box_widen(dyd_bbox *h, const dyd_bbox *b) {
+  h->e[0] = dyd_min(h->e[0], b->e[0]);
+  h->e[1] = dyd_max(h->e[1], b->e[1]);
+  h->e[2] = dyd_min(h->e[2], b->e[2]);
+  h->e[3] = dyd_max(h->e[3], b->e[3]);
+}
+
 /* Lower bound of ds^2 over the centres in C; negative only by the margin of underflow. */
 static inline double dyd_ds2_lower(const dyd_bbox *c, const dyd_bbox *b) {
   double dx = dyd_max(dyd_max(b->e[0] - c->e[1], c->e[0] - b->e[1]), 0);

@@ -136,9 +136,10 @@ static inline dyd_half_edge dyd_edge_turn(const dyd_mesh *m, dyd_half_edge h) {
 static inline dyd_half_edge dyd_edge_turn_back(const dyd_mesh *m, dyd_half_edge h) {
   return dyd_edge_next(dyd_edge_twin(m, h));
 }
-/* Is one of its ends the ghost? */
-static inline bool dyd_edge_meets_ghost(const dyd_mesh *m, dyd_half_edge h) {
-  return dyd_edge_origin(m, h) == m->n || dyd_edge_target(m, h) == m->n;
+/* The next one of a round that began at `first`; DYD_NONE: it is over. */
+static inline dyd_half_edge dyd_edge_around(const dyd_mesh *m, dyd_half_edge h, dyd_half_edge first) {
+  h = dyd_edge_turn(m, h);
+  return h == first ? DYD_NONE : h;
 }
 static inline void dyd_edge_join(dyd_mesh *m, dyd_half_edge h, dyd_half_edge twin) {
   m->tri[h >> 2].n[h & 3] = twin;

@@ -539,27 +539,15 @@ static dyd_half_edge seam_glue(dyd_mesh *m, dyd_half_edge at_a, dyd_half_edge at
 }
 
 /* The candidate on the left: the hull vertex q after a, once all edges a q whose inner triangle's apex is inside the
- * circle a b q are deleted. false: q is not above the base. */
-static bool left_candidate(uint32_t *q, dyd_mesh *m, dyd_half_edge top) {
+ * circle a b q are deleted; on the right: that before b. false: q is not above the base. */
+static bool seam_candidate(uint32_t *q, dyd_mesh *m, dyd_half_edge top, bool left) {
   uint32_t a = dyd_hull_target(m, top), b = dyd_hull_origin(m, top);
   for (;;) {
-    dyd_half_edge edge = dyd_hull_following(m, top);
+    dyd_half_edge edge = left ? dyd_hull_following(m, top) : dyd_hull_preceding(m, top);
     uint32_t r = dyd_edge_across(m, edge);
-    *q = dyd_hull_target(m, edge);
+    *q = left ? dyd_hull_target(m, edge) : dyd_hull_origin(m, edge);
     if (seam_side(m, a, b, *q) <= 0) return false;
     if (r == m->n || dyd_build_incircle(m, a, b, *q, r) <= 0) return true;
-    seam_flip(m, edge);
-  }
-}
-
-static bool right_candidate(uint32_t *p, dyd_mesh *m, dyd_half_edge top) {
-  uint32_t a = dyd_hull_target(m, top), b = dyd_hull_origin(m, top);
-  for (;;) {
-    dyd_half_edge edge = dyd_hull_preceding(m, top);
-    uint32_t r = dyd_edge_across(m, edge);
-    *p = dyd_hull_origin(m, edge);
-    if (seam_side(m, a, b, *p) <= 0) return false;
-    if (r == m->n || dyd_build_incircle(m, a, b, *p, r) <= 0) return true;
     seam_flip(m, edge);
   }
 }
@@ -568,7 +556,7 @@ static bool right_candidate(uint32_t *p, dyd_mesh *m, dyd_half_edge top) {
  * new one, a zero would have been met when it was made [JOIN-1]. */
 static bool zip_one(dyd_half_edge *top, dyd_mesh *m) {
   uint32_t a = dyd_hull_target(m, *top), b = dyd_hull_origin(m, *top), p = DYD_NONE, q = DYD_NONE;
-  bool left = left_candidate(&q, m, *top), right = right_candidate(&p, m, *top);
+  bool left = seam_candidate(&q, m, *top, true), right = seam_candidate(&p, m, *top, false);
   if (!left && !right) return false;
   if (left && right) left = dyd_build_incircle(m, a, b, q, p) <= 0;
   dyd_half_edge at = left ? dyd_edge_prev(*top) : dyd_edge_next(*top), beyond = dyd_edge_twin(m, at);

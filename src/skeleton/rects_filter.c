@@ -11,13 +11,6 @@
 
 /* ---- the packed box tree; its pruning tests are the bounds of distance_filter.h and [FLT-DIR] below ---- */
 
-static void hull(dyd_bbox *h, const dyd_bbox *b) {
-  h->e[0] = dyd_min(h->e[0], b->e[0]);
-  h->e[1] = dyd_max(h->e[1], b->e[1]);
-  h->e[2] = dyd_min(h->e[2], b->e[2]);
-  h->e[3] = dyd_max(h->e[3], b->e[3]);
-}
-
 /* Children of node q on level k: entries [first, end) of the level below (items for k = 0). */
 static void children(size_t *first, size_t *end, const dyd_tree *t, int k, size_t q) {
   size_t below = k == 0 ? t->count : t->level[k] - t->level[k - 1];
@@ -33,7 +26,7 @@ static void fill_node(dyd_tree *t, int k, size_t q) {
   size_t first, end;
   children(&first, &end, t, k, q);
   dyd_bbox h = *child_box(t, k, first);
-  for (size_t e = first + 1; e < end; e++) hull(&h, child_box(t, k, e));
+  for (size_t e = first + 1; e < end; e++) dyd_box_widen(&h, child_box(t, k, e));
   t->node[t->level[k] + q] = h;
 }
 

@@ -15,12 +15,8 @@ static void blocks_clear(dyd_skeleton *sk);
 
 dyd_half_edge dyd_find_edge(const dyd_skeleton *sk, uint32_t v, uint32_t w) {
   dyd_half_edge first = sk->leaving[v], h = first;
-  if (first == DYD_NONE) return DYD_NONE;
-  do {
-    if (dyd_edge_target(&sk->mesh, h) == w) return h;
-    h = dyd_edge_turn(&sk->mesh, h);
-  } while (h != first);
-  return DYD_NONE;
+  while (h != DYD_NONE && dyd_edge_target(&sk->mesh, h) != w) h = dyd_edge_around(&sk->mesh, h, first);
+  return h;
 }
 
 bool dyd_is_legal(const dyd_skeleton *sk, uint32_t v, uint32_t w) {
@@ -59,14 +55,12 @@ int dyd_neighbours(uint32_t *out, int room, const dyd_skeleton *sk, uint32_t i, 
   const dyd_mesh *m = &sk->mesh;
   int count = 0, before;
   for (int k = 0; k < 2; k++) {
-    dyd_half_edge first = sk->leaving[k ? j : i], h = first;
+    dyd_half_edge first = sk->leaving[k ? j : i];
     before = count;
-    if (first == DYD_NONE) continue;
-    do {
+    for (dyd_half_edge h = first; h != DYD_NONE; h = dyd_edge_around(m, h, first)) {
       uint32_t v = dyd_edge_target(m, h);
       if (v != m->n && v != i && v != j && count < room && !is_listed(out, before, v)) out[count++] = v;
-      h = dyd_edge_turn(m, h);
-    } while (h != first);
+    }
   }
   return count;
 }
@@ -75,13 +69,6 @@ int dyd_neighbours(uint32_t *out, int room, const dyd_skeleton *sk, uint32_t i, 
  *
  * Vertices are in spatial order, so a block of consecutive ones has a small box. Boxes are outward: those of the
  * representatives where these are the points, of the table of sites otherwise. It costs about 1.3 bytes a vertex. */
-
-static void block_widen(dyd_bbox *h, const dyd_bbox *b) {
-  for (int a = 0; a < 4; a += 2) {
-    h->e[a] = dyd_min(h->e[a], b->e[a]);
-    h->e[a + 1] = dyd_max(h->e[a + 1], b->e[a + 1]);
-  }
-}
 
 void dyd_vertex_box(dyd_bbox *out, const dyd_skeleton *sk, uint32_t v) {
   if (sk->rects.box) {
@@ -107,7 +94,7 @@ static dyd_status blocks_build(dyd_skeleton *sk) {
     dyd_vertex_box(&sk->block[b], sk, b * DYD_BLOCK);
     for (uint32_t v = b * DYD_BLOCK + 1; v < dyd_block_end(sk, b); v++) {
       dyd_vertex_box(&one, sk, v);
-      block_widen(&sk->block[b], &one);
+      dyd_box_widen(&sk->block[b], &one);
     }
   }
   return dyd_tree_init(&sk->blocks, item, count, sk->block);

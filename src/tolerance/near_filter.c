@@ -54,16 +54,14 @@ static void fill_near(dyd_tolerance *t) {
   const dyd_mesh *m = &t->sk->mesh;
   uint32_t count = 0;
   for (uint32_t v = 0; v < m->n; v++) {
-    dyd_half_edge first = t->sk->leaving[v], h = first;
+    dyd_half_edge first = t->sk->leaving[v];
     t->start[v] = count;
     if (v + AHEAD < m->n && t->sk->leaving[v + AHEAD] != DYD_NONE)
       dyd_prefetch(&m->tri[dyd_edge_triangle(t->sk->leaving[v + AHEAD])]);
-    if (first == DYD_NONE) continue;
-    do {
+    for (dyd_half_edge h = first; h != DYD_NONE; h = dyd_edge_around(m, h, first)) {
       uint32_t w = t->near[count] = dyd_edge_target(m, h);
       t->legal[count++] = w != m->n && dyd_edge_is_certain(t->sk, h);
-      h = dyd_edge_turn(m, h);
-    } while (h != first);
+    }
   }
   t->start[m->n] = count;
 }
