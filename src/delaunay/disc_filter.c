@@ -3,7 +3,7 @@
  */
 #include "delaunay/disc_filter.h"
 
-#include "base/alloc.h"
+#include "delaunay/index_list.h"
 #include "delaunay/state.h"
 #include "skeleton/rects_filter.h"
 
@@ -16,8 +16,8 @@ typedef struct disc {
   mpq_srcptr radius2;
   mpq_t ds2;
   dyd_rect rect;
-  uint32_t *item;
-  size_t count, cap;
+  dyd_index_list met;
+  size_t cap;
   dyd_status status;
 } disc;
 
@@ -26,12 +26,8 @@ static bool disc_visit(void *context, uint32_t v) {
   dyd_rects_get(&d->rect, &d->pd->sk.rects, v);
   dyd_rect_ds2(d->ds2, d->c, &d->rect);
   if (mpq_cmp(d->ds2, d->radius2) > 0) return true;
-  if (!dyd_reserve((void **)&d->item, &d->cap, d->count + 1, sizeof *d->item)) {
-    d->status = DYD_E_NOMEM;
-    return false;
-  }
-  d->item[d->count++] = d->pd->sk.reps.site[v];
-  return true;
+  d->status = dyd_index_list_add(&d->met, &d->cap, &d->pd->sk.reps.site[v], 1);
+  return d->status == DYD_OK;
 }
 
 static void disc_visit_all(disc *d) {
@@ -54,12 +50,8 @@ dyd_status dyd_delaunay_meet_disc(dyd_index_list *out, const dyd_delaunay *pd, c
   }
   mpq_clear(d.ds2);
   dyd_rect_clear(&d.rect);
-  if (d.status != DYD_OK) {
-    free(d.item);
-    return d.status;
-  }
-  if (d.count) qsort(d.item, d.count, sizeof *d.item, dyd_compare_index);
-  dyd_index_list_clear(out);
-  *out = (dyd_index_list){d.count, d.item};
-  return DYD_OK;
+  dyd_index_list_sort(&d.met);
+  dyd_index_list_clear(d.status == DYD_OK ? out : &d.met);
+  if (d.status == DYD_OK) *out = d.met;
+  return d.status;
 }

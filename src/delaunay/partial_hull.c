@@ -13,6 +13,8 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "delaunay/index_list.h"
+#include "delaunay/memory.h"
 #include "delaunay/undecided.h"
 
 #include <string.h>
@@ -155,7 +157,7 @@ static dyd_status add_pair(dyd_hull_pairs *p, uint32_t i, uint32_t j) {
   p->capped = p->capped || p->count >= p->most;
   if (p->capped) return DYD_OK;
   if (!dyd_reserve((void **)&p->item, &p->cap, p->count + 1, sizeof *p->item)) return DYD_E_NOMEM;
-  p->item[p->count++] = (dyd_vertex_pair){i < j ? i : j, i < j ? j : i, 0};
+  p->item[p->count++] = (dyd_pair){i < j ? i : j, i < j ? j : i, DYD_INDETERMINATE};
   return DYD_OK;
 }
 
@@ -224,25 +226,22 @@ static void hull_clear(hull *h) {
 
 /* ---- candidates ---- */
 
-static dyd_status append(uint32_t **list, size_t *count, size_t *cap, const dyd_delaunay *pd, const dyd_index_list *l) {
-  if (!dyd_reserve((void **)list, cap, *count + l->count, sizeof **list)) return DYD_E_NOMEM;
-  for (size_t k = 0; k < l->count; k++) (*list)[(*count)++] = pd->sk.vertex[l->item[k]];
-  return DYD_OK;
-}
-
-/* Vertices on the skeleton's hull and in unbounded faces. */
-static dyd_status gather(uint32_t **list, size_t *count, const dyd_delaunay *pd) {
+/* Vertices on the skeleton's hull and in unbounded faces, ascending. */
+static dyd_status gather(dyd_index_list *out, const dyd_delaunay *pd) {
   dyd_index_list some = {0};
   size_t cap = 0;
   dyd_status st = dyd_delaunay_hull(&some, pd);
-  if (st == DYD_OK) st = append(list, count, &cap, pd, &some);
+  if (st == DYD_OK) st = dyd_index_list_add(out, &cap, some.item, some.count);
+  for (size_t k = 0; k < out->count; k++) out->item[k] = pd->sk.vertex[out->item[k]];
+  dyd_index_list_clear(&some);
   for (size_t f = 0; f < pd->open.count && st == DYD_OK; f++) {
-    bool outer;
     if (!dyd_open_is_outer(pd, f)) continue;
-    st = dyd_delaunay_face(&some, &outer, pd, f);
-    if (st == DYD_OK) st = append(list, count, &cap, pd, &some);
+    st = dyd_open_vertices(&some.item, &some.count, pd, f);
+    if (st == DYD_OK) st = dyd_index_list_add(out, &cap, some.item, some.count);
+    if (st == DYD_OK) dyd_index_list_clear(&some);
   }
   dyd_index_list_clear(&some);
+  dyd_index_list_sort(out);
   return st;
 }
 
@@ -263,16 +262,12 @@ static void load(hull *h) {
 }
 
 static dyd_status find_candidates(hull *h) {
-  uint32_t *list = NULL;
-  size_t count = 0;
-  dyd_status st = gather(&list, &count, h->pd);
-  if (st == DYD_OK && count) qsort(list, count, sizeof *list, dyd_compare_index);
-  h->x = st == DYD_OK ? dyd_alloc(count, sizeof *h->x) : NULL;
-  for (size_t k = 0; h->x && k < count; k++) {
-    if (k && list[k] == list[k - 1]) continue;
-    h->x[h->count++] = (dyd_extreme){.vertex = list[k], .chain = {DYD_NONE, DYD_NONE}};
-  }
-  free(list);
+  dyd_index_list list = {0};
+  dyd_status st = gather(&list, h->pd);
+  h->x = st == DYD_OK ? dyd_alloc(list.count, sizeof *h->x) : NULL;
+  for (; h->x && h->count < list.count; h->count++)
+    h->x[h->count] = (dyd_extreme){.vertex = list.item[h->count], .chain = {DYD_NONE, DYD_NONE}};
+  dyd_index_list_clear(&list);
   if (st == DYD_OK && !h->x) st = DYD_E_NOMEM;
   if (st == DYD_OK) load(h);
   return st;
@@ -322,9 +317,9 @@ static void mirror(hull *h, int axis) {
 
 static void sort_pairs(dyd_hull_pairs *p) {
   size_t kept = 0;
-  if (p->count) qsort(p->item, p->count, sizeof *p->item, dyd_compare_vertex_pair);
+  if (p->count) qsort(p->item, p->count, sizeof *p->item, dyd_compare_two);
   for (size_t k = 0; k < p->count; k++)
-    if (k == 0 || dyd_compare_vertex_pair(&p->item[kept - 1], &p->item[k])) p->item[kept++] = p->item[k];
+    if (k == 0 || dyd_compare_two(&p->item[kept - 1], &p->item[k])) p->item[kept++] = p->item[k];
   p->count = kept;
 }
 
@@ -337,24 +332,6 @@ static dyd_status find_possible(hull *h, dyd_hull_pairs *pairs) {
     mirror(h, quadrant & 1);
   }
   return st;
-}
-
-/* The pairs of each, ascending. */
-static dyd_status find_neighbours(hull *h) {
-  h->start = calloc(h->count + 2, sizeof *h->start);
-  h->next = dyd_alloc(2 * h->pairs.count, sizeof *h->next);
-  if (!h->start || !h->next) return DYD_E_NOMEM;
-  for (size_t k = 0; k < h->pairs.count; k++) {
-    h->start[h->pairs.item[k].i + 2]++;
-    h->start[h->pairs.item[k].j + 2]++;
-  }
-  for (size_t k = 2; k < h->count + 2; k++) h->start[k] += h->start[k - 1];
-  for (int lower = 1; lower >= 0; lower--) /* first the neighbours below k, then those above */
-    for (size_t k = 0; k < h->pairs.count; k++) {
-      uint32_t i = h->pairs.item[k].i, j = h->pairs.item[k].j;
-      h->next[h->start[(lower ? j : i) + 1]++] = lower ? i : j;
-    }
-  return DYD_OK;
 }
 
 /* ---- sure ---- */
@@ -377,7 +354,7 @@ static dyd_sure orientation(const hull *h, size_t i, size_t j, size_t k, dyd_rec
 
 /* The status of pair p: legal when `edge` and no common neighbour is unsure; a tie when i, j and all unsure ones are
  * exact points. r: scratch. */
-static dyd_pair_status decide(const hull *h, dyd_vertex_pair p, bool edge, dyd_rect r[3]) {
+static dyd_pair_status decide(const hull *h, dyd_pair p, bool edge, dyd_rect r[3]) {
   const dyd_delaunay *pd = h->pd;
   bool legal = edge,
        tie = dyd_vertex_is_point(&pd->sk, h->x[p.i].vertex) && dyd_vertex_is_point(&pd->sk, h->x[p.j].vertex);
@@ -402,22 +379,19 @@ static dyd_pair_status decide(const hull *h, dyd_vertex_pair p, bool edge, dyd_r
   return legal ? DYD_LEGAL : tie ? DYD_TIE : DYD_INDETERMINATE;
 }
 
-static dyd_status decide_pairs(dyd_pair_list *out, const hull *h) {
+/* The pairs become those of sites, with their statuses. */
+static void decide_pairs(hull *h) {
   const dyd_delaunay *pd = h->pd;
   dyd_rect r[3];
-  out->item = dyd_alloc(h->pairs.count, sizeof *out->item);
-  if (!out->item) return DYD_E_NOMEM;
   for (int n = 0; n < 3; n++) dyd_rect_init(&r[n]);
   for (size_t k = 0; k < h->pairs.count; k++) {
-    dyd_vertex_pair p = h->pairs.item[k];
+    dyd_pair p = h->pairs.item[k];
     uint32_t v = h->x[p.i].vertex, w = h->x[p.j].vertex, i = pd->sk.reps.site[v], j = pd->sk.reps.site[w];
     bool edge = dyd_is_hull_edge(pd, v, w) && !rects_meet(&h->x[p.i], &h->x[p.j]);
-    dyd_pair *to = &out->item[out->count++];
-    const bool tied = share_chain(&h->x[p.i], &h->x[p.j]);
-    *to = (dyd_pair){i < j ? i : j, i < j ? j : i, tied ? DYD_TIE : decide(h, p, edge, r)};
+    bool tied = share_chain(&h->x[p.i], &h->x[p.j]);
+    h->pairs.item[k] = (dyd_pair){i < j ? i : j, i < j ? j : i, tied ? DYD_TIE : decide(h, p, edge, r)};
   }
   for (int n = 3; n-- > 0;) dyd_rect_clear(&r[n]);
-  return DYD_OK;
 }
 
 /* ---- the result ---- */
@@ -431,7 +405,7 @@ static dyd_status list_vertices(dyd_index_list *out, const hull *h, bool sure) {
   return DYD_OK;
 }
 
-/* The vertices; the pairs are found with them, unless NULL. */
+/* The vertices; the possible pairs are found with them, unless NULL. */
 static dyd_status fill_vertices(dyd_hull *out, hull *h, dyd_hull_pairs *pairs) {
   dyd_status st = find_candidates(h);
   if (st == DYD_OK) st = find_possible(h, pairs);
@@ -441,46 +415,40 @@ static dyd_status fill_vertices(dyd_hull *out, hull *h, dyd_hull_pairs *pairs) {
   return st == DYD_OK ? list_vertices(&out->possible_vertices, h, false) : st;
 }
 
-static dyd_status fill(dyd_hull *out, hull *h) {
-  dyd_status st = fill_vertices(out, h, &h->pairs);
-  if (st != DYD_OK) return st;
+/* The statuses of the pairs found, which are sorted. */
+static dyd_status fill_pairs(dyd_hull *out, hull *h) {
   if (h->pairs.capped) return DYD_CAPPED;
-  st = find_neighbours(h);
+  dyd_status st = dyd_pairs_deal(&h->start, &h->next, &(dyd_pair_list){h->pairs.count, h->pairs.item}, h->count);
   if (st == DYD_OK) st = find_chains(h);
-  if (st == DYD_OK) st = decide_pairs(&out->pairs, h);
-  if (st == DYD_OK && out->pairs.count)
-    qsort(out->pairs.item, out->pairs.count, sizeof *out->pairs.item, dyd_compare_pair);
+  if (st != DYD_OK) return st;
+  decide_pairs(h);
+  out->pairs = (dyd_pair_list){h->pairs.count, h->pairs.item};
+  h->pairs.item = NULL;
+  if (out->pairs.count) qsort(out->pairs.item, out->pairs.count, sizeof *out->pairs.item, dyd_compare_two);
+  return DYD_OK;
+}
+
+/* *out is replaced, unless it fails. */
+static dyd_status fill(dyd_hull *out, const dyd_delaunay *pd, bool pairs) {
+  if (!pd) return DYD_E_ARG;
+  hull h = {.pd = pd, .pairs = {.most = pd->max_pairs}};
+  dyd_hull found = {0};
+  dyd_status st = fill_vertices(&found, &h, pairs ? &h.pairs : NULL);
+  if (st == DYD_OK && pairs) st = fill_pairs(&found, &h);
+  hull_clear(&h);
+  dyd_hull_clear(dyd_failed(st) ? &found : out);
+  if (!dyd_failed(st)) *out = found;
   return st;
 }
 
 dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd) {
-  if (!pd) return DYD_E_ARG;
-  hull h = {.pd = pd, .pairs = {.most = pd->max_pairs}};
-  dyd_hull found = {0};
-  dyd_status st = fill(&found, &h);
-  hull_clear(&h);
-  if (dyd_failed(st)) {
-    dyd_hull_clear(&found);
-    return st;
-  }
-  dyd_hull_clear(out);
-  *out = found;
-  return st;
+  return fill(out, pd, true);
 }
 
 dyd_status dyd_delaunay_hull_vertices(dyd_index_list *sure, dyd_index_list *possible, const dyd_delaunay *pd) {
-  if (!pd) return DYD_E_ARG;
-  hull h = {.pd = pd};
-  dyd_hull found = {0};
-  dyd_status st = fill_vertices(&found, &h, NULL);
-  hull_clear(&h);
-  if (st != DYD_OK) {
-    dyd_hull_clear(&found);
-    return st;
-  }
-  dyd_index_list_clear(sure);
-  dyd_index_list_clear(possible);
+  dyd_hull found = {.sure_vertices = *sure, .possible_vertices = *possible};
+  dyd_status st = fill(&found, pd, false);
   *sure = found.sure_vertices;
   *possible = found.possible_vertices;
-  return DYD_OK;
+  return st;
 }

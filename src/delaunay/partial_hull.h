@@ -34,7 +34,7 @@ void dyd_extreme_enclose(dyd_extreme *x);
 
 /* Pairs of indices of extremes, i < j. */
 typedef struct dyd_hull_pairs {
-  dyd_vertex_pair *item;
+  dyd_pair *item;
   size_t count, cap, most;
   bool capped; /* there are more than `most` */
 } dyd_hull_pairs;

@@ -31,17 +31,17 @@ dyd_status dyd_delaunay_hull(dyd_index_list *out, const dyd_delaunay *pd) {
   if (!pd) return DYD_E_ARG;
   const dyd_mesh *m = &pd->sk.mesh;
   dyd_half_edge last = dyd_hull_first(m), h = last;
-  size_t count = 0, cap = 0;
-  uint32_t *item = NULL;
+  dyd_index_list list = {0};
+  size_t cap = 0;
   if (last == DYD_NONE) return line_ends(out, &pd->sk);
+  dyd_status st = DYD_OK;
   do {
     h = dyd_hull_following(m, h);
-    if (!dyd_reserve((void **)&item, &cap, count + 1, sizeof *item)) return free(item), DYD_E_NOMEM;
-    item[count++] = pd->sk.reps.site[dyd_hull_target(m, h)];
-  } while (h != last);
-  dyd_index_list_clear(out);
-  *out = (dyd_index_list){count, item};
-  return DYD_OK;
+    st = dyd_index_list_add(&list, &cap, &pd->sk.reps.site[dyd_hull_target(m, h)], 1);
+  } while (h != last && st == DYD_OK);
+  dyd_index_list_clear(st == DYD_OK ? out : &list);
+  if (st == DYD_OK) *out = list;
+  return st;
 }
 
 /* ---- witnesses ---- */
@@ -209,29 +209,21 @@ void dyd_delaunay_count(size_t count[4], const dyd_delaunay *pd) {
 /* ---- index lists ---- */
 
 typedef struct collector {
-  uint32_t *item;
-  size_t count, cap;
+  dyd_index_list list;
+  size_t cap;
   dyd_status status;
 } collector;
 
 static void collect(collector *c, uint32_t i) {
-  if (c->status != DYD_OK) return;
-  if (!dyd_reserve((void **)&c->item, &c->cap, c->count + 1, sizeof *c->item))
-    c->status = DYD_E_NOMEM;
-  else
-    c->item[c->count++] = i;
+  if (c->status == DYD_OK) c->status = dyd_index_list_add(&c->list, &c->cap, &i, 1);
 }
 
 /* Sorts, drops repeats, and hands over. */
 static dyd_status deliver(dyd_index_list *out, collector *c) {
-  if (c->status != DYD_OK) {
-    free(c->item);
-    return c->status;
-  }
-  dyd_index_list_clear(out);
-  *out = (dyd_index_list){c->count, c->item};
-  dyd_index_list_sort(out);
-  return DYD_OK;
+  dyd_index_list_sort(&c->list);
+  dyd_index_list_clear(c->status == DYD_OK ? out : &c->list);
+  if (c->status == DYD_OK) *out = c->list;
+  return c->status;
 }
 
 /* For visits: those with at least the status asked for. */
@@ -297,7 +289,7 @@ dyd_status dyd_delaunay_face_pairs(dyd_pair_list *out, const dyd_delaunay *pd, s
     free(c.item);
     return c.status;
   }
-  if (c.count) qsort(c.item, c.count, sizeof *c.item, dyd_compare_pair);
+  if (c.count) qsort(c.item, c.count, sizeof *c.item, dyd_compare_two);
   dyd_pair_list_clear(out);
   *out = (dyd_pair_list){c.count, c.item};
   return DYD_OK;

@@ -20,13 +20,6 @@ static inline int dyd_compare_vertex_pair(const void *a, const void *b) {
   return (x->j > y->j) - (x->j < y->j);
 }
 
-/* For sorting results: pairs of sites. */
-static inline int dyd_compare_pair(const void *a, const void *b) {
-  const dyd_pair *x = a, *y = b;
-  if (x->i != y->i) return x->i < y->i ? -1 : 1;
-  return (x->j > y->j) - (x->j < y->j);
-}
-
 /* Invariant: tri[first_tri .. first_tri + tris) and pair[first_pair .. + pairs) of the table, pairs sorted;
  * polygon: a cocircular polygon or collinear chain, which shares its pairs with no other polygon; tie: all vertices are
  * exact points, or it is proved; capped: pairs beyond the skeleton are missing;

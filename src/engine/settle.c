@@ -14,6 +14,7 @@
 #include "base/flag.h"
 #include "base/index.h"
 #include "delaunay/disc_filter.h"
+#include "delaunay/index_list.h"
 #include "engine/points.h"
 #include "engine/settle_filter.h"
 #include "stream/real.h"
@@ -174,20 +175,13 @@ static size_t settling_place(const settling *s, uint32_t site) {
 }
 
 static dyd_status settling_append(settling *s, const dyd_index_list *more) {
-  if (!dyd_reserve((void **)&s->site.item, &s->cap, s->site.count + more->count, sizeof *s->site.item))
-    return DYD_E_NOMEM;
-  for (size_t k = 0; k < more->count; k++) s->site.item[s->site.count++] = more->item[k];
-  return DYD_OK;
+  return dyd_index_list_add(&s->site, &s->cap, more->item, more->count);
 }
 
 /* The sites are in order, each once, with their rectangles. */
 static dyd_status settling_take_rects(settling *s) {
   dyd_status st = DYD_OK;
-  size_t count = s->site.count;
-  if (count) qsort(s->site.item, count, sizeof *s->site.item, dyd_compare_index);
-  s->site.count = 0;
-  for (size_t k = 0; k < count; k++)
-    if (k == 0 || s->site.item[k - 1] != s->site.item[k]) s->site.item[s->site.count++] = s->site.item[k];
+  dyd_index_list_sort(&s->site);
   s->rect = dyd_alloc(s->site.count, sizeof *s->rect);
   s->guess = dyd_alloc(s->site.count, sizeof *s->guess);
   for (size_t k = 0; s->rect && k < s->site.count; k++) dyd_rect_init(&s->rect[k]);
