@@ -8,6 +8,7 @@
 #include "base/index.h"
 #include "engine/ask.h"
 #include "engine/points.h"
+#include "engine/record.h"
 #include "engine/ties.h"
 #include "rect/rect.h"
 #include "stream/stream.h"
@@ -123,18 +124,11 @@ static const char *pair_word(dyd_pair_status st) {
 /* What is said of one pair before and now. */
 typedef void (*pair_visit)(check_state *s, const dyd_pair *pair, dyd_pair_status before, dyd_pair_status now);
 
-/* Merges two sorted lists. */
 static void pairs_compare_lists(check_state *s, const dyd_pair_list *before, const dyd_pair_list *now,
                                 pair_visit visit) {
-  size_t a = 0, b = 0;
-  while ((a < before->count || b < now->count) && !fault_found(s)) {
-    int c = a == before->count ? 1 : b == now->count ? -1 : dyd_compare_two(&before->item[a], &now->item[b]);
-    const dyd_pair *pair = c <= 0 ? &before->item[a] : &now->item[b];
-    visit(s, pair, c <= 0 ? before->item[a].status : DYD_ILLEGAL, c >= 0 ? now->item[b].status : DYD_ILLEGAL);
-    a += c <= 0;
-    b += c >= 0;
-    s->report->pairs++;
-  }
+  dyd_pair_change p;
+  for (size_t at[2] = {0, 0}; !fault_found(s) && dyd_pairs_next(&p, at, before, now); s->report->pairs++)
+    visit(s, &p.pair, p.before, p.pair.status);
 }
 
 static void not_retracted(check_state *s, const dyd_pair *p, dyd_pair_status before, dyd_pair_status now) {

@@ -53,26 +53,26 @@ void dyd_history_free(dyd_history *h) {
 
 /* ---- pairs ---- */
 
-static bool history_add_change(dyd_history *h, const dyd_pair *p, dyd_pair_status status) {
-  if (!dyd_reserve((void **)&h->change, &h->change_cap, h->changes + 1, sizeof *h->change)) return false;
-  h->change[h->changes++] = (dyd_pair){p->i, p->j, status};
+bool dyd_pairs_next(dyd_pair_change *out, size_t at[2], const dyd_pair_list *before, const dyd_pair_list *now) {
+  const dyd_pair *a = at[0] < before->count ? &before->item[at[0]] : NULL;
+  const dyd_pair *b = at[1] < now->count ? &now->item[at[1]] : NULL;
+  if (!a && !b) return false;
+  int order = !a ? 1 : !b ? -1 : dyd_compare_two(a, b);
+  *out = (dyd_pair_change){order < 0 ? *a : *b, order <= 0 ? a->status : DYD_ILLEGAL};
+  if (order < 0) out->pair.status = DYD_ILLEGAL;
+  at[0] += order <= 0;
+  at[1] += order >= 0;
   return true;
 }
 
-/* Visits pairs in one of the lists alone, or in both with another status. */
 static bool history_add_changes(dyd_history *h, const dyd_pair_list *now) {
-  const dyd_pair_list *last = &h->last;
-  bool good = true;
-  for (size_t a = 0, b = 0; good && (a < last->count || b < now->count);) {
-    int order = a == last->count ? 1 : b == now->count ? -1 : dyd_compare_two(&last->item[a], &now->item[b]);
-    if (order < 0)
-      good = history_add_change(h, &last->item[a], DYD_ILLEGAL);
-    else if (order > 0 || last->item[a].status != now->item[b].status)
-      good = history_add_change(h, &now->item[b], now->item[b].status);
-    a += order <= 0;
-    b += order >= 0;
+  dyd_pair_change p;
+  for (size_t at[2] = {0, 0}; dyd_pairs_next(&p, at, &h->last, now);) {
+    if (p.before == p.pair.status) continue;
+    if (!dyd_reserve((void **)&h->change, &h->change_cap, h->changes + 1, sizeof *h->change)) return false;
+    h->change[h->changes++] = p.pair;
   }
-  return good;
+  return true;
 }
 
 /* ---- boxes ---- */

@@ -22,6 +22,15 @@ void dyd_recall_free(dyd_recall *m);
  * dyd_stage_row has it. O(pairs log pairs). */
 dyd_status dyd_digest_pairs(uint64_t *out, const dyd_delaunay *pd);
 
+/* A pair that is in one of two lists, or in both: with its status in the second, and in the first; illegal where it is
+ * not listed. */
+typedef struct dyd_pair_change {
+  dyd_pair pair;
+  dyd_pair_status before;
+} dyd_pair_change;
+/* The next pair, in order, of two sorted lists; false: there is none. at: places in them, {0, 0} at first. */
+bool dyd_pairs_next(dyd_pair_change *out, size_t at[2], const dyd_pair_list *before, const dyd_pair_list *now);
+
 typedef struct dyd_history_box {
   uint32_t site;
   double box[4]; /* as dyd_sites_get_d */

@@ -99,8 +99,9 @@ dyd_status dyd_lines_load(dyd_lines *l, const dyd_skeleton *sk, uint32_t i, uint
   return DYD_OK;
 }
 
-/* Which of two lines is lower at a place: the sign of D_a - D_b; at an end, of that near it. */
 /* ---- places ---- */
+
+/* Which of two lines is lower at a place: the sign of D_a - D_b; at an end, of that near it. */
 static int dyd_line_compare(dyd_lines *l, const dyd_bisector_place *at, size_t a, size_t b) {
   const dyd_line_over *x = &l->item[a], *y = &l->item[b];
   mpz_sub(l->u, x->m, y->m);

@@ -102,10 +102,6 @@ static double filter_crossing(double *s, double *es, double *relative, const dyd
   return num.h / e.h;
 }
 
-#define U 0x1p-53
-
-#define TINY 0x1p-900
-
 #define GENEROUS (1 + 0x1p-20)
 
 #define WIDTH 0x1.fep-42 /* half the relative width asked for, 2^-40, with room */
@@ -169,7 +165,7 @@ bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *at, const uint32_t *ring
   return true;
 }
 
-static inline void line_of_vertex(dyd_line_d *o, const dyd_lines_d *l, const dyd_points_d *at, uint32_t vertex) {
+void dyd_filter_line(dyd_line_d *o, const dyd_lines_d *l, const dyd_points_d *at, uint32_t vertex) {
   dyd_xy p = lines_point_difference(at, vertex, l->i), q = lines_point_difference(at, vertex, l->j);
   double x = p.x * q.x, y = p.y * q.y, ax = p.x * l->jx, ay = p.y * l->jy, nx = p.y * l->jx, ny = p.x * l->jy;
   double sum = fabs(p.x) + fabs(p.y), far = sum + fabs(q.x) + fabs(q.y), near = sum + fabs(l->jx) + fabs(l->jy);
@@ -184,10 +180,6 @@ static inline void line_of_vertex(dyd_line_d *o, const dyd_lines_d *l, const dyd
   o->en = product_error(fabs(nx) + fabs(ny), near, at->slack);
   o->ea = product_error(fabs(ax) + fabs(ay), near, at->slack);
   o->vertex = vertex;
-}
-
-void dyd_filter_line(dyd_line_d *o, const dyd_lines_d *l, const dyd_points_d *at, uint32_t vertex) {
-  line_of_vertex(o, l, at, vertex);
 }
 
 /* ---- places ---- */
@@ -254,7 +246,7 @@ typedef struct climb_d {
 static const dyd_line_d *climb_line(climb_d *c, uint32_t vertex) {
   dyd_line_d *o = c->line;
   while (o == c->rising || o == c->falling) o++;
-  line_of_vertex(o, c->l, c->points, vertex);
+  dyd_filter_line(o, c->l, c->points, vertex);
   return o;
 }
 
@@ -436,7 +428,7 @@ static bool end_death(dyd_death_d *out, double *radius2, const climb_d *c) {
   for (uint32_t k = 0; k < l->count; k++) {
     dyd_line_d q;
     if (l->vertex[k] == o->vertex || isnan(l->px[k])) continue;
-    line_of_vertex(&q, l, c->points, l->vertex[k]);
+    dyd_filter_line(&q, l, c->points, l->vertex[k]);
     if (!(-c->at.end * q.n - w > (q.en + o->en) * GENEROUS + 2 * U * w)) return false;
   }
   *radius2 = HUGE_VAL;

@@ -169,8 +169,9 @@ static bool wants_rings(const dyd_tolerance *t) {
   return t->options.points || t->sigma;
 }
 
-/* t->summit becomes that of the legal pair of vertices v, w, exactly. */
 /* ---- exactly ---- */
+
+/* t->summit becomes that of the legal pair of vertices v, w. */
 static dyd_status death_exact(dyd_tolerance *t, uint32_t v, uint32_t w) {
   uint32_t hub = t->start && has_hub(t, v, w) ? DYD_HUB : UINT32_MAX;
   dyd_status st = dyd_others_around(&t->others, t, v, w, hub);

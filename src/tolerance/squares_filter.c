@@ -206,8 +206,8 @@ static dyd_xy nominal_place(const squares *q, uint32_t v) {
   return q->t->sk->reps.xy[v];
 }
 
-/* About where the circle that binds in the plane of exact points is, for a row of these. */
-/* Where the bisectors of ij and kl cross: the middle of the widest annulus. */
+/* About where the circle that binds is for a row of exact points: where the bisectors of ij and kl cross, the middle of
+ * the widest annulus. */
 static dyd_xy squares_guess(const squares *q, uint32_t k, uint32_t l) {
   dyd_xy i = nominal_place(q, q->i), j = nominal_place(q, q->j), middle = {i.x / 2 + j.x / 2, i.y / 2 + j.y / 2};
   if (k == DYD_NO_SITE || l == DYD_NO_SITE) return middle;
@@ -391,5 +391,3 @@ dyd_status dyd_square_rows(dyd_tolerance *t) {
   free(q.seen.vertex);
   return st;
 }
-
-/* The squares of a few sites at one t, and their skeleton. */
