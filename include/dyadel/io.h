@@ -57,9 +57,11 @@ typedef struct dyd_read_options {
    * radius_unit, or that in the column's name ("sde(m)", "s [mm]", "accuracyInMeters"). Lengths are no part of the
    * rectangle, but kept in metres (DYD_ROW_RADIUS). */
   bool degrees;
-  const char *cost_column;  /* "NAME": the cost of measuring a point again (DYD_ROW_COST) */
-  const char *sigma_column; /* "NAME": the standard deviation of a point's errors (DYD_ROW_SIGMA) */
-  bool keep_radii;          /* radii in a column do not widen points, but are kept (DYD_ROW_RADIUS) */
+  const char *cost_column; /* "NAME": the cost of measuring a point again (DYD_ROW_COST) */
+  /* "S", "SX,SY" or "SX,SY,RHO": standard deviations of the normal errors in x and y, and their correlation. Without
+   * confidence only "S", which is kept (DYD_ROW_SIGMA). */
+  const char *sigma_column;
+  bool keep_radii; /* radii in a column do not widen points, but are kept (DYD_ROW_RADIUS) */
   /* "m", "mm", "cm", "km", "ft", "in", "deg", "arcmin" or "arcsec": the unit of radii without one; with `degrees` only,
    * as in the plane radii are in the unit of the coordinates. NULL: none. */
   const char *radius_unit;
@@ -69,6 +71,11 @@ typedef struct dyd_read_options {
   const char *skip_lines;   /* "N": leave out the first N lines; NULL: none */
   bool no_header;           /* the table has no header: columns are named by numbers */
   bool units_row;           /* the row behind the header holds units: no point, but the unit of radii */
+  /* "95%" or "0.95", a decimal above 0 and below 1: widens the n points with a standard deviation above 0 by k = sqrt(2
+   * ln(n / (1 - confidence))) of them, so that with at least this probability all lie in their regions [CNF-1]. Units
+   * and scale as of radii. On the globe lengths in x and y are those of one disc. NULL: none. */
+  const char *confidence;
+  bool round; /* the regions of confidence are squares around discs that hold the ellipses of errors */
 } dyd_read_options;
 
 /* A field of dyd_read_options but struct_size and report, for programs that set fields by name or look at all. */
@@ -97,6 +104,19 @@ typedef enum dyd_row_number {
 DYD_API const char *dyd_engine_carried_name(const dyd_engine *e, size_t k);
 /* Returns what stands in this column in the row of point i; "" where the point has no row in a file. Borrowed. O(k) */
 DYD_API const char *dyd_engine_carried(const dyd_engine *e, size_t i, size_t k);
+/* With at least this probability all points lie in their regions. */
+typedef struct dyd_confidence {
+  size_t struct_size;
+  char probability[96]; /* "0.95" */
+  double k;             /* regions reach so many standard deviations */
+  size_t n;             /* points with a standard deviation above 0 */
+} dyd_confidence;
+/* Returns what the points of e were read with; false, and nothing, where no confidence was stated. O(1) */
+DYD_API bool dyd_engine_confidence(dyd_confidence *out, const dyd_engine *e);
+/* States it of points that the caller widens by k standard deviations; out as above, begun with DYD_SIZED. DYD_E_ARG:
+ * probability is no such text (dyd_read_options.confidence), or one was stated before. */
+DYD_API dyd_status dyd_engine_state_confidence(dyd_confidence *out, dyd_engine *e, const char *probability, size_t n,
+                                               dyd_error *err);
 /* Returns this number of point i. O(1) */
 DYD_API double dyd_engine_number(const dyd_engine *e, size_t i, dyd_row_number which);
 

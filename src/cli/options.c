@@ -393,11 +393,14 @@ static bool trace_has_points(const cli_options *o, const cli_command *c) {
   return o->replay && c == &cli_commands[CLI_CONVERGE];
 }
 
-/* What contradicts itself. */
-static int sphere_fits(const cli_options *o) {
+/* What contradicts itself, or says too little. */
+static int meanings_fit(const cli_options *o, const cli_command *c) {
+  if (o->sphere && o->plane) return cli_usage("--sphere and --plane contradict each other; leave one of them away");
   if (o->sphere && o->lengths) return cli_usage("--length is about the plane; leave it or --sphere away");
-  if (!o->sphere || !o->plane) return 0;
-  return cli_usage("--sphere and --plane contradict each other; leave one of them away");
+  if (!o->read.sigma_column || o->read.confidence || c == &cli_commands[CLI_TOLERANCE]) return 0;
+  return cli_usage(
+      "--sigma-column gives no region by itself; state the probability with which all points have to lie in "
+      "theirs: --confidence 95%%");
 }
 
 static int options_fit(const cli_options *o, const bool *seen, const cli_command *c) {
@@ -571,8 +574,9 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   if (!c) return unknown_command(s.operand[0]);
   out->command = c->name;
   if (out->help || out->version) return 0;
+  out->read.round = out->discs;
   status = options_fit(out, s.seen, c);
-  if (!status) status = sphere_fits(out);
+  if (!status) status = meanings_fit(out, c);
   if (!status) status = layer_fits(out, c);
   if (!status) status = format_from_output(out, c);
   if (!status) status = format_fits(out, c);

@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -156,6 +157,18 @@ static void note_lines(const cli_options *o, const dyd_read_report *r) {
              o->file, r->recoded, o->file, o->command ? o->command : "nearest FILE --queries");
 }
 
+/* k is shown rounded up. */
+static void note_confidence(const dyd_engine *e, const cli_options *o) {
+  dyd_confidence c = {DYD_SIZED(dyd_confidence)};
+  if (!dyd_engine_confidence(&c, e)) return;
+  const char *digit = c.probability + 2, *rest = digit[1] ? digit + 2 : ""; /* behind "0." */
+  int percent = 10 * (digit[0] - '0') + (digit[1] ? digit[1] - '0' : 0);
+  cli_note(o,
+           "%s: with probability at least %d%s%s %% everything stated here holds: then all %zu points with errors are "
+           "within k = %.4f standard deviations",
+           o->file, percent, *rest ? "." : "", rest, c.n, ceil(c.k * 1e4) / 1e4);
+}
+
 int cli_points_read(dyd_engine *e, cli_options *o, bool noting) {
   if (o->oracle) return session_read_oracle(e, o);
   dyd_read_report r = {DYD_SIZED(dyd_read_report)};
@@ -163,6 +176,7 @@ int cli_points_read(dyd_engine *e, cli_options *o, bool noting) {
   if (status || !noting) return status;
   note_lines(o, &r);
   if (r.vertices) cli_note(o, "%s: the vertices of lines and polygons are the points: %zu", o->file, r.vertices);
+  note_confidence(e, o);
   if (r.merged) cli_note(o, "%s: %zu rows are merged with earlier ones of equal coordinates", o->file, r.merged);
   if (r.shared)
     cli_note(o,

@@ -128,6 +128,15 @@ const cli_option cli_option_table[] = {
     {"radius-scale", 0, "K", CLI_TEXT, TEXT, CLI_INPUT,
      "multiply all radii by K: 0.001 for millimetres beside\ncoordinates in metres, 3 for a bound of 3 sigma",
      AT(read.radius_scale)},
+    {"sigma-column", 0, "S", CLI_TEXT, TEXT, CLI_INPUT,
+     "one standard deviation (1 sigma) of normal errors of each\npoint, with --confidence; SX,SY for x and y apart, "
+     "SX,SY,RHO\nwith their correlation; units as of radii; receivers that\nstate CEP (50%) or 95%: --radius-scale "
+     "0.8494 or 0.4086;\ntolerance: as --sigma, of each point its own",
+     AT(read.sigma_column)},
+    {"confidence", 0, "P", CLI_TEXT, TEXT & ~BIT(CLI_TOLERANCE), CLI_INPUT,
+     "such as 95% or 0.95: widen each point by k of its standard\ndeviations, so that with at least this probability "
+     "everything\nthat is stated holds, all together",
+     AT(read.confidence)},
     {"cost-column", 0, "NAME", CLI_TEXT, (RUN & ~BIT(CLI_CHECK)) | BIT(CLI_PLAN), CLI_INPUT,
      "what asking a point once more costs stands in this column:\ncheap ones are asked before dear ones; plan: plans "
      "are made\ncheap, not short",
@@ -240,9 +249,6 @@ const cli_option cli_option_table[] = {
     {"sigma", 0, "S", CLI_TEXT, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "also a lower bound of each edge's probability, for normal\nerrors of standard deviation S in x and in y",
      AT(sigma)},
-
-    {"sigma-column", 0, "NAME", CLI_TEXT, BIT(CLI_TOLERANCE), CLI_INPUT,
-     "as --sigma, of each point what stands in this column", AT(read.sigma_column)},
 
     {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE), CLI_OUTPUT,
      "what csv, wkt and geojson hold, and html shows first;\ndelaunay: pairs (default), points, triangles,\n"

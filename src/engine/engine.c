@@ -286,6 +286,16 @@ dyd_status dyd_engine_name(dyd_engine *e, size_t n, const size_t *row, const cha
   return good ? DYD_OK : DYD_E_NOMEM;
 }
 
+void dyd_engine_give_confidence(dyd_engine *e, const dyd_confidence *c) {
+  e->confidence = *c;
+}
+
+bool dyd_engine_confidence(dyd_confidence *out, const dyd_engine *e) {
+  if (!e || !e->confidence.probability[0]) return false;
+  dyd_abi_give(out, &e->confidence, sizeof e->confidence);
+  return true;
+}
+
 /* ---- answers ---- */
 
 size_t dyd_engine_row(const dyd_engine *e, size_t i) {

@@ -51,5 +51,7 @@ dyd_status dyd_labels_join(dyd_labels *out, const dyd_engine *e, const dyd_label
 dyd_status dyd_labels_cost(dyd_labels *out, const dyd_engine *e, size_t n, const double *cost);
 /* Hands *l over to e, to be called when the points were added; l is empty afterwards. */
 void dyd_labels_give(dyd_engine *e, dyd_labels *l);
+/* The confidence that points are added with; *e has none before. */
+void dyd_engine_give_confidence(dyd_engine *e, const dyd_confidence *c);
 
 #endif

@@ -69,6 +69,7 @@ typedef struct dyd_recalled dyd_recalled;
 struct dyd_engine {
   dyd_sites *sites;
   dyd_labels labels;
+  dyd_confidence confidence; /* no probability: none was stated */
   dyd_refinable *point;
   size_t points, point_cap;
   dyd_source_use *source;

@@ -159,11 +159,20 @@ void dyd_json_head(dyd_json *j, const char *format, unsigned epsg) {
   if (epsg) fprintf(dyd_json_file(j, "crs"), "\"EPSG:%u\"", epsg);
 }
 
-void dyd_json_head_outward(dyd_json *j, const char *format, dyd_outcome outcome) {
+void dyd_json_confidence(dyd_json *j, const dyd_engine *e) {
+  dyd_confidence c = {DYD_SIZED(dyd_confidence)};
+  if (!dyd_engine_confidence(&c, e)) return;
+  dyd_json_raw(j, "confidence", c.probability);
+  dyd_json_decimal(j, "k", c.k, DYD_UP);
+  dyd_json_index(j, "n", c.n);
+}
+
+void dyd_json_head_outward(dyd_json *j, const char *format, const dyd_engine *e, dyd_outcome outcome) {
   dyd_json_head(j, format, 0);
   dyd_json_word(j, "rounding",
                 "texts are exact numbers; pairs of numbers are rounded outward: the first down, the second up");
   dyd_json_word(j, "outcome", dyd_outcome_text(outcome));
+  dyd_json_confidence(j, e);
 }
 
 void dyd_json_ids(dyd_json *j, const dyd_engine *e, const uint32_t *site, size_t count) {

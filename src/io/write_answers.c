@@ -145,7 +145,7 @@ dyd_status dyd_disc_json(const dyd_output *o) {
   const dyd_disc_output *c = o->what;
   dyd_json j;
   dyd_json_begin(&j, o->out);
-  dyd_json_head_outward(&j, "dyadel disc 1", c->outcome);
+  dyd_json_head_outward(&j, "dyadel disc 1", c->engine, c->outcome);
   json_rectangles(&j, c->r, c->n);
   dyd_json_word(&j, "orientation", orientation_text(dyd_orientation(c->r[0], c->r[1], c->r[2])));
   dyd_json_array(&j, "circles", DYD_JSON_LIST);
@@ -213,7 +213,7 @@ dyd_status dyd_bisector_json(const dyd_output *o) {
   dyd_point_texts texts = {.engine = b->engine};
   dyd_json j;
   dyd_json_begin(&j, o->out);
-  dyd_json_head_outward(&j, "dyadel bisector 1", b->outcome);
+  dyd_json_head_outward(&j, "dyadel bisector 1", b->engine, b->outcome);
   json_rectangles(&j, b->r, 2);
   dyd_json_array(&j, "curves", DYD_JSON_LIST);
   for (uint32_t far = 0; far < 2 && j.st == DYD_OK; far++) {
@@ -322,7 +322,7 @@ dyd_status dyd_nearest_json(const dyd_output *o) {
   dyd_json j;
   dyd_rect_init(&scratch);
   dyd_json_begin(&j, o->out);
-  dyd_json_head_outward(&j, many ? "dyadel nearest places 1" : "dyadel nearest 1",
+  dyd_json_head_outward(&j, many ? "dyadel nearest places 1" : "dyadel nearest 1", n->engine,
                         many ? n->outcome : n->answer[0]->outcome);
   if (many) dyd_json_array(&j, "places", DYD_JSON_LIST);
   for (size_t q = 0; q < n->count && j.st == DYD_OK; q++) {

@@ -159,6 +159,7 @@ static void json_head(dyd_json *j, const dyd_result *r) {
                             "the second up; decimal is rounded up; null is beyond the largest double");
   if (r->sphere) dyd_json_word(j, "surface", "sphere");
   dyd_json_word(j, "outcome", dyd_outcome_text(dyd_result_outcome(r)));
+  dyd_json_confidence(j, r->engine);
   if (!r->sphere) dyd_json_word(j, "goal", dyd_goal_text(goal));
   if (!r->sphere && goal != DYD_GOAL_DECIDED) dyd_json_signed(j, "goal_bits", bits);
   dyd_json_bool(j, "capped", dyd_delaunay_is_capped(r->pd));
@@ -347,6 +348,7 @@ static void diagram_head_json(dyd_json *j, const dyd_diagram *d) {
                 "unbounded or beyond the largest double; inner and outer of a cell with vertex_error are that cell, "
                 "with vertices rounded by at most so much in each coordinate");
   dyd_json_word(j, "outcome", dyd_outcome_text(dyd_engine_outcome(d->engine)));
+  dyd_json_confidence(j, d->engine);
   dyd_json_word(j, "goal", dyd_goal_text(goal));
   dyd_json_signed(j, "goal_bits", bits);
   dyd_json_signed(j, "flatten_bits", d->bits);
@@ -420,6 +422,7 @@ static void globe_diagram_json(dyd_json *j, const dyd_result *r, const dyd_spher
                 "among the vertices of a cell: an undecided region is next");
   dyd_json_word(j, "surface", "sphere");
   dyd_json_word(j, "outcome", dyd_outcome_text(dyd_result_outcome(r)));
+  dyd_json_confidence(j, r->engine);
   dyd_json_array(j, "vertices", DYD_JSON_LIST);
   for (size_t k = 0; k < c->nodes; k++) {
     static const char *const name[3] = {"i", "j", "k"};

@@ -56,6 +56,9 @@ static PyMethodDef engine_methods[] = {
     {"append_text", dydpy_append_text, METH_VARARGS, "append_text(bytes, options): fields of dyd_read_options by name"},
     {"name", dydpy_name, METH_VARARGS, "name(rows, ids or None): the points added last"},
     {"names", dydpy_names, METH_NOARGS, "names() -> (Buffer of int64 rows, list of ids or None)"},
+    {"confidence", dydpy_confidence, METH_VARARGS,
+     "confidence(text, n) -> (probability, k, n), stated of n points that come next; (None, 0): what was stated, or "
+     "None"},
     {"remeasure", dydpy_remeasure, METH_VARARGS, "remeasure(i, (xlo, xhi, ylo, yhi))"},
     {"recall", dydpy_recall, METH_VARARGS, "recall(path) -> int: answers taken from a trace"},
     {"trace_begin", dydpy_trace_begin, METH_VARARGS, "trace_begin(path, options, (window, no_voronoi) or None)"},

@@ -137,6 +137,7 @@ PyObject *dydpy_append_boxes(PyObject *self, PyObject *args);
 PyObject *dydpy_append_values(PyObject *self, PyObject *args);
 PyObject *dydpy_append_source(PyObject *self, PyObject *args);
 PyObject *dydpy_append_text(PyObject *self, PyObject *args);
+PyObject *dydpy_confidence(PyObject *self, PyObject *args);
 PyObject *dydpy_name(PyObject *self, PyObject *args);
 PyObject *dydpy_names(PyObject *self, PyObject *none);
 PyObject *dydpy_remeasure(PyObject *self, PyObject *args);

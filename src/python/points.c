@@ -584,6 +584,20 @@ PyObject *dydpy_append_text(PyObject *self, PyObject *args) {
   return dydpy_end_none(&c, dyd_engine_append_text(c.self->engine, text, (size_t)length, &o, &c.err));
 }
 
+/* confidence(text, n): states it of n points that come next; confidence(None, 0): what was stated, or None */
+PyObject *dydpy_confidence(PyObject *self, PyObject *args) {
+  dyd_confidence stated = {DYD_SIZED(dyd_confidence)};
+  const char *text;
+  Py_ssize_t n;
+  dydpy_call c;
+  if (!PyArg_ParseTuple(args, "zn", &text, &n) || !dydpy_begin(&c, self, 0)) return NULL;
+  bool known = text || dyd_engine_confidence(&stated, c.self->engine);
+  dyd_status st = text ? dyd_engine_state_confidence(&stated, c.self->engine, text, (size_t)n, &c.err) : DYD_OK;
+  if (!dydpy_end(&c, st)) return NULL;
+  if (!known) Py_RETURN_NONE;
+  return Py_BuildValue("sdn", stated.probability, stated.k, (Py_ssize_t)stated.n);
+}
+
 /* remeasure(i, (xlo, xhi, ylo, yhi)) */
 PyObject *dydpy_remeasure(PyObject *self, PyObject *args) {
   Py_ssize_t number;

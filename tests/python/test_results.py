@@ -80,6 +80,37 @@ def test_reading_options():
     harness.raised(TypeError, dyadel.Text, '0 0\n', degrees=True)
 
 
+def test_confidence():
+    """sigma= and confidence= are the command's --sigma-column and --confidence, of arrays, lists and texts; copies keep it."""
+    rand = np.random.default_rng(5)
+    points, s = rand.random((40, 2)) * 100, np.round(rand.random((40, 3)), 3)
+    s[7, :2] = 0
+    d = dyadel.delaunay(points, sigma=s, confidence=0.95)
+    k = np.sqrt(2 * np.log(39 / 0.05))
+    assert d.confidence.probability == '0.95' and d.confidence.n == 39 and 0 <= d.confidence.k - k <= 1e-14
+    half = (d.boxes[:, 1::2] - d.boxes[:, 0::2]) / 2
+    assert (half >= k * s[:, :2] * (1 - 1e-13)).all() and (half <= k * s[:, :2] * (1 + 1e-12) + 1e-12).all()
+    table = 'x,y,a,b\n' + ''.join(f'{x!r},{y!r},{a!r},{b!r}\n' for (x, y), (a, b, _) in zip(points.tolist(), s.tolist()))
+    text = dyadel.delaunay(dyadel.Text(table, 'x,y', sigma_column='a,b', confidence='95%'))
+    for other in (dyadel.delaunay(points.tolist(), sigma=s[:, :2], confidence='95%'), text, pickle.loads(pickle.dumps(d)),
+                  pickle.loads(pickle.dumps(text))):
+        assert other.confidence == d.confidence and np.array_equal(other.pairs, d.pairs)
+    assert dyadel.delaunay(points).confidence is None
+    one = dyadel.delaunay(points, sigma=0.5, confidence=0.5)
+    assert np.array_equal(one.pairs, dyadel.delaunay(points, sigma=np.full(40, 0.5), confidence=0.5).pairs)
+    assert len(dyadel.plan(points, sigma=0.5, confidence=0.5)['site']) > 0
+    globe = dyadel.delaunay(points / 50, sigma=s, confidence='95%', sphere=True, radius_unit='km')
+    assert globe.confidence == d.confidence and np.array_equal(pickle.loads(pickle.dumps(globe)).pairs, globe.pairs)
+    for wrong in ({'sigma': 1}, {'confidence': 0.5}, {'sigma': -1, 'confidence': 0.5}, {'sigma': 1, 'confidence': 0.5, 'radius': 1},
+                  {'sigma': [1, 2], 'confidence': 0.5}, {'sigma': np.ones((40, 4)), 'confidence': 0.5},
+                  {'sigma': [[1, 1, 2]] * 40, 'confidence': 0.5}):
+        harness.raised(ValueError, dyadel.delaunay, points, **wrong)
+    for wrong in (95, 1, 0, -0.5, 'x'):
+        harness.raised(dyadel.Error, dyadel.delaunay, points, sigma=1, confidence=wrong)
+    harness.raised(ValueError, dyadel.delaunay, dyadel.Text('0 0\n'), sigma=1, confidence=0.5)
+    harness.raised(dyadel.Error, d.append, [(0, 0)], sigma=1, confidence=0.5)
+
+
 def test_boxes_and_rects():
     points = [('sqrt(2)', '1/3'), (0.5, (1, 2)), (Fraction(1, 10), 7)]
     d = dyadel.delaunay(points)

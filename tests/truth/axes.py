@@ -441,6 +441,47 @@ def kind_scaled(case, rand):
         s.columns, s.region = (decimal(r),), around(s, r * k, r * k, case.geometry)
 
 
+def k_below(p, n):
+    """Of sqrt(2 ln(n / (1 - p))), 25 places: each choice within it has to be one of the command's."""
+    with mpmath.workprec(200):
+        return Q(int(mpmath.floor(mpmath.sqrt(2 * mpmath.log(mpmath.mpf(n) * p.denominator / (p.denominator - p.numerator)))
+                                  * 10 ** 25)), 10 ** 25) if n else Q(0)
+
+
+def kind_sigma(case, rand):
+    """Standard deviations and a probability: boxes or discs of k of them."""
+    plain(case)
+    text, p = rand.choice((('95%', Q(95, 100)), ('0.5', Q(1, 2)), ('99.9 %', Q(999, 1000)), ('1e-3', Q(1, 1000))))
+    unit = rand.choice(list(UNITS)) if case.geometry == 'sphere' else None
+    _, metres, degrees = UNITS.get(unit, (None, None, Q(1)))
+    one = case.kind == 'sigma'
+    case.names = ('s',) if one else ('sx', 'sy', 'rho')[:rand.choice((2, 3))]
+    case.args += ['--sigma-column', ','.join(case.names), '--confidence', text, *(['--radius-unit', unit] if unit else [])]
+    drawn = []
+    for s in case.sites:
+        sx, sy = (size_in(case, rand, unit) / 4 if unit else size(case, rand) / 4 for _ in 'xy')
+        drawn.append((sx, sx if one else sy) if rand.random() < 0.8 else (Q(0), Q(0)))
+    k = k_below(p, sum(a > 0 for a, _ in drawn))
+    for s, (sx, sy) in zip(case.sites, drawn):
+        rho = rand.choice((Q(0), Q(1, 2), Q(-9, 10), Q(1)))
+        s.columns = tuple(map(decimal, (sx, sy, rho)[:len(case.names)]))
+        round_ = max(sx, sy) if len(case.names) < 3 else longer_axis(sx, sy, rho)
+        if metres:
+            s.region = cap(s, k * round_ * metres)
+        elif case.geometry == 'discs':
+            s.region = around(s, k * round_, k * round_, case.geometry)
+        else:
+            s.region = around(s, k * sx * degrees, k * sy * degrees, case.geometry)
+
+
+def longer_axis(sx, sy, rho):
+    """Of the ellipse of one standard deviation, a little less."""
+    with mpmath.workprec(200):
+        a, b, c = (mpmath.mpf(q.numerator) / q.denominator for q in (sx * sx, sy * sy, rho * sx * sy))
+        e = mpmath.sqrt((a + b) / 2 + mpmath.sqrt(((a - b) / 2) ** 2 + c * c)) * (1 - mpmath.mpf(2) ** -90)
+        return Q(int(e.man)) * Q(2) ** int(e.exp)
+
+
 def kind_columns_of_degrees(case, rand):
     """A column of longitudes and one of latitudes."""
     plain(case)
@@ -566,6 +607,8 @@ KINDS = {  # name: function, geometries, forms
     'column': (kind_column, ('plane', 'discs'), TABLES + ('python',)),
     'columns': (kind_columns, ('plane',), TABLES),
     'scaled column': (kind_scaled, ('plane', 'discs'), TABLES),
+    'sigma': (kind_sigma, ('plane', 'sphere', 'discs'), TABLES),
+    'sigmas': (kind_sigma, ('plane', 'sphere', 'discs'), TABLES),
     'columns of degrees': (kind_columns_of_degrees, ('sphere',), TABLES),
     'unit apart': (kind_unit_option, ('sphere',), TEXTS),
     'both': (kind_both, ('plane',), TABLES),

@@ -57,9 +57,10 @@ FAULTS = [  # where it shows, file, what stands there, what is put there
     ('stated=nearest', 'voronoi/nearest.c', 'if (mpq_cmp(d, least) <= 0) q->vertex', 'if (mpq_cmp(d, least) < 0 || k == 0) q->vertex'),
     ('stated=vertices ' + PLANE, 'voronoi/vertex.c', 'dyd_sites_get(&r[k], sites, corner[k])', 'dyd_sites_get(&r[k], sites, corner[k ? k : 1])'),
     (PLANE, 'io/read/coordinate.c', 'ends[0] = (dyd_plain){v.man * 10 - 5, v.exp - 1};', 'ends[0] = (dyd_plain){v.man * 10, v.exp - 1};'),
-    (PLANE, 'io/read/coordinate.c', 'lo = sum_towards(lo, -manner->radius_up, DYD_DOWN);', 'lo = sum_towards(lo, -0.9 * manner->radius_up, DYD_DOWN);'),
+    (PLANE, 'io/read/coordinate.c', 'lo = sum_towards(lo, -by, DYD_DOWN);', 'lo = sum_towards(lo, -0.9 * by, DYD_DOWN);'),
     (PLANE, 'io/read/coordinate.c', 'if (error * (double)dir < 0) near', 'if (error * (double)dir > 0) near'),
     ('stated=cells ' + PLANE, 'io/layers_voronoi.c', 'dyd_row_decimal(t, row->area[0], DYD_DOWN);', 'dyd_row_decimal(t, row->area[0] * 1.02, DYD_DOWN);'),
+    ('kind=sigma', 'io/read/confidence.c', 'mpz_mul_ui(mpq_numref(q), mpq_numref(q), n);', 'mpz_mul_ui(mpq_numref(q), mpq_numref(q), n ? 1 : n);'),
 ]
 
 

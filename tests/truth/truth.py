@@ -80,6 +80,8 @@ class Space:
     def kind_fits(s, kind, options):
         if s.command == 'tolerance':
             return kind in stated.FIRM
+        if kind in ('sigma', 'sigmas'):
+            return '--confidence' in options
         if kind == 'scaled column':
             return '--radius-scale' in options
         if kind in ('radius', 'both', 'real with radius', 'unit apart') or kind.startswith('radius '):
@@ -111,7 +113,7 @@ class Space:
             return False
         if extra == 'few pairs' and (fmt in ('obj', 'svg') or g == 'sphere'):
             return False
-        if extra == 'merge' and kind in ('both', 'interval', 'plusminus', 'columns', 'column of units'):
+        if extra == 'merge' and kind in ('both', 'interval', 'plusminus', 'columns', 'column of units', 'sigmas'):
             return False
         return not (extra in ('trace', 'trace synced') and what in ('check', 'converge', 'converge of voronoi', 'converge of delaunay'))
 

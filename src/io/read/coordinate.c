@@ -191,6 +191,19 @@ static double sum_towards(double a, double b, dyd_round dir) {
 
 /* ---- the quick way ---- */
 
+/* *out becomes [lo - by, hi + by]. false: rounding outward would add too much, as each end moves by less than 2^-51 of
+ * max(|lo|,|hi|) + by in all. */
+static bool box_wide(dyd_coordinate *out, double lo, double hi, double by) {
+  if (by > 0) {
+    if (!(by > 0x1p-900 && by < 0x1p90)) return false;
+    lo = sum_towards(lo, -by, DYD_DOWN);
+    hi = sum_towards(hi, by, DYD_UP);
+  }
+  if (!((fmax(fabs(lo), fabs(hi)) + by) * 0x1p-50 <= (hi - lo) * 0x1p-13)) return false;
+  *out = (dyd_coordinate){.kind = DYD_COORDINATE_BOX, .lo = lo, .hi = hi};
+  return true;
+}
+
 static bool coordinate_box(dyd_coordinate *out, dyd_plain v, const dyd_manner *manner) {
   dyd_plain ends[2] = {v, v};
   if (manner->measured) {
@@ -200,16 +213,7 @@ static bool coordinate_box(dyd_coordinate *out, dyd_plain v, const dyd_manner *m
   }
   double lo, hi;
   if (!dyd_plain_get_rounded(&lo, ends[0], DYD_DOWN) || !dyd_plain_get_rounded(&hi, ends[1], DYD_UP)) return false;
-  if (manner->widen) {
-    if (!(manner->radius_up > 0x1p-900 && manner->radius_up < 0x1p90)) return false;
-    lo = sum_towards(lo, -manner->radius_up, DYD_DOWN);
-    hi = sum_towards(hi, manner->radius_up, DYD_UP);
-  }
-  /* Each end moved by less than 2^-51 of max(|lo|,|hi|) + radius in all. */
-  double size = fmax(fabs(lo), fabs(hi));
-  if (!((size + manner->radius_up) * 0x1p-50 <= (hi - lo) * 0x1p-13)) return false;
-  *out = (dyd_coordinate){.kind = DYD_COORDINATE_BOX, .lo = lo, .hi = hi};
-  return true;
+  return box_wide(out, lo, hi, manner->radius_up);
 }
 
 /* Does the text look like a hexadecimal float? */
@@ -325,4 +329,23 @@ dyd_status dyd_coordinate_make_real(dyd_coordinate *c) {
   if (st != DYD_OK) return st;
   *c = (dyd_coordinate){.kind = DYD_COORDINATE_REAL, .real = real};
   return DYD_OK;
+}
+
+dyd_status dyd_coordinate_widen(dyd_coordinate *c, double by) {
+  double lo = c->lo, hi = c->hi;
+  bool quick = c->kind != DYD_COORDINATE_REAL;
+  if (!(by > 0)) return DYD_OK;
+  if (c->kind == DYD_COORDINATE_PLAIN)
+    quick = dyd_plain_get_rounded(&lo, c->plain, DYD_DOWN) && dyd_plain_get_rounded(&hi, c->plain, DYD_UP);
+  if (quick && box_wide(c, lo, hi, by)) return DYD_OK;
+  dyd_status st = dyd_coordinate_make_real(c);
+  if (st != DYD_OK) return st;
+  mpq_t radius;
+  mpq_init(radius);
+  mpq_set_d(radius, by);
+  c->kind = DYD_COORDINATE_DOUBLE; /* the real is taken over */
+  st = dyd_real_widen(&c->real, c->real, radius);
+  mpq_clear(radius);
+  if (st == DYD_OK) c->kind = DYD_COORDINATE_REAL;
+  return st;
 }

@@ -61,6 +61,8 @@ dyd_status dyd_coordinate_read(dyd_coordinate *out, const dyd_span *span, const 
  * that of the line. */
 dyd_status dyd_coordinate_fail(dyd_error *err, dyd_status code, const dyd_span *span, const dyd_error *own);
 void dyd_coordinate_clear(dyd_coordinate *c);
+/* Widens by `by` >= 0, finite, on each side. A real that is taken over by a failure is gone. */
+dyd_status dyd_coordinate_widen(dyd_coordinate *c, double by);
 /* Turns any kind into DYD_COORDINATE_REAL. */
 dyd_status dyd_coordinate_make_real(dyd_coordinate *c);
 

@@ -134,12 +134,13 @@ dyd_status dyd_csv_ask(dyd_csv *csv, int first, size_t least, size_t most, const
   dyd_status split = line.length ? csv_split(csv, &line, NULL) : DYD_E_ARG;
   if (split == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (split != DYD_OK || csv->fields < least || csv->fields > most) {
-    static const char *const wanted[] = {"one column name; give NAME",
-                                         "one or two column names; give NAME or NAME,NAME",
-                                         "two column names; give NAME,NAME"};
-    return dyd_fail(err, DYD_E_ARG, "\"%.100s\" is not %s", text, wanted[least + most - 2]);
+    return dyd_fail(err, DYD_E_ARG, "\"%.100s\" is not %s", text,
+                    least == 2  ? "two column names; give NAME,NAME"
+                    : most == 1 ? "one column name; give NAME"
+                    : most == 2 ? "one or two column names; give NAME or NAME,NAME"
+                                : "one, two or three column names; give S or SX,SY or SX,SY,RHO");
   }
-  for (size_t k = 0; k < most; k++) {
+  for (size_t k = 0; k < most && (k < 2 || k < csv->fields); k++) {
     dyd_span *field = &csv->field[k < csv->fields ? k : 0];
     span_trim(field);
     dyd_csv_want *want = &csv->want[(size_t)first + k];
@@ -388,11 +389,13 @@ static void put_name(char *out, size_t *used, const dyd_span *name) {
 /* What the names of the columns say of them. On the sphere, columns in the other order are refused. */
 static dyd_status read_meanings(dyd_csv *csv, bool degrees, dyd_error *err) {
   const dyd_span *x = &csv->field[csv->column[DYD_CSV_X]], *y = &csv->field[csv->column[DYD_CSV_Y]];
-  const dyd_span *radius = csv->want[DYD_CSV_RADIUS_X].name ? &csv->field[csv->column[DYD_CSV_RADIUS_X]] : NULL;
   bool x_lat = is_called(csv, DYD_CSV_X, &latitude), y_lon = is_called(csv, DYD_CSV_Y, &longitude);
+  for (int role = DYD_CSV_RADIUS_X; role < csv->roles; role++) {
+    const dyd_span *f = csv->want[role].name ? &csv->field[csv->column[role]] : NULL;
+    csv->unit[role] = f ? dyd_unit_of_column(f->text, f->length) : NULL;
+  }
   csv->degrees = is_called(csv, DYD_CSV_X, &longitude) && is_called(csv, DYD_CSV_Y, &latitude);
   csv->swapped = (x_lat || is_called(csv, DYD_CSV_X, &northing)) && (y_lon || is_called(csv, DYD_CSV_Y, &easting));
-  csv->unit = radius ? dyd_unit_of_column(radius->text, radius->length) : NULL;
   if (!csv->swapped || !degrees) return DYD_OK;
   char names[160];
   size_t used = 0;
@@ -519,10 +522,12 @@ static dyd_status units_read(dyd_csv *csv, dyd_error *err) {
   if (st != DYD_OK || !count) return st;
   if (dyd_plain_scan(&p, field[DYD_CSV_X].text, field[DYD_CSV_X].length))
     return dyd_span_fail(err, &field[DYD_CSV_X], 0, "this row holds numbers, not units; remove `units_row`");
-  const dyd_span *radius = csv->want[DYD_CSV_RADIUS_X].name ? &field[DYD_CSV_RADIUS_X] : NULL;
-  const dyd_unit *unit = radius ? dyd_unit_find(radius->text, radius->length) : NULL;
-  if (radius && !unit) unit = dyd_unit_of_column(radius->text, radius->length);
-  if (unit) csv->unit = unit;
+  for (int role = DYD_CSV_RADIUS_X; role < csv->roles; role++) {
+    const dyd_span *f = csv->want[role].name ? &field[role] : NULL;
+    const dyd_unit *unit = f ? dyd_unit_find(f->text, f->length) : NULL;
+    if (f && !unit) unit = dyd_unit_of_column(f->text, f->length);
+    if (unit) csv->unit[role] = unit;
+  }
   return DYD_OK;
 }
 

@@ -37,14 +37,14 @@ typedef struct dyd_csv {
   dyd_text *text; /* borrowed */
   char delimiter;
   dyd_csv_want want[DYD_CSV_MOST];
-  size_t column[DYD_CSV_MOST]; /* where they are, from 0 */
-  int roles;                   /* all that are wanted are smaller */
-  size_t columns;              /* how many the header has */
-  bool degrees, swapped;       /* x and y are called longitude and latitude; latitude and longitude */
-  const dyd_unit *unit;        /* that the column of radii states; NULL: none */
-  bool headless, units_row;    /* set by the caller: no header; a row of units behind it */
-  bool comments;               /* records that begin with # or % are passed over */
-  bool fresh;                  /* no record behind the header has been read */
+  size_t column[DYD_CSV_MOST];        /* where they are, from 0 */
+  int roles;                          /* all that are wanted are smaller */
+  size_t columns;                     /* how many the header has */
+  bool degrees, swapped;              /* x and y are called longitude and latitude; latitude and longitude */
+  const dyd_unit *unit[DYD_CSV_MOST]; /* that the columns of radii and standard deviations state; NULL: none */
+  bool headless, units_row;           /* set by the caller: no header; a row of units behind it */
+  bool comments;                      /* records that begin with # or % are passed over */
+  bool fresh;                         /* no record behind the header has been read */
   bool held, marked, trails; /* the record in `field` is the next; the header begins with # or % alone; its last name is
                                 empty */
   size_t commented;          /* comments that would be points */
@@ -62,8 +62,8 @@ typedef struct dyd_csv {
 } dyd_csv;
 
 /* Asks for the columns that `text` names, at least `least` and at most `most`, for the roles from `first` on; a single
- * name stands for all. Names with commas are quoted as in RFC 4180. option names the field of the options, borrowed.
- * DYD_E_ARG when the text is not of this form; DYD_E_NOMEM. */
+ * name stands for the first two. Names with commas are quoted as in RFC 4180. option names the field of the options,
+ * borrowed. DYD_E_ARG when the text is not of this form; DYD_E_NOMEM. */
 dyd_status dyd_csv_ask(dyd_csv *csv, int first, size_t least, size_t most, const char *text, const char *option,
                        dyd_error *err);
 /* Reads the header. It tells the delimiter if this is NULL; "blank": runs of blanks. Lines of # or % before it that do

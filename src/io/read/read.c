@@ -15,6 +15,7 @@
 #include "engine/add.h"
 #include "engine/labels.h"
 #include "io/read/cell.h"
+#include "io/read/confidence.h"
 #include "io/read/csv.h"
 #include "io/read/stage.h"
 #include "stream/degrees.h"
@@ -28,7 +29,14 @@
 /* ---- the reading options ---- */
 
 /* What a column holds besides those of csv.h: numbers (a dyd_row_number more), then texts, which may be empty. */
-enum { ROLE_NUMBER = DYD_CSV_OTHER, ROLE_ID = ROLE_NUMBER + DYD_ROW_NUMBERS, ROLES };
+enum {
+  ROLE_NUMBER = DYD_CSV_OTHER,
+  ROLE_SIGMA = ROLE_NUMBER + DYD_ROW_SIGMA, /* in x; then in y, and the correlation, which are no dyd_row_number */
+  ROLE_RHO = ROLE_SIGMA + 2,
+  ROLE_ID,
+  ROLES
+};
+_Static_assert(DYD_ROW_SIGMA + 1 == DYD_ROW_NUMBERS, "sigmas are behind the other numbers");
 _Static_assert((int)ROLES <= (int)DYD_CSV_MOST, "each role has a column");
 
 #define OF(field) sizeof(dyd_read_field), #field, offsetof(dyd_read_options, field)
@@ -50,7 +58,9 @@ static const struct read_option {
     {.field = {OF(carry), .table = true, .text = true}},
     {{OF(radius_columns), .table = true, .points = true, .text = true}, DYD_CSV_RADIUS_X, 1, 2, "radius"},
     {{OF(cost_column), .table = true, .text = true}, ROLE_NUMBER + DYD_ROW_COST, 1, 1, "cost"},
-    {{OF(sigma_column), .table = true, .text = true}, ROLE_NUMBER + DYD_ROW_SIGMA, 1, 1, "standard deviation"},
+    {{OF(sigma_column), .table = true, .points = true, .text = true}, ROLE_SIGMA, 1, 3, "standard deviation"},
+    {.field = {OF(confidence), .table = true, .points = true, .text = true}},
+    {.field = {OF(round), .flag = true, .points = true}},
     {.field = {OF(delimiter), .table = true, .points = true, .text = true}},
     {.field = {OF(decimal_comma), .flag = true, .points = true, .text = true}},
     {.field = {OF(no_header), .flag = true, .table = true, .points = true, .text = true}},
@@ -83,6 +93,7 @@ const dyd_read_field *dyd_read_field_at(const char **value, const dyd_read_optio
 
 /* What a column of this role holds. */
 static const char *role_holds(int role) {
+  if (role == ROLE_RHO) return "correlation";
   const struct read_option *option = read_option;
   while (role < option->role || role >= option->role + (int)option->most) option++;
   return option->holds;
@@ -263,16 +274,25 @@ static dyd_status nominals_find(nominal **out, nominals *n, const dyd_span span[
 
 /* ---- rows ---- */
 
-/* Invariant: every row so far is in report.rows, and, where labels are kept, in labels. */
+/* A point is widened by k times this: in x and y, or, as a length on the ground, in metres. */
+typedef struct spread {
+  double of[2];
+  bool ground;
+} spread;
+
+/* Invariant: every row so far is in report.rows, and, where labels are kept, in labels; sigma[] has each staged point
+ * where there is a confidence. */
 typedef struct intake {
-  const dyd_read_options *o; /* borrowed */
-  mpq_t radius, scale;       /* of all points; of what columns hold */
-  const dyd_unit *unit;      /* of radii that state none, on the sphere; NULL: there is none */
-  dyd_manner manner[2];      /* of x and y in the present row */
-  double kept[2];            /* radii of this row that do not widen it, rounded up */
-  bool ground;               /* the last radius is a length on the ground */
-  const char *radius_at;     /* where it stands */
+  const dyd_read_options *o;          /* borrowed */
+  mpq_t radius, scale;                /* of all points; of what columns hold */
+  const dyd_unit *unit[DYD_CSV_MOST]; /* of radii that state none, by role, on the sphere; NULL: there is none */
+  dyd_manner manner[2];               /* of x and y in the present row */
+  double kept[2];                     /* radii of this row that do not widen it, rounded up */
+  bool ground;                        /* the last radius is a length on the ground */
+  const char *radius_at;              /* where the last radius stands */
   dyd_stage stage;
+  spread *sigma, row;          /* row: of the present row */
+  size_t sigma_cap, uncertain; /* uncertain: rows with a standard deviation above 0 */
   dyd_labels labels;
   nominals places;
   dyd_read_report report;
@@ -286,52 +306,43 @@ typedef struct intake {
 
 /* ---- radii ---- */
 
-/* mpq_get_d rounds towards zero. */
-static double radius_above(const mpq_t radius) {
-  mpq_t back;
-  double down = mpq_get_d(radius);
-  mpq_init(back);
-  if (isfinite(down)) mpq_set_d(back, down);
-  bool exact = mpq_equal(back, radius);
-  mpq_clear(back);
-  return exact ? down : nextafter(down, INFINITY);
-}
-
 /* Beyond doubles the radius goes the general way. */
 static void manner_set_radius(dyd_manner *m, const mpq_t radius) {
   mpq_set(m->radius, radius);
   m->widen = mpq_sgn(radius) > 0;
-  m->radius_up = radius_above(radius);
+  m->radius_up = dyd_double_above(radius);
 }
 
-static dyd_status radius_fail(const intake *in, const dyd_span *span, dyd_error *err) {
+static dyd_status radius_fail(const intake *in, const dyd_span *span, int role, dyd_error *err) {
   if (!in->o->degrees && dyd_cell_number(span))
     return dyd_span_fail(err, span, dyd_cell_number(span),
                          "radii in the plane are in the unit of the coordinates: write the number without a unit, or "
                          "convert all by `radius_scale`");
-  return dyd_span_fail(
-      err, span, 0,
-      in->o->degrees ? "the radius is not an exact number >= 0 and a unit; give one such as 0.01deg, 30m or 2km"
-                     : "the radius is not an exact number >= 0; give one such as 0.01 or 1/64 (units: with `sphere`)");
+  char message[160];
+  snprintf(message, sizeof message, "the %s is not an exact number >= 0%s", role_holds(role),
+           in->o->degrees ? " and a unit; give one such as 0.01deg, 30m or 2km"
+                          : "; give one such as 0.01 or 1/64 (units: with `sphere`)");
+  return dyd_span_fail(err, span, 0, message);
 }
 
-static dyd_status radius_fail_unit(const dyd_span *span, dyd_error *err) {
-  char message[160];
-  snprintf(message, sizeof message, "the radius %.*s has no unit; state a unit: `radius_unit` m (" DYD_UNIT_NAMES ")",
-           (int)(span->length < 20 ? span->length : 20), span->text);
+static dyd_status radius_fail_unit(const dyd_span *span, int role, dyd_error *err) {
+  char message[180];
+  snprintf(message, sizeof message, "the %s %.*s has no unit; state a unit: `radius_unit` m (" DYD_UNIT_NAMES ")",
+           role_holds(role), (int)(span->length < 20 ? span->length : 20), span->text);
   dyd_span_fail(err, span, 0, message);
   return DYD_E_ARG;
 }
 
 /* Of a field: out, scaled; *ground: in metres. */
-static dyd_status intake_read_radius(mpq_t out, bool *ground, const intake *in, const dyd_span *span, dyd_error *err) {
+static dyd_status intake_read_radius(mpq_t out, bool *ground, const intake *in, const dyd_span *span, int role,
+                                     dyd_error *err) {
   *ground = false;
-  dyd_status st = in->o->degrees ? dyd_radius_parse(out, ground, span->text, span->length, in->unit)
+  dyd_status st = in->o->degrees ? dyd_radius_parse(out, ground, span->text, span->length, in->unit[role])
                                  : dyd_real_parse_exact(out, span->text, span->length);
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
-  if (st == DYD_E_DOMAIN) return radius_fail_unit(span, err);
+  if (st == DYD_E_DOMAIN) return radius_fail_unit(span, role, err);
   if (st == DYD_OK) mpq_mul(out, out, in->scale);
-  return st != DYD_OK || mpq_sgn(out) < 0 ? radius_fail(in, span, err) : DYD_OK;
+  return st != DYD_OK || mpq_sgn(out) < 0 ? radius_fail(in, span, role, err) : DYD_OK;
 }
 
 /* Of the disc around a box of lengths: at least sqrt(a^2 + b^2), which is m sqrt(1 + (n/m)^2) for the larger m and the
@@ -346,10 +357,10 @@ static dyd_status intake_radius(intake *in, int axis, const dyd_span *span, dyd_
   mpq_t own;
   bool ground = false;
   mpq_init(own);
-  dyd_status st = intake_read_radius(own, &ground, in, span, err);
+  dyd_status st = intake_read_radius(own, &ground, in, span, DYD_CSV_RADIUS_X + axis, err);
   if (st == DYD_OK) {
     bool keep = ground || in->o->keep_radii;
-    in->kept[axis] = keep ? radius_above(own) : 0;
+    in->kept[axis] = keep ? dyd_double_above(own) : 0;
     if (keep) mpq_set_ui(own, 0, 1);
     mpq_add(own, own, in->radius);
     manner_set_radius(&in->manner[axis], own);
@@ -372,8 +383,10 @@ static dyd_status intake_radius(intake *in, int axis, const dyd_span *span, dyd_
 static dyd_status intake_radius_of_all(intake *in, dyd_error *err) {
   const char *text = in->o->radius, *unit = in->o->radius_unit, *scale = in->o->radius_scale;
   mpq_set_ui(in->scale, 1, 1);
-  dyd_status st = dyd_unit_take(&in->unit, in->scale, unit, scale, err);
+  const dyd_unit *of_all = NULL;
+  dyd_status st = dyd_unit_take(&of_all, in->scale, unit, scale, err);
   if (st != DYD_OK) return st;
+  for (int role = 0; role < DYD_CSV_MOST; role++) in->unit[role] = of_all;
   if (unit && !in->o->degrees)
     return dyd_fail(err, DYD_E_ARG,
                     "in the plane radii are in the unit of the coordinates; for others scale them, such as millimetres "
@@ -390,6 +403,64 @@ static dyd_status intake_radius_of_all(intake *in, dyd_error *err) {
   mpq_mul(in->radius, in->radius, in->scale);
   for (int a = 0; a < 2; a++) manner_set_radius(&in->manner[a], in->radius);
   return DYD_OK;
+}
+
+/* ---- normal errors ---- */
+
+static dyd_status read_rho(mpq_t rho, const dyd_span *span, dyd_error *err) {
+  dyd_status st = span->text ? dyd_real_parse_exact(rho, span->text, span->length) : DYD_OK;
+  if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (st == DYD_OK && mpq_cmp_si(rho, 1, 1) <= 0 && mpq_cmp_si(rho, -1, 1) >= 0) return DYD_OK;
+  return dyd_span_fail(err, span, 0, "the correlation is not an exact number from -1 to 1; give one such as 0.3");
+}
+
+/* Sets in->row from the columns of standard deviations and the correlation. */
+static dyd_status intake_sigma(intake *in, const dyd_span *span, dyd_error *err) {
+  mpq_t s[2], rho;
+  bool ground[2];
+  mpq_inits(s[0], s[1], rho, NULL);
+  dyd_status st = read_rho(rho, &span[2], err);
+  for (int a = 0; a < 2 && st == DYD_OK; a++)
+    st = intake_read_radius(s[a], &ground[a], in, &span[a], ROLE_SIGMA + a, err);
+  if (st == DYD_OK && ground[0] != ground[1] && mpq_sgn(s[0]) && mpq_sgn(s[1]))
+    st = dyd_span_fail(err, &span[1], 0,
+                       "one standard deviation is a length, the other an angle; give both in units of one kind");
+  if (st == DYD_OK) {
+    in->row = (spread){.ground = ground[0] || ground[1]};
+    bool disc = in->o->round || in->row.ground;
+    for (int a = 0; a < 2; a++) in->row.of[a] = disc ? dyd_sigma_round(s, rho) : dyd_double_above(s[a]);
+    in->uncertain += mpq_sgn(s[0]) || mpq_sgn(s[1]);
+  }
+  mpq_clears(s[0], s[1], rho, NULL);
+  return st;
+}
+
+/* Remembers in->row for the point that was staged last. */
+static dyd_status intake_keep_sigma(intake *in, dyd_error *err) {
+  if (!in->o->confidence) return DYD_OK;
+  if (!dyd_reserve((void **)&in->sigma, &in->sigma_cap, in->stage.count, sizeof *in->sigma)) return dyd_fail_nomem(err);
+  in->sigma[in->stage.count - 1] = in->row;
+  return DYD_OK;
+}
+
+/* Widens all staged points by k standard deviations. */
+static dyd_status intake_confide(intake *in, double k, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  for (size_t p = 0; st == DYD_OK && p < in->stage.count; p++) {
+    const spread *s = &in->sigma[p];
+    double by[2];
+    for (int a = 0; a < 2; a++) by[a] = s->of[a] > 0 ? nextafter(k * s->of[a], INFINITY) : 0;
+    if (!isfinite(by[0]) || !isfinite(by[1]))
+      return dyd_fail(err, DYD_E_PARSE,
+                      "%g standard deviations of point %zu are above the range of doubles; give smaller ones", k, p);
+    if (!s->ground) {
+      st = dyd_stage_widen(&in->stage, p, by, err);
+    } else {
+      double *kept = &in->labels.number[p].of[DYD_ROW_RADIUS];
+      *kept = *kept > 0 ? nextafter(*kept + by[0], INFINITY) : by[0];
+    }
+  }
+  return st;
 }
 
 static dyd_status intake_number(double *out, const dyd_span *span, int role, dyd_error *err) {
@@ -415,6 +486,15 @@ static dyd_status intake_check(const dyd_read_options *o, dyd_error *err) {
       return dyd_fail(err, DYD_E_ARG, "`%s` is about columns; name those of x and y, too: `columns` NAME,NAME",
                       f->name);
   }
+  if (o->confidence && !o->sigma_column)
+    return dyd_fail(err, DYD_E_ARG,
+                    "`confidence` is about normal errors; name the column of their standard deviations: `sigma_column` "
+                    "NAME");
+  if (o->sigma_column && !o->confidence && strchr(o->sigma_column, ',') && *o->sigma_column != '"')
+    return dyd_fail(err, DYD_E_ARG,
+                    "\"%.100s\" is not one column name; give NAME, or regions a probability: "
+                    "`confidence` 95%%",
+                    o->sigma_column);
   return DYD_OK;
 }
 
@@ -426,7 +506,7 @@ static dyd_status intake_init(intake *in, const dyd_read_options *o, dyd_error *
     in->manner[a].measured = o->measured;
     mpq_init(in->manner[a].radius);
   }
-  in->numbers = o->radius_columns && (o->keep_radii || o->degrees);
+  in->numbers = o->radius_columns && (o->keep_radii || o->degrees); /* sigmas of metres: by their column, below */
   in->roles = DYD_CSV_Y + 1;
   for (size_t k = 0; k < READ_OPTIONS; k++) {
     const struct read_option *r = &read_option[k];
@@ -442,6 +522,7 @@ static dyd_status intake_init(intake *in, const dyd_read_options *o, dyd_error *
 static void intake_clear(intake *in) {
   free(in->label);
   dyd_style_clear(&in->style);
+  free(in->sigma);
   nominals_clear(&in->places);
   dyd_labels_clear(&in->labels);
   dyd_stage_clear(&in->stage);
@@ -469,15 +550,16 @@ static dyd_status fail_missing_field(const dyd_span *s, int role, dyd_error *err
 
 /* ---- places given more than once ---- */
 
-/* The width that the coordinate has in the end, about. */
-static double final_width(const dyd_coordinate *c, const dyd_manner *manner) {
-  if (c->kind == DYD_COORDINATE_BOX) return c->hi - c->lo;
-  if (c->kind != DYD_COORDINATE_REAL) return 0;
-  if (!dyd_real_is_final(c->real)) return manner->widen ? 2 * manner->radius_up : 0;
+/* The width that the coordinate has in the end, about; with a standard deviation of such. */
+static double final_width(const dyd_coordinate *c, const dyd_manner *manner, double sigma) {
+  sigma *= 2;
+  if (c->kind == DYD_COORDINATE_BOX) return c->hi - c->lo + sigma;
+  if (c->kind != DYD_COORDINATE_REAL) return sigma;
+  if (!dyd_real_is_final(c->real)) return (manner->widen ? 2 * manner->radius_up : 0) + sigma;
   double end[2];
-  if (dyd_interval_is_point(dyd_real_interval(c->real))) return 0;
+  if (dyd_interval_is_point(dyd_real_interval(c->real))) return sigma;
   dyd_interval_get_d(&end[0], &end[1], dyd_real_interval(c->real));
-  return end[1] - end[0];
+  return end[1] - end[0] + sigma;
 }
 
 /* A rectangle inside both is that of the smaller width in each coordinate, as they have their centre in common. A
@@ -488,10 +570,13 @@ static dyd_status intake_merge(intake *in, nominal *place, dyd_coordinate c[2], 
   double *kept = &in->labels.number[point].of[DYD_ROW_RADIUS];
   bool less = in->kept[0] < *kept && width[0] <= place->width[0] && width[1] <= place->width[1];
   bool same = in->kept[0] == *kept;
-  const bool take[2] = {(same || less) && width[0] < place->width[0], (same || less) && width[1] < place->width[1]};
+  bool take[2] = {(same || less) && width[0] < place->width[0], (same || less) && width[1] < place->width[1]};
+  if (in->o->confidence) /* a width is that of a row's errors: the one row or the other */
+    take[0] = take[1] = less = in->kept[0] <= *kept && width[0] <= place->width[0] && width[1] <= place->width[1];
   if (less) *kept = in->kept[0];
   for (int a = 0; a < 2; a++)
     if (take[a]) place->width[a] = width[a];
+  if (in->o->confidence && take[0]) in->sigma[point] = in->row;
   dyd_status st = dyd_stage_replace(&in->stage, point, &c[0], &c[1], take, err);
   if (st != DYD_OK) return st;
   in->report.merged++;
@@ -500,7 +585,8 @@ static dyd_status intake_merge(intake *in, nominal *place, dyd_coordinate c[2], 
 
 /* Stages a point that is read; takes over reals, also on failure. */
 static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_MOST], dyd_coordinate c[2], dyd_error *err) {
-  const double width[2] = {final_width(&c[0], &in->manner[0]), final_width(&c[1], &in->manner[1])};
+  const double width[2] = {final_width(&c[0], &in->manner[0], in->row.of[0]),
+                           final_width(&c[1], &in->manner[1], in->row.of[1])};
   nominal *place = NULL;
   const dyd_span *id = &span[ROLE_ID];
   dyd_row_numbers own = dyd_no_row_numbers;
@@ -515,9 +601,10 @@ static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_MOST], dy
     if (place->count == 1) memcpy(place->width, width, sizeof width);
   }
   dyd_status st = dyd_stage_add(&in->stage, &c[0], &c[1], err);
+  if (st == DYD_OK) st = intake_keep_sigma(in, err);
   if (st != DYD_OK || !intake_labels(in)) return st;
   own.of[DYD_ROW_RADIUS] = in->kept[0];
-  for (int k = ROLE_NUMBER; k < ROLE_ID && st == DYD_OK; k++)
+  for (int k = ROLE_NUMBER; k < ROLE_SIGMA + !in->o->confidence && st == DYD_OK; k++)
     if (span[k].text) st = intake_number(&own.of[k - ROLE_NUMBER], &span[k], k, err);
   if (st != DYD_OK) return st;
   const char *text = in->labels.names ? in->label : id->text;
@@ -580,6 +667,7 @@ static dyd_status intake_row(intake *in, dyd_span span[DYD_CSV_MOST], dyd_error 
     if (st == DYD_OK) st = intake_coordinate(&c[a], in, a, &span[a], err);
     if (st == DYD_OK) st = intake_letter(in, a, &c[a], &span[a], err);
   }
+  if (st == DYD_OK && in->o->confidence) st = intake_sigma(in, &span[ROLE_SIGMA], err);
   if (st == DYD_OK && in->o->degrees && is_beyond_poles(&c[1]))
     st = dyd_span_fail(err, &span[1], 0, "the latitude is beyond 90 degrees; longitude comes first, then latitude");
   if (st == DYD_OK) return intake_point(in, span, c, err);
@@ -593,8 +681,13 @@ static dyd_status intake_commit(dyd_engine *e, intake *in, dyd_error *err) {
   const dyd_labels *own = &in->labels;
   dyd_labels all = {0};
   bool labelled = own->has_ids || in->numbers || in->report.missing || in->report.merged;
-  if (labelled && dyd_labels_join(&all, e, own) != DYD_OK) return dyd_fail_nomem(err);
-  dyd_status st = dyd_stage_commit(e, &in->stage, err);
+  dyd_confidence c;
+  dyd_status st = DYD_OK;
+  if (in->o->confidence) st = dyd_confidence_for(&c, e, in->o->confidence, in->uncertain, err);
+  if (st == DYD_OK && in->o->confidence) st = intake_confide(in, c.k, err);
+  if (st == DYD_OK && labelled && dyd_labels_join(&all, e, own) != DYD_OK) st = dyd_fail_nomem(err);
+  if (st == DYD_OK) st = dyd_stage_commit(e, &in->stage, err);
+  if (st == DYD_OK && in->o->confidence) dyd_engine_give_confidence(e, &c);
   if (st == DYD_OK && labelled)
     dyd_labels_give(e, &all);
   else
@@ -686,7 +779,8 @@ static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
   dyd_status st = csv_begin(&csv, in->o, err);
   in->report.degrees = csv.degrees;
   in->report.swapped = csv.swapped;
-  if (!in->unit) in->unit = csv.unit;
+  for (int role = 0; role < DYD_CSV_MOST && st == DYD_OK; role++)
+    if (!in->unit[role]) in->unit[role] = csv.unit[role];
   if (st == DYD_OK && csv.carries) carry_begin(in, &csv);
   while (st == DYD_OK && count) {
     st = dyd_csv_next(span, &count, &csv, err);

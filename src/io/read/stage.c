@@ -146,6 +146,16 @@ dyd_status dyd_stage_replace(dyd_stage *s, size_t k, dyd_coordinate *x, dyd_coor
   return staged_put(staged_at(s, k), &old[0], &old[1], err);
 }
 
+dyd_status dyd_stage_widen(dyd_stage *s, size_t k, const double by[2], dyd_error *err) {
+  dyd_coordinate c[2];
+  dyd_status st = DYD_OK;
+  staged_split(&c[0], &c[1], staged_at(s, k));
+  for (int a = 0; a < 2 && st == DYD_OK; a++) st = dyd_coordinate_widen(&c[a], by[a]);
+  if (st == DYD_OK) return staged_put(staged_at(s, k), &c[0], &c[1], err);
+  for (int a = 0; a < 2; a++) dyd_coordinate_clear(&c[a]);
+  return dyd_fail(err, st, "%s", dyd_status_text(st));
+}
+
 enum { BULK = 1024 };
 
 /* Point k, if it is there and of that kind. */

@@ -21,6 +21,8 @@ dyd_status dyd_stage_add(dyd_stage *s, dyd_coordinate *x, dyd_coordinate *y, dyd
 /* Gives point k the coordinates that `take` names, and keeps the others. Takes over reals as above. */
 dyd_status dyd_stage_replace(dyd_stage *s, size_t k, dyd_coordinate *x, dyd_coordinate *y, const bool take[2],
                              dyd_error *err);
+/* Widens point k by `by` in x and y. */
+dyd_status dyd_stage_widen(dyd_stage *s, size_t k, const double by[2], dyd_error *err);
 /* Adds all points to e in order, doubles in bulk. The stage is empty afterwards.
  * Fails only when memory is exhausted or e has run already. */
 dyd_status dyd_stage_commit(dyd_engine *e, dyd_stage *s, dyd_error *err);

@@ -268,6 +268,7 @@ static dyd_status html_head(const html_scene *s, dyd_content content) {
   dyd_json j;
   dyd_json_begin(&j, out);
   dyd_json_head(&j, "dyadel html 1", r->epsg);
+  dyd_json_confidence(&j, r->engine);
   dyd_json_end(&j, ",\n");
   fprintf(out,
           "\"kind\": \"%s\", \"layer\": \"%s\", \"outcome\": \"%s\", \"goal\": \"%s\", \"goal_bits\": %" PRId64

@@ -25,7 +25,8 @@ BOUNDS = ['minx', 'miny', 'maxx', 'maxy']
 @dataclasses.dataclass
 class Given:
     """points: an array of doubles (N, 2), (N, 4) xlo, xhi, ylo, yhi, a list of pairs, a Source or a Text. rows: the number of
-    each point's row among `count`; None: none was left out. ids: a text for each point, or None."""
+    each point's row among `count`; None: none was left out. ids: a text for each point, or None. sigma: standard deviations in
+    x and y and their correlation, (N, 3), that points are still to be widened by; uncertain: how many it was."""
 
     points: Any
     radius: Any = None
@@ -33,6 +34,9 @@ class Given:
     count: int = 0
     ids: list[str] | None = None
     crs: Any = None
+    sigma: Floats | None = None
+    confidence: str | None = None
+    uncertain: int = 0
     before: int = 0  # rows of the points before
     added: int = 0  # points
 
@@ -45,8 +49,8 @@ class Given:
                         point=int(gone[0]))
         if gone.size:
             kept = np.flatnonzero(~missing)
-            self.points, self.radius, self.ids = (_rows_of(value, kept, len(missing))
-                                                  for value in (self.points, self.radius, self.ids))
+            self.points, self.radius, self.ids, self.sigma = (
+                _rows_of(value, kept, len(missing)) for value in (self.points, self.radius, self.ids, self.sigma))
             self.rows = kept if self.rows is None else self.rows[kept]
 
 
@@ -90,7 +94,7 @@ def is_geographic(crs: Any) -> bool:
 
 
 def take(points: Any, radius: Any = None, *, order: str | None = None, skip_missing: bool = False, ids: Any = None,
-         crs: Any = None) -> Given:
+         crs: Any = None, sigma: Any = None, confidence: float | str | None = None) -> Given:
     """Points of any kind but Source and Text, and their radius, in plain form."""
     if order not in (None, *ORDERS):
         raise ValueError(f"order={order!r}; give 'xxyy' (xlo, xhi, ylo, yhi) or 'xyxy' (minx, miny, maxx, maxy)")
@@ -101,6 +105,9 @@ def take(points: Any, radius: Any = None, *, order: str | None = None, skip_miss
         if ids not in getattr(points, 'columns', ()):
             raise ValueError(f'ids={ids!r}: points have no such column; give one text for each point')
         ids = points[ids]
+    names = [sigma] if isinstance(sigma, str) else sigma if isinstance(sigma, (list, tuple)) else ()
+    if names and all(isinstance(name, str) and name in getattr(points, 'columns', ()) for name in names):
+        sigma = np.column_stack([np.asarray(_column(points[name]), np.float64) for name in names])
     points = getattr(points, 'geometry', points) if hasattr(points, 'columns') else points
     missing: NDArray[np.bool_] | None = None
     framed = hasattr(points, 'columns')
@@ -119,6 +126,9 @@ def take(points: Any, radius: Any = None, *, order: str | None = None, skip_miss
         given.ids = [str(name) for name in ids]
         if len(given.ids) != given.count:
             raise ValueError(f'{len(given.ids)} ids for {given.count} points')
+    if sigma is not None or confidence is not None:
+        given.confidence = str(confidence)
+        given.sigma = _sigmas(given, sigma, confidence)
     if missing is not None:
         given.leave_out(missing, skip_missing, 'the coordinates are masked')
     _leave_out_unknown(given, skip_missing, skip_missing or framed)
@@ -136,6 +146,10 @@ def _leave_out_unknown(given: Given, skip: bool, look: bool) -> None:
             given.leave_out(np.isnan(given.points).any(axis=1), skip, 'a coordinate is nan, not a finite number')
     elif look:
         given.leave_out(np.array([_is_missing(row) for row in given.points], bool), skip, 'a coordinate is missing')
+    if given.sigma is not None:
+        given.leave_out(np.isnan(given.sigma).any(axis=1), skip, 'the standard deviation is missing')
+        if not ((given.sigma[:, :2] >= 0).all() and np.isfinite(given.sigma).all() and (np.abs(given.sigma[:, 2]) <= 1).all()):
+            raise ValueError('sigma: standard deviations are finite numbers >= 0, correlations numbers from -1 to 1')
     hidden = masked.isMaskedArray(given.radius)
     if hidden or isinstance(given.radius, np.ndarray) and given.radius.dtype.kind == 'f':
         unknown = masked.getmaskarray(given.radius) if hidden else np.isnan(given.radius)
@@ -176,6 +190,23 @@ def _matrix(points: Any) -> Any:
 def _radii(radius: Any) -> Any:
     """A Series as its values."""
     return _column(radius) if hasattr(radius, 'iloc') else radius
+
+
+def _sigmas(given: Given, sigma: Any, confidence: Any) -> Floats:
+    """Standard deviations in x and y and their correlation, (N, 3); nan where they are missing."""
+    if sigma is None or confidence is None:
+        raise ValueError('sigma and confidence go together; give both, such as sigma=0.5, confidence=0.95')
+    if given.radius is not None:
+        raise ValueError('radius is a bound, sigma a standard deviation; give one of them')
+    array = masked.filled(masked.asarray(_radii(sigma), np.float64), float('nan'))
+    n = given.count
+    if array.ndim > 2 or array.ndim and array.shape not in ((n,), (n, 1), (n, 2), (n, 3)):
+        raise ValueError(f'sigma must be one number, or have shape ({n},), ({n}, 2) for x and y, or ({n}, 3) with their '
+                         f'correlation, not {array.shape}')
+    out = np.zeros((n, 3))
+    array = array[:, np.newaxis] if array.ndim == 1 else array
+    out[:, :max(2, array.shape[-1] if array.ndim else 0)] = array
+    return out
 
 
 # ---- boxes ----

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import os
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -53,6 +53,14 @@ class Text:
             return cls(file.read(), **how)
 
 
+class Confidence(NamedTuple):
+    """With at least this probability (a decimal) all n points with errors lie within k standard deviations."""
+
+    probability: str
+    k: float
+    n: int
+
+
 def _radius_array(radius: Any, n: int) -> Floats | None:
     """Doubles (n, 2) with the same numbers, or None where there are none."""
     if isinstance(radius, (int, float)) and (isinstance(radius, float) or abs(radius) <= 2**53):
@@ -86,7 +94,7 @@ def _append_boxes(engine: _dyadel.Engine, boxes: Floats) -> None:
 
 
 def given_of(points: Any, radius: Any = None, **inputs: Any) -> Given:
-    """Points and radius in plain form; inputs: order, skip_missing, ids, crs."""
+    """Points and radius in plain form; inputs: order, skip_missing, ids, crs, sigma, confidence."""
     if isinstance(points, Given):
         return points
     if not isinstance(points, (Source, Text)):
@@ -108,11 +116,22 @@ def append_given(engine: _dyadel.Engine, given: Given, degrees: bool = False) ->
 
     degrees: a text is told where a latitude is beyond 90.
     """
+    _confide(engine, given)
     kept = _append(engine, given.points, given.radius, degrees)
     if given.ids is not None or given.rows is not None or given.before:
         rows = np.arange(given.count) if given.rows is None else given.rows
         engine.name(np.ascontiguousarray(rows + given.before, np.uintp), given.ids)
     return kept
+
+
+def _confide(engine: _dyadel.Engine, given: Given) -> None:
+    """States the confidence; radii become half-widths, rounded up, of boxes that hold the ellipses of errors."""
+    if given.sigma is not None:
+        given.uncertain = int(np.count_nonzero(given.sigma[:, :2].any(axis=1)))
+    stated = None if given.confidence is None else engine.confidence(given.confidence, given.uncertain)
+    if stated and given.sigma is not None:
+        of = given.sigma[:, :2]
+        given.radius, given.sigma = np.where(of > 0, np.nextafter(of * stated[1], np.inf), 0), None
 
 
 def append_points(engine: _dyadel.Engine, points: Any, radius: Any = None, **inputs: Any) -> bool:

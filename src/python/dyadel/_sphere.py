@@ -37,6 +37,9 @@ def append_places(engine: _dyadel.Engine, points: Any, radius: Any = None,
     radius = _with_unit(radius, radius_unit)
     if radius is not None and not isinstance(radius, str):
         points, radius = _with_radii(points, radius, radius_unit), None
+    if given.sigma is not None:
+        points = _with_sigmas(points, given.sigma, given.confidence, radius_unit)
+        given.sigma = given.confidence = None
     given.points, given.radius = points, None
     if not append_given(engine, given, degrees=True):
         given.points = None
@@ -213,6 +216,13 @@ def _with_radii(points: Any, radii: Any, unit: str | None) -> Text:
         raise ValueError('on the globe a point has one radius, not one for x and one for y')
     text = ''.join(f'"{_as_text(x)}","{_as_text(y)}","{_as_text(r)}"\n' for (x, y), r in zip(rows, radii))
     return Text('x,y,r\n' + text, columns='x,y', radius_columns='r', radius_unit=unit)
+
+
+def _with_sigmas(points: Any, sigma: Floats, confidence: str | None, unit: str | None) -> Text:
+    """A table of points with their standard deviations and correlation."""
+    text = ''.join(f'"{_as_text(x)}","{_as_text(y)}",{",".join(map(_as_text, s))}\n' for (x, y), s in zip(points, sigma))
+    return Text('x,y,sx,sy,rho\n' + text, columns='x,y', sigma_column='sx,sy,rho', confidence=confidence,
+                radius_unit=unit)
 
 
 def _restore_sphere(made: tuple[Given, Any, Any], options: dict[str, Any], outcome: str) -> Sphere:

@@ -15,6 +15,7 @@ from . import _dyadel, _geometry
 from ._arrays import Floats, Ints, Longs, Rect, floats, ints, longs, rect_of
 from ._inputs import epsg_of
 from ._options import Path, engine_options
+from ._points import Confidence
 
 STATUS = ('illegal', 'tie', 'indeterminate', 'legal')
 TIE, INDETERMINATE, LEGAL = 1, 2, 3
@@ -66,6 +67,12 @@ class Statuses:
             with contextlib.suppress(AttributeError):
                 setattr(error, 'result', self)
             raise
+
+    @property
+    def confidence(self) -> Confidence | None:
+        """With at least this probability everything stated holds; None where none was asked for."""
+        stated = self._named.confidence(None, 0)
+        return None if stated is None else Confidence(*stated)
 
     def cancel(self) -> None:
         """Asks a run to end soon, with outcome 'cancelled'; from any thread."""
