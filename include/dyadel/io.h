@@ -250,6 +250,7 @@ typedef struct dyd_nearest_answer {
   bool sure;
   dyd_outcome outcome;
   bool tied; /* dyd_engine_nearest_tied */
+  bool discs; /* sites are discs: dyd_disc_nearest */
   /* Of many places: what `q` is, where it is not the number of the answer; an identifier (NULL: none), which all places
    * have if the first has one. */
   bool placed;

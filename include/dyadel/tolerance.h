@@ -113,6 +113,14 @@ DYD_API dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dy
  * have their statuses in pd, which hold for discs, too. err says how many these are. */
 DYD_API dyd_status dyd_disc_pairs_until(dyd_pair_list *out, const dyd_delaunay *pd, const volatile int *cancel,
                                         dyd_error *err);
+/* Of sites that are possibly nearest to a point of `at` when they are rectangles (dyd_nearest_rect), *found keeps those
+ * that are when they are the discs in them [DISC-5]: for a point exactly those, for a rectangle perhaps more. *sure:
+ * one is left, which is nearest for every choice. Returns DYD_E_ARG for a site that is no square (err names it).
+ * O(found) */
+DYD_API dyd_status dyd_disc_nearest(dyd_index_list *found, bool *sure, const dyd_sites *sites, const dyd_rect *at,
+                                    dyd_error *err);
+/* Bounds, rounded outward, of the distance from points of `at` to points of the disc of site i. */
+DYD_API dyd_status dyd_disc_distance(double *lo, double *hi, const dyd_sites *sites, size_t i, const dyd_rect *at);
 /* Triangles that are Delaunay for every choice in the discs: those of the centres with three pairs that are legal in
  * `pairs`, which dyd_disc_pairs listed for pd [DISC-3]. Sorted; *out is replaced. DYD_E_ARG for a site that is no
  * square. O(N log N) */

@@ -228,6 +228,8 @@ static int places_read_file(query *q, dyd_engine *from, const cli_options *o) {
 
 static int places_read(cli_session *s) {
   const cli_options *o = &s->o;
+  if (o->discs && o->certificate)
+    return cli_usage("no certificate proves which discs are nearest: leave --certificate or --discs out");
   query *q = s->state;
   dyd_engine *from = NULL;
   if (!o->queries && (o->query_columns || o->query_id))
@@ -275,6 +277,10 @@ static dyd_status answer_place(cli_session *s, size_t k, const dyd_engine_option
   dyd_outcome outcome;
   bool sure;
   dyd_status st = dyd_engine_nearest(&p->found, &sure, &outcome, s->engine, p->at, o, err);
+  if (st == DYD_OK && s->o.discs) {
+    st = dyd_disc_nearest(&p->found, &sure, dyd_engine_sites(s->engine), dyd_stream_rect(p->at), err);
+    if (sure && outcome == DYD_OUTCOME_FIXPOINT) outcome = DYD_OUTCOME_DECIDED;
+  }
   if (st != DYD_OK) return name_place(st, k, s, err);
   p->answer = (dyd_nearest_answer){DYD_SIZED(dyd_nearest_answer),
                                    dyd_stream_rect(p->at),
@@ -282,6 +288,7 @@ static dyd_status answer_place(cli_session *s, size_t k, const dyd_engine_option
                                    sure,
                                    outcome,
                                    dyd_engine_nearest_tied(s->engine),
+                                   s->o.discs,
                                    true,
                                    p->row,
                                    p->id};

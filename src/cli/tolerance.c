@@ -237,14 +237,38 @@ static int plan_find_points(cli_session *s) {
   return 0;
 }
 
+static int compare_pairs(const void *a, const void *b) {
+  const dyd_pair *p = a, *q = b;
+  return p->i != q->i ? (p->i > q->i) - (p->i < q->i) : (p->j > q->j) - (p->j < q->j);
+}
+
+/* The pairs asked for become those that stay open for the discs: a plan that decides them for the squares of the discs
+ * is enough. */
+static dyd_status plan_take_discs(plan_run *r, const cli_session *s, dyd_error *err) {
+  dyd_pair_list all = {0}, *asked = s->o.pairs ? &r->pairs : &all;
+  size_t kept = 0;
+  dyd_status st = dyd_disc_pairs_until(&all, dyd_engine_delaunay(s->engine), cli_signals_flag(), err);
+  for (size_t k = 0; k < asked->count && st >= 0; k++) {
+    const dyd_pair *p =
+        asked == &all ? &all.item[k] : bsearch(&asked->item[k], all.item, all.count, sizeof *p, compare_pairs);
+    if (p && p->status == DYD_INDETERMINATE) asked->item[kept++] = asked->item[k];
+  }
+  asked->count = kept;
+  dyd_pair_list_clear(asked == &all ? &r->pairs : &all);
+  r->pairs = *asked;
+  return st;
+}
+
 static dyd_status plan_run_engine(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
   plan_run *r = s->state;
   dyd_status st = cli_run_engine(s, options, err);
   if (st != DYD_OK || !cli_run_was_whole(s->engine)) return st;
   r->cost = of_each_point(s->engine, DYD_ROW_COST);
   if (!r->cost) return DYD_E_NOMEM;
+  if (s->o.discs) st = plan_take_discs(r, s, err);
+  if (st < 0) return st;
   const dyd_survey_options how = {DYD_SIZED(dyd_survey_options),
-                                  .pairs = s->o.pairs ? &r->pairs : NULL,
+                                  .pairs = s->o.pairs || s->o.discs ? &r->pairs : NULL,
                                   .window = s->view,
                                   .site = s->o.site_set ? &r->site : NULL,
                                   .accuracy = s->o.accuracy ? r->accuracy : NULL,

@@ -241,6 +241,7 @@ static const char *nearest_status(const dyd_nearest_answer *a) {
 /* The distance from the place to site i, whatever both are. scratch: a rectangle. */
 static dyd_status nearest_distance(double bounds[2], const dyd_nearest_output *n, const dyd_nearest_answer *a,
                                    uint32_t i, dyd_rect *scratch) {
+  if (a->discs) return dyd_disc_distance(&bounds[0], &bounds[1], dyd_delaunay_sites(n->pd), i, a->at);
   dyd_status st = dyd_sites_get(scratch, dyd_delaunay_sites(n->pd), i);
   if (st == DYD_OK) dyd_rect_distance(&bounds[0], &bounds[1], a->at, scratch);
   return st;

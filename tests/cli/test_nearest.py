@@ -5,6 +5,7 @@
 Usage: test_nearest.py COMMAND DATA
 """
 import csv
+import decimal
 import gzip
 import json
 import os
@@ -15,7 +16,7 @@ import tempfile
 from fractions import Fraction
 
 import svg
-from harness import DATA, expect, main, run
+from harness import DATA, cases, expect, main, run
 
 SITES = '0 0\n2*sqrt(2) 0\n0 10\n0 0\n10 10\n'
 HEAD = r'# rounding: lo down, hi up; empty: beyond doubles\ni,status,lo,hi\n'
@@ -228,6 +229,38 @@ def test_refined_places():
         many = rows(ask(places, *options, points=SITES, code=code).out)
         assert [(r['q'], r['i'], r['status']) for r in many] == [
             ('0', '1', 'sure'), ('1', '0', 'possible'), ('1', '1', 'possible'), ('2', '0', 'sure')], many
+
+
+def test_discs():
+    """All discs that are possibly nearest, by brute force in decimals of 80 digits [DISC-5]; ends that touch count."""
+    chance, near = random.Random(3), 0
+    decimal.getcontext().prec = 80
+    for case in range(cases(150)):
+        span = chance.choice((3, 6, 40))
+        discs = [tuple(chance.randint(-span, span) for _ in 'xy') + (chance.choice((0, 1, 1, 2, 3)),) for _ in range(chance.randint(1, 7))]
+        at = chance.randint(-span, span), chance.randint(-span, span)
+        far = [decimal.Decimal((x - at[0])**2 + (y - at[1])**2).sqrt() for x, y, _ in discs]
+        least = min(d + r for d, (_, _, r) in zip(far, discs))
+        want = {k for k, (d, (_, _, r)) in enumerate(zip(far, discs)) if max(0, d - r) <= least + decimal.Decimal('1e-60')}
+        first = {}
+        for k, disc in enumerate(discs):
+            if disc[2] == 0:
+                first.setdefault(disc, k)
+        want = {first.get(discs[k], k) for k in want}  # equal exact points are one
+        text = 'x,y,r\n' + ''.join('%d,%d,%d\n' % disc for disc in discs)
+        words = '--columns', 'x,y', '--radius-column', 'r', '-', *map(str, at)
+        answer = rows(run('nearest', '--discs', *words, stdin=text).out)
+        assert {int(r['i']) for r in answer} == want, (discs, at, want, answer)
+        assert all((r['status'] == 'sure') == (len(want) == 1) for r in answer)
+        for r in answer:
+            k = int(r['i'])
+            lo, hi = max(0, far[k] - discs[k][2]), far[k] + discs[k][2]
+            assert decimal.Decimal(r['lo']) <= lo <= decimal.Decimal(r['lo']) + decimal.Decimal('1e-9'), (r, lo)
+            assert decimal.Decimal(r['hi']) - decimal.Decimal('1e-9') <= hi <= decimal.Decimal(r['hi']), (r, hi)
+        near += len(want) < len(rows(run('nearest', *words, stdin=text).out))
+    assert near > cases(150) // 20, near
+    expect(run('nearest', '--discs', '-', '1', '1', stdin='[0,1] [0,2]\n3 4\n'), 1, r'\A\Z', 'a disc needs one radius')
+    expect(run('nearest', '--discs', '--certificate', 'c', '-', '1', '1', stdin='3 4\n'), 2, r'\A\Z', 'no certificate proves')
 
 
 def test_wrong_places():

@@ -158,4 +158,22 @@ def test_parts():
     assert run('plan', '--format', 'wkt', '-', stdin=POINTS).out.startswith('WKT,rank,i,')
 
 
+def test_discs():
+    """Pairs that are open for the discs are planned for: all of them, and those that --pairs names."""
+    gps = '--columns', 'east,north', '--radius-column', 'accuracy', os.path.join(DATA, 'gps.csv')
+    open_pairs = [line.split(',')[:2] for line in run('delaunay', '--discs', *gps).out.split() if 'indet' in line]
+    plan = [line.split(',') for line in run('plan', '--discs', *gps).out.splitlines()[2:]]
+    assert int(plan[0][4]) + int(plan[0][5]) == len(open_pairs) == 32 and plan[-1][5] == '0'
+    squares = run('delaunay', *gps).out.split()
+    settled = next(line.split(',')[:2] for line in squares if 'indet' in line and line.split(',')[:2] not in open_pairs)
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, 'pairs'), 'w', encoding='utf-8') as out:
+            out.write(','.join(open_pairs[3]) + '\n' + ','.join(settled) + '\n')
+        some = run('plan', '--discs', '--pairs', 'pairs', *gps, cwd=folder).out.splitlines()[2:]
+        assert sum(int(line.split(',')[4]) for line in some) == 1, some
+        more = run('plan', '--pairs', 'pairs', *gps, cwd=folder).out.splitlines()[2:]
+        assert sum(int(line.split(',')[4]) for line in more) == 2, more
+    expect(run('plan', '--discs', '-', stdin='[0,1] [0,2]\n3 4\n5 9\n'), 1, r'\A\Z', 'a disc needs one radius')
+
+
 main(globals())

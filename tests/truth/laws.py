@@ -205,12 +205,15 @@ def judge_plan(judge, case, claims, last, rand, effort):
         return
     regions = []
     for k, s in enumerate(case.sites):
-        n, xlo, xhi, ylo, yhi = s.region
         h = claims['plan'].get(k)
+        if case.geometry == 'discs':
+            regions.append(s.region if h is None else (*s.region[:3], min(s.region[3], h * (1 - Q(1, 2 ** 40)))))
+            continue
+        n, xlo, xhi, ylo, yhi = s.region
         x, y = (xlo + xhi) / 2, (ylo + yhi) / 2
         h = None if h is None else h * (1 - Q(1, 2 ** 40))
         regions.append(s.region if h is None else (n, max(xlo, x - h), min(xhi, x + h), max(ylo, y - h), min(yhi, y + h)))
-    middle = stated.Choice([((r[1] + r[2]) / 2, (r[3] + r[4]) / 2) for r in regions], last.sites)
+    middle = stated.Choice([r[1:3] if r[0] == 'disc' else ((r[1] + r[2]) / 2, (r[3] + r[4]) / 2) for r in regions], last.sites)
     if len({middle.points[k] for k in last.sites}) < len(last.sites):
         return
     pairs = [p for p in itertools.combinations(last.sites, 2) if middle.edge(*p) != 0]
