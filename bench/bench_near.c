@@ -23,7 +23,7 @@ static void add_point(dyd_engine *e, int k, dyd_error *err) {
     check(dyd_real_parse(&coordinate[a], text, (size_t)length, err), err);
   }
   check(dyd_stream_from_reals(&s, coordinate[0], coordinate[1]), err);
-  check(dyd_engine_add_stream(e, s), err);
+  check(dyd_engine_add_stream(e, s, NULL), err);
 }
 
 static bench_cost run(size_t count[4], double *bits, char *remark, size_t size) {

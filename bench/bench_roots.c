@@ -36,7 +36,7 @@ static void add_point(dyd_engine *e, const uint32_t r[4], dyd_error *err) {
     check(dyd_real_parse(&coordinate[k], text, (size_t)(end - text), err), err);
   }
   check(dyd_stream_from_reals(&s, coordinate[0], coordinate[1]), err);
-  check(dyd_engine_add_stream(e, s), err);
+  check(dyd_engine_add_stream(e, s, NULL), err);
 }
 
 /* Writing the text is part of the cost, as is making the numbers for the peer. */

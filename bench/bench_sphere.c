@@ -29,7 +29,7 @@ static dyd_engine *engine_fill(const globe_input *g) {
   if (g->in)
     sphere_check(g->row, dyd_read_points(e, g->in, &how, &err), &err);
   else
-    sphere_check(g->row, dyd_engine_add_points(e, g->points->n, g->points->x, g->points->y), NULL);
+    sphere_check(g->row, dyd_engine_add_points(e, g->points->n, g->points->x, g->points->y, NULL), NULL);
   return e;
 }
 

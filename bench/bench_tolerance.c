@@ -23,7 +23,6 @@ static void deaths_run(bench_series *before, bench_series *ours, deaths_answer *
   dyd_delaunay *pd = NULL;
   dyd_tolerance *t = NULL;
   const dyd_tolerance_options how = {DYD_SIZED(dyd_tolerance_options), .points = radii};
-  double hi;
   bench_meter meter = bench_start();
   tolerance_check(row, dyd_sites_new(&sites));
   tolerance_check(row, dyd_sites_add_points(sites, c->n, c->x, c->y));
@@ -32,10 +31,10 @@ static void deaths_run(bench_series *before, bench_series *ours, deaths_answer *
   meter = bench_start();
   tolerance_check(row, dyd_tolerance_new(&t, pd, &how, NULL));
   bench_series_add(ours, bench_stop(&meter));
-  dyd_tolerance_rungs(&answer->filter, &answer->exact, t);
-  dyd_tolerance_whole(&answer->least, &hi, t);
+  answer->filter = dyd_tolerance_get(t)->filter, answer->exact = dyd_tolerance_get(t)->exact;
+  answer->least = dyd_tolerance_get(t)->lo;
   answer->radii = 0;
-  for (size_t i = 0; radii && i < c->n; i++) answer->radii += dyd_tolerance_points(t)[i];
+  for (size_t i = 0; radii && i < c->n; i++) answer->radii += dyd_tolerance_get(t)->points[i];
   dyd_tolerance_free(t);
   dyd_delaunay_free(pd);
   dyd_sites_free(sites);

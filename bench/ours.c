@@ -39,7 +39,7 @@ bench_cost ours_run(ours_answer *out, const char *row, const cloud *c, ours_what
   dyd_triangle_list triangles = {0}, beyond = {0};
   if (what == OURS_ARRAYS) {
     meter = bench_start();
-    check(row, dyd_delaunay_triangles_as_found(&triangles, &beyond, pd));
+    check(row, dyd_delaunay_triangles(&triangles, &beyond, pd, DYD_TRIANGLES_AS_FOUND));
   }
   if (what == OURS_LISTED) check(row, dyd_delaunay_pairs(&pairs, pd));
   bench_cost cost = bench_stop(&meter);

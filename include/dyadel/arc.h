@@ -22,13 +22,9 @@ typedef struct dyd_surd_point {
 
 DYD_API void dyd_surd_point_init(dyd_surd_point *p);
 DYD_API void dyd_surd_point_clear(dyd_surd_point *p);
-DYD_API void dyd_surd_point_set(dyd_surd_point *out, const dyd_surd_point *p);
 /* The smallest rectangle with ends that are multiples of 2^-bits around p: widths 0 or 2^-bits. Exact.
  * DYD_E_RANGE when bits or p leave the exponent range. */
 DYD_API dyd_status dyd_surd_point_enclose(dyd_rect *out, const dyd_surd_point *p, int64_t bits);
-/* Sign of (distance of p to a) - (distance of p to b), each closest or farthest. Exact. */
-DYD_API int dyd_surd_point_compare(const dyd_surd_point *p, const dyd_rect *a, dyd_touch ta, const dyd_rect *b,
-                                   dyd_touch tb);
 
 /* Corners of a rectangle: bit 0 chooses x1 over x0, bit 1 y1 over y0. Sides by the coordinate that is fixed. */
 typedef enum dyd_feature_kind {
@@ -98,17 +94,12 @@ DYD_API void dyd_boundary_clear(dyd_boundary *b);
  * *out is replaced. Exact. */
 DYD_API dyd_status dyd_bisector(dyd_boundary *out, const dyd_rect *a, const dyd_rect *b);
 /* Is every point of the rectangle q in C_ab (TRUE), in C_ba (FALSE)? UNKNOWN otherwise. Four corners decide, as both
- * are convex. Exact. (For a dyadic point: dyd_nearer.) */
+ * are convex. Exact. */
 DYD_API dyd_truth dyd_rect_nearer(const dyd_rect *q, const dyd_rect *a, const dyd_rect *b);
 
-/* The partial centre O(a,b,c) = { o : some circle about o meets all three } of a surely oriented triple: its six
- * vertices, the centres of the critical circles in the order FCC CFC CCF CFF FCF FFC. DYD_E_ARG for others. */
-DYD_API dyd_status dyd_partial_centre(dyd_surd_point out[6], const dyd_rect *a, const dyd_rect *b, const dyd_rect *c);
 /* A rectangle that holds O(a,b,c), with ends within 2^-bits of the smallest one [CEN-1]. DYD_E_ARG as above. */
 DYD_API dyd_status dyd_partial_centre_enclose(dyd_rect *out, const dyd_rect *a, const dyd_rect *b, const dyd_rect *c,
                                               int64_t bits);
-/* Is the point c inside I (TRUE), inside E (FALSE), neither (UNKNOWN)? Exact. For a rectangle: dyd_con. */
-DYD_API dyd_truth dyd_partial_disc_side(const dyd_partial_disc *d, const dyd_point *c);
 
 #ifdef __cplusplus
 }

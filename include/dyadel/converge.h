@@ -73,11 +73,6 @@ typedef struct dyd_converge_options {
 DYD_API dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engine_options *options,
                                     const dyd_converge_options *converge, dyd_error *err);
 
-/* Appends a row about pd: everything that pd tells. stage is one more than that of the row before; the caller fills in
- * bits, calls and seconds. *row is borrowed until out is cleared. */
-DYD_API dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const dyd_delaunay *pd,
-                                       const dyd_converge_options *converge, dyd_error *err);
-
 #ifdef __cplusplus
 }
 #endif

@@ -165,18 +165,17 @@ DYD_API dyd_status dyd_delaunay_each_group(const dyd_delaunay *pd, dyd_group_fn 
  * O(log pairs + degree); where all points are on one line, O(N). */
 DYD_API dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaunay *pd, uint32_t i,
                                            dyd_pair_status least);
-/* Triangles with three legal edges that hold no site for any choice: Delaunay triangles for every choice. Sorted. */
-DYD_API dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, const dyd_delaunay *pd);
-/* The same, and who is next to whom: neighbours->item[t].v[k] is the number in the list of the triangle beyond the side
- * opposite to corner k of triangle t, DYD_NO_TRIANGLE where there is none that is sure (outside the hull, or in an
- * undecided face). neighbours may be NULL. Both are replaced, owned by the caller. O(N). */
 #define DYD_NO_TRIANGLE UINT32_MAX
-DYD_API dyd_status dyd_delaunay_triangles_and_neighbours(dyd_triangle_list *out, dyd_triangle_list *neighbours,
-                                                         const dyd_delaunay *pd);
-/* The same triangles, not sorted: several times as fast, in an order that may change with the number of threads and
- * with releases; what is near in the list is near in the plane. */
-DYD_API dyd_status dyd_delaunay_triangles_as_found(dyd_triangle_list *out, dyd_triangle_list *neighbours,
-                                                   const dyd_delaunay *pd);
+/* Not sorted: several times as fast, in an order that may change with the number of threads and with releases; what is
+ * near in the list is near in the plane. */
+#define DYD_TRIANGLES_AS_FOUND 1u
+/* Triangles with three legal edges that hold no site for any choice: Delaunay triangles for every choice. Sorted,
+ * unless flags have DYD_TRIANGLES_AS_FOUND. neighbours, unless NULL, tells who is next to whom:
+ * neighbours->item[t].v[k] is the number in the list of the triangle beyond the side opposite to corner k of triangle
+ * t, DYD_NO_TRIANGLE where there is none that is sure (outside the hull, or in an undecided face). Both are replaced,
+ * owned by the caller. DYD_E_ARG for other flags. O(N log N), as found O(N). */
+DYD_API dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, dyd_triangle_list *neighbours, const dyd_delaunay *pd,
+                                          unsigned flags);
 /* The sites of the undecided faces of the legal graph: face f (0 <= f < dyd_delaunay_undecided_faces). Ascending.
  * *outer tells whether the face is unbounded (the unbounded face may come in parts, between sure corners of the hull).
  * Every non-legal possible pair lies in exactly one of them, up to its end points on the boundary. */
@@ -186,8 +185,6 @@ DYD_API dyd_status dyd_delaunay_face_pairs(dyd_pair_list *out, const dyd_delauna
 /* A witness of a legal pair: max(dl_i, dl_j)(c) < ds_k(c) for all other k, re-checked before it is given.
  * DYD_E_ARG when the pair is not legal. */
 DYD_API dyd_status dyd_delaunay_witness(dyd_point *out, const dyd_delaunay *pd, uint32_t i, uint32_t j);
-/* The sites on the hull of the skeleton's representatives, counter-clockwise. */
-DYD_API dyd_status dyd_delaunay_hull(dyd_index_list *out, const dyd_delaunay *pd);
 
 /* ---- convex hull ---- */
 

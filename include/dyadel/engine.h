@@ -178,38 +178,27 @@ typedef struct dyd_engine dyd_engine;
 DYD_API dyd_status dyd_engine_new(dyd_engine **out);
 DYD_API void dyd_engine_free(dyd_engine *e);
 
-/* Adding points: numbered from 0 in the order added. Only before the first run or question (DYD_E_ARG
- * afterwards: see dyd_engine_append_points).
- * On failure nothing is added (and for streams and sources: the reference or context is released), and
- * dyd_engine_add_error says why: DYD_E_ARG for NaN, infinities and lower ends above upper ones, with the point. */
-DYD_API dyd_status dyd_engine_add_points(dyd_engine *e, size_t n, const double *x, const double *y);
+/* Adding points: numbered from 0 in the order added, at any time but from within a callback. On failure nothing is
+ * added (and of streams and sources the reference or context is released), and err, which may be NULL, says why:
+ * DYD_E_ARG for NaN, infinities and lower ends above upper ones, with the point.
+ * Points added after a run or question are numbered on, and end the result, which spoke of fewer points:
+ * dyd_engine_delaunay is NULL and dyd_engine_outcome DYD_OUTCOME_NONE until the next stage is complete. Rectangles stay
+ * as narrow as they are, nothing is asked twice. The next run triangulates all points anew, once for all that were
+ * added before it, and gives what an engine would give that had them all from the start, for the rectangles reached.
+ * Statements are monotone for fixed points; among more points a legal pair may become illegal. */
+DYD_API dyd_status dyd_engine_add_points(dyd_engine *e, size_t n, const double *x, const double *y, dyd_error *err);
 DYD_API dyd_status dyd_engine_add_boxes(dyd_engine *e, size_t n, const double *x0, const double *x1, const double *y0,
-                                        const double *y1);
+                                        const double *y1, dyd_error *err);
+/* From columns, as dyd_sites_add_columns: of an array of n pairs, {{a, 16}, {a + 1, 16}}. radius may be NULL. */
+DYD_API dyd_status dyd_engine_add_columns(dyd_engine *e, size_t n, const dyd_column xy[2], const dyd_column *radius,
+                                          dyd_error *err);
 /* A fixed rectangle or exact point. Copied. */
-DYD_API dyd_status dyd_engine_add_rect(dyd_engine *e, const dyd_rect *r);
+DYD_API dyd_status dyd_engine_add_rect(dyd_engine *e, const dyd_rect *r, dyd_error *err);
 /* Takes over one reference. */
-DYD_API dyd_status dyd_engine_add_stream(dyd_engine *e, dyd_stream *s);
+DYD_API dyd_status dyd_engine_add_stream(dyd_engine *e, dyd_stream *s, dyd_error *err);
 /* n points served by one callback: it is asked for points 0 .. n-1 of the source. Copied; release is called once,
  * when the engine is freed. */
 DYD_API dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_source *source, dyd_error *err);
-/* What the last call that adds points failed with; code DYD_OK when it did not. Borrowed until the next such call. */
-DYD_API const dyd_error *dyd_engine_add_error(const dyd_engine *e);
-
-/* The same at any time but from within a callback; err may be NULL. Points added after a run or question are numbered
- * on, and end the result, which spoke of fewer points: dyd_engine_delaunay is NULL and dyd_engine_outcome
- * DYD_OUTCOME_NONE until the next stage is complete. Rectangles stay as narrow as they are, nothing is asked twice. The
- * next run triangulates all points anew, once for all that were added before it, and gives what an engine would give
- * that had them all from the start, for the rectangles reached. Statements are monotone for fixed points; among more
- * points a legal pair may become illegal. */
-DYD_API dyd_status dyd_engine_append_points(dyd_engine *e, size_t n, const double *x, const double *y, dyd_error *err);
-DYD_API dyd_status dyd_engine_append_boxes(dyd_engine *e, size_t n, const double *x0, const double *x1,
-                                           const double *y0, const double *y1, dyd_error *err);
-/* From columns, as dyd_sites_add_columns: of an array of n pairs, {{a, 16}, {a + 1, 16}}. radius may be NULL. */
-DYD_API dyd_status dyd_engine_append_columns(dyd_engine *e, size_t n, const dyd_column xy[2], const dyd_column *radius,
-                                             dyd_error *err);
-DYD_API dyd_status dyd_engine_append_rect(dyd_engine *e, const dyd_rect *r, dyd_error *err);
-DYD_API dyd_status dyd_engine_append_stream(dyd_engine *e, dyd_stream *s, dyd_error *err);
-DYD_API dyd_status dyd_engine_append_source(dyd_engine *e, size_t n, const dyd_source *source, dyd_error *err);
 
 /* Point i has been measured again, before or between runs: it lies in r, and where it is known to lie. Its rectangle
  * becomes what both have in common, whatever kind of point it is; what its stream or source gives later is intersected

@@ -122,16 +122,13 @@ DYD_API double dyd_engine_number(const dyd_engine *e, size_t i, dyd_row_number w
 
 /* Reads points from `in` up to its end and adds them to e (nothing is added on failure). What gzip or zstd packed is
  * read as it is. options may be NULL.
- * On DYD_E_PARSE err has line, column and a message with the remedy. DYD_E_ARG after the first run
- * or question. */
+ * On DYD_E_PARSE err has line, column and a message with the remedy. After a run or question, too: see
+ * dyd_engine_add_points. */
 DYD_API dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_options *options, dyd_error *err);
 
 /* The same from a text in memory, which is copied: one point or a whole file. */
 DYD_API dyd_status dyd_engine_add_text(dyd_engine *e, const char *text, size_t length, const dyd_read_options *options,
                                        dyd_error *err);
-/* The same, also after the first run: see dyd_engine_append_points. */
-DYD_API dyd_status dyd_engine_append_text(dyd_engine *e, const char *text, size_t length,
-                                          const dyd_read_options *options, dyd_error *err);
 /* A rectangle from one line of a points file, such as "22/7 [1.2,1.3]"; each coordinate as dyd_interval_set_text has
  * it. On DYD_E_PARSE err has line, column and a message with the remedy. */
 DYD_API dyd_status dyd_rect_set_text(dyd_rect *out, const char *text, size_t length, dyd_error *err);

@@ -9,17 +9,6 @@
 extern "C" {
 #endif
 
-/* An upper bound of the Lebesgue measure of the union of the partial edges Ed(R_i,R_j) over all possible pairs:
- * the sum of the areas of these hulls, rounded up by at most 2^-53 of itself (or to a multiple of 2^-DYD_EXP_LIMIT)
- * [AREA-T]. DYD_CAPPED (out unchanged) when
- * pd is capped, since pairs are missing then. O(pairs). */
-DYD_API dyd_status dyd_metric_area(dyd_dyadic *out, const dyd_delaunay *pd);
-
-/* An upper bound of the Hausdorff distance between the true Delaunay graph (for any choice, as the union of its
- * edges) and the union of the partial edges; rounded up by at most 2^-53 of itself [HAUS-T]. DYD_CAPPED as above.
- * O(pairs). */
-DYD_API dyd_status dyd_metric_hausdorff(dyd_dyadic *out, const dyd_delaunay *pd);
-
 /* Bounds on the partial Voronoi diagram on a window W (dyadic ends, positive area). The undetermined set U is W minus
  * the union of all Int_i; it holds the true diagram (the union of the boundaries of the true cells) inside W.
  *
@@ -51,8 +40,6 @@ static inline void dyd_voronoi_bounds_clear(dyd_voronoi_bounds *b) {
  * unchanged), DYD_E_ARG for a wrong window. O(N + pairs) for separated thin rectangles. */
 DYD_API dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, const dyd_rect *window,
                                       int64_t bits, const volatile int *cancel);
-/* A choice of bits so that flattening alone adds about 2^-goal_bits / 8 or less to the area. */
-DYD_API int64_t dyd_metric_flattening(const dyd_delaunay *pd, const dyd_rect *window, int64_t goal_bits);
 /* A choice of bits so that polygons follow cells of mean size in W to about a sixteenth of their size: enough for the
  * Hausdorff bound, which only needs to know how far cells reach. */
 DYD_API int64_t dyd_metric_coarseness(const dyd_delaunay *pd, const dyd_rect *window);

@@ -32,14 +32,6 @@ typedef struct dyd_circle {
 
 DYD_API void dyd_circle_init(dyd_circle *c);
 DYD_API void dyd_circle_clear(dyd_circle *c);
-DYD_API void dyd_circle_set(dyd_circle *out, const dyd_circle *c);
-
-/* The critical circle of three surely oriented rectangles: touch[k] says how it meets r[k]. At least one F,
- * at least one C. Unique [CRIT-1]. DYD_E_ARG when the triple is not surely oriented or the labels are all equal. */
-DYD_API dyd_status dyd_critical_circle(dyd_circle *out, const dyd_rect *const r[3], const dyd_touch touch[3]);
-
-/* Sign of (distance of the circle's centre to r, closest or farthest) - radius. Exact. */
-DYD_API int dyd_circle_side(const dyd_circle *c, const dyd_rect *r, dyd_touch touch);
 
 /* The partial disc D(a,b,c) = (I,E) by its six critical circles, in the order FCC CFC CCF CFF FCF FFC.
  * known is false (and the circles unused) when the triple is not surely oriented: I and E are empty then. */
@@ -51,8 +43,6 @@ typedef struct dyd_partial_disc {
 DYD_API void dyd_partial_disc_init(dyd_partial_disc *d);
 DYD_API void dyd_partial_disc_clear(dyd_partial_disc *d);
 DYD_API void dyd_partial_disc_set(dyd_partial_disc *out, const dyd_rect *a, const dyd_rect *b, const dyd_rect *c);
-/* PLUS: r is inside I; MINUS: r is inside E; UNSURE otherwise. */
-DYD_API dyd_sure dyd_partial_disc_con(const dyd_partial_disc *d, const dyd_rect *r);
 
 /* Con(r; a,b,c): PLUS r surely inside the circle through a, b, c (of either orientation); MINUS surely outside;
  * UNSURE: some circle meets all four, or the triple is not surely oriented [CON-1]. */
@@ -61,13 +51,6 @@ DYD_API dyd_sure dyd_con(const dyd_rect *r, const dyd_rect *a, const dyd_rect *b
 /* The quad rule: TRUE when the pair ab surely cannot displace the pair ij in any Delaunay triangulation
  * (Ed(i,j) and Ed(a,b) disjoint, or Con(a;i,j,b) = -, or Con(b;i,j,a) = -), UNKNOWN otherwise [QUAD-1]. */
 DYD_API dyd_truth dyd_cannot_displace(const dyd_rect *i, const dyd_rect *j, const dyd_rect *a, const dyd_rect *b);
-
-/* Is c surely nearer to every point of a than to any of b? TRUE: dl(c,a) < ds(c,b). FALSE: dl(c,b) < ds(c,a).
- * UNKNOWN otherwise. */
-DYD_API dyd_truth dyd_nearer(const dyd_point *c, const dyd_rect *a, const dyd_rect *b);
-
-/* Sign of dist(c,a) - dist(c,b), each distance closest or farthest. Exact. */
-DYD_API int dyd_compare_distance(const dyd_point *c, const dyd_rect *a, dyd_touch ta, const dyd_rect *b, dyd_touch tb);
 
 #ifdef __cplusplus
 }

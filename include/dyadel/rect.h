@@ -32,7 +32,6 @@ typedef struct dyd_point {
 DYD_API void dyd_interval_init(dyd_interval *a);
 DYD_API void dyd_interval_clear(dyd_interval *a);
 DYD_API void dyd_interval_set(dyd_interval *out, const dyd_interval *a);
-DYD_API void dyd_interval_swap(dyd_interval *a, dyd_interval *b);
 /* DYD_E_ARG unless lo <= hi. */
 DYD_API dyd_status dyd_interval_set_ends(dyd_interval *out, const dyd_dyadic *lo, const dyd_dyadic *hi);
 DYD_API dyd_status dyd_interval_set_d(dyd_interval *out, double lo, double hi);
@@ -44,8 +43,6 @@ DYD_API bool dyd_interval_is_point(const dyd_interval *a);
 /* Is inner a subset of outer? Exact. */
 DYD_API bool dyd_interval_contains(const dyd_interval *outer, const dyd_interval *inner);
 DYD_API bool dyd_interval_meets(const dyd_interval *a, const dyd_interval *b);
-/* The intersection; DYD_E_ARG (out unchanged) when it is empty. Of two sets with a rational point, that point. */
-DYD_API dyd_status dyd_interval_intersect(dyd_interval *out, const dyd_interval *a, const dyd_interval *b);
 /* Ends as canonical rationals; lo, hi initialised by the caller. */
 DYD_API void dyd_interval_get_q(mpq_t lo, mpq_t hi, const dyd_interval *a);
 /* The least b >= -DYD_EXP_LIMIT with hi - lo > 2^-b, minus 1: the width is at most 2^-(bits).
@@ -57,7 +54,6 @@ DYD_API void dyd_interval_get_d(double *lo, double *hi, const dyd_interval *a);
 DYD_API void dyd_rect_init(dyd_rect *r);
 DYD_API void dyd_rect_clear(dyd_rect *r);
 DYD_API void dyd_rect_set(dyd_rect *out, const dyd_rect *r);
-DYD_API void dyd_rect_swap(dyd_rect *a, dyd_rect *b);
 DYD_API dyd_status dyd_rect_set_d(dyd_rect *out, double x0, double x1, double y0, double y1);
 DYD_API dyd_status dyd_rect_set_q(dyd_rect *out, const mpq_t x, const mpq_t y);
 /* The sides as enclosing doubles: x lower, x upper, y lower, y upper. */
@@ -71,21 +67,6 @@ DYD_API int64_t dyd_rect_bits(const dyd_rect *r);
 
 DYD_API void dyd_point_init(dyd_point *p);
 DYD_API void dyd_point_clear(dyd_point *p);
-DYD_API void dyd_point_set(dyd_point *out, const dyd_point *p);
-
-/* ds(c,R)^2 and dl(c,R)^2, exact canonical rationals (attained at the clamped point and at the corner
- * opposite c's quadrant [DIST-1]); out is initialised by the caller. */
-DYD_API void dyd_rect_ds2(mpq_t out, const dyd_point *c, const dyd_rect *r);
-DYD_API void dyd_rect_dl2(mpq_t out, const dyd_point *c, const dyd_rect *r);
-
-/* Bounds of the distances of a point of a and a point of b: the least one rounded down, the largest one rounded up
- * (infinite beyond the range of doubles). */
-DYD_API void dyd_rect_distance(double *lo, double *hi, const dyd_rect *a, const dyd_rect *b);
-
-/* Twice the area of the partial edge Ed(a,b), the convex hull of two rectangles. Exact. */
-DYD_API void dyd_partial_edge_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b);
-/* Are Ed(a,b) and Ed(c,d) disjoint as closed sets? Exact, touching counts as meeting [HULL-1]. */
-DYD_API bool dyd_partial_edges_disjoint(const dyd_rect *a, const dyd_rect *b, const dyd_rect *c, const dyd_rect *d);
 
 #ifdef __cplusplus
 }

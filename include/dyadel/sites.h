@@ -40,17 +40,9 @@ DYD_API size_t dyd_sites_count(const dyd_sites *s);
 DYD_API dyd_status dyd_sites_get(dyd_rect *out, const dyd_sites *s, size_t i);
 /* The outward-rounded rectangle of site i: out[0..3] = x lower, x upper, y lower, y upper. */
 DYD_API void dyd_sites_get_d(double out[4], const dyd_sites *s, size_t i);
-/* The same of `count` sites from `first` on, four numbers each. DYD_E_ARG when there are not so many. */
-DYD_API dyd_status dyd_sites_copy_d(double *out, const dyd_sites *s, size_t first, size_t count);
 DYD_API bool dyd_sites_is_point(const dyd_sites *s, size_t i);
 /* Replaces site i by a rectangle inside it; DYD_E_NESTING (site unchanged) when r is not inside. */
 DYD_API dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r);
-/* Says that the true points of two sites are the same place: the higher number becomes an alias of the lower one, and
- * both get what their rectangles have in common. Transitive. DYD_E_NESTING (nothing changed) when they have nothing in
- * common, DYD_E_ARG when there is no such site. A triangulation follows in dyd_delaunay_update. */
-DYD_API dyd_status dyd_sites_join(dyd_sites *s, size_t i, size_t j);
-/* The lowest site joined with site i: i itself where there is none. */
-DYD_API size_t dyd_sites_joined(const dyd_sites *s, size_t i);
 /* Bytes held. */
 DYD_API size_t dyd_sites_memory(const dyd_sites *s);
 

@@ -82,7 +82,6 @@ typedef struct dyd_real dyd_real;
 /* All constructors: *out is new, with one reference, released by dyd_real_free. err may be NULL everywhere.
  * dyd_real_new calls release when it fails; its requests name point 0. */
 DYD_API dyd_status dyd_real_new(dyd_real **out, dyd_narrow_real_fn narrow, dyd_release_fn release, void *user);
-DYD_API dyd_status dyd_real_from_dyadic(dyd_real **out, const dyd_dyadic *x);
 DYD_API dyd_status dyd_real_from_q(dyd_real **out, const mpq_t q);
 /* The fixed interval [lo,hi]. Ends that are not dyadic are rounded outward once, by less than 2^-64 of the
  * width (or of the magnitude when smaller), so that the rectangle never changes. lo = hi is the exact point. */
@@ -91,9 +90,6 @@ DYD_API dyd_status dyd_real_from_interval(dyd_real **out, const mpq_t lo, const 
  * seconds (47°36'18.3"N, N47.605, 47:36:18.3), [lo,hi], value+-radius, expression, root(polynomial,lo,hi). On
  * DYD_E_PARSE err has the column (from 1). */
 DYD_API dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_error *err);
-/* The same where the text is an exact number, [lo,hi] or value+-radius, or an expression whose value is rational: out
- * becomes the number, or the interval, rounded as dyd_real_from_interval says. DYD_E_PARSE for other expressions. */
-DYD_API dyd_status dyd_interval_set_text(dyd_interval *out, const char *text, size_t length, dyd_error *err);
 /* The interval [value - radius, value + radius] around any real, at every precision; takes over x. */
 DYD_API dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radius);
 /* The root in [lo,hi] of the polynomial sum coeff[k] x^k, degree = count - 1, that has opposite signs at lo and hi. */
@@ -172,8 +168,6 @@ DYD_API dyd_status dyd_stream_narrow(dyd_stream *s, int64_t bits, int64_t max_bi
 DYD_API const dyd_rect *dyd_stream_rect(const dyd_stream *s);
 /* Can no call narrow it further? */
 DYD_API bool dyd_stream_is_final(const dyd_stream *s);
-/* How many times the source has been called. */
-DYD_API uint64_t dyd_stream_stage(const dyd_stream *s);
 
 #ifdef __cplusplus
 }

@@ -34,23 +34,27 @@ typedef struct dyd_survey dyd_survey;
 /* A plan: if the points of the rows turn out where they say, no pair asked for is indeterminate, but for those that tie
  * at the nominal places: proved by one triangulation of these rectangles. No row can be left out, as far as its
  * own faces tell (in small plans: at all; in large faces: the sites near it), and all accuracies are as coarse as one
- * common factor makes them, then each by itself in powers of 2 [SUR-1]. dyd_survey_left: how many pairs stay open even
- * so (the accuracy is not enough, or rectangles are fixed by their centres). pd is borrowed for the call; options may
- * be NULL. Returns DYD_OK; DYD_E_ARG; DYD_CAPPED when pd is; DYD_E_NOMEM: *out is NULL then. DYD_CANCELLED: *out has
- * the rows that were chosen by then, with what they decide, see dyd_survey_is_cut, and err says what is open; or it is
- * NULL, before pairs were looked at. Cost: for a
- * face of m sites at most m^2 triangulations of m sites, m <= 16; in larger ones an update for each row, and some
- * triangulations of the sites near it; some of all. */
+ * common factor makes them, then each by itself in powers of 2 [SUR-1]. dyd_survey_get tells how many pairs stay open
+ * even so (the accuracy is not enough, or rectangles are fixed by their centres). pd is borrowed for the call; options
+ * may be NULL. Returns DYD_OK; DYD_E_ARG; DYD_CAPPED when pd is; DYD_E_NOMEM: *out is NULL then. DYD_CANCELLED: *out
+ * has the rows that were chosen by then, with what they decide, see dyd_survey_result, and err says what is open; or it
+ * is NULL, before pairs were looked at. Cost: for a face of m sites at most m^2 triangulations of m sites, m <= 16; in
+ * larger ones an update for each row, and some triangulations of the sites near it; some of all. */
 DYD_API dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_survey_options *options,
                                   dyd_error *err);
-/* Is the plan not finished? Points may then be in it that a finished one does not need, in the order they were chosen;
- * the numbers of pairs hold as they do otherwise. */
-DYD_API bool dyd_survey_is_cut(const dyd_survey *s);
 DYD_API void dyd_survey_free(dyd_survey *s);
 /* In the order to measure them, the most telling first. Borrowed until s is freed. */
 DYD_API size_t dyd_survey_rows(const dyd_survey_row **row, const dyd_survey *s);
-/* Pairs asked for that were open, pairs that tie at the nominal places, pairs that the plan leaves open. */
-DYD_API void dyd_survey_count(size_t *open, size_t *ties, size_t *left, const dyd_survey *s);
+/* What a plan comes to. */
+typedef struct dyd_survey_result {
+  size_t struct_size; /* set by the library */
+  size_t open, ties;  /* pairs asked for that were open; pairs that tie at the nominal places */
+  size_t left;        /* pairs that the plan leaves open */
+  bool cut; /* the plan is not finished: points may be in it that a finished one does not need, in the order they were
+               chosen; the numbers of pairs hold as they do otherwise */
+} dyd_survey_result;
+/* Borrowed until s is freed. */
+DYD_API const dyd_survey_result *dyd_survey_get(const dyd_survey *s);
 
 #ifdef __cplusplus
 }

@@ -65,7 +65,7 @@ typedef struct dyd_tolerance dyd_tolerance;
 /* The tolerances of the exact points of pd, which is borrowed until dyd_tolerance_free and must not change. options may
  * be NULL. Returns DYD_OK; DYD_E_ARG with a message when a site is no exact point, or for a negative up_to; DYD_CAPPED
  * when there are too many pairs for births; DYD_E_NOMEM: *out is NULL then. DYD_CANCELLED: *out holds the rows that
- * were reached, see dyd_tolerance_left, and err says how many were not.
+ * were reached, see dyd_tolerance_result, and err says how many were not.
  * In the max norm each pair takes some twenty triangulations of the sites around it, half a millisecond or more.
  * With weights [TOL-8] hi - lo may be more where doubles do not place a circle: where one disc grows to be all but in
  * another one; and each pair costs a few exact decisions about discs, a fifth of a millisecond or more.
@@ -78,27 +78,31 @@ DYD_API void dyd_tolerance_free(dyd_tolerance *t);
 
 /* All rows: every possible pair of pd, and the births; sorted by i, then j. Borrowed until t is freed. */
 DYD_API size_t dyd_tolerance_rows(const dyd_tolerance_row **row, const dyd_tolerance *t);
-/* After DYD_CANCELLED: edges that have no row, and pairs that may be born and have none; SIZE_MAX births: they were not
- * looked for. Both 0: rows are complete. */
-DYD_API void dyd_tolerance_left(size_t *edges, size_t *births, const dyd_tolerance *t);
-DYD_API dyd_metric dyd_tolerance_metric(const dyd_tolerance *t);
-/* The t in [*lo, *hi] up to which nothing changes at all: no edge is lost, no pair becomes one. 0 where there are ties;
- * infinite for fewer than three points [TOL-5]. Where edges have no row, lo is 0. */
-DYD_API void dyd_tolerance_whole(double *lo, double *hi, const dyd_tolerance *t);
-/* For each site a radius, rounded down: if every point is within its radius of its place, legal edges are edges, and
- * others are none, as at the nominal places [TOL-6]. An alias is one point with the site it stands for: it has its
- * radius, and moves with it. Borrowed; NULL unless options.points was set, and where work was cancelled. */
-DYD_API const double *dyd_tolerance_points(const dyd_tolerance *t);
-/* For each row a lower bound of the probability that the pair is an edge, when every coordinate of every point has a
- * normal error of standard deviation options.sigma, or sigmas, all independent [TOL-7]. 0 for births and ties.
- * Borrowed; NULL unless options.sigma, or sigmas, was set. NaN where work was cancelled before. */
-DYD_API const double *dyd_tolerance_chances(const dyd_tolerance *t);
+/* What is known beside the rows. */
+typedef struct dyd_tolerance_result {
+  size_t struct_size; /* set by the library */
+  dyd_metric metric;
+  /* The t in [lo, hi] up to which nothing changes at all: no edge is lost, no pair becomes one. 0 where there are ties;
+   * infinite for fewer than three points [TOL-5]. Where edges have no row, lo is 0. */
+  double lo, hi;
+  /* For each site a radius, rounded down: if every point is within its radius of its place, legal edges are edges, and
+   * others are none, as at the nominal places [TOL-6]. An alias is one point with the site it stands for: it has its
+   * radius, and moves with it. NULL unless options.points was set, and where work was cancelled. */
+  const double *points;
+  /* For each row a lower bound of the probability that the pair is an edge, when every coordinate of every point has a
+   * normal error of standard deviation options.sigma, or sigmas, all independent [TOL-7]. 0 for births and ties. NULL
+   * unless options.sigma, or sigmas, was set. NaN where work was cancelled before. */
+  const double *chances;
+  /* After DYD_CANCELLED: edges that have no row, and pairs that may be born and have none; SIZE_MAX births: they were
+   * not looked for. Both 0: rows are complete. */
+  size_t edges_left, births_left;
+  uint64_t filter, exact; /* how many deaths doubles decided, and how many integers */
+} dyd_tolerance_result;
+/* Borrowed until t is freed, as what it points to. */
+DYD_API const dyd_tolerance_result *dyd_tolerance_get(const dyd_tolerance *t);
 /* The exact event of row number `row`: |sqrt(plus) - sqrt(minus)| / 2; both are initialised by the caller. DYD_E_ARG
  * where lo is infinite, or there is no such row, or there are weights: no such form is known then. O(1) */
 DYD_API dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_tolerance *t, size_t row);
-/* How many deaths doubles decided, and how many integers. */
-DYD_API void dyd_tolerance_rungs(uint64_t *filter, uint64_t *exact, const dyd_tolerance *t);
-
 /* ---- discs ---- */
 
 /* Statuses of the pairs when each point lies in a disc: the one in its square, the site of pd. Discs are in squares, so
@@ -107,12 +111,10 @@ DYD_API void dyd_tolerance_rungs(uint64_t *filter, uint64_t *exact, const dyd_to
  * the discs. Rectangles of dyd_sites_add_rect are taken as they are, but for 2^-60 of their width; others, or narrowed
  * ones, as squares rounded outward, so what hangs on 2^-48 of all sizes may stay indeterminate [DISC-1].
  * DYD_E_ARG for a site that is no square (err names it); DYD_CAPPED when pd is: *out holds the pairs that pd lists. A
- * few searches for each such pair. */
-DYD_API dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err);
-/* The same; when *cancel (may be NULL) becomes non-zero, DYD_CANCELLED: *out is valid, and pairs that were not reached
- * have their statuses in pd, which hold for discs, too. err says how many these are. */
-DYD_API dyd_status dyd_disc_pairs_until(dyd_pair_list *out, const dyd_delaunay *pd, const volatile int *cancel,
-                                        dyd_error *err);
+ * few searches for each such pair. When *cancel (may be NULL) becomes non-zero, DYD_CANCELLED: *out is valid, and pairs
+ * that were not reached have their statuses in pd, which hold for discs, too. err says how many these are. */
+DYD_API dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, const volatile int *cancel,
+                                  dyd_error *err);
 /* Of sites that are possibly nearest to a point of `at` when they are rectangles (dyd_nearest_rect), *found keeps those
  * that are when they are the discs in them [DISC-5]: for a point exactly those, for a rectangle perhaps more. *sure:
  * one is left, which is nearest for every choice. Returns DYD_E_ARG for a site that is no square (err names it).

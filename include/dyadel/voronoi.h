@@ -20,13 +20,13 @@ extern "C" {
 
 /* ---- exact cells ---- */
 
-/* The exact boundary of Int_i / Pos_i in the whole plane, with its arcs, counter-clockwise. *out is replaced, owned
- * by the caller. Cost: O(K^3) exact steps for K possible neighbours. */
-DYD_API dyd_status dyd_voronoi_int(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i);
-DYD_API dyd_status dyd_voronoi_pos(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i);
-/* The same for Int_i n W / Pos_i n W on a closed window of positive area: all chains are closed. */
-DYD_API dyd_status dyd_voronoi_int_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window);
-DYD_API dyd_status dyd_voronoi_pos_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window);
+/* SURE: Int_i. POSSIBLE: Pos_i. */
+typedef enum dyd_cell_bound { DYD_CELL_SURE = 0, DYD_CELL_POSSIBLE } dyd_cell_bound;
+/* The exact boundary of Int_i or Pos_i with its arcs, counter-clockwise. window NULL: in the whole plane; else the part
+ * on this closed window of positive area: all chains are closed. *out is replaced, owned by the caller. Cost: O(K^3)
+ * exact steps for K possible neighbours. */
+DYD_API dyd_status dyd_voronoi_cell(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, dyd_cell_bound bound,
+                                    const dyd_rect *window);
 
 /* Is c in Int_i (TRUE), in Ext_i (FALSE), undetermined (UNKNOWN)? Exact. O(K). UNKNOWN, too, when there is no site i or
  * memory is exhausted. */
@@ -40,8 +40,6 @@ typedef struct dyd_polygon {
   dyd_point *vertex;
 } dyd_polygon;
 DYD_API void dyd_polygon_clear(dyd_polygon *p);
-/* Twice the area. Exact, initialised by the caller. */
-DYD_API dyd_status dyd_polygon_area2(dyd_dyadic *out, const dyd_polygon *p);
 
 /* Several of them; their insides are disjoint. */
 typedef struct dyd_polygon_list {
@@ -93,12 +91,10 @@ DYD_API dyd_status dyd_voronoi_region(dyd_rect *out, bool *any, const dyd_delaun
 
 /* ---- nearest sites ---- */
 
-/* Which sites are possibly nearest to c (ds_i(c) <= min_k dl_k(c)), ascending; *sure is true when one site is
- * surely nearest (it is alone in the list, aliases aside, or dl_i(c) < ds_k(c) for all other k). Exact [NEAR-1].
- * Cost: O(log N + output) on separated input. */
-DYD_API dyd_status dyd_nearest(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, const dyd_point *c);
-/* The same for a point anywhere in the rectangle q: i is listed iff q meets Pos_i; *sure: q lies in Int_i. Exact. */
-DYD_API dyd_status dyd_nearest_rect(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, const dyd_rect *q);
+/* Which sites are possibly nearest to a point c anywhere in the rectangle q (ds_i(c) <= min_k dl_k(c): q meets Pos_i),
+ * ascending; *sure is true when one site is surely nearest (it is alone in the list, aliases aside, or q lies in
+ * Int_i). Exact [NEAR-1]. Cost: O(log N + output) on separated input. */
+DYD_API dyd_status dyd_nearest(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, const dyd_rect *q);
 
 #ifdef __cplusplus
 }

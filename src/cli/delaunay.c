@@ -144,7 +144,7 @@ static int disc_pairs_find(cli_session *s) {
   s->known = s->known && !status;
   if (!s->known) return status;
   cli_progress_phase(s->progress, "the discs");
-  dyd_status st = dyd_disc_pairs_until(&r->pairs, dyd_engine_delaunay(s->engine), cli_signals_flag(), &err);
+  dyd_status st = dyd_disc_pairs(&r->pairs, dyd_engine_delaunay(s->engine), cli_signals_flag(), &err);
   s->known = st >= 0;
   if (st < 0) {
     cli_complain_at(s->o.file, &err);

@@ -293,12 +293,12 @@ static dyd_status plan_write(FILE *out, const cli_session *s, dyd_error *err) {
 
 static int plan_summary(cli_session *s, int status) {
   const plan_run *r = s->state;
-  size_t open, ties, left;
+  const dyd_survey_result *of = dyd_survey_get(r->survey);
   if (status) return status;
-  if (dyd_survey_is_cut(r->survey)) return cli_exit_cut();
-  dyd_survey_count(&open, &ties, &left, r->survey);
-  if (left) cli_note(&s->o, "%zu of %zu pairs stay open with this plan; give a finer --accuracy", left, open);
-  return left ? CLI_FIXPOINT : CLI_OK;
+  if (of->cut) return cli_exit_cut();
+  if (of->left)
+    cli_note(&s->o, "%zu of %zu pairs stay open with this plan; give a finer --accuracy", of->left, of->open);
+  return of->left ? CLI_FIXPOINT : CLI_OK;
 }
 
 static void plan_end(cli_session *s) {

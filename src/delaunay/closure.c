@@ -15,6 +15,8 @@
 #include "possible/cover.h"
 #include "possible/pair_map.h"
 #include "possible/patches_filter.h"
+#include "predicate/circle.h"
+#include "rect/rect.h"
 #include "skeleton/circumcentre.h"
 #include "skeleton/hull.h"
 #include "skeleton/rects_filter.h"

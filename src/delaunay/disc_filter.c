@@ -5,6 +5,7 @@
 
 #include "delaunay/index_list.h"
 #include "delaunay/state.h"
+#include "rect/rect.h"
 #include "skeleton/rects_filter.h"
 
 #include <math.h>

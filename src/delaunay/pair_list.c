@@ -127,9 +127,7 @@ static uint64_t triangles_bytes(const dyd_delaunay *pd, bool neighbours) {
   return dyd_bytes_add(dyd_triangles_bytes(pd), neighbours ? beyond : 0);
 }
 
-dyd_status dyd_delaunay_triangles_and_neighbours(dyd_triangle_list *out, dyd_triangle_list *neighbours,
-                                                 const dyd_delaunay *pd) {
-  if (!pd) return DYD_E_ARG;
+static dyd_status triangles_sorted(dyd_triangle_list *out, dyd_triangle_list *neighbours, const dyd_delaunay *pd) {
   dealt *all = NULL;
   size_t count = 0;
   dyd_triangle_list triangles = {0}, beyond = {0};
@@ -149,11 +147,6 @@ dyd_status dyd_delaunay_triangles_and_neighbours(dyd_triangle_list *out, dyd_tri
     *neighbours = beyond;
   }
   return DYD_OK;
-}
-
-dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, const dyd_delaunay *pd) {
-  if (!pd) return DYD_E_ARG;
-  return dyd_delaunay_triangles_and_neighbours(out, NULL, pd);
 }
 
 /* ---- as they stand in the mesh ---- */
@@ -177,25 +170,34 @@ static void list_as_found(dyd_triangle *triangle, dyd_triangle *beyond, const ui
   }
 }
 
-dyd_status dyd_delaunay_triangles_as_found(dyd_triangle_list *out, dyd_triangle_list *neighbours,
-                                           const dyd_delaunay *pd) {
-  if (!pd) return DYD_E_ARG;
+static dyd_status triangles_as_found(dyd_triangle_list *out, dyd_triangle_list *neighbours, const dyd_delaunay *pd) {
   uint32_t *place = dyd_alloc(pd->sk.mesh.count, sizeof *place);
   if (!place) return DYD_E_NOMEM;
   size_t count = number_as_found(place, pd);
-  dyd_triangle *triangle = dyd_alloc(count, sizeof *triangle), *beyond = dyd_alloc(count, sizeof *beyond);
-  if (triangle && beyond) {
-    list_as_found(triangle, beyond, place, pd);
+  dyd_triangle_list found = {count, dyd_alloc(count, sizeof *found.item)},
+                    beyond = {count, dyd_alloc(count, sizeof *beyond.item)};
+  bool fits = found.item && beyond.item;
+  if (fits) {
+    list_as_found(found.item, beyond.item, place, pd);
     dyd_triangle_list_clear(out);
-    dyd_triangle_list_clear(neighbours);
-    *out = (dyd_triangle_list){count, triangle};
-    *neighbours = (dyd_triangle_list){count, beyond};
-  } else {
-    free(triangle);
-    free(beyond);
+    *out = found;
+    found = (dyd_triangle_list){0};
   }
+  if (fits && neighbours) {
+    dyd_triangle_list_clear(neighbours);
+    *neighbours = beyond;
+    beyond = (dyd_triangle_list){0};
+  }
+  dyd_triangle_list_clear(&found);
+  dyd_triangle_list_clear(&beyond);
   free(place);
-  return triangle && beyond ? DYD_OK : DYD_E_NOMEM;
+  return fits ? DYD_OK : DYD_E_NOMEM;
+}
+
+dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, dyd_triangle_list *neighbours, const dyd_delaunay *pd,
+                                  unsigned flags) {
+  if (!pd || flags > DYD_TRIANGLES_AS_FOUND) return DYD_E_ARG;
+  return (flags ? triangles_as_found : triangles_sorted)(out, neighbours, pd);
 }
 
 /* A visit by vertices, passed on by sites. */

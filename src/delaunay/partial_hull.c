@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "delaunay/index_list.h"
 #include "delaunay/memory.h"
+#include "delaunay/state.h"
 #include "delaunay/undecided.h"
 
 #include <string.h>

@@ -96,4 +96,7 @@ static inline bool dyd_triangle_is_sure(const dyd_delaunay *pd, uint32_t t) {
          dyd_face_of(pd, t) == DYD_NONE;
 }
 
+/* The sites on the hull of the skeleton's representatives, counter-clockwise. */
+dyd_status dyd_delaunay_hull(dyd_index_list *out, const dyd_delaunay *pd);
+
 #endif

@@ -6,13 +6,12 @@
 #include "rect/sites_table.h"
 #include <dyadel/engine.h>
 
-/* Do points come at a good time: not from a callback, and before the first run unless `later`? DYD_E_ARG, and
- * dyd_engine_add_error says why. */
-dyd_status dyd_engine_may_add(dyd_engine *e, bool later);
+/* Do points come at a good time: not from a callback? Clears *err, which may be NULL; DYD_E_ARG. */
+dyd_status dyd_engine_may_add(const dyd_engine *e, dyd_error *err);
 /* Room for n more sites, so that adding them in parts copies nothing. */
 dyd_status dyd_engine_reserve(dyd_engine *e, size_t n);
 /* Adds n exact points that are rationals of single words, as dyd_sites_add_words, whenever a point may come; nothing on
  * failure. */
-dyd_status dyd_engine_append_words(dyd_engine *e, size_t n, const dyd_words *xy, dyd_error *err);
+dyd_status dyd_engine_add_words(dyd_engine *e, size_t n, const dyd_words *xy, dyd_error *err);
 
 #endif

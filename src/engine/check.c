@@ -10,7 +10,9 @@
 #include "engine/points.h"
 #include "engine/record.h"
 #include "engine/ties.h"
+#include "predicate/circle.h"
 #include "rect/rect.h"
+#include "rect/sites_table.h"
 #include "stream/stream.h"
 #include "voronoi/exact_cell.h"
 

@@ -9,6 +9,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "rect/rect.h"
 #include <dyadel/compose.h>
 
 /* One point of a shared source, or (shared = NULL) of a stream. begins: `known` is the rectangle to begin with, not

@@ -10,6 +10,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/invariant.h"
+#include "metric/bounds.h"
 #include <dyadel/metric.h>
 
 const char *dyd_outcome_text(dyd_outcome outcome) {
@@ -35,7 +36,6 @@ dyd_status dyd_engine_new(dyd_engine **out) {
     free(e);
   else
     *out = e;
-  if (st == DYD_OK) dyd_error_clear(&e->refused);
   return st;
 }
 

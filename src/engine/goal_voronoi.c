@@ -10,6 +10,7 @@
 #include "delaunay/memory.h"
 
 #include "base/alloc.h"
+#include "metric/bounds.h"
 #include <math.h>
 
 enum { FINER = 8, MOST_FINER = 64 };

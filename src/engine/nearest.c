@@ -85,7 +85,7 @@ static dyd_status nearest_count_firm(size_t *count, const nearest_question *q, c
   for (size_t k = 0; st == DYD_OK && k < q->near.count; k++)
     st = dyd_firm_add(sites, &firm[k], q->e, eps, q->near.item[k]);
   if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, NULL);
-  if (st == DYD_OK) st = dyd_nearest_rect(&near, &sure, pd, at);
+  if (st == DYD_OK) st = dyd_nearest(&near, &sure, pd, at);
   for (size_t k = 0; st == DYD_OK && k < near.count; k++) *count += firm[near.item[k]];
   dyd_index_list_clear(&near);
   dyd_delaunay_free(pd);
@@ -113,7 +113,7 @@ static dyd_status nearest_is_settled(bool *out, const nearest_question *q) {
 
 static dyd_status nearest_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   nearest_question *q = user;
-  dyd_status st = dyd_nearest_rect(&q->near, &q->sure, e->pd, dyd_stream_rect(q->at));
+  dyd_status st = dyd_nearest(&q->near, &q->sure, e->pd, dyd_stream_rect(q->at));
   *answered = st == DYD_OK && q->sure;
   if (st == DYD_OK && q->near.count > 1) st = nearest_try_tie(q, plan->o, err);
   bool settled = q->sure || q->tied || q->near.count == 0;

@@ -526,7 +526,7 @@ static dyd_status plan_bound(dyd_plan *plan, dyd_measure *m, dyd_voronoi_sums *s
 static dyd_status plan_vertices(dyd_plan *plan) {
   const dyd_engine_options *o = plan->o;
   dyd_triangle_list list = {0};
-  dyd_status st = dyd_delaunay_triangles(&list, plan->e->pd);
+  dyd_status st = dyd_delaunay_triangles(&list, NULL, plan->e->pd, 0);
   for (size_t k = 0; k < list.count && st == DYD_OK; k++) {
     const uint32_t *v = list.item[k].v;
     int64_t excess;

@@ -17,6 +17,7 @@
 #include "delaunay/index_list.h"
 #include "engine/points.h"
 #include "engine/settle_filter.h"
+#include "rect/rect.h"
 #include "stream/real.h"
 #include "stream/stream.h"
 

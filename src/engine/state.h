@@ -81,7 +81,6 @@ struct dyd_engine {
   bool cut;                   /* pd is capped since it was stopped, or since faces were postponed */
   bool postpones;             /* the question at work needs no pairs of faces whose sites can be narrowed */
   dyd_error cap_error;        /* what it said when the cap was met */
-  dyd_error refused;          /* why points were not added */
   dyd_delaunay_counters past; /* of results that points added later have ended */
   bool started;
   int busy; /* 1 while the loop is at work: neither callbacks nor other threads may enter it; only by atomic access */

@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "delaunay/memory.h"
 #include "engine/points.h"
+#include "rect/sites_table.h"
 #include "stream/algebra/form.h"
 #include "stream/algebra/zero.h"
 

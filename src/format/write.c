@@ -146,7 +146,7 @@ static dyd_status write_motion(dyd_output *to, dyd_write_options *o, dyd_error *
   dyd_status st = result_init(&r, to, o, err);
   if (st != DYD_OK) return st;
   if (to->content == DYD_CONTENT_PLAN ? !o->plan : !o->tolerance) return dyd_fail_null(err);
-  if (to->content == DYD_CONTENT_RADII && !dyd_tolerance_points(o->tolerance))
+  if (to->content == DYD_CONTENT_RADII && !dyd_tolerance_get(o->tolerance)->points)
     return dyd_fail(err, DYD_E_ARG, "how far points may be from their places was not asked for");
   return write_what(to, &r, err);
 }

@@ -8,6 +8,7 @@
 #include "base/index.h"
 #include "delaunay/memory.h"
 #include "delaunay/undecided.h"
+#include "metric/bounds.h"
 #include "voronoi/vertex_filter.h"
 #include <math.h>
 
@@ -160,7 +161,7 @@ static dyd_status find_vertices(dyd_diagram *d) {
   uint64_t bytes = dyd_bytes_times(most, sizeof *d->triangles.item + sizeof *d->vertex);
   if (!dyd_room_has(d->room, bytes, "the vertices of the diagram")) return DYD_E_NOMEM;
   d->room->beside += bytes;
-  dyd_status st = dyd_delaunay_triangles(&d->triangles, d->pd);
+  dyd_status st = dyd_delaunay_triangles(&d->triangles, NULL, d->pd, 0);
   if (st != DYD_OK) return st;
   d->vertex = dyd_alloc(d->triangles.count + faces, sizeof *d->vertex);
   d->tied = dyd_alloc(faces, sizeof *d->tied);

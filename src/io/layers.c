@@ -239,7 +239,7 @@ static dyd_status tolerance_comments(dyd_table *t, const dyd_output *o) {
   double lo, hi;
   size_t edges, births;
   alias_comments(t, o);
-  dyd_tolerance_whole(&lo, &hi, r->tolerance);
+  lo = dyd_tolerance_get(r->tolerance)->lo, hi = dyd_tolerance_get(r->tolerance)->hi;
   fputs("# tolerance ", o->out);
   dyd_decimal_put(o->out, lo, DYD_DOWN, "inf");
   fputs(" ", o->out);
@@ -264,7 +264,7 @@ static void row_binding(dyd_table *t, uint32_t k) {
 
 static dyd_status rows_of_events(dyd_table *t, const dyd_output *o) {
   const dyd_tolerance *tolerance = ((const dyd_result *)o->what)->tolerance;
-  const double *chance = dyd_tolerance_chances(tolerance);
+  const double *chance = dyd_tolerance_get(tolerance)->chances;
   const dyd_tolerance_row *row;
   for (size_t n = dyd_tolerance_rows(&row, tolerance); n--; row++) {
     row_line(t, row->i, row->j);
@@ -285,7 +285,7 @@ static dyd_status rows_of_events(dyd_table *t, const dyd_output *o) {
 
 static dyd_status rows_of_radii(dyd_table *t, const dyd_output *o) {
   const dyd_result *r = o->what;
-  const double *radius = dyd_tolerance_points(r->tolerance);
+  const double *radius = dyd_tolerance_get(r->tolerance)->points;
   for (size_t i = 0; i < r->count; i++) {
     dyd_row_begin(t);
     dyd_row_spot(t, i);
@@ -354,9 +354,9 @@ static dyd_status plan_comments(dyd_table *t, const dyd_output *o) {
   const dyd_survey *plan = ((const dyd_result *)o->what)->survey;
   const dyd_survey_row *row;
   size_t open, ties, left, rows = dyd_survey_rows(&row, plan);
-  dyd_survey_count(&open, &ties, &left, plan);
+  open = dyd_survey_get(plan)->open, ties = dyd_survey_get(plan)->ties, left = dyd_survey_get(plan)->left;
   alias_comments(t, o);
-  if (dyd_survey_is_cut(plan))
+  if (dyd_survey_get(plan)->cut)
     fprintf(o->out, "# cut: the plan is not finished: %zu of %zu pairs are open after its first %zu points\n", left,
             open, rows);
   else if (left)
@@ -484,7 +484,7 @@ static bool is_whole(const dyd_table *t, const dyd_output *o) {
   if (o->content == DYD_CONTENT_PLACES) return dyd_nearest_named(o->what);
   if (t->layer->of == DYD_CONTENT_DELAUNAY || t->layer->of == DYD_CONTENT_SPHERE) return t->lengths;
   if (o->content != DYD_CONTENT_TOLERANCE) return t->drawn;
-  return dyd_tolerance_chances(((const dyd_result *)o->what)->tolerance);
+  return dyd_tolerance_get(((const dyd_result *)o->what)->tolerance)->chances;
 }
 
 /* Comments find what rows need, also where they are not wanted. */

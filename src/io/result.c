@@ -25,7 +25,7 @@ dyd_status dyd_result_rect(dyd_rect *out, const dyd_result *r, uint32_t i) {
 
 dyd_status dyd_result_triangles(dyd_triangle_list *out, const dyd_result *r) {
   if (r->sphere) return dyd_sphere_triangles(out, r->sphere);
-  return r->discs ? dyd_disc_triangles(out, &r->pairs, r->pd) : dyd_delaunay_triangles(out, r->pd);
+  return r->discs ? dyd_disc_triangles(out, &r->pairs, r->pd) : dyd_delaunay_triangles(out, NULL, r->pd, 0);
 }
 
 void dyd_result_count(size_t count[4], const dyd_result *r) {
@@ -145,7 +145,7 @@ dyd_status dyd_put_window(FILE *out, const dyd_rect *w, const char *quote, const
 }
 
 bool dyd_tolerance_is_cut(size_t *edges, size_t *births, const dyd_tolerance *t) {
-  dyd_tolerance_left(edges, births, t);
+  *edges = dyd_tolerance_get(t)->edges_left, *births = dyd_tolerance_get(t)->births_left;
   return *edges || *births;
 }
 

@@ -19,6 +19,8 @@
 #include "io/output.h"
 #include "io/read/text.h"
 #include "io/result.h"
+#include "rect/sites_table.h"
+#include "stream/real.h"
 
 #include <dyadel/delaunay.h>
 #include <dyadel/engine.h>

@@ -5,6 +5,8 @@
 #include "io/json.h"
 #include "io/label_text.h"
 #include "io/table.h"
+#include "predicate/circle.h"
+#include "rect/rect.h"
 #include <inttypes.h>
 #include <math.h>
 

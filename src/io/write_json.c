@@ -463,7 +463,7 @@ static void site_or_null_json(dyd_json *j, const char *name, const dyd_engine *e
 
 /* "exact": the squares under both roots of 2 t = |sqrt(plus) - sqrt(minus)|. */
 static void event_json(dyd_json *j, const dyd_result *r, size_t number, const dyd_tolerance_row *row, mpq_t q[2]) {
-  const double *chance = dyd_tolerance_chances(r->tolerance);
+  const double *chance = dyd_tolerance_get(r->tolerance)->chances;
   dyd_json_object(j, NULL, DYD_JSON_FLAT);
   dyd_json_site(j, "i", r->engine, row->i);
   dyd_json_site(j, "j", r->engine, row->j);
@@ -507,8 +507,8 @@ static void missing_json(dyd_json *j, const dyd_tolerance *t) {
 
 static dyd_status tolerance_json(const dyd_output *o) {
   const dyd_result *r = o->what;
-  const double *radius = dyd_tolerance_points(r->tolerance);
-  bool box = dyd_tolerance_metric(r->tolerance) == DYD_METRIC_BOX;
+  const double *radius = dyd_tolerance_get(r->tolerance)->points;
+  bool box = dyd_tolerance_get(r->tolerance)->metric == DYD_METRIC_BOX;
   double lo, hi;
   dyd_json j;
   dyd_json_begin(&j, o->out);
@@ -519,7 +519,7 @@ static dyd_status tolerance_json(const dyd_output *o) {
                       "probability are rounded down"
                     : "bounds are rounded outward: the first down, the second up, null is infinite; twice the event is "
                       "exactly |sqrt(plus) - sqrt(minus)|; rho and probability are rounded down");
-  dyd_tolerance_whole(&lo, &hi, r->tolerance);
+  lo = dyd_tolerance_get(r->tolerance)->lo, hi = dyd_tolerance_get(r->tolerance)->hi;
   dyd_json_decimals(&j, "tolerance", lo, hi);
   missing_json(&j, r->tolerance);
   events_json(&j, r);

@@ -12,6 +12,8 @@
 
 #include "legal/planes.h"
 #include "legal/witness_filter.h"
+#include "predicate/circle.h"
+#include "rect/rect.h"
 #include "skeleton/circumcentre.h"
 #include "skeleton/hull.h"
 #include "skeleton/rects_filter.h"

@@ -23,6 +23,7 @@
 #include "base/alloc.h"
 #include "dyadic/raw.h"
 #include "metric/bounds_filter.h"
+#include "rect/rect.h"
 #include "rect/sites_table.h"
 #include "voronoi/shape.h"
 

@@ -105,4 +105,16 @@ typedef dyd_status (*dyd_voronoi_visit)(void *context, uint32_t i, const dyd_sha
  * DYD_OK. visit may be NULL. */
 dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, void *context);
 
+/* A choice of bits so that flattening alone adds about 2^-goal_bits / 8 or less to the area. */
+int64_t dyd_metric_flattening(const dyd_delaunay *pd, const dyd_rect *window, int64_t goal_bits);
+/* An upper bound of the Lebesgue measure of the union of the partial edges Ed(R_i,R_j) over all possible pairs:
+ * the sum of the areas of these hulls, rounded up by at most 2^-53 of itself (or to a multiple of 2^-DYD_EXP_LIMIT)
+ * [AREA-T]. DYD_CAPPED (out unchanged) when
+ * pd is capped, since pairs are missing then. O(pairs). */
+dyd_status dyd_metric_area(dyd_dyadic *out, const dyd_delaunay *pd);
+/* An upper bound of the Hausdorff distance between the true Delaunay graph (for any choice, as the union of its
+ * edges) and the union of the partial edges; rounded up by at most 2^-53 of itself [HAUS-T]. DYD_CAPPED as above.
+ * O(pairs). */
+dyd_status dyd_metric_hausdorff(dyd_dyadic *out, const dyd_delaunay *pd);
+
 #endif

@@ -10,6 +10,8 @@
 #include "delaunay/memory.h"
 #include "metric/bounds.h"
 #include "metric/tiles_filter.h"
+#include "rect/rect.h"
+#include "voronoi/shape.h"
 #include <gmp.h>
 #include <math.h>
 #include <stdlib.h>

@@ -350,7 +350,7 @@ dyd_status dyd_delaunay_picture(const dyd_output *o) {
   dyd_status st = d.r->window ? see_window(&d, o->err) : see_all(&d, o->err);
   d.view.discs = r->discs;
   const char *title = d.r->graph_name ? d.r->graph_name : "partial Delaunay triangulation";
-  if (st == DYD_OK && !d.r->graph_name) st = dyd_delaunay_triangles(&d.triangles, d.r->pd);
+  if (st == DYD_OK && !d.r->graph_name) st = dyd_delaunay_triangles(&d.triangles, NULL, d.r->pd, 0);
   if (st == DYD_OK) st = find_density(&d);
   d.view.epsg = o->epsg;
   if (st == DYD_OK) st = dyd_view_write(o, &d.view, title, delaunay_inside, delaunay_legend, &d);
@@ -467,7 +467,7 @@ static void class_text(char *out, size_t size, const tolerance_drawing *g, int c
 static void tolerance_legend(dyd_canvas *c, void *context) {
   const tolerance_drawing *g = context;
   char text[200], number[DYD_DECIMAL_SIZE];
-  double lo, hi;
+  const dyd_tolerance_result *of = dyd_tolerance_get(g->t);
   dyd_legend l;
   dyd_legend_begin(&l, c, &g->view);
   for (int k = 0; k < CLASSES; k++) {
@@ -477,11 +477,10 @@ static void tolerance_legend(dyd_canvas *c, void *context) {
   }
   if (g->seen[CLASSES]) dyd_legend_line(&l, bearing[CLASSES].rgb, bearing[CLASSES].on, bearing[CLASSES].off, "tie");
   if (g->marks.drawn[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, "point");
-  dyd_tolerance_whole(&lo, &hi, g->t);
   snprintf(text, sizeof text, "%zu points; edges by how far all may move%s before they may be lost; %s%s", g->r->count,
-           dyd_tolerance_metric(g->t) == DYD_METRIC_BOX ? ", in x and y each," : "",
-           isfinite(lo) ? "nothing changes below " : "no motion changes anything",
-           isfinite(lo) ? rounded(number, lo, 3, DYD_DOWN) : "");
+           of->metric == DYD_METRIC_BOX ? ", in x and y each," : "",
+           isfinite(of->lo) ? "nothing changes below " : "no motion changes anything",
+           isfinite(of->lo) ? rounded(number, of->lo, 3, DYD_DOWN) : "");
   dyd_legend_text(&l, text);
   dyd_legend_crowd(&l, &g->marks);
 }

@@ -17,6 +17,7 @@
 #include "base/error.h"
 #include "io/decimal.h"
 #include "picture/picture.h"
+#include "predicate/circle.h"
 
 #include <math.h>
 

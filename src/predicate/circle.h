@@ -66,4 +66,18 @@ dyd_sure dyd_irect_con_oriented(const dyd_irect *r, const dyd_irect *const abc[3
 /* out = k divided by man * 2^exp, man > 0: undoes dyd_irects_scale. Exact. */
 void dyd_circle_unscale(dyd_circle *out, const dyd_icircle *k, mpz_srcptr man, int64_t exp);
 
+void dyd_circle_set(dyd_circle *out, const dyd_circle *c);
+/* The critical circle of three surely oriented rectangles: touch[k] says how it meets r[k]. At least one F,
+ * at least one C. Unique [CRIT-1]. DYD_E_ARG when the triple is not surely oriented or the labels are all equal. */
+dyd_status dyd_critical_circle(dyd_circle *out, const dyd_rect *const r[3], const dyd_touch touch[3]);
+/* Sign of (distance of the circle's centre to r, closest or farthest) - radius. Exact. */
+int dyd_circle_side(const dyd_circle *c, const dyd_rect *r, dyd_touch touch);
+/* PLUS: r is inside I; MINUS: r is inside E; UNSURE otherwise. */
+dyd_sure dyd_partial_disc_con(const dyd_partial_disc *d, const dyd_rect *r);
+/* Is c surely nearer to every point of a than to any of b? TRUE: dl(c,a) < ds(c,b). FALSE: dl(c,b) < ds(c,a).
+ * UNKNOWN otherwise. */
+dyd_truth dyd_nearer(const dyd_point *c, const dyd_rect *a, const dyd_rect *b);
+/* Sign of dist(c,a) - dist(c,b), each distance closest or farthest. Exact. */
+int dyd_compare_distance(const dyd_point *c, const dyd_rect *a, dyd_touch ta, const dyd_rect *b, dyd_touch tb);
+
 #endif

@@ -6,6 +6,7 @@
 #include "predicate/circle.h"
 #include "predicate/predicate_filter.h"
 #include "rect/irect.h"
+#include "rect/rect.h"
 
 /* Exact rungs of orientation and Con on integer rectangles.
  *

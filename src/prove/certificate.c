@@ -10,6 +10,7 @@
 #include "delaunay/memory.h"
 #include "io/output.h"
 #include "prove/proof.h"
+#include "rect/rect.h"
 #include "voronoi/shape.h"
 #include <dyadel/certificate.h>
 #include <dyadel/graph.h>

@@ -380,8 +380,8 @@ PyObject *dydpy_append_array(PyObject *self, PyObject *args) {
   bool with = radii != Py_None, good = !with || PyObject_GetBuffer(radii, &r, PyBUF_STRIDED_RO | PyBUF_FORMAT) == 0;
   good = good && columns_of(at, &xy, -1) && (!with || columns_of(by, &r, xy.shape[0])) && dydpy_begin(&c, self, 0);
   if (good)
-    done = dydpy_end_none(&c,
-                          dyd_engine_append_columns(c.self->engine, (size_t)xy.shape[0], at, with ? by : NULL, &c.err));
+    done =
+        dydpy_end_none(&c, dyd_engine_add_columns(c.self->engine, (size_t)xy.shape[0], at, with ? by : NULL, &c.err));
   if (r.obj) PyBuffer_Release(&r);
   PyBuffer_Release(&xy);
   return done;
@@ -398,7 +398,7 @@ PyObject *dydpy_append_boxes(PyObject *self, PyObject *args) {
     return PyErr_Format(PyExc_ValueError, "arrays of different lengths");
   if (!dydpy_begin(&c, self, 0)) return NULL;
   size_t count = (size_t)size[0] / sizeof(double);
-  return dydpy_end_none(&c, dyd_engine_append_boxes(c.self->engine, count, end[0], end[1], end[2], end[3], &c.err));
+  return dydpy_end_none(&c, dyd_engine_add_boxes(c.self->engine, count, end[0], end[1], end[2], end[3], &c.err));
 }
 
 /* One coordinate, widened by a radius (NULL: none). */
@@ -453,7 +453,7 @@ static dyd_status append_streams(dydpy_engine *self, dyd_stream **stream, size_t
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < count; k++) {
     if (st == DYD_OK)
-      st = dyd_engine_append_stream(self->engine, stream[k], err);
+      st = dyd_engine_add_stream(self->engine, stream[k], err);
     else
       dyd_stream_free(stream[k]);
   }
@@ -501,7 +501,7 @@ PyObject *dydpy_append_source(PyObject *self, PyObject *args) {
   if (count < 0) return PyErr_Format(PyExc_ValueError, "a source cannot have %zd points", count);
   if (!dydpy_source_new(&source, narrow) || PyList_Append(((dydpy_engine *)self)->functions, narrow) < 0) return NULL;
   if (!dydpy_begin(&c, self, 0)) return NULL;
-  return dydpy_end_none(&c, dyd_engine_append_source(c.self->engine, (size_t)count, &source, &c.err));
+  return dydpy_end_none(&c, dyd_engine_add_source(c.self->engine, (size_t)count, &source, &c.err));
 }
 
 /* name(rows, ids): of the points added last; rows: a buffer of size_t; ids: a list of texts, or None */
@@ -581,7 +581,7 @@ PyObject *dydpy_append_text(PyObject *self, PyObject *args) {
   if (!dydpy_begin(&c, self, 0)) return NULL;
   c.self->weights |= o.keep_radii && o.radius_columns;
   c.self->sigmas |= o.sigma_column != NULL;
-  return dydpy_end_none(&c, dyd_engine_append_text(c.self->engine, text, (size_t)length, &o, &c.err));
+  return dydpy_end_none(&c, dyd_engine_add_text(c.self->engine, text, (size_t)length, &o, &c.err));
 }
 
 /* confidence(text, n): states it of n points that come next; confidence(None, 0): what was stated, or None */

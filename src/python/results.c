@@ -155,7 +155,7 @@ PyObject *dydpy_discs(PyObject *self, PyObject *none) {
   dydpy_call c;
   (void)none;
   if (!dydpy_begin(&c, self, DYDPY_RESULT)) return NULL;
-  bool good = dydpy_end(&c, dyd_disc_pairs(&list, c.pd, &c.err));
+  bool good = dydpy_end(&c, dyd_disc_pairs(&list, c.pd, NULL, &c.err));
   return array_new(good, list.item, list.count, sizeof *list.item);
 }
 
@@ -166,7 +166,7 @@ PyObject *dydpy_triangles(PyObject *self, PyObject *none) {
   (void)none;
   if (!dydpy_begin(&c, self, DYDPY_RESULT)) return NULL;
   if (!dydpy_end(&c, c.self->sphere ? dyd_sphere_triangles(&list, c.self->sphere)
-                                    : dyd_delaunay_triangles_as_found(&list, &beyond, c.pd)))
+                                    : dyd_delaunay_triangles(&list, &beyond, c.pd, DYD_TRIANGLES_AS_FOUND)))
     return NULL;
   return Py_BuildValue("NN", array_new(true, list.item, list.count, sizeof *list.item),
                        array_new(true, beyond.item, beyond.count, sizeof *beyond.item));
@@ -216,7 +216,8 @@ PyObject *dydpy_boxes(PyObject *self, PyObject *none) {
   double *box = malloc((4 * n + 1) * sizeof *box);
   dyd_status st = box ? DYD_OK : DYD_E_NOMEM;
   if (box && c.self->sphere) st = boxes_of_places(box, c.self->sphere, n);
-  if (box && !c.self->sphere) dyd_sites_copy_d(box, dyd_engine_sites(c.self->engine), 0, n);
+  const dyd_sites *sites = c.self->sphere ? NULL : dyd_engine_sites(c.self->engine);
+  for (size_t i = 0; box && sites && i < n; i++) dyd_sites_get_d(box + 4 * i, sites, i);
   bool good = dydpy_end(&c, st);
   return array_new(good, box, 4 * n, sizeof *box);
 }
@@ -282,10 +283,10 @@ static PyObject *tolerance_found(const dyd_tolerance *t, size_t points) {
   const dyd_tolerance_row *row;
   double lo, hi;
   size_t rows = dyd_tolerance_rows(&row, t);
-  dyd_tolerance_whole(&lo, &hi, t);
+  lo = dyd_tolerance_get(t)->lo, hi = dyd_tolerance_get(t)->hi;
   return Py_BuildValue("N(dd)NN", copied(row, rows * sizeof *row), lo, hi,
-                       doubles_or_none(dyd_tolerance_points(t), points),
-                       doubles_or_none(dyd_tolerance_chances(t), rows));
+                       doubles_or_none(dyd_tolerance_get(t)->points, points),
+                       doubles_or_none(dyd_tolerance_get(t)->chances, rows));
 }
 
 /* *out becomes the numbers of all points, the caller's. DYD_E_NOMEM. */
@@ -341,7 +342,7 @@ PyObject *dydpy_tolerance(PyObject *self, PyObject *args) {
 static PyObject *plan_found(const dyd_survey *s) {
   const dyd_survey_row *row;
   size_t open, ties, left, rows = dyd_survey_rows(&row, s);
-  dyd_survey_count(&open, &ties, &left, s);
+  open = dyd_survey_get(s)->open, ties = dyd_survey_get(s)->ties, left = dyd_survey_get(s)->left;
   return Py_BuildValue("N(nnn)", copied(row, rows * sizeof *row), (Py_ssize_t)open, (Py_ssize_t)ties, (Py_ssize_t)left);
 }
 

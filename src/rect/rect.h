@@ -11,4 +11,21 @@ bool dyd_rect_holds(const dyd_rect *r, const dyd_point *p);
 /* Both ends as doubles, when they are doubles; else false. */
 bool dyd_interval_get_exact_d(double *lo, double *hi, const dyd_interval *a);
 
+void dyd_interval_swap(dyd_interval *a, dyd_interval *b);
+/* The intersection; DYD_E_ARG (out unchanged) when it is empty. Of two sets with a rational point, that point. */
+dyd_status dyd_interval_intersect(dyd_interval *out, const dyd_interval *a, const dyd_interval *b);
+void dyd_rect_swap(dyd_rect *a, dyd_rect *b);
+/* ds(c,R)^2 and dl(c,R)^2, exact canonical rationals (attained at the clamped point and at the corner
+ * opposite c's quadrant [DIST-1]); out is initialised by the caller. */
+void dyd_rect_ds2(mpq_t out, const dyd_point *c, const dyd_rect *r);
+void dyd_rect_dl2(mpq_t out, const dyd_point *c, const dyd_rect *r);
+/* Bounds of the distances of a point of a and a point of b: the least one rounded down, the largest one rounded up
+ * (infinite beyond the range of doubles). */
+void dyd_rect_distance(double *lo, double *hi, const dyd_rect *a, const dyd_rect *b);
+/* Twice the area of the partial edge Ed(a,b), the convex hull of two rectangles. Exact. */
+void dyd_partial_edge_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b);
+/* Are Ed(a,b) and Ed(c,d) disjoint as closed sets? Exact, touching counts as meeting [HULL-1]. */
+bool dyd_partial_edges_disjoint(const dyd_rect *a, const dyd_rect *b, const dyd_rect *c, const dyd_rect *d);
+void dyd_point_set(dyd_point *out, const dyd_point *p);
+
 #endif

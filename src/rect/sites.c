@@ -475,13 +475,6 @@ void dyd_sites_get_d(double out[4], const dyd_sites *s, size_t i) {
   }
 }
 
-dyd_status dyd_sites_copy_d(double *out, const dyd_sites *s, size_t first, size_t count) {
-  if (!s) return DYD_E_ARG;
-  if (first > s->count || count > s->count - first) return DYD_E_ARG;
-  for (size_t k = 0; k < count; k++) dyd_sites_get_d(out + 4 * k, s, first + k);
-  return DYD_OK;
-}
-
 bool dyd_sites_is_point(const dyd_sites *s, size_t i) {
   if (!s) return false;
   if (dyd_sites_in_doubles(s, i))

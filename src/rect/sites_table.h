@@ -111,4 +111,11 @@ static inline bool dyd_sites_all_in_doubles(const dyd_sites *s) {
   return !s->exact && !s->word;
 }
 
+/* The lowest site joined with site i: i itself where there is none. */
+size_t dyd_sites_joined(const dyd_sites *s, size_t i);
+/* Says that the true points of two sites are the same place: the higher number becomes an alias of the lower one, and
+ * both get what their rectangles have in common. Transitive. DYD_E_NESTING (nothing changed) when they have nothing in
+ * common, DYD_E_ARG when there is no such site. A triangulation follows in dyd_delaunay_update. */
+dyd_status dyd_sites_join(dyd_sites *s, size_t i, size_t j);
+
 #endif

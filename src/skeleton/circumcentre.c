@@ -4,6 +4,7 @@
 #include "skeleton/circumcentre.h"
 
 #include "base/invariant.h"
+#include "predicate/circle.h"
 #include <dyadel/predicate.h>
 
 enum { FINER = 8 };

@@ -14,6 +14,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "delaunay/state.h"
 #include "engine/points.h"
 #include "engine/ties.h"
 #include "rect/rect.h"
@@ -533,7 +534,7 @@ dyd_status dyd_sphere_triangles(dyd_triangle_list *out, const dyd_sphere *s) {
   dyd_triangle_list images = {0};
   dyd_index_list around = {0};
   dyd_hull hull = {0};
-  dyd_status st = dyd_delaunay_triangles(&images, pd);
+  dyd_status st = dyd_delaunay_triangles(&images, NULL, pd, 0);
   if (st == DYD_OK && !s->free) st = dyd_delaunay_hull(&around, pd);
   if (st == DYD_OK && !s->free) st = dyd_delaunay_partial_hull(&hull, pd);
   if (st == DYD_CAPPED) st = DYD_OK; /* then no side of the hull is listed */

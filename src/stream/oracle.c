@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/flag.h"
+#include "rect/rect.h"
 #include "stream/number.h"
 #include "stream/oracle_answer.h"
 #include "stream/oracle_worker.h"

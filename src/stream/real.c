@@ -394,12 +394,6 @@ static dyd_status real_take_interval(dyd_real **out, dyd_interval *a, dyd_status
   return st;
 }
 
-dyd_status dyd_real_from_dyadic(dyd_real **out, const dyd_dyadic *x) {
-  dyd_interval a;
-  dyd_interval_init(&a);
-  return real_take_interval(out, &a, dyd_interval_set_ends(&a, x, x));
-}
-
 dyd_status dyd_real_from_q(dyd_real **out, const mpq_t q) {
   dyd_interval a;
   dyd_interval_init(&a);

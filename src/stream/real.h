@@ -77,4 +77,8 @@ dyd_status dyd_request_make(dyd_request *out, size_t point, int64_t bits, int64_
 /* Makes the record of a failed callback complete: known code, a message, point and stage. Copies it to *err. */
 dyd_status dyd_callback_fail(dyd_error *err, const dyd_error *own, dyd_status st, size_t point, uint64_t stage);
 
+/* The same where the text is an exact number, [lo,hi] or value+-radius, or an expression whose value is rational: out
+ * becomes the number, or the interval, rounded as dyd_real_from_interval says. DYD_E_PARSE for other expressions. */
+dyd_status dyd_interval_set_text(dyd_interval *out, const char *text, size_t length, dyd_error *err);
+
 #endif

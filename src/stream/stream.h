@@ -61,4 +61,7 @@ dyd_status dyd_stream_narrow_until(dyd_stream *s, int64_t bits, int64_t max_bits
 uint64_t dyd_stream_bytes(const dyd_stream *s);
 uint64_t dyd_stream_work_bytes(const dyd_stream *s, int64_t bits);
 
+/* How many times the source has been called. */
+uint64_t dyd_stream_stage(const dyd_stream *s);
+
 #endif

@@ -150,7 +150,7 @@ static dyd_status append_tile_boxes(dyd_engine *e, const tiles_sites *s, dyd_err
       end[2][n] = b.y0;
       end[3][n] = b.y1;
     }
-    st = dyd_engine_append_boxes(e, n, end[0], end[1], end[2], end[3], err);
+    st = dyd_engine_add_boxes(e, n, end[0], end[1], end[2], end[3], err);
   }
   return st;
 }
@@ -159,7 +159,7 @@ static dyd_status append_sites(dyd_engine *e, const tiles_sites *s, dyd_error *e
   if (s->count == 0) return DYD_OK;
   if (s->dim == 4) return append_tile_boxes(e, s, err);
   const dyd_column xy[2] = {{s->end, 2 * sizeof *s->end}, {s->end + 1, 2 * sizeof *s->end}};
-  return dyd_engine_append_columns(e, s->count, xy, NULL, err);
+  return dyd_engine_add_columns(e, s->count, xy, NULL, err);
 }
 
 static double cpu_seconds(void) {

@@ -93,7 +93,7 @@ typedef struct dyd_disc_work {
   uint32_t *seen;
   size_t count, cap, loaded;  /* loaded: how many of these have caps, or meet i or j */
   bool failed;                /* memory is exhausted */
-  const volatile int *cancel; /* ends what dyd_disc_pairs_until does; may be NULL */
+  const volatile int *cancel; /* ends what dyd_disc_pairs does; may be NULL */
 } dyd_disc_work;
 
 /* The disc in the square of a site, larger by what the ends may have been rounded by: less than 2^-61 of the width for

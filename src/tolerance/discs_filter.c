@@ -509,8 +509,7 @@ static dyd_status discs_end(const dyd_disc_work *w, dyd_status st, size_t left, 
   return dyd_fail(err, st, "%s", dyd_status_text(st));
 }
 
-dyd_status dyd_disc_pairs_until(dyd_pair_list *out, const dyd_delaunay *pd, const volatile int *cancel,
-                                dyd_error *err) {
+dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, const volatile int *cancel, dyd_error *err) {
   if (!pd || !out) return dyd_fail_null(err);
   dyd_disc_work w = {.pd = pd, .sites = pd->sk.reps.sites, .cancel = cancel};
   dyd_pair_list list = {0};
@@ -529,10 +528,6 @@ dyd_status dyd_disc_pairs_until(dyd_pair_list *out, const dyd_delaunay *pd, cons
     dyd_pair_list_clear(&list);
   }
   return st;
-}
-
-dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err) {
-  return dyd_disc_pairs_until(out, pd, NULL, err);
 }
 
 /* ---- triangles ---- */
@@ -568,7 +563,7 @@ dyd_status dyd_disc_triangles(dyd_triangle_list *out, const dyd_pair_list *pairs
   dyd_sites *sites = NULL;
   size_t kept = 0;
   dyd_status st = triangulate_centres(&centres, &sites, dyd_delaunay_sites(pd));
-  if (st == DYD_OK) st = dyd_delaunay_triangles(&list, centres);
+  if (st == DYD_OK) st = dyd_delaunay_triangles(&list, NULL, centres, 0);
   for (size_t k = 0; k < list.count && pairs->count; k++) {
     const uint32_t *v = list.item[k].v;
     uint32_t a = dyd_delaunay_alias(pd, v[0]), b = dyd_delaunay_alias(pd, v[1]), c = dyd_delaunay_alias(pd, v[2]);

@@ -14,6 +14,7 @@
  * these are bounded as in skeleton/distance_filter.h. */
 #include "legal/witness.h"
 #include "possible/cover.h"
+#include "predicate/circle.h"
 #include "skeleton/rects_filter.h"
 #include "skeleton/work.h"
 #include "tolerance/lines.h"

@@ -31,13 +31,14 @@ typedef struct dyd_ring_d {
 } dyd_ring_d;
 
 struct dyd_tolerance {
+  dyd_tolerance_result result; /* of the members below, once all is done */
   const dyd_delaunay *pd;
   const dyd_skeleton *sk;
   dyd_tolerance_options options;
   dyd_room room; /* what the triangulation leaves of max_bytes */
   dyd_tolerance_row *row;
   size_t rows, cap, sorted;       /* sorted: rows of deaths that are */
-  size_t edges_left, births_left; /* of work that was cancelled: dyd_tolerance_left */
+  size_t edges_left, births_left; /* of work that was cancelled */
   double *weight;                 /* of a vertex, the largest of those at its place; NULL: all are 1 */
   double heaviest;
   double *sigma, widest; /* the same of standard deviations; NULL: none are given */

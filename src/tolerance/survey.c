@@ -361,15 +361,15 @@ static dyd_status survey_check(const dyd_survey *s, const dyd_delaunay *pd, dyd_
 }
 
 /* Work was cancelled when targets were known. */
-static dyd_status keep_draft(dyd_survey *s, dyd_error *err) {
+static void keep_draft(dyd_survey *s, dyd_error *err) {
   free(s->row);
   s->row = s->draft;
   s->rows = s->drafts;
   s->draft = NULL;
   s->left = s->rows ? s->row[s->rows - 1].left : s->target.count;
   s->cut = true;
-  return dyd_fail(err, DYD_CANCELLED, "the plan is not finished: %zu of %zu pairs are open after its first %zu points",
-                  s->left, s->target.count, s->rows);
+  dyd_fail(err, DYD_CANCELLED, "the plan is not finished: %zu of %zu pairs are open after its first %zu points",
+           s->left, s->target.count, s->rows);
 }
 
 dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_survey_options *options, dyd_error *err) {
@@ -390,7 +390,9 @@ dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_su
   s->err = NULL;
   if (st == DYD_OK || (st == DYD_CANCELLED && s->first)) {
     *out = s;
-    return st == DYD_OK ? st : keep_draft(s, err);
+    if (st == DYD_CANCELLED) keep_draft(s, err);
+    s->result = (dyd_survey_result){sizeof s->result, s->target.count, s->ties, s->left, s->cut};
+    return st;
   }
   if (st == DYD_E_NOMEM && s->room.refused) dyd_fail_room(err, &s->room);
   dyd_survey_free(s);
@@ -419,13 +421,6 @@ size_t dyd_survey_rows(const dyd_survey_row **row, const dyd_survey *s) {
   return s->rows;
 }
 
-bool dyd_survey_is_cut(const dyd_survey *s) {
-  return s && s->cut;
-}
-
-void dyd_survey_count(size_t *open, size_t *ties, size_t *left, const dyd_survey *s) {
-  if (!s) return;
-  *open = s->target.count;
-  *ties = s->ties;
-  *left = s->left;
+const dyd_survey_result *dyd_survey_get(const dyd_survey *s) {
+  return s ? &s->result : NULL;
 }

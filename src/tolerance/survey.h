@@ -35,6 +35,7 @@ typedef struct dyd_survey_faces {
 /* Accuracies are min(scale * 2^coarser * unit, half): unit is the accuracy that was given, or each site's own half
  * (unit NULL). */
 struct dyd_survey {
+  dyd_survey_result result; /* of the members below, once all is done */
   dyd_survey_options options;
   dyd_room room;  /* what the triangulation leaves of max_bytes */
   dyd_error *err; /* of the call that makes it; borrowed, may be NULL */

@@ -7,6 +7,7 @@
 #include "base/index.h"
 #include "base/invariant.h"
 #include "delaunay/index_list.h"
+#include "rect/rect.h"
 #include "tolerance/lines.h"
 #include "tolerance/survey.h"
 

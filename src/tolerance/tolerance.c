@@ -151,6 +151,16 @@ dyd_status dyd_tolerance_new(dyd_tolerance **out, const dyd_delaunay *pd, const 
   if (st == DYD_E_NOMEM && t->room.refused) dyd_fail_room(err, &t->room);
   if (st == DYD_OK || st == DYD_CANCELLED) {
     *out = t;
+    t->result = (dyd_tolerance_result){.struct_size = sizeof t->result,
+                                       .metric = t->options.metric,
+                                       .lo = t->lo,
+                                       .hi = t->hi,
+                                       .points = t->radius,
+                                       .chances = t->chance,
+                                       .edges_left = t->edges_left,
+                                       .births_left = t->births_left,
+                                       .filter = t->filter,
+                                       .exact = t->exact};
     return st == DYD_OK ? st : tell_left(t, err);
   }
   dyd_tolerance_free(t);
@@ -179,37 +189,8 @@ size_t dyd_tolerance_rows(const dyd_tolerance_row **row, const dyd_tolerance *t)
   return t->rows;
 }
 
-dyd_metric dyd_tolerance_metric(const dyd_tolerance *t) {
-  if (!t) return (dyd_metric)0;
-  return t->options.metric;
-}
-
-void dyd_tolerance_left(size_t *edges, size_t *births, const dyd_tolerance *t) {
-  if (!t) return;
-  *edges = t->edges_left;
-  *births = t->births_left;
-}
-
-void dyd_tolerance_whole(double *lo, double *hi, const dyd_tolerance *t) {
-  if (!t) return;
-  *lo = t->lo;
-  *hi = t->hi;
-}
-
-const double *dyd_tolerance_points(const dyd_tolerance *t) {
-  if (!t) return NULL;
-  return t->radius;
-}
-
-const double *dyd_tolerance_chances(const dyd_tolerance *t) {
-  if (!t) return NULL;
-  return t->chance;
-}
-
-void dyd_tolerance_rungs(uint64_t *filter, uint64_t *exact, const dyd_tolerance *t) {
-  if (!t) return;
-  *filter = t->filter;
-  *exact = t->exact;
+const dyd_tolerance_result *dyd_tolerance_get(const dyd_tolerance *t) {
+  return t ? &t->result : NULL;
 }
 
 /* What binds is known: the summit of these lines alone is that of all; a birth is where they cross. */

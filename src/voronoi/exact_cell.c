@@ -14,6 +14,7 @@
 #include "base/alloc.h"
 #include "base/invariant.h"
 #include "predicate/circle.h"
+#include "voronoi/surd_point.h"
 
 #include <dyadel/arc.h>
 #include <stdlib.h>

@@ -7,6 +7,7 @@
  * C_ji for a possible neighbour j. No other site matters. */
 #include "base/alloc.h"
 #include "delaunay/memory.h"
+#include "predicate/circle.h"
 #include "predicate/predicate_filter.h"
 #include "voronoi/exact_cell.h"
 #include "voronoi/sample.h"
@@ -53,31 +54,11 @@ dyd_status dyd_cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i
   return st;
 }
 
-/* As the public calls want it. */
-static dyd_status cell_of_caller(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer,
-                                 const dyd_rect *window) {
+dyd_status dyd_voronoi_cell(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, dyd_cell_bound bound,
+                            const dyd_rect *window) {
+  if (!pd) return DYD_E_ARG;
   dyd_room room = dyd_delaunay_room(pd);
-  return dyd_cell_region(out, pd, i, outer, window, &room, NULL);
-}
-
-dyd_status dyd_voronoi_int(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i) {
-  if (!pd) return DYD_E_ARG;
-  return cell_of_caller(out, pd, i, false, NULL);
-}
-
-dyd_status dyd_voronoi_pos(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i) {
-  if (!pd) return DYD_E_ARG;
-  return cell_of_caller(out, pd, i, true, NULL);
-}
-
-dyd_status dyd_voronoi_int_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {
-  if (!pd) return DYD_E_ARG;
-  return window ? cell_of_caller(out, pd, i, false, window) : DYD_E_ARG;
-}
-
-dyd_status dyd_voronoi_pos_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {
-  if (!pd) return DYD_E_ARG;
-  return window ? cell_of_caller(out, pd, i, true, window) : DYD_E_ARG;
+  return dyd_cell_region(out, pd, i, bound == DYD_CELL_POSSIBLE, window, &room, NULL);
 }
 
 dyd_status dyd_bisector(dyd_boundary *out, const dyd_rect *a, const dyd_rect *b) {

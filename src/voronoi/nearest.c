@@ -316,7 +316,7 @@ static void query_deliver(dyd_index_list *out, query *q) {
   q->vertex = NULL;
 }
 
-dyd_status dyd_nearest_rect(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, const dyd_rect *rect) {
+dyd_status dyd_nearest(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, const dyd_rect *rect) {
   if (!pd) return DYD_E_ARG;
   query q = {.pd = pd};
   for (int n = 0; n < 4; n++) mpq_init(q.e[n]);
@@ -334,16 +334,5 @@ dyd_status dyd_nearest_rect(dyd_index_list *out, bool *sure, const dyd_delaunay 
     *sure = out->count == 1;
   }
   query_clear(&q);
-  return st;
-}
-
-dyd_status dyd_nearest(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, const dyd_point *c) {
-  if (!pd) return DYD_E_ARG;
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_status st = dyd_interval_set_ends(&r.x, &c->x, &c->x);
-  if (st == DYD_OK) st = dyd_interval_set_ends(&r.y, &c->y, &c->y);
-  if (st == DYD_OK) st = dyd_nearest_rect(out, sure, pd, &r);
-  dyd_rect_clear(&r);
   return st;
 }

@@ -13,6 +13,7 @@
 #include "base/alloc.h"
 #include "base/flag.h"
 #include "dyadic/raw.h"
+#include "predicate/circle.h"
 #include "rect/rect.h"
 #include "voronoi/exact_cell.h"
 #include "voronoi/sample.h"

@@ -6,6 +6,7 @@
 #include "base/index.h"
 #include "delaunay/memory.h"
 #include "dyadic/raw.h"
+#include "predicate/circle.h"
 
 #include <string.h>
 

@@ -8,6 +8,7 @@
 #include "voronoi/surd_point.h"
 
 #include "predicate/circle.h"
+#include "rect/rect.h"
 
 void dyd_surd_point_init(dyd_surd_point *p) {
   mpz_inits(p->ax, p->bx, p->ay, p->by, p->c, NULL);

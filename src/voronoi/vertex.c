@@ -5,8 +5,11 @@
 #include "base/error.h"
 #include "delaunay/index_list.h"
 #include "delaunay/undecided.h"
+#include "predicate/circle.h"
 #include "rect/irect.h"
+#include "rect/rect.h"
 #include "stream/stream.h"
+#include "voronoi/surd_point.h"
 #include "voronoi/vertex_filter.h"
 
 #include <dyadel/arc.h>
@@ -128,16 +131,6 @@ dyd_status dyd_partial_centre_enclose(dyd_rect *out, const dyd_rect *a, const dy
   for (int k = CENTRES; k-- > 0;) dyd_surd_point_clear(&centre[k]);
   dyd_rect_clear(&r);
   return st;
-}
-
-dyd_truth dyd_partial_disc_side(const dyd_partial_disc *d, const dyd_point *c) {
-  dyd_rect r;
-  dyd_rect_init(&r);
-  bool placed =
-      dyd_interval_set_ends(&r.x, &c->x, &c->x) == DYD_OK && dyd_interval_set_ends(&r.y, &c->y, &c->y) == DYD_OK;
-  dyd_sure con = placed ? dyd_partial_disc_con(d, &r) : DYD_UNSURE;
-  dyd_rect_clear(&r);
-  return con == DYD_SURE_PLUS ? DYD_TRUE : con == DYD_SURE_MINUS ? DYD_FALSE : DYD_UNKNOWN;
 }
 
 /* Are all corners of q nearer to a than to b, dl_a < ds_b? */

@@ -50,7 +50,7 @@ static dyd_sphere *sphere_fresh(void) {
   dyd_sphere *s = NULL;
   dyd_engine *places = engine_fresh();
   const double degrees[3] = {0, 10, 20};
-  dyd_engine_add_points(places, 3, degrees, degrees);
+  dyd_engine_add_points(places, 3, degrees, degrees, NULL);
   dyd_sphere_new(&s, places, NULL, &err);
   return s;
 }

@@ -35,7 +35,7 @@ static void expect_refusal(const char *what, void (*set)(int on)) {
   dyd_error err;
   const double x[3] = {0, 1, 0}, y[3] = {0, 0, 1};
   assert_int_equal(DYD_OK, dyd_engine_new(&e));
-  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 3, x, y));
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 3, x, y, NULL));
   set(1);
   dyd_status made = dyd_delaunay_new(&pd, s, NULL, &err);
   char first[DYD_MESSAGE_SIZE];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What a certificate states, read by a reader of its own, and judged by the oracle. */
 #include "checker/statement.h"
+#include "rect/rect.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -240,7 +241,7 @@ dyd_engine *engine_of_case(const orc_case *c, const dyd_engine_options *o) {
   assert_int_equal(dyd_engine_new(&e), DYD_OK);
   for (size_t i = 0; i < c->n; i++) {
     harness_rect(&r, &c->rect[i]);
-    assert_int_equal(dyd_engine_add_rect(e, &r), DYD_OK);
+    assert_int_equal(dyd_engine_add_rect(e, &r, NULL), DYD_OK);
   }
   assert_int_equal(dyd_engine_run(&outcome, e, o, NULL), DYD_OK);
   dyd_rect_clear(&r);

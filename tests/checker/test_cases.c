@@ -23,7 +23,7 @@ static char *certify(dyd_certificate_report *report, dyd_engine *e, const dyd_en
 static dyd_engine *engine_of(size_t n, const double *x, const double *y) {
   dyd_engine *e = NULL;
   assert_int_equal(dyd_engine_new(&e), DYD_OK);
-  assert_int_equal(dyd_engine_add_points(e, n, x, y), DYD_OK);
+  assert_int_equal(dyd_engine_add_points(e, n, x, y, NULL), DYD_OK);
   return e;
 }
 
@@ -80,7 +80,7 @@ static void capped(void **state) {
   dyd_certificate_report r = {DYD_SIZED(dyd_certificate_report)};
   dyd_engine *e = NULL;
   assert_int_equal(dyd_engine_new(&e), DYD_OK);
-  assert_int_equal(dyd_engine_add_boxes(e, 20, lo, hi, lo, hi), DYD_OK);
+  assert_int_equal(dyd_engine_add_boxes(e, 20, lo, hi, lo, hi, NULL), DYD_OK);
   free(certify(&r, e, &(dyd_engine_options){DYD_SIZED(dyd_engine_options), .max_pairs = 10}));
   assert_true(r.capped);
   assert_int_equal(r.legal, 0);
@@ -104,7 +104,7 @@ static void outcomes(void **state) {
       assert_int_equal(dyd_real_parse(&x, at[q][0], strlen(at[q][0]), NULL), DYD_OK);
       assert_int_equal(dyd_real_parse(&y, at[q][1], strlen(at[q][1]), NULL), DYD_OK);
       assert_int_equal(dyd_stream_from_reals(&s, x, y), DYD_OK);
-      assert_int_equal(dyd_engine_add_stream(e, s), DYD_OK);
+      assert_int_equal(dyd_engine_add_stream(e, s, NULL), DYD_OK);
     }
     dyd_engine_options o = {DYD_SIZED(dyd_engine_options), .max_bits = 200, .no_ties = true};
     if (k == 1) o.goal = DYD_GOAL_AREA, o.goal_bits = 20;
@@ -161,7 +161,7 @@ static void stopped(void **state) {
     dyd_certificate_report r = {DYD_SIZED(dyd_certificate_report)};
     dyd_source source = {DYD_SIZED(dyd_source), .narrow = stop_run, .user = cancel ? e : NULL};
     assert_int_equal(dyd_stream_new(&s, &source, 0, NULL), DYD_OK);
-    assert_int_equal(dyd_engine_add_stream(e, s), DYD_OK);
+    assert_int_equal(dyd_engine_add_stream(e, s, NULL), DYD_OK);
     dyd_status status =
         dyd_engine_run(&outcome, e, &(dyd_engine_options){DYD_SIZED(dyd_engine_options), .start_bits = 30}, &err);
     assert_int_equal(status, cancel ? DYD_OK : DYD_E_STREAM);

@@ -106,7 +106,7 @@ static dyd_engine *engine_of_reals(void) {
     assert_int_equal(dyd_real_parse(&x, at[q][0], strlen(at[q][0]), NULL), DYD_OK);
     assert_int_equal(dyd_real_parse(&y, at[q][1], strlen(at[q][1]), NULL), DYD_OK);
     assert_int_equal(dyd_stream_from_reals(&s, x, y), DYD_OK);
-    assert_int_equal(dyd_engine_add_stream(e, s), DYD_OK);
+    assert_int_equal(dyd_engine_add_stream(e, s, NULL), DYD_OK);
   }
   return e;
 }

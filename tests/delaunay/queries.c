@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Every query of a partial triangulation against the oracle, or against the statuses it should agree with. */
 #include "delaunay/harness.h"
+#include "delaunay/state.h"
 #include "delaunay/table.h"
 #include <stdlib.h>
 #include <string.h>
@@ -290,7 +291,7 @@ static bool triangles_sorted(const dyd_triangle_list *l) {
 bool triangles_right(char *message, orc_pool *p, const orc_case *c, const dyd_delaunay *pd) {
   dyd_triangle_list l = {0};
   dyd_triangle t;
-  if (dyd_delaunay_triangles(&l, pd) != DYD_OK) return wrong(message, "dyd_delaunay_triangles fails");
+  if (dyd_delaunay_triangles(&l, NULL, pd, 0) != DYD_OK) return wrong(message, "dyd_delaunay_triangles fails");
   size_t found = 0;
   bool good = triangles_sorted(&l) || wrong(message, "triangles not sorted");
   for (uint32_t i = 0; i < c->n && good; i++)

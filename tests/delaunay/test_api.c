@@ -4,6 +4,7 @@
 #include <stdarg.h>
 
 #include "delaunay/harness.h"
+#include "delaunay/state.h"
 #include <cmocka.h>
 #include <fenv.h>
 #include <string.h>
@@ -50,7 +51,7 @@ static void test_nothing(void **state) {
   dyd_index_list hull = {0};
   size_t count[4] = {1, 1, 1, 1};
   assert_int_equal(dyd_delaunay_pairs(&pairs, pd), DYD_OK);
-  assert_int_equal(dyd_delaunay_triangles(&triangles, pd), DYD_OK);
+  assert_int_equal(dyd_delaunay_triangles(&triangles, NULL, pd, 0), DYD_OK);
   assert_int_equal(dyd_delaunay_hull(&hull, pd), DYD_OK);
   dyd_delaunay_count(count, pd);
   assert_int_equal(pairs.count + triangles.count + hull.count + count[0] + count[1] + count[2] + count[3], 0);
@@ -237,7 +238,7 @@ static void test_aliases(void **state) {
     for (uint32_t j = 0; j < 6; j++)
       assert_int_equal(dyd_delaunay_status(pd, i, j), stands[i] == stands[j] ? DYD_ILLEGAL : DYD_LEGAL);
   }
-  assert_int_equal(dyd_delaunay_triangles(&l, pd), DYD_OK);
+  assert_int_equal(dyd_delaunay_triangles(&l, NULL, pd, 0), DYD_OK);
   assert_int_equal(l.count, 1);
   dyd_triangle_list_clear(&l);
   dyd_delaunay_free(pd);

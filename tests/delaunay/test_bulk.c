@@ -188,9 +188,9 @@ static uint32_t number_in(const dyd_triangle_list *l, dyd_triangle t) {
 /* Sorted or as found, the triangles and who is beyond their sides are the same. */
 static void check_triangles(const dyd_delaunay *pd) {
   dyd_triangle_list sorted = {0}, beyond = {0}, found = {0}, behind = {0}, names = {0};
-  assert_int_equal(DYD_OK, dyd_delaunay_triangles_and_neighbours(&sorted, &beyond, pd));
-  assert_int_equal(DYD_OK, dyd_delaunay_triangles_as_found(&found, &behind, pd));
-  assert_int_equal(DYD_OK, dyd_delaunay_triangles(&names, pd));
+  assert_int_equal(DYD_OK, dyd_delaunay_triangles(&sorted, &beyond, pd, 0));
+  assert_int_equal(DYD_OK, dyd_delaunay_triangles(&found, &behind, pd, DYD_TRIANGLES_AS_FOUND));
+  assert_int_equal(DYD_OK, dyd_delaunay_triangles(&names, NULL, pd, 0));
   assert_int_equal(sorted.count, found.count);
   assert_int_equal(sorted.count, behind.count);
   qsort(names.item, names.count, sizeof *names.item, triangle_compare);

@@ -30,7 +30,7 @@ static bool pairs_hold(char *message, orc_pool *p, const orc_case *choice, const
 
 static bool triangles_hold(char *message, orc_pool *p, const orc_case *choice, const dyd_delaunay *pd) {
   dyd_triangle_list l = {0};
-  if (dyd_delaunay_triangles(&l, pd) != DYD_OK) return wrong(message, "dyd_delaunay_triangles fails");
+  if (dyd_delaunay_triangles(&l, NULL, pd, 0) != DYD_OK) return wrong(message, "dyd_delaunay_triangles fails");
   bool good = true;
   for (size_t k = 0; k < l.count && good; k++) {
     const uint32_t *v = l.item[k].v;

@@ -7,6 +7,7 @@
 #include <stdarg.h>
 
 #include "delaunay/disc_filter.h"
+#include "delaunay/state.h"
 #include "support/failing_memory.h"
 #include "support/random.h"
 #include <cmocka.h>
@@ -282,15 +283,15 @@ static dyd_status ask(const dyd_delaunay *pd, size_t question, size_t *items) {
   mpq_init(radius2);
   mpq_set_ui(radius2, 400, 1);
   if (question == 0) st = dyd_delaunay_pairs(&pairs, pd);
-  if (question == 1) st = dyd_delaunay_triangles(&triangles, pd);
+  if (question == 1) st = dyd_delaunay_triangles(&triangles, NULL, pd, 0);
   if (question == 2) st = dyd_delaunay_hull(&list, pd);
   if (question == 3) st = dyd_delaunay_neighbours(&list, pd, 0, DYD_TIE);
   if (question == 4) st = dyd_delaunay_undecided_faces(pd) ? dyd_delaunay_face(&list, &outer, pd, 0) : DYD_OK;
   if (question == 5) st = dyd_delaunay_undecided_faces(pd) ? dyd_delaunay_face_pairs(&pairs, pd, 0) : DYD_OK;
   if (question == 6) st = dyd_delaunay_partial_hull(&hull, pd);
   if (question == 7) st = dyd_delaunay_hull_vertices(&sure, &list, pd);
-  if (question == 8) st = dyd_delaunay_triangles_and_neighbours(&triangles, &beyond, pd);
-  if (question == 9) st = dyd_delaunay_triangles_as_found(&triangles, &beyond, pd);
+  if (question == 8) st = dyd_delaunay_triangles(&triangles, &beyond, pd, 0);
+  if (question == 9) st = dyd_delaunay_triangles(&triangles, &beyond, pd, DYD_TRIANGLES_AS_FOUND);
   if (question == 10) st = dyd_delaunay_meet_disc(&list, pd, &c, radius2);
   if (question == 11 && dyd_delaunay_status(pd, 0, 1) == DYD_LEGAL) st = dyd_delaunay_witness(&c, pd, 0, 1);
   *items = pairs.count + triangles.count + list.count + sure.count + beyond.count + hull.pairs.count;

@@ -5,6 +5,7 @@
 #include <stdarg.h>
 
 #include "delaunay/harness.h"
+#include "delaunay/state.h"
 #include "support/failing_memory.h"
 #include <cmocka.h>
 #include <pthread.h>
@@ -41,9 +42,9 @@ static bool queries_fail_well(char *message, const dyd_delaunay *pd) {
       countdown = k;
       if (which == 5) status = dyd_delaunay_partial_hull(&corners, pd);
       if (which == 6) status = dyd_delaunay_hull_vertices(&sure, &list, pd);
-      if (which == 7) status = dyd_delaunay_triangles_and_neighbours(&triangles, &beyond, pd);
+      if (which == 7) status = dyd_delaunay_triangles(&triangles, &beyond, pd, 0);
       if (which == 0) status = dyd_delaunay_pairs(&pairs, pd);
-      if (which == 1) status = dyd_delaunay_triangles(&triangles, pd);
+      if (which == 1) status = dyd_delaunay_triangles(&triangles, NULL, pd, 0);
       if (which == 2) status = dyd_delaunay_hull(&list, pd);
       if (which == 3) status = dyd_delaunay_neighbours(&list, pd, 0, DYD_TIE);
       bool outer = false;

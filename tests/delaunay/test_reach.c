@@ -75,7 +75,7 @@ static void test_wheel(void **state) {
     assert_int_equal(DYD_OK, dyd_sites_add_points(s, 1, &x, &y));
   }
   dyd_delaunay *pd = made(DYD_OK, s, NULL, &err);
-  assert_int_equal(DYD_OK, dyd_delaunay_triangles(&t, pd));
+  assert_int_equal(DYD_OK, dyd_delaunay_triangles(&t, NULL, pd, 0));
   assert_int_equal(RIM, t.count);
   for (size_t k = 0; k < t.count; k++) {
     assert_int_equal(0, t.item[k].v[0]);

@@ -23,7 +23,7 @@ void engine_add_text(dyd_engine *e, const char *x, const char *y) {
   dyd_stream *s = NULL;
   dyd_real *a = real_of(x), *b = real_of(y);
   assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, a, b));
-  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s));
+  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s, NULL));
 }
 
 /* ---- callbacks of which nothing is known but their answers ---- */
@@ -49,7 +49,7 @@ void engine_add_hidden(dyd_engine *e, const char *x, const char *y) {
   dyd_stream *s = NULL;
   dyd_real *a = hidden_real(x), *b = hidden_real(y);
   assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, a, b));
-  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s));
+  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s, NULL));
 }
 
 void engine_add_polygon(dyd_engine *e, int n, const int *weight, int bits) {

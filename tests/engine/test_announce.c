@@ -64,7 +64,7 @@ static void test_lists(void **state) {
       const double x[2] = {-5, 300}, y[2] = {-9, 17};
       engine_add_text(e, "sqrt(2)-40", "pi-50");
       add(e, a, 5);
-      assert_int_equal(DYD_OK, dyd_engine_add_points(e, 2, x, y));
+      assert_int_equal(DYD_OK, dyd_engine_add_points(e, 2, x, y, NULL));
       b->shift = 10;
       add(e, b, 3);
       dyd_engine_options_init(&o);

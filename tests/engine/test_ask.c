@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Questions of users, put to the one loop of the engine. */
 #include "engine/help.h"
+#include "rect/rect.h"
+#include "stream/stream.h"
 
 #include <string.h>
 
@@ -99,8 +101,6 @@ static void test_answered(void **state) {
   assert_true(c.seconds > 0);
   assert_int_equal(DYD_OUTCOME_NONE, dyd_engine_outcome(e));
   assert_null(dyd_engine_delaunay(e));
-  const double x = 1;
-  assert_int_equal(DYD_E_ARG, dyd_engine_add_points(e, 1, &x, &x));
   q.asked = 0;
   assert_int_equal(DYD_OUTCOME_DECIDED, put(e, &q, NULL, NULL));
   assert_int_equal(1, q.asked);
@@ -113,7 +113,7 @@ static void test_fixpoint(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
   const double x0[2] = {0, 1}, x1[2] = {2, 3};
-  assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 2, x0, x1, x0, x1));
+  assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 2, x0, x1, x0, x1, NULL));
   engine_add_text(e, "sqrt(2)", "0");
   left q = {.bits = 500};
   assert_true(dyd_engine_knows(e, 1));
@@ -345,7 +345,7 @@ static void enter_from_within(dyd_engine *e) {
   if (dyd_engine_delaunay(e)) assert_non_null(strstr(err.message, "at work"));
   dyd_stream_free(at);
   const double x = 1;
-  assert_int_equal(DYD_E_ARG, dyd_engine_add_points(e, 1, &x, &x));
+  assert_int_equal(DYD_E_ARG, dyd_engine_add_points(e, 1, &x, &x, NULL));
 }
 
 static void enter_from_progress(void *user, const dyd_progress *p) {

@@ -39,7 +39,7 @@ static void test_calls(void **state) {
   dyd_engine *e = engine_new();
   const double x[4] = {0, 10, 9, -10}, y[4] = {1000, 1000, 1021, 1015};
   assert_int_equal(DYD_OK, dyd_engine_add_source(e, 4, &source, NULL));
-  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 4, x, y));
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 4, x, y, NULL));
   for (int k = 0; k < 5; k++) {
     char cx[60], cy[60];
     snprintf(cx, sizeof cx, "100+cos(2*pi*%d/5)", k);
@@ -135,7 +135,7 @@ static void test_pairs_of_ties(void **state) {
   dyd_engine *e = engine_new();
   double x[40], y[40];
   for (int k = 0; k < 40; k++) x[k] = k, y[k] = 0;
-  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 12, x, y));
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 12, x, y, NULL));
   dyd_engine_options o = options();
   o.max_pairs = 5;
   engine_run(e, &o, DYD_OUTCOME_FIXPOINT);
@@ -188,7 +188,7 @@ static void test_seconds_within(void **state) {
   assert_non_null(x);
   for (size_t k = 0; k < 2 * COUNT; k++) x[k] = test_unit(&r);
   dyd_engine *e = engine_new();
-  assert_int_equal(DYD_OK, dyd_engine_add_points(e, COUNT, x, x + COUNT));
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, COUNT, x, x + COUNT, NULL));
   free(x);
   dyd_engine_options o = options();
   o.seconds = 0.05;
@@ -204,7 +204,7 @@ static dyd_engine *engine_of_crowd(size_t n) {
   for (size_t k = 0; k < n; k++) {
     double x0 = fmod((double)k * 0.6180339887, 1), y0 = fmod((double)(k * k) * 0.4142135623, 1);
     double x1 = x0 + 0.25 / sqrt((double)n), y1 = y0 + 0.25 / sqrt((double)n);
-    assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 1, &x0, &x1, &y0, &y1));
+    assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 1, &x0, &x1, &y0, &y1, NULL));
   }
   return e;
 }
@@ -255,7 +255,7 @@ static void test_bad_options(void **state) {
   engine_run(e, &o, DYD_OUTCOME_ERROR);
   /* The engine has not started by any of these. */
   const double x = 1;
-  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &x));
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &x, NULL));
   engine_run(e, NULL, DYD_OUTCOME_DECIDED);
   dyd_engine_free(e);
 }
@@ -390,7 +390,7 @@ static void test_cancel_within_an_expression(void **state) {
   assert_int_equal(DYD_OK, dyd_real_new(&opaque, narrow_and_cancel, NULL, &c));
   assert_int_equal(DYD_OK, dyd_real_op(&sum, opaque, parsed("log(2)"), DYD_REAL_ADD, NULL));
   assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, sum, parsed("1")));
-  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s));
+  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s, NULL));
   engine_add_hidden(e, "1", "0");
   engine_add_hidden(e, "cos(2*pi/5)", "sin(2*pi/5)");
   engine_add_hidden(e, "cos(4*pi/5)", "sin(4*pi/5)");

@@ -54,8 +54,8 @@ static void add_boxes(dyd_engine *e, size_t n, double half) {
     double x = unit(), y = unit(), x1 = x + half, y1 = y + half;
     x -= half;
     y -= half;
-    assert_int_equal(DYD_OK,
-                     half > 0 ? dyd_engine_add_boxes(e, 1, &x, &x1, &y, &y1) : dyd_engine_add_points(e, 1, &x, &y));
+    assert_int_equal(DYD_OK, half > 0 ? dyd_engine_add_boxes(e, 1, &x, &x1, &y, &y1, NULL)
+                                      : dyd_engine_add_points(e, 1, &x, &y, NULL));
   }
 }
 
@@ -83,14 +83,14 @@ static void grid(dyd_engine *e, dyd_engine_options *o) {
   (void)o;
   for (int k = 0; k < 20000; k++) {
     double x = k % 141, y = k / 141;
-    assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &y));
+    assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &y, NULL));
   }
 }
 static void line(dyd_engine *e, dyd_engine_options *o) {
   o->goal = DYD_GOAL_AREA;
   for (int k = 0; k < 500; k++) {
     double x = k, y = -40;
-    assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &y));
+    assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &y, NULL));
   }
 }
 static void roots_of_numbers(dyd_engine *e, dyd_engine_options *o) {
@@ -254,7 +254,7 @@ static void use_cells(dyd_status *st, const dyd_engine *e, dyd_error *err) {
   dyd_boundary b = {0};
   *st = DYD_OK;
   for (uint32_t i = 0; *st == DYD_OK && i < dyd_engine_count(e); i += 100)
-    *st = dyd_voronoi_pos(&b, dyd_engine_delaunay(e), i);
+    *st = dyd_voronoi_cell(&b, dyd_engine_delaunay(e), i, DYD_CELL_POSSIBLE, NULL);
   snprintf(err->message, sizeof err->message, "max_bytes");
   err->code = *st;
   dyd_boundary_clear(&b);
@@ -297,7 +297,7 @@ static void use_pairs(dyd_status *st, const dyd_engine *e, dyd_error *err) {
 }
 static void use_triangles(dyd_status *st, const dyd_engine *e, dyd_error *err) {
   dyd_triangle_list l = {0}, beyond = {0};
-  *st = dyd_delaunay_triangles_and_neighbours(&l, &beyond, dyd_engine_delaunay(e));
+  *st = dyd_delaunay_triangles(&l, &beyond, dyd_engine_delaunay(e), 0);
   snprintf(err->message, sizeof err->message, "max_bytes");
   err->code = *st;
   dyd_triangle_list_clear(&l);
@@ -347,10 +347,10 @@ static void hub(dyd_engine *e, dyd_engine_options *o) {
   enum { RIM = 120 };
   (void)o;
   double lo = 0.25, hi = 0.75;
-  assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 1, &lo, &hi, &lo, &hi));
+  assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 1, &lo, &hi, &lo, &hi, NULL));
   for (int k = 0; k < RIM; k++) {
     double x = 0.5 + 2 * cos(6.28318 * k / RIM), y = 0.5 + 2 * sin(6.28318 * k / RIM);
-    assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &y));
+    assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &y, NULL));
   }
 }
 static void thin(dyd_engine *e, dyd_engine_options *o) {

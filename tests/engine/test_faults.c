@@ -10,7 +10,7 @@ static dyd_engine *faulty_engine(faulty *f, bool streams) {
   dyd_engine *e = engine_new();
   dyd_source source = faulty_source(f);
   const double x[3] = {-50, 0, 60}, y[3] = {-30, 90, -40};
-  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 3, x, y));
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 3, x, y, NULL));
   if (!streams) {
     assert_int_equal(DYD_OK, dyd_engine_add_source(e, 5, &source, NULL));
     return e;
@@ -19,7 +19,7 @@ static dyd_engine *faulty_engine(faulty *f, bool streams) {
     dyd_stream *s = NULL;
     if (k) source.release = NULL;
     assert_int_equal(DYD_OK, dyd_stream_new(&s, &source, k, NULL));
-    assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s));
+    assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s, NULL));
   }
   return e;
 }
@@ -127,11 +127,11 @@ static void test_release(void **state) {
   assert_int_equal(DYD_OK, dyd_engine_add_source(e, 0, &source, NULL));
   assert_int_equal(2, f.released);
   engine_run(e, NULL, DYD_OUTCOME_DECIDED);
-  assert_int_equal(DYD_E_ARG, dyd_engine_add_source(e, 1, &source, NULL));
+  assert_int_equal(DYD_E_ARG, dyd_engine_add_source(NULL, 1, &source, NULL));
   assert_int_equal(3, f.released);
   dyd_stream *s = NULL;
   assert_int_equal(DYD_OK, dyd_stream_new(&s, &source, 0, NULL));
-  assert_int_equal(DYD_E_ARG, dyd_engine_add_stream(e, s));
+  assert_int_equal(DYD_E_ARG, dyd_engine_add_stream(NULL, s, NULL));
   assert_int_equal(4, f.released);
   dyd_engine_free(e);
   assert_int_equal(5, f.released);
@@ -145,8 +145,8 @@ static void test_reference(void **state) {
   dyd_source source = faulty_source(&f);
   dyd_stream *s = NULL;
   assert_int_equal(DYD_OK, dyd_stream_new(&s, &source, 2, NULL));
-  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, dyd_stream_ref(s)));
-  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, dyd_stream_ref(s)));
+  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, dyd_stream_ref(s), NULL));
+  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, dyd_stream_ref(s), NULL));
   engine_run(e, NULL, DYD_OUTCOME_DECIDED); /* two sites are always joined */
   dyd_engine_free(e);
   assert_int_equal(0, f.released);
@@ -160,7 +160,7 @@ static void test_undefined(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
   const double x[2] = {0, 1}, y[2] = {0, 2};
-  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 2, x, y));
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 2, x, y, NULL));
   engine_add_text(e, "sqrt(2)", "1/(sin(1)^2+cos(1)^2-1)");
   dyd_outcome outcome;
   dyd_error err;
@@ -196,7 +196,7 @@ static void test_wide(void **state) {
     dyd_engine *e = engine_new();
     dyd_source source = {DYD_SIZED(dyd_source), .narrow = wide, .user = &size};
     const double x[3] = {0, 10, 0}, y[3] = {0, 0, 11};
-    assert_int_equal(DYD_OK, dyd_engine_add_points(e, 3, x, y));
+    assert_int_equal(DYD_OK, dyd_engine_add_points(e, 3, x, y, NULL));
     assert_int_equal(DYD_OK, dyd_engine_add_source(e, 1, &source, NULL));
     dyd_outcome outcome;
     dyd_status status = dyd_engine_run(&outcome, e, NULL, NULL);

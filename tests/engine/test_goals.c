@@ -127,7 +127,7 @@ static void test_fixed(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
   const double x0[3] = {0, 10, 3}, x1[3] = {0.5, 10.5, 3.5}, y0[3] = {0, 0, 9}, y1[3] = {0.5, 0.5, 9.5};
-  assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 3, x0, x1, y0, y1));
+  assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 3, x0, x1, y0, y1, NULL));
   dyd_engine_options o;
   dyd_engine_options_init(&o);
   for (int goal = DYD_GOAL_AREA; goal <= DYD_GOAL_HAUSDORFF; goal++) {
@@ -139,7 +139,7 @@ static void test_fixed(void **state) {
   }
   dyd_engine_free(e);
   e = engine_new();
-  assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 3, x0, x1, y0, y1));
+  assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 3, x0, x1, y0, y1, NULL));
   engine_add_text(e, "sqrt(9)", "sqrt(11)");
   o.goal = DYD_GOAL_HAUSDORFF;
   o.goal_bits = 10;

@@ -258,7 +258,7 @@ static void test_several_roots(void **state) {
 static void add_point(dyd_engine *e, dyd_real *x, dyd_real *y) {
   dyd_stream *s = NULL;
   assert_int_equal(dyd_stream_from_reals(&s, x, y), DYD_OK);
-  assert_int_equal(dyd_engine_add_stream(e, s), DYD_OK);
+  assert_int_equal(dyd_engine_add_stream(e, s, NULL), DYD_OK);
 }
 
 /* The corners (x,y), (-y,x), (-x,-y), (y,-x). */

@@ -37,7 +37,7 @@ static void add_mixed(dyd_engine *e, rough *f, test_random *r, size_t fixed, siz
     if (test_chance(r, 6)) h = 0;
     x1 = x + w;
     y1 = y + h;
-    assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 1, &x, &x1, &y, &y1));
+    assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 1, &x, &x1, &y, &y1, NULL));
   }
   for (size_t k = 0; k < loose; k++)
     for (int a = 0; a < 2; a++) f->at[k][a] = 8 * test_unit(r);
@@ -179,7 +179,7 @@ static void test_crowd(void **state) {
     char text[2][64];
     for (int k = 0; k < 60; k++) {
       double x0 = test_unit(&r), y0 = test_unit(&r), x1 = x0 + 0.05, y1 = y0 + 0.05;
-      assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 1, &x0, &x1, &y0, &y1));
+      assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 1, &x0, &x1, &y0, &y1, NULL));
     }
     for (int k = 0; k < 200; k++) {
       for (int a = 0; a < 2; a++) snprintf(text[a], sizeof text[a], "%.6f+sqrt(2)/1000", test_unit(&r));
@@ -198,8 +198,8 @@ static void test_bound(void **state) {
   dyd_engine_options o;
   const double x0 = 3.9, x1 = 4.2, zero = 0;
   dyd_engine_options_init(&o);
-  assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 1, &x0, &x1, &x0, &x1));
-  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &zero, &zero));
+  assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 1, &x0, &x1, &x0, &x1, NULL));
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &zero, &zero, NULL));
   engine_add_text(e, "sqrt(16.5)", "0");
   engine_add_text(e, "0", "sqrt(17)");
   engine_run(e, &o, DYD_OUTCOME_FIXPOINT);
@@ -220,7 +220,7 @@ static void test_both(void **state) {
   size_t count[4];
   const double x0[2] = {20, 3}, x1[2] = {20.5, 3}, y0[2] = {-0.25, 0}, y1[2] = {0.25, 0};
   engine_add_polygon(e, 4, weights, 300);
-  assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 2, x0, x1, y0, y1));
+  assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 2, x0, x1, y0, y1, NULL));
   engine_add_text(e, "20+sqrt(0.06)", "4");
   engine_add_text(e, "16+sqrt(0.06)", "sqrt(0.001)");
   engine_add_text(e, "20+sqrt(0.05)", "-4");

@@ -6,6 +6,7 @@
 #include "engine/settle.h"
 #include "engine/ties.h"
 #include "oracle/oracle.h"
+#include "rect/rect.h"
 
 #include <math.h>
 
@@ -100,7 +101,7 @@ static void circled_add(circled *c, hidden_side side[2], bool box, const int *at
   }
   c->n++;
   assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, x[0], x[1]));
-  assert_int_equal(DYD_OK, dyd_engine_add_stream(c->e, s));
+  assert_int_equal(DYD_OK, dyd_engine_add_stream(c->e, s, NULL));
   mpq_clears(end[0], end[1], NULL);
 }
 
@@ -234,7 +235,7 @@ static void test_roots(void **state) {
     dyd_rect_init(&r);
     for (int k = 0; k < 4; k++) engine_add_text(e, at[line][k][0], at[line][k][1]);
     assert_int_equal(DYD_OK, dyd_rect_set_d(&r, 0.875, 1.5, line ? -0.125 : 1, line ? 3 : 1.25));
-    assert_int_equal(DYD_OK, dyd_engine_add_rect(e, &r));
+    assert_int_equal(DYD_OK, dyd_engine_add_rect(e, &r, NULL));
     engine_run(e, NULL, DYD_OUTCOME_FIXPOINT);
     dyd_engine_options_init(&o);
     assert_true(engine_counters(e).bits_most < o.max_bits);

@@ -85,7 +85,7 @@ static void half_case_new(half_case *c, test_random *r, int most) {
       x[a] = side_of(&c->side[i][a], r, lo, hi, c->fixed[i][a], c->radius[i][a]);
     }
     assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, x[0], x[1]));
-    assert_int_equal(DYD_OK, dyd_engine_add_stream(c->e, s));
+    assert_int_equal(DYD_OK, dyd_engine_add_stream(c->e, s, NULL));
   }
 }
 
@@ -348,7 +348,7 @@ static void add_claimed(dyd_engine *e) {
   assert_int_equal(DYD_OK, dyd_real_claim_root(x, (const mpq_t *)coeff, 3, lo, hi, NULL));
   assert_int_equal(DYD_OK, dyd_real_parse(&y, "sqrt(3)", 7, NULL));
   assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, x, y));
-  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s));
+  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s, NULL));
   engine_add_text(e, "sqrt(2)", "sqrt(3)");
   mpq_clears(coeff[0], coeff[1], coeff[2], lo, hi, NULL);
 }
@@ -432,7 +432,7 @@ static void test_shared(void **state) {
   assert_int_equal(DYD_OK, dyd_real_new(&x, tiring_narrow, NULL, NULL));
   assert_int_equal(DYD_OK, dyd_real_parse(&y, "sqrt(3)", 7, NULL));
   assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, dyd_real_ref(x), y));
-  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s));
+  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s, NULL));
   engine_add_text(e, "0", "0");
   dyd_rect_init(&r);
   dyd_engine_options_init(&o);

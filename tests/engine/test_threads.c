@@ -115,7 +115,7 @@ static void test_entered_twice(void **state) {
   sem_init(&g.inside, 0, 0);
   sem_init(&g.open, 0, 0);
   assert_int_equal(DYD_OK, dyd_engine_add_source(e, 1, &source, NULL));
-  assert_int_equal(DYD_OK, dyd_engine_append_text(calm, "2.5 3.5", 7, NULL, NULL));
+  assert_int_equal(DYD_OK, dyd_engine_add_text(calm, "2.5 3.5", 7, NULL, NULL));
   job j = {e, DYD_OUTCOME_NONE, DYD_OK};
   assert_int_equal(0, pthread_create(&thread, NULL, run_in_thread, &j));
   sem_wait(&g.inside);
@@ -128,7 +128,7 @@ static void test_entered_twice(void **state) {
     assert_int_equal(DYD_E_ARG, dyd_engine_run(&outcome, e, NULL, &err));
     assert_non_null(strstr(err.message, "no other thread"));
     assert_int_equal(DYD_OUTCOME_ERROR, outcome);
-    assert_int_equal(DYD_E_ARG, dyd_engine_append_points(e, 1, &at, &at, &err));
+    assert_int_equal(DYD_E_ARG, dyd_engine_add_points(e, 1, &at, &at, &err));
     assert_int_equal(DYD_E_ARG, dyd_engine_remeasure(e, 0, &r, &err));
   }
   sem_post(&g.open);

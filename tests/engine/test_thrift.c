@@ -146,14 +146,14 @@ static void test_costs_of_sources(void **state) {
   const double x = 9, y = 1, cost[] = {3, 0.5, 1e9}, told[] = {1, 3, 0.5, 1e9, 1, 1}, bad[] = {0, -2, HUGE_VAL, NAN};
   dyd_engine *e = engine_new();
   dyd_error err;
-  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &y));
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &y, NULL));
   dear.cost = cost;
   assert_int_equal(DYD_OK, dyd_engine_add_source(e, 3, &dear, &err));
   assert_int_equal(DYD_OK, dyd_engine_add_source(e, 2, &plain, &err));
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
     const double costs[2] = {1, bad[k]};
     wrong.cost = costs;
-    assert_int_equal(DYD_E_ARG, dyd_engine_append_source(e, 2, &wrong, &err));
+    assert_int_equal(DYD_E_ARG, dyd_engine_add_source(e, 2, &wrong, &err));
     assert_non_null(strstr(err.message, "point 7: its cost is "));
     assert_int_equal(7, err.point);
     assert_int_equal((int)k + 1, g.released);

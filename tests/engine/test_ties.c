@@ -230,7 +230,7 @@ static void test_callbacks(void **state) {
     mpq_set_str(m[4], side[k][3], 10);
     mpq_set_ui(m[5], 7, 3);
     assert_int_equal(dyd_stream_affine(&s, dyd_stream_ref(corner), (const mpq_t *)m), DYD_OK);
-    assert_int_equal(dyd_engine_add_stream(e, s), DYD_OK);
+    assert_int_equal(dyd_engine_add_stream(e, s, NULL), DYD_OK);
     for (int c = 0; c < 6; c++) mpq_clear(m[c]);
   }
   dyd_stream_free(corner);
@@ -246,7 +246,7 @@ static void test_centres(void **state) {
   for (uint32_t k = 0; k < 4; k++) {
     for (uint32_t q = 0; q < 3; q++) assert_int_equal(dyd_engine_stream(&s[q], f, k + q), DYD_OK);
     assert_int_equal(dyd_stream_voronoi_vertex(&c, s[0], s[1], s[2]), DYD_OK);
-    assert_int_equal(dyd_engine_add_stream(e, c), DYD_OK);
+    assert_int_equal(dyd_engine_add_stream(e, c, NULL), DYD_OK);
   }
   engine_add_text(e, "1", "0");
   engine_add_text(e, "0", "sqrt(2)-1");

@@ -127,9 +127,9 @@ static void test_blockers(void **state) {
   dyd_engine *e = engine_new();
   notes n;
   const double x[4] = {0, 10, 5, 5}, y[4] = {0, 0, 20, -0x1p220};
-  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 2, x, y));
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 2, x, y, NULL));
   engine_add_hidden(e, "5", "exp(log(6)/2)-sqrt(6)+2^-200");
-  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 2, x + 2, y + 2));
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 2, x + 2, y + 2, NULL));
   notes_init(&n, e);
   dyd_engine_options o = options(&n);
   o.no_ties = true; /* what is tried as a tie would be refined at once to where it shows */

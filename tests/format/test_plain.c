@@ -16,7 +16,7 @@ static dyd_engine *four_points(void) {
   dyd_engine *e = NULL;
   dyd_outcome outcome;
   assert_int_equal(dyd_engine_new(&e), DYD_OK);
-  assert_int_equal(dyd_engine_add_points(e, 4, px, py), DYD_OK);
+  assert_int_equal(dyd_engine_add_points(e, 4, px, py, NULL), DYD_OK);
   assert_int_equal(dyd_engine_run(&outcome, e, NULL, NULL), DYD_OK);
   return e;
 }

@@ -54,7 +54,7 @@ static void example_init(example *x) {
   static const double px[] = {0, 4, 1, 5}, py[] = {0, 1, 3, 4};
   *x = (example){.stages = {DYD_SIZED(dyd_convergence)}, .report = {DYD_SIZED(dyd_check_report)}};
   assert_int_equal(dyd_engine_new(&x->e), DYD_OK);
-  assert_int_equal(dyd_engine_add_points(x->e, 4, px, py), DYD_OK);
+  assert_int_equal(dyd_engine_add_points(x->e, 4, px, py, NULL), DYD_OK);
   assert_int_equal(dyd_converge_run(&x->stages, x->e, NULL, NULL, NULL), DYD_OK);
   assert_int_equal(dyd_history_new(&x->history), DYD_OK);
   assert_int_equal(dyd_history_note(x->history, dyd_engine_delaunay(x->e)), DYD_OK);
@@ -83,7 +83,7 @@ static dyd_status write_tolerance(FILE *out, dyd_content content, dyd_format for
   dyd_tolerance *t;
   dyd_outcome outcome;
   assert_int_equal(dyd_engine_new(&e), DYD_OK);
-  assert_int_equal(dyd_engine_add_points(e, 3, (const double[]){0, 3, 1}, (const double[]){0, 0, 2}), DYD_OK);
+  assert_int_equal(dyd_engine_add_points(e, 3, (const double[]){0, 3, 1}, (const double[]){0, 0, 2}, NULL), DYD_OK);
   assert_int_equal(dyd_engine_run(&outcome, e, NULL, NULL), DYD_OK);
   assert_int_equal(dyd_tolerance_new(&t, dyd_engine_delaunay(e), &options, NULL), DYD_OK);
   const dyd_write_options o = {DYD_SIZED(dyd_write_options), .tolerance = t};
@@ -99,7 +99,8 @@ static dyd_status write_sphere(FILE *out, dyd_content content, dyd_format format
   dyd_outcome outcome;
   assert_int_equal(dyd_engine_new(&places), DYD_OK);
   assert_int_equal(
-      dyd_engine_add_points(places, 4, (const double[]){0, 90, 10, -120}, (const double[]){0, 10, 80, -45}), DYD_OK);
+      dyd_engine_add_points(places, 4, (const double[]){0, 90, 10, -120}, (const double[]){0, 10, 80, -45}, NULL),
+      DYD_OK);
   assert_int_equal(dyd_sphere_new(&s, places, NULL, NULL), DYD_OK);
   const dyd_write_options o = {DYD_SIZED(dyd_write_options), .sphere = s};
   assert_int_equal(dyd_write(out, NULL, content, format, &o, err), DYD_E_ARG); /* there is no result yet */

@@ -3,6 +3,7 @@
  * rest is the business of the invariants of the armed library and of the sanitizers. */
 #define _GNU_SOURCE /* fmemopen */
 #include "targets.h"
+#include "stream/real.h"
 
 #include <dyadel/dyadel.h>
 #include <stdio.h>
@@ -162,7 +163,7 @@ void fuzz_answer(const uint8_t *data, size_t size) {
   const double x[2] = {0, 4}, y[2] = {0, 1};
   dyd_engine *e = NULL;
   MUST(dyd_engine_new(&e) == DYD_OK);
-  MUST(dyd_engine_add_points(e, 2, x, y) == DYD_OK);
+  MUST(dyd_engine_add_points(e, 2, x, y, NULL) == DYD_OK);
   MUST(dyd_engine_add_source(e, 3, &source, NULL) == DYD_OK);
   run_small(e);
   dyd_engine_free(e);
@@ -188,9 +189,9 @@ static void call_add(dyd_engine *e, bytes *b, dyd_error *err) {
   double x = next_number(b), y = next_number(b), w = next_number(b), h = next_number(b), x1 = x + w, y1 = y + h;
   static const char *const text[] = {"sqrt(2) 1", "1/3 [2,3]", "root(x^2-5,2,3) 4", "2 x", "5+-1 pi", "sqrt(8) 1"};
   unsigned k = next_byte(b);
-  if (k % 3 == 0) must_tell(dyd_engine_append_points(e, 1, &x, &y, err), err);
-  if (k % 3 == 1) must_tell(dyd_engine_append_boxes(e, 1, &x, &x1, &y, &y1, err), err);
-  if (k % 3 == 2) must_tell(dyd_engine_append_text(e, text[k % 6], strlen(text[k % 6]), NULL, err), err);
+  if (k % 3 == 0) must_tell(dyd_engine_add_points(e, 1, &x, &y, err), err);
+  if (k % 3 == 1) must_tell(dyd_engine_add_boxes(e, 1, &x, &x1, &y, &y1, err), err);
+  if (k % 3 == 2) must_tell(dyd_engine_add_text(e, text[k % 6], strlen(text[k % 6]), NULL, err), err);
 }
 
 static void call_measure(dyd_engine *e, bytes *b, dyd_error *err) {

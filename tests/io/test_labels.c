@@ -39,7 +39,7 @@ static void test_several_files(void **state) {
   const double x[] = {50, 60}, y[] = {0, 70};
   size_t row, point;
   assert_int_equal(dyd_engine_new(&e), DYD_OK);
-  assert_int_equal(dyd_engine_add_points(e, 2, x, y), DYD_OK);
+  assert_int_equal(dyd_engine_add_points(e, 2, x, y, NULL), DYD_OK);
   check_points(e, 2, (const size_t[]){0, 1}, NULL);
 
   dyd_read_report r = add_file(e, "x,y,n\n1,1,one\nNA,1,gone\n2,1,\n1.0,1,one again\n3,1,three\n", &named, DYD_OK);
@@ -90,7 +90,7 @@ static void test_named_by_caller(void **state) {
   assert_int_equal(dyd_engine_name(e, 1, (const size_t[]){0}, NULL), DYD_E_ARG);
   assert_int_equal(dyd_engine_name(e, 0, NULL, NULL), DYD_OK);
   add_file(e, "0 0\n1 1\n", &o, DYD_OK);
-  assert_int_equal(dyd_engine_add_points(e, 3, x, y), DYD_OK);
+  assert_int_equal(dyd_engine_add_points(e, 3, x, y, NULL), DYD_OK);
   check_points(e, 5, (const size_t[]){0, 1, 2, 3, 4}, NULL);
   assert_int_equal(dyd_engine_name(e, 3, (const size_t[]){2, 5, 7}, NULL), DYD_OK);
   check_points(e, 5, (const size_t[]){0, 1, 2, 5, 7}, NULL);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The ABI rules of dyadel/dyadel.h at every call that takes or fills in a struct with a size: callers with shorter and
  * with longer structs, callers that never set the size. */
+#include "engine/record.h"
 #include <dyadel/dyadel.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 
 #include "legal/witness_filter.h"
+#include "predicate/circle.h"
 #include "support/random.h"
 
 #include <cmocka.h>

@@ -4,6 +4,7 @@
 #include "metric/bounds.h"
 #include "oracle/oracle.h"
 #include "oracle/oracle_gen.h"
+#include "rect/rect.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

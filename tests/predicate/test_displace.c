@@ -8,9 +8,11 @@
 
 #include <cmocka.h>
 
+#include "predicate/circle.h"
 #include "predicate/predicate_filter.h"
 #include "predicate/shapes.h"
 #include "rect/literal.h"
+#include "rect/rect.h"
 
 static void set_point(dyd_point *p, double x, double y) {
   assert_int_equal(dyd_dyadic_set_d(&p->x, x), DYD_OK);

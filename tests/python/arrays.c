@@ -22,9 +22,9 @@ static dyd_status run(const double *xy, size_t n) {
   dyd_engine_options_init(&o);
   o.threads = 1;
   dyd_status st = dyd_engine_new(&e);
-  if (st == DYD_OK) st = dyd_engine_append_columns(e, n, column, NULL, NULL);
+  if (st == DYD_OK) st = dyd_engine_add_columns(e, n, column, NULL, NULL);
   if (st == DYD_OK) st = dyd_engine_run(&outcome, e, &o, NULL);
-  if (st == DYD_OK) st = dyd_delaunay_triangles_as_found(&triangles, &beyond, dyd_engine_delaunay(e));
+  if (st == DYD_OK) st = dyd_delaunay_triangles(&triangles, &beyond, dyd_engine_delaunay(e), DYD_TRIANGLES_AS_FOUND);
   dyd_triangle_list_clear(&triangles);
   dyd_triangle_list_clear(&beyond);
   dyd_engine_free(e);

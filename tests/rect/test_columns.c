@@ -61,9 +61,8 @@ static void test_boxes(void **state) {
     assert_int_equal(DYD_OK, dyd_sites_add_points(s, 1, from[0], from[1]));
     assert_int_equal(DYD_OK, dyd_sites_add_columns(s, n, column, points ? NULL : column + 2));
     assert_int_equal(n + 1, dyd_sites_count(s));
-    assert_int_equal(DYD_OK, dyd_sites_copy_d(box, s, 1, n));
-    assert_int_equal(DYD_E_ARG, dyd_sites_copy_d(box, s, 2, n));
     for (size_t i = 0; i < n; i++) {
+      dyd_sites_get_d(box + 4 * i, s, i + 1);
       for (int e = 0; e < 4; e++) {
         double by = points ? 0 : from[2 + e / 2][same ? 0 : i];
         assert_outward(box[4 * i + (size_t)e], from[e / 2][i], by, e % 2 ? 1 : -1);

@@ -38,7 +38,7 @@ static dyd_sphere *sphere_of(dyd_engine **e, size_t n, const double *lon, const 
   dyd_sphere *s;
   dyd_error err;
   assert_int_equal(dyd_engine_new(e), DYD_OK);
-  assert_int_equal(dyd_engine_add_points(*e, n, lon, lat), DYD_OK);
+  assert_int_equal(dyd_engine_add_points(*e, n, lon, lat, NULL), DYD_OK);
   assert_int_equal(dyd_sphere_new(&s, *e, o, &err), DYD_OK);
   return s;
 }
@@ -102,7 +102,7 @@ static void add_stream(dyd_engine *e, double lon, double lat) {
     assert_int_equal(dyd_real_parse(&x[k], text, (size_t)length, NULL), DYD_OK);
   }
   assert_int_equal(dyd_stream_from_reals(&stream, x[0], x[1]), DYD_OK);
-  assert_int_equal(dyd_engine_add_stream(e, stream), DYD_OK);
+  assert_int_equal(dyd_engine_add_stream(e, stream, NULL), DYD_OK);
 }
 
 /* centre: DYD_NO_PLACE for any. */
@@ -117,7 +117,7 @@ static void ask_from(answer *a, const globe *g, const char *radius, uint32_t cen
     if (h < 0)
       add_stream(a->e, g->lon[i], g->lat[i]);
     else
-      assert_int_equal(dyd_engine_add_boxes(a->e, 1, &x0, &x1, &y0, &y1), DYD_OK);
+      assert_int_equal(dyd_engine_add_boxes(a->e, 1, &x0, &x1, &y0, &y1, NULL), DYD_OK);
   }
   assert_int_equal(dyd_sphere_new(&a->s, a->e, &o, &err), DYD_OK);
   assert_int_equal(dyd_sphere_pairs(&a->pairs, a->s), DYD_E_ARG); /* not before a run */
@@ -400,7 +400,7 @@ static void test_vertex_corners(void **state) {
         y0[i] = g.lat[i] - (l ? -dy : fabs(dy)), y1[i] = l ? y0[i] : g.lat[i] + fabs(dy);
       }
       assert_int_equal(dyd_engine_new(&e), DYD_OK);
-      assert_int_equal(dyd_engine_add_boxes(e, 4, x0, x1, y0, y1), DYD_OK);
+      assert_int_equal(dyd_engine_add_boxes(e, 4, x0, x1, y0, y1, NULL), DYD_OK);
       assert_int_equal(dyd_sphere_new(&s, e, NULL, NULL), DYD_OK);
       assert_int_equal(dyd_sphere_vertex(l ? one : box, s, &corner, NULL), DYD_OK);
       dyd_sphere_free(s);

@@ -43,7 +43,7 @@ static void ask_globe(globe_answer *out, const globe_case *g, uint32_t centre) {
   const dyd_sphere_options o = {DYD_SIZED(dyd_sphere_options), .centre_set = true, .centre = centre};
   memset(out, 0, sizeof *out);
   assert_int_equal(dyd_engine_new(&e), DYD_OK);
-  assert_int_equal(dyd_engine_add_points(e, g->n, g->lon, g->lat), DYD_OK);
+  assert_int_equal(dyd_engine_add_points(e, g->n, g->lon, g->lat, NULL), DYD_OK);
   assert_int_equal(dyd_sphere_new(&s, e, &o, &err), DYD_OK);
   assert_int_equal(dyd_sphere_centre(s), dyd_sphere_alias(s, centre));
   assert_int_equal(dyd_sphere_run(&out->outcome, s, NULL, &err), DYD_OK);

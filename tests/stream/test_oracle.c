@@ -49,7 +49,7 @@ static dyd_engine *engine_of(const dyd_source *source) {
   dyd_engine *e = NULL;
   const double x[EXACT] = {-50, 0, 60}, y[EXACT] = {-30, 90, -40};
   assert_int_equal(DYD_OK, dyd_engine_new(&e));
-  assert_int_equal(DYD_OK, dyd_engine_add_points(e, EXACT, x, y));
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, EXACT, x, y, NULL));
   assert_int_equal(DYD_OK, dyd_engine_add_source(e, POINTS, source, NULL));
   return e;
 }

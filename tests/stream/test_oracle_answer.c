@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* [ORA-1] What the answers of oracle programs become: a table of lines, and random intervals inside and outside. */
+#include "rect/rect.h"
 #include "stream/harness.h"
 #include "stream/oracle_answer.h"
 

@@ -4,6 +4,7 @@
 #include "harness.h"
 
 #include "stream/real.h"
+#include "stream/stream.h"
 
 /* ---- a source with planted faults: rectangles around (1/3, -1/7) ---- */
 

@@ -172,8 +172,8 @@ dyd_engine *sets_engine(const sets_case *s) {
   if (dyd_engine_new(&e) != DYD_OK) abort();
   for (size_t i = 0; i < s->n; i++) {
     const double *p = s->end[i];
-    dyd_status st = s->dim == 2 ? dyd_engine_append_points(e, 1, p, p + 1, NULL)
-                                : dyd_engine_append_boxes(e, 1, p, p + 1, p + 2, p + 3, NULL);
+    dyd_status st = s->dim == 2 ? dyd_engine_add_points(e, 1, p, p + 1, NULL)
+                                : dyd_engine_add_boxes(e, 1, p, p + 1, p + 2, p + 3, NULL);
     if (st != DYD_OK) abort();
   }
   if (dyd_engine_run(&outcome, e, &o, NULL) != DYD_OK) abort();

@@ -60,7 +60,7 @@ static void compare_chances(double sum[2], const chance_case *c, test_random *r)
   count_edges(seen, c, r);
   assert_int_equal(dyd_tolerance_new(&t, pd, &o, NULL), DYD_OK);
   size_t rows = dyd_tolerance_rows(&row, t);
-  const double *chance = dyd_tolerance_chances(t);
+  const double *chance = dyd_tolerance_get(t)->chances;
   for (size_t k = 0; k < rows; k++) {
     double often = (double)seen[row[k].i][row[k].j] / SAMPLES, p = chance[k];
     assert_true(p >= 0 && p <= 1 && (row[k].event == DYD_EVENT_DEATH || p == 0));
@@ -118,7 +118,7 @@ static void test_sigma_refused(void **state) {
     assert_non_null(strstr(err.message, "standard deviation"));
   }
   assert_int_equal(dyd_tolerance_new(&t, pd, NULL, &err), DYD_OK);
-  assert_null(dyd_tolerance_chances(t));
+  assert_null(dyd_tolerance_get(t)->chances);
   dyd_tolerance_free(t);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);

@@ -53,7 +53,7 @@ static dyd_pair_list pairs_of_discs(const disc_case *c) {
   dyd_error err;
   dyd_pair_list l = {0};
   dyd_delaunay *pd = triangulate(&sites, c, true);
-  assert_int_equal(dyd_disc_pairs(&l, pd, &err), DYD_OK);
+  assert_int_equal(dyd_disc_pairs(&l, pd, NULL, &err), DYD_OK);
   for (size_t k = 0; k < l.count; k++) { /* only what squares leave open may change */
     dyd_pair_status square = dyd_delaunay_status(pd, l.item[k].i, l.item[k].j);
     assert_true(square == l.item[k].status || square == DYD_INDETERMINATE);
@@ -246,7 +246,7 @@ static void test_triangles(void **state) {
     dyd_pair_list l = pairs_of_discs(&c);
     dyd_delaunay *pd = triangulate(&sites, &c, true);
     assert_int_equal(dyd_disc_triangles(&tri, &l, pd), DYD_OK);
-    assert_int_equal(dyd_delaunay_triangles(&squares, pd), DYD_OK);
+    assert_int_equal(dyd_delaunay_triangles(&squares, NULL, pd, 0), DYD_OK);
     compare_triangles(&c, &r, &l, &tri, &hollow);
     for (size_t q = 0; q < squares.count; q++) assert_true(lists_triangle(&tri, squares.item[q].v));
     for (size_t q = 0; q + 1 < tri.count; q++) assert_true(memcmp(&tri.item[q], &tri.item[q + 1], sizeof *tri.item));
@@ -284,7 +284,7 @@ static void test_cancelled(void **state) {
       if (k % 3) o.up_to = up_to;
       assert_int_equal(dyd_tolerance_new(&t, pd, &o, NULL), now && count[DYD_LEGAL] ? DYD_CANCELLED : DYD_OK);
       size_t rows = dyd_tolerance_rows(&row, t);
-      dyd_tolerance_left(&edges, &births, t);
+      edges = dyd_tolerance_get(t)->edges_left, births = dyd_tolerance_get(t)->births_left;
       for (size_t q = deaths = 0; q < rows; q++) deaths += row[q].event == DYD_EVENT_DEATH;
       assert_int_equal(deaths + edges, count[DYD_LEGAL]);
       assert_int_equal(deaths, now ? 0 : count[DYD_LEGAL]);
@@ -308,7 +308,7 @@ static void test_refused(void **state) {
   assert_int_equal(dyd_sites_new(&sites), DYD_OK);
   assert_int_equal(dyd_sites_add_boxes(sites, 3, lo, hi, (double[]){0, 0, 7}, top), DYD_OK);
   assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, &err), DYD_OK);
-  assert_int_equal(dyd_disc_pairs(&l, pd, &err), DYD_E_ARG);
+  assert_int_equal(dyd_disc_pairs(&l, pd, NULL, &err), DYD_E_ARG);
   assert_true(err.point == 2 && l.count == 0);
   assert_int_equal(dyd_disc_triangles(&none, &l, pd), DYD_E_ARG);
   assert_true(none.count == 0);
@@ -336,7 +336,7 @@ static void test_many(void **state) {
     assert_int_equal(dyd_sites_new(&sites), DYD_OK);
     assert_int_equal(dyd_sites_add_boxes(sites, MANY, x0, x1, y0, y1), DYD_OK);
     assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, NULL), DYD_OK);
-    assert_int_equal(dyd_disc_pairs(&l, pd, NULL), DYD_OK);
+    assert_int_equal(dyd_disc_pairs(&l, pd, NULL, NULL), DYD_OK);
     for (size_t k = 0; k < l.count; k++) {
       dyd_pair_status square = dyd_delaunay_status(pd, l.item[k].i, l.item[k].j);
       assert_true(square == l.item[k].status || square == DYD_INDETERMINATE);
@@ -407,7 +407,7 @@ static void test_scaled_cancelled(void **state) {
     make_discs_case(&c, &r, false);
     for (size_t i = 0; i < c.n; i++) c.x[i] *= 0x1p300, c.y[i] *= 0x1p300, c.r[i] *= 0x1p300;
     dyd_delaunay *pd = triangulate(&sites, &c, true);
-    dyd_status st = dyd_disc_pairs_until(&l, pd, &cancel, &err);
+    dyd_status st = dyd_disc_pairs(&l, pd, &cancel, &err);
     for (size_t i = 0; i < l.count; i++) {
       assert_int_equal(l.item[i].status, dyd_delaunay_status(pd, l.item[i].i, l.item[i].j));
       if (l.item[i].status != DYD_INDETERMINATE) continue;
@@ -445,7 +445,7 @@ static dyd_pair_status status_of_fine(const dyd_sites *sites) {
   dyd_delaunay *pd;
   dyd_pair_list l = {0};
   assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, NULL), DYD_OK);
-  assert_int_equal(dyd_disc_pairs(&l, pd, NULL), DYD_OK);
+  assert_int_equal(dyd_disc_pairs(&l, pd, NULL, NULL), DYD_OK);
   dyd_pair_status s = status_in(&l, 4, 6);
   dyd_pair_list_clear(&l);
   dyd_delaunay_free(pd);

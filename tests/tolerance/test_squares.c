@@ -228,13 +228,13 @@ static void test_whole_and_radii(void **state) {
     double lo, hi;
     cases_make(&p, &r, c % 6);
     ask_squares(&a, &p, NULL, c % 5 == 0);
-    dyd_tolerance_whole(&lo, &hi, a.t);
+    lo = dyd_tolerance_get(a.t)->lo, hi = dyd_tolerance_get(a.t)->hi;
     for (int above = 0; above < 2 && lo > 1e-6 && isfinite(lo); above++, wholes++) {
       squares_at(&at, &p, above ? hi * (1 + 1e-6) : lo * (1 - 1e-6));
       assert_true(all_decided(&at) == !above);
       cases_forget(&at);
     }
-    const double *rho = dyd_tolerance_points(a.t);
+    const double *rho = dyd_tolerance_get(a.t)->points;
     for (int k = 0; k < 50; k++) {
       q = p;
       for (size_t i = 0; i < p.n; i++) {
@@ -364,7 +364,7 @@ static void test_squares_refused(void **state) {
   ask_squares(&a, &p, NULL, false);
   mpq_inits(plus, minus, NULL);
   assert_int_equal(dyd_tolerance_exact(plus, minus, a.t, 0), DYD_E_ARG);
-  assert_int_equal(dyd_tolerance_metric(a.t), DYD_METRIC_BOX);
+  assert_int_equal(dyd_tolerance_get(a.t)->metric, DYD_METRIC_BOX);
   const dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .weight = weight, .metric = DYD_METRIC_BOX};
   assert_int_equal(dyd_tolerance_new(&t, a.pd, &o, &err), DYD_E_ARG);
   assert_non_null(strstr(err.message, "weights"));

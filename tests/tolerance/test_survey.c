@@ -119,11 +119,11 @@ static void test_against_brute_force(void **state) {
     dyd_survey *s;
     dyd_error err;
     const dyd_survey_row *row;
-    size_t open, ties, left;
+    size_t open, left;
     make_boxes_case(&c, &r, 4 + test_below(&r, FEW - 3), 16);
     dyd_delaunay *pd = boxes(&sites, &c, c.h);
     assert_int_equal(dyd_survey_new(&s, pd, NULL, &err), DYD_OK);
-    dyd_survey_count(&open, &ties, &left, s);
+    open = dyd_survey_get(s)->open, left = dyd_survey_get(s)->left;
     size_t rows = dyd_survey_rows(&row, s), least = least_plan(&c);
     assert_int_equal(open, count_open(&c, c.h));
     if (least <= c.n && left == 0) {
@@ -309,11 +309,11 @@ static size_t check_large(size_t *idle, const box_case *c, const dyd_survey_opti
   dyd_sites *sites;
   dyd_survey *s;
   const dyd_survey_row *row;
-  size_t open, ties, left;
+  size_t open, left;
   double half[MOST];
   dyd_delaunay *pd = boxes(&sites, c, c->h);
   assert_int_equal(dyd_survey_new(&s, pd, o, NULL), DYD_OK);
-  dyd_survey_count(&open, &ties, &left, s);
+  open = dyd_survey_get(s)->open, left = dyd_survey_get(s)->left;
   assert_int_equal(open, count_open(c, c->h));
   assert_int_equal(left, follow_rows(half, c, s, open));
   check_factor(c, half, s, o->accuracy, left);
@@ -400,11 +400,11 @@ static void test_parts(void **state) {
     for (size_t q = 0; q < tries[k].rows; q++) assert_true(tries[k].sites >> row[q].site & 1);
     dyd_survey_free(s);
   }
-  size_t open[2], ties, left; /* a window, and an accuracy that is not enough */
+  size_t open[2], left; /* a window, and an accuracy that is not enough */
   for (int part = 0; part < 2; part++) {
     const dyd_survey_options o = {DYD_SIZED(dyd_survey_options), .window = part ? &window : NULL};
     assert_int_equal(dyd_survey_new(&s, pd, &o, &err), DYD_OK);
-    dyd_survey_count(&open[part], &ties, &left, s);
+    open[part] = dyd_survey_get(s)->open, left = dyd_survey_get(s)->left;
     assert_int_equal(left, 0);
     dyd_survey_free(s);
   }
@@ -413,7 +413,7 @@ static void test_parts(void **state) {
       dyd_survey_new(&s, pd,
                      &(dyd_survey_options){DYD_SIZED(dyd_survey_options), .pairs = &pairs, .accuracy = accuracy}, &err),
       DYD_OK);
-  dyd_survey_count(&open[0], &ties, &left, s);
+  open[0] = dyd_survey_get(s)->open, left = dyd_survey_get(s)->left;
   assert_true(open[0] == 1 && left == 1);
   dyd_survey_free(s);
   mpq_clear(accuracy);

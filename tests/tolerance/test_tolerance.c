@@ -72,7 +72,7 @@ static void test_all_annuli(void **state) {
     for (uint32_t i = 0; i < p.n; i++)
       for (uint32_t j = i + 1; j < p.n; j++) check_pair(&a, &p, i, j, mpq_get_d(up_to));
     uint64_t f, e;
-    dyd_tolerance_rungs(&f, &e, a.t);
+    f = dyd_tolerance_get(a.t)->filter, e = dyd_tolerance_get(a.t)->exact;
     filter += f, exact += e;
     cases_forget(&a);
     mpq_clear(up_to);
@@ -138,8 +138,8 @@ static void test_points_and_whole(void **state) {
     cases_make(&p, &r, c % 6);
     cases_ask(&a, &p,
               &(dyd_tolerance_options){DYD_SIZED(dyd_tolerance_options), .points = true, .no_filter = c % 5 == 0});
-    const double *radius = dyd_tolerance_points(a.t);
-    dyd_tolerance_whole(&lo, &hi, a.t);
+    const double *radius = dyd_tolerance_get(a.t)->points;
+    lo = dyd_tolerance_get(a.t)->lo, hi = dyd_tolerance_get(a.t)->hi;
     assert_true(hi <= lo * (1 + 0x1p-40) || lo == hi);
     for (size_t i = 0; i < p.n; i++) {
       all[i] = lo;
@@ -164,7 +164,7 @@ static void test_point_far_away(void **state) {
   cases_answer a;
   (void)state;
   cases_ask(&a, &p, &(dyd_tolerance_options){DYD_SIZED(dyd_tolerance_options), .points = true});
-  for (size_t i = 0; i < p.n; i++) assert_true(dyd_tolerance_points(a.t)[i] <= 1);
+  for (size_t i = 0; i < p.n; i++) assert_true(dyd_tolerance_get(a.t)->points[i] <= 1);
   cases_forget(&a);
 }
 
@@ -188,11 +188,10 @@ static void compare_ways(const dyd_tolerance *const t[WAYS], size_t n) {
     assert_true(a->lo == c->lo && a->hi == c->hi);
     assert_true(k == 0 || a[-1].i < a->i || (a[-1].i == a->i && a[-1].j < a->j));
   }
-  const double *radius = dyd_tolerance_points(t[BY_DOUBLES]), *again = dyd_tolerance_points(t[BY_THREADS]),
-               *exact = dyd_tolerance_points(t[BY_INTEGERS]);
-  double lo, hi;
+  const double *radius = dyd_tolerance_get(t[BY_DOUBLES])->points, *again = dyd_tolerance_get(t[BY_THREADS])->points,
+               *exact = dyd_tolerance_get(t[BY_INTEGERS])->points;
+  const double lo = dyd_tolerance_get(t[BY_DOUBLES])->lo;
   assert_int_equal(!radius, !again);
-  dyd_tolerance_whole(&lo, &hi, t[BY_DOUBLES]);
   assert_true(lo > 0);
   for (size_t i = 0; radius && i < n; i++) {
     assert_true(radius[i] == again[i]);
@@ -216,7 +215,7 @@ static void compare_rungs(size_t n, const double *x, const double *y, bool point
   }
   compare_ways((const dyd_tolerance *const *)t, n);
   uint64_t filter, exact;
-  dyd_tolerance_rungs(&filter, &exact, t[BY_DOUBLES]);
+  filter = dyd_tolerance_get(t[BY_DOUBLES])->filter, exact = dyd_tolerance_get(t[BY_DOUBLES])->exact;
   assert_true((double)filter >= share * (double)(filter + exact));
   for (int k = 0; k < WAYS; k++) dyd_tolerance_free(t[k]);
   for (int k = 0; k < WAYS; k++) dyd_delaunay_free(pd[k]);
@@ -253,10 +252,10 @@ static void test_edges_of_use(void **state) {
     brute_points p = {.n = n};
     for (size_t i = 0; i < n; i++) p.x[i] = x[i], p.y[i] = y[i];
     cases_ask(&a, &p, &(dyd_tolerance_options){DYD_SIZED(dyd_tolerance_options), .points = true});
-    dyd_tolerance_whole(&lo, &hi, a.t);
+    lo = dyd_tolerance_get(a.t)->lo, hi = dyd_tolerance_get(a.t)->hi;
     assert_int_equal(dyd_tolerance_rows(&row, a.t), n < 2 ? 0 : n < 4 ? 1 : 3);
     assert_true(n < 4 ? isinf(lo) && isinf(hi) : lo <= sqrt(0.125) && hi >= sqrt(0.125) && hi < 0.36);
-    if (n == 4) assert_true(dyd_tolerance_points(a.t)[2] == dyd_tolerance_points(a.t)[0]);
+    if (n == 4) assert_true(dyd_tolerance_get(a.t)->points[2] == dyd_tolerance_get(a.t)->points[0]);
     cases_forget(&a);
   }
   dyd_sites *sites;

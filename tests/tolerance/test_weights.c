@@ -41,8 +41,8 @@ static void test_equal_weights(void **state) {
       all++;
     }
     double lo[2], hi[2];
-    dyd_tolerance_whole(&lo[0], &hi[0], a.t);
-    dyd_tolerance_whole(&lo[1], &hi[1], b.t);
+    lo[0] = dyd_tolerance_get(a.t)->lo, hi[0] = dyd_tolerance_get(a.t)->hi;
+    lo[1] = dyd_tolerance_get(b.t)->lo, hi[1] = dyd_tolerance_get(b.t)->hi;
     assert_true(lo[1] * w <= hi[0] * (1 + 0x1p-50) && lo[0] <= hi[1] * w * (1 + 0x1p-50));
     cases_forget(&a);
     cases_forget(&b);
@@ -64,7 +64,7 @@ static void disc_statuses(dyd_pair_list *out, const brute_points *p, const doubl
   assert_int_equal(dyd_sites_new(&sites), DYD_OK);
   assert_int_equal(dyd_sites_add_boxes(sites, p->n, end[0], end[1], end[2], end[3]), DYD_OK);
   assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, &err), DYD_OK);
-  assert_int_equal(dyd_disc_pairs(out, pd, &err), DYD_OK);
+  assert_int_equal(dyd_disc_pairs(out, pd, NULL, &err), DYD_OK);
   dyd_delaunay_free(pd);
   dyd_sites_free(sites);
 }
@@ -188,11 +188,11 @@ static void test_weighted_whole(void **state) {
   for (size_t c = 0; c < test_cases(200); c++) {
     brute_points p, q;
     cases_answer a;
-    double lo, hi, weight[BRUTE_MOST], reach[BRUTE_MOST];
+    double lo, weight[BRUTE_MOST], reach[BRUTE_MOST];
     cases_make(&p, &r, c % 6);
     for (size_t i = 0; i < p.n; i++) weight[i] = test_chance(&r, 3) ? 0 : test_unit(&r) * 4;
     cases_ask(&a, &p, &(dyd_tolerance_options){DYD_SIZED(dyd_tolerance_options), .weight = weight});
-    dyd_tolerance_whole(&lo, &hi, a.t);
+    lo = dyd_tolerance_get(a.t)->lo;
     for (size_t i = 0; i < p.n; i++) reach[i] = isfinite(lo) ? weight[i] * lo : 0;
     for (int k = 0; k < 30; k++) {
       cases_move(&q, &p, reach, 1, &r);
@@ -217,12 +217,12 @@ static void test_weights_of_use(void **state) {
   cases_ask(&a, &p, &(dyd_tolerance_options){DYD_SIZED(dyd_tolerance_options), .weight = fixed});
   assert_int_equal(dyd_tolerance_rows(&row, a.t), 3);
   for (int k = 0; k < 3; k++) assert_true(isinf(row[k].lo) && row[k].k == DYD_NO_SITE);
-  dyd_tolerance_whole(&lo, &hi, a.t);
+  lo = dyd_tolerance_get(a.t)->lo, hi = dyd_tolerance_get(a.t)->hi;
   assert_true(isinf(lo) && isinf(hi));
   cases_forget(&a);
   cases_ask(&a, &p, &(dyd_tolerance_options){DYD_SIZED(dyd_tolerance_options), .weight = large});
   dyd_tolerance_rows(&row, a.t); /* 0 moves by 5 t: it meets the line of 1 and 3 at sqrt(1/2) = 6 t */
-  dyd_tolerance_whole(&lo, &hi, a.t);
+  lo = dyd_tolerance_get(a.t)->lo, hi = dyd_tolerance_get(a.t)->hi;
   assert_true(lo <= sqrt(0.5) / 6 && hi >= sqrt(0.5) / 6 && hi < lo * (1 + 1e-12));
   assert_int_equal(dyd_tolerance_exact(q[0], q[1], a.t, 0), DYD_E_ARG);
   for (int k = 0; k < 3; k++) {

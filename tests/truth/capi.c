@@ -28,10 +28,11 @@ static dyd_status add_boxes(dyd_engine *e, size_t n, dyd_error *err) {
   dyd_status status = DYD_OK;
   dyd_rect_init(&r);
   for (size_t k = 0; k < n && status >= 0; k++) {
-    const char *x = strtok(NULL, " \n"), *y = strtok(NULL, " \n");
-    status = x && y ? dyd_interval_set_text(&r.x, x, strlen(x), err) : DYD_E_ARG;
-    if (status >= 0) status = dyd_interval_set_text(&r.y, y, strlen(y), err);
-    if (status >= 0) status = dyd_engine_add_rect(e, &r);
+    char *x = strtok(NULL, " \n"), *y = strtok(NULL, " \n");
+    if (!x || !y) return dyd_rect_clear(&r), DYD_E_ARG;
+    x[strlen(x)] = ' '; /* one line again */
+    status = dyd_rect_set_text(&r, x, (size_t)(y - x) + strlen(y), err);
+    if (status >= 0) status = dyd_engine_add_rect(e, &r, err);
   }
   dyd_rect_clear(&r);
   return status;

@@ -132,7 +132,7 @@ int main(int argc, char **argv) {
   require(dyd_sites_new(&sites) == DYD_OK && dyd_sites_add_points(sites, x.size(), x.data(), y.data()) == DYD_OK,
           "the points are sites");
   require(dyd_delaunay_new(&pd, sites, nullptr, &err) == DYD_OK, "there is a triangulation");
-  require(dyd_delaunay_triangles(&list, pd) == DYD_OK, "there are triangles");
+  require(dyd_delaunay_triangles(&list, nullptr, pd, 0) == DYD_OK, "there are triangles");
   for (size_t k = 0; k < list.count; k++) {
     const uint32_t *v = list.item[k].v;
     ours.insert(sorted(v[0], v[1], v[2]));

@@ -10,6 +10,7 @@
 
 #include "oracle/oracle_num.h"
 #include "support/random.h"
+#include "voronoi/shape.h"
 #include <cmocka.h>
 #include <dyadel/voronoi.h>
 #include <stdlib.h>

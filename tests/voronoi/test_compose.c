@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Outputs as inputs: Voronoi vertices, combinations, streams taken out of engines, their life times
  * [VTX-1] [CMB-1]. */
+#include "rect/rect.h"
 #include "voronoi/streams.h"
 
 #include <dyadel/arc.h>
@@ -254,11 +255,11 @@ static void test_combinations(void **state) {
 static dyd_engine *next_level(dyd_engine *e) {
   dyd_triangle_list t = {0};
   dyd_engine *next = engine_new();
-  assert_int_equal(dyd_delaunay_triangles(&t, dyd_engine_delaunay(e)), DYD_OK);
+  assert_int_equal(dyd_delaunay_triangles(&t, NULL, dyd_engine_delaunay(e), 0), DYD_OK);
   for (size_t k = 0; k < t.count; k++) {
     dyd_stream *v = NULL;
     assert_int_equal(dyd_engine_voronoi_vertex(&v, e, &t.item[k]), DYD_OK);
-    assert_int_equal(dyd_engine_add_stream(next, v), DYD_OK);
+    assert_int_equal(dyd_engine_add_stream(next, v, NULL), DYD_OK);
   }
   dyd_triangle_list_clear(&t);
   dyd_engine_free(e);
@@ -268,7 +269,7 @@ static dyd_engine *next_level(dyd_engine *e) {
 static void test_levels(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
-  for (int k = 0; k < 50; k++) dyd_engine_add_stream(e, random_stream(&shared));
+  for (int k = 0; k < 50; k++) dyd_engine_add_stream(e, random_stream(&shared), NULL);
   for (int level = 0;; level++) {
     run(e, DYD_OUTCOME_DECIDED);
     dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
@@ -296,7 +297,7 @@ static void test_exact_tie(void **state) {
       s[n] = text_stream(x[n], y[n]);
     }
     assert_int_equal(dyd_stream_voronoi_vertex(&v, s[0], s[1], s[2]), DYD_OK);
-    assert_int_equal(dyd_engine_add_stream(e, v), DYD_OK);
+    assert_int_equal(dyd_engine_add_stream(e, v, NULL), DYD_OK);
   }
   run(e, DYD_OUTCOME_FIXPOINT);
   size_t count[4];
@@ -350,10 +351,10 @@ static void test_life(void **state) {
   dyd_stream *early = NULL, *late = NULL, *fixed = NULL, *none = NULL, *shared_one = NULL,
              *own = random_stream(&shared);
   double x = 7, y = 5, far = -90;
-  assert_int_equal(dyd_engine_add_points(e, 1, &far, &y), DYD_OK);
+  assert_int_equal(dyd_engine_add_points(e, 1, &far, &y, NULL), DYD_OK);
   assert_int_equal(dyd_engine_add_source(e, 4, &source, NULL), DYD_OK);
-  assert_int_equal(dyd_engine_add_points(e, 1, &x, &y), DYD_OK);
-  assert_int_equal(dyd_engine_add_stream(e, dyd_stream_ref(own)), DYD_OK);
+  assert_int_equal(dyd_engine_add_points(e, 1, &x, &y, NULL), DYD_OK);
+  assert_int_equal(dyd_engine_add_stream(e, dyd_stream_ref(own), NULL), DYD_OK);
   assert_int_equal(dyd_engine_stream(&early, e, 3), DYD_OK);
   assert_null(dyd_stream_rect(early));
   run(e, DYD_OUTCOME_DECIDED);

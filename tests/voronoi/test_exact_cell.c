@@ -137,9 +137,11 @@ static bool check_site(char *message, harness *h, const orc_case *c, const dyd_d
     bool outer = which & 1;
     dyd_status st;
     if (which < 2)
-      st = outer ? dyd_voronoi_pos(&b, pd, (uint32_t)site) : dyd_voronoi_int(&b, pd, (uint32_t)site);
+      st = outer ? dyd_voronoi_cell(&b, pd, (uint32_t)site, DYD_CELL_POSSIBLE, NULL)
+                 : dyd_voronoi_cell(&b, pd, (uint32_t)site, DYD_CELL_SURE, NULL);
     else
-      st = outer ? dyd_voronoi_pos_on(&b, pd, (uint32_t)site, &w) : dyd_voronoi_int_on(&b, pd, (uint32_t)site, &w);
+      st = outer ? dyd_voronoi_cell(&b, pd, (uint32_t)site, DYD_CELL_POSSIBLE, &w)
+                 : dyd_voronoi_cell(&b, pd, (uint32_t)site, DYD_CELL_SURE, &w);
     region g = {&b, c, outer, which < 2 ? NULL : window};
     good = st == DYD_OK || wrong(message, "status %d", st);
     good = good && check_region(message, h, &g, own, rounds);
@@ -288,17 +290,17 @@ static void strip_and_plane(void **state) {
   dyd_sites *s;
   dyd_delaunay *pd = engine_of(&s, &c);
   dyd_boundary b = {0};
-  assert_int_equal(dyd_voronoi_int(&b, pd, 0), DYD_OK);
+  assert_int_equal(dyd_voronoi_cell(&b, pd, 0, DYD_CELL_SURE, NULL), DYD_OK);
   assert_true(b.whole && !b.count);
-  assert_int_equal(dyd_voronoi_pos(&b, pd, 0), DYD_OK);
+  assert_int_equal(dyd_voronoi_cell(&b, pd, 0, DYD_CELL_POSSIBLE, NULL), DYD_OK);
   assert_true(b.whole && !b.count);
-  assert_int_equal(dyd_voronoi_pos(&b, pd, 1), DYD_E_ARG);
+  assert_int_equal(dyd_voronoi_cell(&b, pd, 1, DYD_CELL_POSSIBLE, NULL), DYD_E_ARG);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);
   orc_case_add(&c, 4, 4, 0, 0, 1);
   orc_case_add(&c, 8, 8, 0, 0, 1);
   pd = engine_of(&s, &c);
-  assert_int_equal(dyd_voronoi_int(&b, pd, 1), DYD_OK);
+  assert_int_equal(dyd_voronoi_cell(&b, pd, 1, DYD_CELL_SURE, NULL), DYD_OK);
   assert_int_equal(b.count, 2);
   for (int k = 0; k < 2; k++) {
     assert_false(b.chain[k].closed);
@@ -307,12 +309,12 @@ static void strip_and_plane(void **state) {
   dyd_rect w;
   dyd_rect_init(&w);
   dyd_rect_set_d(&w, 3, 5, -1, 1);
-  assert_int_equal(dyd_voronoi_int_on(&b, pd, 1, &w), DYD_OK);
+  assert_int_equal(dyd_voronoi_cell(&b, pd, 1, DYD_CELL_SURE, &w), DYD_OK);
   assert_true(b.whole && b.count == 1 && b.chain[0].closed && b.chain[0].count == 4);
-  assert_int_equal(dyd_voronoi_int_on(&b, pd, 0, &w), DYD_OK);
+  assert_int_equal(dyd_voronoi_cell(&b, pd, 0, DYD_CELL_SURE, &w), DYD_OK);
   assert_true(!b.whole && !b.count);
   dyd_rect_set_d(&w, 3, 3, -1, 1);
-  assert_int_equal(dyd_voronoi_int_on(&b, pd, 0, &w), DYD_E_ARG);
+  assert_int_equal(dyd_voronoi_cell(&b, pd, 0, DYD_CELL_SURE, &w), DYD_E_ARG);
   dyd_rect_clear(&w);
   dyd_boundary_clear(&b);
   dyd_delaunay_free(pd);
@@ -338,7 +340,7 @@ static void touched_window(void **state) {
   dyd_sites *s;
   dyd_delaunay *pd = engine_of(&s, &c);
   set_rect(&w, -0.5, 1, 0.875, 1.125);
-  assert_int_equal(dyd_voronoi_pos_on(&b, pd, 1, &w), DYD_OK);
+  assert_int_equal(dyd_voronoi_cell(&b, pd, 1, DYD_CELL_POSSIBLE, &w), DYD_OK);
   assert_true(b.whole && b.count == 1 && b.chain[0].count == 4);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);
@@ -347,9 +349,9 @@ static void touched_window(void **state) {
   orc_case_add(&c, 0, 0, 2, 2, 1); /* the parabola y = x^2 / 4 + 1 */
   pd = engine_of(&s, &c);
   set_rect(&w, -1, 1, 1, 3);
-  assert_int_equal(dyd_voronoi_pos_on(&b, pd, 0, &w), DYD_OK);
+  assert_int_equal(dyd_voronoi_cell(&b, pd, 0, DYD_CELL_POSSIBLE, &w), DYD_OK);
   assert_true(!b.whole && b.count == 1 && b.chain[0].closed && b.chain[0].count == 4);
-  assert_int_equal(dyd_voronoi_int_on(&b, pd, 1, &w), DYD_OK);
+  assert_int_equal(dyd_voronoi_cell(&b, pd, 1, DYD_CELL_SURE, &w), DYD_OK);
   assert_true(!b.whole && b.count == 1 && b.chain[0].closed && b.chain[0].count == 4);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);
@@ -371,8 +373,8 @@ static void classical(void **state) {
     dyd_delaunay *pd = engine_of(&s, &c);
     dyd_boundary in = {0}, out = {0};
     for (uint32_t i = 0; i < c.n && orc_case_all_points(&c); i++) {
-      assert_int_equal(dyd_voronoi_int(&in, pd, i), DYD_OK);
-      assert_int_equal(dyd_voronoi_pos(&out, pd, i), DYD_OK);
+      assert_int_equal(dyd_voronoi_cell(&in, pd, i, DYD_CELL_SURE, NULL), DYD_OK);
+      assert_int_equal(dyd_voronoi_cell(&out, pd, i, DYD_CELL_POSSIBLE, NULL), DYD_OK);
       assert_int_equal(in.count, out.count);
       for (size_t m = 0; m < in.count; m++) assert_int_equal(in.chain[m].count, out.chain[m].count);
     }
@@ -416,7 +418,9 @@ static void symmetries(void **state) {
       dyd_boundary b = {0};
       for (uint32_t i = 0; i < 2 * c.n; i++) {
         size_t kinds[8];
-        assert_int_equal(i & 1 ? dyd_voronoi_pos(&b, pd, i / 2) : dyd_voronoi_int(&b, pd, i / 2), DYD_OK);
+        assert_int_equal(i & 1 ? dyd_voronoi_cell(&b, pd, i / 2, DYD_CELL_POSSIBLE, NULL)
+                               : dyd_voronoi_cell(&b, pd, i / 2, DYD_CELL_SURE, NULL),
+                         DYD_OK);
         count_kinds(turn ? kinds : first[i], &b);
         if (turn && memcmp(kinds, first[i], sizeof kinds)) {
           orc_case_print(stderr, &c);
@@ -461,9 +465,9 @@ static void refinement(void **state) {
     dyd_boundary b = {0};
     for (uint32_t i = 0; i < c.n; i++) {
       if (orc_case_alias(&fine, i) != i) continue;
-      assert_int_equal(dyd_voronoi_int(&b, pd[0], i), DYD_OK);
+      assert_int_equal(dyd_voronoi_cell(&b, pd[0], i, DYD_CELL_SURE, NULL), DYD_OK);
       assert_true(grows(&h.pool, &c, &fine, &b, false, i));
-      assert_int_equal(dyd_voronoi_pos(&b, pd[1], i), DYD_OK);
+      assert_int_equal(dyd_voronoi_cell(&b, pd[1], i, DYD_CELL_POSSIBLE, NULL), DYD_OK);
       assert_true(grows(&h.pool, &c, &fine, &b, true, i));
     }
     dyd_boundary_clear(&b);

@@ -14,13 +14,13 @@ enum { CALLS = 4 };
 static dyd_status call(dyd_boundary *out, int which, const dyd_delaunay *pd, uint32_t i, const dyd_rect *w) {
   switch (which) {
   case 0:
-    return dyd_voronoi_int(out, pd, i);
+    return dyd_voronoi_cell(out, pd, i, DYD_CELL_SURE, NULL);
   case 1:
-    return dyd_voronoi_pos(out, pd, i);
+    return dyd_voronoi_cell(out, pd, i, DYD_CELL_POSSIBLE, NULL);
   case 2:
-    return dyd_voronoi_int_on(out, pd, i, w);
+    return dyd_voronoi_cell(out, pd, i, DYD_CELL_SURE, w);
   default:
-    return dyd_voronoi_pos_on(out, pd, i, w);
+    return dyd_voronoi_cell(out, pd, i, DYD_CELL_POSSIBLE, w);
   }
 }
 

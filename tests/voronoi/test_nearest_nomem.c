@@ -17,9 +17,9 @@ static dyd_engine *engine_of(int kind) {
   for (int k = 0; k < 12; k++) {
     double x = k * k % 7, y = kind == 2 ? 0 : k % 5, x1 = x + 1.5, y1 = y + 0.5;
     if (kind == 1)
-      dyd_engine_add_boxes(e, 1, &x, &x1, &y, &y1);
+      dyd_engine_add_boxes(e, 1, &x, &x1, &y, &y1, NULL);
     else
-      dyd_engine_add_points(e, 1, &x, &y);
+      dyd_engine_add_points(e, 1, &x, &y, NULL);
   }
   assert_int_equal(dyd_engine_run(&outcome, e, NULL, NULL), DYD_OK);
   return e;
@@ -31,7 +31,7 @@ static dyd_status ask_rect(dyd_engine *e) {
   dyd_rect_set_d(&q, 1, 4, 1, 3);
   dyd_index_list l = {0};
   bool sure;
-  dyd_status st = dyd_nearest_rect(&l, &sure, dyd_engine_delaunay(e), &q);
+  dyd_status st = dyd_nearest(&l, &sure, dyd_engine_delaunay(e), &q);
   assert_true(st == DYD_OK || (!l.item && !l.count));
   dyd_index_list_clear(&l);
   dyd_rect_clear(&q);

@@ -8,6 +8,7 @@
 #include "metric/bounds_filter.h"
 #include "support/thin_case.h"
 #include "voronoi/plane.h"
+#include "voronoi/shape.h"
 #include <cmocka.h>
 #include <dyadel/metric.h>
 #include <string.h>

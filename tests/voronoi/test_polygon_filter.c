@@ -5,6 +5,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
+#include "stream/real.h"
 #include "support/random.h"
 #include "voronoi/shape.h"
 #include <cmocka.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Nearest sites of computable points: outcomes, answers against all distances [NEAR-3], ties [NEAR-4]. */
+#include "predicate/circle.h"
 #include "voronoi/streams.h"
 
 #include <dyadel/predicate.h>
@@ -24,11 +25,11 @@ static void test_nearest(void **state) {
   dyd_index_list l = {0};
   dyd_outcome outcome;
   bool sure;
-  dyd_engine_add_stream(e, text_stream("0", "0"));
-  dyd_engine_add_stream(e, text_stream("2*sqrt(2)", "0"));
-  dyd_engine_add_stream(e, text_stream("0", "10"));
-  dyd_engine_add_stream(e, text_stream("10", "10"));
-  dyd_engine_add_stream(e, text_stream("[29,30]", "[4,5]"));
+  dyd_engine_add_stream(e, text_stream("0", "0"), NULL);
+  dyd_engine_add_stream(e, text_stream("2*sqrt(2)", "0"), NULL);
+  dyd_engine_add_stream(e, text_stream("0", "10"), NULL);
+  dyd_engine_add_stream(e, text_stream("10", "10"), NULL);
+  dyd_engine_add_stream(e, text_stream("[29,30]", "[4,5]"), NULL);
   assert_int_equal(nearest(&l, &sure, e, "1", "1", NULL), DYD_OUTCOME_ERROR); /* no result yet */
   run(e, DYD_OUTCOME_DECIDED);
   assert_int_equal(nearest(&l, &sure, e, "1", "1", NULL), DYD_OUTCOME_DECIDED);
@@ -74,10 +75,10 @@ static dyd_engine *round_gon(int n, int moved, const char *by) {
     char x[200], y[200];
     snprintf(x, sizeof x, "sqrt(2)+(sqrt(3)%s)*cos(2*pi*%d/%d)", k == moved ? by : "", k, n);
     snprintf(y, sizeof y, "1/3+(sqrt(3)%s)*sin(2*pi*%d/%d)", k == moved ? by : "", k, n);
-    dyd_engine_add_stream(e, text_stream(x, y));
+    dyd_engine_add_stream(e, text_stream(x, y), NULL);
   }
-  dyd_engine_add_stream(e, text_stream("9", "sqrt(5)"));
-  dyd_engine_add_stream(e, text_stream("-9", "1"));
+  dyd_engine_add_stream(e, text_stream("9", "sqrt(5)"), NULL);
+  dyd_engine_add_stream(e, text_stream("-9", "1"), NULL);
   dyd_outcome outcome;
   dyd_engine_options o;
   dyd_engine_options_init(&o);
@@ -139,7 +140,7 @@ static void test_tied_centre(void **state) {
     dyd_engine *e = engine_new();
     dyd_stream *corner[3], *centre = NULL;
     for (int k = 0; k < 4; k++)
-      dyd_engine_add_stream(e, text_stream(at[k][0], hidden && k == 1 ? "tan(atan(sqrt(2)))" : at[k][1]));
+      dyd_engine_add_stream(e, text_stream(at[k][0], hidden && k == 1 ? "tan(atan(sqrt(2)))" : at[k][1]), NULL);
     run(e, DYD_OUTCOME_DECIDED);
     for (uint32_t k = 0; k < 3; k++) corner[k] = text_stream(at[k][0], at[k][1]);
     assert_int_equal(dyd_stream_voronoi_vertex(&centre, corner[0], corner[1], corner[2]), DYD_OK);
@@ -164,7 +165,7 @@ static void test_nearest_random(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
   enum { SITES = 60 };
-  for (int k = 0; k < SITES; k++) dyd_engine_add_stream(e, random_stream(&shared));
+  for (int k = 0; k < SITES; k++) dyd_engine_add_stream(e, random_stream(&shared), NULL);
   run(e, DYD_OUTCOME_DECIDED);
   for (size_t k = test_cases(40); k; k--) {
     dyd_stream *at = random_stream(&shared);

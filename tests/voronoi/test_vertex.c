@@ -130,7 +130,7 @@ static bool check_case(char *message, harness *h, const orc_case *c) {
   dyd_rect_init(&s.window);
   bool good = pd != NULL;
   bool windowed = dyd_voronoi_window(&s.window, sites) == DYD_OK;
-  good = good && dyd_delaunay_triangles(&s.sure, pd) == DYD_OK;
+  good = good && dyd_delaunay_triangles(&s.sure, NULL, pd, 0) == DYD_OK;
   if (good && windowed) good = find_regions(message, &s);
   for (int k = 0; k < 4 && good && windowed; k++) {
     orc_choose(&choice, &h->random, c, 3);

@@ -18,6 +18,8 @@
 #include "io/read/confidence.h"
 #include "io/read/csv.h"
 #include "io/read/stage.h"
+#include "rect/rect.h"
+#include "stream/real.h"
 #include "stream/degrees.h"
 
 #include <dyadel/io.h>
@@ -836,18 +838,13 @@ static dyd_status points_read_text(dyd_engine *e, dyd_text *text, const dyd_read
   return st;
 }
 
-/* The same with what the caller gave; clears text. later: also after the first run. */
-static dyd_status points_read_given(dyd_engine *e, dyd_text *text, bool later, const dyd_read_options *options,
-                                    dyd_error *err) {
+/* The same with what the caller gave; clears text. */
+static dyd_status points_read_given(dyd_engine *e, dyd_text *text, const dyd_read_options *options, dyd_error *err) {
   dyd_read_options o;
   dyd_error own;
   if (!err) err = &own;
-  dyd_error_clear(err);
-  dyd_status st = dyd_engine_may_add(e, later);
-  if (st != DYD_OK)
-    *err = *dyd_engine_add_error(e);
-  else
-    st = dyd_abi_take(&o, sizeof o, options, "dyd_read_options", err);
+  dyd_status st = dyd_engine_may_add(e, err);
+  if (st == DYD_OK) st = dyd_abi_take(&o, sizeof o, options, "dyd_read_options", err);
   if (st == DYD_OK) st = points_read_text(e, text, &o, err);
   dyd_text_clear(text);
   return st;
@@ -857,26 +854,15 @@ dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_options *opti
   if (!e) return dyd_fail_null(err);
   dyd_text text;
   dyd_text_init(&text, in);
-  return points_read_given(e, &text, false, options, err);
-}
-
-static dyd_status points_read_copy(dyd_engine *e, const char *text, size_t length, bool later,
-                                   const dyd_read_options *options, dyd_error *err) {
-  dyd_text copy;
-  if (dyd_text_init_copy(&copy, text, length) != DYD_OK) return dyd_fail_nomem(err);
-  return points_read_given(e, &copy, later, options, err);
+  return points_read_given(e, &text, options, err);
 }
 
 dyd_status dyd_engine_add_text(dyd_engine *e, const char *text, size_t length, const dyd_read_options *options,
                                dyd_error *err) {
+  dyd_text copy;
   if (!e) return dyd_fail_null(err);
-  return points_read_copy(e, text, length, false, options, err);
-}
-
-dyd_status dyd_engine_append_text(dyd_engine *e, const char *text, size_t length, const dyd_read_options *options,
-                                  dyd_error *err) {
-  if (!e) return dyd_fail_null(err);
-  return points_read_copy(e, text, length, true, options, err);
+  if (dyd_text_init_copy(&copy, text, length) != DYD_OK) return dyd_fail_nomem(err);
+  return points_read_given(e, &copy, options, err);
 }
 
 /* ---- one rectangle ---- */

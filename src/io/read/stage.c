@@ -174,7 +174,7 @@ static dyd_status commit_points(size_t *count, dyd_engine *e, const dyd_stage *s
     y[n] = p->u.box[1];
   }
   *count = n;
-  return dyd_engine_append_points(e, n, x, y, err);
+  return dyd_engine_add_points(e, n, x, y, err);
 }
 
 static dyd_status commit_boxes(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
@@ -184,7 +184,7 @@ static dyd_status commit_boxes(size_t *count, dyd_engine *e, const dyd_stage *s,
   for (; n < BULK && (p = staged_if(s, first + n, DYD_COORDINATE_BOX)); n++)
     for (int k = 0; k < 4; k++) end[k][n] = p->u.box[k];
   *count = n;
-  return dyd_engine_append_boxes(e, n, end[0], end[1], end[2], end[3], err);
+  return dyd_engine_add_boxes(e, n, end[0], end[1], end[2], end[3], err);
 }
 
 static dyd_plain plain_of(const dyd_staged *p, int axis) {
@@ -200,7 +200,7 @@ static dyd_status commit_wide(dyd_engine *e, const dyd_staged *p, dyd_error *err
   dyd_plain_get_q(x, plain_of(p, 0));
   dyd_plain_get_q(y, plain_of(p, 1));
   dyd_status st = dyd_rect_set_q(&r, x, y);
-  if (st == DYD_OK) st = dyd_engine_append_rect(e, &r, err);
+  if (st == DYD_OK) st = dyd_engine_add_rect(e, &r, err);
   mpq_clears(x, y, NULL);
   dyd_rect_clear(&r);
   return st;
@@ -214,7 +214,7 @@ static dyd_status commit_words(size_t *count, dyd_engine *e, const dyd_stage *s,
   for (; n < BULK && (p = staged_if(s, first + n, DYD_COORDINATE_PLAIN)); n++)
     if (!dyd_plain_get_words(&xy[2 * n], plain_of(p, 0)) || !dyd_plain_get_words(&xy[2 * n + 1], plain_of(p, 1))) break;
   *count = n;
-  return dyd_engine_append_words(e, n, xy, err);
+  return dyd_engine_add_words(e, n, xy, err);
 }
 
 static dyd_status commit_plain(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
@@ -229,7 +229,7 @@ static dyd_status commit_fixed(dyd_engine *e, const dyd_staged *p, dyd_error *er
   dyd_rect_init(&r);
   dyd_interval_set(&r.x, dyd_real_interval(p->u.real[0]));
   dyd_interval_set(&r.y, dyd_real_interval(p->u.real[1]));
-  dyd_status st = dyd_engine_append_rect(e, &r, err);
+  dyd_status st = dyd_engine_add_rect(e, &r, err);
   dyd_rect_clear(&r);
   return st;
 }
@@ -243,7 +243,7 @@ static dyd_status commit_reals(dyd_engine *e, dyd_staged *p, dyd_error *err) {
   dyd_stream *stream = NULL;
   p->kind = DYD_COORDINATE_DOUBLE; /* the stream takes both reals over */
   dyd_status st = dyd_stream_from_reals(&stream, p->u.real[0], p->u.real[1]);
-  return st != DYD_OK ? st : dyd_engine_append_stream(e, stream, err);
+  return st != DYD_OK ? st : dyd_engine_add_stream(e, stream, err);
 }
 
 static dyd_status stage_commit_from(size_t *count, dyd_engine *e, dyd_stage *s, size_t first, dyd_error *err) {

@@ -286,7 +286,7 @@ static dyd_status html_head(const html_scene *s, dyd_content content) {
 
 /* row: NULL on a globe, where no point is on the hull. */
 static dyd_status html_point(const html_scene *s, uint32_t i, const dyd_site_row *row) {
-  const double *radius = s->r->tolerance ? dyd_tolerance_points(s->r->tolerance) : NULL;
+  const double *radius = s->r->tolerance ? dyd_tolerance_get(s->r->tolerance)->points : NULL;
   dyd_rect rect;
   dyd_json j;
   dyd_rect_init(&rect);
@@ -335,7 +335,7 @@ static dyd_status html_triangles(const html_scene *s) {
   html_list l;
   dyd_status st = s->r->graph_name ? DYD_OK
                   : s->r->sphere   ? dyd_sphere_triangles(&list, s->r->sphere)
-                                   : dyd_delaunay_triangles(&list, s->r->pd);
+                                   : dyd_delaunay_triangles(&list, NULL, s->r->pd, 0);
   html_list_begin(&l, s->out, "triangles");
   for (size_t k = 0; k < list.count; k++) {
     const uint32_t *v = list.item[k].v;
@@ -450,7 +450,7 @@ static dyd_status html_whole(FILE *out, const void *result) {
   if (r->sphere) fputs("\"surface\": \"sphere\",\n", out);
   dyd_json j;
   if (!r->tolerance) return DYD_OK;
-  dyd_tolerance_whole(&lo, &hi, r->tolerance);
+  lo = dyd_tolerance_get(r->tolerance)->lo, hi = dyd_tolerance_get(r->tolerance)->hi;
   dyd_json_begin(&j, out);
   dyd_json_decimals(&j, "tolerance", lo, hi);
   return dyd_json_end(&j, ",\n");
