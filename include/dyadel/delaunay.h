@@ -122,8 +122,7 @@ typedef struct dyd_delaunay dyd_delaunay;
 DYD_API dyd_status dyd_delaunay_new(dyd_delaunay **out, const dyd_sites *sites, const dyd_delaunay_options *options,
                                     dyd_error *err);
 DYD_API void dyd_delaunay_free(dyd_delaunay *pd);
-/* Brings *pd up to date after dyd_sites_narrow of the `count` sites listed (any order, repeats allowed), and after
- * dyd_sites_join: only the
+/* Brings *pd up to date after dyd_sites_narrow of the `count` sites listed (any order, repeats allowed): only the
  * undecided faces that hold one of them are worked on again; legal pairs stay legal, illegal ones illegal.
  * On DYD_CANCELLED and errors *pd keeps its former statements, still valid, and the update can be repeated
  * (with the same or a larger list). */

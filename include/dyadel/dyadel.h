@@ -9,6 +9,9 @@
  * returns no status then returns 0, false, NULL, or the answer that states nothing, such as DYD_INDETERMINATE.
  * Functions that release take NULL. Outputs, numbers and rectangles are never NULL unless the function says so.
  *
+ * Points come in and statements go out as doubles, texts and numbers of sites. Only for exact corners, witnesses and
+ * arcs are there the numbers and rectangles of dyadic.h, rect.h, predicate.h and arc.h; arc.h includes the others.
+ *
  * Messages of errors name fields of options in backquotes, as in "raise `max_pairs`".
  *
  * ABI rules. A program keeps working with every later library of the same soname:

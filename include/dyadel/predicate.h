@@ -30,9 +30,6 @@ typedef struct dyd_circle {
   mpz_t ar, br, dr;
 } dyd_circle;
 
-DYD_API void dyd_circle_init(dyd_circle *c);
-DYD_API void dyd_circle_clear(dyd_circle *c);
-
 /* The partial disc D(a,b,c) = (I,E) by its six critical circles, in the order FCC CFC CCF CFF FCF FFC.
  * known is false (and the circles unused) when the triple is not surely oriented: I and E are empty then. */
 typedef struct dyd_partial_disc {

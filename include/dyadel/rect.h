@@ -40,29 +40,19 @@ DYD_API dyd_status dyd_interval_set_q(dyd_interval *out, const mpq_t q);
 /* [lo,hi] rounded outward to multiples of 2^exp; lo <= hi are canonical rationals. */
 DYD_API dyd_status dyd_interval_set_outward(dyd_interval *out, const mpq_t lo, const mpq_t hi, int64_t exp);
 DYD_API bool dyd_interval_is_point(const dyd_interval *a);
-/* Is inner a subset of outer? Exact. */
-DYD_API bool dyd_interval_contains(const dyd_interval *outer, const dyd_interval *inner);
-DYD_API bool dyd_interval_meets(const dyd_interval *a, const dyd_interval *b);
 /* Ends as canonical rationals; lo, hi initialised by the caller. */
 DYD_API void dyd_interval_get_q(mpq_t lo, mpq_t hi, const dyd_interval *a);
-/* The least b >= -DYD_EXP_LIMIT with hi - lo > 2^-b, minus 1: the width is at most 2^-(bits).
- * INT64_MAX for a point. */
-DYD_API int64_t dyd_interval_bits(const dyd_interval *a);
-/* Enclosing doubles, rounded outward (infinite beyond the range of doubles). */
-DYD_API void dyd_interval_get_d(double *lo, double *hi, const dyd_interval *a);
 
 DYD_API void dyd_rect_init(dyd_rect *r);
 DYD_API void dyd_rect_clear(dyd_rect *r);
 DYD_API void dyd_rect_set(dyd_rect *out, const dyd_rect *r);
 DYD_API dyd_status dyd_rect_set_d(dyd_rect *out, double x0, double x1, double y0, double y1);
-DYD_API dyd_status dyd_rect_set_q(dyd_rect *out, const mpq_t x, const mpq_t y);
 /* The sides as enclosing doubles: x lower, x upper, y lower, y upper. */
 DYD_API void dyd_rect_get_d(double out[4], const dyd_rect *r);
 DYD_API bool dyd_rect_is_point(const dyd_rect *r);
 DYD_API bool dyd_rect_contains(const dyd_rect *outer, const dyd_rect *inner);
 DYD_API bool dyd_rect_meets(const dyd_rect *a, const dyd_rect *b);
-DYD_API bool dyd_rect_equal(const dyd_rect *a, const dyd_rect *b);
-/* min over the two sides of dyd_interval_bits: both widths are at most 2^-(bits). */
+/* The most bits for which both widths are at most 2^-bits; INT64_MAX for a point. */
 DYD_API int64_t dyd_rect_bits(const dyd_rect *r);
 
 DYD_API void dyd_point_init(dyd_point *p);

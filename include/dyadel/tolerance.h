@@ -37,9 +37,6 @@ typedef struct dyd_tolerance_row {
 
 /* How far a point moves: by the Euclidean distance, in a disc; or by the larger of x and y, in a square. */
 typedef enum dyd_metric { DYD_METRIC_EUCLID = 0, DYD_METRIC_BOX } dyd_metric;
-/* "euclid", "box"; NULL behind the last one. Static storage. */
-DYD_API const char *dyd_metric_text(dyd_metric metric);
-
 typedef struct dyd_tolerance_options {
   size_t struct_size;         /* set by DYD_SIZED */
   mpq_srcptr up_to;           /* births up to here are found, too; NULL: none. Borrowed for the call */

@@ -2,6 +2,7 @@
 /* Signs of numbers with roots, and circles through features, in integers. */
 #include "dyadic/sqrt_sign.c"
 #include "predicate/circle.c" /* functions are static */
+#include "predicate/circle.h"
 #include "vectors.h"
 
 /* ---- signs ---- */

@@ -154,6 +154,6 @@ void give_report(dyd_certificate_report *theirs, const dyd_certificate_report *o
 void dyd_error_clear(dyd_error *err);
 /*@ requires \valid(out) && \valid(in) && (err == \null || \valid(err)) && \separated(out, in, err, LINES + (..));
     exits \false; */
-dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_error *err);
+dyd_status dyd_checker_verify(dyd_certificate_report *out, FILE *in, dyd_error *err);
 
 #include "checker/certificate.c"

@@ -235,7 +235,7 @@ dyd_status dyd_checker_run(dyd_checker *c) {
   return st == DYD_OK ? checker_end(c) : st;
 }
 
-dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_error *err) {
+dyd_status dyd_checker_verify(dyd_certificate_report *out, FILE *in, dyd_error *err) {
   dyd_checker c;
   if (err) dyd_error_clear(err);
   if (dyd_abi_check(out, 0, "dyd_certificate_report", err) != DYD_OK) return DYD_E_ARG;

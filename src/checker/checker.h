@@ -117,4 +117,7 @@ dyd_status dyd_cert_read_pair(dyd_cert_edge *pair, dyd_checker *c);
 
 void dyd_cert_corners_clear(dyd_cert_corners *c);
 
+/* The whole check: as dyd_verify_certificate, without the points. */
+dyd_status dyd_checker_verify(dyd_certificate_report *out, FILE *in, dyd_error *err);
+
 #endif

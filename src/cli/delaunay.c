@@ -91,16 +91,17 @@ static dyd_status delaunay_write(FILE *out, const cli_session *s, dyd_error *err
 /* Of the diagram, where the engine has a window; else of the pairs, and the graph of --layer. */
 static dyd_status write_certificate(FILE *out, const cli_session *s, dyd_error *err) {
   const dyd_content content = s->o.content;
-  if (s->o.engine.window) return dyd_write_voronoi_certificate(out, s->engine, s->o.engine.window, err);
   dyd_graph_list list = {0};
-  dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .discs = s->discs};
+  dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .window = s->o.engine.window};
   dyd_status st = DYD_OK;
-  if (!s->discs && (content == DYD_CONTENT_GRAPH_NEAREST || content == DYD_CONTENT_GRAPH_GABRIEL)) {
+  parts.diagram = parts.window;
+  parts.discs = parts.diagram ? NULL : s->discs;
+  if (!parts.diagram && !s->discs && (content == DYD_CONTENT_GRAPH_NEAREST || content == DYD_CONTENT_GRAPH_GABRIEL)) {
     parts.kind = content == DYD_CONTENT_GRAPH_GABRIEL ? DYD_GRAPH_GABRIEL : DYD_GRAPH_NEAREST;
     parts.graph = &list;
     st = dyd_graph_edges(&list, dyd_engine_delaunay(s->engine), (dyd_graph)parts.kind, cli_signals_flag(), err);
   }
-  if (st == DYD_OK) st = dyd_write_certificate_parts(out, s->engine, &parts, err);
+  if (st == DYD_OK) st = dyd_write_certificate(out, s->engine, &parts, err);
   dyd_graph_list_clear(&list);
   return st;
 }
@@ -358,7 +359,8 @@ static dyd_status sphere_write(FILE *out, const cli_session *s, dyd_error *err) 
 }
 
 static dyd_status sphere_prove(FILE *out, const cli_session *s, dyd_error *err) {
-  return dyd_write_sphere_certificate(out, ((sphere_run *)s->state)->sphere, err);
+  const dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .sphere = ((sphere_run *)s->state)->sphere};
+  return dyd_write_certificate(out, NULL, &parts, err);
 }
 
 static const char *sphere_advice(const cli_session *s) {

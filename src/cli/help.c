@@ -91,7 +91,7 @@ static const help_term help_results[] = {
                  "status, undecided faces, bounds of the triangulation and of the diagram on the window, decisions per "
                  "rung, calls, a digest of all statuses, seconds. Widths and bounds are rounded up."},
     {"--trace FILE", "one JSON object per line; the format is in dyadel/io.h, that of certificates in "
-                     "dyadel/certificate.h"},
+                     "proofs/certificates.md of the sources"},
     {NULL, NULL}};
 
 static const char help_oracle_text[] =

@@ -354,7 +354,9 @@ static dyd_status places_prove(FILE *out, const cli_session *s, dyd_error *err) 
   const query *q = s->state;
   const dyd_nearest_answer **list = list_answers(q);
   if (!list) return DYD_E_NOMEM;
-  dyd_status st = dyd_write_nearest_certificate(out, s->engine, list, q->answered, q->outcome, err);
+  const dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .answer = list, .answers = q->answered,
+                                       .outcome = q->outcome};
+  dyd_status st = dyd_write_certificate(out, s->engine, &parts, err);
   free(list);
   return st;
 }

@@ -259,8 +259,10 @@ static dyd_status verify_points(int *status, dyd_certificate_report *report, FIL
   dyd_status st = dyd_engine_new(&e);
   if (st != DYD_OK) return dyd_error_set(err, st, dyd_status_text(st));
   *status = cli_points_read(e, &reading, false);
-  if (*status == 0)
-    st = dyd_verify_certificate_on(report, still, in, e, o->discs, o->sphere ? &sphere : NULL, &o->engine, err);
+  const dyd_verify_options about = {
+      DYD_SIZED(dyd_verify_options),        .engine = e,          .discs = o->discs, .still = still,
+      .sphere = o->sphere ? &sphere : NULL, .options = &o->engine};
+  if (*status == 0) st = dyd_verify_certificate(report, in, &about, err);
   dyd_engine_free(e);
   return st;
 }
@@ -285,7 +287,7 @@ static int verify_here(dyd_certificate_report *report, FILE *still, const cli_op
   cli_deadline_phase("checking the certificate");
   dyd_error_clear(&err);
   dyd_status st =
-      o->points ? verify_points(&status, report, still, in, o, &err) : dyd_verify_certificate(report, in, &err);
+      o->points ? verify_points(&status, report, still, in, o, &err) : dyd_verify_certificate(report, in, NULL, &err);
   cli_input_close(in);
   if (status) return status;
   return st == DYD_OK ? 0 : complain_rejected(o, &err);

@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "base/flag.h"
 #include "delaunay/memory.h"
+#include "rect/rect.h"
 #include "skeleton/rects_filter.h"
 
 #include <math.h>

@@ -80,4 +80,7 @@ dyd_truth dyd_nearer(const dyd_point *c, const dyd_rect *a, const dyd_rect *b);
 /* Sign of dist(c,a) - dist(c,b), each distance closest or farthest. Exact. */
 int dyd_compare_distance(const dyd_point *c, const dyd_rect *a, dyd_touch ta, const dyd_rect *b, dyd_touch tb);
 
+void dyd_circle_init(dyd_circle *c);
+void dyd_circle_clear(dyd_circle *c);
+
 #endif

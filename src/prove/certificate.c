@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Writes certificates (certificate.h has the format).
+/* Writes certificates (proofs/certificates.md has the format).
  *
  * Everything that needs a proof is put before the checker's own tests first; a statement that they reject is written as
  * unproved. */
@@ -247,51 +247,17 @@ static dyd_status certificate_write(FILE *out, const subject *of, dyd_error *err
   return st == DYD_OK ? dyd_output_end(out, err) : st;
 }
 
-dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, dyd_error *err) {
-  return dyd_write_certificate_parts(out, e, &(dyd_certificate_parts){DYD_SIZED(dyd_certificate_parts)}, err);
-}
-
-dyd_status dyd_write_certificate_parts(FILE *out, const struct dyd_engine *e, const dyd_certificate_parts *given,
-                                       dyd_error *err) {
-  dyd_certificate_parts parts;
-  if (err) dyd_error_clear(err);
-  dyd_status st = dyd_abi_take(&parts, sizeof parts, given, "dyd_certificate_parts", err);
-  if (st != DYD_OK) return st;
-  if (parts.graph && parts.kind == DYD_GRAPH_MST)
-    return dyd_fail(err, DYD_E_ARG, "no certificate proves a minimum spanning tree");
-  if (!dyd_engine_delaunay(e)) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
-  dyd_goal goal = dyd_engine_goal(NULL, e);
-  if (dyd_engine_outcome(e) == DYD_OUTCOME_CERTIFIED &&
-      (goal == DYD_GOAL_VORONOI_AREA || goal == DYD_GOAL_VORONOI_HAUSDORFF))
-    return dyd_fail(err, DYD_E_ARG, "a goal on the diagram was reached; its certificate needs the window");
-  return certificate_write(out, &(subject){.engine = e, .parts = &parts}, err);
-}
-
-dyd_status dyd_write_sphere_certificate(FILE *out, const struct dyd_sphere *s, dyd_error *err) {
-  const dyd_engine *images = dyd_sphere_images(s);
-  if (err) dyd_error_clear(err);
-  if (!dyd_engine_delaunay(images)) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
-  return certificate_write(out, &(subject){.engine = images, .parts = &no_parts, .sphere = s}, err);
-}
-
-dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_engine *e, const struct dyd_rect *window,
-                                         dyd_error *err) {
-  dyd_rect own;
+/* Sets out to the window, or where NULL is given to the default one. */
+static dyd_status certificate_window(dyd_rect *out, const dyd_delaunay *pd, const dyd_rect *given, dyd_error *err) {
   dyd_window w;
-  if (err) dyd_error_clear(err);
-  const dyd_delaunay *pd = dyd_engine_delaunay(e);
-  if (!pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
-  dyd_rect_init(&own);
   dyd_status st = DYD_OK;
-  if (!window) st = dyd_voronoi_window(&own, dyd_delaunay_sites(pd));
-  if (st != DYD_OK)
-    st = dyd_fail(err, st, "the points span more than doubles hold; give a window");
-  else if (dyd_window_init(&w, window ? window : &own) != DYD_OK)
-    st = dyd_fail(err, DYD_E_ARG, "the window has to have positive area and dyadic ends");
+  if (given)
+    dyd_rect_set(out, given);
   else
-    st = certificate_write(out, &(subject){.engine = e, .parts = &no_parts, .window = window ? window : &own}, err);
-  dyd_rect_clear(&own);
-  return st;
+    st = dyd_voronoi_window(out, dyd_delaunay_sites(pd));
+  if (st != DYD_OK) return dyd_fail(err, st, "the points span more than doubles hold; give a window");
+  if (dyd_window_init(&w, out) == DYD_OK) return DYD_OK;
+  return dyd_fail(err, DYD_E_ARG, "the window has to have positive area and dyadic ends");
 }
 
 /* ---- places ---- */
@@ -375,16 +341,43 @@ static dyd_status nearest_sections(FILE *out, dyd_proof *p, const dyd_nearest_an
   return st;
 }
 
-dyd_status dyd_write_nearest_certificate(FILE *out, const struct dyd_engine *e,
-                                         const struct dyd_nearest_answer *const *answer, size_t count, int outcome,
-                                         dyd_error *err) {
+static dyd_status nearest_write(FILE *out, const dyd_engine *e, const dyd_certificate_parts *parts, dyd_error *err) {
   dyd_proof p = {.engine = e, .pd = dyd_engine_delaunay(e)};
-  if (err) dyd_error_clear(err);
-  if (!p.pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
   dyd_cert_sites_init(&p.sites);
-  dyd_status st = nearest_sections(out, &p, answer, count, outcome);
+  dyd_status st = nearest_sections(out, &p, parts->answer, parts->answers, parts->outcome);
   proof_clear(&p);
   if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
   fputs("end\n", out);
   return dyd_output_end(out, err);
+}
+
+/* ---- all kinds ---- */
+
+static bool needs_window(const dyd_engine *e) {
+  dyd_goal goal = dyd_engine_goal(NULL, e);
+  return dyd_engine_outcome(e) == DYD_OUTCOME_CERTIFIED &&
+         (goal == DYD_GOAL_VORONOI_AREA || goal == DYD_GOAL_VORONOI_HAUSDORFF);
+}
+
+dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, const dyd_certificate_parts *given,
+                                 dyd_error *err) {
+  dyd_certificate_parts parts;
+  dyd_rect window;
+  if (err) dyd_error_clear(err);
+  dyd_status st = dyd_abi_take(&parts, sizeof parts, given, "dyd_certificate_parts", err);
+  if (st != DYD_OK) return st;
+  if (parts.sphere) e = dyd_sphere_images(parts.sphere);
+  const dyd_delaunay *pd = dyd_engine_delaunay(e);
+  if (parts.graph && parts.kind == DYD_GRAPH_MST)
+    return dyd_fail(err, DYD_E_ARG, "no certificate proves a minimum spanning tree");
+  if (!pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
+  if (parts.answer) return nearest_write(out, e, &parts, err);
+  if (!parts.diagram && !parts.sphere && needs_window(e))
+    return dyd_fail(err, DYD_E_ARG, "a goal on the diagram was reached; its certificate needs the window");
+  dyd_rect_init(&window);
+  if (parts.diagram) st = certificate_window(&window, pd, parts.window, err);
+  const subject of = {.engine = e, .parts = &parts, .window = parts.diagram ? &window : NULL, .sphere = parts.sphere};
+  if (st == DYD_OK) st = certificate_write(out, &of, err);
+  dyd_rect_clear(&window);
+  return st;
 }

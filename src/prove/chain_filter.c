@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Looks for a chain that proves a pair illegal (certificate.h, [CERT-4]).
+/* Looks for a chain that proves a pair illegal ([CERT-4]).
  *
  * Doubles follow the curve of the centres with ds_i = ds_j from one end to the other: from a blocker's interval to the
  * next one that overlaps it, with a point in each overlap. Rounding errors only make the search fail: a chain found is

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "checker/checker.h"
 #include "prove/proof.h"
+#include "rect/rect.h"
 #include "sphere/state.h"
 #include "tolerance/discs.h"
 #include "tolerance/lines.h"
@@ -268,30 +269,22 @@ static dyd_status checker_locate(dyd_checker *c, bool discs, FILE *still, dyd_en
   return st == DYD_E_NOMEM ? dyd_fail_nomem(c->in.err) : st;
 }
 
-dyd_status dyd_verify_certificate_on(dyd_certificate_report *out, FILE *still, FILE *in, struct dyd_engine *e,
-                                     bool discs, const struct dyd_sphere_options *sphere,
-                                     const struct dyd_engine_options *options, dyd_error *err) {
+dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, const dyd_verify_options *about,
+                                  dyd_error *err) {
   dyd_checker c;
   dyd_error unused;
-  dyd_sphere_options own;
+  dyd_verify_options o;
+  dyd_sphere_options sphere;
   if (!err) err = &unused;
   dyd_error_clear(err);
   if (dyd_abi_check(out, 0, "dyd_certificate_report", err) != DYD_OK) return DYD_E_ARG;
-  if (sphere && dyd_abi_take(&own, sizeof own, sphere, "dyd_sphere_options", err) != DYD_OK) return DYD_E_ARG;
+  if (dyd_abi_take(&o, sizeof o, about, "dyd_verify_options", err) != DYD_OK) return DYD_E_ARG;
+  if (!o.engine) return dyd_checker_verify(out, in, err);
+  if (dyd_abi_take(&sphere, sizeof sphere, o.sphere, "dyd_sphere_options", err) != DYD_OK) return DYD_E_ARG;
   dyd_checker_init(&c, in, err);
   dyd_status st = dyd_checker_run(&c);
-  if (st == DYD_OK) st = checker_locate(&c, discs, still, e, sphere ? &own : NULL, options);
+  if (st == DYD_OK) st = checker_locate(&c, o.discs, o.still, o.engine, o.sphere ? &sphere : NULL, o.options);
   if (st == DYD_OK) dyd_abi_give(out, &c.report, sizeof c.report);
   dyd_checker_clear(&c);
   return st;
-}
-
-dyd_status dyd_verify_certificate_still(dyd_certificate_report *out, FILE *still, FILE *in, struct dyd_engine *e,
-                                        const struct dyd_engine_options *options, dyd_error *err) {
-  return dyd_verify_certificate_on(out, still, in, e, false, NULL, options, err);
-}
-
-dyd_status dyd_verify_certificate_of(dyd_certificate_report *out, FILE *in, struct dyd_engine *e,
-                                     const struct dyd_engine_options *options, dyd_error *err) {
-  return dyd_verify_certificate_still(out, NULL, in, e, options, err);
 }

@@ -482,10 +482,9 @@ PyObject *dydpy_certificate(PyObject *self, PyObject *args) {
   text_order t;
   if (!PyArg_ParseTuple(args, "pO", &diagram, &window) || !order_begin(&t, self, window, DYDPY_RESULT)) return NULL;
   const dydpy_engine *of = t.call.self;
-  dyd_error *err = &t.call.err;
-  return order_end(&t, diagram      ? dyd_write_voronoi_certificate(t.text.file, of->engine, t.view, err)
-                       : of->sphere ? dyd_write_sphere_certificate(t.text.file, of->sphere, err)
-                                    : dyd_write_certificate(t.text.file, of->engine, err));
+  const dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .diagram = diagram, .window = t.view,
+                                       .sphere = diagram ? NULL : of->sphere};
+  return order_end(&t, dyd_write_certificate(t.text.file, of->engine, &parts, &t.call.err));
 }
 
 static PyObject *report_of(const dyd_certificate_report *r) {
@@ -517,8 +516,9 @@ static PyObject *verify_with(FILE *in, PyObject *of, const dyd_sphere_options *s
   dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
   dydpy_call c;
   if (!dydpy_begin(&c, of, DYDPY_REFINES)) return NULL;
-  dyd_status st = of ? dyd_verify_certificate_on(&report, NULL, in, c.self->engine, false, sphere, o, &c.err)
-                     : dyd_verify_certificate(&report, in, &c.err);
+  const dyd_verify_options about = {DYD_SIZED(dyd_verify_options), .engine = of ? c.self->engine : NULL,
+                                    .sphere = sphere, .options = o};
+  dyd_status st = dyd_verify_certificate(&report, in, &about, &c.err);
   return dydpy_end(&c, st) ? report_of(&report) : NULL;
 }
 

@@ -28,4 +28,15 @@ void dyd_partial_edge_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b);
 bool dyd_partial_edges_disjoint(const dyd_rect *a, const dyd_rect *b, const dyd_rect *c, const dyd_rect *d);
 void dyd_point_set(dyd_point *out, const dyd_point *p);
 
+bool dyd_rect_equal(const dyd_rect *a, const dyd_rect *b);
+bool dyd_interval_meets(const dyd_interval *a, const dyd_interval *b);
+/* Is inner a subset of outer? Exact. */
+bool dyd_interval_contains(const dyd_interval *outer, const dyd_interval *inner);
+/* The least b >= -DYD_EXP_LIMIT with hi - lo > 2^-b, minus 1: the width is at most 2^-(bits).
+ * INT64_MAX for a point. */
+int64_t dyd_interval_bits(const dyd_interval *a);
+dyd_status dyd_rect_set_q(dyd_rect *out, const mpq_t x, const mpq_t y);
+/* Enclosing doubles, rounded outward (infinite beyond the range of doubles). */
+void dyd_interval_get_d(double *lo, double *hi, const dyd_interval *a);
+
 #endif

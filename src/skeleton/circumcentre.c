@@ -5,6 +5,7 @@
 
 #include "base/invariant.h"
 #include "predicate/circle.h"
+#include "rect/rect.h"
 #include <dyadel/predicate.h>
 
 enum { FINER = 8 };

@@ -6,6 +6,7 @@
 #include "base/invariant.h"
 #include "base/parallel.h"
 #include "dyadic/raw.h"
+#include "rect/rect.h"
 #include "rect/sites_table.h"
 #include "skeleton/mesh.h"
 #include "skeleton/predicates.h"

@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "rect/irect.h"
+#include "rect/rect.h"
 #include "skeleton/mesh.h"
 
 #include <math.h>

@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "rect/rect.h"
 
 #include <float.h>
 #include <math.h>

@@ -13,6 +13,7 @@
 #include "base/index.h"
 #include "base/invariant.h"
 #include "delaunay/undecided.h"
+#include "rect/rect.h"
 #include "rect/sites_table.h"
 #include "tolerance/discs.h"
 #include "tolerance/lines.h"

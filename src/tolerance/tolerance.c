@@ -11,11 +11,6 @@ const char *dyd_tolerance_event_text(dyd_tolerance_event event) {
   return event <= DYD_EVENT_TIE ? text[event] : NULL;
 }
 
-const char *dyd_metric_text(dyd_metric metric) {
-  static const char *const text[] = {"euclid", "box"};
-  return metric <= DYD_METRIC_BOX ? text[metric] : NULL;
-}
-
 /* ---- making ---- */
 
 static dyd_status fail_at(dyd_error *err, uint32_t i, const char *why) {

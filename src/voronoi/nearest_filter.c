@@ -7,6 +7,7 @@
  */
 #include "base/alloc.h"
 #include "dyadic/raw.h"
+#include "rect/rect.h"
 #include "voronoi/nearest.h"
 
 typedef struct search {

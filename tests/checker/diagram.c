@@ -300,7 +300,8 @@ char *diagram_of_engine(const dyd_engine *e, const dyd_rect *window) {
   size_t size;
   dyd_error err;
   FILE *out = open_memstream(&text, &size);
-  dyd_status status = dyd_write_voronoi_certificate(out, e, window, &err);
+  const dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .diagram = true, .window = window};
+  dyd_status status = dyd_write_certificate(out, e, &parts, &err);
   fclose(out);
   if (status == DYD_OK) return text;
   if (status != DYD_E_RANGE) fail_msg("%s", err.message);

@@ -12,7 +12,7 @@ static bool text_gets(const char *verdict, char *text, size_t length) {
   dyd_certificate_report r = {DYD_SIZED(dyd_certificate_report)};
   FILE *in = length ? fmemopen(text, length, "r") : NULL;
   char ties[40] = "";
-  dyd_status st = in ? dyd_verify_certificate(&r, in, NULL) : DYD_E_PARSE;
+  dyd_status st = in ? dyd_verify_certificate(&r, in, NULL, NULL) : DYD_E_PARSE;
   if (r.ties_unproved) snprintf(ties, sizeof ties, ", ties %zu", r.ties_unproved);
   if (st == DYD_OK)
     snprintf(found, sizeof found, "accepted: gaps %u, unproved %llu, triangles %zu, distance %d%s", r.gaps,

@@ -228,7 +228,7 @@ char *certificate_of_engine(const dyd_engine *e) {
   size_t size;
   FILE *out = open_memstream(&text, &size);
   dyd_error err;
-  assert_int_equal(dyd_write_certificate(out, e, &err), DYD_OK);
+  assert_int_equal(dyd_write_certificate(out, e, NULL, &err), DYD_OK);
   fclose(out);
   return text;
 }
@@ -259,7 +259,7 @@ dyd_status certificate_check(dyd_certificate_report *report, const char *text, s
   dyd_certificate_report unused = {DYD_SIZED(dyd_certificate_report)};
   FILE *in = length ? fmemopen((char *)(uintptr_t)text, length, "r") : fopen("/dev/null", "r");
   assert_non_null(in);
-  dyd_status status = dyd_verify_certificate(report ? report : &unused, in, err);
+  dyd_status status = dyd_verify_certificate(report ? report : &unused, in, NULL, err);
   fclose(in);
   return status;
 }

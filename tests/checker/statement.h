@@ -27,7 +27,8 @@ void statement_init(statement *s);
 void statement_clear(statement *s);
 /* Fails the test when the text is no certificate. */
 void statement_read(statement *s, const char *text);
-/* Do both say the same of the same rectangles? Bounds and the words that claim nothing (see certificate.h) apart. */
+/* Do both say the same of the same rectangles? Bounds and the words that claim nothing (see dyd_certificate_gap) apart.
+ */
 bool statement_same(const statement *a, const statement *b);
 /* Are all ties ties of points? Others follow from what the sites are, not from their rectangles. */
 bool statement_ties_are_exact(const statement *s);

@@ -185,7 +185,7 @@ static void no_result(void **state) {
   dyd_engine *e = NULL;
   dyd_error err;
   assert_int_equal(dyd_engine_new(&e), DYD_OK);
-  assert_int_equal(dyd_write_certificate(stderr, e, &err), DYD_E_ARG);
+  assert_int_equal(dyd_write_certificate(stderr, e, NULL, &err), DYD_E_ARG);
   dyd_engine_free(e);
 }
 
@@ -199,7 +199,7 @@ static void full_disk(void **state) {
   assert_int_equal(dyd_engine_run(&outcome, e, NULL, NULL), DYD_OK);
   FILE *full = fopen("/dev/full", "w");
   if (full) {
-    assert_int_equal(dyd_write_certificate(full, e, &err), DYD_E_IO);
+    assert_int_equal(dyd_write_certificate(full, e, NULL, &err), DYD_E_IO);
     fclose(full);
   }
   dyd_engine_free(e);

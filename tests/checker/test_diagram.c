@@ -157,7 +157,7 @@ static void goals(void **state) {
       expect_rejected(cut);
       FILE *none = fopen("/dev/null", "w");
       assert_non_null(none);
-      assert_int_equal(dyd_write_certificate(none, e, &err), DYD_E_ARG);
+      assert_int_equal(dyd_write_certificate(none, e, NULL, &err), DYD_E_ARG);
       fclose(none);
       free(cut);
       free(text);

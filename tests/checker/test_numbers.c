@@ -69,7 +69,7 @@ static void check(char *text, const char *lines, const char *side, const char *o
   dyd_error err;
   write_certificate(text, lines, side, other_side, other);
   FILE *in = fmemopen(text, strlen(text), "r");
-  dyd_status status = dyd_verify_certificate(&r, in, &err);
+  dyd_status status = dyd_verify_certificate(&r, in, NULL, &err);
   fclose(in);
   if (status != (why ? DYD_E_PARSE : DYD_OK) || (why && strcmp(err.message, why) != 0))
     fail_msg("%.300s\nin %.100s: %d, line %zu: %s", lines, side, status, status ? err.line : 0,

@@ -5,6 +5,7 @@
 #include <stdarg.h>
 
 #include "delaunay/read_case.h"
+#include "rect/rect.h"
 #include <cmocka.h>
 #include <math.h>
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Budgets, cancellation, and going on after either. */
 #include "engine/help.h"
+#include "rect/rect.h"
 
 #include <math.h>
 #include <pthread.h>

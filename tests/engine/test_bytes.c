@@ -324,7 +324,7 @@ static void use_html(dyd_status *st, const dyd_engine *e, dyd_error *err) {
 static void use_certificate(dyd_status *st, const dyd_engine *e, dyd_error *err) {
   FILE *out = fopen("/dev/null", "w");
   assert_non_null(out);
-  *st = dyd_write_certificate(out, e, err);
+  *st = dyd_write_certificate(out, e, NULL, err);
   fclose(out);
 }
 static void use_plan(dyd_status *st, const dyd_engine *e, dyd_error *err) {

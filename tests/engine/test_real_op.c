@@ -4,6 +4,7 @@
 #include "engine/help.h"
 
 #include "base/error.h"
+#include "rect/rect.h"
 #include "stream/algebra/form.h"
 #include "stream/algebra/zero.h"
 #include <dyadel/certificate.h>
@@ -281,10 +282,10 @@ static void expect_certificate(const dyd_engine *e, unsigned gaps) {
   dyd_certificate_report r = {DYD_SIZED(dyd_certificate_report)};
   dyd_error err;
   FILE *out = open_memstream(&text, &size);
-  assert_int_equal(dyd_write_certificate(out, e, NULL), DYD_OK);
+  assert_int_equal(dyd_write_certificate(out, e, NULL, NULL), DYD_OK);
   fclose(out);
   FILE *in = fmemopen(text, size, "r");
-  if (dyd_verify_certificate(&r, in, &err) != DYD_OK) fail_msg("%zu: %s\n%s", err.line, err.message, text);
+  if (dyd_verify_certificate(&r, in, NULL, &err) != DYD_OK) fail_msg("%zu: %s\n%s", err.line, err.message, text);
   fclose(in);
   if (r.gaps != gaps) fail_msg("gaps %u in place of %u:\n%s", r.gaps, gaps, text);
   free(text);

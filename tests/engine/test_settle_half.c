@@ -5,6 +5,7 @@
 #include "engine/help.h"
 #include "engine/settle.h"
 #include "oracle/oracle.h"
+#include "rect/rect.h"
 
 #include <math.h>
 #include <string.h>

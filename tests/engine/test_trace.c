@@ -4,6 +4,7 @@
 #include "engine/help.h"
 
 #include "engine/coarse.h"
+#include "rect/rect.h"
 #include <math.h>
 #include <string.h>
 

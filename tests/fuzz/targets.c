@@ -136,7 +136,7 @@ void fuzz_certificate(const uint8_t *data, size_t size) {
   dyd_error err;
   dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
   FILE *in = file_of(&copy, data, size);
-  must_tell(dyd_verify_certificate(&report, in, &err), &err);
+  must_tell(dyd_verify_certificate(&report, in, NULL, &err), &err);
   fclose(in);
   free(copy);
 }

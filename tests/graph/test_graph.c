@@ -4,6 +4,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
+#include "rect/rect.h"
 #include "support/random.h"
 #include <cmocka.h>
 #include <dyadel/graph.h>

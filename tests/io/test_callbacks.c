@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Files over callbacks, exact rectangles as text, and answers as rationals: what goes out comes in again. */
+#include "rect/rect.h"
 #include "support/random.h"
 #include <dyadel/dyadel.h>
 #include <setjmp.h>

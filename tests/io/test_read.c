@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The reader against the parser of single coordinates: random files in both layouts, in order, over many blocks. */
+#include "rect/rect.h"
 #include "stream/number.h"
 #include "support/random.h"
 

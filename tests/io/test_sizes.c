@@ -237,9 +237,9 @@ static dyd_status engine_counters(fixture *f, void *s, dyd_error *err) {
 static dyd_status verify(fixture *f, void *s, dyd_error *err) {
   FILE *file = tmpfile();
   assert_non_null(file);
-  assert_int_equal(DYD_OK, dyd_write_certificate(file, f->e, NULL));
+  assert_int_equal(DYD_OK, dyd_write_certificate(file, f->e, NULL, NULL));
   rewind(file);
-  dyd_status st = dyd_verify_certificate(s, file, err);
+  dyd_status st = dyd_verify_certificate(s, file, NULL, err);
   fclose(file);
   return st;
 }

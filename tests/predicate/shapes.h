@@ -7,6 +7,7 @@
 
 #include "predicate/oracle.h"
 #include "rect/irect.h"
+#include "rect/rect.h"
 #include "support/random.h"
 
 static inline small_rect random_small(test_random *r, int grid) {

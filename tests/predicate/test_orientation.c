@@ -10,6 +10,7 @@
 #include "predicate/circle.h"
 #include "predicate/predicate_filter.h"
 #include "predicate/shapes.h"
+#include "rect/rect.h"
 
 enum { SIDES = 6, RECTS = SIDES * SIDES };
 static const int side_lo[SIDES] = {0, 0, 0, 1, 1, 2}, side_hi[SIDES] = {0, 1, 2, 1, 2, 2};

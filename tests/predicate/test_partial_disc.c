@@ -13,6 +13,7 @@
 #include "predicate/circle.h"
 #include "predicate/predicate_filter.h"
 #include "predicate/shapes.h"
+#include "rect/rect.h"
 
 /* Four rectangles in every form: 0, 1, 2 the triple, 3 the one asked about. */
 typedef struct quad {

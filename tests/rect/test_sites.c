@@ -4,6 +4,7 @@
 #include <stdarg.h>
 
 #include "rect/literal.h"
+#include "rect/rect.h"
 #include "rect/sites_table.h"
 #include <cmocka.h>
 #include <dyadel/sites.h>

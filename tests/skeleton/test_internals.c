@@ -5,6 +5,7 @@
 #include <stdarg.h>
 
 #include "delaunay/read_case.h"
+#include "rect/rect.h"
 #include "skeleton/rects_filter.h"
 #include "skeleton/reps.h"
 #include "skeleton/scale_set.h"

@@ -4,6 +4,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
+#include "rect/rect.h"
 #include "skeleton/mesh_build.h"
 #include "skeleton/predicates.h"
 #include "support/random.h"

@@ -3,6 +3,7 @@
  * static ranges [RANGE-1]. */
 #include "harness.h"
 
+#include "rect/rect.h"
 #include "stream/expr.h"
 
 #define ORACLE_BITS 4000

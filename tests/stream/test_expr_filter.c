@@ -3,6 +3,7 @@
  * exact rationals, and short constants. The programs are made by hand, so that nothing is folded. */
 #include "stream/harness.h"
 
+#include "rect/rect.h"
 #include "stream/expr_filter.h"
 #include "stream/real.h"
 #include <math.h>

@@ -3,6 +3,7 @@
  * program gives the right error, in little memory and time, keeps what was known, and leaves no process, descriptor or
  * signal behind. The programs are this test, started with "serve" (oracle_serve.c). */
 #define _GNU_SOURCE /* usleep, NSIG */
+#include "rect/rect.h"
 #include "stream/harness.h"
 #include "stream/leftover.h"
 #include "stream/oracle_serve.h"

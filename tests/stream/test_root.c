@@ -2,6 +2,7 @@
 /* Roots of polynomials against exact signs in rationals [ROOT-1] [ROOT-2]: the interval always holds a sign change
  * of the polynomial as given, or is the exact root. */
 #include "harness.h"
+#include "rect/rect.h"
 
 #define MAX_COUNT 16
 

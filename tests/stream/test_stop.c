@@ -4,6 +4,7 @@
 #include "harness.h"
 
 #include "base/clock.h"
+#include "rect/rect.h"
 #include "stream/algebra/form.h"
 #include "stream/real.h"
 

@@ -3,6 +3,7 @@
  * pairs, widened reals and affine images [AFF-1] hold the true points. */
 #include "harness.h"
 
+#include "rect/rect.h"
 #include "stream/real.h"
 #include "stream/stream.h"
 

@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "engine/add.h"
+#include "rect/rect.h"
 
 /* A point takes the most special kind of its coordinates; doubles fit all kinds. */
 struct dyd_staged {
