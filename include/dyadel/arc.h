@@ -97,10 +97,6 @@ DYD_API dyd_status dyd_bisector(dyd_boundary *out, const dyd_rect *a, const dyd_
  * are convex. Exact. */
 DYD_API dyd_truth dyd_rect_nearer(const dyd_rect *q, const dyd_rect *a, const dyd_rect *b);
 
-/* A rectangle that holds O(a,b,c), with ends within 2^-bits of the smallest one [CEN-1]. DYD_E_ARG as above. */
-DYD_API dyd_status dyd_partial_centre_enclose(dyd_rect *out, const dyd_rect *a, const dyd_rect *b, const dyd_rect *c,
-                                              int64_t bits);
-
 #ifdef __cplusplus
 }
 #endif

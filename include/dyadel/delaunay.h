@@ -179,8 +179,6 @@ DYD_API dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, dyd_triangle_l
  * *outer tells whether the face is unbounded (the unbounded face may come in parts, between sure corners of the hull).
  * Every non-legal possible pair lies in exactly one of them, up to its end points on the boundary. */
 DYD_API dyd_status dyd_delaunay_face(dyd_index_list *out, bool *outer, const dyd_delaunay *pd, size_t f);
-/* The pairs of face f that are possible and not legal, sorted. */
-DYD_API dyd_status dyd_delaunay_face_pairs(dyd_pair_list *out, const dyd_delaunay *pd, size_t f);
 /* A witness of a legal pair: max(dl_i, dl_j)(c) < ds_k(c) for all other k, re-checked before it is given.
  * DYD_E_ARG when the pair is not legal. */
 DYD_API dyd_status dyd_delaunay_witness(dyd_point *out, const dyd_delaunay *pd, uint32_t i, uint32_t j);

@@ -45,10 +45,6 @@ DYD_API void dyd_partial_disc_set(dyd_partial_disc *out, const dyd_rect *a, cons
  * UNSURE: some circle meets all four, or the triple is not surely oriented [CON-1]. */
 DYD_API dyd_sure dyd_con(const dyd_rect *r, const dyd_rect *a, const dyd_rect *b, const dyd_rect *c);
 
-/* The quad rule: TRUE when the pair ab surely cannot displace the pair ij in any Delaunay triangulation
- * (Ed(i,j) and Ed(a,b) disjoint, or Con(a;i,j,b) = -, or Con(b;i,j,a) = -), UNKNOWN otherwise [QUAD-1]. */
-DYD_API dyd_truth dyd_cannot_displace(const dyd_rect *i, const dyd_rect *j, const dyd_rect *a, const dyd_rect *b);
-
 #ifdef __cplusplus
 }
 #endif

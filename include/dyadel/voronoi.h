@@ -61,12 +61,6 @@ DYD_API dyd_status dyd_voronoi_inner_polygon(dyd_polygon *out, const dyd_delauna
 DYD_API dyd_status dyd_voronoi_outer_polygon(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i,
                                              const dyd_rect *window, int64_t bits);
 
-/* The area of the cell of i on the window, as a rational. *exact = false, and *out is unchanged, where the cell depends
- * on a choice: i or one of its possible partners is no exact point, or partners are not decided (ties apart). out is
- * initialised by the caller. O(K^2) exact steps for K legal partners. */
-DYD_API dyd_status dyd_voronoi_exact_area(mpq_t out, bool *exact, const dyd_delaunay *pd, uint32_t i,
-                                          const dyd_rect *window);
-
 /* ---- vertices ---- */
 
 /* A rectangle that holds the Voronoi vertex of the sure triangle t for every choice, within 2^-bits of the smallest

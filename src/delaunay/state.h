@@ -99,4 +99,7 @@ static inline bool dyd_triangle_is_sure(const dyd_delaunay *pd, uint32_t t) {
 /* The sites on the hull of the skeleton's representatives, counter-clockwise. */
 dyd_status dyd_delaunay_hull(dyd_index_list *out, const dyd_delaunay *pd);
 
+/* The pairs of face f that are possible and not legal, sorted. */
+dyd_status dyd_delaunay_face_pairs(dyd_pair_list *out, const dyd_delaunay *pd, size_t f);
+
 #endif

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "delaunay/memory.h"
+#include "delaunay/state.h"
 #include "delaunay/undecided.h"
 #include "engine/ask.h"
 #include "engine/coarse.h"

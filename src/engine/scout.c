@@ -16,6 +16,7 @@
 
 #include "base/alloc.h"
 #include "engine/points.h"
+#include "predicate/circle.h"
 #include <dyadel/predicate.h>
 #include <string.h>
 

@@ -15,6 +15,7 @@
 #include "base/index.h"
 #include "delaunay/disc_filter.h"
 #include "delaunay/index_list.h"
+#include "delaunay/state.h"
 #include "engine/points.h"
 #include "engine/settle_filter.h"
 #include "rect/rect.h"

@@ -6,6 +6,7 @@
 #include "io/json.h"
 #include "io/result.h"
 #include "voronoi/exact_cell.h"
+#include "voronoi/shape.h"
 #include <stdlib.h>
 
 static void json_count(dyd_json *j, size_t sites, const size_t count[4]) {

@@ -83,4 +83,8 @@ int dyd_compare_distance(const dyd_point *c, const dyd_rect *a, dyd_touch ta, co
 void dyd_circle_init(dyd_circle *c);
 void dyd_circle_clear(dyd_circle *c);
 
+/* The quad rule: TRUE when the pair ab surely cannot displace the pair ij in any Delaunay triangulation
+ * (Ed(i,j) and Ed(a,b) disjoint, or Con(a;i,j,b) = -, or Con(b;i,j,a) = -), UNKNOWN otherwise [QUAD-1]. */
+dyd_truth dyd_cannot_displace(const dyd_rect *i, const dyd_rect *j, const dyd_rect *a, const dyd_rect *b);
+
 #endif

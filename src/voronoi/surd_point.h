@@ -28,4 +28,8 @@ int dyd_surd_point_compare(const dyd_surd_point *p, const dyd_rect *a, dyd_touch
  * vertices, the centres of the critical circles in the order FCC CFC CCF CFF FCF FFC. DYD_E_ARG for others. */
 dyd_status dyd_partial_centre(dyd_surd_point out[6], const dyd_rect *a, const dyd_rect *b, const dyd_rect *c);
 
+/* A rectangle that holds O(a,b,c), with ends within 2^-bits of the smallest one [CEN-1]. DYD_E_ARG as above. */
+dyd_status dyd_partial_centre_enclose(dyd_rect *out, const dyd_rect *a, const dyd_rect *b, const dyd_rect *c,
+                                      int64_t bits);
+
 #endif

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "delaunay/index_list.h"
+#include "delaunay/state.h"
 #include "delaunay/undecided.h"
 #include "predicate/circle.h"
 #include "rect/irect.h"

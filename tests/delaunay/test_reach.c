@@ -5,6 +5,7 @@
 #include <stdarg.h>
 
 #include "delaunay/harness.h"
+#include "delaunay/state.h"
 #include <cmocka.h>
 #include <math.h>
 #include <string.h>

@@ -8,6 +8,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
+#include "delaunay/state.h"
 #include "support/random.h"
 #include <cmocka.h>
 #include <dyadel/delaunay.h>

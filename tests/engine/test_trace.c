@@ -3,6 +3,7 @@
  * surroundings. */
 #include "engine/help.h"
 
+#include "delaunay/state.h"
 #include "engine/coarse.h"
 #include "rect/rect.h"
 #include <math.h>
