@@ -247,7 +247,7 @@ static int compare_pairs(const void *a, const void *b) {
 static dyd_status plan_take_discs(plan_run *r, const cli_session *s, dyd_error *err) {
   dyd_pair_list all = {0}, *asked = s->o.pairs ? &r->pairs : &all;
   size_t kept = 0;
-  dyd_status st = dyd_disc_pairs_until(&all, dyd_engine_delaunay(s->engine), cli_signals_flag(), err);
+  dyd_status st = dyd_disc_pairs(&all, dyd_engine_delaunay(s->engine), cli_signals_flag(), err);
   for (size_t k = 0; k < asked->count && st >= 0; k++) {
     const dyd_pair *p =
         asked == &all ? &all.item[k] : bsearch(&asked->item[k], all.item, all.count, sizeof *p, compare_pairs);

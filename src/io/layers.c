@@ -11,6 +11,7 @@
 #include "base/prefetch.h"
 #include "io/diagram.h"
 #include "io/geodesic.h"
+#include "rect/rect.h"
 #include <math.h>
 
 enum { TRIANGLE_ARC = 2 }; /* degrees */
