@@ -113,7 +113,7 @@ DYD_API dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_to
 DYD_API dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, const volatile int *cancel,
                                   dyd_error *err);
 /* Of sites that are possibly nearest to a point of `at` when they are rectangles (dyd_nearest_rect), *found keeps those
- * that are when they are the discs in them [DISC-5]: for a point exactly those, for a rectangle perhaps more. *sure:
+ * that are when they are the discs in them [DISC-6]: for a point exactly those, for a rectangle perhaps more. *sure:
  * one is left, which is nearest for every choice. Returns DYD_E_ARG for a site that is no square (err names it).
  * O(found) */
 DYD_API dyd_status dyd_disc_nearest(dyd_index_list *found, bool *sure, const dyd_sites *sites, const dyd_rect *at,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Which discs are possibly nearest to a place [DISC-5].
+/* Which discs are possibly nearest to a place [DISC-6].
  *
  * With ds = max(0, |x - c| - r) and dl = |x - c| + r, disc i is possibly nearest to x iff ds_i <= dl_k, k the disc of
  * the least dl. Distances to a place that is a rectangle are the least for ds, the largest for dl. Both comparisons are

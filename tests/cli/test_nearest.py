@@ -232,7 +232,7 @@ def test_refined_places():
 
 
 def test_discs():
-    """All discs that are possibly nearest, by brute force in decimals of 80 digits [DISC-5]; ends that touch count."""
+    """All discs that are possibly nearest, by brute force in decimals of 80 digits [DISC-6]; ends that touch count."""
     chance, near = random.Random(3), 0
     decimal.getcontext().prec = 80
     for case in range(cases(150)):
