@@ -146,7 +146,7 @@ typedef dyd_status (*dyd_record_fn)(void *user, const dyd_record *record, dyd_er
 /* Reads the records of a text up to its end, packed (gzip, zstd) or not; lines are at most 1048576 bytes long.
  *
  * delimiter  ' ': fields are separated by any number of blanks, tabs, commas and semicolons, and # begins a comment;
- *            another character: separated text (RFC 4180), in which lines that begin with # are comments;
+ *            another character: separated text (RFC 4180); in both, lines that begin with # or % are comments;
  *            0: of , ; tab and | the first that the first record holds, else ' '
  *
  * Empty lines are no records, and blanks around fields are removed. Returns what record returned; DYD_E_PARSE with line

@@ -170,7 +170,7 @@ class Union(unittest.TestCase):
         """A byte order mark is no part of the first point; names may follow it."""
         rows = '0 0\n3 1\n1 4\n2 2\n'
         (self.at / 'in.txt').write_text(rows)
-        for k, text in enumerate(('\ufeff' + rows, '\ufeff"lon";"lat"\n' + rows, rows.replace('\n', '\r\n'), rows[:-1])):
+        for k, text in enumerate(('\ufeff' + rows, '\ufeff"lon";"lat"\n' + rows, rows.replace('\n', '\r\n'), rows[:-1], '% of today\n' + rows, rows.replace('\n', '\r'))):
             (self.at / 'marked.txt').write_bytes(text.encode())
             for count in RANKS:
                 out = self.at / f'out{k}of{count}'

@@ -576,7 +576,7 @@ void dyd_csv_hint(char *out, size_t size, const dyd_line *line) {
 /* Fields between runs of blanks, commas and semicolons, up to a comment; quotes mean nothing. */
 static dyd_status rows_split_runs(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
   static const bool between[256] = {[' '] = true, ['\t'] = true, [','] = true, [';'] = true, ['\r'] = true};
-  const char *at = line->text, *end = at + line->length;
+  const char *at = line->text, *end = is_comment(line) ? at : at + line->length;
   for (csv->fields = 0;; csv->fields++) {
     while (at < end && between[(unsigned char)*at]) at++;
     if (at == end || *at == '#') return DYD_OK;
