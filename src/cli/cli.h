@@ -80,7 +80,7 @@ typedef struct cli_options {
   bool proved;        /* verify: by the checker that is proved */
   bool stats, quiet, version;
   bool comments; /* csv begins with lines of "# " */
-  bool lengths;
+  bool lengths, clip;
   bool accept_fixpoint; /* exit status 0 instead of CLI_FIXPOINT */
   const char *help;     /* "" (--help), or the kind of --help=KIND */
 } cli_options;

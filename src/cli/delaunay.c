@@ -251,6 +251,7 @@ static dyd_status voronoi_write(FILE *out, const cli_session *s, dyd_error *err)
                                  .bounds = &r->bounds,
                                  .epsg = s->o.epsg,
                                  .cancel = cli_deadline_flag(),
+                                 .clip = s->o.clip,
                                  .cut = &r->cut,
                                  .coincident = &r->coincident,
                                  .comments = cli_comments(out, s),

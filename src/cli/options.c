@@ -396,6 +396,8 @@ static bool trace_has_points(const cli_options *o, const cli_command *c) {
 /* What contradicts itself, or says too little. */
 static int meanings_fit(const cli_options *o, const cli_command *c) {
   if (o->sphere && o->plane) return cli_usage("--sphere and --plane contradict each other; leave one of them away");
+  if (o->clip && (o->sphere || !(o->all_layers || (o->layer && strcmp(o->layer, "edges") == 0))))
+    return cli_usage("--clip is about edges in the plane; give --layer edges, or leave it away");
   if (o->sphere && o->lengths) return cli_usage("--length is about the plane; leave it or --sphere away");
   if (!o->read.sigma_column || o->read.confidence || c == &cli_commands[CLI_TOLERANCE]) return 0;
   return cli_usage(
@@ -576,9 +578,9 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   if (out->help || out->version) return 0;
   out->read.round = out->discs;
   status = options_fit(out, s.seen, c);
-  if (!status) status = meanings_fit(out, c);
   if (!status) status = layer_fits(out, c);
   if (!status) status = format_from_output(out, c);
+  if (!status) status = meanings_fit(out, c);
   if (!status) status = format_fits(out, c);
   if (!status) status = crs_fits(out);
   return status ? status : place_operands(out, &s, c);

@@ -267,6 +267,8 @@ const cli_option cli_option_table[] = {
     {"crs", 0, "EPSG:N", CLI_CRS, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_OUTPUT,
      "the reference system of the coordinates, for geojson and\njson (default: none is claimed)", AT(epsg),
      WORDS("EPSG:")},
+    {"clip", 0, NULL, CLI_FLAG, BIT(CLI_VORONOI), CLI_OUTPUT,
+     "--layer edges: cut edges to the window, and leave out those\nbeyond it", AT(clip)},
     {"length", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY), CLI_OUTPUT,
      "rows of pairs and graphs have bounds of the length: columns\nlength_lo and length_hi", AT(lengths)},
     {"comments", 0, NULL, CLI_FLAG, READ & ~BIT(CLI_CHECK), CLI_OUTPUT,

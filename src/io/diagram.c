@@ -345,8 +345,8 @@ static void ray_side(double out[2], const double begin[2], const double directio
   out[1] = nextafter(begin[1] + nextafter(direction[1] * length, INFINITY), INFINITY);
 }
 
-/* Where an end of an edge is drawn: at its vertex, or as far out on its ray as the window is wide; false when neither
- * is known. */
+/* Where an end of an edge is drawn: at its vertex, or so far out on its ray that it has passed the window; false when
+ * neither is known. */
 static bool edge_place(double box[4], const dyd_diagram *d, const dyd_dual_edge *e, int end) {
   double w[4], from[4];
   const dyd_dual_end *to = &e->end[end], *other = &e->end[1 - end];
@@ -359,7 +359,8 @@ static bool edge_place(double box[4], const dyd_diagram *d, const dyd_dual_edge 
   dyd_rect_get_d(w, &d->window);
   const double *v = to->direction;
   double size = fmax(fabs(v[0] / 2 + v[1] / 2), fabs(v[2] / 2 + v[3] / 2));
-  double length = (w[1] - w[0] + w[3] - w[2]) / size;
+  double apart = fmax(fmax(w[0] - from[0], from[1] - w[1]), fmax(w[2] - from[2], from[3] - w[3]));
+  double length = (w[1] - w[0] + w[3] - w[2] + 2 * fmax(apart, 0)) / size;
   ray_side(box, from, v, length);
   ray_side(box + 2, from + 2, v + 2, length);
   return dyd_box_is_finite(box);

@@ -506,6 +506,7 @@ dyd_status dyd_layer_write(const dyd_output *o) {
                  .engine = o->engine,
                  .sphere = o->sphere,
                  .lengths = o->lengths && !o->sphere,
+                 .clip = o->clip,
                  .drawn = dyd_format_draws(o->format)};
   dyd_status st = layer_places(&t, o);
   if (st == DYD_OK) st = layer_comments(&t, o);

@@ -6,6 +6,7 @@
 #include "io/diagram.h"
 #include "io/geodesic.h"
 #include "io/table.h"
+#include <float.h>
 #include <inttypes.h>
 #include <math.h>
 
@@ -271,17 +272,50 @@ static dyd_status edge_value(dyd_table *t, const dyd_diagram *d, const dyd_dual_
   return DYD_OK;
 }
 
+/* Where the segment from a, beyond the side of the window, to b, not certainly beyond it, meets the side. */
+static void edge_cross(double a[4], const double b[4], int axis, double side) {
+  const double *u = a + 2 * axis, *v = b + 2 * axis;
+  const bool below = u[1] < side;
+  double least = below ? side - u[1] : u[0] - side, most = below ? side - u[0] : u[1] - side;
+  double narrow = below ? v[0] - u[1] : u[0] - v[1], wide = below ? v[1] - u[0] : u[1] - v[0];
+  const double share[2] = {fmax(least / wide * (1 - 4 * DBL_EPSILON), 0),
+                           narrow > 0 ? fmin(most / narrow * (1 + 4 * DBL_EPSILON), 1) : 1};
+  double *p = a + 2 * (1 - axis), out[2] = {INFINITY, -INFINITY};
+  const double *q = b + 2 * (1 - axis);
+  const double slack = 8 * DBL_EPSILON * fmax(fmax(fabs(p[0]), fabs(p[1])), fmax(fabs(q[0]), fabs(q[1])));
+  for (int k = 0; k < 2; k++) {
+    out[0] = fmin(out[0], (1 - share[k]) * p[0] + share[k] * q[0] - slack);
+    out[1] = fmax(out[1], (1 - share[k]) * p[1] + share[k] * q[1] + slack);
+  }
+  a[2 * axis] = a[2 * axis + 1] = side;
+  p[0] = out[0], p[1] = out[1];
+}
+
+/* Cuts the segment to the window. Invariant: the ends are inside their boxes. false: all of it is beyond. */
+static bool edge_clip(double box[2][4], const double window[4]) {
+  for (int k = 0; k < 4; k++) {
+    bool beyond[2];
+    for (int end = 0; end < 2; end++) beyond[end] = k & 1 ? box[end][k - 1] > window[k] : box[end][k + 1] < window[k];
+    if (beyond[0] && beyond[1]) return false;
+    for (int end = 0; end < 2; end++)
+      if (beyond[end]) edge_cross(box[end], box[1 - end], k / 2, window[k]);
+  }
+  return true;
+}
+
 /* csv lists all; wkt and geojson those with two ends that can be drawn. */
 dyd_status dyd_edge_rows(dyd_table *t, const dyd_output *o) {
   const dyd_diagram *d = o->what;
   dyd_dual_edge *edge = NULL;
   size_t count = 0;
+  double window[4];
+  dyd_rect_get_d(window, &d->window);
   dyd_status st = find_bounds(t, d);
   if (st == DYD_OK) st = dyd_dual_edges(&edge, &count, d->pd, &d->triangles, d->tied, d->ties, d->room);
   for (size_t k = 0; k < count && st == DYD_OK; k++) {
     double box[2][4];
     bool drawn = dyd_diagram_edge(box, d, &edge[k]);
-    if (!drawn && t->drawn) continue;
+    if (drawn ? t->clip && !edge_clip(box, window) : t->drawn) continue;
     dyd_row_begin(t);
     for (int end = 0; drawn && end < 2; end++) dyd_row_at(t, box[end]);
     dyd_row_site(t, edge[k].i);

@@ -86,7 +86,7 @@ struct dyd_table {
   bool drawn;                       /* rows have a geometry */
   dyd_place *place;                 /* of the sites of a plane; NULL: nothing is drawn at them; owned, as */
   double (*box)[4];                 /* of those of a sphere, */
-  bool lengths;                     /* pairs have them */
+  bool lengths, clip;               /* pairs have them; edges are cut to the window */
   void *kept;                       /* what comments keep for rows */
   dyd_table_lead begin, lead[DYD_TABLE_COLUMNS];
   const char *name[DYD_TABLE_COLUMNS]; /* each up to a comma */

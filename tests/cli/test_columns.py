@@ -77,4 +77,54 @@ def test_lengths():
     expect(run('delaunay', '--length', '--sphere', '-', stdin='0 0\n1 1\n'), 2, '', '--length is about the plane')
 
 
+
+def places(text):
+    return [tuple(map(Q, p.split())) for p in text[text.index('(') + 1:text.index(')')].split(', ')]
+
+
+def cut(a, b, window):
+    """The part of the segment in the window, by exact Liang-Barsky; None: there is none."""
+    lo, hi = Q(0), Q(1)
+    for k in (0, 1):
+        d = b[k] - a[k]
+        for side, sign in ((window[2 * k], -1), (window[2 * k + 1], 1)):
+            if sign * d == 0:
+                if sign * (a[k] - side) > 0:
+                    return None
+            elif sign * d > 0:
+                hi = min(hi, (side - a[k]) / d)
+            else:
+                lo = max(lo, (side - a[k]) / d)
+    return None if lo > hi else [tuple(a[k] + t * (b[k] - a[k]) for k in (0, 1)) for t in (lo, hi)]
+
+
+def test_clipped_edges():
+    """Each drawn edge is the part of the whole one that is in the window, within its error; those beyond have no row."""
+    rand, seen = random.Random(11), [0, 0, 0]
+    for k in range(25):
+        text = ''.join(f'{rand.randint(0, 40)} {rand.randint(0, 40)}\n' for _ in range(rand.randint(3, 12)))
+        x, y = sorted(rand.sample(range(-20, 60), 2)), sorted(rand.sample(range(-20, 60), 2))
+        window = [Q(x[0]), Q(x[1]), Q(y[0]), Q(y[1])]
+        options = '--layer', 'edges', '--window={},{},{},{}'.format(*window), '--format', 'wkt'
+        whole = {(r['i'], r['j']): r for r in table('voronoi', None, *options, text=text)}
+        got = {(r['i'], r['j']): r for r in table('voronoi', None, *options, '--clip', text=text)}
+        for pair, row in whole.items():
+            a, b = places(row['WKT'])
+            part, slack = cut(a, b, window), Q(1, 10**6)
+            wider = cut(a, b, [w + s * slack for w, s in zip(window, (-1, 1, -1, 1))])
+            if wider is None or pair not in got:
+                assert pair not in got and (part is None or part[0] == part[1] or wider is None), (text, window, row)
+                seen[0] += 1
+                continue
+            if part is None:
+                continue  # it touches the window within the error
+            for p, q in zip(places(got[pair]['WKT']), part):
+                error = Q(got[pair]['max_coordinate_error']) + Q(row['max_coordinate_error']) + Q(1, 10**9)
+                assert error < Q(1, 10**6) and all(abs(p[m] - q[m]) <= error for m in (0, 1)), (text, window, row, got[pair])
+            seen[1 if part == [a, b] else 2] += 1
+        assert set(got) <= set(whole)
+    assert all(seen), seen
+    expect(run('voronoi', '--clip', '-', stdin='0 0\n1 1\n2 0\n'), 2, '', '--clip is about edges in the plane; give --layer edges')
+
+
 main(globals())

@@ -19,6 +19,7 @@ PICTURE = 'says nothing that can be read back: the geometry drawn is that of csv
 REASONS = {  # (command or *, option, format:F, layer:L or OPTION=word): why no row types it
     ('verify', '*'): VERIFY,
     ('voronoi', '--max-arc'): 'about the polygons of cells on the sphere, which tests/cli/test_sphere_cells.py looks at',
+    ('voronoi', '--clip'): 'where edges are drawn: tests/cli/test_columns.py compares with cut segments, exactly',
     ('*', '--in-layer'): 'a layer of a file that GDAL reads: tests/cli/test_gdal.py compares such files with tables',
     ('*', '--help'): 'says nothing about points', ('*', '--version'): 'says nothing about points',
     ('*', '--resume'): 'laws.judge_resume gives it what --trace wrote',
