@@ -4,7 +4,7 @@
  * Vertices are rounded to a grid, each once, so that rings share them bit by bit. Where a ring is not simple after
  * that, a cell is about as thin as the grid, and edges pass over vertices of others. There edges are led through all
  * vertices whose box of the grid they meet, on both sides alike [PART-1], until all rings are simple: a ring is cut
- * where it touches itself, and what has no area is dropped. */
+ * where it touches itself, and parts without area are dropped. */
 #include "base/alloc.h"
 #include "base/error.h"
 #include "delaunay/memory.h"
@@ -127,7 +127,7 @@ static dyd_status ring_area(double *out, const tiling *t, const dyd_xy *z, size_
   return st;
 }
 
-/* Room for so many rings with so many vertices. */
+/* Makes room for this number of rings and vertices in all; false: memory is exhausted. */
 static bool reserve_rings(tiling *t, size_t rings, size_t vertices) {
   dyd_tiles *o = t->out;
   return dyd_reserve((void **)&o->site, &t->ring_cap, rings, sizeof *o->site) &&
@@ -360,9 +360,9 @@ static dyd_status append_loops(tiling *t, const loose_ring *r, const double boun
 
 /* ---- most cells at once ----
  *
- * The vertices of the diagram of exact points are the circumcentres of all triangles, also of those that share a circle
- * with others. Each is found once; then cells whose vertices are all inside W are walked around, in the order of the
- * mesh. */
+ * The vertices of the diagram of exact points are the circumcentres of all triangles, also where four sites share a
+ * circle with others. Each is found once; then cells whose vertices are all inside W are walked around, in the order of
+ * the mesh. */
 
 /* count = 0: to be made as a shape. Its ring is that of the tiles from vertex `first` on. */
 typedef struct quick_tile {
@@ -484,7 +484,7 @@ static dyd_status keep_bound(void *context, uint32_t i, const dyd_shape *shape, 
   return DYD_OK;
 }
 
-/* What is known of the areas of the true cells, and of the diagram. */
+/* Bounds the areas of the true cells, and the undetermined part of the diagram. */
 static dyd_status bound_areas(double *bound, dyd_voronoi_bounds *bounds, const dyd_delaunay *pd, const dyd_rect *window,
                               int64_t bits, const volatile int *cancel) {
   dyd_voronoi_sums sums;

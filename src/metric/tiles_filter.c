@@ -21,7 +21,7 @@ static double half_rounded_up(dyd_i128 twice) {
 }
 
 /* Differences of numbers below 2^52 are below 2^53, products below 2^106; a ring winds once, so that the sum is less
- * than twice the area of a square of 2^53, and what is added on the way stays below 2^127 for 2^20 vertices. */
+ * than twice the area of a square of 2^53, and the partial sums stay below 2^127 for 2^20 vertices. */
 bool dyd_filter_grid_area(double *out, const dyd_xy *z, size_t n, int grid) {
   dyd_i128 sum = 0;
   int64_t o[2], was[2], at[2];
