@@ -28,7 +28,7 @@ typedef struct dyd_certificate_parts {
   size_t struct_size;                 /* set by DYD_SIZED */
   const struct dyd_pair_list *discs;  /* the pairs of dyd_disc_pairs [CERT-11] */
   const struct dyd_graph_list *graph; /* the edges of dyd_graph_edges [CERT-13] */
-  int kind;                           /* of the graph, a dyd_graph. DYD_GRAPH_MST is refused by DYD_E_ARG */
+  int kind;                           /* of the graph, a dyd_graph */
   /* A section on the Voronoi diagram in the window, which has dyadic ends and positive area. NULL: as
    * dyd_voronoi_window. A result that is capped has no such section. The bound of the area is that of
    * dyd_metric_voronoi with polygons within a 256th of a cell, or as fine as a goal on it asks; H is that of
@@ -64,7 +64,7 @@ typedef enum dyd_certificate_gap {
   DYD_GAP_ALIASES = 128,  /* that aliases of sites that are not exact are the same points */
   DYD_GAP_CLAIMS = 256,   /* that callbacks are what their authors say they are */
   DYD_GAP_DISCS = 512,    /* that discs make pairs legal or illegal */
-  DYD_GAP_GRAPH = 1024,   /* that pairs without a row are no edges of the graph */
+  DYD_GAP_GRAPH = 1024,   /* that pairs without a row are no edges of the graph; mst: or certain rows certain */
   DYD_GAP_NEAREST = 2048, /* that sites which are not listed are not nearest to a place */
   DYD_GAP_IMAGES = 4096,  /* on a sphere: that rectangles hold the images of their places */
   DYD_GAP_AROUND = 8192,  /* on a sphere: that places which are not listed are no neighbours of the eye */

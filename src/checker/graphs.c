@@ -289,6 +289,13 @@ static dyd_status index_partners(graph_rows *g) {
   return good ? DYD_OK : dyd_fail_nomem(g->c->in.err);
 }
 
+static dyd_status read_pair_row(graph_rows *g, dyd_cert_edge *row, const dyd_cert_edge *last, bool *certain) {
+  dyd_status st = read_row(g, row, certain);
+  if (st == DYD_OK && (row->i > row->j || dyd_cert_compare_edges(last, row) >= 0))
+    st = dyd_cert_reject(&g->c->in, "rows are not in order");
+  return st;
+}
+
 static dyd_status check_gabriel_rows(graph_rows *g, uint32_t rows) {
   dyd_checker *c = g->c;
   const dyd_cert_edges *list[2] = {&c->legal, &c->open};
@@ -298,9 +305,7 @@ static dyd_status check_gabriel_rows(graph_rows *g, uint32_t rows) {
   bool certain;
   dyd_status st = index_partners(g);
   for (uint32_t k = 0; k < rows && st == DYD_OK; k++, last = row) {
-    st = read_row(g, &row, &certain);
-    if (st == DYD_OK && (row.i > row.j || dyd_cert_compare_edges(&last, &row) >= 0))
-      st = dyd_cert_reject(&c->in, "rows are not in order");
+    st = read_pair_row(g, &row, &last, &certain);
     if (st == DYD_OK && certain && !gabriel_is_certain(&other, g, &row))
       st = dyd_cert_reject(&c->in, "site %u may be in the disc", (unsigned)other);
     if (st == DYD_OK && dyd_cert_edges_add(&listed, row.i, row.j) != DYD_OK) st = dyd_fail_nomem(c->in.err);
@@ -314,16 +319,251 @@ static dyd_status check_gabriel_rows(graph_rows *g, uint32_t rows) {
   return st;
 }
 
+/* ---- mst ---- */
+
+typedef struct squared_length {
+  dyd_exact square;
+  uint32_t pair;
+} squared_length;
+
+/* Possible pairs, legal ones first; least, largest: of all pairs, by length; most: by pair, as in largest. never: in no
+ * minimum spanning tree; link: the pair to the parent in the tree by least lengths of all others, of which the sites
+ * are in order[]; replaced: of a pair of the tree, the least length of another one that joins what it joins, or NULL.
+ */
+typedef struct cert_spanning {
+  graph_rows *g;
+  size_t sites, pairs;
+  dyd_cert_edge *pair;
+  squared_length *least, *largest;
+  const dyd_exact **most, **replaced;
+  bool *never, *tree;
+  uint32_t *up, *parent, *link, *depth, *order;
+  size_t *start;
+  uint32_t *at; /* pairs of the tree at each site */
+} cert_spanning;
+
+/* out = the square of the least, or the largest, distance of two points of the boxes. */
+static void span_length2(dyd_exact *out, const dyd_cert_span *i, const dyd_cert_span *j, bool largest) {
+  dyd_exact d, t;
+  dyd_exact_init(&d);
+  dyd_exact_init(&t);
+  mpz_set_ui(out->man, 0);
+  for (int a = 0; a < 4; a += 2) {
+    dyd_exact_sub(&d, &i->e[a + largest], &j->e[a + !largest]);
+    dyd_exact_sub(&t, &j->e[a + largest], &i->e[a + !largest]);
+    if (dyd_exact_cmp(&t, &d) > 0) dyd_exact_set(&d, &t);
+    if (dyd_exact_sgn(&d) <= 0) continue;
+    dyd_exact_mul(&d, &d, &d);
+    dyd_exact_add(out, out, &d);
+  }
+  dyd_exact_clear(&d);
+  dyd_exact_clear(&t);
+}
+
+static int squared_length_order(const void *a, const void *b) {
+  const squared_length *x = a, *y = b;
+  int sign = dyd_exact_cmp(&x->square, &y->square);
+  return sign ? sign : (x->pair > y->pair) - (x->pair < y->pair);
+}
+
+static dyd_status spanning_begin(cert_spanning *s, graph_rows *g) {
+  const dyd_cert_edges *list[2] = {&g->c->legal, &g->c->open};
+  size_t n = g->c->sites.count, pairs = list[0]->count + list[1]->count;
+  *s = (cert_spanning){.g = g, .sites = n};
+  s->pair = dyd_alloc(pairs, sizeof *s->pair);
+  s->least = dyd_alloc(pairs, sizeof *s->least);
+  s->largest = dyd_alloc(pairs, sizeof *s->largest);
+  s->most = dyd_alloc(pairs, sizeof *s->most);
+  s->replaced = calloc(pairs + 1, sizeof *s->replaced);
+  s->never = calloc(pairs + 1, sizeof *s->never);
+  s->tree = calloc(pairs + 1, sizeof *s->tree);
+  s->up = dyd_alloc(n, sizeof *s->up);
+  s->parent = dyd_alloc(n, sizeof *s->parent);
+  s->link = dyd_alloc(n, sizeof *s->link);
+  s->depth = dyd_alloc(n, sizeof *s->depth);
+  s->order = dyd_alloc(n, sizeof *s->order);
+  s->start = dyd_alloc(n + 1, sizeof *s->start);
+  s->at = dyd_alloc(2 * n, sizeof *s->at);
+  if (!s->pair || !s->least || !s->largest || !s->most || !s->replaced || !s->never || !s->tree || !s->up ||
+      !s->parent || !s->link || !s->depth || !s->order || !s->start || !s->at)
+    return dyd_fail_nomem(g->c->in.err);
+  for (int k = 0; k < 2; k++)
+    for (size_t e = 0; e < list[k]->count; e++) {
+      uint32_t p = (uint32_t)s->pairs++;
+      s->pair[p] = list[k]->item[e];
+      s->least[p].pair = s->largest[p].pair = p;
+      dyd_exact_init(&s->least[p].square);
+      dyd_exact_init(&s->largest[p].square);
+      span_length2(&s->least[p].square, &g->span[s->pair[p].i], &g->span[s->pair[p].j], false);
+      span_length2(&s->largest[p].square, &g->span[s->pair[p].i], &g->span[s->pair[p].j], true);
+    }
+  if (s->pairs) qsort(s->least, s->pairs, sizeof *s->least, squared_length_order);
+  if (s->pairs) qsort(s->largest, s->pairs, sizeof *s->largest, squared_length_order);
+  for (size_t k = 0; k < s->pairs; k++) s->most[s->largest[k].pair] = &s->largest[k].square;
+  return DYD_OK;
+}
+
+static void spanning_clear(cert_spanning *s) {
+  for (size_t p = 0; p < s->pairs; p++) {
+    dyd_exact_clear(&s->least[p].square);
+    dyd_exact_clear(&s->largest[p].square);
+  }
+  void *all[] = {s->pair, s->least,  s->largest, s->most,  s->replaced, s->never, s->tree,
+                 s->up,   s->parent, s->link,    s->depth, s->order,    s->start, s->at};
+  for (size_t k = 0; k < sizeof all / sizeof *all; k++) free(all[k]);
+}
+
+/* The top of the set of site i. */
+static uint32_t spanning_top(uint32_t *up, uint32_t i) {
+  while (up[i] != i) i = up[i] = up[up[i]];
+  return i;
+}
+
+static void spanning_apart(cert_spanning *s) {
+  for (uint32_t i = 0; i < s->sites; i++) s->up[i] = i;
+}
+
+/* Shorter legal pairs join the ends; or no disc of the pair is empty, which is tried where it has no row. */
+static void spanning_never(cert_spanning *s, const dyd_cert_edges *listed) {
+  size_t next = 0;
+  spanning_apart(s);
+  for (size_t k = 0; k < s->pairs; k++) {
+    const uint32_t p = s->least[k].pair;
+    for (; next < s->pairs && dyd_exact_cmp(&s->largest[next].square, &s->least[k].square) < 0; next++) {
+      const dyd_cert_edge *q = &s->pair[s->largest[next].pair];
+      if (s->largest[next].pair < s->g->c->legal.count) s->up[spanning_top(s->up, q->i)] = spanning_top(s->up, q->j);
+    }
+    s->never[p] = spanning_top(s->up, s->pair[p].i) == spanning_top(s->up, s->pair[p].j);
+  }
+  for (size_t p = 0; p < s->pairs; p++) {
+    bool open = !s->never[p] && !dyd_cert_edges_have(listed, s->pair[p].i, s->pair[p].j);
+    s->never[p] = s->never[p] || (open && gabriel_is_never(s->g, &s->pair[p]));
+    s->g->c->report.graph_unproved += open && !s->never[p];
+  }
+}
+
+/* The tree by least lengths, dealt to its sites. */
+static dyd_status spanning_tree(cert_spanning *s) {
+  dyd_cert_entry *entry = dyd_alloc(2 * s->sites, sizeof *entry);
+  size_t count = 0;
+  if (!entry) return dyd_fail_nomem(s->g->c->in.err);
+  spanning_apart(s);
+  for (size_t k = 0; k < s->pairs; k++) {
+    const uint32_t p = s->least[k].pair, a = spanning_top(s->up, s->pair[p].i), b = spanning_top(s->up, s->pair[p].j);
+    if (s->never[p] || a == b) continue;
+    s->tree[p] = true;
+    s->up[a] = b;
+    entry[count++] = (dyd_cert_entry){s->pair[p].i, p};
+    entry[count++] = (dyd_cert_entry){s->pair[p].j, p};
+  }
+  dyd_cert_by_key(s->start, s->at, s->sites, entry, count);
+  free(entry);
+  return DYD_OK;
+}
+
+/* Site i, and all that is in its tree, get their parents. */
+static void spanning_root(cert_spanning *s, uint32_t i) {
+  size_t count = 1;
+  s->order[0] = s->parent[i] = i;
+  s->depth[i] = 1;
+  for (size_t k = 0; k < count; k++) {
+    uint32_t v = s->order[k];
+    for (size_t q = s->start[v]; q < s->start[v + 1]; q++) {
+      const dyd_cert_edge *p = &s->pair[s->at[q]];
+      uint32_t w = p->i == v ? p->j : p->i;
+      if (s->depth[w]) continue;
+      s->parent[w] = v;
+      s->link[w] = s->at[q];
+      s->depth[w] = s->depth[v] + 1;
+      s->order[count++] = w;
+    }
+  }
+}
+
+/* What each pair of the tree is replaced by first: pairs that are not in it, the shortest first, cover the way between
+ * their ends; what is covered is passed over from then on. */
+static void spanning_replace(cert_spanning *s) {
+  memset(s->depth, 0, s->sites * sizeof *s->depth);
+  for (uint32_t i = 0; i < s->sites; i++)
+    if (!s->depth[i]) spanning_root(s, i);
+  spanning_apart(s);
+  for (size_t k = 0; k < s->pairs; k++) {
+    const uint32_t p = s->least[k].pair;
+    if (s->never[p] || s->tree[p]) continue;
+    uint32_t a = spanning_top(s->up, s->pair[p].i), b = spanning_top(s->up, s->pair[p].j);
+    while (a != b) {
+      uint32_t *low = s->depth[a] > s->depth[b] ? &a : &b;
+      s->replaced[s->link[*low]] = &s->least[k].square;
+      s->up[*low] = s->parent[*low];
+      *low = spanning_top(s->up, *low);
+    }
+  }
+}
+
+/* Is no other way between the ends as short as the pair may be, or one of them surely nearest to the other [MST-1]? */
+static bool spanning_is_certain(const cert_spanning *s, const dyd_cert_edge *row) {
+  const graph_rows *g = s->g;
+  const dyd_cert_edges *list[2] = {&g->c->legal, &g->c->open};
+  for (int k = 0; k < 2; k++) {
+    const dyd_cert_edge *at =
+        list[k]->count ? bsearch(row, list[k]->item, list[k]->count, sizeof *row, dyd_cert_compare_edges) : NULL;
+    if (!at) continue;
+    size_t p = (size_t)(at - list[k]->item) + (k ? list[0]->count : 0);
+    if (s->tree[p] && (!s->replaced[p] || dyd_exact_cmp(s->replaced[p], s->most[p]) > 0)) return true;
+  }
+  for (int k = 0; k < 2; k++) {
+    uint32_t other, self = k ? row->j : row->i, near = k ? row->i : row->j;
+    const dyd_cert_near q = {&g->c->sites, &g->c->tree, g->span, &g->span[self], self, &near, 1};
+    if (dyd_cert_near_is_certain(&other, &q)) return true;
+  }
+  return false;
+}
+
+static dyd_status read_spanning_rows(dyd_cert_edges *listed, dyd_cert_edges *sure, graph_rows *g, uint32_t rows) {
+  dyd_cert_edge row, last = {0, 0};
+  bool certain;
+  dyd_status st = DYD_OK;
+  for (uint32_t k = 0; k < rows && st == DYD_OK; k++, last = row) {
+    st = read_pair_row(g, &row, &last, &certain);
+    if (st == DYD_OK) st = dyd_cert_edges_add(listed, row.i, row.j);
+    if (st == DYD_OK && certain) st = dyd_cert_edges_add(sure, row.i, row.j);
+    if (st == DYD_E_NOMEM) dyd_fail_nomem(g->c->in.err);
+  }
+  return st;
+}
+
+/* Rows c that are not proved to be certain are counted: the checker may fail to see that a pair is in no tree. */
+static dyd_status check_spanning_rows(graph_rows *g, uint32_t rows) {
+  cert_spanning s = {.g = g};
+  dyd_cert_edges listed = {0}, sure = {0};
+  dyd_status st = read_spanning_rows(&listed, &sure, g, rows);
+  if (st == DYD_OK) st = index_partners(g);
+  if (st == DYD_OK) st = spanning_begin(&s, g);
+  if (st == DYD_OK) spanning_never(&s, &listed);
+  if (st == DYD_OK) st = spanning_tree(&s);
+  if (st == DYD_OK) spanning_replace(&s);
+  for (size_t k = 0; k < sure.count && st == DYD_OK; k++) {
+    bool unproved = !spanning_is_certain(&s, &sure.item[k]);
+    g->c->report.graph_certain -= unproved;
+    g->c->report.graph_unproved += unproved;
+  }
+  free(listed.item);
+  free(sure.item);
+  spanning_clear(&s);
+  return st;
+}
+
 /* ---- the section ---- */
 
 dyd_status dyd_checker_graph(dyd_checker *c) {
-  static const char *const names[] = {"nearest", "gabriel"};
-  static dyd_status (*const check[])(graph_rows *, uint32_t) = {check_nearest_rows, check_gabriel_rows};
+  static const char *const names[] = {"nearest", "gabriel", "mst"};
+  static dyd_status (*const check[])(graph_rows *, uint32_t) = {check_nearest_rows, check_gabriel_rows,
+                                                                check_spanning_rows};
   graph_rows g = {.c = c, .effort = ((uint64_t)c->sites.count + 64) << EFFORT_BITS};
   uint32_t rows = 0;
   size_t kind = 0;
   dyd_status st = dyd_cert_expect_word(c, "graph");
-  if (st == DYD_OK) st = dyd_cert_read_choice(&kind, c, names, 2);
+  if (st == DYD_OK) st = dyd_cert_read_choice(&kind, c, names, 3);
   if (st == DYD_OK) st = dyd_cert_read_index(&rows, &c->in, DYD_CERT_NONE);
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
   if (st != DYD_OK) return st;

@@ -23,11 +23,6 @@ static const cli_work *delaunay_instead(const cli_options *o) {
   return o->sphere ? &cli_sphere : o->discs ? &work_discs : NULL;
 }
 
-static int delaunay_begin(cli_session *s) {
-  if (!s->o.certificate || s->o.content != DYD_CONTENT_GRAPH_MST) return 0;
-  return cli_usage("no certificate proves a minimum spanning tree: leave --certificate or --layer graph:mst out");
-}
-
 typedef struct delaunay_result {
   dyd_graph_list graph; /* of a layer that is a graph, if known */
   bool known;
@@ -90,16 +85,16 @@ static dyd_status delaunay_write(FILE *out, const cli_session *s, dyd_error *err
 
 /* Of the diagram, where the engine has a window; else of the pairs, and the graph of --layer. */
 static dyd_status write_certificate(FILE *out, const cli_session *s, dyd_error *err) {
-  const dyd_content content = s->o.content;
+  dyd_graph graph;
   dyd_graph_list list = {0};
   dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .window = s->o.engine.window};
   dyd_status st = DYD_OK;
   parts.diagram = parts.window;
   parts.discs = parts.diagram ? NULL : s->discs;
-  if (!parts.diagram && !s->discs && (content == DYD_CONTENT_GRAPH_NEAREST || content == DYD_CONTENT_GRAPH_GABRIEL)) {
-    parts.kind = content == DYD_CONTENT_GRAPH_GABRIEL ? DYD_GRAPH_GABRIEL : DYD_GRAPH_NEAREST;
+  if (!parts.diagram && !s->discs && layer_is_graph(&graph, s->o.content)) {
+    parts.kind = (int)graph;
     parts.graph = &list;
-    st = dyd_graph_edges(&list, dyd_engine_delaunay(s->engine), (dyd_graph)parts.kind, cli_signals_flag(), err);
+    st = dyd_graph_edges(&list, dyd_engine_delaunay(s->engine), graph, cli_signals_flag(), err);
   }
   if (st == DYD_OK) st = dyd_write_certificate(out, s->engine, &parts, err);
   dyd_graph_list_clear(&list);
@@ -124,7 +119,6 @@ static void delaunay_end(cli_session *s) {
 
 const cli_work cli_delaunay = {.size = sizeof(delaunay_result),
                                .instead = delaunay_instead,
-                               .begin = delaunay_begin,
                                .find = delaunay_find,
                                .write = delaunay_write,
                                .prove = write_certificate,
@@ -189,7 +183,6 @@ static void disc_pairs_end(cli_session *s) {
 }
 
 static const cli_work work_discs = {.size = sizeof(disc_result),
-                                    .begin = delaunay_begin,
                                     .find = disc_pairs_find,
                                     .write = delaunay_write,
                                     .prove = write_certificate,
@@ -311,7 +304,6 @@ static int places_on_sphere_begin(cli_session *s) {
   r->resume = o->resume;
   o->resume = NULL; /* traces hold answers of images */
   cli_options_degrees(o);
-  if (delaunay_begin(s)) return CLI_USAGE;
   if (what)
     cli_complain("%s is about the plane; leave %s or --sphere away", what, what);
   else if (o->window && !picture)

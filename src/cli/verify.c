@@ -199,7 +199,8 @@ static void print_part_gaps(FILE *out, const dyd_certificate_report *r) {
            "not proved: the statuses of %zu pairs of the discs, which have no witness or blockers\n",
            r->discs_unproved);
   print_if(out, r->gaps & DYD_GAP_GRAPH,
-           "not proved: that pairs without a row are no edges of the graph %s (%llu possible ones)\n", r->graph,
+           "not proved: that pairs without a row are no edges of the graph %s%s (%llu possible ones)\n", r->graph,
+           !r->graph || strcmp(r->graph, "mst") ? "" : ", or that those stated to be certain are",
            (unsigned long long)r->graph_unproved);
   print_if(out, r->gaps & DYD_GAP_NEAREST,
            "not proved: that %llu sites are not nearest to places that do not list them\n",

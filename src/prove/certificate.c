@@ -167,7 +167,9 @@ static dyd_status certificate_end(FILE *out, const dyd_proof *p) {
 }
 
 static void certificate_graph(FILE *out, const dyd_graph_list *l, int kind) {
-  fprintf(out, "graph %s %zu\n", kind == DYD_GRAPH_GABRIEL ? "gabriel" : "nearest", l->count);
+  static const char *const name[] = {
+      [DYD_GRAPH_NEAREST] = "nearest", [DYD_GRAPH_GABRIEL] = "gabriel", [DYD_GRAPH_MST] = "mst"};
+  fprintf(out, "graph %s %zu\n", name[kind], l->count);
   for (size_t k = 0; k < l->count; k++)
     fprintf(out, "%c %" PRIu32 " %" PRIu32 "\n", l->item[k].sure ? 'c' : 'p', l->item[k].i, l->item[k].j);
 }
@@ -368,8 +370,8 @@ dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, const dy
   if (st != DYD_OK) return st;
   if (parts.sphere) e = dyd_sphere_images(parts.sphere);
   const dyd_delaunay *pd = dyd_engine_delaunay(e);
-  if (parts.graph && parts.kind == DYD_GRAPH_MST)
-    return dyd_fail(err, DYD_E_ARG, "no certificate proves a minimum spanning tree");
+  if (parts.graph && (parts.kind < DYD_GRAPH_NEAREST || parts.kind > DYD_GRAPH_MST))
+    return dyd_fail(err, DYD_E_ARG, "the kind of the graph is no dyd_graph");
   if (!pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
   if (parts.answer) return nearest_write(out, e, &parts, err);
   if (!parts.diagram && !parts.sphere && needs_window(e))

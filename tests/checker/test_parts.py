@@ -185,8 +185,27 @@ def gabriel_edges(p):
     return alone, some
 
 
+def mst_edges(p):
+    """(certain: in each minimum spanning tree, possible: in one) of one choice."""
+    alone, some = set(), set()
+    for i, j in itertools.combinations(p, 2):
+        for found, near in ((alone, lambda d, e: d <= e), (some, lambda d, e: d < e)):
+            seen, left = {i}, [i]
+            while left:
+                k = left.pop()
+                more = {m for m in p if m not in seen and {k, m} != {i, j} and
+                        near(distance2(p[k], p[m]), distance2(p[i], p[j]))}
+                seen |= more
+                left += more
+            if j not in seen:
+                found.add((i, j))
+    return alone, some
+
+
 def judge_graph(c, R, complete, tries=30):
-    edges = {'nearest': nearest_edges, 'gabriel': gabriel_edges}[c.graph]
+    if c.graph == 'mst' and not complete:
+        return None  # what is stated to be certain is not proved then
+    edges = {'nearest': nearest_edges, 'gabriel': gabriel_edges, 'mst': mst_edges}[c.graph]
     certain = {(int(r[1]), int(r[2])) for r in c.rows if r[0] == 'c'}
     listed = {(int(r[1]), int(r[2])) for r in c.rows}
     for _ in range(tries):
@@ -343,6 +362,7 @@ def check_case(folder, R, mutated):
                               f'[{k},{k + R.randrange(1, 4)}] {R.randrange(9)}\n' for k in range(3)))
     certificate = folder / 'certificate.txt'
     for command in (['delaunay', '--discs'], ['delaunay', '--layer', 'graph:nearest'], ['delaunay', '--layer', 'graph:gabriel'],
+                    ['delaunay', '--layer', 'graph:mst'],
                     ['nearest', '--queries', places]):
         certificate.unlink(missing_ok=True)
         done = run(*command, '--quiet', '-o', folder / 'out.csv', '--certificate', certificate, *reading)

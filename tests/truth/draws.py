@@ -17,6 +17,11 @@ def mixed(rand, a, b):
     return a + (b - a) * Q(rand.randint(0, 2 ** k), 2 ** k)
 
 
+def double(q):
+    """About q; what is as far as no double is, or its square, is as far as 2^400."""
+    return float(max(Q(-2 ** 400), min(Q(2 ** 400), q)))
+
+
 def extremes(region, rand):
     """Places of a region that a statement may hang on."""
     kind = region[0]
@@ -132,7 +137,7 @@ def climb(regions, sites, i, j, up, rand, globe):
     else:
         x0, y0 = spots[i][0]
         scale = max([abs(c - o) for s in spots.values() for p in s for c, o in zip(p, (x0, y0))] + [Q(1, 2 ** 1050)]) or 1
-        at = {k: [(float((p[0] - x0) / scale), float((p[1] - y0) / scale)) for p in s] for k, s in spots.items()}
+        at = {k: [(double((p[0] - x0) / scale), double((p[1] - y0) / scale)) for p in s] for k, s in spots.items()}
         margin = flat_margin
     sign = 1 if up else -1
     pick = {k: rand.randrange(len(s)) for k, s in spots.items()}
@@ -164,8 +169,8 @@ def witness(regions, i, j, sites):
     boxes = {}
     for k in sites:
         r = regions[k]
-        boxes[k] = ('b', *(float((c - o) / scale) for c, o in zip(r[1:], (x0, x0, y0, y0)))) if r[0] == 'box' else \
-            ('d', float((r[1] - x0) / scale), float((r[2] - y0) / scale), float(r[3] / scale))
+        boxes[k] = ('b', *(double((c - o) / scale) for c, o in zip(r[1:], (x0, x0, y0, y0)))) if r[0] == 'box' else \
+            ('d', double((r[1] - x0) / scale), double((r[2] - y0) / scale), double(r[3] / scale))
 
     def room(cx, cy):
         far, near = 0.0, math.inf
@@ -183,8 +188,8 @@ def witness(regions, i, j, sites):
                 else:
                     near = min(near, d - b[3])
         return near - far
-    ax, ay = (float((c - o) / scale) for c, o in zip(mid[i], (x0, y0)))
-    bx, by = (float((c - o) / scale) for c, o in zip(mid[j], (x0, y0)))
+    ax, ay = (double((c - o) / scale) for c, o in zip(mid[i], (x0, y0)))
+    bx, by = (double((c - o) / scale) for c, o in zip(mid[j], (x0, y0)))
     nx, ny = ay - by, bx - ax
     starts = [0.0] + [s * 2.0 ** e for e in range(-6, 14, 2) for s in (1, -1)]
     c = max((((ax + bx) / 2 + t * nx, (ay + by) / 2 + t * ny) for t in starts), key=lambda q: room(*q))
