@@ -27,7 +27,7 @@ typedef enum dyd_outcome {
   DYD_OUTCOME_NONE = 0,  /* not run yet */
   DYD_OUTCOME_DECIDED,   /* no indeterminate pair and no tie is left */
   DYD_OUTCOME_CERTIFIED, /* the requested bound holds */
-  DYD_OUTCOME_FIXPOINT,  /* nothing that is open can be refined: ties, fixed rectangles */
+  DYD_OUTCOME_FIXPOINT,  /* only better measurements can decide more: fixed rectangles, ties */
   DYD_OUTCOME_BUDGET,    /* bits, stages, calls, pairs or seconds spent */
   DYD_OUTCOME_CANCELLED,
   DYD_OUTCOME_ERROR /* a stream failed or memory ran out; what was stated before stays valid. (GMP, MPFR and FLINT end

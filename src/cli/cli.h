@@ -236,6 +236,9 @@ int cli_exit_cut(void);
 int cli_exit_status(dyd_outcome outcome);
 /* Why no more is known, and what to do. Static storage. */
 const char *cli_outcome_advice(const dyd_engine *e);
+/* The line that sums up a result with undecided pairs (dyd_pair_status counts) and says what to do next; advice NULL:
+ * that of the outcome. */
+void cli_note_pairs(const cli_session *s, dyd_outcome outcome, const size_t count[4], const char *advice);
 /* Writes anything to the file `name` (NULL: standard output), whole or not at all. 0, or an exit status after a
  * message. */
 int cli_write_file(const char *name, const cli_session *s, cli_print_fn print);

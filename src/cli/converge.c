@@ -110,7 +110,7 @@ static int note_cut(const cli_session *s) {
   const converge_run *r = s->state;
   const dyd_stage_row *last = last_stage(r);
   if (!last || !cli_deadline_passed() || (last->bounded && (last->voronoi || !r->table.window))) return 0;
-  cli_note(&s->o, "budget: the time is used up: bounds of stage %llu are left out; raise --timeout",
+  cli_note(&s->o, "budget: time limit reached: no bounds of stage %llu (raise --timeout)",
            (unsigned long long)last->stage);
   return CLI_BUDGET;
 }
@@ -157,7 +157,7 @@ static int replay_find(cli_session *s) {
   r->replayed = dyd_trace_replay(&r->table, in, &how, &err);
   cli_input_close(in);
   if (r->replayed == DYD_CANCELLED)
-    cli_complain("the time is used up after %zu stages of the trace; raise --timeout", r->table.count);
+    cli_complain("time limit reached after %zu stages of the trace (raise --timeout)", r->table.count);
   else if (r->replayed != DYD_OK)
     cli_complain_at(s->o.replay, &err);
   return r->replayed == DYD_E_NOMEM ? CLI_FAILED : converge_found(s);
@@ -329,7 +329,7 @@ static int schedules_summary(cli_session *s, int status) {
   const dyd_check_report *r = &run->report;
   if (status) return status;
   if (r->fault == DYD_CHECK_FINE && run->late)
-    cli_complain("the time is used up after %" PRIu64 " schedules; raise --timeout", r->schedules);
+    cli_complain("time limit reached after %" PRIu64 " schedules (raise --timeout)", r->schedules);
   if (r->fault == DYD_CHECK_FINE) return run->late ? CLI_BUDGET : CLI_OK;
   cli_complain("%s: %s", dyd_check_fault_text(r->fault), r->message);
   if (!s->o.trace)

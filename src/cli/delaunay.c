@@ -167,8 +167,7 @@ static int disc_pairs_outcome(const cli_session *s) {
   count_pairs(count, &r->pairs);
   if (!dyd_delaunay_is_capped(dyd_engine_delaunay(s->engine)) && count[DYD_INDETERMINATE] + count[DYD_TIE] == 0)
     return CLI_OK;
-  cli_note(&s->o, "%s: %zu legal, %zu indeterminate, %zu tie among the discs; %s", dyd_outcome_text(s->outcome),
-           count[DYD_LEGAL], count[DYD_INDETERMINATE], count[DYD_TIE], cli_outcome_advice(s->engine));
+  if (!s->o.quiet) cli_note_pairs(s, s->outcome, count, NULL);
   return cli_exit_status(s->outcome);
 }
 
@@ -258,8 +257,8 @@ static int voronoi_summary(cli_session *s, int status) {
     s->bounds = &r->bounds;
     if (r->cut)
       cli_note(&s->o,
-               "budget: the time is used up: %zu cells or regions are not worked out, and the window stands for "
-               "them; raise --timeout",
+               "budget: time limit reached: %zu cells or regions are not worked out, and the whole window takes their "
+               "place (raise --timeout)",
                r->cut);
     if (r->coincident)
       cli_note(&s->o,
@@ -357,8 +356,8 @@ static dyd_status sphere_prove(FILE *out, const cli_session *s, dyd_error *err) 
 }
 
 static const char *sphere_advice(const cli_session *s) {
-  if (dyd_engine_outcome(s->engine) != DYD_OUTCOME_DECIDED) return cli_outcome_advice(s->engine);
-  return "pairs around the gap that all is projected from stay open; smaller radii decide more";
+  if (dyd_engine_outcome(s->engine) != DYD_OUTCOME_DECIDED) return NULL;
+  return "pairs around the centre of projection are undecided (smaller radii decide more)";
 }
 
 static int sphere_summary(cli_session *s, int status) {
@@ -372,8 +371,7 @@ static int sphere_summary(cli_session *s, int status) {
   if (dyd_sphere_pairs(&pairs, sphere) != DYD_OK) return cli_complain_memory();
   count_pairs(count, &pairs);
   dyd_pair_list_clear(&pairs);
-  cli_note(&s->o, "%s: %zu legal, %zu indeterminate, %zu tie; %s", dyd_outcome_text(outcome), count[DYD_LEGAL],
-           count[DYD_INDETERMINATE], count[DYD_TIE], sphere_advice(s));
+  if (!s->o.quiet) cli_note_pairs(s, outcome, count, sphere_advice(s));
   return cli_exit_status(outcome);
 }
 

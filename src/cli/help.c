@@ -35,11 +35,11 @@ static const help_term help_coordinate_forms[] = {
     {NULL, NULL}};
 
 static const help_term help_exit_statuses[] = {
-    {"0", "decided (no pair is open), or certified (the bound asked for holds)"},
+    {"0", "decided (every pair), or certified (the requested bound holds)"},
     {"1", "bad input, a failed point, or a failure to read or write; what was known before a point failed is written"},
     {"2", "bad usage"},
-    {"3", "fixpoint: nothing that is open can be refined (ties, fixed rectangles)"},
-    {"4", "budget: bits, pairs or time are used up"},
+    {"3", "fixpoint: only better measurements can decide more (or ties are left). The normal result of measurements"},
+    {"4", "budget: the limit of bits, pairs or time was reached"},
     {"5", "cancelled (Ctrl-C: the first one stops the work and writes what is known)"},
     {NULL, NULL}};
 
@@ -65,26 +65,26 @@ static const help_term help_results[] = {
      "for degrees. csv is plain, the names of its columns first. --comments puts lines in front of it: \"# alias 7 3\" "
      "for "
      "each point 7 that is the same as point 3; where the cap on pairs was met, \"# capped\" and \"# face i j k ...\" "
-     "name the faces within which further pairs may be possible; of voronoi the window and two bounds, the area that "
-     "is "
-     "undetermined, and how far an undetermined point can be from the true diagram. Without it standard error gets "
+     "name the faces within which further pairs may be possible; of voronoi the window and two bounds, the undecided "
+     "area, "
+     "and the distance of undecided points to the true diagram. Without it standard error gets "
      "these, "
      "in short. Files whose names end in .gz or .zst are packed."},
     {"json",
-     "delaunay: the rectangles reached (exact, and as decimals rounded outward), aliases, pairs, sure triangles, "
+     "delaunay: the rectangles reached (exact, and as decimals rounded outward), aliases, pairs, certain triangles, "
      "outcome, bounds of area and Hausdorff distance (exact, and rounded up), counters. voronoi: besides these "
      "the exact boundaries, arc by arc (line or parabola, focus, feature, ends as (a + b sqrt(c)) / d), the "
      "polygons, edges with their vertices, rays with bounds of their directions. Exact numbers are texts m*2^e "
      "or p/q."},
-    {"obj", "vertices \"v x y 0\", legal edges l, sure triangles f; how far vertices are off is in a comment."},
+    {"obj", "vertices \"v x y 0\", legal edges l, certain triangles f; a comment bounds the error of vertices."},
     {"svg, pdf, png",
-     "Lines that would be one mass are shown by their density; a crowd too small to see is told of with "
-     "the --window that shows it. In svg text is text, and what is drawn has an id (pair-3-7) and a "
-     "title. The picture of nearest shows the disc that is surely free of points, the ring that surely "
-     "holds the nearest one, and who reaches into it."},
-    {"polygons of voronoi", "For every point an inner polygon, all of whose points are surely nearest to it, and outer "
-                            "polygons that hold all points possibly nearest; vertices are dyadic, so that anybody can "
-                            "check them by comparing distances in integers. The cell of an exact point among exact "
+     "Lines that would be one mass are shown by their density; a cluster too small to see is named with "
+     "the --window that shows it. In svg, text is text, and each element has an id (pair-3-7) and a "
+     "title. The picture of nearest shows the disc that is certainly free of points, the ring that certainly "
+     "holds the nearest point, and the rectangles that reach into it."},
+    {"polygons of voronoi", "For each point a certain polygon, inside its cell for every choice, and possible "
+                            "polygons that contain its cell for every choice; vertices are dyadic, so that distances "
+                            "can be compared in integers. The cell of an exact point among exact "
                             "points is one polygon (kind exact), whose vertices are rounded by at most vertex_error. "
                             "All lie in the window."},
     {"converge", "One line for each stage: bits asked for (least, most, total), largest and median width, pairs by "

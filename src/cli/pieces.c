@@ -100,12 +100,12 @@ static dyd_status pieces_write(FILE *out, const cli_session *s, dyd_error *err) 
 static int pieces_summary(cli_session *s, int status) {
   if (status) return status;
   if (s->known && s->outcome == DYD_OUTCOME_CANCELLED)
-    cli_note(&s->o, "cancelled: stopped on request; this much was known before");
+    cli_note(&s->o, "cancelled: stopped on request; the result is partial");
   if (s->known && s->outcome == DYD_OUTCOME_FIXPOINT)
-    cli_note(&s->o, "fixpoint: nothing that is open can be refined: exact ties or fixed rectangles");
+    cli_note(&s->o, "fixpoint: only better measurements can decide more, and nothing decides ties");
   if (s->known && s->outcome == DYD_OUTCOME_BUDGET)
-    cli_note(&s->o, "budget: the precision or the time is used up; raise --max-bits or --timeout, unless the points "
-                    "are tied");
+    cli_note(&s->o, "budget: limit of precision or time reached (raise --max-bits or --timeout, unless the points "
+                    "are tied)");
   return cli_exit_status(s->outcome);
 }
 
@@ -364,7 +364,7 @@ static dyd_status places_prove(FILE *out, const cli_session *s, dyd_error *err) 
 static const char *nearest_reason(dyd_outcome outcome) {
   if (outcome == DYD_OUTCOME_FIXPOINT) return "no refinement can decide: ties or fixed rectangles";
   if (outcome == DYD_OUTCOME_BUDGET)
-    return "the precision or time is used up; raise --max-bits or --timeout, unless the distances are equal";
+    return "limit of precision or time reached (raise --max-bits or --timeout, unless the distances are equal)";
   return "stopped on request";
 }
 
@@ -377,10 +377,11 @@ static void note_places(const cli_session *s) {
   if (!s->o.queries)
     cli_note(&s->o, "%s: %zu possibly nearest; %s", outcome, q->place[0].found.count, why);
   else if (q->answered < q->count)
-    cli_note(&s->o, "%s: only the first %zu of %zu places are answered, %zu of them without a sure nearest point; %s",
+    cli_note(&s->o,
+             "%s: only the first %zu of %zu places are answered, %zu of them without a certain nearest point; %s",
              outcome, q->answered, q->count, open, why);
   else
-    cli_note(&s->o, "%s: %zu of %zu places have no sure nearest point; %s", outcome, open, q->count, why);
+    cli_note(&s->o, "%s: %zu of %zu places have no certain nearest point; %s", outcome, open, q->count, why);
 }
 
 static int nearest_summary(cli_session *s, int status) {

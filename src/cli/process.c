@@ -308,7 +308,7 @@ static void *deadline_watch(void *unused) {
   deadline_wait(ends + grace);
   int status = atomic_load(&written);
   if (status >= 0) _exit(status);
-  cli_complain("budget: the time is used up, and %s does not end: nothing of it is known; raise --timeout",
+  cli_complain("budget: time limit reached during %s; no result was written (raise --timeout)",
                atomic_load(&current_phase));
   signals_unlink();
   _exit(CLI_BUDGET);

@@ -145,7 +145,8 @@ static bool points_are_degrees(const dyd_engine *e) {
 static void note_lines(const cli_options *o, const dyd_read_report *r) {
   if (!r->rows) cli_note(o, "%s: there are no points in this file", o->file);
   if (r->missing)
-    cli_note(o, "%s: %zu of %zu rows are left out, as a coordinate or radius is missing; the others keep their numbers",
+    cli_note(o,
+             "%s: %zu of %zu rows are skipped because a coordinate or radius is missing; the others keep their numbers",
              o->file, r->missing, r->rows);
   if (r->commented)
     cli_note(o, "%s: lines that begin with # or %% and may be rows: %zu; they are left out as comments", o->file,
@@ -180,8 +181,8 @@ int cli_points_read(dyd_engine *e, cli_options *o, bool noting) {
   if (r.merged) cli_note(o, "%s: %zu rows are merged with earlier ones of equal coordinates", o->file, r.merged);
   if (r.shared)
     cli_note(o,
-             "%s: %zu rectangles have the centre of another one, so that what is next to them stays undecided; if "
-             "equal coordinates are one point, give --merge",
+             "%s: %zu rectangles have the centre of another one, so pairs next to them cannot be decided (if "
+             "equal coordinates are one point: --merge)",
              o->file, r.shared);
   if (r.swapped && !o->plane)
     cli_note(
@@ -428,26 +429,40 @@ int cli_exit_status(dyd_outcome outcome) {
 static const char *budget_advice(dyd_budget b) {
   switch (b) {
   case DYD_BUDGET_BITS:
-    return "the precision is used up; raise --max-bits, unless the points are tied";
+    return "precision limit reached (raise --max-bits, unless the points are tied)";
   case DYD_BUDGET_PAIRS:
-    return "the cap on stored pairs was met; raise --max-pairs";
+    return "limit of stored pairs reached (raise --max-pairs)";
   case DYD_BUDGET_SECONDS:
-    return "the time is used up; raise --timeout";
+    return "time limit reached (raise --timeout)";
   default:
-    return "the budget is used up";
+    return "limit reached";
   }
+}
+
+void cli_note_pairs(const cli_session *s, dyd_outcome outcome, const size_t count[4], const char *advice) {
+  char ties[40] = "";
+  if (count[DYD_TIE]) snprintf(ties, sizeof ties, ", %zu tied", count[DYD_TIE]);
+  if (outcome == DYD_OUTCOME_FIXPOINT && !advice)
+    advice = count[DYD_INDETERMINATE]
+                 ? s->o.sphere || s->o.discs ? "only better measurements can decide them"
+                                             : "only better measurements can decide them (see dyadel plan)"
+                 : "ties: points on one line or circle, which no refinement decides (see --list-ties groups)";
+  const bool plain = outcome == DYD_OUTCOME_FIXPOINT || outcome == DYD_OUTCOME_DECIDED;
+  cli_complain("%s%s%zu legal, %zu indeterminate%s pairs; %s", plain ? "" : dyd_outcome_text(outcome),
+               plain ? "" : ": ", count[DYD_LEGAL], count[DYD_INDETERMINATE], ties,
+               advice ? advice : cli_outcome_advice(s->engine));
 }
 
 const char *cli_outcome_advice(const dyd_engine *e) {
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
   switch (dyd_engine_outcome(e)) {
   case DYD_OUTCOME_FIXPOINT:
-    return "nothing that is open can be refined: ties or fixed rectangles";
+    return "only better measurements can decide more, and nothing decides ties";
   case DYD_OUTCOME_BUDGET:
     dyd_engine_get_counters(&c, e, NULL);
     return budget_advice(c.spent);
   case DYD_OUTCOME_ERROR:
-    return "a point failed; this much was known before";
+    return "a point failed; the result is the one before it";
   default:
     return "stopped on request";
   }
@@ -467,7 +482,7 @@ bool cli_run_was_whole(const dyd_engine *e) {
 dyd_status cli_session_cut(dyd_status st, const dyd_error *err) {
   bool late = cli_deadline_passed();
   if (st != DYD_CANCELLED) return st;
-  cli_complain("%s: %s%s", late ? "budget" : "cancelled", err->message, late ? "; raise --timeout" : "");
+  cli_complain("%s: %s%s", late ? "budget" : "cancelled", err->message, late ? " (raise --timeout)" : "");
   return DYD_OK;
 }
 
@@ -491,8 +506,8 @@ void cli_session_lacks(cli_session *s, dyd_outcome outcome, const char *what) {
 int cli_session_stopped(cli_session *s, const char *what) {
   cli_session_settle(s);
   bool late = cli_deadline_passed() || session_is_late(s->engine);
-  cli_complain("%s before %s known: there is no result to write%s", late ? "budget: the time was used up" : "cancelled",
-               what, late ? "; raise --timeout" : "");
+  cli_complain("%s before %s known: there is no result to write%s", late ? "time limit reached" : "cancelled", what,
+               late ? " (raise --timeout)" : "");
   return late ? CLI_BUDGET : CLI_CANCELLED;
 }
 
@@ -501,7 +516,7 @@ int cli_session_stopped(cli_session *s, const char *what) {
 /* Nothing is written since work was cut: says why. Exit status. */
 static int write_was_cut(dyd_status st, const cli_options *o, const dyd_error *err) {
   if (cli_deadline_passed()) {
-    cli_complain("budget: the time was used up before the result was known: nothing is written; raise --timeout");
+    cli_complain("time limit reached before the result was known: nothing is written; raise --timeout");
     return CLI_BUDGET;
   }
   if (st == DYD_CAPPED)
@@ -543,7 +558,7 @@ static int session_prove(cli_session *s, int status) {
   const char *certificate = s->o.certificate;
   if (!certificate || !s->work->prove || (status && !cli_output_lost_reader())) return status;
   if (cli_deadline_passed()) {
-    cli_complain("budget: the time is used up, so no certificate is written; raise --timeout");
+    cli_complain("budget: time limit reached, so no certificate is written (raise --timeout)");
     return CLI_BUDGET;
   }
   cli_progress_phase(s->progress, "the certificate");
@@ -594,9 +609,9 @@ static void note_comments(cli_session *s) {
  * powers, as goals are given. */
 
 static const char *goal_subject(dyd_goal goal) {
-  static const char *const subject[] = {[DYD_GOAL_AREA] = "the undetermined area of the triangulation",
+  static const char *const subject[] = {[DYD_GOAL_AREA] = "the undecided area of the triangulation",
                                         [DYD_GOAL_HAUSDORFF] = "the distance to the true triangulation",
-                                        [DYD_GOAL_VORONOI_AREA] = "the undetermined area of the diagram",
+                                        [DYD_GOAL_VORONOI_AREA] = "the undecided area of the diagram",
                                         [DYD_GOAL_VORONOI_HAUSDORFF] = "the distance to the true diagram"};
   return subject[goal];
 }
@@ -663,8 +678,7 @@ static void session_note_outcome(const cli_session *s) {
   if (note_goal(s, cli_outcome_advice(s->engine))) return;
   size_t count[4];
   dyd_delaunay_count(count, pd);
-  cli_complain("%s: %zu legal, %zu indeterminate, %zu tie; %s", dyd_outcome_text(outcome), count[DYD_LEGAL],
-               count[DYD_INDETERMINATE], count[DYD_TIE], cli_outcome_advice(s->engine));
+  cli_note_pairs(s, outcome, count, NULL);
 }
 
 /* Rectangles that meet can be chosen as points arbitrarily near to each other, so their pair is possible: going over
@@ -707,7 +721,7 @@ static void note_spacing(const dyd_delaunay *pd, const cli_options *o) {
   if (!count_meetings(&rectangles, &meeting, pd) || 2 * meeting <= rectangles) return;
   cli_note(o,
            "the radius is large for the spacing of the points: %zu of %zu rectangles meet another one, so that few "
-           "edges can be sure; a smaller radius decides more",
+           "pairs can be decided (a smaller radius decides more)",
            meeting, rectangles);
 }
 

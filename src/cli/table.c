@@ -22,7 +22,7 @@ enum {
 };
 
 const cli_command cli_commands[CLI_COMMANDS] = {
-    [CLI_DELAUNAY] = {"delaunay", "FILE", "which pairs of points are edges: surely, possibly, by a tie",
+    [CLI_DELAUNAY] = {"delaunay", "FILE", "edges of the Delaunay triangulation: certain, possible, tied",
                       "Delaunay triangulation of the points. A pair is legal (an edge whatever the points\n"
                       "in the rectangles are, or one place if the two meet), indeterminate (an edge for some\n"
                       "choice), a tie (as indeterminate, but no refinement can decide it), or not listed\n"
@@ -30,14 +30,14 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                       DYD_CONTENT_DELAUNAY, &cli_delaunay},
     [CLI_VORONOI] = {"voronoi", "FILE", "the cells of the points on a window, with certified bounds",
                      "Voronoi diagram of the points on a window: for each point the part of the window that\n"
-                     "is surely and the part that is possibly nearest to it, the vertices that are sure with\n"
-                     "enclosures, and bounds of what is undetermined. The goals area:M and hausdorff:M of\n"
+                     "certainly belongs to its cell and the part that possibly does, the certain vertices with\n"
+                     "enclosures, and bounds of the undecided area. The goals area:M and hausdorff:M of\n"
                      "--until are those of the diagram.",
                      DYD_CONTENT_VORONOI, &cli_voronoi},
     [CLI_CONVERGE] = {"converge", "FILE", "a run stage by stage, as a table",
                       "The run of delaunay, with one line for each stage: precision asked for, widths,\n"
-                      "statuses, bounds of what is open, decisions, calls of points, seconds. The first\n"
-                      "stage asks for 4 bits, unless told otherwise.",
+                      "statuses, bounds of the undecided area, decisions, calls of points, seconds. The first\n"
+                      "stage asks for 4 bits (--start-bits).",
                       DYD_CONTENT_CONVERGENCE, &cli_converge},
     [CLI_CHECK] = {"check", "FILE", "try random refinement schedules, and look for broken promises",
                    "Runs random refinement schedules over the points and checks, after each stage, that\n"
@@ -55,20 +55,20 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                     DYD_CONTENT_NONE, &cli_verify},
     [CLI_DISC] = {"disc", "FILE", "the partial disc of the first three points, and where the others are",
                   "The six critical circles of the first three points, exactly, the box of all centres\n"
-                  "of circles through them, and for each other point whether it is surely inside or\n"
-                  "outside of all these circles. Points are refined until that is known.",
+                  "of circles through them, and for each other point whether it is certainly inside or\n"
+                  "outside all these circles. Points are refined until that is known.",
                   DYD_CONTENT_DISC, &cli_disc},
     [CLI_BISECTOR] = {"bisector", "FILE", "the partial bisector of the first two points",
-                      "The two curves that bound what is surely nearer to the one point, and to the other:\n"
+                      "The two curves that bound the regions certainly nearer to one point and to the other:\n"
                       "each a chain of at most seven arcs of lines and parabolas, with exact ends. (Sides of\n"
                       "rectangles that are not dyadic, as of [0,1.2], are rounded outward before.) The\n"
                       "points are refined until their rectangles are disjoint.",
                       DYD_CONTENT_BISECTOR, &cli_bisector},
-    [CLI_NEAREST] = {"nearest", "FILE X Y", "which points are surely, which are possibly nearest to a place",
-                     "The points that are nearest to the place (X,Y), coordinates of any form: sure when\n"
+    [CLI_NEAREST] = {"nearest", "FILE X Y", "the points that are certainly or possibly nearest to a place",
+                     "The points nearest to the place (X,Y), coordinates of any form: certain when\n"
                      "exactly one is, whatever the points in the rectangles are; possible otherwise; with\n"
                      "bounds of the distance. The place and the points concerned are refined until one is\n"
-                     "sure. --queries FILE asks of many places at once.",
+                     "certain. --queries FILE answers many places at once.",
                      DYD_CONTENT_NEAREST, &cli_nearest},
     [CLI_TOLERANCE] = {"tolerance", "FILE", "how far the points may move before edges are lost or born",
                        "For exact points: for every edge the distance up to which all points may move at\n"
@@ -78,10 +78,11 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                        "empty: never. k and l are the points that bind.",
                        DYD_CONTENT_TOLERANCE, &cli_tolerance},
     [CLI_PLAN] = {"plan", "FILE", "which points to measure next, and how accurately, so that all is decided",
-                  "For points known as rectangles: a list of points, the most telling first, so that no\n"
-                  "pair is left open if they turn out within half_width_needed of the middles of their\n"
-                  "rectangles. That is proved by one triangulation. Pairs that tie if all points are in\n"
-                  "the middle are left aside. Exit status 3: some pairs stay open all the same.",
+                  "For points known as rectangles: the points to measure, those that decide most first.\n"
+                  "If each new position is within half_width_needed of the old one (the centre of its\n"
+                  "rectangle), every pair is decided; otherwise run plan again. One triangulation proves\n"
+                  "it. Pairs that tie at the centres are not counted. Exit status 3: some pairs stay\n"
+                  "undecided.",
                   DYD_CONTENT_PLAN, &cli_plan},
 };
 
@@ -127,7 +128,7 @@ const cli_option cli_option_table[] = {
      "with --sphere: the unit of radii without one: m, mm, cm, km,\nft, in, deg, arcmin or arcsec",
      AT(read.radius_unit)},
     {"radius-scale", 0, "K", CLI_TEXT, TEXT, CLI_INPUT,
-     "multiply all radii by K: 0.001 for millimetres beside\ncoordinates in metres, 3 for a bound of 3 sigma",
+     "multiply all radii by K: 0.001 for millimetres with\ncoordinates in metres, 3 for a bound of 3 sigma",
      AT(read.radius_scale)},
     {"sigma-column", 0, "S", CLI_TEXT, TEXT, CLI_INPUT,
      "one standard deviation (1 sigma) of normal errors of each\npoint, with --confidence; SX,SY for x and y apart, "
@@ -139,10 +140,10 @@ const cli_option cli_option_table[] = {
      "everything\nthat is stated holds, all together",
      AT(read.confidence)},
     {"cost-column", 0, "NAME", CLI_TEXT, (RUN & ~BIT(CLI_CHECK)) | BIT(CLI_PLAN), CLI_INPUT,
-     "what asking a point once more costs stands in this column:\ncheap ones are asked before dear ones; plan: plans "
-     "are made\ncheap, not short",
+     "cost of measuring each point again: the schedule prefers\ncheap points; plan minimises the total cost instead "
+     "of\nthe number of points",
      AT(read.cost_column)},
-    {"id", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT, "write what stands in this column beside row numbers", AT(read.id)},
+    {"id", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT, "column of identifiers, written next to row numbers", AT(read.id)},
     {"carry", 0, "NAME,...", CLI_TEXT, TEXT & ~BIT(CLI_VERIFY), CLI_INPUT,
      "layers with a row for each point repeat these columns of\nFILE; all: all but x and y", AT(read.carry)},
     {"in-layer", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT,
@@ -150,7 +151,7 @@ const cli_option cli_option_table[] = {
      "are\ncolumns",
      AT(in_layer)},
     {"skip-missing", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
-     "leave out rows whose coordinate or radius is missing: empty,\nNA, N/A, NaN, null, None, -, errors of a "
+     "skip rows whose coordinate or radius is missing: empty,\nNA, N/A, NaN, null, None, -, errors of a "
      "spreadsheet; "
      "the\nothers keep their row numbers",
      AT(read.skip_missing)},
@@ -208,7 +209,7 @@ const cli_option cli_option_table[] = {
     {"timeout", 0, "SECONDS", CLI_SECONDS, CLI_ALL, CLI_REFINEMENT, "end after this time, reading and writing included",
      AT(engine.seconds)},
     {"schedule", 0, "WHICH", CLI_CHOICE, RUN, CLI_REFINEMENT,
-     "adaptive (default): refine what is undecided;\nuniform: refine all points", AT(engine.schedule),
+     "adaptive (default): refine undecided pairs;\nuniform: refine all points", AT(engine.schedule),
      WORDS("adaptive uniform")},
     {"start-bits", 0, "B", CLI_INTEGER, RUN, CLI_REFINEMENT, "precision of the first stage (default 64; converge: 4)",
      AT(engine.start_bits), RANGE(1, DYD_EXP_LIMIT), GIVEN(start_set)},

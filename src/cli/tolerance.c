@@ -297,7 +297,7 @@ static int plan_summary(cli_session *s, int status) {
   if (status) return status;
   if (of->cut) return cli_exit_cut();
   if (of->left)
-    cli_note(&s->o, "%zu of %zu pairs stay open with this plan; give a finer --accuracy", of->left, of->open);
+    cli_note(&s->o, "%zu of %zu pairs stay undecided with this plan (give a finer --accuracy)", of->left, of->open);
   return of->left ? CLI_FIXPOINT : CLI_OK;
 }
 

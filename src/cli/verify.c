@@ -125,7 +125,8 @@ static void print_pairs(FILE *out, const dyd_certificate_report *r) {
   print_if(out, r->sphere && !r->gap, "checked: %zu legal pairs with the place that is projected from\n",
            r->legal_around);
   print_if(out, r->second, "checked: from a gap between them as well: %zu legal pairs\n", r->second_legal);
-  print_if(out, r->connected, "checked: %zu sure triangles, %zu sure corners of the hull\n", r->triangles, r->corners);
+  print_if(out, r->connected, "checked: %zu certain triangles, %zu certain corners of the hull\n", r->triangles,
+           r->corners);
   print_if(out, r->illegal_chains, "checked: %zu illegal pairs within undecided faces, each by its chain\n",
            r->illegal_chains);
   print_if(out, r->illegal_boxes, "checked: %llu illegal pairs within undecided faces, by boxes that cover the plane\n",
@@ -135,9 +136,8 @@ static void print_pairs(FILE *out, const dyd_certificate_report *r) {
            r->gap ? ", nor of two neighbours of the gap," : "");
   print_if(out, (r->area || r->hausdorff) && !(r->gaps & DYD_GAP_BOUNDS),
            "checked: the bounds of area and Hausdorff distance\n");
-  print_if(out, r->diagram, "checked: the undetermined area of the diagram, by %zu polygons inside cells\n",
-           r->polygons);
-  print_if(out, r->distance_proved, "checked: the distance of undetermined points to the diagram\n");
+  print_if(out, r->diagram, "checked: the undecided area of the diagram, by %zu polygons inside cells\n", r->polygons);
+  print_if(out, r->distance_proved, "checked: the distance of undecided points to the diagram\n");
   print_if(out, r->identities || r->tie_bounds,
            "checked: what points are described to be: %zu identities, %zu bounds\n", r->identities, r->tie_bounds);
   print_if(out, r->tie > r->ties_unproved, "checked: %zu ties, on empty circles or lines of the hull\n",
@@ -180,18 +180,18 @@ static void print_proved(FILE *out, const dyd_certificate_report *r) {
 
 /* Undecided pairs, without anything to prove. */
 static void print_open(FILE *out, const dyd_certificate_report *r) {
-  print_if(out, r->indeterminate, "open: %zu indeterminate pairs, of which nothing is stated\n", r->indeterminate);
-  print_if(out, r->capped, "open: %llu pairs within %zu undecided faces: the cap was met, nothing is stated\n",
+  print_if(out, r->indeterminate, "undecided: %zu indeterminate pairs, which have no proof\n", r->indeterminate);
+  print_if(out, r->capped, "undecided: %llu pairs within %zu undecided faces: the limit of pairs was reached\n",
            (unsigned long long)r->unproved, r->undecided_sets);
 }
 
 /* Why an outcome is no more than a word. */
 static const char *outcome_reason(const dyd_certificate_report *r) {
   if (strcmp(r->outcome, "fixpoint") == 0)
-    return r->bound ? "what is narrowed may decide some of what is open" : "--points may show who cannot be narrowed";
+    return r->bound ? "narrower rectangles may decide more" : "--points may show which points cannot be narrowed";
   if (strcmp(r->outcome, "decided") == 0 || strcmp(r->outcome, "certified") == 0)
-    return "what it rests on is not proved";
-  return "why the run ended leaves no proof";
+    return "a statement that it needs is not proved";
+  return "the reason why the run ended has no proof";
 }
 
 static void print_part_gaps(FILE *out, const dyd_certificate_report *r) {
@@ -223,7 +223,7 @@ static void print_gaps(FILE *out, const dyd_certificate_report *r) {
            "not proved: that %zu aliases of points that are not exact are the same points\n", r->aliases_unproved);
   print_if(out, r->gaps & DYD_GAP_BOUNDS,
            "not proved: the bounds of area and Hausdorff distance, as more pairs may be possible\n");
-  print_if(out, r->gaps & DYD_GAP_DISTANCE, "not proved: the distance of undetermined points to the diagram\n");
+  print_if(out, r->gaps & DYD_GAP_DISTANCE, "not proved: the distance of undecided points to the diagram\n");
   print_part_gaps(out, r);
   print_if(out, r->gaps & DYD_GAP_OUTCOME, "not proved: the outcome %s (%s)\n", r->outcome, outcome_reason(r));
   print_if(out, r->undescribed, "not proved: that %zu of the points given are what the certificate describes%s\n",

@@ -132,7 +132,7 @@ static dyd_status rows_of_pairs(dyd_table *t, const dyd_output *o) {
 static dyd_status rows_of_graph(dyd_table *t, const dyd_output *o) {
   const dyd_result *r = o->what;
   for (size_t k = 0; k < r->graph.count; k++)
-    row_pair(t, r->graph.item[k].i, r->graph.item[k].j, r->graph.item[k].sure ? "sure" : "possible");
+    row_pair(t, r->graph.item[k].i, r->graph.item[k].j, r->graph.item[k].sure ? "certain" : "possible");
   return DYD_OK;
 }
 
@@ -358,15 +358,14 @@ static dyd_status plan_comments(dyd_table *t, const dyd_output *o) {
   open = dyd_survey_get(plan)->open, ties = dyd_survey_get(plan)->ties, left = dyd_survey_get(plan)->left;
   alias_comments(t, o);
   if (dyd_survey_get(plan)->cut)
-    fprintf(o->out, "# cut: the plan is not finished: %zu of %zu pairs are open after its first %zu points\n", left,
-            open, rows);
+    fprintf(o->out, "# cut: the plan is not finished: %zu of %zu pairs are undecided after its first %zu points\n",
+            left, open, rows);
   else if (left)
-    fprintf(o->out, "# plan %zu points: not sufficient, %zu of %zu pairs stay open\n", rows, left, open);
+    fprintf(o->out, "# plan %zu points: not sufficient, %zu of %zu pairs stay undecided\n", rows, left, open);
   else
-    fprintf(
-        o->out,
-        "# plan %zu points: sufficient if they turn out within these accuracies of their nominal places; verified\n",
-        rows);
+    fprintf(o->out,
+            "# plan %zu points: sufficient if each new position is within half_width_needed of the old one; verified\n",
+            rows);
   if (ties)
     fprintf(o->out, "# ties %zu: pairs that no accuracy decides, if points are at their nominal places\n", ties);
   return DYD_OK;

@@ -95,8 +95,8 @@ static dyd_status cell_polygons(void *context, uint32_t i, const dyd_shape *shap
   dyd_polygon_list outer = {0};
   dyd_status st = dyd_shape_inner(&inner, shape);
   if (st == DYD_OK && !row->exact) st = dyd_shape_outer(&outer, shape);
-  if (st == DYD_OK) cell_polygon(t, row->exact ? "exact" : "surely nearest", i, &inner, row);
-  for (size_t k = 0; st == DYD_OK && k < outer.count; k++) cell_polygon(t, "possibly nearest", i, &outer.item[k], row);
+  if (st == DYD_OK) cell_polygon(t, row->exact ? "exact" : "certain", i, &inner, row);
+  for (size_t k = 0; st == DYD_OK && k < outer.count; k++) cell_polygon(t, "possible", i, &outer.item[k], row);
   dyd_polygon_list_clear(&outer);
   dyd_polygon_clear(&inner);
   return st;

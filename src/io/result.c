@@ -59,9 +59,9 @@ static void mark_hull(dyd_site_row *rows, const dyd_index_list *list, const char
 static dyd_status find_hull(dyd_site_row *rows, const dyd_result *r) {
   dyd_index_list sure = {0}, possible = {0};
   dyd_status st = r->sphere ? DYD_OK : dyd_delaunay_hull_vertices(&sure, &possible, r->pd);
-  for (size_t i = 0; i < r->count; i++) rows[i].hull = "not";
-  mark_hull(rows, &possible, "possibly");
-  mark_hull(rows, &sure, "surely");
+  for (size_t i = 0; i < r->count; i++) rows[i].hull = "no";
+  mark_hull(rows, &possible, "possible");
+  mark_hull(rows, &sure, "certain");
   dyd_index_list_clear(&possible);
   dyd_index_list_clear(&sure);
   return st;

@@ -32,7 +32,7 @@ typedef struct dyd_result {
 /* Properties of a site. */
 typedef struct dyd_site_row {
   size_t partners[4]; /* by dyd_pair_status; entry DYD_ILLEGAL is 0 */
-  const char *hull;   /* is it a corner of the hull: "surely", "possibly" (or on its boundary), "not" */
+  const char *hull;   /* is it a corner of the hull: "certain", "possible" (or on its boundary), "no" */
 } dyd_site_row;
 
 /* ---- a result of a plane or of a sphere ---- */

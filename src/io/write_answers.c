@@ -172,7 +172,7 @@ dyd_status dyd_bisector_comments(dyd_table *t, const dyd_output *o) {
   (void)t;
   fputs("# arcs of dl_far = ds_near, nearer to far on the left; x, y exact, lo rounded down, hi rounded up\n", o->out);
   if (!((const dyd_bisector_output *)o->what)->curve[0].count)
-    fputs("# the rectangles meet: nothing is surely nearer to one of them\n", o->out);
+    fputs("# the rectangles meet: no place is certainly nearer to one of them\n", o->out);
   return DYD_OK;
 }
 
@@ -237,7 +237,7 @@ dyd_status dyd_bisector_json(const dyd_output *o) {
 /* ---- nearest sites of one place or of many ---- */
 
 static const char *nearest_status(const dyd_nearest_answer *a) {
-  return a->sure ? "sure" : "possible";
+  return a->sure ? "certain" : "possible";
 }
 
 /* The distance from the place to site i, whatever both are. scratch: a rectangle. */

@@ -137,7 +137,7 @@ static void vtk_points(FILE *out, const dyd_result *r, const dyd_site_row *rows)
     dyd_sink_flush(&to);
   }
   dyd_sink_text(&to, "SCALARS hull int 1\nLOOKUP_TABLE default\n");
-  for (size_t i = 0; i < r->count; i++) vtk_number(&to, *rows[i].hull == 's' ? 2 : *rows[i].hull == 'p');
+  for (size_t i = 0; i < r->count; i++) vtk_number(&to, *rows[i].hull == 'c' ? 2 : *rows[i].hull == 'p');
   dyd_sink_flush(&to);
 }
 
@@ -169,7 +169,7 @@ static void vtk_write(FILE *out, const mesh *m, const dyd_site_row *rows) {
   if (m->r->sphere)
     fprintf(out, "sphere of radius 1, outcome %s; status 1 tie, 2 indeterminate, 3 legal; ", outcome);
   else
-    fprintf(out, "outcome %s; status 1 tie, 2 indeterminate, 3 legal; hull 1 possibly, 2 surely; ", outcome);
+    fprintf(out, "outcome %s; status 1 tie, 2 indeterminate, 3 legal; hull 1 possible, 2 certain; ", outcome);
   fprintf(out, "coordinates within %s of their %s\nASCII\nDATASET POLYDATA\nPOINTS %zu double\n", m->bound,
           m->r->sphere ? "places" : "rectangles", m->r->count);
   for (uint32_t i = 0; i < m->r->count; i++) mesh_put(m, out, i, "");
@@ -356,7 +356,7 @@ static dyd_status voronoi_vtk(const dyd_output *o) {
     fprintf(
         o->out,
         "# vtk DataFile Version 3.0\n"
-        "dyadel voronoi, outcome %s; kind 0 surely nearest, 1 possibly nearest, 2 box of a vertex, 3 undecided "
+        "dyadel voronoi, outcome %s; kind 0 certain, 1 possible, 2 box of a vertex, 3 undecided "
         "region, 4 edge, 5 tile; coordinates within 2^-52 of themselves\nASCII\nDATASET POLYDATA\nPOINTS %zu double\n",
         dyd_outcome_text(dyd_engine_outcome(g.d->engine)), g.points);
     for (size_t k = 0; k < g.points; k++) {

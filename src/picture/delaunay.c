@@ -50,7 +50,7 @@ static int style_of(dyd_pair_status status) {
 /* What lines of a style are called. */
 static const char *style_name(const delaunay_drawing *d, int k) {
   if (!d->r->graph_name) return style[k].name;
-  return style[k].status == DYD_LEGAL ? "sure" : "possible";
+  return style[k].status == DYD_LEGAL ? "certain" : "possible";
 }
 
 /* Is the rectangle more than a dot? */
@@ -120,7 +120,7 @@ static void draw_triangles(dyd_canvas *c, delaunay_drawing *d) {
     for (int corner = 0; corner < 3; corner++) row[corner] = dyd_engine_row(d->r->engine, v[corner]);
     char id[80], title[80];
     snprintf(id, sizeof id, "triangle-%zu-%zu-%zu", row[0], row[1], row[2]);
-    snprintf(title, sizeof title, "sure triangle %zu, %zu, %zu", row[0], row[1], row[2]);
+    snprintf(title, sizeof title, "certain triangle %zu, %zu, %zu", row[0], row[1], row[2]);
     dyd_canvas_name(c, id, title);
     dyd_picture_fill(c, TRIANGLE);
   }
@@ -226,9 +226,9 @@ static void delaunay_legend(dyd_canvas *c, void *context) {
   dyd_legend l;
   dyd_legend_begin(&l, c, &d->view);
   legend_edges(&l, d);
-  if (d->triangle) dyd_legend_patch(&l, TRIANGLE, "sure triangle");
+  if (d->triangle) dyd_legend_patch(&l, TRIANGLE, "certain triangle");
   dyd_legend_marks(&l, &d->marks, 0xf2c766);
-  if (d->region[2]) dyd_legend_patch(&l, style[2].region, graph ? "where a sure edge is" : "where a legal edge is");
+  if (d->region[2]) dyd_legend_patch(&l, style[2].region, graph ? "where a certain edge is" : "where a legal edge is");
   if (d->region[1])
     dyd_legend_patch(&l, style[1].region,
                      graph ? "where a possible edge may be" : "where an indeterminate edge may be");

@@ -12,7 +12,7 @@
  *
  * Nearest points: for a place c in the rectangle Q no point lies nearer than m = min_k ds(Q, R_k), and one lies within
  * M = min_k dl(Q, R_k), where ds and dl are the least and largest distances of points of Q and R_k. So all that is
- * within m of Q is surely free of points, and the nearest point surely is within M of Q. Both are discs where Q is a
+ * within m of Q is surely free of points, and the nearest point certainly is within M of Q. Both are discs where Q is a
  * point. */
 #include "base/error.h"
 #include "io/decimal.h"
@@ -169,12 +169,12 @@ static void disc_legend(dyd_canvas *c, void *context) {
   const disc_drawing *g = context;
   dyd_legend l;
   dyd_legend_begin(&l, c, &g->view);
-  if (g->d->known) dyd_legend_patch(&l, INSIDE, "surely inside");
-  if (g->d->known) dyd_legend_patch(&l, WHITE, "surely outside");
-  dyd_legend_patch(&l, DYD_PICTURE_BAND, "undetermined");
+  if (g->d->known) dyd_legend_patch(&l, INSIDE, "certainly inside");
+  if (g->d->known) dyd_legend_patch(&l, WHITE, "certainly outside");
+  dyd_legend_patch(&l, DYD_PICTURE_BAND, "undecided");
   dyd_legend_patch(&l, TRIPLE, "the three points");
-  if (has_con(g, DYD_SURE_PLUS)) dyd_legend_patch(&l, con_colour(DYD_SURE_PLUS), "point surely inside");
-  if (has_con(g, DYD_SURE_MINUS)) dyd_legend_patch(&l, con_colour(DYD_SURE_MINUS), "point surely outside");
+  if (has_con(g, DYD_SURE_PLUS)) dyd_legend_patch(&l, con_colour(DYD_SURE_PLUS), "point certainly inside");
+  if (has_con(g, DYD_SURE_MINUS)) dyd_legend_patch(&l, con_colour(DYD_SURE_MINUS), "point certainly outside");
   if (has_con(g, DYD_UNSURE)) dyd_legend_patch(&l, con_colour(DYD_UNSURE), "point of which it is not known");
   if (!g->d->known) {
     dyd_legend_text(&l, "0, 1 and 2 may be on a line: there is no partial disc");
@@ -355,7 +355,7 @@ static void draw_arc(dyd_canvas *c, const bisector_drawing *d, const dyd_arc *a,
   piece p = piece_of(d, a);
   char id[48], title[120];
   snprintf(id, sizeof id, "arc-%d-%zu", curve, number);
-  snprintf(title, sizeof title, "%s: the bound of what is surely nearer to %d, piece %zu",
+  snprintf(title, sizeof title, "%s: the bound of the region certainly nearer to %d, piece %zu",
            p.curved ? "parabola" : "line", curve, number);
   dyd_canvas_name(c, id, title);
   piece_path(c, &d->view, &p);
@@ -403,14 +403,14 @@ static void bisector_legend(dyd_canvas *c, void *context) {
   dyd_legend l;
   dyd_legend_begin(&l, c, &d->view);
   bisector_kinds(arcs, joints, d);
-  if (d->curve[0].count) dyd_legend_patch(&l, tint[0], "surely nearer to 0");
-  if (d->curve[1].count) dyd_legend_patch(&l, tint[1], "surely nearer to 1");
-  dyd_legend_patch(&l, DYD_PICTURE_BAND, "undetermined");
+  if (d->curve[0].count) dyd_legend_patch(&l, tint[0], "certainly nearer to 0");
+  if (d->curve[1].count) dyd_legend_patch(&l, tint[1], "certainly nearer to 1");
+  dyd_legend_patch(&l, DYD_PICTURE_BAND, "undecided");
   if (arcs[0]) dyd_legend_line(&l, CURVE, 0, 0, "line");
   if (arcs[1]) dyd_legend_line(&l, CURVE, 4, 2.5, "parabola");
   if (joints[1]) dyd_legend_dot(&l, CURVE, CURVE, "from here on another corner of the one rectangle is farthest");
   if (joints[0]) dyd_legend_dot(&l, 0xffffff, CURVE, "another corner or side of the other is closest");
-  if (!d->curve[0].count) dyd_legend_text(&l, "the rectangles meet: nothing is surely nearer to one of them");
+  if (!d->curve[0].count) dyd_legend_text(&l, "the rectangles meet: no place is certainly nearer to one of them");
 }
 
 static unsigned bisector_colour(const void *context, size_t i) {
@@ -593,9 +593,9 @@ static void nearest_legend(dyd_canvas *c, void *context) {
   dyd_legend_begin(&l, c, &g->view);
   if (g->answer->found->count)
     dyd_legend_patch(&l, g->answer->sure ? CURVE : POSSIBLE,
-                     g->answer->sure ? "surely nearest to \303\227" : "possibly nearest to \303\227");
-  if (g->others) dyd_legend_patch(&l, NOT, "surely not nearest");
-  if (g->count && g->near > 0) dyd_legend_patch(&l, INSIDE, "surely free of points");
+                     g->answer->sure ? "certainly nearest to \303\227" : "possibly nearest to \303\227");
+  if (g->others) dyd_legend_patch(&l, NOT, "certainly not nearest");
+  if (g->count && g->near > 0) dyd_legend_patch(&l, INSIDE, "certainly free of points");
   if (g->count && g->near < g->far) dyd_legend_patch(&l, DYD_PICTURE_BAND, "the nearest is in here");
   if (g->count == 0) {
     dyd_legend_text(&l, "there are no points");
@@ -604,7 +604,7 @@ static void nearest_legend(dyd_canvas *c, void *context) {
   dyd_decimal_directed(lo, g->near, 6, DYD_DOWN);
   dyd_decimal_directed(hi, g->far, 6, DYD_UP);
   if (g->answer->sure)
-    snprintf(text, sizeof text, "%zu points, number %zu is surely nearest, about %s away (at most %s)", g->count,
+    snprintf(text, sizeof text, "%zu points, number %zu is certainly nearest, about %s away (at most %s)", g->count,
              dyd_engine_row(g->engine, g->answer->found->item[0]), lo, hi);
   else
     snprintf(text, sizeof text, "%zu points, %zu possibly nearest, outcome %s; the nearest is about %s to %s away",

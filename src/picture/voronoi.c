@@ -30,7 +30,7 @@ static void polygon_outline(dyd_canvas *c, const dyd_view *v, const dyd_polygon 
   dyd_canvas_close(c);
 }
 
-/* "cell-7", "surely nearest to 7"; or of several sites, separated by minus signs and commas. */
+/* "cell-7", "certainly nearest to 7"; or of several sites, separated by minus signs and commas. */
 static void name_of(const voronoi_drawing *g, const char *id, const char *title, const uint32_t *site, size_t count) {
   char full_id[80], full_title[160];
   size_t a = (size_t)snprintf(full_id, sizeof full_id, "%s", id);
@@ -49,7 +49,7 @@ static dyd_status voronoi_cell(void *context, uint32_t i, const dyd_shape *shape
   (void)row;
   dyd_status st = dyd_shape_inner(&inner, shape);
   if (st == DYD_OK && inner.count) {
-    name_of(g, "cell", "surely nearest to", &i, 1);
+    name_of(g, "cell", "certainly nearest to", &i, 1);
     polygon_outline(g->canvas, &g->view, &inner);
     dyd_picture_shape(g->canvas, tints[i % 4], 1, 0x0072b2, g->view.line * 0.6);
     g->cell = true;
@@ -124,7 +124,7 @@ static void bound_text(char *out, size_t size, const dyd_voronoi_bounds *b) {
   double most = dyd_dyadic_get_d(&b->area, DYD_UP);
   if (isfinite(most)) dyd_decimal_directed(area, most, 3, DYD_UP);
   if (b->finite) dyd_decimal_directed(far, dyd_dyadic_get_d(&b->hausdorff, DYD_UP), 3, DYD_UP);
-  snprintf(out, size, "undetermined area at most %s, within %s of the true diagram", area, far);
+  snprintf(out, size, "undecided area at most %s, within %s of the true diagram", area, far);
 }
 
 static void voronoi_legend(dyd_canvas *c, void *context) {
@@ -134,10 +134,10 @@ static void voronoi_legend(dyd_canvas *c, void *context) {
   if (g->st != DYD_OK) return; /* then there are no bounds */
   dyd_legend_begin(&l, c, &g->view);
   if (g->tiles) dyd_legend_patch(&l, tints[0], "tile of one point (any light tint)");
-  if (g->cell) dyd_legend_patch(&l, tints[0], "surely nearest to one point (any light tint)");
-  if (!g->tiles && dyd_dyadic_sgn(&g->d->bounds->area) > 0) dyd_legend_patch(&l, DYD_PICTURE_BAND, "undetermined");
+  if (g->cell) dyd_legend_patch(&l, tints[0], "certainly nearest to one point (any light tint)");
+  if (!g->tiles && dyd_dyadic_sgn(&g->d->bounds->area) > 0) dyd_legend_patch(&l, DYD_PICTURE_BAND, "undecided");
   dyd_legend_marks(&l, &g->marks, 0x9b9b9b);
-  if (g->vertex) dyd_legend_line(&l, 0x0072b2, 0, 0, "box: a sure vertex is in it");
+  if (g->vertex) dyd_legend_line(&l, 0x0072b2, 0, 0, "box: contains a certain vertex");
   if (g->region) dyd_legend_line(&l, 0xd55e00, 4, 2.5, "box: undecided vertices");
   bound_text(bounds, sizeof bounds, g->d->bounds);
   snprintf(text, sizeof text, "%zu points, outcome %s; %s", g->d->count,

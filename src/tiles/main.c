@@ -38,7 +38,7 @@ static const char usage[] =
     "  --tiles T          one process does the work of T, one after another\n"
     "  --restart          parts that are in FOLDER from the same job stay\n"
     "  --max-pairs K      each process stores K pairs beyond the skeleton at most\n"
-    "  --accept-fixpoint  exit status 0 in place of 3: ties and rectangles that leave pairs open are expected\n"
+    "  --accept-fixpoint  exit status 0 instead of 3: ties and undecided pairs are expected\n"
     "  --stats            counters on standard error\n"
     "  --comments         the csv begins with \"# alias I J\" for each point I equal to a point J with a lower number\n"
     "  --help, --version\n"

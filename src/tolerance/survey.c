@@ -348,7 +348,7 @@ static dyd_status simplify(dyd_survey *s, const dyd_delaunay *pd) {
 static dyd_status survey_check(const dyd_survey *s, const dyd_delaunay *pd, dyd_error *err) {
   const dyd_survey_options *o = &s->options;
   if (dyd_delaunay_is_capped(pd))
-    return dyd_fail(err, DYD_CAPPED, "there are more open pairs than can be stored; raise `max_pairs`");
+    return dyd_fail(err, DYD_CAPPED, "more undecided pairs than can be stored; raise `max_pairs`");
   if (o->accuracy && mpq_sgn(o->accuracy) <= 0) return dyd_fail(err, DYD_E_ARG, "an accuracy is above 0");
   if (o->site && *o->site >= s->sites)
     return dyd_fail(err, DYD_E_ARG, "there is no such point; give the number of one, from 0");
@@ -368,7 +368,7 @@ static void keep_draft(dyd_survey *s, dyd_error *err) {
   s->draft = NULL;
   s->left = s->rows ? s->row[s->rows - 1].left : s->target.count;
   s->cut = true;
-  dyd_fail(err, DYD_CANCELLED, "the plan is not finished: %zu of %zu pairs are open after its first %zu points",
+  dyd_fail(err, DYD_CANCELLED, "the plan is not finished: %zu of %zu pairs are undecided after its first %zu points",
            s->left, s->target.count, s->rows);
 }
 

@@ -365,7 +365,7 @@ def check_proved(folder):
     program.write_text('#!/bin/sh\nexec /bin/sleep 100\n')
     begun = time.monotonic()
     done = own('verify', '--proved', '--timeout', '0.5', certificate)
-    assert done.returncode == 4 and 'the time is used up' in done.stderr, done
+    assert done.returncode == 4 and 'time limit reached' in done.stderr, done
     assert sys.platform != 'linux' or time.monotonic() - begun < 50, 'the program goes on after its command'
     os.environ['PATH'] = path
 

@@ -131,8 +131,8 @@ def test_same_bytes_every_time():
 
 
 def test_outcomes():
-    expect(run('converge', '-', '--max-bits', '100', stdin=SQUARE), 4, 'outcome budget', 'precision is used up')
-    expect(run('converge', '-', stdin='0 0\n1 0\n1 1\n0 1\n'), 3, 'outcome fixpoint', 'fixpoint')
+    expect(run('converge', '-', '--max-bits', '100', stdin=SQUARE), 4, 'outcome budget', 'precision limit reached')
+    expect(run('converge', '-', stdin='0 0\n1 0\n1 1\n0 1\n'), 3, 'outcome fixpoint', '2 tied pairs; ties')
     expect(run('converge', '-', '--until', 'area:30', stdin=SQUARE), 0, 'goal area 2.-30; .*outcome certified', r'\A\Z')
     expect(run('converge', '-', stdin=''), 0, r'^1,0,0,0,0,0,0,0,0,0,0,', 'there are no points in this file')
 
@@ -157,7 +157,7 @@ def test_a_point_that_fails_later():
             f.write(ORACLE)
         command = ('--oracle', f'{sys.executable} {path}')
         result = run('converge', '--no-times', '--trace', trace, *command)
-        expect(result, 1, 'outcome error(.*\n)+3,', 'point [0-3]: (.*\n)*.*a point failed; this much was known before')
+        expect(result, 1, 'outcome error(.*\n)+3,', 'point [0-3]: (.*\n)*.*a point failed; the result is the one before it')
         expect(run('delaunay', '--start-bits', '20', *command), 1, '0,2,indeterminate', 'point [0-3]: ')
         expect(run('converge', '--replay', trace, '--no-times'), 1, re.escape(result.out), r'\A\Z')
 
@@ -231,7 +231,7 @@ def test_bad_traces():
     expect(run('converge', '--replay', 'nowhere'), 1, r'\A\Z', 'nowhere: cannot open')
     expect(run('converge', '--replay', '-', '-', stdin=trace), 2, r'\A\Z', 'one argument too many')
     expect(run('converge', '--replay', '-', '--timeout', '60', '-o', '/dev/null', stdin=trace), 0, r'\A\Z', r'\A\Z')
-    expect(run('converge', '--replay', '-', '--timeout', '1e-9', stdin=trace), 4, '', 'the time is used up after [0-9]+ stages')
+    expect(run('converge', '--replay', '-', '--timeout', '1e-9', stdin=trace), 4, '', 'time limit reached after [0-9]+ stages')
     for option in ('--measured', '--max-bits=5', '--schedule=uniform'):
         expect(run('converge', '--replay', '-', option, stdin=trace), 2, r'\A\Z', 'from the trace; leave --')
 

@@ -22,7 +22,7 @@ SCALE = int(os.environ.get('DYADEL_TEST_SCALE', '1'))
 
 
 def edges(graph, boxes, *options):
-    """{(i, j): 'sure' or 'possible'}; None where two points are one."""
+    """{(i, j): 'certain' or 'possible'}; None where two points are one."""
     text = ''.join(f'[{a},{b}] [{c},{d}]\n' if a < b or c < d else f'{a} {c}\n' for a, b, c, d in boxes)
     result = run('delaunay', '--quiet', '--accept-fixpoint', '--layer', 'graph:' + graph, *options, '-', stdin=text)
     expect(result, 0, r'^i,j,status\n')
@@ -104,7 +104,7 @@ def test_bridges_are_sure():
         points = [(F(rng.randint(0, 400)), F(rng.randint(0, 400)), rng.randint(0, 5)) for _ in range(60)]
         found = edges('mst', [(x - r, x + r, y - r, y + r) for x, y, r in points]) or {}
         joining = {e for e in found if is_bridge(found, e)}
-        assert all(found[e] == 'sure' for e in joining), (joining, points)
+        assert all(found[e] == 'certain' for e in joining), (joining, points)
         bridges += len(joining)
     assert bridges > 50, bridges
 
@@ -129,7 +129,7 @@ def test_choices_never_refute():
                 ever[g] |= weak[g]
                 lost[g] |= {e for e in found[g] if e not in strict[g]}
         for g in GRAPHS:
-            assert not lost[g] & {e for e in found[g] if found[g][e] == 'sure'}, (g, boxes)
+            assert not lost[g] & {e for e in found[g] if found[g][e] == 'certain'}, (g, boxes)
             possible = {e for e in found[g] if found[g][e] == 'possible'}
             open_edges += len(possible)
             seen_both += len(possible & ever[g] & lost[g])
@@ -137,14 +137,14 @@ def test_choices_never_refute():
 
 
 def test_exact_points():
-    """All three graphs as they are defined; ties are possible, not sure."""
+    """All three graphs as they are defined; ties are possible, not certain."""
     rng = random.Random(SEED)
     for _ in range(cases(30 * SCALE)):
         p = list(dict.fromkeys((F(rng.randint(0, 5), rng.choice([1, 3])), F(rng.randint(0, 5))) for _ in range(rng.randint(0, 9))))
         weak, strict = of_points(p)
         for g in GRAPHS:
             found = edges(g, [(x, x, y, y) for x, y in p])
-            assert found == {e: 'sure' if e in strict[g] else 'possible' for e in weak[g]}, (g, p, found)
+            assert found == {e: 'certain' if e in strict[g] else 'possible' for e in weak[g]}, (g, p, found)
 
 
 # ---- exactness: the largest value is at a corner of an arrangement of lines ----
@@ -229,7 +229,7 @@ def test_possible_is_exact():
 
 
 def test_monotone():
-    """Narrower rectangles: sure stays sure, what is not listed stays away."""
+    """Narrower rectangles: certain stays certain, what is not listed stays away."""
     rng = random.Random(SEED)
     for _ in range(cases(20 * SCALE)):
         boxes = random_boxes(rng, 9, third=False)
@@ -242,7 +242,7 @@ def test_monotone():
                 break
             for g in GRAPHS:
                 assert set(after[g]) <= set(before[g]), (g, boxes, set(after[g]) - set(before[g]))
-                assert all(after[g].get(e) == 'sure' for e in before[g] if before[g][e] == 'sure'), (g, boxes)
+                assert all(after[g].get(e) == 'certain' for e in before[g] if before[g][e] == 'certain'), (g, boxes)
             before = after
 
 
@@ -262,10 +262,10 @@ def test_refined():
 def test_few_points():
     for g in GRAPHS:
         assert edges(g, []) == edges(g, [(1, 1, 2, 2)]) == {}
-        both = {(0, 1): 'sure', (1, 0): 'sure'} if g == 'nearest' else {(0, 1): 'sure'}
+        both = {(0, 1): 'certain', (1, 0): 'certain'} if g == 'nearest' else {(0, 1): 'certain'}
         assert edges(g, [(0, 0, 0, 0), (3, 4, 0, 1)]) == both
     same = run('delaunay', '--layer', 'graph:mst', '-', stdin='0 0\n1 0\n0 0\n')
-    expect(same, 0, r'\A# alias 2 0\ni,j,status\n0,1,sure\n\Z')
+    expect(same, 0, r'\A# alias 2 0\ni,j,status\n0,1,certain\n\Z')
 
 
 def test_airports():
@@ -277,13 +277,13 @@ def test_airports():
             result = run('delaunay', '--quiet', '--accept-fixpoint', '--layer', 'graph:' + g, '--radius', radius, *AIRPORTS)
             expect(result, 0)
             found[g] = {tuple(map(int, r.split(',')[:2])): r.split(',')[2] for r in result.out.splitlines()[1:] if r[0] != '#'}
-        sure = {g: {e for e in found[g] if found[g][e] == 'sure'} for g in GRAPHS}
+        sure = {g: {e for e in found[g] if found[g][e] == 'certain'} for g in GRAPHS}
         assert {(min(e), max(e)) for e in sure['nearest']} <= sure['mst'] <= sure['gabriel']
         assert set(found['mst']) <= set(found['gabriel'])
         for g in wide:
-            assert {e for e in wide[g] if wide[g][e] == 'sure'} <= sure[g] and set(found[g]) <= set(wide[g])
+            assert {e for e in wide[g] if wide[g][e] == 'certain'} <= sure[g] and set(found[g]) <= set(wide[g])
     assert [len(found[g]) for g in GRAPHS] == [3376, 7062, 3375], {g: len(found[g]) for g in GRAPHS}
-    assert all(s == 'sure' for g in GRAPHS for s in found[g].values())
+    assert all(s == 'certain' for g in GRAPHS for s in found[g].values())
 
 
 def test_formats():
@@ -292,7 +292,7 @@ def test_formats():
     wkt = run('delaunay', '-q', '--accept-fixpoint', '--layer', 'graph:mst', '--format', 'wkt', *GPS).out.splitlines()
     assert wkt[0] == 'WKT,i,j,status,max_coordinate_error' and wkt[1].startswith('"LINESTRING ('), wkt[:2]
     answer = json.loads(run('delaunay', '-q', '--accept-fixpoint', '--layer', 'graph:gabriel', '--format', 'geojson', *GPS).out)
-    assert {f['properties']['status'] for f in answer['features']} == {'sure', 'possible'}
+    assert {f['properties']['status'] for f in answer['features']} == {'certain', 'possible'}
     for g, title in (('nearest', 'nearest neighbours'), ('gabriel', 'Gabriel graph'), ('mst', 'minimum spanning tree')):
         csv = run('delaunay', '-q', '--accept-fixpoint', '--layer', 'graph:' + g, *GPS).out.splitlines()[1:]
         drawn = run('delaunay', '-q', '--accept-fixpoint', '--layer', 'graph:' + g, '--format', 'svg', *GPS).out

@@ -74,8 +74,8 @@ def test_columns():
 
 def hull(data, i):
     if i in data['hull']['sure_vertices']:
-        return 'surely'
-    return 'possibly' if i in data['hull']['possible_vertices'] else 'not'
+        return 'certain'
+    return 'possible' if i in data['hull']['possible_vertices'] else 'no'
 
 
 def test_points():
@@ -90,7 +90,7 @@ def test_points():
             count = sum(of in (p['i'], p['j']) and p['status'] == status for p in data['pairs'])
             assert int(row[status]) == count == data['sites'][i][status], (i, status)
         assert row['hull'] == hull(data, of) == data['sites'][i]['hull'], i
-    assert {r['hull'] for r in rows} == {'surely', 'possibly', 'not'} and any(r['tie'] != '0' for r in rows)
+    assert {r['hull'] for r in rows} == {'certain', 'possible', 'no'} and any(r['tie'] != '0' for r in rows)
 
 
 def test_triangles():
@@ -197,7 +197,7 @@ def test_vtk_holds_all():
         at = numbers.index(f'SCALARS {name} int 1') + 2
         assert [int(t) for t in numbers[at:at + 10]] == [s[name] for s in data['sites']]
     at = numbers.index('SCALARS hull int 1') + 2
-    assert [('not', 'possibly', 'surely')[int(t)] for t in numbers[at:at + 10]] == [s['hull'] for s in data['sites']]
+    assert [('no', 'possible', 'certain')[int(t)] for t in numbers[at:at + 10]] == [s['hull'] for s in data['sites']]
     text = written('voronoi', '--format', 'vtk').split('\n')
     kinds = text[text.index('SCALARS kind int 1') + 2:]
     data = answer('voronoi')
@@ -237,7 +237,7 @@ def test_airports():
     assert len(rows) == 3376
     assert [sum(int(r[k]) for r in rows) for k in ('legal', 'indeterminate', 'tie')] == [2 * 8925, 2 * 2490, 0]
     hulls = [r['hull'] for r in rows]
-    assert hulls.count('surely') >= 3 and hulls.count('not') > 3300
+    assert hulls.count('certain') >= 3 and hulls.count('no') > 3300
 
 
 # ---- other programs ----

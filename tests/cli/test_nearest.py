@@ -25,8 +25,8 @@ TIE = r'\A# alias 3 0\n# tie {}\n' + HEAD
 
 # (options, X, Y, exit status, standard output, standard error)
 CASES = [
-    ('', '1', '1', 0, ALIAS + r'0,sure,\S+\n\Z', r'\A\Z'),
-    ('', '-1', '-22/7', 0, ALIAS + r'0,sure,\S+\n\Z', r'\A\Z'),
+    ('', '1', '1', 0, ALIAS + r'0,certain,\S+\n\Z', r'\A\Z'),
+    ('', '-1', '-22/7', 0, ALIAS + r'0,certain,\S+\n\Z', r'\A\Z'),
     ('', 'sqrt(2)', 'pi', 3, TIE.format('0 1') + r'0,possible,\S+\n1,possible,\S+\n\Z',
      r'\Adyadel: fixpoint: 2 possibly nearest; .*equally far, a tie$'),
     ('--ties prove', 'sqrt(2)', 'pi', 3, TIE.format('0 1'), ''),
@@ -35,11 +35,11 @@ CASES = [
     ('--tie-bits 4096', 'cbrt(2+sqrt(5))+cbrt(2-sqrt(5))-1+sqrt(2)', '3', 3, TIE.format('0 1'), 'fixpoint: 2'),
     ('', 'tan(atan(sqrt(2)))', 'pi', 4, ALIAS + r'0,possible,\S+\n1,possible,\S+\n\Z', 'budget: 2'),
     ('--quiet --ties off', 'sqrt(2)', 'pi', 4, ALIAS + r'0,possible,\S+\n1,possible,\S+\n\Z', r'\A\Z'),
-    ('', 'sqrt(2)+2^-3000', 'pi', 0, ALIAS + r'1,sure,\S+\n\Z', r'\A\Z'),
+    ('', 'sqrt(2)+2^-3000', 'pi', 0, ALIAS + r'1,certain,\S+\n\Z', r'\A\Z'),
     ('--max-bits 2000', 'sqrt(2)+2^-3000', 'pi', 4, ALIAS + r'0,possible,\S+\n1,possible,\S+\n\Z', ''),
     ('', '5', '123/7', 3, TIE.format('2 4') + r'2,possible,\S+\n4,possible,\S+\n\Z', r'\Adyadel: fixpoint: 2 possibly nearest'),
     ('', '[0,1]', '5', 3, ALIAS + r'0,possible,\S+\n2,possible,\S+\n\Z', ''),
-    ('', '0.5+-0.25', '1', 0, ALIAS + r'0,sure,\S+\n\Z', ''),
+    ('', '0.5+-0.25', '1', 0, ALIAS + r'0,certain,\S+\n\Z', ''),
     ('', '1+', '2', 2, r'\A\Z', r'\Adyadel: X "1\+", column 3: '),
     ('', '1', 'log(0)', 2, r'\A\Z', r'\Adyadel: Y "log\(0\)", column 1: '),
     ('', '1', 'log(sqrt(2)-sqrt(2))', 1, r'\A\Z', r'\Adyadel: .*log'),
@@ -66,7 +66,7 @@ def test_arguments():
 def test_measured():
     """A rectangle at each site: the two are as near as each other to the middle, and not elsewhere."""
     expect(run('nearest', '--measured', '-', '5', '0', stdin='0 0\n10 0\n'), 3, HEAD + r'0,possible,\S+\n1,possible,\S+\n\Z')
-    expect(run('nearest', '--measured', '-', '4', '0', stdin='0 0\n10 0\n'), 0, HEAD + r'0,sure,\S+\n\Z')
+    expect(run('nearest', '--measured', '-', '4', '0', stdin='0 0\n10 0\n'), 0, HEAD + r'0,certain,\S+\n\Z')
     expect(run('nearest', '--radius', '2', '-', '4', '0', stdin='0 0\n10 0\n'), 3, HEAD + r'0,possible,\S+\n1,')
 
 
@@ -77,7 +77,7 @@ def test_json():
     assert answer['format'] == 'dyadel nearest 1' and answer['outcome'] == 'decided', answer
     assert answer['x'] == ['1/3', '1/3'] and answer['y'] == ['1*2^-1', '1*2^-1'], answer
     nearest, = answer['nearest']
-    assert nearest['i'] == 0 and nearest['status'] == 'sure' and answer['aliases'] == [[3, 0]], answer
+    assert nearest['i'] == 0 and nearest['status'] == 'certain' and answer['aliases'] == [[3, 0]], answer
     assert answer['tied'] is False
     low, high = nearest['distance']
     assert Fraction(low)**2 <= Fraction(13, 36) <= Fraction(high)**2 and high - low < 1e-15, nearest
@@ -157,7 +157,7 @@ def test_airports():
     for x, y in [('-75.5', '40.25'), ('-150', '61.2'), ('0', '0'), ('-98.35', '39.5')]:
         away = [(px - whole(x)) ** 2 + (py - whole(y)) ** 2 for px, py in sites]
         nearest = away.index(min(away))
-        expect(run('nearest', '--columns', 'longitude,latitude', path, x, y), 0, rf'^{nearest},sure,\S+\n\Z')
+        expect(run('nearest', '--columns', 'longitude,latitude', path, x, y), 0, rf'^{nearest},certain,\S+\n\Z')
 
 
 # ---- many places ----
@@ -206,12 +206,12 @@ def test_places_against_all_distances():
         assert sorted(nearest.values()) == [int(r['i']) for r in found[q]], (q, x, y)
         ties += len(nearest) > 1
         for r in found[q]:
-            assert r['status'] == ('sure' if len(nearest) == 1 else 'possible'), r
+            assert r['status'] == ('certain' if len(nearest) == 1 else 'possible'), r
             low, high = Fraction(r['lo']), Fraction(r['hi'])
             assert low**2 <= least <= high**2 and high - low <= Fraction(1, 10**14), r
     told = [line.split()[2] for line in result.out.splitlines() if line.startswith('# tie ')]
     assert told == [f'{q}:' for q in sorted(found) if len(found[q]) > 1]
-    assert ties and f'fixpoint: {ties} of 300 places have no sure nearest point' in result.err, (ties, result.err)
+    assert ties and f'fixpoint: {ties} of 300 places have no certain nearest point' in result.err, (ties, result.err)
 
 
 def test_places_as_json():
@@ -219,16 +219,16 @@ def test_places_as_json():
     answer = json.loads(result.out)
     assert answer['format'] == 'dyadel nearest places 1' and answer['outcome'] == 'decided', answer
     assert [p['q'] for p in answer['places']] == [0, 1] and answer['aliases'] == [[3, 0]]
-    assert answer['places'][0]['x'] == ['1', '1'] and answer['places'][1]['nearest'][0]['status'] == 'sure'
+    assert answer['places'][0]['x'] == ['1', '1'] and answer['places'][1]['nearest'][0]['status'] == 'certain'
 
 
 def test_refined_places():
-    """Points and places narrow until each is sure, or a tie; a budget leaves the others as they are."""
+    """Points and places narrow until each is certain, or a tie; a budget leaves the others as they are."""
     places = 'sqrt(2)+2^-3000 pi\nsqrt(2) pi\n1 1\n'
     for options, code in (((), 3), (('--ties', 'off'), 4)):
         many = rows(ask(places, *options, points=SITES, code=code).out)
         assert [(r['q'], r['i'], r['status']) for r in many] == [
-            ('0', '1', 'sure'), ('1', '0', 'possible'), ('1', '1', 'possible'), ('2', '0', 'sure')], many
+            ('0', '1', 'certain'), ('1', '0', 'possible'), ('1', '1', 'possible'), ('2', '0', 'certain')], many
 
 
 def test_discs():
@@ -270,7 +270,7 @@ def test_wrong_places():
     expect(ask('1 1\n1\n', points='1 1\n', code=1), 1, r'\A\Z', r'places:2:2: ')
     expect(ask('1 1\nlog(sqrt(2)-sqrt(2)) 0\n', points='1 1\n', code=1), 1, '', 'place 1 of .*places: .*log')
     expect(ask('', points='1 1\n'), 0, r'\nq,i,status,lo,hi\n\Z', r'\A\Z')
-    expect(ask('1 1\n', points='', code=3), 3, r'\nq,i,status,lo,hi\n\Z', '1 of 1 places have no sure nearest point')
+    expect(ask('1 1\n', points='', code=3), 3, r'\nq,i,status,lo,hi\n\Z', '1 of 1 places have no certain nearest point')
 
 
 def test_hundred_thousand_places():

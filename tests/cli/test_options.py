@@ -276,7 +276,7 @@ def test_check_limits():
         for options in ([], ['--radius', '0.1'], ['--max-bits', '40']):
             expect(run('check', 'points', '--schedules', '6', *options, cwd=folder), 0, r'^fine,6,')
         expect(run('check', 'points', '--schedules', '1000000', '--timeout', '0.5', cwd=folder), 4, r'^fine,',
-               err='the time is used up after [0-9]+ schedules; raise --timeout')
+               err='time limit reached after [0-9]+ schedules .raise --timeout')
 
 
 main(globals())

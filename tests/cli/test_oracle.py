@@ -231,7 +231,7 @@ def test_small():
     expect(ask('echo points 1; while read -r _ i b; do echo $i 0 0 1/3 1/3; done'), 0, r'\Ai,j,status\n\Z', r'\A\Z')
     # Fixed rectangles: nothing more is asked. The number of the program is in its environment.
     fixed = 'echo points 4; while read -r _ i b; do echo $i $((i%2)) $((i%2+1)) $((i/2)) $((i/2+1)) fixed; done'
-    expect(ask(fixed, '--oracle-jobs', '2', '--oracle-timeout', '60'), 3, 'indeterminate', '^dyadel: fixpoint')
+    expect(ask(fixed, '--oracle-jobs', '2', '--oracle-timeout', '60'), 3, 'indeterminate', '^dyadel: [0-9]+ legal, [0-9]+ indeterminate.* pairs; ')
     for jobs, alias in ('1', '# alias 1 0'), ('2', r'\Ai,j,status\n0,1,legal\n\Z'):
         expect(ask('echo points 2; while read -r _ i b; do echo $i $DYADEL_JOB $DYADEL_JOB 0 0; done',
                    '--oracle-jobs', jobs, env={**os.environ, 'DYADEL_JOB': '7'}), 0, alias)
@@ -343,7 +343,7 @@ def test_interrupt():
 
 def test_time_limit():
     result = ask(server(STUBBORN), '--oracle-timeout', '1000', '--timeout', '2')
-    expect(result, 4, err='the time is used up; raise --timeout')
+    expect(result, 4, err='time limit reached .raise --timeout')
     assert count(result.out) == KNOWN
 
 

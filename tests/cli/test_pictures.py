@@ -60,7 +60,7 @@ def test_everything_has_a_name():
         assert ids[f'pair-{i}-{j}'] == f'{i}, {j}: {status}', line
     triangles = run('delaunay', '--quiet', '--layer', 'triangles', '-', stdin=TWELVE).out.split('k\n')[1].split()
     for line in triangles:
-        assert 'sure triangle' in ids['triangle-' + line.replace(',', '-')], line
+        assert 'certain triangle' in ids['triangle-' + line.replace(',', '-')], line
     for k in range(12):
         assert ids[f'point-{k}'].startswith(f'point {k}: x in ['), ids[f'point-{k}']
     assert len(ids) == len(table) + len(triangles) + 12
@@ -134,18 +134,18 @@ def test_legend_is_honest():
     def legend(points, *options):
         return ' | '.join(svg.words(picture('delaunay', points, *options)))
     plain = legend('0 0\n4 0\n1 3\n')
-    assert 'legal: 3' in plain and 'sure triangle' in plain and 'point' in plain
+    assert 'legal: 3' in plain and 'certain triangle' in plain and 'point' in plain
     for absent in ('indeterminate', 'tie', 'rectangle of a point', 'where', '--window'):
         assert absent not in plain, (absent, plain)
     square = legend('0 0\n4 0\n4 4\n0 4\n')
-    assert 'tie: 2' in square and 'indeterminate' not in square and 'sure triangle' not in square, square
+    assert 'tie: 2' in square and 'indeterminate' not in square and 'certain triangle' not in square, square
     wide = legend(TWELVE)
     for present in ('indeterminate: ', 'rectangle of a point', 'where a legal edge is', 'where an indeterminate edge may be'):
         assert present in wide, wide
     assert 'of a pixel' in wide and ' point; ' not in wide
     assert 'possibly' not in ' '.join(svg.words(picture('nearest', '0 0\n9 0\n', place=('1', '1'))))
     alone = ' | '.join(svg.words(picture('disc', '0 0\n4 0\n1 3\n')))
-    assert 'point surely' not in alone and 'point of which' not in alone, alone
+    assert 'point certainly' not in alone and 'point of which' not in alone, alone
     exact = ' | '.join(svg.words(picture('voronoi', '0 0\n4 0\n1 3\n')))
     assert 'box: undecided' not in exact and 'rectangle of' not in exact, exact
 

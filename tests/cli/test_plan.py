@@ -24,14 +24,14 @@ def rows(text):
 
 def test_small():
     expect(run('plan', '-', stdin=POINTS), 0,
-           r'\A# plan 1 points: sufficient if they turn out within these accuracies of their nominal places; verified\n'
+           r'\A# plan 1 points: sufficient if each new position is within half_width_needed of the old one; verified\n'
            r'rank,i,half_width_now,half_width_needed,pairs_decided,pairs_left\n1,3,4,2\.25,2,0\n\Z', r'\A\Z')
     expect(run('plan', '-', stdin='0 0\n1 0\n0 1\n'), 0, r'\A# plan 0 points: sufficient.*\nrank,[^\n]*\n\Z', r'\A\Z')
     expect(run('plan', '-', stdin=''), 0, r'\A# plan 0 points')
 
 
 def test_accuracy_that_is_not_enough():
-    expect(run('plan', '--accuracy', '3.9', '-', stdin=POINTS), 3, r'\A# plan \d points: not sufficient, 2 of 2 pairs stay open\n',
+    expect(run('plan', '--accuracy', '3.9', '-', stdin=POINTS), 3, r'\A# plan \d points: not sufficient, 2 of 2 pairs stay undecided\n',
            'finer --accuracy')
     expect(run('plan', '--accuracy', '3.9', '--quiet', '-', stdin=POINTS), 3, r'\A# plan', r'\A\Z')
 

@@ -35,13 +35,13 @@ def test_grid():
     result = run('delaunay', '-', stdin=grid)
     # Ties: both diagonals of 19 * 19 squares, and the pairs on a side of the hull that are not neighbours.
     ties = 2 * 19 * 19 + 4 * (20 * 19 // 2 - 19)
-    expect(result, 3, err=f'fixpoint: 760 legal, 0 indeterminate, {ties} tie')
+    expect(result, 3, err=f'dyadel: 760 legal, 0 indeterminate, {ties} tied pairs; ties: ')
     assert count(result.out) == {'legal': 760, 'tie': ties}
 
 
 def test_polygon_stays_undecided_without_proofs():
     result = run('delaunay', '-', '--max-bits', '512', '--ties', 'off', stdin=polygon(12))
-    expect(result, 4, err='budget: 12 legal, 54 indeterminate, 0 tie; the precision is used up; raise --max-bits')
+    expect(result, 4, err='budget: 12 legal, 54 indeterminate pairs; precision limit reached .raise --max-bits')
     assert count(result.out) == {'legal': 12, 'indeterminate': 54}
 
 
@@ -53,20 +53,20 @@ def test_fixed_rectangles_among_computable_points():
     # Which diagonal it is hangs on the corner that is fixed: no bit of the others tells.
     square = '0 0\nsqrt(16.5) 0\n[3.9,4.2] [3.9,4.2]\n0 sqrt(17)\n'
     result = run('delaunay', '-', '--stats', stdin=square)
-    expect(result, 3, err='fixpoint: 4 legal, 2 indeterminate, 0 tie; nothing that is open can be refined')
+    expect(result, 3, err='dyadel: 4 legal, 2 indeterminate pairs; only better measurements can decide them .see dyadel plan')
     assert most_bits(result) <= 256
-    expect(run('delaunay', '-', '--schedule', 'uniform', '--step-bits', '16', stdin=square), 3, err='fixpoint')
+    expect(run('delaunay', '-', '--schedule', 'uniform', '--step-bits', '16', stdin=square), 3, err='legal, .* pairs; ')
     # One coordinate computed, the other measured.
     for half in ('0 0\n10 0\nsqrt(26) 6+-3\n5 -6\n', '0 0\n0 10\n[3.1,9.1] root(x^5-x-4000,4,6)\n-6 5\n'):
         result = run('delaunay', '-', '--stats', stdin=half)
-        expect(result, 3, err='fixpoint: 4 legal, 2 indeterminate, 0 tie; nothing that is open can be refined')
+        expect(result, 3, err='dyadel: 4 legal, 2 indeterminate pairs; only better measurements can decide them .see dyadel plan')
         assert most_bits(result) <= 256
     # A crowd of boxes with computable points among them.
     rng = random.Random(5)
     crowd = ''.join(f'sqrt({rng.uniform(0, 9)}) sqrt({rng.uniform(0, 9)})\n' if k % 8 == 0 else
                     f'{rng.uniform(0, 3):.4f}+-0.2 {rng.uniform(0, 3):.4f}+-0.2\n' for k in range(60))
     result = run('delaunay', '-', '--stats', stdin=crowd)
-    expect(result, 3, err='fixpoint')
+    expect(result, 3, err='legal, .* pairs; ')
     assert most_bits(result) <= 1024
     # A tie of computable points is nothing of the kind; what only bits decide is decided.
     nudged = polygon(4, nudge='*(1+10^-100)') + '[20,20.5] [-0.25,0.25]\n'
@@ -76,7 +76,7 @@ def test_fixed_rectangles_among_computable_points():
     assert 300 < most_bits(result) < 4096
     twice = square + '30+cos(1) 0\n30+cos(1) 0\n'
     expect(run('delaunay', '-', '--max-bits', '512', '--ties', 'off', stdin=twice), 4, err='budget')
-    expect(run('delaunay', '-', '--max-bits', '512', stdin=twice), 3, '^# alias 5 4$', 'fixpoint')
+    expect(run('delaunay', '-', '--max-bits', '512', stdin=twice), 3, '^# alias 5 4$', 'legal, .* pairs; ')
 
 
 def test_perturbed_polygon_is_decided():
@@ -110,7 +110,7 @@ def test_airports():
     edges = set(exact.out.split('\n')[1:])
     for mode in (('--measured',), ('--radius', '0.01')):
         result = run('delaunay', AIRPORTS, *LONLAT, *mode)
-        expect(result, 3, err='fixpoint')
+        expect(result, 3, err='legal, .* pairs; ')
         assert count(result.out) == ({'legal': 10109, 'indeterminate': 5} if mode[0] == '--measured' else
                                      {'legal': 8925, 'indeterminate': 2490})
         # What holds for all choices holds for this one; what is true of this one is possible.
@@ -257,7 +257,7 @@ def test_no_points_in_all_formats():
 
 def test_pairs_cap():
     result = run('delaunay', '-', '--max-pairs', '10', stdin=''.join(f'[-{k},{k}] [-{k},{k}]\n' for k in range(1, 60)))
-    expect(result, 4, r'^# capped: ', 'the cap on stored pairs was met; raise --max-pairs')
+    expect(result, 4, r'^# capped: ', 'limit of stored pairs reached .raise --max-pairs')
     assert re.search(r'^# face( \d+)+$', result.out, re.M)
 
 

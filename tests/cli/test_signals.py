@@ -123,7 +123,7 @@ def test_interrupt_while_reading_ends():
 def test_timeout():
     begun = time.monotonic()
     result = run('delaunay', '-', '--max-bits', '1000000', '--timeout', '0.5', stdin=ENDLESS)
-    expect(result, 4, 'indeterminate', 'the time is used up; raise --timeout')
+    expect(result, 4, 'indeterminate', 'time limit reached .raise --timeout')
     assert time.monotonic() - begun < 60
 
 

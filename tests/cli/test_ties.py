@@ -73,13 +73,13 @@ def test_everything_is_decided():
             ('line', [(f'sqrt({k})', f'2*sqrt({k})+1') for k in range(2, 12)], 9, 36),
             ('16-gon', half_angles(16), 16, 104), ('32-gon', half_angles(32), 32, 464)):
         result = run('delaunay', '-', stdin=text(points))
-        expect(result, 3, err=f'fixpoint: {legal} legal, 0 indeterminate, {tie} tie')
+        expect(result, 3, err=f'dyadel: {legal} legal, 0 indeterminate, {tie} tied')
         assert count(result.out) == {'legal': legal, 'tie': tie}, name
 
 
 def test_without_proofs():
     off = run('delaunay', '-', '--ties', 'off', '--max-bits', '200', stdin=text(gon(12)))
-    expect(off, 4, err='12 legal, 54 indeterminate, 0 tie')
+    expect(off, 4, err='12 legal, 54 indeterminate pairs')
     expect(run('delaunay', '-', '--ties', 'prove', stdin=text(gon(12))), 3)
     few = run('delaunay', '-', '--tie-bits', '16', '--max-bits', '200', '--stats',
               stdin='cbrt(2+sqrt(5))+cbrt(2-sqrt(5)) 0\n1 0\n4 5\n')
@@ -171,7 +171,7 @@ def test_corners_from_a_program():
             f.write(ORACLE)
         command = 'exec ' + shlex.join([sys.executable, path])
         result = run('delaunay', '--oracle', command, '--max-bits', '200')
-        expect(result, 4, err='budget: 12 legal, 54 indeterminate, 0 tie')
+        expect(result, 4, err='budget: 12 legal, 54 indeterminate pairs')
         assert count(result.out) == {'legal': 12, 'indeterminate': 54}
         assert 'tied' not in run('nearest', '--oracle', command, '--max-bits', '200', '0', '0').out
 
@@ -221,7 +221,7 @@ def test_tied_vertex_in_pictures():
         picture = run('voronoi', '--quiet', '--format', 'svg', '-', stdin=points).out
         titles = [e.title for e in svg.elements(picture) if e.title and 'vert' in e.title]
         assert len(titles) == 1 and titles[0].startswith('holds the vertex of a tie, of 0, 1, 2'), titles
-        assert 'box: a sure vertex is in it' in svg.words(picture) and 'box: undecided vertices' not in svg.words(picture)
+        assert 'box: contains a certain vertex' in svg.words(picture) and 'box: undecided vertices' not in svg.words(picture)
 
 
 def test_edges_of_grids():

@@ -418,12 +418,12 @@ def check_geojson(text):
         if feature['geometry']['type'] == 'Polygon':
             for ring in feature['geometry']['coordinates']:
                 assert len(ring) >= 4 and ring[0] == ring[-1], ring
-    assert kinds.count('surely nearest') == kinds.count('possibly nearest') == 12, kinds
+    assert kinds.count('certain') == kinds.count('possible') == 12, kinds
 
 
 def check_wkt(text):
     rows = list(csv.DictReader(text.splitlines()))
-    assert len(rows) >= 24 and [r['kind'] for r in rows].count('surely nearest') == 12
+    assert len(rows) >= 24 and [r['kind'] for r in rows].count('certain') == 12
     for r in rows:
         shape, body = re.fullmatch(r'(POLYGON|MULTIPOLYGON|POINT|LINESTRING) (\(.*\))', r['WKT']).groups()
         assert body.count('(') == body.count(')')
@@ -531,8 +531,8 @@ def test_notes_on_goals():
     boxes = '[0,0.125] 0\n4 [0,0.125]\n[0,0.125] 4\n4 4\n'
     endless = 'exp(log(6)/2) 0\n0 sqrt(6)\n-exp(log(6)/2) 0\n0 -sqrt(6)\n'
     for command, goal, text, code, options, why in (
-            ('voronoi', 'area', boxes, 3, (), 'fixed rectangles'), ('voronoi', 'hausdorff', boxes, 3, (), 'fixed rect'),
-            ('delaunay', 'area', boxes, 3, (), 'fixed rectangles'), ('delaunay', 'hausdorff', endless, 4, (), 'max-bits'),
+            ('voronoi', 'area', boxes, 3, (), 'better measurements'), ('voronoi', 'hausdorff', boxes, 3, (), 'better measurements'),
+            ('delaunay', 'area', boxes, 3, (), 'better measurements'), ('delaunay', 'hausdorff', endless, 4, (), 'max-bits'),
             ('voronoi', 'hausdorff', endless, 4, ('--max-bits', '99'), 'raise --max-bits')):
         result = run(command, '--until', goal + ':200', *options, '-', stdin=text)
         expect(result, code)
@@ -543,7 +543,7 @@ def test_notes_on_goals():
         expect(run(command, '--quiet', '--until', goal + ':200', *options, '-', stdin=text), code, '', r'\A\Z')
     expect(run('voronoi', '--until', 'hausdorff:9', '-', stdin='[0,2] 0\n[1,3] 0\n'), 3, '',
            'the distance to the true diagram is .* 2\\^-9')
-    expect(run('voronoi', '-', stdin=boxes), 3, '', 'fixpoint: [0-9]+ legal, [0-9]+ indeterminate')
+    expect(run('voronoi', '-', stdin=boxes), 3, '', '[0-9]+ legal, [0-9]+ indeterminate pairs; only better')
 
 
 def test_area_goal_out_of_reach_ends():

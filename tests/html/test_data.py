@@ -67,7 +67,7 @@ def test_sphere():
 
 def test_graphs():
     """Sure edges are as legal ones, possible ones as indeterminate; each once, whoever is nearest to whom."""
-    as_pairs = {'sure': 'legal', 'possible': 'indeterminate'}
+    as_pairs = {'certain': 'legal', 'possible': 'indeterminate'}
     for graph in 'nearest', 'gabriel', 'mst':
         for args in pages.FIXES, [pages.points(pages.TWELVE)], ['--radius', '0.01', *pages.PLACES], [pages.points('')]:
             edges = {}

@@ -223,7 +223,7 @@ def test_graph():
     edges = pages.csv_pairs('delaunay', *args)
     with opened(pages.page('delaunay', *args), place='#point=0') as page:
         assert page.text('#title') == 'Minimum spanning tree'
-        for name, status in ('legal', 'sure'), ('indeterminate', 'possible'):
+        for name, status in ('legal', 'certain'), ('indeterminate', 'possible'):
             assert page.text('#count-' + name) == str(list(edges.values()).count(status)) and status in page.text('#card')
         assert page.value('document.querySelector("#show-tie") ?? document.querySelector("#show-triangles")') is None
 

@@ -255,10 +255,10 @@ def test_nearest():
     for at in RANDOM.random((50, 2)):
         found = d.nearest(*at)
         distance = np.hypot(*(points - at).T)
-        assert found.sure and found.points.tolist() == [distance.argmin()] and found.outcome == 'decided'
+        assert found.certain and found.points.tolist() == [distance.argmin()] and found.outcome == 'decided'
         assert found.lo[0] <= distance.min() <= found.hi[0] <= found.lo[0] * (1 + 1e-13)
     tied = dyadel.delaunay(SQUARE).nearest('1/2', '1/2')
-    assert tied.points.tolist() == [0, 1, 2, 3] and not tied.sure and tied.tied and tied.outcome == 'fixpoint'
+    assert tied.points.tolist() == [0, 1, 2, 3] and not tied.certain and tied.tied and tied.outcome == 'fixpoint'
     assert all(lo <= math.sqrt(0.5) <= hi for lo, hi in zip(tied.lo, tied.hi))
     d = dyadel.delaunay([('sqrt(2)', 0), ('sqrt(2)+1e-60', 1), (9, 9)])
     near = d.nearest('sqrt(2)', '1/2')
@@ -286,13 +286,13 @@ def test_tolerance():
 def test_plan():
     d = dyadel.delaunay(GPS)
     plan = d.plan()
-    assert plan.left == 0 and (np.asarray(plan['needed']) < plan['now']).all() and plan['decided'].sum() > 0
+    assert plan.left == 0 and (np.asarray(plan['half_width_needed']) < plan['half_width_now']).all() and plan['pairs_decided'].sum() > 0
     for row in plan.rows:
-        low, high, bottom, top = (float(end) for end in d.rect(row['site']))
-        x, y, r = (low + high) / 2, (bottom + top) / 2, row['needed'] * 0.999
-        d.remeasure(row['site'], (x - r, x + r, y - r, y + r))
+        low, high, bottom, top = (float(end) for end in d.rect(row['i']))
+        x, y, r = (low + high) / 2, (bottom + top) / 2, row['half_width_needed'] * 0.999
+        d.remeasure(row['i'], (x - r, x + r, y - r, y + r))
     assert d.outcome == 'decided', 'what the plan says is enough'
-    assert len(dyadel.plan(RANDOM.random((20, 2)), 0.05, accuracy='1/1000', site=3)['site']) <= 20
+    assert len(dyadel.plan(RANDOM.random((20, 2)), 0.05, accuracy='1/1000', site=3)['i']) <= 20
 
 
 def test_converge():

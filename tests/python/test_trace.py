@@ -126,20 +126,20 @@ def test_graphs():
     np.fill_diagonal(away, np.inf)
     d = dyadel.delaunay(points)
     nearest, gabriel, tree = (d.graph(name) for name in ('nearest', 'gabriel', 'mst'))
-    assert nearest.sure.tolist() == list(map(list, enumerate(away.argmin(1).tolist()))) and not len(nearest.possible)
+    assert nearest.certain.tolist() == list(map(list, enumerate(away.argmin(1).tolist()))) and not len(nearest.possible)
     middle = (points[:, None] + points[None]) / 2
     inside = np.hypot(*(middle[:, :, None] - points[None, None]).transpose(3, 0, 1, 2)) < away[:, :, None] / 2 * (1 - 1e-12)
     empty = inside.sum(2) == 0
-    assert gabriel.sure.tolist() == [[i, j] for i in range(60) for j in range(i + 1, 60) if empty[i, j]]
-    assert len(tree.sure) == 59 and math.isclose(away[tuple(tree.sure.T)].sum(), spanning_length(away))
-    assert {tuple(p) for p in tree.sure.tolist()} <= {tuple(p) for p in gabriel.sure.tolist()} <= {tuple(p) for p in d.legal.tolist()}
+    assert gabriel.certain.tolist() == [[i, j] for i in range(60) for j in range(i + 1, 60) if empty[i, j]]
+    assert len(tree.certain) == 59 and math.isclose(away[tuple(tree.certain.T)].sum(), spanning_length(away))
+    assert {tuple(p) for p in tree.certain.tolist()} <= {tuple(p) for p in gabriel.certain.tolist()} <= {tuple(p) for p in d.legal.tolist()}
     wide = dyadel.delaunay(points, radius=15.0)
     for name, exact in (('nearest', nearest), ('gabriel', gabriel), ('mst', tree)):
         graph = wide.graph(name)
         sure, possible = ({tuple(p) for p in edges.tolist()} for edges in graph)
-        assert sure <= {tuple(p) for p in exact.sure.tolist()} <= sure | possible and possible and not sure & possible
+        assert sure <= {tuple(p) for p in exact.certain.tolist()} <= sure | possible and possible and not sure & possible
     lines = wide.write(layer='graph:mst').splitlines()[1:]
-    assert [line.rsplit(',', 1)[1] for line in lines].count('sure') == len(wide.graph('mst').sure)
+    assert [line.rsplit(',', 1)[1] for line in lines].count('certain') == len(wide.graph('mst').certain)
     assert 'gabriel' in str(harness.raised(ValueError, d.graph, 'star'))
     harness.raised(RuntimeError, dyadel.Delaunay().graph, 'mst')
 

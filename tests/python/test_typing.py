@@ -32,7 +32,7 @@ total: int = int(d.legal[:, 0].sum()) + len(d.simplices) + d.status(0, 1).count(
 where: np.ndarray[tuple[int, ...], np.dtype[np.int32]] = d.nearest(0, 0).points
 bound: Fraction | None = d.voronoi(window=(0, 1, 0, 1)).area
 d = dyadel.delaunay([(0, 0)], trace="run.1", resume=pathlib.Path("run.0"), sphere=False)
-edges: np.ndarray[tuple[int, ...], np.dtype[np.int32]] = d.graph("mst").sure
+edges: np.ndarray[tuple[int, ...], np.dtype[np.int32]] = d.graph("mst").certain
 globe: dyadel.Sphere = dyadel.delaunay(np.zeros((3, 2)), "30m", sphere=True).refine(timeout=3)
 around: list[int | None] = globe.voronoi()[0].vertices
 total += len(globe.neighbors) + len(dyadel.tolerance(np.zeros((3, 2)), sigma=0.5).rows) + len(dyadel.replay("run.1"))

@@ -199,7 +199,7 @@ def judge_motion(judge, case, claims, last, rand, effort):
 
 def judge_plan(judge, case, claims, last, rand, effort):
     """Within the accuracies of a plan all choices have the same edges."""
-    if case.true or case.extra in ('next', 'site', 'window') or 'stay open' in claims['err'] or 'leave' in claims['err']:
+    if case.true or case.extra in ('next', 'site', 'window') or 'stay undecided' in claims['err'] or 'leave' in claims['err']:
         return
     if case.extra == 'accuracy' or case.kind == 'real with radius':
         return

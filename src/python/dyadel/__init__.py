@@ -3,8 +3,8 @@
 
     import dyadel, numpy
     d = dyadel.delaunay(numpy.random.rand(1000, 2), radius=1e-3)
-    d.outcome, d.legal, d.indeterminate, d.ties      # what is true for every choice of points in the squares
-    d.simplices, d.neighbors                         # sure triangles, as scipy.spatial.Delaunay names them
+    d.outcome, d.legal, d.indeterminate, d.ties      # for every choice of points in the squares
+    d.simplices, d.neighbors                         # certain triangles, as scipy.spatial.Delaunay names them
 """
 from ._calls import delaunay, plan, tolerance
 from ._check import check, moves

@@ -20,12 +20,12 @@ EVENTS = np.array(['death', 'birth', 'tie'])
 
 
 class Nearest(NamedTuple):
-    """points: those possibly nearest, ascending; sure: there is one, and it is surely nearest; outcome: 'decided',
+    """points: those that may be nearest, ascending; certain: there is one, and it is certainly nearest; outcome: 'decided',
     'fixpoint', 'budget' or 'cancelled'; lo, hi: bounds of the distance of each, rounded outward; tied: all of them are
-    equally far, so that no refinement makes one sure."""
+    equally far, so that no refinement makes one certain."""
 
     points: Ints
-    sure: bool
+    certain: bool
     outcome: str
     lo: Floats
     hi: Floats
@@ -48,10 +48,10 @@ def _distances(boxes: Floats, at: Sequence[float]) -> tuple[Floats, Floats]:
 
 def nearest_to(engine: _dyadel.Engine, x: Any, y: Any, options: dict[str, Any]) -> Nearest:
     """See Delaunay.nearest."""
-    found, sure, tied, outcome, ends = engine.nearest((x, y), options)
+    found, certain, tied, outcome, ends = engine.nearest((x, y), options)
     points, boxes = ints(found), floats(engine.boxes()).reshape(-1, 4)
     at = [float(np.nextafter(float(Fraction(*end)), np.inf if k % 2 else -np.inf)) for k, end in enumerate(ends)]
-    return Nearest(points, sure, outcome, *_distances(boxes[points], at), tied)
+    return Nearest(points, certain, outcome, *_distances(boxes[points], at), tied)
 
 
 # ---- graphs ----
@@ -60,11 +60,11 @@ GRAPHS = ('nearest', 'gabriel', 'mst')
 
 
 class Graph(NamedTuple):
-    """Edges i, j of a graph of neighbours. sure: edges whatever the points are, and no others are as good: (S, 2);
+    """Edges i, j of a graph of neighbours. certain: edges for every choice of points, with no others as good: (C, 2);
     possible: edges for some choice, or one of several that are equally good: (P, 2). Others are edges for no choice; of
     a spanning tree of rectangles some that are listed may be, too."""
 
-    sure: Ints
+    certain: Ints
     possible: Ints
 
 
@@ -73,8 +73,8 @@ def graph_of(engine: _dyadel.Engine, name: str) -> Graph:
     if name not in GRAPHS:
         raise ValueError(f'graph {name!r}; give one of {", ".join(map(repr, GRAPHS))}')
     edges = ints(engine.graph(GRAPHS.index(name))).reshape(-1, 3)
-    sure = edges[:, 2] != 0
-    return Graph(edges[sure, :2], edges[~sure, :2])
+    certain = edges[:, 2] != 0
+    return Graph(edges[certain, :2], edges[~certain, :2])
 
 
 # ---- tables ----
@@ -149,24 +149,24 @@ def tolerance_of(engine: _dyadel.Engine, up_to: Any, points: bool, sigma: float 
 
 
 class Plan(Table):
-    """Which points to measure next, in order: columns site, now (half-width, rounded up), needed (rounded down), decided
-    (how many more pairs), left. If they turn out within `needed` of the centres of their rectangles, no pair asked for is
-    open, but for those that tie there.
+    """Which points to measure next, in order: columns i, half_width_now (rounded up), half_width_needed (rounded down),
+    pairs_decided (how many more), pairs_left. If each new position is within half_width_needed of the old one, the centre of
+    its rectangle, all pairs asked for are decided but for those that tie there.
 
-    open, ties, left: pairs that were open, that tie at the centres, that stay open.
+    undecided, ties, left: pairs that were undecided, that tie at the centres, that stay undecided.
     """
 
-    open: int
+    undecided: int
     ties: int
     left: int
 
 
 def plan_of(engine: _dyadel.Engine, accuracy: Any, window: Sequence[Any] | None, site: int | None) -> Plan:
     """See plan."""
-    rows, (open_pairs, ties, left) = engine.plan(accuracy, window, site)
-    made = Plan(_fields(rows, {'site': ('u4', 0), 'now': ('f8', 8), 'needed': ('f8', 16), 'decided': ('u8', 24),
-                               'left': ('u8', 32)}, 40))
-    made.open, made.ties, made.left = open_pairs, ties, left
+    rows, (undecided, ties, left) = engine.plan(accuracy, window, site)
+    made = Plan(_fields(rows, {'i': ('u4', 0), 'half_width_now': ('f8', 8), 'half_width_needed': ('f8', 16),
+                               'pairs_decided': ('u8', 24), 'pairs_left': ('u8', 32)}, 40))
+    made.undecided, made.ties, made.left = undecided, ties, left
     return made
 
 

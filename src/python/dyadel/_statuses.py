@@ -23,7 +23,7 @@ Made = TypeVar('Made')
 
 
 class Statuses:
-    """Statuses of pairs, sure triangles, and the rectangles for which they hold. Points are numbered from 0."""
+    """Statuses of pairs, certain triangles, and the rectangles for which they hold. Points are numbered from 0."""
 
     _engine: _dyadel.Engine | _dyadel.Sphere
     _named: _dyadel.Engine
@@ -84,7 +84,7 @@ class Statuses:
 
     @property
     def outcome(self) -> str:
-        """'decided', 'certified' (the bound asked for holds), 'fixpoint' (no refinement decides what is open), 'budget',
+        """'decided', 'certified' (the requested bound holds), 'fixpoint' (only better measurements can decide more), 'budget',
         'cancelled', 'error', or 'none' before the first run."""
         return self._outcome or self._engine.outcome()
 
@@ -98,7 +98,7 @@ class Statuses:
 
     @property
     def legal(self) -> Ints:
-        """Pairs that are edges whatever the points are: (L, 2)."""
+        """Pairs that are edges for every choice of points: (L, 2)."""
         return self._with(LEGAL)
 
     @property
@@ -117,12 +117,12 @@ class Statuses:
 
     @property
     def simplices(self) -> Ints:
-        """Triangles that are sure, counter-clockwise, in no particular order: (T, 3)."""
+        """Certain triangles, counter-clockwise, in no particular order: (T, 3)."""
         return self._triangles()[0]
 
     @property
     def neighbors(self) -> Ints:
-        """neighbors[t, k]: the triangle beyond the side opposite to corner k of triangle t; -1 where none is sure: (T, 3)."""
+        """neighbors[t, k]: the triangle beyond the side opposite to corner k of triangle t; -1 where none is certain: (T, 3)."""
         return self._triangles()[1]
 
     @property

@@ -25,7 +25,7 @@ class Bounds(NamedTuple):
 
 
 class Delaunay(Statuses):
-    """Which pairs of points are edges of the Delaunay triangulation: surely, possibly, by a tie. Made by delaunay().
+    """Which pairs of points are edges of the Delaunay triangulation: certain, possible, tied. Made by delaunay().
 
     Every statement holds for all choices of points in the rectangles reached. Points are numbered from 0. Calls from
     several threads, and from callbacks, are refused while one is at work (RuntimeError), but for cancel().
@@ -119,9 +119,9 @@ class Delaunay(Statuses):
 
     @property
     def hull(self) -> tuple[Ints, Ints]:
-        """Points that are surely corners of the convex hull, and those that possibly are on its boundary."""
-        sure, possible = self._once('hull', self._engine.hull)
-        return ints(sure), ints(possible)
+        """Certain corners of the convex hull, and points that may lie on its boundary (possible)."""
+        certain, possible = self._once('hull', self._engine.hull)
+        return ints(certain), ints(possible)
 
     def graph(self, name: str) -> Graph:
         """Edges of a graph of neighbours: 'nearest' (j is nearest to i), 'gabriel' or 'mst' (minimum spanning tree)."""
@@ -133,7 +133,7 @@ class Delaunay(Statuses):
 
     @property
     def bounds(self) -> Bounds:
-        """Certified upper bounds on what is open (Fractions; squared units and units of the points)."""
+        """Certified upper bounds of the undecided part (Fractions; squared units and units of the points)."""
         area, hausdorff = self._engine.bounds()
         return Bounds(Fraction(*area), Fraction(*hausdorff))
 
@@ -141,7 +141,7 @@ class Delaunay(Statuses):
 
     @takes_options()
     def nearest(self, x: Any, y: Any, **options: Any) -> Nearest:
-        """Which points are possibly nearest to the place (x, y), any coordinates; refines until one surely is.
+        """Points that may be nearest to the place (x, y), any coordinates; refines until one certainly is.
 
         options: budgets of delaunay: max_bits, max_calls, timeout.
         """

@@ -30,8 +30,8 @@ class Triangulation(Protocol):
 
 
 class Cell(NamedTuple):
-    """inner: a polygon (K, 2) all of whose points are surely nearest to the point (K = 0: none known); outer: polygons
-    that hold all points possibly nearest. Their exact vertices are dyadic; here they are rounded to doubles. Of exact points
+    """inner: a polygon (K, 2) that lies in the cell for every choice (K = 0: none known); outer: polygons that contain
+    the cell for every choice. Their exact vertices are dyadic; here they are rounded to doubles. Of exact points
     both are the cell, its vertices rounded once. area: bounds, rounded outward."""
 
     inner: Floats
@@ -65,12 +65,12 @@ class Voronoi:
 
     @property
     def area(self) -> Fraction | None:
-        """Upper bound of the area of the window that is undetermined; None: not known."""
+        """Upper bound of the undecided area of the window; None: not known."""
         return self._bound('undetermined_area')
 
     @property
     def hausdorff(self) -> Fraction | None:
-        """Upper bound of the distance of undetermined points to the true diagram; None: not known."""
+        """Upper bound of the distance of undecided points to the true diagram; None: not known."""
         return self._bound('distance_to_true_diagram')
 
     def __len__(self) -> int:
@@ -86,13 +86,13 @@ class Voronoi:
 
     @property
     def edges(self) -> list[dict[str, Any]]:
-        """i, j and the ends `from`, `to` of each sure edge: numbers in `vertices`, {'ray': bounds of a direction}, None: open."""
+        """i, j and the ends `from`, `to` of each certain edge: numbers in `vertices`, {'ray': bounds of a direction}, None: undecided."""
         edges: list[dict[str, Any]] = self.data['edges']
         return edges
 
     @property
     def vertices(self) -> list[dict[str, Any]]:
-        """Enclosures x, y (pairs, rounded outward) of the vertices of sure triangles."""
+        """Enclosures x, y (pairs, rounded outward) of the vertices of certain triangles."""
         vertices: list[dict[str, Any]] = self.data['vertices']
         return vertices
 
@@ -106,7 +106,7 @@ class Voronoi:
 
     @property
     def __geo_interface__(self) -> dict[str, Any]:
-        """Cells as a FeatureCollection: polygons of the kinds 'surely nearest' and 'possibly nearest', or 'exact'."""
+        """Cells as a FeatureCollection: polygons of the kinds 'certain' and 'possible', or 'exact'."""
         collection: dict[str, Any] = json.loads(self.write('geojson'))
         return collection
 

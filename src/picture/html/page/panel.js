@@ -15,24 +15,24 @@ function element(tag, attributes = {}, ...children) {
 
 // What can be shown: name, what it means; the first ones of diagrams only.
 const CELLS = [
-  ["cells", "surely nearest to a point"],
-  ["bands", "undetermined"],
-  ["vertices", "boxes of sure vertices"],
+  ["cells", "certainly nearest to a point"],
+  ["bands", "undecided"],
+  ["vertices", "boxes of certain vertices"],
   ["regions", "boxes of undecided vertices"],
-  ["edges", "sure Voronoi edges"],
+  ["edges", "certain Voronoi edges"],
 ];
 const PAIRS = [
   ["legal", "legal: for every choice"],
   ["indeterminate", "indeterminate: for some"],
   ["tie", "tie: stays undecided"],
-  ["triangles", "sure triangles"],
+  ["triangles", "certain triangles"],
   ["areas", "where these edges may be"],
   ["boxes", "points, rectangles"],
   ["names", "numbers or names"],
 ];
 
 // Of a graph of neighbours there are edges alone, and areas of the plane are none of a sphere.
-const OF_GRAPHS = {legal: "sure: for every choice", indeterminate: "possible: for some"};
+const OF_GRAPHS = {legal: "certain: for every choice", indeterminate: "possible: for some"};
 function pairEntries({data}) {
   if (data.graph) return PAIRS.filter(([name]) => !["tie", "triangles"].includes(name)).map(([name, text]) => [name, OF_GRAPHS[name] ?? text]);
   return data.surface === "sphere" ? PAIRS.filter(([name]) => name !== "areas") : PAIRS;
@@ -82,7 +82,7 @@ function showSummary({data, n}) {
   $("summary").textContent = `${grouped(n)}${part} points, outcome ${data.outcome}${goal}` +
     (data.capped ? "; the cap on pairs was met: not all possible pairs are known" : "");
   $("about").textContent = (data.window ? `The window is [${data.window.join(", ")}]. ` : "") +
-    (data.undetermined_area ? `Undetermined in it: an area of at most ${upper(data.undetermined_area)}; ` : "") +
+    (data.undetermined_area ? `Undecided in it: an area of at most ${upper(data.undetermined_area)}; ` : "") +
     (data.distance_to_true_diagram ? `nothing of it is farther than ${upper(data.distance_to_true_diagram)} from the true diagram. ` : data.cells ? "how far it is from the true diagram is not known. " : "") +
     (data.tolerance ? `Nothing changes at all while every point stays within ${data.tolerance[0] === null ? "any distance" : directed(data.tolerance[0], 4, false)} of its place. ` : "");
   $("rounding").textContent = "Rectangles are told exactly where they stand as texts m*2^e or p/q" +
@@ -165,7 +165,7 @@ function sideLines(scene, k, axis) {
   return [head, element("dd", {}, near), ...(now ? [told] : [])];
 }
 
-const PARTNERS = {[LEGAL]: "legal", [INDETERMINATE]: "open", [TIE]: "tied"}, OF_GRAPH = {[LEGAL]: "sure", [INDETERMINATE]: "possible"};
+const PARTNERS = {[LEGAL]: "legal", [INDETERMINATE]: "undecided", [TIE]: "tied"}, OF_GRAPH = {[LEGAL]: "certain", [INDETERMINATE]: "possible"};
 
 function partnerLines(scene, k, choose) {
   const own = partners(scene, k);
