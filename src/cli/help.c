@@ -51,6 +51,16 @@ static const help_term help_examples[] = {
      "points with their own accuracies; the result names them"},
     {"dyadel delaunay --until hausdorff:40 points.txt", "refine until edges are known to 2^-40"},
     {"dyadel delaunay --certificate c.txt points.txt && dyadel verify c.txt", "edges, and a check of what proves them"},
+    {"dyadel voronoi --window 0,10,0,10 --until area:20 -o cells.html points.txt",
+     "cells on a window, to an undecided area of at most 2^-20, as a page"},
+    {"dyadel voronoi --columns x,y --layer tiles -o tiles.geojson stations.csv", "Thiessen polygons of stations"},
+    {"dyadel nearest --columns x,y --queries places.txt stations.csv", "the nearest station of each place"},
+    {"dyadel tolerance --up-to 0.5 points.txt", "how far points may move before edges are lost or born"},
+    {"dyadel plan --columns x,y --radius-column accuracy --accuracy 0.01 survey.csv",
+     "what to measure next with an instrument good to 0.01"},
+    {"dyadel check --schedules 1000 --oracle ./my-points", "test a program that refines points"},
+    {"dyadel disc -o disc.svg points.txt", "the partial disc of the first three points, drawn"},
+    {"dyadel bisector -o bisector.svg points.txt", "the partial bisector of the first two points, drawn"},
     {"dyadel converge --schedule uniform --step-bits 8 --plot run.svg points.txt",
      "how bounds and statuses develop with the precision"},
     {NULL, NULL}};
@@ -111,7 +121,7 @@ static const char help_oracle_text[] =
 
 /* ---- --help: of everything, or of one command ---- */
 
-enum { COLUMN = 24 };
+enum { COLUMN = 24, WIDTH = 80 };
 
 /* How many commands are in the set. */
 static unsigned count_commands(unsigned commands) {
@@ -145,15 +155,82 @@ static void help_names(FILE *out, const cli_option *o) {
   fprintf(out, "%*s", COLUMN - length, "");
 }
 
+/* A clause of a help text: up to a semicolon that is not in parentheses. */
+static size_t clause_length(const char *text) {
+  size_t k = 0;
+  for (int depth = 0; text[k] && (depth || text[k] != ';'); k++) depth += (text[k] == '(') - (text[k] == ')');
+  return k;
+}
+
+/* The commands that "delaunay, voronoi: " at its head names, and the length of that; 0 where it names none. */
+static unsigned clause_commands(size_t *head, const char *text) {
+  unsigned named = 0;
+  for (size_t k = 0;;) {
+    size_t length = strspn(text + k, "abcdefghijklmnopqrstuvwxyz");
+    size_t c = 0;
+    while (c < CLI_COMMANDS &&
+           (strlen(cli_commands[c].name) != length || strncmp(cli_commands[c].name, text + k, length)))
+      c++;
+    if (c == CLI_COMMANDS) return 0;
+    named |= 1U << c;
+    k += length;
+    *head = k + 2;
+    if (text[k] == ':') return named;
+    if (strncmp(text + k, ", ", 2) != 0) return 0;
+    k += 2;
+  }
+}
+
+/* False where it is about an option that none of the commands takes. */
+static bool clause_applies(const char *text, size_t length, unsigned among) {
+  for (const char *at = strstr(text, "--"); at && at < text + length; at = strstr(at + 2, "--")) {
+    size_t name = strspn(at + 2, "abcdefghijklmnopqrstuvwxyz-");
+    for (size_t k = 0; k < cli_option_count; k++)
+      if (strlen(cli_option_table[k].name) == name && strncmp(cli_option_table[k].name, at + 2, name) == 0 &&
+          !(cli_option_table[k].commands & among))
+        return false;
+  }
+  return true;
+}
+
+/* Words in lines of the width that is left; column: where the line is. */
+static void help_words(FILE *out, const char *text, size_t length, int *column) {
+  for (size_t k = 0; k < length;) {
+    size_t word = strcspn(text + k, " \n");
+    if (word > length - k) word = length - k;
+    if (*column + (int)word + 1 > WIDTH) fprintf(out, "\n%*s", *column = COLUMN, "");
+    if (*column > COLUMN) fputc(' ', out), ++*column;
+    fwrite(text + k, 1, word, out);
+    *column += (int)word;
+    k += word + 1;
+  }
+}
+
+/* What of the text is about these commands; of a single one without its name. */
+static void help_clauses(FILE *out, const char *text, unsigned among) {
+  int column = COLUMN;
+  bool any = false;
+  while (*text) {
+    size_t length = clause_length(text), head = 0;
+    unsigned named = clause_commands(&head, text);
+    if ((!named || named & among) && clause_applies(text, length, among)) {
+      size_t skipped = named && count_commands(among) == 1 ? head : 0;
+      if (any) fputc(';', out), column++;
+      if (any && named) fprintf(out, "\n%*s", column = COLUMN, "");
+      help_words(out, text + skipped, length - skipped, &column);
+      any = true;
+    }
+    text += length;
+    while (*text == ';' || *text == ' ' || *text == '\n') text++;
+  }
+}
+
 static void help_option(FILE *out, const cli_option *o, unsigned among) {
   help_names(out, o);
   if (o->kind == CLI_FORMAT)
     cli_formats_print(out, o->commands & among, ", ", true);
   else
-    for (const char *c = o->help; *c; c++) {
-      fputc(*c, out);
-      if (*c == '\n') fprintf(out, "%*s", COLUMN, "");
-    }
+    help_clauses(out, o->help, among);
   help_takers(out, o->commands, among);
   fputs("\n", out);
 }
@@ -171,6 +248,20 @@ static void help_options(FILE *out, unsigned among) {
   }
 }
 
+/* The examples that run the command. */
+static void help_samples(FILE *out, const cli_command *command) {
+  char start[32];
+  snprintf(start, sizeof start, "dyadel %s ", command->name);
+  fputs("Examples\n", out);
+  for (const help_term *t = help_examples; t->term; t++) {
+    if (!strstr(t->term, start)) continue;
+    int column = COLUMN;
+    fprintf(out, "  %s\n%*s", t->term, COLUMN, "");
+    help_words(out, t->meaning, strlen(t->meaning), &column);
+    fputs("\n", out);
+  }
+}
+
 void cli_help(FILE *out, const cli_command *command) {
   if (command) {
     fprintf(out, "Usage: dyadel %s [OPTION...] %s\n%s\n\n", command->name, command->operands, command->about);
@@ -185,6 +276,7 @@ void cli_help(FILE *out, const cli_command *command) {
   }
   if (!command || strncmp(command->operands, "FILE", 4) == 0) fprintf(out, "%s\n\n", help_file_text);
   help_options(out, command ? cli_command_bit(command) : CLI_ALL);
+  if (command) help_samples(out, command);
   fputs("\nExit status: 0 decided or certified, 1 bad input or failure, 2 bad usage,\n"
         "3 fixpoint (ties or fixed rectangles), 4 budget spent, 5 cancelled.\n"
         "Results are written for 0, 3, 4 and 5.\n",

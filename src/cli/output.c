@@ -44,7 +44,7 @@ static bool is_broken(FILE *stream) {
 bool cli_output_note_reader(FILE *stream, const char *name, const cli_options *o) {
   if (!is_broken(stream)) return false;
   lost_reader = true;
-  cli_note(o, "%s: the reader went away before all was written", name ? name : "standard output");
+  cli_note(o, "%s: output closed early (broken pipe)", name ? name : "standard output");
   return true;
 }
 

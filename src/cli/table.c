@@ -202,7 +202,7 @@ const cli_option cli_option_table[] = {
     {"of", 0, "WHAT", CLI_CHOICE, BIT(CLI_CONVERGE), CLI_REFINEMENT,
      "whose bound --until means: delaunay (default) or voronoi", AT(of_voronoi), WORDS("delaunay voronoi")},
     {"max-bits", 0, "B", CLI_INTEGER, REFINE, CLI_REFINEMENT,
-     "precision at which to give up (default 4096; check: 192)", AT(engine.max_bits), RANGE(1, DYD_EXP_LIMIT),
+     "precision at which to give up (default 4096, of check 192)", AT(engine.max_bits), RANGE(1, DYD_EXP_LIMIT),
      GIVEN(max_bits_set)},
     {"max-pairs", 0, "K", CLI_INTEGER, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_REFINEMENT,
      "cap on stored pairs (default 4000000 + 16 per point)", AT(engine.max_pairs), RANGE(1, (long long)1 << 40)},
@@ -211,7 +211,7 @@ const cli_option cli_option_table[] = {
     {"schedule", 0, "WHICH", CLI_CHOICE, RUN, CLI_REFINEMENT,
      "adaptive (default): refine undecided pairs;\nuniform: refine all points", AT(engine.schedule),
      WORDS("adaptive uniform")},
-    {"start-bits", 0, "B", CLI_INTEGER, RUN, CLI_REFINEMENT, "precision of the first stage (default 64; converge: 4)",
+    {"start-bits", 0, "B", CLI_INTEGER, RUN, CLI_REFINEMENT, "precision of the first stage (default 64, of converge 4)",
      AT(engine.start_bits), RANGE(1, DYD_EXP_LIMIT), GIVEN(start_set)},
     {"step-bits", 0, "K", CLI_INTEGER, RUN, CLI_REFINEMENT, "refine in steps of K bits (default: geometric growth)",
      AT(engine.step_bits), RANGE(1, DYD_EXP_LIMIT)},
@@ -225,8 +225,9 @@ const cli_option cli_option_table[] = {
      "threads to use (default 1); results do not depend on it", AT(engine.threads), RANGE(1, 1024)},
 
     {"window", 0, "XLO,XHI,YLO,YHI", CLI_WINDOW, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_OUTPUT,
-     "the part of the plane looked at; exact numbers\n(default: the box of the points enlarged by half);\n"
-     "delaunay: what svg, pdf, png and html show (default: all),\nother formats list everything all the same;\nwith "
+     "part of the plane, exact numbers;\nvoronoi, converge, check: of the diagram (default: the box of the\n"
+     "points enlarged by half);\ndelaunay, tolerance: what svg, pdf, png and html show (default: all),\nother formats "
+     "list everything all the same;\nwith "
      "--sphere: the degrees that svg, pdf and png show;\n"
      "plan: only pairs with an end in it are to be decided",
      AT(window)},
@@ -254,16 +255,18 @@ const cli_option cli_option_table[] = {
 
     {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE), CLI_OUTPUT,
      "what csv, wkt and geojson hold, and html shows first;\ndelaunay: pairs (default), points, triangles,\n"
-     "graph:nearest, graph:gabriel, graph:mst (edges that are\nsure or possible; also pictures), aliases (rows that\n"
+     "graph:nearest, graph:gabriel, graph:mst (edges that are\ncertain or possible; also pictures), aliases (rows "
+     "that\n"
      "have a point in common with an earlier one), ties;\nvoronoi: cells (default), tiles (a partition), vertices,\n"
-     "regions, edges, aliases; json and vtk hold all of them but graphs;\n"
+     "regions, edges, aliases;\n"
+     "delaunay, voronoi: json and vtk hold all of them but graphs;\n"
      "tolerance: pairs (default), points, barcode (csv: how "
      "many\n"
      "edges are certain at which accuracy)",
      AT(layer)},
     {"list-ties", 0, "HOW", CLI_CHOICE, BIT(CLI_DELAUNAY), CLI_OUTPUT,
      "pairs (default): a row for each tied pair; groups: csv\nlists the circles and lines that the tied points are on\n"
-     "in place of pairs (kind,sites); none: no tied pair",
+     "instead of pairs (kind,sites); none: no tied pair",
      AT(list_ties), WORDS("pairs groups none")},
     {"crs", 0, "EPSG:N", CLI_CRS, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_OUTPUT,
      "the reference system of the coordinates, for geojson and\njson (default: none is claimed)", AT(epsg),
@@ -281,7 +284,7 @@ const cli_option cli_option_table[] = {
      "write what proves the result; see dyadel verify", AT(certificate)},
     {"stats", 0, NULL, CLI_FLAG, RUN, CLI_OUTPUT, "print counters to standard error", AT(stats)},
     {"accept-fixpoint", 0, NULL, CLI_FLAG, REFINE & ~BIT(CLI_CHECK), CLI_OUTPUT,
-     "exit status 0 in place of 3, for scripts that stop at errors", AT(accept_fixpoint)},
+     "exit status 0 instead of 3, for scripts that stop at errors", AT(accept_fixpoint)},
     {"quiet", 'q', NULL, CLI_FLAG, CLI_ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
 
     {"plot", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS, "draw the table; FILE ends in .svg, .pdf or .png",

@@ -196,6 +196,21 @@ def test_readme():
         assert f'`dyadel {name} {operands}`' in readme, f'README does not know dyadel {name}'
 
 
+def test_help_of_one_command():
+    """It has examples, and names no option that the command does not take, nor what options do in other commands."""
+    whole = run('--help').out
+    names = re.findall(r'^  ([a-z]+) ', whole.split('Commands\n')[1].split('\n\n')[0], re.M)
+    assert len(names) == 10, names
+    for name in names:
+        text, _, rest = run('help', name).out.partition('\nExamples\n')
+        taken = set(re.findall(r'^  (?:-\w, )?--([a-z-]+)', text, re.M))
+        options = text[text.index('\nInput\n'):] if '\nInput\n' in text else text
+        assert set(re.findall(r'--([a-z]+(?:-[a-z]+)*)', options)) <= taken, (name, set(re.findall('--([a-z-]+)', options)) - taken)
+        assert f'  dyadel {name} ' in rest or f'dyadel {name} ' in rest, name
+        others = [f'{other}: ' for other in names if other != name]
+        assert not any(re.search(r'(^|[;,] )\s*' + other, line) for other in others for line in options.splitlines()), name
+
+
 def test_help_into_a_full_device():
     with open('/dev/full', 'w', encoding='utf-8') as full:
         for arguments in (['--help'], ['--version'], ['--help=man']):
