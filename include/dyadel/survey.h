@@ -52,6 +52,10 @@ typedef struct dyd_survey_result {
   size_t left;        /* pairs that the plan leaves open */
   bool cut; /* the plan is not finished: points may be in it that a finished one does not need, in the order they were
                chosen; the numbers of pairs hold as they do otherwise */
+  uint32_t tie[2];  /* the first pair asked for that is indeterminate and ties at the nominal places: a measurement of
+                       one  of the points on that circle or line decides it unless it lies exactly there */
+  uint32_t same[2]; /* the first two points of equal nominal places: pairs next to them may stay undecided, whatever the
+                       accuracy. Both: two equal numbers if there are none */
 } dyd_survey_result;
 /* Borrowed until s is freed. */
 DYD_API const dyd_survey_result *dyd_survey_get(const dyd_survey *s);

@@ -291,13 +291,36 @@ static dyd_status plan_write(FILE *out, const cli_session *s, dyd_error *err) {
   return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
 }
 
+/* What rows alone do not say: ties at the nominal places, points that coincide there, rows that decide nothing yet. */
+static void plan_notes(const cli_session *s, const dyd_survey *plan) {
+  const dyd_survey_result *of = dyd_survey_get(plan);
+  const dyd_survey_row *row;
+  size_t rows = dyd_survey_rows(&row, plan), idle = 0;
+  const bool same = of->same[0] != of->same[1];
+  if (same)
+    cli_note(
+        &s->o,
+        "points %zu and %zu have the same centre, so pairs next to them may stay undecided (measure them apart; if "
+        "they are one point: --merge)",
+        dyd_engine_row(s->engine, of->same[0]), dyd_engine_row(s->engine, of->same[1]));
+  if (of->tie[0] != of->tie[1])
+    cli_note(&s->o,
+             "the pair %zu,%zu ties at the centres of its rectangles: any new measurement of one of the points on that "
+             "circle or line decides it, unless it lies exactly there",
+             dyd_engine_row(s->engine, of->tie[0]), dyd_engine_row(s->engine, of->tie[1]));
+  for (size_t k = 0; k < rows; k++) idle += row[k].decided == 0;
+  if (idle) cli_note(&s->o, "rows with pairs_decided 0 decide pairs only together with later rows");
+  if (of->left)
+    cli_note(&s->o, "%zu of %zu pairs stay undecided with this plan%s", of->left, of->open,
+             s->o.accuracy && !same ? " (give a finer --accuracy)" : "");
+}
+
 static int plan_summary(cli_session *s, int status) {
   const plan_run *r = s->state;
   const dyd_survey_result *of = dyd_survey_get(r->survey);
   if (status) return status;
   if (of->cut) return cli_exit_cut();
-  if (of->left)
-    cli_note(&s->o, "%zu of %zu pairs stay undecided with this plan (give a finer --accuracy)", of->left, of->open);
+  plan_notes(s, r->survey);
   return of->left ? CLI_FIXPOINT : CLI_OK;
 }
 

@@ -328,6 +328,10 @@ void dyd_row_decimal(dyd_table *t, double x, dyd_round dir) {
   row_number(t, x, 17, dir);
 }
 
+void dyd_row_brief(dyd_table *t, double x) {
+  row_number(t, x, 6, DYD_DOWN);
+}
+
 void dyd_row_box(dyd_table *t, const double box[4]) {
   for (int k = 0; k < 4; k++) dyd_row_decimal(t, box[k], k & 1 ? DYD_UP : DYD_DOWN);
 }

@@ -36,6 +36,17 @@ static size_t ties_left_out(const dyd_delaunay *pd) {
   return dyd_least_bounding(pd) > DYD_TIE ? count[DYD_TIE] : 0;
 }
 
+/* The first pair that ties at the centres, and the first end of a pair whose centre is that of another site. */
+static void note_nominal(dyd_survey_result *r, const dyd_delaunay *nominal, const dyd_pair *p) {
+  const uint32_t end[2] = {p->i, p->j};
+  if (p->status != DYD_INDETERMINATE) return;
+  if (r->tie[0] == r->tie[1] && dyd_delaunay_status(nominal, p->i, p->j) == DYD_TIE) memcpy(r->tie, end, sizeof end);
+  for (int k = 0; k < 2 && r->same[0] == r->same[1]; k++) {
+    r->same[0] = dyd_delaunay_alias(nominal, end[k]);
+    r->same[1] = end[k];
+  }
+}
+
 /* Of the pairs asked for: those open, but for the ties of the nominal places. */
 static dyd_status find_targets(dyd_survey *s, const dyd_delaunay *pd) {
   dyd_pair_list all = {0};
@@ -53,6 +64,7 @@ static dyd_status find_targets(dyd_survey *s, const dyd_delaunay *pd) {
     p.j = dyd_delaunay_alias(pd, p.j);
     p.status = dyd_delaunay_status(pd, p.i, p.j);
     if ((p.status != DYD_INDETERMINATE && p.status != DYD_TIE) || !is_asked(o, s, &p)) continue;
+    note_nominal(&s->result, nominal, &p);
     if (dyd_delaunay_status(nominal, p.i, p.j) == DYD_TIE ||
         dyd_delaunay_alias(nominal, p.i) == dyd_delaunay_alias(nominal, p.j))
       s->ties++;

@@ -36,6 +36,20 @@ def test_accuracy_that_is_not_enough():
     expect(run('plan', '--accuracy', '3.9', '--quiet', '-', stdin=POINTS), 3, r'\A# plan', r'\A\Z')
 
 
+def test_what_rows_do_not_say():
+    """A pair that ties at the centres, points that coincide there, rows that decide nothing by themselves."""
+    tied = '39 1\n60 0\n[39,43] [57,61]\n[-1,1] [39,41]\n19 21\n'
+    expect(run('plan', '-', stdin=tied), 0, '', 'the pair [0-9]+,[0-9]+ ties at the centres')
+    expect(run('plan', '--quiet', '-', stdin=tied), 0, '', r'\A\Z')
+    twice = '0 0\n10 0\n5+-1 5+-1\n5+-1 5+-1\n5 12\n'
+    result = run('plan', '--accuracy', '0.5', '-', stdin=twice)
+    assert 'points 2 and 3 have the same centre' in result.err and '--merge' in result.err, result.err
+    assert 'finer --accuracy' not in result.err
+    result = run('plan', '--columns', 'east,north', '--radius-column', 'accuracy', f'{DATA}/gps.csv')
+    assert '\n1,15,12,2.90625,' in result.out, result.out[:200]
+    assert ('pairs_decided 0' in result.err) == any(r['pairs_decided'] == '0' for r in rows(result.out)), result.err
+
+
 def test_ties():
     """A square: its diagonals tie if all are where they seem to be; nothing helps, and nothing is asked."""
     square = '0+-0.1 0\n1 0+-0.1\n1 1\n0 1\n'
