@@ -403,7 +403,9 @@ dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_su
   if (st == DYD_OK || (st == DYD_CANCELLED && s->first)) {
     *out = s;
     if (st == DYD_CANCELLED) keep_draft(s, err);
-    s->result = (dyd_survey_result){sizeof s->result, s->target.count, s->ties, s->left, s->cut};
+    dyd_survey_result *r = &s->result; /* tie and same are in it */
+    r->struct_size = sizeof *r;
+    r->open = s->target.count, r->ties = s->ties, r->left = s->left, r->cut = s->cut;
     return st;
   }
   if (st == DYD_E_NOMEM && s->room.refused) dyd_fail_room(err, &s->room);
