@@ -251,7 +251,7 @@ def test_discs():
         words = '--columns', 'x,y', '--radius-column', 'r', '-', *map(str, at)
         answer = rows(run('nearest', '--discs', *words, stdin=text).out)
         assert {int(r['i']) for r in answer} == want, (discs, at, want, answer)
-        assert all((r['status'] == 'sure') == (len(want) == 1) for r in answer)
+        assert all((r['status'] == 'certain') == (len(want) == 1) for r in answer)
         for r in answer:
             k = int(r['i'])
             lo, hi = max(0, far[k] - discs[k][2]), far[k] + discs[k][2]
