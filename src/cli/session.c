@@ -506,8 +506,8 @@ void cli_session_lacks(cli_session *s, dyd_outcome outcome, const char *what) {
 int cli_session_stopped(cli_session *s, const char *what) {
   cli_session_settle(s);
   bool late = cli_deadline_passed() || session_is_late(s->engine);
-  cli_complain("%s before %s known: there is no result to write%s", late ? "time limit reached" : "cancelled", what,
-               late ? " (raise --timeout)" : "");
+  cli_complain("%s before %s known: there is no result to write%s", late ? "budget: time limit reached" : "cancelled",
+               what, late ? " (raise --timeout)" : "");
   return late ? CLI_BUDGET : CLI_CANCELLED;
 }
 
@@ -516,7 +516,7 @@ int cli_session_stopped(cli_session *s, const char *what) {
 /* Nothing is written since work was cut: says why. Exit status. */
 static int write_was_cut(dyd_status st, const cli_options *o, const dyd_error *err) {
   if (cli_deadline_passed()) {
-    cli_complain("time limit reached before the result was known: nothing is written; raise --timeout");
+    cli_complain("budget: time limit reached before the result was known: nothing is written (raise --timeout)");
     return CLI_BUDGET;
   }
   if (st == DYD_CAPPED)

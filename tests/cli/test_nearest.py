@@ -298,7 +298,7 @@ def test_queries_of_any_form():
         (path / 's.csv').write_text('id,x,y\nA,12,5\nB,3,8\n')
         given = ('nearest', 's.csv', '--columns', 'x,y', '--id', 'id', '--queries', '-')
         plain = run(*given, stdin='11 5\n4 7\n', cwd=folder)
-        expect(plain, 0, r'^q,i,status,lo,hi,id\n0,0,sure,1,1,A\n1,1,sure,.*,B\n\Z', r'\A\Z')
+        expect(plain, 0, r'^q,i,status,lo,hi,id\n0,0,certain,1,1,A\n1,1,certain,.*,B\n\Z', r'\A\Z')
         for text, options in (('x,y\n11,5\n4,7\n', ()), ('cust;y;x\nc;5;11\nd;7;4\n', ()), ('c 11 5\nd 4 7\n', ('--query-columns', '2,3')),
                               ('lat|lon\n5|11\n7|4\n', ('--query-columns', 'lon,lat')), ('# x y\n11 5\n4 7\n', ())):
             for data in (text.encode(), gzip.compress(text.encode())):
@@ -307,7 +307,7 @@ def test_queries_of_any_form():
             assert run(*given[:-1], 'q', *options, cwd=folder) == plain, (text, options)
         named = ('--query-columns', 'x,y', '--query-id', 'who')
         got = run(*given, *named, '--skip-missing', stdin='who;x;y\n"c, d";11;5\ne;-;7\n;4;7\n', cwd=folder)
-        expect(got, 0, r'^q,id_q,i,status,lo,hi,id\n0,"c, d",0,sure,1,1,A\n2,"?"?,1,sure,.*,B\n\Z', r'\Adyadel: -: 1 of 3 rows are left out')
+        expect(got, 0, r'^q,id_q,i,status,lo,hi,id\n0,"c, d",0,certain,1,1,A\n2,"?"?,1,certain,.*,B\n\Z', r'\Adyadel: -: 1 of 3 rows are skipped')
         whole = json.loads(run(*given, *named, '-q', '--format', 'json', stdin='who;x;y\nc;11;5\n', cwd=folder).out)
         assert [(p['q'], p['id_q']) for p in whole['places']] == [(0, 'c')]
         for text, options, message in (
