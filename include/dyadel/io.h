@@ -246,7 +246,7 @@ typedef struct dyd_nearest_answer {
   const dyd_index_list *found;
   bool sure;
   dyd_outcome outcome;
-  bool tied; /* dyd_engine_nearest_tied */
+  bool tied;  /* dyd_engine_nearest_tied */
   bool discs; /* sites are discs: dyd_disc_nearest */
   /* Of many places: what `q` is, where it is not the number of the answer; an identifier (NULL: none), which all places
    * have if the first has one. */

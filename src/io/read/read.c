@@ -19,8 +19,8 @@
 #include "io/read/csv.h"
 #include "io/read/stage.h"
 #include "rect/rect.h"
-#include "stream/real.h"
 #include "stream/degrees.h"
+#include "stream/real.h"
 
 #include <dyadel/io.h>
 #include <dyadel/stream.h>
