@@ -444,8 +444,8 @@ void cli_note_pairs(const cli_session *s, dyd_outcome outcome, const size_t coun
   if (count[DYD_TIE]) snprintf(ties, sizeof ties, ", %zu tied", count[DYD_TIE]);
   if (outcome == DYD_OUTCOME_FIXPOINT && !advice)
     advice = count[DYD_INDETERMINATE]
-                 ? s->o.sphere || s->o.discs ? "only better measurements can decide them"
-                                             : "only better measurements can decide them (see dyadel plan)"
+                 ? s->o.sphere ? "only better measurements can decide them"
+                               : "only better measurements can decide them (see dyadel plan)"
                  : "ties: points on one line or circle, which no refinement decides (see --list-ties groups)";
   const bool plain = outcome == DYD_OUTCOME_FIXPOINT || outcome == DYD_OUTCOME_DECIDED;
   cli_complain("%s%s%zu legal, %zu indeterminate%s pairs; %s", plain ? "" : dyd_outcome_text(outcome),

@@ -135,7 +135,7 @@ def test_discs():
     """The same as deaths and births say; fewer open pairs than squares leave; what cannot be written so is refused."""
     for radius in ('0.01', '0.003'):
         discs = run('delaunay', '--discs', '--radius', radius, *AIRPORTS)
-        expect(discs, 3, r'\Ai,j,status\n', r'\Adyadel: \d+ legal, \d+ indeterminate pairs; only better measurements can decide them\n\Z')
+        expect(discs, 3, r'\Ai,j,status\n', r'\Adyadel: \d+ legal, \d+ indeterminate pairs; only better measurements can decide them .see dyadel plan.\n\Z')
         events = rows(run('tolerance', '--up-to', radius, *AIRPORTS).out)
         wanted = {(r['i'], r['j']): 'legal' if r['event'] == 'death' and float(r['lo']) > float(radius) else 'indeterminate'
                   for r in events}

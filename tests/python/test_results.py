@@ -98,7 +98,7 @@ def test_confidence():
     assert dyadel.delaunay(points).confidence is None
     one = dyadel.delaunay(points, sigma=0.5, confidence=0.5)
     assert np.array_equal(one.pairs, dyadel.delaunay(points, sigma=np.full(40, 0.5), confidence=0.5).pairs)
-    assert len(dyadel.plan(points, sigma=0.5, confidence=0.5)['site']) > 0
+    assert len(dyadel.plan(points, sigma=0.5, confidence=0.5)['i']) > 0
     globe = dyadel.delaunay(points / 50, sigma=s, confidence='95%', sphere=True, radius_unit='km')
     assert globe.confidence == d.confidence and np.array_equal(pickle.loads(pickle.dumps(globe)).pairs, globe.pairs)
     for wrong in ({'sigma': 1}, {'confidence': 0.5}, {'sigma': -1, 'confidence': 0.5}, {'sigma': 1, 'confidence': 0.5, 'radius': 1},
