@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """The wheel, built without a network and imported in a fresh environment, where nothing of this checkout is seen."""
 import pathlib
+import site
 import subprocess
 import sys
 import tempfile
@@ -43,4 +44,19 @@ def test_wheel():
         assert call(python, '-c', PROGRAM, cwd=folder).strip()
 
 
-harness.run_all(globals())
+def test_installed():
+    """What `ninja install` puts in place is found by this Python, and works with nothing else of the checkout in sight."""
+    build = pathlib.Path(harness.PACKAGE).parents[1]
+    with tempfile.TemporaryDirectory() as folder:
+        call('meson', 'install', '-C', build, '--no-rebuild', '--destdir', folder, '--tags', 'runtime,python-runtime')
+        package, = pathlib.Path(folder).glob('**/dyadel/__init__.py')
+        place = package.parents[1]
+        assert sys.prefix != '/usr' or f'/{place.relative_to(folder)}' in site.getsitepackages(), place
+        libraries = ':'.join(str(path.parent) for path in pathlib.Path(folder).glob('**/libdyadel.so*'))
+        program = PROGRAM.replace('is_relative_to(sys.prefix)', f'is_relative_to({folder!r})')
+        assert call(sys.executable, '-c', program, cwd=folder,
+                    env={'PATH': '/usr/bin:/bin', 'PYTHONPATH': str(place), 'LD_LIBRARY_PATH': libraries}).strip()
+
+
+if __name__ == '__main__':
+    harness.run_all(globals())
