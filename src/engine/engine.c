@@ -316,8 +316,10 @@ const char *dyd_engine_carried_name(const dyd_engine *e, size_t k) {
 }
 
 const char *dyd_engine_carried(const dyd_engine *e, size_t i, size_t k) {
-  const dyd_labels *l = &e->labels;
-  return i < l->points && l->has_ids ? l->text + l->id[i] + texts_length(l->text + l->id[i], k + 1) + 1 : "";
+  const dyd_labels *l = e ? &e->labels : NULL;
+  return l && i < l->points && l->has_ids && k < l->carried
+             ? l->text + l->id[i] + texts_length(l->text + l->id[i], k + 1) + 1
+             : "";
 }
 
 double dyd_engine_number(const dyd_engine *e, size_t i, dyd_row_number which) {

@@ -2,7 +2,7 @@
 /* Judges the certificates of a file, each ended by a line "---- " and its verdict: "rejected", or what is accepted as
  * stated and proved. Exit status 1, and a word on which one, when a verdict is another; why something is rejected does
  * not count. test_seeded.py links it with checkers that have a fault. */
-#include <dyadel/certificate.h>
+#include "checker/checker.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +12,9 @@ static bool text_gets(const char *verdict, char *text, size_t length) {
   dyd_certificate_report r = {DYD_SIZED(dyd_certificate_report)};
   FILE *in = length ? fmemopen(text, length, "r") : NULL;
   char ties[40] = "";
-  dyd_status st = in ? dyd_verify_certificate(&r, in, NULL, NULL) : DYD_E_PARSE;
+  dyd_error err;
+  dyd_error_clear(&err);
+  dyd_status st = in ? dyd_checker_verify(&r, in, &err) : DYD_E_PARSE;
   if (r.ties_unproved) snprintf(ties, sizeof ties, ", ties %zu", r.ties_unproved);
   if (st == DYD_OK)
     snprintf(found, sizeof found, "accepted: gaps %u, unproved %llu, triangles %zu, distance %d%s", r.gaps,

@@ -89,7 +89,7 @@ def check_fixpoint(folder):
     for bits, status in ((1, 'indeterminate'), (64, 'legal')):
         certificate = certify(folder, BEYOND, '--start-bits', bits, status=3)
         assert f'\n0,1,{status}\n' in (folder / 'out.csv').read_text(), bits
-        accepted(certificate, 'not proved: the outcome fixpoint (what is narrowed may', status=3, options=points)
+        accepted(certificate, 'not proved: the outcome fixpoint (narrower rectangles may', status=3, options=points)
     boxes = '[-2,-1] [0,1]\n[-1.5,-0.5] [0.5,1.5]\n'
     ring = ''.join(f'{x} {y}\n' for x, y in ((5, 0), (3, 4), (-2, 5), (-5, 2), (-4, -4), (1, -5)))
     around = ''.join(f'{x} {y}\n' for x, y in ((10, 2), (7, 8), (-1, 10), (-8, 7), (-10, -2), (-6, -8), (3, -9), (8, -6)))
