@@ -165,16 +165,46 @@ static void graph_take(graph_question *q, uint32_t i) {
   q->seen[i] = true;
 }
 
-/* The ends of an edge, and the sites next to both: what may be in the disc of a Gabriel edge. */
-static dyd_status graph_take_edge(graph_question *q, const dyd_delaunay *pd, const dyd_graph_edge *edge) {
+/* Sets *may to whether the closed disc of a Gabriel edge may hold site k: the three alone are asked. */
+static dyd_status graph_may_hold(bool *may, const dyd_engine *e, const dyd_graph_edge *edge, uint32_t k) {
+  const uint32_t site[3] = {edge->i, edge->j, k};
+  dyd_sites *sites = NULL;
+  dyd_delaunay *pd = NULL;
+  dyd_graph_list three = {0};
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = dyd_sites_new(&sites);
+  for (int m = 0; st == DYD_OK && m < 3; m++) {
+    st = dyd_sites_get(&r, e->sites, site[m]);
+    if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
+  }
+  if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, NULL, NULL);
+  if (st == DYD_OK) st = dyd_graph_edges(&three, pd, DYD_GRAPH_GABRIEL, NULL, NULL);
+  const dyd_graph_edge *first = st == DYD_OK && three.count ? three.item : NULL;
+  *may = !first || first->i != 0 || first->j != 1 || !first->sure;
+  dyd_graph_list_clear(&three);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+/* The ends of an edge, and what else may be in the disc of a Gabriel edge, of the sites next to both. In the other
+ * graphs rivals are ends of edges that are not certain either. */
+static dyd_status graph_take_edge(graph_question *q, const dyd_engine *e, const dyd_graph_edge *edge) {
   dyd_index_list near[2] = {{0}, {0}};
-  dyd_status st = dyd_delaunay_neighbours(&near[0], pd, edge->i, DYD_TIE);
-  if (st == DYD_OK) st = dyd_delaunay_neighbours(&near[1], pd, edge->j, DYD_TIE);
+  dyd_status st = DYD_OK;
   graph_take(q, edge->i);
   graph_take(q, edge->j);
+  if (q->graph != DYD_GRAPH_GABRIEL) return DYD_OK;
+  for (int k = 0; k < 2 && st == DYD_OK; k++)
+    st = dyd_delaunay_neighbours(&near[k], e->pd, k ? edge->j : edge->i, DYD_TIE);
   for (size_t a = 0, b = 0; st == DYD_OK && a < near[0].count && b < near[1].count;) {
     uint32_t i = near[0].item[a], j = near[1].item[b];
-    if (i == j) graph_take(q, i);
+    const dyd_refinable *p = i == j && !q->seen[i] ? dyd_engine_find(e, i) : NULL;
+    bool may = false;
+    if (p && !p->final) st = graph_may_hold(&may, e, edge, i);
+    if (may) graph_take(q, i);
     a += i <= j, b += j <= i;
   }
   for (int k = 0; k < 2; k++) dyd_index_list_clear(&near[k]);
@@ -225,7 +255,7 @@ static dyd_status graph_ask(bool *answered, dyd_plan *plan, void *user, const dy
   st = graph_find_core(q, plan, err);
   for (size_t k = 0; st == DYD_OK && k < q->edges.count; k++)
     if (!q->edges.item[k].sure && !graph_is_settled(q, &q->edges.item[k]))
-      st = graph_take_edge(q, e->pd, &q->edges.item[k]);
+      st = graph_take_edge(q, e, &q->edges.item[k]);
   if (st == DYD_OK) nearest_plan(&q->level, plan, &q->site);
   return st;
 }

@@ -110,7 +110,7 @@ def test_huge_roots():
     for command in ('delaunay', 'voronoi', 'converge'):
         with tempfile.TemporaryDirectory() as folder:
             result = timed(1, command, '-', '-o', 'out', stdin=ROOT, cwd=folder)
-            expect(result, 4, r'\A\Z', '^dyadel: budget(: the time is used up, and reading| before the first (triangulation|stage) was complete: there is no)')
+            expect(result, 4, r'\A\Z', '^dyadel: budget(: time limit reached during reading| before the first (triangulation|stage) was complete: there is no)')
             assert not os.listdir(folder), os.listdir(folder)
 
 

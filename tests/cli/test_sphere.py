@@ -459,7 +459,7 @@ def test_formats():
         flat = re.findall(r'\[(-?[\d.e+-]+), (-?[\d.e+-]+)\]', json.dumps(shapes))
         assert all(abs(float(x)) <= 180 and abs(float(y)) <= 90 for x, y in flat)
     expect(run('delaunay', '--sphere', '--format', 'wkt', '--layer', 'triangles', '-', stdin=places), 0, r'^"MULTIPOLYGON \(\(\(')
-    expect(run('delaunay', '--sphere', '--layer', 'points', '-', stdin=places), 0, r'^i,xlo,xhi,ylo,yhi,legal,indeterminate,tie,hull\n0,170,170,20,20,5,0,0,not$')
+    expect(run('delaunay', '--sphere', '--layer', 'points', '-', stdin=places), 0, r'^i,xlo,xhi,ylo,yhi,legal,indeterminate,tie,hull\n0,170,170,20,20,5,0,0,no$')
     back = run('delaunay', '--sphere', '--format', 'wkt', '--layer', 'triangles', '-', stdin='0 0\n1 0\n0 1\n')
     expect(back, 0, r'^"MULTIPOLYGON EMPTY",0,2,1')
 

@@ -122,7 +122,7 @@ def test_missing_words():
             text = f'x,y,r\n0,0,0.1\n{row}\n4,1,0.1\n2,6,0.1\n'
             options = ['--columns', 'x,y', '--radius-column', 'r', *extra, '-']
             expect(run('delaunay', *options, stdin=text), 1, r'\A\Z', r'-:3:\d: the .* is (missing|empty).*: --skip-missing$')
-            expect(run('delaunay', '--skip-missing', *options, stdin=text), 0, r'\A' + HEAD + '0,2,legal\n0,3,legal\n2,3,legal\n\\Z', '1 of 4 rows are left out')
+            expect(run('delaunay', '--skip-missing', *options, stdin=text), 0, r'\A' + HEAD + '0,2,legal\n0,3,legal\n2,3,legal\n\\Z', '1 of 4 rows are skipped')
     for word in ('-5', '-0', '+', '--', 'N', 'nano'):
         result = run('delaunay', '--skip-missing', '--missing', '9999', '--columns', 'x,y', '-', stdin=f'x,y\n0,0\n4,{word}\n2,6\n')
         assert 'left out' not in result.err, (word, result)

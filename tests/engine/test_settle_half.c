@@ -582,6 +582,12 @@ static void test_graphs(void **state) {
        {2, 1, 0},
        {DYD_OUTCOME_FIXPOINT, DYD_OUTCOME_FIXPOINT, DYD_OUTCOME_DECIDED},
        64},
+      /* exact points tie, beside one that can be refined and has no part in it */
+      {{{"0", "0"}, {"1", "0"}, {"0", "1"}, {"sqrt(2)*5", "sqrt(3)*5"}},
+       {3, 3, 3},
+       {2, 1, 0},
+       {DYD_OUTCOME_FIXPOINT, DYD_OUTCOME_FIXPOINT, DYD_OUTCOME_DECIDED},
+       64},
       /* 2 is nearer to 0 by 2^-140 */
       {{{"0", "0"}, {"sqrt(2)", "0"}, {"-sqrt(2)*3/5", "-sqrt(2)*4/5+2^-140"}},
        {3, 2, 2},
