@@ -150,15 +150,27 @@ bool dyd_engine_nearest_tied(const dyd_engine *e) {
 
 /* ---- graphs of neighbours ---- */
 
+/* Choices that are drawn before edges count as not settled: at least so many, more of few sites. */
+enum { CHOICES_LEAST = 24, CHOICES_MOST = 512, CHOICES_SITES = 1 << 14 };
+
 /* site: where edges are that refinement may make certain; seen: of each site, is it in the list; known: edges are those
- * of some rectangles reached. core, firm: as graph_find_core finds them; moving: some site is not firm. */
+ * of some rectangles reached. may, may_not: of each edge, is there a choice in the cores that makes it one, and one
+ * that makes it none, whatever the other points are [NEAR-6]. */
 typedef struct graph_question {
   dyd_graph graph;
   int64_t level;
-  dyd_graph_list edges, core;
+  dyd_graph_list edges;
   dyd_index_list site;
-  bool *seen, *firm, moving, known;
+  bool *seen, *may, *may_not, known;
 } graph_question;
+
+/* The problem of some choices: its edges, and of which sites more is known than a point. */
+typedef struct graph_problem {
+  dyd_sites *sites;
+  dyd_delaunay *pd;
+  dyd_graph_list edges;
+  bool *firm;
+} graph_problem;
 
 static void graph_take(graph_question *q, uint32_t i) {
   if (!q->seen[i]) q->site.item[q->site.count++] = i;
@@ -211,31 +223,141 @@ static dyd_status graph_take_edge(graph_question *q, const dyd_engine *e, const 
   return st;
 }
 
-/* The edges of the cores, less 4 eps where a site is firm [NEAR-6]. */
-static dyd_status graph_find_core(graph_question *q, const dyd_plan *plan, dyd_error *err) {
-  dyd_sites *sites = NULL;
-  dyd_delaunay *pd = NULL;
-  dyd_dyadic eps;
-  dyd_dyadic_init(&eps);
-  dyd_graph_list_clear(&q->core);
-  dyd_status st = dyd_firm_eps(&eps, plan->e);
-  q->moving = dyd_dyadic_sgn(&eps) != 0;
-  for (int k = 0; st == DYD_OK && k < 2; k++) st = dyd_dyadic_add(&eps, &eps, &eps);
-  if (st == DYD_OK) st = dyd_firm_triangulate(&pd, &sites, q->firm, plan, &eps);
-  if (st == DYD_OK) st = dyd_graph_edges(&q->core, pd, q->graph, &plan->e->stop, err);
-  dyd_delaunay_free(pd);
-  dyd_sites_free(sites);
-  dyd_dyadic_clear(&eps);
+/* Adds the site with an end of each core instead of its side, drawn by the number of the choice. */
+static dyd_status graph_draw_site(dyd_sites *sites, const dyd_engine *e, uint32_t site, uint32_t choice) {
+  bool core[2];
+  dyd_rect r;
+  dyd_rect_init(&r);
+  uint32_t bits = (site * 2654435761u) ^ (choice * 2246822519u);
+  bits = (bits ^ bits >> 15) * 2654435761u;
+  dyd_status st = dyd_site_get_core(&r, core, e, site);
+  for (int a = 0; st == DYD_OK && a < 2; a++) {
+    dyd_interval *side = a ? &r.y : &r.x;
+    if (!core[a] || dyd_interval_is_point(side)) continue;
+    const dyd_dyadic *end = bits >> (30 + a) & 1 ? &side->hi : &side->lo;
+    st = dyd_interval_set_ends(side, end, end);
+  }
+  if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+/* Do two points of the choice coincide that are two sites? Then one of them takes part in nothing. */
+static bool choice_joins(const dyd_delaunay *pd, const dyd_engine *e) {
+  for (uint32_t k = 0; k < dyd_sites_count(e->sites); k++)
+    if (dyd_delaunay_alias(pd, k) != dyd_delaunay_alias(e->pd, k)) return true;
+  return false;
+}
+
+static void problem_clear(graph_problem *p) {
+  dyd_graph_list_clear(&p->edges);
+  dyd_delaunay_free(p->pd);
+  dyd_sites_free(p->sites);
+  free(p->firm);
+}
+
+/* Triangulates the sites, and finds the graph, unless sites join. */
+static dyd_status problem_solve(bool *good, graph_problem *p, const graph_question *q, const dyd_plan *plan,
+                                dyd_error *err) {
+  const dyd_engine *e = plan->e;
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = plan->o->max_pairs, .cancel = &e->stop,
+                                  .threads = plan->o->threads, .no_filter = plan->o->no_filter};
+  dyd_status st = dyd_delaunay_new(&p->pd, p->sites, &o, err);
+  *good = st == DYD_OK && !choice_joins(p->pd, e);
+  if (*good) st = dyd_graph_edges(&p->edges, p->pd, q->graph, &e->stop, err);
   return st == DYD_CAPPED ? DYD_OK : st;
 }
 
-/* Is the edge possible and not certain for good [NEAR-6]? */
-static bool graph_is_settled(const graph_question *q, const dyd_graph_edge *edge) {
-  bool ends = q->firm[edge->j] && (q->graph == DYD_GRAPH_NEAREST || q->firm[edge->i]);
-  if (q->moving && (q->graph == DYD_GRAPH_MST || !ends)) return false;
-  const dyd_graph_edge *same =
-      q->core.count ? bsearch(edge, q->core.item, q->core.count, sizeof *edge, dyd_compare_two) : NULL;
-  return same && !same->sure;
+static const dyd_graph_edge *problem_edge(const graph_problem *p, const dyd_graph_edge *edge) {
+  if (!p->edges.count) return NULL;
+  return bsearch(edge, p->edges.item, p->edges.count, sizeof *edge, dyd_compare_two);
+}
+
+/* Draws one choice in the cores, and looks which edges are certain, and which none, whatever the other points are. */
+static dyd_status graph_draw(graph_question *q, const dyd_plan *plan, uint32_t choice, dyd_error *err) {
+  graph_problem p = {0};
+  bool good = false;
+  dyd_status st = dyd_sites_new(&p.sites);
+  for (uint32_t k = 0; st == DYD_OK && k < dyd_sites_count(plan->e->sites); k++)
+    st = graph_draw_site(p.sites, plan->e, k, choice);
+  if (st == DYD_OK) st = problem_solve(&good, &p, q, plan, err);
+  for (size_t k = 0; good && st == DYD_OK && k < q->edges.count; k++) {
+    const dyd_graph_edge *same = problem_edge(&p, &q->edges.item[k]);
+    q->may[k] |= same && same->sure;
+    q->may_not[k] |= !same;
+  }
+  problem_clear(&p);
+  return st;
+}
+
+/* Looks at all choices in the cores, less 4 eps where a site is firm: one point stands for the places of other sites.
+ */
+static dyd_status graph_shrink(graph_question *q, const dyd_plan *plan, dyd_error *err) {
+  size_t sites = dyd_sites_count(plan->e->sites);
+  graph_problem p = {.firm = dyd_alloc(sites, sizeof *p.firm)};
+  bool good = false;
+  dyd_dyadic eps;
+  dyd_dyadic_init(&eps);
+  dyd_status st = p.firm ? dyd_sites_new(&p.sites) : DYD_E_NOMEM;
+  if (st == DYD_OK) st = dyd_firm_eps(&eps, plan->e);
+  bool moving = dyd_dyadic_sgn(&eps) != 0;
+  for (int k = 0; st == DYD_OK && k < 2; k++) st = dyd_dyadic_add(&eps, &eps, &eps);
+  for (uint32_t k = 0; st == DYD_OK && k < sites; k++) st = dyd_firm_add(p.sites, &p.firm[k], plan->e, &eps, k);
+  if (st == DYD_OK) st = problem_solve(&good, &p, q, plan, err);
+  for (size_t k = 0; good && st == DYD_OK && k < q->edges.count; k++) {
+    const dyd_graph_edge *edge = &q->edges.item[k], *same = problem_edge(&p, edge);
+    bool ends = p.firm[edge->j] && (q->graph == DYD_GRAPH_NEAREST || p.firm[edge->i]);
+    q->may[k] = q->may_not[k] = same && !same->sure && (!moving || (ends && q->graph != DYD_GRAPH_MST));
+  }
+  dyd_dyadic_clear(&eps);
+  problem_clear(&p);
+  return st;
+}
+
+static bool graph_is_open(const graph_question *q, size_t k) {
+  return !q->edges.item[k].sure && !(q->may[k] && q->may_not[k]);
+}
+
+/* Can an edge that is open be refined at one of its ends? */
+static bool graph_can_narrow(const graph_question *q, const dyd_engine *e) {
+  for (size_t k = 0; k < q->edges.count; k++) {
+    const uint32_t end[2] = {q->edges.item[k].i, q->edges.item[k].j};
+    for (int m = 0; m < 2 && graph_is_open(q, k); m++) {
+      const dyd_refinable *p = dyd_engine_find(e, end[m]);
+      if (p && !p->final) return true;
+    }
+  }
+  return false;
+}
+
+/* Is some core no point? */
+static dyd_status graph_has_cores(bool *out, const dyd_engine *e) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = DYD_OK;
+  *out = false;
+  for (uint32_t k = 0; st == DYD_OK && !*out && k < dyd_sites_count(e->sites); k++) {
+    bool core[2];
+    st = dyd_site_get_core(&r, core, e, k);
+    *out = st == DYD_OK && ((core[0] && !dyd_interval_is_point(&r.x)) || (core[1] && !dyd_interval_is_point(&r.y)));
+  }
+  dyd_rect_clear(&r);
+  return st;
+}
+
+static dyd_status graph_reserve(graph_question *q, size_t sites) {
+  free(q->may);
+  free(q->may_not);
+  q->may = dyd_alloc(q->edges.count, sizeof *q->may);
+  q->may_not = dyd_alloc(q->edges.count, sizeof *q->may_not);
+  if (!q->seen) q->seen = dyd_alloc(sites, sizeof *q->seen);
+  if (!q->site.item) q->site.item = dyd_alloc(sites, sizeof *q->site.item);
+  if (!q->may || !q->may_not || !q->seen || !q->site.item) return DYD_E_NOMEM;
+  memset(q->may, 0, q->edges.count);
+  memset(q->may_not, 0, q->edges.count);
+  memset(q->seen, 0, sites * sizeof *q->seen);
+  q->site.count = 0;
+  return DYD_OK;
 }
 
 static dyd_status graph_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
@@ -246,16 +368,16 @@ static dyd_status graph_ask(bool *answered, dyd_plan *plan, void *user, const dy
   q->known |= *answered;
   for (size_t k = 0; *answered && k < q->edges.count; k++) *answered = q->edges.item[k].sure;
   if (st != DYD_OK || *answered) return st;
-  if (!q->seen) q->seen = dyd_alloc(sites, sizeof *q->seen);
-  if (!q->firm) q->firm = dyd_alloc(sites, sizeof *q->firm);
-  if (!q->site.item) q->site.item = dyd_alloc(sites, sizeof *q->site.item);
-  if (!q->seen || !q->firm || !q->site.item) return DYD_E_NOMEM;
-  memset(q->seen, 0, sites * sizeof *q->seen);
-  q->site.count = 0;
-  st = graph_find_core(q, plan, err);
+  bool cores = false;
+  st = graph_reserve(q, sites);
+  if (st == DYD_OK) st = graph_has_cores(&cores, e);
+  if (st == DYD_OK && cores && graph_can_narrow(q, e)) st = graph_shrink(q, plan, err);
+  size_t most = CHOICES_SITES / sites;
+  most = most < CHOICES_LEAST ? CHOICES_LEAST : most > CHOICES_MOST ? CHOICES_MOST : most;
+  for (uint32_t c = 0; st == DYD_OK && cores && c < most && graph_can_narrow(q, e); c++)
+    st = graph_draw(q, plan, c, err);
   for (size_t k = 0; st == DYD_OK && k < q->edges.count; k++)
-    if (!q->edges.item[k].sure && !graph_is_settled(q, &q->edges.item[k]))
-      st = graph_take_edge(q, e, &q->edges.item[k]);
+    if (graph_is_open(q, k)) st = graph_take_edge(q, e, &q->edges.item[k]);
   if (st == DYD_OK) nearest_plan(&q->level, plan, &q->site);
   return st;
 }
@@ -272,9 +394,9 @@ dyd_status dyd_engine_graph(dyd_graph_list *out, dyd_outcome *outcome, dyd_engin
   if (st == DYD_OK && !q.known) st = DYD_CANCELLED;
   dyd_graph_list_clear(st == DYD_OK ? out : &q.edges);
   if (st == DYD_OK) *out = q.edges;
-  dyd_graph_list_clear(&q.core);
   dyd_index_list_clear(&q.site);
-  free(q.firm);
+  free(q.may);
+  free(q.may_not);
   free(q.seen);
   return st;
 }

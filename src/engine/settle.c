@@ -607,25 +607,19 @@ static void settled_sort(dyd_settled *s) {
 
 /* ---- pairs of firm sites ---- */
 
-dyd_status dyd_firm_triangulate(dyd_delaunay **pd, dyd_sites **sites, bool *firm, const dyd_plan *plan,
-                                const dyd_dyadic *eps) {
+/* Settles pairs of firm sites, by all sites. */
+static dyd_status settle_firm(dyd_settled_pair *pair, size_t pairs, const dyd_plan *plan, const dyd_dyadic *eps) {
   const dyd_engine *e = plan->e;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = plan->o->max_pairs, .cancel = &e->stop,
                                   .threads = plan->o->threads, .no_filter = plan->o->no_filter};
-  dyd_status st = dyd_sites_new(sites);
-  for (size_t k = 0; st == DYD_OK && k < dyd_sites_count(e->sites); k++) {
-    bool is_firm;
-    st = dyd_firm_add(*sites, &is_firm, e, eps, (uint32_t)k);
-    if (firm) firm[k] = is_firm;
-  }
-  return st == DYD_OK ? dyd_delaunay_new(pd, *sites, &o, NULL) : st;
-}
-
-/* Settles pairs of firm sites, by all sites. */
-static dyd_status settle_firm(dyd_settled_pair *pair, size_t pairs, const dyd_plan *plan, const dyd_dyadic *eps) {
   dyd_sites *sites = NULL;
   dyd_delaunay *pd = NULL;
-  dyd_status st = dyd_firm_triangulate(&pd, &sites, NULL, plan, eps);
+  dyd_status st = dyd_sites_new(&sites);
+  for (size_t k = 0; st == DYD_OK && k < dyd_sites_count(e->sites); k++) {
+    bool firm;
+    st = dyd_firm_add(sites, &firm, e, eps, (uint32_t)k);
+  }
+  if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, NULL);
   for (size_t k = 0; st == DYD_OK && k < pairs; k++) {
     dyd_pair_status status = dyd_delaunay_status(pd, pair[k].i, pair[k].j);
     pair[k].possible = pair[k].possible || status != DYD_ILLEGAL;

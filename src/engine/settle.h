@@ -23,11 +23,6 @@ dyd_status dyd_firm_place(dyd_rect *out, dyd_dyadic *eps, const dyd_stream *at);
  * core. */
 dyd_status dyd_firm_add(dyd_sites *sites, bool *firm, const dyd_engine *e, const dyd_dyadic *eps, uint32_t k);
 
-/* Triangulates the sites that dyd_firm_add makes of all sites of the engine. *pd and *sites, NULL before, are the
- * caller's to free, whatever is returned; pd borrows sites. firm[k]: is site k firm; NULL: not wanted. */
-dyd_status dyd_firm_triangulate(dyd_delaunay **pd, dyd_sites **sites, bool *firm, const dyd_plan *plan,
-                                const dyd_dyadic *eps);
-
 /* Pairs of one undecided face, examined one by one [SET-1] [SET-4]. */
 
 /* possible: the pair is an edge for some choice of places in cores, wherever points are along the others;
