@@ -42,7 +42,7 @@ static const answer known[] = {
     {"verify-tracks", 2000, {0, 84964, 32}},
     {"read", 1000, {2976, 0, 0}},
     {"write", 1000, {41, 0, 0}},
-    {"write-json", 1000, {509, 0, 0}},
+    {"write-json", 1000, {508, 0, 0}},
     {"write-wkt", 1000, {339, 0, 0}},
     {"write-obj", 1000, {98, 0, 0}},
     {"write-vtk", 1000, {114, 0, 0}},

@@ -132,7 +132,7 @@ def text_of(rows):
 
 def expected(dyadel, rows, *more):
     """The csv of one process, and its exit status."""
-    done = subprocess.run([dyadel, 'delaunay', '--quiet', *more, '-'], input=text_of(rows).encode(), capture_output=True)
+    done = subprocess.run([dyadel, 'delaunay', '--quiet', '--comments', *more, '-'], input=text_of(rows).encode(), capture_output=True)
     assert done.returncode in (0, 3, 4), done.stderr
     return done.stdout, done.returncode
 
