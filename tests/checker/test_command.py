@@ -147,7 +147,7 @@ def check_diagrams(folder):
     certificate = folder / 'diagram.txt'
     circle = ''.join(f'cos(2*pi*{k}/12) sin(2*pi*{k}/12)\n' for k in range(12))
     (folder / 'circle.txt').write_text(circle)
-    area, distance = 'checked: the undetermined area of the diagram', '\nchecked: the distance of undetermined points'
+    area, distance = 'checked: the undecided area of the diagram', '\nchecked: the distance of undecided points'
     for goal, bits in (('area', 20), ('hausdorff', 100)):
         done = run('voronoi', '--quiet', '--ties', 'off', '--until', f'{goal}:{bits}', '-o', folder / 'out.csv', '--certificate',
                    certificate, folder / 'circle.txt')
