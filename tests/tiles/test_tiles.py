@@ -144,7 +144,7 @@ class Union(unittest.TestCase):
             self.compare([(x - h, x + h, y - h, y + h) for (x, y), h in zip(places, halves)], (4,))
 
     def one_process(self, name):
-        done = subprocess.run([DYADEL, 'delaunay', str(self.at / name), '-q'], capture_output=True)
+        done = subprocess.run([DYADEL, 'delaunay', str(self.at / name), '-q', '--comments'], capture_output=True)
         self.assertIn(done.returncode, (0, 3))
         return done.stdout
 
