@@ -106,7 +106,8 @@ static int delaunay_summary(cli_session *s, int status) {
   const delaunay_result *r = s->state;
   size_t sure = 0;
   status = cli_pairs_summary(s, status);
-  if (!r->known || cli_exit_status(s->outcome) <= status) return status;
+  bool failed = status == CLI_FAILED || status == CLI_USAGE;
+  if (failed || !r->known || cli_exit_status(s->outcome) <= status) return status;
   for (size_t k = 0; k < r->graph.count; k++) sure += r->graph.item[k].sure;
   cli_note(&s->o, "%s: %zu edges of the graph are certain, %zu possible", dyd_outcome_text(s->outcome), sure,
            r->graph.count - sure);

@@ -589,8 +589,9 @@ static int write_in(const char *folder, const char *target, cli_session *s, cli_
   dyd_error_clear(&err);
   snprintf(path, sizeof path, "%s/%s", folder, base);
   snprintf(name, sizeof name, "%.*s", (int)strcspn(base, "."), base);
-  GDALDriverH driver = GDALGetDriverByName(s->o.driver);
-  if (!driver) return cli_usage("this GDAL does not write %s; give another ending", s->o.driver);
+  const char *kind = s->o.driver ? s->o.driver : "";
+  GDALDriverH driver = GDALGetDriverByName(kind);
+  if (!driver) return cli_usage("this GDAL does not write %s; give another ending", kind);
   OGRSpatialReferenceH crs = system_of(&s->o);
   CPLErrorReset();
   GDALDatasetH set = GDALCreate(driver, path, 0, 0, 0, GDT_Unknown, NULL);
