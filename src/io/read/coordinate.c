@@ -251,20 +251,68 @@ static bool looks_decimal(const dyd_span *span) {
   return true;
 }
 
-static dyd_status coordinate_parse(dyd_real **out, const dyd_span *span, const dyd_manner *manner, dyd_error *err) {
+/* Of a rounded measurement; DYD_E_ARG for other forms. */
+static dyd_status measured_ends(mpq_t lo, mpq_t hi, const dyd_span *span, dyd_error *err) {
   char letter;
+  dyd_status st = dyd_degrees_read(lo, hi, &letter, span->text, span->length, true, err);
+  if (st == DYD_E_ARG && looks_decimal(span)) st = dyd_parse_measured(lo, hi, span->text, span->length, err);
+  return st;
+}
+
+static dyd_status coordinate_parse(dyd_real **out, const dyd_span *span, const dyd_manner *manner, dyd_error *err) {
   mpq_t lo, hi;
   if (!manner->measured) return dyd_real_parse(out, span->text, span->length, err);
   mpq_inits(lo, hi, NULL);
-  dyd_status st = dyd_degrees_read(lo, hi, &letter, span->text, span->length, true, err);
-  bool decimal = st == DYD_E_ARG && looks_decimal(span);
-  if (decimal) st = dyd_parse_measured(lo, hi, span->text, span->length, err);
-  if (st == DYD_E_ARG && !decimal)
+  dyd_status st = measured_ends(lo, hi, span, err);
+  if (st == DYD_E_ARG)
     st = dyd_real_parse(out, span->text, span->length, err);
   else if (st == DYD_OK)
     st = dyd_real_from_interval(out, lo, hi);
   mpq_clears(lo, hi, NULL);
   return st;
+}
+
+size_t dyd_nominal_length(const dyd_span *s) {
+  int depth = 0;
+  for (size_t k = 0; k + 1 < s->length; k++) {
+    const char *p = s->text + k;
+    depth += (*p == '(') - (*p == ')');
+    if (!depth && (memcmp(p, "+-", 2) == 0 || memcmp(p, "\xC2\xB1", 2) == 0)) return k;
+  }
+  return s->length;
+}
+
+/* Of "[a,b]". */
+static dyd_status interval_ends(mpq_t lo, mpq_t hi, const dyd_span *s) {
+  const char *end = s->text + s->length, *comma = s->text;
+  int depth = 0;
+  for (; comma < end && (*comma != ',' || depth != 1); comma++)
+    depth += (*comma == '(' || *comma == '[') - (*comma == ')' || *comma == ']');
+  if (comma == end || end[-1] != ']') return DYD_E_PARSE;
+  dyd_status st = dyd_real_parse_exact(lo, s->text + 1, (size_t)(comma - s->text) - 1);
+  return st == DYD_OK ? dyd_real_parse_exact(hi, comma + 1, (size_t)(end - comma) - 2) : st;
+}
+
+/* Of a number, or one with a radius. */
+static dyd_status value_ends(mpq_t lo, mpq_t hi, const dyd_span *s) {
+  size_t length = dyd_nominal_length(s), behind = length + 2;
+  mpq_t radius;
+  mpq_init(radius);
+  dyd_status st = dyd_real_parse_exact(lo, s->text, length);
+  if (st == DYD_OK && length < s->length) st = dyd_real_parse_exact(radius, s->text + behind, s->length - behind);
+  mpq_add(hi, lo, radius);
+  mpq_sub(lo, lo, radius);
+  mpq_clear(radius);
+  return st;
+}
+
+dyd_status dyd_coordinate_ends(mpq_t lo, mpq_t hi, const dyd_span *span, const dyd_manner *manner) {
+  dyd_status st = manner && manner->measured ? measured_ends(lo, hi, span, NULL) : DYD_E_ARG;
+  if (st == DYD_E_ARG) st = span->text[0] == '[' ? interval_ends(lo, hi, span) : value_ends(lo, hi, span);
+  if (st != DYD_OK || !manner) return st;
+  mpq_sub(lo, lo, manner->radius);
+  mpq_add(hi, hi, manner->radius);
+  return DYD_OK;
 }
 
 /* Parsed, widened, and told where it stands; *out is changed on success only. */

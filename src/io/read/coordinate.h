@@ -57,6 +57,11 @@ typedef struct dyd_coordinate {
 /* Reads one coordinate. Failures of the real later on (in refinement) tell its line and column too.
  * On success a real in *out belongs to the caller. */
 dyd_status dyd_coordinate_read(dyd_coordinate *out, const dyd_span *span, const dyd_manner *manner, dyd_error *err);
+/* Where a radius begins, or the end of the text. */
+size_t dyd_nominal_length(const dyd_span *span);
+/* The exact ends, not rounded, of a coordinate that was read without a failure; equal ones of a number. manner = NULL:
+ * as it is written. DYD_E_PARSE for numbers that are not rational; DYD_E_NOMEM. */
+dyd_status dyd_coordinate_ends(mpq_t lo, mpq_t hi, const dyd_span *span, const dyd_manner *manner);
 /* Passes on why a coordinate was refused: own counts columns from the first character of span, *err (may be NULL) from
  * that of the line. */
 dyd_status dyd_coordinate_fail(dyd_error *err, dyd_status code, const dyd_span *span, const dyd_error *own);

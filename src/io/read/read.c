@@ -4,19 +4,16 @@
  * Each row of either layout becomes a staged point: missing fields, decimal commas, radii and places that are given
  * more than once are handled here. Staged points are kept back until the whole file is read, so that bad input adds
  * nothing.
- *
- * Points are equal by their nominal coordinates: those that are written, without a radius. A hash table holds texts
- * that are equal exactly if the numbers are: "mek" for a decimal m * 10^k where 10 does not divide m, "p/q" in lowest
- * terms for another rational. */
+ */
 #include "base/abi.h"
 #include "base/alloc.h"
-#include "base/digest.h"
 #include "base/error.h"
 #include "engine/add.h"
 #include "engine/labels.h"
 #include "io/read/cell.h"
 #include "io/read/confidence.h"
 #include "io/read/csv.h"
+#include "io/read/places.h"
 #include "io/read/stage.h"
 #include "rect/rect.h"
 #include "stream/degrees.h"
@@ -101,179 +98,6 @@ static const char *role_holds(int role) {
   return option->holds;
 }
 
-/* ---- places by their nominal coordinates ---- */
-
-/* A place where points are. width: of the rectangle that its first point, or the merged one, has in x and y. */
-typedef struct nominal {
-  uint64_t hash;
-  size_t text, length; /* the key */
-  size_t point, count; /* its first point, and how many rows give this place */
-  double width[2];
-} nominal;
-
-/* Invariant: slot[] holds numbers of items plus 1, 0 where free; slots is 0 or a power of 2 above 1.5 count. */
-typedef struct nominals {
-  nominal *item;
-  size_t count, cap;
-  size_t *slot, slots;
-  char *text;
-  size_t used, text_cap;
-} nominals;
-
-static void nominals_clear(nominals *n) {
-  free(n->item);
-  free(n->slot);
-  free(n->text);
-  *n = (nominals){0};
-}
-
-static bool key_put(nominals *n, const char *text, size_t length) {
-  if (!dyd_reserve((void **)&n->text, &n->text_cap, n->used + length + 1, 1)) return false;
-  memcpy(n->text + n->used, text, length);
-  n->used += length;
-  return true;
-}
-
-static bool key_put_plain(nominals *n, dyd_plain p) {
-  char text[48];
-  for (; p.man && p.man % 10 == 0; p.exp++) p.man /= 10;
-  int length = snprintf(text, sizeof text, "%" PRId64 "e%d ", p.man, p.man ? p.exp : 0);
-  return key_put(n, text, (size_t)length);
-}
-
-/* Divides z, not 0, by p as often as it goes; returns how often. Short numbers are divided one digit after the other.
- */
-static mp_bitcnt_t take_out(mpz_ptr z, unsigned long p) {
-  enum { SHORT = 4 };
-  mp_bitcnt_t times = 0;
-  if (mpz_size(z) <= SHORT) {
-    for (; mpz_divisible_ui_p(z, p); times++) mpz_divexact_ui(z, z, p);
-    return times;
-  }
-  mpz_t factor;
-  mpz_init_set_ui(factor, p);
-  times = mpz_remove(z, z, factor);
-  mpz_clear(factor);
-  return times;
-}
-
-/* Destroys q, which is man / den * 10^ten with den coprime to 10 and man not divisible by 10: "mek" or "p/qek". */
-static dyd_status key_put_rational(nominals *n, mpq_t q) {
-  mpz_ptr man = mpq_numref(q), den = mpq_denref(q);
-  mpz_t factor;
-  mpz_init(factor);
-  mp_bitcnt_t twos = mpz_scan1(den, 0);
-  mpz_tdiv_q_2exp(den, den, twos);
-  mp_bitcnt_t fives = take_out(den, 5);
-  int64_t ten = -(int64_t)(twos > fives ? twos : fives);
-  mpz_ui_pow_ui(factor, twos > fives ? 5 : 2, twos > fives ? twos - fives : fives - twos);
-  mpz_mul(man, man, factor);
-  mpz_clear(factor);
-  ten = mpz_sgn(man) ? ten + (int64_t)take_out(man, 10) : 0;
-  size_t most = mpz_sizeinbase(man, 10) + mpz_sizeinbase(den, 10) + 32;
-  if (!dyd_reserve((void **)&n->text, &n->text_cap, n->used + most, 1)) return DYD_E_NOMEM;
-  char *to = n->text + n->used;
-  n->used += (size_t)(mpz_cmp_ui(den, 1) ? gmp_snprintf(to, most, "%Zd/%Zde%" PRId64 " ", man, den, ten)
-                                         : gmp_snprintf(to, most, "%Zde%" PRId64 " ", man, ten));
-  return DYD_OK;
-}
-
-/* Where a radius begins, or the end of the text. */
-static size_t nominal_length(const dyd_span *s) {
-  int depth = 0;
-  for (size_t k = 0; k + 1 < s->length; k++) {
-    const char *p = s->text + k;
-    depth += (*p == '(') - (*p == ')');
-    if (!depth && (memcmp(p, "+-", 2) == 0 || memcmp(p, "\xC2\xB1", 2) == 0)) return k;
-  }
-  return s->length;
-}
-
-/* The middle of "[a,b]". */
-static dyd_status parse_middle(mpq_t out, const char *text, size_t length) {
-  const char *end = text + length, *comma = text;
-  mpq_t other;
-  int depth = 0;
-  for (; comma < end && (*comma != ',' || depth != 1); comma++)
-    depth += (*comma == '(' || *comma == '[') - (*comma == ')' || *comma == ']');
-  if (comma == end || end[-1] != ']') return DYD_E_PARSE;
-  mpq_init(other);
-  dyd_status st = dyd_real_parse_exact(out, text + 1, (size_t)(comma - text) - 1);
-  if (st == DYD_OK) st = dyd_real_parse_exact(other, comma + 1, (size_t)(end - comma) - 2);
-  if (st == DYD_OK) mpq_add(out, out, other);
-  if (st == DYD_OK) mpq_div_2exp(out, out, 1);
-  mpq_clear(other);
-  return st;
-}
-
-static dyd_status key_put_coordinate(nominals *n, const dyd_span *s) {
-  size_t length = nominal_length(s);
-  dyd_plain plain;
-  if (dyd_plain_scan(&plain, s->text, length)) return key_put_plain(n, plain) ? DYD_OK : DYD_E_NOMEM;
-  mpq_t q;
-  mpq_init(q);
-  dyd_status st = s->text[0] == '[' ? parse_middle(q, s->text, length) : dyd_real_parse_exact(q, s->text, length);
-  if (st == DYD_OK)
-    st = key_put_rational(n, q);
-  else if (st != DYD_E_NOMEM)
-    st = key_put(n, s->text, length) && key_put(n, " ", 1) ? DYD_OK : DYD_E_NOMEM;
-  mpq_clear(q);
-  return st;
-}
-
-/* The digest with its high half stirred in, as slots are taken by low bits. */
-static uint64_t hash_text(const char *text, size_t length) {
-  uint64_t h = dyd_digest(DYD_DIGEST_BEGIN, text, length);
-  return h ^ h >> 32;
-}
-
-/* The slot of the key, or the free one where it belongs. */
-static size_t *slot_find(const nominals *n, uint64_t hash, const char *key, size_t length) {
-  for (size_t k = (size_t)hash & (n->slots - 1);; k = (k + 1) & (n->slots - 1)) {
-    if (!n->slot[k]) return &n->slot[k];
-    const nominal *i = &n->item[n->slot[k] - 1];
-    if (i->hash == hash && i->length == length && memcmp(n->text + i->text, key, length) == 0) return &n->slot[k];
-  }
-}
-
-static bool slots_grow(nominals *n) {
-  if (n->slots && n->slots / 3 * 2 > n->count) return true;
-  size_t slots = n->slots ? 2 * n->slots : 1024;
-  size_t *slot = calloc(slots, sizeof *slot);
-  if (!slot) return false;
-  free(n->slot);
-  n->slot = slot;
-  n->slots = slots;
-  for (size_t k = 0; k < n->count; k++) {
-    const nominal *i = &n->item[k];
-    *slot_find(n, i->hash, n->text + i->text, i->length) = k + 1;
-  }
-  return true;
-}
-
-/* The place of the two coordinates, counted once more; *out is borrowed until the next call. Equal exact numbers (the
- * middle of an interval, a value without its radius) are equal however they are written; other expressions are when
- * their texts are equal. A new place has count 1. DYD_E_NOMEM. */
-static dyd_status nominals_find(nominal **out, nominals *n, const dyd_span span[2]) {
-  size_t begin = n->used;
-  dyd_status st = key_put_coordinate(n, &span[0]);
-  if (st == DYD_OK) st = key_put_coordinate(n, &span[1]);
-  if (st == DYD_OK && (!slots_grow(n) || !dyd_reserve((void **)&n->item, &n->cap, n->count + 1, sizeof *n->item)))
-    st = DYD_E_NOMEM;
-  if (st != DYD_OK) return st;
-  size_t length = n->used - begin;
-  uint64_t hash = hash_text(n->text + begin, length);
-  size_t *slot = slot_find(n, hash, n->text + begin, length);
-  if (*slot)
-    n->used = begin;
-  else
-    n->item[n->count++] = (nominal){.hash = hash, .text = begin, .length = length};
-  if (!*slot) *slot = n->count;
-  *out = &n->item[*slot - 1];
-  (*out)->count++;
-  return DYD_OK;
-}
-
 /* ---- rows ---- */
 
 /* A point is widened by k times this: in x and y, or, as a length on the ground, in metres. */
@@ -296,7 +120,7 @@ typedef struct intake {
   spread *sigma, row;          /* row: of the present row */
   size_t sigma_cap, uncertain; /* uncertain: rows with a standard deviation above 0 */
   dyd_labels labels;
-  nominals places;
+  dyd_places places;
   dyd_read_report report;
   dyd_style style;
   int roles;                 /* numbers that rows have are in columns of smaller roles */
@@ -525,7 +349,7 @@ static void intake_clear(intake *in) {
   free(in->label);
   dyd_style_clear(&in->style);
   free(in->sigma);
-  nominals_clear(&in->places);
+  dyd_places_clear(&in->places);
   dyd_labels_clear(&in->labels);
   dyd_stage_clear(&in->stage);
   for (int a = 0; a < 2; a++) mpq_clear(in->manner[a].radius);
@@ -567,7 +391,8 @@ static double final_width(const dyd_coordinate *c, const dyd_manner *manner, dou
 /* A rectangle inside both is that of the smaller width in each coordinate, as they have their centre in common. A
  * radius that is kept goes with its rectangle: of rows with different ones, one is taken, inside the other if it can
  * be. */
-static dyd_status intake_merge(intake *in, nominal *place, dyd_coordinate c[2], const double width[2], dyd_error *err) {
+static dyd_status intake_merge(intake *in, dyd_place *place, dyd_coordinate c[2], const double width[2],
+                               dyd_error *err) {
   size_t point = place->point;
   double *kept = &in->labels.number[point].of[DYD_ROW_RADIUS];
   bool less = in->kept[0] < *kept && width[0] <= place->width[0] && width[1] <= place->width[1];
@@ -589,11 +414,11 @@ static dyd_status intake_merge(intake *in, nominal *place, dyd_coordinate c[2], 
 static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_MOST], dyd_coordinate c[2], dyd_error *err) {
   const double width[2] = {final_width(&c[0], &in->manner[0], in->row.of[0]),
                            final_width(&c[1], &in->manner[1], in->row.of[1])};
-  nominal *place = NULL;
+  dyd_place *place = NULL;
   const dyd_span *id = &span[ROLE_ID];
   dyd_row_numbers own = dyd_no_row_numbers;
   if (in->o->merge || width[0] > 0 || width[1] > 0 || (in->o->degrees && in->kept[0] > 0)) {
-    if (nominals_find(&place, &in->places, span) != DYD_OK) {
+    if (dyd_places_find(&place, &in->places, span) != DYD_OK) {
       for (int a = 0; a < 2; a++) dyd_coordinate_clear(&c[a]);
       return dyd_fail_nomem(err);
     }

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Which rows of a file give the same place: a table of nominal coordinates, those that are written, without a radius;
+ * or of identifiers. */
+#ifndef DYD_IO_READ_PLACES_H
+#define DYD_IO_READ_PLACES_H
+
+#include "io/read/coordinate.h"
+
+/* A place where points are. width: of the rectangle that its first point, or the merged one, has in x and y. */
+typedef struct dyd_place {
+  uint64_t hash;
+  size_t text, length; /* the key */
+  size_t point, count; /* its first point, and how many rows give this place */
+  double width[2];
+} dyd_place;
+
+/* Invariant: slot[] holds numbers of items plus 1, 0 where free; slots is 0 or a power of 2 above 1.5 count. */
+typedef struct dyd_places {
+  dyd_place *item;
+  size_t count, cap;
+  size_t *slot, slots;
+  char *text;
+  size_t used, text_cap;
+} dyd_places;
+
+void dyd_places_clear(dyd_places *n);
+/* The place of the two coordinates, counted once more; *out is borrowed until the next call. Equal exact numbers (the
+ * middle of an interval, a value without its radius) are equal however they are written; other expressions are when
+ * their texts are equal. A new place has count 1. DYD_E_NOMEM. */
+dyd_status dyd_places_find(dyd_place **out, dyd_places *n, const dyd_span span[2]);
+/* The same of an identifier, in a table of identifiers. */
+dyd_status dyd_places_find_id(dyd_place **out, dyd_places *n, const dyd_span *id);
+
+#endif
