@@ -21,7 +21,7 @@ typedef struct dyd_read_report {
   size_t struct_size;
   size_t rows;    /* lines with a point, or records behind the header; also those that gave no point */
   size_t missing; /* rows left out by skip_missing */
-  size_t merged;  /* rows taken as one with an earlier one by merge */
+  size_t merged;  /* rows taken as one with an earlier one by merge or merge_by */
   size_t shared;  /* rectangles whose centre is that of another one, which leaves their neighbours undecided */
   bool degrees; /* the columns of x and y are called longitude and latitude: lon, lng, stop_lon, decimalLongitude .. */
   bool swapped; /* the column of x is called latitude or northing, that of y longitude or easting */
@@ -32,7 +32,9 @@ typedef struct dyd_read_report {
    * that makes a table of the file called FILE (NULL: there is none), and the columns of x and y in that table (NULL:
    * it is a points file). Static storage; kind = NULL: the file is read. */
   const char *kind, *make, *make_columns;
-  size_t vertices; /* points that are vertices of lines and polygons in well-known text */
+  size_t repeated, repeat[2]; /* rows with the identifier of an earlier one, but for merge_by; the first such row,
+                                 behind that earlier one, counted from 0 in this text */
+  size_t vertices;            /* points that are vertices of lines and polygons in well-known text */
 } dyd_read_report;
 
 /* Columns are named as in the header (quoted as in RFC 4180 when they hold commas; capitals count only where names
@@ -75,7 +77,14 @@ typedef struct dyd_read_options {
    * ln(n / (1 - confidence))) of them, so that with at least this probability all lie in their regions [CNF-1]. Units
    * and scale as of radii. On the globe lengths in x and y are those of one disc. NULL: none. */
   const char *confidence;
-  bool round; /* the regions of confidence are squares around discs that hold the ellipses of errors */
+  bool round; /* regions are discs: those of confidence are squares around discs that hold the ellipses of errors */
+  /* "id": rows of one identifier (`id`) are one point, which is in the region of each: their rectangles intersect; of
+   * discs (`round`), and of radii on the globe, the smallest is taken, which holds the intersection. Rows without an
+   * identifier are points of their own. With `confidence`, in the plane: the mean of rows, weighted by inverse
+   * variances, whose variance is that for independent errors of these rows. DYD_E_PARSE names two rows that have
+   * nothing in common. Numbers that are not rational are merged where their rows are written alike. NULL: nothing is
+   * merged. */
+  const char *merge_by;
 } dyd_read_options;
 
 /* A field of dyd_read_options but struct_size and report, for programs that set fields by name or look at all. */

@@ -170,6 +170,16 @@ static void note_confidence(const dyd_engine *e, const cli_options *o) {
            o->file, percent, *rest ? "." : "", rest, c.n, ceil(c.k * 1e4) / 1e4);
 }
 
+static void note_repeated(const dyd_engine *e, const cli_options *o, const dyd_read_report *r) {
+  size_t i = 0;
+  while (i < dyd_engine_count(e) && dyd_engine_row(e, i) != r->repeat[0]) i++;
+  const char *id = dyd_engine_id(e, i);
+  cli_note(o,
+           "%s: rows %zu and %zu are both \"%.60s\"; rows with the identifier of an earlier one: %zu (if they are one "
+           "point: --merge-by id)",
+           o->file, r->repeat[0], r->repeat[1], id ? id : "", r->repeated);
+}
+
 int cli_points_read(dyd_engine *e, cli_options *o, bool noting) {
   if (o->oracle) return session_read_oracle(e, o);
   dyd_read_report r = {DYD_SIZED(dyd_read_report)};
@@ -178,7 +188,10 @@ int cli_points_read(dyd_engine *e, cli_options *o, bool noting) {
   note_lines(o, &r);
   if (r.vertices) cli_note(o, "%s: the vertices of lines and polygons are the points: %zu", o->file, r.vertices);
   note_confidence(e, o);
-  if (r.merged) cli_note(o, "%s: %zu rows are merged with earlier ones of equal coordinates", o->file, r.merged);
+  if (r.merged)
+    cli_note(o, "%s: %zu rows are merged with earlier ones of equal %s", o->file, r.merged,
+             o->read.merge_by ? "identifiers" : "coordinates");
+  if (r.repeated) note_repeated(e, o, &r);
   if (r.shared)
     cli_note(o,
              "%s: %zu rectangles have the centre of another one, so pairs next to them cannot be decided (if "

@@ -158,6 +158,10 @@ const cli_option cli_option_table[] = {
     {"missing", 0, "TEXT", CLI_TEXT, TEXT, CLI_INPUT, "what means missing besides, such as -9999", AT(read.missing)},
     {"merge", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "equal coordinates are one point, with the smallest of their\nradii",
      AT(read.merge)},
+    {"merge-by", 0, "id", CLI_TEXT, TEXT, CLI_INPUT,
+     "rows of one --id are one point, in the region of each: boxes\nintersect, of discs the smallest counts; with "
+     "--confidence\nthe mean weighted by inverse variances: errors of these rows\nmust be independent",
+     AT(read.merge_by)},
     {"measured", 0, NULL, CLI_FLAG, TEXT & ~BIT(CLI_TOLERANCE), CLI_INPUT,
      "decimals are rounded measurements: 47.61 is [47.605,47.615]", AT(read.measured)},
     {"radius", 0, "R", CLI_TEXT, TEXT & ~BIT(CLI_TOLERANCE), CLI_INPUT, "widen every point by R on each side",

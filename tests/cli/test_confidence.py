@@ -92,6 +92,39 @@ def test_pairs():
             assert false <= most_false(p), (sigmas, how, p, false)
 
 
+def test_means():
+    """Points of several rows with independent errors, by --merge-by: truths from the mean of the rows' errors, whose weights are
+    the inverse variances."""
+    for sigmas, how in ((1, []), (2, []), (3, ['--discs'])):
+        rand = random.Random(f'means {sigmas}')
+        rows = some_file(f'means {sigmas}', sigmas)[0]
+        points = []
+        for k, (x, y, *s) in enumerate(rows):
+            points.append([(round(x + rand.gauss(0, f * s[0]), 3), round(y + rand.gauss(0, f * s[1]), 3), f * s[0], f * s[1], s[2])
+                           for f in (1, 2, 0.5)[:1 + k % 3]])
+        lines = [f'p{k},' + ','.join(map(str, r)) + '\n' for k, of in enumerate(points) for r in of]
+        rand.shuffle(lines)
+        said = run('delaunay', *columns(sigmas), *how, '--confidence', '50%', '--id', 'id', '--merge-by', 'id', '-', stdin='id,x,y,a,b,c\n' + ''.join(lines))
+        assert f'all {N} points with errors' in said.err, said.err
+        pairs = {tuple(sorted(int(r['id_' + e][1:]) for e in 'ij')): r['status'] for r in table_of(said)}
+        assert 'legal' in pairs.values(), 'nothing is stated'
+        flat, false = [r for of in points for r in of], 0
+        for t in truths([(0, 0, *r[2:]) for r in flat], sigmas):
+            errors, truth = iter(t), []
+            for of in points:
+                weights = [[1 / (longest(r) if how else r[2 + a]) ** 2 for a in (0, 1)] for r in of]
+                own = [next(errors) for _ in of]
+                truth.append(tuple(sum(w[a] * (r[a] + e[a]) for w, r, e in zip(weights, of, own)) / sum(w[a] for w in weights) for a in (0, 1)))
+            false += pairs_are_false(pairs, truth)
+        assert false <= most_false(0.5), (sigmas, how, false)
+
+
+def longest(row):
+    """The longer half-axis of the ellipse of one standard deviation."""
+    sx, sy, rho = row[2:]
+    return math.sqrt((sx * sx + sy * sy) / 2 + math.hypot((sx * sx - sy * sy) / 2, rho * sx * sy))
+
+
 def test_one_sigma_is_no_bound():
     """The same test of standard deviations that are taken for bounds finds them false."""
     rows, file = some_file('z2', 1, most=1.5)

@@ -75,6 +75,8 @@ def test_reading_options():
         assert all(v <= 1.0001 * l / twice for v, l in zip(scaled['lo'], lo)), (scaled, lo)
     assert dyadel.delaunay(dyadel.Text('x;y\n1,5;2\n0;0\n', 'x,y', decimal_comma=True, delimiter=';')).boxes[0, 0] == 1.5
     assert len(dyadel.delaunay(dyadel.Text('x,y\n1,2\n1,2\nNA,3\n', 'x,y', merge=True, skip_missing=True))) == 1
+    twice = dyadel.Text('n,x,y,r\na,0,0,1\nb,9,0,1\na,0.5,0,1\nc,0,9,1\n', 'x,y', id='n', radius_columns='r', merge_by='id')
+    assert len(dyadel.delaunay(twice)) == 3
     for wrong in ({'radius_column': 'w'}, {'columns': 'x,y', 'radius': 0.5}, {'measured': None, 'id ': 'n'}):
         harness.raised(TypeError, dyadel.delaunay, dyadel.Text('0 0\n', **wrong))
     harness.raised(TypeError, dyadel.Text, '0 0\n', degrees=True)

@@ -41,6 +41,7 @@ class Site:
     text: tuple = None      # of x and y
     columns: tuple = ()     # further cells of its row
     call: tuple = None      # for Python: x and y
+    name: str = None        # of the point that several rows give; None: its own
 
 
 @dataclasses.dataclass
@@ -636,7 +637,7 @@ def table(case, d, names=('x', 'y'), comma=False, change=lambda t: t):
         return change('"' + t.replace('"', '""') + '"' if d in t or ',' in t or '"' in t else t)
     out = d.join(('name', names[0], 'cost', names[1], *case.names)) + '\n'
     for k, s in enumerate(case.sites):
-        out += d.join((f'p{k}', cell(s.text[0]), str(k * 7 % 5 + 1), cell(s.text[1]), *map(cell, s.columns))) + '\n'
+        out += d.join((s.name or f'p{k}', cell(s.text[0]), str(k * 7 % 5 + 1), cell(s.text[1]), *map(cell, s.columns))) + '\n'
     if case.extra == 'missing':
         out += d.join(('p', 'NA', '1', '-', *('0' for _ in case.names))) + '\n'
     if case.extra == 'missing word':
@@ -749,7 +750,8 @@ EXTRAS = {
     'accept fixpoint': Extra(['--accept-fixpoint']), 'plane': Extra(['--plane']),
     'id': Extra(['--id', 'name'], fits='table'), 'carry': Extra(['--carry', 'all'], fits='table'), 'length': Extra(['--length']), 'missing': Extra(['--skip-missing'], fits='table'),
     'missing word': Extra(['--skip-missing', '--missing=-9999'], fits='table'),
-    'merge': Extra(['--merge'], softens=True), 'cost': Extra(['--cost-column', 'cost'], fits='table'),
+    'merge': Extra(['--merge'], softens=True),
+    'merge by': Extra(['--id', 'name', '--merge-by', 'id'], fits='table', softens=True), 'cost': Extra(['--cost-column', 'cost'], fits='table'),
     'certificate': Extra(['--certificate', '@certificate'], check='certificate'),
     'trace': Extra(['--trace', '@trace'], check='resume'),
     'trace synced': Extra(['--trace', '@trace', '--trace-sync', '0.5']),

@@ -146,7 +146,7 @@ def judge_witness(judge, case, claims, last, rand):
 
 def judge_aliases(judge, case, claims):
     """An alias is one exact place; equal exact places are aliases."""
-    if case.extra == 'merge' or case.true or case.kind in ('real with radius', 'boxes asked for'):
+    if case.extra in ('merge', 'merge by') or case.true or case.kind in ('real with radius', 'boxes asked for'):
         return
     seen = {}
     for k, s in enumerate(case.sites):
@@ -332,7 +332,7 @@ def write_regions(regions, geometry, product):
 
 def judge_same(judge, case, product, claims, rand):
     """Applies one change: the statements of the changed points are the same; wider regions decide no more."""
-    if case.true or case.kind in ('disguised', 'real with radius') or case.extra in ('merge', 'missing', 'missing word') or not case.sites:
+    if case.true or case.kind in ('disguised', 'real with radius') or case.extra in ('merge', 'merge by', 'missing', 'missing word') or not case.sites:
         return
     name, change = rand.choice(list(SAME[case.geometry].items()))
     regions = [change(s.region, rand) for s in case.sites]

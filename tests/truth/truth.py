@@ -115,6 +115,9 @@ class Space:
             return False
         if extra == 'merge' and kind in ('both', 'interval', 'plusminus', 'columns', 'column of units', 'sigmas'):
             return False
+        if extra == 'merge by' and (kind and kind.startswith(('sigma', 'real', 'disguised')) or g == 'sphere' and kind in NOT_NESTED
+                                    or form in ('bar', 'headless')):
+            return False
         return not (extra in ('trace', 'trace synced') and what in ('check', 'converge', 'converge of voronoi', 'converge of delaunay'))
 
     def complete(self, row, rand, wanted=None):
@@ -191,6 +194,8 @@ def build(row, seed):
     extra = axes.EXTRAS[row['extra']]
     if row['extra'] == 'merge':
         merge(case)
+    if row['extra'] == 'merge by':
+        merge_by(case, rand, what)
     case.softened, case.weights, case.up_to = extra.softens, row['kind'] in ('column', 'scaled column'), None
     case.box_metric = row['extra'] == 'box metric'
     case.tail = []
@@ -219,6 +224,32 @@ def merge(case):
     for s in case.sites:
         s.region = min((t for t in case.sites if t.place == s.place), key=size).region
     case.merged = {k: [t.place for t in case.sites].index(s.place) for k, s in enumerate(case.sites)}
+
+
+NOT_NESTED = 'interval', 'plusminus', 'columns', 'columns of degrees', 'column of units'
+
+
+def merge_by(case, rand, what):
+    """Names of rows: those of equal places, or whose boxes meet, may be one point, in the boxes' intersection; of discs in the
+    smallest."""
+    groups = []
+    for s in case.sites:
+        for g in groups:
+            boxes = [s.region, *(t.region for t in g)]
+            meet = boxes[0] if any(b[0] != 'box' for b in boxes) else ('box', *(f(b[k] for b in boxes) for k, f in ((1, max), (2, min), (3, max), (4, min))))
+            if (g[0].place == s.place if what.command == 'tolerance' or meet[0] != 'box' else meet[1] <= meet[2] and meet[3] <= meet[4]) and rand.random() < 0.7:
+                g.append(s)
+                break
+        else:
+            groups.append([s])
+    for k, g in enumerate(groups):
+        boxes = [s.region for s in g]
+        if boxes[0][0] == 'box' and what.command != 'tolerance':
+            region = ('box', *(f(b[k] for b in boxes) for k, f in ((1, max), (2, min), (3, max), (4, min))))
+        else:
+            region = min(boxes, key=lambda r: r[3] if r[0] in ('disc', 'cap') else r[2] - r[1])
+        for s in g:
+            s.name, s.region = f'q{k}', region
 
 
 def round_out(a, b):
@@ -305,7 +336,7 @@ def draw(case, claims, rand, effort):
     n, globe = len(case.sites), case.geometry == 'sphere'
     aliases = claims.get('aliases')
     sites = [k for k in range(n) if k not in (aliases or {})]
-    if aliases is None or case.extra == 'merge':
+    if aliases is None or case.extra in ('merge', 'merge by'):
         sites = first_of_equal(case)
     make = stated.Globe if globe else stated.Choice
     if case.true:
@@ -339,7 +370,7 @@ def first_of_equal(case):
             r = ('degrees', Q(0), Q(0), r[3], r[4]) if abs(r[3]) == 90 else ('degrees', r[1] % 360, r[1] % 360, r[3], r[4])
         still = r[0] == 'box' and r[1] == r[2] and r[3] == r[4] or r[0] == 'degrees' and r[1] == r[2] and r[3] == r[4] or \
             r[0] in ('disc', 'cap') and r[3] == 0
-        if still and r in seen:
+        if still and r in seen or s.name and s.name in (t.name for t in case.sites[:k]):
             continue
         if still:
             seen[r] = k

@@ -26,6 +26,16 @@ double dyd_double_above(mpq_srcptr q) {
   return d;
 }
 
+double dyd_root_above(mpq_srcptr q) {
+  mpfr_t x;
+  mpfr_init2(x, PRECISION);
+  mpfr_set_q(x, q, MPFR_RNDU);
+  mpfr_sqrt(x, x, MPFR_RNDU);
+  double d = mpfr_get_d(x, MPFR_RNDU);
+  mpfr_clear(x);
+  return d;
+}
+
 double dyd_sigma_round(mpq_t sigma[2], mpq_srcptr rho) {
   if (!mpq_sgn(rho)) return dyd_double_above(sigma[mpq_cmp(sigma[0], sigma[1]) < 0]);
   mpq_t a, b, c;

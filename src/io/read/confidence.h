@@ -13,6 +13,8 @@ dyd_status dyd_confidence_for(dyd_confidence *out, const dyd_engine *e, const ch
 
 /* Returns the smallest double >= q >= 0; infinite beyond the range of doubles. */
 double dyd_double_above(mpq_srcptr q);
+/* Returns at least the root of q >= 0. */
+double dyd_root_above(mpq_srcptr q);
 /* Returns at least the longer half-axis of the ellipse of one standard deviation: the root of the larger eigenvalue of
  * the errors' covariance, with standard deviations sigma[0], sigma[1] >= 0 and correlation rho. */
 double dyd_sigma_round(mpq_t sigma[2], mpq_srcptr rho);

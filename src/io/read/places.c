@@ -90,26 +90,28 @@ static uint64_t hash_text(const char *text, size_t length) {
   return h ^ h >> 32;
 }
 
-/* The slot of the key, or the free one where it belongs. */
-static size_t *slot_find(const dyd_places *n, uint64_t hash, const char *key, size_t length) {
+/* The slot of the key, or the free one where it belongs; key = NULL: it is new. */
+static dyd_place_slot *slot_find(const dyd_places *n, uint64_t hash, const char *key, size_t length) {
   for (size_t k = (size_t)hash & (n->slots - 1);; k = (k + 1) & (n->slots - 1)) {
-    if (!n->slot[k]) return &n->slot[k];
-    const dyd_place *i = &n->item[n->slot[k] - 1];
-    if (i->hash == hash && i->length == length && memcmp(n->text + i->text, key, length) == 0) return &n->slot[k];
+    dyd_place_slot *s = &n->slot[k];
+    if (!s->item) return s;
+    if (!key || s->tag != (uint32_t)(hash >> 32)) continue;
+    const dyd_place *i = &n->item[s->item - 1];
+    if (i->hash == hash && i->length == length && memcmp(n->text + i->text, key, length) == 0) return s;
   }
 }
 
 static bool slots_grow(dyd_places *n) {
   if (n->slots && n->slots / 3 * 2 > n->count) return true;
   size_t slots = n->slots ? 2 * n->slots : 1024;
-  size_t *slot = calloc(slots, sizeof *slot);
+  dyd_place_slot *slot = n->count < UINT32_MAX ? calloc(slots, sizeof *slot) : NULL;
   if (!slot) return false;
   free(n->slot);
   n->slot = slot;
   n->slots = slots;
   for (size_t k = 0; k < n->count; k++) {
-    const dyd_place *i = &n->item[k];
-    *slot_find(n, i->hash, n->text + i->text, i->length) = k + 1;
+    uint64_t hash = n->item[k].hash;
+    *slot_find(n, hash, NULL, 0) = (dyd_place_slot){(uint32_t)k + 1, (uint32_t)(hash >> 32)};
   }
   return true;
 }
@@ -119,13 +121,14 @@ static dyd_status places_count(dyd_place **out, dyd_places *n, size_t begin) {
   if (!slots_grow(n) || !dyd_reserve((void **)&n->item, &n->cap, n->count + 1, sizeof *n->item)) return DYD_E_NOMEM;
   size_t length = n->used - begin;
   uint64_t hash = hash_text(n->text + begin, length);
-  size_t *slot = slot_find(n, hash, n->text + begin, length);
-  if (*slot)
+  dyd_place_slot *slot = slot_find(n, hash, n->text + begin, length);
+  if (slot->item) {
     n->used = begin;
-  else
+  } else {
     n->item[n->count++] = (dyd_place){.hash = hash, .text = begin, .length = length};
-  if (!*slot) *slot = n->count;
-  *out = &n->item[*slot - 1];
+    *slot = (dyd_place_slot){(uint32_t)n->count, (uint32_t)(hash >> 32)};
+  }
+  *out = &n->item[slot->item - 1];
   (*out)->count++;
   return DYD_OK;
 }

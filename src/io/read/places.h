@@ -6,19 +6,29 @@
 
 #include "io/read/coordinate.h"
 
-/* A place where points are. width: of the rectangle that its first point, or the merged one, has in x and y. */
+/* A place where points are, or an identifier. width: of the rectangle that its first point, or the merged one, has in x
+ * and y. */
 typedef struct dyd_place {
   uint64_t hash;
   size_t text, length; /* the key */
   size_t point, count; /* its first point, and how many rows give this place */
-  double width[2];
+  union {
+    double width[2];
+    size_t row[2]; /* of an identifier: its first and its last row, as the caller counts them */
+  };
 } dyd_place;
 
-/* Invariant: slot[] holds numbers of items plus 1, 0 where free; slots is 0 or a power of 2 above 1.5 count. */
+/* Where an item is found: its number plus 1, 0 where free, and the high half of its hash. */
+typedef struct dyd_place_slot {
+  uint32_t item, tag;
+} dyd_place_slot;
+
+/* Invariant: slots is 0 or a power of 2 above 1.5 count. */
 typedef struct dyd_places {
   dyd_place *item;
   size_t count, cap;
-  size_t *slot, slots;
+  dyd_place_slot *slot;
+  size_t slots;
   char *text;
   size_t used, text_cap;
 } dyd_places;

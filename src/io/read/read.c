@@ -15,6 +15,7 @@
 #include "io/read/csv.h"
 #include "io/read/places.h"
 #include "io/read/stage.h"
+#include "io/read/twins.h"
 #include "rect/rect.h"
 #include "stream/degrees.h"
 #include "stream/real.h"
@@ -69,6 +70,7 @@ static const struct read_option {
     {.field = {OF(missing), .points = true, .text = true}},
     {.field = {OF(skip_missing), .flag = true, .points = true, .text = true}},
     {.field = {OF(merge), .flag = true, .points = true, .text = true}},
+    {.field = {OF(merge_by), .table = true, .points = true, .text = true}},
     {.field = {OF(degrees), .flag = true, .points = true}},
     {.field = {OF(keep_radii), .flag = true, .points = true}},
 };
@@ -106,6 +108,13 @@ typedef struct spread {
   bool ground;
 } spread;
 
+/* A row of a point that others may give, too. cells: where its texts are, role by role, each terminated; "" where there
+ * is none, "\1" where it is that of the role before. next: the next row of the point. */
+typedef struct sighting {
+  size_t cells, length, next;
+  size_t row, line, column;
+} sighting;
+
 /* Invariant: every row so far is in report.rows, and, where labels are kept, in labels; sigma[] has each staged point
  * where there is a confidence. */
 typedef struct intake {
@@ -120,7 +129,11 @@ typedef struct intake {
   spread *sigma, row;          /* row: of the present row */
   size_t sigma_cap, uncertain; /* uncertain: rows with a standard deviation above 0 */
   dyd_labels labels;
-  dyd_places places;
+  dyd_places places, ids;
+  sighting *seen; /* by merge_by, rows with an identifier */
+  size_t sightings, seen_cap;
+  char *cells; /* theirs */
+  size_t cells_used, cells_cap;
   dyd_read_report report;
   dyd_style style;
   int roles;                 /* numbers that rows have are in columns of smaller roles */
@@ -256,6 +269,8 @@ static dyd_status intake_sigma(intake *in, const dyd_span *span, dyd_error *err)
     bool disc = in->o->round || in->row.ground;
     for (int a = 0; a < 2; a++) in->row.of[a] = disc ? dyd_sigma_round(s, rho) : dyd_double_above(s[a]);
     in->uncertain += mpq_sgn(s[0]) || mpq_sgn(s[1]);
+    if (!isfinite(in->row.of[0]) || !isfinite(in->row.of[1]))
+      st = dyd_span_fail(err, span, 0, "the standard deviation is above the range of doubles; give a smaller one");
   }
   mpq_clears(s[0], s[1], rho, NULL);
   return st;
@@ -321,6 +336,21 @@ static dyd_status intake_check(const dyd_read_options *o, dyd_error *err) {
                     "\"%.100s\" is not one column name; give NAME, or regions a probability: "
                     "`confidence` 95%%",
                     o->sigma_column);
+  if (!o->merge_by) return DYD_OK;
+  if (strcmp(o->merge_by, "id") != 0)
+    return dyd_fail(err, DYD_E_ARG,
+                    "\"%.60s\" is not id; rows are merged by the column of identifiers: `id` NAME and "
+                    "`merge_by` id",
+                    o->merge_by);
+  if (!o->id) return dyd_fail(err, DYD_E_ARG, "`merge_by` id: name the column of identifiers, too: `id` NAME");
+  if (o->merge)
+    return dyd_fail(err, DYD_E_ARG,
+                    "rows are merged by their identifiers or by their coordinates: leave `merge` or "
+                    "`merge_by` out");
+  if (o->confidence && o->degrees)
+    return dyd_fail(err, DYD_E_ARG,
+                    "means of rows are those of a plane: with `merge_by` and `confidence` give projected "
+                    "coordinates");
   return DYD_OK;
 }
 
@@ -349,6 +379,9 @@ static void intake_clear(intake *in) {
   free(in->label);
   dyd_style_clear(&in->style);
   free(in->sigma);
+  free(in->seen);
+  free(in->cells);
+  dyd_places_clear(&in->ids);
   dyd_places_clear(&in->places);
   dyd_labels_clear(&in->labels);
   dyd_stage_clear(&in->stage);
@@ -410,6 +443,45 @@ static dyd_status intake_merge(intake *in, dyd_place *place, dyd_coordinate c[2]
   return dyd_labels_merge(&in->labels, point) ? DYD_OK : dyd_fail_nomem(err);
 }
 
+/* Remembers the present row, of the identifier. */
+static dyd_status intake_see(intake *in, dyd_place *id, const dyd_span span[DYD_CSV_MOST], dyd_error *err) {
+  sighting s = {.cells = in->cells_used, .row = in->report.rows - 1};
+  for (int k = 0; k < in->roles; k++) {
+    bool same = k && span[k].text && span[k].at == span[k - 1].at;
+    size_t length = same ? 1 : span[k].text ? span[k].length : 0;
+    if (!dyd_reserve((void **)&in->cells, &in->cells_cap, in->cells_used + length + 1, 1)) return dyd_fail_nomem(err);
+    if (length) memcpy(in->cells + in->cells_used, same ? "\1" : span[k].text, length);
+    in->cells_used += length;
+    in->cells[in->cells_used++] = 0;
+  }
+  s.length = in->cells_used - s.cells;
+  dyd_span_position(&s.line, &s.column, &span[0], 0);
+  if (!dyd_reserve((void **)&in->seen, &in->seen_cap, in->sightings + 1, sizeof *in->seen)) return dyd_fail_nomem(err);
+  if (id->count == 1)
+    id->row[0] = in->sightings, id->point = in->stage.count;
+  else
+    in->seen[id->row[1]].next = in->sightings;
+  id->row[1] = in->sightings;
+  in->seen[in->sightings++] = s;
+  return DYD_OK;
+}
+
+/* *again: the point that an earlier row gives, if this one is of the same; else SIZE_MAX. */
+static dyd_status intake_identify(size_t *again, intake *in, const dyd_span span[DYD_CSV_MOST], dyd_error *err) {
+  dyd_place *id;
+  *again = SIZE_MAX;
+  if (!span[ROLE_ID].length) return DYD_OK;
+  if (dyd_places_find_id(&id, &in->ids, &span[ROLE_ID]) != DYD_OK) return dyd_fail_nomem(err);
+  if (in->o->merge_by) {
+    if (id->count > 1) *again = id->point, in->report.merged++;
+    return intake_see(in, id, span, err);
+  }
+  if (id->count == 1) id->row[0] = in->report.rows - 1;
+  if (id->count > 1 && !in->report.repeated++)
+    in->report.repeat[0] = id->row[0], in->report.repeat[1] = in->report.rows - 1;
+  return DYD_OK;
+}
+
 /* Stages a point that is read; takes over reals, also on failure. */
 static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_MOST], dyd_coordinate c[2], dyd_error *err) {
   const double width[2] = {final_width(&c[0], &in->manner[0], in->row.of[0]),
@@ -417,6 +489,13 @@ static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_MOST], dy
   dyd_place *place = NULL;
   const dyd_span *id = &span[ROLE_ID];
   dyd_row_numbers own = dyd_no_row_numbers;
+  size_t again = SIZE_MAX;
+  dyd_status st = in->o->id ? intake_identify(&again, in, span, err) : DYD_OK;
+  if (again != SIZE_MAX || st != DYD_OK) {
+    for (int a = 0; a < 2; a++) dyd_coordinate_clear(&c[a]);
+    if (st == DYD_OK && !dyd_labels_merge(&in->labels, again)) st = dyd_fail_nomem(err);
+    return st;
+  }
   if (in->o->merge || width[0] > 0 || width[1] > 0 || (in->o->degrees && in->kept[0] > 0)) {
     if (dyd_places_find(&place, &in->places, span) != DYD_OK) {
       for (int a = 0; a < 2; a++) dyd_coordinate_clear(&c[a]);
@@ -427,7 +506,7 @@ static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_MOST], dy
     if (place->count == 1) place->point = in->stage.count;
     if (place->count == 1) memcpy(place->width, width, sizeof width);
   }
-  dyd_status st = dyd_stage_add(&in->stage, &c[0], &c[1], err);
+  st = dyd_stage_add(&in->stage, &c[0], &c[1], err);
   if (st == DYD_OK) st = intake_keep_sigma(in, err);
   if (st != DYD_OK || !intake_labels(in)) return st;
   own.of[DYD_ROW_RADIUS] = in->kept[0];
@@ -503,14 +582,107 @@ static dyd_status intake_row(intake *in, dyd_span span[DYD_CSV_MOST], dyd_error 
   return st;
 }
 
+/* ---- points of several rows ---- */
+
+/* Reads a row again. DYD_E_PARSE: a coordinate is not rational. */
+static dyd_status twin_read(dyd_twin *out, intake *in, const sighting *s, dyd_error *err) {
+  dyd_span span[DYD_CSV_MOST] = {{0}};
+  const char *at = in->cells + s->cells;
+  dyd_status st = DYD_OK;
+  for (int k = 0; k < in->roles; k++, at += strlen(at) + 1)
+    if (k && strcmp(at, "\1") == 0)
+      span[k] = span[k - 1];
+    else if (*at)
+      span[k] = (dyd_span){at, strlen(at), at, at, s->line};
+  for (int a = 0; a < 2 && st == DYD_OK; a++) {
+    if (span[DYD_CSV_RADIUS_X + a].text) st = intake_radius(in, a, &span[DYD_CSV_RADIUS_X + a], err);
+    if (st == DYD_OK) st = dyd_coordinate_ends(out->lo[a], out->hi[a], &span[a], &in->manner[a]);
+  }
+  if (st == DYD_OK && in->o->confidence) st = intake_sigma(in, &span[ROLE_SIGMA], err);
+  out->kept = in->kept[0];
+  for (int a = 0; a < 2; a++) out->sigma[a] = in->o->confidence ? in->row.of[a] : 0;
+  return st;
+}
+
+/* st tells why these rows, which the place of an identifier begins with, give no point. */
+static dyd_status twins_fail(const intake *in, dyd_status st, const dyd_place *id, const size_t which[2],
+                             dyd_error *err) {
+  const sighting *s[2] = {&in->seen[id->row[0]], &in->seen[id->row[0]]};
+  for (int k = 0; k < 2; k++)
+    for (size_t left = which[k]; left; left--) s[k] = &in->seen[s[k]->next];
+  err->line = s[1]->line;
+  err->column = s[1]->column;
+  return dyd_fail(
+      err, DYD_E_PARSE, "rows %zu (line %zu) and %zu are both \"%.*s\", %s", s[0]->row, s[0]->line, s[1]->row,
+      id->length < 60 ? (int)id->length : 60, in->ids.text + id->text,
+      st == DYD_E_DOMAIN
+          ? "but have nothing in common; give larger radii (`radius`, `radius_columns`, or `sigma_column` "
+            "with `confidence`), or other identifiers"
+      : st == DYD_E_ARG
+          ? "but the radius of one is a length, and the other is in an interval; give lengths or degrees for "
+            "both"
+          : "but not written alike, and one has to be refined to be known; write both alike, or as numbers or "
+            "intervals");
+}
+
+/* Gives the point what its rows say together. */
+static dyd_status twins_join(intake *in, const dyd_place *id, dyd_twin *row, dyd_error *err) {
+  dyd_coordinate c[2] = {{.kind = DYD_COORDINATE_DOUBLE}, {.kind = DYD_COORDINATE_DOUBLE}};
+  const sighting *first = &in->seen[id->row[0]], *s = first;
+  dyd_status st = DYD_OK;
+  dyd_twin *out = &row[id->count];
+  size_t which[2] = {0, 0}, other = 0;
+  bool exact = true;
+  for (size_t k = 0; k < id->count; k++, s = &in->seen[s->next]) {
+    st = twin_read(&row[k], in, s, err);
+    if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+    exact = exact && st == DYD_OK;
+    if (!other && (s->length != first->length || memcmp(in->cells + s->cells, in->cells + first->cells, s->length)))
+      other = k;
+  }
+  which[1] = other;
+  if (!exact) return other ? twins_fail(in, DYD_E_PARSE, id, which, err) : DYD_OK;
+  st = dyd_twins_merge(out, which, row, id->count, in->o);
+  if (st != DYD_OK) return twins_fail(in, st, id, which, err);
+  const bool both[2] = {true, true};
+  for (int a = 0; a < 2 && st == DYD_OK; a++) {
+    st = dyd_real_from_interval(&c[a].real, out->lo[a], out->hi[a]);
+    if (st == DYD_OK) c[a].kind = DYD_COORDINATE_REAL;
+    if (in->o->confidence) in->sigma[id->point].of[a] = out->sigma[a];
+  }
+  in->labels.number[id->point].of[DYD_ROW_RADIUS] = out->kept;
+  if (st == DYD_OK) return dyd_stage_replace(&in->stage, id->point, &c[0], &c[1], both, err);
+  for (int a = 0; a < 2; a++) dyd_coordinate_clear(&c[a]);
+  return dyd_fail(err, st, "%s", dyd_status_text(st));
+}
+
+/* Points of several rows become what these say together; a point counts once. */
+static dyd_status intake_join(intake *in, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; st == DYD_OK && k < in->ids.count; k++) {
+    const dyd_place *id = &in->ids.item[k];
+    if (id->count < 2) continue;
+    dyd_twin *row = dyd_alloc(id->count + 1, sizeof *row);
+    if (!row) return dyd_fail_nomem(err);
+    for (size_t j = 0; j <= id->count; j++) dyd_twin_init(&row[j]);
+    st = twins_join(in, id, row, err);
+    for (size_t j = 0; j <= id->count; j++) dyd_twin_clear(&row[j]);
+    free(row);
+  }
+  in->uncertain = 0;
+  for (size_t p = 0; in->o->confidence && p < in->stage.count; p++)
+    in->uncertain += in->sigma[p].of[0] > 0 || in->sigma[p].of[1] > 0;
+  return st;
+}
+
 /* Adds all points to e, with their labels; the stage is empty afterwards. */
 static dyd_status intake_commit(dyd_engine *e, intake *in, dyd_error *err) {
   const dyd_labels *own = &in->labels;
   dyd_labels all = {0};
   bool labelled = own->has_ids || in->numbers || in->report.missing || in->report.merged;
   dyd_confidence c;
-  dyd_status st = DYD_OK;
-  if (in->o->confidence) st = dyd_confidence_for(&c, e, in->o->confidence, in->uncertain, err);
+  dyd_status st = in->o->merge_by ? intake_join(in, err) : DYD_OK;
+  if (st == DYD_OK && in->o->confidence) st = dyd_confidence_for(&c, e, in->o->confidence, in->uncertain, err);
   if (st == DYD_OK && in->o->confidence) st = intake_confide(in, c.k, err);
   if (st == DYD_OK && labelled && dyd_labels_join(&all, e, own) != DYD_OK) st = dyd_fail_nomem(err);
   if (st == DYD_OK) st = dyd_stage_commit(e, &in->stage, err);

@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The point lies in the region of each of its rows, so in their intersection, which one of the smallest size holds.
+ *
+ * Let e[k] be independent normal errors of standard deviations s[k], and w[k] > 0 numbers that do not depend on them.
+ * Then sum w e / sum w is normal with the variance sum w^2 s^2 / (sum w)^2, which grows with each s [CNF-1]. So w may
+ * be rounded, and s rounded up; and one w for x and y does for ellipses that lie in discs. */
+#include "io/read/twins.h"
+
+#include "io/read/confidence.h"
+#include "stream/arb.h"
+#include "stream/ball.h"
+
+void dyd_twin_init(dyd_twin *t) {
+  mpq_inits(t->lo[0], t->lo[1], t->hi[0], t->hi[1], NULL);
+  t->sigma[0] = t->sigma[1] = t->kept = 0;
+}
+
+void dyd_twin_clear(dyd_twin *t) {
+  mpq_clears(t->lo[0], t->lo[1], t->hi[0], t->hi[1], NULL);
+}
+
+static void twin_set(dyd_twin *out, const dyd_twin *t) {
+  for (int a = 0; a < 2; a++) {
+    mpq_set(out->lo[a], t->lo[a]);
+    mpq_set(out->hi[a], t->hi[a]);
+    out->sigma[a] = t->sigma[a];
+  }
+  out->kept = t->kept;
+}
+
+static void twin_width(mpq_t out, const dyd_twin *t, int axis) {
+  mpq_sub(out, t->hi[axis], t->lo[axis]);
+}
+
+/* ---- boxes ---- */
+
+/* Rows count in a coordinate where they have no error in it. false: apart. */
+static bool twins_meet(dyd_twin *out, size_t apart[2], const dyd_twin *row, size_t n, int axis) {
+  size_t low = n, high = n;
+  for (size_t k = 0; k < n; k++) {
+    if (row[k].sigma[axis] > 0) continue;
+    if (low == n || mpq_cmp(row[k].lo[axis], row[low].lo[axis]) > 0) low = k;
+    if (high == n || mpq_cmp(row[k].hi[axis], row[high].hi[axis]) < 0) high = k;
+  }
+  mpq_set(out->lo[axis], row[low].lo[axis]);
+  mpq_set(out->hi[axis], row[high].hi[axis]);
+  out->sigma[axis] = 0;
+  apart[0] = low < high ? low : high;
+  apart[1] = low < high ? high : low;
+  return mpq_cmp(out->lo[axis], out->hi[axis]) <= 0;
+}
+
+/* ---- the one of the smallest size ---- */
+
+static int twin_compare(const dyd_twin *a, const dyd_twin *b) {
+  if (a->kept != b->kept) return a->kept < b->kept ? -1 : 1;
+  mpq_t u, v;
+  mpq_inits(u, v, NULL);
+  int order = 0;
+  for (int axis = 1; axis >= 0 && !order; axis--) {
+    twin_width(u, a, axis);
+    twin_width(v, b, axis);
+    order = mpq_cmp(u, v);
+  }
+  mpq_clears(u, v, NULL);
+  return order;
+}
+
+/* Of those without an error in x; the first one of several. */
+static size_t twins_least(const dyd_twin *row, size_t n) {
+  size_t least = n;
+  for (size_t k = 0; k < n; k++)
+    if (!(row[k].sigma[0] > 0) && (least == n || twin_compare(&row[k], &row[least]) < 0)) least = k;
+  return least;
+}
+
+/* Are the discs in two squares apart? Of other boxes that is not asked. */
+static bool discs_apart(const dyd_twin *s, const dyd_twin *t) {
+  mpq_t u, v, reach, square;
+  mpq_inits(u, v, reach, square, NULL);
+  bool round = true;
+  for (int k = 0; k < 2; k++) {
+    const dyd_twin *of = k ? t : s;
+    twin_width(u, of, 0);
+    twin_width(v, of, 1);
+    round = round && mpq_equal(u, v);
+    mpq_add(reach, reach, u); /* twice the radii */
+  }
+  for (int a = 0; a < 2; a++) { /* twice the distance of the centres, squared */
+    mpq_add(u, s->lo[a], s->hi[a]);
+    mpq_sub(u, u, t->lo[a]);
+    mpq_sub(u, u, t->hi[a]);
+    mpq_mul(u, u, u);
+    mpq_add(square, square, u);
+  }
+  mpq_mul(reach, reach, reach);
+  bool apart = round && mpq_cmp(square, reach) > 0;
+  mpq_clears(u, v, reach, square, NULL);
+  return apart;
+}
+
+enum { BITS = 128 };
+
+/* out = sin^2((a - b) / 2), of degrees. */
+static void half_sine(arb_t out, mpq_srcptr a, mpq_srcptr b) {
+  mpq_t d;
+  mpq_init(d);
+  mpq_sub(d, a, b);
+  dyd_ball_set_q(out, d, BITS);
+  arb_div_ui(out, out, 360, BITS);
+  arb_sin_pi(out, out, BITS);
+  arb_sqr(out, out, BITS);
+  mpq_clear(d);
+}
+
+/* Is the way on the globe between two places surely longer than both radii? Half of its angle has the squared sine
+ * sin^2(lat) + cos(lat of s) cos(lat of t) sin^2(lon), of halves of the differences. */
+static bool grounds_apart(const dyd_twin *s, const dyd_twin *t) {
+  arb_t way, f, reach;
+  mpq_t zero;
+  mpq_init(zero);
+  arb_init(way);
+  arb_init(f);
+  arb_init(reach);
+  half_sine(way, s->lo[0], t->lo[0]);
+  for (int k = 0; k < 2; k++) { /* cos(lat) = 1 - 2 sin^2(lat / 2); both signs change */
+    half_sine(f, (k ? t : s)->lo[1], zero);
+    arb_mul_2exp_si(f, f, 1);
+    arb_sub_ui(f, f, 1, BITS);
+    arb_mul(way, way, f, BITS);
+  }
+  half_sine(f, s->lo[1], t->lo[1]);
+  arb_add(way, way, f, BITS);
+  arb_set_d(reach, s->kept);
+  arb_set_d(f, t->kept);
+  arb_add(reach, reach, f, BITS);
+  arb_mul_2exp_si(reach, reach, -1);
+  arb_set_str(f, DYD_EARTH_RADIUS, BITS);
+  arb_div(reach, reach, f, BITS);
+  arb_set_d(f, 1.5); /* less than a quarter turn: below, the sine grows */
+  bool apart = arb_lt(reach, f);
+  arb_sin(reach, reach, BITS);
+  arb_sqr(reach, reach, BITS);
+  apart = apart && arb_gt(way, reach);
+  arb_clear(way);
+  arb_clear(f);
+  arb_clear(reach);
+  mpq_clear(zero);
+  return apart;
+}
+
+/* DYD_E_DOMAIN where another one has nothing in common with it. */
+static dyd_status twins_choose(dyd_twin *out, size_t apart[2], const dyd_twin *row, size_t n, bool globe) {
+  size_t least = twins_least(row, n);
+  for (size_t k = 0; k < n; k++) {
+    if (row[k].sigma[0] > 0 || k == least) continue;
+    apart[0] = k < least ? k : least;
+    apart[1] = k < least ? least : k;
+    if (globe ? grounds_apart(&row[k], &row[least]) : discs_apart(&row[k], &row[least])) return DYD_E_DOMAIN;
+  }
+  twin_set(out, &row[least]);
+  return DYD_OK;
+}
+
+/* ---- places on the globe ---- */
+
+/* Is the box of degrees narrower than half a turn, and off the poles, where longitudes mean nothing? */
+static bool twin_is_plain(const dyd_twin *t) {
+  mpq_t width;
+  mpq_init(width);
+  twin_width(width, t, 0);
+  bool plain = mpq_cmp_si(width, 180, 1) < 0 && mpq_cmp_si(t->lo[1], -90, 1) > 0 && mpq_cmp_si(t->hi[1], 90, 1) < 0;
+  mpq_clear(width);
+  return plain;
+}
+
+/* Moves the longitudes of t by whole turns next to those of `to`. */
+static void twin_turn(dyd_twin *t, const dyd_twin *to) {
+  mpq_t turns;
+  mpq_init(turns);
+  mpq_add(turns, to->lo[0], to->hi[0]);
+  mpq_sub(turns, turns, t->lo[0]);
+  mpq_sub(turns, turns, t->hi[0]);
+  mpz_mul_ui(mpq_denref(turns), mpq_denref(turns), 720); /* the middles' difference / 360 */
+  mpz_mul_2exp(mpq_numref(turns), mpq_numref(turns), 1);
+  mpz_add(mpq_numref(turns), mpq_numref(turns), mpq_denref(turns));
+  mpz_mul_2exp(mpq_denref(turns), mpq_denref(turns), 1);
+  mpz_fdiv_q(mpq_numref(turns), mpq_numref(turns), mpq_denref(turns)); /* rounded */
+  mpz_mul_ui(mpq_numref(turns), mpq_numref(turns), 360);
+  mpz_set_ui(mpq_denref(turns), 1);
+  mpq_add(t->lo[0], t->lo[0], turns);
+  mpq_add(t->hi[0], t->hi[0], turns);
+  mpq_clear(turns);
+}
+
+/* Boxes about a pole or half of the globe take no part; where all are such, one of them is taken. */
+static dyd_status twins_merge_globe(dyd_twin *out, size_t apart[2], dyd_twin *row, size_t n) {
+  size_t ground = n, box = n, plain = n;
+  for (size_t k = 0; k < n; k++) {
+    if (ground == n && row[k].kept > 0) ground = k;
+    if (box == n && !(mpq_equal(row[k].lo[0], row[k].hi[0]) && mpq_equal(row[k].lo[1], row[k].hi[1]))) box = k;
+    if (plain == n && twin_is_plain(&row[k])) plain = k;
+  }
+  apart[0] = ground < box ? ground : box;
+  apart[1] = ground < box ? box : ground;
+  if (ground < n) return box < n ? DYD_E_ARG : twins_choose(out, apart, row, n, true);
+  if (plain == n) {
+    twin_set(out, &row[twins_least(row, n)]);
+    return DYD_OK;
+  }
+  for (size_t k = 0; k < n; k++) {
+    if (twin_is_plain(&row[k]))
+      twin_turn(&row[k], &row[plain]);
+    else
+      row[k].sigma[0] = row[k].sigma[1] = 1; /* it does not count */
+  }
+  return twins_meet(out, apart, row, n, 0) && twins_meet(out, apart, row, n, 1) ? DYD_OK : DYD_E_DOMAIN;
+}
+
+/* ---- means ---- */
+
+/* The weight of a row, with the smallest standard deviation. */
+static void twin_weigh(mpq_t w, const dyd_twin *t, int axis, double least) {
+  double share = least / t->sigma[axis];
+  mpq_set_d(w, share * share);
+}
+
+/* The smallest standard deviation in the coordinate; 0: there is a row without one. */
+static double twins_least_sigma(const dyd_twin *row, size_t n, int axis) {
+  double least = row[0].sigma[axis];
+  for (size_t k = 1; k < n; k++)
+    if (row[k].sigma[axis] < least) least = row[k].sigma[axis];
+  return least;
+}
+
+static void twins_mean(dyd_twin *out, const dyd_twin *row, size_t n, int axis, double least) {
+  mpq_t w, s, sum, variance;
+  mpq_inits(w, s, sum, variance, NULL);
+  mpq_set_ui(out->lo[axis], 0, 1);
+  mpq_set_ui(out->hi[axis], 0, 1);
+  for (size_t k = 0; k < n; k++) {
+    twin_weigh(w, &row[k], axis, least);
+    mpq_add(sum, sum, w);
+    mpq_mul(s, w, row[k].lo[axis]);
+    mpq_add(out->lo[axis], out->lo[axis], s);
+    mpq_mul(s, w, row[k].hi[axis]);
+    mpq_add(out->hi[axis], out->hi[axis], s);
+    mpq_set_d(s, row[k].sigma[axis]);
+    mpq_mul(s, s, w);
+    mpq_mul(s, s, s);
+    mpq_add(variance, variance, s);
+  }
+  mpq_div(out->lo[axis], out->lo[axis], sum);
+  mpq_div(out->hi[axis], out->hi[axis], sum);
+  mpq_mul(sum, sum, sum);
+  mpq_div(variance, variance, sum);
+  out->sigma[axis] = dyd_root_above(variance);
+  mpq_clears(w, s, sum, variance, NULL);
+}
+
+dyd_status dyd_twins_merge(dyd_twin *out, size_t apart[2], dyd_twin *row, size_t n, const dyd_read_options *o) {
+  if (o->degrees) return twins_merge_globe(out, apart, row, n);
+  for (int a = 0; a < 2; a++) {
+    double least = twins_least_sigma(row, n, a);
+    if (least > 0)
+      twins_mean(out, row, n, a, least);
+    else if (!twins_meet(out, apart, row, n, a))
+      return DYD_E_DOMAIN;
+  }
+  if (o->round && !(out->sigma[0] > 0)) return twins_choose(out, apart, row, n, false);
+  out->kept = row[0].kept;
+  for (size_t k = 1; k < n; k++)
+    if (row[k].kept < out->kept) out->kept = row[k].kept;
+  return DYD_OK;
+}

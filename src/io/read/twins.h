@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Rows that give one point: what they say together. */
+#ifndef DYD_IO_READ_TWINS_H
+#define DYD_IO_READ_TWINS_H
+
+#include <dyadel/io.h>
+#include <gmp.h>
+
+/* What a row says of its point: exact ends of x and y, standard deviations of normal errors in x and y besides, and the
+ * radius that is kept beside the rectangle. Initialise by dyd_twin_init. */
+typedef struct dyd_twin {
+  mpq_t lo[2], hi[2];
+  double sigma[2], kept;
+} dyd_twin;
+
+void dyd_twin_init(dyd_twin *t);
+void dyd_twin_clear(dyd_twin *t);
+/* *out, initialised, becomes a region that holds each point that all n > 0 rows allow, with the options `o` that they
+ * were read with: of boxes the intersection; of discs (o->round, squares around them) and of radii on the ground the
+ * smallest one. In a coordinate in which all rows have a standard deviation it is their mean, weighted by the inverse
+ * variances, with its standard deviation, which holds for independent errors [CNF-1]. Longitudes of `row` are moved by
+ * whole turns. Returns DYD_E_DOMAIN where rows apart[0] and apart[1] have nothing in common, each row in all but the
+ * smallest disc is compared with that alone; DYD_E_ARG where the radius of one is a length on the ground, and the other
+ * is no exact place. O(n) */
+dyd_status dyd_twins_merge(dyd_twin *out, size_t apart[2], dyd_twin *row, size_t n, const dyd_read_options *o);
+
+#endif
