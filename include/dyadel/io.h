@@ -346,6 +346,33 @@ DYD_API bool dyd_label_fits(const char *label);
 DYD_API dyd_status dyd_write(FILE *out, const dyd_engine *e, dyd_content content, dyd_format format,
                              const dyd_write_options *o, dyd_error *err);
 
+/* ---- cells as arrays ---- */
+
+/* CERTAIN: lies in the cell for every choice. POSSIBLE: one of the polygons that together hold it for every choice.
+ * EXACT, which is both: of exact points, the cell. */
+typedef enum dyd_ring_kind { DYD_RING_CERTAIN = 1, DYD_RING_POSSIBLE = 2, DYD_RING_EXACT = 3 } dyd_ring_kind;
+/* A polygon: its vertices are xy[2 k], xy[2 k + 1] for k below `end`, from the end of the ring before on. */
+typedef struct dyd_cell_ring {
+  uint32_t site;
+  uint32_t kind; /* dyd_ring_kind */
+  size_t end;
+  double rounding; /* the most that a coordinate of a vertex was rounded by, rounded up; 0: none was */
+} dyd_cell_ring;
+/* The polygons of all cells, in the order of the sites: counter-clockwise, the first vertex not repeated. area[2 i] <=
+ * the area of the cell of site i on the window for every choice <= area[2 i + 1]; aliases have that of the site they
+ * stand for, and no rings. The polygons are within 2^-bits of their cells. Owned: init with {0}. */
+typedef struct dyd_cells {
+  size_t count, sites; /* rings; pairs of areas */
+  dyd_cell_ring *ring;
+  double *xy, *area;
+  int64_t bits;
+} dyd_cells;
+DYD_API void dyd_cells_clear(dyd_cells *c);
+/* Sets *out to the rows that dyd_write gives of DYD_CONTENT_VORONOI in wkt. Of the options it takes window,
+ * flatten_bits, flatten_set, bounds, cut and cancel. Errors and cost are those of dyd_write; on failure *out is
+ * unchanged. */
+DYD_API dyd_status dyd_voronoi_cells(dyd_cells *out, const dyd_engine *e, const dyd_write_options *o, dyd_error *err);
+
 /* One line "XLO XHI YLO YHI" for each of `count` sites from `first` on: exact numbers in the forms that
  * dyd_rect_narrow_text and the reader take. DYD_E_ARG when there are not so many sites; DYD_E_IO, DYD_E_NOMEM. */
 DYD_API dyd_status dyd_write_rects(FILE *out, const dyd_sites *sites, size_t first, size_t count, dyd_error *err);

@@ -61,6 +61,12 @@ DYD_API dyd_status dyd_voronoi_inner_polygon(dyd_polygon *out, const dyd_delauna
 DYD_API dyd_status dyd_voronoi_outer_polygon(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i,
                                              const dyd_rect *window, int64_t bits);
 
+/* Sets out to the area of the cell of site i on the window. *exact = false, and out is unchanged, where the cell
+ * depends on a choice: i or one of its possible partners is not an exact point, or partners are undecided (ties apart).
+ * The caller initialises out. Cost: O(K^2) exact steps for K legal partners. */
+DYD_API dyd_status dyd_voronoi_exact_area(mpq_t out, bool *exact, const dyd_delaunay *pd, uint32_t i,
+                                          const dyd_rect *window);
+
 /* ---- vertices ---- */
 
 /* A rectangle that holds the Voronoi vertex of the sure triangle t for every choice, within 2^-bits of the smallest

@@ -190,7 +190,13 @@ static bool has_vertices(dyd_content layer, dyd_format format) {
   return !layered || (layer != DYD_CONTENT_VORONOI && layer != DYD_CONTENT_REGIONS && layer != DYD_CONTENT_TILES);
 }
 
-static dyd_status write_voronoi(dyd_output *to, dyd_write_options *o, dyd_error *err) {
+static dyd_status find_cells(dyd_cells *out, const dyd_diagram *d, dyd_error *err) {
+  dyd_status st = dyd_diagram_cells(out, d);
+  return st == DYD_OK ? st : fail_status(st, err);
+}
+
+/* Writes the content, or finds the cells, which are empty before; NULL: writes. */
+static dyd_status make_diagram(dyd_cells *cells, dyd_output *to, dyd_write_options *o, dyd_error *err) {
   dyd_result r;
   dyd_diagram d;
   dyd_voronoi_bounds bounds, *wanted = o->bounds;
@@ -207,7 +213,7 @@ static dyd_status write_voronoi(dyd_output *to, dyd_write_options *o, dyd_error 
   o->bounds = &bounds;
   if (!o->cut) o->cut = &cut;
   st = dyd_diagram_init(&d, to, o, has_vertices(to->content, to->format), &room, err);
-  if (st == DYD_OK) st = tell_fineness(write_what(to, &d, err), &d, err);
+  if (st == DYD_OK) st = tell_fineness(cells ? find_cells(cells, &d, err) : write_what(to, &d, err), &d, err);
   if (st == DYD_E_NOMEM && room.refused) dyd_fail_room(err, &room);
   if (st == DYD_OK && wanted) {
     dyd_dyadic_swap(&wanted->area, &bounds.area);
@@ -216,6 +222,23 @@ static dyd_status write_voronoi(dyd_output *to, dyd_write_options *o, dyd_error 
   }
   dyd_diagram_clear(&d);
   dyd_voronoi_bounds_clear(&bounds);
+  return st;
+}
+
+static dyd_status write_voronoi(dyd_output *to, dyd_write_options *o, dyd_error *err) {
+  return make_diagram(NULL, to, o, err);
+}
+
+dyd_status dyd_voronoi_cells(dyd_cells *out, const dyd_engine *e, const dyd_write_options *options, dyd_error *err) {
+  dyd_write_options o;
+  dyd_cells cells = {0};
+  dyd_output to = {.format = DYD_FORMAT_WKT, .content = DYD_CONTENT_VORONOI, .engine = e};
+  if (err) dyd_error_clear(err);
+  if (!out) return dyd_fail_null(err);
+  if (dyd_abi_take(&o, sizeof o, options, "dyd_write_options", err) != DYD_OK) return DYD_E_ARG;
+  dyd_status st = make_diagram(&cells, &to, &o, err);
+  dyd_cells_clear(st == DYD_OK ? out : &cells);
+  if (st == DYD_OK) *out = cells;
   return st;
 }
 

@@ -82,6 +82,95 @@ dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *c
   return st;
 }
 
+/* ---- cells as arrays ---- */
+
+void dyd_cells_clear(dyd_cells *c) {
+  if (!c) return;
+  free(c->ring);
+  free(c->xy);
+  free(c->area);
+  *c = (dyd_cells){0};
+}
+
+typedef struct cells_maker {
+  dyd_cells *out;
+  const dyd_diagram *d;
+  size_t ring_cap, xy_cap, vertices;
+} cells_maker;
+
+/* Sets *out to a double next to x. Returns how far they are apart at most. */
+static double cells_round(double *out, const dyd_dyadic *x) {
+  double lo = dyd_dyadic_get_d(x, DYD_DOWN), hi = dyd_dyadic_get_d(x, DYD_UP);
+  *out = isfinite(lo) ? lo : hi;
+  return hi - lo;
+}
+
+/* Makes a ring with so many vertices, and sets *xy to where they go; NULL: too few make no ring. */
+static dyd_status cells_begin(double **xy, cells_maker *m, uint32_t i, dyd_ring_kind kind, size_t count) {
+  dyd_cells *c = m->out;
+  size_t end = m->vertices + count;
+  *xy = NULL;
+  if (count < 3) return DYD_OK;
+  uint64_t bytes = dyd_bytes_times(end, 2 * sizeof *c->xy) + dyd_bytes_times(c->count + 1, sizeof *c->ring);
+  if (!dyd_room_has(m->d->room, bytes, "the polygons of the cells") ||
+      !dyd_reserve((void **)&c->ring, &m->ring_cap, c->count + 1, sizeof *c->ring) ||
+      !dyd_reserve((void **)&c->xy, &m->xy_cap, 2 * end, sizeof *c->xy))
+    return DYD_E_NOMEM;
+  *xy = c->xy + 2 * m->vertices;
+  c->ring[c->count++] = (dyd_cell_ring){.site = i, .kind = (uint32_t)kind, .end = m->vertices = end};
+  return DYD_OK;
+}
+
+static dyd_status cells_add_doubles(cells_maker *m, uint32_t i, dyd_ring_kind kind, const dyd_xy *z, size_t count) {
+  double *xy;
+  dyd_status st = cells_begin(&xy, m, i, kind, count);
+  for (size_t k = 0; xy && k < count; k++) xy[2 * k] = z[k].x, xy[2 * k + 1] = z[k].y;
+  return st;
+}
+
+static dyd_status cells_add_exact(cells_maker *m, uint32_t i, dyd_ring_kind kind, const dyd_polygon *p) {
+  double *xy;
+  dyd_status st = cells_begin(&xy, m, i, kind, p->count);
+  for (size_t k = 0; xy && k < p->count; k++) {
+    double *most = &m->out->ring[m->out->count - 1].rounding;
+    *most = fmax(*most, cells_round(&xy[2 * k], &p->vertex[k].x));
+    *most = fmax(*most, cells_round(&xy[2 * k + 1], &p->vertex[k].y));
+  }
+  return st;
+}
+
+static dyd_status cells_add(void *context, uint32_t i, const dyd_shape *s, const dyd_cell_row *row) {
+  cells_maker *m = context;
+  const dyd_ring_kind kind = row->exact ? DYD_RING_EXACT : DYD_RING_CERTAIN;
+  const size_t parts = row->exact || s->in_doubles ? 0 : s->outer_exact.count, first = m->out->count;
+  dyd_status st = s->in_doubles ? cells_add_doubles(m, i, kind, s->inner, s->inner_count)
+                                : cells_add_exact(m, i, kind, &s->inner_exact);
+  if (st == DYD_OK && s->in_doubles && !row->exact)
+    st = cells_add_doubles(m, i, DYD_RING_POSSIBLE, s->outer, s->outer_count);
+  for (size_t k = 0; k < parts && st == DYD_OK; k++)
+    st = cells_add_exact(m, i, DYD_RING_POSSIBLE, &s->outer_exact.item[k]);
+  for (size_t k = first; k < m->out->count && row->rounding > 0; k++)
+    m->out->ring[k].rounding = nextafter(m->out->ring[k].rounding + row->rounding, INFINITY);
+  for (int k = 0; k < 2; k++) m->out->area[2 * (size_t)i + (size_t)k] = row->area[k];
+  return st;
+}
+
+dyd_status dyd_diagram_cells(dyd_cells *out, const dyd_diagram *d) {
+  cells_maker m = {.out = out, .d = d};
+  uint64_t bytes = dyd_bytes_times(d->count, 2 * sizeof *out->area);
+  if (dyd_room_has(d->room, bytes, "the areas of the cells")) out->area = dyd_alloc(2 * d->count, sizeof *out->area);
+  if (!out->area) return DYD_E_NOMEM;
+  d->room->beside += bytes;
+  out->sites = d->count;
+  out->bits = d->bits;
+  dyd_status st = dyd_diagram_visit(d, cells_add, &m);
+  for (uint32_t i = 0; i < d->count && st == DYD_OK; i++) {
+    const double *of = &out->area[2 * (size_t)dyd_delaunay_alias(d->pd, i)];
+    for (int k = 0; k < 2; k++) out->area[2 * (size_t)i + (size_t)k] = of[k];
+  }
+  return st;
+}
+
 dyd_status dyd_diagram_tiles(dyd_tiles *out, const dyd_diagram *d, bool areas_only, dyd_error *err) {
   dyd_status st = dyd_tiles_find(out, d->bounds, d->pd, &d->window, d->bits, areas_only, d->cancel);
   if (st == DYD_OK && d->coincident) *d->coincident = out->coincident;

@@ -83,6 +83,10 @@ typedef dyd_status (*dyd_cell_visit)(void *context, uint32_t i, const dyd_shape 
  * regions are the whole window. */
 dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *context);
 
+/* Fills *out, which is empty before, with the polygons of all cells; finds the bounds. On failure the caller clears it.
+ */
+dyd_status dyd_diagram_cells(dyd_cells *out, const dyd_diagram *d);
+
 /* The tiles; sets the bounds, too. areas_only as in dyd_tiles_find. Fills *err where doubles are too coarse. */
 dyd_status dyd_diagram_tiles(dyd_tiles *out, const dyd_diagram *d, bool areas_only, dyd_error *err);
 

@@ -82,6 +82,12 @@ static PyMethodDef engine_methods[] = {
     {"rect", dydpy_rect, METH_O, "rect(i) -> four (numerator, denominator)"},
     {"rects", dydpy_rects, METH_NOARGS, "rects() -> bytes: a line XLO XHI YLO YHI of exact numbers for each point"},
     {"window", dydpy_window_of, METH_NOARGS, "window() -> four (numerator, denominator): the default one of diagrams"},
+    {"cells", dydpy_cells, METH_VARARGS,
+     "cells(window or None, flatten_bits or None) -> (Buffer of dyd_cell_ring, Buffer of doubles xy, Buffer of doubles "
+     "(N, 2) areas, bits, area, hausdorff or None, window)"},
+    {"tiles", dydpy_tiles, METH_VARARGS,
+     "tiles(window or None, flatten_bits) -> (sites, offsets, xy, areas, bounds, rounding): see dyd_tiles"},
+    {"exact_area", dydpy_exact_area, METH_VARARGS, "exact_area(i, window or None) -> (numerator, denominator) or None"},
     {"write", dydpy_write, METH_VARARGS, "write(format, layer or None, window or None, epsg) -> bytes"},
     {"write_voronoi", dydpy_write_voronoi, METH_VARARGS,
      "write_voronoi(format, layer or None, window or None, flatten_bits or None, epsg) -> bytes"},

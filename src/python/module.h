@@ -60,7 +60,9 @@ dyd_status dydpy_answer(dyd_rect *r, PyObject *answer, dyd_error *err);
 int dydpy_window(dyd_rect *r, bool *given, PyObject *window);
 /* The four ends as (numerator, denominator). */
 PyObject *dydpy_rect_ends(const dyd_rect *r);
-/* (numerator, denominator); None for NULL. */
+/* (numerator, denominator). */
+PyObject *dydpy_ratio(const mpq_t q);
+/* The same; None for NULL. */
 PyObject *dydpy_dyadic(const dyd_dyadic *x);
 
 /* ---- points.c: functions of Python ---- */
@@ -160,6 +162,9 @@ PyObject *dydpy_aliases(PyObject *self, PyObject *none);
 PyObject *dydpy_hull(PyObject *self, PyObject *none);
 PyObject *dydpy_bounds(PyObject *self, PyObject *none);
 PyObject *dydpy_boxes(PyObject *self, PyObject *none);
+PyObject *dydpy_cells(PyObject *self, PyObject *args);
+PyObject *dydpy_tiles(PyObject *self, PyObject *args);
+PyObject *dydpy_exact_area(PyObject *self, PyObject *args);
 PyObject *dydpy_rect(PyObject *self, PyObject *site);
 PyObject *dydpy_window_of(PyObject *self, PyObject *none);
 PyObject *dydpy_rects(PyObject *self, PyObject *none);

@@ -293,7 +293,7 @@ static PyObject *integer_new(const mpz_t z) {
   return value;
 }
 
-static PyObject *rational_new(const mpq_t q) {
+PyObject *dydpy_ratio(const mpq_t q) {
   PyObject *numerator = integer_new(mpq_numref(q)), *denominator = integer_new(mpq_denref(q));
   PyObject *pair = numerator && denominator ? PyTuple_Pack(2, numerator, denominator) : NULL;
   Py_XDECREF(numerator);
@@ -308,7 +308,7 @@ PyObject *dydpy_rect_ends(const dyd_rect *r) {
   dyd_interval_get_q(end[0], end[1], &r->x);
   dyd_interval_get_q(end[2], end[3], &r->y);
   for (int k = 0; all && k < 4; k++) {
-    PyObject *one = rational_new(end[k]);
+    PyObject *one = dydpy_ratio(end[k]);
     if (!one || PyTuple_SetItem(all, k, one) < 0) Py_CLEAR(all);
   }
   for (int k = 0; k < 4; k++) mpq_clear(end[k]);
@@ -320,7 +320,7 @@ PyObject *dydpy_dyadic(const dyd_dyadic *x) {
   mpq_t q;
   mpq_init(q);
   dyd_dyadic_get_q(q, x);
-  PyObject *value = rational_new(q);
+  PyObject *value = dydpy_ratio(q);
   mpq_clear(q);
   return value;
 }

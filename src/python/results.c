@@ -222,6 +222,91 @@ PyObject *dydpy_boxes(PyObject *self, PyObject *none) {
   return array_new(good, box, 4 * n, sizeof *box);
 }
 
+/* ---- cells and tiles ---- */
+
+/* Begins a call about the diagram on a window, None: the default one; false with an exception set, *view cleared. */
+static bool diagram_begin(dydpy_call *c, dyd_rect *view, PyObject *self, PyObject *window) {
+  bool given = false;
+  dyd_rect_init(view);
+  if (dydpy_window(view, &given, window) == 0 && dydpy_begin(c, self, DYDPY_RESULT | DYDPY_CANCELS)) {
+    dyd_status st = given ? DYD_OK : dyd_voronoi_window(view, dyd_delaunay_sites(c->pd));
+    if (st == DYD_OK) return true;
+    dydpy_end(c, st);
+  }
+  dyd_rect_clear(view);
+  return false;
+}
+
+/* Takes over the arrays. */
+static PyObject *cells_found(dyd_cells *c, const dyd_voronoi_bounds *b, const dyd_rect *window) {
+  size_t vertices = c->count ? c->ring[c->count - 1].end : 0;
+  return Py_BuildValue("NNNLNNN", array_new(true, c->ring, c->count, sizeof *c->ring),
+                       array_new(true, c->xy, 2 * vertices, sizeof *c->xy),
+                       array_new(true, c->area, 2 * c->sites, sizeof *c->area), (long long)c->bits,
+                       dydpy_dyadic(&b->area), dydpy_dyadic(b->finite ? &b->hausdorff : NULL), dydpy_rect_ends(window));
+}
+
+PyObject *dydpy_cells(PyObject *self, PyObject *args) {
+  PyObject *window, *bits, *found = NULL;
+  dyd_cells cells = {0};
+  dyd_voronoi_bounds bounds;
+  dyd_rect view;
+  dydpy_call c;
+  if (!PyArg_ParseTuple(args, "OO", &window, &bits)) return NULL;
+  dyd_write_options o = {DYD_SIZED(dyd_write_options), .bounds = &bounds, .window = &view, .cancel = &c.cancel};
+  o.flatten_set = bits != Py_None;
+  if (o.flatten_set) o.flatten_bits = PyLong_AsLongLong(bits);
+  if (PyErr_Occurred() || !diagram_begin(&c, &view, self, window)) return NULL;
+  dyd_voronoi_bounds_init(&bounds);
+  dyd_status st = dyd_voronoi_cells(&cells, c.self->engine, &o, &c.err);
+  if (dydpy_end(&c, st == DYD_CAPPED ? DYD_E_ARG : st))
+    found = cells_found(&cells, &bounds, &view);
+  else
+    dyd_cells_clear(&cells);
+  dyd_voronoi_bounds_clear(&bounds);
+  dyd_rect_clear(&view);
+  return found;
+}
+
+PyObject *dydpy_tiles(PyObject *self, PyObject *args) {
+  PyObject *window, *found = NULL;
+  dyd_tiles t = {0};
+  long long bits;
+  dyd_rect view;
+  dydpy_call c;
+  if (!PyArg_ParseTuple(args, "OL", &window, &bits) || !diagram_begin(&c, &view, self, window)) return NULL;
+  if (dydpy_end(&c, dyd_voronoi_tiles(&t, c.pd, &view, bits, &c.cancel))) {
+    size_t n = t.count, vertices = n ? t.offset[n] : 0;
+    found = Py_BuildValue("NNNNNd", array_new(true, t.site, n, sizeof *t.site),
+                          array_new(true, t.offset, n ? n + 1 : 0, sizeof *t.offset),
+                          array_new(true, t.xy, 2 * vertices, sizeof *t.xy), array_new(true, t.area, n, sizeof *t.area),
+                          array_new(true, t.bound, 2 * n, sizeof *t.bound), t.rounding);
+  } else {
+    dyd_tiles_clear(&t);
+  }
+  dyd_rect_clear(&view);
+  return found;
+}
+
+PyObject *dydpy_exact_area(PyObject *self, PyObject *args) {
+  PyObject *window, *found = NULL;
+  Py_ssize_t number;
+  uint32_t i;
+  bool exact = false;
+  mpq_t area;
+  dyd_rect view;
+  dydpy_call c;
+  if (!PyArg_ParseTuple(args, "nO", &number, &window) || !dydpy_site(&i, (dydpy_engine *)self, number) ||
+      !diagram_begin(&c, &view, self, window))
+    return NULL;
+  mpq_init(area);
+  if (dydpy_end(&c, dyd_voronoi_exact_area(area, &exact, c.pd, i, &view)))
+    found = exact ? dydpy_ratio(area) : Py_NewRef(Py_None);
+  mpq_clear(area);
+  dyd_rect_clear(&view);
+  return found;
+}
+
 /* ---- nearest ---- */
 
 PyObject *dydpy_nearest(PyObject *self, PyObject *args) {

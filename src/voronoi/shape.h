@@ -143,9 +143,4 @@ dyd_status dyd_polygon_copy(dyd_polygon *out, const dyd_polygon *p);
 /* Twice the area. Exact, initialised by the caller. */
 dyd_status dyd_polygon_area2(dyd_dyadic *out, const dyd_polygon *p);
 
-/* The area of the cell of i on the window, as a rational. *exact = false, and *out is unchanged, where the cell depends
- * on a choice: i or one of its possible partners is no exact point, or partners are not decided (ties apart). out is
- * initialised by the caller. O(K^2) exact steps for K legal partners. */
-dyd_status dyd_voronoi_exact_area(mpq_t out, bool *exact, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window);
-
 #endif

@@ -26,7 +26,10 @@ def once():
     d.simplices, d.neighbors, d.legal, d.boxes, d.hull, d.aliases, d.rects(), d.bounds
     d.append(MIXED).nearest(0.5, 0.5)
     small = dyadel.delaunay(MIXED)
-    small.voronoi(), small.write('json'), small.plan(), pickle.loads(pickle.dumps(small))
+    v = small.voronoi()
+    v.tiles, v.certain, v.possible, v.data, v.exact_area(4), list(v)
+    harness.raised(dyadel.Error, small.voronoi, (0, 0, 0, 1))
+    small.write('json'), small.plan(), pickle.loads(pickle.dumps(small))
     dyadel.verify(small.certificate(), MIXED)
     dyadel.tolerance(POINTS[:50], radii=True)
     dyadel.converge(MIXED)
@@ -53,7 +56,7 @@ def resident():
 
 
 def test_flat():
-    for _ in range(20):
+    for _ in range(100):
         once()
     before, blocks = resident(), sys.getallocatedblocks()
     for _ in range(100):

@@ -222,6 +222,16 @@ def test_geometries():
     frame = geopandas.GeoDataFrame.from_features(d)
     assert len(frame) == len(d.pairs) and set(frame.status) <= {'legal', 'indeterminate'}
     assert all(geopandas.GeoSeries.from_wkb(d.to_wkb()).geom_equals_exact(frame.geometry, 1e-9))
+    assert d.to_geodataframe(crs='EPSG:2056').crs.to_epsg() == 2056
+    v = dyadel.delaunay(GPS).voronoi()
+    for layer in ('cells', 'tiles', 'vertices', 'edges', 'regions'):
+        ours = v.to_geodataframe(layer, crs='EPSG:2056')
+        theirs = geopandas.GeoDataFrame.from_features(json.loads(v.write('geojson', layer))['features'])
+        assert ours.crs.to_epsg() == 2056 and len(ours) == len(theirs) > 0 and all(ours.geometry.is_valid), layer
+        assert all(ours.geometry.geom_equals_exact(theirs.geometry.set_crs('EPSG:2056'), 0)), layer
+        for name in set(ours.columns) & {'i', 'id', 'kind'}:
+            assert ours[name].tolist() == theirs[name].tolist(), (layer, name)
+        assert layer not in ('cells', 'tiles') or {'i', 'id', 'area_lo', 'area_hi'} <= set(ours.columns)
 
 
 def test_notebooks():
@@ -249,6 +259,113 @@ def test_voronoi():
     ring = dyadel.delaunay([(f'cos({k}*pi/6)', f'sin({k}*pi/6)') for k in range(12)], ties=False, max_bits=300)
     assert ring.voronoi(until='hausdorff:20').hausdorff <= Fraction(1, 2**20), 'certified at a tie'
     assert dyadel.delaunay([(0, 0), (2, 0), (0, 0), (1, 3)]).voronoi()[2].area[0] > 0, 'an alias has the cell of its point'
+
+
+def cut(ring, a, b, c):
+    """The part of a convex ring with a x + b y <= c, in fractions."""
+    out = []
+    for (x, y), (u, v) in zip(ring, ring[1:] + ring[:1]):
+        here, there = a * x + b * y - c, a * u + b * v - c
+        if here <= 0:
+            out.append((x, y))
+        if here * there < 0:
+            out.append((x + (u - x) * here / (here - there), y + (v - y) * here / (here - there)))
+    return out
+
+
+def area_of(ring):
+    return sum(x * v - u * y for (x, y), (u, v) in zip(ring, ring[1:] + ring[:1])) / 2
+
+
+def fractions_of(ring):
+    return [(Fraction(x), Fraction(y)) for x, y in ring.tolist()]
+
+
+def literal_cells(points, window):
+    xlo, xhi, ylo, yhi = window
+    for x, y in points:
+        ring = [(xlo, ylo), (xhi, ylo), (xhi, yhi), (xlo, yhi)]
+        for u, v in points:
+            if (u, v) != (x, y):
+                ring = cut(ring, 2 * (u - x), 2 * (v - y), u * u + v * v - x * x - y * y)
+        yield ring
+
+
+def test_cells_of_exact_points():
+    """All cells against half-planes cut in fractions: random sets, a lattice of ties, points on a line, and one alone."""
+    window = tuple(map(Fraction, (-1, 2, -2, 2)))
+    lattice = np.array([(x, y) for x in range(3) for y in range(3)]) / 4
+    for points in (RANDOM.random((25, 2)), lattice, np.array([(k / 4, k / 8) for k in range(5)]), np.zeros((1, 2)),
+                   np.array([(0.5, 0.5), (0, 0), (0.5, 0.5), (40, 40)])):
+        v = dyadel.delaunay(points).voronoi(window=window)
+        exact = [(Fraction(x), Fraction(y)) for x, y in points.tolist()]
+        assert v.certain is v.possible and v.area == 0 and v.window == window and len(v.areas) == len(v) == len(points)
+        for i, ring in enumerate(literal_cells(exact, window)):
+            area = area_of(ring) if ring else 0
+            assert v.exact_area(i) == area, (i, v.exact_area(i), area)
+            low, high = map(Fraction, v.areas[i].tolist())
+            assert low <= area <= high <= low + Fraction(1, 2**40) and v[i].area == (float(low), float(high))
+            found, near = fractions_of(v[i].inner), v.certain.rounding.max(initial=0)
+            assert all(any(max(abs(x - p), abs(y - q)) <= near for p, q in found) for x, y in ring) or area == 0
+        assert sum(area_of(fractions_of(tile)) for tile in map(v.tiles.__getitem__, range(len(v.tiles)))) == 12
+        assert v.tiles.points.tolist() == sorted(set(v.tiles.points.tolist()))
+    assert len(v.tiles) == 2, 'the alias and the far point have none'
+
+
+def test_cells_of_rectangles():
+    """Rings against the polygons that the command writes exactly; what cannot be a double, too."""
+    for points, radius in ((RANDOM.random((60, 2)), 0.02), ([('1/3', '1/7'), ('sqrt(2)', 1), ((1, 2), ('1/3', 2)), (0, 5)], None),
+                           ([(1e-300, 0), (0, 1), ((0.5, 1), (0.25, 0.5))], None), (np.zeros((0, 2)), None)):
+        v = dyadel.delaunay(points, radius=radius).voronoi(window=(-1, 3, '-1', 6) if len(points) else (0, 1, 0, 1))
+        of = {'certain': v.certain, 'possible': v.possible}
+        assert v.data['bounds']['undetermined_area'] is not None and len(v.areas) == len(points)
+        told = {kind: [] for kind in of}
+        for row in v.data['cells']:
+            (low, high), (below, above) = v.areas[row['i']].tolist(), map(float, row['area'])  # decimals, rounded again
+            assert below <= low <= math.nextafter(below, math.inf) and math.nextafter(above, -math.inf) <= high <= above
+            told['certain'] += [(row['i'], row['inner'])] if row['inner'] else []
+            told['possible'] += [(row['i'], ring) for ring in row['outer']]
+        for kind, rings in of.items():
+            assert [i for i, _ in told[kind]] == rings.points.tolist()
+            for r, (_, ring) in enumerate(told[kind]):
+                assert len(ring) == len(rings[r])
+                for (x, y), (u, w) in zip(ring, fractions_of(rings[r])):
+                    near = max(abs(number(x) - u), abs(number(y) - w))
+                    assert near <= Fraction(float(rings.rounding[r])) <= Fraction(1, 2**45), (kind, r)
+        assert sum(cell.area[0] for cell in v) <= 28 and all(v.exact_area(i) is None for i in range(len(v)))
+
+
+def number(text):
+    mantissa, _, exponent = text.partition('*2^')
+    return Fraction(mantissa) * Fraction(2) ** int(exponent or 0)
+
+
+def test_well_known_binary():
+    v = dyadel.delaunay(RANDOM.random((30, 2)), radius=0.01).voronoi()
+    for rings in (v.certain, v.possible, v.tiles, v.tiles.select(v.tiles.points < 0)):
+        for r, record in enumerate(rings.to_wkb()):
+            count = len(rings[r]) + 1
+            assert struct.unpack('<BIII', record[:13]) == (1, 3, 1, count) and len(record) == 13 + 16 * count
+            closed = np.frombuffer(record[13:], '<f8').reshape(-1, 2)
+            assert np.array_equal(closed[:-1], rings[r]) and np.array_equal(closed[-1], closed[0])
+        assert len(rings.to_wkb()) == len(rings) and rings.closed()[0][-1] == len(rings.closed()[1])
+    assert 'polygons' in repr(rings) and len(rings) == 0
+    harness.raised(IndexError, lambda: v.tiles[len(v.tiles)])
+
+
+def test_diagram_stays():
+    """What is found later belongs to the triangulation of which the diagram was made, or is refused."""
+    d = dyadel.delaunay([(0, 0), (1, 0), (0, 1)])
+    v = d.voronoi()
+    before = v.certain.coordinates.copy(), v.areas.copy(), v.window
+    d.append([(1, 1)])
+    assert np.array_equal(v.certain.coordinates, before[0]) and np.array_equal(v.areas, before[1]) and v.window == before[2]
+    for late in (lambda: v.tiles, lambda: v.data, lambda: v.edges, lambda: v.exact_area(0)):
+        assert 'call voronoi() again' in str(harness.raised(RuntimeError, late))
+    assert len(d.voronoi().tiles) == 4
+    harness.raised(IndexError, d.voronoi().exact_area, 4)
+    error = harness.raised(dyadel.Error, lambda: dyadel.delaunay([(0, 0)]).voronoi(window=(0, 0, 0, 1)))
+    assert error.code == 'argument' and 'window' in str(error)
 
 
 def test_nearest():

@@ -7,6 +7,7 @@ import harness
 harness.need('scipy')
 import numpy as np
 from scipy.spatial import Delaunay
+from scipy.spatial import Voronoi as Diagram
 
 import dyadel
 
@@ -48,6 +49,28 @@ def test_random_sets():
         n = int(random.integers(4, 400))
         points = random.random((n, 2)) if k % 2 else random.normal(size=(n, 2)) * 2.0 ** random.integers(-20, 20)
         compare(points)
+
+
+def shoelace(ring):
+    x, y = (ring - ring[0]).T
+    return abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+
+
+def test_cells():
+    """Bounded cells have the area of those of scipy, which rounds."""
+    random = np.random.default_rng(harness.seeded('cells').randrange(2**32))
+    for n in (10, 300):
+        points = random.random((n, 2))
+        theirs, v = Diagram(points), dyadel.delaunay(points).voronoi(window=(-1000, 1000, -1000, 1000))
+        bounded = 0
+        for i in range(n):
+            corners = theirs.regions[theirs.point_region[i]]
+            if -1 in corners or np.abs(theirs.vertices[corners]).max() > 50:
+                continue
+            bounded += 1
+            for ring in (v[i].inner, v.tiles[i]):
+                assert len(ring) == len(corners) and np.isclose(shoelace(ring), shoelace(theirs.vertices[corners]), rtol=1e-6)
+        assert bounded > n // 10
 
 
 def test_strides():

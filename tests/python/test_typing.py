@@ -31,6 +31,9 @@ d = dyadel.delaunay(dyadel.Source(4, narrow), timeout=60).refine(until="decided"
 total: int = int(d.legal[:, 0].sum()) + len(d.simplices) + d.status(0, 1).count("l")
 where: np.ndarray[tuple[int, ...], np.dtype[np.int32]] = d.nearest(0, 0).points
 bound: Fraction | None = d.voronoi(window=(0, 1, 0, 1)).area
+rings: dyadel.Rings = d.voronoi().certain
+total += len(rings.to_wkb()) + len(rings.coordinates[rings.offsets[0]:rings.offsets[1]]) + int(d.voronoi().areas[0, 1])
+share: Fraction | None = d.voronoi().exact_area(0)
 d = dyadel.delaunay([(0, 0)], trace="run.1", resume=pathlib.Path("run.0"), sphere=False)
 edges: np.ndarray[tuple[int, ...], np.dtype[np.int32]] = d.graph("mst").certain
 globe: dyadel.Sphere = dyadel.delaunay(np.zeros((3, 2)), "30m", sphere=True).refine(timeout=3)

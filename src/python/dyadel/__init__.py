@@ -11,6 +11,7 @@ from ._check import check, moves
 from ._dyadel import formats
 from ._dyadel import version as __version__
 from ._errors import BrokenPromise, Error
+from ._geometry import Rings
 from ._points import Confidence, Source, Text
 from ._questions import (Convergence, Graph, Nearest, Plan, Table, Tolerance, Verdict, converge, replay, verify)
 from ._sphere import Sphere, SphereCell, SphereVoronoi
@@ -19,6 +20,6 @@ from ._triangulation import Bounds, Delaunay
 from ._voronoi import Cell, Voronoi
 
 __all__ = ['INDETERMINATE', 'LEGAL', 'TIE', 'Bounds', 'BrokenPromise', 'Cell', 'Confidence', 'Convergence',
-           'Delaunay', 'Error', 'Graph', 'Nearest', 'Plan', 'Source', 'Sphere', 'SphereCell', 'SphereVoronoi',
+           'Delaunay', 'Error', 'Graph', 'Nearest', 'Plan', 'Rings', 'Source', 'Sphere', 'SphereCell', 'SphereVoronoi',
            'Table', 'Text', 'Tolerance', 'Verdict', 'Voronoi', '__version__', 'check', 'converge', 'delaunay',
            'formats', 'moves', 'plan', 'replay', 'tolerance', 'verify']

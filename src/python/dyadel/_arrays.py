@@ -30,10 +30,14 @@ def floats(buffer: Any) -> Floats:
     return np.frombuffer(buffer, np.float64)
 
 
-def exact(text: str) -> Fraction:
-    """"5*2^-3", "22/7", "4"."""
-    mantissa, _, exponent = text.partition('*2^')
-    return Fraction(mantissa) * Fraction(2) ** int(exponent or 0)
+def records(buffer: Any, kind: np.dtype[Any]) -> NDArray[Any]:
+    """Memory of the library as structures, without a copy."""
+    return np.frombuffer(buffer, kind)
+
+
+def offsets_of(counts: NDArray[Any]) -> Longs:
+    """Where parts with so many items begin, and where the last one ends."""
+    return np.concatenate((np.zeros(1, np.int64), np.cumsum(counts, dtype=np.int64)))
 
 
 def rect_of(ends: Any) -> Rect:

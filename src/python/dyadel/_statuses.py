@@ -168,11 +168,11 @@ class Statuses:
         """
         return _geometry.text_of(format, self._engine.write(format, layer, window, epsg_of(self.crs) if epsg is None else epsg))
 
-    def to_geodataframe(self, layer: str | None = None) -> Any:
-        """A layer ('pairs', 'points', 'triangles', 'graph:mst', ...) as a GeoDataFrame with the CRS of the points."""
+    def to_geodataframe(self, layer: str | None = None, crs: Any = None) -> Any:
+        """A layer ('pairs', 'points', 'triangles', 'graph:mst', ...) as a GeoDataFrame; crs: by default that of the points."""
         geopandas: Any = importlib.import_module('geopandas')
         features = json.loads(self._engine.write('geojson', layer, None, 0))['features']
-        return geopandas.GeoDataFrame.from_features(features, crs=self.crs)
+        return geopandas.GeoDataFrame.from_features(features, crs=self.crs if crs is None else crs)
 
     @property
     def __geo_interface__(self) -> dict[str, Any]:

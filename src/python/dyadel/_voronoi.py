@@ -2,25 +2,38 @@
 """The Voronoi diagram of a triangulation on a window."""
 from __future__ import annotations
 
+import functools
+import importlib
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
 from . import _dyadel, _geometry
-from ._arrays import Floats, Longs, Rect, exact
+from ._arrays import Floats, Ints, Longs, Rect, floats, ints, longs, records, rect_of
+from ._geometry import Rings
 
 
 class Triangulation(Protocol):
     """Of what it is the diagram."""
 
+    crs: Any
     _engine: _dyadel.Engine
+    _cache: dict[str, Any]
 
     @property
     def rows(self) -> Longs:
         """The row of each point."""
+
+    @property
+    def ids(self) -> list[str] | None:
+        """The identifier of each point."""
+
+    @property
+    def aliases(self) -> Ints:
+        """Points that are the same place as others."""
 
     def __len__(self) -> int:
         """How many points."""
@@ -39,50 +52,122 @@ class Cell(NamedTuple):
     area: tuple[float, float]
 
 
-def _polygon(vertices: Sequence[Sequence[str]]) -> Floats:
-    return np.array([[float(exact(x)), float(exact(y))] for x, y in vertices], np.float64).reshape(-1, 2)
+KINDS = np.array(['', 'certain', 'possible', 'exact'])
+RING = np.dtype([('point', np.int32), ('kind', np.uint32), ('end', np.int64), ('rounding', np.float64)])
 
 
 class Voronoi:
-    """Cells with proved bounds, as they were when it was made. Iterate over it, or index it, for the cell of a point."""
+    """Cells with proved bounds, as they were when it was made. Iterate over it, or index it, for the cell of a point.
+
+        v = dyadel.delaunay(points, radius=0.1).voronoi()
+        v.certain.to_shapely(), v.certain.points          # polygons inside the cells, and whose they are
+        v.areas                                           # bounds of the areas
+    """
 
     def __init__(self, d: Triangulation, window: Sequence[Any] | None = None, flatten_bits: int | None = None) -> None:
         if not hasattr(d, '_engine'):
             raise TypeError('Voronoi is made of a triangulation: call dyadel.delaunay(points).voronoi()')
-        self._of, self._window, self._flatten = d, window, flatten_bits
-        self.data: dict[str, Any] = json.loads(d._engine.write_voronoi('json', None, window, flatten_bits, 0))
-        self._cell = {row['i']: row for row in self.data['cells']}  # by rows
+        self._of, self._window, self._flatten, self._made = d, window, flatten_bits, d._cache
+        rings, xy, areas, self._bits, area, hausdorff, ends = d._engine.cells(window, flatten_bits)
+        ring = records(rings, RING)
+        self._rings = Rings(ring['point'], np.concatenate((np.zeros(1, np.int64), ring['end'])), floats(xy).reshape(-1, 2),
+                            ring['rounding'])
+        self._kind, self._areas = ring['kind'], floats(areas).reshape(-1, 2)
+        self._ends, self._bounds = rect_of(ends), (Fraction(*area), None if hausdorff is None else Fraction(*hausdorff))
 
     @property
     def window(self) -> Rect:
         """xlo, xhi, ylo, yhi."""
-        (a, b), (c, d) = (map(exact, self.data['window'][axis]) for axis in 'xy')
-        return a, b, c, d
-
-    def _bound(self, name: str) -> Fraction | None:
-        bound = self.data['bounds'][name]
-        return None if bound is None else exact(bound['exact'])
+        return self._ends
 
     @property
-    def area(self) -> Fraction | None:
-        """Upper bound of the undecided area of the window; None: not known."""
-        return self._bound('undetermined_area')
+    def area(self) -> Fraction:
+        """Upper bound of the undecided area of the window."""
+        return self._bounds[0]
 
     @property
     def hausdorff(self) -> Fraction | None:
         """Upper bound of the distance of undecided points to the true diagram; None: not known."""
-        return self._bound('distance_to_true_diagram')
+        return self._bounds[1]
+
+    # ---- cells ----
+
+    def _with(self, kind: int) -> Rings:
+        chosen = self._kind & kind != 0
+        return self._rings if chosen.all() else self._rings.select(chosen)
+
+    @functools.cached_property
+    def certain(self) -> Rings:
+        """Polygons that lie in the cells for every choice of points, at most one for each point. Of exact points the cells."""
+        return self._with(1)
+
+    @functools.cached_property
+    def possible(self) -> Rings:
+        """Polygons outside of which the cells are for no choice; a point may have several. Of exact points the cells."""
+        return self._with(2)
+
+    @property
+    def areas(self) -> Floats:
+        """(N, 2): bounds of the area of each cell on the window, for every choice, rounded outward."""
+        return self._areas
+
+    def exact_area(self, i: int) -> Fraction | None:
+        """The area of the cell of point i on the window; None where it depends on points that are not exact."""
+        self._expect_unchanged()
+        area = self._of._engine.exact_area(i, self._ends)
+        return None if area is None else Fraction(*area)
+
+    @functools.cached_property
+    def _tiles(self) -> tuple[Rings, Floats, Floats]:
+        self._expect_unchanged()
+        points, offsets, xy, areas, bounds, rounding = self._of._engine.tiles(self._ends, self._bits)
+        rings = Rings(ints(points), longs(offsets) if len(ints(points)) else np.zeros(1, np.int64),
+                      floats(xy).reshape(-1, 2), np.full(len(ints(points)), rounding))
+        return rings, floats(areas), floats(bounds).reshape(-1, 2)
+
+    @property
+    def tiles(self) -> Rings:
+        """A partition of the window: the diagram of the centres of the rectangles. Its polygons share their vertices bit by
+        bit, and their areas have that of the window as their sum.
+        """
+        return self._tiles[0]
+
+    def _expect_unchanged(self) -> None:
+        """Raises RuntimeError once the triangulation has changed: what is found now would belong to another diagram."""
+        if self._of._cache is not self._made:
+            raise RuntimeError('the triangulation has changed since this diagram was made; call voronoi() again')
+
+    @functools.cached_property
+    def _starts(self) -> list[int]:
+        """Where the rings of each point begin, and where the last ones end."""
+        starts: list[int] = np.searchsorted(self._rings.points, np.arange(len(self._areas) + 1)).tolist()
+        return starts
+
+    @functools.cached_property
+    def _alias(self) -> dict[int, int]:
+        return {int(k): int(j) for k, j in self._of.aliases}
 
     def __len__(self) -> int:
-        return len(self._of)
+        return len(self._areas)
 
     def __getitem__(self, i: int) -> Cell:
         if not 0 <= i < len(self):
             raise IndexError(f'there are {len(self)} points')
-        i = int(self._of.rows[i])
-        row = self._cell[i] if i in self._cell else self._cell[dict(self.data['aliases'])[i]]
-        low, high = row['area']
-        return Cell(_polygon(row['inner']), [_polygon(part) for part in row['outer']], (low, high))
+        of = self._alias.get(i, i)
+        rings = [(self._kind[r], self._rings[r]) for r in range(self._starts[of], self._starts[of + 1])]
+        inner = [ring for kind, ring in rings if kind & 1]
+        low, high = self._areas[i].tolist()
+        return Cell(inner[0] if inner else np.empty((0, 2)), [ring for kind, ring in rings if kind & 2], (low, high))
+
+    def __iter__(self) -> Iterator[Cell]:
+        return (self[i] for i in range(len(self)))
+
+    @functools.cached_property
+    def data(self) -> dict[str, Any]:
+        """What the command writes as json."""
+        self._expect_unchanged()
+        found: dict[str, Any] = json.loads(self._of._engine.write_voronoi('json', None, self._window, self._flatten, 0))
+        return found
 
     @property
     def edges(self) -> list[dict[str, Any]]:
@@ -103,6 +188,28 @@ class Voronoi:
     def certificate(self) -> bytes:
         """What proves triangulation and diagram, for verify()."""
         return self._of.certificate(True, self._window)
+
+    def to_geodataframe(self, layer: str = 'cells', crs: Any = None) -> Any:
+        """A layer of the command ('cells', 'tiles', 'vertices', 'edges', 'regions') as a GeoDataFrame.
+
+        crs: by default that of the points. Rows are named by `i`, as `rows` of the triangulation, and by `id`.
+        """
+        geopandas: Any = importlib.import_module('geopandas')
+        crs = self._of.crs if crs is None else crs
+        if layer not in ('cells', 'tiles'):
+            features = json.loads(self.write('geojson', layer))['features']
+            return geopandas.GeoDataFrame.from_features(features, crs=crs)
+        rings = self._rings if layer == 'cells' else self.tiles
+        columns: dict[str, Any] = {'i': self._of.rows[rings.points]}
+        if (ids := self._of.ids) is not None:
+            columns['id'] = [ids[k] for k in rings.points.tolist()]
+        if layer == 'cells':
+            columns['kind'] = KINDS[self._kind]
+            columns['area_lo'], columns['area_hi'] = self._areas[rings.points].T
+        else:
+            columns['area'] = self._tiles[1]
+            columns['area_lo'], columns['area_hi'] = self._tiles[2].T
+        return geopandas.GeoDataFrame(columns, geometry=rings.to_shapely(), crs=crs)
 
     @property
     def __geo_interface__(self) -> dict[str, Any]:
