@@ -583,11 +583,11 @@ static void note_layers(const cli_options *o, GDALDatasetH set) {
 
 /* In the folder, which is beside the target. */
 static int write_in(const char *folder, const char *target, cli_session *s, cli_print_fn print) {
-  const char *slash = strrchr(target, '/'), *base = slash ? slash + 1 : target;
+  const char *slash = strrchr(target, '/'), *base = target + (slash ? slash + 1 - target : 0);
   char path[8192], name[256];
   dyd_error err;
   dyd_error_clear(&err);
-  snprintf(path, sizeof path, "%s/%s", folder, base);
+  CPLStrlcpy(path, CPLFormFilename(folder, base, NULL), sizeof path);
   snprintf(name, sizeof name, "%.*s", (int)strcspn(base, "."), base);
   const char *kind = s->o.driver ? s->o.driver : "";
   GDALDriverH driver = GDALGetDriverByName(kind);
