@@ -95,6 +95,10 @@ int cli_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
 int cli_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* Prints a note, unless --quiet was given. */
 void cli_note(const cli_options *o, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Notes on the rows of a file: what was left out, or read in another way than it says. */
+void cli_note_lines(const cli_options *o, const dyd_read_report *r);
+/* These, and notes on its points, which e has: what was taken together, and what may be meant otherwise. */
+void cli_note_points(const dyd_engine *e, const cli_options *o, const dyd_read_report *r);
 /* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: without FILE. */
 void cli_complain_at(const char *file, const dyd_error *err);
 /* The same of a point of e, which is named by its row. */

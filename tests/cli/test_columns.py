@@ -316,6 +316,7 @@ def test_repeated_identifiers():
     expect(got, 0, '', note)
     assert got.err.count('--merge-by') == 1
     for silent in (run('delaunay', *READ, '--id', 'id', '-q', '-', stdin=rows), run('delaunay', *READ, '-', stdin=rows),
+                   run('delaunay', *READ, '--id', 'id', '--merge', '-', stdin='id,x,y\na,0,0\nb,9,0\na,0,0\nc,4,4\n'),
                    run('delaunay', *READ, '--id', 'id', '-', stdin=rows.replace('b,9,0.', 'd,9,0.').replace('b,8', 'e,8'))):
         assert '--merge-by' not in silent.err, silent
     long = run('delaunay', *READ, '--id', 'id', '-', stdin='id,x,y\n{0},0,0\n{0},1,0\n{0},0,1\n'.format('\x1b[1m' + 'ä' * 99))

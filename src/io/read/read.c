@@ -12,7 +12,7 @@
 #include "engine/labels.h"
 #include "io/read/cell.h"
 #include "io/read/confidence.h"
-#include "io/read/csv.h"
+#include "io/read/options.h"
 #include "io/read/places.h"
 #include "io/read/stage.h"
 #include "io/read/twins.h"
@@ -25,80 +25,6 @@
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
-
-/* ---- the reading options ---- */
-
-/* What a column holds besides those of csv.h: numbers (a dyd_row_number more), then texts, which may be empty. */
-enum {
-  ROLE_NUMBER = DYD_CSV_OTHER,
-  ROLE_SIGMA = ROLE_NUMBER + DYD_ROW_SIGMA, /* in x; then in y, and the correlation, which are no dyd_row_number */
-  ROLE_RHO = ROLE_SIGMA + 2,
-  ROLE_ID,
-  ROLES
-};
-_Static_assert(DYD_ROW_SIGMA + 1 == DYD_ROW_NUMBERS, "sigmas are behind the other numbers");
-_Static_assert((int)ROLES <= (int)DYD_CSV_MOST, "each role has a column");
-
-#define OF(field) sizeof(dyd_read_field), #field, offsetof(dyd_read_options, field)
-
-/* A field; the roles of the columns that it names, from `role` on, at least `least` and at most `most` of them (0: it
- * names none); and what these hold. */
-static const struct read_option {
-  dyd_read_field field;
-  int role;
-  size_t least, most;
-  const char *holds;
-} read_option[] = {
-    {{OF(columns), .points = true, .text = true}, DYD_CSV_X, 2, 2, "coordinate"},
-    {.field = {OF(measured), .flag = true, .points = true, .text = true}},
-    {.field = {OF(radius), .points = true, .text = true}},
-    {.field = {OF(radius_unit), .points = true, .text = true}},
-    {.field = {OF(radius_scale), .points = true, .text = true}},
-    {{OF(id), .table = true, .text = true}, ROLE_ID, 1, 1, "identifier"},
-    {.field = {OF(carry), .table = true, .text = true}},
-    {{OF(radius_columns), .table = true, .points = true, .text = true}, DYD_CSV_RADIUS_X, 1, 2, "radius"},
-    {{OF(cost_column), .table = true, .text = true}, ROLE_NUMBER + DYD_ROW_COST, 1, 1, "cost"},
-    {{OF(sigma_column), .table = true, .points = true, .text = true}, ROLE_SIGMA, 1, 3, "standard deviation"},
-    {.field = {OF(confidence), .table = true, .points = true, .text = true}},
-    {.field = {OF(round), .flag = true, .points = true}},
-    {.field = {OF(delimiter), .table = true, .points = true, .text = true}},
-    {.field = {OF(decimal_comma), .flag = true, .points = true, .text = true}},
-    {.field = {OF(no_header), .flag = true, .table = true, .points = true, .text = true}},
-    {.field = {OF(units_row), .flag = true, .table = true, .points = true, .text = true}},
-    {.field = {OF(skip_lines), .points = true, .text = true}},
-    {.field = {OF(thousands), .table = true, .points = true, .text = true}},
-    {.field = {OF(missing), .points = true, .text = true}},
-    {.field = {OF(skip_missing), .flag = true, .points = true, .text = true}},
-    {.field = {OF(merge), .flag = true, .points = true, .text = true}},
-    {.field = {OF(merge_by), .table = true, .points = true, .text = true}},
-    {.field = {OF(degrees), .flag = true, .points = true}},
-    {.field = {OF(keep_radii), .flag = true, .points = true}},
-};
-
-enum { READ_OPTIONS = sizeof read_option / sizeof *read_option };
-
-/* The text at the field; NULL where options are older than it, or do not set it. */
-static const char *field_value(const dyd_read_options *o, const dyd_read_field *f) {
-  if (!o || f->offset + (f->flag ? sizeof(bool) : sizeof(char *)) > o->struct_size) return NULL;
-  const char *at = (const char *)o + f->offset, *value;
-  if (f->flag) return *(const bool *)at ? "true" : NULL;
-  memcpy(&value, at, sizeof value);
-  return value;
-}
-
-const dyd_read_field *dyd_read_field_at(const char **value, const dyd_read_options *options, size_t k) {
-  const dyd_read_field *field = k < READ_OPTIONS ? &read_option[k].field : NULL;
-  if (value) *value = field ? field_value(options, field) : NULL;
-  return field;
-}
-
-/* What a column of this role holds. */
-static const char *role_holds(int role) {
-  if (role == ROLE_RHO) return "correlation";
-  const struct read_option *option = read_option;
-  while (role < option->role || role >= option->role + (int)option->most) option++;
-  return option->holds;
-}
 
 /* ---- rows ---- */
 
@@ -158,7 +84,7 @@ static dyd_status radius_fail(const intake *in, const dyd_span *span, int role, 
                          "radii in the plane are in the unit of the coordinates: write the number without a unit, or "
                          "convert all by `radius_scale`");
   char message[160];
-  snprintf(message, sizeof message, "the %s is not an exact number >= 0%s", role_holds(role),
+  snprintf(message, sizeof message, "the %s is not an exact number >= 0%s", dyd_role_holds(role),
            in->o->degrees ? " and a unit; give one such as 0.01deg, 30m or 2km"
                           : "; give one such as 0.01 or 1/64 (units: with `sphere`)");
   return dyd_span_fail(err, span, 0, message);
@@ -167,7 +93,7 @@ static dyd_status radius_fail(const intake *in, const dyd_span *span, int role, 
 static dyd_status radius_fail_unit(const dyd_span *span, int role, dyd_error *err) {
   char message[180];
   snprintf(message, sizeof message, "the %s %.*s has no unit; state a unit: `radius_unit` m (" DYD_UNIT_NAMES ")",
-           role_holds(role), (int)(span->length < 20 ? span->length : 20), span->text);
+           dyd_role_holds(role), (int)(span->length < 20 ? span->length : 20), span->text);
   dyd_span_fail(err, span, 0, message);
   return DYD_E_ARG;
 }
@@ -260,7 +186,7 @@ static dyd_status intake_sigma(intake *in, const dyd_span *span, dyd_error *err)
   mpq_inits(s[0], s[1], rho, NULL);
   dyd_status st = read_rho(rho, &span[2], err);
   for (int a = 0; a < 2 && st == DYD_OK; a++)
-    st = intake_read_radius(s[a], &ground[a], in, &span[a], ROLE_SIGMA + a, err);
+    st = intake_read_radius(s[a], &ground[a], in, &span[a], DYD_ROLE_SIGMA + a, err);
   if (st == DYD_OK && ground[0] != ground[1] && mpq_sgn(s[0]) && mpq_sgn(s[1]))
     st = dyd_span_fail(err, &span[1], 0,
                        "one standard deviation is a length, the other an angle; give both in units of one kind");
@@ -314,16 +240,17 @@ static dyd_status intake_number(double *out, const dyd_span *span, int role, dyd
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (*out > 0 && isfinite(*out)) return DYD_OK;
   snprintf(message, sizeof message, "the %s is not an exact number above 0; give one such as 2 or 0.5",
-           role_holds(role));
+           dyd_role_holds(role));
   return dyd_span_fail(err, span, 0, message);
 }
 
 /* ---- life ---- */
 
 static dyd_status intake_check(const dyd_read_options *o, dyd_error *err) {
-  for (size_t k = 0; k < READ_OPTIONS && !o->columns; k++) {
-    const dyd_read_field *f = &read_option[k].field;
-    if (f->table && field_value(o, f))
+  const dyd_read_field *f;
+  const char *value;
+  for (size_t k = 0; !o->columns && (f = dyd_read_field_at(&value, o, k)); k++) {
+    if (f->table && value)
       return dyd_fail(err, DYD_E_ARG, "`%s` is about columns; name those of x and y, too: `columns` NAME,NAME",
                       f->name);
   }
@@ -364,11 +291,12 @@ static dyd_status intake_init(intake *in, const dyd_read_options *o, dyd_error *
   }
   in->numbers = o->radius_columns && (o->keep_radii || o->degrees); /* sigmas of metres: by their column, below */
   in->roles = DYD_CSV_Y + 1;
-  for (size_t k = 0; k < READ_OPTIONS; k++) {
-    const struct read_option *r = &read_option[k];
-    if (r->most && r->role < ROLE_ID && field_value(o, &r->field) && in->roles < r->role + (int)r->most)
-      in->roles = r->role + (int)r->most;
-    if (r->role >= ROLE_NUMBER && r->role < ROLE_ID && field_value(o, &r->field)) in->numbers = true;
+  const dyd_read_option *r;
+  const char *value;
+  for (size_t k = 0; (r = dyd_read_option_at(&value, o, k)); k++) {
+    if (!value || !r->most || r->role >= DYD_ROLE_ID) continue;
+    if (in->roles < r->role + (int)r->most) in->roles = r->role + (int)r->most;
+    if (r->role >= DYD_ROLE_NUMBER) in->numbers = true;
   }
   dyd_status st = intake_check(o, err);
   if (st == DYD_OK) st = dyd_style_read(&in->style, o, err);
@@ -398,7 +326,7 @@ static bool intake_labels(const intake *in) {
 
 static dyd_status fail_missing_field(const dyd_span *s, int role, dyd_error *err) {
   char message[160];
-  const char *what = role_holds(role);
+  const char *what = dyd_role_holds(role);
   if (s->length)
     snprintf(message, sizeof message, "the %s is missing (%.*s); fill it in, or leave such rows out: `skip_missing`",
              what, (int)s->length, s->text);
@@ -466,18 +394,31 @@ static dyd_status intake_see(intake *in, dyd_place *id, const dyd_span span[DYD_
   return DYD_OK;
 }
 
-/* *again: the point that an earlier row gives, if this one is of the same; else SIZE_MAX. */
-static dyd_status intake_identify(size_t *again, intake *in, const dyd_span span[DYD_CSV_MOST], dyd_error *err) {
+/* The identifier of the present row, counted once more; NULL: it has none. */
+static dyd_status intake_id(dyd_place **out, intake *in, const dyd_span *id, dyd_error *err) {
+  *out = NULL;
+  return !id->length || dyd_places_find_id(out, &in->ids, id) == DYD_OK ? DYD_OK : dyd_fail_nomem(err);
+}
+
+/* *again: the present row is that of an earlier point, which takes it. */
+static dyd_status intake_merge_id(bool *again, intake *in, const dyd_span span[DYD_CSV_MOST], dyd_error *err) {
   dyd_place *id;
-  *again = SIZE_MAX;
-  if (!span[ROLE_ID].length) return DYD_OK;
-  if (dyd_places_find_id(&id, &in->ids, &span[ROLE_ID]) != DYD_OK) return dyd_fail_nomem(err);
-  if (in->o->merge_by) {
-    if (id->count > 1) *again = id->point, in->report.merged++;
-    return intake_see(in, id, span, err);
-  }
-  if (id->count == 1) id->row[0] = in->report.rows - 1;
-  if (id->count > 1 && !in->report.repeated++)
+  dyd_status st = intake_id(&id, in, &span[DYD_ROLE_ID], err);
+  if (st == DYD_OK && id) st = intake_see(in, id, span, err);
+  *again = st == DYD_OK && id && id->count > 1;
+  if (!*again) return st;
+  in->report.merged++;
+  return dyd_labels_merge(&in->labels, id->point) ? DYD_OK : dyd_fail_nomem(err);
+}
+
+/* Another point has the identifier of the present row. */
+static dyd_status intake_note_id(intake *in, const dyd_span *span, dyd_error *err) {
+  dyd_place *id;
+  dyd_status st = intake_id(&id, in, span, err);
+  if (st != DYD_OK || !id) return st;
+  if (id->count == 1)
+    id->row[0] = in->report.rows - 1;
+  else if (!in->report.repeated++)
     in->report.repeat[0] = id->row[0], in->report.repeat[1] = in->report.rows - 1;
   return DYD_OK;
 }
@@ -487,13 +428,12 @@ static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_MOST], dy
   const double width[2] = {final_width(&c[0], &in->manner[0], in->row.of[0]),
                            final_width(&c[1], &in->manner[1], in->row.of[1])};
   dyd_place *place = NULL;
-  const dyd_span *id = &span[ROLE_ID];
+  const dyd_span *id = &span[DYD_ROLE_ID];
   dyd_row_numbers own = dyd_no_row_numbers;
-  size_t again = SIZE_MAX;
-  dyd_status st = in->o->id ? intake_identify(&again, in, span, err) : DYD_OK;
-  if (again != SIZE_MAX || st != DYD_OK) {
+  bool again = false;
+  dyd_status st = in->o->merge_by ? intake_merge_id(&again, in, span, err) : DYD_OK;
+  if (again || st != DYD_OK) {
     for (int a = 0; a < 2; a++) dyd_coordinate_clear(&c[a]);
-    if (st == DYD_OK && !dyd_labels_merge(&in->labels, again)) st = dyd_fail_nomem(err);
     return st;
   }
   if (in->o->merge || width[0] > 0 || width[1] > 0 || (in->o->degrees && in->kept[0] > 0)) {
@@ -508,10 +448,11 @@ static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_MOST], dy
   }
   st = dyd_stage_add(&in->stage, &c[0], &c[1], err);
   if (st == DYD_OK) st = intake_keep_sigma(in, err);
+  if (st == DYD_OK && in->o->id && !in->o->merge_by) st = intake_note_id(in, id, err);
   if (st != DYD_OK || !intake_labels(in)) return st;
   own.of[DYD_ROW_RADIUS] = in->kept[0];
-  for (int k = ROLE_NUMBER; k < ROLE_SIGMA + !in->o->confidence && st == DYD_OK; k++)
-    if (span[k].text) st = intake_number(&own.of[k - ROLE_NUMBER], &span[k], k, err);
+  for (int k = DYD_ROLE_NUMBER; k < DYD_ROLE_SIGMA + !in->o->confidence && st == DYD_OK; k++)
+    if (span[k].text) st = intake_number(&own.of[k - DYD_ROLE_NUMBER], &span[k], k, err);
   if (st != DYD_OK) return st;
   const char *text = in->labels.names ? in->label : id->text;
   size_t length = in->labels.names ? in->label_length : id->length;
@@ -573,7 +514,7 @@ static dyd_status intake_row(intake *in, dyd_span span[DYD_CSV_MOST], dyd_error 
     if (st == DYD_OK) st = intake_coordinate(&c[a], in, a, &span[a], err);
     if (st == DYD_OK) st = intake_letter(in, a, &c[a], &span[a], err);
   }
-  if (st == DYD_OK && in->o->confidence) st = intake_sigma(in, &span[ROLE_SIGMA], err);
+  if (st == DYD_OK && in->o->confidence) st = intake_sigma(in, &span[DYD_ROLE_SIGMA], err);
   if (st == DYD_OK && in->o->degrees && is_beyond_poles(&c[1]))
     st = dyd_span_fail(err, &span[1], 0, "the latitude is beyond 90 degrees; longitude comes first, then latitude");
   if (st == DYD_OK) return intake_point(in, span, c, err);
@@ -598,7 +539,7 @@ static dyd_status twin_read(dyd_twin *out, intake *in, const sighting *s, dyd_er
     if (span[DYD_CSV_RADIUS_X + a].text) st = intake_radius(in, a, &span[DYD_CSV_RADIUS_X + a], err);
     if (st == DYD_OK) st = dyd_coordinate_ends(out->lo[a], out->hi[a], &span[a], &in->manner[a]);
   }
-  if (st == DYD_OK && in->o->confidence) st = intake_sigma(in, &span[ROLE_SIGMA], err);
+  if (st == DYD_OK && in->o->confidence) st = intake_sigma(in, &span[DYD_ROLE_SIGMA], err);
   out->kept = in->kept[0];
   for (int a = 0; a < 2; a++) out->sigma[a] = in->o->confidence ? in->row.of[a] : 0;
   return st;
@@ -739,10 +680,10 @@ static dyd_status read_points_file(intake *in, dyd_text *text, dyd_error *err) {
 /* Asks for the columns that the options name, and reads the header. */
 static dyd_status csv_begin(dyd_csv *csv, const dyd_read_options *o, dyd_error *err) {
   dyd_status st = DYD_OK;
-  for (size_t k = 0; k < READ_OPTIONS && st == DYD_OK; k++) {
-    const struct read_option *r = &read_option[k];
-    const char *value = r->most ? field_value(o, &r->field) : NULL;
-    if (value) st = dyd_csv_ask(csv, r->role, r->least, r->most, value, r->field.name, err);
+  const dyd_read_option *r;
+  const char *value;
+  for (size_t k = 0; st == DYD_OK && (r = dyd_read_option_at(&value, o, k)); k++) {
+    if (value && r->most) st = dyd_csv_ask(csv, r->role, r->least, r->most, value, r->field.name, err);
   }
   return st == DYD_OK ? dyd_csv_open(csv, o->delimiter, o->degrees, err) : st;
 }
@@ -793,7 +734,7 @@ static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
       else if (!dyd_wkt_next(span, &geometry))
         span[DYD_CSV_X].length = span[DYD_CSV_Y].length = 0;
     }
-    if (st == DYD_OK && count && csv.carries) st = carry_row(in, &csv, &span[ROLE_ID], err);
+    if (st == DYD_OK && count && csv.carries) st = carry_row(in, &csv, &span[DYD_ROLE_ID], err);
     if (st == DYD_OK && count) st = intake_row(in, span, err);
   }
   in->report.commented = csv.commented;
