@@ -175,6 +175,15 @@ DYD_API dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaun
  * owned by the caller. DYD_E_ARG for other flags. O(N log N), as found O(N). */
 DYD_API dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, dyd_triangle_list *neighbours, const dyd_delaunay *pd,
                                           unsigned flags);
+/* Finds the certain triangle that each place xy[2 k], xy[2 k + 1] is in. in[k] = DYD_TRUE: the place is in triangle
+ * out[k], which has the form of dyd_delaunay_triangles, for every choice, or on a side of it whose ends are exact
+ * points; of several the first by v[0], then v[1]. DYD_FALSE: it is outside of the convex hull for every choice.
+ * DYD_UNKNOWN: neither is known, as in undecided faces; then, and outside, out[k].v[0] is DYD_NO_TRIANGLE. Rectangles
+ * whose ends are not doubles count as rounded outward for DYD_FALSE; else exact. DYD_E_ARG for places that are not
+ * finite; DYD_CANCELLED once *cancel, which may be NULL, is set. The caller provides both arrays; on failure their
+ * contents are undefined. Cost: a walk from each place to the next, so order them to be near. */
+DYD_API dyd_status dyd_delaunay_locate(dyd_triangle *out, dyd_truth *in, const dyd_delaunay *pd, const double *xy,
+                                       size_t count, const volatile int *cancel);
 /* The sites of the undecided faces of the legal graph: face f (0 <= f < dyd_delaunay_undecided_faces). Ascending.
  * *outer tells whether the face is unbounded (the unbounded face may come in parts, between sure corners of the hull).
  * Every non-legal possible pair lies in exactly one of them, up to its end points on the boundary. */

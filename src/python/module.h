@@ -172,6 +172,8 @@ PyObject *dydpy_write(PyObject *self, PyObject *args);
 PyObject *dydpy_write_voronoi(PyObject *self, PyObject *args);
 PyObject *dydpy_certificate(PyObject *self, PyObject *args);
 PyObject *dydpy_nearest(PyObject *self, PyObject *args);
+PyObject *dydpy_locate(PyObject *self, PyObject *args);
+PyObject *dydpy_nearest_places(PyObject *self, PyObject *args);
 PyObject *dydpy_tolerance(PyObject *self, PyObject *args);
 PyObject *dydpy_plan(PyObject *self, PyObject *args);
 PyObject *dydpy_converge(PyObject *self, PyObject *args);

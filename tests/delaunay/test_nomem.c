@@ -31,7 +31,7 @@ static bool new_fails_well(char *message, const dyd_sites *s) {
 }
 
 static bool queries_fail_well(char *message, const dyd_delaunay *pd) {
-  for (size_t which = 0; which < 8; which++) {
+  for (size_t which = 0; which < 9; which++) {
     dyd_status status = DYD_E_NOMEM;
     for (size_t k = 1; status == DYD_E_NOMEM; k++) {
       dyd_pair_list pairs = {0};
@@ -47,6 +47,10 @@ static bool queries_fail_well(char *message, const dyd_delaunay *pd) {
       if (which == 1) status = dyd_delaunay_triangles(&triangles, NULL, pd, 0);
       if (which == 2) status = dyd_delaunay_hull(&list, pd);
       if (which == 3) status = dyd_delaunay_neighbours(&list, pd, 0, DYD_TIE);
+      const double places[] = {0, 0, 1e9, -1e9, 0.5, 0.25};
+      dyd_triangle at[3];
+      dyd_truth in[3];
+      if (which == 8) status = dyd_delaunay_locate(at, in, pd, places, 3, NULL);
       bool outer = false;
       if (which == 4) status = dyd_delaunay_undecided_faces(pd) ? dyd_delaunay_face(&list, &outer, pd, 0) : DYD_OK;
       bool failed = countdown == 0, empty = !pairs.item && !triangles.item && !list.item && !beyond.item;

@@ -24,6 +24,7 @@ def fails(i, bits):
 def once():
     d = dyadel.delaunay(POINTS, radius=1e-4)
     d.simplices, d.neighbors, d.legal, d.boxes, d.hull, d.aliases, d.rects(), d.bounds
+    d.vertex_neighbors, d.points, d.find_triangle(POINTS[:50]), d.interpolate(POINTS[:, 0], POINTS[:50]), d.nearest(POINTS[:50])
     d.append(MIXED).nearest(0.5, 0.5)
     small = dyadel.delaunay(MIXED)
     v = small.voronoi()

@@ -31,7 +31,7 @@ def test_statuses():
     assert d.legal.tolist() == [[0, 1], [0, 2], [1, 3], [2, 3]] and d.indeterminate.shape == (0, 2)
     assert d.pairs.tolist() == [[0, 1, dyadel.LEGAL], [0, 2, 3], [0, 3, dyadel.TIE], [1, 2, 1], [1, 3, 3], [2, 3, 3]]
     assert [d.status(0, j) for j in range(4)] == ['illegal', 'legal', 'legal', 'tie']
-    assert d.simplices.shape == d.neighbors.shape == (0, 3) and [h.tolist() for h in d.hull] == [[0, 1, 2, 3]] * 2
+    assert d.simplices.shape == d.neighbors.shape == (0, 3) and [h.tolist() for h in d.hull] == [[0, 1, 3, 2]] * 2
     harness.raised(IndexError, d.status, 0, 4)
     harness.raised(IndexError, d.rect, 4)
     harness.raised(IndexError, d.status, -1, 0)
@@ -366,6 +366,126 @@ def test_diagram_stays():
     harness.raised(IndexError, d.voronoi().exact_area, 4)
     error = harness.raised(dyadel.Error, lambda: dyadel.delaunay([(0, 0)]).voronoi(window=(0, 0, 0, 1)))
     assert error.code == 'argument' and 'window' in str(error)
+
+
+def turn(a, b, c):
+    return (a[0] - c[0]) * (b[1] - c[1]) - (a[1] - c[1]) * (b[0] - c[0])
+
+
+def hull_of(points):
+    """Counter-clockwise, by one after the other: a side has all others on its left, or between its ends."""
+    points, ring = sorted(set(points)), []
+    for part in (points, points[::-1]):
+        kept = []
+        for p in part:
+            while len(kept) > 1 and turn(kept[-2], kept[-1], p) <= 0:
+                kept.pop()
+            kept.append(p)
+        ring += kept[:-1] or kept
+    return ring
+
+
+def holds(ring, z):
+    ring = list(dict.fromkeys(ring))
+    if len(ring) == 2:
+        (a, b), (c, d) = min(ring), max(ring)
+        return turn(ring[0], ring[1], z) == 0 and a <= z[0] <= c and min(b, d) <= z[1] <= max(b, d)
+    return ring == [z] if len(ring) == 1 else all(turn(a, b, z) >= 0 for a, b in zip(ring, ring[1:] + ring[:1]))
+
+
+def corners_of(box):
+    a, b, c, d = map(Fraction, box.tolist())
+    return {(x, y) for x in (a, b) for y in (c, d)}
+
+
+def literal_triangle(d, boxes, z):
+    """By all choices of corners, which have the extreme orientations."""
+    best = None
+    for k, t in enumerate(d.simplices.tolist()):
+        sides = [[turn(p, q, z) for p in boxes[i] for q in boxes[j]] for i, j in zip(t, t[1:] + t[:1])]
+        if all(min(side) > 0 or side == [0] for side in sides) and (best is None or t < best[0]):
+            best = t, k
+    if best:
+        return best[1]
+    return dyadel.UNDECIDED if holds(hull_of([c for box in boxes for c in box]), z) else dyadel.OUTSIDE
+
+
+def test_find_triangle():
+    """All places of a grid and all corners against literal statements: ties, lines, rectangles that overlap, one point."""
+    random = np.random.default_rng(harness.seeded('places').randrange(2**32))
+    grid = np.stack(np.meshgrid(np.arange(-4, 21) / 4, np.arange(-4, 21) / 4), axis=-1).reshape(-1, 2)
+    seen = set()
+    for k in range(24):
+        points = random.integers(0, 5, (int(random.integers(1, 12)), 2)) * (1 if k % 4 else 1 / 3)
+        if k % 6 == 5:
+            points[:, 1] = points[:, 0] / 2
+        radius = None if k % 3 == 0 else random.choice([0, 0.125, 0.5, 1], len(points), p=[0.4, 0.3, 0.2, 0.1])
+        d = dyadel.delaunay(points, radius=radius)
+        boxes = [corners_of(box) for box in d.boxes]
+        places = np.concatenate((grid, points, random.random((20, 2)) * 5))
+        found = d.find_triangle(places)
+        for z, t in zip(places.tolist(), found.tolist()):
+            assert t == literal_triangle(d, boxes, tuple(map(Fraction, z))), (k, z, t)
+        seen |= set(np.sign(found).tolist()) | set(found[found < 0].tolist())
+        assert np.array_equal(d.find_triangle(places.reshape(1, -1, 2)), found[None]) and d.find_triangle(places[0]) == found[0]
+    assert seen >= {dyadel.OUTSIDE, dyadel.UNDECIDED, 1}
+    thirds = dyadel.delaunay([('1/3', 0), ('7/3', '1/3'), (1, '7/3')])
+    assert thirds.find_triangle([[1, 1], [0.3, 0], [9, 9]]).tolist() == [0, dyadel.OUTSIDE, dyadel.OUTSIDE]
+
+
+def test_places():
+    d = dyadel.delaunay([(0, 0), (1, 0), (0, 1)])
+    for wrong in (np.zeros(3), 7, [[1, 2, 3]]):
+        assert '(M, 2)' in str(harness.raised(ValueError, d.find_triangle, wrong))
+    assert 'place 1' in str(harness.raised(ValueError, d.find_triangle, [[0, 0], [np.nan, 0]]))
+    assert 'rounded' in str(harness.raised(ValueError, d.find_triangle, [[2**53 + 1, 0]]))
+    assert 'rounded' in str(harness.raised(ValueError, d.nearest, np.array([[Fraction(1, 3), 0]])))
+    harness.raised(TypeError, d.find_triangle, [['x', 'y']])
+    harness.raised(TypeError, d.nearest, [[0, 0]], timeout=3)
+    assert d.find_triangle(np.zeros((0, 2))).shape == (0,) and d.nearest(np.zeros((0, 2))).offsets.tolist() == [0]
+    assert '3 points' in str(harness.raised(ValueError, d.interpolate, [1, 2], [[0, 0]]))
+    z = d.interpolate([[1, 2], [3, 4], [5, 8]], [[0.25, 0.5], [2, 2]])
+    assert z.tolist() == [[3.5, 5.5], [None, None]] and np.isnan(z.data[1]).all() and z.mask.tolist() == [[False] * 2, [True] * 2]
+    assert d.interpolate([1j, 2, 3], [0, 1]) == 3
+    harness.raised(RuntimeError, dyadel.Delaunay().find_triangle, [[0, 0]])
+
+
+def test_nearest_of_places():
+    """As the nearest points of each place by itself, and by distances of boxes in fractions."""
+    points, radius = RANDOM.integers(0, 6, (15, 2)), RANDOM.choice([0, 0.25, 1], 15)
+    d = dyadel.delaunay(points, radius=radius)
+    places = RANDOM.integers(-4, 28, (200, 2)) / 4
+    boxes, alias = [list(map(Fraction, box)) for box in d.boxes.tolist()], dict(d.aliases[:, ::1].tolist())
+    found = d.nearest(places)
+    for k, z in enumerate(places.tolist()):
+        near = [sum(max(b[2 * a] - Fraction(z[a]), Fraction(z[a]) - b[2 * a + 1], 0)**2 for a in (0, 1)) for b in boxes]
+        far = [sum(max(b[2 * a + 1] - Fraction(z[a]), Fraction(z[a]) - b[2 * a])**2 for a in (0, 1)) for b in boxes]
+        wanted = [i for i in range(15) if near[i] <= min(far) and i not in alias]
+        assert found.points[found.offsets[k]:found.offsets[k + 1]].tolist() == wanted
+        assert found.certain[k] == (len(wanted) == 1) and found.single[k] == (wanted[0] if len(wanted) == 1 else -1)
+    assert 0 < found.certain.sum() < 200
+
+
+def test_hull_in_order():
+    d = dyadel.delaunay(np.array([(0, 0), (2, 0), (1, 0), (2, 2), (0, 2), (1, 1), (0, 1)]))
+    assert [part.tolist() for part in d.hull] == [[0, 1, 3, 4], [0, 2, 1, 3, 4, 6]]
+    for points, ends in ((np.zeros((0, 2)), []), ([(1, 1)], [0]), ([(0, 0), (3, 1)], [0, 1]), ([(0, 0), (1, 1), (2, 2)], [0, 2])):
+        assert dyadel.delaunay(points).hull[0].tolist() == ends
+    for _ in range(20):
+        d = dyadel.delaunay(RANDOM.random((30, 2)), radius=RANDOM.choice([0, 0.001, 0.05], 30))
+        ring = [tuple(map(Fraction, d.points[i].tolist())) for i in d.hull[0]]
+        turned, first = hull_of(ring), hull_of(ring).index(ring[0])
+        assert ring == turned[first:] + turned[:first]
+        assert set(d.hull[0].tolist()) <= set(d.hull[1].tolist())
+
+
+def test_vertex_neighbors():
+    for d in (dyadel.delaunay(SQUARE), dyadel.delaunay(RANDOM.random((40, 2)), radius=0.01), dyadel.delaunay([(0, 0), (0, 0)])):
+        indptr, indices = d.vertex_neighbors
+        for k in range(len(d)):
+            assert indices[indptr[k]:indptr[k + 1]].tolist() == [j for j in range(len(d)) if d.status(k, j) == 'legal' and
+                                                                 k not in d.aliases[:, 0] and j not in d.aliases[:, 0]]
+        assert len(indptr) == len(d) + 1 and d.points.shape == (len(d), 2)
 
 
 def test_nearest():

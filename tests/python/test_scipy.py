@@ -6,7 +6,8 @@ import harness
 
 harness.need('scipy')
 import numpy as np
-from scipy.spatial import Delaunay
+from scipy.interpolate import LinearNDInterpolator
+from scipy.spatial import ConvexHull, Delaunay, cKDTree
 from scipy.spatial import Voronoi as Diagram
 
 import dyadel
@@ -41,6 +42,30 @@ def compare(points):
     assert set(ours.hull[0]) == set(theirs.convex_hull.ravel()) == set(ours.hull[1])
     x, y = points[ours.simplices].transpose(2, 0, 1)
     assert ((x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) > (x[:, 2] - x[:, 0]) * (y[:, 1] - y[:, 0])).all()
+
+
+def compare_queries(points, random):
+    ours, theirs = dyadel.delaunay(points), Delaunay(points)
+    indptr, indices = ours.vertex_neighbors
+    their_ptr, their_indices = theirs.vertex_neighbor_vertices
+    assert np.array_equal(indptr, their_ptr)
+    assert all(set(a) == set(b) for a, b in zip(np.split(indices, indptr[1:-1]), np.split(their_indices, their_ptr[1:-1])))
+    ring = ConvexHull(points).vertices
+    assert np.array_equal(ours.hull[0], np.roll(ring, -np.argmin(ring))) and np.array_equal(ours.points, points)
+    places = points.mean(axis=0) + (random.random((500, 2)) - 0.5) * 1.5 * np.ptp(points, axis=0)
+    a, b = ours.find_triangle(places), theirs.find_simplex(places)
+    assert np.array_equal(a >= 0, b >= 0) and (a[a < 0] == dyadel.OUTSIDE).all()
+    assert np.array_equal(np.sort(ours.simplices[a[a >= 0]]), np.sort(theirs.simplices[b[b >= 0]]))
+    values = random.random(len(points))
+    mine, want = ours.interpolate(values, places), LinearNDInterpolator(theirs, values)(places)
+    assert np.array_equal(mine.mask, np.isnan(want)) and np.allclose(mine.data, want, rtol=1e-9, atol=1e-9, equal_nan=True)
+    assert np.array_equal(ours.nearest(places).single, cKDTree(points).query(places)[1])
+
+
+def test_queries():
+    random = np.random.default_rng(harness.seeded('queries').randrange(2**32))
+    for n in (4, 30, 400, 3000):
+        compare_queries(random.random((n, 2)), random)
 
 
 def test_random_sets():

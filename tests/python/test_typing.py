@@ -33,6 +33,10 @@ where: np.ndarray[tuple[int, ...], np.dtype[np.int32]] = d.nearest(0, 0).points
 bound: Fraction | None = d.voronoi(window=(0, 1, 0, 1)).area
 rings: dyadel.Rings = d.voronoi().certain
 total += len(rings.to_wkb()) + len(rings.coordinates[rings.offsets[0]:rings.offsets[1]]) + int(d.voronoi().areas[0, 1])
+indptr, indices = d.vertex_neighbors
+total += int(indices[indptr[0]:indptr[1]].sum() + d.find_triangle([[0, 0]])[0] + d.points[0, 0]) + dyadel.OUTSIDE
+near: dyadel.NearestPlaces = d.nearest([[0, 0]])
+total += int(near.single[0]) + len(d.interpolate(np.zeros(3), [[0, 0]]))
 share: Fraction | None = d.voronoi().exact_area(0)
 d = dyadel.delaunay([(0, 0)], trace="run.1", resume=pathlib.Path("run.0"), sphere=False)
 edges: np.ndarray[tuple[int, ...], np.dtype[np.int32]] = d.graph("mst").certain

@@ -13,13 +13,14 @@ from ._dyadel import version as __version__
 from ._errors import BrokenPromise, Error
 from ._geometry import Rings
 from ._points import Confidence, Source, Text
-from ._questions import (Convergence, Graph, Nearest, Plan, Table, Tolerance, Verdict, converge, replay, verify)
+from ._questions import (OUTSIDE, UNDECIDED, Convergence, Graph, Nearest, NearestPlaces, Plan, Table, Tolerance, Verdict,
+                         converge, replay, verify)
 from ._sphere import Sphere, SphereCell, SphereVoronoi
 from ._statuses import INDETERMINATE, LEGAL, TIE
 from ._triangulation import Bounds, Delaunay
 from ._voronoi import Cell, Voronoi
 
-__all__ = ['INDETERMINATE', 'LEGAL', 'TIE', 'Bounds', 'BrokenPromise', 'Cell', 'Confidence', 'Convergence',
-           'Delaunay', 'Error', 'Graph', 'Nearest', 'Plan', 'Rings', 'Source', 'Sphere', 'SphereCell', 'SphereVoronoi',
-           'Table', 'Text', 'Tolerance', 'Verdict', 'Voronoi', '__version__', 'check', 'converge', 'delaunay',
-           'formats', 'moves', 'plan', 'replay', 'tolerance', 'verify']
+__all__ = ['Bounds', 'BrokenPromise', 'Cell', 'Confidence', 'Convergence', 'Delaunay', 'Error', 'Graph',
+           'INDETERMINATE', 'LEGAL', 'Nearest', 'NearestPlaces', 'OUTSIDE', 'Plan', 'Rings', 'Source', 'Sphere',
+           'SphereCell', 'SphereVoronoi', 'TIE', 'Table', 'Text', 'Tolerance', 'UNDECIDED', 'Verdict', 'Voronoi',
+           '__version__', 'check', 'converge', 'delaunay', 'formats', 'moves', 'plan', 'replay', 'tolerance', 'verify']

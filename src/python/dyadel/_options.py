@@ -29,7 +29,7 @@ def takes_options(*more: str) -> Callable[[Callable[Arguments, Result]], Callabl
     def decorate(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
         own = [name for name, p in inspect.signature(function).parameters.items() if p.kind is not p.VAR_KEYWORD]
         known = [*own, *more, *inspect.signature(engine_options).parameters]
-        name = function.__qualname__.removesuffix('.__init__')
+        name = function.__qualname__.removesuffix('.__init__').replace('._', '.')
 
         @functools.wraps(function)
         def checked(*args: Arguments.args, **options: Arguments.kwargs) -> Result:

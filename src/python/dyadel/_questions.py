@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _dyadel
-from ._arrays import Floats, Ints, floats, ints
+from ._arrays import Floats, Ints, Longs, floats, ints, longs, offsets_of, records
 from ._options import INPUTS, Path, engine_options, split_inputs, takes_options
 from ._points import append_points
 
@@ -46,12 +47,141 @@ def _distances(boxes: Floats, at: Sequence[float]) -> tuple[Floats, Floats]:
     return np.maximum(lo, 0), hi
 
 
+def _outward(end: tuple[int, int], up: bool) -> float:
+    """An exact end of a box, rounded outward."""
+    whole, part = end
+    try:
+        near = whole / part
+    except OverflowError:
+        near = math.copysign(math.inf, whole)
+    exact = math.isfinite(near) and Fraction(near) == Fraction(whole, part)
+    return near if exact else math.nextafter(near, math.inf if up else -math.inf)
+
+
 def nearest_to(engine: _dyadel.Engine, x: Any, y: Any, options: dict[str, Any]) -> Nearest:
     """See Delaunay.nearest."""
     found, certain, tied, outcome, ends = engine.nearest((x, y), options)
-    points, boxes = ints(found), floats(engine.boxes()).reshape(-1, 4)
-    at = [float(np.nextafter(float(Fraction(*end)), np.inf if k % 2 else -np.inf)) for k, end in enumerate(ends)]
-    return Nearest(points, certain, outcome, *_distances(boxes[points], at), tied)
+    points = ints(found)
+    box, *boxes = ([_outward(end, k % 2 == 1) for k, end in enumerate(rect)] for rect in (ends, *map(engine.rect, points.tolist())))
+    return Nearest(points, certain, outcome, *_distances(np.array(boxes).reshape(-1, 4), box), tied)
+
+
+# ---- many places ----
+
+#: What find_triangle gives where no triangle certainly holds the place.
+OUTSIDE, UNDECIDED = -1, -2
+
+
+class NearestPlaces(NamedTuple):
+    """points[offsets[k]:offsets[k + 1]] may be nearest to place k, ascending; certain[k]: there is one, and it is certainly
+    nearest. single[k] is that one, or -1."""
+
+    points: Ints
+    offsets: Longs
+    certain: NDArray[np.bool_]
+
+    @property
+    def single(self) -> Ints:
+        """The point that is certainly nearest to each place; -1: none is."""
+        first = np.append(self.points, np.int32(-1))[self.offsets[:-1]]
+        found: Ints = np.where(self.certain, first, np.int32(-1))
+        return found
+
+
+def places_of(xy: Any) -> tuple[Floats, tuple[int, ...]]:
+    """Places as contiguous doubles (M, 2), and the shape of the answer. ValueError for what doubles do not hold."""
+    given = np.asarray(xy)
+    if given.ndim < 1 or given.shape[-1] != 2:
+        raise ValueError(f'places must have shape (M, 2), not {given.shape}')
+    try:
+        places = given.astype(np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(f'places are numbers, not of type {given.dtype}') from None
+    if not np.isfinite(places).all():
+        raise ValueError(f'place {int(np.argmin(np.isfinite(places).reshape(-1, 2).all(axis=1)))} is not finite')
+    if given.dtype.kind != 'f' and [Fraction(x) for x in given.ravel().tolist()] != [Fraction(x) for x in places.ravel().tolist()]:
+        raise ValueError('places have to be doubles; these would be rounded')
+    return np.ascontiguousarray(places.reshape(-1, 2)), given.shape[:-1]
+
+
+def nearest_places(engine: _dyadel.Engine, xy: Any) -> NearestPlaces:
+    """See Delaunay.nearest."""
+    points, ends, certain = engine.nearest_places(places_of(xy)[0])
+    return NearestPlaces(ints(points), np.concatenate((np.zeros(1, np.int64), longs(ends))), records(certain, np.dtype(np.bool_)))
+
+
+def named_triangles(simplices: Ints) -> tuple[Longs, Longs]:
+    """What names each triangle, ascending, and which it is: one is on the left of the way from its first corner to the next."""
+    names = simplices[:, 0].astype(np.int64) << 32 | simplices[:, 1]
+    order: Longs = np.argsort(names)
+    return names[order], order
+
+
+def triangles_at(engine: _dyadel.Engine, named: tuple[Longs, Longs], xy: Any) -> Ints:
+    """See Delaunay.find_triangle; named: of named_triangles."""
+    places, shape = places_of(xy)
+    step = max(1, math.isqrt(len(places)))  # column by column, up and down: each place is near to the one before
+    column = np.argsort(np.argsort(places[:, 0], kind='stable'), kind='stable') // step
+    order = np.lexsort((np.where(column % 2, -1, 1) * places[:, 1], column))
+    found, inside = engine.locate(np.ascontiguousarray(places[order]))
+    corners, truth = ints(found).reshape(-1, 3), ints(inside)
+    answer = np.where(truth < 0, OUTSIDE, UNDECIDED).astype(np.int32)
+    held = truth > 0
+    wanted = corners[held, 0].astype(np.int64) << 32 | corners[held, 1]
+    answer[held] = named[1][np.searchsorted(named[0], wanted)]
+    unordered = np.empty_like(answer)
+    unordered[order] = answer
+    return unordered.reshape(shape)
+
+
+def interpolated(points: Floats, simplices: Ints, at: Ints, values: Any, xy: Any) -> Any:
+    """See Delaunay.interpolate."""
+    given = np.asarray(values)
+    if given.shape[:1] != (len(points),):
+        raise ValueError(f'values must have one for each of the {len(points)} points, not the shape {given.shape}')
+    known = at.ravel() >= 0
+    corners = simplices[at.ravel()[known]]
+    a, b, c = points[corners].transpose(1, 2, 0)
+    z = places_of(xy)[0][known].T
+
+    def cross(u: Any, v: Any) -> Any:
+        return u[0] * v[1] - u[1] * v[0]
+    whole = cross(b - a, c - a)
+    share = np.array([cross(b - z, c - z), cross(c - z, a - z), cross(a - z, b - z)]) / whole
+    kind = np.result_type(given.dtype, np.float64)
+    result = np.full((at.size, *given.shape[1:]), np.nan, kind)
+    result[known] = np.einsum('kt,tk...->t...', share, given[corners])
+    hidden = np.broadcast_to(~known.reshape(-1, *[1] * (given.ndim - 1)), result.shape)
+    shape = at.shape + given.shape[1:]
+    masked: Any = np.ma.MaskedArray
+    return masked(result.reshape(shape), hidden.reshape(shape))
+
+
+def csr_of(pairs: Ints, count: int) -> tuple[Longs, Ints]:
+    """Neighbours of each of `count` points: (indptr, indices)."""
+    of, to = np.concatenate((pairs, pairs[:, ::-1])).T
+    return offsets_of(np.bincount(of, minlength=count)), to[np.argsort(of.astype(np.int64) * count + to)]
+
+
+def around(engine: _dyadel.Engine, certain: Ints, possible: Ints) -> tuple[Ints, Ints]:
+    """Both counter-clockwise, by exact directions from a place within: for the certain ones that is their order for every
+    choice, as their order along the hull is one for all choices."""
+    ends = {i: engine.rect(i) for i in possible.tolist()}
+    at = {i: (Fraction(*rect[0]), Fraction(*rect[2])) for i, rect in ends.items()}
+    inner = certain.tolist() if len(certain) > 2 else possible.tolist()
+    x, y = (sum((at[i][k] for i in inner), Fraction(0)) / max(len(inner), 1) for k in range(2))
+
+    def turn(i: int) -> Fraction:
+        dx, dy = at[i][0] - x, at[i][1] - y
+        share = dx / size if (size := abs(dx) + abs(dy)) else Fraction(1)
+        return 1 - share if dy >= 0 else 3 + share
+    turns = {i: turn(i) for i in at}
+
+    def ordered(points: Ints) -> Ints:
+        listed = sorted(points.tolist(), key=turns.__getitem__)
+        first = listed.index(min(listed)) if listed else 0
+        return np.array(listed[first:] + listed[:first], np.int32)
+    return ordered(certain), ordered(possible)
 
 
 # ---- graphs ----

@@ -5,14 +5,15 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 from . import _dyadel, _geometry
-from ._arrays import Ints, Rect, ints, rect_of
+from ._arrays import Floats, Ints, Longs, Rect, ints, rect_of
 from ._inputs import Given
 from ._options import INPUTS, Path, engine_options, split_inputs, takes_options
 from ._points import append_given, given_of
-from ._questions import Graph, Nearest, Plan, Tolerance, graph_of, nearest_to, plan_of, tolerance_of
+from ._questions import (Graph, Nearest, NearestPlaces, Plan, Tolerance, around, csr_of, graph_of, interpolated,
+                         named_triangles, nearest_places, nearest_to, plan_of, tolerance_of, triangles_at)
 from ._statuses import STATUS, Statuses
 from ._voronoi import Voronoi
 
@@ -118,10 +119,49 @@ class Delaunay(Statuses):
         return ints(self._engine.discs()).reshape(-1, 3)
 
     @property
+    def points(self) -> Floats:
+        """(N, 2): the centre of each rectangle, rounded to doubles; points of doubles as they are."""
+        return self._once('points', lambda: _geometry.centres(self.boxes))
+
+    @property
+    def vertex_neighbors(self) -> tuple[Longs, Ints]:
+        """(indptr, indices): the points in legal pairs with point k are indices[indptr[k]:indptr[k + 1]], ascending.
+
+            indptr, indices = d.vertex_neighbors
+            around = indices[indptr[5]:indptr[6]]
+        """
+        return self._once('vertex_neighbors', lambda: csr_of(self.legal, len(self)))
+
+    @property
     def hull(self) -> tuple[Ints, Ints]:
-        """Certain corners of the convex hull, and points that may lie on its boundary (possible)."""
-        certain, possible = self._once('hull', self._engine.hull)
-        return ints(certain), ints(possible)
+        """Certain corners of the convex hull, and points that may lie on its boundary (possible), counter-clockwise.
+
+        The order of the certain ones holds for every choice; others are in that of their lower left corners, seen from within.
+
+            certain, possible = d.hull
+            ring = d.points[certain]
+        """
+        certain, possible = self._once('hull', lambda: around(self._engine, *map(ints, self._engine.hull())))
+        return certain, possible
+
+    def find_triangle(self, xy: Any) -> Ints:
+        """The certain triangle that holds each place (M, 2), as a row of `simplices`: it does for every choice, or the place is
+        on a side between exact points. OUTSIDE (-1): the place is outside of the hull for every choice. UNDECIDED (-2): neither
+        is known, as in a region without certain triangles.
+
+            t = d.find_triangle([[0.5, 0.5], [9, 9]])
+            corners = d.simplices[t[t >= 0]]
+        """
+        return triangles_at(self._engine, self._once('named', lambda: named_triangles(self.simplices)), xy)
+
+    def interpolate(self, values: Any, xy: Any) -> Any:
+        """Values (N,) or (N, ...) of the points, linear on the certain triangles between their centres, at places (M, 2): a
+        masked array, nan and masked where no triangle certainly holds the place.
+
+            z = d.interpolate(heights, [[0.5, 0.5], [9, 9]])
+            z.mask, z.filled(0)
+        """
+        return interpolated(self.points, self.simplices, self.find_triangle(xy), values, xy)
 
     def graph(self, name: str) -> Graph:
         """Edges of a graph of neighbours: 'nearest' (j is nearest to i), 'gabriel' or 'mst' (minimum spanning tree)."""
@@ -139,12 +179,29 @@ class Delaunay(Statuses):
 
     # ---- questions ----
 
-    @takes_options()
-    def nearest(self, x: Any, y: Any, **options: Any) -> Nearest:
-        """Points that may be nearest to the place (x, y), any coordinates; refines until one certainly is.
+    @overload
+    def nearest(self, x: Any) -> NearestPlaces: ...
+
+    @overload
+    def nearest(self, x: Any, y: Any, **options: Any) -> Nearest: ...
+
+    def nearest(self, x: Any, y: Any = None, **options: Any) -> Nearest | NearestPlaces:
+        """Points that may be nearest to the place (x, y), any coordinates; refines until one certainly is. Of an array of
+        places (M, 2), doubles, the points that may be nearest to each, for the rectangles as they are: nothing is refined.
 
         options: budgets of delaunay: max_bits, max_calls, timeout.
+
+            found = d.nearest(xy)
+            known = found.single[found.certain]
         """
+        if y is None:
+            if options:
+                raise TypeError(f'nearest() of an array refines nothing and takes no options: {", ".join(options)}')
+            return nearest_places(self._engine, x)
+        return self._nearest(x, y, **options)
+
+    @takes_options()
+    def _nearest(self, x: Any, y: Any, **options: Any) -> Nearest:
         self._cache = {}
         return nearest_to(self._engine, x, y, engine_options(**options))
 

@@ -133,7 +133,7 @@ class Voronoi:
         return self._tiles[0]
 
     def _expect_unchanged(self) -> None:
-        """Raises RuntimeError once the triangulation has changed: what is found now would belong to another diagram."""
+        """Raises RuntimeError once the triangulation has changed: a later answer would belong to another diagram."""
         if self._of._cache is not self._made:
             raise RuntimeError('the triangulation has changed since this diagram was made; call voronoi() again')
 
