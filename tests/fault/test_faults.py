@@ -42,6 +42,7 @@ def cases():
     yield Case('delaunay', 'p', '-o', 'o', inputs=points, outputs=('o',))
     yield Case('delaunay', *COLUMNS, 'p', '-o', 'o', inputs=near, outputs=('o',))
     yield Case('delaunay', *COLUMNS, '--discs', '--merge', '--skip-missing', 'p', '-o', 'o', inputs=near, outputs=('o',))
+    yield Case('delaunay', *COLUMNS, '--merge-by', 'id', 'p', '-o', 'o', inputs={'p': NEAR + b'a,0.25,0,0.5\nf,3,2,1\n'}, outputs=('o',))
     for ending in ('json', 'geojson', 'wkt', 'obj', 'vtk', 'svg', 'pdf', 'png'):
         yield Case('delaunay', 'p', '-o', 'o.' + ending, inputs=exact, outputs=('o.' + ending,),
                    loose=ending in ('svg', 'pdf', 'png', 'json'))

@@ -89,6 +89,7 @@ void fuzz_csv(const uint8_t *data, size_t size) {
   o.merge = size % 7 == 0;
   o.no_header = size % 11 == 0;
   if (o.no_header) o.columns = "1,2", o.id = o.radius_columns = NULL;
+  if (o.id && !o.merge && size % 4 == 1) o.merge_by = "id";
   o.units_row = size % 13 == 0;
   o.thousands = size % 17 == 0 ? "blank" : size % 17 == 1 ? "'" : NULL;
   o.missing = size % 3 ? "-9" : NULL;

@@ -556,7 +556,8 @@ static dyd_status twins_fail(const intake *in, dyd_status st, const dyd_place *i
   return dyd_fail(
       err, DYD_E_PARSE, "rows %zu (line %zu) and %zu are both \"%.*s\", %s", s[0]->row, s[0]->line, s[1]->row,
       id->length < 60 ? (int)id->length : 60, in->ids.text + id->text,
-      st == DYD_E_DOMAIN
+      st == DYD_E_DOMAIN && in->o->keep_radii ? "but not the same place; give other identifiers, or one place for both"
+      : st == DYD_E_DOMAIN
           ? "but have nothing in common; give larger radii (`radius`, `radius_columns`, or `sigma_column` "
             "with `confidence`), or other identifiers"
       : st == DYD_E_ARG
