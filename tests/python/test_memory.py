@@ -47,6 +47,7 @@ def test_bound():
     d = dyadel.delaunay(POINTS, max_bytes=10**8)
     before = d.legal.tolist()
     harness.raised(MemoryError, d.append, POINTS + 2, max_bytes=100000)
+    assert 'the polygons of the cells' in str(harness.raised(MemoryError, dyadel.delaunay(POINTS, max_bytes=500000).voronoi))
     assert d.refine(max_bytes=10**8).outcome == 'decided' and len(d.legal) > len(before)
 
 
