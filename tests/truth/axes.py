@@ -424,7 +424,8 @@ def kind_unit_option(case, rand):
         for s in case.sites:
             s.region = region_of_unit(s, r, unit)
         return
-    case.names = ('r' if way == 'column' else rand.choice((f'r({unit})', f'r [{unit}]')),)
+    named = rand.choice((f'r({unit})', f'r [{unit}]'))
+    case.names = ('r' if way == 'column' else f'r({unit})' if case.form == 'blanks' else named,)
     case.args += ['--radius-column', case.names[0], *(['--radius-unit', unit] if way == 'column' else [])]
     for s in case.sites:
         r = size_in(case, rand, unit)
