@@ -150,8 +150,8 @@ bool dyd_engine_nearest_tied(const dyd_engine *e) {
 
 /* ---- graphs of neighbours ---- */
 
-/* Choices that are drawn before edges count as not settled: at least so many, more of few sites. */
-enum { CHOICES_LEAST = 24, CHOICES_MOST = 512, CHOICES_SITES = 1 << 14 };
+/* Choices that are drawn: so many in all, and in a row without anything new. */
+enum { CHOICES_MOST = 128, CHOICES_IDLE = 8 };
 
 /* site: where edges are that refinement may make certain; seen: of each site, is it in the list; known: edges are those
  * of some rectangles reached. may, may_not: of each edge, is there a choice in the cores that makes it one, and one
@@ -159,6 +159,7 @@ enum { CHOICES_LEAST = 24, CHOICES_MOST = 512, CHOICES_SITES = 1 << 14 };
 typedef struct graph_question {
   dyd_graph graph;
   int64_t level;
+  uint32_t drawn;
   dyd_graph_list edges;
   dyd_index_list site;
   bool *seen, *may, *may_not, known;
@@ -273,8 +274,9 @@ static const dyd_graph_edge *problem_edge(const graph_problem *p, const dyd_grap
   return bsearch(edge, p->edges.item, p->edges.count, sizeof *edge, dyd_compare_two);
 }
 
-/* Draws one choice in the cores, and looks which edges are certain, and which none, whatever the other points are. */
-static dyd_status graph_draw(graph_question *q, const dyd_plan *plan, uint32_t choice, dyd_error *err) {
+/* Draws one choice in the cores, and looks which edges are certain, and which none, whatever the other points are.
+ * *found: one of them was not known to be so. */
+static dyd_status graph_draw(bool *found, graph_question *q, const dyd_plan *plan, uint32_t choice, dyd_error *err) {
   graph_problem p = {0};
   bool good = false;
   dyd_status st = dyd_sites_new(&p.sites);
@@ -283,6 +285,7 @@ static dyd_status graph_draw(graph_question *q, const dyd_plan *plan, uint32_t c
   if (st == DYD_OK) st = problem_solve(&good, &p, q, plan, err);
   for (size_t k = 0; good && st == DYD_OK && k < q->edges.count; k++) {
     const dyd_graph_edge *same = problem_edge(&p, &q->edges.item[k]);
+    *found |= (!q->may[k] && same && same->sure) || (!q->may_not[k] && !same);
     q->may[k] |= same && same->sure;
     q->may_not[k] |= !same;
   }
@@ -372,10 +375,12 @@ static dyd_status graph_ask(bool *answered, dyd_plan *plan, void *user, const dy
   st = graph_reserve(q, sites);
   if (st == DYD_OK) st = graph_has_cores(&cores, e);
   if (st == DYD_OK && cores && graph_can_narrow(q, e)) st = graph_shrink(q, plan, err);
-  size_t most = CHOICES_SITES / sites;
-  most = most < CHOICES_LEAST ? CHOICES_LEAST : most > CHOICES_MOST ? CHOICES_MOST : most;
-  for (uint32_t c = 0; st == DYD_OK && cores && c < most && graph_can_narrow(q, e); c++)
-    st = graph_draw(q, plan, c, err);
+  for (uint32_t idle = 0;
+       st == DYD_OK && cores && q->drawn < CHOICES_MOST && idle < CHOICES_IDLE && graph_can_narrow(q, e);) {
+    bool found = false;
+    st = graph_draw(&found, q, plan, q->drawn++, err);
+    idle = found ? 0 : idle + 1;
+  }
   for (size_t k = 0; st == DYD_OK && k < q->edges.count; k++)
     if (graph_is_open(q, k)) st = graph_take_edge(q, e, &q->edges.item[k]);
   if (st == DYD_OK) nearest_plan(&q->level, plan, &q->site);
