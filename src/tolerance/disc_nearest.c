@@ -6,6 +6,7 @@
  * signs of sqrt(A) - sqrt(B) + s [SQR-2]. */
 #include "base/error.h"
 #include "tolerance/discs.h"
+#include "tolerance/lines.h"
 
 #include <dyadel/tolerance.h>
 #include <mpfr.h>
@@ -52,33 +53,12 @@ static dyd_status disc_view_set(disc_view *v, const dyd_sites *sites, uint32_t i
   return st == DYD_E_ARG ? dyd_fail(err, st, "a disc needs one radius, the same in x and y") : st;
 }
 
-/* Sign of sqrt(a) - sqrt(b) + s: with all denominators cleared. */
-static int roots_sign(mpq_srcptr a, mpq_srcptr b, mpq_srcptr s) {
-  mpz_t d, c, e, minus, one, last;
-  mpz_inits(d, c, e, minus, one, last, NULL);
-  mpz_lcm(d, mpq_denref(a), mpq_denref(b));
-  mpz_lcm(d, d, mpq_denref(s));
-  mpz_divexact(last, d, mpq_denref(s));
-  mpz_mul(last, last, mpq_numref(s));
-  mpz_divexact(c, d, mpq_denref(a));
-  mpz_mul(c, c, mpq_numref(a));
-  mpz_mul(c, c, d);
-  mpz_divexact(e, d, mpq_denref(b));
-  mpz_mul(e, e, mpq_numref(b));
-  mpz_mul(e, e, d);
-  mpz_set_si(one, 1);
-  mpz_set_si(minus, -1);
-  int sign = dyd_sqrt2_sign(last, one, c, minus, e);
-  mpz_clears(d, c, e, minus, one, last, NULL);
-  return sign;
-}
-
 /* Sign of dl_a - dl_b. */
 static int compare_largest(const disc_view *a, const disc_view *b) {
   mpq_t s;
   mpq_init(s);
   mpq_sub(s, a->disc.r, b->disc.r);
-  int sign = roots_sign(a->largest, b->largest, s);
+  int sign = dyd_roots_sign(s, a->largest, b->largest);
   mpq_clear(s);
   return sign;
 }
@@ -89,7 +69,7 @@ static bool may_be_as_near(const disc_view *i, const disc_view *k) {
   mpq_init(s);
   mpq_add(s, i->disc.r, k->disc.r);
   mpq_neg(s, s);
-  int sign = roots_sign(i->least, k->largest, s);
+  int sign = dyd_roots_sign(s, i->least, k->largest);
   mpq_clear(s);
   return sign <= 0;
 }

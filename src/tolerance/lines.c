@@ -182,12 +182,12 @@ static bool line_cross(dyd_bisector_place *at, const dyd_lines *l, size_t a, siz
 
 enum { ROOT_BITS = 128 };
 
-/* The sign of e + 2 sqrt(f) - 2 sqrt(g) for rationals: all over one denominator d, e + 2 sqrt(f d^2) / d ... */
-static int sign_of_roots(mpq_srcptr e, mpq_srcptr f, mpq_srcptr g) {
-  mpz_t d, a, c, h, two, minus_two;
+/* All over one denominator d: e + sqrt(f d^2) / d ... */
+int dyd_roots_sign(mpq_srcptr e, mpq_srcptr f, mpq_srcptr g) {
+  mpz_t d, a, c, h, one, minus;
   mpz_inits(d, a, c, h, NULL);
-  mpz_init_set_si(two, 2);
-  mpz_init_set_si(minus_two, -2);
+  mpz_init_set_si(one, 1);
+  mpz_init_set_si(minus, -1);
   mpz_lcm(d, mpq_denref(e), mpq_denref(f));
   mpz_lcm(d, d, mpq_denref(g));
   mpz_divexact(a, d, mpq_denref(e));
@@ -198,8 +198,8 @@ static int sign_of_roots(mpq_srcptr e, mpq_srcptr f, mpq_srcptr g) {
   mpz_divexact(h, d, mpq_denref(g));
   mpz_mul(h, h, mpq_numref(g));
   mpz_mul(h, h, d);
-  int sign = dyd_sqrt2_sign(a, two, c, minus_two, h);
-  mpz_clears(d, a, c, h, two, minus_two, NULL);
+  int sign = dyd_sqrt2_sign(a, one, c, minus, h);
+  mpz_clears(d, a, c, h, one, minus, NULL);
   return sign;
 }
 
@@ -212,7 +212,9 @@ int dyd_roots_compare(mpq_srcptr p, mpq_srcptr m, mpq_srcptr q, mpq_srcptr n) {
   mpq_sub(e, e, m);
   mpq_mul(f, p, n);
   mpq_mul(g, q, m);
-  int sign = sign_of_roots(e, f, g);
+  mpq_mul_2exp(f, f, 2);
+  mpq_mul_2exp(g, g, 2);
+  int sign = dyd_roots_sign(e, f, g);
   mpq_clears(e, f, g, NULL);
   return sign;
 }

@@ -16,6 +16,8 @@
 /* Numbers sqrt(plus) - sqrt(minus), plus and minus rationals that are not negative: compared exactly, enclosed by
  * doubles. */
 
+/* Sign of e + sqrt(f) - sqrt(g); f and g are not negative. Exact [SQR-2]. */
+int dyd_roots_sign(mpq_srcptr e, mpq_srcptr f, mpq_srcptr g);
 /* Sign of (sqrt(p) - sqrt(m)) - (sqrt(q) - sqrt(n)). Exact [SQR-2]. */
 int dyd_roots_compare(mpq_srcptr p, mpq_srcptr m, mpq_srcptr q, mpq_srcptr n);
 /* Doubles around half of |sqrt(p) - sqrt(m)|, rounded down and up: a unit in the last place apart, or two. Both are 0
