@@ -204,7 +204,8 @@ typedef enum dyd_content {
   DYD_CONTENT_RADII,     /* and its other layers: how far each point may be from its place; */
   DYD_CONTENT_BARCODE,   /* how many edges are certain at which accuracy */
   DYD_CONTENT_PLAN,      /* what to measure next */
-  /* Layers of the triangulation, also as pictures: edges of graphs of neighbours (dyadel/graph.h). */
+  /* Layers of the triangulation, also as pictures: edges of graphs of neighbours, in the order of
+   * dyd_graph (dyadel/graph.h). */
   DYD_CONTENT_GRAPH_NEAREST,
   DYD_CONTENT_GRAPH_GABRIEL,
   DYD_CONTENT_GRAPH_MST,

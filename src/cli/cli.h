@@ -198,6 +198,7 @@ struct cli_session {
   double begun, share;                  /* of the time that is left, the engine's */
   bool forgot;                          /* memory was exhausted when a stage was noted */
   const dyd_pair_list *discs;           /* pairs of discs, borrowed; NULL: none */
+  const dyd_graph_list *graph;          /* of a layer that is a graph, borrowed; NULL: not known */
   const dyd_voronoi_bounds *bounds;     /* of the diagram written, borrowed; NULL: none */
   const dyd_converge_options *converge; /* for the trace, borrowed; NULL: none */
   FILE *noted;                          /* takes the comments of csv, for standard error; NULL: they are not noted */
@@ -233,6 +234,10 @@ void cli_session_lacks(cli_session *s, dyd_outcome outcome, const char *what);
 int cli_session_stopped(cli_session *s, const char *what);
 /* Was the last run neither cancelled nor cut by the end of time, and is there a result? */
 bool cli_run_was_whole(const dyd_engine *e);
+/* Returns true for layers that are graphs of neighbours. */
+static inline bool cli_layer_is_graph(dyd_content layer) {
+  return layer >= DYD_CONTENT_GRAPH_NEAREST && layer <= DYD_CONTENT_GRAPH_MST;
+}
 /* DYD_CANCELLED, a partial result: reports the missing part, and returns DYD_OK. Returns other statuses unchanged. */
 dyd_status cli_session_cut(dyd_status st, const dyd_error *err);
 /* Exit status where work was cut short, by the end of time or on request. */

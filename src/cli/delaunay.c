@@ -23,11 +23,6 @@ static const cli_work *delaunay_instead(const cli_options *o) {
   return o->sphere ? &cli_sphere : o->discs ? &work_discs : NULL;
 }
 
-typedef struct delaunay_result {
-  dyd_graph_list graph; /* of a layer that is a graph, if known */
-  bool known;
-} delaunay_result;
-
 /* Statuses found before a point failed stay true: they are written, and the exit status reports the failure. */
 static int pairs_find(cli_session *s) {
   int status = cli_session_run(s, &s->o.engine, cli_run_engine);
@@ -36,28 +31,20 @@ static int pairs_find(cli_session *s) {
   return status;
 }
 
-/* Sets *graph to that of the layer; false: it is none. */
-static bool layer_is_graph(dyd_graph *graph, dyd_content layer) {
-  *graph = layer == DYD_CONTENT_GRAPH_MST       ? DYD_GRAPH_MST
-           : layer == DYD_CONTENT_GRAPH_GABRIEL ? DYD_GRAPH_GABRIEL
-                                                : DYD_GRAPH_NEAREST;
-  return *graph != DYD_GRAPH_NEAREST || layer == DYD_CONTENT_GRAPH_NEAREST;
-}
-
 static dyd_status run_graph(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
-  delaunay_result *r = s->state;
-  dyd_graph graph;
-  layer_is_graph(&graph, s->o.content);
-  dyd_status st = dyd_engine_graph(&r->graph, &s->outcome, s->engine, graph, options, err);
-  r->known = st == DYD_OK;
-  if (!r->known) s->outcome = DYD_OUTCOME_NONE;
+  dyd_graph_list *list = s->state;
+  dyd_graph graph = (dyd_graph)(s->o.content - DYD_CONTENT_GRAPH_NEAREST);
+  dyd_status st = dyd_engine_graph(list, &s->outcome, s->engine, graph, options, err);
+  if (st == DYD_OK)
+    s->graph = list;
+  else
+    s->outcome = DYD_OUTCOME_NONE;
   return st > 0 ? DYD_OK : st;
 }
 
 static int delaunay_find(cli_session *s) {
-  dyd_graph graph;
   int status = pairs_find(s);
-  if (status || !layer_is_graph(&graph, s->o.content) || !cli_run_was_whole(s->engine)) return status;
+  if (status || !cli_layer_is_graph(s->o.content) || !cli_run_was_whole(s->engine)) return status;
   return cli_session_run(s, &s->o.engine, run_graph);
 }
 
@@ -65,11 +52,10 @@ static int delaunay_find(cli_session *s) {
 static dyd_status delaunay_write(FILE *out, const cli_session *s, dyd_error *err) {
   const cli_options *o = &s->o;
   dyd_tolerance *tolerance = NULL;
-  const delaunay_result *r = s->discs ? NULL : s->state;
   if (!s->discs && o->format == DYD_FORMAT_HTML) tolerance = find_tolerance(dyd_engine_delaunay(s->engine));
   const dyd_write_options how = {DYD_SIZED(dyd_write_options),
                                  .window = s->view,
-                                 .graph = r && r->known ? &r->graph : NULL,
+                                 .graph = s->graph,
                                  .pairs = s->discs,
                                  .epsg = o->epsg,
                                  .history = s->discs ? NULL : s->history,
@@ -85,16 +71,18 @@ static dyd_status delaunay_write(FILE *out, const cli_session *s, dyd_error *err
 
 /* Of the diagram, where the engine has a window; else of the pairs, and the graph of --layer. */
 static dyd_status write_certificate(FILE *out, const cli_session *s, dyd_error *err) {
-  dyd_graph graph;
   dyd_graph_list list = {0};
   dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .window = s->o.engine.window};
   dyd_status st = DYD_OK;
   parts.diagram = parts.window;
   parts.discs = parts.diagram ? NULL : s->discs;
-  if (!parts.diagram && !s->discs && layer_is_graph(&graph, s->o.content)) {
-    parts.kind = (int)graph;
-    parts.graph = &list;
-    st = dyd_graph_edges(&list, dyd_engine_delaunay(s->engine), graph, cli_signals_flag(), err);
+  if (!parts.diagram && !s->discs && cli_layer_is_graph(s->o.content)) {
+    parts.kind = (int)(s->o.content - DYD_CONTENT_GRAPH_NEAREST);
+    /* Where the run was cut, rectangles may be narrower than those of the graph. */
+    bool found = s->graph && (s->outcome == DYD_OUTCOME_DECIDED || s->outcome == DYD_OUTCOME_FIXPOINT);
+    parts.graph = found ? s->graph : &list;
+    if (!found)
+      st = dyd_graph_edges(&list, dyd_engine_delaunay(s->engine), (dyd_graph)parts.kind, cli_signals_flag(), err);
   }
   if (st == DYD_OK) st = dyd_write_certificate(out, s->engine, &parts, err);
   dyd_graph_list_clear(&list);
@@ -103,22 +91,22 @@ static dyd_status write_certificate(FILE *out, const cli_session *s, dyd_error *
 
 /* Of a graph, how many of its edges are certain. */
 static int delaunay_summary(cli_session *s, int status) {
-  const delaunay_result *r = s->state;
+  const dyd_graph_list *list = s->graph;
   size_t sure = 0;
   status = cli_pairs_summary(s, status);
   bool failed = status == CLI_FAILED || status == CLI_USAGE;
-  if (failed || !r->known || cli_exit_status(s->outcome) <= status) return status;
-  for (size_t k = 0; k < r->graph.count; k++) sure += r->graph.item[k].sure;
+  if (failed || !list || cli_exit_status(s->outcome) <= status) return status;
+  for (size_t k = 0; k < list->count; k++) sure += list->item[k].sure;
   cli_note(&s->o, "%s: %zu edges of the graph are certain, %zu possible", dyd_outcome_text(s->outcome), sure,
-           r->graph.count - sure);
+           list->count - sure);
   return cli_exit_status(s->outcome);
 }
 
 static void delaunay_end(cli_session *s) {
-  dyd_graph_list_clear(&((delaunay_result *)s->state)->graph);
+  dyd_graph_list_clear(s->state);
 }
 
-const cli_work cli_delaunay = {.size = sizeof(delaunay_result),
+const cli_work cli_delaunay = {.size = sizeof(dyd_graph_list),
                                .instead = delaunay_instead,
                                .find = delaunay_find,
                                .write = delaunay_write,

@@ -666,9 +666,8 @@ static void note_spacing(const dyd_delaunay *pd, const cli_options *o) {
 
 /* A line when points have no row in wkt or geojson, since they coincide with others. */
 static void note_aliases(const dyd_delaunay *pd, const cli_options *o) {
-  bool of_points = o->content == DYD_CONTENT_DELAUNAY || o->content == DYD_CONTENT_VORONOI ||
-                   o->content == DYD_CONTENT_GRAPH_NEAREST || o->content == DYD_CONTENT_GRAPH_GABRIEL ||
-                   o->content == DYD_CONTENT_GRAPH_MST;
+  bool of_points =
+      o->content == DYD_CONTENT_DELAUNAY || o->content == DYD_CONTENT_VORONOI || cli_layer_is_graph(o->content);
   size_t aliases = 0, n = pd ? dyd_sites_count(dyd_delaunay_sites(pd)) : 0;
   if (!of_points || (o->format != DYD_FORMAT_WKT && o->format != DYD_FORMAT_GEOJSON)) return;
   for (size_t i = 0; i < n; i++) aliases += dyd_delaunay_alias(pd, (uint32_t)i) != i;

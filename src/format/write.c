@@ -45,14 +45,7 @@ static dyd_status result_init(dyd_result *r, dyd_output *to, const dyd_write_opt
   return DYD_OK;
 }
 
-static const struct {
-  dyd_content layer;
-  dyd_graph graph;
-  const char *name;
-} graph_layers[] = {{DYD_CONTENT_GRAPH_NEAREST, DYD_GRAPH_NEAREST, "nearest neighbours"},
-                    {DYD_CONTENT_GRAPH_GABRIEL, DYD_GRAPH_GABRIEL, "Gabriel graph"},
-                    {DYD_CONTENT_GRAPH_MST, DYD_GRAPH_MST, "minimum spanning tree"}};
-enum { GRAPH_LAYERS = sizeof graph_layers / sizeof *graph_layers };
+static const char *const graph_names[] = {"nearest neighbours", "Gabriel graph", "minimum spanning tree"};
 
 /* The edges as pairs, for pictures: each once, legal where it is sure, from one end at least. */
 static dyd_status pairs_of_graph(dyd_result *r) {
@@ -73,16 +66,15 @@ static dyd_status pairs_of_graph(dyd_result *r) {
 /* The edges, which are written instead of the pairs, if the layer is a graph. */
 static dyd_status result_graph(bool *graph, dyd_result *r, dyd_content layer, const dyd_write_options *o,
                                dyd_error *err) {
-  size_t k = 0;
-  while (k < GRAPH_LAYERS && graph_layers[k].layer != layer) k++;
-  *graph = k < GRAPH_LAYERS;
+  *graph = layer >= DYD_CONTENT_GRAPH_NEAREST && layer <= DYD_CONTENT_GRAPH_MST;
   if (!*graph) return DYD_OK;
-  r->graph_name = graph_layers[k].name;
+  const dyd_graph which = (dyd_graph)(layer - DYD_CONTENT_GRAPH_NEAREST);
+  r->graph_name = graph_names[which];
   dyd_status st = DYD_OK;
   if (o->graph)
     r->graph = *o->graph;
   else
-    st = dyd_graph_edges(&r->graph, r->pd, graph_layers[k].graph, o->cancel, err);
+    st = dyd_graph_edges(&r->graph, r->pd, which, o->cancel, err);
   return st == DYD_OK ? pairs_of_graph(r) : st;
 }
 
