@@ -373,8 +373,8 @@ static dyd_status graph_ask(bool *answered, dyd_plan *plan, void *user, const dy
   if (st != DYD_OK || *answered) return st;
   bool cores = false;
   st = graph_reserve(q, sites);
-  if (st == DYD_OK) st = graph_has_cores(&cores, e);
-  if (st == DYD_OK && cores && graph_can_narrow(q, e)) st = graph_shrink(q, plan, err);
+  if (st == DYD_OK && graph_can_narrow(q, e)) st = graph_has_cores(&cores, e);
+  if (st == DYD_OK && cores) st = graph_shrink(q, plan, err);
   for (uint32_t idle = 0;
        st == DYD_OK && cores && q->drawn < CHOICES_MOST && idle < CHOICES_IDLE && graph_can_narrow(q, e);) {
     bool found = false;
