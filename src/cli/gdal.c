@@ -244,12 +244,11 @@ static bool latitude_is_first(OGRSpatialReferenceH crs) {
   return count >= 2 && axis[0] == 1 && first == OAO_North;
 }
 
-static int refuse_system(const char *name, const cli_options *o, const char *crs, bool degrees) {
+static int refuse_system(const char *name, const char *crs, bool degrees) {
   if (degrees)
     return cli_usage("%s: the coordinates are longitude and latitude in degrees (%s); for neighbours on the globe give "
                      "--sphere (delaunay, voronoi), to take degrees as coordinates of a plane --plane",
                      name, crs);
-  (void)o;
   return cli_usage("%s: the coordinates are not degrees (%s); leave --sphere away, or turn them into degrees: ogr2ogr "
                    "-t_srs EPSG:4326 degrees.gpkg %s",
                    name, crs, name);
@@ -267,7 +266,7 @@ static int take_system(feature_source *s, const char *name, cli_options *o) {
   if (o->epsg && epsg && o->epsg != epsg)
     return cli_usage("%s: the reference system of the file is EPSG:%u; leave --crs EPSG:%u away", name, epsg, o->epsg);
   if (o->sphere ? !degrees && OSRIsProjected(crs) : degrees && !o->plane && !implied)
-    return refuse_system(name, o, called ? called : "no name", degrees);
+    return refuse_system(name, called ? called : "no name", degrees);
   if (degrees && !o->sphere && !o->plane)
     cli_note(
         o,
@@ -352,10 +351,11 @@ static bool title_is(const char *list, const char *title) {
   return false;
 }
 
-static bool title_is_carried(const char *title) {
-  size_t k = 0;
-  while (k < MOST_FIELDS && carried[k].name[0] && strcmp(carried[k].name, title) != 0) k++;
-  return k < MOST_FIELDS && carried[k].name[0];
+/* The number of the carried field of this name; MOST_FIELDS: there is none. */
+static size_t carried_find(const char *title) {
+  for (size_t k = 0; k < MOST_FIELDS && carried[k].name[0]; k++)
+    if (strcmp(carried[k].name, title) == 0) return k;
+  return MOST_FIELDS;
 }
 
 static OGRFieldType type_of(const char *title) {
@@ -368,9 +368,8 @@ static OGRFieldType type_of(const char *title) {
                "half_width_needed length_lo length_hi max_coordinate_error accuracy",
                title))
     return OFTReal;
-  for (size_t k = 0; k < MOST_FIELDS && carried[k].name[0]; k++)
-    if (strcmp(carried[k].name, title) == 0) return carried[k].type;
-  return OFTString;
+  size_t k = carried_find(title);
+  return k < MOST_FIELDS ? carried[k].type : OFTString;
 }
 
 static bool title_is_lower(const char *title) {
@@ -421,7 +420,7 @@ static void set_feature_field(OGRFeatureH f, int at, const char *title, const ch
   if (!*text) return;
   if (type == OFTInteger64)
     OGR_F_SetFieldInteger64(f, at, strtoll(text, NULL, 10));
-  else if (type != OFTReal || title_is_carried(title))
+  else if (type != OFTReal || carried_find(title) < MOST_FIELDS)
     OGR_F_SetFieldString(f, at, text);
   else if (loss > 0 && strcmp(title, "max_coordinate_error") == 0)
     OGR_F_SetFieldDouble(f, at, nextafter(decimal_toward(text, FE_UPWARD) + loss, INFINITY));

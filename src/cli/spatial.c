@@ -104,8 +104,8 @@ static void become_gdal(char **argv) {
 }
 
 int cli_spatial_switch(const cli_options *o, char **argv) {
-  bool needed = o->driver || o->in_layer || cli_spatial_kind(o->points) || cli_spatial_kind(o->queries);
   if (cli_gdal_here || o->help || o->version || !o->command) return 0;
+  bool needed = o->driver || o->in_layer || cli_spatial_kind(o->points) || cli_spatial_kind(o->queries);
   if (!needed && (strcmp(o->command, "verify") == 0 || !cli_spatial_kind(o->file))) return 0;
   become_gdal(argv);
   return complain_without(o);

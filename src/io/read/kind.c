@@ -8,7 +8,7 @@
 #include <string.h>
 #include <strings.h>
 
-#define TABLE(options) "ogr2ogr -f CSV /vsistdout/ " options " -lco GEOMETRY=AS_XY", "X,Y", NULL, true
+#define TABLE(options) "ogr2ogr -f CSV /vsistdout/ " options " -lco GEOMETRY=AS_XY", "X,Y", NULL
 #define BYTES(text) text, sizeof(text) - 1
 
 /* What a file begins with, and what stands in its first bytes besides (NULL: anything). The first row that fits
@@ -22,16 +22,16 @@ static const struct kind_row {
 } kind_rows[] = {
     {BYTES("PK\3\4"), ".shp", false, {"a zip archive with a Shapefile", TABLE("/vsizip/FILE")}},
     {BYTES("PK\3\4"), ".kml", false, {"KML in a zip archive (KMZ)", TABLE("/vsizip/FILE")}},
-    {BYTES("PK\3\4"), NULL, false, {"a zip archive or a spreadsheet", NULL, NULL, "save it as CSV", false}},
-    {BYTES("\xD0\xCF\x11\xE0"), NULL, false, {"a spreadsheet", NULL, NULL, "save it as CSV", false}},
-    {BYTES("BZh"), NULL, false, {"packed by bzip2", NULL, NULL, "unpack it, or pack it by gzip or zstd", false}},
+    {BYTES("PK\3\4"), NULL, false, {"a zip archive or a spreadsheet", NULL, NULL, "save it as CSV"}},
+    {BYTES("\xD0\xCF\x11\xE0"), NULL, false, {"a spreadsheet", NULL, NULL, "save it as CSV"}},
+    {BYTES("BZh"), NULL, false, {"packed by bzip2", NULL, NULL, "unpack it, or pack it by gzip or zstd"}},
     {BYTES("\xFD"
            "7zXZ"),
      NULL,
      false,
-     {"packed by xz", NULL, NULL, "unpack it, or pack it by gzip or zstd", false}},
-    {BYTES("\xFF\xFE"), NULL, false, {"text in UTF-16", NULL, NULL, "save it as UTF-8", false}},
-    {BYTES("\xFE\xFF"), NULL, false, {"text in UTF-16", NULL, NULL, "save it as UTF-8", false}},
+     {"packed by xz", NULL, NULL, "unpack it, or pack it by gzip or zstd"}},
+    {BYTES("\xFF\xFE"), NULL, false, {"text in UTF-16", NULL, NULL, "save it as UTF-8"}},
+    {BYTES("\xFE\xFF"), NULL, false, {"text in UTF-16", NULL, NULL, "save it as UTF-8"}},
     {BYTES("\0\0\x27\x0A"), NULL, true, {"a Shapefile", TABLE("FILE")}},
     {BYTES("SQLite format 3"), NULL, true, {"an SQLite database, perhaps a GeoPackage", TABLE("FILE")}},
     {BYTES("fgb\3"), NULL, true, {"FlatGeobuf", TABLE("FILE")}},
@@ -41,20 +41,20 @@ static const struct kind_row {
      NULL,
      true,
      {"an array of NumPy", "python3 -c 'import sys, numpy; numpy.savetxt(sys.stdout, numpy.load(\"FILE\"), \"%r\")'",
-      NULL, NULL, false}},
-    {BYTES("LASF"), NULL, true, {"LAS or LAZ", NULL, NULL, "write x and y as text, by las2txt or pdal", false}},
-    {BYTES("%PDF"), NULL, true, {"PDF", NULL, NULL, "copy its table to a text file", false}},
+      NULL, NULL}},
+    {BYTES("LASF"), NULL, true, {"LAS or LAZ", NULL, NULL, "write x and y as text, by las2txt or pdal"}},
+    {BYTES("%PDF"), NULL, true, {"PDF", NULL, NULL, "copy its table to a text file"}},
     {BYTES("<"), "<gpx", true, {"GPX", TABLE("FILE waypoints")}},
     {BYTES("<"), "<kml", true, {"KML", TABLE("FILE")}},
     {BYTES("<"), "<osm", true, {"OpenStreetMap XML", TABLE("FILE points")}},
-    {BYTES("<"), "<html", true, {"HTML", NULL, NULL, "save its table as CSV", false}},
+    {BYTES("<"), "<html", true, {"HTML", NULL, NULL, "save its table as CSV"}},
     {BYTES("<"), "gml", true, {"GML", TABLE("FILE")}},
-    {BYTES("<"), "<", true, {"XML or HTML", NULL, NULL, "save its table as CSV", false}},
+    {BYTES("<"), "<", true, {"XML or HTML", NULL, NULL, "save its table as CSV"}},
     {BYTES("{"), "\"Topology\"", true, {"TopoJSON", TABLE("FILE")}},
     {BYTES("{"), "\"type\"", true, {"GeoJSON", TABLE("FILE")}},
-    {BYTES("{"), NULL, true, {"JSON", NULL, NULL, "make a table of it, for instance by jq", false}},
-    {BYTES("[{"), NULL, true, {"JSON", NULL, NULL, "make a table of it, for instance by jq", false}},
-    {BYTES("[["), NULL, true, {"JSON", "jq -r '.[] | @tsv' FILE", NULL, NULL, false}},
+    {BYTES("{"), NULL, true, {"JSON", NULL, NULL, "make a table of it, for instance by jq"}},
+    {BYTES("[{"), NULL, true, {"JSON", NULL, NULL, "make a table of it, for instance by jq"}},
+    {BYTES("[["), NULL, true, {"JSON", "jq -r '.[] | @tsv' FILE", NULL, NULL}},
 };
 
 /* Words that begin a geometry in WKT. */

@@ -8,10 +8,9 @@
 #include <stddef.h>
 
 /* A format. make: a command that writes a table of FILE, with these columns of x and y, or, without any, a points file;
- * NULL: `remedy` says what to do. gdal: GDAL reads it. */
+ * NULL: `remedy` says what to do. */
 typedef struct dyd_file_kind {
   const char *name, *make, *columns, *remedy;
-  bool gdal;
 } dyd_file_kind;
 
 /* Returns the format of a file that begins with these bytes, unpacked; NULL where they may be text of the kind wanted:
