@@ -70,6 +70,22 @@ def expect(result, code, out='', err=''):
     assert re.search(err, result.err, re.M), f'standard error lacks {err!r}: {result.err[:600]!r}'
 
 
+def nearer_part(ring, site, other):
+    """The part of a convex ring that is no farther from site than from other."""
+    normal = (other[0] - site[0], other[1] - site[1])
+    level = (other[0] ** 2 + other[1] ** 2 - site[0] ** 2 - site[1] ** 2) / 2
+    side = [z[0] * normal[0] + z[1] * normal[1] - level for z in ring]
+    out = []
+    for k, z in enumerate(ring):
+        m = (k + 1) % len(ring)
+        if side[k] <= 0:
+            out.append(z)
+        if side[k] * side[m] < 0:
+            t = side[k] / (side[k] - side[m])
+            out.append(tuple(z[a] + t * (ring[m][a] - z[a]) for a in (0, 1)))
+    return out
+
+
 def main(tests):
     """Runs functions (named test_...) and ends the process."""
     failed = 0

@@ -15,7 +15,7 @@ import math
 import random
 import tempfile
 
-from harness import cases, expect, main, run
+from harness import cases, expect, main, nearer_part, run
 
 DRAWS = cases(2000)
 N = 12
@@ -182,20 +182,6 @@ def test_nearest_and_graph():
     assert false <= most_false(0.5), false
 
 
-def clipped(polygon, p, q):
-    """The part of a convex polygon that is nearer to p than to q."""
-    a, b = q[0] - p[0], q[1] - p[1]
-    c = (q[0] ** 2 - p[0] ** 2 + q[1] ** 2 - p[1] ** 2) / 2
-    out = []
-    for (x, y), (u, v) in zip(polygon, polygon[1:] + polygon[:1]):
-        s, t = a * x + b * y - c, a * u + b * v - c
-        if s <= 0:
-            out.append((x, y))
-        if s * t < 0:
-            out.append((x + (u - x) * s / (s - t), y + (v - y) * s / (s - t)))
-    return out
-
-
 def area(polygon):
     return abs(sum(x * v - u * y for (x, y), (u, v) in zip(polygon, polygon[1:] + polygon[:1]))) / 2
 
@@ -212,7 +198,7 @@ def test_voronoi():
             polygon = [(0, 0), (40, 0), (40, 40), (0, 40)]
             for j in range(N):
                 if j != i and polygon:
-                    polygon = clipped(polygon, t[i], t[j])
+                    polygon = nearer_part(polygon, t[i], t[j])
             lo, hi = cells.get(i, (0, 0))
             if not lo - 1e-9 <= area(polygon) <= hi + 1e-9:
                 false += 1

@@ -13,7 +13,7 @@ import re
 import sys
 from fractions import Fraction
 
-from harness import expect, main, run
+from harness import expect, main, nearer_part, run
 
 try:
     import shapely.geometry
@@ -41,22 +41,6 @@ def area2(ring):
     return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:] + ring[:1]))
 
 
-def cut(ring, site, other):
-    """The part of a convex ring that is no farther from site than from other."""
-    normal = (other[0] - site[0], other[1] - site[1])
-    level = (other[0] ** 2 + other[1] ** 2 - site[0] ** 2 - site[1] ** 2) / 2
-    side = [z[0] * normal[0] + z[1] * normal[1] - level for z in ring]
-    out = []
-    for k, z in enumerate(ring):
-        m = (k + 1) % len(ring)
-        if side[k] <= 0:
-            out.append(z)
-        if side[k] * side[m] < 0:
-            t = side[k] / (side[k] - side[m])
-            out.append(tuple(z[a] + t * (ring[m][a] - z[a]) for a in (0, 1)))
-    return out
-
-
 def cells(points, window):
     x0, x1, y0, y1 = window
     found = {}
@@ -65,7 +49,7 @@ def cells(points, window):
             continue
         ring = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
         for q in sorted(set(points) - {p}, key=lambda q, p=p: (q[0] - p[0]) ** 2 + (q[1] - p[1]) ** 2):
-            ring = cut(ring, p, q)
+            ring = nearer_part(ring, p, q)
             if not ring:
                 break
         found[i] = ring
