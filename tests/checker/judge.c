@@ -3,6 +3,7 @@
  * stated and proved. Exit status 1, and a word on which one, when a verdict is another; why something is rejected does
  * not count. test_seeded.py links it with checkers that have a fault. */
 #include "checker/checker.h"
+#include "checker/cocircular.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -28,6 +29,24 @@ static bool text_gets(const char *verdict, char *text, size_t length) {
   return strcmp(found, verdict) == 0;
 }
 
+static bool circle_gets(char *line) {
+  dyd_cert_region at[4];
+  const dyd_cert_region *const four[4] = {&at[0], &at[1], &at[2], &at[3]};
+  char *rest = NULL, *word = strtok_r(line, " ", &rest);
+  for (int k = 0; k < 4; k++) dyd_cert_region_init(&at[k]);
+  bool good = true;
+  for (int k = 0; k < 8 && good; k++) {
+    word = strtok_r(NULL, " ", &rest);
+    good = word && mpq_set_str(at[k / 2].mid[k % 2], word, 10) == 0;
+    if (good) mpq_canonicalize(at[k / 2].mid[k % 2]);
+  }
+  word = strtok_r(NULL, " ", &rest);
+  good = good && word && strcmp(word, dyd_cert_are_cocircular(four) ? "yes" : "no") == 0;
+  if (!good) printf("the circle before \"%s\" is judged otherwise\n", word ? word : "");
+  for (int k = 0; k < 4; k++) dyd_cert_region_clear(&at[k]);
+  return good;
+}
+
 int main(int argc, char **argv) {
   FILE *file = argc == 2 ? fopen(argv[1], "r") : NULL;
   char *text = NULL, *line = NULL;
@@ -35,13 +54,14 @@ int main(int argc, char **argv) {
   bool good = true;
   FILE *all = open_memstream(&text, &length);
   while (file && all && good && getline(&line, &cap, file) > 0) {
-    if (strncmp(line, "---- ", 5) != 0) {
+    bool circle = strncmp(line, "circle ", 7) == 0;
+    if (!circle && strncmp(line, "---- ", 5) != 0) {
       fputs(line, all);
       continue;
     }
     fflush(all);
     line[strcspn(line, "\n")] = 0;
-    good = text_gets(line + 5, text, length);
+    good = circle ? circle_gets(line) : text_gets(line + 5, text, length);
     judged++;
     rewind(all);
   }

@@ -5,11 +5,12 @@
 
 Usage: test_seeded.py CC ROOT LIBRARY [COUNT SEED FILE...]   (exit status 1 when a fault goes unnoticed)
 
-forgeries.txt, forgeries_parts.txt and forgeries_sphere.txt have certificates, each with its verdict: what is rejected, and what is accepted with which gaps. Most are one
-step from a good one, counts put right. The checker has to give these verdicts; a copy of one of its sources with a fault
-(a check removed or weakened, a < made <= at a tie), linked with the rest from LIBRARY, must give another one. Each fault
-replaces a text, which must occur once. SURVIVORS change nothing that could be noticed, for the reason given. With COUNT,
-so many faults drawn at random in these sources instead, as by tests/support/mutants.py, which goes on with what survives.
+circles.txt has places on one circle, or not; forgeries*.txt certificates, each with its verdict: what is rejected, and
+what is accepted with which gaps. Most are one step from a good one, counts put right. The checker has to give these
+verdicts; a copy of one of its sources with a fault (a check removed or weakened, a < made <= at a tie), linked with the
+rest from LIBRARY, must give another one. Each fault replaces a text, which must occur once. SURVIVORS change nothing
+that could be noticed, for the reason given. With COUNT, so many faults drawn at random in these sources instead, as by
+tests/support/mutants.py, which goes on with what survives.
 """
 import concurrent.futures
 import pathlib
@@ -50,6 +51,17 @@ FAULTS = [
      'return c->points > 0 && chain_separates(c, s, i, j);'),
     ('chain.c', '!= ray_crosses(p, q, c->point[c->points - 1], c->u[1]);', ';'),
     ('chain.c', 'k + 1 < c->points; k++) odd ^=', 'k + 2 < c->points; k++) odd ^='),
+    ('cocircular.c', 'return mpz_cmp_ui(mpq_denref(q), 1) == 0 && ', 'return '),
+    ('cocircular.c', ' || !mpq_equal(c->mid[1], d->mid[1])) return false;', ') return false;'),
+    ('cocircular.c', 'is_multiple(turn, 360)', 'is_multiple(turn, 180)'),
+    ('cocircular.c', '  mpq_sub(turn, turn, d->mid[0]);\n', ''),
+    ('cocircular.c', 'k < 4; k++) all = all && mpq_equal', 'k < 3; k++) all = all && mpq_equal'),
+    ('cocircular.c', 'all = all && is_multiple(turn, 180);', 'all = is_multiple(turn, 180);'),
+    ('cocircular.c', 'chords_are_mirrored(at[0], at[2], at[1], at[3])', 'false'),
+    ('cocircular.c', '(k < 3 ? dyd_cert_enclosure_add : dyd_cert_enclosure_sub)(out, &t);', 'dyd_cert_enclosure_add(out, &t);'),
+    ('cocircular.c', 'dyd_cert_enclosure_sub(&v[k][a], &v[0][a]);', 'dyd_cert_enclosure_sub(&v[k][a], &v[1][a]);'),
+    ('cocircular.c', 'dyd_cert_enclosure_set(&v[2], &lat.s);', 'dyd_cert_enclosure_set(&v[2], &lon.s);'),
+    ('cocircular.c', 'bool flat = is_below(&det, p - bits);', 'bool flat = is_below(&det, p);'),
     ('witness.c', 'if (dyd_cert_fraction_cmp(&s->radius2, &s->here) < 0) return true;',
      'if (dyd_cert_fraction_cmp(&s->radius2, &s->here) <= 0) return true;'),
     ('witness.c', '  if (dyd_cert_fraction_cmp(&q.here, &q.radius2) > 0) dyd_cert_fraction_swap(&q.here, &q.radius2);\n', ''),
@@ -347,6 +359,8 @@ SURVIVORS = [
     ('chain.c', 'dyd_cert_cross(a, b, from, q) < 0;',
      'dyd_cert_cross(a, b, from, q) <= 0;',
      'no blocked line meets a place'),
+    ('cocircular.c', 'is_flat(at, SPARE, 2 * SPARE) && is_flat(at, bits, bits + SPARE)', 'is_flat(at, SPARE, 2 * SPARE)',
+     'no four places of an order that is taken are known to be that near to a circle'),
     ('faces.c', 'stack[top - 1], v) <= 0) top--;',
      'stack[top - 1], v) < 0) top--;',
      'nobody is surely beyond two neighbours and on the line between them'),
@@ -435,7 +449,8 @@ def try_drawn(seeds, sources, certificates, count, seed, names):
 def main():
     cc, root, library, *drawn = sys.argv[1:]
     root = pathlib.Path(root)
-    certificates = [root / 'tests/checker' / f'forgeries{part}.txt' for part in ('', '_parts', '_sphere')]
+    certificates = [root / 'tests/checker' / name for name in
+                    ('circles.txt', 'forgeries.txt', 'forgeries_parts.txt', 'forgeries_sphere.txt')]
     sources = root / 'src/checker'
     with tempfile.TemporaryDirectory() as name:
         seeds = Seeds(cc, root, library, pathlib.Path(name))
