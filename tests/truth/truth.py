@@ -178,6 +178,17 @@ def random_rows(space, seed):
             yield row
 
 
+def count_triples(space, rows):
+    """How many triples of values the rows hold, and how many go together."""
+    met = set()
+    for row in rows:
+        met.update(itertools.combinations([(a, row[a]) for a in ORDER], 3))
+    fit = 0
+    for triple in itertools.combinations(ORDER, 3):
+        fit += sum(space.fits(dict(zip(triple, v))) for v in itertools.product(*(AXES[a] for a in triple)))
+    return len(met), fit
+
+
 # ---- one case ----
 
 def build(row, seed):
@@ -554,15 +565,19 @@ def main():
     p.add_argument('--tiles')
     p.add_argument('--limit', type=float, default=20)
     p.add_argument('--table', action='store_true')
+    p.add_argument('--triples', action='store_true', help='only count the triples of values that the cases cover')
     a = p.parse_args()
     python = a.python and os.path.isdir(a.python) and a.python
     space = Space(a.command, python, a.capi, a.tiles)
+    design, never = pairs_design(space, a.seed)
+    rows = itertools.chain(design, random_rows(space, a.seed)) if a.cases else design
+    if a.triples:
+        print('triples of values: %d of %d that go together' % count_triples(space, itertools.islice(rows, a.cases or None)))
+        return 0
     product = Product(a.command, python, a.capi, a.tiles, a.limit)
     against = Product(a.against, python, a.capi, a.tiles, a.limit) if a.against else None
     run = Run(space, product, a.seed, a.effort, sys.stdout, against)
-    design, never = pairs_design(space, a.seed)
     want = dict(w.split('=') for w in a.where)
-    rows = itertools.chain(design, random_rows(space, a.seed)) if a.cases else design
     k, n = map(int, a.shard.split('/'))
     try:
         for number, row in enumerate(rows):
