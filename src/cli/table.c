@@ -115,7 +115,7 @@ const cli_option cli_option_table[] = {
     {"no-header", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "the table has no header: --columns and the like are numbers",
      AT(read.no_header)},
     {"units-row", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
-     "the row behind the header holds units: no point, but with\n--sphere the unit of radii", AT(read.units_row)},
+     "the row behind the header holds units and no point; with\n--sphere they are the units of radii", AT(read.units_row)},
     {"skip-lines", 0, "N", CLI_TEXT, TEXT, CLI_INPUT, "leave out the first N lines of FILE", AT(read.skip_lines)},
     {"radius-column", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT,
      "widen each point by the value in this column; NAME,NAME\nfor x and y apart; with --sphere each value, the "

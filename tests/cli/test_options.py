@@ -61,6 +61,13 @@ def options(text):
             } | {name: None for name in re.findall(r'^  (?:-\w, )?(--[\w-]+)  ', text, re.M)}
 
 
+def test_every_option_is_explained():
+    """Clauses about options that a command lacks are not all that its help says of another."""
+    for name, _ in commands():
+        bare = re.findall(r'^  (--[\w-]+(?: [A-Z,]+)?) *\n(?! {20})', help_of(name), re.M)
+        assert not bare, (name, bare)
+
+
 def test_every_option_has_wrong_values():
     known = options(help_of())
     values = {name for name, placeholder in known.items() if placeholder}
