@@ -374,6 +374,38 @@ DYD_API void dyd_cells_clear(dyd_cells *c);
  * unchanged. */
 DYD_API dyd_status dyd_voronoi_cells(dyd_cells *out, const dyd_engine *e, const dyd_write_options *o, dyd_error *err);
 
+/* ---- vertices, edges and regions as arrays ---- */
+
+/* A certain edge of the diagram, between the cells of i < j. end[0] is on the left of the way from i to j, end[1] on
+ * its right: the number of a vertex; DYD_END_OPEN: in an undecided region; -2 - k: along ray k, without an end. */
+typedef struct dyd_frame_edge {
+  uint32_t i, j;
+  int64_t end[2];
+} dyd_frame_edge;
+enum { DYD_END_OPEN = -1 };
+/* direction: bounds of both components of a vector along the ray, x lower, x upper, y lower, y upper, rounded outward.
+ * box: holds a place on it beyond the window; NaN where the other end of its edge is not known. */
+typedef struct dyd_frame_ray {
+  double direction[4], box[4];
+} dyd_frame_ray;
+/* box[4 k] to box[4 k + 3]: the enclosure of vertex k for every choice, x lower, x upper, y lower, y upper, rounded
+ * outward, infinite where it is not known; behind the vertices the boxes of the regions, which hold all vertices of an
+ * undecided face in the window. Their sites are site[end[k - 1]] to site[end[k] - 1]. face: of each region, see
+ * dyd_delaunay_face. Owned: init with {0}. */
+typedef struct dyd_frame {
+  size_t vertices, regions, edges, rays;
+  double *box;
+  size_t *end;
+  uint32_t *site, *face;
+  dyd_frame_edge *edge;
+  dyd_frame_ray *ray;
+} dyd_frame;
+DYD_API void dyd_frame_clear(dyd_frame *f);
+/* Sets *out to what dyd_write gives of DYD_CONTENT_VERTICES, DYD_CONTENT_EDGES and DYD_CONTENT_REGIONS in csv. Of the
+ * options it takes window, flatten_bits, flatten_set, cut and cancel. Errors and cost are those of dyd_write; on
+ * failure *out is unchanged. */
+DYD_API dyd_status dyd_voronoi_frame(dyd_frame *out, const dyd_engine *e, const dyd_write_options *o, dyd_error *err);
+
 /* One line "XLO XHI YLO YHI" for each of `count` sites from `first` on: exact numbers in the forms that
  * dyd_rect_narrow_text and the reader take. DYD_E_ARG when there are not so many sites; DYD_E_IO, DYD_E_NOMEM. */
 DYD_API dyd_status dyd_write_rects(FILE *out, const dyd_sites *sites, size_t first, size_t count, dyd_error *err);

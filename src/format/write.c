@@ -182,13 +182,19 @@ static bool has_vertices(dyd_content layer, dyd_format format) {
   return !layered || (layer != DYD_CONTENT_VORONOI && layer != DYD_CONTENT_REGIONS && layer != DYD_CONTENT_TILES);
 }
 
-static dyd_status find_cells(dyd_cells *out, const dyd_diagram *d, dyd_error *err) {
-  dyd_status st = dyd_diagram_cells(out, d);
+/* Where a diagram goes, if it is not written; both are empty before. */
+typedef struct diagram_arrays {
+  dyd_cells *cells;
+  dyd_frame *frame;
+} diagram_arrays;
+
+static dyd_status find_arrays(const diagram_arrays *out, const dyd_diagram *d, dyd_error *err) {
+  dyd_status st = out->cells ? dyd_diagram_cells(out->cells, d) : dyd_diagram_frame(out->frame, d);
   return st == DYD_OK ? st : fail_status(st, err);
 }
 
-/* Writes the content, or finds the cells, which are empty before; NULL: writes. */
-static dyd_status make_diagram(dyd_cells *cells, dyd_output *to, dyd_write_options *o, dyd_error *err) {
+/* arrays NULL: writes the content. */
+static dyd_status make_diagram(const diagram_arrays *arrays, dyd_output *to, dyd_write_options *o, dyd_error *err) {
   dyd_result r;
   dyd_diagram d;
   dyd_voronoi_bounds bounds, *wanted = o->bounds;
@@ -205,7 +211,7 @@ static dyd_status make_diagram(dyd_cells *cells, dyd_output *to, dyd_write_optio
   o->bounds = &bounds;
   if (!o->cut) o->cut = &cut;
   st = dyd_diagram_init(&d, to, o, has_vertices(to->content, to->format), &room, err);
-  if (st == DYD_OK) st = tell_fineness(cells ? find_cells(cells, &d, err) : write_what(to, &d, err), &d, err);
+  if (st == DYD_OK) st = tell_fineness(arrays ? find_arrays(arrays, &d, err) : write_what(to, &d, err), &d, err);
   if (st == DYD_E_NOMEM && room.refused) dyd_fail_room(err, &room);
   if (st == DYD_OK && wanted) {
     dyd_dyadic_swap(&wanted->area, &bounds.area);
@@ -221,16 +227,30 @@ static dyd_status write_voronoi(dyd_output *to, dyd_write_options *o, dyd_error 
   return make_diagram(NULL, to, o, err);
 }
 
-dyd_status dyd_voronoi_cells(dyd_cells *out, const dyd_engine *e, const dyd_write_options *options, dyd_error *err) {
+static dyd_status make_arrays(const diagram_arrays *arrays, const dyd_engine *e, dyd_content layer,
+                              const dyd_write_options *options, dyd_error *err) {
   dyd_write_options o;
-  dyd_cells cells = {0};
-  dyd_output to = {.format = DYD_FORMAT_WKT, .content = DYD_CONTENT_VORONOI, .engine = e};
+  dyd_output to = {.format = DYD_FORMAT_WKT, .content = layer, .engine = e};
   if (err) dyd_error_clear(err);
-  if (!out) return dyd_fail_null(err);
   if (dyd_abi_take(&o, sizeof o, options, "dyd_write_options", err) != DYD_OK) return DYD_E_ARG;
-  dyd_status st = make_diagram(&cells, &to, &o, err);
+  return make_diagram(arrays, &to, &o, err);
+}
+
+dyd_status dyd_voronoi_cells(dyd_cells *out, const dyd_engine *e, const dyd_write_options *o, dyd_error *err) {
+  dyd_cells cells = {0};
+  if (!out) return dyd_fail_null(err);
+  dyd_status st = make_arrays(&(diagram_arrays){.cells = &cells}, e, DYD_CONTENT_VORONOI, o, err);
   dyd_cells_clear(st == DYD_OK ? out : &cells);
   if (st == DYD_OK) *out = cells;
+  return st;
+}
+
+dyd_status dyd_voronoi_frame(dyd_frame *out, const dyd_engine *e, const dyd_write_options *o, dyd_error *err) {
+  dyd_frame frame = {0};
+  if (!out) return dyd_fail_null(err);
+  dyd_status st = make_arrays(&(diagram_arrays){.frame = &frame}, e, DYD_CONTENT_VERTICES, o, err);
+  dyd_frame_clear(st == DYD_OK ? out : &frame);
+  if (st == DYD_OK) *out = frame;
   return st;
 }
 

@@ -459,6 +459,87 @@ bool dyd_diagram_edge(double box[2][4], const dyd_diagram *d, const dyd_dual_edg
   return edge_place(box[0], d, e, 0) && edge_place(box[1], d, e, 1);
 }
 
+/* ---- vertices, edges and regions as arrays ---- */
+
+void dyd_frame_clear(dyd_frame *f) {
+  if (!f) return;
+  free(f->box);
+  free(f->end);
+  free(f->site);
+  free(f->face);
+  free(f->edge);
+  free(f->ray);
+  *f = (dyd_frame){0};
+}
+
+typedef struct frame_maker {
+  dyd_frame *out;
+  const dyd_diagram *d;
+  size_t box_cap, end_cap, site_cap, face_cap, ray_cap, sites;
+} frame_maker;
+
+/* Adds a vertex or a region; takes over the sites. */
+static dyd_status frame_add(frame_maker *m, const double box[4], dyd_index_list *sites) {
+  dyd_frame *f = m->out;
+  size_t k = f->vertices + f->regions, end = m->sites + sites->count;
+  dyd_status st = DYD_OK;
+  if (!dyd_reserve((void **)&f->box, &m->box_cap, 4 * (k + 1), sizeof *f->box) ||
+      !dyd_reserve((void **)&f->end, &m->end_cap, k + 1, sizeof *f->end) ||
+      !dyd_reserve((void **)&f->site, &m->site_cap, end, sizeof *f->site))
+    st = DYD_E_NOMEM;
+  for (size_t q = 0; q < 4 && st == DYD_OK; q++) f->box[4 * k + q] = box[q];
+  for (size_t q = 0; q < sites->count && st == DYD_OK; q++) f->site[m->sites + q] = sites->item[q];
+  if (st == DYD_OK) f->end[k] = m->sites = end;
+  dyd_index_list_clear(sites);
+  return st;
+}
+
+static dyd_status frame_add_region(void *context, size_t face, const double box[4]) {
+  frame_maker *m = context;
+  dyd_index_list sites = {0};
+  bool outer;
+  if (!box) return DYD_OK;
+  if (!dyd_reserve((void **)&m->out->face, &m->face_cap, m->out->regions + 1, sizeof *m->out->face)) return DYD_E_NOMEM;
+  dyd_status st = dyd_delaunay_face(&sites, &outer, m->d->pd, face);
+  if (st == DYD_OK) st = frame_add(m, box, &sites);
+  if (st == DYD_OK) m->out->face[m->out->regions++] = (uint32_t)face;
+  return st;
+}
+
+static dyd_status frame_add_ends(frame_maker *m, const dyd_dual_edge *e) {
+  dyd_frame *f = m->out;
+  dyd_frame_edge *to = &f->edge[f->edges++];
+  *to = (dyd_frame_edge){e->i, e->j, {DYD_END_OPEN, DYD_END_OPEN}};
+  for (int end = 0; end < 2; end++) {
+    if (e->end[end].kind == DYD_DUAL_VERTEX) to->end[end] = (int64_t)e->end[end].vertex;
+    if (e->end[end].kind != DYD_DUAL_RAY) continue;
+    if (!dyd_reserve((void **)&f->ray, &m->ray_cap, f->rays + 1, sizeof *f->ray)) return DYD_E_NOMEM;
+    dyd_frame_ray *r = &f->ray[f->rays];
+    bool known = edge_place(r->box, m->d, e, end);
+    for (int k = 0; k < 4; k++) r->direction[k] = e->end[end].direction[k], r->box[k] = known ? r->box[k] : NAN;
+    to->end[end] = DYD_END_OPEN - 1 - (int64_t)f->rays++;
+  }
+  return DYD_OK;
+}
+
+dyd_status dyd_diagram_frame(dyd_frame *out, const dyd_diagram *d) {
+  frame_maker m = {.out = out, .d = d};
+  dyd_dual_edge *edge = NULL;
+  size_t count = 0;
+  dyd_status st = dyd_dual_edges(&edge, &count, d->pd, &d->triangles, d->tied, d->ties, d->room);
+  if (st == DYD_OK) out->edge = dyd_alloc(count, sizeof *out->edge);
+  if (st == DYD_OK && !out->edge) st = DYD_E_NOMEM;
+  for (size_t k = 0; k < count && st == DYD_OK; k++) st = frame_add_ends(&m, &edge[k]);
+  free(edge);
+  for (size_t k = 0; k < dyd_diagram_vertices(d) && st == DYD_OK; k++) {
+    dyd_index_list sites = {0};
+    st = dyd_diagram_vertex_sites(&sites, d, k);
+    if (st == DYD_OK) st = frame_add(&m, d->vertex[k], &sites);
+    out->vertices += st == DYD_OK;
+  }
+  return st == DYD_OK ? dyd_diagram_regions(d, frame_add_region, &m) : st;
+}
+
 /* ---- all ---- */
 
 static dyd_status diagram_window(dyd_diagram *d, const dyd_rect *given, dyd_error *err) {

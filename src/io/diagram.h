@@ -87,6 +87,9 @@ dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *c
  */
 dyd_status dyd_diagram_cells(dyd_cells *out, const dyd_diagram *d);
 
+/* Fills *out, which is empty before; needs vertices. On failure the caller clears it. */
+dyd_status dyd_diagram_frame(dyd_frame *out, const dyd_diagram *d);
+
 /* The tiles; sets the bounds, too. areas_only as in dyd_tiles_find. Fills *err where doubles are too coarse. */
 dyd_status dyd_diagram_tiles(dyd_tiles *out, const dyd_diagram *d, bool areas_only, dyd_error *err);
 

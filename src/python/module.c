@@ -72,7 +72,8 @@ static PyMethodDef engine_methods[] = {
     {"pair_status", dydpy_pair_status, METH_VARARGS, "pair_status(i, j) -> int"},
     {"pairs", dydpy_pairs, METH_NOARGS, "pairs() -> Buffer of (uint32 i, uint32 j, int32 status), sorted"},
     {"discs", dydpy_discs, METH_NOARGS, "discs() -> the same of the discs in the squares"},
-    {"graph", dydpy_graph, METH_VARARGS, "graph(number) -> Buffer of (uint32 i, uint32 j, int32 certain), sorted"},
+    {"graph", dydpy_graph, METH_VARARGS,
+     "graph(number, options) -> (Buffer of (uint32 i, uint32 j, int32 certain), sorted, outcome)"},
     {"triangles", dydpy_triangles, METH_NOARGS,
      "triangles() -> (Buffer, Buffer) of uint32 (T, 3): corners, neighbours"},
     {"aliases", dydpy_aliases, METH_NOARGS, "aliases() -> Buffer of uint32 (N,)"},
@@ -85,6 +86,8 @@ static PyMethodDef engine_methods[] = {
     {"cells", dydpy_cells, METH_VARARGS,
      "cells(window or None, flatten_bits or None) -> (Buffer of dyd_cell_ring, Buffer of doubles xy, Buffer of doubles "
      "(N, 2) areas, bits, area, hausdorff or None, window)"},
+    {"frame", dydpy_frame, METH_VARARGS,
+     "frame(window or None, flatten_bits) -> (vertices, boxes, ends, sites, faces, edges, rays): see dyd_frame"},
     {"tiles", dydpy_tiles, METH_VARARGS,
      "tiles(window or None, flatten_bits) -> (sites, offsets, xy, areas, bounds, rounding): see dyd_tiles"},
     {"exact_area", dydpy_exact_area, METH_VARARGS, "exact_area(i, window or None) -> (numerator, denominator) or None"},

@@ -163,6 +163,7 @@ PyObject *dydpy_hull(PyObject *self, PyObject *none);
 PyObject *dydpy_bounds(PyObject *self, PyObject *none);
 PyObject *dydpy_boxes(PyObject *self, PyObject *none);
 PyObject *dydpy_cells(PyObject *self, PyObject *args);
+PyObject *dydpy_frame(PyObject *self, PyObject *args);
 PyObject *dydpy_tiles(PyObject *self, PyObject *args);
 PyObject *dydpy_exact_area(PyObject *self, PyObject *args);
 PyObject *dydpy_rect(PyObject *self, PyObject *site);

@@ -268,6 +268,32 @@ PyObject *dydpy_cells(PyObject *self, PyObject *args) {
   return found;
 }
 
+/* frame(window or None, flatten_bits) */
+PyObject *dydpy_frame(PyObject *self, PyObject *args) {
+  PyObject *window, *found = NULL;
+  dyd_frame f = {0};
+  long long bits;
+  dyd_rect view;
+  dydpy_call c;
+  if (!PyArg_ParseTuple(args, "OL", &window, &bits) || !diagram_begin(&c, &view, self, window)) return NULL;
+  const dyd_write_options o = {DYD_SIZED(dyd_write_options), .window = &view, .cancel = &c.cancel, .flatten_set = true,
+                               .flatten_bits = bits};
+  dyd_status st = dyd_voronoi_frame(&f, c.self->engine, &o, &c.err);
+  if (dydpy_end(&c, st == DYD_CAPPED ? DYD_E_ARG : st)) {
+    size_t boxes = f.vertices + f.regions;
+    found =
+        Py_BuildValue("nNNNNNN", (Py_ssize_t)f.vertices, array_new(true, f.box, 4 * boxes, sizeof *f.box),
+                      array_new(true, f.end, boxes, sizeof *f.end),
+                      array_new(true, f.site, boxes ? f.end[boxes - 1] : 0, sizeof *f.site),
+                      array_new(true, f.face, f.regions, sizeof *f.face),
+                      array_new(true, f.edge, f.edges, sizeof *f.edge), array_new(true, f.ray, f.rays, sizeof *f.ray));
+  } else {
+    dyd_frame_clear(&f);
+  }
+  dyd_rect_clear(&view);
+  return found;
+}
+
 PyObject *dydpy_tiles(PyObject *self, PyObject *args) {
   PyObject *window, *found = NULL;
   dyd_tiles t = {0};
@@ -427,12 +453,19 @@ static PyObject *graph_found(dyd_graph_list *list) {
 
 PyObject *dydpy_graph(PyObject *self, PyObject *args) {
   dyd_graph_list list = {0};
+  dyd_outcome outcome;
+  PyObject *dict, *found = NULL;
+  dydpy_options o;
   int graph;
   dydpy_call c;
-  if (!PyArg_ParseTuple(args, "i", &graph) || !dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_CANCELS)) return NULL;
-  if (dydpy_end(&c, dyd_graph_edges(&list, c.pd, (dyd_graph)graph, &c.cancel, &c.err))) return graph_found(&list);
-  dyd_graph_list_clear(&list);
-  return NULL;
+  if (!PyArg_ParseTuple(args, "iO!", &graph, &PyDict_Type, &dict) ||
+      dydpy_options_init(&o, (dydpy_engine *)self, dict) < 0)
+    return NULL;
+  if (dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_REFINES) &&
+      dydpy_end(&c, dyd_engine_graph(&list, &outcome, c.self->engine, (dyd_graph)graph, &o.o, &c.err)))
+    found = Py_BuildValue("Ns", graph_found(&list), dyd_outcome_text(outcome));
+  dydpy_options_clear(&o);
+  return found;
 }
 
 /* ---- tolerance ---- */

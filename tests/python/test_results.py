@@ -3,6 +3,7 @@
 """What results tell, in all forms: arrays, formats, geometries, pickles; appended and measured points; questions."""
 import copy
 import csv
+import importlib.util
 import json
 import math
 import pickle
@@ -222,15 +223,19 @@ def test_geometries():
     frame = geopandas.GeoDataFrame.from_features(d)
     assert len(frame) == len(d.pairs) and set(frame.status) <= {'legal', 'indeterminate'}
     assert all(geopandas.GeoSeries.from_wkb(d.to_wkb()).geom_equals_exact(frame.geometry, 1e-9))
+    assert d.to_geodataframe().drop(columns=['geometry', 'max_coordinate_error']).equals(
+        frame[['i', 'j', 'status']].astype({'i': 'int64', 'j': 'int64'}))
+    assert len(d.to_geodataframe('triangles')) == len(d.simplices) and len(d.to_geodataframe('graph:mst')) >= 29
     assert d.to_geodataframe(crs='EPSG:2056').crs.to_epsg() == 2056
     v = dyadel.delaunay(GPS).voronoi()
     for layer in ('cells', 'tiles', 'vertices', 'edges', 'regions'):
         ours = v.to_geodataframe(layer, crs='EPSG:2056')
         theirs = geopandas.GeoDataFrame.from_features(json.loads(v.write('geojson', layer))['features'])
         assert ours.crs.to_epsg() == 2056 and len(ours) == len(theirs) > 0 and all(ours.geometry.is_valid), layer
-        assert all(ours.geometry.geom_equals_exact(theirs.geometry.set_crs('EPSG:2056'), 0)), layer
-        for name in set(ours.columns) & {'i', 'id', 'kind'}:
-            assert ours[name].tolist() == theirs[name].tolist(), (layer, name)
+        assert all(ours.geometry.geom_equals_exact(theirs.geometry.set_crs('EPSG:2056'), 1e-9)), layer
+        assert set(ours.columns) >= set(theirs.columns) - {'undetermined', 'certain_area', 'xlo', 'xhi', 'ylo', 'yhi'}, layer
+        for name in set(ours.columns) & set(theirs.columns) - {'geometry', 'max_coordinate_error'}:
+            assert all(a == b or math.isclose(a, b, rel_tol=1e-9) for a, b in zip(ours[name], theirs[name])), (layer, name)
         assert layer not in ('cells', 'tiles') or {'i', 'id', 'area_lo', 'area_hi'} <= set(ours.columns)
 
 
@@ -351,6 +356,43 @@ def test_well_known_binary():
         assert len(rings.to_wkb()) == len(rings) and rings.closed()[0][-1] == len(rings.closed()[1])
     assert 'polygons' in repr(rings) and len(rings) == 0
     harness.raised(IndexError, lambda: v.tiles[len(v.tiles)])
+
+
+def test_frame():
+    """Vertices, edges and regions as arrays against what json and csv state."""
+    random = np.random.default_rng(harness.seeded('frame').randrange(2**32))
+    grid = np.array([(x, y) for x in range(4) for y in range(4)], float)
+    sets = ((random.random((40, 2)), None), (random.random((40, 2)), 0.02), (grid, None), (np.vstack((grid, [[1.5, 1.4]])), None),
+            (np.array([[0, 0], [1, 1], [2, 2.0]]), None), (random.random((30, 2)), 0.1), (grid[:1], None), (grid[[0, 5, 5, 7]], None))
+    rays = ties = regions = 0
+    for points, radius in sets:
+        d = dyadel.delaunay(points, radius)
+        v = d.voronoi(window=(-1, 4, -1, 4))
+        boxes = np.array([[*row['x'], *row['y']] for row in v.data['vertices']]).reshape(-1, 4)
+        assert boxes.shape == v.vertices.boxes.shape and np.allclose(boxes, v.vertices.boxes, rtol=1e-15, atol=1e-300)
+        assert [(e['i'], e['j']) for e in v.data['edges']] == list(map(tuple, v.edges.pairs.tolist())) == list(map(tuple, d.legal.tolist()))
+        way = iter(v.edges.directions.tolist())
+        for e, ends in zip(v.data['edges'], v.edges.ends.tolist()):
+            for told, end in zip((e['from'], e['to']), ends):
+                if isinstance(told, dict):
+                    assert end == dyadel.RAY and np.allclose([*told['ray']['x'], *told['ray']['y']], next(way), rtol=1e-15)
+                else:
+                    assert end == (dyadel.OPEN if told is None else told)
+        assert next(way, None) is None and len(v.edges.rays) == len(v.edges.directions)
+        for k, t in enumerate(v.vertices.corners.tolist()):
+            assert t == v.vertices[k].tolist() or len(v.vertices[k]) > 3
+        lines = [line.split(',') for line in v.write(layer='regions').splitlines()[1:]]
+        assert [[int(row[0]), row[5]] for row in lines] == [[f, ' '.join(map(str, v.regions[k]))] for k, f in enumerate(v.regions.faces.tolist())]
+        assert np.allclose(np.array([row[1:5] for row in lines], float).reshape(-1, 4), v.regions.boxes, rtol=1e-15)
+        for wkb, known, line in zip(v.edges.to_wkb(), v.edges.drawn, v.edges.coordinates):
+            count = struct.unpack('<BII', wkb[:9])[2]
+            assert count == 2 * known and (not known or np.array_equal(np.frombuffer(wkb[9:], '<f8'), line.ravel()))
+        assert [struct.unpack('<BI', w[:5])[1] for w in v.vertices.to_wkb() + v.regions.to_wkb()] == [1] * len(v.vertices) + [3] * len(v.regions)
+        rays, ties, regions = rays + len(v.edges.rays), ties + (np.diff(v.vertices.offsets) > 3).sum(), regions + len(v.regions)
+        assert 'edges' in repr(v.edges) and 'regions' in repr(v.regions)
+    assert rays and ties and regions
+    harness.raised(IndexError, lambda: v.vertices[len(v.vertices)])
+    harness.raised(ValueError, v.to_geodataframe, 'faces') if importlib.util.find_spec('geopandas') else None
 
 
 def test_diagram_stays():

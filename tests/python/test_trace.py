@@ -136,10 +136,18 @@ def test_graphs():
     wide = dyadel.delaunay(points, radius=15.0)
     for name, exact in (('nearest', nearest), ('gabriel', gabriel), ('mst', tree)):
         graph = wide.graph(name)
-        sure, possible = ({tuple(p) for p in edges.tolist()} for edges in graph)
+        sure, possible = ({tuple(p) for p in edges.tolist()} for edges in graph[:2])
+        assert graph.outcome == 'fixpoint'
         assert sure <= {tuple(p) for p in exact.certain.tolist()} <= sure | possible and possible and not sure & possible
     lines = wide.write(layer='graph:mst').splitlines()[1:]
     assert [line.rsplit(',', 1)[1] for line in lines].count('certain') == len(wide.graph('mst').certain)
+    asked = dyadel.delaunay([(f'sqrt({k + 2})', f'sin({k * k})') for k in range(12)], max_stages=1, start_bits=2)
+    assert asked.outcome == 'budget' and asked.graph('mst', max_bits=4).outcome == 'budget'
+    for name in ('nearest', 'gabriel', 'mst'):
+        found = asked.graph(name, max_stages=100)
+        assert found.outcome == 'decided' and not len(found.possible), 'refined until certain'
+    lazy = dyadel.delaunay([(f'sqrt({k + 2})', f'sin({k * k})') for k in range(12)], start_bits=2)
+    assert 'possible' not in lazy.write(layer='graph:mst')
     assert 'gabriel' in str(harness.raised(ValueError, d.graph, 'star'))
     harness.raised(RuntimeError, dyadel.Delaunay().graph, 'mst')
 

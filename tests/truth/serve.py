@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Cases for the Python package, one json line each, answered by one."""
+import fractions
 import json
+import math
 import sys
 
 import dyadel
@@ -16,7 +18,53 @@ def answer(q):
            [[int(i), int(j), NAMES[int(s)]] for i, j, s in d.pairs]}
     if q['stated'] == 'triangles':
         out['triangles'] = [[int(c) for c in t] for t in d.simplices]
+    elif q['stated'] in ROWS:
+        out['csv'] = '\n'.join(','.join(map(str, row)) for row in ROWS[q['stated']](d, q))
+        out['outcome'] = q.get('outcome', d.outcome)
     return out
+
+
+# ---- arrays as the rows of the command's csv ----
+
+def graph_rows(name):
+    def rows(d, q):
+        found = d.graph(name)
+        q['outcome'] = found.outcome
+        return [('i', 'j', 'status'), *((i, j, word) for word, edges in (('certain', found.certain), ('possible', found.possible))
+                                        for i, j in edges.tolist())]
+    return rows
+
+
+def diagram(d, q):
+    return d.voronoi(q['window'])
+
+
+def ends(boxes):
+    """Decimals of doubles, exactly; nothing where they are not finite."""
+    return [[str(fractions.Fraction(x)) if math.isfinite(x) else '' for x in box] for box in boxes.tolist()]
+
+
+def vertex_rows(d, q):
+    v = diagram(d, q).vertices
+    return [('i', 'j', 'k', 'xlo', 'xhi', 'ylo', 'yhi'), *(t + box for t, box in zip(v.corners.tolist(), ends(v.boxes)))]
+
+
+def edge_rows(d, q):
+    v = diagram(d, q)
+    names = {dyadel.OPEN: 'open', dyadel.RAY: 'ray'}
+    third = [[names[k] if k < 0 else ' '.join(map(str, v.vertices[k])) if len(v.vertices[k]) > 3 else
+              (set(v.vertices[k].tolist()) - {i, j}).pop() for k in both] for (i, j), both in zip(v.edges.pairs.tolist(), v.edges.ends.tolist())]
+    return [('i', 'j', 'left', 'right'), *(pair + both for pair, both in zip(v.edges.pairs.tolist(), third))]
+
+
+def region_rows(d, q):
+    r = diagram(d, q).regions
+    return [('face', 'xlo', 'xhi', 'ylo', 'yhi', 'sites'), *([f, *box, ' '.join(map(str, r[k]))] for k, (f, box) in
+                                                           enumerate(zip(r.faces.tolist(), ends(r.boxes))))]
+
+
+ROWS = {'graph nearest': graph_rows('nearest'), 'graph gabriel': graph_rows('gabriel'), 'graph mst': graph_rows('mst'),
+        'vertices': vertex_rows, 'edges': edge_rows, 'regions': region_rows}
 
 
 for line in sys.stdin:

@@ -30,6 +30,7 @@ AXES = {'geometry': tuple(axes.GEOMETRIES), 'kind': tuple(axes.KINDS), 'form': t
         'shape': tuple(axes.SHAPES), 'stated': tuple(stated.STATED), 'extra': tuple(axes.EXTRAS),
         'format': ('csv', 'json', 'wkt', 'geojson', 'vtk', 'svg', 'obj')}
 ORDER = tuple(AXES)
+PYTHON_ROWS = ('graph nearest', 'graph gabriel', 'graph mst', 'vertices', 'edges', 'regions')  # what serve.py answers as rows
 
 
 class Space:
@@ -94,7 +95,7 @@ class Space:
             return what == 'pairs' and g in (None, 'plane')
         if form == 'capi':
             return what == 'pairs' and g in (None, 'plane')
-        return what in ('pairs', 'triangles')
+        return what in ('pairs', 'triangles') or what in PYTHON_ROWS and g in (None, 'plane')
 
     def extra_fits(self, row, e):
         g, kind, form, shape, what, extra, fmt = (row.get(a) for a in ORDER)
@@ -303,12 +304,15 @@ def ask(case, product):
     if case.form in ('python', 'capi'):
         q = {'points': [s.text for s in case.sites], 'radius': case.radius, 'geometry': case.geometry,
              'stated': case.stated, 'boxes': [[str(c) for c in s.region[1:]] for s in case.sites],
-             'callback': case.kind == 'callback'}
+             'callback': case.kind == 'callback', 'window': [str(c) for c in case.window]}
         if case.form == 'capi':
             q = laws.capi_question(case)
         a = product.serve(case.form, q if isinstance(q, str) else json.dumps(q))
         if 'error' in a:
             return 1, None, a['error']
+        if 'csv' in a:
+            claims = stated.STATED[case.stated].read(case, a['csv'], '', 'csv')
+            return laws.STATUS_OF[a['outcome']], {**claims, 'aliases': {a: b for a, b in a['aliases']}}, a['outcome']
         return laws.STATUS_OF[a['outcome']], {
             'pairs': {(i, j): s for i, j, s in a['pairs']}, 'aliases': {a: b for a, b in a['aliases']},
             **({'triangles': [tuple(t) for t in a['triangles']]} if 'triangles' in a else {})}, a['outcome']

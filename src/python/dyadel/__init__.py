@@ -11,7 +11,7 @@ from ._check import check, moves
 from ._dyadel import formats
 from ._dyadel import version as __version__
 from ._errors import BrokenPromise, Error
-from ._geometry import Rings
+from ._geometry import OPEN, RAY, Edges, Enclosures, Rings
 from ._points import Confidence, Source, Text
 from ._questions import (OUTSIDE, UNDECIDED, Convergence, Graph, Nearest, NearestPlaces, Plan, Table, Tolerance, Verdict,
                          converge, replay, verify)
@@ -20,7 +20,8 @@ from ._statuses import INDETERMINATE, LEGAL, TIE
 from ._triangulation import Bounds, Delaunay
 from ._voronoi import Cell, Voronoi
 
-__all__ = ['Bounds', 'BrokenPromise', 'Cell', 'Confidence', 'Convergence', 'Delaunay', 'Error', 'Graph',
-           'INDETERMINATE', 'LEGAL', 'Nearest', 'NearestPlaces', 'OUTSIDE', 'Plan', 'Rings', 'Source', 'Sphere',
-           'SphereCell', 'SphereVoronoi', 'TIE', 'Table', 'Text', 'Tolerance', 'UNDECIDED', 'Verdict', 'Voronoi',
-           '__version__', 'check', 'converge', 'delaunay', 'formats', 'moves', 'plan', 'replay', 'tolerance', 'verify']
+__all__ = ['Bounds', 'BrokenPromise', 'Cell', 'Confidence', 'Convergence', 'Delaunay', 'Edges', 'Enclosures', 'Error',
+           'Graph', 'INDETERMINATE', 'LEGAL', 'Nearest', 'NearestPlaces', 'OPEN', 'OUTSIDE', 'Plan', 'RAY', 'Rings',
+           'Source', 'Sphere', 'SphereCell', 'SphereVoronoi', 'TIE', 'Table', 'Text', 'Tolerance', 'UNDECIDED',
+           'Verdict', 'Voronoi', '__version__', 'check', 'converge', 'delaunay', 'formats', 'moves', 'plan', 'replay',
+           'tolerance', 'verify']

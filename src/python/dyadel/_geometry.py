@@ -28,6 +28,13 @@ def centres(boxes: Floats) -> Floats:
     return boxes[:, 0::2] / 2 + boxes[:, 1::2] / 2 if boxes.size else boxes[:, :2]
 
 
+def half_width(boxes: Floats) -> Floats:
+    """How far the middle of each box, rounded, is from its ends at most."""
+    middle = centres(boxes)
+    out: Floats = np.nextafter(np.maximum(boxes[:, 1::2] - middle, middle - boxes[:, 0::2]).max(axis=1, initial=0), np.inf)
+    return out
+
+
 def _records(head: list[tuple[str, Any]], coordinates: Floats) -> list[bytes]:
     """Little-endian records: numbers of one byte or four, then doubles."""
     count, size = coordinates.shape
@@ -38,6 +45,22 @@ def _records(head: list[tuple[str, Any]], coordinates: Floats) -> list[bytes]:
     record['xy'] = coordinates
     blob = record.tobytes()
     return [blob[k:k + kind.itemsize] for k in range(0, len(blob), kind.itemsize)]
+
+
+def shapes_of(wkb: list[bytes]) -> NDArray[np.object_]:
+    """An array of geometries of shapely."""
+    shapely: Any = importlib.import_module('shapely')
+    if hasattr(shapely, 'from_wkb'):
+        shapes: NDArray[np.object_] = shapely.from_wkb(np.array(wkb, object))
+        return shapes
+    load = importlib.import_module('shapely.wkb').loads  # before shapely 2
+    return np.fromiter(map(load, wkb), object, len(wkb))
+
+
+def frame_of(columns: dict[str, Any], wkb: list[bytes], rounding: Any, crs: Any) -> Any:
+    """A GeoDataFrame. rounding: how far coordinates are at most from what they stand for."""
+    geopandas: Any = importlib.import_module('geopandas')
+    return geopandas.GeoDataFrame({**columns, 'max_coordinate_error': rounding}, geometry=shapes_of(wkb), crs=crs)
 
 
 def wkb_points(places: Floats) -> list[bytes]:
@@ -113,9 +136,8 @@ class Rings:
     def to_shapely(self) -> NDArray[np.object_]:
         """An array of shapely polygons, one for each ring."""
         shapely: Any = importlib.import_module('shapely')
-        if not hasattr(shapely, 'from_ragged_array'):  # before shapely 2
-            load = importlib.import_module('shapely.wkb').loads
-            return np.fromiter((load(wkb) for wkb in self.to_wkb()), object, len(self))
+        if not hasattr(shapely, 'from_ragged_array'):
+            return shapes_of(self.to_wkb())
         offsets, coordinates = self.closed()
         polygons: NDArray[np.object_] = shapely.from_ragged_array(
             shapely.GeometryType.POLYGON, coordinates, (offsets, np.arange(len(self) + 1)))
@@ -123,6 +145,113 @@ class Rings:
 
     def __repr__(self) -> str:
         return f'<dyadel.Rings: {len(self)} polygons, {len(self.coordinates)} vertices>'
+
+
+#: What Edges.ends has where an edge ends in an undecided region, or does not end.
+OPEN, RAY = -1, -2
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Enclosures:
+    """Boxes (K, 4) xlo, xhi, ylo, yhi that hold something for every choice of points, and the points about which it is: those of
+    row k are points[offsets[k]:offsets[k + 1]], which is rows[k].
+
+    Vertices: of certain triangles, then of ties; their boxes hold the vertex (infinite: not known). Regions: of undecided faces;
+    their boxes hold all vertices that may be there, in the window. faces: their numbers; of vertices none.
+    """
+
+    boxes: Floats
+    offsets: Longs
+    points: Ints
+    faces: Ints | None = None
+
+    def __len__(self) -> int:
+        """How many rows."""
+        return len(self.boxes)
+
+    def __getitem__(self, k: int) -> Ints:
+        if not 0 <= k < len(self):
+            raise IndexError(f'there are {len(self)} rows')
+        return self.points[self.offsets[k]:self.offsets[k + 1]]
+
+    @property
+    def centres(self) -> Floats:
+        """(K, 2): the middle of each box; nan where it is not finite."""
+        with np.errstate(invalid='ignore'):
+            middle = centres(self.boxes)
+        return np.where(np.isfinite(self.boxes).all(axis=1)[:, np.newaxis], middle, np.nan)
+
+    @property
+    def corners(self) -> Ints:
+        """(K, 3): the first three points of each row, which name a vertex."""
+        return self.points[self.offsets[:-1, np.newaxis] + np.arange(3)]
+
+    def to_wkb(self) -> list[bytes]:
+        """Well-known binary: the centre of each vertex (empty where it is not known), the box of each region."""
+        if self.faces is None:
+            return wkb_points(self.centres)
+        return _records([('u1', 1), ('<u4', 3), ('<u4', 1), ('<u4', 5)], self.boxes[:, [0, 2, 1, 2, 1, 3, 0, 3, 0, 2]])
+
+    def to_shapely(self) -> NDArray[np.object_]:
+        """An array of shapely points, or polygons."""
+        return shapes_of(self.to_wkb())
+
+    def __repr__(self) -> str:
+        return f'<dyadel.Enclosures: {len(self)} {"vertices" if self.faces is None else "regions"}>'
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Edges:
+    """Certain edges of a Voronoi diagram, one for each legal pair.
+
+    pairs (E, 2): the points i < j on its sides; ends (E, 2): the numbers of the vertices that it ends at, on the left of the way
+    from i to j, and on its right; OPEN (-1): in an undecided region; RAY (-2): nowhere. coordinates (E, 2, 2): the centres of the
+    enclosures of both ends, of a ray a place on it beyond the window; nan: not known. rounding (E,): how far they are at most
+    from there in each coordinate. rays (R, 2): edge and end of each ray; directions (R, 4): bounds dxlo, dxhi, dylo, dyhi of
+    a vector along it.
+    """
+
+    pairs: Ints
+    ends: Longs
+    coordinates: Floats
+    rounding: Floats
+    rays: Longs
+    directions: Floats
+
+    @classmethod
+    def of(cls, edges: Any, rays: Any, vertices: Floats) -> Edges:
+        """From records of the library, and the boxes of the vertices."""
+        ends = edges['end']
+        drawn = np.vstack((vertices, rays['box'], np.full((1, 4), np.nan)))
+        at = np.where(ends >= 0, ends, np.where(ends == OPEN, len(drawn) - 1, len(vertices) + RAY - ends))
+        boxes = drawn[at].reshape(-1, 4)
+        boxes[~np.isfinite(boxes).all(axis=1)] = np.nan
+        kind = np.where(ends > OPEN, ends, np.maximum(ends, RAY))
+        where = np.argwhere(ends <= RAY)
+        return cls(np.column_stack((edges['i'], edges['j'])).astype(np.int32), kind, centres(boxes).reshape(-1, 2, 2),
+                   half_width(boxes).reshape(-1, 2).max(axis=1), where, rays['direction'][RAY - ends[tuple(where.T)]])
+
+    def __len__(self) -> int:
+        """How many edges."""
+        return len(self.pairs)
+
+    @property
+    def drawn(self) -> NDArray[np.bool_]:
+        """(E,): both ends are known."""
+        known: NDArray[np.bool_] = np.isfinite(self.coordinates).all(axis=(1, 2))
+        return known
+
+    def to_wkb(self) -> list[bytes]:
+        """Well-known binary of a line for each edge; empty where an end is not known."""
+        lines = _records([('u1', 1), ('<u4', 2), ('<u4', 2)], self.coordinates.reshape(-1, 4))
+        return [line if known else b'\1\2' + bytes(7) for line, known in zip(lines, self.drawn.tolist())]
+
+    def to_shapely(self) -> NDArray[np.object_]:
+        """An array of shapely lines."""
+        return shapes_of(self.to_wkb())
+
+    def __repr__(self) -> str:
+        return f'<dyadel.Edges: {len(self)} edges, {int(self.drawn.sum())} with two known ends>'
 
 
 def _is_shown(d: Any) -> bool:

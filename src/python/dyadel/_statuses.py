@@ -168,10 +168,17 @@ class Statuses:
         """
         return _geometry.text_of(format, self._engine.write(format, layer, window, epsg_of(self.crs) if epsg is None else epsg))
 
+    def named(self, **points: Ints) -> dict[str, Any]:
+        """Columns that name points: i=, j= ... with their `rows`, and id or id_i, id_j ... where they have `ids`."""
+        ids = None if self.ids is None else np.array(self.ids, object)
+        one = len(points) == 1
+        return {**{name: self.rows[of] for name, of in points.items()}, **(
+            {} if ids is None else {'id' if one else f'id_{name}': ids[of] for name, of in points.items()})}
+
     def to_geodataframe(self, layer: str | None = None, crs: Any = None) -> Any:
         """A layer ('pairs', 'points', 'triangles', 'graph:mst', ...) as a GeoDataFrame; crs: by default that of the points."""
         geopandas: Any = importlib.import_module('geopandas')
-        features = json.loads(self._engine.write('geojson', layer, None, 0))['features']
+        features = json.loads(self.write('geojson', layer, epsg=0))['features']
         return geopandas.GeoDataFrame.from_features(features, crs=self.crs if crs is None else crs)
 
     @property

@@ -7,15 +7,20 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple, overload
 
+import numpy as np
+
 from . import _dyadel, _geometry
 from ._arrays import Floats, Ints, Longs, Rect, ints, rect_of
 from ._inputs import Given
 from ._options import INPUTS, Path, engine_options, split_inputs, takes_options
 from ._points import append_given, given_of
-from ._questions import (Graph, Nearest, NearestPlaces, Plan, Tolerance, around, csr_of, graph_of, interpolated,
+from ._questions import (GRAPHS, Graph, Nearest, NearestPlaces, Plan, Tolerance, around, csr_of, graph_of, interpolated,
                          named_triangles, nearest_places, nearest_to, plan_of, tolerance_of, triangles_at)
 from ._statuses import STATUS, Statuses
 from ._voronoi import Voronoi
+
+
+STATUSES = np.array(STATUS, object)
 
 
 class Bounds(NamedTuple):
@@ -163,9 +168,30 @@ class Delaunay(Statuses):
         """
         return interpolated(self.points, self.simplices, self.find_triangle(xy), values, xy)
 
-    def graph(self, name: str) -> Graph:
-        """Edges of a graph of neighbours: 'nearest' (j is nearest to i), 'gabriel' or 'mst' (minimum spanning tree)."""
-        return graph_of(self._engine, name)
+    @takes_options()
+    def graph(self, name: str, **options: Any) -> Graph:
+        """Edges of a graph of neighbours: 'nearest' (j is nearest to i), 'gabriel' or 'mst' (minimum spanning tree). Refines
+        until its edges are certain, as `dyadel delaunay --layer graph:NAME`; options: budgets of delaunay.
+        """
+        self._cache = {}
+        return graph_of(self._engine, name, engine_options(**{**self._options, **options}))
+
+    def write(self, format: str = 'csv', layer: str | None = None, window: Any = None, epsg: int | None = None) -> str | bytes:
+        """See Statuses.write; graphs are refined first, see graph()."""
+        if layer is not None and layer.startswith('graph:') and layer[6:] in GRAPHS:
+            self.graph(layer[6:])
+        return super().write(format, layer, window, epsg)
+
+    def to_geodataframe(self, layer: str | None = None, crs: Any = None) -> Any:
+        """A layer ('pairs', 'points', 'triangles', 'graph:mst', ...) as a GeoDataFrame; crs: by default that of the points."""
+        if layer not in (None, 'pairs', 'triangles') or not np.isfinite(self.boxes).all():
+            return super().to_geodataframe(layer, crs)
+        of = self.simplices if layer == 'triangles' else self.pairs
+        columns = self.named(**dict(zip('ijk', (of if layer == 'triangles' else of[:, :2]).T)))
+        if layer != 'triangles':
+            columns['status'] = STATUSES[of[:, 2]]
+        rounding = _geometry.half_width(self.boxes)[of if layer == 'triangles' else of[:, :2]].max(axis=1, initial=0)
+        return _geometry.frame_of(columns, self.to_wkb(layer or 'pairs'), rounding, self.crs if crs is None else crs)
 
     def rects(self) -> list[str]:
         """All rectangles reached, exactly: texts "XLO XHI YLO YHI", such as "1/3 1/3 5*2^-4 3*2^-3"."""

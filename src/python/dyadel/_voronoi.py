@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import importlib
 import json
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
@@ -13,7 +12,16 @@ import numpy as np
 
 from . import _dyadel, _geometry
 from ._arrays import Floats, Ints, Longs, Rect, floats, ints, longs, records, rect_of
-from ._geometry import Rings
+from ._geometry import OPEN, Edges, Enclosures, Rings
+
+
+#: Columns, well-known binary, and how far coordinates were rounded.
+LayerRows = tuple[dict[str, Any], list[bytes], Floats]
+
+
+def box_columns(boxes: Floats) -> dict[str, Floats]:
+    """As the command names them."""
+    return dict(zip(('xlo', 'xhi', 'ylo', 'yhi'), boxes.T))
 
 
 class Triangulation(Protocol):
@@ -38,6 +46,9 @@ class Triangulation(Protocol):
     def __len__(self) -> int:
         """How many points."""
 
+    def named(self, **points: Ints) -> dict[str, Any]:
+        """Columns that name points."""
+
     def certificate(self, diagram: bool, window: Sequence[Any] | None) -> bytes:
         """What proves it."""
 
@@ -53,6 +64,8 @@ class Cell(NamedTuple):
 
 
 KINDS = np.array(['', 'certain', 'possible', 'exact'])
+EDGE = np.dtype([('i', np.uint32), ('j', np.uint32), ('end', np.int64, 2)])
+RAYS = np.dtype([('direction', np.float64, 4), ('box', np.float64, 4)])
 RING = np.dtype([('point', np.int32), ('kind', np.uint32), ('end', np.int64), ('rounding', np.float64)])
 
 
@@ -169,17 +182,30 @@ class Voronoi:
         found: dict[str, Any] = json.loads(self._of._engine.write_voronoi('json', None, self._window, self._flatten, 0))
         return found
 
-    @property
-    def edges(self) -> list[dict[str, Any]]:
-        """i, j and the ends `from`, `to` of each certain edge: numbers in `vertices`, {'ray': bounds of a direction}, None: undecided."""
-        edges: list[dict[str, Any]] = self.data['edges']
-        return edges
+    @functools.cached_property
+    def _frame(self) -> tuple[Enclosures, Enclosures, Edges]:
+        self._expect_unchanged()
+        count, found, ends, sites, faces, edges, rays = self._of._engine.frame(self._ends, self._bits)
+        boxes, points, offsets = floats(found).reshape(-1, 4), ints(sites), np.append(0, longs(ends))
+        behind = offsets[count]
+        return (Enclosures(boxes[:count], offsets[:count + 1], points[:behind]),
+                Enclosures(boxes[count:], offsets[count:] - behind, points[behind:], ints(faces)),
+                Edges.of(records(edges, EDGE), records(rays, RAYS), boxes[:count]))
 
     @property
-    def vertices(self) -> list[dict[str, Any]]:
-        """Enclosures x, y (pairs, rounded outward) of the vertices of certain triangles."""
-        vertices: list[dict[str, Any]] = self.data['vertices']
-        return vertices
+    def vertices(self) -> Enclosures:
+        """Enclosures of the vertices of certain triangles and of ties, inside the window and outside."""
+        return self._frame[0]
+
+    @property
+    def regions(self) -> Enclosures:
+        """Boxes of the undecided regions that reach into the window."""
+        return self._frame[1]
+
+    @property
+    def edges(self) -> Edges:
+        """Certain edges, between `vertices`."""
+        return self._frame[2]
 
     def write(self, format: str = 'csv', layer: str | None = None, epsg: int = 0) -> str | bytes:
         """The diagram, as the triangulation is now, in a format of the command."""
@@ -194,22 +220,48 @@ class Voronoi:
 
         crs: by default that of the points. Rows are named by `i`, as `rows` of the triangulation, and by `id`.
         """
-        geopandas: Any = importlib.import_module('geopandas')
-        crs = self._of.crs if crs is None else crs
-        if layer not in ('cells', 'tiles'):
-            features = json.loads(self.write('geojson', layer))['features']
-            return geopandas.GeoDataFrame.from_features(features, crs=crs)
-        rings = self._rings if layer == 'cells' else self.tiles
-        columns: dict[str, Any] = {'i': self._of.rows[rings.points]}
-        if (ids := self._of.ids) is not None:
-            columns['id'] = [ids[k] for k in rings.points.tolist()]
-        if layer == 'cells':
-            columns['kind'] = KINDS[self._kind]
-            columns['area_lo'], columns['area_hi'] = self._areas[rings.points].T
-        else:
-            columns['area'] = self._tiles[1]
-            columns['area_lo'], columns['area_hi'] = self._tiles[2].T
-        return geopandas.GeoDataFrame(columns, geometry=rings.to_shapely(), crs=crs)
+        layers = {'cells': self._cell_rows, 'tiles': self._tile_rows, 'vertices': self._vertex_rows, 'edges': self._edge_rows,
+                  'regions': self._region_rows}
+        if layer not in layers:
+            raise ValueError(f'there is no layer {layer!r}; give one of {", ".join(map(repr, layers))}')
+        return _geometry.frame_of(*layers[layer](), self._of.crs if crs is None else crs)
+
+    def _cell_rows(self) -> LayerRows:
+        rings, area = self._rings, self._areas[self._rings.points].T
+        columns = {'kind': KINDS[self._kind], **self._of.named(i=rings.points), 'area_lo': area[0], 'area_hi': area[1]}
+        return columns, rings.to_wkb(), rings.rounding
+
+    def _tile_rows(self) -> LayerRows:
+        rings, area, bounds = self._tiles
+        columns = {**self._of.named(i=rings.points), 'area': area, 'area_lo': bounds[:, 0], 'area_hi': bounds[:, 1]}
+        return columns, rings.to_wkb(), rings.rounding
+
+    def _vertex_rows(self) -> LayerRows:
+        v, window = self.vertices, np.array([float(end) for end in self._ends])
+        b = v.boxes
+        chosen = np.isfinite(b).all(axis=1) & (b[:, ::2] <= window[1::2]).all(axis=1) & (window[::2] <= b[:, 1::2]).all(axis=1)
+        i, j, k = v.corners[chosen].T
+        return ({**self._of.named(i=i, j=j, k=k), **box_columns(b[chosen])}, _geometry.wkb_points(v.centres[chosen]),
+                _geometry.half_width(b[chosen]))
+
+    def _edge_rows(self) -> LayerRows:
+        e, v, rows = self.edges, self.vertices, self._of.rows
+        drawn = np.flatnonzero(e.drawn)
+        i, j = e.pairs[drawn].T
+        ends, lines = {}, e.to_wkb()
+        sums = np.add.reduceat(v.points, v.offsets[:-1], dtype=np.int64) if len(v) else np.zeros(0, np.int64)
+        for at, side in zip(e.ends[drawn].T, ('left', 'right')):
+            few = (at > OPEN) & (np.diff(v.offsets, append=0)[at] == 3)
+            ends[side] = np.where(at == OPEN, 'open', 'ray').astype(object)
+            ends[side][few] = rows[sums[at[few]] - i[few] - j[few]].astype(str)
+            for k in np.flatnonzero((at > OPEN) & ~few).tolist():
+                ends[side][k] = ' '.join(map(str, rows[v[int(at[k])][:3]].tolist()))
+        return {**self._of.named(i=i, j=j), **ends}, [lines[k] for k in drawn.tolist()], e.rounding[drawn]
+
+    def _region_rows(self) -> LayerRows:
+        r = self.regions
+        sites = [' '.join(map(str, self._of.rows[r[k]].tolist())) for k in range(len(r))]
+        return {'face': r.faces, **box_columns(r.boxes), 'sites': sites}, r.to_wkb(), np.zeros(len(r))
 
     @property
     def __geo_interface__(self) -> dict[str, Any]:
