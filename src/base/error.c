@@ -115,7 +115,7 @@ const char *dyd_version(void) {
 dyd_status dyd_fail_room(dyd_error *err, const dyd_room *room) {
   return dyd_fail(
       err, DYD_E_NOMEM,
-      "%s would bring memory to about %llu bytes, and max_bytes leaves %llu; raise it, or ask for less: fewer "
+      "%s would bring memory to about %llu bytes, and `max_bytes` leaves %llu; raise it, or ask for less: fewer "
       "points, narrower rectangles, fewer bits",
       room->refused, (unsigned long long)room->wanted, (unsigned long long)room->most);
 }

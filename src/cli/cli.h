@@ -182,6 +182,13 @@ typedef struct cli_work {
 extern const cli_work cli_delaunay, cli_voronoi, cli_sphere, cli_converge, cli_check, cli_verify, cli_disc,
     cli_bisector, cli_nearest, cli_tolerance, cli_plan;
 
+/* What writing a diagram has found. */
+typedef struct cli_diagram {
+  dyd_voronoi_bounds bounds;
+  size_t cut;        /* cells and regions that were not worked out */
+  size_t coincident; /* points without a tile of their own */
+} cli_diagram;
+
 typedef struct cli_progress cli_progress;
 struct cli_session {
   const cli_work *work;
@@ -199,6 +206,7 @@ struct cli_session {
   bool forgot;                          /* memory was exhausted when a stage was noted */
   const dyd_pair_list *discs;           /* pairs of discs, borrowed; NULL: none */
   const dyd_graph_list *graph;          /* of a layer that is a graph, borrowed; NULL: not known */
+  cli_diagram *diagram;                 /* receives what writing finds, borrowed; NULL: nothing */
   const dyd_voronoi_bounds *bounds;     /* of the diagram written, borrowed; NULL: none */
   const dyd_converge_options *converge; /* for the trace, borrowed; NULL: none */
   FILE *noted;                          /* takes the comments of csv, for standard error; NULL: they are not noted */
@@ -243,6 +251,8 @@ dyd_status cli_session_cut(dyd_status st, const dyd_error *err);
 /* Exit status where work was cut short, by the end of time or on request. */
 int cli_exit_cut(void);
 int cli_exit_status(dyd_outcome outcome);
+/* Where the library failed with st: CLI_BUDGET if --max-bytes refused memory, else CLI_FAILED. */
+int cli_exit_refused(const cli_session *s, dyd_status st);
 /* Why no more is known, and what to do. Static storage. */
 const char *cli_outcome_advice(const dyd_engine *e);
 /* The line that sums up a result with undecided pairs (dyd_pair_status counts) and says what to do next; advice NULL:
@@ -251,6 +261,11 @@ void cli_note_pairs(const cli_session *s, dyd_outcome outcome, const size_t coun
 /* Writes anything to the file `name` (NULL: standard output), whole or not at all. 0, or an exit status after a
  * message. */
 int cli_write_file(const char *name, const cli_session *s, cli_print_fn print);
+/* content.c: prints to out (opened as `name`), packed where the name says so; a picture in a process of its own, whose
+ * failure is DYD_E_STREAM with *err filled. */
+dyd_status cli_write_content(FILE *out, const char *name, const cli_session *s, cli_print_fn print, dyd_error *err);
+/* Is what is written to this file packed? */
+bool cli_is_packed(const char *name, const cli_options *o);
 /* Where the comments of csv go that is written to out: into it, or aside. */
 FILE *cli_comments(FILE *out, const cli_session *s);
 /* The summary of a triangulation: undecided pairs and the reason, notes on radii and equal points, --stats. */
@@ -294,6 +309,8 @@ void cli_memory_guard(void);
 
 /* process.c: the time limit of the whole command. seconds <= 0: no limit. */
 void cli_deadline_start(double seconds);
+/* The same in a child of the process: only the flags are raised. */
+void cli_deadline_again(void);
 /* Names the present work, "reading"; static text. */
 void cli_deadline_phase(const char *what);
 /* All is written and told; what follows (programs of an oracle are given time to end) may be cut, with this status. */
@@ -339,6 +356,7 @@ typedef enum cli_kind {
   CLI_FILE,    /* the name of a file that is written */
   CLI_SOURCE,  /* the name of a file that is read */
   CLI_INTEGER, /* least..most, into an integer of `width` bytes */
+  CLI_BYTES,   /* the same, with K, M, G or T behind it: times 1024, ... */
   CLI_SECONDS, /* a double above 0 */
   CLI_DEGREES, /* the same, up to 90 */
   CLI_GOAL,    /* decided, area:M, hausdorff:M */

@@ -45,7 +45,9 @@ static dyd_status run_graph(cli_session *s, const dyd_engine_options *options, d
 static int delaunay_find(cli_session *s) {
   int status = pairs_find(s);
   if (status || !cli_layer_is_graph(s->o.content) || !cli_run_was_whole(s->engine)) return status;
-  return cli_session_run(s, &s->o.engine, run_graph);
+  status = cli_session_run(s, &s->o.engine, run_graph);
+  if (status == CLI_BUDGET) s->known = false; /* memory was refused */
+  return status;
 }
 
 /* The pairs of s->discs, if there are any; else those of the engine. */
@@ -179,18 +181,13 @@ static const cli_work work_discs = {.size = sizeof(disc_result),
 
 /* ---- voronoi ---- */
 
-typedef struct voronoi_result {
-  dyd_voronoi_bounds bounds;
-  size_t cut;        /* cells and regions that were not worked out */
-  size_t coincident; /* points without a tile of their own */
-} voronoi_result;
-
 static const cli_work *voronoi_instead(const cli_options *o) {
   return o->sphere ? &cli_sphere : NULL;
 }
 
 static int voronoi_begin(cli_session *s) {
-  dyd_voronoi_bounds_init(&((voronoi_result *)s->state)->bounds);
+  s->diagram = s->state;
+  dyd_voronoi_bounds_init(&s->diagram->bounds);
   s->o.engine.goal = cli_voronoi_goal(s->o.engine.goal);
   s->o.engine.window = &s->window;
   s->share = 0.75; /* the cells get some of the time, too */
@@ -224,7 +221,7 @@ static int voronoi_find(cli_session *s) {
 }
 
 static dyd_status voronoi_write(FILE *out, const cli_session *s, dyd_error *err) {
-  voronoi_result *r = s->state;
+  cli_diagram *r = s->diagram;
   const dyd_write_options how = {DYD_SIZED(dyd_write_options),
                                  .flatten_bits = s->o.flatten_bits,
                                  .flatten_set = s->o.flatten_set,
@@ -241,7 +238,7 @@ static dyd_status voronoi_write(FILE *out, const cli_session *s, dyd_error *err)
 }
 
 static int voronoi_summary(cli_session *s, int status) {
-  const voronoi_result *r = s->state;
+  const cli_diagram *r = s->diagram;
   if (s->known && (!s->written || s->written == CLI_BUDGET)) {
     s->bounds = &r->bounds;
     if (r->cut)
@@ -260,10 +257,10 @@ static int voronoi_summary(cli_session *s, int status) {
 }
 
 static void voronoi_end(cli_session *s) {
-  dyd_voronoi_bounds_clear(&((voronoi_result *)s->state)->bounds);
+  dyd_voronoi_bounds_clear(&s->diagram->bounds);
 }
 
-const cli_work cli_voronoi = {.size = sizeof(voronoi_result),
+const cli_work cli_voronoi = {.size = sizeof(cli_diagram),
                               .instead = voronoi_instead,
                               .begin = voronoi_begin,
                               .find = voronoi_find,

@@ -118,16 +118,29 @@ static bool value_scan_integer(long long *out, const char *text, long long least
   return end != text && !*end && errno == 0 && *out >= least && *out <= most;
 }
 
+/* The power of 2 that K, M, G or T at the end of a number of bytes stands for. */
+static int value_unit(const char *text) {
+  static const char unit[] = "KMGT";
+  const char *at = *text ? strchr(unit, text[strlen(text) - 1]) : NULL;
+  return at ? 10 * (int)(at - unit + 1) : 0;
+}
+
 static bool value_integer(void *place, const cli_option *option, const char *text) {
   long long value;
-  if (!value_scan_integer(&value, text, option->least, option->most)) {
+  char number[64];
+  const int shift = option->kind == CLI_BYTES ? value_unit(text) : 0;
+  const int length = snprintf(number, sizeof number, "%.*s", (int)strlen(text) - (shift > 0), text);
+  if (length >= (int)sizeof number || !value_scan_integer(&value, number, option->least, option->most >> shift)) {
     char wanted[96];
-    snprintf(wanted, sizeof wanted, "a whole number from %lld to %lld", option->least, option->most);
+    snprintf(wanted, sizeof wanted,
+             option->kind == CLI_BYTES ? "a number of bytes, such as 500M or 2G" : "a whole number from %lld to %lld",
+             option->least, option->most);
     return value_usage(option, text, wanted);
   }
   if (option->width == sizeof(unsigned)) {
     *(unsigned *)place = (unsigned)value;
   } else {
+    value <<= shift;
     /* int64_t, uint64_t and size_t hold these values the same way. */
     int64_t wide = value;
     memcpy(place, &wide, sizeof wide);
@@ -246,6 +259,7 @@ static bool value_any(cli_options *o, const cli_option *option, const char *text
   case CLI_SOURCE:
     return value_text(place, option, text);
   case CLI_INTEGER:
+  case CLI_BYTES:
     return value_integer(place, option, text);
   case CLI_SECONDS:
   case CLI_DEGREES:

@@ -300,11 +300,15 @@ static void deadline_wait(double at) {
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, NULL) == EINTR) continue;
 }
 
-static void *deadline_watch(void *unused) {
-  (void)unused;
+static void *deadline_raise(void *unused) {
   deadline_wait(ends);
   __atomic_store_n(&late, 1, __ATOMIC_SEQ_CST);
   signals_stop();
+  return unused;
+}
+
+static void *deadline_watch(void *unused) {
+  deadline_raise(unused);
   deadline_wait(ends + grace);
   int status = atomic_load(&written);
   if (status >= 0) _exit(status);
@@ -320,6 +324,11 @@ void cli_deadline_start(double seconds) {
   ends = cli_clock() + seconds;
   grace = fmax(0.9, 0.09 * seconds);
   if (signals_spare(&thread, deadline_watch, NULL)) pthread_detach(thread);
+}
+
+void cli_deadline_again(void) {
+  pthread_t thread;
+  if (isfinite(ends) && signals_spare(&thread, deadline_raise, NULL)) pthread_detach(thread);
 }
 
 void cli_deadline_phase(const char *what) {

@@ -349,12 +349,16 @@ int cli_session_run(cli_session *s, const dyd_engine_options *options, cli_run_f
   if (s->forgot) return cli_complain_memory();
   if (st == DYD_OK) return 0;
   cli_complain_of(s->engine, s->o.file, &err);
-  return CLI_FAILED;
+  return cli_exit_refused(s, st);
 }
 
 dyd_status cli_run_engine(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
   dyd_outcome outcome;
   return dyd_engine_run(&outcome, s->engine, options, err);
+}
+
+int cli_exit_refused(const cli_session *s, dyd_status st) {
+  return st == DYD_E_NOMEM && s->o.engine.max_bytes ? CLI_BUDGET : CLI_FAILED;
 }
 
 int cli_exit_status(dyd_outcome outcome) {
@@ -471,9 +475,7 @@ int cli_write_file(const char *name, const cli_session *s, cli_print_fn print) {
   if (!cli_output_open(&out, name)) return CLI_FAILED;
   dyd_error err;
   dyd_error_clear(&err);
-  FILE *packed = name && name == o->output ? cli_pack(out.stream, name) : NULL;
-  dyd_status st = print(packed ? packed : out.stream, s, &err);
-  bool good = !packed || fclose(packed) == 0;
+  dyd_status st = cli_write_content(out.stream, name, s, print, &err);
   bool done = st == DYD_OK;
   if (st > 0) {
     cli_output_drop(&out);
@@ -483,13 +485,12 @@ int cli_write_file(const char *name, const cli_session *s, cli_print_fn print) {
     cli_complain("%s: %s; choose another place with -o", name ? name : "standard output", err.message);
   else if (!done && st != DYD_E_IO)
     cli_complain_at(o->file, &err);
-  if (done && good)
+  if (done)
     done = cli_output_finish(&out, o);
-  else if (done)
-    done = cli_fail("%s: cannot write: %s; choose another place with -o", name, strerror(errno)) == CLI_OK;
-  if (!done) cli_output_drop(&out);
-  if (done && packed) cli_note(o, "%s holds %s, packed", name, dyd_format_name(o->format));
-  return done ? 0 : CLI_FAILED;
+  else
+    cli_output_drop(&out);
+  if (done && cli_is_packed(name, o)) cli_note(o, "%s holds %s, packed", name, dyd_format_name(o->format));
+  return done ? 0 : cli_exit_refused(s, st);
 }
 
 /* The certificate that the options ask for, after results were written with this status. Returns the status of all. */
@@ -526,7 +527,7 @@ static bool comment_is_summary(const char *line) {
 static void note_comments(cli_session *s) {
   char text[2048] = "";
   size_t used = 0, aliases = 0, length;
-  if (s->noted && fclose(s->noted) == 0 && !s->written) {
+  if (s->noted && fclose(s->noted) == 0 && s->note && !s->written) {
     for (const char *line = s->note; *line; line += length + (line[length] == '\n')) {
       length = strcspn(line, "\n");
       aliases += strncmp(line, "# alias", 7) == 0;

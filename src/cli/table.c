@@ -210,6 +210,10 @@ const cli_option cli_option_table[] = {
      GIVEN(max_bits_set)},
     {"max-pairs", 0, "K", CLI_INTEGER, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_REFINEMENT,
      "cap on stored pairs (default 4000000 + 16 per point)", AT(engine.max_pairs), RANGE(1, (long long)1 << 40)},
+    {"max-bytes", 0, "BYTES", CLI_BYTES, READ & ~BIT(CLI_CHECK) & ~PIECES, CLI_REFINEMENT,
+     "memory for points, triangulation and what is made of it, by\nestimates: 500M, 2G (powers of 1024); where more "
+     "would be\ntaken the command ends with status 4 (default: no limit)",
+     AT(engine.max_bytes), RANGE(1, (long long)1 << 50)},
     {"timeout", 0, "SECONDS", CLI_SECONDS, CLI_ALL, CLI_REFINEMENT, "end after this time, reading and writing included",
      AT(engine.seconds)},
     {"schedule", 0, "WHICH", CLI_CHOICE, RUN, CLI_REFINEMENT,

@@ -93,8 +93,9 @@ static dyd_status survey_rect(dyd_rect *out, const dyd_survey *s, uint32_t i, bo
 dyd_status dyd_survey_triangulate(dyd_delaunay **pd, dyd_sites **sites, const dyd_survey *s, bool centres) {
   dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = s->options.cancel};
   dyd_room room = s->room;
-  dyd_error err = {0};
+  dyd_error err;
   dyd_rect r;
+  dyd_error_clear(&err);
   dyd_rect_init(&r);
   *pd = NULL;
   dyd_status st = dyd_sites_new(sites);

@@ -19,7 +19,7 @@ SECONDS = ('0', '-1', 'nan', 'inf', 'x', '', '1s')
 # Values that are refused before any file is looked at.
 WRONG = {
     '--until': ('', 'area', 'area:', 'are:3', 'decided:3', 'hausdorff:3x', 'hausdorff:99999999'),
-    '--max-bits': WHOLE, '--max-pairs': WHOLE, '--threads': WHOLE, '--tie-bits': WHOLE, '--start-bits': WHOLE, '--step-bits': WHOLE,
+    '--max-bytes': WHOLE + ('3X', 'M', '2GB', '99999999T', '9' * 80, '-1K'), '--max-bits': WHOLE, '--max-pairs': WHOLE, '--threads': WHOLE, '--tie-bits': WHOLE, '--start-bits': WHOLE, '--step-bits': WHOLE,
     '--oracle-jobs': WHOLE, '--oracle-batch': WHOLE, '--schedules': WHOLE,
     '--seed': WHOLE[1:], '--site': WHOLE[1:], '--oracle-retries': WHOLE[1:],
     '--flatten': WHOLE[2:],
@@ -172,7 +172,7 @@ def test_bash_completion():
         offered = {word for word in complete('dyadel', name, '-') if word.startswith('--')}
         assert offered == set(options(help_of(name))), name
     assert set(complete('dyadel', '--')) == set(options(help_of()))
-    assert complete('dyadel', 'delaunay', '--max') == ['--max-bits', '--max-pairs']
+    assert complete('dyadel', 'delaunay', '--max') == ['--max-bits', '--max-pairs', '--max-bytes']
     assert complete('dyadel', 'delaunay', '--schedule', 'u') == ['uniform']
     assert complete('dyadel', 'tolerance', '--metric', '') == ['euclid', 'box']
     assert complete('dyadel', 'delaunay', '--format', '=', 'js') == ['json']

@@ -23,6 +23,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -35,7 +36,7 @@ enum { MOST_RANGES = 64 };
 static struct { uintptr_t begin, end; } range[MOST_RANGES];
 static size_t ranges;
 static const char *call, *inside;
-static atomic_long seen;
+static atomic_long *seen; /* by children, too */
 static long at;
 static int on, error;
 
@@ -64,6 +65,9 @@ static void read_number(const char *name, long *out) {
 
 __attribute__((constructor)) static void faults_begin(void) {
   long number = EIO;
+  void *shared = mmap(NULL, sizeof *seen, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (shared == MAP_FAILED) abort();
+  seen = shared;
   if (getenv("FAULT_LOCALE")) setlocale(LC_ALL, "");
   inside = getenv("FAULT_IN");
   read_number("FAULT_AT", &at);
@@ -78,12 +82,12 @@ __attribute__((destructor)) static void faults_end(void) {
   const char *name = getenv("FAULT_COUNT");
   int fd = name ? (int)syscall(SYS_openat, AT_FDCWD, name, O_WRONLY | O_CREAT | O_TRUNC, 0666) : -1;
   if (fd < 0) return;
-  dprintf(fd, "%ld\n", atomic_load(&seen));
+  dprintf(fd, "%ld\n", atomic_load(seen));
   close(fd);
 }
 
 static int counted_fails(void) {
-  long k = atomic_fetch_add(&seen, 1) + 1;
+  long k = atomic_fetch_add(seen, 1) + 1;
   if (!at || (on ? k < at : k != at)) return 0;
   errno = error;
   return 1;
@@ -193,6 +197,9 @@ int pipe2(int end[2], int flags) {
 int posix_spawn(pid_t *pid, const char *path, const posix_spawn_file_actions_t *files, const posix_spawnattr_t *attr,
                 char *const argv[], char *const env[]) {
   return fails("posix_spawn") ? error : NEXT(posix_spawn)(pid, path, files, attr, argv, env);
+}
+pid_t fork(void) {
+  return fails("fork") ? -1 : NEXT(fork)();
 }
 int pthread_create(pthread_t *out, const pthread_attr_t *attr, void *(*work)(void *), void *user) {
   return fails("pthread_create") ? error : NEXT(pthread_create)(out, attr, work, user);

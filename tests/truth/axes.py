@@ -744,6 +744,7 @@ EXTRAS = {
     'uniform': Extra(['--schedule', 'uniform']), 'adaptive': Extra(['--schedule', 'adaptive']),
     'start': Extra(['--start-bits', '9']), 'step': Extra(['--step-bits', '40']),
     'few bits': Extra(['--max-bits', '48'], softens=True), 'few pairs': Extra(['--max-pairs', '2'], softens=True),
+    'bytes': Extra(['--max-bytes', '1G']),
     'ties off': Extra(['--ties', 'off'], softens=True), 'ties prove': Extra(['--ties', 'prove']),
     'tie bits': Extra(['--tie-bits', '64'], softens=True), 'area': Extra(['--until', 'area:4'], softens=True),
     'hausdorff': Extra(['--until', 'hausdorff:4'], softens=True), 'decided': Extra(['--until', 'decided']),
