@@ -17,8 +17,14 @@ bool dyd_delaunay_is_bounded(const dyd_delaunay *pd);
 dyd_status dyd_delaunay_grant(const dyd_delaunay *pd, uint64_t bytes, const char *what, dyd_error *err);
 /* The least status of the pairs that cells, areas, spanning trees and plans look at. Ties of exact points are ignored:
  * the common boundary of two such cells is one point or nothing [GRP-1], and a face of k sites has about k^2 / 2 of
- * them. Ties that were proved count, since their rectangles say less than what was proved. */
+ * them. Ties that were proved count: of arbitrary points in their rectangles they are possible edges. */
 dyd_pair_status dyd_least_bounding(const dyd_delaunay *pd);
+/* Is a tie of points that are not all exact proved? Of the true points it bounds nothing either [GRP-2]. */
+bool dyd_has_proved_tie(const dyd_delaunay *pd);
+/* As dyd_least_bounding, for the true points; dyd_least_at: of the pairs that bound the cell of site i, proved: for the
+ * true points. */
+dyd_pair_status dyd_least_bounding_true(const dyd_delaunay *pd);
+dyd_pair_status dyd_least_at(const dyd_delaunay *pd, uint32_t i, bool proved);
 /* Bytes of the list of pairs with at least that status, and of that of the sure triangles while it is made. */
 uint64_t dyd_pairs_bytes(const dyd_delaunay *pd, dyd_pair_status least);
 uint64_t dyd_triangles_bytes(const dyd_delaunay *pd);

@@ -132,6 +132,35 @@ dyd_pair_status dyd_least_bounding(const dyd_delaunay *pd) {
   return pd->sk.all_points ? DYD_INDETERMINATE : DYD_TIE;
 }
 
+static bool is_proved_line(const dyd_delaunay *pd) {
+  return pd->open.kind == DYD_LINE && pd->line_tie && !pd->sk.all_points;
+}
+
+static bool is_in_proved_tie(const dyd_delaunay *pd, uint32_t i) {
+  dyd_half_edge first = pd->sk.leaving[pd->sk.vertex[i]];
+  if (pd->open.kind != DYD_LISTED) return is_proved_line(pd);
+  for (dyd_half_edge h = first; h != DYD_NONE; h = dyd_edge_around(&pd->sk.mesh, h, first)) {
+    uint32_t f = dyd_face_of(pd, dyd_edge_triangle(h));
+    if (f != DYD_NONE && pd->open.face[f].proved) return true;
+  }
+  return false;
+}
+
+bool dyd_has_proved_tie(const dyd_delaunay *pd) {
+  if (pd->open.kind != DYD_LISTED) return is_proved_line(pd);
+  for (size_t f = 0; f < pd->open.count; f++)
+    if (pd->open.face[f].proved) return true;
+  return false;
+}
+
+dyd_pair_status dyd_least_bounding_true(const dyd_delaunay *pd) {
+  return dyd_has_proved_tie(pd) ? DYD_INDETERMINATE : dyd_least_bounding(pd);
+}
+
+dyd_pair_status dyd_least_at(const dyd_delaunay *pd, uint32_t i, bool proved) {
+  return proved && is_in_proved_tie(pd, i) ? DYD_INDETERMINATE : dyd_least_bounding(pd);
+}
+
 uint64_t dyd_pairs_bytes(const dyd_delaunay *pd, dyd_pair_status least) {
   size_t count[4];
   dyd_delaunay_count(count, pd);

@@ -70,7 +70,7 @@ static uint64_t plan_bytes(const dyd_plan *p) {
 /* What judging the result takes: bounds list all pairs, and those of the diagram have two numbers a cell. O(points). */
 static uint64_t goal_bytes(const dyd_engine *e, const dyd_engine_options *o) {
   if (o->goal == DYD_GOAL_DECIDED) return 0;
-  uint64_t bytes = dyd_pairs_bytes(e->pd, dyd_goal_is_voronoi(o->goal) ? dyd_least_bounding(e->pd) : DYD_TIE);
+  uint64_t bytes = dyd_pairs_bytes(e->pd, dyd_goal_is_voronoi(o->goal) ? dyd_least_bounding_true(e->pd) : DYD_TIE);
   if (dyd_goal_is_voronoi(o->goal)) bytes += 2 * sizeof(double) * dyd_sites_count(e->sites);
   return bytes + (o->goal == DYD_GOAL_VORONOI_HAUSDORFF ? dyd_triangles_bytes(e->pd) : 0);
 }

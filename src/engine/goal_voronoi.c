@@ -61,8 +61,9 @@ dyd_status dyd_goal_voronoi_number(mpfr_ptr out, dyd_voronoi_sums *sums, dyd_mea
     st = dyd_voronoi_pair_second(&second, sums, pair);
     if (st == DYD_OK && second <= sums->most) mpfr_set_d(out, second, MPFR_RNDU);
   } else if (finite) {
-    double a = sums->reach[pair->i], b = sums->reach[pair->j];
-    mpfr_mul_d(out, out, a < b ? a : b, MPFR_RNDU);
+    double reach[2];
+    dyd_voronoi_pair_reach(reach, sums, pair);
+    mpfr_mul_d(out, out, reach[reach[1] < reach[0]], MPFR_RNDU);
     mpfr_mul_2ui(out, out, 2, MPFR_RNDU);
   }
   return st;
@@ -126,7 +127,7 @@ dyd_status dyd_goal_voronoi_holds(bool *out, dyd_voronoi_sums **sums, const dyd_
   mpfr_t bound;
   bool finite = false;
   mpfr_init2(bound, DYD_MEASURE_PREC);
-  dyd_status st = dyd_pairs_list(&pairs, e->pd, dyd_least_bounding(e->pd));
+  dyd_status st = dyd_pairs_list(&pairs, e->pd, dyd_least_bounding_true(e->pd));
   if (st == DYD_OK && o->goal == DYD_GOAL_VORONOI_AREA) {
     st = goal_area_holds(out, bound, sums, e, o, &pairs);
   } else if (st == DYD_OK) {

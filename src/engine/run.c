@@ -508,7 +508,7 @@ static dyd_status plan_bound(dyd_plan *plan, dyd_measure *m, dyd_voronoi_sums *s
   dyd_pair_list pairs = {0};
   mpfr_t share, largest, unused;
   mpfr_inits2(DYD_MEASURE_PREC, share, largest, unused, (mpfr_ptr)0);
-  dyd_status st = dyd_pairs_list(&pairs, plan->e->pd, DYD_TIE);
+  dyd_status st = dyd_pairs_list(&pairs, plan->e->pd, sums ? dyd_least_bounding_true(plan->e->pd) : DYD_TIE);
   if (st == DYD_OK && pairs.count) {
     mpfr_set_ui_2exp(share, 1, (mpfr_exp_t)-plan->o->goal_bits, MPFR_RNDD);
     if (shared) mpfr_div_ui(share, share, (unsigned long)pairs.count, MPFR_RNDD);

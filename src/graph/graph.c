@@ -469,8 +469,8 @@ dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_grap
     return dyd_fail(err, DYD_CAPPED, "there are more pairs than can be stored; raise `max_pairs`");
   dyd_graph_work w = {.pd = pd, .sites = dyd_delaunay_sites(pd), .cancel = cancel, .room = dyd_delaunay_room(pd)};
   w.n = dyd_sites_count(w.sites);
-  /* A tied pair of exact points is longer than those between on the rim [GRP-1]; it may be a diameter of its circle. */
-  w.least = graph == DYD_GRAPH_GABRIEL && !dyd_is_line(pd) ? DYD_TIE : dyd_least_bounding(pd);
+  /* A tied pair is longer than those between on the rim [GRP-1] [GRP-2]; it may be a diameter of its circle. */
+  w.least = graph == DYD_GRAPH_GABRIEL && !dyd_is_line(pd) ? DYD_TIE : dyd_least_bounding_true(pd);
   dyd_reach_init(&w.reach);
   dyd_status st = graph_prepare(&w);
   if (st == DYD_OK) st = make[graph](&w);

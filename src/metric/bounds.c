@@ -290,8 +290,13 @@ static mpfr_prec_t sum_precision(const dyd_rect *window, int64_t bits) {
 
 dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits) {
   size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
-  *s = (dyd_voronoi_sums){
-      .pd = pd, .window = window, .bits = bits, .most = HUGE_VAL, .exact = true, .room = dyd_delaunay_room(pd)};
+  *s = (dyd_voronoi_sums){.pd = pd,
+                          .window = window,
+                          .bits = bits,
+                          .most = HUGE_VAL,
+                          .exact = true,
+                          .proved = dyd_has_proved_tie(pd),
+                          .room = dyd_delaunay_room(pd)};
   mpfr_inits2(sum_precision(window, bits), s->inner, s->term, (mpfr_ptr)0);
   mpfr_set_zero(s->inner, 1);
   dyd_dyadic_init(&s->area2);
@@ -361,6 +366,7 @@ dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, vo
   w.cancel = s->cancel;
   w.room = &s->room;
   w.most = s->corners;
+  w.proved = s->exact;
   if (st == DYD_OK && s->exact) dyd_window_set_grid(&w, DYD_GRID_FINE);
   for (size_t i = 0; i < n && st == DYD_OK; i++) {
     double area[2];
@@ -397,13 +403,30 @@ void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s) {
 
 /* ---- Hausdorff ---- */
 
+static dyd_pair_status sums_least(const dyd_voronoi_sums *s) {
+  return s->exact ? dyd_least_bounding_true(s->pd) : dyd_least_bounding(s->pd);
+}
+
+void dyd_voronoi_pair_reach(double reach[2], const dyd_voronoi_sums *s, const dyd_pair *pair) {
+  const uint32_t end[2] = {pair->i, pair->j};
+  double box[2][4];
+  for (int k = 0; k < 2; k++) reach[k] = s->reach[end[k]];
+  if (s->exact && s->proved) {
+    for (int k = 0; k < 2; k++) dyd_sites_get_d(box[k], dyd_delaunay_sites(s->pd), end[k]);
+    dyd_filter_proved_reach(reach, box[0], box[1]);
+  } else if (reach[0] < 0 || reach[1] < 0) {
+    reach[0] = reach[1] = -1;
+  }
+}
+
 dyd_status dyd_voronoi_pair_width(mpfr_ptr out, bool *finite, const dyd_voronoi_sums *s, dyd_measure *m,
                                   const dyd_pair *pair) {
-  double a = s->reach[pair->i], b = s->reach[pair->j];
+  double reach[2];
   *finite = true;
   mpfr_set_zero(out, 1);
   const dyd_sites *sites = m->sites;
-  if (a < 0 || b < 0 || (dyd_sites_is_point(sites, pair->i) && dyd_sites_is_point(sites, pair->j))) return DYD_OK;
+  dyd_voronoi_pair_reach(reach, s, pair);
+  if (reach[0] < 0 || (dyd_sites_is_point(sites, pair->i) && dyd_sites_is_point(sites, pair->j))) return DYD_OK;
   mpfr_t gap, other;
   mpfr_inits2(DYD_MEASURE_PREC, gap, other, (mpfr_ptr)0);
   dyd_status st = measure_gap(gap, m, pair->i, pair->j);
@@ -412,12 +435,12 @@ dyd_status dyd_voronoi_pair_width(mpfr_ptr out, bool *finite, const dyd_voronoi_
   if (st == DYD_OK) st = dyd_measure_diameter(other, m, pair->j);
   if (st == DYD_OK && *finite) {
     mpfr_add(out, out, other, MPFR_RNDU);
-    mpfr_set_d(other, a, MPFR_RNDU);
-    mpfr_add_d(other, other, b, MPFR_RNDU);
+    mpfr_set_d(other, reach[0], MPFR_RNDU);
+    mpfr_add_d(other, other, reach[1], MPFR_RNDU);
     mpfr_mul(out, out, other, MPFR_RNDU);
     mpfr_div(out, out, gap, MPFR_RNDU);
     mpfr_div_2ui(out, out, 1, MPFR_RNDU);
-    double most = a > b ? a : b;
+    double most = reach[0] > reach[1] ? reach[0] : reach[1];
     if (mpfr_cmp_d(out, most) > 0) mpfr_set_d(out, most, MPFR_RNDU);
   }
   mpfr_clears(gap, other, (mpfr_ptr)0);
@@ -453,11 +476,12 @@ static dyd_status pair_distance(mpfr_ptr out, bool *known, dyd_voronoi_sums *s, 
 
 /* Can the pair not be above `most`? */
 static bool pair_is_small(const dyd_voronoi_sums *s, const dyd_pair *pair, mpfr_srcptr most) {
-  double a[4], b[4], ra = s->reach[pair->i], rb = s->reach[pair->j];
-  if (ra < 0 || rb < 0) return true;
+  double a[4], b[4], reach[2];
+  dyd_voronoi_pair_reach(reach, s, pair);
+  if (reach[0] < 0) return true;
   dyd_sites_get_d(a, dyd_delaunay_sites(s->pd), pair->i);
   dyd_sites_get_d(b, dyd_delaunay_sites(s->pd), pair->j);
-  double value = dyd_filter_voronoi_pair(a, b, ra, rb);
+  double value = dyd_filter_voronoi_pair(a, b, reach[0], reach[1]);
   return value < HUGE_VAL && mpfr_cmp_d(most, value) >= 0;
 }
 
@@ -502,10 +526,9 @@ dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, dyd_voronoi_sums *s)
   dyd_pair_list pairs = {0};
   mpfr_t area, hausdorff;
   mpfr_inits2(DYD_MEASURE_PREC, area, hausdorff, (mpfr_ptr)0);
-  dyd_status st = dyd_room_has(&s->room, dyd_pairs_bytes(s->pd, dyd_least_bounding(s->pd)), "the bounds of the diagram")
-                      ? DYD_OK
-                      : DYD_E_NOMEM;
-  if (st == DYD_OK) st = dyd_pairs_take(&pairs, s->pd, dyd_least_bounding(s->pd));
+  dyd_status st =
+      dyd_room_has(&s->room, dyd_pairs_bytes(s->pd, sums_least(s)), "the bounds of the diagram") ? DYD_OK : DYD_E_NOMEM;
+  if (st == DYD_OK) st = dyd_pairs_take(&pairs, s->pd, sums_least(s));
   dyd_voronoi_area(area, s);
   if (st == DYD_OK) st = dyd_voronoi_hausdorff(hausdorff, &out->finite, s, &pairs);
   if (st == DYD_CANCELLED && s->cut) { /* not known */

@@ -71,7 +71,8 @@ typedef struct dyd_voronoi_sums {
   dyd_room room;  /* what max_bytes leaves besides the triangulation */
   size_t corners; /* that one polygon may have, as in dyd_window */
   double *reach, *second, most;
-  bool exact; /* cells of exact points are not flattened; false: their polygons are proved, vertex by vertex */
+  bool exact;  /* cells of exact points are not flattened; false: their polygons are proved, vertex by vertex */
+  bool proved; /* there are proved ties, and with `exact` they bound nothing [GRP-2] */
   size_t added, inexact; /* shapes; of them, how many are not the whole cell */
 } dyd_voronoi_sums;
 
@@ -82,6 +83,9 @@ dyd_status dyd_voronoi_bounds_within(dyd_voronoi_bounds *out, const dyd_delaunay
 /* bits: of the polygons to come; sums are kept so precise that rounding does not spoil what these give. */
 dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits);
 void dyd_voronoi_sums_clear(dyd_voronoi_sums *s);
+
+/* reach[0], reach[1]: how far from i and j the points can be that the pair leaves undetermined; -1: there are none. */
+void dyd_voronoi_pair_reach(double reach[2], const dyd_voronoi_sums *s, const dyd_pair *pair);
 
 /* After all sites: initialised by the caller at DYD_MEASURE_PREC bits or more. */
 void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s);

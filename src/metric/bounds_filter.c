@@ -165,6 +165,12 @@ static double box_diameter_upper(const double a[4]) {
   return sqrt(dyd_upper(x * x + y * y)) * SAFE;
 }
 
+void dyd_filter_proved_reach(double r[2], const double a[4], const double b[4]) {
+  double most = dyd_max(r[0], r[1]);
+  if (most >= 0) most = nextafter(most + nextafter(box_diameter_upper(a) + box_diameter_upper(b), HUGE_VAL), HUGE_VAL);
+  r[0] = r[1] = most;
+}
+
 double dyd_filter_voronoi_pair(const double a[4], const double b[4], double ra, double rb) {
   dyd_bbox p = {{a[0], a[1], a[2], a[3]}}, q = {{b[0], b[1], b[2], b[3]}};
   double gap = dyd_ds2_lower(&p, &q); /* over centres in p: the distance of the boxes */

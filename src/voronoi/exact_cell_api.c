@@ -40,16 +40,19 @@ static dyd_status cell_region_among(dyd_boundary *out, const dyd_delaunay *pd, c
   return st;
 }
 
-dyd_status dyd_cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer, const dyd_rect *window,
-                           dyd_room *room, const volatile int *cancel) {
+dyd_status dyd_cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer, bool proved,
+                           const dyd_rect *window, dyd_room *room, const volatile int *cancel) {
   uint32_t site;
   if (window && !window_has_area(window)) return DYD_E_ARG;
   if (dyd_flag_is_set(cancel)) return DYD_CANCELLED;
   dyd_status st = find_cell_site(&site, pd, i);
   if (st != DYD_OK) return st;
   dyd_cell_sites s;
-  st = dyd_cell_sites_init(&s, pd, site);
-  if (st == DYD_OK) st = cell_region_among(out, pd, &s, site, outer, window, room, cancel);
+  dyd_pair_status least = dyd_least_at(pd, site, proved);
+  st = dyd_cell_sites_init(&s, pd, site, least);
+  const dyd_delaunay *complete =
+      least == dyd_least_bounding(pd) ? pd : NULL; /* of some sites only: all may share one */
+  if (st == DYD_OK) st = cell_region_among(out, complete, &s, site, outer, window, room, cancel);
   dyd_cell_sites_clear(&s);
   return st;
 }
@@ -58,7 +61,7 @@ dyd_status dyd_voronoi_cell(dyd_boundary *out, const dyd_delaunay *pd, uint32_t 
                             const dyd_rect *window) {
   if (!pd) return DYD_E_ARG;
   dyd_room room = dyd_delaunay_room(pd);
-  return dyd_cell_region(out, pd, i, bound == DYD_CELL_POSSIBLE, window, &room, NULL);
+  return dyd_cell_region(out, pd, i, bound == DYD_CELL_POSSIBLE, false, window, &room, NULL);
 }
 
 dyd_status dyd_bisector(dyd_boundary *out, const dyd_rect *a, const dyd_rect *b) {
@@ -85,7 +88,7 @@ dyd_status dyd_cell_point_side(dyd_truth *out, const dyd_delaunay *pd, uint32_t 
   dyd_status st = find_cell_site(&site, pd, i);
   if (st != DYD_OK) return st;
   dyd_cell_sites s;
-  st = dyd_cell_sites_init(&s, pd, site);
+  st = dyd_cell_sites_init(&s, pd, site, dyd_least_bounding(pd));
   if (st == DYD_OK) *out = side_of_cell(&s, c);
   dyd_cell_sites_clear(&s);
   return st;

@@ -443,10 +443,10 @@ static bool box_load(dyd_box *out, const dyd_sites *s, uint32_t i) {
   return true;
 }
 
-dyd_status dyd_outline_load(bool *done, dyd_outline *o, const dyd_delaunay *pd, uint32_t i) {
+dyd_status dyd_outline_load(bool *done, dyd_outline *o, const dyd_delaunay *pd, uint32_t i, dyd_pair_status least) {
   dyd_index_list list = {0};
   const dyd_sites *s = dyd_delaunay_sites(pd);
-  dyd_status st = dyd_delaunay_neighbours(&list, pd, i, dyd_least_bounding(pd));
+  dyd_status st = dyd_delaunay_neighbours(&list, pd, i, least);
   *done = st == DYD_OK && list.count <= DYD_OUTLINE_OTHERS;
   if (*done) {
     o->count = list.count;

@@ -67,8 +67,9 @@ typedef struct dyd_outline {
   const dyd_outline_spot *cut[DYD_OUTLINE_MEETS + 2];
 } dyd_outline;
 
-/* The site and its possible neighbours. *done = false: too many of them, or ends beyond doubles. */
-dyd_status dyd_outline_load(bool *done, dyd_outline *o, const dyd_delaunay *pd, uint32_t i);
+/* The site and its neighbours with at least the status `least`. *done = false: too many of them, or ends beyond
+ * doubles. */
+dyd_status dyd_outline_load(bool *done, dyd_outline *o, const dyd_delaunay *pd, uint32_t i, dyd_pair_status least);
 /* false: something is in doubt. Pos first: its outline limits that of Int. */
 bool dyd_filter_outline(dyd_outline *o, const dyd_rect *window, bool outer);
 /* Coordinate a of a point, not relative to the origin. */

@@ -473,7 +473,7 @@ dyd_status dyd_filter_polygons(bool *done, dyd_shape *s, const dyd_delaunay *pd,
   dyd_rect_init(&w.rect);
   mpq_inits(w.end[0][0], w.end[0][1], w.end[1][0], w.end[1][1], w.away[0], w.away[1], NULL);
   bool loaded;
-  dyd_status st = dyd_outline_load(&loaded, w.o, pd, i);
+  dyd_status st = dyd_outline_load(&loaded, w.o, pd, i, dyd_least_at(pd, i, window->proved));
   if (st == DYD_OK && loaded) st = grid_shape(done, s, &w, window);
   free(w.sample);
   free(w.polygon.vertex);

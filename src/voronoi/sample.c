@@ -12,12 +12,12 @@
 
 /* ---- the sites of a cell ---- */
 
-dyd_status dyd_cell_sites_init(dyd_cell_sites *s, const dyd_delaunay *pd, uint32_t i) {
+dyd_status dyd_cell_sites_init(dyd_cell_sites *s, const dyd_delaunay *pd, uint32_t i, dyd_pair_status least) {
   *s = (dyd_cell_sites){0};
   dyd_rect_init(&s->own);
   dyd_index_list list = {0};
   dyd_status st = dyd_sites_get(&s->own, dyd_delaunay_sites(pd), i);
-  if (st == DYD_OK) st = dyd_delaunay_neighbours(&list, pd, i, dyd_least_bounding(pd));
+  if (st == DYD_OK) st = dyd_delaunay_neighbours(&list, pd, i, least);
   if (st != DYD_OK) return st;
   s->site = list.item;
   s->other = dyd_alloc(list.count, sizeof *s->other);

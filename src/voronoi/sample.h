@@ -16,7 +16,8 @@ typedef struct dyd_cell_sites {
   uint32_t *site; /* ascending */
   dyd_rect *other;
 } dyd_cell_sites;
-dyd_status dyd_cell_sites_init(dyd_cell_sites *s, const dyd_delaunay *pd, uint32_t i);
+/* The neighbours with at least the status `least`. */
+dyd_status dyd_cell_sites_init(dyd_cell_sites *s, const dyd_delaunay *pd, uint32_t i, dyd_pair_status least);
 void dyd_cell_sites_clear(dyd_cell_sites *s);
 /* The rectangle of a possible neighbour. */
 const dyd_rect *dyd_cell_site(const dyd_cell_sites *s, uint32_t site);

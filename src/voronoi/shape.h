@@ -23,7 +23,8 @@
 typedef struct dyd_window {
   const dyd_rect *rect;
   double d[4];
-  bool exact; /* cells of exact points are made exactly and rounded to multiples of 2^-grid */
+  bool exact;  /* cells of exact points are made exactly and rounded to multiples of 2^-grid */
+  bool proved; /* proved ties bound nothing: polygons of the true points [GRP-2]; false, as dyd_window_init leaves it */
   int grid;
   const volatile int *cancel;
   dyd_room *room;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """dyadel voronoi against brute force in rationals: cells of exact points are exact and tile the window [GRP-1], inner
-and outer polygons of rectangles hold and never leave the window [POLY-1] [POLY-2] [POLY-3].
+and outer polygons of rectangles hold and never leave the window [POLY-1] [POLY-2] [POLY-3]; proved ties bound nothing [GRP-2].
 
 Usage: test_cells.py COMMAND DATA   (DYADEL_TEST_SCALE multiplies the number of sets)
 """
@@ -9,6 +9,7 @@ import json
 import os
 import random
 from fractions import Fraction as F
+from math import isqrt
 
 from harness import cases, main, run
 
@@ -253,6 +254,64 @@ def test_long_groups():
     assert pairs.count(',tie') == len(round_) * (len(round_) - 3) // 2
     none = run('delaunay', '--quiet', '--list-ties', 'none', '-', stdin=text).out
     assert none == ''.join(x for x in pairs.splitlines(True) if not x.endswith(',tie\n'))
+
+
+# ---- proved ties ----
+
+ROOT2 = F(isqrt(2 << 4000), 1 << 2000)  # off by less than 2^-1999
+
+
+def proved_sets(r):
+    """Points times sqrt(2) on one circle (also with its centre, and others), on one line, on a grid."""
+    d = r.choice([4, 5, 7])
+    on = [(F(d * d - m * m, d * d + m * m), F(2 * m * d, d * d + m * m)) for m in r.sample(range(-40, 41), r.randint(5, 24))]
+    extra = r.choice([[], [(F(0), F(0))], [(F(3), F(1, 3)), (F(-2), F(5))]])
+    yield on + extra
+    yield [(F(3 * k), F(k)) for k in r.sample(range(30), r.randint(3, 12))] + r.choice([[], [(F(4), F(9))]])
+    yield [(F(x), F(y)) for x in range(r.randint(2, 4)) for y in range(r.randint(2, 4))]
+
+
+def check_proved(r, points):
+    true = [(x * ROOT2, y * ROOT2) for x, y in points]
+    w = window(r, [(F(int(x)), F(int(y))) for x, y in true])
+    extra = r.choice([[], ['--until', 'area:20'], ['--until', 'hausdorff:20']])
+    text = ''.join(f'({x})*sqrt(2) ({y})*sqrt(2)\n' for x, y in points)
+    result = run('voronoi', '--quiet', '--format', 'json', '--window=' + ','.join(map(str, w)), *extra, '-', stdin=text)
+    assert result.code in (0, 3), (result.code, result.err)
+    answer = json.loads(result.out)
+    tiny = F(1, 1 << 900)
+    left = (w[1] - w[0]) * (w[3] - w[2])
+    for c in answer['cells']:
+        cell = true_cell(true, c['i'], w)
+        inner, area = ring(c['inner']), area2(cell) / 2
+        left -= area2(inner) / 2
+        assert F(c['area'][0]) - tiny <= area <= F(c['area'][1]) + tiny, f'area of cell {c["i"]}'
+        for z in inner:
+            own = nearest2(z, (true[c['i']][0], true[c['i']][0], true[c['i']][1], true[c['i']][1]))
+            assert all(own <= (z[0] - x) ** 2 + (z[1] - y) ** 2 + tiny for x, y in true), f'inner of {c["i"]}: {z}'
+        for z in cell:
+            near = [(z[0] + (true[c['i']][0] - z[0]) * tiny, z[1] + (true[c['i']][1] - z[1]) * tiny)]
+            assert any(holds(ring(p), z) or holds(ring(p), near[0]) for p in c['outer']), f'outer of {c["i"]} lacks {z}'
+    assert left <= number(answer['bounds']['undetermined_area']['exact']), 'the undetermined area'
+
+
+def test_proved():
+    r = random.Random(SEED + 3)
+    print('seed', SEED + 3)
+    for k in range(SETS // 12):
+        for points in proved_sets(r):
+            try:
+                check_proved(r, points)
+            except AssertionError as problem:
+                raise AssertionError(f'set {k}: {problem}: {points}') from problem
+
+
+def test_proved_cost():
+    """A circle of 1,000 points sqrt(2) away: neither cells nor graphs look at its 500,000 pairs."""
+    text = ''.join(f'sqrt(2)*{10000 - m * m}/{10000 + m * m} sqrt(2)*{200 * m}/{10000 + m * m}\n' for m in range(-500, 500))
+    for command in (['voronoi'], ['delaunay', '--layer', 'graph:mst'], ['delaunay', '--list-ties', 'groups']):
+        result = run(*command, '--quiet', '-', stdin=text, timeout=30)
+        assert result.code == 3 and result.out, (command, result.code, result.err)
 
 
 def test_aliases():
