@@ -249,7 +249,7 @@ DYD_API bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *n
 /* Can the format hold it? Where not, dyd_write returns DYD_E_ARG with a message that names the formats that can. */
 DYD_API bool dyd_format_holds(dyd_format format, dyd_content content);
 
-/* What dyd_engine_nearest found; all borrowed. Begun with DYD_SIZED. */
+/* What dyd_engine_nearest or dyd_sphere_nearest found; all borrowed. Begun with DYD_SIZED. */
 typedef struct dyd_nearest_answer {
   size_t struct_size; /* set by DYD_SIZED */
   const dyd_rect *at; /* the rectangle reached of the point asked about */
@@ -269,7 +269,8 @@ typedef struct dyd_nearest_answer {
 typedef struct dyd_write_options {
   size_t struct_size; /* set by DYD_SIZED */
 
-  const dyd_sphere *sphere; /* for contents of a sphere */
+  const dyd_sphere *sphere; /* for contents of a sphere; of nearest points (dyd_sphere_nearest): distances are those of
+                               dyd_sphere_distance, only csv and json; NULL: a plane */
   const dyd_tolerance
       *tolerance; /* tolerances of the result; also for html of the triangulation: with points; NULL: html shows none */
   const dyd_survey *plan;

@@ -31,6 +31,7 @@ typedef struct dyd_sphere_options {
   bool centre_set; /* project from point `centre`; else one is chosen, or a place between points */
   uint32_t centre;
   const char *radius_unit, *radius_scale; /* as in dyd_read_options; of `radius` */
+  bool no_images; /* nothing is projected: only for dyd_sphere_nearest, and what is said of places */
 } dyd_sphere_options;
 
 /* The sphere with the points of `places`, an engine to which longitudes (x) and latitudes (y) were added, and which is
@@ -90,6 +91,17 @@ DYD_API dyd_status dyd_sphere_each_circle(const dyd_sphere *s, dyd_group_fn visi
  * corners. Longitudes may reach beyond 180; near a pole they may be all.
  * [SPH-4] */
 DYD_API dyd_status dyd_sphere_vertex(double box[4], const dyd_sphere *s, const dyd_triangle *t, dyd_error *err);
+
+/* Which points are possibly nearest to the place `at` (longitude x, latitude y), measured along the sphere; as
+ * dyd_engine_nearest, but for the engine of places, which is asked itself, and needs no run. *tied: all listed, two at
+ * least, are exact and proved to be equally far; then the outcome is fixpoint. Where `at` is a region, what is left out
+ * is nearest to no place of it [SPH-6]. DYD_E_DOMAIN where its latitude is beyond 90 degrees. The first call sorts the
+ * points, O(N log N); others take O(sqrt N) for points all over the sphere. */
+DYD_API dyd_status dyd_sphere_nearest(dyd_index_list *out, bool *sure, bool *tied, dyd_outcome *outcome, dyd_sphere *s,
+                                      dyd_stream *at, const dyd_engine_options *options, dyd_error *err);
+/* Bounds, in metres on the ground (DYD_EARTH_RADIUS), of the distance between point i and a place of the rectangle of
+ * degrees `at`, rounded outward. DYD_E_ARG where there is no point i. */
+DYD_API dyd_status dyd_sphere_distance(double *lo, double *hi, const dyd_sphere *s, uint32_t i, const dyd_rect *at);
 
 #ifdef __cplusplus
 }

@@ -212,7 +212,9 @@ struct cli_session {
   FILE *noted;                          /* takes the comments of csv, for standard error; NULL: they are not noted */
   char *note;                           /* what it took */
   size_t note_size;
-  dyd_trace *trace; /* NULL: none is written, or it has not begun */
+  const char *radius, *resume; /* of places of a sphere, while points are read without; NULL: none */
+  dyd_sphere *sphere;          /* of --sphere; owned; NULL: none */
+  dyd_trace *trace;            /* NULL: none is written, or it has not begun */
   cli_output trace_file;
 };
 
@@ -227,6 +229,12 @@ int cli_points_read(dyd_engine *e, cli_options *o, bool noting);
 int cli_places_read(dyd_engine *e, const cli_options *o);
 /* For reading points as longitude and latitude. */
 void cli_options_degrees(cli_options *o);
+/* What a command with --sphere begins with: points are read as degrees. 0, or CLI_USAGE after a message that --discs
+ * is about the plane. */
+int cli_sphere_begin(cli_session *s);
+/* Makes s->sphere of the points read, and restores the options --radius and --resume. 0, or an exit status after a
+ * message. */
+int cli_sphere_make(cli_session *s, bool no_images);
 /* Gives the engine, not run yet, the answers of --resume. 0, or an exit status after a message. */
 int cli_trace_resume(const cli_session *s);
 /* Runs with options; progress, trace and signals are added. 0 whatever the outcome, DYD_OUTCOME_ERROR aside: then

@@ -272,55 +272,37 @@ const cli_work cli_voronoi = {.size = sizeof(cli_diagram),
 /* ---- --sphere: the points of the file are places, their images are run ---- */
 
 typedef struct sphere_run {
-  dyd_sphere *sphere;
-  dyd_engine *places;          /* s->engine holds the images then; NULL: it holds the places */
-  const char *radius, *resume; /* options that are about images */
+  dyd_engine *places; /* s->engine holds the images then, as traces do; NULL: it holds the places */
 } sphere_run;
 
 static int places_on_sphere_begin(cli_session *s) {
   cli_options *o = &s->o;
-  sphere_run *r = s->state;
-  const char *what = o->discs                             ? "--discs"
-                     : o->flatten_set                     ? "--flatten"
-                     : o->engine.goal != DYD_GOAL_DECIDED ? "--until"
-                                                          : NULL;
+  const char *what = o->flatten_set ? "--flatten" : o->engine.goal != DYD_GOAL_DECIDED ? "--until" : NULL;
   bool picture = o->format == DYD_FORMAT_SVG || o->format == DYD_FORMAT_PDF || o->format == DYD_FORMAT_PNG;
-  r->radius = o->read.radius;
-  r->resume = o->resume;
-  o->resume = NULL; /* traces hold answers of images */
-  cli_options_degrees(o);
   if (what)
     cli_complain("%s is about the plane; leave %s or --sphere away", what, what);
   else if (o->window && !picture)
     cli_complain("on a sphere --window is the part that a picture shows; give svg, pdf or png, or leave it away");
   else
-    return 0;
+    return cli_sphere_begin(s);
   return CLI_USAGE;
 }
 
 static dyd_status sphere_run_images(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
   dyd_outcome outcome;
-  return dyd_sphere_run(&outcome, ((sphere_run *)s->state)->sphere, options, err);
+  return dyd_sphere_run(&outcome, s->sphere, options, err);
 }
 
 static int sphere_find(cli_session *s) {
   sphere_run *r = s->state;
   cli_options *o = &s->o;
   dyd_engine_options run = o->engine;
-  dyd_error err;
-  o->read.radius = r->radius;
-  o->resume = r->resume;
-  const dyd_sphere_options how = {DYD_SIZED(dyd_sphere_options), .radius = o->read.radius,
-                                  .radius_unit = o->read.radius_unit, .radius_scale = o->read.radius_scale};
-  dyd_status st = dyd_sphere_new(&r->sphere, s->engine, &how, &err);
-  if (st != DYD_OK) {
-    cli_complain_of(s->engine, st == DYD_E_ARG ? NULL : o->file, &err);
-    return st == DYD_E_ARG ? CLI_USAGE : CLI_FAILED;
-  }
+  int status = cli_sphere_make(s, false);
+  if (status) return status;
   if (!o->start_set) run.start_bits = 0;
   r->places = s->engine;
-  s->engine = dyd_sphere_engine(r->sphere);
-  int status = o->resume ? cli_trace_resume(s) : 0;
+  s->engine = dyd_sphere_engine(s->sphere);
+  if (o->resume) status = cli_trace_resume(s);
   if (!status) status = cli_session_run(s, &run, sphere_run_images);
   s->known = dyd_engine_delaunay(s->engine);
   return status || s->known ? status : cli_session_stopped(s, "the triangulation was");
@@ -328,7 +310,7 @@ static int sphere_find(cli_session *s) {
 
 static dyd_status sphere_write(FILE *out, const cli_session *s, dyd_error *err) {
   const dyd_write_options how = {DYD_SIZED(dyd_write_options),
-                                 .sphere = ((sphere_run *)s->state)->sphere,
+                                 .sphere = s->sphere,
                                  .epsg = s->o.epsg,
                                  .window = s->view,
                                  .max_arc = s->o.max_arc,
@@ -337,7 +319,7 @@ static dyd_status sphere_write(FILE *out, const cli_session *s, dyd_error *err) 
 }
 
 static dyd_status sphere_prove(FILE *out, const cli_session *s, dyd_error *err) {
-  const dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .sphere = ((sphere_run *)s->state)->sphere};
+  const dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .sphere = s->sphere};
   return dyd_write_certificate(out, NULL, &parts, err);
 }
 
@@ -347,7 +329,7 @@ static const char *sphere_advice(const cli_session *s) {
 }
 
 static int sphere_summary(cli_session *s, int status) {
-  const dyd_sphere *sphere = ((sphere_run *)s->state)->sphere;
+  const dyd_sphere *sphere = s->sphere;
   dyd_pair_list pairs = {0};
   size_t count[4];
   if (!s->known) return status;
@@ -365,7 +347,6 @@ static int sphere_summary(cli_session *s, int status) {
 static void sphere_end(cli_session *s) {
   sphere_run *r = s->state;
   if (r->places) s->engine = r->places;
-  dyd_sphere_free(r->sphere);
 }
 
 const cli_work cli_sphere = {.size = sizeof(sphere_run),

@@ -439,8 +439,9 @@ static int options_fit(const cli_options *o, const bool *seen, const cli_command
 
 /* The layer named, as one of what the command writes. */
 static int layer_fits(cli_options *o, const cli_command *c) {
-  bool diagram = c == &cli_commands[CLI_VORONOI];
-  dyd_content of = !o->sphere ? c->content : diagram ? DYD_CONTENT_SPHERE_VORONOI : DYD_CONTENT_SPHERE;
+  dyd_content of = c->content;
+  if (o->sphere && of == DYD_CONTENT_DELAUNAY) of = DYD_CONTENT_SPHERE;
+  if (o->sphere && of == DYD_CONTENT_VORONOI) of = DYD_CONTENT_SPHERE_VORONOI;
   o->content = o->queries ? DYD_CONTENT_PLACES : of;
   if (!o->layer || dyd_layer_from_name(&o->content, of, o->layer)) return 0;
   fprintf(stderr, "dyadel: %s%s has no layer \"%s\"; give ", c->name, o->sphere ? " --sphere" : "", o->layer);

@@ -230,6 +230,13 @@ static int places_read(cli_session *s) {
   const cli_options *o = &s->o;
   if (o->discs && o->certificate)
     return cli_usage("no certificate proves which discs are nearest: leave --certificate or --discs out");
+  if (o->sphere && o->certificate)
+    return cli_usage("no certificate proves which places of a sphere are nearest: leave --certificate or --sphere out");
+  if (o->sphere && o->format != DYD_FORMAT_CSV && o->format != DYD_FORMAT_JSON)
+    return cli_usage("on a sphere nearest writes csv and json; leave --format %s or --sphere away",
+                     dyd_format_name(o->format));
+  int begun = o->sphere ? cli_sphere_begin(s) : 0;
+  if (begun) return begun;
   query *q = s->state;
   dyd_engine *from = NULL;
   if (!o->queries && (o->query_columns || o->query_id))
@@ -275,8 +282,10 @@ static dyd_status answer_place(cli_session *s, size_t k, const dyd_engine_option
   query *q = s->state;
   place *p = &q->place[k];
   dyd_outcome outcome;
-  bool sure;
-  dyd_status st = dyd_engine_nearest(&p->found, &sure, &outcome, s->engine, p->at, o, err);
+  bool sure, tied = false;
+  dyd_status st = s->sphere ? dyd_sphere_nearest(&p->found, &sure, &tied, &outcome, s->sphere, p->at, o, err)
+                            : dyd_engine_nearest(&p->found, &sure, &outcome, s->engine, p->at, o, err);
+  if (!s->sphere) tied = dyd_engine_nearest_tied(s->engine);
   if (st == DYD_OK && s->o.discs) {
     st = dyd_disc_nearest(&p->found, &sure, dyd_engine_sites(s->engine), dyd_stream_rect(p->at), err);
     if (sure && outcome == DYD_OUTCOME_FIXPOINT) outcome = DYD_OUTCOME_DECIDED;
@@ -287,7 +296,7 @@ static dyd_status answer_place(cli_session *s, size_t k, const dyd_engine_option
                                    &p->found,
                                    sure,
                                    outcome,
-                                   dyd_engine_nearest_tied(s->engine),
+                                   tied,
                                    s->o.discs,
                                    true,
                                    p->row,
@@ -297,16 +306,17 @@ static dyd_status answer_place(cli_session *s, size_t k, const dyd_engine_option
   return DYD_OK;
 }
 
-/* The first triangulation serves as an index; the queries refine the points that they need. The first place is
- * always looked up, also when no time is left or a signal asked to stop. */
+/* In the plane the first triangulation serves as an index; the queries refine the points that they need. The first
+ * place is always looked up, also when no time is left or a signal asked to stop. */
 static dyd_status answer_places(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
   query *q = s->state;
   dyd_engine_options o = *options;
   const double end = cli_clock() + s->o.engine.seconds;
   o.max_stages = 1;
-  dyd_outcome first;
-  dyd_status st = dyd_engine_run(&first, s->engine, &o, err);
-  q->outcome = st == DYD_OK && dyd_engine_delaunay(s->engine) ? DYD_OUTCOME_DECIDED : first;
+  dyd_outcome first = DYD_OUTCOME_DECIDED;
+  dyd_status st = s->sphere ? DYD_OK : dyd_engine_run(&first, s->engine, &o, err);
+  bool begun = st == DYD_OK && (s->sphere || dyd_engine_delaunay(s->engine));
+  q->outcome = begun ? DYD_OUTCOME_DECIDED : first;
   if (q->outcome != DYD_OUTCOME_DECIDED) return st;
   if (first == DYD_OUTCOME_CANCELLED) dyd_engine_cancel(s->engine);
   for (size_t k = 0; k < q->count && st == DYD_OK; k++) {
@@ -319,12 +329,15 @@ static dyd_status answer_places(cli_session *s, const dyd_engine_options *option
       break;
     }
   }
+  s->outcome = q->outcome;
   return st;
 }
 
 static int nearest_find(cli_session *s) {
   query *q = s->state;
-  int status = cli_session_run(s, &s->o.engine, answer_places);
+  int status = s->o.sphere ? cli_sphere_make(s, true) : 0;
+  if (!status && s->sphere && s->o.resume) status = cli_trace_resume(s);
+  if (!status) status = cli_session_run(s, &s->o.engine, answer_places);
   s->known = !status && (q->answered || !q->count);
   if (!status && !s->known) cli_session_lacks(s, q->outcome, "the points were known");
   if (!q->answered) s->o.certificate = NULL;
@@ -343,8 +356,8 @@ static dyd_status places_write(FILE *out, const cli_session *s, dyd_error *err) 
   const query *q = s->state;
   const dyd_nearest_answer **list = list_answers(q);
   if (!list) return DYD_E_NOMEM;
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .answer = list, .answers = q->answered,
-                                 .outcome = q->outcome, .comments = cli_comments(out, s)};
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .answer = list,        .answers = q->answered,
+                                 .sphere = s->sphere,          .outcome = q->outcome, .comments = cli_comments(out, s)};
   dyd_status st = dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
   free(list);
   return st;

@@ -18,7 +18,8 @@ enum {
   RUN = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_CHECK), /* runs the engine to a goal */
   TEXT = READ | BIT(CLI_VERIFY),                                                   /* from a file */
   PIECES = BIT(CLI_DISC) | BIT(CLI_BISECTOR),
-  REFINE = RUN | PIECES | BIT(CLI_NEAREST) /* asks points to narrow */
+  REFINE = RUN | PIECES | BIT(CLI_NEAREST),                                         /* asks points to narrow */
+  GLOBE = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_NEAREST) | BIT(CLI_VERIFY) /* takes --sphere */
 };
 
 const cli_command cli_commands[CLI_COMMANDS] = {
@@ -124,7 +125,7 @@ const cli_option cli_option_table[] = {
      "0: "
      "not at\nall",
      AT(read.radius_columns)},
-    {"radius-unit", 0, "U", CLI_TEXT, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_VERIFY), CLI_INPUT,
+    {"radius-unit", 0, "U", CLI_TEXT, GLOBE, CLI_INPUT,
      "with --sphere: the unit of radii without one: m, mm, cm, km,\nft, in, deg, arcmin or arcsec",
      AT(read.radius_unit)},
     {"radius-scale", 0, "K", CLI_TEXT, TEXT, CLI_INPUT,
@@ -170,8 +171,9 @@ const cli_option cli_option_table[] = {
      "radii are those of discs, not of squares around them:\nfewer pairs stay indeterminate; plan: for pairs that do;\n"
      "verify: the discs of FILE have to be those of the certificate",
      AT(discs)},
-    {"sphere", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_VERIFY), CLI_INPUT,
-     "points are longitude and latitude in degrees, on a sphere;\nradii have a unit: 30m, 2km, 5ft, 0.01deg, 3arcsec",
+    {"sphere", 0, NULL, CLI_FLAG, GLOBE, CLI_INPUT,
+     "points are longitude and latitude in degrees, on a sphere;\nradii have a unit: 30m, 2km, 5ft, 0.01deg, "
+     "3arcsec;\nnearest: X Y are degrees, too, distances are metres along\nthe ground",
      AT(sphere)},
     {"plane", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
      "columns called longitude and latitude are meant to be\ncoordinates in a plane: no note about it", AT(plane)},

@@ -358,8 +358,14 @@ static dyd_status write_nearest(dyd_output *to, dyd_write_options *o, dyd_error 
   const dyd_nearest_answer **taken = dyd_alloc(o->answers, sizeof(const dyd_nearest_answer *));
   dyd_result r;
   dyd_status st = take_answers(own, taken, o, err);
-  if (st == DYD_OK) st = result_init(&r, to, o, err);
-  if (st == DYD_OK) st = write_what(to, &(dyd_nearest_output){r.engine, r.pd, taken, o->answers, o->outcome}, err);
+  if (st == DYD_OK && o->sphere && to->format != DYD_FORMAT_CSV && to->format != DYD_FORMAT_JSON)
+    st = dyd_fail(err, DYD_E_ARG, "on a sphere nearest points are written as csv or json");
+  if (o->sphere)
+    r = (dyd_result){.engine = to->engine = dyd_sphere_places(o->sphere)};
+  else if (st == DYD_OK)
+    st = result_init(&r, to, o, err);
+  if (st == DYD_OK)
+    st = write_what(to, &(dyd_nearest_output){r.engine, r.pd, taken, o->answers, o->outcome, o->sphere}, err);
   free(taken);
   free(own);
   return st;

@@ -60,8 +60,9 @@ typedef struct dyd_nearest_output {
   const dyd_engine *engine;
   const dyd_delaunay *pd;
   const dyd_nearest_answer *const *answer;
-  size_t count;        /* of places */
-  dyd_outcome outcome; /* of all */
+  size_t count;             /* of places */
+  dyd_outcome outcome;      /* of all */
+  const dyd_sphere *sphere; /* NULL: of the plane */
 } dyd_nearest_output;
 /* Have the places identifiers? */
 bool dyd_nearest_named(const dyd_nearest_output *n);

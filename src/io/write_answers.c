@@ -243,6 +243,7 @@ static const char *nearest_status(const dyd_nearest_answer *a) {
 /* The distance from the place to site i, whatever both are. scratch: a rectangle. */
 static dyd_status nearest_distance(double bounds[2], const dyd_nearest_output *n, const dyd_nearest_answer *a,
                                    uint32_t i, dyd_rect *scratch) {
+  if (n->sphere) return dyd_sphere_distance(&bounds[0], &bounds[1], n->sphere, i, a->at);
   if (a->discs) return dyd_disc_distance(&bounds[0], &bounds[1], dyd_delaunay_sites(n->pd), i, a->at);
   dyd_status st = dyd_sites_get(scratch, dyd_delaunay_sites(n->pd), i);
   if (st == DYD_OK) dyd_rect_distance(&bounds[0], &bounds[1], a->at, scratch);
@@ -260,7 +261,8 @@ static size_t answer_place_number(const dyd_nearest_output *n, size_t q) {
 /* A line for each tie: its points, after the place where there are many. */
 dyd_status dyd_nearest_comments(dyd_table *t, const dyd_output *o) {
   const dyd_nearest_output *n = o->what;
-  dyd_csv_aliases(o->out, t->engine, NULL);
+  dyd_csv_aliases(o->out, t->engine, n->sphere);
+  if (n->sphere) fputs("# distances: metres on the ground\n", o->out);
   for (size_t q = 0; q < n->count; q++) {
     if (!n->answer[q]->tied) continue;
     fputs("# tie ", o->out);
@@ -327,6 +329,10 @@ dyd_status dyd_nearest_json(const dyd_output *o) {
   dyd_json_begin(&j, o->out);
   dyd_json_head_outward(&j, many ? "dyadel nearest places 1" : "dyadel nearest 1", n->engine,
                         many ? n->outcome : n->answer[0]->outcome);
+  if (n->sphere) {
+    dyd_json_word(&j, "surface", "sphere");
+    dyd_json_word(&j, "distance_unit", "m");
+  }
   if (many) dyd_json_array(&j, "places", DYD_JSON_LIST);
   for (size_t q = 0; q < n->count && j.st == DYD_OK; q++) {
     if (many) {
@@ -340,7 +346,7 @@ dyd_status dyd_nearest_json(const dyd_output *o) {
     if (many) dyd_json_close(&j, 1);
   }
   if (many) dyd_json_close(&j, 1);
-  dyd_json_aliases(&j, n->engine, NULL);
+  dyd_json_aliases(&j, n->engine, n->sphere);
   dyd_rect_clear(&scratch);
   return dyd_json_end(&j, "}\n");
 }

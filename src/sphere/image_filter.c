@@ -26,8 +26,7 @@ static dyd_iv turn_around(double value, double error) {
   return (dyd_iv){dyd_down(value - error), dyd_up(value + error)};
 }
 
-/* Sine and cosine of x degrees. */
-static bool turn_set(dyd_iv *s, dyd_iv *c, dyd_iv x) {
+bool dyd_filter_sin_cos(dyd_iv *s, dyd_iv *c, dyd_iv x) {
   if (!(fabs(x.lo) <= MOST_DEGREES && x.hi <= MOST_DEGREES)) return false;
   double k = nearbyint(x.lo / 90), t = (x.lo - 90 * k) * DEGREE, z = t * t, g = sine[0], h = cosine[0];
   for (int q = 1; q < TERMS; q++) {
@@ -54,8 +53,8 @@ static bool span_give(double out[2], dyd_iv x, double most) {
 bool dyd_filter_image(double box[4], const dyd_spot_d *place, const dyd_eye_d *eye, int64_t bits) {
   dyd_iv lon = {place->box[0], place->box[1]}, lat = {place->box[2], place->box[3]}, sw, cw, su, cu, sf, cf;
   if (place->angle > 0) return false;
-  if (!turn_set(&sw, &cw, dyd_iv_scale(dyd_iv_sub(lon, eye->lon), 0.5)) ||
-      !turn_set(&su, &cu, dyd_iv_scale(dyd_iv_sub(lat, eye->lat), 0.5)) || !turn_set(&sf, &cf, lat))
+  if (!dyd_filter_sin_cos(&sw, &cw, dyd_iv_scale(dyd_iv_sub(lon, eye->lon), 0.5)) ||
+      !dyd_filter_sin_cos(&su, &cu, dyd_iv_scale(dyd_iv_sub(lat, eye->lat), 0.5)) || !dyd_filter_sin_cos(&sf, &cf, lat))
     return false;
   dyd_iv across = dyd_iv_mul(cf, dyd_iv_sqr(sw)); /* cos f sin^2(d/2) */
   dyd_iv D = dyd_iv_add(dyd_iv_sqr(su), dyd_iv_mul(eye->cos, across));

@@ -141,8 +141,7 @@ static double rounded_to(mpq_srcptr x, int side, mpq_t exact) {
   return beyond * side > 0 ? nextafter(d, side * HUGE_VAL) : d;
 }
 
-/* Encloses s. */
-static void spot_get_d(dyd_spot_d *out, const dyd_spot *s) {
+void dyd_spot_get_d(dyd_spot_d *out, const dyd_spot *s) {
   mpq_t end, exact;
   mpq_inits(end, exact, NULL);
   for (int a = 0; a < 2; a++) {
@@ -155,8 +154,11 @@ static void spot_get_d(dyd_spot_d *out, const dyd_spot *s) {
   mpq_clears(end, exact, NULL);
 }
 
+/* Where the places themselves are asked, their engine knows more than a stream that was taken out, unless that was
+ * recognised. */
 dyd_status dyd_sphere_stated(dyd_rect *out, const dyd_sphere *s, uint32_t i) {
-  if (dyd_sphere_is_fixed(s, i)) return dyd_sites_get(out, dyd_engine_sites(s->places), i);
+  if (dyd_sphere_is_fixed(s, i) || (dyd_engine_knows(s->places, i) && !dyd_stream_is_final(s->stream[i])))
+    return dyd_sites_get(out, dyd_engine_sites(s->places), i);
   dyd_rect_set(out, dyd_stream_rect(s->stream[i]));
   return DYD_OK;
 }
@@ -205,7 +207,7 @@ dyd_status dyd_sphere_spot_d(dyd_spot_d *out, const dyd_sphere *s, uint32_t i, d
   if (place_is_plain(out->box, s, i)) return DYD_OK;
   dyd_spot_init(&spot);
   dyd_status st = dyd_sphere_spot(&spot, s, i, err);
-  if (st == DYD_OK) spot_get_d(out, &spot);
+  if (st == DYD_OK) dyd_spot_get_d(out, &spot);
   dyd_spot_clear(&spot);
   return st;
 }

@@ -151,7 +151,8 @@ static dyd_status sphere_make(dyd_sphere *s, const dyd_sphere_options *o, dyd_er
   dyd_status st = radius_set(s, o, err);
   if (st == DYD_OK) st = streams_take(s, err);
   if (st == DYD_OK) st = dyd_sphere_find_aliases(s, err);
-  if (st == DYD_OK) st = centre_take(s, o, err);
+  if (st != DYD_OK || o->no_images) return st;
+  st = centre_take(s, o, err);
   return st == DYD_OK ? images_make(s, err) : st;
 }
 
@@ -172,6 +173,7 @@ dyd_status dyd_sphere_new(dyd_sphere **out, dyd_engine *places, const dyd_sphere
 void dyd_sphere_free(dyd_sphere *s) {
   if (!s) return;
   dyd_sphere_free(s->second);
+  dyd_near_index_free(s->near);
   dyd_engine_free(s->images);
   for (size_t i = 0; s->stream && i < s->count; i++) dyd_stream_free(s->stream[i]);
   free(s->stream);

@@ -7,7 +7,8 @@
  *   choose_filter.c  from which place is projected
  *   project.c        images of places; image_filter.c: in doubles
  *   ties.c           which places are on one circle
- *   vertex.c         Voronoi vertices */
+ *   vertex.c         Voronoi vertices
+ *   nearest.c        nearest places; nearest_filter.c: in doubles */
 #ifndef DYD_SPHERE_STATE_H
 #define DYD_SPHERE_STATE_H
 
@@ -31,6 +32,8 @@ typedef struct dyd_spot_d {
   double box[4], angle;
 } dyd_spot_d;
 
+/* Encloses s in doubles. */
+void dyd_spot_get_d(dyd_spot_d *out, const dyd_spot *s);
 void dyd_spot_init(dyd_spot *s);
 void dyd_spot_clear(dyd_spot *s);
 /* Sets s to the rectangle r of degrees, widened by `more` on each side, with no angle; longitudes are taken modulo 360.
@@ -78,7 +81,12 @@ void dyd_eye_enclose(dyd_eye_d *out, dyd_eye *e);
  * Returns false where that is not known, as for a region with an angle. */
 bool dyd_filter_image(double box[4], const dyd_spot_d *place, const dyd_eye_d *eye, int64_t bits);
 
+/* Encloses sine and cosine of x degrees [FLT-SPH]. Returns false for angles beyond 720 degrees. */
+bool dyd_filter_sin_cos(dyd_iv *s, dyd_iv *c, dyd_iv x);
+
 /* ---- the sphere ---- */
+
+typedef struct dyd_near_index dyd_near_index;
 
 /* Invariant: of[] ascends: the places that have an image, which are all but the centre and aliases. alias[i] <= i is
  * the lowest place at the same point as i. stream is NULL, or has an entry for each place, NULL where it is fixed. */
@@ -98,6 +106,7 @@ struct dyd_sphere {
   dyd_eye_d eye_d; /* the same in doubles, where first looks are in doubles */
   /* The same places, projected from a gap; made where a wide centre leaves pairs indeterminate. NULL: none. */
   dyd_sphere *second;
+  dyd_near_index *near; /* for dyd_sphere_near; NULL: not made yet */
 };
 
 static inline bool dyd_sphere_is_fixed(const dyd_sphere *s, uint32_t i) {
@@ -152,6 +161,16 @@ dyd_status dyd_sphere_on_circle(bool *proved, const dyd_sphere *s, bool centre, 
 /* As dyd_prove_fn; user is a dyd_sphere, sites are images. */
 dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                             dyd_error *err);
+
+/* Proves that the exact places spot[0 .. count - 1] are equally far from the exact place `at`. DYD_OK or DYD_E_NOMEM.
+ */
+dyd_status dyd_spots_equidistant(bool *proved, const dyd_spot *at, const dyd_spot *spot, size_t count);
+
+/* ---- nearest_filter.c ---- */
+
+/* Sets out to places, no aliases, ascending, among them all that are possibly nearest to some point of `at` [SPH-6]. */
+dyd_status dyd_sphere_near(dyd_index_list *out, dyd_sphere *s, const dyd_spot_d *at, dyd_error *err);
+void dyd_near_index_free(dyd_near_index *index);
 
 /* ---- sphere.c ---- */
 

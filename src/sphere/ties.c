@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Which places are on one circle of the sphere: exactly, for degrees that are rational numbers.
+/* Which places are on one circle of the sphere, and which are equally far from a place: exactly, for degrees that are
+ * rational numbers.
  *
  * [SPH-3] Four places a, b, c, d are on one circle iff their vectors are in one plane, iff
  *     det(b,c,d) - det(a,c,d) + det(a,b,d) - det(a,b,c) = 0,
@@ -308,4 +309,47 @@ dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, con
   for (size_t k = 0; k < count && st == DYD_OK; k++) st = dyd_sphere_recognise(s, s->of[site[k]], err);
   if (st == DYD_OK && line && !s->free) st = dyd_sphere_recognise(s, s->centre, err);
   return st == DYD_OK ? dyd_sphere_on_circle(proved, s, line, site, count, err) : st;
+}
+
+/* ---- distances ---- */
+
+/* sign * (the product of the unit vectors of a and b), times 8. */
+static dyd_root_term *put_dot(dyd_root_term *t, turned a, turned b, int sign, dyd_turns n) {
+  const dyd_turns more = a.lat + b.lat, less = a.lat - b.lat, d = a.lon - b.lon;
+  const dyd_turns e[6] = {less, more, more + d, more - d, less + d, less - d};
+  const int c[6] = {2, -2, 1, 1, 1, 1};
+  for (int k = 0; k < 12; k++) *t++ = (dyd_root_term){(k & 1 ? -e[k / 2] : e[k / 2]) % n, (int64_t)sign * c[k / 2]};
+  return t;
+}
+
+/* The first is as far from `at` as each other one. */
+static dyd_status distances_agree(bool *proved, const dyd_spot *at, const dyd_spot *spot, size_t count,
+                                  mpz_srcptr unit) {
+  turned p[3];
+  dyd_turns n;
+  dyd_status st = DYD_OK;
+  bool good =
+      turns_set_z(&n, unit) && n < DYD_CYCLIC_MOST && turned_set(&p[0], at, unit) && turned_set(&p[1], &spot[0], unit);
+  for (size_t k = 1; k < count && good && st == DYD_OK; k++) {
+    dyd_root_term term[24], *t = term;
+    good = turned_set(&p[2], &spot[k], unit);
+    t = put_dot(t, p[0], p[1], 1, n);
+    t = put_dot(t, p[0], p[2], -1, n);
+    if (good) st = dyd_cyclic_is_zero(&good, term, (size_t)(t - term), n);
+  }
+  *proved = good && st == DYD_OK;
+  return st;
+}
+
+dyd_status dyd_spots_equidistant(bool *proved, const dyd_spot *at, const dyd_spot *spot, size_t count) {
+  mpz_t n;
+  mpz_init_set_ui(n, 1);
+  for (int a = 0; a < 2; a++) {
+    mpz_lcm(n, n, mpq_denref(at->mid[a]));
+    for (size_t k = 0; k < count; k++) mpz_lcm(n, n, mpq_denref(spot[k].mid[a]));
+  }
+  mpz_mul_ui(n, n, 360);
+  dyd_status st = distances_agree(proved, at, spot, count, n);
+  mpz_clear(n);
+  return st;
 }

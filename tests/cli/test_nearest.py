@@ -8,6 +8,7 @@ import csv
 import decimal
 import gzip
 import json
+import math
 import os
 import pathlib
 import random
@@ -261,6 +262,86 @@ def test_discs():
     assert near > cases(150) // 20, near
     expect(run('nearest', '--discs', '-', '1', '1', stdin='[0,1] [0,2]\n3 4\n'), 1, r'\A\Z', 'a disc needs one radius')
     expect(run('nearest', '--discs', '--certificate', 'c', '-', '1', '1', stdin='3 4\n'), 2, r'\A\Z', 'no certificate proves')
+
+
+EARTH = 6371008.8
+
+
+def arc(p, q):
+    """Metres along the ground, in doubles."""
+    (l, f), (m, g) = (map(math.radians, x) for x in (p, q))
+    return 2 * EARTH * math.asin(min(1, math.sqrt(math.sin((f - g) / 2)**2 + math.cos(f) * math.cos(g) * math.sin((l - m) / 2)**2)))
+
+
+# (options, points, X, Y, exit status, points found)
+GLOBE = [
+    ('', '0 0\n10 0\n0 90\n', '5', '0', 3, '0 1'), ('', '0 0\n10 0\n0 90\n', '1/3', '2', 0, '0'),
+    ('', '170 0\n-170 1\n', '180', '1', 0, '1'), ('', '170 0\n-170 0\n', '-180', '60', 3, '0 1'),
+    ('', '0 60\n180 60\n0 0\n', '77', '90', 3, '0 1'), ('', '12 90\n0 89\n-50 90\n', '5', '89.9', 0, '0'),
+    ('', '0 1\n120 1\n240 1\n0 -1\n', '9', '-90', 0, '3'), ('', '0 30\n90 0\n', '180', '-30', 0, '1'),
+    ('', '1 2^-300\n-1 0\n', '0', '1', 0, '0'), ('--max-bits 90', '1 2^-300\n-1 0\n', '0', '1', 4, '0 1'),
+    ('', '1 10^-40/7\n-1 10^-40/11\n', '0', '1', 0, '0'), ('', 'sqrt(4) 1\n-2 1\n', '0', '7', 3, '0 1'),
+    ('', '0 0\n90 0\n180 0\n', '0', '90', 3, '0 1 2'), ('', 'sqrt(2) 0\n-sqrt(2)-2^-500 0\n', '0', '1', 0, '0'),
+    ('--radius 30km', 'sqrt(2) 0\n-sqrt(2) 0\n30 0\n', '0', '0', 3, '0 1'), ('--radius 1deg', 'sqrt(2) 0\n-sqrt(2) 0\n30 0\n', '0', '0', 3, '0 1'),
+    ('', '[0,350] 80\n0 -80\n', '355', '60', 0, '0'), ('', '[-170,170] [50,89]\n180 -80\n', '180', '10', 3, '0 1')]
+
+
+def test_sphere():
+    """Along the ground: ties that sums of roots of unity prove, poles, the date line, regions of degrees and of metres [SPH-6]."""
+    for options, points, x, y, code, want in GLOBE:
+        result = run('nearest', '--sphere', *options.split(), '-', x, y, stdin=points)
+        expect(result, code, r'^i,status,lo,hi\n', '')
+        assert ' '.join(r['i'] for r in rows(result.out)) == want, (points, x, y, result.out)
+        if code == 3 and not options and '[' not in points:
+            assert 'equally far, a tie' in result.err, result.err
+    half = rows(run('nearest', '--sphere', '-', '180', '0', stdin='0 0\n').out)[0]
+    assert float(half['lo']) <= math.pi * EARTH <= float(half['hi']) <= float(half['lo']) + 1e-6
+    whole = json.loads(run('nearest', '--sphere', '--format', 'json', '-', '5', '0', stdin='0 0\n10 0\n370 0\n').out)
+    assert (whole['surface'], whole['distance_unit'], whole['tied'], whole['aliases']) == ('sphere', 'm', True, [[2, 1]])
+
+
+def test_regions_on_sphere():
+    """Bounds hold for all samples of a region, and are reached by some of them, also between its corners."""
+    chance = random.Random(5)
+    for _ in range(cases(60)):
+        lo, south = chance.uniform(-180, 180), chance.uniform(-90, 89)
+        wide, high = chance.choice((0, 1, 50, 200, 360)), chance.choice((0, 1, 90 - south, min(40, 90 - south)))
+        at = chance.uniform(-180, 180), chance.choice((chance.uniform(-90, 90), 90, south))
+        box = f'[{lo!r},{lo + wide!r}] [{south!r},{min(south + high, 90)!r}]\n'
+        r = rows(run('nearest', '--sphere', '-', repr(at[0]), repr(at[1]), stdin=box).out)[0]
+        lon = [lo + wide * k / 100 for k in range(101)] + [x for x in (at[0] + 360 * k for k in range(-2, 3)) if lo <= x <= lo + wide]
+        lat = [min(90, south + high * k / 200) for k in range(201)]
+        far = [arc(at, (x, y)) for x in lon for y in lat]
+        assert float(r['lo']) - 0.5 <= min(far) and max(far) <= float(r['hi']) + 0.5, (box, at, r)
+        assert min(far) <= float(r['lo']) + 150000 and float(r['hi']) - 150000 <= max(far), (box, at, r, min(far), max(far))
+
+
+def test_queries_on_sphere():
+    """The index finds what looking at all finds; places are tables, too; traces are taken up again."""
+    chance = random.Random(7)
+    with open(os.path.join(DATA, 'airports.csv'), encoding='utf-8') as f:
+        airports = [(float(r['longitude']), float(r['latitude'])) for r in csv.DictReader(f)][::9]
+    places = [(round(chance.uniform(-180, 180), 3), round(chance.uniform(-90, 90), 3)) for _ in range(60)]
+    points = ''.join(f'{x!r} {y!r}\n' for x, y in airports)
+    for options, radius in (((), 0), (('--radius', '300km'), 300000)):
+        found = {}
+        for r in rows(ask(''.join(f'{x} {y}\n' for x, y in places), '--quiet', '--sphere', *options, points=points,
+                          code=3 if radius else 0).out):
+            found.setdefault(int(r['q']), set()).add(int(r['i']))
+        for q, at in enumerate(places):
+            far = [arc(at, p) for p in airports]
+            want = {k for k, d in enumerate(far) if d - radius <= min(far) + radius}
+            doubt = {k for k, d in enumerate(far) if abs(d - min(far) - 2 * radius) < 1e-3}
+            assert found[q] ^ want <= doubt and found[q], (q, found[q], want)
+    for words, message in ((('--discs',), '--discs is about the plane; leave --discs or --sphere away'),
+                           (('--certificate', 'c'), 'no certificate proves which places'), (('--plane',), 'contradict'),
+                           (('--radius', '3'), 'has no unit'), (('--format', 'svg'), 'on a sphere nearest writes csv and json')):
+        expect(run('nearest', '--sphere', *words, '-', '1', '1', stdin='1 1\n'), 2, r'\A\Z', message)
+    expect(run('nearest', '--sphere', '-', '1', '91', stdin='1 1\n'), 1, r'\A\Z', 'the latitude is beyond 90 degrees')
+    expect(ask('1 1\n1 91\n', '--sphere', points='1 1\n', code=1), 1, '', 'places:2:3: the latitude is beyond')
+    expect(ask('1 1\n1 sqrt(8283)\n', '--sphere', points='1 1\n', code=1), 1, '', 'place 1 of .*places: the latitude')
+    expect(run('nearest', '--sphere', '-', '1', '1', stdin='1 91\n'), 1, r'\A\Z', '-:1:3: the latitude is beyond 90 degrees')
+    expect(run('nearest', '--sphere', '-', '1', '1', stdin=''), 3, r'^i,status,lo,hi\n\Z', '')
 
 
 def test_wrong_places():

@@ -738,7 +738,7 @@ def test_refusals():
         expect(run('delaunay', '--sphere', *args, '-', stdin=OCTAHEDRON), 2, r'\A\Z', args[0] + ' is about the plane')
     for command in ('converge', 'check', 'disc', 'bisector', 'tolerance', 'plan'):
         expect(run(command, '--sphere', '-', stdin=OCTAHEDRON), 2, r'\A\Z', f'{command} does not take --sphere')
-    expect(run('nearest', '--sphere', '-', '1', '1', stdin=OCTAHEDRON), 2, r'\A\Z', 'nearest does not take --sphere')
+    expect(run('tolerance', '--sphere', '-', stdin=OCTAHEDRON), 2, r'\A\Z', 'tolerance does not take --sphere')
     expect(run('voronoi', '--sphere', '--format', 'obj', '-', stdin=OCTAHEDRON), 2, r'\A\Z', 'does not write obj; give')
 
 

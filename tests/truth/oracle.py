@@ -357,6 +357,29 @@ class Sphere:
             best = 0
         return best
 
+    def angle(self, rung, i, at):
+        """Between place i and another one, in radians."""
+        v = self.at(rung)[i]
+        w = self.place(mpmath, lambda c: mpmath.mpf(c.numerator) / c.denominator, at) if rung else self.double(at)
+        m = mpmath if rung else math
+        less, more = (m.sqrt(sum((x + s * y) ** 2 for x, y in zip(v, w))) for s in (-1, 1))
+        return 2 * m.atan2(less, more)
+
+    def nearer(self, at, k, m):
+        """Below 0: k is nearer to the place than m; above 0: farther; 0 where no precision decides."""
+        for rung, least in enumerate(LEAST):
+            with mpmath.workprec(PRECISIONS[rung]):
+                d = self.angle(rung, k, at) - self.angle(rung, m, at)
+                if abs(d) > least:
+                    return 1 if d > 0 else -1
+        return 0
+
+    def is_within(self, at, k, lo, hi):
+        """Is the way along the ground between these bounds, in metres?"""
+        with mpmath.workprec(PRECISIONS[1]):
+            d, near = exact(self.angle(1, k, at)) * EARTH, Q(1, 2 ** 150)
+        return (lo is None or lo <= d + near) and (hi is None or d <= hi + near)
+
     def is_in(self, i, xlo, xhi, ylo, yhi):
         """Is place i in these degrees, longitudes modulo 360? Places at an angle are known to 190 bits: those as near to
         an end count as inside."""

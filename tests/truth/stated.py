@@ -32,6 +32,15 @@ class Choice:
     def triangle(self, i, j, k):
         return oracle.triangle(self.p, i, j, k, self.sites)
 
+    def nearer(self, at, k, m):
+        """Below 0: k is nearer to the place than m; above 0: farther."""
+        d = oracle.far2(self.points[k], at) - oracle.far2(self.points[m], at)
+        return (d > 0) - (d < 0)
+
+    def is_within(self, at, k, lo, hi):
+        d = oracle.far2(self.points[k], at)
+        return (lo is None or lo * lo <= d) and (hi is None or d <= hi * hi)
+
 
 class Globe(oracle.Sphere):
     def edge(self, i, j):
@@ -576,19 +585,19 @@ def judge_nearest(judge, case, c, ch):
 
 
 def judge_near(judge, case, at, near, ch):
-    d = oracle.ranks(ch.points, at, ch.sites)
-    least = min(d.values())
+    """On the sphere a comparison that no precision decides (0) refutes nothing."""
+    plane = isinstance(ch, Choice)
     for k in ch.sites:
         word, lo, hi = near.get(k, (None, None, None))
+        signs = [ch.nearer(at, k, m) for m in ch.sites if m != k]
         if word is None:
-            judge(d[k] > least, '%d is nearest, but not listed', k)
+            judge(any(s > 0 for s in signs) or not plane and 0 in signs, '%d is nearest, but not listed', k)
         else:
             if word in CERTAIN:
-                judge(all(d[k] < d[m] for m in ch.sites if m != k), '%d is stated to be nearest for certain', k)
-            judge((lo is None or lo * lo <= d[k]) and (hi is None or d[k] <= hi * hi), 'the distance of %d is not in its bounds', k)
-    if case.exact:
-        judge(len([k for k in d if d[k] == least]) > 1 or any(q[0] in CERTAIN for q in near.values()),
-              'of exact points the nearest one is not certain')
+                judge(all(s < (0 if plane else 1) for s in signs), '%d is stated to be nearest for certain', k)
+            judge(ch.is_within(at, k, lo, hi), 'the distance of %d is not in its bounds', k)
+        if case.exact and all(s < 0 for s in signs):
+            judge(any(q[0] in CERTAIN for q in near.values()), 'of exact points the nearest one is not certain')
 
 
 def read_queries(case, out, err, form):
@@ -796,9 +805,9 @@ STATED = {
                        geometries=('plane', 'sphere'), least=3),
     'edges': Stated('voronoi', read_edges, judge_edges, layer='edges', formats=('csv',)),
     'regions': Stated('voronoi', read_regions, judge_regions, layer='regions', formats=ROWS),
-    'nearest': Stated('nearest', read_nearest, judge_nearest, formats=('csv', 'json'), geometries=('plane', 'discs')),
-    'queries': Stated('nearest', read_queries, judge_queries, formats=('csv',), geometries=('plane', 'discs')),
-    'queries of a table': Stated('nearest', read_queries, judge_queries, formats=('csv',), geometries=('plane', 'discs')),
+    'nearest': Stated('nearest', read_nearest, judge_nearest, formats=('csv', 'json'), geometries=ALL),
+    'queries': Stated('nearest', read_queries, judge_queries, formats=('csv',), geometries=ALL),
+    'queries of a table': Stated('nearest', read_queries, judge_queries, formats=('csv',), geometries=ALL),
     'tolerance': Stated('tolerance', read_tolerance, judge_tolerance, formats=('csv', 'json', 'wkt', 'geojson'),
                         kinds=FIRM, least=2),
     'layer tolerance': Stated('tolerance', read_tolerance, judge_tolerance, layer='pairs', formats=ROWS, kinds=FIRM,

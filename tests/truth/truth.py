@@ -219,6 +219,12 @@ def build(row, seed):
         if row['kind'].startswith('real'):
             case.at = tuple(round_out(c, c)[0] for c in case.at)
         case.queries = [case.at, *(s.place for s in case.sites[:2] if not row['kind'].startswith('real'))]
+    elif case.sites:
+        a, b = rand.choice(case.sites).place, rand.choice(case.sites).place
+        at = tuple(Q((c + d) / 2) + unit * Q(rand.randint(-4, 4), 8) for c, d in zip(a, b))
+        case.queries = [tuple(round_out(c, c)[0] if row['kind'].startswith('real') else c for c in axes.lonlat(*p))
+                        for p in (at, (at[0] + 180, -at[1]), (at[0], Q(90)), a)]
+        case.at = case.queries[rand.choice((0, 0, 1, 2, 3))]
     if what.command == 'tolerance':
         up = unit * Q(rand.randint(1, 8), 8) if row['extra'] == 'births' else None
         case.up_to = up
