@@ -317,8 +317,9 @@ typedef struct dyd_write_options {
   /* Receives, before csv is written, lines that begin with "# ": window, bounds, goal, aliases, how numbers are
    * rounded. It may be the file that is written. NULL: none are written. */
   FILE *comments;
-  bool lengths; /* pairs and graphs of the plane: columns length_lo, length_hi, rounded outward */
-  bool clip;    /* edges of the diagram: cut to the window, and left out where they are certainly beyond it */
+  bool lengths;     /* pairs and graphs of the plane: columns length_lo, length_hi, rounded outward */
+  bool clip;        /* edges of the diagram: cut to the window, and left out where they are certainly beyond it */
+  const char *name; /* what the points are called, such as their file: the title of html; NULL: nothing */
 } dyd_write_options;
 /* Is this such a label, whose names differ? */
 DYD_API bool dyd_label_fits(const char *label);

@@ -276,6 +276,8 @@ dyd_status cli_write_content(FILE *out, const char *name, const cli_session *s, 
 bool cli_is_packed(const char *name, const cli_options *o);
 /* Where the comments of csv go that is written to out: into it, or aside. */
 FILE *cli_comments(FILE *out, const cli_session *s);
+/* The last part of the name of the points file; NULL: there is none. */
+const char *cli_points_name(const cli_options *o);
 /* The summary of a triangulation: undecided pairs and the reason, notes on radii and equal points, --stats. */
 int cli_pairs_summary(cli_session *s, int status);
 /* The goals of --until, for the diagram instead of the triangulation. */

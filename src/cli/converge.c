@@ -99,6 +99,7 @@ static dyd_status converge_write(FILE *out, const cli_session *s, dyd_error *err
                                  .times = !o->no_times,
                                  .history = s->history,
                                  .window = s->view,
+                                 .name = cli_points_name(o),
                                  .label = o->label,
                                  .comments = cli_comments(out, s),
                                  .no_header = o->no_header};

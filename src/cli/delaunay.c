@@ -60,6 +60,7 @@ static dyd_status delaunay_write(FILE *out, const cli_session *s, dyd_error *err
                                  .graph = s->graph,
                                  .pairs = s->discs,
                                  .epsg = o->epsg,
+                                 .name = cli_points_name(o),
                                  .history = s->discs ? NULL : s->history,
                                  .tolerance = tolerance,
                                  .cancel = cli_signals_flag(),
@@ -228,6 +229,7 @@ static dyd_status voronoi_write(FILE *out, const cli_session *s, dyd_error *err)
                                  .window = s->o.engine.window,
                                  .bounds = &r->bounds,
                                  .epsg = s->o.epsg,
+                                 .name = cli_points_name(&s->o),
                                  .cancel = cli_deadline_flag(),
                                  .clip = s->o.clip,
                                  .cut = &r->cut,
@@ -312,6 +314,7 @@ static dyd_status sphere_write(FILE *out, const cli_session *s, dyd_error *err) 
   const dyd_write_options how = {DYD_SIZED(dyd_write_options),
                                  .sphere = s->sphere,
                                  .epsg = s->o.epsg,
+                                 .name = cli_points_name(&s->o),
                                  .window = s->view,
                                  .max_arc = s->o.max_arc,
                                  .comments = cli_comments(out, s)};

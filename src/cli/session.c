@@ -538,6 +538,11 @@ FILE *cli_comments(FILE *out, const cli_session *s) {
   return s->o.comments ? out : s->noted;
 }
 
+const char *cli_points_name(const cli_options *o) {
+  const char *slash = o->file ? strrchr(o->file, '/') : NULL;
+  return !o->file || strcmp(o->file, "-") == 0 ? NULL : slash ? slash + 1 : o->file;
+}
+
 /* Does the line say something that no other line of ours says? */
 static bool comment_is_summary(const char *line) {
   static const char *const begin[] = {"window ", "undetermined_area", "distance_to", "tolerance ",      "plan ",

@@ -398,7 +398,8 @@ dyd_status dyd_write(FILE *out, const dyd_engine *e, dyd_content content, dyd_fo
                    .epsg = o.epsg,
                    .comments = o.comments,
                    .lengths = o.lengths,
-                   .clip = o.clip};
+                   .clip = o.clip,
+                   .name = o.name};
   return write(&to, &o, err);
 }
 

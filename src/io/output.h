@@ -21,6 +21,7 @@ typedef struct dyd_output {
   unsigned epsg;            /* the reference system of the coordinates; 0: none is claimed */
   FILE *comments;           /* of csv; NULL: none are written */
   bool lengths, clip;       /* as in dyd_write_options */
+  const char *name;
 } dyd_output;
 
 typedef dyd_status dyd_writer(const dyd_output *o);

@@ -161,6 +161,52 @@ void dyd_density_legend(dyd_legend *l, const dyd_density *d, const char *what) {
 #define ROW 22.0
 #define AXIS 46.0 /* from the frame to the middle of the first row */
 
+const char *dyd_unit_of(unsigned epsg) {
+  static const struct {
+    unsigned first, last;
+    const char *unit;
+  } known[] = {{4326, 4326, "degree"},
+               {4258, 4258, "degree"},
+               {4267, 4267, "degree"},
+               {4269, 4269, "degree"},
+               /* UTM: ED50, ETRS89, NAD83, GDA94, GDA2020, WGS 84 */
+               {23028, 23038, "m"},
+               {25828, 25838, "m"},
+               {26901, 26923, "m"},
+               {28348, 28358, "m"},
+               {7846, 7859, "m"},
+               {32601, 32660, "m"},
+               {32701, 32760, "m"},
+               /* Web Mercator, Europe, and national grids */
+               {3857, 3857, "m"},
+               {3034, 3035, "m"},
+               {2056, 2056, "m"},
+               {21781, 21781, "m"},
+               {27700, 27700, "m"},
+               {2154, 2154, "m"},
+               {28992, 28992, "m"},
+               {31370, 31370, "m"},
+               {2193, 2193, "m"},
+               {3006, 3006, "m"},
+               {2180, 2180, "m"},
+               {3067, 3067, "m"},
+               {5514, 5514, "m"},
+               {31254, 31259, "m"},
+               {31466, 31469, "m"}};
+  for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+    if (known[k].first <= epsg && epsg <= known[k].last) return known[k].unit;
+  return NULL;
+}
+
+/* "1 unit of EPSG:2263", "200 m (EPSG:25832)", "30 degrees". */
+static void length_text(char *out, size_t size, const char *number, const dyd_view *v) {
+  const char *unit = v->unit ? v->unit : dyd_unit_of(v->epsg), *plural = strcmp(number, "1") == 0 ? "" : "s";
+  char of[40] = "";
+  if (v->epsg) snprintf(of, sizeof of, unit ? " (EPSG:%u)" : " of EPSG:%u", v->epsg);
+  snprintf(out, size, "%s %s%s%s", number, unit ? unit : "unit", unit && strcmp(unit, "m") == 0 ? "" : plural,
+           unit || v->epsg ? of : " of the coordinates");
+}
+
 /* A bar of round length, at the right end. */
 static void legend_bar(dyd_legend *l) {
   const dyd_view *v = l->view;
@@ -170,10 +216,7 @@ static void legend_bar(dyd_legend *l) {
   if (!dyd_round_step(&digit, &exponent, 0.2 * v->width / v->scale)) return;
   char number[48], text[128];
   dyd_tick_text(number, sizeof number, digit, exponent);
-  char of[40] = " of the coordinates";
-  if (v->epsg) snprintf(of, sizeof of, " of EPSG:%u", v->epsg);
-  snprintf(text, sizeof text, "%s %s%s%s", number, v->unit ? v->unit : "unit", strcmp(number, "1") == 0 ? "" : "s",
-           v->unit ? "" : of);
+  length_text(text, sizeof text, number, v);
   double left = right - digit * pow(10, exponent) * v->scale;
   double line[3][2][2] = {{{left, y - 4}, {left, y + 4}}, {{left, y}, {right, y}}, {{right, y - 4}, {right, y + 4}}};
   for (int k = 0; k < 3; k++) dyd_picture_line(l->canvas, line[k], 0x222222, 1.5, 0, 0);

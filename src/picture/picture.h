@@ -39,6 +39,8 @@ typedef struct dyd_view {
   unsigned epsg;           /* their reference system; 0: not known */
 } dyd_view;
 
+/* "m" or "degree" for EPSG numbers in common use; NULL: the unit is not known. */
+const char *dyd_unit_of(unsigned epsg);
 /* A view of the box (x lower, x upper, y lower, y upper) of something whose neighbours are about `spacing` apart (0:
  * not known); DYD_E_RANGE with a message when doubles cannot scale it. */
 dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_error *err);

@@ -235,9 +235,10 @@ static dyd_status find_seam(sphere_drawing *d) {
 static void find_surroundings(double all[4], const sphere_drawing *d) {
   all[0] = all[2] = INFINITY, all[1] = all[3] = -INFINITY;
   for (size_t i = 0; i < d->count; i++) dyd_view_hold(all, d->box[i]);
-  if (d->count && all[1] - all[0] < 180)
+  if (d->count && all[1] - all[0] < 180) {
     dyd_view_pad(all);
-  else
+    all[2] = fmax(all[2], -90), all[3] = fmin(all[3], 90);
+  } else
     all[0] = d->seam, all[1] = d->seam + 360, all[2] = -90, all[3] = 90;
 }
 

@@ -205,8 +205,10 @@ typedef struct ticks {
   int64_t first, last;
 } ticks;
 
-static bool find_ticks(ticks *t, double low, double high, double most) {
+/* Degrees of a sphere have ticks at multiples of 30, as its graticule, instead of 50. */
+static bool find_ticks(ticks *t, double low, double high, double most, bool sphere) {
   if (!dyd_round_step(&t->digit, &t->exponent, most)) return false;
+  if (sphere && t->digit == 5 && t->exponent == 1) t->digit = 3;
   double step = t->digit * pow(10, t->exponent);
   if (!(fabs(low) / step < 4e15 && fabs(high) / step < 4e15)) return false;
   t->first = (int64_t)ceil(low / step);
@@ -231,7 +233,7 @@ static void axis_along(dyd_canvas *c, const dyd_view *v, double low, double high
   const double *f = v->frame;
   char label[48];
   ticks t;
-  if (!find_ticks(&t, low, high, (vertical ? HIGHEST : WIDEST) / v->scale)) return;
+  if (!find_ticks(&t, low, high, (vertical ? HIGHEST : WIDEST) / v->scale, v->unit)) return;
   double step = t.digit * pow(10, t.exponent);
   for (int64_t n = t.first; n <= t.last; n++) {
     tick_label(label, sizeof label, c, &t, n);
@@ -253,8 +255,9 @@ static void axes_draw(dyd_canvas *c, const dyd_view *v) {
   dyd_view_frame_path(c, v);
   dyd_picture_stroke(c, 0x222222, 1, 0, 0);
   double left = v->left + (f[0] - DYD_VIEW_LEFT) / v->scale, top = v->top - (f[2] - DYD_VIEW_EDGE) / v->scale;
+  double low = top - (f[3] - f[2]) / v->scale, pole = v->unit ? 90 : INFINITY; /* only degrees of a sphere are named */
   axis_along(c, v, left, left + (f[1] - f[0]) / v->scale, false);
-  axis_along(c, v, top - (f[3] - f[2]) / v->scale, top, true);
+  axis_along(c, v, fmax(low, -pole), fmin(top, pole), true);
 }
 
 /* ---- cutting ---- */

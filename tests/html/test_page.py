@@ -5,6 +5,7 @@ import csv
 import json
 import pathlib
 import sys
+from fractions import Fraction
 
 import browser
 import pages
@@ -59,10 +60,32 @@ def partners_of(pairs, row, names):
     return out
 
 
+def ends(text):
+    """The interval of an exact text, or of "MIDDLE±RADIUS", as fractions."""
+    number = lambda t: Fraction(t.split('*2^')[0]) * Fraction(2) ** int((t.split('*2^') + ['0'])[1])
+    middle, _, radius = text.partition('±')
+    return number(middle) - Fraction(radius or 0), number(middle) + Fraction(radius or 0)
+
+
+def check_side(page, side, lo, hi):
+    """The decimal holds the interval, is hardly wider, and the exact text stands below where it says more."""
+    decimal, exact, true = page.text('#side-' + side), page.text('#exact-' + side), (ends(lo)[0], ends(hi)[0])
+    if exact is None:
+        assert ends(decimal) == true, (decimal, lo, hi)
+    else:
+        assert exact == (lo if lo == hi else f'[{lo}, {hi}]'), exact
+        if decimal.startswith('≈'):
+            assert lo == hi and abs(Fraction(decimal[2:]) - true[0]) <= abs(true[0]) / 10 ** 11, (decimal, lo)
+        else:
+            now = ends(decimal)
+            assert now[0] <= true[0] and true[1] <= now[1] and now != true, (decimal, lo, hi)
+            long = len(decimal.partition('±')[0].replace('.', '')) >= 28
+            assert long or now[1] - now[0] <= (true[1] - true[0]) * Fraction(101, 100), (decimal, lo, hi)
+
+
 def check_card(page, site, pairs, names):
     for side in 'xy':
-        lo, hi = site[side]
-        assert page.text('#exact-' + side) == (lo if lo == hi else f'[{lo}, {hi}]'), page.text('#exact-' + side)
+        check_side(page, side, *site[side])
     for status, others in partners_of(pairs, site['i'], names).items():
         found = page.value(f'[...document.querySelectorAll("#partners-{status} button")].map((b) => b.textContent)')
         assert found == others, (status, found, others)
@@ -98,6 +121,10 @@ def test_search():
             page.call('Input.dispatchKeyEvent', type='keyDown', key='Enter', code='Enter', windowsVirtualKeyCode=13, text='\r')
             assert page.text('#card h2') == f'{names[row]} (point {row})'
             check_card(page, truth['sites'][row], pairs, names)
+            x, y = (sum(truth['sites'][row][side + '_decimal']) / 2 for side in 'xy')
+            page.until("location.hash.includes('point=%d')" % row)
+            cx, cy, wide = map(float, page.value('new URLSearchParams(location.hash.slice(1)).get("at")').split(','))
+            assert wide < 90 and abs(x - cx) < wide / 2 and abs(y - cy) < wide, 'the point that was found is in view, and near'
         page.value('document.querySelector("#query").focus()')
         page.call('Input.insertText', text='no such name')
         assert page.text('#found') == 'no such point'
@@ -207,7 +234,7 @@ def test_sphere():
     csv_rows = pages.csv_pairs('delaunay', '--sphere', pages.points(places))
     with opened(pages.page('delaunay', '--sphere', pages.points(places)), place='#point=2') as page:
         assert shown_counts(page) == {'legal': len(csv_rows), 'indeterminate': 0, 'tie': 0}
-        assert page.text('#title') == 'Delaunay triangulation of a sphere' and page.text('#exact-x') == '-170'
+        assert page.text('#title') == 'points.txt: Delaunay triangulation of a sphere' and page.text('#side-x') == '-170'
         assert page.text('#partners-legal') == ''.join(str(i + j - 2) for i, j in sorted(csv_rows) if 2 in (i, j))
         assert page.value('document.querySelector("#show-areas")') is None
     with opened(pages.page('delaunay', '--sphere', pages.points('100 50\n-100 50\n0 -80\n')), place='#at=180,80,40') as page:
@@ -222,7 +249,7 @@ def test_graph():
     args = ['--layer', 'graph:mst', *pages.FIXES]
     edges = pages.csv_pairs('delaunay', *args)
     with opened(pages.page('delaunay', *args), place='#point=0') as page:
-        assert page.text('#title') == 'Minimum spanning tree'
+        assert page.text('#title') == 'gps.csv: Minimum spanning tree'
         for name, status in ('legal', 'certain'), ('indeterminate', 'possible'):
             assert page.text('#count-' + name) == str(list(edges.values()).count(status)) and status in page.text('#card')
         assert page.value('document.querySelector("#show-tie") ?? document.querySelector("#show-triangles")') is None
@@ -284,7 +311,7 @@ def test_no_request():
     page.value('''(() => { const s = document.createElement("script"); s.textContent = "document.title = 'seized'"; document.body.append(s); })()''')
     page.value('''(() => { const s = new Image(); s.src = "http://127.0.0.1:9/x.png"; document.body.append(s); })()''')
     page.frames()
-    assert page.value('document.title') == 'dyadel delaunay'
+    assert page.value('document.title') == 'points.txt: Delaunay triangulation'
     assert sum('Content Security Policy' in text for text in page.complaints) >= 3, page.complaints
     page.close()
 
@@ -296,6 +323,92 @@ def test_phone():
             assert page.value('document.documentElement.scrollWidth') <= wide
             assert page.value('''(() => { const a = document.querySelector("#map").getBoundingClientRect(), b = document.querySelector("aside").getBoundingClientRect();
               return a.right <= b.left || a.bottom <= b.top; })()''')
+
+
+UTM = 'name,e,n,acc\n' + ''.join(f'P{k},{690000 + k * k * 37 % 900}.25,{5334000 + k * 61 % 900}.5,0.25\n' for k in range(30))
+OF_UTM = ['--columns', 'e,n', '--id', 'name', '--radius-column', 'acc']
+
+
+def drawn_texts(page):
+    """Texts that the map draws anew."""
+    page.value('(() => { const p = CanvasRenderingContext2D.prototype, old = p.fillText; window.texts = []; '
+               'p.fillText = function (t, ...at) { window.texts.push(t); return old.call(this, t, ...at); }; })()')
+    page.key('0')
+    page.frames()
+    return page.value('window.texts')
+
+
+def test_labels():
+    """No coordinate is cut at the rim of the map, however many digits it has."""
+    file = pages.page('delaunay', *OF_UTM, pages.points(UTM, 'utm.csv'))
+    for place in '', '#at=690300,5334300,0.02', '#at=690300,5334300,0.0003':
+        for wide, high in (390, 844), (1200, 800):
+            with opened(file, place=place, wide=wide, high=high) as page:
+                inked = page.value('''(() => { const map = document.querySelector("#map"), out = new Set();
+                  const c = new OffscreenCanvas(map.width, map.height).getContext("2d", {willReadFrequently: true});
+                  c.drawImage(map, 0, 0);
+                  for (const [x, w] of [[0, 2], [map.width - 1, 1]]) {
+                    const d = c.getImageData(x, 0, w, map.height).data;
+                    for (let k = 0; k < d.length; k += 4) out.add([d[k], d[k + 1], d[k + 2]].join());
+                  }
+                  return [...out]; })()''')
+                assert inked == ['255,255,255'], (place, wide, inked)
+
+
+def test_globe_ends():
+    places = pages.points('0 80\n90 85\n180 88\n-90 84\n10 60\n-20 -70\n')
+    with opened(pages.page('delaunay', '--sphere', places)) as page:
+        numbers = [float(t) for t in drawn_texts(page) if t.lstrip('-').isdigit()]
+        assert {90, -90, 180, -180} <= set(numbers) and max(map(abs, numbers)) <= 180 and not {100, 150} & set(numbers), numbers
+
+
+def test_names_and_units():
+    file = pages.points(UTM, 'utm.csv')
+    with opened(pages.page('delaunay', *OF_UTM, '--crs', 'EPSG:25832', file), place='#point=3') as page:
+        assert page.text('#title') == 'utm.csv: Delaunay triangulation' and 'EPSG:25832' in page.text('#about')
+        assert page.text('#side-x') == '690333.25±0.25 m' and page.text('#side-y') == '5334183.5±0.25 m'
+    with opened(pages.page('delaunay', *OF_UTM, '--crs', 'EPSG:2263', file), place='#point=3') as page:
+        assert page.text('#side-x') == '690333.25±0.25'
+    with opened(pages.page('delaunay', *OF_UTM, file)) as page:
+        assert [page.value(f'document.querySelector("#{b}").title') for b in ('closer', 'farther', 'all')] == [
+            'Zoom in (+)', 'Zoom out (-)', 'Fit all points (0)'] and page.text('#all') == 'Fit'
+        assert page.text('#card p') == 'Hover over a point, or search for it, to see its rectangle and neighbours.'
+
+
+def test_keyboard():
+    """Points are chosen on the map without a pointer."""
+    cross = pages.points('0 0\n3 0.5\n-3 0.25\n0.5 4\n0.25 -4\n')
+    with opened(pages.page('delaunay', cross)) as page:
+        page.value('document.querySelector("#map").focus()')
+        page.key('Enter')
+        assert page.text('#card h2') == 'Point 0'
+        for key, there in ('ArrowRight', 1), ('ArrowLeft', 2), ('ArrowUp', 3), ('ArrowDown', 4):
+            page.value('dispatchEvent(new KeyboardEvent("keydown", {key: "Escape", bubbles: true}))')
+            assert page.text('#card h2') == 'A point'
+            page.key('Enter')
+            page.call('Input.dispatchKeyEvent', type='keyDown', key=key, modifiers=8)
+            page.call('Input.dispatchKeyEvent', type='keyUp', key=key, modifiers=8)
+            assert page.text('#card h2') == f'Point {there}', key
+        assert page.text('#card p') == 'Pinned. Esc to release.'
+
+
+def test_outliers():
+    """A point far from the others is named, and the map can leave it out."""
+    with opened(pages.page('delaunay', *OF_UTM, pages.points(UTM + 'Far,0,0,5\n', 'utm.csv'))) as page:
+        assert 'Far' in page.text('#outliers') and not page.value('document.querySelector("#outliers").hidden')
+        page.value('document.querySelector("#fit-others").click()')
+        page.until("location.hash.includes('at=')")
+        x, y, wide = map(float, page.value('new URLSearchParams(location.hash.slice(1)).get("at")').split(','))
+        assert 690000 < x < 690900 and 5334000 < y < 5334900 and wide < 2000
+    for args in [*OF_UTM, pages.points(UTM, 'utm.csv')], pages.FIXES, pages.PLACES:
+        with opened(pages.page('delaunay', *args)) as page:
+            assert page.value('document.querySelector("#outliers").hidden'), args
+
+
+def test_phone_card():
+    """What is known of a point that is pinned is on the first screen of a phone."""
+    with opened(pages.page('delaunay', '--discs', *pages.FIXES), wide=390, high=844, place='#point=3') as page:
+        assert page.value('document.querySelector("#side-y").getBoundingClientRect().bottom') < 844
 
 
 def test_empty():

@@ -258,8 +258,8 @@ static const char *layer_name(dyd_content content) {
   return name[content] ? name[content] : "pairs";
 }
 
-/* The opening of the object. content: the layer to be seen first. */
-static dyd_status html_head(const html_scene *s, dyd_content content) {
+/* The opening of the object; o->content is the layer that is shown first. */
+static dyd_status html_head(const html_scene *s, const dyd_output *o) {
   FILE *out = s->out;
   const dyd_result *r = s->r;
   const dyd_engine *e = r->sphere ? dyd_sphere_images(r->sphere) : r->engine;
@@ -268,12 +268,14 @@ static dyd_status html_head(const html_scene *s, dyd_content content) {
   dyd_json j;
   dyd_json_begin(&j, out);
   dyd_json_head(&j, "dyadel html 1", r->epsg);
+  if (o->name) dyd_json_text(&j, "name", o->name);
+  if (dyd_unit_of(r->epsg)) dyd_json_word(&j, "length_unit", dyd_unit_of(r->epsg));
   dyd_json_confidence(&j, r->engine);
   dyd_json_end(&j, ",\n");
   fprintf(out,
           "\"kind\": \"%s\", \"layer\": \"%s\", \"outcome\": \"%s\", \"goal\": \"%s\", \"goal_bits\": %" PRId64
           ", \"capped\": %s, \"discs\": %s,\n\"sites\": %zu, \"window\": ",
-          s->kind, layer_name(content), dyd_outcome_text(dyd_engine_outcome(e)), dyd_goal_text(goal), bits,
+          s->kind, layer_name(o->content), dyd_outcome_text(dyd_engine_outcome(e)), dyd_goal_text(goal), bits,
           dyd_delaunay_is_capped(r->pd) ? "true" : "false", r->discs ? "true" : "false", r->count);
   dyd_json_begin(&j, out);
   dyd_json_window(&j, NULL, s->shown, ", ");
@@ -409,7 +411,7 @@ static dyd_status html_body(const html_scene *s) {
 /* The object of a page: its head, its own members, then "points", "aliases", "triangles", "stages". */
 static dyd_status html_scene_write(html_scene *s, const dyd_output *o) {
   dyd_status st = html_scene_init(s, o->err);
-  if (st == DYD_OK) st = html_head(s, o->content);
+  if (st == DYD_OK) st = html_head(s, o);
   if (st == DYD_OK) st = s->own(s->out, s->user);
   if (st == DYD_OK) st = html_body(s);
   fputs("}\n", s->out);

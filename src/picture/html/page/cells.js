@@ -116,6 +116,6 @@ function drawCellMark(ctx, scene, k, frame) {
 function cellLines(scene, k) {
   if (!scene.cellOf.has(k)) return [];
   const {area, undetermined} = scene.cells[scene.cellOf.get(k)].cell;
-  return [element("dt", {}, "area of the cell"), element("dd", {id: "area"}, `${directed(area[0], 6, false)} … ${directed(area[1], 6, true)}`),
+  return [element("dt", {}, "area of the cell"), element("dd", {id: "area"}, `${directed(area[0], 6, false)} … ${directed(area[1], 6, true)}${scene.data.length_unit === "m" ? " m²" : ""}`),
     element("dt", {}, "undecided"), element("dd", {}, `at most ${directed(100 * undetermined, 3, true)} %`)];
 }

@@ -33,11 +33,6 @@ function toDouble(text) {
   return scaled(String((p << BigInt(shift)) / q), -shift);
 }
 
-// Is the double that toDouble gives the number itself? (No underflow: a point beyond doubles has no page.)
-function isDouble(text) {
-  return !text.includes("/") && Number.isSafeInteger(Number(text.split("*")[0])) && (toDouble(text) !== 0 || text === "0");
-}
-
 // The lists of pairs: differences to the pair before, and from i to j.
 function readPairs(list, visit) {
   for (let k = 0, i = 0; k < list.length; k += 2) visit(i += list[k], i + list[k + 1]);

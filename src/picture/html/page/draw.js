@@ -183,11 +183,30 @@ function drawNames(ctx, scene, points) {
   }
 }
 
-// Round numbers along the left and the lower side.
-function drawAxes(ctx) {
-  const box = viewBox(), step = roundStep(90 / view.scale), digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+// The ticks along an axis, "x" or "y", at least `apart` pixels from each other: numbers and texts. A globe ends at its poles.
+function ticks(scene, axis, apart) {
+  const box = viewBox(), limit = scene.globe ? [180, 90][axis] : Infinity, out = [];
+  const step = roundStep(apart / view.scale, scene.globe), digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const text = (v) => (digits > 12 || Math.abs(v) >= 1e15 ? v.toPrecision(12) : v.toFixed(Math.min(digits, 100)));
-  ctx.font = "11px system-ui, sans-serif";
+  const first = Math.ceil(Math.max(box[2 * axis], -limit) / step), last = Math.floor(Math.min(box[2 * axis + 1], limit) / step);
+  for (let n = first; n <= last && n < first + 50; n++) out.push({at: n * step, text: text(n * step)});
+  return out;
+}
+
+const AXIS_FONT = "11px system-ui, sans-serif";
+const widest = (ctx, list) => list.reduce((most, {text}) => Math.max(most, ctx.measureText(text).width), 0);
+
+// The left margin grows with the texts along it; what is seen stays where it is.
+function fitMargin(ctx, scene) {
+  ctx.font = AXIS_FONT;
+  const left = Math.max(plot.narrow ? 46 : 64, Math.ceil(widest(ctx, ticks(scene, 1, 90))) + 10), more = left - plot.left;
+  plot.left = left;
+  view.x += more / 2 / view.scale;
+}
+
+// Round numbers along the left and the lower side.
+function drawAxes(ctx, scene) {
+  ctx.font = AXIS_FONT;
   ctx.fillStyle = colours.faint;
   ctx.strokeStyle = colours.rule;
   ctx.lineWidth = 1;
@@ -195,17 +214,18 @@ function drawAxes(ctx) {
   ctx.textAlign = "center";
   ctx.textBaseline = "top";
   ctx.beginPath();
-  for (let v = Math.ceil(box[0] / step) * step, k = 0; v <= box[1] && k < 50; v += step, k++) {
-    ctx.moveTo(toX(v), plot.bottom);
-    ctx.lineTo(toX(v), plot.bottom + 4);
-    ctx.fillText(text(v), toX(v), plot.bottom + 6);
+  for (const {at, text} of ticks(scene, 0, Math.max(90, widest(ctx, ticks(scene, 0, 90)) + 16))) {
+    const half = ctx.measureText(text).width / 2;
+    ctx.moveTo(toX(at), plot.bottom);
+    ctx.lineTo(toX(at), plot.bottom + 4);
+    ctx.fillText(text, Math.min(toX(at), plot.right + 8 - half), plot.bottom + 6);
   }
   ctx.textAlign = "right";
   ctx.textBaseline = "middle";
-  for (let v = Math.ceil(box[2] / step) * step, k = 0; v <= box[3] && k < 50; v += step, k++) {
-    ctx.moveTo(plot.left - 4, toY(v));
-    ctx.lineTo(plot.left, toY(v));
-    ctx.fillText(text(v), plot.left - 6, toY(v));
+  for (const {at, text} of ticks(scene, 1, 90)) {
+    ctx.moveTo(plot.left - 4, toY(at));
+    ctx.lineTo(plot.left, toY(at));
+    ctx.fillText(text, plot.left - 6, toY(at));
   }
   ctx.stroke();
   ctx.textAlign = "left";
@@ -229,7 +249,7 @@ function drawMap(ctx, scene, on) {
   const points = shown.has("boxes") ? drawPoints(ctx, scene, seen, frame, apart) : [];
   if (shown.has("names") && apart > 12) drawNames(ctx, scene, points);
   ctx.restore();
-  drawAxes(ctx);
+  drawAxes(ctx, scene);
   return points.length + order.reduce((sum, s) => sum + pairs[s].length, 0);
 }
 

@@ -16,14 +16,22 @@ function draw() {
     base ??= keepPicture();
     clear(ctx);
     drawKept(ctx);
-    drawAxes(ctx);
+    drawAxes(ctx, scene);
   } else {
     base = null;
     clear(ctx);
+    fitMargin(ctx, scene);
     const things = drawMap(ctx, scene, shown);
     heavy = things > 12000 || performance.now() - begun > 10;
   }
   drawMarks();
+}
+
+// Sets the view, and again when the margin for the coordinates is known.
+function see(set) {
+  set();
+  fitMargin(map.getContext("2d"), scene);
+  set();
 }
 
 function redraw() {
@@ -82,7 +90,7 @@ function resize(factor = window.devicePixelRatio || 1) {
     canvas.height = Math.round(high * factor);
     canvas.getContext("2d").setTransform(factor, 0, 0, factor, 0, 0);
   }
-  Object.assign(plot, {left: wide < 500 ? 46 : 64, right: wide - 10, top: 10, bottom: high - 24});
+  Object.assign(plot, {narrow: wide < 500, left: wide < 500 ? 46 : 64, right: wide - 10, top: 10, bottom: high - 24});
   base = null;
 }
 
@@ -103,19 +111,59 @@ function tellPoint() {
   showPoint(scene, hovered ?? kept, kept !== null && (hovered === null || hovered === kept), choosePoint);
 }
 
-// Keeps a point, and brings it into view.
-function choosePoint(k) {
+function pinPoint(k) {
   kept = k;
   hovered = null;
+  $("found").hidden = true;
+  tellPoint();
+  redraw();
+  writeAddressSoon();
+}
+
+// Pins a point, and brings it into view.
+function choosePoint(k) {
   const box = viewBox(), x = middle(scene, k, 0), y = middle(scene, k, 1);
   if (x < box[0] || x > box[1] || y < box[2] || y > box[3]) {
     view.x = x;
     view.y = y;
   }
-  $("found").hidden = true;
-  tellPoint();
-  redraw();
-  writeAddressSoon();
+  pinPoint(k);
+}
+
+// The box of points as they are at this stage.
+function boxAround(points) {
+  const out = [Infinity, -Infinity, Infinity, -Infinity];
+  for (const k of points)
+    for (let e = 0; e < 4; e++) out[e] = e & 1 ? Math.max(out[e], scene.box[4 * k + e]) : Math.min(out[e], scene.box[4 * k + e]);
+  return out;
+}
+
+// Pins a point that was searched for, and zooms to it and its neighbours.
+function goToPoint(k) {
+  const own = partners(scene, k), near = own[LEGAL].length ? own[LEGAL] : [...own[INDETERMINATE], ...own[TIE]];
+  const box = boxAround([k, ...near.map((p) => otherEnd(scene, p, k))]);
+  if (box.every((v) => Math.abs(v) < 1e299) && (near.length || scene.n === 1)) {
+    see(() => { fitBox(box, 0.25); limitScale(all); });
+  }
+  choosePoint(k);
+}
+
+function fitOthers(far) {
+  const rest = boxAround([...scene.data.points.keys()].filter((k) => !far.includes(k)));
+  see(() => fitBox(rest));
+  move();
+}
+
+// Pins the next point in a direction from the one that is pinned; (0, 0): the one nearest to the middle of the map.
+function stepPoint(dx, dy) {
+  const from = kept === null || !(dx || dy) ? [view.x, view.y] : [middle(scene, kept, 0), middle(scene, kept, 1)];
+  let best = null, least = Infinity;
+  for (let k = 0; k < scene.n; k++) {
+    const x = middle(scene, k, 0) - from[0], y = middle(scene, k, 1) - from[1], along = x * dx + y * dy, across = Math.abs(x * dy - y * dx);
+    const away = dx || dy ? along + 2 * across : Math.hypot(x, y);
+    if (k !== kept && (dx || dy ? along > 0 && across <= along : true) && away < least) { least = away; best = k; }
+  }
+  if (best !== null) choosePoint(best);
 }
 
 function setTheme(name) {
@@ -153,11 +201,11 @@ function readAddress() {
   if (parts.has("theme")) setTheme(parts.get("theme") === "dark" ? "dark" : "light");
   kept = scene.numberOf.get(Number(parts.get("point") ?? -1)) ?? null;
   goStage(Number(parts.get("stage")) || scene.stages.length);
-  if (at.length === 3 && at.every(Number.isFinite) && at[2] > 0) {
+  if (at.length === 3 && at.every(Number.isFinite) && at[2] > 0) see(() => {
     [view.x, view.y] = at;
     view.scale = (plot.right - plot.left) / at[2];
     limitScale(all);
-  }
+  });
 }
 
 // ---- the hand ----
@@ -207,11 +255,7 @@ function pointerMove(event) {
 
 function pointerUp(event) {
   if (!pointers.delete(event.pointerId) || travelled > 5 || event.type === "pointercancel") return;
-  kept = pick(event.offsetX, event.offsetY, event.pointerType === "mouse" ? 9 : 22);
-  hovered = null;
-  tellPoint();
-  redraw();
-  writeAddressSoon();
+  pinPoint(pick(event.offsetX, event.offsetY, event.pointerType === "mouse" ? 9 : 22));
 }
 
 function step(dx, dy) {
@@ -226,22 +270,28 @@ function zoomMiddle(factor) {
 }
 
 function showAll() {
-  fitBox(all);
+  see(() => fitBox(all));
   move();
 }
 
+// With Shift.
+const POINT_KEYS = {
+  ArrowLeft: () => stepPoint(-1, 0), ArrowRight: () => stepPoint(1, 0), ArrowUp: () => stepPoint(0, 1), ArrowDown: () => stepPoint(0, -1),
+};
 const KEYS = {
   ArrowLeft: () => step(-1, 0), ArrowRight: () => step(1, 0), ArrowUp: () => step(0, 1), ArrowDown: () => step(0, -1),
   "+": () => zoomMiddle(1.5), "=": () => zoomMiddle(1.5), "-": () => zoomMiddle(1 / 1.5), 0: showAll,
   "[": () => goStage(scene.stage - 1), "]": () => goStage(scene.stage + 1),
   "/": () => $("query").focus(), d: () => $("theme").click(),
-  Escape: () => { kept = hovered = null; $("found").hidden = true; tellPoint(); redraw(); writeAddressSoon(); },
+  Escape: () => pinPoint(null),
 };
 
 function keyDown(event) {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   if (event.target.tagName === "INPUT" && event.target.type !== "checkbox" && event.key !== "Escape") return;
-  const entry = document.querySelectorAll("#legend input")[Number(event.key) - 1], act = KEYS[event.key] ?? (entry && (() => entry.click()));
+  const entry = document.querySelectorAll("#legend input")[Number(event.key) - 1];
+  const act = (event.shiftKey ? POINT_KEYS[event.key] : event.target === map && event.key === "Enter" ? () => stepPoint(0, 0) : null) ??
+    KEYS[event.key] ?? (entry && (() => entry.click()));
   if (!act) return;
   event.preventDefault();
   act();
@@ -271,11 +321,11 @@ function listen() {
     setTheme(document.documentElement.classList.contains("dark") ? "light" : "dark");
     writeAddressSoon();
   });
-  $("query").addEventListener("input", () => showFound(scene, choosePoint));
+  $("query").addEventListener("input", () => showFound(scene, goToPoint));
   $("search").addEventListener("submit", (event) => {
     event.preventDefault();
-    const found = showFound(scene, choosePoint);
-    if (found.length) choosePoint(found[0]);
+    const found = showFound(scene, goToPoint);
+    if (found.length) goToPoint(found[0]);
   });
 }
 
@@ -297,11 +347,12 @@ async function start() {
   all = wholeBox();
   shown = new Set(LAYERS[scene.data.layer]);
   showSummary(scene);
+  showOutliers(scene, goToPoint, fitOthers);
   buildLegend(scene, shown, () => { base = null; redraw(); writeAddressSoon(); });
   buildStages(scene, goStage);
   $("message").textContent = scene.n ? "" : "there are no points";
   resize();
-  fitBox(all);
+  see(() => fitBox(all));
   readAddress();
   draw();
   performance.mark("first picture");
@@ -310,6 +361,6 @@ async function start() {
 
 start().catch((problem) => {
   const old = typeof DecompressionStream === "undefined";
-  $("message").textContent = old ? "This browser cannot unpack the data (DecompressionStream); take a newer one." : `The page cannot be shown: ${problem.message}`;
+  $("message").textContent = old ? "This browser is too old to unpack the data (it lacks DecompressionStream)." : `The page cannot be shown: ${problem.message}`;
   if (!old) throw problem;
 });

@@ -13,7 +13,7 @@ function element(tag, attributes = {}, ...children) {
   return out;
 }
 
-// What can be shown: name, what it means; the first ones of diagrams only.
+// What can be shown: name, what it means; the first list of diagrams only.
 const CELLS = [
   ["cells", "certainly nearest to a point"],
   ["bands", "undecided"],
@@ -77,18 +77,39 @@ function showSummary({data, n}) {
   const goal = data.goal === "decided" ? "" : `, goal ${data.goal} 2^-${data.goal_bits}`;
   const part = n === data.sites ? "" : ` of ${grouped(data.sites)}`;
   const title = {delaunay: "Delaunay triangulation", voronoi: "Voronoi diagram", converge: "Convergence"}[data.kind];
-  $("title").textContent = data.graph ? data.graph[0].toUpperCase() + data.graph.slice(1) : title + (data.surface ? " of a " + data.surface : "");
-  document.title = "dyadel " + data.kind;
+  const what = data.graph ? data.graph[0].toUpperCase() + data.graph.slice(1) : title + (data.surface ? " of a " + data.surface : "");
+  $("title").textContent = data.name ? `${data.name}: ${what}` : what;
+  document.title = `${data.name ?? "dyadel"}: ${what}`;
   $("summary").textContent = `${grouped(n)}${part} points, outcome ${data.outcome}${goal}` +
     (data.capped ? "; the cap on pairs was met: not all possible pairs are known" : "");
-  $("about").textContent = (data.window ? `The window is [${data.window.join(", ")}]. ` : "") +
-    (data.undetermined_area ? `Undecided in it: an area of at most ${upper(data.undetermined_area)}; ` : "") +
-    (data.distance_to_true_diagram ? `nothing of it is farther than ${upper(data.distance_to_true_diagram)} from the true diagram. ` : data.cells ? "how far it is from the true diagram is not known. " : "") +
-    (data.tolerance ? `Nothing changes at all while every point stays within ${data.tolerance[0] === null ? "any distance" : directed(data.tolerance[0], 4, false)} of its place. ` : "");
-  $("rounding").textContent = "Rectangles are told exactly where they stand as texts m*2^e or p/q" +
-    (data.stages.length > 1 ? "; those of earlier stages, and decimals, are rounded outward" : "; decimals are rounded outward") +
-    (data.unit === undefined ? "" : `; polygons are drawn by multiples of 2^${data.unit}`) + (data.unit !== undefined && data.stages.length > 1 ? ", at the last stage" : "") +
-    ". What is drawn is rounded to doubles and pixels: drawings prove nothing, statuses are proved.";
+  const bound = (value) => decimalOf(value, value).text;
+  $("about").textContent = (data.crs ? `Coordinates are those of ${data.crs}. ` : "") +
+    (data.window ? `Window: x from ${bound(data.window[0])} to ${bound(data.window[1])}, y from ${bound(data.window[2])} to ${bound(data.window[3])}. ` : "") +
+    (data.undetermined_area ? `Undecided area: at most ${upper(data.undetermined_area)}. ` : "") +
+    (data.distance_to_true_diagram ? `Distance to the true diagram: at most ${upper(data.distance_to_true_diagram)}. ` : data.cells ? "The distance to the true diagram is not known. " : "") +
+    (data.tolerance ? `No edge changes while every point stays within ${data.tolerance[0] === null ? "any distance" : directed(data.tolerance[0], 4, false)} of its place. ` : "");
+  $("rounding").textContent = "Decimals are rounded outward, and ≈ marks those rounded to nearest; m*2^e and p/q are exact" +
+    (data.unit === undefined ? "" : `. Polygons are drawn in multiples of 2^${data.unit}`) +
+    ". Drawings are rounded to pixels: the statuses are proved, the drawing is not.";
+}
+
+// Points far from all others, that leave these little of the map: more than FAR times the range of the middle half away.
+function findOutliers(scene) {
+  const FAR = 20, MOST = Math.max(1, Math.floor(scene.n / 50)), out = new Set();
+  for (const axis of scene.n < 8 || scene.globe ? [] : [0, 1]) {
+    const at = (k) => scene.final[4 * k + 2 * axis] / 2 + scene.final[4 * k + 2 * axis + 1] / 2;
+    const sorted = Float64Array.from({length: scene.n}, (_, k) => at(k)).sort(), low = sorted[scene.n >> 2], high = sorted[(3 * scene.n) >> 2];
+    for (let k = 0; k < scene.n && high > low; k++) if (at(k) < low - FAR * (high - low) || at(k) > high + FAR * (high - low)) out.add(k);
+  }
+  return out.size > MOST ? [] : [...out];
+}
+
+// choose(k) shows a point, fit(list) all but these.
+function showOutliers(scene, choose, fit) {
+  const far = findOutliers(scene);
+  $("outliers").hidden = !far.length;
+  $("outliers").replaceChildren(`${far.length === 1 ? "One point is" : far.length + " points are"} far from all others: `,
+    ...far.slice(0, 8).map((k) => element("button", {onclick: () => choose(k)}, nameOf(scene, k))), element("button", {id: "fit-others", onclick: () => fit(far)}, "Fit the others"));
 }
 
 // ---- stages ----
@@ -148,21 +169,15 @@ function upper({decimal, exact}) {
   return decimal === null ? exact : directed(decimal, 4, true);
 }
 
-// A side of a box, rounded outward. Where the ends are exact texts the doubles next to them may be off by a step.
-function outward(lo, hi, texts) {
-  const off = texts.map((text) => (isDouble(text) ? 0 : 2 ** -52));
-  return `${directed(lo - off[0] * Math.abs(lo), 9, false)} … ${directed(hi + off[1] * Math.abs(hi), 9, true)}`;
-}
-
+// A side of a box as a decimal, then exactly where that says less.
 function sideLines(scene, k, axis) {
-  const point = scene.data.points[k], name = "xy"[axis], text = point[name];
-  const exact = text[0] === text[1] ? text[0] : `[${text[0]}, ${text[1]}]`, at = 4 * k + 2 * axis;
+  const point = scene.data.points[k], name = "xy"[axis], text = point[name], at = 4 * k + 2 * axis;
   const box = scene.box.subarray(at, at + 2), final = scene.final.subarray(at, at + 2);
-  const now = box[0] === final[0] && box[1] === final[1];
-  const told = element("dd", {class: "exact", id: "exact-" + name}, exact), head = element("dt", {}, scene.globe ? ["longitude", "latitude"][axis] : name);
-  if (now && exact.length <= 12) return [head, told];
-  const near = text[0] === text[1] ? `about ${Number(box[0].toPrecision(9))}` : outward(...box, now ? text : ["0", "0"]);
-  return [head, element("dd", {}, near), ...(now ? [told] : [])];
+  const now = box[0] === final[0] && box[1] === final[1], unit = {m: " m", degree: "°"}[scene.data.length_unit] ?? "";
+  const near = now || Math.abs(box[1] - box[0]) < 1e299 ? decimalOf(...(now ? text : box)) : {text: "not known", exact: true};
+  const lines = [element("dt", {}, scene.globe ? ["longitude", "latitude"][axis] : name), element("dd", {id: "side-" + name}, near.text + unit)];
+  const exact = text[0] === text[1] ? text[0] : `[${text[0]}, ${text[1]}]`;
+  return near.exact || !now ? lines : [...lines, element("dd", {class: "exact", id: "exact-" + name}, exact)];
 }
 
 const PARTNERS = {[LEGAL]: "legal", [INDETERMINATE]: "undecided", [TIE]: "tied"}, OF_GRAPH = {[LEGAL]: "certain", [INDETERMINATE]: "possible"};
@@ -179,17 +194,17 @@ function partnerLines(scene, k, choose) {
 
 function showPoint(scene, k, kept, choose) {
   if (k === null) {
-    $("card").replaceChildren(element("h2", {}, "A point"), element("p", {}, "Point at one, or find it by its number or name: its rectangle and its partners stand here."));
+    $("card").replaceChildren(element("h2", {}, "A point"), element("p", {}, "Hover over a point, or search for it, to see its rectangle and neighbours."));
     return;
   }
   const point = scene.data.points[k], lines = [...sideLines(scene, k, 0), ...sideLines(scene, k, 1)];
   const same = scene.data.aliases.filter(([, of]) => of === point.i).map(([row]) => row);
-  if (same.length) lines.push(element("dt", {}, "the same as"), element("dd", {}, same.join(", ")));
+  if (same.length) lines.push(element("dt", {}, "duplicates"), element("dd", {}, same.join(", ")));
   if (point.hull) lines.push(element("dt", {}, "corner of the hull"), element("dd", {}, point.hull));
-  if (point.rho !== undefined) lines.push(element("dt", {}, "tolerance"), element("dd", {id: "rho", title: "every point may be so far from its place, all at once, and nothing changes for this one"}, point.rho === null ? "without bound" : String(point.rho)));
+  if (point.rho !== undefined) lines.push(element("dt", {}, "tolerance"), element("dd", {id: "rho", title: "all points may move this far at once without a change at this one"}, point.rho === null ? "without bound" : String(point.rho)));
   lines.push(...cellLines(scene, k), ...partnerLines(scene, k, choose));
   const title = "id" in point ? `${point.id} (point ${point.i})` : `Point ${point.i}`;
-  $("card").replaceChildren(element("h2", {}, title), element("dl", {}, ...lines), element("p", {}, kept ? "Kept: Esc lets it go." : "Click to keep it."));
+  $("card").replaceChildren(element("h2", {}, title), element("dl", {}, ...lines), element("p", {}, kept ? "Pinned. Esc to release." : "Click to pin it."));
 }
 
 // ---- finding ----

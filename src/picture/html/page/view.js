@@ -33,8 +33,9 @@ function zoomAt(px, py, factor, all) {
   view.y += y - fromY(py);
 }
 
-// 1, 2 or 5 times a power of ten, at least `least`.
-function roundStep(least) {
+// 1, 2 or 5 times a power of ten, at least `least`; of a globe 15, 30, 45 or 90 degrees, too.
+function roundStep(least, globe) {
+  if (globe && least > 10) return [15, 30, 45].find((step) => step >= least) ?? 90;
   const power = 10 ** Math.floor(Math.log10(least)), digit = [1, 2, 5, 10].find((d) => d * power >= least * (1 - 1e-9));
   return digit * power;
 }
