@@ -333,10 +333,11 @@ static int schedules_summary(cli_session *s, int status) {
     cli_complain("time limit reached after %" PRIu64 " schedules (raise --timeout)", r->schedules);
   if (r->fault == DYD_CHECK_FINE) return run->late ? CLI_BUDGET : CLI_OK;
   cli_complain("%s: %s", dyd_check_fault_text(r->fault), r->message);
+  const char *show = r->moves == 1 ? "move shows" : "moves show";
   if (!s->o.trace)
-    cli_complain("%zu moves show it (seed %" PRIu64 "); --trace FILE writes them", r->moves, r->seed);
+    cli_complain("%zu %s it (seed %" PRIu64 "); --trace FILE writes a schedule", r->moves, show, r->seed);
   else if (cli_write_file(s->o.trace, s, write_schedule) == 0)
-    cli_complain("%zu moves show it: --replay %s", r->moves, s->o.trace);
+    cli_complain("%zu %s it: --replay %s", r->moves, show, s->o.trace);
   return CLI_FAILED;
 }
 

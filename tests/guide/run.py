@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Runs the commands of a guide and compares what they print: run.py COMMAND GUIDE... [--renew]
 
-A block ```console has lines "$ COMMAND", each followed by what it prints, standard output first. A line "..." stands for
-any lines; a command "$ echo $?" prints the exit status of the one before. A block ```python runs in one session for the guide;
+A block ```console has lines "$ COMMAND", each followed by what it prints, standard output first; lines of a command go on
+behind "> ", or after a backslash. A line "..." stands for any lines, at the end of a line for what follows; a command "$ echo $?" prints the exit status of the one before. A block ```python runs in one session for the guide;
 ```c is compiled against the library (environment: GUIDE_CC) and has to run. A block ```text after one of these two is what
 it prints. A block of none of these is not run. Commands run in a folder with a copy of tests/data and tests/oracles; a
 picture that they write and that stands beside the guide has to be the same (--renew: it is copied there)."""
@@ -27,13 +27,15 @@ def agrees(printed, stated):
         return any(agrees(printed[k:], stated[1:]) for k in range(len(printed) + 1))
     if not stated or not printed:
         return not stated and not printed
-    return printed[0].rstrip() == stated[0].rstrip() and agrees(printed[1:], stated[1:])
+    said = stated[0].rstrip()
+    same = printed[0].startswith(said[:-3]) if said.endswith('...') else printed[0].rstrip() == said
+    return same and agrees(printed[1:], stated[1:])
 
 
 class Guide:
     def __init__(self, path, command, folder):
         self.path, self.folder, self.status, self.names, self.faults = path, folder, 0, {}, []
-        self.env = {**os.environ, 'PATH': f'{pathlib.Path(command).resolve().parent}:{os.environ["PATH"]}', 'LC_ALL': 'C.UTF-8'}
+        self.env = {**os.environ, 'PATH': f'{pathlib.Path(command).resolve().parent}:{pathlib.Path(sys.executable).parent}:{os.environ["PATH"]}', 'LC_ALL': 'C.UTF-8'}
 
     def compare(self, what, printed, stated):
         if not agrees(printed.splitlines(), stated.splitlines()):
@@ -49,9 +51,9 @@ class Guide:
     def console(self, text):
         for part in re.split(r'^\$ ', text, flags=re.M)[1:]:
             command, _, stated = part.partition('\n')
-            while command.endswith('\\'):
+            while command.endswith('\\') or stated.startswith('>'):
                 more, _, stated = stated.partition('\n')
-                command = command[:-1] + more
+                command = command[:-1] + more if command.endswith('\\') else f'{command}\n{more[2:]}'
             self.compare('$ ' + command, self.shell(command), stated)
 
     def python(self, text):
@@ -91,7 +93,7 @@ class Guide:
 
 
 def main():
-    assert agrees(['a', 'b', 'c'], ['a', '...', 'c']) and agrees([], ['...']) and not agrees(['a', 'b'], ['a']) and not agrees(['a'], ['b'])
+    assert agrees(['a', 'b', 'c'], ['a', '...', 'c']) and agrees([], ['...']) and not agrees(['a', 'b'], ['a']) and not agrees(['a'], ['b']) and agrees(['ab'], ['a...'])
     renew = '--renew' in sys.argv
     command, *guides = [a for a in sys.argv[1:] if a != '--renew']
     faults = []
