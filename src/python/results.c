@@ -382,57 +382,19 @@ PyObject *dydpy_locate(PyObject *self, PyObject *args) {
   return good ? Py_BuildValue("NN", corners, truths) : NULL;
 }
 
-/* The points that may be nearest to each place: point[end[k - 1] .. end[k] - 1]. */
-typedef struct near_places {
-  size_t count, cap;
-  uint32_t *point;
-  int64_t *end;
-  bool *certain;
-} near_places;
-
-static dyd_status near_add(near_places *all, size_t k, const dyd_delaunay *pd, const dyd_rect *at) {
-  dyd_index_list found = {0};
-  dyd_status st = dyd_nearest(&found, &all->certain[k], pd, at);
-  if (st == DYD_OK && all->count + found.count > all->cap) {
-    size_t cap = 2 * (all->count + found.count);
-    uint32_t *point = realloc(all->point, cap * sizeof *point);
-    if (point) all->point = point, all->cap = cap;
-    if (!point) st = DYD_E_NOMEM;
-  }
-  if (st == DYD_OK && found.count) memcpy(all->point + all->count, found.item, found.count * sizeof *found.item);
-  if (st == DYD_OK) all->end[k] = (int64_t)(all->count += found.count);
-  dyd_index_list_clear(&found);
-  return st;
-}
-
-static dyd_status near_all(near_places *all, const double *xy, size_t n, const dydpy_call *c) {
-  dyd_rect at;
-  all->end = malloc((n + 1) * sizeof *all->end);
-  all->certain = malloc((n + 1) * sizeof *all->certain);
-  dyd_status st = all->end && all->certain ? DYD_OK : DYD_E_NOMEM;
-  dyd_rect_init(&at);
-  for (size_t k = 0; k < n && st == DYD_OK; k++) {
-    st = dyd_rect_set_d(&at, xy[2 * k], xy[2 * k], xy[2 * k + 1], xy[2 * k + 1]);
-    if (st == DYD_OK) st = near_add(all, k, c->pd, &at);
-    if (__atomic_load_n(&c->cancel, __ATOMIC_RELAXED)) st = DYD_CANCELLED;
-  }
-  dyd_rect_clear(&at);
-  return st;
-}
-
 PyObject *dydpy_nearest_places(PyObject *self, PyObject *args) {
   Py_buffer xy;
-  near_places all = {0};
+  dyd_near_list l = {0};
   dydpy_call c;
   Py_ssize_t n = places_of(&xy, args);
   if (n < 0) return NULL;
   bool good = dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_CANCELS);
-  if (good) good = dydpy_end(&c, near_all(&all, xy.buf, (size_t)n, &c));
+  if (good) good = dydpy_end(&c, dyd_nearest_places(&l, c.pd, xy.buf, (size_t)n, &c.cancel));
   PyBuffer_Release(&xy);
-  PyObject *points = array_new(good, all.point, all.count, sizeof *all.point);
-  PyObject *ends = array_new(good, all.end, (size_t)n, sizeof *all.end);
-  PyObject *certain = array_new(good, all.certain, (size_t)n, sizeof *all.certain);
-  return good ? Py_BuildValue("NNN", points, ends, certain) : NULL;
+  if (!good) return NULL;
+  return Py_BuildValue("NNN", array_new(true, l.site, n ? l.end[n - 1] : 0, sizeof *l.site),
+                       array_new(true, l.end, (size_t)n, sizeof *l.end),
+                       array_new(true, l.sure, (size_t)n, sizeof *l.sure));
 }
 
 /* ---- graphs ---- */

@@ -336,3 +336,53 @@ dyd_status dyd_nearest(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, 
   query_clear(&q);
   return st;
 }
+
+/* ---- many places ---- */
+
+void dyd_near_list_clear(dyd_near_list *l) {
+  if (!l) return;
+  free(l->site);
+  free(l->end);
+  free(l->sure);
+  *l = (dyd_near_list){0};
+}
+
+/* Adds the answer for z. *v: where the walk begins, and ended. */
+static dyd_status near_list_add(dyd_near_list *l, size_t *cap, uint32_t *v, const dyd_delaunay *pd, dyd_xy z) {
+  const size_t before = l->places ? l->end[l->places - 1] : 0;
+  dyd_index_list found = {0};
+  dyd_status st = DYD_OK;
+  if (dyd_filter_near_walk(v, pd, z)) {
+    l->sure[l->places] = true;
+    found = (dyd_index_list){1, &pd->sk.reps.site[*v]};
+  } else {
+    dyd_rect at;
+    dyd_rect_init(&at);
+    st = dyd_rect_set_d(&at, z.x, z.x, z.y, z.y);
+    if (st == DYD_OK) st = dyd_nearest(&found, &l->sure[l->places], pd, &at);
+    dyd_rect_clear(&at);
+    if (st == DYD_OK && found.count) *v = pd->sk.vertex[found.item[0]];
+  }
+  if (st == DYD_OK && !dyd_reserve((void **)&l->site, cap, before + found.count, sizeof *l->site)) st = DYD_E_NOMEM;
+  for (size_t k = 0; st == DYD_OK && k < found.count; k++) l->site[before + k] = found.item[k];
+  if (st == DYD_OK) l->end[l->places++] = before + found.count;
+  if (found.item != &pd->sk.reps.site[*v]) dyd_index_list_clear(&found);
+  return st;
+}
+
+dyd_status dyd_nearest_places(dyd_near_list *out, const dyd_delaunay *pd, const double *xy, size_t count,
+                              const volatile int *cancel) {
+  if (!pd || (count && !xy)) return DYD_E_ARG;
+  dyd_near_list l = {.end = dyd_alloc(count, sizeof *l.end), .sure = dyd_alloc(count, sizeof *l.sure)};
+  size_t cap = 0;
+  uint32_t v = 0;
+  while (pd->open.kind != DYD_LINE && pd->sk.leaving[v] == DYD_NONE) v++;
+  dyd_status st = l.end && l.sure ? DYD_OK : DYD_E_NOMEM;
+  for (size_t k = 0; k < count && st == DYD_OK; k++) {
+    st = near_list_add(&l, &cap, &v, pd, (dyd_xy){xy[2 * k], xy[2 * k + 1]});
+    if (dyd_flag_is_set(cancel)) st = DYD_CANCELLED;
+  }
+  dyd_near_list_clear(st == DYD_OK ? out : &l);
+  if (st == DYD_OK) *out = l;
+  return st;
+}

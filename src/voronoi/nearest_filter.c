@@ -92,6 +92,48 @@ dyd_status dyd_near_candidates(uint32_t **vertex, size_t *count, const dyd_delau
   return DYD_OK;
 }
 
+/* ---- a walk ---- */
+
+/* Sets *next to the neighbour of v whose point is nearest to z; false: v is as near as all. *budget: neighbours that
+ * may still be looked at. */
+static bool near_step(uint32_t *next, const dyd_mesh *m, dyd_half_edge first, dyd_xy z, int *budget) {
+  dyd_xy p = m->xy[dyd_edge_origin(m, first)];
+  double least = (p.x - z.x) * (p.x - z.x) + (p.y - z.y) * (p.y - z.y);
+  bool found = false;
+  for (dyd_half_edge h = first; h != DYD_NONE && *budget > 0; h = dyd_edge_around(m, h, first), --*budget) {
+    uint32_t w = dyd_edge_target(m, h); /* distances of the ghost are NaN */
+    double d = (m->xy[w].x - z.x) * (m->xy[w].x - z.x) + (m->xy[w].y - z.y) * (m->xy[w].y - z.y);
+    if (!(d < least)) continue;
+    least = d, *next = w, found = true;
+  }
+  return found;
+}
+
+/* Is the point of v nearer to z than those of its neighbours, which are the same for every choice? */
+static bool near_all_around(const dyd_delaunay *pd, uint32_t v, dyd_xy z) {
+  const dyd_mesh *m = &pd->sk.mesh;
+  const dyd_bbox at = {{z.x, z.x, z.y, z.y}};
+  dyd_bbox b;
+  dyd_vertex_box(&b, &pd->sk, v);
+  double most = dyd_dl2_upper(&at, &b);
+  bool nearest = true;
+  for (dyd_half_edge first = pd->sk.leaving[v], h = first; h != DYD_NONE && nearest; h = dyd_edge_around(m, h, first)) {
+    uint32_t w = dyd_edge_target(m, h);
+    nearest = pd->open.kind == DYD_TIED || dyd_triangle_is_sure(pd, dyd_edge_triangle(h));
+    if (w == m->n || !nearest) continue;
+    dyd_vertex_box(&b, &pd->sk, w);
+    nearest = most < dyd_ds2_lower(&at, &b);
+  }
+  return nearest;
+}
+
+bool dyd_filter_near_walk(uint32_t *v, const dyd_delaunay *pd, dyd_xy z) {
+  int budget = 1000; /* about what a search of the tree costs */
+  if (pd->open.kind == DYD_LINE || pd->sk.mesh.no_filter) return false;
+  while (budget > 0 && near_step(v, &pd->sk.mesh, pd->sk.leaving[*v], z, &budget)) continue;
+  return budget > 0 && near_all_around(pd, *v, z);
+}
+
 /* ---- sides ---- */
 
 dyd_truth dyd_filter_blocks(const dyd_bbox *c, const dyd_near_site *k, const dyd_near_site *i) {

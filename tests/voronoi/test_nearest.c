@@ -8,6 +8,7 @@
 #include "delaunay/harness.h"
 #include <cmocka.h>
 #include <dyadel/voronoi.h>
+#include <math.h>
 #include <string.h>
 #include <time.h>
 
@@ -177,6 +178,38 @@ static void query_clear(orc_rect *q) {
   for (int n = 0; n < 4; n++) mpq_clear(q->e[n]);
 }
 
+/* Many places in one call, near and far from one another: each answer is that of dyd_nearest [NEAR-7]. */
+static bool places_right(char *message, test_random *r, const orc_case *c, const dyd_delaunay *pd) {
+  enum { PLACES = 24 };
+  double xy[2 * PLACES];
+  dyd_near_list all = {0};
+  dyd_rect at;
+  mpq_t e;
+  bool good = true;
+  mpq_init(e);
+  dyd_rect_init(&at);
+  for (size_t k = 0; k < 2 * PLACES; k++) {
+    coordinate(e, r, c, (int)(k & 1));
+    xy[k] = isfinite(mpq_get_d(e)) ? mpq_get_d(e) : (double)k;
+  }
+  assert_int_equal(dyd_nearest_places(&all, pd, xy, PLACES, NULL), DYD_OK);
+  for (size_t k = 0; k < PLACES && good; k++) {
+    dyd_index_list found = {0};
+    bool sure;
+    size_t begin = k ? all.end[k - 1] : 0;
+    assert_int_equal(dyd_rect_set_d(&at, xy[2 * k], xy[2 * k], xy[2 * k + 1], xy[2 * k + 1]), DYD_OK);
+    assert_int_equal(dyd_nearest(&found, &sure, pd, &at), DYD_OK);
+    good = all.end[k] - begin == found.count && all.sure[k] == sure &&
+           (!found.count || memcmp(&all.site[begin], found.item, found.count * sizeof *found.item) == 0);
+    if (!good) wrong(message, "place %zu, (%a, %a), of many has another answer", k, xy[2 * k], xy[2 * k + 1]);
+    dyd_index_list_clear(&found);
+  }
+  dyd_near_list_clear(&all);
+  dyd_rect_clear(&at);
+  mpq_clear(e);
+  return good;
+}
+
 static bool case_right(char *message, harness *h, const orc_case *c) {
   dyd_sites *s = harness_sites(c);
   dyd_delaunay_options exact = {DYD_SIZED(dyd_delaunay_options), .no_filter = true};
@@ -193,6 +226,7 @@ static bool case_right(char *message, harness *h, const orc_case *c) {
     orc_release(&h->pool, mark);
     h->pairs++;
   }
+  good = good && places_right(message, &h->random, c, pd) && places_right(message, &h->random, c, slow);
   query_clear(&q);
   dyd_delaunay_free(slow);
   dyd_delaunay_free(pd);
@@ -226,6 +260,7 @@ static bool grid_right(char *message, harness *h, const orc_case *c) {
     good = query_right(message, &h->pool, c, pd, &q);
     orc_release(&h->pool, mark);
   }
+  good = good && places_right(message, &h->random, c, pd);
   query_clear(&q);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);
@@ -325,9 +360,13 @@ static void run_large(bool points, size_t n, size_t queries) {
   }
   assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
   double seconds = 0;
-  size_t output = 0;
+  size_t output = 0, many = 0;
+  double *xy = malloc(2 * queries * sizeof *xy);
+  dyd_near_list all = {0};
+  for (size_t k = 0; k < 2 * queries; k++) xy[k] = (double)test_between(r, -100000, (1 << 20) + 100000);
+  assert_int_equal(dyd_nearest_places(&all, pd, xy, queries, NULL), DYD_OK);
   for (size_t k = 0; k < queries; k++) {
-    double x = (double)test_between(r, -100000, (1 << 20) + 100000), y = (double)test_between(r, -100000, 1 << 20);
+    double x = xy[2 * k], y = xy[2 * k + 1];
     dyd_rect c;
     dyd_rect_init(&c);
     dyd_rect_set_d(&c, x, x, y, y);
@@ -342,15 +381,18 @@ static void run_large(bool points, size_t n, size_t queries) {
     size_t at = 0;
     for (uint32_t i = 0; i < n; i++) {
       if (ds2(x, y, e[i]) > least || dyd_delaunay_alias(pd, i) != i) continue;
-      assert_true(at < found.count && found.item[at] == i);
+      assert_true(at < found.count && found.item[at] == i && all.site[many + at] == i);
       at++;
     }
     assert_int_equal(at, found.count);
+    assert_true(all.end[k] == (many += at) && all.sure[k] == sure);
     dyd_index_list_clear(&found);
     dyd_rect_clear(&c);
   }
   fprintf(stderr, "# %zu %s: %.2f us a query, %.2f sites listed\n", n, points ? "points" : "boxes",
           1e6 * seconds / (double)queries, (double)output / (double)queries);
+  dyd_near_list_clear(&all);
+  free(xy);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);
   free(e);
@@ -380,6 +422,17 @@ static void test_few(void **state) {
   assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
   assert_int_equal(dyd_nearest(&found, &sure, pd, &c), DYD_OK);
   assert_true(found.count == 1 && found.item[0] == 0 && sure);
+  dyd_near_list all = {0};
+  const volatile int cancelled = 1;
+  assert_int_equal(dyd_nearest_places(&all, pd, (double[]){5, 1, 7, 1}, 2, NULL), DYD_OK);
+  assert_true(all.places == 2 && all.end[1] == 2 && all.site[0] == 0 && all.site[1] == 0);
+  assert_int_equal(dyd_nearest_places(&all, pd, (double[]){5, NAN, 7, 1}, 2, NULL), DYD_E_ARG);
+  assert_int_equal(dyd_nearest_places(&all, pd, (double[]){5, 1, 7, 1}, 2, &cancelled), DYD_CANCELLED);
+  assert_int_equal(dyd_nearest_places(&all, NULL, NULL, 0, NULL), DYD_E_ARG);
+  assert_true(all.places == 2);
+  assert_int_equal(dyd_nearest_places(&all, pd, NULL, 0, NULL), DYD_OK);
+  assert_true(all.places == 0);
+  dyd_near_list_clear(&all);
   dyd_delaunay_free(pd);
   dyd_index_list_clear(&found);
   dyd_rect_clear(&c);

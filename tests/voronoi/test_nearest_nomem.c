@@ -38,6 +38,14 @@ static dyd_status ask_rect(dyd_engine *e) {
   return st;
 }
 
+static dyd_status ask_places(dyd_engine *e) {
+  dyd_near_list l = {0};
+  dyd_status st = dyd_nearest_places(&l, dyd_engine_delaunay(e), (const double[]){1, 4, 1, 3, 2.5, 2}, 3, NULL);
+  assert_true(st == DYD_OK || (!l.site && !l.end && !l.places));
+  dyd_near_list_clear(&l);
+  return st;
+}
+
 static dyd_status ask_hull(dyd_engine *e) {
   dyd_hull h = {0};
   dyd_status st = dyd_delaunay_partial_hull(&h, dyd_engine_delaunay(e));
@@ -72,7 +80,7 @@ static dyd_status ask_streams(dyd_engine *e) {
 
 static void test_all(void **state) {
   (void)state;
-  dyd_status (*const call[])(dyd_engine *) = {ask_rect, ask_hull, ask_streams};
+  dyd_status (*const call[])(dyd_engine *) = {ask_rect, ask_places, ask_hull, ask_streams};
   for (int kind = 0; kind < 3; kind++) {
     dyd_engine *e = engine_of(kind);
     for (size_t n = 0; n < sizeof call / sizeof *call; n++) {

@@ -106,8 +106,32 @@ def places_of(xy: Any) -> tuple[Floats, tuple[int, ...]]:
 
 def nearest_places(engine: _dyadel.Engine, xy: Any) -> NearestPlaces:
     """See Delaunay.nearest."""
-    points, ends, certain = engine.nearest_places(places_of(xy)[0])
-    return NearestPlaces(ints(points), np.concatenate((np.zeros(1, np.int64), longs(ends))), records(certain, np.dtype(np.bool_)))
+    places = places_of(xy)[0]
+    order = _along(places)
+    found, ends, sure = engine.nearest_places(places[order])
+    points, counts, certain = ints(found), np.diff(longs(ends), prepend=0), np.empty(len(places), np.bool_)
+    certain[order] = records(sure, np.dtype(np.bool_))
+    count = np.empty_like(counts)
+    count[order] = counts
+    offsets, at = offsets_of(count), np.empty_like(counts)
+    at[order] = longs(ends) - counts
+    if len(points) == len(places):
+        return NearestPlaces(points[at], offsets, certain)
+    return NearestPlaces(points[np.repeat(at - offsets[:-1], count) + np.arange(len(points))], offsets, certain)
+
+
+def _along(places: Floats) -> Longs:
+    """An order in which each place is near to the one before: column by column, up and down."""
+    step = max(1, math.isqrt(len(places)))
+    by_x = np.argsort(places[:, 0])
+    column = np.empty(len(places), np.int32)
+    column[by_x] = np.arange(len(places)) // step
+    y = np.where(column % 2, -1, 1) * places[:, 1]
+    order: Longs = by_x
+    for begin in range(0, len(places), step):
+        part = by_x[begin:begin + step]
+        order[begin:begin + step] = part[np.argsort(y[part])]
+    return order
 
 
 def named_triangles(simplices: Ints) -> tuple[Longs, Longs]:
@@ -120,9 +144,7 @@ def named_triangles(simplices: Ints) -> tuple[Longs, Longs]:
 def triangles_at(engine: _dyadel.Engine, named: tuple[Longs, Longs], xy: Any) -> Ints:
     """See Delaunay.find_triangle; named: of named_triangles."""
     places, shape = places_of(xy)
-    step = max(1, math.isqrt(len(places)))  # column by column, up and down: each place is near to the one before
-    column = np.argsort(np.argsort(places[:, 0], kind='stable'), kind='stable') // step
-    order = np.lexsort((np.where(column % 2, -1, 1) * places[:, 1], column))
+    order = _along(places)
     found, inside = engine.locate(np.ascontiguousarray(places[order]))
     corners, truth = ints(found).reshape(-1, 3), ints(inside)
     answer = np.where(truth < 0, OUTSIDE, UNDECIDED).astype(np.int32)
