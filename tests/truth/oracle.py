@@ -204,6 +204,11 @@ def length(q):
     return q.numerator.bit_length() - q.denominator.bit_length()
 
 
+def across(a, b, c, d):
+    """The cross product of b - a and d - c."""
+    return (b[0] - a[0]) * (d[1] - c[1]) - (b[1] - a[1]) * (d[0] - c[0])
+
+
 def annulus(points, i, j, sites):
     """The largest of min |c - p_k| - |c - p_i| over the centres c on the bisector of i and j (mathematics, section 12),
     to about 100 digits: at a crossing of two such differences, at the largest value of one, or at infinity."""
@@ -227,15 +232,15 @@ def annulus(points, i, j, sites):
         for k, l in itertools.combinations(rest, 2):
             ex, ey = p[l][0] - p[k][0], p[l][1] - p[k][1]
             along = ex * nx + ey * ny
-            if along != 0:
+            if across(points[k], points[l], points[i], points[j]) != 0:  # `along` itself is rounded
                 hx, hy = (p[l][0] + p[k][0]) / 2 - mx, (p[l][1] + p[k][1]) / 2 - my
                 best = max(best, lowest((ex * hx + ey * hy) / along))
         for k in rest:
-            for q in ((mpmath.mpf(0), mpmath.mpf(0)), (dx, dy)):
+            for q, a, b in (((mpmath.mpf(0), mpmath.mpf(0)), points[i], points[j]), ((dx, dy), points[j], points[i])):
                 # where the line from p_k through p_i, or p_j, meets the bisector
                 ex, ey = p[k][0] - q[0], p[k][1] - q[1]
                 along = ex * dx + ey * dy
-                if along != 0:
+                if dot(a, points[k], b) != 0:
                     s = ((mx - q[0]) * dx + (my - q[1]) * dy) / along
                     best = max(best, lowest((q[0] + s * ex - mx) * nx + (q[1] + s * ey - my) * ny))
         return best

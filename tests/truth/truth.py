@@ -412,6 +412,8 @@ def judge_case(case, product, effort, seed=0):
         return judge, None
     if claims is None and status in (1, 2, 4):
         why = next((r for t, r in REFUSALS.items() if t in err), None)
+        if 'points are needed, here are' in err and len(first_of_equal(case)) < stated.STATED[case.stated].least:
+            why = 'fewer points than rows'
         judge(why is not None or status == 2, 'exit %d: %s', status, err.strip()[-300:])
         return judge, why or err.strip().splitlines()[-1][:150]
     judge(status in (0, 3, 4), 'exit %d: %s', status, err.strip()[-300:])
