@@ -124,22 +124,26 @@ typedef struct disc_result {
   bool cut; /* not all pairs were reached */
 } disc_result;
 
+static dyd_status run_discs(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
+  disc_result *r = s->state;
+  dyd_status st = cli_run_was_whole(s->engine)
+                      ? dyd_engine_discs(&r->pairs, &s->outcome, s->engine, options, err)
+                      : dyd_disc_pairs(&r->pairs, dyd_engine_delaunay(s->engine), cli_signals_flag(), err);
+  r->cut = st == DYD_CANCELLED;
+  cli_session_cut(st, err);
+  return st < 0 ? st : DYD_OK;
+}
+
 static int disc_pairs_find(cli_session *s) {
   disc_result *r = s->state;
-  dyd_error err;
   int status = pairs_find(s);
   s->known = s->known && !status;
   if (!s->known) return status;
   cli_progress_phase(s->progress, "the discs");
-  dyd_status st = dyd_disc_pairs(&r->pairs, dyd_engine_delaunay(s->engine), cli_signals_flag(), &err);
-  s->known = st >= 0;
-  if (st < 0) {
-    cli_complain_at(s->o.file, &err);
-    return CLI_FAILED;
-  }
-  cli_session_cut(st, &err);
+  status = cli_session_run(s, &s->o.engine, run_discs);
+  s->known = !status;
+  if (status) return status;
   s->discs = &r->pairs;
-  r->cut = st == DYD_CANCELLED;
   if (r->cut && !cli_deadline_passed()) s->o.certificate = NULL;
   return 0;
 }
@@ -311,12 +315,8 @@ static int sphere_find(cli_session *s) {
 }
 
 static dyd_status sphere_write(FILE *out, const cli_session *s, dyd_error *err) {
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options),
-                                 .sphere = s->sphere,
-                                 .epsg = s->o.epsg,
-                                 .name = cli_points_name(&s->o),
-                                 .window = s->view,
-                                 .max_arc = s->o.max_arc,
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options),    .sphere = s->sphere, .epsg = s->o.epsg,
+                                 .name = cli_points_name(&s->o),  .window = s->view,   .max_arc = s->o.max_arc,
                                  .comments = cli_comments(out, s)};
   return dyd_write(out, NULL, s->o.content, s->o.format, &how, err);
 }

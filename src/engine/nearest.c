@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Nearest sites of a computable point, and graphs of neighbours: narrow the point and the sites concerned until one is
- * surely nearest.
+/* Nearest sites of a computable point, graphs of neighbours, pairs of discs: narrow the point and the sites concerned
+ * until one is surely nearest.
  *
  * Only sites that are possibly nearest matter: where i is not listed, its distance to every point of the query is above
  * the least dl of some other site, and stays so [NEAR-3]. The result pd serves as an index; sites narrowed since it was
@@ -17,6 +17,7 @@
 #include "engine/settle.h"
 #include "engine/ties.h"
 #include <dyadel/graph.h>
+#include <dyadel/tolerance.h>
 #include <dyadel/voronoi.h>
 
 #include <stdlib.h>
@@ -404,4 +405,73 @@ dyd_status dyd_engine_graph(dyd_graph_list *out, dyd_outcome *outcome, dyd_engin
   free(q.may_not);
   free(q.seen);
   return st;
+}
+
+/* ---- pairs of discs ---- */
+
+/* Discs are told to 2^-48 of their size: centres known that well, and a little better, make no difference [DISC-1]. */
+enum { DISC_SPARE = 56 };
+
+/* st: DYD_CANCELLED where pairs were not reached, with why. */
+typedef struct disc_question {
+  dyd_pair_list pairs;
+  dyd_status st;
+  dyd_error why;
+} disc_question;
+
+/* Wants the site to be known as well as discs are told. */
+static dyd_status disc_mark(dyd_plan *plan, uint32_t site) {
+  const dyd_refinable *p = dyd_engine_find(plan->e, site);
+  dyd_rect r;
+  if (!p || p->final) return DYD_OK;
+  dyd_rect_init(&r);
+  dyd_status st = dyd_sites_get(&r, plan->e->sites, site);
+  int64_t bits = st == DYD_OK ? dyd_rect_bits(&r) + DISC_SPARE : INT64_MIN;
+  if (bits > plan->o->max_bits) bits = plan->o->max_bits;
+  if (st == DYD_OK && p->bits < bits) dyd_plan_mark_alone(plan, p, bits, DYD_REASON_QUESTION);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+/* Of the end of an open pair, and of all that may be next to it. */
+static dyd_status disc_mark_near(dyd_plan *plan, uint32_t end) {
+  dyd_index_list near = {0};
+  dyd_status st = dyd_delaunay_neighbours(&near, plan->e->pd, end, DYD_INDETERMINATE);
+  if (st == DYD_OK) st = disc_mark(plan, end);
+  for (size_t k = 0; st == DYD_OK && k < near.count; k++) st = disc_mark(plan, near.item[k]);
+  dyd_index_list_clear(&near);
+  return st;
+}
+
+static dyd_status disc_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
+  disc_question *q = user;
+  q->st = dyd_disc_pairs(&q->pairs, e->pd, &e->stop, err);
+  if (q->st == DYD_CANCELLED && err) q->why = *err;
+  if (q->st == DYD_CANCELLED || q->st < 0) return q->st;
+  *answered = q->st == DYD_OK;
+  dyd_status st = DYD_OK;
+  bool narrows = false;
+  for (size_t k = 0; k < e->points && !narrows; k++) narrows = !e->point[k].final;
+  for (size_t k = 0; st == DYD_OK && k < q->pairs.count; k++) {
+    const dyd_pair *pair = &q->pairs.item[k];
+    *answered = *answered && pair->status == DYD_LEGAL;
+    if (!narrows || pair->status != DYD_INDETERMINATE) continue;
+    st = disc_mark_near(plan, pair->i);
+    if (st == DYD_OK) st = disc_mark_near(plan, pair->j);
+  }
+  return st;
+}
+
+dyd_status dyd_engine_discs(dyd_pair_list *out, dyd_outcome *outcome, dyd_engine *e, const dyd_engine_options *options,
+                            dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
+  disc_question q = {.st = DYD_CANCELLED};
+  const dyd_question question = {DYD_SIZED(dyd_question), .ask = disc_ask, .user = &q, .triangulate = true};
+  *outcome = DYD_OUTCOME_ERROR;
+  dyd_status st = dyd_engine_ask(outcome, e, &question, options, err);
+  dyd_pair_list_clear(st == DYD_OK ? out : &q.pairs);
+  if (st != DYD_OK) return st;
+  *out = q.pairs;
+  if (q.st == DYD_CANCELLED && err) *err = q.why;
+  return q.st;
 }

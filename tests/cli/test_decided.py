@@ -150,6 +150,27 @@ def test_sides_that_rounding_makes_unequal():
     assert refused.code == 1 and 'one radius' in refused.err, refused
 
 
+def test_discs_are_refined_as_far_as_they_are_told():
+    """Squares may be settled before discs are: 0,1 is legal, whatever precision the points are asked for first."""
+    points = """-1.5999999999 6.2999999999+sqrt(3)/25
+-2.4999999999+cos(24)*3/50 -6+cbrt(18)/25
+6.3+sqrt(10)*3/50 -1.5999999999+sqrt(16+sqrt(2))*3/50
+-5.6+exp(15/20)/25 -3.2999999999+cos(27)*3/50
+"""
+    for more in ((), ('--start-bits', '9'), ('--start-bits', '2'), ('--start-bits', '200')):
+        result = run('delaunay', '-', '--discs', '--radius', '0.025', *more, stdin=points)
+        assert result.code == 0 and '0,1,legal' in result.out.split() and 'indeterminate' not in result.out, (more, result)
+    result = run('delaunay', '-', '--discs', '--radius', '0.025', '--max-bits', '9', stdin=points)
+    assert result.code == 4 and '0,1,indeterminate' in result.out.split(), result
+
+
+def test_regions_beside_nearly_collinear_points_settle():
+    """Four places within 2^-27 of a parallel that a region crosses: no refinement decides its pairs, and it is known."""
+    result = run('delaunay', '-', '--sphere', '--stats',
+                 stdin='-92 -39.99999996\n-18 -40\n175 -39.99999995\n75 [-40.49999999,-36.87499999]\n11 -40.00000003\n')
+    assert result.code == 3 and int(re.search(r'bits asked, most +(\d+)', result.err).group(1)) < 300, result
+
+
 def exact(text):
     """An exact end: a rational, or m*2^e."""
     number, _, power = text.partition('*2^')
