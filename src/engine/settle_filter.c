@@ -175,6 +175,9 @@ bool dyd_filter_find_cut(dyd_settle_cut *out, const dyd_settle_site *site, size_
  * begin: from all, when that matters, with more steps. */
 static const double offset[] = {0, 0.125, 0.25, 0.5, 1, 2, 4, 16, 64, 4096};
 
+/* Centres of circles that nearly are lines, in distances of i and j: farther ones are no better in doubles. */
+static const double FARTHEST = 1e12;
+
 enum { BEST = 20, GAPS = 32, ALONG = 64, STEPS = 40, MORE_STEPS = 150 };
 
 /* A question: sites i and j among `count`. last: who left least room the last time, and is examined first. */
@@ -187,42 +190,47 @@ typedef struct centre {
   double at[2], room, step;
 } centre;
 
-static double side_near2(const double side[2], double v) {
-  return square(v < side[0] ? side[0] - v : v > side[1] ? v - side[1] : 0);
-}
-
-static double side_far2(const double side[2], double v) {
-  return square(fmax(v - side[0], side[1] - v));
-}
-
 static double site_middle(const dyd_settle_site *s, int axis) {
   return s->box[2 * axis] / 2 + s->box[2 * axis + 1] / 2;
 }
 
-/* How far site k can be from c when that is wanted (an end: how near). */
-static double joining_reach2(const joining *q, size_t k, const double c[2]) {
+/* The point of site k that is as far from c as can be when that is wanted (of an end: as near). */
+static void joining_spot(double out[2], const joining *q, size_t k, const double c[2]) {
   const dyd_settle_site *s = &q->site[k];
   bool end = k == q->i || k == q->j;
-  double sum = 0;
-  for (int a = 0; a < 2; a++)
-    sum += s->core[a] == end ? side_near2(&s->box[2 * a], c[a]) : side_far2(&s->box[2 * a], c[a]);
-  return sum;
+  for (int a = 0; a < 2; a++) {
+    const double *side = &s->box[2 * a];
+    if (s->core[a] == end)
+      out[a] = fmin(fmax(c[a], side[0]), side[1]);
+    else
+      out[a] = side[c[a] - side[0] < side[1] - c[a]];
+  }
+}
+
+/* |a - c|^2 - |b - c|^2, for c far away, too. */
+static double farther_by(const double a[2], const double b[2], const double c[2]) {
+  return (a[0] - b[0]) * ((a[0] - c[0]) + (b[0] - c[0])) + (a[1] - b[1]) * ((a[1] - c[1]) + (b[1] - c[1]));
 }
 
 /* The room at c; at most `most` where it is no more than that. */
 static double centre_room(joining *q, const double c[2], double most) {
-  double inner = sqrt(fmax(joining_reach2(q, q->i, c), joining_reach2(q, q->j, c)));
-  double enough = inner + most > 0 ? square(inner + most) : 0, outer2 = HUGE_VAL;
-  for (size_t n = 0; n <= q->count && outer2 > enough; n++) {
+  double end[2], other[2], least = HUGE_VAL;
+  joining_spot(end, q, q->i, c);
+  joining_spot(other, q, q->j, c);
+  if (farther_by(other, end, c) > 0) end[0] = other[0], end[1] = other[1];
+  const double inner = hypot(end[0] - c[0], end[1] - c[1]);
+  const double enough = inner + most > 0 ? most * (2 * inner + most) : -square(inner);
+  for (size_t n = 0; n <= q->count && least > enough; n++) {
     size_t k = n ? n - 1 : q->last;
     if (k == q->i || k == q->j) continue;
-    double d2 = joining_reach2(q, k, c);
-    if (d2 < outer2) {
-      outer2 = d2;
+    joining_spot(other, q, k, c);
+    double more = farther_by(other, end, c);
+    if (more < least) {
+      least = more;
       q->last = k;
     }
   }
-  return sqrt(outer2) - inner;
+  return least < HUGE_VAL ? least / (inner + sqrt(fmax(square(inner) + least, 0))) : HUGE_VAL;
 }
 
 /* Moves c where there is more room. Room has ridges: the four ways are turned from step to step. */
@@ -335,15 +343,21 @@ static void pencil_next_gap(double *t, double *end, const pencil *p, const joini
   }
 }
 
+/* A place well between both; beyond FARTHEST there is none. */
+static double gap_middle(double t, double end) {
+  if (t <= -FARTHEST) return end < HUGE_VAL ? end - fmax(fabs(end), 1e6) : 0;
+  return end < HUGE_VAL ? (t + end) / 2 : t + fmax(fabs(t), 1e6);
+}
+
 /* Offers the middles of the gaps where circles through a and b hold too little of all others. */
 static void centre_offer_gaps(centre_list *l, joining *q, const double a[2], const double b[2]) {
   const pencil p = {{a[0], a[1]}, {b[0] - a[0], b[1] - a[1]}, {a[1] - b[1], b[0] - a[0]}};
-  double t = -1e6, end;
-  for (int n = 0; n < GAPS && t < 1e6; n++, t = end) {
+  double t = -FARTHEST, end;
+  for (int n = 0; n < GAPS && t < FARTHEST; n++, t = end) {
     pencil_next_gap(&t, &end, &p, q);
-    double m = (t + fmin(end, 1e6)) / 2;
+    double m = gap_middle(t, end);
     const double at[2] = {a[0] + p.u[0] / 2 + m * p.n[0], a[1] + p.u[1] / 2 + m * p.n[1]};
-    if (t < 1e6) centre_offer(l, q, at);
+    if (t < FARTHEST) centre_offer(l, q, at);
   }
 }
 
