@@ -87,11 +87,13 @@ static dyd_outline_spot outline_arc_at(const dyd_outline_arc *a, dyd_iv t) {
   return p;
 }
 
-/* Encloses coordinate k of all points of an arc. */
-static dyd_iv outline_arc_span(const dyd_outline_arc *a, int k) {
-  dyd_iv p = a->end[0].at[k], q = a->end[1].at[k]; /* monotone between them [ARC-1] */
-  if (!isfinite(p.lo + p.hi + q.lo + q.hi)) return DYD_IV_UNKNOWN;
-  return (dyd_iv){p.lo < q.lo ? p.lo : q.lo, p.hi > q.hi ? p.hi : q.hi};
+static void outline_set_span(dyd_outline_arc *a) {
+  for (int k = 0; k < 2; k++) {
+    dyd_iv p = a->end[0].at[k], q = a->end[1].at[k]; /* monotone between them [ARC-1] */
+    a->span[k] = DYD_IV_UNKNOWN;
+    if (isfinite(p.lo + p.hi + q.lo + q.hi))
+      a->span[k] = (dyd_iv){p.lo < q.lo ? p.lo : q.lo, p.hi > q.hi ? p.hi : q.hi};
+  }
 }
 
 /* Where the other coordinate is `level`; 0: there, else which side of the level the parabola stays on. */
@@ -200,13 +202,28 @@ static bool outline_set_arc(dyd_outline_arc *a, pane_sides *m, bool *unsure, con
   a->either = false;
   a->axis = outline_axis(&a->either, &a->shape, !s[0].fixed);
   a->branch = !a->shape.parabola ? 0 : s[a->axis].above ? 1 : -1;
-  return a->tilt[1 - a->axis] && !dyd_filter_no_arc(&a->shape, a->axis, a->branch, a->lo, a->hi);
+  return a->tilt[1 - a->axis];
+}
+
+/* Has the pane certainly no point of the curve? The difference of squares is monotone in each coordinate there [ARC-1].
+ */
+static bool pane_is_clear(const dyd_outline *o, size_t far, size_t near, const ruler r[2], const dyd_strip s[2]) {
+  dyd_bbox least, most;
+  for (int k = 0; k < 2; k++) {
+    dyd_iv q = r[k].at[s[k].q], f = r[k].far_at[s[k].far_end], lo = r[k].to[s[k].lo], hi = r[k].to[s[k].hi];
+    bool grows = s[k].fixed ? q.lo > f.hi : s[k].above;
+    if (s[k].fixed && !grows && !(q.hi < f.lo)) return false;
+    dyd_iv from = grows ? lo : hi, to = grows ? hi : lo;
+    least.e[2 * k] = from.lo, least.e[2 * k + 1] = from.hi;
+    most.e[2 * k] = to.lo, most.e[2 * k + 1] = to.hi;
+  }
+  return outline_distance2(o, &least, far, true, false) > outline_distance2(o, &least, near, false, true) ||
+         outline_distance2(o, &most, far, true, true) < outline_distance2(o, &most, near, false, false);
 }
 
 /* All of it? Its boundary points are boundary of nothing then, and cuts there decide nothing. */
 static bool arc_is_taken(dyd_outline *o, const dyd_outline_arc *a) {
-  const dyd_iv box[2] = {outline_arc_span(a, 0), outline_arc_span(a, 1)};
-  return outline_taken(NULL, o, a->curve, box);
+  return outline_taken(NULL, o, a->curve, a->span);
 }
 
 static void outline_add_curve(dyd_outline *o, uint32_t other) {
@@ -220,10 +237,12 @@ static void outline_add_curve(dyd_outline *o, uint32_t other) {
     const dyd_strip s[2] = {x[k / rows], y[k % rows]};
     dyd_outline_arc *a = &o->arc[o->arcs];
     pane_sides m;
+    if (pane_is_clear(o, far, near, r, s)) continue;
     if (o->arcs == DYD_OUTLINE_ARCS) {
       o->unsure = true;
     } else if (outline_set_arc(a, &m, &o->unsure, r, s) && outline_clip(a, &o->unsure, &m)) {
       a->curve = other;
+      outline_set_span(a);
       o->arcs += !arc_is_taken(o, a);
     }
   }
@@ -358,8 +377,7 @@ static bool find_roots(dyd_iv root[2], int *count, const quadratic *f, double re
 
 static bool boxes_apart(const dyd_outline_arc *a, const dyd_outline_arc *b) {
   for (int k = 0; k < 2; k++) {
-    dyd_iv p = outline_arc_span(a, k), q = outline_arc_span(b, k);
-    if (p.hi < q.lo || q.hi < p.lo) return true;
+    if (a->span[k].hi < b->span[k].lo || b->span[k].hi < a->span[k].lo) return true;
   }
   return false;
 }

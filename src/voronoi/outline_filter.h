@@ -26,7 +26,7 @@ typedef struct dyd_outline_arc {
   int axis, branch, corner, feature;
   bool either; /* the exact work may go along the other axis */
   int tilt[2], near_side[2];
-  dyd_iv lo[2], hi[2];
+  dyd_iv lo[2], hi[2], span[2]; /* span: encloses the coordinates of all its points */
   dyd_outline_spot end[2];
 } dyd_outline_arc;
 
