@@ -11,6 +11,7 @@
 #include "io/output.h"
 #include "prove/proof.h"
 #include "rect/rect.h"
+#include "sphere/state.h"
 #include "voronoi/shape.h"
 #include <dyadel/certificate.h>
 #include <dyadel/graph.h>
@@ -239,7 +240,7 @@ static dyd_status certificate_put_all(FILE *out, const subject *of, dyd_error *e
     fputs("also\n", out);
     st = certificate_put_all(out, &again, err);
   }
-  if (st == DYD_OK && of->sphere) fprintf(out, "outcome %s\n", dyd_outcome_text(dyd_sphere_outcome(of->sphere)));
+  if (st == DYD_OK && of->sphere) fprintf(out, "outcome %s\n", dyd_outcome_text(dyd_sphere_proved_outcome(of->sphere)));
   if (st == DYD_OK) fputs("end\n", out);
   return st;
 }

@@ -151,7 +151,7 @@ static dyd_status put_neighbours(FILE *out, const dyd_proof *p, const dyd_sphere
 }
 
 const struct dyd_sphere *dyd_proof_second(const struct dyd_sphere *s) {
-  return s->second && dyd_engine_delaunay(s->second->images) ? s->second : NULL;
+  return !s->free && s->second && dyd_engine_delaunay(s->second->images) ? s->second : NULL;
 }
 
 dyd_status dyd_proof_put_globe(FILE *out, const dyd_proof *p, const struct dyd_sphere *s, bool again) {

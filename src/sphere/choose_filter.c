@@ -60,14 +60,18 @@ typedef struct room_guess {
   double distance, left;
 } room_guess;
 
+static double distance_guess(const double a[3], const double b[3]) {
+  double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+  return sqrt(x * x + y * y + z * z);
+}
+
 /* What is left counts from the edge of the eye's box. Where the distance is not above `enough`, or nothing is left,
  * both may be any such numbers. */
 static room_guess guess_room(const ball_guess *g, size_t n, const ball_guess *from, double enough) {
   room_guess r = {4, 4 - from->eye};
   for (size_t j = 0; j < n && r.distance > enough && r.left > 0; j++) {
     if (g[j].place == from->place) continue;
-    double x = g[j].at[0] - from->at[0], y = g[j].at[1] - from->at[1], z = g[j].at[2] - from->at[2];
-    double d = sqrt(x * x + y * y + z * z);
+    double d = distance_guess(g[j].at, from->at);
     r.distance = fmin(r.distance, d);
     r.left = fmin(r.left, d - g[j].reach - from->eye);
   }
@@ -100,13 +104,14 @@ static double guess_best(uint32_t *out, const ball_guess *g, size_t n) {
 }
 
 /* The place of many, spread evenly over the sphere (a Fibonacci lattice), that is farthest from the middles of all
- * regions, and in none. */
-static bool gap_best(double at[2], const ball_guess *g, size_t n) {
+ * regions, in none, and not near `away` (NULL: anywhere). */
+static bool gap_best(double at[2], const ball_guess *g, size_t n, const double *away) {
   double best = 0;
   for (size_t k = 0; k < GAPS && (best <= 0 || k * n < 16 * (size_t)WORK); k++) {
     double z = 1 - (double)(2 * (k * 1597 % GAPS) + 1) / GAPS, lon = fmod((double)k * 222.49223594996215, 360) - 180;
     double r = sqrt(1 - z * z);
     const ball_guess here = {.at = {r * cos(degree * lon), r * sin(degree * lon), z}, .place = DYD_NO_PLACE};
+    if (away && distance_guess(here.at, away) < 1) continue;
     room_guess room = guess_room(g, n, &here, best);
     if (room.left <= 0 || room.distance <= best) continue;
     best = room.distance;
@@ -133,9 +138,9 @@ static bool eye_is_wide(const ball_guess *g, size_t n, const dyd_sphere *s) {
   return sum > 2.5;
 }
 
-static bool centre_in_gap(dyd_sphere *s, const ball_guess *g, size_t n) {
+static bool centre_in_gap(dyd_sphere *s, const ball_guess *g, size_t n, const double *away) {
   double at[2];
-  if (!gap_best(at, g, n)) return false;
+  if (!gap_best(at, g, n, away)) return false;
   for (int a = 0; a < 2; a++) mpq_set_d(s->eye.spot.mid[a], at[a]);
   s->free = true;
   s->centre = DYD_NO_PLACE;
@@ -163,7 +168,7 @@ dyd_status dyd_sphere_choose(dyd_sphere *s, dyd_error *err) {
   if (st == DYD_OK) {
     guesses_sort(g, n);
     found = guess_best(&s->centre, g, n) > 0 || n < 2;
-    if (n >= 2 && (!found || eye_is_wide(g, n, s))) found = centre_in_gap(s, g, n) || found;
+    if (n >= 2 && (!found || eye_is_wide(g, n, s))) found = centre_in_gap(s, g, n, NULL) || found;
   }
   free(g);
   if (st != DYD_OK || found) return st;
@@ -172,11 +177,13 @@ dyd_status dyd_sphere_choose(dyd_sphere *s, dyd_error *err) {
                   "known of any; give a smaller radius, or `merge` where such points are one");
 }
 
-dyd_status dyd_sphere_choose_gap(dyd_sphere *s, dyd_error *err) {
+dyd_status dyd_sphere_choose_gap(dyd_sphere *s, const dyd_sphere *other, dyd_error *err) {
   ball_guess *g;
   size_t n;
+  const double lon = degree * mpq_get_d(other->eye.spot.mid[0]), lat = degree * mpq_get_d(other->eye.spot.mid[1]);
+  const double away[3] = {cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat)};
   dyd_status st = guesses_make(&g, &n, s, err);
-  if (st == DYD_OK) centre_in_gap(s, g, n);
+  if (st == DYD_OK) centre_in_gap(s, g, n, other->free ? away : NULL);
   free(g);
   return st;
 }

@@ -226,8 +226,8 @@ static double *costs_of_images(const dyd_sphere *s, const double *cost) {
 }
 
 /* [SPH-5] What is stated from one eye holds whatever is not known from another. A wide centre widens all images; from a
- * gap only the pairs about it are lost. So pairs that are indeterminate from the first are looked at from the second.
- */
+ * gap only the pairs about it are lost. So pairs that are indeterminate from the first are looked at from the second, a
+ * gap, and those around that from another one. */
 static dyd_status second_make(dyd_sphere *s, dyd_error *err) {
   dyd_sphere *t = sphere_begin(s->places);
   if (!t) return dyd_fail_nomem(err);
@@ -235,7 +235,7 @@ static dyd_status second_make(dyd_sphere *s, dyd_error *err) {
   mpq_set(t->degrees, s->degrees);
   memcpy(t->alias, s->alias, s->count * sizeof *s->alias);
   dyd_status st = streams_take(t, err);
-  if (st == DYD_OK) st = dyd_sphere_choose_gap(t, err);
+  if (st == DYD_OK) st = dyd_sphere_choose_gap(t, s, err);
   if (st == DYD_OK && t->free) st = images_make(t, err);
   if (st == DYD_OK && t->free)
     s->second = t;
@@ -244,24 +244,55 @@ static dyd_status second_make(dyd_sphere *s, dyd_error *err) {
   return st;
 }
 
-/* With the time that is left. Where no image can be had from the gap, there is no second. */
-static dyd_status second_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_options *options, double seconds,
+/* With the time that is left, since `begun`; a cancel of the first cancels it. Where no image can be had from the gap,
+ * there is no second. */
+static dyd_status second_run(dyd_sphere *s, dyd_sphere *first, const dyd_engine_options *options, double begun,
                              dyd_error *err) {
   dyd_engine_options o = *options;
+  dyd_outcome outcome;
   dyd_status st = s->second ? DYD_OK : second_make(s, err);
   if (st != DYD_OK || !s->second) return st;
-  if (o.seconds > 0) o.seconds = o.seconds > seconds ? o.seconds - seconds : 0x1p-20;
+  if (o.seconds > 0) o.seconds = fmax(o.seconds - (dyd_seconds() - begun), 0x1p-20);
   o.cost = NULL;
   o.progress = NULL;
   o.trace = NULL;
-  dyd_engine_follow(s->images, s->second->images);
-  st = dyd_engine_run(outcome, s->second->images, &o, err);
-  dyd_engine_follow(s->images, NULL);
+  dyd_engine_follow(first->images, s->second->images);
+  st = dyd_engine_run(&outcome, s->second->images, &o, err);
+  dyd_engine_follow(first->images, NULL);
   if (st == DYD_E_DOMAIN) {
     dyd_sphere_free(s->second);
     s->second = NULL;
-    st = DYD_OK;
+    return DYD_OK;
   }
+  if (st != DYD_OK || s->free || dyd_sphere_outcome(first) != DYD_OUTCOME_FIXPOINT) return st;
+  return second_run(s->second, first, options, begun, err);
+}
+
+/* About a centre that is no place: all that may be its neighbours. */
+static dyd_status face_of_gap(dyd_index_list *face, bool *tie, const dyd_delaunay *pd) {
+  dyd_index_list sure = {0};
+  *tie = false;
+  dyd_status st = dyd_delaunay_hull_vertices(&sure, face, pd);
+  dyd_index_list_clear(&sure);
+  return st;
+}
+
+/* Looks whether a pair around the centre, which is no place, is open. */
+static dyd_status gap_look(dyd_sphere *s) {
+  dyd_index_list face = {0};
+  dyd_pair_list pairs = {0};
+  bool tie, *in = calloc(s->count, sizeof *in);
+  dyd_status st = in ? face_of_gap(&face, &tie, dyd_engine_delaunay(s->images)) : DYD_E_NOMEM;
+  for (size_t k = 0; st == DYD_OK && k < face.count; k++) in[s->of[face.item[k]]] = true;
+  if (st == DYD_OK) st = dyd_sphere_pairs(&pairs, s);
+  s->gap_decided = st == DYD_OK;
+  for (size_t k = 0; k < pairs.count && s->gap_decided; k++) {
+    const dyd_pair *p = &pairs.item[k];
+    s->gap_decided = p->status == DYD_LEGAL || !in[p->i] || !in[p->j];
+  }
+  dyd_pair_list_clear(&pairs);
+  dyd_index_list_clear(&face);
+  free(in);
   return st;
 }
 
@@ -275,9 +306,12 @@ dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_
   dyd_status st = dyd_engine_run(outcome, s->images, &o, err);
   free(cost);
   if (st == DYD_OK) st = dyd_sphere_narrow_recalled(s, o.max_bits, err);
-  if (st == DYD_OK && *outcome == DYD_OUTCOME_FIXPOINT && s->eye.spot.stays)
-    st = second_run(outcome, s, &o, dyd_seconds() - begun, err);
   if (st == DYD_OK) *outcome = dyd_sphere_outcome(s);
+  if (st == DYD_OK && *outcome == DYD_OUTCOME_FIXPOINT && (s->eye.spot.stays || s->free)) {
+    st = second_run(s, s, &o, begun, err);
+    if (st == DYD_OK && s->free && s->second) st = gap_look(s);
+    if (st == DYD_OK) *outcome = dyd_sphere_outcome(s);
+  }
   return st;
 }
 
@@ -320,16 +354,7 @@ static dyd_status mark_outer(uint8_t *in, const dyd_sphere *s) {
 size_t dyd_sphere_faces(const dyd_sphere *s) {
   if (!s) return 0;
   const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
-  return pd ? dyd_delaunay_undecided_faces(pd) + s->free : 0;
-}
-
-/* About a centre that is no place: all that may be its neighbours. */
-static dyd_status face_of_gap(dyd_index_list *face, bool *tie, const dyd_delaunay *pd) {
-  dyd_index_list sure = {0};
-  *tie = false;
-  dyd_status st = dyd_delaunay_hull_vertices(&sure, face, pd);
-  dyd_index_list_clear(&sure);
-  return st;
+  return pd ? dyd_delaunay_undecided_faces(pd) + (s->free && !s->gap_decided) : 0;
 }
 
 dyd_status dyd_sphere_face(dyd_index_list *out, bool *tie, const dyd_sphere *s, size_t f) {
@@ -458,33 +483,52 @@ static void pairs_improve(dyd_pair_list *l, const dyd_pair_list *other) {
   l->count = n;
 }
 
-dyd_status dyd_sphere_pairs(dyd_pair_list *out, const dyd_sphere *s) {
-  if (!s) return DYD_E_ARG;
+/* From so many eyes. */
+static dyd_status pairs_from(dyd_pair_list *out, const dyd_sphere *s, int eyes) {
   dyd_pair_list other = {0};
   dyd_status st = pairs_seen(out, s);
-  if (st != DYD_OK || !s->second || !dyd_engine_delaunay(s->second->images)) return st;
-  st = pairs_seen(&other, s->second);
+  if (st != DYD_OK || eyes == 1 || !s->second || !dyd_engine_delaunay(s->second->images)) return st;
+  st = pairs_from(&other, s->second, eyes - 1);
   if (st == DYD_OK) pairs_improve(out, &other);
   dyd_pair_list_clear(&other);
   return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
-static bool pairs_are_legal(const dyd_sphere *s) {
+enum { ALL_EYES = 3 };
+
+dyd_status dyd_sphere_pairs(dyd_pair_list *out, const dyd_sphere *s) {
+  if (!s) return DYD_E_ARG;
+  return pairs_from(out, s, ALL_EYES);
+}
+
+static bool pairs_are_legal(const dyd_sphere *s, int eyes) {
   dyd_pair_list pairs = {0};
-  bool legal = dyd_sphere_pairs(&pairs, s) == DYD_OK;
+  bool legal = pairs_from(&pairs, s, eyes) == DYD_OK;
   for (size_t k = 0; k < pairs.count; k++) legal = legal && pairs.item[k].status == DYD_LEGAL;
   dyd_pair_list_clear(&pairs);
   return legal;
 }
 
+static dyd_outcome outcome_from(const dyd_sphere *s, int eyes) {
+  dyd_outcome outcome = dyd_engine_outcome(s->images);
+  if (s->free && outcome == DYD_OUTCOME_DECIDED) outcome = DYD_OUTCOME_FIXPOINT; /* pairs around it */
+  if ((!s->second && !s->free) || outcome != DYD_OUTCOME_FIXPOINT) return outcome;
+  if (pairs_are_legal(s, eyes)) return DYD_OUTCOME_DECIDED;
+  for (; eyes > 1 && s->second; eyes--) {
+    s = s->second;
+    dyd_outcome other = dyd_engine_outcome(s->images);
+    if (other == DYD_OUTCOME_CANCELLED || other == DYD_OUTCOME_BUDGET) return other;
+  }
+  return outcome;
+}
+
 dyd_outcome dyd_sphere_outcome(const dyd_sphere *s) {
   if (!s) return DYD_OUTCOME_NONE;
-  dyd_outcome outcome = dyd_engine_outcome(s->images);
-  if (s->free && outcome == DYD_OUTCOME_DECIDED) return pairs_are_legal(s) ? outcome : DYD_OUTCOME_FIXPOINT;
-  if (!s->second || outcome != DYD_OUTCOME_FIXPOINT) return outcome;
-  if (pairs_are_legal(s)) return DYD_OUTCOME_DECIDED;
-  dyd_outcome other = dyd_engine_outcome(s->second->images);
-  return other == DYD_OUTCOME_CANCELLED || other == DYD_OUTCOME_BUDGET ? other : outcome;
+  return outcome_from(s, ALL_EYES);
+}
+
+dyd_outcome dyd_sphere_proved_outcome(const dyd_sphere *s) {
+  return outcome_from(s, s->free ? 1 : 2);
 }
 
 /* ---- triangles ---- */
@@ -529,8 +573,7 @@ static dyd_status triangles_join(dyd_triangle_list *out, const dyd_sphere *s, co
   return DYD_OK;
 }
 
-dyd_status dyd_sphere_triangles(dyd_triangle_list *out, const dyd_sphere *s) {
-  if (!s) return DYD_E_ARG;
+static dyd_status triangles_seen(dyd_triangle_list *out, const dyd_sphere *s) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
   if (!pd) return DYD_E_ARG;
   dyd_triangle_list images = {0};
@@ -544,6 +587,31 @@ dyd_status dyd_sphere_triangles(dyd_triangle_list *out, const dyd_sphere *s) {
   dyd_hull_clear(&hull);
   dyd_index_list_clear(&around);
   dyd_triangle_list_clear(&images);
+  return st;
+}
+
+/* Adds those that are certain from another eye. */
+static dyd_status triangles_add(dyd_triangle_list *l, const dyd_triangle_list *more) {
+  size_t n = l->count + more->count, kept = 0;
+  dyd_triangle *item = dyd_alloc(n, sizeof *item);
+  if (!item) return DYD_E_NOMEM;
+  for (size_t k = 0; k < n; k++) item[k] = k < l->count ? l->item[k] : more->item[k - l->count];
+  qsort(item, n, sizeof *item, compare_triangles);
+  for (size_t k = 0; k < n; k++)
+    if (!kept || compare_triangles(&item[kept - 1], &item[k]) != 0) item[kept++] = item[k];
+  dyd_triangle_list_clear(l);
+  *l = (dyd_triangle_list){kept, item};
+  return DYD_OK;
+}
+
+dyd_status dyd_sphere_triangles(dyd_triangle_list *out, const dyd_sphere *s) {
+  if (!s) return DYD_E_ARG;
+  dyd_triangle_list other = {0};
+  dyd_status st = triangles_seen(out, s);
+  if (st != DYD_OK || !s->second || !dyd_engine_delaunay(s->second->images)) return st;
+  st = dyd_sphere_triangles(&other, s->second);
+  if (st == DYD_OK) st = triangles_add(out, &other);
+  dyd_triangle_list_clear(&other);
   return st;
 }
 

@@ -104,8 +104,10 @@ struct dyd_sphere {
   dyd_eye eye;          /* the centre, as it was asked last */
   int64_t eye_bits;
   dyd_eye_d eye_d; /* the same in doubles, where first looks are in doubles */
-  /* The same places, projected from a gap; made where a wide centre leaves pairs indeterminate. NULL: none. */
+  /* The same places, projected from another gap; made where a wide centre, or a gap, leaves pairs indeterminate. NULL:
+   * none. */
   dyd_sphere *second;
+  bool gap_decided;     /* all pairs around a centre that is no place are known to be legal, or illegal */
   dyd_near_index *near; /* for dyd_sphere_near; NULL: not made yet */
 };
 
@@ -130,8 +132,9 @@ dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err);
 /* choose_filter.c: the place to project from, among those that are no aliases; where each may be the same as another
  * one, a place that none of them reaches. DYD_E_ARG with a message where there is none. */
 dyd_status dyd_sphere_choose(dyd_sphere *s, dyd_error *err);
-/* Sets the centre to a place in a gap, `free`; leaves s as it is if there is none. */
-dyd_status dyd_sphere_choose_gap(dyd_sphere *s, dyd_error *err);
+/* Sets the centre to a place in a gap, `free`, far from that of the other where it is one; leaves s as it is if there
+ * is none. */
+dyd_status dyd_sphere_choose_gap(dyd_sphere *s, const dyd_sphere *other, dyd_error *err);
 
 /* project.c: adds the images to s->images. */
 dyd_status dyd_sphere_add_images(dyd_sphere *s, dyd_error *err);
@@ -176,6 +179,9 @@ void dyd_near_index_free(dyd_near_index *index);
 
 /* Sets out to the radius in the options: metres on the ground, or degrees. DYD_E_ARG where it is none; DYD_E_NOMEM. */
 dyd_status dyd_sphere_radius(mpq_ptr out, bool *ground, const dyd_sphere_options *o, dyd_error *err);
+/* As dyd_sphere_outcome, of what a certificate proves: what is seen from the first eye, and from a gap where that is
+ * none. */
+dyd_outcome dyd_sphere_proved_outcome(const dyd_sphere *s);
 /* What each image is to the centre; in a gap, to a point there. */
 dyd_status dyd_sphere_about_centre(dyd_pair_status *status, const dyd_sphere *s);
 
