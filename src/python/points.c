@@ -218,6 +218,18 @@ static void blame(size_t point, PyObject *place) {
   PyErr_Restore(type, value, trace);
 }
 
+/* Adds a note to the exception that is set; owns the text. */
+static void add_note(PyObject *text) {
+  PyObject *type, *value, *trace;
+  PyErr_Fetch(&type, &value, &trace);
+  PyErr_NormalizeException(&type, &value, &trace);
+  PyObject *done = text ? PyObject_CallMethod(value, "add_note", "O", text) : NULL;
+  PyErr_Clear();
+  Py_XDECREF(done);
+  Py_XDECREF(text);
+  PyErr_Restore(type, value, trace);
+}
+
 /* ---- answers and windows ---- */
 
 /* Two coordinates as four ends; texts are exact numbers. */
@@ -272,13 +284,28 @@ dyd_status dydpy_answer(dyd_rect *r, PyObject *answer, dyd_error *err) {
   return st == DYD_OK && fixed ? DYD_FIXED : st;
 }
 
+/* A rectangle, from ends or a pair of coordinates as a callback returns them; -1 with an exception set. */
+static int rect_of(dyd_rect *r, PyObject *ends) {
+  dyd_error err;
+  dyd_error_clear(&err);
+  dyd_status st = dydpy_answer(r, ends, &err);
+  if (st < 0) dydpy_raise(&err, st);
+  return st < 0 ? -1 : 0;
+}
+
 int dydpy_window(dyd_rect *r, bool *given, PyObject *window) {
   dyd_error err;
   dyd_error_clear(&err);
   *given = window != Py_None;
   if (!*given) return 0;
-  dyd_status st = dydpy_answer(r, window, &err);
-  if (st < 0) dydpy_raise(&err, st);
+  dyd_status st = PySequence_Size(window) == 4 ? dydpy_answer(r, window, &err) : DYD_E_ARG;
+  bool wrong = st < 0 && st != DYD_E_NOMEM;
+  if (wrong) {
+    PyErr_Clear();
+    PyErr_Format(PyExc_ValueError, "window must be (xlo, xhi, ylo, yhi) with xlo < xhi and ylo < yhi, not %R", window);
+  } else if (st < 0) {
+    dydpy_raise(&err, st);
+  }
   return st < 0 ? -1 : 0;
 }
 
@@ -328,12 +355,15 @@ PyObject *dydpy_dyadic(const dyd_dyadic *x) {
 /* ---- functions of Python that narrow points ---- */
 
 static dyd_status call_narrow(dyd_rect *out, PyObject *narrow, const dyd_request *request, dyd_error *err) {
-  PyObject *answer = PyObject_CallFunction(narrow, "nL", (Py_ssize_t)request->point, (long long)request->bits);
-  if (!answer) return DYD_E_STREAM;
+  const Py_ssize_t point = (Py_ssize_t)request->point;
+  const char *place = "point %zd, asked for %lld bits";
+  PyObject *answer = PyObject_CallFunction(narrow, "nL", point, (long long)request->bits);
+  if (!answer) {
+    add_note(PyUnicode_FromFormat(place, point, (long long)request->bits));
+    return DYD_E_STREAM;
+  }
   dyd_status st = dydpy_answer(out, answer, err);
-  if (PyErr_Occurred())
-    blame(request->point,
-          PyUnicode_FromFormat("point %zd, asked for %lld bits", (Py_ssize_t)request->point, (long long)request->bits));
+  if (PyErr_Occurred()) blame(request->point, PyUnicode_FromFormat(place, point, (long long)request->bits));
   Py_DECREF(answer);
   return st;
 }
@@ -408,6 +438,8 @@ static int widened_real(dyd_real **out, PyObject *value, PyObject *radius) {
   if (!radius) return 0;
   mpq_init(by);
   int status = dydpy_rational(by, radius);
+  if (status < 0 && (PyErr_ExceptionMatches(PyExc_ValueError) || PyErr_ExceptionMatches(PyExc_TypeError)))
+    PyErr_Format(PyExc_ValueError, "the radius %R is not a finite number", radius);
   if (status == 0 && mpq_sgn(by) < 0) {
     PyErr_Format(PyExc_ValueError, "the radius %R is negative", radius);
     status = -1;
@@ -603,12 +635,11 @@ PyObject *dydpy_remeasure(PyObject *self, PyObject *args) {
   Py_ssize_t number;
   uint32_t site;
   PyObject *ends, *done = NULL;
-  bool given;
   dyd_rect r;
   dydpy_call c;
   if (!PyArg_ParseTuple(args, "nO", &number, &ends) || !dydpy_site(&site, (dydpy_engine *)self, number)) return NULL;
   dyd_rect_init(&r);
-  if (dydpy_window(&r, &given, ends) == 0 && dydpy_begin(&c, self, 0))
+  if (rect_of(&r, ends) == 0 && dydpy_begin(&c, self, 0))
     done = dydpy_end_none(&c, dyd_engine_remeasure(c.self->engine, site, &r, &c.err));
   dyd_rect_clear(&r);
   return done;

@@ -110,7 +110,17 @@ def test_callbacks_are_named():
 
     def fails(i, bits):
         raise KeyError('mine')
-    assert harness.raised(KeyError, dyadel.delaunay, dyadel.Source(3, fails)).args == ('mine',)
+    error = harness.raised(KeyError, dyadel.delaunay, dyadel.Source(3, fails))
+    assert error.args == ('mine',) and error.__notes__ == ['point 0, asked for 64 bits']
+    words_in(harness.raised(ValueError, dyadel.delaunay, PLACES, radius=['0.1', '0.1', 'x', '0.1']), 'element 2', "radius 'x'")
+    words_in(harness.raised(ValueError, dyadel.delaunay, PLACES, radius=[1, 2]), '4 values', 'not 2')
+    for wrong in 5, {'x': [1, 2], 'y': [3, 4]}, '1 2':
+        words_in(harness.raised(TypeError, dyadel.delaunay, wrong), type(wrong).__name__, 'give an array (N, 2)')
+    d = dyadel.delaunay(PLACES)
+    for window in (0, 1), (1, 0, 0, 1), 7:
+        words_in(harness.raised(ValueError, d.voronoi, window), '(xlo, xhi, ylo, yhi)', repr(window))
+    words_in(harness.raised(ValueError, d.voronoi, until='area'), "until='area'", 'area:M')
+    words_in(harness.raised(TypeError, dyadel.delaunay, PLACES, threads='two'), "threads='two'", 'whole number')
 
 
 def test_keywords():
@@ -118,6 +128,7 @@ def test_keywords():
              (dyadel.check, PLACES), (dyadel.Delaunay, PLACES)]
     for function, *arguments in calls:
         words_in(harness.raised(TypeError, function, *arguments, raduis=0.1), "'raduis'", "'radius'", function.__name__ + '()')
+    words_in(harness.raised(TypeError, dyadel.check, PLACES, schedule=3), 'check()', "'schedules'")
     d = dyadel.delaunay(PLACES)
     for function, *arguments in ((d.refine,), (d.append, [(1, 1)]), (d.voronoi,), (d.nearest, 1, 1)):
         words_in(harness.raised(TypeError, function, *arguments, treads=2), "'treads'", "'threads'", f'{function.__name__}()')
@@ -132,6 +143,8 @@ def test_classes():
     assert d.outcome == 'decided' and d.pairs.tolist() == dyadel.delaunay(PLACES, radius='0.000001').pairs.tolist()
     assert dyadel.Delaunay().append(PLACES).legal.tolist() == LEGAL
     words_in(harness.raised(TypeError, dyadel.Voronoi, np.array(PLACES)), 'dyadel.delaunay(points).voronoi()')
+    for result, call in (dyadel.Plan, 'plan'), (dyadel.Tolerance, 'tolerance'), (dyadel.Convergence, 'converge'):
+        words_in(harness.raised(TypeError, result, np.array(PLACES)), f'dyadel.{call}(points)')
     assert harness.raised(ValueError, dyadel.Delaunay, [(0, 0), (1, 'x')]).result.outcome == 'none'
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 Move = tuple[int, int, int]
 
 
-@takes_options(*INPUTS)
+@takes_options(*INPUTS, runs=False)
 def check(points: Any, radius: Any = None, *, moves: Sequence[Move] | None = None, schedules: int = 100, seed: int = 1,
           stages: int = 6, base_bits: int = 8, max_bits: int = 192, slack_bits: int = 16, timeout: float | None = None,
           progress: Callable[[int, int], object] | None = None, **inputs: Any) -> dict[str, Any]:

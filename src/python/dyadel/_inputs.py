@@ -98,6 +98,9 @@ def take(points: Any, radius: Any = None, *, order: str | None = None, skip_miss
     """Points of any kind but Source and Text, and their radius, in plain form."""
     if order not in (None, *ORDERS):
         raise ValueError(f"order={order!r}; give 'xxyy' (xlo, xhi, ylo, yhi) or 'xyxy' (minx, miny, maxx, maxy)")
+    if isinstance(points, (dict, str, bytes)) or not hasattr(points, '__iter__') and not hasattr(points, 'geom_type'):
+        raise TypeError(f'points is of type {type(points).__name__}; give an array (N, 2) or (N, 4), a list of pairs, a DataFrame, a '
+                        f'Source or a Text{", such as numpy.column_stack((xs, ys))" * isinstance(points, dict)}')
     crs = getattr(points, 'crs', None) if crs is None else crs
     if isinstance(radius, str) and radius in getattr(points, 'columns', ()):
         radius = points[radius]
@@ -157,7 +160,7 @@ def _leave_out_unknown(given: Given, skip: bool, look: bool) -> None:
         if unknown.any():
             each = unknown.reshape(len(unknown), -1).any(axis=1) if unknown.ndim else np.full(len(given.points), True)
             if len(each) != len(given.points):
-                raise ValueError(f'radius has {len(each)} values for {len(given.points)} points')
+                raise ValueError(f'radius must be one number, or have {len(given.points)} values (one for each point), not {len(each)}')
             given.leave_out(each, skip, 'the radius is missing')
 
 

@@ -23,12 +23,12 @@ Arguments = ParamSpec('Arguments')
 Result = TypeVar('Result')
 
 
-def takes_options(*more: str) -> Callable[[Callable[Arguments, Result]], Callable[Arguments, Result]]:
-    """A decorator of functions with **options, those of engine_options and `more`: others are a TypeError that names the
-    function and the nearest keyword."""
+def takes_options(*more: str, runs: bool = True) -> Callable[[Callable[Arguments, Result]], Callable[Arguments, Result]]:
+    """A decorator of functions with **options, those of engine_options (not if runs=False) and `more`: others are a
+    TypeError that names the function and the nearest keyword."""
     def decorate(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
         own = [name for name, p in inspect.signature(function).parameters.items() if p.kind is not p.VAR_KEYWORD]
-        known = [*own, *more, *inspect.signature(engine_options).parameters]
+        known = [*own, *more, *(inspect.signature(engine_options).parameters if runs else ())]
         name = function.__qualname__.removesuffix('.__init__').replace('._', '.')
 
         @functools.wraps(function)
@@ -74,14 +74,16 @@ def engine_options(*, until: str = 'decided', timeout: float | None = None, max_
                 seconds; what it raises ends the run
     """
     goal, _, bits = until.partition(':')
-    if goal not in GOALS or (goal == 'decided') == bool(bits):
-        raise ValueError(f'until={until!r}; give "decided", or a bound such as "hausdorff:40": one of '
-                         f'{", ".join(GOALS[1:])}')
+    if goal not in GOALS or (goal == 'decided') == bool(bits) or bits and not bits.isdecimal():
+        raise ValueError(f'until={until.removeprefix("voronoi ")!r}; give "decided", "area:M" or "hausdorff:M" with a number of bits, '
+                         'such as "hausdorff:40"')
     if schedule not in SCHEDULES:
         raise ValueError(f'schedule={schedule!r}; give "adaptive" or "uniform"')
     for name, value in (('max_bits', max_bits), ('max_pairs', max_pairs), ('threads', threads), ('step_bits', step_bits),
                         ('max_stages', max_stages), ('max_calls', max_calls), ('tie_bits', tie_bits),
                         ('max_bytes', max_bytes)):
+        if value is not None and not isinstance(value, (int, np.integer)):
+            raise TypeError(f'{name}={value!r}; give a whole number')
         if value is not None and value < AT_LEAST[name]:
             raise ValueError(f'{name}={value}; give at least {AT_LEAST[name]}')
     given = {'goal': GOALS.index(goal), 'goal_bits': int(bits or 0), 'schedule': SCHEDULES.index(schedule),

@@ -80,7 +80,7 @@ def _radius_list(radius: Any, n: int) -> list[Any]:
     if isinstance(radius, (list, tuple)) or hasattr(radius, '__array__') and np.ndim(radius):
         radii = list(radius)
         if len(radii) != n:
-            raise ValueError(f'radius has {len(radii)} values for {n} points')
+            raise ValueError(f'radius must be one number, or have {n} values (one for each point), not {len(radii)}')
     else:
         radii = [radius] * n
     return [tuple(r) if isinstance(r, (list, tuple, np.ndarray)) else (r, r) for r in radii]

@@ -238,6 +238,9 @@ class Table(Mapping[str, NDArray[Any]]):
     """Columns by name, in order: a Mapping, so that pandas.DataFrame(dict(table)) takes it."""
 
     def __init__(self, columns: Mapping[str, NDArray[Any]]) -> None:
+        if not isinstance(columns, Mapping):
+            name = type(self).__name__
+            raise TypeError(f'{name} is a result: call dyadel.{"converge" if name == "Convergence" else name.lower()}(points)')
         self._columns = dict(columns)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
