@@ -59,8 +59,8 @@ void cli_note_points(const dyd_engine *e, const cli_options *o, const dyd_read_r
   if (r->vertices) cli_note(o, "%s: the vertices of lines and polygons are the points: %zu", o->file, r->vertices);
   note_confidence(e, o);
   if (r->merged)
-    cli_note(o, "%s: %zu rows are merged with earlier ones of equal %s", o->file, r->merged,
-             o->read.merge_by ? "identifiers" : "coordinates");
+    cli_note(o, "%s: %zu row%s merged with earlier ones of equal %s", o->file, r->merged,
+             r->merged == 1 ? " is" : "s are", o->read.merge_by ? "identifiers" : "coordinates");
   if (r->repeated) note_repeated(e, o, r);
   if (r->shared)
     cli_note(o,

@@ -362,10 +362,13 @@ static dyd_status plan_comments(dyd_table *t, const dyd_output *o) {
             left, open, rows);
   else if (left)
     fprintf(o->out, "# plan %zu points: not sufficient, %zu of %zu pairs stay undecided\n", rows, left, open);
-  else
+  else if (rows)
     fprintf(o->out,
             "# plan %zu points: sufficient if each new position is within half_width_needed of the old one; verified\n",
             rows);
+  else
+    fprintf(o->out, "# plan 0 points: %s\n",
+            ties ? "only pairs are undecided that tie at the nominal places" : "sufficient, every pair is decided");
   if (ties)
     fprintf(o->out, "# ties %zu: pairs that no accuracy decides, if points are at their nominal places\n", ties);
   return DYD_OK;
