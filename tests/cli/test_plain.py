@@ -110,8 +110,8 @@ def test_reference_systems():
     for form in 'geojson', 'json', 'svg':
         result = ask('delaunay', '--crs', 'EPSG:32632', '--format', form)
         expect(result, 0, '32632')
-    expect(ask('voronoi', '--crs', 'EPSG:3857', '--format', 'svg'), 0, ' m \(EPSG:3857\)<')
-    expect(ask('tolerance', '--crs', 'EPSG:3857', '--format', 'svg'), 0, ' m \(EPSG:3857\)<')
+    expect(ask('voronoi', '--crs', 'EPSG:3857', '--format', 'svg'), 0, r' m \(EPSG:3857\)<')
+    expect(ask('tolerance', '--crs', 'EPSG:3857', '--format', 'svg'), 0, r' m \(EPSG:3857\)<')
     expect(ask('delaunay', '--crs', 'EPSG:3857', '--sphere', '--format', 'geojson'), 2, r'\A\Z',
            'coordinates are degrees, and EPSG:3857 is not known as a system of degrees; give --crs EPSG:4326')
     result = run('delaunay', '--crs', 'EPSG:4326', '--sphere', '--format', 'geojson', '-', stdin=EXACT)
