@@ -17,6 +17,18 @@ command=$(find "$work/moved" -name dyadel -type f -perm -u+x)
 printed=$(env -u LD_LIBRARY_PATH "$command" --version) || fail "the installed command does not run"
 case $printed in "dyadel "[0-9]*) ;; *) fail "the installed command prints: $printed" ;; esac
 
+# Hardened as Debian's packages are, and symbols with the version that soname counts.
+for file in $(find "$work/moved" -type f \( -name 'libdyadel.so*' -o -name 'dyadel' -o -name 'dyadel-gdal' -o -name '_dyadel*.so' \)); do
+  head -c 4 "$file" | grep -q ELF || continue
+  readelf -dW "$file" | grep -q 'BIND_NOW\|FLAGS.*NOW' || fail "$file binds lazily"
+  readelf -lW "$file" | grep -q GNU_RELRO || fail "$file: tables of addresses stay writable"
+  readelf -lW "$file" | grep 'GNU_STACK' | grep -q 'RW ' || fail "$file: the stack is executable"
+  nm -D "$file" | grep -q '__stack_chk_fail' || fail "$file is built without -fstack-protector-strong"
+  nm -D "$file" | grep -q '__[a-z]*_chk' || fail "$file is built without _FORTIFY_SOURCE"
+done
+library=$(find "$work/moved" -name 'libdyadel.so.*' -type f)
+nm -D --defined-only "$library" | grep -v ' dyd_[a-z_0-9]*@@DYADEL_0$\| A DYADEL_0' && fail "$library has symbols without a version"
+
 # dyadel-proved, where it is installed, is found without PATH.
 if find "$work/moved" -name dyadel-proved | grep -q .; then
   printf '0 0\n1 0\n0 1\n1 1\n' >"$work/points.txt"

@@ -110,6 +110,15 @@ def check_top(root):
             yield f'{root / name}: only {", ".join(sorted(TOP))} and names with a dot are at the top'
 
 
+def check_licences(root):
+    """Whatever the build asks for has its licence in the table."""
+    table = (root / 'src/packaging/LICENCES.md').read_text(encoding='utf-8')
+    for path in sorted(root.rglob('meson.build')):
+        for name in re.findall(r"(?:dependency|find_library)\('([\w-]+)'", path.read_text(encoding='utf-8')):
+            if f'`{name}`' not in table:
+                yield f'{path}: {name} has no licence in src/packaging/LICENCES.md'
+
+
 def files(root):
     for folder in ('src', 'include', 'tests', 'bench', 'proofs'):
         for path in sorted((root / folder).rglob('*')):
@@ -121,6 +130,7 @@ def files(root):
 def breaches(root):
     yield from check_top(root)
     yield from check_static_names(root)
+    yield from check_licences(root)
     for path in files(root):
         text = path.read_text(encoding='utf-8')
         if not any('SPDX-License-Identifier: LGPL-3.0-or-later' in line for line in text.splitlines()[:3]):
