@@ -4,9 +4,9 @@
 
 #include "base/alloc.h"
 #include "io/label_text.h"
+#include "io/read/kind.h"
 #include <math.h>
 #include <string.h>
-#include <strings.h>
 
 void dyd_place_set(dyd_place *out, const double box[4]) {
   double error[2];
@@ -51,8 +51,8 @@ typedef struct dyd_encoder {
 /* Is the name that of a column of the layer? The case of letters makes no difference in databases. */
 static bool name_is_taken(const dyd_table *t, const char *name) {
   size_t k = 0, length = strlen(name);
-  while (k < t->columns && (length != strcspn(t->name[k], ",") || strncasecmp(name, t->name[k], length) != 0)) k++;
-  return k < t->columns || strcasecmp(name, "WKT") == 0;
+  while (k < t->columns && (length != strcspn(t->name[k], ",") || !dyd_same_name(name, t->name[k], length))) k++;
+  return k < t->columns || (length == 3 && dyd_same_name(name, "WKT", length));
 }
 
 /* The name of the k-th column that points carry; one that the layer has itself gets "_2". */

@@ -393,7 +393,12 @@ static const char *rounded(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd
 static double two_digits(double x) {
   char cut[DYD_DECIMAL_SIZE], again[DYD_DECIMAL_SIZE];
   if (!(x > 0 && isfinite(x))) return x;
-  double at = strtod(rounded(cut, x, 2, DYD_DOWN), NULL);
+  mpq_t digits;
+  mpq_init(digits);
+  /* The point of strtod is that of the caller's locale. */
+  dyd_status st = dyd_real_parse_exact(digits, cut, rounded(cut, x, 2, DYD_DOWN) ? strlen(cut) : 0);
+  double at = st == DYD_OK ? mpq_get_d(digits) : x;
+  mpq_clear(digits);
   return strcmp(rounded(again, at, 2, DYD_DOWN), cut) == 0 ? at : nextafter(at, HUGE_VAL);
 }
 

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Which format a file has that is neither a points file nor a table, by its first bytes. */
-#define _GNU_SOURCE /* memmem, strncasecmp */
+#define _GNU_SOURCE /* memmem */
 #include "io/read/kind.h"
 
 #include "base/error.h"
 
 #include <string.h>
-#include <strings.h>
 
 #define TABLE(options) "ogr2ogr -f CSV /vsistdout/ " options " -lco GEOMETRY=AS_XY", "X,Y", NULL
 #define BYTES(text) text, sizeof(text) - 1
@@ -66,7 +65,7 @@ static const dyd_file_kind wkt_cells = {"a table with a column of WKT (geometrie
 /* "SRID=4326; POINT Z (" begins a geometry, "Point,X,Y" does not. */
 static bool is_wkt(const char *at, const char *end) {
   static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
-  const char *semicolon = end - at > 5 && !strncasecmp(at, "SRID=", 5) ? memchr(at, ';', (size_t)(end - at)) : NULL;
+  const char *semicolon = end - at > 5 && dyd_same_name(at, "SRID=", 5) ? memchr(at, ';', (size_t)(end - at)) : NULL;
   if (semicolon) at = semicolon + 1;
   while (at < end && *at == ' ') at++;
   const char *word = at;
@@ -75,7 +74,7 @@ static bool is_wkt(const char *at, const char *end) {
   while (at < end && memchr(" ZMzm", *at, 5)) at++;
   if (at == end || *at != '(') return false;
   for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
-    if (strlen(shapes[k]) == length && !strncasecmp(shapes[k], word, length)) return true;
+    if (strlen(shapes[k]) == length && dyd_same_name(shapes[k], word, length)) return true;
   return false;
 }
 

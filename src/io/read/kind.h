@@ -7,6 +7,15 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* Are these the same letters, whatever their case? In any locale: in Turkish, strcasecmp takes I and i for different.
+ */
+static inline bool dyd_same_name(const char *a, const char *b, size_t length) {
+  size_t k = 0;
+  for (; k < length && (a[k] == b[k] || ((a[k] ^ b[k]) == 0x20 && (a[k] | 0x20) >= 'a' && (a[k] | 0x20) <= 'z')); k++) {
+  }
+  return k == length;
+}
+
 /* A format. make: a command that writes a table of FILE, with these columns of x and y, or, without any, a points file;
  * NULL: `remedy` says what to do. */
 typedef struct dyd_file_kind {
