@@ -27,8 +27,9 @@ static const help_term help_coordinate_forms[] = {
     {"-3.25 1e-3 22/7", "decimal, integer, rational: exact"},
     {"47:36:18.3 N47.605", "degrees, minutes, seconds, in the usual forms: exact"},
     {"0x1.8p-3 5*2^-20", "hexadecimal float, dyadic: exact"},
-    {"[1.2,1.3]", "interval: fixed, never refined"},
-    {"1.25+-0.01", "value with radius: the interval"},
+    {"[1.2,1.3]",
+     "interval: fixed, never refined; ends that are not m*2^e are rounded outward, by less than 2^-64 of the width"},
+    {"1.25+-0.01", "value with radius: the interval, its ends rounded outward, by less than 2^-13 of the width"},
     {"sqrt(2)+pi/4", "expression: a computable real, refined on demand. Known are + - * / ^, pi e, sqrt cbrt exp log "
                      "sin cos tan asin acos atan sinh cosh tanh abs min max; blanks are allowed inside parentheses"},
     {"root(x^5-x-1, 1, 2)", "the root of the polynomial between 1 and 2; it may stand in expressions"},
@@ -39,7 +40,7 @@ static const help_term help_exit_statuses[] = {
     {"1", "bad input, a failed point, or a failure to read or write; what was known before a point failed is written"},
     {"2", "bad usage"},
     {"3", "fixpoint: only better measurements can decide more (or ties are left). The normal result of measurements"},
-    {"4", "budget: the limit of bits, pairs or time was reached"},
+    {"4", "budget: the limit of bits, pairs, memory or time was reached"},
     {"5", "cancelled (Ctrl-C: the first one stops the work and writes what is known)"},
     {NULL, NULL}};
 

@@ -57,6 +57,17 @@ def test_bisector_csv():
         check_decimals(row, 'end')
 
 
+def test_ends_that_are_not_dyadic():
+    """What is exact is so for intervals rounded outward: a note says how many, and nothing where none is."""
+    for command in 'bisector', 'disc':
+        for x, count in (('[0,1.2]', 1), ('[1/3,2/3]', 1), ('[0,1.25]', 0), ('[5*2^-20,3]', 0)):
+            text = f'{x} [0,{1 if count else 2}]\n7 1\n3 9\n'
+            result = run(command, '-', stdin=text, comments=False)
+            assert result.code in (0, 3), result
+            assert ('not dyadic (m*2^e): 1; they are rounded outward' in result.err) == bool(count), (text, result.err)
+            assert 'not dyadic' not in run('delaunay', '-', stdin=text).err
+
+
 def test_ends_are_coordinates():
     """The exact ends can be read back as points, whatever the signs."""
     for mirrored in ('[1,2] [1,3]\n[4,6] [6,7.25]\n', '[-2,-1] [-3,-1]\n[-6,-4] [-7.25,-6]\n'):

@@ -66,6 +66,10 @@ static void read_and_run(const uint8_t *data, size_t size, const dyd_read_option
 
 void fuzz_points(const uint8_t *data, size_t size);
 void fuzz_csv(const uint8_t *data, size_t size);
+void fuzz_table(const uint8_t *data, size_t size);
+void fuzz_wkt(const uint8_t *data, size_t size);
+void fuzz_degrees(const uint8_t *data, size_t size);
+void fuzz_packed(const uint8_t *data, size_t size);
 void fuzz_expression(const uint8_t *data, size_t size);
 void fuzz_trace(const uint8_t *data, size_t size);
 void fuzz_certificate(const uint8_t *data, size_t size);
@@ -96,6 +100,79 @@ void fuzz_csv(const uint8_t *data, size_t size) {
   o.skip_lines = size % 19 == 0 ? "1" : NULL;
   if (size % 4 == 3) o.delimiter = "blank";
   read_and_run(data, size, &o);
+}
+
+/* Each field of the reading options is a bit of the first bytes: set, or not; and what columns are called. */
+static size_t fields_of_bits(dyd_read_options *o, const uint8_t *data, size_t size) {
+  static const char *const value[][2] = {
+      {"radius", "1/64"},   {"radius_columns", "r"}, {"id", "name"},          {"carry", "all"},   {"delimiter", ";"},
+      {"cost_column", "c"}, {"sigma_column", "r,r"}, {"radius_scale", "1/3"}, {"thousands", "'"}, {"missing", "-9"},
+      {"skip_lines", "1"},  {"confidence", "95%"},   {"merge_by", "id"},      {"columns", "x,y"}};
+  const dyd_read_field *field;
+  size_t k = 0;
+  for (; (field = dyd_read_field_at(NULL, NULL, k)) && k / 8 < size; k++) {
+    if (!(data[k / 8] >> k % 8 & 1)) continue;
+    char *place = (char *)o + field->offset;
+    for (size_t v = 0; v < sizeof value / sizeof *value; v++)
+      if (!field->flag && strcmp(field->name, value[v][0]) == 0) *(const char **)place = value[v][1];
+    if (field->flag) *(bool *)place = true;
+  }
+  return k / 8 + 1 < size ? k / 8 + 1 : size;
+}
+
+/* Separated text read by any set of options. */
+void fuzz_table(const uint8_t *data, size_t size) {
+  dyd_read_options o = {DYD_SIZED(dyd_read_options)};
+  size_t used = fields_of_bits(&o, data, size);
+  if (o.no_header) o.columns = "2,3";
+  read_and_run(data + used, size - used, &o);
+}
+
+/* Well-known text, as lines or as a column. */
+void fuzz_wkt(const uint8_t *data, size_t size) {
+  const dyd_read_options column = {DYD_SIZED(dyd_read_options), .columns = "geometry,geometry", .carry = "all"};
+  const dyd_read_options discs = {DYD_SIZED(dyd_read_options), .radius = "0.5", .round = true, .merge = true};
+  read_and_run(data, size, size % 3 == 0 ? &column : size % 3 == 1 ? &discs : NULL);
+}
+
+/* Longitude and latitude, in a table or not, and their images. */
+void fuzz_degrees(const uint8_t *data, size_t size) {
+  dyd_read_options o = {DYD_SIZED(dyd_read_options), .degrees = true};
+  if (size % 2) o.columns = "lon,lat", o.radius_columns = size % 3 ? "r" : NULL, o.radius_unit = size % 5 ? "m" : NULL;
+  const dyd_sphere_options how = {DYD_SIZED(dyd_sphere_options), .radius = size % 7 ? NULL : "3arcsec"};
+  const dyd_engine_options run = small_run();
+  dyd_engine *places = NULL;
+  dyd_sphere *sphere = NULL;
+  dyd_outcome outcome;
+  dyd_error err;
+  MUST(dyd_engine_new(&places) == DYD_OK);
+  dyd_status st = dyd_engine_add_text(places, (const char *)data, size, &o, &err);
+  must_tell(st, &err);
+  if (st >= 0 && dyd_engine_count(places) <= 20) {
+    st = dyd_sphere_new(&sphere, places, &how, &err);
+    must_tell(st, &err);
+    if (st >= 0) must_tell(dyd_sphere_run(&outcome, sphere, &run, &err), &err);
+  }
+  dyd_sphere_free(sphere);
+  dyd_engine_free(places);
+}
+
+static FILE *file_of(uint8_t **copy, const uint8_t *data, size_t size);
+
+/* Packed text: gzip or zstd as it comes, cut and changed. */
+void fuzz_packed(const uint8_t *data, size_t size) {
+  uint8_t *copy;
+  dyd_engine *e = NULL;
+  dyd_error err;
+  FILE *in = file_of(&copy, data, size);
+  MUST(dyd_engine_new(&e) == DYD_OK);
+  dyd_status st = dyd_read_points(e, in, NULL, &err);
+  must_tell(st, &err);
+  MUST(st >= 0 || dyd_engine_count(e) == 0);
+  if (st >= 0) run_small(e);
+  dyd_engine_free(e);
+  fclose(in);
+  free(copy);
 }
 
 /* One coordinate: an exact number, an interval, or the ordinate of a point that is narrowed. */

@@ -95,6 +95,7 @@ static dyd_status radius_fail_unit(const dyd_span *span, int role, dyd_error *er
   snprintf(message, sizeof message, "the %s %.*s has no unit; state a unit: `radius_unit` m (" DYD_UNIT_NAMES ")",
            dyd_role_holds(role), (int)(span->length < 20 ? span->length : 20), span->text);
   dyd_span_fail(err, span, 0, message);
+  if (err) err->code = DYD_E_ARG; /* with its place */
   return DYD_E_ARG;
 }
 
@@ -475,8 +476,22 @@ static dyd_status intake_skip(intake *in, const dyd_span *s, int role, dyd_error
   return DYD_OK;
 }
 
+/* Counts intervals that are not read as they are written. */
+static dyd_status intake_interval(intake *in, const dyd_span *span) {
+  mpq_t end[2];
+  mpq_inits(end[0], end[1], NULL);
+  dyd_status st = dyd_coordinate_ends(end[0], end[1], span, NULL);
+  bool dyadic = true;
+  for (int k = 0; k < 2; k++) dyadic &= mpz_scan1(mpq_denref(end[k]), 0) + 1 == mpz_sizeinbase(mpq_denref(end[k]), 2);
+  in->report.rounded += st == DYD_OK && !dyadic;
+  mpq_clears(end[0], end[1], NULL);
+  return st == DYD_E_NOMEM ? st : DYD_OK;
+}
+
 static dyd_status intake_coordinate(dyd_coordinate *out, intake *in, int axis, const dyd_span *span, dyd_error *err) {
   dyd_status st = dyd_coordinate_read(out, span, &in->manner[axis], err);
+  if (st == DYD_OK && span->length && span->text[0] == '[' && (st = intake_interval(in, span)) != DYD_OK)
+    dyd_coordinate_clear(out);
   if (st == DYD_OK) return st;
   if (st == DYD_E_PARSE && in->o->columns && (in->kind = dyd_kind_of_cell(span->text, span->length)))
     return dyd_kind_fail(err, in->kind);
