@@ -181,6 +181,32 @@ void dyd_json_ids(dyd_json *j, const dyd_engine *e, const uint32_t *site, size_t
     dyd_json_text(j, count ? name[k] : "id", dyd_engine_id(e, site[k]));
 }
 
+bool dyd_json_is_number(const char *s) {
+  size_t whole = strspn(s += *s == '-', "0123456789"), part = 1;
+  if (!whole || (whole > 1 && *s == '0')) return false;
+  s += whole;
+  if (*s == '.') part = strspn(s + 1, "0123456789"), s += 1 + part;
+  if (part && (*s == 'e' || *s == 'E'))
+    s += 1 + (s[1] == '-' || s[1] == '+'), part = strspn(s, "0123456789"), s += part;
+  return part && !*s;
+}
+
+void dyd_json_carried(dyd_json *j, const dyd_engine *e, size_t i) {
+  const char *name;
+  if (!dyd_engine_carried_name(e, 0)) return;
+  dyd_json_object(j, "carried", DYD_JSON_FLAT);
+  for (size_t k = 0; (name = dyd_engine_carried_name(e, k)); k++) {
+    const char *text = dyd_engine_carried(e, i, k);
+    dyd_json_text(j, NULL, name); /* may hold quotes */
+    dyd_sink_put(&j->to, ": ", 2);
+    if (!*text || dyd_json_is_number(text))
+      dyd_sink_text(&j->to, *text ? text : "null");
+    else
+      dyd_sink_json_text(&j->to, text);
+  }
+  dyd_json_close(j, 1);
+}
+
 void dyd_json_sites(dyd_json *j, const char *name, const dyd_engine *e, const dyd_index_list *list) {
   dyd_json_array(j, name, DYD_JSON_FLAT);
   for (size_t k = 0; k < list->count; k++) dyd_json_site(j, NULL, e, list->item[k]);

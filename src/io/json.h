@@ -143,6 +143,9 @@ static inline void dyd_json_site(dyd_json *j, const char *name, const dyd_engine
   dyd_json_index(j, name, dyd_engine_row(e, i));
 }
 void dyd_json_ids(dyd_json *j, const dyd_engine *e, const uint32_t *site, size_t count);
+/* "carried": the columns that points carry, of point i; nothing where they carry none. */
+void dyd_json_carried(dyd_json *j, const dyd_engine *e, size_t i);
+bool dyd_json_is_number(const char *text);
 /* The rows of sites, in an array. */
 void dyd_json_sites(dyd_json *j, const char *name, const dyd_engine *e, const dyd_index_list *list);
 /* "aliases": [[7, 3], ..]: rows of e, or of the places of a sphere. */

@@ -3,6 +3,7 @@
 #include "io/table.h"
 
 #include "base/alloc.h"
+#include "io/json.h"
 #include "io/label_text.h"
 #include "io/read/kind.h"
 #include <math.h>
@@ -278,17 +279,6 @@ void dyd_row_id(dyd_table *t, size_t i) {
   if (id) dyd_row_text(t, id);
 }
 
-/* Is the text a number in JSON? */
-static bool is_json_number(const char *s) {
-  size_t whole = strspn(s += *s == '-', "0123456789"), part = 1;
-  if (!whole || (whole > 1 && *s == '0')) return false;
-  s += whole;
-  if (*s == '.') part = strspn(s + 1, "0123456789"), s += 1 + part;
-  if (part && (*s == 'e' || *s == 'E'))
-    s += 1 + (s[1] == '-' || s[1] == '+'), part = strspn(s, "0123456789"), s += part;
-  return part && !*s;
-}
-
 void dyd_row_carried(dyd_table *t, size_t i) {
   const dyd_encoder *e = t->encode;
   char own[256];
@@ -297,7 +287,7 @@ void dyd_row_carried(dyd_table *t, size_t i) {
     const char *text = dyd_engine_carried(t->engine, i, k);
     table_put(t, e->lead[1]);
     if (e->named) e->text(&t->to, name), table_put_short(t, ": ");
-    if (e->named && (!*text || is_json_number(text)))
+    if (e->named && (!*text || dyd_json_is_number(text)))
       table_put(t, *text ? text : e->none);
     else
       e->text(&t->to, text);

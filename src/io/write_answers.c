@@ -315,6 +315,7 @@ static void nearest_json_list(dyd_json *j, const dyd_nearest_output *n, const dy
     dyd_json_word(j, "status", nearest_status(a));
     dyd_json_decimals(j, "distance", bounds[0], bounds[1]);
     dyd_json_ids(j, n->engine, i, 0);
+    dyd_json_carried(j, n->engine, *i);
     dyd_json_close(j, 1);
   }
   dyd_json_close(j, 1);

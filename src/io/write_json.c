@@ -57,6 +57,7 @@ static void json_site(dyd_json *j, const dyd_result *r, uint32_t i, const dyd_si
   }
   if (j->st == DYD_OK) dyd_json_box(j, true, box);
   dyd_json_ids(j, r->engine, &i, 0);
+  dyd_json_carried(j, r->engine, i);
   if (row) {
     dyd_json_index(j, "legal", row->partners[DYD_LEGAL]);
     dyd_json_index(j, "indeterminate", row->partners[DYD_INDETERMINATE]);
@@ -253,6 +254,7 @@ static dyd_status cell_json(void *context, uint32_t i, const dyd_shape *shape, c
   dyd_json_object(j, NULL, DYD_JSON_FLAT);
   dyd_json_site(j, "i", c->d->engine, i);
   dyd_json_ids(j, c->d->engine, &i, 0);
+  dyd_json_carried(j, c->d->engine, i);
   dyd_json_decimals(j, "area", row->area[0], row->area[1]);
   dyd_json_decimal(j, "undetermined", dyd_cell_undetermined(row), DYD_UP);
   dyd_json_box(j, false, row->present ? row->box : NULL);
@@ -389,6 +391,7 @@ static void globe_cells_json(dyd_json *j, const dyd_result *r, const dyd_sphere_
     dyd_json_object(j, NULL, DYD_JSON_FLAT);
     dyd_json_site(j, "i", r->engine, i);
     dyd_json_ids(j, r->engine, &i, 0);
+    dyd_json_carried(j, r->engine, i);
     dyd_json_bool(j, "complete", c->closed[i]);
     dyd_json_array(j, "vertices", DYD_JSON_FLAT);
     for (size_t k = c->first[i]; k < c->first[i + 1]; k++) {

@@ -55,6 +55,7 @@ static PyMethodDef engine_methods[] = {
     {"append_source", dydpy_append_source, METH_VARARGS, "append_source(n, narrow)"},
     {"append_text", dydpy_append_text, METH_VARARGS, "append_text(bytes, options): fields of dyd_read_options by name"},
     {"name", dydpy_name, METH_VARARGS, "name(rows, ids or None): the points added last"},
+    {"carried", dydpy_carried, METH_NOARGS, "carried() -> {name: [text of each point]}"},
     {"names", dydpy_names, METH_NOARGS, "names() -> (Buffer of int64 rows, list of ids or None)"},
     {"confidence", dydpy_confidence, METH_VARARGS,
      "confidence(text, n) -> (probability, k, n), stated of n points that come next; (None, 0): what was stated, or "

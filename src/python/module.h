@@ -142,6 +142,7 @@ PyObject *dydpy_append_text(PyObject *self, PyObject *args);
 PyObject *dydpy_confidence(PyObject *self, PyObject *args);
 PyObject *dydpy_name(PyObject *self, PyObject *args);
 PyObject *dydpy_names(PyObject *self, PyObject *none);
+PyObject *dydpy_carried(PyObject *self, PyObject *none);
 PyObject *dydpy_remeasure(PyObject *self, PyObject *args);
 PyObject *dydpy_recall(PyObject *self, PyObject *args);
 PyObject *dydpy_trace_begin(PyObject *self, PyObject *args);

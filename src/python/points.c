@@ -580,6 +580,28 @@ PyObject *dydpy_names(PyObject *self, PyObject *none) {
   return both;
 }
 
+/* carried() -> {name: [text, ...]}: the columns that points carry */
+PyObject *dydpy_carried(PyObject *self, PyObject *none) {
+  dydpy_call c;
+  const char *name;
+  (void)none;
+  if (!dydpy_begin(&c, self, DYDPY_HOLDS)) return NULL;
+  const dyd_engine *e = c.self->engine;
+  const size_t count = dyd_engine_count(e);
+  PyObject *all = PyDict_New();
+  for (size_t k = 0; all && (name = dyd_engine_carried_name(e, k)); k++) {
+    PyObject *column = PyList_New((Py_ssize_t)count);
+    for (size_t i = 0; column && i < count; i++) {
+      const char *text = dyd_engine_carried(e, i, k);
+      PyList_SetItem(column, (Py_ssize_t)i, PyUnicode_DecodeUTF8(text, (Py_ssize_t)strlen(text), "replace"));
+    }
+    if (!column || PyErr_Occurred() || PyDict_SetItemString(all, name, column) < 0) Py_CLEAR(all);
+    Py_XDECREF(column);
+  }
+  if (!dydpy_end(&c, DYD_OK)) Py_CLEAR(all);
+  return all;
+}
+
 /* Sets the field to what dict holds under its name, borrowed; *given counts such fields. -1 with an exception set. */
 static int read_option_set(dyd_read_options *o, Py_ssize_t *given, const dyd_read_field *field, PyObject *dict) {
   PyObject *value = PyDict_GetItemString(dict, field->name);

@@ -52,6 +52,14 @@ def test_carried_elsewhere():
     out = json.loads(run('delaunay', '--layer', 'points', '--format', 'geojson', *READ, '--carry', 'all', '-', stdin=TABLE).out)
     assert [f['properties']['acc'] for f in out['features']] == [0.5, 0.25, 0.125, 0.1]
     assert [f['properties']['odd, "q"'] for f in out['features']] == ['a,b', None, '007', 'two\nlines']
+    wanted = [{'name': 'anna', 'acc': 0.5, 'i': 1, 'odd, "q"': 'a,b'}, {'name': 'b', 'acc': 0.25, 'i': 2, 'odd, "q"': None},
+              {'name': 'c', 'acc': 0.125, 'i': 3, 'odd, "q"': '007'}, {'name': 'd', 'acc': 0.1, 'i': 4, 'odd, "q"': 'two\nlines'}]
+    for command, places in (('delaunay', 'sites'), ('delaunay --sphere', 'sites'), ('voronoi', 'cells'), ('voronoi --sphere', 'cells')):
+        for carry in ('--carry', 'all'), ():
+            out = json.loads(run(*command.split(), '--format', 'json', *READ, *carry, '-', stdin=TABLE).out)
+            assert [site.get('carried') for site in out[places]] == (wanted if carry else [None] * 4), (command, carry, out[places])
+    out = json.loads(run('nearest', '--format', 'json', *READ, '--carry', 'name', '-', '9', '9', stdin=TABLE).out)
+    assert [site['carried'] for site in out['nearest']] == [{'name': 'd'}], out
     gaps = 'n,x,y\np,1,1\nq,,2\nr,5,1\ns,1,1\nt,2,9\n'
     got = table('delaunay', 'points', *READ, '--skip-missing', '--merge', '--carry', 'n', text=gaps)
     assert [(r['i'], r['n']) for r in got] == [('0', 'p'), ('2', 'r'), ('4', 't')], got

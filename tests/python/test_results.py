@@ -53,6 +53,22 @@ def test_airports():
     assert np.array_equal(dyadel.delaunay(wide.boxes).pairs, wide.pairs), 'boxes are input again'
 
 
+def test_carried():
+    """Columns that a text's points carry: as they stand there, of rows that became points."""
+    text = 'name,x,y,"a,b",n\np,0,0,007,\nq,NA,1,u,1\nr,9,1,"two\nlines",2\ns,3,7,\u00e9,3\n'
+    read = {'columns': 'x,y', 'skip_missing': True}
+    wanted = {'name': ['p', 'r', 's'], 'a,b': ['007', 'two\nlines', '\u00e9'], 'n': ['', '2', '3']}
+    for sphere in False, True:
+        d = dyadel.delaunay(dyadel.Text(text, carry='all', **read), sphere=sphere)
+        assert d.carried == wanted and dyadel.delaunay(dyadel.Text(text, **read), sphere=sphere).carried == {}
+    d = dyadel.delaunay(dyadel.Text(text, carry='n,name', **read))
+    assert d.carried == {'n': wanted['n'], 'name': wanted['name']} and dyadel.delaunay(SQUARE).carried == {}
+    if importlib.util.find_spec('geopandas'):
+        for layer in 'tiles', 'cells':
+            frame = d.voronoi().to_geodataframe(layer)
+            assert frame['name'].tolist() == [wanted['name'][int(row) - (row > 0)] for row in frame['i']], frame
+
+
 def test_reading_options():
     """Every field of dyd_read_options that the command has is one of Text: it acts as there, and as in other calls."""
     table = 'x,y,c,s,w,n\n' + ''.join(f'"sqrt({k})","cbrt({k * k + 1})",{1 + 9 * (k % 3)},0.{k % 4 + 1},{k % 3},p{k}\n' for k in range(2, 14))

@@ -149,6 +149,11 @@ class Statuses:
         """The identifier of each point, '' without one; None: no point has one."""
         return self._named.names()[1]
 
+    @property
+    def carried(self) -> dict[str, list[str]]:
+        """Columns that `Text(carry=...)` named: for each name the text in the row of each point."""
+        return self._named.carried()
+
     def rect(self, i: int) -> Rect:
         """The rectangle reached of point i, exactly: xlo, xhi, ylo, yhi."""
         return rect_of(self._engine.rect(i))

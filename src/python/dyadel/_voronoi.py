@@ -40,6 +40,10 @@ class Triangulation(Protocol):
         """The identifier of each point."""
 
     @property
+    def carried(self) -> dict[str, list[str]]:
+        """The columns that points carry."""
+
+    @property
     def aliases(self) -> Ints:
         """Points that are the same place as others."""
 
@@ -218,7 +222,7 @@ class Voronoi:
     def to_geodataframe(self, layer: str = 'cells', crs: Any = None) -> Any:
         """A layer of the command ('cells', 'tiles', 'vertices', 'edges', 'regions') as a GeoDataFrame.
 
-        crs: by default that of the points. Rows are named by `i`, as `rows` of the triangulation, and by `id`.
+        crs: by default that of the points. Rows are named by `i`, as `rows` of the triangulation, and by `id`; columns carried are texts.
         """
         layers = {'cells': self._cell_rows, 'tiles': self._tile_rows, 'vertices': self._vertex_rows, 'edges': self._edge_rows,
                   'regions': self._region_rows}
@@ -226,14 +230,21 @@ class Voronoi:
             raise ValueError(f'there is no layer {layer!r}; give one of {", ".join(map(repr, layers))}')
         return _geometry.frame_of(*layers[layer](), self._of.crs if crs is None else crs)
 
+    def _named(self, points: Ints) -> dict[str, Any]:
+        """Rows, identifiers and carried columns of points."""
+        columns = self._of.named(i=points)
+        for name, texts in self._of.carried.items():
+            columns[name + '_2' * (name in columns)] = [texts[k] for k in points.tolist()]
+        return columns
+
     def _cell_rows(self) -> LayerRows:
         rings, area = self._rings, self._areas[self._rings.points].T
-        columns = {'kind': KINDS[self._kind], **self._of.named(i=rings.points), 'area_lo': area[0], 'area_hi': area[1]}
+        columns = {'kind': KINDS[self._kind], **self._named(rings.points), 'area_lo': area[0], 'area_hi': area[1]}
         return columns, rings.to_wkb(), rings.rounding
 
     def _tile_rows(self) -> LayerRows:
         rings, area, bounds = self._tiles
-        columns = {**self._of.named(i=rings.points), 'area': area, 'area_lo': bounds[:, 0], 'area_hi': bounds[:, 1]}
+        columns = {**self._named(rings.points), 'area': area, 'area_lo': bounds[:, 0], 'area_hi': bounds[:, 1]}
         return columns, rings.to_wkb(), rings.rounding
 
     def _vertex_rows(self) -> LayerRows:
