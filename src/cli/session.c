@@ -545,17 +545,33 @@ const char *cli_points_name(const cli_options *o) {
 
 /* Does the line say something that no other line of ours says? */
 static bool comment_is_summary(const char *line) {
-  static const char *const begin[] = {"window ", "undetermined_area", "distance_to", "tolerance ",      "plan ",
-                                      "ties ",   "orientation ",      "partial ",    "the rectangles ", "schedule "};
+  static const char *const begin[] = {"undetermined_area", "distance_to", "tolerance ",      "plan ",    "ties ",
+                                      "orientation ",      "partial ",    "the rectangles ", "schedule "};
   for (size_t k = 0; k < sizeof begin / sizeof *begin; k++)
     if (strncmp(line, begin[k], strlen(begin[k])) == 0) return true;
   return false;
 }
 
+/* The window of a diagram, as decimals. Returns the length of the text. */
+static size_t note_window(char *text, size_t size, const cli_session *s) {
+  double b[4];
+  char end[4][32];
+  bool exact = true;
+  if (!s->diagram) return 0;
+  dyd_rect_get_d(b, &s->window);
+  for (int k = 0; k < 4; k++) {
+    snprintf(end[k], sizeof end[k], "%.6g", b[k]);
+    exact &= strtod(end[k], NULL) == b[k];
+    for (char *comma = end[k]; (comma = strchr(comma, ','));) *comma = '.'; /* of a locale */
+  }
+  return (size_t)snprintf(text, size, "window %s%s,%s,%s,%s", exact ? "" : "about ", end[0], end[1], end[2], end[3]);
+}
+
 /* The comments that were put aside, in one line. */
 static void note_comments(cli_session *s) {
   char text[2048] = "";
-  size_t used = 0, aliases = 0, length;
+  const size_t window = note_window(text, sizeof text, s);
+  size_t used = window, aliases = 0, length;
   if (s->noted && fclose(s->noted) == 0 && s->note && !s->written) {
     for (const char *line = s->note; *line; line += length + (line[length] == '\n')) {
       length = strcspn(line, "\n");
@@ -563,7 +579,7 @@ static void note_comments(cli_session *s) {
       if (length < 2 || !comment_is_summary(line + 2) || used + length >= sizeof text) continue;
       used += (size_t)snprintf(text + used, sizeof text - used, "%s%.*s", used ? "; " : "", (int)length - 2, line + 2);
     }
-    for (char *comma = text; (comma = strchr(comma, ',')) && comma[1] != ' ';) *comma = ' ';
+    for (char *comma = text + window; (comma = strchr(comma, ',')) && comma[1] != ' ';) *comma = ' ';
     if (used) cli_note(&s->o, "%s", text);
     if (aliases)
       cli_note(&s->o, "points that coincide with earlier ones: %zu (--comments lists them in front of the table)",
