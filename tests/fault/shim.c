@@ -9,6 +9,7 @@
  *   FAULT_SIGNAL a signal that the process gets as soon as mkstemp has made a file
  *   FAULT_LOCALE with any value: the locale is that of the environment, as in programs that call setlocale
  *   FAULT_SYNCED a file that gets a line "INODE SIZE" for each file that is brought to the disk
+ *   FAULT_POWER  n: the process is killed when it is about to sync, link or rename a file for the n-th time
  *   FAULT_COUNT  a file that is given the number of calls when the process ends in the usual way */
 #include <dlfcn.h>
 #include <errno.h>
@@ -157,16 +158,26 @@ static int note_synced(int fd, int done) {
   close(log);
   return done;
 }
+/* Power is lost before the n-th step that makes a file last. */
+static void lose_power(void) {
+  static atomic_long steps;
+  long number = 0;
+  read_number("FAULT_POWER", &number);
+  if (number && atomic_fetch_add(&steps, 1) + 1 == number) kill(getpid(), SIGKILL);
+}
 int fsync(int fd) {
+  lose_power();
   return fails("fsync") ? -1 : note_synced(fd, NEXT(fsync)(fd));
 }
 int fdatasync(int fd) {
   return fails("fdatasync") ? -1 : note_synced(fd, NEXT(fdatasync)(fd));
 }
 int linkat(int from, const char *old, int to, const char *name, int flags) {
+  lose_power();
   return fails("linkat") ? -1 : NEXT(linkat)(from, old, to, name, flags);
 }
 int rename(const char *old, const char *name) {
+  lose_power();
   return fails("rename") ? -1 : NEXT(rename)(old, name);
 }
 int fclose(FILE *f) {

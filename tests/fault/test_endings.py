@@ -144,6 +144,43 @@ def test_power_loss():
             assert (again.returncode, again.stdout) == (whole.returncode, whole.stdout), again.stderr
 
 
+def test_power_loss_of_results():
+    """Power is lost before each step that makes a result last: under its name stands the old one, or the new one, and all of that is
+    on the disk."""
+    tried = 0
+    for way, env in WAYS.items():
+        for command, outputs in ((('delaunay', '-', '-o', 'o'), 'o'), (('delaunay', '-', '-o', 'o', '--certificate', 'c'), 'oc'),
+                                 (('voronoi', '-', '-o', 'o', '--format', 'svg'), 'o'), (('delaunay', '-', '-o', 'o.gz'), ('o.gz',))):
+            whole = None
+            for old in (True, False):
+                for step in range(0, 20):
+                    with tempfile.TemporaryDirectory() as folder:
+                        log = os.path.join(folder, 'synced')
+                        put(log, b'')
+                        for name in outputs if old else ():
+                            put(os.path.join(folder, name), OLD)
+                        done = subprocess.run([COMMAND, *command], cwd=folder, input=SQUARE, capture_output=True, check=False,
+                                              env=dict(os.environ, LD_PRELOAD=SHIM, FAULT_SYNCED=log, FAULT_POWER=str(step), **{
+                                                  k: v for k, v in env.items() if k != 'LD_PRELOAD'}))
+                        tried += 1
+                        now = {name: get(path) for name in outputs if os.path.exists(path := os.path.join(folder, name))}
+                        if done.returncode == 3:
+                            whole = whole or now
+                            assert now == whole and all(synced(os.path.join(folder, name), folder) == len(now[name]) for name in now), way
+                            if step:
+                                break
+                            continue
+                        assert done.returncode == -signal.SIGKILL, (way, command, step, done)
+                        for name in outputs:
+                            text, known = now.get(name, OLD), synced(os.path.join(folder, name), folder) if name in now else None
+                            sizes = [int(line.split()[1]) for line in get(log).splitlines()
+                                     if name in now and int(line.split()[0]) == os.stat(os.path.join(folder, name)).st_ino]
+                            assert text == OLD or (text == whole[name] and sizes and sizes[-1] == len(text)), (way, command, step, known)
+                else:
+                    raise AssertionError('power never lasts')
+    assert tried > 50, tried
+
+
 def test_signals_that_end():
     """What was begun is gone, the old output is there; a trace stays as far as it came."""
     for way in WAYS:

@@ -172,6 +172,62 @@ def test_functions_are_freed():
     assert seen() is None
 
 
+def test_functions_that_recurse():
+    """A function that runs an engine of its own, of functions that do the same: Python's limit ends it, and no engine is lost."""
+    depth = 0
+
+    def deep(i, bits):
+        nonlocal depth
+        depth += 1
+        dyadel.delaunay(dyadel.Source(1, deep))
+        return 0, 0
+    harness.raised(RecursionError, dyadel.delaunay, dyadel.Source(1, deep))
+    assert depth > 5
+
+    def endless(i, bits):
+        return endless(i, bits)
+    d = dyadel.Delaunay()
+    d._append(dyadel.Source(1, endless))
+    for _ in range(3):
+        harness.raised(RecursionError, d.refine)
+
+    def nested(i, bits):
+        inner = dyadel.delaunay(dyadel.Source(3, half_line))
+        return i + len(inner.legal), i
+    assert dyadel.delaunay(dyadel.Source(4, nested)).outcome in ('decided', 'fixpoint')
+
+
+def test_functions_collected_at_work():
+    """The last names of the function, its result and its source go away while it is asked; another thread collects all the time."""
+    over = threading.Event()
+
+    def collect():
+        while not over.is_set():
+            gc.collect()
+            time.sleep(0.0005)
+    thread = threading.Thread(target=collect)
+    thread.start()
+    try:
+        for _ in range(30):
+            class Instrument:
+                def __call__(self, i, bits):
+                    held.clear()
+                    gc.collect()
+                    time.sleep(0.0002)  # without the lock of Python
+                    return half_line(i, bits)
+            held = {'instrument': Instrument(), 'd': dyadel.Delaunay()}
+            seen = weakref.ref(held['instrument'])
+            held['d']._append(dyadel.Source(5, held['instrument']))
+            refine = held['d'].refine
+            assert refine().outcome == 'decided' and not held
+            del refine
+            gc.collect()
+            assert seen() is None
+    finally:
+        over.set()
+        thread.join()
+
+
 def test_check_to_the_cap():
     """A source that leaves its box beyond 170 bits only is found by default; a move names a point that is there."""
     asked = [0, 0, 0]
