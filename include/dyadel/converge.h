@@ -20,14 +20,27 @@ typedef struct dyd_stage_row {
   dyd_dyadic width_median;       /* of the longer sides: number N/2 of N in ascending order; rounded alike */
   size_t count[4];               /* pairs by status; the possible ones are all of them */
   size_t undecided_faces;
-  bool bounded, voronoi;          /* are the bounds of T, of V known? */
-  dyd_dyadic area, hausdorff;     /* upper bounds for T (metric.h) */
+  bool bounded, voronoi;          /* are the bounds of T (of the disc or bisector), of V known? */
+  dyd_dyadic area, hausdorff;     /* upper bounds for T, or for the disc or bisector (metric.h) */
   dyd_dyadic v_area, v_hausdorff; /* upper bounds for V on the window (metric.h) */
-  dyd_delaunay_counters rungs;    /* decisions since the start, by rung */
-  uint64_t calls;                 /* stream calls since the start */
-  uint64_t digest;                /* of all pairs with their statuses (FNV-1a, 64 bits) */
-  double seconds;                 /* wall clock since the start of the run, the making of this table aside */
+  dyd_sure orientation;           /* of the disc; of the bisector: PLUS, the rectangles are disjoint */
+  dyd_sure *con;                  /* of the disc: Con of point 3 + k, k < cons; owned */
+  size_t cons;
+  dyd_delaunay_counters rungs; /* decisions since the start, by rung */
+  uint64_t calls;              /* stream calls since the start */
+  uint64_t digest;             /* of all pairs with their statuses (FNV-1a, 64 bits) */
+  double seconds;              /* wall clock since the start of the run, the making of this table included */
 } dyd_stage_row;
+
+/* What a table is about. */
+typedef enum dyd_converge_of {
+  DYD_CONVERGE_DELAUNAY = 0, /* T: statuses, and its bounds */
+  DYD_CONVERGE_VORONOI,      /* the same, and the bounds of V on the window, which cost more than the rest */
+  DYD_CONVERGE_DISC,         /* the partial disc of points 0, 1, 2, and Con of the others */
+  DYD_CONVERGE_BISECTOR      /* the partial bisector of points 0 and 1 on the window; other points are left out */
+} dyd_converge_of;
+/* "delaunay", "voronoi", "disc", "bisector". Static storage. */
+DYD_API const char *dyd_converge_of_text(dyd_converge_of of);
 
 /* The rows of a run. Init with DYD_SIZED, release with dyd_convergence_clear. */
 typedef struct dyd_convergence {
@@ -36,7 +49,8 @@ typedef struct dyd_convergence {
   dyd_stage_row **row;
   dyd_outcome outcome;
   dyd_engine_options *options; /* as given to the run, pointers and callbacks aside; NULL before the run */
-  dyd_rect *window;            /* of the bounds of V; NULL when there is none */
+  dyd_rect *window;            /* of the bounds of V or of the bisector; NULL when there is none */
+  dyd_converge_of of;
 } dyd_convergence;
 DYD_API void dyd_convergence_clear(dyd_convergence *c);
 
@@ -57,7 +71,7 @@ typedef struct dyd_converge_options {
   /* The window of the bounds of V (dyadic ends, positive area), borrowed; NULL: the default window of the sites after
    * the first stage (dyd_voronoi_window). */
   const dyd_rect *window;
-  bool no_voronoi; /* leave the bounds of V out: they cost more than the rest of the table */
+  dyd_converge_of of;
   /* Called after each row is complete; may be NULL. */
   void (*stage)(void *user, const dyd_stage_row *row, const dyd_delaunay *pd);
   void *stage_user;
@@ -69,7 +83,13 @@ typedef struct dyd_converge_options {
 /* Runs e as dyd_engine_run does, callbacks of options included, and notes a row after each stage. *out, given cleared,
  * holds the rows of the stages that were complete, whatever is returned. Returns what dyd_engine_run returns, or
  * DYD_E_NOMEM with outcome cancelled. converge may be NULL. A Voronoi goal without a window in options is about the
- * window of converge, or about the default one after the first stage. Each row costs O(N log N + pairs). */
+ * window of converge, or about the default one after the first stage. Each row costs O(N log N + pairs).
+ *
+ * Of a disc or bisector: goals of area and distance are those of its bounds. Each stage asks the points that make it
+ * for the next precision, for the goal "decided" also those points whose Con is not known (schedule uniform: all
+ * points). Decided: the triple is oriented and Con of all others known; the two rectangles are disjoint. Bits, widths
+ * and calls are those of the points concerned. The engine is left without a result (dyd_engine_delaunay). DYD_E_ARG
+ * with less than three, or two, points. */
 DYD_API dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engine_options *options,
                                     const dyd_converge_options *converge, dyd_error *err);
 

@@ -467,7 +467,7 @@ DYD_API dyd_status dyd_trace_end(dyd_trace *trace, dyd_outcome outcome, dyd_erro
 /* Puts the rectangles of a trace into a table of sites and triangulates after each stage, as the run did. *out, given
  * cleared, receives a row per stage as dyd_converge_run makes it (seconds 0), and keeps those made before a failure.
  * DYD_E_PARSE with line and message when the trace is not of its form, ends early, names a rectangle that is not inside
- * the one before, or tells of other statuses than the replay finds. Window and no_voronoi come from the trace; the
+ * the one before, or tells of other statuses than the replay finds. Window and `of` come from the trace; the
  * callback of converge is called; DYD_CANCELLED soon after its flag is set. converge and err may be NULL. */
 DYD_API dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_options *converge,
                                     dyd_error *err);

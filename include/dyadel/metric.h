@@ -44,6 +44,19 @@ DYD_API dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delauna
  * Hausdorff bound, which only needs to know how far cells reach. */
 DYD_API int64_t dyd_metric_coarseness(const dyd_delaunay *pd, const dyd_rect *window);
 
+/* Bounds on the partial disc D(a,b,c) = (I,E) (predicate.h): for every choice of points the disc inside their circle
+ * lies between I and the complement of E.
+ *
+ * area       an upper bound of the area between the two
+ * hausdorff  an upper bound of their Hausdorff distance, so that each is at most that far from the true disc [AREA-D]
+ * finite     false: no bound is known, as the triple is not surely oriented (a line meets all three), or I is empty or
+ * so small beside the circles that no centre of one lies in it; the others are 0 then
+ *
+ * Both are 0 for three exact points, and otherwise above the true values by a few hundredths of them where these are
+ * small beside the radius. out is initialised by the caller. DYD_E_ARG for NULL. O(1) steps with about twice the digits
+ * of the circles. */
+DYD_API dyd_status dyd_metric_disc(dyd_voronoi_bounds *out, const dyd_rect *a, const dyd_rect *b, const dyd_rect *c);
+
 /* ---- tiles ----
  *
  * A partition of a window, one polygon for each site, to be drawn and joined to tables: the Voronoi diagram of one

@@ -73,7 +73,8 @@ typedef struct cli_options {
   unsigned schedules; /* 0: default */
   bool start_set;     /* engine.start_bits was given */
   bool max_bits_set;
-  bool no_times, no_voronoi, of_voronoi, no_header;
+  bool no_times, no_header;
+  dyd_converge_of of;
   const char *label;
   bool discs;         /* delaunay: radii are discs */
   bool sphere, plane; /* points are longitude and latitude on a sphere; coordinates of a plane, whatever named */
@@ -280,6 +281,8 @@ FILE *cli_comments(FILE *out, const cli_session *s);
 const char *cli_points_name(const cli_options *o);
 /* The summary of a triangulation: undecided pairs and the reason, notes on radii and equal points, --stats. */
 int cli_pairs_summary(cli_session *s, int status);
+/* Reports why a disc or bisector is not better known. Returns the exit status. */
+int cli_pieces_outcome(const cli_session *s);
 /* The goals of --until, for the diagram instead of the triangulation. */
 dyd_goal cli_voronoi_goal(dyd_goal goal);
 /* Prints counters if --stats was given. */

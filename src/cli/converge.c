@@ -27,14 +27,19 @@ static const cli_work *converge_instead(const cli_options *o) {
   return o->replay ? &work_replay : NULL;
 }
 
+/* Is the table about a disc or bisector? */
+static bool is_piece(const cli_session *s) {
+  return s->o.of >= DYD_CONVERGE_DISC;
+}
+
 static int converge_begin(cli_session *s) {
   const cli_options *o = &s->o;
   converge_run *r = s->state;
   dyd_format format;
   r->table = (dyd_convergence){DYD_SIZED(dyd_convergence)};
-  r->how = (dyd_converge_options){DYD_SIZED(dyd_converge_options), .no_voronoi = o->no_voronoi};
+  r->how = (dyd_converge_options){DYD_SIZED(dyd_converge_options), .of = o->of};
   dyd_voronoi_bounds_init(&r->bounds);
-  if (o->of_voronoi) s->o.engine.goal = cli_voronoi_goal(o->engine.goal);
+  if (o->of == DYD_CONVERGE_VORONOI) s->o.engine.goal = cli_voronoi_goal(o->engine.goal);
   if (!o->start_set) s->o.engine.start_bits = 4;
   if (o->plot && !plot_format(&format, o->plot))
     cli_complain("--plot \"%s\" does not say what kind of picture is wanted; end it in .svg, .pdf or .png", o->plot);
@@ -42,8 +47,11 @@ static int converge_begin(cli_session *s) {
     cli_complain("--label \"%s\" is not understood; give NAME=VALUE,NAME=VALUE without quotes and "
                  "backslashes, names that differ, and none that is a column of the table",
                  o->label);
-  else if (o->of_voronoi && o->no_voronoi)
-    cli_complain("--of voronoi needs the bounds that --no-voronoi leaves out; leave one of the two away");
+  else if (is_piece(s) && o->format == DYD_FORMAT_HTML)
+    cli_complain("html shows the triangulation of all points; leave --of %s away, or give another format",
+                 dyd_converge_of_text(o->of));
+  else if (o->replay && o->of != DYD_CONVERGE_DELAUNAY)
+    cli_complain("--replay takes what the table is about from the trace; leave --of away");
   else if (o->replay && o->format == DYD_FORMAT_HTML)
     cli_complain("html shows the points, which --replay does without; run converge on them");
   else
@@ -53,7 +61,16 @@ static int converge_begin(cli_session *s) {
 
 static dyd_status converge_run_engine(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
   converge_run *r = s->state;
-  return dyd_converge_run(&r->table, s->engine, options, &r->how, err);
+  dyd_status st = dyd_converge_run(&r->table, s->engine, options, &r->how, err);
+  if (is_piece(s)) s->outcome = r->table.outcome;
+  return st;
+}
+
+static int piece_points(const cli_session *s) {
+  const size_t least = s->o.of == DYD_CONVERGE_DISC ? 3 : 2, count = dyd_engine_count(s->engine);
+  if (!is_piece(s) || count >= least) return 0;
+  return cli_fail("%s: %zu points are needed, here are %zu; give more", s->o.file ? s->o.file : "the oracle", least,
+                  count);
 }
 
 static dyd_status write_plot(FILE *out, const cli_session *s, dyd_error *err) {
@@ -78,7 +95,9 @@ static int converge_find(cli_session *s) {
   converge_run *r = s->state;
   r->how.window = s->view;
   s->converge = &r->how;
-  int status = cli_session_run(s, &s->o.engine, converge_run_engine);
+  int status = piece_points(s);
+  if (status) return status;
+  status = cli_session_run(s, &s->o.engine, converge_run_engine);
   cli_session_settle(s);
   if (status == 0 && !r->table.count) cli_session_lacks(s, r->table.outcome, "the first stage was complete");
   int drawn = converge_found(s);
@@ -130,6 +149,7 @@ static void note_steps(const cli_session *s) {
 
 static int converge_summary(cli_session *s, int status) {
   note_steps(s);
+  if (is_piece(s)) return status ? status : cli_pieces_outcome(s);
   return cli_pairs_summary(s, status ? status : note_cut(s));
 }
 

@@ -333,6 +333,8 @@ static int complain_unknown(const char *argument) {
   snprintf(name, sizeof name, "%s", argument + strspn(argument, "-"));
   name[strcspn(name, "=")] = 0;
   const char *best = suggest_name(name, option_name);
+  if (strcmp(name, "no-voronoi") == 0)
+    return cli_usage("--no-voronoi is the default now; --of voronoi computes the bounds of the diagram");
   if (best) return cli_usage("there is no option %s; did you mean --%s?", argument, best);
   return cli_usage("there is no option %s; see dyadel --help", argument);
 }

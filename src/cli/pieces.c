@@ -97,8 +97,7 @@ static dyd_status pieces_write(FILE *out, const cli_session *s, dyd_error *err) 
   return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
 }
 
-static int pieces_summary(cli_session *s, int status) {
-  if (status) return status;
+int cli_pieces_outcome(const cli_session *s) {
   if (s->known && s->outcome == DYD_OUTCOME_CANCELLED)
     cli_note(&s->o, "cancelled: stopped on request; the result is partial");
   if (s->known && s->outcome == DYD_OUTCOME_FIXPOINT)
@@ -107,6 +106,10 @@ static int pieces_summary(cli_session *s, int status) {
     cli_note(&s->o, "budget: limit of precision or time reached (raise --max-bits or --timeout, unless the points "
                     "are tied)");
   return cli_exit_status(s->outcome);
+}
+
+static int pieces_summary(cli_session *s, int status) {
+  return status ? status : cli_pieces_outcome(s);
 }
 
 static void pieces_end(cli_session *s) {

@@ -38,7 +38,8 @@ const cli_command cli_commands[CLI_COMMANDS] = {
     [CLI_CONVERGE] = {"converge", "FILE", "a run stage by stage, as a table",
                       "The run of delaunay, with one line for each stage: precision asked for, widths,\n"
                       "statuses, bounds of the undecided area, decisions, calls of points, seconds. The first\n"
-                      "stage asks for 4 bits (--start-bits).",
+                      "stage asks for 4 bits (--start-bits). With --of disc or bisector: of the partial disc\n"
+                      "of the first three points, of the partial bisector of the first two.",
                       DYD_CONTENT_CONVERGENCE, &cli_converge},
     [CLI_CHECK] = {"check", "FILE", "try random refinement schedules, and look for broken promises",
                    "Runs random refinement schedules over the points and checks, after each stage, that\n"
@@ -206,7 +207,10 @@ const cli_option cli_option_table[] = {
     {"until", 0, "GOAL", CLI_GOAL, RUN, CLI_REFINEMENT, "decided (default), area:M or hausdorff:M (bound 2^-M)",
      AT(engine), WORDS("decided area: hausdorff:")},
     {"of", 0, "WHAT", CLI_CHOICE, BIT(CLI_CONVERGE), CLI_REFINEMENT,
-     "whose bound --until means: delaunay (default) or voronoi", AT(of_voronoi), WORDS("delaunay voronoi")},
+     "what the table is about, which bounds it has, and --until\nmeans: delaunay (default); voronoi (those of the "
+     "diagram as\n"
+     "well: they cost most); disc (of the first three points, and\nCon of the others); bisector (of the first two)",
+     AT(of), WORDS("delaunay voronoi disc bisector")},
     {"max-bits", 0, "B", CLI_INTEGER, REFINE, CLI_REFINEMENT,
      "precision at which to give up (default 4096, of check 192)", AT(engine.max_bits), RANGE(1, DYD_EXP_LIMIT),
      GIVEN(max_bits_set)},
@@ -311,8 +315,6 @@ const cli_option cli_option_table[] = {
     {"replay", 0, "FILE", CLI_SOURCE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
      "repeat a trace, which stands for the points;\ncheck: repeat a schedule on the points of FILE or --oracle",
      AT(replay)},
-    {"no-voronoi", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
-     "no bounds of the Voronoi diagram (they take long)", AT(no_voronoi)},
     {"no-times", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
      "leave seconds out: equal runs give equal bytes", AT(no_times)},
     {"label", 0, "NAME=VALUE,...", CLI_TEXT, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,

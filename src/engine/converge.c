@@ -14,6 +14,7 @@
 #include "engine/record.h"
 #include "metric/bounds.h"
 #include <dyadel/metric.h>
+#include <dyadel/predicate.h>
 
 #include <math.h>
 
@@ -25,7 +26,19 @@ static void row_for_each(dyd_stage_row *r, void (*act)(dyd_dyadic *)) {
 
 static void row_free(dyd_stage_row *r) {
   row_for_each(r, dyd_dyadic_clear);
+  free(r->con);
   free(r);
+}
+
+/* A row behind those of out, not counted yet; NULL: memory is exhausted. */
+static dyd_stage_row *row_new(dyd_convergence *out) {
+  if (!dyd_reserve((void **)&out->row, &out->cap, out->count + 1, sizeof *out->row)) return NULL;
+  dyd_stage_row *r = malloc(sizeof *r);
+  if (!r) return NULL;
+  *r = (dyd_stage_row){DYD_SIZED(dyd_stage_row), .rungs = {DYD_SIZED(dyd_delaunay_counters)}};
+  row_for_each(r, dyd_dyadic_init);
+  r->stage = out->count ? out->row[out->count - 1]->stage + 1 : 1;
+  return r;
 }
 
 void dyd_convergence_clear(dyd_convergence *c) {
@@ -92,8 +105,8 @@ static dyd_status rect_width(width *out, dyd_dyadic *spare, const dyd_rect *r) {
   return DYD_OK;
 }
 
-static dyd_status measure_widths(dyd_stage_row *row, const dyd_sites *sites) {
-  size_t n = dyd_sites_count(sites);
+/* Of the first n sites. */
+static dyd_status measure_widths(dyd_stage_row *row, const dyd_sites *sites, size_t n) {
   width *w = dyd_alloc(n, sizeof *w);
   if (!w) return DYD_E_NOMEM;
   dyd_rect rect;
@@ -131,7 +144,7 @@ static dyd_status measure_bounds(dyd_stage_row *row, const dyd_delaunay *pd, con
 /* ---- the Voronoi diagram ---- */
 
 /* The window, fixed with the first row; out->window stays NULL where the sites have none. */
-static dyd_status convergence_set_window(dyd_convergence *out, const dyd_delaunay *pd, const dyd_rect *window) {
+static dyd_status convergence_set_window(dyd_convergence *out, const dyd_sites *sites, const dyd_rect *window) {
   if (out->window || out->count) return DYD_OK;
   out->window = malloc(sizeof *out->window);
   if (!out->window) return DYD_E_NOMEM;
@@ -140,7 +153,7 @@ static dyd_status convergence_set_window(dyd_convergence *out, const dyd_delauna
   if (window)
     dyd_rect_set(out->window, window);
   else
-    st = dyd_voronoi_window(out->window, dyd_delaunay_sites(pd));
+    st = dyd_voronoi_window(out->window, sites);
   if (st == DYD_OK) return DYD_OK;
   dyd_rect_clear(out->window);
   free(out->window);
@@ -206,7 +219,7 @@ static dyd_status row_measure(dyd_stage_row *row, const dyd_delaunay *pd, const 
   row->undecided_faces = dyd_delaunay_undecided_faces(pd);
   dyd_status st = dyd_delaunay_get_counters(&row->rungs, pd, NULL);
   if (st == DYD_OK) st = dyd_digest_pairs(&row->digest, pd);
-  if (st == DYD_OK) st = measure_widths(row, dyd_delaunay_sites(pd));
+  if (st == DYD_OK) st = measure_widths(row, dyd_delaunay_sites(pd), dyd_sites_count(dyd_delaunay_sites(pd)));
   if (st == DYD_OK) st = measure_bounds(row, pd, cancel);
   return st;
 }
@@ -217,14 +230,11 @@ dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const 
   dyd_status st = dyd_abi_check(out, sizeof *out, "dyd_convergence", err);
   if (st == DYD_OK) st = dyd_abi_take(&o, sizeof o, converge, "dyd_converge_options", err);
   if (st != DYD_OK) return st;
-  if (!dyd_reserve((void **)&out->row, &out->cap, out->count + 1, sizeof *out->row)) return dyd_fail_nomem(err);
-  dyd_stage_row *r = malloc(sizeof *r);
+  dyd_stage_row *r = row_new(out);
   if (!r) return dyd_fail_nomem(err);
-  *r = (dyd_stage_row){DYD_SIZED(dyd_stage_row), .rungs = {DYD_SIZED(dyd_delaunay_counters)}};
-  row_for_each(r, dyd_dyadic_init);
-  r->stage = out->count ? out->row[out->count - 1]->stage + 1 : 1;
+  out->of = o.of;
   st = row_measure(r, pd, o.cancel);
-  if (st == DYD_OK && !o.no_voronoi) st = convergence_set_window(out, pd, o.window);
+  if (st == DYD_OK && o.of == DYD_CONVERGE_VORONOI) st = convergence_set_window(out, dyd_delaunay_sites(pd), o.window);
   if (st == DYD_OK && out->window) st = measure_voronoi(r, out, pd, o.cancel);
   if (st != DYD_OK) {
     row_free(r);
@@ -254,7 +264,7 @@ typedef struct recorder {
   const dyd_engine_options *o;
   const dyd_converge_options *converge; /* of this library's size */
   dyd_status failed;                    /* of the table, not of the run */
-  double spent;                         /* seconds in here */
+  double begun;
 } recorder;
 
 static dyd_status recorder_add_row(recorder *r, const dyd_progress *p) {
@@ -269,7 +279,7 @@ static dyd_status recorder_add_row(recorder *r, const dyd_progress *p) {
   row->bits_most = c.bits_most;
   row->bits_total = c.bits_total;
   row->calls = c.calls;
-  row->seconds = p->seconds - r->spent;
+  row->seconds = dyd_seconds() - r->begun;
   if (r->converge->stage) r->converge->stage(r->converge->stage_user, row, pd);
   return DYD_OK;
 }
@@ -278,10 +288,8 @@ static void recorder_stage(void *user, const dyd_progress *p) {
   recorder *r = user;
   if (r->o->progress) r->o->progress(r->o->progress_user, p);
   if (r->failed != DYD_OK) return;
-  double begun = dyd_seconds();
   r->failed = recorder_add_row(r, p);
   if (r->failed != DYD_OK) dyd_engine_cancel(r->e);
-  r->spent += dyd_seconds() - begun;
 }
 
 /* Did the run end with its stages, or with nothing left to decide, so that one with another goal can continue? */
@@ -313,11 +321,161 @@ static dyd_status converge_run_on_default(recorder *r, const dyd_engine_options 
   return st;
 }
 
+/* ---- a disc or bisector ---- */
+
+/* A run as a question: each time it comes a stage is complete, and gets its row. */
+typedef struct piece_run {
+  recorder *r;
+  size_t first, count; /* points that make the piece; points looked at */
+  dyd_rect *rect;      /* of all these */
+  uint64_t steps;      /* narrowings before the last row */
+} piece_run;
+
+/* Bits asked of the points of the piece, as the engine counts them for all. */
+static uint64_t piece_bits(dyd_stage_row *row, const piece_run *p) {
+  uint64_t steps = 0;
+  bool any = false;
+  for (size_t k = 0; k < p->r->e->points && p->r->e->point[k].site < p->count; k++) {
+    const dyd_refinable *point = &p->r->e->point[k];
+    if (!point->asked) continue;
+    steps += point->calls + 1 + (uint64_t)(point->bits > 0 ? point->bits : 0);
+    if (!any || point->bits < row->bits_least) row->bits_least = point->bits;
+    if (!any || point->bits > row->bits_most) row->bits_most = point->bits;
+    if (point->bits > 0) row->bits_total += (uint64_t)point->bits;
+    row->calls += point->calls;
+    any = true;
+  }
+  return steps;
+}
+
+/* The bisector is the diagram of two sites. */
+static dyd_status piece_bisector(dyd_stage_row *row, const piece_run *p) {
+  dyd_convergence *out = p->r->out;
+  dyd_sites *two = NULL;
+  dyd_delaunay *pd = NULL;
+  row->orientation = dyd_rect_meets(&p->rect[0], &p->rect[1]) ? DYD_UNSURE : DYD_SURE_PLUS;
+  dyd_status st = dyd_sites_new(&two);
+  for (size_t k = 0; k < 2 && st == DYD_OK; k++) st = dyd_sites_add_rect(two, &p->rect[k]);
+  if (st == DYD_OK) st = convergence_set_window(out, two, p->r->o->window ? p->r->o->window : p->r->converge->window);
+  if (st == DYD_OK && out->window) st = dyd_delaunay_new(&pd, two, NULL, NULL);
+  if (st == DYD_OK && pd) st = measure_voronoi(row, out, pd, p->r->converge->cancel);
+  row->bounded = row->voronoi;
+  row->voronoi = false;
+  dyd_dyadic_swap(&row->area, &row->v_area);
+  dyd_dyadic_swap(&row->hausdorff, &row->v_hausdorff);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(two);
+  return st;
+}
+
+static dyd_status piece_disc(dyd_stage_row *row, const piece_run *p) {
+  const dyd_rect *r = p->rect;
+  dyd_voronoi_bounds b;
+  row->orientation = dyd_orientation(&r[0], &r[1], &r[2]);
+  row->con = calloc(p->count, sizeof *row->con);
+  if (!row->con) return DYD_E_NOMEM;
+  for (row->cons = 0; row->cons < p->count - p->first; row->cons++)
+    row->con[row->cons] = dyd_con(&r[p->first + row->cons], &r[0], &r[1], &r[2]);
+  dyd_voronoi_bounds_init(&b);
+  dyd_status st = dyd_metric_disc(&b, &r[0], &r[1], &r[2]);
+  row->bounded = st == DYD_OK && b.finite;
+  dyd_dyadic_swap(&row->area, &b.area);
+  dyd_dyadic_swap(&row->hausdorff, &b.hausdorff);
+  dyd_voronoi_bounds_clear(&b);
+  return st;
+}
+
+/* The row of the stage; the last one where nothing was narrowed since. */
+static dyd_status piece_row(dyd_stage_row **row, piece_run *p) {
+  dyd_convergence *out = p->r->out;
+  dyd_stage_row *r = row_new(out);
+  if (!r) return DYD_E_NOMEM;
+  uint64_t steps = piece_bits(r, p);
+  if (out->count && steps == p->steps) {
+    row_free(r);
+    *row = out->row[out->count - 1];
+    return DYD_OK;
+  }
+  p->steps = steps;
+  dyd_status st = measure_widths(r, dyd_engine_sites(p->r->e), p->first);
+  if (st == DYD_OK) st = p->first == 3 ? piece_disc(r, p) : piece_bisector(r, p);
+  r->seconds = dyd_seconds() - p->r->begun;
+  if (st != DYD_OK) {
+    row_free(r);
+    return st;
+  }
+  out->row[out->count++] = *row = r;
+  if (p->r->converge->stage) p->r->converge->stage(p->r->converge->stage_user, r, NULL);
+  return DYD_OK;
+}
+
+static bool piece_goal_holds(const piece_run *p, const dyd_stage_row *row, dyd_dyadic *goal) {
+  const dyd_engine_options *o = p->r->o;
+  size_t k = 0;
+  if (o->goal == DYD_GOAL_DECIDED) {
+    while (k < row->cons && row->con[k] != DYD_UNSURE) k++;
+    return row->orientation != DYD_UNSURE && k == row->cons;
+  }
+  const bool area = o->goal == DYD_GOAL_AREA || o->goal == DYD_GOAL_VORONOI_AREA;
+  return row->bounded && dyd_dyadic_set_si_2exp(goal, 1, -o->goal_bits) == DYD_OK &&
+         dyd_dyadic_cmp(area ? &row->area : &row->hausdorff, goal) <= 0;
+}
+
+/* Is the point to be narrower? Before the triple is oriented others help nothing. */
+static bool piece_wants(const piece_run *p, const dyd_stage_row *row, size_t i) {
+  if (i < p->first || p->r->o->schedule == DYD_SCHEDULE_UNIFORM) return true;
+  return p->r->o->goal == DYD_GOAL_DECIDED && row->orientation != DYD_UNSURE && row->con[i - p->first] == DYD_UNSURE;
+}
+
+static dyd_status piece_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
+  piece_run *p = user;
+  dyd_status st = DYD_OK;
+  bool known = true;
+  dyd_stage_row *row = NULL;
+  (void)err;
+  for (size_t i = 0; st == DYD_OK && i < p->count; i++) {
+    if (!dyd_engine_knows(e, (uint32_t)i)) known = false, st = dyd_plan_add(plan, (uint32_t)i, DYD_BITS_NEXT);
+    if (st == DYD_OK) st = dyd_sites_get(&p->rect[i], dyd_engine_sites(e), i);
+  }
+  if (st != DYD_OK || !known) return st;
+  dyd_dyadic goal;
+  dyd_dyadic_init(&goal);
+  st = piece_row(&row, p);
+  *answered = st == DYD_OK && piece_goal_holds(p, row, &goal);
+  dyd_dyadic_clear(&goal);
+  for (size_t i = 0; st == DYD_OK && !*answered && i < p->count; i++)
+    if (piece_wants(p, row, i)) st = dyd_plan_add(plan, (uint32_t)i, DYD_BITS_NEXT);
+  return st;
+}
+
+static dyd_status converge_piece(recorder *r, const dyd_engine_options *options, dyd_error *err) {
+  const bool disc = r->converge->of == DYD_CONVERGE_DISC;
+  piece_run p = {.r = r, .first = disc ? 3 : 2, .count = disc ? dyd_engine_count(r->e) : 2};
+  r->out->of = r->converge->of;
+  if (dyd_engine_count(r->e) < p.first)
+    return dyd_fail(err, DYD_E_ARG, "%zu points are needed, here are %zu", p.first, dyd_engine_count(r->e));
+  p.rect = dyd_alloc(p.count, sizeof *p.rect);
+  if (!p.rect) return dyd_fail_nomem(err);
+  for (size_t i = 0; i < p.count; i++) dyd_rect_init(&p.rect[i]);
+  const dyd_question question = {DYD_SIZED(dyd_question), .ask = piece_ask, .user = &p};
+  dyd_status st = dyd_engine_ask(&r->out->outcome, r->e, &question, options, err);
+  if (r->out->outcome == DYD_OUTCOME_DECIDED && options->goal != DYD_GOAL_DECIDED)
+    r->out->outcome = DYD_OUTCOME_CERTIFIED;
+  for (size_t i = p.count; i-- > 0;) dyd_rect_clear(&p.rect[i]);
+  free(p.rect);
+  return st;
+}
+
+const char *dyd_converge_of_text(dyd_converge_of of) {
+  static const char *const text[] = {"delaunay", "voronoi", "disc", "bisector"};
+  return of >= 0 && (size_t)of < sizeof text / sizeof *text ? text[of] : "unknown";
+}
+
 dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engine_options *options,
                             const dyd_converge_options *converge, dyd_error *err) {
   dyd_engine_options defaults, given, o;
   dyd_converge_options c;
-  recorder r = {.out = out, .e = e, .o = &given, .converge = &c};
+  recorder r = {.out = out, .e = e, .o = &given, .converge = &c, .begun = dyd_seconds()};
   dyd_engine_options_init(&defaults);
   dyd_status st = dyd_abi_check(out, sizeof *out, "dyd_convergence", err);
   if (st == DYD_OK) st = dyd_abi_take(&c, sizeof c, converge, "dyd_converge_options", err);
@@ -329,6 +487,7 @@ dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engin
   o.progress = recorder_stage;
   o.progress_user = &r;
   if (!o.window) o.window = c.window;
+  if (c.of >= DYD_CONVERGE_DISC) return converge_piece(&r, &given, err);
   st = dyd_goal_is_voronoi(o.goal) && !o.window ? converge_run_on_default(&r, &o, err)
                                                 : dyd_engine_run(&out->outcome, e, &o, err);
   if (st == DYD_OK && r.failed != DYD_OK) return dyd_fail(err, r.failed, "%s", dyd_status_text(r.failed));

@@ -271,7 +271,7 @@ bool dyd_label_fits(const char *label) {
   for (const char *item = label;; item++) {
     size_t name = strcspn(item, "=,"), length = strcspn(item, ",");
     if (name == 0 || name == length || memchr(item + name + 1, '=', length - name - 1)) return false;
-    if (item_is_listed(dyd_stage_columns, item, name)) return false;
+    if (dyd_is_stage_column(item, name)) return false;
     item += length;
     if (!*item) return true;
     if (item_is_listed(item + 1, item - length, name)) return false;

@@ -39,8 +39,8 @@ typedef struct dyd_stage_table {
   const char *label;               /* well-formed, or NULL */
   bool no_header;
 } dyd_stage_table;
-/* The names of its columns, separated by commas. */
-extern const char dyd_stage_columns[];
+/* Is it a column of such a table? */
+bool dyd_is_stage_column(const char *name, size_t length);
 
 typedef struct dyd_disc_output {
   const dyd_partial_disc *disc; /* of r[0], r[1], r[2] */

@@ -92,7 +92,7 @@ static dyd_status trace_head(dyd_trace *t, const char *input, const dyd_engine_o
           ",\"step_bits\":%" PRId64 ",\"max_bits\":%" PRId64 ",\"max_pairs\":%zu",
           dyd_schedule_text(o->schedule), dyd_goal_text(o->goal), o->goal_bits, o->start_bits, o->step_bits,
           o->max_bits, o->max_pairs);
-  if (c->no_voronoi) fputs(",\"no_voronoi\":true", t->line);
+  fprintf(t->line, ",\"of\":\"%s\"", dyd_converge_of_text(c->of));
   if (c->window) {
     fputs(",\"window\":[", t->line);
     st = dyd_put_window(t->line, c->window, "\"", ",");
@@ -527,7 +527,9 @@ static bool json_get_schedule(dyd_schedule *out, const json_t *line) {
 /* The window of the bounds of V, when one was given. */
 static bool replay_window(replay *r, const json_t *line) {
   const json_t *list = json_object_get(line, "window");
-  r->converge.no_voronoi = json_is_true(json_object_get(line, "no_voronoi"));
+  int of = 0;
+  while (of < DYD_CONVERGE_DISC && !trace_has_text(line, "of", dyd_converge_of_text((dyd_converge_of)of))) of++;
+  r->converge.of = (dyd_converge_of)of;
   if (!list) return true;
   r->converge.window = &r->window;
   return json_array_size(list) == 4 && trace_ends(&r->window.x, list, 0) && trace_ends(&r->window.y, list, 2) &&
@@ -549,6 +551,9 @@ static dyd_status replay_head(replay *r, const json_t *line) {
       !trace_integer(&max_pairs, line, "max_pairs", 0, INT64_MAX) || !json_get_schedule(&o->schedule, line) ||
       !json_get_goal(&o->goal, line) || !replay_window(r, line))
     return replay_fail(r, "the first line lacks a field, or has a wrong one");
+  if (r->converge.of >= DYD_CONVERGE_DISC)
+    return dyd_fail(r->err, DYD_E_PARSE,
+                    "this trace is not of a triangulation, and cannot be replayed; resume the run from it");
   o->max_pairs = (size_t)max_pairs;
   r->points = (size_t)points;
   r->point = calloc(r->points + 1, sizeof *r->point);

@@ -426,20 +426,105 @@ static void label_json(dyd_json *j, const char *label) {
   dyd_json_close(j, 1);
 }
 
-static void table_csv_bound(FILE *out, const dyd_dyadic *x, bool known) {
-  char text[DYD_DECIMAL_SIZE] = "";
-  if (known) dyd_decimal_dyadic(text, x, DIGITS, DYD_UP);
-  fprintf(out, ",%s", text);
+/* Columns of a table: what it has to be about, what stands in them, and where in the row. */
+typedef enum stage_kind {
+  STAGE_INDEX, /* uint64_t */
+  STAGE_SIZE,
+  STAGE_BITS,  /* int64_t */
+  STAGE_WIDTH, /* dyd_dyadic, rounded up */
+  STAGE_BOUND, /* the same, where row->bounded */
+  STAGE_DIAGRAM_BOUND,
+  STAGE_POSSIBLE, /* the pairs */
+  STAGE_ORIENTATION,
+  STAGE_DISJOINT,
+  STAGE_CON, /* how many points are on one side (offset), and the side of each */
+  STAGE_CONS,
+  STAGE_DIGEST,
+  STAGE_SECONDS
+} stage_kind;
+
+typedef struct stage_column {
+  const char *name;
+  unsigned of; /* a set of dyd_converge_of */
+  stage_kind kind;
+  size_t offset;
+} stage_column;
+
+#define OF(what) (1u << DYD_CONVERGE_##what)
+#define ROW(field) offsetof(dyd_stage_row, field)
+
+enum { OF_T = OF(DELAUNAY) | OF(VORONOI), OF_DISC = OF(DISC), OF_BISECTOR = OF(BISECTOR), OF_ANY = 15 };
+
+static const stage_column stage_columns[] = {
+    {"stage", OF_ANY, STAGE_INDEX, ROW(stage)},
+    {"bits_least", OF_ANY, STAGE_BITS, ROW(bits_least)},
+    {"bits_most", OF_ANY, STAGE_BITS, ROW(bits_most)},
+    {"bits_total", OF_ANY, STAGE_INDEX, ROW(bits_total)},
+    {"width_largest", OF_ANY, STAGE_WIDTH, ROW(width_largest)},
+    {"width_median", OF_ANY, STAGE_WIDTH, ROW(width_median)},
+    {"possible", OF_T, STAGE_POSSIBLE, 0},
+    {"legal", OF_T, STAGE_SIZE, ROW(count[DYD_LEGAL])},
+    {"indeterminate", OF_T, STAGE_SIZE, ROW(count[DYD_INDETERMINATE])},
+    {"tie", OF_T, STAGE_SIZE, ROW(count[DYD_TIE])},
+    {"faces", OF_T, STAGE_SIZE, ROW(undecided_faces)},
+    {"disjoint", OF_BISECTOR, STAGE_DISJOINT, 0},
+    {"orientation", OF_DISC, STAGE_ORIENTATION, 0},
+    {"inside", OF_DISC, STAGE_CON, DYD_SURE_PLUS + 1},
+    {"outside", OF_DISC, STAGE_CON, DYD_SURE_MINUS + 1},
+    {"unknown", OF_DISC, STAGE_CON, DYD_UNSURE + 1},
+    {"con", OF_DISC, STAGE_CONS, 0},
+    {"area", OF_ANY, STAGE_BOUND, ROW(area)},
+    {"hausdorff", OF_ANY, STAGE_BOUND, ROW(hausdorff)},
+    {"v_area", OF_T, STAGE_DIAGRAM_BOUND, ROW(v_area)},
+    {"v_hausdorff", OF_T, STAGE_DIAGRAM_BOUND, ROW(v_hausdorff)},
+    {"filter", OF_T, STAGE_INDEX, ROW(rungs.filter)},
+    {"integer", OF_T, STAGE_INDEX, ROW(rungs.integer)},
+    {"exact", OF_T, STAGE_INDEX, ROW(rungs.exact)},
+    {"calls", OF_ANY, STAGE_INDEX, ROW(calls)},
+    {"statuses", OF_T, STAGE_DIGEST, 0},
+    {"seconds", OF_ANY, STAGE_SECONDS, 0},
+};
+enum { STAGE_COLUMNS = sizeof stage_columns / sizeof *stage_columns };
+
+/* The k-th column of the table, k <= STAGE_COLUMNS, that it has; NULL: it does not have it. */
+static const stage_column *stage_column_at(size_t k, const dyd_convergence *c, bool times) {
+  const stage_column *column = &stage_columns[k];
+  return column->of & 1u << c->of && (times || column->kind != STAGE_SECONDS) ? column : NULL;
+}
+
+bool dyd_is_stage_column(const char *name, size_t length) {
+  size_t k = 0;
+  while (k < STAGE_COLUMNS && (strlen(stage_columns[k].name) != length || memcmp(stage_columns[k].name, name, length)))
+    k++;
+  return k < STAGE_COLUMNS;
+}
+
+static const dyd_dyadic *stage_bound(const stage_column *c, const dyd_stage_row *r) {
+  bool known = c->kind == STAGE_WIDTH || (c->kind == STAGE_BOUND ? r->bounded : r->voronoi);
+  return known ? (const void *)((const char *)r + c->offset) : NULL;
+}
+
+static uint64_t stage_count(const stage_column *c, const dyd_stage_row *r) {
+  const void *at = (const char *)r + c->offset;
+  uint64_t n = 0;
+  if (c->kind == STAGE_POSSIBLE) return possible_pairs(r);
+  if (c->kind != STAGE_CON) return c->kind == STAGE_SIZE ? *(const size_t *)at : *(const uint64_t *)at;
+  for (size_t k = 0; k < r->cons; k++) n += r->con[k] == (int)c->offset - 1;
+  return n;
+}
+
+/* A word that json quotes. */
+static const char *stage_word(char digest[17], const stage_column *c, const dyd_stage_row *r) {
+  if (c->kind == STAGE_ORIENTATION) return orientation_text(r->orientation);
+  if (c->kind == STAGE_DISJOINT) return r->orientation == DYD_UNSURE ? "no" : "yes";
+  snprintf(digest, 17, "%016" PRIx64, r->digest);
+  return digest;
 }
 
 static void table_csv_goal(FILE *out, const dyd_engine_options *o) {
   fputs(dyd_goal_text(o->goal), out);
   if (o->goal != DYD_GOAL_DECIDED) fprintf(out, " 2^%" PRId64, -o->goal_bits);
 }
-
-const char dyd_stage_columns[] =
-    "stage,bits_least,bits_most,bits_total,width_largest,width_median,possible,legal,indeterminate,tie,faces,area,"
-    "hausdorff,v_area,v_hausdorff,filter,integer,exact,calls,statuses,seconds";
 
 static dyd_status table_csv_comments(FILE *out, const dyd_convergence *c, bool times) {
   const dyd_engine_options *o = c->options;
@@ -453,7 +538,8 @@ static dyd_status table_csv_comments(FILE *out, const dyd_convergence *c, bool t
   fprintf(out, "; at most %" PRId64 " bits; outcome %s\n", o->max_bits, dyd_outcome_text(c->outcome));
   dyd_status st = DYD_OK;
   if (c->window) {
-    fputs("# v_area and v_hausdorff are of the Voronoi diagram on the window ", out);
+    fprintf(out, "# %s on the window ",
+            c->of == DYD_CONVERGE_BISECTOR ? "the bisector is" : "v_area and v_hausdorff are of the Voronoi diagram");
     st = dyd_put_window(out, c->window, "", ",");
     fputs("\n", out);
   }
@@ -466,9 +552,13 @@ static dyd_status table_csv_comments(FILE *out, const dyd_convergence *c, bool t
   return st;
 }
 
-static void table_csv_head(FILE *out, const char *label, bool times) {
-  label_csv(out, label, false);
-  fprintf(out, "%.*s\n", (int)(strlen(dyd_stage_columns) - (times ? 0 : strlen(",seconds"))), dyd_stage_columns);
+static void table_csv_head(FILE *out, const dyd_stage_table *t) {
+  label_csv(out, t->label, false);
+  for (size_t k = 0; k < STAGE_COLUMNS; k++) {
+    const stage_column *c = stage_column_at(k, t->stages, t->times);
+    if (c) fprintf(out, "%s%s", k ? "," : "", c->name);
+  }
+  fputs("\n", out);
 }
 
 /* With a point, whatever the caller's locale has between units and thousandths. */
@@ -477,30 +567,56 @@ static void put_seconds(FILE *out, double seconds) {
   fprintf(out, "%" PRIu64 ".%03" PRIu64, thousandths / 1000, thousandths % 1000);
 }
 
-static void table_csv_row(FILE *out, const dyd_stage_row *r, bool times) {
-  fprintf(out, "%" PRIu64 ",%" PRId64 ",%" PRId64 ",%" PRIu64, r->stage, r->bits_least, r->bits_most, r->bits_total);
-  table_csv_bound(out, &r->width_largest, true);
-  table_csv_bound(out, &r->width_median, true);
-  fprintf(out, ",%zu,%zu,%zu,%zu,%zu", possible_pairs(r), r->count[DYD_LEGAL], r->count[DYD_INDETERMINATE],
-          r->count[DYD_TIE], r->undecided_faces);
-  table_csv_bound(out, &r->area, r->bounded);
-  table_csv_bound(out, &r->hausdorff, r->bounded);
-  table_csv_bound(out, &r->v_area, r->voronoi);
-  table_csv_bound(out, &r->v_hausdorff, r->voronoi);
-  fprintf(out, ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%016" PRIx64, r->rungs.filter, r->rungs.integer,
-          r->rungs.exact, r->calls, r->digest);
-  if (times) fputs(",", out);
-  if (times) put_seconds(out, row_seconds(r));
+/* "3:inside 5:unknown": points by their numbers. */
+static void put_cons(FILE *out, const dyd_stage_row *r) {
+  for (size_t k = 0; k < r->cons; k++) fprintf(out, "%s%zu:%s", k ? " " : "", k + 3, con_text(r->con[k]));
+}
+
+static void stage_csv(FILE *out, const stage_column *c, const dyd_stage_row *r) {
+  char text[DYD_DECIMAL_SIZE] = "";
+  const dyd_dyadic *x;
+  switch (c->kind) {
+  case STAGE_BITS:
+    fprintf(out, "%" PRId64, *(const int64_t *)((const char *)r + c->offset));
+    break;
+  case STAGE_WIDTH:
+  case STAGE_BOUND:
+  case STAGE_DIAGRAM_BOUND:
+    if ((x = stage_bound(c, r))) dyd_decimal_dyadic(text, x, DIGITS, DYD_UP);
+    fputs(text, out);
+    break;
+  case STAGE_CONS:
+    put_cons(out, r);
+    break;
+  case STAGE_SECONDS:
+    put_seconds(out, row_seconds(r));
+    break;
+  case STAGE_ORIENTATION:
+  case STAGE_DISJOINT:
+  case STAGE_DIGEST:
+    fputs(stage_word(text, c, r), out);
+    break;
+  default:
+    fprintf(out, "%" PRIu64, stage_count(c, r));
+  }
+}
+
+static void table_csv_row(FILE *out, const dyd_stage_table *t, const dyd_stage_row *r) {
+  for (size_t k = 0; k < STAGE_COLUMNS; k++) {
+    const stage_column *c = stage_column_at(k, t->stages, t->times);
+    if (c && k) fputs(",", out);
+    if (c) stage_csv(out, c, r);
+  }
   fputs("\n", out);
 }
 
 static dyd_status convergence_csv(const dyd_output *o) {
   const dyd_stage_table *t = o->what;
   dyd_status st = t->no_header || !o->comments ? DYD_OK : table_csv_comments(o->comments, t->stages, t->times);
-  if (!t->no_header) table_csv_head(o->out, t->label, t->times);
+  if (!t->no_header) table_csv_head(o->out, t);
   for (size_t k = 0; k < t->stages->count; k++) {
     label_csv(o->out, t->label, true);
-    table_csv_row(o->out, t->stages->row[k], t->times);
+    table_csv_row(o->out, t, t->stages->row[k]);
   }
   return st;
 }
@@ -511,6 +627,7 @@ dyd_writer *const dyd_csv_writers[DYD_CONTENTS] = {[DYD_CONTENT_CONVERGENCE] = c
 static void stages_json_head(dyd_json *j, const dyd_convergence *c) {
   const dyd_engine_options *o = c->options;
   dyd_json_head(j, "dyadel converge 1", 0);
+  dyd_json_word(j, "of", dyd_converge_of_text(c->of));
   dyd_json_word(j, "rounding",
                 "widths and bounds are upper bounds; exact is exact, decimal is rounded up; null is not known, or "
                 "beyond the largest double; seconds are rounded up");
@@ -525,33 +642,46 @@ static void stages_json_head(dyd_json *j, const dyd_convergence *c) {
   dyd_json_window(j, "window", c->window, ",");
 }
 
-static void stage_json(dyd_json *j, const dyd_stage_row *r, bool times) {
+static void stage_json_cons(dyd_json *j, const dyd_stage_row *r) {
+  dyd_json_array(j, "con", DYD_JSON_FLAT);
+  for (size_t k = 0; k < r->cons; k++) dyd_json_word(j, NULL, con_text(r->con[k]));
+  dyd_json_close(j, 1);
+}
+
+static void stage_json_value(dyd_json *j, const stage_column *c, const dyd_stage_row *r) {
   char digest[17];
+  switch (c->kind) {
+  case STAGE_BITS:
+    dyd_json_signed(j, c->name, *(const int64_t *)((const char *)r + c->offset));
+    break;
+  case STAGE_WIDTH:
+  case STAGE_BOUND:
+  case STAGE_DIAGRAM_BOUND:
+    dyd_json_bound(j, c->name, stage_bound(c, r));
+    break;
+  case STAGE_CONS:
+    stage_json_cons(j, r);
+    break;
+  case STAGE_SECONDS:
+    put_seconds(dyd_json_file(j, c->name), row_seconds(r));
+    break;
+  case STAGE_ORIENTATION:
+  case STAGE_DISJOINT:
+  case STAGE_DIGEST:
+    dyd_json_word(j, c->name, stage_word(digest, c, r));
+    break;
+  default:
+    dyd_json_index(j, c->name, stage_count(c, r));
+  }
+}
+
+static void stage_json(dyd_json *j, const dyd_stage_table *t, const dyd_stage_row *r) {
   dyd_json_object(j, NULL, DYD_JSON_FLAT);
-  dyd_json_index(j, "stage", r->stage);
-  dyd_json_signed(j, "bits_least", r->bits_least);
-  dyd_json_signed(j, "bits_most", r->bits_most);
-  dyd_json_index(j, "bits_total", r->bits_total);
-  dyd_json_break(j, ",\n ");
-  dyd_json_index(j, "possible", possible_pairs(r));
-  dyd_json_index(j, "legal", r->count[DYD_LEGAL]);
-  dyd_json_index(j, "indeterminate", r->count[DYD_INDETERMINATE]);
-  dyd_json_index(j, "tie", r->count[DYD_TIE]);
-  dyd_json_index(j, "faces", r->undecided_faces);
-  dyd_json_bound(j, "width_largest", &r->width_largest);
-  dyd_json_bound(j, "width_median", &r->width_median);
-  dyd_json_bound(j, "area", r->bounded ? &r->area : NULL);
-  dyd_json_bound(j, "hausdorff", r->bounded ? &r->hausdorff : NULL);
-  dyd_json_bound(j, "v_area", r->voronoi ? &r->v_area : NULL);
-  dyd_json_bound(j, "v_hausdorff", r->voronoi ? &r->v_hausdorff : NULL);
-  dyd_json_break(j, ",\n ");
-  dyd_json_index(j, "filter", r->rungs.filter);
-  dyd_json_index(j, "integer", r->rungs.integer);
-  dyd_json_index(j, "exact", r->rungs.exact);
-  dyd_json_index(j, "calls", r->calls);
-  snprintf(digest, sizeof digest, "%016" PRIx64, r->digest);
-  dyd_json_word(j, "statuses", digest);
-  if (times) put_seconds(dyd_json_file(j, "seconds"), row_seconds(r));
+  for (size_t k = 0; k < STAGE_COLUMNS; k++) {
+    const stage_column *c = stage_column_at(k, t->stages, t->times);
+    if (c) stage_json_value(j, c, r);
+    if (c && k % 8 == 7) dyd_json_break(j, ",\n ");
+  }
   dyd_json_close(j, 1);
 }
 
@@ -562,7 +692,7 @@ dyd_status dyd_convergence_json(const dyd_output *o) {
   stages_json_head(&j, t->stages);
   if (t->label) label_json(&j, t->label);
   dyd_json_array(&j, "stages", DYD_JSON_LIST);
-  for (size_t k = 0; k < t->stages->count; k++) stage_json(&j, t->stages->row[k], t->times);
+  for (size_t k = 0; k < t->stages->count; k++) stage_json(&j, t, t->stages->row[k]);
   dyd_json_close(&j, 1);
   return dyd_json_end(&j, "}\n");
 }

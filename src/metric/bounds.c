@@ -367,6 +367,7 @@ dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, vo
   w.room = &s->room;
   w.most = s->corners;
   w.proved = s->exact;
+  if (s->corners && n > DYD_TIGHT_SITES) w.fan_bits = dyd_metric_coarseness(s->pd, s->window);
   if (st == DYD_OK && s->exact) dyd_window_set_grid(&w, DYD_GRID_FINE);
   for (size_t i = 0; i < n && st == DYD_OK; i++) {
     double area[2];

@@ -76,7 +76,11 @@ typedef struct dyd_voronoi_sums {
   size_t added, inexact; /* shapes; of them, how many are not the whole cell */
 } dyd_voronoi_sums;
 
-/* As dyd_metric_voronoi; DYD_E_RANGE also where a polygon would have more than so many corners (0: as there). */
+/* As dyd_metric_voronoi, with corners 0. Else DYD_E_RANGE where a polygon would have more than so many corners; and of
+ * more than DYD_TIGHT_SITES sites, polygons with a vertex for each certain triangle are only within
+ * 2^-dyd_metric_coarseness: the width of the rectangles, and not the flattening of arcs, makes them smaller than their
+ * cells. That is ten times as fast, and the area up to five times as large. */
+enum { DYD_TIGHT_SITES = 512 };
 dyd_status dyd_voronoi_bounds_within(dyd_voronoi_bounds *out, const dyd_delaunay *pd, const dyd_rect *window,
                                      int64_t bits, size_t corners, const volatile int *cancel);
 

@@ -213,6 +213,11 @@ static const plot_series bounds[] = {
     {"diagram: area", 0x56b4e9, 6, 0},       {"diagram: distance", 0xe69f00, 6, 3},
     {"largest width", 0x4d4d4d, 2, 4},       {"median width", 0x999999, 2, 5}};
 
+/* Of a disc or bisector: at the places of these. */
+static const plot_series piece_bounds[] = {
+    {"area", 0x0072b2, 0, 0},          {"distance", 0xd55e00, 0, 3},    {"", 0, 0, 0}, {"", 0, 0, 0},
+    {"largest width", 0x4d4d4d, 2, 4}, {"median width", 0x999999, 2, 5}};
+
 static const plot_series counts[] = {{"possible pairs", 0x000000, 0, 0},
                                      {"legal", 0x009e73, 0, 4},
                                      {"indeterminate", 0xd55e00, 0, 3},
@@ -222,21 +227,28 @@ static const plot_series counts[] = {{"possible pairs", 0x000000, 0, 0},
 /* ---- the page ---- */
 
 static void plot_draw(dyd_canvas *on, const dyd_convergence *c) {
-  plot_panel top = {70,         66,
-                    570,        290,
-                    0,          1,
-                    "bound",    "Upper bounds and widths (powers of 2, in units of the coordinates)",
-                    bounds,     sizeof bounds / sizeof *bounds,
+  const bool piece = c->of >= DYD_CONVERGE_DISC;
+  plot_panel top = {70,
+                    66,
+                    570,
+                    290,
+                    0,
+                    1,
+                    "bound",
+                    "Upper bounds and widths (powers of 2, in units of the coordinates)",
+                    piece ? piece_bounds : bounds,
+                    sizeof bounds / sizeof *bounds,
                     plot_bounds};
   plot_panel bottom = {
       70, 426, 570, 150, 0, 1, "count", "Pairs and faces", counts, sizeof counts / sizeof *counts, plot_counts};
   char title[120];
-  snprintf(title, sizeof title, "dyadel converge: %s schedule, outcome %s", dyd_schedule_text(c->options->schedule),
-           dyd_outcome_text(c->outcome));
+  snprintf(title, sizeof title, "dyadel converge: %s, %s schedule, outcome %s", dyd_converge_of_text(c->of),
+           dyd_schedule_text(c->options->schedule), dyd_outcome_text(c->outcome));
   dyd_canvas_text(on, 70, 32, 0, 15, false, title);
   panel_fit(&top, c);
-  panel_fit(&bottom, c);
   panel_draw(on, &top, c, 2);
+  if (piece) return;
+  panel_fit(&bottom, c);
   panel_draw(on, &bottom, c, 10);
 }
 

@@ -62,7 +62,7 @@ static PyMethodDef engine_methods[] = {
      "None"},
     {"remeasure", dydpy_remeasure, METH_VARARGS, "remeasure(i, (xlo, xhi, ylo, yhi))"},
     {"recall", dydpy_recall, METH_VARARGS, "recall(path) -> int: answers taken from a trace"},
-    {"trace_begin", dydpy_trace_begin, METH_VARARGS, "trace_begin(path, options, (window, no_voronoi) or None)"},
+    {"trace_begin", dydpy_trace_begin, METH_VARARGS, "trace_begin(path, options, (window, of) or None)"},
     {"trace_end", dydpy_trace_end, METH_NOARGS, "trace_end(): nothing where there is no trace"},
     {"run", dydpy_run, METH_O, "run(options)"},
     {"cancel", dydpy_cancel, METH_NOARGS, "cancel(): from any thread"},
@@ -105,8 +105,7 @@ static PyMethodDef engine_methods[] = {
      "tolerance(up_to or None, points, max_pairs, sigma, box) -> (rows, (lo, hi), radii or None, chances or None)"},
     {"plan", dydpy_plan, METH_VARARGS,
      "plan(accuracy or None, window or None, site or None) -> (rows, (undecided, ties, left))"},
-    {"converge", dydpy_converge, METH_VARARGS,
-     "converge(options, window or None, no_voronoi, times) -> (outcome, csv, svg)"},
+    {"converge", dydpy_converge, METH_VARARGS, "converge(options, window or None, of, times) -> (outcome, csv, svg)"},
     {NULL, NULL, 0, NULL},
 };
 

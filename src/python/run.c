@@ -73,23 +73,23 @@ static dyd_status trace_open(dydpy_engine *self, const char *path, const dyd_eng
   return st;
 }
 
-/* trace_begin(path, options, (window, no_voronoi) or None) */
+/* trace_begin(path, options, (window, of) or None) */
 PyObject *dydpy_trace_begin(PyObject *object, PyObject *args) {
   dydpy_engine *self = (dydpy_engine *)object;
   const char *path;
   PyObject *dict, *converge, *window = Py_None, *done = NULL;
-  int no_voronoi = 0;
+  unsigned of = 0;
   bool windowed = false;
   dydpy_options o;
   dyd_rect view;
   dydpy_call call;
   if (!PyArg_ParseTuple(args, "yO!O", &path, &PyDict_Type, &dict, &converge)) return NULL;
-  if (converge != Py_None && !PyArg_ParseTuple(converge, "Op", &window, &no_voronoi)) return NULL;
+  if (converge != Py_None && !PyArg_ParseTuple(converge, "OI", &window, &of)) return NULL;
   if (dydpy_options_init(&o, self, dict) < 0) return NULL;
   dyd_rect_init(&view);
   if (dydpy_window(&view, &windowed, window) == 0 && dydpy_begin(&call, object, DYDPY_HOLDS)) {
     const dyd_converge_options c = {DYD_SIZED(dyd_converge_options), .window = windowed ? &view : NULL,
-                                    .no_voronoi = no_voronoi};
+                                    .of = (dyd_converge_of)of};
     done = dydpy_end_none(&call, trace_open(self, path, &o.o, converge != Py_None ? &c : NULL, &call.err));
   }
   dyd_rect_clear(&view);
@@ -169,18 +169,19 @@ PyObject *dydpy_replay(PyObject *module, PyObject *args) {
 
 PyObject *dydpy_converge(PyObject *self, PyObject *args) {
   PyObject *dict, *window;
-  int no_voronoi, times;
+  int times;
+  unsigned of;
   bool windowed = false;
   dyd_convergence table = {DYD_SIZED(dyd_convergence)};
   dydpy_options o;
   dyd_rect view;
   dydpy_call c;
-  if (!PyArg_ParseTuple(args, "O!Opp", &PyDict_Type, &dict, &window, &no_voronoi, &times)) return NULL;
+  if (!PyArg_ParseTuple(args, "O!OIp", &PyDict_Type, &dict, &window, &of, &times)) return NULL;
   if (dydpy_options_init(&o, (dydpy_engine *)self, dict) < 0) return NULL;
   dyd_rect_init(&view);
   bool good = dydpy_window(&view, &windowed, window) == 0 && dydpy_begin(&c, self, DYDPY_REFINES);
   const dyd_converge_options how = {DYD_SIZED(dyd_converge_options), .window = windowed ? &view : NULL,
-                                    .no_voronoi = no_voronoi};
+                                    .of = (dyd_converge_of)of};
   good = good && dydpy_end(&c, dyd_converge_run(&table, c.self->engine, &o.o, &how, &c.err));
   dyd_rect_clear(&view);
   dydpy_options_clear(&o);

@@ -519,6 +519,7 @@ dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect) {
   w->room = NULL;
   w->exact = false;
   w->most = 0;
+  w->fan_bits = INT64_MAX;
   for (int a = 0; a < 2; a++) {
     if (mpz_cmp_ui(side[a]->den, 1) != 0 || dyd_dyadic_cmp(&side[a]->lo, &side[a]->hi) >= 0) return DYD_E_ARG;
     w->d[2 * a] = dyd_dyadic_get_d(&side[a]->lo, DYD_UP);
@@ -583,7 +584,7 @@ dyd_status dyd_shape_find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, cons
   dyd_status found = dyd_point_cell(&done, s, pd, i, w);
   if (found != DYD_OK || done) return found;
   if (!pd->sk.mesh.no_filter) {
-    dyd_status st = dyd_filter_shape(&done, s, pd, pd->sk.vertex[i], w, bits);
+    dyd_status st = dyd_filter_shape(&done, s, pd, pd->sk.vertex[i], w, w->fan_bits < bits ? w->fan_bits : bits);
     if (st == DYD_OK && !done) {
       st = dyd_filter_polygons(&done, s, pd, i, w, bits);
       if (done) st = dyd_shape_clip(&done, s, w, bits);

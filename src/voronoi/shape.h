@@ -28,7 +28,9 @@ typedef struct dyd_window {
   int grid;
   const volatile int *cancel;
   dyd_room *room;
-  size_t most; /* corners that one polygon may have; 0: DYD_MOST_SAMPLES */
+  size_t most;      /* corners that one polygon may have; 0: DYD_MOST_SAMPLES */
+  int64_t fan_bits; /* a polygon with a vertex for each certain triangle suffices within 2^-fan_bits; INT64_MAX, as
+                       dyd_window_init leaves it: it has to be as near as the others */
 } dyd_window;
 /* Returns DYD_E_ARG unless W is as it has to be. */
 dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect);

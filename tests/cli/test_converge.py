@@ -5,12 +5,15 @@
 Usage: test_converge.py COMMAND DATA
 """
 import csv
+import itertools
 import json
 import os
+import random
 import re
 import subprocess
 import sys
 import tempfile
+from decimal import Decimal, localcontext
 from fractions import Fraction
 
 from harness import COMMAND, expect, main, run, sealed
@@ -91,21 +94,21 @@ def test_hausdorff_falls_by_half_per_bit():
 
 def test_voronoi_bounds():
     # Four nearly cocircular points: T stays open, the bounds of V fall with the widths all the same.
-    rows = table('--schedule', 'uniform', '--step-bits', '8', '--max-bits', '90', text=NEAR_CIRCLE, code=4)
+    rows = table('--of', 'voronoi', '--schedule', 'uniform', '--step-bits', '8', '--max-bits', '90', text=NEAR_CIRCLE, code=4)
     for before, row in zip(rows[2:], rows[3:-1]):
         for name in ('v_area', 'v_hausdorff'):
             assert 2 ** 7 < Fraction(before[name]) / Fraction(row[name]) < 2 ** 9, (name, before[name], row[name])
     # On a window of one's own; what is undetermined is no larger than the window.
     text = ''.join(f'[{x - 0.1},{x + 0.1}] {y}\n' for x, y in FAR)
-    small, large = (table('--window', w, text=text)[-1] for w in ('40,60,40,60', '0,100,0,100'))
+    small, large = (table('--of', 'voronoi', '--window', w, text=text)[-1] for w in ('40,60,40,60', '0,100,0,100'))
     assert 0 < Fraction(small['v_area']) < 400 and Fraction(small['v_area']) < Fraction(large['v_area']) < 10000
-    assert 'window 40,50,40,50\n' in run('converge', '-', '--window', '40,50,40,50', stdin=text).out
-    answer = json.loads(run('converge', '-', '--format', 'json', '--window', '40,50,40,50', stdin=text).out)
+    assert 'window 40,50,40,50\n' in run('converge', '-', '--of', 'voronoi', '--window', '40,50,40,50', stdin=text).out
+    answer = json.loads(run('converge', '-', '--of', 'voronoi', '--format', 'json', '--window', '40,50,40,50', stdin=text).out)
     assert answer['window'] == ['40', '50', '40', '50']
-    row = table('--no-voronoi', text=text)[-1]
+    row = table(text=text)[-1]
     assert row['v_area'] == row['v_hausdorff'] == ''
     # Exact points: nothing is undetermined but for the flattening of cells, which have straight edges.
-    row = table(text='0 0\n1 0\n1 1\n0 1\n5 7\n', code=3)[-1]
+    row = table('--of', 'voronoi', text='0 0\n1 0\n1 1\n0 1\n5 7\n', code=3)[-1]
     assert Fraction(row['v_hausdorff']) == 0 and Fraction(row['v_area']) < Fraction(1, 2 ** 40)
 
 
@@ -179,7 +182,7 @@ def trace_of(folder, text, *args):
 
 def test_trace_and_replay():
     cases = [(text, how) for text in (NEAR_PAIR, NEAR_CIRCLE, MIXED, SQUARE, '', '1 1\n', 'pi e\n0 0\n')
-             for how in (('--schedule', 'adaptive'), ('--schedule', 'uniform'), ('--until', 'area:20'), ('--no-voronoi',), ('--window', '-1,1/3,0,2'),
+             for how in (('--schedule', 'adaptive'), ('--schedule', 'uniform'), ('--until', 'area:20'), ('--of', 'voronoi'), ('--of', 'voronoi', '--window', '-1,1/3,0,2'),
                          ('--until', 'hausdorff:20'), ('--step-bits', '30'), ('--format', 'json'))]
     with tempfile.TemporaryDirectory() as folder:
         for text, how in cases:
@@ -204,7 +207,7 @@ def test_trace_and_replay():
 
 def test_bad_traces():
     with tempfile.TemporaryDirectory() as folder:
-        _, trace = trace_of(folder, NEAR_CIRCLE)
+        _, trace = trace_of(folder, NEAR_CIRCLE, '--of', 'voronoi')
     lines = trace.splitlines(keepends=True)
 
     def replay(text, code, message):
@@ -240,7 +243,7 @@ def test_points_far_smaller_than_the_first_boxes():
     """Polygons are as fine as it helps: the window is that of the first boxes, and arcs have an end."""
     tiny = '(-33*2^-79)+(cbrt(17))*2^-81 7*2^-77\n(43*2^-79)+(e*11)*2^-81 (-85*2^-80)+(atan(24))*3*2^-81\n' \
            '(47*2^-79)+(log(17))*2^-80 (-43*2^-79)+(sqrt(26))*3*2^-81\n'
-    stages = table('--timeout', '60', text=tiny)
+    stages = table('--of', 'voronoi', '--timeout', '60', text=tiny)
     assert stages[-1]['legal'] == '3' and all(stage['v_area'] for stage in stages), stages
     assert all(Fraction(a['v_area']) >= Fraction(b['v_area']) for a, b in zip(stages, stages[1:])), stages
 
@@ -258,17 +261,93 @@ def test_goals_of_the_diagram():
                 assert Fraction(rows[-2][column]) > Fraction(1, 2 ** 12), (of, until, rows[-2])
     # Nearly cocircular points: the diagram is known well where the triangulation is not decided.
     goal = ('--max-bits', '60', '--until', 'hausdorff:30', '--of')
-    assert table(*goal, 'voronoi', text=NEAR_CIRCLE)[-1]['indeterminate'] != '0'
+    diagram = table(*goal, 'voronoi', text=NEAR_CIRCLE)[-1]
+    assert diagram['indeterminate'] != '0' and 2 ** 30 * Fraction(diagram['v_hausdorff']) < 1
     last = table(*goal, 'delaunay', text=NEAR_CIRCLE, code=4)[-1]
-    assert 2 * Fraction(last['hausdorff']) > 1 > 2 ** 30 * Fraction(last['v_hausdorff'])
+    assert 2 * Fraction(last['hausdorff']) > 1 and last['v_hausdorff'] == ''
     result = run('converge', '-', '--of', 'voronoi', '--until', 'area:30', '--max-bits', '9', stdin=NEAR_CIRCLE)
     expect(result, 4, '^# .*goal voronoi area 2', r'area of the diagram is at most 2\^\d.*; --until area:-?\d+ holds')
-    expect(run('converge', '-', '--of', 'voronoi', '--no-voronoi', stdin=SQUARE), 2, r'\A\Z', 'leave one of the two away')
+    expect(run('converge', '-', '--no-voronoi', stdin=SQUARE), 2, r'\A\Z', '--of voronoi computes the bounds')
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, 'trace')
         made = run('converge', '-', '--no-times', '--of', 'voronoi', '--until', 'area:9', '--trace', path, stdin=NEAR_CIRCLE)
         again = run('converge', '--no-times', '--replay', path)
         assert made.code == again.code == 0 and made.out == again.out, made.err + again.err
+
+
+def circle(a, b, c):
+    """Centre and radius, to 60 digits."""
+    (x0, y0), (x1, y1), (x2, y2) = a, b, c
+    ax, ay, bx, by = x1 - x0, y1 - y0, x2 - x0, y2 - y0
+    d, l, m = 2 * (ax * by - ay * bx), ax * ax + ay * ay, bx * bx + by * by
+    x, y = (by * l - ay * m) / d, (ax * m - bx * l) / d
+    return tuple(Decimal(q.numerator) / q.denominator for q in (x0 + x, y0 + y, x * x + y * y))
+
+
+def test_disc():
+    """Discs through corners lie between I and E [AREA-D]: areas and distances of any two are within the bounds, and not far below."""
+    for seed in range(12):
+        draw = random.Random(seed)
+        width = Fraction(1, draw.choice((16, 64, 1024, 2 ** 20)))
+        low = [(Fraction(draw.randrange(64)), Fraction(draw.randrange(64))) for _ in range(3)]
+        boxes = [((x, x + width), (y, y + width * draw.choice((1, 0, 3)))) for x, y in low]
+        text = ''.join(f'[{x[0]},{x[1]}] [{y[0]},{y[1]}]\n' for x, y in boxes) + '32 33\n[0,90] -7/3\n'
+        row = json.loads(run('converge', '-', '--of', 'disc', '--format', 'json', stdin=text).out)['stages'][-1]
+        if row['area'] is None:
+            assert row['orientation'] == 'unknown' or width > Fraction(1, 1024), (seed, row)
+            continue
+        with localcontext() as context:
+            context.prec = 60
+            discs = [circle(*p) for p in itertools.product(*(list(itertools.product(x, y)) for x, y in boxes))]
+            area, far = (Decimal(q.numerator) / q.denominator for q in (number(row[k]['exact']) for k in ('area', 'hausdorff')))
+            pi = Decimal('3.14159265358979323846264338327950288419716939937510582097494')
+            spread = [((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2).sqrt() + abs(a[2].sqrt() - b[2].sqrt())
+                      for a, b in itertools.combinations(discs, 2)]
+            assert max(spread) <= far <= 2 * max(spread), (seed, far, max(spread))
+            assert pi * (max(d[2] for d in discs) - min(d[2] for d in discs)) <= area
+            assert area <= Decimal('6.4') * far * max(d[2] for d in discs).sqrt() + 4 * far * far
+
+
+def test_disc_stages():
+    text = 'sqrt(2) 0\n4 sqrt(3)\n0 pi\n1 1\n9 e\n2+sqrt(3)/1000 3.1\n'
+    rows = table('--of', 'disc', '--until', 'hausdorff:60', '--step-bits', '8', text=text)
+    for before, row in zip(rows[1:], rows[2:]):
+        for name in ('area', 'hausdorff', 'width_largest'):
+            assert 2 ** 7 < Fraction(before[name]) / Fraction(row[name]) < 2 ** 9
+    assert Fraction(rows[-1]['hausdorff']) * 2 ** 60 <= 1 < Fraction(rows[-2]['hausdorff']) * 2 ** 60
+    assert all(row['con'] == '3:inside 4:outside 5:inside' and row['unknown'] == '0' for row in rows)
+    # A point on the circle stays unknown, and is asked up to the limit; the others are not.
+    square = 'sqrt(2) 0\n0 sqrt(2)\n-sqrt(2) 0\n0 -sqrt(2)\n0 0\n'
+    last = table('--of', 'disc', '--max-bits', '40', text=square, code=4)[-1]
+    assert last['con'] == '3:unknown 4:inside' and last['bits_most'] == '40'
+    assert table('--of', 'disc', text='0 0\n1 1\n2 2\n5 1\n', code=3)[-1]['area'] == ''
+    assert [table('--of', 'disc', text='0 0\n1 0\n0 1\n')[-1][k] for k in ('area', 'hausdorff', 'con')] == ['0', '0', '']
+    expect(run('converge', '-', '--of', 'disc', stdin='0 0\n1 1\n'), 1, r'\A\Z', '3 points are needed, here are 2')
+    expect(run('converge', '-', '--of', 'disc', '--format', 'html', stdin=text), 2, r'\A\Z', 'leave --of disc away')
+    expect(run('converge', '--replay', '-', '--of', 'disc', stdin=text), 2, r'\A\Z', 'leave --of away')
+    with tempfile.TemporaryDirectory() as folder:
+        result, trace = trace_of(folder, text, '--of', 'disc', '--until', 'area:30')
+        again = run('converge', '-', '--no-times', '--of', 'disc', '--until', 'area:30', '--resume', os.path.join(folder, 'trace'), stdin=text)
+        assert again.out == result.out and again.code == 0
+        expect(run('converge', '--replay', '-', stdin=trace), 1, r'\A\Z', 'not of a triangulation')
+        plot = os.path.join(folder, 'disc.svg')
+        assert run('converge', '-', '--of', 'disc', '--plot', plot, stdin=text).code == 0
+        with open(plot, encoding='utf-8') as f:
+            drawn = f.read()
+        assert 'disc' in drawn and 'legal' not in drawn and 'triangulation' not in drawn
+
+
+def test_bisector_stages():
+    """The same bounds as the diagram of the two points alone."""
+    two = 'sqrt(2) 0\n4 sqrt(3)\n'
+    how = ('--until', 'area:30', '--step-bits', '5', '--window', '0,6,-1,3')
+    rows = table('--of', 'bisector', *how, text=two + '0 pi\n')
+    diagram = table('--of', 'voronoi', *how, text=two)
+    assert [(r['area'], r['hausdorff']) for r in rows] == [(r['v_area'], r['v_hausdorff']) for r in diagram] and len(rows) > 3
+    assert {r['disjoint'] for r in rows} == {'yes'} and rows[-1]['calls'] == str(2 * len(rows))
+    meeting = table('--of', 'bisector', text='[0,2] 0\n[1,3] 0\n', code=3)[-1]
+    assert meeting['disjoint'] == 'no'
+    expect(run('converge', '-', '--of', 'bisector', stdin='0 0\n'), 1, r'\A\Z', '2 points are needed, here are 1')
 
 
 def test_few_stages_of_a_plot():
@@ -325,7 +404,7 @@ def test_scales_far_apart():
     """Points near 2^-500 in wide boxes of the first stages: polygons of such small arcs would have too many corners."""
     text = ('-5*2^-496 sqrt(5)*sqrt(5)*(-33*2^-500)/5\nsqrt(8)*sqrt(8)*(29*2^-499)/8 (-9*2^-499)+sqrt(81)-9\n'
             '-25*2^-500 min(13*2^-500,13*2^-500)\n(87*2^-500)+pi-pi (17*2^-499)*(sin(5)^2+cos(5)^2)\n')
-    table = run('converge', '--no-times', '--quiet', '-', stdin=text)
+    table = run('converge', '--of', 'voronoi', '--no-times', '--quiet', '-', stdin=text)
     assert table.code == 0
     last = [line for line in table.out.splitlines() if line[0].isdigit()][-1].split(',')
     assert last[7] == '5' and last[13], 'five legal pairs, a bound of the diagram'

@@ -189,7 +189,7 @@ def test_bounds_that_are_cut():
     expect(result, 4, '^stage,', r'^dyadel: budget: time limit reached: no bounds of stage 1 \(raise --timeout\)')
     row = rows_of(result)[0]
     assert row['legal'] and row['area'] and not row['v_area'] and not row['v_hausdorff'], row
-    expect(run('converge', '--no-voronoi', '-', stdin=TRACKS), 3, '^stage,')
+    expect(run('converge', '-', stdin=TRACKS), 3, '^stage,')
 
 
 # A circle of 57 corners of polygons, of order far beyond what is worked out; a power of nine roots, once multiplied out.

@@ -261,7 +261,8 @@ static void test_table(void **state) {
     o.max_bits = 200;
     o.progress = see_report;
     o.progress_user = &s;
-    dyd_converge_options c = {DYD_SIZED(dyd_converge_options), .stage = see_row, .stage_user = &s};
+    dyd_converge_options c = {DYD_SIZED(dyd_converge_options), .of = DYD_CONVERGE_VORONOI, .stage = see_row,
+                              .stage_user = &s};
     dyd_error err;
     assert_int_equal(DYD_OK, dyd_converge_run(&table, e, &o, &c, &err));
     assert_int_equal(s.rows, table.count);
@@ -316,7 +317,7 @@ static void test_replay_of_cut_runs(void **state) {
     o.trace = dyd_trace_step;
     o.progress = dyd_trace_stage;
     o.trace_user = o.progress_user = trace;
-    dyd_converge_options c = {DYD_SIZED(dyd_converge_options), .no_voronoi = true};
+    dyd_converge_options c = {DYD_SIZED(dyd_converge_options)};
     assert_int_equal(DYD_OK, dyd_converge_run(&table, e, &o, &c, &err));
     assert_int_equal(DYD_OUTCOME_BUDGET, table.outcome);
     assert_int_equal(DYD_OK, dyd_trace_end(trace, table.outcome, &err));

@@ -80,7 +80,7 @@ def test_graphs():
 
 
 def converge_rows(*args):
-    text = harness.run('converge', *args, '--no-times', '--no-voronoi', '-q').out
+    text = harness.run('converge', *args, '--no-times', '-q').out
     return list(csv.DictReader(line for line in text.splitlines() if not line.startswith('#')))
 
 
@@ -120,7 +120,7 @@ def test_boxes():
     file = pages.points(pages.SLOW)
     content = pages.data(pages.page('delaunay', file, *pages.STEPS))
     trace = pathlib.Path(file).with_name('trace')
-    harness.run('converge', file, *pages.STEPS, '--no-voronoi', '-q', '--trace', str(trace))
+    harness.run('converge', file, *pages.STEPS, '-q', '--trace', str(trace))
     told, found = [], {}
     for line in map(json.loads, trace.read_text(encoding='utf-8').splitlines()):
         if 'point' in line:
@@ -142,7 +142,7 @@ def test_boxes():
 def test_converge():
     """The table of json is in the page, and the stages are its rows."""
     file = pages.points(pages.SLOW)
-    for more in [], ['--no-voronoi', '--window', '0,1,0,2'], ['--of', 'voronoi', '--until', 'hausdorff:8']:
+    for more in [], ['--window', '0,1,0,2'], ['--of', 'voronoi', '--until', 'hausdorff:8']:
         args = ['converge', file, *pages.STEPS, '--no-times', *more]
         content = pages.data(pages.page(*args))
         assert content['convergence'] == json.loads(harness.run(*args, '--format', 'json', '-q').out)
@@ -150,7 +150,7 @@ def test_converge():
             rows = content['convergence']['stages']
             assert counts(pages.statuses(content)) == [[r[s] for s in ('legal', 'indeterminate', 'tie')] for r in rows]
     trace = pathlib.Path(file).with_name('trace')
-    harness.run('converge', file, *pages.STEPS, '-q', '--no-voronoi', '--trace', str(trace))
+    harness.run('converge', file, *pages.STEPS, '-q', '--trace', str(trace))
     harness.expect(harness.run('converge', '--replay', str(trace), '--format', 'html'), 2, err='run converge on them')
 
 

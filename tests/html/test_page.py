@@ -140,7 +140,7 @@ def test_alias():
 def test_stages():
     """The slider has a stop for each row of converge, with its counts; keys move it."""
     file = pages.points(pages.SLOW)
-    text = harness.run('converge', file, *pages.STEPS, '--no-voronoi', '-q').out
+    text = harness.run('converge', file, *pages.STEPS, '-q').out
     rows = list(csv.DictReader(line for line in text.splitlines() if not line.startswith('#')))
     with opened(pages.page('delaunay', file, *pages.STEPS)) as page:
         assert page.value('document.querySelector("#stage").max') == str(len(rows))

@@ -603,7 +603,8 @@ def test_converge():
     assert c.outcome == 'decided' and c['stage'].tolist() == list(range(1, len(c['stage']) + 1))
     assert (np.diff(c['indeterminate']) <= 0).all() and (np.diff(c['hausdorff']) <= 0).all() and '<svg' in c._repr_svg_()
     assert c.csv == dyadel.converge(points, times=False, step_bits=4).csv and len(c.rows) == len(c['stage'])
-    assert np.isnan(dyadel.converge(points, diagram=False)['v_area']).all()
+    assert np.isnan(dyadel.converge(points)['v_area']).all()
+    assert not np.isnan(dyadel.converge(points, of='voronoi')['v_area']).any()
     assert dyadel.converge([(0, 0), (1, 0), (0, 1)], until='hausdorff:3').outcome in ('decided', 'certified')
 
 

@@ -104,7 +104,7 @@ def test_goals_and_progress():
 
 
 def test_replay():
-    for options in (dict(), dict(diagram=False), dict(window=(0, 8, 0, 80))):
+    for options in (dict(), dict(of='voronoi'), dict(of='voronoi', window=(0, 8, 0, 80))):
         c = dyadel.converge(dyadel.Source(8, Instrument()), trace=TRACE, times=False, step_bits=5, **options)
         again = dyadel.replay(TRACE)
         assert c.outcome == again.outcome == 'decided' and len(c.rows) > 3

@@ -741,6 +741,57 @@ def judge_disc(judge, case, c, ch):
             judge(s > 0 if word == 'inside' else s < 0, 'point %d is stated %s', k, word)
 
 
+def read_stages(case, out, err, form):
+    """The rows of a table of a disc or bisector."""
+    return {'aliases': None, 'stages': parsed(out)['stages'] if form == 'json' else rows(out, 'csv')[0], 'before': []}
+
+
+def bound_of(row, name):
+    value = row[name]['exact'] if isinstance(row[name], dict) else row[name]
+    return None if value in (None, '') else real(number(value))
+
+
+def real(x):
+    return mpmath.mpf(x.numerator) / x.denominator if isinstance(x, Q) else mpmath.mpf(x)
+
+
+def judge_disc_stages(judge, case, c, ch):
+    """Con and orientation of each stage; the discs of two choices lie between the same I and E."""
+    turn = oracle.turn(*ch.p[:3]) if len(ch.p) >= 3 else 0
+    for row in c['stages']:
+        con = row['con'] if isinstance(row['con'], list) else [word.split(':')[1] for word in row['con'].split()]
+        judge_disc(judge, case, {'con': dict(enumerate(con, 3)), 'turn': row['orientation']}, ch)
+    if turn == 0:
+        return
+    with mpmath.workdps(2000):
+        x, y = (real(z) for z in oracle.centre(*ch.points[:3]))
+        r = mpmath.hypot(x - real(ch.points[0][0]), y - real(ch.points[0][1]))
+        for u, v, s in c['before']:
+            for row in c['stages']:
+                area, far = bound_of(row, 'area'), bound_of(row, 'hausdorff')
+                judge(far is None or mpmath.hypot(x - u, y - v) + abs(r - s) <= far,
+                      'discs of two choices are farther apart than %s', far)
+                judge(area is None or mpmath.pi * abs(r * r - s * s) <= area,
+                      'areas of the discs of two choices differ by more than %s', area)
+        c['before'].append((x, y, r))
+
+
+def judge_bisector_stages(judge, case, c, ch):
+    """The middle of two points of one choice is near the bisector of those of another one."""
+    with mpmath.workdps(2000):
+        a, b = ([real(z) for z in p] for p in ch.points[:2])
+        length = mpmath.hypot(a[0] - b[0], a[1] - b[1])
+        for row in c['stages']:
+            judge(row['disjoint'] == 'no' or length > 0, 'points that may coincide are stated to be apart')
+            far = bound_of(row, 'hausdorff')
+            for x, y in c['before']:
+                off = abs((a[0] - x) ** 2 + (a[1] - y) ** 2 - (b[0] - x) ** 2 - (b[1] - y) ** 2)
+                judge(far is None or off <= 2 * length * far, 'a point of a bisector is farther than %s from another one', far)
+        middle = [(u + v) / 2 for u, v in zip(a, b)]
+        if case.extra != 'window' or max(map(abs, middle)) <= 1:
+            c['before'].append(middle)
+
+
 def read_bisector(case, out, err, form):
     """The ends of arcs with rational coordinates: (far, near, x, y)."""
     ends = []
@@ -817,7 +868,10 @@ STATED = {
     'plan': Stated('plan', read_plan, None, formats=ROWS, geometries=('plane', 'discs'), least=2),
     'converge': Stated('converge', read_converge, judge_count, args=['--no-times'], formats=('csv', 'json')),
     'converge of voronoi': Stated('converge', read_converge, judge_count, args=['--of', 'voronoi', '--label', 'a=b']),
-    'converge of delaunay': Stated('converge', read_converge, judge_count, args=['--of', 'delaunay', '--no-voronoi']),
+    'converge of delaunay': Stated('converge', read_converge, judge_count, args=['--of', 'delaunay']),
+    'converge of disc': Stated('converge', read_stages, judge_disc_stages, args=['--of', 'disc'], formats=('csv', 'json'), least=3),
+    'converge of bisector': Stated('converge', read_stages, judge_bisector_stages, args=['--of', 'bisector'],
+                                   formats=('csv', 'json'), least=2),
     'check': Stated('check', read_check, judge_check, args=['--schedules', '3', '--seed', '5'], formats=('csv', 'json')),
     'disc': Stated('disc', read_disc, judge_disc, formats=('csv', 'json'), least=3),
     'bisector': Stated('bisector', read_bisector, judge_bisector, formats=('csv', 'json'), least=2)}

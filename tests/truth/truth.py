@@ -119,7 +119,7 @@ class Space:
         if extra == 'merge by' and (kind and kind.startswith(('sigma', 'real', 'disguised')) or g == 'sphere' and kind in NOT_NESTED
                                     or form in ('bar', 'headless')):
             return False
-        return not (extra in ('trace', 'trace synced') and what in ('check', 'converge', 'converge of voronoi', 'converge of delaunay'))
+        return not (extra in ('trace', 'trace synced') and what in ('check', 'converge', 'converge of voronoi', 'converge of delaunay', 'converge of disc', 'converge of bisector'))
 
     def complete(self, row, rand, wanted=None):
         """Fills the other axes, so that as many pairs as can be that are wanted are covered; None: nothing fits."""

@@ -330,6 +330,10 @@ def plan_of(engine: _dyadel.Engine, accuracy: Any, window: Sequence[Any] | None,
 # ---- convergence ----
 
 
+CONVERGE_OF = ('delaunay', 'voronoi', 'disc', 'bisector')
+WORDS = ('statuses', 'orientation', 'con', 'disjoint')
+
+
 class Convergence(Table):
     """A run stage by stage: widths, pairs by status, bounds (rounded up), decisions, calls; the columns of `dyadel
     converge`. outcome: how it ended; csv: the table as the command writes it; svg: its plot."""
@@ -344,7 +348,7 @@ class Convergence(Table):
 
 def _convergence(outcome: str, csv: bytes, svg: bytes) -> Convergence:
     lines = [line.split(',') for line in csv.decode().splitlines()]
-    made = Convergence({name: np.array(cells) if name == 'statuses' else _column(cells) for name, *cells in zip(*lines)})
+    made = Convergence({name: np.array(cells) if name in WORDS else _column(cells) for name, *cells in zip(*lines)})
     made.outcome, made.csv, made.svg = outcome, csv.decode(), svg.decode()
     return made
 
@@ -356,23 +360,27 @@ def _column(cells: Sequence[str]) -> NDArray[Any]:
 
 
 @takes_options(*INPUTS)
-def converge(points: Any, radius: Any = None, window: Sequence[Any] | None = None, diagram: bool = True,
+def converge(points: Any, radius: Any = None, window: Sequence[Any] | None = None, of: str = 'delaunay',
              times: bool = True, start_bits: int = 4, trace: Path | None = None, resume: Path | None = None,
              **options: Any) -> Convergence:
     """Runs the refinement and notes every stage.
 
-    window: of the bounds of the Voronoi diagram; diagram=False leaves these out (they cost most); times=False leaves out
-    seconds, so that equal runs give equal tables; points, radius, trace, resume, options: as for delaunay.
+    of: which bounds are computed: 'delaunay', 'voronoi' (those of the diagram on the window as well, which cost most),
+    'disc' (the partial disc of the first three points and Con of the others), 'bisector' (the partial bisector of the
+    first two on the window); until means these. window: of the diagram or bisector; times=False leaves out seconds, so
+    that equal runs give equal tables; points, radius, trace, resume, options: as for delaunay.
     """
+    if of not in CONVERGE_OF:
+        raise ValueError(f'of is {of!r}; give one of {", ".join(CONVERGE_OF)}')
     engine = _dyadel.Engine()
     append_points(engine, points, radius, **split_inputs(options))
     ready = engine_options(start_bits=start_bits, **options)
     if resume is not None:
         engine.recall(os.fsencode(resume))
     if trace is not None:
-        engine.trace_begin(os.fsencode(trace), ready, (window, not diagram))
+        engine.trace_begin(os.fsencode(trace), ready, (window, CONVERGE_OF.index(of)))
     try:
-        return _convergence(*engine.converge(ready, window, not diagram, times))
+        return _convergence(*engine.converge(ready, window, CONVERGE_OF.index(of), times))
     finally:
         engine.trace_end()
 
