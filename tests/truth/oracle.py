@@ -200,10 +200,6 @@ def root(x, up, bits=200):
     return Q(r + (1 if up else 0), 1 << shift)
 
 
-def length(q):
-    return q.numerator.bit_length() - q.denominator.bit_length()
-
-
 def across(a, b, c, d):
     """The cross product of b - a and d - c."""
     return (b[0] - a[0]) * (d[1] - c[1]) - (b[1] - a[1]) * (d[0] - c[0])
@@ -212,9 +208,8 @@ def across(a, b, c, d):
 def annulus(points, i, j, sites):
     """The largest of min |c - p_k| - |c - p_i| over the centres c on the bisector of i and j (mathematics, section 12),
     to about 100 digits: at a crossing of two such differences, at the largest value of one, or at infinity."""
-    apart = [abs(c - d) for k in sites for c, d in zip(points[k], points[i]) if c != d]
-    span = max(map(length, apart)) - min(map(length, apart)) if apart else 0
-    with mpmath.workprec(400 + 4 * span):
+    digits = max((c - d).numerator.bit_length() + (c - d).denominator.bit_length() for k in sites for c, d in zip(points[k], points[i]))
+    with mpmath.workprec(400 + 4 * digits):
         def num(x):
             return mpmath.mpf(x.numerator) / x.denominator
         x0, y0 = points[i]

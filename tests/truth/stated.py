@@ -729,15 +729,22 @@ def read_disc(case, out, err, form):
     return {'aliases': None, 'con': {int(q['i']): q['con'] for q in r}, 'turn': turn}
 
 
+def rows_of_points(case):
+    """The rows that are points of their own: of those merged the first."""
+    names = list(case.merged.values()) if case.extra == 'merge' else [s.name for s in case.sites] if case.extra == 'merge by' else None
+    return [k for k in range(len(case.sites)) if not names or names.index(names[k]) == k]
+
+
 def judge_disc(judge, case, c, ch):
-    if len(ch.p) < 3:
+    p = [ch.p[k] for k in rows_of_points(case)]
+    if len(p) < 3:
         return
-    t = oracle.turn(*ch.p[:3])
+    t = oracle.turn(*p[:3])
     if c['turn'] in ('counter-clockwise', 'clockwise'):
         judge((t > 0) == (c['turn'] == 'counter-clockwise') and t != 0, 'the orientation is stated %s', c['turn'])
     for k, word in c['con'].items():
         if word in ('inside', 'outside') and t != 0:
-            s = oracle.in_circle(*ch.p[:3], ch.p[k]) * (1 if t > 0 else -1)
+            s = oracle.in_circle(*p[:3], ch.p[k]) * (1 if t > 0 else -1)
             judge(s > 0 if word == 'inside' else s < 0, 'point %d is stated %s', k, word)
 
 
@@ -757,15 +764,16 @@ def real(x):
 
 def judge_disc_stages(judge, case, c, ch):
     """Con and orientation of each stage; the discs of two choices lie between the same I and E."""
-    turn = oracle.turn(*ch.p[:3]) if len(ch.p) >= 3 else 0
+    kept = rows_of_points(case)
+    turn = oracle.turn(*(ch.p[k] for k in kept[:3])) if len(kept) >= 3 else 0
     for row in c['stages']:
         con = row['con'] if isinstance(row['con'], list) else [word.split(':')[1] for word in row['con'].split()]
-        judge_disc(judge, case, {'con': dict(enumerate(con, 3)), 'turn': row['orientation']}, ch)
+        judge_disc(judge, case, {'con': dict(zip(kept[3:], con)), 'turn': row['orientation']}, ch)
     if turn == 0:
         return
     with mpmath.workdps(2000):
-        x, y = (real(z) for z in oracle.centre(*ch.points[:3]))
-        r = mpmath.hypot(x - real(ch.points[0][0]), y - real(ch.points[0][1]))
+        x, y = (real(z) for z in oracle.centre(*(ch.points[k] for k in kept[:3])))
+        r = mpmath.hypot(x - real(ch.points[kept[0]][0]), y - real(ch.points[kept[0]][1]))
         for u, v, s in c['before']:
             for row in c['stages']:
                 area, far = bound_of(row, 'area'), bound_of(row, 'hausdorff')
@@ -779,7 +787,7 @@ def judge_disc_stages(judge, case, c, ch):
 def judge_bisector_stages(judge, case, c, ch):
     """The middle of two points of one choice is near the bisector of those of another one."""
     with mpmath.workdps(2000):
-        a, b = ([real(z) for z in p] for p in ch.points[:2])
+        a, b = ([real(z) for z in ch.points[k]] for k in rows_of_points(case)[:2])
         length = mpmath.hypot(a[0] - b[0], a[1] - b[1])
         for row in c['stages']:
             judge(row['disjoint'] == 'no' or length > 0, 'points that may coincide are stated to be apart')

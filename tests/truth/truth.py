@@ -575,7 +575,7 @@ def main():
     p.add_argument('--python')
     p.add_argument('--capi')
     p.add_argument('--tiles')
-    p.add_argument('--limit', type=float, default=20)
+    p.add_argument('--limit', type=float, default=90)
     p.add_argument('--table', action='store_true')
     p.add_argument('--triples', action='store_true', help='only count the triples of values that the cases cover')
     a = p.parse_args()
