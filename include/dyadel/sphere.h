@@ -12,6 +12,7 @@
 #define DYADEL_SPHERE_H
 
 #include <dyadel/engine.h>
+#include <dyadel/survey.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -102,6 +103,15 @@ DYD_API dyd_status dyd_sphere_nearest(dyd_index_list *out, bool *sure, bool *tie
 /* Bounds, in metres on the ground (DYD_EARTH_RADIUS), of the distance between point i and a place of the rectangle of
  * degrees `at`, rounded outward. DYD_E_ARG where there is no point i. */
 DYD_API dyd_status dyd_sphere_distance(double *lo, double *hi, const dyd_sphere *s, uint32_t i, const dyd_rect *at);
+
+/* Which points to measure next, after dyd_sphere_run, as dyd_survey_new: a point of a row has to be within `needed`
+ * metres, on the ground, of the middle of its region; `now` is how far it may be from there. accuracy: NULL, or how
+ * exactly can be measured, a length with its unit ("5m"); of the options pairs, site, cost and cancel count. Planned
+ * from one gap, and from another one for pairs around that; `left` is what a run on the sphere with these accuracies
+ * leaves open, whereas `decided` counts the pairs that were planned for together [SPH-7]. DYD_E_ARG for an accuracy
+ * that is none. */
+DYD_API dyd_status dyd_sphere_survey(dyd_survey **out, dyd_sphere *s, const char *accuracy,
+                                     const dyd_survey_options *options, dyd_error *err);
 
 #ifdef __cplusplus
 }

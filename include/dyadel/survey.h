@@ -25,6 +25,7 @@ typedef struct dyd_survey_options {
   const dyd_rect *window;     /* only pairs with an end whose rectangle meets it; NULL: anywhere */
   const uint32_t *site;       /* only pairs with this end; NULL: any */
   mpq_srcptr accuracy;        /* how exactly can be measured, above 0; NULL: as exactly as it takes */
+  const double *accuracies;   /* the same of each site; NULL: `accuracy` counts */
   const double *cost;         /* of measuring each site, above 0; NULL: the same for all */
   const volatile int *cancel; /* as in dyd_delaunay_options */
 } dyd_survey_options;

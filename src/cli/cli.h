@@ -283,6 +283,8 @@ const char *cli_points_name(const cli_options *o);
 int cli_pairs_summary(cli_session *s, int status);
 /* Reports why a disc or bisector is not better known. Returns the exit status. */
 int cli_pieces_outcome(const cli_session *s);
+/* A line when radii were given and most of the rectangles, or of the regions of a sphere, meet another one. */
+void cli_note_spacing(const cli_session *s, const dyd_delaunay *pd);
 /* The goals of --until, for the diagram instead of the triangulation. */
 dyd_goal cli_voronoi_goal(dyd_goal goal);
 /* Prints counters if --stats was given. */

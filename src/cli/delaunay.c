@@ -326,11 +326,6 @@ static dyd_status sphere_prove(FILE *out, const cli_session *s, dyd_error *err) 
   return dyd_write_certificate(out, NULL, &parts, err);
 }
 
-static const char *sphere_advice(const cli_session *s) {
-  if (dyd_engine_outcome(s->engine) != DYD_OUTCOME_DECIDED) return NULL;
-  return "pairs around the centre of projection are undecided (smaller radii decide more)";
-}
-
 static int sphere_summary(cli_session *s, int status) {
   const dyd_sphere *sphere = s->sphere;
   dyd_pair_list pairs = {0};
@@ -342,7 +337,8 @@ static int sphere_summary(cli_session *s, int status) {
   if (dyd_sphere_pairs(&pairs, sphere) != DYD_OK) return cli_complain_memory();
   count_pairs(count, &pairs);
   dyd_pair_list_clear(&pairs);
-  if (!s->o.quiet) cli_note_pairs(s, outcome, count, sphere_advice(s));
+  if (!s->o.quiet) cli_note_pairs(s, outcome, count, NULL);
+  cli_note_spacing(s, dyd_engine_delaunay(s->engine));
   return cli_exit_status(outcome);
 }
 

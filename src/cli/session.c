@@ -411,8 +411,7 @@ void cli_note_pairs(const cli_session *s, dyd_outcome outcome, const size_t coun
   if (count[DYD_TIE]) snprintf(ties, sizeof ties, ", %zu tied", count[DYD_TIE]);
   if (outcome == DYD_OUTCOME_FIXPOINT && !advice)
     advice = count[DYD_INDETERMINATE]
-                 ? s->o.sphere ? "only better measurements can decide them"
-                               : "only better measurements can decide them (see dyadel plan)"
+                 ? "only better measurements can decide them (see dyadel plan)"
                  : "ties: points on one line or circle, which no refinement decides (see --list-ties groups)";
   const bool plain = outcome == DYD_OUTCOME_FIXPOINT || outcome == DYD_OUTCOME_DECIDED;
   cli_complain("%s%s%zu legal, %zu indeterminate%s pairs; %s", plain ? "" : dyd_outcome_text(outcome),
@@ -673,41 +672,62 @@ static bool note_is_wide(const double b[4]) {
   return b[1] > b[0] || b[3] > b[2];
 }
 
+/* Longitudes count modulo 360. */
+static bool note_meets(const double a[4], const double b[4], bool globe) {
+  bool across = a[0] <= b[1] && b[0] <= a[1];
+  for (int turn = -360; globe && !across && turn <= 360; turn += 720)
+    across = a[0] <= b[1] + turn && b[0] + turn <= a[1];
+  return across && a[2] <= b[3] && b[2] <= a[3];
+}
+
+/* The boxes of all sites, of places in degrees; NULL: memory is exhausted. */
+static double (*note_boxes(const dyd_sites *sites, const dyd_sphere *sphere, size_t n))[4] {
+  double(*box)[4] = calloc(n + 1, sizeof *box);
+  dyd_rect r;
+  dyd_rect_init(&r);
+  for (uint32_t i = 0; box && i < n; i++) {
+    if (!sphere)
+      dyd_sites_get_d(box[i], sites, i);
+    else if (dyd_sphere_rect(&r, sphere, i) == DYD_OK)
+      dyd_rect_get_d(box[i], &r);
+  }
+  dyd_rect_clear(&r);
+  return box;
+}
+
 /* Counts rectangles (points are none), and those among them that meet another site. false: memory is exhausted. */
-static bool count_meetings(size_t *rectangles, size_t *meeting, const dyd_delaunay *pd) {
+static bool count_meetings(size_t *rectangles, size_t *meeting, const dyd_delaunay *pd, const dyd_sphere *sphere) {
   const dyd_sites *sites = dyd_delaunay_sites(pd);
-  size_t n = dyd_sites_count(sites);
-  bool *meets = calloc(n ? n : 1, sizeof *meets);
+  size_t n = sphere ? dyd_engine_count(dyd_sphere_places(sphere)) : dyd_sites_count(sites);
+  bool *meets = calloc(n + 1, sizeof *meets);
+  double(*box)[4] = note_boxes(sites, sphere, n);
   dyd_pair_list pairs = {0};
-  bool good = meets && dyd_delaunay_pairs(&pairs, pd) == DYD_OK;
-  for (size_t k = 0; k < pairs.count; k++) {
-    double a[4], b[4];
-    dyd_sites_get_d(a, sites, pairs.item[k].i);
-    dyd_sites_get_d(b, sites, pairs.item[k].j);
-    if (a[0] <= b[1] && b[0] <= a[1] && a[2] <= b[3] && b[2] <= a[3])
-      meets[pairs.item[k].i] = meets[pairs.item[k].j] = true;
+  dyd_status st = sphere ? dyd_sphere_pairs(&pairs, sphere) : dyd_delaunay_pairs(&pairs, pd);
+  bool good = meets && box && st == DYD_OK;
+  for (size_t k = 0; good && k < pairs.count; k++) {
+    const dyd_pair *p = &pairs.item[k];
+    if (note_meets(box[p->i], box[p->j], sphere)) meets[p->i] = meets[p->j] = true;
   }
   *rectangles = *meeting = 0;
   for (size_t i = 0; good && i < n; i++) {
-    double b[4];
-    dyd_sites_get_d(b, sites, i);
-    *rectangles += note_is_wide(b);
-    *meeting += note_is_wide(b) && meets[i];
+    *rectangles += note_is_wide(box[i]);
+    *meeting += note_is_wide(box[i]) && meets[i];
   }
   dyd_pair_list_clear(&pairs);
+  free(box);
   free(meets);
   return good;
 }
 
-/* A line when radii were given and most of the rectangles meet another one. */
-static void note_spacing(const dyd_delaunay *pd, const cli_options *o) {
+void cli_note_spacing(const cli_session *s, const dyd_delaunay *pd) {
+  const cli_options *o = &s->o;
   size_t rectangles, meeting;
   if (!pd || o->quiet || (!o->read.radius && !o->read.radius_columns)) return;
-  if (!count_meetings(&rectangles, &meeting, pd) || 2 * meeting <= rectangles) return;
+  if (!count_meetings(&rectangles, &meeting, pd, s->sphere) || 2 * meeting <= rectangles) return;
   cli_note(o,
-           "the radius is large for the spacing of the points: %zu of %zu rectangles meet another one, so that few "
+           "the radius is large for the spacing of the points: %zu of %zu %s meet another one, so that few "
            "pairs can be decided (a smaller radius decides more)",
-           meeting, rectangles);
+           meeting, rectangles, s->sphere ? "regions" : "rectangles");
 }
 
 /* A line when points have no row in wkt or geojson, since they coincide with others. */
@@ -815,7 +835,7 @@ int cli_pairs_summary(cli_session *s, int status) {
   if (status == CLI_OK) status = cli_exit_status(dyd_engine_outcome(s->engine));
   if (status != CLI_OK && !s->o.quiet) session_note_outcome(s);
   note_aliases(pd, &s->o);
-  if (status != CLI_OK) note_spacing(pd, &s->o);
+  if (status != CLI_OK) cli_note_spacing(s, pd);
   cli_session_stats(s, NULL);
   return status;
 }

@@ -18,8 +18,8 @@ enum {
   RUN = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_CHECK), /* runs the engine to a goal */
   TEXT = READ | BIT(CLI_VERIFY),                                                   /* from a file */
   PIECES = BIT(CLI_DISC) | BIT(CLI_BISECTOR),
-  REFINE = RUN | PIECES | BIT(CLI_NEAREST),                                         /* asks points to narrow */
-  GLOBE = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_NEAREST) | BIT(CLI_VERIFY) /* takes --sphere */
+  REFINE = RUN | PIECES | BIT(CLI_NEAREST), /* asks points to narrow */
+  GLOBE = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_NEAREST) | BIT(CLI_PLAN) | BIT(CLI_VERIFY) /* takes --sphere */
 };
 
 const cli_command cli_commands[CLI_COMMANDS] = {
@@ -174,7 +174,8 @@ const cli_option cli_option_table[] = {
      AT(discs)},
     {"sphere", 0, NULL, CLI_FLAG, GLOBE, CLI_INPUT,
      "points are longitude and latitude in degrees, on a sphere;\nradii have a unit: 30m, 2km, 5ft, 0.01deg, "
-     "3arcsec;\nnearest: X Y are degrees, too, distances are metres along\nthe ground",
+     "3arcsec;\nnearest: X Y are degrees, too, distances are metres along\nthe ground; "
+     "plan: half-widths are metres on the ground",
      AT(sphere)},
     {"plane", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
      "columns called longitude and latitude are meant to be\ncoordinates in a plane: no note about it", AT(plane)},
@@ -251,7 +252,9 @@ const cli_option cli_option_table[] = {
      "with --sphere: divide sides of cells into arcs of DEG degrees\nat most (default 1)", AT(max_arc)},
     {"format", 0, "F", CLI_FORMAT, CLI_ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},
     {"accuracy", 0, "A", CLI_TEXT, BIT(CLI_PLAN), CLI_REFINEMENT,
-     "measuring gives a point within A, an exact number\n(default: as exactly as it takes)", AT(accuracy)},
+     "measuring gives a point within A, an exact number, with\n--sphere a length with its unit: 5m (default: as "
+     "exactly as\nit takes)",
+     AT(accuracy)},
     {"pairs", 0, "FILE", CLI_SOURCE, BIT(CLI_PLAN), CLI_REFINEMENT,
      "only these pairs are to be decided: lines i,j,... as\ndelaunay writes them", AT(pairs)},
     {"site", 0, "K", CLI_INTEGER, BIT(CLI_PLAN), CLI_REFINEMENT, "only pairs of point K are to be decided", AT(site),

@@ -124,6 +124,7 @@ typedef struct plan_run {
   size_t *line; /* of each pair in its file */
   uint32_t site;
   double *cost;
+  dyd_engine *places; /* of a sphere, while its images are at work; NULL: they are not */
 } plan_run;
 
 static bool plan_add_pair(plan_run *r, uint32_t i, uint32_t j, size_t line) {
@@ -195,8 +196,10 @@ static int plan_begin(cli_session *s) {
   plan_run *r = s->state;
   const cli_options *o = &s->o;
   mpq_init(r->accuracy);
-  int status = o->accuracy ? cli_number_read(r->accuracy, "accuracy", o->accuracy) : 0;
-  if (!status && o->accuracy && mpq_sgn(r->accuracy) == 0)
+  if (o->sphere && o->window) return cli_usage("--window of plan is about the plane; leave it or --sphere away");
+  int status = o->sphere ? cli_sphere_begin(s) : 0;
+  if (!status && o->accuracy && !o->sphere) status = cli_number_read(r->accuracy, "accuracy", o->accuracy);
+  if (!status && o->accuracy && !o->sphere && mpq_sgn(r->accuracy) == 0)
     return cli_usage("--accuracy \"%s\" is not understood; nothing is measured exactly: give a number above 0",
                      o->accuracy);
   if (!status && o->pairs) status = pairs_read(r, o->pairs);
@@ -278,16 +281,50 @@ static dyd_status plan_run_engine(cli_session *s, const dyd_engine_options *opti
   return r->survey ? cli_session_cut(st, err) : st == DYD_CANCELLED ? DYD_OK : st;
 }
 
+static dyd_status plan_run_sphere(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
+  plan_run *r = s->state;
+  dyd_outcome outcome;
+  dyd_status st = dyd_sphere_run(&outcome, s->sphere, options, err);
+  if (st != DYD_OK || !cli_run_was_whole(s->engine)) return st;
+  const dyd_survey_options how = {DYD_SIZED(dyd_survey_options), .pairs = s->o.pairs ? &r->pairs : NULL,
+                                  .site = s->o.site_set ? &r->site : NULL, .cost = r->cost,
+                                  .cancel = cli_signals_flag()};
+  st = dyd_sphere_survey(&r->survey, s->sphere, s->o.accuracy, &how, err);
+  return r->survey ? cli_session_cut(st, err) : st == DYD_CANCELLED ? DYD_OK : st;
+}
+
+static int plan_find_on_sphere(cli_session *s) {
+  plan_run *r = s->state;
+  dyd_engine_options o = s->o.engine;
+  int status = cli_sphere_make(s, false);
+  if (status) return status;
+  r->cost = of_each_point(s->engine, DYD_ROW_COST);
+  if (!r->cost) return cli_complain_memory();
+  o.start_bits = 0;
+  r->places = s->engine;
+  s->engine = dyd_sphere_engine(s->sphere);
+  status = cli_session_run(s, &o, plan_run_sphere);
+  s->known = !status && r->survey;
+  if (!status && !s->known) status = cli_session_stopped(s, "the plan was");
+  s->engine = r->places;
+  return status;
+}
+
 static int plan_find(cli_session *s) {
   int status = plan_find_points(s);
+  if (!status && s->o.sphere) return plan_find_on_sphere(s);
   if (!status) status = cli_session_run(s, &s->o.engine, plan_run_engine);
   s->known = !status && ((plan_run *)s->state)->survey;
   return status || s->known ? status : cli_session_stopped(s, "the plan was");
 }
 
 static dyd_status plan_write(FILE *out, const cli_session *s, dyd_error *err) {
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .plan = ((plan_run *)s->state)->survey,
-                                 .next = s->o.next, .epsg = s->o.epsg, .comments = cli_comments(out, s)};
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options),
+                                 .plan = ((plan_run *)s->state)->survey,
+                                 .sphere = s->sphere,
+                                 .next = s->o.next,
+                                 .epsg = s->o.epsg,
+                                 .comments = cli_comments(out, s)};
   return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
 }
 

@@ -135,8 +135,14 @@ static dyd_status write_delaunay(dyd_output *to, dyd_write_options *o, dyd_error
 /* Tolerances and plans. */
 static dyd_status write_motion(dyd_output *to, dyd_write_options *o, dyd_error *err) {
   dyd_result r;
-  dyd_status st = result_init(&r, to, o, err);
+  const dyd_engine *places = o->sphere ? dyd_sphere_places(o->sphere) : NULL;
+  dyd_status st = places ? DYD_OK : result_init(&r, to, o, err);
   if (st != DYD_OK) return st;
+  if (places) {
+    r = (dyd_result){.engine = places, .sphere = o->sphere, .epsg = o->epsg, .next = o->next, .survey = o->plan};
+    to->engine = places;
+    to->sphere = o->sphere;
+  }
   if (to->content == DYD_CONTENT_PLAN ? !o->plan : !o->tolerance) return dyd_fail_null(err);
   if (to->content == DYD_CONTENT_RADII && !dyd_tolerance_get(o->tolerance)->points)
     return dyd_fail(err, DYD_E_ARG, "how far points may be from their places was not asked for");

@@ -103,20 +103,35 @@ static double guess_best(uint32_t *out, const ball_guess *g, size_t n) {
   return best;
 }
 
-/* The place of many, spread evenly over the sphere (a Fibonacci lattice), that is farthest from the middles of all
- * regions, in none, and not near `away` (NULL: anywhere). */
-static bool gap_best(double at[2], const ball_guess *g, size_t n, const double *away) {
-  double best = 0;
+/* A direction, as of an eye that is no place: the k-th of a Fibonacci lattice, which is spread evenly over the sphere.
+ */
+static ball_guess gap_anywhere(size_t k) {
+  double z = 1 - (double)(2 * (k * 1597 % GAPS) + 1) / GAPS, r = sqrt(1 - z * z);
+  double lon = degree * fmod((double)k * 222.49223594996215, 360);
+  return (ball_guess){.at = {r * cos(lon), r * sin(lon), z}, .place = DYD_NO_PLACE};
+}
+
+/* The same in the middle of two places, so that others are all about it. */
+static ball_guess gap_amid(const ball_guess *g, size_t n, size_t k) {
+  const double *a = g[k % n].at, *b = g[(k + n / 2 + k / n) % n].at;
+  ball_guess m = {.at = {a[0] + b[0], a[1] + b[1], a[2] + b[2]}, .place = DYD_NO_PLACE};
+  double length = sqrt(m.at[0] * m.at[0] + m.at[1] * m.at[1] + m.at[2] * m.at[2]);
+  for (int c = 0; c < 3; c++) m.at[c] = length > 0x1p-20 ? m.at[c] / length : a[c];
+  return m;
+}
+
+/* Of many directions, the one that is farthest from the middles of all regions, and in none. Where another gap is
+ * known, of those between places, away from it. */
+static bool gap_best(double at[2], const ball_guess *g, size_t n, const ball_guess *other) {
+  double best = 0, apart = other ? fmax(1, guess_room(g, n, other, 0).distance) : 0;
   for (size_t k = 0; k < GAPS && (best <= 0 || k * n < 16 * (size_t)WORK); k++) {
-    double z = 1 - (double)(2 * (k * 1597 % GAPS) + 1) / GAPS, lon = fmod((double)k * 222.49223594996215, 360) - 180;
-    double r = sqrt(1 - z * z);
-    const ball_guess here = {.at = {r * cos(degree * lon), r * sin(degree * lon), z}, .place = DYD_NO_PLACE};
-    if (away && distance_guess(here.at, away) < 1) continue;
+    const ball_guess here = other ? gap_amid(g, n, k) : gap_anywhere(k);
+    if (other && distance_guess(here.at, other->at) < apart) continue;
     room_guess room = guess_room(g, n, &here, best);
     if (room.left <= 0 || room.distance <= best) continue;
     best = room.distance;
-    at[0] = ldexp(nearbyint(ldexp(lon, 10)), -10);
-    at[1] = ldexp(nearbyint(ldexp(asin(z) / degree, 10)), -10);
+    at[0] = ldexp(nearbyint(ldexp(atan2(here.at[1], here.at[0]) / degree, 10)), -10);
+    at[1] = ldexp(nearbyint(ldexp(asin(here.at[2]) / degree, 10)), -10);
   }
   return best > 0;
 }
@@ -138,9 +153,9 @@ static bool eye_is_wide(const ball_guess *g, size_t n, const dyd_sphere *s) {
   return sum > 2.5;
 }
 
-static bool centre_in_gap(dyd_sphere *s, const ball_guess *g, size_t n, const double *away) {
+static bool centre_in_gap(dyd_sphere *s, const ball_guess *g, size_t n, const ball_guess *other) {
   double at[2];
-  if (!gap_best(at, g, n, away)) return false;
+  if (!gap_best(at, g, n, other)) return false;
   for (int a = 0; a < 2; a++) mpq_set_d(s->eye.spot.mid[a], at[a]);
   s->free = true;
   s->centre = DYD_NO_PLACE;
@@ -181,9 +196,9 @@ dyd_status dyd_sphere_choose_gap(dyd_sphere *s, const dyd_sphere *other, dyd_err
   ball_guess *g;
   size_t n;
   const double lon = degree * mpq_get_d(other->eye.spot.mid[0]), lat = degree * mpq_get_d(other->eye.spot.mid[1]);
-  const double away[3] = {cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat)};
+  const ball_guess there = {.at = {cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat)}, .place = DYD_NO_PLACE};
   dyd_status st = guesses_make(&g, &n, s, err);
-  if (st == DYD_OK) centre_in_gap(s, g, n, other->free ? away : NULL);
+  if (st == DYD_OK && n) centre_in_gap(s, g, n, other->free ? &there : NULL);
   free(g);
   return st;
 }

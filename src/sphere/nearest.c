@@ -169,6 +169,19 @@ static void way_widen(arb_t out, const way *d, mpq_srcptr angle, int times) {
   arb_clear(a);
 }
 
+void dyd_spot_reach(arb_t out, const dyd_spot *spot, slong prec) {
+  way d;
+  dyd_spot at;
+  way_init(&d, prec);
+  dyd_spot_init(&at);
+  for (int a = 0; a < 2; a++) mpq_set(at.mid[a], spot->mid[a]);
+  way_set(&d, spot, &at);
+  way_widen(&d.largest, &d, spot->angle, 1);
+  arb_swap(out, &d.largest);
+  dyd_spot_clear(&at);
+  way_clear(&d);
+}
+
 /* ---- the question ---- */
 
 /* tried: how many were listed when a tie was looked for last. */

@@ -176,12 +176,22 @@ static dyd_status place_fail(uint32_t i, const char *what, dyd_error *err) {
   return dyd_fail(err, DYD_E_DOMAIN, "%s", what);
 }
 
+/* What is within so many metres of the middle. */
+static dyd_status spot_within(dyd_spot *out, const dyd_sphere *s, double metres) {
+  for (int a = 0; a < 2; a++) mpq_set_ui(out->half[a], 0, 1);
+  mpq_set_d(out->angle, metres);
+  mpq_mul(out->angle, out->angle, s->metre);
+  out->stays = metres > 0;
+  return DYD_OK;
+}
+
 dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err) {
   dyd_rect r;
   dyd_rect_init(&r);
   dyd_status st = dyd_sphere_stated(&r, s, i);
   bool good = st == DYD_OK && dyd_spot_set(out, &r, s->degrees);
   dyd_rect_clear(&r);
+  if (good && s->within && s->within[i] >= 0) return spot_within(out, s, s->within[i]);
   if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
   if (!good)
     return place_fail(i, "the latitude is beyond 90 degrees; points are longitude and latitude, in this order", err);
@@ -194,8 +204,8 @@ dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_e
 /* Is place i exact, and within the common range of degrees? Then its site in doubles encloses its region. */
 static bool place_is_plain(double box[4], const dyd_sphere *s, uint32_t i) {
   const dyd_sites *sites = dyd_engine_sites(s->places);
-  if (!dyd_sphere_is_fixed(s, i) || !dyd_sites_is_point(sites, i) || mpq_sgn(s->degrees) || mpq_sgn(s->angle) ||
-      dyd_engine_number(s->places, i, DYD_ROW_RADIUS) > 0)
+  if (s->within || !dyd_sphere_is_fixed(s, i) || !dyd_sites_is_point(sites, i) || mpq_sgn(s->degrees) ||
+      mpq_sgn(s->angle) || dyd_engine_number(s->places, i, DYD_ROW_RADIUS) > 0)
     return false;
   dyd_sites_get_d(box, sites, i);
   return box[0] > -180 && box[1] < 180 && box[2] > -90 && box[3] < 90;

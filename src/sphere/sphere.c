@@ -218,6 +218,38 @@ uint32_t dyd_sphere_alias(const dyd_sphere *s, uint32_t i) {
 
 /* ---- running ---- */
 
+static dyd_status sphere_again(dyd_sphere **out, const dyd_sphere *s, dyd_error *err) {
+  *out = sphere_begin(s->places);
+  if (!*out) return dyd_fail_nomem(err);
+  mpq_set((*out)->angle, s->angle);
+  mpq_set((*out)->degrees, s->degrees);
+  (*out)->within = s->within;
+  memcpy((*out)->alias, s->alias, s->count * sizeof *s->alias);
+  return streams_take(*out, err);
+}
+
+static dyd_status sphere_deliver(dyd_sphere **out, dyd_status st, bool wanted) {
+  if (st == DYD_OK && wanted) return st;
+  dyd_sphere_free(*out);
+  *out = NULL;
+  return st;
+}
+
+dyd_status dyd_sphere_new_gap(dyd_sphere **out, const dyd_sphere *other, dyd_error *err) {
+  dyd_status st = sphere_again(out, other, err);
+  if (st == DYD_OK) st = dyd_sphere_choose_gap(*out, other, err);
+  return sphere_deliver(out, st, st == DYD_OK && (*out)->free);
+}
+
+dyd_status dyd_sphere_new_within(dyd_sphere **out, const dyd_sphere *s, const double *within, dyd_error *err) {
+  dyd_status st = sphere_again(out, s, err);
+  if (st == DYD_OK) (*out)->within = within;
+  if (st == DYD_OK) st = dyd_sphere_find_aliases(*out, err);
+  if (st == DYD_OK && s->count) st = dyd_sphere_choose(*out, err);
+  if (st == DYD_OK) st = images_make(*out, err);
+  return sphere_deliver(out, st, true);
+}
+
 /* Those of places become those of their images. */
 static double *costs_of_images(const dyd_sphere *s, const double *cost) {
   double *out = dyd_alloc(s->with_image, sizeof *out);
@@ -229,19 +261,8 @@ static double *costs_of_images(const dyd_sphere *s, const double *cost) {
  * gap only the pairs about it are lost. So pairs that are indeterminate from the first are looked at from the second, a
  * gap, and those around that from another one. */
 static dyd_status second_make(dyd_sphere *s, dyd_error *err) {
-  dyd_sphere *t = sphere_begin(s->places);
-  if (!t) return dyd_fail_nomem(err);
-  mpq_set(t->angle, s->angle);
-  mpq_set(t->degrees, s->degrees);
-  memcpy(t->alias, s->alias, s->count * sizeof *s->alias);
-  dyd_status st = streams_take(t, err);
-  if (st == DYD_OK) st = dyd_sphere_choose_gap(t, s, err);
-  if (st == DYD_OK && t->free) st = images_make(t, err);
-  if (st == DYD_OK && t->free)
-    s->second = t;
-  else
-    dyd_sphere_free(t);
-  return st;
+  dyd_status st = dyd_sphere_new_gap(&s->second, s, err);
+  return st == DYD_OK && s->second ? images_make(s->second, err) : st;
 }
 
 /* With the time that is left, since `begun`; a cancel of the first cancels it. Where no image can be had from the gap,

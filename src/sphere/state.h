@@ -8,6 +8,7 @@
  *   project.c        images of places; image_filter.c: in doubles
  *   ties.c           which places are on one circle
  *   vertex.c         Voronoi vertices
+ *   plan.c           what to measure next
  *   nearest.c        nearest places; nearest_filter.c: in doubles */
 #ifndef DYD_SPHERE_STATE_H
 #define DYD_SPHERE_STATE_H
@@ -108,6 +109,8 @@ struct dyd_sphere {
    * none. */
   dyd_sphere *second;
   bool gap_decided;     /* all pairs around a centre that is no place are known to be legal, or illegal */
+  const double *within; /* of a plan: places are within so many metres of the middles of their regions; below 0: as they
+                           are; NULL: all are */
   dyd_near_index *near; /* for dyd_sphere_near; NULL: not made yet */
 };
 
@@ -169,6 +172,9 @@ dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, con
  */
 dyd_status dyd_spots_equidistant(bool *proved, const dyd_spot *at, const dyd_spot *spot, size_t count);
 
+/* nearest.c: sets out to the largest angle between the middle of the spot and a place of it, in radians. */
+void dyd_spot_reach(arb_t out, const dyd_spot *spot, slong prec);
+
 /* ---- nearest_filter.c ---- */
 
 /* Sets out to places, no aliases, ascending, among them all that are possibly nearest to some point of `at` [SPH-6]. */
@@ -176,6 +182,13 @@ dyd_status dyd_sphere_near(dyd_index_list *out, dyd_sphere *s, const dyd_spot_d 
 void dyd_near_index_free(dyd_near_index *index);
 
 /* ---- sphere.c ---- */
+
+/* A sphere of the same places and radii, without images yet, projected from a gap: far from that of `other` where it
+ * is one. *out is NULL where there is no gap. */
+dyd_status dyd_sphere_new_gap(dyd_sphere **out, const dyd_sphere *other, dyd_error *err);
+/* The same places, within so many metres of the middles of their regions (`within` above), projected from the place
+ * that suits them; `within` is borrowed. */
+dyd_status dyd_sphere_new_within(dyd_sphere **out, const dyd_sphere *s, const double *within, dyd_error *err);
 
 /* Sets out to the radius in the options: metres on the ground, or degrees. DYD_E_ARG where it is none; DYD_E_NOMEM. */
 dyd_status dyd_sphere_radius(mpq_ptr out, bool *ground, const dyd_sphere_options *o, dyd_error *err);

@@ -226,7 +226,7 @@ static dyd_status unchoose_by_all(dyd_survey *s) {
 static dyd_status choose_finely_enough(dyd_survey *s, const dyd_delaunay *pd) {
   dyd_status st = DYD_OK;
   mpq_set_ui(s->scale, 1, 1);
-  if (s->options.accuracy) return choose_rounds(s, pd);
+  if (dyd_survey_is_limited(s)) return choose_rounds(s, pd);
   for (int k = 0; k < FINER && st == DYD_OK; k++) {
     forget_rows(s);
     mpq_set_ui(s->scale, 1, 1);
@@ -261,14 +261,14 @@ static dyd_status loosen(dyd_survey *s) {
   dyd_status st = DYD_OK;
   mpq_inits(next, step, NULL);
   for (int k = 0; k < 64 && holds && st == DYD_OK; k++) {
-    if (!s->options.accuracy && mpq_cmp_ui(s->scale, 1, 2) > 0) break;
+    if (!dyd_survey_is_limited(s) && mpq_cmp_ui(s->scale, 1, 2) > 0) break;
     mpq_mul_2exp(next, s->scale, 1);
     st = holds_at(&holds, s, next);
   }
   mpq_div_2exp(step, s->scale, 1);
   for (int k = 0; k < STEPS && s->chosens && st == DYD_OK; k++) {
     mpq_add(next, s->scale, step);
-    if (s->options.accuracy || mpq_cmp_ui(next, 1, 1) < 0) st = holds_at(&holds, s, next);
+    if (dyd_survey_is_limited(s) || mpq_cmp_ui(next, 1, 1) < 0) st = holds_at(&holds, s, next);
     mpq_div_2exp(step, step, 1);
   }
   mpq_clears(next, step, NULL);
@@ -367,6 +367,8 @@ static dyd_status survey_check(const dyd_survey *s, const dyd_delaunay *pd, dyd_
   for (size_t k = 0; o->pairs && k < o->pairs->count; k++)
     if (o->pairs->item[k].i >= s->sites || o->pairs->item[k].j >= s->sites)
       return dyd_fail(err, DYD_E_ARG, "pair number %zu names a point that does not exist", k);
+  for (size_t i = 0; o->accuracies && i < s->sites; i++)
+    if (!(o->accuracies[i] > 0)) return dyd_fail(err, DYD_E_ARG, "an accuracy is above 0");
   for (size_t i = 0; o->cost && i < s->sites; i++)
     if (!(o->cost[i] > 0)) return dyd_fail(err, DYD_E_ARG, "the cost of point %zu is not above 0", i);
   return DYD_OK;

@@ -55,6 +55,11 @@ struct dyd_survey {
   bool cut; /* cancelled: the rows are that draft */
 };
 
+/* Is it said how exactly can be measured? */
+static inline bool dyd_survey_is_limited(const dyd_survey *s) {
+  return s->options.accuracy || s->options.accuracies;
+}
+
 /* survey_face.c */
 dyd_status dyd_survey_load(dyd_survey *s, const dyd_sites *sites);
 /* A new triangulation of all sites, the chosen ones measured; of the centres of all. */

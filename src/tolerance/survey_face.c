@@ -57,7 +57,11 @@ dyd_status dyd_survey_load(dyd_survey *s, const dyd_sites *sites) {
 /* min(scale 2^coarser unit, half) */
 static void accuracy_of(mpq_ptr out, const dyd_survey *s, uint32_t i) {
   const dyd_survey_site *p = &s->site[i];
-  mpq_mul(out, s->scale, s->options.accuracy ? s->options.accuracy : p->half);
+  if (s->options.accuracies)
+    mpq_set_d(out, s->options.accuracies[i]);
+  else
+    mpq_set(out, s->options.accuracy ? s->options.accuracy : p->half);
+  mpq_mul(out, out, s->scale);
   mpq_mul_2exp(out, out, p->coarser);
   if (mpq_cmp(out, p->half) > 0) mpq_set(out, p->half);
 }

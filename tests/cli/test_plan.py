@@ -9,6 +9,7 @@ import fractions
 import json
 import os
 import pathlib
+import random
 import re
 import tempfile
 
@@ -171,6 +172,38 @@ def test_parts():
         expect(run('plan', '--accuracy', wrong, '-', stdin=POINTS), 2, r'\A\Z', '--accuracy ".*" is not understood')
     assert '"rank": 1' in run('plan', '--format', 'geojson', '-', stdin=POINTS).out
     assert run('plan', '--format', 'wkt', '-', stdin=POINTS).out.startswith('WKT,rank,i,')
+
+
+def test_sphere():
+    """What a plan on the sphere says decides all: seen by a run with these radii. Accuracies, parts, ties, refusals [SPH-7]."""
+    chance = random.Random(3)
+    points = [(round(chance.uniform(-20, 20), 3), round(chance.uniform(30, 60), 3)) for _ in range(40)]
+    text = ''.join(f'{x} {y}\n' for x, y in points)
+    radius = ('--sphere', '--radius', '20km')
+    opened = [p for p in rows(run('delaunay', *radius, '-', stdin=text).out) if p['status'] != 'legal']
+    assert len(opened) > 20, opened
+    result = run('plan', *radius, '-', stdin=text)
+    expect(result, 0, rf'\A# plan \d+ points: sufficient .* verified\nrank,')
+    plan = rows(result.out)
+    assert all(r['half_width_now'] == '20000' and 0 < float(r['half_width_needed']) <= 20000 for r in plan), plan
+    assert int(plan[-1]['pairs_left']) == 0 and sum(int(r['pairs_decided']) for r in plan) == len(opened)
+    half = {int(r['i']): r['half_width_needed'] for r in plan}
+    table = 'lon,lat,r\n' + ''.join(f'{x},{y},{half.get(k, 20000)}m\n' for k, (x, y) in enumerate(points))
+    expect(run('delaunay', '--sphere', '--columns', 'lon,lat', '--radius-column', 'r', '-', stdin=table), 0)
+    near = rows(run('plan', *radius, '--accuracy', '50m', '-', stdin=text).out)
+    assert min(float(r['half_width_needed']) for r in near) >= 50 and int(near[-1]['pairs_left']) == 0, near
+    site = rows(run('plan', *radius, '--site', '7', '--next', '-', stdin=text).out)
+    asked = [p for p in opened if '7' in (p['i'], p['j'])]
+    assert len(site) == 1 and int(site[0]['pairs_decided']) + int(site[0]['pairs_left']) == len(asked), (site, asked)
+    shown = json.loads(run('plan', *radius, '--format', 'geojson', '-', stdin=text).out)
+    assert [f['properties']['i'] for f in shown['features']] == [int(r['i']) for r in plan]
+    expect(run('plan', '--sphere', '--radius', '1km', '-', stdin='0 0\n10 0\n10 10\n0 10\n5 40\n'), 0, r'# ties \d+', 'ties at the centres')
+    expect(run('plan', '--sphere', '--radius', '1km', '-', stdin='0 0\n10 0\n3 10\n3 10\n'), 3, '', 'points 2 and 3 have the same centre')
+    expect(run('plan', '--sphere', '-', stdin=text), 0, r'# plan 0 points')
+    for words, message in ((('--accuracy', '5'), 'is not a length above 0 with its unit'), (('--window', '0,1,0,1'), '--window of plan is about the plane'),
+                           (('--discs',), '--discs is about the plane')):
+        got = run('plan', *radius, *words, '-', stdin=text)
+        assert got.code in (1, 2) and message in got.err, got
 
 
 def test_discs():

@@ -199,33 +199,41 @@ def judge_motion(judge, case, claims, last, rand, effort):
 
 def judge_plan(judge, case, claims, last, rand, effort):
     """Within the accuracies of a plan all choices have the same edges."""
-    if case.true or case.extra in ('next', 'site', 'window') or 'stay undecided' in claims['err'] or 'leave' in claims['err']:
+    if case.true or case.extra in ('next', 'site', 'window') or 'stay undecided' in claims['err'] or 'leave' in claims['err'] or claims['left']:
         return
     if case.extra == 'accuracy' or case.kind == 'real with radius':
         return
+    globe = case.geometry == 'sphere'
+    make = stated.Globe if globe else stated.Choice
+    if globe and any(s.region[0] == 'degrees' and not -90 < s.region[3] <= s.region[4] < 90 for s in case.sites):
+        return  # the middle of a region about a pole
     regions = []
     for k, s in enumerate(case.sites):
         h = claims['plan'].get(k)
         if case.geometry == 'discs':
             regions.append(s.region if h is None else (*s.region[:3], min(s.region[3], h * (1 - Q(1, 2 ** 40)))))
             continue
+        if globe and (h is not None or s.region[0] == 'cap'):
+            at = s.region[1:3] if s.region[0] == 'cap' else ((s.region[1] + s.region[2]) / 2, (s.region[3] + s.region[4]) / 2)
+            regions.append(s.region if h is None else ('cap', *at, h / axes.EARTH * (1 - Q(1, 2 ** 40))))
+            continue
         n, xlo, xhi, ylo, yhi = s.region
         x, y = (xlo + xhi) / 2, (ylo + yhi) / 2
         h = None if h is None else h * (1 - Q(1, 2 ** 40))
         regions.append(s.region if h is None else (n, max(xlo, x - h), min(xhi, x + h), max(ylo, y - h), min(yhi, y + h)))
-    middle = stated.Choice([r[1:3] if r[0] == 'disc' else ((r[1] + r[2]) / 2, (r[3] + r[4]) / 2) for r in regions], last.sites)
-    if len({middle.points[k] for k in last.sites}) < len(last.sites):
+    middle = make([r[1:3] if r[0] in ('disc', 'cap') else ((r[1] + r[2]) / 2, (r[3] + r[4]) / 2) for r in regions], last.sites)
+    if len({(middle.places if globe else middle.points)[k] for k in last.sites}) < len(last.sites):
         return
     pairs = [p for p in itertools.combinations(last.sites, 2) if middle.edge(*p) != 0]
     if len(pairs) < len(last.sites) * (len(last.sites) - 1) // 2:
         return
     moved = list(draws.choices(regions, rand, effort))
     for i, j in rand.sample(pairs, min(4, len(pairs))):
-        moved.append(draws.climb(regions, last.sites, i, j, middle.edge(i, j) < 0, rand, False))
+        moved.append(draws.climb(regions, last.sites, i, j, middle.edge(i, j) < 0, rand, globe))
     for p in moved:
-        ch = stated.Choice(p, last.sites)
+        ch = make(p, last.sites)
         for i, j in pairs:
-            judge(ch.edge(i, j) == middle.edge(i, j), 'within what the plan asks for, %d,%d changes', i, j)
+            judge(ch.edge(i, j) in (middle.edge(i, j), 0 if globe else None), 'within what the plan asks for, %d,%d changes', i, j)
 
 
 def judge_certificate(judge, case, product, claims):

@@ -9,6 +9,7 @@ not), so that a statement is refuted by a number alone.
 import fractions
 import itertools
 import math
+import random
 
 import mpmath
 
@@ -274,6 +275,11 @@ def exact(v):
     return (-1 if v < 0 else 1) * abs(Q(int(v.man))) * Q(2) ** int(v.exp)
 
 
+def unit(v):
+    size = mpmath.sqrt(sum(x * x for x in v))
+    return tuple(x / size for x in v) if size > mpmath.mpf(2) ** -60 else None
+
+
 class Sphere:
     """One choice of places: each is (longitude, latitude) in degrees, or (longitude, latitude, angle, bearing): the
     place at an angle (in radians, as a fraction) from there, in the direction `bearing` (in turns)."""
@@ -401,6 +407,47 @@ class Sphere:
 
     def edges(self):
         return {(i, j): self.edge(i, j) for i, j in itertools.combinations(self.sites, 2)}
+
+    def direction(self, i, j, k):
+        """Of the vertex of three places, as a unit vector to 100 bits; None: there is none."""
+        v = self.at(1)
+        with mpmath.workprec(PRECISIONS[1]):
+            a, b = (tuple(x - y for x, y in zip(v[q], v[i])) for q in (j, k))
+            return unit((a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]))
+
+    @staticmethod
+    def between(a, b):
+        with mpmath.workprec(PRECISIONS[1]):
+            return unit(tuple(x + y for x, y in zip(a, b)))
+
+    def nearer_spot(self, spot, k, m):
+        """Below 0: k is nearer to the unit vector than m; above 0: farther; 0: as far, to 100 bits."""
+        v = self.at(1)
+        with mpmath.workprec(PRECISIONS[1]):
+            d = sum(s * (y - x) for s, x, y in zip(spot, v[k], v[m]))
+            return 0 if abs(d) < mpmath.mpf(2) ** -100 else 1 if d > 0 else -1
+
+    def spots(self, i, corners, seed):
+        """Unit vectors: in a cell with these corners, near its rim, and anywhere."""
+        rand = random.Random(f'spots {i} {seed}')
+        v = self.at(1)[i]
+        with mpmath.workprec(PRECISIONS[1]):
+            out = [v, tuple(mpmath.mpf(rand.gauss(0, 1)) for _ in v)]
+            for c in rand.sample(corners, min(3, len(corners))):
+                t = mpmath.mpf(rand.choice((0.5, 0.99, 1.01, 1.5)))
+                out.append(tuple(x + t * (y - x) for x, y in zip(v, c)))
+            return [s for s in map(unit, out) if s]
+
+    def inside(self, sides, i, spot):
+        """1: the spot is on the side of each arc where place i is; -1: beyond one of them; 0: unknown."""
+        with mpmath.workprec(PRECISIONS[1]):
+            signs = []
+            for a, b in sides:
+                n = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+                d, e = (sum(x * y for x, y in zip(n, q)) for q in (self.at(1)[i], spot))
+                least = mpmath.mpf(2) ** -90
+                signs.append(0 if abs(d) < least or abs(e) < least else 1 if (d > 0) == (e > 0) else -1)
+            return -1 if -1 in signs else 0 if 0 in signs else 1
 
     def vertex(self, i, j, k):
         """The place farthest from the other side of the plane through i, j, k: longitude and latitude to 100 bits."""

@@ -563,8 +563,31 @@ def judge_regions(judge, case, c, ch):
 
 
 def read_globe_cells(case, out, err, form):
-    r, notes = rows(out, form)
-    return {'aliases': aliases_of(notes, '') if form == 'csv' else None, 'cells': r}
+    d = parsed(out)
+    return {'aliases': {a: b for a, b in d['aliases']}, 'nodes': [(v['i'], v['j'], v['k']) for v in d['vertices']],
+            'cells': {q['i']: (q['complete'], q['vertices']) for q in d['cells']}}
+
+
+def judge_globe_cells(judge, case, c, ch):
+    """Of each cell the vertices, for this choice: the sides between them bound it, and a complete one holds the spots to which
+    its site is nearest, and no others."""
+    for i, (complete, nodes) in c['cells'].items():
+        if i not in ch.sites:
+            continue
+        at = [n if n is None else ch.direction(*c['nodes'][n]) for n in nodes]
+        sides = [(a, b) for n, (a, b) in enumerate(zip(at, at[1:] + at[:1])) if a and b and (complete or n + 1 < len(at))]
+        if len(at) < 2 or len(at) == 2 and complete:
+            sides = []
+        for a, b in sides:
+            spot = ch.between(a, b)
+            if spot:
+                judge(all(ch.nearer_spot(spot, i, m) < 1 for m in ch.sites if m != i), 'the side of cell %d is not nearest to it', i)
+        if complete and len(sides) > 2:
+            for spot in ch.spots(i, at, case.seed):
+                first = [ch.nearer_spot(spot, i, m) for m in ch.sites if m != i]
+                inside = ch.inside(sides, i, spot)
+                judge(inside < 1 or all(s < 1 for s in first), 'a spot of cell %d is not nearest to it', i)
+                judge(inside > -1 or not all(s < 0 for s in first), 'a spot nearest to %d is not in its cell', i)
 
 
 # ---- the nearest site ----
@@ -679,7 +702,7 @@ def judge_barcode(judge, case, c, ch):
 
 def read_plan(case, out, err, form):
     r, notes = rows(out, form)
-    return {'aliases': aliases_of(notes, '') if form == 'csv' else None, 'err': err,
+    return {'aliases': aliases_of(notes, '') if form == 'csv' else None, 'err': err, 'left': r and int(r[-1]['pairs_left']),
             'plan': {int(q['i']): number(q['half_width_needed']) for q in r if q.get('half_width_needed') not in (None, '')}}
 
 
@@ -864,6 +887,7 @@ STATED = {
                        geometries=('plane', 'sphere'), least=3),
     'edges': Stated('voronoi', read_edges, judge_edges, layer='edges', formats=('csv',)),
     'regions': Stated('voronoi', read_regions, judge_regions, layer='regions', formats=ROWS),
+    'cells of the globe': Stated('voronoi', read_globe_cells, judge_globe_cells, formats=('json',), geometries=('sphere',)),
     'nearest': Stated('nearest', read_nearest, judge_nearest, formats=('csv', 'json'), geometries=ALL),
     'queries': Stated('nearest', read_queries, judge_queries, formats=('csv',), geometries=ALL),
     'queries of a table': Stated('nearest', read_queries, judge_queries, formats=('csv',), geometries=ALL),
@@ -873,7 +897,7 @@ STATED = {
                               least=2),
     'rho': Stated('tolerance', read_rho, None, layer='points', formats=ROWS, kinds=FIRM, least=2),
     'barcode': Stated('tolerance', read_barcode, judge_barcode, layer='barcode', kinds=FIRM, least=2),
-    'plan': Stated('plan', read_plan, None, formats=ROWS, geometries=('plane', 'discs'), least=2),
+    'plan': Stated('plan', read_plan, None, formats=ROWS, geometries=ALL, least=2),
     'converge': Stated('converge', read_converge, judge_count, args=['--no-times'], formats=('csv', 'json')),
     'converge of voronoi': Stated('converge', read_converge, judge_count, args=['--of', 'voronoi', '--label', 'a=b']),
     'converge of delaunay': Stated('converge', read_converge, judge_count, args=['--of', 'delaunay']),

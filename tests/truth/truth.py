@@ -106,6 +106,8 @@ class Space:
             return False
         if e.fits == 'program' and form and form != 'program':
             return False
+        if extra == 'window' and g == 'sphere' and what == 'plan':
+            return False
         if extra == 'crs' and (fmt and fmt not in ('geojson', 'json') or g == 'sphere'):
             return False
         if extra == 'plane' and g == 'sphere' or extra == 'window' and what and stated.STATED[what].command == 'voronoi':
@@ -299,7 +301,8 @@ def command_of(case, product, keep=None):
             words += ['--query-columns', 'east,north', '--query-id', 'who', '--queries', product(
                 'places.csv', 'north;who;east\n' + ''.join(f'{y};place {k};{x}\n' for k, (x, y) in enumerate(places)))]
     for w in extra.args:
-        words.append({'@unit': axes.decimal(case.up_to or case.unit), '@small': axes.decimal(case.unit / 100),
+        words.append({'@unit': axes.decimal(case.up_to or case.unit),
+                      '@small': axes.decimal(case.unit / 100 if case.geometry != 'sphere' else case.unit * 1000) + 'm' * (case.geometry == 'sphere'),
                       '@certificate': product.path('certificate'), '@trace': product.path('trace'),
                       '@output': product.path('out.' + case.format)}.get(w, w))
     return words

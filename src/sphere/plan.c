@@ -1,0 +1,407 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Which places to measure next: plans of the plane (survey.h) for the images from a gap, and from another one for pairs
+ * around the first [SPH-7].
+ *
+ * Seen from an eye at an angle t, a place has its image at the distance cot(t/2) from 0; all within an angle r < t of
+ * it have theirs within cot((t - r)/2) - cot(t/2) of that one. So squares about images stand for regions, and
+ * accuracies of squares are angles. Whether the plan is enough is seen on the sphere in the end. */
+#include "base/abi.h"
+#include "base/alloc.h"
+#include "base/error.h"
+#include "base/index.h"
+#include "rect/rect.h"
+#include "sphere/state.h"
+#include "sphere/units.h"
+#include "stream/ball.h"
+#include "tolerance/survey.h"
+
+#include <string.h>
+
+enum { PREC = 128, EYES = 2 };
+
+/* A place seen from a gap: its image as doubles; upper bounds of how far it is off and of how far that is from 0, the
+ * latter as a ball, too; an angle. */
+typedef struct plan_place {
+  uint32_t place;
+  double at[2], off;
+  arb_struct far, angle;
+} plan_place;
+
+typedef struct sphere_plan {
+  dyd_sphere *s, *nominal;
+  dyd_survey_options options;
+  mpq_t accuracy;   /* metres; 0: none */
+  double *within;   /* metres, as in dyd_sphere; the plan so far */
+  uint32_t *image;  /* of each place from the eye at work; DYD_NONE */
+  plan_place *view; /* of each image */
+  size_t views;
+  dyd_pair_list target; /* open, but for ties; sorted */
+  bool *taken;          /* of each target: an eye has planned for it */
+  dyd_survey *found;
+  dyd_survey_row *row;
+  size_t rows;
+  dyd_error *err;
+} sphere_plan;
+
+/* ---- targets ---- */
+
+static bool target_is_asked(const sphere_plan *p, const dyd_pair *q) {
+  const dyd_survey_options *o = &p->options;
+  if (o->site && q->i != *o->site && q->j != *o->site) return false;
+  for (size_t k = 0; o->pairs && k < o->pairs->count; k++)
+    if (o->pairs->item[k].i == q->i && o->pairs->item[k].j == q->j) return true;
+  return !o->pairs;
+}
+
+/* The open pairs, but for those that tie where places are in the middle of their regions. */
+static dyd_status targets_find(sphere_plan *p) {
+  dyd_pair_list all = {0}, nominal = {0};
+  dyd_survey_result *r = &p->found->result;
+  dyd_status st = dyd_sphere_pairs(&all, p->s);
+  if (st == DYD_OK) st = dyd_sphere_pairs(&nominal, p->nominal);
+  p->target.item = st == DYD_OK ? dyd_alloc(all.count, sizeof *all.item) : NULL;
+  if (st == DYD_OK && !p->target.item) st = DYD_E_NOMEM;
+  for (size_t k = 0; k < all.count && st == DYD_OK; k++) {
+    const dyd_pair *q = &all.item[k];
+    if (q->status == DYD_LEGAL || !target_is_asked(p, q)) continue;
+    const dyd_pair *same = nominal.count ? bsearch(q, nominal.item, nominal.count, sizeof *q, dyd_compare_two) : NULL;
+    const uint32_t alias[2] = {dyd_sphere_alias(p->nominal, q->i), dyd_sphere_alias(p->nominal, q->j)};
+    for (int e = 0; e < 2 && r->same[0] == r->same[1] && q->status == DYD_INDETERMINATE; e++)
+      r->same[0] = alias[e], r->same[1] = e ? q->j : q->i;
+    bool tied = same && same->status == DYD_TIE;
+    if (tied && q->status == DYD_INDETERMINATE && r->tie[0] == r->tie[1]) r->tie[0] = q->i, r->tie[1] = q->j;
+    if (tied || alias[0] == alias[1])
+      r->ties++;
+    else
+      p->target.item[p->target.count++] = *q;
+  }
+  dyd_pair_list_clear(&nominal);
+  dyd_pair_list_clear(&all);
+  p->taken = st == DYD_OK ? calloc(p->target.count + 1, sizeof *p->taken) : NULL;
+  return st == DYD_OK && !p->taken ? DYD_E_NOMEM : st;
+}
+
+/* Places in the middle of their regions, triangulated. */
+static dyd_status nominal_make(sphere_plan *p) {
+  dyd_outcome outcome;
+  dyd_engine_options o;
+  dyd_engine_options_init(&o);
+  for (size_t i = 0; i < p->s->count; i++) p->within[i] = 0;
+  dyd_status st = dyd_sphere_new_within(&p->nominal, p->s, p->within, p->err);
+  if (st != DYD_OK) return st;
+  st = dyd_sphere_run(&outcome, p->nominal, &o, p->err);
+  if (st == DYD_OK) st = targets_find(p);
+  for (size_t i = 0; i < p->s->count; i++) p->within[i] = -1;
+  return st;
+}
+
+/* ---- images ---- */
+
+/* Sets half to an upper bound of the half of a square that holds the images of all within the angle; false: no square
+ * does. */
+static bool square_half(double *half, const plan_place *v, arb_srcptr angle) {
+  arb_t x;
+  arb_init(x);
+  arb_sub(x, &v->angle, angle, PREC);
+  bool good = arb_is_positive(x);
+  arb_mul_2exp_si(x, x, -1);
+  arb_cot(x, x, PREC);
+  arb_sub(x, x, &v->far, PREC);
+  *half = nextafter(dyd_ball_ends(x).hi + v->off, HUGE_VAL);
+  arb_clear(x);
+  return good && isfinite(*half);
+}
+
+/* The metres within which a place has to be so that its image is within `half`; a lower bound. */
+static double square_metres(const plan_place *v, const dyd_sphere *s, double half) {
+  arb_ptr x = _arb_vec_init(2), t = x + 1;
+  arb_set_d(x, half);
+  arb_set_d(t, v->off);
+  arb_sub(x, x, t, PREC);
+  arb_add(x, x, &v->far, PREC);
+  arb_one(t);
+  arb_atan2(x, t, x, PREC);
+  arb_mul_2exp_si(x, x, 1);
+  arb_sub(x, &v->angle, x, PREC);
+  dyd_ball_set_q(t, s->metre, PREC);
+  arb_div(x, x, t, PREC);
+  double metres = dyd_ball_ends(x).lo;
+  _arb_vec_clear(x, 2);
+  return metres;
+}
+
+/* Sets the view of a place in the middle of the spot; false: it is at the eye. */
+static bool view_place(plan_place *v, dyd_sphere *eye, const dyd_spot *spot) {
+  arb_ptr x = _arb_vec_init(4);
+  dyd_spot mid;
+  dyd_spot_init(&mid);
+  for (int a = 0; a < 2; a++) mpq_set(mid.mid[a], spot->mid[a]);
+  bool good = dyd_project(x, x + 1, &mid, &eye->eye, PREC);
+  v->off = 0;
+  for (int a = 0; a < 2 && good; a++) {
+    const dyd_iv ends = dyd_ball_ends(x + a);
+    v->at[a] = ends.lo / 2 + ends.hi / 2;
+    v->off += nextafter(ends.hi - ends.lo, HUGE_VAL);
+  }
+  arb_hypot(&v->far, x, x + 1, PREC);
+  arb_one(x);
+  arb_atan2(&v->angle, x, &v->far, PREC);
+  arb_mul_2exp_si(&v->angle, &v->angle, 1);
+  dyd_spot_clear(&mid);
+  _arb_vec_clear(x, 4);
+  return good;
+}
+
+/* Adds the square of half-width h about the image. */
+static dyd_status square_add(dyd_sites *sites, const plan_place *v, double h) {
+  mpq_t c, half, end[2];
+  dyd_rect r;
+  dyd_status st = DYD_OK;
+  mpq_inits(c, half, end[0], end[1], NULL);
+  dyd_rect_init(&r);
+  mpq_set_d(half, h);
+  for (int a = 0; a < 2 && st == DYD_OK; a++) {
+    mpq_set_d(c, v->at[a]);
+    mpq_sub(end[0], c, half);
+    mpq_add(end[1], c, half);
+    st = dyd_interval_set_outward(a ? &r.y : &r.x, end[0], end[1], -2048); /* exact */
+  }
+  if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
+  dyd_rect_clear(&r);
+  mpq_clears(c, half, end[0], end[1], NULL);
+  return st;
+}
+
+/* Of place i, as it is, or as the plan so far has it; *accuracy: half of the square for the accuracy asked for. Left
+ * out where its region reaches the eye. */
+static dyd_status square_make(double *accuracy, sphere_plan *p, dyd_sites *sites, dyd_sphere *eye, uint32_t i) {
+  plan_place *v = &p->view[p->views];
+  dyd_spot spot;
+  arb_t reach;
+  double half = 0;
+  arb_init(&v->far);
+  arb_init(&v->angle);
+  p->views++;
+  arb_init(reach);
+  dyd_spot_init(&spot);
+  v->place = i;
+  dyd_status st = dyd_sphere_spot(&spot, p->s, i, p->err);
+  if (st == DYD_OK) dyd_spot_reach(reach, &spot, PREC);
+  bool good = st == DYD_OK && view_place(v, eye, &spot) && (arb_is_zero(reach) || square_half(&half, v, reach));
+  if (good) {
+    p->image[i] = (uint32_t)(p->views - 1);
+    st = square_add(sites, v, half);
+    mpq_mul(spot.angle, p->accuracy, p->s->metre);
+    dyd_ball_set_q(reach, spot.angle, PREC);
+    if (mpq_sgn(p->accuracy) && !square_half(accuracy, v, reach)) *accuracy = HUGE_VAL;
+    *accuracy = fmin(*accuracy * (1 + 0x1p-30), 0x1p1000);
+  } else {
+    arb_clear(&v->angle);
+    arb_clear(&v->far);
+    p->views--;
+  }
+  dyd_spot_clear(&spot);
+  arb_clear(reach);
+  return st;
+}
+
+/* ---- one eye ---- */
+
+static uint32_t row_of_place(const sphere_plan *p, uint32_t place) {
+  uint32_t k = 0;
+  while (k < p->rows && p->row[k].site != place) k++;
+  return k;
+}
+
+/* The rows of a plan of images, as places and metres; where a place has a row, the finer one counts. */
+static dyd_status rows_take(sphere_plan *p, const dyd_survey *survey) {
+  const dyd_survey_row *row;
+  size_t rows = dyd_survey_rows(&row, survey);
+  for (size_t k = 0; k < rows; k++) {
+    const plan_place *v = &p->view[row[k].site];
+    dyd_survey_row *to = &p->row[row_of_place(p, v->place)];
+    double metres = fmax(0, square_metres(v, p->s, row[k].needed));
+    if (to == &p->row[p->rows]) {
+      dyd_spot spot;
+      arb_t x, metre;
+      *to = (dyd_survey_row){.site = v->place, .needed = metres};
+      dyd_spot_init(&spot);
+      arb_init(x);
+      arb_init(metre);
+      dyd_status st = dyd_sphere_spot(&spot, p->s, v->place, p->err);
+      if (st == DYD_OK) dyd_spot_reach(x, &spot, PREC);
+      dyd_ball_set_q(metre, p->s->metre, PREC);
+      arb_div(x, x, metre, PREC);
+      to->now = dyd_ball_ends(x).hi;
+      arb_clear(metre);
+      arb_clear(x);
+      dyd_spot_clear(&spot);
+      p->rows++;
+      if (st != DYD_OK) return st;
+    }
+    to->needed = fmin(to->needed, metres);
+    to->decided += row[k].decided;
+    p->within[v->place] = to->needed;
+  }
+  return DYD_OK;
+}
+
+/* The targets that are open from here, as pairs of images. */
+static dyd_status eye_targets(dyd_pair_list *out, sphere_plan *p, const dyd_delaunay *pd) {
+  out->item = dyd_alloc(p->target.count, sizeof *out->item);
+  if (!out->item) return DYD_E_NOMEM;
+  for (size_t k = 0; k < p->target.count; k++) {
+    uint32_t i = p->image[p->target.item[k].i], j = p->image[p->target.item[k].j];
+    if (p->taken[k] || i == DYD_NONE || j == DYD_NONE) continue;
+    if (dyd_delaunay_status(pd, i, j) == DYD_ILLEGAL) continue;
+    p->taken[k] = true;
+    out->item[out->count++] = (dyd_pair){i < j ? i : j, i < j ? j : i, DYD_INDETERMINATE};
+  }
+  return DYD_OK;
+}
+
+static dyd_status eye_plan(sphere_plan *p, const dyd_delaunay *pd, const double *accuracy, const double *cost) {
+  dyd_pair_list pairs = {0};
+  dyd_survey *survey = NULL;
+  dyd_status st = eye_targets(&pairs, p, pd);
+  const dyd_survey_options how = {DYD_SIZED(dyd_survey_options), .pairs = &pairs,
+                                  .accuracies = mpq_sgn(p->accuracy) ? accuracy : NULL,
+                                  .cost = p->options.cost ? cost : NULL, .cancel = p->options.cancel};
+  if (st == DYD_OK && pairs.count) st = dyd_survey_new(&survey, pd, &how, p->err);
+  dyd_status taken = survey ? rows_take(p, survey) : DYD_OK;
+  dyd_survey_free(survey);
+  dyd_pair_list_clear(&pairs);
+  return taken == DYD_OK ? st : taken;
+}
+
+static void views_clear(sphere_plan *p) {
+  for (size_t k = 0; k < p->views; k++) {
+    arb_clear(&p->view[k].far);
+    arb_clear(&p->view[k].angle);
+  }
+  p->views = 0;
+}
+
+/* Plans for the targets that are seen from this eye. */
+static dyd_status eye_look(sphere_plan *p, dyd_sphere *eye) {
+  dyd_sites *sites = NULL;
+  dyd_delaunay *pd = NULL;
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = p->options.cancel};
+  double *number = dyd_alloc(2 * p->s->count, sizeof *number), *cost = number + p->s->count;
+  dyd_status st = number ? dyd_sites_new(&sites) : DYD_E_NOMEM;
+  for (uint32_t i = 0; i < p->s->count && st == DYD_OK; i++) {
+    p->image[i] = DYD_NONE;
+    if (p->s->alias[i] != i) continue;
+    number[p->views] = HUGE_VAL;
+    if (p->options.cost) cost[p->views] = p->options.cost[i];
+    st = square_make(&number[p->views], p, sites, eye, i);
+  }
+  if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, p->err);
+  if (st == DYD_OK) st = eye_plan(p, pd, number, cost);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  views_clear(p);
+  free(number);
+  return st;
+}
+
+/* ---- all ---- */
+
+/* How many targets stay open with the plan: on the sphere, by a run of its own. */
+static dyd_status plan_verify(sphere_plan *p) {
+  dyd_outcome outcome;
+  dyd_engine_options o;
+  dyd_sphere *then = NULL;
+  dyd_pair_list pairs = {0};
+  size_t left = 0, decided = 0, open = p->target.count;
+  dyd_engine_options_init(&o);
+  dyd_status st = dyd_sphere_new_within(&then, p->s, p->within, p->err);
+  if (st == DYD_OK) st = dyd_sphere_run(&outcome, then, &o, p->err);
+  if (st == DYD_OK) st = dyd_sphere_pairs(&pairs, then);
+  for (size_t k = 0; k < open && st == DYD_OK; k++) {
+    const dyd_pair *q =
+        pairs.count ? bsearch(&p->target.item[k], pairs.item, pairs.count, sizeof *q, dyd_compare_two) : NULL;
+    left += q && q->status != DYD_LEGAL;
+  }
+  dyd_pair_list_clear(&pairs);
+  dyd_sphere_free(then);
+  p->found->result.left = left;
+  for (size_t k = 0; k < p->rows; k++) { /* what the last row leaves is what all leave */
+    size_t more = p->row[k].decided;
+    if (more > open - left - decided || k + 1 == p->rows) more = open - left - decided;
+    decided += p->row[k].decided = more;
+    p->row[k].left = open - decided;
+  }
+  return st;
+}
+
+static dyd_status plan_eyes(sphere_plan *p) {
+  dyd_sphere *eye[EYES + 1] = {p->s};
+  dyd_status st = DYD_OK;
+  for (int k = 0; k < EYES && st == DYD_OK; k++) {
+    const dyd_sphere *from = k ? eye[k] : p->nominal; /* whose place is none to keep away from */
+    st = dyd_sphere_new_gap(&eye[k + 1], from, p->err);
+    if (st != DYD_OK || !eye[k + 1]) break;
+    eye[k + 1]->within = NULL;
+    st = eye_look(p, eye[k + 1]);
+  }
+  for (int k = 1; k <= EYES; k++) dyd_sphere_free(eye[k]);
+  return st;
+}
+
+static dyd_status plan_make(sphere_plan *p) {
+  p->within = dyd_alloc(p->s->count, sizeof *p->within);
+  p->image = dyd_alloc(p->s->count, sizeof *p->image);
+  p->view = dyd_alloc(p->s->count, sizeof *p->view);
+  p->row = dyd_alloc(p->s->count + 1, sizeof *p->row);
+  if (!p->within || !p->image || !p->view || !p->row) return DYD_E_NOMEM;
+  dyd_status st = nominal_make(p);
+  if (st == DYD_OK && p->target.count) st = plan_eyes(p);
+  bool cut = st == DYD_CANCELLED;
+  if (st == DYD_OK || cut) {
+    dyd_status verified = p->target.count ? plan_verify(p) : DYD_OK;
+    p->found->result.cut = cut;
+    p->found->result.open = p->target.count;
+    if (verified != DYD_OK) st = verified;
+  }
+  return st;
+}
+
+static dyd_status accuracy_take(sphere_plan *p, const char *text) {
+  bool ground = false;
+  mpq_init(p->accuracy);
+  if (!text) return DYD_OK;
+  dyd_status st = dyd_radius_parse(p->accuracy, &ground, text, strlen(text), NULL);
+  if (st == DYD_E_NOMEM || (st == DYD_OK && ground && mpq_sgn(p->accuracy) > 0)) return st;
+  return dyd_fail(p->err, DYD_E_ARG, "the accuracy \"%.60s\" is not a length above 0 with its unit, such as 5m", text);
+}
+
+dyd_status dyd_sphere_survey(dyd_survey **out, dyd_sphere *s, const char *accuracy, const dyd_survey_options *options,
+                             dyd_error *err) {
+  if (!s || !out) return dyd_fail_null(err);
+  sphere_plan p = {.s = s, .err = err};
+  *out = NULL;
+  if (err) dyd_error_clear(err);
+  dyd_status st = dyd_abi_take(&p.options, sizeof p.options, options, "dyd_survey_options", err);
+  if (st != DYD_OK) return st;
+  p.found = calloc(1, sizeof *p.found);
+  if (!p.found) return dyd_fail_nomem(err);
+  mpq_init(p.found->scale);
+  st = accuracy_take(&p, accuracy);
+  if (st == DYD_OK) st = plan_make(&p);
+  p.found->result.struct_size = sizeof p.found->result;
+  p.found->row = p.row;
+  p.found->rows = p.rows;
+  if (st == DYD_OK || (st == DYD_CANCELLED && p.rows))
+    *out = p.found;
+  else
+    dyd_survey_free(p.found);
+  dyd_sphere_free(p.nominal);
+  dyd_pair_list_clear(&p.target);
+  free(p.taken);
+  free(p.view);
+  free(p.image);
+  free(p.within);
+  mpq_clear(p.accuracy);
+  return st == DYD_OK || (err && err->code == st) ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
+}
