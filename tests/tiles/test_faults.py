@@ -167,6 +167,39 @@ class Faults(unittest.TestCase):
         self.refused(1, 'is no file', 'delaunay', str(self.at), '-o', self.out)
 
     @unittest.skipUnless(UNREADABLE.is_file(), f'there is no {UNREADABLE}')
+    def test_hostile(self):
+        """Bytes of strangers, changed at random: a job ends by itself, with what one process says of the same file, and without a
+        manifest where it fails."""
+        rand, tried = random.Random(cases.SEED), 0
+        text = b'x,y\n' + b''.join(b'%d,%d\n' % (k * k % 97, 7 * k % 89) for k in range(60))
+        odd = [float('nan'), float('inf'), -float('inf'), 1e308, -1e308, 5e-324, -0.0]
+        whole = struct.pack('<120d', *(rand.random() for _ in range(120)))
+        for turn in range(12 * int(os.environ.get('DYADEL_TEST_SCALE', '1'))):
+            name, data, boxes = ('h.csv', bytearray(text), ()) if turn % 2 else ('h.bin', bytearray(whole), ('--boxes',) * (turn % 4 == 0))
+            for _ in range(rand.randint(1, 4)):
+                at = rand.randrange(len(data))
+                if name == 'h.bin' and rand.random() < 0.5:
+                    data[at // 8 * 8:at // 8 * 8 + 8] = struct.pack('<d', rand.choice(odd))
+                else:
+                    data[at:at + rand.randint(0, 9)] = bytes(rand.choice([rand.randrange(256), 10, 0, 44, 57]) for _ in range(rand.randint(0, 9)))
+            (self.at / name).write_bytes(data)
+            shutil.rmtree(self.out, ignore_errors=True)
+            done = tiles(3, 'delaunay', *boxes, str(self.at / name), '-o', self.out)
+            alone = subprocess.run([TILES, 'delaunay', *boxes, str(self.at / name), '-o', str(self.at / f'alone{turn}'), '--tiles', '1'],
+                                   capture_output=True, text=True, timeout=600)
+            tried += 1
+            self.assertEqual(done.returncode, alone.returncode, (bytes(data), done.stderr, alone.stderr))
+            self.assertIn(done.returncode, (0, 1, 2, 3, 4))
+            self.assertEqual(os.path.exists(self.out + '/manifest.json'), done.returncode in (0, 3, 4))
+            if done.returncode in (1, 2):
+                self.assertTrue(any(line.startswith('dyadel-tiles: ') and len(line) > 30 for line in done.stderr.splitlines()), done.stderr)
+                said = next(line for line in alone.stderr.splitlines() if line.startswith('dyadel-tiles: '))
+                self.assertIn(said, done.stderr)
+            else:
+                joined = [subprocess.run([TILES, 'to-csv', folder], capture_output=True).stdout for folder in (self.out, str(self.at / f'alone{turn}'))]
+                self.assertEqual(*joined)
+        self.assertGreaterEqual(tried, 12)
+
     def test_unreadable_slice(self):
         """A file that ends before its size: who meets the end tells which points, and all end."""
         self.refused(1, f'{UNREADABLE}: cannot read points ', 'delaunay', str(UNREADABLE), '-o', self.out)
