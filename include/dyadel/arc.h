@@ -80,7 +80,7 @@ typedef struct dyd_chain {
 
 /* The boundary of an open or closed region of the plane. No chain: the region is empty or the whole plane, as
  * `whole` says. A region in a window that is all of it is `whole` too, and its chain is the window's sides; parts of it
- * that have no area (a curve that runs along a side from outside) are left out. Owned by the caller: init with {0},
+ * that have no area (a curve that runs along a side from outside) are omitted. Owned by the caller: init with {0},
  * release with dyd_boundary_clear. */
 typedef struct dyd_boundary {
   size_t count;

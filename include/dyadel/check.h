@@ -61,14 +61,14 @@ typedef enum dyd_check_fault {
 /* "fine", "stream", ... Static storage. */
 DYD_API const char *dyd_check_fault_text(dyd_check_fault fault);
 
-/* What was found. Init with DYD_SIZED, release with dyd_check_report_clear. */
+/* The findings. Init with DYD_SIZED, release with dyd_check_report_clear. */
 typedef struct dyd_check_report {
   size_t struct_size;    /* set by DYD_SIZED */
   dyd_check_fault fault; /* of the first schedule that shows one */
   char message[DYD_MESSAGE_SIZE];
   uint64_t seed;     /* of that schedule */
   int64_t base_bits; /* for repeating it */
-  size_t moves;      /* a schedule that shows the fault and from which no move can be left out */
+  size_t moves;      /* a schedule that shows the fault; every move in it is needed */
   dyd_check_move *move;
   uint64_t schedules, stages, pairs, cells, floors; /* how much was done; floors: see `path` */
 } dyd_check_report;
@@ -76,7 +76,7 @@ DYD_API void dyd_check_report_clear(dyd_check_report *r);
 
 /* Runs the schedules: the first one brings each point from base_bits to max_bits in small steps, the others are random.
  * DYD_OK also when a fault was found: the report tells; DYD_CANCELLED, also when the time is over,
- * with what was done until then, the shortest schedule found so far among it; errors of `open` and DYD_E_NOMEM. */
+ * with the counts until then, the shortest schedule found so far among it; errors of `open` and DYD_E_NOMEM. */
 DYD_API dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *user, const dyd_check_options *o,
                                  dyd_error *err);
 /* Runs one schedule, such as a report holds. DYD_E_ARG, with err->line the number of the move from 1, where one names a

@@ -18,7 +18,7 @@ extern "C" {
 
 /* The centre of the circle through three computable points; takes over the three references, also on failure.
  * Three exact points give the exact rational centre at once, so that ties among such centres are recognised
- * (DYD_E_DOMAIN when they are collinear). Otherwise each narrowing refines the points until the triple is surely
+ * (DYD_E_DOMAIN when they are collinear). Otherwise each narrowing refines the points until the triple is certainly
  * oriented and the enclosure narrow enough [VTX-1]; where they are still possibly collinear at the precision allowed,
  * DYD_E_DOMAIN: collinear points have no centre. Fixed rectangles give an enclosure of their partial centre, final.
  * DYD_E_ARG for NULL, or when two of the streams are the same. */

@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* What holds after one stage. All but `seconds` is the same in every run and for every number of threads.
+/* The state after one stage. All but `seconds` is the same in every run and for every number of threads.
  * Invariant: area, hausdorff count when bounded, v_area, v_hausdorff when voronoi; they are 0 otherwise. */
 typedef struct dyd_stage_row {
   size_t struct_size; /* set by the library */
@@ -75,7 +75,7 @@ typedef struct dyd_converge_options {
   /* Called after each row is complete; may be NULL. */
   void (*stage)(void *user, const dyd_stage_row *row, const dyd_delaunay *pd);
   void *stage_user;
-  /* when it points to a non-zero value, bounds not known by then are left out of rows; NULL: never. dyd_converge_run
+  /* when it points to a non-zero value, bounds not known by then are omitted from rows; NULL: never. dyd_converge_run
    * does that at the deadline, and when the engine is cancelled, by itself */
   const volatile int *cancel;
 } dyd_converge_options;

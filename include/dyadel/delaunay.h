@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The partial Delaunay triangulation of a table of sites: which pairs are surely, possibly, never edges.
+/* The partial Delaunay triangulation of a table of sites: which pairs are certainly, possibly, never edges.
  *
  * For the rectangles as they are:
  *   possible(i,j)  some choice of points makes ij a (weakly) Delaunay edge: exact [POS-1];
@@ -15,12 +15,12 @@
 extern "C" {
 #endif
 
-/* What is known of a pair.
+/* The status of a pair.
  *
- * Exact sites on one line, with nobody strictly beyond it, are possible pairs of one another, by discs that have grown
+ * Exact sites on one line, with no site strictly beyond it, are possible pairs of one another, by discs that have grown
  * to half-planes; only neighbours can be legal. The others are ties where all sites of their face (dyd_delaunay_face)
  * are exact. Where the face also holds a rectangle, one that touches the line say, they are indeterminate, since ties
- * are told of whole faces; they become ties when the rectangle is narrowed until it leaves the face.
+ * belong to whole faces; they become ties when the rectangle is narrowed until it leaves the face.
  *
  * A legal pair has a witness that was found. The search sees room for a witness down to 2^-128 of the square of the
  * least unit of the rectangles' ends by their size; where ends span more than about 2^200, it may end before it finds
@@ -101,9 +101,9 @@ typedef struct dyd_delaunay_options {
   /* dyd_delaunay_new: when work is stopped while undecided faces are closed, the others count as met by the cap, and
    * the result is DYD_CAPPED. */
   bool keep_cut;
-  uint64_t max_bytes; /* memory for it, without the sites, by its own estimate: DYD_E_NOMEM before more is asked for,
+  uint64_t max_bytes; /* memory for it, without the sites, by its own estimate: DYD_E_NOMEM before more is allocated,
                          with what took too much in *err; 0: no bound. Calls that make more of it later (lists of
-                         pairs and triangles, voronoi.h, metric.h, graph.h, tolerance.h, survey.h) have what is left */
+                         pairs and triangles, voronoi.h, metric.h, graph.h, tolerance.h, survey.h) have the rest */
   /* NULL, or returns true if the rectangle of the site can still shrink as far as wanted. A face of many triangles
    * whose corners all can, or are points, is postponed: it is not closed but counts as met by the cap, since its many
    * pairs would be found for wide rectangles only. Called from all threads. */
@@ -140,11 +140,11 @@ DYD_API size_t dyd_delaunay_memory(const dyd_delaunay *pd);
 /* The lowest site at the same place, with the same exact coordinates or joined with i: i itself unless i is an alias.
  * Aliases take part in nothing. */
 DYD_API uint32_t dyd_delaunay_alias(const dyd_delaunay *pd, uint32_t i);
-/* Status of a pair. Aliases answer for the site they stand for; i = j (or aliases of one another) is ILLEGAL. */
+/* Status of a pair. Aliases answer for their site; i = j (or aliases of one another) is ILLEGAL. */
 DYD_API dyd_pair_status dyd_delaunay_status(const dyd_delaunay *pd, uint32_t i, uint32_t j);
 /* All possible pairs, sorted by i, then j. O(N + pairs). *out is replaced, owned by the caller. */
 DYD_API dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd);
-/* Told of a pair, i < j. */
+/* Receives a pair, i < j. */
 typedef void (*dyd_pair_fn)(void *user, uint32_t i, uint32_t j, dyd_pair_status status);
 /* The same pairs, each once, without the memory of a list, in an order that may change with the number of threads and
  * with releases. */
@@ -153,7 +153,7 @@ DYD_API void dyd_delaunay_each_pair(const dyd_delaunay *pd, dyd_pair_fn visit, v
 typedef enum dyd_group_kind {
   DYD_GROUP_CIRCLE = 0, /* one empty circle: k sites, in its order, counter-clockwise, have k (k - 3) / 2 tied pairs */
   DYD_GROUP_CHAIN,      /* one line of the hull: k sites, along it, have (k - 1) (k - 2) / 2 tied pairs */
-  DYD_GROUP_PAIR        /* a tied pair by itself */
+  DYD_GROUP_PAIR        /* a tied pair alone */
 } dyd_group_kind;
 /* Called with a group of ties; sites is borrowed for the call. Another status than DYD_OK ends the walk. */
 typedef dyd_status (*dyd_group_fn)(void *user, dyd_group_kind kind, const dyd_index_list *sites);
@@ -169,10 +169,10 @@ DYD_API dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaun
  * near in the list is near in the plane. */
 #define DYD_TRIANGLES_AS_FOUND 1u
 /* Triangles with three legal edges that hold no site for any choice: Delaunay triangles for every choice. Sorted,
- * unless flags have DYD_TRIANGLES_AS_FOUND. neighbours, unless NULL, tells who is next to whom:
+ * unless flags have DYD_TRIANGLES_AS_FOUND. neighbours, unless NULL, receives the adjacent triangles:
  * neighbours->item[t].v[k] is the number in the list of the triangle beyond the side opposite to corner k of triangle
- * t, DYD_NO_TRIANGLE where there is none that is sure (outside the hull, or in an undecided face). Both are replaced,
- * owned by the caller. DYD_E_ARG for other flags. O(N log N), as found O(N). */
+ * t, DYD_NO_TRIANGLE where there is none that is certain (outside the hull, or in an undecided face). Both are
+ * replaced, owned by the caller. DYD_E_ARG for other flags. O(N log N), as found O(N). */
 DYD_API dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, dyd_triangle_list *neighbours, const dyd_delaunay *pd,
                                           unsigned flags);
 /* Finds the certain triangle that each place xy[2 k], xy[2 k + 1] is in. in[k] = DYD_TRUE: the place is in triangle
@@ -185,7 +185,7 @@ DYD_API dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, dyd_triangle_l
 DYD_API dyd_status dyd_delaunay_locate(dyd_triangle *out, dyd_truth *in, const dyd_delaunay *pd, const double *xy,
                                        size_t count, const volatile int *cancel);
 /* The sites of the undecided faces of the legal graph: face f (0 <= f < dyd_delaunay_undecided_faces). Ascending.
- * *outer tells whether the face is unbounded (the unbounded face may come in parts, between sure corners of the hull).
+ * *outer is true if the face is unbounded (the unbounded face may come in parts, between certain corners of the hull).
  * Every non-legal possible pair lies in exactly one of them, up to its end points on the boundary. */
 DYD_API dyd_status dyd_delaunay_face(dyd_index_list *out, bool *outer, const dyd_delaunay *pd, size_t f);
 /* A witness of a legal pair: max(dl_i, dl_j)(c) < ds_k(c) for all other k, re-checked before it is given.
@@ -195,11 +195,11 @@ DYD_API dyd_status dyd_delaunay_witness(dyd_point *out, const dyd_delaunay *pd, 
 /* ---- convex hull ---- */
 
 /* Status of the convex hull of the sites, since the ghost vertex is one of the vertices of the triangulation. As for
- * pairs, what is possible is closed and what is sure is open: an exact point in the middle of a side of the hull is
- * possible, not sure, and its pairs on that side are ties. Aliases are not listed. */
+ * pairs, the possible part is closed and the certain part is open: an exact point in the middle of a side of the hull
+ * is possible, not certain, and its pairs on that side are ties. Aliases are not listed. */
 typedef struct dyd_hull {
   dyd_index_list sure_vertices;     /* corners of the hull for every choice; ascending */
-  dyd_index_list possible_vertices; /* on its boundary for some choice, the sure ones included; ascending */
+  dyd_index_list possible_vertices; /* on its boundary for some choice, the certain ones included; ascending */
   /* The pairs ij for which some choice has all points on one closed side of a line through p_i and p_j; sorted. LEGAL:
    * for every choice all others are strictly on one side (so ij is an edge of the hull). TIE: not LEGAL, and i, j and
    * all that may be on the line with both are exact, or i and j are on one side of the hull with sites that are proved

@@ -9,7 +9,8 @@
  * must not be freed. After fork() both processes may use their copies of an engine that was not at work; programs of an
  * oracle stay those of the process that started them (DYD_E_STREAM in the other one, which does not end them either).
  * After an error an engine can be used like any other. A function of 2^18 bits or more that is cut by a cancel or the
- * end of time goes on in a thread of its own until it is done: nobody waits for that, it holds nothing of the engine.
+ * end of time continues in a thread of its own until it is done: no call waits for that, it holds nothing of the
+ * engine.
  */
 #ifndef DYADEL_ENGINE_H
 #define DYADEL_ENGINE_H
@@ -30,7 +31,7 @@ typedef enum dyd_outcome {
   DYD_OUTCOME_FIXPOINT,  /* only better measurements can decide more: fixed rectangles, ties */
   DYD_OUTCOME_BUDGET,    /* bits, stages, calls, pairs or seconds spent */
   DYD_OUTCOME_CANCELLED,
-  DYD_OUTCOME_ERROR /* a stream failed or memory ran out; what was stated before stays valid. (GMP, MPFR and FLINT end
+  DYD_OUTCOME_ERROR /* a stream failed or memory ran out; earlier statements stay valid. (GMP, MPFR and FLINT end
                        the process when they run out of memory: set max_bytes, or handlers of theirs.) */
 } dyd_outcome;
 /* "decided", "certified", ... Static storage. */
@@ -60,7 +61,7 @@ typedef enum dyd_budget {
   DYD_BUDGET_SECONDS
 } dyd_budget;
 
-/* Tests whether a determinant or difference of true points is 0: how they ended, and what they cost. */
+/* Tests whether a determinant or difference of true points is 0: their results and their cost. */
 typedef struct dyd_tie_counters {
   size_t struct_size; /* set by DYD_SIZED */
   uint64_t tests;
@@ -131,7 +132,7 @@ typedef struct dyd_engine_options {
   dyd_schedule schedule;
   int64_t start_bits;  /* precision of the first stage; default 64. 0, and no options at all: 64, or less (24 at least)
                           for expressions that doubles enclose so well, unless the schedule is uniform */
-  int64_t step_bits;   /* each refinement asks for so many bits more; 0: growth is geometric */
+  int64_t step_bits;   /* each refinement asks for this many bits more; 0: growth is geometric */
   int64_t max_bits;    /* 0: default 4096 */
   uint64_t max_stages; /* of this run; 0: no limit */
   uint64_t max_calls;  /* of this run; 0: no limit */
@@ -147,17 +148,17 @@ typedef struct dyd_engine_options {
   void (*trace)(void *user, const dyd_step *step);
   void *trace_user;
   /* Ties among points given by expressions and roots (mathematics: section 11) are proved, unless no_ties; with at most
-   * so many bits for each proof; 0: default 2^17. */
+   * this many bits for each proof; 0: default 2^17. */
   int64_t tie_bits;
   bool no_ties;
-  /* What asking each point once more costs, above 0; NULL: what its row said (DYD_ROW_COST of io.h). The adaptive
-   * schedule lets points wait that cost more than twice as much as the cheapest of those that a face wants narrower,
-   * until as much was spent beside them. dyd_engine_count(e) numbers, borrowed during the run. */
+  /* Cost of asking each point again, above 0; NULL: what its row said (DYD_ROW_COST of io.h). The adaptive
+   * schedule lets points wait that cost more than twice as much as the cheapest point that a face wants narrower,
+   * until as much was spent on others. dyd_engine_count(e) numbers, borrowed during the run. */
   const double *cost;
   /* Memory that the engine may hold while it works, points included, by its own estimate; 0: no bound. Before more is
    * asked for (half-edges, faces, pairs, sums of the bounds, digits of the points, proofs of ties) the run ends with
-   * DYD_E_NOMEM and says what was too much; the engine and its last result stay as they are, and a run with a larger
-   * bound goes on. The remedy for GMP, MPFR and FLINT, which end the process when memory is exhausted: half of the
+   * DYD_E_NOMEM and names the allocation; the engine and its last result stay as they are, and a run with a larger
+   * bound continues. The remedy for GMP, MPFR and FLINT, which end the process when memory is exhausted: half of the
    * memory there is, say. Estimates are within a factor of 2 of what the engine holds, or a megabyte where that is
    * more; of callbacks only the answers count. Calls that make something of the result later (lists of pairs and
    * triangles, outputs, pictures, certificates, cells, polygons, diagrams and their bounds, graphs, tolerances, plans)
@@ -208,8 +209,8 @@ DYD_API dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_sour
  * DYD_E_ARG when there is no point i, when r is not valid, and from within a callback; DYD_E_NOMEM. r is copied. Not in
  * traces. O(log points); err may be NULL. */
 DYD_API dyd_status dyd_engine_remeasure(dyd_engine *e, uint32_t i, const dyd_rect *r, dyd_error *err);
-/* Point i, one of those that can be narrowed, answered r when it was asked for `bits` in an earlier run (a dyd_step
- * with `called`); `final` as there. Given again in place of asking it, in the order of these calls: a request is
+/* Point i, which can be narrowed, answered r when it was asked for `bits` in an earlier run (a dyd_step
+ * with `called`); `final` as there. Given again instead of asking it, in the order of these calls: a request is
  * answered by the first answer left that was for at least as many bits. So a run with the same options takes the way of
  * the earlier one, and asks only from where that ended; answers that come then are intersected with those recalled, and
  * one that has nothing in common with them ends the run with DYD_E_CONTRADICTION. Before the first run only. DYD_E_ARG
@@ -220,7 +221,7 @@ DYD_API dyd_status dyd_engine_recall(dyd_engine *e, uint32_t i, int64_t bits, co
 DYD_API size_t dyd_engine_count(const dyd_engine *e);
 
 /* What point i is called in the file it was read from (dyd_read_options): its row, counted from 0, rows without a point
- * included; other points are rows of their own, in the order of adding. So it is i unless rows were left out or merged.
+ * included; other points are rows of their own, in the order of adding. So it is i unless rows were skipped or merged.
  * Writers of results name points by their rows; errors, traces and certificates by i. e NULL: i. O(1). */
 DYD_API size_t dyd_engine_row(const dyd_engine *e, size_t i);
 /* Its identifier, "" without one; NULL: no point has one. Terminated, any bytes; borrowed until points are added. */
@@ -229,11 +230,11 @@ DYD_API const char *dyd_engine_id(const dyd_engine *e, size_t i);
  * NULL; id NULL: none has an identifier. Copied. Before a sphere is made of e. DYD_E_ARG when there are fewer points or
  * rows do not ascend, or rows were merged; DYD_E_NOMEM. O(points) */
 DYD_API dyd_status dyd_engine_name(dyd_engine *e, size_t n, const size_t *row, const char *const *id);
-/* The k-th row, ascending, that was taken as one with an earlier one, and the point that stands for both; false: there
+/* The k-th row, ascending, that was taken as one with an earlier one, and the point that represents both; false: there
  * are no more. */
 DYD_API bool dyd_engine_merged(size_t *row, size_t *point, const dyd_engine *e, size_t k);
 
-/* Runs until exactly one outcome holds; may be called again with other options to go on from there: what was
+/* Runs until exactly one outcome holds; may be called again with other options to continue from there: what was
  * stated stays stated. options may be NULL.
  * Returns DYD_OK for the outcomes decided, certified, fixpoint, budget and cancelled; an error code for
  * DYD_OUTCOME_ERROR, with *err filled. *outcome is always set; err may be NULL. After an error in a stream the last
@@ -248,8 +249,8 @@ DYD_API dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd
  * xy       x0 y0 x1 y1 ...: 2 n doubles, borrowed for the call
  * radius   each point lies in the square of this half-width about its x, y; 0: exact points
  * options  as of dyd_engine_run, NULL selects the defaults; err may be NULL
- * Returns DYD_OK also where pairs stay open (their status says so), or a code below 0 with *out unchanged: DYD_E_ARG
- * for NaN, infinities and a radius below 0. */
+ * Returns DYD_OK also where pairs stay undecided (their status says so), or a code below 0 with *out unchanged:
+ * DYD_E_ARG for NaN, infinities and a radius below 0. */
 DYD_API dyd_status dyd_delaunay_of(dyd_pair_list *out, size_t n, const double *xy, double radius,
                                    const dyd_engine_options *options, dyd_error *err);
 /* Asks a run to stop soon, with outcome cancelled. Async-signal-safe, from any thread. Sticky until the next
@@ -278,17 +279,17 @@ DYD_API dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, co
  * engine when the question returns: asking changes nothing. */
 typedef struct dyd_plan dyd_plan;
 #define DYD_BITS_NEXT INT64_MIN
-/* Adds site i, to be brought to 2^-bits. Where it was asked for so much before, and for DYD_BITS_NEXT, it is the next
+/* Adds site i, to be brought to 2^-bits. Where that was requested before, and for DYD_BITS_NEXT, it is the next
  * step of the options (start_bits, step_bits): what is in the plan always narrows. bits are cut to max_bits. Of several
  * calls for one site the finest counts. Site dyd_engine_count(e) + k is guest k of the question. A site that is fixed,
- * final, or was asked for max_bits before stays out of the plan, which is no error. Returns DYD_OK; DYD_E_ARG when
+ * final, or was requested at max_bits before stays out of the plan without an error. Returns DYD_OK; DYD_E_ARG when
  * there is no site i, DYD_E_NOMEM: then the ask ends with this error, whatever the question does. O(log points). */
 DYD_API dyd_status dyd_plan_add(dyd_plan *plan, uint32_t i, int64_t bits);
 /* How many points are in it. */
 DYD_API size_t dyd_plan_count(const dyd_plan *plan);
 
 /* Looks whether the answer is known. Either sets *answered = true (false when called), or adds to *plan, empty when
- * called, who has to be narrower. e is borrowed for the call: see dyd_engine_sites, dyd_engine_knows,
+ * called, which have to be narrower. e is borrowed for the call: see dyd_engine_sites, dyd_engine_knows,
  * dyd_engine_delaunay. Returns DYD_OK; DYD_CANCELLED to give up; an error < 0 with *err (clear when called) filled. */
 typedef dyd_status (*dyd_ask_fn)(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err);
 
@@ -300,28 +301,28 @@ typedef struct dyd_question {
   bool triangulate; /* it looks at the triangulation: all points are asked once before it comes first, and the result
                        is brought up to date before it comes again */
   /* Further points that it looks at, borrowed; they may be narrowed, as sites are, and have a rectangle
-   * (dyd_stream_rect) whenever the question comes. They are no sites of the triangulation. */
+   * (dyd_stream_rect) whenever the question comes. They are not sites of the triangulation. */
   dyd_stream *const *guest;
   size_t guests;
 } dyd_question;
 
-/* The one loop of the engine: asks, narrows what the plan says, asks again, until exactly one outcome holds:
+/* The loop of the engine: asks, narrows what the plan says, asks again, until exactly one outcome holds:
  * decided (answered), fixpoint (the plan is empty: nothing the question needs can be narrowed), budget (bits: it needs
  * more than max_bits; stages, pairs: with triangulate only; calls; seconds), cancelled. dyd_engine_run and
  * dyd_engine_nearest are questions of this kind.
  *
- * A question that does not look at the triangulation is asked once more after a cancel or the end of time, so that it
+ * A question that does not look at the triangulation is asked again after a cancel or the end of time, so that it
  * has seen the rectangles reached; what it wants then is not done. Points narrowed here are brought into the result by
  * the next run. options may be NULL; goal and schedule mean nothing here; progress is called after each triangulation.
- * Guests are asked for the precision of the first stage at the start, and are left out of traces.
+ * Guests are asked for the precision of the first stage at the start, and do not appear in traces.
  *
  * Returns DYD_OK, or an error with outcome DYD_OUTCOME_ERROR and *err (may be NULL) filled: that of a stream, of the
  * question; DYD_E_ARG for bad options, for a site that does not exist, and from within a callback of e, which then is
- * as before. What was stated stays valid in every case. dyd_engine_outcome and the counter `spent` tell about the last
+ * as before. Statements stay valid in every case. dyd_engine_outcome and the counter `spent` tell about the last
  * run. Cost: the calls of the question and its plans; O(log points) for each point narrowed, a triangulation update for
  * each stage.
  *
- * Are points 0 and 1 surely different? (r: two rectangles, initialised.)
+ * Are points 0 and 1 certainly different? (r: two rectangles, initialised.)
  *
  *     static dyd_status differ(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
  *       dyd_rect *r = user;
@@ -340,20 +341,20 @@ DYD_API dyd_status dyd_engine_ask(dyd_outcome *outcome, dyd_engine *e, const dyd
 /* ---- points as streams, and questions about computable points ---- */
 
 /* Point i of e, as a new reference to a stream that stays valid when e is freed (compose.h). It begins with the
- * rectangle that e knows. What one of the two narrows later the other may find or not; both enclose the same point.
- * DYD_E_ARG when there is no point i. */
+ * rectangle that e knows. Points that one of the two narrows later may be wider in the other; both enclose the same
+ * point. DYD_E_ARG when there is no point i. */
 DYD_API dyd_status dyd_engine_stream(dyd_stream **out, dyd_engine *e, uint32_t i);
 /* The centre of the circle through the corners of t (dyd_stream_voronoi_vertex): for a triangle of
  * dyd_delaunay_triangles, a Voronoi vertex. */
 DYD_API dyd_status dyd_engine_voronoi_vertex(dyd_stream **out, dyd_engine *e, const dyd_triangle *t);
 
-/* Which points of e are possibly nearest to the point `at`, ascending; *sure: exactly one is, and it is surely nearest.
- * Refines `at` and the points that are possibly nearest until that is sure (decided), until nothing concerned can be
- * refined (fixpoint: ties, fixed rectangles), or until options->max_bits, max_calls or seconds are spent
- * (budget); dyd_engine_cancel works (cancelled). *out is right for the rectangles reached in every case, and the list
- * only ever shrinks [NEAR-3]. Needs a result (DYD_E_ARG before the first run); points narrowed here are brought into
- * it by the next run. `at` is borrowed. options (may be NULL): goal, schedule, stages, pairs and progress mean nothing
- * here. On errors *outcome is DYD_OUTCOME_ERROR, *err (may be NULL) is filled, *out and *sure are as before.
+/* Which points of e are possibly nearest to the point `at`, ascending; *sure: exactly one is, and it is certainly
+ * nearest. Refines `at` and the points that are possibly nearest until that is certain (decided), until nothing
+ * concerned can be refined (fixpoint: ties, fixed rectangles), or until options->max_bits, max_calls or seconds are
+ * spent (budget); dyd_engine_cancel works (cancelled). *out is right for the rectangles reached in every case, and the
+ * list only ever shrinks [NEAR-3]. Needs a result (DYD_E_ARG before the first run); points narrowed here are brought
+ * into it by the next run. `at` is borrowed. options (may be NULL): goal, schedule, stages, pairs and progress mean
+ * nothing here. On errors *outcome is DYD_OUTCOME_ERROR, *err (may be NULL) is filled, *out and *sure are as before.
  * dyd_engine_outcome and the counter `spent` still tell about the last run. */
 DYD_API dyd_status dyd_engine_nearest(dyd_index_list *out, bool *sure, dyd_outcome *outcome, dyd_engine *e,
                                       dyd_stream *at, const dyd_engine_options *options, dyd_error *err);

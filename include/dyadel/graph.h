@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Graphs of near neighbours: the nearest-neighbour graph, the Gabriel graph, the minimum spanning tree. Which of their
- * edges are sure, and which are possible, for points known as rectangles (mathematics: section 17). */
+ * edges are certain, and which are possible, for points known as rectangles (mathematics: section 17). */
 #ifndef DYADEL_GRAPH_H
 #define DYADEL_GRAPH_H
 
@@ -12,13 +12,13 @@ extern "C" {
 
 typedef enum dyd_graph {
   DYD_GRAPH_NEAREST = 0, /* i, j: j is nearest to i. j, i need not be there */
-  DYD_GRAPH_GABRIEL,     /* i, j: nobody is in the disc that has both as ends of a diameter. i < j */
+  DYD_GRAPH_GABRIEL,     /* i, j: no site is in the disc that has both as ends of a diameter. i < j */
   DYD_GRAPH_MST          /* i, j: an edge of a minimum spanning tree. i < j */
 } dyd_graph;
 
-/* sure: an edge for every choice of points, and strictly so: nobody else is as near, in the closed disc, or as short a
- * way round. Not sure: an edge, or one of several equally good ones, for some choice; pairs that are not listed are
- * edges for no choice [NNG-1] [GAB-1] [MST-1]. */
+/* sure: an edge for every choice of points, and strictly so: no other site is as near, in the closed disc, or as short
+ * a way round. Not certain: an edge, or one of several equally good ones, for some choice; pairs that are not listed
+ * are edges for no choice [NNG-1] [GAB-1] [MST-1]. */
 typedef struct dyd_graph_edge {
   uint32_t i, j;
   bool sure;

@@ -16,17 +16,17 @@
 extern "C" {
 #endif
 
-/* What a file held. Begun with DYD_SIZED. A call that fails sets it, too: to what was read before. */
+/* The contents of a file. Begun with DYD_SIZED. A call that fails sets it, too: to the contents read before. */
 typedef struct dyd_read_report {
   size_t struct_size;
   size_t rows;    /* lines with a point, or records behind the header; also those that gave no point */
-  size_t missing; /* rows left out by skip_missing */
+  size_t missing; /* rows skipped by skip_missing */
   size_t merged;  /* rows taken as one with an earlier one by merge or merge_by */
   size_t shared;  /* rectangles whose centre is that of another one, which leaves their neighbours undecided */
   bool degrees; /* the columns of x and y are called longitude and latitude: lon, lng, stop_lon, decimalLongitude .. */
   bool swapped; /* the column of x is called latitude or northing, that of y longitude or easting */
   size_t commented; /* lines of a table that begin with # or % and have as many fields as others, so that they may be
-                       rows; they are left out as comments */
+                       rows; they are skipped as comments */
   size_t recoded;   /* lines that are not UTF-8 and were read as Windows-1252, which includes Latin-1 */
   /* Set when the file is neither a points file nor a table: the name of its format, a command
    * that makes a table of the file called FILE (NULL: there is none), and the columns of x and y in that table (NULL:
@@ -39,7 +39,7 @@ typedef struct dyd_read_report {
 } dyd_read_report;
 
 /* Columns are named as in the header (quoted as in RFC 4180 when they hold commas; capitals count only where names
- * differ by them alone), or by their numbers from 1. What was left out or merged: dyd_engine_row, dyd_engine_merged. */
+ * differ by them alone), or by their numbers from 1. Rows skipped or merged: dyd_engine_row, dyd_engine_merged. */
 typedef struct dyd_read_options {
   size_t struct_size; /* set by DYD_SIZED */
   const char
@@ -51,13 +51,13 @@ typedef struct dyd_read_options {
   const char *carry;          /* "all" or "NAME,NAME": columns that layers of points repeat (dyd_engine_carried) */
   const char *delimiter;   /* one character, "tab" or "blank" (runs of blanks); NULL: the one that suits the header */
   bool decimal_comma;      /* 47,61 is 47.61; commas within parentheses and brackets separate all the same */
-  bool skip_missing;       /* leave out rows in which a coordinate or radius is empty, NA, N/A, #N/A or another error of
+  bool skip_missing;       /* skip rows in which a coordinate or radius is empty, NA, N/A, #N/A or another error of
                               a spreadsheet, NaN, null, None, - or `missing` */
   bool merge;              /* equal nominal coordinates are one point: with the smaller radius */
-  dyd_read_report *report; /* receives what was read; NULL: nowhere */
+  dyd_read_report *report; /* receives counts of the rows; NULL: nowhere */
   /* x and y are longitude and latitude: a latitude beyond 90 degrees is an error with its line and column, columns
    * whose names say the other order are DYD_E_ARG, and so are radii in a column without a unit: "30m", "2 km", that of
-   * radius_unit, or that in the column's name ("sde(m)", "s [mm]", "accuracyInMeters"). Lengths are no part of the
+   * radius_unit, or that in the column's name ("sde(m)", "s [mm]", "accuracyInMeters"). Lengths do not belong to the
    * rectangle, but kept in metres (DYD_ROW_RADIUS). */
   bool degrees;
   const char *cost_column; /* "NAME": the cost of measuring a point again (DYD_ROW_COST) */
@@ -69,9 +69,9 @@ typedef struct dyd_read_options {
    * as in the plane radii are in the unit of the coordinates. NULL: none. */
   const char *radius_unit;
   const char *radius_scale; /* an exact number above 0 that all radii are multiplied by; NULL: 1 */
-  const char *thousands;    /* what is between groups of three digits: , . ' _ or "blank"; NULL: nothing */
+  const char *thousands;    /* separator of groups of three digits: , . ' _ or "blank"; NULL: nothing */
   const char *missing;      /* a further word, or number, that means nothing; NULL: none */
-  const char *skip_lines;   /* "N": leave out the first N lines; NULL: none */
+  const char *skip_lines;   /* "N": skip the first N lines; NULL: none */
   bool no_header;           /* the table has no header: columns are named by numbers */
   bool units_row;           /* the row behind the header holds units: no point, but the unit of radii */
   /* "95%" or "0.95", a decimal above 0 and below 1: widens the n points with a standard deviation above 0 by k = sqrt(2
@@ -99,7 +99,7 @@ typedef struct dyd_read_field {
   bool text;          /* says how a text is read: it means nothing for points that come from elsewhere */
 } dyd_read_field;
 /* Returns field k, from 0; NULL after the last. *value (unless NULL) becomes what options say: the text, "true" for a
- * bool that is set, NULL for what is not set, and for options NULL. Borrowed. O(1) */
+ * bool that is set, NULL for options not set, and for options NULL. Borrowed. O(1) */
 DYD_API const dyd_read_field *dyd_read_field_at(const char **value, const dyd_read_options *options, size_t k);
 
 /* A number in the row of a point, beside its coordinates. */
@@ -112,13 +112,13 @@ typedef enum dyd_row_number {
 /* Returns the name of the k-th column that points carry (dyd_read_options.carry); NULL behind the last one. Borrowed.
  */
 DYD_API const char *dyd_engine_carried_name(const dyd_engine *e, size_t k);
-/* Returns what stands in this column in the row of point i; "" where the point has no row in a file. Borrowed. O(k) */
+/* Returns the text in this column in the row of point i; "" where the point has no row in a file. Borrowed. O(k) */
 DYD_API const char *dyd_engine_carried(const dyd_engine *e, size_t i, size_t k);
 /* With at least this probability all points lie in their regions. */
 typedef struct dyd_confidence {
   size_t struct_size;
   char probability[96]; /* "0.95" */
-  double k;             /* regions reach so many standard deviations */
+  double k;             /* regions reach this many standard deviations */
   size_t n;             /* points with a standard deviation above 0 */
 } dyd_confidence;
 /* Returns what the points of e were read with; false, and nothing, where no confidence was stated. O(1) */
@@ -143,7 +143,7 @@ DYD_API dyd_status dyd_engine_add_text(dyd_engine *e, const char *text, size_t l
  * it. On DYD_E_PARSE err has line, column and a message with the remedy. */
 DYD_API dyd_status dyd_rect_set_text(dyd_rect *out, const char *text, size_t length, dyd_error *err);
 
-/* ---- tables beside the points ---- */
+/* ---- tables apart from the points ---- */
 
 /* A record of a table, borrowed for the call. */
 typedef struct dyd_record {
@@ -151,7 +151,7 @@ typedef struct dyd_record {
   size_t fields;      /* above 0 */
   const void *field;  /* for the functions below */
 } dyd_record;
-/* Takes a record. What it returns other than DYD_OK, with *err filled, ends the reading. */
+/* Takes a record. A result other than DYD_OK, with *err filled, ends the reading. */
 typedef dyd_status (*dyd_record_fn)(void *user, const dyd_record *record, dyd_error *err);
 /* Reads the records of a text up to its end, packed (gzip, zstd) or not; lines are at most 1048576 bytes long.
  *
@@ -159,7 +159,7 @@ typedef dyd_status (*dyd_record_fn)(void *user, const dyd_record *record, dyd_er
  *            another character: separated text (RFC 4180); in both, lines that begin with # or % are comments;
  *            0: of , ; tab and | the first that the first record holds, else ' '
  *
- * Empty lines are no records, and blanks around fields are removed. Returns what record returned; DYD_E_PARSE with line
+ * Empty lines are skipped, and blanks around fields are removed. Returns what record returned; DYD_E_PARSE with line
  * and column for NUL bytes, longer lines, and quotes that do not pair up; DYD_E_IO; DYD_E_NOMEM. err may be NULL. */
 DYD_API dyd_status dyd_read_records(FILE *in, char delimiter, dyd_record_fn record, void *user, dyd_error *err);
 /* Returns field k, from 0, which is not terminated; NULL, with *length = 0, where the record ends before. */
@@ -289,9 +289,9 @@ typedef struct dyd_write_options {
   unsigned epsg; /* EPSG number of the coordinates' reference system, for geojson and json; 0: none is claimed, on a
                     sphere longitude and latitude (CRS84) in geojson */
   const volatile int *cancel; /* of graphs as in dyd_graph_edges: DYD_CANCELLED. Of the diagram: once it is set the rest
-                                 is written quickly, and true all the same: nothing of a cell is sure, all of the window
-                                 possible; boundaries are null in json; regions are the window, vertices unbounded, the
-                                 distance is not known. NULL: none */
+                                 is written quickly, and true all the same: nothing of a cell is certain, all of the
+                                 window possible; boundaries are null in json; regions are the window, vertices
+                                 unbounded, the distance is not known. NULL: none */
   const dyd_history *history; /* of the run, a stage for each row of `stages`, for html; NULL: only the result is shown.
                                  DYD_E_ARG with pairs, and where it ends with other pairs than the result */
 
@@ -319,7 +319,7 @@ typedef struct dyd_write_options {
    * rounded. It may be the file that is written. NULL: none are written. */
   FILE *comments;
   bool lengths;     /* pairs and graphs of the plane: columns length_lo, length_hi, rounded outward */
-  bool clip;        /* edges of the diagram: cut to the window, and left out where they are certainly beyond it */
+  bool clip;        /* edges of the diagram: cut to the window, and omitted where they are certainly beyond it */
   const char *name; /* what the points are called, such as their file: the title of html; NULL: nothing */
 } dyd_write_options;
 /* Is this such a label, whose names differ? */
@@ -333,9 +333,9 @@ DYD_API bool dyd_label_fits(const char *label);
  *
  * DYD_CONTENT_BISECTOR: the arcs of both curves with exact ends. DYD_CONTENT_DISC: orientation, the six critical
  * circles exactly and enclosed, the box of the partial centre, and Con of the other rectangles. DYD_CONTENT_NEAREST and
- * DYD_CONTENT_PLACES: the points that are possibly, or the one that is surely nearest, with bounds of their distances.
- * DYD_CONTENT_PLOT: bounds and counts against stages on logarithmic scales. Pictures of tolerances colour edges by the
- * death.
+ * DYD_CONTENT_PLACES: the points that are possibly, or the one that is certainly nearest, with bounds of their
+ * distances. DYD_CONTENT_PLOT: bounds and counts against stages on logarithmic scales. Pictures of tolerances colour
+ * edges by the death.
  *
  * On a sphere, in wkt and geojson, edges are great circles, a place at every 2 degrees at most, cut where they cross
  * the meridian of 180 degrees; of triangles that hold more than half of the sphere the geometry is empty. Cells that
@@ -410,7 +410,7 @@ DYD_API void dyd_frame_clear(dyd_frame *f);
 DYD_API dyd_status dyd_voronoi_frame(dyd_frame *out, const dyd_engine *e, const dyd_write_options *o, dyd_error *err);
 
 /* One line "XLO XHI YLO YHI" for each of `count` sites from `first` on: exact numbers in the forms that
- * dyd_rect_narrow_text and the reader take. DYD_E_ARG when there are not so many sites; DYD_E_IO, DYD_E_NOMEM. */
+ * dyd_rect_narrow_text and the reader take. DYD_E_ARG when there are fewer sites; DYD_E_IO, DYD_E_NOMEM. */
 DYD_API dyd_status dyd_write_rects(FILE *out, const dyd_sites *sites, size_t first, size_t count, dyd_error *err);
 
 /* ---- for languages without FILE ---- */
@@ -419,15 +419,15 @@ DYD_API dyd_status dyd_write_rects(FILE *out, const dyd_sites *sites, size_t fir
 typedef bool (*dyd_put_fn)(void *user, const char *bytes, size_t count);
 /* Gives at most `room` bytes and says how many in *got; 0 at the end. false: it failed. */
 typedef bool (*dyd_get_fn)(size_t *got, void *user, char *bytes, size_t room);
-/* A file for all functions that write (read) one; what is written goes to put, in pieces of any size, the last ones
+/* A file for all functions that write (read) one; output goes to put, in pieces of any size, the last ones
  * when the file is closed. Release with fclose, which returns EOF when a call failed. Callbacks come from the thread
- * that uses the file. DYD_E_NOMEM; DYD_E_IO where the C library cannot do this (it is no part of POSIX). */
+ * that uses the file. DYD_E_NOMEM; DYD_E_IO where the C library cannot do this (POSIX lacks it). */
 DYD_API dyd_status dyd_file_to_callback(FILE **out, dyd_put_fn put, void *user, dyd_error *err);
 DYD_API dyd_status dyd_file_from_callback(FILE **out, dyd_get_fn get, void *user, dyd_error *err);
 
 /* ---- traces ---- */
 
-/* A trace tells which point was narrowed to what, and why; replaying it gives the same statuses without asking a point.
+/* A trace holds each narrowing of a point, and why; replaying it gives the same statuses without asking a point.
  * It is one JSON object per line, exact numbers are texts "m*2^e" or "p/q":
  *   {"format":"dyadel trace 2","points":N,"input":..,"schedule":...}         first line: what was asked for, of what
  *   {"stage":S,"point":I,"bits":B,"called":C,"final":F,"why":W,"pair":[I,J],"x":[LO,HI],"y":[LO,HI]}
@@ -443,19 +443,19 @@ DYD_API dyd_status dyd_file_from_callback(FILE **out, dyd_get_fn get, void *user
  *                                      and may take again; a replay passes it over
  *   {"outcome":O}                                                            last line
  * The last member of each line, "sum", is a digest in hexadecimal (FNV-1a, 64 bits) of the lines so far, each up to
- * that member and without its end: a line that was changed, moved or left out is noticed. It keeps no secret: who
+ * that member and without its end: a line that was changed, moved or removed is noticed. It keeps no secret: who
  * writes a trace can write its digests. */
 typedef struct dyd_trace dyd_trace;
 
 /* Begins a trace of a run of e (not run before) with these options. `input`, a text of letters, digits and blanks, or
  * NULL, tells inputs apart (a digest). Answers that e was given by dyd_trace_recall come first, so that this
- * trace alone is enough to go on from. `out` is borrowed until dyd_trace_end; when it is line-buffered, each answer is
- * in the file before the next is asked for. */
+ * trace alone is enough to continue from. `out` is borrowed until dyd_trace_end; when it is line-buffered, each answer
+ * is in the file before the next request. */
 DYD_API dyd_status dyd_trace_new(dyd_trace **trace, FILE *out, const dyd_engine *e, const char *input,
                                  const dyd_engine_options *options, const dyd_converge_options *converge,
                                  dyd_error *err);
-/* Brings what is written to the disk (fdatasync), now and, from now on, with the first line that is written `seconds`
- * or more after the last time, and at the end: when the machine fails, the answers of at most so many seconds of the
+/* Brings the lines written to the disk (fdatasync), now and, from now on, with the first line that is written `seconds`
+ * or more after the last time, and at the end: when the machine fails, the answers of at most this many seconds of the
  * run are lost. Where this is not called, the system decides. DYD_E_ARG for a negative number; DYD_E_IO. */
 DYD_API dyd_status dyd_trace_sync(dyd_trace *trace, double seconds, dyd_error *err);
 /* For dyd_engine_options.trace and dyd_engine_options.progress; user is the dyd_trace. */
@@ -467,7 +467,7 @@ DYD_API dyd_status dyd_trace_end(dyd_trace *trace, dyd_outcome outcome, dyd_erro
 /* Puts the rectangles of a trace into a table of sites and triangulates after each stage, as the run did. *out, given
  * cleared, receives a row per stage as dyd_converge_run makes it (seconds 0), and keeps those made before a failure.
  * DYD_E_PARSE with line and message when the trace is not of its form, ends early, names a rectangle that is not inside
- * the one before, or tells of other statuses than the replay finds. Window and `of` come from the trace; the
+ * the one before, or states other statuses than the replay finds. Window and `of` come from the trace; the
  * callback of converge is called; DYD_CANCELLED soon after its flag is set. converge and err may be NULL. */
 DYD_API dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_options *converge,
                                     dyd_error *err);
@@ -475,10 +475,10 @@ DYD_API dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_co
 typedef struct dyd_recall_report {
   size_t struct_size; /* set by DYD_SIZED */
   size_t answers;     /* taken from the trace */
-  bool cut;           /* its last line was cut short, and left out */
+  bool cut;           /* its last line was cut short, and skipped */
 } dyd_recall_report;
-/* Gives e, not run before, the answers of a trace (dyd_engine_recall), so that a run with the same options goes on from
- * where the traced one ended, however it did: a trace cut short within a line is taken up to there. `input` as for
+/* Gives e, not run before, the answers of a trace (dyd_engine_recall), so that a run with the same options continues
+ * from where the traced one ended, however it did: a trace cut short within a line is taken up to there. `input` as for
  * dyd_trace_new; NULL: not compared. DYD_E_PARSE with line and message when the trace is not of its form, of another
  * number of points, of another input, or names a rectangle that is not inside the one before; what was taken until then
  * stays in e. out and err may be NULL. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Certified upper bounds on what the partial triangulation leaves open (mathematics: section 8). */
+/* Certified upper bounds on what the partial triangulation leaves undecided (mathematics: section 8). */
 #ifndef DYADEL_METRIC_H
 #define DYADEL_METRIC_H
 
@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* Bounds on the partial Voronoi diagram on a window W (dyadic ends, positive area). The undetermined set U is W minus
+/* Bounds on the partial Voronoi diagram on a window W (dyadic ends, positive area). The undecided set U is W minus
  * the union of all Int_i; it holds the true diagram (the union of the boundaries of the true cells) inside W.
  *
  * area       an upper bound of the Lebesgue measure of U: the area of W minus the areas of inner polygons [AREA-V]

@@ -11,27 +11,27 @@
  * ends are plain exact numbers: -3.25, 1e-3, 22/7, 0x1.8p-3, 5*2^-20. Answers come in the order of the requests,
  * without waiting for further ones, and the output is flushed after each. The program ends when its input does. What it
  * answers should depend on I, B and its former answers for I only. Standard error is that of the caller. C says what
- * asking a point once more costs, such as minutes, with regard to the others: the adaptive schedule asks cheap points
- * of a face before dear ones. Of several programs, what the first one says counts.
+ * asking a point again costs, such as minutes, with regard to the others: the adaptive schedule asks cheap points
+ * of a face before expensive ones. Of several programs, the first one decides.
  *
  * A COMMAND that is one program should begin with exec: else a shell stands between, which keeps the pipes open when
  * the program closes them, so that this is seen only as silence.
  *
- * Several programs: point I is always asked of program number I modulo jobs, so a program may keep what it knows of its
+ * Several programs: point I is always asked of program number I modulo jobs, so a program may keep data of its
  * points. Each finds its number, from 0, in the environment as DYADEL_JOB (to choose a machine, say).
  *
  * Results do not depend on jobs, batch and time as long as the answers do not.
  *
  * Failures (statuses of narrow, with point and reason in the error record): DYD_E_STREAM when the program ended, was
- * silent for too long, or wrote what is no answer to what was asked; DYD_E_NESTING, DYD_E_RANGE. What was answered
- * before counts. With `retries` a program that ended, was silent, or wrote what is no answer is first started again, so
- * often for one request, and asked again what it has not answered: it then knows nothing of its former answers, which
- * its new ones still have to lie in (or say the same).
+ * silent for too long, or wrote something other than an answer to the request; DYD_E_NESTING, DYD_E_RANGE. Earlier
+ * answers count. With `retries` a program that ended, was silent, or wrote something other than an answer is first
+ * started again, so often for one request, and gets the open requests again: it then knows nothing of its former
+ * answers, which its new ones still have to lie in (or say the same).
  *
- * Nothing is left behind: every program and what it starts is one process group. When the oracle is freed their inputs
- * end, half a second later they get SIGTERM (srun and the like free what they hold elsewhere), and are killed after
+ * Nothing is left behind: every program and its children are one process group. When the oracle is freed their inputs
+ * end, half a second later they get SIGTERM (srun and the like free resources elsewhere), and are killed after
  * another half; likewise, within three seconds, when the process that uses the library dies of whatever cause (a shell
- * beside it watches for that). Only what leaves the group by its own will, such as a daemon, or runs on
+ * next to it watches for that). Only what leaves the group by its own will, such as a daemon, or runs on
  * another machine, must see for itself that its input has ended. SIGPIPE is never raised. */
 #ifndef DYADEL_ORACLE_H
 #define DYADEL_ORACLE_H
@@ -56,7 +56,7 @@ typedef struct dyd_oracle_options {
                              * the call of dyd_oracle_new only */
 } dyd_oracle_options;
 
-/* Programs that run, and what they were asked. Counted references; used by one thread at a time. */
+/* Programs that run, and their requests. Counted references; used by one thread at a time. */
 typedef struct dyd_oracle dyd_oracle;
 
 /* Starts the programs and waits until each has said how many points there are. options may be NULL.

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Predicates of partial points: what holds for every choice of points in the rectangles.
+/* Predicates of partial points: statements that hold for every choice of points in the rectangles.
  *
  * Every predicate is decided: a floating filter with a proved bound answers first, an exact rung in integers
  * answers the rest. "Unsure" means that two choices really differ (or one choice is degenerate), never that
@@ -31,7 +31,7 @@ typedef struct dyd_circle {
 } dyd_circle;
 
 /* The partial disc D(a,b,c) = (I,E) by its six critical circles, in the order FCC CFC CCF CFF FCF FFC.
- * known is false (and the circles unused) when the triple is not surely oriented: I and E are empty then. */
+ * known is false (and the circles unused) when the triple is not certainly oriented: I and E are empty then. */
 typedef struct dyd_partial_disc {
   bool known;
   dyd_circle circle[6];
@@ -41,8 +41,8 @@ DYD_API void dyd_partial_disc_init(dyd_partial_disc *d);
 DYD_API void dyd_partial_disc_clear(dyd_partial_disc *d);
 DYD_API void dyd_partial_disc_set(dyd_partial_disc *out, const dyd_rect *a, const dyd_rect *b, const dyd_rect *c);
 
-/* Con(r; a,b,c): PLUS r surely inside the circle through a, b, c (of either orientation); MINUS surely outside;
- * UNSURE: some circle meets all four, or the triple is not surely oriented [CON-1]. */
+/* Con(r; a,b,c): PLUS r certainly inside the circle through a, b, c (of either orientation); MINUS certainly outside;
+ * UNSURE: some circle meets all four, or the triple is not certainly oriented [CON-1]. */
 DYD_API dyd_sure dyd_con(const dyd_rect *r, const dyd_rect *a, const dyd_rect *b, const dyd_rect *c);
 
 #ifdef __cplusplus

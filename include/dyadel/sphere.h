@@ -32,13 +32,13 @@ typedef struct dyd_sphere_options {
   bool centre_set; /* project from point `centre`; else one is chosen, or a place between points */
   uint32_t centre;
   const char *radius_unit, *radius_scale; /* as in dyd_read_options; of `radius` */
-  bool no_images; /* nothing is projected: only for dyd_sphere_nearest, and what is said of places */
+  bool no_images; /* nothing is projected: only for dyd_sphere_nearest, and statements about places */
 } dyd_sphere_options;
 
 /* The sphere with the points of `places`, an engine to which longitudes (x) and latitudes (y) were added, and which is
  * never run; borrowed until dyd_sphere_free, and not to be changed. options may be NULL. Streams are narrowed to 32
  * bits. Where each point may be the same as another one, or radii are wide, so that a point would widen all images,
- * a place between points is projected from, if there is one: then pairs around that may stay open [SPH-5]. A point
+ * a place between points is projected from, if there is one: then pairs around that may stay undecided [SPH-5]. A point
  * whose row has a radius in metres (DYD_ROW_RADIUS of io.h) lies within it, in addition to options. DYD_E_ARG: a radius
  * in the options that is not understood, has no unit, or is larger than that of the earth. DYD_E_DOMAIN, with the point
  * where it is one: a latitude beyond 90 degrees, points that leave no place of the sphere free. O(N log N). */
@@ -57,7 +57,7 @@ DYD_API dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd
                                   dyd_error *err);
 
 /* The outcome of the last run: as that of the images, but fixpoint where these are decided and, as no point is
- * projected from, pairs stay open all the same. */
+ * projected from, pairs stay undecided all the same. */
 DYD_API dyd_outcome dyd_sphere_outcome(const dyd_sphere *s);
 
 /* The point projected from, and the one of which image k is; DYD_NO_PLACE where there is none. */

@@ -53,8 +53,8 @@ static inline const dyd_request *dyd_request_at(const dyd_request *request, size
 
 /* For callbacks in languages that cannot fill in a dyd_rect: *r, as narrow was given it, becomes the answer that the
  * text "XLO XHI YLO YHI" or "XLO XHI YLO YHI fixed" gives, four plain numbers (decimal, rational, hexadecimal, dyadic).
- * Where they are not dyadic they are rounded outward, by less than 2^-64 of the width and never beyond what was known.
- * What is returned (DYD_OK, DYD_FIXED, or an error with *r as it was) is for the callback to return. */
+ * Where they are not dyadic they are rounded outward, by less than 2^-64 of the width and never beyond the former
+ * rectangle. The result (DYD_OK, DYD_FIXED, or an error with *r as it was) is for the callback to return. */
 DYD_API dyd_status dyd_rect_narrow_text(dyd_rect *r, const char *text, size_t length, dyd_error *err);
 /* The same from canonical rationals: x lower, x upper, y lower, y upper. */
 DYD_API dyd_status dyd_rect_narrow_q(dyd_rect *r, const mpq_t end[4], dyd_error *err);
@@ -69,8 +69,8 @@ typedef struct dyd_source {
   dyd_release_fn release;
   void *user;
   dyd_announce_fn announce;
-  /* What asking each of its points once more costs, above 0 (DYD_ROW_COST of io.h): the adaptive schedule asks cheap
-   * ones before dear ones. Borrowed, and read by the call that adds the source to an engine only. */
+  /* Cost of asking each of its points again, above 0 (DYD_ROW_COST of io.h): the adaptive schedule asks cheap
+   * ones before expensive ones. Borrowed, and read by the call that adds the source to an engine only. */
   const double *cost;
 } dyd_source;
 
@@ -126,7 +126,7 @@ typedef enum dyd_real_operation {
  * all operands are exact and the value does not exist, or is too large (else the narrowing says so); DYD_E_RANGE for
  * more than 1,000 operations above one another. */
 DYD_API dyd_status dyd_real_op(dyd_real **out, dyd_real *x, dyd_real *y, dyd_real_operation op, dyd_error *err);
-/* The caller asserts that x, whose callback nobody looks into, is the one root in [lo,hi] of the polynomial sum
+/* The caller asserts that x, whose callback is opaque, is the one root in [lo,hi] of the polynomial sum
  * coeff[k] x^k, which has opposite signs at lo and hi. Ties are proved on that ground from now on, and certificates
  * name it. From now on every interval of x has to hold the root: DYD_E_NESTING where one does not, now or when x is
  * narrowed. DYD_E_ARG for a polynomial without such a root or with several in [lo,hi], for a real that is no

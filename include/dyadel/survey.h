@@ -32,15 +32,16 @@ typedef struct dyd_survey_options {
 
 typedef struct dyd_survey dyd_survey;
 
-/* A plan: if the points of the rows turn out where they say, no pair asked for is indeterminate, but for those that tie
- * at the nominal places: proved by one triangulation of these rectangles. No row can be left out, as far as its
+/* A plan: if the points of the rows turn out where they say, no pair asked for is indeterminate, except for ties
+ * at the nominal places: proved by one triangulation of these rectangles. No row is superfluous, as far as its
  * own faces tell (in small plans: at all; in large faces: the sites near it), and all accuracies are as coarse as one
- * common factor makes them, then each by itself in powers of 2 [SUR-1]. dyd_survey_get tells how many pairs stay open
- * even so (the accuracy is not enough, or rectangles are fixed by their centres). pd is borrowed for the call; options
- * may be NULL. Returns DYD_OK; DYD_E_ARG; DYD_CAPPED when pd is; DYD_E_NOMEM: *out is NULL then. DYD_CANCELLED: *out
- * has the rows that were chosen by then, with what they decide, see dyd_survey_result, and err says what is open; or it
- * is NULL, before pairs were looked at. Cost: for a face of m sites at most m^2 triangulations of m sites, m <= 16; in
- * larger ones an update for each row, and some triangulations of the sites near it; some of all. */
+ * common factor makes them, then each alone in powers of 2 [SUR-1]. dyd_survey_get has the number of pairs that stay
+ * undecided even so (the accuracy is not enough, or rectangles are fixed by their centres). pd is borrowed for the
+ * call; options may be NULL. Returns DYD_OK; DYD_E_ARG; DYD_CAPPED when pd is; DYD_E_NOMEM: *out is NULL then.
+ * DYD_CANCELLED: *out has the rows that were chosen by then, with their effect, see dyd_survey_result, and err says
+ * what is open; or it is NULL, before any pair was examined. Cost: for a face of m sites at most m^2 triangulations of
+ * m sites, m <= 16; in larger ones an update for each row, and some triangulations of the sites near it; some of all.
+ */
 DYD_API dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_survey_options *options,
                                   dyd_error *err);
 DYD_API void dyd_survey_free(dyd_survey *s);
@@ -49,8 +50,8 @@ DYD_API size_t dyd_survey_rows(const dyd_survey_row **row, const dyd_survey *s);
 /* What a plan comes to. */
 typedef struct dyd_survey_result {
   size_t struct_size; /* set by the library */
-  size_t open, ties;  /* pairs asked for that were open; pairs that tie at the nominal places */
-  size_t left;        /* pairs that the plan leaves open */
+  size_t open, ties;  /* pairs asked for that were undecided; pairs that tie at the nominal places */
+  size_t left;        /* pairs that the plan leaves undecided */
   bool cut; /* the plan is not finished: points may be in it that a finished one does not need, in the order they were
                chosen; the numbers of pairs hold as they do otherwise */
   uint32_t tie[2];  /* the first pair asked for that is indeterminate and ties at the nominal places: a measurement of

@@ -26,7 +26,7 @@ DYD_API const char *dyd_tolerance_event_text(dyd_tolerance_event event);
 
 /* The event of i, j (i < j) is at a t in [lo, hi], hi <= (1 + 2^-40) lo within the range of doubles; both are infinite
  * where nothing ever happens. k < l: the sites that bind: the largest empty annulus about the pair has them on its
- * outer circle (birth: on its inner one). l = DYD_NO_SITE: k alone binds, k too: nobody does, or a tie. Where more
+ * outer circle (birth: on its inner one). l = DYD_NO_SITE: k alone binds, k too: none does, or a tie. Where more
  * sites bind, two of them. */
 typedef struct dyd_tolerance_row {
   uint32_t i, j;
@@ -41,7 +41,7 @@ typedef struct dyd_tolerance_options {
   size_t struct_size;         /* set by DYD_SIZED */
   mpq_srcptr up_to;           /* births up to here are found, too; NULL: none. Borrowed for the call */
   bool points;                /* also how far each point may be from its place */
-  size_t max_pairs;           /* cap on pairs looked at for births; 0: default, see dyd_delaunay_options */
+  size_t max_pairs;           /* cap on pairs examined for births; 0: default, see dyd_delaunay_options */
   const volatile int *cancel; /* as in dyd_delaunay_options */
   bool no_filter;             /* decide everything on the exact rung (for tests) */
   double sigma;               /* also probabilities, for normal errors of this standard deviation; 0: none */
@@ -49,7 +49,7 @@ typedef struct dyd_tolerance_options {
    * hold for these numbers and for all that they are next to as doubles. NULL: 1 each. Borrowed for the call. */
   const double *weight;
   const double
-      *sigmas; /* of each site, above 0: standard deviations in place of sigma; NULL: sigma. Borrowed as above */
+      *sigmas; /* of each site, above 0: standard deviations instead of sigma; NULL: sigma. Borrowed as above */
   /* DYD_METRIC_BOX [TOL-9]: [lo,hi] holds the half-width of all squares from which on an edge is not legal, or another
    * pair possible; hi <= (1 + 2^-20) lo, but where the search for witnesses gives no answer; k and l are about nearest
    * to the disc that shows the edge at lo (the birth at hi), one on each side of it; there is no exact form. Radii are
@@ -75,7 +75,7 @@ DYD_API void dyd_tolerance_free(dyd_tolerance *t);
 
 /* All rows: every possible pair of pd, and the births; sorted by i, then j. Borrowed until t is freed. */
 DYD_API size_t dyd_tolerance_rows(const dyd_tolerance_row **row, const dyd_tolerance *t);
-/* What is known beside the rows. */
+/* Results apart from the rows. */
 typedef struct dyd_tolerance_result {
   size_t struct_size; /* set by the library */
   dyd_metric metric;
@@ -83,7 +83,7 @@ typedef struct dyd_tolerance_result {
    * infinite for fewer than three points [TOL-5]. Where edges have no row, lo is 0. */
   double lo, hi;
   /* For each site a radius, rounded down: if every point is within its radius of its place, legal edges are edges, and
-   * others are none, as at the nominal places [TOL-6]. An alias is one point with the site it stands for: it has its
+   * others are none, as at the nominal places [TOL-6]. An alias is one point with its site: it has its
    * radius, and moves with it. NULL unless options.points was set, and where work was cancelled. */
   const double *points;
   /* For each row a lower bound of the probability that the pair is an edge, when every coordinate of every point has a
@@ -95,7 +95,7 @@ typedef struct dyd_tolerance_result {
   size_t edges_left, births_left;
   uint64_t filter, exact; /* how many deaths doubles decided, and how many integers */
 } dyd_tolerance_result;
-/* Borrowed until t is freed, as what it points to. */
+/* Borrowed until t is freed, as its contents. */
 DYD_API const dyd_tolerance_result *dyd_tolerance_get(const dyd_tolerance *t);
 /* The exact event of row number `row`: |sqrt(plus) - sqrt(minus)| / 2; both are initialised by the caller. DYD_E_ARG
  * where lo is infinite, or there is no such row, or there are weights: no such form is known then. O(1) */

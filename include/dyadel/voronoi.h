@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The partial Voronoi diagram of a partial Delaunay triangulation (mathematics: sections 2, 8, 9).
  *
- *   Int_i = { c : dl_i(c) < ds_j(c) for all j != i }   surely nearest to i: convex, open
+ *   Int_i = { c : dl_i(c) < ds_j(c) for all j != i }   certainly nearest to i: convex, open
  *   Pos_i = { c : ds_i(c) <= dl_j(c) for all j }       possibly nearest to i: closed, star-shaped towards R_i
  *
  * They are the intersection and the union of the true cells over all choices of points [CELL-1]; only possible
  * neighbours bound them [CELL-2]. Refinement makes Int_i larger and Pos_i smaller [CELL-3].
- * All functions answer for aliases as for the site they stand for, and return DYD_CAPPED (outputs unchanged) when the
+ * All functions answer for aliases as for their site, and return DYD_CAPPED (outputs unchanged) when the
  * triangulation is capped, since neighbours are missing then. pd is borrowed for the call and not changed. */
 #ifndef DYADEL_VORONOI_H
 #define DYADEL_VORONOI_H
@@ -28,7 +28,7 @@ typedef enum dyd_cell_bound { DYD_CELL_SURE = 0, DYD_CELL_POSSIBLE } dyd_cell_bo
 DYD_API dyd_status dyd_voronoi_cell(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, dyd_cell_bound bound,
                                     const dyd_rect *window);
 
-/* Is c in Int_i (TRUE), in Ext_i (FALSE), undetermined (UNKNOWN)? Exact. O(K). UNKNOWN, too, when there is no site i or
+/* Is c in Int_i (TRUE), in Ext_i (FALSE), undecided (UNKNOWN)? Exact. O(K). UNKNOWN, too, when there is no site i or
  * memory is exhausted. */
 DYD_API dyd_truth dyd_voronoi_side(const dyd_delaunay *pd, uint32_t i, const dyd_point *c);
 
@@ -69,8 +69,8 @@ DYD_API dyd_status dyd_voronoi_exact_area(mpq_t out, bool *exact, const dyd_dela
 
 /* ---- vertices ---- */
 
-/* A rectangle that holds the Voronoi vertex of the sure triangle t for every choice, within 2^-bits of the smallest
- * one. DYD_E_ARG when t is not a sure triangle of pd. */
+/* A rectangle that holds the Voronoi vertex of the certain triangle t for every choice, within 2^-bits of the smallest
+ * one. DYD_E_ARG when t is not a certain triangle of pd. */
 DYD_API dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_triangle *t, int64_t bits);
 
 /* The same for undecided face f (dyd_delaunay_face) where its sites are on one circle, which makes its pairs ties: a
@@ -92,12 +92,12 @@ DYD_API dyd_status dyd_voronoi_region(dyd_rect *out, bool *any, const dyd_delaun
 /* ---- nearest sites ---- */
 
 /* Which sites are possibly nearest to a point c anywhere in the rectangle q (ds_i(c) <= min_k dl_k(c): q meets Pos_i),
- * ascending; *sure is true when one site is surely nearest (it is alone in the list, aliases aside, or q lies in
+ * ascending; *sure is true when one site is certainly nearest (it is alone in the list, aliases aside, or q lies in
  * Int_i). Exact [NEAR-1]. Cost: O(log N + output) on separated input. */
 DYD_API dyd_status dyd_nearest(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, const dyd_rect *q);
 
 /* Answers for many places: the sites that are possibly nearest to place k are site[end[k - 1]] to site[end[k] - 1]
- * (end[-1] stands for 0), ascending; sure[k] as above. Owned: init with {0}. */
+ * (end[-1] means 0), ascending; sure[k] as above. Owned: init with {0}. */
 typedef struct dyd_near_list {
   size_t places;
   uint32_t *site;

@@ -48,10 +48,10 @@ static int converge_begin(cli_session *s) {
                  "backslashes, names that differ, and none that is a column of the table",
                  o->label);
   else if (is_piece(s) && o->format == DYD_FORMAT_HTML)
-    cli_complain("html shows the triangulation of all points; leave --of %s away, or give another format",
+    cli_complain("html shows the triangulation of all points; remove --of %s, or give another format",
                  dyd_converge_of_text(o->of));
   else if (o->replay && o->of != DYD_CONVERGE_DELAUNAY)
-    cli_complain("--replay takes what the table is about from the trace; leave --of away");
+    cli_complain("--replay takes what the table is about from the trace; remove --of");
   else if (o->replay && o->format == DYD_FORMAT_HTML)
     cli_complain("html shows the points, which --replay does without; run converge on them");
   else
@@ -283,7 +283,7 @@ static int schedules_begin(cli_session *s) {
                                    .no_ties = o->engine.no_ties};
   r->report = (dyd_check_report){DYD_SIZED(dyd_check_report)};
   if (!o->oracle && strcmp(o->file, "-") == 0)
-    return cli_usage("check reads the points once for each schedule; give a file in place of standard input");
+    return cli_usage("check reads the points once for each schedule; give a file instead of standard input");
   return o->replay ? read_schedule_file(r, o->replay) : 0;
 }
 

@@ -197,7 +197,7 @@ static int voronoi_begin(cli_session *s) {
   s->o.engine.window = &s->window;
   s->share = 0.75; /* the cells get some of the time, too */
   if (!(s->o.max_arc > 0)) return 0;
-  return cli_usage("--max-arc is about the globe; give --sphere or leave it away");
+  return cli_usage("--max-arc is about the globe; give --sphere or remove it");
 }
 
 /* Sets the default window, which needs to know where the points are: a first stage. false after a message. */
@@ -286,9 +286,9 @@ static int places_on_sphere_begin(cli_session *s) {
   const char *what = o->flatten_set ? "--flatten" : o->engine.goal != DYD_GOAL_DECIDED ? "--until" : NULL;
   bool picture = o->format == DYD_FORMAT_SVG || o->format == DYD_FORMAT_PDF || o->format == DYD_FORMAT_PNG;
   if (what)
-    cli_complain("%s is about the plane; leave %s or --sphere away", what, what);
+    cli_complain("%s is about the plane; remove %s or --sphere", what, what);
   else if (o->window && !picture)
-    cli_complain("on a sphere --window is the part that a picture shows; give svg, pdf or png, or leave it away");
+    cli_complain("on a sphere --window is the part that a picture shows; give svg, pdf or png, or remove it");
   else
     return cli_sphere_begin(s);
   return CLI_USAGE;

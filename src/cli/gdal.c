@@ -249,7 +249,7 @@ static int refuse_system(const char *name, const char *crs, bool degrees) {
     return cli_usage("%s: the coordinates are longitude and latitude in degrees (%s); for neighbours on the globe give "
                      "--sphere (delaunay, voronoi), to take degrees as coordinates of a plane --plane",
                      name, crs);
-  return cli_usage("%s: the coordinates are not degrees (%s); leave --sphere away, or turn them into degrees: ogr2ogr "
+  return cli_usage("%s: the coordinates are not degrees (%s); remove --sphere, or turn them into degrees: ogr2ogr "
                    "-t_srs EPSG:4326 degrees.gpkg %s",
                    name, crs, name);
 }
@@ -264,7 +264,7 @@ static int take_system(feature_source *s, const char *name, cli_options *o) {
   bool degrees = OSRIsGeographic(crs), implied = degrees && degrees_are_implied(name, s->set);
   s->swap = degrees && latitude_is_first(crs);
   if (o->epsg && epsg && o->epsg != epsg)
-    return cli_usage("%s: the reference system of the file is EPSG:%u; leave --crs EPSG:%u away", name, epsg, o->epsg);
+    return cli_usage("%s: the reference system of the file is EPSG:%u; remove --crs EPSG:%u", name, epsg, o->epsg);
   if (o->sphere ? !degrees && OSRIsProjected(crs) : degrees && !o->plane && !implied)
     return refuse_system(name, called ? called : "no name", degrees);
   if (degrees && !o->sphere && !o->plane)
@@ -300,7 +300,7 @@ static int source_begin(feature_source *s, const char *name, cli_options *o) {
     return cli_usage("%s: layer %s has no geometry; name the columns of its coordinates: --columns X,Y", name,
                      OGR_L_GetName(s->layer));
   if (s->shape && o->read.measured)
-    return cli_usage("%s: coordinates in this file are doubles, not decimals; state a --radius in place of --measured",
+    return cli_usage("%s: coordinates in this file are doubles, not decimals; state a --radius instead of --measured",
                      name);
   int status = take_system(s, name, o);
   if (status) return status;

@@ -18,7 +18,7 @@ typedef struct help_term {
 
 static const char help_summary[] =
     "Delaunay triangulation and Voronoi diagram of points that are exact, imprecise or computable\n"
-    "reals. What is stated holds for every choice of points in the rectangles.";
+    "reals. Every statement holds for every choice of points in the rectangles.";
 
 static const char help_file_text[] = "FILE has one point per line: two coordinates separated by blanks or one comma.\n"
                                      "\"#\" starts a comment; \"-\" is standard input. Points are numbered from 0.";
@@ -32,16 +32,17 @@ static const help_term help_coordinate_forms[] = {
     {"1.25+-0.01", "value with radius: the interval, its ends rounded outward, by less than 2^-13 of the width"},
     {"sqrt(2)+pi/4", "expression: a computable real, refined on demand. Known are + - * / ^, pi e, sqrt cbrt exp log "
                      "sin cos tan asin acos atan sinh cosh tanh abs min max; blanks are allowed inside parentheses"},
-    {"root(x^5-x-1, 1, 2)", "the root of the polynomial between 1 and 2; it may stand in expressions"},
+    {"root(x^5-x-1, 1, 2)", "the root of the polynomial between 1 and 2; also inside expressions"},
     {NULL, NULL}};
 
 static const help_term help_exit_statuses[] = {
     {"0", "decided (every pair), or certified (the requested bound holds)"},
-    {"1", "bad input, a failed point, or a failure to read or write; what was known before a point failed is written"},
+    {"1",
+     "bad input, a failed point, or a failure to read or write; all that was known before a point failed is written"},
     {"2", "bad usage"},
     {"3", "fixpoint: only better measurements can decide more (or ties are left). The normal result of measurements"},
     {"4", "budget: the limit of bits, pairs, memory or time was reached"},
-    {"5", "cancelled (Ctrl-C: the first one stops the work and writes what is known)"},
+    {"5", "cancelled (Ctrl-C: the first one stops the work and writes all known statements)"},
     {NULL, NULL}};
 
 static const help_term help_examples[] = {
@@ -68,7 +69,7 @@ static const help_term help_examples[] = {
 
 static const help_term help_results[] = {
     {"csv, wkt, geojson",
-     "one layer each (see --layer), with plain columns and one kind of geometry. A point stands for its rectangle; "
+     "one layer each (see --layer), with plain columns and one kind of geometry. A point represents its rectangle; "
      "max_coordinate_error bounds, rounded up, how far in x or y any point of the rectangle is from it: 0 for "
      "coordinates "
      "printed exactly. Without --crs geojson claims no reference system; programs that see none would take the "
@@ -108,17 +109,14 @@ static const help_term help_results[] = {
 static const char help_oracle_text[] =
     "With --oracle, a program (sh -c COMMAND) takes the place of FILE. It prints \"points N\"; then for each line "
     "\"refine I B\" that it reads, it answers one line \"I XLO XHI YLO YHI\": exact numbers (any plain form of the "
-    "points "
-    "file) between which point I lies, aiming at widths of 2^-B, inside its former answers for I. It may add the word "
-    "\"fixed\" when that can never be narrowed. Where points cost differently, it begins with \"points N cost C ... "
-    "C\", one "
-    "number above 0 for each, and cheap ones are asked before dear ones. It flushes after every line, answers in the "
-    "order of the requests, and "
-    "ends when its input ends. Of K programs, number I modulo K is always asked for point I. Results do not depend on "
-    "--oracle-jobs and --oracle-batch. A program that dies, is silent, or answers what is not an answer ends the run "
-    "with exit status 1 and a message that names the point and the request; what was known before is written all the "
-    "same. No process is left behind, even when dyadel itself is killed. Begin COMMAND with exec when it is a single "
-    "program, so that no shell stands between.";
+    "points file) between which point I lies, aiming at widths of 2^-B, inside its former answers for I. It may add "
+    "the word \"fixed\" when that can never be narrowed. Where points cost differently, it begins with \"points N "
+    "cost C ... C\", one number above 0 for each, and cheap ones are asked before expensive ones. It flushes after "
+    "every line, answers in the order of the requests, and ends when its input ends. Of K programs, number I modulo "
+    "K is always asked for point I. Results do not depend on --oracle-jobs and --oracle-batch. A program that dies, "
+    "is silent, or writes something other than an answer ends the run with exit status 1 and a message that names "
+    "the point and the request; all that was known before is written. No process is left behind, even when dyadel "
+    "itself is killed. Begin COMMAND with exec when it is a single program, so that no shell stands between.";
 
 /* ---- --help: of everything, or of one command ---- */
 
@@ -410,13 +408,13 @@ void cli_help_man(FILE *out) {
   fputs("A coordinate is one of\n", out);
   man_terms(out, help_coordinate_forms, "Li");
   fputs(".Sh OPTIONS\n", out);
-  man_text(out, "Commands in parentheses are those that take the option; where none is named, all do.");
+  man_text(out, "Parentheses name the commands that take the option; without them all do.");
   man_options(out);
   fputs(".Sh FORMATS\n", out);
   man_text(out,
            "No format holds a rounded number without saying to which side, or by how much at most, it is rounded.");
   man_formats(out);
-  fputs(".Ss What is in them\n", out);
+  fputs(".Ss Contents\n", out);
   man_terms(out, help_results, "Li");
   fputs(".Sh PROGRAMS THAT SERVE POINTS\n", out);
   man_text(out, help_oracle_text);

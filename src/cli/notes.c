@@ -23,7 +23,7 @@ void cli_note_lines(const cli_options *o, const dyd_read_report *r) {
              "%s: %zu of %zu rows are skipped because a coordinate or radius is missing; the others keep their numbers",
              o->file, r->missing, r->rows);
   if (r->commented)
-    cli_note(o, "%s: lines that begin with # or %% and may be rows: %zu; they are left out as comments", o->file,
+    cli_note(o, "%s: lines that begin with # or %% and may be rows: %zu; they are skipped as comments", o->file,
              r->commented);
   if (r->recoded)
     cli_note(o,

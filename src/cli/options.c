@@ -343,8 +343,7 @@ static int complain_option(int kind, const char *argument) {
   if (kind == ':')
     cli_complain("%s needs a value; see dyadel --help", argument);
   else if (optopt >= FIRST_VALUE)
-    cli_complain("--%s takes no value; leave \"=\" and what follows away",
-                 cli_option_table[option_number(optopt)].name);
+    cli_complain("--%s takes no value; remove \"=\" and what follows", cli_option_table[option_number(optopt)].name);
   else if (optopt)
     cli_complain("there is no option -%c; see dyadel --help", optopt);
   else
@@ -411,14 +410,13 @@ static bool trace_has_points(const cli_options *o, const cli_command *c) {
 
 /* What contradicts itself, or says too little. */
 static int meanings_fit(const cli_options *o, const cli_command *c) {
-  if (o->sphere && o->plane) return cli_usage("--sphere and --plane contradict each other; leave one of them away");
+  if (o->sphere && o->plane) return cli_usage("--sphere and --plane contradict each other; remove one of them");
   if (o->clip && (o->sphere || !(o->all_layers || (o->layer && strcmp(o->layer, "edges") == 0))))
-    return cli_usage("--clip is about edges in the plane; give --layer edges, or leave it away");
-  if (o->sphere && o->lengths) return cli_usage("--length is about the plane; leave it or --sphere away");
+    return cli_usage("--clip is about edges in the plane; give --layer edges, or remove it");
+  if (o->sphere && o->lengths) return cli_usage("--length is about the plane; remove it or --sphere");
   if (!o->read.sigma_column || o->read.confidence || c == &cli_commands[CLI_TOLERANCE]) return 0;
-  return cli_usage(
-      "--sigma-column gives no region by itself; state the probability with which all points have to lie in "
-      "theirs: --confidence 95%%");
+  return cli_usage("--sigma-column alone gives no region; state the probability with which all points have to lie in "
+                   "theirs: --confidence 95%%");
 }
 
 static int options_fit(const cli_options *o, const bool *seen, const cli_command *c) {
@@ -430,7 +428,7 @@ static int options_fit(const cli_options *o, const bool *seen, const cli_command
     cli_group group = cli_option_table[k].group;
     const bool timeout = cli_option_table[k].offset == offsetof(cli_options, engine.seconds);
     if (!seen[k] || timeout || (group != CLI_INPUT && group != CLI_REFINEMENT)) continue;
-    return cli_usage("--replay takes points and options from the trace; leave --%s away", cli_option_table[k].name);
+    return cli_usage("--replay takes points and options from the trace; remove --%s", cli_option_table[k].name);
   }
   for (size_t k = 0; c == &cli_commands[CLI_VERIFY] && !o->points && k < cli_option_count; k++) {
     if (!seen[k] || cli_option_table[k].group != CLI_INPUT) continue;
@@ -492,7 +490,7 @@ static int ending_unknown(const cli_options *o, const char *name, const cli_comm
 /* Rows go to GDAL as wkt, or as csv where they have no geometry. */
 static int format_of_driver(cli_options *o, bool several) {
   if (o->format_set)
-    return cli_usage("-o %s says the format; leave --format %s away", o->output, dyd_format_name(o->format));
+    return cli_usage("-o %s says the format; remove --format %s", o->output, dyd_format_name(o->format));
   if (cli_name_is_packed(&(size_t){0}, o->output)) return cli_usage("-o %s: GDAL packs no such file", o->output);
   o->all_layers = several && !o->layer;
   o->format = dyd_format_holds(DYD_FORMAT_WKT, o->content) ? DYD_FORMAT_WKT : DYD_FORMAT_CSV;
@@ -517,8 +515,8 @@ static int format_from_output(cli_options *o, const cli_command *c) {
   o->format_set |= known;
   if (dyd_format_suits_file(o->format, name)) return 0;
   const char *format = dyd_format_name(o->format);
-  return cli_usage("-o %s is no name for %s; leave --format %s away, or end the name in .%s", o->output, format, format,
-                   format);
+  return cli_usage("-o %s does not name a %s file; remove --format %s, or end the name in .%s", o->output, format,
+                   format, format);
 }
 
 /* Longitude and latitude in degrees: WGS 84, ETRS89, NAD27, NAD83, GDA94, SIRGAS, GDA2020 and others much used. */
@@ -540,7 +538,7 @@ static int crs_fits(const cli_options *o) {
                      o->epsg);
   if (o->driver) return 0;
   if (!o->epsg || (size_t)o->format >= sizeof none / sizeof *none || !none[o->format]) return 0;
-  return cli_usage("%s has no place for a reference system; leave --crs away, or give --format geojson",
+  return cli_usage("%s has no place for a reference system; remove --crs, or give --format geojson",
                    dyd_format_name(o->format));
 }
 

@@ -321,8 +321,8 @@ static void complain_equal(const named_file *a, const named_file *b) {
     cli_complain("%s%s%s%s and --%s %s are the same file; give each result a file of its own", dash, option,
                  *option ? " " : "", out->name, other->option, other->name);
   else
-    cli_complain("%s%s%s%s is the file that is read; give another one for what is written", dash, option,
-                 *option ? " " : "", out->name);
+    cli_complain("%s%s%s%s is the input file; give another name for the output", dash, option, *option ? " " : "",
+                 out->name);
 }
 
 int cli_files_check(const cli_options *o) {

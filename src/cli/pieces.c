@@ -236,7 +236,7 @@ static int places_read(cli_session *s) {
   if (o->sphere && o->certificate)
     return cli_usage("no certificate proves which places of a sphere are nearest: leave --certificate or --sphere out");
   if (o->sphere && o->format != DYD_FORMAT_CSV && o->format != DYD_FORMAT_JSON)
-    return cli_usage("on a sphere nearest writes csv and json; leave --format %s or --sphere away",
+    return cli_usage("on a sphere nearest writes csv and json; remove --format %s or --sphere",
                      dyd_format_name(o->format));
   int begun = o->sphere ? cli_sphere_begin(s) : 0;
   if (begun) return begun;

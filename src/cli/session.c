@@ -27,7 +27,7 @@ static int oracle_refuse(const dyd_read_options *read) {
   const char *value;
   for (size_t k = 0; (field = dyd_read_field_at(&value, read, k)); k++) {
     if (!value || !field->text) continue;
-    return cli_usage("`%s` is for points files; leave it out, and %s", field->name,
+    return cli_usage("`%s` is for points files; remove it, and %s", field->name,
                      strcmp(field->name, "cost_column") == 0    ? "let the oracle begin with \"points N cost C ... C\""
                      : strcmp(field->name, "sigma_column") == 0 ? "give --sigma"
                                                                 : "let the oracle answer with what you mean");
@@ -232,7 +232,7 @@ int cli_sphere_begin(cli_session *s) {
   s->resume = s->o.resume;
   s->o.resume = NULL;
   cli_options_degrees(&s->o);
-  return s->o.discs ? cli_usage("--discs is about the plane; leave --discs or --sphere away") : 0;
+  return s->o.discs ? cli_usage("--discs is about the plane; remove --discs or --sphere") : 0;
 }
 
 int cli_sphere_make(cli_session *s, bool no_images) {
@@ -294,7 +294,7 @@ int cli_trace_resume(const cli_session *s) {
     return CLI_FAILED;
   }
   cli_note(o, "%s: %zu answers are taken from this trace%s", o->resume, r.answers,
-           r.cut ? "; its last line is cut short, and left out" : "");
+           r.cut ? "; its last line is cut short, and skipped" : "");
   return 0;
 }
 

@@ -80,7 +80,7 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                        "empty: never. k and l are the points that bind.",
                        DYD_CONTENT_TOLERANCE, &cli_tolerance},
     [CLI_PLAN] = {"plan", "FILE", "which points to measure next, and how accurately, so that all is decided",
-                  "For points known as rectangles: the points to measure, those that decide most first.\n"
+                  "For points known as rectangles: the points to measure, the most useful first.\n"
                   "If each new position is within half_width_needed of the old one (the centre of its\n"
                   "rectangle), every pair is decided; otherwise run plan again. One triangulation proves\n"
                   "it. Pairs that tie at the centres are not counted. Exit status 3: some pairs stay\n"
@@ -98,8 +98,9 @@ const cli_option cli_option_table[] = {
     {"points", 0, "FILE", CLI_SOURCE, BIT(CLI_VERIFY), CLI_INPUT, "the certificate has to be about the points of FILE",
      AT(points)},
     {"proved", 0, NULL, CLI_FLAG, BIT(CLI_VERIFY), CLI_OTHER,
-     "check by dyadel-proved, extracted from what is proved in\nCoq; it knows less, and names what it does not "
-     "check;\npoints are compared by this program, which tells it\nwhat cannot be narrowed",
+     "check by dyadel-proved, extracted from a proof in Coq; it\nchecks fewer statements, and names the others; "
+     "this\nprogram compares "
+     "points, and passes on which cannot be narrowed",
      AT(proved)},
     {"columns", 0, "NAME,NAME", CLI_TEXT, TEXT, CLI_INPUT,
      "FILE is CSV with a header; take these two columns as x,y:\nnames (capitals count only where names differ by "
@@ -112,13 +113,14 @@ const cli_option cli_option_table[] = {
      "blanks",
      AT(read.delimiter)},
     {"decimal-comma", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "47,61 is 47.61", AT(read.decimal_comma)},
-    {"thousands", 0, "C", CLI_TEXT, TEXT, CLI_INPUT, "what is between thousands in numbers: , . ' _ or blank",
+    {"thousands", 0, "C", CLI_TEXT, TEXT, CLI_INPUT, "separator of thousands in numbers: , . ' _ or blank",
      AT(read.thousands)},
     {"no-header", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "the table has no header: --columns and the like are numbers",
      AT(read.no_header)},
     {"units-row", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
-     "the row behind the header holds units and no point; with\n--sphere they are the units of radii", AT(read.units_row)},
-    {"skip-lines", 0, "N", CLI_TEXT, TEXT, CLI_INPUT, "leave out the first N lines of FILE", AT(read.skip_lines)},
+     "the row behind the header holds units and no point; with\n--sphere they are the units of radii",
+     AT(read.units_row)},
+    {"skip-lines", 0, "N", CLI_TEXT, TEXT, CLI_INPUT, "skip the first N lines of FILE", AT(read.skip_lines)},
     {"radius-column", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT,
      "widen each point by the value in this column; NAME,NAME\nfor x and y apart; with --sphere each value, the "
      "column's\n"
@@ -180,22 +182,22 @@ const cli_option cli_option_table[] = {
     {"plane", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
      "columns called longitude and latitude are meant to be\ncoordinates in a plane: no note about it", AT(plane)},
     {"oracle", 0, "COMMAND", CLI_TEXT, READ, CLI_INPUT,
-     "in place of FILE: ask this program (sh -c) for the points;\nit prints \"points N\", then answers each line "
+     "instead of FILE: ask this program (sh -c) for the points;\nit prints \"points N\", then answers each line "
      "\"refine I B\"\nby \"I XLO XHI YLO YHI\", aiming at widths of 2^-B",
      AT(oracle)},
     {"oracle-jobs", 0, "K", CLI_INTEGER, READ, CLI_INPUT,
-     "so many programs side by side (default 1); each finds its\n"
+     "this many programs in parallel (default 1); each finds its\n"
      "number, from 0, in DYADEL_JOB",
      AT(oracle_jobs), RANGE(1, DYD_ORACLE_MAX_JOBS)},
     {"oracle-batch", 0, "B", CLI_INTEGER, READ, CLI_INPUT,
-     "send a program so many lines before awaiting answers\n"
+     "send a program up to this many lines before awaiting answers\n"
      "(default 1); higher where lines travel far",
      AT(oracle_batch), RANGE(1, DYD_ORACLE_MAX_BATCH)},
     {"oracle-retries", 0, "K", CLI_INTEGER, READ, CLI_INPUT,
      "start a program that died, or is silent, again, at most so\noften for one request (default 0)",
      AT(oracle_retries), RANGE(0, 1000000)},
-    {"oracle-timeout", 0, "SECONDS", CLI_SECONDS, READ, CLI_INPUT, "wait so long for a line of a program (default 30)",
-     AT(oracle_timeout)},
+    {"oracle-timeout", 0, "SECONDS", CLI_SECONDS, READ, CLI_INPUT,
+     "wait at most this long for a line of a program (default 30)", AT(oracle_timeout)},
 
     {"queries", 0, "FILE", CLI_SOURCE, BIT(CLI_NEAREST), CLI_INPUT,
      "instead of X Y: a file of places, in any form that FILE may\nhave; one triangulation answers all", AT(queries)},
@@ -203,7 +205,7 @@ const cli_option cli_option_table[] = {
      "--columns of the file of places (default: the names of\n--columns, where its header has them)",
      AT(query_columns)},
     {"query-id", 0, "NAME", CLI_TEXT, BIT(CLI_NEAREST), CLI_INPUT,
-     "write what stands in this column of the file of places", AT(query_id)},
+     "write the value of this column of the file of places", AT(query_id)},
 
     {"until", 0, "GOAL", CLI_GOAL, RUN, CLI_REFINEMENT, "decided (default), area:M or hausdorff:M (bound 2^-M)",
      AT(engine), WORDS("decided area: hausdorff:")},
@@ -218,7 +220,7 @@ const cli_option cli_option_table[] = {
     {"max-pairs", 0, "K", CLI_INTEGER, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_REFINEMENT,
      "cap on stored pairs (default 4000000 + 16 per point)", AT(engine.max_pairs), RANGE(1, (long long)1 << 40)},
     {"max-bytes", 0, "BYTES", CLI_BYTES, READ & ~BIT(CLI_CHECK) & ~PIECES, CLI_REFINEMENT,
-     "memory for points, triangulation and what is made of it, by\nestimates: 500M, 2G (powers of 1024); where more "
+     "memory for points, triangulation and results, by\nestimates: 500M, 2G (powers of 1024); where more "
      "would be\ntaken the command ends with status 4 (default: no limit)",
      AT(engine.max_bytes), RANGE(1, (long long)1 << 50)},
     {"timeout", 0, "SECONDS", CLI_SECONDS, CLI_ALL, CLI_REFINEMENT, "end after this time, reading and writing included",
@@ -289,7 +291,7 @@ const cli_option cli_option_table[] = {
      "the reference system of the coordinates, for geojson and\njson (default: none is claimed)", AT(epsg),
      WORDS("EPSG:")},
     {"clip", 0, NULL, CLI_FLAG, BIT(CLI_VORONOI), CLI_OUTPUT,
-     "--layer edges: cut edges to the window, and leave out those\nbeyond it", AT(clip)},
+     "--layer edges: cut edges to the window, and omit edges\nbeyond it", AT(clip)},
     {"length", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY), CLI_OUTPUT,
      "rows of pairs and graphs have bounds of the length: columns\nlength_lo and length_hi", AT(lengths)},
     {"comments", 0, NULL, CLI_FLAG, READ & ~BIT(CLI_CHECK), CLI_OUTPUT,
@@ -310,18 +312,19 @@ const cli_option cli_option_table[] = {
      "write which point was narrowed to what, and why, as it\nhappens; check: the schedule that shows a fault",
      AT(trace)},
     {"trace-sync", 0, "SECONDS", CLI_SECONDS, REFINE & ~BIT(CLI_CHECK), CLI_EXPERIMENTS,
-     "sync the trace with the disk after so much asking (default 5):\nwhen the machine fails, only later answers are "
+     "sync the trace with the disk after this time of asking (default 5):\nwhen the machine fails, only later answers "
+     "are "
      "lost",
      AT(trace_sync)},
     {"resume", 0, "FILE", CLI_SOURCE, REFINE & ~BIT(CLI_CHECK), CLI_INPUT,
-     "go on from this trace, which may have been cut short: its\nanswers are not asked for again", AT(resume)},
+     "continue from this trace, which may have been cut short: its\nanswers are not requested again", AT(resume)},
     {"replay", 0, "FILE", CLI_SOURCE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
-     "repeat a trace, which stands for the points;\ncheck: repeat a schedule on the points of FILE or --oracle",
+     "repeat a trace instead of asking points;\ncheck: repeat a schedule on the points of FILE or --oracle",
      AT(replay)},
-    {"no-times", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
-     "leave seconds out: equal runs give equal bytes", AT(no_times)},
+    {"no-times", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS, "omit seconds: equal runs give equal bytes",
+     AT(no_times)},
     {"label", 0, "NAME=VALUE,...", CLI_TEXT, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
-     "columns before the others, which tell this run from others", AT(label)},
+     "columns before the others, to distinguish runs", AT(label)},
     {"rows-only", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
      "csv: rows only, so that tables put behind each other are one", AT(no_header)},
     {"seed", 0, "S", CLI_INTEGER, BIT(CLI_CHECK), CLI_EXPERIMENTS, "seed of random choices; printed", AT(seed),

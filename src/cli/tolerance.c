@@ -33,9 +33,9 @@ static int tolerance_contradictions(const cli_options *o) {
   bool sigmas = o->sigma && o->read.sigma_column, weights = o->metric == DYD_METRIC_BOX && o->read.radius_columns;
   bool chances =
       (o->sigma || o->read.sigma_column) && (o->content == DYD_CONTENT_RADII || o->content == DYD_CONTENT_BARCODE);
-  if (sigmas) cli_complain("--sigma and --sigma-column contradict each other; leave one of them away");
-  if (chances) cli_complain("probabilities are those of pairs; leave the standard deviation or --layer away");
-  if (weights) cli_complain("--metric box is about points that move equally far; leave it, or --radius-column, away");
+  if (sigmas) cli_complain("--sigma and --sigma-column contradict each other; remove one of them");
+  if (chances) cli_complain("probabilities are those of pairs; remove the standard deviation or --layer");
+  if (weights) cli_complain("--metric box is about points that move equally far; remove it or --radius-column");
   return sigmas || chances || weights ? CLI_USAGE : 0;
 }
 
@@ -163,7 +163,7 @@ static bool pairs_header(pairs_columns *p, const dyd_record *row) {
 static dyd_status pairs_refuse(const dyd_record *row, size_t field, dyd_error *err) {
   dyd_record_place(err, row, field);
   return dyd_error_set(err, DYD_E_PARSE,
-                       "this is no pair of different points; give their numbers i,j first, or name the columns i and j "
+                       "these are not two different points; give their numbers i,j first, or name the columns i and j "
                        "in a header");
 }
 

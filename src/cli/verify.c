@@ -235,7 +235,7 @@ static dyd_status print_verified(FILE *out, const cli_session *s, dyd_error *err
   const dyd_certificate_report *r = s->state;
   (void)err;
   if (r->gaps)
-    fputs("accepted, not all of it proved: see what is not proved below\n", out);
+    fputs("accepted, not all of it proved: see the statements below\n", out);
   else
     fputs("accepted, all of it proved\n", out);
   fprintf(out, "states: outcome %s, goal %s", r->outcome, r->goal);
@@ -273,7 +273,7 @@ static int complain_rejected(const cli_options *o, const dyd_error *err) {
   if (err->line)
     cli_complain("%s:%zu: %s%s", o->file, err->line, rejected, err->message);
   else if (err->code == DYD_E_DOMAIN && o->points && err->point == DYD_NO_POINT)
-    cli_complain("%s: %s; %s", o->file, err->message, o->sphere ? "leave --sphere away" : "give --sphere");
+    cli_complain("%s: %s; %s", o->file, err->message, o->sphere ? "remove --sphere" : "give --sphere");
   else
     cli_complain("%s: %s%s", o->file, rejected, err->message);
   return CLI_FAILED;
@@ -322,7 +322,7 @@ static int verify_begin(cli_session *s) {
   if (strcmp(o->points, "-") == 0)
     cli_complain("standard input cannot be both the certificate and the points; give a file for one of them");
   else if (o->proved)
-    cli_complain("with --proved and --points the certificate is read twice; give a file in place of \"-\"");
+    cli_complain("with --proved and --points the certificate is read twice; give a file instead of \"-\"");
   else
     return 0;
   return CLI_USAGE;

@@ -49,7 +49,7 @@ static const struct {
                         .there = dyd_cairo_is_there, .plain = {20000000, 5500, 36}, .diagram = {20000000, 300, 0}},
     [DYD_FORMAT_HTML] =
         {"html", "html",
-         "a page to move about in, with what is known of each point, stage by stage; one file that asks "
+         "a page to move about in, with all statements about each point, stage by stage; one file that asks "
          "for nothing",
          dyd_html_writers, .plain = {0, 400, 50}, .diagram = {0, 1500, 0}},
 };

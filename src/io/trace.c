@@ -141,7 +141,7 @@ dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const ch
   if (st == DYD_OK) st = dyd_abi_take(&c, sizeof c, converge, "dyd_converge_options", err);
   if (st != DYD_OK) return st;
   if ((unsigned)o.goal > LAST_GOAL || (unsigned)o.schedule > LAST_SCHEDULE)
-    return dyd_fail(err, DYD_E_ARG, "a trace cannot tell of this goal or schedule");
+    return dyd_fail(err, DYD_E_ARG, "a trace cannot hold this goal or schedule");
   dyd_trace *t = calloc(1, sizeof *t);
   if (!t) return dyd_fail_nomem(err);
   t->out = f;
@@ -430,7 +430,7 @@ static dyd_status recall_step(recall *r, const json_t *line) {
 static dyd_status recall_line(recall *r, const json_t *line) {
   if (!json_is_object(line)) return recall_fail(r, "this line is no JSON object");
   if (!r->had) return recall_head(r, line);
-  if (r->ended) return recall_fail(r, "the trace goes on behind its outcome");
+  if (r->ended) return recall_fail(r, "the trace has lines after its outcome");
   r->ended = json_object_get(line, "outcome") != NULL;
   return json_object_get(line, "point") ? recall_step(r, line) : DYD_OK;
 }
@@ -668,7 +668,7 @@ static dyd_status replay_stage(replay *r, const json_t *line) {
   replay_count_bits(row, r);
   if (r->converge.stage) r->converge.stage(r->converge.stage_user, row, r->pd);
   if (replay_agrees(row, line)) return DYD_OK;
-  return dyd_fail(r->err, DYD_E_PARSE, "the statuses of this stage are not those that the trace tells of");
+  return dyd_fail(r->err, DYD_E_PARSE, "the statuses of this stage differ from those in the trace");
 }
 
 static dyd_status replay_outcome(replay *r, const json_t *line) {
@@ -692,7 +692,7 @@ static dyd_status replay_line(replay *r, const dyd_line *text) {
   else if (!r->point)
     st = replay_head(r, line);
   else if (r->ended)
-    st = replay_fail(r, "the trace goes on behind its outcome");
+    st = replay_fail(r, "the trace has lines after its outcome");
   else if (json_object_get(line, "outcome"))
     st = replay_outcome(r, line);
   else if (json_object_get(line, "kept"))

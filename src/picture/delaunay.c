@@ -281,7 +281,7 @@ static bool place_box(double out[4], const dyd_view *v, const double box[4]) {
 }
 
 static dyd_status too_near(dyd_error *err) {
-  return dyd_fail(err, DYD_E_RANGE, "the window is too small beside the points for a picture; give a larger one");
+  return dyd_fail(err, DYD_E_RANGE, "the window is too small for a picture of these points; give a larger one");
 }
 
 static void count_shown(delaunay_drawing *d) {

@@ -601,8 +601,7 @@ PyObject *dydpy_write(PyObject *self, PyObject *args) {
   PyObject *window;
   text_order t;
   if (!PyArg_ParseTuple(args, "szOI", &format, &layer, &window, &o.epsg)) return NULL;
-  if (globe && window != Py_None)
-    return PyErr_Format(PyExc_ValueError, "a window is a part of the plane; leave it away");
+  if (globe && window != Py_None) return PyErr_Format(PyExc_ValueError, "a window is a part of the plane; remove it");
   if (!order_form(&t, globe ? DYD_CONTENT_SPHERE : DYD_CONTENT_DELAUNAY, format, layer) ||
       !order_begin(&t, self, window, DYDPY_RESULT | DYDPY_CANCELS))
     return NULL;

@@ -400,9 +400,9 @@ bool dyd_worker_is_lost(dyd_worker *w) {
   if (!w->failed && w->deaf && w->answered == w->sent) {
     char how[100];
     if (dyd_process_ended(how, sizeof how, &w->process, END_SECONDS))
-      dyd_worker_fail(w, DYD_E_STREAM, "%s; it must go on answering until its input ends", how);
+      dyd_worker_fail(w, DYD_E_STREAM, "%s; it must answer until its input ends", how);
     else
-      dyd_worker_fail(w, DYD_E_STREAM, "it has closed its standard input; it must go on reading requests");
+      dyd_worker_fail(w, DYD_E_STREAM, "it has closed its standard input; it must read requests until its input ends");
   }
   return w->failed;
 }
@@ -521,9 +521,9 @@ static void hear_end(dyd_worker *w) {
                     "its output ended in the middle of a line; end each line, and answer until the "
                     "input ends");
   else if (dyd_process_ended(how, sizeof how, &w->process, END_SECONDS))
-    dyd_worker_fail(w, DYD_E_STREAM, "%s; it must go on answering until its input ends", how);
+    dyd_worker_fail(w, DYD_E_STREAM, "%s; it must answer until its input ends", how);
   else
-    dyd_worker_fail(w, DYD_E_STREAM, "it has closed its standard output; it must go on answering until its input ends");
+    dyd_worker_fail(w, DYD_E_STREAM, "it has closed its standard output; it must answer until its input ends");
 }
 
 void dyd_worker_hear(dyd_worker *w) {

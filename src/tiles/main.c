@@ -144,7 +144,7 @@ static int size_of_input(tiles_job *job) {
   else if (stat(job->input, &s) != 0)
     main_complain("%s: cannot read: %s", job->input, strerror(errno));
   else if (!S_ISREG(s.st_mode))
-    main_complain("%s: is no file; ranks read their slices side by side", job->input);
+    main_complain("%s: not a file; ranks read their slices side by side", job->input);
   else if (!job->text && s.st_size % size)
     main_complain("%s: %lld bytes are no whole number of points of %u bytes; doubles in binary are expected, or text "
                   "in a file called .csv or .txt%s",

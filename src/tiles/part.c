@@ -24,9 +24,10 @@ static void tiles_part_name(char name[32], size_t rank) {
 }
 
 static dyd_status file_fail(const tiles_file *f, dyd_error *err) {
-  return dyd_fail(err, DYD_E_IO,
-                  "%s: cannot write: %s; make room there, then go on with --restart, or choose another folder with -o",
-                  f->name, strerror(errno));
+  return dyd_fail(
+      err, DYD_E_IO,
+      "%s: cannot write: %s; make room there, then continue with --restart, or choose another folder with -o", f->name,
+      strerror(errno));
 }
 
 static void file_clear(tiles_file *f) {
@@ -122,7 +123,7 @@ static bool get_row(tiles_row *r, FILE *in) {
 
 static dyd_status spool_fail(const tile *t, dyd_error *err) {
   return dyd_fail(err, DYD_E_IO,
-                  "%s: cannot write the working files of rank %zu: %s; make room there, then go on with --restart",
+                  "%s: cannot write the working files of rank %zu: %s; make room there, then continue with --restart",
                   t->job->folder, t->rank, strerror(errno));
 }
 
@@ -156,7 +157,7 @@ dyd_status tile_unpark(tile *t, dyd_error *err) {
   fclose(t->parked);
   t->parked = NULL;
   return got == count ? DYD_OK
-                      : dyd_fail(err, DYD_E_IO, "%s: cannot read what rank %zu wrote there; go on with --restart",
+                      : dyd_fail(err, DYD_E_IO, "%s: cannot read what rank %zu wrote there; continue with --restart",
                                  t->job->folder, t->rank);
 }
 

@@ -27,8 +27,7 @@ static dyd_status check_points(const dyd_tolerance *t, dyd_error *err) {
   if (t->options.up_to && mpq_sgn(t->options.up_to) < 0)
     return dyd_fail(err, DYD_E_ARG, "births up to a negative number: give a positive one");
   if (t->options.weight && t->options.metric == DYD_METRIC_BOX)
-    return dyd_fail(err, DYD_E_ARG,
-                    "squares that grow by weights are not looked at; leave weights, or the metric, away");
+    return dyd_fail(err, DYD_E_ARG, "squares that grow by weights are not supported; remove weights, or the metric");
   for (uint32_t i = 0; t->options.weight && i < t->sk->n; i++)
     if (!(t->options.weight[i] >= 0 && t->options.weight[i] <= 0x1p400))
       return fail_at(err, i, "the weight of a point is not a number >= 0, below 2^400; give one such as 0, 1 or 2.5");

@@ -10,8 +10,8 @@
  * certainly nearer sites rule out. *vertex is owned by the caller. */
 dyd_status dyd_near_candidates(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, const dyd_rect *q);
 
-/* Walks from vertex *v towards z. True: *v is the only vertex that is nearest to z for some choice [NEAR-7]. False: that
- * is not seen. */
+/* Walks from vertex *v towards z. True: *v is the only vertex that is nearest to z for some choice [NEAR-7]. False:
+ * that is not seen. */
 bool dyd_filter_near_walk(uint32_t *v, const dyd_delaunay *pd, dyd_xy z);
 
 /* A rational rectangle x0 x1 y0 y1, its outward box, and by how much that may be too large. */

@@ -219,24 +219,24 @@ def test_bad_traces():
     replay('{}\n', 1, '-:1:1: this is no trace of the format "dyadel trace 2"')
     for k in range(1, len(lines)):
         replay(''.join(lines[:k]), 1, 'the trace ends before its outcome')
-    replay(trace + lines[1], 1, 'goes on behind its outcome')
+    replay(trace + lines[1], 1, 'has lines after its outcome')
     for field in ('points', 'schedule', 'goal', 'start_bits', 'max_pairs'):
         replay(re.sub(rf',"{field}":[^,}}]*', '', trace, count=1), 1, ':1:1: the first line lacks a field')
     replay(trace.replace('"stage":1,"point":3', '"stage":1,"point":99', 1), 1, 'there is no such point')
     replay(trace.replace('"stage":1,"point":3', '"stage":1,"point":4', 1), 1, 'not inside the one before|before every point')
     replay(re.sub(r'("stage":2.*"x":\[)"[^"]*"', r'\1"-1000"', trace, count=1), 1, 'not inside the one before')
     replay(re.sub(r'("stage":1.*"x":\[)"[^"]*"', r'\1"pi"', trace, count=1), 1, 'this is no rectangle')
-    replay(re.sub(r'"legal":(\d+)', r'"legal":1', trace, count=1), 1, 'not those that the trace tells of')
-    replay(re.sub(r'"statuses":"(.)', r'"statuses":"x', trace, count=1), 1, 'not those that the trace tells of')
+    replay(re.sub(r'"legal":(\d+)', r'"legal":1', trace, count=1), 1, 'differ from those in the trace')
+    replay(re.sub(r'"statuses":"(.)', r'"statuses":"x', trace, count=1), 1, 'differ from those in the trace')
     # Other rectangles, other statuses: without the last refinement the pairs stay open.
     last = [k for k, line in enumerate(lines) if '"why":"end"' in line][-4:]
-    replay(''.join(line for k, line in enumerate(lines) if k not in last), 1, 'not those that the trace tells of')
+    replay(''.join(line for k, line in enumerate(lines) if k not in last), 1, 'differ from those in the trace')
     expect(run('converge', '--replay', 'nowhere'), 1, r'\A\Z', 'nowhere: cannot open')
     expect(run('converge', '--replay', '-', '-', stdin=trace), 2, r'\A\Z', 'one argument too many')
     expect(run('converge', '--replay', '-', '--timeout', '60', '-o', '/dev/null', stdin=trace), 0, r'\A\Z', r'\A\Z')
     expect(run('converge', '--replay', '-', '--timeout', '1e-9', stdin=trace), 4, '', 'time limit reached after [0-9]+ stages')
     for option in ('--measured', '--max-bits=5', '--schedule=uniform'):
-        expect(run('converge', '--replay', '-', option, stdin=trace), 2, r'\A\Z', 'from the trace; leave --')
+        expect(run('converge', '--replay', '-', option, stdin=trace), 2, r'\A\Z', 'from the trace; remove --')
 
 
 def test_points_far_smaller_than_the_first_boxes():

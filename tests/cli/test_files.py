@@ -62,7 +62,7 @@ def test_endings():
         before = f.names()
         for name, form in (('x.svg', 'csv'), ('x.csv', 'json'), ('x.wkt', 'csv'), ('x.geojson', 'json'), ('x.png', 'svg')):
             expect(f.run('delaunay', 'in.txt', '-o', name, '--format', form), 2, r'\A\Z',
-                   rf'\Adyadel: -o {name} is no name for {form}; leave --format {form} away, or end the name in .{form}$')
+                   rf'\Adyadel: -o {name} does not name a {form} file; remove --format {form}, or end the name in .{form}$')
         expect(f.run('converge', 'in.txt', '-o', 'x.svg'), 2, '', 'converge does not write svg; give csv, json, html$')
         expect(f.run('voronoi', 'in.txt', '-o', 'x.obj'), 2, '', 'voronoi does not write obj; give ')
         assert f.names() == before
@@ -81,20 +81,20 @@ def test_outputs_are_no_inputs():
             for option in ('--output', '--certificate'):
                 for given in ('in.txt', 'soft.txt', absolute):
                     expect(f.run('delaunay', given, option, name), 2, r'\A\Z',
-                           rf'\Adyadel: {option} {re.escape(name)} is the file that is read; give another one')
-            expect(f.run('voronoi', 'in.txt', '--certificate', name), 2, r'\A\Z', 'is the file that is read')
-            expect(f.run('converge', 'in.txt', '--trace', name), 2, r'\A\Z', 'is the file that is read')
+                           rf'\Adyadel: {option} {re.escape(name)} is the input file; give another name')
+            expect(f.run('voronoi', 'in.txt', '--certificate', name), 2, r'\A\Z', 'is the input file')
+            expect(f.run('converge', 'in.txt', '--trace', name), 2, r'\A\Z', 'is the input file')
             expect(f.run('converge', 'in.txt', '--plot', name), 2, r'\A\Z', '')
-            expect(f.run('verify', 'in.txt', '-o', name), 2, r'\A\Z', 'is the file that is read')
+            expect(f.run('verify', 'in.txt', '-o', name), 2, r'\A\Z', 'is the input file')
         same = 'are the same file; give each result a file of its own$'
         for one, other in (('x.csv', 'x.csv'), ('x.csv', './x.csv'), ('sub/x.csv', 'sub/../sub/x.csv'),
                            ('dangling.csv', 'nowhere.csv')):
             expect(f.run('delaunay', 'in.txt', '-o', one, '--certificate', other), 2, r'\A\Z', same)
         expect(f.run('converge', 'in.txt', '-o', 'x.csv', '--trace', 'x.csv'), 2, r'\A\Z', same)
         expect(f.run('converge', 'in.txt', '--plot', 'x.svg', '--trace', './x.svg'), 2, r'\A\Z', same)
-        expect(f.run('check', 'in.txt', '--replay', 'hard.txt', '-o', 'soft.txt'), 2, r'\A\Z', 'is the file that is read')
+        expect(f.run('check', 'in.txt', '--replay', 'hard.txt', '-o', 'soft.txt'), 2, r'\A\Z', 'is the input file')
         assert f.names() == before and f.read('in.txt') == POINTS.encode()
-        for mode, message in (('ab', 'standard output is the file that is read'), ('rb', None)):
+        for mode, message in (('ab', 'standard output is the input file'), ('rb', None)):
             with open(absolute, mode) as out, open(absolute, 'rb') as source:
                 done = subprocess.run([COMMAND, 'delaunay', '-'], stdin=source, stderr=subprocess.PIPE, check=False,
                                       stdout=out if message else subprocess.PIPE)

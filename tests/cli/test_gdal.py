@@ -89,7 +89,7 @@ def test_formats_in():
                 assert (got.code, got.out) == (want.code, want.out), (name, options, got, want)
         assert json.loads(f.run('delaunay', '--format', 'json', 'p.gpkg').out)['crs'] == 'EPSG:32632'
         assert 'EPSG::32632' in f.run('voronoi', '--format', 'geojson', 'p.shp').out
-        expect(f.run('delaunay', '--crs', 'EPSG:25832', '--format', 'json', 'p.gpkg'), 2, '', 'is EPSG:32632; leave --crs')
+        expect(f.run('delaunay', '--crs', 'EPSG:25832', '--format', 'json', 'p.gpkg'), 2, '', 'is EPSG:32632; remove --crs')
         expect(f.run('delaunay', '--measured', 'p.gpkg'), 2, '', 'doubles, not decimals')
         expect(f.run('nearest', '--queries', 'p.gpkg', 'p.fgb'), 0, '^4,4,')
         expect(f.run('plan', '--radius-column', 'acc', 'p.gpkg'), 0, '^rank,i,')
@@ -245,7 +245,7 @@ def test_whole_or_not_at_all():
         expect(f.run('delaunay', '-o', 'o.gpkg', 'bad.txt'), 1)
         with open(f.at('o.gpkg'), 'rb') as old:
             assert old.read() == b'old'
-        expect(f.run('delaunay', '-o', 'p.gpkg', 'p.gpkg'), 2, '', 'is the file that is read')
+        expect(f.run('delaunay', '-o', 'p.gpkg', 'p.gpkg'), 2, '', 'is the input file')
         expect(f.run('delaunay', '-o', 'o.gpkg', 'p.gpkg'), 0)
         assert len(info(f.at('o.gpkg'))) == 8
         f.run('delaunay', '-o', 's.shp', 'p.gpkg')

@@ -110,7 +110,7 @@ REFUSED = [
     ('--columns 1,2', '0,1,2\n1,2,3\n', 1, r'-:1:3: 1 is the name of column 2: .*: --columns \'"1"\'; for column 1, give its'),
     ('--columns "1","2"', '0,1,2\n1,2,3\n', 0, ''),
     ('--columns 1,2', '4.5,5\n1,2\n', 1, r'-:1:1: the first line holds numbers, not the names of columns; where .* --no-header, '),
-    ('--columns x,y', 'x;y\n47,61;8\n', 1, r'-:2:3: .*; where commas stand for decimal points, give --decimal-comma$'),
+    ('--columns x,y', 'x;y\n47,61;8\n', 1, r'-:2:3: .*; where commas are decimal points, give --decimal-comma$'),
     ('--columns x,y', 'x;y\n1;2;3\n', 1, r'-:2:1: this record has 3 fields, the header 2; quote fields that hold semicolons$'),
     ('--columns x,y', 'x,y\n1,\n', 1, r'-:2:3: the coordinate is empty; fill it in, or .*: --skip-missing$'),
     ('--columns x,y', 'x,y\n1,2\nNA,3\n', 1, r'-:3:1: the coordinate is missing \(NA\); .*: --skip-missing$'),
@@ -294,7 +294,7 @@ def test_decimal_commas_in_points():
 def test_oracles_have_no_columns():
     for option in ('--radius-column r', '--id r', '--delimiter ;', '--decimal-comma', '--skip-missing', '--merge'):
         expect(run('delaunay', '--oracle', 'true', *option.split()), 2, r'\A\Z',
-               rf'\Adyadel: {option.split()[0]} is for points files; leave it out')
+               rf'\Adyadel: {option.split()[0]} is for points files; remove it')
 
 
 def test_well_known_text():

@@ -333,7 +333,7 @@ def test_queries_on_sphere():
             want = {k for k, d in enumerate(far) if d - radius <= min(far) + radius}
             doubt = {k for k, d in enumerate(far) if abs(d - min(far) - 2 * radius) < 1e-3}
             assert found[q] ^ want <= doubt and found[q], (q, found[q], want)
-    for words, message in ((('--discs',), '--discs is about the plane; leave --discs or --sphere away'),
+    for words, message in ((('--discs',), '--discs is about the plane; remove --discs or --sphere'),
                            (('--certificate', 'c'), 'no certificate proves which places'), (('--plane',), 'contradict'),
                            (('--radius', '3'), 'has no unit'), (('--format', 'svg'), 'on a sphere nearest writes csv and json')):
         expect(run('nearest', '--sphere', *words, '-', '1', '1', stdin='1 1\n'), 2, r'\A\Z', message)

@@ -141,7 +141,7 @@ def server(fault='pass', prefix='exec '):
 
 
 FAULTS = [
-    ('sys.exit(3)', 'it ended with exit status 3; it must go on'),
+    ('sys.exit(3)', 'it ended with exit status 3; it must answer'),
     ('os.kill(os.getpid(), 9)', 'it was killed by signal 9'),
     ('time.sleep(1000)', r'silent for 3 s; flush its output .*--oracle-timeout'),
     ('print("lorem \x1b[2J ipsum", flush=True); return True', r'it wrote "lorem \?\[2J ipsum", which is no answer for point 3'),
@@ -216,7 +216,7 @@ def test_memory():
 
 
 def test_usage():
-    for args, message in ((('--measured',), '--measured is for points files; leave it out'),
+    for args, message in ((('--measured',), '--measured is for points files; remove it'),
                           (('--radius', '1'), '--radius is for points files'),
                           (('--columns', 'x,y'), '--columns is for points files'),
                           (('--cost-column', 'c'), 'let the oracle begin with "points N cost C ... C"'),

@@ -318,7 +318,7 @@ def test_refused():
         f.write('bad', sealed('\n'.join(good[:1] + [changed(x=['5', '8'], y=['6', '8'])]) + '\n'))
         expect(f.run('delaunay', '--resume', 'bad', 'points.txt'), 1, err='point 0: .*nothing in common')
         expect(f.run('delaunay', '--resume', 'none', 'points.txt'), 1, err='none: cannot open')
-        expect(f.run('delaunay', '--resume', 'good', '--trace', 'good', 'points.txt'), 2, err='is the file that is read')
+        expect(f.run('delaunay', '--resume', 'good', '--trace', 'good', 'points.txt'), 2, err='is the input file')
         expect(f.run('delaunay', '--trace', 'no/trace', 'points.txt'), 1, err='cannot write.*choose another place')
         expect(f.run('check', '--resume', 'good', 'points.txt'), 2, err='check does not take --resume')
 

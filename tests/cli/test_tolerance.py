@@ -127,7 +127,7 @@ def test_squares_few_points():
     assert 'may move, in x and y each, before' in picture and picture.count('not lost below') == 6
     assert 'probability' in run(*box, '--sigma', '0.1', stdin=SQUARE).out
     expect(run('tolerance', '--metric', 'max', '-', stdin=SQUARE), 2, r'\A\Z', '--metric "max" is not understood; give euclid or box')
-    expect(run('tolerance', '--metric', 'box', '--columns', 'x,y', '--radius-column', 'r', '-', stdin='x,y,r\n'), 2, r'\A\Z', 'leave it, or --radius-column, away')
+    expect(run('tolerance', '--metric', 'box', '--columns', 'x,y', '--radius-column', 'r', '-', stdin='x,y,r\n'), 2, r'\A\Z', 'remove it or --radius-column')
     assert run('tolerance', '--metric', 'euclid', '-', stdin=SQUARE).out == run('tolerance', '-', stdin=SQUARE).out
 
 
@@ -184,7 +184,7 @@ def test_sigma():
     less = [[float(r['probability']) for r in rows(run('tolerance', '--sigma', s, *AIRPORTS).out)] for s in ('0.01', '0.001')]
     assert all(a <= b + 1e-5 for a, b in zip(*less)) and sum(less[0]) < 0.99 * sum(less[1])
     for layer in ('points', 'barcode'):  # they have no place for it
-        expect(run('tolerance', '--sigma', '1', '--layer', layer, '-', stdin=SQUARE), 2, r'\A\Z', 'probabilities are those of pairs; leave')
+        expect(run('tolerance', '--sigma', '1', '--layer', layer, '-', stdin=SQUARE), 2, r'\A\Z', 'probabilities are those of pairs; remove')
     for wrong in ('0', '-1', 'x', 'nan', '1e-400'):
         expect(run('tolerance', '--sigma', wrong, '-', stdin=SQUARE), 2, r'\A\Z', '--sigma ".*" is not understood; give')
 
@@ -208,7 +208,7 @@ def test_sigma_column():
     expect(run('tolerance', '--columns', 'x,y', '--sigma-column', 's', '--sigma', '1', '-', stdin='x,y,s\n'), 2, r'\A\Z', 'contradict each other')
     expect(run('tolerance', '--sigma-column', 's', '-', stdin='0 0\n'), 2, r'\A\Z', '--sigma-column is about columns')
     expect(run('tolerance', '--sigma-column', 's', '--oracle', 'echo points 0'), 2, r'\A\Z',
-           '--sigma-column is for points files; leave it out, and give --sigma')
+           '--sigma-column is for points files; remove it, and give --sigma')
 
 
 def test_weights():

@@ -102,7 +102,7 @@ def test_windows_too_small_for_doubles():
         if result.code == 1:
             expect(result, 1, r'\A\Z', 'too small|too far apart or too close')
     expect(run('delaunay', '-', '--format', 'svg', '--window', '5,5+1e-14,0,1e-14', stdin=POINTS), 1, r'\A\Z',
-           'the window is too small beside the points for a picture; give a larger one')
+           'the window is too small for a picture of these points; give a larger one')
     assert run('delaunay', '-', '--window', '5,5+1e-14,0,1e-14', stdin=POINTS).code in (0, 3)
 
 

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Runs the commands of a guide and compares what they print: run.py COMMAND GUIDE... [--renew]
 
-A block ```console has lines "$ COMMAND", each followed by what it prints, standard output first; lines of a command go on
-behind "> ", or after a backslash. A line "..." stands for any lines, at the end of a line for what follows; a command "$ echo $?" prints the exit status of the one before. A block ```python runs in one session for the guide;
-```c is compiled against the library (environment: GUIDE_CC) and has to run. A block ```text after one of these two is what
+A block ```console has lines "$ COMMAND", each followed by its output, standard output first; further lines of a command begin
+with "> ", or follow a backslash. A line "..." means any lines, at the end of a line any text; a command "$ echo $?" prints the exit
+status of the one before. A block ```python runs in one session for the guide; ```c is compiled against the library (environment: GUIDE_CC) and has to run. A block ```text after one of these two is what
 it prints. A block of none of these is not run. Commands run in a folder with a copy of tests/data and tests/oracles; a
 picture that they write and that stands beside the guide has to be the same (--renew: it is copied there)."""
 import contextlib

@@ -164,7 +164,7 @@ class Faults(unittest.TestCase):
         self.refused(1, '8 bytes are no whole number of points of 16 bytes', *name)
         (self.at / 'in.bin').unlink()
         self.refused(1, 'No such file', *name)
-        self.refused(1, 'is no file', 'delaunay', str(self.at), '-o', self.out)
+        self.refused(1, 'not a file', 'delaunay', str(self.at), '-o', self.out)
 
     @unittest.skipUnless(UNREADABLE.is_file(), f'there is no {UNREADABLE}')
     def test_hostile(self):

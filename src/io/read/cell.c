@@ -158,10 +158,9 @@ dyd_status dyd_cells_plain(dyd_style *style, dyd_span *cell, size_t count, dyd_e
 dyd_status dyd_style_settle(const dyd_style *style, dyd_error *err) {
   if (!style->doubt.text || style->settled || style->thousands) return DYD_OK;
   if (err) err->line = style->line, err->column = style->column;
-  return dyd_fail(
-      err, DYD_E_PARSE,
-      "commas separate columns, and each number with a comma may have it between thousands: give "
-      "`thousands` , in place of `decimal_comma` if they are, or `thousands` . as well if they are decimal");
+  return dyd_fail(err, DYD_E_PARSE,
+                  "commas separate columns, and each number with a comma may have it between thousands: give "
+                  "`thousands` , instead of `decimal_comma` if they are, or `thousands` . as well if they are decimal");
 }
 
 /* ---- what may be meant ---- */
@@ -217,7 +216,7 @@ dyd_status dyd_cell_hint(dyd_status st, const dyd_style *style, const dyd_span *
   for (const char *mark = ",. '"; *mark && o->columns && !style->thousands; mark++)
     if (hint_groups(out, size, &written, *mark)) return st;
   if (!o->decimal_comma && memchr(s->text, ',', s->length))
-    snprintf(out, size, "; where commas stand for decimal points, give `decimal_comma`");
+    snprintf(out, size, "; where commas are decimal points, give `decimal_comma`");
   else if (dyd_cell_number(s))
     snprintf(out, size, "; coordinates are numbers without a unit: give %.*s", (int)dyd_cell_number(s), s->text);
   else if (first && o->columns && has_no_digit(s))

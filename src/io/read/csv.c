@@ -106,7 +106,7 @@ dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_lin
   if (c.at == c.end)
     return points_fail(err, &c,
                        memchr(line->text, ';', (size_t)(c.end - line->text))
-                           ? "the line has one coordinate only; give two, separated by a blank or a comma in place of "
+                           ? "the line has one coordinate only; give two, separated by a blank or a comma instead of "
                              "';', or a header and `columns` X,Y"
                            : "the line has one coordinate only; give two, separated by a blank or a comma");
   coordinate[1] = points_coordinate(&c);
@@ -703,7 +703,7 @@ static bool leaves_quote_open(bool inside, const char *text, size_t length, char
 static dyd_status record_append(dyd_csv *csv, size_t *length, const dyd_line *line, dyd_error *err) {
   if (*length + line->length > DYD_TEXT_LINE_MAX) {
     dyd_span span = {line->text, 0, line->text, line->text, line->number};
-    return dyd_span_fail(err, &span, 0, "a quoted field goes on for more than 1048576 bytes; close its quote");
+    return dyd_span_fail(err, &span, 0, "a quoted field is longer than 1048576 bytes; close its quote");
   }
   if (!dyd_reserve((void **)&csv->record, &csv->record_cap, *length + line->length + 1, 1)) return dyd_fail_nomem(err);
   if (*length) csv->record[(*length)++] = '\n';

@@ -36,7 +36,7 @@ def records(buffer: Any, kind: np.dtype[Any]) -> NDArray[Any]:
 
 
 def offsets_of(counts: NDArray[Any]) -> Longs:
-    """Where parts with so many items begin, and where the last one ends."""
+    """Offsets of parts with these numbers of items: where each begins, then where the last one ends."""
     return np.concatenate((np.zeros(1, np.int64), np.cumsum(counts, dtype=np.int64)))
 
 

@@ -45,21 +45,21 @@ def delaunay(points: Any, radius: Any = None, *, sphere: bool | None = None, rad
              a unit: a text such as '30m', '2km' (on the ground), '0.01deg', or numbers and
     radius_unit  'm', 'mm', 'cm', 'km', 'ft', 'in', 'deg', 'arcmin' or 'arcsec'
     order    of boxes: 'xxyy' as above, or 'xyxy': minx, miny, maxx, maxy, as gdf.bounds has them
-    skip_missing  leave out masked rows and rows with nan, None or a text such as NA; otherwise they are an error. Points are
+    skip_missing  skip masked rows and rows with nan, None or a text such as NA; otherwise they are an error. Points are
              numbered without them: d.rows[k] is the row of point k
-    ids      a name for each row, or the name of a column: `ids` of the result, and columns of what it writes
+    ids      a name for each row, or the name of a column: `ids` of the result, and columns of its files
     crs      reference system of the points; by default that of a GeoDataFrame. Degrees need sphere=True or sphere=False
     sigma    standard deviations of normal errors: a number, N of them, (N, 2) for x and y, (N, 3) with their correlation, or
              names of columns of the DataFrame; receivers that state a radius of 95 % state 2.45 of them, of 50 % (CEP) 1.18
     confidence  0.95 or '95%': each point is widened by k of its standard deviations, so that with at least this
              probability everything stated holds, all together; see Delaunay.confidence
-    trace    name of a file that receives each answer of a point as it comes, and what each stage states; a run that ended
-             early, however it did, goes on from there with
-    resume   name of such a file: its answers are taken in place of asking again. Points and options have to be the same
+    trace    name of a file that receives each answer of a point at once, and the statements of each stage; a run that ended
+             early continues from there with
+    resume   name of such a file: its answers are used instead of asking again. Points and options have to be the same
     options  until, timeout, max_bits, max_pairs, threads, schedule, start_bits, step_bits, max_stages, max_calls, window,
              ties, tie_bits, progress: see below
 
-    What a callback raises comes through unchanged; what fails in the library is an Error with point and stage. Either
+    Exceptions of callbacks come through unchanged; failures of the library are an Error with point and stage. Either
     has an attribute `result`: the Delaunay object with all that was known before. So has KeyboardInterrupt: Ctrl-C ends
     a run.
 
@@ -84,7 +84,7 @@ def tolerance(points: Any, up_to: Any = None, radii: bool = False, sigma: float 
               metric: str = 'euclid', **options: Any) -> Tolerance:
     """How far exact points (as delaunay takes them) may move: for every edge, every point, the whole.
 
-    up_to: also births, pairs that may become edges when points move by at most so much (an exact number, in units of the
+    up_to: also births, pairs that may become edges when points move by at most this much (an exact number, in units of the
     points); radii: also how far each point may be from its place; sigma: also the probability of each edge when every
     coordinate has an independent normal error of this standard deviation (a float, in units of the points; without it
     that of the sigma_column of a Text); metric: 'euclid', points move in discs, or 'box', in squares: x and y each by as

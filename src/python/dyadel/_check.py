@@ -26,8 +26,8 @@ def check(points: Any, radius: Any = None, *, moves: Sequence[Move] | None = Non
         def test_my_stream():
             dyadel.check(dyadel.Source(12, narrow))
 
-    Raises BrokenPromise (an AssertionError) with the shortest schedule found; returns what was tried. moves: this one
-    schedule [(stage, point, bits), ...] in place of random ones.
+    Raises BrokenPromise (an AssertionError) with the shortest schedule found; returns the numbers of schedules, stages,
+    pairs and cells tried. moves: this one schedule [(stage, point, bits), ...] instead of random ones.
     """
     for name, value in (('schedules', schedules), ('stages', stages), ('base_bits', base_bits), ('max_bits', max_bits),
                         ('slack_bits', slack_bits)):
@@ -48,7 +48,7 @@ def check(points: Any, radius: Any = None, *, moves: Sequence[Move] | None = Non
 
 
 def moves(points: int, stages: int = 6, max_bits: int = 192) -> SearchStrategy[list[Move]]:
-    """A strategy of hypothesis for schedules over so many points:
+    """A strategy of hypothesis for schedules over this number of points:
 
         @hypothesis.given(dyadel.moves(12))
         def test_my_stream(moves):

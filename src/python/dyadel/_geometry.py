@@ -19,7 +19,7 @@ MOST_POINTS_SHOWN = 20_000
 
 
 def text_of(format: str, written: bytes) -> str | bytes:
-    """bytes of what is no text."""
+    """Text of formats that are texts, bytes of the others."""
     return written if FORMATS[format] else written.decode()
 
 
@@ -58,7 +58,7 @@ def shapes_of(wkb: list[bytes]) -> NDArray[np.object_]:
 
 
 def frame_of(columns: dict[str, Any], wkb: list[bytes], rounding: Any, crs: Any) -> Any:
-    """A GeoDataFrame. rounding: how far coordinates are at most from what they stand for."""
+    """A GeoDataFrame. rounding: a bound of the error of the coordinates."""
     geopandas: Any = importlib.import_module('geopandas')
     return geopandas.GeoDataFrame({**columns, 'max_coordinate_error': rounding}, geometry=shapes_of(wkb), crs=crs)
 

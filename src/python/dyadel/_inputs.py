@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ._arrays import Floats, Longs
 from ._errors import Error
 
-#: Texts that stand for a missing coordinate, as in a file of points.
+#: Texts that mean a missing coordinate, as in a file of points.
 MISSING = ('', 'na', 'n/a', '#n/a', 'nan', 'null', 'none', '-', '<na>')
 ORDERS = {'xxyy': [0, 1, 2, 3], 'xyxy': [0, 2, 1, 3]}
 masked: Any = np.ma
@@ -25,7 +25,7 @@ BOUNDS = ['minx', 'miny', 'maxx', 'maxy']
 @dataclasses.dataclass
 class Given:
     """points: an array of doubles (N, 2), (N, 4) xlo, xhi, ylo, yhi, a list of pairs, a Source or a Text. rows: the number of
-    each point's row among `count`; None: none was left out. ids: a text for each point, or None. sigma: standard deviations in
+    each point's row among `count`; None: none was skipped. ids: a text for each point, or None. sigma: standard deviations in
     x and y and their correlation, (N, 3), that points are still to be widened by; uncertain: how many it was."""
 
     points: Any
@@ -41,7 +41,7 @@ class Given:
     added: int = 0  # points
 
     def leave_out(self, missing: NDArray[np.bool_], skip: bool, what: str) -> None:
-        """Leaves out rows that are missing, or raises an Error that names them."""
+        """Skips rows that are missing, or raises an Error that names them."""
         gone = np.flatnonzero(missing)
         if gone.size and not skip:
             shown = ', '.join(map(str, gone[:3])) + (f' and {gone.size - 3} more' if gone.size > 3 else '')
@@ -165,7 +165,7 @@ def _leave_out_unknown(given: Given, skip: bool, look: bool) -> None:
 
 
 def _is_missing(row: Any) -> bool:
-    """None or nan or a text such as NA in place of a point or of a coordinate."""
+    """True for None, nan or a text such as NA instead of a point or a coordinate."""
     if row is None:
         return True
     return isinstance(row, (list, tuple, np.ndarray)) and any(
@@ -287,7 +287,7 @@ def _are_geometries(points: Any) -> bool:
 
 
 def _places(geometries: Any) -> Floats:
-    """The coordinates of points; nan for those that are missing or empty."""
+    """The coordinates of points; nan for missing and empty ones."""
     one = not isinstance(geometries, (list, tuple, np.ndarray)) and isinstance(geometries.geom_type, str)
     parts = list(getattr(geometries, 'geoms', [geometries]) if one else geometries)
     for k, point in enumerate(parts):

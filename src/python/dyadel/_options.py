@@ -44,7 +44,7 @@ def takes_options(*more: str, runs: bool = True) -> Callable[[Callable[Arguments
 
 
 def split_inputs(options: dict[str, Any]) -> dict[str, Any]:
-    """Takes what is about points out of options."""
+    """Removes the options of points from options and returns them."""
     return {name: options.pop(name) for name in INPUTS if name in options}
 
 
@@ -62,16 +62,16 @@ def engine_options(*, until: str = 'decided', timeout: float | None = None, max_
     max_bits    the finest request is for rectangles of width 2^-max_bits
     max_pairs   cap on stored pairs (default 4 million + 16 a point)
     threads     for the triangulation; results do not depend on it
-    schedule    'adaptive': refine what is undecided; 'uniform': all points
-    start_bits, step_bits  precision of the first stage; steps of so many bits instead of geometric growth
+    schedule    'adaptive': refine points of undecided pairs; 'uniform': all points
+    start_bits, step_bits  precision of the first stage; steps of this many bits instead of geometric growth
     max_stages, max_calls  of this run
     window      (xlo, xhi, ylo, yhi), for bounds of the diagram
     ties        prove that expressions and roots are the same, on one line or circle, with at most tie_bits bits for each
     max_bytes   memory that the engine may hold, by its own estimate: MemoryError before it asks for more; points and
                 results stay
-    cost        what asking each point once more costs, above 0: the schedule prefers cheap ones. One for each point
+    cost        cost of asking each point again, above 0: the schedule prefers cheap ones. One for each point
     progress    called after each stage with a dict: stage, bits, points, legal, indeterminate, ties, undecided_faces,
-                seconds; what it raises ends the run
+                seconds; an exception in it ends the run
     """
     goal, _, bits = until.partition(':')
     if goal not in GOALS or (goal == 'decided') == bool(bits) or bits and not bits.isdecimal():

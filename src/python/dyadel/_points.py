@@ -18,8 +18,8 @@ from ._inputs import Given, doubles_of, take
 class Source:
     """n points served by a function.
 
-    narrow(i, bits) gives point i as four exact numbers xlo, xhi, ylo, yhi, aiming at widths of 2^-bits, inside what it
-    gave before; a fifth element True says that it can never be narrowed. Two coordinates will do as well: exact numbers,
+    narrow(i, bits) gives point i as four exact numbers xlo, xhi, ylo, yhi, aiming at widths of 2^-bits, inside its earlier
+    answers; a fifth element True says that it can never be narrowed. Two coordinates will do as well: exact numbers,
     or intervals as pairs or as mpmath.iv has them. Where ends are not dyadic they are rounded outward.
     """
 
@@ -114,7 +114,7 @@ def given_of(points: Any, radius: Any = None, **inputs: Any) -> Given:
 def append_given(engine: _dyadel.Engine, given: Given, degrees: bool = False) -> bool:
     """Adds points in plain form, with their names; False: they are boxes of doubles, which the engine holds.
 
-    degrees: a text is told where a latitude is beyond 90.
+    degrees: a latitude beyond 90 in a text is an error.
     """
     _confide(engine, given)
     kept = _append(engine, given.points, given.radius, degrees)

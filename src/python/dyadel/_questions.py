@@ -21,7 +21,7 @@ EVENTS = np.array(['death', 'birth', 'tie'])
 
 
 class Nearest(NamedTuple):
-    """points: those that may be nearest, ascending; certain: there is one, and it is certainly nearest; outcome: 'decided',
+    """points: all that may be nearest, ascending; certain: there is one, and it is certainly nearest; outcome: 'decided',
     'fixpoint', 'budget' or 'cancelled'; lo, hi: bounds of the distance of each, rounded outward; tied: all of them are
     equally far, so that no refinement makes one certain."""
 
@@ -308,7 +308,7 @@ def tolerance_of(engine: _dyadel.Engine, up_to: Any, points: bool, sigma: float 
 class Plan(Table):
     """Which points to measure next, in order: columns i, half_width_now (rounded up), half_width_needed (rounded down),
     pairs_decided (how many more), pairs_left. If each new position is within half_width_needed of the old one, the centre of
-    its rectangle, all pairs asked for are decided but for those that tie there.
+    its rectangle, all pairs asked for are decided except for ties there.
 
     undecided, ties, left: pairs that were undecided, that tie at the centres, that stay undecided.
     """
@@ -367,7 +367,7 @@ def converge(points: Any, radius: Any = None, window: Sequence[Any] | None = Non
 
     of: which bounds are computed: 'delaunay', 'voronoi' (those of the diagram on the window as well, which cost most),
     'disc' (the partial disc of the first three points and Con of the others), 'bisector' (the partial bisector of the
-    first two on the window); until means these. window: of the diagram or bisector; times=False leaves out seconds, so
+    first two on the window); until means these. window: of the diagram or bisector; times=False omits seconds, so
     that equal runs give equal tables; points, radius, trace, resume, options: as for delaunay.
     """
     if of not in CONVERGE_OF:
@@ -386,7 +386,7 @@ def converge(points: Any, radius: Any = None, window: Sequence[Any] | None = Non
 
 
 def replay(trace: Path) -> Convergence:
-    """The table of a run from its trace, a file, without asking a point: what it finds is compared with what was noted.
+    """The table of a run from its trace, a file, without asking a point; its rows are compared with those in the trace.
 
     Error with code 'parse' and the line where they differ, or the trace is not whole.
     """

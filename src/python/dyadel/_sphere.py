@@ -16,13 +16,13 @@ from ._options import INPUTS, engine_options, takes_options
 from ._points import Text, append_given, given_of
 from ._statuses import STATUS, Statuses
 
-#: What is about the plane: runs on a sphere go on until all is decided.
+#: Options of the plane only: runs on a sphere end when all is decided.
 OF_THE_PLANE = ('until', 'window')
 
 
 def append_places(engine: _dyadel.Engine, points: Any, radius: Any = None,
                   radius_unit: str | None = None, **inputs: Any) -> tuple[Given, Any, str | None, Any]:
-    """As append_given, of longitudes and latitudes; then the radius that is kept beside the points, its unit and scale."""
+    """As append_given, of longitudes and latitudes; then the radius that is kept apart from the points, its unit and scale."""
     scale = None
     one = radius if np.ndim(radius) == 0 and not hasattr(radius, 'iloc') and radius not in getattr(points, 'columns', ()) else None
     given = given_of(points, None if radius is one else radius, **inputs)
@@ -48,7 +48,7 @@ def append_places(engine: _dyadel.Engine, points: Any, radius: Any = None,
 
 class SphereCell(NamedTuple):
     """vertices: numbers of those around the cell, counter-clockwise from outside (rows of SphereVoronoi.vertices); None
-    stands for an undecided region between its neighbours. complete: all around is known."""
+    marks an undecided region between its neighbours. complete: all around is known."""
 
     vertices: list[int | None]
     complete: bool
@@ -170,7 +170,7 @@ class Sphere(Statuses):
         return self._engine.certificate(False, None)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """What was given: a copy is triangulated anew."""
+        """The points given: a copy is triangulated anew."""
         options = {name: value for name, value in self._options.items() if name != 'progress'}
         given, radius, unit = self._given
         if given.points is None:

@@ -34,7 +34,7 @@ class Statuses:
 
     def __init__(self) -> None:
         self._options: dict[str, Any] = {}
-        self._outcome: str | None = None  # of what was pickled
+        self._outcome: str | None = None  # of the pickled object
         self._cache: dict[str, Any] = {}
 
     def _once(self, name: str, make: Callable[[], Made]) -> Made:
@@ -48,7 +48,7 @@ class Statuses:
 
     @contextlib.contextmanager
     def _traced(self, trace: Path | None, resume: Path | None, options: dict[str, Any]) -> Iterator[None]:
-        """The first run goes on from one trace, and another tells of it."""
+        """The first run resumes from one trace, and writes another."""
         if resume is not None:
             self.recalled = self._engine.recall(os.fsencode(resume))
         if trace is not None:
@@ -60,7 +60,7 @@ class Statuses:
 
     @contextlib.contextmanager
     def _kept_with_errors(self) -> Iterator[None]:
-        """As `result` of what is raised; exceptions with slots have no such attribute."""
+        """Sets `result` of exceptions; those with slots cannot have it."""
         try:
             yield
         except BaseException as error:
@@ -127,7 +127,7 @@ class Statuses:
 
     @property
     def aliases(self) -> Ints:
-        """(A, 2): point k is the same place as point j < k, which stands for it."""
+        """(A, 2): point k is the same place as point j < k, which represents it."""
         def make() -> Ints:
             alias = ints(self._engine.aliases())
             other = np.flatnonzero(alias != np.arange(len(alias)))
@@ -141,7 +141,7 @@ class Statuses:
 
     @property
     def rows(self) -> Longs:
-        """(N,): the row of each point in what was given: rows[k] is k unless rows were left out or merged."""
+        """(N,): the row of each point in the input: rows[k] is k unless rows were skipped or merged."""
         return self._once('rows', lambda: longs(self._named.names()[0]))
 
     @property
@@ -160,11 +160,11 @@ class Statuses:
 
     @property
     def counters(self) -> dict[str, Any]:
-        """What it took: stages, calls, bits_least, bits_most, bits_total, seconds, spent (which budget), decisions by rung."""
+        """Counters of the run: stages, calls, bits_least, bits_most, bits_total, seconds, spent (which budget), decisions by rung."""
         return self._engine.counters()
 
     def write(self, format: str = 'csv', layer: str | None = None, window: Any = None, epsg: int | None = None) -> str | bytes:
-        """The result in a format of the command ('csv', 'json', 'geojson', 'svg', 'html', ...); bytes of those that are no
+        """The result in a format of the command ('csv', 'json', 'geojson', 'svg', 'html', ...); bytes of formats that are not
         text.
 
         layer: as `dyadel delaunay --layer`: 'pairs', 'points', 'triangles', of the plane also 'graph:nearest',

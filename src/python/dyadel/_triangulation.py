@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Points in the plane in, statuses out: the triangulation, and what is asked of it."""
+"""Points in the plane in, statuses out: the triangulation and questions to it."""
 from __future__ import annotations
 
 import dataclasses
@@ -24,7 +24,7 @@ STATUSES = np.array(STATUS, object)
 
 
 class Bounds(NamedTuple):
-    """Certified upper bounds: area of what may be an edge, and distance between it and the true triangulation."""
+    """Certified upper bounds: area of the region where edges may be, and its distance from the true triangulation."""
 
     area: Fraction
     hausdorff: Fraction
@@ -45,7 +45,7 @@ class Delaunay(Statuses):
                  **options: Any) -> None:
         super().__init__()
         self._named = self._engine = _dyadel.Engine()
-        self._log: list[Given] = []  # what was given; without points where boxes of doubles hold them
+        self._log: list[Given] = []  # the input; without points where boxes of doubles hold them
         self._measured: set[int] = set()
         if points is not None:
             with self._kept_with_errors():
@@ -59,7 +59,7 @@ class Delaunay(Statuses):
     def refine(self, **options: Any) -> Delaunay:
         """Runs until a goal is reached; options are those of delaunay, others stay as they were. Returns itself.
 
-        What was stated stays stated. Ctrl-C and exceptions of callbacks leave what is known so far.
+        No statement is taken back. After Ctrl-C or an exception of a callback all earlier statements are kept.
         """
         merged = {**self._options, **options}
         if merged.get('until', '').startswith('voronoi') and merged.get('window') is None:
@@ -262,7 +262,7 @@ class Delaunay(Statuses):
     def to_wkb(self, layer: str = 'pairs') -> list[bytes]:
         """Well-known binary, one for each row of `pairs`, `simplices` ('triangles') or point ('points').
 
-        A point stands at the centre of its rectangle, rounded to doubles: `boxes` tells how far it may be from there.
+        A point is drawn at the centre of its rectangle, rounded to doubles; `boxes` holds it.
         """
         places = _geometry.centres(self.boxes)
         if layer == 'points':
@@ -276,7 +276,7 @@ class Delaunay(Statuses):
     # ---- pickling ----
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """What was given, and how far rectangles came: a copy triangulates these, and goes on from there."""
+        """The input and the rectangles reached: a copy triangulates these, and refines from there."""
         boxes, rects, first = self.boxes, self.rects(), 0
         log: list[Given] = []
         narrowed: dict[int, str] = {}

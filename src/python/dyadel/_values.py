@@ -10,7 +10,7 @@ from typing import Any
 
 Simple = int | Fraction | str | tuple[Fraction, Fraction]
 
-#: Constants of mpmath: numbers that have as many digits as are asked for.
+#: Constants of mpmath: numbers with any number of digits.
 MPMATH_CONSTANTS = {'pi': 'pi', 'e': 'e', 'phi': '(1+sqrt(5))/2', 'ln2': 'log(2)', 'ln10': 'log(10)', '1 deg': 'pi/180'}
 SYMPY_CONSTANTS = {'Pi': 'pi', 'Exp1': 'e', 'GoldenRatio': '((1+sqrt(5))/2)'}
 SYMPY_FUNCTIONS = {name: name.lower() for name in (

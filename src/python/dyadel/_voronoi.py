@@ -25,7 +25,7 @@ def box_columns(boxes: Floats) -> dict[str, Floats]:
 
 
 class Triangulation(Protocol):
-    """Of what it is the diagram."""
+    """The triangulation of a diagram."""
 
     crs: Any
     _engine: _dyadel.Engine
