@@ -196,7 +196,7 @@ static int plan_begin(cli_session *s) {
   plan_run *r = s->state;
   const cli_options *o = &s->o;
   mpq_init(r->accuracy);
-  if (o->sphere && o->window) return cli_usage("--window of plan is about the plane; leave it or --sphere away");
+  if (o->sphere && o->window) return cli_usage("--window of plan is about the plane; remove it or --sphere");
   int status = o->sphere ? cli_sphere_begin(s) : 0;
   if (!status && o->accuracy && !o->sphere) status = cli_number_read(r->accuracy, "accuracy", o->accuracy);
   if (!status && o->accuracy && !o->sphere && mpq_sgn(r->accuracy) == 0)

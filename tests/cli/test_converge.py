@@ -323,8 +323,8 @@ def test_disc_stages():
     assert table('--of', 'disc', text='0 0\n1 1\n2 2\n5 1\n', code=3)[-1]['area'] == ''
     assert [table('--of', 'disc', text='0 0\n1 0\n0 1\n')[-1][k] for k in ('area', 'hausdorff', 'con')] == ['0', '0', '']
     expect(run('converge', '-', '--of', 'disc', stdin='0 0\n1 1\n'), 1, r'\A\Z', '3 points are needed, here are 2')
-    expect(run('converge', '-', '--of', 'disc', '--format', 'html', stdin=text), 2, r'\A\Z', 'leave --of disc away')
-    expect(run('converge', '--replay', '-', '--of', 'disc', stdin=text), 2, r'\A\Z', 'leave --of away')
+    expect(run('converge', '-', '--of', 'disc', '--format', 'html', stdin=text), 2, r'\A\Z', 'remove --of disc')
+    expect(run('converge', '--replay', '-', '--of', 'disc', stdin=text), 2, r'\A\Z', 'remove --of')
     with tempfile.TemporaryDirectory() as folder:
         result, trace = trace_of(folder, text, '--of', 'disc', '--until', 'area:30')
         again = run('converge', '-', '--no-times', '--of', 'disc', '--until', 'area:30', '--resume', os.path.join(folder, 'trace'), stdin=text)
