@@ -372,10 +372,10 @@ DYD_API bool dyd_engine_nearest_tied(const dyd_engine *e);
 DYD_API dyd_status dyd_engine_graph(dyd_graph_list *out, dyd_outcome *outcome, dyd_engine *e, dyd_graph graph,
                                     const dyd_engine_options *options, dyd_error *err);
 
-/* The pairs of dyd_disc_pairs, which see, of the discs in squares whose points were computed and have radii: centres are
- * refined about pairs that are open, until they are as well known as discs are told. Outcomes: decided (each pair listed
- * is legal), fixpoint, budget, cancelled. DYD_CAPPED, and DYD_CANCELLED as there: *out is valid. options and errors as in
- * dyd_engine_ask. */
+/* The pairs of dyd_disc_pairs, which see, of the discs in squares whose points were computed and have radii: centres
+ * are refined about pairs that are open, until they are as well known as discs are told. Outcomes: decided (each pair
+ * listed is legal), fixpoint, budget, cancelled. DYD_CAPPED, and DYD_CANCELLED as there: *out is valid. options and
+ * errors as in dyd_engine_ask. */
 DYD_API dyd_status dyd_engine_discs(dyd_pair_list *out, dyd_outcome *outcome, dyd_engine *e,
                                     const dyd_engine_options *options, dyd_error *err);
 
