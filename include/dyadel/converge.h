@@ -75,6 +75,10 @@ typedef struct dyd_converge_options {
   /* Called after each row is complete; may be NULL. */
   void (*stage)(void *user, const dyd_stage_row *row, const dyd_delaunay *pd);
   void *stage_user;
+  /* Gives the pairs that rows count, instead of those of the result, such as those of the places of a sphere; rows have
+   * no bounds then. An error ends the run. NULL: those of the result. */
+  dyd_status (*pairs)(dyd_pair_list *out, void *user);
+  void *pairs_user;
   /* when it points to a non-zero value, bounds not known by then are omitted from rows; NULL: never. dyd_converge_run
    * does that at the deadline, and when the engine is cancelled, by itself */
   const volatile int *cancel;

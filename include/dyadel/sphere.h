@@ -11,6 +11,7 @@
 #ifndef DYADEL_SPHERE_H
 #define DYADEL_SPHERE_H
 
+#include <dyadel/converge.h>
 #include <dyadel/engine.h>
 #include <dyadel/survey.h>
 
@@ -55,6 +56,11 @@ DYD_API const dyd_engine *dyd_sphere_images(const dyd_sphere *s);
  * Places are asked again what images were recalled (dyd_engine_recall) for. */
 DYD_API dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_options *options,
                                   dyd_error *err);
+
+/* The same, stage by stage (dyd_converge_run): rows count pairs of places as the first eye sees them, widths are those
+ * of images, and there are no bounds. */
+DYD_API dyd_status dyd_sphere_converge(dyd_convergence *out, dyd_sphere *s, const dyd_engine_options *options,
+                                       dyd_error *err);
 
 /* The outcome of the last run: as that of the images, but fixpoint where these are decided and, as no point is
  * projected from, pairs stay undecided all the same. */

@@ -215,6 +215,7 @@ struct cli_session {
   size_t note_size;
   const char *radius, *resume; /* of places of a sphere, while points are read without; NULL: none */
   dyd_sphere *sphere;          /* of --sphere; owned; NULL: none */
+  dyd_engine *places;          /* of it, while `engine` holds the images; NULL: engine holds the places */
   dyd_trace *trace;            /* NULL: none is written, or it has not begun */
   cli_output trace_file;
 };
@@ -230,12 +231,15 @@ int cli_points_read(dyd_engine *e, cli_options *o, bool noting);
 int cli_places_read(dyd_engine *e, const cli_options *o);
 /* For reading points as longitude and latitude. */
 void cli_options_degrees(cli_options *o);
-/* What a command with --sphere begins with: points are read as degrees. 0, or CLI_USAGE after a message that --discs
- * is about the plane. */
+/* delaunay.c: what a command with --sphere begins with: points are read as degrees. 0, or CLI_USAGE after a message
+ * that --discs is about the plane. */
 int cli_sphere_begin(cli_session *s);
 /* Makes s->sphere of the points read, and restores the options --radius and --resume. 0, or an exit status after a
  * message. */
 int cli_sphere_make(cli_session *s, bool no_images);
+/* Makes it, and has s->engine hold its images, with the answers of --resume, until the end of the command. 0, or an
+ * exit status after a message. */
+int cli_sphere_look(cli_session *s);
 /* Gives the engine, not run yet, the answers of --resume. 0, or an exit status after a message. */
 int cli_trace_resume(const cli_session *s);
 /* Runs with options; progress, trace and signals are added. 0 whatever the outcome, DYD_OUTCOME_ERROR aside: then
@@ -283,6 +287,8 @@ const char *cli_points_name(const cli_options *o);
 int cli_pairs_summary(cli_session *s, int status);
 /* Reports why a disc or bisector is not better known. Returns the exit status. */
 int cli_pieces_outcome(const cli_session *s);
+/* The same of a sphere. */
+int cli_sphere_summary(cli_session *s, int status);
 /* A line when radii were given and most of the rectangles, or of the regions of a sphere, meet another one. */
 void cli_note_spacing(const cli_session *s, const dyd_delaunay *pd);
 /* The goals of --until, for the diagram instead of the triangulation. */

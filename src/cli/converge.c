@@ -54,13 +54,20 @@ static int converge_begin(cli_session *s) {
     cli_complain("--replay takes what the table is about from the trace; remove --of");
   else if (o->replay && o->format == DYD_FORMAT_HTML)
     cli_complain("html shows the points, which --replay does without; run converge on them");
+  else if (o->sphere && (o->of != DYD_CONVERGE_DELAUNAY || o->engine.goal != DYD_GOAL_DECIDED || o->window))
+    cli_complain("%s is about the plane; leave it or --sphere away", o->window                        ? "--window"
+                                                                     : o->of != DYD_CONVERGE_DELAUNAY ? "--of"
+                                                                                                      : "--until");
+  else if (o->sphere && o->format == DYD_FORMAT_HTML)
+    cli_complain("html is about the plane; leave it or --sphere away");
   else
-    return 0;
+    return o->sphere ? cli_sphere_begin(s) : 0;
   return CLI_USAGE;
 }
 
 static dyd_status converge_run_engine(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
   converge_run *r = s->state;
+  if (s->sphere) return dyd_sphere_converge(&r->table, s->sphere, options, err);
   dyd_status st = dyd_converge_run(&r->table, s->engine, options, &r->how, err);
   if (is_piece(s)) s->outcome = r->table.outcome;
   return st;
@@ -94,8 +101,8 @@ static const dyd_stage_row *last_stage(const converge_run *r) {
 static int converge_find(cli_session *s) {
   converge_run *r = s->state;
   r->how.window = s->view;
-  s->converge = &r->how;
-  int status = piece_points(s);
+  s->converge = s->o.sphere ? NULL : &r->how;
+  int status = s->o.sphere ? cli_sphere_look(s) : piece_points(s);
   if (status) return status;
   status = cli_session_run(s, &s->o.engine, converge_run_engine);
   cli_session_settle(s);
@@ -129,7 +136,7 @@ static dyd_status converge_write(FILE *out, const cli_session *s, dyd_error *err
 static int note_cut(const cli_session *s) {
   const converge_run *r = s->state;
   const dyd_stage_row *last = last_stage(r);
-  if (!last || !cli_deadline_passed() || (last->bounded && (last->voronoi || !r->table.window))) return 0;
+  if (!last || s->sphere || !cli_deadline_passed() || (last->bounded && (last->voronoi || !r->table.window))) return 0;
   cli_note(&s->o, "budget: time limit reached: no bounds of stage %llu (raise --timeout)",
            (unsigned long long)last->stage);
   return CLI_BUDGET;
@@ -149,6 +156,7 @@ static void note_steps(const cli_session *s) {
 
 static int converge_summary(cli_session *s, int status) {
   note_steps(s);
+  if (s->sphere) return cli_sphere_summary(s, status);
   if (is_piece(s)) return status ? status : cli_pieces_outcome(s);
   return cli_pairs_summary(s, status ? status : note_cut(s));
 }

@@ -277,9 +277,35 @@ const cli_work cli_voronoi = {.size = sizeof(cli_diagram),
 
 /* ---- --sphere: the points of the file are places, their images are run ---- */
 
-typedef struct sphere_run {
-  dyd_engine *places; /* s->engine holds the images then, as traces do; NULL: it holds the places */
-} sphere_run;
+int cli_sphere_begin(cli_session *s) {
+  s->radius = s->o.read.radius;
+  s->resume = s->o.resume;
+  s->o.resume = NULL;
+  cli_options_degrees(&s->o);
+  return s->o.discs ? cli_usage("--discs is about the plane; leave --discs or --sphere away") : 0;
+}
+
+int cli_sphere_make(cli_session *s, bool no_images) {
+  cli_options *o = &s->o;
+  dyd_error err;
+  o->read.radius = s->radius;
+  o->resume = s->resume;
+  const dyd_sphere_options how = {DYD_SIZED(dyd_sphere_options), .radius = o->read.radius,
+                                  .radius_unit = o->read.radius_unit, .radius_scale = o->read.radius_scale,
+                                  .no_images = no_images};
+  dyd_status st = dyd_sphere_new(&s->sphere, s->engine, &how, &err);
+  if (st == DYD_OK) return 0;
+  cli_complain_of(s->engine, st == DYD_E_ARG ? NULL : o->file, &err);
+  return st == DYD_E_ARG ? CLI_USAGE : CLI_FAILED;
+}
+
+int cli_sphere_look(cli_session *s) {
+  int status = cli_sphere_make(s, false);
+  if (status) return status;
+  s->places = s->engine;
+  s->engine = dyd_sphere_engine(s->sphere);
+  return s->o.resume ? cli_trace_resume(s) : 0;
+}
 
 static int places_on_sphere_begin(cli_session *s) {
   cli_options *o = &s->o;
@@ -300,17 +326,11 @@ static dyd_status sphere_run_images(cli_session *s, const dyd_engine_options *op
 }
 
 static int sphere_find(cli_session *s) {
-  sphere_run *r = s->state;
-  cli_options *o = &s->o;
-  dyd_engine_options run = o->engine;
-  int status = cli_sphere_make(s, false);
-  if (status) return status;
-  if (!o->start_set) run.start_bits = 0;
-  r->places = s->engine;
-  s->engine = dyd_sphere_engine(s->sphere);
-  if (o->resume) status = cli_trace_resume(s);
+  dyd_engine_options run = s->o.engine;
+  int status = cli_sphere_look(s);
+  if (!s->o.start_set) run.start_bits = 0;
   if (!status) status = cli_session_run(s, &run, sphere_run_images);
-  s->known = dyd_engine_delaunay(s->engine);
+  s->known = s->places && dyd_engine_delaunay(s->engine);
   return status || s->known ? status : cli_session_stopped(s, "the triangulation was");
 }
 
@@ -326,7 +346,7 @@ static dyd_status sphere_prove(FILE *out, const cli_session *s, dyd_error *err) 
   return dyd_write_certificate(out, NULL, &parts, err);
 }
 
-static int sphere_summary(cli_session *s, int status) {
+int cli_sphere_summary(cli_session *s, int status) {
   const dyd_sphere *sphere = s->sphere;
   dyd_pair_list pairs = {0};
   size_t count[4];
@@ -342,16 +362,8 @@ static int sphere_summary(cli_session *s, int status) {
   return cli_exit_status(outcome);
 }
 
-/* The sphere owns its images. */
-static void sphere_end(cli_session *s) {
-  sphere_run *r = s->state;
-  if (r->places) s->engine = r->places;
-}
-
-const cli_work cli_sphere = {.size = sizeof(sphere_run),
-                             .begin = places_on_sphere_begin,
+const cli_work cli_sphere = {.begin = places_on_sphere_begin,
                              .find = sphere_find,
                              .write = sphere_write,
                              .prove = sphere_prove,
-                             .summary = sphere_summary,
-                             .end = sphere_end};
+                             .summary = cli_sphere_summary};

@@ -225,30 +225,6 @@ void cli_options_degrees(cli_options *o) {
   o->read.radius = NULL; /* it may have a unit, and widens places */
 }
 
-/* ---- spheres ---- */
-
-int cli_sphere_begin(cli_session *s) {
-  s->radius = s->o.read.radius;
-  s->resume = s->o.resume;
-  s->o.resume = NULL;
-  cli_options_degrees(&s->o);
-  return s->o.discs ? cli_usage("--discs is about the plane; remove --discs or --sphere") : 0;
-}
-
-int cli_sphere_make(cli_session *s, bool no_images) {
-  cli_options *o = &s->o;
-  dyd_error err;
-  o->read.radius = s->radius;
-  o->resume = s->resume;
-  const dyd_sphere_options how = {DYD_SIZED(dyd_sphere_options), .radius = o->read.radius,
-                                  .radius_unit = o->read.radius_unit, .radius_scale = o->read.radius_scale,
-                                  .no_images = no_images};
-  dyd_status st = dyd_sphere_new(&s->sphere, s->engine, &how, &err);
-  if (st == DYD_OK) return 0;
-  cli_complain_of(s->engine, st == DYD_E_ARG ? NULL : o->file, &err);
-  return st == DYD_E_ARG ? CLI_USAGE : CLI_FAILED;
-}
-
 /* ---- traces ----
  *
  * A trace appears when it has begun: with the answers of --resume, if there are any. From then on it gets a line for
@@ -871,6 +847,7 @@ static int work_close(cli_session *s, int status) {
   cli_deadline_written(status);
   if (s->work->end && s->state) s->work->end(s);
   free(s->state);
+  if (s->places) s->engine = s->places; /* images are the sphere's */
   dyd_sphere_free(s->sphere);
   dyd_engine_free(s->engine);
   dyd_history_free(s->history);

@@ -19,7 +19,8 @@ enum {
   TEXT = READ | BIT(CLI_VERIFY),                                                   /* from a file */
   PIECES = BIT(CLI_DISC) | BIT(CLI_BISECTOR),
   REFINE = RUN | PIECES | BIT(CLI_NEAREST), /* asks points to narrow */
-  GLOBE = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_NEAREST) | BIT(CLI_PLAN) | BIT(CLI_VERIFY) /* takes --sphere */
+  GLOBE = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_NEAREST) | BIT(CLI_PLAN) |
+          BIT(CLI_VERIFY) /* takes --sphere */
 };
 
 const cli_command cli_commands[CLI_COMMANDS] = {
@@ -177,7 +178,7 @@ const cli_option cli_option_table[] = {
     {"sphere", 0, NULL, CLI_FLAG, GLOBE, CLI_INPUT,
      "points are longitude and latitude in degrees, on a sphere;\nradii have a unit: 30m, 2km, 5ft, 0.01deg, "
      "3arcsec;\nnearest: X Y are degrees, too, distances are metres along\nthe ground; "
-     "plan: half-widths are metres on the ground",
+     "plan: half-widths are metres on the ground;\nconverge: counts pairs, without bounds",
      AT(sphere)},
     {"plane", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
      "columns called longitude and latitude are meant to be\ncoordinates in a plane: no note about it", AT(plane)},

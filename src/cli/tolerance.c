@@ -124,7 +124,6 @@ typedef struct plan_run {
   size_t *line; /* of each pair in its file */
   uint32_t site;
   double *cost;
-  dyd_engine *places; /* of a sphere, while its images are at work; NULL: they are not */
 } plan_run;
 
 static bool plan_add_pair(plan_run *r, uint32_t i, uint32_t j, size_t line) {
@@ -296,18 +295,13 @@ static dyd_status plan_run_sphere(cli_session *s, const dyd_engine_options *opti
 static int plan_find_on_sphere(cli_session *s) {
   plan_run *r = s->state;
   dyd_engine_options o = s->o.engine;
-  int status = cli_sphere_make(s, false);
-  if (status) return status;
   r->cost = of_each_point(s->engine, DYD_ROW_COST);
   if (!r->cost) return cli_complain_memory();
+  int status = cli_sphere_look(s);
   o.start_bits = 0;
-  r->places = s->engine;
-  s->engine = dyd_sphere_engine(s->sphere);
-  status = cli_session_run(s, &o, plan_run_sphere);
+  if (!status) status = cli_session_run(s, &o, plan_run_sphere);
   s->known = !status && r->survey;
-  if (!status && !s->known) status = cli_session_stopped(s, "the plan was");
-  s->engine = r->places;
-  return status;
+  return status || s->known ? status : cli_session_stopped(s, "the plan was");
 }
 
 static int plan_find(cli_session *s) {
@@ -331,6 +325,7 @@ static dyd_status plan_write(FILE *out, const cli_session *s, dyd_error *err) {
 /* What rows alone do not say: ties at the nominal places, points that coincide there, rows that decide nothing yet. */
 static void plan_notes(const cli_session *s, const dyd_survey *plan) {
   const dyd_survey_result *of = dyd_survey_get(plan);
+  const dyd_engine *e = s->places ? s->places : s->engine;
   const dyd_survey_row *row;
   size_t rows = dyd_survey_rows(&row, plan), idle = 0;
   const bool same = of->same[0] != of->same[1];
@@ -339,12 +334,12 @@ static void plan_notes(const cli_session *s, const dyd_survey *plan) {
         &s->o,
         "points %zu and %zu have the same centre, so pairs next to them may stay undecided (measure them apart; if "
         "they are one point: --merge)",
-        dyd_engine_row(s->engine, of->same[0]), dyd_engine_row(s->engine, of->same[1]));
+        dyd_engine_row(e, of->same[0]), dyd_engine_row(e, of->same[1]));
   if (of->tie[0] != of->tie[1])
     cli_note(&s->o,
              "the pair %zu,%zu ties at the centres of its rectangles: any new measurement of one of the points on that "
              "circle or line decides it, unless it lies exactly there",
-             dyd_engine_row(s->engine, of->tie[0]), dyd_engine_row(s->engine, of->tie[1]));
+             dyd_engine_row(e, of->tie[0]), dyd_engine_row(e, of->tie[1]));
   for (size_t k = 0; k < rows; k++) idle += row[k].decided == 0;
   if (idle) cli_note(&s->o, "rows with pairs_decided 0 decide pairs only together with later rows");
   if (of->left)

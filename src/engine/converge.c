@@ -214,13 +214,23 @@ static dyd_status measure_voronoi(dyd_stage_row *row, const dyd_convergence *out
   return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
-static dyd_status row_measure(dyd_stage_row *row, const dyd_delaunay *pd, const volatile int *cancel) {
-  dyd_delaunay_count(row->count, pd);
+/* Pairs that are not those of the result. */
+static dyd_status row_count_others(dyd_stage_row *row, const dyd_converge_options *o) {
+  dyd_pair_list pairs = {0};
+  dyd_status st = o->pairs(&pairs, o->pairs_user);
+  for (size_t k = 0; k < pairs.count; k++) row->count[pairs.item[k].status]++;
+  row->digest = dyd_digest_list(&pairs);
+  dyd_pair_list_clear(&pairs);
+  return st;
+}
+
+static dyd_status row_measure(dyd_stage_row *row, const dyd_delaunay *pd, const dyd_converge_options *o) {
+  if (!o->pairs) dyd_delaunay_count(row->count, pd);
   row->undecided_faces = dyd_delaunay_undecided_faces(pd);
   dyd_status st = dyd_delaunay_get_counters(&row->rungs, pd, NULL);
-  if (st == DYD_OK) st = dyd_digest_pairs(&row->digest, pd);
+  if (st == DYD_OK) st = o->pairs ? row_count_others(row, o) : dyd_digest_pairs(&row->digest, pd);
   if (st == DYD_OK) st = measure_widths(row, dyd_delaunay_sites(pd), dyd_sites_count(dyd_delaunay_sites(pd)));
-  if (st == DYD_OK) st = measure_bounds(row, pd, cancel);
+  if (st == DYD_OK && !o->pairs) st = measure_bounds(row, pd, o->cancel);
   return st;
 }
 
@@ -233,7 +243,7 @@ dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const 
   dyd_stage_row *r = row_new(out);
   if (!r) return dyd_fail_nomem(err);
   out->of = o.of;
-  st = row_measure(r, pd, o.cancel);
+  st = row_measure(r, pd, &o);
   if (st == DYD_OK && o.of == DYD_CONVERGE_VORONOI) st = convergence_set_window(out, dyd_delaunay_sites(pd), o.window);
   if (st == DYD_OK && out->window) st = measure_voronoi(r, out, pd, o.cancel);
   if (st != DYD_OK) {

@@ -17,18 +17,22 @@ static uint64_t digest_word(uint64_t digest, uint32_t word) {
   return dyd_digest(digest, byte, sizeof byte);
 }
 
+uint64_t dyd_digest_list(const dyd_pair_list *pairs) {
+  uint64_t digest = DYD_DIGEST_BEGIN;
+  for (size_t k = 0; k < pairs->count; k++) {
+    digest = digest_word(digest, pairs->item[k].i);
+    digest = digest_word(digest, pairs->item[k].j);
+    digest = digest_word(digest, (uint32_t)pairs->item[k].status);
+  }
+  return digest;
+}
+
 dyd_status dyd_digest_pairs(uint64_t *out, const dyd_delaunay *pd) {
   dyd_pair_list pairs = {0};
   dyd_status st = dyd_pairs_list(&pairs, pd, DYD_TIE);
-  if (st != DYD_OK) return st;
-  *out = DYD_DIGEST_BEGIN;
-  for (size_t k = 0; k < pairs.count; k++) {
-    *out = digest_word(*out, pairs.item[k].i);
-    *out = digest_word(*out, pairs.item[k].j);
-    *out = digest_word(*out, (uint32_t)pairs.item[k].status);
-  }
+  if (st == DYD_OK) *out = dyd_digest_list(&pairs);
   dyd_pair_list_clear(&pairs);
-  return DYD_OK;
+  return st;
 }
 
 /* What every stage of a run knew. Possible pairs come sorted, so that changes are found by going along two lists. */

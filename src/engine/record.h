@@ -20,6 +20,7 @@ void dyd_recall_free(dyd_recall *m);
 
 /* All statuses in one number, to tell whether two results are equal: FNV-1a of the pairs with their statuses, as
  * dyd_stage_row has it. O(pairs log pairs). */
+uint64_t dyd_digest_list(const dyd_pair_list *pairs);
 dyd_status dyd_digest_pairs(uint64_t *out, const dyd_delaunay *pd);
 
 /* A pair that is in one of two lists, or in both: with its status in the second, and in the first; illegal where it is

@@ -317,14 +317,22 @@ static dyd_status gap_look(dyd_sphere *s) {
   return st;
 }
 
-dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_options *options, dyd_error *err) {
+static dyd_status places_pairs(dyd_pair_list *out, void *user) {
+  return dyd_sphere_pairs(out, user);
+}
+
+/* table: NULL, or takes the stages of the first eye. */
+static dyd_status sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_options *options,
+                             dyd_convergence *table, dyd_error *err) {
+  const dyd_converge_options how = {DYD_SIZED(dyd_converge_options), .pairs = places_pairs, .pairs_user = s};
   dyd_engine_options o;
   double *cost = NULL, begun = dyd_seconds();
   *outcome = DYD_OUTCOME_ERROR;
   if (dyd_abi_take(&o, sizeof o, options, "dyd_engine_options", err) != DYD_OK) return DYD_E_ARG;
   if (o.cost && !(o.cost = cost = costs_of_images(s, o.cost))) return dyd_fail_nomem(err);
   if (!o.start_bits) o.start_bits = START_BITS;
-  dyd_status st = dyd_engine_run(outcome, s->images, &o, err);
+  dyd_status st =
+      table ? dyd_converge_run(table, s->images, &o, &how, err) : dyd_engine_run(outcome, s->images, &o, err);
   free(cost);
   if (st == DYD_OK) st = dyd_sphere_narrow_recalled(s, o.max_bits, err);
   if (st == DYD_OK) *outcome = dyd_sphere_outcome(s);
@@ -333,7 +341,18 @@ dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_
     if (st == DYD_OK && s->free && s->second) st = gap_look(s);
     if (st == DYD_OK) *outcome = dyd_sphere_outcome(s);
   }
+  if (table && st == DYD_OK) table->outcome = *outcome;
   return st;
+}
+
+dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_options *options, dyd_error *err) {
+  return sphere_run(outcome, s, options, NULL, err);
+}
+
+dyd_status dyd_sphere_converge(dyd_convergence *out, dyd_sphere *s, const dyd_engine_options *options, dyd_error *err) {
+  dyd_outcome outcome;
+  if (!s || !out) return dyd_fail_null(err);
+  return sphere_run(&outcome, s, options, out, err);
 }
 
 /* ---- pairs ---- */

@@ -736,9 +736,21 @@ def test_refusals():
     expect(run('delaunay', '--sphere', '-', stdin='0 0\n47 50+sqrt(2000)\n'), 1, r'\A\Z', r'point 1: .*latitude is beyond 90 degrees')
     for args in (['--discs'], ['--until', 'area:3']):
         expect(run('delaunay', '--sphere', *args, '-', stdin=OCTAHEDRON), 2, r'\A\Z', args[0] + ' is about the plane')
-    for command in ('converge', 'check', 'disc', 'bisector', 'tolerance'):
+    for command in ('check', 'disc', 'bisector', 'tolerance'):
         expect(run(command, '--sphere', '-', stdin=OCTAHEDRON), 2, r'\A\Z', f'{command} does not take --sphere')
     expect(run('voronoi', '--sphere', '--format', 'obj', '-', stdin=OCTAHEDRON), 2, r'\A\Z', 'does not write obj; give')
+
+
+def test_converge():
+    """A run stage by stage: its last row counts what delaunay counts, for points that are computed, too; nothing is said of a plane."""
+    text = '0 45\n60 45+sqrt(2)*2^-45\n120 45\n180 45-sqrt(3)*2^-44\n-120 45\n-60 45+2^-43\n0 -80\n'
+    table = run('converge', '--sphere', '--no-times', '-', stdin=text).out
+    stages = list(csv.DictReader(l for l in table.splitlines() if not l.startswith('#')))
+    legal = run('delaunay', '--sphere', '-', stdin=text).out.count(',legal')
+    assert int(stages[-1]['legal']) == legal and stages[-1]['indeterminate'] == '0' and len(stages) > 1, stages
+    assert all(row['area'] == row['hausdorff'] == '' for row in stages), stages
+    for words, what in ((('--window', '0,1,0,1'), '--window'), (('--of', 'voronoi'), '--of'), (('--until', 'area:3'), '--until'), (('--format', 'html'), 'html')):
+        expect(run('converge', '--sphere', *words, '-', stdin=text), 2, r'\A\Z', f'{what} is about the plane')
 
 
 if __name__ == '__main__':

@@ -725,7 +725,9 @@ def judge_count(judge, case, c, ch):
     n = sum(ch.edge(i, j) == 1 for i, j in itertools.combinations(ch.sites, 2))
     weak = sum(ch.edge(i, j) == 0 for i, j in itertools.combinations(ch.sites, 2))
     count = c['count']
-    if case.geometry == 'sphere':
+    if case.geometry == 'sphere':  # 0: not known; rows count what the first eye sees
+        judge(count['legal'] <= n + weak, '%d pairs are counted as legal, but a choice has %d edges', count['legal'], n + weak)
+        judge(n <= count['legal'] + count['indeterminate'] + count['tie'], 'a choice has more edges than are possible')
         return
     judge(count['legal'] <= n, '%d pairs are counted as legal, but a choice has %d edges', count['legal'], n)
     judge(case.extra == 'few pairs' or n + weak <= count['legal'] + count['indeterminate'] + count['tie'], 'a choice has more edges than are possible')
@@ -898,7 +900,7 @@ STATED = {
     'rho': Stated('tolerance', read_rho, None, layer='points', formats=ROWS, kinds=FIRM, least=2),
     'barcode': Stated('tolerance', read_barcode, judge_barcode, layer='barcode', kinds=FIRM, least=2),
     'plan': Stated('plan', read_plan, None, formats=ROWS, geometries=ALL, least=2),
-    'converge': Stated('converge', read_converge, judge_count, args=['--no-times'], formats=('csv', 'json')),
+    'converge': Stated('converge', read_converge, judge_count, args=['--no-times'], formats=('csv', 'json'), geometries=('plane', 'sphere')),
     'converge of voronoi': Stated('converge', read_converge, judge_count, args=['--of', 'voronoi', '--label', 'a=b']),
     'converge of delaunay': Stated('converge', read_converge, judge_count, args=['--of', 'delaunay']),
     'converge of disc': Stated('converge', read_stages, judge_disc_stages, args=['--of', 'disc'], formats=('csv', 'json'), least=3),
