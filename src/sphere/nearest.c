@@ -4,7 +4,7 @@
  * [SPH-6] Let u = f - f0 and d be the differences of latitudes and longitudes, |d| <= 180 degrees. The angle between
  * two places is 2 asin(sqrt h), h = sin^2(u/2) + cos f cos f0 sin^2(d/2): it grows with |d|, and so is least, and
  * largest, over a box of places where |d| is. Along a meridian h = (1 - R cos(f - g)) / 2 with R (cos g, sin g) =
- * (cos f0 cos d, sin f0): extreme at the ends, or at g, or opposite to it. A region is what is within an angle of its
+ * (cos f0 cos d, sin f0): extreme at the ends, or at g, or opposite to it. A region holds all within an angle of its
  * box. Place i is listed unless its least distance is above the largest of some other one, for all of `at`. */
 #include "base/alloc.h"
 #include "base/error.h"
@@ -22,7 +22,7 @@ enum { FIRST_PREC = 128 };
 /* ---- distances ---- */
 
 /* Distances of a box from a place: the least and the largest, in radians, for each choice of the place in its box; and
- * what they are computed from. */
+ * the numbers behind them. */
 typedef struct way {
   arb_struct least, largest;
   arb_struct lat0, sin0, cos0, lon, versine, end, value, root, t;
@@ -228,7 +228,7 @@ static dyd_status near_regions(near_question *q, dyd_error *err) {
   return st;
 }
 
-/* Drops those that are farther than another one for certain. */
+/* Drops places that are farther than another one for certain. */
 static dyd_status near_keep(near_question *q) {
   way d;
   arf_struct *low = dyd_alloc(q->near.count, sizeof *low);
@@ -279,10 +279,10 @@ static dyd_status near_separate(bool *blocked, near_question *q, slong most, con
   return st;
 }
 
-/* ---- what stays ---- */
+/* ---- cores ---- */
 
-/* Sets core to what stays of region k, whatever is refined: radii in degrees, less half of the rectangle. Returns false
- * if that is nothing. */
+/* Sets core to the part of region k that no refinement takes away: radii in degrees, less half of the rectangle.
+ * Returns false if that is nothing. */
 static bool near_core(dyd_spot *core, const near_question *q, size_t k) {
   const dyd_spot *spot = &q->spot[k];
   const bool fixed = dyd_sphere_is_fixed(q->s, q->near.item[k]);

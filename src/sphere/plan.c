@@ -3,7 +3,7 @@
  * around the first [SPH-7].
  *
  * Seen from an eye at an angle t, a place has its image at the distance cot(t/2) from 0; all within an angle r < t of
- * it have theirs within cot((t - r)/2) - cot(t/2) of that one. So squares about images stand for regions, and
+ * it have theirs within cot((t - r)/2) - cot(t/2) of that one. So squares about images replace regions, and
  * accuracies of squares are angles. Whether the plan is enough is seen on the sphere in the end. */
 #include "base/abi.h"
 #include "base/alloc.h"
@@ -53,7 +53,7 @@ static bool target_is_asked(const sphere_plan *p, const dyd_pair *q) {
   return !o->pairs;
 }
 
-/* The open pairs, but for those that tie where places are in the middle of their regions. */
+/* The open pairs, except ties where places are in the middle of their regions. */
 static dyd_status targets_find(sphere_plan *p) {
   dyd_pair_list all = {0}, nominal = {0};
   dyd_survey_result *r = &p->found->result;
@@ -326,7 +326,7 @@ static dyd_status plan_verify(sphere_plan *p) {
   dyd_pair_list_clear(&pairs);
   dyd_sphere_free(then);
   p->found->result.left = left;
-  for (size_t k = 0; k < p->rows; k++) { /* what the last row leaves is what all leave */
+  for (size_t k = 0; k < p->rows; k++) { /* the last row leaves as many as the plan */
     size_t more = p->row[k].decided;
     if (more > open - left - decided || k + 1 == p->rows) more = open - left - decided;
     decided += p->row[k].decided = more;
