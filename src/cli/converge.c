@@ -55,11 +55,11 @@ static int converge_begin(cli_session *s) {
   else if (o->replay && o->format == DYD_FORMAT_HTML)
     cli_complain("html shows the points, which --replay does without; run converge on them");
   else if (o->sphere && (o->of != DYD_CONVERGE_DELAUNAY || o->engine.goal != DYD_GOAL_DECIDED || o->window))
-    cli_complain("%s is about the plane; leave it or --sphere away", o->window                        ? "--window"
+    cli_complain("%s is about the plane; remove it or --sphere", o->window                        ? "--window"
                                                                      : o->of != DYD_CONVERGE_DELAUNAY ? "--of"
                                                                                                       : "--until");
   else if (o->sphere && o->format == DYD_FORMAT_HTML)
-    cli_complain("html is about the plane; leave it or --sphere away");
+    cli_complain("html is about the plane; remove it or --sphere");
   else
     return o->sphere ? cli_sphere_begin(s) : 0;
   return CLI_USAGE;

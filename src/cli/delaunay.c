@@ -282,7 +282,7 @@ int cli_sphere_begin(cli_session *s) {
   s->resume = s->o.resume;
   s->o.resume = NULL;
   cli_options_degrees(&s->o);
-  return s->o.discs ? cli_usage("--discs is about the plane; leave --discs or --sphere away") : 0;
+  return s->o.discs ? cli_usage("--discs is about the plane; remove --discs or --sphere") : 0;
 }
 
 int cli_sphere_make(cli_session *s, bool no_images) {
