@@ -184,6 +184,21 @@ DYD_API dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, dyd_triangle_l
  * contents are undefined. Cost: a walk from each place to the next, so order them to be near. */
 DYD_API dyd_status dyd_delaunay_locate(dyd_triangle *out, dyd_truth *in, const dyd_delaunay *pd, const double *xy,
                                        size_t count, const volatile int *cancel);
+/* Lists of sites for places: those of place k are site[end[k - 1]] to site[end[k] - 1] (end[-1] stands for 0),
+ * ascending. Owned: init with {0}. */
+typedef struct dyd_place_list {
+  size_t places;
+  uint32_t *site;
+  size_t *end;
+  bool *sure;
+} dyd_place_list;
+DYD_API void dyd_place_list_clear(dyd_place_list *l);
+/* Sets *out to the sites that may be corners of the Delaunay triangle that each place xy[2 k], xy[2 k + 1] is in, for
+ * some choice; sure[k]: it is in one for every choice, not outside of the hull [LOC-6]. So what is interpolated between
+ * the corners is within the values of these sites. Errors and `cancel` as for dyd_delaunay_locate; on failure *out is
+ * unchanged. Cost: a walk from each place to the next, plus the triangles of the undecided faces that it may be in. */
+DYD_API dyd_status dyd_delaunay_corners(dyd_place_list *out, const dyd_delaunay *pd, const double *xy, size_t count,
+                                        const volatile int *cancel);
 /* The sites of the undecided faces of the legal graph: face f (0 <= f < dyd_delaunay_undecided_faces). Ascending.
  * *outer is true if the face is unbounded (the unbounded face may come in parts, between certain corners of the hull).
  * Every non-legal possible pair lies in exactly one of them, up to its end points on the boundary. */

@@ -96,20 +96,11 @@ DYD_API dyd_status dyd_voronoi_region(dyd_rect *out, bool *any, const dyd_delaun
  * Int_i). Exact [NEAR-1]. Cost: O(log N + output) on separated input. */
 DYD_API dyd_status dyd_nearest(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, const dyd_rect *q);
 
-/* Answers for many places: the sites that are possibly nearest to place k are site[end[k - 1]] to site[end[k] - 1]
- * (end[-1] means 0), ascending; sure[k] as above. Owned: init with {0}. */
-typedef struct dyd_near_list {
-  size_t places;
-  uint32_t *site;
-  size_t *end;
-  bool *sure;
-} dyd_near_list;
-DYD_API void dyd_near_list_clear(dyd_near_list *l);
-/* Sets *out to what dyd_nearest gives for each place xy[2 k], xy[2 k + 1] (DYD_E_ARG for one that is not finite), by a
- * walk from each to the next, so order them to be near: then a place costs less than a microsecond where its nearest
- * site is in certain triangles only [NEAR-7]. DYD_CANCELLED once *cancel, which may be NULL, is set. On failure *out is
- * unchanged. */
-DYD_API dyd_status dyd_nearest_places(dyd_near_list *out, const dyd_delaunay *pd, const double *xy, size_t count,
+/* Sets *out, with its values of `sure`, to what dyd_nearest gives for each place xy[2 k], xy[2 k + 1] (DYD_E_ARG for
+ * one that is not finite), by a walk from each to the next, so order them to be near: then a place costs less than a
+ * microsecond where its nearest site is in certain triangles only [NEAR-7]. DYD_CANCELLED once *cancel, which may be
+ * NULL, is set. On failure *out is unchanged. */
+DYD_API dyd_status dyd_nearest_places(dyd_place_list *out, const dyd_delaunay *pd, const double *xy, size_t count,
                                       const volatile int *cancel);
 
 #ifdef __cplusplus

@@ -6,6 +6,7 @@
 #include "base/float_filter.h"
 #include "base/invariant.h"
 #include "base/prefetch.h"
+#include "delaunay/extend.h"
 #include "delaunay/face_table.h"
 #include "delaunay/faces.h"
 #include "delaunay/local_filter.h"
@@ -625,6 +626,13 @@ dyd_status dyd_delaunay_update(dyd_delaunay *pd, const uint32_t *changed, size_t
     return dyd_fail(err, DYD_E_ARG, "sites were added after the triangulation");
   set_options(pd, &o, pd->sk.n);
   return finish(pd, dyd_update(pd, changed, count, err), err);
+}
+
+dyd_status dyd_delaunay_extend(bool *fits, dyd_delaunay *pd, const dyd_delaunay_options *options, dyd_error *err) {
+  *fits = false;
+  if (dyd_float_check(err) != DYD_OK) return DYD_E_ARG;
+  set_options(pd, options, dyd_sites_count(pd->sk.rects.sites));
+  return finish(pd, dyd_extend(fits, pd, err), err);
 }
 
 bool dyd_delaunay_is_capped(const dyd_delaunay *pd) {

@@ -18,7 +18,7 @@ void dyd_table_clear(dyd_undecided *f) {
 }
 
 dyd_status dyd_table_mark(dyd_delaunay *pd) {
-  size_t count = pd->sk.mesh.count;
+  size_t count = 2 * (size_t)pd->sk.n + 2; /* vertices may still come into the mesh */
   if (pd->open.of) return DYD_OK;
   pd->open.of = dyd_alloc(count, sizeof *pd->open.of);
   if (!pd->open.of) return DYD_E_NOMEM;

@@ -201,3 +201,124 @@ dyd_status dyd_delaunay_locate(dyd_triangle *out, dyd_truth *in, const dyd_delau
   free(l.corner);
   return st;
 }
+
+/* ---- corners of the triangle around a place, for some choice ---- */
+
+void dyd_place_list_clear(dyd_place_list *l) {
+  if (!l) return;
+  free(l->site);
+  free(l->end);
+  free(l->sure);
+  *l = (dyd_place_list){0};
+}
+
+/* seen: triangles that the place may be in. mark: of each triangle, the place that it was seen for last, from 1. */
+typedef struct corner_search {
+  locator l;
+  uint32_t *seen, *mark;
+  size_t count, seen_cap, site_cap;
+  dyd_place_list out;
+} corner_search;
+
+static bool corner_see(corner_search *s, uint32_t t) {
+  if (s->mark[t] == s->out.places + 1) return true;
+  s->mark[t] = (uint32_t)s->out.places + 1;
+  if (!dyd_reserve((void **)&s->seen, &s->seen_cap, s->count + 1, sizeof *s->seen)) return false;
+  s->seen[s->count++] = t;
+  return true;
+}
+
+/* Is z at the exact point v? */
+static bool is_at(const dyd_skeleton *sk, uint32_t v, dyd_xy z) {
+  return dyd_vertex_is_point(sk, v) && dyd_reps_is_double(&sk->reps, v) && sk->mesh.xy[v].x == z.x &&
+         sk->mesh.xy[v].y == z.y;
+}
+
+/* [LOC-6] From the triangle t of the representatives over all edges that z is not on the inner side of for every
+ * choice, or that are no edges for every choice. *sure: none leads outside. */
+static dyd_status corner_flood(bool *sure, corner_search *s, uint32_t t, dyd_xy z) {
+  const dyd_skeleton *sk = &s->l.pd->sk;
+  s->count = 0;
+  *sure = true;
+  if (!corner_see(s, t)) return DYD_E_NOMEM;
+  for (size_t k = 0; k < s->count && *sure; k++) {
+    *sure = !dyd_is_ghost_triangle(&sk->mesh, s->seen[k]);
+    for (dyd_half_edge h = dyd_edge_of(s->seen[k], 0), end = dyd_edge_end(s->seen[k]); h < end && *sure; h++) {
+      if (dyd_edge_is_certain(sk, h) &&
+          is_on_left(&s->l, dyd_edge_origin(&sk->mesh, h), dyd_edge_target(&sk->mesh, h), z))
+        continue;
+      if (!corner_see(s, dyd_edge_triangle(dyd_edge_twin(&sk->mesh, h)))) return DYD_E_NOMEM;
+    }
+  }
+  return s->l.failed;
+}
+
+/* Where z is at an exact point of t, or on a certain edge between two: these alone give the value. Returns how many. */
+static size_t corner_exact(uint32_t site[2], corner_search *s, uint32_t t, dyd_xy z) {
+  const dyd_skeleton *sk = &s->l.pd->sk;
+  const uint32_t *v = sk->mesh.tri[t].v;
+  size_t count = 0;
+  if (dyd_is_ghost_triangle(&sk->mesh, t)) return 0;
+  for (unsigned k = 0; k < 3 && !count; k++)
+    if (is_at(sk, v[k], z)) site[count++] = sk->reps.site[v[k]];
+  for (unsigned k = 0; k < 3 && !count; k++) {
+    uint32_t a = v[dyd_next(k)], b = v[dyd_prev(k)];
+    if (!dyd_edge_is_certain(sk, dyd_edge_of(t, k)) || !dyd_vertex_is_point(sk, a) || !dyd_vertex_is_point(sk, b))
+      continue;
+    if (reps_turn(&s->l, a, b, z) == 0) site[count++] = sk->reps.site[a], site[count++] = sk->reps.site[b];
+  }
+  return count;
+}
+
+/* Adds the sites of the triangles seen; none unless the place is surely in one. */
+static dyd_status corner_list(corner_search *s, bool sure, const uint32_t exact[2], size_t alone) {
+  dyd_place_list *o = &s->out;
+  const dyd_skeleton *sk = &s->l.pd->sk;
+  size_t begin = o->places ? o->end[o->places - 1] : 0, count = alone ? alone : sure ? 3 * s->count : 0, kept = begin;
+  if (!dyd_reserve((void **)&o->site, &s->site_cap, begin + count, sizeof *o->site)) return DYD_E_NOMEM;
+  for (size_t k = 0; k < count; k++)
+    o->site[begin + k] = alone ? exact[k] : sk->reps.site[sk->mesh.tri[s->seen[k / 3]].v[k % 3]];
+  if (count) qsort(o->site + begin, count, sizeof *o->site, dyd_compare_index);
+  for (size_t k = begin; k < begin + count; k++)
+    if (k == begin || o->site[k] != o->site[kept - 1]) o->site[kept++] = o->site[k];
+  o->sure[o->places] = sure || alone;
+  o->end[o->places++] = kept;
+  return DYD_OK;
+}
+
+static dyd_status corners_find(corner_search *s, uint32_t *from, dyd_xy z) {
+  uint32_t exact[2];
+  size_t alone = 0;
+  bool sure = false;
+  dyd_status st = DYD_OK;
+  s->count = 0;
+  if (s->l.pd->sk.mesh.count) {
+    *from = walk_to(&s->l, *from, z);
+    alone = corner_exact(exact, s, *from, z);
+    if (!alone) st = corner_flood(&sure, s, *from, z);
+  }
+  return st == DYD_OK ? corner_list(s, sure, exact, alone) : st;
+}
+
+dyd_status dyd_delaunay_corners(dyd_place_list *out, const dyd_delaunay *pd, const double *xy, size_t count,
+                                const volatile int *cancel) {
+  if (!out || !pd || (count && !xy) || count >= UINT32_MAX) return DYD_E_ARG;
+  for (size_t k = 0; k < 2 * count; k++)
+    if (!isfinite(xy[k])) return DYD_E_ARG;
+  corner_search s = {.l = {.pd = pd}, .mark = calloc(pd->sk.mesh.count + (size_t)1, sizeof *s.mark)};
+  s.out.end = dyd_alloc(count, sizeof *s.out.end);
+  s.out.sure = dyd_alloc(count, sizeof *s.out.sure);
+  dyd_status st = s.mark && s.out.end && s.out.sure ? DYD_OK : DYD_E_NOMEM;
+  uint32_t from = 0;
+  for (int k = 0; k < 3; k++) dyd_rect_init(&s.l.r[k]);
+  for (size_t k = 0; k < count && st == DYD_OK; k++) {
+    st = corners_find(&s, &from, (dyd_xy){xy[2 * k], xy[2 * k + 1]});
+    if (dyd_flag_is_set(cancel)) st = DYD_CANCELLED;
+  }
+  for (int k = 0; k < 3; k++) dyd_rect_clear(&s.l.r[k]);
+  free(s.mark);
+  free(s.seen);
+  dyd_place_list_clear(st == DYD_OK ? out : &s.out);
+  if (st == DYD_OK) *out = s.out;
+  return st;
+}

@@ -226,6 +226,30 @@ static dyd_status tie_find_face(tie_flood *f, dyd_delaunay *pd, dyd_work *w, uin
   return st;
 }
 
+dyd_status dyd_ties_drop(dyd_delaunay *pd, uint32_t t) {
+  dyd_undecided *table = &pd->open;
+  const uint32_t face = dyd_face_of(pd, t);
+  tie_flood f = {0};
+  if (face == DYD_NONE) return DYD_OK;
+  dyd_status st = tie_flood_from(&f, pd, t, DYD_NONE);
+  if (st == DYD_OK) {
+    table->tied_pairs -= dyd_group_pairs(f.ghost ? f.count + 1 : f.count + 2, f.ghost);
+    table->seed[face] = table->seed[--table->count];
+    if (face < table->count) st = tie_flood_from(&f, pd, table->seed[face] & ~DYD_SEED_QUAD, face);
+  }
+  free(f.list);
+  return st;
+}
+
+dyd_status dyd_ties_add(dyd_delaunay *pd, dyd_work *w, uint32_t t) {
+  tie_flood f = {0};
+  if (dyd_triangle_is_certain(&pd->sk, t)) return DYD_OK;
+  dyd_status st = dyd_table_mark(pd);
+  if (st == DYD_OK && pd->open.of[t] == DYD_NONE) st = tie_find_face(&f, pd, w, t);
+  free(f.list);
+  return st;
+}
+
 dyd_status dyd_ties_find(dyd_delaunay *pd, dyd_work *w) {
   tie_flood f = {0};
   dyd_status st = DYD_OK;

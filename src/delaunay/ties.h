@@ -15,6 +15,11 @@
  * empty. */
 dyd_status dyd_ties_find(dyd_delaunay *pd, dyd_work *w);
 
+/* Takes the face that triangle t is in, if there is one, out of the table; the last face gets its number. */
+dyd_status dyd_ties_drop(dyd_delaunay *pd, uint32_t t);
+/* Adds the face that triangle t is in, if it is undecided and in none yet. */
+dyd_status dyd_ties_add(dyd_delaunay *pd, dyd_work *w, uint32_t t);
+
 /* Tied pairs of k sites of one circle, or (chain) of one line. */
 static inline uint64_t dyd_group_pairs(uint64_t k, bool chain) {
   return chain ? (k - 1) * (k - 2) / 2 : k * (k - 3) / 2;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Adding points to an engine, before its first run and later.
  *
- * Statements are about all points, so later points end the result: the next run triangulates anew, from
- * the rectangles reached. Statements are monotone for the points at hand, not for more of them. */
+ * Statements are about all points, so later points end the result: the next run triangulates anew, from the rectangles
+ * reached, or puts exact points into the result that there was. Statements are monotone for the points at hand, not for
+ * more of them. */
 #include "engine/add.h"
 
 #include "base/abi.h"

@@ -22,6 +22,7 @@
 #include "base/error.h"
 #include "base/float_filter.h"
 #include "base/parallel.h"
+#include "delaunay/extend.h"
 #include "delaunay/memory.h"
 #include "engine/goal_voronoi.h"
 #include "engine/plan.h"
@@ -335,6 +336,17 @@ static bool ask_was_cut(const dyd_engine *e, const dyd_delaunay_options *o) {
   return o->keep_cut && dyd_flag_get(&e->stop) && dyd_delaunay_is_capped(e->pd);
 }
 
+/* The first result of these points: the one before they came, extended, or a new one. */
+static dyd_status ask_begin_result(dyd_engine *e, const dyd_delaunay_options *o, dyd_error *err) {
+  dyd_delaunay *former = e->former;
+  bool fits = false;
+  e->former = NULL;
+  dyd_status st = former ? dyd_delaunay_extend(&fits, former, o, err) : DYD_OK;
+  if (fits) return e->pd = former, st;
+  dyd_delaunay_free(former);
+  return dyd_delaunay_new(&e->pd, e->sites, o, err);
+}
+
 /* Makes the result, or brings it up to date; again, when sites turn out to be the same place. */
 static dyd_status ask_settle(dyd_engine *e, const dyd_delaunay_options *o, dyd_error *err) {
   bool joined = true;
@@ -342,8 +354,7 @@ static dyd_status ask_settle(dyd_engine *e, const dyd_delaunay_options *o, dyd_e
   while (joined && st == DYD_OK) {
     joined = false;
     dyd_error_clear(err);
-    st =
-        e->pd ? dyd_delaunay_update(e->pd, e->changed, e->changes, o, err) : dyd_delaunay_new(&e->pd, e->sites, o, err);
+    st = e->pd ? dyd_delaunay_update(e->pd, e->changed, e->changes, o, err) : ask_begin_result(e, o, err);
     if (st == DYD_CAPPED) {
       e->cap_error = *err;
       st = DYD_OK;

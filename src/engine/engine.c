@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Life, counters and results of an engine. */
 #include "base/error.h"
+#include "delaunay/extend.h"
 #include "engine/points.h"
 #include "engine/record.h"
 #include "engine/ties.h"
@@ -42,6 +43,7 @@ dyd_status dyd_engine_new(dyd_engine **out) {
 void dyd_engine_free(dyd_engine *e) {
   if (!e) return;
   DYD_INVARIANT(!dyd_engine_is_busy(e)); /* its owner waits for the run */
+  dyd_delaunay_free(e->former);
   dyd_delaunay_free(e->pd);
   dyd_engine_clear_points(e);
   dyd_labels_clear(&e->labels);
@@ -117,7 +119,12 @@ static void counters_add_past(dyd_delaunay_counters *out, const dyd_delaunay_cou
 void dyd_engine_end_result(dyd_engine *e) {
   dyd_delaunay_counters c = {DYD_SIZED(dyd_delaunay_counters)};
   if (e->pd && dyd_delaunay_get_counters(&c, e->pd, NULL) == DYD_OK) counters_add_past(&e->past, &c);
-  dyd_delaunay_free(e->pd);
+  if (e->pd && dyd_delaunay_is_extensible(e->pd)) {
+    e->former = e->pd;
+    e->former->counters = (dyd_delaunay_counters){DYD_SIZED(dyd_delaunay_counters)};
+  } else {
+    dyd_delaunay_free(e->pd);
+  }
   e->pd = NULL;
   e->changes = 0;
   e->outcome = DYD_OUTCOME_NONE;

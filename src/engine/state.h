@@ -75,6 +75,7 @@ struct dyd_engine {
   dyd_source_use *source;
   size_t sources, source_cap;
   dyd_delaunay *pd;
+  dyd_delaunay *former; /* the result before points came that can be put into it; NULL: none */
   uint32_t *changed;
   size_t changes, change_cap;
   size_t max_pairs;           /* the cap pd was last worked on with */

@@ -101,6 +101,8 @@ static PyMethodDef engine_methods[] = {
      "locate(doubles (M, 2)) -> (Buffer of uint32 (M, 3) corners, Buffer of int32 dyd_truth): see dyd_delaunay_locate"},
     {"nearest_places", dydpy_nearest_places, METH_VARARGS,
      "nearest_places(doubles (M, 2)) -> (Buffer of uint32 points, Buffer of int64 ends (M,), Buffer of bool (M,))"},
+    {"corners", dydpy_corners, METH_VARARGS,
+     "corners(doubles (M, 2)) -> the same of the corners of the triangle around each place, of any choice"},
     {"tolerance", dydpy_tolerance, METH_VARARGS,
      "tolerance(up_to or None, points, max_pairs, sigma, box) -> (rows, (lo, hi), radii or None, chances or None)"},
     {"plan", dydpy_plan, METH_VARARGS,

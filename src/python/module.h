@@ -175,6 +175,7 @@ PyObject *dydpy_write_voronoi(PyObject *self, PyObject *args);
 PyObject *dydpy_certificate(PyObject *self, PyObject *args);
 PyObject *dydpy_nearest(PyObject *self, PyObject *args);
 PyObject *dydpy_locate(PyObject *self, PyObject *args);
+PyObject *dydpy_corners(PyObject *self, PyObject *args);
 PyObject *dydpy_nearest_places(PyObject *self, PyObject *args);
 PyObject *dydpy_tolerance(PyObject *self, PyObject *args);
 PyObject *dydpy_plan(PyObject *self, PyObject *args);

@@ -382,19 +382,31 @@ PyObject *dydpy_locate(PyObject *self, PyObject *args) {
   return good ? Py_BuildValue("NN", corners, truths) : NULL;
 }
 
-PyObject *dydpy_nearest_places(PyObject *self, PyObject *args) {
+/* A question about many places. */
+typedef dyd_status places_call(dyd_place_list *out, const dyd_delaunay *pd, const double *xy, size_t count,
+                               const volatile int *cancel);
+
+static PyObject *places_ask(places_call *ask, PyObject *self, PyObject *args) {
   Py_buffer xy;
-  dyd_near_list l = {0};
+  dyd_place_list l = {0};
   dydpy_call c;
   Py_ssize_t n = places_of(&xy, args);
   if (n < 0) return NULL;
   bool good = dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_CANCELS);
-  if (good) good = dydpy_end(&c, dyd_nearest_places(&l, c.pd, xy.buf, (size_t)n, &c.cancel));
+  if (good) good = dydpy_end(&c, ask(&l, c.pd, xy.buf, (size_t)n, &c.cancel));
   PyBuffer_Release(&xy);
   if (!good) return NULL;
   return Py_BuildValue("NNN", array_new(true, l.site, n ? l.end[n - 1] : 0, sizeof *l.site),
                        array_new(true, l.end, (size_t)n, sizeof *l.end),
                        array_new(true, l.sure, (size_t)n, sizeof *l.sure));
+}
+
+PyObject *dydpy_nearest_places(PyObject *self, PyObject *args) {
+  return places_ask(dyd_nearest_places, self, args);
+}
+
+PyObject *dydpy_corners(PyObject *self, PyObject *args) {
+  return places_ask(dyd_delaunay_corners, self, args);
 }
 
 /* ---- graphs ---- */

@@ -435,6 +435,32 @@ static dyd_status insert_vertex(dyd_mesh *m, uint32_t v) {
   }
 }
 
+void dyd_mesh_find(uint32_t *t, uint32_t *same, dyd_mesh *m, uint32_t v) {
+  *t = mesh_locate(m, v);
+  *same = same_vertex(m, v, *t);
+}
+
+dyd_status dyd_mesh_put(dyd_mesh *m, uint32_t v, uint32_t t) {
+  return insert_has_room(m, 61, 63) ? insert_at(m, v, t) : DYD_E_NOMEM;
+}
+
+dyd_status dyd_mesh_grow(dyd_mesh *m, uint32_t n, uint32_t ghost, const double width[2]) {
+  size_t cap = 0;
+  const dyd_half_edge first = dyd_hull_edge(m, ghost);
+  dyd_half_edge h = first;
+  if (!dyd_reserve((void **)&m->tri, &cap, 2 * (size_t)n + 2, sizeof *m->tri)) return DYD_E_NOMEM;
+  cap = 0;
+  if (m->alias && !dyd_reserve((void **)&m->alias, &cap, n, sizeof *m->alias)) return DYD_E_NOMEM;
+  for (uint32_t v = m->n; m->alias && v < n; v++) m->alias[v] = DYD_NONE;
+  do m->tri[dyd_edge_triangle(h)].v[dyd_edge_corner(h)] = n;
+  while ((h = dyd_hull_following(m, h)) != first);
+  m->n = m->end = m->strips.begin[m->strips.count] = n;
+  m->xy = m->reps->xy;
+  for (int a = 0; a < 2; a++) m->extent[a] = width[a];
+  dyd_mesh_follow(m);
+  return DYD_OK;
+}
+
 static dyd_status insert_all(dyd_mesh *m, const uint32_t first[3], const volatile int *cancel) {
   for (unsigned round = 0; round < m->rounds; round++)
     for (uint32_t v = m->begin; v < m->end; v++) {

@@ -24,6 +24,14 @@ void dyd_mesh_set_rounds(dyd_mesh *m);
 dyd_status dyd_mesh_set_alias(dyd_mesh *m, uint32_t v, uint32_t of);
 /* Representatives have been chosen anew: the filter constants follow. */
 void dyd_mesh_follow(dyd_mesh *m);
+/* Makes room for vertices up to n, which are points that reps has already; the ghost gets the number n. ghost: a ghost
+ * triangle. width: that of all points in x and y. DYD_E_NOMEM: only clearing is allowed. */
+dyd_status dyd_mesh_grow(dyd_mesh *m, uint32_t n, uint32_t ghost, const double width[2]);
+/* Sets *t to the triangle in which, or the ghost triangle beyond whose edge, the new vertex v is, near the one put in
+ * before, and *same to the vertex at the same place, or DYD_NONE. */
+void dyd_mesh_find(uint32_t *t, uint32_t *same, dyd_mesh *m, uint32_t v);
+/* Puts v into t, where it was found; the hint becomes a triangle at v. */
+dyd_status dyd_mesh_put(dyd_mesh *m, uint32_t v, uint32_t t);
 /* Gives back what only building needs. */
 void dyd_mesh_trim(dyd_mesh *m);
 void dyd_mesh_clear(dyd_mesh *m);

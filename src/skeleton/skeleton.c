@@ -9,6 +9,7 @@
 #include "skeleton/predicates.h"
 #include "skeleton/work.h"
 
+#include <math.h>
 #include <string.h>
 
 static void blocks_clear(dyd_skeleton *sk);
@@ -258,6 +259,53 @@ dyd_status dyd_skeleton_refresh(dyd_skeleton *sk, uint32_t v) {
   bool own_number = v < tree->count && tree->item[v] == v; /* no aliases before it */
   dyd_tree_refresh(tree, own_number ? v : dyd_tree_entry(tree, v));
   return dyd_reps_choose(&sk->reps, v, sk->reps.code && sk->reps.code[v] ? sk->reps.code[v] - 1 : 0);
+}
+
+/* Resizes an array; false: it stays as it is. */
+static bool skeleton_resize(void *array, size_t count, size_t size) {
+  void *to = realloc(*(void **)array, count * size);
+  if (to) *(void **)array = to;
+  return to;
+}
+
+/* Boxes of the blocks from the last one of `before` vertices on, and the tree over all. */
+static dyd_status blocks_grow(dyd_skeleton *sk, uint32_t before) {
+  uint32_t count = sk->n / DYD_BLOCK + (sk->n % DYD_BLOCK != 0), first = before / DYD_BLOCK;
+  uint32_t *item = dyd_alloc(count, sizeof *item);
+  if (!item || !skeleton_resize(&sk->block, count, sizeof *sk->block)) return free(item), DYD_E_NOMEM;
+  for (uint32_t b = 0; b < count; b++) item[b] = b;
+  for (uint32_t v = first * DYD_BLOCK; v < sk->n; v++) {
+    dyd_bbox one;
+    dyd_vertex_box(&one, sk, v);
+    if (v % DYD_BLOCK == 0) sk->block[v / DYD_BLOCK] = one;
+    dyd_box_widen(&sk->block[v / DYD_BLOCK], &one);
+  }
+  dyd_tree_clear(&sk->blocks);
+  return dyd_tree_init(&sk->blocks, item, count, sk->block);
+}
+
+dyd_status dyd_skeleton_grow(dyd_skeleton *sk, const uint32_t *order, uint32_t count, uint32_t ghost) {
+  const uint32_t before = sk->n, n = before + count;
+  if (!skeleton_resize(&sk->reps.site, n, sizeof *sk->reps.site) ||
+      !skeleton_resize(&sk->reps.xy, (size_t)n + 1, sizeof *sk->reps.xy) ||
+      !skeleton_resize(&sk->vertex, n, sizeof *sk->vertex) || !skeleton_resize(&sk->leaving, n, sizeof *sk->leaving) ||
+      !skeleton_resize(&sk->certain, 2 * (size_t)n + 2, 1))
+    return DYD_E_NOMEM;
+  sk->rects.site = sk->reps.site;
+  for (uint32_t k = 0; k < count; k++) {
+    double box[4];
+    dyd_sites_get_d(box, sk->rects.sites, order[k]);
+    sk->reps.site[before + k] = order[k];
+    sk->reps.xy[before + k] = (dyd_xy){box[0], box[2]};
+    sk->vertex[order[k]] = before + k;
+    sk->leaving[before + k] = DYD_NONE;
+  }
+  sk->reps.xy[n] = (dyd_xy){NAN, NAN};
+  sk->n = sk->reps.n = n;
+  dyd_status st = blocks_grow(sk, before);
+  if (st != DYD_OK) return st;
+  const dyd_bbox *all = &sk->blocks.node[sk->blocks.level[sk->blocks.levels] - 1];
+  return dyd_mesh_grow(&sk->mesh, n, ghost, (const double[]){all->e[1] - all->e[0], all->e[3] - all->e[2]});
 }
 
 size_t dyd_skeleton_memory(const dyd_skeleton *sk) {

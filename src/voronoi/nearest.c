@@ -339,16 +339,8 @@ dyd_status dyd_nearest(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, 
 
 /* ---- many places ---- */
 
-void dyd_near_list_clear(dyd_near_list *l) {
-  if (!l) return;
-  free(l->site);
-  free(l->end);
-  free(l->sure);
-  *l = (dyd_near_list){0};
-}
-
 /* Adds the answer for z. *v: where the walk begins, and ended. */
-static dyd_status near_list_add(dyd_near_list *l, size_t *cap, uint32_t *v, const dyd_delaunay *pd, dyd_xy z) {
+static dyd_status near_list_add(dyd_place_list *l, size_t *cap, uint32_t *v, const dyd_delaunay *pd, dyd_xy z) {
   const size_t before = l->places ? l->end[l->places - 1] : 0;
   dyd_index_list found = {0};
   dyd_status st = DYD_OK;
@@ -370,10 +362,10 @@ static dyd_status near_list_add(dyd_near_list *l, size_t *cap, uint32_t *v, cons
   return st;
 }
 
-dyd_status dyd_nearest_places(dyd_near_list *out, const dyd_delaunay *pd, const double *xy, size_t count,
+dyd_status dyd_nearest_places(dyd_place_list *out, const dyd_delaunay *pd, const double *xy, size_t count,
                               const volatile int *cancel) {
   if (!pd || (count && !xy)) return DYD_E_ARG;
-  dyd_near_list l = {.end = dyd_alloc(count, sizeof *l.end), .sure = dyd_alloc(count, sizeof *l.sure)};
+  dyd_place_list l = {.end = dyd_alloc(count, sizeof *l.end), .sure = dyd_alloc(count, sizeof *l.sure)};
   size_t cap = 0;
   uint32_t v = 0;
   while (pd->open.kind != DYD_LINE && pd->sk.leaving[v] == DYD_NONE) v++;
@@ -382,7 +374,7 @@ dyd_status dyd_nearest_places(dyd_near_list *out, const dyd_delaunay *pd, const 
     st = near_list_add(&l, &cap, &v, pd, (dyd_xy){xy[2 * k], xy[2 * k + 1]});
     if (dyd_flag_is_set(cancel)) st = DYD_CANCELLED;
   }
-  dyd_near_list_clear(st == DYD_OK ? out : &l);
+  dyd_place_list_clear(st == DYD_OK ? out : &l);
   if (st == DYD_OK) *out = l;
   return st;
 }

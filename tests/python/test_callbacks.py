@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Points served by functions: that lie, raise, are interrupted, call back; threads; the harness on them."""
 import gc
+import importlib.util
+import math
 import pickle
 import re
 import threading
@@ -247,6 +249,54 @@ def test_check_to_the_cap():
     assert 'point 1, asked for' in str(broken) and new != old, broken
     wrong = harness.raised(dyadel.Error, dyadel.check, dyadel.Source(3, make), moves=[(1, 0, 20), (2, 99, 20)])
     assert wrong.code == 'argument' and 'there is no point 99 among these 3 points' in str(wrong), wrong
+
+
+def test_reference():
+    """Answers that are consistent and wrong; a reference of expressions and of exact numbers."""
+    def roots(i, bits, off=Fraction(0)):
+        whole = math.isqrt(i << 2 * (bits + 3))
+        return i, i, Fraction(whole, 2**(bits + 3)) + off, Fraction(whole + 1, 2**(bits + 3)) + off
+    true = [(k, f'sqrt({k})') for k in range(5)]
+    assert dyadel.check(dyadel.Source(5, roots), schedules=2, reference=true)['schedules'] == 2
+
+    def wrong(i, bits):
+        return roots(i, bits, Fraction(i == 3, 100))
+    assert dyadel.check(dyadel.Source(5, wrong), schedules=2)['schedules'] == 2, 'consistent'
+    broken = harness.raised(dyadel.BrokenPromise, dyadel.check, dyadel.Source(5, wrong), schedules=2, reference=true)
+    assert broken.fault == 'reference' and broken.moves[0][1] == 3 and 'point 3' in str(broken)
+    again = harness.raised(dyadel.BrokenPromise, dyadel.check, dyadel.Source(5, wrong), moves=broken.moves, reference=true)
+    assert again.fault == 'reference'
+    halves = dyadel.Source(2, lambda i, bits: (i, Fraction(1, 2)))
+    dyadel.check(halves, schedules=1, reference=[(0, 0.5), (1, Fraction(1, 2))])
+    harness.raised(dyadel.BrokenPromise, dyadel.check, halves, schedules=1, reference=[(0, 0.5), (1, 0.25)])
+    harness.raised(ValueError, dyadel.check, halves, reference=[(0, 0.5)])
+    harness.raised(TypeError, dyadel.check, [(0, 0)], reference=[(0, 0)])
+
+
+def test_moves():
+    """Schedules ask one point at neighbouring precisions, which finds rounding to nearest."""
+    if importlib.util.find_spec('hypothesis') is None:
+        print('hypothesis is not installed: not tried')
+        return
+    import hypothesis
+
+    def nearest(i, bits):
+        exact, grid = Fraction(i * i + 1, 3), Fraction(1, 2**(bits + 1))
+        middle = round(exact / grid) * grid
+        return i, i, middle - 3 * grid / 4, middle + 3 * grid / 4
+    found = 0
+    for seed in range(5):
+        @hypothesis.seed(seed)
+        @hypothesis.settings(max_examples=60, deadline=None, database=None, phases=[hypothesis.Phase.generate])
+        @hypothesis.given(dyadel.moves(4))
+        def run(moves):
+            assert all(1 <= stage and 0 <= point < 4 and bits >= 0 for stage, point, bits in moves)
+            dyadel.check(dyadel.Source(4, nearest), moves=moves)
+        try:
+            run()
+        except dyadel.BrokenPromise as broken:
+            found += broken.fault == 'stream'
+    assert found == 5, found
 
 
 def test_check():

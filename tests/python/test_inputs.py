@@ -221,6 +221,10 @@ def test_geopandas():
     d = dyadel.delaunay(gdf, radius='acc', ids='name')
     assert d.legal.tolist() == LEGAL and d.ids == list('abcd') and d.crs == gdf.crs and d.rect(0)[0] < d.rect(0)[1]
     frame = d.to_geodataframe('points')
+    carried = dyadel.delaunay(gdf.assign(depth=[1.5, 2.5, 3.5, 4.5], of=list('wxyz')), ids='name' if 'name' in gdf else None, carry='depth')
+    for table in (carried.to_geodataframe('points'), *(carried.voronoi().to_geodataframe(layer) for layer in ('cells', 'tiles'))):
+        assert dict(zip(table.i, table.depth)) == {0: 1.5, 1: 2.5, 2: 3.5, 3: 4.5} and 'of' not in table
+    assert harness.raised(ValueError, dyadel.delaunay, gdf, carry='nothing')
     assert frame.crs == gdf.crs and frame.id.tolist() == list('abcd') and d.to_geodataframe().geom_type[0] == 'LineString'
     assert '2056' in d.write('geojson') and '3857' in d.write('geojson', epsg=3857)
     assert dyadel.delaunay(gdf.geometry).crs == gdf.crs

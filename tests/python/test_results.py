@@ -3,11 +3,15 @@
 """What results tell, in all forms: arrays, formats, geometries, pickles; appended and measured points; questions."""
 import copy
 import csv
+import gzip
 import importlib.util
 import json
 import math
+import os
+import pathlib
 import pickle
 import struct
+import tempfile
 from fractions import Fraction
 
 import harness
@@ -16,6 +20,7 @@ import numpy as np
 import dyadel
 
 RANDOM = np.random.default_rng(harness.seeded('results').randrange(2**32))
+RANDOM_FILES = np.random.default_rng(harness.seeded('files').randrange(2**32))
 SQUARE = [(0, 0), (1, 0), (0, 1), (1, 1)]
 AIRPORTS = dyadel.Text.from_file(f'{harness.DATA}/airports.csv', columns='longitude,latitude')
 GPS = dyadel.Text.from_file(f'{harness.DATA}/gps.csv', columns='east,north', radius_columns='accuracy', id='name')
@@ -253,6 +258,51 @@ def test_geometries():
         for name in set(ours.columns) & set(theirs.columns) - {'geometry', 'max_coordinate_error'}:
             assert all(a == b or math.isclose(a, b, rel_tol=1e-9) for a, b in zip(ours[name], theirs[name])), (layer, name)
         assert layer not in ('cells', 'tiles') or {'i', 'id', 'area_lo', 'area_hi'} <= set(ours.columns)
+
+
+def test_save():
+    """Files by their ending hold what write() returns; whole, or not at all."""
+    d = dyadel.delaunay(RANDOM_FILES.random((30, 2)), radius=0.01)
+    v, before = d.voronoi(), os.getcwd()
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        try:
+            for of in (d, v, dyadel.delaunay([(0, 0), (9, 9), (20, 3)], sphere=True)):
+                for name in ('a.csv', 'a.json', 'a.svg'):
+                    of.save(name)
+                    assert pathlib.Path(name).read_text(encoding='utf-8') == of.write(name[2:])
+            d.save('a.csv.gz', layer='points')
+            assert gzip.decompress(pathlib.Path('a.csv.gz').read_bytes()).decode() == d.write('csv', layer='points')
+            d.plan().save(pathlib.Path('plan.csv'))
+            with open('plan.csv', encoding='utf-8') as file:
+                assert [int(row['i']) for row in csv.DictReader(file)] == d.plan()['i'].tolist()
+            names = sorted(os.listdir())
+            assert '.xyz' in str(harness.raised(ValueError, d.save, 'a.xyz')) and 'save' in str(harness.raised(ValueError, d.write, 'a.svg'))
+            harness.raised(dyadel.Error, v.save, 'a.obj')
+            harness.raised(FileNotFoundError, d.save, 'no/such.csv')
+            assert sorted(os.listdir()) == names
+            if importlib.util.find_spec('geopandas'):
+                import geopandas
+                v.save('cells.gpkg', layer='cells', crs='EPSG:2056')
+                read = geopandas.read_file('cells.gpkg')
+                assert read.crs.to_epsg() == 2056 and len(read) == len(v.certain) + len(v.possible)
+            if importlib.util.find_spec('matplotlib'):
+                draw_all(d, v)
+        finally:
+            os.chdir(before)
+    for wrong in (d.plot, v.plot):
+        harness.raised(ValueError, wrong, 'hull')
+
+
+def draw_all(d, v):
+    import matplotlib
+    matplotlib.use('Agg')
+    ax = d.plot()
+    assert len(ax.collections[0].get_segments()) == len(d.pairs) and d.plot('triangles', ax=ax) is ax
+    assert len(v.plot().collections) == 2 and len(v.plot('tiles', values=np.arange(30)).collections[0].get_paths()) == 30
+    exact = dyadel.delaunay(d.points)
+    assert len(exact.plot('tolerance').collections[0].get_segments()) == len(exact.legal)
+    ax.figure.savefig('plot.png')
 
 
 def test_notebooks():

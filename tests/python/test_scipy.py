@@ -2,6 +2,11 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Sets in general position against scipy.spatial.Delaunay: triangles, neighbours, hull. On integers the cases where scipy
 and its rounding differ are none: each of its triangles is checked in integers first."""
+import importlib
+import pathlib
+import re
+import tempfile
+
 import harness
 
 harness.need('scipy')
@@ -66,6 +71,131 @@ def test_queries():
     random = np.random.default_rng(harness.seeded('queries').randrange(2**32))
     for n in (4, 30, 400, 3000):
         compare_queries(random.random((n, 2)), random)
+
+
+def interpolate_choice(points, values, places):
+    """By scipy; None where two points are the same or all are on one line."""
+    if len(np.unique(points, axis=0)) < len(points) or np.linalg.matrix_rank(points - points[0]) < 2:
+        return None
+    return LinearNDInterpolator(points, values)(places)
+
+
+def test_interpolation_range():
+    """No choice of points in their squares leaves the bounds, corners of the squares included [LOC-6]; places on points and edges."""
+    random = np.random.default_rng(harness.seeded('range').randrange(2**32))
+    held = wide = 0
+    for case in range(40):
+        n = int(random.integers(4, 25))
+        points = random.integers(0, 6, (n, 2)) + random.random((n, 2)) * (case % 2)
+        radius = random.choice([0, 0.05, 0.3, 1.0]) * (random.random(n) < 0.7)
+        d, values = dyadel.delaunay(points, radius), random.random(n)
+        places = np.vstack((random.random((60, 2)) * 7 - 0.5, points, (points[1:] + points[:-1]) / 2))
+        low, high = d.interpolation_range(values, places)
+        known = ~np.isnan(low)
+        assert np.array_equal(known, ~np.isnan(high)) and (low[known] <= high[known]).all()
+        for trial in range(8):
+            way = random.integers(0, 2, (n, 2)) * 2 - 1 if trial % 2 else random.random((n, 2)) * 2 - 1
+            moved = points + way * radius[:, np.newaxis]
+            found = interpolate_choice(moved, values, places)
+            if found is None:
+                continue
+            inside = known & ~np.isnan(found)
+            assert ((low - 1e-9 <= found) & (found <= high + 1e-9))[inside].all()
+            outside = places[known & np.isnan(found)].T  # on the hull, where scipy rounds
+            sides = ConvexHull(moved).equations
+            assert not outside.size or (sides[:, :2] @ outside + sides[:, 2:]).max() < 1e-9
+            held += inside.sum()
+        certain = d.interpolate(values, places)
+        assert known[~certain.mask].all() and ((low <= certain.data + 1e-9) & (certain.data <= high + 1e-9))[~certain.mask].all()
+        wide += (known & certain.mask).sum()
+    assert held > 1000 and wide > 100
+    one = dyadel.delaunay([(0, 0)]).interpolation_range([1], [[0, 0]])
+    assert np.isnan(one).all()
+    for wrong in ([1, 2], ['a'], [2**60 + 1]):
+        harness.raised(ValueError, dyadel.delaunay([(0, 0)]).interpolation_range, wrong, [[0, 0]])
+
+
+def own_triangles(d, theirs):
+    return sorted(map(tuple, turned(d.simplices).tolist())) == sorted(map(tuple, turned(theirs.simplices).tolist()))
+
+
+def own_edges(v, theirs):
+    """The same pairs, and vertices at the same places."""
+    ours = {tuple(pair): sorted(map(tuple, v.vertices.centres[ends[ends >= 0]].round(6).tolist()))
+            for pair, ends in zip(v.edges.pairs.tolist(), v.edges.ends)}
+    return ours == {tuple(sorted(pair)): sorted(map(tuple, theirs.vertices[[k for k in ends if k >= 0]].round(6).tolist()))
+                    for pair, ends in zip(theirs.ridge_points.tolist(), theirs.ridge_vertices)}
+
+
+def own_frame(v, X):
+    geopandas = importlib.import_module('geopandas')
+    frame = v.to_geodataframe('cells', crs=2056)
+    inside = [cell.contains(at) for cell, at in zip(frame.geometry, geopandas.points_from_xy(*X[frame.i].T))]
+    return frame.crs.to_epsg() == 2056 and all(inside) and len(v.to_geodataframe('tiles')) == len(X)
+
+
+def own_file(v):
+    geopandas = importlib.import_module('geopandas')
+    with tempfile.TemporaryDirectory() as folder:
+        v.save(f'{folder}/cells.gpkg')
+        return len(geopandas.read_file(f'{folder}/cells.gpkg')) == len(v.certain)
+
+
+def own_plots(d, v):
+    importlib.import_module('matplotlib').use('Agg')
+    return len(d.plot().collections[0].get_segments()) == len(d.legal) and v.plot().collections
+
+
+def test_table():
+    """Each row of the table of names in the tutorial."""
+    random = np.random.default_rng(harness.seeded('table').randrange(2**32))
+    X, xy, values = random.random((50, 2)), random.random((200, 2)), random.random(50)
+    d, theirs, diagram = dyadel.delaunay(X), Delaunay(X, incremental=True), Diagram(X)
+    v = d.voronoi()
+    more = random.random((5, 2))
+
+    def added():
+        theirs.add_points(more)
+        return own_triangles(d.append(more), theirs)
+    rows = {
+        'Delaunay(X)': lambda: own_triangles(dyadel.Delaunay(X), theirs),
+        '.points': lambda: np.array_equal(d.points, X) and beyond(d.simplices, d.neighbors) == beyond(theirs.simplices, theirs.neighbors),
+        '.vertex_neighbor_vertices': lambda: np.array_equal(d.vertex_neighbors[0], theirs.vertex_neighbor_vertices[0]),
+        '.convex_hull': lambda: set(d.hull[0].tolist()) == set(ConvexHull(X).vertices.tolist()),
+        '.find_simplex(xy)': lambda: np.array_equal(d.find_triangle(xy) >= 0, theirs.find_simplex(xy) >= 0),
+        'LinearNDInterpolator(X, values)(xy)': lambda: np.allclose(
+            d.interpolate(values, xy).filled(np.nan), LinearNDInterpolator(X, values)(xy), rtol=1e-12, atol=1e-12, equal_nan=True),
+        'cKDTree(X).query(xy)': lambda: np.array_equal(d.nearest(xy).single, cKDTree(X).query(xy)[1]),
+        'Voronoi(X)': lambda: np.allclose(sorted(map(tuple, v.vertices.centres)), sorted(map(tuple, diagram.vertices)), rtol=1e-9),
+        'Voronoi(X).ridge_points': lambda: own_edges(v, diagram),
+        'shapely.voronoi_polygons': lambda: all(p.is_valid for p in v.tiles.to_shapely()) and len(v.tiles.to_wkb()) == len(X),
+        'GeoDataFrame(geometry=cells)': lambda: own_frame(v, X),
+        'gdf.to_file("cells.gpkg")': lambda: own_file(v),
+        'delaunay_plot_2d': lambda: own_plots(d, v),
+        '.add_points(X)': added}
+    text = pathlib.Path(__file__).with_name('tutorial.md').read_text(encoding='utf-8')
+    table = re.findall(r'^\| `([^`]+)`.*\|$', text.partition('| there | here |')[2].partition('\n\n')[0], re.M)
+    assert sorted(table) == sorted(rows), set(table) ^ set(rows)
+    for name, compared in rows.items():
+        try:
+            assert compared(), name
+        except ModuleNotFoundError as missing:
+            print(f'{name}: not tried, {missing}')
+
+
+def test_append():
+    """Point by point, and in heaps, against all at once."""
+    random = np.random.default_rng(harness.seeded('append').randrange(2**32))
+    for points in (random.random((300, 2)), random.integers(0, 12, (300, 2)).astype(float)):
+        d = dyadel.delaunay(points[:40])
+        for begin in range(40, 300, 13):
+            d.append(points[begin:begin + 13])
+            all_at_once = dyadel.delaunay(points[:begin + 13])
+            assert d.pairs.tobytes() == all_at_once.pairs.tobytes() and np.array_equal(d.aliases, all_at_once.aliases)
+            for layer in ('pairs', 'points', 'triangles', 'aliases'):
+                assert d.write(layer=layer) == all_at_once.write(layer=layer)
+            a, b = (sorted(map(tuple, turned(e.simplices).tolist())) for e in (d, all_at_once))
+            assert a == b
 
 
 def test_random_sets():

@@ -37,9 +37,14 @@ indptr, indices = d.vertex_neighbors
 total += int(indices[indptr[0]:indptr[1]].sum() + d.find_triangle([[0, 0]])[0] + d.points[0, 0]) + dyadel.OUTSIDE
 near: dyadel.NearestPlaces = d.nearest([[0, 0]])
 total += int(near.single[0]) + len(d.interpolate(np.zeros(3), [[0, 0]]))
+low, high = d.interpolation_range(np.zeros(3), [[0, 0]])
+total += int(low[0] + high[0]) + len(d.voronoi().edges.ends) + len(d.voronoi().vertices.to_wkb()) + int(d.voronoi().regions.boxes[0, 0])
+d.save(pathlib.Path("a.svg"))
+d.plan(accuracy=0.1).save("plan.csv")
+dyadel.check(dyadel.Source(4, narrow), reference=[(0, 0)], schedules=3)
 share: Fraction | None = d.voronoi().exact_area(0)
 d = dyadel.delaunay([(0, 0)], trace="run.1", resume=pathlib.Path("run.0"), sphere=False)
-edges: np.ndarray[tuple[int, ...], np.dtype[np.int32]] = d.graph("mst").certain
+edges: np.ndarray[tuple[int, ...], np.dtype[np.int32]] = d.graph("mst", timeout=3).certain
 globe: dyadel.Sphere = dyadel.delaunay(np.zeros((3, 2)), "30m", sphere=True).refine(timeout=3)
 around: list[int | None] = globe.voronoi()[0].vertices
 total += len(globe.neighbors) + len(dyadel.tolerance(np.zeros((3, 2)), sigma=0.5).rows) + len(dyadel.replay("run.1"))

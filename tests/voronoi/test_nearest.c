@@ -182,7 +182,7 @@ static void query_clear(orc_rect *q) {
 static bool places_right(char *message, test_random *r, const orc_case *c, const dyd_delaunay *pd) {
   enum { PLACES = 24 };
   double xy[2 * PLACES];
-  dyd_near_list all = {0};
+  dyd_place_list all = {0};
   dyd_rect at;
   mpq_t e;
   bool good = true;
@@ -204,7 +204,7 @@ static bool places_right(char *message, test_random *r, const orc_case *c, const
     if (!good) wrong(message, "place %zu, (%a, %a), of many has another answer", k, xy[2 * k], xy[2 * k + 1]);
     dyd_index_list_clear(&found);
   }
-  dyd_near_list_clear(&all);
+  dyd_place_list_clear(&all);
   dyd_rect_clear(&at);
   mpq_clear(e);
   return good;
@@ -362,7 +362,7 @@ static void run_large(bool points, size_t n, size_t queries) {
   double seconds = 0;
   size_t output = 0, many = 0;
   double *xy = malloc(2 * queries * sizeof *xy);
-  dyd_near_list all = {0};
+  dyd_place_list all = {0};
   for (size_t k = 0; k < 2 * queries; k++) xy[k] = (double)test_between(r, -100000, (1 << 20) + 100000);
   assert_int_equal(dyd_nearest_places(&all, pd, xy, queries, NULL), DYD_OK);
   for (size_t k = 0; k < queries; k++) {
@@ -391,7 +391,7 @@ static void run_large(bool points, size_t n, size_t queries) {
   }
   fprintf(stderr, "# %zu %s: %.2f us a query, %.2f sites listed\n", n, points ? "points" : "boxes",
           1e6 * seconds / (double)queries, (double)output / (double)queries);
-  dyd_near_list_clear(&all);
+  dyd_place_list_clear(&all);
   free(xy);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);
@@ -422,7 +422,7 @@ static void test_few(void **state) {
   assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
   assert_int_equal(dyd_nearest(&found, &sure, pd, &c), DYD_OK);
   assert_true(found.count == 1 && found.item[0] == 0 && sure);
-  dyd_near_list all = {0};
+  dyd_place_list all = {0};
   const volatile int cancelled = 1;
   assert_int_equal(dyd_nearest_places(&all, pd, (double[]){5, 1, 7, 1}, 2, NULL), DYD_OK);
   assert_true(all.places == 2 && all.end[1] == 2 && all.site[0] == 0 && all.site[1] == 0);
@@ -432,7 +432,7 @@ static void test_few(void **state) {
   assert_true(all.places == 2);
   assert_int_equal(dyd_nearest_places(&all, pd, NULL, 0, NULL), DYD_OK);
   assert_true(all.places == 0);
-  dyd_near_list_clear(&all);
+  dyd_place_list_clear(&all);
   dyd_delaunay_free(pd);
   dyd_index_list_clear(&found);
   dyd_rect_clear(&c);

@@ -39,10 +39,10 @@ static dyd_status ask_rect(dyd_engine *e) {
 }
 
 static dyd_status ask_places(dyd_engine *e) {
-  dyd_near_list l = {0};
+  dyd_place_list l = {0};
   dyd_status st = dyd_nearest_places(&l, dyd_engine_delaunay(e), (const double[]){1, 4, 1, 3, 2.5, 2}, 3, NULL);
   assert_true(st == DYD_OK || (!l.site && !l.end && !l.places));
-  dyd_near_list_clear(&l);
+  dyd_place_list_clear(&l);
   return st;
 }
 

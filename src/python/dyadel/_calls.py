@@ -15,13 +15,13 @@ from ._triangulation import Delaunay
 @overload
 def delaunay(points: Any, radius: Any = None, *, sphere: Literal[False] | None = None, trace: Path | None = None,
              resume: Path | None = None, order: str | None = None, skip_missing: bool = False, ids: Any = None, crs: Any = None,
-             sigma: Any = None, confidence: float | str | None = None, **options: Any) -> Delaunay: ...
+             sigma: Any = None, confidence: float | str | None = None, carry: Any = None, **options: Any) -> Delaunay: ...
 
 
 @overload
 def delaunay(points: Any, radius: Any = None, *, sphere: Literal[True], radius_unit: str | None = None,
              trace: Path | None = None, resume: Path | None = None, order: str | None = None, skip_missing: bool = False,
-             ids: Any = None, crs: Any = None, sigma: Any = None, confidence: float | str | None = None,
+             ids: Any = None, crs: Any = None, sigma: Any = None, confidence: float | str | None = None, carry: Any = None,
              **options: Any) -> Sphere: ...
 
 
@@ -47,7 +47,9 @@ def delaunay(points: Any, radius: Any = None, *, sphere: bool | None = None, rad
     order    of boxes: 'xxyy' as above, or 'xyxy': minx, miny, maxx, maxy, as gdf.bounds has them
     skip_missing  skip masked rows and rows with nan, None or a text such as NA; otherwise they are an error. Points are
              numbered without them: d.rows[k] is the row of point k
-    ids      a name for each row, or the name of a column: `ids` of the result, and columns of its files
+    ids      a name for each row, or the name of a column: `ids` of the result, and columns of what it writes
+    carry    columns to repeat in tables of points and cells: 'all' or names of columns of the DataFrame, or a DataFrame or a dict
+             of arrays; d.carried has them
     crs      reference system of the points; by default that of a GeoDataFrame. Degrees need sphere=True or sphere=False
     sigma    standard deviations of normal errors: a number, N of them, (N, 2) for x and y, (N, 3) with their correlation, or
              names of columns of the DataFrame; receivers that state a radius of 95 % state 2.45 of them, of 50 % (CEP) 1.18

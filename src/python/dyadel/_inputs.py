@@ -37,6 +37,7 @@ class Given:
     sigma: Floats | None = None
     confidence: str | None = None
     uncertain: int = 0
+    carry: dict[str, NDArray[Any]] = dataclasses.field(default_factory=dict)  # columns beside the points
     before: int = 0  # rows of the points before
     added: int = 0  # points
 
@@ -51,6 +52,7 @@ class Given:
             kept = np.flatnonzero(~missing)
             self.points, self.radius, self.ids, self.sigma = (
                 _rows_of(value, kept, len(missing)) for value in (self.points, self.radius, self.ids, self.sigma))
+            self.carry = {name: column[kept] for name, column in self.carry.items()}
             self.rows = kept if self.rows is None else self.rows[kept]
 
 
@@ -94,7 +96,7 @@ def is_geographic(crs: Any) -> bool:
 
 
 def take(points: Any, radius: Any = None, *, order: str | None = None, skip_missing: bool = False, ids: Any = None,
-         crs: Any = None, sigma: Any = None, confidence: float | str | None = None) -> Given:
+         crs: Any = None, sigma: Any = None, confidence: float | str | None = None, carry: Any = None) -> Given:
     """Points of any kind but Source and Text, and their radius, in plain form."""
     if order not in (None, *ORDERS):
         raise ValueError(f"order={order!r}; give 'xxyy' (xlo, xhi, ylo, yhi) or 'xyxy' (minx, miny, maxx, maxy)")
@@ -108,6 +110,7 @@ def take(points: Any, radius: Any = None, *, order: str | None = None, skip_miss
         if ids not in getattr(points, 'columns', ()):
             raise ValueError(f'ids={ids!r}: points have no such column; give one text for each point')
         ids = points[ids]
+    carried = _carried(points, carry)
     names = [sigma] if isinstance(sigma, str) else sigma if isinstance(sigma, (list, tuple)) else ()
     if names and all(isinstance(name, str) and name in getattr(points, 'columns', ()) for name in names):
         sigma = np.column_stack([np.asarray(_column(points[name]), np.float64) for name in names])
@@ -124,7 +127,10 @@ def take(points: Any, radius: Any = None, *, order: str | None = None, skip_miss
         missing = masked.getmaskarray(points).any(axis=1)
         points = masked.getdata(points)
     points = points if hasattr(points, '__len__') else list(points)
-    given = Given(_matrix(points), _radii(radius), count=len(points), crs=crs)
+    given = Given(_matrix(points), _radii(radius), count=len(points), crs=crs, carry=carried)
+    for name, column in carried.items():
+        if len(column) != given.count:
+            raise ValueError(f'column {name!r} of carry has {len(column)} values for {given.count} points')
     if ids is not None:
         given.ids = [str(name) for name in ids]
         if len(given.ids) != given.count:
@@ -140,6 +146,19 @@ def take(points: Any, radius: Any = None, *, order: str | None = None, skip_miss
     elif order is not None and not framed:
         raise ValueError(f'order={order!r} is for boxes, points of shape (N, 4)')
     return given
+
+
+def _carried(points: Any, carry: Any) -> dict[str, NDArray[Any]]:
+    """Columns of the points ('all', a name, or names), or given by themselves: a DataFrame, or a dict of arrays."""
+    if carry is None:
+        return {}
+    own = [name for name in getattr(points, 'columns', ()) if name != 'geometry']
+    names = own if isinstance(carry, str) and carry == 'all' else [carry] if isinstance(carry, str) else carry
+    table = carry if hasattr(carry, 'keys') else points
+    for name in names:
+        if name not in (table.keys() if table is carry else own):
+            raise ValueError(f'carry: points have no column {name!r}' + (f'; they have {", ".join(map(str, own))}' if own else ''))
+    return {str(name): np.asarray(table[name]) for name in names}
 
 
 def _leave_out_unknown(given: Given, skip: bool, look: bool) -> None:

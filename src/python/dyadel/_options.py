@@ -16,7 +16,7 @@ Path = str | os.PathLike[str]
 GOALS = ('decided', 'area', 'hausdorff', 'voronoi area', 'voronoi hausdorff')
 SCHEDULES = ('adaptive', 'uniform')
 #: What else functions take that take points.
-INPUTS = ('order', 'skip_missing', 'ids', 'crs', 'sigma', 'confidence')
+INPUTS = ('order', 'skip_missing', 'ids', 'crs', 'sigma', 'confidence', 'carry')
 AT_LEAST = {'max_bits': 1, 'max_pairs': 1, 'threads': 1, 'step_bits': 0, 'max_stages': 0, 'max_calls': 0,
             'tie_bits': 0, 'max_bytes': 0}
 Arguments = ParamSpec('Arguments')

@@ -2,6 +2,7 @@
 """What an engine is asked besides statuses: nearest points, graphs, tolerances, plans, convergence, proofs."""
 from __future__ import annotations
 
+import csv
 import html
 import math
 import os
@@ -104,20 +105,39 @@ def places_of(xy: Any) -> tuple[Floats, tuple[int, ...]]:
     return np.ascontiguousarray(places.reshape(-1, 2)), given.shape[:-1]
 
 
-def nearest_places(engine: _dyadel.Engine, xy: Any) -> NearestPlaces:
-    """See Delaunay.nearest."""
-    places = places_of(xy)[0]
+def _many(ask: Any, places: Floats) -> NearestPlaces:
+    """Lists for places, which are asked in an order in which each is near to the one before."""
     order = _along(places)
-    found, ends, sure = engine.nearest_places(places[order])
+    found, ends, sure = ask(places[order])
     points, counts, certain = ints(found), np.diff(longs(ends), prepend=0), np.empty(len(places), np.bool_)
     certain[order] = records(sure, np.dtype(np.bool_))
-    count = np.empty_like(counts)
-    count[order] = counts
-    offsets, at = offsets_of(count), np.empty_like(counts)
-    at[order] = longs(ends) - counts
-    if len(points) == len(places):
+    count, at = np.empty_like(counts), np.empty_like(counts)
+    count[order], at[order] = counts, longs(ends) - counts
+    offsets = offsets_of(count)
+    if len(points) == len(places) and (count == 1).all():
         return NearestPlaces(points[at], offsets, certain)
     return NearestPlaces(points[np.repeat(at - offsets[:-1], count) + np.arange(len(points))], offsets, certain)
+
+
+def nearest_places(engine: _dyadel.Engine, xy: Any) -> NearestPlaces:
+    """See Delaunay.nearest."""
+    return _many(engine.nearest_places, places_of(xy)[0])
+
+
+def interpolation_range(engine: _dyadel.Engine, values: Any, xy: Any, count: int) -> tuple[Floats, Floats]:
+    """See Delaunay.interpolation_range."""
+    given, (places, shape) = np.asarray(values), places_of(xy)
+    if given.dtype.kind not in 'fiu' or given.shape != (count,):
+        raise ValueError(f'values must be {count} numbers, one for each point, not {given.dtype} of shape {given.shape}')
+    doubles = given.astype(np.float64)
+    if given.dtype.kind != 'f' and not np.array_equal(doubles.astype(given.dtype), given):
+        raise ValueError('values have to be doubles; these would be rounded')
+    found = _many(engine.corners, places)
+    low, high = np.full((2, len(places)), np.nan)
+    if found.certain.any():
+        begin, of = found.offsets[:-1][found.certain], doubles[found.points]
+        low[found.certain], high[found.certain] = np.minimum.reduceat(of, begin), np.maximum.reduceat(of, begin)
+    return low.reshape(shape), high.reshape(shape)
 
 
 def _along(places: Floats) -> Longs:
@@ -253,6 +273,13 @@ class Table(Mapping[str, NDArray[Any]]):
         """How many columns."""
         return len(self._columns)
 
+    def save(self, path: Path) -> None:
+        """Writes the columns to a csv file, numbers as Python writes them."""
+        with open(path, 'w', encoding='utf-8', newline='') as file:
+            out = csv.writer(file, lineterminator='\n')
+            out.writerow(self)
+            out.writerows(row.values() for row in self.rows)
+
     @property
     def rows(self) -> list[dict[str, Any]]:
         """The same row by row."""
@@ -346,10 +373,10 @@ class Convergence(Table):
         return self.svg
 
 
-def _convergence(outcome: str, csv: bytes, svg: bytes) -> Convergence:
-    lines = [line.split(',') for line in csv.decode().splitlines()]
+def _convergence(outcome: str, text: bytes, svg: bytes) -> Convergence:
+    lines = [line.split(',') for line in text.decode().splitlines()]
     made = Convergence({name: np.array(cells) if name in WORDS else _column(cells) for name, *cells in zip(*lines)})
-    made.outcome, made.csv, made.svg = outcome, csv.decode(), svg.decode()
+    made.outcome, made.csv, made.svg = outcome, text.decode(), svg.decode()
     return made
 
 

@@ -13,6 +13,7 @@ from . import _dyadel, _geometry
 from ._arrays import Floats, Ints, floats, ints
 from ._inputs import Given
 from ._options import INPUTS, engine_options, takes_options
+from ._outputs import Saved, format_of
 from ._points import Text, append_given, given_of
 from ._statuses import STATUS, Statuses
 
@@ -54,7 +55,7 @@ class SphereCell(NamedTuple):
     complete: bool
 
 
-class SphereVoronoi:
+class SphereVoronoi(Saved):
     """The Voronoi diagram of a sphere, as it was when it was made. Iterate over it, or index it, for the cell of a point."""
 
     def __init__(self, of: Sphere) -> None:
@@ -94,7 +95,7 @@ class SphereVoronoi:
 
     def write(self, format: str = 'csv', layer: str | None = None, epsg: int = 0) -> str | bytes:
         """The diagram, as the triangulation is now, in a format of the command; layer: 'cells', 'vertices' or 'regions'."""
-        return _geometry.text_of(format, self._of._engine.write_voronoi(format, layer, None, None, epsg))
+        return _geometry.text_of(format, self._of._engine.write_voronoi(format_of(format), layer, None, None, epsg))
 
     @property
     def __geo_interface__(self) -> dict[str, Any]:
@@ -125,7 +126,8 @@ class Sphere(Statuses):
         super().__init__()
         self._named = self._places = _dyadel.Engine()
         given, radius, unit, scale = append_places(self._places, points, radius, radius_unit, **inputs)
-        self._given, self.crs = (given, radius, unit), given.crs
+        self._given, self._log, self.crs = (given, radius, unit), [given], given.crs
+        given.added = self._places.count()
         self._engine = _dyadel.Sphere(self._places, radius, None if radius is None else unit, scale)
 
     @takes_options()

@@ -13,8 +13,9 @@ import numpy as np
 
 from . import _dyadel, _geometry
 from ._arrays import Floats, Ints, Longs, Rect, floats, ints, longs, rect_of
-from ._inputs import epsg_of
+from ._inputs import Given, epsg_of
 from ._options import Path, engine_options
+from ._outputs import Saved, format_of
 from ._points import Confidence
 
 STATUS = ('illegal', 'tie', 'indeterminate', 'legal')
@@ -22,7 +23,7 @@ TIE, INDETERMINATE, LEGAL = 1, 2, 3
 Made = TypeVar('Made')
 
 
-class Statuses:
+class Statuses(Saved):
     """Statuses of pairs, certain triangles, and the rectangles for which they hold. Points are numbered from 0."""
 
     _engine: _dyadel.Engine | _dyadel.Sphere
@@ -149,11 +150,6 @@ class Statuses:
         """The identifier of each point, '' without one; None: no point has one."""
         return self._named.names()[1]
 
-    @property
-    def carried(self) -> dict[str, list[str]]:
-        """Columns that `Text(carry=...)` named: for each name the text in the row of each point."""
-        return self._named.carried()
-
     def rect(self, i: int) -> Rect:
         """The rectangle reached of point i, exactly: xlo, xhi, ylo, yhi."""
         return rect_of(self._engine.rect(i))
@@ -164,14 +160,28 @@ class Statuses:
         return self._engine.counters()
 
     def write(self, format: str = 'csv', layer: str | None = None, window: Any = None, epsg: int | None = None) -> str | bytes:
-        """The result in a format of the command ('csv', 'json', 'geojson', 'svg', 'html', ...); bytes of formats that are not
-        text.
+        """Returns the result as a text in a format of the command ('csv', 'json', 'geojson', 'svg', 'html', ...), bytes of those
+        that are no text; save() writes a file.
 
         layer: as `dyadel delaunay --layer`: 'pairs', 'points', 'triangles', of the plane also 'graph:nearest',
         'graph:gabriel', 'graph:mst'; window: what pictures of the plane show, (xlo, xhi, ylo, yhi); epsg: number of the
         reference system, by default that of `crs`. Rows are named by `rows`, and by `ids`.
         """
-        return _geometry.text_of(format, self._engine.write(format, layer, window, epsg_of(self.crs) if epsg is None else epsg))
+        return _geometry.text_of(format, self._engine.write(format_of(format), layer, window, epsg_of(self.crs) if epsg is None else epsg))
+
+    _log: list[Given]  # what was given; without points where boxes of doubles hold them
+
+    @property
+    def carried(self) -> dict[str, Any]:
+        """Columns beside the points: those that `Text(carry=...)` named, for each name the text in the row of each point; and
+        those given as `carry`, arrays with a value for each point (None for points that came without)."""
+        return {**self._named.carried(), **self._arrays()}
+
+    def _arrays(self) -> dict[str, Any]:
+        def column(name: str) -> Any:
+            parts = [log.carry.get(name, np.full(log.added, None)) for log in self._log]
+            return np.concatenate(parts) if len(parts) > 1 else parts[0]
+        return {name: column(name) for name in dict.fromkeys(name for log in self._log for name in log.carry)}
 
     def named(self, **points: Ints) -> dict[str, Any]:
         """Columns that name points: i=, j= ... with their `rows`, and id or id_i, id_j ... where they have `ids`."""
@@ -184,7 +194,11 @@ class Statuses:
         """A layer ('pairs', 'points', 'triangles', 'graph:mst', ...) as a GeoDataFrame; crs: by default that of the points."""
         geopandas: Any = importlib.import_module('geopandas')
         features = json.loads(self.write('geojson', layer, epsg=0))['features']
-        return geopandas.GeoDataFrame.from_features(features, crs=self.crs if crs is None else crs)
+        frame = geopandas.GeoDataFrame.from_features(features, crs=self.crs if crs is None else crs)
+        if layer == 'points':
+            for name, column in self._arrays().items():
+                frame[name if name not in frame else f'{name}_2'] = column[np.searchsorted(self.rows, frame['i'])]
+        return frame
 
     @property
     def __geo_interface__(self) -> dict[str, Any]:

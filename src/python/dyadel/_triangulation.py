@@ -13,12 +13,13 @@ from . import _dyadel, _geometry
 from ._arrays import Floats, Ints, Longs, Rect, ints, rect_of
 from ._inputs import Given
 from ._options import INPUTS, Path, engine_options, split_inputs, takes_options
+from ._outputs import COLOURS, plot_lines, plot_polygons
 from ._points import append_given, given_of
 from ._questions import (GRAPHS, Graph, Nearest, NearestPlaces, Plan, Tolerance, around, csr_of, graph_of, interpolated,
-                         named_triangles, nearest_places, nearest_to, plan_of, tolerance_of, triangles_at)
+                         interpolation_range, named_triangles, nearest_places, nearest_to, plan_of, tolerance_of,
+                         triangles_at)
 from ._statuses import STATUS, Statuses
 from ._voronoi import Voronoi
-
 
 STATUSES = np.array(STATUS, object)
 
@@ -45,7 +46,7 @@ class Delaunay(Statuses):
                  **options: Any) -> None:
         super().__init__()
         self._named = self._engine = _dyadel.Engine()
-        self._log: list[Given] = []  # the input; without points where boxes of doubles hold them
+        self._log: list[Given] = []
         self._measured: set[int] = set()
         if points is not None:
             with self._kept_with_errors():
@@ -168,6 +169,15 @@ class Delaunay(Statuses):
         """
         return interpolated(self.points, self.simplices, self.find_triangle(xy), values, xy)
 
+    def interpolation_range(self, values: Any, xy: Any) -> tuple[Floats, Floats]:
+        """Bounds lo, hi at places (M, 2) of what linear interpolation of the values (N,) gives there, for every choice of points:
+        the least and the largest value of the points that may be corners of the triangle around the place. nan: for some
+        choice the place is outside of the hull.
+
+            lo, hi = d.interpolation_range(heights, xy)
+        """
+        return interpolation_range(self._engine, values, xy, len(self))
+
     @takes_options()
     def graph(self, name: str, **options: Any) -> Graph:
         """Edges of a graph of neighbours: 'nearest' (j is nearest to i), 'gabriel' or 'mst' (minimum spanning tree). Refines
@@ -192,6 +202,24 @@ class Delaunay(Statuses):
             columns['status'] = STATUSES[of[:, 2]]
         rounding = _geometry.half_width(self.boxes)[of if layer == 'triangles' else of[:, :2]].max(axis=1, initial=0)
         return _geometry.frame_of(columns, self.to_wkb(layer or 'pairs'), rounding, self.crs if crs is None else crs)
+
+    def plot(self, layer: str = 'pairs', ax: Any = None, values: Any = None, **options: Any) -> Any:
+        """Draws 'pairs' by status, 'triangles', or 'tolerance' (pairs of exact points by how far all points may move) between the
+        centres of the rectangles with matplotlib, on its axes `ax` or new ones, which it returns. values: a number for each
+        row, shown by colour; options: of LineCollection or PolyCollection.
+        """
+        places = self.points
+        if layer == 'triangles':
+            return plot_polygons(ax, places[self.simplices], COLOURS['certain'], values, **options)
+        if layer not in ('pairs', 'tolerance'):
+            raise ValueError(f'layer={layer!r}; give "pairs", "triangles" or "tolerance"')
+        pairs = self.pairs
+        if layer == 'tolerance':
+            found = self.tolerance()
+            lost = found['event'] == 'death'
+            pairs, values = np.column_stack((found['i'], found['j'], found['i']))[lost], found['lo'][lost]
+        colours = [COLOURS.get(status, 'black') for status in STATUSES[pairs[:, 2]]] if values is None else None
+        return plot_lines(ax, places[pairs[:, :2]], colours, values, **options)
 
     def rects(self) -> list[str]:
         """All rectangles reached, exactly: texts "XLO XHI YLO YHI", such as "1/3 1/3 5*2^-4 3*2^-3"."""

@@ -13,6 +13,7 @@ import numpy as np
 from . import _dyadel, _geometry
 from ._arrays import Floats, Ints, Longs, Rect, floats, ints, longs, records, rect_of
 from ._geometry import OPEN, Edges, Enclosures, Rings
+from ._outputs import COLOURS, Saved, format_of, plot_polygons
 
 
 #: Columns, well-known binary, and how far coordinates were rounded.
@@ -40,15 +41,8 @@ class Triangulation(Protocol):
         """The identifier of each point."""
 
     @property
-    def carried(self) -> dict[str, list[str]]:
-        """The columns that points carry."""
-
-    @property
-    def aliases(self) -> Ints:
-        """Points that are the same place as others."""
-
-    def __len__(self) -> int:
-        """How many points."""
+    def carried(self) -> dict[str, Any]:
+        """Columns given as `carry`."""
 
     def named(self, **points: Ints) -> dict[str, Any]:
         """Columns that name points."""
@@ -73,7 +67,7 @@ RAYS = np.dtype([('direction', np.float64, 4), ('box', np.float64, 4)])
 RING = np.dtype([('point', np.int32), ('kind', np.uint32), ('end', np.int64), ('rounding', np.float64)])
 
 
-class Voronoi:
+class Voronoi(Saved):
     """Cells with proved bounds, as they were when it was made. Iterate over it, or index it, for the cell of a point.
 
         v = dyadel.delaunay(points, radius=0.1).voronoi()
@@ -212,8 +206,9 @@ class Voronoi:
         return self._frame[2]
 
     def write(self, format: str = 'csv', layer: str | None = None, epsg: int = 0) -> str | bytes:
-        """The diagram, as the triangulation is now, in a format of the command."""
-        return _geometry.text_of(format, self._of._engine.write_voronoi(format, layer, self._window, self._flatten, epsg))
+        """Returns the diagram, as the triangulation is now, as a text in a format of the command (bytes of those that are no text);
+        save() writes a file."""
+        return _geometry.text_of(format, self._of._engine.write_voronoi(format_of(format), layer, self._window, self._flatten, epsg))
 
     def certificate(self) -> bytes:
         """What proves triangulation and diagram, for verify()."""
@@ -233,8 +228,9 @@ class Voronoi:
     def _named(self, points: Ints) -> dict[str, Any]:
         """Rows, identifiers and carried columns of points."""
         columns = self._of.named(i=points)
-        for name, texts in self._of.carried.items():
-            columns[name + '_2' * (name in columns)] = [texts[k] for k in points.tolist()]
+        for name, column in self._of.carried.items():
+            taken = name in columns or name in ('kind', 'area', 'area_lo', 'area_hi', 'geometry')
+            columns[name + '_2' * taken] = np.asarray(column, object if isinstance(column, list) else None)[points]
         return columns
 
     def _cell_rows(self) -> LayerRows:
@@ -273,6 +269,18 @@ class Voronoi:
         r = self.regions
         sites = [' '.join(map(str, self._of.rows[r[k]].tolist())) for k in range(len(r))]
         return {'face': r.faces, **box_columns(r.boxes), 'sites': sites}, r.to_wkb(), np.zeros(len(r))
+
+    def plot(self, layer: str = 'cells', ax: Any = None, values: Any = None, **options: Any) -> Any:
+        """Draws 'cells' (possible ones behind certain ones) or 'tiles' with matplotlib, on its axes `ax` or new ones, which it
+        returns. values: a number for each point, shown by colour; options: of PolyCollection.
+        """
+        if layer not in ('cells', 'tiles'):
+            raise ValueError(f'layer={layer!r}; give "cells" or "tiles"')
+        kinds = [('exact', self.tiles)] if layer == 'tiles' else [('possible', self.possible), ('certain', self.certain)]
+        for kind, rings in kinds:
+            shown = None if values is None else np.asarray(values)[rings.points]
+            ax = plot_polygons(ax, [rings[r] for r in range(len(rings))], COLOURS[kind], shown, **options)
+        return ax
 
     @property
     def __geo_interface__(self) -> dict[str, Any]:
