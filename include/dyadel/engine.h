@@ -18,6 +18,7 @@
 #include <dyadel/delaunay.h>
 #include <dyadel/graph.h>
 #include <dyadel/stream.h>
+#include <dyadel/tolerance.h>
 #include <string.h>
 
 #ifdef __cplusplus
@@ -378,6 +379,18 @@ DYD_API dyd_status dyd_engine_graph(dyd_graph_list *out, dyd_outcome *outcome, d
  * errors as in dyd_engine_ask. */
 DYD_API dyd_status dyd_engine_discs(dyd_pair_list *out, dyd_outcome *outcome, dyd_engine *e,
                                     const dyd_engine_options *options, dyd_error *err);
+
+/* Tolerances of the true points of e (tolerance.h), exact or computable: the statuses are refined until they are
+ * decided or are ties, then all points until each death and birth but ties is enclosed to a relative width of at most
+ * 2^-relative_bits beyond that for exact points; 1 to 40, others: 20 [TOL-10]. k and l of a row bind for the centres of
+ * the rectangles reached. A pair that the budget leaves indeterminate has no row. *out is released by
+ * dyd_tolerance_free, and does not need e; NULL when no stage was complete. Outcomes: decided; fixpoint: ties, which
+ * are events; budget: statuses or widths are not what was asked for, but what is stated holds; cancelled. DYD_CANCELLED
+ * as dyd_tolerance_new; DYD_E_ARG for a rectangle that nothing narrows (err names it), and for weights or standard
+ * deviations unless all points are exact. Cost: a run, and about two times that of dyd_tolerance_new. */
+DYD_API dyd_status dyd_engine_tolerance(dyd_tolerance **out, dyd_outcome *outcome, dyd_engine *e,
+                                        const dyd_tolerance_options *options, int64_t relative_bits,
+                                        const dyd_engine_options *run, dyd_error *err);
 
 #ifdef __cplusplus
 }

@@ -98,7 +98,8 @@ typedef struct dyd_tolerance_result {
 /* Borrowed until t is freed, as its contents. */
 DYD_API const dyd_tolerance_result *dyd_tolerance_get(const dyd_tolerance *t);
 /* The exact event of row number `row`: |sqrt(plus) - sqrt(minus)| / 2; both are initialised by the caller. DYD_E_ARG
- * where lo is infinite, or there is no such row, or there are weights: no such form is known then. O(1) */
+ * where lo is infinite, or there is no such row, or there are weights, or points are not exact: no such form is known
+ * then. O(1) */
 DYD_API dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_tolerance *t, size_t row);
 /* ---- discs ---- */
 

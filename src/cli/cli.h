@@ -64,6 +64,7 @@ typedef struct cli_options {
   const char *window; /* checked text: see cli_window_read */
   int64_t flatten_bits;
   bool flatten_set;
+  int64_t relative_bits;                /* tolerance; 0: default */
   double max_arc;                       /* degrees; 0: default */
   const char *query_columns, *query_id; /* of the file of queries */
   const char *certificate, *trace, *replay, *resume, *plot;

@@ -18,7 +18,7 @@ enum {
   RUN = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_CHECK), /* runs the engine to a goal */
   TEXT = READ | BIT(CLI_VERIFY),                                                   /* from a file */
   PIECES = BIT(CLI_DISC) | BIT(CLI_BISECTOR),
-  REFINE = RUN | PIECES | BIT(CLI_NEAREST), /* asks points to narrow */
+  REFINE = RUN | PIECES | BIT(CLI_NEAREST) | BIT(CLI_TOLERANCE), /* asks points to narrow */
   GLOBE = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_NEAREST) | BIT(CLI_PLAN) |
           BIT(CLI_VERIFY) /* takes --sphere */
 };
@@ -74,7 +74,7 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                      "certain. --queries FILE answers many places at once.",
                      DYD_CONTENT_NEAREST, &cli_nearest},
     [CLI_TOLERANCE] = {"tolerance", "FILE", "how far the points may move before edges are lost or born",
-                       "For exact points: for every edge the distance up to which all points may move at\n"
+                       "For every edge the distance up to which all points may move at\n"
                        "once before it may be lost (death), for other pairs that before which none becomes\n"
                        "an edge (birth), for every point how far it may be from its place, and the like for\n"
                        "the whole. Numbers lo are rounded down, hi up, at most 2^-40 of themselves apart;\n"
@@ -233,11 +233,11 @@ const cli_option cli_option_table[] = {
      AT(engine.start_bits), RANGE(1, DYD_EXP_LIMIT), GIVEN(start_set)},
     {"step-bits", 0, "K", CLI_INTEGER, RUN, CLI_REFINEMENT, "refine in steps of K bits (default: geometric growth)",
      AT(engine.step_bits), RANGE(1, DYD_EXP_LIMIT)},
-    {"ties", 0, "WHICH", CLI_CHOICE, RUN | BIT(CLI_NEAREST), CLI_REFINEMENT,
+    {"ties", 0, "WHICH", CLI_CHOICE, RUN | BIT(CLI_NEAREST) | BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "prove (default): prove that points given by expressions\nand roots are the same, on one line or circle; off: do "
      "not",
      AT(engine.no_ties), WORDS("prove off")},
-    {"tie-bits", 0, "B", CLI_INTEGER, RUN | BIT(CLI_NEAREST), CLI_REFINEMENT,
+    {"tie-bits", 0, "B", CLI_INTEGER, RUN | BIT(CLI_NEAREST) | BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "precision at which to give up a proof (default 131072)", AT(engine.tie_bits), RANGE(1, 1 << 26)},
     {"threads", 0, "T", CLI_INTEGER, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_REFINEMENT,
      "threads to use (default 1); results do not depend on it", AT(engine.threads), RANGE(1, 1024)},
@@ -265,6 +265,9 @@ const cli_option cli_option_table[] = {
     {"next", 0, NULL, CLI_FLAG, BIT(CLI_PLAN), CLI_OUTPUT, "only the first point to measure", AT(next)},
     {"up-to", 0, "EPS", CLI_TEXT, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "also births: pairs that may become edges when points\nmove by EPS at most; an exact number", AT(up_to)},
+    {"relative-bits", 0, "B", CLI_INTEGER, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
+     "computable points: refine until lo and hi are at most 2^-B\nof themselves apart (default 20)", AT(relative_bits),
+     RANGE(1, 40)},
     {"metric", 0, "WHICH", CLI_CHOICE, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "euclid (default): points move in discs; box: x and y each\nby as much, in squares, bounds 2^-20 of themselves "
      "apart",
@@ -303,7 +306,7 @@ const cli_option cli_option_table[] = {
     {"certificate", 0, "FILE", CLI_FILE, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_NEAREST), CLI_OUTPUT,
      "write what proves the result; see dyadel verify", AT(certificate)},
     {"stats", 0, NULL, CLI_FLAG, RUN, CLI_OUTPUT, "print counters to standard error", AT(stats)},
-    {"accept-fixpoint", 0, NULL, CLI_FLAG, REFINE & ~BIT(CLI_CHECK), CLI_OUTPUT,
+    {"accept-fixpoint", 0, NULL, CLI_FLAG, REFINE & ~BIT(CLI_CHECK) & ~BIT(CLI_TOLERANCE), CLI_OUTPUT,
      "exit status 0 instead of 3, for scripts that stop at errors", AT(accept_fixpoint)},
     {"quiet", 'q', NULL, CLI_FLAG, CLI_ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
 

@@ -63,18 +63,14 @@ static int tolerance_columns(cli_session *s) {
  * edges, only where they are written. */
 static dyd_status tolerance_run_engine(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
   tolerance_run *r = s->state;
-  dyd_engine_options once = *options;
   dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options),
                              .points = s->o.content == DYD_CONTENT_RADII || s->o.format == DYD_FORMAT_JSON,
                              .max_pairs = options->max_pairs, .cancel = cli_signals_flag(), .metric = s->o.metric};
-  once.max_stages = 1;
-  dyd_status st = cli_run_engine(s, &once, err);
-  if (st != DYD_OK || !cli_run_was_whole(s->engine)) return st;
   if (mpq_sgn(r->up_to)) o.up_to = r->up_to;
   o.sigma = mpq_get_d(r->sigma);
   o.weight = r->weight;
   o.sigmas = r->sigmas;
-  st = dyd_tolerance_new(&r->tolerance, dyd_engine_delaunay(s->engine), &o, err);
+  dyd_status st = dyd_engine_tolerance(&r->tolerance, &s->outcome, s->engine, &o, s->o.relative_bits, options, err);
   r->cut = st == DYD_CANCELLED;
   return cli_session_cut(st, err);
 }
@@ -97,7 +93,11 @@ static dyd_status tolerance_write(FILE *out, const cli_session *s, dyd_error *er
 
 /* Ties are events here, nothing left open. */
 static int tolerance_summary(cli_session *s, int status) {
-  return !status && ((tolerance_run *)s->state)->cut ? cli_exit_cut() : status;
+  if (status || s->outcome == DYD_OUTCOME_DECIDED || s->outcome == DYD_OUTCOME_FIXPOINT)
+    return !status && ((tolerance_run *)s->state)->cut ? cli_exit_cut() : status;
+  cli_note(&s->o, "%s: some events are wider than asked for, or have no row (%s)", dyd_outcome_text(s->outcome),
+           cli_outcome_advice(s->engine));
+  return cli_exit_status(s->outcome);
 }
 
 static void tolerance_end(cli_session *s) {

@@ -476,7 +476,8 @@ static dyd_status tolerance_new(dyd_tolerance **out, dydpy_call *c, dyd_toleranc
   if (st == DYD_OK && c->self->sigmas && o->sigma == 0) st = row_numbers(&sigmas, c->self->engine, DYD_ROW_SIGMA);
   o->weight = weight;
   o->sigmas = sigmas;
-  if (st == DYD_OK) st = dyd_tolerance_new(out, c->pd, o, &c->err);
+  dyd_outcome outcome;
+  if (st == DYD_OK) st = dyd_engine_tolerance(out, &outcome, c->self->engine, o, 0, NULL, &c->err);
   free(weight);
   free(sigmas);
   return st;
@@ -499,7 +500,7 @@ PyObject *dydpy_tolerance(PyObject *self, PyObject *args) {
                              .up_to = up_to == Py_None ? NULL : most,
                              .cancel = &c.cancel};
   mpq_init(most);
-  if ((up_to == Py_None || dydpy_rational(most, up_to) == 0) && dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_CANCELS) &&
+  if ((up_to == Py_None || dydpy_rational(most, up_to) == 0) && dydpy_begin(&c, self, DYDPY_REFINES) &&
       dydpy_end(&c, tolerance_new(&t, &c, &o)))
     found = tolerance_found(t, dyd_engine_count(c.self->engine));
   dyd_tolerance_free(t);

@@ -8,6 +8,7 @@
  *   points_filter.c   each point; probabilities
  *   weights_filter.c  all pairs where points have weights
  *   squares_filter.c  all pairs where points move in squares
+ *   enclosing_filter.c  the tolerances of true points in small rectangles
  *   tolerance.c       the public calls */
 #ifndef DYD_TOLERANCE_STATE_H
 #define DYD_TOLERANCE_STATE_H
@@ -34,6 +35,8 @@ struct dyd_tolerance {
   dyd_tolerance_result result; /* of the members below, once all is done */
   const dyd_delaunay *pd;
   const dyd_skeleton *sk;
+  dyd_sites *sites; /* owned, with their triangulation pd: centres of rectangles; NULL: pd is borrowed */
+  dyd_delaunay *centres;
   dyd_tolerance_options options;
   dyd_room room; /* what the triangulation leaves of max_bytes */
   dyd_tolerance_row *row;
@@ -61,6 +64,12 @@ struct dyd_tolerance {
   dyd_lines_d small;
   dyd_others others;
 };
+
+/* enclosing_filter.c: the tolerances of true points that lie in the rectangles of pd, from those of their centres,
+ * which are at most *off away from them; rows are sorted. Pairs that pd leaves indeterminate have no row. *least
+ * becomes the least number of a row but of ties, of the centres. Statuses as dyd_tolerance_new. */
+dyd_status dyd_tolerance_enclosing(dyd_tolerance **out, double *off, double *least, const dyd_delaunay *pd,
+                                   const dyd_tolerance_options *options, dyd_error *err);
 
 /* near_filter.c. Pairs whose ends have more neighbours in all have one end that is a hub. */
 enum { DYD_HUB = 40 };

@@ -172,6 +172,8 @@ void dyd_tolerance_free(dyd_tolerance *t) {
   free(t->sigma);
   free(t->chance);
   free(t->row);
+  dyd_delaunay_free(t->centres);
+  dyd_sites_free(t->sites);
   free(t);
 }
 
@@ -190,7 +192,7 @@ const dyd_tolerance_result *dyd_tolerance_get(const dyd_tolerance *t) {
 /* What binds is known: the summit of these lines alone is that of all; a birth is where they cross. */
 dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_tolerance *t, size_t row) {
   if (!t) return DYD_E_ARG;
-  if (row >= t->rows || t->row[row].lo == HUGE_VAL || t->weight) return DYD_E_ARG;
+  if (row >= t->rows || t->row[row].lo == HUGE_VAL || t->weight || t->centres) return DYD_E_ARG;
   if (t->options.metric == DYD_METRIC_BOX) return DYD_E_ARG;
   const dyd_tolerance_row *r = &t->row[row];
   const uint32_t *vertex = t->sk->vertex;

@@ -13,6 +13,7 @@ import os
 import re
 import xml.etree.ElementTree
 
+import tempfile
 from harness import DATA, expect, main, run
 
 SQUARE = '0 0\n1 0\n1 1\n0 1\n0 0\n3 0.5\n'
@@ -44,8 +45,7 @@ def test_few_points():
 
 
 def test_refusals():
-    expect(run('tolerance', '-', stdin='0 0\n1 0\nsqrt(2) 1\n'), 1, r'\A\Z', r'-: point 2: .*plain numbers')
-    expect(run('tolerance', '-', stdin='0 0\n1 0\n[1,2] 1\n'), 1, r'\A\Z', r'-: point 2: .*plain numbers')
+    expect(run('tolerance', '-', stdin='0 0\n1 0\n[1,2] 1\n'), 1, r'\A\Z', r'-: point 2: .*give its exact place')
     for wrong in ('-1', 'x', '1+-0.5', 'sqrt(2)'):
         expect(run('tolerance', '--up-to', wrong, '-', stdin=SQUARE), 2, r'\A\Z', '--up-to ".*" is not understood; give')
     for widened in ('--radius=1', '--measured'):  # tolerances are those of exact points: no such option
@@ -54,6 +54,37 @@ def test_refusals():
     expect(run('tolerance', '--format', 'obj', '-', stdin=SQUARE), 2, r'\A\Z', 'does not write obj')
     expect(run('tolerance', '--format', 'wkt', '--layer', 'barcode', '-', stdin=SQUARE), 2, r'\A\Z', 'barcode')
     expect(run('tolerance', '--up-to', '1', '--max-pairs', '1', '-', stdin=SQUARE), 1, r'\A\Z', '--max-pairs')
+
+
+def test_computable_points():
+    """Rows hold those of exact points nearby, widened by how near these are [TOL-10]; ties are proved; widths are as asked."""
+    real = 'sqrt(2) 0\n4 sqrt(3)\n0 pi\n1 1\n9 e\n2+sqrt(3)/1000 3.1\n'
+    near = '\n'.join(f'{x} {y}' for x, y in (
+        ('1.41421356237309504880168872420969807857', '0'), ('4', '1.73205080756887729352744634150587236694'),
+        ('0', '3.14159265358979323846264338327950288420'), ('1', '1'), ('9', '2.71828182845904523536028747135266249776'),
+        ('2.00173205080756887729352744634150587237', '3.1')))
+    for how in ((), ('--up-to', '0.5'), ('--metric', 'box', '--up-to', '0.25'), ('--relative-bits', '40')):
+        bits = 40 if '40' in how else 20
+        exact, found = (run('tolerance', '--quiet', '-', *(h for h in how if text is real or h not in ('--relative-bits', '40')),
+                            stdin=text) for text in (near, real))
+        assert exact.code == found.code == 0, found.err
+        want, got = rows(exact.out), rows(found.out)
+        assert [(r['i'], r['j'], r['event']) for r in want] == [(r['i'], r['j'], r['event']) for r in got] and got
+        for a, b in zip(want, got):
+            assert fractions.Fraction(b['lo']) <= fractions.Fraction(a['lo']) + fractions.Fraction(1, 10 ** 30) and fractions.Fraction(a['hi']) <= fractions.Fraction(b['hi']) + fractions.Fraction(1, 10 ** 30)
+            assert fractions.Fraction(b['hi']) - fractions.Fraction(b['lo']) <= fractions.Fraction(a['hi']) - fractions.Fraction(a['lo']) + fractions.Fraction(a['hi']) / 2 ** bits
+    square = 'sqrt(2) 0\n0 sqrt(2)\n-sqrt(2) 0\n0 -sqrt(2)\nsqrt(8)/2 0\n'
+    got = {(r['i'], r['j']): r for r in rows(run('tolerance', '-', stdin=square).out)}
+    assert got['0', '2']['event'] == got['1', '3']['event'] == 'tie' and got['0', '2']['hi'] == '0' and len(got) == 6
+    assert fractions.Fraction(got['0', '1']['lo']) < 1 < fractions.Fraction(got['0', '1']['hi'])
+    undecided = run('tolerance', '-', '--ties', 'off', '--max-bits', '300', stdin=square)
+    expect(undecided, 4, r'1,2,death', 'have no row .precision limit reached')
+    assert ('0', '2') not in {(r['i'], r['j']) for r in rows(undecided.out)}
+    expect(run('tolerance', '-', '--sigma', '1', stdin=real), 1, r'\A\Z', 'standard deviations are for points given by plain numbers')
+    with tempfile.TemporaryDirectory() as folder:
+        trace = os.path.join(folder, 'trace')
+        made, again = (run('tolerance', '-', option, trace, stdin=real) for option in ('--trace', '--resume'))
+        assert made.code == again.code == 0 and made.out == again.out, again.err
 
 
 def test_airports():

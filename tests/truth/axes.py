@@ -763,4 +763,5 @@ EXTRAS = {
     'retries': Extra(['--oracle-retries', '1', '--oracle-timeout', '30'], fits='program'),
     'box metric': Extra(['--metric', 'box']), 'euclid metric': Extra(['--metric', 'euclid']),
     'births': Extra(['--up-to', '@unit']), 'accuracy': Extra(['--accuracy', '@small'], softens=True),
-    'site': Extra(['--site', '0']), 'next': Extra(['--next'])}
+    'site': Extra(['--site', '0']), 'next': Extra(['--next']),
+    'more digits': Extra(['--relative-bits', '33'])}

@@ -80,7 +80,7 @@ class Space:
     @staticmethod
     def kind_fits(s, kind, options):
         if s.command == 'tolerance':
-            return kind in stated.FIRM
+            return kind in (s.kinds or stated.FIRM)
         if kind in ('sigma', 'sigmas'):
             return '--confidence' in options
         if kind == 'scaled column':

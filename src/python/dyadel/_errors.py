@@ -33,8 +33,8 @@ class Error(ValueError):
 class BrokenPromise(AssertionError):
     """A stream of points, or the engine, broke a promise: see check().
 
-    fault: 'stream', 'rate', 'retract', 'cell', 'path', 'choice' or 'reference'; moves: the shortest schedule (stage, point, bits) found that shows it,
-    and from which no move can be left out; check(points, moves=...) repeats it. seed: of that schedule.
+    fault: 'stream', 'rate', 'retract', 'cell', 'path', 'choice' or 'reference'; moves: the shortest schedule (stage, point,
+    bits) found that shows it, from which no move can be omitted; check(points, moves=...) repeats it. seed: of that schedule.
     """
 
     def __init__(self, message: str, fault: str, moves: list[tuple[int, int, int]], seed: int) -> None:

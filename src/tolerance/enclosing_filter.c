@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Tolerances of true points that are known as small rectangles, from those of the rectangles' centres.
+ *
+ * [TOL-10] Let each true point be within d of its centre, in the metric of the tolerances. What every choice within t
+ * of the centres has, every choice within t - d of the true points has, as these are within t of the centres; and the
+ * other way round. So deaths, births, the whole and the radii of points differ by at most d. A pair that is tied for
+ * the true points has the event at 0. */
+#include "tolerance/state.h"
+
+#include "base/alloc.h"
+#include "base/error.h"
+#include "base/float_filter.h"
+#include "rect/sites_table.h"
+
+#include <math.h>
+
+/* The middle of a side that is no point; *half: at least half of its length. */
+static dyd_status side_middle(dyd_interval *out, double *half, const dyd_interval *side) {
+  dyd_dyadic x;
+  dyd_dyadic_init(&x);
+  dyd_status st = dyd_dyadic_sub(&x, &side->hi, &side->lo);
+  if (st == DYD_OK) st = dyd_dyadic_mul_2exp(&x, &x, -1);
+  if (st == DYD_OK) *half = dyd_dyadic_get_d(&x, DYD_UP);
+  if (st == DYD_OK) st = dyd_dyadic_add(&x, &x, &side->lo);
+  if (st == DYD_OK) st = dyd_interval_set_ends(out, &x, &x);
+  dyd_dyadic_clear(&x);
+  return st;
+}
+
+/* r becomes its centre; *off is raised to how far points of it are from there. */
+static dyd_status rect_centre(dyd_rect *r, double *off, dyd_metric metric) {
+  double half[2] = {0, 0};
+  dyd_interval *side[2] = {&r->x, &r->y}, middle;
+  dyd_status st = DYD_OK;
+  dyd_interval_init(&middle);
+  for (int a = 0; a < 2 && st == DYD_OK; a++) {
+    if (dyd_interval_is_point(side[a])) continue;
+    st = side_middle(&middle, &half[a], side[a]);
+    if (st == DYD_OK) dyd_interval_set(side[a], &middle);
+  }
+  dyd_interval_clear(&middle);
+  double most = metric == DYD_METRIC_BOX ? fmax(half[0], half[1]) : dyd_upper(dyd_upper(half[0]) + half[1]);
+  if (most > *off) *off = most;
+  return st;
+}
+
+/* The centres of all sites of pd, as sites, and their triangulation. */
+static dyd_status centres_triangulate(dyd_sites **sites, dyd_delaunay **out, double *off, const dyd_delaunay *pd,
+                                      const dyd_tolerance_options *o, dyd_error *err) {
+  const dyd_sites *from = dyd_delaunay_sites(pd);
+  dyd_rect r;
+  dyd_rect_init(&r);
+  *off = 0;
+  dyd_status st = dyd_sites_new(sites);
+  for (size_t i = 0; i < dyd_sites_count(from) && st == DYD_OK; i++) {
+    st = dyd_sites_get(&r, from, dyd_sites_joined(from, i));
+    if (st == DYD_OK) st = rect_centre(&r, off, o->metric);
+    if (st == DYD_OK) st = dyd_sites_add_rect(*sites, &r);
+  }
+  dyd_rect_clear(&r);
+  const dyd_delaunay_options how = {DYD_SIZED(dyd_delaunay_options), .max_pairs = o->max_pairs, .cancel = o->cancel};
+  return st == DYD_OK ? dyd_delaunay_new(out, *sites, &how, err) : dyd_fail(err, st, "%s", dyd_status_text(st));
+}
+
+static double widened_down(double t, double off) {
+  return fmax(dyd_lower(t - off), 0);
+}
+
+static double widened_up(double t, double off) {
+  return dyd_upper(t + off);
+}
+
+/* Rows of the true points; those that a status leaves open, and births surely above up_to, go. *least: the least lo of
+ * the centres among rows that are no ties. */
+static void rows_widen(double *least, dyd_tolerance *t, double off, const dyd_delaunay *pd, double up_to) {
+  size_t kept = 0;
+  for (size_t k = 0; k < t->rows; k++) {
+    dyd_tolerance_row row = t->row[k];
+    dyd_pair_status status = dyd_delaunay_status(pd, row.i, row.j);
+    if (status == DYD_INDETERMINATE) continue;
+    if (status == DYD_TIE) continue; /* added below */
+    *least = fmin(*least, row.lo);
+    row.lo = widened_down(row.lo, off);
+    row.hi = widened_up(row.hi, off);
+    if (row.event == DYD_EVENT_BIRTH && row.lo > up_to) continue;
+    t->row[kept++] = row;
+  }
+  t->rows = kept;
+}
+
+static dyd_status rows_add_ties(dyd_tolerance *t, const dyd_delaunay *pd) {
+  dyd_pair_list pairs = {0};
+  dyd_status st = dyd_delaunay_pairs(&pairs, pd);
+  for (size_t k = 0; k < pairs.count && st == DYD_OK; k++) {
+    const dyd_pair *p = &pairs.item[k];
+    if (p->status == DYD_TIE)
+      st = dyd_row_add(t, (dyd_tolerance_row){p->i, p->j, DYD_EVENT_TIE, DYD_NO_SITE, DYD_NO_SITE, 0, 0});
+  }
+  dyd_pair_list_clear(&pairs);
+  return st;
+}
+
+static int compare_rows(const void *a, const void *b) {
+  const dyd_tolerance_row *r = a, *s = b;
+  return r->i != s->i ? (r->i > s->i) - (r->i < s->i) : (r->j > s->j) - (r->j < s->j);
+}
+
+/* Of the centres, so far. */
+static dyd_status tolerance_widen(double *least, dyd_tolerance *t, double off, const dyd_delaunay *pd, double up_to) {
+  size_t count[4];
+  dyd_delaunay_count(count, pd);
+  rows_widen(least, t, off, pd, up_to);
+  dyd_status st = count[DYD_TIE] ? rows_add_ties(t, pd) : DYD_OK;
+  if (st != DYD_OK) return st;
+  if (t->rows) qsort(t->row, t->rows, sizeof *t->row, compare_rows);
+  const bool ties = count[DYD_TIE] > 0;
+  dyd_tolerance_result *r = &t->result;
+  r->lo = t->lo = ties ? 0 : widened_down(r->lo, off);
+  r->hi = t->hi = ties ? 0 : widened_up(r->hi, off);
+  for (size_t i = 0; t->radius && i < dyd_sites_count(dyd_delaunay_sites(pd)); i++)
+    t->radius[i] = widened_down(t->radius[i], off);
+  return DYD_OK;
+}
+
+dyd_status dyd_tolerance_enclosing(dyd_tolerance **out, double *off, double *least, const dyd_delaunay *pd,
+                                   const dyd_tolerance_options *options, dyd_error *err) {
+  dyd_sites *sites = NULL;
+  dyd_delaunay *centres = NULL;
+  dyd_tolerance_options o = *options;
+  double up_to = HUGE_VAL;
+  mpq_t beyond;
+  mpq_init(beyond);
+  *least = HUGE_VAL;
+  *out = NULL;
+  dyd_status st = centres_triangulate(&sites, &centres, off, pd, &o, err);
+  if (st == DYD_OK && o.up_to && mpq_sgn(o.up_to) > 0 && *off < HUGE_VAL) {
+    up_to = dyd_upper(mpq_get_d(o.up_to));
+    mpq_set_d(beyond, *off);
+    mpq_add(beyond, beyond, o.up_to);
+    o.up_to = beyond;
+  }
+  if (st == DYD_OK) st = dyd_tolerance_new(out, centres, &o, err);
+  if (*out) {
+    (*out)->centres = centres;
+    (*out)->sites = sites;
+    dyd_status widened = tolerance_widen(least, *out, *off, pd, up_to);
+    if (widened == DYD_OK) {
+      mpq_clear(beyond);
+      return st;
+    }
+    dyd_tolerance_free(*out);
+    *out = NULL;
+    st = dyd_fail(err, widened, "%s", dyd_status_text(widened));
+  } else {
+    dyd_delaunay_free(centres);
+    dyd_sites_free(sites);
+  }
+  mpq_clear(beyond);
+  return st;
+}
