@@ -321,7 +321,12 @@ typedef struct dyd_write_options {
   bool lengths;     /* pairs and graphs of the plane: columns length_lo, length_hi, rounded outward */
   bool clip;        /* edges of the diagram: cut to the window, and omitted where they are certainly beyond it */
   const char *name; /* what the points are called, such as their file: the title of html; NULL: nothing */
+  /* Tiles in csv, wkt and geojson are cut to it (dyd_tiles_clip), one row for each site. NULL: they are not. */
+  const dyd_area *clip_to;
 } dyd_write_options;
+/* Reads an area: all polygons in well-known text, also in a table, or GeoJSON. Coordinates become the nearest doubles.
+ * What is no polygon, and edges that cross, are DYD_E_PARSE with line and column. *out is replaced; in is borrowed. */
+DYD_API dyd_status dyd_area_read(dyd_area *out, FILE *in, dyd_error *err);
 /* Is this such a label, whose names differ? */
 DYD_API bool dyd_label_fits(const char *label);
 

@@ -83,6 +83,7 @@ typedef struct cli_options {
   bool stats, quiet, version;
   bool comments; /* csv begins with lines of "# " */
   bool lengths, clip;
+  const char *clip_to;  /* file of an area */
   bool accept_fixpoint; /* exit status 0 instead of CLI_FIXPOINT */
   const char *help;     /* "" (--help), or the kind of --help=KIND */
 } cli_options;
@@ -189,6 +190,7 @@ typedef struct cli_diagram {
   dyd_voronoi_bounds bounds;
   size_t cut;        /* cells and regions that were not worked out */
   size_t coincident; /* points without a tile of their own */
+  dyd_area clip_to;  /* --clip-to */
 } cli_diagram;
 
 typedef struct cli_progress cli_progress;

@@ -190,13 +190,34 @@ static const cli_work *voronoi_instead(const cli_options *o) {
   return o->sphere ? &cli_sphere : NULL;
 }
 
+/* Reads the area that tiles are cut to; the window is the box around it, unless one is given. */
+static int voronoi_read_area(cli_session *s) {
+  dyd_area *a = &s->diagram->clip_to;
+  dyd_error err;
+  dyd_error_clear(&err);
+  FILE *in = cli_input_open(s->o.clip_to, "check the name of the file of polygons");
+  if (!in) return CLI_FAILED;
+  dyd_status st = dyd_area_read(a, in, &err);
+  cli_input_close(in);
+  if (st != DYD_OK) return cli_complain_at(s->o.clip_to, &err), CLI_FAILED;
+  double box[4] = {a->xy[0], a->xy[0], a->xy[1], a->xy[1]};
+  for (size_t k = 0; k < 2 * a->offset[a->rings]; k++) {
+    double *side = &box[2 * (k & 1)];
+    if (a->xy[k] < side[0]) side[0] = a->xy[k];
+    if (a->xy[k] > side[1]) side[1] = a->xy[k];
+  }
+  if (dyd_rect_set_d(&s->window, box[0], box[1], box[2], box[3]) != DYD_OK) return cli_complain_memory();
+  s->view = &s->window;
+  return 0;
+}
+
 static int voronoi_begin(cli_session *s) {
   s->diagram = s->state;
   dyd_voronoi_bounds_init(&s->diagram->bounds);
   s->o.engine.goal = cli_voronoi_goal(s->o.engine.goal);
   s->o.engine.window = &s->window;
   s->share = 0.75; /* the cells get some of the time, too */
-  if (!(s->o.max_arc > 0)) return 0;
+  if (!(s->o.max_arc > 0)) return s->o.clip_to ? voronoi_read_area(s) : 0;
   return cli_usage("--max-arc is about the globe; give --sphere or remove it");
 }
 
@@ -236,6 +257,7 @@ static dyd_status voronoi_write(FILE *out, const cli_session *s, dyd_error *err)
                                  .name = cli_points_name(&s->o),
                                  .cancel = cli_deadline_flag(),
                                  .clip = s->o.clip,
+                                 .clip_to = s->o.clip_to && s->o.content == DYD_CONTENT_TILES ? &r->clip_to : NULL,
                                  .cut = &r->cut,
                                  .coincident = &r->coincident,
                                  .comments = cli_comments(out, s),
@@ -263,6 +285,7 @@ static int voronoi_summary(cli_session *s, int status) {
 }
 
 static void voronoi_end(cli_session *s) {
+  dyd_area_clear(&s->diagram->clip_to);
   dyd_voronoi_bounds_clear(&s->diagram->bounds);
 }
 

@@ -413,6 +413,8 @@ static int meanings_fit(const cli_options *o, const cli_command *c) {
   if (o->sphere && o->plane) return cli_usage("--sphere and --plane contradict each other; remove one of them");
   if (o->clip && (o->sphere || !(o->all_layers || (o->layer && strcmp(o->layer, "edges") == 0))))
     return cli_usage("--clip is about edges in the plane; give --layer edges, or remove it");
+  if (o->clip_to && (o->sphere || !(o->all_layers || (o->layer && strcmp(o->layer, "tiles") == 0))))
+    return cli_usage("--clip-to cuts tiles in the plane; give --layer tiles, or remove it");
   if (o->sphere && o->lengths) return cli_usage("--length is about the plane; remove it or --sphere");
   if (!o->read.sigma_column || o->read.confidence || c == &cli_commands[CLI_TOLERANCE]) return 0;
   return cli_usage("--sigma-column alone gives no region; state the probability with which all points have to lie in "

@@ -296,6 +296,11 @@ const cli_option cli_option_table[] = {
      WORDS("EPSG:")},
     {"clip", 0, NULL, CLI_FLAG, BIT(CLI_VORONOI), CLI_OUTPUT,
      "--layer edges: cut edges to the window, and omit edges\nbeyond it", AT(clip)},
+    {"clip-to", 0, "FILE", CLI_SOURCE, BIT(CLI_VORONOI), CLI_OUTPUT,
+     "--layer tiles: cut tiles to the polygons of FILE, well-known\ntext or GeoJSON, with holes and islands; one row "
+     "for each\n"
+     "point, in csv, wkt, geojson; the default window is around\nthem",
+     AT(clip_to)},
     {"length", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY), CLI_OUTPUT,
      "rows of pairs and graphs have bounds of the length: columns\nlength_lo and length_hi", AT(lengths)},
     {"comments", 0, NULL, CLI_FLAG, READ & ~BIT(CLI_CHECK), CLI_OUTPUT,

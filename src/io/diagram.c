@@ -172,7 +172,8 @@ dyd_status dyd_diagram_cells(dyd_cells *out, const dyd_diagram *d) {
 }
 
 dyd_status dyd_diagram_tiles(dyd_tiles *out, const dyd_diagram *d, bool areas_only, dyd_error *err) {
-  dyd_status st = dyd_tiles_find(out, d->bounds, d->pd, &d->window, d->bits, areas_only, d->cancel);
+  dyd_status st = dyd_tiles_find(out, d->bounds, d->pd, &d->window, d->bits, areas_only && !d->clip_to, d->cancel);
+  if (st == DYD_OK && d->clip_to) st = dyd_tiles_clip(out, d->clip_to, d->cancel);
   if (st == DYD_OK && d->coincident) *d->coincident = out->coincident;
   if (st != DYD_E_RANGE) return st;
   return dyd_fail(
@@ -614,6 +615,7 @@ dyd_status dyd_diagram_init(dyd_diagram *d, const dyd_output *to, const dyd_writ
                      .cut = o->cut,
                      .coincident = o->coincident};
   d->count = dyd_sites_count(d->sites);
+  d->clip_to = o->clip_to;
   d->epsg = o->epsg;
   d->history = o->history;
   dyd_rect_init(&d->window);

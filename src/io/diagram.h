@@ -56,6 +56,7 @@ typedef struct dyd_diagram {
   const dyd_sites *sites;
   size_t count;
   dyd_rect window;
+  const dyd_area *clip_to;    /* of tiles; NULL: the window */
   unsigned epsg;              /* the reference system of the coordinates; 0: not known */
   const dyd_history *history; /* of the run; NULL: not known */
   int64_t bits;               /* polygons are within 2^-bits of their cells */

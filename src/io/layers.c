@@ -504,7 +504,10 @@ static dyd_status layer_comments(dyd_table *t, const dyd_output *o) {
 }
 
 dyd_status dyd_layer_write(const dyd_output *o) {
-  dyd_table t = {.layer = dyd_layer_of(o->content),
+  const dyd_layer *layer = dyd_layer_of(o->content);
+  bool cut = o->content == DYD_CONTENT_TILES && ((const dyd_diagram *)o->what)->clip_to;
+  dyd_table t = {.layer = layer,
+                 .geometry = cut ? DYD_GEOMETRY_POLYGONS : layer->geometry,
                  .engine = o->engine,
                  .sphere = o->sphere,
                  .lengths = o->lengths && !o->sphere,

@@ -29,9 +29,10 @@ static inline void table_put_short(dyd_table *t, const char *text) {
 
 /* ---- encoders ---- */
 
-/* How a kind of geometry is written. first, next: how its parts begin; none: the end without any part. */
+/* How a kind of geometry is written. first, next: how its parts begin; none: the end without any part; hole: how a hole
+ * begins. */
 typedef struct shape_words {
-  const char *name, *open, *close, *first, *next, *none;
+  const char *name, *open, *close, *first, *next, *none, *hole;
 } shape_words;
 
 /* A format of rows. */
@@ -112,19 +113,19 @@ static void geojson_tail(dyd_table *t) {
 }
 
 static const shape_words wkt_shapes[] = {
-    [DYD_GEOMETRY_POINT] = {"POINT", "(", ")", NULL, NULL, NULL},
-    [DYD_GEOMETRY_LINE] = {"LINESTRING", "(", ")", NULL, NULL, NULL},
-    [DYD_GEOMETRY_POLYGON] = {"POLYGON", "((", "))", NULL, NULL, NULL},
-    [DYD_GEOMETRY_LINES] = {"MULTILINESTRING", "", "))", "((", "), (", "EMPTY"},
-    [DYD_GEOMETRY_POLYGONS] = {"MULTIPOLYGON", "", ")))", "(((", ")), ((", "EMPTY"},
+    [DYD_GEOMETRY_POINT] = {"POINT", "(", ")", NULL, NULL, NULL, NULL},
+    [DYD_GEOMETRY_LINE] = {"LINESTRING", "(", ")", NULL, NULL, NULL, NULL},
+    [DYD_GEOMETRY_POLYGON] = {"POLYGON", "((", "))", NULL, NULL, NULL, NULL},
+    [DYD_GEOMETRY_LINES] = {"MULTILINESTRING", "", "))", "((", "), (", "EMPTY", NULL},
+    [DYD_GEOMETRY_POLYGONS] = {"MULTIPOLYGON", "", ")))", "(((", ")), ((", "EMPTY", "), ("},
 };
 
 static const shape_words geojson_shapes[] = {
-    [DYD_GEOMETRY_POINT] = {"Point", "", "", NULL, NULL, NULL},
-    [DYD_GEOMETRY_LINE] = {"LineString", "[", "]", NULL, NULL, NULL},
-    [DYD_GEOMETRY_POLYGON] = {"Polygon", "[[", "]]", NULL, NULL, NULL},
-    [DYD_GEOMETRY_LINES] = {"MultiLineString", "", "]]", "[[", "], [", "[]"},
-    [DYD_GEOMETRY_POLYGONS] = {"MultiPolygon", "", "]]]", "[[[", "]], [[", "[]"},
+    [DYD_GEOMETRY_POINT] = {"Point", "", "", NULL, NULL, NULL, NULL},
+    [DYD_GEOMETRY_LINE] = {"LineString", "[", "]", NULL, NULL, NULL, NULL},
+    [DYD_GEOMETRY_POLYGON] = {"Polygon", "[[", "]]", NULL, NULL, NULL, NULL},
+    [DYD_GEOMETRY_LINES] = {"MultiLineString", "", "]]", "[[", "], [", "[]", NULL},
+    [DYD_GEOMETRY_POLYGONS] = {"MultiPolygon", "", "]]]", "[[[", "]], [[", "[]", "], ["},
 };
 
 static const dyd_encoder encoders[] = {
@@ -174,7 +175,7 @@ void dyd_table_begin(dyd_table *t, const dyd_output *o, bool optional) {
       table_lead(t, name + (*name == '?'));
   table_lead(t, "max_coordinate_error");
   if (e->shape) {
-    const shape_words *shape = &e->shape[t->layer->geometry];
+    const shape_words *shape = &e->shape[t->geometry];
     t->begin.length = (size_t)snprintf(t->begin.text, sizeof t->begin.text, "%s%s%s%s", e->row[0], shape->name,
                                        e->row[1], shape->open);
   }
@@ -202,8 +203,14 @@ void dyd_row_begin(dyd_table *t) {
 
 void dyd_row_part(dyd_table *t) {
   if (!t->encode->shape) return;
-  const shape_words *shape = &t->encode->shape[t->layer->geometry];
+  const shape_words *shape = &t->encode->shape[t->geometry];
   table_put(t, t->parts++ ? shape->next : shape->first);
+  t->places = 0;
+}
+
+void dyd_row_hole(dyd_table *t) {
+  if (!t->encode->shape) return;
+  table_put(t, t->encode->shape[t->geometry].hole);
   t->places = 0;
 }
 
@@ -249,7 +256,7 @@ void dyd_row_spot(dyd_table *t, size_t i) {
 /* ---- values ---- */
 
 static void end_geometry(dyd_table *t) {
-  const shape_words *shape = &t->encode->shape[t->layer->geometry];
+  const shape_words *shape = &t->encode->shape[t->geometry];
   table_put_short(t, shape->none && !t->parts ? shape->none : shape->close);
 }
 

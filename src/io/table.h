@@ -80,6 +80,7 @@ enum { DYD_TABLE_COLUMNS = 32 };
 /* Invariant: lead[0 .. columns) are the texts before the values of the columns, the error included. */
 struct dyd_table {
   const dyd_layer *layer;           /* borrowed, as what follows */
+  dyd_geometry geometry;            /* that of the layer, or of tiles that are cut: polygons */
   const struct dyd_encoder *encode; /* table.c */
   const dyd_engine *engine;         /* whose rows and identifiers name sites */
   const dyd_sphere *sphere;         /* coordinates are degrees on it; NULL: a plane */
@@ -107,6 +108,8 @@ void dyd_row_begin(dyd_table *t);
 void dyd_row_end(dyd_table *t);
 /* Begins the next part of lines or polygons; without any the geometry is empty. */
 void dyd_row_part(dyd_table *t);
+/* Begins a hole of this part of polygons. */
+void dyd_row_hole(dyd_table *t);
 /* The next place of the geometry; a polygon repeats its first. */
 void dyd_row_place(dyd_table *t, const dyd_place *place);
 /* The same for the place of a box: x lower, x upper, y lower, y upper, finite. */

@@ -11,13 +11,16 @@ import os
 import random
 import re
 import sys
+import tempfile
 from fractions import Fraction
 
 from harness import expect, main, nearer_part, run
 
 try:
     import shapely.geometry
+    import shapely.ops
     import shapely.validation
+    import shapely.wkt
 except ImportError:
     print('skipped: shapely is not installed')
     sys.exit(77)
@@ -235,6 +238,117 @@ def test_few_points():
     assert [row['i'] for row, _ in rings] == ['1']
     said = run('voronoi', '-', '--layer', 'tiles', '--window=1e300,1.0000000000000003e300,0,1', stdin='0 0\n1 1\n')
     expect(said, 1, err='doubles are too coarse for tiles on this window')
+
+
+# ---- cut to an area ----
+
+def random_area(rng):
+    """Unions of squares, round ones with holes, hulls on a coarse grid: borders meet those of tiles, and each other."""
+    kind = rng.randrange(3)
+    box = shapely.geometry.box
+    if kind == 0:
+        squares = [box(x, y, x + rng.choice([1, 2]), y + 1) for x in range(5) for y in range(5) if rng.random() < .5]
+        return shapely.ops.unary_union(squares)
+    if kind == 1:
+        area = shapely.geometry.Point(rng.random() * 4, rng.random() * 4).buffer(rng.random() * 3 + .2, 6)
+        for _ in range(rng.randint(0, 3)):
+            area = area.difference(shapely.geometry.Point(rng.random() * 4, rng.random() * 4).buffer(rng.random(), 3))
+        return area
+    places = [(rng.randint(0, 8) / 2, rng.randint(0, 8) / 2) for _ in range(rng.randint(3, 6))]
+    return shapely.geometry.MultiPoint(places).convex_hull.difference(box(1, 1, 2, 2))
+
+
+def parts_of(text):
+    return {int(row['i']): (row, shapely.wkt.loads(row['WKT'])) for row in csv.DictReader(io.StringIO(text))}
+
+
+def exact_area(shape):
+    total = Fraction(0)
+    for part in getattr(shape, 'geoms', [shape]):
+        for ring, sign in [(part.exterior, 1)] + [(hole, -1) for hole in part.interiors]:
+            total += sign * abs(area2([(Fraction(x), Fraction(y)) for x, y in ring.coords[:-1]])) / 2
+    return total
+
+
+def one_area(rng, folder):
+    area = random_area(rng)
+    if area.is_empty or area.geom_type not in ('Polygon', 'MultiPolygon') or not area.is_valid:
+        return
+    kind, half = rng.randrange(3), lambda: rng.randint(0, 8) / 2
+    points = ([(x, y) for x in range(rng.randint(1, 5)) for y in range(rng.randint(1, 5))] if kind == 0 else
+              [(half(), half()) for _ in range(rng.randint(1, 12))] if kind == 1 else
+              [(rng.random() * 4, rng.random() * 4) for _ in range(rng.randint(1, 15))])
+    text = ''.join(f'{x!r} {y!r}\n' for x, y in points)
+    path = os.path.join(folder, 'area')
+    with open(path, 'w', encoding='utf-8') as out:
+        if rng.random() < .5:
+            out.write(shapely.wkt.dumps(area, rounding_precision=17))
+        else:
+            json.dump({'type': 'Feature', 'geometry': shapely.geometry.mapping(area)}, out)
+    x0, y0, x1, y1 = (0, 1, 3, 4) if rng.random() < .4 else area.bounds
+    view = '--window=' + ','.join(float(v).hex() for v in (x0, x1, y0, y1))
+    asked = ['voronoi', '--quiet', '--layer', 'tiles', '--format', 'wkt', view, '-']
+    what = f'{area.wkt} {points} {view}'
+    result = run(*asked[:-1], '--clip-to', path, '-', stdin=text)
+    assert result.code in (0, 3), f'{what}: {result.err}'
+    cut, whole = parts_of(result.out), parts_of(run(*asked, stdin=text).out)
+    seen = area.intersection(shapely.geometry.box(x0, y0, x1, y1))
+    assert abs(float(sum(exact_area(shape) for _, shape in cut.values())) - seen.area) < 1e-11, f'the sum: {what}'
+    for i, (row, shape) in cut.items():
+        assert shape.is_valid, f'{shapely.validation.explain_validity(shape)}: {what}'
+        low, certain, size, high = (float(row[name]) for name in ('area_lo', 'certain_area', 'area', 'area_hi'))
+        assert low == certain and low - 1e-9 <= size <= high + 1e-9 and high - low < 1e-8, f'{row}: {what}'
+        assert abs(size - shape.area) < 1e-11, f'{row}: {what}'
+    for i, (_, tile) in whole.items():
+        part = tile.intersection(area)
+        left = cut[i][1].symmetric_difference(part).area if i in cut else part.area
+        assert left < 1e-9, f'tile {i}: {what}'
+
+
+def test_clip_to():
+    rng = random.Random(SEED + 1)
+    with tempfile.TemporaryDirectory() as folder:
+        for _ in range(CASES // 10):
+            one_area(rng, folder)
+
+
+def test_clip_to_rectangles():
+    """What is certain of a part is at most the part of the inner polygon, and what is possible at least that of the outer."""
+    rng = random.Random(SEED + 2)
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'area')
+        for _ in range(CASES // 50):
+            area = shapely.geometry.Point(2, 2).buffer(1.7, 5).difference(shapely.geometry.box(1, 1, 2, 2))
+            with open(path, 'w', encoding='utf-8') as out:
+                out.write(area.wkt)
+            points = [(rng.random() * 4, rng.random() * 4) for _ in range(9)]
+            text = ''.join(f'{x!r} {y!r}\n' for x, y in points)
+            asked = ['voronoi', '--quiet', '--radius', '0.05', '--format', 'wkt']
+            cut = parts_of(run(*asked, '--layer', 'tiles', '--clip-to', path, '-', stdin=text).out)
+            true = cells([(Fraction(x), Fraction(y)) for x, y in points], [Fraction(v) for v in (0, 4, 0, 4)])
+            for i, ring in true.items():
+                part = shapely.geometry.Polygon([(float(x), float(y)) for x, y in ring]).intersection(area).area
+                low, high = (float(cut[i][0][name]) for name in ('area_lo', 'area_hi')) if i in cut else (0, 1e-9)
+                assert low - 1e-9 <= part <= high + 1e-9, f'{i} {points}'
+
+
+def test_areas_that_are_none():
+    three = '0 0\n1 1\n2 0\n'
+    for area, line in (('POLYGON ((0 0,\n 4 4, 4 0, 0 4, 0 0))', '1:11: the edge from (0, 0) on crosses or touches another'),
+                       ('POLYGON ((0 0, 1 1, 0 0))', '1:24: a ring of a polygon has at least three different vertices'),
+                       ('POLYGON ((0 0, 2 0, 2 2, x 2))', '1:26: a coordinate has to be here, a number'),
+                       ('POLYGON ((0 0, 2 0, 2 2', 'the polygon has no end here; a bracket is missing'),
+                       ('LINESTRING (0 0, 2 0)', 'a polygon has to be here, not a point or line'),
+                       ('{"type": "Point",\n"coordinates": [0, 0]}', 'a polygon has to be here, not a point or line'),
+                       ('1,2\n', 'there is no polygon; give well-known text')):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, 'area')
+            with open(path, 'w', encoding='utf-8') as out:
+                out.write(area)
+            result = run('voronoi', '--layer', 'tiles', '--clip-to', path, '-', stdin=three)
+            assert result.code == 1 and result.out == '' and line in result.err, (area, result)
+    expect(run('voronoi', '--clip-to', 'x', '-', stdin=three), 2, '', '--clip-to cuts tiles in the plane; give --layer tiles')
+    expect(run('voronoi', '--layer', 'tiles', '--clip-to', 'x', '-', stdin=three), 1, '', 'x')
 
 
 def test_formats():
