@@ -122,7 +122,7 @@ REFUSED = [
     ('--id name', '1 2\n', 2, r'--id is about columns; name those of x and y, too: --columns NAME,NAME$'),
     ('--radius-column r', '1 2\n', 2, r'--radius-column is about columns'),
     ('--delimiter ;', '1 2\n', 2, r'--delimiter is about columns'),
-    ('', 'id;x;y\na;1;2\n', 1, r'-:1:\d+: .* in place of \';\', or .*, name two of its columns: --columns X,Y; they are: id, x, y$'),
+    ('', 'id;x;y\na;1;2\n', 1, r'-:1:\d+: .* instead of \';\', or .*, name two of its columns: --columns X,Y; they are: id, x, y$'),
     ('', 'id\tx\ty\na\t1\t2\n', 1, r'-:1:6: .*; if this is CSV with a header, name two of its columns: --columns X,Y; they are: id, x, y$'),
     ('', '1 2\nNA 3\n', 1, r'-:2:1: the coordinate is missing \(NA\)'),
 ]

@@ -314,7 +314,7 @@ def test_refused():
         refuse(good[:1] + [changed(x=['1', '0'])], 'no rectangle')
         refuse(good[:1] + [changed(bits=None)], 'bits')
         refuse(good[:1] + [good[first], changed(x=['1000', '1001'])], 'not inside the one before')
-        refuse(good[:1] + [good[-1], good[first]], 'behind its outcome')
+        refuse(good[:1] + [good[-1], good[first]], 'after its outcome')
         f.write('bad', sealed('\n'.join(good[:1] + [changed(x=['5', '8'], y=['6', '8'])]) + '\n'))
         expect(f.run('delaunay', '--resume', 'bad', 'points.txt'), 1, err='point 0: .*nothing in common')
         expect(f.run('delaunay', '--resume', 'none', 'points.txt'), 1, err='none: cannot open')
