@@ -141,6 +141,8 @@ typedef struct dyd_engine_options {
   double seconds;      /* of this run; 0: no limit; wall clock */
   unsigned threads;    /* 0: one */
   bool no_filter;      /* exact rung only (tests) */
+  bool discs;          /* Voronoi goals, and rows of dyd_converge_run, are about the discs in the squares of sites
+                          (dyd_disc_pairs) */
   /* Called after each stage from the running thread; may be NULL. It may look at the engine (the functions below that
    * take it const) and cancel it, nothing else. */
   void (*progress)(void *user, const dyd_progress *p);

@@ -296,8 +296,10 @@ typedef struct dyd_write_options {
                                  DYD_E_ARG with pairs, and where it ends with other pairs than the result */
 
   const dyd_graph_list *graph; /* of a layer that is a graph: its edges (dyd_engine_graph); NULL: they are found */
-  const dyd_pair_list *pairs;  /* of the triangulation: written instead of its pairs, in csv, wkt, geojson and pictures;
-                                  NULL: none */
+  const dyd_pair_list *pairs;  /* dyd_disc_pairs of the result. Of the triangulation: written instead of its pairs, in
+                                  csv, wkt, geojson and pictures. Of the diagram: cells, bounds and edges are those of
+                                  the discs; vertices and regions those of the squares around them, which hold for discs,
+                                  too; json has no exact arcs. NULL: none */
   dyd_list_ties ties;
 
   int64_t flatten_bits;       /* of the diagram: polygons within 2^-flatten_bits of their cells */
@@ -378,7 +380,7 @@ typedef struct dyd_cells {
 } dyd_cells;
 DYD_API void dyd_cells_clear(dyd_cells *c);
 /* Sets *out to the rows that dyd_write gives of DYD_CONTENT_VORONOI in wkt. Of the options it takes window,
- * flatten_bits, flatten_set, bounds, cut and cancel. Errors and cost are those of dyd_write; on failure *out is
+ * pairs, flatten_bits, flatten_set, bounds, cut and cancel. Errors and cost are those of dyd_write; on failure *out is
  * unchanged. */
 DYD_API dyd_status dyd_voronoi_cells(dyd_cells *out, const dyd_engine *e, const dyd_write_options *o, dyd_error *err);
 

@@ -60,6 +60,10 @@ static int converge_begin(cli_session *s) {
                                                                                                       : "--until");
   else if (o->sphere && o->format == DYD_FORMAT_HTML)
     cli_complain("html is about the plane; remove it or --sphere");
+  else if (o->discs && is_piece(s))
+    cli_complain("--of %s is about rectangles; remove --discs", dyd_converge_of_text(o->of));
+  else if (o->discs && o->format == DYD_FORMAT_HTML)
+    cli_complain("html shows rectangles at every stage; remove --discs, or give csv or json");
   else
     return o->sphere ? cli_sphere_begin(s) : 0;
   return CLI_USAGE;
@@ -154,11 +158,24 @@ static void note_steps(const cli_session *s) {
            table->count, (long long)step, (long long)(bits / step + 1));
 }
 
+/* Statuses of the discs, after the last stage. */
+static int discs_summary(cli_session *s, int status) {
+  const dyd_stage_row *last = last_stage(s->state);
+  size_t open = last ? last->count[DYD_INDETERMINATE] + last->count[DYD_TIE] : 0;
+  if (!status && open) {
+    status = cli_exit_status(s->outcome);
+    if (status && !s->o.quiet) cli_note_pairs(s, s->outcome, last->count, NULL);
+  }
+  cli_session_stats(s, NULL);
+  return status;
+}
+
 static int converge_summary(cli_session *s, int status) {
   note_steps(s);
   if (s->sphere) return cli_sphere_summary(s, status);
   if (is_piece(s)) return status ? status : cli_pieces_outcome(s);
-  return cli_pairs_summary(s, status ? status : note_cut(s));
+  if (!status) status = note_cut(s);
+  return s->o.discs && s->o.engine.goal == DYD_GOAL_DECIDED ? discs_summary(s, status) : cli_pairs_summary(s, status);
 }
 
 static void converge_end(cli_session *s) {

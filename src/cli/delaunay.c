@@ -117,8 +117,9 @@ const cli_work cli_delaunay = {.size = sizeof(dyd_graph_list),
                                .summary = delaunay_summary,
                                .end = delaunay_end};
 
-/* ---- delaunay --discs ---- */
+/* ---- --discs ---- */
 
+/* The first member of what a command keeps that takes --discs. */
 typedef struct disc_result {
   dyd_pair_list pairs;
   bool cut; /* not all pairs were reached */
@@ -134,18 +135,21 @@ static dyd_status run_discs(cli_session *s, const dyd_engine_options *options, d
   return st < 0 ? st : DYD_OK;
 }
 
-static int disc_pairs_find(cli_session *s) {
+static int find_discs(cli_session *s) {
   disc_result *r = s->state;
-  int status = pairs_find(s);
-  s->known = s->known && !status;
-  if (!s->known) return status;
   cli_progress_phase(s->progress, "the discs");
-  status = cli_session_run(s, &s->o.engine, run_discs);
+  int status = cli_session_run(s, &s->o.engine, run_discs);
   s->known = !status;
   if (status) return status;
   s->discs = &r->pairs;
   if (r->cut && !cli_deadline_passed()) s->o.certificate = NULL;
   return 0;
+}
+
+static int disc_pairs_find(cli_session *s) {
+  int status = pairs_find(s);
+  s->known = s->known && !status;
+  return s->known ? find_discs(s) : status;
 }
 
 /* Counts pairs by status. */
@@ -186,6 +190,11 @@ static const cli_work work_discs = {.size = sizeof(disc_result),
 
 /* ---- voronoi ---- */
 
+typedef struct voronoi_result {
+  disc_result discs;
+  cli_diagram diagram;
+} voronoi_result;
+
 static const cli_work *voronoi_instead(const cli_options *o) {
   return o->sphere ? &cli_sphere : NULL;
 }
@@ -212,11 +221,13 @@ static int voronoi_read_area(cli_session *s) {
 }
 
 static int voronoi_begin(cli_session *s) {
-  s->diagram = s->state;
+  s->diagram = &((voronoi_result *)s->state)->diagram;
   dyd_voronoi_bounds_init(&s->diagram->bounds);
   s->o.engine.goal = cli_voronoi_goal(s->o.engine.goal);
   s->o.engine.window = &s->window;
   s->share = 0.75; /* the cells get some of the time, too */
+  if (s->o.discs && s->o.certificate)
+    return cli_usage("no certificate proves cells of discs; remove --certificate or --discs");
   if (!(s->o.max_arc > 0)) return s->o.clip_to ? voronoi_read_area(s) : 0;
   return cli_usage("--max-arc is about the globe; give --sphere or remove it");
 }
@@ -243,7 +254,7 @@ static int voronoi_find(cli_session *s) {
     cli_complain("neighbours are missing, so no diagram is written: %s", cli_outcome_advice(s->engine));
   else if (!pd && !status)
     cli_session_lacks(s, s->outcome, "the first triangulation was complete");
-  return status;
+  return s->known && !status && s->o.discs ? find_discs(s) : status;
 }
 
 static dyd_status voronoi_write(FILE *out, const cli_session *s, dyd_error *err) {
@@ -252,6 +263,7 @@ static dyd_status voronoi_write(FILE *out, const cli_session *s, dyd_error *err)
                                  .flatten_bits = s->o.flatten_bits,
                                  .flatten_set = s->o.flatten_set,
                                  .window = s->o.engine.window,
+                                 .pairs = s->discs,
                                  .bounds = &r->bounds,
                                  .epsg = s->o.epsg,
                                  .name = cli_points_name(&s->o),
@@ -261,7 +273,7 @@ static dyd_status voronoi_write(FILE *out, const cli_session *s, dyd_error *err)
                                  .cut = &r->cut,
                                  .coincident = &r->coincident,
                                  .comments = cli_comments(out, s),
-                                 .history = s->history};
+                                 .history = s->discs ? NULL : s->history};
   return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
 }
 
@@ -281,15 +293,17 @@ static int voronoi_summary(cli_session *s, int status) {
                r->coincident);
     if (r->cut && !status) status = CLI_BUDGET;
   }
-  return cli_pairs_summary(s, status);
+  return s->discs && s->o.engine.goal == DYD_GOAL_DECIDED ? disc_pairs_summary(s, status)
+                                                          : cli_pairs_summary(s, status);
 }
 
 static void voronoi_end(cli_session *s) {
   dyd_area_clear(&s->diagram->clip_to);
+  disc_pairs_end(s);
   dyd_voronoi_bounds_clear(&s->diagram->bounds);
 }
 
-const cli_work cli_voronoi = {.size = sizeof(cli_diagram),
+const cli_work cli_voronoi = {.size = sizeof(voronoi_result),
                               .instead = voronoi_instead,
                               .begin = voronoi_begin,
                               .find = voronoi_find,

@@ -593,7 +593,7 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   if (!c) return unknown_command(s.operand[0]);
   out->command = c->name;
   if (out->help || out->version) return 0;
-  out->read.round = out->discs;
+  out->read.round = out->engine.discs = out->discs;
   status = options_fit(out, s.seen, c);
   if (!status) status = layer_fits(out, c);
   if (!status) status = format_from_output(out, c);

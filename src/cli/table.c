@@ -171,8 +171,11 @@ const cli_option cli_option_table[] = {
      "decimals are rounded measurements: 47.61 is [47.605,47.615]", AT(read.measured)},
     {"radius", 0, "R", CLI_TEXT, TEXT & ~BIT(CLI_TOLERANCE), CLI_INPUT, "widen every point by R on each side",
      AT(read.radius)},
-    {"discs", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY) | BIT(CLI_NEAREST) | BIT(CLI_PLAN) | BIT(CLI_VERIFY), CLI_INPUT,
+    {"discs", 0, NULL, CLI_FLAG,
+     BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_NEAREST) | BIT(CLI_PLAN) | BIT(CLI_VERIFY),
+     CLI_INPUT,
      "radii are those of discs, not of squares around them:\nfewer pairs stay indeterminate; plan: for pairs that do;\n"
+     "voronoi, converge: cells of discs, bounded by hyperbolas;\n"
      "verify: the discs of FILE have to be those of the certificate",
      AT(discs)},
     {"sphere", 0, NULL, CLI_FLAG, GLOBE, CLI_INPUT,

@@ -32,6 +32,8 @@ uint64_t dyd_triangles_bytes(const dyd_delaunay *pd);
  * callers have seen to the memory, as runs have. */
 dyd_status dyd_pairs_take(dyd_pair_list *out, const dyd_delaunay *pd, dyd_pair_status least);
 dyd_status dyd_pairs_list(dyd_pair_list *out, const dyd_delaunay *pd, dyd_pair_status least);
+/* Counts the pairs of the list by status; NULL: those of pd. */
+void dyd_pairs_count(size_t count[4], const dyd_pair_list *list, const dyd_delaunay *pd);
 /* The partners of each of n sites: partner[start[i] .. start[i + 1] - 1], ascending where the pairs are sorted. Both
  * are owned by the caller, whatever it returns. */
 dyd_status dyd_pairs_deal(size_t **start, uint32_t **partner, const dyd_pair_list *l, size_t n);

@@ -235,6 +235,15 @@ void dyd_delaunay_count(size_t count[4], const dyd_delaunay *pd) {
   dyd_open_count(count, pd);
 }
 
+void dyd_pairs_count(size_t count[4], const dyd_pair_list *list, const dyd_delaunay *pd) {
+  if (!list) {
+    dyd_delaunay_count(count, pd);
+    return;
+  }
+  for (int k = 0; k < 4; k++) count[k] = 0;
+  for (size_t k = 0; k < list->count; k++) count[list->item[k].status]++;
+}
+
 /* ---- index lists ---- */
 
 typedef struct collector {

@@ -10,11 +10,13 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/flag.h"
+#include "delaunay/memory.h"
 #include "engine/goal_voronoi.h"
 #include "engine/record.h"
 #include "metric/bounds.h"
 #include <dyadel/metric.h>
 #include <dyadel/predicate.h>
+#include <dyadel/tolerance.h>
 
 #include <math.h>
 
@@ -134,9 +136,10 @@ static dyd_status measure_widths(dyd_stage_row *row, const dyd_sites *sites, siz
 /* ---- a row ---- */
 
 /* A capped result has no bounds, nor has one for which no time is left, which is no failure. */
-static dyd_status measure_bounds(dyd_stage_row *row, const dyd_delaunay *pd, const volatile int *cancel) {
-  dyd_status st = dyd_flag_is_set(cancel) ? DYD_CANCELLED : dyd_metric_area(&row->area, pd);
-  if (st == DYD_OK) st = dyd_flag_is_set(cancel) ? DYD_CANCELLED : dyd_metric_hausdorff(&row->hausdorff, pd);
+static dyd_status measure_bounds(dyd_stage_row *row, const dyd_delaunay *pd, const dyd_pair_list *discs,
+                                 const volatile int *cancel) {
+  dyd_status st = dyd_flag_is_set(cancel) ? DYD_CANCELLED : dyd_metric_bound(&row->area, pd, discs, true);
+  if (st == DYD_OK) st = dyd_flag_is_set(cancel) ? DYD_CANCELLED : dyd_metric_bound(&row->hausdorff, pd, discs, false);
   row->bounded = st == DYD_OK;
   return st == DYD_CAPPED || st == DYD_CANCELLED ? DYD_OK : st;
 }
@@ -172,18 +175,18 @@ static int64_t row_flattening(const dyd_stage_row *row) {
  * more than the polygons then, and arcs could take 2^(fine / 2) points. A step that needs more than CORNERS for one
  * polygon is not taken: scales are far apart. */
 static dyd_status find_voronoi(dyd_voronoi_bounds *b, const dyd_delaunay *pd, const dyd_rect *window, int64_t fine,
-                               const volatile int *cancel) {
+                               bool discs, const volatile int *cancel) {
   enum { PLAIN = 16, FIRST_STEP = 6, CORNERS = 1 << 14 };
   int64_t bits = dyd_metric_coarseness(pd, window) + PLAIN, step = FIRST_STEP;
   bool helps = true;
   dyd_dyadic old;
   dyd_dyadic_init(&old);
-  dyd_status st = dyd_voronoi_bounds_within(b, pd, window, bits < fine ? bits : fine, CORNERS, cancel);
+  dyd_status st = dyd_voronoi_bounds_within(b, pd, window, bits < fine ? bits : fine, CORNERS, discs, cancel);
   dyd_voronoi_bounds finer;
   dyd_voronoi_bounds_init(&finer);
   for (; bits < fine && helps && st == DYD_OK; step *= 2) {
     bits = fine - bits < step ? fine : bits + step;
-    st = dyd_voronoi_bounds_within(&finer, pd, window, bits, CORNERS, cancel);
+    st = dyd_voronoi_bounds_within(&finer, pd, window, bits, CORNERS, discs, cancel);
     helps = st == DYD_OK;
     if (st == DYD_E_RANGE) st = DYD_OK;
     if (!helps) continue;
@@ -200,11 +203,11 @@ static dyd_status find_voronoi(dyd_voronoi_bounds *b, const dyd_delaunay *pd, co
 }
 
 /* Bounds that cannot be had (a capped result, rectangles that all meet, numbers out of range, no time) are omitted. */
-static dyd_status measure_voronoi(dyd_stage_row *row, const dyd_convergence *out, const dyd_delaunay *pd,
+static dyd_status measure_voronoi(dyd_stage_row *row, const dyd_convergence *out, const dyd_delaunay *pd, bool discs,
                                   const volatile int *cancel) {
   dyd_voronoi_bounds b;
   dyd_voronoi_bounds_init(&b);
-  dyd_status st = find_voronoi(&b, pd, out->window, row_flattening(row), cancel);
+  dyd_status st = find_voronoi(&b, pd, out->window, row_flattening(row), discs, cancel);
   row->voronoi = st == DYD_OK && b.finite;
   if (row->voronoi) {
     dyd_dyadic_swap(&row->v_area, &b.area);
@@ -224,18 +227,31 @@ static dyd_status row_count_others(dyd_stage_row *row, const dyd_converge_option
   return st;
 }
 
-static dyd_status row_measure(dyd_stage_row *row, const dyd_delaunay *pd, const dyd_converge_options *o) {
-  if (!o->pairs) dyd_delaunay_count(row->count, pd);
+/* discs: their statuses; NULL: those of rectangles. */
+static dyd_status row_measure(dyd_stage_row *row, const dyd_delaunay *pd, const dyd_pair_list *discs,
+                              const dyd_converge_options *o) {
+  if (!o->pairs) dyd_pairs_count(row->count, discs, pd);
   row->undecided_faces = dyd_delaunay_undecided_faces(pd);
   dyd_status st = dyd_delaunay_get_counters(&row->rungs, pd, NULL);
-  if (st == DYD_OK) st = o->pairs ? row_count_others(row, o) : dyd_digest_pairs(&row->digest, pd);
+  if (st == DYD_OK && discs) row->digest = dyd_digest_list(discs);
+  if (st == DYD_OK && o->pairs) st = row_count_others(row, o);
+  if (st == DYD_OK && !o->pairs && !discs) st = dyd_digest_pairs(&row->digest, pd);
   if (st == DYD_OK) st = measure_widths(row, dyd_delaunay_sites(pd), dyd_sites_count(dyd_delaunay_sites(pd)));
-  if (st == DYD_OK && !o->pairs) st = measure_bounds(row, pd, o->cancel);
+  if (st == DYD_OK && !o->pairs) st = measure_bounds(row, pd, discs, o->cancel);
+  return st;
+}
+
+/* Statuses of discs that were not reached in time are those of squares, which hold. */
+static dyd_status row_discs(dyd_stage_row *row, const dyd_delaunay *pd, const dyd_converge_options *o, dyd_error *err) {
+  dyd_pair_list discs = {0};
+  dyd_status st = dyd_disc_pairs(&discs, pd, o->cancel, err);
+  if (st >= 0) st = row_measure(row, pd, &discs, o);
+  dyd_pair_list_clear(&discs);
   return st;
 }
 
 dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const dyd_delaunay *pd,
-                               const dyd_converge_options *converge, dyd_error *err) {
+                               const dyd_converge_options *converge, bool discs, dyd_error *err) {
   dyd_converge_options o;
   dyd_status st = dyd_abi_check(out, sizeof *out, "dyd_convergence", err);
   if (st == DYD_OK) st = dyd_abi_take(&o, sizeof o, converge, "dyd_converge_options", err);
@@ -243,12 +259,12 @@ dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const 
   dyd_stage_row *r = row_new(out);
   if (!r) return dyd_fail_nomem(err);
   out->of = o.of;
-  st = row_measure(r, pd, &o);
+  st = discs ? row_discs(r, pd, &o, err) : row_measure(r, pd, NULL, &o);
   if (st == DYD_OK && o.of == DYD_CONVERGE_VORONOI) st = convergence_set_window(out, dyd_delaunay_sites(pd), o.window);
-  if (st == DYD_OK && out->window) st = measure_voronoi(r, out, pd, o.cancel);
+  if (st == DYD_OK && out->window) st = measure_voronoi(r, out, pd, discs, o.cancel);
   if (st != DYD_OK) {
     row_free(r);
-    return dyd_fail(err, st, "%s", dyd_status_text(st));
+    return err && err->code == st ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
   }
   out->row[out->count++] = *row = r;
   return DYD_OK;
@@ -275,13 +291,15 @@ typedef struct recorder {
   const dyd_converge_options *converge; /* of this library's size */
   dyd_status failed;                    /* of the table, not of the run */
   double begun;
+  dyd_error why;
 } recorder;
 
 static dyd_status recorder_add_row(recorder *r, const dyd_progress *p) {
   dyd_stage_row *row;
   const dyd_delaunay *pd = dyd_engine_delaunay(r->e);
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
-  dyd_status st = dyd_convergence_add(&row, r->out, pd, r->converge, NULL);
+  dyd_error_clear(&r->why);
+  dyd_status st = dyd_convergence_add(&row, r->out, pd, r->converge, r->o->discs, &r->why);
   if (st == DYD_OK) st = dyd_engine_get_counters(&c, r->e, NULL);
   if (st != DYD_OK) return st;
   row->stage = p->stage;
@@ -368,7 +386,7 @@ static dyd_status piece_bisector(dyd_stage_row *row, const piece_run *p) {
   for (size_t k = 0; k < 2 && st == DYD_OK; k++) st = dyd_sites_add_rect(two, &p->rect[k]);
   if (st == DYD_OK) st = convergence_set_window(out, two, p->r->o->window ? p->r->o->window : p->r->converge->window);
   if (st == DYD_OK && out->window) st = dyd_delaunay_new(&pd, two, NULL, NULL);
-  if (st == DYD_OK && pd) st = measure_voronoi(row, out, pd, p->r->converge->cancel);
+  if (st == DYD_OK && pd) st = measure_voronoi(row, out, pd, false, p->r->converge->cancel);
   row->bounded = row->voronoi;
   row->voronoi = false;
   dyd_dyadic_swap(&row->area, &row->v_area);
@@ -500,6 +518,7 @@ dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engin
   if (c.of >= DYD_CONVERGE_DISC) return converge_piece(&r, &given, err);
   st = dyd_goal_is_voronoi(o.goal) && !o.window ? converge_run_on_default(&r, &o, err)
                                                 : dyd_engine_run(&out->outcome, e, &o, err);
-  if (st == DYD_OK && r.failed != DYD_OK) return dyd_fail(err, r.failed, "%s", dyd_status_text(r.failed));
-  return st;
+  if (st != DYD_OK || r.failed == DYD_OK) return st;
+  if (err && r.why.code == r.failed) *err = r.why;
+  return r.why.code == r.failed ? r.failed : dyd_fail(err, r.failed, "%s", dyd_status_text(r.failed));
 }

@@ -40,6 +40,7 @@ static dyd_status goal_find_sums(dyd_voronoi_sums **sums, const dyd_engine *e, c
   if (!*sums) return DYD_E_NOMEM;
   dyd_status st = dyd_voronoi_sums_init(*sums, e->pd, o->window, bits);
   (*sums)->most = goal_most(o);
+  (*sums)->discs = o->discs;
   (*sums)->cancel = &e->stop;
   if (st == DYD_OK) st = dyd_voronoi_sums_all(*sums, NULL, NULL);
   if (e->room && (*sums)->room.refused) {

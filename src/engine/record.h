@@ -60,9 +60,9 @@ static inline size_t dyd_history_boxes_end(const dyd_history *h, size_t stage) {
   return stage + 1 < h->stages ? h->box_begin[stage + 1] : h->boxes;
 }
 
-/* Appends a row about pd: everything that pd tells. stage is one more than that of the row before; the caller fills in
- * bits, calls and seconds. *row is borrowed until out is cleared. */
+/* Appends a row about pd: everything that pd tells; discs: of the discs in its squares. stage is one more than that of
+ * the row before; the caller fills in bits, calls and seconds. *row is borrowed until out is cleared. */
 dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const dyd_delaunay *pd,
-                               const dyd_converge_options *converge, dyd_error *err);
+                               const dyd_converge_options *converge, bool discs, dyd_error *err);
 
 #endif

@@ -74,6 +74,7 @@ dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *c
   *d->cut = 0;
   sums.cancel = d->cancel;
   sums.cut = d->cut;
+  sums.discs = d->discs;
   sums.room.beside = d->room->beside;
   if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, visit_cell, &v);
   if (st == DYD_OK) st = dyd_voronoi_sums_bounds(d->bounds, &sums);
@@ -172,7 +173,8 @@ dyd_status dyd_diagram_cells(dyd_cells *out, const dyd_diagram *d) {
 }
 
 dyd_status dyd_diagram_tiles(dyd_tiles *out, const dyd_diagram *d, bool areas_only, dyd_error *err) {
-  dyd_status st = dyd_tiles_find(out, d->bounds, d->pd, &d->window, d->bits, areas_only && !d->clip_to, d->cancel);
+  dyd_status st =
+      dyd_tiles_find(out, d->bounds, d->pd, &d->window, d->bits, areas_only && !d->clip_to, d->discs, d->cancel);
   if (st == DYD_OK && d->clip_to) st = dyd_tiles_clip(out, d->clip_to, d->cancel);
   if (st == DYD_OK && d->coincident) *d->coincident = out->coincident;
   if (st != DYD_E_RANGE) return st;
@@ -393,34 +395,36 @@ static dyd_status dual_join_rays(dyd_dual_edge *edge, size_t count, const dyd_de
   return st;
 }
 
-dyd_status dyd_dual_edges(dyd_dual_edge **out, size_t *count, const dyd_delaunay *pd,
-                          const dyd_triangle_list *triangles, const size_t *tied, size_t ties, dyd_room *room) {
+static dyd_status legal_pairs(dyd_dual_edge **out, size_t *count, const dyd_pair_list *pairs) {
+  *count = 0;
+  *out = calloc(pairs->count ? pairs->count : 1, sizeof **out);
+  for (size_t k = 0; *out && k < pairs->count; k++)
+    if (pairs->item[k].status == DYD_LEGAL)
+      (*out)[(*count)++] = (dyd_dual_edge){.i = pairs->item[k].i, .j = pairs->item[k].j};
+  return *out ? DYD_OK : DYD_E_NOMEM;
+}
+
+dyd_status dyd_diagram_edges(dyd_dual_edge **out, size_t *count, const dyd_diagram *d) {
   dyd_pair_list pairs = {0};
-  size_t legal = 0;
-  uint64_t bytes = dyd_pairs_bytes(pd, DYD_LEGAL),
-           edges = dyd_bytes_times(bytes / sizeof(dyd_pair), sizeof(dyd_dual_edge));
-  if (!dyd_room_has(room, dyd_bytes_add(bytes, edges), "the edges of the diagram")) return DYD_E_NOMEM;
-  dyd_status st = dyd_pairs_take(&pairs, pd, DYD_LEGAL);
-  dyd_dual_edge *edge = st == DYD_OK ? calloc(pairs.count ? pairs.count : 1, sizeof *edge) : NULL;
-  if (st == DYD_OK && !edge) st = DYD_E_NOMEM;
-  for (; st == DYD_OK && legal < pairs.count; legal++) {
-    edge[legal].i = pairs.item[legal].i;
-    edge[legal].j = pairs.item[legal].j;
-  }
+  dyd_dual_edge *edge = NULL;
+  uint64_t bytes = d->discs ? 0 : dyd_pairs_bytes(d->pd, DYD_LEGAL),
+           most = d->discs ? d->discs->count : bytes / sizeof(dyd_pair);
+  if (!dyd_room_has(d->room, dyd_bytes_add(bytes, dyd_bytes_times(most, sizeof *edge)), "the edges of the diagram"))
+    return DYD_E_NOMEM;
+  dyd_status st = d->discs ? DYD_OK : dyd_pairs_take(&pairs, d->pd, DYD_LEGAL);
+  if (st == DYD_OK) st = legal_pairs(&edge, count, d->discs ? d->discs : &pairs);
   dyd_pair_list_clear(&pairs);
   if (st == DYD_OK) {
-    dual_join_triangles(edge, legal, triangles);
-    const dual_ties all = {.tied = tied, .count = ties, .first = triangles->count};
-    for (size_t k = 0; k < legal; k++) dual_join_ties(&edge[k], pd, &all);
-    st = dual_join_rays(edge, legal, pd);
+    dual_join_triangles(edge, *count, &d->triangles);
+    const dual_ties all = {.tied = d->tied, .count = d->ties, .first = d->triangles.count};
+    for (size_t k = 0; k < *count; k++) dual_join_ties(&edge[k], d->pd, &all);
+    st = dual_join_rays(edge, *count, d->pd);
   }
-  if (st != DYD_OK) {
+  if (st == DYD_OK)
+    *out = edge;
+  else
     free(edge);
-    return st;
-  }
-  *out = edge;
-  *count = legal;
-  return DYD_OK;
+  return st;
 }
 
 /* ---- where edges are drawn ---- */
@@ -527,7 +531,7 @@ dyd_status dyd_diagram_frame(dyd_frame *out, const dyd_diagram *d) {
   frame_maker m = {.out = out, .d = d};
   dyd_dual_edge *edge = NULL;
   size_t count = 0;
-  dyd_status st = dyd_dual_edges(&edge, &count, d->pd, &d->triangles, d->tied, d->ties, d->room);
+  dyd_status st = dyd_diagram_edges(&edge, &count, d);
   if (st == DYD_OK) out->edge = dyd_alloc(count, sizeof *out->edge);
   if (st == DYD_OK && !out->edge) st = DYD_E_NOMEM;
   for (size_t k = 0; k < count && st == DYD_OK; k++) st = frame_add_ends(&m, &edge[k]);
@@ -560,7 +564,7 @@ static dyd_status finer_helps(bool *out, const dyd_diagram *d, int64_t bits, int
   dyd_status st = DYD_OK;
   for (int k = 0; k < 2; k++) dyd_voronoi_bounds_init(&b[k]);
   for (int k = 0; k < 2 && st == DYD_OK; k++)
-    st = dyd_metric_voronoi(&b[k], d->pd, &d->window, bits + (k ? step : 0), d->cancel);
+    st = dyd_voronoi_bounds_within(&b[k], d->pd, &d->window, bits + (k ? step : 0), 0, d->discs, d->cancel);
   if (st == DYD_OK) st = dyd_dyadic_add(&b[1].area, &b[1].area, &b[1].area);
   *out = st == DYD_OK && dyd_dyadic_cmp(&b[1].area, &b[0].area) < 0;
   for (int k = 2; k-- > 0;) dyd_voronoi_bounds_clear(&b[k]);
@@ -576,7 +580,7 @@ static dyd_status coarsen_flattening(dyd_diagram *d) {
   while (st == DYD_E_RANGE && d->bits > least) {
     dyd_voronoi_bounds b;
     dyd_voronoi_bounds_init(&b);
-    st = dyd_metric_voronoi(&b, d->pd, &d->window, d->bits, d->cancel);
+    st = dyd_voronoi_bounds_within(&b, d->pd, &d->window, d->bits, 0, d->discs, d->cancel);
     dyd_voronoi_bounds_clear(&b);
     if (st == DYD_E_RANGE) d->bits -= COARSER;
   }
@@ -610,6 +614,7 @@ dyd_status dyd_diagram_init(dyd_diagram *d, const dyd_output *to, const dyd_writ
                      .pd = pd,
                      .sites = dyd_delaunay_sites(pd),
                      .bounds = o->bounds,
+                     .discs = o->pairs,
                      .cancel = o->cancel,
                      .room = room,
                      .cut = o->cut,

@@ -30,11 +30,6 @@ typedef struct dyd_dual_edge {
 /* Position of the face in the ascending list of tied faces; NULL: it is not tied. */
 const size_t *dyd_dual_tied(const size_t *tied, size_t ties, size_t face);
 
-/* tied: faces of pd whose sites are on one circle, ascending. *out is new, sorted by i and j; release with free().
- * DYD_E_NOMEM, too, when *room has none. */
-dyd_status dyd_dual_edges(dyd_dual_edge **out, size_t *count, const dyd_delaunay *pd,
-                          const dyd_triangle_list *triangles, const size_t *tied, size_t ties, dyd_room *room);
-
 /* ---- the diagram ---- */
 
 /* One cell: bounds of its areas in W and the box of Pos_i n W, all rounded outward. Invariant: present = Pos_i may meet
@@ -54,6 +49,7 @@ typedef struct dyd_diagram {
   const dyd_engine *engine;
   const dyd_delaunay *pd;
   const dyd_sites *sites;
+  const dyd_pair_list *discs; /* statuses of discs, whose cells are written; NULL: those of rectangles */
   size_t count;
   dyd_rect window;
   const dyd_area *clip_to;    /* of tiles; NULL: the window */
@@ -98,6 +94,10 @@ dyd_status dyd_diagram_tiles(dyd_tiles *out, const dyd_diagram *d, bool areas_on
  * are none. */
 typedef dyd_status (*dyd_region_visit)(void *context, size_t face, const double box[4]);
 dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, void *context);
+
+/* The sure edges: of pairs that are legal for the discs, if there are such; *out is new, sorted by i and j; release
+ * with free(). DYD_E_NOMEM, too, when d->room has none. */
+dyd_status dyd_diagram_edges(dyd_dual_edge **out, size_t *count, const dyd_diagram *d);
 
 /* Vertices: of sure triangles, then of tied faces. */
 static inline size_t dyd_diagram_vertices(const dyd_diagram *d) {

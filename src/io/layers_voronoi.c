@@ -320,7 +320,7 @@ dyd_status dyd_edge_rows(dyd_table *t, const dyd_output *o) {
   double window[4];
   dyd_rect_get_d(window, &d->window);
   dyd_status st = find_bounds(t, d);
-  if (st == DYD_OK) st = dyd_dual_edges(&edge, &count, d->pd, &d->triangles, d->tied, d->ties, d->room);
+  if (st == DYD_OK) st = dyd_diagram_edges(&edge, &count, d);
   for (size_t k = 0; k < count && st == DYD_OK; k++) {
     double box[2][4];
     bool drawn = dyd_diagram_edge(box, d, &edge[k]);

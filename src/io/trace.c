@@ -663,7 +663,7 @@ static dyd_status replay_stage(replay *r, const json_t *line) {
   dyd_status st = replay_triangulate(r, &o);
   if (st != DYD_OK) return st;
   r->changes = 0;
-  st = dyd_convergence_add(&row, r->out, r->pd, &r->converge, r->err);
+  st = dyd_convergence_add(&row, r->out, r->pd, &r->converge, false, r->err);
   if (st != DYD_OK) return st;
   replay_count_bits(row, r);
   if (r->converge.stage) r->converge.stage(r->converge.stage_user, row, r->pd);

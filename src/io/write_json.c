@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The json format: everything that is stated of a triangulation, a Voronoi diagram, tolerances; of a plane or a sphere.
  * It is written piece by piece, so that memory stays small. */
+#include "delaunay/memory.h"
 #include "io/diagram.h"
 #include "io/geodesic.h"
 #include "io/json.h"
@@ -261,8 +262,7 @@ static dyd_status cell_json(void *context, uint32_t i, const dyd_shape *shape, c
   dyd_json_break(j, ",\n");
   exact_json(j, c->d, i, row);
   if (j->st == DYD_OK) polygons_json(j, shape);
-  if (j->st == DYD_OK) region_boundary_json(c, i, false);
-  if (j->st == DYD_OK) region_boundary_json(c, i, true);
+  for (int outer = 0; outer < 2 && j->st == DYD_OK && !c->d->discs; outer++) region_boundary_json(c, i, outer);
   dyd_json_close(j, 1);
   return j->st;
 }
@@ -311,7 +311,7 @@ static void dual_end_json(dyd_json *j, const char *name, const dyd_dual_end *end
 static void dual_edges_json(dyd_json *j, const dyd_diagram *d) {
   dyd_dual_edge *edge = NULL;
   size_t count = 0;
-  dyd_json_good(j, dyd_dual_edges(&edge, &count, d->pd, &d->triangles, d->tied, d->ties, d->room));
+  dyd_json_good(j, dyd_diagram_edges(&edge, &count, d));
   dyd_json_array(j, "edges", DYD_JSON_LIST);
   for (size_t k = 0; k < count; k++) {
     dyd_json_object(j, NULL, DYD_JSON_FLAT);
@@ -344,7 +344,7 @@ static void diagram_head_json(dyd_json *j, const dyd_diagram *d) {
   size_t count[4];
   int64_t bits;
   dyd_goal goal = dyd_engine_goal(&bits, d->engine);
-  dyd_delaunay_count(count, d->pd);
+  dyd_pairs_count(count, d->discs, d->pd);
   dyd_json_head(j, "dyadel voronoi 1", d->epsg);
   dyd_json_word(j, "rounding",
                 "texts are exact numbers; pairs of numbers are rounded outward: the first down, the second up; null is "
@@ -356,6 +356,7 @@ static void diagram_head_json(dyd_json *j, const dyd_diagram *d) {
   dyd_json_signed(j, "goal_bits", bits);
   dyd_json_signed(j, "flatten_bits", d->bits);
   json_count(j, d->count, count);
+  if (d->discs) dyd_json_raw(j, "discs", "true");
   dyd_json_rect(j, "window", &d->window);
   dyd_json_aliases(j, d->engine, NULL);
 }

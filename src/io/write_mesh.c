@@ -284,7 +284,7 @@ static dyd_status gather_region(void *context, size_t face, const double box[4])
 static dyd_status gather_edges(gathered *g) {
   dyd_dual_edge *edge = NULL;
   size_t count = 0;
-  dyd_status st = dyd_dual_edges(&edge, &count, g->d->pd, &g->d->triangles, g->d->tied, g->d->ties, g->d->room);
+  dyd_status st = dyd_diagram_edges(&edge, &count, g->d);
   for (size_t k = 0; k < count && st == DYD_OK; k++) {
     double box[2][4];
     if (!dyd_diagram_edge(box, g->d, &edge[k])) continue;

@@ -16,7 +16,7 @@
  * p_k, p_l is not p_a. z lies in Pos_a n Pos_j n W, where dl_a, dl_j are at most their largest values at the vertices
  * of the outer polygons (dl is convex), and the others are bounded over boxes (bounds_filter.c). If none of these is
  * known and any two rectangles are disjoint, z is within the diameter of W and all sites of a point that is not p_a.
- */
+ * Of discs the same holds with discs as R_i; boxes over which distances are bounded are those around the discs. */
 #include "metric/bounds.h"
 
 #include "base/abi.h"
@@ -25,6 +25,7 @@
 #include "metric/bounds_filter.h"
 #include "rect/rect.h"
 #include "rect/sites_table.h"
+#include "tolerance/discs.h"
 #include "voronoi/shape.h"
 
 /* ---- the triangulation ----
@@ -60,6 +61,7 @@
 void dyd_measure_init(dyd_measure *m, const dyd_sites *sites) {
   m->sites = sites;
   m->filter = dyd_filter_measure_usable();
+  m->discs = false;
   dyd_rect_init(&m->a);
   dyd_rect_init(&m->b);
   for (size_t k = 0; k < 8; k++) mpq_init(m->end[k]);
@@ -183,6 +185,30 @@ static dyd_status measure_gap(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) 
   return DYD_OK;
 }
 
+/* pair_extent of discs. */
+static dyd_status discs_extent(mpfr_ptr gap, mpfr_ptr diameters, dyd_measure *m, const dyd_pair *pair) {
+  dyd_disc a, b;
+  dyd_disc_init(&a);
+  dyd_disc_init(&b);
+  dyd_status st = dyd_disc_of_site(&a, m->sites, pair->i);
+  if (st == DYD_OK) st = dyd_disc_of_site(&b, m->sites, pair->j);
+  mpq_sub(m->sum, a.x, b.x);
+  mpq_sub(m->term, a.y, b.y);
+  mpq_mul(m->sum, m->sum, m->sum);
+  mpq_mul(m->term, m->term, m->term);
+  mpq_add(m->sum, m->sum, m->term);
+  mpq_add(m->term, a.r, b.r);
+  mpfr_set_q(gap, m->sum, MPFR_RNDD);
+  mpfr_sqrt(gap, gap, MPFR_RNDD);
+  mpfr_sub_q(gap, gap, m->term, MPFR_RNDD);
+  if (mpfr_sgn(gap) < 0) mpfr_set_zero(gap, 1);
+  mpfr_set_q(diameters, m->term, MPFR_RNDU);
+  mpfr_mul_2ui(diameters, diameters, 1, MPFR_RNDU);
+  dyd_disc_clear(&b);
+  dyd_disc_clear(&a);
+  return st;
+}
+
 dyd_status dyd_bound_pair_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair *pair) {
   if (pair->status != DYD_LEGAL) return dyd_measure_reach(out, m, pair->i, pair->j);
   dyd_status st = dyd_measure_diameter(out, m, pair->i);
@@ -249,18 +275,18 @@ static bool bounds_are_zero(const dyd_delaunay *pd) {
   return zero;
 }
 
-static dyd_status metric_bound(dyd_dyadic *out, const dyd_delaunay *pd, bool area) {
+dyd_status dyd_metric_bound(dyd_dyadic *out, const dyd_delaunay *pd, const dyd_pair_list *discs, bool area) {
   if (!pd) return DYD_E_ARG;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   if (bounds_are_zero(pd)) return dyd_dyadic_set_si_2exp(out, 0, 0);
   dyd_pair_list pairs = {0};
   dyd_measure m;
   mpfr_t x;
-  dyd_status st = dyd_delaunay_pairs(&pairs, pd);
+  dyd_status st = discs ? DYD_OK : dyd_delaunay_pairs(&pairs, pd);
   if (st == DYD_OK) {
     dyd_measure_init(&m, dyd_delaunay_sites(pd));
     mpfr_init2(x, DYD_MEASURE_PREC);
-    st = bound_over(x, &m, &pairs, area);
+    st = bound_over(x, &m, discs ? discs : &pairs, area);
     if (st == DYD_OK) st = bound_to_dyadic(out, x);
     mpfr_clear(x);
     dyd_measure_clear(&m);
@@ -270,11 +296,11 @@ static dyd_status metric_bound(dyd_dyadic *out, const dyd_delaunay *pd, bool are
 }
 
 dyd_status dyd_metric_area(dyd_dyadic *out, const dyd_delaunay *pd) {
-  return metric_bound(out, pd, true);
+  return dyd_metric_bound(out, pd, NULL, true);
 }
 
 dyd_status dyd_metric_hausdorff(dyd_dyadic *out, const dyd_delaunay *pd) {
-  return metric_bound(out, pd, false);
+  return dyd_metric_bound(out, pd, NULL, false);
 }
 
 /* Areas in W are below 2^(2 e), polygons are within 2^-bits: sums need some e + bits more digits than a bound. */
@@ -339,7 +365,7 @@ static dyd_status add_exact_shape(double area[2], dyd_voronoi_sums *s, const dyd
 /* Adds the shape of site i (no alias). */
 static dyd_status add_shape(double area[2], dyd_voronoi_sums *s, uint32_t i, const dyd_shape *shape) {
   double box[4];
-  dyd_sites_get_d(box, dyd_delaunay_sites(s->pd), i);
+  dyd_measure_box(box, dyd_delaunay_sites(s->pd), i, s->discs);
   s->reach[i] = dyd_filter_reach_of_shape(shape, box);
   s->added++;
   s->inexact += !shape->exact;
@@ -368,6 +394,7 @@ dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, vo
   w.most = s->corners;
   w.proved = s->exact;
   if (s->corners && n > DYD_TIGHT_SITES) w.fan_bits = dyd_metric_coarseness(s->pd, s->window);
+  w.discs = s->discs;
   if (st == DYD_OK && s->exact) dyd_window_set_grid(&w, DYD_GRID_FINE);
   for (size_t i = 0; i < n && st == DYD_OK; i++) {
     double area[2];
@@ -404,6 +431,19 @@ void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s) {
 
 /* ---- Hausdorff ---- */
 
+/* Bounds of the distance of both regions from below, and of the sum of their diameters from above. */
+static dyd_status pair_extent(mpfr_ptr gap, mpfr_ptr diameters, dyd_measure *m, const dyd_pair *pair) {
+  if (m->discs) return discs_extent(gap, diameters, m, pair);
+  mpfr_t other;
+  mpfr_init2(other, DYD_MEASURE_PREC);
+  dyd_status st = measure_gap(gap, m, pair->i, pair->j);
+  if (st == DYD_OK) st = dyd_measure_diameter(diameters, m, pair->i);
+  if (st == DYD_OK) st = dyd_measure_diameter(other, m, pair->j);
+  mpfr_add(diameters, diameters, other, MPFR_RNDU);
+  mpfr_clear(other);
+  return st;
+}
+
 static dyd_pair_status sums_least(const dyd_voronoi_sums *s) {
   return s->exact ? dyd_least_bounding_true(s->pd) : dyd_least_bounding(s->pd);
 }
@@ -413,7 +453,7 @@ void dyd_voronoi_pair_reach(double reach[2], const dyd_voronoi_sums *s, const dy
   double box[2][4];
   for (int k = 0; k < 2; k++) reach[k] = s->reach[end[k]];
   if (s->exact && s->proved) {
-    for (int k = 0; k < 2; k++) dyd_sites_get_d(box[k], dyd_delaunay_sites(s->pd), end[k]);
+    for (int k = 0; k < 2; k++) dyd_measure_box(box[k], dyd_delaunay_sites(s->pd), end[k], s->discs);
     dyd_filter_proved_reach(reach, box[0], box[1]);
   } else if (reach[0] < 0 || reach[1] < 0) {
     reach[0] = reach[1] = -1;
@@ -430,12 +470,9 @@ dyd_status dyd_voronoi_pair_width(mpfr_ptr out, bool *finite, const dyd_voronoi_
   if (reach[0] < 0 || (dyd_sites_is_point(sites, pair->i) && dyd_sites_is_point(sites, pair->j))) return DYD_OK;
   mpfr_t gap, other;
   mpfr_inits2(DYD_MEASURE_PREC, gap, other, (mpfr_ptr)0);
-  dyd_status st = measure_gap(gap, m, pair->i, pair->j);
+  dyd_status st = pair_extent(gap, out, m, pair);
   *finite = st != DYD_OK || !mpfr_zero_p(gap);
-  if (st == DYD_OK) st = dyd_measure_diameter(out, m, pair->i);
-  if (st == DYD_OK) st = dyd_measure_diameter(other, m, pair->j);
   if (st == DYD_OK && *finite) {
-    mpfr_add(out, out, other, MPFR_RNDU);
     mpfr_set_d(other, reach[0], MPFR_RNDU);
     mpfr_add_d(other, other, reach[1], MPFR_RNDU);
     mpfr_mul(out, out, other, MPFR_RNDU);
@@ -454,7 +491,8 @@ dyd_status dyd_voronoi_pair_second(double *out, dyd_voronoi_sums *s, const dyd_p
   *out = 0;
   for (int k = 0; k < 2 && st == DYD_OK && *out < HUGE_VAL; k++) {
     double *second = &s->second[end[k]];
-    if (*second < 0) st = dyd_filter_second(second, s->pd, end[k], s->window, s->reach[end[k]], s->most, s->cancel);
+    if (*second < 0)
+      st = dyd_filter_second(second, s->pd, end[k], s->window, s->reach[end[k]], s->most, s->discs, s->cancel);
     if (*second > *out) *out = *second;
   }
   return st;
@@ -480,8 +518,8 @@ static bool pair_is_small(const dyd_voronoi_sums *s, const dyd_pair *pair, mpfr_
   double a[4], b[4], reach[2];
   dyd_voronoi_pair_reach(reach, s, pair);
   if (reach[0] < 0) return true;
-  dyd_sites_get_d(a, dyd_delaunay_sites(s->pd), pair->i);
-  dyd_sites_get_d(b, dyd_delaunay_sites(s->pd), pair->j);
+  dyd_measure_box(a, dyd_delaunay_sites(s->pd), pair->i, s->discs);
+  dyd_measure_box(b, dyd_delaunay_sites(s->pd), pair->j, s->discs);
   double value = dyd_filter_voronoi_pair(a, b, reach[0], reach[1]);
   return value < HUGE_VAL && mpfr_cmp_d(most, value) >= 0;
 }
@@ -492,6 +530,7 @@ dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, dyd_voronoi_sums *s
   bool open = false;
   dyd_status st = DYD_OK;
   dyd_measure_init(&m, dyd_delaunay_sites(s->pd));
+  m.discs = s->discs;
   mpfr_init2(one, DYD_MEASURE_PREC);
   mpfr_set_zero(out, 1);
   *finite = true;
@@ -545,7 +584,7 @@ dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, dyd_voronoi_sums *s)
 }
 
 dyd_status dyd_voronoi_bounds_within(dyd_voronoi_bounds *out, const dyd_delaunay *pd, const dyd_rect *window,
-                                     int64_t bits, size_t corners, const volatile int *cancel) {
+                                     int64_t bits, size_t corners, bool discs, const volatile int *cancel) {
   dyd_voronoi_sums s;
   dyd_voronoi_bounds b;
   dyd_window w;
@@ -558,6 +597,7 @@ dyd_status dyd_voronoi_bounds_within(dyd_voronoi_bounds *out, const dyd_delaunay
   st = dyd_voronoi_sums_init(&s, pd, window, bits);
   s.cancel = cancel;
   s.corners = corners;
+  s.discs = discs;
   if (st == DYD_OK) st = dyd_voronoi_sums_all(&s, NULL, NULL);
   if (st == DYD_OK) st = dyd_voronoi_sums_bounds(&b, &s);
   if (st == DYD_OK) {
@@ -572,7 +612,7 @@ dyd_status dyd_voronoi_bounds_within(dyd_voronoi_bounds *out, const dyd_delaunay
 
 dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits,
                               const volatile int *cancel) {
-  return dyd_voronoi_bounds_within(out, pd, window, bits, 0, cancel);
+  return dyd_voronoi_bounds_within(out, pd, window, bits, 0, false, cancel);
 }
 
 /* The perimeters of N cells of equal area in W are about 4 sqrt(N area(W)) in all, plus the perimeter of W. */

@@ -21,6 +21,7 @@
 typedef struct dyd_measure {
   const dyd_sites *sites;
   bool filter; /* false: exact rung only */
+  bool discs;  /* false, as dyd_measure_init leaves it: rectangles; else dyd_voronoi_pair_width is about discs */
   dyd_rect a, b;
   mpq_t end[8], sum, term;
   mpfr_t t;
@@ -29,6 +30,8 @@ typedef struct dyd_measure {
 void dyd_measure_init(dyd_measure *m, const dyd_sites *sites);
 void dyd_measure_clear(dyd_measure *m);
 
+/* The box of site i, outward; of its disc, if these count. */
+void dyd_measure_box(double out[4], const dyd_sites *sites, uint32_t i, bool discs);
 /* Area of Ed(R_i,R_j). out is initialised by the caller; so below. */
 dyd_status dyd_measure_area(mpfr_ptr out, dyd_measure *m, size_t i, size_t j);
 /* Largest distance of two points of R_i. */
@@ -38,9 +41,10 @@ dyd_status dyd_measure_reach(mpfr_ptr out, dyd_measure *m, size_t i, size_t j);
 
 /* ---- tiles ---- */
 
-/* As dyd_voronoi_tiles; *bounds is set as by dyd_metric_voronoi, unless it is NULL. areas_only: out->xy stays NULL. */
+/* As dyd_voronoi_tiles; *bounds is set as by dyd_metric_voronoi, unless it is NULL. areas_only: out->xy stays NULL.
+ * discs: bounds are those of discs. */
 dyd_status dyd_tiles_find(dyd_tiles *out, dyd_voronoi_bounds *bounds, const dyd_delaunay *pd, const dyd_rect *window,
-                          int64_t bits, bool areas_only, const volatile int *cancel);
+                          int64_t bits, bool areas_only, bool discs, const volatile int *cancel);
 
 /* ---- the triangulation ---- */
 
@@ -48,6 +52,10 @@ dyd_status dyd_tiles_find(dyd_tiles *out, dyd_voronoi_bounds *bounds, const dyd_
  * the caller at DYD_MEASURE_PREC bits or more. Rounded up by at most 2^-70 of itself. */
 dyd_status dyd_bound_area(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs);
 dyd_status dyd_bound_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs);
+
+/* As dyd_metric_area or dyd_metric_hausdorff; discs: dyd_disc_pairs of pd, whose edges count, between the squares;
+ * NULL: all possible pairs. */
+dyd_status dyd_metric_bound(dyd_dyadic *out, const dyd_delaunay *pd, const dyd_pair_list *discs, bool area);
 
 /* The distance bound of one possible pair. */
 dyd_status dyd_bound_pair_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair *pair);
@@ -71,18 +79,19 @@ typedef struct dyd_voronoi_sums {
   dyd_room room;  /* what max_bytes leaves besides the triangulation */
   size_t corners; /* that one polygon may have, as in dyd_window */
   double *reach, *second, most;
+  bool discs;  /* cells are those of the discs in the sites' squares; as `cut`, set by the caller */
   bool exact;  /* cells of exact points are not flattened; false: their polygons are proved, vertex by vertex */
   bool proved; /* there are proved ties, and with `exact` they bound nothing [GRP-2] */
   size_t added, inexact; /* shapes; of them, how many are not the whole cell */
 } dyd_voronoi_sums;
 
-/* As dyd_metric_voronoi, with corners 0. Else DYD_E_RANGE where a polygon would have more than so many corners; and of
- * more than DYD_TIGHT_SITES sites, polygons with a vertex for each certain triangle are only within
- * 2^-dyd_metric_coarseness: the width of the rectangles, and not the flattening of arcs, makes them smaller than their
- * cells. That is ten times as fast, and the area up to five times as large. */
+/* As dyd_metric_voronoi, with corners 0; of rectangles, or of the discs in them. Else DYD_E_RANGE where a polygon would
+ * have more than so many corners; and of more than DYD_TIGHT_SITES sites, polygons with a vertex for each certain
+ * triangle are only within 2^-dyd_metric_coarseness: the width of the rectangles, and not the flattening of arcs, makes
+ * them smaller than their cells. That is ten times as fast, and the area up to five times as large. */
 enum { DYD_TIGHT_SITES = 512 };
 dyd_status dyd_voronoi_bounds_within(dyd_voronoi_bounds *out, const dyd_delaunay *pd, const dyd_rect *window,
-                                     int64_t bits, size_t corners, const volatile int *cancel);
+                                     int64_t bits, size_t corners, bool discs, const volatile int *cancel);
 
 /* bits: of the polygons to come; sums are kept so precise that rounding does not spoil what these give. */
 dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits);

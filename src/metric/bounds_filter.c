@@ -9,8 +9,10 @@
 #include "base/alloc.h"
 #include "base/flag.h"
 #include "delaunay/memory.h"
+#include "metric/bounds.h"
 #include "rect/rect.h"
 #include "skeleton/rects_filter.h"
+#include "tolerance/discs.h"
 
 #include <math.h>
 
@@ -117,7 +119,7 @@ static bool second_start(dyd_bbox *c, const dyd_bbox *own, const dyd_rect *windo
 }
 
 dyd_status dyd_filter_second(double *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, double reach,
-                             double most, const volatile int *cancel) {
+                             double most, bool discs, const volatile int *cancel) {
   dyd_index_list near = {0};
   dyd_bbox c;
   dyd_status st = dyd_delaunay_neighbours(&near, pd, i, dyd_least_bounding(pd));
@@ -126,8 +128,8 @@ dyd_status dyd_filter_second(double *out, const dyd_delaunay *pd, uint32_t i, co
   s.box = dyd_alloc(s.count, sizeof *s.box);
   s.far = dyd_alloc(s.count, sizeof *s.far);
   if (s.box && s.far) {
-    for (size_t k = 0; k < near.count; k++) dyd_sites_get_d(s.box[k].e, dyd_delaunay_sites(pd), near.item[k]);
-    dyd_sites_get_d(s.box[s.own].e, dyd_delaunay_sites(pd), i);
+    for (size_t k = 0; k < s.count; k++)
+      dyd_measure_box(s.box[k].e, dyd_delaunay_sites(pd), k == s.own ? i : near.item[k], discs);
     *out = HUGE_VAL;
     if (second_start(&c, &s.box[s.own], window, reach)) {
       second_visit(&s, &c, second_value(&s, &c), DEPTH);
@@ -139,6 +141,21 @@ dyd_status dyd_filter_second(double *out, const dyd_delaunay *pd, uint32_t i, co
   free(s.box);
   free(s.far);
   return st;
+}
+
+void dyd_measure_box(double out[4], const dyd_sites *sites, uint32_t i, bool discs) {
+  dyd_disc d;
+  dyd_sites_get_d(out, sites, i);
+  if (!discs) return;
+  dyd_disc_init(&d);
+  bool good = dyd_disc_of_site(&d, sites, i) == DYD_OK;
+  for (int k = 0; k < 4 && good; k++) {
+    mpq_ptr c = k < 2 ? d.x : d.y;
+    (k & 1 ? mpq_add : mpq_sub)(c, c, d.r);
+    out[k] = nextafter(mpq_get_d(c), k & 1 ? INFINITY : -INFINITY); /* mpq_get_d cuts off */
+    (k & 1 ? mpq_sub : mpq_add)(c, c, d.r);
+  }
+  dyd_disc_clear(&d);
 }
 
 double dyd_filter_reach_of_shape(const dyd_shape *s, const double box[4]) {

@@ -36,6 +36,7 @@ typedef struct tiling {
   dyd_window w;
   dyd_shape shape;
   bool areas_only; /* no xy */
+  bool discs;      /* areas are bounded by cells of discs */
   double *bound;   /* two for each site; NULL: those of the shapes */
   size_t ring_cap, offset_cap, xy_cap, area_cap, bound_cap, vertices;
   loose_ring *loose;
@@ -486,10 +487,11 @@ static dyd_status keep_bound(void *context, uint32_t i, const dyd_shape *shape, 
 
 /* Bounds the areas of the true cells, and the undetermined part of the diagram. */
 static dyd_status bound_areas(double *bound, dyd_voronoi_bounds *bounds, const dyd_delaunay *pd, const dyd_rect *window,
-                              int64_t bits, const volatile int *cancel) {
+                              int64_t bits, bool discs, const volatile int *cancel) {
   dyd_voronoi_sums sums;
   dyd_status st = dyd_voronoi_sums_init(&sums, pd, window, bits);
   sums.cancel = cancel;
+  sums.discs = discs;
   if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, keep_bound, bound);
   if (st == DYD_OK && bounds) st = dyd_voronoi_sums_bounds(bounds, &sums);
   dyd_voronoi_sums_clear(&sums);
@@ -517,7 +519,7 @@ static dyd_status tile_all(tiling *t, dyd_voronoi_bounds *bounds, const dyd_dela
     if (bounds) st = bound_nothing(bounds);
   } else {
     t->bound = calloc(2 * n + 1, sizeof *t->bound);
-    st = t->bound ? bound_areas(t->bound, bounds, pd, window, bits, cancel) : DYD_E_NOMEM;
+    st = t->bound ? bound_areas(t->bound, bounds, pd, window, bits, t->discs, cancel) : DYD_E_NOMEM;
   }
   if (st == DYD_OK) st = find_quick_tiles(t);
   if (st == DYD_OK) st = find_tiles(t, false);
@@ -541,11 +543,11 @@ static void tiling_clear(tiling *t) {
 }
 
 dyd_status dyd_tiles_find(dyd_tiles *out, dyd_voronoi_bounds *bounds, const dyd_delaunay *pd, const dyd_rect *window,
-                          int64_t bits, bool areas_only, const volatile int *cancel) {
+                          int64_t bits, bool areas_only, bool discs, const volatile int *cancel) {
   dyd_tiles made = {0};
   dyd_sites *sites = NULL;
   dyd_delaunay *centres = NULL;
-  tiling t = {.out = &made, .pd = pd, .areas_only = areas_only};
+  tiling t = {.out = &made, .pd = pd, .areas_only = areas_only, .discs = discs};
   dyd_status st = DYD_OK;
   if (!pd->sk.all_points) {
     st = tiling_of_centres(&sites, &centres, dyd_delaunay_sites(pd), cancel);
@@ -564,5 +566,5 @@ dyd_status dyd_voronoi_tiles(dyd_tiles *out, const dyd_delaunay *pd, const dyd_r
                              const volatile int *cancel) {
   if (!out || !pd || !window) return DYD_E_ARG;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
-  return dyd_tiles_find(out, NULL, pd, window, bits, false, cancel);
+  return dyd_tiles_find(out, NULL, pd, window, bits, false, false, cancel);
 }

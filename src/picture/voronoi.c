@@ -168,6 +168,7 @@ dyd_status dyd_voronoi_picture(const dyd_output *o) {
   g.view.frame[0] = dyd_view_x(&g.view, g.window[0]), g.view.frame[1] = dyd_view_x(&g.view, g.window[1]);
   g.view.frame[2] = dyd_view_y(&g.view, g.window[3]), g.view.frame[3] = dyd_view_y(&g.view, g.window[2]);
   g.view.epsg = o->epsg;
+  g.view.discs = what->discs;
   if (st == DYD_OK)
     st = dyd_view_write(o, &g.view, g.tiles ? "Voronoi tiles" : "partial Voronoi diagram", voronoi_inside,
                         voronoi_legend, &g);

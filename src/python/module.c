@@ -85,16 +85,17 @@ static PyMethodDef engine_methods[] = {
     {"rects", dydpy_rects, METH_NOARGS, "rects() -> bytes: a line XLO XHI YLO YHI of exact numbers for each point"},
     {"window", dydpy_window_of, METH_NOARGS, "window() -> four (numerator, denominator): the default one of diagrams"},
     {"cells", dydpy_cells, METH_VARARGS,
-     "cells(window or None, flatten_bits or None) -> (Buffer of dyd_cell_ring, Buffer of doubles xy, Buffer of doubles "
+     "cells(window or None, flatten_bits or None, discs) -> (Buffer of dyd_cell_ring, Buffer of doubles xy, Buffer of "
+     "doubles "
      "(N, 2) areas, bits, area, hausdorff or None, window)"},
     {"frame", dydpy_frame, METH_VARARGS,
-     "frame(window or None, flatten_bits) -> (vertices, boxes, ends, sites, faces, edges, rays): see dyd_frame"},
+     "frame(window or None, flatten_bits, discs) -> (vertices, boxes, ends, sites, faces, edges, rays): see dyd_frame"},
     {"tiles", dydpy_tiles, METH_VARARGS,
      "tiles(window or None, flatten_bits) -> (sites, offsets, xy, areas, bounds, rounding): see dyd_tiles"},
     {"exact_area", dydpy_exact_area, METH_VARARGS, "exact_area(i, window or None) -> (numerator, denominator) or None"},
     {"write", dydpy_write, METH_VARARGS, "write(format, layer or None, window or None, epsg) -> bytes"},
     {"write_voronoi", dydpy_write_voronoi, METH_VARARGS,
-     "write_voronoi(format, layer or None, window or None, flatten_bits or None, epsg) -> bytes"},
+     "write_voronoi(format, layer or None, window or None, flatten_bits or None, epsg, discs) -> bytes"},
     {"certificate", dydpy_certificate, METH_VARARGS, "certificate(diagram, window or None) -> bytes"},
     {"nearest", dydpy_nearest, METH_VARARGS, "nearest((x, y), options) -> (Buffer of uint32, certain, outcome, at)"},
     {"locate", dydpy_locate, METH_VARARGS,

@@ -246,39 +246,53 @@ static PyObject *cells_found(dyd_cells *c, const dyd_voronoi_bounds *b, const dy
                        dydpy_dyadic(&b->area), dydpy_dyadic(b->finite ? &b->hausdorff : NULL), dydpy_rect_ends(window));
 }
 
+/* Sets o->pairs to the statuses of discs in `list`, which is empty, if they are asked for. */
+static dyd_status take_discs(dyd_write_options *o, dyd_pair_list *list, dydpy_call *c, int discs) {
+  if (!discs) return DYD_OK;
+  o->pairs = list;
+  return dyd_disc_pairs(list, c->pd, &c->cancel, &c->err);
+}
+
 PyObject *dydpy_cells(PyObject *self, PyObject *args) {
   PyObject *window, *bits, *found = NULL;
   dyd_cells cells = {0};
+  dyd_pair_list pairs = {0};
+  int discs;
   dyd_voronoi_bounds bounds;
   dyd_rect view;
   dydpy_call c;
-  if (!PyArg_ParseTuple(args, "OO", &window, &bits)) return NULL;
+  if (!PyArg_ParseTuple(args, "OOp", &window, &bits, &discs)) return NULL;
   dyd_write_options o = {DYD_SIZED(dyd_write_options), .bounds = &bounds, .window = &view, .cancel = &c.cancel};
   o.flatten_set = bits != Py_None;
   if (o.flatten_set) o.flatten_bits = PyLong_AsLongLong(bits);
   if (PyErr_Occurred() || !diagram_begin(&c, &view, self, window)) return NULL;
   dyd_voronoi_bounds_init(&bounds);
-  dyd_status st = dyd_voronoi_cells(&cells, c.self->engine, &o, &c.err);
+  dyd_status st = take_discs(&o, &pairs, &c, discs);
+  if (st == DYD_OK) st = dyd_voronoi_cells(&cells, c.self->engine, &o, &c.err);
   if (dydpy_end(&c, st == DYD_CAPPED ? DYD_E_ARG : st))
     found = cells_found(&cells, &bounds, &view);
   else
     dyd_cells_clear(&cells);
+  dyd_pair_list_clear(&pairs);
   dyd_voronoi_bounds_clear(&bounds);
   dyd_rect_clear(&view);
   return found;
 }
 
-/* frame(window or None, flatten_bits) */
+/* frame(window or None, flatten_bits, discs) */
 PyObject *dydpy_frame(PyObject *self, PyObject *args) {
   PyObject *window, *found = NULL;
   dyd_frame f = {0};
+  dyd_pair_list pairs = {0};
   long long bits;
+  int discs;
   dyd_rect view;
   dydpy_call c;
-  if (!PyArg_ParseTuple(args, "OL", &window, &bits) || !diagram_begin(&c, &view, self, window)) return NULL;
-  const dyd_write_options o = {DYD_SIZED(dyd_write_options), .window = &view, .cancel = &c.cancel, .flatten_set = true,
-                               .flatten_bits = bits};
-  dyd_status st = dyd_voronoi_frame(&f, c.self->engine, &o, &c.err);
+  if (!PyArg_ParseTuple(args, "OLp", &window, &bits, &discs) || !diagram_begin(&c, &view, self, window)) return NULL;
+  dyd_write_options o = {DYD_SIZED(dyd_write_options), .window = &view, .cancel = &c.cancel, .flatten_set = true,
+                         .flatten_bits = bits};
+  dyd_status st = take_discs(&o, &pairs, &c, discs);
+  if (st == DYD_OK) st = dyd_voronoi_frame(&f, c.self->engine, &o, &c.err);
   if (dydpy_end(&c, st == DYD_CAPPED ? DYD_E_ARG : st)) {
     size_t boxes = f.vertices + f.regions;
     found =
@@ -290,6 +304,7 @@ PyObject *dydpy_frame(PyObject *self, PyObject *args) {
   } else {
     dyd_frame_clear(&f);
   }
+  dyd_pair_list_clear(&pairs);
   dyd_rect_clear(&view);
   return found;
 }
@@ -562,6 +577,7 @@ typedef struct text_order {
   dyd_content layer;
   dyd_rect window;
   const dyd_rect *view; /* the window; NULL: none */
+  int discs;            /* of a diagram: of the discs in the squares */
   dydpy_text text;
   dydpy_call call;
 } text_order;
@@ -603,7 +619,10 @@ static PyObject *order_write(text_order *t, dyd_write_options *o) {
   o->window = t->view;
   o->cancel = &t->call.cancel;
   const dyd_engine *e = o->sphere ? NULL : t->call.self->engine;
-  dyd_status st = dyd_write(t->text.file, e, t->layer, t->format, o, &t->call.err);
+  dyd_pair_list pairs = {0};
+  dyd_status st = take_discs(o, &pairs, &t->call, t->discs);
+  if (st == DYD_OK) st = dyd_write(t->text.file, e, t->layer, t->format, o, &t->call.err);
+  dyd_pair_list_clear(&pairs);
   return order_end(t, st == DYD_CAPPED ? DYD_E_ARG : st);
 }
 
@@ -612,7 +631,7 @@ PyObject *dydpy_write(PyObject *self, PyObject *args) {
   dyd_write_options o = {DYD_SIZED(dyd_write_options)};
   const char *format, *layer;
   PyObject *window;
-  text_order t;
+  text_order t = {0};
   if (!PyArg_ParseTuple(args, "szOI", &format, &layer, &window, &o.epsg)) return NULL;
   if (globe && window != Py_None) return PyErr_Format(PyExc_ValueError, "a window is a part of the plane; remove it");
   if (!order_form(&t, globe ? DYD_CONTENT_SPHERE : DYD_CONTENT_DELAUNAY, format, layer) ||
@@ -626,8 +645,8 @@ PyObject *dydpy_write_voronoi(PyObject *self, PyObject *args) {
   dyd_write_options o = {DYD_SIZED(dyd_write_options)};
   const char *format, *layer;
   PyObject *window, *bits;
-  text_order t;
-  if (!PyArg_ParseTuple(args, "szOOI", &format, &layer, &window, &bits, &o.epsg)) return NULL;
+  text_order t = {0};
+  if (!PyArg_ParseTuple(args, "szOOIp", &format, &layer, &window, &bits, &o.epsg, &t.discs)) return NULL;
   o.flatten_set = bits != Py_None;
   if (o.flatten_set) o.flatten_bits = PyLong_AsLongLong(bits);
   if (PyErr_Occurred() || !order_form(&t, globe ? DYD_CONTENT_SPHERE_VORONOI : DYD_CONTENT_VORONOI, format, layer) ||

@@ -517,7 +517,7 @@ dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect) {
   w->rect = rect;
   w->cancel = NULL;
   w->room = NULL;
-  w->exact = false;
+  w->exact = w->discs = false;
   w->most = 0;
   w->fan_bits = INT64_MAX;
   for (int a = 0; a < 2; a++) {
@@ -583,6 +583,10 @@ dyd_status dyd_shape_find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, cons
   if (dyd_flag_is_set(w->cancel)) return DYD_CANCELLED;
   dyd_status found = dyd_point_cell(&done, s, pd, i, w);
   if (found != DYD_OK || done) return found;
+  if (w->discs) {
+    found = dyd_disc_shape(&done, s, pd, i, w, bits);
+    return found == DYD_OK && !done ? dyd_shape_set_unknown(s, w->rect) : found;
+  }
   if (!pd->sk.mesh.no_filter) {
     dyd_status st = dyd_filter_shape(&done, s, pd, pd->sk.vertex[i], w, w->fan_bits < bits ? w->fan_bits : bits);
     if (st == DYD_OK && !done) {

@@ -23,6 +23,7 @@
 typedef struct dyd_window {
   const dyd_rect *rect;
   double d[4];
+  bool discs;  /* the discs in the squares of sites count, not the squares; false, as below */
   bool exact;  /* cells of exact points are made exactly and rounded to multiples of 2^-grid */
   bool proved; /* proved ties bound nothing: polygons of the true points [GRP-2]; false, as dyd_window_init leaves it */
   int grid;
@@ -113,6 +114,11 @@ bool dyd_filter_is_convex(const dyd_xy *z, size_t n);
 /* polygon_filter.c: the polygons of the rung in dyadics, from boundaries in doubles. As dyd_filter_shape. */
 dyd_status dyd_filter_polygons(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w,
                                int64_t bits);
+
+/* disc_cell_filter.c: the polygons of the cell of a disc, as dyd_exact_polygons, but coarser than 2^-bits where doubles
+ * are too coarse, or cutting to W spoils finer ones; *done = false: nothing is proved. s is empty. */
+dyd_status dyd_disc_shape(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w,
+                          int64_t bits);
 
 /* Cuts the outer polygon of a shape in doubles to W; where it reaches beyond, all become exact ones, as those of
  * polygon.c are: crossings are multiples of 2^-(bits + DYD_CLIP_EXTRA). *done = false: finer ones are needed. */

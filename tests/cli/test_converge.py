@@ -36,6 +36,23 @@ def table(*args, text, code=0):
     return list(csv.DictReader(lines))
 
 
+def test_discs():
+    """The last row counts what delaunay --discs lists, its bounds are below those of squares; exit 0 where discs are decided."""
+    text = 'x,y,r\n0,0,1\n10,0,2\n5,8,1\n5,-7,0\n14,9,1\n'
+    for scale, code in (('1', 3), ('0.3', 0), ('0.1', 0)):
+        how = '--columns', 'x,y', '--radius-column', 'r', '--radius-scale', scale
+        of = '--of', 'voronoi'
+        pairs = run('delaunay', '-', *how, '--discs', comments=False, stdin=text)
+        assert pairs.code == code, (scale, pairs.code)
+        row, squares = table(*how, *of, '--discs', text=text, code=code)[-1], table(*how, *of, text=text, code=3 if scale != '0.1' else 0)[-1]
+        status = [line.split(',')[2] for line in pairs.out.splitlines()[1:]]
+        assert [int(row[k]) for k in ('legal', 'indeterminate')] == [status.count(k) for k in ('legal', 'indeterminate')], row
+        assert float(row['v_area']) < float(squares['v_area']) and float(row['v_hausdorff']) <= float(squares['v_hausdorff'])
+    expect(run('converge', '-', '--discs', stdin='[0,1] [0,3]\n3 4\n'), 1, r'\A\Z', 'point 0: a disc needs one radius')
+    expect(run('converge', '-', '--discs', '--of', 'bisector', stdin='0 0\n3 4\n'), 2, r'\A\Z', 'is about rectangles')
+    expect(run('converge', '-', '--discs', '--format', 'html', stdin='0 0\n3 4\n'), 2, r'\A\Z', 'html shows rectangles')
+
+
 def test_columns_agree_with_delaunay():
     for text in (NEAR_PAIR, NEAR_CIRCLE, MIXED):
         last = table('--start-bits', '64', text=text, code=run('delaunay', '-', stdin=text).code)[-1]

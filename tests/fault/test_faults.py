@@ -49,6 +49,7 @@ def cases():
     for ending in ('csv', 'json', 'svg', 'vtk'):
         yield Case('voronoi', *COLUMNS, 'p', '-o', 'o.' + ending, inputs=near, outputs=('o.' + ending,), loose=ending == 'svg')
     yield Case('voronoi', 'p', '-o', 'o', '--certificate', 'c', '--window', '-9,9,-9,9', inputs=points, outputs=('o', 'c'))
+    yield Case('voronoi', *COLUMNS, '--discs', 'p', '-o', 'o.json', inputs=near, outputs=('o.json',))
     yield Case('voronoi', *COLUMNS, 'p', '-o', 'o', '--layer', 'tiles', inputs=near, outputs=('o',))
     yield Case('converge', 'p', '-o', 'o', '--no-times', '--trace', 't', '--plot', 'x.svg', inputs=points,
                outputs=('o', 't', 'x.svg'), loose=True)

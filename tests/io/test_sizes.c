@@ -92,7 +92,7 @@ static dyd_status converge_run_converge(fixture *f, const void *s, dyd_error *er
 static dyd_status convergence_add(fixture *f, const void *s, dyd_error *err) {
   dyd_convergence table = {DYD_SIZED(dyd_convergence)};
   dyd_stage_row *row = NULL;
-  dyd_status st = dyd_convergence_add(&row, &table, dyd_engine_delaunay(f->e), s, err);
+  dyd_status st = dyd_convergence_add(&row, &table, dyd_engine_delaunay(f->e), s, false, err);
   if (st == DYD_OK) assert_true(row->struct_size == sizeof *row && row->rungs.struct_size == sizeof row->rungs);
   dyd_convergence_clear(&table);
   return st;
@@ -304,7 +304,7 @@ static void test_kept(void **state) {
   dyd_engine *e = new_engine();
   assert_int_equal(DYD_E_ARG, dyd_converge_run(&table, e, NULL, NULL, &err));
   assert_non_null(strstr(err.message, "dyd_convergence s = {DYD_SIZED(dyd_convergence)}"));
-  assert_int_equal(DYD_E_ARG, dyd_convergence_add(&row, &table, dyd_engine_delaunay(f->e), NULL, &err));
+  assert_int_equal(DYD_E_ARG, dyd_convergence_add(&row, &table, dyd_engine_delaunay(f->e), NULL, false, &err));
   assert_int_equal(DYD_E_ARG, dyd_trace_replay(&table, f->sink, NULL, &err));
   assert_int_equal(DYD_E_ARG, dyd_check_run(&report, open_engine, NULL, NULL, &err));
   assert_non_null(strstr(err.message, "dyd_check_report s = {DYD_SIZED(dyd_check_report)}"));

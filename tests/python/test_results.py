@@ -314,6 +314,19 @@ def test_notebooks():
     assert '<svg' in d.voronoi()._repr_html_() or 'srcdoc' in d.voronoi()._repr_html_()
 
 
+def test_voronoi_of_discs():
+    """Cells of discs are those that the command writes; a certain cell is larger, a possible one smaller than for squares."""
+    d = dyadel.delaunay([(0, 0), (10, 0), (5, 8), (14, 9)], radius=1)
+    discs, squares = d.voronoi(window=(-5, 19, -5, 14), discs=True), d.voronoi(window=(-5, 19, -5, 14))
+    assert (discs.areas[:, 0] > squares.areas[:, 0]).all() and (discs.areas[:, 1] < squares.areas[:, 1]).all()
+    assert discs.area < squares.area and discs.data['discs'] and 'int' not in discs.data['cells'][0]
+    rows = [line.split(',') for line in discs.write('csv').splitlines()[1:]]
+    assert [(float(r[5]), float(r[6])) for r in rows] == [tuple(a) for a in discs.areas.tolist()]
+    harness.raised(ValueError, discs.certificate)
+    error = harness.raised(dyadel.Error, dyadel.delaunay(np.array([(0.0, 1, 0, 3), (5, 6, 5, 6)])).voronoi, discs=True)
+    assert 'one radius' in str(error)
+
+
 def test_voronoi():
     points = RANDOM.random((12, 2))
     d = dyadel.delaunay(points, radius=1e-4)

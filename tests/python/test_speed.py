@@ -55,7 +55,7 @@ def test_cells():
     d = dyadel.delaunay(points)
     d.find_triangle(points[:1])
     ours = min(cost(lambda: d.voronoi().certain) for _ in range(5))
-    rows = min(cost(lambda: d._engine.write_voronoi('csv', None, None, None, 0)) for _ in range(5))
+    rows = min(cost(lambda: d._engine.write_voronoi('csv', None, None, None, 0, False)) for _ in range(5))
     theirs = cost(lambda: Delaunay(points).find_simplex(places))
     found = min(cost(lambda: d.find_triangle(places)) for _ in range(3))
     print(f'cells {ours:.3f} s, {ours / rows:.2f} of rows; triangles of {len(places)} places {found:.3f} s, {found / theirs:.3f} of scipy')

@@ -577,7 +577,7 @@ static dyd_status html_edges(html_diagram *g) {
   dyd_dual_edge *edge = NULL;
   size_t count = 0;
   double box[2][4];
-  dyd_status st = dyd_dual_edges(&edge, &count, g->d->pd, &g->d->triangles, g->d->tied, g->d->ties, g->d->room);
+  dyd_status st = dyd_diagram_edges(&edge, &count, g->d);
   const char *between = "";
   fputs("\"edges\": [", g->out);
   for (size_t k = 0; k < count; k++) {

@@ -60,7 +60,7 @@ class SphereVoronoi(Saved):
 
     def __init__(self, of: Sphere) -> None:
         self._of = of
-        self.data: dict[str, Any] = json.loads(of._engine.write_voronoi('json', None, None, None, 0))
+        self.data: dict[str, Any] = json.loads(of._engine.write_voronoi('json', None, None, None, 0, False))
         self._cell = {row['i']: row for row in self.data['cells']}  # by rows
         self._alias = dict(self.data['aliases'])
 
@@ -95,7 +95,7 @@ class SphereVoronoi(Saved):
 
     def write(self, format: str = 'csv', layer: str | None = None, epsg: int = 0) -> str | bytes:
         """The diagram, as the triangulation is now, in a format of the command; layer: 'cells', 'vertices' or 'regions'."""
-        return _geometry.text_of(format, self._of._engine.write_voronoi(format_of(format), layer, None, None, epsg))
+        return _geometry.text_of(format, self._of._engine.write_voronoi(format_of(format), layer, None, None, epsg, False))
 
     @property
     def __geo_interface__(self) -> dict[str, Any]:

@@ -261,9 +261,10 @@ class Delaunay(Statuses):
 
     @takes_options()
     def voronoi(self, window: Sequence[Any] | None = None, until: str | None = None, flatten: int | None = None,
-                **options: Any) -> Voronoi:
+                discs: bool = False, **options: Any) -> Voronoi:
         """The Voronoi diagram on a window (xlo, xhi, ylo, yhi); default: the box of the points enlarged by half.
 
+        discs: of points in discs, whose squares the rectangles are; without, of points in rectangles.
         flatten: polygons are within 2^-flatten of their cells (default: what suits the mean size of cells);
         until='area:M' or 'hausdorff:M' refines first, until the bound of the diagram is at most 2^-M; options are those of
         delaunay.
@@ -272,7 +273,7 @@ class Delaunay(Statuses):
             usual = self._options
             self.refine(until=until if until == 'decided' else f'voronoi {until}', window=window, **options)
             self._options = usual
-        return Voronoi(self, window, flatten)
+        return Voronoi(self, window, flatten, discs)
 
     def tolerance(self, up_to: Any = None, points: bool = False, sigma: float | None = None,
                   metric: str = 'euclid') -> Tolerance:

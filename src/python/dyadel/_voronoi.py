@@ -75,11 +75,12 @@ class Voronoi(Saved):
         v.areas                                           # bounds of the areas
     """
 
-    def __init__(self, d: Triangulation, window: Sequence[Any] | None = None, flatten_bits: int | None = None) -> None:
+    def __init__(self, d: Triangulation, window: Sequence[Any] | None = None, flatten_bits: int | None = None,
+                 discs: bool = False) -> None:
         if not hasattr(d, '_engine'):
             raise TypeError('Voronoi is made of a triangulation: call dyadel.delaunay(points).voronoi()')
-        self._of, self._window, self._flatten, self._made = d, window, flatten_bits, d._cache
-        rings, xy, areas, self._bits, area, hausdorff, ends = d._engine.cells(window, flatten_bits)
+        self._of, self._window, self._flatten, self._made, self._discs = d, window, flatten_bits, d._cache, discs
+        rings, xy, areas, self._bits, area, hausdorff, ends = d._engine.cells(window, flatten_bits, discs)
         ring = records(rings, RING)
         self._rings = Rings(ring['point'], np.concatenate((np.zeros(1, np.int64), ring['end'])), floats(xy).reshape(-1, 2),
                             ring['rounding'])
@@ -177,13 +178,13 @@ class Voronoi(Saved):
     def data(self) -> dict[str, Any]:
         """What the command writes as json."""
         self._expect_unchanged()
-        found: dict[str, Any] = json.loads(self._of._engine.write_voronoi('json', None, self._window, self._flatten, 0))
+        found: dict[str, Any] = json.loads(self._of._engine.write_voronoi('json', None, self._window, self._flatten, 0, self._discs))
         return found
 
     @functools.cached_property
     def _frame(self) -> tuple[Enclosures, Enclosures, Edges]:
         self._expect_unchanged()
-        count, found, ends, sites, faces, edges, rays = self._of._engine.frame(self._ends, self._bits)
+        count, found, ends, sites, faces, edges, rays = self._of._engine.frame(self._ends, self._bits, self._discs)
         boxes, points, offsets = floats(found).reshape(-1, 4), ints(sites), np.append(0, longs(ends))
         behind = offsets[count]
         return (Enclosures(boxes[:count], offsets[:count + 1], points[:behind]),
@@ -208,10 +209,13 @@ class Voronoi(Saved):
     def write(self, format: str = 'csv', layer: str | None = None, epsg: int = 0) -> str | bytes:
         """Returns the diagram, as the triangulation is now, as a text in a format of the command (bytes of those that are no text);
         save() writes a file."""
-        return _geometry.text_of(format, self._of._engine.write_voronoi(format_of(format), layer, self._window, self._flatten, epsg))
+        return _geometry.text_of(format, self._of._engine.write_voronoi(format_of(format), layer, self._window, self._flatten, epsg,
+                                                                               self._discs))
 
     def certificate(self) -> bytes:
         """What proves triangulation and diagram, for verify()."""
+        if self._discs:
+            raise ValueError('no certificate proves cells of discs; take that of voronoi() without discs=True')
         return self._of.certificate(True, self._window)
 
     def to_geodataframe(self, layer: str = 'cells', crs: Any = None) -> Any:
