@@ -56,8 +56,8 @@ static int converge_begin(cli_session *s) {
     cli_complain("html shows the points, which --replay does without; run converge on them");
   else if (o->sphere && (o->of != DYD_CONVERGE_DELAUNAY || o->engine.goal != DYD_GOAL_DECIDED || o->window))
     cli_complain("%s is about the plane; remove it or --sphere", o->window                        ? "--window"
-                                                                     : o->of != DYD_CONVERGE_DELAUNAY ? "--of"
-                                                                                                      : "--until");
+                                                                 : o->of != DYD_CONVERGE_DELAUNAY ? "--of"
+                                                                                                  : "--until");
   else if (o->sphere && o->format == DYD_FORMAT_HTML)
     cli_complain("html is about the plane; remove it or --sphere");
   else if (o->discs && is_piece(s))
