@@ -376,7 +376,7 @@ def read_diagram(case, out):
     c['window'] = [number(t) for t in (*d['window']['x'], *d['window']['y'])]
     for q in d['cells']:
         if 'area' in q:
-            c['cells'][q['i']] = [None if t is None else Q(t) for t in (*q['area'], *q['x'], *q['y'])]
+            c['cells'][q['i']] = [None if t is None else Q(t) for t in (*q['area'], *(q['x'] or (None, None)), *(q['y'] or (None, None)))]
             c['inner'][q['i']] = [[tuple(number(t) for t in v) for v in q['inner']]]
             c['outer'][q['i']] = [[tuple(number(t) for t in v) for v in p] for p in q['outer']]
             c['rounded'][q['i']] = number(str(q.get('vertex_error', 0)))
