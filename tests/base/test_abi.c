@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Structs that begin with their size: what is taken from and given to callers with shorter and longer ones. */
+/* Structs that begin with their size: fields read from and written to callers whose structs are shorter or longer. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Work done apart: it is done once, the caller who leaves leaves at once, and the job is released by whoever is last.
+/* Work on a thread of its own: it is done once, a caller that leaves returns at once, and the last owner frees the job.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,7 +14,7 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 
-/* Works until it is told that it may end. */
+/* Works until the flag allows it to end. */
 typedef struct job {
   int may_end, begun, done, dropped;
   pthread_t by;
@@ -50,7 +50,7 @@ static void test_done(void **state) {
   }
 }
 
-/* Nobody could leave: it is done here. */
+/* The caller cannot leave, so the job runs on its own thread. */
 static void test_nobody_waits(void **state) {
   (void)state;
   job j = {.may_end = 1};

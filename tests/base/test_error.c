@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Error records: what is filled in, what is left alone, what is cut. Memory: too much, none, in large pages. */
+/* Error records: fields that are filled in, left alone, cut. Memory: too much, none, in large pages. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
