@@ -21,8 +21,9 @@ void diagram_clear(diagram *d);
 void diagram_read(diagram *d, const char *text);
 /* Do both state the same? */
 bool diagram_same(const diagram *a, const diagram *b);
-/* Is everything true of these rectangles? Polygons and area exactly, each vertex against every site; the distance at
- * `points` random points of the window, each for a random choice. NULL, or what is wrong. */
+/* Checks every statement about these rectangles. Polygons and area exactly, each vertex against every site; the
+ * distance at `points` random points of the window, each for a random choice. Returns NULL, or a description of the
+ * error. */
 const char *diagram_judge(const diagram *d, const orc_case *c, test_random *r, size_t points);
 
 /* The certificate, window NULL: the default one; NULL when that or the polygons leave the range of numbers. Release

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Certificates checked while memory fails: what is told is the verdict that there is with memory, or that it is
- * exhausted. */
+/* Certificates checked while memory fails: the checker returns the same verdict as with enough memory, or reports
+ * exhausted memory. */
 #ifndef DYD_TESTS_CHECKER_EXHAUST_H
 #define DYD_TESTS_CHECKER_EXHAUST_H
 
@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The certificate with its k-th allocation failing (0: none): a status, and in `verdict` all that is told; when memory
- * is exhausted, that and nothing else. *over: there is no k-th allocation. */
+/* Checks the certificate with its k-th allocation failing (0: none). Returns a status and sets `verdict` to the whole
+ * report; when memory is exhausted, to that alone. *over: the check makes fewer than k allocations. */
 static dyd_status verdict_of(char *verdict, size_t size, bool *over, const char *text, size_t length, size_t k) {
   dyd_certificate_report r = {DYD_SIZED(dyd_certificate_report)};
   dyd_error err;
@@ -30,8 +30,8 @@ static dyd_status verdict_of(char *verdict, size_t size, bool *over, const char 
   return status;
 }
 
-/* Every allocation fails once, of many of them later ones less densely, and others for each certificate. false:
- * something else is told, in `message`. *faults counts them. */
+/* Every allocation fails once, of many of them later ones less densely, and others for each certificate. Returns false
+ * if another verdict comes out, with a `message`. *faults counts them. */
 static bool every_allocation_fails_well(char *message, size_t size, size_t *faults, const char *text, size_t length) {
   char with[600], without[600], exhausted[600];
   bool over;

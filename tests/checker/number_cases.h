@@ -108,7 +108,7 @@ static const number_case of_known_value[] = {
     {"= 1\nexp 1\ncosh 1", 1.54308063481524377848},
     {"= 1\nexp 1\ntanh 1", 0.76159415595576488812},
     {"= -1\nexp 1\nneg 1\nsinh 3", 1.17520119364380145688},
-    /* logarithms: of 1, large and small ones, of what is positive at a precision that is high, of another one */
+    /* logarithms: of 1, large and small ones, of a value positive only at high precision, of another logarithm */
     {"= 3\nlog 1", 1.09861228866810969140},
     {"= 1\nlog 1", 0},
     {"= 1/7\nlog 1", -1.94591014905531330511},
@@ -162,7 +162,7 @@ static const char *const of_exact_value[][2] = {{"= 3\nlog 1\nlog 1\n- 2 3", "0"
                                                 {"= 1/32", "1*2^-5"},
                                                 {"= 32", "1*2^5"},
                                                 {"= 5/96", "5*2^-5/3"},
-                                                /* no identity, but smaller than what is not 0 */
+                                                /* no identity, but smaller than any value that is not 0 */
                                                 {"= 2\nsqrt 1\n= 3\nsqrt 3\n* 2 4\n= 6\nsqrt 6\n- 5 7", "0"},
                                                 {"= 2\nsqrt 1\nroot 1 2 -2,0,1\n- 2 3", "0"}};
 
@@ -234,7 +234,7 @@ static const char *const refused[][3] = {
      "\"x0^4096*x1^8\" is no quotient of polynomials in leaves before"},
     {"= 1\n^ 1 4097", "0", "4097 is too large"},
     {"= 1\n^ 1 -4097", "0", "-4097 is too large"},
-    /* what is stated is not so */
+    /* false statements */
     {"= 4\nsqrt 1 -2", "0", NOT_SO},
     {"= 4\nsqrt 1 3", "0", NOT_SO},
     {"= 8\ncbrt 1 -2", "0", NOT_SO},

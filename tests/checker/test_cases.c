@@ -136,7 +136,8 @@ static dyd_status stop_run(dyd_rect *out, void *user, const dyd_request *request
   return dyd_interval_set_d(&out->y, 1 - wide, 1 + wide);
 }
 
-/* The certificate of a run that ended so, with every other word in place of it: accepted when it claims nothing. */
+/* The certificate of a run with this outcome, with every other outcome instead: accepted when it claims nothing.
+ * */
 static void try_words(const char *text, const char *outcome) {
   static const char *const words[] = {"fixpoint", "budget", "cancelled", "error", "decided", "certified", "stopped"};
   char other[8000], line[40];
@@ -149,7 +150,7 @@ static void try_words(const char *text, const char *outcome) {
   }
 }
 
-/* The words error and cancelled: what was stated before is written and accepted, with and without a diagram. */
+/* The words error and cancelled: earlier statements are written and accepted, with and without a diagram. */
 static void stopped(void **state) {
   (void)state;
   const double x[] = {0, 1, 0}, y[] = {0, 0, 1};
@@ -276,7 +277,7 @@ static void bridge_across_a_face(void **state) {
   orc_case_clear(&c);
 }
 
-/* Texts that are no certificates, or whose numbers are out of bounds. */
+/* Texts that are not certificates, or whose numbers are out of bounds. */
 static void rubbish(void **state) {
   (void)state;
   dyd_certificate_report without_size = {.sites = 0};

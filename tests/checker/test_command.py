@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""dyadel delaunay --certificate and dyadel verify: every outcome, exit statuses, whole files, size; what is stated and
-not proved is named [CERT-8].
+"""dyadel delaunay --certificate and dyadel verify: every outcome, exit statuses, whole files, size; statements without
+a proof are named [CERT-8].
 
 Usage: test_command.py DYADEL DATA   (DYADEL_TEST_SCALE=10 measures the size at 10^5 sites instead of 10^4)
 """
@@ -38,7 +38,8 @@ def certify(folder, points, *options, status=0):
 
 
 def accepted(certificate, *texts, status=0, options=()):
-    """Exit status 0: all is proved, and nothing in the output says otherwise; 3: what is not proved is named."""
+    """Exit status 0: all is proved, and nothing in the output says otherwise; 3: each statement without a proof is
+    named."""
     done = run('verify', certificate, *options)
     assert done.returncode == status and not done.stderr, done
     first = done.stdout.split('\n')[0]
@@ -84,7 +85,7 @@ sqrt(1600.8001) -sqrt(2013.006097621)
 
 
 def check_fixpoint(folder):
-    """It is proved when nobody who can be narrowed may decide an open pair."""
+    """The certificate is proved complete when no point that can be narrowed could decide an indeterminate pair."""
     points = ('--points', folder / 'points.txt')
     for bits, status in ((1, 'indeterminate'), (64, 'legal')):
         certificate = certify(folder, BEYOND, '--start-bits', bits, status=3)
@@ -181,7 +182,7 @@ TAIL = 'pairs\ntriangles 0\nunproved 3\narea {}\nhausdorff {}\nend\n'
 
 
 def check_claims(folder):
-    """What is stated and not proved is never told as proved."""
+    """A statement without a proof is never reported as proved."""
     certificate = folder / 'claims.txt'
     certificate.write_text((HEAD + TAIL).format('decided', 'decided', '0 0\n1 0\n0 1', 'none', 'none'))
     accepted(certificate, 'not proved: that 3 pairs', 'not proved: the outcome decided', status=3)
@@ -250,7 +251,7 @@ def points_of(text):
 
 
 def altered(rng, text):
-    """One step from the text: a line left out, repeated, moved; a digit changed, added, taken away; a sign."""
+    """One step from the text: a line removed, repeated, moved; a digit changed, added, removed; a sign."""
     lines = text.splitlines(keepends=True)
     a, b, kind = rng.randrange(len(lines)), rng.randrange(len(lines)), rng.randrange(6)
     if kind == 0:
@@ -311,8 +312,8 @@ def copied(folder):
 
 
 def check_found(folder):
-    """dyadel-proved is found beside the command, in libexec, in a build, and at last in PATH; where it is not, the message
-    says where it was looked for, and what brings it."""
+    """dyadel-proved is searched for next to the command, in libexec, in a build, and last in PATH; if it is missing,
+    the message lists the places searched and the package to install."""
     certificate, path = certify(folder, '0 0\n1 0\n0 1\n'), os.environ['PATH']
     os.environ['PATH'] = str(folder / 'elsewhere')
     for own, places, remedy in (('usr/bin', ('usr/bin', 'usr/libexec'), 'omit --proved, or install dyadel-proved'),
@@ -321,7 +322,7 @@ def check_found(folder):
         done = run('verify', '--proved', certificate, by=command)
         assert done.returncode == 1 and f'there is no dyadel-proved in {folder / places[own[0] == "b"]}/' in done.stderr, done
         assert remedy in done.stderr, done
-        for place in ('elsewhere', *reversed(places)):  # each before those that were tried
+        for place in ('elsewhere', *reversed(places)):  # each placed before the ones already tried
             (folder / place).mkdir(parents=True, exist_ok=True)
             (folder / place / 'dyadel-proved').write_text(f'#!/bin/sh\necho in {place}\nexit 3\n')
             (folder / place / 'dyadel-proved').chmod(0o755)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Certificates of the Voronoi diagram: what is written is accepted, and true by a literal judge; what is forged is
+/* Certificates of the Voronoi diagram: genuine certificates are accepted, and true by a literal judge; forged ones are
  * rejected [CERT-6] [CERT-7]. */
 #include "checker/diagram.h"
 
@@ -250,7 +250,7 @@ static void touching_rectangles(void **state) {
   const char *all =
       with_section(text, "window -1*2^3 -1*2^2 -1*2^3 -1*2^2\npolygons\nundetermined 1*2^4\ndistance none\n");
   assert_int_equal(certificate_check(NULL, all, strlen(all), NULL), DYD_OK);
-  /* Nor is any distance known: both may be one point, and then there is no diagram. */
+  /* Nor is any distance known: both may be one point, and then the diagram does not exist. */
   expect_rejected(with_section(text, "window -1*2^3 -1*2^2 -1*2^3 -1*2^2\npolygons\nundetermined 1*2^4\ndistance "
                                      "1*2^60\n"));
   free(text);
@@ -324,7 +324,7 @@ static void distance_is_tight(void **state) {
   orc_case_clear(&c);
 }
 
-/* Three boxes on one another; everybody possible in the window meets everybody. The distance of a point of the window
+/* Three boxes on one another; all sites possible in the window meet each other. The distance of a point of the window
  * to the boxes far right is a bound, as one of two points is another one: sqrt(148) for the nearer two of these. */
 static void boxes_on_one_another(void **state) {
   (void)state;
@@ -356,7 +356,7 @@ static void boxes_on_one_another(void **state) {
   orc_case_clear(&c);
 }
 
-/* Bounds below those that are written: what is accepted is true. */
+/* Bounds below the written ones: any that are accepted are true. */
 static void smaller_distances(void **state) {
   (void)state;
   static diagram d;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Wrong statuses with every count put right: a forger knows the checker. What is accepted all the same must be true by
- * the oracle; pairs that are called illegal without a proof must be counted as unproved [CERT-1] [CERT-2] [CERT-3]. */
+/* Wrong statuses with every count put right: a forger knows the checker. Any that are accepted must be true by the
+ * oracle; pairs that are called illegal without a proof must be counted as unproved [CERT-1] [CERT-2] [CERT-3]. */
 #include "checker/statement.h"
 
 #include <stdlib.h>
@@ -234,7 +234,7 @@ static void corner_of_one_part(void **state) {
   orc_case_clear(&c);
 }
 
-/* In place of the tie 0 2 of a square, chains that are nearly right. */
+/* Chains that are nearly right, instead of the tie 0 2 of a square. */
 static void forged_chains(void **state) {
   (void)state;
   static const char *const chain[] = {
@@ -245,7 +245,7 @@ static void forged_chains(void **state) {
       "n 0 2 1 -1 1 5 -1 3 -1 1",             /* of the second one */
       "n 0 2 1 -1 1 5 -1 1 -1 5 3 -1 1",      /* the segment's second end is not in the region of 1 */
       "n 0 2 1 -1 1 5 -1 3 -1 5 3 -1 1",      /* its first end is not in the region of 3 */
-      "n 0 2 1 -1 0 5 -1 3 -1 5 3 -1 1",      /* blocked by itself */
+      "n 0 2 1 -1 0 5 -1 3 -1 5 3 -1 1",      /* site 0 blocks itself */
       "n 0 2 0 0 1 5 -1 1 1 -1",              /* no direction */
       "n 0 2 1 -1 1 1 -1",                    /* no point */
       "n 0 2 1 -1"};

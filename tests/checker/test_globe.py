@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Certificates on a sphere: random sets are accepted, what is stated is what delaunay writes, nothing forged is accepted [CERT-14].
+"""Certificates on a sphere: random sets are accepted, their statements equal the output of delaunay, and no forgery is
+accepted [CERT-14].
 
 Usage: test_globe.py DYADEL AIRPORTS [COUNT]
 
@@ -112,7 +113,8 @@ def images_of(s):
 
 
 def statuses(lines):
-    """Of pairs of places, by what the certificate states: what is open from one eye is what it is from the other."""
+    """Of pairs of places, by the certificate's statements: a pair that is open from one eye has the status seen from
+    the other eye."""
     first, *other = [statuses_seen(view) for view in views(lines)]
     for more in other:
         first = {p: more[p] if s == 'indeterminate' else s for p, s in first.items() if s != 'indeterminate' or p in more}
@@ -278,7 +280,7 @@ def nudged(r, text, by):
 
 
 def forge(r, lines):
-    """One change of what is stated of places, of the eye, of a rectangle, of neighbours."""
+    """One change of the statements about places, of the eye, of a rectangle, of neighbours."""
     at, out = lines.index('sphere'), list(lines)
     n = int(lines[at + 3].split()[1])
     first = at + 4
@@ -342,7 +344,7 @@ def forge(r, lines):
             out[first + i], out[first + j] = out[first + j], out[first + i]
         else:
             out[first + j] = ' '.join(out[first + j].split()[:2]) + f' = {i}'
-    elif what == 7:  # a neighbour left out, or of another kind
+    elif what == 7:  # a neighbour removed, or of another kind
         head = first + n
         m = int(out[head].split()[1])
         if m:
@@ -364,7 +366,8 @@ def weaker(old, new):
 
 
 def check_forged(folder, r, lines, about, met):
-    """What is accepted has rectangles that hold their images, and states what is known of the places before."""
+    """An accepted certificate has rectangles that contain the images of their places, and states only what the places
+    show."""
     for _ in range(4):
         what, forged = forge(r, lines)
         if forged == lines:

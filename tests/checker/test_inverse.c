@@ -27,7 +27,7 @@ static const inverse_case functions[] = {
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 static size_t known_from;
 
-/* An integer of up to so many bits, small ones as often as large ones. */
+/* An integer of at most the given number of bits, small ones as often as large ones. */
 static int64_t any_size(test_random *r, int bits) {
   int64_t z = (int64_t)(test_u64(r) >> (64 - (1 + test_below(r, (uint64_t)bits))));
   return test_below(r, 2) ? z : -z;
@@ -44,7 +44,7 @@ static void expect_held(const inverse_case *f, const dyd_cert_enclosure *y, int6
   }
 }
 
-/* The same of what is known from any place, some near, some far off. */
+/* The same for enclosures from any place, some near, some far off. */
 static void expect_held_from(const inverse_case *f, test_random *r, int64_t lo, int64_t hi, long p) {
   dyd_cert_enclosure x, y;
   mpz_t from;
@@ -65,7 +65,7 @@ static void expect_held_from(const inverse_case *f, test_random *r, int64_t lo, 
   mpz_clear(from);
 }
 
-/* Of y nothing is known only where x reaches out of where the function is defined, or is too wide. */
+/* y is unbounded only where x leaves the domain of the function, or is too wide. */
 static void try_interval(const inverse_case *f, test_random *r, int64_t lo, int64_t hi, long p) {
   dyd_cert_enclosure y;
   dyd_cert_enclosure_init(&y);
@@ -107,7 +107,7 @@ static void intervals(void **state) {
   assert_true(20 * known_from > test_cases(60000));
 }
 
-/* What is not known stays so, or is too large. */
+/* An unbounded value stays unbounded, or is too large. */
 static void unknown(void **state) {
   (void)state;
   for (size_t k = 0; k < FUNCTIONS; k++) {

@@ -2,7 +2,7 @@
 /* Every truncation and every change of one field of a certificate is rejected, or states the same, or something true
  * [CERT-1] [CERT-2] [CERT-3] [CERT-4] [CERT-5] [CERT-6] [CERT-7] [CERT-9].
  *
- * What is accepted is read by a reader of its own.
+ * Accepted texts are read by a separate reader.
  *   "The same": the same rectangles, the same list of pairs by kind, the same count of triangles and of pairs that are
  *   not proved; the same outcome, or one of the words that claim nothing; the same goal, unless it is said to be
  *   reached; and the same section on the diagram. Witnesses, places, bridges, corners and chains may differ: they are
@@ -24,7 +24,7 @@ typedef struct mutants {
   diagram drawn, drawn_mutant;
   const char *text;
   size_t replaced, tried, same, judged;
-  size_t judge_every; /* of statements about other rectangles the oracle sees one in so many */
+  size_t judge_every; /* the oracle judges one in this many statements about other rectangles */
 } mutants;
 
 static void fail_mutant(const char *what, const char *text) {
@@ -41,7 +41,7 @@ static void try_text(mutants *m, const char *text, size_t length) {
   bool exact = statement_ties_are_exact(&m->mutant);
   if (!exact && !(r.gaps & DYD_GAP_TIES)) fail_mutant("a pair is no tie", text);
   if (r.aliases_unproved && !(r.gaps & DYD_GAP_ALIASES)) fail_mutant("a site is no alias", text);
-  if (r.aliases_unproved) return; /* two sites for those who see rectangles */
+  if (r.aliases_unproved) return; /* two sites for a reader that sees rectangles only */
   diagram_read(&m->drawn_mutant, text);
   if (!statement_bounds_hold(&m->mutant)) fail_mutant("the bounds are too small", text);
   bool same = statement_same(&m->original, &m->mutant);

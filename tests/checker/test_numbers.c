@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The numbers that certificates describe [CERT-10]: each operation against libm, by a narrow rectangle that holds the
- * value and is accepted, and by those beside it, which are not; what is not defined, beyond the limits or misspelled is
+ * value and is accepted, and by its neighbours, which are rejected; undefined, misspelled and too large operations are
  * refused. All of them with every allocation failing once, too. */
 #include "checker/exhaust.h"
 #include "checker/number_cases.h"
@@ -115,7 +115,7 @@ static void refusals(void **state) {
   }
 }
 
-/* Texts of this piece so many times, with something before and behind. */
+/* A text that repeats this piece `count` times, between a prefix and a suffix. */
 static const char *repeated(const char *before, const char *piece, size_t times, const char *behind) {
   static char text[SIZE];
   *text = 0;
@@ -127,7 +127,7 @@ static const char *repeated(const char *before, const char *piece, size_t times,
   return text;
 }
 
-/* Leaves, digits, terms, coefficients: as many as may be are accepted, one more is not. */
+/* Leaves, digits, terms, coefficients: the largest allowed number is accepted, one more is not. */
 static void limits(void **state) {
   (void)state;
   static const char *const more[] = {"callback", "= 2\nsqrt 65", "= 2\ncbrt 65", "root 1 2 -2,0,1", "cycle 5",
@@ -178,7 +178,8 @@ static void set_powers(dyd_cert_poly *p, size_t leaf, size_t terms, dyd_cert_rel
   dyd_cert_poly_clear(&power);
 }
 
-/* Does the product of two sums of so many terms fit, where so much work is left? *work: what it took. */
+/* Returns whether the product of two sums of the given numbers of terms fits into the remaining work. *work: the work
+ * it took. */
 static bool product_fits(uint64_t *work, size_t terms, uint64_t left) {
   static dyd_cert_relations r;
   dyd_cert_poly p = {0}, q = {0};
@@ -194,7 +195,7 @@ static bool product_fits(uint64_t *work, size_t terms, uint64_t left) {
   return fits;
 }
 
-/* Every pair of terms is counted, every limb of enclosures, every copy; what is beyond the limit is not made. */
+/* Every pair of terms is counted, every limb of enclosures, every copy; anything beyond the limit is not computed. */
 static void work_is_counted(void **state) {
   (void)state;
   static dyd_cert_algebra a;
@@ -224,7 +225,7 @@ static void work_is_counted(void **state) {
   mpz_clear(z);
 }
 
-/* What reading a block after so much work says. */
+/* The result of reading a block after the given amount of work. */
 static dyd_status read_after(uint64_t *work, char *text) {
   dyd_error err;
   dyd_cert_sites sites = {.count = 1};

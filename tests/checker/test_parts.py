@@ -204,7 +204,7 @@ def mst_edges(p):
 
 def judge_graph(c, R, complete, tries=30):
     if c.graph == 'mst' and not complete:
-        return None  # what is stated to be certain is not proved then
+        return None  # statements of certain edges are not proved then
     edges = {'nearest': nearest_edges, 'gabriel': gabriel_edges, 'mst': mst_edges}[c.graph]
     certain = {(int(r[1]), int(r[2])) for r in c.rows if r[0] == 'c'}
     listed = {(int(r[1]), int(r[2])) for r in c.rows}

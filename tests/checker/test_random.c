@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Certificates of random cases, biased to trouble, are accepted, and what they state agrees with the engine and the
+/* Certificates of random cases, biased to trouble, are accepted, and their statements agree with the engine and the
  * oracle [CERT-1] [CERT-2] [CERT-3] [CERT-4] [CERT-5] [CERT-9]. */
 #include "checker/statement.h"
 

@@ -80,7 +80,7 @@ end
 CHAINED = DECIDED.replace('outcome decided', 'outcome fixpoint').replace('legal 5', 'legal 4').replace(
     '1 2 9*2^-2 9*2^-2\n', '').replace('pairs\n', 'pairs\nn 0 3 1 -1 1 17*2^-3 17*2^-3 2 -1 1\nl 1 2\n').replace(
     'triangles 2', 'triangles 0')
-# Rectangles, places, a bridge between two of them; an exact point that is no dyadic, and its alias.
+# Rectangles, places, a bridge between two of them; an exact point that is not dyadic, and its alias.
 BRIDGED = HEAD + '''sites 4
 0+1*2^2 0
 1*2^1+1*2^2 1
@@ -123,7 +123,7 @@ area none
 hausdorff none
 end
 '''
-# A square whose corners are known by what they are.
+# A square whose corners are described by expressions.
 DESCRIBED = HEAD + '''sites 4
 45*2^-5+1*2^-5 0
 0 45*2^-5+1*2^-5
@@ -224,7 +224,7 @@ def missing(word):
 
 
 def of_lines():
-    """What is no line of its kind: the line, what it becomes, why."""
+    """Lines that are malformed for their kind: the line, its replacement, the reason."""
     for line, name, behind in (('outcome fixpoint', 'outcome', WORD), ('goal decided', 'goal', WORD),
                                ('capped no', 'capped', WORD),
                                ('sites 4', 'sites', COUNT), ('legal 4', 'legal', COUNT), ('places 0', 'places', COUNT),
@@ -430,7 +430,7 @@ def first_difference(a, b):
 
 
 def of_sphere():
-    """Sections on a sphere [CERT-14]; lines that are told of are counted from the first one that differs."""
+    """Sections on a sphere [CERT-14]; line numbers in messages count from the first line that differs."""
     sphere = [(SPHERE, *c) for c in (
         ('eye 2\n', 'eye 7\n', 'there is no place 7 that is the eye', 7), ('eye 2\n', 'eye 4\n', 'there is no place 4', 7),
         ('eye 2\n', 'eye gap 0 91\n', 'the eye is no place'), ('eye 2\n', 'eye gap 0+1 0\n', 'the eye is no place'),
@@ -481,7 +481,7 @@ def verdict(folder, number, text):
 
 
 def calls(text, name):
-    """What stands between the parentheses of each call."""
+    """The text between the parentheses of each call."""
     for at in (m.end() for m in re.finditer(re.escape(name) + r'\(', text)):
         end, depth = at, 1
         while depth:
@@ -499,7 +499,8 @@ def reasons():
 
 
 def forged_parts():
-    """Certificates of discs, graphs and places that test_seeded.py has verdicts of; here only why they are rejected."""
+    """Certificates of discs, graphs and places whose verdicts are in test_seeded.py; this table has the reasons of
+    rejection."""
     found = re.findall(r'(.*?)---- (.*?)\n', (ROOT / 'tests/checker/forgeries_parts.txt').read_text(), re.S)
     return [text for text, said in found if said == 'rejected']
 

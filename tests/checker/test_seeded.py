@@ -5,12 +5,12 @@
 
 Usage: test_seeded.py CC ROOT LIBRARY [COUNT SEED FILE...]   (exit status 1 when a fault goes unnoticed)
 
-circles.txt has places on one circle, or not; forgeries*.txt certificates, each with its verdict: what is rejected, and
-what is accepted with which gaps. Most are one step from a good one, counts put right. The checker has to give these
-verdicts; a copy of one of its sources with a fault (a check removed or weakened, a < made <= at a tie), linked with the
-rest from LIBRARY, must give another one. Each fault replaces a text, which must occur once. SURVIVORS change nothing
-that could be noticed, for the reason given. With COUNT, so many faults drawn at random in these sources instead, as by
-tests/support/mutants.py, which goes on with what survives.
+circles.txt has places on one circle, or not; forgeries*.txt certificates, each with its verdict: rejected, or accepted
+with a list of gaps. Most are one step from a good one, counts put right. The checker has to give these verdicts; a copy
+of one of its sources with a fault (a check removed or weakened, a < made <= at a tie), linked with the rest from
+LIBRARY, must give another one. Each fault replaces a text, which must occur once. SURVIVORS change nothing that could
+be noticed, for the reason given. With COUNT, that number of faults are drawn at random in these sources instead, as by
+tests/support/mutants.py, which continues with the survivors.
 """
 import concurrent.futures
 import pathlib
@@ -402,7 +402,7 @@ class Seeds:
         return program
 
     def noticed(self, number, source, text, certificates):
-        """None: that is no program."""
+        """Returns None if the text is not a valid program."""
         changed, target = self.folder / f'{number}.c', self.folder / f'{number}.o'
         changed.write_text(text)
         if not self.compile(changed, target):

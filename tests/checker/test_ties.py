@@ -50,7 +50,7 @@ PROVED = [
 # Exponents beyond 2^8 are not enclosed by the checker: it says so.
 UNPROVED = [(ALIAS.format('exp(-300)+1', '1+exp(-300)'), 'aliases'),
             ('2+exp(-300) 0\n0 2+exp(-300)\n-2-exp(-300) 0\n0 -2-exp(-300)\n', 'ties')]
-# points; what is replaced in the certificate; by what; why it is rejected
+# points; text of the certificate; its replacement; why it is rejected
 FORGERIES = [
     (SQUARE, '\n= 2\nsqrt 0\n', '\n= 3\nsqrt 0\n', 'not seen to be what the line says'),  # another relation
     (SQUARE, 'sqrt 2 x0', 'sqrt 2 -x0', 'not seen to be what'),                # the other root
@@ -134,7 +134,7 @@ def check_left_out(folder):
 
 
 def check_points(folder):
-    """Other points, within the rectangles all the same, are not those that are described."""
+    """Other points within the same rectangles do not match the description."""
     for points, old, new, status in ((SQUARE, '-sqrt(2) 0', '-sqrt(2)-2^-300 0', 3),
                                      (SQUARE, '-sqrt(2) 0', '-sqrt(2)-2^-30 0', 1),
                                      (SQUARE, '-sqrt(2) 0', '-sqrt(2) sin(pi)', 3)):
