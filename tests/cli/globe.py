@@ -3,7 +3,7 @@
 
 A determinant of vectors of whole multiples of 360/n degrees is, times 16, a sum of 192 roots of unity of order n: an
 algebraic integer whose conjugates are at most 192. So it is 0 or at least 192^(1 - phi(n)): computed to more digits
-than that, its sign is known. Other degrees are taken to be in no such relation, which is looked at."""
+than that, its sign is known. Other degrees are assumed to be in no such relation, and the assumption is checked."""
 import fractions
 import itertools
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Running the built command and checking what it did."""
+"""Runs the built command and checks its results."""
 import collections
 import os
 import re
@@ -17,7 +17,7 @@ TABLES = 'delaunay', 'voronoi', 'converge', 'disc', 'bisector', 'nearest', 'tole
 
 
 def run(*args, stdin=b'', binary=False, comments=True, **options):
-    """Runs the command in an empty folder (or options['cwd']). binary: the output is no text, bytes stand as they are.
+    """Runs the command in an empty folder (or options['cwd']). binary: returns the output as bytes.
     comments: a table begins with them."""
     if comments and args and args[0] in TABLES:
         args = (args[0], '--comments', *args[1:])

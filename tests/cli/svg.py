@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Reading pictures: what is drawn, with the attributes that groups hand down."""
+"""Reads pictures: the shapes drawn, with the attributes they inherit from groups."""
 import collections
 import re
 import xml.etree.ElementTree

@@ -48,7 +48,7 @@ def test_carried():
 
 
 def test_carried_elsewhere():
-    """geojson has numbers where the text is one; rows that are left out, merged or headless keep theirs."""
+    """geojson has numbers where the text is one; skipped, merged or headless rows keep theirs."""
     out = json.loads(run('delaunay', '--layer', 'points', '--format', 'geojson', *READ, '--carry', 'all', '-', stdin=TABLE).out)
     assert [f['properties']['acc'] for f in out['features']] == [0.5, 0.25, 0.125, 0.1]
     assert [f['properties']['odd, "q"'] for f in out['features']] == ['a,b', None, '007', 'two\nlines']
@@ -217,7 +217,7 @@ def test_boxes_of_one_identifier():
 
 
 def test_discs_of_one_identifier():
-    """The smallest disc counts. Two discs that are apart are told even where their squares meet."""
+    """The smallest disc counts. Two disjoint discs are reported even where their squares meet."""
     rand, met, refused = random.Random(9), 0, 0
     for _ in range(cases(60)):
         rows = [(rand.choice('abcdefg'), *(Q(rand.randint(0, 40), 10) for _ in 'xy'), Q(rand.randint(0, 25), 10)) for _ in range(rand.randint(4, 8))]
@@ -273,7 +273,7 @@ def test_means_of_one_identifier():
             name = rand.choice('abcdef')
             sigmas = [Q(rand.choice((0, 1, 2, 3, 3, 7, 20)), 10) for _ in 'xy']
             at = [Q(rand.randint(0, 50), 10) for _ in 'xy']
-            for a in (0, 1):  # what is exact is so in all rows
+            for a in (0, 1):  # an exact coordinate is exact in all rows
                 at[a] = shift.setdefault((name, a), at[a]) if not sigmas[a] or (k % 2 and not sigmas[1 - a]) else at[a]
             rows.append((name, *at, *sigmas))
         discs = ('--discs',) if k % 2 else ()

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""dyadel converge: the table against what is known of the run, both schedules, traces and their replay, plots.
+"""dyadel converge: the table against known facts of the run, both schedules, traces and their replay, plots.
 
 Usage: test_converge.py COMMAND DATA
 """
@@ -115,7 +115,7 @@ def test_voronoi_bounds():
     for before, row in zip(rows[2:], rows[3:-1]):
         for name in ('v_area', 'v_hausdorff'):
             assert 2 ** 7 < Fraction(before[name]) / Fraction(row[name]) < 2 ** 9, (name, before[name], row[name])
-    # On a window of one's own; what is undetermined is no larger than the window.
+    # With --window; the undetermined area is at most the window.
     text = ''.join(f'[{x - 0.1},{x + 0.1}] {y}\n' for x, y in FAR)
     small, large = (table('--of', 'voronoi', '--window', w, text=text)[-1] for w in ('40,60,40,60', '0,100,0,100'))
     assert 0 < Fraction(small['v_area']) < 400 and Fraction(small['v_area']) < Fraction(large['v_area']) < 10000

@@ -24,7 +24,8 @@ SPARE = 6 if os.environ.get('DYADEL_TEST_SANITIZED') else 1.5  # a second, and w
 
 
 def in_time(seconds, what):
-    """The result of what(), which takes so long at most; tried again where others at work on this machine stood in its way."""
+    """Returns the result of what(), which must end within that many seconds; tries again in case the machine was
+    busy."""
     for _ in range(3):
         begun = time.monotonic()
         result = what()
@@ -67,7 +68,7 @@ def number(text):
 
 
 def test_cells_that_are_cut():
-    """Every cell has its row; the window stands for those that were not worked out, and true bounds for all."""
+    """Every cell has its row; the window replaces cells that were not computed, and all bounds are true."""
     def place(result):
         return 1 if result.code != 4 else 0 if 'cells or regions' in result.err else -1
 
@@ -119,7 +120,7 @@ def test_silent_oracle():
 
 
 def test_oracle_that_is_slow_to_end():
-    """The programs are given a second to end; that is no reason to tell that writing does not end."""
+    """The programs get a second to end; the message about slow writing must not appear in that time."""
     result = timed(1, 'delaunay', '--oracle', 'echo points 3; exec sleep 100')
     expect(result, 4, r'\A\Z', r'\Adyadel: budget before the first [^\n]*\n\Z')
 
@@ -160,7 +161,7 @@ CROWD = ''.join(f'{x}+-5e-3 {y}+-5e-3\n' for x, y in (
 
 
 def test_first_closure_that_is_cut():
-    """What is known before all undecided faces are closed is written: faces that were not are named, as with a cap."""
+    """Results known before all undecided faces are closed are written; the remaining faces are named, as with a cap."""
     whole = run('delaunay', '-', stdin=CROWD)
     status = {(row['i'], row['j']): row['status'] for row in rows_of(whole)}
 
@@ -192,14 +193,14 @@ def test_bounds_that_are_cut():
     expect(run('converge', '-', stdin=TRACKS), 3, '^stage,')
 
 
-# A circle of 57 corners of polygons, of order far beyond what is worked out; a power of nine roots, once multiplied out.
+# A circle of 57 corners of polygons, of an order too large to compute; a power of nine roots, once multiplied out.
 ROOTS = '+'.join(f'sqrt({p})' for p in (2, 3, 5, 7, 11, 13, 17, 19, 23))
 PROOFS = (''.join(f'cos(2*pi/{k}) sin(2*pi/{k})\n' for k in range(3, 60)),
           f'({ROOTS})^200 0\n({ROOTS})^199*({ROOTS}) 0\n1 1\n0 5\n')
 
 
 def test_proofs_that_are_cut():
-    """What was known before a proof that takes too long is written."""
+    """Results known before a proof that takes too long are written."""
     for text in PROOFS:
         result = cut_between(lambda seconds, text=text: timed(seconds, 'delaunay', '-', stdin=text),
                              lambda result: 0 if result.out else -1, 1)
@@ -261,7 +262,8 @@ def test_counts_that_are_cut():
 
 
 def test_plans_that_are_cut():
-    """The first points of a plan; what they leave open is so when they are measured, and nothing is called sufficient."""
+    """The first points of a plan: pairs it calls undecided stay undecided when these are measured, and it claims no
+    sufficiency."""
     points = [(Fraction(x), Fraction(y)) for x, y, _ in SCATTER]
     half = 12
     text = ''.join(f'{x}+-{half} {y}+-{half}\n' for x, y in map(lambda p: (p[0], float(p[1])), points))
@@ -316,7 +318,7 @@ def catches_interrupts(process):
 
 
 def interrupted_after(seconds, command, *args, text):
-    """Code and output of a run that is sent SIGINT so long after it listens."""
+    """Code and output of a run that gets SIGINT the given time after it listens."""
     with subprocess.Popen([COMMAND, command, '-', *args], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, text=True) as process:
         process.stdin.write(text)
@@ -331,7 +333,7 @@ def interrupted_after(seconds, command, *args, text):
 
 
 def test_tolerances_and_plans_interrupted():
-    """As at a deadline, with exit status 5: what is known is written, and called cut."""
+    """As at a deadline, with exit status 5: known results are written, and called cut."""
     points = ''.join(f'{k * k % 9973} {k * k * k % 9967}.{k}\n' for k in range(5000))
     for command, extra in (('tolerance', ('--metric', 'box')), ('plan', ())):
         text = points if command == 'tolerance' else re.sub('( |\n)', '+-60\\1', points)

@@ -86,7 +86,7 @@ def test_boxes_of_the_arc():
 
 
 def test_discs_of_computed_points_hold_them():
-    """At every precision the disc that stands for a computed point with a radius, half as wide as its square and by 2^-50 of
+    """At every precision the disc used for a computed point with a radius, half as wide as its square and by 2^-50 of
     the coordinates wider, holds the disc around the point [DISC-4]."""
     r = random.Random(SEED)
     for bits in (*range(2, 24), 40, 64, 65):

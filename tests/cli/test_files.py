@@ -162,7 +162,7 @@ def test_pictures_and_terminals():
         try:
             while os.read(ours, 4096):
                 pass
-        except OSError:  # how a terminal tells that nobody writes to it any more
+        except OSError:  # how a terminal reports that its writers are gone
             pass
         os.close(ours)
         with process.stderr:

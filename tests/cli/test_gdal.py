@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Files that GDAL reads and writes, against ogr2ogr, ogrinfo and geopandas; hostile files; what is said without GDAL.
+"""Files that GDAL reads and writes, against ogr2ogr, ogrinfo and geopandas; hostile files; messages without GDAL.
 
 Usage: test_gdal.py COMMAND DATA GDAL (the word "yes" where there is a dyadel-gdal)
 """

@@ -199,7 +199,7 @@ def may_be_gabriel(i, j, others):
 
 
 def gate(rng):
-    """Two sides, and blockers before one of them: what is free is free between their middles only, if at all."""
+    """Two sides, and blockers before one of them: a free pair, if any, is free between their middles only."""
     far, small = rng.randint(4, 12), rng.randint(0, 1)
     y = rng.randint(2, 18)
     second = (far, far, 0, 20) if rng.random() < 0.5 else (far, far + small, y, y)
@@ -229,7 +229,7 @@ def test_possible_is_exact():
 
 
 def test_monotone():
-    """Narrower rectangles: certain stays certain, what is not listed stays away."""
+    """Narrower rectangles: certain edges stay certain, and no new edge is listed."""
     rng = random.Random(SEED)
     for _ in range(cases(20 * SCALE)):
         boxes = random_boxes(rng, 9, third=False)
@@ -247,7 +247,8 @@ def test_monotone():
 
 
 def test_refined():
-    """Points are refined until edges of the graph are certain, not only pairs; the exit status tells what is left."""
+    """Points are refined until edges of the graph are certain, not only pairs; the exit status shows whether any is
+    left."""
     near = 'sqrt(2) 0\n0 0\n-sqrt(2)*3/5 -sqrt(2)*4/5+2^-%d\n'
     for bits in (40, 140, 700):
         result = run('delaunay', '--layer', 'graph:nearest', '-', stdin=near % bits)

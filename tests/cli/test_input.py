@@ -41,7 +41,7 @@ def comma(name, text):
 
 
 def packed(text):
-    """Names of the packers at hand, and what they make of the bytes."""
+    """Names of the installed packers, with the bytes packed by each."""
     yield 'gzip', gzip.compress(text)
     yield 'gzip in pieces', gzip.compress(text[:50000]) + gzip.compress(b'') + gzip.compress(text[50000:])
     yield 'gzip and zeros', gzip.compress(text) + bytes(5000)
@@ -95,7 +95,7 @@ def test_packed_points_file():
         expect(run('delaunay', '-', stdin=data), 1, r'\A\Z', r'\Adyadel: -: the file is .*' + what)
 
 
-# Options and text; the exit status and what is said.
+# Options and text; the exit status and the message.
 REFUSED = [
     ('--columns lon,lat', 'id;x;y\na;1;2\n', 1, r'-:1:1: no column is called "lon"; the header\'s names are: id, x, y; '
      r'give one of these, or its number, to --columns$'),
@@ -153,7 +153,7 @@ def test_refusals():
 
 
 def test_missing():
-    """Rows left out keep their numbers for the others."""
+    """Skipped rows count in the numbers of the others."""
     rows = airports()
     gaps = {4: 'NA', 11: '', 12: 'NaN', 100: 'null', 3376: '-nan'}
     for row, text in gaps.items():

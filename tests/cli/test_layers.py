@@ -164,7 +164,7 @@ def test_edges():
 
 
 def test_places_are_as_near_as_said():
-    """Points, and vertices, lie within max_coordinate_error of all that they stand for."""
+    """Each point or vertex lies within max_coordinate_error of every place that it represents."""
     for command, layer in (('delaunay', 'points'), ('voronoi', 'vertices')):
         for row in table(written(command, '--layer', layer, '--format', 'wkt')):
             place = re.fullmatch(r'POINT \((\S+) (\S+)\)', row['WKT']).groups()
@@ -175,7 +175,7 @@ def test_places_are_as_near_as_said():
 
 
 def test_geojson_is_plain():
-    """One kind of geometry in a file; properties are numbers and texts; no reference system that nobody named."""
+    """One kind of geometry in a file; properties are numbers and texts; no reference system unless one was named."""
     for command, layer in ALL:
         for crs in ((), ('--crs', 'EPSG:32632')):
             data = json.loads(written(command, '--layer', layer, '--format', 'geojson', *crs))

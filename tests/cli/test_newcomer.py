@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What somebody does who has never used the command: every command on input that is empty, strange or wrong, and output
-to places that do not take it. The right exit status, a message with place and remedy, never a crash.
+"""A newcomer's mistakes: every command on input that is empty, strange or wrong, and output to places that cannot be
+written. The right exit status, a message with place and remedy, never a crash.
 
 Usage: test_newcomer.py COMMAND DATA
 """
@@ -77,7 +77,7 @@ def test_inputs():
 
 
 def test_formats_of_little():
-    """Every format of every command, of none to four points: all bytes are written, nothing is said."""
+    """Every format of every command, of none to four points: all bytes are written, and no message."""
     little = ('', '1 2\n', '1 2\n3 4\n', '1 2\n1 2\n1 2\n', '0 0\n4 0\n[0,1] 4\n4 4\n')
     for command, formats in FORMATS.items():
         for form in formats.split():

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Every option: wrong values, wrong commands; help, manual page and completion agree with what is accepted.
+"""Every option: wrong values, wrong commands; help, manual page and completion agree with the values accepted.
 
 Usage: test_options.py COMMAND DATA
 """
@@ -16,7 +16,7 @@ from harness import COMMAND, DATA, expect, few, main, run
 
 WHOLE = ('0', '-1', 'x', '1.5', '', '1e3', '99999999999999999999', '3 4')
 SECONDS = ('0', '-1', 'nan', 'inf', 'x', '', '1s')
-# Values that are refused before any file is looked at.
+# Values that are refused before any file is opened.
 WRONG = {
     '--until': ('', 'area', 'area:', 'are:3', 'decided:3', 'hausdorff:3x', 'hausdorff:99999999'),
     '--max-bytes': WHOLE + ('3X', 'M', '2GB', '99999999T', '9' * 80, '-1K'), '--max-bits': WHOLE, '--max-pairs': WHOLE, '--threads': WHOLE, '--tie-bits': WHOLE, '--start-bits': WHOLE, '--step-bits': WHOLE,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""--oracle: the example programs agree with points given as text; faults give their message, exit status 1 and what was
-known before; nothing is left running, whichever way the command ends.
+"""--oracle: the example programs agree with points given as text; faults give their message, exit status 1 and the
+results known before; no process is left running, however the command ends.
 
 Usage: test_oracle.py COMMAND DATA FOLDER EXAMPLE   (tests/oracles, and the example in C, compiled)
 """
@@ -91,7 +91,7 @@ def test_shell_and_bc():
 
 
 def thue_morse(a):
-    """To 600 binary digits, and the middle of what may follow."""
+    """To 600 binary digits, and the middle of the remaining interval."""
     number = 0
     for k in range(1, 601):
         number = 2 * number + bin(k * a).count('1') % 2
@@ -260,7 +260,7 @@ for line in sys.stdin:
 
 
 def ask_crosses(folder, costs, *args):
-    """The result, and what was asked, by each program."""
+    """The result and the requests, for each program."""
     for name in os.listdir(folder):
         if name.startswith('log.'):
             os.unlink(os.path.join(folder, name))
@@ -276,7 +276,7 @@ def ask_crosses(folder, costs, *args):
 
 
 def test_costs():
-    """Programs that say what points cost: dear ones are asked less often and after cheap ones, by one program or more,
+    """Programs that report costs: expensive points are asked less often and after cheap ones, by one program or more,
     resumed or not, and the result is the same."""
     cost = [50 if i % 4 == i // 4 % 3 else 1 for i in range(24)]
     told = 'cost ' + ' '.join(map(str, cost))
@@ -296,7 +296,8 @@ def test_costs():
         assert calls(after, dear) * 5 < calls(before, dear) * 4, (calls(after, dear), calls(before, dear))
         spent = [sum(cost[int(line.split()[1])] for line in asked) for asked in (before, after)]
         assert spent[1] < spent[0], spent
-        # Behind the first answers cheap points are asked, and dear ones only when as much was spent on these.
+        # Behind the first answers cheap points are asked, and expensive ones only when as much was spent on the cheap
+        # ones.
         assert cost[int(after[24].split()[1])] == 1
         assert sorted(ask_crosses(folder, told, '--oracle-jobs', '3')[1]) == sorted(after)
         with open(os.path.join(folder, 'whole'), encoding='utf-8') as f:
@@ -330,7 +331,7 @@ STUBBORN = 'import signal; [signal.signal(s, signal.SIG_IGN) for s in (1, 2, 15)
 
 
 def test_interrupt():
-    """The first Ctrl-C ends the wait for a program that hangs, and what is known is written."""
+    """The first Ctrl-C ends the wait for a program that hangs, and known results are written."""
     process = start(server(STUBBORN), '--oracle-timeout', '1000', '--oracle-jobs', '2')
     wait_for_marked(5)
     begun = time.monotonic()
@@ -348,7 +349,7 @@ def test_time_limit():
 
 
 def test_death():
-    """Killed outright, or by a signal while programs start: nothing goes on."""
+    """Killed outright, or by a signal while programs start: no process is left."""
     for number, command in ((signal.SIGKILL, server(STUBBORN)), (signal.SIGTERM, 'trap "" TERM; sleep 1000 & sleep 1000'),
                             (signal.SIGINT, 'sleep 1000'), (signal.SIGKILL, 'sleep 1000 | sleep 1000')):
         process = start(command, '--oracle-timeout', '1000', '--oracle-jobs', '2')
@@ -360,8 +361,8 @@ def test_death():
 
 
 def test_orderly_end():
-    """A program that is at work and holds something elsewhere, as srun does, is told to end before it is killed: at a
-    limit, when another one takes its place, and when dyadel itself is killed."""
+    """A program that is at work and holds something elsewhere, as srun does, gets a signal to end before it is killed:
+    at a limit, when another one takes its place, and when dyadel itself is killed."""
     with tempfile.TemporaryDirectory() as folder:
         freed = os.path.join(folder, 'freed')
         holder = ('import os, signal, sys, time\n'

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Pictures: names of what is drawn, text that is text, numbers where there is room, coordinates, honest legends.
+"""Pictures: names of shapes, text as text, numbers where they fit, coordinates, honest legends.
 
 Usage: test_pictures.py COMMAND DATA
 """
@@ -51,7 +51,7 @@ def test_text_is_text():
 
 
 def test_everything_has_a_name():
-    """What stands for a pair, a triangle, a point has an id and a title; there are as many as there should be."""
+    """Each shape of a pair, a triangle or a point has an id and a title, and their number is right."""
     text = picture('delaunay', TWELVE)
     ids = {p.look['id']: p.title for p in svg.paths(text) if 'id' in p.look}
     table = run('delaunay', '--quiet', '-', stdin=TWELVE).out.split('status\n')[1].split()
@@ -115,7 +115,7 @@ def test_identifiers():
 
 
 def test_coordinates():
-    """Ticks stand where the numbers beside them say, on both sides of the frame."""
+    """Ticks are where their numbers say, on both sides of the frame."""
     for points, wide in (('0 0\n7 3\n', 7), (TWELVE, 200), ('1e-9 2e-9\n3e-9 1e-9\n', 2e-9), ('-1e12 0\n1e12 5e11\n', 2e12)):
         text = picture('delaunay', points)
         ticks = texts(text, '12')
@@ -130,7 +130,7 @@ def test_coordinates():
 
 
 def test_legend_is_honest():
-    """What is drawn and nothing else: points alone, ties, rectangles."""
+    """The selected layers and nothing else: points alone, ties, rectangles."""
     def legend(points, *options):
         return ' | '.join(svg.words(picture('delaunay', points, *options)))
     plain = legend('0 0\n4 0\n1 3\n')

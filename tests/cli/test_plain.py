@@ -56,7 +56,7 @@ def test_summary_says_what_comments_do():
 
 
 def test_packed():
-    """What is unpacked is what is written without packing; names in any case; the file is whole or not there."""
+    """Unpacked output equals output without packing; names in any case; the file is complete or missing."""
     with tempfile.TemporaryDirectory() as folder:
         for form in 'csv', 'json', 'geojson', 'wkt', 'svg', 'vtk':
             want = ask('delaunay', '--format', form).out.encode()
@@ -104,7 +104,7 @@ def test_unknown_endings():
 
 
 def test_reference_systems():
-    """They are written, or refused; never do they name other units than those that are written."""
+    """They are written, or refused; the units named are always the units written."""
     for form in 'csv', 'wkt', 'obj', 'vtk':
         expect(ask('delaunay', '--crs', 'EPSG:32632', '--format', form), 2, r'\A\Z', f'{form} has no place for a reference system')
     for form in 'geojson', 'json', 'svg':

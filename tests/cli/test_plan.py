@@ -38,7 +38,7 @@ def test_accuracy_that_is_not_enough():
 
 
 def test_what_rows_do_not_say():
-    """A pair that ties at the centres, points that coincide there, rows that decide nothing by themselves."""
+    """A pair that ties at the centres, points that coincide there, rows that alone decide nothing."""
     tied = '39 1\n60 0\n[39,43] [57,61]\n[-1,1] [39,41]\n19 21\n'
     expect(run('plan', '-', stdin=tied), 0, '', 'the pair 0,3 ties at the centres.*measurement')
     assert 'sufficient' not in run('plan', '-', stdin=tied).err
@@ -109,7 +109,8 @@ def measured(text, plan):
 
 
 def prove_again(radius, number):
-    """Squares around the first airports: what the plan says decides all, and each row what it tells."""
+    """Squares around the first airports: measuring the rows of the plan decides all pairs, and each row decides
+    the pairs it names."""
     with open(AIRPORTS, encoding='utf-8') as f:
         table = list(csv.DictReader(f))[:number]
     text = ''.join(f"{r['longitude']}+-{radius} {r['latitude']}+-{radius}\n" for r in table)
@@ -207,7 +208,7 @@ def test_sphere():
 
 
 def test_discs():
-    """Pairs that are open for the discs are planned for: all of them, and those that --pairs names."""
+    """Plans cover the pairs that are indeterminate for the discs: all of them, or the ones given by --pairs."""
     gps = '--columns', 'east,north', '--radius-column', 'accuracy', os.path.join(DATA, 'gps.csv')
     open_pairs = [line.split(',')[:2] for line in run('delaunay', '--discs', *gps).out.split() if 'indet' in line]
     plan = [line.split(',') for line in run('plan', '--discs', *gps).out.splitlines()[2:]]

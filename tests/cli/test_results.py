@@ -98,7 +98,7 @@ def check_goal(goal, text):
 
 
 def test_goals():
-    # The twelve corners stay undecided for ever; the area of what is possible shrinks all the same.
+    # The twelve corners stay undecided for ever; the possible area shrinks all the same.
     check_goal('area:20', polygon(12))
     check_goal('hausdorff:20', 'sqrt(2) pi\n-sqrt(3) e\n0 exp(-2)\nlog(7) -cbrt(9)\n')
 
@@ -113,7 +113,7 @@ def test_airports():
         expect(result, 3, err='legal, .* pairs; ')
         assert count(result.out) == ({'legal': 10109, 'indeterminate': 5} if mode[0] == '--measured' else
                                      {'legal': 8925, 'indeterminate': 2490})
-        # What holds for all choices holds for this one; what is true of this one is possible.
+        # A certain statement holds for this choice; an edge of this choice is possible.
         pairs = {line.rsplit(',', 1)[0]: line.rsplit(',', 1)[1] for line in result.out.split() if line[0] != '#'}
         legal = {f'{p},legal' for p, s in pairs.items() if s == 'legal'}
         assert legal < edges | {'i,j,legal'}
@@ -267,7 +267,7 @@ def test_output_file():
         expect(run('delaunay', '-', '-o', path, stdin='0 0\n1 1\n'), 0, r'\A\Z', r'\A\Z')
         with open(path, encoding='utf-8') as f:
             assert f.read() == 'i,j,status\n0,1,legal\n'
-        # Bad input leaves the former file, and no file beside it.
+        # Bad input leaves the old file, and no other file next to it.
         expect(run('delaunay', '-', '-o', path, stdin='0 0\n1\n'), 1)
         link = os.path.join(folder, 'link')
         os.symlink('result.csv', link)

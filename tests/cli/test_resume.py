@@ -14,7 +14,7 @@ import time
 
 from harness import COMMAND, expect, main, run, sealed
 
-# Serves 12 points on a circle, by integer square roots, and writes down what it is asked. It dies before answer number
+# Serves 12 points on a circle, by integer square roots, and logs its requests. It dies before answer number
 # DIE, counted over all its requests.
 ORACLE = '''
 import math, os, sys, time
@@ -82,7 +82,7 @@ def story(trace):
 
 
 def test_whole_from_the_start():
-    """A trace that goes on from another one has all its answers from the start, however soon it is cut."""
+    """A trace that continues another one has all answers of that one from the start, however soon it is cut."""
     with Folder() as f:
         f.oracle('--trace', 'whole')
         asked = f.asked()
@@ -102,7 +102,7 @@ def test_whole_from_the_start():
 
 
 def test_digests():
-    """A line that was changed, moved or left out is noticed, though it is well formed."""
+    """A line changed, moved or removed is noticed, though it is well formed."""
     with Folder() as f:
         f.oracle('--trace', 'whole')
         whole = f.read('whole')
@@ -152,7 +152,8 @@ def test_oracle_dies_anywhere():
 
 
 def test_sphere():
-    """Traces on a sphere are those of images; json tells of the rectangles of places. Another radius is another input."""
+    """Traces on a sphere are those of images; json reports the rectangles of places. Another radius is another
+    input."""
     places = ''.join(f'sqrt({200 * i})-90 10*sin({i})+sqrt({3 * i})\n' for i in range(1, 12))
     with Folder() as f:
         f.write('places', places)
@@ -182,8 +183,8 @@ def test_batches_in_flight():
 
 
 def test_retries():
-    """A program that dies every few answers is started again: the same result, and only what was in flight is asked
-    twice; where one request kills it each time, that many times."""
+    """A program that dies every few answers is started again: the same result, and only requests in flight are
+    repeated; where one request kills it each time, that many times."""
     every = "int(os.environ.get('DIE', 10 ** 9)) - 1 and len(open(sys.argv[1]).readlines()) % 7 == 0"
     dying = ORACLE.replace("int(os.environ.get('DIE', 10 ** 9))", every)
     with Folder() as f:
@@ -324,7 +325,7 @@ def test_refused():
 
 
 def test_reading_options():
-    """A trace goes with the options that its points were read by. Those that say nothing of the points may change."""
+    """A trace goes with the options that its points were read by. Options that do not concern the points may change."""
     table = 'a,b,c,n\n' + ''.join(f'sqrt({k}),{k * k % 7},{k % 3 + 1},p{k}\n' for k in range(2, 9))
     points = {'--measured': (), '--skip-missing': (), '--merge': (), '--decimal-comma': (), '--delimiter': (',',),
               '--radius': ('1/1000',), '--radius-column': ('c',), '--radius-scale': ('1/5000',)}

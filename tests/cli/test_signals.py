@@ -22,7 +22,7 @@ ENDLESS = f'exp(log({SLOW})/2) 0\n0 sqrt({SLOW})\n-exp(log({SLOW})/2) 0\n0 -sqrt
 FOREVER = ('--max-bits', '1000000', '--timeout', '100')
 
 
-# Equal reals for the commands of single answers; these take the longer the more bits are asked for. That they are equal
+# Equal reals for the commands of single answers; these take the longer the more bits are requested. That they are equal
 # would be proved where ties are.
 SINES = [f'sin({k})' for k in range(1, 31)]
 UP, DOWN = '+'.join(SINES), '+'.join(reversed(SINES))
@@ -54,7 +54,7 @@ def test_first_interrupt_writes_what_is_known():
 
 
 def wait_for(process, what, seconds=60):
-    """Waits until the process has taken so many seconds of CPU, or ended."""
+    """Waits until the process has used that many seconds of CPU, or ended."""
     until = time.monotonic() + seconds
     while process.poll() is None and time.monotonic() < until:
         with open(f'/proc/{process.pid}/stat', encoding='ascii') as stat:
@@ -63,7 +63,7 @@ def wait_for(process, what, seconds=60):
 
 
 def test_first_interrupt_in_single_answers():
-    """bisector, disc, nearest: stopped between two narrowings, what is known is written."""
+    """bisector, disc, nearest: stopped between two narrowings, they write known results."""
     known = {'bisector': '^# the rectangles meet', 'disc': '^3,unknown', 'nearest': '^0,possible,.*\n1,possible,'}
     for command, text in ENDLESS_PIECES.items():
         process = start('--max-bits', '1000000', '--timeout', '100', text=text, command=command)

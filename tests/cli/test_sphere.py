@@ -110,7 +110,7 @@ def canonical_somewhere(r):
 
 
 def test_rotated():
-    """Points that are in no relation have the same neighbours from wherever they are looked at."""
+    """Points in no special relation have the same neighbours seen from every eye."""
     r = random.Random(SEED)
     for k in range(cases(60)):
         places = [canonical_somewhere(r) for _ in range(r.randrange(4, 12))]
@@ -225,7 +225,7 @@ def test_airports_hull():
     assert edges == {tuple(map(int, row.split(',')[:2])) for row in rows}
 
 
-# ---- what is not known exactly ----
+# ---- places that are not exact ----
 
 def moved(place, angle, r):
     """A place at most so far away (radians), in degrees; some are as far as possible."""
@@ -256,7 +256,7 @@ def scattered(r, n, wide):
 
 
 def test_choices_within_radii():
-    """Random choices never contradict what is stated; choices in a smaller radius are decided no less."""
+    """Random choices never contradict a statement; choices in a smaller radius are decided no less."""
     r = random.Random(SEED)
     for k in range(cases(40)):
         metres = r.choice([1000, 50000, 400000])
@@ -472,7 +472,7 @@ def on_the_globe(vectors, places, bound):
 
 
 def test_meshes():
-    """obj and vtk: on the sphere of radius 1, within the bound that is told; edges and triangles are those of csv."""
+    """obj and vtk: on the sphere of radius 1, within the bound reported; edges and triangles are those of csv."""
     r = random.Random(SEED)
     places = [(round(r.uniform(-180, 180), 3), round(math.degrees(math.asin(r.uniform(-1, 1))), 3)) for _ in range(40)]
     text = ''.join(f'{x} {y}\n' for x, y in places + places[:1])
@@ -561,7 +561,7 @@ def check_cells(whole):
 
 
 def test_voronoi_random():
-    """Vertices where they are, cells in order; what is tied is in regions."""
+    """Vertices where they are, cells in order; tied cells are in regions."""
     r = random.Random(SEED)
     for k in range(cases(80)):
         exact, places = some_places(r, k % 7)
@@ -635,7 +635,7 @@ def test_pictures():
 
 
 def test_window():
-    """Part of the map, over the seam too; what is in it is counted, and cut to it."""
+    """Part of the map, over the seam too; cells in it are counted, and cut to it."""
     text = '178 -18\n179.5 -17\n-179 -18.5\n-178 -17\n177 -16.5\n10 10\n10 20\n'
     pairs = [row.split(',') for row in run('delaunay', '--sphere', '-', stdin=text).out.splitlines()[1:]]
     for window, inside in (('176,183,-20,-15', '01234'), ('-184,-177,-20,-15', '01234'), ('9,11,9,21', '56'), ('-100,-99,80,81', '')):
@@ -646,11 +646,11 @@ def test_window():
         assert re.findall('>legal: ([0-9]+)<', drawn) == [str(edges)] * (edges > 0), (window, edges)
     for narrow in ('-35.90000000000001,-35.9,53,53.00000000000001', '-35.9,-35.8,53,53.1'):  # finer than doubles tell apart
         assert '<svg' in run('delaunay', '--sphere', '--format', 'svg', f'--window={narrow}', '-', stdin='-35.9 53\n').out
-    tall = run('delaunay', '--sphere', '--format', 'svg', '--window=178,180,-21,-15', '-', stdin=text).out  # beside the bar
+    tall = run('delaunay', '--sphere', '--format', 'svg', '--window=178,180,-21,-15', '-', stdin=text).out  # near the bar
     end, bar = re.search('<text x="([0-9.]+)"[^>]*>([^<]* degrees?)<', tall).groups()
     row = re.search('>([^<]* in this window[^<]*)<', tall)[1]
     assert 'carr' in tall and 90 + 7 * len(row) < float(end) - 7 * len(bar), (row, end, bar)
-    near = run('delaunay', '--sphere', '--format', 'svg', '-', stdin=text[:-12]).out  # seen around the date line by itself
+    near = run('delaunay', '--sphere', '--format', 'svg', '-', stdin=text[:-12]).out  # seen around the date line unasked
     assert '>182<' in near and '>178<' in near and 'id="pair-1-3"' in near, re.findall('>[0-9]+<', near)
     crowd = run('delaunay', '--sphere', '--radius', '2km', '-q', '--format', 'svg', *AIRPORTS).out
     assert 'of 4846 indeterminate pairs across a square' in crowd and re.search('2[0-9]{3} of these 3376 points are in a small part', crowd)
@@ -664,14 +664,15 @@ def test_window():
 
 
 def test_ids_and_rows():
-    """Names, rows left out, rows merged."""
+    """Names, skipped rows, merged rows."""
     text = 'name,lon,lat\na,0,0\nb,,\nc,10,0\nd,0,10\ne,10,0\n'
     args = ('delaunay', '--sphere', '-q', '--columns', 'lon,lat', '--id', 'name', '--skip-missing')
     expect(run(*args, '-', stdin=text), 0, r'\A# alias 4 2\ni,j,status,id_i,id_j\n0,2,legal,a,c\n0,3,legal,a,d\n2,3,legal,c,d\n\Z')
 
 
 def test_note():
-    """Degrees by their names, read as a plane, are told of once; not where they are no degrees, or it is meant."""
+    """Degrees by their names, read as a plane, give one note; none if the values cannot be degrees, or --plane is
+    given."""
     note = r'\Adyadel: -: the columns are longitude and latitude by their names.*--sphere; --plane says'
     for head in ('lon,lat', 'Longitude,LATITUDE', 'lng;latitude_deg', 'lon_x,lat_y', 'stop_lon,stop_lat',
                  'decimalLongitude,decimalLatitude', 'gpsLng,gpsLat'):
@@ -688,7 +689,7 @@ def test_note():
 
 
 def test_certificate():
-    """It is about the places; what it states is proved."""
+    """The certificate is about the places, and its statements are proved."""
     with tempfile.TemporaryDirectory() as folder:
         result = run('delaunay', '--sphere', '--certificate', 'c', '-', stdin=OCTAHEDRON, cwd=folder)
         expect(result, 0, 'i,j,status', r'\A\Z')

@@ -33,7 +33,7 @@ def grid(lons, lats):
 
 
 def cells(places, *options):
-    """Polygons by site, as shapely has them; each is looked at on its own."""
+    """Polygons by site, as shapely has them; each is checked on its own."""
     result = run('voronoi', '--sphere', '-q', '--format', 'geojson', *options, '-',
                  stdin=''.join(f'{x} {y}\n' for x, y in places))
     assert result.code in (0, 3), result
@@ -158,7 +158,7 @@ def test_airports():
 
 
 def test_max_arc():
-    """Sides are divided into arcs of so many degrees; what is refused."""
+    """Sides are divided into arcs of at most the degrees given; refused values."""
     places, counts = [(10, 20), (50, -30), (70, 80), (-100, 0)], []
     for most in (0.5, 1, 20, 90):
         found, _, count = cells(places, '--max-arc', str(most))

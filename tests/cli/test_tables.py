@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Tables as people have them: no header, blanks, units, thousands, missing words, other encodings and ends of lines. What
-may be meant in two ways is refused with what to give for each; what is no table is named with a command that makes one.
+"""Tables as people have them: no header, blanks, units, thousands, missing words, other encodings and ends of lines.
+Ambiguous input is refused with the option for each reading; input that is not a table is named, with a command that
+makes one.
 
 Usage: test_tables.py COMMAND DATA
 """
@@ -61,7 +62,7 @@ def test_same_points():
             assert (result.code, result.out, result.err) == (0, THREE, ''), (options, data, result)
 
 
-# Options and text; exit status and what is said.
+# Options and text; exit status and message.
 TOLD = [
     ('--columns x,y', 'x,y\n999,5\n"1,001",7\n', 1, r'-:3:3: .*; if this is 1001, give --thousands ,; if it is 1.001, give --thousands . --decimal-comma$'),
     ('--columns x,y', 'x,y\n"1,001.5",7\n', 1, r'; if this is 1001.5, give --thousands ,$'),

@@ -128,7 +128,7 @@ def points_folder(points, keep=[]):
 
 
 def test_nothing_is_claimed():
-    """Equal values, of which nobody knows why; wrong branches; other roots."""
+    """Values that are equal for an unknown reason; wrong branches; other roots."""
     for one, other, code in (('pi', '4*atan(1)', 4), ('exp(sqrt(2))*exp(sqrt(3))', 'exp(sqrt(2)+sqrt(3))', 4),
                              ('sqrt(6)', '-sqrt(2)*sqrt(3)', 0), ('root((x^2-2)*(x^2-3),1,3/2)', 'sqrt(3)', 0),
                              ('root(x^2-2,1,2)+1', 'root(x^2-3,1,2)+1', 0),
@@ -148,7 +148,7 @@ def test_one_corner_is_not_described():
 
 
 ORACLE = '''import math, sys
-def cosine(part, bits):  # times 2^(bits + 2), of so many twelfths of a turn: between these
+def cosine(part, bits):  # times 2^(bits + 2), of this many twelfths of a turn: between these
     unit = 4 << bits
     twice = {0: 2, 2: 1, 3: 0, 4: -1, 6: -2, 8: -1, 9: 0, 10: 1}.get(part % 12)
     if twice is not None:
@@ -164,7 +164,8 @@ for line in sys.stdin:
 
 
 def test_corners_from_a_program():
-    """Nobody knows what a program's points are: of the 12-gon it gives the sides, and the rest stays open."""
+    """Points of a program have no known expressions: of its 12-gon the sides are decided, and the other pairs stay
+    indeterminate."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, 'corners.py')
         with open(path, 'w', encoding='utf-8') as f:
@@ -216,7 +217,7 @@ def test_edges_of_the_diagram():
 
 
 def test_tied_vertex_in_pictures():
-    """It is drawn once, as what it is."""
+    """It is drawn once, as a tie."""
     for points in text(gon(12)), '0 0\n2 0\n2 2\n0 2\n':
         picture = run('voronoi', '--quiet', '--format', 'svg', '-', stdin=points).out
         titles = [e.title for e in svg.elements(picture) if e.title and 'vert' in e.title]
@@ -290,7 +291,7 @@ def turned_text(x, y):
 
 
 def all_answers(points, place):
-    """What is said of points, but for where they are."""
+    """Statements about points, without their positions."""
     data = {command: json.loads(run(command, '--quiet', '--format', 'json', '-', stdin=points).out)
             for command in ('delaunay', 'voronoi')}
     one, two = data['delaunay'], data['voronoi']
@@ -312,7 +313,8 @@ def all_answers(points, place):
 
 
 def test_turned_points_answer_as_exact_ones():
-    """In all formats: what is proved of points turned by one radian is what is so of the exact ones; with an alias, too."""
+    """In all formats: statements proved for points turned by one radian equal the statements for exact ones; with an
+    alias, too."""
     for points in sets_of_points():
         alias = points[-1]
         exact = list(all_answers(text(points + [alias]), ('3/2', '1/2')))

@@ -79,7 +79,8 @@ def check_partition(rings, window, what):
 
 
 def inside(ring, step):
-    """The distances by which the ring's vertices may be off, as the least and most areas of what it stands for."""
+    """The distances by which the ring's vertices may be off, as the least and largest area of the cell it
+    represents."""
     length = sum(abs(a[0] - b[0]) + abs(a[1] - b[1]) for a, b in zip(ring, ring[1:] + ring[:1]))
     return step * (2 * length + 8 * len(ring) * step)
 
@@ -222,7 +223,7 @@ def test_computed_points():
 
 
 def test_coincident_points():
-    """Who has no tile of its own is counted: aliases, and rectangles of one centre."""
+    """Sites without a tile are counted: aliases, and rectangles of one centre."""
     said = run('voronoi', '-', '--layer', 'tiles', stdin='0 0\n0 0\n1 1\n')
     expect(said, 0, r'^i,area,certain_area,area_lo,area_hi$', '^dyadel: 1 points have the place or the centre of an earlier one')
     said = run('voronoi', '-', '--layer', 'tiles', stdin='[-1,1] 0\n[-2,2] 0\n5 5\n')

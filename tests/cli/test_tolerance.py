@@ -146,7 +146,7 @@ def test_squares_few_points():
     expect(run(*box, stdin='0 0\n2 0\n3 0\n'), 0, r'# tolerance 0 0\n.*\n0,1,death,0\.49999\d*,0\.5,2,\n0,2,tie,0,0,,\n')
     expect(run(*box, '--up-to', '0.1', stdin=SQUARE), 0, r'\A# alias 4 0\n# tolerance 0 0\ni,j,event,lo,hi,k,l\n0,1,death,0.449\d*,0.449\d*,2,\n'
            r'0,2,tie,0,0,,\n(.*\n)*0,5,birth,0\.0714285\d*,0\.0714286\d*,,\n')
-    far = run(*box, stdin='1e100000 0\n0 0\n0 1\n1/3 0.1\n')  # beyond doubles: what is known of discs
+    far = run(*box, stdin='1e100000 0\n0 0\n0 1\n1/3 0.1\n')  # beyond doubles: known facts about discs
     expect(far, 0)
     assert all(r['lo'] and float(r['lo']) >= 0 for r in rows(far.out)), far.out
     assert rows(run(*box, '--layer', 'points', stdin=SQUARE).out)[5]['rho'] != '0'
@@ -205,7 +205,7 @@ def test_json():
 
 
 def test_sigma():
-    """A column more, also in json; no edge, no probability; what is surely an edge has 1."""
+    """A column more, also in json; no edge, no probability; a certain edge has 1."""
     plain, likely = (rows(run('tolerance', '--up-to', '0.1', *more, '-', stdin=SQUARE).out) for more in ([], ['--sigma', '0.05']))
     assert [{k: v for k, v in r.items() if k != 'probability'} for r in likely] == plain
     assert all((float(r['probability']) > 0.5) == (r['event'] == 'death') and float(r['probability']) < 1 for r in likely), likely
@@ -243,7 +243,7 @@ def test_sigma_column():
 
 
 def test_weights():
-    """Events in units of the column; 0 is fixed; no exact form; what is wrong is told with its place."""
+    """Events in units of the column; 0 is fixed; no exact form; errors are reported with their place."""
     table = 'x,y,w\n' + ''.join(f'{line.replace(" ", ",")},{w}\n' for line, w in zip('0 0\n4 0\n5 3\n1 4\n2 1'.split('\n'), ('1/2', 2, 0, 1, '0.1')))
     plain = ('tolerance', '--columns', 'x,y', '--up-to', '3', '-')
     weighed = rows(run('tolerance', '--columns', 'x,y', '--radius-column', 'w', '--up-to', '3', '-', stdin=table).out)

@@ -179,7 +179,7 @@ def test_region_of_a_square():
 
 
 def test_boxes_are_clipped():
-    """Enclosures of vertices beyond the window are left out of maps, others end at its sides."""
+    """Enclosures of vertices beyond the window are not on maps, others end at its sides."""
     points = ''.join(f'{x}+-0.01 {y}+-0.01\n' for x, y in ((0, 0), (4, 0), (8, 0.25), (2, 3), (6, 3.5), (3, 6)))
     for layer in ('vertices', 'regions'):
         count = []
@@ -273,7 +273,7 @@ def check_boundary(boundary, i):
 
 
 def check_cells(data):
-    """Areas of the polygons against the areas stated; arcs join up; what is undetermined adds up."""
+    """Areas of the polygons against the areas stated; arcs join up; the undetermined areas add up."""
     window = [[number(t) for t in data['window'][k]] for k in 'xy']
     whole = (window[0][1] - window[0][0]) * (window[1][1] - window[1][0])
     inside = Fraction(0)
@@ -482,7 +482,7 @@ def stages(*options):
 
 
 def check_halving(rows, span):
-    """Per bit, over spans of so many bits, on all stages from 8 bits on."""
+    """Per bit, over spans of this many bits, on all stages from 8 bits on."""
     rows = [r for r in rows if int(r['bits_least']) >= 8]
     assert len(rows) > 30 and all(r['indeterminate'] == '0' for r in rows)
     for column in ('v_area', 'v_hausdorff'):
@@ -527,7 +527,7 @@ def test_airports_on_a_window():
 
 
 def test_notes_on_goals():
-    """Which bound was asked for, which is reached, what to do: and what is said to hold does hold."""
+    """Reports the bound requested, the bound reached and the remedy; bounds reported as reached do hold."""
     boxes = '[0,0.125] 0\n4 [0,0.125]\n[0,0.125] 4\n4 4\n'
     endless = 'exp(log(6)/2) 0\n0 sqrt(6)\n-exp(log(6)/2) 0\n0 -sqrt(6)\n'
     for command, goal, text, code, options, why in (
@@ -557,7 +557,7 @@ def test_area_goal_out_of_reach_ends():
 
 
 def test_capped():
-    """Neighbours are missing, so there is no diagram; a file is not made."""
+    """Neighbours are missing, so that the diagram does not exist and no file is made."""
     boxes = ''.join(f'[{k},{k + 9}] [{k % 5},{k % 5 + 9}]\n' for k in range(12))
     with tempfile.TemporaryDirectory() as folder:
         result = run('voronoi', '--max-pairs', '1', '-o', 'out', '-', stdin=boxes, cwd=folder)

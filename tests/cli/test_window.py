@@ -25,7 +25,7 @@ def picture(text, *options, command='delaunay', code=(0, 3)):
 
 
 def shapes(text):
-    """What is drawn, clips aside, as lists of numbers."""
+    """The shapes drawn, without clips, as lists of numbers."""
     return [svg.numbers(path) for path in svg.paths(text)]
 
 
@@ -38,7 +38,7 @@ def test_text_does_not_change():
         whole, part = (run('delaunay', '-', '--format', name, *window, stdin=POINTS)
                        for window in ((), ('--window', '4,6,-1,1')))
         assert part.code == whole.code and part.err == whole.err
-        # Counters tell of memory and time.
+        # Counters report memory and time.
         drop = re.compile(r'^.*(seconds|bytes|memory).*$', re.M)
         assert drop.sub('', part.out) == drop.sub('', whole.out), name
     assert count(run('delaunay', '-', '--window', '100,101,100,101', stdin=POINTS).out)
@@ -78,7 +78,7 @@ def test_rectangle_is_where_it_should_be():
 
 
 def test_nothing_is_drawn_far_outside():
-    # Numbers of cairo end at 2^23 pixels: what lies farther would come back on the other side.
+    # Numbers of cairo end at 2^23 pixels: points farther off would appear on the other side.
     text = POINTS + '[20000,20001] [-20000,20000]\n1e5 1e5\n'
     windows = ['4,6,-1,1', '4.999,5.001,-0.001,0.001', '5,5+2e-5,0,2e-5', '4.9,4.9+2e-5,7,7+2e-5', '99999,100001,99999,100001']
     for window in windows:
