@@ -6,10 +6,10 @@ Usage: coverage.py [--build FOLDER] [--suites SUITE...] [--jobs N] [--renew]
 
 Builds with gcov, without optimization, in FOLDER (a temporary one unless it is named; kept if it is), runs the suites, and
 counts for the rooms whose decisions are what users rely on: every line is to be reached, and 95 of 100 branches of each
-room; rooms with less are named. What is not reached stands in unreached.txt: file, how many times the line and its branches,
-the line's text, and why; a line or branch that is not there, or an entry that is reached now, is an error. --renew writes
-the file anew, with "?" for what has to be explained. Conditions of DYD_INVARIANT count as lines only. Takes the better part
-of an hour: no test of a suite.
+room; rooms with less are named. Lines not reached are listed in unreached.txt: file, how many times the line and its
+branches, the line's text, and why; a line or branch that is not there, or an entry that is reached now, is an error.
+--renew writes the file anew, with "?" for reasons to be filled in. Conditions of DYD_INVARIANT count as lines only.
+Takes the better part of an hour: no test of a suite.
 """
 import argparse
 import collections
