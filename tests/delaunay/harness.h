@@ -23,12 +23,12 @@ void harness_init(harness *h, const char *name);
 /* Prints the counts and clears. */
 void harness_clear(harness *h);
 
-/* true: the case is fine; false: message says what is wrong. */
+/* Returns true if the case is fine; otherwise sets message to the error. */
 typedef bool (*case_check)(char *message, harness *h, const orc_case *c);
 /* Runs the check; on failure drops rectangles while it still fails, prints the case and fails the test. The
  * check must be deterministic: the generator's state is the same at every call. */
 void harness_run(harness *h, const orc_case *c, case_check check);
-/* Runs the check on random cases of at most so many rectangles: so many of every kind, and so many in all. */
+/* Run the check on random cases of at most `most` rectangles: `cases` of every kind, or `cases` in all. */
 void harness_run_kinds(harness *h, size_t most, size_t cases, case_check check);
 void harness_run_cases(harness *h, size_t most, size_t cases, case_check check);
 
@@ -58,7 +58,7 @@ bool same_status(harness *h, const orc_case *c, uint32_t i, uint32_t j, int s, i
 /* Statuses of all pairs, to be compared with later ones. */
 typedef unsigned char snapshot[ORC_MAX][ORC_MAX];
 void snapshot_take(snapshot out, const dyd_delaunay *pd, size_t n);
-/* Is what was definite so still? Two sites that have become the same point are no pair any more. */
+/* Returns whether every definite status still holds. Two sites that have become one point are not a pair any more. */
 bool snapshot_kept(char *message, snapshot was, const orc_case *now, const dyd_delaunay *pd);
 /* Pairs, neighbours, counts, faces, aliases, hull against dyd_delaunay_status. */
 bool queries_agree(char *message, const orc_case *c, const dyd_delaunay *pd);

@@ -252,8 +252,8 @@ bool queries_agree(char *message, const orc_case *c, const dyd_delaunay *pd) {
          faces_agree(message, c, pd) && hull_right(message, c, pd);
 }
 
-/* Three disjoint legal neighbours of one another turn the same way for every choice, and nobody can enter or leave
- * the triangle; so one choice (the lower left corners) tells whether it is empty. */
+/* Three disjoint legal neighbours of one another turn the same way for every choice, and no site can enter or leave the
+ * triangle; so one choice (the lower left corners) decides whether it is empty. */
 static bool is_sure_triangle(dyd_triangle *out, orc_pool *p, const orc_case *c, const dyd_delaunay *pd, uint32_t i,
                              uint32_t j, uint32_t k) {
   const orc_rect *r = c->rect;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The table of undecided faces against what it says of itself: faces.h, face_table.h, state.h. */
+/* Invariants of the table of undecided faces: faces.h, face_table.h, state.h. */
 #include "delaunay/table.h"
 
 #include "delaunay/face_table.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The table of undecided faces against what it says of itself. */
+/* Checks invariants of the table of undecided faces. */
 #ifndef DYD_TESTS_DELAUNAY_TABLE_H
 #define DYD_TESTS_DELAUNAY_TABLE_H
 

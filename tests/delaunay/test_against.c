@@ -69,7 +69,7 @@ static void test_overflow_search(void **state) {
   }
 }
 
-/* (1 + a/d) 2^-400 for an odd d of so many bits. */
+/* (1 + a/d) 2^-400 for an odd d of the given number of bits. */
 static void long_rational(mpq_t q, unsigned bits, test_random *r) {
   mpz_ptr d = mpq_denref(q), a = mpq_numref(q);
   mpz_set_ui(d, 0);
@@ -101,7 +101,7 @@ static void add_long_rational(dyd_sites *s, unsigned bits, test_random *r) {
   mpq_clears(x, y, NULL);
 }
 
-/* Least common denominators beyond 2^1024, boxes beside them [FLT-SCALE]. */
+/* Least common denominators beyond 2^1024, with boxes next to them [FLT-SCALE]. */
 static void test_long_denominators(void **state) {
   (void)state;
   static const unsigned bits[4] = {64, 96, 128, 192};

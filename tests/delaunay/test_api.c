@@ -153,7 +153,7 @@ static void test_query_arguments(void **state) {
   dyd_sites_free(s);
 }
 
-/* Structs without their size, doubles that round elsewhere: nothing is done. More pairs than there are numbers for: as
+/* Structs without their size, doubles that round elsewhere: the call changes nothing. More pairs than numbers exist: as
  * many. */
 static void test_refused(void **state) {
   (void)state;

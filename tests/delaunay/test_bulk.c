@@ -82,8 +82,8 @@ static bool same_place(orc_lattice a, orc_lattice b) {
   return a.x == b.x && a.y == b.y;
 }
 
-/* Every pair of the choice. `exact`: the sites are the points of the choice. Aliases
- * are left out: they would hide strictness. */
+/* Every pair of the choice. `exact`: the sites are the points of the choice. Aliases are excluded: they would hide
+ * strictness. */
 static void check_choice(const bulk *b, const dyd_delaunay *pd, bool exact) {
   orc_lattice point[BULK_MAX];
   uint32_t place[BULK_MAX];
@@ -185,7 +185,7 @@ static uint32_t number_in(const dyd_triangle_list *l, dyd_triangle t) {
   return (uint32_t)(found - l->item);
 }
 
-/* Sorted or as found, the triangles and who is beyond their sides are the same. */
+/* Sorted or as found, the triangles and the sites beyond their sides are the same. */
 static void check_triangles(const dyd_delaunay *pd) {
   dyd_triangle_list sorted = {0}, beyond = {0}, found = {0}, behind = {0}, names = {0};
   assert_int_equal(DYD_OK, dyd_delaunay_triangles(&sorted, &beyond, pd, 0));

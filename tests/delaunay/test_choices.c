@@ -9,7 +9,7 @@
 
 static harness shared;
 
-/* The points of the choice that stand for themselves in the case: aliases would hide strictness. */
+/* The points of the choice without aliases, which would hide strictness. */
 static bool has_alias(const orc_case *c) {
   for (size_t i = 0; i < c->n; i++)
     if (orc_case_alias(c, i) != i) return true;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Every way in which a run may end before its time, at every place where it asks for memory: that fails, or the run is
- * stopped there, or its bound of memory is met, or who is asked for proofs fails. Then nothing is stated, or what was
- * before, or, with keep_cut, less than could be said; and all can be repeated. Sites lie around true points that are
+ * stopped there, or its memory budget is reached, or the callback for proofs fails. Then the result states nothing, or
+ * the same as before, or, with keep_cut, a part of it; and all can be repeated. Sites lie around true points that are
  * known, on lines and circles, so that proofs of ties are given as they are due. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -68,7 +68,7 @@ static size_t narrow(uint32_t *changed, world *w) {
   return count;
 }
 
-/* ---- what is known of the true points ---- */
+/* ---- known facts about the true points ---- */
 
 static long cross(const world *w, uint32_t a, uint32_t b, uint32_t c) {
   return (w->x[b] - w->x[a]) * (w->y[c] - w->y[a]) - (w->y[b] - w->y[a]) * (w->x[c] - w->x[a]);
@@ -154,7 +154,7 @@ static void expect_same(const world *w, table is, table was, const char *what) {
       if (is[i][j] != was[i][j]) fail_msg("%s, %s: %zu %zu is %d, not %d", w->name, what, i, j, is[i][j], was[i][j]);
 }
 
-/* What is definite in a part is so in the whole. */
+/* A status definite in a part is definite in the whole. */
 static void expect_part(const world *w, table part, table whole, const char *what) {
   for (size_t i = 0; i < w->n; i++)
     for (size_t j = 0; j < w->n; j++)
@@ -168,7 +168,8 @@ typedef enum end { MEMORY, STOPPED, CUT, BOUND, PROVER, ENDS } end;
 static const char *const end_name[] = {"memory fails", "stopped", "cut", "bound of memory", "prover fails"};
 static const dyd_status end_status[] = {DYD_E_NOMEM, DYD_CANCELLED, DYD_CANCELLED, DYD_E_NOMEM, DYD_E_STREAM};
 
-/* Runs once more, worse by one step; new when *pd is NULL, else an update. true: it came to its end in peace. */
+/* Runs again with the fault one step later: a new run when *pd is NULL, else an update. Returns true if the run
+ * completed. */
 static bool run(dyd_delaunay **pd, world *w, end e, size_t k, size_t max_pairs, const uint32_t *changed, size_t count,
                 dyd_status *status) {
   volatile int stop = 0;
@@ -194,7 +195,7 @@ static bool run(dyd_delaunay **pd, world *w, end e, size_t k, size_t max_pairs, 
 }
 
 static size_t ended[ENDS], cuts;
-static size_t dense; /* so many places one by one, later ones less densely */
+static size_t dense; /* the first places one by one, later ones less densely */
 
 /* The statuses of a run with nothing in its way. */
 static dyd_delaunay *fresh(table out, world *w, size_t max_pairs) {
@@ -227,7 +228,7 @@ static void each_end_of_new(world *w, end e, size_t max_pairs) {
   }
 }
 
-/* After an update that ended, what was stated before still is; the next one does the rest. */
+/* After an update that ended, earlier statements still hold; the next one does the rest. */
 static void each_end_of_update(world *w, end e) {
   static table before, is, whole;
   uint32_t changed[MOST];

@@ -13,7 +13,7 @@
 
 static harness shared;
 
-/* dyd_delaunay_new with every allocation failing once. It may do without (a rung of a filter is left out). */
+/* dyd_delaunay_new with every allocation failing once. It may do without (a rung of a filter is skipped). */
 static bool new_fails_well(char *message, const dyd_sites *s) {
   for (size_t k = 1;; k++) {
     dyd_delaunay *pd = NULL;

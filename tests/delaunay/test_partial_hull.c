@@ -145,7 +145,7 @@ static bool same_list(char *message, const char *what, const dyd_index_list *l, 
   return at == l->count || wrong(message, "the %s vertices are not ascending", what);
 }
 
-/* The vertices by themselves are those of the whole answer. */
+/* The vertices computed alone equal the vertices of the whole answer. */
 static void assert_vertices(const dyd_hull *hull, const dyd_delaunay *pd) {
   dyd_index_list list[2] = {{0}, {0}};
   const dyd_index_list *should[2] = {&hull->sure_vertices, &hull->possible_vertices};
@@ -319,7 +319,7 @@ static void test_large(void **state) {
   run_large("boxes on a circle", 120, true, 1e-14);
 }
 
-/* N collinear points have more pairs than a small cap: the vertices are complete, the pairs left out. */
+/* N collinear points have more pairs than a small cap: the vertices are complete, the pairs omitted. */
 static void test_cap(void **state) {
   (void)state;
   dyd_sites *s = NULL;

@@ -145,7 +145,7 @@ static dyd_status stop_work(bool *proved, void *user, dyd_relation relation, con
   return DYD_OK;
 }
 
-/* Stopped between faces: what is not closed counts as capped, or the work is cancelled. */
+/* Stopped between faces: faces not closed count as capped, or the work is cancelled. */
 static void test_stopped_between_faces(void **state) {
   (void)state;
   for (int keep = 0; keep < 2; keep++) {
@@ -165,7 +165,7 @@ static void test_stopped_between_faces(void **state) {
   }
 }
 
-/* A line is made anew, beside the old one; where there is no room for both, what is known stays. */
+/* A line is built anew next to the old one; if memory does not suffice for both, the old one stays. */
 static void test_room_to_rebuild(void **state) {
   (void)state;
   dyd_sites *s = no_sites();

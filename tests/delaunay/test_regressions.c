@@ -112,7 +112,7 @@ static void expect_legal(const char *name, const char *text, uint32_t i, uint32_
   orc_case_clear(&c);
 }
 
-/* A wedge of about 2^-27: sound is all that is asked for [WIT-1]. */
+/* A wedge of about 2^-27: only soundness is required [WIT-1]. */
 static void test_thin_wedge(void **state) {
   (void)state;
   expect_text("wedge", "[-5*2^524,-3*2^524] [-9*2^524,-1*2^527]\n"
@@ -161,7 +161,7 @@ static void test_overflowing_bound(void **state) {
                           "0x1.0df3b71p+255 0x1.b4106ae8p+255\n0x1.a2823fp+251 0x1.86b57ecp+255\n");
 }
 
-/* Infinite centres and infinite boxes: nothing is known about ds from above [FLT-DST]. */
+/* Infinite centres and infinite boxes: ds has no bound from above [FLT-DST]. */
 static void test_infinite_boxes(void **state) {
   (void)state;
   dyd_bbox plane = {{-HUGE_VAL, HUGE_VAL, -HUGE_VAL, HUGE_VAL}}, unit = {{0, 1, 0, 1}};

@@ -275,7 +275,7 @@ static void test_large_grid(void **state) {
   dyd_sites_free(s);
 }
 
-/* ---- somebody who proves everything ---- */
+/* ---- a callback that proves everything ---- */
 
 typedef struct asked {
   size_t times, most;
@@ -309,7 +309,7 @@ static asked ask_boxes(size_t count[4], size_t n, double *const end[4], size_t m
   return a;
 }
 
-/* A hexagon of small boxes about `inside` large ones. most: pairs, 0: as many as there are. */
+/* A hexagon of small boxes about `inside` large ones. most: cap on pairs, 0: no cap. */
 static asked ask_hexagon(size_t ties[4], size_t inside, size_t most) {
   static const double cx[6] = {100, 50, -50, -100, -50, 50}, cy[6] = {0, 87, 87, 0, -87, -87};
   double x0[9], x1[9], y0[9], y1[9];
@@ -333,7 +333,7 @@ static void test_prover(void **state) {
   assert_int_equal(a.times, 0);
   assert_int_equal(count[DYD_TIE], 0);
   assert_true(count[DYD_INDETERMINATE] > 18);
-  a = ask_hexagon(count, 0, 5); /* its pairs would not be stored: nobody is asked */
+  a = ask_hexagon(count, 0, 5); /* its pairs would not be stored: the callback is not called */
   assert_int_equal(a.times, 0);
   assert_int_equal(count[DYD_TIE], 0);
   assert_int_equal(count[DYD_INDETERMINATE], 3);
@@ -367,8 +367,8 @@ static void test_prover_of_one_box(void **state) {
   }
 }
 
-/* About a rim that passes twice through its least vertex, which is no polygon, nobody is asked (see prove_all), but
- * about the other face. */
+/* About a rim that passes twice through its least vertex, which is not a polygon, the callback is not called (see
+ * prove_all); about the other face it is. */
 static void test_pinched_rim(void **state) {
   double x0[] = {12, 0, 4, 0, 8, 0, 4, 8}, x1[] = {12, 3, 4, 3, 8, 0, 4, 11}, y0[] = {0, 4, 8, 8, 8, 12, 0, 12},
          y1[] = {0, 4, 12, 11, 8, 13, 0, 13};

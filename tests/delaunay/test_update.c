@@ -128,7 +128,7 @@ static void aliases_are_points(const cloud *c, const dyd_delaunay *pd) {
   }
 }
 
-/* The sites of the cloud, and what is known of them; not all of it with a cap on pairs. */
+/* The sites of the cloud, and their statuses; with a cap on pairs, not all of them. */
 static dyd_delaunay *triangulate(dyd_sites **s, const cloud *c, const dyd_delaunay_options *o) {
   dyd_delaunay *pd = NULL;
   *s = NULL;
@@ -159,7 +159,8 @@ static void narrow(cloud *c, test_random *g, dyd_sites *s, size_t i) {
   narrow_to(s, i, c->x0[i], c->x1[i], c->y0[i], c->y1[i]);
 }
 
-/* Sometimes memory fails first, once, at every allocation in turn: what was is kept, and the update can be repeated. */
+/* Sometimes memory fails first, once, at every allocation in turn: the old result is kept, and the update can be
+ * repeated. */
 static void update(dyd_delaunay *pd, test_random *g, const uint32_t *changed, size_t count, unsigned unfiltered) {
   dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = test_chance(g, unfiltered),
                             .max_pairs = pd->options.max_pairs};
@@ -280,7 +281,7 @@ static void test_crowd(void **state) {
   free(c);
 }
 
-/* Twelve sites on a circle; the last box becomes a point, and what was open becomes a tie. */
+/* Twelve sites on a circle; the last box becomes a point, and an indeterminate pair becomes a tie. */
 static void test_last_point(void **state) {
   static const double x[12] = {5, 4, 3, 0, -3, -4, -5, -4, -3, 0, 3, 4},
                       y[12] = {0, 3, 4, 5, 4, 3, 0, -3, -4, -5, -4, -3};
