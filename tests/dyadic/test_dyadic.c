@@ -168,7 +168,7 @@ static void test_get_d(void **state) {
   for (size_t n = test_cases(CASES); n > 0; n--) {
     random_dyadic(&x, &r);
     check_double(&x, f);
-    /* Just beside a double, just beside the largest and the smallest. */
+    /* Just beside a double, just next to the largest and the smallest. */
     uint64_t word = test_u64(&r);
     double d;
     memcpy(&d, &word, sizeof d);
