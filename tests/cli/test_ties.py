@@ -148,7 +148,7 @@ def test_one_corner_is_not_described():
 
 
 ORACLE = '''import math, sys
-def cosine(part, bits):  # times 2^(bits + 2), of this many twelfths of a turn: between these
+def cosine(part, bits):  # times 2^(bits + 2), of so many twelfths of a turn: between these
     unit = 4 << bits
     twice = {0: 2, 2: 1, 3: 0, 4: -1, 6: -2, 8: -1, 9: 0, 10: 1}.get(part % 12)
     if twice is not None:
