@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Engines for tests: points by expressions, recording of statuses, sources that can be told to misbehave. */
+/* Engines for tests: points by expressions, recording of statuses, sources that misbehave on demand. */
 #include "engine/help.h"
 
 #include <string.h>
@@ -26,7 +26,7 @@ void engine_add_text(dyd_engine *e, const char *x, const char *y) {
   assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s, NULL));
 }
 
-/* ---- callbacks of which nothing is known but their answers ---- */
+/* ---- callbacks known only by their answers ---- */
 
 static dyd_status narrow_hidden(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
   dyd_status st = dyd_real_narrow(user, request->bits, request->max_bits, err);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Engines for tests: points by expressions, recording of statuses, sources that can be told to misbehave. */
+/* Engines for tests: points by expressions, recording of statuses, sources that misbehave on demand. */
 #ifndef DYD_TESTS_ENGINE_HELP_H
 #define DYD_TESTS_ENGINE_HELP_H
 
@@ -14,7 +14,7 @@
 dyd_engine *engine_new(void);
 /* A point by two expressions. */
 void engine_add_text(dyd_engine *e, const char *x, const char *y);
-/* The same by callbacks that do not say what they compute: nothing is proved of it. */
+/* The same by callbacks without expressions: no proof about their values is possible. */
 void engine_add_hidden(dyd_engine *e, const char *x, const char *y);
 /* Hidden: the corners k = 0 .. n-1 of the regular n-gon, with radii 1 + weight[k] 2^-bits (weight = NULL: 1). */
 void engine_add_polygon(dyd_engine *e, int n, const int *weight, int bits);
@@ -38,7 +38,7 @@ typedef struct monotone {
 void monotone_init(monotone *m, const dyd_engine *e);
 void monotone_clear(monotone *m);
 void monotone_progress(void *user, const dyd_progress *p);
-/* Compares with the present result once more. */
+/* Compares with the present result again. */
 void monotone_look(monotone *m);
 
 /* A source of n points near (x, y) = (k^2, k^3) / 7, with a fault. All about one point, from one of its calls on. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Sources are told before each stage exactly what they will be asked in it, in that order; a source that sees the stop
+/* Before each stage sources receive exactly the requests of that stage, in order; a source that sees the stop
  * flag ends a run as a cancel or the end of time does. */
 #include "engine/help.h"
 
@@ -102,7 +102,7 @@ static void test_calls(void **state) {
   free(a);
 }
 
-/* A callback that waits until it is told to stop: by a cancel from inside it, or by the end of time. */
+/* A callback that waits until the stop flag is set: by a cancel from inside it, or by the end of time. */
 static void test_stop(void **state) {
   (void)state;
   for (int timed = 0; timed < 2; timed++)
@@ -120,7 +120,7 @@ static void test_stop(void **state) {
       engine_run(e, &o, timed ? DYD_OUTCOME_BUDGET : DYD_OUTCOME_CANCELLED);
       if (timed) assert_int_equal(DYD_BUDGET_SECONDS, engine_counters(e).spent);
       assert_true((dyd_engine_delaunay(e) != NULL) == (at > 5));
-      a->next = a->count; /* what was announced and not asked is announced again */
+      a->next = a->count; /* requests announced and not made are announced again */
       o.seconds = 0;
       engine_run(e, &o, DYD_OUTCOME_CERTIFIED);
       dyd_engine_free(e);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Points that come after a run, and points that are measured again: results are those of an engine that has had it all
- * from the start; what is refused is refused with a reason, and changes nothing. */
+ * from the start; refused calls give a reason and change nothing. */
 #include "engine/help.h"
 
 #include <math.h>
@@ -110,7 +110,7 @@ static void test_fixed_points(void **state) {
     }
 }
 
-/* Computable points: what was narrowed stays narrow, and is not asked again. */
+/* Computable points: narrowed points stay narrow, and are not requested again. */
 static void test_computable_points(void **state) {
   const dyd_engine_options by_rectangles = {DYD_SIZED(dyd_engine_options), .no_ties = true};
   dyd_outcome outcome;
@@ -193,7 +193,7 @@ static void test_source(void **state) {
   assert_as_fresh(e);
   assert_int_equal(DYD_E_ARG, dyd_engine_add_source(e, 5, &none, &err));
   assert_non_null(strstr(err.message, "narrow"));
-  /* One that fails: there is no result, since there is nothing to say about all points; the engine goes on. */
+  /* One that fails: the result does not exist, since it must cover all points; the engine stays usable. */
   assert_int_equal(DYD_OK, dyd_engine_add_source(e, 3, &bad, &err));
   engine_run(e, NULL, DYD_OUTCOME_ERROR);
   assert_null(dyd_engine_delaunay(e));
@@ -325,7 +325,7 @@ static void test_remeasure_boxes(void **state) {
       for (size_t k = 0; k < 3; k++) {
         uint32_t i = (uint32_t)test_below(&r, c.n);
         double w = (c.x1[i] - c.x0[i]) / (double)test_between(&r, 1, 3), box[4];
-        box[0] = c.x0[i] - (double)test_between(&r, 0, 1); /* wider on this side: what is known counts */
+        box[0] = c.x0[i] - (double)test_between(&r, 0, 1); /* wider on this side: the narrower old end counts */
         box[1] = fmin(c.x0[i] + w, c.x1[i]);
         box[2] = c.y0[i];
         box[3] = c.y1[i] + 5;
@@ -371,7 +371,7 @@ static void test_contradiction(void **state) {
   dyd_engine_free(e);
 }
 
-/* A stream and a source keep to what was measured; measured before the first run, too. */
+/* A stream and a source stay within the measured rectangle; measured before the first run, too. */
 static void test_remeasure_computable(void **state) {
   (void)state;
   for (int early = 0; early < 2; early++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Questions of users, put to the one loop of the engine. */
+/* Questions of users, answered by the loop of the engine. */
 #include "engine/help.h"
 #include "rect/rect.h"
 #include "stream/stream.h"
@@ -15,10 +15,10 @@ typedef struct left {
   double width;      /* of site 0 when last asked */
   dyd_engine *enter; /* entered from within, and cancelled before asking number cancel_at returns */
   unsigned cancel_at;
-  dyd_stream *guest;   /* compared in place of site 1 */
+  dyd_stream *guest;   /* compared instead of site 1 */
   uint32_t also;       /* wanted besides, when not 0 */
   bool boast, ignores; /* says that it is answered; ignores what dyd_plan_add returns */
-  dyd_status give;     /* returned in place of DYD_OK, with a message unless mute */
+  dyd_status give;     /* returned instead of DYD_OK, with a message unless mute */
   bool mute;
 } left;
 
@@ -108,7 +108,7 @@ static void test_answered(void **state) {
   dyd_engine_free(e);
 }
 
-/* Nobody that it asks for can be narrowed, or it asks for nobody. */
+/* None of the sites it requests can be narrowed, or it requests none. */
 static void test_fixpoint(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
@@ -142,7 +142,7 @@ static void test_bits(void **state) {
   dyd_engine_free(e);
 }
 
-/* What is asked for: the options' first precision and steps, what the question says where that is more, the finest. */
+/* Precision of requests: the options' first precision and steps; the question's own where that is finer; the finest. */
 static void test_steps(void **state) {
   (void)state;
   dyd_engine *e = engine_of_two(400);
@@ -201,7 +201,7 @@ static void test_calls(void **state) {
   dyd_engine_free(e);
 }
 
-/* The end of time: the question has seen the rectangles reached, and what it wanted last was not done. */
+/* The end of time: the question has seen the rectangles reached, and its last request was not carried out. */
 static void test_seconds(void **state) {
   (void)state;
   dyd_engine *e = engine_of_two(900000);
@@ -247,7 +247,7 @@ static void test_cancel(void **state) {
   dyd_engine_free(e);
 }
 
-/* A source cancels within each call in turn: the ask stops after that call, and goes on later. */
+/* A source cancels within each call in turn: the ask stops after that call, and continues later. */
 static void test_cancel_inside(void **state) {
   (void)state;
   for (uint64_t at = 1; at <= 4; at++) {

@@ -10,7 +10,7 @@ static dyd_engine_options options(void) {
   return o;
 }
 
-/* Are all pairs decided? Asks for the ends of those that are not, as a user might. */
+/* Asks whether all pairs are decided, and requests the ends of the others, as a user might. */
 static dyd_status ask_pairs(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   unsigned *asked = user;
   dyd_pair_list pairs = {0};
@@ -54,7 +54,7 @@ static void test_triangulation(void **state) {
   assert_int_equal(DYD_OUTCOME_BUDGET, outcome);
   assert_int_equal(1, asked);
   assert_int_equal(1, stages);
-  asked = 0; /* what comes next looks at the same result first */
+  asked = 0; /* the next question starts from the same result */
   o.max_stages = 0;
   assert_int_equal(DYD_OK, dyd_engine_ask(&outcome, e, &question, &o, &err));
   assert_int_equal(DYD_OUTCOME_DECIDED, outcome);
@@ -117,7 +117,7 @@ static dyd_status put(dyd_engine *e, want q) {
   return st;
 }
 
-/* A question narrows before the first run, and between two: runs go on from there, and end as they would. */
+/* A question narrows before the first run, and between two: runs continue from there, and end as they would. */
 static void test_before_runs(void **state) {
   (void)state;
   test_random r = test_random_start("ask");
@@ -152,8 +152,8 @@ static dyd_status ask_and_run(dyd_engine *e) {
   return st;
 }
 
-/* An allocation fails, for every k or so the k-th: an error code, no leak (under a leak checker), and all goes on from
- * there. Eight crossing pairs make scouts go ahead. */
+/* An allocation fails, for every k or so the k-th: an error code, no leak (under a leak checker), and the engine
+ * continues from there. Eight crossing pairs make scouts go ahead. */
 static void test_memory(void **state) {
   (void)state;
   bool over = false;

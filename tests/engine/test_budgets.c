@@ -31,8 +31,8 @@ static void test_stages(void **state) {
   dyd_engine_free(e);
 }
 
-/* Calls: before the first stage is complete there is no result; within a later stage the result is brought up to
- * date with what was narrowed. Counters are exact. */
+/* Calls: before the first stage is complete the result does not exist; within a later stage the result is updated with
+ * the points narrowed so far. Counters are exact. */
 static void test_calls(void **state) {
   (void)state;
   faulty f = {0};
@@ -129,7 +129,7 @@ static void test_pairs_dissolved(void **state) {
   dyd_engine_free(e);
 }
 
-/* Exact ties are no pairs that the cap counts: however many there are, nothing is missing, and nothing can be refined.
+/* The cap does not count exact ties: however many there are, nothing is missing, and nothing can be refined.
  */
 static void test_pairs_of_ties(void **state) {
   (void)state;
@@ -275,7 +275,7 @@ static void test_cancel_before(void **state) {
   o.max_bits = 128;
   engine_run(e, &o, DYD_OUTCOME_BUDGET); /* it was sticky for one run only */
   dyd_engine_cancel(e);
-  engine_run(e, &o, DYD_OUTCOME_CANCELLED); /* what was stated stays */
+  engine_run(e, &o, DYD_OUTCOME_CANCELLED); /* earlier statements stay */
   size_t count[4];
   engine_count(count, e);
   assert_int_equal(6, count[DYD_LEGAL]);
@@ -283,7 +283,7 @@ static void test_cancel_before(void **state) {
   dyd_engine_free(e);
 }
 
-/* From inside a callback, at every call in turn: the run stops after that call, later runs go on to the same end. */
+/* From inside a callback, at every call in turn: the run stops after that call, later runs continue to the same end. */
 static void test_cancel_inside(void **state) {
   (void)state;
   for (uint64_t at = 1;; at++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* max_bytes: estimates against what is really held, that of GMP, MPFR and FLINT included, since the allocator of this
- * program is the one below; and refusals, which come in time and leave everything as it was. */
+/* max_bytes: estimates against the memory really held, including that of GMP, MPFR and FLINT, since the allocator of
+ * this program is the one below; and refusals, which come in time and leave everything as it was. */
 #include "engine/help.h"
 
 #include <dyadel/certificate.h>
@@ -143,7 +143,7 @@ static dyd_engine *case_engine(size_t k, dyd_engine_options *o) {
   return e;
 }
 
-/* Runs with so many bytes allowed; *real: what was held at most, the points included. */
+/* Runs within the given number of bytes; *real: the peak of memory held, the points included. */
 static dyd_status run_within(double *real, dyd_engine *e, dyd_engine_options o, uint64_t bytes, long long before,
                              dyd_error *err) {
   dyd_outcome outcome;
@@ -172,7 +172,7 @@ static void test_estimates(void **state) {
   }
 }
 
-/* A bound below what is needed ends the run before it is passed, and another run goes on. */
+/* A budget below the need ends the run before it is exceeded, and another run continues. */
 static void test_refusals(void **state) {
   (void)state;
   for (size_t k = 0; k < ALL_CASES; k++) {
@@ -203,7 +203,7 @@ static void test_refusals(void **state) {
   }
 }
 
-/* What was known before a refusal is known after it. */
+/* Statements known before a refusal are known after it. */
 static void test_results_are_kept(void **state) {
   (void)state;
   const int weight[6] = {0, 1, 3, 7, 2, 5};
@@ -233,7 +233,7 @@ static void test_results_are_kept(void **state) {
   dyd_engine_free(e);
 }
 
-/* ---- what is made of a result ---- */
+/* ---- outputs made of a result ---- */
 
 static void write_diagram(dyd_status *st, const dyd_engine *e, int64_t bits, dyd_format format, dyd_error *err) {
   const dyd_write_options o = {DYD_SIZED(dyd_write_options), .window = &square, .flatten_set = true,
@@ -380,14 +380,14 @@ static const struct {
             {"proofs of faces", overlapping, use_certificate}};
 enum { ALL_USES = sizeof USES / sizeof *USES };
 
-/* Allows so many bytes: a run that has nothing to do. */
+/* Sets the budget to the given bytes, by a run that has nothing to do. */
 static void allow_bytes(dyd_engine *e, dyd_engine_options o, uint64_t bytes) {
   dyd_error err;
   double real;
   assert_true(run_within(&real, e, o, bytes, 0, &err) >= 0);
 }
 
-/* The least bound that a use passes with is what it holds, up to a factor of 2; below it is refused in time. */
+/* The least budget that a use passes with is the memory it holds, up to a factor of 2; below it is refused in time. */
 static void test_uses(void **state) {
   (void)state;
   for (size_t k = 0; k < ALL_USES; k++) {

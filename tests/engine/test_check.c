@@ -54,7 +54,7 @@ static dyd_status open_points(dyd_engine **out, void *user, dyd_error *err) {
   return DYD_OK;
 }
 
-/* Runs; a fault has to be of the kind `want`, and to show again from its moves, none of which can be left out. */
+/* Runs; a fault has to be of the kind `want`, and to show again from its moves, each of which is needed. */
 static void run(points *p, const dyd_check_options *o, dyd_check_fault want) {
   dyd_check_report report = {DYD_SIZED(dyd_check_report)}, again = {DYD_SIZED(dyd_check_report)};
   dyd_error err;
@@ -141,7 +141,7 @@ static void half_fixed(void **state) {
   }
 }
 
-/* Out of time, it tells what was done. */
+/* At the time limit it reports the work done. */
 static void out_of_time(void **state) {
   (void)state;
   dyd_check_options o = {DYD_SIZED(dyd_check_options), .seed = 4, .schedules = 1000000, .seconds = 0.25};
@@ -165,7 +165,7 @@ static void must_tell(points *p, const dyd_check_options *o) {
   dyd_check_report_clear(&report);
 }
 
-/* Cells are not watched: they would stand on a triangulation that is no triangulation, which the armed build sees. */
+/* Cells are not watched: they would be built on an invalid triangulation, which the armed build rejects. */
 static void bad_engine(void **state) {
   (void)state;
   dyd_check_options o = {

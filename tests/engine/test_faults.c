@@ -77,7 +77,7 @@ static void test_faults(void **state) {
       }
 }
 
-/* A fault that passes: the run after it goes on. */
+/* A fault that passes: the next run continues. */
 static void test_repaired(void **state) {
   (void)state;
   faulty f = {.kind = FAULT_FAIL, .point = 3, .stage = 0};
@@ -112,7 +112,7 @@ static void test_stall(void **state) {
   }
 }
 
-/* Adding takes over what it is given, also when it fails. */
+/* Adding takes ownership of its argument, also when it fails. */
 static void test_release(void **state) {
   (void)state;
   faulty f = {0};

@@ -53,7 +53,7 @@ static void test_growing_goals(void **state) {
   }
 }
 
-/* A decided triangulation goes on refining until the bound holds. */
+/* A decided triangulation continues to refine until the bound holds. */
 static void test_beyond_decided(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
@@ -122,7 +122,8 @@ static void test_ties(void **state) {
   dyd_engine_free(e);
 }
 
-/* Fixed boxes: what no refinement can reach is a fixpoint; beside them points are refined as far as it helps. */
+/* Fixed boxes: a goal that no refinement can reach ends as a fixpoint; points next to them are refined as far as it
+ * helps. */
 static void test_fixed(void **state) {
   (void)state;
   dyd_engine *e = engine_new();

@@ -9,7 +9,7 @@
 
 enum { STAGES = 40, POINTS = 12 };
 
-/* What was said after each stage. */
+/* Records the statements after each stage. */
 typedef struct witness {
   dyd_engine *e;
   dyd_history *h;
@@ -48,7 +48,7 @@ static void witness_stage(void *user, const dyd_progress *p) {
   for (size_t i = 0; i < dyd_engine_count(w->e); i++)
     if (dyd_delaunay_alias(pd, (uint32_t)i) == i)
       dyd_sites_get_d(w->box[w->stages][i], dyd_delaunay_sites(pd), i);
-    else if (w->stages) /* the box of an alias is told of no longer */
+    else if (w->stages) /* the box of an alias is not reported any more */
       memcpy(w->box[w->stages][i], w->box[w->stages - 1][i], sizeof w->box[0][0]);
   note_poorly(w->h, pd);
   w->stages++;

@@ -119,10 +119,10 @@ static void check_polygon(dyd_schedule schedule) {
     assert_int_equal(4, c.stages); /* 64, 128, 256, 512 */
   else
     assert_in_range(c.stages, 2, 4);
-  /* Once more: nothing can be asked, nothing is. */
+  /* Again: no request is possible, and none is made. */
   engine_run(e, &o, DYD_OUTCOME_BUDGET);
   assert_int_equal(c.calls, engine_counters(e).calls);
-  /* A larger budget goes on from there. */
+  /* A run with a larger budget continues from there. */
   o.max_bits = 700;
   engine_run(e, &o, DYD_OUTCOME_BUDGET);
   assert_int_equal(700, engine_counters(e).bits_most);
@@ -221,8 +221,8 @@ static void test_adaptive_is_local(void **state) {
   }
 }
 
-/* The rectangles of a first stage in doubles are as narrow as said [FLT-GRID], and narrower ones lie inside, whoever
- * asks for them first. */
+/* The rectangles of a first stage in doubles are as narrow as said [FLT-GRID], and narrower ones lie inside, whichever
+ * query comes first. */
 static void test_first_in_doubles(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
@@ -238,7 +238,7 @@ static void test_first_in_doubles(void **state) {
   const dyd_sites *sites = dyd_delaunay_sites(dyd_engine_delaunay(e));
   dyd_engine_counters c = engine_counters(e);
   assert_in_range(c.bits_least, 30, 40); /* 14142 +- 2^-38 */
-  assert_int_equal(64, c.bits_most);     /* 1/3 is no double, and 1e12 leaves too few bits */
+  assert_int_equal(64, c.bits_most);     /* 1/3 is not a double, and 1e12 leaves too few bits */
   for (uint32_t i = 0; i < 4; i++) {
     assert_int_equal(DYD_OK, dyd_sites_get(&first, sites, i));
     assert_true(dyd_rect_bits(&first) >= (i < 2 ? 30 : 64));

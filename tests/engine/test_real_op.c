@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A callback that gives what a parsed text does, and does not tell what that is. */
+/* A callback that gives the answers of a parsed text, without its expression. */
 static dyd_status narrow_inner(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
   dyd_status st = dyd_real_narrow(user, request->bits, request->max_bits, err);
   if (dyd_failed(st)) return st;
@@ -140,7 +140,7 @@ static void test_refused(void **state) {
   expect_refused(DYD_E_RANGE, DYD_REAL_NEG, x, NULL);
 }
 
-/* ---- what is known of them ---- */
+/* ---- known facts about them ---- */
 
 /* Is x - y proved to be 0? References are taken over. */
 static dyd_zero compare_reals(dyd_real *x, dyd_real *y) {
@@ -155,7 +155,7 @@ static dyd_zero compare_reals(dyd_real *x, dyd_real *y) {
   return zero;
 }
 
-/* (a + b)^2 and a^2 + b^2 + 2 a b; the second with c in place of b. */
+/* (a + b)^2 and a^2 + b^2 + 2 a b; the second with c instead of b. */
 static dyd_zero compare_squares(dyd_real *a, dyd_real *b, dyd_real *c) {
   dyd_real *sum = make(DYD_REAL_ADD, dyd_real_ref(a), dyd_real_ref(b));
   dyd_real *square = make(DYD_REAL_MUL, dyd_real_ref(sum), sum);
@@ -218,7 +218,7 @@ static void test_claims_refused(void **state) {
   dyd_real *x = callback("sqrt(2)");
   assert_int_equal(claim(x, 2, "2", "3"), DYD_E_ARG);  /* no root */
   assert_int_equal(claim(x, 2, "-2", "2"), DYD_E_ARG); /* no change of signs */
-  assert_int_equal(claim(x, 3, "1", "2"), DYD_OK);     /* nothing is known of x yet */
+  assert_int_equal(claim(x, 3, "1", "2"), DYD_OK);     /* x has no bound yet */
   assert_int_equal(dyd_real_narrow(x, 60, 100, NULL), DYD_E_NESTING);
   dyd_real_free(x);
   x = callback("sqrt(2)");
@@ -227,7 +227,7 @@ static void test_claims_refused(void **state) {
   assert_int_equal(claim(x, 2, "1", "2"), DYD_OK);        /* it was as before */
   dyd_real_free(x);
   x = parse("sqrt(2)");
-  assert_int_equal(claim(x, 2, "1", "2"), DYD_E_ARG); /* what is parsed is known */
+  assert_int_equal(claim(x, 2, "1", "2"), DYD_E_ARG); /* parsed values are known */
   dyd_real_free(x);
   x = parse("2");
   assert_int_equal(claim(x, 4, "1", "3"), DYD_E_ARG);

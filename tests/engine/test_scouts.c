@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Points that go ahead in crowded faces: how much is asked for, and that nothing else depends on them. */
+/* Points that go ahead in crowded faces: how many bits are requested, and that nothing else depends on them. */
 #include "engine/help.h"
 
 #include <string.h>
@@ -82,7 +82,7 @@ static void test_same_statuses(void **state) {
   same_as_uniform(near_pair(), near_pair(), 4096, DYD_OUTCOME_DECIDED);
 }
 
-/* What one pair needs is not asked of all. */
+/* Bits that one pair needs are not requested for all points. */
 static void test_local(void **state) {
   (void)state;
   dyd_engine *e = near_pair();
@@ -92,7 +92,7 @@ static void test_local(void **state) {
   dyd_engine_free(e);
 }
 
-/* Runs cut short anywhere in a race go on from there to the same end, and never retract anything. */
+/* Runs cut short anywhere in a race continue from there to the same end, and never retract anything. */
 static void test_cut(void **state) {
   (void)state;
   dyd_engine *whole = near_circle(20, 400);
@@ -155,7 +155,7 @@ static void test_cancel(void **state) {
   }
 }
 
-/* Fails when it is asked for more than 100 bits. */
+/* Fails when more than 100 bits are requested. */
 static dyd_status shallow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
   dyd_stream *s = user;
   if (request->bits > 100) {

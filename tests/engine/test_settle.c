@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Pairs that hang on fixed rectangles: a run that ends with fixpoint although points could be narrowed is right,
- * whatever these points are [SET-1] [SET-2]; what can be decided is decided; wide streams are asked no more than that
- * needs. */
+ * whatever these points are [SET-1] [SET-2]; every decidable pair is decided; wide streams are not narrowed more than
+ * that needs. */
 #include "engine/help.h"
 #include "engine/settle.h"
 
@@ -119,8 +119,8 @@ static void test_settled(void **state) {
   assert_true(early > rounds * 3 / 4);
 }
 
-/* A few sites, by what they alone suggest, while there are others around: what is said of their pairs is true wherever
- * the loose points are. */
+/* A few sites, judged without the others around them: statements about their pairs are true wherever the loose points
+ * are. */
 static void check_few(size_t said[2], const dyd_engine *e, test_random *r, size_t fixed) {
   enum { FEW = 5, PAIRS = FEW * (FEW - 1) / 2 };
   size_t work = SIZE_MAX, count = 0;
@@ -191,7 +191,7 @@ static void test_crowd(void **state) {
   }
 }
 
-/* With a bound as the goal points go on to be narrowed. */
+/* With a bound as the goal, narrowing continues. */
 static void test_bound(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
@@ -212,7 +212,7 @@ static void test_bound(void **state) {
   dyd_engine_free(e);
 }
 
-/* A pair that only bits decide, beside one that only the box could: the first is decided, and that is all. */
+/* A pair that only bits decide, next to one that only the box could decide: the first is decided, and that is all. */
 static void test_both(void **state) {
   (void)state;
   const int weights[4] = {1, 0, 0, 0};

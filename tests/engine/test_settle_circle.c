@@ -193,7 +193,7 @@ static void test_pairs(void **state) {
   assert_true(with > without + rounds);
 }
 
-/* Ends in vain, and what is open stays so. */
+/* Ends without success, and open pairs stay open. */
 static void test_run_ends(void **state) {
   (void)state;
   test_random r = test_random_start(__func__);

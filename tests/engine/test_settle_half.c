@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Points that are measured in one way and computed in the other, and computed ones with a radius: what is said to stay
- * open does, whatever the computed coordinates are, by the literal oracle [SET-1] [SET-2] [SET-3]; and runs end when
- * nothing else is left. */
+/* Points that are measured in one way and computed in the other, and computed ones with a radius: pairs reported to
+ * stay open do so, whatever the computed coordinates are, by the literal oracle [SET-1] [SET-2] [SET-3]; and runs end
+ * when nothing else is left. */
 #include "engine/help.h"
 #include "engine/settle.h"
 #include "oracle/oracle.h"
@@ -90,7 +90,7 @@ static void half_case_new(half_case *c, test_random *r, int most) {
   }
 }
 
-/* A side of end[0] to end[1] becomes what is within the radius of a place that is eighths/8 of the way. */
+/* Replaces a side from end[0] to end[1] by the places within the radius of the point eighths/8 along it. */
 static void side_narrow(mpq_t end[2], int radius, int eighths) {
   mpq_t at, by, t;
   mpq_inits(at, by, t, (mpq_ptr)0);
@@ -131,7 +131,7 @@ static bool coincides(const orc_case *c, uint32_t i, uint32_t j) {
   return i == j;
 }
 
-/* What was said about a pair is so. */
+/* Checks a statement about a pair. */
 static void check_said(orc_pool *p, const orc_case *c, const dyd_settled_pair *pair) {
   if (coincides(c, pair->i, pair->j)) return;
   if (pair->possible && !orc_possible(p, c, pair->i, pair->j)) {
@@ -169,7 +169,7 @@ static void run_coarsely(half_case *c, dyd_engine_options *o, int64_t bits) {
   assert_int_equal(DYD_OK, dyd_engine_run(&outcome, c->e, o, NULL));
 }
 
-/* A few sites, by what they alone suggest, while there are others around. */
+/* A few sites, judged without the others around them. */
 static void test_few(void **state) {
   (void)state;
   enum { FEW = 4 };
@@ -220,7 +220,7 @@ static void test_faces(void **state) {
   assert_true(settled > said / 3 && settled > 200);
 }
 
-/* Runs end when refining is in vain, and not before: every pair left stays open. */
+/* Runs end when refining cannot help, and not before: every pair left stays open. */
 static void test_runs(void **state) {
   (void)state;
   test_random r = test_random_start(__func__);
@@ -274,7 +274,8 @@ static void check_added(const half_case *c, const dyd_dyadic *eps, size_t k, con
   }
 }
 
-/* The core of a side with a radius is in what is within the radius of every place [SET-3], and most of that. */
+/* The core of a side with a radius lies within the radius of every place [SET-3], and covers most of the part that
+ * does. */
 static void check_core(const double core[2], bool has, const double side[2], double radius) {
   double lo = side[1] - 2 * radius, hi = side[0] + 2 * radius, slack = side[1] - side[0] - 2 * radius;
   if (has)
@@ -283,7 +284,7 @@ static void check_core(const double core[2], bool has, const double side[2], dou
     assert_true(hi - lo < slack);
 }
 
-/* Which sides have cores, how much is not known of the others, and what stands for the sites. */
+/* Which sides have cores, how much is not known of the others, and the rectangles used for the sites. */
 static void test_sides(void **state) {
   (void)state;
   test_random r = test_random_start(__func__);
@@ -334,7 +335,7 @@ static dyd_status fixed_narrow(dyd_interval *out, void *user, const dyd_request 
   return dyd_interval_set_d(out, 1, 2) == DYD_OK ? DYD_FIXED : DYD_E_STREAM;
 }
 
-/* A callback that never knows more than [1,2], claimed to be the root of 2, beside the same place by expressions, and
+/* A callback that never knows more than [1,2], claimed to be the root of 2, next to the same place by expressions, and
  * others where that place matters. */
 static void add_claimed(dyd_engine *e) {
   dyd_real *x, *y;
@@ -354,7 +355,7 @@ static void add_claimed(dyd_engine *e) {
   mpq_clears(coeff[0], coeff[1], coeff[2], lo, hi, NULL);
 }
 
-/* What is said to be fixed stays as it is: intervals narrower than first answers, places that are joined. */
+/* A coordinate declared fixed does not change: intervals narrower than first answers, places that are joined. */
 static void test_fixed_for_good(void **state) {
   (void)state;
   enum { POINTS = 7 };
@@ -396,8 +397,8 @@ static void test_fixed_for_good(void **state) {
   assert_true(said > 150);
 }
 
-/* Expressions and roots beside one interval, in a file of the usual kind, x and y in either order: few bits are spent
- * on what bits cannot decide. */
+/* Expressions and roots next to one interval, in a file of the usual kind, x and y in either order: few bits are spent
+ * where bits cannot decide. */
 static void test_text(void **state) {
   (void)state;
   static const char *const text[][2] = {
@@ -449,7 +450,7 @@ static void test_shared(void **state) {
   dyd_engine_free(e);
 }
 
-/* What was measured again is fixed all the same. */
+/* A coordinate measured again is fixed all the same. */
 static void test_measured(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
@@ -522,7 +523,7 @@ static void test_near_radius(void **state) {
   }
 }
 
-/* Sites that may be nearest whatever is refined [NEAR-5]: few bits. Beyond the radius: as many as it takes. */
+/* Sites that may be nearest whatever is refined [NEAR-5]: few bits. Beyond the radius: all the bits needed. */
 static void test_nearest(void **state) {
   (void)state;
   static const struct {
@@ -560,8 +561,8 @@ static void test_nearest(void **state) {
   }
 }
 
-/* Graphs of neighbours: what stays possible for good ends with few bits [NEAR-6], what does not is refined until it is
- * certain; equal distances of points that are not exact are not proved. */
+/* Graphs of neighbours: edges that stay possible for good end with few bits [NEAR-6], other edges are refined until
+ * they are certain; equal distances of points that are not exact are not proved. */
 static void test_graphs(void **state) {
   (void)state;
   static const struct {
@@ -576,13 +577,13 @@ static void test_graphs(void **state) {
        {2, 1, 0},
        {DYD_OUTCOME_FIXPOINT, DYD_OUTCOME_FIXPOINT, DYD_OUTCOME_DECIDED},
        64},
-      /* the ends have radii, what is next to them has none: a Gabriel edge for some of their places */
+      /* the ends have radii, the points next to them have none: a Gabriel edge for some of their places */
       {{{"sqrt(2)+-0.1", "0+-0.1"}, {"-sqrt(2)+-0.1", "0+-0.1"}, {"sqrt(3)-sqrt(3)", "sqrt(2)"}},
        {2, 2, 2},
        {2, 1, 0},
        {DYD_OUTCOME_FIXPOINT, DYD_OUTCOME_FIXPOINT, DYD_OUTCOME_DECIDED},
        64},
-      /* exact points tie, beside one that can be refined and has no part in it */
+      /* exact points tie, next to one that can be refined and has no part in it */
       {{{"0", "0"}, {"1", "0"}, {"0", "1"}, {"sqrt(2)*5", "sqrt(3)*5"}},
        {3, 3, 3},
        {2, 1, 0},

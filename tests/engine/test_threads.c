@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Several engines in several threads give what one gives alone. Made for a run under the thread sanitizer as well. */
+/* Several engines in several threads give the results of one alone. To be run under the thread sanitizer as well.
+ * */
 #include "engine/help.h"
 
 #include <flint/flint.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Costs of points: what is spent with and without them, and that nothing else depends on them. */
+/* Costs of points: the total spent with and without them, and that nothing else depends on them. */
 #include "engine/help.h"
 #include <dyadel/io.h>
 

@@ -96,7 +96,7 @@ static void test_nearly_collinear(void **state) {
   }
 }
 
-/* What is nearly a tie, with all statuses and the most bits asked of a point by a run of so many stages at most: a
+/* Near ties, with all statuses and the most bits requested for a point by a run of at most the given stages: a
  * chain on the hull, whose middle is off by 10^-900; one corner of a 9-gon; two points next to one another. */
 static dyd_engine *near_tie(int k) {
   dyd_engine *e = k == 1 ? gon("sqrt(2)", 9, 4, "-2^-2900") : engine_new();
@@ -139,8 +139,8 @@ static void test_bits_that_show(void **state) {
   }
 }
 
-/* Points of a vertical line, with nothing beside it: three of them; and two that are so near that it is known to be a
- * line long before they are apart. Neighbours are no ties. */
+/* Points of a vertical line, with no other points: three of them; and two that are so near that it is known to be a
+ * line long before they are apart. Neighbours on the line do not tie. */
 static void test_lines(void **state) {
   static const char *const y[4][4] = {{"sqrt(5)", "sqrt(3)", "sqrt(2)"},
                                       {"sqrt(3)", "sqrt(2)", "sqrt(2)+2^-900"},
@@ -158,7 +158,7 @@ static void test_chains(void **state) {
   static const char *const line[] = {"sqrt(2)", "sqrt(3)", "2", "sqrt(5)", "sqrt(6)", "pi", "e+1"};
   enum { N = sizeof line / sizeof *line };
   (void)state;
-  for (int above = 0; above < 3; above++) { /* nothing beside it; a point on one side; on both */
+  for (int above = 0; above < 3; above++) { /* no other point; a point on one side; on both */
     dyd_engine *e = engine_new();
     for (int k = 0; k < N; k++) {
       char y[60];
@@ -186,8 +186,8 @@ static void test_level_line(void **state) {
   expect_counts(e, NULL, DYD_OUTCOME_FIXPOINT, 3, 0, 3);
 }
 
-/* One corner of the 12-gon is known by a callback, an interval, or is another number of the same value that nobody sees
- * to be it: no tie. */
+/* One corner of the 12-gon is known by a callback, an interval, or is another number of the same value without a proof
+ * of equality: no tie. */
 static void test_undescribed(void **state) {
   static const char *const x[] = {NULL, "[0.9999999,1.0000001]", "tan(atan(1))"};
   (void)state;
@@ -293,7 +293,7 @@ static void test_doubles(void **state) {
   expect_counts(e, NULL, DYD_OUTCOME_DECIDED, 0, 0, 0);
 }
 
-/* What was proved stays so when all points are narrowed for a bound, stage by stage. */
+/* A proof stays valid when all points are narrowed for a bound, stage by stage. */
 static void test_goes_on(void **state) {
   (void)state;
   dyd_engine *e = gon("sqrt(3)", 9, -1, "");

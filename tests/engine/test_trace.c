@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The trace of narrowings and its reasons, tables of convergence, traces as text, and what is coarse for its
+/* The trace of narrowings and its reasons, tables of convergence, traces as text, and points that are coarse for their
  * surroundings. */
 #include "engine/help.h"
 
@@ -123,7 +123,7 @@ static void test_only_the_close_ones(void **state) {
 }
 
 /* (0,0), (10,0), a blocker near (5,0), (5,20), (5,-2^220) (as in mathematics: section 10, case 3): whatever pair is
- * open, the blocker is what has to be refined, be it an end or not. */
+ * open, the blocker has to be refined, be it an end or not. */
 static void test_blockers(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
@@ -134,7 +134,7 @@ static void test_blockers(void **state) {
   assert_int_equal(DYD_OK, dyd_engine_add_points(e, 2, x + 2, y + 2, NULL));
   notes_init(&n, e);
   dyd_engine_options o = options(&n);
-  o.no_ties = true; /* what is tried as a tie would be refined at once to where it shows */
+  o.no_ties = true; /* a candidate for a tie would be refined at once to the bits that show it */
   engine_run(e, &o, DYD_OUTCOME_DECIDED);
   printf("# blocker: %d steps, %d as end, %d as blocker\n", (int)n.steps, (int)n.of[DYD_REASON_END],
          (int)n.of[DYD_REASON_BLOCKER]);
