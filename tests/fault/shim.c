@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Faults on demand, for LD_PRELOAD: the n-th call of a kind fails, as told by the environment.
+/* Faults on demand, for LD_PRELOAD: the n-th call of a kind fails, as set by the environment.
  *
  *   FAULT_CALL   "alloc", or the name of a function below
  *   FAULT_IN     alloc: only calls from objects whose file name contains this
@@ -41,7 +41,7 @@ static atomic_long *seen; /* by children, too */
 static long at;
 static int on, error;
 
-/* ---- what is wanted ---- */
+/* ---- the fault requested ---- */
 
 static int note_object(struct dl_phdr_info *info, size_t size, void *unused) {
   (void)size, (void)unused;
@@ -186,7 +186,7 @@ int fclose(FILE *f) {
   errno = why;
   return EOF;
 }
-/* What is read from now on is a folder, so that the stream knows of the error. */
+/* The stream reads a folder from now on, so that the stream knows of the error. */
 static void spoil(FILE *f) {
   int folder = NEXT(open)("/", O_RDONLY);
   dup2(folder, fileno(f));

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""One command run again and again, each time with another fault (shim.c), and what must hold all the same.
+"""One command run again and again, each time with another fault (shim.c), and the conditions that must hold all the
+same.
 
-Whatever fails: the command ends by itself, with the status that it has without the fault or with 1 and a message; an
-output is what it is without the fault, or as it was before; nothing else is in the folder.
+Whatever fails: the command ends without a signal, with the status that it has without the fault or with 1 and a
+message; an output is the same as without the fault, or as before the run; nothing else is in the folder.
 """
 import concurrent.futures
 import errno
@@ -42,7 +43,7 @@ class Folder(tempfile.TemporaryDirectory):
             out.write(text)
 
     def get(self):
-        """The files that are no inputs."""
+        """The files that are not inputs."""
         files = {}
         for name in os.listdir(self.name):
             if name not in self.case.inputs:
@@ -79,7 +80,7 @@ class Sweep:
             return done, files, int(count.read() or 0)
 
     def judge(self, at, reference, files_before):
-        """What is wrong with the run, or nothing."""
+        """Returns the problem of the run, or None."""
         try:
             done, files = self.run(at)
         except subprocess.TimeoutExpired:
@@ -99,14 +100,14 @@ class Sweep:
             return f'leaves {sorted(set(files) - set(files_before))} behind: {err[-300:]!r}'
         for name in self.case.outputs:
             kept = failed and files.get(name) == OLD
-            # What was known when a later stage failed is a result, too, and said to be no more.
+            # Results known when a later stage failed are accepted if the message says so.
             part = self.case.loose or (failed and 'this much was known before' in err)
             if not kept and not (part and files.get(name)) and files.get(name) != files_before[name]:
                 return f'{name} is neither what it was nor what it is to be: {err[-300:]!r}'
         return None
 
     def check(self, most, workers=2):
-        """Runs at most so many faults; returns how many, and a list of what is wrong."""
+        """Runs at most `most` faults; returns their number, and a list of problems."""
         reference, files, count = self.reference()
         assert reference.returncode in (0, 3), (self.name, reference)
         assert count or self.env.get('FAULT_IN') != 'libdyadel', f'{self.name}: the shim sees nothing'

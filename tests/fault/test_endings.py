@@ -109,7 +109,7 @@ def synced(path, folder):
 
 
 def test_power_loss():
-    """What a trace has on the disk when the machine fails is enough to go on from: with --trace-sync next to 0 all
+    """What a trace has on the disk when the machine fails is enough to continue from: with --trace-sync next to 0 all
     answers, by default at least the begin; after a run that ends, all of it."""
     for sync, answers in ((('--trace-sync', '1e-9'), 20), ((), 0), (('--trace-sync', '1e-9', '--resume', 'old'), 30)):
         with tempfile.TemporaryDirectory() as folder:
@@ -182,7 +182,7 @@ def test_power_loss_of_results():
 
 
 def test_signals_that_end():
-    """What was begun is gone, the old output is there; a trace stays as far as it came."""
+    """The unfinished output is removed, the old output is there; a trace stays as far as it came."""
     for way in WAYS:
         for number in (signal.SIGQUIT, signal.SIGXCPU, signal.SIGABRT):
             with tempfile.TemporaryDirectory() as folder:
@@ -214,7 +214,7 @@ def test_signal_as_soon_as_there_is_a_file():
 
 
 def test_signals_that_cancel():
-    """The first one cancels: what is known is written. The second one ends; nothing is left of what was begun."""
+    """The first one cancels: known results are written. The second one ends; no unfinished file is left."""
     for way in WAYS:
         for number in (signal.SIGHUP, signal.SIGTERM, signal.SIGINT):
             for times in (1, 2):
@@ -251,7 +251,7 @@ def limited(size):
 
 
 def test_full_at_every_byte():
-    """A file may not grow beyond so many bytes: none, some, all but one, all."""
+    """A file may not grow beyond a number of bytes: none, some, all but one, all."""
     for way in WAYS:
         for command in (('delaunay',), ('voronoi', '--format', 'json'), ('delaunay', '--format', 'svg')):
             with tempfile.TemporaryDirectory() as folder:
@@ -302,7 +302,7 @@ def test_folder_that_is_no_place():
 
 
 def nobody():
-    """Who asks for permission: root has all, so that root runs the command as somebody else."""
+    """Permissions: root has all of them, so that root runs the command as another user."""
     return {} if os.geteuid() else {'user': 'nobody', 'group': pwd.getpwnam('nobody').pw_gid, 'extra_groups': []}
 
 
