@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The table of formats: names and endings lead back to their format, every writer writes, and where there is none the
- * message names those that there are. */
+/* The table of formats: names and endings lead back to their format, every writer writes, and a message for a missing
+ * one names the existing ones. */
 #include "picture/canvas.h"
 #include <dyadel/io.h>
 #include <setjmp.h>
@@ -111,7 +111,7 @@ static dyd_status write_sphere(FILE *out, dyd_content content, dyd_format format
   return st;
 }
 
-/* All options that contents need, but those that need a result of their own. */
+/* Sets all options that contents need, unless they need a result of another kind. */
 static dyd_status write_content(FILE *out, const example *x, dyd_content content, dyd_format format, dyd_error *err) {
   const dyd_rect *const r[] = {&x->r[0], &x->r[1], &x->r[2]};
   const dyd_nearest_answer answer = {DYD_SIZED(dyd_nearest_answer), r[0], &x->nearest, true, DYD_OUTCOME_DECIDED};
@@ -170,7 +170,7 @@ static void test_layers(void **state) {
   assert_null(dyd_layer_name(DYD_CONTENT_CHECK, 0));
 }
 
-/* What a content needs and is not given is told of, as are contents that do not exist. */
+/* An option that a content needs and lacks is named, as are contents that do not exist. */
 static void test_missing(void **state) {
   (void)state;
   example x;
@@ -222,7 +222,7 @@ static void test_writers(void **state) {
   example_clear(&x);
 }
 
-/* A full device is told of by every writer, with and without a place for the message. */
+/* Every writer reports a full device, with and without a place for the message. */
 static void test_full_device(void **state) {
   (void)state;
   example x;
