@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Runs a target on the files of a folder and on random changes of them: what stands in for a fuzzer where there is
- * none, and repeats what one has found.
+/* Runs a target on the files of a folder and on random changes of them: a replacement where no fuzzer is installed, and
+ * a way to repeat what a fuzzer found.
  *
  * Usage: fuzz-TARGET COUNT DICTIONARY FOLDER_OR_FILE...   (DYADEL_TEST_SEED, DYADEL_TEST_SCALE as everywhere) */
 #include "support/random.h"

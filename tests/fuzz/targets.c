@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What is fed with bytes of strangers: see targets.h. A call fails with a code and a message, or does what it says; the
+/* Fuzz targets: see targets.h. A call fails with a code and a message, or keeps its contract; the
  * rest is the business of the invariants of the armed library and of the sanitizers. */
 #define _GNU_SOURCE /* fmemopen */
 #include "targets.h"
@@ -76,7 +76,7 @@ void fuzz_certificate(const uint8_t *data, size_t size);
 void fuzz_answer(const uint8_t *data, size_t size);
 void fuzz_calls(const uint8_t *data, size_t size);
 
-/* A points file, by itself or measured and widened. */
+/* A points file, alone or measured and widened. */
 void fuzz_points(const uint8_t *data, size_t size) {
   const dyd_read_options wide = {DYD_SIZED(dyd_read_options), .measured = true, .radius = "1/64", .merge = true};
   const dyd_read_options later = {DYD_SIZED(dyd_read_options), .skip_lines = "2", .skip_missing = true, .missing = "1"};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What is fed with bytes of strangers. Each target is a program of its own, with FUZZ_TARGET the name of its function:
+/* Fuzz targets. Each target is a program of its own, with FUZZ_TARGET the name of its function:
  * with replay.c, which runs files and changes of them, or with libFuzzer. */
 #ifndef DYD_TESTS_FUZZ_TARGETS_H
 #define DYD_TESTS_FUZZ_TARGETS_H
