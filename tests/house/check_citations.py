@@ -7,14 +7,14 @@ Usage: check_citations.py ROOT   (prints every breach; exit status 1 when there 
 In comments of src, include, tests, bench, the theories, and in the claims:
     mathematics: sections 2, 5       each is a heading "## N. ..." of proofs/mathematics.md
     section 6, step 3; case 4        and the section has an item "3. ..."
-    KEL sections 2, 3; KEL figure 4  KEL is an entry of the bibliography, whose last sentence lists what is "Cited:"
+    KEL sections 2, 3; KEL figure 4  KEL is an entry of the bibliography, whose last sentence lists the parts "Cited:"
     Guibas and Stolfi (1985)         a capitalised word before a year: an entry has both
 In comments of src and include also
     section 4                        of nothing named is a breach
     tree_filter.c, legal/witness.h   a name with a folder is a path from the root, src or include; a bare one is a file of
                                      the same folder, one that the file includes, or a public header
-In the guides in Markdown, paths and names of functions between backquotes exist (exercises apart, which tell of what is not
-there), and links lead to files, to headings that exist, and from claims to where they are stated.
+In the guides in Markdown, paths and names of functions between backquotes exist (exercises apart, which name files to
+be written), and links lead to files, to headings that exist, and from claims to where they are stated.
 """
 import pathlib
 import re
@@ -48,7 +48,7 @@ def expand(numbers):
 
 
 class Theory:
-    """What can be cited: sections with their items, and the bibliography."""
+    """The targets of citations: sections with their items, and the bibliography."""
 
     def __init__(self, text):
         marks = list(SECTION.finditer(text))

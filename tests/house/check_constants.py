@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The constants and expressions of the C filters are those that proofs/theories is about.
+"""The constants and expressions of the C filters are the ones in proofs/theories.
 
 Usage: check_constants.py ROOT   (prints every breach; exit status 1 when there is one)
 
@@ -187,7 +187,7 @@ def run_functions(root):
 
 
 def check_run(root, texts):
-    """What is quoted has vectors, and a definition that takes them; proofs/definitions.py counts them."""
+    """Each quotation has vectors, and a definition that takes them; proofs/definitions.py counts them."""
     quoted = {name for text in texts.values() for _, name, _ in BODY.findall(text)}
     folder = root / 'proofs/definitions'
     asked = {name for p in folder.glob('*.c') for name in re.findall(r'^ .*?\{"(\w+)", ', p.read_text(encoding='utf-8'), re.M)}

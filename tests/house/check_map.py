@@ -8,11 +8,11 @@ Usage: check_map.py ROOT            (prints every breach; exit status 1 when the
 
 A file uses another one when it includes it, or calls a function that this one alone defines (a header: in its inline
 functions; not those of its own .c), be it declared in include/dyadel or anywhere. A folder uses another one when a file of
-it does. The drawing has an arrow from a folder to each folder that it uses, but for those that it reaches by way of others;
+it does. The drawing has an arrow from a folder to each folder that it uses, unless it reaches them by way of others;
 the lines below it have all.
-Below it each folder's files (a .c and its .h as one) stand in an order in which they can be read: each after what it uses.
-So do the modules of a Python package: one uses another that it imports, be it within a function or for types alone.
-The table of rooms in the same guide has a row for each folder, below those of all that it uses.
+Below it each folder's files (a .c and its .h as one) have an order in which they can be read: each after the files it
+uses. So do the modules of a Python package: one uses another that it imports, be it within a function or for types
+alone. The table of rooms in the same guide has a row for each folder, below those of all that it uses.
 """
 import ast
 import collections
@@ -38,7 +38,7 @@ def read_files(root):
 
 
 def homes(files):
-    """{function: the one file that defines it for others}; names that are types as well are left out"""
+    """{function: the one file that defines it for others}; without names that are types as well"""
     types = {'main'}.union(*(TYPE.findall(text) for text in files.values()))
     found = collections.defaultdict(list)
     for path, text in files.items():
@@ -48,7 +48,7 @@ def homes(files):
 
 
 def bodies(text):
-    """What is between braces at the outermost level."""
+    """The text between braces at the outermost level."""
     out, depth = [], 0
     for piece in re.split(r'([{}])', text):
         depth += {'{': 1, '}': -1}.get(piece, 0)
@@ -172,7 +172,7 @@ def below(graph, start):
 
 
 def levels(graph):
-    """Nodes, those that use none first; each after all that it uses, but that those of one circle stand together."""
+    """Nodes, independent ones first; each after all that it uses; the nodes of one circle are together."""
     height, first = {}, {}
     for members in knots(graph):
         level = max((height[o] + 1 for m in members for o in graph[m] if o not in members), default=0)
@@ -192,7 +192,7 @@ def arrows(graph):
 
 
 def reading_order(graph, room):
-    """Names of a folder's files without folder and ending: each after those that it uses, families with one header
+    """Names of a folder's files without folder and ending: each after the ones it uses, families with one header
     together."""
     joined = join_pairs(graph)
     own = {f for f in joined if folder(f) == room}
@@ -201,7 +201,7 @@ def reading_order(graph, room):
 
 
 def packages(graph):
-    """Lines about Python packages: their modules, each after those that it imports."""
+    """Lines about Python packages: their modules, each after the ones it imports."""
     found = collections.defaultdict(list)
     for module in levels(graph):
         package, _, name = module.rpartition('/')
@@ -210,7 +210,7 @@ def packages(graph):
 
 
 def drawing(graph, files, modules):
-    """The map as it should stand in the guide: of folders, of the files of each, and of Python's modules."""
+    """The map as the guide should have it: of folders, of the files of each, and of Python's modules."""
     order = levels(graph)
     lines = [f'  {f} --> {t}' for f, t in sorted(arrows(graph), key=lambda a: (-order.index(a[0]), -order.index(a[1])))]
     rows = [f'| `{f}` | {", ".join(f"`{t}`" for t in order if t in graph[f]) or "nothing"} |' for f in order]

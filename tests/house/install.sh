@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# What is installed runs where it stands; its pkg-config file gives users no include folders but those of GMP; without
+# The installed files work in their place; the pkg-config file gives users no include folders but those of GMP; without
 # tests, nothing but that is built. Usage: install.sh ROOT BUILD
 set -u
 work=$(mktemp -d) || exit 1

@@ -6,7 +6,7 @@ Usage: renew_quotes.py ROOT
 
 For each quotation that changed it prints what a person has to do: nothing when only names of variables changed, or the
 function moved to another file; otherwise the definition that follows the quotation has to be compared with the new
-text, and the theorems that stand on it proved anew. Places of constants follow such changes of names and files; their
+text, and the theorems that use it proved anew. Places of constants follow such changes of names and files; their
 values never change here. A quotation of a function that is gone, or defined twice, stays; exit status 1 then.
 """
 import pathlib
@@ -23,7 +23,7 @@ SENTENCE = re.compile(r'^(Definition|Fixpoint|Theorem|Lemma|Corollary)\s+(\w+)(.
 
 
 def without_comment_lines(body):
-    """The lines of a body, comments left out, and the lines that held nothing else."""
+    """The lines of a body, without comments, and the lines that held nothing else."""
     kept = [re.sub(r'\s+$', '', line) for line in re.sub(r'[ \t]*(?:/\*.*?\*/|//[^\n]*)', '', body, flags=re.S).split('\n')]
     return '\n'.join(line for line in kept if line)
 
@@ -56,7 +56,7 @@ def find_home(root, sources, path, name, old):
 
 
 def quoted_text(root, sources, path, name):
-    """The body as it stands in the source, without comments."""
+    """The body as the source has it, without comments."""
     body = function_body(sources.code(path), name)
     raw = function_body((root / path).read_text(encoding='utf-8'), name) or ''
     return without_comment_lines(raw if tokens(without_comments(raw)) == tokens(body) else body)
@@ -73,7 +73,7 @@ def renamings(old, new):
 
 
 def requiring(theory, texts):
-    """A theory and those that require it, directly or not."""
+    """A theory and the ones that require it, directly or not."""
     reached, grown = {theory}, True
     while grown:
         more = {n for n, text in texts.items() if reached & {f'{r}.v' for q in REQUIRE.findall(text) for r in q.split()}}
@@ -153,7 +153,7 @@ def renew_vectors(root, changed):
 
 
 def renew(root):
-    """Rewrites the theories and what is run; [(is a failure, what to say)]."""
+    """Rewrites the theories and the extracted code; [(is a failure, what to say)]."""
     theories = sorted((root / 'proofs/theories').glob('*.v'))
     before = {p.name: p.read_text(encoding='utf-8') for p in theories}
     sources, texts, renamed = Sources(root), dict(before), {}

@@ -7,7 +7,8 @@ Usage: seeded_faults.py ROOT   (exit status 1 when a fault goes unnoticed)
 Each fault replaces a text, which must occur, by another; check_constants.py, check_claims.py, check_citations.py or
 check_map.py must then fail and say something about it that it does not say without it. Faults in different files are
 seeded together. Each change in CHANGES is
-noticed by check_constants.py as well; renew_quotes.py must say about it what it should, and check_constants.py be content then.
+noticed by check_constants.py as well; renew_quotes.py must give the right message about it, and check_constants.py be
+content then.
 """
 import pathlib
 import shutil
@@ -100,7 +101,8 @@ def name_of(script):
 
 
 def batches():
-    """Faults that one run of a script can be asked about: in different files, told by different words. Circles may join."""
+    """Faults that one run of a script can be asked about: in different files, recognised by different words. Circles
+    may join."""
     left = list(FAULTS)
     while left:
         batch = [left[0]]

@@ -19,7 +19,7 @@ COMMANDS = {*OUTSIDE, 'tiles'}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 # Public headers in the order of the layers; a header may include only those before it.
 PUBLIC = ['status', 'dyadic certificate', 'rect', 'stream sites', 'oracle', 'predicate delaunay', 'tolerance survey graph', 'arc', 'voronoi', 'compose', 'metric', 'engine', 'converge check sphere', 'io', 'dyadel']
-# The checker of certificates stands on the number layer alone.
+# The checker of certificates uses the number layer alone.
 CHECKER_MAY = ['dyadel/status.h', 'dyadel/dyadic.h', 'dyadel/certificate.h']
 # Lines of a file and of a function: below src, elsewhere.
 SOURCE_LINES, OTHER_LINES = (900, 40), (900, 60)
@@ -102,7 +102,7 @@ def check_options(path, text, layer):
 
 
 def check_top(root):
-    """What is beside the rooms was left behind; where there is no git, folders of builds are passed over."""
+    """Files outside the rooms are leftovers; without git, build folders are skipped."""
     listed = subprocess.run(['git', '-C', root, 'ls-files', '-z'], check=False, capture_output=True, text=True).stdout
     names = {name.split('/')[0] for name in listed.split('\0')} if (root / '.git').exists() else {path.name for path in root.iterdir()}
     for name in sorted(names - TOP - {''}):
