@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Examples written as pages, and what stands in a page's data. Imports the harness of tests/cli."""
+"""Examples written as pages, and the data of a page. Imports the harness of tests/cli."""
 import base64
 import json
 import pathlib

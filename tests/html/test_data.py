@@ -66,7 +66,8 @@ def test_sphere():
 
 
 def test_graphs():
-    """Sure edges are as legal ones, possible ones as indeterminate; each once, whoever is nearest to whom."""
+    """Certain edges look like legal ones, possible ones like indeterminate; each once, in whichever direction it is
+    nearest."""
     as_pairs = {'certain': 'legal', 'possible': 'indeterminate'}
     for graph in 'nearest', 'gabriel', 'mst':
         for args in pages.FIXES, [pages.points(pages.TWELVE)], ['--radius', '0.01', *pages.PLACES], [pages.points('')]:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What a page shows, in a browser: counts, points, stages, keys, the address; and that it complains and asks of nothing."""
+"""What a page shows, in a browser: counts, points, stages, keys, the address; and that it gives no error and makes no
+request."""
 import contextlib
 import csv
 import json
@@ -272,7 +273,7 @@ def test_address():
 
 
 def test_hand():
-    """Dragging moves what is seen with the pointer; the wheel keeps what is under it; a click keeps a point."""
+    """Dragging moves the map with the pointer; the wheel keeps the place under it; a click pins a point."""
     with opened(pages.page('delaunay', pages.points(pages.TWELVE))) as page:
         page.key('0')
         x, y = place_of(page, 2, 2)
@@ -317,7 +318,7 @@ def test_no_request():
 
 
 def test_phone():
-    """Nothing is wider than the screen, and the legend is beside the map, not on it."""
+    """Nothing is wider than the screen, and the legend is next to the map, not on it."""
     for wide, high in (390, 844), (1200, 800):
         with opened(pages.page('delaunay', '--discs', *pages.FIXES), wide=wide, high=high) as page:
             assert page.value('document.documentElement.scrollWidth') <= wide

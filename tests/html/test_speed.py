@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """How long pages take, by the marks that they leave: the first picture, and a frame while the map moves.
 
-What a quiet machine should show (0.3 s, 16 ms) is printed beside what was measured. A test fails by ratios alone: to a
+What a quiet machine should show (0.3 s, 16 ms) is printed next to the measured time. A test fails by ratios alone: to a
 plain canvas that draws as many lines, in the same browser at the same time."""
 import pathlib
 import random
@@ -33,7 +33,7 @@ FRAMES = '''(async () => {
   fire("pointerup", 580, 520);
   return spent.sort((a, b) => a - b);
 })()'''
-# The same of a canvas of the map's size on which so many lines, so long along an axis at most and so wide, are drawn in a
+# The same of a canvas of the map's size on which the same number of lines, of the same length and width, are drawn in a
 # path, and as many dots. Lines of one pixel are quicker than wider ones.
 PLAIN = '''(async (count, long, broad) => {
   const map = document.querySelector("#map"), canvas = document.createElement("canvas"), spent = [];
@@ -105,7 +105,7 @@ def test_airports():
 
 
 def test_many_boxes():
-    """Zoomed in, only what is seen costs."""
+    """Zoomed in, only visible parts cost time."""
     chance = random.Random(5)
     text = ''.join(f'{chance.uniform(0, 1000):.4f}+-0.001 {chance.uniform(0, 1000):.4f}+-0.001\n' for _ in range(98000))
     file = pages.page('delaunay', pages.points(text))
