@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Files over callbacks, exact rectangles as text, and answers as rationals: what goes out comes in again. */
+/* Files over callbacks, exact rectangles as text, and answers as rationals: a value written is read back unchanged. */
 #include "rect/rect.h"
 #include "support/random.h"
 #include <dyadel/dyadel.h>
@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-/* What was put, and what is left to get, `piece` bytes at a time; fails behind `most` bytes. */
+/* Bytes written, and bytes left to read, `piece` at a time; fails behind `most` bytes. */
 typedef struct tape {
   char bytes[20000];
   size_t length, at, piece, most;

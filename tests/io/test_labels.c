@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What points are called when they come from several files and calls: rows go on counting, names stay with their
+/* What points are called when they come from several files and calls: row numbers continue, names stay with their
  * points, and a file that is refused leaves nothing behind. */
 #include <dyadel/engine.h>
 #include <dyadel/io.h>
@@ -80,7 +80,7 @@ static void test_shared_places(void **state) {
   dyd_engine_free(e);
 }
 
-/* Points of arrays are named by the caller: those before keep their names, and what is refused changes nothing. */
+/* Points of arrays are named by the caller: those before keep their names, and a refused call changes nothing. */
 static void test_named_by_caller(void **state) {
   (void)state;
   dyd_engine *e = NULL;

@@ -64,7 +64,8 @@ static bool check_words(dyd_plain p, mpq_t exact, mpq_t other) {
   return true;
 }
 
-/* Hexadecimal floats of all sizes, few digits and many, zeros around; some are no doubles, some are no numbers. */
+/* Hexadecimal floats of all sizes, few digits and many, zeros around; some do not fit into doubles, some are not
+ * numbers. */
 static void random_hex(char out[64], test_random *r) {
   char *p = out;
   if (test_chance(r, 2)) *p++ = test_chance(r, 4) ? '+' : '-';

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Points, rectangles and intervals as text: every form of a points file, what is refused and at which column, and the
+/* Points, rectangles and intervals as text: every form of a points file, errors with their columns, and the
  * answers of callbacks, which stay nested whatever their ends are [NEST-1]. */
 #include "stream/real.h"
 #include "support/random.h"
@@ -228,7 +228,7 @@ static void random_end(mpq_t out, const mpq_t lo, const mpq_t hi, test_random *r
   mpq_clear(part);
 }
 
-/* Rational intervals, each inside the one before, are accepted, hold what was said, and stay inside. */
+/* Rational intervals, each inside the one before, are accepted, hold the interval stated, and stay inside. */
 static void test_nested_answers(void **state) {
   (void)state;
   test_random g = test_random_start("io_text_nested");
