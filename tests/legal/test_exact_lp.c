@@ -67,7 +67,7 @@ static int value_sign(const plane *p, mpq_t v[3]) {
   return sign;
 }
 
-/* The optimum is taken at a vertex: the largest z of all triples whose point satisfies everybody. */
+/* The optimum is taken at a vertex: the largest z of all triples whose point satisfies all constraints. */
 static void brute_force(mpq_t best, const plane *p, int count) {
   mpq_t v[3];
   bool any = false;

@@ -69,7 +69,7 @@ static void test_farther(void **state) {
   dyd_rect_clear(&own);
 }
 
-/* What is not finite is not known. */
+/* A distance that is not finite is unknown. */
 static void test_not_finite(void **state) {
   const dyd_bbox near = {{0, 1, 0, 1}}, far = {{5, 6, 5, 6}}, all = {{-HUGE_VAL, HUGE_VAL, -HUGE_VAL, HUGE_VAL}};
   const dyd_bbox c = {{0, 0, 0, 0}}, lost = {{NAN, NAN, 0, 0}}, beyond = {{0x1p1023, 0x1p1023, 0x1p1023, 0x1p1023}};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Edges certified in doubles from the triangles or stars beside them: the centre that the proof names is a witness, by
+/* Edges certified in doubles from the triangles or stars next to them: the centre that the proof names is a witness, by
  * exact arithmetic, whatever rectangles and further sites the premises allow [WIT-NEAR] [WIT-HULL] [FLT-STAR]. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -213,7 +213,7 @@ static void test_hull_near(void **state) {
   run_corners(true, test_cases(2500));
 }
 
-/* Premises that do not hold: nothing is said. */
+/* Premises that do not hold: no statement. */
 static void test_near_refuses(void **state) {
   (void)state;
   dyd_xy i = {0, 0}, j = {1, 0}, u = {0.5, 0.5}, v = {0.5, -0.5}, low = {0.5, -0.75}, ghost = {NAN, NAN};
