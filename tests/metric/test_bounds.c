@@ -81,7 +81,7 @@ static void point_of_edge(mpq_t x, mpq_t y, test_random *r, const orc_case *c, s
 }
 
 /* The square of the distance of a random point of a random possible pair to the graph of `choice` must not exceed
- * bound^2. Only strictly Delaunay edges count for the graph: the smallest graph anybody may call it. */
+ * bound^2. Only strictly Delaunay edges count for the graph: the smallest graph that may be called Delaunay. */
 static void check_choice(test_random *r, const orc_case *c, const orc_case *choice, const orc_table *graph,
                          const dyd_pair_list *pairs, const mpq_t bound) {
   mpq_t x, y, d, least, bound2;
