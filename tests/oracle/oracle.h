@@ -46,7 +46,7 @@ bool orc_legal(mpq_srcptr *wx, mpq_srcptr *wy, orc_pool *p, const orc_case *c, s
  * estimate: false means that the search for it failed. */
 bool orc_is_roomy(orc_pool *p, const orc_case *c, size_t i, size_t j, mpq_srcptr wx, mpq_srcptr wy, long bits);
 
-/* The statuses of all pairs, aliases answering for the site they stand for; ORC_TIE is used exactly when all
+/* The statuses of all pairs, aliases having the statuses of their site; ORC_TIE is used exactly when all
  * sites are points. status[i][j] = status[j][i]; the diagonal is ORC_ILLEGAL. */
 typedef struct orc_table {
   size_t n;

@@ -8,7 +8,7 @@
  * functions, each with the features that hold inside the part blocked by k, do not agree along beta. So it is
  * enough to solve, for every k and every choice of features on full-dimensional cells, the equations
  *     |c - s|^2 = d(c, feature of i)^2 = d(c, feature of j)^2,     s a corner of R_k,
- * leaving out those that agree on a curve, and to test each solution literally against everybody. In
+ * except equations that agree on a curve, and to test each solution literally against all sites. In
  * coordinates X = c - s each equation is a line (corner feature (p,q): 2 p X + 2 q Y = p^2 + q^2) or a parabola
  * (side X = a: Y^2 + 2 a X = a^2), and two parabolas have a common line: (X-a)^2 = (X-b)^2 or (X-a)^2 = (Y-b)^2.
  *

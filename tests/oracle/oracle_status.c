@@ -53,8 +53,8 @@ static void half_line(mpq_srcptr *value, mpq_srcptr *slope, orc_pool *p, const o
   *slope = orc_twice(p, dot(p, nx, ny, orc_sub(p, k->e[0], i->e[0]), orc_sub(p, k->e[2], i->e[2])));
 }
 
-/* The centres t with value - t slope >= 0 for everybody: [lo,hi], with closed ends at infinity; plus and minus
- * tell whether t = +-infinity is allowed; strict whether some t has > 0 for everybody. */
+/* The centres t with value - t slope >= 0 for all sites: [lo,hi], with closed ends at infinity; plus and minus
+ * say if t = +-infinity is allowed; strict if some t has > 0 for all sites. */
 int orc_classical(orc_pool *p, const orc_case *points, size_t i, size_t j) {
   mpq_srcptr lo = NULL, hi = NULL, value = NULL, slope = NULL;
   bool plus = true, minus = true, finite = true, strict = true;

@@ -15,7 +15,7 @@ static void fail_case(const orc_case *c, const orc_case *choice, size_t i, size_
   fail_msg("%s", what);
 }
 
-/* Whatever holds in a choice is possible; what is legal holds strictly in it. */
+/* Whatever holds in a choice is possible; a legal pair is a strict edge in it. */
 static void check_choice(orc_pool *p, const orc_case *c, const orc_table *t, const orc_case *choice) {
   for (size_t i = 0; i < c->n; i++)
     for (size_t j = i + 1; j < c->n; j++) {
