@@ -14,7 +14,7 @@ known = {}
 
 
 def narrowed(name, interval):
-    """What is known of the number of that name, now that it is in the interval too."""
+    """The enclosure of the number of that name, now that it is in the interval too."""
     low, high = mp.mpf(interval.a), mp.mpf(interval.b)
     if name in known:
         low, high = max(low, known[name][0]), min(high, known[name][1])

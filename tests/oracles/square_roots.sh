@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # An oracle program in the shell, with bc: point I is (sqrt(a), -sqrt(b)) for line I of the list of a and b below. bc cuts
-# its square roots off after as many decimals as it is told, so the next decimal number above is above the root.
+# its square roots off after the decimals requested, so the next decimal number above is above the root.
 LIST='2 3
 5 7
 11 1
