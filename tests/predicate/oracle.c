@@ -2,7 +2,7 @@
 /* The oracle of predicate/oracle.h.
  *
  * Candidates are first evaluated in doubles: on integers below 1000 a root is then accurate far better than 1/1000, so
- * a candidate that misses its radius by more than that (relative to its size) is no circle. The others are checked
+ * a candidate that misses its radius by more than that (relative to its size) is not a circle. The others are checked
  * exactly. */
 #include "predicate/oracle.h"
 
@@ -74,7 +74,7 @@ static void add_square(root_number *out, const root_number *x, const mpq_t c, lo
   mpq_clears(s, t, NULL);
 }
 
-/* Sign of |o - point|^2 - r2, where a coordinate may be left out (the foot has the coordinate of o). */
+/* Sign of |o - point|^2 - r2, where a coordinate may be omitted (the foot has the coordinate of o). */
 static int side_of(const oracle_circle *k, const feature *f) {
   root_number d;
   number_init(&d);

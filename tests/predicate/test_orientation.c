@@ -83,7 +83,7 @@ static void test_scales(void **state) {
   workspace_clear(&w);
 }
 
-/* Exact rational points on a line and just beside it: doubles cannot tell, the exact rung can. */
+/* Exact rational points on a line and just next to it: doubles cannot decide, the exact rung can. */
 static void test_rational_points(void **state) {
   (void)state;
   test_random r = test_random_start("rational points");
