@@ -45,7 +45,7 @@ def test_wrong_answers():
 
 
 def test_lies():
-    """What is not inside the answer before, and ends in the wrong order, are errors that name point and stage."""
+    """Answers not inside the one before, and ends in the wrong order, are errors that name point and stage."""
     def drifting(i, bits):
         shift = bits if i == 2 else 0
         return i + shift, i + shift + Fraction(1, 2**bits), i * i, i * i + Fraction(1, 2**bits)
@@ -59,7 +59,7 @@ def test_lies():
 
 
 def test_costs():
-    """What is asked costs less where costs are known; as many costs as points, all above 0."""
+    """Requests cost less in total where costs are known; as many costs as points, all above 0."""
     random = harness.seeded('costs')
     spent = {None: 0.0, 50: 0.0}
     for _ in range(20):
@@ -135,7 +135,7 @@ def test_many_engines_in_threads():
 
 
 def test_gil_is_released():
-    """Python goes on while the library works, and another thread can cancel."""
+    """Python continues while the library works, and another thread can cancel."""
     points = np.random.default_rng(1).random((400000, 2))
     d, ticks, done = dyadel.Delaunay(), 0, threading.Event()
     d._append(points)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Memory is flat over 100 runs of everything, those that fail included."""
+"""Memory is flat over 100 runs of everything, failing runs included."""
 import gc
 import pickle
 import sys
@@ -41,7 +41,8 @@ def once():
 
 
 def test_bound():
-    """What would take too much is refused before it is taken, with what it was; a result stays, and can be refined on."""
+    """A request for too much memory is refused before it is allocated, with its purpose; a result stays, and can be
+    refined on."""
     error = harness.raised(MemoryError, dyadel.delaunay, POINTS, max_bytes=100000)
     assert 'max_bytes' in str(error) and 'the triangulation' in str(error), error
     d = dyadel.delaunay(POINTS, max_bytes=10**8)

@@ -475,7 +475,7 @@ def test_frame():
 
 
 def test_diagram_stays():
-    """What is found later belongs to the triangulation of which the diagram was made, or is refused."""
+    """Facts found later belong to the triangulation of which the diagram was made, or is refused."""
     d = dyadel.delaunay([(0, 0), (1, 0), (0, 1)])
     v = d.voronoi()
     before = v.certain.coordinates.copy(), v.areas.copy(), v.window
@@ -577,7 +577,7 @@ def test_places():
 
 
 def test_nearest_of_places():
-    """As the nearest points of each place by itself, and by distances of boxes in fractions."""
+    """As the nearest points of each place alone, and by distances of boxes in fractions."""
     points, radius = RANDOM.integers(0, 6, (15, 2)), RANDOM.choice([0, 0.25, 1], 15)
     d = dyadel.delaunay(points, radius=radius)
     places = RANDOM.integers(-4, 28, (200, 2)) / 4

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Ctrl-C ends a run soon, wherever the library is, and what is known is kept; handlers of one's own are obeyed."""
+"""Ctrl-C ends a run soon, wherever the library is, and known results are kept; handlers of one's own are obeyed."""
 import os
 import signal
 import threading
@@ -74,7 +74,7 @@ def test_what_is_known_is_kept():
 
 
 def test_own_handler():
-    """It is called, and the run goes on when it does not raise."""
+    """It is called, and the run continues when it does not raise."""
     points = np.random.default_rng(2).random((600_000, 2))
     seen, delay = [], 0.1
     before = signal.signal(signal.SIGINT, lambda number, frame: seen.append(number))
@@ -109,7 +109,7 @@ def test_other_long_work():
 
 
 def test_main_thread_only():
-    """A run in another thread goes on; the main thread is interrupted as ever."""
+    """A run in another thread continues; the main thread is interrupted as ever."""
     done = []
     points = np.random.default_rng(4).random((300_000, 2))
     thread = threading.Thread(target=lambda: done.append(dyadel.delaunay(points).outcome))

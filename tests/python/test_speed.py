@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """What numpy's users pay: arrays the same calls from C (1.05 times as much is wanted, which is printed: on a busy machine the
 memory of two programs differs by more) and 0.10 of scipy; of a function that answers in Fractions (15 microseconds a call
-are wanted, which is printed) not much more than Fractions cost by themselves. User time, in turns, the best of several.
+are wanted, which is printed) not much more than Fractions alone. User time, in turns, the best of several.
 Third argument: the program in C."""
 import subprocess
 import sys

@@ -151,7 +151,7 @@ def test_refused():
 
 
 def test_sources():
-    """Points of functions; what they raise, with the point's own number."""
+    """Points of functions; their exceptions, with the point's own number."""
     def narrow(i, bits):
         x, y = OCTAHEDRON[i]
         return Fraction(x), Fraction(x), y - Fraction(y > 0, 2**bits), y + Fraction(y < 0, 2**bits)
@@ -187,7 +187,8 @@ def answers_of(trace):
 
 
 def test_traces():
-    """Killed at any line: the resumed run takes those answers, and finds the same; what it asks beyond is for the rectangles."""
+    """Killed at any line: the resumed run takes those answers, and finds the same; any further requests are for the
+    rectangles."""
     calls = []
 
     def narrow(i, bits):

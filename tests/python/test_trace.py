@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Traces: a run that ended early goes on without asking anything twice; replays; graphs of neighbours; probabilities."""
+"""Traces: a run that ended early continues without repeating a request; replays; graphs of neighbours;
+probabilities."""
 import errno
 import json
 import math
@@ -21,7 +22,7 @@ NEAR = Fraction(1, 10**9)
 
 
 class Instrument:
-    """Four points that nearly are the corners of a square, and some others; fails at the call that is told."""
+    """Four points that nearly are the corners of a square, and some others; fails at the call given."""
 
     def __init__(self, fails=None):
         self.calls, self.fails = [], fails
@@ -61,7 +62,7 @@ def test_resume():
 
 
 def test_cut_short():
-    """A line that was being written when the power went is left out."""
+    """A line that was being written when the power failed is ignored."""
     run(Instrument(), trace=TRACE)
     text = TRACE.read_bytes()
     OTHER.write_bytes(text[:len(text) // 2])

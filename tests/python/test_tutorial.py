@@ -20,7 +20,7 @@ def test_tutorial():
 
 
 def test_readme():
-    """The lines of Python in README, which print what they say."""
+    """The lines of Python in README, which print the values they claim."""
     text = (pathlib.Path(harness.DATA).parents[1] / 'README.md').read_text(encoding='utf-8')
     blocks = re.findall(r'^```python\n(.*?)^```', text, re.M | re.S)
     assert len(blocks) == 1 and blocks[0].count('\n') == 6

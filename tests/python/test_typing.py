@@ -82,7 +82,7 @@ def test_stub():
 
 
 def test_docstrings():
-    """All that has a public name, inherited members included, says what it is; and the reference tells it."""
+    """All that has a public name, inherited members included, has a type and a docstring; and the reference has it."""
     sys.path.insert(0, str(pathlib.Path(harness.DATA).parents[1] / 'src/python'))
     import reference
     text = html.unescape(re.sub('<[^>]*>', '', reference.page(dyadel))).replace('\xa0', ' ')

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Every kind of number becomes exactly that number, or an interval that holds it; what is none is refused."""
+"""Every kind of number becomes exactly that number, or an interval that holds it; other values are refused."""
 import decimal
 import importlib
 import math
@@ -115,7 +115,7 @@ def test_flint():
 
 
 def found(name):
-    """The package; where it is not installed the rest of the test is left out, and said so."""
+    """The package; where it is not installed the rest of the test is skipped, with a note."""
     try:
         return importlib.import_module(name)
     except ImportError as error:
