@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The table of sites against a plain list of exact rectangles: what goes in comes out, whatever doubles hold of it. */
+/* The table of sites against a plain list of exact rectangles: values put in come out, whatever doubles hold of it. */
 #include <setjmp.h>
 #include <stdarg.h>
 
@@ -13,7 +13,7 @@
 
 enum { MOST = 48 };
 
-/* A table and what it should hold. */
+/* A table and its expected contents. */
 typedef struct pairing {
   dyd_sites *s;
   dyd_rect want[MOST];
@@ -378,7 +378,7 @@ static void test_numbers_out_of_range(void **state) {
   dyd_sites_free(NULL);
 }
 
-/* What doubles cannot hold costs memory, and gives it back when it is narrowed to what they hold. */
+/* What doubles cannot hold costs memory, and gives it back when it is narrowed to values they hold. */
 static void test_memory(void **state) {
   (void)state;
   pairing p;
@@ -405,8 +405,8 @@ static void test_memory(void **state) {
   finish(&p);
 }
 
-/* Sites of which nothing is known hold everything, are no points, and shrink to doubles or to what doubles do not hold,
- * whatever stands beside them. */
+/* Unbounded sites contain the whole plane, are not points, and shrink to doubles or to numbers doubles do not hold,
+ * whatever their neighbours in the table. */
 static void check_planes(bool exact_beside) {
   pairing p;
   start(&p);
