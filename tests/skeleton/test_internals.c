@@ -316,7 +316,7 @@ static void test_scale_set(void **state) {
 
 /* ---- boxes of points ---- */
 
-/* Is [lo, hi] what doubles tell of v: around it, and no wider than to the next double? */
+/* Returns whether [lo, hi] is the enclosure of v in doubles: around it, and no wider than to the next double. */
 static bool is_rounded_outward(double lo, double hi, const dyd_dyadic *v) {
   mpq_t exact, end;
   mpq_inits(exact, end, NULL);

@@ -120,7 +120,7 @@ static void compare(bed *joined, bed *whole) {
   assert_int_equal(m->count, w->count);
   assert_true(dyd_mesh_is_valid(m));
   aliases_met += m->n - alive(m);
-  for (uint32_t v = 0; v < m->n; v++) /* an alias stands for an equal vertex that is none */
+  for (uint32_t v = 0; v < m->n; v++) /* an alias refers to an equal vertex that is not an alias */
     if (dyd_mesh_alias(m, v) != DYD_NONE) {
       assert_int_equal(dyd_mesh_alias(m, dyd_mesh_alias(m, v)), DYD_NONE);
       assert_true(dyd_mesh_same(m, v, dyd_mesh_alias(m, v)));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The rungs of the skeleton's predicates against determinants in rationals: whoever is sure is right, the last rungs
- * are always right [FLT-ORI] [FLT-INC] [FLT-SMALL] [FIX-1]. */
+/* The rungs of the skeleton's predicates against determinants in rationals: a rung that decides is right, the last
+ * rungs are always right [FLT-ORI] [FLT-INC] [FLT-SMALL] [FIX-1]. */
 #include <setjmp.h>
 #include <stdarg.h>
 
@@ -185,7 +185,7 @@ static void check_bed(bed *b) {
         uint32_t q = (uint32_t)test_below(&shared, i + 1);
         v[i] = v[q], v[q] = i;
       }
-      if (round == 0) { /* without a grid nothing is known about it */
+      if (round == 0) { /* without a grid it is unknown */
         b->m.exact_s = -1;
         b->m.no_fixed = true;
       }
