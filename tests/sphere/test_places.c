@@ -201,7 +201,7 @@ static void check_vertex(const answer *stated, const answer *exact, const globe 
   }
 }
 
-/* What is stated is so for the choice. */
+/* Checks the statements for the choice. */
 static void check_choice(const answer *stated, const globe *choice) {
   answer exact;
   ask(&exact, choice, NULL);
@@ -222,7 +222,7 @@ static void check_choice(const answer *stated, const globe *choice) {
   forget(&exact);
 }
 
-/* Pairs sorted, the lower end first; each open one in a face, whose sites ascend; faces as many as are told. */
+/* Pairs sorted, the lower end first; each open one in a face, whose sites ascend; their number is that reported. */
 static void check_form(const answer *a) {
   size_t faces = dyd_sphere_faces(a->s), open = 0, within = 0, legal = 0;
   bool tie;
@@ -253,7 +253,7 @@ static void check_form(const answer *a) {
   dyd_index_list_clear(&face);
 }
 
-/* Where each is told to be: the circle's box. */
+/* The box reported for each: that of the circle. */
 static void check_rects(const answer *a, const globe *choice) {
   dyd_rect r;
   double box[4], v[6];

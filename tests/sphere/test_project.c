@@ -60,7 +60,7 @@ static spot_case choose_in(const spot_case *s, test_random *r) {
   return (spot_case){s->lon + a * s->half[0], s->lat + b * s->half[1], {0, 0}};
 }
 
-/* A place within an angle of s, where this is no pole. */
+/* A place within an angle of s, if it is not a pole. */
 static spot_case move_by(const spot_case *s, long double angle, test_random *r) {
   long double lat = s->lat * degree, way = 6.283185307L * test_unit(r),
               far = angle * (test_chance(r, 2) ? 1 : test_unit(r));
