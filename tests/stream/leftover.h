@@ -8,7 +8,7 @@ void leftover_mark(void);
 /* Other processes that carry the mark. */
 int count_marked(void);
 int count_descriptors(void);
-/* Within two seconds no marked process is left; there is no child, not even a zombie; no descriptor was leaked; SIGPIPE
+/* Within two seconds no marked process is left; no child exists, not even a zombie; no descriptor was leaked; SIGPIPE
  * is as it was and not pending. */
 void assert_nothing_left(void);
 

@@ -47,7 +47,7 @@ static void flood(const char *text) {
   for (;;) fputs(text, stdout);
 }
 
-/* What is written as it stands. */
+/* Text written unchanged. */
 static const struct {
   const char *name, *text;
 } lines[] = {{"rubbish", "lorem ipsum\n"},

@@ -88,7 +88,7 @@ static dyd_zero test_text(const char *text) {
   return zero;
 }
 
-/* Random numbers x, y: x - y, x^2 - y^2, and what is 0 in any case. */
+/* Random numbers x, y: x - y, x^2 - y^2, and expressions that are always 0. */
 static void test_against(void **state) {
   size_t zeros = 0, others = 0, unknown = 0;
   (void)state;

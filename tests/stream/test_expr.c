@@ -165,7 +165,7 @@ static void test_trees(void **state) {
   mpfr_clear(v);
 }
 
-/* Computable at the edge of a domain, by what is known of the argument in any case. */
+/* Computable at the edge of a domain, by the range that the argument always has. */
 static void test_edges(void **state) {
   (void)state;
   static const struct {

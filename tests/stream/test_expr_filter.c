@@ -268,7 +268,7 @@ static void test_ends_of_doubles(void **state) {
   assert_true(answers > 1000);
 }
 
-/* Exact squares, roots of what only the range knows to be positive, and what must stay without an answer. */
+/* Exact squares, roots of what only the range knows to be positive, and cases that must stay without an answer. */
 static void test_special(void **state) {
   (void)state;
   program p;
@@ -355,7 +355,7 @@ static void test_grids(void **state) {
 
 /* ---- reals ---- */
 
-/* What a real gives at first sight holds what it gives later for more bits, and widths are as asked. */
+/* The first interval of a real contains later ones for more bits, and widths are as asked. */
 static void check_glance(const char *text, int64_t first, int64_t later) {
   dyd_double_span d;
   dyd_interval whole;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Programs as sources: [ORA-2] results whatever jobs, batch and time; every fault of a
- * program gives the right error, in little memory and time, keeps what was known, and leaves no process, descriptor or
+ * program gives the right error, in little memory and time, keeps known results, and leaves no process, descriptor or
  * signal behind. The programs are this test, started with "serve" (oracle_serve.c). */
 #define _GNU_SOURCE /* usleep, NSIG */
 #include "rect/rect.h"
@@ -234,13 +234,13 @@ static void check_fault(size_t k, int stage, const dyd_oracle_options *o, const 
   if (outcome != DYD_OUTCOME_ERROR) fail_msg("%s: %s", faults[k].name, dyd_outcome_text(outcome));
   check_error(k, (size_t)stage, &err, o);
   assert_true((dyd_engine_delaunay(e) != NULL) == (err.stage > 0));
-  /* What was known stays, and is true. */
+  /* Earlier results stay, and are true. */
   for (uint32_t i = 0; dyd_engine_delaunay(e) && i < EXACT + POINTS; i++)
     for (uint32_t j = 0; j < i; j++) {
       dyd_pair_status s = dyd_delaunay_status(dyd_engine_delaunay(e), i, j);
       if (s != DYD_INDETERMINATE) assert_int_equal(dyd_delaunay_status(dyd_engine_delaunay(good), i, j), s);
     }
-  /* A program that failed stays so; one that gave a bad answer may go on. */
+  /* A program that failed stays so; one that gave a bad answer may continue. */
   run_long(e, &err);
   dyd_engine_free(e);
   assert_nothing_left();
@@ -442,8 +442,8 @@ static void test_streams(void **state) {
 
 /* ---- fork ---- */
 
-/* A forked copy may not use the program, nor does it end it: it says so, frees what it has, and the parent goes on as
- * if nothing had been. Without a program the copy works. */
+/* A forked copy may not use the program, nor does it end it: it says so, frees its memory, and the parent continues
+ * undisturbed. Without a program the copy works. */
 static void test_forked(void **state) {
   (void)state;
   dyd_error err;

@@ -219,7 +219,7 @@ static void test_same_root(void **state) {
   }
 }
 
-/* Very close roots (Mignotte): they are told apart, and the sign change is real. */
+/* Very close roots (Mignotte): they are distinguished, and the sign change is real. */
 static void test_close_roots(void **state) {
   (void)state;
   problem p;

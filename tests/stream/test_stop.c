@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* A flag that is set while one function, or one step to a root, is at work on millions of digits: the call ends within
- * a second, says so, and what was known stays known. */
+ * a second, says so, and earlier bounds stay known. */
 #include "harness.h"
 
 #include "base/clock.h"
@@ -59,7 +59,7 @@ static void test_functions(void **state) {
     double late = alarm_late(&a);
     assert_false(known);
     if (late > SPARE) fail_msg("operation %d ended %.1f s late", (int)function[k], late);
-    f.stop = NULL; /* what was stopped is computed anew */
+    f.stop = NULL; /* the stopped value is computed anew */
     assert_true(arb_is_finite(dyd_forms_value(&f, n, 1 << 12)));
     dyd_forms_clear(&f);
     mpq_clear(q);
@@ -107,7 +107,7 @@ static dyd_real *polynomial_root(polynomial *p) {
   return x;
 }
 
-/* So many bits take longer than that many seconds, after which the flag is set, and soon seen. */
+/* The given bits take longer than the given seconds, after which the flag is set, and soon seen. */
 static void is_stopped(dyd_real *x, int64_t bits, double seconds) {
   alarm a;
   dyd_error err;

@@ -111,7 +111,7 @@ static void check_faulty(fault kind, int64_t at, dyd_status want, const char *wo
     assert_int_equal(err.stage, at);
     if (!strstr(err.message, words)) fail_msg("'%s' is not in '%s'", words, err.message);
     assert_false(dyd_stream_is_final(s));
-    /* the fault was in one call only: the stream goes on */
+    /* the fault was in one call only: the stream continues */
     if (at) assert_int_equal(dyd_stream_narrow(s, at + 1, 100, &err), DYD_OK);
   }
   if (st == DYD_FIXED) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* [IDN-1] [SEP-1] The zero test: what is 0 and has to be proved, what is not 0 and must never be, what nobody knows. */
+/* [IDN-1] [SEP-1] The zero test: values that are 0 and have to be proved so, values that are not 0 and must never be,
+ * unknown ones. */
 #include "harness.h"
 
 #include "stream/algebra/form.h"
@@ -86,7 +87,7 @@ static void test_equal(void **state) {
   }
 }
 
-/* What holds whatever the branch is seen by the identity alone: the difference reduces to 0. */
+/* Equalities that hold on every branch are proved by the identity alone: the difference reduces to 0. */
 static void test_identities(void **state) {
   static const char *const pair[][2] = {
       {"sqrt(8)", "2*sqrt(2)"},
@@ -162,7 +163,7 @@ static void test_unknown(void **state) {
   for (size_t k = 0; k < sizeof pair / sizeof *pair; k++) expect(DYD_ZERO_UNKNOWN, pair[k][0], pair[k][1]);
 }
 
-/* f of n primes added up, and again the other way round; f is what stands before the prime, which ")" follows. */
+/* f of n primes added up, and again the other way round; f is the text before the prime, which ")" follows. */
 static void expect_sums(const char *f, int n, dyd_zero zero, dyd_zero_counts *count) {
   char left[2048] = "0", right[2048] = "0", term[40], keep[2048];
   for (int p = 3, k = 0; k < n; p += 2) {
@@ -238,7 +239,7 @@ static void test_caps(void **state) {
     dyd_zero zero = compare(&c, unknown[k][0], unknown[k][1], TIE_BITS);
     if (zero != DYD_ZERO_UNKNOWN) fail_msg("%s: %d", unknown[k][0], zero);
   }
-  /* degrees that no bound can be told of do no harm to the identity */
+  /* degrees without a bound do not hinder the identity */
   dyd_zero_counts c;
   expect_sums("sqrt(", 50, DYD_ZERO_PROVED, &c);
   assert_int_equal(c.by_identity, 1);
@@ -272,8 +273,8 @@ static void random_text(char *out, size_t size, int depth) {
   snprintf(out, size, "(%s%c%s)", a, "+-*"[random_below(3)], b);
 }
 
-/* p (q + r) against p q + p r: always the same number, which identities prove where there are no bits for a bound, and
- * bounds where there are. */
+/* p (q + r) against p q + p r: always the same number, which identities prove where the bits do not suffice for a
+ * bound, and bounds elsewhere. */
 static void test_random_identities(void **state) {
   size_t by_identity = 0, by_bound = 0;
   (void)state;
@@ -416,7 +417,7 @@ static void test_callbacks(void **state) {
   dyd_real_free(y);
 }
 
-/* An interval around a computable value is no number. */
+/* An interval around a computable value is not a number. */
 static void test_intervals(void **state) {
   static const char *const text[] = {"sqrt(2)+-0.1", "[1,2]", "1.5+-0.5"};
   (void)state;
