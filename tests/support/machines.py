@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The core suites under other compilers, optimizations and machines; what is absent here is skipped, and named.
+"""The core suites under other compilers, optimizations and machines; missing ones are skipped, and named.
 
 Usage: machines.py [--only NAME...] [--suites SUITE...] [--jobs N] [--keep FOLDER]
 
@@ -81,8 +81,8 @@ def cross_options(folder):
 
 
 def chosen(build, suites, foreign):
-    """The names of the tests of these suites, and the programs that they need; where these are foreign without those that
-    start the command, or link programs of their own."""
+    """The names of the tests of these suites, and the programs that they need; where these are foreign, without tests
+    that start the command or link other programs."""
     tests, targets = (json.loads(subprocess.run(['meson', 'introspect', what, build], stdout=subprocess.PIPE, check=True).stdout)
                       for what in ('--tests', '--targets'))
     command = next(target['id'] for target in targets if target['name'] == 'dyadel' and target['type'] == 'executable')

@@ -6,9 +6,9 @@ Usage: mutants.py ROOT BUILD --sources FILE... --tests NAME... [--count K] [--se
 
 ROOT is a copy of the project that may be written to, BUILD a build folder of it. Draws K places in the sources (paths from
 ROOT/src), all kinds of fault alike, and for each: changes the source, builds, runs the tests named, in this order, until one
-fails, and puts the source back. Prints a line for each fault and a sum; those that nobody noticed are what to look at: a
-missing test, a needless check, or a change that cannot be seen. With --again, only those that survived according to the
-output of an earlier run, with slower tests, say. Slow: this is no test of the suite.
+fails, and puts the source back. Prints a line for each fault and a sum; look at the faults not noticed: a
+missing test, a needless check, or a change that cannot be seen. With --again, only the faults that survived according
+to the output of an earlier run, with slower tests, say. Slow: not a test of the suite.
 """
 import argparse
 import json
@@ -20,7 +20,7 @@ import signal
 import subprocess
 import sys
 
-KINDS = [  # name, what is looked for, what takes its place
+KINDS = [  # name, pattern, replacement
     ('strict', r'(?<![-<>=])([<>])(?![<>=])(?= )', r'\1='),
     ('loose', r'(?<![<>])([<>])=(?= )', r'\1'),
     ('equal', r'([!=])=(?= )', lambda m: '!=' if m[1] == '=' else '=='),

@@ -32,7 +32,7 @@ static inline size_t test_cases(size_t base) {
   return test_environment("DYADEL_TEST_SANITIZED", 0) ? (cases + 2) / 3 : cases;
 }
 
-/* Of what is tried place by place: every one, with sanitizers every fifth. */
+/* Step of tests that try place by place: every place, with sanitizers every fifth. */
 static inline size_t test_stride(void) {
   return test_environment("DYADEL_TEST_SANITIZED", 0) ? 5 : 1;
 }
