@@ -17,10 +17,10 @@ typedef struct sets_case {
 /* least .. most of them: clusters, lines, circles, grids, flat curves, at scales of their own; points, thin, wide and
  * long rectangles; moved far from 0, stretched, tiny or huge. */
 void sets_make(sets_case *s, test_random *r, size_t least, size_t most);
-/* All of it, or each by itself, to where squares of doubles are no doubles. */
+/* All of it, or each alone, to where squares of doubles are not doubles. */
 void sets_stretch(sets_case *s, test_random *r);
-/* A rectangle 0, a small one 1, and exact points about a disc that holds both, but for a gap: who comes in there may be
- * far from what the possible pairs of 0 and 1 depend on, and leaves no witness of their legal pair. */
+/* A rectangle 0, a small one 1, and exact points about a disc that holds both, but for a gap: a point there may be far
+ * from everything that the possible pairs of 0 and 1 depend on, and leaves no witness of their legal pair. */
 void sets_hidden(sets_case *s, test_random *r);
 /* The same in one engine; the caller frees it. NULL: pairs are so many that much of this would
  * take long. */

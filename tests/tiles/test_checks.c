@@ -307,7 +307,7 @@ static tiles_box box_beside(const tiles_disc *d, test_random *r, int bits) {
   return b;
 }
 
-/* What is said to be outside is, and what is said to be inside; of most random ones it is said. */
+/* Points reported outside are outside, points reported inside are inside; most random points get a report. */
 static void test_discs(void **state) {
   (void)state;
   test_random r = test_random_start("discs");
@@ -356,7 +356,7 @@ static void farthest_square(mpq_t out, const double c[2], const tiles_box *b) {
   }
 }
 
-/* Wherever in its two intervals between doubles the witness is, the disc about it is in the one that is asked for. */
+/* Wherever in its two intervals between doubles the witness is, the disc about it is in the disc requested. */
 static void test_witness_discs(void **state) {
   (void)state;
   test_random r = test_random_start("witness discs");

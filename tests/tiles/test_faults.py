@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What goes wrong with dyadel-tiles is told clearly, and --restart completes the job.
+"""Faults of dyadel-tiles are reported clearly, and --restart completes the job.
 
 Usage: test_faults.py TILES DYADEL [MPIRUN]
 """
@@ -22,7 +22,7 @@ TILES, DYADEL = sys.argv[1:3]
 MPIRUN = sys.argv[3:4]
 # 4,096 bytes by its size, of which a few can be read.
 UNREADABLE = pathlib.Path('/sys/devices/system/cpu/online')
-# Rank 1 (in one process: all) may write files of so many blocks only.
+# Rank 1 (in one process: all) may write files of this many blocks only.
 SMALL_DISK = ('if [ "${OMPI_COMM_WORLD_RANK:-1}" = 1 ]; then trap "" XFSZ; ulimit -f 8; fi; exec "$0" "$@"')
 
 
@@ -55,7 +55,7 @@ class Faults(unittest.TestCase):
         self.assertTrue((self.at / 'all.csv').read_bytes() == want)
 
     def test_missing_part(self):
-        """Only what is missing is done again; what belongs to another job counts as missing."""
+        """Only missing parts are computed again; parts of another job count as missing."""
         self.assertEqual(tiles(4, 'delaunay', self.file, '-o', self.out).returncode, 0)
         parts = cases.parts_of(self.out)
         before = {p: p.stat().st_mtime_ns for p in parts}
@@ -201,7 +201,7 @@ class Faults(unittest.TestCase):
         self.assertGreaterEqual(tried, 12)
 
     def test_unreadable_slice(self):
-        """A file that ends before its size: who meets the end tells which points, and all end."""
+        """A file that ends before its size: the rank that meets the end reports which points, and all end."""
         self.refused(1, f'{UNREADABLE}: cannot read points ', 'delaunay', str(UNREADABLE), '-o', self.out)
 
     def test_words(self):

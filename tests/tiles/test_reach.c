@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Attacks on discs and half-planes: one more site as near to them as may be, without meeting them, must not change what
- * they stand for [REACH-1] [TILE-1]. */
+/* Attacks on discs and half-planes: one more site as near to them as may be, without meeting them, must not change the
+ * statements that depend on them [REACH-1] [TILE-1]. */
 #include <setjmp.h>
 #include <stdarg.h>
 
@@ -19,7 +19,7 @@ typedef struct reach_case {
   tiles_view v;
   tiles_reach reach[SITES];
   dyd_pair_status status[SITES][SITES];
-  size_t whole; /* those that are the whole plane */
+  size_t whole; /* regions that are the whole plane */
 } reach_case;
 
 static void statuses_of(dyd_pair_status status[SITES][SITES], size_t n, const dyd_engine *e) {

@@ -16,7 +16,7 @@ import tiles_cases as cases
 
 TILES, DYADEL = sys.argv[1:3]
 MPIRUN = sys.argv[3:4]
-# Processes only carry the mail: what is in it is tried in one process, and by them at a larger scale.
+# Processes only carry messages: their contents are tested in one process, and with several at a larger scale.
 RANKS = (3,) if MPIRUN and cases.SCALE == 1 else (1, 2, 4, 9)
 
 
@@ -105,7 +105,7 @@ class Union(unittest.TestCase):
 
     @unittest.skipIf(MPIRUN, 'the same in one process')
     def test_boxes_send_little(self):
-        """Cells along the hull end far out, and at whose boxes is known: nobody asks for the whole plane."""
+        """Cells along the hull end far out, and it is known at whose boxes: no rank requests the whole plane."""
         parts = cases.parts_of(self.compare(cases.boxes(20000, self.random), (4,)))
         for header in map(cases.header_of, parts):
             self.assertLess(header['ghosts'], 0.2 * header['own'])
@@ -116,7 +116,7 @@ class Union(unittest.TestCase):
 
     @unittest.skipIf(MPIRUN, 'the same in one process')
     def test_hidden_witness(self):
-        """The possible pairs of one end tell nothing of a witness; where the other end is a ghost, those of nobody do."""
+        """The possible pairs of one end do not show a witness; where the other end is a ghost, no rank's pairs do."""
         for n, cut in ((4000, 2.85), (90, 1.4)):
             rows = cases.hidden_witness(n, self.random, cut)
             others = [row for row in rows if row[0] != cases.HIDDEN[0]]
@@ -136,7 +136,7 @@ class Union(unittest.TestCase):
                 self.compare(rows, (3,) if MPIRUN else (1, 2, 3, 9))
 
     def test_small_grids(self):
-        """Everything is tied, and everybody is at a border."""
+        """All pairs tie, and every site is at a border."""
         for _ in range(3 if MPIRUN else 30 * cases.SCALE):
             places = [(float(self.random.randrange(5)), float(self.random.randrange(5))) for _ in range(30)]
             halves = [self.random.choice([0, 0, 0.25, 0.5, 1]) for _ in places]
@@ -167,7 +167,7 @@ class Union(unittest.TestCase):
                     self.check_parts(out, count, len(rows))
 
     def test_text_with_a_mark(self):
-        """A byte order mark is no part of the first point; names may follow it."""
+        """A byte order mark does not belong to the first point; names may follow it."""
         rows = '0 0\n3 1\n1 4\n2 2\n'
         (self.at / 'in.txt').write_text(rows)
         for k, text in enumerate(('\ufeff' + rows, '\ufeff"lon";"lat"\n' + rows, rows.replace('\n', '\r\n'), rows[:-1], '% of today\n' + rows, rows.replace('\n', '\r'))):
@@ -200,7 +200,7 @@ class Union(unittest.TestCase):
             self.assertIn(f'in.txt:301:{column}: ', done.stderr)
             self.assertIn(words, done.stderr)
             self.assertFalse((self.at / 'out/manifest.json').exists())
-        # What is no name of a column is not passed over in the first line either.
+        # A word that does not name a column is not skipped in the first line either.
         for line, column in (('nan 0', 1), ('[0,1] 0', 7), ('0 nan', 3), ('x 0', 1), ('NaN NA', 1), ('pi e', 1), ('sqrt(2) 1', 1)):
             (self.at / 'in.csv').write_text(f'# points\n{line}\n{fine}')
             done = self.run_tiles(2, str(self.at / 'in.csv'), '-o', str(self.at / 'out'))

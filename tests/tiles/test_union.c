@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Thousands of small sets in pieces: what all ranks write together is what one engine says [REACH-1] [TILE-1]. Ranks
- * begin with little more than their own sites, and get few at a time: all depends on what they ask for. */
+/* Thousands of small sets in pieces: the output of all ranks together is that of one engine [REACH-1] [TILE-1]. Ranks
+ * begin with little more than their own sites, and get few at a time: all depends on their requests. */
 #include <setjmp.h>
 #include <stdarg.h>
 
@@ -14,13 +14,13 @@
 
 enum { MOST_RANKS = 9 };
 
-/* What is written here need not outlast a power cut. */
+/* Files written here need not survive a power cut. */
 int fsync(int file) {
   (void)file;
   return 0;
 }
 
-/* The csv of one engine; the caller frees it. NULL: there are so many pairs that tiles would take long. */
+/* The csv of one engine; the caller frees it. Returns NULL when the pairs are too many for a quick test. */
 static char *text_of_one(const sets_case *s) {
   static const char *const word[] = {"illegal", "tie", "indeterminate", "legal"};
   char *text = NULL;
@@ -69,7 +69,7 @@ static char *text_of_parts(const tiles_job *job, tiles_counters *total) {
   return text;
 }
 
-/* Somebody in the gap of a hidden witness, and crowds far away, such that he belongs to another rank. */
+/* A site in the gap of a hidden witness, and crowds far away, so that it belongs to another rank. */
 static void hidden_with_others(sets_case *s, test_random *r) {
   sets_hidden(s, r);
   for (unsigned crowds = (unsigned)test_below(r, 4), k = 0; k <= crowds; k++) {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Inputs for dyadel-tiles, as rows of two or four doubles, and what one process says of them."""
+"""Inputs for dyadel-tiles, as rows of two or four doubles, and the results of one process."""
 import array
 import json
 import math
@@ -49,8 +49,8 @@ def line(n, r):
 
 
 def parabola(n, r, height):
-    """So flat that circles are far larger than distances. (-a, -b, b, a) are on one circle, and for neighbours a, b nobody is
-    inside: ties across the middle, that end on the rims of large discs."""
+    """So flat that circles are far larger than distances. (-a, -b, b, a) are on one circle, and for neighbours a, b the
+    circle is empty: ties across the middle, that end on the rims of large discs."""
     points = [(float(k), height * k * k) for k in range(-n // 2, n // 2 + 1) if k]
     r.shuffle(points)
     return points
