@@ -15,7 +15,7 @@ typedef struct brute_points {
 } brute_points;
 
 /* *out (initialised, BRUTE_BITS) = sup over c of min over k of |c - p_k| - max(|c - p_i|, |c - p_j|), k others than i
- * and j, to some 100 digits; false: there are no others. */
+ * and j, to some 100 digits; Returns false if no others exist. */
 bool brute_width(mpf_ptr out, const brute_points *p, size_t i, size_t j);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Small sets of points, and what is asked of them. */
+/* Small sets of points, and the questions about them. */
 #include <setjmp.h>
 #include <stdarg.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Small sets of points, and what is asked of them. */
+/* Small sets of points, and the questions about them. */
 #ifndef DYD_TESTS_TOLERANCE_CASES_H
 #define DYD_TESTS_TOLERANCE_CASES_H
 
@@ -19,7 +19,7 @@ typedef struct cases_answer {
 void cases_make(brute_points *p, test_random *r, size_t kind);
 void cases_ask(cases_answer *a, const brute_points *p, const dyd_tolerance_options *o);
 void cases_forget(cases_answer *a);
-/* NULL: there is none. The order of rows is looked at, too. */
+/* NULL: there is none. The order of rows is checked, too. */
 const dyd_tolerance_row *cases_row(const dyd_tolerance *t, uint32_t i, uint32_t j);
 /* Are k and l on different sides of ij? */
 bool cases_parted(const brute_points *p, const dyd_tolerance_row *row);

@@ -195,7 +195,7 @@ static int circle_sign(int *turn, const disc_case *p, const uint32_t v[4]) {
   return inside * *turn;
 }
 
-/* Counter-clockwise, and strictly outside of its circle is everybody else. */
+/* Counter-clockwise, and all other sites are strictly outside of its circle. */
 static bool is_triangle(const disc_case *p, const uint32_t v[3]) {
   for (uint32_t d = 0; d < p->n; d++) {
     uint32_t all[4] = {v[0], v[1], v[2], d};
@@ -262,7 +262,7 @@ static void test_triangles(void **state) {
   assert_true(certain > 300 && more > 20 && hollow > 10);
 }
 
-/* Told to end before it begins, a tolerance has no row, and counts what has none; one that is not told has all. */
+/* Cancelled before it begins, a tolerance has no rows and counts the missing ones; without a cancel it has all. */
 static void test_cancelled(void **state) {
   (void)state;
   test_random r = test_random_start("cancelled tolerances");
@@ -316,8 +316,8 @@ static void test_refused(void **state) {
   dyd_sites_free(sites);
 }
 
-/* Small discs, hundreds of them: beside the hull circles are as large as half-planes, and few others are in their way.
- * The armed build counts how many are looked at. */
+/* Small discs, hundreds of them: near the hull circles are as large as half-planes, and few others are in their way.
+ * The armed build counts how many are examined. */
 static void test_many(void **state) {
   enum { MANY = 700 };
   static double x0[MANY], x1[MANY], y0[MANY], y1[MANY];

@@ -56,7 +56,7 @@ static bool oracle_says(const brute_points *p, double t, uint32_t i, uint32_t j,
   return answer;
 }
 
-/* At lo it is so, a little above hi it is not; who is not listed is not possible at up_to. */
+/* At lo it is so, a little above hi it is not; a site not listed is not possible at up_to. */
 static void test_squares_against_oracle(void **state) {
   (void)state;
   test_random r = test_random_start("squares against the oracle");
@@ -352,7 +352,7 @@ static void test_two_hubs(void **state) {
   }
 }
 
-/* What is not for squares. */
+/* Options that do not apply to squares. */
 static void test_squares_refused(void **state) {
   (void)state;
   const brute_points p = {3, {0, 1, 0}, {0, 0, 1}};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Plans: never insufficient, seldom larger than the least that brute force finds; nothing to leave out [SUR-1]. */
+/* Plans: never insufficient, seldom larger than the least that brute force finds; no row without use [SUR-1]. */
 #include <setjmp.h>
 #include <stdarg.h>
 
@@ -62,7 +62,7 @@ static size_t count_open(const box_case *c, const double *half) {
   return open;
 }
 
-/* The least number of points that, measured to 2^-10 of what they are, leave nothing open; n + 1: none do. */
+/* The least number of points that, measured to within 2^-10, leave nothing open; n + 1: no set does. */
 static size_t least_plan(const box_case *c) {
   size_t least = c->n + 1;
   for (unsigned set = 0; set < 1u << c->n; set++) {
@@ -80,7 +80,8 @@ static size_t least_plan(const box_case *c) {
   return least;
 }
 
-/* Each row tells what it decides after those before. Sets half[] as measured; returns what is left. */
+/* Each row states how many pairs it decides after the rows before. Sets half[] as measured. Returns the pairs left.
+ * */
 static size_t follow_rows(double *half, const box_case *c, const dyd_survey *s, size_t open) {
   const dyd_survey_row *row;
   size_t rows = dyd_survey_rows(&row, s), left = open;
@@ -96,7 +97,7 @@ static size_t follow_rows(double *half, const box_case *c, const dyd_survey *s, 
   return left;
 }
 
-/* *idle: rows that could be left out. */
+/* *idle: rows without use. */
 static void check_rows(size_t *idle, const box_case *c, const dyd_survey *s, size_t open) {
   const dyd_survey_row *row;
   size_t rows = dyd_survey_rows(&row, s);
@@ -171,7 +172,8 @@ static size_t ask_one_by_one(box_case c, const box_case *truth) {
   }
 }
 
-/* The least number of points by which, had one known what they turn out to be, all is decided; n + 1: by none. */
+/* The least number of points whose measurement decides all pairs, chosen with knowledge of the true places; n + 1: no
+ * set does. */
 static size_t hindsight(const box_case *c, const box_case *truth) {
   size_t least = c->n + 1;
   for (unsigned set = 0; set < 1u << c->n; set++) {
@@ -213,7 +215,7 @@ static void test_one_by_one(void **state) {
 
 /* ---- more points than all rows are tried with ---- */
 
-/* How many pairs of one face, by itself, are open that are among the targets. */
+/* How many target pairs of one face, taken alone, are open. */
 static size_t count_open_in(const box_case *c, const double *half, const dyd_index_list *face,
                             const dyd_pair_list *target) {
   box_case part = {face->count, {0}, {0}, {0}};
@@ -236,7 +238,7 @@ static size_t count_open_in(const box_case *c, const double *half, const dyd_ind
   return open;
 }
 
-/* Of all faces with this site, each by itself. */
+/* The same summed over all faces with this site, each taken alone. */
 static size_t count_open_about(const box_case *c, const double *half, const dyd_delaunay *pd,
                                const dyd_pair_list *target, uint32_t site) {
   size_t open = 0;
@@ -251,7 +253,7 @@ static size_t count_open_about(const box_case *c, const double *half, const dyd_
   return open;
 }
 
-/* The open pairs, but for those that tie where the boxes have their middles. */
+/* The open pairs, without ties of the centres of the boxes. */
 static void find_targets(dyd_pair_list *out, const dyd_delaunay *pd, const box_case *c) {
   static const double none[MOST];
   dyd_sites *points;
@@ -304,7 +306,7 @@ static void check_factor(const box_case *c, const double *half, const dyd_survey
   assert_true(!rows || count_open(c, coarse) > left);
 }
 
-/* Plans of the boxes: what is left open is told; where nothing is, faces need every row. Returns how many rows. */
+/* Plans of the boxes: pairs left open are reported; if none is, the faces need every row. Returns how many rows. */
 static size_t check_large(size_t *idle, const box_case *c, const dyd_survey_options *o) {
   dyd_sites *sites;
   dyd_survey *s;
@@ -343,8 +345,8 @@ static void test_large(void **state) {
   mpq_clear(accuracy);
 }
 
-/* Four times, in a row: within its face a pair is decided without a site, beside the others it is not; so that what was
- * left out as faces told is taken back. */
+/* Four times, in a row: within its face a pair is decided without a site, with the others it is not; so that rows
+ * dropped by the faces' count are taken back. */
 static void test_taken_back(void **state) {
   (void)state;
   static const double x[] = {1.25, 4, 2.5, 4, 0.75, 0.875, 6, 2.5}, y[] = {10.625, 20, 10.5, 17.5, 4, 7.5, 15, 3},
@@ -361,7 +363,7 @@ static void test_taken_back(void **state) {
   mpq_clear(accuracy);
 }
 
-/* ---- what is asked for ---- */
+/* ---- requests ---- */
 
 static void test_parts(void **state) {
   (void)state;

@@ -239,7 +239,7 @@ static void test_rungs(void **state) {
   compare_rungs(200, x, y, false, 0);
 }
 
-/* ---- what is refused, few points, aliases ---- */
+/* ---- refusals, few points, aliases ---- */
 
 static void test_edges_of_use(void **state) {
   (void)state;
