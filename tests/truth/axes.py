@@ -552,7 +552,7 @@ REALS = (('sqrt({})', lambda m, k: m.sqrt(k)), ('exp({}/20)', lambda m, k: m.exp
 
 
 def real(rand):
-    """A computable real as text, and its value to 6000 bits: finer than any interval that is asked for."""
+    """A computable real as text, and its value to 6000 bits: finer than any interval requested."""
     form, value = rand.choice(REALS)
     k = rand.randint(2, 30)
     with mpmath.workprec(6000):
@@ -632,7 +632,7 @@ def lines(case, between=' '):
 
 
 def table(case, d, names=('x', 'y'), comma=False, change=lambda t: t):
-    """A table: a name, x, y, and what else the points have; columns that nobody reads between them."""
+    """A table: a name, x, y, and what else the points have; unused columns between them."""
     def cell(t):
         t = t.replace('.', ',') if comma and not set('([') & set(t) else t
         return change('"' + t.replace('"', '""') + '"' if d in t or ',' in t or '"' in t else t)
@@ -691,7 +691,7 @@ def form_blanks(case, put):
 
 
 def form_headless(case, put):
-    """No header: columns by their numbers, behind lines that are left out."""
+    """No header: columns by their numbers, after skipped lines."""
     number = dict(zip(case.names, '56'))
     case.args = [','.join(number.get(n, n) for n in w.split(',')) for w in case.args]
     return ['--no-header', '--columns', '2,4', '--skip-lines', '2', put('points.csv', 'two\n' + table(case, ','))]
@@ -728,14 +728,14 @@ FORMS = {'text': form_text, 'comma': form_comma, 'stdin': form_stdin, 'gzip': fo
 GEOMETRIES = {'plane': [], 'sphere': ['--sphere'], 'discs': ['--discs']}
 
 
-# ---- options that change nothing, or what is said here ----
+# ---- options that change nothing but the fields given ----
 
 @dataclasses.dataclass
 class Extra:
     args: list
     fits: object = None         # the form or the kind that it needs
-    softens: bool = False       # what is open may be more
-    check: str = None           # what is looked at besides (laws.py)
+    softens: bool = False       # more pairs may be open
+    check: str = None           # a further check (laws.py)
 
 
 EXTRAS = {

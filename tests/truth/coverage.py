@@ -2,8 +2,8 @@
 """No option without its place in the truth harness: coverage.py COMMAND [--python DIR] [--capi PROGRAM] [--tiles PROGRAM]
 
 The command prints its own table (--help=bash): commands, and of each the options, formats, layers and words. Each of
-these has to be typed by a row of the pairs of seed 1, or to have a reason here why not. A reason for what is no longer
-there, or is typed, fails, too."""
+these has to be typed by a row of the pairs of seed 1, or to have a reason here why not. A reason for an entry that is
+gone, or is typed, fails, too."""
 import os
 import pathlib
 import sys

@@ -18,7 +18,7 @@ def mixed(rand, a, b):
 
 
 def double(q):
-    """About q; what is as far as no double is, or its square, is as far as 2^400."""
+    """About q; distances beyond doubles, or with squares beyond doubles, become 2^400."""
     return float(max(Q(-2 ** 400), min(Q(2 ** 400), q)))
 
 

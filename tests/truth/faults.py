@@ -4,7 +4,7 @@
 
 Each fault is a small change of the sources, made in a copy of the project and built. The harness has to refute a case
 that it does not refute of COMMAND, built from PROJECT as it is. Rows are drawn from the part of the product that `where`
-names; the table tells how many of all rows that part has."""
+names; the table shows how many of all rows that part has."""
 import argparse
 import itertools
 import os

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Laws: what has to hold between statements, and between two runs.
+"""Laws: relations between statements, and between two runs.
 
 judge_all looks at one case: its exit status, what exact points decide, what a witness of the oracle proves, and one
 change that must change nothing. complete draws sets that differ from every degenerate position by a known amount."""

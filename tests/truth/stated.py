@@ -261,7 +261,7 @@ def read_points(case, out, err, form):
 
 
 def judge_places(judge, case, boxes, ch):
-    """What is written of a place on the sphere holds all that it may be."""
+    """The region written for a place on the sphere contains all its possible positions."""
     for i, box in boxes.items() if case.geometry == 'sphere' else ():
         judge(None not in box and ch.is_in(i, *box), 'place %d is not in its box of degrees', i)
 

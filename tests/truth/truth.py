@@ -386,7 +386,7 @@ def first_of_equal(case):
     seen, out = {}, []
     if case.extra == 'merge':
         return sorted(set(case.merged.values()))
-    if case.form == 'program' or case.kind == 'callback':  # nobody knows that two of them are equal
+    if case.form == 'program' or case.kind == 'callback':  # equality of two of them is not known
         return list(range(len(case.sites)))
     for k, s in enumerate(case.sites):
         r = s.region
@@ -526,7 +526,7 @@ class Run:
         case = self.case(row, number)
         judge, refused = judge_case(case, self.product, self.effort)
         self.cases += 1
-        if judge.refuted and self.against:  # what this one says, too, is not counted
+        if judge.refuted and self.against:  # refutations of this one, too, are not counted
             judge.refuted = [] if judge_case(case, self.against, self.effort)[0].refuted else judge.refuted
         self.judged += judge.judged
         for axis in ORDER:
