@@ -25,7 +25,7 @@ int region_side(orc_pool *p, const region *g, mpq_srcptr x, mpq_srcptr y);
 orc_point region_sample(orc_pool *p, const region *g, const dyd_arc *a);
 
 /* min over the others k that do not meet R_i of ds_k - dl_i (Int) or dl_k - ds_i (Pos): its sign; 1 for none. With
- * skip: others numbered skip are left out. blocked: -1 for Int when some k meets R_i. Points outside the window: -1, on
+ * skip: others numbered skip are ignored. blocked: -1 for Int when some k meets R_i. Points outside the window: -1, on
  * its border at most 0. */
 int literal_side(orc_pool *p, const region *g, size_t site, orc_point at);
 

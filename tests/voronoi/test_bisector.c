@@ -183,7 +183,7 @@ static void kinds_of(char out[10], const double a[4], const double b[4]) {
   for (int k = 0; k < 2; k++) dyd_rect_clear(&r[k]);
 }
 
-/* The kinds of arcs in the order of KEL figure 4, and what is left of them for points and segments. */
+/* The kinds of arcs in the order of KEL figure 4, and the kinds that remain for points and segments. */
 static void structure(void **state) {
   (void)state;
   char kinds[10];

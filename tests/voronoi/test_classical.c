@@ -69,7 +69,7 @@ static size_t cut(orc_pool *p, xy *out, const xy *in, size_t n, xy u, xy v) {
   return kept;
 }
 
-/* Twice the area of the cell of point i on the window; all other points are looked at. */
+/* Twice the area of the cell of point i on the window; all other points are examined. */
 static mpq_srcptr cell_area2(orc_pool *p, const cloud *c, size_t i) {
   xy ring[RING], next[RING], u = {of_double(p, c->x[i]), of_double(p, c->y[i])};
   size_t n = 4;

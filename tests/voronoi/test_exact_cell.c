@@ -2,7 +2,7 @@
 /* Int_i and Pos_i against their definitions: [CELL-1] [CELL-2] [CELL-3] [ARC-1].
  *
  * Every arc, end and chain is checked literally; points anywhere and within tiny distances of the boundary are on the
- * side that ds and dl say, all sites looked at. DYADEL_TEST_SCALE=60 makes more than 10^6 membership checks. */
+ * side that ds and dl say, against all sites. DYADEL_TEST_SCALE=60 makes more than 10^6 membership checks. */
 #include <setjmp.h>
 #include <stdarg.h>
 
@@ -251,7 +251,7 @@ static void small_triples(void **state) {
   harness_clear(&h);
 }
 
-/* Rectangles beside one another that share corners, sides, lines: many coinciding curves. */
+/* Rectangles next to one another that share corners, sides, lines: many coinciding curves. */
 static void lattice_cases(void **state) {
   (void)state;
   harness h;

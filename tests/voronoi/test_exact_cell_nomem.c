@@ -65,7 +65,7 @@ static void every_allocation(void **state) {
   orc_case_clear(&c);
 }
 
-/* Many neighbours, of which most are left out beforehand. */
+/* Many neighbours, most of which are pruned beforehand. */
 static void many_neighbours(void **state) {
   (void)state;
   static const long leg[5][2] = {{16, 63}, {25, 60}, {33, 56}, {39, 52}, {52, 39}};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* [PRUNE-1] Cells in a window with and without leaving out arcs that others take: the same arcs, number by number.
+/* [PRUNE-1] Cells in a window with and without pruning of arcs that others cover: the same arcs, number by number.
  *
  * Up to forty rectangles: nearly or exactly cocircular, on a lattice with shared corners and sides, overlapping;
  * windows anywhere, tiny ones, and some with sides on the lattice. */
@@ -149,7 +149,7 @@ static void check_case(test_random *r, dyd_rect *rect, size_t kind) {
     make_window(&window, r, kind);
     if (dyd_delaunay_alias(pd, i) != i) continue;
     check_site(rect, n, i, pd, &window);
-    bool alone = true; /* equal points are no others of one another */
+    bool alone = true; /* equal points do not count as others of one another */
     for (uint32_t k = 0; k < n; k++) alone = alone && dyd_delaunay_alias(pd, k) == k;
     if (alone) check_site(rect, n, i, NULL, &window);
   }

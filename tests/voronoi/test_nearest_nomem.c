@@ -69,7 +69,7 @@ static dyd_status ask_streams(dyd_engine *e) {
   }
   if (st == DYD_OK) st = dyd_engine_nearest(&l, &sure, &outcome, e, m, NULL, NULL);
   dyd_status made = st == DYD_OK ? dyd_engine_voronoi_vertex(&v, e, &t) : st;
-  if (made == DYD_E_NOMEM) st = made; /* a collinear triangle is no failure here */
+  if (made == DYD_E_NOMEM) st = made; /* a collinear triangle is not a failure here */
   dyd_index_list_clear(&l);
   dyd_stream_free(v);
   dyd_stream_free(m);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Proved polygons against the literal definition: [POLY-1] [POLY-2] [SHAPE-1]; areas and distances against the true
- * diagrams of random choices: [AREA-V] [HAUS-V]. Everything is compared in rationals, all sites looked at. */
+ * diagrams of random choices: [AREA-V] [HAUS-V]. Everything is compared in rationals, against all sites. */
 #include <setjmp.h>
 #include <stdarg.h>
 
@@ -174,8 +174,8 @@ static bool is_in_window(const orc_rect *w, xy z) {
          mpq_cmp(z.y, w->e[3]) <= 0;
 }
 
-/* Moved towards R_i by four times what it may be off, the vertex is in Pos_i (or the move ends in R_i). A sliver of
- * Pos_i may be missed that way, so only cases of one scale are looked at. */
+/* Moved towards R_i by four times its error bound, the vertex is in Pos_i (or the move ends in R_i). A sliver of
+ * Pos_i may be missed that way, so only cases of one scale are checked. */
 static bool vertex_is_close(orc_pool *p, const setting *s, size_t i, xy z) {
   if (strcmp(s->c->kind, "thin") != 0) return true;
   const orc_rect *r = &s->c->rect[i];

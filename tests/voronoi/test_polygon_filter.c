@@ -107,7 +107,7 @@ static void check_cell(size_t kind, dyd_shape *s, const dyd_delaunay *pd, uint32
   dyd_polygon_list_clear(&outer);
   dyd_polygon_clear(&copy);
   dyd_polygon_clear(&inner);
-  dyd_polygon_list_clear(&s->outer_exact); /* of what was cut; the shape serves again */
+  dyd_polygon_list_clear(&s->outer_exact); /* of the cut parts; the shape is used again */
   dyd_polygon_clear(&s->inner_exact);
 }
 

@@ -100,7 +100,7 @@ static void expect_near(dyd_engine *e, const char *x, const dyd_engine_options *
 }
 
 /* The centre of a regular polygon is as far from all its corners, and that is seen at once; next to it, or with one
- * corner moved, somebody is nearest, or all others. */
+ * corner moved, one corner is nearest, or all others. */
 static void test_ties(void **state) {
   (void)state;
   for (int n = 3; n <= 20; n++) {
@@ -131,7 +131,7 @@ static void test_ties(void **state) {
   }
 }
 
-/* The centre of three points given by roots, as a stream of its own; a corner that nobody sees to be what it is. */
+/* The centre of three points given by roots, as a stream of its own; a corner that is not proved to be one. */
 static void test_tied_centre(void **state) {
   static const char *const at[4][2] = {
       {"sqrt(2)", "sqrt(3)"}, {"-sqrt(3)", "sqrt(2)"}, {"sqrt(5)-1", "-cbrt(7)"}, {"9", "9"}};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* dyd_voronoi_tiles: arrays as the contract says [PART-1]; the k-th allocation fails, for every k; what is refused
- * leaves the output as it was. That tiles are cells: tests/cli/test_tiles.py. */
+/* dyd_voronoi_tiles: arrays as the contract says [PART-1]; the k-th allocation fails, for every k; a refused call
+ * leaves the output unchanged. That tiles are cells: tests/cli/test_tiles.py. */
 #include <setjmp.h>
 #include <stdarg.h>
 
