@@ -102,8 +102,8 @@ static dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known 
  * seen from inside the face, is cut off from all other vertices by legal edges [LOC-1]. So the face is triangulated by
  * itself and put back into the same places; the number of triangles of a face is fixed by Euler's formula. */
 
-/* An edge around what is spliced, seen from inside, from a to b with the inside on its left: a certain edge, or one of
- * a triangle that stays. Vertices of the whole mesh. */
+/* An edge around the spliced triangles, seen from inside, from a to b with the inside on its left: a certain edge, or
+ * one of a triangle that stays. Vertices of the whole mesh. */
 typedef struct rim {
   uint32_t a, b;
   bool certain;
@@ -355,8 +355,9 @@ static void mark_upset(dyd_delaunay *pd, const uint32_t *tri, uint32_t tris, uin
   for (uint32_t q = 0; q < tris; q++) pd->open.of[tri[q]] = face;
 }
 
-/* The same where only a few of the face's vertices, those listed, have new representatives: what is neither at them nor
- * has one of them in a circle stays [LOC-4]. *fits: false, too, where more has to change; nothing is changed then. */
+/* The same where only a few of the face's vertices, those listed, have new representatives: triangles that are not at
+ * them and have none of them in their circle stay [LOC-4]. *fits is false also if more has to change; nothing is
+ * changed then. */
 static dyd_status splice_near(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris,
                               const uint32_t *vertex, uint32_t count) {
   uint32_t face = dyd_face_of(pd, tri[0]), upset = 0, *list = dyd_alloc(tris, sizeof *list);
@@ -377,7 +378,7 @@ static dyd_status splice_near(bool *fits, dyd_delaunay *pd, dyd_work *w, const u
  * Legal edges keep their witnesses and stay; the faces they bound are independent of each other. A face is handled as
  * one step: its new statements replace the old ones only when they are complete. */
 
-/* What stays beside the new one while it is made: all there is, and the list of its legal pairs. */
+/* Bytes held next to the new triangulation while it is built: all of the old one, and the list of its legal pairs. */
 static uint64_t rebuild_bytes(const dyd_delaunay *pd) {
   return dyd_bytes_add(dyd_delaunay_memory(pd), dyd_pairs_bytes(pd, DYD_LEGAL));
 }
@@ -467,7 +468,7 @@ static bool guess_is_witness(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge 
 
 #endif
 
-/* Most edges are certain by their first guess; it is looked at nearby first. */
+/* Certifies an edge. The first guess of a witness proves most edges; it is tested against nearby sites first. */
 static dyd_status recertify(dyd_delaunay *pd, dyd_work *w, dyd_half_edge h) {
   if (pd->sk.mesh.no_filter || !dyd_filter_local_witness(pd, h, dyd_edge_centre(&pd->sk, h)))
     return dyd_certify_edge(&pd->sk, w, h);

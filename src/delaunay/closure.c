@@ -46,7 +46,7 @@ static bool centre_meet(void *context, uint32_t k) {
   return !m->full && m->count <= m->most;
 }
 
-/* Everybody who may have ds <= M: not farther than dl of the vertex v. Nobody if they are too many. */
+/* Collects all sites that may have ds <= M: not farther than dl of the vertex v. Collects none if they are too many. */
 static dyd_status centre_gather(meeting *m, const dyd_skeleton *sk, const dyd_point *c, uint32_t v) {
   dyd_bbox box = dyd_point_box(c);
   double radius2 = dyd_dl2_upper(&box, &sk->rects.box[v]);
@@ -157,7 +157,7 @@ static dyd_status keep_pair(dyd_closure *out, uint32_t a, uint32_t b) {
   return DYD_OK;
 }
 
-/* Bits beside the map while they take little memory: sets of common neighbours are found by words. */
+/* Bits in addition to the map while they take little memory: sets of common neighbours are found by words. */
 static dyd_status start_bits(closing *c) {
   size_t members = (size_t)c->out->vertices + 1;
   if (members > MOST_BITS) return DYD_OK;
@@ -187,7 +187,7 @@ static void set_bit(uint64_t *rows, const closing *c, uint32_t a, uint32_t b) {
   rows[b * c->words + a / 64] |= UINT64_C(1) << a % 64;
 }
 
-/* One more pair: the map grows by leaps, and what is open is copied from it in the end. */
+/* One more pair: the map grows in steps, and the open pairs are copied from it at the end. */
 static bool closing_has_room(closing *c) {
   uint64_t pairs = dyd_bytes_times(c->open + c->open / 2, sizeof *c->out->pair);
   return !dyd_pair_map_is_full(&c->map) ||
@@ -265,8 +265,8 @@ static bool is_crowded(const closing *c) {
   return c->tris >= CROWD && c->tris / 3 >= c->out->vertices / 2 && !c->sk->mesh.no_filter;
 }
 
-/* Is it worth looking at the plane? All sites are looked at: only if many of them are vertices here, or there are many
- * pairs for each. */
+/* Returns true if a search of the plane pays. It visits all sites: only if many of them are vertices here, or each has
+ * many pairs. */
 static bool is_worth_patches(const closing *c) {
   size_t all = c->sk->rects.tree.count;
   return all / 16 <= c->out->vertices || all / 2 <= c->known;
@@ -293,7 +293,7 @@ static sweep_entry *sweep_order(const closing *c) {
   return e;
 }
 
-/* Rectangles that meet are a possible pair [POS-1]: doubles tell of nearly all. */
+/* Rectangles that meet are a possible pair [POS-1]: doubles decide nearly all. */
 static dyd_status add_meeting(closing *c) {
   const dyd_rects *rects = &c->sk->rects;
   const uint32_t *v = c->out->vertex, count = c->out->vertices;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Whose rectangles meet a disc: the tree of boxes visits everybody who might [FLT-DST]; each is then looked at exactly.
+/* Whose rectangles meet a disc: the tree of boxes visits all candidates [FLT-DST]; each is then tested exactly.
  */
 #include "delaunay/disc_filter.h"
 

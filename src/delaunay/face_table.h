@@ -29,8 +29,8 @@ void dyd_table_take_out(dyd_delaunay *pd, uint32_t g);
 void dyd_table_put_back(dyd_delaunay *pd, const dyd_face *face);
 /* Drops leftovers of replaced faces once they outnumber the entries in use. Does nothing if memory is exhausted. */
 void dyd_table_compact(dyd_undecided *f);
-/* Do faces but `self`, numbered at least `from` and below `to`, have triangles at v? What is known of the last vertex
- * asked about is kept: pairs come sorted. Begin with v = DYD_NONE. */
+/* Do faces but `self`, numbered at least `from` and below `to`, have triangles at v? The result for the last vertex is
+ * kept: pairs come sorted. Begin with v = DYD_NONE. */
 typedef struct dyd_table_star {
   size_t from, to;
   uint32_t self, v;
@@ -50,7 +50,7 @@ static inline dyd_vertex_pair *dyd_listed_pair(const dyd_delaunay *pd, size_t f,
 }
 
 /* The pairs of faces with more are found by both vertices in O(log pairs), so that going through the neighbours of each
- * vertex stays linear in what is found. In the armed build small faces are, too. */
+ * vertex stays linear in the number of pairs. In the armed build small faces are, too. */
 #ifdef DYD_ARMED
 enum { DYD_FEW_PAIRS = 4 };
 #else

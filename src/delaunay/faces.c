@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Flooding the skeleton over uncertain edges, and closing what is found. */
+/* Flooding the skeleton over uncertain edges, and closing the faces found. */
 #include "delaunay/faces.h"
 
 #include "base/alloc.h"
@@ -28,9 +28,9 @@ enum { CROWD = 64, SHARE = 4 };
 
 #endif
 
-/* CHANGED: narrowed. NEAR: was a possible neighbour of one who was. FREE: besides, does not meet that one any more, who
- * may block it. MEMBER: of the face in work; of these, DOUBT: in a pair that may have become impossible; SHOWN: surely
- * possibly nearest at the centre looked at. */
+/* CHANGED: narrowed. NEAR: was a possible neighbour of a changed one. FREE: also, does not meet that one any more,
+ * which may block it. MEMBER: of the face in work; of these, DOUBT: in a pair that may have become impossible; SHOWN:
+ * certainly possibly nearest at the centre examined. */
 enum { CHANGED = 1, NEAR = 2, FREE = 4, MEMBER = 8, DOUBT = 16, SHOWN = 32 };
 
 void dyd_narrowed_clear(dyd_narrowed *n) {
@@ -38,7 +38,7 @@ void dyd_narrowed_clear(dyd_narrowed *n) {
   n->mark = NULL;
 }
 
-/* ---- who can be concerned ---- */
+/* ---- vertices that may be concerned ---- */
 
 /* false: they are too many. */
 static bool note_changed(dyd_narrowed *n, const dyd_delaunay *pd, uint32_t f, const uint32_t *changed, size_t count) {
@@ -93,7 +93,7 @@ bool dyd_narrowed_reaches(const dyd_narrowed *n, const dyd_mesh *m, dyd_half_edg
 
 /* ---- pairs ---- */
 
-/* Those that may have become impossible: places in the old list, and whose they are. gone: by place in the old list. */
+/* Pairs that may have become impossible: places in the old list, and their vertices. gone: by place in the old list. */
 typedef struct doubt {
   uint32_t *pair, *vertex;
   size_t pairs, all, vertices, pair_cap, vertex_cap;
@@ -429,7 +429,7 @@ static dyd_status close_faces(dyd_delaunay *pd, dyd_work *w, size_t from) {
   return st;
 }
 
-/* The faces from `from` on are what is left of an old one. */
+/* Closes the faces from `from` on, the remaining parts of an old one. */
 static dyd_status close_parts(dyd_delaunay *pd, dyd_work *w, size_t from, const dyd_narrowed *narrowed) {
   dyd_closure c;
   dyd_status st = DYD_OK;
@@ -441,7 +441,7 @@ static dyd_status close_parts(dyd_delaunay *pd, dyd_work *w, size_t from, const 
   return st;
 }
 
-/* narrowed: NULL unless they are what is left of an old face. */
+/* narrowed: NULL unless the new faces are the remaining parts of an old face. */
 static dyd_status find_and_close(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count,
                                  const dyd_narrowed *narrowed) {
   dyd_undecided before = pd->open;
@@ -467,7 +467,7 @@ dyd_status dyd_faces_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, si
 /* ---- replacing one face ---- */
 
 /* Pairs of the face replaced, which is not in the table, that a face before `fresh` lists, but none of the new ones: by
- * what changed here they may have become legal or impossible. Those that have are put into *ended. */
+ * what changed here they may have become legal or impossible. Pairs that have are put into *ended. */
 static dyd_status find_ended(dyd_vertex_pair **ended, size_t *count, dyd_delaunay *pd, dyd_work *w, const dyd_face *old,
                              size_t fresh) {
   static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};

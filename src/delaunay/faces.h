@@ -14,8 +14,8 @@
 /* Up to this number, narrowed vertices of a face are few. */
 enum { DYD_FEW = 16 };
 
-/* mark: of each vertex, the ghost last, what faces.c notes of it; NULL: nothing is known, all of the face is looked
- * at. old: the face as it was; its pairs are in the table. certain: some edge of it has become so. */
+/* mark: of each vertex, the ghost last, what faces.c notes of it; NULL: no notes, all of the face is examined. old: the
+ * face as it was; its pairs are in the table. certain: some edge of it has become so. */
 typedef struct dyd_narrowed {
   uint32_t vertex[DYD_FEW], count;
   uint8_t *mark;
@@ -23,8 +23,8 @@ typedef struct dyd_narrowed {
   bool certain;
 } dyd_narrowed;
 
-/* What it means for face f of the table that the sites listed were narrowed, whose boxes have followed; the skeleton
- * and the pairs are those from before. To be cleared. */
+/* Finds the consequences for face f of the table after the sites listed were narrowed, whose boxes have followed; the
+ * skeleton and the pairs are those from before. To be cleared. */
 dyd_status dyd_narrowed_init(dyd_narrowed *n, const dyd_delaunay *pd, uint32_t f, const uint32_t *changed,
                              size_t count);
 void dyd_narrowed_clear(dyd_narrowed *n);

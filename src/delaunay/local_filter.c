@@ -3,15 +3,15 @@
  *
  * [LOC-3] Let i and j be joined by an edge of the skeleton inside a face of the plane graph of certain edges, and W the
  * vertices of all faces at i and at j (three of a decided triangle, all of an undecided face). If at c all of W but i
- * and j are farther than i and j for sure, so is everybody: c is a witness. So no search among all sites is needed; the
- * bounds are those of distance_filter.h [FLT-DST]. */
+ * and j are certainly farther than i and j, so are all sites: c is a witness. So no search among all sites is needed;
+ * the bounds are those of distance_filter.h [FLT-DST]. */
 #include "delaunay/local_filter.h"
 
 #include "skeleton/distance_filter.h"
 
 #include <math.h>
 
-/* So many triangles are looked at for an edge. */
+/* Number of triangles examined for an edge. */
 enum { MOST_TRIANGLES = 64 };
 
 typedef struct around {

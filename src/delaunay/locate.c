@@ -60,7 +60,8 @@ static dyd_status hull_of_corners(locator *l) {
   return DYD_OK;
 }
 
-/* Of what may be on the hull of some choice. Without corners where doubles do not hold them. */
+/* Makes the hull of all sites that may be on the hull of some choice. It has no corners where doubles do not hold them.
+ * */
 static dyd_status make_hull(locator *l) {
   dyd_index_list sure = {0}, possible = {0};
   dyd_status st = dyd_delaunay_hull_vertices(&sure, &possible, l->pd);
@@ -80,7 +81,7 @@ static dyd_status make_hull(locator *l) {
   return st == DYD_OK && l->count ? hull_of_corners(l) : st;
 }
 
-/* Is z outside of the hull, whose box tells of places on the line of a flat one? */
+/* Returns true if z is outside of the hull. The box of a flat hull decides about its line. */
 static bool place_is_beyond(locator *l, dyd_xy z) {
   bool left = true, right = true, below = true, above = true;
   for (size_t k = 0; k < l->count; k++) {

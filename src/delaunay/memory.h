@@ -12,7 +12,7 @@ dyd_room dyd_delaunay_room(const dyd_delaunay *pd);
 void dyd_delaunay_allow(dyd_delaunay *pd, uint64_t max_bytes);
 /* Is there one? Estimates that take a while are made only then. */
 bool dyd_delaunay_is_bounded(const dyd_delaunay *pd);
-/* DYD_OK when so much may be made of the result at once; else DYD_E_NOMEM, with what took too much in *err (may be
+/* Returns DYD_OK when the budget allows that many bytes more, else DYD_E_NOMEM, with `what` named in *err (may be
  * NULL). `what` is static. */
 dyd_status dyd_delaunay_grant(const dyd_delaunay *pd, uint64_t bytes, const char *what, dyd_error *err);
 /* The least status of the pairs that cells, areas, spanning trees and plans look at. Ties of exact points are ignored:

@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-/* The sure triangles, sorted or as they stand in the mesh, and who is next to whom.
+/* The certain triangles, sorted or in the order of the mesh, and their neighbours.
  *
  * To be sorted they are dealt to their lowest sites; a site has few. In the order of the mesh, which is near that of
  * the Hilbert curve, all that belongs to one triangle is near in memory, too. */
@@ -149,7 +149,7 @@ static dyd_status triangles_sorted(dyd_triangle_list *out, dyd_triangle_list *ne
   return DYD_OK;
 }
 
-/* ---- as they stand in the mesh ---- */
+/* ---- in the order of the mesh ---- */
 
 /* The number of every triangle of the mesh among the sure ones, and how many these are. */
 static size_t number_as_found(uint32_t *place, const dyd_delaunay *pd) {

@@ -8,7 +8,8 @@
  * it is surely oriented with every common neighbour among the possible pairs [HST-2]. Pairs of a chain whose true
  * points are proved to be on one line, a side of the hull, are ties, whatever their rectangles [TIE-3].
  *
- * Who is possible on the hull is on the hull of the representatives or in an unbounded undecided face [CLO-1]. */
+ * A site possible on the hull is on the hull of the representatives or in an unbounded undecided face [CLO-1].
+ * */
 #include "delaunay/partial_hull.h"
 
 #include "base/alloc.h"
@@ -20,7 +21,7 @@
 
 #include <string.h>
 
-/* Who can be extreme in a direction u >= 0 (mathematics: section 6, step 3).
+/* Sites that can be extreme in a direction u >= 0 (mathematics: section 6, step 3).
  *
  * Write a_k for the lower left, b_k for the upper right corner of R_k, g(u) = max_k u.a_k. Site i can be extreme in
  * direction u iff u.b_i >= g(u), and i and j can span a hull edge with normal u iff both hold. g is the support
@@ -82,7 +83,7 @@ static int compare_low(const void *a, const void *b) {
   return order ? order : dyd_hull_compare(1, chain_low(x), chain_low(y));
 }
 
-/* The upper hull of the lower left corners, from left to right, cut to what is right of the topmost. */
+/* The upper hull of the lower left corners, from left to right, cut to the part right of the topmost. */
 static dyd_status build_chain(chain *c, const dyd_extreme *x, size_t count) {
   c->at = dyd_alloc(count, sizeof(const dyd_extreme *));
   if (!c->at) return DYD_E_NOMEM;

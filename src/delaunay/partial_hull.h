@@ -6,7 +6,7 @@
 #include "delaunay/state.h"
 #include "predicate/interval_filter.h"
 
-/* A vertex that may be on the hull: its rectangle x0 x1 y0 y1 mirrored so that the directions looked at are u >= 0,
+/* A vertex that may be on the hull: its rectangle x0 x1 y0 y1 mirrored so that the directions considered are u >= 0,
  * exactly and in doubles. chain: the faces that are proved chains of the hull, of which it is a vertex; DYD_NONE: no
  * more of them. True points are on two sides of the hull at most. */
 typedef struct dyd_extreme {

@@ -65,8 +65,8 @@ static void add_star(dyd_rects *few, uint32_t *item, uint32_t *count, const dyd_
   } while (h != first);
 }
 
-/* Exact points have no boxes of their own. For a centre nearer to i and j than to all their Delaunay neighbours nobody
- * else is nearer (see [FLT-STAR]), so a tree over these neighbours will do; on a line, one over all. */
+/* Exact points have no boxes of their own. For a centre nearer to i and j than to all their Delaunay neighbours no
+ * other site is nearer (see [FLT-STAR]), so a tree over these neighbours will do; on a line, one over all. */
 static dyd_status few_rects(dyd_rects *few, const dyd_skeleton *sk, uint32_t v, uint32_t w) {
   bool line = sk->mesh.count == 0;
   size_t size = line ? sk->line.count : (size_t)degree(sk, v) + degree(sk, w) + 2;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What a partial Delaunay triangulation holds: the skeleton, in which certain edges are legal pairs, and what is
- * undecided between them. */
+/* What a partial Delaunay triangulation holds: the skeleton, in which certain edges are legal pairs, and the undecided
+ * parts between them. */
 #ifndef DYD_DELAUNAY_STATE_H
 #define DYD_DELAUNAY_STATE_H
 
@@ -32,7 +32,7 @@ typedef struct dyd_face {
   bool proved; /* a tie of points that are not all exact: ties.c */
 } dyd_face;
 
-/* How what is undecided is stored: LISTED, triangles joined by uncertain edges are faces, each with the list of its
+/* How undecided parts are stored: LISTED, triangles joined by uncertain edges are faces, each with the list of its
  * possible pairs that are not legal; TIED, all sites are exact points: faces are found by walks around their rims
  * (ties.h), and all their pairs are possible; LINE, no triangles: all pairs that are not legal are, as one face. */
 typedef enum dyd_undecided_kind { DYD_LISTED, DYD_TIED, DYD_LINE } dyd_undecided_kind;
@@ -65,7 +65,7 @@ typedef struct dyd_undecided {
 struct dyd_delaunay {
   dyd_skeleton sk;
   dyd_undecided open;
-  bool line_tie; /* a line all of whose open pairs are ties */
+  bool line_tie; /* a line whose open pairs are all ties */
   dyd_delaunay_counters counters;
   dyd_delaunay_options options;
   size_t max_pairs;

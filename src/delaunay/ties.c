@@ -12,7 +12,7 @@
 #include "delaunay/face_table.h"
 #include "delaunay/undecided.h"
 
-/* vertex[0..count-1]: the rim, counter-clockwise; a chain begins behind the ghost, which is left out. */
+/* vertex[0..count-1]: the rim, counter-clockwise; a chain begins behind the ghost, which is omitted. */
 typedef struct rim {
   uint32_t *vertex, *site;
   uint32_t count;

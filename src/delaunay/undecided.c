@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Reading what is undecided: one switch over how it is stored, for each question. */
+/* Queries about undecided parts: each has one switch over the way they are stored. */
 #include "delaunay/undecided.h"
 
 #include "base/alloc.h"
@@ -159,7 +159,7 @@ bool dyd_is_hull_edge(const dyd_delaunay *pd, uint32_t v, uint32_t w) {
 
 /* ---- those of one face ---- */
 
-/* Passes on those that are not legal. */
+/* Passes on the pairs that are not legal. */
 typedef struct only_open {
   dyd_pair_visit visit;
   void *context;
@@ -189,7 +189,8 @@ static void each_on_line_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_visit v
       visit(context, v, l->order[q], dyd_open_status_of(pd, 0));
 }
 
-/* Of the tied face on the left of the rim's half-edge h: the origin with those that are not next to it on the rim. */
+/* Of the tied face on the left of the rim's half-edge h: the pairs of the origin with sites that are not next to it on
+ * the rim. */
 static void each_tied_at(const dyd_delaunay *pd, dyd_half_edge h, dyd_pair_visit visit, void *context) {
   const dyd_skeleton *sk = &pd->sk;
   uint32_t v = dyd_edge_origin(&sk->mesh, h);
