@@ -8,8 +8,8 @@
  * Stages, calls and seconds are counted for each ask on its own, bits and pairs are absolute.
  *
  * A stage that is cut short leaves everything valid, because rectangles only shrink:
- *   - calls used up, or a stream failed: what was narrowed is brought into the result, which is then complete for
- *     the rectangles as they are. In the first stage there is no result before all points have been asked.
+ * - calls used up, or a stream failed: narrowed points are brought into the result, which is then complete for the
+ * rectangles as they are. In the first stage the result does not exist before all points have been asked.
  *   - cancelled or out of time: narrowed sites stay listed in `changed`; the statements of the result were made for the
  *     wider rectangles of its last stage, and hold for the narrower ones as well (legal and illegal are for ever,
  *     the possible pairs listed include all that are possible now). The next run begins by bringing it up to date.
@@ -50,7 +50,7 @@ static uint64_t engine_point_bytes(const dyd_engine *e) {
   return bytes;
 }
 
-/* What is made of the result later has what the points leave of so many bytes; 0: no bound. */
+/* Sets the budget of everything made of the result later: `most` bytes less the memory of the points; 0: no bound. */
 static void engine_allow(dyd_engine *e, uint64_t most) {
   const dyd_room room = {.most = most, .beside = most ? engine_point_bytes(e) : 0};
   if (e->pd) dyd_delaunay_allow(e->pd, dyd_room_left(&room));
@@ -238,7 +238,7 @@ static dyd_status ask_room_to_triangulate(uint64_t *left, ask *a) {
   return dyd_room_has(&a->room, 1, "the points") ? DYD_OK : DYD_E_NOMEM;
 }
 
-/* The result is there, with what it took at most; it is going to be judged. */
+/* The result exists, and its peak is known; checks the budget for judging it. */
 static dyd_status ask_room_to_judge(ask *a) {
   dyd_delaunay_counters c = {DYD_SIZED(dyd_delaunay_counters)};
   if (!a->room.most) return DYD_OK;
@@ -252,7 +252,7 @@ static dyd_status ask_room_to_judge(ask *a) {
 
 /* ---- narrowing ---- */
 
-/* Tells of p, just brought to what w wants. */
+/* Reports the step by which p was narrowed for w. */
 static dyd_status ask_tell_step(const ask *a, const dyd_refinable *p, const dyd_want *w, bool called) {
   dyd_rect rect;
   dyd_rect_init(&rect);
@@ -484,8 +484,7 @@ static dyd_status ask_stage(ask *a) {
   return failed != DYD_OK ? failed : st;
 }
 
-/* Guests are asked for the first precision, come what may: a question about an unknown point has no
- * answer. */
+/* Requests the first precision of guests in any case: a question about an unknown point has no answer. */
 static dyd_status ask_guests(ask *a) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; st == DYD_OK && k < a->q->guests; k++) {

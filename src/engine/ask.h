@@ -31,7 +31,7 @@ void dyd_watch_stop(dyd_watch *w);
 bool dyd_ask_options(dyd_engine_options *o);
 /* DYD_E_ARG, with a message, when the loop is at work and the call comes from one of its callbacks. */
 dyd_status dyd_ask_may_begin(const dyd_engine *e, dyd_error *err);
-/* dyd_engine_ask; *spent tells which budget was met. *err, which may be NULL, is clear unless the call failed or the
+/* dyd_engine_ask; *spent: the budget that was reached. *err, which may be NULL, is clear unless the call failed or the
  * budget of pairs was met. */
 dyd_status dyd_ask(dyd_outcome *outcome, dyd_budget *spent, dyd_engine *e, const dyd_question *question,
                    const dyd_engine_options *options, dyd_error *err);

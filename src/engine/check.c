@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The harness of monotone refinement: what is compared after each stage; random schedules, given ones, and cutting a
- * failing one down to what matters. */
+/* The harness of monotone refinement: the comparisons after each stage; random schedules, given ones, and reducing a
+ * failing one to the moves that matter. */
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/clock.h"
@@ -123,7 +123,7 @@ static const char *pair_word(dyd_pair_status st) {
   return text[st];
 }
 
-/* What is said of one pair before and now. */
+/* The statuses of one pair before and now. */
 typedef void (*pair_visit)(check_state *s, const dyd_pair *pair, dyd_pair_status before, dyd_pair_status now);
 
 static void pairs_compare_lists(check_state *s, const dyd_pair_list *before, const dyd_pair_list *now,
@@ -275,8 +275,8 @@ static bool is_inside_window(const dyd_rect *w, const dyd_point *z) {
          dyd_dyadic_cmp(&w->y.lo, &z->y) < 0 && dyd_dyadic_cmp(&z->y, &w->y.hi) < 0;
 }
 
-/* Where the edge was in Ext_i by a neighbour that is none any more, its ends are at least; of edges that end at the
- * window nothing is stated. */
+/* Where the edge was in Ext_i because of a former neighbour, its ends still are; edges that end at the window are not
+ * checked. */
 static dyd_status outer_edge_holds(bool *out, const check_state *s, uint32_t i, const dyd_point *a,
                                    const dyd_point *b) {
   *out = !is_inside_window(&s->window, a) || !is_inside_window(&s->window, b);
@@ -473,7 +473,7 @@ static dyd_status moves_add(moves *m, uint32_t stage, uint32_t point, int64_t bi
   return DYD_OK;
 }
 
-/* The points that can be narrowed, and what each was asked for last. */
+/* The points that can be narrowed, and the last precision requested of each. */
 typedef struct askable {
   uint32_t *point;
   int64_t *asked;
@@ -497,7 +497,7 @@ static dyd_status schedule_add_small_steps(moves *m, uint32_t stage, uint64_t *r
   return st;
 }
 
-/* Each point from what it was asked for to `top`: a source that fails at one precision is found. At the default
+/* Walks each point from its last precision to `top`: a source that fails at one precision is found. At the default
  * precision steps are of one bit or two; where there are more than MOST_STEPS of them, wider. */
 static dyd_status schedule_add_walk(moves *m, uint32_t stage, uint64_t *random, const askable *p, int64_t top,
                                     int64_t span) {

@@ -3,8 +3,8 @@
  *
  * A fixed site is copied. The stream of a site is shared: one more reference. A point of a source becomes a stream of
  * its own, which begins with the rectangle that the engine knows and asks the same callback; the source is counted from
- * then on, and released by the last of its users. So does the stream of a point that was measured again: what it gives
- * is intersected with what was known. */
+ * then on, and released by the last of its users. So does the stream of a point that was measured again: its answers
+ * are intersected with the known rectangle. */
 #include "engine/points.h"
 
 #include "base/alloc.h"
@@ -40,7 +40,7 @@ static dyd_status taken_ask(dyd_rect *out, const taken *t, const dyd_request *re
   return dyd_stream_is_final(t->stream) ? DYD_FIXED : DYD_OK;
 }
 
-/* *out, an answer, becomes one that keeps to what was known. */
+/* Cuts *out, an answer, to the known rectangle. */
 static dyd_status taken_keep(dyd_rect *out, const taken *t) {
   if (t->begins && !t->measured && !dyd_rect_contains(&t->known, out)) return DYD_E_NESTING;
   if (!t->measured) return DYD_OK;

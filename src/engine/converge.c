@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The table of convergence: what holds after each stage of a run.
+/* The table of convergence: the state after each stage of a run.
  *
  * Widths are compared and kept as t 2^e with 2^63 <= t < 2^64, rounded up: rounding is monotone, so the largest and the
  * median of the rounded widths are the rounded largest and median. */
@@ -164,7 +164,7 @@ static dyd_status convergence_set_window(dyd_convergence *out, const dyd_sites *
   return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
-/* Polygons a good deal finer than the rectangles, so that what is undetermined comes from these. */
+/* Polygons a good deal finer than the rectangles, so that undetermined parts come from these. */
 static int64_t row_flattening(const dyd_stage_row *row) {
   enum { FINER = 4, EXACT = 64 };
   const dyd_dyadic *w = &row->width_largest;

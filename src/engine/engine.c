@@ -213,7 +213,7 @@ void dyd_labels_skip(dyd_labels *l) {
   l->rows++;
 }
 
-/* Of so many terminated texts, one after another, without the last end. */
+/* Length of `count` terminated texts, one after another, without the last end. */
 static size_t texts_length(const char *text, size_t count) {
   size_t length = 0;
   for (size_t k = 0; k < count; k++) length += strlen(text + length) + 1;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Goals on the Voronoi diagram: whether they hold, and what each pair contributes.
+/* Goals on the Voronoi diagram: whether they hold, and the contribution of each pair.
  *
  * The bounds themselves are certified (metric/bounds.c). The numbers of pairs that steer the refinement need no
  * proof: for the Hausdorff bound they are widths of strips, or, below the goal, the very terms it is the maximum of;

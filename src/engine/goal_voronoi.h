@@ -11,8 +11,8 @@ static inline bool dyd_goal_is_voronoi(dyd_goal goal) {
 }
 /* Is there a window, of positive area and with dyadic ends? */
 bool dyd_goal_window_is_good(const dyd_rect *window);
-/* Does the goal, one of those two, hold? *sums, NULL before, keeps what was found out where it does not, for the plan;
- * given back by dyd_goal_sums_free, whatever is returned. */
+/* Sets *out to whether the goal, one of these two, holds. If it does not, *sums, NULL before, keeps the sums found, for
+ * the plan; freed by dyd_goal_sums_free, whatever is returned. */
 dyd_status dyd_goal_voronoi_holds(bool *out, dyd_voronoi_sums **sums, const dyd_engine *e, const dyd_engine_options *o);
 void dyd_goal_sums_free(dyd_voronoi_sums **sums);
 /* What a pair contributes to the bound; infinite when its rectangles meet, unless that does no harm to the goal. */

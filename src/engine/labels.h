@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What points are called where they were read: the number of their row, and what stands in it: identifier, cost, and a
- * radius that is not in the rectangle. */
+/* Labels of points in their input: the number of their row, and its fields: identifier, cost, and a radius that is not
+ * in the rectangle. */
 #ifndef DYD_ENGINE_LABELS_H
 #define DYD_ENGINE_LABELS_H
 
@@ -19,7 +19,7 @@ typedef struct dyd_merged_row {
 } dyd_merged_row;
 
 /* Invariant: row[0 .. points) and merged[].row ascend and are below rows; id[i] is where the terminated text of point
- * i begins, all are 0 when there are no identifiers. */
+ * i begins, all are 0 without identifiers. */
 typedef struct dyd_labels {
   size_t points, rows;
   size_t *row, *id;

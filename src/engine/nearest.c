@@ -5,7 +5,7 @@
  * Only sites that are possibly nearest matter: where i is not listed, its distance to every point of the query is above
  * the least dl of some other site, and stays so [NEAR-3]. The result pd serves as an index; sites narrowed since it was
  * made only make its boxes wider than they need be. Precision goes up in levels, as in run.c: at each level
- * each site concerned that was asked for less is asked for the level.
+ * each site concerned that has fewer bits is narrowed to the level.
  *
  * The nearest sites are listed. If all that are listed are equally far from the point, all of them are nearest, and no
  * refinement changes that: a tie. It is looked for when the list has changed [NEAR-4]. */
@@ -34,7 +34,7 @@ typedef struct nearest_question {
   bool sure, tied;
 } nearest_question;
 
-/* Wants of p what is missing at the level. *open: p can be narrowed still. */
+/* Adds a want for p if its precision is below the level. *open: p can be narrowed still. */
 static void nearest_mark(bool *open, dyd_plan *plan, const dyd_refinable *p, int64_t level) {
   if (!p || p->final) return;
   *open = true;
@@ -151,7 +151,7 @@ bool dyd_engine_nearest_tied(const dyd_engine *e) {
 
 /* ---- graphs of neighbours ---- */
 
-/* Choices that are drawn: so many in all, and in a row without anything new. */
+/* Limits of random choices: in all, and in a row without anything new. */
 enum { CHOICES_MOST = 128, CHOICES_IDLE = 8 };
 
 /* site: where edges are that refinement may make certain; seen: of each site, is it in the list; known: edges are those
@@ -294,7 +294,7 @@ static dyd_status graph_draw(bool *found, graph_question *q, const dyd_plan *pla
   return st;
 }
 
-/* Looks at all choices in the cores, less 4 eps where a site is firm: one point stands for the places of other sites.
+/* Looks at all choices in the cores, less 4 eps where a site is firm: one point represents the places of other sites.
  */
 static dyd_status graph_shrink(graph_question *q, const dyd_plan *plan, dyd_error *err) {
   size_t sites = dyd_sites_count(plan->e->sites);

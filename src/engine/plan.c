@@ -143,7 +143,7 @@ size_t dyd_plan_count(const dyd_plan *p) {
   return p->count;
 }
 
-/* Telling sources what they will be asked, so that slow answers can be sought side by side. */
+/* Announces requests to sources, so that slow answers can be computed in parallel. */
 
 /* Will p be asked for `bits`, or is it that narrow already, or its answer known? */
 static bool announce_is_due(dyd_rect *scratch, const dyd_refinable *p, const dyd_engine *e, int64_t bits) {
@@ -152,8 +152,8 @@ static bool announce_is_due(dyd_rect *scratch, const dyd_refinable *p, const dyd
   return dyd_sites_get(scratch, e->sites, p->site) != DYD_OK || dyd_rect_bits(scratch) < bits;
 }
 
-/* Wants first .. end-1 are those of one source: tells it of them; *left is how many calls there may be. What cannot be
- * told, for lack of memory or because the request is refused, is omitted. */
+/* Announces the wants first .. end-1 to their one source; *left is the number of calls still allowed. Wants that do not
+ * fit into memory, or are refused, are not announced. */
 static void announce_source(uint64_t *left, const dyd_plan *plan, size_t first, size_t end) {
   const dyd_engine *e = plan->e;
   const dyd_source *source = &e->source[dyd_plan_point(plan, &plan->item[first])->source].source;

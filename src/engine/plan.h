@@ -34,7 +34,7 @@ struct dyd_plan {
 void dyd_plan_init(dyd_plan *p, const dyd_engine *e, const dyd_engine_options *o, const dyd_refinable *guest,
                    size_t guests);
 void dyd_plan_clear(dyd_plan *p);
-/* Makes it empty, and gives back what it held. */
+/* Empties the plan and frees its contents. */
 void dyd_plan_empty(dyd_plan *p);
 /* Puts the wants in the order of points; dyd_plan_find may not be used after it. */
 void dyd_plan_sort(dyd_plan *p);
@@ -59,7 +59,7 @@ void dyd_plan_announce(const dyd_plan *p, uint64_t most);
 int64_t dyd_bits_raised(int64_t b, int64_t by, int64_t max);
 /* The step from precision b to the next. */
 int64_t dyd_bits_grown(int64_t b, const dyd_engine_options *o);
-/* What guests, and points of which nothing else is known, are asked for first. */
+/* First precision requested of guests, and of points never asked. */
 int64_t dyd_bits_first(const dyd_engine_options *o);
 
 #endif

@@ -3,8 +3,8 @@
  *
  * A fixed site is an entry of the table of sites and nothing else. A site that can be narrowed has a record besides,
  * and holds the whole plane in the table until it is first asked. [NEST-1] is kept by dyd_sites_narrow, for sources and
- * streams alike: the table is the one memory of what was given before. What was measured again is narrower than that:
- * the answers of such a point are intersected with it. */
+ * streams alike: the table alone remembers former answers. A rectangle measured again is narrower than that: the
+ * answers of such a point are intersected with it. */
 #include "engine/points.h"
 
 #include "base/abi.h"
@@ -109,7 +109,7 @@ static dyd_status site_contradiction(dyd_error *err, uint32_t site, const char *
                   told, a[0], a[1], a[2], a[3], (unsigned long)site, b[0], b[1], b[2], b[3]);
 }
 
-/* *r becomes what it has in common with the rectangle of a site; `told`: how to call r. */
+/* Intersects *r with the rectangle of a site; `told`: name of r in messages. */
 static dyd_status site_meet(dyd_rect *r, const dyd_engine *e, uint32_t site, const char *told, dyd_error *err) {
   dyd_rect known, both;
   dyd_rect_init(&known);
@@ -128,7 +128,7 @@ static dyd_status site_meet(dyd_rect *r, const dyd_engine *e, uint32_t site, con
   return st;
 }
 
-/* Puts what was given for p into the table, which checks that it is nested. */
+/* Puts the answer for p into the table, which checks that it is nested. */
 static dyd_status point_put(const dyd_refinable *p, const dyd_engine *e, dyd_rect *r, dyd_error *err) {
   dyd_status st = p->measured ? site_meet(r, e, p->site, "its stream gives", err) : DYD_OK;
   if (st != DYD_OK) return st;
@@ -175,8 +175,8 @@ static bool point_narrow_in_doubles(dyd_refinable *p, uint64_t *calls, dyd_engin
   return true;
 }
 
-/* Asks the holder of p: an earlier run, its stream, its source. What was recalled is met with what is answered later,
- * since its stream does not know that it has answered before. */
+/* Asks the holder of p: an earlier run, its stream, its source. A recalled rectangle is intersected with later answers,
+ * since the stream does not know that it has answered before. */
 static dyd_status point_ask(dyd_rect *r, bool *final, dyd_refinable *p, const dyd_engine *e, int64_t bits,
                             int64_t max_bits, dyd_error *err) {
   const dyd_recalled *known = dyd_recall_next(e->recall, p->site, bits);

@@ -20,7 +20,7 @@ dyd_status dyd_engine_request(dyd_request *out, const dyd_refinable *p, const dy
                               int64_t max_bits, dyd_error *err);
 /* The source added last gives first answers by fn, with its own user. */
 void dyd_engine_set_glance(dyd_engine *e, dyd_glance_fn fn);
-/* Points have come: there is no result any more, what it has counted is kept (engine.c). */
+/* Called after points were added: drops the result and keeps its counters (engine.c). */
 void dyd_engine_end_result(dyd_engine *e);
 /* Releases streams and sources. */
 void dyd_engine_clear_points(dyd_engine *e);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What a run leaves: answers of an earlier run, sorted by site when they are first looked for, those of a site in the
- * order given; a digest of all statuses; what each stage knew. */
+/* Records of a run: answers of an earlier run, sorted by site at the first search, the answers of a site in the order
+ * given; a digest of all statuses; the statuses after each stage. */
 #include "engine/record.h"
 
 #include "base/alloc.h"

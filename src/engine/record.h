@@ -18,7 +18,7 @@ dyd_status dyd_recall_each(const dyd_recall *m, dyd_recalled_fn fn, void *user);
 void dyd_recalled_get(dyd_rect *r, bool *final, const dyd_recalled *a);
 void dyd_recall_free(dyd_recall *m);
 
-/* All statuses in one number, to tell whether two results are equal: FNV-1a of the pairs with their statuses, as
+/* All statuses in one number, to compare two results: FNV-1a of the pairs with their statuses, as
  * dyd_stage_row has it. O(pairs log pairs). */
 uint64_t dyd_digest_list(const dyd_pair_list *pairs);
 dyd_status dyd_digest_pairs(uint64_t *out, const dyd_delaunay *pd);
@@ -37,9 +37,9 @@ typedef struct dyd_history_box {
   double box[4]; /* as dyd_sites_get_d */
 } dyd_history_box;
 
-/* Invariant: change[] of a stage are sorted by i, then j, and tell of pairs whose status (dyd_pair_status) is another
- * one than after the stage before; before the first one all are illegal. box[] likewise, ascending; the first stage has
- * all sites that are no aliases. The end of a stage is where the next one begins, of the last one the count. */
+/* Invariant: change[] of a stage are sorted by i, then j, and list pairs whose status (dyd_pair_status) differs from
+ * the stage before; before the first one all are illegal. box[] likewise, ascending; the first stage has all sites
+ * except aliases. The end of a stage is where the next one begins, of the last one the count. */
 struct dyd_history {
   size_t stages, changes, boxes, sites;
   size_t *change_begin, *box_begin; /* by stage */

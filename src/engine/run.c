@@ -28,7 +28,7 @@
  * from the nearest one. So a pair of points 2^-200 apart has to be known to 200 bits more than the points around it:
  * as long as two rectangles meet, no disc can hold one and avoid the other, and refining the rest is useless.
  *
- * All this only chooses what to refine; what is stated does not depend on it. */
+ * All this only chooses what to refine; the statements do not depend on it. */
 
 /* Number of the sites that follow in the order of x and are examined. */
 #define NEXT 4
@@ -156,10 +156,10 @@ int64_t dyd_coarse_bits(const dyd_coarse *c, uint32_t site) {
   return s->scale - s->width;
 }
 
-/* Of the points that a face wants narrower, those that cost at most EXPENSIVE times as much as the cheapest are asked;
- * the others wait, since what is narrowed may decide the face without them. None waits longer than until as much was
- * spent beside it as it costs: so waiting at most doubles what is spent. What has waited then goes at once to the
- * finest precision of the face: what one call asks for costs nothing, and it need not take the steps of the others.
+/* Of the points that a face wants narrower, the ones that cost at most EXPENSIVE times as much as the cheapest are
+ * asked; the others wait, since the cheap ones may decide the face without them. A point waits until the amount spent
+ * on the others equals its cost: so waiting at most doubles the total cost. It then goes at once to the finest
+ * precision of the face: the bits of one call cost nothing, and it need not take the steps of the others.
  *
  * The cheapest never wait, so a plan is empty only where it was. Like all of the schedule this only chooses what to
  * narrow. */
@@ -167,11 +167,11 @@ int64_t dyd_coarse_bits(const dyd_coarse *c, uint32_t site) {
 enum { EXPENSIVE = 2 };
 
 /* Which points wait, kept from judgement to judgement of a run. Init with waiting_init. waited: of each point of the
- * engine, what was spent on others of its faces while it was omitted; NULL: all points cost the same, and none waits.
+ * engine, the amount spent on others of its faces while it waited; NULL: all points cost the same, and none waits.
  */
 typedef struct dyd_waiting {
   double *waited;
-  dyd_plan face; /* what one face wants */
+  dyd_plan face; /* the wants of one face */
 } dyd_waiting;
 
 static double waiting_cost(const dyd_plan *p, uint32_t site) {
@@ -212,7 +212,7 @@ static int64_t waiting_finest(const dyd_engine *e, const dyd_index_list *sites) 
   return finest;
 }
 
-/* The least cost of what the face wants, and what all that is not expensive costs. */
+/* Returns the least cost of a want of the face. *spent: the total cost of the wants that are not expensive. */
 static double waiting_least(double *spent, const dyd_plan *face) {
   double least = HUGE_VAL;
   for (size_t k = 0; k < face->count; k++)
@@ -268,7 +268,7 @@ static void waiting_choose(dyd_plan *plan, dyd_waiting *t, const dyd_index_list 
  * Towards bounds on the Voronoi diagram the same is done with other numbers of the pairs (goal_voronoi.c).
  *
  * Where a tie was tried and is none, it is known at which bit that showed (ties.c): all its points in the face go there
- * at once. In faces of many points a few go ahead of the others, to tell how far these must go (scout.c). Where points
+ * at once. In faces of many points a few go ahead of the others, to find how far these must go (scout.c). Where points
  * have costs, expensive ones wait for cheap ones (dyd_waiting).
  *
  * Every rule marks a point whenever one that matters can be narrowed, and every mark asks for more than before
@@ -332,7 +332,7 @@ static int64_t relative_step(const dyd_refinable *p, int64_t relative, const dyd
   return dyd_bits_raised(p->bits, relative, o->max_bits);
 }
 
-/* Was a tie tried with the point, and is it known that it takes more bits to see that there is none (ties.c)? */
+/* Returns true if a tie with the point was tried, and more bits are needed to show that it does not tie (ties.c). */
 static bool lacks_needed(const dyd_refinable *p, const dyd_engine_options *o) {
   return lesser_bits(p->needed, o->max_bits) > p->bits && !o->step_bits && o->goal == DYD_GOAL_DECIDED;
 }
@@ -620,9 +620,10 @@ static bool any_point_is_left(const dyd_engine *e) {
   return false;
 }
 
-/* Does the goal hold for the result, which is up to date? Otherwise *plan, empty, becomes what to narrow towards it;
- * adds to *scouts, just initialised, what may go ahead, and to *waiting and *settled, kept from judgement to judgement
- * of a run, who waits, and which pairs no refinement decides. DYD_CANCELLED when e->stop was seen. */
+/* Sets *holds if the goal holds for the result, which is up to date. Otherwise *plan, empty, becomes the points to
+ * narrow for it; adds to *scouts, just initialised, the points that may go ahead, and to *waiting and *settled, kept
+ * from judgement to judgement of a run, the points that wait and the pairs that no refinement decides. DYD_CANCELLED
+ * when e->stop was seen. */
 static dyd_status schedule_judge(bool *holds, dyd_plan *plan, dyd_scouts *scouts, dyd_waiting *waiting,
                                  dyd_settled *settled) {
   dyd_helpers h = {scouts, waiting};

@@ -5,11 +5,11 @@
  * possible. Whether two crossing pairs can displace one another depends on four points only, and is asked again for
  * nothing (dyd_cannot_displace). So up to four disjoint quads of the face are narrowed alone, step by step, until the
  * first of them is decided; then the precision at which it would have been is found by rounding its rectangles outward,
- * and the other ends of the face are asked for a little more than that. Where there are less than four quads to tell
- * they are asked for sixteen times their bits at most, and where no quad is decided at the limit, for just that: a
- * stage costs as much as the finest rectangles in it. The first, not the last: quads that hold two points very near to
- * one another, or a tie, say nothing about the rest. Scouts that were sent too far belong to quads that are undecided,
- * or were so a step before: the schedule would have come to that precision as well.
+ * and the other ends of the face are narrowed to a little more than that. Where fewer than four quads show it, they are
+ * narrowed to sixteen times their bits at most, and where no quad is decided at the limit, for just that: a stage costs
+ * as much as the finest rectangles in it. The first, not the last: quads that hold two points very near to one another,
+ * or a tie, say nothing about the rest. Scouts that were sent too far belong to quads that are undecided, or were so a
+ * step before: the schedule would have come to that precision as well.
  *
  * Like all of the schedule this only chooses what to narrow. */
 #include "engine/scout.h"
@@ -20,14 +20,14 @@
 #include <dyadel/predicate.h>
 #include <string.h>
 
-/* How often the quad rule is asked for one pair, and for four in all, and how many pairs are examined, for each quad
- * to be found. The stride is a prime beyond the number of pairs, so that it leads to all of them. */
+/* For each quad to be found: number of tries of the quad rule for one pair, number of tries for four in all, and number
+ * of pairs examined. The stride is a prime beyond the number of pairs, so that it leads to all of them. */
 #define TRIES 8
 #define STEPS 256
 #define STRIDE ((size_t)2654435761)
 /* Beyond this many bits the steps of scouts are shorter. */
 #define DEAR 1024
-/* The bits asked beyond those that decide a quad: this, and one in 64. */
+/* Bits requested beyond the number that decides a quad: this, and one in 64. */
 #define MARGIN 8
 #define MOST_LEAP 16
 
@@ -237,8 +237,8 @@ dyd_status dyd_scouts_next(dyd_plan *out, dyd_scouts *s, dyd_plan *held) {
   return st;
 }
 
-/* What an end with b bits in a face with this race is asked for at least: 0 when the race tells nothing. Where no quad
- * was decided at the limit, the least that is worth a stage. */
+/* Least precision requested of an end with b bits in a face with this race: 0 when the race shows nothing. Where no
+ * quad was decided at the limit, the least that is worth a stage. */
 static int64_t race_leap(const dyd_race *race, int64_t b, int64_t most) {
   int64_t need = race->bits + MARGIN + race->bits / 64, longest = b > 0 ? MOST_LEAP * b : 0;
   if (!race->over) return 0;

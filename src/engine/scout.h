@@ -7,7 +7,7 @@
 
 #define DYD_SCOUT_QUADS 4
 
-/* Pairs (v[0], v[1]) and (v[2], v[3]) of which the quad rule could not tell that one cannot displace the other. */
+/* Pairs (v[0], v[1]) and (v[2], v[3]) for which the quad rule could not prove that one cannot displace the other. */
 typedef struct dyd_quad_sites {
   uint32_t v[4];
 } dyd_quad_sites;
@@ -37,7 +37,7 @@ dyd_status dyd_scouts_add(dyd_scouts *s, const dyd_plan *plan, const dyd_pair_li
 /* Judges the quads of all races; *out, empty, becomes the scouts of races that continue, which are narrowed further,
  * while all else in `held` waits. Nothing in *out: all races are over. */
 dyd_status dyd_scouts_next(dyd_plan *out, dyd_scouts *s, dyd_plan *held);
-/* *out, empty, becomes what has waited, with more for the ends of decided races. */
+/* *out, empty, becomes the wants that have waited, with more bits for the ends of decided races. */
 void dyd_scouts_finish(dyd_plan *out, const dyd_scouts *s, const dyd_plan *held);
 
 #endif

@@ -25,9 +25,9 @@
 #include <dyadel/predicate.h>
 #include <stdlib.h>
 
-/* Cores [SET-3], and firm ones: wider both ways than twice what is not known of sides without a core [SET-2]. */
+/* Cores [SET-3], and firm ones: wider both ways than twice the unknown width of sides without a core [SET-2]. */
 
-/* Sides of r that have a core, or those that have none, become their lower ends. */
+/* Sides of r that have a core, or sides without one, become their lower ends. */
 static dyd_status rect_collapse(dyd_rect *r, const bool core[2], bool which) {
   dyd_interval *side[2] = {&r->x, &r->y};
   dyd_status st = DYD_OK;
@@ -44,7 +44,7 @@ dyd_status dyd_site_get_core(dyd_rect *r, bool core[2], const dyd_engine *e, uin
   return st == DYD_OK && !core[0] && p->stream ? dyd_stream_core(r, core, p->stream, p->measured) : st;
 }
 
-/* Raises *eps to what two points of r may differ by along sides without a core. */
+/* Raises *eps to the largest difference of two points of r along sides without a core. */
 static dyd_status eps_raise(dyd_dyadic *eps, const dyd_rect *r, const bool core[2]) {
   dyd_dyadic more;
   dyd_rect rest;
@@ -137,14 +137,14 @@ dyd_status dyd_firm_add(dyd_sites *sites, bool *firm, const dyd_engine *e, const
   return st;
 }
 
-/* Pairs of one face: what stays open wherever the points are that can be narrowed [SET-1].
+/* Pairs of one face: pairs that stay open wherever the points are that can be narrowed [SET-1].
  *
  * A side has a core, which no refinement leaves, or can be narrowed to any point of it. A disc to which both ends may
  * reach along their cores, wherever they are along the others, while no other site has to meet it, makes a pair
  * possible for good. Points of both ends that four points show to be in no disc of their own, make it never legal. */
 
-/* site: those of the face and their legal neighbours, ascending; rect and guess: one for each of them; pair: what is
- * examined; work: what is left of it for all faces. */
+/* site: sites of the face and their legal neighbours, ascending; rect and guess: one for each of them; pair: the pairs
+ * examined; work: the work left for all faces. */
 typedef struct settling {
   const dyd_engine *e;
   dyd_index_list site;
@@ -154,7 +154,7 @@ typedef struct settling {
   dyd_settled_pair *pair;
   size_t pairs;
   size_t *work;
-  const dyd_settled *known; /* who proves circles; NULL: nobody */
+  const dyd_settled *known; /* the callback that proves circles, or NULL */
   bool mixed;               /* some side has a core that is no point */
 } settling;
 
@@ -478,7 +478,7 @@ static bool surely_between(const dyd_rect *a, const dyd_rect *b, const dyd_rect 
          (surely_before(&c->y, &b->y) && surely_before(&b->y, &a->y));
 }
 
-/* Does no disc hold both ends, and nobody else of the circle? */
+/* Returns true if no disc holds both ends without another site of the circle. */
 static bool circle_parts(const settling *s, const settled_circle *c, const dyd_settled_pair *p) {
   const dyd_rect *i = &s->rect[settling_place(s, p->i)], *j = &s->rect[settling_place(s, p->j)];
   bool left = false, right = false;
@@ -493,7 +493,7 @@ static bool circle_parts(const settling *s, const settled_circle *c, const dyd_s
   return left && right;
 }
 
-/* Writes down what the circle tells of pairs. */
+/* Records the pairs that the circle settles. */
 static dyd_status circle_tell_pairs(const settling *s, const settled_circle *c) {
   bool empty, other = false;
   dyd_status st = circle_is_empty(&empty, s, c, DYD_SURE_PLUS);
@@ -589,7 +589,7 @@ bool dyd_is_settled(const dyd_settled *s, const dyd_pair *pair) {
   return p && dyd_pair_is_settled(p);
 }
 
-/* Pairs from `sorted` on have come: what is known of each, in one place. */
+/* Sorts the pairs, new ones from `sorted` on, and joins the entries of each. */
 static void settled_sort(dyd_settled *s) {
   size_t kept = 0;
   if (s->count) qsort(s->item, s->count, sizeof *s->item, dyd_compare_two);

@@ -36,9 +36,9 @@ static inline bool dyd_pair_is_settled(const dyd_settled_pair *p) {
   return p->possible && p->unsure;
 }
 
-/* What is known about pairs, for ever unless points are measured again. Init with {0}. Invariant: item is
- * sorted by i, j, without repeats; next: from that many bits on it is worth trying again; prove: who
- * proves that true points are on one circle or line, NULL: nobody. */
+/* Settled facts about pairs, for ever unless points are measured again. Init with {0}. Invariant: item is
+ * sorted by i, j, without repeats; next: the bits from which another try pays; prove: callback that proves that true
+ * points are on one circle or line, or NULL. */
 typedef struct dyd_settled {
   dyd_settled_pair *item;
   size_t count, cap;
@@ -47,8 +47,8 @@ typedef struct dyd_settled {
   void *prove_user;
 } dyd_settled;
 
-/* Looks at open pairs of a face with the given sites, and writes down what is found. *work, in sites examined, becomes
- * less; at 0 no more is done. known: who proves; may be NULL. DYD_CANCELLED when e->stop was seen. Nothing is found
+/* Looks at open pairs of a face with the given sites, and records the facts found. Reduces *work, in sites examined; at
+ * 0 it stops. known: has the callback for proofs; may be NULL. DYD_CANCELLED when e->stop was seen. Nothing is found
  * where no side has a core. */
 dyd_status dyd_settle_face(dyd_settled_pair *pair, size_t *work, const dyd_settled *known, const dyd_engine *e,
                            size_t pairs, const dyd_index_list *face);

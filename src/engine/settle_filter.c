@@ -13,7 +13,7 @@
 /* Four points that keep two sites apart, in doubles.
  *
  * A disc around c holds both ends and no other site if c is nearer to every corner a of theirs than to all points b of
- * the others: c is in half-planes. By Helly's theorem four of the points tell when there is no c: two a and two b on
+ * the others: c is in half-planes. By Helly's theorem four of the points show that no such c exists: two a and two b on
  * crossing segments, where |a - z| |a' - z| > |b - z| |b' - z| at the crossing z, or one b among three a. Half-planes
  * are added as witnesses are searched for, for the farthest a and the nearest b, until nothing is left. */
 
@@ -118,7 +118,8 @@ static spot nearest_other(const cutting *q, const double c[2]) {
   return best;
 }
 
-/* What the search for a disc around c adds. false: there is one, or no half-plane says that there is none. */
+/* Adds a half-plane to the search for a disc around c. Returns false if the disc exists, or if no half-plane excludes
+ * it. */
 static bool cutting_add(cutting *q, const double c[2]) {
   spot a = farthest_end(q, c), b = nearest_other(q, c);
   double n[2] = {a.at[0] - b.at[0], a.at[1] - b.at[1]}, length = hypot(n[0], n[1]);

@@ -64,7 +64,7 @@ typedef struct dyd_recalled dyd_recalled;
 
 /* Invariant: point is sorted by site; changed lists (with repeats) the sites narrowed since pd was last brought up
  * to date; pd = NULL before the first complete stage. Sites of points never asked hold the whole plane.
- * Only add.c, points.c and ask.c write here once the engine has been started: whoever plans or judges takes it
+ * Only add.c, points.c and ask.c write here once the engine has been started: functions that plan or judge take it
  * const. */
 struct dyd_engine {
   dyd_sites *sites;
@@ -81,7 +81,7 @@ struct dyd_engine {
   size_t max_pairs;           /* the cap pd was last worked on with */
   bool cut;                   /* pd is capped since it was stopped, or since faces were postponed */
   bool postpones;             /* the question at work needs no pairs of faces whose sites can be narrowed */
-  dyd_error cap_error;        /* what it said when the cap was met */
+  dyd_error cap_error;        /* its message when the cap was reached */
   dyd_delaunay_counters past; /* of results that points added later have ended */
   bool started;
   int busy; /* 1 while the loop is at work: neither callbacks nor other threads may enter it; only by atomic access */
@@ -92,7 +92,7 @@ struct dyd_engine {
   uint64_t stages, calls;
   double seconds;
   dyd_recall *recall; /* answers known before the first run; NULL: none */
-  dyd_ties *ties;     /* what was asked about true points; NULL: nothing yet */
+  dyd_ties *ties;     /* proofs requested about true points; NULL: none yet */
   int64_t tie_bits;
   int64_t proof_bits; /* the tie_bits pd was last worked on with; 0: no ties were looked for */
   dyd_tie_counters tie_counters;

@@ -6,8 +6,8 @@
  * points in common: the ends of a chain, three points of a polygon far apart; these are proved to be different, and not
  * on one line, before a determinant that is 0 means anything. A point that is not described proves nothing.
  *
- * What is seen not to be 0 tells how far points have to be refined before their rectangles show it, too: this is noted
- * at them, for the schedule. */
+ * A determinant proved different from 0 shows how far points have to be refined before their rectangles show it, too:
+ * this is noted at the points, for the schedule. */
 #include "engine/ties.h"
 
 #include "base/alloc.h"
@@ -25,7 +25,7 @@
 /* Joining points that are proved to be the same place.
  *
  * Where the rectangles of two sites meet, a disc that holds one of them and avoids the other does not exist: neither
- * has a legal edge but perhaps one to the other. So, unless there are no others, both are in an undecided face
+ * has a legal edge but perhaps one to the other. So, unless these are the only sites, both are in an undecided face
  * together. */
 
 /* A described site, with its box in doubles. */
@@ -92,7 +92,7 @@ static dyd_status try_group(bool *any, dyd_engine *e, const uint32_t *site, size
   return st;
 }
 
-/* Two sites, or two that are no aliases, may be joined by a legal edge and nothing else. */
+/* Two sites without others, aliases apart, may be joined by a legal edge alone. */
 static dyd_status try_last_pair(bool *any, dyd_engine *e, const dyd_delaunay *pd, dyd_error *err) {
   dyd_pair_list pairs = {0};
   size_t count[4];

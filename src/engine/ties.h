@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What is proved about the true points of an engine. */
+/* Proofs about the true points of an engine. */
 #ifndef DYD_ENGINE_TIES_H
 #define DYD_ENGINE_TIES_H
 
@@ -10,21 +10,22 @@
 
 /* Joins the sites of pd, a triangulation of e's sites, that are proved to be the same [TIE-4]; *any: some are, and pd
  * is to be brought up to date. Looks at sites that share an undecided face and whose rectangles meet: others are
- * different, or so wide that they are asked for more. */
+ * different, or so wide that they are narrowed first. */
 dyd_status dyd_aliases_find(bool *any, dyd_engine *e, const dyd_delaunay *pd, dyd_error *err);
 
-/* As dyd_prove_fn, for the points of the engine `user`; what was asked before is remembered. */
+/* As dyd_prove_fn, for the points of the engine `user`; former requests are remembered. */
 dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                           dyd_error *err);
-/* From now on fn, with user (borrowed), is asked about the true points of e: somebody who knows what they are made of.
+/* Sets fn, with user (borrowed), as the callback about the true points of e, instead of their expressions.
  */
 void dyd_engine_set_prover(dyd_engine *e, dyd_prove_fn fn, void *user);
-/* Who is asked, with *user; NULL under no_ties. */
+/* Returns the callback for proofs, with its *user; NULL under no_ties. */
 dyd_prove_fn dyd_engine_prover(void **user, dyd_engine *e, const dyd_engine_options *o);
-/* What was proved, in the order in which it was: number k, from 0. false: so many there are not. *site is borrowed. */
+/* Returns proof number k, from 0, in the order of the proofs. Returns false if k is not below their number. *site is
+ * borrowed. */
 bool dyd_ties_proved(dyd_relation *relation, const uint32_t **site, size_t *count, const dyd_engine *e, size_t k);
-/* The forms of a site's coordinates; DYD_NONE where they are unknown. What is exact is a number,
- * unless the point as it was given is asked for. */
+/* The forms of a site's coordinates; DYD_NONE where they are unknown. An exact coordinate is a number, unless `given`
+ * asks for the point as it was given. */
 dyd_status dyd_ties_describe(dyd_form_point *out, dyd_forms *f, const dyd_engine *e, uint32_t i, bool given);
 /* *tied: the sites (two at least) are proved to be equally far from `at`. Otherwise *needed is the precision at which
  * it shows that they are not, 0: not known. Nothing is remembered. */
