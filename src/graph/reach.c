@@ -333,7 +333,7 @@ static void set_rho(const reach_quest *q, mpz_srcptr x, mpz_srcptr y) {
   }
 }
 
-/* Clears the marks of those that are not too near there; returns true if none is too near. */
+/* Clears the marks of sites that are not too near there; returns true if none is too near. */
 static bool corner_is_free(const reach_quest *q, mpz_srcptr x, mpz_srcptr y) {
   dyd_reach *r = q->r;
   bool is_free = true;
