@@ -143,7 +143,7 @@ static size_t decimal_layout_printed(char *out, const char *printed) {
   return decimal_layout(out, printed[0] == '-', digits, count, (int)strtol(p + 1, NULL, 10) + 1);
 }
 
-/* What is known of a decimal. */
+/* Known facts about a decimal. */
 typedef struct near_decimal {
   double near; /* the double nearest to it; NAN: one that was not asked for */
   bool told, exact;

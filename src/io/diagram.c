@@ -106,7 +106,7 @@ static double cells_round(double *out, const dyd_dyadic *x) {
   return hi - lo;
 }
 
-/* Makes a ring with so many vertices, and sets *xy to where they go; NULL: too few make no ring. */
+/* Makes a ring with the given number of vertices, and sets *xy to their array; NULL if they are too few for a ring. */
 static dyd_status cells_begin(double **xy, cells_maker *m, uint32_t i, dyd_ring_kind kind, size_t count) {
   dyd_cells *c = m->out;
   size_t end = m->vertices + count;

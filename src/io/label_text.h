@@ -11,7 +11,7 @@ enum { DYD_LABEL_SIZE = 24 };
 const char *dyd_label_text(char spare[DYD_LABEL_SIZE], const dyd_engine *e, size_t site);
 /* A text as csv has it. */
 void dyd_sink_csv_text(dyd_sink *s, const char *text);
-/* A text as JSON has it; what is no UTF-8 becomes U+FFFD. */
+/* A text in JSON syntax; bytes that are not UTF-8 become U+FFFD. */
 void dyd_sink_json_text(dyd_sink *s, const char *text);
 
 #endif

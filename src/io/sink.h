@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Text on its way to a file, in blocks: large results are millions of short pieces, over each of which stdio takes
- * longer than it takes to make it. What is put after a failure is dropped; the end of the file tells (output.h). */
+ * longer than it takes to make it. Text put after a failure is dropped; the failure is reported at the end of the file
+ * (output.h). */
 #ifndef DYD_IO_SINK_H
 #define DYD_IO_SINK_H
 
@@ -10,7 +11,7 @@
 
 enum { DYD_SINK_BLOCK = 1 << 15, DYD_INDEX_SIZE = 20 };
 
-/* Between begin and flush nobody else writes to out. Invariant: end is in the block or behind its last byte. */
+/* Between begin and flush no other code writes to out. Invariant: end is in the block or behind its last byte. */
 typedef struct dyd_sink {
   FILE *out; /* borrowed */
   char *end, block[DYD_SINK_BLOCK];

@@ -51,8 +51,8 @@ typedef struct dyd_layer {
   dyd_layer_part *comments; /* writes the lines of csv before the header; NULL: there are none */
   dyd_layer_part *rows;
   /* Separated by commas. Columns that begin with "id" exist if points have identifiers. Columns with "?" before their
-   * name exist in wkt and geojson only; of tolerances, if chances are known; of pairs, if lengths are wanted. "*"
-   * stands for the columns that points carry. */
+   * name exist in wkt and geojson only; of tolerances, if chances are known; of pairs, if lengths are wanted. "*" means
+   * the columns that points carry. */
   const char *columns;
 } dyd_layer;
 
@@ -122,7 +122,7 @@ void dyd_row_spot(dyd_table *t, size_t i);
 void dyd_row_site(dyd_table *t, size_t i);
 void dyd_row_text(dyd_table *t, const char *text);
 void dyd_row_id(dyd_table *t, size_t i);
-/* What it carries, or nothing. */
+/* Writes the columns that point i carries, if any. */
 void dyd_row_carried(dyd_table *t, size_t i);
 /* Those of three sites. */
 void dyd_row_three(dyd_table *t, const uint32_t site[3], bool ids);

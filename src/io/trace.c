@@ -43,8 +43,8 @@ static const char *const relation_name[] = {
 
 /* ---- writing ---- */
 
-/* Invariant: seen[i] tells whether point i was narrowed; NULL once the fixed points are written. line: what is written
- * of the line under way, in text[0 .. size) once it is flushed. sync < 0: nobody asked for it. */
+/* Invariant: seen[i]: point i was narrowed; NULL once the fixed points are written. line: the part of the line under
+ * way that is written, in text[0 .. size) once it is flushed. sync < 0: not requested. */
 struct dyd_trace {
   FILE *out, *line;
   char *text;
@@ -189,7 +189,7 @@ static dyd_status trace_fixed(dyd_trace *t, const dyd_delaunay *pd) {
   return st;
 }
 
-/* What was proved in the stage: rectangles do not tell. */
+/* Writes the proofs of the stage, which rectangles do not show. */
 static dyd_status trace_proofs(dyd_trace *t) {
   dyd_relation relation;
   const uint32_t *site;
@@ -281,7 +281,7 @@ static bool read_side(dyd_interval *out, const json_t *line, const char *name) {
   return trace_ends(out, side, 0);
 }
 
-/* ---- proofs, which stand for the expressions that are not in a trace ---- */
+/* ---- proofs, which replace the expressions that are not in a trace ---- */
 
 typedef struct trace_proof {
   dyd_relation relation;
@@ -289,7 +289,7 @@ typedef struct trace_proof {
   uint32_t *site;
 } trace_proof;
 
-/* Init with {0}. Sites are below `points`; joined: so many of them have been looked at for points that are the same. */
+/* Init with {0}. Sites are below `points`; joined: the number of proofs already examined for equal points. */
 typedef struct proof_list {
   trace_proof *item;
   size_t count, cap, joined;
@@ -435,7 +435,7 @@ static dyd_status recall_line(recall *r, const json_t *line) {
   return json_object_get(line, "point") ? recall_step(r, line) : DYD_OK;
 }
 
-/* All lines; the last one is left out when it was cut short. */
+/* All lines; the last one is ignored if it was cut short. */
 static dyd_status recall_lines(recall *r, dyd_text *text) {
   dyd_line line = {0};
   dyd_status st = dyd_text_next(&line, text, r->err);

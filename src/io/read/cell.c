@@ -163,7 +163,7 @@ dyd_status dyd_style_settle(const dyd_style *style, dyd_error *err) {
                   "`thousands` , instead of `decimal_comma` if they are, or `thousands` . as well if they are decimal");
 }
 
-/* ---- what may be meant ---- */
+/* ---- possible meanings ---- */
 
 size_t dyd_cell_number(const dyd_span *s) {
   dyd_plain p;

@@ -9,7 +9,7 @@
 /* How the cells of a file are written. Initialise by dyd_style_read; clear by dyd_style_clear. */
 typedef struct dyd_style {
   const dyd_read_options *o; /* borrowed */
-  char thousands;            /* what is between groups of three digits; ' ': blanks of any kind; 0: nothing */
+  char thousands;            /* the separator of groups of three digits; ' ': blanks of any kind; 0: nothing */
   dyd_span doubt;            /* the first cell such as 1,001 that may mean 1001 or 1.001; text = NULL: none */
   size_t line, column;       /* its place */
   bool settled;              /* a cell shows that commas are decimal */

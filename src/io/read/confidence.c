@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Normal errors: how far regions reach so that all points lie in theirs with a stated probability [CNF-1].
  *
- * All roundings go up, and each function of the chain grows with its argument, so that what comes out is at least the
- * exact number. */
+ * All roundings go up, and each function of the chain grows with its argument, so that the result is at least the exact
+ * number. */
 #include "io/read/confidence.h"
 
 #include "base/abi.h"

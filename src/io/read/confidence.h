@@ -6,8 +6,8 @@
 #include <dyadel/io.h>
 #include <gmp.h>
 
-/* Sets *out to what may be stated of n points that e is given; k is 0 where n is. Returns DYD_E_ARG where the text is
- * no "95%" or "0.95", and where e has a confidence. */
+/* Sets *out to the confidence of n points to be added to e; k is 0 where n is. Returns DYD_E_ARG if the text is not
+ * like "95%" or "0.95", or if e already has a confidence. */
 dyd_status dyd_confidence_for(dyd_confidence *out, const dyd_engine *e, const char *probability, size_t n,
                               dyd_error *err);
 

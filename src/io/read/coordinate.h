@@ -15,7 +15,7 @@ typedef struct dyd_plain {
   int exp;
 } dyd_plain;
 
-/* Reads the whole text; false when it is no decimal of this size (it may still be another form of number). */
+/* Reads the whole text; returns false if it is not a decimal of this size (it may still be another form of number). */
 bool dyd_plain_scan(dyd_plain *out, const char *text, size_t length);
 /* Is the number a double? Then *out is it. (May say no for numbers above 2^63.) */
 bool dyd_plain_get_exact(double *out, dyd_plain p);

@@ -24,7 +24,7 @@ static bool is_comment(const dyd_line *line);
 typedef struct cursor {
   const char *at, *end;
   const dyd_line *line;
-  char comma; /* what may separate besides blanks */
+  char comma; /* possible separators besides blanks */
 } cursor;
 
 static dyd_status points_fail(dyd_error *err, const cursor *c, const char *message) {
@@ -125,7 +125,7 @@ dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_lin
 
 static const char delimiters[] = ",;\t| ";
 
-/* ---- what is wanted ---- */
+/* ---- columns requested ---- */
 
 dyd_status dyd_csv_ask(dyd_csv *csv, int first, size_t least, size_t most, const char *text, const char *option,
                        dyd_error *err) {
@@ -199,7 +199,7 @@ static size_t count_named(size_t *first, size_t *last, const dyd_csv *csv, const
   return found;
 }
 
-/* The names of the header, as many as fit. */
+/* The names of the header, cut to the buffer. */
 static void list_names(char *out, size_t size, const dyd_csv *csv) {
   size_t used = 0;
   for (size_t k = 0; k < csv->fields; k++) {
@@ -289,7 +289,7 @@ static dyd_status find_columns(dyd_csv *csv, dyd_error *err) {
 
 /* ---- the delimiter ---- */
 
-/* A mark of comments in front is no part of the first name. */
+/* A comment mark in front does not belong to the first name. */
 static dyd_status header_split(dyd_csv *csv, const dyd_line *line, char delimiter, dyd_error *err) {
   csv->delimiter = delimiter;
   dyd_status st = csv_split(csv, line, err);
@@ -323,7 +323,7 @@ static dyd_status find_delimiter(char *best, dyd_csv *csv, const dyd_line *line,
   return DYD_OK;
 }
 
-/* Columns by number say nothing about a first line that is no header, but a point that would be lost. */
+/* Returns true if the first line holds numbers in columns given by number: then it is a point, and not a header. */
 static bool holds_numbers(const dyd_csv *csv) {
   dyd_plain p;
   for (int k = DYD_CSV_X; k <= DYD_CSV_Y; k++) {
@@ -356,7 +356,7 @@ static bool has_word(const dyd_span *f, size_t k, const char *word) {
   return !*word;
 }
 
-/* A part of a name begins where a capital follows a small letter, or behind what is no letter. */
+/* A part of a name begins where a capital follows a small letter, or after a character that is not a letter. */
 static bool ends_with_part(const dyd_span *f, const char *word) {
   size_t n = strlen(word);
   if (n > f->length || !has_word(f, f->length - n, word)) return false;
@@ -480,9 +480,9 @@ static char delimiter_line(const dyd_line *line) {
   return memcmp(at + quoted, "sep=", 4) == 0 || memcmp(at + quoted, "Sep=", 4) == 0 ? at[4 + quoted] : 0;
 }
 
-/* Lines before the header that begin with # or % and have not got the columns are comments, as what is written here
- * has. One that has as many fields as the line behind it, in which columns are missing as well, was the header. Where
- * all columns are numbers, all of them are comments, and a row may follow. */
+/* Lines before the header that begin with # or % and have not got the columns are comments, as in files written by
+ * dyadel. One that has as many fields as the line behind it, in which columns are missing as well, was the header.
+ * Where all columns are numbers, all of them are comments, and a row may follow. */
 static dyd_status header_read(dyd_csv *csv, char delimiter, dyd_error *err) {
   const bool numbered = all_numbered(csv);
   bool commented = false;
@@ -571,7 +571,7 @@ void dyd_csv_hint(char *out, size_t size, const dyd_line *line) {
   dyd_csv_clear(&csv);
 }
 
-/* Rows of fields: small tables beside the points, by the readers of lines and of separated text. */
+/* Rows of fields: small tables that accompany the points, by the readers of lines and of separated text. */
 
 /* Fields between runs of blanks, commas and semicolons, up to a comment; quotes mean nothing. */
 static dyd_status rows_split_runs(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
@@ -671,7 +671,7 @@ static bool is_blank_line(const dyd_line *line) {
   return true;
 }
 
-/* Does it begin with # or %? What spreadsheets write for errors is no comment. */
+/* Returns true if it begins with # or %. Error values of spreadsheets, such as #N/A, are not comments. */
 static bool is_comment(const dyd_line *line) {
   const char *at = line->text, *end = at + line->length;
   while (at < end && is_points_blank(*at)) at++;
@@ -848,8 +848,8 @@ static const char *delimiter_name(char delimiter, bool many) {
   return many ? "delimiters" : "a delimiter";
 }
 
-/* Has the first record behind the header fields that suit it? A mark that stands alone in the header is no column if
- * they are one less; the same holds for an empty last name. */
+/* Returns true if the first record after the header has a matching number of fields. A lone comment mark in the header
+ * is not a column if they are one less; the same holds for an empty last name. */
 static bool fields_fit(dyd_csv *csv, bool first) {
   size_t last = 0;
   if (csv->fields == csv->columns + 1 && !csv->field[csv->columns].length) return csv->fields--, true;

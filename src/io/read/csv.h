@@ -11,7 +11,7 @@
  * blank: nothing else does. */
 dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_line *line, char comma, dyd_error *err);
 
-/* The places of a geometry in well-known text, one after another; the place that closes a ring is left out. */
+/* The places of a geometry in well-known text, one after another; without the place that closes a ring. */
 typedef struct dyd_wkt {
   dyd_span text, first[2]; /* of the ring */
   const char *at, *end;
@@ -19,7 +19,7 @@ typedef struct dyd_wkt {
 } dyd_wkt;
 /* Does the text begin as a geometry does? */
 bool dyd_wkt_begin(dyd_wkt *w, const dyd_span *text);
-/* false: there are no more. */
+/* Returns false after the last one. */
 bool dyd_wkt_next(dyd_span place[2], dyd_wkt *w);
 
 /* What a column is wanted for. Roles from DYD_CSV_OTHER on are the caller's. */
@@ -62,23 +62,23 @@ typedef struct dyd_csv {
 } dyd_csv;
 
 /* Asks for the columns that `text` names, at least `least` and at most `most`, for the roles from `first` on; a single
- * name stands for the first two. Names with commas are quoted as in RFC 4180. option names the field of the options,
+ * name gives the first two. Names with commas are quoted as in RFC 4180. option names the field of the options,
  * borrowed. DYD_E_ARG when the text is not of this form; DYD_E_NOMEM. */
 dyd_status dyd_csv_ask(dyd_csv *csv, int first, size_t least, size_t most, const char *text, const char *option,
                        dyd_error *err);
-/* Reads the header. It tells the delimiter if this is NULL; "blank": runs of blanks. Lines of # or % before it that do
- * not have the columns are skipped; so is a line such as "sep=;", which tells the delimiter, too. degrees: columns
+/* Reads the header. NULL takes the delimiter from it; "blank": runs of blanks. Lines of # or % before it that do
+ * not have the columns are skipped; so is a line such as "sep=;", which sets the delimiter, too. degrees: columns
  * called latitude and longitude, in this order, are an error. Called once, after the columns of x and y were asked for.
- * DYD_E_ARG when delimiter is not of its form, or columns of a file without a header are no numbers; DYD_E_PARSE when
- * the header does not have each column once. */
+ * DYD_E_ARG when delimiter is not of its form, or columns of a file without a header are not given by number;
+ * DYD_E_PARSE when the header does not have each column once. */
 dyd_status dyd_csv_open(dyd_csv *csv, const char *delimiter, bool degrees, dyd_error *err);
 void dyd_csv_clear(dyd_csv *csv);
-/* The fields of the next record, blanks around them removed; those that are not wanted are left as they are. *count is
+/* The fields of the next record, blanks around them removed; fields not requested stay as they are. *count is
  * 0 at the end, else above. Borrowed until the next call. */
 dyd_status dyd_csv_next(dyd_span field[DYD_CSV_MOST], size_t *count, dyd_csv *csv, dyd_error *err);
 /* Does the text begin with what spreadsheets write for errors, such as #N/A? */
 bool dyd_is_sheet_error(const char *text, size_t length);
-/* Where a first line looks like a header, what is to be typed for it: "; if this is ..."; else the empty text. */
+/* Where a first line looks like a header, sets out to the remedy: "; if this is ..."; else to the empty text. */
 void dyd_csv_hint(char *out, size_t size, const dyd_line *line);
 
 #endif

@@ -10,8 +10,8 @@
 #define TABLE(options) "ogr2ogr -f CSV /vsistdout/ " options " -lco GEOMETRY=AS_XY", "X,Y", NULL
 #define BYTES(text) text, sizeof(text) - 1
 
-/* What a file begins with, and what stands in its first bytes besides (NULL: anything). The first row that fits
- * counts. data: text that only tables and points files cannot be. */
+/* The beginning of a file, and another text in its first bytes (NULL: anything). The first row that fits counts. data:
+ * any text that is not a table or a points file. */
 static const struct kind_row {
   const char *begin;
   size_t length;

@@ -116,7 +116,7 @@ static bool slots_grow(dyd_places *n) {
   return true;
 }
 
-/* The item of the key that ends the text, begun at `begin`, counted once more. */
+/* The item of the key that ends the text, begun at `begin`, with its count raised by 1. */
 static dyd_status places_count(dyd_place **out, dyd_places *n, size_t begin) {
   if (!slots_grow(n) || !dyd_reserve((void **)&n->item, &n->cap, n->count + 1, sizeof *n->item)) return DYD_E_NOMEM;
   size_t length = n->used - begin;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Which rows of a file give the same place: a table of nominal coordinates, those that are written, without a radius;
+/* Which rows of a file give the same place: a table of nominal coordinates as written, without a radius;
  * or of identifiers. */
 #ifndef DYD_IO_READ_PLACES_H
 #define DYD_IO_READ_PLACES_H
@@ -34,9 +34,9 @@ typedef struct dyd_places {
 } dyd_places;
 
 void dyd_places_clear(dyd_places *n);
-/* The place of the two coordinates, counted once more; *out is borrowed until the next call. Equal exact numbers (the
- * middle of an interval, a value without its radius) are equal however they are written; other expressions are when
- * their texts are equal. A new place has count 1. DYD_E_NOMEM. */
+/* Finds the place of the two coordinates and raises its count; *out is borrowed until the next call. Equal exact
+ * numbers (the middle of an interval, a value without its radius) are equal however they are written; other expressions
+ * are when their texts are equal. A new place has count 1. DYD_E_NOMEM. */
 dyd_status dyd_places_find(dyd_place **out, dyd_places *n, const dyd_span span[2]);
 /* The same of an identifier, in a table of identifiers. */
 dyd_status dyd_places_find_id(dyd_place **out, dyd_places *n, const dyd_span *id);

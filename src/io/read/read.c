@@ -63,7 +63,7 @@ typedef struct intake {
   dyd_read_report report;
   dyd_style style;
   int roles;                 /* numbers that rows have are in columns of smaller roles */
-  const dyd_file_kind *kind; /* of a cell that is no coordinate; NULL: none */
+  const dyd_file_kind *kind; /* of a cell that is not a coordinate; NULL: none */
   bool numbers;              /* points have numbers beside their rectangles */
   char *label;               /* identifier and carried texts of the present row, a NUL between two */
   size_t label_length, label_cap;
@@ -118,7 +118,7 @@ static double radius_of_both(double a, double b) {
   return m > 0 ? nextafter(m * sqrt(1 + n / m * (n / m)) * (1 + 0x1p-50), INFINITY) : 0;
 }
 
-/* Each row with columns of radii has its own: what they say is added to the radius of all points, or kept. */
+/* Each row with columns of radii has its own: its value is added to the radius of all points, or kept. */
 static dyd_status intake_radius(intake *in, int axis, const dyd_span *span, dyd_error *err) {
   mpq_t own;
   bool ground = false;
@@ -395,7 +395,7 @@ static dyd_status intake_see(intake *in, dyd_place *id, const dyd_span span[DYD_
   return DYD_OK;
 }
 
-/* The identifier of the present row, counted once more; NULL: it has none. */
+/* Finds the identifier of the present row and raises its count; NULL: it has none. */
 static dyd_status intake_id(dyd_place **out, intake *in, const dyd_span *id, dyd_error *err) {
   *out = NULL;
   return !id->length || dyd_places_find_id(out, &in->ids, id) == DYD_OK ? DYD_OK : dyd_fail_nomem(err);
@@ -653,7 +653,7 @@ static dyd_status intake_commit(dyd_engine *e, intake *in, dyd_error *err) {
 
 /* ---- files and texts ---- */
 
-/* Behind what is wrong with the first line, where that may be a header. */
+/* Appends a remedy to the error of the first line, where that may be a header. */
 static dyd_status hint_header(dyd_status st, const dyd_line *line, const intake *in, dyd_error *err) {
   size_t length = strlen(err->message);
   if (st == DYD_E_PARSE && in->report.rows <= 1 && !in->stage.count)

@@ -56,7 +56,7 @@ static bool stage_make_room(dyd_stage *s) {
   return k || dyd_reserve((void **)&s->piece[0], &s->first_cap, s->count + 1, sizeof **s->piece);
 }
 
-/* DOUBLE stands for BINARY, too, but beside a PLAIN coordinate. */
+/* BINARY counts as DOUBLE, unless the other coordinate is PLAIN. */
 static dyd_coordinate_kind staged_kind(dyd_coordinate_kind a, dyd_coordinate_kind b) {
   if (a == DYD_COORDINATE_BINARY && b != DYD_COORDINATE_PLAIN) a = DYD_COORDINATE_DOUBLE;
   if (b == DYD_COORDINATE_BINARY && a != DYD_COORDINATE_PLAIN) b = DYD_COORDINATE_DOUBLE;
@@ -165,7 +165,7 @@ static const dyd_staged *staged_if(const dyd_stage *s, size_t k, dyd_coordinate_
   return p && p->kind == (int16_t)kind ? p : NULL;
 }
 
-/* The points from `first` on that are of the given kind, at most BULK; *count tells how many were added. */
+/* The points from `first` on that are of the given kind, at most BULK; *count: the number added. */
 static dyd_status commit_points(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
   const dyd_staged *p;
   double x[BULK], y[BULK];

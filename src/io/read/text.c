@@ -186,7 +186,7 @@ dyd_status dyd_span_fail(dyd_error *err, const dyd_span *span, size_t offset, co
   return dyd_fail(err, DYD_E_PARSE, "%s", message);
 }
 
-/* Reads one more block behind what is there. */
+/* Reads one more block after the present text. */
 static dyd_status text_fill(dyd_text *t, dyd_error *err) {
   if (t->start) memmove(t->buffer, t->buffer + t->start, t->end - t->start);
   t->end -= t->start;
@@ -211,7 +211,7 @@ dyd_status dyd_text_init_copy(dyd_text *t, const char *text, size_t length) {
   return DYD_OK;
 }
 
-/* What the first block shows: a format that is no text, and CR alone at the ends of lines. */
+/* What the first block shows: a format that is not text, and CR alone at the ends of lines. */
 static dyd_status text_begin(dyd_text *t, dyd_error *err) {
   dyd_status st = t->end == t->start && !t->ended ? text_fill(t, err) : DYD_OK;
   if (st != DYD_OK) return st;
@@ -223,7 +223,7 @@ static dyd_status text_begin(dyd_text *t, dyd_error *err) {
   return t->kind ? dyd_kind_fail(err, t->kind) : DYD_OK;
 }
 
-/* Finds the line end in what is read, reading on as needed; *length is up to it or to the end of the file. */
+/* Finds the line end in the buffer, reading on as needed; *length is up to it or to the end of the file. */
 static dyd_status text_find_end(size_t *length, bool *newline, dyd_text *t, dyd_error *err) {
   for (size_t seen = 0;;) {
     size_t have = t->end - t->start;

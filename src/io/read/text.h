@@ -30,14 +30,14 @@ typedef struct dyd_text {
   char *recode;
 } dyd_text;
 
-/* text = NULL stands for the end of the file. Borrowed until the next call of dyd_text_next. */
+/* text = NULL means the end of the file. Borrowed until the next call of dyd_text_next. */
 typedef struct dyd_line {
   const char *text;
   size_t length; /* without the line end (LF, CRLF or CR) */
   size_t number; /* from 1 */
 } dyd_line;
 
-/* A piece of a record, with what is needed to tell where it stands.
+/* A piece of a record, with the data that gives its line and column.
  * Invariant: origin <= at, both in the same buffer. */
 typedef struct dyd_span {
   const char *text; /* the characters, possibly unquoted into another buffer */

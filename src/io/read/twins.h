@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Rows that give one point: what they say together. */
+/* Rows that give one point, joined. */
 #ifndef DYD_IO_READ_TWINS_H
 #define DYD_IO_READ_TWINS_H
 
@@ -7,7 +7,7 @@
 #include <gmp.h>
 
 /* What a row says of its point: exact ends of x and y, standard deviations of normal errors in x and y besides, and the
- * radius that is kept beside the rectangle. Initialise by dyd_twin_init. */
+ * radius kept next to the rectangle. Initialise by dyd_twin_init. */
 typedef struct dyd_twin {
   mpq_t lo[2], hi[2];
   double sigma[2], kept;
