@@ -12,16 +12,16 @@
  *   Let S be the points within E of the hull of R_k and p_k: convex; a triangle is met iff its disc holds a y of S. On
  * a line from inside of it to y the power of y about the discs crossed does not grow (it is affine and the same on the
  * common edge, and each disc is empty), so all of them hold y. If y is in the hull, the line ends in a triangle that
- * holds y, and those that the segment from p_k to y touches hold points of S and hang together. Else the line ends at a
- * hull edge that y is strictly beyond. So does the segment from p_k to y, at a triangle that holds a point of S; the
- * hull edges that y is strictly beyond follow upon each other, and their ghost triangles are met. []
+ * holds y, and the triangles that the segment from p_k to y touches hold points of S and are connected. Else the line
+ * ends at a hull edge that y is strictly beyond. So does the segment from p_k to y, at a triangle that holds a point of
+ * S; the hull edges that y is strictly beyond follow upon each other, and their ghost triangles are met. []
  *
  * Rounding, u = 2^-53. o, the centre seen from vertex a: with d >= 2^-100 and d >= 2^-20 q, q = 2(|bx cy| + |by cx|),
  * d has an error <= 4.1 u q <= 2^-30.9 d, each numerator one <= 7.1 u of its two terms, so o is off by at most e =
  * 2^-28 (Mx + My), M the terms over d (underflow: <= 2^-900 below e, as Mx + My >= r >= 2^-52). Ends of the box seen
  * from a are off by u times (distance + |o|). Distance ds and radius r = |o| have fewer than 10 factors 1+u. So ds >=
  * 1.001 (r + E) + 4e leaves room for all. Half-plane: every corner on the inner side, by E |ab| (1 + 2^-20) + 2^-48 of
- * the two terms (4.1 u) + 2^-900. What is not sure, infinite or NaN counts as met. */
+ * the two terms (4.1 u) + 2^-900. An uncertain result, infinite or NaN counts as met. */
 #include "legal/star_filter.h"
 
 #include "base/alloc.h"

@@ -64,8 +64,8 @@ dyd_status dyd_mark_tasks_settle(dyd_mark_tasks *tasks, bool certain) {
   return st;
 }
 
-/* The first pass over the edges of thin rectangles: most are certain by the two triangles beside them [WIT-NEAR]. Those
- * whose triangles a fat one meets are left to the next pass [WIT-FAT].
+/* The first pass over the edges of thin rectangles: most are certain by the two triangles next to them [WIT-NEAR].
+ * Those whose triangles a fat one meets are left to the next pass [WIT-FAT].
  *
  * The distance m to the nearest representatives is first bounded for all vertices at once: `most` for vertices that
  * have no shorter skeleton edge (found by one pass over the edges), the least edge of all for the others. */
@@ -208,8 +208,8 @@ static double star_radius(const dyd_skeleton *sk, uint32_t v) {
   return sqrt(dyd_dl2_upper(&c, &sk->rects.box[v])) * DYD_UP_FACTOR + DYD_TINY;
 }
 
-/* Four times the median radius of a sample, or more while nearly all edges are long beside it: whoever is larger counts
- * as fat. */
+/* Four times the median radius of a sample, or more while nearly all edges are long compared with it: a larger
+ * rectangle counts as fat. */
 static double ordinary_radius(const pass *p) {
   const dyd_skeleton *sk = p->sk;
   double sample[256];
@@ -306,7 +306,7 @@ static bool others_farther(const star *s, int q, dyd_xy c, double limit) {
   return near == self + (s->ghost >= 0);
 }
 
-/* Neighbours that share a triangle may be in different tasks. Nobody reads these marks before all are made. */
+/* Neighbours that share a triangle may be in different tasks. No task reads these marks before all are made. */
 static void star_mark(dyd_skeleton *sk, dyd_half_edge h) {
   (void)__atomic_fetch_or(&sk->certain[dyd_edge_triangle(h)], (uint8_t)(1u << dyd_edge_corner(h)), __ATOMIC_RELAXED);
 }

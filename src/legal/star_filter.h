@@ -14,7 +14,7 @@
  * An edge is marked in both its triangles. A task has a range of triangles and marks edges inside of it at once; edges
  * that reach into another range wait in a list until all tasks are done. */
 
-/* One task: its triangles, what it works with, which edges wait. */
+/* One task: its triangles, its scratch, the edges that wait. */
 typedef struct dyd_marks {
   uint32_t first, end;
   dyd_half_edge *edge;
@@ -44,7 +44,7 @@ dyd_status dyd_mark_tasks_settle(dyd_mark_tasks *tasks, bool certain);
 /* Marks the edges whose first guess is proved a witness, and vertices that are surely on the hull [FLT-STAR]. */
 dyd_status dyd_certify_stars(dyd_skeleton *sk, dyd_work *w);
 
-/* Certifying an edge in doubles from the two triangles beside it alone.
+/* Certifying an edge in doubles from its two triangles alone.
  *
  * Let every site lie within E of its representative p_k, ij a skeleton edge with triangles iju (left) and jiv (right)
  * of empty circles (c1,r1), (c2,r2), |ij| = 2h, m <= the distances of p_i and p_j to their nearest representatives
@@ -66,7 +66,7 @@ dyd_status dyd_certify_stars(dyd_skeleton *sk, dyd_work *w);
  * lw a2 < m det a1 and 24.25 E lv lz a1 < m det a2;   48.5 E sqrt(lu lw) < m a1.
  *
  * Rounding, u = 2^-53: a has an absolute error <= 4.01 u (|jx uy| + |jy ux|) <= 2.1 u (lj + lu), det one <= 4.5e-16 s^2
- * [FLT-INC]; both are moved to the safe side. What is left are fewer than 40 factors 1+u: 24.3 for 24.25 and 48.6
+ * [FLT-INC]; both are moved to the safe side. Fewer than 40 factors 1+u remain: 24.3 for 24.25 and 48.6
  * for 48.5 have room. Nothing underflows: a >= 2^-100 and squares <= 2^100 make squares >= 2^-300, det >= 2^-300, E >=
  * 2^-300. NaN (the ghost) fails. */
 
@@ -95,11 +95,11 @@ static inline bool dyd_filter_hull_edge_near(dyd_xy i, dyd_xy j, dyd_xy u, doubl
 }
 
 /* The length below which a two-hundredth of the edges are, by a sample: clusters count by their vertices, not by their
- * width. A guess, for limits that may be any; 0 where there are no edges. */
+ * width. A guess, for limits that may be any; 0 without edges. */
 double dyd_short_edge(const dyd_mesh *m);
-/* The first quick pass, for representatives that are doubles and sites within `reach` of them: marks the edges that the
- * two triangles beside them prove legal. met (NULL: no site is farther): of dyd_fat_meet for those that are. most: the
- * distance tried first, any, best dyd_short_edge. */
+/* The first quick pass, for representatives that are doubles and sites within `reach` of them: marks the edges that
+ * their two triangles prove legal. met (NULL: no site is farther): from dyd_fat_meet for sites that are farther. most:
+ * the distance tried first, any, best dyd_short_edge. */
 dyd_status dyd_certify_near(dyd_skeleton *sk, dyd_work *w, double reach, const uint32_t *met, double most);
 
 /* Which triangles a few large rectangles can spoil for the first pass [WIT-FAT]. *met, released with free(): a number

@@ -24,7 +24,7 @@
 
 enum { MAX_RIVALS = 12, LEAST_STEPS = 48, MAX_STEPS = 400, STEP_BITS = 1 << 17, SNAP_STEPS = 8 };
 
-/* Invariant: `rivals` counts those seen so far who violate the present c; ended: there is no witness, or no room for
+/* Invariant: `rivals` counts those seen so far who violate the present c; ended: no witness exists, or no space for
  * more half-planes, or c is only asked about and violated; none: there is none, or only below the floor, for sure. */
 typedef struct search {
   const dyd_rects *rects;
@@ -108,7 +108,7 @@ static bool witness_meets(void *context, uint32_t k) {
   return !s->ended;
 }
 
-/* A rectangle that meets R_i or R_j is never outside of a disc that holds both: then there is no witness. */
+/* A rectangle that meets R_i or R_j is never outside of a disc that holds both: then no witness exists. */
 static void witness_look_at_ends(search *s) {
   const double zero = 0;
   const uint32_t own[2] = {s->i, s->j};
@@ -118,7 +118,7 @@ static void witness_look_at_ends(search *s) {
   if (s->ended) s->rivals = 1;
 }
 
-/* Who violates c? Everybody is asked through the tree; the answer is exact. */
+/* Finds the sites that violate c. All sites are tested through the tree; the result is exact. */
 static void witness_evaluate(search *s) {
   s->rivals = 0;
   s->at = dyd_point_box(&s->c);
@@ -224,7 +224,8 @@ static bool witness_is_excluded(const dyd_skeleton *sk, uint32_t i, uint32_t j, 
   return excluded;
 }
 
-/* Before a search with big numbers: is there surely none, or one between the centres of the triangles beside the edge?
+/* Before a search with big numbers: returns true if certainly none exists, or one lies between the centres of the
+ * edge's two triangles.
  */
 static bool witness_look_between(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
                                  const uint32_t across[2]) {
@@ -237,7 +238,7 @@ static bool witness_look_between(bool *found, dyd_point *c, dyd_work *w, const d
   return *found;
 }
 
-/* One search for a pair, whoever is named first. */
+/* One search for a pair in either order. */
 static void witness_order(uint32_t *i, uint32_t *j) {
   uint32_t t = *i;
   if (t <= *j) return;

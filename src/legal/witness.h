@@ -11,8 +11,8 @@
  * that bound it, else exactly), or the floor is met: every disc of witnesses has a radius below 2^-120 unit^2 / size
  * (ends of the rectangles met being multiples of unit, below size), or the exact search gave no answer in 48 + 2^17
  * / log2(size / unit) steps, at most 400, or with 1020 half-planes. across (may be NULL): two vertices on either side
- * of ij; when one circle meets all four rectangles, there is no witness, and none is looked for where doubles do not
- * tell [WIT-QUAD]. */
+ * of ij; when one circle meets all four rectangles, no witness exists, and there is no search where doubles do not
+ * decide [WIT-QUAD]. */
 dyd_status dyd_witness_search(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
                               dyd_xy guess, const uint32_t across[2]);
 /* The same with a verdict that is proved: TRUE, c is set to it; FALSE: there is none, or the floor is met, in integers

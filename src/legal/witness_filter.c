@@ -39,7 +39,7 @@ typedef struct quick {
   double size; /* of the coordinates met */
 } quick;
 
-/* Keeps the nearest ones; who is farther than all of them is not asked any more. */
+/* Keeps the nearest ones; a site farther than all of them is not tested any more. */
 static bool witness_keep_rival(void *context, uint32_t k) {
   quick *q = context;
   if (k == q->i || k == q->j) return true;
@@ -150,7 +150,7 @@ static bool witness_is_excluded_d(const quick *q, dyd_xy c, const int three[3]) 
   return dyd_iv_sign(sum) == sign;
 }
 
-/* Sets the next centre and returns TRUE; FALSE if there certainly is no witness; UNKNOWN if doubles are too coarse. */
+/* Sets the next centre and returns TRUE; FALSE if certainly no witness exists; UNKNOWN if doubles are too coarse. */
 static dyd_truth witness_move(quick *q, dyd_xy *c) {
   double scale = 0, noise = q->size * 0x1p-46;
   for (size_t k = 0; k < q->cuts; k++) scale = dyd_max(scale, fabs(q->cut[k].d));
