@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Rings of doubles on a grid: exact areas in integers, and a quick look at who is near an edge. */
+/* Rings of doubles on a grid: exact areas in integers, and a quick search for vertices near an edge. */
 #ifndef DYD_METRIC_TILES_FILTER_H
 #define DYD_METRIC_TILES_FILTER_H
 
 #include "voronoi/shape.h"
 
-/* *out = the area of a ring, rounded up. false: its coordinates are no multiples of 2^-grid of few bits. */
+/* *out = the area of a ring, rounded up. Returns false if its coordinates are not multiples of 2^-grid of few bits. */
 bool dyd_filter_grid_area(double *out, const dyd_xy *z, size_t n, int grid);
 /* The polygon of a cell by its n vertices, counter-clockwise: ring[0 .. returned) are their rounded places, repeated
  * ones dropped, for a window w of doubles; bound[] encloses the area of the true polygon. */
