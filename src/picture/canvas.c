@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Pages: paths, what all kinds share, and svg, in which text stays text and elements have names. */
+/* Pages: paths, parts common to all kinds, and svg, in which text stays text and elements have names. */
 #include "picture/canvas.h"
 #include "base/alloc.h"
 #include "base/error.h"

@@ -98,7 +98,7 @@ struct dyd_canvas {
 /* ---- canvas_cairo.c; canvas_plain.c where the library was built without it ---- */
 
 void dyd_cairo_begin(dyd_canvas *c, double width, double height);
-/* Hands over what was drawn; returns st, or the error of writing. */
+/* Finishes the page and writes it; returns st, or the error of writing. */
 dyd_status dyd_cairo_end(dyd_canvas *c, dyd_status st, dyd_error *err);
 void dyd_cairo_paint(dyd_canvas *c, const dyd_paint *p);
 void dyd_cairo_clip(dyd_canvas *c);

@@ -126,7 +126,7 @@ typedef struct dyd_site_marks {
   bool drawn[DYD_MARK_RECTANGLE + 1]; /* which marks were */
 } dyd_site_marks;
 
-/* The sites that are no duplicates and whose boxes doubles hold. */
+/* The sites that are not duplicates and whose boxes doubles hold. */
 dyd_site_marks dyd_site_marks_of(const dyd_delaunay *pd, const dyd_engine *e, unsigned rgb);
 /* All of them, with their numbers where neighbours are far enough apart. */
 void dyd_site_marks_draw(dyd_site_marks *m, dyd_canvas *c, const dyd_view *v);

@@ -45,7 +45,7 @@ dyd_status dyd_view_window(double box[4], const dyd_rect *window, dyd_error *err
   return box[0] < box[1] && box[2] < box[3] ? DYD_OK : dyd_fail(err, DYD_E_ARG, "the window has no area");
 }
 
-/* A box that is no wider than what doubles round becomes its middle: a point that is no double. */
+/* A box not wider than the rounding of doubles becomes its middle: it is a point that is not a double. */
 static void box_collapse(double box[4]) {
   double size = fmax(box[1] - box[0], box[3] - box[2]), far = 0;
   for (int k = 0; k < 4; k++) far = fmax(far, fabs(box[k]));

@@ -19,7 +19,7 @@ typedef struct voronoi_drawing {
   double window[4];
   bool cell, vertex, region; /* was drawn */
   dyd_error *err;
-  bool tiles; /* instead of what is certain */
+  bool tiles; /* instead of certain parts */
   dyd_site_marks marks;
 } voronoi_drawing;
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Makes a page of its parts, as C: what comes before the data, and what comes behind.
+"""Makes a page of its parts, as C: the text before the data, and the text after them.
 
 Usage: pack.py OUT.c PAGE.html STYLE.css SCRIPT.js...
 
-In the page {style} and {script} stand for the parts, scripts in the order given, {style-digest} and {script-digest} for
-their digests as a Content-Security-Policy names them, {data} for where data go.
+In the page {style} and {script} are replaced by the parts, scripts in the order given, {style-digest} and
+{script-digest} for their digests as a Content-Security-Policy names them, {data} for where data go.
 """
 import base64
 import hashlib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The Voronoi diagram: what is surely and what is possibly nearest to each point, as of the last stage.
+// The Voronoi diagram: certain and possible cells of the points, as of the last stage.
 
 function readPolygon({origin, unit}, list) {
   const out = new Float64Array(list.length), at = [0, 0];
@@ -32,7 +32,7 @@ function toPixels(polygon) {
   return out;
 }
 
-// Cells in light tints; what is in none of them is undetermined.
+// Cells in light tints; the area outside of all of them is undetermined.
 function drawCells(ctx, scene, shown, seen, frame) {
   if (!scene.cells.length || !isLast(scene)) return;
   if (shown.has("bands")) {
@@ -100,7 +100,7 @@ function drawVertices(ctx, scene, shown, seen, frame) {
   if (shown.has("regions")) boxes(scene.data.regions, colours.indeterminate, [4, 3], 7);
 }
 
-// The cell of a point that is marked: what is possibly, and what is surely nearest to it.
+// The cell of a marked point: its possible and its certain part.
 function drawCellMark(ctx, scene, k, frame) {
   if (!scene.cellOf.has(k) || !isLast(scene)) return;
   const {inner, outer} = scene.cells[scene.cellOf.get(k)];

@@ -231,8 +231,8 @@ function drawAxes(ctx, scene) {
   ctx.textAlign = "left";
 }
 
-// Everything; returns how many things were drawn. on: what is switched on. Where a diagram is not known, its pairs are
-// shown.
+// Draws everything; returns the number of things drawn. on: the layers switched on. Where a diagram is not known, its
+// pairs are shown.
 function drawMap(ctx, scene, on) {
   const shown = scene.cells.length && !isLast(scene) ? new Set([...on, ...STATUS]) : on;
   const seen = viewBox(), frame = [plot.left - 20, plot.right + 20, plot.top - 20, plot.bottom + 20];
@@ -253,7 +253,7 @@ function drawMap(ctx, scene, on) {
   return points.length + order.reduce((sum, s) => sum + pairs[s].length, 0);
 }
 
-// What is marked: a point and its partners, over the map.
+// Draws the marked point and its partners, over the map.
 function drawMark(ctx, scene, k, shown) {
   const frame = [plot.left - 20, plot.right + 20, plot.top - 20, plot.bottom + 20], own = partners(scene, k);
   ctx.save();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A grid over the plane: what may be seen in a part of it, without looking at the rest.
+// A grid over the plane: finds the things visible in a part of it, without a search of the rest.
 
-// boxOf(k, out) gives the box of thing k. Things across many squares are kept apart, and looked at each time. The squares
-// are filled when a part of the plane is first looked at.
+// boxOf(k, out) gives the box of thing k. Things across many squares are kept apart, and tested each time. The squares are
+// filled when a part of the plane is first visible.
 function makeGrid(count, boxOf) {
   const box = new Float64Array(4 * count), all = [Infinity, -Infinity, Infinity, -Infinity], out = [0, 0, 0, 0];
   for (let k = 0; k < count; k++) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The page: what is seen, and what the hand does to it.
+// The page: the view, and its control by mouse, touch and keys.
 
 let scene = null, shown = new Set(), all = [0, 1, 0, 1];
 let hovered = null, kept = null;               // points
@@ -229,7 +229,7 @@ function hover(k) {
   drawMarks();
 }
 
-const pointers = new Map(); // those that are down: where they are
+const pointers = new Map(); // pressed pointers: their places
 let travelled = 0;
 
 function pointerDown(event) {
@@ -331,7 +331,7 @@ function listen() {
 
 // ---- the beginning ----
 
-// What is to be seen at first: the window, or all points.
+// The first view: the window, or all points.
 function wholeBox() {
   if (scene.data.window) return scene.data.window.map(toDouble);
   const out = [Infinity, -Infinity, Infinity, -Infinity];

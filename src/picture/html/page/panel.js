@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The panel beside the map: stages, what is shown, the point that is looked at.
+// The panel next to the map: stages, layers, the point selected.
 
 const $ = (id) => document.getElementById(id);
 
@@ -156,7 +156,7 @@ function showRow(row) {
 
 // ---- a point ----
 
-// A decimal of so many digits, not above (below) v.
+// A decimal of the given number of digits, not above (below) v.
 function directed(v, digits, up) {
   const near = Number(v.toPrecision(digits));
   if (up ? near >= v : near <= v) return String(near);

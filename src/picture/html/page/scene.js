@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What is known of points and pairs, as of the stage that is looked at.
+// Facts about points and pairs, as of the stage shown.
 
 // Boxes are x lower, x upper, y lower, y upper, point after point. status[p], since[p]: of pair p at this stage, and the
 // stage from which on it is so. end: of pairs of each point, one list behind the other (first[n] .. first[n + 1]).
@@ -47,7 +47,7 @@ function partnersByPoint({n, ends}) {
   return {first, own};
 }
 
-// Goes to a stage, from 1 to scene.stages.length; the last one shows what was reached in the end.
+// Goes to a stage, from 1 to scene.stages.length; the last one shows the final result.
 function setStage(scene, stage) {
   if (stage < scene.stage) {
     scene.stage = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A sphere: degrees as a map, sides along great circles. What goes beyond the meridian of 180 degrees comes in again at the
-// other side.
+// A sphere: degrees as a map, sides along great circles. Lines beyond the meridian of 180 degrees continue at the other
+// side.
 
 const STEP = 2;          // degrees between places that are joined by straight lines
 const MAP = [-180, 180]; // of longitudes
@@ -10,7 +10,7 @@ const inSpace = (lon, lat) => [Math.cos(radians(lat)) * Math.cos(radians(lon)), 
 const turns = (from, to) => 360 * Math.round((from - to) / 360); // that bring one longitude next to the other
 
 // Appends the way from the last place of `line` to lon, lat, the shorter one; longitudes run on beyond 180 degrees. A pole
-// is left, and come to, along the side of the map that stands for it.
+// is left, and reached, along the side of the map that represents it.
 function goAlong(line, lon, lat) {
   if (Math.abs(line[line.length - 1]) === 90) line.push(lon + turns(line[line.length - 2], lon), line[line.length - 1]);
   const lon0 = line[line.length - 2], lat0 = line[line.length - 1], a = inSpace(lon0, lat0), b = inSpace(lon, lat);
@@ -42,7 +42,7 @@ function spanOf(line, out) {
   if (out[0] < MAP[0] || out[1] > MAP[1]) [out[0], out[1]] = MAP;
 }
 
-// Ways of pairs and triangles; a triangle no smaller than half of the sphere is left out: it has its corners' other side.
+// Ways of pairs and triangles; a triangle no smaller than half of the sphere is omitted: it lies on the other side of its corners.
 function makeWays(scene) {
   const {ends, triangles} = scene, pairs = [], rings = [];
   for (let p = 0; p < scene.pairs; p++) pairs.push(wayAlong(scene, [ends[2 * p], ends[2 * p + 1]], false));
@@ -54,7 +54,7 @@ function makeWays(scene) {
   scene.ways = {pairs, rings};
 }
 
-// What is left of the frame on the map.
+// The part of the frame on the map.
 const mapFrame = (frame) => [Math.max(frame[0], toX(MAP[0])), Math.min(frame[1], toX(MAP[1])), frame[2], frame[3]];
 
 // Calls visit(shift) for each whole turn at which some of a way is on the map.

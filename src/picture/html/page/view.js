@@ -24,7 +24,7 @@ function limitScale(all) {
   view.scale = Math.min(Math.max(view.scale, 20 / wide), 1 / ulp);
 }
 
-// What is at px, py stays there.
+// The place at px, py stays there.
 function zoomAt(px, py, factor, all) {
   const x = fromX(px), y = fromY(py);
   view.scale *= factor;
