@@ -7,7 +7,7 @@
  * c towards the farther rectangle keeps the inequality. Each other k blocks the open part of beta where dl_k < ds_i,
  * one interval or two rays; its finite ends are critical circles closest-closest-farthest of (i, j, k). A k that meets
  * R_i or R_j never blocks: a common point is no nearer than ds. The walk starts at t = -inf. If no vertex blocks
- * the place, the pair is possible. Else the walk goes on to the far end of the blocker's interval; if there is none,
+ * the place, the pair is possible. Else the walk continues to the far end of the blocker's interval; if there is none,
  * beta is covered, the pair is illegal [COV-1]. */
 #include "possible/cover.h"
 

@@ -190,7 +190,7 @@ static bool beta_surely_blocked(const dyd_beta *q, const uint32_t *k, int count,
 /* MOST_LINKS: of a chain, to each side. BISECTIONS, DOUBLINGS: steps of a search for an end. */
 enum { MOST_LINKS = 48, MAX_RIVALS = 48, BISECTIONS = 40, DOUBLINGS = 40, JOINTS = 5 };
 
-/* Ends are found up to so much of the distance; chains are joined, and go on, beside them. */
+/* Ends are found up to this fraction of the distance; chains are joined, and continue, within it. */
 #define BESIDE 0x1p-22
 
 /* rival: neighbours of i and j in the skeleton, once gathered. */

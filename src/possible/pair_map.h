@@ -35,7 +35,8 @@ void dyd_pair_map_clear(dyd_pair_map *m);
 dyd_pair_state dyd_pair_map_get(const dyd_pair_map *m, uint32_t a, uint32_t b);
 /* Sets the state of a pair that has none yet; possible pairs are linked. */
 dyd_status dyd_pair_map_add(dyd_pair_map *m, uint32_t a, uint32_t b, dyd_pair_state state);
-/* Is there no room left for one more pair? Then bytes are what it will hold at most while it grows, both tables. */
+/* Returns true if one more pair does not fit; dyd_pair_map_bytes then returns the peak while it grows, with both
+ * tables. */
 bool dyd_pair_map_is_full(const dyd_pair_map *m);
 uint64_t dyd_pair_map_bytes(const dyd_pair_map *m);
 static inline bool dyd_pair_is_possible(dyd_pair_state s) {

@@ -106,11 +106,11 @@ bool dyd_surely_not_displaced(const dyd_skeleton *sk, uint32_t i, uint32_t j, ui
   return (int)dyd_filter_incircle(box[i].e, box[j].e, box[k].e, box[l].e) == -(int)turn;
 }
 
-/* Lists up to SHORT are looked at pair by pair, longer ones when cutting makes them no shorter, and pairs of lists up
+/* Lists up to SHORT are examined pair by pair, longer ones when cutting makes them no shorter, and pairs of lists up
  * to LONG are noted. DEEP: how often a patch is cut for the pairs noted in the last pass. COARSE: a patch is, while so
  * many times more may be nearest somewhere in it than at its centre; not those cut more than
  * FINE times: ties. NARROW: strips cut so often stay coarse, near as they are at one end. WALK:
- * what it costs to decide one pair by itself, in looks at a rectangle; WORK: most of them for each site and each pair
+ * the cost of deciding one pair alone, in tests of a rectangle; WORK: most of them for each site and each pair
  * found. */
 enum {
   SHORT = 48,
@@ -295,7 +295,7 @@ static void find_wanted(plane *p, const patch *q) {
 }
 
 /* Writes the rivals of the parent's list, and its members with open pairs that are not dominated, behind all lists, and
- * makes that q's list. place[] tells where the latter have gone. Returns how many they are. */
+ * makes that q's list. place[]: the new places of the latter. Returns how many they are. */
 static size_t make_list(plane *p, patch *q) {
   dyd_plane_corner v[4];
   dominator best[DOMINATORS];
@@ -325,7 +325,7 @@ static bool is_open(const plane *p, const entry *a, const entry *b) {
 }
 
 /* near[k]: the k-th of the list is surely possibly nearest at the centre of the patch. All of them are possible
- * neighbours of one another. Much longer lists mean that the patch is coarse beside what is open in it, be that by far
+ * neighbours of one another. Much longer lists mean that the patch is coarse for its open pairs, be that by far
  * outliers, by distance or by density. */
 static void patches_try_centre(plane *p, patch *q) {
   const dyd_rects *r = p->c->rects;
@@ -368,7 +368,7 @@ static dyd_status consider_wishes(plane *p, patch *q) {
   return st;
 }
 
-/* All pairs of the list; if it is not too long, those that stay open are noted. */
+/* All pairs of the list; if it is not too long, the pairs that stay open are noted. */
 static dyd_status consider_all(plane *p, patch *q) {
   dyd_status st = DYD_OK;
   q->listed = q->count <= LONG;
@@ -378,13 +378,13 @@ static dyd_status consider_all(plane *p, patch *q) {
   return st;
 }
 
-/* Has the search become hopeless: too much work for what it shows? */
+/* Returns true if the search does too much work for the pairs it finds. */
 static bool is_lost(plane *p) {
   p->lost = p->lost || p->work > WORK * ((size_t)p->c->rects->tree.count + p->found);
   return p->lost;
 }
 
-/* Cutting shows no more: in the last pass, each pair that is still open is decided by itself. */
+/* Cutting shows no more: in the last pass, each pair that is still open is decided alone. */
 static dyd_status leave(plane *p, const patch *q) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < q->wishes && p->last && st == DYD_OK && !p->enough && !is_lost(p); k++) {

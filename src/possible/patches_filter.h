@@ -12,9 +12,9 @@
 #include "skeleton/reps.h"
 #include "skeleton/work.h"
 
-/* The members' vertices, ascending; the map of pairs, in which only pairs without a state are asked for; found gives a
- * pair its state that is shown to be possible, decide gives it to one of which patches do not tell enough; both set
- * *enough to end the search. All borrowed. */
+/* The members' vertices, ascending; the map of pairs, in which only pairs without a state are looked up; found sets the
+ * state of a pair shown to be possible, decide sets that of a pair for which patches do not suffice; both set *enough
+ * to end the search. All borrowed. */
 typedef struct dyd_patches {
   const dyd_rects *rects;
   const volatile int *cancel;
