@@ -392,10 +392,10 @@ static bool solve_circle(dyd_centre *out, const dyd_feature *f, const dyd_featur
 /* All critical circles of three integer rectangles.
  *
  * [CRIT-1] A circle that meets r[m] as touch[m] says has its centre in some pane of predicate/pane.h, where its three
- * features are known; a C-rectangle around the centre has ds = 0, which is no circle. Conversely a centre in a closed
- * pane, found from the features of that pane, has exactly these features at distance ds or dl. So the circles are the
- * solutions of predicate/circle.c, pane by pane, whose centre is in the pane. Some rectangle is F, hence some corner is
- * on the circle. */
+ * features are known; a C-rectangle around the centre has ds = 0, which is not a circle. Conversely a centre in a
+ * closed pane, found from the features of that pane, has exactly these features at distance ds or dl. So the circles
+ * are the solutions of predicate/circle.c, pane by pane, whose centre is in the pane. Some rectangle is F, hence some
+ * corner is on the circle. */
 
 /* Everything one call needs, allocated once. */
 typedef struct search {

@@ -40,7 +40,7 @@ void dyd_icircle_clear(dyd_icircle *k);
 void dyd_icircle_swap(dyd_icircle *k, dyd_icircle *l);
 
 /* Every circle that meets r[m] as touch[m] says (closest: ds = radius; farthest: dl = radius), m = 0, 1, 2;
- * at least one farthest, at least one closest. Radius 0 is no circle. Where two features coincide there may be a
+ * at least one farthest, at least one closest. Radius 0 is not a circle. Where two features coincide there may be a
  * continuum of circles, of which only isolated ones are found; there is none for disjoint C-rectangles that are
  * disjoint from the F-rectangles. At most `room` are stored in out (initialised by the caller), without repeats;
  * the search stops there. Returns how many are stored; room = 4 always suffices [CRIT-1], and room = 1 is fastest

@@ -14,7 +14,7 @@
  * fixed q and r it is linear in p with normal (q_y - r_y, r_x - q_x): the signs of these tell the extreme corner of p,
  * and 16 corner choices of q and r remain.
  * [CON-1] With the six critical circles of a surely oriented triple, + iff the three F-once circles enclose r, - iff
- * the three F-twice circles keep away from r. One in-circle sign tells which of the two is left to test. */
+ * the three F-twice circles keep away from r. One in-circle sign decides which of the two remains to be tested. */
 
 /* The value of `sign` * det(p,q,r) least over p in a is positive.  */
 static bool corners_turn(const dyd_irect *a, mpz_srcptr qx, mpz_srcptr qy, mpz_srcptr rx, mpz_srcptr ry, int sign,

@@ -2,7 +2,7 @@
 /* Predicates in doubles on boxes: proved answers, or none.
  *
  * A box is {x lower, x upper, y lower, y upper}, a superset of a rectangle (rounded outward; infinite ends allowed).
- * What holds for every choice in the boxes holds in the rectangles. Claims that some choice exists need exact boxes,
+ * A statement for every choice in the boxes holds in the rectangles. Claims that some choice exists need exact boxes,
  * that is boxes equal to their rectangles. All bounds come from predicate/interval_filter.h; an overflow or an infinite
  * end makes the answer "not known". */
 #ifndef DYD_PREDICATE_PREDICATE_FILTER_H
