@@ -26,7 +26,7 @@ static inline mpz_srcptr dyd_irect_end(const dyd_irect *r, int axis, int upper) 
 /* Scales in[0..n-1] by one common factor F = scale_man * 2^scale_exp > 0 into out[0..n-1] (initialised by the
  * caller). scale_man, scale_exp may be NULL. Exact, cannot fail. */
 void dyd_irects_scale(dyd_irect *out, const dyd_rect *const *in, size_t n, mpz_ptr scale_man, int64_t *scale_exp);
-/* The same with a dyadic point c beside the rectangles: (cx, cy) = F c. */
+/* The same with a dyadic point c and the rectangles: (cx, cy) = F c. */
 void dyd_irects_scale_point(mpz_ptr cx, mpz_ptr cy, dyd_irect *out, const dyd_point *c, const dyd_rect *const *in,
                             size_t n);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The table of sites: outward doubles in arrays, exact rectangles packed beside them where needed. */
+/* The table of sites: outward doubles in arrays, with packed exact rectangles where needed. */
 #include "base/alloc.h"
 #include "rect/columns_filter.h"
 #include "rect/rect.h"
@@ -81,7 +81,7 @@ static void words_get_d(double *lo, double *hi, const dyd_words *w) {
   *hi = w->man < 0 ? -below : above;
 }
 
-/* Room for n further points: at once for as many as sites find room. */
+/* Makes space for n further points: at once for the capacity of the table. */
 static dyd_status words_make_room(dyd_sites *s, size_t n) {
   if (!s->word && !(s->word = calloc(s->cap, sizeof *s->word))) return DYD_E_NOMEM;
   if (n <= s->point_cap - s->points) return DYD_OK;

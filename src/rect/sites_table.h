@@ -34,8 +34,8 @@ typedef struct dyd_word_point {
 
 /* Invariant: upper[a] = NULL means that every site is an exact double point (lower and upper ends are the same array);
  * exact[i] or word[i] that are not 0 (where the arrays are not NULL, and never both) mean that its doubles do not hold
- * the rectangle of site i: it is *exact[i], or the point point[word[i] - 1], for ever. Infinite doubles stand for the
- * whole plane, of a site that is unknown yet: the square whose ends are the largest dyadics of 64 bits. */
+ * the rectangle of site i: it is *exact[i], or the point point[word[i] - 1], for ever. Infinite doubles mean the whole
+ * plane, of a site that is unknown yet: the square whose ends are the largest dyadics of 64 bits. */
 struct dyd_sites {
   size_t count, cap;
   double *lower[2]; /* x, y; rounded down */
@@ -60,14 +60,14 @@ bool dyd_sites_get_words(dyd_words end[4], const dyd_sites *s, size_t i);
 /* As dyd_sites_narrow, for the rectangle [box[0],box[1]] x [box[2],box[3]] of finite doubles, without -0. */
 dyd_status dyd_sites_narrow_d(dyd_sites *s, size_t i, const double box[4]);
 
-/* What is known of a site beside its rectangle. GIVEN: it was added as an exact one, and not narrowed since, so nothing
- * but who made it rounded its ends. Of sites that can be narrowed, BARE: it encloses one place, with no radius about
- * it; ROUND: all within one radius of a place, as [DISC-4] has it. */
+/* Facts about a site besides its rectangle. GIVEN: it was added as an exact one, and not narrowed since, so that only
+ * its maker rounded its ends. Of sites that can be narrowed, BARE: it encloses one place, with no radius about it;
+ * ROUND: all within one radius of a place, as [DISC-4] has it. */
 typedef enum dyd_site_kind { DYD_SITE_ANY, DYD_SITE_GIVEN, DYD_SITE_BARE, DYD_SITE_ROUND } dyd_site_kind;
 static inline dyd_site_kind dyd_sites_kind(const dyd_sites *s, size_t i) {
   return i < s->kind_count ? (dyd_site_kind)s->kind[i] : DYD_SITE_ANY;
 }
-/* Of n sites from i on, which there are. DYD_E_NOMEM. */
+/* Sets the kind of n existing sites from i on. DYD_E_NOMEM. */
 dyd_status dyd_sites_set_kind(dyd_sites *s, size_t i, size_t n, dyd_site_kind kind);
 /* Appends n sites of this kind that hold the whole plane; none on failure. */
 dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n, dyd_site_kind kind);
