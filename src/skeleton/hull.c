@@ -122,7 +122,7 @@ static bool arc_examine(void *context, uint32_t k) {
   return t->own[1] == t->own[0] || !arc_examine_one(t, k, 1);
 }
 
-/* A height that whoever compares with own vertex q reaches. */
+/* A height reached by every site comparable with own vertex q. */
 static double arc_own_height(const arcs *t, int q, const double u[2]) {
   dyd_bbox point = t->w->rects->box[t->own[q]];
   if (!t->outward) { /* min over the rectangle instead of max: the opposite corner */
@@ -177,7 +177,7 @@ static bool hull_is_inside(arcs *t, const vec *a, const vec *b, const vec *u) {
 }
 
 /* Intersects the open arc (lo, hi) with the arc found; false if nothing is left. The beginning of the one must lie in
- * the other, its end left out, and so with the ends. */
+ * the other, its end excluded, and so with the ends. */
 static bool hull_narrow(arcs *t, vec *lo, vec *hi) {
   bool from_in = hull_is_inside(t, lo, hi, &t->from), to_in = hull_is_inside(t, lo, hi, &t->to);
   bool lo_in = hull_is_inside(t, &t->from, &t->to, lo) || hull_same_direction(t, lo, &t->from);

@@ -72,7 +72,7 @@ static int line_axis(const entry *e, uint32_t count) {
   return 1;
 }
 
-/* Sorted by lower end. hull(R_q u R_q+1) is free of others iff nobody before reaches R_q's lower end and nobody after
+/* Sorted by lower end. hull(R_q u R_q+1) is free of others iff no site before reaches R_q's lower end and no site after
  * starts at or before the larger upper end. */
 static void line_find_legal(dyd_line *l, const entry *e) {
   uint32_t reach = 0; /* the entry with the largest upper end among 0 .. q-1 */
@@ -85,8 +85,8 @@ static void line_find_legal(dyd_line *l, const entry *e) {
   }
 }
 
-/* The first is surely an end iff it lies before the second, which has the lowest end of the others; the last iff nobody
- * reaches it. Two sites need not be on a line: both are ends when they are apart. */
+/* The first is surely an end iff it lies before the second, which has the lowest end of the others; the last iff no
+ * site reaches it. Two sites need not be on a line: both are ends when they are apart. */
 static void line_find_ends(dyd_line *l, const entry *e) {
   uint32_t last = l->count - 1, reach = 0;
   if (l->count == 0) return;

@@ -5,10 +5,9 @@
  * ghost triangle beyond it, whose third vertex is the ghost (number n). There are 2 n - 2 triangles for n inserted
  * vertices.
  *
- * The vertices of a large mesh come in strips, each left of the next: every strip is triangulated by itself, in any
- * thread, and neighbours are joined. A mesh that is a part of another works on the vertices begin .. end - 1
- * and on the triangles from 2 begin on of an array that it shares; names of vertices and the ghost are those of the
- * whole.
+ * The vertices of a large mesh come in strips, each left of the next: every strip is triangulated separately, in any
+ * thread, and neighbours are joined. A mesh that is a part of another works on the vertices begin .. end - 1 and on the
+ * triangles from 2 begin on of an array that it shares; names of vertices and the ghost are those of the whole.
  *
  * Insertion removes the triangles whose circle holds the new point (a disc without inner vertices, so its dual is a
  * tree and each edge is tested once) and joins the point to the rim. All decisions are exact: doubles with a proved
@@ -44,8 +43,8 @@ typedef struct dyd_mesh {
   uint32_t n;            /* vertices; also the number of the ghost */
   uint32_t begin, end;   /* those it works on; 0 and n, but for a part */
   unsigned rounds;       /* of insertion: see dyd_mesh_set_rounds */
-  dyd_strips strips; /* what it was joined from: most triangles from 2 begin to 2 end of a strip are its own; or one */
-  const dyd_xy *xy;  /* n + 1 points, NaN last: of reps, or own_xy for a part */
+  dyd_strips strips;     /* its strips: most triangles from 2 begin to 2 end of a strip are its own; or one */
+  const dyd_xy *xy;      /* n + 1 points, NaN last: of reps, or own_xy for a part */
   dyd_xy *own_xy;
   dyd_tri *tri;
   uint32_t count;   /* triangles, that is the number after the last one */
@@ -183,7 +182,7 @@ static inline dyd_half_edge dyd_hull_following(const dyd_mesh *m, dyd_half_edge 
 static inline dyd_half_edge dyd_hull_preceding(const dyd_mesh *m, dyd_half_edge h) {
   return dyd_edge_next(dyd_edge_twin(m, dyd_edge_next(h)));
 }
-/* The hull edge of the lowest number; DYD_NONE when there is no triangle. */
+/* The hull edge of the lowest number; DYD_NONE without triangles. */
 static inline dyd_half_edge dyd_hull_first(const dyd_mesh *m) {
   for (uint32_t t = 0; t < m->count; t++)
     if (dyd_is_ghost_triangle(m, t)) return dyd_hull_edge(m, t);

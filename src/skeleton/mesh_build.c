@@ -300,9 +300,9 @@ void dyd_mesh_clear(dyd_mesh *m) {
 
 /* ---- insertion ---- */
 
-/* A triangle whose circle holds v, which is no vertex: the real triangle around it, or a ghost triangle whose hull edge
- * it is beyond. The walk goes over an edge only when v is strictly beyond it; it ends since the power of v decreases,
- * or inside one cocircular polygon, whose dual is a tree that is never walked back. */
+/* A triangle whose circle holds v, which is not a vertex: the real triangle around it, or a ghost triangle whose hull
+ * edge it is beyond. The walk goes over an edge only when v is strictly beyond it; it ends since the power of v
+ * decreases, or inside one cocircular polygon, whose dual is a tree that is never walked back. */
 static uint32_t mesh_locate(dyd_mesh *m, uint32_t v) {
   bool ghost = dyd_is_ghost_triangle(m, m->hint);
   uint32_t start = ghost ? dyd_edge_triangle(dyd_edge_twin(m, dyd_hull_edge(m, m->hint))) : m->hint;
@@ -344,7 +344,7 @@ static inline bool insert_has_room(dyd_mesh *m, size_t edges, size_t spares) {
          (spares < m->spare_cap || dyd_reserve((void **)&m->spare, &m->spare_cap, spares + 1, sizeof *m->spare));
 }
 
-/* The rim of the triangle t alone; returns where it begins. The edge to be looked at next is the last one. */
+/* The rim of the triangle t alone; returns where it begins. The edge to be examined next is the last one. */
 static inline dyd_seen rim_of_triangle(dyd_mesh *m, dyd_xy p, uint32_t t) {
   const dyd_tri *at = &m->tri[t];
   dyd_seen seen[3];

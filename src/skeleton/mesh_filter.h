@@ -42,7 +42,7 @@ static inline double dyd_filter_orient_bound(double extent_x, double extent_y, d
 }
 
 /* A vertex seen from p: where it is, and its squared distance. Of two, seen from a third, the cross product is their
- * orientation; of three the squares and the cross products make the in-circle determinant. Whoever looks at many
+ * orientation; of three the squares and the cross products make the in-circle determinant. Code that tests many
  * triangles from one place computes each of them once. */
 typedef struct dyd_seen {
   double x, y, square;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Bounds for the walks: everything here is conservative, the walks decide what is left. */
+/* Bounds for the walks: everything here is conservative, the walks decide the rest. */
 #include "skeleton/rects_filter.h"
 
 #include "base/alloc.h"
@@ -186,7 +186,7 @@ typedef struct nearest {
   double least;
 } nearest;
 
-/* Who is farther than `least` altogether cannot have a smaller dl, so the radius follows. */
+/* A site farther than `least` altogether cannot have a smaller dl, so the radius follows. */
 static bool keep_nearest(void *context, uint32_t k) {
   nearest *s = context;
   if (k == s->i || k == s->j) return true;

@@ -29,7 +29,7 @@ static inline bool dyd_boxes_disjoint(const dyd_bbox *a, const dyd_bbox *b) {
   return a->e[1] < b->e[0] || b->e[1] < a->e[0] || a->e[3] < b->e[2] || b->e[3] < a->e[2];
 }
 /* Do the rectangles of i and j surely meet? An end of a box is outside by the slack at most; twice that covers the
- * rounding here. Of a box with an infinite end nothing is known. */
+ * rounding here. A box with an infinite end gives no answer. */
 static inline bool dyd_surely_meet(const dyd_rects *r, uint32_t i, uint32_t j) {
   const dyd_bbox *a = &r->box[i], *b = &r->box[j];
   double slack = 2 * (dyd_box_slack(r, i) + dyd_box_slack(r, j));

@@ -24,7 +24,7 @@ enum {
   STRIP_BIT = 29
 };
 
-/* A strip has at least so many sites. The armed build divides every second set of sites, however small. */
+/* A strip has at least this many sites. The armed build divides every second set of sites, however small. */
 #ifdef DYD_ARMED
 #define STRIP_LEAST(n) ((n) % 2 ? 4 : 1 << 16)
 #else
@@ -305,7 +305,7 @@ static dyd_status holds(bool *inside, const dyd_reps *r, uint32_t v, dyd_xy p) {
   return st;
 }
 
-/* An exact point that is no double: the table has the doubles next to it. They are what choose_exact would find. */
+/* An exact point that is not a double: the table has the doubles next to it. They are what choose_exact would find. */
 static dyd_status choose_point(dyd_reps *r, uint32_t v, uint32_t k, const double b[4]) {
   dyd_status st = keep_code(r, v, k + 1);
   if (st != DYD_OK) return st;

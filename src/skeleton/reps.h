@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Representatives: one point of each rectangle, the vertices of the skeleton.
  *
- * Any point of the rectangle will do for the theory; a short one is quick. Vertex v stands for site site[v]. Its
+ * Any point of the rectangle will do for the theory; a short one is quick. Vertex v represents site site[v]. Its
  * representative is the double point xy[v] when that lies in the rectangle ("exact"), otherwise the rational point
  * lo + f (hi - lo), f from the dyadic sequence below, of which xy[v] is the nearest double up to `delta`. */
 #ifndef DYD_SKELETON_REPS_H

@@ -165,7 +165,7 @@ static dyd_status skeleton_triangulate(dyd_skeleton *sk, const dyd_skeleton_opti
   return st;
 }
 
-/* A vertex stands for the lowest of its equal sites: site numbers of a vertex and its aliases are exchanged. */
+/* A vertex represents the lowest of its equal sites: site numbers of a vertex and its aliases are exchanged. */
 static void settle_aliases(dyd_skeleton *sk) {
   uint32_t *site = sk->reps.site;
   for (uint32_t v = 0; v < sk->n && sk->mesh.alias; v++)
@@ -318,7 +318,7 @@ size_t dyd_skeleton_memory(const dyd_skeleton *sk) {
          (tree->level[tree->levels] + sk->blocks.level[sk->blocks.levels] + sk->blocks.count) * sizeof(dyd_bbox);
 }
 
-/* As above, and coordinates scaled to integers for the mesh. Boxes come with sites that are no points. */
+/* As above, and coordinates scaled to integers for the mesh. Boxes come with sites that are not points. */
 uint64_t dyd_skeleton_bytes(const dyd_sites *sites) {
   enum { TREE = sizeof(dyd_bbox) / (DYD_TREE_FANOUT - 1) + sizeof(uint32_t) };
   uint64_t n = dyd_sites_count(sites), each = 3 * sizeof(uint32_t) + 2 * sizeof(dyd_xy) + 2 * sizeof(dyd_tri) + 2;

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The skeleton of a set of sites, and what is known of its edges.
+/* The skeleton of a set of sites, and facts about its edges.
  *
  * Vertices are the sites in spatial order. The edges carry one flag, "certain": a real edge is legal, an edge to the
  * ghost says that its vertex is surely on the hull. If the true points are always collinear (or there are at most two
- * sites) there are no triangles. */
+ * sites) triangles do not exist. */
 #ifndef DYD_SKELETON_SKELETON_H
 #define DYD_SKELETON_SKELETON_H
 
 #include "skeleton/mesh.h"
 #include "skeleton/rects.h"
 
-/* The path that takes the place of triangles when every choice of points is collinear, or there are at most two sites.
- * The vertices that are no aliases, along the common line. legal[q]: order[q], order[q+1] is legal. rank[order[q]] is
+/* The path that replaces triangles when every choice of points is collinear, or there are at most two sites.
+ * The vertices without aliases, along the common line. legal[q]: order[q], order[q+1] is legal. rank[order[q]] is
  * q. is_end[0], is_end[1]: the first, the last is surely an end of the line, alone. count = 0: no line. */
 typedef struct dyd_line {
   uint32_t count;
@@ -19,7 +19,7 @@ typedef struct dyd_line {
   bool *legal, is_end[2];
 } dyd_line;
 
-/* From the rectangles of the n vertices. Those that turn out to be the same exact point become aliases in m. */
+/* From the rectangles of the n vertices. Vertices that turn out to be the same exact point become aliases in m. */
 dyd_status dyd_line_build(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, uint32_t n);
 void dyd_line_clear(dyd_line *l);
 /* Are these neighbours on the line, and legal? */
@@ -35,7 +35,7 @@ typedef struct dyd_skeleton {
   dyd_reps reps;
   dyd_mesh mesh;
   dyd_line line;          /* instead of triangles, if mesh.collinear */
-  uint32_t *vertex;       /* site -> its vertex, of the site it stands for if it is an alias */
+  uint32_t *vertex;       /* site -> its vertex; of an alias, the vertex of its original */
   dyd_half_edge *leaving; /* vertex -> a half-edge out of it; DYD_NONE: alias or line */
   uint8_t *certain;       /* triangle -> bit k: half-edge k is certain */
   bool all_points;        /* every site is an exact point */
