@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* From which place to project: one that is exact, or narrow for the distance of its nearest neighbour. Where that one's
  * width, which widens all images, would leave more open than the pairs around a gap, from no place, but from the middle
- * of a gap between them [SPH-5]; also where each may be the same as another one.
+ * of a gap between them [SPH-5]; also where each may coincide with another one.
  *
  * A guess in doubles: on it depends how wide images are, not whether they are right. Places are compared by distances
  * between the middles of regions, so that wider radii do not change which place, or which gap, is best; a gap is taken
@@ -19,8 +19,8 @@ typedef struct ball_guess {
   uint32_t place;
 } ball_guess;
 
-/* How many pairs are looked at, about, and candidates at most; places tried for a gap; an eye that is a region is at
- * least so many times as far from others as it is wide. */
+/* Approximate number of pairs examined, and most candidates; places tried for a gap; least ratio of the distance of an
+ * eye that is a region from others to its width. */
 enum { WORK = 1 << 20, CANDIDATES = 16, GAPS = 4096, APART = 4 };
 
 /* Scores that differ by less of themselves are the same, whatever the radius. */
@@ -55,7 +55,7 @@ static void guesses_sort(ball_guess *g, size_t n) {
   if (k < n) qsort(g, n, sizeof *g, compare_guesses);
 }
 
-/* From a place to the others: the least distance, and what is left of it between the regions. */
+/* From a place to the others: the least distance, and the part of it between the regions. */
 typedef struct room_guess {
   double distance, left;
 } room_guess;
@@ -85,7 +85,7 @@ static double guess_score(const ball_guess *g, size_t n, const ball_guess *from)
   return from->eye == 0 ? 1e9 + r.distance : r.distance / from->eye;
 }
 
-/* Those that are narrowest are looked at, spread among all that are exact; more only while none is apart. */
+/* Tries the narrowest places, spread among all exact ones; more only while none is apart. */
 static double guess_best(uint32_t *out, const ball_guess *g, size_t n) {
   size_t exact = 0, tried = 0, most = 1 + WORK / (n + 1), all = 64 * most;
   double best = 0;
@@ -163,7 +163,7 @@ static bool centre_in_gap(dyd_sphere *s, const ball_guess *g, size_t n, const ba
   return true;
 }
 
-/* Guesses about all places that are no aliases. */
+/* Guesses about all places except aliases. */
 static dyd_status guesses_make(ball_guess **out, size_t *n, const dyd_sphere *s, dyd_error *err) {
   dyd_status st = DYD_OK;
   ball_guess *g = dyd_alloc(s->count, sizeof *g);

@@ -5,8 +5,8 @@
  * off by 2.01 u t, |t| <= 0.7854, z = t^2 <= 0.617 by 1 u more. sin t = t + t z g with g of 8 terms, off by 0.45 u (the
  * leading 1/6 by 2 u, the others, 0.0053 in all, by 21 u), so t z g by 0.6 u t, the sum by 1 u t, the series by
  * 10^-19 t: 4 u t in all. cos t = 1 - z h, h = 1/2 - z ..., off by 1 u, so z h by 1.3 u, the difference by u / 2, by t
- * 1.2 u, the series by 10^-17: 3.1 u in all. TURN_ERROR = 8 u is more, also when added to what it is about and rounded.
- * Between the ends of a box of angles sine and cosine change by its width in radians at most. */
+ * 1.2 u, the series by 10^-17: 3.1 u in all. TURN_ERROR = 8 u is more, also when added to the sine or cosine and
+ * rounded. Between the ends of a box of angles sine and cosine change by its width in radians at most. */
 #include "sphere/state.h"
 
 #define DEGREE 0.017453292519943295

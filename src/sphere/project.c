@@ -509,8 +509,8 @@ static dyd_status image_fail(const image *m, dyd_error *err) {
                   dyd_engine_row(m->s->places, m->s->centre));
 }
 
-/* Tries until the image is as narrow as asked for; or will not be, as what stays wide is wide beside what moves; or
- * max_bits are reached. */
+/* Tries until the image is as narrow as asked for; or will not be, as the part that stays wide is wide compared with
+ * the part that moves; or max_bits are reached. */
 static dyd_status image_find(image *m, const image_wish *w, dyd_error *err) {
   int64_t more = SPARE, most = (w->max_bits > w->bits ? w->max_bits : w->bits) + GUARD;
   bool seen = false;
@@ -590,8 +590,8 @@ static bool eye_glance(dyd_eye_d *out, dyd_sphere *s) {
   return true;
 }
 
-/* Doubles tell the image of an exact place to some 45 bits, that of a wide one to fewer: returns false where they do
- * not tell it to as many as are asked for. */
+/* Doubles give the image of an exact place to some 45 bits, that of a wide one to fewer: returns false where they do
+ * not give the bits requested. */
 static bool image_glance(double box[4], void *user, size_t point, int64_t bits) {
   dyd_sphere *s = user;
   dyd_spot_d place;

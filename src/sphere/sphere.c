@@ -3,12 +3,12 @@
  * places.
  *
  * [SPH-1] A circle on the sphere without the centre q inside goes to a circle in the plane with the same points inside;
- * one through q to a line, the side of the plane away from what was inside. So pairs of other places are as their
+ * one through q to a line, the side of the plane away from the former inside. So pairs of other places are as their
  * images are, half-planes included, and a pair with q is possible or sure as the image is a corner of the hull. Where
  * it is on the hull, but no corner, it is on a line with others: a tie where all that is open there are ties.
  *
- * [SPH-5] A centre that is no place is one point more: what is sure with it is sure without, and what becomes possible
- * without it are pairs of places that may be its neighbours. */
+ * [SPH-5] A centre that is not a place is one point more: a statement certain with it is certain without, and only
+ * pairs of places that may be its neighbours become possible without it. */
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/clock.h"
@@ -24,7 +24,7 @@
 #include <dyadel/io.h>
 #include <string.h>
 
-/* MOST_ABOUT: neighbours of a centre that is no place, whose pairs are listed. */
+/* MOST_ABOUT: neighbours of a centre that is not a place, whose pairs are listed. */
 enum { FIRST_BITS = 32, START_BITS = 40, MOST_ABOUT = 4096 };
 
 /* ---- places ---- */
@@ -184,7 +184,7 @@ void dyd_sphere_free(dyd_sphere *s) {
   free(s);
 }
 
-/* ---- what it is ---- */
+/* ---- its parts ---- */
 
 dyd_engine *dyd_sphere_engine(dyd_sphere *s) {
   if (!s) return NULL;
@@ -450,7 +450,7 @@ static const dyd_pair *pair_find(const dyd_pair_list *l, uint32_t i, uint32_t j)
   return l->count ? bsearch(&key, l->item, l->count, sizeof key, dyd_compare_two) : NULL;
 }
 
-/* The pairs of the centre; about one that is no place, pairs of its neighbours that are not among the others. */
+/* The pairs of the centre; about one that is not a place, pairs of its neighbours that are not among the others. */
 static size_t pairs_about_centre(dyd_pair *item, const dyd_sphere *s, const dyd_pair_list *images,
                                  const dyd_pair_status *status) {
   size_t n = 0;
@@ -512,7 +512,7 @@ static dyd_status pairs_seen(dyd_pair_list *out, const dyd_sphere *s) {
   return st;
 }
 
-/* What is indeterminate becomes what it is from another eye. */
+/* Gives indeterminate pairs the status seen from another eye. */
 static void pairs_improve(dyd_pair_list *l, const dyd_pair_list *other) {
   size_t n = 0;
   for (size_t k = 0; k < l->count; k++) {
@@ -592,8 +592,8 @@ static bool pair_is_legal(const dyd_pair_list *l, uint32_t i, uint32_t j) {
 }
 
 /* Images seen along the way out from q have their orientation from outside turned round twice: once by looking from
- * below, once by the axes (x east, y north, from the antipode's side); what is counter-clockwise in the plane is
- * clockwise from outside. Beyond a sure side of the hull is a triangle with q. */
+ * below, once by the axes (x east, y north, from the antipode's side); counter-clockwise in the plane is clockwise from
+ * outside. Beyond a sure side of the hull is a triangle with q. */
 static dyd_status triangles_join(dyd_triangle_list *out, const dyd_sphere *s, const dyd_triangle_list *images,
                                  const dyd_index_list *around, const dyd_hull *hull) {
   dyd_triangle *item = dyd_alloc(images->count + around->count, sizeof *item);

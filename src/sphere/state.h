@@ -38,7 +38,7 @@ void dyd_spot_get_d(dyd_spot_d *out, const dyd_spot *s);
 void dyd_spot_init(dyd_spot *s);
 void dyd_spot_clear(dyd_spot *s);
 /* Sets s to the rectangle r of degrees, widened by `more` on each side, with no angle; longitudes are taken modulo 360.
- * Where its latitudes reach beyond a pole, or are the pole, all longitudes stand for each other: beyond, the spot is
+ * Where its latitudes reach beyond a pole, or are the pole, all longitudes are equivalent: beyond, the spot is
  * all of the cap; a pole itself has longitude 0. Returns false if no latitude of r is within 90. */
 bool dyd_spot_set(dyd_spot *s, const dyd_rect *r, mpq_srcptr more);
 bool dyd_spot_is_exact(const dyd_spot *s);
@@ -66,7 +66,7 @@ void dyd_eye_clear(dyd_eye *e);
 
 /* Encloses the images of all places of s, its angle included, seen from any place of the eye [SPH-2]: x, y. prec: bits
  * of the computation. Returns false where something of s is also in the eye, or so near that thousands of pieces do not
- * tell them apart. */
+ * separate them. */
 bool dyd_project(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec);
 
 /* The ends of a ball, rounded outward. */
@@ -124,7 +124,7 @@ static inline bool dyd_sphere_is_fixed(const dyd_sphere *s, uint32_t i) {
 dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
 /* Encloses the same in doubles; quick for exact places. */
 dyd_status dyd_sphere_spot_d(dyd_spot_d *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
-/* What was given of place i, as it is known now: without radii. */
+/* The input of place i, as narrow as known now: without radii. */
 dyd_status dyd_sphere_stated(dyd_rect *out, const dyd_sphere *s, uint32_t i);
 /* Makes a computable place exact where the normal forms of its coordinates are rational numbers, or its latitude is
  * that of a pole. */
@@ -132,8 +132,8 @@ dyd_status dyd_sphere_recognise(dyd_sphere *s, uint32_t i, dyd_error *err);
 /* Fills in alias; looks at all places, DYD_E_DOMAIN as above. */
 dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err);
 
-/* choose_filter.c: the place to project from, among those that are no aliases; where each may be the same as another
- * one, a place that none of them reaches. DYD_E_ARG with a message where there is none. */
+/* choose_filter.c: the place to project from, which is not an alias; where each may coincide with another one, a place
+ * that none of them reaches. DYD_E_ARG with a message where none exists. */
 dyd_status dyd_sphere_choose(dyd_sphere *s, dyd_error *err);
 /* Sets the centre to a place in a gap, `free`, far from that of the other where it is one; leaves s as it is if there
  * is none. */
@@ -141,7 +141,7 @@ dyd_status dyd_sphere_choose_gap(dyd_sphere *s, const dyd_sphere *other, dyd_err
 
 /* project.c: adds the images to s->images. */
 dyd_status dyd_sphere_add_images(dyd_sphere *s, dyd_error *err);
-/* Narrows places and centre as if images that a trace gave had been asked for, so that what is said of images holds for
+/* Narrows places and centre as if images that a trace gave had been asked for, so that statements about images hold for
  * all choices in the rectangles of their places. */
 dyd_status dyd_sphere_narrow_recalled(dyd_sphere *s, int64_t max_bits, dyd_error *err);
 
@@ -161,7 +161,7 @@ typedef struct dyd_root_term {
 /* *zero: sum c exp(2 pi i e / n) over the terms is 0. Decided exactly for all 0 < n < DYD_CYCLIC_MOST, |e| < n and
  * |c| < 2^31, count < 2^31 [SPH-3]; the terms are destroyed. DYD_OK or DYD_E_NOMEM. */
 dyd_status dyd_cyclic_is_zero(bool *zero, dyd_root_term *term, size_t count, dyd_turns n);
-/* Proves that images are of exact places on one circle, with the centre if that is asked for. */
+/* Proves that images are of exact places on one circle, with the centre if `centre` is set. */
 dyd_status dyd_sphere_on_circle(bool *proved, const dyd_sphere *s, bool centre, const uint32_t *site, size_t count,
                                 dyd_error *err);
 /* As dyd_prove_fn; user is a dyd_sphere, sites are images. */

@@ -52,7 +52,7 @@ static size_t terms_collect(dyd_root_term *term, size_t count) {
   return n;
 }
 
-/* A sum times a root of unity is 0 iff the sum is: the first e becomes 0; what all of e and n have in common is left
+/* A sum times a root of unity is 0 iff the sum is: the first e becomes 0; the common factor of all e and n is divided
  * out. Returns the order. */
 static dyd_turns terms_reduce(dyd_root_term *term, size_t count, dyd_turns n) {
   dyd_turns first = term[0].e, common = n;
@@ -68,7 +68,7 @@ static unsigned small_prime(dyd_turns n, size_t most) {
   return 0;
 }
 
-/* e becomes its class times n plus what is left: sorted by that, classes are runs. */
+/* e becomes its class times n plus the rest: sorted by that, classes are runs. */
 static dyd_turns term_split(dyd_turns e, unsigned p, dyd_turns n, dyd_turns of_m) {
   dyd_turns m = n / p;
   if (m % p == 0) return (e % p) * n + e / p;
@@ -186,7 +186,7 @@ static bool turns_set_degrees(dyd_turns *out, mpq_srcptr x, mpz_srcptr n) {
   return good;
 }
 
-/* What is asked about: places, the unit of their angles. */
+/* The subject of the question: places, the unit of their angles. */
 typedef struct circle_question {
   const dyd_sphere *s;
   const uint32_t *site;

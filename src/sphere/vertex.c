@@ -97,7 +97,7 @@ static void box_of_direction(double box[4], arb_ptr n) {
   arb_atan2(lat, n + 2, lat, PREC);
   degrees_out(&box[2], lat, 0);
   if (!(box[1] - box[0] < 360)) box[0] = -180, box[1] = 180;
-  box[2] = fmax(box[2], -90); /* NaN, too, where nothing is known */
+  box[2] = fmax(box[2], -90); /* NaN, too, where unknown */
   box[3] = fmin(box[3], 90);
   _arb_vec_clear(lon, 2);
 }
