@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Arb, wherever it is: a part of FLINT 3, whose headers are in flint/, or a library beside FLINT 2. Names that we use
- * are the same in both. FLINT 3 does not include GMP by itself. */
+/* Arb, wherever it is: a part of FLINT 3, whose headers are in flint/, or a library separate from FLINT 2. Names that
+ * we use are the same in both. FLINT 3 does not include GMP. */
 #ifndef DYD_STREAM_ARB_H
 #define DYD_STREAM_ARB_H
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Steps of ball arithmetic.
  *
- * Functions with an edge in their domain are evaluated at the two ends of the ball, after the ends are cut to
- * what is known of the value [RANGE-1]: all of them are monotone. Where the ball still sticks out of the domain,
- * the result is unknown yet; it is never assumed that the value is inside. */
+ * Functions with an edge in their domain are evaluated at the two ends of the ball, after the ends are cut to the known
+ * range of the value [RANGE-1]: all of them are monotone. Where the ball still sticks out of the domain, the result is
+ * unknown yet; it is never assumed that the value is inside. */
 #include "stream/ball.h"
 
 #include "base/parallel.h"

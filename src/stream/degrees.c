@@ -2,7 +2,7 @@
 /* Degrees, minutes and seconds as people write them, as exact rationals.
  *
  * [letter] [sign] number mark [number mark [number mark]] [letter], with blanks between them. Either a mark or a letter
- * tells that it is this form: marks may be left out, for blanks or colons, so that "47 36 18.3" alone is not read. */
+ * identifies this form: marks may be replaced by blanks or colons, so that "47 36 18.3" alone is not read. */
 #include "stream/degrees.h"
 
 #include "stream/number.h"
@@ -11,14 +11,14 @@
 
 enum { PARTS = 3 };
 
-/* What stands behind degrees, minutes and seconds; longer ones first. */
+/* Marks after degrees, minutes and seconds; longer ones first. */
 static const char *const marks[PARTS][8] = {{"\xC2\xB0", "\xC2\xBA", "\xCB\x9A", "d"},
                                             {"'", "\xE2\x80\xB2", "\xE2\x80\x99", "\xE2\x80\x98", "\xC2\xB4", "`"},
                                             {"\"", "''", "\xE2\x80\xB3", "\xE2\x80\x9D", "\xE2\x80\x9C",
                                              "\xE2\x80\xB2\xE2\x80\xB2", "\xE2\x80\x99\xE2\x80\x99",
                                              "\xC2\xB4\xC2\xB4"}};
 
-/* What is read so far: parts[] in the order of the text, each in 60^-unit degrees. */
+/* The parts read so far: parts[] in the order of the text, each in 60^-unit degrees. */
 typedef struct degrees {
   const char *text, *at, *end;
   char letter;
@@ -46,7 +46,7 @@ static void degrees_letter(degrees *d) {
   degrees_blanks(d);
 }
 
-/* The unit that the mark here stands for; PARTS: there is none. */
+/* The unit of the mark here; PARTS: no mark. */
 static size_t degrees_mark(degrees *d) {
   for (size_t u = PARTS; u-- > 0;)
     for (size_t k = 0; k < sizeof marks[u] / sizeof *marks[u] && marks[u][k]; k++)
@@ -54,7 +54,7 @@ static size_t degrees_mark(degrees *d) {
   return PARTS;
 }
 
-/* Digits with at most one point, and what is behind them. */
+/* Digits with at most one point, and the mark after them. */
 static bool degrees_part(degrees *d) {
   const char *begin = d->at;
   size_t digits = 0, least = d->count ? d->unit[d->count - 1] + 1 : 0;

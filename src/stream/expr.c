@@ -176,7 +176,7 @@ static int range_most(int a, int b) {
   return a > b ? a : b;
 }
 
-/* Weakens ends to those that can be held: lower ends to -1, 0, 1 from above, upper ends from below. */
+/* Weakens ends to representable ones: lower ends to -1, 0, 1 from above, upper ends from below. */
 static dyd_range range_make(int lo, int hi) {
   int l = lo < -1 ? -NONE : range_least(lo, 1);
   int h = hi > 1 ? NONE : range_most(hi, -1);
@@ -309,7 +309,7 @@ dyd_range dyd_range_apply(dyd_op op, dyd_range a, dyd_range b, long exponent) {
   }
 }
 
-/* Exact values of rational expressions: what can be said in rationals is never enclosed.
+/* Exact values of rational expressions: a value with a rational form is never enclosed.
  *
  * Sizes are bounded before a power is computed: |n| (bits(q) - 1) <= bits(q^n). */
 

@@ -84,7 +84,7 @@ static inline bool dyd_op_is_leaf(dyd_op op) {
 /* The name users write, for messages. Static storage. */
 const char *dyd_op_name(dyd_op op);
 
-/* What is known of the value of a node whatever the precision: it lies in [lo,hi]; the ends are -1, 0, 1 or
+/* Range of the value of a node at every precision: it lies in [lo,hi]; the ends are -1, 0, 1 or
  * absent (lo = -DYD_NO_END, hi = DYD_NO_END). */
 #define DYD_NO_END 9
 typedef struct dyd_range {
@@ -149,7 +149,7 @@ bool dyd_draft_reserve_node(dyd_draft *d);
 bool dyd_draft_reserve_root(dyd_draft *d);
 bool dyd_draft_reserve_constant(dyd_draft *d);
 
-/* Exact folding: x = op(x) or x = op(x, y). *done tells whether the result is rational and now in x.
+/* Exact folding: x = op(x) or x = op(x, y). *done: the result is rational and now in x.
  * DYD_E_DOMAIN when op is undefined there, DYD_E_RANGE when the result is too large, DYD_E_NOMEM. */
 dyd_status dyd_fold_unary(dyd_constant *x, bool *done, dyd_op op, long exponent);
 dyd_status dyd_fold_binary(dyd_constant *x, dyd_op op, const dyd_constant *y);

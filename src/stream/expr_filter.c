@@ -61,7 +61,7 @@ static dyd_double_span glance_divide(dyd_double_span a, dyd_double_span b) {
   return glance_corners(a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi);
 }
 
-/* What is known of the value by its form may cut the lower end [RANGE-1]. */
+/* The range known from the form may cut the lower end [RANGE-1]. */
 static dyd_double_span glance_square_root(dyd_double_span a, dyd_range range) {
   if (a.lo < 0 && range.lo < 0) return (dyd_double_span){NAN, NAN};
   double lo = a.lo > 0 ? next_below(sqrt(a.lo)) : 0;

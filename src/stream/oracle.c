@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Points served by programs of the user: starting them, waiting for them, ending them.
  *
- * One loop (wait_for_answer) does all waiting: it sends every program what it may be sent, takes whatever comes from
- * any of them, and ends when the one request in question is answered, cannot be answered, took too long, or is not
- * wanted any more. Which program is asked what, in which order, does not depend on time [ORA-2]. */
+ * One loop (wait_for_answer) does all waiting: it sends every program the requests allowed, reads the output of all of
+ * them, and ends when the one request in question is answered, cannot be answered, took too long, or is not wanted any
+ * more. Which program is asked what, in which order, does not depend on time [ORA-2]. */
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
@@ -28,7 +28,7 @@
 
 /* What the lines of an oracle program mean.
  *
- * An answer [lo,hi] must lie inside the rectangle K known so far [NEST-1]: that is asked of the rational ends. Only
+ * An answer [lo,hi] must lie inside the rectangle K known so far [NEST-1]: that is required of the rational ends. Only
  * then is it rounded outward to dyadics, and cut to K: K contains [lo,hi], so the cut does too, and it lies inside K
  * whatever the two roundings were [ORA-1]. */
 
@@ -155,7 +155,7 @@ static bool ends_are_inside(const mpq_t lo, const mpq_t hi, const dyd_interval *
   return inside;
 }
 
-/* *side comes in as what is known (known) and goes out as the new side. */
+/* *side is the known side on entry (if known) and the new side on return. */
 static dyd_status set_answer_side(dyd_interval *side, bool known, const char *name, const mpq_t lo, const mpq_t hi,
                                   dyd_error *err) {
   dyd_interval next;
@@ -178,7 +178,8 @@ static dyd_status read_answer_ends(mpq_t end[4], const char *line, const word *w
   return st;
 }
 
-/* *r comes in as what is known (known) and goes out as the rectangle of the four ends, which are to be in order. */
+/* *r is the known rectangle on entry (if known), and that of the four ends on return, which are to be in order.
+ * */
 static dyd_status take_answer_ends(dyd_rect *r, bool known, const mpq_t end[4], dyd_error *err) {
   dyd_rect next;
   for (int k = 0; k < 4; k += 2) {
@@ -232,7 +233,7 @@ dyd_status dyd_rect_narrow_q(dyd_rect *r, const mpq_t end[4], dyd_error *err) {
   return take_answer_ends(r, !dyd_rect_is_point(r), end, err);
 }
 
-/* How long programs may take to end by themselves, or one that is replaced by a signal; how often the stop flag is
+/* Time for programs to end unforced, or for a replaced one to end by a signal; how often the stop flag is
  * examined. */
 #define GRACE_SECONDS 1.0
 
@@ -257,7 +258,7 @@ struct dyd_oracle {
 
 /* ---- waiting ---- */
 
-/* Sends and takes what goes within the time. */
+/* Sends and receives as much as possible within the time. */
 static void exchange_lines(dyd_oracle *o, double seconds) {
   for (unsigned k = 0; k < o->jobs; k++) {
     dyd_worker *w = &o->worker[k];
@@ -285,8 +286,8 @@ static void oracle_fail_silent(const dyd_oracle *o, dyd_worker *w) {
                     o->seconds, deaf);
 }
 
-/* Until the first request of w that is wanted is answered (DYD_OK), w has failed (its code), or *stop is raised
- * (DYD_CANCELLED). The clock starts anew with each line of w, and what has come is read before it is examined. */
+/* Waits until the first request of w that is wanted is answered (DYD_OK), w has failed (its code), or *stop is raised
+ * (DYD_CANCELLED). The clock starts anew with each line of w, and pending output is read before it is examined. */
 static dyd_status wait_for_answer(dyd_oracle *o, dyd_worker *w, const volatile int *stop) {
   double begun = dyd_seconds(), left = o->seconds;
   while (!dyd_worker_is_answered(w)) {
@@ -372,7 +373,7 @@ static unsigned oracle_job_of(const dyd_oracle *o, size_t point) {
   return (unsigned)(point % o->jobs);
 }
 
-/* What is already asked stays; a list that does not fit into memory is as good as none. */
+/* Requests already sent stay; a list that does not fit into memory is ignored. */
 static void oracle_announce(void *user, const dyd_request *request, size_t count) {
   dyd_oracle *o = user;
   if (!oracle_is_ours(o)) return;
@@ -393,7 +394,7 @@ static bool ask_first(dyd_worker *w, const dyd_request *request) {
   return dyd_worker_ask(w, request->point, request->bits);
 }
 
-/* Puts what was asked before the message. */
+/* Puts the request in front of the message. */
 static dyd_status oracle_fail_request(dyd_error *err, dyd_status st, const dyd_request *request, const char *why) {
   return dyd_fail(err, st, "the oracle program was asked \"refine %zu %" PRId64 "\": %s", request->point, request->bits,
                   why);
@@ -513,7 +514,7 @@ dyd_status dyd_oracle_new(dyd_oracle **out, const char *command, const dyd_oracl
 
 /* ---- ending ---- */
 
-/* Waits so long in all for programs that have been told to end. */
+/* Waits at most that time in total for programs that are to end. */
 static void wait_for_programs(const dyd_oracle *o, double seconds) {
   double until = dyd_seconds() + seconds;
   for (unsigned k = 0; k < o->jobs; k++) {
@@ -523,7 +524,7 @@ static void wait_for_programs(const dyd_oracle *o, double seconds) {
   }
 }
 
-/* Closes all pipes, so that programs that read on can end by themselves; those that are at work are told. */
+/* Closes all pipes, so that programs that read on can end; busy ones get a signal. */
 static void let_programs_end(dyd_oracle *o) {
   for (unsigned k = 0; k < o->jobs; k++) dyd_process_close(&o->worker[k].process);
   wait_for_programs(o, GRACE_SECONDS / 2);

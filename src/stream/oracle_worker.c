@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* One program of an oracle: its queue of requests, and what is read from and written to it without waiting.
+/* One program of an oracle: its queue of requests, with reads and writes that do not wait.
  *
  * Memory is bounded whatever the program writes: a line of DYD_ORACLE_LINE bytes, DYD_ORACLE_HELD bytes of answers and
  * one more line. Reading stops when that much is held; since answers come in order, nothing is held while the first
@@ -25,7 +25,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* A shell command that runs beside the caller.
+/* A shell command that runs next to the caller.
  *
  * The command is the leader of a process group of its own. A second shell in the group, the watcher, reads from a pipe
  * without a writer, the lifeline: when the last writing end is closed, by dyd_oracle_free or because the process
@@ -280,7 +280,7 @@ void dyd_process_end(dyd_process *p) {
 
 #define READ_SIZE ((size_t)1 << 16)
 
-/* How long a program that closed its output is given to end, so that the message can tell how. */
+/* Time for a program that closed its output to end, so that the message can say how it ended. */
 #define END_SECONDS 0.5
 
 void dyd_worker_init(dyd_worker *w, unsigned batch) {
@@ -419,7 +419,7 @@ static bool put_request(dyd_worker *w, const dyd_asked *a) {
 
 void dyd_worker_fill(dyd_worker *w) {
   if (w->failed || w->deaf || w->sent == w->count || w->sent - w->answered > w->batch / 2) return;
-  if (w->answered == w->sent) dyd_worker_hear(w); /* what was written unasked is no answer to this */
+  if (w->answered == w->sent) dyd_worker_hear(w); /* output before this request does not answer it */
   while (!w->failed && w->sent < w->count && w->sent - w->answered < w->batch) {
     if (put_request(w, &w->asked[w->sent]))
       w->sent++;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* One program of an oracle: what it was asked, what it answered, and why it can be asked no more. */
+/* One program of an oracle: its requests, its answers, and the reason why it accepts no more requests. */
 #ifndef DYD_STREAM_ORACLE_WORKER_H
 #define DYD_STREAM_ORACLE_WORKER_H
 
@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <sys/types.h>
 
-/* A shell command that runs beside the caller: pipes to and from it, and a sure end for it and all it started. */
+/* A shell command that runs next to the caller: pipes to and from it, and a certain end for it and all its children. */
 
 /* Invariant: pid > 0 until it is reaped, which only dyd_process_end does: so the number of its group, which is the
  * same, stays its own. watcher is a shell of that group. in and out are our non-blocking ends of its standard input and
@@ -59,7 +59,7 @@ typedef struct dyd_asked {
 /* A queue of requests, two buffers, and a process.
  * Invariant: head <= answered <= sent <= count; of asked[]: from head on not yet collected, before `answered` answered,
  * before `sent` handed to `text`. held is the sum of the lengths of the answers held. Answers come in order, so those
- * of requests no longer wanted come first. failed: why says what is wrong, and nothing more is read or written. */
+ * of requests no longer wanted come first. failed: why has the reason, and nothing more is read or written. */
 typedef struct dyd_worker {
   dyd_process process;
   dyd_asked *asked;
@@ -81,14 +81,14 @@ void dyd_worker_init(dyd_worker *w, unsigned batch);
 /* Ends the process and releases everything. */
 void dyd_worker_clear(dyd_worker *w);
 
-/* w, new, takes over the requests of `old`, whose process has ended: what was answered stays, what was sent is to be
- * sent again. Of old nothing is left. */
+/* w, new, takes over the requests of `old`, whose process has ended: answers stay, unanswered requests are to be sent
+ * again. `old` is left empty. */
 void dyd_worker_adopt(dyd_worker *w, dyd_worker *old);
 /* Appends a request; false: memory is exhausted. */
 bool dyd_worker_ask(dyd_worker *w, size_t point, int64_t bits);
 /* Appends the request that is answered by the first line of the program, and that is not sent. */
 bool dyd_worker_expect_count(dyd_worker *w);
-/* Drops what is not sent; answers to what is are not wanted any more. */
+/* Drops requests not yet sent; answers to the others are not wanted any more. */
 void dyd_worker_forget(dyd_worker *w);
 /* The first request that is wanted, NULL when there is none. */
 dyd_asked *dyd_worker_first(dyd_worker *w);
@@ -104,7 +104,7 @@ bool dyd_worker_reads(const dyd_worker *w);
 bool dyd_worker_writes(const dyd_worker *w);
 /* Puts requests into the text to write, as far as the batch allows: again when half of those sent are answered. */
 void dyd_worker_fill(dyd_worker *w);
-/* Read and write what goes without waiting. */
+/* Read and write as much as possible without waiting. */
 void dyd_worker_hear(dyd_worker *w);
 void dyd_worker_tell(dyd_worker *w);
 

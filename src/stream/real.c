@@ -260,7 +260,7 @@ void dyd_real_place(dyd_real *x, size_t line, size_t column) {
 }
 
 /* next, made for `bits`, and the span, which comes rounded to the same grid where it is the shorter one: so all
- * intervals are inside of what a glance gave for fewer bits, and as wide as if there were no span. */
+ * intervals are inside of the glance for fewer bits, and as wide as without the span. */
 static dyd_status real_cut_to_span(dyd_interval *next, dyd_double_span span, int64_t bits, dyd_error *err) {
   dyd_interval old;
   if (bits < 0) return DYD_OK;

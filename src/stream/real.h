@@ -17,7 +17,7 @@ dyd_status dyd_real_new_inside(dyd_real **out, void **user, size_t size, dyd_nar
  * source that encloses one and the same value, before it is narrowed. */
 void dyd_real_set_span(dyd_real *x, dyd_double_span span);
 /* Where doubles hold an interval of at most 2^-bits about x, which was not narrowed before, that interval; x is not
- * changed, and what it gives later lies in that interval. */
+ * changed, and its later intervals lie in that interval. */
 bool dyd_real_glance(dyd_double_span *out, const dyd_real *x, int64_t bits);
 /* The greatest bits for which dyd_real_glance succeeds; INT64_MIN when there is none, INT64_MAX for exact doubles. */
 int64_t dyd_real_glance_bits(const dyd_real *x);
@@ -57,9 +57,9 @@ void *dyd_real_user(const dyd_real *x, dyd_narrow_real_fn narrow);
 bool dyd_real_reaches(const dyd_real *x, const dyd_interval *now, int64_t bits);
 /* Sets radius to the sum of the radii around x; of a final real to half of its width. */
 void dyd_real_radius(mpq_t radius, const dyd_real *x);
-/* Sets *core to an interval that every interval which x gives from now on contains [SET-3], and *has. Known are final
- * reals and those that are widened by a radius; of others *has is false. now: an interval that contains all that x
- * gives from now on (NULL: not known; out = now is allowed). */
+/* Sets *core to an interval that every interval which x gives from now on contains [SET-3], and *has. Final reals and
+ * reals widened by a radius have a core; for others *has is false. now: an interval that contains all that x gives from
+ * now on (NULL: not known; out = now is allowed). */
 dyd_status dyd_real_core(dyd_interval *core, bool *has, const dyd_real *x, const dyd_interval *now);
 
 /* [lo,hi] with ends that are not dyadic rounded outward by less than 2^-64 of the width; the point when lo = hi. */

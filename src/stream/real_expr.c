@@ -79,7 +79,8 @@ static dyd_defined machine_apply(machine *m, const dyd_expr *e, const dyd_range 
   return dyd_ball_apply(m->ball + m->top - 1, &step, m->stop);
 }
 
-/* Runs all nodes; the value is then m->ball[0]. On failure *culprit is the node; m->failed tells of that of a root. */
+/* Runs all nodes; the value is then m->ball[0]. On failure *culprit is the node; m->failed: details of the failure of a
+ * root. */
 static dyd_defined machine_run(machine *m, size_t *culprit, const dyd_expr *e) {
   m->top = 0;
   m->exponent = 0;
@@ -281,7 +282,7 @@ static dyd_status draft_push_real(dyd_draft *d, dyd_real *x) {
   return st;
 }
 
-/* What is rational by its form becomes one constant. *done: it is. */
+/* Folds an expression that is rational by its form into one constant. *done: it was folded. */
 static dyd_status draft_fold(dyd_draft *d, bool *done, dyd_op op) {
   *done = d->e.constants == d->e.count;
   if (!*done) return DYD_OK;

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Coordinates as text: which of the forms of the points file a text has, and the real it stands for.
+/* Coordinates as text: finds the form of the points file that a text has, and the real it describes.
  *
  *   coordinate = number | sum | sum (+-|±) radius | [ lo , hi ]       root = root ( sum in x , lo , hi )
  *
- * lo, hi and radius are sums whose value is rational by form. A root may stand in a sum; one that stands alone is a
- * real by itself. */
+ * lo, hi and radius are sums whose value is rational by form. A root may be part of a sum; a root alone is a real. */
 #include "base/alloc.h"
 #include "base/error.h"
 #include "stream/degrees.h"
@@ -163,7 +162,7 @@ static void ring_clear(ring *r) {
   free(r->value);
 }
 
-/* Expands an expression in x. *out is empty before. DYD_E_PARSE when it is no polynomial with rational
+/* Expands an expression in x. *out is empty before. DYD_E_PARSE when it is not a polynomial with rational
  * coefficients, DYD_E_RANGE when it is too large; with column. */
 static dyd_status poly_expand(dyd_poly *out, const dyd_expr *e, dyd_error *err) {
   ring r;
@@ -203,7 +202,7 @@ static bool take_word(reader *r, const char *word) {
 
 /* ---- expressions as reals ---- */
 
-/* What is finite in doubles is defined; what they cannot tell is probed. */
+/* A value finite in doubles is defined; undecided ones are probed. */
 static dyd_status real_from_draft(dyd_real **out, reader *r, size_t at, dyd_draft *d) {
   const dyd_constant *rational = dyd_expr_rational(&d->e);
   dyd_constant_view view;

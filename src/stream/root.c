@@ -2,7 +2,7 @@
 /* Computable reals that are roots of polynomials with rational coefficients.
  *
  * [ROOT-2] The square-free factors f_i of p with p = c prod f_i^i: where p changes its sign, the product g of the
- * f_i with odd i changes it too, and conversely; g has simple roots only. So g stands for p from then on. */
+ * f_i with odd i changes it too, and conversely; g has simple roots only. So g replaces p from then on. */
 #include "stream/root.h"
 
 #include "base/alloc.h"
@@ -250,7 +250,7 @@ static void root_clamp(mpz_ptr m, unsigned j) {
   mpz_clear(most);
 }
 
-/* Phase 3: tries the part beside the proposal. false: refuted, r unchanged. */
+/* Phase 3: tries the part next to the proposal. Returns false if it is refuted; r is unchanged then. */
 static bool root_quadratic(dyd_root *r, unsigned j) {
   mpz_t m, base, other;
   mpz_inits(m, base, other, NULL);

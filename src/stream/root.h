@@ -10,7 +10,7 @@
 #define DYD_ROOT_DEGREE ((size_t)1000)
 #define DYD_ROOT_WORK ((size_t)1 << 22)
 
-/* A root of the integer polynomial poly, all of whose roots are simple, between two places of opposite
+/* A root of the integer polynomial poly, which has simple roots only, between two places of opposite
  * sign. sign_left = -1 or 1 is the sign at the left one.
  * Invariant: !on_grid: the root lies in the open interval (lo,hi); on_grid: in the open interval
  * (slot, slot + 1) 2^-s, or it is the point slot 2^-s when exact. isolated: the slot holds one root only. */

@@ -452,7 +452,7 @@ bool dyd_stream_reaches(const dyd_stream *s, const dyd_rect *now, int64_t bits) 
   return dyd_stream_is_final(s) || dyd_rect_bits(now) >= bits;
 }
 
-/* A side becomes its core. What it is cut to by others goes on to be cut from it. */
+/* Replaces a side by its core, with the cuts that others made. */
 static dyd_status side_core(dyd_interval *side, bool *has, const dyd_real *x, bool narrower) {
   dyd_interval core;
   dyd_interval_init(&core);
@@ -471,7 +471,7 @@ dyd_status dyd_stream_core(dyd_rect *r, bool core[2], const dyd_stream *s, bool 
   return st == DYD_OK ? side_core(&r->y, &core[1], p->y, narrower) : st;
 }
 
-/* Sets radius to that of a side, and adds to `off` what it may be rounded by: 2^-50 of the ends of a final one. */
+/* Sets radius to that of a side, and adds to `off` the bound of its rounding: 2^-50 of the ends of a final one. */
 static void side_radius(mpq_t radius, mpq_t off, const dyd_real *x) {
   mpq_t lo, hi;
   dyd_real_radius(radius, x);
@@ -515,10 +515,10 @@ int64_t dyd_stream_glance_bits(const dyd_stream *s) {
   return x < y ? x : y;
 }
 
-/* Estimates of what streams take in memory. Operands made by dyd_real_op count by themselves, not for what they are
- * made of in turn, which others may use as well. */
+/* Estimates of what streams take in memory. Operands made by dyd_real_op count alone, without their own operands, which
+ * others may use as well. */
 
-/* Of a stream or real by itself, with what allocators add. */
+/* Bytes of a stream or real alone, with the overhead of allocators. */
 enum { RECORD = 192, NUMBER = 48 };
 
 static uint64_t bytes_of_number(mpz_srcptr z) {

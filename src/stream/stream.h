@@ -36,7 +36,7 @@ dyd_stream_kind dyd_stream_object(const void **object, const dyd_stream *s);
 
 /* As dyd_stream_new for a source that encloses one and the same point every time: its rectangles are intersected
  * with the former ones [NEST-2]. The context is released on failure too. final: nothing can be narrowed, one call of
- * the source, whatever it is asked for, gives the rectangle for good. */
+ * the source, at any precision, gives the final rectangle. */
 dyd_status dyd_stream_new_enclosing(dyd_stream **out, const dyd_source *source, bool final);
 /* A stream that is final from the start; swaps *value into it. */
 dyd_status dyd_stream_new_fixed(dyd_stream **out, dyd_rect *value);

@@ -115,7 +115,7 @@ static uint32_t forms_claim(dyd_forms *f, const void *object, uint32_t a) {
 }
 
 /* now: where the value lies; NULL: anywhere. */
-/* The value stays what it is: a callback is not asked. */
+/* The value does not change: the callback is not called. */
 static uint32_t forms_opaque(dyd_forms *f, const void *object, uint32_t part, const dyd_interval *now) {
   uint32_t n = forms_find(f, (dyd_form){.op = DYD_FORM_OPAQUE, .object = object, .b = part});
   if (n == DYD_NONE || f->node[n].prec) return n;
@@ -191,7 +191,7 @@ static dyd_defined value_of_operation(dyd_forms *f, dyd_form *n, slong prec) {
   return n->op == DYD_FORM_CLAIM ? DYD_DEFINED : dyd_ball_apply(&n->value, &s, f->stop);
 }
 
-/* What is stopped counts as not computed. */
+/* A stopped value counts as not computed. */
 static void value_compute(dyd_forms *f, uint32_t k, slong prec) {
   dyd_form *n = &f->node[k];
   dyd_defined d = DYD_UNDEFINED_YET;
@@ -225,8 +225,8 @@ static uint32_t form_of_interval(dyd_forms *f, const dyd_interval *a) {
   return n;
 }
 
-/* Each leaf by what its node holds beside the operation; one of another kind would be the same form everywhere, so it
- * is none. */
+/* Finds each leaf by the contents of its node without the operation; a node of another kind would be the same form
+ * everywhere, so it is not a leaf. */
 static uint32_t form_of_leaf(dyd_forms *f, const dyd_expr *e, const dyd_node *n) {
   dyd_constant_view view;
   switch (n->op) {

@@ -42,7 +42,7 @@ static bool base_append(dyd_ring *r, const fmpz_t n) {
   return true;
 }
 
-/* Makes the elements from `from` on coprime to all others: what two have in common becomes an element of its own. The
+/* Makes the elements from `from` on coprime to all others: a common factor of two becomes an element of its own. The
  * product of all elements shrinks with every split. */
 static void base_refine(dyd_ring *r) {
   fmpz_t g;
@@ -87,7 +87,7 @@ static slong radical_leaf(dyd_ring *r, dyd_op op, const fmpz_t base, slong k) {
   return l;
 }
 
-/* Takes k-th powers of primes out of n > 0, and multiplies *root by what they are powers of, so that the base need not
+/* Takes k-th powers of primes out of n > 0, and multiplies *root by their roots, so that the base need not
  * hold those primes. Numbers of more than a word are left as they are: their primes may be out of reach. */
 static void take_out_powers(fmpz_t root, fmpz_t n, slong k) {
   n_factor_t prime;
@@ -169,7 +169,7 @@ static slong nested_leaf(dyd_ring *r, dyd_op op, const fmpz_mpoly_t key, slong k
   return l;
 }
 
-/* x->num = the root of key, a polynomial that is no number and not 0. */
+/* x->num = the root of key, a polynomial that is not constant. */
 static bool radical_of_polynomial(dyd_fraction *x, dyd_ring *r, dyd_op op, fmpz_mpoly_t key, slong k) {
   fmpz_t factor;
   bool negative = op == DYD_OP_CBRT && fmpz_sgn(key->coeffs) < 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What is not rational in its operands: radicals, cosines and sines, roots of polynomials, free variables.
+/* Numbers that are not rational in their operands: radicals, cosines and sines, roots of polynomials, free variables.
  *
  * All set x, an initialised fraction, and return false when the value is beyond the limits, or the ring became stale.
  */

@@ -16,7 +16,7 @@
 #include <flint/fmpz_poly.h>
 
 /* Leaves at most; N of 2 cos(2 pi / N) at most; bits of an element of the base; terms and bits of a product; terms
- * times terms of what is reduced; bits of all that a reduction may write. */
+ * times terms of a reduction; bits of all that a reduction may write. */
 #define DYD_RING_LEAVES ((slong)64)
 #define DYD_RING_ORDER ((ulong)4096)
 #define DYD_RING_BASE_BITS ((flint_bitcnt_t)1 << 14)
@@ -101,8 +101,8 @@ void dyd_fraction_set(dyd_fraction *x, const dyd_fraction *y, const dyd_ring *r)
 void dyd_fraction_set_number(dyd_fraction *x, const fmpz_t num, const fmpz_t den, const dyd_ring *r);
 /* x = leaf k / den, den > 0. */
 void dyd_fraction_set_leaf(dyd_fraction *x, slong k, const fmpz_t den, const dyd_ring *r);
-/* x = x op y, op one of + - * /; x = x^n. Operands may be the same. false: beyond the limits, or a division by what is
- * 0 as far as can be seen; x is unspecified then. */
+/* x = x op y, op one of + - * /; x = x^n. Operands may be the same. false: beyond the limits, or a division by a form
+ * that is 0 or not proved different from 0; x is unspecified then. */
 bool dyd_fraction_apply(dyd_fraction *x, dyd_op op, const dyd_fraction *y, const dyd_ring *r);
 bool dyd_fraction_power(dyd_fraction *x, slong n, const dyd_ring *r);
 /* Divides out common integer factors; the leading coefficient of the denominator becomes positive. */

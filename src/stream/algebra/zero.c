@@ -262,7 +262,7 @@ dyd_status dyd_ring_settle(dyd_ring *r, const uint32_t *node, size_t count) {
  *
  * P is not multiplied out: U comes from bounds of its parts. Everything is rounded up. */
 
-/* What is known of a form: its value is P / Q; num and den bound P and Q at all choices; whole: Q as an integer where
+/* Facts about a form: its value is P / Q; num and den bound P and Q at all choices; whole: Q as an integer where
  * it is one, else 0; uses: the leaves of P and Q. */
 typedef struct part {
   mag_t num, den;
@@ -357,7 +357,7 @@ static bool part_of_form(part *p, dyd_ring *r, uint32_t n) {
   return x && part_of_fraction(p, r, x);
 }
 
-/* Leaves come after those that their relations are made of. */
+/* Leaves come after the ones in their relations. */
 static bool degree_of_tower(slong *degree, part *p, const dyd_ring *r) {
   *degree = 1;
   for (slong k = r->leaves - 1; k >= 0; k--) {
@@ -450,8 +450,8 @@ static bool zero_has_room(const dyd_algebra *a, slong prec) {
   return !a->room || dyd_room_has(a->room, bytes, "the proof of a tie");
 }
 
-/* Goes on from `prec` until the bound decides. Digits before the point are computed, too: twice the bits will do, where
- * the operations do not cancel much. */
+/* Doubles the precision until the bound decides. Digits before the point are computed, too: twice the bits will do,
+ * where the operations do not cancel much. */
 static dyd_zero separate_from_zero(dyd_algebra *a, uint32_t n, const dyd_separation *s) {
   slong last = 2 * s->bits + 8 * FIRST_BITS;
   if (last > a->most + 8 * FIRST_BITS) last = a->most + 8 * FIRST_BITS;

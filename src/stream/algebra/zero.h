@@ -24,14 +24,14 @@ typedef struct dyd_zero_counts {
   int64_t bits, degree; /* the most computed with; the largest degree of a separation bound */
 } dyd_zero_counts;
 
-/* One group of forms and their tests: what they have in common is shared. Init with dyd_algebra_open. */
+/* One group of forms and their tests: common parts are shared. Init with dyd_algebra_open. */
 typedef struct dyd_algebra {
   dyd_forms forms;
   dyd_ring ring;
   bool settled;
   slong most;                 /* bits computed with at most */
   const volatile int *cancel; /* NULL: no flag */
-  dyd_room *room;             /* NULL: no bound; what it refuses stays unknown */
+  dyd_room *room;             /* NULL: no bound; forms it refuses stay unknown */
   dyd_zero_counts count;
   slong shown; /* bits at which the last value refuted was seen not to be 0 */
 } dyd_algebra;
