@@ -18,7 +18,7 @@ static const double MARGIN = 0x1p-48, TINY = 0x1p-1000;
 /* A partner: where its middle is, seen from that of the site; how far both go from their middles; half the square of
  * the distance of its farthest point. All centres c with c.m - |c.x| halfx - |c.y| halfy > far are surely nearer to it:
  * in one quadrant c.n > far, n the corner of their difference for the quadrant, and (x, y) = n / far is the pole of
- * this line. number 0 is no partner: its pole is 0. */
+ * this line. number 0 is not a partner: its pole is 0. */
 typedef struct tiles_spoke {
   double mx, my, half[2], far;
   double nx, ny, x, y; /* of the quadrant at work */
@@ -177,7 +177,7 @@ static void sort_spokes(tiles_spoke *s, size_t n) {
   }
 }
 
-/* Half a hull: behind s[from .. at-1], s[k] instead of those that it makes needless. */
+/* Half a hull: after s[from .. at-1], s[k] instead of the entries that it makes needless. */
 static size_t hull_push(tiles_spoke *s, size_t from, size_t at, const tiles_spoke *next) {
   while (at >= from + 2 && !(reach_cross(s[at - 1].x - s[at - 2].x, s[at - 1].y - s[at - 2].y, next->x - s[at - 2].x,
                                          next->y - s[at - 2].y) > 0))

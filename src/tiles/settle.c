@@ -237,7 +237,7 @@ static dyd_status first_rows(tile *t, const tiles_view *v, dyd_error *err) {
   return st;
 }
 
-/* Late sites and their own partners, ascending; then ghosts that are no aliases. */
+/* Late sites and their own partners, ascending; then ghosts that are not aliases. */
 static dyd_status first_fringe(tile *t, const tiles_view *v, dyd_error *err) {
   enum { PARTNER = 4 };
   bool fits = true;
