@@ -456,7 +456,7 @@ static int scale_of_sites(const dyd_sites *s) {
   return plain || most < -FARTHEST_EXPONENT || most > FARTHEST_EXPONENT ? 0 : (int)-most;
 }
 
-/* Triangulates the sites, multiplied by 2^scale, in place of pd; cancelled: all stays as it is. */
+/* Triangulates the sites, multiplied by 2^scale, instead of pd; cancelled: all stays as it is. */
 static dyd_status triangulate_scaled(dyd_disc_work *w) {
   dyd_rect r;
   dyd_rect_init(&r);

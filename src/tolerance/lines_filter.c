@@ -296,7 +296,7 @@ static bool next_d(climb_d *c) {
   return true;
 }
 
-/* The points that may be as near to the centre as those that bind, if any do: all whose squared distance is at most the
+/* The points that may be as near to the centre as the binding ones, if any: all whose squared distance is at most the
  * top; at an end, how far out they are. NaN does not count. */
 typedef struct near_d {
   double e[DYD_LINES_D], top;
@@ -319,7 +319,7 @@ static void measure_d(near_d *o, const climb_d *c) {
   }
 }
 
-/* The point with the lowest line there, except those that bind. DYD_NONE: there is none. */
+/* The point with the lowest line there, except binding ones. DYD_NONE: none. */
 static uint32_t lowest_d(double *distance, const climb_d *c, const near_d *near) {
   uint32_t best = DYD_NONE;
   *distance = HUGE_VAL;
@@ -333,7 +333,7 @@ static uint32_t lowest_d(double *distance, const climb_d *c, const near_d *near)
   return best;
 }
 
-/* The lowest of the points that may be as near as those that bind. *alone: certainly none is. */
+/* The lowest of the points that may be as near as the binding ones. *alone: certainly none is. */
 static uint32_t beside_binding(bool *alone, double *distance, climb_d *c) {
   const dyd_line_d *a = c->kind == SUMMIT ? c->one : c->rising, *b = c->kind == SUMMIT ? c->one : c->falling;
   bool binds = !c->at.end && (c->kind == CROSSING || c->kind == SUMMIT);

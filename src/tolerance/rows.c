@@ -420,7 +420,7 @@ dyd_status dyd_deaths(dyd_tolerance *t) {
 /* Discs of that radius lie in squares, so a pair that is born is a possible pair of these; each such pair is worked out
  * on few lines, and points nearer to the best place are added until there are none [TOL-3]. */
 
-/* The search for a birth begins with at most so many neighbours. */
+/* The search for a birth begins with at most this many neighbours. */
 enum { FIRST_OTHERS = 24 };
 
 /* w / 2 against -up_to: sqrt(minus) - sqrt(plus) against sqrt(4 up_to^2). */

@@ -89,7 +89,7 @@ bool dyd_others_add(dyd_others *o, uint32_t v);
  * neighbours only the ones next to the other end. Repeats are possible. */
 dyd_status dyd_others_around(dyd_others *o, const dyd_tolerance *t, uint32_t v, uint32_t w, uint32_t most);
 /* Adds to *o at most `most` vertices, other than i, j and those of the lines, that may lie as near to the place of
- * t->summit as those that bind there (at an end: as far out). *more: some were added. */
+ * t->summit as the binding ones there (at an end: as far out). *more: some were added. */
 dyd_status dyd_others_nearer(bool *more, dyd_others *o, dyd_tolerance *t, uint32_t i, uint32_t j, size_t most);
 
 dyd_status dyd_deaths(dyd_tolerance *t);

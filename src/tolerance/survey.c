@@ -275,7 +275,7 @@ static dyd_status loosen(dyd_survey *s) {
   return st;
 }
 
-/* ---- each site by itself ---- */
+/* ---- each site alone ---- */
 
 static dyd_status open_around(size_t *open, dyd_survey *s, uint32_t site) {
   dyd_status st = DYD_OK;
