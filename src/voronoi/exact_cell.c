@@ -43,7 +43,7 @@ typedef struct cell_frame {
   dyd_spot corner[4]; /* of the window: x0 y0, x1 y0, x1 y1, x0 y1 */
 } cell_frame;
 
-/* The curve of an other: its arcs without those that others take; owned. */
+/* The curve of another site: its arcs without the ones that others cover; owned. */
 typedef struct cell_curve {
   mpz_t middle[2];
   size_t count;
@@ -425,7 +425,7 @@ static void cell_clear(exact_cell *c) {
   mpz_clear(c->sample.num);
 }
 
-/* The arcs of curve k without those that others take: these have no pieces, and meets on them are no cuts [PRUNE-1].
+/* The arcs of curve k without the ones that others cover: these have no pieces, and meets on them do not cut [PRUNE-1].
  * found: scratch. */
 static dyd_status cell_set_curve(exact_cell *c, dyd_takers *takers, dyd_elementary *found, size_t k) {
   bool outer = c->task->outer;

@@ -80,7 +80,7 @@ dyd_status dyd_shape_find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, cons
  * dropped, be it to less than three; the edge from s->inner[k] on is on the bisector with site s->across[k], DYD_NONE:
  * on a side of W. DYD_E_RANGE where the cell is not exact. */
 dyd_status dyd_shape_edges(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w);
-/* Sets what holds for any cell: no point is certainly in it, all of W possibly. */
+/* Sets the shape valid for any cell: no point is certainly in it, all of W possibly. */
 dyd_status dyd_shape_set_unknown(dyd_shape *s, const dyd_rect *window);
 /* Twice the area of the inner polygon, or of all outer ones together. Exact. */
 dyd_status dyd_shape_area2(dyd_dyadic *out, const dyd_shape *s, bool outer);

@@ -94,7 +94,7 @@ static bool round_to_grid(double *out, double lo, double hi, int grid) {
  * b_y |a|^2 - a_y |b|^2 and a_x |b|^2 - b_x |a|^2, it is p0 + N / D. Differences carry a relative error u, so products
  * in N at most (1 + u)^7, those in D (1 + u)^3: N is off by less than 9 u (|b_y| |a|^2 + |a_y| |b|^2), D by less than
  * 10 u (|a_x b_y| + |a_y b_x|), for which 16 u stand, also for their own rounding. What underflows is below 2^-1070 in
- * N, and 2^-600 stands for that, as |D| >= 2^-400. */
+ * N, and 2^-600 covers that, as |D| >= 2^-400. */
 static bool points_vertex(dyd_bbox *out, dyd_xy p, dyd_xy q, dyd_xy r) {
   const double u = 0x1p-53;
   double ax = q.x - p.x, ay = q.y - p.y, bx = r.x - p.x, by = r.y - p.y;
@@ -155,7 +155,7 @@ bool dyd_filter_grid_centre(dyd_grid_centre *c, const dyd_delaunay *pd, uint32_t
   if (!box_is_inside(&b, w->d)) return true;
   if (!rounds_alike(b.e[0], b.e[1], scale) || !rounds_alike(b.e[2], b.e[3], scale)) return false;
   c->z = (dyd_xy){b.e[0] / 2 + b.e[1] / 2, b.e[2] / 2 + b.e[3] / 2};
-  c->error = dyd_max(b.e[1] - b.e[0], b.e[3] - b.e[2]); /* twice what it is, less rounding */
+  c->error = dyd_max(b.e[1] - b.e[0], b.e[3] - b.e[2]); /* twice the bound, less rounding */
   return true;
 }
 
