@@ -13,7 +13,7 @@ function element(tag, attributes = {}, ...children) {
   return out;
 }
 
-// What can be shown: name, what it means; the first list of diagrams only.
+// The layers: name, meaning; the first list of diagrams only.
 const CELLS = [
   ["cells", "certainly nearest to a point"],
   ["bands", "undecided"],
