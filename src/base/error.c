@@ -28,7 +28,7 @@ dyd_status dyd_abi_check(const void *theirs, size_t least, const char *type, dyd
                   size, type, type);
 }
 
-/* Is there nothing but zeros from byte `from` on? */
+/* Returns true if all bytes from `from` on are zero. */
 static bool ends_in_zeros(const void *theirs, size_t from, size_t size) {
   const unsigned char *byte = theirs;
   while (from < size && !byte[from]) from++;
