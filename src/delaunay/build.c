@@ -312,8 +312,8 @@ static bool triangle_stands(dyd_work *w, const dyd_skeleton *sk, uint32_t t) {
   return true;
 }
 
-/* Are the triangles of the face Delaunay for the present representatives as they are, so that it may stay [LOC-2]?
- * Exact for bounded faces; false for others. */
+/* Returns true if the triangles of the face are Delaunay for the present representatives as they are, so that it may
+ * stay [LOC-2]. Exact for bounded faces; false for others. */
 static bool splice_is_needless(dyd_work *w, const dyd_skeleton *sk, const uint32_t *tri, uint32_t tris) {
   for (uint32_t q = 0; q < tris; q++)
     if (!triangle_stands(w, sk, tri[q])) return false;
@@ -341,7 +341,7 @@ static dyd_status splice(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32
 
 /* ---- a few vertices ---- */
 
-/* Is one of the vertices a corner of t, or in or on its circle? */
+/* Returns true if one of the vertices is a corner of t, or in or on its circle. */
 static bool is_upset(dyd_work *w, const dyd_mesh *m, uint32_t t, const uint32_t *vertex, uint32_t count) {
   const uint32_t *v = m->tri[t].v;
   bool corner = false, inside = false;
@@ -456,7 +456,7 @@ static dyd_status affected(uint32_t **seed, size_t *seeds, dyd_delaunay *pd, con
 
 #ifdef DYD_ARMED
 
-/* Is the first guess a witness for an edge among all sites? Exact. */
+/* Returns true if the first guess is a witness for an edge among all sites. Exact. */
 static bool guess_is_witness(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
   dyd_point c;
   dyd_point_init(&c);

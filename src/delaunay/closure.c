@@ -260,7 +260,7 @@ static dyd_status closing_found(void *context, bool *enough, uint32_t a, uint32_
   return st;
 }
 
-/* Do most vertices have uncertain edges all around? */
+/* Returns true if most vertices have uncertain edges all around. */
 static bool is_crowded(const closing *c) {
   return c->tris >= CROWD && c->tris / 3 >= c->out->vertices / 2 && !c->sk->mesh.no_filter;
 }

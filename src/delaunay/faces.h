@@ -28,7 +28,7 @@ typedef struct dyd_narrowed {
 dyd_status dyd_narrowed_init(dyd_narrowed *n, const dyd_delaunay *pd, uint32_t f, const uint32_t *changed,
                              size_t count);
 void dyd_narrowed_clear(dyd_narrowed *n);
-/* Can an edge of the face become certain? */
+/* Returns true if an edge of the face can become certain. */
 bool dyd_narrowed_reaches(const dyd_narrowed *n, const dyd_mesh *m, dyd_half_edge h);
 
 /* Finds and closes all undecided faces among the triangles tri[0..count-1] (NULL: all), which are marked as decided,

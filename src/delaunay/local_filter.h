@@ -5,8 +5,8 @@
 
 #include "delaunay/state.h"
 
-/* Is c surely a witness of the real edge h, which lies inside an undecided face of the table [LOC-3]? true only if
- * it is; false also where that would take long. Needs boxes (not all sites exact). */
+/* Returns true if c is certainly a witness of the real edge h, which lies inside an undecided face of the table
+ * [LOC-3]. true only if it is; false also where that would take long. Needs boxes (not all sites exact). */
 bool dyd_filter_local_witness(const dyd_delaunay *pd, dyd_half_edge h, dyd_xy c);
 
 #endif

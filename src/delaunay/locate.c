@@ -107,7 +107,7 @@ static int reps_turn(locator *l, uint32_t a, uint32_t b, dyd_xy z) {
   return (int)dyd_orientation(&l->r[0], &l->r[1], &l->r[2]);
 }
 
-/* Is z on the left of the way from a to b for every choice? On it is enough between exact points. */
+/* Returns true if z is on the left of the way from a to b for every choice. On it is enough between exact points. */
 static bool is_on_left(locator *l, uint32_t a, uint32_t b, dyd_xy z) {
   const dyd_skeleton *sk = &l->pd->sk;
   if (dyd_vertex_is_point(sk, a) && dyd_vertex_is_point(sk, b)) return reps_turn(l, a, b, z) >= 0;

@@ -10,7 +10,7 @@
 dyd_room dyd_delaunay_room(const dyd_delaunay *pd);
 /* From now on that is so much; 0: no bound. */
 void dyd_delaunay_allow(dyd_delaunay *pd, uint64_t max_bytes);
-/* Is there one? Estimates that take a while are made only then. */
+/* Returns true if a bound is set. Estimates that take a while are made only then. */
 bool dyd_delaunay_is_bounded(const dyd_delaunay *pd);
 /* Returns DYD_OK when the budget allows that many bytes more, else DYD_E_NOMEM, with `what` named in *err (may be
  * NULL). `what` is static. */
@@ -19,7 +19,8 @@ dyd_status dyd_delaunay_grant(const dyd_delaunay *pd, uint64_t bytes, const char
  * the common boundary of two such cells is one point or nothing [GRP-1], and a face of k sites has about k^2 / 2 of
  * them. Ties that were proved count: of arbitrary points in their rectangles they are possible edges. */
 dyd_pair_status dyd_least_bounding(const dyd_delaunay *pd);
-/* Is a tie of points that are not all exact proved? Of the true points it bounds nothing either [GRP-2]. */
+/* Returns true if a tie of points that are not all exact is proved. Of the true points it bounds nothing either
+ * [GRP-2]. */
 bool dyd_has_proved_tie(const dyd_delaunay *pd);
 /* As dyd_least_bounding, for the true points; dyd_least_at: of the pairs that bound the cell of site i, proved: for the
  * true points. */

@@ -107,7 +107,8 @@ static dyd_status build_chain(chain *c, const dyd_extreme *x, size_t count) {
 
 /* ---- the fan of one ---- */
 
-/* Is u.b >= g(u) for sample s: (0,1) for s = 0, the normal of edge s - 1, (1,0) for the last, s = count? */
+/* Returns true if u.b >= g(u) for sample s: (0,1) for s = 0, the normal of edge s - 1, (1,0) for the last, s = count.
+ * */
 static bool reaches(const chain *c, dyd_hull_corner b, size_t s) {
   if (s == 0) return dyd_hull_compare(1, b, chain_low(c->at[0])) >= 0;
   if (s == c->count) return dyd_hull_compare(0, b, chain_low(c->at[s - 1])) >= 0;

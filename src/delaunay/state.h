@@ -73,7 +73,7 @@ struct dyd_delaunay {
   size_t joins;  /* of sites, when it was built */
 };
 
-/* Are there no triangles, since the points are collinear for every choice, or are at most two? */
+/* Returns true if no triangles exist, since the points are collinear for every choice, or at most two. */
 static inline bool dyd_is_line(const dyd_delaunay *pd) {
   return pd->open.kind == DYD_LINE;
 }
@@ -82,15 +82,15 @@ static inline uint32_t dyd_face_of(const dyd_delaunay *pd, uint32_t t) {
   return pd->open.of ? pd->open.of[t] : DYD_NONE;
 }
 
-/* Has face f a triangle at v? */
+/* Returns true if face f has a triangle at v. */
 static inline bool dyd_is_corner_of(const dyd_delaunay *pd, uint32_t v, uint32_t f) {
   dyd_half_edge first = pd->sk.leaving[v], h = first;
   while (h != DYD_NONE && dyd_face_of(pd, dyd_edge_triangle(h)) != f) h = dyd_edge_around(&pd->sk.mesh, h, first);
   return h != DYD_NONE;
 }
 
-/* Is triangle t one for every choice: three legal edges around a face of the skeleton? A point that entered it would
- * first lie on an edge. */
+/* Returns true if triangle t is one for every choice: three legal edges around a face of the skeleton. A point that
+ * entered it would first lie on an edge. */
 static inline bool dyd_triangle_is_sure(const dyd_delaunay *pd, uint32_t t) {
   return dyd_triangle_is_certain(&pd->sk, t) && !dyd_is_ghost_triangle(&pd->sk.mesh, t) &&
          dyd_face_of(pd, t) == DYD_NONE;

@@ -107,7 +107,7 @@ static dyd_status rim_pairs(bool *good, dyd_vertex_pair **pair, size_t *count, c
   return DYD_OK;
 }
 
-/* Do all sites but aliases lie on the chain? Then another face has it from its other side. */
+/* Returns true if all sites but aliases lie on the chain. Then another face has it from its other side. */
 static bool is_everything(const dyd_delaunay *pd, const rim *r) {
   return r->chain && 2 * (uint64_t)r->count == (uint64_t)pd->sk.mesh.count + 2;
 }

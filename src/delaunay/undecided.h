@@ -14,7 +14,7 @@ typedef void (*dyd_pair_visit)(void *context, uint32_t v, uint32_t w, dyd_pair_s
 dyd_pair_status dyd_open_status_of(const dyd_delaunay *pd, size_t f);
 /* Vertices of face f, ascending; *vertex is owned by the caller. */
 dyd_status dyd_open_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, size_t f);
-/* Does it have triangles at the ghost? */
+/* Returns true if it has triangles at the ghost. */
 bool dyd_open_is_outer(const dyd_delaunay *pd, size_t f);
 /* Returns true if pairs of face f beyond the skeleton are missing, and if that is so since the face was postponed. */
 bool dyd_open_is_capped(const dyd_delaunay *pd, size_t f);
@@ -31,7 +31,8 @@ void dyd_open_each_in(const dyd_delaunay *pd, size_t f, dyd_pair_visit visit, vo
 /* How many pairs are legal; is this one? */
 uint64_t dyd_legal_count(const dyd_delaunay *pd);
 bool dyd_pair_is_legal(const dyd_delaunay *pd, uint32_t v, uint32_t w);
-/* Is v a corner of the hull for every choice? Is vw an edge of the hull of the representatives (of two sites, too)? */
+/* Returns true if v is a corner of the hull for every choice. Is vw an edge of the hull of the representatives (of two
+ * sites, too)? */
 bool dyd_corner_is_sure(const dyd_delaunay *pd, uint32_t v);
 bool dyd_is_hull_edge(const dyd_delaunay *pd, uint32_t v, uint32_t w);
 /* The legal pairs of vertex v. */
