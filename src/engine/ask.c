@@ -139,7 +139,7 @@ static double watch_seconds(const dyd_watch *w) {
   return dyd_seconds() - w->start;
 }
 
-/* Is there a deadline, and has it passed? */
+/* Returns true if a deadline is set and has passed. */
 static bool watch_is_late(const dyd_watch *w) {
   return w->limited && watch_seconds(w) >= w->seconds;
 }
@@ -417,7 +417,7 @@ static dyd_status ask_triangulate(ask *a, bool failed, dyd_error *err) {
 
 /* ---- the loop ---- */
 
-/* Was something narrowed that is to be brought into the result before the question comes again? */
+/* Returns true if something was narrowed that is to be brought into the result before the question comes again. */
 static bool ask_is_stale(const ask *a) {
   return a->q->triangulate && a->e->pd && a->e->changes && !a->again;
 }

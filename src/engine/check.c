@@ -54,7 +54,7 @@ static const volatile int *check_flag(const check_state *s) {
   return s->o->cancel && !(s->o->seconds > 0) ? s->o->cancel : &s->e->stop;
 }
 
-/* Is the time over, or was it cancelled? */
+/* Returns true if the time is over, or the check was cancelled. */
 static bool check_is_over(const check_state *s) {
   return dyd_flag_get(&s->e->stop) || (s->o->cancel && dyd_flag_get(s->o->cancel));
 }
@@ -244,7 +244,7 @@ static void watched_forget(watched_cell *w) {
   dyd_polygon_list_clear(&w->outer);
 }
 
-/* Are both points in one C_ji for a possible neighbour j? */
+/* Sets *out to whether both points are in one C_ji for a possible neighbour j. */
 static dyd_status edge_is_outside(bool *out, const check_state *s, uint32_t i, const dyd_point *a, const dyd_point *b) {
   dyd_index_list list = {0};
   dyd_rect own, other;
@@ -558,7 +558,7 @@ static dyd_status schedule_make(moves *m, uint64_t seed, const askable *p, bool 
 
 /* ---- cutting down ---- */
 
-/* Does m without [from, to) still show the fault? Then it is cut. */
+/* Cuts [from, to) out of m if m still shows the fault without it; sets *cut then. */
 static dyd_status schedule_try_without(bool *cut, moves *m, size_t from, size_t to, dyd_check_fault fault,
                                        dyd_check_open_fn open, void *user, uint64_t seed, const dyd_check_options *o) {
   moves less = {0};

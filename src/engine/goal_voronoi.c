@@ -70,7 +70,7 @@ dyd_status dyd_goal_voronoi_number(mpfr_ptr out, dyd_voronoi_sums *sums, dyd_mea
   return st;
 }
 
-/* Do the numbers of all pairs stay below the goal? */
+/* Sets *out to whether the numbers of all pairs stay below the goal. */
 static dyd_status goal_numbers_are_small(bool *out, dyd_voronoi_sums *sums, const dyd_engine *e,
                                          const dyd_engine_options *o, const dyd_pair_list *pairs) {
   dyd_measure m;
@@ -89,8 +89,8 @@ static dyd_status goal_numbers_are_small(bool *out, dyd_voronoi_sums *sums, cons
   return st;
 }
 
-/* Is the bound, found with polygons within 2^-bits, above the goal even less what flattening adds to it (about
- * 2^-(bits - flattening of goal 0))? Then finer polygons do not help. */
+/* Returns true if the bound, found with polygons within 2^-bits, is above the goal even less what flattening adds to it
+ * (about 2^-(bits - flattening of goal 0)). Then finer polygons do not help. */
 static bool goal_is_hopeless(mpfr_srcptr bound, int64_t bits, const dyd_engine *e, const dyd_engine_options *o) {
   int64_t flat = bits - dyd_metric_flattening(e->pd, o->window, 0);
   mpfr_t rest;

@@ -9,7 +9,7 @@
 static inline bool dyd_goal_is_voronoi(dyd_goal goal) {
   return goal == DYD_GOAL_VORONOI_AREA || goal == DYD_GOAL_VORONOI_HAUSDORFF;
 }
-/* Is there a window, of positive area and with dyadic ends? */
+/* Returns true if a window is given, with positive area and dyadic ends. */
 bool dyd_goal_window_is_good(const dyd_rect *window);
 /* Sets *out to whether the goal, one of these two, holds. If it does not, *sums, NULL before, keeps the sums found, for
  * the plan; freed by dyd_goal_sums_free, whatever is returned. */

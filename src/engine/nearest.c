@@ -95,7 +95,7 @@ static dyd_status nearest_count_firm(size_t *count, const nearest_question *q, c
   return st == DYD_CAPPED ? DYD_OK : st;
 }
 
-/* Do two sites stay possible, whatever is refined [NEAR-5]? */
+/* Sets *out to whether two sites stay possible, whatever is refined [NEAR-5]. */
 static dyd_status nearest_is_settled(bool *out, const nearest_question *q) {
   size_t count = 0;
   dyd_dyadic eps;
@@ -244,7 +244,7 @@ static dyd_status graph_draw_site(dyd_sites *sites, const dyd_engine *e, uint32_
   return st;
 }
 
-/* Do two points of the choice coincide that are two sites? Then one of them takes part in nothing. */
+/* Returns true if two points of the choice coincide that are two sites. Then one of them takes part in nothing. */
 static bool choice_joins(const dyd_delaunay *pd, const dyd_engine *e) {
   for (uint32_t k = 0; k < dyd_sites_count(e->sites); k++)
     if (dyd_delaunay_alias(pd, k) != dyd_delaunay_alias(e->pd, k)) return true;
@@ -322,7 +322,7 @@ static bool graph_is_open(const graph_question *q, size_t k) {
   return !q->edges.item[k].sure && !(q->may[k] && q->may_not[k]);
 }
 
-/* Can an edge that is open be refined at one of its ends? */
+/* Returns true if an edge that is open can be refined at one of its ends. */
 static bool graph_can_narrow(const graph_question *q, const dyd_engine *e) {
   for (size_t k = 0; k < q->edges.count; k++) {
     const uint32_t end[2] = {q->edges.item[k].i, q->edges.item[k].j};
@@ -334,7 +334,7 @@ static bool graph_can_narrow(const graph_question *q, const dyd_engine *e) {
   return false;
 }
 
-/* Is some core no point? */
+/* Sets *out to whether some core is not a point. */
 static dyd_status graph_has_cores(bool *out, const dyd_engine *e) {
   dyd_rect r;
   dyd_rect_init(&r);

@@ -145,7 +145,7 @@ size_t dyd_plan_count(const dyd_plan *p) {
 
 /* Announces requests to sources, so that slow answers can be computed in parallel. */
 
-/* Will p be asked for `bits`, or is it that narrow already, or its answer known? */
+/* Returns true if p will be asked for `bits`: it is not that narrow, and the answer is not known. */
 static bool announce_is_due(dyd_rect *scratch, const dyd_refinable *p, const dyd_engine *e, int64_t bits) {
   if (dyd_recall_next(e->recall, p->site, bits)) return false;
   if (!p->asked) return true;

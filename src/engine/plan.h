@@ -40,7 +40,8 @@ void dyd_plan_empty(dyd_plan *p);
 void dyd_plan_sort(dyd_plan *p);
 
 const dyd_refinable *dyd_plan_point(const dyd_plan *p, const dyd_want *w);
-/* Can the point (NULL: a fixed site) still be asked, now or under a larger max_bits? The plan remembers the second. */
+/* Returns true if the point (NULL: a fixed site) can still be asked, now or under a larger max_bits. The plan remembers
+ * the second. */
 bool dyd_plan_can_narrow(dyd_plan *p, const dyd_refinable *point);
 /* Adds a want; of several for one point the one that asks for most is kept, the first among equals. bits are cut to
  * max_bits. */

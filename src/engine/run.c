@@ -178,7 +178,7 @@ static double waiting_cost(const dyd_plan *p, uint32_t site) {
   return p->o->cost ? p->o->cost[site] : dyd_engine_number(p->e, site, DYD_ROW_COST);
 }
 
-/* Is every cost a number above 0? */
+/* Returns true if every cost is a number above 0. */
 static bool waiting_costs_are_good(const dyd_engine *e, const dyd_engine_options *o) {
   size_t n = o->cost ? dyd_engine_count(e) : 0, k = 0;
   while (k < n && o->cost[k] > 0 && o->cost[k] < HUGE_VAL) k++;
@@ -288,7 +288,8 @@ static int64_t excess_step(const dyd_refinable *p, int64_t excess, const dyd_eng
   return target > step && !o->step_bits ? target : step;
 }
 
-/* Must the pair be refined? m = NULL: always; otherwise when its Hausdorff number is above the goal. */
+/* Sets *out to whether the pair must be refined. m = NULL: always; otherwise when its Hausdorff number is above the
+ * goal. */
 static dyd_status pair_matters(bool *out, mpfr_ptr number, dyd_measure *m, const dyd_pair *pair,
                                const dyd_engine_options *o) {
   *out = pair->status == DYD_INDETERMINATE;
@@ -337,7 +338,7 @@ static bool lacks_needed(const dyd_refinable *p, const dyd_engine_options *o) {
   return lesser_bits(p->needed, o->max_bits) > p->bits && !o->step_bits && o->goal == DYD_GOAL_DECIDED;
 }
 
-/* Is that known of a site of the face? Then no scout has to be sent to learn it. */
+/* Returns true if that is known of a site of the face. Then no scout has to be sent to learn it. */
 static bool any_lacks_needed(const dyd_coarse *c, const dyd_plan *plan) {
   for (size_t k = 0; k < c->sites.count; k++) {
     const dyd_refinable *p = dyd_engine_find(plan->e, c->sites.item[k]);

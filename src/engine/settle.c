@@ -118,7 +118,7 @@ static dyd_status site_get_firm(dyd_rect *r, bool *firm, const dyd_engine *e, co
   return st;
 }
 
-/* Are the cores of both ends firm? */
+/* Sets *out to whether the cores of both ends are firm. */
 static dyd_status pair_is_firm(bool *out, const dyd_engine *e, const dyd_dyadic *eps, const dyd_pair *pair) {
   dyd_rect r;
   dyd_rect_init(&r);
@@ -232,7 +232,7 @@ static dyd_status rect_reach2(mpq_t out, const dyd_point *c, const dyd_rect *r, 
   return st;
 }
 
-/* Is there a point of site k outside the disc (c, r), wherever it is along sides that can be narrowed? */
+/* Sets *out to whether a point of site k is outside the disc (c, r), wherever it is along narrowable sides. */
 static dyd_status disc_spares(bool *out, const dyd_engine *e, const dyd_point *c, const mpq_t radius2, uint32_t k) {
   mpq_t far2;
   dyd_rect r;
@@ -248,8 +248,8 @@ static dyd_status disc_spares(bool *out, const dyd_engine *e, const dyd_point *c
   return st;
 }
 
-/* Is there a disc around c that shows that the pair is possible, wherever points are that can be narrowed? *met: the
- * sites that meet it. */
+/* Sets *out to whether a disc around c shows that the pair is possible, wherever points are that can be narrowed. *met:
+ * the sites that meet it. */
 static dyd_status disc_joins(bool *out, dyd_index_list *met, const settling *s, const dyd_point *c,
                              const dyd_settled_pair *p) {
   const size_t end[2] = {settling_place(s, p->i), settling_place(s, p->j)};
@@ -320,14 +320,14 @@ static void settling_choose(dyd_rect *out, const settling *s, size_t k, const do
   if (core[1] && !dyd_interval_is_point(&out->y)) choose_on_side(&out->y, &s->rect[k].y, at[1]);
 }
 
-/* Is r[3] surely among the three others? */
+/* Returns true if r[3] is certainly among the three others. */
 static bool surely_inside(const dyd_rect r[4]) {
   dyd_sure way = dyd_orientation(&r[0], &r[1], &r[2]);
   return way != DYD_UNSURE && dyd_orientation(&r[0], &r[1], &r[3]) == way &&
          dyd_orientation(&r[1], &r[2], &r[3]) == way && dyd_orientation(&r[2], &r[0], &r[3]) == way;
 }
 
-/* Do 01 and 23 surely cross, and no disc hold 0 and 1 that holds neither 2 nor 3? */
+/* Returns true if 01 and 23 certainly cross, and no disc holds 0 and 1 that holds neither 2 nor 3. */
 static bool surely_crossed(const dyd_rect r[4]) {
   dyd_sure way = dyd_orientation(&r[0], &r[1], &r[2]);
   return way != DYD_UNSURE && dyd_orientation(&r[1], &r[0], &r[3]) == way &&
@@ -383,7 +383,7 @@ static void settling_pay(const settling *s, size_t cost) {
   *s->work -= *s->work < cost ? *s->work : cost;
 }
 
-/* Is there a true point of site number k, as far as its rectangle tells? */
+/* Returns true if site number k is a true point, as far as its rectangle shows. */
 static bool settling_is_exact(const settling *s, size_t k) {
   const bool *core = s->guess[k].core;
   return (!core[0] || dyd_interval_is_point(&s->rect[k].x)) && (!core[1] || dyd_interval_is_point(&s->rect[k].y));
@@ -396,7 +396,8 @@ static bool may_be_on(const settling *s, const settled_circle *c, size_t k) {
   return dyd_con(r, a, b, &s->rect[c->member[2]]) == DYD_UNSURE;
 }
 
-/* Is site number k proved to be on the circle with the first three members, on the line with the first two? */
+/* Sets *on to whether site number k is proved to be on the circle with the first three members, on the line with the
+ * first two. */
 static dyd_status circle_prove(bool *on, const settling *s, const settled_circle *c, size_t k) {
   uint32_t site[4];
   size_t first = c->line ? 2 : 3;
@@ -419,7 +420,7 @@ static dyd_status circle_fill(settled_circle *c, const settling *s) {
   return st;
 }
 
-/* Is all of r surely on the side `way` of the line, or, whatever way is, outside of the circle? */
+/* Returns true if all of r is certainly on the side `way` of the line, or, whatever way is, outside of the circle. */
 static bool surely_beside(const settling *s, const settled_circle *c, dyd_sure way, const dyd_rect *r) {
   const dyd_rect *a = &s->rect[c->member[0]], *b = &s->rect[c->member[1]];
   if (c->line) return dyd_orientation(a, b, r) == way;
@@ -470,7 +471,7 @@ static bool surely_before(const dyd_interval *a, const dyd_interval *b) {
   return dyd_dyadic_cmp(&a->hi, &b->lo) < 0;
 }
 
-/* Is b between a and c, all on one line? */
+/* Returns true if b is between a and c, all on one line. */
 static bool surely_between(const dyd_rect *a, const dyd_rect *b, const dyd_rect *c) {
   return (surely_before(&a->x, &b->x) && surely_before(&b->x, &c->x)) ||
          (surely_before(&c->x, &b->x) && surely_before(&b->x, &a->x)) ||
@@ -632,7 +633,7 @@ static dyd_status settle_firm(dyd_settled_pair *pair, size_t pairs, const dyd_pl
 
 /* ---- faces ---- */
 
-/* Is one of the sites a point that can be narrowed? */
+/* Returns true if one of the sites is a point that can be narrowed. */
 static bool any_can_narrow(const dyd_engine *e, const dyd_index_list *site) {
   for (size_t k = 0; k < site->count; k++) {
     const dyd_refinable *p = dyd_engine_find(e, site->item[k]);
@@ -702,7 +703,7 @@ static dyd_status settled_append(dyd_settled *s, const dyd_settled *fresh) {
   return DYD_OK;
 }
 
-/* Does a point that can be narrowed have a core? */
+/* Sets *out to whether a point that can be narrowed has a core. */
 static dyd_status any_core(bool *out, const dyd_engine *e) {
   dyd_status st = DYD_OK;
   dyd_rect r;

@@ -54,7 +54,7 @@ dyd_status dyd_settle_face(dyd_settled_pair *pair, size_t *work, const dyd_settl
                            size_t pairs, const dyd_index_list *face);
 
 void dyd_settled_clear(dyd_settled *s);
-/* Is the pair indeterminate for good? */
+/* Returns true if the pair is indeterminate for good. */
 bool dyd_is_settled(const dyd_settled *s, const dyd_pair *pair);
 /* Looks at pairs in undecided faces with cores and points that can be narrowed, when these are known to more
  * bits than most pairs need, and again each time they are known to four times as many. DYD_CANCELLED when e->stop was

@@ -284,7 +284,7 @@ static void centre_list_start(centre_list *l, joining *q) {
   }
 }
 
-/* Is there more than one choice? */
+/* Returns true if the site has more than one choice. */
 static bool site_is_wide(const dyd_settle_site *s) {
   return (s->core[0] && s->box[0] < s->box[1]) || (s->core[1] && s->box[2] < s->box[3]);
 }

@@ -35,7 +35,7 @@ typedef struct candidate {
   bool computable; /* not an exact point */
 } candidate;
 
-/* Does the engine know what the point is? */
+/* Returns true if the engine knows a description of the point. */
 static bool candidate_set(candidate *c, const dyd_engine *e, uint32_t i) {
   const dyd_refinable *p = dyd_engine_find(e, i);
   bool point = dyd_sites_is_point(e->sites, i);
@@ -215,7 +215,7 @@ static void put_coincident(question *q) {
   q->zero[q->zeros++] = dyd_forms_binary(f, DYD_OP_SUB, q->at[1].y, q->at[0].y);
 }
 
-/* Are two points different? */
+/* Returns true if two points are different. */
 static bool are_apart(question *q, dyd_form_point a, dyd_form_point b) {
   dyd_forms *f = &q->algebra.forms;
   return dyd_algebra_is_nonzero(&q->algebra, dyd_forms_binary(f, DYD_OP_SUB, a.x, b.x)) ||
