@@ -94,7 +94,7 @@ static bool holds_discs(dyd_content layer, dyd_format format) {
   return known && format != DYD_FORMAT_JSON && format != DYD_FORMAT_OBJ && format != DYD_FORMAT_VTK;
 }
 
-/* Are ties found while rows of pairs are written, so that no list of them is made? */
+/* Returns true if ties are found while rows of pairs are written, so that no list of them is made. */
 static bool rows_hold_ties(const dyd_result *r, const dyd_output *to, const dyd_write_options *o) {
   size_t count[4];
   dyd_delaunay_count(count, r->pd);
@@ -265,7 +265,7 @@ dyd_status dyd_voronoi_frame(dyd_frame *out, const dyd_engine *e, const dyd_writ
 
 /* ---- tables ---- */
 
-/* Does the name begin one of the items in list, each up to a comma? */
+/* Returns true if the name begins one of the items in list, each up to a comma. */
 static bool item_is_listed(const char *list, const char *name, size_t length) {
   for (const char *at = list; at; at = strchr(at, ','), at = at ? at + 1 : NULL)
     if (strcspn(at, "=,") == length && memcmp(at, name, length) == 0) return true;
