@@ -175,7 +175,7 @@ static void decimal_printed(near_decimal *out, char text[DYD_DECIMAL_SIZE], doub
   if (out->near != 0) out->length = decimal_layout_printed(text, printed);
 }
 
-/* Is the decimal the double nearest to it? */
+/* Returns true if the decimal is the double nearest to it. */
 static bool decimal_is_exact(const near_decimal *d, const char *text) {
   dyd_plain plain;
   double exact;

@@ -558,7 +558,8 @@ static dyd_status diagram_window(dyd_diagram *d, const dyd_rect *given, dyd_erro
   return dyd_fail(err, DYD_E_RANGE, "the points span more than doubles hold; give a `window`");
 }
 
-/* Is the bound of the area at bits + step less than half of that at bits: does flattening still matter? */
+/* Sets *out to whether the bound of the area at bits + step is less than half of that at bits, so that flattening still
+ * matters. */
 static dyd_status finer_helps(bool *out, const dyd_diagram *d, int64_t bits, int64_t step) {
   dyd_voronoi_bounds b[2];
   dyd_status st = DYD_OK;

@@ -105,7 +105,8 @@ static inline size_t dyd_diagram_vertices(const dyd_diagram *d) {
 }
 /* The sites of vertex k; owned by the caller. */
 dyd_status dyd_diagram_vertex_sites(dyd_index_list *out, const dyd_diagram *d, size_t k);
-/* Can vertex k be drawn, and may it be in the window? The vertex may be outside, so its enclosure is never cut. */
+/* Returns true if vertex k can be drawn, and may be in the window. The vertex may be outside, so its enclosure is never
+ * cut. */
 bool dyd_diagram_vertex_in_window(const dyd_diagram *d, size_t k);
 /* The exact enclosure of vertex k as four texts: x lower, x upper, y lower, y upper; release each with free(). */
 dyd_status dyd_diagram_vertex(char *text[4], const dyd_diagram *d, size_t k);

@@ -13,7 +13,7 @@ typedef struct dyd_lon_lat {
 
 /* The middle of a box of longitudes and latitudes. */
 dyd_lon_lat dyd_lon_lat_of(const double box[4]);
-/* Is the triangle, counter-clockwise from outside, about less than half of the sphere? */
+/* Returns true if the triangle, counter-clockwise from outside, is about less than half of the sphere. */
 bool dyd_turns_left(const dyd_lon_lat corner[3]);
 
 /* A side: the shorter way; or, between two places, the way on the great circle between them with one on its left. */
@@ -62,7 +62,7 @@ dyd_status dyd_sphere_cells_find(dyd_sphere_cells *c, const dyd_sphere *s, dyd_e
 void dyd_sphere_cells_clear(dyd_sphere_cells *c);
 /* The side behind the k-th vertex of the cell of i, that is of[first[i] + k]. */
 dyd_side dyd_sphere_cell_side(const dyd_sphere_cells *c, uint32_t i, size_t k);
-/* Is the cell of i half of the globe, and known? Then *out is its side, a whole circle. */
+/* Returns true if the cell of i is half of the globe, and known. Then *out is its side, a whole circle. */
 bool dyd_sphere_cell_is_half(dyd_side *out, const dyd_sphere_cells *c, const dyd_sphere *s, uint32_t i);
 
 #endif

@@ -34,7 +34,7 @@ void dyd_sink_json_text(dyd_sink *s, const char *text) {
   dyd_sink_text(s, "\"");
 }
 
-/* Is it worth a place in a picture? */
+/* Returns true if it is worth a place in a picture. */
 static bool label_is_plain(const char *text) {
   const unsigned char *p = (const unsigned char *)text;
   if (!*p || strlen(text) >= DYD_LABEL_SIZE) return false;

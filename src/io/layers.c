@@ -482,7 +482,7 @@ static dyd_status layer_places(dyd_table *t, const dyd_output *o) {
   return st;
 }
 
-/* Are the optional columns there? */
+/* Returns true if the optional columns are present. */
 static bool is_whole(const dyd_table *t, const dyd_output *o) {
   if (o->content == DYD_CONTENT_PLACES) return dyd_nearest_named(o->what);
   if (t->layer->of == DYD_CONTENT_DELAUNAY || t->layer->of == DYD_CONTENT_SPHERE) return t->lengths;

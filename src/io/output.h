@@ -65,7 +65,7 @@ typedef struct dyd_nearest_output {
   dyd_outcome outcome;      /* of all */
   const dyd_sphere *sphere; /* NULL: of the plane */
 } dyd_nearest_output;
-/* Have the places identifiers? */
+/* Returns true if the places have identifiers. */
 bool dyd_nearest_named(const dyd_nearest_output *n);
 
 /* Writers that such arrays take from other files. */

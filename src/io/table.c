@@ -50,7 +50,7 @@ typedef struct dyd_encoder {
   void (*tail)(dyd_table *t);
 } dyd_encoder;
 
-/* Is the name that of a column of the layer? The case of letters makes no difference in databases. */
+/* Returns true if the name is that of a column of the layer. The case of letters makes no difference in databases. */
 static bool name_is_taken(const dyd_table *t, const char *name) {
   size_t k = 0, length = strlen(name);
   while (k < t->columns && (length != strcspn(t->name[k], ",") || !dyd_same_name(name, t->name[k], length))) k++;

@@ -101,7 +101,7 @@ struct dyd_table {
 /* Whether columns that begin with "?" are there. */
 void dyd_table_begin(dyd_table *t, const dyd_output *o, bool optional);
 void dyd_table_end(dyd_table *t);
-/* Does a format of rows have a geometry? */
+/* Returns true if a format of rows has a geometry. */
 bool dyd_format_draws(dyd_format format);
 
 void dyd_row_begin(dyd_table *t);

@@ -104,7 +104,7 @@ static bool has_brackets(const dyd_span *s) {
   return memchr(s->text, '(', s->length) || memchr(s->text, '[', s->length);
 }
 
-/* Is there a mark, and nothing but what decimals have? */
+/* Returns true if the text has the mark, and otherwise only characters of decimals. */
 static bool has_mark(const char *at, const char *end, char mark) {
   size_t marks = 0;
   for (size_t n; at < end; at += n ? n : 1) {

@@ -216,7 +216,7 @@ static bool coordinate_box(dyd_coordinate *out, dyd_plain v, const dyd_manner *m
   return box_wide(out, lo, hi, manner->radius_up);
 }
 
-/* Does the text look like a hexadecimal float? */
+/* Returns true if the text looks like a hexadecimal float. */
 static bool looks_hex(const dyd_span *span) {
   for (size_t k = 1; k < 3 && k < span->length; k++)
     if (span->text[k] == 'x' || span->text[k] == 'X') return true;

@@ -17,7 +17,7 @@ typedef struct dyd_plain {
 
 /* Reads the whole text; returns false if it is not a decimal of this size (it may still be another form of number). */
 bool dyd_plain_scan(dyd_plain *out, const char *text, size_t length);
-/* Is the number a double? Then *out is it. (May say no for numbers above 2^63.) */
+/* Returns true if the number is a double. Then *out is it. (May say no for numbers above 2^63.) */
 bool dyd_plain_get_exact(double *out, dyd_plain p);
 /* The largest double <= p or the smallest >= p; false where this quick way does not apply
  * (|man| >= 2^53 or |exp| > 22). */

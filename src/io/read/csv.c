@@ -548,7 +548,7 @@ dyd_status dyd_csv_open(dyd_csv *csv, const char *delimiter, bool degrees, dyd_e
 
 /* ---- a file that is taken for a points file ---- */
 
-/* Is every field a word, or quoted? */
+/* Returns true if every field is a word, or quoted. */
 static bool is_header(const dyd_csv *csv) {
   bool words = csv->fields > 1;
   for (size_t k = 0; words && k < csv->fields; k++) {
@@ -685,7 +685,7 @@ bool dyd_is_sheet_error(const char *text, size_t length) {
   return false;
 }
 
-/* Is a quoted field open behind the text, which begins within one (inside) or with a field? */
+/* Returns true if a quoted field is open behind the text, which begins within one (inside) or with a field. */
 static bool leaves_quote_open(bool inside, const char *text, size_t length, char delimiter) {
   bool begin = true;
   if (!memchr(text, '"', length)) return inside;

@@ -17,7 +17,7 @@ typedef struct dyd_wkt {
   const char *at, *end;
   bool point, rings, inside; /* it is a point; it has rings; the first parenthesis is behind */
 } dyd_wkt;
-/* Does the text begin as a geometry does? */
+/* Returns true if the text begins as a geometry does. */
 bool dyd_wkt_begin(dyd_wkt *w, const dyd_span *text);
 /* Returns false after the last one. */
 bool dyd_wkt_next(dyd_span place[2], dyd_wkt *w);
@@ -76,7 +76,7 @@ void dyd_csv_clear(dyd_csv *csv);
 /* The fields of the next record, blanks around them removed; fields not requested stay as they are. *count is
  * 0 at the end, else above. Borrowed until the next call. */
 dyd_status dyd_csv_next(dyd_span field[DYD_CSV_MOST], size_t *count, dyd_csv *csv, dyd_error *err);
-/* Does the text begin with what spreadsheets write for errors, such as #N/A? */
+/* Returns true if the text begins with an error value of spreadsheets, such as #N/A. */
 bool dyd_is_sheet_error(const char *text, size_t length);
 /* Where a first line looks like a header, sets out to the remedy: "; if this is ..."; else to the empty text. */
 void dyd_csv_hint(char *out, size_t size, const dyd_line *line);

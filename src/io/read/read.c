@@ -460,7 +460,7 @@ static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_MOST], dy
   return dyd_labels_add(&in->labels, text, length, &own) ? DYD_OK : dyd_fail_nomem(err);
 }
 
-/* Is all of the coordinate beyond 90? Of computable numbers that is not known yet. */
+/* Returns true if all of the coordinate is beyond 90. Of computable numbers that is not known yet. */
 static bool is_beyond_poles(const dyd_coordinate *c) {
   double lo = c->lo, hi = c->hi;
   if (c->kind == DYD_COORDINATE_PLAIN) return dyd_plain_get_rounded(&lo, c->plain, DYD_UP) && fabs(lo) > 90;

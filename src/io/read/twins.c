@@ -74,7 +74,7 @@ static size_t twins_least(const dyd_twin *row, size_t n) {
   return least;
 }
 
-/* Are the discs in two squares apart? Of other boxes that is not asked. */
+/* Returns true if the discs in two squares are apart. Of other boxes that is not asked. */
 static bool discs_apart(const dyd_twin *s, const dyd_twin *t) {
   mpq_t u, v, reach, square;
   mpq_inits(u, v, reach, square, NULL);
@@ -113,8 +113,8 @@ static void half_sine(arb_t out, mpq_srcptr a, mpq_srcptr b) {
   mpq_clear(d);
 }
 
-/* Is the way on the globe between two places surely longer than both radii? Half of its angle has the squared sine
- * sin^2(lat) + cos(lat of s) cos(lat of t) sin^2(lon), of halves of the differences. */
+/* Returns true if the way on the globe between two places is certainly longer than both radii. Half of its angle has
+ * the squared sine sin^2(lat) + cos(lat of s) cos(lat of t) sin^2(lon), of halves of the differences. */
 static bool grounds_apart(const dyd_twin *s, const dyd_twin *t) {
   arb_t way, f, reach;
   mpq_t zero;
@@ -164,7 +164,7 @@ static dyd_status twins_choose(dyd_twin *out, size_t apart[2], const dyd_twin *r
 
 /* ---- places on the globe ---- */
 
-/* Is the box of degrees narrower than half a turn, and off the poles, where longitudes mean nothing? */
+/* Returns true if the box of degrees is narrower than half a turn, and off the poles, where longitudes mean nothing. */
 static bool twin_is_plain(const dyd_twin *t) {
   mpq_t width;
   mpq_init(width);
