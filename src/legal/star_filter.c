@@ -293,7 +293,7 @@ static bool read_star(star *s, const pass *p, uint32_t v) {
   return true;
 }
 
-/* Are all neighbours but q and the ghost farther from c than sqrt(limit)? */
+/* Returns true if all neighbours but q and the ghost are farther from c than sqrt(limit). */
 static bool others_farther(const star *s, int q, dyd_xy c, double limit) {
   int near = 0;
   for (int k = 0; k < s->degree; k++) {

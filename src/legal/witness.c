@@ -61,7 +61,7 @@ static bool witness_search_found(const search *s) {
   return s->status == DYD_OK && s->rivals == 0;
 }
 
-/* Is the rectangle surely farther from c than all of R_i and R_j? Exact. */
+/* Returns true if the rectangle is certainly farther from c than all of R_i and R_j. Exact. */
 static bool witness_is_outside(const search *s, const dyd_rect *r) {
   for (int q = 0; q < 2; q++)
     if (dyd_compare_distance(&s->c, &s->own[q], DYD_FARTHEST, r, DYD_CLOSEST) >= 0) return false;
@@ -208,8 +208,8 @@ static dyd_status witness_search_exactly(dyd_truth *exists, dyd_point *c, dyd_wo
   return s.status;
 }
 
-/* Does some circle meet the rectangles of i, j and of both vertices across, these surely on opposite sides of ij? Then
- * there is no witness [WIT-QUAD]. */
+/* Returns true if some circle meets the rectangles of i, j and of both vertices across, these certainly on opposite
+ * sides of ij. Then there is no witness [WIT-QUAD]. */
 static bool witness_is_excluded(const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t across[2]) {
   const uint32_t v[4] = {i, j, across[0], across[1]};
   dyd_rect r[4];

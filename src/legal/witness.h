@@ -21,7 +21,7 @@ dyd_status dyd_witness_decide(dyd_truth *exists, dyd_point *c, dyd_work *w, cons
                               uint32_t j, dyd_xy guess, const uint32_t across[2]);
 /* A witness far out, for a pair on the hull: found whenever all centres far enough in some direction are witnesses. */
 dyd_status dyd_witness_far(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j);
-/* Is c a witness of i, j? Exact. */
+/* Returns true if c is a witness of i, j. Exact. */
 bool dyd_witness_check(dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j, const dyd_point *c);
 
 #endif

@@ -10,8 +10,8 @@
  * before. */
 dyd_truth dyd_filter_witness(dyd_xy *c, const dyd_rects *rects, const dyd_skeleton *sk, uint32_t i, uint32_t j);
 
-/* Is everything in the box k surely farther from all of the box c than everything in the box s? Also where c is far
- * away from both [FLT-FAR]. */
+/* Returns true if everything in the box k is certainly farther from all of the box c than everything in the box s. Also
+ * where c is far away from both [FLT-FAR]. */
 bool dyd_filter_is_farther(const dyd_bbox *c, const dyd_bbox *s, const dyd_bbox *k);
 
 #endif
