@@ -513,7 +513,7 @@ static dyd_status pair_distance(mpfr_ptr out, bool *known, dyd_voronoi_sums *s, 
   return st;
 }
 
-/* Can the pair not be above `most`? */
+/* Returns true if the pair cannot be above `most`. */
 static bool pair_is_small(const dyd_voronoi_sums *s, const dyd_pair *pair, mpfr_srcptr most) {
   double a[4], b[4], reach[2];
   dyd_voronoi_pair_reach(reach, s, pair);

@@ -20,7 +20,7 @@ dyd_status dyd_filter_second(double *out, const dyd_delaunay *pd, uint32_t i, co
  * unevaluated sums out[0] + out[1] of two doubles, not below the true value t and not above (1 + 2^-86) t.
  * Every function may decline (false, out undefined): the caller goes to the exact rung. */
 
-/* Does the processor round to nearest now? The bounds hold only then; otherwise do not call the rest. */
+/* Returns true if the processor rounds to nearest now. The bounds hold only then; otherwise do not call the rest. */
 bool dyd_filter_measure_usable(void);
 
 /* Twice the area of the hull of a and b. */

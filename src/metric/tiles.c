@@ -105,7 +105,7 @@ static dyd_status ring_area2(dyd_dyadic *out, bool *simple, const dyd_xy *z, siz
   return st;
 }
 
-/* Is it a simple polygon, counter-clockwise? */
+/* Sets *good to whether it is a simple polygon, counter-clockwise. */
 static dyd_status ring_is_good(bool *good, const tiling *t, const dyd_xy *z, size_t n) {
   dyd_dyadic area2;
   *good = n < 3 || dyd_filter_is_convex(z, n);
@@ -223,7 +223,7 @@ static void edge_test_set(mpq_t out[2], dyd_xy z) {
   mpq_set_d(out[1], z.y);
 }
 
-/* Is (v - a) (b - a) > 0? */
+/* Returns true if (v - a) (b - a) > 0. */
 static bool edge_goes_to(edge_test *e, mpq_t a[2], mpq_t b[2]) {
   mpq_set_ui(e->sum, 0, 1);
   for (int k = 0; k < 2; k++) {
@@ -248,7 +248,7 @@ static dyd_status edge_test_site(mpq_t out[2], const tiling *t, uint32_t site) {
   return st;
 }
 
-/* Does the bisector of p and q meet the closed box of the grid around v? With d = q - p: is
+/* Returns true if the bisector of p and q meets the closed box of the grid around v. With d = q - p: is
  * |2 d v - (|q|^2 - |p|^2)| <= 2^-grid (|dx| + |dy|)? */
 static bool bisector_meets(edge_test *e, int grid) {
   mpq_set_ui(e->sum, 0, 1);
@@ -274,7 +274,7 @@ static bool bisector_meets(edge_test *e, int grid) {
   return mpq_cmp(e->sum, e->limit) <= 0;
 }
 
-/* Is vertex v to become one of the edge from z[k] on? */
+/* Sets *takes to whether vertex v is to become one of the edge from z[k] on. */
 static dyd_status edge_takes(bool *takes, edge_test *e, const tiling *t, const loose_ring *r, size_t k, dyd_xy v) {
   dyd_xy a = r->z[k], b = r->z[(k + 1) % r->count];
   *takes = false;
