@@ -53,7 +53,7 @@ static const char *style_name(const delaunay_drawing *d, int k) {
   return style[k].status == DYD_LEGAL ? "certain" : "possible";
 }
 
-/* Is the rectangle more than a dot? */
+/* Returns true if the rectangle is more than a dot. */
 static bool is_wide_box(const delaunay_drawing *d, const double b[4]) {
   return fmax(b[1] - b[0], b[3] - b[2]) * d->view.scale >= 2 * d->view.dot;
 }

@@ -114,7 +114,7 @@ bool dyd_density_covers(const dyd_density *d, const double box[4]) {
   return true;
 }
 
-/* Is the upper half of a square left to `under`? */
+/* Returns true if the upper half of a square is left to `under`. */
 static bool is_halved(const dyd_density *under, size_t square) {
   return under && under->count && density_level(under, square);
 }

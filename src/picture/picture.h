@@ -55,7 +55,7 @@ double dyd_view_y(const dyd_view *v, double y);
 void dyd_view_middle(double z[2], const dyd_view *v, const double box[4]);
 /* A view of all rectangles of the result, with a rim; pairs as above. */
 dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, const dyd_pair_list *pairs, dyd_error *err);
-/* Does a box meet the frame? */
+/* Returns true if a box meets the frame. */
 bool dyd_view_sees(const dyd_view *v, const double box[4]);
 /* *box (xlo, xhi, ylo, yhi) grows to hold b. */
 void dyd_view_hold(double box[4], const double b[4]);
@@ -173,10 +173,10 @@ void dyd_density_clear(dyd_density *d);
 void dyd_density_begin(dyd_density *d);
 /* The next part of it, on the page. */
 void dyd_density_add(dyd_density *d, double z[2][2]);
-/* Would the lines be seen as a mass? */
+/* Returns true if the lines would be seen as a mass. */
 bool dyd_density_is_crowded(const dyd_density *d);
-/* Is all that the frame shows of a box on the page (x lower, x upper, y lower, y upper) in squares that are drawn? May
- * say no of a large box. */
+/* Returns true if all that the frame shows of a box is on the page (x lower, x upper, y lower, y upper) in squares that
+ * are drawn. May say no of a large box. */
 bool dyd_density_covers(const dyd_density *d, const double box[4]);
 /* Squares that are drawn of `under` (NULL: of none), too, are shared by both. false: there were none. */
 bool dyd_density_draw(dyd_canvas *c, const dyd_density *d, const dyd_density *under);

@@ -152,7 +152,7 @@ static void scene_middle(double z[2], const html_scene *s, uint32_t i) {
   for (int axis = 0; axis < 2; axis++) z[axis] = b[2 * axis] / 2 + b[2 * axis + 1] / 2;
 }
 
-/* Does the line of the pair meet the window? As pictures count it. */
+/* Returns true if the line of the pair meets the window. As pictures count it. */
 static bool scene_sees_pair(const html_scene *s, const dyd_pair *p) {
   double z[2][2];
   if (!s->shown) return true;
@@ -365,7 +365,7 @@ static void html_changes(const html_scene *s, size_t stage, dyd_pair_status stat
   fputs(", ", s->out);
 }
 
-/* Is box number k of the history the one that its site has in the end? */
+/* Returns true if box number k of the history is the one that its site has in the end. */
 static bool is_last_box(const html_scene *s, size_t k) {
   const dyd_history_box *b = &s->history->box[k];
   double now[4];
