@@ -82,7 +82,7 @@ static void cover_tangent(walk *k) {
   mpz_addmul(k->w->h, uo, oa);
 }
 
-/* Is min over r of u.x > h? */
+/* Returns true if min over r of u.x > h. */
 static bool cover_beyond(dyd_work *w, const dyd_irect *r) {
   mpz_mul(w->s, w->u[0], mpz_sgn(w->u[0]) > 0 ? r->x0 : r->x1);
   mpz_addmul(w->s, w->u[1], mpz_sgn(w->u[1]) > 0 ? r->y0 : r->y1);

@@ -161,7 +161,7 @@ static double beta_guess_end(const dyd_beta *q, uint32_t k, dyd_place p) {
   return p.at[q->t];
 }
 
-/* Does beta surely pass between the places x -+ width across, at t? *c: the segment. */
+/* Returns true if beta certainly passes between the places x -+ width across, at t. *c: the segment. */
 static bool crosses(dyd_bbox *c, const dyd_beta *q, const dyd_place *p, double width) {
   dyd_bbox end[2];
   for (int k = 0; k < 2; k++) {
@@ -175,7 +175,7 @@ static bool crosses(dyd_bbox *c, const dyd_beta *q, const dyd_place *p, double w
          dyd_ds2_upper(&end[1], q->b, dyd_box_slack(q->rects, q->j)) < dyd_ds2_lower(&end[1], q->a);
 }
 
-/* Do all of k[0..count-1] surely block one and the same point of beta, which is about at t? */
+/* Returns true if all of k[0..count-1] certainly block one and the same point of beta, which is about at t. */
 static bool beta_surely_blocked(const dyd_beta *q, const uint32_t *k, int count, double t) {
   dyd_place p = beta_at(q, t);
   dyd_bbox c;
@@ -258,7 +258,7 @@ static uint32_t blocker_at(quick *q, const dyd_place *p) {
 
 /* ---- the chain ---- */
 
-/* Is what k blocks surely connected? */
+/* Returns true if the part that k blocks is certainly connected. */
 static bool is_link(const quick *q, uint32_t k) {
   return beta_blocks_end(&q->beta, k, 0) == DYD_SURE_MINUS || beta_blocks_end(&q->beta, k, 1) == DYD_SURE_MINUS;
 }
@@ -289,7 +289,7 @@ static double find_end(double *beside, const quick *q, uint32_t k, double t, int
   return t + way * from;
 }
 
-/* Do k and next surely block one place of beta, a little before what k blocks ends? */
+/* Returns true if k and next certainly block one place of beta, a little before what k blocks ends. */
 static bool are_joined(const quick *q, uint32_t k, uint32_t next, double end, double beside) {
   const uint32_t both[2] = {k, next};
   for (int tries = 0; tries < JOINTS; tries++, beside *= 0x1p5)
@@ -324,7 +324,7 @@ static double first_place(const quick *q) {
   return isfinite(between) ? between : t;
 }
 
-/* Do the two hints block everything? */
+/* Returns true if the two hints block everything. */
 static bool hints_cover(const quick *q, double t) {
   const uint32_t *k = q->hint;
   if (k[0] == DYD_NONE || k[1] == DYD_NONE || !beta_surely_blocked(&q->beta, k, 2, t)) return false;
