@@ -470,7 +470,7 @@ static bool circle_place(search *q, const dyd_slab *const s[2]) {
   return true;
 }
 
-/* Is the coordinate (a + b sqrt c) / d within the slab? */
+/* Returns true if the coordinate (a + b sqrt c) / d is within the slab. */
 static bool within_slab(search *q, mpz_srcptr a, mpz_srcptr b, const dyd_slab *s) {
   const dyd_icircle *k = &q->circle;
   mpz_mul_2exp(q->s, b, 1);

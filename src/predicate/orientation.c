@@ -73,7 +73,8 @@ static int corner_in_circle(const dyd_irect *r, const dyd_irect *const abc[3], d
   return sign;
 }
 
-/* Is r on the side `sign` of the three circles in which one rectangle has the touch `odd` and the others not? */
+/* Returns true if r is on the side `sign` of the three circles in which one rectangle has the touch `odd` and the
+ * others not. */
 static bool beyond_critical_circles(const dyd_irect *r, const dyd_irect *const abc[3], dyd_touch odd, int sign) {
   dyd_touch even = odd == DYD_FARTHEST ? DYD_CLOSEST : DYD_FARTHEST;
   dyd_icircle circle;

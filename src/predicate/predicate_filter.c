@@ -257,7 +257,7 @@ static roots iv_solve(const feature *f, const feature *g) {
   return f->has[0] ? iv_crossing_lines(f->at[0], g->at[1]) : iv_crossing_lines(g->at[0], f->at[1]);
 }
 
-/* Is p + t surely below or above the slab? */
+/* Returns true if p + t is certainly below or above the slab. */
 static bool outside_slab(dyd_iv t, dyd_iv p, const dyd_slab *s) {
   dyd_iv at = dyd_iv_add(t, p);
   return (s->lo2 && at.hi < s->lo.lo) || (s->hi2 && at.lo > s->hi.hi);
