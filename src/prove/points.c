@@ -127,7 +127,7 @@ static dyd_status disc_around_site(dyd_disc *out, const dyd_sites *s, size_t i) 
   return st;
 }
 
-/* Does the disc of the certificate hold that of the point? */
+/* Returns true if the disc of the certificate holds that of the point. */
 static bool disc_holds_point(const dyd_cert_disc *d, const dyd_disc *own) {
   dyd_disc held;
   dyd_disc_init(&held);
