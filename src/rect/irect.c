@@ -54,7 +54,7 @@ static void irect_support(mpz_ptr out, mpz_srcptr nx, mpz_srcptr ny, const dyd_i
   mpz_addmul(out, ny, dyd_irect_end(r, 1, mpz_sgn(ny) >= 0 ? side : !side));
 }
 
-/* Is max n.(a u b) < min n.(c u d)?  u, v: scratch. */
+/* Returns true if max n.(a u b) < min n.(c u d).  u, v: scratch. */
 static bool edge_precedes(mpz_srcptr nx, mpz_srcptr ny, const dyd_irect *const p[2], const dyd_irect *const q[2],
                           mpz_ptr u, mpz_ptr v) {
   for (int i = 0; i < 2; i++) {

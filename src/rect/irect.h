@@ -41,10 +41,10 @@ void dyd_irect_dl2(mpz_ptr out, mpz_srcptr cx, mpz_srcptr cy, const dyd_irect *r
 /* Twice the area of the convex hull of a u b. */
 void dyd_irect_partial_edge_area2(mpz_ptr out, const dyd_irect *a, const dyd_irect *b);
 
-/* Are the convex hulls of a u b and of c u d disjoint? Touching counts as meeting [HULL-1]. */
+/* Returns true if the convex hulls of a u b and of c u d are disjoint. Touching counts as meeting [HULL-1]. */
 bool dyd_irect_partial_edges_disjoint(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c, const dyd_irect *d);
 
-/* Do they have a common point? */
+/* Returns true if they have a common point. */
 static inline bool dyd_irects_meet(const dyd_irect *a, const dyd_irect *b) {
   return mpz_cmp(a->x0, b->x1) <= 0 && mpz_cmp(b->x0, a->x1) <= 0 && mpz_cmp(a->y0, b->y1) <= 0 &&
          mpz_cmp(b->y0, a->y1) <= 0;

@@ -6,7 +6,7 @@
 #include <dyadel/rect.h>
 
 bool dyd_interval_is_valid(const dyd_interval *a);
-/* Is the point in the closed rectangle, whose ends are dyadic? */
+/* Returns true if the point is in the closed rectangle, whose ends are dyadic. */
 bool dyd_rect_holds(const dyd_rect *r, const dyd_point *p);
 /* Both ends as doubles, when they are doubles; else false. */
 bool dyd_interval_get_exact_d(double *lo, double *hi, const dyd_interval *a);
@@ -24,13 +24,13 @@ void dyd_rect_dl2(mpq_t out, const dyd_point *c, const dyd_rect *r);
 void dyd_rect_distance(double *lo, double *hi, const dyd_rect *a, const dyd_rect *b);
 /* Twice the area of the partial edge Ed(a,b), the convex hull of two rectangles. Exact. */
 void dyd_partial_edge_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b);
-/* Are Ed(a,b) and Ed(c,d) disjoint as closed sets? Exact, touching counts as meeting [HULL-1]. */
+/* Returns true if Ed(a,b) and Ed(c,d) are disjoint as closed sets. Exact, touching counts as meeting [HULL-1]. */
 bool dyd_partial_edges_disjoint(const dyd_rect *a, const dyd_rect *b, const dyd_rect *c, const dyd_rect *d);
 void dyd_point_set(dyd_point *out, const dyd_point *p);
 
 bool dyd_rect_equal(const dyd_rect *a, const dyd_rect *b);
 bool dyd_interval_meets(const dyd_interval *a, const dyd_interval *b);
-/* Is inner a subset of outer? Exact. */
+/* Returns true if inner is a subset of outer. Exact. */
 bool dyd_interval_contains(const dyd_interval *outer, const dyd_interval *inner);
 /* The least b >= -DYD_EXP_LIMIT with hi - lo > 2^-b, minus 1: the width is at most 2^-(bits).
  * INT64_MAX for a point. */

@@ -94,15 +94,15 @@ static inline void dyd_sites_fetch(const dyd_sites *s, size_t i) {
 static inline void dyd_sites_fetch_exact(const dyd_sites *s, size_t i) {
   if (s->exact && s->exact[i]) dyd_prefetch(s->exact[i]);
 }
-/* Is every site surely a point that is held by doubles, without a look at each? */
+/* Returns true if every site is certainly a point that is held by doubles, without a look at each. */
 static inline bool dyd_sites_are_double_points(const dyd_sites *s) {
   return !s->exact && !s->upper[0] && !s->upper[1];
 }
-/* Is site i a point in single words? */
+/* Returns true if site i is a point in single words. */
 static inline bool dyd_sites_in_words(const dyd_sites *s, size_t i) {
   return s->word && s->word[i];
 }
-/* Do the doubles hold the rectangle of site i exactly? */
+/* Returns true if the doubles hold the rectangle of site i exactly. */
 static inline bool dyd_sites_in_doubles(const dyd_sites *s, size_t i) {
   return (!s->exact || !s->exact[i]) && !dyd_sites_in_words(s, i);
 }
