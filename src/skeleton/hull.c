@@ -144,7 +144,8 @@ static void arcs_ask(arcs *t) {
 
 /* ---- possibly on the hull ---- */
 
-/* Is `mark` in the half-open arc (u, to]? It is below a half turn, since u is strictly inside the arc found. */
+/* Returns true if `mark` is in the half-open arc (u, to]. It is below a half turn, since u is strictly inside the arc
+ * found. */
 static bool hull_passes(arcs *t, const vec *mark) {
   return arcs_cross(t, &t->u, mark) > 0 && arcs_cross(t, mark, &t->to) >= 0;
 }
@@ -171,7 +172,7 @@ static bool hull_same_direction(arcs *t, const vec *a, const vec *b) {
   return arcs_cross(t, a, b) == 0 && arcs_dot(t, a, b) > 0;
 }
 
-/* Is u strictly inside the arc from a to b, at most a half turn? */
+/* Returns true if u is strictly inside the arc from a to b, at most a half turn. */
 static bool hull_is_inside(arcs *t, const vec *a, const vec *b, const vec *u) {
   return arcs_cross(t, a, u) > 0 && arcs_cross(t, u, b) > 0;
 }

@@ -5,8 +5,8 @@
 
 #include "skeleton/work.h"
 
-/* Does some direction u have min_{R_v} u.x > max_{R_k} u.x for all other k: is v a vertex of the hull for every choice
- * [HUL-2]? Exact. */
+/* Sets *sure to whether some direction u has min_{R_v} u.x > max_{R_k} u.x for all other k: v is a vertex of the hull
+ * for every choice then [HUL-2]. Exact. */
 dyd_status dyd_hull_sure(bool *sure, dyd_work *w, const dyd_skeleton *sk, uint32_t v);
 
 /* A direction u with min_{R_i} u.x and min_{R_j} u.x > max_{R_k} u.x for all other k, if there is one: then all centres
@@ -14,7 +14,7 @@ dyd_status dyd_hull_sure(bool *sure, dyd_work *w, const dyd_skeleton *sk, uint32
 dyd_status dyd_hull_direction(bool *found, mpz_t ux, mpz_t uy, dyd_work *w, const dyd_skeleton *sk, uint32_t i,
                               uint32_t j);
 
-/* Does some direction u have max_{R_v} u.x >= min_{R_k} u.x for all k [HUL-1]? Exact. */
+/* Sets *possible to whether some direction u has max_{R_v} u.x >= min_{R_k} u.x for all k [HUL-1]. Exact. */
 dyd_status dyd_hull_possible(bool *possible, dyd_work *w, const dyd_skeleton *sk, uint32_t v);
 
 #endif

@@ -76,7 +76,7 @@ bool dyd_mesh_is_valid(const dyd_mesh *m) {
 
 /* ---- the first triangle; representatives that coincide or are collinear ---- */
 
-/* Is the site of v an exact point? */
+/* Returns true if the site of v is an exact point. */
 static bool mesh_is_point(const dyd_mesh *m, uint32_t v) {
   return dyd_sites_is_point(m->reps->sites, m->reps->site[dyd_mesh_rep(m, v)]);
 }
@@ -165,8 +165,9 @@ static bool two_others(uint32_t pair[2], dyd_mesh *m, uint32_t without) {
   return found == 2;
 }
 
-/* Is every choice of points collinear: all rectangles on one vertical or horizontal line, or all of them exact points
- * whose representatives are collinear (as they are when this is asked), or at most two different sites? */
+/* Sets *always to whether every choice of points is collinear: all rectangles on one vertical or horizontal line, or
+ * all of them exact points whose representatives are collinear (as they are when this is asked), or at most two
+ * different sites. */
 static dyd_status always_collinear(bool *always, dyd_mesh *m) {
   bool vertical = true, horizontal = true, points = true;
   uint32_t alive = 0;

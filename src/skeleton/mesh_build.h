@@ -40,7 +40,7 @@ void dyd_mesh_clear(dyd_mesh *m);
  * hence the whole is a Delaunay triangulation. Exact; O(n). */
 bool dyd_mesh_is_valid(const dyd_mesh *m);
 
-/* Do vertical lines divide the strips of representatives? */
+/* Returns true if vertical lines divide the strips of representatives. */
 bool dyd_strips_are_apart(const dyd_reps *reps, const dyd_strips *strips);
 
 #endif

@@ -66,7 +66,7 @@ static inline void dyd_rects_get(dyd_rect *out, const dyd_rects *r, uint32_t v) 
 static inline bool dyd_rects_is_point(const dyd_rects *r, uint32_t v) {
   return dyd_sites_is_point(r->sites, r->site[v]);
 }
-/* Is box[v] the rectangle itself? */
+/* Returns true if box[v] is the rectangle itself. */
 static inline bool dyd_rects_in_doubles(const dyd_rects *r, uint32_t v) {
   return dyd_sites_in_doubles(r->sites, r->site[v]);
 }

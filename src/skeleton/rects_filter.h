@@ -19,17 +19,17 @@ dyd_bbox dyd_point_box(const dyd_point *c);
 double dyd_pair_dl2_upper(const dyd_rects *r, const dyd_bbox *c, uint32_t i, uint32_t j);
 /* Upper bound of max(ds_i, ds_j)^2 over the centres in c. */
 double dyd_pair_ds2_upper(const dyd_rects *r, const dyd_bbox *c, uint32_t i, uint32_t j);
-/* Is dl_k^2 >= bound for all centres in c, surely? */
+/* Returns true if dl_k^2 >= bound for all centres in c, certainly. */
 bool dyd_surely_not_nearer(const dyd_rects *r, const dyd_bbox *c, uint32_t k, double bound);
 /* A vertex certainly nearer than i and j to all centres in c, dl_k < ds_i, ds_j: the one of least dl_k by its upper
  * bound. DYD_NONE: not known. */
 uint32_t dyd_surely_nearest(const dyd_rects *r, const dyd_bbox *c, uint32_t i, uint32_t j);
-/* Do the boxes of i and j surely not meet? */
+/* Returns true if the boxes of i and j certainly do not meet. */
 static inline bool dyd_boxes_disjoint(const dyd_bbox *a, const dyd_bbox *b) {
   return a->e[1] < b->e[0] || b->e[1] < a->e[0] || a->e[3] < b->e[2] || b->e[3] < a->e[2];
 }
-/* Do the rectangles of i and j surely meet? An end of a box is outside by the slack at most; twice that covers the
- * rounding here. A box with an infinite end gives no answer. */
+/* Returns true if the rectangles of i and j certainly meet. An end of a box is outside by the slack at most; twice that
+ * covers the rounding here. A box with an infinite end gives no answer. */
 static inline bool dyd_surely_meet(const dyd_rects *r, uint32_t i, uint32_t j) {
   const dyd_bbox *a = &r->box[i], *b = &r->box[j];
   double slack = 2 * (dyd_box_slack(r, i) + dyd_box_slack(r, j));

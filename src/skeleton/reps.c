@@ -292,7 +292,7 @@ static dyd_status choose_exact(dyd_reps *r, uint32_t v, uint32_t k) {
   return st;
 }
 
-/* Is the double point p inside the exact rectangle of v? */
+/* Sets *inside to whether the double point p is inside the exact rectangle of v. */
 static dyd_status holds(bool *inside, const dyd_reps *r, uint32_t v, dyd_xy p) {
   dyd_rect box, point;
   dyd_rect_init(&box);

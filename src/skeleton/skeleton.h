@@ -22,9 +22,9 @@ typedef struct dyd_line {
 /* From the rectangles of the n vertices. Vertices that turn out to be the same exact point become aliases in m. */
 dyd_status dyd_line_build(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, uint32_t n);
 void dyd_line_clear(dyd_line *l);
-/* Are these neighbours on the line, and legal? */
+/* Returns true if these neighbours are on the line, and legal. */
 bool dyd_line_is_legal(const dyd_line *l, uint32_t v, uint32_t w);
-/* Is v an end of the line, and apart from all others, for every choice? */
+/* Returns true if v is an end of the line, and apart from all others, for every choice. */
 bool dyd_line_is_end(const dyd_line *l, uint32_t v);
 size_t dyd_line_legal_pairs(const dyd_line *l);
 /* Number of pairs that are possible and not legal. */
@@ -85,7 +85,7 @@ static inline void dyd_set_certain(dyd_skeleton *sk, dyd_half_edge h, bool certa
 
 /* The half-edge from v to w, or DYD_NONE. w may be the ghost. O(degree of v). */
 dyd_half_edge dyd_find_edge(const dyd_skeleton *sk, uint32_t v, uint32_t w);
-/* Are v and w (not the ghost) joined by a certain edge? */
+/* Returns true if v and w (not the ghost) are joined by a certain edge. */
 bool dyd_is_legal(const dyd_skeleton *sk, uint32_t v, uint32_t w);
 /* How many pairs are legal, that is certain edges that are real. O(n), a byte for each triangle. */
 uint64_t dyd_certain_edges(const dyd_skeleton *sk);
