@@ -136,9 +136,9 @@ static bool gap_best(double at[2], const ball_guess *g, size_t n, const ball_gue
   return best > 0;
 }
 
-/* Does it pay to project from a gap? A width of the eye leaves 14 to 30 pairs open for each 1 of the sum of width
- * through distance of the nearest neighbour, over all places; a gap leaves 35 to 70 (airports, places all over the
- * globe). The sum is guessed from some of the places. */
+/* Returns true if it pays to project from a gap. A width of the eye leaves 14 to 30 pairs open for each 1 of the sum of
+ * width through distance of the nearest neighbour, over all places; a gap leaves 35 to 70 (airports, places all over
+ * the globe). The sum is guessed from some of the places. */
 static bool eye_is_wide(const ball_guess *g, size_t n, const dyd_sphere *s) {
   const ball_guess *eye = g;
   while (eye->place != s->centre) eye++;

@@ -307,7 +307,7 @@ static void near_stays(way *d, dyd_spot *core, const near_question *q, size_t k)
   way_widen(&d->largest, d, q->spot[k].angle, 1);
 }
 
-/* Do two places stay listed? Those whose least distance is never above the largest of any. */
+/* Sets *out to whether two places stay listed. Those whose least distance is never above the largest of any. */
 static dyd_status near_is_settled(bool *out, const near_question *q) {
   way d;
   dyd_spot core;

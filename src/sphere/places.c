@@ -201,7 +201,8 @@ dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_e
   return place_fail(i, "the radius is larger than that of the earth; give a smaller one", err);
 }
 
-/* Is place i exact, and within the common range of degrees? Then its site in doubles encloses its region. */
+/* Returns true if place i is exact, and within the common range of degrees. Then its site in doubles encloses its
+ * region. */
 static bool place_is_plain(double box[4], const dyd_sphere *s, uint32_t i) {
   const dyd_sites *sites = dyd_engine_sites(s->places);
   if (s->within || !dyd_sphere_is_fixed(s, i) || !dyd_sites_is_point(sites, i) || mpq_sgn(s->degrees) ||

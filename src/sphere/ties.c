@@ -104,7 +104,7 @@ static size_t runs_find(root_run *run, dyd_root_term *term, size_t count, dyd_tu
   return runs;
 }
 
-/* Is the sum of a less that of b 0? b stays as it is. */
+/* Sets *zero to whether the sum of a less that of b is 0. b stays as it is. */
 static dyd_status runs_agree(bool *zero, const root_run *a, const root_run *b, dyd_turns m) {
   dyd_root_term *term = dyd_alloc(a->count + b->count, sizeof *term);
   if (!term) return DYD_E_NOMEM;
@@ -231,8 +231,8 @@ static dyd_root_term *put_determinant(dyd_root_term *t, turned u, turned v, turn
   return put_product(t, w, u, v, sign, n);
 }
 
-/* Are a and b on one parallel, c and d as well, with the same meridian half way? Each is the other's mirror image in
- * the plane of that meridian, so both lines are across it, and in one plane. */
+/* Returns true if a and b are on one parallel, c and d as well, with the same meridian half way. Each is the other's
+ * mirror image in the plane of that meridian, so both lines are across it, and in one plane. */
 static bool are_mirrored(turned a, turned b, turned c, turned d, dyd_turns n) {
   return a.lat == b.lat && c.lat == d.lat && (a.lon + b.lon - c.lon - d.lon) % n == 0;
 }
