@@ -30,7 +30,7 @@ typedef struct dyd_ball_step {
 /* x = the result. A step that may take long ends early once *stop is set (NULL: no flag): DYD_UNDEFINED_YET, and x
  * is as it was. */
 dyd_defined dyd_ball_apply(arb_ptr x, const dyd_ball_step *s, const volatile int *stop);
-/* Is |x| surely beyond 2^e? */
+/* Returns true if |x| is certainly beyond 2^e. */
 bool dyd_ball_exceeds(arb_srcptr x, slong e);
 /* Finite and not too big? Raises *exponent to a bound of its binary exponent. */
 dyd_defined dyd_ball_check(arb_ptr x, slong *exponent);

@@ -81,7 +81,7 @@ static bool degrees_part(degrees *d) {
   return d->unit[d->count - 1] >= least && d->unit[0] == 0;
 }
 
-/* Is the text of this form, whatever its numbers are? */
+/* Returns true if the text is of this form, whatever its numbers are. */
 static bool degrees_scan(degrees *d) {
   degrees_blanks(d);
   degrees_letter(d);

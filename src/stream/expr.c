@@ -401,7 +401,7 @@ static dyd_status with_rational(dyd_constant *x, bool *done, dyd_op op, long exp
   return st;
 }
 
-/* Is the short positive constant surely no square of a rational? */
+/* Returns true if the short positive constant is certainly not a square of a rational. */
 static bool is_no_square(const dyd_constant *x) {
   if (!dyd_constant_is_short(x) || x->u.num <= 0) return false;
   mp_limb_t num = (mp_limb_t)x->u.num, den = (mp_limb_t)x->den;
@@ -677,7 +677,7 @@ static dyd_status parse_root(parser *p, size_t at) {
   return st;
 }
 
-/* Is the name the n letters of the text? */
+/* Returns true if the name is the n letters of the text. */
 static bool text_is_name(const char name[5], const char *text, size_t n) {
   return name[0] == *text && n < 5 && name[n] == 0 && !memcmp(name, text, n);
 }

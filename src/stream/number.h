@@ -46,7 +46,7 @@ __attribute__((format(printf, 5, 6)))
 dyd_status
 dyd_text_fail(dyd_error *err, dyd_status code, const char *text, size_t offset, const char *format, ...);
 
-/* Is the text, blanks around it aside, one plain number by its form? No value is computed: O(length). */
+/* Returns true if the text, without blanks around it, is a plain number by its form. Computes no value: O(length). */
 bool dyd_is_plain_number(const char *text, size_t length);
 /* The exact value of such a text; out, initialised by the caller, becomes canonical, and is unchanged on failure.
  * DYD_E_PARSE, DYD_E_DOMAIN (denominator 0), DYD_E_RANGE or DYD_E_NOMEM with column and message in *err.

@@ -145,7 +145,7 @@ static dyd_status read_answer_end(mpq_t out, const char *line, word w, dyd_error
                   own.message);
 }
 
-/* Is [lo,hi] inside *known? */
+/* Returns true if [lo,hi] is inside *known. */
 static bool ends_are_inside(const mpq_t lo, const mpq_t hi, const dyd_interval *known) {
   mpq_t a, b;
   mpq_inits(a, b, NULL);

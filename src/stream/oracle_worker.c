@@ -455,7 +455,7 @@ bool dyd_worker_reads(const dyd_worker *w) {
   return !w->failed && w->held <= DYD_ORACLE_HELD;
 }
 
-/* Does the line begin with the number of this point, as a word? */
+/* Returns true if the line begins with the number of this point, as a word. */
 static bool names_point(const char *line, size_t length, size_t point) {
   char number[32];
   size_t n = (size_t)snprintf(number, sizeof number, "%zu", point);

@@ -32,7 +32,7 @@ void dyd_close(int *fd);
 dyd_status dyd_process_start(dyd_process *p, const char *command, unsigned job, int lifeline, dyd_error *err);
 /* Says in at most size bytes how the program ended; false when it still runs after `seconds`. */
 bool dyd_process_ended(char *how, size_t size, const dyd_process *p, double seconds);
-/* Has the program closed its standard input, all its copies of it? */
+/* Returns true if the program has closed its standard input, all its copies of it. */
 bool dyd_process_is_deaf(const dyd_process *p);
 /* Closes both pipes, so that a program that reads on sees the end of its input. */
 void dyd_process_close(dyd_process *p);
@@ -92,14 +92,14 @@ bool dyd_worker_expect_count(dyd_worker *w);
 void dyd_worker_forget(dyd_worker *w);
 /* The first request that is wanted, NULL when there is none. */
 dyd_asked *dyd_worker_first(dyd_worker *w);
-/* Is the first request that is wanted answered? Then it is at asked[head]. */
+/* Returns true if the first request that is wanted is answered. Then it is at asked[head]. */
 bool dyd_worker_is_answered(dyd_worker *w);
 /* Takes the answered request at asked[head] off the queue. */
 void dyd_worker_drop(dyd_worker *w);
-/* Can the first request no longer be answered? true with failed set. */
+/* Returns true, with failed set, if the first request can no longer be answered. */
 bool dyd_worker_is_lost(dyd_worker *w);
 
-/* May there be something to read, to write? */
+/* Return true if reading, or writing, may be possible. */
 bool dyd_worker_reads(const dyd_worker *w);
 bool dyd_worker_writes(const dyd_worker *w);
 /* Puts requests into the text to write, as far as the batch allows: again when half of those sent are answered. */

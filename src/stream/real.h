@@ -52,8 +52,8 @@ static inline bool dyd_narrow_ended(dyd_status st) {
 }
 /* The context of x if `narrow` is its callback, else NULL. Borrowed. */
 void *dyd_real_user(const dyd_real *x, dyd_narrow_real_fn narrow);
-/* Is `now`, an interval that x gave, at most 2^-bits wider than x can ever be (known for final and for widened reals;
- * of others: than a point)? */
+/* Returns true if `now`, an interval that x gave, is at most 2^-bits wider than x can ever be (known for final and for
+ * widened reals; of others: than a point). */
 bool dyd_real_reaches(const dyd_real *x, const dyd_interval *now, int64_t bits);
 /* Sets radius to the sum of the radii around x; of a final real to half of its width. */
 void dyd_real_radius(mpq_t radius, const dyd_real *x);

@@ -211,7 +211,7 @@ static void computed_release(void *user) {
   dyd_expr_clear(&c->expr);
 }
 
-/* Is the value an interval for good: no operand can be narrowed, and not all are points? */
+/* Returns true if the value is an interval for good: no operand can be narrowed, and not all are points. */
 static bool computed_is_vague(const dyd_expr *e) {
   bool vague = false;
   for (size_t k = 0; k < e->roots; k++) {

@@ -64,7 +64,7 @@ static size_t poly_degree(const fmpq_poly_t p) {
   return p->length ? (size_t)p->length - 1 : 0;
 }
 
-/* Do degree and size of a product of these stay within bounds? */
+/* Returns true if degree and size of a product of these stay within bounds. */
 static bool poly_product_fits(size_t degree_a, size_t height_a, size_t degree_b, size_t height_b) {
   size_t d = degree_a + degree_b, h = height_a + height_b + 16;
   return d <= DYD_ROOT_DEGREE && h <= DYD_ROOT_WORK / (d + 1);
@@ -191,7 +191,7 @@ static void skip_blanks(reader *r) {
   while (r->pos < r->length && dyd_is_blank(r->text[r->pos])) r->pos++;
 }
 
-/* Is the literal text `word` next? Moves behind it. */
+/* Returns true if the literal text `word` is next. Moves behind it. */
 static bool take_word(reader *r, const char *word) {
   size_t n = strlen(word);
   skip_blanks(r);
@@ -299,7 +299,7 @@ static dyd_status read_root_within(dyd_real **out, size_t *pos, const char *text
   return st;
 }
 
-/* Is it "root(..)" alone, or with a radius? Moves behind "root(" then. */
+/* Returns true if it is "root(..)" alone, or with a radius. Moves behind "root(" then. */
 static bool starts_root(reader *r) {
   size_t start = r->pos, end;
   if (take_word(r, "root") && take_word(r, "(")) {

@@ -176,7 +176,7 @@ static dyd_status root_enter_grid(dyd_root *r, dyd_error *err) {
   return DYD_OK;
 }
 
-/* Does p' have no zero on the slot? */
+/* Returns true if p' has no zero on the slot. */
 static bool is_isolated(const dyd_root *r) {
   fmpz_poly_t d;
   arb_t x, y;
@@ -546,8 +546,8 @@ static void zoom_in(fmpz_poly_t p, const mpq_t lo, const mpq_t hi) {
   mpz_clears(den, z, NULL);
 }
 
-/* Does the root lie alone in (lo, hi)? Its polynomial has simple zeros and is not 0 at the ends; positive zeros of q(x)
- * are half the zeros of q(x^2). */
+/* Returns true if the root lies alone in (lo, hi). Its polynomial has simple zeros and is not 0 at the ends; positive
+ * zeros of q(x) are half the zeros of q(x^2). */
 static bool root_is_alone(const dyd_root *r, const mpq_t lo, const mpq_t hi) {
   fmpz_poly_t p, squared;
   fmpz_poly_init(p);

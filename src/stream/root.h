@@ -27,7 +27,7 @@ typedef struct dyd_root {
 /* One step of narrowing towards a slot of side 2^-target; each step halves the bracket at least [ROOT-1].
  * DYD_CANCELLED, and the bracket as it was, once *stop is set (NULL: no flag). */
 dyd_status dyd_root_step(dyd_root *r, int64_t target, const volatile int *stop, dyd_error *err);
-/* Is the bracket at most 2^-bits wide (or the root known exactly)? */
+/* Returns true if the bracket is at most 2^-bits wide (or the root known exactly). */
 bool dyd_root_is_narrow(const dyd_root *r, int64_t bits);
 /* A copy with a bracket of its own; to be freed. DYD_OK or DYD_E_NOMEM. */
 dyd_status dyd_root_copy(dyd_root **out, const dyd_root *r);

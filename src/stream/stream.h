@@ -44,8 +44,8 @@ dyd_status dyd_stream_new_fixed(dyd_stream **out, dyd_rect *value);
 bool dyd_stream_glance(dyd_double_span out[2], const dyd_stream *s, int64_t bits);
 /* The greatest bits for which dyd_stream_glance succeeds; INT64_MIN when there is none. */
 int64_t dyd_stream_glance_bits(const dyd_stream *s);
-/* Is `now`, a rectangle that s gave, on both sides at most 2^-bits wider than it can ever be, as far as that is known
- * (dyd_real_reaches)? */
+/* Returns true if `now`, a rectangle that s gave, is on both sides at most 2^-bits wider than it can ever be, as far as
+ * that is known (dyd_real_reaches). */
 bool dyd_stream_reaches(const dyd_stream *s, const dyd_rect *now, int64_t bits);
 /* Replaces each side of r, a rectangle that s gave, by its core (dyd_real_core), where one is known: core[0] for x,
  * core[1] for y. narrower: r is what such a rectangle has in common with others. */

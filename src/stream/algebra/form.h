@@ -71,7 +71,7 @@ uint32_t dyd_forms_leaf(dyd_forms *f, dyd_op op);
 uint32_t dyd_forms_unary(dyd_forms *f, dyd_op op, uint32_t a, int32_t exponent);
 uint32_t dyd_forms_binary(dyd_forms *f, dyd_op op, uint32_t a, uint32_t b);
 
-/* Is it made of no other form? */
+/* Returns true if it contains no other form. */
 static inline bool dyd_form_is_leaf(const dyd_form *n) {
   return dyd_op_is_leaf((dyd_op)n->op) || n->op == DYD_FORM_ROOT || n->op == DYD_FORM_OPAQUE;
 }

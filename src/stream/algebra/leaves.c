@@ -324,7 +324,7 @@ static slong bits_apart(const fmpz_poly_t f) {
   return (n + 3) / 2 * (slong)FLINT_BIT_COUNT(n) + (n - 1) * norm + 2;
 }
 
-/* Are the values of two forms, zeros of f, the same? When in doubt they are not taken to be. */
+/* Returns true if the values of two forms, zeros of f, are the same. When in doubt they are not taken to be. */
 static bool roots_are_same(dyd_ring *r, const fmpz_poly_t f, uint32_t a, uint32_t b) {
   slong bits = bits_apart(f);
   bool apart = a != b && bits > APART_BITS, same = a == b;
@@ -503,7 +503,7 @@ static bool cosine_of_part(dyd_fraction *x, dyd_ring *r, ulong k) {
   return fits;
 }
 
-/* Is u a rational multiple of pi? *turn = u / (2 pi). */
+/* Returns true if u is a rational multiple of pi. *turn = u / (2 pi). */
 static bool part_of_turn(fmpq_t turn, const dyd_ring *r, const dyd_fraction *u) {
   slong pi = leaf_pi(r);
   fmpz_mpoly_t gen;

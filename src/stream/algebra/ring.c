@@ -130,7 +130,7 @@ static slong bits_of(const fmpz_mpoly_t p) {
   return FLINT_ABS(fmpz_mpoly_max_bits(p));
 }
 
-/* Does dividing p, of this degree in leaf k, by the relation stay within the limits? */
+/* Returns true if dividing p, of this degree in leaf k, by the relation stays within the limits. */
 static bool reduction_fits(const dyd_ring *r, const fmpz_mpoly_t p, slong k, slong degree) {
   const fmpz_mpoly_struct *f = r->leaf[k].relation;
   slong steps = degree - r->leaf[k].degree + 1, bits = bits_of(p);

@@ -91,7 +91,7 @@ slong dyd_ring_add_leaf(dyd_ring *r, dyd_leaf_kind kind, dyd_op op);
 void dyd_ring_gen(fmpz_mpoly_t x, const dyd_ring *r, slong k);
 /* out >= |p| for all conjugates of its leaves, all of which are whole. */
 void dyd_ring_bound(mag_t out, const dyd_ring *r, const fmpz_mpoly_t p);
-/* Is it a polynomial in algebraic integers? */
+/* Returns true if it is a polynomial in algebraic integers. */
 bool dyd_ring_is_whole(const dyd_ring *r, const fmpz_mpoly_t p);
 
 /* Fractions of polynomials in the leaves. */
@@ -108,7 +108,7 @@ bool dyd_fraction_power(dyd_fraction *x, slong n, const dyd_ring *r);
 /* Divides out common integer factors; the leading coefficient of the denominator becomes positive. */
 void dyd_fraction_lowest(dyd_fraction *x, const dyd_ring *r);
 bool dyd_fraction_equal(const dyd_fraction *x, const dyd_fraction *y, const dyd_ring *r);
-/* Is the leading coefficient of the numerator negative? */
+/* Returns true if the leading coefficient of the numerator is negative. */
 static inline bool dyd_fraction_leads_negative(const dyd_fraction *x) {
   return x->num->length && fmpz_sgn(x->num->coeffs) < 0;
 }

@@ -41,7 +41,8 @@ void dyd_algebra_close(dyd_algebra *a);
 /* Settles the leaves of the forms given. All forms tested later are sums, differences and products of these. DYD_OK or
  * DYD_E_NOMEM. */
 dyd_status dyd_algebra_settle(dyd_algebra *a, const uint32_t *node, size_t count);
-/* Is n seen not to be 0 at a low precision, or at a moderate one? Leaves need not be settled; DYD_NONE is not. */
+/* Returns true if n is seen not to be 0 at a low precision, or at a moderate one. Leaves need not be settled; DYD_NONE
+ * is not. */
 bool dyd_algebra_is_refuted(dyd_algebra *a, uint32_t n);
 bool dyd_algebra_is_nonzero(dyd_algebra *a, uint32_t n);
 /* To `prec` bits: the least e such that |value of n| >= 2^-e is seen; INT64_MAX: none is. */
