@@ -260,7 +260,7 @@ static uint64_t header_number(const json_t *j, const char *key) {
   return (uint64_t)json_integer_value(json_object_get(j, key));
 }
 
-/* Is it of this rank in this job? Results of the run are not compared. */
+/* Returns true if it is of this rank in this job. Results of the run are not compared. */
 static bool suits(const json_t *found, json_t *wanted) {
   static const char *const same[] = {"format", "rank", "own", "ranks", "points", "boxes", "max_pairs", "digest"};
   bool equal = found && wanted;

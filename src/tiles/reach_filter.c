@@ -55,7 +55,7 @@ static void add_gain(double *gain, double *size, double c, double k0, double k1,
       fabs(k0) * (2 * fabs(c) + fabs(k0)) + fabs(k1) * (2 * fabs(c) + fabs(k1)) + fabs(x) * (fabs(x) + 2 * fabs(c));
 }
 
-/* Is the spoke's box surely nearer to (x, y) than the own one? */
+/* Returns true if the spoke's box is certainly nearer to (x, y) than the own one. */
 static bool spoke_is_nearer(const tiles_spoke *s, const tiles_box *own, double x, double y) {
   double gain = 0, size = 0;
   add_gain(&gain, &size, x, s->box.x0, s->box.x1, own->x0, own->x1);
@@ -71,7 +71,7 @@ static double size_in(const tiles_box *b, double ux, double uy) {
   return fabs(ux) * fmax(fabs(b->x0), fabs(b->x1)) + fabs(uy) * fmax(fabs(b->y0), fabs(b->y1));
 }
 
-/* Is it surely beyond the own one in direction u? */
+/* Returns true if it is certainly beyond the own one in direction u. */
 static bool spoke_is_beyond(const tiles_spoke *s, const tiles_box *own, double ux, double uy) {
   double gain = least_in(&s->box, ux, uy) + least_in(own, -ux, -uy);
   double size = size_in(&s->box, ux, uy) + size_in(own, ux, uy);

@@ -153,7 +153,7 @@ static dyd_status disc_is_unmet(bool *clear, tile *t, const tiles_disc *d, bool 
   return DYD_OK;
 }
 
-/* Is it so of every disc that the pairs of site i of the view depend on? */
+/* Sets *clear to whether it is so of every disc that the pairs of site i of the view depend on. */
 static dyd_status reach_is_unmet(bool *clear, tile *t, const tiles_view *v, uint32_t i, const tiles_partners *p,
                                  dyd_error *err) {
   if (!tiles_reach_find(&t->reach, v, i, p)) return tiles_no_memory(err);

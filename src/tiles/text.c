@@ -144,7 +144,7 @@ static dyd_status slice_read(text_slice *s, dyd_record_fn fn, dyd_error *err) {
   return st;
 }
 
-/* Is the field a name, and nothing that a point of some kind may have for a number? */
+/* Returns true if the field is a name, and nothing that a point of some kind may have for a number. */
 static bool field_is_name(const text_field *f) {
   static const char *const missing[] = {"nan", "inf", "infinity", "na", "null", "none"};
   dyd_real *real = NULL;

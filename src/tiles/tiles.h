@@ -124,7 +124,7 @@ bool tiles_disc_is_inside(const tiles_disc *d, const tiles_box *box);
 double tiles_disc_score(const tiles_disc *d, const tiles_box *box);
 bool tiles_box_is_point(const tiles_box *b);
 bool tiles_boxes_meet(const tiles_box *a, const tiles_box *b);
-/* Is it higher than wide? */
+/* Returns true if it is higher than wide. */
 bool tiles_box_is_tall(const tiles_box *a);
 /* Grows *a to hold b. */
 void tiles_box_join(tiles_box *a, const tiles_box *b);
@@ -311,7 +311,7 @@ typedef struct tiles_file {
 typedef struct tiles_carrier {
   /* Delivers the mail of the `count` ranks of this process, and brings mail of other processes to them. */
   dyd_status (*carry)(tile *member, size_t count, dyd_error *err);
-  /* Is it so in any process? */
+  /* Returns true if it is so in any process. */
   bool (*any)(bool here);
 } tiles_carrier;
 
