@@ -9,7 +9,7 @@
 #include <float.h>
 #include <math.h>
 
-/* Is x a normal number that stays one when squared? */
+/* Returns true if x is a normal number that stays one when squared. */
 static bool is_plain(double x) {
   return fabs(x) > 0x1p-400 && fabs(x) < 0x1p400;
 }

@@ -63,7 +63,7 @@ static int compare_largest(const disc_view *a, const disc_view *b) {
   return sign;
 }
 
-/* Is ds_i <= dl_k? */
+/* Returns true if ds_i <= dl_k. */
 static bool may_be_as_near(const disc_view *i, const disc_view *k) {
   mpq_t s;
   mpq_init(s);

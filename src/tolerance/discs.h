@@ -25,10 +25,10 @@ typedef struct dyd_disc {
 } dyd_disc;
 void dyd_disc_init(dyd_disc *d);
 void dyd_disc_clear(dyd_disc *d);
-/* Do they have a common point? */
+/* Returns true if they have a common point. */
 bool dyd_discs_meet(const dyd_disc *a, const dyd_disc *b);
 
-/* Is the one of the smaller radius in the other? */
+/* Returns true if the one of the smaller radius is in the other. */
 bool dyd_disc_is_within(const dyd_disc *small, const dyd_disc *large);
 
 /* A direction in doubles, approximately; its circle is tested afterwards. */
@@ -67,10 +67,10 @@ dyd_direction dyd_filter_cap_end(const dyd_cap *e, int turn);
 dyd_direction dyd_filter_between(const dyd_direction end[2]);
 int dyd_filter_cap_side(const dyd_direction *u, const dyd_cap *k);
 
-/* Is there a direction within the bounds that no cap holds? The first cap is the bound: the direction must not be in
+/* Returns true if a direction within the bounds is in no cap. The first cap is the bound: the direction must not be in
  * it. */
 bool dyd_caps_uncovered(dyd_direction *u, dyd_caps *c);
-/* Is there a direction that all caps hold? *u: about the middle of them. */
+/* Returns true if all caps hold a common direction. *u: about the middle of them. */
 bool dyd_caps_common(dyd_direction *u, dyd_caps *c);
 /* A circle about the direction that was found last, within about 2^-bits of its size; it holds i and j.
  * false: at this precision it is a half-plane. */

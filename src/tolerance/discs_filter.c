@@ -216,8 +216,8 @@ static void visit_exactly(circle_q *c) {
   dyd_tree_near(&c->w->pd->sk.rects.tree, &at, &radius2, meet_square_exactly, c);
 }
 
-/* Is the circle of the direction found a witness? Sees the discs in its way. If all of these were seen, their caps hold
- * the direction, so the circle was not precise enough. */
+/* Returns true if the circle of the direction found is a witness. Sees the discs in its way. If all of these were seen,
+ * their caps hold the direction, so the circle was not precise enough. */
 static bool circle_is_witness(dyd_disc_work *w) {
   circle_q c = {.w = w};
   size_t had = w->count;

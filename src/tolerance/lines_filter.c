@@ -250,7 +250,7 @@ static const dyd_line_d *climb_line(climb_d *c, uint32_t vertex) {
   return o;
 }
 
-/* Do both bind where they cross, as far as trends go? up, down: of the two. */
+/* Returns true if both bind where they cross, as far as trends go. up, down: of the two. */
 static bool cross_both(int *up, int *down, climb_d *c) {
   if (!cross_d(&c->at, c->l, c->rising, c->falling)) return false;
   *up = trend_d(c->l, c->rising, &c->at);

@@ -282,7 +282,7 @@ static double clear_reach(const radius_pass *p, const dyd_bbox *b, double radius
   return radius * wide + p->doubt + 0x1p-40 * far;
 }
 
-/* Is whatever lies in the box farther from the circle than `radius`, beyond all errors? */
+/* Returns true if whatever lies in the box is farther from the circle than `radius`, beyond all errors. */
 static bool is_clear_of_circle(const radius_pass *p, const dyd_bbox *b, double radius) {
   const double *e = b->e, reach = clear_reach(p, b, radius) + p->middle;
   if (p->ring->end) return p->c[0] * e[p->c[0] > 0 ? 0 : 1] + p->c[1] * e[p->c[1] > 0 ? 2 : 3] > reach;

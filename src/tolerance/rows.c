@@ -288,7 +288,8 @@ static dyd_status death_later(dyd_tolerance *t, const death_edge *e) {
   return DYD_OK;
 }
 
-/* Is the row of v and its neighbour number q one of v's site? The ghost is no legal one, and has no site. */
+/* Returns true if the row of v and its neighbour number q is one of v's site. The ghost is no legal one, and has no
+ * site. */
 static bool is_row_of(const dyd_tolerance *t, uint32_t v, uint32_t q) {
   return t->legal[q] && t->sk->reps.site[t->near[q]] > t->sk->reps.site[v];
 }

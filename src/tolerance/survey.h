@@ -106,7 +106,8 @@ dyd_status dyd_survey_crowds(dyd_measuring *m);
 dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t f);
 /* How many targets of the face with these sites (ascending) are open as things stand. */
 dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_index_list *sites);
-/* Would more targets of the face with these sites (ascending) be open, were this one of them not measured? */
+/* Sets *needs to whether more targets of the face with these sites (ascending) would be open, were this one of them not
+ * measured. */
 dyd_status dyd_survey_face_needs(bool *needs, dyd_survey *s, const dyd_index_list *sites, uint32_t site);
 
 /* survey_face.c: sets how many pairs each row decides after the rows before it. */

@@ -111,7 +111,7 @@ static bool guess_have_common(const guess *g) {
   return lo < hi;
 }
 
-/* Do they hold all directions? Else the end of one is in none of the others. */
+/* Returns true if they hold all directions. Else the end of one is in none of the others. */
 static bool guess_cover_all(const guess *g) {
   for (size_t e = 0; e < 2 * g->arcs; e++) {
     const guess_arc *a = &g->arc[e / 2];
