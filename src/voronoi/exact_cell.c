@@ -303,14 +303,15 @@ static dyd_status arc_find_cuts(exact_cell *c, size_t *count, const dyd_elementa
 
 /* ---- pieces of an arc ---- */
 
-/* Does k take the sample on curve j away from it? */
+/* Returns true if k takes the sample on curve j away from it. */
 static bool other_takes_sample(exact_cell *c, const dyd_elementary *a, size_t j, size_t k) {
   if (k == j) return false;
   int sign = cell_side(c, &c->sample, a, 0, k);
   return sign < 0 || (!sign && k < j);
 }
 
-/* Is the sample on curve j a point of the boundary that counts for j? Who took the last one is asked first. */
+/* Returns true if the sample on curve j is a point of the boundary that counts for j. Who took the last one is asked
+ * first. */
 static bool sample_is_kept(exact_cell *c, const dyd_elementary *a, size_t j) {
   if (c->taker < c->count && other_takes_sample(c, a, j, c->taker)) return false;
   for (size_t k = 0; k < c->count; k++)
@@ -527,7 +528,7 @@ static void links_join(links *l, const exact_cell *c, bool own) {
   }
 }
 
-/* Are the cell_piece p and its successor one arc? */
+/* Returns true if the cell_piece p and its successor are one arc. */
 static bool links_are_smooth(const links *l, const exact_cell *c, size_t p) {
   size_t n = l->next[p];
   if (n == NONE || c->piece[p].curve != c->piece[n].curve) return false;

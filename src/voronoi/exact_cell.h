@@ -33,7 +33,7 @@ typedef struct dyd_elementary {
 size_t dyd_curve_set(dyd_elementary *out, mpz_t middle[2], const dyd_scaled *far, const dyd_scaled *near,
                      const dyd_scaled *window, int side, int64_t shift);
 
-/* Is the point p of the curve in the closed pane of the arc? */
+/* Returns true if the point p of the curve is in the closed pane of the arc. */
 bool dyd_elementary_holds(const dyd_elementary *a, const dyd_spot *p);
 /* out = the point of the arc's line or branch of parabola whose coordinate a->axis is num / 2^bits. */
 void dyd_elementary_at(dyd_surd_point *out, const dyd_elementary *a, mpz_srcptr num, int64_t bits);

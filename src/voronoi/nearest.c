@@ -174,7 +174,7 @@ static size_t side_find_blocker(dyd_near_work *w, const dyd_near_side *side, con
   return count;
 }
 
-/* Does a point of the side lie in Pos_i as far as the other sites of the list tell [NEAR-2]? Exact. */
+/* Returns true if a point of the side lies in Pos_i as far as the other sites of the list tell [NEAR-2]. Exact. */
 static bool near_side_meets(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *site, size_t count,
                             size_t i, bool no_filter) {
   mpq_set(w->at, side->lo);
@@ -277,7 +277,7 @@ static bool query_meets(const query *q, const dyd_near_site *s) {
   return true;
 }
 
-/* Does the query meet Pos of candidate i? */
+/* Returns true if the query meets Pos of candidate i. */
 static bool query_lists(dyd_near_work *w, const query *q, size_t i) {
   const dyd_near_site *s = &q->site[i];
   if (query_meets(q, s)) return true;

@@ -109,7 +109,7 @@ static bool near_step(uint32_t *next, const dyd_mesh *m, dyd_half_edge first, dy
   return found;
 }
 
-/* Is the point of v nearer to z than those of its neighbours, which are the same for every choice? */
+/* Returns true if the point of v is nearer to z than those of its neighbours, which are the same for every choice. */
 static bool near_all_around(const dyd_delaunay *pd, uint32_t v, dyd_xy z) {
   const dyd_mesh *m = &pd->sk.mesh;
   const dyd_bbox at = {{z.x, z.x, z.y, z.y}};

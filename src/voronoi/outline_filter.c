@@ -32,8 +32,8 @@ static double outline_distance2(const dyd_outline *o, const dyd_bbox *c, size_t 
   return upper ? dyd_ds2_upper(c, &b, o->slack[k]) : dyd_ds2_lower(c, &b);
 }
 
-/* Does someone other than `own` surely take all points of the box away from it? *doubt (or NULL): someone may take a
- * point. */
+/* Returns true if a site other than `own` certainly takes all points of the box away from it. *doubt (or NULL): someone
+ * may take a point. */
 static bool outline_taken(bool *doubt, dyd_outline *o, size_t own, const dyd_iv at[2]) {
   const dyd_bbox c = {{at[0].lo, at[0].hi, at[1].lo, at[1].hi}};
   double least = outline_distance2(o, &c, o->count, !o->outer, false);
@@ -382,7 +382,7 @@ static bool boxes_apart(const dyd_outline_arc *a, const dyd_outline_arc *b) {
   return false;
 }
 
-/* Is the point of arc a in the pane of b? */
+/* Returns true if the point of arc a is in the pane of b. */
 static bool pane_holds(bool *unsure, const dyd_outline_arc *b, const dyd_outline_spot *p) {
   for (int k = 0; k < 2; k++)
     if (dyd_outline_order(unsure, p->at[k], b->lo[k]) < 0 || dyd_outline_order(unsure, p->at[k], b->hi[k]) > 0)
@@ -492,7 +492,7 @@ static void box_place(dyd_box *out, double *slack, const dyd_box *b, const doubl
   }
 }
 
-/* Do the closed rectangles meet? */
+/* Returns true if the closed rectangles meet. */
 static bool outline_rects_meet(bool *unsure, const dyd_box *a, const dyd_box *b) {
   bool doubt = false;
   for (int k = 0; k < 4; k += 2)
@@ -531,7 +531,7 @@ static double outline_reach(const dyd_outline *o) {
   return most;
 }
 
-/* Is all of the square ring taken away around the site? Then Pos, which is connected and holds the
+/* Returns true if all of the square ring is taken away around the site. Then Pos, which is connected and holds the
  * site, is inside. */
 static bool ring_is_taken(dyd_outline *o, const double ring[4]) {
   enum { PARTS = 4 };

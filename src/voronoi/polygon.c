@@ -151,7 +151,7 @@ static bool on_segment(const dyd_point *z, const dyd_point *a, const dyd_point *
   return compare_vertices(z, a) * compare_vertices(z, b) <= 0; /* z is on the line ab */
 }
 
-/* Do the closed segments ab and cd meet? */
+/* Returns true if the closed segments ab and cd meet. */
 static bool segments_meet(const dyd_point *a, const dyd_point *b, const dyd_point *c, const dyd_point *d) {
   int s = turn_sign(a, b, c), t = turn_sign(a, b, d), u = turn_sign(c, d, a), v = turn_sign(c, d, b);
   if (s * t < 0 && u * v < 0) return true;
@@ -526,7 +526,7 @@ static void set_away(work *w, const dyd_point *z) {
   }
 }
 
-/* Is z in C_ki for the far site k of the arc? Window arcs ask nothing. */
+/* Returns true if z is in C_ki for the far site k of the arc. Window arcs ask nothing. */
 static bool beyond_arc(const work *w, const dyd_arc *arc, const dyd_point *z) {
   return arc->kind == DYD_ARC_WINDOW ||
          dyd_nearer(z, dyd_cell_site(&w->sites, arc->far_site), &w->sites.own) == DYD_TRUE;

@@ -84,7 +84,7 @@ static int64_t min64(int64_t a, int64_t b) {
   return a < b ? a : b;
 }
 
-/* Do the closed boxes of the edges from a and from c meet? */
+/* Returns true if the closed boxes of the edges from a and from c meet. */
 static bool grid_edges_near(const grid_point *a, const grid_point *b, const grid_point *c, const grid_point *d) {
   for (int k = 0; k < 2; k++)
     if (-min64(-a->at[k], -b->at[k]) < min64(c->at[k], d->at[k]) ||
@@ -93,8 +93,8 @@ static bool grid_edges_near(const grid_point *a, const grid_point *b, const grid
   return true;
 }
 
-/* Does no edge meet another but in the common vertex of neighbours? *known = false: edges only seem to meet, by a turn
- * that is 0. O(n^2). */
+/* Returns true if no edge meets another but in the common vertex of neighbours. *known = false: edges only seem to
+ * meet, by a turn that is 0. O(n^2). */
 static bool grid_is_simple(bool *known, const grid_polygon *p) {
   const grid_point *z = p->vertex;
   size_t n = p->count;

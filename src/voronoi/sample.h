@@ -21,7 +21,7 @@ dyd_status dyd_cell_sites_init(dyd_cell_sites *s, const dyd_delaunay *pd, uint32
 void dyd_cell_sites_clear(dyd_cell_sites *s);
 /* The rectangle of a possible neighbour. */
 const dyd_rect *dyd_cell_site(const dyd_cell_sites *s, uint32_t site);
-/* Is c in Int_i? Exact. */
+/* Returns true if c is in Int_i. Exact. */
 bool dyd_cell_holds(const dyd_cell_sites *s, const dyd_point *c);
 
 /* A point of an arc: its beginning (step = 0), or the point number step of `steps` equal parts along the directrix. */

@@ -108,7 +108,7 @@ typedef struct dyd_grid_centre {
 bool dyd_filter_grid_centre(dyd_grid_centre *c, const dyd_delaunay *pd, uint32_t t, const dyd_window *w, double scale);
 /* The same exactly, of a vertex that is inside W. */
 dyd_status dyd_shape_centre(dyd_xy *z, const dyd_delaunay *pd, uint32_t t, const dyd_window *w);
-/* Do all edges of the ring turn left for certain, once round? */
+/* Returns true if all edges of the ring turn left for certain, once round. */
 bool dyd_filter_is_convex(const dyd_xy *z, size_t n);
 
 /* polygon_filter.c: the polygons of the rung in dyadics, from boundaries in doubles. As dyd_filter_shape. */
@@ -136,9 +136,9 @@ dyd_status dyd_window_enlarge(dyd_rect *out, const dyd_rect *window, int64_t bit
 
 /* The vertices become those of their convex hull, counter-clockwise; none when they lie on a line. O(n log n). */
 dyd_status dyd_polygon_make_convex(dyd_polygon *p);
-/* Does no edge meet another one but in the common vertex of neighbours? Repeated consecutive vertices are taken out
- * first. O(n^2) comparisons of doubles, exact steps only where boxes of edges meet. DYD_CANCELLED once *cancel, which
- * may be NULL, is set. */
+/* Sets *out to whether no edge meets another one but in the common vertex of neighbours. Repeated consecutive vertices
+ * are taken out first. O(n^2) comparisons of doubles, exact steps only where boxes of edges meet. DYD_CANCELLED once
+ * *cancel, which may be NULL, is set. */
 dyd_status dyd_polygon_is_simple(bool *out, dyd_polygon *p, const volatile int *cancel);
 /* Cuts simple polygons, counter-clockwise, to the window: the new ones lie in it and hold what of the old ones did;
  * where they cross its sides they are rounded outward along them, to multiples of 2^-bits. *simple = false: rounding,

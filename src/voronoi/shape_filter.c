@@ -108,8 +108,8 @@ static bool shape_place(dyd_shape *s, uint32_t t, uint32_t degree, const dyd_del
   return false;
 }
 
-/* Is the polygon star-shaped about o, with sure turns, winding round once? Adds up its area as it goes: *area less
- * *error is a lower bound, *area more *error an upper one. */
+/* Returns true if the polygon is star-shaped about o, with sure turns, winding round once. Adds up its area as it goes:
+ * *area less *error is a lower bound, *area more *error an upper one. */
 static bool shape_star(double *area, double *error, dyd_xy o, const dyd_xy *z, uint32_t n) {
   int crossings = 0;
   *area = *error = 0;

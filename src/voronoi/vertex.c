@@ -134,7 +134,7 @@ dyd_status dyd_partial_centre_enclose(dyd_rect *out, const dyd_rect *a, const dy
   return st;
 }
 
-/* Are all corners of q nearer to a than to b, dl_a < ds_b? */
+/* Returns true if all corners of q are nearer to a than to b, dl_a < ds_b. */
 static bool corners_nearer(const dyd_irect *q, const dyd_irect *a, const dyd_irect *b) {
   mpz_t dl, ds;
   mpz_inits(dl, ds, NULL);
@@ -433,7 +433,7 @@ static dyd_status enclose_centre(dyd_rect *out, const dyd_sites *sites, const ui
   return st;
 }
 
-/* Is t a certain triangle of pd? v becomes its vertices. */
+/* Returns true if t is a certain triangle of pd. v becomes its vertices. */
 static bool triangle_is_sure(const dyd_delaunay *pd, const dyd_triangle *t, uint32_t v[3]) {
   for (int k = 0; k < 3; k++) {
     if (t->v[k] >= pd->sk.n) return false;

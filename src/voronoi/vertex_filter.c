@@ -115,7 +115,7 @@ static bool box_is_inside(const dyd_bbox *b, const double w[4]) {
   return w[0] < b->e[0] && b->e[1] < w[1] && w[2] < b->e[2] && b->e[3] < w[3];
 }
 
-/* Are all boxes beyond one side of W? */
+/* Returns true if all boxes are beyond one side of W. */
 static bool boxes_are_beyond(const dyd_bbox *b, uint32_t n, const double w[4]) {
   for (int side = 0; side < 4; side++) {
     uint32_t k = 0;
@@ -316,7 +316,7 @@ static void region_bisect(search *s, const dyd_bbox *c, const region_lists *arou
   }
 }
 
-/* Does one side become a good deal shorter? */
+/* Returns true if one side becomes a good deal shorter. */
 static bool box_shrinks(const dyd_bbox *from, const dyd_bbox *to) {
   return to->e[1] - to->e[0] < 0.75 * (from->e[1] - from->e[0]) ||
          to->e[3] - to->e[2] < 0.75 * (from->e[3] - from->e[2]);
