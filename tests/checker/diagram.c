@@ -202,7 +202,7 @@ static void choose(mpq_ptr out, const mpq_t lo, const mpq_t hi, test_random *r) 
   mpq_clear(t);
 }
 
-/* Is z surely nearest to some site? */
+/* Returns true if z is certainly nearest to some site. */
 static bool is_determined(const orc_case *c, mpq_t *z) {
   bool found = false;
   mpq_t own, other;
@@ -231,8 +231,8 @@ static void choose_points(orc_case *p, const orc_case *c, test_random *r) {
     }
 }
 
-/* Is z within d->distance of the border of the cell that it is in? The cell of p_a is cut out by lines: from inside,
- * its border is as far as the nearest line, (|z - p_k|^2 - |z - p_a|^2) / (2 |p_a - p_k|) for some k. */
+/* Returns true if z is within d->distance of the border of the cell that it is in. The cell of p_a is cut out by lines:
+ * from inside, its border is as far as the nearest line, (|z - p_k|^2 - |z - p_a|^2) / (2 |p_a - p_k|) for some k. */
 static bool is_near_border(const diagram *d, const orc_case *p, mpq_t *z) {
   mpq_t least, other, line, apart;
   mpq_inits(least, other, line, apart, NULL);

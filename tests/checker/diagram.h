@@ -19,7 +19,7 @@ typedef struct diagram {
 void diagram_init(diagram *d);
 void diagram_clear(diagram *d);
 void diagram_read(diagram *d, const char *text);
-/* Do both state the same? */
+/* Returns true if both state the same. */
 bool diagram_same(const diagram *a, const diagram *b);
 /* Checks every statement about these rectangles. Polygons and area exactly, each vertex against every site; the
  * distance at `points` random points of the window, each for a random choice. Returns NULL, or a description of the

@@ -27,17 +27,18 @@ void statement_init(statement *s);
 void statement_clear(statement *s);
 /* Fails the test when the text is not a certificate. */
 void statement_read(statement *s, const char *text);
-/* Do both say the same of the same rectangles? Bounds and the words that claim nothing (see dyd_certificate_gap) apart.
+/* Returns true if both say the same of the same rectangles. Bounds and the words that claim nothing (see
+ * dyd_certificate_gap) apart.
  */
 bool statement_same(const statement *a, const statement *b);
-/* Are all ties ties of points? Others follow from what the sites are, not from their rectangles. */
+/* Returns true if all ties are ties of points. Others follow from what the sites are, not from their rectangles. */
 bool statement_ties_are_exact(const statement *s);
 /* Checks the statements against the oracle. Returns NULL, or a description of the first false one. */
 const char *statement_judge(orc_pool *p, const statement *s);
 /* The same by the engine, which is quick and shares nothing with the checker but numbers: a pair called legal is not
  * illegal (the engine may miss a witness), and a pair called illegal is illegal. */
 const char *statement_judge_by_engine(const statement *s);
-/* Are the bounds not below those of the listed pairs? */
+/* Returns true if the bounds are not below those of the listed pairs. */
 bool statement_bounds_hold(const statement *s);
 
 /* Reads m or m*2^e; returns what follows. */

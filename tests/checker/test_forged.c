@@ -144,7 +144,7 @@ static void put_corners(FILE *out, const point_set *s) {
     }
 }
 
-/* Are i and j joined by pairs that are marked? */
+/* Returns true if i and j are joined by pairs that are marked. */
 static bool are_joined(const point_set *s, const bool *marked, int i, int j) {
   unsigned reached = 1U << i;
   for (int round = 0; round < s->n; round++)
