@@ -45,8 +45,8 @@ dyd_delaunay *harness_engine(char *message, const dyd_sites *s, const dyd_delaun
 /* The search gives up after a number of exact steps, too: seen only where the ends of a case span this many bits. */
 #define WIDE_SPAN 200
 
-/* May the engine miss that the pair is legal? Counts it as a hairline (less room for witnesses than the floor asks
- * for) or as missed (a very wide span). */
+/* Returns true if the engine may miss that the pair is legal. Counts it as a hairline (less room for witnesses than the
+ * floor asks for) or as missed (a very wide span). */
 bool is_hairline(harness *h, const orc_case *c, uint32_t i, uint32_t j);
 /* All statuses of the engine against the oracle's. A legal pair may be called indeterminate only if its
  * witnesses have no room above the floor and not all sites are points. */

@@ -118,7 +118,7 @@ static void visit_pair(void *user, uint32_t i, uint32_t j, dyd_pair_status statu
   if (k == v->list->count || v->list->item[k].status != status || v->met[k]++) v->wrong++;
 }
 
-/* Is each pair of the list met once, and no other? */
+/* Returns true if each pair of the list is met once, and no other. */
 static bool visits_agree(char *message, const dyd_delaunay *pd, const dyd_pair_list *l) {
   pair_visits v = {.list = l, .met = calloc(l->count + 1, 1)};
   if (!v.met) return wrong(message, "no memory");

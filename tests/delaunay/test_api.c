@@ -245,7 +245,7 @@ static void test_aliases(void **state) {
   dyd_sites_free(s);
 }
 
-/* Does the message name some site of the case by its number? */
+/* Returns true if the message names some site of the case by its number. */
 static bool names_a_site(const char *message, size_t n) {
   for (const char *t = message; *t; t++)
     if (*t >= '0' && *t <= '9') return strtoul(t, NULL, 10) < n;

@@ -62,7 +62,7 @@ static bool holds(const visitor *v, mpq_srcptr x, mpq_srcptr y) {
   return found;
 }
 
-/* Is corner n of the rectangle the same point as a corner of a lower number? */
+/* Returns true if corner n of the rectangle is the same point as a corner of a lower number. */
 static bool repeats(const orc_rect *r, int n) {
   return (n & 1 && mpq_equal(r->e[0], r->e[1])) || (n & 2 && mpq_equal(r->e[2], r->e[3]));
 }
@@ -79,9 +79,10 @@ static bool holds_for(const visitor *v, const orc_rect *a, const orc_rect *b) {
   return false;
 }
 
-/* Is there a direction as wanted? The directions that support i and j are a closed set: all of them, or arcs that end
- * in normals of differences of corners of i or j and others, or within an axis direction. A direction that separates
- * rectangle i from the hull of the others can be a normal of an edge of one of the two, or a difference of corners. */
+/* Returns true if a direction as wanted exists. The directions that support i and j are a closed set: all of them, or
+ * arcs that end in normals of differences of corners of i or j and others, or within an axis direction. A direction
+ * that separates rectangle i from the hull of the others can be a normal of an edge of one of the two, or a difference
+ * of corners. */
 static bool exists(const visitor *v) {
   size_t mark = orc_mark(v->p);
   mpq_srcptr zero = orc_si(v->p, 0, 1), one = orc_si(v->p, 1, 1), minus = orc_si(v->p, -1, 1);
