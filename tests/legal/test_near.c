@@ -78,7 +78,7 @@ static int turn(orc_pool *p, dyd_xy a, dyd_xy b, dyd_xy c) {
   return mpq_sgn(cross(p, minus(p, point(p, b), point(p, a)), minus(p, point(p, c), point(p, a))));
 }
 
-/* Is k outside the circle about c through i, or on it? */
+/* Returns true if k is outside the circle about c through i, or on it. */
 static bool outside(orc_pool *p, vec c, dyd_xy i, dyd_xy k) {
   return mpq_cmp(norm2(p, minus(p, point(p, k), c)), norm2(p, minus(p, point(p, i), c))) >= 0;
 }
@@ -153,7 +153,7 @@ static dyd_xy intruder(test_random *r, const corner *c) {
   return (dyd_xy){from.x + d * cos(angle), from.y + d * sin(angle)};
 }
 
-/* Is k allowed: outside the empty circles, not nearer than m to i and j, not beyond a hull edge? */
+/* Returns true if k is allowed: outside the empty circles, not nearer than m to i and j, not beyond a hull edge. */
 static bool allowed(orc_pool *p, const corner *c, dyd_xy k) {
   mpq_srcptr m2 = orc_sqr(p, number(p, c->m));
   if (mpq_cmp(norm2(p, minus(p, point(p, k), point(p, c->i))), m2) < 0) return false;

@@ -57,7 +57,7 @@ static dyd_sites *make_boxes(test_random *r, size_t n) {
   return s;
 }
 
-/* Does another rectangle meet that of i or j? Exact. */
+/* Returns true if another rectangle meets that of i or j. Exact. */
 static bool end_is_met(const dyd_skeleton *sk, uint32_t i, uint32_t j) {
   dyd_rect own, other;
   bool met = false;
