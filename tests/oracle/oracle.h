@@ -42,8 +42,8 @@ bool orc_possible(orc_pool *p, const orc_case *c, size_t i, size_t j);
 /* When legal and wx, wy are not NULL, they receive a witness (numbers of the pool). */
 bool orc_legal(mpq_srcptr *wx, mpq_srcptr *wy, orc_pool *p, const orc_case *c, size_t i, size_t j);
 
-/* Do the witnesses of ij around the witness (wx,wy) hold a disc of about 2^-bits times its distance from R_i? An
- * estimate: false means that the search for it failed. */
+/* Returns true if the witnesses of ij around the witness (wx,wy) hold a disc of about 2^-bits times its distance from
+ * R_i. An estimate: false means that the search for it failed. */
 bool orc_is_roomy(orc_pool *p, const orc_case *c, size_t i, size_t j, mpq_srcptr wx, mpq_srcptr wy, long bits);
 
 /* The statuses of all pairs, aliases having the statuses of their site; ORC_TIE is used exactly when all

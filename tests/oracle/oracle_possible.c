@@ -38,7 +38,7 @@ static bool in_range(orc_pool *p, orc_alg t, mpq_srcptr lo, mpq_srcptr hi) {
   return (!lo || orc_alg_cmp_q(p, t, lo) >= 0) && (!hi || orc_alg_cmp_q(p, t, hi) <= 0);
 }
 
-/* Is the solution (X,Y) in its cell a free centre? */
+/* Returns true if the solution (X,Y) in its cell is a free centre. */
 static bool try_centre(const search *s, orc_alg x, orc_alg y) {
   orc_pool *p = s->p;
   orc_point at = {orc_alg_sub_q(p, x, orc_neg(p, s->sx)), orc_alg_sub_q(p, y, orc_neg(p, s->sy))};
@@ -191,7 +191,7 @@ static bool direction_free(orc_pool *p, const orc_case *c, size_t i, size_t j, m
   return good;
 }
 
-/* Is corner number v (bit 0: upper x, bit 1: upper y) also one of a lower number? */
+/* Returns true if corner number v (bit 0: upper x, bit 1: upper y) is also one of a lower number. */
 static bool same_corner(const orc_rect *r, size_t v) {
   return ((v & 1) && mpq_equal(r->e[0], r->e[1])) || ((v & 2) && mpq_equal(r->e[2], r->e[3]));
 }
