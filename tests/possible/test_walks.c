@@ -79,7 +79,7 @@ static bool surely_farthest(const boxes *b, int i, int j, direction u) {
   return true;
 }
 
-/* Does it hold in some direction: a candidate, or between two neighbours? */
+/* Returns true if it holds in some direction: a candidate, or between two neighbours. */
 static bool somewhere(const boxes *b, int i, int j, property holds) {
   direction u[2 * DIRECTIONS];
   size_t n = candidates(u, b, i);
