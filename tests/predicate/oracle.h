@@ -40,7 +40,7 @@ dyd_sure oracle_orientation(const small_rect *a, const small_rect *b, const smal
 /* Con by the definition: I and E of the six circles. */
 dyd_sure oracle_con(const small_rect *r, const small_rect abc[3]);
 
-/* Is the circle the same: equal centre coordinates (ax + bx sqrt c) / d? */
+/* Returns true if the circle is the same: equal centre coordinates (ax + bx sqrt c) / d. */
 bool oracle_same_centre(const oracle_circle *k, const dyd_circle *c);
 
 void small_rect_get(dyd_rect *out, const small_rect *r);

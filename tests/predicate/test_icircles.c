@@ -90,7 +90,8 @@ static bool share_corner(const small_rect *a, const small_rect *b) {
   return x && y;
 }
 
-/* Can there be a continuum of circles?  Only when C-rectangles meet, or a corner of an F-rectangle is one of another.
+/* Returns true if a continuum of circles may exist. Only when C-rectangles meet, or a corner of an F-rectangle is one
+ * of another.
  */
 static bool may_be_infinite(const small_rect s[3], const dyd_touch touch[3]) {
   for (int k = 0; k < 3; k++) {
