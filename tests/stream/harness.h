@@ -40,7 +40,7 @@ static inline const dyd_interval *narrowed(dyd_real *x, int64_t bits, int64_t ma
   return dyd_real_interval(x);
 }
 
-/* Does the interval contain the MPFR number, up to 2^-slack? */
+/* Returns true if the interval contains the MPFR number, up to 2^-slack. */
 static inline bool holds(const dyd_interval *a, const mpfr_t v, long slack) {
   mpq_t lo, hi, q, e;
   mpq_inits(lo, hi, q, e, NULL);

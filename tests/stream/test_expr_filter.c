@@ -174,7 +174,7 @@ static void add_ratio(program *p, int64_t num, int64_t den) {
   mpq_clear(q);
 }
 
-/* Is the answer in doubles, if there is one, right? */
+/* Returns true if the answer in doubles, if there is one, is right. */
 static bool check_program(const program *p) {
   dyd_double_span d;
   span s;
