@@ -112,7 +112,7 @@ static bool is_unmet(const tiles_reach *reach, const tiles_box *box) {
   return true;
 }
 
-/* Does the attack on site i of c succeed? */
+/* Returns true if the attack on site i of c succeeds. */
 static bool is_changed(const reach_case *c, dyd_pair_status status[SITES][SITES], uint32_t i, bool unmet[SITES]) {
   const size_t n = c->s.n;
   const tiles_box own = tiles_view_box(&c->v, i);
