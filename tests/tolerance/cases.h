@@ -21,12 +21,12 @@ void cases_ask(cases_answer *a, const brute_points *p, const dyd_tolerance_optio
 void cases_forget(cases_answer *a);
 /* NULL: there is none. The order of rows is checked, too. */
 const dyd_tolerance_row *cases_row(const dyd_tolerance *t, uint32_t i, uint32_t j);
-/* Are k and l on different sides of ij? */
+/* Returns true if k and l are on different sides of ij. */
 bool cases_parted(const brute_points *p, const dyd_tolerance_row *row);
 bool cases_is_edge(const brute_points *p, uint32_t i, uint32_t j);
 /* Moves by up to `share` of the radius, often by all of it. */
 void cases_move(brute_points *out, const brute_points *p, const double *radius, double share, test_random *r);
-/* Are all statuses of p those of a? */
+/* Returns true if all statuses of p are those of a. */
 bool cases_same_edges(const brute_points *p, const cases_answer *a);
 
 #endif

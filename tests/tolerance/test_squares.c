@@ -105,7 +105,7 @@ static void corner_choice(orc_case *out, const brute_points *p, double t, unsign
   for (int e = 0; e < 4; e++) mpq_clear(r.e[e]);
 }
 
-/* Does some choice of corners take the edge, or make one? t is cut to 2^-50, so that sums are exact. */
+/* Returns true if some choice of corners takes the edge, or makes one. t is cut to 2^-50, so that sums are exact. */
 static bool corners_change(const brute_points *p, double t, uint32_t i, uint32_t j, bool death) {
   orc_case c;
   bool change = false;
