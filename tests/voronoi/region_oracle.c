@@ -97,7 +97,7 @@ static int compare_q(mpq_srcptr a, mpq_srcptr b) {
   return (s > 0) - (s < 0);
 }
 
-/* Is t between the ends of the arc along axis u? */
+/* Returns true if t is between the ends of the arc along axis u. */
 static bool between_ends(orc_pool *p, const curve *c, int u, mpq_srcptr t) {
   int sides[2];
   for (int e = 0; e < 2; e++)
@@ -249,7 +249,7 @@ static bool is_low(mpq_srcptr lo, mpq_srcptr hi, bool upper) {
   return !(upper && mpq_equal(lo, hi));
 }
 
-/* Are the names those of the lower bits where sides are degenerate? */
+/* Returns true if the names are those of the lower bits where sides are degenerate. */
 static bool named_right(const region *g, const dyd_arc *a) {
   const orc_rect *far = &g->c->rect[a->far_site], *near = &g->c->rect[a->near_site];
   if (a->corner > DYD_CORNER_11 || (a->kind == DYD_ARC_LINE) != (a->feature <= DYD_CORNER_11)) return false;
@@ -278,7 +278,7 @@ static bool on_window(orc_pool *p, const region *g, orc_point at) {
   return g->window && window_side(p, g->window, at) == 0;
 }
 
-/* Is the point on a middle line of the rectangle, on the line of a side of it? */
+/* Returns true if the point is on a middle line of the rectangle, on the line of a side of it. */
 static bool on_middle(orc_pool *p, const orc_rect *r, orc_point at) {
   return !orc_alg_cmp_q(p, at.x, orc_mid(p, r->e[0], r->e[1])) || !orc_alg_cmp_q(p, at.y, orc_mid(p, r->e[2], r->e[3]));
 }
@@ -294,7 +294,8 @@ static bool all_are_points(const orc_case *c) {
   return true;
 }
 
-/* Is `site` the lowest third site at the radius? Of exact points, on one circle perhaps, is it any of them? */
+/* Returns true if `site` is the lowest third site at the radius. Of exact points, on one circle perhaps, is it any of
+ * them? */
 static bool is_third_site(orc_pool *p, const region *g, const dyd_arc *a, orc_point at, size_t site) {
   size_t own = g->outer ? a->near_site : a->far_site, other = g->outer ? a->far_site : a->near_site;
   orc_alg r = orc_dl2(p, at, &g->c->rect[a->far_site]);

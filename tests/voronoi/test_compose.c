@@ -23,7 +23,7 @@ static void clear4(mpq_t e[4]) {
   for (int n = 0; n < 4; n++) mpq_clear(e[n]);
 }
 
-/* Is the point inside the stream's rectangle, up to 2^-slack? */
+/* Returns true if the point is inside the stream's rectangle, up to 2^-slack. */
 static bool holds(const dyd_stream *s, const mpq_t x, const mpq_t y, unsigned slack) {
   mpq_t e[4], t;
   init4(e);

@@ -90,7 +90,7 @@ static bool listed(orc_pool *p, const orc_case *c, size_t i, const orc_rect *q) 
   return false;
 }
 
-/* Is q inside Int_i: dl_i < ds_k at its corners? */
+/* Returns true if q is inside Int_i: dl_i < ds_k at its corners. */
 static bool inside(orc_pool *p, const orc_case *c, size_t i, const orc_rect *q) {
   for (int corner = 0; corner < 4; corner++) {
     orc_point at = {orc_alg_q(p, q->e[corner & 1]), orc_alg_q(p, q->e[2 + corner / 2])};

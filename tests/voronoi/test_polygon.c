@@ -123,7 +123,7 @@ static bool check_inner_vertices(char *message, orc_pool *p, const setting *s, s
   return true;
 }
 
-/* Is z within 2^-bits of the polygon? */
+/* Returns true if z is within 2^-bits of the polygon. */
 static bool close_to(orc_pool *p, const setting *s, const dyd_polygon *g, xy z) {
   mpq_srcptr limit = two_to(p, -2 * s->bits);
   if (in_polygon(p, g, z)) return true;
@@ -134,7 +134,7 @@ static bool close_to(orc_pool *p, const setting *s, const dyd_polygon *g, xy z) 
   return false;
 }
 
-/* Does Int n W hold the square of half-side 2^-bits about z? */
+/* Returns true if Int n W holds the square of half-side 2^-bits about z. */
 static bool holds_square(orc_pool *p, const setting *s, size_t i, xy z) {
   mpq_srcptr h = two_to(p, -s->bits);
   for (int k = 0; k < 4; k++) {
