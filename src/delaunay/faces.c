@@ -30,7 +30,7 @@ enum { CROWD = 64, SHARE = 4 };
 
 /* CHANGED: narrowed. NEAR: was a possible neighbour of a changed one. FREE: also, does not meet that one any more,
  * which may block it. MEMBER: of the face in work; of these, DOUBT: in a pair that may have become impossible; SHOWN:
- * certainly possibly nearest at the centre examined. */
+ * proved possibly nearest at the centre examined. */
 enum { CHANGED = 1, NEAR = 2, FREE = 4, MEMBER = 8, DOUBT = 16, SHOWN = 32 };
 
 void dyd_narrowed_clear(dyd_narrowed *n) {

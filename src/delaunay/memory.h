@@ -26,7 +26,7 @@ bool dyd_has_proved_tie(const dyd_delaunay *pd);
  * true points. */
 dyd_pair_status dyd_least_bounding_true(const dyd_delaunay *pd);
 dyd_pair_status dyd_least_at(const dyd_delaunay *pd, uint32_t i, bool proved);
-/* Bytes of the list of pairs with at least that status, and of that of the sure triangles while it is made. */
+/* Bytes of the list of pairs with at least that status, and of that of the certain triangles while it is made. */
 uint64_t dyd_pairs_bytes(const dyd_delaunay *pd, dyd_pair_status least);
 uint64_t dyd_triangles_bytes(const dyd_delaunay *pd);
 /* As dyd_delaunay_pairs, of the pairs with at least the status `least`; dyd_pairs_list does not ask for a grant: its

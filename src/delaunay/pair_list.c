@@ -17,7 +17,7 @@
  * To be sorted they are dealt to their lowest sites; a site has few. In the order of the mesh, which is near that of
  * the Hilbert curve, all that belongs to one triangle is near in memory, too. */
 
-/* A sure triangle and its number in the mesh. */
+/* A certain triangle and its number in the mesh. */
 typedef struct dealt {
   dyd_triangle sites;
   uint32_t mesh;
@@ -151,7 +151,7 @@ static dyd_status triangles_sorted(dyd_triangle_list *out, dyd_triangle_list *ne
 
 /* ---- in the order of the mesh ---- */
 
-/* The number of every triangle of the mesh among the sure ones, and how many these are. */
+/* The number of every triangle of the mesh among the certain ones, and how many these are. */
 static size_t number_as_found(uint32_t *place, const dyd_delaunay *pd) {
   uint32_t count = 0;
   for (uint32_t t = 0; t < pd->sk.mesh.count; t++) place[t] = dyd_triangle_is_sure(pd, t) ? count++ : DYD_NO_TRIANGLE;

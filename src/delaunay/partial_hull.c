@@ -2,11 +2,11 @@
 /* The partial convex hull of the sites.
  *
  * A vertex is possible iff some choice puts it on the boundary of the hull, a pair iff for some choice all points lie
- * on one closed side of a line through both [HST-1]. A vertex is sure iff it is a corner of the hull for every choice:
- * the certain edges to the ghost say so [HUL-2]. A pair is legal iff for every choice all others are strictly on one
- * side of the line through both: iff it is an edge of the hull of the representatives, the rectangles do not meet, and
- * it is surely oriented with every common neighbour among the possible pairs [HST-2]. Pairs of a chain whose true
- * points are proved to be on one line, a side of the hull, are ties, whatever their rectangles [TIE-3].
+ * on one closed side of a line through both [HST-1]. A vertex is certain iff it is a corner of the hull for every
+ * choice: the certain edges to the ghost say so [HUL-2]. A pair is legal iff for every choice all others are strictly
+ * on one side of the line through both: iff it is an edge of the hull of the representatives, the rectangles do not
+ * meet, and it is certainly oriented with every common neighbour among the possible pairs [HST-2]. Pairs of a chain
+ * whose true points are proved to be on one line, a side of the hull, are ties, whatever their rectangles [TIE-3].
  *
  * A site possible on the hull is on the hull of the representatives or in an unbounded undecided face [CLO-1].
  * */
@@ -107,8 +107,7 @@ static dyd_status build_chain(chain *c, const dyd_extreme *x, size_t count) {
 
 /* ---- the fan of one ---- */
 
-/* Returns true if u.b >= g(u) for sample s: (0,1) for s = 0, the normal of edge s - 1, (1,0) for the last, s = count.
- * */
+/* Returns true if u.b >= g(u) for sample s: (0,1) for s = 0, the normal of edge s - 1, (1,0) for the last, s = count */
 static bool reaches(const chain *c, dyd_hull_corner b, size_t s) {
   if (s == 0) return dyd_hull_compare(1, b, chain_low(c->at[0])) >= 0;
   if (s == c->count) return dyd_hull_compare(0, b, chain_low(c->at[s - 1])) >= 0;
@@ -337,7 +336,7 @@ static dyd_status find_possible(hull *h, dyd_hull_pairs *pairs) {
   return st;
 }
 
-/* ---- sure ---- */
+/* ---- certain ---- */
 
 static bool rects_meet(const dyd_extreme *a, const dyd_extreme *b) {
   for (int n = 0; n < 4; n += 2)
