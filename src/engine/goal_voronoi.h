@@ -18,8 +18,8 @@ void dyd_goal_sums_free(dyd_voronoi_sums **sums);
 /* What a pair contributes to the bound; infinite when its rectangles meet, unless that does no harm to the goal. */
 dyd_status dyd_goal_voronoi_number(mpfr_ptr out, dyd_voronoi_sums *sums, dyd_measure *m, const dyd_pair *pair,
                                    const dyd_engine_options *o);
-/* By how many bits the enclosure of the Voronoi vertex of a sure triangle is wider than 2^-M; at most 0 when it is not,
- * or lies outside of the window. */
+/* By how many bits the enclosure of the Voronoi vertex of a certain triangle is wider than 2^-M; at most 0 when it is
+ * not, or lies outside of the window. */
 dyd_status dyd_goal_vertex_excess(int64_t *out, const dyd_engine *e, const dyd_triangle *t,
                                   const dyd_engine_options *o);
 

@@ -524,7 +524,7 @@ static dyd_status plan_bound(dyd_plan *plan, dyd_measure *m, dyd_voronoi_sums *s
   return st;
 }
 
-/* Marks the ends of sure triangles whose Voronoi vertex may be in the window and is enclosed in more than 2^-M. */
+/* Marks the ends of certain triangles whose Voronoi vertex may be in the window and is enclosed in more than 2^-M. */
 static dyd_status plan_vertices(dyd_plan *plan) {
   const dyd_engine_options *o = plan->o;
   dyd_triangle_list list = {0};

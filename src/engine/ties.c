@@ -318,7 +318,7 @@ static void question_need(question *q) {
 
 /* ---- answers ---- */
 
-/* Leaves are settled when no form is surely not 0. *out stays unknown on failure. */
+/* Leaves are settled when no form is certainly not 0. *out stays unknown on failure. */
 static dyd_status test_zeros(dyd_zero *out, question *q) {
   dyd_algebra *a = &q->algebra;
   dyd_zero all = DYD_ZERO_PROVED;
