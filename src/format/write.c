@@ -47,7 +47,7 @@ static dyd_status result_init(dyd_result *r, dyd_output *to, const dyd_write_opt
 
 static const char *const graph_names[] = {"nearest neighbours", "Gabriel graph", "minimum spanning tree"};
 
-/* The edges as pairs, for pictures: each once, legal where it is sure, from one end at least. */
+/* The edges as pairs, for pictures: each once, legal where it is certain, from one end at least. */
 static dyd_status pairs_of_graph(dyd_result *r) {
   dyd_pair *item = dyd_alloc(r->graph.count, sizeof *item);
   if (!item) return DYD_E_NOMEM;
