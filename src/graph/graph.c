@@ -191,10 +191,10 @@ static dyd_status gabriel_graph(dyd_graph_work *w) {
 
 /* By the least and the largest length of each pair [MST-1].
  *
- * never   legal pairs that are surely shorter join i and j, or ij is never an edge of the Gabriel graph
+ * never   legal pairs that are certainly shorter join i and j, or ij is never an edge of the Gabriel graph
  * sure    other pairs, not among those, that may be as short do not join i and j: the bottleneck between i and j by
  *         least lengths is in the spanning tree by least lengths, or, where ij is in that itself, the first pair that
- *         closes a circle with it; or j is surely the nearest one to i, or i to j */
+ *         closes a circle with it; or j is certainly the nearest one to i, or i to j */
 
 /* The top of the set of site i in the forest `up`. */
 static uint32_t set_of(uint32_t *up, uint32_t i) {

@@ -86,7 +86,7 @@ static dyd_bbox nearest_place(const dyd_bbox *b, const dyd_bbox *to) {
   return (dyd_bbox){{x, x, y, y}};
 }
 
-/* All k but j are farther than the bound for sure; at least as far for some choice. */
+/* All k but j are farther than the bound for certain; at least as far for some choice. */
 static bool all_beyond(const dyd_graph_work *w, const dyd_bbox *at, double bound2, const uint32_t *k, size_t count,
                        uint32_t j) {
   for (size_t q = 0; q < count; q++)
@@ -148,7 +148,7 @@ static bool has_gabriel_rival(const dyd_graph_work *w, uint32_t i, uint32_t j) {
   return false;
 }
 
-/* Possible, with i and j near one another, and not sure? */
+/* Possible, with i and j near one another, and not certain? */
 static dyd_graph_verdict open_gabriel(const dyd_graph_work *w, uint32_t i, uint32_t j) {
   if (!both_in_doubles(w, i, j) || !has_gabriel_rival(w, i, j)) return unsure;
   dyd_bbox q = nearest_place(&w->box[j], &w->box[i]), p = nearest_place(&w->box[i], &q);
