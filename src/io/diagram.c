@@ -302,14 +302,14 @@ static int64_t vertex_bits(const dyd_diagram *d) {
   return hausdorff && goal_bits + 2 > bits ? goal_bits + 2 : bits;
 }
 
-/* ---- sure edges ---- */
+/* ---- certain edges ---- */
 
-/* The edge dual to a legal pair ij ends on each side at the vertex of the sure triangle there; or at that of a polygon
- * whose sites are on one circle, since its sides are legal and others are not between them; or somewhere in the region
- * of an undecided face; or it is a ray: with all other points to the left of the way from i to j, or on it, it goes to
- * infinity along (y_j - y_i, x_i - x_j). So it is for pairs that are hull edges for every choice, for neighbours in a
- * chain of sites on one line that is a tie, whose sites have all others on one side [CLO-2] [TIE-3], and on both sides
- * where all sites are on one line. */
+/* The edge dual to a legal pair ij ends on each side at the vertex of the certain triangle there; or at that of a
+ * polygon whose sites are on one circle, since its sides are legal and others are not between them; or somewhere in the
+ * region of an undecided face; or it is a ray: with all other points to the left of the way from i to j, or on it, it
+ * goes to infinity along (y_j - y_i, x_i - x_j). So it is for pairs that are hull edges for every choice, for
+ * neighbours in a chain of sites on one line that is a tie, whose sites have all others on one side [CLO-2] [TIE-3],
+ * and on both sides where all sites are on one line. */
 
 static dyd_dual_edge *dual_find(dyd_dual_edge *edge, size_t count, uint32_t i, uint32_t j) {
   const dyd_dual_edge key = {.i = i, .j = j};
@@ -380,7 +380,7 @@ static void dual_join_ties(dyd_dual_edge *e, const dyd_delaunay *pd, const dual_
   }
 }
 
-/* A sure hull edge with a vertex on one side has its ray on the other. Where both sides are open, no ray is known. */
+/* A certain hull edge with a vertex on one side has its ray on the other. Both sides open: the ray is unknown. */
 static dyd_status dual_join_rays(dyd_dual_edge *edge, size_t count, const dyd_delaunay *pd) {
   dyd_hull hull = {0};
   dyd_status st = dyd_delaunay_partial_hull(&hull, pd);

@@ -7,11 +7,11 @@
 #include "io/output.h"
 #include "metric/bounds.h"
 
-/* ---- sure edges: one for each legal pair, between vertices of sure triangles and of ties ---- */
+/* ---- certain edges: one for each legal pair, between vertices of certain triangles and of ties ---- */
 
 typedef enum dyd_dual_kind {
   DYD_DUAL_OPEN = 0, /* ends in the region of an undecided face */
-  DYD_DUAL_VERTEX,   /* at the vertex of a sure triangle, or of a tied face */
+  DYD_DUAL_VERTEX,   /* at the vertex of a certain triangle, or of a tied face */
   DYD_DUAL_RAY       /* unbounded, for every choice; beyond a tied chain, for the true points */
 } dyd_dual_kind;
 

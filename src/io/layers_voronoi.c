@@ -266,8 +266,8 @@ static dyd_status tied_value(dyd_table *t, const dyd_diagram *d, size_t vertex) 
   return st;
 }
 
-/* The third corner of the sure triangle whose vertex the edge ends at, or what names a tied one; "ray", or "open": in
- * an undecided region. */
+/* The third corner of the certain triangle whose vertex the edge ends at, or what names a tied one; "ray", or "open":
+ * in an undecided region. */
 static dyd_status edge_value(dyd_table *t, const dyd_diagram *d, const dyd_dual_edge *e, int end) {
   const dyd_dual_end *to = &e->end[end];
   bool vertex = to->kind == DYD_DUAL_VERTEX;
