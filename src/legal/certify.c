@@ -2,9 +2,9 @@
 /* Certain edges: exact points by exact in-circle tests, rectangles by witnesses.
  *
  * When all sites are exact points, an edge of the skeleton is legal iff the two triangles at it are not cocircular
- * (then the inside of its Voronoi edge consists of witnesses), hull edges are always legal, and a hull vertex is sure
- * iff it is not on the line of its two hull neighbours. No exact zero during the construction means: no tie at all
- * [TIE-1]. */
+ * (then the inside of its Voronoi edge consists of witnesses), hull edges are always legal, and a hull vertex is
+ * certain iff it is not on the line of its two hull neighbours. No exact zero during the construction means: no tie at
+ * all [TIE-1]. */
 #include "legal/certify.h"
 
 #include "legal/star_filter.h"

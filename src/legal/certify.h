@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Which edges of the skeleton are certain: real edges legal, ghost edges surely on the hull. */
+/* Which edges of the skeleton are certain: real edges legal, ghost edges certainly on the hull. */
 #ifndef DYD_LEGAL_CERTIFY_H
 #define DYD_LEGAL_CERTIFY_H
 

@@ -41,7 +41,7 @@ void dyd_mark_later(dyd_marks *marks, dyd_half_edge h);
  */
 dyd_status dyd_mark_tasks_settle(dyd_mark_tasks *tasks, bool certain);
 
-/* Marks the edges whose first guess is proved a witness, and vertices that are surely on the hull [FLT-STAR]. */
+/* Marks the edges whose first guess is proved a witness, and vertices that are certainly on the hull [FLT-STAR]. */
 dyd_status dyd_certify_stars(dyd_skeleton *sk, dyd_work *w);
 
 /* Certifying an edge in doubles from its two triangles alone.

@@ -25,7 +25,7 @@
 enum { MAX_RIVALS = 12, LEAST_STEPS = 48, MAX_STEPS = 400, STEP_BITS = 1 << 17, SNAP_STEPS = 8 };
 
 /* Invariant: `rivals` counts those seen so far who violate the present c; ended: no witness exists, or no space for
- * more half-planes, or c is only asked about and violated; none: there is none, or only below the floor, for sure. */
+ * more half-planes, or c is only asked about and violated; none: certainly none exists, or only below the floor. */
 typedef struct search {
   const dyd_rects *rects;
   bool no_filter;
