@@ -39,7 +39,7 @@ double dyd_filter_voronoi_pair(const double a[4], const double b[4], double ra, 
 /* r[k]: upper bounds of dl over the outer polygons of a and b, negative: there are none. Both become one of the
  * distances of z from both points, z being undetermined in the cell of either, and bounded by the other [GRP-2]. */
 void dyd_filter_proved_reach(double r[2], const double a[4], const double b[4]);
-/* An upper bound of the diameter of W and all sites together; and whether two of the boxes are surely disjoint. */
+/* An upper bound of the diameter of W and all sites together; and whether two of the boxes are certainly disjoint. */
 double dyd_filter_extent(bool *disjoint, const dyd_sites *s, const dyd_rect *window);
 
 #endif
