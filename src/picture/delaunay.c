@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Pictures of edges: the triangulation, with rectangles, edges and partial edges by status and sure triangles; graphs;
- * tolerances, edges coloured by the motion that they survive. And the table of pictures. */
+/* Pictures of edges: the triangulation, with rectangles, edges and partial edges by status and certain triangles;
+ * graphs; tolerances, edges coloured by the motion that they survive. And the table of pictures. */
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"

@@ -12,8 +12,8 @@
  *
  * Nearest points: for a place c in the rectangle Q no point lies nearer than m = min_k ds(Q, R_k), and one lies within
  * M = min_k dl(Q, R_k), where ds and dl are the least and largest distances of points of Q and R_k. So all that is
- * within m of Q is surely free of points, and the nearest point certainly is within M of Q. Both are discs where Q is a
- * point. */
+ * within m of Q is certainly free of points, and the nearest point certainly is within M of Q. Both are discs where Q
+ * is a point. */
 #include "base/error.h"
 #include "io/decimal.h"
 #include "picture/picture.h"
@@ -465,7 +465,7 @@ typedef struct nearest_drawing {
   dyd_view view;
   double place[4], near, far; /* Q, m, M */
   size_t count;               /* sites that are no duplicates */
-  bool others;                /* some that are surely not nearest are drawn */
+  bool others;                /* some that are certainly not nearest are drawn */
 } nearest_drawing;
 
 static double least_distance(const double a[4], const double b[4]) {

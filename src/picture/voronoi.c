@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The picture of the Voronoi diagram: the part certainly nearest to a point, the undetermined rest of the window,
- * rectangles, sure vertices, regions of undecided faces; or its tiles. */
+ * rectangles, certain vertices, regions of undecided faces; or its tiles. */
 #include "io/diagram.h"
 #include "picture/picture.h"
 #include <math.h>
