@@ -84,7 +84,7 @@ static void start_tangent(dyd_beta *q, int up) {
   }
 }
 
-/* TRUE: the boxes of i and j surely do not meet, and *q is filled in. FALSE: the rectangles surely meet. */
+/* TRUE: the boxes of i and j certainly do not meet, and *q is filled in. FALSE: the rectangles certainly meet. */
 static dyd_truth beta_start(dyd_beta *q, const dyd_rects *r, uint32_t i, uint32_t j) {
   const dyd_bbox *a = &r->box[i], *b = &r->box[j];
   double x = dyd_max(b->e[0] - a->e[1], a->e[0] - b->e[1]), y = dyd_max(b->e[2] - a->e[3], a->e[2] - b->e[3]);
@@ -98,8 +98,8 @@ static dyd_truth beta_start(dyd_beta *q, const dyd_rects *r, uint32_t i, uint32_
   return DYD_TRUE;
 }
 
-/* DYD_SURE_PLUS: k surely blocks the end of beta at -inf (up = 0) or inf (1); DYD_SURE_MINUS: some point of its
- * rectangle is surely strictly within the tangent there, so that k blocks no place near that end; DYD_UNSURE: not
+/* DYD_SURE_PLUS: k certainly blocks the end of beta at -inf (up = 0) or inf (1); DYD_SURE_MINUS: some point of its
+ * rectangle is certainly strictly within the tangent there, so that k blocks no place near that end; DYD_UNSURE: not
  * known. */
 static dyd_sure beta_blocks_end(const dyd_beta *q, uint32_t k, int up) {
   const dyd_bbox *box = &q->rects->box[k];

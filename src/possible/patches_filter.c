@@ -324,7 +324,7 @@ static bool is_open(const plane *p, const entry *a, const entry *b) {
   return dyd_pair_map_get(p->c->map, a->member, b->member) == DYD_PAIR_UNKNOWN;
 }
 
-/* near[k]: the k-th of the list is surely possibly nearest at the centre of the patch. All of them are possible
+/* near[k]: the k-th of the list is proved possibly nearest at the centre of the patch. All of them are possible
  * neighbours of one another. Much longer lists mean that the patch is coarse for its open pairs, be that by far
  * outliers, by distance or by density. */
 static void patches_try_centre(plane *p, patch *q) {

@@ -29,11 +29,12 @@ typedef struct dyd_patches {
 /* *complete: every possible pair of members has its state. Else the doubles do not tell enough, or *enough was set. */
 dyd_status dyd_patches_run(bool *complete, const dyd_patches *c);
 
-/* Surely kl cannot displace ij: their hulls' boxes are disjoint, or l is surely outside the circle of i, j, k [QUAD-1].
+/* Certainly kl cannot displace ij: their hulls' boxes are disjoint, or l is certainly outside the circle of i, j, k
+ * [QUAD-1].
  */
 bool dyd_surely_not_displaced(const dyd_skeleton *sk, uint32_t i, uint32_t j, uint32_t k, uint32_t l);
 
-/* near[k]: vertex[k] is certainly possibly nearest at c; all such vertices make possible pairs [POS-1]. */
+/* near[k]: vertex[k] is proved possibly nearest at c; all such vertices make possible pairs [POS-1]. */
 void dyd_filter_clique(bool *near, const dyd_rects *r, dyd_xy c, const uint32_t *vertex, size_t count);
 
 #endif
