@@ -44,7 +44,7 @@ void dyd_icircle_swap(dyd_icircle *k, dyd_icircle *l);
  * continuum of circles, of which only isolated ones are found; there is none for disjoint C-rectangles that are
  * disjoint from the F-rectangles. At most `room` are stored in out (initialised by the caller), without repeats;
  * the search stops there. Returns how many are stored; room = 4 always suffices [CRIT-1], and room = 1 is fastest
- * for a surely oriented triple, where the circle is unique. */
+ * for a certainly oriented triple, where the circle is unique. */
 size_t dyd_icircles(dyd_icircle *out, size_t room, const dyd_irect *const r[3], const dyd_touch touch[3]);
 
 /* Sign of (closest or farthest distance of the centre to r) - radius. Exact. */
@@ -60,21 +60,21 @@ void dyd_icircle_centre_d(double out[4], const dyd_icircle *k, int64_t shift);
 
 /* Exact rungs of the predicates on integer rectangles. */
 dyd_sure dyd_irect_orientation(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c);
-/* r against the partial disc of a triple that is known to be surely oriented, PLUS or MINUS. */
+/* r against the partial disc of a triple that is known to be certainly oriented, PLUS or MINUS. */
 dyd_sure dyd_irect_con_oriented(const dyd_irect *r, const dyd_irect *const abc[3], dyd_sure orientation);
 
 /* out = k divided by man * 2^exp, man > 0: undoes dyd_irects_scale. Exact. */
 void dyd_circle_unscale(dyd_circle *out, const dyd_icircle *k, mpz_srcptr man, int64_t exp);
 
 void dyd_circle_set(dyd_circle *out, const dyd_circle *c);
-/* The critical circle of three surely oriented rectangles: touch[k] says how it meets r[k]. At least one F,
- * at least one C. Unique [CRIT-1]. DYD_E_ARG when the triple is not surely oriented or the labels are all equal. */
+/* The critical circle of three certainly oriented rectangles: touch[k] says how it meets r[k]. At least one F,
+ * at least one C. Unique [CRIT-1]. DYD_E_ARG when the triple is not certainly oriented or the labels are all equal. */
 dyd_status dyd_critical_circle(dyd_circle *out, const dyd_rect *const r[3], const dyd_touch touch[3]);
 /* Sign of (distance of the circle's centre to r, closest or farthest) - radius. Exact. */
 int dyd_circle_side(const dyd_circle *c, const dyd_rect *r, dyd_touch touch);
 /* PLUS: r is inside I; MINUS: r is inside E; UNSURE otherwise. */
 dyd_sure dyd_partial_disc_con(const dyd_partial_disc *d, const dyd_rect *r);
-/* Is c surely nearer to every point of a than to any of b? TRUE: dl(c,a) < ds(c,b). FALSE: dl(c,b) < ds(c,a).
+/* Is c certainly nearer to every point of a than to any of b? TRUE: dl(c,a) < ds(c,b). FALSE: dl(c,b) < ds(c,a).
  * UNKNOWN otherwise. */
 dyd_truth dyd_nearer(const dyd_point *c, const dyd_rect *a, const dyd_rect *b);
 /* Sign of dist(c,a) - dist(c,b), each distance closest or farthest. Exact. */
@@ -83,7 +83,7 @@ int dyd_compare_distance(const dyd_point *c, const dyd_rect *a, dyd_touch ta, co
 void dyd_circle_init(dyd_circle *c);
 void dyd_circle_clear(dyd_circle *c);
 
-/* The quad rule: TRUE when the pair ab surely cannot displace the pair ij in any Delaunay triangulation
+/* The quad rule: TRUE when the pair ab certainly cannot displace the pair ij in any Delaunay triangulation
  * (Ed(i,j) and Ed(a,b) disjoint, or Con(a;i,j,b) = -, or Con(b;i,j,a) = -), UNKNOWN otherwise [QUAD-1]. */
 dyd_truth dyd_cannot_displace(const dyd_rect *i, const dyd_rect *j, const dyd_rect *a, const dyd_rect *b);
 

@@ -2,7 +2,7 @@
 /* Orientation and Con of partial points: filters, then integers.
  *
  * A filter answers when every choice in the outward boxes agrees, or, for boxes that are the rectangles themselves,
- * when two choices surely differ. Everything else goes to the exact rung [ORI-1] [CON-1]. */
+ * when two choices certainly differ. Everything else goes to the exact rung [ORI-1] [CON-1]. */
 #include "predicate/circle.h"
 #include "predicate/predicate_filter.h"
 #include "rect/irect.h"
@@ -13,7 +13,7 @@
  * [ORI-1] The determinant is affine in every coordinate, so its extremes over the box of choices are at corners. For
  * fixed q and r it is linear in p with normal (q_y - r_y, r_x - q_x): the signs of these tell the extreme corner of p,
  * and 16 corner choices of q and r remain.
- * [CON-1] With the six critical circles of a surely oriented triple, + iff the three F-once circles enclose r, - iff
+ * [CON-1] With the six critical circles of a certainly oriented triple, + iff the three F-once circles enclose r, - iff
  * the three F-twice circles keep away from r. One in-circle sign decides which of the two remains to be tested. */
 
 /* The value of `sign` * det(p,q,r) least over p in a is positive.  */
@@ -287,7 +287,7 @@ dyd_sure dyd_orientation(const dyd_rect *a, const dyd_rect *b, const dyd_rect *c
   return orient_boxes(abc, box);
 }
 
-/* in[0..2]: surely oriented triple, in[3]: the rectangle asked about. */
+/* in[0..2]: certainly oriented triple, in[3]: the rectangle asked about. */
 static dyd_sure con_exact(const dyd_rect *const in[4], dyd_sure orientation) {
   dyd_irect r[4];
   irects_scaled(r, in, 4);

@@ -68,7 +68,7 @@ void dyd_icircle_centre_d(double out[4], const dyd_icircle *k, int64_t shift) {
 
 /* Hulls of two boxes and distances to boxes, in interval arithmetic.
  *
- * Any direction that separates the outer boxes surely, rounded or not, shows that the hulls are disjoint. Conversely
+ * Any direction that certainly separates the outer boxes, rounded or not, shows that the hulls are disjoint. Conversely
  * [HULL-1] names ten directions that suffice: for exact boxes, where none of them can separate, the hulls meet. The
  * sign of a difference of two doubles is the sign of the rounded difference, subnormals included, so the support
  * corner is the right one. */
@@ -80,7 +80,7 @@ static void box_support(dyd_iv *least, dyd_iv *largest, dyd_iv nx, dyd_iv ny, co
   *largest = dyd_iv_add(dyd_iv_mul(nx, dyd_iv_point(a->outer[!x])), dyd_iv_mul(ny, dyd_iv_point(a->outer[3 - y])));
 }
 
-/* TRUE: surely all of p is below all of q; FALSE: surely not; from the supports. */
+/* TRUE: certainly all of p is below all of q; FALSE: certainly not; from the supports. */
 static dyd_truth supports_below(const dyd_iv largest[2], const dyd_iv least[2]) {
   bool all = true;
   for (int i = 0; i < 2; i++) {
@@ -154,7 +154,7 @@ dyd_iv dyd_filter_distance2(dyd_iv cx, dyd_iv cy, const dyd_box *r, dyd_touch to
  *
  * The formulas are those of predicate/circle.c, evaluated on enclosures of the coordinates relative to a corner p on
  * the circle. Every step encloses the true value (predicate/interval_filter.h), so a pane is thrown out only when
- * every root is surely outside one of its bounds or surely not real: no bound on the error is needed beyond that. */
+ * every root is certainly outside one of its bounds or certainly not real: no further bound on the error is needed. */
 
 /* get_d_2exp cuts towards 0 to 53 bits, so |z| is at most one unit in the last place above; ldexp rounds again only
  * into the subnormals, by half a unit. dyd_down and dyd_up move by a whole unit at least. */

@@ -36,7 +36,7 @@ dyd_sure dyd_filter_orientation(const double a[4], const double b[4], const doub
  * MINUS outside. UNSURE: not known. */
 dyd_sure dyd_filter_incircle(const double a[4], const double b[4], const double c[4], const double d[4]);
 
-/* true: two choices in the boxes have in-circle determinants of opposite signs. a, b, c surely oriented. */
+/* true: two choices in the boxes have in-circle determinants of opposite signs. a, b, c certainly oriented. */
 bool dyd_filter_incircle_mixed(const double a[4], const double b[4], const double c[4], const double d[4]);
 
 /* TRUE: the convex hulls of a u b and of c u d are disjoint; FALSE (exact boxes only): they meet. */
