@@ -12,7 +12,7 @@
 
 #include <inttypes.h>
 
-/* Corners of a certificate: a direction in which a site is surely beyond the parts of the rim on either side.
+/* Corners of a certificate: a direction in which a site is certainly beyond the parts of the rim on either side.
  *
  * All differences of a point of those sites and a point of the corner's rectangle must lie in an open half-plane; they
  * span a cone, and a direction at an obtuse angle to both of its sides will do. Integers only. */
