@@ -5,7 +5,7 @@
  * difference, product and the sum carry a relative error u = 2^-53, (1+u)^4 in all, (1+u)^6 where slack is added;
  * 1 +- 10u covers that and the rounding of the bound itself; underflow of a square is at most 2^-1075 and covered by
  * 2^-1000. An overflowing lower bound is cut to DBL_MAX/4, an overflowing upper bound is infinite, and NaN compares
- * false: never sure. */
+ * false: never certain. */
 #ifndef DYD_SKELETON_DISTANCE_FILTER_H
 #define DYD_SKELETON_DISTANCE_FILTER_H
 

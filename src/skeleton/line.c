@@ -85,7 +85,7 @@ static void line_find_legal(dyd_line *l, const entry *e) {
   }
 }
 
-/* The first is surely an end iff it lies before the second, which has the lowest end of the others; the last iff no
+/* The first is certainly an end iff it lies before the second, which has the lowest end of the others; the last iff no
  * site reaches it. Two sites need not be on a line: both are ends when they are apart. */
 static void line_find_ends(dyd_line *l, const entry *e) {
   uint32_t last = l->count - 1, reach = 0;

@@ -52,7 +52,7 @@ typedef struct dyd_mesh {
   bool collinear;   /* every choice of points is collinear: no triangles */
   dyd_tally tally;  /* of its construction */
   double extent[2]; /* of all points any representative may be; x, y */
-  double orient_bound, incircle_delta; /* filter constants; infinite: nothing is sure */
+  double orient_bound, incircle_delta; /* filter constants; infinite: nothing is certain */
   double exact_s; /* in-circle in doubles is exact up to this sum of lifts; -1: never; 0: not known yet */
   bool no_filter;
   bool part, stuck; /* a part cannot move representatives and needs a triangle: where it would have to, it is stuck */

@@ -7,7 +7,8 @@
  * Orientation [FLT-ORI]: d = ax by - ay bx. Each difference has relative error u, each product (1+u)^3 in all, the
  * subtraction one more u: |error| <= 4 u (1+u)^3 (|ax by| + |ay bx|) <= 8.01 u X Y < 1e-15 X Y. An error delta' <= 2
  * delta of each of four differences, each bounded by E = max(X, Y): <= 8 delta (E + 2 delta). Underflow of the two
- * products: below 2^-1073; added as 2^-1000. The bound is one number for the whole mesh; infinite or NaN: never sure.
+ * products: below 2^-1073; added as 2^-1000. The bound is one number for the whole mesh; infinite or NaN: never
+ * certain.
  *
  * In-circle [FLT-INC]: d = sum of la (b x c) with la = ax^2 + ay^2 and so on. la carries (1+u)^4, b x c an error of
  * at most ((1+u)^4 - 1)(|bx cy| + |by cx|), and |bx cy| + |by cx| <= sqrt(lb lc) <= (lb + lc)/2; the product one u, two
@@ -16,10 +17,10 @@
  * Underflow: an error of at most 2^-1074 in each product gives <= 20 * 2^-1074 (s + 1), covered by the excess 4e-17 s^2
  * when s >= 2^-400, and when s < 2^-400, |d| <= s^2 < 2^-800: so 2^-790 is added. delta: each partial derivative of d
  * by one of the six differences is at most 4 t^3 where t bounds the length of a, b, c along the way, t = sqrt(s) + 8
- * delta: 6 * 4 t^3 * 2 delta = 48 delta t^3; 60 leaves room. The ghost is NaN: not sure.
+ * delta: 6 * 4 t^3 * 2 delta = 48 delta t^3; 60 leaves room. The ghost is NaN: not certain.
  *
  * Overflow: every term of d is at most s^2 (X Y for orientation), rounding is monotone, and the bound multiplies s s (X
- * Y) first: so if the bound is finite, no term has overflowed; if it is infinite, nothing is sure. */
+ * Y) first: so if the bound is finite, no term has overflowed; if it is infinite, nothing is certain. */
 
 /* Small integers [FLT-SMALL]: if all coordinates are multiples of a power of two q and the computed s <= 2^26 q^2, then
  * every difference is a multiple of q below 2^13 q, every lift and product of two a multiple of q^2 below 2^27 q^2,
@@ -69,7 +70,7 @@ static inline dyd_incircle dyd_incircle_of(dyd_xy a, dyd_xy b, dyd_xy c, dyd_xy 
   return dyd_incircle_from(dyd_see(a, p), dyd_see(b, p), dyd_see(c, p));
 }
 
-/* 1, -1: sure sign of a cross product; 0: not sure. */
+/* 1, -1: certain sign of a cross product; 0: not certain. */
 static inline int dyd_filter_turn(const dyd_mesh *m, double d) {
   if (d > m->orient_bound) return 1;
   return d < -m->orient_bound ? -1 : 0;

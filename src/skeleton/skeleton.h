@@ -2,8 +2,8 @@
 /* The skeleton of a set of sites, and facts about its edges.
  *
  * Vertices are the sites in spatial order. The edges carry one flag, "certain": a real edge is legal, an edge to the
- * ghost says that its vertex is surely on the hull. If the true points are always collinear (or there are at most two
- * sites) triangles do not exist. */
+ * ghost says that its vertex is certainly on the hull. If the true points are always collinear (or there are at most
+ * two sites) triangles do not exist. */
 #ifndef DYD_SKELETON_SKELETON_H
 #define DYD_SKELETON_SKELETON_H
 
@@ -12,7 +12,7 @@
 
 /* The path that replaces triangles when every choice of points is collinear, or there are at most two sites.
  * The vertices without aliases, along the common line. legal[q]: order[q], order[q+1] is legal. rank[order[q]] is
- * q. is_end[0], is_end[1]: the first, the last is surely an end of the line, alone. count = 0: no line. */
+ * q. is_end[0], is_end[1]: the first, the last is certainly an end of the line, alone. count = 0: no line. */
 typedef struct dyd_line {
   uint32_t count;
   uint32_t *order, *rank;
