@@ -4,8 +4,8 @@
  *
  * [SPH-1] A circle on the sphere without the centre q inside goes to a circle in the plane with the same points inside;
  * one through q to a line, the side of the plane away from the former inside. So pairs of other places are as their
- * images are, half-planes included, and a pair with q is possible or sure as the image is a corner of the hull. Where
- * it is on the hull, but no corner, it is on a line with others: a tie where all that is open there are ties.
+ * images are, half-planes included, and a pair with q is possible or certain as the image is a corner of the hull.
+ * Where it is on the hull, but no corner, it is on a line with others: a tie where all that is open there are ties.
  *
  * [SPH-5] A centre that is not a place is one point more: a statement certain with it is certain without, and only
  * pairs of places that may be its neighbours become possible without it. */
@@ -593,7 +593,7 @@ static bool pair_is_legal(const dyd_pair_list *l, uint32_t i, uint32_t j) {
 
 /* Images seen along the way out from q have their orientation from outside turned round twice: once by looking from
  * below, once by the axes (x east, y north, from the antipode's side); counter-clockwise in the plane is clockwise from
- * outside. Beyond a sure side of the hull is a triangle with q. */
+ * outside. Beyond a certain side of the hull is a triangle with q. */
 static dyd_status triangles_join(dyd_triangle_list *out, const dyd_sphere *s, const dyd_triangle_list *images,
                                  const dyd_index_list *around, const dyd_hull *hull) {
   dyd_triangle *item = dyd_alloc(images->count + around->count, sizeof *item);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Voronoi vertices on the sphere.
  *
- * [SPH-4] The circle through the corners of a sure triangle, counter-clockwise from outside, has no point on the side
- * away from the others, which is where (b - a) x (c - a) points to: its direction is the vertex. In balls, the corners
- * anywhere in their boxes, from axes near the vertex: east, north and up. There corners are about equally high, and
- * heights hardly change with where they are in their boxes, so that the box of the vertex is about as wide as theirs.
- * With the axes of the globe it would be wider by as much as the globe is larger than the triangle. Longitudes are
- * measured from a place near, so that none is cut at 180 degrees. */
+ * [SPH-4] The circle through the corners of a certain triangle, counter-clockwise from outside, has no point on the
+ * side away from the others, which is where (b - a) x (c - a) points to: its direction is the vertex. In balls, the
+ * corners anywhere in their boxes, from axes near the vertex: east, north and up. There corners are about equally high,
+ * and heights hardly change with where they are in their boxes, so that the box of the vertex is about as wide as
+ * theirs. With the axes of the globe it would be wider by as much as the globe is larger than the triangle. Longitudes
+ * are measured from a place near, so that none is cut at 180 degrees. */
 #include "base/error.h"
 #include "sphere/state.h"
 #include "stream/ball.h"
