@@ -98,7 +98,7 @@ static dyd_defined ball_logarithm(arb_ptr x, slong prec) {
   return DYD_DEFINED;
 }
 
-/* -1: x is surely < -2^20; 1: surely > 2^20; 0: |x| <= 2^21 for all of the ball; 2: none of these. */
+/* -1: x is certainly < -2^20; 1: certainly > 2^20; 0: |x| <= 2^21 for all of the ball; 2: none of these. */
 static int against_exponent_limit(arb_srcptr x) {
   int side = ball_beside(x, -(slong)DYD_EXP_LIMIT, (slong)DYD_EXP_LIMIT);
   if (side) return side;

@@ -159,7 +159,7 @@ dyd_status dyd_fold_binary(dyd_constant *x, dyd_op op, const dyd_constant *y);
  * point. *extra is the precision beyond bits that sufficed last time (start: DYD_EXPR_EXTRA).
  * DYD_E_DOMAIN when a function stays undefined, DYD_E_RANGE when a number leaves the range; with column. */
 #define DYD_EXPR_EXTRA 48
-/* Tells at low precision whether the expression is surely undefined or out of range. Errors as above. */
+/* Tells at low precision whether the expression is certainly undefined or out of range. Errors as above. */
 dyd_status dyd_expr_probe(const dyd_expr *e, dyd_error *err);
 
 #endif
