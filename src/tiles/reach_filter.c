@@ -16,8 +16,8 @@
 static const double MARGIN = 0x1p-48, TINY = 0x1p-1000;
 
 /* A partner: where its middle is, seen from that of the site; how far both go from their middles; half the square of
- * the distance of its farthest point. All centres c with c.m - |c.x| halfx - |c.y| halfy > far are surely nearer to it:
- * in one quadrant c.n > far, n the corner of their difference for the quadrant, and (x, y) = n / far is the pole of
+ * the distance of its farthest point. All centres c with c.m - |c.x| halfx - |c.y| halfy > far are certainly nearer to
+ * it: in one quadrant c.n > far, n the corner of their difference for the quadrant, and (x, y) = n / far is the pole of
  * this line. number 0 is not a partner: its pole is 0. */
 typedef struct tiles_spoke {
   double mx, my, half[2], far;
@@ -123,7 +123,7 @@ static bool spoke_end(double u[2], const reach_work *w, const tiles_spoke *s, do
   return false;
 }
 
-/* Where the lines of two spokes meet, pushed outward until it is surely nearer to both; or, too far away for good
+/* Where the lines of two spokes meet, pushed outward until it is certainly nearer to both; or, too far away for good
  * bounds, the direction. */
 static bool spokes_meet(tiles_knot *c, const reach_work *w, const tiles_spoke *a, const tiles_spoke *b) {
   double turn = reach_cross(a->nx, a->ny, b->nx, b->ny);

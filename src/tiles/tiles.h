@@ -115,12 +115,12 @@ bool tiles_reach_find(tiles_reach *out, const tiles_view *v, uint32_t i, const t
 /* The disc about a witness of a legal pair of the two boxes, of which `centre` is a double next to it. */
 tiles_disc tiles_witness_disc(const double centre[2], const tiles_box *a, const tiles_box *b);
 
-/* May be, when doubles are not sure. */
+/* May be, when doubles are not certain. */
 bool tiles_disc_may_meet(const tiles_disc *d, const tiles_box *box);
-/* Surely. */
+/* Certainly. */
 bool tiles_disc_is_inside(const tiles_disc *d, const tiles_box *box);
-/* The smaller, the nearer to the middle of the disc, or the deeper in the half-plane; INFINITY: surely outside. No box
- * inside of `box` has a smaller one. */
+/* The smaller, the nearer to the middle of the disc, or the deeper in the half-plane; INFINITY: certainly outside. No
+ * box inside of `box` has a smaller one. */
 double tiles_disc_score(const tiles_disc *d, const tiles_box *box);
 bool tiles_box_is_point(const tiles_box *b);
 bool tiles_boxes_meet(const tiles_box *a, const tiles_box *b);
