@@ -61,7 +61,7 @@ bool dyd_caps_begin(dyd_caps *c, const dyd_disc *i, const dyd_disc *j, bool lega
 bool dyd_caps_add(dyd_caps *c, const dyd_disc *i, const dyd_disc *k, uint32_t vertex, bool legal);
 
 /* caps_filter.c: the end of cap e on the side `turn` (1: counter-clockwise), and the sign of u.w_k - tau_k there; 0:
- * not sure. */
+ * not certain. */
 dyd_direction dyd_filter_cap_end(const dyd_cap *e, int turn);
 /* About the middle of two directions less than half a turn apart. */
 dyd_direction dyd_filter_between(const dyd_direction end[2]);
@@ -117,7 +117,7 @@ typedef struct dyd_circle_d {
 
 double dyd_filter_radius(const dyd_disc_work *w, uint32_t v);
 double dyd_filter_distance(const dyd_circle_d *c, uint32_t v);
-/* Returns true if disc v is outside for sure (legal), or not inside for sure. */
+/* Returns true if disc v is outside for certain (legal), or not inside for certain. */
 bool dyd_filter_keeps_clear(const dyd_circle_d *c, uint32_t v);
 
 #endif

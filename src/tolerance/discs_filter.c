@@ -174,7 +174,7 @@ static bool keep_worst(void *context, uint32_t v) {
   return false;
 }
 
-/* legal: v must be outside for sure; possible: v blocks when its disc is inside, about. */
+/* legal: v must be outside for certain; possible: v blocks when its disc is inside, about. */
 static bool meet_square(void *context, uint32_t v) {
   circle_d *c = context;
   if (v == c->at.w->i || v == c->at.w->j || dyd_filter_keeps_clear(&c->at, v)) return true;

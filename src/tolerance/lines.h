@@ -72,8 +72,8 @@ bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t
 bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *p, const uint32_t *ring, uint32_t size, uint32_t first,
                     uint32_t count);
 void dyd_filter_line(dyd_line_d *o, const dyd_lines_d *l, const dyd_points_d *p, uint32_t vertex);
-/* The death of a strictly Delaunay pair with these others; false: not sure. `box` (may be NULL) gets a box around the
- * centre, *radius2 an upper bound of its squared distance to the sites that bind; infinite for a half-plane. */
+/* The death of a strictly Delaunay pair with these others; false: not certain. `box` (may be NULL) gets a box around
+ * the centre, *radius2 an upper bound of its squared distance to the sites that bind; infinite for a half-plane. */
 bool dyd_filter_death(dyd_death_d *out, double box[4], double *radius2, const dyd_points_d *p, const dyd_lines_d *l);
 
 /* along: P.J; m, n as above. All in integers: coordinates multiplied by a common factor. */

@@ -216,7 +216,7 @@ static bool summit_d(place_d *at, const dyd_lines_d *l, const dyd_line_d *o) {
   return place_on_bisector(at, l, s, es) && q > 2 * eq;
 }
 
-/* 1, -1; 0: not sure (or at a summit). At an end: of the computed numbers, checked by end_death. Else the sign of
+/* 1, -1; 0: not certain (or at a summit). At an end: of the computed numbers, checked by end_death. Else the sign of
  * g' |J| = a / |c - P| - s |J|^2 / r, a = s |J|^2 - n: of a |a| r^2 - s |s| |J|^4 |c - P|^2, over |J|^2. */
 static int trend_d(const dyd_lines_d *l, const dyd_line_d *o, const place_d *at) {
   double s = at->s, size = fabs(s), a = s * l->jj - o->n;
@@ -277,7 +277,7 @@ static void begin_d(climb_d *c) {
   if (!across) c->at.end = first->n > 0 ? -1 : 1;
 }
 
-/* As climb_next. false: not sure. */
+/* As climb_next. false: not certain. */
 static bool next_d(climb_d *c) {
   if (c->rising && c->falling) {
     int up, down;
@@ -348,7 +348,7 @@ static uint32_t beside_binding(bool *alone, double *distance, climb_d *c) {
   return lowest;
 }
 
-/* To where no line lies below what binds. false: not sure. */
+/* To where no line lies below what binds. false: not certain. */
 static bool climb_up(climb_d *c) {
   begin_d(c);
   for (int k = 0; k < CLIMBS; k++) {

@@ -166,7 +166,8 @@ static bool meet_rival(void *context, uint32_t v) {
   return s->status == DYD_OK && ++s->added < MOST_NEW;
 }
 
-/* Looks at whose squares do not surely keep out of the witness disc about q->c: a few at most. *more: there are some.
+/* Looks at whose squares do not certainly keep out of the witness disc about q->c: a few at most. *more: there are
+ * some.
  */
 static dyd_status squares_see_rivals(bool *more, squares *q) {
   const dyd_rects *r = &q->sk.rects;
@@ -363,7 +364,7 @@ static dyd_status square_death(squares *q, dyd_tolerance_row *row) {
   return st;
 }
 
-/* *late: it is above t->options.up_to for sure. */
+/* *late: it is above t->options.up_to for certain. */
 static dyd_status square_birth(bool *late, squares *q, dyd_tolerance_row *row) {
   dyd_truth illegal = DYD_UNKNOWN;
   double up_to = dyd_q_double(q->t->options.up_to, 1);

@@ -402,7 +402,7 @@ static dyd_status weigh_death(weight_work *g, dyd_tolerance_row *row) {
   return g->discs.failed ? DYD_E_NOMEM : DYD_OK;
 }
 
-/* *late: it is above t->options.up_to for sure. */
+/* *late: it is above t->options.up_to for certain. */
 static dyd_status weigh_birth(bool *late, weight_work *g, dyd_tolerance_row *row) {
   const dyd_tolerance *t = g->t;
   double lo = 0, hi = dyd_q_double(t->options.up_to, 1);
