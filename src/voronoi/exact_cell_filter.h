@@ -30,9 +30,9 @@ typedef struct dyd_sample {
 void dyd_filter_spot_box(dyd_spot *s, int64_t shift);
 /* The rectangle in doubles. */
 void dyd_filter_irect_box(dyd_box *out, const dyd_irect *r, int64_t shift);
-/* 1, -1: the coordinate of p is surely more, less than that of q; 0: not known. */
+/* 1, -1: the coordinate of p is certainly more, less than that of q; 0: not known. */
 int dyd_filter_spot_cmp(const dyd_spot *p, const dyd_spot *q, int axis);
-/* The box of p is surely not met by the smallest box around both ends (infinite ones included). */
+/* The box of p is certainly not met by the smallest box around both ends (infinite ones included). */
 bool dyd_filter_spot_beside(const dyd_spot *p, const dyd_spot *low, const dyd_spot *high);
 /* Sign of (distance of p to a) - (distance of p to b), 0: not known. */
 int dyd_filter_side(const dyd_spot *p, const dyd_box *a, dyd_touch ta, const dyd_box *b, dyd_touch tb);
@@ -52,9 +52,9 @@ dyd_iv dyd_filter_arc_other(const dyd_filter_arc *arc, int k, dyd_iv t);
 bool dyd_filter_sample(dyd_sample *out, const dyd_filter_arc *arc, dyd_iv level, int axis, const dyd_spot *low,
                        const dyd_spot *high, int64_t shift);
 
-/* Do the conditions |c - s| = distance to q surely have no solution in the closed pane lo .. hi (an infinite interval
- * where there is no bound)? The difference of squares is monotone in each coordinate there [ARC-1], so its extremes are
- * at corners. branch: sign of (coordinate along the directrix) - (that of s) in the pane, for parabolas. */
+/* Do the conditions |c - s| = distance to q certainly have no solution in the closed pane lo .. hi (an infinite
+ * interval where there is no bound)? The difference of squares is monotone in each coordinate there [ARC-1], so its
+ * extremes are at corners. branch: sign of (coordinate along the directrix) - (that of s) in the pane (parabolas). */
 bool dyd_filter_no_arc(const dyd_filter_arc *arc, int axis, int branch, const dyd_iv lo[2], const dyd_iv hi[2]);
 
 /* A rectangle with its doubles. Invariant: all ends are even, so that middles are integers. */

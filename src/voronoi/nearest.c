@@ -2,10 +2,11 @@
 /* Which sites are possibly nearest to a point, or to a point of a rectangle (mathematics: section 2).
  *
  * i is possibly nearest to c iff ds_i(c) <= min_k dl_k(c), that is c is in Pos_i. If only i is listed for the rectangle
- * q, every point of q is in no other Pos_k, so i is surely nearest everywhere: q is inside Int_i; the converse is plain
- * [NEAR-1]. Only sites that are possibly nearest to some point of q matter, as candidates and as blockers: the site of
- * least dl at a point is one of them. If q does not meet R_i and meets Pos_i, it does on its boundary: Pos_i holds with
- * c the segment to the point of R_i nearest to c, which leaves q through a side beyond which that point lies [NEAR-2].
+ * q, every point of q is in no other Pos_k, so i is certainly nearest everywhere: q is inside Int_i; the converse is
+ * plain [NEAR-1]. Only sites that are possibly nearest to some point of q matter, as candidates and as blockers: the
+ * site of least dl at a point is one of them. If q does not meet R_i and meets Pos_i, it does on its boundary: Pos_i
+ * holds with c the segment to the point of R_i nearest to c, which leaves q through a side beyond which that point lies
+ * [NEAR-2].
  */
 #include "voronoi/nearest.h"
 

@@ -347,7 +347,7 @@ static double iv_most(dyd_iv a) {
   return isfinite(a.lo + a.hi) ? fmax(fabs(a.lo), fabs(a.hi)) : HUGE_VAL;
 }
 
-/* num / den, unless it is surely beyond reach; false: not known. */
+/* num / den, unless it is certainly beyond reach; false: not known. */
 static bool add_quotient(dyd_iv root[2], int *count, dyd_iv num, dyd_iv den, double reach) {
   if (dyd_iv_sign(den)) {
     root[(*count)++] = dyd_iv_div(num, den);
@@ -602,7 +602,7 @@ static bool point_is_taken(dyd_outline *o, size_t own, const dyd_iv at[2]) {
   return taken;
 }
 
-/* A double surely between. */
+/* A double certainly between. */
 static dyd_iv coordinate_between(dyd_outline *o, dyd_iv a, dyd_iv b) {
   double t = a.hi / 2 + b.lo / 2;
   if (!(a.hi < t && t < b.lo)) o->unsure = true;

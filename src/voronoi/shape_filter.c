@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The polygons of a cell in doubles, where all triangles round the site are sure and the cell lies inside the window.
+/* The polygons of a cell in doubles, where all triangles round the site are certain and the cell lies inside the
+ * window.
  *
  * Let p_k be the representatives, V_t the circumcentre of p_i, p_j, p_k for the t-th triangle round i, found in
  * doubles. Nothing is trusted of it: it is moved towards p_i by a margin to give an inner vertex, away from p_i to
  * give an outer one, and these are proved against the outward boxes with the bounds of [FLT-DST]:
  *   inner vertex z: dl_i(z) < ds_j(z) for all neighbours j of i, so z is in Int_i [POLY-1];
  *   outer vertices z_t, z_t+1: dl_j < ds_i at both, j the neighbour between the triangles t and t+1, so the edge is
- *   in C_ji [POLY-2]; all turns about p_i are sure left turns and wind round once, so the polygon is star-shaped about
+ * in C_ji [POLY-2]; all turns about p_i are certain left turns and wind round once, so the polygon is star-shaped about
  *   p_i and holds Pos_i, which is connected, contains p_i's rectangle and does not meet the polygon's boundary.
  * Int_i, Pos_i lie in the hull of the outer vertices, so they are within max |inner_t - outer_t| of the inner polygon:
- * that is required to be at most 2^-bits. Where anything is not sure the exact rung does the cell. [SHAPE-1] */
+ * that is required to be at most 2^-bits. Where anything is not certain the exact rung does the cell. [SHAPE-1] */
 #include "base/alloc.h"
 #include "predicate/interval_filter.h"
 #include "voronoi/shape.h"
@@ -108,8 +109,8 @@ static bool shape_place(dyd_shape *s, uint32_t t, uint32_t degree, const dyd_del
   return false;
 }
 
-/* Returns true if the polygon is star-shaped about o, with sure turns, winding round once. Adds up its area as it goes:
- * *area less *error is a lower bound, *area more *error an upper one. */
+/* Returns true if the polygon is star-shaped about o, with certain turns, winding round once. Adds up its area as it
+ * goes: *area less *error is a lower bound, *area more *error an upper one. */
 static bool shape_star(double *area, double *error, dyd_xy o, const dyd_xy *z, uint32_t n) {
   int crossings = 0;
   *area = *error = 0;
@@ -135,7 +136,7 @@ bool dyd_filter_is_convex(const dyd_xy *z, size_t n) {
   return n >= 3 && lowest == 1;
 }
 
-/* Drops vertices that spoil convexity (as rounding does where three circles nearly coincide), then asks for sure
+/* Drops vertices that spoil convexity (as rounding does where three circles nearly coincide), then asks for certain
  * left turns everywhere. `flat` bounds the squared distance of a dropped vertex from one that is kept. */
 static bool shape_make_convex(dyd_shape *s, uint32_t n, double flat) {
   uint32_t kept = 0;

@@ -24,7 +24,7 @@ void dyd_surd_point_unscale(dyd_surd_point *p, mpz_srcptr ox, mpz_srcptr oy, mpz
 void dyd_surd_point_set(dyd_surd_point *out, const dyd_surd_point *p);
 /* Sign of (distance of p to a) - (distance of p to b), each closest or farthest. Exact. */
 int dyd_surd_point_compare(const dyd_surd_point *p, const dyd_rect *a, dyd_touch ta, const dyd_rect *b, dyd_touch tb);
-/* The partial centre O(a,b,c) = { o : some circle about o meets all three } of a surely oriented triple: its six
+/* The partial centre O(a,b,c) = { o : some circle about o meets all three } of a certainly oriented triple: its six
  * vertices, the centres of the critical circles in the order FCC CFC CCF CFF FCF FFC. DYD_E_ARG for others. */
 dyd_status dyd_partial_centre(dyd_surd_point out[6], const dyd_rect *a, const dyd_rect *b, const dyd_rect *c);
 

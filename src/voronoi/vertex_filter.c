@@ -36,7 +36,7 @@ static ball2 ball_difference(const dyd_bbox *p, const dyd_bbox *q, dyd_xy mp, dy
   return d;
 }
 
-/* A lower bound of |a x b|; not positive when the sign is not sure. */
+/* A lower bound of |a x b|; not positive when the sign is not certain. */
 static double ball_cross_lower(const ball2 *a, const ball2 *b) {
   double p = a->x * b->y, q = a->y * b->x, value = fabs(p - q);
   double vary = a->rx * (fabs(b->y) + b->ry) + fabs(a->x) * b->ry + a->ry * (fabs(b->x) + b->rx) + fabs(a->y) * b->rx;
