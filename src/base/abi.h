@@ -5,7 +5,8 @@
 
 #include <dyadel/status.h>
 
-/* Is a size set, and at least `least`? DYD_E_ARG with a message that says how to set it; type is the struct's name. */
+/* Checks that a size is set, and at least `least`; returns DYD_E_ARG with a message that says how to set it; type is
+ * the struct's name. */
 dyd_status dyd_abi_check(const void *theirs, size_t least, const char *type, dyd_error *err);
 /* *own, a struct of `size` bytes, becomes what the caller gave: 0 where theirs is shorter or NULL. DYD_E_ARG (*own has
  * its size, and is 0) when no size is set, or when theirs has members that are unknown here and not 0. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Is the floating point of the caller what the filters were proved for? */
+/* Checks that the caller's floating point is the one the filters were proved for. */
 #ifndef DYD_BASE_FLOAT_FILTER_H
 #define DYD_BASE_FLOAT_FILTER_H
 

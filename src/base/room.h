@@ -26,7 +26,7 @@ static inline uint64_t dyd_bytes_times(uint64_t count, uint64_t size) {
   return size && count > UINT64_MAX / size ? UINT64_MAX : count * size;
 }
 
-/* Returns true if `more` bytes fit beside those held. `what`, a static string, names their use. */
+/* Returns true if `more` bytes fit next to those held. `what`, a static string, names their use. */
 static inline bool dyd_room_has(dyd_room *r, uint64_t more, const char *what) {
   uint64_t all = dyd_bytes_add(dyd_bytes_add(r->beside, r->held), more);
   if (!r->most) return true;

@@ -29,8 +29,8 @@ void dyd_table_take_out(dyd_delaunay *pd, uint32_t g);
 void dyd_table_put_back(dyd_delaunay *pd, const dyd_face *face);
 /* Drops leftovers of replaced faces once they outnumber the entries in use. Does nothing if memory is exhausted. */
 void dyd_table_compact(dyd_undecided *f);
-/* Do faces but `self`, numbered at least `from` and below `to`, have triangles at v? The result for the last vertex is
- * kept: pairs come sorted. Begin with v = DYD_NONE. */
+/* A search for faces but `self`, numbered at least `from` and below `to`, with triangles at v. The result for the last
+ * vertex is kept: pairs come sorted. Begin with v = DYD_NONE. */
 typedef struct dyd_table_star {
   size_t from, to;
   uint32_t self, v;

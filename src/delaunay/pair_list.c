@@ -227,7 +227,7 @@ enum { MOST_BLOCKS = 4, SHORT_RUN = 4, PARTS = 2, FEW = 16 };
 enum { MOST_BLOCKS = 512, SHORT_RUN = 48, PARTS = 16, FEW = 1 << 16 };
 #endif
 
-/* Who sorts MOST_BLOCKS / PARTS blocks. */
+/* One task, which sorts MOST_BLOCKS / PARTS blocks. */
 typedef struct sort_part {
   dyd_pair *spare[2];
   size_t cap[2];

@@ -53,7 +53,7 @@ dyd_status dyd_tie_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay
 
 /* ---- ties because the true points are proved to be on one circle or line ---- */
 
-/* Looks at listed face g, which has not been closed, and asks who proves such things. Where it is a tie, its pairs are
+/* Examines listed face g, which has not been closed, by the callback for proofs. Where it is a tie, its pairs are
  * stored, and it is marked as proved. Does nothing without a callback that proves. DYD_OK or a failure, also of the
  * callback that was asked. */
 dyd_status dyd_prove_face(dyd_delaunay *pd, dyd_work *w, size_t g);

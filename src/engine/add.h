@@ -6,7 +6,7 @@
 #include "rect/sites_table.h"
 #include <dyadel/engine.h>
 
-/* Do points come at a good time: not from a callback? Clears *err, which may be NULL; DYD_E_ARG. */
+/* Checks that points may be added now, not from a callback. Clears *err, which may be NULL; DYD_E_ARG. */
 dyd_status dyd_engine_may_add(const dyd_engine *e, dyd_error *err);
 /* Room for n more sites, so that adding them in parts copies nothing. */
 dyd_status dyd_engine_reserve(dyd_engine *e, size_t n);

@@ -220,7 +220,7 @@ static void ask_end_exhausted(ask *a) {
 
 /* ---- memory ---- */
 
-/* Is there room to carry out the plan? */
+/* Checks the budget for carrying out the plan. */
 static dyd_status ask_room_to_narrow(ask *a) {
   if (!a->room.most) return DYD_OK;
   a->room.beside = engine_point_bytes(a->e);

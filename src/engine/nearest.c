@@ -60,8 +60,8 @@ static bool all_are_exact(const nearest_question *q) {
   return exact;
 }
 
-/* Are those listed equally far, for good? Where it is seen that they are not, the level is raised to where rectangles
- * show it. */
+/* Tries to prove that the sites listed are equally far for good. Where they are seen not to be, raises the level to
+ * where rectangles show it. */
 static dyd_status nearest_try_tie(nearest_question *q, const dyd_engine_options *o, dyd_error *err) {
   int64_t needed = 0;
   q->tied = all_are_exact(q);

@@ -63,7 +63,7 @@ static void cutting_add_end(cutting *q, size_t k) {
     for (int y = 2; y < (b[2] < b[3] ? 4 : 3); y++) q->end[q->ends++] = (spot){{b[x] - o[0], b[y] - o[1]}, k};
 }
 
-/* Is b among a, a2 and another point of the ends? */
+/* Tests whether b is inside of a, a2 and another point of the ends. */
 static void cutting_look_inside(cutting *q, const spot *a, const spot *a2, const spot *b) {
   for (const spot *a3 = a2 + 1; a3 < q->end + q->ends; a3++) {
     double t = spot_turn(a, a2, a3), least = spot_turn(a, a2, b) / t;
@@ -181,7 +181,7 @@ static const double FARTHEST = 1e12;
 
 enum { BEST = 20, GAPS = 32, ALONG = 64, STEPS = 40, MORE_STEPS = 150 };
 
-/* A question: sites i and j among `count`. last: who left least room the last time, and is examined first. */
+/* A question: sites i and j among `count`. last: the site that left least space before, examined first. */
 typedef struct joining {
   const dyd_settle_site *site;
   size_t count, i, j, last;

@@ -78,7 +78,7 @@ static dyd_status result_graph(bool *graph, dyd_result *r, dyd_content layer, co
   return st == DYD_OK ? pairs_of_graph(r) : st;
 }
 
-/* May what an output takes be made? pairs: those to be written; NULL: all. */
+/* Checks the budget for the memory of an output. pairs: those to be written; NULL: all. */
 static dyd_status grant_output(const dyd_delaunay *pd, dyd_format format, bool diagram, const dyd_pair_list *pairs,
                                dyd_pair_status least, dyd_error *err) {
   if (!dyd_delaunay_is_bounded(pd)) return DYD_OK;

@@ -15,7 +15,7 @@
 
 #define LARGEST_DISC 1e6 /* across, on the page: larger ones are drawn as their squares */
 
-/* "point 7 (Alpha): x 1.5, y in [2,2.25]" for who points at it. */
+/* "point 7 (Alpha): x 1.5, y in [2,2.25]" when the pointer is on it. */
 static void name_site(dyd_canvas *c, const double box[4], const dyd_engine *e, size_t site) {
   char id[40], title[200], called[DYD_LABEL_SIZE + 8] = "", spare[DYD_LABEL_SIZE], text[2][2 * DYD_DECIMAL_SIZE + 8];
   for (int k = 0; k < 2; k++) {

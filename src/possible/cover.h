@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Is a pair possible? Decided exactly, by covering the curve of its centres (mathematics: section 5). */
+/* Decides exactly if a pair is possible, by covering the curve of its centres (mathematics: section 5). */
 #ifndef DYD_POSSIBLE_COVER_H
 #define DYD_POSSIBLE_COVER_H
 

@@ -34,7 +34,7 @@ typedef struct dyd_place {
   double at[2], ds2;
 } dyd_place;
 
-/* Where beta is needs no bound; who blocks it does. That beta passes through a short segment across it is shown by
+/* The place of beta needs no bound; its blockers do. That beta passes through a short segment across it is shown by
  * ds_i < ds_j at the one end and ds_j < ds_i at the other [BETA-1]; distances are bounded as in
  * skeleton/distance_filter.h [FLT-DST]. The end of beta at infinity is the normal of the outer common tangent, and k is
  * beyond the tangent iff the two points where it touches and every point of k turn the same way [COV-2]; turns are
@@ -203,7 +203,7 @@ typedef struct quick {
   uint32_t rival[MAX_RIVALS];
 } quick;
 
-/* ---- who blocks a place ---- */
+/* ---- blockers of a place ---- */
 
 static bool seems_blocked(const quick *q, uint32_t k, double t) {
   dyd_place p = beta_at(&q->beta, t);

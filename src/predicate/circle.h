@@ -74,7 +74,7 @@ dyd_status dyd_critical_circle(dyd_circle *out, const dyd_rect *const r[3], cons
 int dyd_circle_side(const dyd_circle *c, const dyd_rect *r, dyd_touch touch);
 /* PLUS: r is inside I; MINUS: r is inside E; UNSURE otherwise. */
 dyd_sure dyd_partial_disc_con(const dyd_partial_disc *d, const dyd_rect *r);
-/* Is c certainly nearer to every point of a than to any of b? TRUE: dl(c,a) < ds(c,b). FALSE: dl(c,b) < ds(c,a).
+/* Compares the distances of c from all points of a and all of b. TRUE: dl(c,a) < ds(c,b). FALSE: dl(c,b) < ds(c,a).
  * UNKNOWN otherwise. */
 dyd_truth dyd_nearer(const dyd_point *c, const dyd_rect *a, const dyd_rect *b);
 /* Sign of dist(c,a) - dist(c,b), each distance closest or farthest. Exact. */

@@ -92,7 +92,7 @@ static dyd_truth supports_below(const dyd_iv largest[2], const dyd_iv least[2]) 
   return all ? DYD_TRUE : DYD_UNKNOWN;
 }
 
-/* Does the direction separate?  box: p[0], p[1], q[0], q[1]. */
+/* Decides if the direction separates.  box: p[0], p[1], q[0], q[1]. */
 static dyd_truth direction_separates(dyd_iv nx, dyd_iv ny, const dyd_box *const box[4]) {
   dyd_iv least[4], largest[4];
   for (int k = 0; k < 4; k++) box_support(&least[k], &largest[k], nx, ny, box[k]);

@@ -2,7 +2,7 @@
 /* The section on discs of a certificate: for each pair that the discs decide a witness, or sites whose caps hold all
  * directions [CERT-11].
  *
- * Who matters for a pair are first the sites in possible pairs with one of its ends. Directions are numbers of
+ * The sites in possible pairs with one of its ends are tried for a pair first. Directions are numbers of
  * PRECISION bits: they prove nothing themselves, each result passes the checker's own tests. */
 #include "tolerance/discs.h"
 #include "base/alloc.h"

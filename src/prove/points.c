@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Is a certificate about these points [CERT-8]?
+/* Checks that a certificate is about these points [CERT-8].
  *
  * A proof about its rectangles holds for the points when these lie in them, site by site. A fixed point is a rectangle,
  * whose points are all meant: it has to be that of its site. Any other point is narrowed until it is seen where it
@@ -208,7 +208,7 @@ static dyd_status location_settle(dyd_checker *c, FILE *out, const location *l, 
 
 /* ---- on a sphere ---- */
 
-/* Is the radius of all points that of the certificate? */
+/* Checks that the radius of all points is that of the certificate. */
 static dyd_status compare_radius(const dyd_checker *c, const dyd_sphere_options *o) {
   mpq_t radius;
   bool ground = false;

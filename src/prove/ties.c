@@ -299,7 +299,7 @@ static bool proof_put_numbers(dyd_proof_block *b) {
   return put_leaves(b) && put_forms(b, count);
 }
 
-/* Are points what a certificate describes? Number by number, as they are made of others. */
+/* Checks that points are as a certificate describes them, number by number, as they are made of others. */
 
 /* line[n]: the number that form n is; form[k]: the form that number k, from a callback, is. */
 typedef struct comparison {

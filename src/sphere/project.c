@@ -175,8 +175,8 @@ static void piece_step(mag_t step, const sight *g, const piece *p, int k, const 
   mag_clear(across);
 }
 
-/* Sets the view over the box. Is the box narrow for its distance from q, E > 2^8 step^2? *widest: the variable to be
- * cut, that of the longest step. */
+/* Sets the view over the box. Returns true if the box is narrow for its distance from q, E > 2^8 step^2. *widest: the
+ * variable to be cut, that of the longest step. */
 static bool piece_is_narrow(int *widest, sight *g, const piece *p) {
   arb_ptr box = _arb_vec_init(VARIABLES);
   mag_t least, most, step;

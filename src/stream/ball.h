@@ -6,7 +6,7 @@
 #include "stream/arb.h"
 #include "stream/expr.h"
 
-/* Is the value of a node defined? The _YET answers may change at a higher precision. */
+/* Whether the value of a node is defined. The _YET answers may change at a higher precision. */
 typedef enum dyd_defined {
   DYD_DEFINED,
   DYD_UNDEFINED_YET, /* the ball meets a point outside the domain */

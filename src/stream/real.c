@@ -341,7 +341,7 @@ int64_t dyd_real_glance_bits(const dyd_real *x) {
   return x->spans && !x->now ? dyd_filter_bits(x->span) : INT64_MIN;
 }
 
-/* Is the span so short that rounding it to the grid for `bits` very likely gives one step of it, as it does with balls?
+/* A span this short, rounded to the grid for `bits`, very likely gives one step of it, as it does with balls.
  */
 #define SPARE 16
 

@@ -68,8 +68,8 @@ dyd_status dyd_interval_fix(dyd_interval *out, const mpq_t lo, const mpq_t hi);
 /* DYD_E_NESTING with both intervals in short; side is "x side", "y side" or "interval". */
 dyd_status dyd_nesting_fail(dyd_error *err, const char *side, const dyd_interval *old, const dyd_interval *now);
 
-/* May next follow old (NULL: it is the first one)? Where the source encloses one value it is cut to old [NEST-2], else
- * it has to be inside of it. side as above. */
+/* Checks that next may follow old (NULL: it is the first one). Where the source encloses one value it is cut to old
+ * [NEST-2], else it has to be inside of it. side as above. */
 dyd_status dyd_nest(dyd_interval *next, const dyd_interval *old, bool encloses, const char *side, dyd_error *err);
 
 /* The number of bits of narrowing a callback asks for, made safe: bits beyond the exponent range are refused. */

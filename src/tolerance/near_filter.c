@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Which sites a pair needs, and who else is near a place. */
+/* The sites that a pair needs, and the others near a place. */
 #include "base/alloc.h"
 #include "base/prefetch.h"
 #include "tolerance/state.h"

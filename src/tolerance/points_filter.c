@@ -191,7 +191,7 @@ typedef struct radius_pass {
   dyd_lines_d lines;
   const dyd_ring_d *ring;
   double c[2], middle, doubt; /* centre, radius of the circle, bound of their errors; at an end: direction, offset */
-  /* A window, and whom circles within it may concern: circles that follow each other are near each other. */
+  /* A window, and the points that circles within it may concern: circles that follow each other are near each other. */
   dyd_bbox window;
   uint32_t near[NEAR_MOST], count;
   bool open;

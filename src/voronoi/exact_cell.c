@@ -110,7 +110,7 @@ static void sample_make_exact(const exact_cell *c, dyd_sample *s, const dyd_elem
   mpz_mul_2exp(p->d, p->d, (mp_bitcnt_t)s->bits);
 }
 
-/* Is the sample nearer to (sign = -1), as far from (0), or farther from (1) other k than the radius dl_i or ds_i? */
+/* Returns -1, 0 or 1: the sample is nearer to, as far from, or farther from other k than the radius dl_i or ds_i. */
 static int cell_side(const exact_cell *c, dyd_sample *s, const dyd_elementary *arc, int window_side, size_t k) {
   int sign =
       dyd_filter_side(&s->spot, &c->other[k].box, c->frame->other_touch, &c->frame->fixed.box, c->frame->fixed_touch);
@@ -310,8 +310,8 @@ static bool other_takes_sample(exact_cell *c, const dyd_elementary *a, size_t j,
   return sign < 0 || (!sign && k < j);
 }
 
-/* Returns true if the sample on curve j is a point of the boundary that counts for j. Who took the last one is asked
- * first. */
+/* Returns true if the sample on curve j is a point of the boundary that counts for j. The site that took the last one
+ * is tried first. */
 static bool sample_is_kept(exact_cell *c, const dyd_elementary *a, size_t j) {
   if (c->taker < c->count && other_takes_sample(c, a, j, c->taker)) return false;
   for (size_t k = 0; k < c->count; k++)

@@ -29,7 +29,7 @@ typedef struct dyd_near_side {
 
 /* Doubles around the place at + sqrt(root) of a side. */
 void dyd_filter_place(dyd_bbox *c, const dyd_near_side *side, const mpq_t at, const mpq_t root);
-/* Is dl(k) < ds(i) at the centre in c? */
+/* Decides if dl(k) < ds(i) at the centre in c. */
 dyd_truth dyd_filter_blocks(const dyd_bbox *c, const dyd_near_site *k, const dyd_near_site *i);
 /* The site of least dl at the centre in c, if that is certainly below ds(i); otherwise count. */
 size_t dyd_filter_blocker(const dyd_bbox *c, const dyd_near_site *site, size_t count, size_t i);

@@ -32,7 +32,7 @@ static double outline_distance2(const dyd_outline *o, const dyd_bbox *c, size_t 
   return upper ? dyd_ds2_upper(c, &b, o->slack[k]) : dyd_ds2_lower(c, &b);
 }
 
-/* Returns true if a site other than `own` certainly takes all points of the box away from it. *doubt (or NULL): someone
+/* Returns true if a site other than `own` certainly takes all points of the box away from it. *doubt (or NULL): a site
  * may take a point. */
 static bool outline_taken(bool *doubt, dyd_outline *o, size_t own, const dyd_iv at[2]) {
   const dyd_bbox c = {{at[0].lo, at[0].hi, at[1].lo, at[1].hi}};

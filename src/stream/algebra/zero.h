@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Is the value of a form 0? Proved, or not. */
+/* Decides if the value of a form is 0: proved, or not. */
 #ifndef DYD_STREAM_ALGEBRA_ZERO_H
 #define DYD_STREAM_ALGEBRA_ZERO_H
 
