@@ -360,7 +360,7 @@ def forge(r, lines):
 
 
 def weaker(old, new):
-    """Is nothing stated in `new` of a pair that is not in `old`?"""
+    """Returns whether `new` states nothing that is not in `old`."""
     return all(new.get(p, 'illegal') in (s, 'indeterminate') for p, s in old.items()) and all(
         s == 'indeterminate' for p, s in new.items() if p not in old)
 

@@ -113,7 +113,7 @@ def box_is_farther(c, end, k, x, y):
 
 
 def may_be_edge(c, i, j):
-    """Does some circle that both discs meet hold no other disc, by a margin that doubles show?"""
+    """Returns whether some circle that both discs meet holds no other disc, by a margin that doubles show."""
     if c.disc[i][2] > c.disc[j][2]:
         i, j = j, i
     ox, oy, r = c.disc[i]

@@ -154,7 +154,7 @@ def farthest2(z, b):
 
 
 def holds(p, z):
-    """Is z in the closed polygon p?"""
+    """Returns whether z is in the closed polygon p."""
     odd = False
     for a, b in zip(p, p[1:] + p[:1]):
         turn = (b[0] - a[0]) * (z[1] - a[1]) - (b[1] - a[1]) * (z[0] - a[0])

@@ -85,7 +85,7 @@ def of_points(p):
 
 
 def is_bridge(graph, edge):
-    """Do no other edges join its ends?"""
+    """Returns whether no other edges join its ends."""
     seen, stack = {edge[0]}, [edge[0]]
     while stack:
         a = stack.pop()

@@ -194,7 +194,7 @@ def crossed(frame, lines):
 
 
 def covered(frame, full, z):
-    """Is the box around these places in full squares?"""
+    """Returns whether the box around these places is in full squares."""
     n = [[int((v - frame[2 * a]) / 4) for v in c] for a, c in enumerate(zip(*z))]
     return all((x, y) in full for x in range(min(n[0]), max(n[0]) + 1) for y in range(min(n[1]), max(n[1]) + 1))
 

@@ -121,7 +121,7 @@ def test_digests():
 
 
 def test_forged():
-    """Who writes a trace can write its digests: --resume believes it, and verify --points finds it out."""
+    """A forger of a trace can write its digests: --resume believes it, and verify --points detects it."""
     with Folder() as f:
         f.write('exact.txt', 'sqrt(2) 0\n0 sqrt(3)\n-1 0\n1/3 -1\n')
         honest = f.run('delaunay', '--trace', 'good', 'exact.txt')

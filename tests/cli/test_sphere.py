@@ -237,7 +237,7 @@ def moved(place, angle, r):
 
 
 def refuted(got, places):
-    """Is there a pair that the choice contradicts?"""
+    """Returns whether the choice contradicts a pair."""
     want = globe.statuses(APART, [(repr(x), repr(y)) for x, y in places])
     return any(want.get(p) != 'legal' for p, s in got.items() if s == 'legal') or any(p not in got for p in want)
 

@@ -336,7 +336,7 @@ static void questions(void **state) {
     }
 }
 
-/* Who meets a disc, against integers. */
+/* Sites that meet a disc, against integers. */
 static void discs(void **state) {
   (void)state;
   static table statuses;

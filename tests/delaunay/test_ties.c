@@ -294,7 +294,7 @@ static dyd_status prove_all(bool *proved, void *user, dyd_relation relation, con
   return DYD_OK;
 }
 
-/* x0, x1, y0, y1 of n boxes: asked is who proves everything. */
+/* x0, x1, y0, y1 of n boxes, with the callback that proves everything. */
 static asked ask_boxes(size_t count[4], size_t n, double *const end[4], size_t most) {
   asked a = {0, 0};
   dyd_sites *s = NULL;

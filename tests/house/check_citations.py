@@ -58,7 +58,7 @@ class Theory:
         self.entry = {m[1]: ' '.join(m[2].split()) for m in ENTRY.finditer(text[ends[-1]:])} if marks else {}
 
     def has(self, key, kind, number):
-        """Is that section or figure of an entry among those listed as cited?"""
+        """Returns whether that section or figure of an entry is listed as cited."""
         cited = self.entry[key].rpartition('Cited: ')[2]
         return any(kind == k and number in expand(n) for k, n in re.findall(PART, cited))
 

@@ -128,7 +128,8 @@ def graph_gabriel(p, i, j, sites):
 
 
 def graph_mst(p, i, j, sites):
-    """Are i and j joined by ways of shorter (or of no longer) edges? Then no (or not every) tree needs the edge."""
+    """Returns -1 if shorter edges join i and j (no tree has the edge), 0 if no longer ones do (some tree lacks it),
+    else 1."""
     d = far2(p[i], p[j])
 
     def joined(fits):
@@ -253,8 +254,8 @@ def near_far_box(box, c):
 
 
 def witness_holds(regions, i, j, c, sites):
-    """Does a disc about c hold regions i and j, and meet no other region? Exact for boxes; for discs by enclosures of
-    square roots, so that True is proved."""
+    """Returns whether a disc about c holds regions i and j, and meets no other region. Exact for boxes; for discs by
+    enclosures of square roots, so that True is proved."""
     if all(r[0] == 'box' for r in regions.values()):
         most = max(near_far_box(regions[k][1:], c)[1] for k in (i, j))
         return all(most < near_far_box(regions[k][1:], c)[0] for k in sites if k not in (i, j))
@@ -381,14 +382,14 @@ class Sphere:
         return 0
 
     def is_within(self, at, k, lo, hi):
-        """Is the way along the ground between these bounds, in metres?"""
+        """Returns whether the way along the ground is between these bounds, in metres."""
         with mpmath.workprec(PRECISIONS[1]):
             d, near = exact(self.angle(1, k, at)) * EARTH, Q(1, 2 ** 150)
         return (lo is None or lo <= d + near) and (hi is None or d <= hi + near)
 
     def is_in(self, i, xlo, xhi, ylo, yhi):
-        """Is place i in these degrees, longitudes modulo 360? Places at an angle are known to 190 bits: those as near to
-        an end count as inside."""
+        """Returns whether place i is in these degrees, longitudes modulo 360. Places at an angle are known to 190 bits:
+        those as near to an end count as inside."""
         near = 0
         lon, lat = self.places[i][:2]
         if len(self.places[i]) > 2:

@@ -477,7 +477,7 @@ def judge_between(judge, c, ch, polys):
 
 
 def holds_point(poly, at):
-    """Is a place in a closed polygon? Exact."""
+    """Returns whether a place is in a closed polygon. Exact."""
     x, y = at
     inside = False
     for (ax, ay), (bx, by) in zip(poly, poly[1:] + poly[:1]):

@@ -288,7 +288,7 @@ static void test_grid(void **state) {
 }
 
 /* A wide rectangle above, two or three blockers below it: on the query, a segment under the rectangle, they block |x -
- * a| < sqrt(4 - b^2), so ends of intervals are surds and everything turns on who covers what. */
+ * a| < sqrt(4 - b^2), so ends of intervals are surds and the result depends on the intervals' overlaps. */
 static bool shelf_right(char *message, harness *h, const orc_case *c) {
   dyd_sites *s = harness_sites(c);
   dyd_delaunay *pd = harness_engine(message, s, NULL);
