@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Certifying an edge of an undecided face by looking at the faces around its two ends only. */
+/* Certifying an edge of an undecided face from the faces around its two ends only. */
 #ifndef DYD_DELAUNAY_LOCAL_FILTER_H
 #define DYD_DELAUNAY_LOCAL_FILTER_H
 

@@ -60,8 +60,7 @@ static dyd_status hull_of_corners(locator *l) {
   return DYD_OK;
 }
 
-/* Makes the hull of all sites that may be on the hull of some choice. It has no corners where doubles do not hold them.
- * */
+/* Makes the hull of all sites that may be on the hull of some choice; no corners where doubles do not hold them. */
 static dyd_status make_hull(locator *l) {
   dyd_index_list sure = {0}, possible = {0};
   dyd_status st = dyd_delaunay_hull_vertices(&sure, &possible, l->pd);
@@ -132,7 +131,7 @@ static void offer_triangle(dyd_triangle *out, locator *l, uint32_t t, dyd_xy z) 
 }
 
 /* The triangle of the representatives that holds z, or the ghost triangle of a hull edge that z is strictly beyond:
- * mesh_locate in src/skeleton/mesh_build.c tells why the walk ends. */
+ * mesh_locate in src/skeleton/mesh_build.c explains why the walk ends. */
 static uint32_t walk_to(locator *l, uint32_t from, dyd_xy z) {
   const dyd_mesh *m = &l->pd->sk.mesh;
   if (dyd_is_ghost_triangle(m, from)) from = dyd_edge_triangle(dyd_edge_twin(m, dyd_hull_edge(m, from)));

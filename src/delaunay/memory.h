@@ -15,7 +15,7 @@ bool dyd_delaunay_is_bounded(const dyd_delaunay *pd);
 /* Returns DYD_OK when the budget allows that many bytes more, else DYD_E_NOMEM, with `what` named in *err (may be
  * NULL). `what` is static. */
 dyd_status dyd_delaunay_grant(const dyd_delaunay *pd, uint64_t bytes, const char *what, dyd_error *err);
-/* The least status of the pairs that cells, areas, spanning trees and plans look at. Ties of exact points are ignored:
+/* The least status of the pairs that cells, areas, spanning trees and plans use. Ties of exact points are ignored:
  * the common boundary of two such cells is one point or nothing [GRP-1], and a face of k sites has about k^2 / 2 of
  * them. Ties that were proved count: of arbitrary points in their rectangles they are possible edges. */
 dyd_pair_status dyd_least_bounding(const dyd_delaunay *pd);

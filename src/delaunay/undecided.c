@@ -85,7 +85,7 @@ bool dyd_open_is_postponed(const dyd_delaunay *pd, size_t f) {
 
 /* ---- one pair ---- */
 
-/* The status of vw as far as face f, of which v is a vertex, tells. */
+/* The status of vw by face f alone, of which v is a vertex. */
 static dyd_pair_status status_in_face(const dyd_delaunay *pd, uint32_t f, uint32_t v, uint32_t w) {
   if (pd->open.kind == DYD_TIED) return dyd_is_corner_of(pd, w, f) ? dyd_open_status_of(pd, f) : DYD_ILLEGAL;
   const dyd_vertex_pair *p = dyd_listed_pair(pd, f, v, w);

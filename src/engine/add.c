@@ -121,8 +121,8 @@ dyd_status dyd_engine_add_words(dyd_engine *e, size_t n, const dyd_words *xy, dy
 
 /* ---- streams and sources ---- */
 
-/* Appends n sites with records like p; the site number is filled in. Nothing on failure. Of what sources tell is known
- * that it encloses places. */
+/* Appends n sites with records like p; the site number is filled in. Nothing on failure. Answers of sources are known
+ * to enclose places. */
 static dyd_status points_add_refinable(dyd_engine *e, size_t n, dyd_refinable p) {
   size_t first = dyd_sites_count(e->sites);
   if (n > DYD_MAX_SITES) return DYD_E_RANGE;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The loop: ask, narrow what the question wants, triangulate where it looks at the triangulation, ask again
+/* The loop: ask, narrow what the question wants, triangulate if it uses the triangulation, ask again
  * (mathematics: section 7).
  *
  * Between stages the checks come in this order, and the first that holds is the outcome:
@@ -468,7 +468,7 @@ static dyd_status ask_prepare(ask *a) {
   return DYD_OK;
 }
 
-/* Carries out the plan, and triangulates where the question looks at that. */
+/* Carries out the plan, and triangulates if the question uses that. */
 static dyd_status ask_stage(ask *a) {
   bool cut = false;
   dyd_error ignored;
@@ -499,7 +499,7 @@ static dyd_status ask_guests(ask *a) {
   return st;
 }
 
-/* A question that looks at rectangles has seen the rectangles reached, however it ends. */
+/* A question about rectangles has seen the rectangles reached, however it ends. */
 static dyd_status ask_last(ask *a) {
   bool answered, stopped = a->end == DYD_OUTCOME_CANCELLED || a->spent == DYD_BUDGET_SECONDS;
   if (a->q->triangulate || !stopped) return DYD_OK;

@@ -21,8 +21,8 @@ typedef struct dyd_watch {
   pthread_cond_t bell;
 } dyd_watch;
 
-/* Starts the clock. seconds > 0: *flag is set to 1 (atomically) when they have passed; where no thread can be had,
- * only watch_is_late tells. *w must not move until dyd_watch_stop. */
+/* Starts the clock. seconds > 0: *flag is set to 1 (atomically) when they have passed; where no thread can be started,
+ * only watch_is_late shows it. *w must not move until dyd_watch_stop. */
 void dyd_watch_start(dyd_watch *w, double seconds, volatile int *flag);
 /* After this *flag is not touched any more. */
 void dyd_watch_stop(dyd_watch *w);

@@ -47,7 +47,7 @@ typedef struct check_state {
   size_t changes, change_cap;
 } check_state;
 
-/* What the harness compares after each stage. Only exact comparisons; random numbers choose what to look at. */
+/* What the harness compares after each stage. Only exact comparisons; random numbers choose the tests. */
 
 /* What stops a triangulation at once: the deadline where there is one. */
 static const volatile int *check_flag(const check_state *s) {

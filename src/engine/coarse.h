@@ -18,7 +18,7 @@ typedef struct dyd_coarse {
   dyd_coarse_site *item;
 } dyd_coarse;
 
-/* Looks at face f: at the pairs given, and at sites next to one another in x. O((sites + pairs) log sites). */
+/* Examines face f: the pairs given, and sites next to one another in x. O((sites + pairs) log sites). */
 dyd_status dyd_coarse_set(dyd_coarse *out, const dyd_delaunay *pd, size_t f, const dyd_pair_list *pairs);
 void dyd_coarse_clear(dyd_coarse *c);
 /* The bits to which the site is known relative to its distances: 0 where it meets a neighbour no wider than itself.

@@ -294,7 +294,7 @@ static dyd_status graph_draw(bool *found, graph_question *q, const dyd_plan *pla
   return st;
 }
 
-/* Looks at all choices in the cores, less 4 eps where a site is firm: one point represents the places of other sites.
+/* Examines all choices in the cores, less 4 eps where a site is firm: one point represents the places of other sites.
  */
 static dyd_status graph_shrink(graph_question *q, const dyd_plan *plan, dyd_error *err) {
   size_t sites = dyd_sites_count(plan->e->sites);

@@ -401,7 +401,7 @@ static void mark_blockers(dyd_plan *plan, const dyd_coarse *c, bool ends, int64_
 }
 
 /* Marks all sites of a face whose pairs are not all known: to twice their bits, or to where a tie was seen to be none.
- * Nothing tells yet which of them are enough. Scouts need pairs that cross: each site with one half of the face on. */
+ * Which of them suffice is not known yet. Scouts need pairs that cross: each site with one half of the face on. */
 static dyd_status plan_capped(dyd_plan *plan, dyd_helpers *h, size_t f) {
   dyd_index_list sites = {0};
   bool outer, lacks = false;

@@ -268,7 +268,7 @@ static dyd_status disc_joins(bool *out, dyd_index_list *met, const settling *s, 
   return st;
 }
 
-/* Looks at the disc around a guess; where others than the sites meet it, these become more. */
+/* Examines the disc around a guess; where others than the sites meet it, these become more. */
 static dyd_status settling_join_at(settling *s, dyd_settled_pair *p, const double at[2]) {
   dyd_index_list met = {0};
   dyd_point c;
@@ -661,7 +661,7 @@ static dyd_status take_pairs(dyd_settled *out, const dyd_settled *known, const d
   return st;
 }
 
-/* Takes pairs of face f, if a point of it can be narrowed; unless they are of firm sites, looks at them. */
+/* Takes pairs of face f, if a point of it can be narrowed; unless they are of firm sites, examines them. */
 static dyd_status settle_face_pairs(dyd_settled *fresh, dyd_settled *s, size_t *work, const dyd_engine *e,
                                     const dyd_dyadic *eps, size_t f, bool firm) {
   size_t first = fresh->count;

@@ -47,7 +47,7 @@ typedef struct dyd_settled {
   void *prove_user;
 } dyd_settled;
 
-/* Looks at open pairs of a face with the given sites, and records the facts found. Reduces *work, in sites examined; at
+/* Examines open pairs of a face with the given sites, and records the facts found. Reduces *work, in sites examined; at
  * 0 it stops. known: has the callback for proofs; may be NULL. DYD_CANCELLED when e->stop was seen. Nothing is found
  * where no side has a core. */
 dyd_status dyd_settle_face(dyd_settled_pair *pair, size_t *work, const dyd_settled *known, const dyd_engine *e,
@@ -56,7 +56,7 @@ dyd_status dyd_settle_face(dyd_settled_pair *pair, size_t *work, const dyd_settl
 void dyd_settled_clear(dyd_settled *s);
 /* Returns true if the pair is indeterminate for good. */
 bool dyd_is_settled(const dyd_settled *s, const dyd_pair *pair);
-/* Looks at pairs in undecided faces with cores and points that can be narrowed, when these are known to more
+/* Examines pairs in undecided faces with cores and points that can be narrowed, when these are known to more
  * bits than most pairs need, and again each time they are known to four times as many. DYD_CANCELLED when e->stop was
  * seen. Bounded: about as long as a few first stages of the sites. */
 dyd_status dyd_settle(dyd_settled *s, const dyd_plan *plan);

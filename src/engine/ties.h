@@ -9,7 +9,7 @@
 /* Points that are proved to be the same place. */
 
 /* Joins the sites of pd, a triangulation of e's sites, that are proved to be the same [TIE-4]; *any: some are, and pd
- * is to be brought up to date. Looks at sites that share an undecided face and whose rectangles meet: others are
+ * is to be brought up to date. Examines sites that share an undecided face and whose rectangles meet: others are
  * different, or so wide that they are narrowed first. */
 dyd_status dyd_aliases_find(bool *any, dyd_engine *e, const dyd_delaunay *pd, dyd_error *err);
 

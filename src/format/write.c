@@ -182,7 +182,7 @@ static dyd_status tell_fineness(dyd_status st, const dyd_diagram *d, dyd_error *
                   -d->bits);
 }
 
-/* Layers of cells and regions tell nothing of vertices. */
+/* Layers of cells and regions have no vertices. */
 static bool has_vertices(dyd_content layer, dyd_format format) {
   bool layered = format == DYD_FORMAT_CSV || format == DYD_FORMAT_WKT || format == DYD_FORMAT_GEOJSON;
   return !layered || (layer != DYD_CONTENT_VORONOI && layer != DYD_CONTENT_REGIONS && layer != DYD_CONTENT_TILES);
@@ -287,7 +287,7 @@ bool dyd_label_fits(const char *label) {
   }
 }
 
-/* A table without a run has nothing to tell. */
+/* A table without a run is empty. */
 static dyd_status write_stages(dyd_output *to, dyd_write_options *o, dyd_error *err) {
   if (!o->stages || !o->stages->options) return dyd_fail(err, DYD_E_ARG, "the table is empty: there was no run");
   if (to->content == DYD_CONTENT_PLOT) return write_what(to, o->stages, err);

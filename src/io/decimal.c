@@ -152,7 +152,7 @@ typedef struct near_decimal {
 
 /* The decimal nearest to x, half to even. x is the double nearest to it unless half the gap to the next double, 5^tens
  * / 2 in units of rest, is as near, or half of that below a power of two. Another one is found by a division of
- * doubles, rounded to nearest once, but only where it is wanted. false where this way does not tell. */
+ * doubles, rounded to nearest once, but only where it is wanted. Returns false where this way does not decide. */
 static bool decimal_near(near_decimal *out, char text[DYD_DECIMAL_SIZE], double x, int digits, bool others) {
   decimal_cut c;
   if (!decimal_cut_off(&c, x, digits)) return false;

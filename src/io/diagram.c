@@ -227,7 +227,7 @@ static dyd_status find_vertex(double out[4], const dyd_diagram *d, const dyd_tri
   return st == DYD_E_RANGE ? DYD_OK : st;
 }
 
-/* Where rectangles do not tell, the enclosure has infinite ends. */
+/* Where rectangles give no bound, the enclosure has infinite ends. */
 static dyd_status find_tied_vertex(bool *tied, double out[4], const dyd_diagram *d, size_t f) {
   dyd_rect r;
   dyd_rect_init(&r);

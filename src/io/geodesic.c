@@ -17,7 +17,7 @@
 #define STEP (2 * DEGREE * (1 + 1e-9))
 #define ROUND                                                                                                          \
   0x1p-36           /* degrees: 2 micrometres on the earth; places nearer to a pole or to 180 degrees are moved there */
-#define NARROW 1e-9 /* degrees: boxes of vertices that doubles tell as much of */
+#define NARROW 1e-9 /* degrees: boxes of vertices narrow enough in doubles */
 #define LEAST 1e-12 /* radians: ways that are not divided */
 #define MOST_TURN 5 /* degrees of longitude from place to place */
 
@@ -100,7 +100,7 @@ static unit_vector aside(unit_vector a) {
   return fabs(a.x) <= fabs(a.y) ? (unit_vector){1, 0, 0} : (unit_vector){0, 1, 0};
 }
 
-/* Long ways by the places they are between: ends that are opposite tell nothing. */
+/* Long ways by the places they are between: opposite ends decide nothing. */
 static great_circle circle_of(const dyd_side *d, bool whole) {
   great_circle g = {.u = vector_of(d->from), .angle = 2 * PI};
   unit_vector w = vector_of(d->to), pole = less(vector_of(d->left), 1, vector_of(d->right));

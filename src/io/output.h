@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What a writer is given, and the writers of a format.
  *
- * The table of formats stands above, in src/format: it calls a writer, fills err where the writer did not, and sees
+ * The table of formats is a layer above, in src/format: it calls a writer, fills err where the writer did not, and sees
  * whether all was written. */
 #ifndef DYD_IO_OUTPUT_H
 #define DYD_IO_OUTPUT_H

@@ -64,7 +64,7 @@ static void obj_elements(FILE *out, const dyd_result *r, const dyd_triangle_list
   dyd_sink_flush(&s);
 }
 
-/* What the next vertex is called, where its place in the file does not tell. */
+/* Writes the name of the next vertex, unless its place in the file gives it. */
 static void obj_name(FILE *out, const dyd_result *r, uint32_t i) {
   const char *id = dyd_engine_id(r->engine, i);
   if (!id && dyd_engine_row(r->engine, i) == i) return;
@@ -154,7 +154,7 @@ static void vtk_text(FILE *out, const char *text) {
   fputc('\n', out);
 }
 
-/* Rows and identifiers of the points, where their places in the file do not tell. */
+/* Writes rows and identifiers of the points, unless their places in the file give them. */
 static void vtk_names(FILE *out, const dyd_result *r) {
   bool rows = r->count && dyd_engine_row(r->engine, r->count - 1) != r->count - 1, ids = dyd_engine_id(r->engine, 0);
   if (!rows && !ids) return;

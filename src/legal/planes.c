@@ -145,7 +145,7 @@ bool dyd_exact_lp(dyd_exact_centre *out, const dyd_half_plane *h, size_t count, 
 }
 
 /* How far out centres are looked for, in bits above the sites: each when there is no room nearer. Far out, doubles no
- * longer tell the distances of sites apart, and all sites are tested exactly. */
+ * longer distinguish the distances of sites, and all sites are tested exactly. */
 static const int64_t how_far[] = {3, 24, 64, 4160};
 
 enum { REACHES = sizeof how_far / sizeof *how_far };

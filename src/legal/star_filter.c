@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Certifying most edges in doubles, by looking at stars only.
+/* Certifying most edges in doubles, from stars only.
  *
  * [FLT-STAR] Let p_k be the representatives, R_k within E of p_k for all k but a few "fat" ones. Let c be any point,
  * rho >= |c-p_i|, |c-p_j|. The vertices of a Delaunay triangulation inside a disc about c span a connected subgraph,

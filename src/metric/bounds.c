@@ -655,7 +655,7 @@ static int64_t log2_short_side(const dyd_rect *window) {
 }
 
 /* With a total perimeter L of N cells, a cell has about the size L / (4 N); but it is no wider than the window, which
- * tells more where one side of that is very short. */
+ * bounds it better where one side of that is very short. */
 int64_t dyd_metric_coarseness(const dyd_delaunay *pd, const dyd_rect *window) {
   if (!pd) return 0;
   size_t n = dyd_sites_count(dyd_delaunay_sites(pd));

@@ -34,7 +34,7 @@ bool dyd_filter_reach(double out[2], const double a[4], const double b[4]);
 
 /* An upper bound of dl_i over the outer polygons of the shape; negative when there is none (Pos_i does not meet W). */
 double dyd_filter_reach_of_shape(const dyd_shape *s, const double box[4]);
-/* An upper bound of (diam a + diam b) (ra + rb) / (2 dist(a,b)); HUGE_VAL when doubles cannot tell. */
+/* An upper bound of (diam a + diam b) (ra + rb) / (2 dist(a,b)); HUGE_VAL when doubles cannot decide. */
 double dyd_filter_voronoi_pair(const double a[4], const double b[4], double ra, double rb);
 /* r[k]: upper bounds of dl over the outer polygons of a and b, negative: there are none. Both become one of the
  * distances of z from both points, z being undetermined in the cell of either, and bounded by the other [GRP-2]. */

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* One curve, told apart by colour, by dash and by marker, so that grey does as well. */
+/* One curve, distinguished by colour, by dash and by marker, so that grey does as well. */
 typedef struct plot_series {
   const char *name;
   unsigned rgb;
@@ -207,7 +207,7 @@ static void plot_counts(double *out, const dyd_stage_row *r) {
   for (size_t k = 0; k < sizeof count / sizeof *count; k++) out[k] = count[k] ? log10((double)count[k]) : -INFINITY;
 }
 
-/* Colours after Okabe and Ito, told apart by all kinds of sight. */
+/* Colours after Okabe and Ito, distinct for all kinds of sight. */
 static const plot_series bounds[] = {
     {"triangulation: area", 0x0072b2, 0, 0}, {"triangulation: distance", 0xd55e00, 0, 3},
     {"diagram: area", 0x56b4e9, 6, 0},       {"diagram: distance", 0xe69f00, 6, 3},

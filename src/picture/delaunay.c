@@ -25,7 +25,7 @@ enum { TIED, OPEN, LEGAL };
 #define TRIANGLE 0xe6f0f7
 #define CLOSE 12.0 /* neighbours so close have rectangles that hide each other */
 #define WIDE 50.0  /* room around the frame, in points, for lines and dashes that begin outside */
-#define FAR 1e13   /* lengths on the page from where doubles do not tell positions to a hundredth */
+#define FAR 1e13   /* lengths on the page beyond which doubles do not give positions to a hundredth */
 
 /* wide: the frame of the view with some room. */
 typedef struct delaunay_drawing {
@@ -362,7 +362,7 @@ dyd_status dyd_delaunay_picture(const dyd_output *o) {
 
 /* ---- tolerances ---- */
 
-/* Of all edges, the quarter that dies first, and so on; told apart by all kinds of sight, and in grey. Then ties. */
+/* Of all edges, the quarter that dies first, and so on; distinct for all kinds of sight, and in grey. Then ties. */
 enum { CLASSES = 4 };
 static const struct {
   unsigned rgb;

@@ -2,7 +2,7 @@
 /* Pictures as svg, pdf or png: one page, one view of the plane in a frame with coordinates, legend and scale below it.
  *
  * Positions are doubles shown to hundredths of a pixel; a picture states nothing. Statuses differ in colour (colours
- * that all kinds of sight tell apart), in dash and in lightness, so that a grey copy can be read too. */
+ * distinct for all kinds of sight), in dash and in lightness, so that a grey copy can be read too. */
 #ifndef DYD_PICTURE_PICTURE_H
 #define DYD_PICTURE_PICTURE_H
 
@@ -22,7 +22,7 @@ enum { DYD_PICTURE_NAMES = 40000 };
 
 /* ---- views ---- */
 
-/* Free space around the drawing: on top and right; on the left, where the coordinates stand. */
+/* Free space around the drawing: on top and right; on the left, for the coordinates. */
 #define DYD_VIEW_EDGE 30.0
 #define DYD_VIEW_LEFT 90.0
 

@@ -6,7 +6,7 @@
  * is a square, or a strip outside the root square between two rays; the far corners of a strip are the directions u of
  * its rays, and there C_ki means min u.x over R_k > max u.x over R_i, as for centres at infinity. The patches cover the
  * plane with its directions, since neighbours share lines or rays bit by bit. The site with the least dl at a point of
- * a patch is possibly nearest there and never leaves its list, so the list alone tells M(c) from below: sites of the
+ * a patch is possibly nearest there and never leaves its list, so the list alone bounds M(c) from below: sites of the
  * list with ds(c) <= M(c) are possible neighbours of one another. Distances are bounded as in
  * skeleton/distance_filter.h [FLT-DST], heights as in skeleton/rects_filter.c [FLT-DIR]; NaN and infinities compare
  * false and prove nothing. */
@@ -417,7 +417,7 @@ static dyd_status cut(plane *p, const patch *q) {
   return st;
 }
 
-/* Looks at the pairs of q, which was one of `before` sites with `open` pairs, and cuts it where that is of use. */
+/* Examines the pairs of q, which was one of `before` sites with `open` pairs, and cuts it where that is of use. */
 static dyd_status go_on(plane *p, patch *q, size_t before, size_t open) {
   patches_try_centre(p, q);
   bool square = q->side < 0, may_shrink = q->coarse && (square || q->depth < NARROW);
@@ -481,7 +481,7 @@ static dyd_status everybody(plane *p) {
   return DYD_OK;
 }
 
-/* Looks at everything. The first pass finds most pairs that are possible at centres, wherever these are met; the last
+/* Examines everything. The first pass finds most pairs that are possible at centres, wherever these are met; the last
  * one decides all. */
 static dyd_status pass(plane *p) {
   patch root = {.x0 = p->x0, .x1 = p->x1, .y0 = p->y0, .y1 = p->y1, .side = -1, .count = p->entries};

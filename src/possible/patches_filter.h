@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Which pairs of a face can be possible: the plane is cut into patches until few sites are possibly nearest in each.
  *
- * A quick way for faces in which many rectangles overlap, where closure under flips would look at many quads for every
+ * A quick way for faces in which many rectangles overlap, where closure under flips would examine many quads for every
  * pair. */
 #ifndef DYD_POSSIBLE_PATCHES_FILTER_H
 #define DYD_POSSIBLE_PATCHES_FILTER_H
@@ -26,7 +26,7 @@ typedef struct dyd_patches {
   void *context;
 } dyd_patches;
 
-/* *complete: every possible pair of members has its state. Else the doubles do not tell enough, or *enough was set. */
+/* *complete: every possible pair of members has its state. Else doubles do not decide enough, or *enough was set. */
 dyd_status dyd_patches_run(bool *complete, const dyd_patches *c);
 
 /* Certainly kl cannot displace ij: their hulls' boxes are disjoint, or l is certainly outside the circle of i, j, k

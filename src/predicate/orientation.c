@@ -11,7 +11,7 @@
 /* Exact rungs of orientation and Con on integer rectangles.
  *
  * [ORI-1] The determinant is affine in every coordinate, so its extremes over the box of choices are at corners. For
- * fixed q and r it is linear in p with normal (q_y - r_y, r_x - q_x): the signs of these tell the extreme corner of p,
+ * fixed q and r it is linear in p with normal (q_y - r_y, r_x - q_x): the signs of these give the extreme corner of p,
  * and 16 corner choices of q and r remain.
  * [CON-1] With the six critical circles of a certainly oriented triple, + iff the three F-once circles enclose r, - iff
  * the three F-twice circles keep away from r. One in-circle sign decides which of the two remains to be tested. */

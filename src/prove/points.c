@@ -31,7 +31,7 @@ static dyd_status location_wrong(location *l, uint32_t i, const char *why) {
   return DYD_OK;
 }
 
-/* Looks at point i as it is now. */
+/* Examines point i as it is now. */
 static dyd_status locate_point(location *l, const dyd_engine *e, dyd_rect *r, uint32_t i) {
   const dyd_refinable *p = dyd_engine_find(e, i);
   if (!dyd_engine_knows(e, i)) return DYD_OK;

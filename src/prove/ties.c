@@ -44,7 +44,7 @@ static void put_integer(FILE *out, const fmpz_t z) {
   flint_free(text);
 }
 
-/* The powers of a term, later leaves last; first: nothing stands before. */
+/* The powers of a term, later leaves last; first: nothing precedes. */
 static void put_powers(dyd_proof_block *b, const ulong *exponent, bool first) {
   for (slong k = 0; k < b->ring.leaves; k++) {
     ulong e = exponent[dyd_ring_var(&b->ring, k)];

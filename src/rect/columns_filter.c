@@ -2,8 +2,8 @@
 /* Columns of doubles in a caller's table, read as points or as points with a radius.
  *
  * With s the double nearest to a + b, the rest a + b - s is a double, and Knuth's six operations give it exactly where
- * nothing overflows, subnormal numbers included. Its sign tells on which side of s the sum is: s, or the double next to
- * it on that side, is the outward one. */
+ * nothing overflows, subnormal numbers included. Its sign shows the side of s on which the sum is: s, or the double
+ * next to it on that side, is the outward one. */
 #include "rect/columns_filter.h"
 
 #include <math.h>

@@ -143,7 +143,7 @@ static bool words_of_double(dyd_words *out, double x) {
   return true;
 }
 
-/* The number of the limbs at *from, of which sizes tell. Moves *from behind them. */
+/* The number of the limbs at *from, given by its size. Moves *from behind them. */
 static bool words_of_limbs(dyd_words *out, const mp_limb_t **from, int32_t size, int64_t exp) {
   if (size < -1 || size > 1 || exp < -DYD_WORDS_MOST_EXP || exp > DYD_WORDS_MOST_EXP) return false;
   mp_limb_t man = size ? *(*from)++ : 0;

@@ -94,7 +94,7 @@ static inline void dyd_sites_fetch(const dyd_sites *s, size_t i) {
 static inline void dyd_sites_fetch_exact(const dyd_sites *s, size_t i) {
   if (s->exact && s->exact[i]) dyd_prefetch(s->exact[i]);
 }
-/* Returns true if every site is certainly a point that is held by doubles, without a look at each. */
+/* Returns true if every site is certainly a point that is held by doubles, without a test of each. */
 static inline bool dyd_sites_are_double_points(const dyd_sites *s) {
   return !s->exact && !s->upper[0] && !s->upper[1];
 }
@@ -106,7 +106,7 @@ static inline bool dyd_sites_in_words(const dyd_sites *s, size_t i) {
 static inline bool dyd_sites_in_doubles(const dyd_sites *s, size_t i) {
   return (!s->exact || !s->exact[i]) && !dyd_sites_in_words(s, i);
 }
-/* Those of every site, without a look at each? */
+/* The same of every site, without a test of each. */
 static inline bool dyd_sites_all_in_doubles(const dyd_sites *s) {
   return !s->exact && !s->word;
 }

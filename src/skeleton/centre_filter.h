@@ -11,8 +11,8 @@ dyd_xy dyd_triangle_centre(const dyd_mesh *m, uint32_t t);
 dyd_xy dyd_edge_centre(const dyd_skeleton *sk, dyd_half_edge h);
 /* The middle between the representatives of the ends. */
 dyd_xy dyd_edge_middle(const dyd_skeleton *sk, dyd_half_edge h);
-/* Returns true if the middle of the Voronoi edge is so far away, compared with the length of the edge, that it tells
- * little. */
+/* Returns true if the middle of the Voronoi edge is so far away, compared with the length of the edge, that it is of
+ * little use. */
 bool dyd_edge_centre_is_far(const dyd_skeleton *sk, dyd_half_edge h);
 
 #endif

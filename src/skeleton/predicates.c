@@ -365,7 +365,7 @@ static bool is_strictly_between(double a, double b, double p) {
 }
 
 bool dyd_mesh_between(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t p) {
-  if (!m->reps->code && !m->no_filter) /* on one line either coordinate tells, unless it is the same for all */
+  if (!m->reps->code && !m->no_filter) /* on one line either coordinate decides, unless it is the same for all */
     return is_strictly_between(m->xy[a].x, m->xy[b].x, m->xy[p].x) ||
            is_strictly_between(m->xy[a].y, m->xy[b].y, m->xy[p].y);
   scaled_points s;

@@ -78,7 +78,7 @@ static room_guess guess_room(const ball_guess *g, size_t n, const ball_guess *fr
   return r;
 }
 
-/* Better ones are greater; 0 where it is not apart from all, or touches one, as far as doubles tell. */
+/* Better ones are greater; 0 where it is not apart from all, or touches one, by doubles. */
 static double guess_score(const ball_guess *g, size_t n, const ball_guess *from) {
   const room_guess r = guess_room(g, n, from, 0);
   if (r.left <= EVEN * r.distance) return 0;

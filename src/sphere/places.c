@@ -332,7 +332,7 @@ static size_t squares_put(rounded_place out[MOST_SQUARES], const dyd_spot_d *p, 
   return n;
 }
 
-/* Looks at all places, which finds latitudes that are none; lists places that may be exact. Near a pole the longitude
+/* Examines all places, which finds invalid latitudes; lists places that may be exact. Near a pole the longitude
  * of a computable place is any, so that it has to be recognised first. */
 static dyd_status places_round(rounded_place *out, size_t *count, dyd_sphere *s, dyd_error *err) {
   for (uint32_t i = 0; i < s->count; i++) {

@@ -129,7 +129,7 @@ dyd_status dyd_sphere_stated(dyd_rect *out, const dyd_sphere *s, uint32_t i);
 /* Makes a computable place exact where the normal forms of its coordinates are rational numbers, or its latitude is
  * that of a pole. */
 dyd_status dyd_sphere_recognise(dyd_sphere *s, uint32_t i, dyd_error *err);
-/* Fills in alias; looks at all places, DYD_E_DOMAIN as above. */
+/* Fills in alias; examines all places, DYD_E_DOMAIN as above. */
 dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err);
 
 /* choose_filter.c: the place to project from, which is not an alias; where each may coincide with another one, a place

@@ -161,8 +161,8 @@ static void axes_see(arb_ptr v, const axes *f, const dyd_spot *spot) {
   _arb_vec_clear(d, 4);
 }
 
-/* n, from these axes, becomes a direction from those of the globe. Of length about 1 where that goes: else
- * how long it may be would tell on where it points to. */
+/* n, from these axes, becomes a direction from those of the globe. Of length about 1 if possible: else the uncertainty
+ * of its length would add to that of its direction. */
 static void axes_leave(arb_ptr n, const axes *f) {
   arb_srcptr cl = &f->turn[0], sl = &f->turn[1], cf = &f->turn[2], sf = &f->turn[3];
   arb_ptr w = _arb_vec_init(2);

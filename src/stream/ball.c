@@ -241,7 +241,7 @@ dyd_defined dyd_ball_check(arb_ptr x, slong *exponent) {
   return d;
 }
 
-/* Steps of ball arithmetic that may take long: Arb looks at no flag, so those of very many digits are made by a thread
+/* Steps of ball arithmetic that may take long: Arb tests no flag, so those of very many digits are made by a thread
  * of their own, on copies. */
 
 /* From these precisions on a step may take a tenth of a second: functions; arithmetic and roots. */

@@ -6,8 +6,8 @@
 #include "stream/expr.h"
 #include "stream/span_filter.h"
 
-/* Encloses the value of e, which is then certainly defined [FLT-EXPR]. false: doubles cannot tell, or e has a function
- * that is not computed here (cbrt, exp, log, trigonometric and hyperbolic ones). Ends are never -0. */
+/* Encloses the value of e, which is then certainly defined [FLT-EXPR]. Returns false if doubles cannot decide, or e has
+ * a function that is not computed here (cbrt, exp, log, trigonometric and hyperbolic ones). Ends are never -0. */
 bool dyd_filter_expr(dyd_double_span *out, const dyd_expr *e);
 
 #endif

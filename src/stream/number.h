@@ -14,7 +14,7 @@
 typedef struct dyd_literal {
   const char *text;
   size_t first, mantissa_end, end; /* offsets of the first digit, behind the mantissa, behind the literal */
-  size_t digits, fraction;         /* how many digits there are, and how many of them stand behind the point */
+  size_t digits, fraction;         /* how many digits there are, and number of them after the point */
   bool hex, integer;               /* integer: decimal digits only, without point or exponent */
   int64_t exponent;                /* held within +- 2^40 */
 } dyd_literal;

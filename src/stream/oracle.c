@@ -178,8 +178,7 @@ static dyd_status read_answer_ends(mpq_t end[4], const char *line, const word *w
   return st;
 }
 
-/* *r is the known rectangle on entry (if known), and that of the four ends on return, which are to be in order.
- * */
+/* *r is the known rectangle on entry (if known), on return that of the four ends, which must be in order. */
 static dyd_status take_answer_ends(dyd_rect *r, bool known, const mpq_t end[4], dyd_error *err) {
   dyd_rect next;
   for (int k = 0; k < 4; k += 2) {
@@ -251,8 +250,8 @@ struct dyd_oracle {
   struct pollfd *poll;
   unsigned jobs, batch, retries;
   double seconds;
-  size_t points; /* 0 until the first program has told */
-  double *cost;  /* of each, as it told; NULL: it did not */
+  size_t points; /* 0 until the first program has reported */
+  double *cost;  /* of each, as it reported; NULL: it did not */
   int lifeline[2];
 };
 
@@ -335,7 +334,7 @@ static dyd_status program_read_count(size_t *count, dyd_oracle *o, unsigned k, c
                   o->points, k, *count);
 }
 
-/* Starts program k instead of one that failed. Its requests wait until it has told its count, and are sent again
+/* Starts program k instead of one that failed. Its requests wait until it has reported its count, and are sent again
  * unless they were answered. On failure it has failed again. */
 static dyd_status program_restart(dyd_oracle *o, unsigned k, const volatile int *stop) {
   dyd_worker *w = &o->worker[k], old = *w;

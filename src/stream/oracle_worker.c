@@ -130,7 +130,7 @@ static int spawn_command(pid_t *pid, const char *command, unsigned number, int i
   return why;
 }
 
-/* Ends the group when the lifeline does: each that can ends in an orderly way, as programs that have to tell others do.
+/* Ends the group when the lifeline does: each that can ends in an orderly way, as programs with processes elsewhere do.
  */
 static int spawn_watcher(pid_t *pid, pid_t group, int lifeline) {
   char leader[24];

@@ -64,7 +64,7 @@ static void nest_find(nest_ends *n, const dyd_interval *old, const dyd_interval 
   mpq_clears(a, b, c, d, NULL);
 }
 
-/* Digits that tell the ends apart, three more than their leading bits have in common; at most NEST_DIGITS. */
+/* Digits that distinguish the ends, three more than their leading bits have in common; at most NEST_DIGITS. */
 enum { NEST_DIGITS = 4000, NEST_SHOWN = 72, NEST_EDGE = 16 };
 
 static int nest_digits(const nest_ends *n) {

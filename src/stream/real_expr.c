@@ -19,7 +19,7 @@ typedef struct machine {
   slong top, capacity;
   slong prec;
   slong exponent;    /* every ball so far is below 2^exponent in magnitude */
-  dyd_status failed; /* what a root could not be narrowed by, told in *err */
+  dyd_status failed; /* failure of a root, with its reason in *err */
   dyd_error *err;
   const volatile int *stop; /* NULL: no flag */
 } machine;

@@ -86,7 +86,7 @@ static bool put_row(FILE *out, uint64_t *sum, const tiles_row *r) {
   return fwrite(bytes, sizeof bytes, 1, out) == 1;
 }
 
-/* The sum stands behind the rest, the lowest byte first. */
+/* The sum follows the rest, the lowest byte first. */
 static bool put_sum(FILE *out, uint64_t sum) {
   unsigned char bytes[TILES_SUM];
   for (unsigned k = 0; k < sizeof bytes; k++) bytes[k] = (unsigned char)(sum >> 8 * k);
@@ -399,7 +399,7 @@ static dyd_status reader_fail(const part_readers *all, const char *name, const c
                   name, what);
 }
 
-/* Opens the part, whose bytes have the sum that the manifest tells. */
+/* Opens the part, whose bytes have the sum given by the manifest. */
 static dyd_status reader_open(part_reader *p, const part_readers *all, const char *name, const char *told,
                               dyd_error *err) {
   char sum[20] = "";
@@ -438,7 +438,7 @@ static dyd_status readers_open(part_readers *all, const json_t *manifest, dyd_er
   return st;
 }
 
-/* They stand behind the pairs. */
+/* They follow the pairs. */
 static dyd_status reader_aliases(part_readers *all, part_reader *p, dyd_error *err) {
   const off_t body = ftello(p->in);
   if (fseeko(p->in, body + (off_t)(p->pairs * TILES_RECORD), SEEK_SET) != 0) return DYD_E_IO;

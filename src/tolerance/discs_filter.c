@@ -182,7 +182,7 @@ static bool meet_square(void *context, uint32_t v) {
   return c->highest < HUGE_VAL && keep_worst(c, v);
 }
 
-/* ---- where doubles do not tell ---- */
+/* ---- where doubles do not decide ---- */
 
 /* A circle in rationals. about: the same in doubles; clear: no disc is in its way; one: the first one in its way ends
  * the search. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Lines over a bisector in integers: where they stand, which way f runs on them, where it is largest. */
+/* Lines over a bisector in integers: their places, the direction of f on them, its largest value. */
 #include "tolerance/lines.h"
 
 #include "base/alloc.h"

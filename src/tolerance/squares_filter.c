@@ -102,7 +102,7 @@ enum { MOST_NEW = 6 };
  */
 #define FAR2 0x1p60
 
-/* Looks at v from now on; *more: it was not seen before. */
+/* Includes v from now on; *more: it was not seen before. */
 static dyd_status squares_see(bool *more, squares *q, uint32_t v) {
   *more = v != q->i && v != q->j;
   for (size_t k = 0; k < q->seen.count && *more; k++) *more = q->seen.vertex[k] != v;
@@ -141,7 +141,7 @@ static bool surely_keeps_out(const square_search *s, uint32_t v) {
   return s->legal ? dyd_ds2_lower(&s->c, &wide) > s->bound : farthest2_lower(&s->c, b, s->q->now) >= s->bound;
 }
 
-/* Near the circle integers tell. */
+/* Near the circle integers decide. */
 static bool keeps_out_exactly(square_search *s, uint32_t v) {
   dyd_rect r[3];
   bool out = true;
@@ -166,8 +166,8 @@ static bool meet_rival(void *context, uint32_t v) {
   return s->status == DYD_OK && ++s->added < MOST_NEW;
 }
 
-/* Looks at whose squares do not certainly keep out of the witness disc about q->c: a few at most. *more: there are
- * some.
+/* Includes sites whose squares do not certainly keep out of the witness disc about q->c: a few at most. *more: there
+ * are some.
  */
 static dyd_status squares_see_rivals(bool *more, squares *q) {
   const dyd_rects *r = &q->sk.rects;
@@ -228,7 +228,7 @@ static void bring_forward(dyd_others *o, size_t to, uint32_t v) {
 }
 
 /* Puts the two of seen first that are about nearest to q->place, one on each side of ij, by their nearest points, or
- * `far` ones; *k < *l become their vertices, DYD_NONE where there is none. Unchanged where doubles do not tell. */
+ * `far` ones; *k < *l become their vertices, DYD_NONE where there is none. Unchanged where doubles do not decide. */
 static void squares_bind(uint32_t *k, uint32_t *l, squares *q, bool far) {
   dyd_xy i = nominal_place(q, q->i), j = nominal_place(q, q->j), c = {q->place.e[0], q->place.e[2]};
   double jx = j.x - i.x, jy = j.y - i.y, cx = c.x - i.x, cy = c.y - i.y, least[2] = {HUGE_VAL, HUGE_VAL};

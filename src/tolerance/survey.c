@@ -325,7 +325,7 @@ static int compare_ranks(const void *a, const void *b) {
 }
 
 /* The rows of all faces, always the one that decides most of those next; each face keeps its own order. A row that
- * tells more than one before it comes right after that one: so they are sorted by the least so far. */
+ * states more than one before it comes right after that one: so they are sorted by the least so far. */
 static dyd_status merge_rows(dyd_survey *s) {
   size_t total = s->chosens, least = SIZE_MAX;
   row_rank *rank = dyd_alloc(total, sizeof *rank);

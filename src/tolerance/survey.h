@@ -104,7 +104,7 @@ dyd_status dyd_measuring_draft(size_t *decided, dyd_measuring *m, uint32_t i);
 dyd_status dyd_survey_crowds(dyd_measuring *m);
 /* Chooses among the sites of face f of pd so that its targets are decided; appends to s->chosen. */
 dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t f);
-/* How many targets of the face with these sites (ascending) are open as things stand. */
+/* How many targets of the face with these sites (ascending) are open at present. */
 dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_index_list *sites);
 /* Sets *needs to whether more targets of the face with these sites (ascending) would be open, were this one of them not
  * measured. */

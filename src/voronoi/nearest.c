@@ -175,7 +175,7 @@ static size_t side_find_blocker(dyd_near_work *w, const dyd_near_side *side, con
   return count;
 }
 
-/* Returns true if a point of the side lies in Pos_i as far as the other sites of the list tell [NEAR-2]. Exact. */
+/* Returns true if a point of the side lies in Pos_i by the other sites of the list [NEAR-2]. Exact. */
 static bool near_side_meets(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *site, size_t count,
                             size_t i, bool no_filter) {
   mpq_set(w->at, side->lo);

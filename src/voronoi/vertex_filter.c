@@ -93,8 +93,8 @@ static bool round_to_grid(double *out, double lo, double hi, int grid) {
 /* The circumcentre of points that are doubles, in a box. With a = p1 - p0, b = p2 - p0, D = 2 a x b, N the numerators
  * b_y |a|^2 - a_y |b|^2 and a_x |b|^2 - b_x |a|^2, it is p0 + N / D. Differences carry a relative error u, so products
  * in N at most (1 + u)^7, those in D (1 + u)^3: N is off by less than 9 u (|b_y| |a|^2 + |a_y| |b|^2), D by less than
- * 10 u (|a_x b_y| + |a_y b_x|), for which 16 u stand, also for their own rounding. What underflows is below 2^-1070 in
- * N, and 2^-600 covers that, as |D| >= 2^-400. */
+ * 10 u (|a_x b_y| + |a_y b_x|), for which 16 u suffice, also for their own rounding. What underflows is below 2^-1070
+ * in N, and 2^-600 covers that, as |D| >= 2^-400. */
 static bool points_vertex(dyd_bbox *out, dyd_xy p, dyd_xy q, dyd_xy r) {
   const double u = 0x1p-53;
   double ax = q.x - p.x, ay = q.y - p.y, bx = r.x - p.x, by = r.y - p.y;

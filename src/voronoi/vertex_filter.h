@@ -13,7 +13,7 @@
 dyd_status dyd_filter_region(dyd_bbox *box, bool *any, const dyd_delaunay *pd, const dyd_pair_list *pairs,
                              const dyd_index_list *sites);
 
-/* A box that holds the circumcentre of v[0], v[1], v[2] for every choice; false when doubles cannot tell. */
+/* A box that holds the circumcentre of v[0], v[1], v[2] for every choice; returns false when doubles cannot decide. */
 bool dyd_filter_vertex(dyd_bbox *out, const dyd_delaunay *pd, const uint32_t v[3]);
 
 #endif

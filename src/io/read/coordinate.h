@@ -54,7 +54,7 @@ typedef struct dyd_coordinate {
   dyd_real *real;
 } dyd_coordinate;
 
-/* Reads one coordinate. Failures of the real later on (in refinement) tell its line and column too.
+/* Reads one coordinate. Failures of the real later on (in refinement) report its line and column too.
  * On success a real in *out belongs to the caller. */
 dyd_status dyd_coordinate_read(dyd_coordinate *out, const dyd_span *span, const dyd_manner *manner, dyd_error *err);
 /* Where a radius begins, or the end of the text. */

@@ -153,7 +153,7 @@ dyd_status dyd_csv_ask(dyd_csv *csv, int first, size_t least, size_t most, const
   return DYD_OK;
 }
 
-/* 0: the header tells. */
+/* 0: taken from the header. */
 static dyd_status read_delimiter(char *out, const char *text, dyd_error *err) {
   *out = 0;
   if (!text) return DYD_OK;
@@ -409,7 +409,7 @@ static dyd_status read_meanings(dyd_csv *csv, bool degrees, dyd_error *err) {
                   quote, names, quote);
 }
 
-/* Takes the line for the header, or for the first row. delimiter 0: it tells. commented: comments were before it. */
+/* Takes the line for the header, or for the first row. delimiter 0: taken from it. commented: comments precede it. */
 static dyd_status header_take(dyd_csv *csv, const dyd_line *line, char delimiter, bool commented, dyd_error *err) {
   dyd_status st = delimiter ? DYD_OK : find_delimiter(&delimiter, csv, line, err);
   if (st == DYD_OK) st = header_split(csv, line, delimiter, err);

@@ -50,7 +50,7 @@ typedef struct intake {
   dyd_manner manner[2];               /* of x and y in the present row */
   double kept[2];                     /* radii of this row that do not widen it, rounded up */
   bool ground;                        /* the last radius is a length on the ground */
-  const char *radius_at;              /* where the last radius stands */
+  const char *radius_at;              /* the place of the last radius */
   dyd_stage stage;
   spread *sigma, row;          /* row: of the present row */
   size_t sigma_cap, uncertain; /* uncertain: rows with a standard deviation above 0 */
@@ -560,7 +560,7 @@ static dyd_status twin_read(dyd_twin *out, intake *in, const sighting *s, dyd_er
   return st;
 }
 
-/* st tells why these rows, which the place of an identifier begins with, give no point. */
+/* st: the reason why these rows, which the place of an identifier begins with, give no point. */
 static dyd_status twins_fail(const intake *in, dyd_status st, const dyd_place *id, const size_t which[2],
                              dyd_error *err) {
   const sighting *s[2] = {&in->seen[id->row[0]], &in->seen[id->row[0]]};

@@ -149,7 +149,7 @@ static dyd_status bytes_begin(size_t *got, char *out, size_t size, dyd_text *t, 
   return st;
 }
 
-/* The next bytes, `size` of them unless the file ends: *got < size tells so. DYD_E_IO for reading, and for packed data
+/* The next bytes, `size` of them unless the file ends: *got < size then. DYD_E_IO for reading, and for packed data
  * that are damaged or end early. */
 static dyd_status bytes_read(size_t *got, char *out, size_t size, dyd_text *t, dyd_error *err) {
   if (!t->begun) return bytes_begin(got, out, size, t, err);

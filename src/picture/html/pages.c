@@ -324,7 +324,7 @@ static dyd_status html_points(const html_scene *s) {
   return st;
 }
 
-/* With all its sides: the page tells by them from which stage on a triangle is certain. */
+/* With all its sides: from them the page finds the stage from which a triangle is certain. */
 static bool scene_sees_triangle(const html_scene *s, const uint32_t v[3]) {
   bool seen = true;
   for (int c = 0; seen && c < 3; c++) seen = scene_sees_pair(s, &(dyd_pair){v[c], v[(c + 1) % 3], DYD_LEGAL});

@@ -2,8 +2,8 @@
 /* Expressions as exact objects: what coordinates are made of, each part once.
  *
  * A form is a node of a graph without circles: a number, pi, e, a root of a polynomial, something of which nothing but
- * its identity is known, or an operation on forms. Equal forms are one node. Forms say what a coordinate is; how large
- * it is, dyd_forms_value tells in balls. */
+ * its identity is known, or an operation on forms. Equal forms are one node. Forms describe a coordinate;
+ * dyd_forms_value encloses its value in balls. */
 #ifndef DYD_STREAM_ALGEBRA_FORM_H
 #define DYD_STREAM_ALGEBRA_FORM_H
 

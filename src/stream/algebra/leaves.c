@@ -228,7 +228,7 @@ bool dyd_leaf_radical(dyd_fraction *x, dyd_ring *r, dyd_op op, const dyd_fractio
  * the monic integer polynomial a^(n-1) f(t / a). Two roots of one f of degree n are different or the same: distinct
  * ones are more than n^-(n+2)/2 |f|^-(n-1) apart (Mahler 1964, f without multiple zeros). */
 
-/* Degree and bits up to which factors are searched for; bits of a relation; bits examined to tell roots apart. */
+/* Degree and bits up to which factors are searched for; bits of a relation; bits examined to distinguish roots. */
 enum { FACTOR_DEGREE = 32, FACTOR_BITS = 4096, RELATION_BITS = 1 << 20, APART_BITS = 1 << 14 };
 
 /* How many factors may vanish at x, and the last of them. */
