@@ -8,8 +8,7 @@
  * meet, and it is certainly oriented with every common neighbour among the possible pairs [HST-2]. Pairs of a chain
  * whose true points are proved to be on one line, a side of the hull, are ties, whatever their rectangles [TIE-3].
  *
- * A site possible on the hull is on the hull of the representatives or in an unbounded undecided face [CLO-1].
- * */
+ * A site possibly on the hull is on that of the representatives or in an unbounded undecided face [CLO-1]. */
 #include "delaunay/partial_hull.h"
 
 #include "base/alloc.h"

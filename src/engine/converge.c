@@ -354,7 +354,7 @@ static dyd_status converge_run_on_default(recorder *r, const dyd_engine_options 
 /* A run as a question: each time it comes a stage is complete, and gets its row. */
 typedef struct piece_run {
   recorder *r;
-  size_t first, count; /* points that make the piece; points looked at */
+  size_t first, count; /* points that make the piece; points examined */
   dyd_rect *rect;      /* of all these */
   uint64_t steps;      /* narrowings before the last row */
 } piece_run;

@@ -409,7 +409,7 @@ dyd_status dyd_engine_graph(dyd_graph_list *out, dyd_outcome *outcome, dyd_engin
 
 /* ---- pairs of discs ---- */
 
-/* Discs are told to 2^-48 of their size: centres known that well, and a little better, make no difference [DISC-1]. */
+/* Discs are computed to 2^-48 of their size: centres known a little better than that make no difference [DISC-1]. */
 enum { DISC_SPARE = 56 };
 
 /* st: DYD_CANCELLED where pairs were not reached, with why. */
@@ -419,7 +419,7 @@ typedef struct disc_question {
   dyd_error why;
 } disc_question;
 
-/* Wants the site to be known as well as discs are told. */
+/* Adds a want for the site up to the accuracy of discs. */
 static dyd_status disc_mark(dyd_plan *plan, uint32_t site) {
   const dyd_refinable *p = dyd_engine_find(plan->e, site);
   dyd_rect r;

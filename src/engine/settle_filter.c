@@ -176,7 +176,7 @@ bool dyd_filter_find_cut(dyd_settle_cut *out, const dyd_settle_site *site, size_
  * begin: from all, when that matters, with more steps. */
 static const double offset[] = {0, 0.125, 0.25, 0.5, 1, 2, 4, 16, 64, 4096};
 
-/* Centres of circles that nearly are lines, in distances of i and j: farther ones are no better in doubles. */
+/* Centres of circles that nearly are lines, in distances of i and j: farther ones do not help in doubles. */
 static const double FARTHEST = 1e12;
 
 enum { BEST = 20, GAPS = 32, ALONG = 64, STEPS = 40, MORE_STEPS = 150 };

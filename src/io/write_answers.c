@@ -426,7 +426,7 @@ static void label_json(dyd_json *j, const char *label) {
   dyd_json_close(j, 1);
 }
 
-/* Columns of a table: what it has to be about, what stands in them, and where in the row. */
+/* Columns of a table: the tables that have them, their contents, and their place in the row. */
 typedef enum stage_kind {
   STAGE_INDEX, /* uint64_t */
   STAGE_SIZE,

@@ -65,8 +65,8 @@ static double distance_guess(const double a[3], const double b[3]) {
   return sqrt(x * x + y * y + z * z);
 }
 
-/* What is left counts from the edge of the eye's box. Where the distance is not above `enough`, or nothing is left,
- * both may be any such numbers. */
+/* `left` counts from the edge of the eye's box. Where the distance is not above `enough`, or left is not above 0, both
+ * may be any such numbers. */
 static room_guess guess_room(const ball_guess *g, size_t n, const ball_guess *from, double enough) {
   room_guess r = {4, 4 - from->eye};
   for (size_t j = 0; j < n && r.distance > enough && r.left > 0; j++) {

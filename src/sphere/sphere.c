@@ -257,16 +257,16 @@ static double *costs_of_images(const dyd_sphere *s, const double *cost) {
   return out;
 }
 
-/* [SPH-5] What is stated from one eye holds whatever is not known from another. A wide centre widens all images; from a
- * gap only the pairs about it are lost. So pairs that are indeterminate from the first are looked at from the second, a
+/* [SPH-5] A statement from one eye holds whatever is unknown from another. A wide centre widens all images; from a
+ * gap only the pairs about it are lost. So pairs that are indeterminate from the first are examined from the second, a
  * gap, and those around that from another one. */
 static dyd_status second_make(dyd_sphere *s, dyd_error *err) {
   dyd_status st = dyd_sphere_new_gap(&s->second, s, err);
   return st == DYD_OK && s->second ? images_make(s->second, err) : st;
 }
 
-/* With the time that is left, since `begun`; a cancel of the first cancels it. Where no image can be had from the gap,
- * there is no second. */
+/* With the time that is left, since `begun`; a cancel of the first cancels it. Where images from the gap fail, the
+ * second does not exist. */
 static dyd_status second_run(dyd_sphere *s, dyd_sphere *first, const dyd_engine_options *options, double begun,
                              dyd_error *err) {
   dyd_engine_options o = *options;
@@ -289,7 +289,7 @@ static dyd_status second_run(dyd_sphere *s, dyd_sphere *first, const dyd_engine_
   return second_run(s->second, first, options, begun, err);
 }
 
-/* About a centre that is no place: all that may be its neighbours. */
+/* About a centre that is not a place: all that may be its neighbours. */
 static dyd_status face_of_gap(dyd_index_list *face, bool *tie, const dyd_delaunay *pd) {
   dyd_index_list sure = {0};
   *tie = false;
@@ -298,7 +298,7 @@ static dyd_status face_of_gap(dyd_index_list *face, bool *tie, const dyd_delauna
   return st;
 }
 
-/* Looks whether a pair around the centre, which is no place, is open. */
+/* Finds whether a pair around the centre, which is not a place, is open. */
 static dyd_status gap_look(dyd_sphere *s) {
   dyd_index_list face = {0};
   dyd_pair_list pairs = {0};
@@ -523,7 +523,7 @@ static void pairs_improve(dyd_pair_list *l, const dyd_pair_list *other) {
   l->count = n;
 }
 
-/* From so many eyes. */
+/* Lists the pairs as seen from the given number of eyes. */
 static dyd_status pairs_from(dyd_pair_list *out, const dyd_sphere *s, int eyes) {
   dyd_pair_list other = {0};
   dyd_status st = pairs_seen(out, s);
@@ -630,7 +630,7 @@ static dyd_status triangles_seen(dyd_triangle_list *out, const dyd_sphere *s) {
   return st;
 }
 
-/* Adds those that are certain from another eye. */
+/* Adds triangles that are certain from another eye. */
 static dyd_status triangles_add(dyd_triangle_list *l, const dyd_triangle_list *more) {
   size_t n = l->count + more->count, kept = 0;
   dyd_triangle *item = dyd_alloc(n, sizeof *item);

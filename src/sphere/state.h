@@ -192,10 +192,10 @@ dyd_status dyd_sphere_new_within(dyd_sphere **out, const dyd_sphere *s, const do
 
 /* Sets out to the radius in the options: metres on the ground, or degrees. DYD_E_ARG where it is none; DYD_E_NOMEM. */
 dyd_status dyd_sphere_radius(mpq_ptr out, bool *ground, const dyd_sphere_options *o, dyd_error *err);
-/* As dyd_sphere_outcome, of what a certificate proves: what is seen from the first eye, and from a gap where that is
- * none. */
+/* As dyd_sphere_outcome, of the statements that a certificate proves: from the first eye, and from a gap if that is not
+ * one. */
 dyd_outcome dyd_sphere_proved_outcome(const dyd_sphere *s);
-/* What each image is to the centre; in a gap, to a point there. */
+/* The status of each image with the centre; in a gap, with a point there. */
 dyd_status dyd_sphere_about_centre(dyd_pair_status *status, const dyd_sphere *s);
 
 #endif

@@ -95,7 +95,7 @@ dyd_status dyd_near_candidates(uint32_t **vertex, size_t *count, const dyd_delau
 /* ---- a walk ---- */
 
 /* Sets *next to the neighbour of v whose point is nearest to z; false: v is as near as all. *budget: neighbours that
- * may still be looked at. */
+ * may still be tested. */
 static bool near_step(uint32_t *next, const dyd_mesh *m, dyd_half_edge first, dyd_xy z, int *budget) {
   dyd_xy p = m->xy[dyd_edge_origin(m, first)];
   double least = (p.x - z.x) * (p.x - z.x) + (p.y - z.y) * (p.y - z.y);
