@@ -136,8 +136,7 @@ static dyd_status stop_run(dyd_rect *out, void *user, const dyd_request *request
   return dyd_interval_set_d(&out->y, 1 - wide, 1 + wide);
 }
 
-/* The certificate of a run with this outcome, with every other outcome instead: accepted when it claims nothing.
- * */
+/* The certificate of a run with this outcome, with every other outcome instead: accepted if it claims nothing. */
 static void try_words(const char *text, const char *outcome) {
   static const char *const words[] = {"fixpoint", "budget", "cancelled", "error", "decided", "certified", "stopped"};
   char other[8000], line[40];

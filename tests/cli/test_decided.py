@@ -151,7 +151,7 @@ def test_sides_that_rounding_makes_unequal():
 
 
 def test_discs_are_refined_as_far_as_they_are_told():
-    """Squares may be settled before discs are: 0,1 is legal, whatever precision the points are asked for first."""
+    """Squares may be settled before discs are: 0,1 is legal, whatever precision is requested first."""
     points = """-1.5999999999 6.2999999999+sqrt(3)/25
 -2.4999999999+cos(24)*3/50 -6+cbrt(18)/25
 6.3+sqrt(10)*3/50 -1.5999999999+sqrt(16+sqrt(2))*3/50

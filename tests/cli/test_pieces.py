@@ -58,7 +58,7 @@ def test_bisector_csv():
 
 
 def test_ends_that_are_not_dyadic():
-    """What is exact is so for intervals rounded outward: a note says how many, and nothing where none is."""
+    """Exact answers hold for intervals rounded outward: a note states their number, and no note appears if it is 0."""
     for command in 'bisector', 'disc':
         for x, count in (('[0,1.2]', 1), ('[1/3,2/3]', 1), ('[0,1.25]', 0), ('[5*2^-20,3]', 0)):
             text = f'{x} [0,{1 if count else 2}]\n7 1\n3 9\n'

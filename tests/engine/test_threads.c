@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Several engines in several threads give the results of one alone. To be run under the thread sanitizer as well.
- * */
+/* Several engines in several threads give the results of one alone. For the thread sanitizer as well. */
 #include "engine/help.h"
 
 #include <flint/flint.h>

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """In a program whose locale has decimal commas, other digits' groups, or letters whose case differs (in Turkish I is not the
-capital of i), all formats are what they are elsewhere, and all input is read alike: the shim sets the locale of the command.
-Needs localedef and the sources of the locales (Debian: locales); else there is nothing to test with.
+capital of i), all formats are the same as elsewhere, and all input is read alike: the shim sets the locale of the
+command. Needs localedef and the sources of the locales (Debian: locales); else there is nothing to test with.
 
 Usage: test_locale.py COMMAND SHIM
 """

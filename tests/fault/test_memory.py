@@ -121,7 +121,7 @@ def test_max_bytes():
 
 
 def test_fonts_never_come():
-    """A picture that is never done: the deadline holds, and what is no picture is written."""
+    """A picture that is never done: the deadline holds, and outputs other than pictures are written."""
     with tempfile.TemporaryDirectory() as folder:
         fonts = os.path.join(folder, 'fonts.conf')
         os.mkfifo(fonts)

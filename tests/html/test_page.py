@@ -394,7 +394,7 @@ def test_keyboard():
 
 
 def test_outliers():
-    """A point far from the others is named, and the map can leave it out."""
+    """A point far from the others is named, and the map can exclude it."""
     with opened(pages.page('delaunay', *OF_UTM, pages.points(UTM + 'Far,0,0,5\n', 'utm.csv'))) as page:
         assert 'Far' in page.text('#outliers') and not page.value('document.querySelector("#outliers").hidden')
         page.value('document.querySelector("#fit-others").click()')
@@ -407,7 +407,7 @@ def test_outliers():
 
 
 def test_phone_card():
-    """What is known of a point that is pinned is on the first screen of a phone."""
+    """Facts about a pinned point are on the first screen of a phone."""
     with opened(pages.page('delaunay', '--discs', *pages.FIXES), wide=390, high=844, place='#point=3') as page:
         assert page.value('document.querySelector("#side-y").getBoundingClientRect().bottom') < 844
 

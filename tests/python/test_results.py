@@ -59,7 +59,7 @@ def test_airports():
 
 
 def test_carried():
-    """Columns that a text's points carry: as they stand there, of rows that became points."""
+    """Columns that a text's points carry: unchanged, of rows that became points."""
     text = 'name,x,y,"a,b",n\np,0,0,007,\nq,NA,1,u,1\nr,9,1,"two\nlines",2\ns,3,7,\u00e9,3\n'
     read = {'columns': 'x,y', 'skip_missing': True}
     wanted = {'name': ['p', 'r', 's'], 'a,b': ['007', 'two\nlines', '\u00e9'], 'n': ['', '2', '3']}

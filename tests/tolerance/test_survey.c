@@ -80,8 +80,7 @@ static size_t least_plan(const box_case *c) {
   return least;
 }
 
-/* Each row states how many pairs it decides after the rows before. Sets half[] as measured. Returns the pairs left.
- * */
+/* Each row states how many pairs it decides after the rows before. Sets half[] as measured; returns the rest. */
 static size_t follow_rows(double *half, const box_case *c, const dyd_survey *s, size_t open) {
   const dyd_survey_row *row;
   size_t rows = dyd_survey_rows(&row, s), left = open;

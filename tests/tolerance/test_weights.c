@@ -78,8 +78,7 @@ static dyd_pair_status status_in(const dyd_pair_list *l, uint32_t i, uint32_t j)
 /* Discs of at least 1e-4 among coordinates up to 1000, as doubles hold their squares. */
 #define NEAR 1e-7
 
-/* Below its event a pair has one status, above it another; a pair not listed is no edge of a choice up to up_to.
- * */
+/* Below its event a pair has one status, above it another; a pair not listed is not an edge up to up_to. */
 static void test_weights_against_discs(void **state) {
   (void)state;
   test_random r = test_random_start("weights");
