@@ -447,6 +447,11 @@ def judge_rounded(judge, k, e, inner, outer, poly):
     """The polygon of an exact cell: each corner is near one of the cell, and each of the cell near one of it."""
     judge([inner[0]] == outer or not inner[0], 'the inner and the outer polygon of the exact cell %d differ', k)
     corners = list(itertools.chain(*outer))
+    if not corners:  # it is too narrow for its rounded vertices to hold an area
+        sides = list(zip(poly, poly[1:] + poly[:1]))
+        twice, around = abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in sides)), sum(abs(a[k] - b[k]) for a, b in sides for k in (0, 1))
+        judge(twice <= 4 * e * around, 'the exact cell %d has an area, but no polygon', k)
+        return
     for a, b, what in ((corners, poly, 'a corner of the polygon'), (poly, corners, 'a corner')):
         for x, y in a:
             judge(any(abs(x - u) <= e and abs(y - v) <= e for u, v in b), '%s of cell %d is not where it is stated', what, k)
