@@ -54,14 +54,13 @@ int main(int argc, char **argv) {
   bool good = true;
   FILE *all = open_memstream(&text, &length);
   while (file && all && good && getline(&line, &cap, file) > 0) {
-    bool circle = strncmp(line, "circle ", 7) == 0;
-    if (!circle && strncmp(line, "---- ", 5) != 0) {
+    if (strncmp(line, "---- ", 5) != 0) {
       fputs(line, all);
       continue;
     }
     fflush(all);
     line[strcspn(line, "\n")] = 0;
-    good = circle ? circle_gets(line) : text_gets(line + 5, text, length);
+    good = strncmp(line + 5, "circle ", 7) == 0 ? circle_gets(line + 5) : text_gets(line + 5, text, length);
     judged++;
     rewind(all);
   }

@@ -404,7 +404,7 @@ def check_plane(folder):
     (folder / 'points').write_text('0 0\n1 0\n0 1\n')
     run('delaunay', folder / 'points', '--certificate', folder / 'plane', '-o', folder / 'pairs')
     wrong = run('verify', folder / 'plane', '--sphere', '--points', folder / 'points')
-    assert wrong.returncode == 1 and wrong.stderr.endswith('leave --sphere away\n'), wrong
+    assert wrong.returncode == 1 and wrong.stderr.endswith('remove --sphere\n'), wrong
 
 
 def main():
