@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Judges the certificates of a file, each ended by a line "---- " and its verdict: "rejected", or the counts accepted
  * as stated and proved. Exit status 1, and a word on which one, when a verdict is another; why something is rejected
- * does not count. test_seeded.py links it with checkers that have a fault. */
+ * does not count. A line "---- circle ", the degrees of four places and "yes" or "no" says whether they are seen to be
+ * on one circle. test_seeded.py links it with checkers that have a fault. */
 #include "checker/checker.h"
 #include "checker/cocircular.h"
 
