@@ -151,7 +151,7 @@ def test_parts():
         (path / 'far').write_text('i,j\n0,1\n\n0,7\n')
         (path / 'points').write_text(POINTS)
         expect(run('plan', '--pairs', 'pairs', 'points', cwd=folder), 0, r'\n1,3,4,\S*,1,0\n\Z')
-        expect(run('plan', '--pairs', 'wrong', 'points', cwd=folder), 1, r'\A\Z', r'wrong:3:3: this is no pair')
+        expect(run('plan', '--pairs', 'wrong', 'points', cwd=folder), 1, r'\A\Z', r'wrong:3:3: these are not two different points')
         expect(run('plan', '--pairs', 'none', 'points', cwd=folder), 1, r'\A\Z', 'none: cannot open')
         expect(run('plan', '--pairs', 'far', 'points', cwd=folder), 1, r'\A\Z', r'^dyadel: far:4: there is no point 7; give')
         # The names that delaunay --id writes may hold line ends and commas, and lines may be long.
@@ -160,9 +160,9 @@ def test_parts():
                      '\ufeffi,j\n0,1\n'):
             (path / 'pairs').write_text(text)
             expect(run('plan', '--pairs', 'pairs', 'points', cwd=folder), 0, r'\n1,3,4,\S*,1,0\n\Z')
-        for text, where in (('0,1\0\n', '1:4: a NUL byte'), ('index,j\n0,1\n', '1:1: this is no pair'),
-                            ('0,1\n1,1\n', '2:3: this is no pair'), ('0,1\n2\n', '2:2: this is no pair'),
-                            ('0,1\n0,-1\n', '2:3: this is no pair'), ('0,1x\n', '1:3: this is no pair'),
+        for text, where in (('0,1\0\n', '1:4: a NUL byte'), ('index,j\n0,1\n', '1:1: these are not two different points'),
+                            ('0,1\n1,1\n', '2:3: these are not two different points'), ('0,1\n2\n', '2:2: these are not two different points'),
+                            ('0,1\n0,-1\n', '2:3: these are not two different points'), ('0,1x\n', '1:3: these are not two different points'),
                             ('0,1,"n\n', '1:5: the quotes of this record do not pair up')):
             (path / 'wrong').write_text(text)
             expect(run('plan', '--pairs', 'wrong', 'points', cwd=folder), 1, r'\A\Z', f'^dyadel: wrong:{where}')

@@ -475,7 +475,7 @@ def test_threads_and_repeats_give_equal_bytes():
 # ---- convergence ----
 
 def stages(*options):
-    result = run('converge', '--schedule', 'uniform', '--step-bits', '1', '--until', 'hausdorff:50', '--max-bits', '44',
+    result = run('converge', '--of', 'voronoi', '--schedule', 'uniform', '--step-bits', '1', '--until', 'hausdorff:50', '--max-bits', '44',
                  '--window', '0,4,0,4', '--no-times', *options)
     expect(result, 4)
     return table(result.out)[1]
