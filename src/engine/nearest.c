@@ -427,6 +427,7 @@ static dyd_status disc_mark(dyd_plan *plan, uint32_t site) {
   dyd_rect_init(&r);
   dyd_status st = dyd_sites_get(&r, plan->e->sites, site);
   int64_t bits = st == DYD_OK ? dyd_rect_bits(&r) + DISC_SPARE : INT64_MIN;
+  plan->blocked = plan->blocked || (p->bits < bits && bits > plan->o->max_bits);
   if (bits > plan->o->max_bits) bits = plan->o->max_bits;
   if (st == DYD_OK && p->bits < bits) dyd_plan_mark_alone(plan, p, bits, DYD_REASON_QUESTION);
   dyd_rect_clear(&r);
