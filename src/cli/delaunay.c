@@ -164,10 +164,13 @@ static int disc_pairs_outcome(const cli_session *s) {
   size_t count[4];
   if (!s->known) return cli_exit_status(s->outcome);
   if (r->cut) return cli_exit_cut();
+  /* The run on squares had all it wanted. */
+  const bool bits = s->outcome == DYD_OUTCOME_BUDGET && dyd_engine_outcome(s->engine) == DYD_OUTCOME_FIXPOINT;
+  const char *advice = bits && !cli_deadline_passed() ? "precision limit reached (raise --max-bits)" : NULL;
   count_pairs(count, &r->pairs);
   if (!dyd_delaunay_is_capped(dyd_engine_delaunay(s->engine)) && count[DYD_INDETERMINATE] + count[DYD_TIE] == 0)
     return CLI_OK;
-  if (!s->o.quiet) cli_note_pairs(s, s->outcome, count, NULL);
+  if (!s->o.quiet) cli_note_pairs(s, s->outcome, count, advice);
   return cli_exit_status(s->outcome);
 }
 
