@@ -44,6 +44,10 @@ class Triangulation(Protocol):
     def carried(self) -> dict[str, Any]:
         """Columns given as `carry`."""
 
+    @property
+    def aliases(self) -> Ints:
+        """Points that are the same place as others."""
+
     def named(self, **points: Ints) -> dict[str, Any]:
         """Columns that name points."""
 
