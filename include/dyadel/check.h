@@ -2,8 +2,8 @@
 /* The harness of monotone refinement: runs random refinement schedules over points and looks for broken promises, of
  * the points' streams and of the engine alike.
  *
- * A schedule is a list of moves: at stage s, point i is asked for b bits. Before stage 1 every point that can be
- * narrowed is asked for base_bits. After each stage the triangulation is brought up to date and these are checked:
+ * A schedule is a list of moves: at stage s, b bits are requested of point i. Before stage 1, base_bits are requested
+ * of every point that can be narrowed. After each stage the triangulation is updated and these conditions are checked:
  *   nested   every rectangle is inside the one before (a stream's fault);
  *   rate     a point asked for b bits is narrower than 2^-(b - slack_bits), or final (a stream's fault); of points made
  *            of reals, what a fixed coordinate or a radius leaves is not counted;
@@ -75,8 +75,8 @@ typedef struct dyd_check_report {
 DYD_API void dyd_check_report_clear(dyd_check_report *r);
 
 /* Runs the schedules: the first one brings each point from base_bits to max_bits in small steps, the others are random.
- * DYD_OK also when a fault was found: the report tells; DYD_CANCELLED, also when the time is over,
- * with the counts until then, the shortest schedule found so far among it; errors of `open` and DYD_E_NOMEM. */
+ * Returns DYD_OK, also when a fault was found (see the report); DYD_CANCELLED, also at the time limit, with the counts
+ * until then and the shortest schedule found so far; errors of `open`; DYD_E_NOMEM. */
 DYD_API dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *user, const dyd_check_options *o,
                                  dyd_error *err);
 /* Runs one schedule, such as a report holds. DYD_E_ARG, with err->line the number of the move from 1, where one names a

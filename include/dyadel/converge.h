@@ -20,7 +20,7 @@ typedef struct dyd_stage_row {
   dyd_dyadic width_median;       /* of the longer sides: number N/2 of N in ascending order; rounded alike */
   size_t count[4];               /* pairs by status; the possible ones are all of them */
   size_t undecided_faces;
-  bool bounded, voronoi;          /* are the bounds of T (of the disc or bisector), of V known? */
+  bool bounded, voronoi;          /* the bounds of T (of the disc or bisector), of V are known */
   dyd_dyadic area, hausdorff;     /* upper bounds for T, or for the disc or bisector (metric.h) */
   dyd_dyadic v_area, v_hausdorff; /* upper bounds for V on the window (metric.h) */
   dyd_sure orientation;           /* of the disc; of the bisector: PLUS, the rectangles are disjoint */
@@ -37,7 +37,7 @@ typedef enum dyd_converge_of {
   DYD_CONVERGE_DELAUNAY = 0, /* T: statuses, and its bounds */
   DYD_CONVERGE_VORONOI,      /* the same, and the bounds of V on the window, which cost more than the rest */
   DYD_CONVERGE_DISC,         /* the partial disc of points 0, 1, 2, and Con of the others */
-  DYD_CONVERGE_BISECTOR      /* the partial bisector of points 0 and 1 on the window; other points are left out */
+  DYD_CONVERGE_BISECTOR      /* the partial bisector of points 0 and 1 on the window; other points are ignored */
 } dyd_converge_of;
 /* "delaunay", "voronoi", "disc", "bisector". Static storage. */
 DYD_API const char *dyd_converge_of_text(dyd_converge_of of);
@@ -54,16 +54,16 @@ typedef struct dyd_convergence {
 } dyd_convergence;
 DYD_API void dyd_convergence_clear(dyd_convergence *c);
 
-/* What every stage of a run knew: statuses of pairs, boxes of sites; kept as what changed. Formats with a slider over
- * the stages (html) take it. Memory: 20 bytes for each pair of the first stage and each status that changed, 40 for
+/* The results of every stage of a run: statuses of pairs and boxes of sites, stored as changes. Formats with a slider
+ * over the stages (html) use it. Memory: 20 bytes for each pair of the first stage and each status that changed, 40 for
  * each box.
  *
  * Filled by dyd_history_note, called from dyd_engine_options.progress or dyd_converge_options.stage. */
 typedef struct dyd_history dyd_history;
 DYD_API dyd_status dyd_history_new(dyd_history **out);
 DYD_API void dyd_history_free(dyd_history *h);
-/* Adds a stage: what pd, always the result about the same sites, says now. DYD_E_ARG when there are other sites than
- * before, DYD_E_NOMEM: *h is as before. O(N + pairs). */
+/* Adds a stage: the current state of pd, which is always the result for the same sites. DYD_E_ARG if the sites differ
+ * from those before, DYD_E_NOMEM: *h is unchanged. O(N + pairs). */
 DYD_API dyd_status dyd_history_note(dyd_history *h, const dyd_delaunay *pd);
 
 typedef struct dyd_converge_options {
@@ -79,13 +79,13 @@ typedef struct dyd_converge_options {
    * no bounds then. An error ends the run. NULL: those of the result. */
   dyd_status (*pairs)(dyd_pair_list *out, void *user);
   void *pairs_user;
-  /* when it points to a non-zero value, bounds not known by then are omitted from rows; NULL: never. dyd_converge_run
-   * does that at the deadline, and when the engine is cancelled, by itself */
+  /* when it points to a non-zero value, bounds not known by then are omitted from rows; NULL: never. At the
+   * deadline and when the engine is cancelled, dyd_converge_run omits them without this flag */
   const volatile int *cancel;
 } dyd_converge_options;
 
 /* Runs e as dyd_engine_run does, callbacks of options included, and notes a row after each stage. *out, given cleared,
- * holds the rows of the stages that were complete, whatever is returned. Returns what dyd_engine_run returns, or
+ * holds the rows of the complete stages, whatever is returned. Returns the status of dyd_engine_run, or
  * DYD_E_NOMEM with outcome cancelled. converge may be NULL. A Voronoi goal without a window in options is about the
  * window of converge, or about the default one after the first stage. Each row costs O(N log N + pairs).
  *

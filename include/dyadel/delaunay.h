@@ -81,9 +81,9 @@ typedef enum dyd_relation {
   DYD_COCIRCULAR      /* all are on one circle */
 } dyd_relation;
 
-/* Knows more about the true points of sites than their rectangles tell: sets *proved (false when called) if they are
- * proved to be in that relation, which then holds for good. The sites of a polygon or chain come in order. Returns
- * DYD_OK, or a failure with *err (may be NULL) filled. */
+/* Callback that can prove relations which the rectangles do not show: sets *proved (false when called) if the true
+ * points of the sites are proved to be in that relation, permanently. The sites of a polygon or chain come in order.
+ * Returns DYD_OK, or a failure with *err (may be NULL) filled. */
 typedef dyd_status (*dyd_prove_fn)(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                                    dyd_error *err);
 
@@ -94,7 +94,7 @@ typedef struct dyd_delaunay_options {
   const volatile int *cancel; /* when it points to a non-zero value, work stops with DYD_CANCELLED; may be NULL */
   unsigned threads;           /* how many may be used, the calling one included; 0: one. Nothing else depends on it */
   bool no_filter;             /* decide everything on the exact rung (for tests; statuses are the same) */
-  /* NULL, or who is asked about polygons and chains that would have to be closed: where they are proved to be on one
+  /* NULL, or the callback for polygons and chains that would have to be closed: where it proves that they are on one
    * circle or line, their pairs are ties [TIE-3]. Called from the calling thread only, during this call. */
   dyd_prove_fn prove;
   void *prove_user;
@@ -155,18 +155,18 @@ typedef enum dyd_group_kind {
   DYD_GROUP_CHAIN,      /* one line of the hull: k sites, along it, have (k - 1) (k - 2) / 2 tied pairs */
   DYD_GROUP_PAIR        /* a tied pair alone */
 } dyd_group_kind;
-/* Called with a group of ties; sites is borrowed for the call. Another status than DYD_OK ends the walk. */
+/* Called with a group of ties; sites is borrowed for the call. A status other than DYD_OK ends the walk. */
 typedef dyd_status (*dyd_group_fn)(void *user, dyd_group_kind kind, const dyd_index_list *sites);
-/* All ties as groups: each tied pair is in one of them, neighbours on the circle or line aside, which are legal.
- * Returns what `visit` returned, or DYD_E_NOMEM. O(sites of the groups). */
+/* Visits all ties as groups: each tied pair is in one group. Neighbours on the circle or line are legal, not tied.
+ * Returns the status of `visit`, or DYD_E_NOMEM. O(sites of the groups). */
 DYD_API dyd_status dyd_delaunay_each_group(const dyd_delaunay *pd, dyd_group_fn visit, void *user);
 /* The sites whose pair with i has at least the status `least` (TIE or INDETERMINATE: all possible ones). Ascending.
  * O(log pairs + degree); where all points are on one line, O(N). */
 DYD_API dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaunay *pd, uint32_t i,
                                            dyd_pair_status least);
 #define DYD_NO_TRIANGLE UINT32_MAX
-/* Not sorted: several times as fast, in an order that may change with the number of threads and with releases; what is
- * near in the list is near in the plane. */
+/* Not sorted: several times as fast, in an order that may change with the number of threads and with releases.
+ * Triangles near each other in the list are near each other in the plane. */
 #define DYD_TRIANGLES_AS_FOUND 1u
 /* Triangles with three legal edges that hold no site for any choice: Delaunay triangles for every choice. Sorted,
  * unless flags have DYD_TRIANGLES_AS_FOUND. neighbours, unless NULL, receives the adjacent triangles:
@@ -184,7 +184,7 @@ DYD_API dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, dyd_triangle_l
  * contents are undefined. Cost: a walk from each place to the next, so order them to be near. */
 DYD_API dyd_status dyd_delaunay_locate(dyd_triangle *out, dyd_truth *in, const dyd_delaunay *pd, const double *xy,
                                        size_t count, const volatile int *cancel);
-/* Lists of sites for places: those of place k are site[end[k - 1]] to site[end[k] - 1] (end[-1] stands for 0),
+/* Lists of sites for places: those of place k are site[end[k - 1]] to site[end[k] - 1] (read end[-1] as 0),
  * ascending. Owned: init with {0}. */
 typedef struct dyd_place_list {
   size_t places;
@@ -194,7 +194,7 @@ typedef struct dyd_place_list {
 } dyd_place_list;
 DYD_API void dyd_place_list_clear(dyd_place_list *l);
 /* Sets *out to the sites that may be corners of the Delaunay triangle that each place xy[2 k], xy[2 k + 1] is in, for
- * some choice; sure[k]: it is in one for every choice, not outside of the hull [LOC-6]. So what is interpolated between
+ * some choice; sure[k]: it is in one for every choice, not outside of the hull [LOC-6]. So a value interpolated between
  * the corners is within the values of these sites. Errors and `cancel` as for dyd_delaunay_locate; on failure *out is
  * unchanged. Cost: a walk from each place to the next, plus the triangles of the undecided faces that it may be in. */
 DYD_API dyd_status dyd_delaunay_corners(dyd_place_list *out, const dyd_delaunay *pd, const double *xy, size_t count,

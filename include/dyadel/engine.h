@@ -4,13 +4,13 @@
  *
  * Threads: one engine is used by one thread at a time, several engines in several threads work; only
  * dyd_engine_cancel may be called from anywhere, a signal handler included. While the engine is at work its callbacks
- * (questions, progress, trace, sources) may call what takes it const, and dyd_engine_cancel; dyd_engine_run,
- * dyd_engine_ask, dyd_engine_nearest and what adds or measures points answer them, and other threads, DYD_E_ARG; it
- * must not be freed. After fork() both processes may use their copies of an engine that was not at work; programs of an
- * oracle stay those of the process that started them (DYD_E_STREAM in the other one, which does not end them either).
- * After an error an engine can be used like any other. A function of 2^18 bits or more that is cut by a cancel or the
- * end of time continues in a thread of its own until it is done: no call waits for that, it holds nothing of the
- * engine.
+ * (questions, progress, trace, sources) may call functions that take it const, and dyd_engine_cancel. To callbacks and
+ * to other threads dyd_engine_run, dyd_engine_ask, dyd_engine_nearest and functions that add or measure points return
+ * DYD_E_ARG. The engine must not be freed then. After fork() both processes may use their copies of an engine that was
+ * not at work; programs of an oracle stay those of the process that started them (DYD_E_STREAM in the other one, which
+ * does not end them either). After an error an engine can be used like any other. A function of 2^18 bits or more that
+ * a cancel or the time limit interrupts continues in a separate thread until it is done: no call waits for it, and it
+ * holds no part of the engine.
  */
 #ifndef DYADEL_ENGINE_H
 #define DYADEL_ENGINE_H
@@ -154,22 +154,23 @@ typedef struct dyd_engine_options {
    * this many bits for each proof; 0: default 2^17. */
   int64_t tie_bits;
   bool no_ties;
-  /* Cost of asking each point again, above 0; NULL: what its row said (DYD_ROW_COST of io.h). The adaptive
-   * schedule lets points wait that cost more than twice as much as the cheapest point that a face wants narrower,
-   * until as much was spent on others. dyd_engine_count(e) numbers, borrowed during the run. */
+  /* Cost of asking each point again, above 0; NULL: that of its row (DYD_ROW_COST of io.h). The adaptive
+   * schedule postpones points that cost more than twice as much as the cheapest point that a face needs narrower,
+   * until the same amount was spent on others. dyd_engine_count(e) numbers, borrowed during the run. */
   const double *cost;
   /* Memory that the engine may hold while it works, points included, by its own estimate; 0: no bound. Before more is
    * asked for (half-edges, faces, pairs, sums of the bounds, digits of the points, proofs of ties) the run ends with
    * DYD_E_NOMEM and names the allocation; the engine and its last result stay as they are, and a run with a larger
-   * bound continues. The remedy for GMP, MPFR and FLINT, which end the process when memory is exhausted: half of the
-   * memory there is, say. Estimates are within a factor of 2 of what the engine holds, or a megabyte where that is
-   * more; of callbacks only the answers count. Calls that make something of the result later (lists of pairs and
-   * triangles, outputs, pictures, certificates, cells, polygons, diagrams and their bounds, graphs, tolerances, plans)
-   * fail with DYD_E_NOMEM where that would take more beside points and result, which stay: smaller ones can be had.
-   * Pictures of diagrams are estimated roughly; the spheres' own lists come on top. */
+   * bound continues. This protects against GMP, MPFR and FLINT, which end the process when memory is exhausted: set it,
+   * for example, to half of the available memory. Estimates are within a factor of 2 of what the engine holds, or a
+   * megabyte where that is more; of callbacks only the answers count. Later calls that build outputs from the result
+   * (lists of pairs and triangles, outputs, pictures, certificates, cells, polygons, diagrams and their bounds, graphs,
+   * tolerances, plans) fail with DYD_E_NOMEM if they would exceed the bound together with points and result. Both are
+   * kept, and smaller outputs remain possible. Pictures of diagrams are estimated roughly; the lists of spheres are not
+   * counted. */
   uint64_t max_bytes;
 } dyd_engine_options;
-/* Fills in the size and the defaults (all zero but for what the comments say). */
+/* Fills in the size and the defaults (all zero unless the comments say otherwise). */
 static inline void dyd_engine_options_init(dyd_engine_options *o) {
   memset(o, 0, sizeof *o);
   o->struct_size = sizeof *o;
@@ -185,10 +186,10 @@ DYD_API void dyd_engine_free(dyd_engine *e);
 /* Adding points: numbered from 0 in the order added, at any time but from within a callback. On failure nothing is
  * added (and of streams and sources the reference or context is released), and err, which may be NULL, says why:
  * DYD_E_ARG for NaN, infinities and lower ends above upper ones, with the point.
- * Points added after a run or question are numbered on, and end the result, which spoke of fewer points:
+ * Points added after a run or question get the next numbers, and invalidate the result, which is about fewer points:
  * dyd_engine_delaunay is NULL and dyd_engine_outcome DYD_OUTCOME_NONE until the next stage is complete. Rectangles stay
- * as narrow as they are, nothing is asked twice. The next run triangulates all points anew, once for all that were
- * added before it, and gives what an engine would give that had them all from the start, for the rectangles reached.
+ * as narrow as they are, no request is repeated. The next run triangulates all points again, once for all that were
+ * added before it. Its result equals that of an engine with all points from the start, for the rectangles reached.
  * Statements are monotone for fixed points; among more points a legal pair may become illegal. */
 DYD_API dyd_status dyd_engine_add_points(dyd_engine *e, size_t n, const double *x, const double *y, dyd_error *err);
 DYD_API dyd_status dyd_engine_add_boxes(dyd_engine *e, size_t n, const double *x0, const double *x1, const double *y0,
@@ -200,14 +201,14 @@ DYD_API dyd_status dyd_engine_add_columns(dyd_engine *e, size_t n, const dyd_col
 DYD_API dyd_status dyd_engine_add_rect(dyd_engine *e, const dyd_rect *r, dyd_error *err);
 /* Takes over one reference. */
 DYD_API dyd_status dyd_engine_add_stream(dyd_engine *e, dyd_stream *s, dyd_error *err);
-/* n points served by one callback: it is asked for points 0 .. n-1 of the source. Copied; release is called once,
+/* n points served by one callback, as points 0 .. n-1 of the source. Copied; release is called once,
  * when the engine is freed. */
 DYD_API dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_source *source, dyd_error *err);
 
 /* Point i has been measured again, before or between runs: it lies in r, and where it is known to lie. Its rectangle
- * becomes what both have in common, whatever kind of point it is; what its stream or source gives later is intersected
- * with that. Statements stay as they are, and the next run brings the result up to date. Returns DYD_OK, also where r
- * tells nothing new; DYD_E_CONTRADICTION, with err naming the point and both rectangles, when they have nothing in
+ * becomes the intersection of both, for every kind of point; later answers of its stream or source are intersected
+ * with it. Statements stay as they are, and the next run brings the result up to date. Returns DYD_OK, also where r
+ * adds no information; DYD_E_CONTRADICTION, with err naming the point and both rectangles, when they have nothing in
  * common (then nothing changes: one of them is wrong; runs end with it when a stream's answer is of that kind);
  * DYD_E_ARG when there is no point i, when r is not valid, and from within a callback; DYD_E_NOMEM. r is copied. Not in
  * traces. O(log points); err may be NULL. */
@@ -233,12 +234,12 @@ DYD_API const char *dyd_engine_id(const dyd_engine *e, size_t i);
  * NULL; id NULL: none has an identifier. Copied. Before a sphere is made of e. DYD_E_ARG when there are fewer points or
  * rows do not ascend, or rows were merged; DYD_E_NOMEM. O(points) */
 DYD_API dyd_status dyd_engine_name(dyd_engine *e, size_t n, const size_t *row, const char *const *id);
-/* The k-th row, ascending, that was taken as one with an earlier one, and the point that represents both; false: there
- * are no more. */
+/* The k-th row, ascending, that was taken as one with an earlier one, and the point that represents both; false:
+ * none is left. */
 DYD_API bool dyd_engine_merged(size_t *row, size_t *point, const dyd_engine *e, size_t k);
 
-/* Runs until exactly one outcome holds; may be called again with other options to continue from there: what was
- * stated stays stated. options may be NULL.
+/* Runs until exactly one outcome holds; may be called again with other options to continue from there: earlier
+ * statements stay valid. options may be NULL.
  * Returns DYD_OK for the outcomes decided, certified, fixpoint, budget and cancelled; an error code for
  * DYD_OUTCOME_ERROR, with *err filled. *outcome is always set; err may be NULL. After an error in a stream the last
  * complete result stays available (dyd_engine_delaunay), if there was one. When the budget of pairs is spent, *err
@@ -266,8 +267,8 @@ DYD_API dyd_goal dyd_engine_goal(int64_t *bits, const dyd_engine *e);
 /* The rectangles as they are now; borrowed until e is freed, they shrink in place. A point that was never asked holds
  * the whole plane: numbers too large to compute with. */
 DYD_API const dyd_sites *dyd_engine_sites(const dyd_engine *e);
-/* Is there a rectangle for site i: is it fixed, or has it been asked or measured once? false where there is no site i.
- */
+/* Returns true if there is a rectangle for site i: the site is fixed, or was asked or measured once. Returns false if
+ * there is no site i. */
 DYD_API bool dyd_engine_knows(const dyd_engine *e, uint32_t i);
 /* The current result; borrowed until the next call that changes e; NULL before the first complete stage, and
  * before the next one when points were appended. */
@@ -283,12 +284,13 @@ DYD_API dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, co
 typedef struct dyd_plan dyd_plan;
 #define DYD_BITS_NEXT INT64_MIN
 /* Adds site i, to be brought to 2^-bits. Where that was requested before, and for DYD_BITS_NEXT, it is the next
- * step of the options (start_bits, step_bits): what is in the plan always narrows. bits are cut to max_bits. Of several
+ * step of the options (start_bits, step_bits): a site in the plan always narrows. bits are cut to max_bits. Of several
  * calls for one site the finest counts. Site dyd_engine_count(e) + k is guest k of the question. A site that is fixed,
  * final, or was requested at max_bits before stays out of the plan without an error. Returns DYD_OK; DYD_E_ARG when
- * there is no site i, DYD_E_NOMEM: then the ask ends with this error, whatever the question does. O(log points). */
+ * there is no site i, DYD_E_NOMEM: then dyd_engine_ask ends with this error, whatever the question returns. O(log
+ * points). */
 DYD_API dyd_status dyd_plan_add(dyd_plan *plan, uint32_t i, int64_t bits);
-/* How many points are in it. */
+/* Returns the number of points in the plan. */
 DYD_API size_t dyd_plan_count(const dyd_plan *plan);
 
 /* Looks whether the answer is known. Either sets *answered = true (false when called), or adds to *plan, empty when
@@ -309,23 +311,23 @@ typedef struct dyd_question {
   size_t guests;
 } dyd_question;
 
-/* The loop of the engine: asks, narrows what the plan says, asks again, until exactly one outcome holds:
+/* The loop of the engine: asks, narrows the points of the plan, asks again, until exactly one outcome holds:
  * decided (answered), fixpoint (the plan is empty: nothing the question needs can be narrowed), budget (bits: it needs
  * more than max_bits; stages, pairs: with triangulate only; calls; seconds), cancelled. dyd_engine_run and
  * dyd_engine_nearest are questions of this kind.
  *
- * A question that does not look at the triangulation is asked again after a cancel or the end of time, so that it
- * has seen the rectangles reached; what it wants then is not done. Points narrowed here are brought into the result by
- * the next run. options may be NULL; goal and schedule mean nothing here; progress is called after each triangulation.
- * Guests are asked for the precision of the first stage at the start, and do not appear in traces.
+ * A question that does not use the triangulation is called again after a cancel or the time limit, so that it
+ * has seen the rectangles reached; its plan is then ignored. The next run updates the result with the points narrowed
+ * here. options may be NULL; goal and schedule are ignored; progress is called after each triangulation.
+ * Guests are narrowed to the precision of the first stage at the start, and do not appear in traces.
  *
  * Returns DYD_OK, or an error with outcome DYD_OUTCOME_ERROR and *err (may be NULL) filled: that of a stream, of the
- * question; DYD_E_ARG for bad options, for a site that does not exist, and from within a callback of e, which then is
- * as before. Statements stay valid in every case. dyd_engine_outcome and the counter `spent` tell about the last
+ * question; DYD_E_ARG for bad options, for a site that does not exist, and from within a callback of e, which is
+ * then unchanged. Statements stay valid in every case. dyd_engine_outcome and the counter `spent` describe the last
  * run. Cost: the calls of the question and its plans; O(log points) for each point narrowed, a triangulation update for
  * each stage.
  *
- * Are points 0 and 1 certainly different? (r: two rectangles, initialised.)
+ * Example: decides whether points 0 and 1 are certainly different. (r: two rectangles, initialised.)
  *
  *     static dyd_status differ(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
  *       dyd_rect *r = user;
@@ -356,14 +358,15 @@ DYD_API dyd_status dyd_engine_voronoi_vertex(dyd_stream **out, dyd_engine *e, co
  * concerned can be refined (fixpoint: ties, fixed rectangles), or until options->max_bits, max_calls or seconds are
  * spent (budget); dyd_engine_cancel works (cancelled). *out is right for the rectangles reached in every case, and the
  * list only ever shrinks [NEAR-3]. Needs a result (DYD_E_ARG before the first run); points narrowed here are brought
- * into it by the next run. `at` is borrowed. options (may be NULL): goal, schedule, stages, pairs and progress mean
- * nothing here. On errors *outcome is DYD_OUTCOME_ERROR, *err (may be NULL) is filled, *out and *sure are as before.
- * dyd_engine_outcome and the counter `spent` still tell about the last run. */
+ * into it by the next run. `at` is borrowed. options (may be NULL): goal, schedule, stages, pairs and progress are
+ * ignored. On errors *outcome is DYD_OUTCOME_ERROR, *err (may be NULL) is filled, *out and *sure are as before.
+ * dyd_engine_outcome and the counter `spent` still describe the last run. */
 DYD_API dyd_status dyd_engine_nearest(dyd_index_list *out, bool *sure, dyd_outcome *outcome, dyd_engine *e,
                                       dyd_stream *at, const dyd_engine_options *options, dyd_error *err);
-/* Did the last dyd_engine_nearest end with a tie: are all points that it listed, two at least, equally far from `at`,
- * because all is exact, or proved from what coordinates are (unless options->no_ties)? Then each of them is nearest,
- * for good, and the outcome is fixpoint. false before the first, and after one that failed. */
+/* Returns true if the last dyd_engine_nearest ended with a tie: all points that it listed, at least two, are equally
+ * far from `at`, because all is exact, or by a proof from the forms of the coordinates (unless options->no_ties). Then
+ * each of them is nearest, permanently, and the outcome is fixpoint. Returns false before the first call, and after one
+ * that failed. */
 DYD_API bool dyd_engine_nearest_tied(const dyd_engine *e);
 
 /* The edges of a graph of neighbours, as dyd_graph_edges has them, after refining the points about which they are not
@@ -375,8 +378,8 @@ DYD_API bool dyd_engine_nearest_tied(const dyd_engine *e);
 DYD_API dyd_status dyd_engine_graph(dyd_graph_list *out, dyd_outcome *outcome, dyd_engine *e, dyd_graph graph,
                                     const dyd_engine_options *options, dyd_error *err);
 
-/* The pairs of dyd_disc_pairs, which see, of the discs in squares whose points were computed and have radii: centres
- * are refined about pairs that are open, until they are as well known as discs are told. Outcomes: decided (each pair
+/* The pairs of dyd_disc_pairs (see there) for the discs in squares whose points were computed and have radii. Refines
+ * the centres of undecided pairs, up to the precision at which discs are decided. Outcomes: decided (each pair
  * listed is legal), fixpoint, budget, cancelled. DYD_CAPPED, and DYD_CANCELLED as there: *out is valid. options and
  * errors as in dyd_engine_ask. */
 DYD_API dyd_status dyd_engine_discs(dyd_pair_list *out, dyd_outcome *outcome, dyd_engine *e,
@@ -387,7 +390,7 @@ DYD_API dyd_status dyd_engine_discs(dyd_pair_list *out, dyd_outcome *outcome, dy
  * 2^-relative_bits beyond that for exact points; 1 to 40, others: 20 [TOL-10]. k and l of a row bind for the centres of
  * the rectangles reached. A pair that the budget leaves indeterminate has no row. *out is released by
  * dyd_tolerance_free, and does not need e; NULL when no stage was complete. Outcomes: decided; fixpoint: ties, which
- * are events; budget: statuses or widths are not what was asked for, but what is stated holds; cancelled. DYD_CANCELLED
+ * are events; budget: statuses or widths miss the request, but all statements hold; cancelled. DYD_CANCELLED
  * as dyd_tolerance_new; DYD_E_ARG for a rectangle that nothing narrows (err names it), and for weights or standard
  * deviations unless all points are exact. Cost: a run, and about two times that of dyd_tolerance_new. */
 DYD_API dyd_status dyd_engine_tolerance(dyd_tolerance **out, dyd_outcome *outcome, dyd_engine *e,

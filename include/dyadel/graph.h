@@ -16,9 +16,9 @@ typedef enum dyd_graph {
   DYD_GRAPH_MST          /* i, j: an edge of a minimum spanning tree. i < j */
 } dyd_graph;
 
-/* sure: an edge for every choice of points, and strictly so: no other site is as near, in the closed disc, or as short
- * a way round. Not certain: an edge, or one of several equally good ones, for some choice; pairs that are not listed
- * are edges for no choice [NNG-1] [GAB-1] [MST-1]. */
+/* sure: an edge for every choice of points, strictly: no other site is equally near, no site is in the closed disc, no
+ * detour is equally short. Otherwise: an edge, or one of several equally good ones, for some choice. Pairs that are not
+ * listed are edges for no choice [NNG-1] [GAB-1] [MST-1]. */
 typedef struct dyd_graph_edge {
   uint32_t i, j;
   bool sure;

@@ -19,7 +19,7 @@ extern "C" {
 /* The contents of a file. Begun with DYD_SIZED. A call that fails sets it, too: to the contents read before. */
 typedef struct dyd_read_report {
   size_t struct_size;
-  size_t rows;    /* lines with a point, or records behind the header; also those that gave no point */
+  size_t rows;    /* lines with a point, or records behind the header; including lines without a point */
   size_t missing; /* rows skipped by skip_missing */
   size_t merged;  /* rows taken as one with an earlier one by merge or merge_by */
   size_t shared;  /* rectangles whose centre is that of another one, which leaves their neighbours undecided */
@@ -94,15 +94,15 @@ typedef struct dyd_read_field {
   const char *name;   /* "radius_columns" */
   size_t offset;      /* in dyd_read_options: of a bool, or of a const char * that NULL does not set */
   bool flag;          /* it is a bool */
-  bool table;         /* needs `columns`: it is about the columns of a table, or what separates them */
+  bool table;         /* needs `columns`: it is about the columns of a table, or their separator */
   bool points;        /* decides which points a text holds: the same text with another value may hold others */
-  bool text;          /* says how a text is read: it means nothing for points that come from elsewhere */
+  bool text;          /* says how a text is read: ignored for points from other sources */
 } dyd_read_field;
-/* Returns field k, from 0; NULL after the last. *value (unless NULL) becomes what options say: the text, "true" for a
- * bool that is set, NULL for options not set, and for options NULL. Borrowed. O(1) */
+/* Returns field k, from 0; NULL after the last. *value (unless NULL) becomes the value in options: the text, "true" for
+ * a bool that is set, NULL for options not set, and for options NULL. Borrowed. O(1) */
 DYD_API const dyd_read_field *dyd_read_field_at(const char **value, const dyd_read_options *options, size_t k);
 
-/* A number in the row of a point, beside its coordinates. */
+/* A number in the row of a point, next to its coordinates. */
 typedef enum dyd_row_number {
   DYD_ROW_COST,   /* of measuring the point again (dyd_read_options.cost_column); 1 where the row has none */
   DYD_ROW_RADIUS, /* that does not widen its rectangle (degrees, keep_radii), rounded up; 0 where the row has none */
@@ -121,7 +121,8 @@ typedef struct dyd_confidence {
   double k;             /* regions reach this many standard deviations */
   size_t n;             /* points with a standard deviation above 0 */
 } dyd_confidence;
-/* Returns what the points of e were read with; false, and nothing, where no confidence was stated. O(1) */
+/* Sets *out to the confidence with which the points of e were read. Returns false, with *out unchanged, if none was
+ * stated. O(1) */
 DYD_API bool dyd_engine_confidence(dyd_confidence *out, const dyd_engine *e);
 /* States it of points that the caller widens by k standard deviations; out as above, begun with DYD_SIZED. DYD_E_ARG:
  * probability is no such text (dyd_read_options.confidence), or one was stated before. */
@@ -233,10 +234,10 @@ typedef enum dyd_list_ties {
  * none. */
 DYD_API bool dyd_format_from_name(dyd_format *out, const char *name);
 DYD_API bool dyd_format_from_file(dyd_format *out, const char *file);
-/* Does the ending of the file's name suit the format? Any does that no other format has; csv suits wkt, json geojson.
- */
+/* Returns true if the ending of the file's name suits the format: it belongs to no other format, or it is csv for wkt
+ * or json for geojson. */
 DYD_API bool dyd_format_suits_file(dyd_format format, const char *file);
-/* Is it other than text? */
+/* Returns true if the format is not text. */
 DYD_API bool dyd_format_is_binary(dyd_format format);
 /* The name of a format; NULL behind the last one, so that counting up from 0 lists them all. Static storage. */
 DYD_API const char *dyd_format_name(dyd_format format);
@@ -247,10 +248,11 @@ DYD_API const char *dyd_format_about(dyd_format format);
  * storage. */
 DYD_API const char *dyd_layer_name(dyd_content of, size_t k);
 DYD_API bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *name);
-/* Can the format hold it? Where not, dyd_write returns DYD_E_ARG with a message that names the formats that can. */
+/* Returns true if the format can hold the content. Otherwise dyd_write returns DYD_E_ARG with a message that names the
+ * formats that can. */
 DYD_API bool dyd_format_holds(dyd_format format, dyd_content content);
 
-/* What dyd_engine_nearest or dyd_sphere_nearest found; all borrowed. Begun with DYD_SIZED. */
+/* The result of dyd_engine_nearest or dyd_sphere_nearest; all borrowed. Begun with DYD_SIZED. */
 typedef struct dyd_nearest_answer {
   size_t struct_size; /* set by DYD_SIZED */
   const dyd_rect *at; /* the rectangle reached of the point asked about */
@@ -259,8 +261,8 @@ typedef struct dyd_nearest_answer {
   dyd_outcome outcome;
   bool tied;  /* dyd_engine_nearest_tied */
   bool discs; /* sites are discs: dyd_disc_nearest */
-  /* Of many places: what `q` is, where it is not the number of the answer; an identifier (NULL: none), which all places
-   * have if the first has one. */
+  /* Of many places: the value of `q`, where it is not the number of the answer; an identifier (NULL: none), which all
+   * places have if the first has one. */
   bool placed;
   size_t place;
   const char *id;
@@ -283,8 +285,8 @@ typedef struct dyd_write_options {
   size_t answers;
   dyd_outcome outcome; /* of discs, bisectors and places: how narrowing ended */
 
-  /* Of the diagram: dyadic ends, positive area; NULL: dyd_voronoi_window. Of others: what pictures and html show, in
-   * degrees on a sphere, where longitudes are modulo 360, as in [170, 200]; positive area; NULL: everything. */
+  /* Of the diagram: dyadic ends, positive area; NULL: dyd_voronoi_window. Of others: the extent of pictures and html,
+   * in degrees on a sphere, where longitudes are modulo 360, as in [170, 200]; positive area; NULL: everything. */
   const dyd_rect *window;
   unsigned epsg; /* EPSG number of the coordinates' reference system, for geojson and json; 0: none is claimed, on a
                     sphere longitude and latitude (CRS84) in geojson */
@@ -322,14 +324,14 @@ typedef struct dyd_write_options {
   FILE *comments;
   bool lengths;     /* pairs and graphs of the plane: columns length_lo, length_hi, rounded outward */
   bool clip;        /* edges of the diagram: cut to the window, and omitted where they are certainly beyond it */
-  const char *name; /* what the points are called, such as their file: the title of html; NULL: nothing */
+  const char *name; /* the name of the points, such as their file: the title of html; NULL: none */
   /* Tiles in csv, wkt and geojson are cut to it (dyd_tiles_clip), one row for each site. NULL: they are not. */
   const dyd_area *clip_to;
 } dyd_write_options;
 /* Reads an area: all polygons in well-known text, also in a table, or GeoJSON. Coordinates become the nearest doubles.
- * What is no polygon, and edges that cross, are DYD_E_PARSE with line and column. *out is replaced; in is borrowed. */
+ * Other geometries, and edges that cross, are DYD_E_PARSE with line and column. *out is replaced; in is borrowed. */
 DYD_API dyd_status dyd_area_read(dyd_area *out, FILE *in, dyd_error *err);
-/* Is this such a label, whose names differ? */
+/* Returns true if this is such a label, and its names differ. */
 DYD_API bool dyd_label_fits(const char *label);
 
 /* Writes the content. Numbers are exact, or rounded to a side that the output states. o may be NULL.
@@ -370,8 +372,8 @@ typedef struct dyd_cell_ring {
   double rounding; /* the most that a coordinate of a vertex was rounded by, rounded up; 0: none was */
 } dyd_cell_ring;
 /* The polygons of all cells, in the order of the sites: counter-clockwise, the first vertex not repeated. area[2 i] <=
- * the area of the cell of site i on the window for every choice <= area[2 i + 1]; aliases have that of the site they
- * stand for, and no rings. The polygons are within 2^-bits of their cells. Owned: init with {0}. */
+ * the area of the cell of site i on the window for every choice <= area[2 i + 1]; aliases have that of the site that
+ * represents them, and no rings. The polygons are within 2^-bits of their cells. Owned: init with {0}. */
 typedef struct dyd_cells {
   size_t count, sites; /* rings; pairs of areas */
   dyd_cell_ring *ring;
@@ -411,9 +413,9 @@ typedef struct dyd_frame {
   dyd_frame_ray *ray;
 } dyd_frame;
 DYD_API void dyd_frame_clear(dyd_frame *f);
-/* Sets *out to what dyd_write gives of DYD_CONTENT_VERTICES, DYD_CONTENT_EDGES and DYD_CONTENT_REGIONS in csv. Of the
- * options it takes window, flatten_bits, flatten_set, cut and cancel. Errors and cost are those of dyd_write; on
- * failure *out is unchanged. */
+/* Sets *out to the data that dyd_write writes for DYD_CONTENT_VERTICES, DYD_CONTENT_EDGES and DYD_CONTENT_REGIONS in
+ * csv. Of the options it uses window, flatten_bits, flatten_set, cut and cancel. Errors and cost are those of
+ * dyd_write; on failure *out is unchanged. */
 DYD_API dyd_status dyd_voronoi_frame(dyd_frame *out, const dyd_engine *e, const dyd_write_options *o, dyd_error *err);
 
 /* One line "XLO XHI YLO YHI" for each of `count` sites from `first` on: exact numbers in the forms that
@@ -436,7 +438,7 @@ DYD_API dyd_status dyd_file_from_callback(FILE **out, dyd_get_fn get, void *user
 
 /* A trace holds each narrowing of a point, and why; replaying it gives the same statuses without asking a point.
  * It is one JSON object per line, exact numbers are texts "m*2^e" or "p/q":
- *   {"format":"dyadel trace 2","points":N,"input":..,"schedule":...}         first line: what was asked for, of what
+ *   {"format":"dyadel trace 2","points":N,"input":..,"schedule":...}         first line: the request and its input
  *   {"stage":S,"point":I,"bits":B,"called":C,"final":F,"why":W,"pair":[I,J],"x":[LO,HI],"y":[LO,HI]}
  *                                      point I has been narrowed for stage S; W is a dyd_reason, "pair" is there when
  *                                      it names one; C = false: it was narrow enough before; "final", there when it is
@@ -450,12 +452,12 @@ DYD_API dyd_status dyd_file_from_callback(FILE **out, dyd_get_fn get, void *user
  *                                      and may take again; a replay passes it over
  *   {"outcome":O}                                                            last line
  * The last member of each line, "sum", is a digest in hexadecimal (FNV-1a, 64 bits) of the lines so far, each up to
- * that member and without its end: a line that was changed, moved or removed is noticed. It keeps no secret: who
- * writes a trace can write its digests. */
+ * that member and without its end: it reveals lines that were changed, moved or removed. It is not a signature: the
+ * writer of a trace can write its digests. */
 typedef struct dyd_trace dyd_trace;
 
 /* Begins a trace of a run of e (not run before) with these options. `input`, a text of letters, digits and blanks, or
- * NULL, tells inputs apart (a digest). Answers that e was given by dyd_trace_recall come first, so that this
+ * NULL, distinguishes inputs (a digest). Answers that e was given by dyd_trace_recall come first, so that this
  * trace alone is enough to continue from. `out` is borrowed until dyd_trace_end; when it is line-buffered, each answer
  * is in the file before the next request. */
 DYD_API dyd_status dyd_trace_new(dyd_trace **trace, FILE *out, const dyd_engine *e, const char *input,
@@ -487,8 +489,8 @@ typedef struct dyd_recall_report {
 /* Gives e, not run before, the answers of a trace (dyd_engine_recall), so that a run with the same options continues
  * from where the traced one ended, however it did: a trace cut short within a line is taken up to there. `input` as for
  * dyd_trace_new; NULL: not compared. DYD_E_PARSE with line and message when the trace is not of its form, of another
- * number of points, of another input, or names a rectangle that is not inside the one before; what was taken until then
- * stays in e. out and err may be NULL. */
+ * number of points, of another input, or names a rectangle that is not inside the one before; answers taken until then
+ * stay in e. out and err may be NULL. */
 DYD_API dyd_status dyd_trace_recall(dyd_recall_report *out, dyd_engine *e, FILE *in, const char *input, dyd_error *err);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Certified upper bounds on what the partial triangulation leaves undecided (mathematics: section 8). */
+/* Certified upper bounds on the undecided part of the partial triangulation (mathematics: section 8). */
 #ifndef DYADEL_METRIC_H
 #define DYADEL_METRIC_H
 
@@ -49,12 +49,12 @@ DYD_API int64_t dyd_metric_coarseness(const dyd_delaunay *pd, const dyd_rect *wi
  *
  * area       an upper bound of the area between the two
  * hausdorff  an upper bound of their Hausdorff distance, so that each is at most that far from the true disc [AREA-D]
- * finite     false: no bound is known, as the triple is not surely oriented (a line meets all three), or I is empty or
- * so small beside the circles that no centre of one lies in it; the others are 0 then
+ * finite     false: no bound is known, as the triple is not certainly oriented (a line meets all three), or I is empty
+ * or so small compared with the circles that it holds no centre of one; the others are 0 then
  *
- * Both are 0 for three exact points, and otherwise above the true values by a few hundredths of them where these are
- * small beside the radius. out is initialised by the caller. DYD_E_ARG for NULL. O(1) steps with about twice the digits
- * of the circles. */
+ * Both are 0 for three exact points, and otherwise exceed the true values by a few hundredths of them where these are
+ * small compared with the radius. out is initialised by the caller. DYD_E_ARG for NULL. O(1) steps with about twice the
+ * digits of the circles. */
 DYD_API dyd_status dyd_metric_disc(dyd_voronoi_bounds *out, const dyd_rect *a, const dyd_rect *b, const dyd_rect *c);
 
 /* ---- tiles ----
@@ -85,8 +85,8 @@ typedef struct dyd_tiles {
 DYD_API void dyd_tiles_clear(dyd_tiles *t);
 
 /* Polygons, with holes and of several parts: ring r has the vertices xy[2 k], xy[2 k + 1] for offset[r] <= k <
- * offset[r + 1], at least three, the first not repeated. Inside is what an odd number of rings is around. Owned by the
- * caller: init with {0}. */
+ * offset[r + 1], at least three, the first not repeated. A place is inside if an odd number of rings surrounds it.
+ * Owned by the caller: init with {0}. */
 typedef struct dyd_area {
   size_t rings, *offset;
   double *xy;

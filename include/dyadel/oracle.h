@@ -9,7 +9,7 @@
  *                            I XLO XHI YLO YHI fixed
  * where [XLO,XHI] x [YLO,YHI] encloses point I, lies inside every earlier answer for I, and aims at widths of 2^-B. The
  * ends are plain exact numbers: -3.25, 1e-3, 22/7, 0x1.8p-3, 5*2^-20. Answers come in the order of the requests,
- * without waiting for further ones, and the output is flushed after each. The program ends when its input does. What it
+ * without waiting for further ones, and the output is flushed after each. The program ends when its input does. Its
  * answers should depend on I, B and its former answers for I only. Standard error is that of the caller. C says what
  * asking a point again costs, such as minutes, with regard to the others: the adaptive schedule asks cheap points
  * of a face before expensive ones. Of several programs, the first one decides.
@@ -31,8 +31,8 @@
  * Nothing is left behind: every program and its children are one process group. When the oracle is freed their inputs
  * end, half a second later they get SIGTERM (srun and the like free resources elsewhere), and are killed after
  * another half; likewise, within three seconds, when the process that uses the library dies of whatever cause (a shell
- * next to it watches for that). Only what leaves the group by its own will, such as a daemon, or runs on
- * another machine, must see for itself that its input has ended. SIGPIPE is never raised. */
+ * next to it watches for that). Only a process that leaves the group, such as a daemon, or runs on
+ * another machine, must detect that its input has ended. SIGPIPE is never raised. */
 #ifndef DYADEL_ORACLE_H
 #define DYADEL_ORACLE_H
 
@@ -71,8 +71,8 @@ DYD_API size_t dyd_oracle_count(const dyd_oracle *o);
  * which its release gives back; call this once for each time the source is handed over. *out is begun with DYD_SIZED.
  */
 DYD_API dyd_status dyd_oracle_source(dyd_source *out, dyd_oracle *o, dyd_error *err);
-/* Gives back a reference. With the last one the inputs of the programs end; what still runs a second later is killed.
- * NULL is allowed. */
+/* Gives back a reference. With the last one the inputs of the programs end; programs that run a second later are
+ * killed. NULL is allowed. */
 DYD_API void dyd_oracle_free(dyd_oracle *o);
 
 #ifdef __cplusplus

@@ -2,7 +2,7 @@
 /* The table of sites: N partial points, laid out for speed.
  *
  * Doubles rounded outward live in four arrays (lower and upper ends, x and y); the exact rectangle is kept
- * beside them only where doubles do not hold it. A site only ever shrinks. */
+ * next to them only where doubles do not hold it. A site only ever shrinks. */
 #ifndef DYADEL_SITES_H
 #define DYADEL_SITES_H
 

@@ -19,7 +19,7 @@
 extern "C" {
 #endif
 
-/* The mean radius of the earth (IUGG) in metres: what metres on the ground are measured by. */
+/* The mean radius of the earth (IUGG) in metres: the scale of metres on the ground. */
 #define DYD_EARTH_RADIUS "6371008.8"
 
 typedef struct dyd_sphere dyd_sphere;
@@ -38,11 +38,12 @@ typedef struct dyd_sphere_options {
 
 /* The sphere with the points of `places`, an engine to which longitudes (x) and latitudes (y) were added, and which is
  * never run; borrowed until dyd_sphere_free, and not to be changed. options may be NULL. Streams are narrowed to 32
- * bits. Where each point may be the same as another one, or radii are wide, so that a point would widen all images,
- * a place between points is projected from, if there is one: then pairs around that may stay undecided [SPH-5]. A point
- * whose row has a radius in metres (DYD_ROW_RADIUS of io.h) lies within it, in addition to options. DYD_E_ARG: a radius
- * in the options that is not understood, has no unit, or is larger than that of the earth. DYD_E_DOMAIN, with the point
- * where it is one: a latitude beyond 90 degrees, points that leave no place of the sphere free. O(N log N). */
+ * bits. Where each point may coincide with another one, or radii are wide, so that a point would widen all images,
+ * the centre of projection is a place between points, if there is one: then pairs around it may stay undecided [SPH-5].
+ * A point whose row has a radius in metres (DYD_ROW_RADIUS of io.h) lies within it, in addition to options. DYD_E_ARG:
+ * a radius in the options that is not understood, has no unit, or is larger than that of the earth. DYD_E_DOMAIN, with
+ * the point where it is one: a latitude beyond 90 degrees, points that leave no place of the sphere free. O(N log N).
+ */
 DYD_API dyd_status dyd_sphere_new(dyd_sphere **out, dyd_engine *places, const dyd_sphere_options *options,
                                   dyd_error *err);
 DYD_API void dyd_sphere_free(dyd_sphere *s);
@@ -58,7 +59,7 @@ DYD_API dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd
                                   dyd_error *err);
 
 /* The same, stage by stage (dyd_converge_run): rows count pairs of places as the first eye sees them, widths are those
- * of images, and there are no bounds. */
+ * of images, and rows have no bounds. */
 DYD_API dyd_status dyd_sphere_converge(dyd_convergence *out, dyd_sphere *s, const dyd_engine_options *options,
                                        dyd_error *err);
 
@@ -81,17 +82,17 @@ DYD_API dyd_status dyd_sphere_rect(dyd_rect *out, const dyd_sphere *s, uint32_t 
 DYD_API dyd_status dyd_sphere_vector(double box[6], const dyd_sphere *s, uint32_t i, dyd_error *err);
 
 /* The results, by the numbers of the points. DYD_E_ARG before the first run. Pairs as dyd_delaunay_pairs; where images
- * are no points, indeterminate pairs may be more than necessary, as each image has to hold for all of the centre.
+ * are not points, there may be more indeterminate pairs than necessary, as each image must hold for the whole centre.
  * Triangles as dyd_delaunay_triangles, counter-clockwise from outside; of three points both sides. */
 DYD_API dyd_status dyd_sphere_pairs(dyd_pair_list *out, const dyd_sphere *s);
 DYD_API dyd_status dyd_sphere_triangles(dyd_triangle_list *out, const dyd_sphere *s);
-/* How many undecided faces there are; and the sites of face f, ascending. *tie: all its pairs are ties, so that its
+/* The number of undecided faces; and the sites of face f, ascending. *tie: all its pairs are ties, so that its
  * Voronoi region is one point. */
 DYD_API size_t dyd_sphere_faces(const dyd_sphere *s);
 DYD_API dyd_status dyd_sphere_face(dyd_index_list *out, bool *tie, const dyd_sphere *s, size_t f);
 /* Calls visit with each empty circle (DYD_GROUP_CIRCLE) that holds more than three points, counter-clockwise from
- * outside, and no others: they have one Voronoi vertex. A circle that holds all points is empty on both sides, and told
- * of twice. As dyd_delaunay_each_group; DYD_E_ARG before the first run. */
+ * outside, and no others: they have one Voronoi vertex. A circle that holds all points is empty on both sides, and
+ * visited twice. As dyd_delaunay_each_group; DYD_E_ARG before the first run. */
 DYD_API dyd_status dyd_sphere_each_circle(const dyd_sphere *s, dyd_group_fn visit, void *user);
 /* A box of degrees (longitude lower, upper, latitude lower, upper) that holds the Voronoi vertex of t, one of
  * dyd_sphere_triangles or any three points of one of dyd_sphere_each_circle in its order, for every choice of its
@@ -101,9 +102,9 @@ DYD_API dyd_status dyd_sphere_vertex(double box[4], const dyd_sphere *s, const d
 
 /* Which points are possibly nearest to the place `at` (longitude x, latitude y), measured along the sphere; as
  * dyd_engine_nearest, but for the engine of places, which is asked itself, and needs no run. *tied: all listed, two at
- * least, are exact and proved to be equally far; then the outcome is fixpoint. Where `at` is a region, what is left out
- * is nearest to no place of it [SPH-6]. DYD_E_DOMAIN where its latitude is beyond 90 degrees. The first call sorts the
- * points, O(N log N); others take O(sqrt N) for points all over the sphere. */
+ * least, are exact and proved to be equally far; then the outcome is fixpoint. Where `at` is a region, points not
+ * listed are nearest to no place of it [SPH-6]. DYD_E_DOMAIN where its latitude is beyond 90 degrees. The first call
+ * sorts the points, O(N log N); others take O(sqrt N) for points all over the sphere. */
 DYD_API dyd_status dyd_sphere_nearest(dyd_index_list *out, bool *sure, bool *tied, dyd_outcome *outcome, dyd_sphere *s,
                                       dyd_stream *at, const dyd_engine_options *options, dyd_error *err);
 /* Bounds, in metres on the ground (DYD_EARTH_RADIUS), of the distance between point i and a place of the rectangle of
@@ -111,11 +112,11 @@ DYD_API dyd_status dyd_sphere_nearest(dyd_index_list *out, bool *sure, bool *tie
 DYD_API dyd_status dyd_sphere_distance(double *lo, double *hi, const dyd_sphere *s, uint32_t i, const dyd_rect *at);
 
 /* Which points to measure next, after dyd_sphere_run, as dyd_survey_new: a point of a row has to be within `needed`
- * metres, on the ground, of the middle of its region; `now` is how far it may be from there. accuracy: NULL, or how
- * exactly can be measured, a length with its unit ("5m"); of the options pairs, site, cost and cancel count. Planned
- * from one gap, and from another one for pairs around that; `left` is what a run on the sphere with these accuracies
- * leaves open, whereas `decided` counts the pairs that were planned for together [SPH-7]. DYD_E_ARG for an accuracy
- * that is none. */
+ * metres, on the ground, of the middle of its region; `now` is how far it may be from there. accuracy: NULL, or the
+ * best possible accuracy of a measurement, a length with its unit ("5m"); of the options pairs, site, cost and cancel
+ * count. Planned from one gap, and from another one for pairs around that; `left` counts the pairs that a run on the
+ * sphere with these accuracies leaves undecided, whereas `decided` counts the pairs that were planned for together
+ * [SPH-7]. DYD_E_ARG for an invalid accuracy. */
 DYD_API dyd_status dyd_sphere_survey(dyd_survey **out, dyd_sphere *s, const char *accuracy,
                                      const dyd_survey_options *options, dyd_error *err);
 

@@ -42,11 +42,11 @@ typedef struct dyd_request {
 typedef dyd_status (*dyd_narrow_fn)(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err);
 typedef dyd_status (*dyd_narrow_real_fn)(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err);
 typedef void (*dyd_release_fn)(void *user);
-/* Told before a stage what the source will be asked in it, in that order, so that slow answers can be sought side by
- * side; narrow then collects them one by one. A hint: it may be ignored, and narrow may be called for fewer of them, or
+/* Prefetch hint: lists the requests of the coming stage in order, so that a slow source can answer them in parallel;
+ * narrow then collects the answers one by one. The hint may be ignored, and narrow may be called for fewer of them, or
  * for others. Each list replaces the one before. Its elements are read by dyd_request_at; borrowed for the call. */
 typedef void (*dyd_announce_fn)(void *user, const dyd_request *request, size_t count);
-/* Element k of such a list: they are as far apart as the library that made them says. */
+/* Element k of such a list. The distance of elements is the struct_size of the library that made the list. */
 static inline const dyd_request *dyd_request_at(const dyd_request *request, size_t k) {
   return (const dyd_request *)(const void *)((const char *)request + k * request->struct_size);
 }
@@ -166,7 +166,7 @@ DYD_API dyd_status dyd_stream_narrow(dyd_stream *s, int64_t bits, int64_t max_bi
 /* The narrowest rectangle so far; borrowed until the next call on s; NULL before the first narrowing, except for
  * fixed streams. */
 DYD_API const dyd_rect *dyd_stream_rect(const dyd_stream *s);
-/* Can no call narrow it further? */
+/* Returns true if no call can narrow it further. */
 DYD_API bool dyd_stream_is_final(const dyd_stream *s);
 
 #ifdef __cplusplus

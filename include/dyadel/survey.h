@@ -24,7 +24,7 @@ typedef struct dyd_survey_options {
   const dyd_pair_list *pairs; /* asked for; NULL: all. Borrowed for the call, as the others */
   const dyd_rect *window;     /* only pairs with an end whose rectangle meets it; NULL: anywhere */
   const uint32_t *site;       /* only pairs with this end; NULL: any */
-  mpq_srcptr accuracy;        /* how exactly can be measured, above 0; NULL: as exactly as it takes */
+  mpq_srcptr accuracy;        /* best accuracy of a measurement, above 0; NULL: no limit */
   const double *accuracies;   /* the same of each site; NULL: `accuracy` counts */
   const double *cost;         /* of measuring each site, above 0; NULL: the same for all */
   const volatile int *cancel; /* as in dyd_delaunay_options */
@@ -32,15 +32,16 @@ typedef struct dyd_survey_options {
 
 typedef struct dyd_survey dyd_survey;
 
-/* A plan: if the points of the rows turn out where they say, no pair asked for is indeterminate, except for ties
- * at the nominal places: proved by one triangulation of these rectangles. No row is superfluous, as far as its
- * own faces tell (in small plans: at all; in large faces: the sites near it), and all accuracies are as coarse as one
- * common factor makes them, then each alone in powers of 2 [SUR-1]. dyd_survey_get has the number of pairs that stay
- * undecided even so (the accuracy is not enough, or rectangles are fixed by their centres). pd is borrowed for the
+/* A plan: if the points of the rows are found where the rows place them, no requested pair is indeterminate, except for
+ * ties at the nominal places. One triangulation of these rectangles proves this. No row is superfluous, as judged by
+ * its own faces (in small plans: by all faces; in large faces: by the sites near it), and all accuracies are as coarse
+ * as one common factor makes them, then each alone in powers of 2 [SUR-1]. dyd_survey_get has the number of pairs that
+ * stay undecided even so (the accuracy is not enough, or rectangles are fixed by their centres). pd is borrowed for the
  * call; options may be NULL. Returns DYD_OK; DYD_E_ARG; DYD_CAPPED when pd is; DYD_E_NOMEM: *out is NULL then.
- * DYD_CANCELLED: *out has the rows that were chosen by then, with their effect, see dyd_survey_result, and err says
- * what is open; or it is NULL, before any pair was examined. Cost: for a face of m sites at most m^2 triangulations of
- * m sites, m <= 16; in larger ones an update for each row, and some triangulations of the sites near it; some of all.
+ * DYD_CANCELLED: *out has the rows that were chosen by then, with their effect, see dyd_survey_result, and err names
+ * the undecided pairs; or it is NULL, before any pair was examined. Cost: for a face of m sites at most m^2
+ * triangulations of m sites, m <= 16; in larger ones an update for each row, and some triangulations of the sites near
+ * it; some of all.
  */
 DYD_API dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_survey_options *options,
                                   dyd_error *err);

@@ -107,16 +107,16 @@ DYD_API dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_to
  * only pairs that squares leave indeterminate can change: to legal (a disc holds both and meets no other), to illegal
  * (a disc that meets both always holds another one), or they stay. Sorted; *out is replaced. Sound for every choice in
  * the discs. Rectangles of dyd_sites_add_rect are taken as they are, but for 2^-60 of their width; others, or narrowed
- * ones, as squares rounded outward, so what hangs on 2^-48 of all sizes may stay indeterminate [DISC-1].
- * DYD_E_ARG for a site that is no square (err names it); DYD_CAPPED when pd is: *out holds the pairs that pd lists. A
- * few searches for each such pair. When *cancel (may be NULL) becomes non-zero, DYD_CANCELLED: *out is valid, and pairs
- * that were not reached have their statuses in pd, which hold for discs, too. err says how many these are. */
+ * ones, as squares rounded outward, so pairs that depend on 2^-48 of all sizes may stay indeterminate [DISC-1].
+ * DYD_E_ARG for a site that is not a square (err names it); DYD_CAPPED when pd is: *out holds the pairs that pd lists.
+ * A few searches for each such pair. When *cancel (may be NULL) becomes non-zero, DYD_CANCELLED: *out is valid, and
+ * pairs that were not reached have their statuses in pd, which hold for discs, too. err says how many these are. */
 DYD_API dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, const volatile int *cancel,
                                   dyd_error *err);
-/* Of sites that are possibly nearest to a point of `at` when they are rectangles (dyd_nearest_rect), *found keeps those
- * that are when they are the discs in them [DISC-6]: for a point exactly those, for a rectangle perhaps more. *sure:
- * one is left, which is nearest for every choice. Returns DYD_E_ARG for a site that is no square (err names it).
- * O(found) */
+/* Of sites that are possibly nearest to a point of `at` when they are rectangles (dyd_nearest_rect), *found keeps the
+ * sites whose discs are possibly nearest [DISC-6]: for a point exactly these, for a rectangle perhaps more. *sure:
+ * one site is left, which is nearest for every choice. Returns DYD_E_ARG for a site that is not a square (err names
+ * it). O(found) */
 DYD_API dyd_status dyd_disc_nearest(dyd_index_list *found, bool *sure, const dyd_sites *sites, const dyd_rect *at,
                                     dyd_error *err);
 /* Bounds, rounded outward, of the distance from points of `at` to points of the disc of site i. */

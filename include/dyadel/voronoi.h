@@ -28,8 +28,8 @@ typedef enum dyd_cell_bound { DYD_CELL_SURE = 0, DYD_CELL_POSSIBLE } dyd_cell_bo
 DYD_API dyd_status dyd_voronoi_cell(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, dyd_cell_bound bound,
                                     const dyd_rect *window);
 
-/* Is c in Int_i (TRUE), in Ext_i (FALSE), undecided (UNKNOWN)? Exact. O(K). UNKNOWN, too, when there is no site i or
- * memory is exhausted. */
+/* Returns TRUE if c is in Int_i, FALSE if c is in Ext_i, UNKNOWN if neither holds, if there is no site i, or if memory
+ * is exhausted. Exact. O(K). */
 DYD_API dyd_truth dyd_voronoi_side(const dyd_delaunay *pd, uint32_t i, const dyd_point *c);
 
 /* ---- proved polygons on a window ---- */
@@ -76,7 +76,7 @@ DYD_API dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, con
 /* The same for undecided face f (dyd_delaunay_face) where its sites are on one circle, which makes its pairs ties: a
  * rectangle that holds the vertex that they have in common, the centre. *tied = false, and *out is not changed, where
  * they are not known to be; so for faces that are unbounded. DYD_E_ARG when there is no such face; DYD_E_RANGE when the
- * rectangles of the sites are so wide that they do not tell. */
+ * rectangles of the sites are too wide to decide. */
 DYD_API dyd_status dyd_voronoi_tied_vertex(dyd_rect *out, bool *tied, const dyd_delaunay *pd, size_t f, int64_t bits);
 
 /* The default window: the bounding box of the sites enlarged by half its size (a quarter of it on each side; by 1 where
@@ -96,7 +96,7 @@ DYD_API dyd_status dyd_voronoi_region(dyd_rect *out, bool *any, const dyd_delaun
  * Int_i). Exact [NEAR-1]. Cost: O(log N + output) on separated input. */
 DYD_API dyd_status dyd_nearest(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, const dyd_rect *q);
 
-/* Sets *out, with its values of `sure`, to what dyd_nearest gives for each place xy[2 k], xy[2 k + 1] (DYD_E_ARG for
+/* Sets *out, with its values of `sure`, to the result of dyd_nearest for each place xy[2 k], xy[2 k + 1] (DYD_E_ARG for
  * one that is not finite), by a walk from each to the next, so order them to be near: then a place costs less than a
  * microsecond where its nearest site is in certain triangles only [NEAR-7]. DYD_CANCELLED once *cancel, which may be
  * NULL, is set. On failure *out is unchanged. */
