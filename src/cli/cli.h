@@ -98,9 +98,9 @@ int cli_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
 int cli_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* Prints a note, unless --quiet was given. */
 void cli_note(const cli_options *o, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* Notes on the rows of a file: what was left out, or read in another way than it says. */
+/* Prints notes on the rows of a file: rows skipped, and values read in another way than written. */
 void cli_note_lines(const cli_options *o, const dyd_read_report *r);
-/* These, and notes on its points, which e has: what was taken together, and what may be meant otherwise. */
+/* Prints these and notes on the points, which e holds: merged points, and points with another possible meaning. */
 void cli_note_points(const dyd_engine *e, const cli_options *o, const dyd_read_report *r);
 /* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: without FILE. */
 void cli_complain_at(const char *file, const dyd_error *err);
@@ -156,10 +156,10 @@ typedef struct cli_gdal {
 } cli_gdal;
 extern const cli_gdal *const cli_gdal_here; /* NULL in dyadel */
 
-/* packed.c: a stream that packs what is written to it by gzip or zstd, as the ending of the name says, and writes it to
- * `to` (borrowed), the last of it when it is closed; NULL: the name has no such ending, or memory is exhausted. */
+/* packed.c: a stream that compresses its data by gzip or zstd, as the ending of the name says, and writes it to
+ * `to` (borrowed), the last part when it is closed; NULL: the name has no such ending, or memory is exhausted. */
 FILE *cli_pack(FILE *to, const char *name);
-/* Has the name such an ending? *length: of what stands before it. */
+/* Returns true if the name has such an ending. *length: length of the part before it. */
 bool cli_name_is_packed(size_t *length, const char *name);
 
 /* ---- a command at work: session.c ---- */
@@ -173,14 +173,14 @@ typedef struct cli_work {
   size_t size;                                             /* of s->state: zero before begin */
   bool bare;                                               /* no engine, no points are read */
   const struct cli_work *(*instead)(const cli_options *o); /* the row that these options ask for; NULL: this one */
-  /* Before points are read: what options contradict, other inputs. 0, or an exit status after a message. */
+  /* Before points are read: checks for contradicting options, other inputs. 0, or an exit status after a message. */
   int (*begin)(cli_session *s);
   /* Finds the result: sets s->known if there is one, else reports why not. 0, or an exit status after a message. */
   int (*find)(cli_session *s);
   cli_print_fn write, prove; /* the result; its certificate */
-  /* After all is written with this status: reports what the result leaves open. Returns the exit status. */
+  /* After all is written with this status: reports the undecided part of the result. Returns the exit status. */
   int (*summary)(cli_session *s, int status);
-  void (*end)(cli_session *s); /* frees what state holds; also after a begin that failed */
+  void (*end)(cli_session *s); /* frees the contents of state; also after a begin that failed */
 } cli_work;
 extern const cli_work cli_delaunay, cli_voronoi, cli_sphere, cli_converge, cli_check, cli_verify, cli_disc,
     cli_bisector, cli_nearest, cli_tolerance, cli_plan;
@@ -210,11 +210,11 @@ struct cli_session {
   bool forgot;                          /* memory was exhausted when a stage was noted */
   const dyd_pair_list *discs;           /* pairs of discs, borrowed; NULL: none */
   const dyd_graph_list *graph;          /* of a layer that is a graph, borrowed; NULL: not known */
-  cli_diagram *diagram;                 /* receives what writing finds, borrowed; NULL: nothing */
+  cli_diagram *diagram;                 /* receives the diagram found on writing, borrowed; NULL: none */
   const dyd_voronoi_bounds *bounds;     /* of the diagram written, borrowed; NULL: none */
   const dyd_converge_options *converge; /* for the trace, borrowed; NULL: none */
   FILE *noted;                          /* takes the comments of csv, for standard error; NULL: they are not noted */
-  char *note;                           /* what it took */
+  char *note;                           /* text taken by `noted` */
   size_t note_size;
   const char *radius, *resume; /* of places of a sphere, while points are read without; NULL: none */
   dyd_sphere *sphere;          /* of --sphere; owned; NULL: none */
@@ -256,7 +256,7 @@ void cli_session_settle(cli_session *s);
 void cli_session_lacks(cli_session *s, dyd_outcome outcome, const char *what);
 /* The same with the remedy for work that was cut short ("the plan was"). Returns the exit status. */
 int cli_session_stopped(cli_session *s, const char *what);
-/* Was the last run neither cancelled nor cut by the end of time, and is there a result? */
+/* Returns true if the last run has a result and was stopped neither by a cancel nor by the time limit. */
 bool cli_run_was_whole(const dyd_engine *e);
 /* Returns true for layers that are graphs of neighbours. */
 static inline bool cli_layer_is_graph(dyd_content layer) {
@@ -269,9 +269,9 @@ int cli_exit_cut(void);
 int cli_exit_status(dyd_outcome outcome);
 /* Where the library failed with st: CLI_BUDGET if --max-bytes refused memory, else CLI_FAILED. */
 int cli_exit_refused(const cli_session *s, dyd_status st);
-/* Why no more is known, and what to do. Static storage. */
+/* Returns the reason why statuses are undecided, and the remedy. Static storage. */
 const char *cli_outcome_advice(const dyd_engine *e);
-/* The line that sums up a result with undecided pairs (dyd_pair_status counts) and says what to do next; advice NULL:
+/* The line that sums up a result with undecided pairs (dyd_pair_status counts) and names the next step; advice NULL:
  * that of the outcome. */
 void cli_note_pairs(const cli_session *s, dyd_outcome outcome, const size_t count[4], const char *advice);
 /* Writes anything to the file `name` (NULL: standard output), whole or not at all. 0, or an exit status after a
@@ -280,7 +280,7 @@ int cli_write_file(const char *name, const cli_session *s, cli_print_fn print);
 /* content.c: prints to out (opened as `name`), packed where the name says so; a picture in a process of its own, whose
  * failure is DYD_E_STREAM with *err filled. */
 dyd_status cli_write_content(FILE *out, const char *name, const cli_session *s, cli_print_fn print, dyd_error *err);
-/* Is what is written to this file packed? */
+/* Returns true if output to this file is compressed. */
 bool cli_is_packed(const char *name, const cli_options *o);
 /* Where the comments of csv go that is written to out: into it, or aside. */
 FILE *cli_comments(FILE *out, const cli_session *s);
@@ -307,12 +307,12 @@ bool cli_output_appear(cli_output *out);
 bool cli_output_finish(cli_output *out, const cli_options *o);
 /* Removes the file begun; does nothing after cli_output_finish. */
 void cli_output_drop(cli_output *out);
-/* Did a reader go away from a pipe before all was written to it? */
+/* Returns true if an output pipe was closed before all was written to it. */
 bool cli_output_lost_reader(void);
-/* Writing to the stream, opened as `name` (NULL: standard output), failed. Is it as its reader went away? Then that is
- * noted, and true. */
+/* To be called after a failed write to the stream, opened as `name` (NULL: standard output). If its reader closed the
+ * pipe, prints a note and returns true. */
 bool cli_output_note_reader(FILE *stream, const char *name, const cli_options *o);
-/* Sees to it that the descriptors 0, 1, 2 are taken, so that no file of ours gets one of them. */
+/* Ensures that the descriptors 0, 1, 2 are in use, so that no file of ours gets one of them. */
 bool cli_guard_descriptors(void);
 
 /* process.c: from now on the first SIGINT, SIGTERM or SIGHUP cancels the engine, the next one ends the process. NULL:
@@ -321,10 +321,10 @@ void cli_signals_cancel(dyd_engine *e);
 /* The file `temporary` (borrowed) is removed when a signal ends the process; cli_signals_keep takes that back. */
 void cli_signals_remove(const char *temporary);
 void cli_signals_keep(const char *temporary);
-/* Holds all signals back, until they are released with what *before says. */
+/* Blocks all signals, until they are released with the mask *before. */
 void cli_signals_hold(sigset_t *before);
 void cli_signals_release(const sigset_t *before);
-/* Set to 1 by the signal that cancels the engine, and at the deadline: for work on what the engine has found. */
+/* Set to 1 by the signal that cancels the engine, and at the deadline: for work on the result of the engine. */
 const volatile int *cli_signals_flag(void);
 
 /* process.c: when memory for long numbers is exhausted the process ends with CLI_FAILED after a message. Before
@@ -337,7 +337,7 @@ void cli_deadline_start(double seconds);
 void cli_deadline_again(void);
 /* Names the present work, "reading"; static text. */
 void cli_deadline_phase(const char *what);
-/* All is written and told; what follows (programs of an oracle are given time to end) may be cut, with this status. */
+/* All output and messages are written. The rest (waiting for oracle programs to end) may be cut, with this status. */
 void cli_deadline_written(int status);
 /* Returns this share of the seconds left, above 0; 0 without a limit. For options of the engine. */
 double cli_deadline_left(double share);
@@ -373,7 +373,7 @@ typedef enum cli_command_number {
   CLI_COMMANDS
 } cli_command_number;
 
-/* What the value of an option is: how it is read, and what completion offers for it. */
+/* The kind of an option's value: how it is parsed, and which completions it has. */
 typedef enum cli_kind {
   CLI_FLAG,    /* no value; a bool is set */
   CLI_TEXT,    /* any text */
@@ -386,7 +386,7 @@ typedef enum cli_kind {
   CLI_GOAL,    /* decided, area:M, hausdorff:M */
   CLI_CHOICE,  /* one of words, as its number, into a bool or an enum */
   CLI_FORMAT,  /* a format of the command */
-  CLI_LAYER,   /* a layer of what the command writes */
+  CLI_LAYER,   /* a layer of the command's output */
   CLI_CRS,     /* EPSG:N */
   CLI_WINDOW,  /* XLO,XHI,YLO,YHI */
   CLI_HELP     /* nothing, or =KIND */
@@ -428,11 +428,11 @@ extern const char *const cli_group_names[CLI_GROUPS];
 
 /* The set of all commands. */
 #define CLI_ALL ((1u << CLI_COMMANDS) - 1)
-/* Does the option exist for one of these commands? */
+/* Returns true if the option exists for one of these commands. */
 bool cli_option_exists(const cli_option *option, unsigned commands);
 /* NULL when there is none of that name. */
 const cli_command *cli_command_find(const char *name);
-/* The names of the layers of what these commands write, separated. */
+/* The names of the output layers of these commands, separated. */
 void cli_layers_print(FILE *out, unsigned commands, const char *separator);
 /* The set with this command alone. */
 unsigned cli_command_bit(const cli_command *c);

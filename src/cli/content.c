@@ -84,7 +84,7 @@ static _Noreturn void drawing_child(int report, FILE *out, const char *name, con
   _exit(to && report_send(to, s->diagram, st, &err) ? CLI_OK : CLI_FAILED);
 }
 
-/* Does the child end with its parent? */
+/* Makes the child end with its parent; returns true if the parent still runs. */
 static bool drawing_ties(pid_t parent) {
 #ifdef __linux__
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -103,8 +103,8 @@ static bool drawing_wait(int report, double seconds) {
   return false;
 }
 
-/* Seconds for a picture: as many as --timeout leaves, whose watch ends this process; else by far enough for fonts to be
- * found and points to be drawn. */
+/* Seconds for a picture: the rest of --timeout, whose watch ends this process. Without it, by far enough time to find
+ * fonts and draw the points. */
 static double drawing_patience(const cli_session *s) {
   const double of_points = s->engine ? 1e-3 * (double)dyd_engine_count(s->engine) : 0;
   return cli_deadline_left(1) > 0 ? 1e9 : 60 + of_points;
@@ -141,7 +141,7 @@ static dyd_status drawing_end(int report, pid_t child, const cli_session *s, dyd
 static dyd_status draw_apart(FILE *out, const char *name, const cli_session *s, cli_print_fn print, dyd_error *err) {
   int report[2];
   if (pipe2(report, O_CLOEXEC) != 0) return drawing_failed(err, "a process for it cannot be started");
-  fflush(NULL); /* what is buffered is written by one process only */
+  fflush(NULL); /* buffered data is written by one process only */
   const pid_t parent = getpid(), child = fork();
   if (child == 0) {
     close(report[0]);

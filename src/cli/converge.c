@@ -27,7 +27,7 @@ static const cli_work *converge_instead(const cli_options *o) {
   return o->replay ? &work_replay : NULL;
 }
 
-/* Is the table about a disc or bisector? */
+/* Returns true if the table is about a disc or bisector. */
 static bool is_piece(const cli_session *s) {
   return s->o.of >= DYD_CONVERGE_DISC;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What GDAL reads and writes for the command.
+/* Reads and writes files for the command by GDAL.
  *
  * Points come from it as a table: x and y, in the hexadecimal digits of their doubles, then the attributes. So all
  * options of reading hold. Results go to it as they are written in wkt (csv where there is no geometry), a feature for
@@ -184,7 +184,7 @@ static bool may_hold_points(OGRLayerH layer) {
   return type == wkbPoint || type == wkbMultiPoint || type == wkbUnknown || type == wkbGeometryCollection;
 }
 
-/* The layers of the file, as many as fit. */
+/* Lists the layers of the file, up to the size of `out`. */
 static void list_layers(char *out, size_t size, GDALDatasetH set) {
   size_t used = 0;
   for (int k = 0; k < GDALDatasetGetLayerCount(set) && used < size; k++) {
@@ -222,7 +222,7 @@ static OGRLayerH choose_layer(GDALDatasetH set, const char *name, const cli_opti
 
 /* ---- reference systems ---- */
 
-/* Do files of this kind have degrees without saying so? */
+/* Returns true if files of this kind imply degrees. */
 static bool degrees_are_implied(const char *name, GDALDatasetH set) {
   const char *driver = GDALGetDriverShortName(GDALGetDatasetDriver(set));
   char text[4096];
@@ -254,7 +254,7 @@ static int refuse_system(const char *name, const char *crs, bool degrees) {
                    name, crs, name);
 }
 
-/* Takes over what the layer says of its reference system. */
+/* Takes over the reference system of the layer. */
 static int take_system(feature_source *s, const char *name, cli_options *o) {
   OGRSpatialReferenceH crs = s->shape ? OGR_L_GetSpatialRef(s->layer) : NULL;
   if (!crs) return 0;
@@ -498,7 +498,7 @@ static dyd_status layer_write(GDALDatasetH set, OGRSpatialReferenceH crs, cli_se
   return st;
 }
 
-/* All layers of the content, or the one of the options. Layers that cannot be had of these points are left out. */
+/* All layers of the content, or the one of the options. Layers that these points do not allow are omitted. */
 static dyd_status layers_write(GDALDatasetH set, OGRSpatialReferenceH crs, cli_session *s, cli_print_fn print,
                                const char *base, dyd_error *err) {
   const dyd_content all = s->o.content;
@@ -580,7 +580,7 @@ static void note_layers(const cli_options *o, GDALDatasetH set) {
   cli_note(o, "%s (%s) holds %s", o->output, o->driver, list);
 }
 
-/* In the folder, which is beside the target. */
+/* Writes in the folder, which is next to the target. */
 static int write_in(const char *folder, const char *target, cli_session *s, cli_print_fn print) {
   const char *slash = strrchr(target, '/'), *base = target + (slash ? slash + 1 - target : 0);
   char path[8192], name[256];

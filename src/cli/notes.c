@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Notes on the points that were read: what was left out or taken together, and what may be meant otherwise. */
+/* Notes on the points that were read: rows skipped, points merged, and values with another possible meaning. */
 #include "cli.h"
 
 #include <math.h>
 
-/* Can all points be places on the globe? */
+/* Returns true if all points can be places on the globe. */
 static bool points_are_degrees(const dyd_engine *e) {
   double b[4];
   bool good = dyd_engine_count(e) > 0;

@@ -55,7 +55,7 @@ static const char *suggest_name(const char *name, const char *(*candidate)(size_
   return best;
 }
 
-/* ---- values: text to what the table says, or a message with what to give instead ---- */
+/* ---- values: converts text as the table says, or prints a message with the remedy ---- */
 
 /* Splits at the commas outside parentheses: there are to be exactly four numbers. */
 static dyd_status read_window_ends(mpq_t end[4], const char *text) {
@@ -118,7 +118,7 @@ static bool value_scan_integer(long long *out, const char *text, long long least
   return end != text && !*end && errno == 0 && *out >= least && *out <= most;
 }
 
-/* The power of 2 that K, M, G or T at the end of a number of bytes stands for. */
+/* Returns the power of 2 meant by K, M, G or T at the end of a number of bytes. */
 static int value_unit(const char *text) {
   static const char unit[] = "KMGT";
   const char *at = *text ? strchr(unit, text[strlen(text) - 1]) : NULL;
@@ -386,7 +386,7 @@ static int scan_all(scan *s, cli_options *o, int argc, char **argv) {
   return 0;
 }
 
-/* ---- does it fit the command? ---- */
+/* ---- checks that options fit the command ---- */
 
 static const char *command_name(size_t k) {
   return k < CLI_COMMANDS ? cli_commands[k].name : NULL;
@@ -439,7 +439,7 @@ static int options_fit(const cli_options *o, const bool *seen, const cli_command
   return 0;
 }
 
-/* The layer named, as one of what the command writes. */
+/* The layer named, as a layer of the command's output. */
 static int layer_fits(cli_options *o, const cli_command *c) {
   dyd_content of = c->content;
   if (o->sphere && of == DYD_CONTENT_DELAUNAY) of = DYD_CONTENT_SPHERE;
@@ -530,7 +530,7 @@ static bool crs_is_degrees(unsigned epsg) {
   return k < count;
 }
 
-/* Is there a place for the reference system in the format, and does it name what is written? */
+/* Checks that the format has a place for the reference system, and that the system fits the output. */
 static int crs_fits(const cli_options *o) {
   static const bool none[] = {
       [DYD_FORMAT_CSV] = true, [DYD_FORMAT_WKT] = true, [DYD_FORMAT_OBJ] = true, [DYD_FORMAT_VTK] = true};

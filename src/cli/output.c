@@ -27,7 +27,7 @@ static bool output_fail(const char *name) {
   return false;
 }
 
-/* ---- pipes whose reader went away ---- */
+/* ---- pipes closed by their reader ---- */
 
 static bool lost_reader;
 
@@ -155,7 +155,7 @@ static bool output_place(cli_output *out, int fd) {
   return true;
 }
 
-/* The same with signals held back, so that none comes while the name is not registered yet; then the folder
+/* The same with signals blocked, so that none arrives while the name is not registered yet; then the folder
  * goes to the disk as well, where it can. */
 static bool output_appear(cli_output *out, int fd) {
   sigset_t before;
@@ -286,7 +286,7 @@ static bool named_open(named_file *f, int descriptor) {
   f->exists = descriptor >= 0 ? fstat(descriptor, &info) == 0 : stat(f->name, &info) == 0;
   if (f->exists && S_ISREG(info.st_mode)) named_identify(f, &info);
   char *path = !f->exists && descriptor < 0 && f->written ? output_target(f->name) : NULL;
-  if (!path) return true; /* opening it will tell */
+  if (!path) return true; /* opening it will report the error */
   char *slash = strrchr(path, '/');
   f->last = strdup(slash ? slash + 1 : path);
   if (slash) slash[slash == path ? 1 : 0] = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Results packed by gzip or zstd, where the name ends in .gz or .zst: a stream whose bytes go on to another one. */
+/* Compresses results by gzip or zstd if the name ends in .gz or .zst: a stream that forwards its bytes to another. */
 #define _GNU_SOURCE /* fopencookie */
 #define ZLIB_CONST
 #include "cli.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- pieces: what disc and bisector share ---- */
+/* ---- pieces: the common part of disc and bisector ---- */
 
 enum { FIRST_BITS = 64 };
 
@@ -137,8 +137,8 @@ const cli_work cli_bisector = {.size = sizeof(cli_pieces),
                                .summary = pieces_summary,
                                .end = pieces_end};
 
-/* ---- disc FILE: the partial disc of the first three points and where the others are, narrowed until that is sure ----
- */
+/* ---- disc FILE: the partial disc of the first three points and where the others are, narrowed until that is certain
+ * ---- */
 
 enum { TRIPLE = 3 };
 
@@ -156,7 +156,7 @@ static bool disc_is_answered(const cli_pieces *p) {
   return i == p->count;
 }
 
-/* While the orientation is open nothing is gained by the others. */
+/* While the orientation is undecided, narrowing the other points has no effect. */
 static bool disc_wants(const cli_pieces *p, size_t i) {
   return i < TRIPLE || (disc_is_oriented(p) && !disc_knows(p, i));
 }
@@ -171,8 +171,8 @@ static int disc_find(cli_session *s) {
 const cli_work cli_disc = {
     .size = sizeof(cli_pieces), .find = disc_find, .write = pieces_write, .summary = pieces_summary, .end = pieces_end};
 
-/* ---- nearest FILE X Y, nearest --queries PLACES FILE: which points are surely, which are possibly nearest to a place,
- * or to each of many ---- */
+/* ---- nearest FILE X Y, nearest --queries PLACES FILE: which points are certainly, which are possibly nearest to a
+ * place, or to each of many ---- */
 
 /* A place and its answer. */
 typedef struct place {

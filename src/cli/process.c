@@ -45,7 +45,7 @@ static int complain_byte(FILE *out, const char *at, int left) {
   return inside ? left - 1 : !first ? 0 : c < 0xE0 ? 1 : c < 0xF0 ? 2 : 3;
 }
 
-/* Prints a message: the library names fields of its options in backquotes. What is said may come from strangers. */
+/* Prints a message: the library names fields of its options in backquotes. The text may come from untrusted input. */
 static void complain_print(FILE *out, const char *text) {
   for (int left = 0; *text;) {
     size_t length = *text == '`' ? strspn(text + 1, "abcdefghijklmnopqrstuvwxyz_") : 0;
@@ -220,8 +220,8 @@ static bool signals_spare(pthread_t *out, void *(*work)(void *), void *user) {
 
 /* ---- memory ----
  *
- * GMP, MPFR and FLINT, which hold the long numbers, cannot tell their caller that memory is exhausted: they end the
- * process. Jansson 2.14 follows a null pointer. Here all of them end it with a message and an exit status of the
+ * GMP, MPFR and FLINT, which hold the long numbers, cannot report to their caller that memory is exhausted: they end
+ * the process. Jansson 2.14 follows a null pointer. Here all of them end it with a message and an exit status of the
  * command, and no file begun is left. */
 
 static void *memory_found(void *p) {

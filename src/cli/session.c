@@ -235,7 +235,7 @@ static uint64_t digest_bytes(uint64_t digest, const char *byte, size_t count) {
   return digest;
 }
 
-/* FNV-1a of the points file and of what says which points are in it. false: it cannot be read twice. */
+/* FNV-1a of the points file and of the options that select its points. false: it cannot be read twice. */
 static bool digest_input(char text[17], const cli_options *o) {
   const dyd_read_field *field;
   const char *value;
@@ -507,7 +507,7 @@ static int session_prove(cli_session *s, int status) {
 
 /* ---- comments of csv ----
  *
- * Without --comments standard error gets what they say of the whole result. */
+ * Without --comments their summary of the whole result goes to standard error. */
 
 FILE *cli_comments(FILE *out, const cli_session *s) {
   return s->o.comments ? out : s->noted;
@@ -518,7 +518,7 @@ const char *cli_points_name(const cli_options *o) {
   return !o->file || strcmp(o->file, "-") == 0 ? NULL : slash ? slash + 1 : o->file;
 }
 
-/* Does the line say something that no other line of ours says? */
+/* Returns true if the line says something that no other line of ours says. */
 static bool comment_is_summary(const char *line) {
   static const char *const begin[] = {"undetermined_area", "distance_to", "tolerance ",      "plan ",    "ties ",
                                       "orientation ",      "partial ",    "the rectangles ", "schedule "};
@@ -608,8 +608,8 @@ static int64_t power_above(const dyd_dyadic *bound) {
   return mpz_cmp_ui(bound->man, 1) == 0 ? top - 1 : top;
 }
 
-/* One line about a bound that was asked for and not reached: why it is no better (advice), and what to do. false, and
- * nothing said, where no bound was asked for. */
+/* Prints one line about a requested bound that was not reached: the reason (advice) and the remedy. Returns false, and
+ * prints nothing, if no bound was requested. */
 static bool note_goal(const cli_session *s, const char *advice) {
   int64_t bits;
   dyd_goal goal = dyd_engine_goal(&bits, s->engine);
@@ -818,7 +818,7 @@ int cli_pairs_summary(cli_session *s, int status) {
 
 /* ---- a command ---- */
 
-/* The window, and what begin looks at. */
+/* Runs `begin`, and reads the window. */
 static int work_begin(cli_session *s) {
   int status = s->work->begin ? s->work->begin(s) : 0;
   if (!status && s->o.window) {

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* ---- what kind of file it is ---- */
+/* ---- the kind of a file ---- */
 
 /* By the first bytes; texts after blanks. Neither begins a point. */
 static const struct {
@@ -23,7 +23,7 @@ static const struct {
                    {"{", 1, "GeoJSON"},
                    {"<", 1, "GPX, KML or GML"}};
 
-/* Formats whose files tell nothing by their first bytes, and names of databases and services. */
+/* Formats that the first bytes of a file do not show, and names of databases and services. */
 static const struct {
   const char *end, *begin, *kind;
 } names[] = {{".gdb", NULL, "GDB"},        {".tab", NULL, "MapInfo"},     {".mif", NULL, "MapInfo"},

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* dyadel tolerance FILE: how far the points may move; dyadel plan FILE: what to measure next. */
+/* dyadel tolerance FILE: how far the points may move; dyadel plan FILE: the points to measure next. */
 #include "cli.h"
 
 #include <stdlib.h>
@@ -244,8 +244,8 @@ static int compare_pairs(const void *a, const void *b) {
   return p->i != q->i ? (p->i > q->i) - (p->i < q->i) : (p->j > q->j) - (p->j < q->j);
 }
 
-/* The pairs asked for become those that stay open for the discs: a plan that decides them for the squares of the discs
- * is enough. */
+/* Restricts the requested pairs to the pairs that are undecided for the discs: a plan that decides them for the squares
+ * of the discs is enough. */
 static dyd_status plan_take_discs(plan_run *r, const cli_session *s, dyd_error *err) {
   dyd_pair_list all = {0}, *asked = s->o.pairs ? &r->pairs : &all;
   size_t kept = 0;

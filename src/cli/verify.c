@@ -78,7 +78,7 @@ static void proved_become(int out, int still, const char *path, const char *file
   _exit(CANNOT_RUN);
 }
 
-/* Runs the program to its end; its exit status, which means what ours does. */
+/* Runs the program to its end and returns its exit status, which has the same meaning as ours. */
 static int proved_run(int out, int still, const char *file) {
   char folder[4096], path[sizeof folder + 64];
   int how = 0;
@@ -102,7 +102,7 @@ static int verify_proved(const cli_options *o, FILE *still, const char *more) {
   cli_output out;
   cli_deadline_phase("checking the certificate");
   if (!cli_output_open(&out, o->output)) return CLI_FAILED;
-  if (still) rewind(still); /* what the child reads from */
+  if (still) rewind(still); /* input of the child */
   int status = proved_run(fileno(out.stream), still ? fileno(still) : -1, o->file);
   if (status == CLI_OK || status == CLI_FIXPOINT) {
     fputs(more, out.stream);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Builds wheels by meson-python, which wants pyproject.toml beside the topmost meson.build: in a folder of links."""
+"""Builds wheels by meson-python, which expects pyproject.toml next to the top meson.build: in a folder of links."""
 import contextlib
 import os
 import pathlib

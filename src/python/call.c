@@ -90,7 +90,7 @@ static void on_interrupt(int number, siginfo_t *info, void *context) {
     python_action.sa_handler(number);
 }
 
-/* Does a function of Python's handle the signal? Then it is replaced. */
+/* Replaces the handler of the signal if it is a function of Python; returns true then. */
 static bool install_handler(void) {
   struct sigaction ours = {.sa_sigaction = on_interrupt, .sa_flags = SA_SIGINFO};
   sigemptyset(&ours.sa_mask);
@@ -186,7 +186,7 @@ bool dydpy_site(uint32_t *out, dydpy_engine *self, Py_ssize_t number) {
   return there;
 }
 
-/* Enters; false with RuntimeError when another call is at work, or there is no result. */
+/* Enters the engine. Returns false with RuntimeError if another call is at work, or the engine has no result. */
 static bool call_enter(dydpy_call *c) {
   dydpy_engine *self = c->self;
   const bool wants = c->how & DYDPY_RESULT;

@@ -17,8 +17,8 @@
 
 /* A reference to package.name, NULL with an exception set. */
 PyObject *dydpy_import(const char *package, const char *name);
-/* Raises what a call of the library failed with: the exception of a callback if there is one, else dyadel.Error with
- * all that err tells, or MemoryError. Returns NULL. */
+/* Raises the error of a failed library call: the exception of a callback if there is one, else dyadel.Error with
+ * the contents of err, or MemoryError. Returns NULL. */
 PyObject *dydpy_raise(const dyd_error *err, dyd_status status);
 /* {"NAME": value} of numbers; steals the values. NULL with an exception set. */
 typedef struct dydpy_entry {
@@ -32,7 +32,7 @@ PyObject *dydpy_dict(const dydpy_entry *entry, size_t count);
 /* Takes over `bytes`, released by free(), also on failure. */
 PyObject *dydpy_buffer_new(void *bytes, size_t size);
 
-/* ---- Ctrl-C ends what the library does in the main thread ---- */
+/* ---- Ctrl-C ends library calls in the main thread ---- */
 
 /* Between begin and end SIGINT raises *flag and cancels engine (either may be NULL), then has its former effect. Does
  * nothing in other threads, and where Python does not handle the signal. They nest. */
@@ -94,10 +94,10 @@ typedef struct dydpy_engine {
 PyTypeObject *dydpy_engine_type(void);
 
 /* A call of the library: begin enters the engine, or raises RuntimeError when another call is at work, and releases the
- * GIL; end takes it again and raises what failed. */
+ * GIL; end takes it again and raises the error. */
 typedef struct dydpy_call {
   dydpy_engine *self;     /* NULL: none */
-  const dyd_delaunay *pd; /* its result; NULL: none was asked for */
+  const dyd_delaunay *pd; /* its result; NULL: none was requested */
   volatile int cancel;    /* Ctrl-C raises it, with DYDPY_CANCELS */
   dyd_error err;
   dydpy_guard guard;

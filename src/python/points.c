@@ -257,7 +257,7 @@ static int numbers_of(mpq_t end[4], PyObject *answer) {
   return found;
 }
 
-/* Is there a fifth element that is true? -1 with an exception set. */
+/* Returns 1 if there is a fifth element that is true, 0 if not, -1 with an exception set. */
 static int answer_is_fixed(PyObject *answer) {
   PyObject *fixed = PySequence_GetItem(answer, 4);
   int truth = fixed ? PyObject_IsTrue(fixed) : -1;
@@ -387,7 +387,7 @@ bool dydpy_source_new(dyd_source *out, PyObject *narrow) {
 
 /* ---- points into an engine ---- */
 
-/* Does the view hold doubles, `axes` columns of `rows` (or one row for all)? Fills in the columns. */
+/* Returns true if the view holds doubles, `axes` columns of `rows` (or one row for all). Fills in the columns. */
 static bool columns_of(dyd_column out[2], const Py_buffer *view, Py_ssize_t rows) {
   bool doubles = view->itemsize == sizeof(double) && view->format && strcmp(view->format, "d") == 0;
   if (!doubles || view->ndim != 2 || view->shape[1] != 2 || (view->shape[0] != rows && rows >= 0)) {
@@ -602,7 +602,7 @@ PyObject *dydpy_carried(PyObject *self, PyObject *none) {
   return all;
 }
 
-/* Sets the field to what dict holds under its name, borrowed; *given counts such fields. -1 with an exception set. */
+/* Sets the field to the value in dict under its name, borrowed; *given counts such fields. -1 with an exception set. */
 static int read_option_set(dyd_read_options *o, Py_ssize_t *given, const dyd_read_field *field, PyObject *dict) {
   PyObject *value = PyDict_GetItemString(dict, field->name);
   char *at = (char *)o + field->offset;
@@ -619,7 +619,7 @@ static int read_option_set(dyd_read_options *o, Py_ssize_t *given, const dyd_rea
   return text ? 0 : -1;
 }
 
-/* append_text(text, options): what a points file holds; options has fields of dyd_read_options by name */
+/* append_text(text, options): the contents of a points file; options has fields of dyd_read_options by name */
 PyObject *dydpy_append_text(PyObject *self, PyObject *args) {
   dyd_read_options o = {DYD_SIZED(dyd_read_options)};
   const dyd_read_field *field;
@@ -638,7 +638,7 @@ PyObject *dydpy_append_text(PyObject *self, PyObject *args) {
   return dydpy_end_none(&c, dyd_engine_add_text(c.self->engine, text, (size_t)length, &o, &c.err));
 }
 
-/* confidence(text, n): states it of n points that come next; confidence(None, 0): what was stated, or None */
+/* confidence(text, n): states it of the next n points; confidence(None, 0): the stated one, or None */
 PyObject *dydpy_confidence(PyObject *self, PyObject *args) {
   dyd_confidence stated = {DYD_SIZED(dyd_confidence)};
   const char *text;

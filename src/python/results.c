@@ -246,7 +246,7 @@ static PyObject *cells_found(dyd_cells *c, const dyd_voronoi_bounds *b, const dy
                        dydpy_dyadic(&b->area), dydpy_dyadic(b->finite ? &b->hausdorff : NULL), dydpy_rect_ends(window));
 }
 
-/* Sets o->pairs to the statuses of discs in `list`, which is empty, if they are asked for. */
+/* Sets o->pairs to the statuses of discs in `list`, which is empty, if `discs` is set. */
 static dyd_status take_discs(dyd_write_options *o, dyd_pair_list *list, dydpy_call *c, int discs) {
   if (!discs) return DYD_OK;
   o->pairs = list;
@@ -459,7 +459,7 @@ PyObject *dydpy_graph(PyObject *self, PyObject *args) {
 
 /* ---- tolerance ---- */
 
-/* None where they were not asked for. */
+/* Returns None if they were not requested. */
 static PyObject *doubles_or_none(const double *value, size_t count) {
   return value ? copied(value, count * sizeof *value) : Py_NewRef(Py_None);
 }

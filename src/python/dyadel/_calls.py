@@ -47,7 +47,7 @@ def delaunay(points: Any, radius: Any = None, *, sphere: bool | None = None, rad
     order    of boxes: 'xxyy' as above, or 'xyxy': minx, miny, maxx, maxy, as gdf.bounds has them
     skip_missing  skip masked rows and rows with nan, None or a text such as NA; otherwise they are an error. Points are
              numbered without them: d.rows[k] is the row of point k
-    ids      a name for each row, or the name of a column: `ids` of the result, and columns of what it writes
+    ids      a name for each row, or the name of a column: `ids` of the result, and columns of its output
     carry    columns to repeat in tables of points and cells: 'all' or names of columns of the DataFrame, or a DataFrame or a dict
              of arrays; d.carried has them
     crs      reference system of the points; by default that of a GeoDataFrame. Degrees need sphere=True or sphere=False

@@ -37,7 +37,7 @@ class Given:
     sigma: Floats | None = None
     confidence: str | None = None
     uncertain: int = 0
-    carry: dict[str, NDArray[Any]] = dataclasses.field(default_factory=dict)  # columns beside the points
+    carry: dict[str, NDArray[Any]] = dataclasses.field(default_factory=dict)  # columns next to the points
     before: int = 0  # rows of the points before
     added: int = 0  # points
 
@@ -149,7 +149,7 @@ def take(points: Any, radius: Any = None, *, order: str | None = None, skip_miss
 
 
 def _carried(points: Any, carry: Any) -> dict[str, NDArray[Any]]:
-    """Columns of the points ('all', a name, or names), or given by themselves: a DataFrame, or a dict of arrays."""
+    """Columns of the points ('all', a name, or names), or given separately: a DataFrame, or a dict of arrays."""
     if carry is None:
         return {}
     own = [name for name in getattr(points, 'columns', ()) if name != 'geometry']

@@ -27,7 +27,7 @@ def format_of(format: str) -> str:
 
 
 class Saved:
-    """What can be written in formats of the command, or as tables of geopandas."""
+    """A result that can be written in formats of the command, or as a table of geopandas."""
 
     def save(self, path: Path, layer: str | None = None, **options: Any) -> None:
         """Writes a file in the format of its ending, whole or not at all: those of dyadel.formats(), also with .gz behind;

@@ -160,8 +160,8 @@ class Statuses(Saved):
         return self._engine.counters()
 
     def write(self, format: str = 'csv', layer: str | None = None, window: Any = None, epsg: int | None = None) -> str | bytes:
-        """Returns the result as a text in a format of the command ('csv', 'json', 'geojson', 'svg', 'html', ...), bytes of those
-        that are no text; save() writes a file.
+        """Returns the result as a text in a format of the command ('csv', 'json', 'geojson', 'svg', 'html', ...), bytes of binary
+        formats; save() writes a file.
 
         layer: as `dyadel delaunay --layer`: 'pairs', 'points', 'triangles', of the plane also 'graph:nearest',
         'graph:gabriel', 'graph:mst'; window: what pictures of the plane show, (xlo, xhi, ylo, yhi); epsg: number of the
@@ -169,12 +169,12 @@ class Statuses(Saved):
         """
         return _geometry.text_of(format, self._engine.write(format_of(format), layer, window, epsg_of(self.crs) if epsg is None else epsg))
 
-    _log: list[Given]  # what was given; without points where boxes of doubles hold them
+    _log: list[Given]  # the inputs; without points where boxes of doubles hold them
 
     @property
     def carried(self) -> dict[str, Any]:
-        """Columns beside the points: those that `Text(carry=...)` named, for each name the text in the row of each point; and
-        those given as `carry`, arrays with a value for each point (None for points that came without)."""
+        """Columns next to the points: the columns named by `Text(carry=...)`, with the text in the row of each point; and
+        the columns given as `carry`, arrays with a value for each point (None for points that came without)."""
         return {**self._named.carried(), **self._arrays()}
 
     def _arrays(self) -> dict[str, Any]:

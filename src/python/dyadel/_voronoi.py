@@ -211,7 +211,7 @@ class Voronoi(Saved):
         return self._frame[2]
 
     def write(self, format: str = 'csv', layer: str | None = None, epsg: int = 0) -> str | bytes:
-        """Returns the diagram, as the triangulation is now, as a text in a format of the command (bytes of those that are no text);
+        """Returns the diagram, as the triangulation is now, as a text in a format of the command (bytes of binary formats);
         save() writes a file."""
         return _geometry.text_of(format, self._of._engine.write_voronoi(format_of(format), layer, self._window, self._flatten, epsg,
                                                                                self._discs))
