@@ -347,7 +347,7 @@ dyd_status dyd_sites_set_kind(dyd_sites *s, size_t i, size_t n, dyd_site_kind ki
     memset(s->kind + s->kind_count, DYD_SITE_ANY, i + n - s->kind_count);
     s->kind_count = i + n;
   }
-  memset(s->kind + i, (int)kind, n);
+  if (n) memset(s->kind + i, (int)kind, n);
   return DYD_OK;
 }
 

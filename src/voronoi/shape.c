@@ -514,12 +514,7 @@ static dyd_status point_cell_area(mpq_t out, bool *exact, dyd_shape *s, const dy
 
 dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect) {
   const dyd_interval *side[2] = {&rect->x, &rect->y};
-  w->rect = rect;
-  w->cancel = NULL;
-  w->room = NULL;
-  w->exact = w->discs = false;
-  w->most = 0;
-  w->fan_bits = INT64_MAX;
+  *w = (dyd_window){.rect = rect, .fan_bits = INT64_MAX};
   for (int a = 0; a < 2; a++) {
     if (mpz_cmp_ui(side[a]->den, 1) != 0 || dyd_dyadic_cmp(&side[a]->lo, &side[a]->hi) >= 0) return DYD_E_ARG;
     w->d[2 * a] = dyd_dyadic_get_d(&side[a]->lo, DYD_UP);

@@ -18,7 +18,7 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 GLOBE, DISCS, PLANE = 'geometry=sphere', 'geometry=discs', 'geometry=plane'
 FAULTS = [  # where it shows, file, what stands there, what is put there
-    (GLOBE, 'sphere/places.c', '|| mpq_sgn(s->degrees) ||', '||'),  # degrees ignored
+    (GLOBE, 'sphere/places.c', 'is_point(sites, i) || mpq_sgn(s->degrees) ||', 'is_point(sites, i) ||'),  # degrees ignored
     (GLOBE, 'sphere/places.c', 'mpq_add(out, out, s->angle);', 'if (!mpq_sgn(out)) mpq_add(out, out, s->angle), mpq_div_2exp(out, out, 1);'),
     (GLOBE, 'sphere/places.c', 'if (mpq_cmp_si(x, 180, 1) < 0 &&', 'if (mpq_cmp_si(x, 400, 1) < 0 &&'),
     (GLOBE, 'sphere/units.c', '{"arcmin", "arcminute", NULL, false, 1, 60}', '{"arcmin", "arcminute", NULL, false, 1, 3600}'),

@@ -313,7 +313,7 @@ def ask(case, product):
     if case.form in ('python', 'capi'):
         q = {'points': [s.text for s in case.sites], 'radius': case.radius, 'geometry': case.geometry,
              'stated': case.stated, 'boxes': [[str(c) for c in s.region[1:]] for s in case.sites],
-             'callback': case.kind == 'callback', 'window': [str(c) for c in case.window]}
+             'callback': case.kind == 'callback', 'window': [str(c) for c in getattr(case, 'window', ())]}
         if case.form == 'capi':
             q = laws.capi_question(case)
         a = product.serve(case.form, q if isinstance(q, str) else json.dumps(q))
