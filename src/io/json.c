@@ -346,7 +346,7 @@ static dyd_status find_point_text(const char **out, dyd_point_texts *t, const dy
   if (!memory) return DYD_E_NOMEM;
   dyd_status st = surd_point_json(memory, p);
   bool good = !ferror(memory);
-  if (fclose(memory) != 0 || !good) st = DYD_E_NOMEM;
+  if (fclose(memory) != 0 || !good || !text) st = DYD_E_NOMEM;
   if (st != DYD_OK) {
     free(text);
     return st;

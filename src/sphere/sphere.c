@@ -338,7 +338,10 @@ static dyd_status sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engi
   if (st == DYD_OK) *outcome = dyd_sphere_outcome(s);
   if (st == DYD_OK && *outcome == DYD_OUTCOME_FIXPOINT && (s->eye.spot.stays || s->free)) {
     st = second_run(s, s, &o, begun, err);
-    if (st == DYD_OK && s->free && s->second) st = gap_look(s);
+    if (st == DYD_OK && s->free && s->second) {
+      st = gap_look(s);
+      if (st < 0) st = dyd_fail(err, st, "%s", dyd_status_text(st));
+    }
     if (st == DYD_OK) *outcome = dyd_sphere_outcome(s);
   }
   if (table && st == DYD_OK) table->outcome = *outcome;

@@ -169,7 +169,7 @@ static dyd_status area_load(char **text, size_t *count, FILE *in, dyd_error *err
   if (!all) return dyd_fail_nomem(err);
   while ((got = fread(part, 1, sizeof part, in))) fwrite(part, 1, got, all);
   bool lost = ferror(all);
-  if (fclose(all) != 0 || lost) return dyd_fail_nomem(err);
+  if (fclose(all) != 0 || lost || !*text) return dyd_fail_nomem(err);
   return ferror(in) ? dyd_fail(err, DYD_E_IO, "the file cannot be read to its end") : DYD_OK;
 }
 

@@ -83,7 +83,7 @@ static dyd_status html_write(const dyd_output *o, html_data_fn data) {
   FILE *to = open_memstream(&text, &size);
   if (!to) return DYD_E_NOMEM;
   dyd_status st = data(to, o);
-  if (fclose(to) != 0 && st == DYD_OK) st = DYD_E_NOMEM;
+  if ((fclose(to) != 0 || !text) && st == DYD_OK) st = DYD_E_NOMEM;
   if (st == DYD_OK) {
     fwrite(dyd_html_before, 1, dyd_html_before_size, o->out);
     st = put_packed(o->out, text, size);
