@@ -80,8 +80,9 @@ const char *cli_spatial_driver(bool *layers, const char *ending) {
 
 /* What there is to do without GDAL. Of files with a kind, reading says that. */
 static int complain_without(const cli_options *o) {
-  const char *file = o->file ? o->file : o->points, *missing = "this program was built without GDAL, and there is no "
-                                                               "dyadel-gdal (install it, or libgdal-dev to build it)";
+  const char *file = o->file ? o->file : o->points,
+             *missing = "this program was built without GDAL, and there is no "
+                        "dyadel-gdal (install it, or build it: libgdal-dev, ninja -C build)";
   if (o->driver)
     return cli_usage("-o %s: %s; write geojson and convert it: dyadel %s ... -o out.geojson && ogr2ogr %s out.geojson",
                      o->output, missing, o->command, o->output);

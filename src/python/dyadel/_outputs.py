@@ -32,8 +32,8 @@ class Saved:
     def save(self, path: Path, layer: str | None = None, **options: Any) -> None:
         """Writes a file in the format of its ending, whole or not at all: those of dyadel.formats(), also with .gz behind;
         with geopandas .gpkg, .shp, .fgb and .parquet. layer, options: as for write() and to_geodataframe().
-        The reference system is stated by delaunay(points, crs=25832), or here: epsg=25832 for formats of the command (diagrams need
-        it there), crs=25832 for those of geopandas.
+        The reference system is stated by delaunay(points, crs=25832), or here: epsg=25832 for formats of the command, crs=25832
+        for those of geopandas.
 
             d.save('edges.csv'); d.save('picture.svg'); d.save('sites.gpkg', layer='points')
         """

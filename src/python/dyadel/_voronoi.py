@@ -12,6 +12,7 @@ import numpy as np
 
 from . import _dyadel, _geometry
 from ._arrays import Floats, Ints, Longs, Rect, floats, ints, longs, records, rect_of
+from ._inputs import epsg_of
 from ._geometry import OPEN, Edges, Enclosures, Rings
 from ._outputs import COLOURS, Saved, format_of, plot_polygons
 
@@ -210,10 +211,11 @@ class Voronoi(Saved):
         """Certain edges, between `vertices`."""
         return self._frame[2]
 
-    def write(self, format: str = 'csv', layer: str | None = None, epsg: int = 0) -> str | bytes:
+    def write(self, format: str = 'csv', layer: str | None = None, epsg: int | None = None) -> str | bytes:
         """Returns the diagram, as the triangulation is now, as a text in a format of the command (bytes of binary formats);
-        save() writes a file."""
-        return _geometry.text_of(format, self._of._engine.write_voronoi(format_of(format), layer, self._window, self._flatten, epsg,
+        save() writes a file. epsg: number of the reference system; None: that of the points, if it has one."""
+        number = epsg_of(self._of.crs) if epsg is None else epsg
+        return _geometry.text_of(format, self._of._engine.write_voronoi(format_of(format), layer, self._window, self._flatten, number,
                                                                                self._discs))
 
     def certificate(self) -> bytes:
