@@ -186,11 +186,11 @@ def test_bounds_that_are_cut():
         row = next(iter(rows_of(result)), None)
         return -1 if not row or not row['area'] else 1 if row['v_area'] else 0
 
-    result = cut_between(lambda seconds: timed(seconds, 'converge', '-', stdin=TRACKS), place, 1)
+    result = cut_between(lambda seconds: timed(seconds, 'converge', '-', '--of', 'voronoi', stdin=TRACKS), place, 1)
     expect(result, 4, '^stage,', r'^dyadel: budget: time limit reached: no bounds of stage 1 \(raise --timeout\)')
     row = rows_of(result)[0]
     assert row['legal'] and row['area'] and not row['v_area'] and not row['v_hausdorff'], row
-    expect(run('converge', '-', stdin=TRACKS), 3, '^stage,')
+    expect(run('converge', '-', '--of', 'voronoi', stdin=TRACKS), 3, '^stage,')
 
 
 # A circle of 57 corners of polygons, of an order too large to compute; a power of nine roots, once multiplied out.
