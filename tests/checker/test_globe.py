@@ -248,7 +248,9 @@ def check_random(folder, r, k, met):
         return
     about = (SEED, k, places, options)
     rows = [l.split(',') for l in done.stdout.splitlines() if l[0] not in '#i']
-    assert statuses(lines) == {(int(i), int(j)): s for i, j, s in rows}, about
+    stated, shown = statuses(lines), {(int(i), int(j)): s for i, j, s in rows}
+    for p in stated.keys() | shown.keys():  # what only a second gap shows is open in the certificate
+        assert stated.get(p, 'illegal') in (shown.get(p, 'illegal'), 'indeterminate'), (about, p)
     plain = verified(folder, lines)
     assert plain.returncode in (0, 3), (about, plain)
     bound = verified(folder, lines, '--sphere', '--points', given[-1], *given[:-1], *options)
