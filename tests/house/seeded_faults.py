@@ -77,7 +77,7 @@ FAULTS = [
     ('src/python/dyadel/_points.py', '    rows = list(points)\n', '    from . import _voronoi, _calls\n    rows = list(points)\n',
      'map', 'circle of modules: python/dyadel/_calls'),
     ('src/skeleton/line.c', 'static int line_compare(', 'static int tied_compare(', 'sources', 'the name of one in'),
-    ('src/packaging/LICENCES.md', '| `jansson` |', '| json |', 'sources', 'jansson has no licence'),
+    ('src/packaging/LICENCES.md', '| `gdal` |', '| files |', 'sources', 'gdal has no licence'),
     ('src/skeleton/line.c', '#include "rect/irect.h"', '#include "engine/plan.h"', 'sources', 'must not include'),
 ]
 # file, text, its replacement (all occurrences), what renew_quotes.py says
