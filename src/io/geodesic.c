@@ -462,7 +462,7 @@ static size_t cell_walk(dyd_sphere_cells *c, size_t n, corner_view *view, size_t
 
 static void cells_walk(dyd_sphere_cells *c, corner_view *view, size_t count) {
   size_t n = 0, k = 0;
-  qsort(view, count, sizeof *view, compare_views);
+  if (count) qsort(view, count, sizeof *view, compare_views);
   for (size_t i = 0; i < c->places; i++) {
     size_t begin = k;
     c->first[i] = n;
