@@ -79,13 +79,12 @@ static void obj_name(FILE *out, const dyd_result *r, uint32_t i) {
 static void obj_write(FILE *out, const mesh *m) {
   size_t count[4];
   dyd_result_count(count, m->r);
-  fprintf(
-      out,
-      "# dyadel %s, outcome %s\n# a coordinate differs from every %s of its rectangle by at most %s\n# not shown: %zu "
-      "indeterminate pairs, %zu ties\n",
-      dyd_version(), dyd_outcome_text(dyd_result_outcome(m->r)),
-      m->r->sphere ? "place on the sphere of radius 1 that" : "point of the rectangle", m->bound,
-      count[DYD_INDETERMINATE], count[DYD_TIE]);
+  fprintf(out,
+          "# dyadel %s, outcome %s\n# a coordinate differs from every %s by at most %s\n# not shown: %zu "
+          "indeterminate pairs, %zu ties\n",
+          dyd_version(), dyd_outcome_text(dyd_result_outcome(m->r)),
+          m->r->sphere ? "place of its region on the sphere of radius 1" : "point of its rectangle", m->bound,
+          count[DYD_INDETERMINATE], count[DYD_TIE]);
   for (uint32_t i = 0; i < m->r->count; i++) {
     obj_name(out, m->r, i);
     mesh_put(m, out, i, "v ");
