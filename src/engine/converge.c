@@ -217,25 +217,18 @@ static dyd_status measure_voronoi(dyd_stage_row *row, const dyd_convergence *out
   return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
-/* Pairs that are not those of the result. */
-static dyd_status row_count_others(dyd_stage_row *row, const dyd_converge_options *o) {
-  dyd_pair_list pairs = {0};
-  dyd_status st = o->pairs(&pairs, o->pairs_user);
-  for (size_t k = 0; k < pairs.count; k++) row->count[pairs.item[k].status]++;
-  row->digest = dyd_digest_list(&pairs);
-  dyd_pair_list_clear(&pairs);
-  return st;
-}
-
-/* discs: their statuses; NULL: those of rectangles. */
+/* discs: their statuses; NULL: those of rectangles, or those of o->pairs. */
 static dyd_status row_measure(dyd_stage_row *row, const dyd_delaunay *pd, const dyd_pair_list *discs,
                               const dyd_converge_options *o) {
-  if (!o->pairs) dyd_pairs_count(row->count, discs, pd);
+  dyd_pair_list others = {0};
+  const dyd_pair_list *instead = o->pairs ? &others : discs;
+  dyd_status st = o->pairs ? o->pairs(&others, o->pairs_user) : DYD_OK;
+  dyd_pairs_count(row->count, instead, pd);
   row->undecided_faces = dyd_delaunay_undecided_faces(pd);
-  dyd_status st = dyd_delaunay_get_counters(&row->rungs, pd, NULL);
-  if (st == DYD_OK && discs) row->digest = dyd_digest_list(discs);
-  if (st == DYD_OK && o->pairs) st = row_count_others(row, o);
-  if (st == DYD_OK && !o->pairs && !discs) st = dyd_digest_pairs(&row->digest, pd);
+  if (instead) row->digest = dyd_digest_list(instead);
+  if (st == DYD_OK && !instead) st = dyd_digest_pairs(&row->digest, pd);
+  dyd_pair_list_clear(&others);
+  if (st == DYD_OK) st = dyd_delaunay_get_counters(&row->rungs, pd, NULL);
   if (st == DYD_OK) st = measure_widths(row, dyd_delaunay_sites(pd), dyd_sites_count(dyd_delaunay_sites(pd)));
   if (st == DYD_OK && !o->pairs) st = measure_bounds(row, pd, discs, o->cancel);
   return st;
