@@ -97,11 +97,15 @@ static tree_walk tree_walk_begin(const edge_tree *t, const double box[4]) {
   return (tree_walk){.tree = t, .box = {box[0], box[1], box[2], box[3]}, .stack = {1}, .depth = 1};
 }
 
+static void area_edge_box(double box[4], const area_edge *e) {
+  memcpy(box, no_box, sizeof no_box);
+  box_take(box, e->p);
+  box_take(box, e->q);
+}
+
 static bool edge_meets_box(const area_edge *e, const double box[4]) {
   double own[4];
-  memcpy(own, no_box, sizeof own);
-  box_take(own, e->p);
-  box_take(own, e->q);
+  area_edge_box(own, e);
   return area_boxes_meet(own, box);
 }
 
@@ -270,9 +274,7 @@ static void find_bad_edges(size_t bad[2], const edge_tree *t) {
   for (size_t k = 0; k < t->count && bad[0] == t->count; k++) {
     const area_edge *e = &t->edge[k], *f;
     double box[4];
-    memcpy(box, no_box, sizeof box);
-    box_take(box, e->p);
-    box_take(box, e->q);
+    area_edge_box(box, e);
     q_place_set(&p[0], e->p);
     q_place_set(&p[1], e->q);
     tree_walk w = tree_walk_begin(t, box);
@@ -441,9 +443,7 @@ static bool clip_edge(clip_work *w, const area_edge *e, bool tile, const edge_tr
   q_place p[5];
   double box[4];
   const area_edge *f;
-  memcpy(box, no_box, sizeof box);
-  box_take(box, e->p);
-  box_take(box, e->q);
+  area_edge_box(box, e);
   for (int k = 0; k < 5; k++) q_place_init(&p[k]);
   q_place_set(&p[0], e->p);
   q_place_set(&p[1], e->q);
