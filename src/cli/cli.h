@@ -288,6 +288,8 @@ FILE *cli_comments(FILE *out, const cli_session *s);
 const char *cli_points_name(const cli_options *o);
 /* The summary of a triangulation: undecided pairs and the reason, notes on radii and equal points, --stats. */
 int cli_pairs_summary(cli_session *s, int status);
+/* False after a message: there are fewer points than needed. */
+bool cli_has_points(const cli_session *s, size_t least);
 /* Reports why a disc or bisector is not better known. Returns the exit status. */
 int cli_pieces_outcome(const cli_session *s);
 /* The same of a sphere. */

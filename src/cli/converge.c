@@ -78,10 +78,7 @@ static dyd_status converge_run_engine(cli_session *s, const dyd_engine_options *
 }
 
 static int piece_points(const cli_session *s) {
-  const size_t least = s->o.of == DYD_CONVERGE_DISC ? 3 : 2, count = dyd_engine_count(s->engine);
-  if (!is_piece(s) || count >= least) return 0;
-  return cli_fail("%s: %zu points are needed, here are %zu; give more", s->o.file ? s->o.file : "the oracle", least,
-                  count);
+  return !is_piece(s) || cli_has_points(s, s->o.of == DYD_CONVERGE_DISC ? 3 : 2) ? 0 : CLI_FAILED;
 }
 
 static dyd_status write_plot(FILE *out, const cli_session *s, dyd_error *err) {

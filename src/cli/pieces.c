@@ -74,13 +74,18 @@ static bool pieces_reserve(cli_pieces *p, size_t count) {
   return true;
 }
 
+bool cli_has_points(const cli_session *s, size_t least) {
+  size_t count = dyd_engine_count(s->engine);
+  if (count >= least) return true;
+  cli_fail("%s: %zu points are needed, here are %zu; give more", s->o.file ? s->o.file : "the oracle", least, count);
+  return false;
+}
+
 /* Of the first `least` points, and of others up to `most`. */
 static int pieces_find(cli_session *s, size_t least, size_t most) {
   cli_pieces *p = s->state;
   size_t count = dyd_engine_count(s->engine);
-  if (count < least)
-    return cli_fail("%s: %zu points are needed, here are %zu; give more", s->o.file ? s->o.file : "the oracle", least,
-                    count);
+  if (!cli_has_points(s, least)) return CLI_FAILED;
   p->first = least;
   p->bits = FIRST_BITS;
   if (!pieces_reserve(p, count < most ? count : most)) return cli_complain_memory();
