@@ -389,8 +389,7 @@ dyd_status dyd_sphere_nearest(dyd_index_list *out, bool *sure, bool *tied, dyd_o
 
 /* ---- bounds ---- */
 
-/* Radians as metres. */
-static void way_metres(arb_t x, const dyd_sphere *s, slong prec) {
+void dyd_sphere_metres(arb_t x, const dyd_sphere *s, slong prec) {
   arb_t metre;
   arb_init(metre);
   dyd_ball_set_q(metre, s->metre, prec);
@@ -406,8 +405,8 @@ static void distance_set(double *lo, double *hi, const dyd_sphere *s, const dyd_
   way_widen(&d.largest, &d, spot->angle, 1);
   arb_const_pi(&d.t, FIRST_PREC);
   arb_min(&d.largest, &d.largest, &d.t, FIRST_PREC);
-  way_metres(&d.least, s, FIRST_PREC);
-  way_metres(&d.largest, s, FIRST_PREC);
+  dyd_sphere_metres(&d.least, s, FIRST_PREC);
+  dyd_sphere_metres(&d.largest, s, FIRST_PREC);
   *lo = fmax(0, dyd_ball_ends(&d.least).lo);
   *hi = dyd_ball_ends(&d.largest).hi;
   way_clear(&d);

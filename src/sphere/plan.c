@@ -40,6 +40,7 @@ typedef struct sphere_plan {
   dyd_survey *found;
   dyd_survey_row *row;
   size_t rows;
+  uint32_t *row_of; /* of each place; DYD_NONE */
   dyd_error *err;
 } sphere_plan;
 
@@ -123,8 +124,7 @@ static double square_metres(const plan_place *v, const dyd_sphere *s, double hal
   arb_atan2(x, t, x, PREC);
   arb_mul_2exp_si(x, x, 1);
   arb_sub(x, &v->angle, x, PREC);
-  dyd_ball_set_q(t, s->metre, PREC);
-  arb_div(x, x, t, PREC);
+  dyd_sphere_metres(x, s, PREC);
   double metres = dyd_ball_ends(x).lo;
   _arb_vec_clear(x, 2);
   return metres;
@@ -207,33 +207,27 @@ static dyd_status square_make(double *accuracy, sphere_plan *p, dyd_sites *sites
 
 /* ---- one eye ---- */
 
-static uint32_t row_of_place(const sphere_plan *p, uint32_t place) {
-  uint32_t k = 0;
-  while (k < p->rows && p->row[k].site != place) k++;
-  return k;
-}
-
 /* The rows of a plan of images, as places and metres; where a place has a row, the finer one counts. */
 static dyd_status rows_take(sphere_plan *p, const dyd_survey *survey) {
   const dyd_survey_row *row;
   size_t rows = dyd_survey_rows(&row, survey);
   for (size_t k = 0; k < rows; k++) {
     const plan_place *v = &p->view[row[k].site];
-    dyd_survey_row *to = &p->row[row_of_place(p, v->place)];
+    uint32_t *of = &p->row_of[v->place];
+    bool first = *of == DYD_NONE;
+    if (first) *of = (uint32_t)p->rows;
+    dyd_survey_row *to = &p->row[*of];
     double metres = fmax(0, square_metres(v, p->s, row[k].needed));
-    if (to == &p->row[p->rows]) {
+    if (first) {
       dyd_spot spot;
-      arb_t x, metre;
+      arb_t x;
       *to = (dyd_survey_row){.site = v->place, .needed = metres};
       dyd_spot_init(&spot);
       arb_init(x);
-      arb_init(metre);
       dyd_status st = dyd_sphere_spot(&spot, p->s, v->place, p->err);
       if (st == DYD_OK) dyd_spot_reach(x, &spot, PREC);
-      dyd_ball_set_q(metre, p->s->metre, PREC);
-      arb_div(x, x, metre, PREC);
+      dyd_sphere_metres(x, p->s, PREC);
       to->now = dyd_ball_ends(x).hi;
-      arb_clear(metre);
       arb_clear(x);
       dyd_spot_clear(&spot);
       p->rows++;
@@ -353,8 +347,10 @@ static dyd_status plan_make(sphere_plan *p) {
   p->within = dyd_alloc(p->s->count, sizeof *p->within);
   p->image = dyd_alloc(p->s->count, sizeof *p->image);
   p->view = dyd_alloc(p->s->count, sizeof *p->view);
-  p->row = dyd_alloc(p->s->count + 1, sizeof *p->row);
-  if (!p->within || !p->image || !p->view || !p->row) return DYD_E_NOMEM;
+  p->row = dyd_alloc(p->s->count, sizeof *p->row);
+  p->row_of = dyd_alloc(p->s->count, sizeof *p->row_of);
+  if (!p->within || !p->image || !p->view || !p->row || !p->row_of) return DYD_E_NOMEM;
+  for (size_t i = 0; i < p->s->count; i++) p->row_of[i] = DYD_NONE;
   dyd_status st = nominal_make(p);
   if (st == DYD_OK && p->target.count) st = plan_eyes(p);
   bool cut = st == DYD_CANCELLED;
@@ -398,6 +394,7 @@ dyd_status dyd_sphere_survey(dyd_survey **out, dyd_sphere *s, const char *accura
     dyd_survey_free(p.found);
   dyd_sphere_free(p.nominal);
   dyd_pair_list_clear(&p.target);
+  free(p.row_of);
   free(p.taken);
   free(p.view);
   free(p.image);

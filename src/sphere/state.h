@@ -175,6 +175,9 @@ dyd_status dyd_spots_equidistant(bool *proved, const dyd_spot *at, const dyd_spo
 /* nearest.c: sets out to the largest angle between the middle of the spot and a place of it, in radians. */
 void dyd_spot_reach(arb_t out, const dyd_spot *spot, slong prec);
 
+/* nearest.c: makes metres of the radians x. */
+void dyd_sphere_metres(arb_t x, const dyd_sphere *s, slong prec);
+
 /* ---- nearest_filter.c ---- */
 
 /* Sets out to places, no aliases, ascending, among them all that are possibly nearest to some point of `at` [SPH-6]. */
