@@ -33,8 +33,8 @@ static double goal_most(const dyd_engine_options *o) {
 }
 
 /* Makes *sums with polygons within 2^-bits. Stopped when e->stop is raised: DYD_CANCELLED. */
-static dyd_status goal_find_sums(dyd_voronoi_sums **sums, const dyd_engine *e, const dyd_engine_options *o,
-                                 int64_t bits) {
+static dyd_status goal_try_sums(dyd_voronoi_sums **sums, const dyd_engine *e, const dyd_engine_options *o,
+                                int64_t bits) {
   dyd_goal_sums_free(sums);
   *sums = malloc(sizeof **sums);
   if (!*sums) return DYD_E_NOMEM;
@@ -47,6 +47,15 @@ static dyd_status goal_find_sums(dyd_voronoi_sums **sums, const dyd_engine *e, c
     dyd_room_join(e->room, &(*sums)->room);
     e->room->wanted += e->room->beside;
   }
+  return st;
+}
+
+/* The same; finer where polygons as coarse as that cross themselves and are not mended by adding corners. */
+static dyd_status goal_find_sums(dyd_voronoi_sums **sums, const dyd_engine *e, const dyd_engine_options *o,
+                                 int64_t bits) {
+  enum { STEP = 12, TRIES = 4 };
+  dyd_status st = goal_try_sums(sums, e, o, bits);
+  for (int k = 1; st == DYD_E_RANGE && k < TRIES; k++) st = goal_try_sums(sums, e, o, bits + k * STEP);
   return st;
 }
 

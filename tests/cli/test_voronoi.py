@@ -342,6 +342,14 @@ def test_scales_far_apart_have_polygons():
     expect(run('voronoi', '-', '--flatten', '2', stdin=points), 1, '', 'give a smaller M by --flatten')
 
 
+def test_polygons_that_cross_themselves_are_made_finer():
+    """As coarse as the goal asks first, a region touches itself: finer, it does not, and the goal is judged."""
+    result = run('voronoi', '-', '--measured', '--layer', 'edges', '--until', 'hausdorff:4',
+                 '--window=-79,91.000000000116415321826934814453125,-5,5.0000000000072759576141834259033203125',
+                 stdin='-44 0\n-16 0\n-70 0\n-70 0\n-74 0\n')
+    expect(result, 3, 'i,j,left,right\n0,1,open,open\n2,3,open,open\n', '--until hausdorff:-5 holds')
+
+
 def test_enclosures_of_vertices_are_whole():
     """A vertex that may be outside of the window has the enclosure in every format that csv has."""
     points, window = '[-4,4] -1\n4 0\n[-3,3] 6\n', '--window=-2,2,1,3'
