@@ -624,7 +624,7 @@ def judge_near(judge, case, at, near, ch):
             if word in CERTAIN:
                 judge(all(s < (0 if plane else 1) for s in signs), '%d is stated to be nearest for certain', k)
             judge(ch.is_within(at, k, lo, hi), 'the distance of %d is not in its bounds', k)
-        if case.exact and all(s < 0 for s in signs):
+        if case.exact and not case.softened and all(s < 0 for s in signs):
             judge(any(q[0] in CERTAIN for q in near.values()), 'of exact points the nearest one is not certain')
 
 
@@ -794,6 +794,9 @@ def real(x):
     return mpmath.mpf(x.numerator) / x.denominator if isinstance(x, Q) else mpmath.mpf(x)
 
 
+ROUNDING = mpmath.mpf(10) ** -1500  # of numbers of 2,000 digits, which hold no thirds
+
+
 def judge_disc_stages(judge, case, c, ch):
     """Con and orientation of each stage; the discs of two choices lie between the same I and E."""
     kept = rows_of_points(case)
@@ -809,9 +812,9 @@ def judge_disc_stages(judge, case, c, ch):
         for u, v, s in c['before']:
             for row in c['stages']:
                 area, far = bound_of(row, 'area'), bound_of(row, 'hausdorff')
-                judge(far is None or mpmath.hypot(x - u, y - v) + abs(r - s) <= far,
+                judge(far is None or mpmath.hypot(x - u, y - v) + abs(r - s) <= far + ROUNDING,
                       'discs of two choices are farther apart than %s', far)
-                judge(area is None or mpmath.pi * abs(r * r - s * s) <= area,
+                judge(area is None or mpmath.pi * abs(r * r - s * s) <= area + ROUNDING,
                       'areas of the discs of two choices differ by more than %s', area)
         c['before'].append((x, y, r))
 
@@ -826,7 +829,7 @@ def judge_bisector_stages(judge, case, c, ch):
             far = bound_of(row, 'hausdorff')
             for x, y in c['before']:
                 off = abs((a[0] - x) ** 2 + (a[1] - y) ** 2 - (b[0] - x) ** 2 - (b[1] - y) ** 2)
-                judge(far is None or off <= 2 * length * far, 'a point of a bisector is farther than %s from another one', far)
+                judge(far is None or off <= 2 * length * far + ROUNDING, 'a point of a bisector is farther than %s from another one', far)
         middle = [(u + v) / 2 for u, v in zip(a, b)]
         if case.extra != 'window' or max(map(abs, middle)) <= 1:
             c['before'].append(middle)
