@@ -386,8 +386,7 @@ static bool ask_narrows(void *user, uint32_t site) {
 static dyd_status ask_triangulate(ask *a, bool failed, dyd_error *err) {
   dyd_engine *e = a->e;
   uint64_t max_bytes;
-  void *prover;
-  dyd_prove_fn prove = dyd_engine_prover(&prover, e, &a->o);
+  const dyd_prover prover = dyd_engine_prover(e, &a->o);
   dyd_status st = ask_room_to_triangulate(&max_bytes, a);
   if (st != DYD_OK) return st;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options),
@@ -395,8 +394,8 @@ static dyd_status ask_triangulate(ask *a, bool failed, dyd_error *err) {
                                   .cancel = &e->stop,
                                   .threads = a->o.threads,
                                   .no_filter = a->o.no_filter,
-                                  .prove = prove,
-                                  .prove_user = prover,
+                                  .prove = prover.prove,
+                                  .prove_user = prover.user,
                                   .keep_cut = !e->pd,
                                   .narrows = e->postpones && !failed ? ask_narrows : NULL,
                                   .narrows_user = a,

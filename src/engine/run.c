@@ -688,7 +688,7 @@ static dyd_status goal_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine
   const dyd_question question = {DYD_SIZED(dyd_question), .ask = goal_ask, .user = &g, .triangulate = true};
   e->goal = o->goal;
   e->goal_bits = o->goal_bits;
-  g.settled.prove = dyd_engine_prover(&g.settled.prove_user, e, o);
+  g.settled.prover = dyd_engine_prover(e, o);
   /* Where a stage may be the last one, or bounds are wanted, all pairs are needed at once. */
   e->postpones = o->goal == DYD_GOAL_DECIDED && o->schedule == DYD_SCHEDULE_ADAPTIVE && !o->step_bits &&
                  !o->max_stages && !o->max_calls;

@@ -6,8 +6,8 @@
  * along sides without a core be farther apart than eps. A site is firm if both its sides have cores wider than 2 eps.
  * Pairs of firm sites: all sites are triangulated once, the firm ones with their cores less eps on each side, the
  * others with any place along each side without a core. A pair that is neither legal nor illegal there is so wherever
- * these points are. Other pairs are examined one by one; those of exact points that are proved to be on one circle or
- * line, together. */
+ * these points are. Other pairs are examined one by one; those of places that are proved to be on one circle or line,
+ * together. */
 #include "engine/settle.h"
 
 #include "base/alloc.h"
@@ -153,8 +153,8 @@ typedef struct settling {
   dyd_settle_site *guess;
   dyd_settled_pair *pair;
   size_t pairs;
-  size_t *work;
-  const dyd_settled *known; /* the callback that proves circles, or NULL */
+  dyd_settle_work *work;
+  const dyd_settled *known; /* has the prover of circles; or NULL */
   bool mixed;               /* some side has a core that is no point */
 } settling;
 
@@ -201,7 +201,7 @@ static dyd_status settling_take_rects(settling *s) {
 /* ---- a disc that joins ---- */
 
 static void settling_spend(settling *s) {
-  *s->work -= *s->work < s->site.count ? *s->work : s->site.count;
+  s->work->sites -= s->work->sites < s->site.count ? s->work->sites : s->site.count;
 }
 
 /* a becomes its end that is farther from v. */
@@ -289,7 +289,7 @@ static dyd_status settling_join_at(settling *s, dyd_settled_pair *p, const doubl
 /* Looks for a disc for one pair. */
 static dyd_status settling_join(settling *s, dyd_settled_pair *p, bool thorough) {
   dyd_status st = DYD_OK;
-  for (size_t had = 0; st == DYD_OK && !p->possible && had < s->site.count && *s->work;) {
+  for (size_t had = 0; st == DYD_OK && !p->possible && had < s->site.count && s->work->sites;) {
     double at[2];
     size_t i = settling_place(s, p->i), j = settling_place(s, p->j);
     had = s->site.count;
@@ -335,12 +335,32 @@ static bool surely_crossed(const dyd_rect r[4]) {
          dyd_con(&r[3], &r[0], &r[1], &r[2]) == DYD_SURE_PLUS;
 }
 
+/* Returns true if sites number i and k may be the same place, whatever is narrowed: no disc holds all of i and nothing
+ * of k. */
+static bool stay_together(const settling *s, size_t i, size_t k) {
+  const bool *of_i = s->guess[i].core, *of_k = s->guess[k].core;
+  const double *a = s->guess[i].box, *b = s->guess[k].box;
+  if (i == k || !of_k[0] || !of_k[1] || a[1] < b[0] || b[1] < a[0] || a[3] < b[2] || b[3] < a[2]) return false;
+  if (of_i[0] && of_i[1]) return dyd_rect_meets(&s->rect[i], &s->rect[k]);
+  return dyd_rect_contains(&s->rect[k], &s->rect[i]);
+}
+
+/* Looks for another site that may be where an end is. */
+static bool settling_meets(const settling *s, size_t i, size_t j) {
+  bool found = false;
+  for (size_t k = 0; k < s->site.count && !found; k++)
+    found = k != i && k != j &&
+            (stay_together(s, i, k) || stay_together(s, j, k) || stay_together(s, k, i) || stay_together(s, k, j));
+  return found;
+}
+
 /* Looks for points that show that the pair is never legal. */
 static void settling_part(const settling *s, dyd_settled_pair *p) {
   dyd_settle_cut cut;
   dyd_rect r[4];
   size_t i = settling_place(s, p->i), j = settling_place(s, p->j);
-  if (!dyd_filter_find_cut(&cut, s->guess, s->site.count, i, j)) return;
+  p->unsure = settling_meets(s, i, j);
+  if (p->unsure || !dyd_filter_find_cut(&cut, s->guess, s->site.count, i, j)) return;
   for (int k = 0; k < 4; k++) {
     dyd_rect_init(&r[k]);
     settling_choose(&r[k], s, cut.site[k], cut.at[k]);
@@ -360,7 +380,7 @@ static dyd_status settling_do_pair(settling *s, dyd_settled_pair *p, bool thorou
 
 static dyd_status settling_run(settling *s) {
   dyd_status st = DYD_OK;
-  for (size_t k = 0; st == DYD_OK && *s->work && k < 2 * s->pairs; k++) {
+  for (size_t k = 0; st == DYD_OK && s->work->sites && k < 2 * s->pairs; k++) {
     dyd_settled_pair *p = &s->pair[k % s->pairs];
     if (!dyd_pair_is_settled(p)) st = settling_do_pair(s, p, k >= s->pairs);
   }
@@ -369,67 +389,96 @@ static dyd_status settling_run(settling *s) {
 
 /* ---- circles and lines that are proved [SET-4] ---- */
 
-/* A circle through the first three members, or a line; members by their places among the sites of a face. */
+/* A circle through the first three members, or a line through two: sites of the face, and which place of the region of
+ * each is meant; at: a rectangle that holds it. */
 typedef struct settled_circle {
   bool line;
-  size_t *member;
   size_t count;
+  size_t *member;
+  unsigned *place;
+  dyd_rect *at;
 } settled_circle;
 
 /* Predicates of rectangles are exact where they are close: as much as many sites in doubles. */
 enum { COST_PREDICATE = 16, COST_PROOF = 1 << 12, MOST_SEEDS = 64 };
 
 static void settling_pay(const settling *s, size_t cost) {
-  *s->work -= *s->work < cost ? *s->work : cost;
+  s->work->sites -= s->work->sites < cost ? s->work->sites : cost;
 }
 
-/* Returns true if site number k is a true point, as far as its rectangle shows. */
-static bool settling_is_exact(const settling *s, size_t k) {
+/* How many places of site number k stay in its rectangle, as far as is known: 1 where it closes in on a true point. */
+static unsigned settling_places(const settling *s, size_t k) {
   const bool *core = s->guess[k].core;
-  return (!core[0] || dyd_interval_is_point(&s->rect[k].x)) && (!core[1] || dyd_interval_is_point(&s->rect[k].y));
+  bool narrow[2] = {!core[0] || dyd_interval_is_point(&s->rect[k].x), !core[1] || dyd_interval_is_point(&s->rect[k].y)};
+  if (narrow[0] && narrow[1]) return 1;
+  return core[0] && core[1] ? DYD_REGION_PLACES : 0;
 }
 
-static bool may_be_on(const settling *s, const settled_circle *c, size_t k) {
-  const dyd_rect *a = &s->rect[c->member[0]], *b = &s->rect[c->member[1]], *r = &s->rect[k];
+static dyd_site_place settling_site(const settling *s, size_t k, unsigned place) {
+  return (dyd_site_place){s->site.item[k], place};
+}
+
+/* Puts a place of site number k behind the members. */
+static dyd_status circle_put(settled_circle *c, const settling *s, size_t k, unsigned place) {
+  const dyd_site_place at = settling_site(s, k, place);
+  const dyd_prover *by = &s->known->prover;
+  c->member[c->count] = k;
+  c->place[c->count] = place;
+  dyd_rect_set(&c->at[c->count], &s->rect[k]);
+  return settling_places(s, k) > 1 ? by->place(&c->at[c->count], by->user, &at) : DYD_OK;
+}
+
+/* The last place, behind the members, may be on the circle. */
+static bool may_be_on(const settling *s, const settled_circle *c) {
+  const dyd_rect *a = &c->at[0], *b = &c->at[1], *r = &c->at[c->count];
   settling_pay(s, COST_PREDICATE);
   if (c->line) return dyd_orientation(a, b, r) == DYD_UNSURE;
-  return dyd_con(r, a, b, &s->rect[c->member[2]]) == DYD_UNSURE;
+  return dyd_con(r, a, b, &c->at[2]) == DYD_UNSURE;
 }
 
-/* Sets *on to whether site number k is proved to be on the circle with the first three members, on the line with the
- * first two. */
-static dyd_status circle_prove(bool *on, const settling *s, const settled_circle *c, size_t k) {
-  uint32_t site[4];
+/* Sets *on to whether the place behind the members is proved to be on the circle with the first three, on the line with
+ * the first two. */
+static dyd_status circle_prove(bool *on, const settling *s, const settled_circle *c) {
+  const dyd_prover *by = &s->known->prover;
+  dyd_site_place site[4];
   size_t first = c->line ? 2 : 3;
-  for (size_t m = 0; m < first; m++) site[m] = s->site.item[c->member[m]];
-  site[first] = s->site.item[k];
+  bool roams = false;
+  for (size_t k = 0; k <= first; k++) {
+    size_t m = k < first ? k : c->count;
+    site[k] = settling_site(s, c->member[m], c->place[m]);
+    roams = roams || settling_places(s, c->member[m]) > 1;
+  }
+  *on = false;
+  if (roams && s->work->proofs == 0) return DYD_OK;
+  s->work->proofs -= roams;
   settling_pay(s, COST_PROOF);
-  return s->known->prove(on, s->known->prove_user, c->line ? DYD_COLLINEAR : DYD_COCIRCULAR, site, first + 1, NULL);
+  return by->prove_places(on, by->user, c->line ? DYD_COLLINEAR : DYD_COCIRCULAR, site, first + 1);
 }
 
-/* Adds all sites that are proved to be on the circle. */
-static dyd_status circle_fill(settled_circle *c, const settling *s) {
+/* Adds all sites that are proved to be on the circle, by one of their places: number `first` of them is tried first. */
+static dyd_status circle_fill(settled_circle *c, const settling *s, unsigned first) {
   dyd_status st = DYD_OK;
-  for (size_t k = 0; st == DYD_OK && k < s->site.count && *s->work; k++) {
-    bool member = !settling_is_exact(s, k), on = false;
+  for (size_t k = 0; st == DYD_OK && k < s->site.count && s->work->sites; k++) {
+    bool member = false, on = false;
     for (size_t m = 0; m < (c->line ? 2 : 3); m++) member = member || c->member[m] == k;
-    if (member || !may_be_on(s, c, k)) continue;
-    st = circle_prove(&on, s, c, k);
-    if (on) c->member[c->count++] = k;
+    unsigned places = settling_places(s, k);
+    for (unsigned at = 0; st == DYD_OK && !member && !on && at < places; at++) {
+      st = circle_put(c, s, k, (first + at) % places);
+      if (st == DYD_OK && may_be_on(s, c)) st = circle_prove(&on, s, c);
+      c->count += on;
+    }
   }
   return st;
 }
 
 /* Returns true if all of r is certainly on the side `way` of the line, or, whatever way is, outside of the circle. */
-static bool surely_beside(const settling *s, const settled_circle *c, dyd_sure way, const dyd_rect *r) {
-  const dyd_rect *a = &s->rect[c->member[0]], *b = &s->rect[c->member[1]];
-  if (c->line) return dyd_orientation(a, b, r) == way;
-  return dyd_con(r, a, b, &s->rect[c->member[2]]) == DYD_SURE_MINUS;
+static bool surely_beside(const settled_circle *c, dyd_sure way, const dyd_rect *r) {
+  if (c->line) return dyd_orientation(&c->at[0], &c->at[1], r) == way;
+  return dyd_con(r, &c->at[0], &c->at[1], &c->at[2]) == DYD_SURE_MINUS;
 }
 
 /* The same for some choice along the cores of r: its corners are tried. */
-static bool core_is_beside(const settling *s, const settled_circle *c, dyd_sure way, const dyd_rect *r,
-                           const bool core[2]) {
+static bool core_is_beside(const settled_circle *c, dyd_sure way, const dyd_rect *r, const bool core[2]) {
   bool found = false;
   dyd_rect q;
   dyd_rect_init(&q);
@@ -438,16 +487,17 @@ static bool core_is_beside(const settling *s, const settled_circle *c, dyd_sure 
     const dyd_dyadic *x = k & 1 ? &r->x.hi : &r->x.lo, *y = k & 2 ? &r->y.hi : &r->y.lo;
     bool good = !core[0] || dyd_interval_set_ends(&q.x, x, x) == DYD_OK;
     good = good && (!core[1] || dyd_interval_set_ends(&q.y, y, y) == DYD_OK);
-    found = good && surely_beside(s, c, way, &q);
+    found = good && surely_beside(c, way, &q);
   }
   dyd_rect_clear(&q);
   return found;
 }
 
-static bool circle_has(const settling *s, const settled_circle *c, uint32_t site) {
-  for (size_t m = 0; m < c->count; m++)
-    if (s->site.item[c->member[m]] == site) return true;
-  return false;
+/* The number of the member that is the site; its count: none is. */
+static size_t circle_find(const settling *s, const settled_circle *c, uint32_t site) {
+  size_t m = 0;
+  while (m < c->count && s->site.item[c->member[m]] != site) m++;
+  return m;
 }
 
 /* Need no site but members be inside of the circle, or beyond the line from the side `way`? */
@@ -458,10 +508,10 @@ static dyd_status circle_is_empty(bool *out, const settling *s, const settled_ci
   *out = true;
   for (uint32_t k = 0; st == DYD_OK && *out && k < dyd_sites_count(s->e->sites); k++) {
     bool core[2];
-    if (dyd_delaunay_alias(s->e->pd, k) != k || circle_has(s, c, k)) continue;
+    if (dyd_delaunay_alias(s->e->pd, k) != k || circle_find(s, c, k) < c->count) continue;
     settling_pay(s, 1);
     st = dyd_site_get_core(&r, core, s->e, k);
-    *out = st == DYD_OK && core_is_beside(s, c, way, &r, core);
+    *out = st == DYD_OK && core_is_beside(c, way, &r, core);
   }
   dyd_rect_clear(&r);
   return st;
@@ -479,15 +529,13 @@ static bool surely_between(const dyd_rect *a, const dyd_rect *b, const dyd_rect 
          (surely_before(&c->y, &b->y) && surely_before(&b->y, &a->y));
 }
 
-/* Returns true if no disc holds both ends without another site of the circle. */
-static bool circle_parts(const settling *s, const settled_circle *c, const dyd_settled_pair *p) {
-  const dyd_rect *i = &s->rect[settling_place(s, p->i)], *j = &s->rect[settling_place(s, p->j)];
+/* Returns true if no disc holds members number i and j without another one. */
+static bool circle_parts(const settled_circle *c, size_t i, size_t j) {
   bool left = false, right = false;
   for (size_t m = 0; m < c->count && !(left && right); m++) {
-    const dyd_rect *k = &s->rect[c->member[m]];
-    if (k == i || k == j) continue;
-    dyd_sure way = c->line ? DYD_UNSURE : dyd_orientation(i, j, k);
-    bool between = c->line && surely_between(i, k, j);
+    if (m == i || m == j) continue;
+    dyd_sure way = c->line ? DYD_UNSURE : dyd_orientation(&c->at[i], &c->at[j], &c->at[m]);
+    bool between = c->line && surely_between(&c->at[i], &c->at[m], &c->at[j]);
     left = left || between || way == DYD_SURE_PLUS;
     right = right || between || way == DYD_SURE_MINUS;
   }
@@ -501,39 +549,68 @@ static dyd_status circle_tell_pairs(const settling *s, const settled_circle *c) 
   if (st == DYD_OK && c->line && !empty) st = circle_is_empty(&other, s, c, DYD_SURE_MINUS);
   for (size_t k = 0; st == DYD_OK && k < s->pairs; k++) {
     dyd_settled_pair *p = &s->pair[k];
-    if (dyd_pair_is_settled(p) || !circle_has(s, c, p->i) || !circle_has(s, c, p->j)) continue;
+    size_t i = circle_find(s, c, p->i), j = circle_find(s, c, p->j);
+    if (dyd_pair_is_settled(p) || i == c->count || j == c->count) continue;
     p->possible = p->possible || empty || other;
-    p->unsure = p->unsure || circle_parts(s, c, p);
+    p->unsure = p->unsure || circle_parts(c, i, j);
   }
   return st;
+}
+
+/* Tries the circle, or line, through the sites: through that place of each which has a region. */
+static dyd_status settling_circle(settling *s, settled_circle *c, const size_t site[3], unsigned place) {
+  dyd_status st = DYD_OK;
+  for (c->count = 0; st == DYD_OK && c->count < 3; c->count += st == DYD_OK)
+    st = circle_put(c, s, site[c->count], settling_places(s, site[c->count]) > 1 ? place : 0);
+  if (st != DYD_OK) return st;
+  c->line = dyd_orientation(&c->at[0], &c->at[1], &c->at[2]) == DYD_UNSURE;
+  size_t first = c->count = c->line ? 2 : 3;
+  st = circle_fill(c, s, place);
+  if (st == DYD_OK && c->count > first) st = circle_tell_pairs(s, c);
+  return st == DYD_OK && dyd_flag_get(&s->e->stop) ? DYD_CANCELLED : st;
 }
 
 /* Tries the circles, or lines, through both ends of a pair and another site. */
-static dyd_status settling_circle_pair(settling *s, settled_circle *c, const dyd_settled_pair *p) {
-  size_t i = settling_place(s, p->i), j = settling_place(s, p->j), seeds = 0;
+static dyd_status settling_circle_pair(settling *s, settled_circle *c, const dyd_settled_pair *p, unsigned places) {
+  size_t site[3] = {settling_place(s, p->i), settling_place(s, p->j), 0}, seeds = 0;
   dyd_status st = DYD_OK;
-  if (!settling_is_exact(s, i) || !settling_is_exact(s, j)) return DYD_OK;
-  for (size_t k = 0; st == DYD_OK && k < s->site.count && !dyd_pair_is_settled(p) && *s->work; k++) {
-    if (k == i || k == j || !settling_is_exact(s, k) || seeds++ == MOST_SEEDS) continue;
-    *c = (settled_circle){.member = c->member, .count = 3};
-    c->member[0] = i;
-    c->member[1] = j;
-    c->member[2] = k;
-    c->line = dyd_orientation(&s->rect[i], &s->rect[j], &s->rect[k]) == DYD_UNSURE;
-    if (c->line) c->count = 2;
-    st = circle_fill(c, s);
-    if (st == DYD_OK && c->count > (c->line ? 2 : 3)) st = circle_tell_pairs(s, c);
-    if (st == DYD_OK && dyd_flag_get(&s->e->stop)) st = DYD_CANCELLED;
+  if (!settling_places(s, site[0]) || !settling_places(s, site[1])) return DYD_OK;
+  for (size_t k = 0; st == DYD_OK && k < s->site.count && seeds < MOST_SEEDS; k++) {
+    if (k == site[0] || k == site[1] || !settling_places(s, k)) continue;
+    seeds++;
+    site[2] = k;
+    for (unsigned at = 0; st == DYD_OK && at < (s->work->proofs ? places : 1) && s->work->sites; at++)
+      if (!dyd_pair_is_settled(p)) st = settling_circle(s, c, site, at);
   }
   return st;
 }
 
+static void circle_clear(settled_circle *c, size_t most) {
+  for (size_t k = 0; c->at && k < most; k++) dyd_rect_clear(&c->at[k]);
+  free(c->at);
+  free(c->place);
+  free(c->member);
+}
+
+/* most: the members there may be, and one more that is tried. */
+static dyd_status circle_init(settled_circle *c, size_t most) {
+  *c = (settled_circle){.member = dyd_alloc(most, sizeof *c->member),
+                        .place = dyd_alloc(most, sizeof *c->place),
+                        .at = dyd_alloc(most, sizeof *c->at)};
+  for (size_t k = 0; c->at && k < most; k++) dyd_rect_init(&c->at[k]);
+  return c->member && c->place && c->at ? DYD_OK : DYD_E_NOMEM;
+}
+
 static dyd_status settling_circles(settling *s) {
-  settled_circle c = {.member = dyd_alloc(s->site.count, sizeof *c.member)};
-  dyd_status st = c.member ? DYD_OK : DYD_E_NOMEM;
+  settled_circle c;
+  size_t most = s->site.count + 1;
+  unsigned places = 1;
+  dyd_status st = circle_init(&c, most);
+  for (size_t k = 0; k < s->site.count; k++)
+    if (settling_places(s, k) > places) places = settling_places(s, k);
   for (size_t k = 0; st == DYD_OK && k < s->pairs; k++)
-    if (!dyd_pair_is_settled(&s->pair[k])) st = settling_circle_pair(s, &c, &s->pair[k]);
-  free(c.member);
+    if (!dyd_pair_is_settled(&s->pair[k])) st = settling_circle_pair(s, &c, &s->pair[k], places);
+  circle_clear(&c, most);
   return st;
 }
 
@@ -549,12 +626,12 @@ static dyd_status settling_begin(settling *s, const dyd_index_list *face) {
   return st == DYD_OK ? settling_take_rects(s) : st;
 }
 
-dyd_status dyd_settle_face(dyd_settled_pair *pair, size_t *work, const dyd_settled *known, const dyd_engine *e,
+dyd_status dyd_settle_face(dyd_settled_pair *pair, dyd_settle_work *work, const dyd_settled *known, const dyd_engine *e,
                            size_t pairs, const dyd_index_list *face) {
   settling s = {.e = e, .pair = pair, .pairs = pairs, .work = work, .known = known};
   dyd_status st = settling_begin(&s, face);
   if (st == DYD_OK && s.mixed) st = settling_run(&s);
-  if (st == DYD_OK && s.mixed && known && known->prove) st = settling_circles(&s);
+  if (st == DYD_OK && s.mixed && known && known->prover.prove) st = settling_circles(&s);
   settling_clear(&s);
   return st;
 }
@@ -571,7 +648,7 @@ enum { FIRST_BITS = 128 };
 
 #endif
 
-enum { WORK_PER_SITE = 4, WORK = 1 << 23 };
+enum { WORK_PER_SITE = 4, WORK = 1 << 23, PROOFS = 512 };
 
 void dyd_settled_clear(dyd_settled *s) {
   free(s->item);
@@ -662,7 +739,7 @@ static dyd_status take_pairs(dyd_settled *out, const dyd_settled *known, const d
 }
 
 /* Takes pairs of face f, if a point of it can be narrowed; unless they are of firm sites, examines them. */
-static dyd_status settle_face_pairs(dyd_settled *fresh, dyd_settled *s, size_t *work, const dyd_engine *e,
+static dyd_status settle_face_pairs(dyd_settled *fresh, dyd_settled *s, dyd_settle_work *work, const dyd_engine *e,
                                     const dyd_dyadic *eps, size_t f, bool firm) {
   size_t first = fresh->count;
   dyd_index_list face = {0};
@@ -685,13 +762,15 @@ static int64_t most_bits(const dyd_engine *e) {
 
 static dyd_status settle_pairs(dyd_settled *fresh, dyd_settled *s, const dyd_plan *plan) {
   const dyd_engine *e = plan->e;
-  size_t work = WORK + WORK_PER_SITE * dyd_sites_count(e->sites), faces = dyd_delaunay_undecided_faces(e->pd);
+  dyd_settle_work work = {WORK + WORK_PER_SITE * dyd_sites_count(e->sites), PROOFS};
+  size_t faces = dyd_delaunay_undecided_faces(e->pd);
   dyd_dyadic eps;
   dyd_dyadic_init(&eps);
   dyd_status st = dyd_firm_eps(&eps, e);
   for (size_t f = 0; st == DYD_OK && f < faces; f++) st = settle_face_pairs(fresh, s, &work, e, &eps, f, true);
   if (st == DYD_OK && fresh->count) st = settle_firm(fresh->item, fresh->count, plan, &eps);
-  for (size_t f = 0; st == DYD_OK && work && f < faces; f++) st = settle_face_pairs(fresh, s, &work, e, &eps, f, false);
+  for (size_t f = 0; st == DYD_OK && work.sites && f < faces; f++)
+    st = settle_face_pairs(fresh, s, &work, e, &eps, f, false);
   dyd_dyadic_clear(&eps);
   return st;
 }

@@ -37,20 +37,24 @@ static inline bool dyd_pair_is_settled(const dyd_settled_pair *p) {
 }
 
 /* Settled facts about pairs, for ever unless points are measured again. Init with {0}. Invariant: item is
- * sorted by i, j, without repeats; next: the bits from which another try pays; prove: callback that proves that true
- * points are on one circle or line, or NULL. */
+ * sorted by i, j, without repeats; next: the bits from which another try pays; prover: proves that places are on one
+ * circle or line. */
 typedef struct dyd_settled {
   dyd_settled_pair *item;
   size_t count, cap;
   int64_t next;
-  dyd_prove_fn prove;
-  void *prove_user;
+  dyd_prover prover;
 } dyd_settled;
 
-/* Examines open pairs of a face with the given sites, and records the facts found. Reduces *work, in sites examined; at
- * 0 it stops. known: has the callback for proofs; may be NULL. DYD_CANCELLED when e->stop was seen. Nothing is found
- * where no side has a core. */
-dyd_status dyd_settle_face(dyd_settled_pair *pair, size_t *work, const dyd_settled *known, const dyd_engine *e,
+/* What is left to be done: sites examined, and proofs about places of regions. */
+typedef struct dyd_settle_work {
+  size_t sites, proofs;
+} dyd_settle_work;
+
+/* Examines open pairs of a face with the given sites, and records the facts found. Reduces *work; at 0 it stops. known:
+ * has the callback for proofs; may be NULL. DYD_CANCELLED when e->stop was seen. Nothing is found where no side has a
+ * core. */
+dyd_status dyd_settle_face(dyd_settled_pair *pair, dyd_settle_work *work, const dyd_settled *known, const dyd_engine *e,
                            size_t pairs, const dyd_index_list *face);
 
 void dyd_settled_clear(dyd_settled *s);

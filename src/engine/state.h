@@ -58,6 +58,23 @@ typedef struct dyd_source_use {
   dyd_shared_source *shared;
 } dyd_source_use;
 
+/* A site at a place that stays in its rectangle: its true point, or where it has a region for good, number `place` of
+ * these: the middle (0), a corner (1 to 4). */
+enum { DYD_REGION_PLACES = 5 };
+typedef struct dyd_site_place {
+  uint32_t site;
+  unsigned place;
+} dyd_site_place;
+
+/* Callbacks about the true points, and such places. prove_places: as prove, which is NULL where nothing is proved;
+ * false where two places are the same. place: sets *out, the rectangle of the site, to one that holds the place. */
+typedef struct dyd_prover {
+  dyd_prove_fn prove;
+  dyd_status (*prove_places)(bool *proved, void *user, dyd_relation relation, const dyd_site_place *at, size_t count);
+  dyd_status (*place)(dyd_rect *out, void *user, const dyd_site_place *at);
+  void *user;
+} dyd_prover;
+
 typedef struct dyd_ties dyd_ties;
 typedef struct dyd_recall dyd_recall;
 typedef struct dyd_recalled dyd_recalled;
@@ -96,9 +113,8 @@ struct dyd_engine {
   int64_t tie_bits;
   int64_t proof_bits; /* the tie_bits pd was last worked on with; 0: no ties were looked for */
   dyd_tie_counters tie_counters;
-  bool nearest_tied;   /* what the last question after nearest sites listed is a tie */
-  dyd_prove_fn prover; /* the callback asked about ties instead of ties.c; NULL: none */
-  void *prover_user;
+  bool nearest_tied;      /* what the last question after nearest sites listed is a tie */
+  dyd_prover prover;      /* asked instead of ties.c; nothing in it: none is */
   dyd_room *room;         /* of the question at work; NULL: none is */
   uint64_t bytes_most;    /* what rooms have seen */
   volatile int cancelled; /* set by dyd_engine_cancel; atomic access only, as for stop */

@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "delaunay/memory.h"
 #include "engine/points.h"
+#include "engine/settle.h"
 #include "rect/sites_table.h"
 #include "stream/algebra/form.h"
 #include "stream/algebra/zero.h"
@@ -160,13 +161,14 @@ bool dyd_ties_proved(dyd_relation *relation, const uint32_t **site, size_t *coun
 
 /* ---- one question ---- */
 
-/* place: NULL, or the sites are asked to be equally far from it. */
+/* place: NULL, or the sites are asked to be equally far from it; chosen: NULL, or given instead of `site`. */
 typedef struct question {
   dyd_engine *e;
   dyd_algebra algebra;
   dyd_relation relation;
   const dyd_stream *place;
   const uint32_t *site;
+  const dyd_site_place *chosen;
   size_t count;
   dyd_form_point *at; /* in the order of the sites; the place comes last */
   uint32_t *zero;     /* forms that are to be 0 */
@@ -194,15 +196,64 @@ static size_t described_points(const question *q) {
   return q->count + (q->place != NULL);
 }
 
+/* r becomes its middle, or a corner. */
+static dyd_status rect_choose(dyd_rect *r, unsigned place) {
+  dyd_interval *side[2] = {&r->x, &r->y};
+  dyd_status st = DYD_OK;
+  dyd_dyadic at;
+  dyd_dyadic_init(&at);
+  for (int a = 0; st == DYD_OK && a < 2; a++) {
+    if (place == 0)
+      st = dyd_dyadic_add(&at, &side[a]->lo, &side[a]->hi);
+    else
+      dyd_dyadic_set(&at, (place - 1) >> a & 1 ? &side[a]->hi : &side[a]->lo);
+    if (st == DYD_OK && place == 0) st = dyd_dyadic_mul_2exp(&at, &at, -1);
+    if (st == DYD_OK) st = dyd_interval_set_ends(side[a], &at, &at);
+  }
+  dyd_dyadic_clear(&at);
+  return st;
+}
+
+/* Sets *r to a place that stays in the region of the site, where both sides have a core: *chosen. Otherwise to its
+ * rectangle. */
+static dyd_status place_choose(dyd_rect *r, bool *chosen, const dyd_engine *e, const dyd_site_place *at) {
+  bool core[2];
+  dyd_status st = dyd_site_get_core(r, core, e, at->site);
+  *chosen = st == DYD_OK && core[0] && core[1];
+  if (*chosen) return rect_choose(r, at->place);
+  return st == DYD_OK ? dyd_sites_get(r, e->sites, at->site) : st;
+}
+
+static dyd_status describe_place(dyd_form_point *out, dyd_forms *f, const dyd_engine *e, const dyd_site_place *at) {
+  bool chosen;
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = place_choose(&r, &chosen, e, at);
+  if (st == DYD_OK && chosen) *out = dyd_forms_rect(f, &r);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+static bool is_described(const dyd_form_point *p) {
+  return p->x != DYD_NONE && p->y != DYD_NONE;
+}
+
+static dyd_status describe_site(dyd_form_point *out, question *q, size_t k) {
+  uint32_t site = q->chosen ? q->chosen[k].site : q->site[k];
+  dyd_status st = dyd_ties_describe(out, &q->algebra.forms, q->e, site, false);
+  if (st != DYD_OK || !q->chosen || is_described(out)) return st;
+  return describe_place(out, &q->algebra.forms, q->e, &q->chosen[k]);
+}
+
 /* *known: all of them are described. */
 static dyd_status describe_all(bool *known, question *q) {
   dyd_status st = DYD_OK;
   const dyd_form_point none = {DYD_NONE, DYD_NONE};
   q->at[q->count] = q->place ? dyd_forms_stream(&q->algebra.forms, q->place) : none;
-  *known = !q->place || (q->at[q->count].x != DYD_NONE && q->at[q->count].y != DYD_NONE);
+  *known = !q->place || is_described(&q->at[q->count]);
   for (size_t k = 0; k < q->count && st == DYD_OK && *known; k++) {
-    st = dyd_ties_describe(&q->at[k], &q->algebra.forms, q->e, q->site[k], false);
-    *known = q->at[k].x != DYD_NONE && q->at[k].y != DYD_NONE;
+    st = describe_site(&q->at[k], q, k);
+    *known = is_described(&q->at[k]);
   }
   return q->algebra.forms.failed ? DYD_E_NOMEM : st;
 }
@@ -254,7 +305,16 @@ static void put_equidistant(question *q) {
     q->zero[q->zeros++] = dyd_forms_binary(f, DYD_OP_SUB, dyd_forms_distance2(f, q->at[k], q->at[q->count]), first);
 }
 
+/* Returns true if no two of the places are the same: chosen ones may be. */
+static bool all_are_apart(question *q) {
+  bool apart = true;
+  for (size_t k = 1; k < q->count && apart; k++)
+    for (size_t l = 0; l < k && apart; l++) apart = are_apart(q, q->at[k], q->at[l]);
+  return apart;
+}
+
 static bool put_zeros(question *q) {
+  if (q->chosen && !all_are_apart(q)) return false;
   if (q->place) {
     put_equidistant(q);
     return true;
@@ -430,17 +490,6 @@ static dyd_status answer_get(answer **out, dyd_engine *e, dyd_relation relation,
   return st;
 }
 
-void dyd_engine_set_prover(dyd_engine *e, dyd_prove_fn fn, void *user) {
-  e->prover = fn;
-  e->prover_user = user;
-}
-
-dyd_prove_fn dyd_engine_prover(void **user, dyd_engine *e, const dyd_engine_options *o) {
-  *user = e->prover ? e->prover_user : e;
-  if (o->no_ties) return NULL;
-  return e->prover ? e->prover : dyd_ties_prove;
-}
-
 dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                           dyd_error *err) {
   answer *a = NULL;
@@ -449,6 +498,26 @@ dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const
   if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
   *proved = a->zero == DYD_ZERO_PROVED;
   return DYD_OK;
+}
+
+static dyd_status ties_prove_places(bool *proved, void *user, dyd_relation relation, const dyd_site_place *at,
+                                    size_t count) {
+  question q = {.e = user, .relation = relation, .chosen = at, .count = count};
+  dyd_zero zero = DYD_ZERO_UNKNOWN;
+  bool final;
+  dyd_status st = question_answer(&zero, &final, &q);
+  *proved = zero == DYD_ZERO_PROVED;
+  return st;
+}
+
+static dyd_status ties_place(dyd_rect *out, void *user, const dyd_site_place *at) {
+  bool chosen;
+  return place_choose(out, &chosen, user, at);
+}
+
+dyd_prover dyd_engine_prover(dyd_engine *e, const dyd_engine_options *o) {
+  if (o->no_ties) return (dyd_prover){0};
+  return e->prover.prove ? e->prover : (dyd_prover){dyd_ties_prove, ties_prove_places, ties_place, e};
 }
 
 dyd_status dyd_ties_equidistant(bool *tied, int64_t *needed, dyd_engine *e, dyd_stream *at, const dyd_index_list *sites,

@@ -16,11 +16,8 @@ dyd_status dyd_aliases_find(bool *any, dyd_engine *e, const dyd_delaunay *pd, dy
 /* As dyd_prove_fn, for the points of the engine `user`; former requests are remembered. */
 dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                           dyd_error *err);
-/* Sets fn, with user (borrowed), as the callback about the true points of e, instead of their expressions.
- */
-void dyd_engine_set_prover(dyd_engine *e, dyd_prove_fn fn, void *user);
-/* Returns the callback for proofs, with its *user; NULL under no_ties. */
-dyd_prove_fn dyd_engine_prover(void **user, dyd_engine *e, const dyd_engine_options *o);
+/* Returns the callbacks about e; none under no_ties. */
+dyd_prover dyd_engine_prover(dyd_engine *e, const dyd_engine_options *o);
 /* Returns proof number k, from 0, in the order of the proofs. Returns false if k is not below their number. *site is
  * borrowed. */
 bool dyd_ties_proved(dyd_relation *relation, const uint32_t **site, size_t *count, const dyd_engine *e, size_t k);

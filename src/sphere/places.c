@@ -84,6 +84,16 @@ bool dyd_spot_is_exact(const dyd_spot *s) {
   return mpq_sgn(s->half[0]) == 0 && mpq_sgn(s->half[1]) == 0 && mpq_sgn(s->angle) == 0;
 }
 
+void dyd_spot_choose(dyd_spot *s, unsigned place) {
+  for (int a = 0; a < 2; a++) {
+    if (place && (place - 1) >> a & 1) mpq_add(s->mid[a], s->mid[a], s->half[a]);
+    if (place && !((place - 1) >> a & 1)) mpq_sub(s->mid[a], s->mid[a], s->half[a]);
+    mpq_set_ui(s->half[a], 0, 1);
+  }
+  mpq_set_ui(s->angle, 0, 1);
+  if (mpq_cmp_si(s->mid[1], 90, 1) == 0 || mpq_cmp_si(s->mid[1], -90, 1) == 0) mpq_set_ui(s->mid[0], 0, 1);
+}
+
 /* out = an upper bound of x degrees, x in radians. */
 static void degrees_above(mpq_t out, arb_t x) {
   arb_t pi;

@@ -564,6 +564,31 @@ static dyd_status image_request(dyd_rect *out, void *user, const dyd_request *re
   return st;
 }
 
+/* Projects the middle of the centre's region, where it has one, or else all of the eye as it is. */
+static bool place_project(image *m, slong prec) {
+  dyd_sphere *s = m->s;
+  if (s->free || !dyd_sphere_is_fixed(s, s->centre)) return dyd_project(m->x, m->y, &m->spot, &s->eye, prec);
+  dyd_eye eye;
+  dyd_eye_init(&eye);
+  bool seen = dyd_sphere_spot(&eye.spot, s, s->centre, NULL) == DYD_OK;
+  if (seen) dyd_spot_choose(&eye.spot, 0);
+  seen = seen && dyd_project(m->x, m->y, &m->spot, &eye, prec);
+  dyd_eye_clear(&eye);
+  return seen;
+}
+
+dyd_status dyd_sphere_place_at(dyd_rect *out, void *user, const dyd_site_place *at) {
+  enum { PREC = 256 };
+  dyd_sphere *s = user;
+  image m;
+  image_init(&m, s, s->of[at->site]);
+  dyd_status st = dyd_sphere_spot(&m.spot, s, m.i, NULL);
+  if (st == DYD_OK && m.spot.stays && dyd_sphere_is_fixed(s, m.i)) dyd_spot_choose(&m.spot, at->place);
+  if (st == DYD_OK && place_project(&m, PREC)) st = image_give(out, &m, false, PREC / 2);
+  image_clear(&m);
+  return st;
+}
+
 /* An image that is known without its source having been asked may be narrower than its place would have it. */
 dyd_status dyd_sphere_narrow_recalled(dyd_sphere *s, int64_t max_bits, dyd_error *err) {
   dyd_status st = DYD_OK;

@@ -13,6 +13,7 @@
 #ifndef DYD_SPHERE_STATE_H
 #define DYD_SPHERE_STATE_H
 
+#include "engine/state.h"
 #include "predicate/interval_filter.h"
 #include "stream/arb.h"
 
@@ -42,6 +43,8 @@ void dyd_spot_clear(dyd_spot *s);
  * all of the cap; a pole itself has longitude 0. Returns false if no latitude of r is within 90. */
 bool dyd_spot_set(dyd_spot *s, const dyd_rect *r, mpq_srcptr more);
 bool dyd_spot_is_exact(const dyd_spot *s);
+/* s becomes one place of it: the middle (0), or a corner of its box. */
+void dyd_spot_choose(dyd_spot *s, unsigned place);
 /* Widens the box of s to hold all of s; the angle becomes 0. */
 void dyd_spot_box(dyd_spot *s);
 /* Returns true if the region may be exact: a double, or between two next to each other. */
@@ -164,9 +167,13 @@ dyd_status dyd_cyclic_is_zero(bool *zero, dyd_root_term *term, size_t count, dyd
 /* Proves that images are of exact places on one circle, with the centre if `centre` is set. */
 dyd_status dyd_sphere_on_circle(bool *proved, const dyd_sphere *s, bool centre, const uint32_t *site, size_t count,
                                 dyd_error *err);
-/* As dyd_prove_fn; user is a dyd_sphere, sites are images. */
+/* Members of a dyd_prover; user is a dyd_sphere, sites are images. Where the centre has a region, the middle of it is
+ * projected from. */
 dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                             dyd_error *err);
+dyd_status dyd_sphere_prove_places(bool *proved, void *user, dyd_relation relation, const dyd_site_place *at,
+                                   size_t count);
+dyd_status dyd_sphere_place_at(dyd_rect *out, void *user, const dyd_site_place *at); /* project.c */
 
 /* Proves that the exact places spot[0 .. count - 1] are equally far from the exact place `at`. DYD_OK or DYD_E_NOMEM.
  */

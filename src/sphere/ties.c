@@ -186,10 +186,11 @@ static bool turns_set_degrees(dyd_turns *out, mpq_srcptr x, mpz_srcptr n) {
   return good;
 }
 
-/* The subject of the question: places, the unit of their angles. */
+/* The subject of the question: places, the unit of their angles. chosen: NULL, or given instead of `site`. */
 typedef struct circle_question {
   const dyd_sphere *s;
   const uint32_t *site;
+  const dyd_site_place *chosen;
   size_t count; /* of sites; with the centre, one more */
   bool line;
   dyd_spot *spot;
@@ -200,12 +201,26 @@ static size_t circle_places(const circle_question *q) {
   return q->count + q->line;
 }
 
+/* Reads place number k; the last one is that which is projected from, where a line is asked for. */
+static dyd_status circle_read_one(circle_question *q, size_t k, dyd_error *err) {
+  const dyd_sphere *s = q->s;
+  dyd_spot *spot = &q->spot[k];
+  if (k == q->count && s->free) {
+    for (int a = 0; a < 2; a++) mpq_set(spot->mid[a], s->eye.spot.mid[a]);
+    return DYD_OK;
+  }
+  uint32_t i = k == q->count ? s->centre : s->of[q->chosen ? q->chosen[k].site : q->site[k]];
+  dyd_status st = dyd_sphere_spot(spot, s, i, err);
+  if (st == DYD_OK && q->chosen && spot->stays && dyd_sphere_is_fixed(s, i))
+    dyd_spot_choose(spot, k < q->count ? q->chosen[k].place : 0);
+  return st;
+}
+
 /* Reads places; *exact: all are exact. The unit divides all angles. */
 static dyd_status circle_read(bool *exact, circle_question *q, dyd_error *err) {
   *exact = true;
   for (size_t k = 0; k < circle_places(q) && *exact; k++) {
-    uint32_t i = k < q->count ? q->s->of[q->site[k]] : q->s->centre;
-    dyd_status st = dyd_sphere_spot(&q->spot[k], q->s, i, err);
+    dyd_status st = circle_read_one(q, k, err);
     if (st != DYD_OK) return st;
     *exact = dyd_spot_is_exact(&q->spot[k]);
     for (int a = 0; a < 2; a++) mpz_lcm(q->n, q->n, mpq_denref(q->spot[k].mid[a]));
@@ -259,6 +274,18 @@ static bool turned_set(turned *out, const dyd_spot *spot, mpz_srcptr n) {
   return turns_set_degrees(&out->lon, spot->mid[0], n) && turns_set_degrees(&out->lat, spot->mid[1], n);
 }
 
+/* Returns true if no two of the places are the same: chosen ones may be. */
+static bool circle_is_apart(const circle_question *q) {
+  bool apart = true;
+  for (size_t k = 1; k < circle_places(q) && apart; k++)
+    for (size_t l = 0; l < k && apart; l++) {
+      turned a, b;
+      apart =
+          turned_set(&a, &q->spot[k], q->n) && turned_set(&b, &q->spot[l], q->n) && (a.lon != b.lon || a.lat != b.lat);
+    }
+  return apart;
+}
+
 /* Three of the places far apart in the order given are the circle. */
 static dyd_status circle_answer(bool *proved, const circle_question *q) {
   size_t count = circle_places(q), base[3] = {0, count / 3, 2 * count / 3};
@@ -279,24 +306,38 @@ static dyd_status circle_answer(bool *proved, const circle_question *q) {
 static dyd_status circle_ask(bool *proved, circle_question *q, dyd_error *err) {
   bool exact;
   dyd_status st = circle_read(&exact, q, err);
-  if (st == DYD_OK && exact) st = circle_answer(proved, q);
+  if (st == DYD_OK && exact && (!q->chosen || circle_is_apart(q))) st = circle_answer(proved, q);
+  return st;
+}
+
+static dyd_status circle_decide(bool *proved, circle_question *q, dyd_error *err) {
+  *proved = false;
+  if (q->line && q->s->free && !q->chosen) return DYD_OK; /* no place is, so that it is no tie */
+  q->spot = dyd_alloc(circle_places(q), sizeof *q->spot);
+  if (!q->spot) return dyd_fail_nomem(err);
+  mpz_init_set_ui(q->n, 1);
+  for (size_t k = 0; k < circle_places(q); k++) dyd_spot_init(&q->spot[k]);
+  dyd_status st = circle_ask(proved, q, err);
+  for (size_t k = 0; k < circle_places(q); k++) dyd_spot_clear(&q->spot[k]);
+  mpz_clear(q->n);
+  free(q->spot);
   return st;
 }
 
 dyd_status dyd_sphere_on_circle(bool *proved, const dyd_sphere *s, bool centre, const uint32_t *site, size_t count,
                                 dyd_error *err) {
   circle_question q = {.s = s, .site = site, .count = count, .line = centre};
-  *proved = false;
-  if (centre && s->free) return DYD_OK;
-  q.spot = dyd_alloc(circle_places(&q), sizeof *q.spot);
-  if (!q.spot) return dyd_fail_nomem(err);
-  mpz_init_set_ui(q.n, 1);
-  for (size_t k = 0; k < circle_places(&q); k++) dyd_spot_init(&q.spot[k]);
-  dyd_status st = circle_ask(proved, &q, err);
-  for (size_t k = 0; k < circle_places(&q); k++) dyd_spot_clear(&q.spot[k]);
-  mpz_clear(q.n);
-  free(q.spot);
-  return st;
+  return circle_decide(proved, &q, err);
+}
+
+dyd_status dyd_sphere_prove_places(bool *proved, void *user, dyd_relation relation, const dyd_site_place *at,
+                                   size_t count) {
+  dyd_sphere *s = user;
+  circle_question q = {.s = s, .chosen = at, .count = count, .line = relation == DYD_COLLINEAR};
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < count && st == DYD_OK; k++) st = dyd_sphere_recognise(s, s->of[at[k].site], NULL);
+  if (st == DYD_OK && q.line && !s->free) st = dyd_sphere_recognise(s, s->centre, NULL);
+  return st == DYD_OK ? circle_decide(proved, &q, NULL) : st;
 }
 
 dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,

@@ -171,6 +171,21 @@ def test_regions_beside_nearly_collinear_points_settle():
     assert result.code == 3 and int(re.search(r'bits asked, most +(\d+)', result.err).group(1)) < 300, result
 
 
+def test_regions_that_touch_lines_and_circles_settle():
+    """A choice of the regions puts them on the line or circle of exact places, or on one of these."""
+    planes = ['sqrt(2) 0\nsqrt(3) 0\n[5,6] 0\n0 0\n', 'sqrt(2) 0\n[2,3] 0\nsqrt(20) 0\n',
+              'sqrt(2) 0\n[2,3] [0,1]\nsqrt(20) 0\n0 sqrt(7)\n', '0 sqrt(2)\n0 sqrt(2)*2\n0 -sqrt(3)\n0 [1,4]\n',
+              'sqrt(2) 0\n0 sqrt(2)\n-sqrt(2) 0\n[-1,1] [-3,-1]\n', 'sqrt(2) 0\nsqrt(20) 1\n3 -4\n[3,4] [-4,-2]\n0 9\n']
+    globes = ['-29 0\n-76 0\n[160,170] 0\n-145 0\n', '-118 0\n[1.25,3.075] 0\n[-125.875,-122.125] 0\n8 0\n',
+              '296 [-70.25,-68.5]\n296 40\n116 1\n296 -78\n', '-27 0\n-76 0\n27 0\n[-78.125,-65] 0\n',
+              '0 30\n90 30\n180 30\n[-95,-80] 30\n', '0 30\n90 30\n180 30\n[-95,-80] [30,34]\n']
+    for options, sets in (((), planes), (('--sphere',), globes)):
+        for points in sets:
+            result = run('delaunay', '-', '--stats', *options, stdin=points)
+            most = re.search(r'bits asked, most +(\d+)', result.err)
+            assert result.code == 3 and int(most.group(1)) < 1000, (points, result)
+
+
 def exact(text):
     """An exact end: a rational, or m*2^e."""
     number, _, power = text.partition('*2^')

@@ -123,7 +123,8 @@ static void test_settled(void **state) {
  * are. */
 static void check_few(size_t said[2], const dyd_engine *e, test_random *r, size_t fixed) {
   enum { FEW = 5, PAIRS = FEW * (FEW - 1) / 2 };
-  size_t work = SIZE_MAX, count = 0;
+  size_t count = 0;
+  dyd_settle_work work = {SIZE_MAX, SIZE_MAX};
   uint32_t few[FEW];
   dyd_settled_pair pair[PAIRS];
   for (uint32_t k = 0; k < FEW; k++) few[k] = (uint32_t)(k * dyd_engine_count(e) / FEW);

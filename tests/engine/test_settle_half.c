@@ -180,7 +180,8 @@ static void test_few(void **state) {
     dyd_engine_options o;
     dyd_settled_pair pair[FEW * FEW];
     uint32_t few[FEW];
-    size_t count = 0, work = SIZE_MAX;
+    size_t count = 0;
+    dyd_settle_work work = {SIZE_MAX, SIZE_MAX};
     half_case_new(&c, &r, 96);
     run_coarsely(&c, &o, test_between(&r, 1, 3));
     for (uint32_t k = 0; k < FEW; k++) few[k] = (uint32_t)(k * c.n / FEW);
