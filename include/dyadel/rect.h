@@ -11,9 +11,8 @@
 extern "C" {
 #endif
 
-/* A closed interval [lo/den, hi/den].
- * Invariant: den is odd and positive; den = 1 unless lo = hi (an exact rational point such as 1/10: lo = 2^-1,
- * den = 5); lo and den have no common factor; lo <= hi. */
+/* A closed interval [lo/den, hi/den] with rational ends, such as [0,6/5]: lo = 0, hi = 3 * 2^1, den = 5.
+ * Invariant: den is odd and positive; no factor > 1 of den divides both lo and hi; lo <= hi. */
 typedef struct dyd_interval {
   dyd_dyadic lo, hi;
   mpz_t den;
@@ -37,6 +36,9 @@ DYD_API dyd_status dyd_interval_set_ends(dyd_interval *out, const dyd_dyadic *lo
 DYD_API dyd_status dyd_interval_set_d(dyd_interval *out, double lo, double hi);
 /* The exact point q (canonical rational). DYD_E_RANGE when it leaves the exponent range. */
 DYD_API dyd_status dyd_interval_set_q(dyd_interval *out, const mpq_t q);
+/* The exact interval [lo,hi] of canonical rationals. DYD_E_ARG unless lo <= hi; DYD_E_RANGE when an end leaves the
+ * exponent range. */
+DYD_API dyd_status dyd_interval_set_ends_q(dyd_interval *out, const mpq_t lo, const mpq_t hi);
 /* [lo,hi] rounded outward to multiples of 2^exp; lo <= hi are canonical rationals. */
 DYD_API dyd_status dyd_interval_set_outward(dyd_interval *out, const mpq_t lo, const mpq_t hi, int64_t exp);
 DYD_API bool dyd_interval_is_point(const dyd_interval *a);

@@ -53,9 +53,8 @@ static inline const dyd_request *dyd_request_at(const dyd_request *request, size
 }
 
 /* For callbacks in languages that cannot fill in a dyd_rect: *r, as narrow was given it, becomes the answer that the
- * text "XLO XHI YLO YHI" or "XLO XHI YLO YHI fixed" gives, four plain numbers (decimal, rational, hexadecimal, dyadic).
- * Where they are not dyadic they are rounded outward, by less than 2^-64 of the width and never beyond the former
- * rectangle. The result (DYD_OK, DYD_FIXED, or an error with *r as it was) is for the callback to return. */
+ * text "XLO XHI YLO YHI" or "XLO XHI YLO YHI fixed" gives, four plain numbers (decimal, rational, hexadecimal, dyadic),
+ * exactly. The result (DYD_OK, DYD_FIXED, or an error with *r as it was) is for the callback to return. */
 DYD_API dyd_status dyd_rect_narrow_text(dyd_rect *r, const char *text, size_t length, dyd_error *err);
 /* The same from canonical rationals: x lower, x upper, y lower, y upper. */
 DYD_API dyd_status dyd_rect_narrow_q(dyd_rect *r, const mpq_t end[4], dyd_error *err);
@@ -84,8 +83,7 @@ typedef struct dyd_real dyd_real;
  * dyd_real_new calls release when it fails; its requests name point 0. */
 DYD_API dyd_status dyd_real_new(dyd_real **out, dyd_narrow_real_fn narrow, dyd_release_fn release, void *user);
 DYD_API dyd_status dyd_real_from_q(dyd_real **out, const mpq_t q);
-/* The fixed interval [lo,hi]. Ends that are not dyadic are rounded outward once, by less than 2^-64 of the
- * width (or of the magnitude when smaller), so that the rectangle never changes. lo = hi is the exact point. */
+/* The fixed interval [lo,hi], exactly. lo = hi is the exact point. */
 DYD_API dyd_status dyd_real_from_interval(dyd_real **out, const mpq_t lo, const mpq_t hi);
 /* Every coordinate form of the points file: decimal, rational, hexadecimal float, dyadic, degrees with minutes and
  * seconds (47°36'18.3"N, N47.605, 47:36:18.3), [lo,hi], value+-radius, expression, root(polynomial,lo,hi). On

@@ -27,9 +27,8 @@ static const help_term help_coordinate_forms[] = {
     {"-3.25 1e-3 22/7", "decimal, integer, rational: exact"},
     {"47:36:18.3 N47.605", "degrees, minutes, seconds, in the usual forms: exact"},
     {"0x1.8p-3 5*2^-20", "hexadecimal float, dyadic: exact"},
-    {"[1.2,1.3]",
-     "interval: fixed, never refined; ends that are not m*2^e are rounded outward, by less than 2^-64 of the width"},
-    {"1.25+-0.01", "value with radius: the interval, its ends rounded outward, by less than 2^-13 of the width"},
+    {"[1.2,1.3]", "interval: fixed, with exact ends; never refined"},
+    {"1.25+-0.01", "value with radius: the interval"},
     {"sqrt(2)+pi/4", "expression: a computable real, refined on demand. Known are + - * / ^, pi e, sqrt cbrt exp log "
                      "sin cos tan asin acos atan sinh cosh tanh abs min max; blanks are allowed inside parentheses"},
     {"root(x^5-x-1, 1, 2)", "the root of the polynomial between 1 and 2; also inside expressions"},

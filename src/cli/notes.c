@@ -57,11 +57,6 @@ static void note_repeated(const dyd_engine *e, const cli_options *o, const dyd_r
 void cli_note_points(const dyd_engine *e, const cli_options *o, const dyd_read_report *r) {
   cli_note_lines(o, r);
   if (r->vertices) cli_note(o, "%s: the vertices of lines and polygons are the points: %zu", o->file, r->vertices);
-  if (r->rounded && (o->content == DYD_CONTENT_DISC || o->content == DYD_CONTENT_BISECTOR))
-    cli_note(o,
-             "%s: intervals whose ends are not dyadic (m*2^e): %zu; they are rounded outward, by less than 2^-64 of "
-             "their width, and what is exact here is so for the rounded ones",
-             o->file, r->rounded);
   note_confidence(e, o);
   if (r->merged)
     cli_note(o, "%s: %zu row%s merged with earlier ones of equal %s", o->file, r->merged,

@@ -63,9 +63,8 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                   DYD_CONTENT_DISC, &cli_disc},
     [CLI_BISECTOR] = {"bisector", "FILE", "the partial bisector of the first two points",
                       "The two curves that bound the regions certainly nearer to one point and to the other:\n"
-                      "each a chain of at most seven arcs of lines and parabolas, with exact ends. (Sides of\n"
-                      "rectangles that are not dyadic, as of [0,1.2], are rounded outward before.) The\n"
-                      "points are refined until their rectangles are disjoint.",
+                      "each a chain of at most seven arcs of lines and parabolas, with exact ends. The points\n"
+                      "are refined until their rectangles are disjoint.",
                       DYD_CONTENT_BISECTOR, &cli_bisector},
     [CLI_NEAREST] = {"nearest", "FILE X Y", "the points that are certainly or possibly nearest to a place",
                      "The points nearest to the place (X,Y), coordinates of any form: certain when\n"

@@ -113,10 +113,12 @@ dyd_status dyd_engine_reserve(dyd_engine *e, size_t n) {
   return dyd_sites_reserve(e->sites, n);
 }
 
-dyd_status dyd_engine_add_words(dyd_engine *e, size_t n, const dyd_words *xy, dyd_error *err) {
+dyd_status dyd_engine_add_words(dyd_engine *e, size_t n, const dyd_words *xy, bool boxes, dyd_error *err) {
   size_t before = dyd_sites_count(e->sites);
   dyd_status st = dyd_engine_may_add(e, err);
-  return st == DYD_OK ? added(e, before, dyd_sites_add_words(e->sites, n, xy), false, err) : st;
+  if (st != DYD_OK) return st;
+  st = boxes ? dyd_sites_add_word_boxes(e->sites, n, xy) : dyd_sites_add_words(e->sites, n, xy);
+  return added(e, before, st, false, err);
 }
 
 /* ---- streams and sources ---- */

@@ -101,6 +101,10 @@ static dyd_status rect_width(width *out, dyd_dyadic *spare, const dyd_rect *r) {
     if (dyd_interval_is_point(side[a])) continue;
     dyd_status st = dyd_dyadic_sub(spare, &side[a]->hi, &side[a]->lo);
     if (st != DYD_OK) return st;
+    const mp_bitcnt_t more = mpz_cmp_ui(side[a]->den, 1) ? 64 + mpz_sizeinbase(side[a]->den, 2) : 0;
+    mpz_mul_2exp(spare->man, spare->man, more);
+    mpz_cdiv_q(spare->man, spare->man, side[a]->den);
+    spare->exp -= (int64_t)more;
     width w = width_above(spare);
     if (compare_width(&w, out) > 0) *out = w;
   }

@@ -16,6 +16,7 @@
 #include "engine/points.h"
 #include "engine/settle.h"
 #include "engine/ties.h"
+#include "rect/rect.h"
 #include <dyadel/graph.h>
 #include <dyadel/tolerance.h>
 #include <dyadel/voronoi.h>
@@ -236,8 +237,7 @@ static dyd_status graph_draw_site(dyd_sites *sites, const dyd_engine *e, uint32_
   for (int a = 0; st == DYD_OK && a < 2; a++) {
     dyd_interval *side = a ? &r.y : &r.x;
     if (!core[a] || dyd_interval_is_point(side)) continue;
-    const dyd_dyadic *end = bits >> (30 + a) & 1 ? &side->hi : &side->lo;
-    st = dyd_interval_set_ends(side, end, end);
+    dyd_interval_set_over(side, bits >> (30 + a) & 1 ? &side->hi : &side->lo, side->den);
   }
   if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
   dyd_rect_clear(&r);

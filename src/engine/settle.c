@@ -16,6 +16,7 @@
 #include "delaunay/disc_filter.h"
 #include "delaunay/index_list.h"
 #include "delaunay/state.h"
+#include "dyadic/raw.h"
 #include "engine/points.h"
 #include "engine/settle_filter.h"
 #include "rect/rect.h"
@@ -28,13 +29,10 @@
 /* Cores [SET-3], and firm ones: wider both ways than twice the unknown width of sides without a core [SET-2]. */
 
 /* Sides of r that have a core, or sides without one, become their lower ends. */
-static dyd_status rect_collapse(dyd_rect *r, const bool core[2], bool which) {
+static void rect_collapse(dyd_rect *r, const bool core[2], bool which) {
   dyd_interval *side[2] = {&r->x, &r->y};
-  dyd_status st = DYD_OK;
-  for (int a = 0; st == DYD_OK && a < 2; a++)
-    if (core[a] == which && !dyd_interval_is_point(side[a]))
-      st = dyd_interval_set_ends(side[a], &side[a]->lo, &side[a]->lo);
-  return st;
+  for (int a = 0; a < 2; a++)
+    if (core[a] == which && !dyd_interval_is_point(side[a])) dyd_interval_set_over(side[a], &side[a]->lo, side[a]->den);
 }
 
 dyd_status dyd_site_get_core(dyd_rect *r, bool core[2], const dyd_engine *e, uint32_t site) {
@@ -51,8 +49,9 @@ static dyd_status eps_raise(dyd_dyadic *eps, const dyd_rect *r, const bool core[
   dyd_dyadic_init(&more);
   dyd_rect_init(&rest);
   dyd_rect_set(&rest, r);
-  dyd_status st = rect_collapse(&rest, core, true);
-  if (st == DYD_OK && !dyd_rect_is_point(&rest)) /* widths of 2^-b, a diameter below 2^(1-b) */
+  dyd_status st = DYD_OK;
+  rect_collapse(&rest, core, true);
+  if (!dyd_rect_is_point(&rest)) /* widths of 2^-b, a diameter below 2^(1-b) */
     st = dyd_dyadic_set_si_2exp(&more, 1, 1 - dyd_rect_bits(&rest));
   if (dyd_dyadic_cmp(&more, eps) > 0) dyd_dyadic_swap(&more, eps);
   dyd_rect_clear(&rest);
@@ -82,20 +81,21 @@ dyd_status dyd_firm_place(dyd_rect *out, dyd_dyadic *eps, const dyd_stream *at) 
   dyd_rect_set(out, dyd_stream_rect(at));
   dyd_status st = dyd_stream_core(out, core, at, false);
   if (st == DYD_OK) st = eps_raise(eps, out, core);
-  return st == DYD_OK ? rect_collapse(out, core, false) : st;
+  if (st == DYD_OK) rect_collapse(out, core, false);
+  return st;
 }
 
 /* a becomes smaller by eps on each side, if it is wide enough: *can. */
 static dyd_status side_shrink(dyd_interval *a, bool *can, const dyd_dyadic *eps) {
-  dyd_dyadic lo, hi;
-  dyd_dyadic_init(&lo);
-  dyd_dyadic_init(&hi);
-  dyd_status st = dyd_dyadic_add(&lo, &a->lo, eps);
-  if (st == DYD_OK) st = dyd_dyadic_sub(&hi, &a->hi, eps);
-  *can = st == DYD_OK && !dyd_interval_is_point(a) && dyd_dyadic_cmp(&lo, &hi) < 0;
-  if (*can) st = dyd_interval_set_ends(a, &lo, &hi);
-  dyd_dyadic_clear(&hi);
-  dyd_dyadic_clear(&lo);
+  mpq_t lo, hi, by;
+  mpq_inits(lo, hi, by, NULL);
+  dyd_interval_get_q(lo, hi, a);
+  dyd_dyadic_get_q(by, eps);
+  mpq_add(lo, lo, by);
+  mpq_sub(hi, hi, by);
+  *can = !dyd_interval_is_point(a) && mpq_cmp(lo, hi) < 0;
+  dyd_status st = *can ? dyd_interval_set_ends_q(a, lo, hi) : DYD_OK;
+  mpq_clears(lo, hi, by, NULL);
   return st;
 }
 
@@ -107,7 +107,7 @@ static dyd_status site_get_firm(dyd_rect *r, bool *firm, const dyd_engine *e, co
   *firm = false;
   dyd_status st = dyd_site_get_core(r, core, e, site);
   if (st != DYD_OK) return st;
-  if (!core[0] || !core[1]) return rect_collapse(r, core, false);
+  if (!core[0] || !core[1]) return rect_collapse(r, core, false), DYD_OK;
   dyd_rect_init(&s);
   dyd_rect_set(&s, r);
   st = side_shrink(&s.x, &wide[0], eps);
@@ -206,16 +206,17 @@ static void settling_spend(settling *s) {
 
 /* a becomes its end that is farther from v. */
 static dyd_status side_set_far(dyd_interval *a, const dyd_dyadic *v) {
-  dyd_dyadic below, above;
+  dyd_dyadic sum;
+  mpz_t twice, one;
   if (dyd_interval_is_point(a)) return DYD_OK;
-  dyd_dyadic_init(&below);
-  dyd_dyadic_init(&above);
-  dyd_status st = dyd_dyadic_sub(&below, v, &a->lo);
-  if (st == DYD_OK) st = dyd_dyadic_sub(&above, &a->hi, v);
-  const dyd_dyadic *end = dyd_dyadic_cmp(&below, &above) > 0 ? &a->lo : &a->hi;
-  if (st == DYD_OK) st = dyd_interval_set_ends(a, end, end);
-  dyd_dyadic_clear(&above);
-  dyd_dyadic_clear(&below);
+  dyd_dyadic_init(&sum);
+  mpz_init(twice);
+  mpz_init_set_ui(one, 1);
+  mpz_mul_2exp(twice, a->den, 1);
+  dyd_status st = dyd_dyadic_add(&sum, &a->lo, &a->hi);
+  if (st == DYD_OK) dyd_interval_set_over(a, dyd_raw_cmp(v, twice, &sum, one) > 0 ? &a->lo : &a->hi, a->den);
+  mpz_clears(twice, one, NULL);
+  dyd_dyadic_clear(&sum);
   return st;
 }
 
@@ -307,9 +308,9 @@ static void choose_on_side(dyd_interval *out, const dyd_interval *a, double at) 
   const dyd_dyadic *end = &a->lo;
   if (dyd_interval_set_d(out, at, at) == DYD_OK) {
     if (dyd_interval_contains(a, out)) return;
-    if (dyd_dyadic_cmp(&out->lo, &a->hi) > 0) end = &a->hi;
+    if (dyd_raw_cmp(&out->lo, a->den, &a->hi, out->den) > 0) end = &a->hi;
   }
-  dyd_interval_set_ends(out, end, end);
+  dyd_interval_set_over(out, end, a->den);
 }
 
 /* Site number k of the face: its point nearest to `at` along the sides where that can be chosen. */
@@ -484,10 +485,9 @@ static bool core_is_beside(const settled_circle *c, dyd_sure way, const dyd_rect
   dyd_rect_init(&q);
   for (int k = 0; k < 4 && !found; k++) {
     dyd_rect_set(&q, r);
-    const dyd_dyadic *x = k & 1 ? &r->x.hi : &r->x.lo, *y = k & 2 ? &r->y.hi : &r->y.lo;
-    bool good = !core[0] || dyd_interval_set_ends(&q.x, x, x) == DYD_OK;
-    good = good && (!core[1] || dyd_interval_set_ends(&q.y, y, y) == DYD_OK);
-    found = good && surely_beside(c, way, &q);
+    if (core[0]) dyd_interval_set_over(&q.x, k & 1 ? &r->x.hi : &r->x.lo, r->x.den);
+    if (core[1]) dyd_interval_set_over(&q.y, k & 2 ? &r->y.hi : &r->y.lo, r->y.den);
+    found = surely_beside(c, way, &q);
   }
   dyd_rect_clear(&q);
   return found;
@@ -518,7 +518,7 @@ static dyd_status circle_is_empty(bool *out, const settling *s, const settled_ci
 }
 
 static bool surely_before(const dyd_interval *a, const dyd_interval *b) {
-  return dyd_dyadic_cmp(&a->hi, &b->lo) < 0;
+  return dyd_raw_cmp(&a->hi, b->den, &b->lo, a->den) < 0;
 }
 
 /* Returns true if b is between a and c, all on one line. */

@@ -16,6 +16,7 @@
 #include "delaunay/memory.h"
 #include "engine/points.h"
 #include "engine/settle.h"
+#include "rect/rect.h"
 #include "rect/sites_table.h"
 #include "stream/algebra/form.h"
 #include "stream/algebra/zero.h"
@@ -208,7 +209,7 @@ static dyd_status rect_choose(dyd_rect *r, unsigned place) {
     else
       dyd_dyadic_set(&at, (place - 1) >> a & 1 ? &side[a]->hi : &side[a]->lo);
     if (st == DYD_OK && place == 0) st = dyd_dyadic_mul_2exp(&at, &at, -1);
-    if (st == DYD_OK) st = dyd_interval_set_ends(side[a], &at, &at);
+    if (st == DYD_OK) dyd_interval_set_over(side[a], &at, side[a]->den);
   }
   dyd_dyadic_clear(&at);
   return st;

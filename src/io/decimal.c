@@ -238,11 +238,12 @@ void dyd_decimal_put_near(FILE *out, double x) {
   fputs(text, out);
 }
 
-/* man * 2^exp / den for an odd den > 1. */
-static char *rational_text(const dyd_interval *a) {
+/* The end of a, for a den > 1. */
+static char *rational_text(const dyd_interval *a, bool upper) {
   char *text = NULL, *whole = NULL;
-  if (a->lo.exp > 256 || a->lo.exp < -256) {
-    whole = dyd_dyadic_get_str(&a->lo);
+  const dyd_dyadic *end = upper ? &a->hi : &a->lo;
+  if (end->exp > 256 || end->exp < -256) {
+    whole = dyd_dyadic_get_str(end);
     size_t size = whole ? strlen(whole) + mpz_sizeinbase(a->den, 10) + 3 : 0;
     text = whole ? dyd_alloc(size, 1) : NULL;
     if (text) gmp_snprintf(text, size, "%s/%Zd", whole, a->den);
@@ -252,15 +253,16 @@ static char *rational_text(const dyd_interval *a) {
   mpq_t lo, hi;
   mpq_inits(lo, hi, NULL);
   dyd_interval_get_q(lo, hi, a);
-  size_t size = mpz_sizeinbase(mpq_numref(lo), 10) + mpz_sizeinbase(mpq_denref(lo), 10) + 3;
+  mpq_srcptr q = upper ? hi : lo;
+  size_t size = mpz_sizeinbase(mpq_numref(q), 10) + mpz_sizeinbase(mpq_denref(q), 10) + 3;
   text = dyd_alloc(size, 1);
-  if (text) mpq_get_str(text, 10, lo);
+  if (text) mpq_get_str(text, 10, q);
   mpq_clears(lo, hi, NULL);
   return text;
 }
 
 char *dyd_end_text(const dyd_interval *a, bool upper) {
-  if (mpz_cmp_ui(a->den, 1) != 0) return rational_text(a);
+  if (mpz_cmp_ui(a->den, 1) != 0) return rational_text(a, upper);
   return dyd_dyadic_get_str(upper ? &a->hi : &a->lo);
 }
 

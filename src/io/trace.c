@@ -257,14 +257,26 @@ static bool trace_has_text(const json_t *line, const char *name, const char *wan
   return text && strcmp(text, wanted) == 0;
 }
 
-/* Dyadic texts at `from` and behind it. */
+/* The rational ends of an interval, as texts. */
+static bool trace_rationals(dyd_interval *out, const char *lo, const char *hi) {
+  mpq_t a, b;
+  mpq_inits(a, b, NULL);
+  bool good = dyd_real_parse_exact(a, lo, strlen(lo)) == DYD_OK && dyd_real_parse_exact(b, hi, strlen(hi)) == DYD_OK &&
+              dyd_interval_set_ends_q(out, a, b) == DYD_OK;
+  mpq_clears(a, b, NULL);
+  return good;
+}
+
+/* Texts at `from` and behind it; dyadics of any size. */
 static bool trace_ends(dyd_interval *out, const json_t *list, size_t from) {
   const char *lo = json_string_value(json_array_get(list, from)),
              *hi = json_string_value(json_array_get(list, from + 1));
+  if (!lo || !hi) return false;
+  if (strchr(lo, '/') || strchr(hi, '/')) return trace_rationals(out, lo, hi);
   dyd_dyadic a, b;
   dyd_dyadic_init(&a);
   dyd_dyadic_init(&b);
-  bool good = lo && hi && dyd_dyadic_set_str(&a, lo, NULL) == DYD_OK && dyd_dyadic_set_str(&b, hi, NULL) == DYD_OK &&
+  bool good = dyd_dyadic_set_str(&a, lo, NULL) == DYD_OK && dyd_dyadic_set_str(&b, hi, NULL) == DYD_OK &&
               dyd_interval_set_ends(out, &a, &b) == DYD_OK;
   dyd_dyadic_clear(&b);
   dyd_dyadic_clear(&a);
@@ -274,11 +286,7 @@ static bool trace_ends(dyd_interval *out, const json_t *list, size_t from) {
 /* The side "x" or "y" of a rectangle. */
 static bool read_side(dyd_interval *out, const json_t *line, const char *name) {
   const json_t *side = json_object_get(line, name);
-  const char *lo = json_string_value(json_array_get(side, 0)), *hi = json_string_value(json_array_get(side, 1));
-  if (!lo || !hi || json_array_size(side) != 2) return false;
-  if (strcmp(lo, hi) == 0) /* any form of an exact number */
-    return dyd_interval_set_text(out, lo, strlen(lo), NULL) == DYD_OK && dyd_interval_is_point(out);
-  return trace_ends(out, side, 0);
+  return json_array_size(side) == 2 && trace_ends(out, side, 0);
 }
 
 /* ---- proofs, which replace the expressions that are not in a trace ---- */

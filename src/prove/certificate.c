@@ -6,6 +6,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "checker/bounds.h"
 #include "checker/near.h"
 #include "delaunay/memory.h"
 #include "io/output.h"
@@ -56,6 +57,10 @@ static dyd_status proof_gather_sites(dyd_proof *p) {
   dyd_status st = DYD_OK;
   for (size_t i = 0; i < dyd_sites_count(sites) && st == DYD_OK; i++) {
     st = dyd_sites_get(&r, sites, i);
+    for (int a = 0; a < 2; a++) {
+      const dyd_interval *side = a ? &r.y : &r.x;
+      p->rounded |= mpz_cmp_ui(side->den, 1) && !dyd_interval_is_point(side);
+    }
     if (st == DYD_OK) st = dyd_proof_add_site(&p->sites, &r);
     if (st == DYD_OK) p->sites.site[i].alias = dyd_delaunay_alias(p->pd, (uint32_t)i);
   }
@@ -141,27 +146,52 @@ static void certificate_corners(FILE *out, const dyd_proof *p) {
 
 /* ---- the end ---- */
 
-static void certificate_bound(FILE *out, const char *name, const dyd_dyadic *bound) {
-  dyd_exact x;
-  dyd_exact_init(&x);
-  dyd_proof_set(&x, bound);
-  fputs(name, out);
-  dyd_proof_put(out, " %n\n", &x);
-  dyd_exact_clear(&x);
+/* Sets *fits: do the bounds of area and distance hold for the rectangles stated, which may be rounded? */
+static void bounds_check(bool fits[2], const dyd_proof *p, const dyd_exact bound[2]) {
+  dyd_cert_bounds b;
+  dyd_cert_bounds_init(&b);
+  b.hausdorff = &bound[1];
+  for (size_t e = 0; e < p->legal.count; e++)
+    dyd_cert_bounds_add(&b, &p->sites, p->legal.item[e].i, p->legal.item[e].j, true);
+  for (size_t e = 0; e < p->open.count; e++)
+    dyd_cert_bounds_add(&b, &p->sites, p->open.item[e].i, p->open.item[e].j, false);
+  fits[0] = dyd_cert_bounds_area_holds(&b, &bound[0]);
+  fits[1] = !b.exceeded;
+  dyd_cert_bounds_clear(&b);
+}
+
+/* Raises the bounds of rectangles that are stated rounded: by 2^-60 of each, by 16 times as much, and so on. */
+static void bounds_raise(dyd_exact bound[2], const dyd_proof *p) {
+  dyd_exact more;
+  bool fits[2];
+  dyd_exact_init(&more);
+  for (int64_t exp = -60; exp < 0 && (bounds_check(fits, p, bound), !fits[0] || !fits[1]); exp += 4)
+    for (int k = 0; k < 2; k++) {
+      if (fits[k]) continue;
+      mpz_set_ui(more.man, 1);
+      more.exp = dyd_exact_top(&bound[k]) + exp;
+      dyd_exact_add(&bound[k], &bound[k], &more);
+    }
+  dyd_exact_clear(&more);
 }
 
 static dyd_status certificate_end(FILE *out, const dyd_proof *p) {
   dyd_dyadic area, hausdorff;
+  dyd_exact bound[2];
   dyd_dyadic_init(&area);
   dyd_dyadic_init(&hausdorff);
+  dyd_proof_init(bound, 2);
   fprintf(out, "triangles %zu\nunproved %" PRIu64 "\n", p->faces.triangles, p->unproved);
   dyd_status st = dyd_engine_bounds(&area, &hausdorff, p->engine);
   if (st == DYD_OK) {
-    certificate_bound(out, "area", &area);
-    certificate_bound(out, "hausdorff", &hausdorff);
+    dyd_proof_set(&bound[0], &area);
+    dyd_proof_set(&bound[1], &hausdorff);
+    if (p->rounded) bounds_raise(bound, p);
+    dyd_proof_put(out, "area %n\nhausdorff %n\n", &bound[0], &bound[1]);
   } else {
     fputs("area none\nhausdorff none\n", out);
   }
+  dyd_proof_clear(bound, 2);
   dyd_dyadic_clear(&area);
   dyd_dyadic_clear(&hausdorff);
   return st == DYD_E_NOMEM ? st : DYD_OK;

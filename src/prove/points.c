@@ -31,11 +31,18 @@ static dyd_status location_wrong(location *l, uint32_t i, const char *why) {
   return DYD_OK;
 }
 
+/* Certificates state dyadic rectangles [CERT-8]. */
+static dyd_status rect_round(dyd_rect *out, const dyd_sites *sites, size_t i) {
+  dyd_status st = dyd_sites_get(out, sites, i);
+  if (st == DYD_OK) st = dyd_interval_round(&out->x, &out->x);
+  return st == DYD_OK ? dyd_interval_round(&out->y, &out->y) : st;
+}
+
 /* Examines point i as it is now. */
 static dyd_status locate_point(location *l, const dyd_engine *e, dyd_rect *r, uint32_t i) {
   const dyd_refinable *p = dyd_engine_find(e, i);
   if (!dyd_engine_knows(e, i)) return DYD_OK;
-  dyd_status st = dyd_sites_get(r, dyd_engine_sites(e), i);
+  dyd_status st = rect_round(r, dyd_engine_sites(e), i);
   if (st != DYD_OK) return st;
   l->found[i] = dyd_rect_contains(&l->site[i], r);
   if (!p && !dyd_rect_equal(&l->site[i], r)) return location_wrong(l, i, "is not that of the point");
@@ -168,7 +175,7 @@ static dyd_status list_still(bool *still, const location *l, const dyd_engine *e
   dyd_status st = DYD_OK;
   for (uint32_t i = 0; i < l->count && st == DYD_OK; i++) {
     const dyd_refinable *p = dyd_engine_find(e, i);
-    st = dyd_sites_get(&r, dyd_engine_sites(e), i);
+    st = rect_round(&r, dyd_engine_sites(e), i);
     still[i] = (!p || p->final) && dyd_rect_equal(&l->site[i], &r);
   }
   dyd_rect_clear(&r);

@@ -23,6 +23,7 @@ typedef struct dyd_proof {
   const dyd_engine *engine; /* borrowed */
   const dyd_delaunay *pd;
   dyd_cert_sites sites;
+  bool rounded; /* some have rational ends, which are stated rounded outward */
   dyd_cert_tree tree;
   dyd_pair_list pairs; /* all possible pairs */
   dyd_cert_edges legal, bridges, open, chained;

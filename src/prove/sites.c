@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "checker/region.h"
 #include "prove/proof.h"
+#include "rect/rect.h"
 #include "tolerance/discs.h"
 #include <inttypes.h>
 #include <stdarg.h>
@@ -14,10 +15,15 @@ void dyd_proof_set(dyd_exact *out, const dyd_dyadic *x) {
 }
 
 dyd_status dyd_proof_set_side(dyd_cert_side *out, const dyd_interval *a) {
-  dyd_proof_set(&out->lo, &a->lo);
-  out->point = dyd_interval_is_point(a);
-  if (!out->point) dyd_proof_set(&out->hi, &a->hi);
-  return mpz_cmp_ui(a->den, 1) == 0 ? DYD_OK : dyd_cert_side_set_den(out, a->den);
+  dyd_interval held;
+  dyd_interval_init(&held);
+  dyd_status st = dyd_interval_round(&held, a);
+  dyd_proof_set(&out->lo, &held.lo);
+  out->point = dyd_interval_is_point(&held);
+  if (!out->point) dyd_proof_set(&out->hi, &held.hi);
+  if (st == DYD_OK && mpz_cmp_ui(held.den, 1)) st = dyd_cert_side_set_den(out, held.den);
+  dyd_interval_clear(&held);
+  return st;
 }
 
 dyd_status dyd_proof_add_site(dyd_cert_sites *out, const dyd_rect *r) {

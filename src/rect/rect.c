@@ -17,15 +17,14 @@
 
 bool dyd_interval_is_valid(const dyd_interval *a) {
   if (!dyd_dyadic_is_valid(&a->lo) || !dyd_dyadic_is_valid(&a->hi)) return false;
-  if (mpz_sgn(a->den) <= 0 || !mpz_odd_p(a->den)) return false;
-  int order = dyd_dyadic_cmp(&a->lo, &a->hi);
-  if (!mpz_cmp_ui(a->den, 1)) return order <= 0;
+  if (mpz_sgn(a->den) <= 0 || !mpz_odd_p(a->den) || dyd_dyadic_cmp(&a->lo, &a->hi) > 0) return false;
   mpz_t g;
   mpz_init(g);
   mpz_gcd(g, a->lo.man, a->den);
-  bool coprime = !mpz_cmp_ui(g, 1);
+  mpz_gcd(g, g, a->hi.man);
+  bool lowest = !mpz_cmp_ui(g, 1);
   mpz_clear(g);
-  return coprime && order == 0;
+  return lowest;
 }
 
 void dyd_interval_init(dyd_interval *a) {
@@ -76,17 +75,32 @@ dyd_status dyd_interval_set_d(dyd_interval *out, double lo, double hi) {
 }
 
 dyd_status dyd_interval_set_q(dyd_interval *out, const mpq_t q) {
-  int64_t k = (int64_t)mpz_scan1(mpq_denref(q), 0);
-  if (dyd_bits(mpq_denref(q)) - k > DYD_EXP_LIMIT) return DYD_E_RANGE;
+  return dyd_interval_set_ends_q(out, q, q);
+}
+
+/* *out = den q, for a multiple den of the odd part of the denominator of q. */
+static dyd_status end_set_q(dyd_dyadic *out, const mpq_t q, const mpz_t den) {
+  mpz_t man;
+  mp_bitcnt_t twos = mpz_scan1(mpq_denref(q), 0);
+  mpz_init(man);
+  mpz_tdiv_q_2exp(man, mpq_denref(q), twos);
+  mpz_divexact(man, den, man);
+  mpz_mul(man, man, mpq_numref(q));
+  dyd_status st = dyd_dyadic_set_z_2exp(out, man, -(int64_t)twos);
+  mpz_clear(man);
+  return st;
+}
+
+dyd_status dyd_interval_set_ends_q(dyd_interval *out, const mpq_t lo, const mpq_t hi) {
+  if (mpq_cmp(lo, hi) > 0) return DYD_E_ARG;
   dyd_interval t;
   dyd_interval_init(&t);
-  dyd_status st = dyd_dyadic_set_z_2exp(&t.lo, mpq_numref(q), -k);
-  if (st == DYD_OK) {
-    dyd_dyadic_set(&t.hi, &t.lo);
-    mpz_tdiv_q_2exp(t.den, mpq_denref(q), (mp_bitcnt_t)k);
-    dyd_interval_swap(out, &t);
-    DYD_INVARIANT(dyd_interval_is_valid(out));
-  }
+  mpz_lcm(t.den, mpq_denref(lo), mpq_denref(hi));
+  mpz_tdiv_q_2exp(t.den, t.den, mpz_scan1(t.den, 0));
+  dyd_status st = dyd_bits(t.den) > DYD_EXP_LIMIT ? DYD_E_RANGE : end_set_q(&t.lo, lo, t.den);
+  if (st == DYD_OK) st = end_set_q(&t.hi, hi, t.den);
+  if (st == DYD_OK) dyd_interval_swap(out, &t);
+  DYD_INVARIANT(st != DYD_OK || dyd_interval_is_valid(out));
   dyd_interval_clear(&t);
   return st;
 }
@@ -120,23 +134,48 @@ bool dyd_interval_meets(const dyd_interval *a, const dyd_interval *b) {
   return interval_cmp_ends(&a->lo, a, &b->hi, b) <= 0 && interval_cmp_ends(&b->lo, b, &a->hi, a) <= 0;
 }
 
-dyd_status dyd_interval_intersect(dyd_interval *out, const dyd_interval *a, const dyd_interval *b) {
-  if (!dyd_interval_meets(a, b)) return DYD_E_ARG;
-  /* A rational point that meets the other set is the intersection; so is any set inside the other. */
-  if (dyd_interval_contains(a, b)) {
-    dyd_interval_set(out, b);
-  } else if (dyd_interval_contains(b, a)) {
-    dyd_interval_set(out, a);
-  } else {
-    bool a_is_lower = dyd_dyadic_cmp(&a->lo, &b->lo) < 0;
-    return dyd_interval_set_ends(out, a_is_lower ? &b->lo : &a->lo, a_is_lower ? &a->hi : &b->hi);
-  }
-  return DYD_OK;
-}
-
 static void interval_end_get_q(mpq_t out, const dyd_dyadic *end, const dyd_interval *a) {
   dyd_dyadic_get_q(out, end);
   mpz_mul(mpq_denref(out), mpq_denref(out), a->den);
+  if (mpz_cmp_ui(a->den, 1)) mpq_canonicalize(out);
+}
+
+dyd_status dyd_interval_intersect(dyd_interval *out, const dyd_interval *a, const dyd_interval *b) {
+  if (!dyd_interval_meets(a, b)) return DYD_E_ARG;
+  if (dyd_interval_contains(a, b)) return dyd_interval_set(out, b), DYD_OK;
+  if (dyd_interval_contains(b, a)) return dyd_interval_set(out, a), DYD_OK;
+  const bool a_is_lower = interval_cmp_ends(&a->lo, a, &b->lo, b) < 0;
+  const dyd_interval *low = a_is_lower ? a : b, *high = a_is_lower ? b : a;
+  if (!mpz_cmp_ui(a->den, 1) && !mpz_cmp_ui(b->den, 1)) return dyd_interval_set_ends(out, &high->lo, &low->hi);
+  mpq_t lo, hi;
+  mpq_inits(lo, hi, NULL);
+  interval_end_get_q(lo, &high->lo, high);
+  interval_end_get_q(hi, &low->hi, low);
+  dyd_status st = dyd_interval_set_ends_q(out, lo, hi);
+  mpq_clears(lo, hi, NULL);
+  return st;
+}
+
+void dyd_interval_set_over(dyd_interval *out, const dyd_dyadic *x, const mpz_t den) {
+  mpz_t g;
+  mpz_init(g);
+  mpz_gcd(g, x->man, den);
+  dyd_dyadic_set(&out->lo, x);
+  mpz_divexact(out->den, den, g);
+  mpz_divexact(out->lo.man, out->lo.man, g);
+  dyd_dyadic_set(&out->hi, &out->lo);
+  mpz_clear(g);
+}
+
+dyd_status dyd_interval_round(dyd_interval *out, const dyd_interval *a) {
+  if (!mpz_cmp_ui(a->den, 1)) return dyd_interval_set(out, a), DYD_OK;
+  mpq_t lo, hi;
+  mpq_inits(lo, hi, NULL);
+  dyd_interval_get_q(lo, hi, a);
+  dyd_status st = dyd_interval_is_point(a) ? dyd_interval_set_q(out, lo)
+                                           : dyd_interval_set_outward(out, lo, hi, -dyd_interval_bits(a) - 66);
+  mpq_clears(lo, hi, NULL);
+  return st;
 }
 
 void dyd_interval_get_q(mpq_t lo, mpq_t hi, const dyd_interval *a) {
@@ -144,16 +183,16 @@ void dyd_interval_get_q(mpq_t lo, mpq_t hi, const dyd_interval *a) {
   interval_end_get_q(hi, &a->hi, a);
 }
 
-/* A width w with highest bit 2^(top-1) is at most 2^(top-1) if it is that power, else less than 2^top. */
+/* A width m 2^e / d, m and d of the sizes 2^(a-1) to 2^a and 2^(b-1) to 2^b, is above 2^(e+a-b-1) and below
+ * 2^(e+a-b+1): it is at most 2^(e+a-b) if m <= d 2^(a-b). */
 int64_t dyd_interval_bits(const dyd_interval *a) {
   mpz_t width;
   int64_t exp, bits = INT64_MAX;
   mpz_init(width);
   dyd_raw_add(width, &exp, &a->hi, &a->lo, -1);
   if (mpz_sgn(width)) {
-    int64_t size = dyd_bits(width);
-    bool power = (int64_t)mpz_scan1(width, 0) == size - 1;
-    bits = -(exp + size) + (power ? 1 : 0);
+    dyd_dyadic m = {.man = {width[0]}}, d = {.man = {a->den[0]}, .exp = dyd_bits(width) - dyd_bits(a->den)};
+    bits = -(exp + d.exp + (dyd_dyadic_cmp(&m, &d) > 0));
   }
   mpz_clear(width);
   return bits;
@@ -271,6 +310,7 @@ bool dyd_rect_meets(const dyd_rect *a, const dyd_rect *b) {
 }
 
 bool dyd_rect_holds(const dyd_rect *r, const dyd_point *p) {
+  DYD_INVARIANT(mpz_cmp_ui(r->x.den, 1) == 0 && mpz_cmp_ui(r->y.den, 1) == 0);
   return dyd_dyadic_cmp(&r->x.lo, &p->x) <= 0 && dyd_dyadic_cmp(&p->x, &r->x.hi) <= 0 &&
          dyd_dyadic_cmp(&r->y.lo, &p->y) <= 0 && dyd_dyadic_cmp(&p->y, &r->y.hi) <= 0;
 }

@@ -81,49 +81,78 @@ static void words_get_d(double *lo, double *hi, const dyd_words *w) {
   *hi = w->man < 0 ? -below : above;
 }
 
-/* Makes space for n further points: at once for the capacity of the table. */
-static dyd_status words_make_room(dyd_sites *s, size_t n) {
+/* Makes space for n further sites of `corners` points each: at once for the capacity of the table. */
+static dyd_status words_make_room(dyd_sites *s, size_t n, size_t corners) {
   if (!s->word && !(s->word = calloc(s->cap, sizeof *s->word))) return DYD_E_NOMEM;
-  if (n <= s->point_cap - s->points) return DYD_OK;
-  size_t need = s->points + (s->cap - s->count);
+  if (n * corners <= s->point_cap - s->points) return DYD_OK;
+  size_t need = s->points + (s->cap - s->count) * corners;
   return dyd_reserve((void **)&s->point, &s->point_cap, need, sizeof *s->point) ? DYD_OK : DYD_E_NOMEM;
 }
 
-/* Writes a point behind the last site, where there is room in every array. */
-static void put_words(dyd_sites *s, const dyd_words xy[2]) {
+/* Writes a site of one or two corners behind the last one, where there is room in every array. */
+static void put_words(dyd_sites *s, const dyd_words *xy, size_t corners) {
   size_t i = s->count++;
-  for (int a = 0; a < 2; a++) words_get_d(&s->lower[a][i], &s->upper[a][i], &xy[a]);
+  bool doubles = true;
+  double none;
+  for (int a = 0; a < 2; a++) {
+    const dyd_words *upper = &xy[a + 2 * (corners - 1)];
+    words_get_d(&s->lower[a][i], &s->upper[a][i], &xy[a]);
+    if (corners == 2) words_get_d(&none, &s->upper[a][i], upper);
+    doubles = doubles && words_in_doubles(&xy[a]) && words_in_doubles(upper);
+  }
   if (s->exact) s->exact[i] = NULL;
   s->word[i] = 0;
-  if (words_in_doubles(&xy[0]) && words_in_doubles(&xy[1])) return;
-  s->point[s->points] =
-      (dyd_word_point){{xy[0].man, xy[1].man}, {xy[0].den, xy[1].den}, {(int16_t)xy[0].exp, (int16_t)xy[1].exp}};
-  s->word[i] = (uint32_t)++s->points;
+  if (doubles) return;
+  s->word[i] = (uint32_t)s->points + 1;
+  if (corners == 2) s->word[i] |= DYD_WORD_BOX;
+  for (; corners--; xy += 2)
+    s->point[s->points++] =
+        (dyd_word_point){{xy[0].man, xy[1].man}, {xy[0].den, xy[1].den}, {(int16_t)xy[0].exp, (int16_t)xy[1].exp}};
 }
 
-dyd_status dyd_sites_add_words(dyd_sites *s, size_t n, const dyd_words *xy) {
+static dyd_status sites_add_corners(dyd_sites *s, size_t n, const dyd_words *xy, size_t corners) {
   if (n == 0) return DYD_OK;
   dyd_status st = dyd_sites_reserve(s, n);
   if (st == DYD_OK) st = sites_split_ends(s);
-  if (st == DYD_OK) st = words_make_room(s, n);
-  for (size_t k = 0; k < n && st == DYD_OK; k++) put_words(s, xy + 2 * k);
+  if (st == DYD_OK) st = words_make_room(s, n, corners);
+  for (size_t k = 0; k < n && st == DYD_OK; k++) put_words(s, xy + 2 * corners * k, corners);
   return st;
 }
 
-static dyd_words words_of_point(const dyd_sites *s, size_t i, int axis) {
-  const dyd_word_point *p = &s->point[s->word[i] - 1];
+dyd_status dyd_sites_add_words(dyd_sites *s, size_t n, const dyd_words *xy) {
+  return sites_add_corners(s, n, xy, 1);
+}
+
+dyd_status dyd_sites_add_word_boxes(dyd_sites *s, size_t n, const dyd_words *corner) {
+  return sites_add_corners(s, n, corner, 2);
+}
+
+static bool is_word_box(const dyd_sites *s, size_t i) {
+  return dyd_sites_in_words(s, i) && s->word[i] & DYD_WORD_BOX;
+}
+
+/* The lower or upper end of a site that is held in words. */
+static dyd_words words_of_end(const dyd_sites *s, size_t i, int axis, bool upper) {
+  const dyd_word_point *p = &s->point[(s->word[i] & ~DYD_WORD_BOX) - 1 + (upper && is_word_box(s, i))];
   return (dyd_words){p->man[axis], p->den[axis], p->exp[axis]};
 }
 
-/* The point of a site that is held in words. */
-static dyd_status sites_get_point(dyd_rect *out, const dyd_sites *s, size_t i) {
-  dyd_interval *side[2] = {&out->x, &out->y};
+/* *end = w times den, a multiple of its denominator. */
+static void end_set_words(dyd_dyadic *end, const dyd_words *w, const mpz_t den) {
+  mpz_divexact_ui(end->man, den, w->den);
+  mpz_mul_si(end->man, end->man, w->man);
+  end->exp = w->exp;
+}
+
+/* The rectangle of a site that is held in words. Factors of a denominator are odd, so that numerators stay odd. */
+static dyd_status sites_get_in_words(dyd_rect *out, const dyd_sites *s, size_t i) {
   for (int a = 0; a < 2; a++) {
-    dyd_words w = words_of_point(s, i, a);
-    mpz_set_si(side[a]->lo.man, w.man);
-    side[a]->lo.exp = w.exp;
-    dyd_dyadic_set(&side[a]->hi, &side[a]->lo);
-    mpz_set_ui(side[a]->den, w.den);
+    dyd_interval *side = a ? &out->y : &out->x;
+    const dyd_words lo = words_of_end(s, i, a, false), hi = words_of_end(s, i, a, true);
+    mpz_set_ui(side->den, lo.den);
+    if (hi.den != lo.den) mpz_lcm_ui(side->den, side->den, hi.den);
+    end_set_words(&side->lo, &lo, side->den);
+    end_set_words(&side->hi, &hi, side->den);
   }
   return DYD_OK;
 }
@@ -160,7 +189,13 @@ static bool words_of_side(dyd_words end[2], const mp_limb_t **from, const int32_
   else if (!words_of_limbs(&end[1], from, size[1], exp[1]))
     return false;
   if (size[2] > 1) return false;
-  if (size[2]) end[0].den = end[1].den = *(*from)++;
+  if (size[2] == 0) return true;
+  const mp_limb_t den = *(*from)++;
+  for (int k = 0; k < 2; k++) {
+    int64_t common = end[k].man ? (int64_t)mpn_gcd_1(&den, 1, size_of_word(end[k].man)) : 0;
+    end[k].den = common ? den / (uint64_t)common : 1;
+    if (common) end[k].man /= common;
+  }
   return true;
 }
 
@@ -173,7 +208,7 @@ bool dyd_sites_get_words(dyd_words end[4], const dyd_sites *s, size_t i) {
     return true;
   }
   if (dyd_sites_in_words(s, i)) {
-    for (int k = 0; k < 4; k++) end[k] = words_of_point(s, i, k / 2);
+    for (int k = 0; k < 4; k++) end[k] = words_of_end(s, i, k / 2, k % 2);
     return true;
   }
   const dyd_packed *p = s->exact[i];
@@ -460,7 +495,7 @@ dyd_status dyd_sites_get(dyd_rect *out, const dyd_sites *s, size_t i) {
   if (dyd_sites_in_doubles(s, i))
     return dyd_rect_set_d(out, dyd_sites_lo(s, 0, i), dyd_sites_hi(s, 0, i), dyd_sites_lo(s, 1, i),
                           dyd_sites_hi(s, 1, i));
-  if (dyd_sites_in_words(s, i)) return sites_get_point(out, s, i);
+  if (dyd_sites_in_words(s, i)) return sites_get_in_words(out, s, i);
   const dyd_packed *p = s->exact[i];
   const mp_limb_t *from = unpack_interval(&out->x, p->limb, p->size, p->exp);
   unpack_interval(&out->y, from, p->size + 3, p->exp + 2);
@@ -479,7 +514,7 @@ bool dyd_sites_is_point(const dyd_sites *s, size_t i) {
   if (!s) return false;
   if (dyd_sites_in_doubles(s, i))
     return dyd_sites_lo(s, 0, i) == dyd_sites_hi(s, 0, i) && dyd_sites_lo(s, 1, i) == dyd_sites_hi(s, 1, i);
-  if (dyd_sites_in_words(s, i)) return true;
+  if (dyd_sites_in_words(s, i)) return !is_word_box(s, i);
   return s->exact[i]->size[1] == DYD_SAME_AS_LOWER && s->exact[i]->size[4] == DYD_SAME_AS_LOWER;
 }
 
@@ -536,7 +571,7 @@ dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {
   dyd_rect_init(&now);
   dyd_status st = dyd_sites_get(&now, s, i);
   if (st == DYD_OK && !dyd_rect_contains(&now, r)) st = DYD_E_NESTING;
-  if (st == DYD_OK && !dyd_sites_in_words(s, i)) {
+  if (st == DYD_OK && (!dyd_sites_in_words(s, i) || is_word_box(s, i))) {
     st = sites_put(s, i, r, s->exact ? s->exact[i] : NULL);
     kind_narrow(s, i);
   }

@@ -32,10 +32,13 @@ typedef struct dyd_word_point {
   int16_t exp[2];
 } dyd_word_point;
 
+/* A word[] with this bit is that of a rectangle: the point is its lower left corner, the next one the opposite one. */
+#define DYD_WORD_BOX ((uint32_t)1 << 31)
+
 /* Invariant: upper[a] = NULL means that every site is an exact double point (lower and upper ends are the same array);
  * exact[i] or word[i] that are not 0 (where the arrays are not NULL, and never both) mean that its doubles do not hold
- * the rectangle of site i: it is *exact[i], or the point point[word[i] - 1], for ever. Infinite doubles mean the whole
- * plane, of a site that is unknown yet: the square whose ends are the largest dyadics of 64 bits. */
+ * the rectangle of site i: it is *exact[i], or that of word[i] - 1 in point[], a point for ever. Infinite doubles mean
+ * the whole plane, of a site that is unknown yet: the square whose ends are the largest dyadics of 64 bits. */
 struct dyd_sites {
   size_t count, cap;
   double *lower[2]; /* x, y; rounded down */
@@ -55,6 +58,8 @@ struct dyd_sites {
 dyd_status dyd_sites_reserve(dyd_sites *s, size_t more);
 /* Appends n exact points, number k being (xy[2 k], xy[2 k + 1]); none on failure. */
 dyd_status dyd_sites_add_words(dyd_sites *s, size_t n, const dyd_words *xy);
+/* The same of rectangles from a lower left to an upper right corner: point 2 k to point 2 k + 1. */
+dyd_status dyd_sites_add_word_boxes(dyd_sites *s, size_t n, const dyd_words *corner);
 /* The ends x lower, x upper, y lower, y upper of site i; false where one of them is not of single words. */
 bool dyd_sites_get_words(dyd_words end[4], const dyd_sites *s, size_t i);
 /* As dyd_sites_narrow, for the rectangle [box[0],box[1]] x [box[2],box[3]] of finite doubles, without -0. */
@@ -98,7 +103,7 @@ static inline void dyd_sites_fetch_exact(const dyd_sites *s, size_t i) {
 static inline bool dyd_sites_are_double_points(const dyd_sites *s) {
   return !s->exact && !s->upper[0] && !s->upper[1];
 }
-/* Returns true if site i is a point in single words. */
+/* Returns true if the ends of site i are in single words. */
 static inline bool dyd_sites_in_words(const dyd_sites *s, size_t i) {
   return s->word && s->word[i];
 }

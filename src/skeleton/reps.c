@@ -233,7 +233,7 @@ static dyd_status at_fraction(dyd_interval *a, fraction f) {
   if (st == DYD_OK) st = dyd_dyadic_sub(&d, &a->hi, &a->lo);
   if (st == DYD_OK) st = dyd_dyadic_mul(&d, &d, &t);
   if (st == DYD_OK) st = dyd_dyadic_add(&d, &d, &a->lo);
-  if (st == DYD_OK) st = dyd_interval_set_ends(a, &d, &d);
+  if (st == DYD_OK) dyd_interval_set_over(a, &d, a->den);
   dyd_dyadic_clear(&t);
   dyd_dyadic_clear(&d);
   return st;

@@ -145,28 +145,16 @@ static dyd_status read_answer_end(mpq_t out, const char *line, word w, dyd_error
                   own.message);
 }
 
-/* Returns true if [lo,hi] is inside *known. */
-static bool ends_are_inside(const mpq_t lo, const mpq_t hi, const dyd_interval *known) {
-  mpq_t a, b;
-  mpq_inits(a, b, NULL);
-  dyd_interval_get_q(a, b, known);
-  bool inside = mpq_cmp(a, lo) <= 0 && mpq_cmp(hi, b) <= 0;
-  mpq_clears(a, b, NULL);
-  return inside;
-}
-
 /* *side is the known side on entry (if known) and the new side on return. */
 static dyd_status set_answer_side(dyd_interval *side, bool known, const char *name, const mpq_t lo, const mpq_t hi,
                                   dyd_error *err) {
   dyd_interval next;
   dyd_interval_init(&next);
-  dyd_status st = dyd_interval_fix(&next, lo, hi);
+  dyd_status st = dyd_interval_set_ends_q(&next, lo, hi);
   if (st != DYD_OK)
     dyd_fail(err, st, "the %s of its answer: %s", name, dyd_status_text(st));
-  else if (known && !ends_are_inside(lo, hi, side))
+  else if (known && !dyd_interval_contains(side, &next))
     st = dyd_nesting_fail(err, name, side, &next);
-  else if (known && (st = dyd_interval_intersect(&next, side, &next)) != DYD_OK)
-    dyd_fail(err, st, "the %s of its answer: %s", name, dyd_status_text(st));
   if (st == DYD_OK) dyd_interval_swap(side, &next);
   dyd_interval_clear(&next);
   return st;

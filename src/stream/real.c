@@ -400,38 +400,17 @@ dyd_status dyd_real_from_q(dyd_real **out, const mpq_t q) {
   return real_take_interval(out, &a, dyd_interval_set_q(&a, q));
 }
 
-/* An end of a fixed interval: exact when dyadic, else rounded to a multiple of 2^exp. */
+/* Exact when dyadic, else rounded to a multiple of 2^exp. */
 static dyd_status fixed_end(dyd_dyadic *out, const mpq_t q, int64_t exp, dyd_round dir) {
   size_t two = mpz_scan1(mpq_denref(q), 0);
   if (mpz_sizeinbase(mpq_denref(q), 2) == two + 1) return dyd_dyadic_set_z_2exp(out, mpq_numref(q), -(int64_t)two);
   return dyd_dyadic_round_q(out, q, exp, dir);
 }
 
-dyd_status dyd_interval_fix(dyd_interval *out, const mpq_t lo, const mpq_t hi) {
-  int order = mpq_cmp(lo, hi);
-  if (order > 0) return DYD_E_ARG;
-  if (order == 0) return dyd_interval_set_q(out, lo);
-  mpq_t width;
-  dyd_dyadic l, h;
-  mpq_init(width);
-  dyd_dyadic_init(&l);
-  dyd_dyadic_init(&h);
-  mpq_sub(width, hi, lo);
-  /* 2^(bits(num) - bits(den) - 1) <= width <= 2 max(|lo|,|hi|), hence 65 more places. */
-  int64_t exp = (int64_t)mpz_sizeinbase(mpq_numref(width), 2) - (int64_t)mpz_sizeinbase(mpq_denref(width), 2) - 1 - 66;
-  dyd_status st = fixed_end(&l, lo, exp, DYD_DOWN);
-  if (st == DYD_OK) st = fixed_end(&h, hi, exp, DYD_UP);
-  if (st == DYD_OK) st = dyd_interval_set_ends(out, &l, &h);
-  dyd_dyadic_clear(&h);
-  dyd_dyadic_clear(&l);
-  mpq_clear(width);
-  return st;
-}
-
 dyd_status dyd_real_from_interval(dyd_real **out, const mpq_t lo, const mpq_t hi) {
   dyd_interval a;
   dyd_interval_init(&a);
-  return real_take_interval(out, &a, dyd_interval_fix(&a, lo, hi));
+  return real_take_interval(out, &a, dyd_interval_set_ends_q(&a, lo, hi));
 }
 
 /* The interval of radius `radius` around x. */
@@ -475,7 +454,7 @@ static dyd_status widened_interval(dyd_interval *out, const widened *w, int64_t 
   mpq_add(more, more, w->radius);
   mpq_sub(lo, lo, more);
   mpq_add(hi, hi, more);
-  dyd_status st = final ? dyd_interval_fix(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
+  dyd_status st = final ? dyd_interval_set_ends_q(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
   mpq_clears(lo, hi, more, NULL);
   return st;
 }

@@ -62,9 +62,6 @@ void dyd_real_radius(mpq_t radius, const dyd_real *x);
  * now on (NULL: not known; out = now is allowed). */
 dyd_status dyd_real_core(dyd_interval *core, bool *has, const dyd_real *x, const dyd_interval *now);
 
-/* [lo,hi] with ends that are not dyadic rounded outward by less than 2^-64 of the width; the point when lo = hi. */
-dyd_status dyd_interval_fix(dyd_interval *out, const mpq_t lo, const mpq_t hi);
-
 /* DYD_E_NESTING with both intervals in short; side is "x side", "y side" or "interval". */
 dyd_status dyd_nesting_fail(dyd_error *err, const char *side, const dyd_interval *old, const dyd_interval *now);
 

@@ -261,7 +261,7 @@ static dyd_status image_side(dyd_interval *out, const dyd_stream_image *a, int a
     image_add_scaled(lo, hi, a->term[k].m[2 * axis + 1], &r->y);
   }
   bool exact = image_is_final(a) || mpq_equal(lo, hi);
-  dyd_status st = exact ? dyd_interval_fix(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
+  dyd_status st = exact ? dyd_interval_set_ends_q(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
   mpq_clears(lo, hi, NULL);
   return st;
 }

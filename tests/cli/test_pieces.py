@@ -57,15 +57,21 @@ def test_bisector_csv():
         check_decimals(row, 'end')
 
 
-def test_ends_that_are_not_dyadic():
-    """Exact answers hold for intervals rounded outward: a note states their number, and no note appears if it is 0."""
-    for command in 'bisector', 'disc':
-        for x, count in (('[0,1.2]', 1), ('[1/3,2/3]', 1), ('[0,1.25]', 0), ('[5*2^-20,3]', 0)):
-            text = f'{x} [0,{1 if count else 2}]\n7 1\n3 9\n'
-            result = run(command, '-', stdin=text, comments=False)
-            assert result.code in (0, 3), result
-            assert ('not dyadic (m*2^e): 1; they are rounded outward' in result.err) == bool(count), (text, result.err)
-            assert 'not dyadic' not in run('delaunay', '-', stdin=text).err
+def test_rational_ends():
+    """Ends that are not dyadic are exact: 21 times as large, they give pieces 21 times as large, to the last digit."""
+    def wanted(cell):
+        return None if cell == '' or 'sqrt' in cell else 21 * Fraction(cell)
+
+    for x, whole in (('[0,6/7]', '[0,18]'), ('[1/3,2/3]', '[7,14]'), ('[-1.2e1,22/7]', '[-252,66]')):
+        small, large = (rows(run('bisector', '-', stdin=t).out) for t in (
+            f'{x} [-1/7,1/3]\n7 1\n', f'{whole} [-3,7]\n147 21\n'))
+        assert len(small) == len(large) > 4
+        for a, b in zip(small, large):
+            assert (a['kind'], a['corner'], a['begin']) == (b['kind'], b['corner'], b['begin'])
+            for k in 'xy':
+                cell = wanted(a['begin_' + k])
+                assert cell is None or cell == Fraction(b['begin_' + k]), (a, b)
+        assert 'dyadic' not in run('bisector', '-', stdin=f'{x} 0\n7 1\n', comments=False).err
 
 
 def test_ends_are_coordinates():

@@ -22,30 +22,25 @@ static inline void literal_set(literal_rect *l, const dyd_rect *r) {
   dyd_interval_get_q(l->end[2], l->end[3], &r->y);
 }
 
-/* An interval with ends in 0 .. grid, times 2^exp; now and then a rational point between. */
+/* A multiple of 1/den in 0 .. grid, times 2^exp. */
+static inline void random_rational(mpq_t q, test_random *r, int64_t grid, unsigned long den, int64_t exp) {
+  mpq_set_si(q, (long)test_between(r, 0, grid * (int64_t)den), den);
+  mpq_canonicalize(q);
+  if (exp > 0) mpq_mul_2exp(q, q, (mp_bitcnt_t)exp);
+  if (exp < 0) mpq_div_2exp(q, q, (mp_bitcnt_t)-exp);
+}
+
+/* An interval with ends in 0 .. grid, times 2^exp; now and then with rational ones, or a rational point between. */
 static inline void random_interval(dyd_interval *out, test_random *r, int64_t grid, int64_t exp) {
-  dyd_dyadic lo, hi;
-  mpq_t q;
-  dyd_dyadic_init(&lo);
-  dyd_dyadic_init(&hi);
-  mpq_init(q);
-  long a = (long)test_between(r, 0, grid), b = test_chance(r, 3) ? a : (long)test_between(r, 0, grid);
-  if (test_chance(r, 5)) {
-    static const unsigned long den[] = {3, 5, 6, 7, 9, 10};
-    unsigned long d = den[test_below(r, 6)];
-    mpq_set_si(q, (long)test_between(r, 0, grid * (int64_t)d), d);
-    mpq_canonicalize(q);
-    if (exp > 0) mpq_mul_2exp(q, q, (mp_bitcnt_t)exp);
-    if (exp < 0) mpq_div_2exp(q, q, (mp_bitcnt_t)-exp);
-    (void)dyd_interval_set_q(out, q);
-  } else {
-    (void)dyd_dyadic_set_si_2exp(&lo, a < b ? a : b, exp);
-    (void)dyd_dyadic_set_si_2exp(&hi, a < b ? b : a, exp);
-    (void)dyd_interval_set_ends(out, &lo, &hi);
-  }
-  mpq_clear(q);
-  dyd_dyadic_clear(&hi);
-  dyd_dyadic_clear(&lo);
+  static const unsigned long den[] = {1, 3, 5, 6, 7, 9, 10};
+  mpq_t q[2];
+  mpq_inits(q[0], q[1], NULL);
+  const bool rational = test_chance(r, 3);
+  for (int k = 0; k < 2; k++) random_rational(q[k], r, grid, rational ? den[test_below(r, 7)] : 1, exp);
+  if (test_chance(r, 3)) mpq_set(q[1], q[0]);
+  const int low = mpq_cmp(q[0], q[1]) > 0;
+  (void)dyd_interval_set_ends_q(out, q[low], q[!low]);
+  mpq_clears(q[0], q[1], NULL);
 }
 
 static inline void random_rect(dyd_rect *out, test_random *r, int64_t grid, int64_t exp) {

@@ -65,10 +65,10 @@ static void check_nearest(double d, const mpq_t q, int side) {
 static void test_interval_size(void **state) {
   (void)state;
   test_random r = test_random_start("interval size");
-  dyd_interval a;
-  mpq_t lo, hi, t;
-  dyd_interval_init(&a);
-  mpq_inits(lo, hi, t, NULL);
+  dyd_interval a, b;
+  mpq_t lo, hi, t, l, h;
+  dyd_interval_init(&a), dyd_interval_init(&b);
+  mpq_inits(lo, hi, t, l, h, NULL);
   for (size_t n = test_cases(20000); n > 0; n--) {
     random_interval(&a, &r, test_chance(&r, 2) ? 9 : 1000000, random_scale(&r));
     dyd_interval_get_q(lo, hi, &a);
@@ -85,21 +85,31 @@ static void test_interval_size(void **state) {
     if (bits >= 0) mpq_mul_2exp(t, t, (mp_bitcnt_t)bits);
     if (bits < 0) mpq_div_2exp(t, t, (mp_bitcnt_t)-bits);
     assert_true(mpq_cmp_ui(t, 1, 1) <= 0 && mpq_cmp_ui(t, 1, 2) > 0);
+    dyd_interval_round(&b, &a);
+    dyd_interval_get_q(l, h, &b);
+    assert_true(dyd_interval_is_valid(&b) && mpz_cmp_ui(b.den, 1) == 0 && dyd_interval_contains(&b, &a));
     mpq_sub(t, hi, lo);
+    mpq_sub(l, h, l);
+    mpq_sub(l, l, t);
+    mpq_mul_2exp(l, l, 64);
+    assert_true(mpq_cmp(l, t) < 0); /* 2^-64 of the width */
+    for (int k = 0; k < 2; k++) {
+      dyd_interval_set(&b, &a);
+      dyd_interval_set_over(&b, k ? &b.hi : &b.lo, b.den);
+      dyd_interval_get_q(l, h, &b);
+      assert_true(dyd_interval_is_valid(&b) && mpq_equal(l, h) && mpq_equal(l, k ? hi : lo));
+    }
     mpz_add_ui(mpq_denref(lo), mpq_denref(lo), 2); /* some rationals in order */
     mpq_canonicalize(lo);
     if (mpq_cmp(lo, hi) > 0) continue;
     int64_t exp = test_between(&r, -80, 80);
     assert_int_equal(dyd_interval_set_outward(&a, lo, hi, exp), DYD_OK);
     assert_true(dyd_interval_is_valid(&a));
-    mpq_t l, h;
-    mpq_inits(l, h, NULL);
     dyd_interval_get_q(l, h, &a);
     assert_true(mpq_cmp(l, lo) <= 0 && mpq_cmp(hi, h) <= 0);
-    mpq_clears(l, h, NULL);
   }
-  mpq_clears(lo, hi, t, NULL);
-  dyd_interval_clear(&a);
+  mpq_clears(lo, hi, t, l, h, NULL);
+  dyd_interval_clear(&b), dyd_interval_clear(&a);
 }
 
 static void test_interval_refused(void **state) {

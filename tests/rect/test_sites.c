@@ -211,6 +211,53 @@ static void test_words(void **state) {
   }
 }
 
+/* Rectangles in words are what their corners say, and may be narrowed. */
+static void test_word_boxes(void **state) {
+  (void)state;
+  test_random r = test_random_start("word boxes");
+  dyd_rect corner[2], got;
+  dyd_rect_init(&corner[0]), dyd_rect_init(&corner[1]), dyd_rect_init(&got);
+  mpq_t end[4];
+  for (int k = 0; k < 4; k++) mpq_init(end[k]);
+  for (size_t k = test_cases(1000); k; k--) {
+    dyd_sites *s;
+    dyd_words words[4], back[4];
+    for (int a = 0; a < 2; a++) {
+      for (int c = 0; c < 2; c++) random_words(&words[2 * c + a], a ? &corner[c].y : &corner[c].x, &r);
+      for (int c = 0; c < 2; c++) dyd_interval_get_q(end[2 * a + c], end[2 * a + c], a ? &corner[c].y : &corner[c].x);
+      if (mpq_cmp(end[2 * a], end[2 * a + 1]) <= 0) continue;
+      mpq_swap(end[2 * a], end[2 * a + 1]);
+      dyd_words t = words[a];
+      words[a] = words[2 + a], words[2 + a] = t;
+    }
+    assert_int_equal(dyd_sites_new(&s), DYD_OK);
+    assert_int_equal(dyd_sites_add_word_boxes(s, 1, words), DYD_OK);
+    assert_int_equal(dyd_sites_get(&got, s, 0), DYD_OK);
+    assert_true(dyd_interval_is_valid(&got.x) && dyd_interval_is_valid(&got.y));
+    assert_int_equal(dyd_sites_is_point(s, 0), mpq_equal(end[0], end[1]) && mpq_equal(end[2], end[3]));
+    for (int a = 0; a < 2; a++) {
+      mpq_t lo, hi;
+      mpq_inits(lo, hi, NULL);
+      dyd_interval_get_q(lo, hi, a ? &got.y : &got.x);
+      assert_true(mpq_equal(lo, end[2 * a]) && mpq_equal(hi, end[2 * a + 1]));
+      mpq_set_d(lo, dyd_sites_lo(s, a, 0));
+      mpq_set_d(hi, dyd_sites_hi(s, a, 0));
+      assert_true(mpq_cmp(lo, end[2 * a]) <= 0 && mpq_cmp(hi, end[2 * a + 1]) >= 0);
+      mpq_clears(lo, hi, NULL);
+    }
+    if (dyd_sites_get_words(back, s, 0))
+      for (int e = 0; e < 4; e++) assert_memory_equal(&back[e].man, &words[e % 2 * 2 + e / 2].man, sizeof back[e].man);
+    dyd_interval_set_over(&got.x, &got.x.hi, got.x.den);
+    assert_int_equal(dyd_sites_narrow(s, 0, &got), DYD_OK);
+    dyd_rect_swap(&got, &corner[0]);
+    assert_int_equal(dyd_sites_get(&got, s, 0), DYD_OK);
+    assert_true(dyd_rect_equal(&got, &corner[0]));
+    dyd_sites_free(s);
+  }
+  for (int k = 0; k < 4; k++) mpq_clear(end[k]);
+  dyd_rect_clear(&got), dyd_rect_clear(&corner[1]), dyd_rect_clear(&corner[0]);
+}
+
 /* Both ends move inward by eighths, or to a rational point inside. */
 static void shrink_side(dyd_interval *a, test_random *r) {
   mpq_t lo, hi, d;
@@ -448,9 +495,10 @@ static void test_planes(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_random_tables),        cmocka_unit_test(test_bulk_mixed),    cmocka_unit_test(test_words),
-      cmocka_unit_test(test_bad_doubles),          cmocka_unit_test(test_negative_zero), cmocka_unit_test(test_memory),
-      cmocka_unit_test(test_numbers_out_of_range), cmocka_unit_test(test_planes)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_tables), cmocka_unit_test(test_bulk_mixed),
+                                     cmocka_unit_test(test_words),         cmocka_unit_test(test_word_boxes),
+                                     cmocka_unit_test(test_bad_doubles),   cmocka_unit_test(test_negative_zero),
+                                     cmocka_unit_test(test_memory),        cmocka_unit_test(test_numbers_out_of_range),
+                                     cmocka_unit_test(test_planes)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

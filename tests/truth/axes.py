@@ -80,8 +80,8 @@ def plane_clusters(rand, n):
 
 
 def plane_lattice(rand, n):
-    side = rand.choice((2, 3, 4))
-    return [(Q(rand.randint(0, side)), Q(rand.randint(0, side))) for _ in range(n)], Q(1)
+    side, step = rand.choice((2, 3, 4)), rand.choice((Q(1), Q(1, 10), Q(3, 100)))
+    return [(step * rand.randint(0, side), step * rand.randint(0, side)) for _ in range(n)], step
 
 
 def plane_line(rand, n):
@@ -306,13 +306,15 @@ def kind_degrees(case, rand):
 
 
 def kind_interval(case, rand):
+    """Of some cases all ends are on one grid, so that rectangles share them."""
     plain(case)
+    step = rand.choice((None, None, Q(case.unit / 5), Q(case.unit / 6)))
     for s in case.sites:
         if rand.random() < 0.25:
             continue
         ends = []
         for c in s.place:
-            a, b = size(case, rand), size(case, rand)
+            a, b = (size(case, rand) if step is None else 2 * rand.randint(0, 3) * step for _ in 'ab')
             ends.append((c - a / 2, c + b / 2) if rand.random() < 0.8 else (c, c))
         if case.geometry == 'sphere':
             ends[1] = max(ends[1][0], Q(-90)), min(ends[1][1], Q(90))

@@ -295,6 +295,12 @@ def scale(r, rand):
     return (*r[:3], r[3] * 2 ** 30) if r[0] == 'disc' else r
 
 
+def whole(r, rand):
+    """Decimals become integers: an end that is shared, or a circle that is met exactly, shows no rounding."""
+    r = flip(r, lambda x, y: x * 10 ** 12, lambda x, y: y * 10 ** 12)
+    return (*r[:3], r[3] * 10 ** 12) if r[0] == 'disc' else r
+
+
 def itself(r, rand):
     return r
 
@@ -323,8 +329,8 @@ def wider(r, rand):
     return r[0], r[1] - w, r[2] + w, r[3] - h, r[4] + h
 
 
-SAME = {'plane': {'order': itself, 'mirror': mirror, 'quarter turn': quarter, 'shift': shift, 'scale': scale, 'as intervals': itself,
-                  'wider': wider},
+SAME = {'plane': {'order': itself, 'mirror': mirror, 'quarter turn': quarter, 'shift': shift, 'scale': scale, 'whole': whole,
+                  'as intervals': itself, 'wider': wider},
         'sphere': {'order': itself, 'about the axis': about_axis, 'a full turn': full_turn, 'north for south': south,
                    'mirror': west, 'as intervals': itself, 'wider': wider}}
 SAME['discs'] = {k: v for k, v in SAME['plane'].items() if k != 'as intervals'}
@@ -380,12 +386,12 @@ def judge_same(judge, case, product, claims, rand):
         if other['aliases']:
             return  # another one of equal points may be the first
     dyadic = all(c.denominator & (c.denominator - 1) == 0 for s in case.sites for c in s.region[1:])
-    whole = dyadic and case.geometry == 'plane' or case.exact
+    exact = case.exact or case.geometry == 'plane' and (dyadic or case.form in axes.TEXTS and 'sigma' not in case.kind)
     for p, (a, b) in one.items():
         if name == 'wider':
             judge(b in ('indeterminate', 'tie') or a == b or len(other['aliases'] or ()) != len(claims['aliases'] or ()),
                   'pair %s is %s, but %s with regions twice as wide', p, a, b)
-        elif whole:
+        elif exact:
             judge(a == b, 'pair %s is %s, after the change "%s" %s', p, a, name, b)
         else:
             judge({a, b} != {'legal', 'illegal'}, 'pair %s is %s, after the change "%s" %s', p, a, name, b)

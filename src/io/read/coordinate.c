@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* One coordinate of the input: text to an exact number, a fixed interval or a computable real.
  *
- * A plain decimal v with half-width h > 0 becomes the interval [v-h, v+h], its ends rounded outward to doubles when
- * that adds less than 2^-13 of the width; else the exact ends go to dyd_real_from_interval, which adds less than
- * 2^-64. Rounding outward is sound (every choice in the exact rectangle is one in the rounded rectangle).
+ * A decimal v with a half-width h > 0 becomes the interval [v-h, v+h]: of decimals with one exponent where h is a
+ * decimal and both are short, else of rationals. Regions of a probability, whose half-widths are rounded up anyway, are
+ * rounded outward to doubles where that adds less than 2^-13 of the width. Rounding outward is sound (every choice in
+ * the exact rectangle is one in the rounded rectangle).
  *
  * Sums rounded in one direction: for doubles a, b and s = a + b to nearest, Knuth's TwoSum gives the exact error
  * e = a + b - s (no overflow here: all are below 2^100 in size); s moved one double towards the wanted side when e
@@ -194,26 +195,54 @@ static double sum_towards(double a, double b, dyd_round dir) {
 /* *out becomes [lo - by, hi + by]. false: rounding outward would add too much, as each end moves by less than 2^-51 of
  * max(|lo|,|hi|) + by in all. */
 static bool box_wide(dyd_coordinate *out, double lo, double hi, double by) {
-  if (by > 0) {
-    if (!(by > 0x1p-900 && by < 0x1p90)) return false;
-    lo = sum_towards(lo, -by, DYD_DOWN);
-    hi = sum_towards(hi, by, DYD_UP);
-  }
+  if (!(by > 0x1p-900 && by < 0x1p90)) return false;
+  lo = sum_towards(lo, -by, DYD_DOWN);
+  hi = sum_towards(hi, by, DYD_UP);
   if (!((fmax(fabs(lo), fabs(hi)) + by) * 0x1p-50 <= (hi - lo) * 0x1p-13)) return false;
   *out = (dyd_coordinate){.kind = DYD_COORDINATE_BOX, .lo = lo, .hi = hi};
   return true;
 }
 
-static bool coordinate_box(dyd_coordinate *out, dyd_plain v, const dyd_manner *manner) {
-  dyd_plain ends[2] = {v, v};
-  if (manner->measured) {
-    if (v.man > INT64_MAX / 20 || v.man < -(INT64_MAX / 20)) return false;
-    ends[0] = (dyd_plain){v.man * 10 - 5, v.exp - 1};
-    ends[1] = (dyd_plain){v.man * 10 + 5, v.exp - 1};
-  }
-  double lo, hi;
-  if (!dyd_plain_get_rounded(&lo, ends[0], DYD_DOWN) || !dyd_plain_get_rounded(&hi, ends[1], DYD_UP)) return false;
-  return box_wide(out, lo, hi, manner->radius_up);
+/* p as a multiple of 10^exp; false: it is none of less than 18 digits. */
+static bool plain_scaled(int64_t *man, dyd_plain p, int exp) {
+  for (*man = p.man; p.man && p.exp > exp; p.exp--)
+    if (__builtin_mul_overflow(*man, 10, man)) return false;
+  return *man < INT64_C(1000000000000000000) / 4 && *man > -INT64_C(1000000000000000000) / 4;
+}
+
+bool dyd_plain_enclose(double *lo, double *hi, dyd_plain from, int64_t upper) {
+  return dyd_plain_get_rounded(lo, from, DYD_DOWN) && dyd_plain_get_rounded(hi, (dyd_plain){upper, from.exp}, DYD_UP);
+}
+
+/* A rounded measurement is off by half a unit of its last digit. */
+static bool coordinate_span(dyd_coordinate *out, dyd_plain v, const dyd_manner *manner) {
+  const dyd_plain half = {manner->measured ? 5 : 0, v.exp - manner->measured},
+                  radius = manner->widen ? manner->decimal : half;
+  const int exp = radius.exp < half.exp ? radius.exp : half.exp;
+  int64_t middle, by[2] = {0, 0};
+  if ((manner->widen && !(manner->plain && plain_scaled(&by[0], radius, exp))) || exp < -60 ||
+      !plain_scaled(&middle, v, exp) || !plain_scaled(&by[1], half, exp))
+    return false;
+  *out = (dyd_coordinate){
+      .kind = DYD_COORDINATE_SPAN, .plain = {middle - by[0] - by[1], exp}, .upper = middle + by[0] + by[1]};
+  return dyd_plain_enclose(&out->lo, &out->hi, out->plain, out->upper);
+}
+
+/* The decimal q >= 0, in lowest terms, where it is a short one. */
+static bool plain_set_q(dyd_plain *out, const mpq_t q) {
+  if (!mpz_fits_slong_p(mpq_numref(q)) || !mpz_fits_slong_p(mpq_denref(q))) return false;
+  long den = mpz_get_si(mpq_denref(q));
+  for (*out = (dyd_plain){mpz_get_si(mpq_numref(q)), 0}; den % 10 == 0; den /= 10) out->exp--;
+  const int by = den % 2 ? 5 : 2;
+  for (; den % by == 0; den /= by, out->exp--)
+    if (__builtin_mul_overflow(out->man, 10 / by, &out->man)) return false;
+  return den == 1 && out->man < INT64_C(1000000000000000000);
+}
+
+void dyd_manner_set_radius(dyd_manner *m, const mpq_t q) {
+  mpq_set(m->radius, q);
+  m->widen = mpq_sgn(q) > 0;
+  m->plain = plain_set_q(&m->decimal, q);
 }
 
 /* Returns true if the text looks like a hexadecimal float. */
@@ -234,7 +263,7 @@ static bool coordinate_plain(dyd_coordinate *out, const dyd_span *span, const dy
   dyd_plain plain;
   if (looks_hex(span)) return coordinate_hex(out, span, manner);
   if (!dyd_plain_scan(&plain, span->text, span->length)) return false;
-  if (manner->measured || manner->widen) return coordinate_box(out, plain, manner);
+  if (manner->measured || manner->widen) return coordinate_span(out, plain, manner);
   double value;
   if (dyd_plain_get_exact(&value, plain))
     *out = (dyd_coordinate){.kind = DYD_COORDINATE_DOUBLE, .plain = plain, .lo = value, .hi = value};
@@ -359,20 +388,23 @@ void dyd_coordinate_clear(dyd_coordinate *c) {
   *c = (dyd_coordinate){.kind = DYD_COORDINATE_DOUBLE};
 }
 
+static dyd_plain upper_of(const dyd_coordinate *c) {
+  return (dyd_plain){c->kind == DYD_COORDINATE_SPAN ? c->upper : c->plain.man, c->plain.exp};
+}
+
 dyd_status dyd_coordinate_make_real(dyd_coordinate *c) {
   if (c->kind == DYD_COORDINATE_REAL) return DYD_OK;
   dyd_real *real = NULL;
   mpq_t lo, hi;
   mpq_inits(lo, hi, NULL);
-  dyd_status st;
-  if (c->kind == DYD_COORDINATE_PLAIN) {
+  if (c->kind == DYD_COORDINATE_PLAIN || c->kind == DYD_COORDINATE_SPAN) {
     dyd_plain_get_q(lo, c->plain);
-    st = dyd_real_from_q(&real, lo);
+    dyd_plain_get_q(hi, upper_of(c));
   } else {
     mpq_set_d(lo, c->lo);
     mpq_set_d(hi, c->hi);
-    st = dyd_real_from_interval(&real, lo, hi);
   }
+  dyd_status st = dyd_real_from_interval(&real, lo, hi);
   mpq_clears(lo, hi, NULL);
   if (st != DYD_OK) return st;
   *c = (dyd_coordinate){.kind = DYD_COORDINATE_REAL, .real = real};
@@ -383,8 +415,8 @@ dyd_status dyd_coordinate_widen(dyd_coordinate *c, double by) {
   double lo = c->lo, hi = c->hi;
   bool quick = c->kind != DYD_COORDINATE_REAL;
   if (!(by > 0)) return DYD_OK;
-  if (c->kind == DYD_COORDINATE_PLAIN)
-    quick = dyd_plain_get_rounded(&lo, c->plain, DYD_DOWN) && dyd_plain_get_rounded(&hi, c->plain, DYD_UP);
+  if (c->kind == DYD_COORDINATE_PLAIN || c->kind == DYD_COORDINATE_SPAN)
+    quick = dyd_plain_enclose(&lo, &hi, c->plain, upper_of(c).man);
   if (quick && box_wide(c, lo, hi, by)) return DYD_OK;
   dyd_status st = dyd_coordinate_make_real(c);
   if (st != DYD_OK) return st;

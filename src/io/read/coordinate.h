@@ -28,6 +28,9 @@ bool dyd_plain_get_words(dyd_words *out, dyd_plain p);
 bool dyd_plain_scan_hex(double *out, const char *text, size_t length);
 /* The exact value, canonical; q is initialised by the caller. */
 void dyd_plain_get_q(mpq_t q, dyd_plain p);
+/* The ends of the interval from a decimal to upper * 10^from.exp, rounded outward to doubles; false where
+ * dyd_plain_get_rounded does not apply. */
+bool dyd_plain_enclose(double *lo, double *hi, dyd_plain from, int64_t upper);
 
 /* ---- any coordinate ---- */
 
@@ -36,13 +39,18 @@ typedef struct dyd_manner {
   bool measured; /* decimals are rounded measurements */
   bool widen;    /* radius > 0 */
   mpq_t radius;
-  double radius_up; /* the smallest double >= radius */
+  bool plain; /* decimal holds the radius */
+  dyd_plain decimal;
 } dyd_manner;
+
+/* Sets the radius, q >= 0. */
+void dyd_manner_set_radius(dyd_manner *m, const mpq_t q);
 
 typedef enum dyd_coordinate_kind {
   DYD_COORDINATE_DOUBLE, /* the exact number lo = hi; plain holds it too */
   DYD_COORDINATE_BINARY, /* the exact number lo = hi; plain means nothing */
   DYD_COORDINATE_PLAIN,  /* the exact number plain, not a double */
+  DYD_COORDINATE_SPAN,   /* the fixed interval from plain to upper * 10^plain.exp; lo and hi are rounded outward */
   DYD_COORDINATE_BOX,    /* the fixed interval [lo,hi] */
   DYD_COORDINATE_REAL    /* real, one reference */
 } dyd_coordinate_kind;
@@ -50,6 +58,7 @@ typedef enum dyd_coordinate_kind {
 typedef struct dyd_coordinate {
   dyd_coordinate_kind kind;
   dyd_plain plain;
+  int64_t upper;
   double lo, hi;
   dyd_real *real;
 } dyd_coordinate;

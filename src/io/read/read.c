@@ -71,13 +71,6 @@ typedef struct intake {
 
 /* ---- radii ---- */
 
-/* Beyond doubles the radius goes the general way. */
-static void manner_set_radius(dyd_manner *m, const mpq_t radius) {
-  mpq_set(m->radius, radius);
-  m->widen = mpq_sgn(radius) > 0;
-  m->radius_up = dyd_double_above(radius);
-}
-
 static dyd_status radius_fail(const intake *in, const dyd_span *span, int role, dyd_error *err) {
   if (!in->o->degrees && dyd_cell_number(span))
     return dyd_span_fail(err, span, dyd_cell_number(span),
@@ -129,7 +122,7 @@ static dyd_status intake_radius(intake *in, int axis, const dyd_span *span, dyd_
     in->kept[axis] = keep ? dyd_double_above(own) : 0;
     if (keep) mpq_set_ui(own, 0, 1);
     mpq_add(own, own, in->radius);
-    manner_set_radius(&in->manner[axis], own);
+    dyd_manner_set_radius(&in->manner[axis], own);
   }
   mpq_clear(own);
   if (st == DYD_OK && !isfinite(in->kept[axis]))
@@ -167,7 +160,7 @@ static dyd_status intake_radius_of_all(intake *in, dyd_error *err) {
                         : "the radius \"%.60s\" is not an exact number >= 0; give one such as 0.01 or 1/64",
                     text);
   mpq_mul(in->radius, in->radius, in->scale);
-  for (int a = 0; a < 2; a++) manner_set_radius(&in->manner[a], in->radius);
+  for (int a = 0; a < 2; a++) dyd_manner_set_radius(&in->manner[a], in->radius);
   return DYD_OK;
 }
 
@@ -341,9 +334,9 @@ static dyd_status fail_missing_field(const dyd_span *s, int role, dyd_error *err
 /* The width that the coordinate has in the end, about; with a standard deviation of such. */
 static double final_width(const dyd_coordinate *c, const dyd_manner *manner, double sigma) {
   sigma *= 2;
-  if (c->kind == DYD_COORDINATE_BOX) return c->hi - c->lo + sigma;
+  if (c->kind == DYD_COORDINATE_BOX || c->kind == DYD_COORDINATE_SPAN) return c->hi - c->lo + sigma;
   if (c->kind != DYD_COORDINATE_REAL) return sigma;
-  if (!dyd_real_is_final(c->real)) return (manner->widen ? 2 * manner->radius_up : 0) + sigma;
+  if (!dyd_real_is_final(c->real)) return (manner->widen ? 2 * dyd_double_above(manner->radius) : 0) + sigma;
   double end[2];
   if (dyd_interval_is_point(dyd_real_interval(c->real))) return sigma;
   dyd_interval_get_d(&end[0], &end[1], dyd_real_interval(c->real));
@@ -476,22 +469,8 @@ static dyd_status intake_skip(intake *in, const dyd_span *s, int role, dyd_error
   return DYD_OK;
 }
 
-/* Counts intervals that are not read as they are written. */
-static dyd_status intake_interval(intake *in, const dyd_span *span) {
-  mpq_t end[2];
-  mpq_inits(end[0], end[1], NULL);
-  dyd_status st = dyd_coordinate_ends(end[0], end[1], span, NULL);
-  bool dyadic = true;
-  for (int k = 0; k < 2; k++) dyadic &= mpz_scan1(mpq_denref(end[k]), 0) + 1 == mpz_sizeinbase(mpq_denref(end[k]), 2);
-  in->report.rounded += st == DYD_OK && !dyadic;
-  mpq_clears(end[0], end[1], NULL);
-  return st == DYD_E_NOMEM ? st : DYD_OK;
-}
-
 static dyd_status intake_coordinate(dyd_coordinate *out, intake *in, int axis, const dyd_span *span, dyd_error *err) {
   dyd_status st = dyd_coordinate_read(out, span, &in->manner[axis], err);
-  if (st == DYD_OK && span->length && span->text[0] == '[' && (st = intake_interval(in, span)) != DYD_OK)
-    dyd_coordinate_clear(out);
   if (st == DYD_OK) return st;
   if (st == DYD_E_PARSE && in->o->columns && (in->kind = dyd_kind_of_cell(span->text, span->length)))
     return dyd_kind_fail(err, in->kind);

@@ -6,14 +6,15 @@
 #include "base/error.h"
 #include "engine/add.h"
 #include "rect/rect.h"
+#include <string.h>
 
 /* A point takes the most special kind of its coordinates; doubles fit all kinds. */
 struct dyd_staged {
   int16_t kind;   /* a dyd_coordinate_kind */
-  int16_t exp[2]; /* PLAIN */
+  int16_t exp[2]; /* PLAIN, SPAN */
   union {
-    double box[4]; /* DOUBLE: x, y. BOX: x0, x1, y0, y1 */
-    int64_t man[2];
+    double box[4];  /* DOUBLE: x, y. BOX: x0, x1, y0, y1 */
+    int64_t man[4]; /* PLAIN: x, y. SPAN: x0, x1, y0, y1 */
     dyd_real *real[2];
   } u;
 };
@@ -56,14 +57,34 @@ static bool stage_make_room(dyd_stage *s) {
   return k || dyd_reserve((void **)&s->piece[0], &s->first_cap, s->count + 1, sizeof **s->piece);
 }
 
-/* BINARY counts as DOUBLE, unless the other coordinate is PLAIN. */
+static bool is_decimal(dyd_coordinate_kind k) {
+  return k == DYD_COORDINATE_PLAIN || k == DYD_COORDINATE_SPAN;
+}
+
+/* BINARY counts as DOUBLE, unless the other coordinate is decimal. */
 static dyd_coordinate_kind staged_kind(dyd_coordinate_kind a, dyd_coordinate_kind b) {
-  if (a == DYD_COORDINATE_BINARY && b != DYD_COORDINATE_PLAIN) a = DYD_COORDINATE_DOUBLE;
-  if (b == DYD_COORDINATE_BINARY && a != DYD_COORDINATE_PLAIN) b = DYD_COORDINATE_DOUBLE;
+  if (a == DYD_COORDINATE_BINARY && !is_decimal(b)) a = DYD_COORDINATE_DOUBLE;
+  if (b == DYD_COORDINATE_BINARY && !is_decimal(a)) b = DYD_COORDINATE_DOUBLE;
   if (a == b) return a;
+  if (is_decimal(a) && is_decimal(b)) return DYD_COORDINATE_SPAN;
   if (a == DYD_COORDINATE_DOUBLE && b != DYD_COORDINATE_REAL) return b;
   if (b == DYD_COORDINATE_DOUBLE && a != DYD_COORDINATE_REAL) return a;
   return DYD_COORDINATE_REAL;
+}
+
+/* Of doubles where they hold all ends. */
+static void staged_join_spans(dyd_staged *out, const dyd_coordinate *x, const dyd_coordinate *y) {
+  double box[4];
+  bool doubles = true;
+  for (int k = 0; k < 4; k++) {
+    const dyd_coordinate *c = k / 2 ? y : x;
+    out->u.man[k] = k % 2 && c->kind == DYD_COORDINATE_SPAN ? c->upper : c->plain.man;
+    out->exp[k / 2] = (int16_t)c->plain.exp;
+    doubles = doubles && dyd_plain_get_exact(&box[k], (dyd_plain){out->u.man[k], c->plain.exp});
+  }
+  if (!doubles) return;
+  out->kind = DYD_COORDINATE_BOX;
+  memcpy(out->u.box, box, sizeof box);
 }
 
 static void staged_join(dyd_staged *out, dyd_coordinate_kind kind, const dyd_coordinate *x, const dyd_coordinate *y) {
@@ -79,6 +100,9 @@ static void staged_join(dyd_staged *out, dyd_coordinate_kind kind, const dyd_coo
   case DYD_COORDINATE_PLAIN:
     out->u.man[0] = x->plain.man, out->u.man[1] = y->plain.man;
     out->exp[0] = (int16_t)x->plain.exp, out->exp[1] = (int16_t)y->plain.exp; /* at most 60 */
+    break;
+  case DYD_COORDINATE_SPAN:
+    staged_join_spans(out, x, y);
     break;
   case DYD_COORDINATE_REAL:
     out->u.real[0] = x->real, out->u.real[1] = y->real;
@@ -122,6 +146,8 @@ static void staged_split(dyd_coordinate *x, dyd_coordinate *y, dyd_staged *p) {
       c[a]->lo = p->u.box[2 * a], c[a]->hi = p->u.box[2 * a + 1];
     else if (p->kind == DYD_COORDINATE_PLAIN)
       c[a]->plain = (dyd_plain){p->u.man[a], p->exp[a]};
+    else if (p->kind == DYD_COORDINATE_SPAN)
+      c[a]->plain = (dyd_plain){p->u.man[2 * a], p->exp[a]}, c[a]->upper = p->u.man[2 * a + 1];
     else if (p->kind == DYD_COORDINATE_REAL)
       c[a]->real = p->u.real[a];
     else
@@ -188,37 +214,49 @@ static dyd_status commit_boxes(size_t *count, dyd_engine *e, const dyd_stage *s,
   return dyd_engine_add_boxes(e, n, end[0], end[1], end[2], end[3], err);
 }
 
-static dyd_plain plain_of(const dyd_staged *p, int axis) {
-  return (dyd_plain){p->u.man[axis], p->exp[axis]};
+/* The decimal of PLAIN, or one of the four ends of SPAN: in their order. */
+static dyd_plain plain_of(const dyd_staged *p, int k) {
+  return (dyd_plain){p->u.man[k], p->exp[p->kind == DYD_COORDINATE_SPAN ? k / 2 : k]};
 }
 
-/* One pair of decimals of any size. */
+/* One point or rectangle of decimals of any size. */
 static dyd_status commit_wide(dyd_engine *e, const dyd_staged *p, dyd_error *err) {
   dyd_rect r;
-  mpq_t x, y;
+  mpq_t lo, hi;
+  const int step = p->kind == DYD_COORDINATE_SPAN ? 2 : 1;
+  dyd_status st = DYD_OK;
   dyd_rect_init(&r);
-  mpq_inits(x, y, NULL);
-  dyd_plain_get_q(x, plain_of(p, 0));
-  dyd_plain_get_q(y, plain_of(p, 1));
-  dyd_status st = dyd_rect_set_q(&r, x, y);
+  mpq_inits(lo, hi, NULL);
+  for (int a = 0; a < 2 && st == DYD_OK; a++) {
+    dyd_plain_get_q(lo, plain_of(p, step * a));
+    dyd_plain_get_q(hi, plain_of(p, step * a + step - 1));
+    st = dyd_interval_set_ends_q(a ? &r.y : &r.x, lo, hi);
+  }
   if (st == DYD_OK) st = dyd_engine_add_rect(e, &r, err);
-  mpq_clears(x, y, NULL);
+  mpq_clears(lo, hi, NULL);
   dyd_rect_clear(&r);
   return st;
 }
 
-/* The decimals from `first` on that fit single words, at most BULK. */
+/* The decimals from `first` on that fit single words, at most BULK, all PLAIN or all SPAN. */
 static dyd_status commit_words(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
-  const dyd_staged *p;
-  dyd_words xy[2 * BULK];
+  static const int order[2][4] = {{0, 1}, {0, 2, 1, 3}}; /* of the ends: corner by corner */
+  const dyd_staged *p = staged_at(s, first);
+  const dyd_coordinate_kind kind = (dyd_coordinate_kind)p->kind;
+  const bool boxes = kind == DYD_COORDINATE_SPAN;
+  const size_t ends = boxes ? 4 : 2;
+  dyd_words end[4 * BULK];
   size_t n = 0;
-  for (; n < BULK && (p = staged_if(s, first + n, DYD_COORDINATE_PLAIN)); n++)
-    if (!dyd_plain_get_words(&xy[2 * n], plain_of(p, 0)) || !dyd_plain_get_words(&xy[2 * n + 1], plain_of(p, 1))) break;
+  for (; n < BULK && (p = staged_if(s, first + n, kind)); n++) {
+    size_t k = 0;
+    while (k < ends && dyd_plain_get_words(&end[ends * n + k], plain_of(p, order[boxes][k]))) k++;
+    if (k < ends) break;
+  }
   *count = n;
-  return dyd_engine_add_words(e, n, xy, err);
+  return dyd_engine_add_words(e, n, end, boxes, err);
 }
 
-static dyd_status commit_plain(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
+static dyd_status commit_decimals(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
   dyd_status st = commit_words(count, e, s, first, err);
   if (st != DYD_OK || *count) return st;
   *count = 1;
@@ -257,7 +295,8 @@ static dyd_status stage_commit_from(size_t *count, dyd_engine *e, dyd_stage *s, 
   case DYD_COORDINATE_BOX:
     return commit_boxes(count, e, s, first, err);
   case DYD_COORDINATE_PLAIN:
-    return commit_plain(count, e, s, first, err);
+  case DYD_COORDINATE_SPAN:
+    return commit_decimals(count, e, s, first, err);
   case DYD_COORDINATE_REAL:
     break;
   }

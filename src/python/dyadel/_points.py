@@ -21,7 +21,7 @@ class Source:
     narrow(i, bits) gives point i as four exact numbers xlo, xhi, ylo, yhi, aiming at widths of 2^-bits, inside its
     earlier answers; a fifth element True says that it can never be narrowed. Two coordinates will do as well, intervals as pairs
     or as mpmath.iv has them; two plain numbers state that the point is exactly there, for good, so never return a pair of
-    rounded ones. Where ends are not dyadic they are rounded outward.
+    rounded ones.
     """
 
     n: int
