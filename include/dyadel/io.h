@@ -324,7 +324,7 @@ typedef struct dyd_write_options {
   bool lengths;     /* pairs and graphs of the plane: columns length_lo, length_hi, rounded outward */
   bool clip;        /* edges of the diagram: cut to the window, and omitted where they are certainly beyond it */
   const char *name; /* the name of the points, such as their file: the title of html; NULL: none */
-  /* Tiles in csv, wkt and geojson are cut to it (dyd_tiles_clip), one row for each site. NULL: they are not. */
+  /* Tiles, but in vtk, are cut to it (dyd_tiles_clip), one row for each site. NULL: they are not. */
   const dyd_area *clip_to;
 } dyd_write_options;
 /* Reads an area: all polygons in well-known text, also in a table, or GeoJSON. Coordinates become the nearest doubles.

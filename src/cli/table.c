@@ -301,7 +301,7 @@ const cli_option cli_option_table[] = {
     {"clip-to", 0, "FILE", CLI_SOURCE, BIT(CLI_VORONOI), CLI_OUTPUT,
      "--layer tiles: cut tiles to the polygons of FILE, well-known\ntext or GeoJSON, with holes and islands; one row "
      "for each\n"
-     "point, in csv, wkt, geojson; the default window is around\nthem",
+     "point (not in vtk); the default window is around them",
      AT(clip_to)},
     {"length", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY), CLI_OUTPUT,
      "rows of pairs and graphs have bounds of the length: columns\nlength_lo and length_hi", AT(lengths)},

@@ -230,9 +230,9 @@ static dyd_status make_diagram(const diagram_arrays *arrays, dyd_output *to, dyd
 }
 
 static dyd_status write_voronoi(dyd_output *to, dyd_write_options *o, dyd_error *err) {
-  bool rows = to->format == DYD_FORMAT_CSV || to->format == DYD_FORMAT_WKT || to->format == DYD_FORMAT_GEOJSON;
-  if (o->clip_to && (to->content != DYD_CONTENT_TILES || !rows))
-    return dyd_fail(err, DYD_E_ARG, "`clip_to` cuts tiles that are written as csv, wkt or geojson");
+  if (o->clip_to && to->content != DYD_CONTENT_TILES) return dyd_fail(err, DYD_E_ARG, "`clip_to` is about tiles");
+  if (o->clip_to && to->format == DYD_FORMAT_VTK)
+    return dyd_fail(err, DYD_E_ARG, "vtk has no polygons with holes, which tiles cut by `clip_to` may have");
   return make_diagram(NULL, to, o, err);
 }
 

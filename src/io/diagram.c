@@ -184,6 +184,14 @@ dyd_status dyd_diagram_tiles(dyd_tiles *out, const dyd_diagram *d, bool areas_on
       "points nearer to the origin");
 }
 
+double dyd_diagram_tile(size_t *end, const dyd_diagram *d, const dyd_tiles *tiles) {
+  uint32_t site = tiles->site[*end];
+  double area = tiles->area[(*end)++];
+  for (; d->clip_to && *end < tiles->count && tiles->site[*end] == site; ++*end)
+    if (tiles->area[*end] > 0) area = nextafter(area + tiles->area[*end], INFINITY);
+  return area;
+}
+
 dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, void *context) {
   dyd_rect r;
   dyd_status st = DYD_OK;

@@ -89,6 +89,9 @@ dyd_status dyd_diagram_frame(dyd_frame *out, const dyd_diagram *d);
 
 /* The tiles; sets the bounds, too. areas_only as in dyd_tiles_find. Fills *err where doubles are too coarse. */
 dyd_status dyd_diagram_tiles(dyd_tiles *out, const dyd_diagram *d, bool areas_only, dyd_error *err);
+/* Moves *end, the first ring, behind the rings that make one row: one, or all of a site that is cut. Returns their
+ * area, rounded up. */
+double dyd_diagram_tile(size_t *end, const dyd_diagram *d, const dyd_tiles *tiles);
 
 /* Called for every undecided face in order, with the box of its vertices in the window, rounded outward; NULL: there
  * are none. */

@@ -127,14 +127,12 @@ dyd_status dyd_tile_comments(dyd_table *t, const dyd_output *o) {
   return st;
 }
 
-/* Rings r to end - 1: one, or all of a site that is cut. */
-static void row_tile(dyd_table *t, const dyd_tiles *tiles, size_t r, size_t end) {
-  double area = tiles->area[r];
+/* Rings r to end - 1. */
+static void row_tile(dyd_table *t, const dyd_tiles *tiles, size_t r, size_t end, double area) {
   dyd_row_begin(t);
   for (size_t q = r; q < end; q++) {
     size_t first = tiles->offset[q], n = tiles->offset[q + 1] - first;
     if (t->geometry == DYD_GEOMETRY_POLYGONS) (q == r || tiles->area[q] > 0 ? dyd_row_part : dyd_row_hole)(t);
-    if (q > r && tiles->area[q] > 0) area = nextafter(area + tiles->area[q], INFINITY);
     for (size_t k = 0; t->drawn && k <= n; k++) {
       const double *z = &tiles->xy[2 * (first + k % n)];
       dyd_row_at(t, (const double[]){z[0], z[0], z[1], z[1]});
@@ -155,9 +153,9 @@ dyd_status dyd_tile_rows(dyd_table *t, const dyd_output *o) {
   const dyd_diagram *d = o->what;
   dyd_tiles tiles = {0};
   dyd_status st = dyd_diagram_tiles(&tiles, d, !t->drawn, o->err);
-  for (size_t r = 0, end; r < tiles.count && st == DYD_OK; r = end) {
-    for (end = r + 1; d->clip_to && end < tiles.count && tiles.site[end] == tiles.site[r];) end++;
-    row_tile(t, &tiles, r, end);
+  for (size_t r = 0, end = 0; r < tiles.count && st == DYD_OK; r = end) {
+    double area = dyd_diagram_tile(&end, d, &tiles);
+    row_tile(t, &tiles, r, end, area);
   }
   dyd_tiles_clear(&tiles);
   return st;

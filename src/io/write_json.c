@@ -340,16 +340,13 @@ static dyd_status region_json(void *context, size_t face, const double box[4]) {
 
 /* ---- the diagram ---- */
 
-static void diagram_head_json(dyd_json *j, const dyd_diagram *d) {
+static void diagram_head_json(dyd_json *j, const dyd_diagram *d, const char *format, const char *rounding) {
   size_t count[4];
   int64_t bits;
   dyd_goal goal = dyd_engine_goal(&bits, d->engine);
   dyd_pairs_count(count, d->discs, d->pd);
-  dyd_json_head(j, "dyadel voronoi 1", d->epsg);
-  dyd_json_word(j, "rounding",
-                "texts are exact numbers; pairs of numbers are rounded outward: the first down, the second up; null is "
-                "unbounded or beyond the largest double; inner and outer of a cell with vertex_error are that cell, "
-                "with vertices rounded by at most so much in each coordinate");
+  dyd_json_head(j, format, d->epsg);
+  dyd_json_word(j, "rounding", rounding);
   dyd_json_word(j, "outcome", dyd_outcome_text(dyd_engine_outcome(d->engine)));
   dyd_json_confidence(j, d->engine);
   dyd_json_word(j, "goal", dyd_goal_text(goal));
@@ -366,7 +363,10 @@ static dyd_status voronoi_json(const dyd_output *o) {
   diagram_json c = {.d = d, .texts = {.engine = d->engine}};
   dyd_json *j = &c.j;
   dyd_json_begin(j, o->out);
-  diagram_head_json(j, d);
+  diagram_head_json(j, d, "dyadel voronoi 1",
+                    "texts are exact numbers; pairs of numbers are rounded outward: the first down, the second up; "
+                    "null is unbounded or beyond the largest double; inner and outer of a cell with vertex_error are "
+                    "that cell, with vertices rounded by at most so much in each coordinate");
   dyd_json_array(j, "cells", DYD_JSON_LIST);
   if (j->st == DYD_OK) dyd_json_good(j, dyd_diagram_visit(d, cell_json, &c));
   dyd_point_texts_clear(&c.texts);
@@ -381,6 +381,53 @@ static dyd_status voronoi_json(const dyd_output *o) {
   dyd_json_bound(j, "distance_to_true_diagram", d->bounds->finite ? &d->bounds->hausdorff : NULL);
   dyd_json_close(j, 1);
   return dyd_json_end(j, "\n}\n");
+}
+
+/* ---- tiles ---- */
+
+static void rings_json(dyd_json *j, const dyd_tiles *t, size_t r, size_t end) {
+  char text[DYD_DECIMAL_SIZE];
+  double error;
+  dyd_json_array(j, "rings", DYD_JSON_FLAT);
+  for (; r < end; r++) {
+    dyd_json_array(j, NULL, DYD_JSON_FLAT);
+    for (size_t k = 2 * t->offset[r]; k < 2 * t->offset[r + 1]; k++) {
+      if (k % 2 == 0) dyd_json_array(j, NULL, DYD_JSON_FLAT);
+      dyd_decimal_within(text, &error, t->xy[k], t->xy[k]);
+      dyd_json_raw(j, NULL, text);
+      if (k % 2) dyd_json_close(j, 1);
+    }
+    dyd_json_close(j, 1);
+  }
+  dyd_json_close(j, 1);
+}
+
+static dyd_status tiles_json(const dyd_output *o) {
+  const dyd_diagram *d = o->what;
+  dyd_tiles t = {0};
+  dyd_json j;
+  dyd_status st = dyd_diagram_tiles(&t, d, false, o->err);
+  dyd_json_begin(&j, o->out);
+  diagram_head_json(&j, d, "dyadel tiles 1",
+                    "tile_area is rounded up, area (of the cell for every choice) outward; rings are doubles, from the "
+                    "true polygon of one choice by at most vertex_error in each coordinate, holes clockwise; null is "
+                    "beyond the largest double");
+  dyd_json_decimal(&j, "vertex_error", t.rounding, DYD_UP);
+  dyd_json_array(&j, "tiles", DYD_JSON_LIST);
+  for (size_t r = 0, end = 0; r < t.count && j.st == DYD_OK && st == DYD_OK; r = end) {
+    dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+    dyd_json_site(&j, "i", d->engine, t.site[r]);
+    dyd_json_ids(&j, d->engine, &t.site[r], 0);
+    dyd_json_carried(&j, d->engine, t.site[r]);
+    dyd_json_decimal(&j, "tile_area", dyd_diagram_tile(&end, d, &t), DYD_UP);
+    dyd_json_decimals(&j, "area", t.bound[2 * r], t.bound[2 * r + 1]);
+    rings_json(&j, &t, r, end);
+    dyd_json_close(&j, 1);
+  }
+  dyd_json_close(&j, 1);
+  dyd_tiles_clear(&t);
+  dyd_status written = dyd_json_end(&j, "\n}\n");
+  return st == DYD_OK ? written : st;
 }
 
 /* ---- the diagram of a sphere ---- */
@@ -538,14 +585,10 @@ static dyd_status tolerance_json(const dyd_output *o) {
   return dyd_json_end(&j, "}\n");
 }
 
-dyd_writer *const dyd_json_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = delaunay_json,
-                                                    [DYD_CONTENT_VORONOI] = voronoi_json,
-                                                    [DYD_CONTENT_CONVERGENCE] = dyd_convergence_json,
-                                                    [DYD_CONTENT_CHECK] = dyd_check_json,
-                                                    [DYD_CONTENT_DISC] = dyd_disc_json,
-                                                    [DYD_CONTENT_BISECTOR] = dyd_bisector_json,
-                                                    [DYD_CONTENT_NEAREST] = dyd_nearest_json,
-                                                    [DYD_CONTENT_PLACES] = dyd_nearest_json,
-                                                    [DYD_CONTENT_TOLERANCE] = tolerance_json,
-                                                    [DYD_CONTENT_SPHERE] = delaunay_json,
-                                                    [DYD_CONTENT_SPHERE_VORONOI] = globe_voronoi_json};
+dyd_writer *const dyd_json_writers[DYD_CONTENTS] = {
+    [DYD_CONTENT_DELAUNAY] = delaunay_json,     [DYD_CONTENT_VORONOI] = voronoi_json,
+    [DYD_CONTENT_TILES] = tiles_json,           [DYD_CONTENT_CONVERGENCE] = dyd_convergence_json,
+    [DYD_CONTENT_CHECK] = dyd_check_json,       [DYD_CONTENT_DISC] = dyd_disc_json,
+    [DYD_CONTENT_BISECTOR] = dyd_bisector_json, [DYD_CONTENT_NEAREST] = dyd_nearest_json,
+    [DYD_CONTENT_PLACES] = dyd_nearest_json,    [DYD_CONTENT_TOLERANCE] = tolerance_json,
+    [DYD_CONTENT_SPHERE] = delaunay_json,       [DYD_CONTENT_SPHERE_VORONOI] = globe_voronoi_json};

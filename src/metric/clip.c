@@ -9,6 +9,8 @@
 #include "base/error.h"
 #include "base/flag.h"
 #include "metric/bounds.h"
+#include "metric/edge_tree.h"
+#include "metric/tiles_filter.h"
 #include <gmp.h>
 #include <mpfr.h>
 #include <stdlib.h>
@@ -20,118 +22,12 @@ void dyd_area_clear(dyd_area *a) {
   *a = (dyd_area){0};
 }
 
-/* ---- edges in a tree ---- */
-
-typedef struct area_edge {
-  double p[2], q[2];
-  size_t ring;
-} area_edge;
-
-/* box[k]: xlo, xhi, ylo, yhi of the edges of leaf k - leaves, or of the boxes 2 k and 2 k + 1. */
-enum { LEAF = 4 };
-typedef struct edge_tree {
-  area_edge *edge;
-  size_t count, leaves;
-  double (*box)[4];
-} edge_tree;
-
-static void box_take(double box[4], const double p[2]) {
-  for (int k = 0; k < 4; k++) {
-    double x = p[k >> 1];
-    if (k & 1 ? x > box[k] : x < box[k]) box[k] = x;
-  }
-}
-
-static bool area_boxes_meet(const double a[4], const double b[4]) {
-  return a[0] <= b[1] && b[0] <= a[1] && a[2] <= b[3] && b[2] <= a[3];
-}
-
-static const double no_box[4] = {HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL};
-
-static void edge_tree_clear(edge_tree *t) {
-  free(t->edge);
-  free(t->box);
-}
-
-static void edge_tree_fill(edge_tree *t) {
-  for (size_t k = 2 * t->leaves; k-- > 1;) {
-    memcpy(t->box[k], no_box, sizeof no_box);
-    if (k < t->leaves) {
-      for (size_t c = 2 * k; c <= 2 * k + 1; c++) {
-        box_take(t->box[k], (const double[]){t->box[c][0], t->box[c][2]});
-        box_take(t->box[k], (const double[]){t->box[c][1], t->box[c][3]});
-      }
-      continue;
-    }
-    for (size_t e = LEAF * (k - t->leaves); e < t->count && e < LEAF * (k - t->leaves + 1); e++) {
-      box_take(t->box[k], t->edge[e].p);
-      box_take(t->box[k], t->edge[e].q);
-    }
-  }
-}
-
-static dyd_status edge_tree_init(edge_tree *t, const dyd_area *a) {
-  size_t n = a->rings ? a->offset[a->rings] : 0;
-  *t = (edge_tree){.leaves = 1};
-  while (LEAF * t->leaves < n) t->leaves *= 2;
-  t->edge = dyd_alloc(n, sizeof *t->edge);
-  t->box = dyd_alloc(2 * t->leaves, sizeof *t->box);
-  if (!t->edge || !t->box) return DYD_E_NOMEM;
-  for (size_t r = 0; r < a->rings; r++)
-    for (size_t k = a->offset[r]; k < a->offset[r + 1]; k++) {
-      const double *p = &a->xy[2 * k], *q = &a->xy[2 * (k + 1 < a->offset[r + 1] ? k + 1 : a->offset[r])];
-      t->edge[t->count++] = (area_edge){{p[0], p[1]}, {q[0], q[1]}, r};
-    }
-  edge_tree_fill(t);
-  return DYD_OK;
-}
-
-/* A walk over the edges whose boxes meet `box`. */
-typedef struct tree_walk {
-  const edge_tree *tree;
-  double box[4];
-  size_t stack[64], depth, edge, end;
-} tree_walk;
-
-static tree_walk tree_walk_begin(const edge_tree *t, const double box[4]) {
-  return (tree_walk){.tree = t, .box = {box[0], box[1], box[2], box[3]}, .stack = {1}, .depth = 1};
-}
-
-static void area_edge_box(double box[4], const area_edge *e) {
-  memcpy(box, no_box, sizeof no_box);
-  box_take(box, e->p);
-  box_take(box, e->q);
-}
-
-static bool edge_meets_box(const area_edge *e, const double box[4]) {
-  double own[4];
-  area_edge_box(own, e);
-  return area_boxes_meet(own, box);
-}
-
-/* The next one; NULL: that was all. */
-static const area_edge *tree_walk_next(tree_walk *w) {
-  const edge_tree *t = w->tree;
-  for (;;) {
-    while (w->edge < w->end)
-      if (edge_meets_box(&t->edge[w->edge++], w->box)) return &t->edge[w->edge - 1];
-    if (!w->depth) return NULL;
-    size_t k = w->stack[--w->depth];
-    if (!area_boxes_meet(t->box[k], w->box)) continue;
-    if (k < t->leaves) {
-      w->stack[w->depth++] = 2 * k;
-      w->stack[w->depth++] = 2 * k + 1;
-    } else {
-      w->edge = LEAF * (k - t->leaves);
-      w->end = w->edge + LEAF < t->count ? w->edge + LEAF : t->count;
-    }
-  }
-}
-
 /* ---- places ---- */
 
+/* low: the largest doubles that are not above `at`. */
 typedef struct q_place {
   mpq_t at[2];
+  double low[2];
 } q_place;
 
 static void q_place_init(q_place *p) {
@@ -143,12 +39,46 @@ static void q_place_clear(q_place *p) {
 }
 
 static void q_place_set(q_place *p, const double at[2]) {
-  for (int k = 0; k < 2; k++) mpq_set_d(p->at[k], at[k]);
+  for (int k = 0; k < 2; k++) mpq_set_d(p->at[k], p->low[k] = at[k]);
+}
+
+static void q_place_copy(q_place *p, const q_place *of) {
+  for (int k = 0; k < 2; k++) {
+    mpq_set(p->at[k], of->at[k]);
+    p->low[k] = of->low[k];
+  }
+}
+
+static double q_rounded(const mpq_t x, mpfr_rnd_t rnd) {
+  mpfr_t r;
+  mpfr_init2(r, 53);
+  mpfr_set_q(r, x, rnd);
+  double d = mpfr_get_d(r, rnd);
+  mpfr_clear(r);
+  return d;
+}
+
+/* Sets low[]. */
+static void q_place_end(q_place *p) {
+  for (int k = 0; k < 2; k++) p->low[k] = q_rounded(p->at[k], MPFR_RNDD);
+}
+
+static void q_place_middle(q_place *p, const q_place *a, const q_place *b) {
+  for (int k = 0; k < 2; k++) {
+    mpq_add(p->at[k], a->at[k], b->at[k]);
+    mpq_div_2exp(p->at[k], p->at[k], 1);
+  }
+  q_place_end(p);
+}
+
+static int q_compare(const q_place *a, const q_place *b, int axis) {
+  if (a->low[axis] != b->low[axis]) return a->low[axis] < b->low[axis] ? -1 : 1;
+  return mpq_cmp(a->at[axis], b->at[axis]);
 }
 
 static int q_place_compare(const q_place *a, const q_place *b) {
-  int x = mpq_cmp(a->at[0], b->at[0]);
-  return x ? x : mpq_cmp(a->at[1], b->at[1]);
+  int x = q_compare(a, b, 0);
+  return x ? x : q_compare(a, b, 1);
 }
 
 /* out = (b - a) x (d - c) */
@@ -167,62 +97,68 @@ static void q_cross(mpq_t out, const q_place *a, const q_place *b, const q_place
 
 /* Sign of the turn a, b, c. */
 static int q_turn(const q_place *a, const q_place *b, const q_place *c) {
+  int sign = dyd_filter_low_turn(a->low, b->low, c->low);
+  if (sign || !q_place_compare(a, c) || !q_place_compare(b, c)) return sign;
   mpq_t t;
   mpq_init(t);
   q_cross(t, a, b, a, c);
-  int sign = mpq_sgn(t);
+  sign = mpq_sgn(t);
   mpq_clear(t);
   return sign;
 }
 
-/* Doubles below and above. */
-static void q_enclose(double out[2], const mpq_t x) {
-  mpfr_t r;
-  mpfr_init2(r, 53);
-  mpfr_set_q(r, x, MPFR_RNDD);
-  out[0] = mpfr_get_d(r, MPFR_RNDD);
-  mpfr_set_q(r, x, MPFR_RNDU);
-  out[1] = mpfr_get_d(r, MPFR_RNDU);
-  mpfr_clear(r);
-}
-
 /* ---- inside the area ---- */
 
-/* Does the ray to the left from z pass the edge? Its lower end counts, its upper one does not. */
-static bool ray_passes(const q_place *z, const area_edge *e, q_place *a, q_place *b) {
-  q_place_set(a, e->p);
-  q_place_set(b, e->q);
-  bool up = mpq_cmp(a->at[1], z->at[1]) <= 0;
-  if (up == (mpq_cmp(b->at[1], z->at[1]) <= 0)) return false;
-  return up ? q_turn(a, b, z) < 0 : q_turn(a, b, z) > 0;
+/* Is z above the end of an edge, or as high? */
+static bool place_is_above(const q_place *z, const double end[2]) {
+  return end[1] <= z->low[1];
 }
 
-/* Is z, on none of the edges, inside of an odd number of rings but `but`? */
-static bool place_is_inside(const edge_tree *t, const q_place *z, size_t but) {
-  double box[4], x[2];
+/* Does the ray to the left from z, which is not on the edge, pass it? Its lower end counts, its upper one does not. */
+static bool ray_passes(const q_place *z, const dyd_area_edge *e) {
+  bool up = place_is_above(z, e->p), left[2] = {e->p[0] <= z->low[0], e->q[0] <= z->low[0]};
+  if (up == place_is_above(z, e->q) || !(left[0] || left[1])) return false;
+  if (left[0] && left[1]) return true;
   q_place a, b;
-  bool odd = false;
-  q_enclose(x, z->at[0]);
-  q_enclose(&box[2], z->at[1]);
-  box[0] = -HUGE_VAL;
-  box[1] = x[1];
   q_place_init(&a);
   q_place_init(&b);
-  tree_walk w = tree_walk_begin(t, box);
-  for (const area_edge *e; (e = tree_walk_next(&w));) {
-    if (e->ring == but) continue;
-    bool left = box[2] == box[3] && e->p[0] < x[0] && e->q[0] < x[0]; /* then the height alone decides */
-    if (left ? (e->p[1] <= box[2]) != (e->q[1] <= box[2]) : ray_passes(z, e, &a, &b)) odd = !odd;
-  }
+  q_place_set(&a, e->p);
+  q_place_set(&b, e->q);
+  int turn = q_turn(&a, &b, z);
   q_place_clear(&a);
   q_place_clear(&b);
+  return up ? turn < 0 : turn > 0;
+}
+
+/* Is z, on none of the edges, inside of an odd number of rings but `but`? Of edges that follow each other to the left
+ * of z the ray passes an odd number if their first end and the last are on both sides of it. */
+static bool place_is_inside(const dyd_edge_tree *t, const q_place *z, size_t but) {
+  size_t stack[64] = {1}, depth = 1, first, last;
+  bool odd = false;
+  while (depth) {
+    size_t k = stack[--depth];
+    const double *box = t->box[k];
+    if (box[0] > z->low[0] || box[2] > z->low[1] || box[3] <= z->low[1]) continue;
+    dyd_edge_tree_range(&first, &last, t, k);
+    if (box[1] <= z->low[0] && t->edge[first].ring == t->edge[last].ring) {
+      bool passes = place_is_above(z, t->edge[first].p) != place_is_above(z, t->edge[last].q);
+      odd ^= passes && t->edge[first].ring != but;
+    } else if (k < t->leaves) {
+      stack[depth++] = 2 * k;
+      stack[depth++] = 2 * k + 1;
+    } else {
+      for (size_t e = first; e <= last; e++) odd ^= t->edge[e].ring != but && ray_passes(z, &t->edge[e]);
+    }
+  }
   return odd;
 }
 
 /* ---- areas that are areas ---- */
 
-/* Where segments a b and c d meet: 0 nowhere, 1 in one place, set; 2 along a piece. */
-static int area_segments_meet(q_place *at, const q_place *a, const q_place *b, const q_place *c, const q_place *d) {
+/* Where segments a b and c d meet: in no place, in one that is an end of none, of one or of both, or in many. */
+enum segment_meeting { APART, CROSS, TOUCH, SHARE, ALONG };
+static enum segment_meeting area_segments_meet(q_place *at, const q_place *a, const q_place *b, const q_place *c,
+                                               const q_place *d) {
   int side[4] = {q_turn(a, b, c), q_turn(a, b, d), q_turn(c, d, a), q_turn(c, d, b)};
   if (!side[0] && !side[1]) {
     const q_place *low[2] = {a, c}, *high[2] = {b, d};
@@ -234,11 +170,15 @@ static int area_segments_meet(q_place *at, const q_place *a, const q_place *b, c
     const q_place *from = q_place_compare(low[0], low[1]) > 0 ? low[0] : low[1];
     const q_place *to = q_place_compare(high[0], high[1]) < 0 ? high[0] : high[1];
     int order = q_place_compare(from, to);
-    if (!order)
-      for (int k = 0; k < 2; k++) mpq_set(at->at[k], from->at[k]);
-    return order > 0 ? 0 : order ? 2 : 1;
+    if (!order) q_place_copy(at, from);
+    return order > 0 ? APART : order ? ALONG : SHARE;
   }
-  if (side[0] * side[1] > 0 || side[2] * side[3] > 0) return 0;
+  if (side[0] * side[1] > 0 || side[2] * side[3] > 0) return APART;
+  const q_place *end[4] = {c, d, a, b};
+  int ends = 0;
+  for (int k = 0; k < 4; k++)
+    if (!side[k]) q_place_copy(at, end[k]), ends++; /* it is on the other line */
+  if (ends) return ends == 1 ? TOUCH : SHARE;
   mpq_t s, t;
   mpq_inits(s, t, NULL);
   q_cross(s, c, d, c, a);
@@ -249,41 +189,41 @@ static int area_segments_meet(q_place *at, const q_place *a, const q_place *b, c
     mpq_mul(t, t, s);
     mpq_add(at->at[k], a->at[k], t);
   }
+  q_place_end(at);
   mpq_clears(s, t, NULL);
-  return 1;
+  return CROSS;
 }
 
-/* May edges that meet at `at` do so? In a vertex of both, yes. */
-static bool meeting_is_good(const area_edge *e, const area_edge *f, const q_place *at) {
-  q_place v;
-  int ends = 0;
-  q_place_init(&v);
-  for (int k = 0; k < 4; k++) {
-    q_place_set(&v, k == 0 ? e->p : k == 1 ? e->q : k == 2 ? f->p : f->q);
-    if (q_place_compare(&v, at) == 0) ends |= k < 2 ? 1 : 2;
+/* Returns true if both ends of one edge are certainly on one side of the other. */
+static bool edges_are_apart(const dyd_area_edge *e, const dyd_area_edge *f) {
+  for (int k = 0; k < 2; k++) {
+    int side = dyd_filter_low_turn(e->p, e->q, f->p);
+    if (side && side == dyd_filter_low_turn(e->p, e->q, f->q)) return true;
+    const dyd_area_edge *other = e;
+    e = f, f = other;
   }
-  q_place_clear(&v);
-  return ends == 3 || (ends && e->ring != f->ring);
+  return false;
 }
 
-/* *bad: an edge that meets another one where it may not; t->count: none does. */
-static void find_bad_edges(size_t bad[2], const edge_tree *t) {
+/* *bad: an edge that meets another one of its ring but in a vertex of both, or that crosses one; t->count: none does.
+ */
+static void find_bad_edges(size_t bad[2], const dyd_edge_tree *t) {
   q_place p[5];
   bad[0] = bad[1] = t->count;
   for (int k = 0; k < 5; k++) q_place_init(&p[k]);
   for (size_t k = 0; k < t->count && bad[0] == t->count; k++) {
-    const area_edge *e = &t->edge[k], *f;
+    const dyd_area_edge *e = &t->edge[k], *f;
     double box[4];
-    area_edge_box(box, e);
+    dyd_area_edge_box(box, e);
     q_place_set(&p[0], e->p);
     q_place_set(&p[1], e->q);
-    tree_walk w = tree_walk_begin(t, box);
-    while ((f = tree_walk_next(&w)) && bad[0] == t->count) {
-      if (f <= e) continue;
+    dyd_tree_walk w = dyd_tree_walk_begin(t, box);
+    while ((f = dyd_tree_walk_next(&w)) && bad[0] == t->count) {
+      if (f <= e || edges_are_apart(e, f)) continue;
       q_place_set(&p[2], f->p);
       q_place_set(&p[3], f->q);
-      int meet = area_segments_meet(&p[4], &p[0], &p[1], &p[2], &p[3]);
-      if (meet == 0 || (meet == 1 && meeting_is_good(e, f, &p[4]))) continue;
+      enum segment_meeting meet = area_segments_meet(&p[4], &p[0], &p[1], &p[2], &p[3]);
+      if (meet == APART || meet == SHARE || (meet == TOUCH && e->ring != f->ring)) continue;
       bad[0] = k;
       bad[1] = (size_t)(f - t->edge);
     }
@@ -309,16 +249,14 @@ static void ring_area2_q(mpq_t out, const double *xy, size_t n) {
 }
 
 /* Is z on an edge of another ring? */
-static bool place_is_on_edge(const edge_tree *t, const q_place *z, size_t but) {
-  double x[2], y[2];
+static bool place_is_on_edge(const dyd_edge_tree *t, const q_place *z, size_t but) {
   q_place a, b;
   bool on = false;
-  q_enclose(x, z->at[0]);
-  q_enclose(y, z->at[1]);
+  double up[2] = {q_rounded(z->at[0], MPFR_RNDU), q_rounded(z->at[1], MPFR_RNDU)};
   q_place_init(&a);
   q_place_init(&b);
-  tree_walk w = tree_walk_begin(t, (const double[]){x[0], x[1], y[0], y[1]});
-  for (const area_edge *e; !on && (e = tree_walk_next(&w));) {
+  dyd_tree_walk w = dyd_tree_walk_begin(t, (const double[]){z->low[0], up[0], z->low[1], up[1]});
+  for (const dyd_area_edge *e; !on && (e = dyd_tree_walk_next(&w));) {
     q_place_set(&a, e->p);
     q_place_set(&b, e->q);
     on = e->ring != but && !q_turn(&a, &b, z);
@@ -329,17 +267,13 @@ static bool place_is_on_edge(const edge_tree *t, const q_place *z, size_t but) {
 }
 
 /* A place of the first edge of a ring that is on no other ring: these touch it here and there only. */
-static void ring_free_place(q_place *out, const edge_tree *t, size_t first) {
+static void ring_free_place(q_place *out, const dyd_edge_tree *t, size_t first) {
   q_place a;
   q_place_init(&a);
   q_place_set(&a, t->edge[first].p);
   q_place_set(out, t->edge[first].q);
-  do {
-    for (int k = 0; k < 2; k++) {
-      mpq_add(out->at[k], out->at[k], a.at[k]);
-      mpq_div_2exp(out->at[k], out->at[k], 1);
-    }
-  } while (place_is_on_edge(t, out, t->edge[first].ring));
+  do q_place_middle(out, out, &a);
+  while (place_is_on_edge(t, out, t->edge[first].ring));
   q_place_clear(&a);
 }
 
@@ -353,10 +287,10 @@ static void ring_reverse(double *xy, size_t n) {
 }
 
 dyd_status dyd_area_orient(dyd_area *a, size_t bad[2]) {
-  edge_tree t;
+  dyd_edge_tree t;
   q_place z;
   mpq_t area2;
-  dyd_status st = edge_tree_init(&t, a);
+  dyd_status st = dyd_edge_tree_init(&t, a);
   if (st == DYD_OK) find_bad_edges(bad, &t);
   if (st == DYD_OK && bad[0] < t.count) st = DYD_E_ARG;
   q_place_init(&z);
@@ -369,7 +303,7 @@ dyd_status dyd_area_orient(dyd_area *a, size_t bad[2]) {
   }
   mpq_clear(area2);
   q_place_clear(&z);
-  edge_tree_clear(&t);
+  dyd_edge_tree_clear(&t);
   return st;
 }
 
@@ -384,7 +318,7 @@ typedef struct edge_piece {
 /* Work on one tile. place[]: ends of pieces, the first of equal ones naming all. inside: the area of the site's part in
  * the area so far. */
 typedef struct clip_work {
-  const edge_tree *area;
+  const dyd_edge_tree *area;
   q_place *place;
   size_t places, place_cap;
   edge_piece *piece;
@@ -397,29 +331,25 @@ typedef struct clip_work {
   mpq_t inside, error;
 } clip_work;
 
-static bool clip_add_place(clip_work *w, const q_place *z) {
-  if (!dyd_reserve((void **)&w->place, &w->place_cap, w->places + 1, sizeof *w->place)) return false;
-  q_place *p = &w->place[w->places++];
-  q_place_init(p);
-  for (int k = 0; k < 2; k++) mpq_set(p->at[k], z->at[k]);
+static bool clip_add_cut(clip_work *w, const q_place *z) {
+  if (!dyd_reserve((void **)&w->cut, &w->cut_cap, w->cuts + 1, sizeof *w->cut) ||
+      !dyd_reserve((void **)&w->place, &w->place_cap, w->places + 1, sizeof *w->place))
+    return false;
+  q_place_init(&w->place[w->places]);
+  q_place_copy(&w->place[w->places], z);
+  w->cut[w->cuts++] = w->places++;
   return true;
 }
 
-static bool clip_add_cut(clip_work *w, const q_place *z) {
-  if (!dyd_reserve((void **)&w->cut, &w->cut_cap, w->cuts + 1, sizeof *w->cut)) return false;
-  w->cut[w->cuts++] = w->places;
-  return clip_add_place(w, z);
-}
-
 /* Cuts the edge where it meets f. */
-static bool clip_cut_at(clip_work *w, const q_place end[2], const area_edge *f, q_place *scratch) {
+static bool clip_cut_at(clip_work *w, const q_place end[2], const dyd_area_edge *f, q_place *scratch) {
   q_place *c = scratch, *at = scratch + 2;
   q_place_set(&c[0], f->p);
   q_place_set(&c[1], f->q);
-  int meet = area_segments_meet(at, &end[0], &end[1], &c[0], &c[1]);
-  if (meet == 1) return clip_add_cut(w, at);
+  enum segment_meeting meet = area_segments_meet(at, &end[0], &end[1], &c[0], &c[1]);
+  if (meet != APART && meet != ALONG) return clip_add_cut(w, at);
   bool up = q_place_compare(&end[0], &end[1]) < 0;
-  for (int k = 0; k < 2 && meet; k++)
+  for (int k = 0; k < 2 && meet == ALONG; k++)
     if (q_place_compare(&c[k], &end[!up]) > 0 && q_place_compare(&c[k], &end[up]) < 0 && !clip_add_cut(w, &c[k]))
       return false;
   return true;
@@ -439,18 +369,19 @@ static void clip_sort_cuts(clip_work *w, bool up) {
 }
 
 /* The pieces of an edge, cut at all `others` in the box of the tile: those of the area, or the tile's own. */
-static bool clip_edge(clip_work *w, const area_edge *e, bool tile, const edge_tree *others) {
+static bool clip_edge(clip_work *w, const dyd_area_edge *e, bool tile, const dyd_edge_tree *others) {
   q_place p[5];
   double box[4];
-  const area_edge *f;
-  area_edge_box(box, e);
+  const dyd_area_edge *f;
+  dyd_area_edge_box(box, e);
   for (int k = 0; k < 5; k++) q_place_init(&p[k]);
   q_place_set(&p[0], e->p);
   q_place_set(&p[1], e->q);
   w->cuts = 0;
   bool good = clip_add_cut(w, &p[0]) && clip_add_cut(w, &p[1]);
-  tree_walk walk = tree_walk_begin(others, box);
-  while (good && (f = tree_walk_next(&walk))) good = clip_cut_at(w, p, f, &p[2]);
+  dyd_tree_walk walk = dyd_tree_walk_begin(others, box);
+  while (good && (f = dyd_tree_walk_next(&walk)))
+    if (!edges_are_apart(e, f)) good = clip_cut_at(w, p, f, &p[2]);
   if (good) clip_sort_cuts(w, q_place_compare(&p[0], &p[1]) < 0);
   for (size_t k = 0; k + 1 < w->cuts && good; k++) {
     size_t from = w->cut[k], to = w->cut[k + 1];
@@ -488,32 +419,31 @@ static dyd_status clip_number(clip_work *w) {
   return st;
 }
 
-/* Which pieces bound the intersection. */
-static void clip_choose(clip_work *w, const edge_tree *tile) {
+static int compare_ends(const void *a, const void *b) {
+  const edge_piece *p = a, *q = b;
+  size_t low[2] = {p->from < p->to ? p->from : p->to, q->from < q->to ? q->from : q->to};
+  size_t high[2] = {p->from + p->to - low[0], q->from + q->to - low[1]};
+  return low[0] != low[1] ? (low[0] < low[1] ? -1 : 1) : (high[0] > high[1]) - (high[0] < high[1]);
+}
+
+/* Which pieces bound the intersection. One of the tile and one of the area at most have the same ends. */
+static void clip_choose(clip_work *w, const dyd_edge_tree *tile) {
   q_place z;
+  size_t kept = 0;
   q_place_init(&z);
+  if (w->pieces) qsort(w->piece, w->pieces, sizeof *w->piece, compare_ends);
   for (size_t k = 0; k < w->pieces; k++) {
     edge_piece *p = &w->piece[k];
-    if (p->done) continue;
-    for (size_t m = k + 1; p->tile && m < w->pieces && !p->done; m++) {
-      edge_piece *q = &w->piece[m];
-      if (q->tile) continue;
-      p->kept = p->from == q->from && p->to == q->to;
-      p->done = q->done = p->kept || (p->from == q->to && p->to == q->from);
+    bool both = k + 1 < w->pieces && !compare_ends(p, p + 1), keep = both && p->from == p[1].from;
+    if (!both) {
+      q_place_middle(&z, &w->place[p->from], &w->place[p->to]);
+      keep = place_is_inside(p->tile ? w->area : tile, &z, SIZE_MAX);
     }
-    if (p->done) continue;
-    for (int a = 0; a < 2; a++) {
-      mpq_add(z.at[a], w->place[p->from].at[a], w->place[p->to].at[a]);
-      mpq_div_2exp(z.at[a], z.at[a], 1);
-    }
-    p->kept = place_is_inside(p->tile ? w->area : tile, &z, SIZE_MAX);
+    if (keep) w->piece[kept++] = *p;
+    k += both;
   }
-  q_place_clear(&z);
-  size_t kept = 0;
-  for (size_t k = 0; k < w->pieces; k++)
-    if (w->piece[k].kept) w->piece[kept++] = w->piece[k];
   w->pieces = kept;
-  for (size_t k = 0; k < kept; k++) w->piece[k].done = false;
+  q_place_clear(&z);
 }
 
 /* ---- loops ---- */
@@ -547,11 +477,12 @@ static edge_piece *piece_after(clip_work *w, const edge_piece *p) {
   return best;
 }
 
-/* Loops of places: walk[start[l] .. start[l + 1]), with twice their areas. */
+/* Loops of places: walk[start[l] .. start[l + 1]), with twice their areas, and boxes of the doubles below. */
 typedef struct clip_loops {
   size_t *place, *start, count, places, place_cap, start_cap;
   mpq_t *area2;
-  size_t area_cap;
+  double (*box)[4];
+  size_t area_cap, box_cap;
 } clip_loops;
 
 static void clip_loops_clear(clip_loops *l) {
@@ -559,20 +490,24 @@ static void clip_loops_clear(clip_loops *l) {
   free(l->place);
   free(l->start);
   free(l->area2);
+  free(l->box);
 }
 
 static bool loops_add(clip_loops *l, const clip_work *w, const size_t *at, size_t n) {
   if (n < 3) return true;
   if (!dyd_reserve((void **)&l->place, &l->place_cap, l->places + n, sizeof *l->place) ||
       !dyd_reserve((void **)&l->start, &l->start_cap, l->count + 2, sizeof *l->start) ||
-      !dyd_reserve((void **)&l->area2, &l->area_cap, l->count + 1, sizeof *l->area2))
+      !dyd_reserve((void **)&l->area2, &l->area_cap, l->count + 1, sizeof *l->area2) ||
+      !dyd_reserve((void **)&l->box, &l->box_cap, l->count + 1, sizeof *l->box))
     return false;
   mpq_t t;
   mpq_init(t);
   mpq_init(l->area2[l->count]);
+  memcpy(l->box[l->count], dyd_no_box, sizeof dyd_no_box);
   for (size_t k = 0; k < n; k++) {
     const q_place *a = &w->place[at[k]], *b = &w->place[at[(k + 1) % n]];
     l->place[l->places + k] = at[k];
+    dyd_box_take(l->box[l->count], a->low);
     for (int way = 0; way < 2; way++) {
       mpq_mul(t, a->at[way], b->at[!way]);
       (way ? mpq_sub : mpq_add)(l->area2[l->count], l->area2[l->count], t);
@@ -615,15 +550,6 @@ static dyd_status clip_loops_find(clip_loops *l, clip_work *w) {
 
 /* ---- rings ---- */
 
-static double q_rounded(const mpq_t x, mpfr_rnd_t rnd) {
-  mpfr_t r;
-  mpfr_init2(r, 53);
-  mpfr_set_q(r, x, rnd);
-  double d = mpfr_get_d(r, rnd);
-  mpfr_clear(r);
-  return d;
-}
-
 static bool clip_reserve(clip_work *w, size_t places) {
   dyd_tiles *o = w->out;
   size_t rings = o->count + 1;
@@ -632,6 +558,13 @@ static bool clip_reserve(clip_work *w, size_t places) {
          dyd_reserve((void **)&o->area, &w->area_cap, rings, sizeof *o->area) &&
          dyd_reserve((void **)&o->bound, &w->bound_cap, 2 * rings, sizeof *o->bound) &&
          dyd_reserve((void **)&o->xy, &w->xy_cap, 2 * places, sizeof *o->xy);
+}
+
+/* A ring up to vertex `end`, for which there is room. */
+static void clip_end_ring(dyd_tiles *o, uint32_t site, size_t end, double area) {
+  o->site[o->count] = site;
+  o->area[o->count] = area;
+  o->offset[++o->count] = end;
 }
 
 /* A coordinate of a place in the nearest double; notes by how much that is off. */
@@ -663,10 +596,7 @@ static dyd_status clip_append(bool *any, clip_work *w, const clip_loops *l, size
     *any = mpq_sgn(w->error) == mpq_sgn(l->area2[loop]);
   }
   if (!*any) return DYD_OK;
-  o->offset[o->count] = first;
-  o->site[o->count] = site;
-  o->area[o->count] = 0;
-  o->offset[++o->count] = n;
+  clip_end_ring(o, site, n, 0);
   return DYD_OK;
 }
 
@@ -677,14 +607,11 @@ static bool loop_holds(const clip_work *w, const clip_loops *l, size_t outer, si
   q_place z;
   bool odd = false;
   q_place_init(&z);
-  for (int a = 0; a < 2; a++) { /* the middle of an edge is on no other one */
-    mpq_add(z.at[a], w->place[i[0]].at[a], w->place[i[1 % m]].at[a]);
-    mpq_div_2exp(z.at[a], z.at[a], 1);
-  }
+  q_place_middle(&z, &w->place[i[0]], &w->place[i[1 % m]]); /* of an edge: on no other one */
   for (size_t k = 0; k < n; k++) {
     const q_place *a = &w->place[o[k]], *b = &w->place[o[(k + 1) % n]];
-    bool up = mpq_cmp(a->at[1], z.at[1]) <= 0;
-    if (up != (mpq_cmp(b->at[1], z.at[1]) <= 0) && (up ? q_turn(a, b, &z) < 0 : q_turn(a, b, &z) > 0)) odd = !odd;
+    bool up = q_compare(a, &z, 1) <= 0;
+    if (up != (q_compare(b, &z, 1) <= 0) && (up ? q_turn(a, b, &z) < 0 : q_turn(a, b, &z) > 0)) odd = !odd;
   }
   q_place_clear(&z);
   return odd;
@@ -694,8 +621,8 @@ static bool loop_holds(const clip_work *w, const clip_loops *l, size_t outer, si
 static size_t loop_around(const clip_work *w, const clip_loops *l, size_t h) {
   size_t found = l->count;
   for (size_t k = 0; k < l->count; k++)
-    if (mpq_sgn(l->area2[k]) > 0 && (found == l->count || mpq_cmp(l->area2[k], l->area2[found]) < 0) &&
-        loop_holds(w, l, k, h))
+    if (dyd_boxes_touch(l->box[k], l->box[h]) && mpq_sgn(l->area2[k]) > 0 &&
+        (found == l->count || mpq_cmp(l->area2[k], l->area2[found]) < 0) && loop_holds(w, l, k, h))
       found = k;
   return found;
 }
@@ -703,16 +630,16 @@ static size_t loop_around(const clip_work *w, const clip_loops *l, size_t h) {
 /* Do the rings from `first` on bound an area after rounding? */
 static dyd_status clip_check(const dyd_tiles *o, size_t first) {
   dyd_area a = {.rings = o->count - first, .xy = o->xy + 2 * (o->count > first ? o->offset[first] : 0)};
-  edge_tree t;
+  dyd_edge_tree t;
   size_t bad[2];
   if (!a.rings) return DYD_OK;
   a.offset = dyd_alloc(a.rings + 1, sizeof *a.offset);
   if (!a.offset) return DYD_E_NOMEM;
   for (size_t k = 0; k <= a.rings; k++) a.offset[k] = o->offset[first + k] - o->offset[first];
-  dyd_status st = edge_tree_init(&t, &a);
+  dyd_status st = dyd_edge_tree_init(&t, &a);
   if (st == DYD_OK) find_bad_edges(bad, &t);
   if (st == DYD_OK && bad[0] < t.count) st = DYD_E_RANGE;
-  edge_tree_clear(&t);
+  dyd_edge_tree_clear(&t);
   free(a.offset);
   return st;
 }
@@ -751,21 +678,18 @@ static dyd_status clip_copy(clip_work *w, const dyd_tiles *t, size_t r) {
   size_t n = t->offset[r + 1] - t->offset[r], first = o->count ? o->offset[o->count] : 0;
   if (!clip_reserve(w, first + n)) return DYD_E_NOMEM;
   memcpy(&o->xy[2 * first], &t->xy[2 * t->offset[r]], 2 * n * sizeof *o->xy);
-  o->offset[o->count] = first;
-  o->site[o->count] = t->site[r];
-  o->area[o->count] = t->area[r];
-  o->offset[++o->count] = first + n;
+  clip_end_ring(o, t->site[r], first + n, t->area[r]);
   return DYD_OK;
 }
 
-static dyd_status clip_cut_tile(clip_work *w, uint32_t site, const edge_tree *tile) {
+static dyd_status clip_cut_tile(clip_work *w, uint32_t site, const dyd_edge_tree *tile) {
   clip_loops loops = {0};
-  const area_edge *e;
+  const dyd_area_edge *e;
   bool good = true;
   w->pieces = w->places = 0;
   for (size_t k = 0; k < tile->count && good; k++) good = clip_edge(w, &tile->edge[k], true, w->area);
-  tree_walk walk = tree_walk_begin(w->area, tile->box[1]);
-  while (good && (e = tree_walk_next(&walk))) good = clip_edge(w, e, false, tile);
+  dyd_tree_walk walk = dyd_tree_walk_begin(w->area, tile->box[1]);
+  while (good && (e = dyd_tree_walk_next(&walk))) good = clip_edge(w, e, false, tile);
   dyd_status st = good ? clip_number(w) : DYD_E_NOMEM;
   if (st == DYD_OK) clip_choose(w, tile);
   if (st == DYD_OK) st = clip_loops_find(&loops, w);
@@ -780,18 +704,18 @@ static dyd_status clip_ring(bool *cut, clip_work *w, const dyd_tiles *t, size_t 
   size_t n = t->offset[r + 1] - t->offset[r], offset[2] = {0, n};
   const dyd_area one = {1, offset, t->xy + 2 * t->offset[r]};
   double box[4];
-  memcpy(box, no_box, sizeof box);
-  for (size_t k = 0; k < n; k++) box_take(box, &one.xy[2 * k]);
-  tree_walk walk = tree_walk_begin(w->area, box);
-  *cut = tree_walk_next(&walk) != NULL;
+  memcpy(box, dyd_no_box, sizeof box);
+  for (size_t k = 0; k < n; k++) dyd_box_take(box, &one.xy[2 * k]);
+  dyd_tree_walk walk = dyd_tree_walk_begin(w->area, box);
+  *cut = dyd_tree_walk_next(&walk) != NULL;
   if (!*cut) {
     q_place_set(&w->corner, one.xy);
     return place_is_inside(w->area, &w->corner, SIZE_MAX) ? clip_copy(w, t, r) : DYD_OK;
   }
-  edge_tree tile;
-  dyd_status st = edge_tree_init(&tile, &one);
+  dyd_edge_tree tile;
+  dyd_status st = dyd_edge_tree_init(&tile, &one);
   if (st == DYD_OK) st = clip_cut_tile(w, t->site[r], &tile);
-  edge_tree_clear(&tile);
+  dyd_edge_tree_clear(&tile);
   return st;
 }
 
@@ -868,11 +792,11 @@ static dyd_status clip_site(clip_work *w, const dyd_tiles *t, size_t *r) {
 dyd_status dyd_tiles_clip(dyd_tiles *t, const dyd_area *area, const volatile int *cancel) {
   if (!t || !area) return DYD_E_ARG;
   dyd_tiles made = {.coincident = t->coincident, .rounding = t->rounding};
-  edge_tree tree;
+  dyd_edge_tree tree;
   clip_work w = {.area = &tree, .out = &made};
   mpq_inits(w.inside, w.error, NULL);
   q_place_init(&w.corner);
-  dyd_status st = edge_tree_init(&tree, area);
+  dyd_status st = dyd_edge_tree_init(&tree, area);
   if (st == DYD_OK && !clip_reserve(&w, 0)) st = DYD_E_NOMEM;
   if (st == DYD_OK) made.offset[0] = 0;
   for (size_t r = 0; r < t->count && st == DYD_OK;) st = dyd_flag_is_set(cancel) ? DYD_CANCELLED : clip_site(&w, t, &r);
@@ -882,7 +806,7 @@ dyd_status dyd_tiles_clip(dyd_tiles *t, const dyd_area *area, const volatile int
   free(w.walk);
   q_place_clear(&w.corner);
   mpq_clears(w.inside, w.error, NULL);
-  edge_tree_clear(&tree);
+  dyd_edge_tree_clear(&tree);
   dyd_tiles_clear(st == DYD_OK ? t : &made);
   if (st == DYD_OK) *t = made;
   return st;

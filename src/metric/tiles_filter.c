@@ -84,3 +84,15 @@ bool dyd_filter_near_edge(dyd_xy a, dyd_xy b, dyd_xy v, int grid) {
   double dx = b.x - a.x, dy = b.y - a.y, p = dx * (v.y - a.y), q = dy * (v.x - a.x);
   return !(fabs(p - q) > 2 * step * (fabs(dx) + fabs(dy)) + 0x1p-49 * (fabs(p) + fabs(q)));
 }
+
+/* With e = 2^-52 m + 2^-1074, m the largest coordinate, true coordinates are up to e above the given ones: then
+ * differences are off by e and their rounding u, products by 3 u of themselves, e times the sum of their factors, and
+ * e^2. Twice that covers second orders and the rounding of the bound. */
+int dyd_filter_low_turn(const double a[2], const double b[2], const double c[2]) {
+  double m = 0, d[4] = {b[0] - a[0], c[1] - a[1], b[1] - a[1], c[0] - a[0]}, p = d[0] * d[1], q = d[2] * d[3];
+  for (int k = 0; k < 2; k++) m = fmax(fmax(m, fabs(a[k])), fmax(fabs(b[k]), fabs(c[k])));
+  double e = m * 0x1p-52 + 0x1p-1000;
+  double off =
+      0x1p-50 * (fabs(p) + fabs(q)) + 2 * e * (fabs(d[0]) + fabs(d[1]) + fabs(d[2]) + fabs(d[3]) + 2 * e) + 0x1p-1000;
+  return p - q > off ? 1 : p - q < -off ? -1 : 0;
+}

@@ -13,5 +13,8 @@ size_t dyd_filter_tile(dyd_xy *ring, double bound[2], const dyd_grid_centre *con
                        double scale);
 /* false: v is certainly more than a step of the grid away from the edge from a to b. */
 bool dyd_filter_near_edge(dyd_xy a, dyd_xy b, dyd_xy v, int grid);
+/* Sign of the turn of three places, of which only the largest doubles not above each coordinate are given; 0: not
+ * certain. */
+int dyd_filter_low_turn(const double a[2], const double b[2], const double c[2]);
 
 #endif

@@ -62,12 +62,17 @@ static dyd_status voronoi_tiles(voronoi_drawing *g) {
   const dyd_diagram *d = g->d;
   dyd_tiles tiles = {0};
   dyd_status st = dyd_diagram_tiles(&tiles, d, false, g->err);
-  for (size_t r = 0; r < tiles.count && st == DYD_OK; r++) {
-    name_of(g, "tile", "tile of", &tiles.site[r], 1);
-    for (size_t k = tiles.offset[r]; k < tiles.offset[r + 1]; k++)
-      dyd_canvas_line(g->canvas, dyd_view_x(&g->view, tiles.xy[2 * k]), dyd_view_y(&g->view, tiles.xy[2 * k + 1]));
-    dyd_canvas_close(g->canvas);
-    dyd_picture_shape(g->canvas, tints[tiles.site[r] % 4], 1, 0x0072b2, g->view.line * 0.6);
+  for (size_t r = 0, end = 0; r < tiles.count && st == DYD_OK;) {
+    uint32_t site = tiles.site[r];
+    name_of(g, "tile", "tile of", &site, 1);
+    dyd_diagram_tile(&end, d, &tiles);
+    for (; r < end; r++) {
+      for (size_t k = tiles.offset[r]; k < tiles.offset[r + 1]; k++)
+        (k == tiles.offset[r] ? dyd_canvas_move : dyd_canvas_line)(g->canvas, dyd_view_x(&g->view, tiles.xy[2 * k]),
+                                                                   dyd_view_y(&g->view, tiles.xy[2 * k + 1]));
+      dyd_canvas_close(g->canvas);
+    }
+    dyd_picture_shape(g->canvas, tints[site % 4], 1, 0x0072b2, g->view.line * 0.6);
   }
   dyd_tiles_clear(&tiles);
   return st;

@@ -364,6 +364,10 @@ def test_formats():
         assert feature['geometry']['type'] == 'Polygon'
         assert [tuple(map(Fraction, z)) for z in feature['geometry']['coordinates'][0]] == ring + ring[:1]
         assert all(float(row[name]) == feature['properties'][name] for name in row if name != 'WKT')
+    stated = json.loads(run('voronoi', '-', '--layer', 'tiles', '--format', 'json', stdin=points).out)
+    for (row, ring), tile in zip(rings_of(wkt), stated['tiles'], strict=True):
+        assert [tuple(map(Fraction, z)) for z in tile['rings'][0]] == ring and len(tile['rings']) == 1
+        assert [tile['i'], tile['tile_area'], *tile['area']] == [float(row[name]) for name in ('i', 'area', 'area_lo', 'area_hi')]
     mesh = run('voronoi', '-', '--layer', 'tiles', '--format', 'vtk', stdin=points).out.split('\n')
     at = int(re.search(r'POINTS (\d+) double', '\n'.join(mesh)).group(1))
     begin = mesh.index(f'POINTS {at} double') + 1
@@ -371,6 +375,27 @@ def test_formats():
     assert corners == [tuple(map(float, z)) for _, ring in rings_of(wkt) for z in ring]
     picture = run('voronoi', '-', '--layer', 'tiles', '--format', 'svg', stdin=points).out
     assert sorted(re.findall(r'id="tile-(\d+)"', picture)) == sorted(row['i'] for row, _ in rings_of(wkt))
+
+
+def test_formats_of_areas():
+    """json has the rings of wkt, a picture one path for each tile with a subpath for each; vtk has no holes."""
+    points = numbers(uniform(random.Random(SEED), 30))
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'area')
+        with open(path, 'w', encoding='utf-8') as out:
+            out.write(shapely.geometry.Point(.5, .5).buffer(.45).difference(shapely.geometry.box(.4, .4, .405, .405)).wkt)
+        asked = ['voronoi', '-', '--layer', 'tiles', '--clip-to', path, '--format']
+        cut = parts_of(run(*asked, 'wkt', stdin=points).out)
+        stated = json.loads(run(*asked, 'json', stdin=points).out)['tiles']
+        assert [tile['i'] for tile in stated] == list(cut) and any(len(tile['rings']) > 1 for tile in stated)
+        picture = run(*asked, 'svg', stdin=points).out
+        for tile in stated:
+            shape = cut[tile['i']][1]
+            rings = [list(ring.coords)[:-1] for part in getattr(shape, 'geoms', [shape]) for ring in (part.exterior, *part.interiors)]
+            assert [[tuple(z) for z in ring] for ring in tile['rings']] == rings
+            path = re.search(rf'id="tile-{tile["i"]}".*?d="([^"]*)"', picture, re.S).group(1)
+            assert path.count('M') == len(rings) == path.count('Z'), path
+        expect(run(*asked, 'vtk', stdin=points), 1, '', 'vtk has no polygons with holes, which tiles cut by --clip-to may have')
 
 
 if __name__ == '__main__':

@@ -190,6 +190,20 @@ def test_diagram():
         assert content['outcome'] == truth['outcome'] and len(content['edges']) % 4 == 0
 
 
+def test_tiles():
+    """The rings of json."""
+    area = pages.points('POLYGON ((1 1, 9 1, 9 9, 1 9, 1 1), (4 4, 4.1 5, 5 4, 4 4))', 'area.wkt')
+    for more in [], ['--clip-to', area]:
+        args = [pages.points(pages.TWELVE), '--layer', 'tiles', *more]
+        content = pages.data(pages.page('voronoi', *args))
+        truth = json.loads(harness.run('voronoi', *args, '--format', 'json', '-q').out)['tiles']
+        assert content['layer'] == 'tiles' and [c['i'] for c in content['cells']] == [c['i'] for c in truth] and truth
+        for found, tile in zip(content['cells'], truth):
+            assert (found['area'], found['tile_area'], found['inner']) == (tile['area'], tile['tile_area'], [])
+            for steps, ring in zip(found['outer'], tile['rings'], strict=True):
+                same_polygon(content, steps, [[str(v) for v in z] for z in ring])
+
+
 def test_window():
     """As many lines as the picture of that window counts."""
     for window in '-80,-70,38,44', '-100,-99,30,30.5':
@@ -216,7 +230,7 @@ def test_limit():
 
 def test_layers():
     file = pages.points(pages.TWELVE)
-    for command, layers in ('delaunay', ('pairs', 'points', 'triangles')), ('voronoi', ('cells', 'vertices', 'regions', 'edges')):
+    for command, layers in ('delaunay', ('pairs', 'points', 'triangles')), ('voronoi', ('cells', 'vertices', 'regions', 'edges', 'tiles')):
         for layer in layers:
             assert pages.data(pages.page(command, file, '--layer', layer))['layer'] == layer
 

@@ -20,7 +20,6 @@ REASONS = {  # (command or *, option, format:F, layer:L or OPTION=word): why no 
     ('verify', '*'): VERIFY,
     ('voronoi', '--max-arc'): 'about the polygons of cells on the sphere, which tests/cli/test_sphere_cells.py looks at',
     ('voronoi', '--clip'): 'where edges are drawn: tests/cli/test_columns.py compares with cut segments, exactly',
-    ('voronoi', '--clip-to'): 'a part of the tiles: tests/cli/test_tiles.py compares with GEOS',
     ('*', '--in-layer'): 'a layer of a file that GDAL reads: tests/cli/test_gdal.py compares such files with tables',
     ('*', '--help'): 'says nothing about points', ('*', '--version'): 'says nothing about points',
     ('*', '--resume'): 'laws.judge_resume gives it what --trace wrote',

@@ -149,6 +149,19 @@ def graph_mst(p, i, j, sites):
 GRAPHS = {'nearest': graph_nearest, 'gabriel': graph_gabriel, 'mst': graph_mst}
 
 
+def half(poly, a, b, c):
+    """The part of a convex polygon in which a x + b y <= c."""
+    out, signs = [], [a * u + b * v - c for u, v in poly]
+    for n, (u, fu) in enumerate(zip(poly, signs)):
+        v, fv = poly[(n + 1) % len(poly)], signs[(n + 1) % len(poly)]
+        if fu <= 0:
+            out.append(u)
+        if (fu < 0 < fv) or (fv < 0 < fu):
+            t = fu / (fu - fv)
+            out.append((u[0] + t * (v[0] - u[0]), u[1] + t * (v[1] - u[1])))
+    return out
+
+
 def cell(points, k, window, sites):
     """The polygon of places of the window (xlo, xhi, ylo, yhi) to which site k is nearest, in fractions."""
     xlo, xhi, ylo, yhi = window
@@ -159,19 +172,16 @@ def cell(points, k, window, sites):
         if q == k or (qx, qy) == (px, py):
             continue
         a, b = qx - px, qy - py
-        c = (qx * qx + qy * qy - px * px - py * py) / 2
-        out = []
-        signs = [a * u + b * v - c for u, v in poly]
-        for n, (u, fu) in enumerate(zip(poly, signs)):
-            v, fv = poly[(n + 1) % len(poly)], signs[(n + 1) % len(poly)]
-            if fu <= 0:
-                out.append(u)
-            if (fu < 0 < fv) or (fv < 0 < fu):
-                t = fu / (fu - fv)
-                out.append((u[0] + t * (v[0] - u[0]), u[1] + t * (v[1] - u[1])))
-        poly = out
+        poly = half(poly, a, b, (qx * qx + qy * qy - px * px - py * py) / 2)
         if not poly:
             return []
+    return poly
+
+
+def common(poly, convex):
+    """The part of a convex polygon in another one, which is counter-clockwise."""
+    for (ux, uy), (vx, vy) in zip(convex, convex[1:] + convex[:1]):
+        poly = half(poly, vy - uy, ux - vx, (vy - uy) * ux + (ux - vx) * uy) if poly else []
     return poly
 
 

@@ -418,9 +418,18 @@ def judge_cells(judge, case, c, ch):
     judge_between(judge, c, ch, polys)
 
 
+def tile_rows(out, form):
+    """As rows(); those of json as those of wkt are."""
+    if form != 'json':
+        return rows(out, form)
+    d = parsed(out)
+    return [{'i': q['i'], 'area': q['tile_area'], 'area_lo': q['area'][0], 'area_hi': q['area'][1], 'rings': q['rings'],
+             'at': list(flat([ring + ring[:1] for ring in q['rings']])), 'max_coordinate_error': d['vertex_error']} for q in d['tiles']], {}
+
+
 def read_tiles(case, out, err, form):
     """Tiles as cells without boxes; in formats with a geometry also the rings, in doubles as programs read them."""
-    r, notes = rows(out, form)
+    r, notes = tile_rows(out, form)
     c = {'aliases': aliases_of(notes, '') if form == 'csv' else None, 'window': case.window, 'cells': {}, 'rings': []}
     for q in r:
         c['cells'][int(q['i'])] = [number(q[k]) for k in ('area_lo', 'area_hi')] + [None] * 4
@@ -441,6 +450,48 @@ def judge_tiles(judge, case, c, ch):
     xlo, xhi, ylo, yhi = c['window']
     judge(sum(sums) == 2 * (xhi - xlo) * (yhi - ylo), 'the areas of tiles are not that of the window')
     c['summed'] = True
+
+
+def read_cut(case, out, err, form):
+    """Rows of tiles that are cut: bounds, areas, and with a geometry all rings of each, holes clockwise."""
+    r, notes = tile_rows(out, form)
+    c = {'aliases': aliases_of(notes, '') if form == 'csv' else None, 'cells': [], 'shapes': []}
+    shapes = ([[ring + ring[:1] for ring in q['rings']] for q in r] if form == 'json' else
+              [[[flat(z) for z in ring] for part in f['geometry']['coordinates'] for ring in part] for f in parsed(out)['features']]
+              if form == 'geojson' else
+              [[[map(Q, z.split()) for z in ring.split(',')] for ring in re.findall(r'\(([^()]+)\)', q.get('WKT', ''))] for q in r])
+    for q, shape in zip(r, shapes):
+        c['cells'].append([int(q['i']), *(number(q[k]) for k in ('area_lo', 'area_hi', 'area'))])
+        if form != 'csv':
+            c['shapes'].append(([[tuple(Q(float(t)) for t in z) for z in ring] for ring in shape], number(q['max_coordinate_error'])))
+    return c
+
+
+def judge_cut(judge, case, c, ch):
+    """The cell of every choice has a part in the area within the bounds; the areas of the tiles make up the area."""
+    same = len({ch.points[k] for k in ch.sites}) < len(ch.sites)
+    for k, lo, hi, _ in c['cells']:
+        if k in ch.sites:
+            cell = oracle.cell(ch.points, k, case.window, ch.sites)
+            a = sum(s * oracle.area(oracle.common(cell, part)) for s, part in case.area)
+            judge(same or lo is None or lo <= a, 'the tile of %d has area %s in the polygon, below its bound', k, shown(a))
+            judge(hi is None or a <= hi, 'the tile of %d has area %s in the polygon, above its bound', k, shown(a))
+    if 'summed' in c:
+        return
+    c['summed'] = True
+    xlo, xhi, ylo, yhi = case.window
+    whole = oracle.cell([(xlo, ylo)], 0, case.window, [0])
+    size = sum(s * oracle.area(oracle.common(whole, part)) for s, part in case.area)
+    found = sum(q[3] for q in c['cells'])
+    judge(found <= size * (1 + Q(1, 2 ** 50)), 'the areas of tiles are %s, above that of the polygon', shown(found))
+    lost = 0
+    for (k, *_, area), (rings, e) in zip(c['cells'], c['shapes']):
+        twice = sum(a[0] * b[1] - b[0] * a[1] for ring in rings for a, b in zip(ring, ring[1:]))
+        off = sum(abs(a[n] - b[n]) + 4 * e for ring in rings for a, b in zip(ring, ring[1:]) for n in (0, 1)) * e
+        judge(all(ring[0] == ring[-1] for ring in rings) and abs(twice / 2 - area) <= off + area / 2 ** 50,
+              'the polygon of tile %d has area %s, not %s', k, shown(twice / 2), shown(area))
+        lost = max(lost, 64 * e * (xhi - xlo + yhi - ylo) * (len(case.sites) + 1))
+    judge(not c['shapes'] or found >= size - lost, 'the areas of tiles are %s, below that of the polygon', shown(found))
 
 
 def judge_rounded(judge, k, e, inner, outer, poly):
@@ -895,7 +946,9 @@ STATED = {
     **{'graph ' + g: Stated('delaunay', read_graph, judge_graph(g), layer='graph:' + g, formats=ROWS) for g in oracle.GRAPHS},
     'cells': Stated('voronoi', read_cells, judge_cells, formats=('csv', 'json', 'wkt', 'geojson'), layer=None, geometries=('plane', 'discs')),
     'layer cells': Stated('voronoi', read_cells, judge_cells, formats=ROWS, layer='cells', geometries=('plane', 'discs')),
-    'tiles': Stated('voronoi', read_tiles, judge_tiles, layer='tiles', formats=ROWS, geometries=('plane', 'discs')),
+    'tiles': Stated('voronoi', read_tiles, judge_tiles, layer='tiles', formats=(*ROWS, 'json'), geometries=('plane', 'discs')),
+    'tiles in an area': Stated('voronoi', read_cut, judge_cut, args=['--clip-to', '@area'], layer='tiles', formats=(*ROWS, 'json'),
+                               geometries=('plane', 'discs')),
     'vertices': Stated('voronoi', read_vertices, judge_vertices, layer='vertices', formats=ROWS,
                        geometries=ALL, least=3),
     'edges': Stated('voronoi', read_edges, judge_edges, layer='edges', formats=('csv',), geometries=('plane', 'discs')),

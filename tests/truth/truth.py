@@ -218,6 +218,7 @@ def build(row, seed):
         case.window = round_out(min(xs) - unit / 2, max(xs) + unit / 2) + round_out(min(ys) - unit / 2, max(ys) + unit / 2)
         a, b = rand.choice(case.sites).place, rand.choice(case.sites).place
         case.at = tuple(Q((c + d) / 2) + unit * Q(rand.randint(-4, 4), 8) for c, d in zip(a, b))
+        case.area = area_of(case.window, random.Random(f'area {seed}'))
         if row['kind'].startswith('real'):
             case.at = tuple(round_out(c, c)[0] for c in case.at)
         case.queries = [case.at, *(s.place for s in case.sites[:2] if not row['kind'].startswith('real'))]
@@ -235,6 +236,23 @@ def build(row, seed):
             s.weight = (s.region[2] - s.region[1]) / 2 if case.weights else Q(1)
             s.region = ('disc', *s.place, Q(0))
     return case
+
+
+def area_of(window, rand):
+    """A polygon with a hole and an island in it, about the window: convex parts with signs, ends in sixteenths of its sides."""
+    def part(half, cut):
+        ring = ((half, 0), (0, half), (-half, 0), (0, -half)) if cut else ((-half, -half), (half, -half), (half, half), (-half, half))
+        return [(window[0] + (window[1] - window[0]) * (8 + u) / 16, window[2] + (window[3] - window[2]) * (8 + v + shift) / 16)
+                for u, v in ring]
+    shift, far = Q(rand.randint(-3, 3)), rand.choice((7, 8, 9, 12))
+    small, middle = sorted(rand.sample(range(1, (far + 1) // 2), 2))
+    parts = [(1, part(Q(far), rand.random() < 0.5)), (-1, part(Q(middle), rand.random() < 0.5)), (1, part(Q(small), True))]
+    return parts[:rand.choice((1, 2, 3))]
+
+
+def area_text(area):
+    rings = ['(' + ', '.join(f'{float(x)!r} {float(y)!r}' for x, y in part + part[:1]) + ')' for _, part in area]
+    return 'MULTIPOLYGON ((' + ', '.join(rings[:2]) + ')' + ''.join(f', ({r})' for r in rings[2:]) + ')'
 
 
 def merge(case):
@@ -284,7 +302,7 @@ def command_of(case, product, keep=None):
     """The words of the command, its files written."""
     what, extra = stated.STATED[case.stated], axes.EXTRAS[case.extra]
     words = [what.command, *axes.GEOMETRIES[case.geometry], *axes.FORMS[case.form](case, product), *case.args,
-             *what.words()]
+             *(product('area.wkt', area_text(case.area)) if w == '@area' else w for w in what.words())]
     if '--comments' in case.space.offers['options'][what.command]:
         words.append('--comments')
     if case.format != 'csv':

@@ -250,11 +250,15 @@ static dyd_status html_scene_init(html_scene *s, dyd_error *err) {
 
 /* By the names that commands have for them; of graphs the pairs. */
 static const char *layer_name(dyd_content content) {
-  static const char *const name[DYD_CONTENTS] = {
-      [DYD_CONTENT_POINTS] = "points",        [DYD_CONTENT_TRIANGLES] = "triangles",
-      [DYD_CONTENT_VORONOI] = "cells",        [DYD_CONTENT_VERTICES] = "vertices",
-      [DYD_CONTENT_REGIONS] = "regions",      [DYD_CONTENT_EDGES] = "edges",
-      [DYD_CONTENT_SPHERE_POINTS] = "points", [DYD_CONTENT_SPHERE_TRIANGLES] = "triangles"};
+  static const char *const name[DYD_CONTENTS] = {[DYD_CONTENT_POINTS] = "points",
+                                                 [DYD_CONTENT_TRIANGLES] = "triangles",
+                                                 [DYD_CONTENT_VORONOI] = "cells",
+                                                 [DYD_CONTENT_VERTICES] = "vertices",
+                                                 [DYD_CONTENT_REGIONS] = "regions",
+                                                 [DYD_CONTENT_EDGES] = "edges",
+                                                 [DYD_CONTENT_TILES] = "tiles",
+                                                 [DYD_CONTENT_SPHERE_POINTS] = "points",
+                                                 [DYD_CONTENT_SPHERE_TRIANGLES] = "triangles"};
   return name[content] ? name[content] : "pairs";
 }
 
@@ -473,6 +477,7 @@ static dyd_status html_triangulation(const dyd_output *o) {
 typedef struct html_diagram {
   FILE *out;
   const dyd_diagram *d;
+  dyd_error *err;
   double origin[2], unit;
   bool any; /* is there one in the list that is written? */
 } html_diagram;
@@ -533,6 +538,32 @@ static dyd_status html_cell(void *context, uint32_t i, const dyd_shape *shape, c
   g->any = true;
   dyd_polygon_list_clear(&outer);
   dyd_polygon_clear(&inner);
+  return st;
+}
+
+/* A tile is a cell of one choice: all its rings are "outer", and none is certain. */
+static dyd_status html_tiles(html_diagram *g) {
+  dyd_tiles t = {0};
+  dyd_json j;
+  dyd_status st = dyd_diagram_tiles(&t, g->d, false, g->err);
+  for (size_t r = 0, end = 0; r < t.count && st == DYD_OK;) {
+    dyd_json_begin(&j, g->out);
+    dyd_json_break(&j, r ? ",\n" : "\n");
+    dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+    dyd_json_site(&j, "i", g->d->engine, t.site[r]);
+    dyd_json_decimals(&j, "area", t.bound[2 * r], t.bound[2 * r + 1]);
+    dyd_json_decimal(&j, "tile_area", dyd_diagram_tile(&end, g->d, &t), DYD_UP);
+    st = dyd_json_end(&j, ", \"inner\": [], \"outer\": [");
+    for (size_t first = r; r < end; r++) {
+      int64_t last[2] = {0, 0};
+      fputs(r > first ? ",[" : "[", g->out);
+      for (size_t k = t.offset[r]; k < t.offset[r + 1]; k++)
+        put_place(g, t.xy[2 * k], t.xy[2 * k + 1], last, k > t.offset[r] ? "," : "");
+      fputc(']', g->out);
+    }
+    fputs("]}", g->out);
+  }
+  dyd_tiles_clear(&t);
   return st;
 }
 
@@ -597,9 +628,10 @@ static dyd_status html_edges(html_diagram *g) {
 }
 
 /* Cells come first, as they give the bounds. */
-static dyd_status html_diagram_parts(FILE *to, const void *diagram) {
-  const dyd_diagram *d = diagram;
-  html_diagram g = {.out = to, .d = d};
+static dyd_status html_diagram_parts(FILE *to, const void *output) {
+  const dyd_output *page = output;
+  const dyd_diagram *d = page->what;
+  html_diagram g = {.out = to, .d = d, .err = page->err};
   int unit = diagram_unit(&g);
   dyd_json j;
   fprintf(to, "\"unit\": %d, \"origin\": [", unit);
@@ -607,7 +639,7 @@ static dyd_status html_diagram_parts(FILE *to, const void *diagram) {
   fputs(", ", to);
   dyd_decimal_put_near(to, g.origin[1]);
   fprintf(to, "], \"flatten_bits\": %" PRId64 ",\n\"cells\": [", d->bits);
-  dyd_status st = dyd_diagram_visit(d, html_cell, &g);
+  dyd_status st = page->content == DYD_CONTENT_TILES ? html_tiles(&g) : dyd_diagram_visit(d, html_cell, &g);
   fputs("],\n", to);
   dyd_json_begin(&j, to);
   dyd_json_bound(&j, "undetermined_area", &d->bounds->area);
@@ -635,7 +667,7 @@ static dyd_status html_cells_page(FILE *to, const dyd_output *o) {
   dyd_status st = dyd_delaunay_pairs(&r.pairs, d->pd);
   if (st == DYD_OK)
     st =
-        html_scene_write(&(html_scene){.out = to, .r = &r, .kind = "voronoi", .own = html_diagram_parts, .user = d}, o);
+        html_scene_write(&(html_scene){.out = to, .r = &r, .kind = "voronoi", .own = html_diagram_parts, .user = o}, o);
   dyd_pair_list_clear(&r.pairs);
   return st;
 }
@@ -644,11 +676,18 @@ static dyd_status html_diagram_page(const dyd_output *o) {
   return html_write(o, html_cells_page);
 }
 
-dyd_writer *const dyd_html_writers[DYD_CONTENTS] = {
-    [DYD_CONTENT_DELAUNAY] = html_triangulation,      [DYD_CONTENT_POINTS] = html_triangulation,
-    [DYD_CONTENT_TRIANGLES] = html_triangulation,     [DYD_CONTENT_GRAPH_NEAREST] = html_triangulation,
-    [DYD_CONTENT_GRAPH_GABRIEL] = html_triangulation, [DYD_CONTENT_GRAPH_MST] = html_triangulation,
-    [DYD_CONTENT_CONVERGENCE] = html_convergence,     [DYD_CONTENT_VORONOI] = html_diagram_page,
-    [DYD_CONTENT_VERTICES] = html_diagram_page,       [DYD_CONTENT_REGIONS] = html_diagram_page,
-    [DYD_CONTENT_EDGES] = html_diagram_page,          [DYD_CONTENT_SPHERE] = html_triangulation,
-    [DYD_CONTENT_SPHERE_POINTS] = html_triangulation, [DYD_CONTENT_SPHERE_TRIANGLES] = html_triangulation};
+dyd_writer *const dyd_html_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = html_triangulation,
+                                                    [DYD_CONTENT_POINTS] = html_triangulation,
+                                                    [DYD_CONTENT_TRIANGLES] = html_triangulation,
+                                                    [DYD_CONTENT_GRAPH_NEAREST] = html_triangulation,
+                                                    [DYD_CONTENT_GRAPH_GABRIEL] = html_triangulation,
+                                                    [DYD_CONTENT_GRAPH_MST] = html_triangulation,
+                                                    [DYD_CONTENT_CONVERGENCE] = html_convergence,
+                                                    [DYD_CONTENT_VORONOI] = html_diagram_page,
+                                                    [DYD_CONTENT_VERTICES] = html_diagram_page,
+                                                    [DYD_CONTENT_REGIONS] = html_diagram_page,
+                                                    [DYD_CONTENT_TILES] = html_diagram_page,
+                                                    [DYD_CONTENT_EDGES] = html_diagram_page,
+                                                    [DYD_CONTENT_SPHERE] = html_triangulation,
+                                                    [DYD_CONTENT_SPHERE_POINTS] = html_triangulation,
+                                                    [DYD_CONTENT_SPHERE_TRIANGLES] = html_triangulation};

@@ -7,13 +7,14 @@ function readPolygon({origin, unit}, list) {
   return out;
 }
 
-// cells: tint, inner and outer polygons. cellOf: of points of the page.
+// cells: tint, inner and outer polygons, and those that are filled: of tiles the rings, holes turning back. cellOf: of points of the page.
 function makeCells(scene) {
   const {data} = scene;
   scene.cellOf = new Map();
   scene.cells = (data.cells ?? []).map((cell, k) => {
     if (scene.numberOf.has(cell.i)) scene.cellOf.set(scene.numberOf.get(cell.i), k);
-    return {tint: cell.i % 4, cell, inner: readPolygon(data, cell.inner), outer: cell.outer.map((list) => readPolygon(data, list))};
+    const inner = readPolygon(data, cell.inner), outer = cell.outer.map((list) => readPolygon(data, list));
+    return {tint: cell.i % 4, cell, inner, outer, filled: isTiles(scene) ? outer : [inner]};
   });
   scene.cellGrid = makeGrid(scene.cells.length, (k, out) => {
     out[0] = out[2] = Infinity;
@@ -25,6 +26,8 @@ function makeCells(scene) {
   scene.edges = [];
   for (let k = 0; k < lines.length; k += 4) scene.edges.push(readPolygon(data, lines.slice(k, k + 4)));
 }
+
+const isTiles = (scene) => scene.data.layer === "tiles";
 
 function toPixels(polygon) {
   const out = [];
@@ -44,7 +47,7 @@ function drawCells(ctx, scene, shown, seen, frame) {
   }
   if (!shown.has("cells")) return;
   const tinted = [[], [], [], []];
-  visitGrid(scene.cellGrid, seen, (k) => tinted[scene.cells[k].tint].push(toPixels(scene.cells[k].inner)));
+  visitGrid(scene.cellGrid, seen, (k) => tinted[scene.cells[k].tint].push(...scene.cells[k].filled.map(toPixels)));
   tinted.forEach((polygons, tint) => {
     ctx.beginPath();
     for (const z of polygons) pathPolygon(ctx, z, frame);
@@ -115,7 +118,8 @@ function drawCellMark(ctx, scene, k, frame) {
 
 function cellLines(scene, k) {
   if (!scene.cellOf.has(k)) return [];
-  const {area, undetermined} = scene.cells[scene.cellOf.get(k)].cell;
-  return [element("dt", {}, "area of the cell"), element("dd", {id: "area"}, `${directed(area[0], 6, false)} … ${directed(area[1], 6, true)}${scene.data.length_unit === "m" ? " m²" : ""}`),
-    element("dt", {}, "undecided"), element("dd", {}, `at most ${directed(100 * undetermined, 3, true)} %`)];
+  const {area, undetermined, tile_area: tile} = scene.cells[scene.cellOf.get(k)].cell, unit = scene.data.length_unit === "m" ? " m²" : "";
+  return [element("dt", {}, "area of the cell"), element("dd", {id: "area"}, `${directed(area[0], 6, false)} … ${directed(area[1], 6, true)}${unit}`),
+    ...(isTiles(scene) ? [element("dt", {}, "area of the tile"), element("dd", {id: "tile-area"}, `at most ${directed(tile, 6, true)}${unit}`)] :
+      [element("dt", {}, "undecided"), element("dd", {}, `at most ${directed(100 * undetermined, 3, true)} %`)])];
 }

@@ -42,12 +42,13 @@ function pairEntries({data}) {
 const LAYERS = {
   pairs: PAIRS.map(([name]) => name), points: ["boxes", "names"], triangles: ["triangles", "boxes", "names"],
   cells: ["cells", "bands", "boxes", "names"], vertices: ["vertices", "cells", "bands", "boxes", "names"],
-  regions: ["regions", "cells", "bands", "boxes", "names"], edges: ["edges", "boxes", "names"],
+  regions: ["regions", "cells", "bands", "boxes", "names"], edges: ["edges", "boxes", "names"], tiles: ["cells", "boxes", "names"],
 };
 
 function buildLegend(scene, shown, onChange) {
   const entries = pairEntries(scene);
-  for (const [name, text] of scene.cells.length ? [...CELLS, ...entries] : entries) {
+  const cells = isTiles(scene) ? [["cells", "tile of one point"], ...CELLS.slice(2)] : CELLS;
+  for (const [name, text] of scene.cells.length ? [...cells, ...entries] : entries) {
     const box = element("input", {type: "checkbox", id: "show-" + name});
     box.checked = shown.has(name);
     box.addEventListener("change", () => {
