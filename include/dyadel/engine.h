@@ -107,7 +107,8 @@ typedef enum dyd_reason {
                            narrowed */
   DYD_REASON_BOUND,     /* contributes to the bound asked for, through the pair i, j (i = j: by its own diameter) */
   DYD_REASON_UNIFORM,   /* all points are refined */
-  DYD_REASON_QUESTION   /* a question wants it narrower (dyd_engine_ask, dyd_engine_nearest) */
+  DYD_REASON_QUESTION,  /* a question wants it narrower (dyd_engine_ask, dyd_engine_nearest) */
+  DYD_REASON_POLICY     /* the policy of the options wants it narrower */
 } dyd_reason;
 /* "first", "end", ... Static storage. */
 DYD_API const char *dyd_reason_text(dyd_reason reason);
@@ -124,6 +125,20 @@ typedef struct dyd_step {
   const dyd_rect *rect; /* reached; borrowed during the call */
   bool final;           /* no call can narrow it further */
 } dyd_step;
+
+/* Which sites a question needs narrower, and how far. Made by the engine, filled in by the question, carried out by the
+ * engine when the question returns: asking changes nothing. */
+typedef struct dyd_plan dyd_plan;
+typedef struct dyd_engine dyd_engine;
+
+/* Changes what a stage narrows. `request`, count (dyd_request_at): points, by their numbers as sites, and bits that the
+ * schedule has planned. What is added to *plan (dyd_plan_add), empty when called, replaces that; if nothing is added,
+ * it stays. Before the first stage every point is in the plan, and one that is not added keeps its bits. e as for
+ * dyd_ask_fn: dyd_engine_delaunay has the undecided pairs, NULL before the first stage. Returns DYD_OK; DYD_CANCELLED
+ * to give up; an error < 0 with *err (clear when called) filled. Statements do not depend on it, nor does the end of a
+ * run: each point added is asked for more than before, up to max_bits. */
+typedef dyd_status (*dyd_policy_fn)(dyd_plan *plan, void *user, const dyd_engine *e, const dyd_request *request,
+                                    size_t count, dyd_error *err);
 
 typedef struct dyd_engine_options {
   size_t struct_size; /* set by dyd_engine_options_init, or by DYD_SIZED */
@@ -169,6 +184,16 @@ typedef struct dyd_engine_options {
    * kept, and smaller outputs remain possible. Pictures of diagrams are estimated roughly; the lists of spheres are not
    * counted. */
   uint64_t max_bytes;
+  /* Called with the plan of every stage of a run or question; NULL: the plans of the schedule are carried out. */
+  dyd_policy_fn policy;
+  void *policy_user;
+  /* Instead of policy: a command (sh -c) that a run or question starts, and that answers until its input ends;
+   * borrowed. For each stage it reads lines "stage S points N", "pair I J" for each indeterminate pair, "plan I B" for
+   * each point of the plan, and "choose". It answers by lines "refine I B", as dyd_plan_add, and "go". A program that
+   * ends, writes something else, or is silent for policy_seconds (0: DYD_ORACLE_SECONDS) ends the run with
+   * DYD_E_STREAM. */
+  const char *policy_program;
+  double policy_seconds;
 } dyd_engine_options;
 /* Fills in the size and the defaults (all zero unless the comments say otherwise). */
 static inline void dyd_engine_options_init(dyd_engine_options *o) {
@@ -177,8 +202,6 @@ static inline void dyd_engine_options_init(dyd_engine_options *o) {
   o->start_bits = 64;
   o->max_bits = 4096;
 }
-
-typedef struct dyd_engine dyd_engine;
 
 DYD_API dyd_status dyd_engine_new(dyd_engine **out);
 DYD_API void dyd_engine_free(dyd_engine *e);
@@ -279,9 +302,6 @@ DYD_API dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, co
 
 /* ---- questions ---- */
 
-/* Which sites a question needs narrower, and how far. Made by the engine, filled in by the question, carried out by the
- * engine when the question returns: asking changes nothing. */
-typedef struct dyd_plan dyd_plan;
 #define DYD_BITS_NEXT INT64_MIN
 /* Adds site i, to be brought to 2^-bits. Where that was requested before, and for DYD_BITS_NEXT, it is the next
  * step of the options (start_bits, step_bits): a site in the plan always narrows. bits are cut to max_bits. Of several

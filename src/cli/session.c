@@ -337,6 +337,7 @@ int cli_session_run(cli_session *s, const dyd_engine_options *options, cli_run_f
   cli_progress_phase(s->progress, "triangulating");
   dyd_engine_options o = *options;
   o.seconds = cli_deadline_left(s->share);
+  o.policy_seconds = s->o.oracle_timeout;
   int status = trace_attach(&o, s);
   if (status) return status;
   dyd_error err;

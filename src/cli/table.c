@@ -200,7 +200,7 @@ const cli_option cli_option_table[] = {
      "start a program that died, or is silent, again, at most so\noften for one request (default 0)",
      AT(oracle_retries), RANGE(0, 1000000)},
     {"oracle-timeout", 0, "SECONDS", CLI_SECONDS, READ, CLI_INPUT,
-     "wait at most this long for a line of a program (default 30)", AT(oracle_timeout)},
+     "wait at most this long for a line of a program, also that of\n--policy (default 30)", AT(oracle_timeout)},
 
     {"queries", 0, "FILE", CLI_SOURCE, BIT(CLI_NEAREST), CLI_INPUT,
      "instead of X Y: a file of places, in any form that FILE may\nhave; one triangulation answers all", AT(queries)},
@@ -231,6 +231,12 @@ const cli_option cli_option_table[] = {
     {"schedule", 0, "WHICH", CLI_CHOICE, RUN, CLI_REFINEMENT,
      "adaptive (default): refine undecided pairs;\nuniform: refine all points", AT(engine.schedule),
      WORDS("adaptive uniform")},
+    {"policy", 0, "COMMAND", CLI_TEXT, RUN & ~BIT(CLI_CHECK), CLI_REFINEMENT,
+     "this program (sh -c) may change what each stage refines: it\nreads \"stage S points N\", \"pair I J\" for each "
+     "undecided\n"
+     "pair, \"plan I B\" for each point planned, \"choose\"; it answers\nby lines \"refine I B\" instead of the plan, "
+     "and \"go\"",
+     AT(engine.policy_program)},
     {"start-bits", 0, "B", CLI_INTEGER, RUN, CLI_REFINEMENT, "precision of the first stage (default 64, of converge 4)",
      AT(engine.start_bits), RANGE(1, DYD_EXP_LIMIT), GIVEN(start_set)},
     {"step-bits", 0, "K", CLI_INTEGER, RUN, CLI_REFINEMENT, "refine in steps of K bits (default: geometric growth)",

@@ -27,6 +27,7 @@
 #include "engine/goal_voronoi.h"
 #include "engine/plan.h"
 #include "engine/points.h"
+#include "engine/policy.h"
 #include "engine/settle.h"
 #include "engine/ties.h"
 #include "stream/stream.h"
@@ -462,9 +463,9 @@ static dyd_status ask_prepare(ask *a) {
     ask_end_budget(a, DYD_BUDGET_STAGES);
   else if (a->plan.count && ask_calls_are_spent(a) && !a->again)
     ask_end_budget(a, DYD_BUDGET_CALLS);
-  else
-    ask_is_stopped(a);
-  return DYD_OK;
+  else if (!ask_is_stopped(a) && a->o.policy && a->plan.count)
+    st = dyd_policy_apply(&a->plan, a->q->triangulate && !e->pd, &a->err);
+  return st == DYD_CANCELLED ? ask_end_interrupted(a) : st;
 }
 
 /* Carries out the plan, and triangulates if the question uses that. */
@@ -563,6 +564,7 @@ dyd_status dyd_ask_may_begin(const dyd_engine *e, dyd_error *err) {
 dyd_status dyd_ask(dyd_outcome *outcome, dyd_budget *spent, dyd_engine *e, const dyd_question *question,
                    const dyd_engine_options *options, dyd_error *err) {
   dyd_question q;
+  dyd_policy *policy = NULL;
   ask a = {.e = e, .q = &q, .bits = INT64_MIN};
   dyd_error_clear(&a.err);
   dyd_status st = dyd_ask_may_begin(e, &a.err);
@@ -571,7 +573,9 @@ dyd_status dyd_ask(dyd_outcome *outcome, dyd_budget *spent, dyd_engine *e, const
   if (st == DYD_OK) st = dyd_abi_take(&a.o, sizeof a.o, options, "dyd_engine_options", &a.err);
   if (st == DYD_OK && (!q.ask || !dyd_ask_options(&a.o)))
     st = dyd_fail(&a.err, DYD_E_ARG, "%s", q.ask ? "an option is out of its range" : "the question is empty");
+  if (st == DYD_OK) st = dyd_policy_start(&policy, &a.o, &a.err);
   if (st == DYD_OK) st = ask_run(&a);
+  dyd_policy_free(policy);
   if (st == DYD_E_NOMEM && a.room.refused) dyd_fail_room(&a.err, &a.room);
   if (st != DYD_OK && !a.err.message[0]) dyd_fail(&a.err, st, "%s", dyd_status_text(st));
   if (st != DYD_OK) a.err.code = st;

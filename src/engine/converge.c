@@ -277,7 +277,9 @@ static dyd_status note_options(dyd_convergence *out, const dyd_engine_options *o
   out->options->window = NULL;
   out->options->progress = NULL;
   out->options->trace = NULL;
-  out->options->progress_user = out->options->trace_user = NULL;
+  out->options->progress_user = out->options->trace_user = out->options->policy_user = NULL;
+  out->options->policy = NULL;
+  out->options->policy_program = NULL;
   return DYD_OK;
 }
 

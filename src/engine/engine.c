@@ -25,7 +25,7 @@ const char *dyd_goal_text(dyd_goal goal) {
 }
 
 const char *dyd_reason_text(dyd_reason reason) {
-  static const char *const text[] = {"first", "end", "blocker", "bound", "uniform", "question"};
+  static const char *const text[] = {"first", "end", "blocker", "bound", "uniform", "question", "policy"};
   return (unsigned)reason < sizeof text / sizeof *text ? text[reason] : "unknown reason";
 }
 

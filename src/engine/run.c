@@ -12,6 +12,7 @@
 #include "engine/goal_voronoi.h"
 #include "engine/plan.h"
 #include "engine/points.h"
+#include "engine/policy.h"
 #include "engine/scout.h"
 #include "engine/settle.h"
 #include "engine/ties.h"
@@ -559,7 +560,7 @@ static void plan_uniform(dyd_plan *plan) {
 static dyd_status plan_all(dyd_plan *plan, dyd_helpers *h, dyd_settled *settled, dyd_measure *m,
                            dyd_voronoi_sums *sums) {
   const dyd_engine_options *o = plan->o;
-  if (o->step_bits || o->schedule != DYD_SCHEDULE_ADAPTIVE || h->waiting->waited) h->scouts = NULL;
+  if (o->step_bits || o->schedule != DYD_SCHEDULE_ADAPTIVE || h->waiting->waited || dyd_has_policy(o)) h->scouts = NULL;
   bool capped = dyd_delaunay_is_capped(plan->e->pd);
   if (o->goal == DYD_GOAL_DECIDED || capped) {
     dyd_status settling = capped ? DYD_OK : dyd_settle(settled, plan);
@@ -691,7 +692,7 @@ static dyd_status goal_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine
   g.settled.prover = dyd_engine_prover(e, o);
   /* Where a stage may be the last one, or bounds are wanted, all pairs are needed at once. */
   e->postpones = o->goal == DYD_GOAL_DECIDED && o->schedule == DYD_SCHEDULE_ADAPTIVE && !o->step_bits &&
-                 !o->max_stages && !o->max_calls;
+                 !o->max_stages && !o->max_calls && !dyd_has_policy(o);
   dyd_plan_init(&g.held, e, o, NULL, 0);
   dyd_status st = waiting_init(&g.waiting, e, o);
   st = st == DYD_OK ? dyd_ask(outcome, &e->spent, e, &question, o, err) : dyd_fail_nomem(err);

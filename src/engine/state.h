@@ -7,6 +7,7 @@
  *   record.c        answers of an earlier run; the statuses of each stage
  *   compose.c       points of the engine as streams
  *   plan.c          which points to narrow, and how far: a value
+ *   policy.c        plans changed by a callback or a program
  *   ask.c           the loop: a question, its plan, narrowing, triangulating, until it is answered
  *   run.c           the question of a run: does the goal hold, and what to narrow where it does not
  *   scout.c         a few points that go ahead of the others

@@ -358,6 +358,70 @@ static void option_set(void *at, option_kind kind, PyObject *value) {
   if (kind == OPTION_BOOL) *(bool *)at = PyObject_IsTrue(value) > 0;
 }
 
+/* A dict of bits by points, or None. */
+static dyd_status policy_answer(dyd_plan *plan, PyObject *answer) {
+  PyObject *point, *bits;
+  Py_ssize_t at = 0;
+  if (answer == Py_None) return DYD_OK;
+  if (!PyDict_Check(answer))
+    PyErr_Format(PyExc_TypeError, "policy returned %R; return a dict of bits by points, or None for the plan", answer);
+  while (!PyErr_Occurred() && PyDict_Next(answer, &at, &point, &bits)) {
+    Py_ssize_t i = PyNumber_AsSsize_t(point, PyExc_OverflowError);
+    long long b = PyLong_AsLongLong(bits);
+    if (PyErr_Occurred()) break;
+    dyd_status st = dyd_plan_add(plan, i < 0 || i > UINT32_MAX ? UINT32_MAX : (uint32_t)i, b);
+    if (st != DYD_OK) return st;
+  }
+  return PyErr_Occurred() ? DYD_E_STREAM : DYD_OK;
+}
+
+/* Calls policy(pairs, plan): a list of undecided pairs, and a dict of bits by points. */
+static dyd_status policy_call(dyd_plan *plan, PyObject *policy, const dyd_pair_list *pairs, const dyd_request *request,
+                              size_t count) {
+  PyObject *list = PyList_New(0), *dict = PyDict_New(), *answer = NULL;
+  for (size_t k = 0; list && !PyErr_Occurred() && k < pairs->count; k++) {
+    if (pairs->item[k].status != DYD_INDETERMINATE) continue;
+    PyObject *pair = Py_BuildValue("II", pairs->item[k].i, pairs->item[k].j);
+    if (pair) PyList_Append(list, pair);
+    Py_XDECREF(pair);
+  }
+  for (size_t k = 0; dict && !PyErr_Occurred() && k < count; k++) {
+    const dyd_request *r = dyd_request_at(request, k);
+    PyObject *point = PyLong_FromSize_t(r->point), *bits = PyLong_FromLongLong(r->bits);
+    if (point && bits) PyDict_SetItem(dict, point, bits);
+    Py_XDECREF(point);
+    Py_XDECREF(bits);
+  }
+  if (list && dict && !PyErr_Occurred()) answer = PyObject_CallFunctionObjArgs(policy, list, dict, NULL);
+  dyd_status st = answer ? policy_answer(plan, answer) : DYD_E_STREAM;
+  Py_XDECREF(answer);
+  Py_XDECREF(dict);
+  Py_XDECREF(list);
+  return st;
+}
+
+static dyd_status policy_asked(dyd_plan *plan, void *user, const dyd_engine *e, const dyd_request *request,
+                               size_t count, dyd_error *err) {
+  dyd_pair_list pairs = {0};
+  dyd_status st = dyd_engine_delaunay(e) ? dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(e)) : DYD_OK;
+  PyGILState_STATE gil = PyGILState_Ensure();
+  if (st == DYD_OK) st = PyErr_Occurred() ? DYD_E_STREAM : policy_call(plan, user, &pairs, request, count);
+  if (PyErr_Occurred()) st = dyd_error_set(err, DYD_E_STREAM, "the policy raised an exception");
+  PyGILState_Release(gil);
+  dyd_pair_list_clear(&pairs);
+  return st;
+}
+
+/* A function, or the text of a command. */
+static void option_policy(dyd_engine_options *o, PyObject *policy) {
+  if (PyUnicode_Check(policy)) {
+    o->policy_program = PyUnicode_AsUTF8AndSize(policy, NULL);
+  } else {
+    o->policy = policy_asked;
+    o->policy_user = policy;
+  }
+}
+
 /* Doubles, one for each point. */
 static void option_costs(dydpy_options *out, dydpy_engine *self, PyObject *cost) {
   if (PyObject_GetBuffer(cost, &out->cost, PyBUF_SIMPLE) < 0) return;
@@ -377,8 +441,9 @@ int dydpy_options_init(dydpy_options *out, dydpy_engine *self, PyObject *dict) {
     if (value) option_set((char *)&out->o + option_table[k].at, option_table[k].kind, value);
   }
   PyObject *window = PyDict_GetItemString(dict, "window"), *progress = PyDict_GetItemString(dict, "progress");
-  PyObject *cost = PyDict_GetItemString(dict, "cost");
+  PyObject *cost = PyDict_GetItemString(dict, "cost"), *policy = PyDict_GetItemString(dict, "policy");
   if (!PyErr_Occurred() && cost) option_costs(out, self, cost);
+  if (!PyErr_Occurred() && policy) option_policy(&out->o, policy);
   if (!PyErr_Occurred() && window) dydpy_window(&out->window, &given, window);
   if (given) out->o.window = &out->window;
   out->progress = (dydpy_progress_user){progress, self ? self->engine : NULL, self ? self->trace : NULL};

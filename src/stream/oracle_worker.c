@@ -241,8 +241,7 @@ static ssize_t write_quietly(int fd, const char *text, size_t length) {
   return done;
 }
 
-/* Writes without waiting and without SIGPIPE; *done becomes the number of bytes taken. */
-static dyd_written process_write(size_t *done, const dyd_process *p, const char *text, size_t length) {
+dyd_written dyd_process_write(size_t *done, const dyd_process *p, const char *text, size_t length) {
   ssize_t n = write_quietly(p->in, text, length);
   *done = n > 0 ? (size_t)n : 0;
   if (n >= 0) return DYD_WROTE;
@@ -443,7 +442,7 @@ static void become_deaf(dyd_worker *w) {
 void dyd_worker_tell(dyd_worker *w) {
   size_t done;
   if (!dyd_worker_writes(w)) return;
-  dyd_written how = process_write(&done, &w->process, w->text + w->text_done, w->text_length - w->text_done);
+  dyd_written how = dyd_process_write(&done, &w->process, w->text + w->text_done, w->text_length - w->text_done);
   w->text_done += done;
   if (w->text_done == w->text_length) w->text_done = w->text_length = 0;
   if (how == DYD_WRITE_BROKEN) become_deaf(w);

@@ -34,6 +34,8 @@ dyd_status dyd_process_start(dyd_process *p, const char *command, unsigned job, 
 bool dyd_process_ended(char *how, size_t size, const dyd_process *p, double seconds);
 /* Returns true if the program has closed its standard input, all its copies of it. */
 bool dyd_process_is_deaf(const dyd_process *p);
+/* Writes without waiting and without SIGPIPE; *done becomes the number of bytes taken. */
+dyd_written dyd_process_write(size_t *done, const dyd_process *p, const char *text, size_t length);
 /* Closes both pipes, so that a program that reads on sees the end of its input. */
 void dyd_process_close(dyd_process *p);
 /* Asks the group to end (SIGTERM). The processes are still to be reaped. */

@@ -39,7 +39,7 @@ WRONG = {
 }
 RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--ties': 'off', '--list-ties': 'none', '--metric': 'box', '--until': 'decided'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
-TEXTS = {'--queries', '--query-columns', '--query-id', '--up-to', '--sigma', '--sigma-column', '--confidence', '--cost-column', '--label', '--accuracy', '--pairs', '--clip-to', '--columns', '--delimiter', '--id', '--in-layer', '--carry', '--merge-by', '--points', '--radius', '--radius-column', '--radius-unit', '--radius-scale', '--skip-lines', '--thousands', '--missing', '--oracle', '--output', '--trace',
+TEXTS = {'--queries', '--query-columns', '--query-id', '--up-to', '--sigma', '--sigma-column', '--confidence', '--cost-column', '--label', '--accuracy', '--pairs', '--clip-to', '--columns', '--delimiter', '--id', '--in-layer', '--carry', '--merge-by', '--points', '--radius', '--radius-column', '--radius-unit', '--radius-scale', '--skip-lines', '--thousands', '--missing', '--oracle', '--policy', '--output', '--trace',
          '--replay', '--resume', '--certificate'}
 
 

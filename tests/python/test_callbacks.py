@@ -97,6 +97,36 @@ def test_exceptions_pass_unchanged():
         harness.raised(kind, dyadel.delaunay, dyadel.Source(1, leave))
 
 
+def test_policy():
+    """A policy changes the way, never the statuses; what it raises or returns by mistake ends the run."""
+    import random
+    points = [(f'cos({k})*(1+2^-{9 + 3 * k})', f'sin({k})') for k in range(9)]
+    rand, seen, plain = random.Random(4), [], dyadel.delaunay(points)
+
+    def gamble(pairs, plan):
+        seen.append((pairs, plan))
+        assert all(isinstance(i, int) and i < j for i, j in pairs) and plan
+        return rand.choice((None, {}, plan, {rand.randrange(9): rand.choice((-5, 0, 7, 90, 4000)) for _ in range(3)}))
+    for start in range(1, 20):
+        d = dyadel.delaunay(points, policy=gamble, start_bits=start)
+        assert d.outcome == 'decided' and d.pairs.tolist() == plain.pairs.tolist()
+    assert any(pairs for pairs, _ in seen)
+    program = 'while read w a b c; do case $w in plan) p="$a $b";; choose) echo refine $p; echo go;; esac; done'
+    assert dyadel.delaunay(points, policy=program, start_bits=3).pairs.tolist() == plain.pairs.tolist()
+    assert dyadel.converge(points, policy=lambda pairs, plan: {k: b + 1 for k, b in plan.items()}, start_bits=3).outcome == 'decided'
+
+    class Mine(Exception):
+        pass
+
+    def stop(pairs, plan):
+        raise Mine
+    harness.raised(Mine, dyadel.delaunay, points, policy=stop)
+    for wrong in (7, [1], {'a': 1}, {1: 'b'}, {1: 2.5}):
+        harness.raised(TypeError, dyadel.delaunay, points, policy=lambda pairs, plan: wrong)
+    harness.raised(Exception, dyadel.delaunay, points, policy=lambda pairs, plan: {9: 5})
+    harness.raised(TypeError, dyadel.delaunay, points, policy=7)
+
+
 def test_progress():
     seen = []
     dyadel.delaunay(dyadel.Source(6, half_line), progress=seen.append, start_bits=4)

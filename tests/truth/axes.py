@@ -747,6 +747,7 @@ EXTRAS = {
     'start': Extra(['--start-bits', '9']), 'step': Extra(['--step-bits', '40']),
     'few bits': Extra(['--max-bits', '48'], softens=True), 'few pairs': Extra(['--max-pairs', '2'], softens=True),
     'bytes': Extra(['--max-bytes', '1G']),
+    'policy': Extra(['--policy', 'while read w a b c; do case $w in plan) p="$a $b";; choose) echo refine $p; echo go;; esac; done']),
     'ties off': Extra(['--ties', 'off'], softens=True), 'ties prove': Extra(['--ties', 'prove']),
     'tie bits': Extra(['--tie-bits', '64'], softens=True), 'area': Extra(['--until', 'area:4'], softens=True),
     'hausdorff': Extra(['--until', 'hausdorff:4'], softens=True), 'decided': Extra(['--until', 'decided']),

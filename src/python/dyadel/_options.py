@@ -53,7 +53,9 @@ def engine_options(*, until: str = 'decided', timeout: float | None = None, max_
                    start_bits: int | None = None, step_bits: int | None = None, max_stages: int | None = None,
                    max_calls: int | None = None, window: Sequence[Any] | None = None, ties: bool = True,
                    tie_bits: int | None = None, max_bytes: int | None = None, cost: ArrayLike | None = None,
-                   progress: Callable[[dict[str, Any]], object] | None = None) -> dict[str, Any]:
+                   progress: Callable[[dict[str, Any]], object] | None = None,
+                   policy: Callable[[list[tuple[int, int]], dict[int, int]], dict[int, int] | None] | str | None = None
+                   ) -> dict[str, Any]:
     """What Engine.run takes.
 
     until       'decided', 'area:M', 'hausdorff:M', 'voronoi area:M' or 'voronoi hausdorff:M': stop when the bound is at
@@ -72,6 +74,9 @@ def engine_options(*, until: str = 'decided', timeout: float | None = None, max_
     cost        cost of asking each point again, above 0: the schedule prefers cheap ones. One for each point
     progress    called after each stage with a dict: stage, bits, points, legal, indeterminate, ties, undecided_faces,
                 seconds; an exception in it ends the run
+    policy      a function policy(pairs, plan) called with the undecided pairs and the plan of each stage, a dict of bits by
+                points: a dict that it returns replaces the plan, None leaves it. Or a command, as --policy. Statements do
+                not depend on it
     """
     goal, _, bits = until.partition(':')
     if goal not in GOALS or (goal == 'decided') == bool(bits) or bits and not bits.isdecimal():
@@ -86,10 +91,12 @@ def engine_options(*, until: str = 'decided', timeout: float | None = None, max_
             raise TypeError(f'{name}={value!r}; give a whole number')
         if value is not None and value < AT_LEAST[name]:
             raise ValueError(f'{name}={value}; give at least {AT_LEAST[name]}')
+    if policy is not None and not callable(policy) and not isinstance(policy, str):
+        raise TypeError(f'policy={policy!r}; give a function policy(pairs, plan), or a command')
     given = {'goal': GOALS.index(goal), 'goal_bits': int(bits or 0), 'schedule': SCHEDULES.index(schedule),
              'seconds': None if timeout is None else max(float(timeout), 1e-9), 'max_bits': max_bits,
              'max_pairs': max_pairs, 'threads': threads, 'start_bits': start_bits, 'step_bits': step_bits,
              'max_stages': max_stages, 'max_calls': max_calls, 'window': window, 'no_ties': not ties,
-             'tie_bits': tie_bits, 'max_bytes': max_bytes, 'progress': progress,
+             'tie_bits': tie_bits, 'max_bytes': max_bytes, 'progress': progress, 'policy': policy,
              'cost': None if cost is None else np.ascontiguousarray(cost, dtype=np.float64)}
     return {name: value for name, value in given.items() if value is not None}
