@@ -180,7 +180,9 @@ typedef enum dyd_format {
   DYD_FORMAT_VTK,
   DYD_FORMAT_PDF,
   DYD_FORMAT_PNG,
-  DYD_FORMAT_HTML
+  DYD_FORMAT_HTML,
+  DYD_FORMAT_TIKZ, /* a tikzpicture: what svg shows */
+  DYD_FORMAT_PGF   /* an axis of pgfplots: the curves of a table of convergence */
 } dyd_format;
 /* What dyd_write writes. */
 typedef enum dyd_content {
@@ -267,6 +269,17 @@ typedef struct dyd_nearest_answer {
   const char *id;
 } dyd_nearest_answer;
 
+/* How pictures look, and what json says of the run. Sizes are in points of 1/72 inch, 0 to 5000. DYD_E_ARG for others,
+ * and where texts need all of the width. */
+typedef struct dyd_write_style {
+  size_t struct_size; /* set by DYD_SIZED */
+  bool bare;          /* pictures: without legend, scale and coordinates */
+  double width;       /* of the whole picture; 0: about 1120 */
+  double font_size;   /* 0: 14 on a page of the usual width, less on a smaller one, but not less than 7 */
+  const char *font;   /* a family of fonts, in TikZ of LaTeX, as phv; NULL: sans-serif, in TikZ the document's */
+  const char *const
+      *command_line; /* the words of the program's call, up to a NULL; json repeats them; NULL: it does not */
+} dyd_write_style;
 /* Input and options of dyd_write; all borrowed. Fields that do not belong to the content are ignored. */
 typedef struct dyd_write_options {
   size_t struct_size; /* set by DYD_SIZED */
@@ -326,6 +339,7 @@ typedef struct dyd_write_options {
   const char *name; /* the name of the points, such as their file: the title of html; NULL: none */
   /* Tiles, but in vtk, are cut to it (dyd_tiles_clip), one row for each site. NULL: they are not. */
   const dyd_area *clip_to;
+  const dyd_write_style *style; /* NULL: as usual */
 } dyd_write_options;
 /* Reads an area: all polygons in well-known text, also in a table, or GeoJSON. Coordinates become the nearest doubles.
  * Other geometries, and edges that cross, are DYD_E_PARSE with line and column. *out is replaced; in is borrowed. */

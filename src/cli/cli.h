@@ -67,7 +67,7 @@ typedef struct cli_options {
   int64_t relative_bits;                /* tolerance; 0: default */
   double max_arc;                       /* degrees; 0: default */
   const char *query_columns, *query_id; /* of the file of queries */
-  const char *certificate, *trace, *replay, *resume, *plot;
+  const char *certificate, *trace, *replay, *resume, *plot, *pgf;
   double trace_sync; /* seconds; 0: default */
   uint64_t seed;
   bool seed_set;
@@ -83,6 +83,7 @@ typedef struct cli_options {
   bool stats, quiet, version;
   bool comments; /* csv begins with lines of "# " */
   bool lengths, clip;
+  dyd_write_style style;
   const char *clip_to;  /* file of an area */
   bool accept_fixpoint; /* exit status 0 instead of CLI_FIXPOINT */
   const char *help;     /* "" (--help), or the kind of --help=KIND */
@@ -161,6 +162,8 @@ extern const cli_gdal *const cli_gdal_here; /* NULL in dyadel */
 FILE *cli_pack(FILE *to, const char *name);
 /* Returns true if the name has such an ending. *length: length of the part before it. */
 bool cli_name_is_packed(size_t *length, const char *name);
+/* content.c: svg, pdf, png, tikz. */
+bool cli_is_picture(dyd_format format);
 
 /* ---- a command at work: session.c ---- */
 
@@ -385,6 +388,7 @@ typedef enum cli_kind {
   CLI_BYTES,   /* the same, with K, M, G or T behind it: times 1024, ... */
   CLI_SECONDS, /* a double above 0 */
   CLI_DEGREES, /* the same, up to 90 */
+  CLI_LENGTH,  /* of paper, double in points: 240, 85mm, 12cm, 3.25in */
   CLI_GOAL,    /* decided, area:M, hausdorff:M */
   CLI_CHOICE,  /* one of words, as its number, into a bool or an enum */
   CLI_FORMAT,  /* a format of the command */

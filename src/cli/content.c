@@ -154,10 +154,14 @@ static dyd_status draw_apart(FILE *out, const char *name, const cli_session *s, 
   return drawing_failed(err, "a process for it cannot be started");
 }
 
+bool cli_is_picture(dyd_format format) {
+  return format == DYD_FORMAT_SVG || format == DYD_FORMAT_PDF || format == DYD_FORMAT_PNG || format == DYD_FORMAT_TIKZ;
+}
+
 /* A plot is always one. */
 static bool is_picture(const char *name, const cli_options *o) {
-  if (name && (name == o->certificate || name == o->trace || name == o->plot)) return name == o->plot;
-  return o->format == DYD_FORMAT_SVG || o->format == DYD_FORMAT_PDF || o->format == DYD_FORMAT_PNG;
+  if (name && (name == o->certificate || name == o->trace || name == o->plot || name == o->pgf)) return name == o->plot;
+  return cli_is_picture(o->format);
 }
 
 dyd_status cli_write_content(FILE *out, const char *name, const cli_session *s, cli_print_fn print, dyd_error *err) {

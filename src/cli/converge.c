@@ -42,7 +42,8 @@ static int converge_begin(cli_session *s) {
   if (o->of == DYD_CONVERGE_VORONOI) s->o.engine.goal = cli_voronoi_goal(o->engine.goal);
   if (!o->start_set) s->o.engine.start_bits = 4;
   if (o->plot && !plot_format(&format, o->plot))
-    cli_complain("--plot \"%s\" does not say what kind of picture is wanted; end it in .svg, .pdf or .png", o->plot);
+    cli_complain("--plot \"%s\" does not say what kind of picture is wanted; end it in .svg, .pdf, .png, .tikz or .pgf",
+                 o->plot);
   else if (o->label && !dyd_label_fits(o->label))
     cli_complain("--label \"%s\" is not understood; give NAME=VALUE,NAME=VALUE without quotes and "
                  "backslashes, names that differ, and none that is a column of the table",
@@ -81,17 +82,27 @@ static int piece_points(const cli_session *s) {
   return !is_piece(s) || cli_has_points(s, s->o.of == DYD_CONVERGE_DISC ? 3 : 2) ? 0 : CLI_FAILED;
 }
 
+static dyd_status write_curves(FILE *out, const cli_session *s, dyd_format format, dyd_error *err) {
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .stages = &((converge_run *)s->state)->table,
+                                 .style = &s->o.style};
+  return dyd_write(out, NULL, DYD_CONTENT_PLOT, format, &how, err);
+}
+
 static dyd_status write_plot(FILE *out, const cli_session *s, dyd_error *err) {
   dyd_format format = s->o.format;
   plot_format(&format, s->o.plot);
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .stages = &((converge_run *)s->state)->table};
-  return dyd_write(out, NULL, DYD_CONTENT_PLOT, format, &how, err);
+  return write_curves(out, s, format, err);
+}
+
+static dyd_status write_pgf(FILE *out, const cli_session *s, dyd_error *err) {
+  return write_curves(out, s, DYD_FORMAT_PGF, err);
 }
 
 /* Sets s->known, and draws the plot, as far as the table was made. */
 static int converge_found(cli_session *s) {
   s->known = ((converge_run *)s->state)->table.count > 0;
-  return s->known && s->o.plot ? cli_write_file(s->o.plot, s, write_plot) : 0;
+  int status = s->known && s->o.plot ? cli_write_file(s->o.plot, s, write_plot) : 0;
+  return status == 0 && s->known && s->o.pgf ? cli_write_file(s->o.pgf, s, write_pgf) : status;
 }
 
 /* The last row; NULL: none. */
@@ -128,6 +139,7 @@ static dyd_status converge_write(FILE *out, const cli_session *s, dyd_error *err
                                  .window = s->view,
                                  .name = cli_points_name(o),
                                  .label = o->label,
+                                 .style = &o->style,
                                  .comments = cli_comments(out, s),
                                  .no_header = o->no_header};
   return dyd_write(out, s->engine, o->content, o->format, &how, err);
@@ -351,7 +363,8 @@ static int schedules_find(cli_session *s) {
 }
 
 static dyd_status schedules_write(FILE *out, const cli_session *s, dyd_error *err) {
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .report = &((check_run *)s->state)->report};
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .report = &((check_run *)s->state)->report,
+                                 .style = &s->o.style};
   return dyd_write(out, NULL, s->o.content, s->o.format, &how, err);
 }
 

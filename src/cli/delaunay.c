@@ -56,6 +56,7 @@ static dyd_status delaunay_write(FILE *out, const cli_session *s, dyd_error *err
   dyd_tolerance *tolerance = NULL;
   if (!s->discs && o->format == DYD_FORMAT_HTML) tolerance = find_tolerance(dyd_engine_delaunay(s->engine));
   const dyd_write_options how = {DYD_SIZED(dyd_write_options),
+                                 .style = &s->o.style,
                                  .window = s->view,
                                  .graph = s->graph,
                                  .pairs = s->discs,
@@ -263,6 +264,7 @@ static int voronoi_find(cli_session *s) {
 static dyd_status voronoi_write(FILE *out, const cli_session *s, dyd_error *err) {
   cli_diagram *r = s->diagram;
   const dyd_write_options how = {DYD_SIZED(dyd_write_options),
+                                 .style = &s->o.style,
                                  .flatten_bits = s->o.flatten_bits,
                                  .flatten_set = s->o.flatten_set,
                                  .window = s->o.engine.window,
@@ -375,9 +377,9 @@ static int sphere_find(cli_session *s) {
 }
 
 static dyd_status sphere_write(FILE *out, const cli_session *s, dyd_error *err) {
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options),    .sphere = s->sphere, .epsg = s->o.epsg,
-                                 .name = cli_points_name(&s->o),  .window = s->view,   .max_arc = s->o.max_arc,
-                                 .comments = cli_comments(out, s)};
+  const dyd_write_options how = {
+      DYD_SIZED(dyd_write_options),   .style = &s->o.style, .sphere = s->sphere,     .epsg = s->o.epsg,
+      .name = cli_points_name(&s->o), .window = s->view,    .max_arc = s->o.max_arc, .comments = cli_comments(out, s)};
   return dyd_write(out, NULL, s->o.content, s->o.format, &how, err);
 }
 

@@ -158,6 +158,22 @@ static bool value_number(double *place, const cli_option *option, const char *te
   return true;
 }
 
+static bool value_length(double *place, const cli_option *option, const char *text) {
+  static const struct {
+    const char *name;
+    double points;
+  } unit[] = {{"", 1}, {"pt", 1}, {"mm", 72 / 25.4}, {"cm", 72 / 2.54}, {"in", 72}};
+  char *end;
+  size_t k = 0;
+  double value = strtod(text, &end);
+  while (k < 5 && strcmp(end, unit[k].name) != 0) k++;
+  if (k < 5) *place = value * unit[k].points;
+  if (k == 5 || end == text || !(*place >= 1 && *place <= 5000))
+    return value_usage(option, text,
+                       "a length of at least a point and at most 5000, such as 240, 85mm, 12cm or 3.25in");
+  return true;
+}
+
 static bool value_goal(dyd_engine_options *e, const cli_option *option, const char *text) {
   const char *colon = strchr(text, ':');
   size_t length = colon ? (size_t)(colon - text) : strlen(text);
@@ -264,6 +280,8 @@ static bool value_any(cli_options *o, const cli_option *option, const char *text
   case CLI_SECONDS:
   case CLI_DEGREES:
     return value_number(place, option, text);
+  case CLI_LENGTH:
+    return value_length(place, option, text);
   case CLI_GOAL:
     return value_goal(place, option, text);
   case CLI_CHOICE:
@@ -416,6 +434,12 @@ static int meanings_fit(const cli_options *o, const cli_command *c) {
   if (o->clip_to && (o->sphere || !(o->all_layers || (o->layer && strcmp(o->layer, "tiles") == 0))))
     return cli_usage("--clip-to cuts tiles in the plane; give --layer tiles, or remove it");
   if (o->sphere && o->lengths) return cli_usage("--length is about the plane; remove it or --sphere");
+  const dyd_write_style *style = &o->style;
+  const bool styled = style->bare || style->width > 0 || style->font_size > 0 || style->font;
+  if (styled && !o->plot && !o->pgf && !cli_is_picture(o->format))
+    return cli_usage("--bare, --width, --font-size and --font are about pictures; give -o with a name in %s, or remove "
+                     "them",
+                     c == &cli_commands[CLI_CONVERGE] ? "--plot" : ".svg, .pdf, .png or .tikz");
   if (!o->read.sigma_column || o->read.confidence || c == &cli_commands[CLI_TOLERANCE]) return 0;
   return cli_usage("--sigma-column alone gives no region; state the probability with which all points have to lie in "
                    "theirs: --confidence 95%%");
@@ -580,6 +604,7 @@ static int options_help(cli_options *o, const scan *s) {
 int cli_options_read(cli_options *out, int argc, char **argv) {
   scan s;
   *out = (cli_options){.format = DYD_FORMAT_CSV, .read = {DYD_SIZED(dyd_read_options)}};
+  out->style = (dyd_write_style){DYD_SIZED(dyd_write_style), .command_line = (const char *const *)argv};
   dyd_engine_options_init(&out->engine);
   scan_prepare(&s);
   int status = scan_all(&s, out, argc, argv);
@@ -593,6 +618,7 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   if (!c) return unknown_command(s.operand[0]);
   out->command = c->name;
   if (out->help || out->version) return 0;
+  if (out->no_times) out->style.command_line = NULL;
   out->read.round = out->engine.discs = out->discs;
   status = options_fit(out, s.seen, c);
   if (!status) status = layer_fits(out, c);

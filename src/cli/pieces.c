@@ -97,8 +97,9 @@ static int pieces_find(cli_session *s, size_t least, size_t most) {
 
 static dyd_status pieces_write(FILE *out, const cli_session *s, dyd_error *err) {
   const cli_pieces *p = s->state;
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .rect = p->rect, .rects = p->count,
-                                 .outcome = s->outcome, .comments = cli_comments(out, s)};
+  const dyd_write_options how = {
+      DYD_SIZED(dyd_write_options),    .style = &s->o.style, .rect = p->rect, .rects = p->count, .outcome = s->outcome,
+      .comments = cli_comments(out, s)};
   return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
 }
 
@@ -364,8 +365,9 @@ static dyd_status places_write(FILE *out, const cli_session *s, dyd_error *err) 
   const query *q = s->state;
   const dyd_nearest_answer **list = list_answers(q);
   if (!list) return DYD_E_NOMEM;
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .answer = list,        .answers = q->answered,
-                                 .sphere = s->sphere,          .outcome = q->outcome, .comments = cli_comments(out, s)};
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options),    .style = &s->o.style, .answer = list,
+                                 .answers = q->answered,          .sphere = s->sphere,  .outcome = q->outcome,
+                                 .comments = cli_comments(out, s)};
   dyd_status st = dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
   free(list);
   return st;

@@ -18,7 +18,8 @@ enum {
   RUN = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_CHECK), /* runs the engine to a goal */
   TEXT = READ | BIT(CLI_VERIFY),                                                   /* from a file */
   PIECES = BIT(CLI_DISC) | BIT(CLI_BISECTOR),
-  REFINE = RUN | PIECES | BIT(CLI_NEAREST) | BIT(CLI_TOLERANCE), /* asks points to narrow */
+  REFINE = RUN | PIECES | BIT(CLI_NEAREST) | BIT(CLI_TOLERANCE),                   /* asks points to narrow */
+  DRAW = (RUN & ~BIT(CLI_CHECK)) | PIECES | BIT(CLI_NEAREST) | BIT(CLI_TOLERANCE), /* writes pictures */
   GLOBE = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_NEAREST) | BIT(CLI_PLAN) |
           BIT(CLI_VERIFY) /* takes --sphere */
 };
@@ -316,6 +317,14 @@ const cli_option cli_option_table[] = {
      AT(comments)},
     {"output", 'o', "FILE", CLI_FILE, CLI_ALL, CLI_OUTPUT,
      "write to FILE, whole or not at all; its ending, such as\n.svg, chooses the format", AT(output)},
+    {"bare", 0, NULL, CLI_FLAG, DRAW, CLI_OUTPUT, "pictures: without legend, scale and coordinates", AT(style.bare)},
+    {"width", 0, "LENGTH", CLI_LENGTH, DRAW, CLI_OUTPUT,
+     "pictures: so wide: 85mm, 12cm, 3.25in, or points of 1/72 inch\n(default: 1120)", AT(style.width)},
+    {"font-size", 0, "LENGTH", CLI_LENGTH, DRAW, CLI_OUTPUT,
+     "pictures: of texts, in points (default: 14; on a smaller page\nless, down to 7)", AT(style.font_size)},
+    {"font", 0, "NAME", CLI_TEXT, DRAW, CLI_OUTPUT,
+     "pictures: a family of fonts (default: sans-serif); tikz: one\nof LaTeX, such as phv (default: the document's)",
+     AT(style.font)},
     {"certificate", 0, "FILE", CLI_FILE, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_NEAREST), CLI_OUTPUT,
      "write what proves the result; see dyadel verify", AT(certificate)},
     {"stats", 0, NULL, CLI_FLAG, RUN, CLI_OUTPUT, "print counters to standard error", AT(stats)},
@@ -323,8 +332,10 @@ const cli_option cli_option_table[] = {
      "exit status 0 instead of 3, for scripts that stop at errors", AT(accept_fixpoint)},
     {"quiet", 'q', NULL, CLI_FLAG, CLI_ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
 
-    {"plot", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS, "draw the table; FILE ends in .svg, .pdf or .png",
-     AT(plot)},
+    {"plot", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
+     "draw the table; FILE ends in .svg, .pdf, .png, .tikz or .pgf", AT(plot)},
+    {"pgf", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
+     "write the curves of bounds and widths as an axis of pgfplots,\nfor \\input in a LaTeX document", AT(pgf)},
     {"trace", 0, "FILE", CLI_FILE, REFINE, CLI_EXPERIMENTS,
      "write which point was narrowed to what, and why, as it\nhappens; check: the schedule that shows a fault",
      AT(trace)},
@@ -338,8 +349,8 @@ const cli_option cli_option_table[] = {
     {"replay", 0, "FILE", CLI_SOURCE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
      "repeat a trace instead of asking points;\ncheck: repeat a schedule on the points of FILE or --oracle",
      AT(replay)},
-    {"no-times", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS, "omit seconds: equal runs give equal bytes",
-     AT(no_times)},
+    {"no-times", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
+     "omit seconds, and from json the command line: equal runs give\nequal bytes", AT(no_times)},
     {"label", 0, "NAME=VALUE,...", CLI_TEXT, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
      "columns before the others, to distinguish runs", AT(label)},
     {"rows-only", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,

@@ -86,8 +86,12 @@ static int tolerance_find(cli_session *s) {
 }
 
 static dyd_status tolerance_write(FILE *out, const cli_session *s, dyd_error *err) {
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options), .tolerance = ((tolerance_run *)s->state)->tolerance,
-                                 .window = s->view, .epsg = s->o.epsg, .comments = cli_comments(out, s)};
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options),
+                                 .style = &s->o.style,
+                                 .tolerance = ((tolerance_run *)s->state)->tolerance,
+                                 .window = s->view,
+                                 .epsg = s->o.epsg,
+                                 .comments = cli_comments(out, s)};
   return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
 }
 
@@ -314,6 +318,7 @@ static int plan_find(cli_session *s) {
 
 static dyd_status plan_write(FILE *out, const cli_session *s, dyd_error *err) {
   const dyd_write_options how = {DYD_SIZED(dyd_write_options),
+                                 .style = &s->o.style,
                                  .plan = ((plan_run *)s->state)->survey,
                                  .sphere = s->sphere,
                                  .next = s->o.next,

@@ -14,7 +14,7 @@
 
 typedef dyd_writer *const writers[DYD_CONTENTS];
 extern writers dyd_csv_writers, dyd_json_writers, dyd_obj_writers, dyd_vtk_writers, dyd_picture_writers,
-    dyd_html_writers;
+    dyd_html_writers, dyd_pgf_writers;
 
 static const struct {
   const char *name, *ending, *about;
@@ -52,8 +52,12 @@ static const struct {
          "a page to move about in, with all statements about each point, stage by stage; one file that asks "
          "for nothing",
          dyd_html_writers, .plain = {0, 400, 50}, .diagram = {0, 1500, 0}},
+    [DYD_FORMAT_TIKZ] = {"tikz", "tikz", "the same picture as a tikzpicture, for \\input in a LaTeX document",
+                         dyd_picture_writers, .plain = {0, 630, 36}, .diagram = {0, 150, 0}},
+    [DYD_FORMAT_PGF] = {"pgf", "pgf", "of converge the curves as an axis of pgfplots, for \\input in a LaTeX document",
+                        dyd_pgf_writers},
 };
-enum { FORMATS = sizeof formats / sizeof *formats };
+enum { FORMATS = sizeof formats / sizeof *formats, USUAL_WIDTH = 1120 };
 
 /* ---- what the table says ---- */
 
@@ -123,10 +127,12 @@ bool dyd_format_holds(dyd_format format, dyd_content content) {
   return writer_of(format, content);
 }
 
-uint64_t dyd_format_bytes(dyd_format format, bool diagram, uint64_t sites, uint64_t pairs) {
-  if ((size_t)format >= FORMATS) return 0;
-  const struct bytes *b = diagram ? &formats[format].diagram : &formats[format].plain;
-  return dyd_bytes_add(b->page, dyd_bytes_add(dyd_bytes_times(sites, b->site), dyd_bytes_times(pairs, b->pair)));
+uint64_t dyd_format_bytes(const dyd_output *o, bool diagram, uint64_t sites, uint64_t pairs) {
+  if ((size_t)o->format >= FORMATS) return 0;
+  const struct bytes *b = diagram ? &formats[o->format].diagram : &formats[o->format].plain;
+  const double wide = o->style.width > USUAL_WIDTH ? o->style.width / USUAL_WIDTH : 1;
+  return dyd_bytes_add((uint64_t)(b->page * wide * wide),
+                       dyd_bytes_add(dyd_bytes_times(sites, b->site), dyd_bytes_times(pairs, b->pair)));
 }
 
 /* ---- writing ---- */

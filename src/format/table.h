@@ -11,6 +11,6 @@ dyd_status dyd_format_write(const dyd_output *o, dyd_error *err);
 
 /* Estimated memory, in bytes, for writing a result with these numbers of sites and pairs; for its diagram, without what
  * its writers request themselves. */
-uint64_t dyd_format_bytes(dyd_format format, bool diagram, uint64_t sites, uint64_t pairs);
+uint64_t dyd_format_bytes(const dyd_output *o, bool diagram, uint64_t sites, uint64_t pairs);
 
 #endif

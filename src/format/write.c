@@ -79,11 +79,11 @@ static dyd_status result_graph(bool *graph, dyd_result *r, dyd_content layer, co
 }
 
 /* Checks the budget for the memory of an output. pairs: those to be written; NULL: all. */
-static dyd_status grant_output(const dyd_delaunay *pd, dyd_format format, bool diagram, const dyd_pair_list *pairs,
+static dyd_status grant_output(const dyd_delaunay *pd, const dyd_output *to, bool diagram, const dyd_pair_list *pairs,
                                dyd_pair_status least, dyd_error *err) {
   if (!dyd_delaunay_is_bounded(pd)) return DYD_OK;
   uint64_t count = pairs ? pairs->count : dyd_pairs_bytes(pd, least) / sizeof(dyd_pair);
-  uint64_t bytes = dyd_format_bytes(format, diagram, dyd_sites_count(dyd_delaunay_sites(pd)), count);
+  uint64_t bytes = dyd_format_bytes(to, diagram, dyd_sites_count(dyd_delaunay_sites(pd)), count);
   return dyd_delaunay_grant(pd, bytes, "this output", err);
 }
 
@@ -116,7 +116,7 @@ static dyd_status write_delaunay(dyd_output *to, dyd_write_options *o, dyd_error
     to->content = DYD_CONTENT_TIES;
   r.ties_apart = rows_hold_ties(&r, to, o);
   dyd_pair_status least = o->ties || r.ties_apart || to->content == DYD_CONTENT_POINTS ? DYD_INDETERMINATE : DYD_TIE;
-  st = grant_output(r.pd, to->format, false, o->pairs, least, err);
+  st = grant_output(r.pd, to, false, o->pairs, least, err);
   if (st != DYD_OK) return st;
   st = result_graph(&graph, &r, to->content, o, err);
   if (graph) r.history = NULL, r.tolerance = NULL; /* both are about the triangulation */
@@ -210,7 +210,7 @@ static dyd_status make_diagram(const diagram_arrays *arrays, dyd_output *to, dyd
   if (st != DYD_OK) return st;
   if (dyd_delaunay_is_capped(r.pd))
     return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise `max_pairs`");
-  st = grant_output(r.pd, to->format, true, NULL, DYD_LEGAL, err);
+  st = grant_output(r.pd, to, true, NULL, DYD_LEGAL, err);
   if (st != DYD_OK) return st;
   dyd_room room = dyd_delaunay_room(r.pd);
   dyd_voronoi_bounds_init(&bounds);
@@ -409,6 +409,9 @@ dyd_status dyd_write(FILE *out, const dyd_engine *e, dyd_content content, dyd_fo
                    .lengths = o.lengths,
                    .clip = o.clip,
                    .name = o.name};
+  if (dyd_abi_take(&to.style, sizeof to.style, o.style, "dyd_write_style", err) != DYD_OK) return DYD_E_ARG;
+  if (!(to.style.width >= 0 && to.style.width <= 5000 && to.style.font_size >= 0 && to.style.font_size <= 5000))
+    return dyd_fail(err, DYD_E_ARG, "sizes of pictures are in points, from 0 to 5000");
   return write(&to, &o, err);
 }
 

@@ -152,11 +152,15 @@ void dyd_json_window(dyd_json *j, const char *name, const dyd_rect *w, const cha
 
 /* ---- results ---- */
 
-void dyd_json_head(dyd_json *j, const char *format, unsigned epsg) {
+void dyd_json_head(dyd_json *j, const char *format, const dyd_output *o) {
+  const char *const *word = o->style.command_line;
   dyd_json_object(j, NULL, DYD_JSON_LINES);
   dyd_json_word(j, "format", format);
   dyd_json_word(j, "version", dyd_version());
-  if (epsg) fprintf(dyd_json_file(j, "crs"), "\"EPSG:%u\"", epsg);
+  if (word) dyd_json_array(j, "command_line", DYD_JSON_FLAT);
+  for (const char *const *w = word; w && *w; w++) dyd_json_text(j, NULL, *w);
+  if (word) dyd_json_close(j, 1);
+  if (o->epsg) fprintf(dyd_json_file(j, "crs"), "\"EPSG:%u\"", o->epsg);
 }
 
 void dyd_json_confidence(dyd_json *j, const dyd_engine *e) {
@@ -167,8 +171,9 @@ void dyd_json_confidence(dyd_json *j, const dyd_engine *e) {
   dyd_json_index(j, "n", c.n);
 }
 
-void dyd_json_head_outward(dyd_json *j, const char *format, const dyd_engine *e, dyd_outcome outcome) {
-  dyd_json_head(j, format, 0);
+void dyd_json_head_outward(dyd_json *j, const char *format, const dyd_output *o, const dyd_engine *e,
+                           dyd_outcome outcome) {
+  dyd_json_head(j, format, o);
   dyd_json_word(j, "rounding",
                 "texts are exact numbers; pairs of numbers are rounded outward: the first down, the second up");
   dyd_json_word(j, "outcome", dyd_outcome_text(outcome));

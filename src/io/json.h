@@ -13,6 +13,7 @@
 #ifndef DYD_IO_JSON_H
 #define DYD_IO_JSON_H
 
+#include "io/output.h"
 #include "io/sink.h"
 #include <dyadel/arc.h>
 #include <dyadel/sphere.h>
@@ -132,12 +133,13 @@ void dyd_json_window(dyd_json *j, const char *name, const dyd_rect *w, const cha
 
 /* ---- results ---- */
 
-/* The object of a file: "format", "version", and "crs" where it is known (not 0). */
-void dyd_json_head(dyd_json *j, const char *format, unsigned epsg);
+/* The object of a file: "format", "version", and where they are known "command_line" and "crs". */
+void dyd_json_head(dyd_json *j, const char *format, const dyd_output *o);
 /* "confidence", "k" and "n", where points have a confidence. */
 void dyd_json_confidence(dyd_json *j, const dyd_engine *e);
 /* The head with the outcome and confidence, where pairs of numbers are rounded outward and texts are exact. */
-void dyd_json_head_outward(dyd_json *j, const char *format, const dyd_engine *e, dyd_outcome outcome);
+void dyd_json_head_outward(dyd_json *j, const char *format, const dyd_output *o, const dyd_engine *e,
+                           dyd_outcome outcome);
 /* The row of a site; identifiers "id_i", "id_j", ..; "id" of a single one (count 0), where there are any. */
 static inline void dyd_json_site(dyd_json *j, const char *name, const dyd_engine *e, size_t i) {
   dyd_json_index(j, name, dyd_engine_row(e, i));

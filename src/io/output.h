@@ -22,6 +22,7 @@ typedef struct dyd_output {
   FILE *comments;           /* of csv; NULL: none are written */
   bool lengths, clip;       /* as in dyd_write_options */
   const char *name;
+  dyd_write_style style;
 } dyd_output;
 
 typedef dyd_status dyd_writer(const dyd_output *o);

@@ -147,7 +147,7 @@ dyd_status dyd_disc_json(const dyd_output *o) {
   const dyd_disc_output *c = o->what;
   dyd_json j;
   dyd_json_begin(&j, o->out);
-  dyd_json_head_outward(&j, "dyadel disc 1", c->engine, c->outcome);
+  dyd_json_head_outward(&j, "dyadel disc 1", o, c->engine, c->outcome);
   json_rectangles(&j, c->r, c->n);
   dyd_json_word(&j, "orientation", orientation_text(dyd_orientation(c->r[0], c->r[1], c->r[2])));
   dyd_json_array(&j, "circles", DYD_JSON_LIST);
@@ -215,7 +215,7 @@ dyd_status dyd_bisector_json(const dyd_output *o) {
   dyd_point_texts texts = {.engine = b->engine};
   dyd_json j;
   dyd_json_begin(&j, o->out);
-  dyd_json_head_outward(&j, "dyadel bisector 1", b->engine, b->outcome);
+  dyd_json_head_outward(&j, "dyadel bisector 1", o, b->engine, b->outcome);
   json_rectangles(&j, b->r, 2);
   dyd_json_array(&j, "curves", DYD_JSON_LIST);
   for (uint32_t far = 0; far < 2 && j.st == DYD_OK; far++) {
@@ -328,7 +328,7 @@ dyd_status dyd_nearest_json(const dyd_output *o) {
   dyd_json j;
   dyd_rect_init(&scratch);
   dyd_json_begin(&j, o->out);
-  dyd_json_head_outward(&j, many ? "dyadel nearest places 1" : "dyadel nearest 1", n->engine,
+  dyd_json_head_outward(&j, many ? "dyadel nearest places 1" : "dyadel nearest 1", o, n->engine,
                         many ? n->outcome : n->answer[0]->outcome);
   if (n->sphere) {
     dyd_json_word(&j, "surface", "sphere");
@@ -379,7 +379,7 @@ dyd_status dyd_check_json(const dyd_output *o) {
   const check_counts counts = counts_of_check(r);
   dyd_json j;
   dyd_json_begin(&j, o->out);
-  dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+  dyd_json_head(&j, "dyadel check 1", o);
   dyd_json_word(&j, "fault", dyd_check_fault_text(r->fault));
   for (int k = 0; k < 7; k++) dyd_json_index(&j, counts.name[k], counts.n[k]);
   return dyd_json_end(&j, "}\n");
@@ -624,9 +624,10 @@ static dyd_status convergence_csv(const dyd_output *o) {
 /* These rows are not a layer, since labels are columns, too. */
 dyd_writer *const dyd_csv_writers[DYD_CONTENTS] = {[DYD_CONTENT_CONVERGENCE] = convergence_csv};
 
-static void stages_json_head(dyd_json *j, const dyd_convergence *c) {
+static void stages_json_head(dyd_json *j, const dyd_output *out) {
+  const dyd_convergence *c = ((const dyd_stage_table *)out->what)->stages;
   const dyd_engine_options *o = c->options;
-  dyd_json_head(j, "dyadel converge 1", 0);
+  dyd_json_head(j, "dyadel converge 1", out);
   dyd_json_word(j, "of", dyd_converge_of_text(c->of));
   dyd_json_word(j, "rounding",
                 "widths and bounds are upper bounds; exact is exact, decimal is rounded up; null is not known, or "
@@ -689,7 +690,7 @@ dyd_status dyd_convergence_json(const dyd_output *o) {
   const dyd_stage_table *t = o->what;
   dyd_json j;
   dyd_json_begin(&j, o->out);
-  stages_json_head(&j, t->stages);
+  stages_json_head(&j, o);
   if (t->label) label_json(&j, t->label);
   dyd_json_array(&j, "stages", DYD_JSON_LIST);
   for (size_t k = 0; k < t->stages->count; k++) stage_json(&j, t, t->stages->row[k]);

@@ -150,11 +150,11 @@ static void json_bounds(dyd_json *j, const dyd_result *r) {
   dyd_dyadic_clear(&hausdorff);
 }
 
-static void json_head(dyd_json *j, const dyd_result *r) {
+static void json_head(dyd_json *j, const dyd_output *o, const dyd_result *r) {
   size_t count[4];
   int64_t bits;
   dyd_goal goal = dyd_engine_goal(&bits, r->engine);
-  dyd_json_head(j, r->sphere ? "dyadel sphere 1" : "dyadel delaunay 1", r->epsg);
+  dyd_json_head(j, r->sphere ? "dyadel sphere 1" : "dyadel delaunay 1", o);
   dyd_json_word(j, "rounding",
                 r->sphere ? "x (longitude) and y (latitude) are degrees: exact where both ends are equal, else rounded "
                             "outward; x_decimal and y_decimal are rounded outward: the first down, the second up"
@@ -177,7 +177,7 @@ static dyd_status delaunay_json(const dyd_output *o) {
   dyd_triangle_list triangles = {0};
   dyd_json j;
   dyd_json_begin(&j, o->out);
-  json_head(&j, r);
+  json_head(&j, o, r);
   if (!r->sphere) json_bounds(&j, r);
   if (j.st == DYD_OK) json_sites(&j, r);
   dyd_json_aliases(&j, r->engine, r->sphere);
@@ -340,12 +340,13 @@ static dyd_status region_json(void *context, size_t face, const double box[4]) {
 
 /* ---- the diagram ---- */
 
-static void diagram_head_json(dyd_json *j, const dyd_diagram *d, const char *format, const char *rounding) {
+static void diagram_head_json(dyd_json *j, const dyd_output *o, const char *format, const char *rounding) {
+  const dyd_diagram *d = o->what;
   size_t count[4];
   int64_t bits;
   dyd_goal goal = dyd_engine_goal(&bits, d->engine);
   dyd_pairs_count(count, d->discs, d->pd);
-  dyd_json_head(j, format, d->epsg);
+  dyd_json_head(j, format, o);
   dyd_json_word(j, "rounding", rounding);
   dyd_json_word(j, "outcome", dyd_outcome_text(dyd_engine_outcome(d->engine)));
   dyd_json_confidence(j, d->engine);
@@ -363,7 +364,7 @@ static dyd_status voronoi_json(const dyd_output *o) {
   diagram_json c = {.d = d, .texts = {.engine = d->engine}};
   dyd_json *j = &c.j;
   dyd_json_begin(j, o->out);
-  diagram_head_json(j, d, "dyadel voronoi 1",
+  diagram_head_json(j, o, "dyadel voronoi 1",
                     "texts are exact numbers; pairs of numbers are rounded outward: the first down, the second up; "
                     "null is unbounded or beyond the largest double; inner and outer of a cell with vertex_error are "
                     "that cell, with vertices rounded by at most so much in each coordinate");
@@ -467,8 +468,9 @@ static void globe_regions_json(dyd_json *j, const dyd_result *r) {
   dyd_index_list_clear(&sites);
 }
 
-static void globe_diagram_json(dyd_json *j, const dyd_result *r, const dyd_sphere_cells *c) {
-  dyd_json_head(j, "dyadel sphere voronoi 1", r->epsg);
+static void globe_diagram_json(dyd_json *j, const dyd_output *o, const dyd_sphere_cells *c) {
+  const dyd_result *r = o->what;
+  dyd_json_head(j, "dyadel sphere voronoi 1", o);
   dyd_json_word(j, "rounding",
                 "x (longitude) and y (latitude) are degrees, rounded outward: the first down, the second up; null "
                 "among the vertices of a cell: an undecided region is next");
@@ -497,7 +499,7 @@ static dyd_status globe_voronoi_json(const dyd_output *o) {
   dyd_status st = dyd_sphere_cells_find(&c, r->sphere, o->err);
   if (st == DYD_OK) {
     dyd_json_begin(&j, o->out);
-    globe_diagram_json(&j, r, &c);
+    globe_diagram_json(&j, o, &c);
     st = dyd_json_end(&j, "\n}\n");
   }
   dyd_sphere_cells_clear(&c);
@@ -564,7 +566,7 @@ static dyd_status tolerance_json(const dyd_output *o) {
   double lo, hi;
   dyd_json j;
   dyd_json_begin(&j, o->out);
-  dyd_json_head(&j, "dyadel tolerance 1", r->epsg);
+  dyd_json_head(&j, "dyadel tolerance 1", o);
   if (box) dyd_json_word(&j, "metric", "box");
   dyd_json_word(&j, "rounding",
                 box ? "bounds are rounded outward: the first down, the second up, null is infinite; rho and "

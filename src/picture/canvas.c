@@ -10,8 +10,7 @@
 
 /* ---- svg: pieces ---- */
 
-/* To hundredths, with a point in every locale; lengths beyond any page are clamped. */
-static void put_length(dyd_sink *to, double x) {
+void dyd_put_length(dyd_sink *to, double x) {
   int64_t n = llround(fmin(fmax(x, -1e12), 1e12) * 100);
   uint64_t size = (uint64_t)(n < 0 ? -n : n), rest = size % 100;
   char *p = dyd_sink_room(to, DYD_INDEX_SIZE + sizeof "-.25");
@@ -22,19 +21,23 @@ static void put_length(dyd_sink *to, double x) {
   to->end = p;
 }
 
-static void put_lengths(dyd_sink *to, const char *before, const double *x, int count) {
+void dyd_put_lengths(dyd_sink *to, const char *before, const double *x, int count, const char *between) {
   dyd_sink_text(to, before);
   for (int k = 0; k < count; k++) {
-    if (k) dyd_sink_text(to, " ");
-    put_length(to, x[k]);
+    if (k) dyd_sink_text(to, between);
+    dyd_put_length(to, x[k]);
   }
+}
+
+static void put_lengths(dyd_sink *to, const char *before, const double *x, int count) {
+  dyd_put_lengths(to, before, x, count, " ");
 }
 
 static void put_attribute(dyd_sink *to, const char *name, double x) {
   dyd_sink_text(to, " ");
   dyd_sink_text(to, name);
   dyd_sink_text(to, "=\"");
-  put_length(to, x);
+  dyd_put_length(to, x);
   dyd_sink_text(to, "\"");
 }
 
@@ -100,14 +103,20 @@ static bool same_paint(const dyd_paint *a, const dyd_paint *b) {
          a->on == b->on && a->off == b->off;
 }
 
+bool dyd_canvas_group(dyd_canvas *c, const dyd_paint *p, const char *end) {
+  if (c->open && p && same_paint(p, &c->shared)) return false;
+  if (c->open) dyd_sink_text(&c->to, end);
+  c->open = p;
+  if (p) c->shared = *p;
+  return true;
+}
+
 static void close_group(dyd_canvas *c) {
-  if (c->open) dyd_sink_text(&c->to, "</g>\n");
-  c->open = false;
+  dyd_canvas_group(c, NULL, "</g>\n");
 }
 
 static void open_group(dyd_canvas *c, const dyd_paint *p) {
-  if (c->open && same_paint(p, &c->shared)) return;
-  close_group(c);
+  if (!dyd_canvas_group(c, p, "</g>\n")) return;
   dyd_sink_text(&c->to, "<g");
   put_colour(&c->to, "fill", p->fill);
   if (p->fill != DYD_NO_COLOUR && p->alpha < 1) put_attribute(&c->to, "fill-opacity", p->alpha);
@@ -120,18 +129,25 @@ static void open_group(dyd_canvas *c, const dyd_paint *p) {
     }
   }
   dyd_sink_text(&c->to, ">\n");
-  c->open = true;
-  c->shared = *p;
 }
 
 /* ---- svg: the page ---- */
-static void svg_begin(dyd_canvas *c, double width, double height, const char *title) {
-  dyd_sink_begin(&c->to, c->out);
+
+/* Points where a width was given, else pixels. */
+static void put_extent(dyd_canvas *c, const char *before, double x) {
+  put_lengths(&c->to, before, (const double[]){x * c->scale}, 1);
+  dyd_sink_text(&c->to, c->scale == 1 ? "\"" : "pt\"");
+}
+
+static void svg_begin(dyd_canvas *c, const char *title) {
+  const double *b = c->box, view[4] = {b[0], b[2], b[1] - b[0], b[3] - b[2]};
   dyd_sink_text(&c->to, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"");
-  put_attribute(&c->to, "width", width);
-  put_attribute(&c->to, "height", height);
-  put_lengths(&c->to, " viewBox=\"0 0 ", (const double[]){width, height}, 2);
-  dyd_sink_text(&c->to, "\" font-family=\"sans-serif\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<title>");
+  put_extent(c, " width=\"", view[2]);
+  put_extent(c, " height=\"", view[3]);
+  put_lengths(&c->to, " viewBox=\"", view, 4);
+  dyd_sink_text(&c->to, "\" font-family=\"");
+  put_escaped(&c->to, c->font ? c->font : "sans-serif");
+  dyd_sink_text(&c->to, "\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<title>");
   put_escaped(&c->to, title);
   dyd_sink_text(&c->to, "</title>\n");
 }
@@ -139,7 +155,6 @@ static void svg_begin(dyd_canvas *c, double width, double height, const char *ti
 static void svg_end(dyd_canvas *c) {
   close_group(c);
   dyd_sink_text(&c->to, "</svg>\n");
-  dyd_sink_flush(&c->to);
 }
 
 static void svg_paint(dyd_canvas *c, const dyd_paint *paint) {
@@ -237,32 +252,26 @@ void dyd_canvas_box(dyd_canvas *c, double x, double y, double width, double heig
 
 /* ---- all kinds ---- */
 
-static bool is_svg(const dyd_canvas *c) {
-  return c->format == DYD_FORMAT_SVG;
-}
+static const dyd_canvas_kind svg_kind = {svg_begin, svg_end, svg_paint, svg_clip, svg_unclip, svg_text}, nowhere = {0};
+
+/* Lines of a page that is made small stay thick enough to be seen. */
+#define THINNEST 0.25
 
 void dyd_canvas_paint(dyd_canvas *c, const dyd_paint *paint) {
-  if (is_svg(c))
-    svg_paint(c, paint);
-  else
-    dyd_cairo_paint(c, paint);
+  dyd_paint p = *paint;
+  if (c->scale < 1) p.width = fmax(p.width, THINNEST / c->scale);
+  if (c->kind->paint) c->kind->paint(c, &p);
   c->count = 0;
   c->id[0] = c->title[0] = 0;
 }
 
 void dyd_canvas_clip(dyd_canvas *c) {
-  if (is_svg(c))
-    svg_clip(c);
-  else
-    dyd_cairo_clip(c);
+  if (c->kind->clip) c->kind->clip(c);
   c->count = 0;
 }
 
 void dyd_canvas_unclip(dyd_canvas *c) {
-  if (is_svg(c))
-    svg_unclip(c);
-  else
-    dyd_cairo_unclip(c);
+  if (c->kind->unclip) c->kind->unclip(c);
 }
 
 void dyd_canvas_name(dyd_canvas *c, const char *id, const char *title) {
@@ -271,14 +280,12 @@ void dyd_canvas_name(dyd_canvas *c, const char *id, const char *title) {
 }
 
 double dyd_canvas_width(dyd_canvas *c, double size, const char *text) {
-  return dyd_cairo_width(c, size, text);
+  return dyd_cairo_width(c, size * c->text, text);
 }
 
 void dyd_canvas_text(dyd_canvas *c, double x, double y, double align, double size, bool halo, const char *text) {
-  if (is_svg(c))
-    svg_text(c, x, y, align, size, halo, text);
-  else
-    dyd_cairo_text(c, x - align * dyd_canvas_width(c, size, text), y, halo, text);
+  if (c->kind->text) c->kind->text(c, x, y, align, size * c->text, halo, text);
+  c->low = fmax(c->low, y);
 }
 
 void dyd_picture_stroke(dyd_canvas *c, unsigned rgb, double width, double on, double off) {
@@ -307,21 +314,52 @@ void dyd_picture_dot(dyd_canvas *c, double x, double y, double radius, unsigned 
 
 /* ---- pages ---- */
 
-dyd_canvas *dyd_canvas_new(const dyd_output *o, double width, double height, const char *title) {
+dyd_status dyd_page_fit(dyd_page *out, const dyd_output *o, double inner, double rim) {
+  enum { USUAL = 14, READABLE = 7 };
+  double points = o->style.font_size, least = o->style.width / (inner + rim) * USUAL;
+  *out = (dyd_page){points > 0 ? points / USUAL : 1, 1};
+  if (!(o->style.width > 0)) return DYD_OK;
+  if (!(points > 0)) points = fmax(least, READABLE);
+  out->text = points * inner / (USUAL * o->style.width - rim * points);
+  if (!(out->text > 0 && out->text <= (rim > 0 ? 12 : 60)))
+    return dyd_fail(
+        o->err, DYD_E_ARG,
+        "a picture %g points wide has no room beside texts of %g points; take a larger width, or smaller texts",
+        o->style.width, points);
+  out->scale = o->style.width / (inner + rim * out->text);
+  return DYD_OK;
+}
+
+static const dyd_canvas_kind *kind_of(dyd_format f) {
+  if (f == DYD_FORMAT_SVG || f == DYD_FORMAT_TIKZ) return f == DYD_FORMAT_SVG ? &svg_kind : &dyd_canvas_tikz;
+  return f == DYD_FORMAT_PDF || f == DYD_FORMAT_PNG ? &dyd_canvas_cairo : &nowhere;
+}
+
+dyd_canvas *dyd_canvas_new(const dyd_output *o, const dyd_page *page, const double box[4], const char *title) {
   dyd_canvas *c = calloc(1, sizeof *c);
   if (!c) return NULL;
   c->format = o->format;
+  c->kind = kind_of(o->format);
+  c->font = o->style.font;
+  c->text = page->text, c->scale = page->scale;
+  memcpy(c->box, box, sizeof c->box);
   c->out = o->out;
-  dyd_cairo_begin(c, width, height);
-  if (is_svg(c)) svg_begin(c, width, height, title);
-  dyd_canvas_box(c, 0, 0, width, height);
+  dyd_cairo_begin(c);
+  if (c->kind->begin) {
+    dyd_sink_begin(&c->to, c->out);
+    c->kind->begin(c, title);
+  }
+  dyd_canvas_box(c, box[0], box[2], box[1] - box[0], box[3] - box[2]);
   dyd_canvas_paint(c, &(dyd_paint){0xffffff, DYD_NO_COLOUR, 1, 0, 0, 0});
   return c;
 }
 
 dyd_status dyd_canvas_end(dyd_canvas *c, dyd_status st, dyd_error *err) {
   if (!c) return DYD_E_NOMEM;
-  if (is_svg(c)) svg_end(c);
+  if (c->kind->end) {
+    c->kind->end(c);
+    dyd_sink_flush(&c->to);
+  }
   st = dyd_cairo_end(c, st, err);
   free(c->step);
   free(c);

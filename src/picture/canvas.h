@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What pictures are drawn on: paths, text, clips and names, as svg of our own or with cairo (pdf, png).
+/* What pictures are drawn on: paths, text, clips and names, as svg or TikZ of our own or with cairo (pdf, png).
  *
- * Lengths in pixels of svg (points of pdf, half pixels of png), y downward. A path is collected, and gone when it is
- * painted. In svg text is text, elements can have an id and a title, which viewers show where the pointer is, and
- * neighbours of the same paint share a group; the other formats ignore names. */
+ * Lengths in pixels of svg (points of pdf, half pixels of png), y downward; a page of a given width is scaled. A path
+ * is collected, and gone when it is painted. In svg and TikZ text is text, and neighbours of the same paint share a
+ * group. In svg elements can have an id and a title, which viewers show where the pointer is; other formats ignore
+ * names. */
 #ifndef DYD_PICTURE_CANVAS_H
 #define DYD_PICTURE_CANVAS_H
 
@@ -25,8 +26,16 @@ typedef struct dyd_paint {
   double alpha, width, on, off;
 } dyd_paint;
 
-/* Begins a page in the format of o, white; NULL when memory is exhausted. */
-dyd_canvas *dyd_canvas_new(const dyd_output *o, double width, double height, const char *title);
+/* How large a page is: texts are `text` times as large as usual beside the drawing, and everything is scaled. */
+typedef struct dyd_page {
+  double text, scale;
+} dyd_page;
+/* Of a page as wide as inner + rim * text, by the look of o. DYD_E_ARG with a message where texts take all of it. */
+dyd_status dyd_page_fit(dyd_page *out, const dyd_output *o, double inner, double rim);
+
+/* Begins a page in the format of o, white, for the box x lower, x upper, y lower, y upper. NULL when
+ * memory is exhausted. A format that is none of pictures draws nothing, but knows how wide texts are. */
+dyd_canvas *dyd_canvas_new(const dyd_output *o, const dyd_page *page, const double box[4], const char *title);
 /* Completes the page (unless st is an error) and frees c; returns st, or the error of writing. */
 dyd_status dyd_canvas_end(dyd_canvas *c, dyd_status st, dyd_error *err);
 
@@ -80,30 +89,49 @@ typedef struct dyd_path_step {
   double z[6]; /* x, y; of a curve both inner points before; of an arc centre, radius, angles */
 } dyd_path_step;
 
+/* What a format does with a page. `begin` comes first, `end` last; without them there is nothing to do. */
+typedef struct dyd_canvas_kind {
+  void (*begin)(dyd_canvas *c, const char *title);
+  void (*end)(dyd_canvas *c);
+  void (*paint)(dyd_canvas *c, const dyd_paint *p);
+  void (*clip)(dyd_canvas *c);
+  void (*unclip)(dyd_canvas *c);
+  void (*text)(dyd_canvas *c, double x, double y, double align, double size, bool halo, const char *text);
+} dyd_canvas_kind;
+
 struct dyd_canvas {
   dyd_format format;
+  const dyd_canvas_kind *kind;
+  const char *font; /* NULL: sans-serif */
+  double text, scale, box[4];
+  double low; /* the greatest y of a text */
   FILE *out;
-  dyd_sink to;       /* of svg: to it */
+  dyd_sink to;       /* of svg and TikZ: to it */
   int error;         /* errno of the first write that failed, else 0 */
-  struct _cairo *cr; /* of svg: to measure texts; NULL without cairo */
+  struct _cairo *cr; /* of svg and TikZ: to measure texts; NULL without cairo */
   dyd_path_step *step;
   size_t count, cap;
   bool failed; /* memory ran out */
-  bool open;   /* svg: a group with the paint `shared` */
+  bool open;   /* a group with the paint `shared` */
   dyd_paint shared;
   unsigned clips; /* svg: how many there are */
   char id[80], title[160];
 };
 
+/* To hundredths, with a point in every locale; lengths beyond any page are clamped. Several: with `between` them. */
+void dyd_put_length(dyd_sink *to, double x);
+void dyd_put_lengths(dyd_sink *to, const char *before, const double *x, int count, const char *between);
+/* Ends the group of one paint, if one is open, with `end`; false: it is that of p, and stays. */
+bool dyd_canvas_group(dyd_canvas *c, const dyd_paint *p, const char *end);
+
+extern const dyd_canvas_kind dyd_canvas_tikz;
+
 /* ---- canvas_cairo.c; canvas_plain.c where the library was built without it ---- */
 
-void dyd_cairo_begin(dyd_canvas *c, double width, double height);
+extern const dyd_canvas_kind dyd_canvas_cairo;
+void dyd_cairo_begin(dyd_canvas *c);
 /* Finishes the page and writes it; returns st, or the error of writing. */
 dyd_status dyd_cairo_end(dyd_canvas *c, dyd_status st, dyd_error *err);
-void dyd_cairo_paint(dyd_canvas *c, const dyd_paint *p);
-void dyd_cairo_clip(dyd_canvas *c);
-void dyd_cairo_unclip(dyd_canvas *c);
 double dyd_cairo_width(dyd_canvas *c, double size, const char *text);
-void dyd_cairo_text(dyd_canvas *c, double x, double y, bool halo, const char *text);
 
 #endif

@@ -40,7 +40,7 @@ static void cairo_colour(cairo_t *cr, unsigned rgb, double alpha) {
   cairo_set_source_rgba(cr, (rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, alpha);
 }
 
-void dyd_cairo_paint(dyd_canvas *c, const dyd_paint *p) {
+static void cairo_paint_path(dyd_canvas *c, const dyd_paint *p) {
   const double dash[2] = {p->on, p->off};
   cairo_path(c);
   if (p->fill != DYD_NO_COLOUR) {
@@ -55,7 +55,8 @@ void dyd_cairo_paint(dyd_canvas *c, const dyd_paint *p) {
   }
 }
 
-void dyd_cairo_text(dyd_canvas *c, double x, double y, bool halo, const char *text) {
+static void cairo_put_text(dyd_canvas *c, double x, double y, double align, double size, bool halo, const char *text) {
+  x -= align * dyd_cairo_width(c, size, text);
   cairo_new_path(c->cr);
   cairo_move_to(c->cr, x, y);
   if (halo) {
@@ -70,13 +71,13 @@ void dyd_cairo_text(dyd_canvas *c, double x, double y, bool halo, const char *te
   cairo_show_text(c->cr, text);
 }
 
-void dyd_cairo_clip(dyd_canvas *c) {
+static void cairo_clip_path(dyd_canvas *c) {
   cairo_save(c->cr);
   cairo_path(c);
   cairo_clip(c->cr);
 }
 
-void dyd_cairo_unclip(dyd_canvas *c) {
+static void cairo_unclip(dyd_canvas *c) {
   cairo_restore(c->cr);
 }
 
@@ -97,20 +98,28 @@ static cairo_status_t canvas_put(void *closure, const unsigned char *data, unsig
 }
 
 static cairo_surface_t *new_surface(dyd_canvas *c, double width, double height) {
-  if (c->format == DYD_FORMAT_SVG) return cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
   if (c->format == DYD_FORMAT_PDF) return cairo_pdf_surface_create_for_stream(canvas_put, c, width, height);
+  if (c->format != DYD_FORMAT_PNG) return cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
   return cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)ceil(width * SCALE_OF_PNG),
                                     (int)ceil(height * SCALE_OF_PNG));
 }
 
-void dyd_cairo_begin(dyd_canvas *c, double width, double height) {
-  cairo_surface_t *surface = new_surface(c, width, height);
+const dyd_canvas_kind dyd_canvas_cairo = {
+    .paint = cairo_paint_path, .clip = cairo_clip_path, .unclip = cairo_unclip, .text = cairo_put_text};
+
+void dyd_cairo_begin(dyd_canvas *c) {
+  const double *b = c->box, scale = c->scale * (c->format == DYD_FORMAT_PNG ? SCALE_OF_PNG : 1);
+  cairo_surface_t *surface = new_surface(c, (b[1] - b[0]) * c->scale, (b[3] - b[2]) * c->scale);
   c->cr = cairo_create(surface);
   cairo_surface_destroy(surface); /* cr holds it */
-  cairo_select_font_face(c->cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_select_font_face(c->cr, c->font ? c->font : "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_line_cap(c->cr, CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(c->cr, CAIRO_LINE_JOIN_ROUND);
-  if (c->format == DYD_FORMAT_PNG) cairo_scale(c->cr, SCALE_OF_PNG, SCALE_OF_PNG);
+  if (c->kind != &dyd_canvas_cairo) return; /* texts are measured in the lengths of the page */
+  cairo_colour(c->cr, 0xffffff, 1);
+  if (c->format == DYD_FORMAT_PNG) cairo_paint(c->cr); /* pixels that the page covers in part, too */
+  cairo_scale(c->cr, scale, scale);
+  cairo_translate(c->cr, -b[0], -b[2]);
 }
 
 /* Hands over what cairo has drawn. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The plot of a table of convergence: bounds and counts against stages, logarithmic, as svg, pdf or png. */
+#include "io/decimal.h"
 #include "io/result.h"
 #include "picture/canvas.h"
 #include "picture/picture.h"
@@ -64,10 +65,11 @@ static double panel_y(const plot_panel *p, double value) {
 
 /* ---- ticks ---- */
 
-/* The least step of a series 1, 2, 4, 8 .. (base 2) or 1, 2, 3 .. that gives at most eight ticks. */
-static double tick_step(const plot_panel *p, int base) {
+/* The least step of a series 1, 2, 4, 8 .. (base 2) or 1, 2, 3 .. that gives at most eight ticks, fewer of large text.
+ */
+static double tick_step(const plot_panel *p, int base, double text) {
   double step = 1;
-  while ((p->high - p->low) / step > 8) step = base == 2 ? 2 * step : step + 1;
+  while ((p->high - p->low) / step > 8 / text) step = base == 2 ? 2 * step : step + 1;
   return step;
 }
 
@@ -78,7 +80,7 @@ static void grid_line(dyd_canvas *on, double x0, double y0, double x1, double y1
 
 static void draw_levels(dyd_canvas *on, const plot_panel *p, int base) {
   char label[40];
-  double step = tick_step(p, base);
+  double zero = panel_y(p, -INFINITY), step = tick_step(p, base, on->text);
   for (double v = ceil(p->low / step) * step; v <= p->high; v += step) {
     double y = panel_y(p, v);
     grid_line(on, p->x, y, p->x + p->width, y);
@@ -86,10 +88,9 @@ static void draw_levels(dyd_canvas *on, const plot_panel *p, int base) {
       snprintf(label, sizeof label, "%.0f", pow(10, v));
     else
       snprintf(label, sizeof label, "%d^%.0f", base, v);
-    dyd_canvas_text(on, p->x - 6, y + 3.5, 1, 10, false, label);
+    if (zero - y >= 11 * on->text) dyd_canvas_text(on, p->x - 6, y + 3.5 * on->text, 1, 10, false, label);
   }
-  double zero = panel_y(p, -INFINITY);
-  dyd_canvas_text(on, p->x - 6, zero + 3.5, 1, 10, false, "0");
+  dyd_canvas_text(on, p->x - 6, zero + 3.5 * on->text, 1, 10, false, "0");
 }
 
 static void draw_stages(dyd_canvas *on, const plot_panel *p, const dyd_convergence *c) {
@@ -99,15 +100,21 @@ static void draw_stages(dyd_canvas *on, const plot_panel *p, const dyd_convergen
     double x = panel_x(p, c, k), foot = p->y + p->height;
     grid_line(on, x, p->y, x, foot);
     snprintf(label, sizeof label, "%" PRIu64, c->row[k]->stage);
-    dyd_canvas_text(on, x, foot + 13, 0.5, 10, false, label);
+    dyd_canvas_text(on, x, foot + 3 + 10 * on->text, 0.5, 10, false, label);
     snprintf(label, sizeof label, "%" PRId64, c->row[k]->bits_most);
-    dyd_canvas_text(on, x, foot + 25, 0.5, 9, false, label);
+    dyd_canvas_text(on, x, foot + 3 + 22 * on->text, 0.5, 9, false, label);
   }
-  dyd_canvas_text(on, p->x - 6, p->y + p->height + 13, 1, 10, false, "stage");
-  dyd_canvas_text(on, p->x - 6, p->y + p->height + 25, 1, 9, false, "bits");
+  dyd_canvas_text(on, p->x - 6, p->y + p->height + 3 + 10 * on->text, 1, 10, false, "stage");
+  dyd_canvas_text(on, p->x - 6, p->y + p->height + 3 + 22 * on->text, 1, 9, false, "bits");
 }
 
 /* ---- curves ---- */
+
+/* A title in the size, or in that in which it fits the page. */
+static void draw_title(dyd_canvas *on, double x, double y, double size, const char *text) {
+  double room = on->box[1] - x - 4, wide = dyd_canvas_width(on, size, text);
+  dyd_canvas_text(on, x, y, 0, wide > room ? size * room / wide : size, false, text);
+}
 
 static void draw_series_mark(dyd_canvas *on, const plot_series *s, double x, double y) {
   const double radius = 3.4;
@@ -161,12 +168,12 @@ static void draw_key(dyd_canvas *on, const plot_series *s, double x, double y) {
   dyd_canvas_line(on, x + 30, y);
   stroke_series(on, s);
   draw_series_mark(on, s, x + 15, y);
-  dyd_canvas_text(on, x + 38, y + 3.5, 0, 10.5, false, s->name);
+  dyd_canvas_text(on, x + 38, y + 3.5 * on->text, 0, 10.5, false, s->name);
 }
 
 /* Frame, ticks (labels base^k), curves, legend. */
-static void panel_draw(dyd_canvas *on, const plot_panel *p, const dyd_convergence *c, int base) {
-  dyd_canvas_text(on, p->x, p->y - 7, 0, 12, false, p->title);
+static void panel_draw(dyd_canvas *on, const plot_panel *p, const dyd_convergence *c, int base, bool bare) {
+  draw_title(on, p->x, p->y - 7, 12, p->title);
   draw_levels(on, p, base);
   draw_stages(on, p, c);
   dyd_canvas_box(on, p->x, p->y, p->width, p->height);
@@ -175,12 +182,12 @@ static void panel_draw(dyd_canvas *on, const plot_panel *p, const dyd_convergenc
   for (size_t s = 0; s < p->count; s++) {
     if (!has_values(p, s, c)) continue;
     draw_curve(on, p, s, c);
-    draw_key(on, &p->series[s], p->x + p->width + 14, key);
-    key += 19;
+    if (!bare) draw_key(on, &p->series[s], p->x + p->width + 14, key);
+    key += 19 * on->text;
   }
 }
 
-enum { WIDTH = 860, HEIGHT = 640 };
+enum { WIDTH = 860 };
 
 /* ---- values; a picture shows them to the width of a line ---- */
 
@@ -191,14 +198,17 @@ static double log2_of(const dyd_dyadic *x) {
   return log2(m) + (double)e + (double)x->exp;
 }
 
+enum { BOUNDS = 6 };
+
+/* NULL: it is not known. */
+static const dyd_dyadic *plot_bound(const dyd_stage_row *r, size_t k) {
+  const dyd_dyadic *bound[BOUNDS] = {&r->area,        &r->hausdorff,     &r->v_area,
+                                     &r->v_hausdorff, &r->width_largest, &r->width_median};
+  return k < 4 && !(k < 2 ? r->bounded : r->voronoi) ? NULL : bound[k];
+}
+
 static void plot_bounds(double *out, const dyd_stage_row *r) {
-  const dyd_dyadic *bound[] = {r->bounded ? &r->area : NULL,
-                               r->bounded ? &r->hausdorff : NULL,
-                               r->voronoi ? &r->v_area : NULL,
-                               r->voronoi ? &r->v_hausdorff : NULL,
-                               &r->width_largest,
-                               &r->width_median};
-  for (size_t k = 0; k < sizeof bound / sizeof *bound; k++) out[k] = bound[k] ? log2_of(bound[k]) : (double)NAN;
+  for (size_t k = 0; k < BOUNDS; k++) out[k] = plot_bound(r, k) ? log2_of(plot_bound(r, k)) : (double)NAN;
 }
 
 static void plot_counts(double *out, const dyd_stage_row *r) {
@@ -226,7 +236,7 @@ static const plot_series counts[] = {{"possible pairs", 0x000000, 0, 0},
 
 /* ---- the page ---- */
 
-static void plot_draw(dyd_canvas *on, const dyd_convergence *c) {
+static void plot_draw(dyd_canvas *on, const dyd_convergence *c, bool bare) {
   const bool piece = c->of >= DYD_CONVERGE_DISC;
   plot_panel top = {70,
                     66,
@@ -239,21 +249,67 @@ static void plot_draw(dyd_canvas *on, const dyd_convergence *c) {
                     piece ? piece_bounds : bounds,
                     sizeof bounds / sizeof *bounds,
                     plot_bounds};
-  plot_panel bottom = {
-      70, 426, 570, 150, 0, 1, "count", "Pairs and faces", counts, sizeof counts / sizeof *counts, plot_counts};
+  plot_panel bottom = {70,         356 + 70 * on->text,
+                       570,        150,
+                       0,          1,
+                       "count",    "Pairs and faces",
+                       counts,     sizeof counts / sizeof *counts,
+                       plot_counts};
   char title[120];
   snprintf(title, sizeof title, "dyadel converge: %s, %s schedule, outcome %s", dyd_converge_of_text(c->of),
            dyd_schedule_text(c->options->schedule), dyd_outcome_text(c->outcome));
-  dyd_canvas_text(on, 70, 32, 0, 15, false, title);
+  if (!bare) draw_title(on, 70, 66 - 34 * on->text, 15, title);
   panel_fit(&top, c);
-  panel_draw(on, &top, c, 2);
+  panel_draw(on, &top, c, 2, bare);
   if (piece) return;
   panel_fit(&bottom, c);
-  panel_draw(on, &bottom, c, 10);
+  panel_draw(on, &bottom, c, 10, bare);
 }
 
+/* Bare: the curves with their scales, without title and key. */
 dyd_status dyd_convergence_picture(const dyd_output *o) {
-  dyd_canvas *on = dyd_canvas_new(o, WIDTH, HEIGHT, "convergence");
-  if (on) plot_draw(on, o->what);
+  dyd_page page;
+  dyd_status st = dyd_page_fit(&page, o, o->style.bare ? 580 : 570, o->style.bare ? 70 : WIDTH - 570);
+  if (st != DYD_OK) return st;
+  const double t = page.text, right = o->style.bare ? 650 : 640 + (WIDTH - 640) * t;
+  const double box[4] = {70 * (1 - t), right, o->style.bare ? 66 - 24 * t : 66 * (1 - t), 506 + 134 * t};
+  dyd_canvas *on = dyd_canvas_new(o, &page, box, "convergence");
+  if (on) plot_draw(on, o->what, o->style.bare);
   return dyd_canvas_end(on, DYD_OK, o->err);
 }
+
+/* ---- pgfplots ---- */
+
+/* Zero has no place on a logarithmic scale. */
+static bool has_pgf(const dyd_stage_row *r, size_t k) {
+  return plot_bound(r, k) && dyd_dyadic_sgn(plot_bound(r, k)) != 0;
+}
+
+static void pgf_curve(FILE *out, const dyd_convergence *c, const plot_series *series, size_t k, bool legend) {
+  char text[DYD_DECIMAL_SIZE];
+  size_t points = 0;
+  for (size_t n = 0; n < c->count; n++) {
+    if (!has_pgf(c->row[n], k)) continue;
+    dyd_decimal_dyadic(text, plot_bound(c->row[n], k), 6, DYD_UP);
+    fprintf(out, "%s(%" PRId64 ",%s)", points++ ? " " : "\\addplot coordinates {", c->row[n]->bits_most, text);
+  }
+  if (points) fputs("};\n", out);
+  if (points && legend) fprintf(out, "\\addlegendentry{%s}\n", series->name);
+}
+
+/* Bounds against the bits asked for, as coordinates of pgfplots. */
+static dyd_status convergence_pgf(const dyd_output *o) {
+  const dyd_convergence *c = o->what;
+  const plot_series *series = c->of >= DYD_CONVERGE_DISC ? piece_bounds : bounds;
+  fprintf(
+      o->out,
+      "%% dyadel converge: %s, %s schedule, outcome %s; bounds and widths are rounded up, those that are 0 omitted\n"
+      "\\begin{tikzpicture}\n\\begin{axis}[xlabel={bits},ylabel={upper bound},ymode=log,log basis y=2,legend "
+      "pos=outer north east]\n",
+      dyd_converge_of_text(c->of), dyd_schedule_text(c->options->schedule), dyd_outcome_text(c->outcome));
+  for (size_t k = 0; k < BOUNDS; k++) pgf_curve(o->out, c, &series[k], k, !o->style.bare);
+  fputs("\\end{axis}\n\\end{tikzpicture}\n", o->out);
+  return DYD_OK;
+}
+
+dyd_writer *const dyd_pgf_writers[DYD_CONTENTS] = {[DYD_CONTENT_PLOT] = convergence_pgf};

@@ -220,7 +220,7 @@ static void legend_bar(dyd_legend *l) {
   double left = right - digit * pow(10, exponent) * v->scale;
   double line[3][2][2] = {{{left, y - 4}, {left, y + 4}}, {{left, y}, {right, y}}, {{right, y - 4}, {right, y + 4}}};
   for (int k = 0; k < 3; k++) dyd_picture_line(l->canvas, line[k], 0x222222, 1.5, 0, 0);
-  dyd_canvas_text(l->canvas, right, y + 20, 1, SIZE, false, text);
+  dyd_canvas_text(l->canvas, right, y + 20 * l->canvas->text, 1, SIZE, false, text);
   l->bar = fmin(left, right - dyd_canvas_width(l->canvas, SIZE, text));
 }
 
@@ -228,13 +228,13 @@ void dyd_legend_begin(dyd_legend *l, dyd_canvas *c, const dyd_view *v) {
   l->canvas = c;
   l->view = v;
   l->x = DYD_VIEW_LEFT;
-  l->y = DYD_VIEW_EDGE + v->height + AXIS;
+  l->y = DYD_VIEW_EDGE + v->height + AXIS * c->text;
   legend_bar(l);
 }
 
 /* Where the row at hand ends: the first two leave room for the bar and its length. */
 static double legend_right(const dyd_legend *l) {
-  bool beside = l->y < DYD_VIEW_EDGE + l->view->height + AXIS + 1.5 * ROW;
+  bool beside = l->y < DYD_VIEW_EDGE + l->view->height + (AXIS + 1.5 * ROW) * l->canvas->text;
   return beside ? l->bar - 20 : DYD_VIEW_LEFT + l->view->width;
 }
 
@@ -242,37 +242,37 @@ static double legend_right(const dyd_legend *l) {
 static void legend_room(dyd_legend *l, double wide) {
   if (l->x == DYD_VIEW_LEFT || l->x + wide <= legend_right(l)) return;
   l->x = DYD_VIEW_LEFT;
-  l->y += ROW;
+  l->y += ROW * l->canvas->text;
 }
 
 /* The text next to the mark at l->x, of width `mark`. */
 static void legend_words(dyd_legend *l, double mark, const char *text) {
-  dyd_canvas_text(l->canvas, l->x + mark + 6, l->y + 5, 0, SIZE, false, text);
-  l->x += mark + 30 + dyd_canvas_width(l->canvas, SIZE, text);
+  dyd_canvas_text(l->canvas, l->x + mark + 6 * l->canvas->text, l->y + 5 * l->canvas->text, 0, SIZE, false, text);
+  l->x += mark + 30 * l->canvas->text + dyd_canvas_width(l->canvas, SIZE, text);
 }
 
 static double entry_width(dyd_legend *l, double mark, const char *text) {
-  return mark + 6 + dyd_canvas_width(l->canvas, SIZE, text);
+  return mark + 6 * l->canvas->text + dyd_canvas_width(l->canvas, SIZE, text);
 }
 
 void dyd_legend_line(dyd_legend *l, unsigned rgb, double on, double off, const char *text) {
-  legend_room(l, entry_width(l, 30, text));
-  double z[2][2] = {{l->x, l->y}, {l->x + 30, l->y}};
+  legend_room(l, entry_width(l, 30 * l->canvas->text, text));
+  double z[2][2] = {{l->x, l->y}, {l->x + 30 * l->canvas->text, l->y}};
   dyd_picture_line(l->canvas, z, rgb, 2, on, off);
-  legend_words(l, 30, text);
+  legend_words(l, 30 * l->canvas->text, text);
 }
 
 void dyd_legend_patch(dyd_legend *l, unsigned rgb, const char *text) {
-  legend_room(l, entry_width(l, 30, text));
-  dyd_canvas_box(l->canvas, l->x, l->y - 7, 30, 14);
+  legend_room(l, entry_width(l, 30 * l->canvas->text, text));
+  dyd_canvas_box(l->canvas, l->x, l->y - 7 * l->canvas->text, 30 * l->canvas->text, 14 * l->canvas->text);
   dyd_picture_shape(l->canvas, rgb, 1, 0x555555, 0.6);
-  legend_words(l, 30, text);
+  legend_words(l, 30 * l->canvas->text, text);
 }
 
 void dyd_legend_dot(dyd_legend *l, unsigned fill, unsigned edge, const char *text) {
-  legend_room(l, entry_width(l, 8, text));
-  dyd_picture_dot(l->canvas, l->x + 4, l->y, 3.5, fill, edge);
-  legend_words(l, 8, text);
+  legend_room(l, entry_width(l, 8 * l->canvas->text, text));
+  dyd_picture_dot(l->canvas, l->x + 4 * l->canvas->text, l->y, 3.5 * l->canvas->text, fill, edge);
+  legend_words(l, 8 * l->canvas->text, text);
 }
 
 void dyd_legend_marks(dyd_legend *l, const dyd_site_marks *m, unsigned rgb) {
@@ -308,11 +308,11 @@ static size_t legend_fit(dyd_legend *l, char *line, size_t size, const char *tex
 
 void dyd_legend_text(dyd_legend *l, const char *text) {
   char line[400];
-  if (l->x > DYD_VIEW_LEFT) l->x = DYD_VIEW_LEFT, l->y += ROW;
+  if (l->x > DYD_VIEW_LEFT) l->x = DYD_VIEW_LEFT, l->y += ROW * l->canvas->text;
   for (size_t fits = 1; *text && fits > 0; text += *text == ' ') {
     text += fits = legend_fit(l, line, sizeof line, text);
-    dyd_canvas_text(l->canvas, l->x, l->y + 5, 0, SIZE, false, line);
-    l->y += ROW;
+    dyd_canvas_text(l->canvas, l->x, l->y + 5 * l->canvas->text, 0, SIZE, false, line);
+    l->y += ROW * l->canvas->text;
   }
 }
 

@@ -143,7 +143,7 @@ void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double 
   double b[4], z[4];
   if (!dyd_view_sees(l->view, box)) return;
   const char *text = dyd_label_text(spare, e, site);
-  double wide = dyd_canvas_width(c, size, text), high = 0.74 * size, gap = 3;
+  double wide = dyd_canvas_width(c, size, text), high = 0.74 * size * c->text, gap = 3;
   page_box(b, l->view, box, fmax(l->view->dot, 3.5));
   for (int k = 0; k < 8; k++) {
     int across = place[k][0], down = place[k][1];

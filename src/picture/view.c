@@ -219,7 +219,7 @@ static bool find_ticks(ticks *t, double low, double high, double most, bool sphe
 /* Whole numbers where they are short, else by how much they differ from the first. */
 static void tick_label(char *out, size_t size, dyd_canvas *c, const ticks *t, int64_t n) {
   dyd_tick_text(out, size, n * t->digit, t->exponent);
-  if (n == t->first || dyd_canvas_width(c, SIZE, out) <= LONGEST) return;
+  if (n == t->first || dyd_canvas_width(c, SIZE, out) <= LONGEST * c->text) return;
   *out = '+';
   dyd_tick_text(out + 1, size - 1, (n - t->first) * t->digit, t->exponent);
 }
@@ -233,18 +233,21 @@ static void axis_along(dyd_canvas *c, const dyd_view *v, double low, double high
   const double *f = v->frame;
   char label[48];
   ticks t;
-  if (!find_ticks(&t, low, high, (vertical ? HIGHEST : WIDEST) / v->scale, v->unit)) return;
+  if (!find_ticks(&t, low, high, (vertical ? fmax(HIGHEST, 30 * c->text) : fmax(WIDEST, 100 * c->text)) / v->scale,
+                  v->unit))
+    return;
   double step = t.digit * pow(10, t.exponent);
   for (int64_t n = t.first; n <= t.last; n++) {
     tick_label(label, sizeof label, c, &t, n);
     double at = vertical ? dyd_view_y(v, (double)n * step) : dyd_view_x(v, (double)n * step);
     if (vertical) {
       draw_tick(c, f[0], at, -5, 0);
-      bool wide = dyd_canvas_width(c, SIZE, label) > LONGEST; /* it begins at the rim of the page */
-      dyd_canvas_text(c, wide ? 4 : f[0] - 8, wide ? at - 6 : at + 4, wide ? 0 : 1, SIZE, wide, label);
+      bool wide = dyd_canvas_width(c, SIZE, label) > LONGEST * c->text; /* it begins at the rim of the page */
+      dyd_canvas_text(c, wide ? c->box[0] + 4 : f[0] - 8, wide ? at - 6 : at + 4 * c->text, wide ? 0 : 1, SIZE, wide,
+                      label);
     } else {
       draw_tick(c, at, f[3], 0, 5);
-      dyd_canvas_text(c, at, f[3] + 18, 0.5, SIZE, false, label);
+      dyd_canvas_text(c, at, f[3] + 5 + 13 * c->text, 0.5, SIZE, false, label);
     }
   }
 }
@@ -304,15 +307,43 @@ int dyd_clip_convex(double z[DYD_CLIP_MOST][2], int n, const double box[4]) {
 
 /* ---- the page ---- */
 
+/* The page: the frame alone, or with coordinates and a legend as low as it gets. */
+static dyd_status page_of_view(dyd_page *page, double box[4], const dyd_output *o, const dyd_view *v,
+                               dyd_draw_fn inside, dyd_draw_fn legend, void *context) {
+  dyd_output nowhere = *o;
+  memcpy(box, v->frame, sizeof v->frame);
+  dyd_status st =
+      dyd_page_fit(page, o, o->style.bare ? box[1] - box[0] : v->width, o->style.bare ? 0 : DYD_VIEW_LEFT + EDGE);
+  if (st != DYD_OK || o->style.bare) return st;
+  box[0] = DYD_VIEW_LEFT * (1 - page->text);
+  box[1] = box[0] + v->width + (DYD_VIEW_LEFT + EDGE) * page->text;
+  box[2] = 0, box[3] = ceil(v->height + EDGE + FOOT);
+  if (page->scale == 1) box[1] = ceil(box[1]);
+  if (page->text == 1) return DYD_OK;
+  nowhere.format = DYD_FORMAT_CSV;
+  dyd_canvas *c = dyd_canvas_new(&nowhere, page, box, "");
+  if (c) {
+    inside(c, context); /* the legend is of what was drawn */
+    legend(c, context);
+    box[3] = c->low + 10 * page->text;
+  }
+  return dyd_canvas_end(c, DYD_OK, o->err);
+}
+
 dyd_status dyd_view_write(const dyd_output *o, const dyd_view *v, const char *title, dyd_draw_fn inside,
                           dyd_draw_fn legend, void *context) {
-  dyd_canvas *c = dyd_canvas_new(o, ceil(v->width + DYD_VIEW_LEFT + EDGE), ceil(v->height + EDGE + FOOT), title);
-  if (!c) return DYD_E_NOMEM;
+  dyd_page page;
+  double box[4];
+  dyd_status st = page_of_view(&page, box, o, v, inside, legend, context);
+  dyd_canvas *c = st == DYD_OK ? dyd_canvas_new(o, &page, box, title) : NULL;
+  if (!c) return st == DYD_OK ? DYD_E_NOMEM : st;
   dyd_view_frame_path(c, v);
   dyd_canvas_clip(c);
   inside(c, context);
   dyd_canvas_unclip(c);
-  axes_draw(c, v);
-  legend(c, context);
+  if (!o->style.bare) {
+    axes_draw(c, v);
+    legend(c, context);
+  }
   return dyd_canvas_end(c, DYD_OK, o->err);
 }

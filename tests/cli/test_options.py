@@ -35,11 +35,12 @@ WRONG = {
     '--window': ('', '0,1,0', '0,1,0,1,2', '0,1,0,x', '0,1,0,pi', '0,1,,1', '0,1,0,1,', '1,0,0,1', '0,1,2,1', '1,1,0,1',
                  '0,1,2,2', '[0,1],0,1,2'),
     '--plot': ('', 'plot', 'plot.gif', 'png'),
+    '--width': ('', '0', '-3', '12km', 'cm', '12 cm', '5001', '6e3mm', 'nan', 'inf'), '--font-size': ('', '0', '12px', '71in'),
     '--help': ('fish', 'MAN'),
 }
-RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--ties': 'off', '--list-ties': 'none', '--metric': 'box', '--until': 'decided'}
+RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--ties': 'off', '--list-ties': 'none', '--metric': 'box', '--until': 'decided', '--width': '85mm', '--font-size': '9'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
-TEXTS = {'--queries', '--query-columns', '--query-id', '--up-to', '--sigma', '--sigma-column', '--confidence', '--cost-column', '--label', '--accuracy', '--pairs', '--clip-to', '--columns', '--delimiter', '--id', '--in-layer', '--carry', '--merge-by', '--points', '--radius', '--radius-column', '--radius-unit', '--radius-scale', '--skip-lines', '--thousands', '--missing', '--oracle', '--policy', '--output', '--trace',
+TEXTS = {'--queries', '--query-columns', '--query-id', '--up-to', '--sigma', '--sigma-column', '--confidence', '--cost-column', '--label', '--font', '--pgf', '--accuracy', '--pairs', '--clip-to', '--columns', '--delimiter', '--id', '--in-layer', '--carry', '--merge-by', '--points', '--radius', '--radius-column', '--radius-unit', '--radius-scale', '--skip-lines', '--thousands', '--missing', '--oracle', '--policy', '--output', '--trace',
          '--replay', '--resume', '--certificate'}
 
 

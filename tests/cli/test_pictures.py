@@ -4,9 +4,14 @@
 
 Usage: test_pictures.py COMMAND DATA
 """
+import csv
 import os
+import pathlib
 import random
 import re
+import shutil
+import subprocess
+import tempfile
 
 import svg
 from harness import DATA, expect, main, run
@@ -253,6 +258,112 @@ def test_kinds_agree():
         for kind, magic in (('pdf', r'\A%PDF'), ('png', r'\A.PNG')):
             result = run(command, '--quiet', '--format', kind, '-', *place, stdin=TWELVE, binary=True)
             assert result.code in (0, 3) and re.match(magic, result.out) and len(result.out) > 3000, (command, kind)
+
+
+def lengths_of(path):
+    """The ends, inner points, radii of a path of svg, and of one of TikZ, in turn."""
+    arcs = re.sub(r'A(\S+) \S+ 0 [01] [01] \S+ [^A-Z]*', r'R\1 ', path)
+    if 'R' in arcs:  # a circle: two arcs, of which TikZ writes one
+        return [float(t) for t in re.findall(r'-?[\d.]+', re.sub(r'(R\S+ )(?=R)', '', arcs))]
+    return [float(t) for t in re.findall(r'-?[\d.]+', arcs)]
+
+
+def tikz(command, points, *options, place=()):
+    result = run(command, '--quiet', '--format', 'tikz', *options, '-', *place, stdin=points)
+    assert result.code in (0, 3), result.err
+    return result.out
+
+
+def test_tikz_has_the_shapes_of_svg():
+    """Each path with the same numbers, in the same order, in the same colours; each text; scopes end."""
+    for command, place in ALL:
+        if command == 'bisector':
+            continue  # its curves go far: below
+        text, other = tikz(command, TWELVE, place=place), picture(command, TWELVE, place=place)
+        drawn = [lengths_of(re.sub(r'arc\[start angle=\S+?,end angle=\S+?,radius=(\S+?)\]', r' \1 ', line))
+                 for line in re.findall(r'^\\(?:fill|draw|filldraw) (.*);$', text, re.M)]
+        shown = [lengths_of(p.look['d']) for p in svg.paths(other)]
+        assert drawn == shown and len(drawn) > 20, (command, [x for x in zip(drawn, shown) if x[0] != x[1]][:2])
+        assert text.count(r'\begin{scope}') == text.count(r'\end{scope}') > 2
+        assert re.findall(r'\] at \(.*?\) \{(.*)\};$', text, re.M) == [re.sub(r'([\\{}$&#_%])', r'\\\1', w) for w in svg.words(other)]
+        colours = {p.look['stroke'] for p in svg.paths(other) if 'stroke' in p.look} - {'none'}
+        assert {'#%02x%02x%02x' % tuple(map(int, c)) for c in re.findall(r'draw=\{rgb,255:red,(\d+);green,(\d+);blue,(\d+)\}', text)} == colours
+
+
+def test_tikz_is_within_the_lengths_of_tex():
+    """Whatever is far, all is within 16000 points, and what a page shows of it is the same."""
+    for points in ('[0,2] [0,1]\n[5,7] [4,5]\n', '0 0\n1 1e-9\n2 0\n3 5\n', '0 0\n1 1e-4\n2 0\n3 5\n', '[0,1] 0\n[1e7,2e7] 1\n0 3\n'):
+        for command in ('bisector', 'voronoi', 'disc')[:3 if points.count('\n') > 2 else 2]:
+            text = tikz(command, points, '--width', '12cm')
+            assert max(abs(float(t)) for z in re.findall(r'\((-?[\d.]+),(-?[\d.]+)\)|radius=([\d.]+)', text) for t in z if t) < 16000, (command, points)
+    cubic = picture('bisector', '[0,2] [0,1]\n[5,7] [4,5]\n')
+    left, right, top, bottom = svg.frame(cubic)
+    ends = {tuple(n[k:k + 2]) for p in svg.paths(cubic) if p.look.get('id', '').startswith('arc-') for n in [svg.numbers(p)] for k in (0, len(n) - 2)}
+    found = {(float(x), float(y)) for x, y in re.findall(r'\((\S+?),(\S+?)\)', tikz('bisector', '[0,2] [0,1]\n[5,7] [4,5]\n'))}
+    near = {e for e in ends if left <= e[0] <= right and top <= e[1] <= bottom}
+    assert len(near) >= 10 and near <= found, near - found
+
+
+def test_tikz_escapes():
+    points = 'x,y,n\n0,0,50% & $1_a^2~#{\\\n9,0,<b>\n0,9,c\n'
+    text = tikz('delaunay', points, '--columns', 'x,y', '--id', 'n')
+    assert r'{50\% \& \$1\_a\textasciicircum{}2\textasciitilde{}\#\{\textbackslash{}};' in text and r'{\textless{}b\textgreater{}};' in text
+
+
+def test_sizes():
+    """--width is that of all, --font-size of texts, in points; --bare leaves the frame alone."""
+    for command, place in ALL:
+        for options, width, size in ((('--width', '4in'), 288, 7), (('--width', '1600'), 1600, 20), (('--width', '254mm', '--font-size', '12'), 720, 12),
+                                     (('--font-size', '7'), None, 7), (('--font-size', '21pt'), None, 21)):
+            text = picture(command, TWELVE, *options, place=place)
+            head = re.search(r'width="([\d.]+)(pt)?" height="([\d.]+)(pt)?" viewBox="(\S+) (\S+) (\S+) (\S+)"', text)
+            scale = float(head[1]) / float(head[7])
+            assert width is None or (head[2] and abs(float(head[1]) - width) < 0.02), (command, options, head[0])
+            legend = [e for e in svg.elements(text) if e.tag == 'text' and 'units of' in (e.text or '')][0]
+            assert abs(float(legend.look['font-size']) * scale - size) < 0.06 or (size == 20 and scale > 1), (command, options)
+            low, high = float(head[6]), float(head[6]) + float(head[8])
+            assert all(low < float(e.look['y']) < high for e in svg.elements(text) if e.tag == 'text'), (command, options)
+            assert all(float(e.look['x']) >= float(head[5]) for e in svg.elements(text) if e.tag == 'text')
+        bare = picture(command, TWELVE, '--bare', '--width', '85mm', place=place)
+        left, right, top, bottom = svg.frame(bare)
+        view = [float(v) for v in re.search(r'viewBox="(.*?)"', bare)[1].split()]
+        assert view == [left, top, right - left, bottom - top] and all(NUMBER.match(w) for w in svg.words(bare)), command
+    expect(run('delaunay', '--format', 'svg', '--width', '40', '-', stdin=TWELVE), 1, r'\A\Z', 'no room beside texts')
+    expect(run('delaunay', '--width', '40mm', '-', stdin=TWELVE), 2, r'\A\Z', 'about pictures; give -o')
+    text = picture('delaunay', TWELVE, '--font', 'A "b" <c>')
+    assert 'font-family="A &quot;b&quot; &lt;c&gt;"' in text and svg.words(text)
+    assert r'\fontfamily{phv}\selectfont' in tikz('delaunay', TWELVE, '--font', 'phv')
+
+
+def test_pgf_has_the_bounds_of_the_table():
+    points = 'sqrt(2) 0\n0 sqrt(3)\n2 2\nsqrt(5) e\n'
+    for of, names in (('delaunay', 'area hausdorff width_largest width_median'), ('voronoi', 'area hausdorff v_area v_hausdorff width_largest width_median'),
+                      ('disc', 'area hausdorff width_largest width_median')):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, 'run.pgf')
+            table = run('converge', '-', '--of', of, '--step-bits', '5', '--until', 'area:20', '--quiet', '--pgf', str(file), '--plot', str(file) + '.pgf', stdin=points, comments=False)
+            text = file.read_text(encoding='utf-8')
+            assert text == pathlib.Path(str(file) + '.pgf').read_text(encoding='utf-8')
+        rows = list(csv.DictReader(table.out.splitlines()))
+        curves = re.findall(r'addplot coordinates \{(.*)\};\n\\addlegendentry', text)
+        assert len(curves) == len(names.split()) and len(rows) > 3
+        for name, curve in zip(names.split(), curves):
+            assert re.findall(r'\((\d+),(\S+?)\)', curve) == [(r['bits_most'], r[name]) for r in rows if r[name] not in ('', '0')], (of, name)
+
+
+def test_latex():
+    """A document with every picture is set without an error, where there is LaTeX."""
+    if not shutil.which('pdflatex'):
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        parts = []
+        for command, place in ALL:
+            parts.append(f'{command}.tikz')
+            pathlib.Path(folder, parts[-1]).write_text(tikz(command, TWELVE, '--width', '8cm', place=place), encoding='utf-8')
+        body = '\n\n'.join(f'\\input{{{p}}}' for p in parts)
+        pathlib.Path(folder, 'all.tex').write_text(f'\\documentclass{{article}}\\usepackage{{tikz}}\\begin{{document}}\n{body}\n\\end{{document}}\n', encoding='utf-8')
+        done = subprocess.run(['pdflatex', '-interaction=nonstopmode', '-halt-on-error', 'all.tex'], cwd=folder, stdout=subprocess.PIPE, check=False)
+        assert done.returncode == 0, done.stdout[-2000:]
 
 
 main(globals())

@@ -30,7 +30,7 @@ GLOBE = 'lon,lat\n' + ''.join(f'{rand.uniform(-180, 180):.5f},{rand.uniform(-90,
 REAL = 'sqrt(2) 0\n4 exp(1)\n0 pi\nroot(x^5-x-1,1,2) 7\n3 sqrt(3)\n' + ''.join(f'sqrt({k}) cbrt({k * k + 1})\n' for k in range(20, 90))
 FILES = {'points': POINTS, 'boxes': BOXES, 'globe': GLOBE, 'real': REAL, 'places': POINTS[:4000].rsplit('\n', 1)[0] + '\n'}
 SPHERE = ('--sphere', '--columns', 'lon,lat', 'globe')
-CASES = [('delaunay', 'points', '-o', f'o.{f}') for f in ('csv', 'json', 'geojson', 'wkt', 'obj', 'vtk', 'svg', 'pdf', 'png', 'html', 'csv.gz', 'csv.zst')]
+CASES = [('delaunay', 'points', '-o', f'o.{f}') for f in ('csv', 'json', 'geojson', 'wkt', 'obj', 'vtk', 'svg', 'tikz', 'pdf', 'png', 'html', 'csv.gz', 'csv.zst')]
 CASES += [('voronoi', 'boxes', '-o', f'o.{f}') for f in ('csv', 'json', 'svg', 'png', 'html')]
 CASES += [('delaunay', 'real', '-o', 'o.csv'), ('delaunay', 'boxes', '--discs', '-o', 'o.csv'), ('voronoi', 'points', '--layer', 'tiles', '-o', 'o.csv'),
           ('delaunay', *SPHERE, '-o', 'o.csv'), ('voronoi', *SPHERE, '-o', 'o.svg'), ('converge', 'real', '--no-times', '-o', 'o.csv'),
@@ -74,7 +74,7 @@ def is_whole(name, text):
     """Of formats that hold times, or texts as wide as the fonts found."""
     if name.endswith('json'):
         return json.loads(text)
-    ends = {'svg': b'</svg>', 'html': b'</html>', 'pdf': b'%%EOF', 'png': b'IEND\xaeB`\x82'}
+    ends = {'svg': b'</svg>', 'tikz': b'tikzpicture}', 'html': b'</html>', 'pdf': b'%%EOF', 'png': b'IEND\xaeB`\x82'}
     return text.rstrip().endswith(ends.get(name.rsplit('.', 1)[1], b'\0'))
 
 

@@ -15,6 +15,7 @@ import truth
 from product import Product
 
 VERIFY = 'certificates: laws.judge_certificate runs verify on what rows write, tests/checker tries forgeries'
+LOOK = 'how a picture looks: tests/cli/test_pictures.py'
 PICTURE = 'says nothing that can be read back: the geometry drawn is that of csv and svg'
 REASONS = {  # (command or *, option, format:F, layer:L or OPTION=word): why no row types it
     ('verify', '*'): VERIFY,
@@ -27,7 +28,9 @@ REASONS = {  # (command or *, option, format:F, layer:L or OPTION=word): why no 
     ('check', '--trace'): 'writes the schedule of a fault, and none is expected', ('check', '--replay'): 'as --trace',
     ('converge', '--replay'): 'as --trace', ('converge', '--plot'): PICTURE,
     ('converge', '--rows-only'): 'leaves the header out, and says nothing else',
-    ('*', 'format:pdf'): PICTURE, ('*', 'format:png'): PICTURE,
+    ('*', 'format:pdf'): PICTURE, ('*', 'format:png'): PICTURE, ('*', 'format:tikz'): 'the shapes of svg: tests/cli/test_pictures.py compares',
+    ('*', '--bare'): LOOK, ('*', '--width'): LOOK, ('*', '--font-size'): LOOK, ('*', '--font'): LOOK,
+    ('converge', '--pgf'): 'bounds of the table: tests/cli/test_pictures.py compares',
     ('*', 'format:html'): 'a page holds the data of json: tests/html compares both',
     ('voronoi', 'format:svg'): PICTURE, ('voronoi', 'format:vtk'): 'holds what json does: tests/cli/test_voronoi.py compares',
     ('disc', 'format:svg'): PICTURE, ('bisector', 'format:svg'): PICTURE, ('nearest', 'format:svg'): PICTURE,

@@ -271,7 +271,7 @@ static dyd_status html_head(const html_scene *s, const dyd_output *o) {
   dyd_goal goal = dyd_engine_goal(&bits, e);
   dyd_json j;
   dyd_json_begin(&j, out);
-  dyd_json_head(&j, "dyadel html 1", r->epsg);
+  dyd_json_head(&j, "dyadel html 1", o);
   if (o->name) dyd_json_text(&j, "name", o->name);
   if (dyd_unit_of(r->epsg)) dyd_json_word(&j, "length_unit", dyd_unit_of(r->epsg));
   dyd_json_confidence(&j, r->engine);
