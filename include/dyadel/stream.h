@@ -86,8 +86,10 @@ DYD_API dyd_status dyd_real_from_q(dyd_real **out, const mpq_t q);
 /* The fixed interval [lo,hi], exactly. lo = hi is the exact point. */
 DYD_API dyd_status dyd_real_from_interval(dyd_real **out, const mpq_t lo, const mpq_t hi);
 /* Every coordinate form of the points file: decimal, rational, hexadecimal float, dyadic, degrees with minutes and
- * seconds (47°36'18.3"N, N47.605, 47:36:18.3), [lo,hi], value+-radius, expression, root(polynomial,lo,hi). On
- * DYD_E_PARSE err has the column (from 1). */
+ * seconds (47°36'18.3"N, N47.605, 47:36:18.3), [lo,hi], value+-radius, expression, root(polynomial,lo,hi). And, for
+ * experiments, random(seed), the number in [0,1] whose binary digits a whole number below 2^64 draws, exactly 2^-bits
+ * wide; slow(expression), of which answer n is at most 1/n wide, however many bits are asked for. On DYD_E_PARSE err
+ * has the column (from 1). */
 DYD_API dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_error *err);
 /* The interval [value - radius, value + radius] around any real, at every precision; takes over x. */
 DYD_API dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radius);

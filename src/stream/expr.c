@@ -442,6 +442,8 @@ static const struct {
              {"acos", DYD_OP_ACOS}, {"atan", DYD_OP_ATAN}, {"sinh", DYD_OP_SINH}, {"cosh", DYD_OP_COSH},
              {"tanh", DYD_OP_TANH}, {"abs", DYD_OP_ABS},   {"x", DYD_OP_X}};
 
+const char *const dyd_real_words[DYD_WORDS] = {"root", "random", "slow"};
+
 #define NAME_COUNT (sizeof names / sizeof names[0])
 
 const char *dyd_op_name(dyd_op op) {
@@ -622,17 +624,23 @@ static bool name_is_infinity(const char *name, size_t n) {
   return true;
 }
 
+/* The word that these n letters are, or DYD_WORDS. */
+static dyd_real_word real_word_at(const char *text, size_t n) {
+  unsigned k = 0;
+  while (k < DYD_WORDS && (strlen(dyd_real_words[k]) != n || memcmp(text, dyd_real_words[k], n) != 0)) k++;
+  return (dyd_real_word)k;
+}
+
 static dyd_status name_fail(parser *p, size_t at, size_t n) {
   int shown = n < 32 ? (int)n : 32;
   if (name_is_infinity(p->text + at, n))
     return FAIL(p, at, DYD_E_PARSE,
                 "coordinates are finite, and this is infinite; give a number, or leave the point out");
-  if (n == 4 && !memcmp(p->text + at, "root", 4)) {
-    return FAIL(p, at, DYD_E_PARSE, "root(polynomial, lo, hi) cannot stand within another root");
-  }
+  if (real_word_at(p->text + at, n) < DYD_WORDS)
+    return FAIL(p, at, DYD_E_PARSE, "%.*s cannot stand within root(polynomial, lo, hi)", shown, p->text + at);
   return FAIL(p, at, DYD_E_PARSE,
               "the name '%.*s' is unknown; known are pi e sqrt cbrt exp log sin cos tan asin acos atan "
-              "sinh cosh tanh abs min max root",
+              "sinh cosh tanh abs min max root random slow",
               shown, p->text + at);
 }
 
@@ -664,12 +672,12 @@ static dyd_status push_root(parser *p, dyd_real *x, size_t at) {
   return DYD_OK;
 }
 
-/* "root" has been read. */
-static dyd_status parse_root(parser *p, size_t at) {
+/* The word has been read. */
+static dyd_status parse_root(parser *p, dyd_real_word word, size_t at) {
   dyd_real *x = NULL;
-  if (peek_char(p) != '(') return FAIL(p, p->pos, DYD_E_PARSE, "a '(' is missing after root");
+  if (peek_char(p) != '(') return FAIL(p, p->pos, DYD_E_PARSE, "a '(' is missing after %s", dyd_real_words[word]);
   p->pos++;
-  dyd_status st = p->names.root(&x, &p->pos, p->text, p->length, p->err);
+  dyd_status st = p->names.root(&x, word, &p->pos, p->text, p->length, p->err);
   if (st != DYD_OK) return st;
   bool known = dyd_real_is_final(x);
   st = known ? push_known_root(p, x, at) : push_root(p, x, at);
@@ -686,9 +694,10 @@ static dyd_status parse_name(parser *p) {
   size_t at = p->pos, n = 0, i = 0;
   while (at + n < p->length && (is_letter(p->text[at + n]) || (p->text[at + n] >= '0' && p->text[at + n] <= '9'))) n++;
   while (i < NAME_COUNT && !text_is_name(names[i].name, p->text + at, n)) i++;
-  if (i == NAME_COUNT && p->names.root && n == 4 && !memcmp(p->text + at, "root", 4)) {
+  const dyd_real_word word = i == NAME_COUNT && p->names.root ? real_word_at(p->text + at, n) : DYD_WORDS;
+  if (word < DYD_WORDS) {
     p->pos += n;
-    return parse_root(p, at);
+    return parse_root(p, word, at);
   }
   if (i == NAME_COUNT) return name_fail(p, at, n);
   dyd_op op = names[i].op;

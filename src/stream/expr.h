@@ -121,8 +121,13 @@ typedef struct dyd_draft {
 
 void dyd_draft_init(dyd_draft *d);
 void dyd_draft_clear(dyd_draft *d);
-/* Reads a root, *pos being behind its "root(", and moves *pos behind the closing parenthesis. Errors have a column. */
-typedef dyd_status dyd_root_reader(dyd_real **out, size_t *pos, const char *text, size_t length, dyd_error *err);
+/* The words that a reader of roots takes. */
+typedef enum dyd_real_word { DYD_WORD_ROOT, DYD_WORD_RANDOM, DYD_WORD_SLOW, DYD_WORDS } dyd_real_word;
+extern const char *const dyd_real_words[DYD_WORDS];
+/* Reads a root, or what another word begins, *pos being behind its "root(", and moves *pos behind the closing
+ * parenthesis. Errors have a column. */
+typedef dyd_status dyd_root_reader(dyd_real **out, dyd_real_word word, size_t *pos, const char *text, size_t length,
+                                   dyd_error *err);
 /* Which names are known besides those of numbers and functions. */
 typedef struct dyd_expr_names {
   bool x;

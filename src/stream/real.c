@@ -67,13 +67,16 @@ static void nest_find(nest_ends *n, const dyd_interval *old, const dyd_interval 
 /* Digits that distinguish the ends, three more than their leading bits have in common; at most NEST_DIGITS. */
 enum { NEST_DIGITS = 4000, NEST_SHOWN = 72, NEST_EDGE = 16 };
 
+/* The exponent e with |q| < 2^e; INT64_MIN for 0. */
+static int64_t nest_top(mpq_srcptr q) {
+  if (!mpq_sgn(q)) return INT64_MIN;
+  return 1 + (int64_t)mpz_sizeinbase(mpq_numref(q), 2) - (int64_t)mpz_sizeinbase(mpq_denref(q), 2);
+}
+
 static int nest_digits(const nest_ends *n) {
   int64_t top = n->e;
-  for (int k = 0; k < 2; k++) {
-    int64_t bits =
-        1 + (int64_t)mpz_sizeinbase(mpq_numref(n->end[k]), 2) - (int64_t)mpz_sizeinbase(mpq_denref(n->end[k]), 2);
-    if (mpq_sgn(n->end[k]) && bits > top) top = bits;
-  }
+  for (int k = 0; k < 2; k++)
+    if (nest_top(n->end[k]) > top) top = nest_top(n->end[k]);
   int64_t digits = (top - n->e) * 31 / 100 + 3;
   return digits < 17 ? 17 : digits < NEST_DIGITS ? (int)digits : NEST_DIGITS;
 }
@@ -103,18 +106,46 @@ static void nest_show(char shown[2][NEST_SHOWN], const nest_ends *n) {
   free(text);
 }
 
+/* The shortest number m*2^e that the new interval has and the old one has not; "" where it is too long to be shown. */
+static void nest_witness(char shown[NEST_SHOWN], const nest_ends *n) {
+  enum { LONGEST = 160, SHORT = 20 };
+  int64_t exp = nest_top(n->end[0]);
+  if (nest_top(n->end[1]) > exp) exp = nest_top(n->end[1]);
+  *shown = 0;
+  if (exp - n->e > LONGEST) return;
+  mpq_t at;
+  mpz_t m;
+  mpq_init(at);
+  mpz_init(m);
+  for (bool found = false; !found; exp--) {
+    (exp < 0 ? mpq_mul_2exp : mpq_div_2exp)(at, n->end[1], (mp_bitcnt_t)(exp < 0 ? -exp : exp));
+    (n->low ? mpz_cdiv_q : mpz_fdiv_q)(m, mpq_numref(at), mpq_denref(at));
+    mpq_set_z(at, m);
+    (exp < 0 ? mpq_div_2exp : mpq_mul_2exp)(at, at, (mp_bitcnt_t)(exp < 0 ? -exp : exp));
+    const int side = mpq_cmp(at, n->end[0]);
+    found = n->low ? side < 0 : side > 0;
+    if (found && (exp == 0 || !mpz_sgn(m) || (exp > 0 && exp <= SHORT)))
+      gmp_snprintf(shown, NEST_SHOWN, "%Zd", mpq_numref(at));
+    else if (found)
+      gmp_snprintf(shown, NEST_SHOWN, "%Zd*2^%lld", m, (long long)exp);
+  }
+  mpz_clear(m);
+  mpq_clear(at);
+}
+
 dyd_status dyd_nesting_fail(dyd_error *err, const char *side, const dyd_interval *old, const dyd_interval *now) {
-  char shown[2][NEST_SHOWN];
+  char shown[2][NEST_SHOWN], witness[NEST_SHOWN];
   nest_ends n;
   mpq_inits(n.end[0], n.end[1], NULL);
   nest_find(&n, old, now);
   nest_show(shown, &n);
+  nest_witness(witness, &n);
   mpq_clears(n.end[0], n.end[1], NULL);
   return dyd_fail(err, DYD_E_NESTING,
-                  "the new %s %s %s is not inside the old one %s %s: its %s end is outside by less than 2^%lld; each "
-                  "answer must be a subset of the one before",
+                  "the new %s %s %s is not inside the old one %s %s: its %s end is outside by less than 2^%lld%s%s; "
+                  "each answer must be a subset of the one before",
                   side, n.low ? "from" : "up to", shown[1], n.low ? "from" : "up to", shown[0],
-                  n.low ? "lower" : "upper", (long long)n.e);
+                  n.low ? "lower" : "upper", (long long)n.e, *witness ? ", only the new one has " : "", witness);
 }
 
 dyd_status dyd_nest(dyd_interval *next, const dyd_interval *old, bool encloses, const char *side, dyd_error *err) {

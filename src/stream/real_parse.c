@@ -3,7 +3,8 @@
  *
  *   coordinate = number | sum | sum (+-|±) radius | [ lo , hi ]       root = root ( sum in x , lo , hi )
  *
- * lo, hi and radius are sums whose value is rational by form. A root may be part of a sum; a root alone is a real. */
+ * lo, hi and radius are sums whose value is rational by form. random ( seed ) and slow ( sum ) are like roots. A root
+ * may be part of a sum; a root alone is a real. */
 #include "base/alloc.h"
 #include "base/error.h"
 #include "stream/degrees.h"
@@ -292,35 +293,78 @@ static dyd_status read_root(dyd_real **out, reader *r) {
   return st;
 }
 
-static dyd_status read_root_within(dyd_real **out, size_t *pos, const char *text, size_t length, dyd_error *err) {
+/* Behind "random(". */
+static dyd_status read_random(dyd_real **out, reader *r) {
+  mpq_t seed;
+  size_t at = r->pos;
+  mpq_init(seed);
+  dyd_status st = read_rational(seed, r, "the seed");
+  if (st == DYD_OK && (mpz_cmp_ui(mpq_denref(seed), 1) != 0 || !mpz_fits_ulong_p(mpq_numref(seed))))
+    st = FAIL(r, at, DYD_E_PARSE, "the seed is a whole number from 0 on, below 2^64");
+  if (st == DYD_OK && !take_word(r, ")")) st = FAIL(r, r->pos, DYD_E_PARSE, "a ')' is missing here");
+  if (st == DYD_OK) st = plain_fail(r, at, dyd_real_random(out, mpz_get_ui(mpq_numref(seed))));
+  mpq_clear(seed);
+  return st;
+}
+
+/* A sum that may have parts which `within` reads. */
+static dyd_status read_sum(dyd_real **out, reader *r, dyd_root_reader *within) {
+  dyd_draft d;
+  size_t at = r->pos;
+  dyd_draft_init(&d);
+  dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, (dyd_expr_names){.root = within}, r->err);
+  if (st == DYD_OK) st = real_from_draft(out, r, at, &d);
+  dyd_draft_clear(&d);
+  return st;
+}
+
+static dyd_status read_within_slow(dyd_real **out, dyd_real_word word, size_t *pos, const char *text, size_t length,
+                                   dyd_error *err) {
   reader r = {.text = text, .length = length, .pos = *pos, .err = err};
-  dyd_status st = read_root(out, &r);
+  if (word == DYD_WORD_SLOW) return FAIL(&r, *pos, DYD_E_PARSE, "slow cannot stand within slow");
+  dyd_status st = word == DYD_WORD_ROOT ? read_root(out, &r) : read_random(out, &r);
   *pos = r.pos;
   return st;
 }
 
-/* Returns true if it is "root(..)" alone, or with a radius. Moves behind "root(" then. */
-static bool starts_root(reader *r) {
+/* Behind "slow(". */
+static dyd_status read_slow(dyd_real **out, reader *r) {
+  dyd_real *x = NULL;
+  size_t at = r->pos;
+  dyd_status st = read_sum(&x, r, read_within_slow);
+  if (st == DYD_OK && !take_word(r, ")")) {
+    dyd_real_free(x);
+    return FAIL(r, r->pos, DYD_E_PARSE, "a ')' is missing here");
+  }
+  return st == DYD_OK ? plain_fail(r, at, dyd_real_slow(out, x)) : st;
+}
+
+static dyd_status read_root_of(dyd_real **out, dyd_real_word word, reader *r) {
+  return word == DYD_WORD_ROOT ? read_root(out, r) : word == DYD_WORD_RANDOM ? read_random(out, r) : read_slow(out, r);
+}
+
+static dyd_status read_root_within(dyd_real **out, dyd_real_word word, size_t *pos, const char *text, size_t length,
+                                   dyd_error *err) {
+  reader r = {.text = text, .length = length, .pos = *pos, .err = err};
+  dyd_status st = read_root_of(out, word, &r);
+  *pos = r.pos;
+  return st;
+}
+
+/* Returns the word if it is "root(..)" alone, or with a radius, else DYD_WORDS. Moves behind "root(" then. */
+static dyd_real_word starts_root(reader *r) {
   size_t start = r->pos, end;
-  if (take_word(r, "root") && take_word(r, "(")) {
+  unsigned word = 0;
+  while (word < DYD_WORDS && !take_word(r, dyd_real_words[word])) word++;
+  if (word < DYD_WORDS && take_word(r, "(")) {
     int depth = 1;
     for (end = r->pos; end < r->length && depth; end++) depth += (r->text[end] == '(') - (r->text[end] == ')');
     while (end < r->length && dyd_is_blank(r->text[end])) end++;
-    if (end == r->length || depth || !memchr("+-*/^", r->text[end], 5)) return true;
-    if (r->length - end > 1 && memcmp(r->text + end, "+-", 2) == 0) return true;
+    if (end == r->length || depth || !memchr("+-*/^", r->text[end], 5)) return (dyd_real_word)word;
+    if (r->length - end > 1 && memcmp(r->text + end, "+-", 2) == 0) return (dyd_real_word)word;
   }
   r->pos = start;
-  return false;
-}
-
-static dyd_status read_expr(dyd_real **out, reader *r) {
-  dyd_draft d;
-  size_t at = r->pos;
-  dyd_draft_init(&d);
-  dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, (dyd_expr_names){.root = read_root_within}, r->err);
-  if (st == DYD_OK) st = real_from_draft(out, r, at, &d);
-  dyd_draft_clear(&d);
-  return st;
+  return DYD_WORDS;
 }
 
 /* ---- the whole coordinate ---- */
@@ -356,7 +400,8 @@ static dyd_status read_real_coordinate(dyd_real **out, reader *r) {
   if (take_word(r, "[")) {
     st = read_interval(&x, r);
   } else {
-    st = starts_root(r) ? read_root(&x, r) : read_expr(&x, r);
+    const dyd_real_word word = starts_root(r);
+    st = word < DYD_WORDS ? read_root_of(&x, word, r) : read_sum(&x, r, read_root_within);
     if (st == DYD_OK && (take_word(r, "+-") || take_word(r, "\xC2\xB1"))) st = read_real_radius(&x, r);
   }
   if (st != DYD_OK) return st;
