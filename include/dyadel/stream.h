@@ -34,9 +34,9 @@ typedef struct dyd_request {
 } dyd_request;
 
 /* The callback of the library.
- * out    in: the rectangle known so far; at stage 0, where that is the whole plane, the value of dyd_rect_init, which
- *        reads as the point (0, 0): set it, since DYD_OK states what it then holds;
- *        out: a rectangle inside it. Initialised and owned by the caller.
+ * out    in: the rectangle known so far; at stage 0, where nothing is known, no rectangle: its lower ends are above
+ *        its upper ones;
+ *        out: a rectangle inside it; DYD_E_STREAM where a side is still unset. Initialised and owned by the caller.
  * Returns DYD_OK; DYD_FIXED when this rectangle is final; DYD_CANCELLED when request->stop was seen; < 0 with *err
  * filled (message at least).
  * A wider rectangle than asked is allowed, a rectangle not inside the previous one is a nesting error. */

@@ -63,6 +63,8 @@ static dyd_status point_ask_source(dyd_rect *r, bool *final, const dyd_refinable
   *final = st == DYD_FIXED;
   if (st == DYD_CANCELLED && dyd_flag_get(&e->stop)) return st;
   if (st != DYD_OK && st != DYD_FIXED) return dyd_callback_fail(err, &own, st, p->site, p->calls);
+  st = dyd_rect_check_set(r, p->site, p->calls, err);
+  if (st != DYD_OK) return st;
   if (!dyd_interval_is_valid(&r->x) || !dyd_interval_is_valid(&r->y)) {
     return dyd_fail(err, DYD_E_STREAM, "the source gave no valid rectangle; fill it with dyd_interval_set_ends");
   }
@@ -209,6 +211,7 @@ dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, i
   if (point_narrow_in_doubles(p, calls, e, bits)) return DYD_OK;
   dyd_error_clear(err);
   dyd_rect_init(&r);
+  if (!p->asked) dyd_rect_unset(&r);
   dyd_status st = p->asked ? dyd_sites_get(&r, e->sites, p->site) : DYD_OK;
   if (st == DYD_OK && !(p->asked && dyd_rect_bits(&r) >= bits)) {
     ++*calls;

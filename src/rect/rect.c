@@ -46,6 +46,27 @@ void dyd_interval_set(dyd_interval *out, const dyd_interval *a) {
   mpz_set(out->den, a->den);
 }
 
+static void unset_end(dyd_dyadic *end, long man) {
+  mpz_set_si(end->man, man);
+  end->exp = DYD_EXP_LIMIT - 1;
+}
+
+/* Farther out than any other end, so that setting one end alone makes no interval either. */
+void dyd_interval_unset(dyd_interval *out) {
+  unset_end(&out->lo, 1);
+  unset_end(&out->hi, -1);
+}
+
+bool dyd_interval_is_unset(const dyd_interval *a) {
+  return a->lo.exp == DYD_EXP_LIMIT - 1 && a->hi.exp == DYD_EXP_LIMIT - 1 && !mpz_cmp_si(a->lo.man, 1) &&
+         !mpz_cmp_si(a->hi.man, -1);
+}
+
+void dyd_rect_unset(dyd_rect *out) {
+  dyd_interval_unset(&out->x);
+  dyd_interval_unset(&out->y);
+}
+
 void dyd_interval_swap(dyd_interval *a, dyd_interval *b) {
   dyd_dyadic_swap(&a->lo, &b->lo);
   dyd_dyadic_swap(&a->hi, &b->hi);

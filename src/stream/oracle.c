@@ -166,6 +166,12 @@ static dyd_status read_answer_ends(mpq_t end[4], const char *line, const word *w
   return st;
 }
 
+/* Returns true if nothing is known: r is unset, or a point (an exact one is not requested again, so that it is what
+ * dyd_rect_init gives). */
+static bool answer_is_first(const dyd_rect *r) {
+  return dyd_rect_is_point(r) || dyd_interval_is_unset(&r->x) || dyd_interval_is_unset(&r->y);
+}
+
 /* *r is the known rectangle on entry (if known), on return that of the four ends, which must be in order. */
 static dyd_status take_answer_ends(dyd_rect *r, bool known, const mpq_t end[4], dyd_error *err) {
   dyd_rect next;
@@ -175,7 +181,7 @@ static dyd_status take_answer_ends(dyd_rect *r, bool known, const mpq_t end[4], 
                     "the lower end of the %c side in its answer is above the upper end; exchange them", k ? 'y' : 'x');
   }
   dyd_rect_init(&next);
-  dyd_rect_set(&next, r);
+  if (known) dyd_rect_set(&next, r);
   dyd_status st = set_answer_side(&next.x, known, "x side", end[0], end[1], err);
   if (st == DYD_OK) st = set_answer_side(&next.y, known, "y side", end[2], end[3], err);
   if (st == DYD_OK) dyd_rect_swap(r, &next);
@@ -211,13 +217,12 @@ dyd_status dyd_oracle_read_answer(dyd_rect *r, bool known, const char *line, siz
   return read_answer(r, known, 1, "five words I XLO XHI YLO YHI", line, length, err);
 }
 
-/* A point that is known exactly is not asked for again: then r is what a callback is given at first. */
 dyd_status dyd_rect_narrow_text(dyd_rect *r, const char *text, size_t length, dyd_error *err) {
-  return read_answer(r, !dyd_rect_is_point(r), 0, "four words XLO XHI YLO YHI", text, length, err);
+  return read_answer(r, !answer_is_first(r), 0, "four words XLO XHI YLO YHI", text, length, err);
 }
 
 dyd_status dyd_rect_narrow_q(dyd_rect *r, const mpq_t end[4], dyd_error *err) {
-  return take_answer_ends(r, !dyd_rect_is_point(r), end, err);
+  return take_answer_ends(r, !answer_is_first(r), end, err);
 }
 
 /* Time for programs to end unforced, or for a replaced one to end by a signal; how often the stop flag is
@@ -404,7 +409,7 @@ static dyd_status oracle_narrow(dyd_rect *out, void *user, const dyd_request *re
   if (st != DYD_OK) return st;
   dyd_error_clear(&own);
   const dyd_asked *a = &w->asked[w->head];
-  st = dyd_oracle_read_answer(out, !dyd_rect_is_point(out), a->answer, a->length, &own);
+  st = dyd_oracle_read_answer(out, !answer_is_first(out), a->answer, a->length, &own);
   dyd_worker_drop(w);
   return dyd_failed(st) ? oracle_fail_request(err, st, request, own.message) : st;
 }

@@ -148,6 +148,21 @@ dyd_status dyd_nesting_fail(dyd_error *err, const char *side, const dyd_interval
                   n.low ? "lower" : "upper", (long long)n.e, *witness ? ", only the new one has " : "", witness);
 }
 
+static dyd_status unset_fail(dyd_error *err, const char *what, size_t point, uint64_t stage) {
+  char where[48] = "";
+  if (point != DYD_NO_POINT) snprintf(where, sizeof where, " of point %zu", point);
+  return dyd_fail(
+      err, DYD_E_STREAM,
+      "the callback returned DYD_OK at stage %llu without setting the %s%s; set it to an interval that holds "
+      "the true value, or return an error",
+      (unsigned long long)stage, what, where);
+}
+
+dyd_status dyd_rect_check_set(const dyd_rect *r, size_t point, uint64_t stage, dyd_error *err) {
+  if (dyd_interval_is_unset(&r->x)) return unset_fail(err, "x side", point, stage);
+  return dyd_interval_is_unset(&r->y) ? unset_fail(err, "y side", point, stage) : DYD_OK;
+}
+
 dyd_status dyd_nest(dyd_interval *next, const dyd_interval *old, bool encloses, const char *side, dyd_error *err) {
   if (!dyd_interval_is_valid(next))
     return dyd_fail(err, DYD_E_STREAM, "the callback gave no valid %s; fill it with dyd_interval_set_ends", side);
@@ -336,10 +351,14 @@ static dyd_status real_call_source(dyd_real *x, const dyd_request *request, dyd_
   dyd_error own;
   dyd_error_clear(&own);
   dyd_interval_init(&next);
-  if (x->now) dyd_interval_set(&next, x->now);
+  if (x->now)
+    dyd_interval_set(&next, x->now);
+  else
+    dyd_interval_unset(&next);
   dyd_status st = x->narrow(&next, x->user, request, &own);
   bool fixed = st == DYD_FIXED;
   if (fixed) st = DYD_OK;
+  if (st == DYD_OK && dyd_interval_is_unset(&next)) st = unset_fail(&own, "interval", DYD_NO_POINT, x->stage);
   if (st == DYD_OK && x->spans) st = real_cut_to_span(&next, x->span, request->bits, &own);
   if (st == DYD_OK && x->claim) st = real_check_claim(x->claim, &next, request, &own);
   if (st == DYD_OK) st = real_accept(x, &next, &own);

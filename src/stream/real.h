@@ -69,6 +69,8 @@ dyd_status dyd_real_core(dyd_interval *core, bool *has, const dyd_real *x, const
 /* DYD_E_NESTING with both intervals in short; side is "x side", "y side" or "interval". */
 dyd_status dyd_nesting_fail(dyd_error *err, const char *side, const dyd_interval *old, const dyd_interval *now);
 
+/* DYD_E_STREAM if a callback left the sides that it was given unset. point: for the message; stage: of the call. */
+dyd_status dyd_rect_check_set(const dyd_rect *r, size_t point, uint64_t stage, dyd_error *err);
 /* Checks that next may follow old (NULL: it is the first one). Where the source encloses one value it is cut to old
  * [NEST-2], else it has to be inside of it. side as above. */
 dyd_status dyd_nest(dyd_interval *next, const dyd_interval *old, bool encloses, const char *side, dyd_error *err);

@@ -157,10 +157,14 @@ static dyd_status stream_call_source(dyd_stream *s, const dyd_request *request, 
   dyd_error own;
   dyd_error_clear(&own);
   dyd_rect_init(&next);
-  if (s->now) dyd_rect_set(&next, s->now);
+  if (s->now)
+    dyd_rect_set(&next, s->now);
+  else
+    dyd_rect_unset(&next);
   dyd_status st = s->source.narrow(&next, s->source.user, request, &own);
   bool fixed = st == DYD_FIXED;
   if (fixed) st = DYD_OK;
+  if (st == DYD_OK) st = dyd_rect_check_set(&next, s->point, s->stage, &own);
   if (st == DYD_OK) st = stream_accept(s, &next, &own);
   dyd_rect_clear(&next);
   if (st == DYD_CANCELLED && dyd_flag_is_set(request->stop)) return st;

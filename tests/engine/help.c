@@ -192,6 +192,12 @@ static dyd_status misbehave(dyd_rect *out, const faulty *f, const dyd_request *q
   case FAULT_JUNK:
     dyd_dyadic_set_d(&out->x.lo, 2);
     dyd_dyadic_set_d(&out->x.hi, 1);
+    around(&out->y, k, q->bits + 2);
+    return DYD_OK;
+  case FAULT_SILENT:
+    return DYD_OK;
+  case FAULT_HALF:
+    around(&out->x, k * k, q->bits + 2);
     return DYD_OK;
   case FAULT_UNKNOWN:
     return (dyd_status)77;

@@ -50,6 +50,8 @@ typedef enum fault {
   FAULT_FAIL,
   FAULT_STALL,
   FAULT_JUNK,
+  FAULT_SILENT, /* DYD_OK, and out as it was */
+  FAULT_HALF,   /* the y side as it was */
   FAULT_UNKNOWN
 } fault;
 typedef struct faulty {

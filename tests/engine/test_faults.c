@@ -112,6 +112,32 @@ static void test_stall(void **state) {
   }
 }
 
+/* An answer with a side as it was given states nothing at first: no point (0, 0). Later it repeats what is known. */
+static void test_unset(void **state) {
+  (void)state;
+  const char *says[2][2] = {
+      {"stage 0 without setting the x side of point 5", "stage 0 without setting the y side of point 5"},
+      {"stage 0 without setting the x side of point 2", "stage 0 without setting the y side of point 2"}};
+  for (int half = 0; half < 2; half++)
+    for (int streams = 0; streams < 2; streams++)
+      for (uint64_t stage = 0; stage < 2; stage++) {
+        faulty f = {.kind = half ? FAULT_HALF : FAULT_SILENT, .point = 2, .stage = stage};
+        dyd_engine *e = faulty_engine(&f, streams);
+        dyd_engine_options o;
+        dyd_outcome outcome;
+        dyd_error err;
+        dyd_engine_options_init(&o);
+        o.max_bits = 40;
+        dyd_status st = dyd_engine_run(&outcome, e, &o, &err);
+        assert_int_equal(stage ? DYD_OK : DYD_E_STREAM, st);
+        if (!stage && !strstr(err.message, says[streams][half])) fail_msg("%s", err.message);
+        if (!stage) assert_int_equal(5, err.point);
+        if (!stage) assert_int_equal(0, err.stage);
+        assert_true((dyd_engine_delaunay(e) != NULL) == (stage > 0));
+        dyd_engine_free(e);
+      }
+}
+
 /* Adding takes ownership of its argument, also when it fails. */
 static void test_release(void **state) {
   (void)state;
@@ -212,9 +238,9 @@ static void test_wide(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_faults),  cmocka_unit_test(test_repaired),  cmocka_unit_test(test_stall),
-      cmocka_unit_test(test_release), cmocka_unit_test(test_reference), cmocka_unit_test(test_undefined),
-      cmocka_unit_test(test_wide),
+      cmocka_unit_test(test_faults),    cmocka_unit_test(test_unset),   cmocka_unit_test(test_repaired),
+      cmocka_unit_test(test_stall),     cmocka_unit_test(test_release), cmocka_unit_test(test_reference),
+      cmocka_unit_test(test_undefined), cmocka_unit_test(test_wide),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

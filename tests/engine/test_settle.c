@@ -4,6 +4,7 @@
  * that needs. */
 #include "engine/help.h"
 #include "engine/settle.h"
+#include "rect/rect.h"
 
 #include <math.h>
 
@@ -18,7 +19,7 @@ static dyd_status rough_narrow(dyd_rect *out, void *user, const dyd_request *q, 
   double w = ldexp(1, -(int)q->bits), end[4], had[4] = {-1e9, 1e9, -1e9, 1e9};
   dyd_interval *side[2] = {&out->x, &out->y};
   (void)err;
-  if (!dyd_rect_is_point(out)) dyd_rect_get_d(had, out);
+  if (!dyd_interval_is_unset(&out->x)) dyd_rect_get_d(had, out);
   for (int a = 0; a < 2; a++) {
     double below = test_unit(&f->random) * w, v = f->at[q->point][a];
     end[2 * a] = fmax(had[2 * a], v - below);

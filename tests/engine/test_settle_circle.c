@@ -33,7 +33,7 @@ static dyd_status hidden_narrow(dyd_interval *out, void *user, const dyd_request
   hidden_side *s = user;
   double w = ldexp(1, -(int)q->bits), below = w * (double)test_below(&s->c->random, 9) / 8, had[2] = {-1e9, 1e9};
   (void)err;
-  if (!dyd_interval_is_point(out)) dyd_interval_get_d(&had[0], &had[1], out);
+  if (!dyd_interval_is_unset(out)) dyd_interval_get_d(&had[0], &had[1], out);
   return dyd_interval_set_d(out, fmax(had[0], (double)s->at / UNIT - below),
                             fmin(had[1], (double)s->at / UNIT + (w - below)));
 }

@@ -37,7 +37,7 @@ static dyd_status rough_narrow(dyd_interval *out, void *user, const dyd_request 
   rough *f = user;
   double w = ldexp(1, -(int)q->bits), below = w * (double)test_below(&f->random, 9) / 8, had[2] = {-1e9, 1e9};
   (void)err;
-  if (!dyd_interval_is_point(out)) dyd_interval_get_d(&had[0], &had[1], out);
+  if (!dyd_interval_is_unset(out)) dyd_interval_get_d(&had[0], &had[1], out);
   return dyd_interval_set_d(out, fmax(had[0], f->at - below), fmin(had[1], f->at + (w - below)));
 }
 

@@ -9,7 +9,7 @@
 
 /* ---- a source with planted faults: rectangles around (1/3, -1/7) ---- */
 
-typedef enum fault { NONE, WIDENS, DRIFTS, FAILS, FAILS_SILENTLY, FIXED, UNKNOWN, INVALID, SLOW } fault;
+typedef enum fault { NONE, WIDENS, DRIFTS, FAILS, FAILS_SILENTLY, FIXED, UNKNOWN, INVALID, SLOW, SILENT } fault;
 
 typedef struct faulty {
   fault fault;
@@ -44,8 +44,10 @@ static dyd_status faulty_narrow(dyd_rect *out, void *user, const dyd_request *re
   faulty *f = user;
   bool now = f->calls++ == f->at;
   f->point = request->point;
-  if (f->calls == 1) f->init_seen = !mpz_sgn(out->x.lo.man) && dyd_rect_is_point(out);
+  if (f->calls == 1)
+    f->init_seen = dyd_dyadic_cmp(&out->x.lo, &out->x.hi) > 0 && dyd_dyadic_cmp(&out->y.lo, &out->y.hi) > 0;
   assert_true(request->max_bits >= request->bits);
+  if (now && f->fault == SILENT) return DYD_OK;
   enclose(out, -request->bits, 0);
   if (!now) return DYD_OK;
   switch (f->fault) {
@@ -140,6 +142,8 @@ static void test_faults(void **state) {
   check_faulty(UNKNOWN, 3, DYD_E_STREAM, "-77");
   check_faulty(INVALID, 0, DYD_E_STREAM, "valid");
   check_faulty(INVALID, 4, DYD_E_STREAM, "valid");
+  check_faulty(SILENT, 0, DYD_E_STREAM, "stage 0 without setting the x side of point 7");
+  check_faulty(SILENT, 4, DYD_OK, "");
   check_faulty(FIXED, 0, DYD_FIXED, "");
   check_faulty(FIXED, 9, DYD_FIXED, "");
   check_faulty(SLOW, 4, DYD_OK, "");
@@ -182,6 +186,7 @@ static void test_arguments(void **state) {
 static dyd_status third(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
   faulty *f = user;
   mpq_t q;
+  if (f->fault == SILENT && f->calls++ == f->at) return DYD_OK;
   mpq_init(q);
   mpq_set_si(q, f->calls++ == f->at ? 2 : 1, 3);
   dyd_status st = dyd_interval_set_outward(out, q, q, -request->bits);
@@ -211,6 +216,12 @@ static void test_user_real(void **state) {
   assert_int_equal(f.released, 0);
   dyd_stream_free(s);
   assert_int_equal(f.released, 1);
+  f = (faulty){.fault = SILENT};
+  assert_int_equal(dyd_real_new(&x, third, NULL, &f), DYD_OK);
+  assert_int_equal(dyd_real_narrow(x, 10, 10, &err), DYD_E_STREAM);
+  assert_non_null(strstr(err.message, "stage 0 without setting the interval"));
+  assert_null(dyd_real_interval(x));
+  dyd_real_free(x);
 }
 
 /* ---- widened reals and places ---- */
