@@ -221,7 +221,8 @@ typedef enum dyd_content {
   DYD_CONTENT_ALIASES,         /* rows that have a point in common with an earlier one: a layer of the triangulation, */
   DYD_CONTENT_VORONOI_ALIASES, /* and of the diagram */
   DYD_CONTENT_TIES,            /* groups of ties */
-  DYD_CONTENT_TILES            /* a partition of the window (dyd_voronoi_tiles): a layer of the diagram */
+  DYD_CONTENT_TILES,           /* a partition of the window (dyd_voronoi_tiles): a layer of the diagram */
+  DYD_CONTENT_CON              /* Con of the other rectangles: a layer of the disc, which is circles as csv */
 } dyd_content;
 
 /* How ties are listed beside other pairs. */

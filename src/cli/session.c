@@ -521,8 +521,8 @@ const char *cli_points_name(const cli_options *o) {
 
 /* Returns true if the line says something that no other line of ours says. */
 static bool comment_is_summary(const char *line) {
-  static const char *const begin[] = {"undetermined_area", "distance_to", "tolerance ",      "plan ",    "ties ",
-                                      "orientation ",      "partial ",    "the rectangles ", "schedule "};
+  static const char *const begin[] = {"undetermined_area", "distance_to", "tolerance ",      "plan ",     "ties ",
+                                      "orientation ",      "partial ",    "the rectangles ", "schedule ", "con "};
   for (size_t k = 0; k < sizeof begin / sizeof *begin; k++)
     if (strncmp(line, begin[k], strlen(begin[k])) == 0) return true;
   return false;

@@ -58,9 +58,11 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                     "also has to be about these points.",
                     DYD_CONTENT_NONE, &cli_verify},
     [CLI_DISC] = {"disc", "FILE", "the partial disc of the first three points, and where the others are",
-                  "The six critical circles of the first three points, exactly, the box of all centres\n"
-                  "of circles through them, and for each other point whether it is certainly inside or\n"
-                  "outside all these circles. Points are refined until that is known.",
+                  "The six critical circles of the first three points, exactly and enclosed by decimals: F\n"
+                  "encloses a rectangle, C touches it. The summary has the orientation, the box of all\n"
+                  "centres of circles through the three points, and how many other points are certainly\n"
+                  "inside or outside all these circles; --layer con lists these points. Points are refined\n"
+                  "until that is known.",
                   DYD_CONTENT_DISC, &cli_disc},
     [CLI_BISECTOR] = {"bisector", "FILE", "the partial bisector of the first two points",
                       "The two curves that bound the regions certainly nearer to one point and to the other:\n"
@@ -285,7 +287,7 @@ const cli_option cli_option_table[] = {
      "also a lower bound of each edge's probability, for normal\nerrors of standard deviation S in x and in y",
      AT(sigma)},
 
-    {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE), CLI_OUTPUT,
+    {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE) | BIT(CLI_DISC), CLI_OUTPUT,
      "what csv, wkt and geojson hold, and html shows first;\ndelaunay: pairs (default), points, triangles,\n"
      "graph:nearest, graph:gabriel, graph:mst (edges that are\ncertain or possible; also pictures), aliases (rows "
      "that\n"
@@ -294,7 +296,8 @@ const cli_option cli_option_table[] = {
      "delaunay, voronoi: json and vtk hold all of them but graphs;\n"
      "tolerance: pairs (default), points, barcode (csv: how "
      "many\n"
-     "edges are certain at which accuracy)",
+     "edges are certain at which accuracy)\n"
+     "disc: circles (default: the six critical circles), con (where\nthe other points are)",
      AT(layer)},
     {"list-ties", 0, "HOW", CLI_CHOICE, BIT(CLI_DELAUNAY), CLI_OUTPUT,
      "pairs (default): a row for each tied pair; groups: csv\nlists the circles and lines that the tied points are on\n"

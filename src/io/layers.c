@@ -445,7 +445,9 @@ static const dyd_layer layers[] = {
      "face,status,sites"},
     {IN(CHECK), NULL, IN(CHECK), false, false, POINT, NULL, dyd_check_rows,
      "fault,schedules,stages,pairs,cells,floors,seed,moves"},
-    {IN(DISC), NULL, IN(DISC), false, false, POINT, dyd_disc_comments, dyd_disc_rows, "i,con,id"},
+    {IN(DISC), "circles", IN(DISC), false, false, POINT, dyd_disc_comments, dyd_disc_rows,
+     "circle,x,y,radius_squared,xlo,xhi,ylo,yhi,rlo,rhi"},
+    {IN(CON), "con", IN(DISC), false, false, POINT, dyd_disc_comments, dyd_con_rows, "i,con,id"},
     {IN(BISECTOR), NULL, IN(BISECTOR), false, false, POINT, dyd_bisector_comments, dyd_bisector_rows,
      "far,near,kind,corner,feature,begin,begin_x,begin_y,begin_xlo,begin_xhi,begin_ylo,begin_yhi,end,end_x,end_y,"
      "end_xlo,end_xhi,end_ylo,end_yhi,id_far,id_near"},

@@ -68,7 +68,7 @@ dyd_layer_part dyd_disc_comments, dyd_bisector_comments, dyd_nearest_comments;
 dyd_layer_part dyd_tile_comments, dyd_tile_rows;
 dyd_layer_part dyd_cell_rows, dyd_vertex_rows, dyd_region_rows, dyd_edge_rows;
 dyd_layer_part dyd_globe_cell_rows, dyd_globe_vertex_rows, dyd_globe_region_rows;
-dyd_layer_part dyd_check_rows, dyd_disc_rows, dyd_bisector_rows, dyd_nearest_rows, dyd_place_rows;
+dyd_layer_part dyd_check_rows, dyd_disc_rows, dyd_con_rows, dyd_bisector_rows, dyd_nearest_rows, dyd_place_rows;
 
 /* A piece that all rows have, put together once. */
 typedef struct dyd_table_lead {

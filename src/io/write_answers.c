@@ -46,52 +46,51 @@ static void disc_grow_box(void *context, int number, const dyd_surd_point *centr
   for (int k = 0; k < 4; k++) box[k] = k & 1 ? fmax(box[k], b[k]) : fmin(box[k], b[k]);
 }
 
-static void disc_csv_box(FILE *out, const double box[4]) {
-  fputs(" within xlo ", out);
-  dyd_exact_decimals(out, box[0], box[1], " xhi ");
-  fputs(" ylo ", out);
-  dyd_exact_decimals(out, box[2], box[3], " yhi ");
-}
-
-static void disc_csv_circle(void *context, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2) {
-  FILE *out = context;
-  double box[4], lo, hi;
-  fprintf(out, "# circle %s x ", circle_names[number]);
-  dyd_exact_text(out, centre->ax, centre->bx, centre->c, centre->d);
-  fputs(" y ", out);
-  dyd_exact_text(out, centre->ay, centre->by, centre->c, centre->d);
-  fputs(" radius^2 ", out);
-  dyd_exact_text(out, radius2->ax, radius2->bx, radius2->c, radius2->d);
-  fprintf(out, "\n# circle %s", circle_names[number]);
-  dyd_exact_enclose(box, centre);
-  disc_csv_box(out, box);
-  fputs(" rlo ", out);
-  dyd_exact_enclose_root(&lo, &hi, radius2);
-  dyd_exact_decimals(out, lo, hi, " rhi ");
-  fputs("\n", out);
-}
-
+/* "within" is that of the centres of all circles through the three points. */
 dyd_status dyd_disc_comments(dyd_table *t, const dyd_output *o) {
   const dyd_disc_output *c = o->what;
   FILE *out = o->out;
+  size_t count[3] = {0};
   (void)t;
   fprintf(out, "# orientation of %zu %zu %zu: %s\n", dyd_engine_row(c->engine, 0), dyd_engine_row(c->engine, 1),
           dyd_engine_row(c->engine, 2), orientation_text(dyd_orientation(c->r[0], c->r[1], c->r[2])));
-  fputs(
-      "# critical circles: F encloses, C touches the rectangles 0 1 2; x, y, radius^2 exact, lo rounded down, hi up\n",
-      out);
-  disc_each_circle(c->disc, disc_csv_circle, out);
   if (c->disc->known) {
     double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
     disc_each_circle(c->disc, disc_grow_box, box);
-    fputs("# partial centre", out);
-    disc_csv_box(out, box);
+    fputs("# partial centre within xlo ", out);
+    dyd_exact_decimals(out, box[0], box[1], " xhi ");
+    fputs(" ylo ", out);
+    dyd_exact_decimals(out, box[2], box[3], " yhi ");
     fputs("\n", out);
   }
+  for (size_t i = 3; i < c->n; i++) count[1 + (int)dyd_partial_disc_con(c->disc, c->r[i])]++;
+  if (c->n > 3)
+    fprintf(out, "# con of the others: inside %zu, outside %zu, unknown %zu\n", count[2], count[0], count[1]);
   return DYD_OK;
 }
 
+static void disc_row_circle(void *context, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2) {
+  dyd_table *t = context;
+  double box[4], r[2];
+  dyd_row_begin(t);
+  dyd_row_word(t, circle_names[number]);
+  dyd_exact_text(dyd_row_file(t), centre->ax, centre->bx, centre->c, centre->d);
+  dyd_exact_text(dyd_row_file(t), centre->ay, centre->by, centre->c, centre->d);
+  dyd_exact_text(dyd_row_file(t), radius2->ax, radius2->bx, radius2->c, radius2->d);
+  dyd_exact_enclose(box, centre);
+  dyd_exact_enclose_root(&r[0], &r[1], radius2);
+  dyd_row_box(t, box);
+  dyd_row_decimal(t, r[0], DYD_DOWN);
+  dyd_row_decimal(t, r[1], DYD_UP);
+  dyd_row_end(t);
+}
+
 dyd_status dyd_disc_rows(dyd_table *t, const dyd_output *o) {
+  disc_each_circle(((const dyd_disc_output *)o->what)->disc, disc_row_circle, t);
+  return DYD_OK;
+}
+
+dyd_status dyd_con_rows(dyd_table *t, const dyd_output *o) {
   const dyd_disc_output *c = o->what;
   for (size_t i = 3; i < c->n; i++) {
     dyd_row_begin(t);

@@ -108,7 +108,7 @@ def test_bisector_outcomes():
 
 
 def con(*args, stdin):
-    result = run('disc', *args, '-', stdin=stdin)
+    result = run('disc', '--layer', 'con', *args, '-', stdin=stdin)
     return result, {r['i']: r['con'] for r in rows(result.out)}
 
 
@@ -116,9 +116,12 @@ def test_disc_of_points():
     result, where = con(stdin='0 0\n4 0\n0 4\n4 4\n2 2\n5 5\n4 -1/8\n')
     expect(result, 3, '^# orientation of 0 1 2: counter-clockwise')
     assert where == {'3': 'unknown', '4': 'inside', '5': 'outside', '6': 'outside'}, where
-    circles = [line for line in result.out.splitlines() if line.startswith('# circle') and 'radius^2' in line]
-    assert len(circles) == 6 and all(c.endswith('x 2 y 2 radius^2 8') for c in circles), circles
-    assert '# partial centre within xlo 2 xhi 2 ylo 2 yhi 2' in result.out
+    circles = rows(run('disc', '-', stdin='0 0\n4 0\n0 4\n').out)
+    assert [c['circle'] for c in circles] == ['FCC', 'CFC', 'CCF', 'CFF', 'FCF', 'FFC']
+    for c in circles:
+        assert [c[k] for k in ('x', 'y', 'radius_squared', 'xlo', 'xhi', 'ylo', 'yhi')] == ['2', '2', '8', '2', '2', '2', '2']
+        assert float(c['rlo']) ** 2 < 8 < float(c['rhi']) ** 2
+    assert '# partial centre within xlo 2 xhi 2 ylo 2 yhi 2\n# con of the others: inside 1, outside 2, unknown 1\n' in result.out
 
 
 def test_disc_refines():
@@ -149,7 +152,7 @@ def test_disc_of_rectangles():
 def test_disc_without_orientation():
     result, where = con(stdin='0 0\n1 1\n2 2\n3 0\n')
     expect(result, 3, '^# orientation of 0 1 2: unknown', '^dyadel: fixpoint')
-    assert where == {'3': 'unknown'} and '# circle ' not in result.out
+    assert where == {'3': 'unknown'} and not rows(run('disc', '-', stdin='0 0\n1 1\n2 2\n3 0\n').out)
     expect(run('disc', '-', stdin='0 0\n1 1\n'), 1, r'\A\Z', '3 points are needed, here are 2')
     data = json.loads(run('disc', '--format', 'json', '-', stdin='0 0\n1 1\n2 2\n').out)
     assert data['circles'] == [] and data['partial_centre'] is None and data['outcome'] == 'fixpoint'

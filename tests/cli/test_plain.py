@@ -21,7 +21,7 @@ EXACT = '0 0\n4 0\n1 4\n5 5\n2 1\n2 1\n'
 QUESTIONS = {'delaunay': ((), POINTS), 'voronoi': ((), POINTS), 'converge': ((), POINTS), 'disc': ((), EXACT),
              'bisector': ((), EXACT), 'nearest': (('1', '1'), EXACT), 'tolerance': ((), EXACT), 'plan': ((), POINTS)}
 LAYERS = {'delaunay': ('pairs', 'points', 'triangles', 'graph:nearest', 'graph:gabriel', 'graph:mst', 'aliases', 'ties'),
-          'voronoi': ('cells', 'vertices', 'regions', 'edges', 'aliases'), 'tolerance': ('pairs', 'points', 'barcode')}
+          'voronoi': ('cells', 'vertices', 'regions', 'edges', 'aliases'), 'tolerance': ('pairs', 'points', 'barcode'), 'disc': ('circles', 'con')}
 
 
 def ask(command, *options, **how):
@@ -52,7 +52,7 @@ def test_summary_says_what_comments_do():
     expect(ask('voronoi'), 0, '', r'^dyadel: window (about )?-?[0-9.e+-]+(,-?[0-9.e+-]+){3}; undetermined_area [0-9.e-]+; distance_to_true_diagram ')
     expect(ask('tolerance'), 0, '', r'^dyadel: tolerance 0\.\d+ 0\.\d+$')
     expect(ask('plan'), 0, '', r'^dyadel: plan \d+ points: sufficient')
-    expect(ask('disc'), 0, '', r'^dyadel: orientation of 0 1 2: counter-clockwise')
+    expect(ask('disc'), 0, '', r'^dyadel: orientation of 0 1 2: counter-clockwise; partial centre within .*; con of the others: inside \d, outside \d, unknown 0')
     expect(ask('converge'), 0, '', r'^dyadel: schedule adaptive; goal decided; ')
 
 

@@ -118,10 +118,9 @@ def figure_5():
     """Partial disc of three rectangles: six critical circles, three of either kind; a fourth rectangle in each part."""
     three = [(0, 1, 0, '1/2'), (4, 6, 0, 2), (1, '5/2', 4, 5)]
     points = three + [(2, '5/2', 2, '5/2'), (8, 9, 5, 6), (-1, 0, 3, 4)]
-    output = dyadel('disc', points, '--comments')
-    assert {r['i']: r['con'] for r in rows(output)} == {'3': 'inside', '4': 'outside', '5': 'unknown'}
-    circles = [line for line in output.splitlines() if line.startswith('# circle') and 'radius^2' in line]
-    assert len(circles) == 6, circles
+    where = {r['i']: r['con'] for r in rows(dyadel('disc', points, '--layer', 'con'))}
+    assert where == {'3': 'inside', '4': 'outside', '5': 'unknown'}
+    assert [r['circle'] for r in rows(dyadel('disc', points))] == ['FCC', 'CFC', 'CCF', 'CFF', 'FCF', 'FFC']
     assert dashed_curves(picture('figure5', 'disc', points)) == 3  # the outer ones
 
 

@@ -49,7 +49,7 @@ static void test_refused(void **state) {
   dyd_error err;
   (void)state;
   for (int k = 0; k < 2; k++) {
-    for (int content = 0; content <= DYD_CONTENT_TIES; content++)
+    for (int content = 0; content <= DYD_CONTENT_CON; content++)
       assert_false(dyd_format_holds(gone[k], (dyd_content)content));
     char *text = written(DYD_E_ARG, gone[k], &err);
     assert_string_equal(text, "");

@@ -806,10 +806,12 @@ def read_disc(case, out, err, form):
         d = parsed(out)
         key = next((k for k in ('con', 'points', 'others') if k in d), None)
         con = {q['i']: q['con'] for q in d[key]} if key else {}
-        return {'aliases': None, 'con': con, 'turn': d['orientation']}
+        circles = [{a + e: c[a + '_decimal'][k] for a in 'xy' for k, e in enumerate(('lo', 'hi'))} for c in d['circles']]
+        return {'aliases': None, 'con': con, 'turn': d['orientation'], 'circles': circles}
     r, notes = rows(out, 'csv')
     turn = next((n.rpartition(': ')[2] for n in notes if n.startswith('orientation')), None)
-    return {'aliases': None, 'con': {int(q['i']): q['con'] for q in r}, 'turn': turn}
+    return {'aliases': None, 'con': {int(q['i']): q['con'] for q in r if 'con' in q}, 'turn': turn,
+            'circles': [q for q in r if 'circle' in q]}
 
 
 def rows_of_points(case):
@@ -819,12 +821,17 @@ def rows_of_points(case):
 
 
 def judge_disc(judge, case, c, ch):
-    p = [ch.p[k] for k in rows_of_points(case)]
+    kept = rows_of_points(case)
+    p = [ch.p[k] for k in kept]
     if len(p) < 3:
         return
     t = oracle.turn(*p[:3])
     if c['turn'] in ('counter-clockwise', 'clockwise'):
         judge((t > 0) == (c['turn'] == 'counter-clockwise') and t != 0, 'the orientation is stated %s', c['turn'])
+    for a in range(2 if c.get('circles') and t != 0 else 0):  # the box of the six centres holds that of every choice
+        lo, hi = ([number(q['xy'[a] + end]) for q in c['circles']] for end in ('lo', 'hi'))
+        at = oracle.centre(*(ch.points[k] for k in kept[:3]))[a]
+        judge(None in lo + hi or min(lo) <= at <= max(hi), 'a centre is outside the box of the circles')
     for k, word in c['con'].items():
         if word in ('inside', 'outside') and t != 0:
             s = oracle.in_circle(*p[:3], ch.p[k]) * (1 if t > 0 else -1)
@@ -972,4 +979,6 @@ STATED = {
                                    formats=('csv', 'json'), least=2),
     'check': Stated('check', read_check, judge_check, args=['--schedules', '3', '--seed', '5'], formats=('csv', 'json')),
     'disc': Stated('disc', read_disc, judge_disc, formats=('csv', 'json'), least=3),
+    'circles': Stated('disc', read_disc, judge_disc, layer='circles', least=3),
+    'con': Stated('disc', read_disc, judge_disc, layer='con', least=3),
     'bisector': Stated('bisector', read_bisector, judge_bisector, formats=('csv', 'json'), least=2)}
