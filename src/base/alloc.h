@@ -20,7 +20,7 @@ static inline void *dyd_alloc(size_t count, size_t size) {
 }
 
 /* Makes room for at least `need` items in *array (capacity *cap), growing by half. false: memory exhausted,
- * nothing changed. Call as dyd_reserve((void **)&array, &cap, need, sizeof *array). */
+ * nothing changed. DYD_GROW(array, cap, need): the same of an array and its capacity. */
 static inline bool dyd_reserve(void **array, size_t *cap, size_t need, size_t size) {
   if (need <= *cap) return true;
   size_t want = *cap + *cap / 2 + 16;
@@ -31,6 +31,14 @@ static inline bool dyd_reserve(void **array, size_t *cap, size_t need, size_t si
   *array = p;
   *cap = want;
   return true;
+}
+#define DYD_GROW(array, cap, need) dyd_reserve((void **)&(array), &(cap), (need), sizeof *(array))
+
+/* Releases the arrays named: dyd_free_all(a, b, c). */
+#define dyd_free_all(...)                                                                                              \
+  dyd_free_each((void *const[]){__VA_ARGS__}, sizeof((void *const[]){__VA_ARGS__}) / sizeof(void *))
+static inline void dyd_free_each(void *const array[], size_t count) {
+  for (size_t k = 0; k < count; k++) free(array[k]);
 }
 
 #endif

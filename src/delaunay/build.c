@@ -154,7 +154,7 @@ static dyd_status gather_rims(part *p) {
       dyd_half_edge beyond = dyd_edge_twin(&sk->mesh, h);
       bool certain = dyd_edge_is_certain(sk, h), same = dyd_face_of(p->pd, dyd_edge_triangle(beyond)) == face;
       if (same && !certain) continue;
-      if (!dyd_reserve((void **)&p->rims, &p->rim_cap, p->rim_count + 1, sizeof *p->rims)) return DYD_E_NOMEM;
+      if (!DYD_GROW(p->rims, p->rim_cap, p->rim_count + 1)) return DYD_E_NOMEM;
       p->rims[p->rim_count++] = (rim){dyd_edge_origin(&sk->mesh, h),
                                       dyd_edge_target(&sk->mesh, h),
                                       certain,
@@ -291,13 +291,7 @@ static void link_rims(part *p) {
 
 static void part_clear(part *p) {
   dyd_mesh_clear(&p->mesh);
-  free(p->rims);
-  free(p->vertex);
-  free(p->sorted);
-  free(p->local);
-  free(p->leaving);
-  free(p->place);
-  free(p->queue);
+  dyd_free_all(p->rims, p->vertex, p->sorted, p->local, p->leaving, p->place, p->queue);
 }
 
 static bool triangle_stands(dyd_work *w, const dyd_skeleton *sk, uint32_t t) {

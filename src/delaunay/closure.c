@@ -41,7 +41,7 @@ typedef struct meeting {
 
 static bool centre_meet(void *context, uint32_t k) {
   meeting *m = context;
-  m->full = !dyd_reserve((void **)&m->vertex, &m->cap, m->count + 1, sizeof *m->vertex);
+  m->full = !DYD_GROW(m->vertex, m->cap, m->count + 1);
   if (!m->full) m->vertex[m->count++] = k;
   return !m->full && m->count <= m->most;
 }
@@ -153,7 +153,7 @@ static uint32_t closing_member(const closing *c, uint32_t v) {
 }
 
 static dyd_status keep_pair(dyd_closure *out, uint32_t a, uint32_t b) {
-  if (!dyd_reserve((void **)&out->pair, &out->pair_cap, out->pairs + 1, sizeof *out->pair)) return DYD_E_NOMEM;
+  if (!DYD_GROW(out->pair, out->pair_cap, out->pairs + 1)) return DYD_E_NOMEM;
   out->pair[out->pairs++] = a < b ? (dyd_vertex_pair){a, b, 0} : (dyd_vertex_pair){b, a, 0};
   return DYD_OK;
 }
@@ -508,15 +508,13 @@ dyd_status dyd_closure_run(dyd_closure *out, dyd_work *w, const dyd_skeleton *sk
   if (st == DYD_OK && (c.full || out->pairs > room)) st = skeleton_pairs(&c);
   bool sorted = out->polygon && !out->capped; /* all_pairs goes in order */
   if (st == DYD_OK && out->pairs && !sorted) qsort(out->pair, out->pairs, sizeof *out->pair, dyd_compare_vertex_pair);
-  free(c.known_with);
-  free(c.possible);
+  dyd_free_all(c.known_with, c.possible);
   dyd_pair_map_clear(&c.map);
   if (st != DYD_OK) dyd_closure_clear(out);
   return st;
 }
 
 void dyd_closure_clear(dyd_closure *c) {
-  free(c->vertex);
-  free(c->pair);
+  dyd_free_all(c->vertex, c->pair);
   memset(c, 0, sizeof *c);
 }

@@ -35,7 +35,7 @@ static bool hole_has(const extension *x, uint32_t t) {
 static dyd_status hole_find(extension *x, uint32_t v, uint32_t t) {
   const dyd_mesh *m = &x->pd->sk.mesh;
   x->count = 0;
-  if (!dyd_reserve((void **)&x->hole, &x->cap, 1, sizeof *x->hole)) return DYD_E_NOMEM;
+  if (!DYD_GROW(x->hole, x->cap, 1)) return DYD_E_NOMEM;
   x->hole[x->count++] = t;
   for (size_t k = 0; k < x->count; k++) {
     dyd_status st = dyd_ties_drop(x->pd, x->hole[k]);
@@ -45,7 +45,7 @@ static dyd_status hole_find(extension *x, uint32_t v, uint32_t t) {
       int in = dyd_mesh_incircle(&x->w->tally, m, c[0], c[1], c[2], v);
       if (in == 0) st = dyd_ties_drop(x->pd, beyond);
       if (in <= 0) continue;
-      if (!dyd_reserve((void **)&x->hole, &x->cap, x->count + 1, sizeof *x->hole)) return DYD_E_NOMEM;
+      if (!DYD_GROW(x->hole, x->cap, x->count + 1)) return DYD_E_NOMEM;
       x->hole[x->count++] = beyond;
     }
     if (st != DYD_OK) return st;

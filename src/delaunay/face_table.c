@@ -8,12 +8,7 @@
 #include <string.h>
 
 void dyd_table_clear(dyd_undecided *f) {
-  free(f->face);
-  free(f->seed);
-  free(f->tri);
-  free(f->pair);
-  free(f->turned);
-  free(f->of);
+  dyd_free_all(f->face, f->seed, f->tri, f->pair, f->turned, f->of);
   *f = (dyd_undecided){.kind = f->kind};
 }
 
@@ -27,7 +22,7 @@ dyd_status dyd_table_mark(dyd_delaunay *pd) {
 }
 
 static dyd_status table_append(dyd_undecided *f, uint32_t t, uint32_t face) {
-  if (!dyd_reserve((void **)&f->tri, &f->tri_cap, f->tri_count + 1, sizeof *f->tri)) return DYD_E_NOMEM;
+  if (!DYD_GROW(f->tri, f->tri_cap, f->tri_count + 1)) return DYD_E_NOMEM;
   f->tri[f->tri_count++] = t;
   f->of[t] = face;
   return DYD_OK;
@@ -47,7 +42,7 @@ dyd_status dyd_table_flood(dyd_delaunay *pd, uint32_t t, uint32_t face) {
 
 dyd_status dyd_table_add(dyd_delaunay *pd, size_t first_tri) {
   dyd_undecided *f = &pd->open;
-  if (!dyd_reserve((void **)&f->face, &f->face_cap, f->count + 1, sizeof *f->face)) return DYD_E_NOMEM;
+  if (!DYD_GROW(f->face, f->face_cap, f->count + 1)) return DYD_E_NOMEM;
   f->face[f->count++] =
       (dyd_face){.first_tri = first_tri, .first_pair = f->pair_count, .tris = (uint32_t)(f->tri_count - first_tri)};
   f->live_tris += f->tri_count - first_tri;
@@ -78,8 +73,8 @@ static dyd_status turn_pairs(uint32_t *turned, const dyd_vertex_pair *pair, uint
 }
 
 static bool make_room_for_pairs(dyd_undecided *f, size_t pairs) {
-  return dyd_reserve((void **)&f->pair, &f->pair_cap, f->pair_count + pairs, sizeof *f->pair) &&
-         dyd_reserve((void **)&f->turned, &f->turned_cap, f->pair_count + pairs, sizeof *f->turned);
+  return DYD_GROW(f->pair, f->pair_cap, f->pair_count + pairs) &&
+         DYD_GROW(f->turned, f->turned_cap, f->pair_count + pairs);
 }
 
 dyd_status dyd_table_store(dyd_delaunay *pd, size_t g, dyd_face as, const dyd_vertex_pair *pair) {
@@ -245,9 +240,7 @@ void dyd_table_compact(dyd_undecided *f) {
   uint32_t *turned = dyd_alloc(f->live_pairs, sizeof *turned);
   dyd_vertex_pair *pair = dyd_alloc(f->live_pairs, sizeof *pair);
   if (!tri || !turned || !pair) {
-    free(tri);
-    free(turned);
-    free(pair);
+    dyd_free_all(tri, turned, pair);
     return;
   }
   f->tri_count = f->pair_count = 0;
@@ -262,9 +255,7 @@ void dyd_table_compact(dyd_undecided *f) {
     f->tri_count += face->tris;
     f->pair_count += face->pairs;
   }
-  free(f->tri);
-  free(f->turned);
-  free(f->pair);
+  dyd_free_all(f->tri, f->turned, f->pair);
   f->tri = tri;
   f->turned = turned;
   f->pair = pair;

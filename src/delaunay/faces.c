@@ -101,10 +101,7 @@ typedef struct doubt {
 } doubt;
 
 static void doubt_clear(doubt *d) {
-  free(d->pair);
-  free(d->vertex);
-  free(d->gone);
-  free(d->near);
+  dyd_free_all(d->pair, d->vertex, d->gone, d->near);
 }
 
 /* Rectangles that meet are a possible pair [POS-1]. */
@@ -115,7 +112,7 @@ static bool may_end(const dyd_narrowed *n, const dyd_delaunay *pd, dyd_vertex_pa
 
 static bool doubt_vertex(doubt *d, const dyd_narrowed *n, uint32_t v) {
   if (n->mark[v] & DOUBT) return true;
-  if (!dyd_reserve((void **)&d->vertex, &d->vertex_cap, d->vertices + 1, sizeof *d->vertex)) return false;
+  if (!DYD_GROW(d->vertex, d->vertex_cap, d->vertices + 1)) return false;
   n->mark[v] |= DOUBT;
   d->vertex[d->vertices++] = v;
   return true;
@@ -132,8 +129,7 @@ static dyd_status find_doubts(doubt *d, const dyd_narrowed *n, const dyd_delauna
     d->all++;
     d->gone[q] = n->certain && ((a | b) & (CHANGED | NEAR)) && dyd_is_legal(&pd->sk, p->i, p->j);
     if (d->gone[q] || !may_end(n, pd, *p)) continue;
-    if (!dyd_reserve((void **)&d->pair, &d->pair_cap, d->pairs + 1, sizeof *d->pair) || !doubt_vertex(d, n, p->i) ||
-        !doubt_vertex(d, n, p->j))
+    if (!DYD_GROW(d->pair, d->pair_cap, d->pairs + 1) || !doubt_vertex(d, n, p->i) || !doubt_vertex(d, n, p->j))
       return DYD_E_NOMEM;
     d->pair[d->pairs++] = q;
   }

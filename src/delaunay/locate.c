@@ -206,9 +206,7 @@ dyd_status dyd_delaunay_locate(dyd_triangle *out, dyd_truth *in, const dyd_delau
 
 void dyd_place_list_clear(dyd_place_list *l) {
   if (!l) return;
-  free(l->site);
-  free(l->end);
-  free(l->sure);
+  dyd_free_all(l->site, l->end, l->sure);
   *l = (dyd_place_list){0};
 }
 
@@ -223,7 +221,7 @@ typedef struct corner_search {
 static bool corner_see(corner_search *s, uint32_t t) {
   if (s->mark[t] == s->out.places + 1) return true;
   s->mark[t] = (uint32_t)s->out.places + 1;
-  if (!dyd_reserve((void **)&s->seen, &s->seen_cap, s->count + 1, sizeof *s->seen)) return false;
+  if (!DYD_GROW(s->seen, s->seen_cap, s->count + 1)) return false;
   s->seen[s->count++] = t;
   return true;
 }
@@ -275,7 +273,7 @@ static dyd_status corner_list(corner_search *s, bool sure, const uint32_t exact[
   dyd_place_list *o = &s->out;
   const dyd_skeleton *sk = &s->l.pd->sk;
   size_t begin = o->places ? o->end[o->places - 1] : 0, count = alone ? alone : sure ? 3 * s->count : 0, kept = begin;
-  if (!dyd_reserve((void **)&o->site, &s->site_cap, begin + count, sizeof *o->site)) return DYD_E_NOMEM;
+  if (!DYD_GROW(o->site, s->site_cap, begin + count)) return DYD_E_NOMEM;
   for (size_t k = 0; k < count; k++)
     o->site[begin + k] = alone ? exact[k] : sk->reps.site[sk->mesh.tri[s->seen[k / 3]].v[k % 3]];
   if (count) qsort(o->site + begin, count, sizeof *o->site, dyd_compare_index);
@@ -316,8 +314,7 @@ dyd_status dyd_delaunay_corners(dyd_place_list *out, const dyd_delaunay *pd, con
     if (dyd_flag_is_set(cancel)) st = DYD_CANCELLED;
   }
   for (int k = 0; k < 3; k++) dyd_rect_clear(&s.l.r[k]);
-  free(s.mark);
-  free(s.seen);
+  dyd_free_all(s.mark, s.seen);
   dyd_place_list_clear(st == DYD_OK ? out : &s.out);
   if (st == DYD_OK) *out = s.out;
   return st;

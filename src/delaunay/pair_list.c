@@ -298,7 +298,7 @@ static dyd_status sort_run(sort_part *p, dyd_pair *run, size_t count, uint32_t n
     sort_short_run(run, count);
     return DYD_OK;
   }
-  if (!dyd_reserve((void **)&p->spare[1], &p->cap[1], count, sizeof *p->spare[1])) return DYD_E_NOMEM;
+  if (!DYD_GROW(p->spare[1], p->cap[1], count)) return DYD_E_NOMEM;
   sort_long_run(run, p->spare[1], count, n);
   return DYD_OK;
 }
@@ -308,7 +308,7 @@ static dyd_status sort_block(sort_part *p, const pair_sort *s, dyd_pair *block, 
   size_t width = (size_t)1 << s->shift, low = b << s->shift;
   dyd_status st = DYD_OK;
   if (width == 1) return sort_run(p, block, count, s->n);
-  if (!dyd_reserve((void **)&p->spare[0], &p->cap[0], count, sizeof *p->spare[0])) return DYD_E_NOMEM;
+  if (!DYD_GROW(p->spare[0], p->cap[0], count)) return DYD_E_NOMEM;
   memcpy(p->spare[0], block, count * sizeof *block);
   memset(p->start, 0, width * sizeof *p->start);
   for (size_t q = 0; q < count; q++) p->start[p->spare[0][q].i - low]++;
@@ -328,9 +328,7 @@ static void sort_part_of_blocks(void *context, size_t number) {
   if (!p->start) p->status = DYD_E_NOMEM;
   for (; b < (number + 1) * (MOST_BLOCKS / PARTS) && p->status == DYD_OK; first = s->end[b++])
     if (s->end[b] > first) p->status = sort_block(p, s, s->to + first, s->end[b] - first, b);
-  free(p->start);
-  free(p->spare[0]);
-  free(p->spare[1]);
+  dyd_free_all(p->start, p->spare[0], p->spare[1]);
 }
 
 static dyd_status sort_blocks(pair_sort *s, unsigned threads) {

@@ -157,7 +157,7 @@ static bool find_fan(fan *f, const chain *c, const dyd_extreme *x) {
 static dyd_status add_pair(dyd_hull_pairs *p, uint32_t i, uint32_t j) {
   p->capped = p->capped || p->count >= p->most;
   if (p->capped) return DYD_OK;
-  if (!dyd_reserve((void **)&p->item, &p->cap, p->count + 1, sizeof *p->item)) return DYD_E_NOMEM;
+  if (!DYD_GROW(p->item, p->cap, p->count + 1)) return DYD_E_NOMEM;
   p->item[p->count++] = (dyd_pair){i < j ? i : j, i < j ? j : i, DYD_INDETERMINATE};
   return DYD_OK;
 }
@@ -194,9 +194,7 @@ static dyd_status hull_quadrant(dyd_hull_pairs *pairs, dyd_extreme *x, size_t co
     qsort(f, fans, sizeof *f, compare_fans);
     st = sweep(pairs, f, fans, active);
   }
-  free(c.at);
-  free(active);
-  free(f);
+  dyd_free_all(c.at, active, f);
   return st;
 }
 
@@ -219,10 +217,7 @@ void dyd_hull_clear(dyd_hull *h) {
 static void hull_clear(hull *h) {
   for (size_t k = 0; k < h->made; k++)
     for (int n = 0; n < 4; n++) mpq_clear(h->x[k].e[n]);
-  free(h->x);
-  free(h->pairs.item);
-  free(h->start);
-  free(h->next);
+  dyd_free_all(h->x, h->pairs.item, h->start, h->next);
 }
 
 /* ---- candidates ---- */

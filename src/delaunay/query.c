@@ -312,7 +312,7 @@ static void collect_pair(void *context, uint32_t v, uint32_t w, dyd_pair_status 
   pair_collector *c = context;
   uint32_t i = c->site[v], j = c->site[w];
   if (c->status != DYD_OK) return;
-  if (!dyd_reserve((void **)&c->item, &c->cap, c->count + 1, sizeof *c->item))
+  if (!DYD_GROW(c->item, c->cap, c->count + 1))
     c->status = DYD_E_NOMEM;
   else
     c->item[c->count++] = (dyd_pair){i < j ? i : j, i < j ? j : i, status};
@@ -342,7 +342,7 @@ typedef struct group_list {
 } group_list;
 
 static dyd_status group_add(group_list *g, uint32_t site) {
-  if (!dyd_reserve((void **)&g->site, &g->cap, g->count + 1, sizeof *g->site)) return DYD_E_NOMEM;
+  if (!DYD_GROW(g->site, g->cap, g->count + 1)) return DYD_E_NOMEM;
   g->site[g->count++] = site;
   return DYD_OK;
 }

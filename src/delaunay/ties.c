@@ -20,8 +20,7 @@ typedef struct rim {
 } rim;
 
 static void rim_clear(rim *r) {
-  free(r->vertex);
-  free(r->site);
+  dyd_free_all(r->vertex, r->site);
 }
 
 static bool has_inexact_vertex(const dyd_delaunay *pd, const rim *r) {
@@ -172,7 +171,7 @@ typedef struct tie_flood {
 } tie_flood;
 
 static bool tie_mark(tie_flood *f, dyd_delaunay *pd, uint32_t t, uint32_t face) {
-  if (!dyd_reserve((void **)&f->list, &f->cap, f->count + 1, sizeof *f->list)) return false;
+  if (!DYD_GROW(f->list, f->cap, f->count + 1)) return false;
   f->list[f->count++] = t;
   pd->open.of[t] = face;
   return true;
@@ -217,7 +216,7 @@ static dyd_status tie_find_face(tie_flood *f, dyd_delaunay *pd, dyd_work *w, uin
   dyd_undecided *table = &pd->open;
   uint32_t face = (uint32_t)table->count;
   if (dyd_work_cancelled(w)) return DYD_CANCELLED;
-  if (!dyd_reserve((void **)&table->seed, &table->seed_cap, table->count + 1, sizeof *table->seed)) return DYD_E_NOMEM;
+  if (!DYD_GROW(table->seed, table->seed_cap, table->count + 1)) return DYD_E_NOMEM;
   table->seed[face] = t;
   w->counters.faces++;
   if (is_quad(pd, t, face)) return tie_settle(pd, 2, false), DYD_OK;
@@ -273,7 +272,7 @@ dyd_status dyd_tie_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay
   size_t kept = 0, cap = 0;
   do {
     uint32_t w = dyd_edge_origin(m, h);
-    if (!dyd_reserve((void **)&v, &cap, kept + 1, sizeof *v)) return free(v), DYD_E_NOMEM;
+    if (!DYD_GROW(v, cap, kept + 1)) return free(v), DYD_E_NOMEM;
     if (w != m->n) v[kept++] = w;
     h = dyd_tie_next(&pd->sk, h);
   } while (h != first);

@@ -17,7 +17,7 @@ void dyd_graph_list_clear(dyd_graph_list *l) {
 }
 
 static dyd_status graph_add(dyd_graph_work *w, uint32_t i, uint32_t j, bool sure) {
-  if (!dyd_reserve((void **)&w->out.item, &w->cap, w->out.count + 1, sizeof *w->out.item)) return DYD_E_NOMEM;
+  if (!DYD_GROW(w->out.item, w->cap, w->out.count + 1)) return DYD_E_NOMEM;
   w->out.item[w->out.count++] = (dyd_graph_edge){i, j, sure};
   return DYD_OK;
 }
@@ -253,18 +253,8 @@ static bool span_alloc(span_work *s) {
 }
 
 static void spanning_work_clear(span_work *s) {
-  free(s->least);
-  free(s->largest);
-  free(s->replaced);
-  free(s->nearest);
-  free(s->tree);
-  free(s->never);
-  free(s->up);
-  free(s->parent);
-  free(s->link);
-  free(s->depth);
-  free(s->start);
-  free(s->edge);
+  dyd_free_all(s->least, s->largest, s->replaced, s->nearest, s->tree, s->never, s->up, s->parent, s->link, s->depth,
+               s->start, s->edge);
 }
 
 static void sort_lengths(span_work *s) {
@@ -451,10 +441,7 @@ static dyd_status graph_prepare(dyd_graph_work *w) {
 static void graph_work_clear(dyd_graph_work *w) {
   dyd_reach_clear(&w->reach);
   dyd_pair_list_clear(&w->pairs);
-  free(w->start);
-  free(w->partner);
-  free(w->box);
-  free(w->other);
+  dyd_free_all(w->start, w->partner, w->box, w->other);
 }
 
 dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_graph graph, const volatile int *cancel,

@@ -56,7 +56,7 @@ static bool is_far(const dyd_clip *c, mpz_srcptr x, mpz_srcptr y) {
 /* Adds a point, unless it is far enough from everywhere in the box. false: memory is exhausted. */
 static bool clip_add(dyd_clip *c, mpz_srcptr x, mpz_srcptr y) {
   if (is_far(c, x, y)) return true;
-  if (!dyd_reserve((void **)&c->point, &c->cap, c->count + 1, sizeof *c->point)) return false;
+  if (!DYD_GROW(c->point, c->cap, c->count + 1)) return false;
   mpz_init_set(c->point[c->count].at[0], x);
   mpz_init_set(c->point[c->count].at[1], y);
   c->count++;
@@ -76,7 +76,7 @@ typedef struct clip_polygon {
 /* One corner more; NULL: memory is exhausted. */
 static clip_corner *polygon_add(clip_polygon *p) {
   if (p->count == p->made) {
-    if (!dyd_reserve((void **)&p->corner, &p->cap, p->made + 1, sizeof *p->corner)) return NULL;
+    if (!DYD_GROW(p->corner, p->cap, p->made + 1)) return NULL;
     mpq_inits(p->corner[p->made].at[0], p->corner[p->made].at[1], NULL);
     p->made++;
   }
@@ -214,20 +214,15 @@ void dyd_reach_clear(dyd_reach *r) {
     dyd_rect_clear(&r->rect[k]);
     dyd_irect_clear(&r->grid[k]);
   }
-  free(r->rect);
-  free(r->in);
-  free(r->grid);
-  free(r->mark);
+  dyd_free_all(r->rect, r->in, r->grid, r->mark);
   mpz_clears(r->rho, r->d, r->e, NULL);
 }
 
 static bool reach_room(dyd_reach *r, size_t count) {
   size_t cap[4] = {r->made, r->made, r->made, r->made};
   if (count <= r->made) return true;
-  if (!dyd_reserve((void **)&r->rect, &cap[0], count, sizeof *r->rect) ||
-      !dyd_reserve((void **)&r->in, &cap[1], count, sizeof *r->in) ||
-      !dyd_reserve((void **)&r->grid, &cap[2], count, sizeof *r->grid) ||
-      !dyd_reserve((void **)&r->mark, &cap[3], count, sizeof *r->mark))
+  if (!DYD_GROW(r->rect, cap[0], count) || !DYD_GROW(r->in, cap[1], count) || !DYD_GROW(r->grid, cap[2], count) ||
+      !DYD_GROW(r->mark, cap[3], count))
     return false;
   for (; r->made < cap[0]; r->made++) {
     dyd_rect_init(&r->rect[r->made]);

@@ -409,7 +409,7 @@ static dyd_status tiles_json(const dyd_output *o) {
   dyd_json j;
   dyd_status st = dyd_diagram_tiles(&t, d, false, o->err);
   dyd_json_begin(&j, o->out);
-  diagram_head_json(&j, d, "dyadel tiles 1",
+  diagram_head_json(&j, o, "dyadel tiles 1",
                     "tile_area is rounded up, area (of the cell for every choice) outward; rings are doubles, from the "
                     "true polygon of one choice by at most vertex_error in each coordinate, holes clockwise; null is "
                     "beyond the largest double");

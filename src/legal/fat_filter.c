@@ -75,7 +75,7 @@ static bool is_clear(const flood *f, uint32_t t) {
 static dyd_status fat_meet(flood *f, uint32_t t) {
   if (f->met[t] == f->mark) return DYD_OK;
   if (f->left == 0) return DYD_CAPPED;
-  if (!dyd_reserve((void **)&f->stack, &f->cap, f->top + 1, sizeof *f->stack)) return DYD_E_NOMEM;
+  if (!DYD_GROW(f->stack, f->cap, f->top + 1)) return DYD_E_NOMEM;
   f->left--;
   f->met[t] = f->mark;
   f->stack[f->top++] = t;

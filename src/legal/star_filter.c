@@ -37,7 +37,7 @@ dyd_status dyd_mark_tasks_init(dyd_mark_tasks *tasks, dyd_skeleton *sk, dyd_work
 }
 
 void dyd_mark_later(dyd_marks *m, dyd_half_edge h) {
-  if (dyd_reserve((void **)&m->edge, &m->cap, m->count + 1, sizeof *m->edge))
+  if (DYD_GROW(m->edge, m->cap, m->count + 1))
     m->edge[m->count++] = h;
   else
     m->status = DYD_E_NOMEM;
@@ -229,7 +229,7 @@ static dyd_status gather_fat(pass *p) {
     double r = star_radius(sk, v);
     if (r <= p->limit)
       largest = dyd_max(largest, r);
-    else if (!dyd_reserve((void **)&fat, &cap, count + 1, sizeof *fat))
+    else if (!DYD_GROW(fat, cap, count + 1))
       return free(fat), DYD_E_NOMEM;
     else
       fat[count++] = v;

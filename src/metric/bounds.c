@@ -337,8 +337,7 @@ dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, co
 }
 
 void dyd_voronoi_sums_clear(dyd_voronoi_sums *s) {
-  free(s->second);
-  free(s->reach);
+  dyd_free_all(s->second, s->reach);
   dyd_dyadic_clear(&s->area2);
   mpfr_clears(s->inner, s->term, (mpfr_ptr)0);
 }

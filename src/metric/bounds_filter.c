@@ -138,8 +138,7 @@ dyd_status dyd_filter_second(double *out, const dyd_delaunay *pd, uint32_t i, co
   }
   dyd_index_list_clear(&near);
   st = s.box && s.far ? DYD_OK : DYD_E_NOMEM;
-  free(s.box);
-  free(s.far);
+  dyd_free_all(s.box, s.far);
   return st;
 }
 

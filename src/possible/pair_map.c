@@ -21,8 +21,7 @@ static dyd_status resize(dyd_pair_map *m, size_t size) {
   uint64_t *key = calloc(size, sizeof *key);
   uint8_t *state = calloc(size, sizeof *state);
   if (!key || !state) {
-    free(key);
-    free(state);
+    dyd_free_all(key, state);
     return DYD_E_NOMEM;
   }
   dyd_pair_map old = *m;
@@ -35,8 +34,7 @@ static dyd_status resize(dyd_pair_map *m, size_t size) {
       m->key[p] = old.key[q];
       m->state[p] = old.state[q];
     }
-  free(old.key);
-  free(old.state);
+  dyd_free_all(old.key, old.state);
   return DYD_OK;
 }
 
@@ -49,10 +47,7 @@ dyd_status dyd_pair_map_init(dyd_pair_map *m, uint32_t members) {
 }
 
 void dyd_pair_map_clear(dyd_pair_map *m) {
-  free(m->key);
-  free(m->state);
-  free(m->head);
-  free(m->link);
+  dyd_free_all(m->key, m->state, m->head, m->link);
   memset(m, 0, sizeof *m);
 }
 
@@ -85,8 +80,7 @@ dyd_status dyd_pair_map_add(dyd_pair_map *m, uint32_t a, uint32_t b, dyd_pair_st
     dyd_status st = resize(m, 2 * (m->mask + 1));
     if (st != DYD_OK) return st;
   }
-  if (dyd_pair_is_possible(state) && !dyd_reserve((void **)&m->link, &m->link_cap, m->links + 2, sizeof *m->link))
-    return DYD_E_NOMEM;
+  if (dyd_pair_is_possible(state) && !DYD_GROW(m->link, m->link_cap, m->links + 2)) return DYD_E_NOMEM;
   uint64_t key = pair_key(a, b);
   size_t q = pair_place(m, key);
   if (!m->key[q]) m->used++;

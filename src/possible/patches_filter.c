@@ -348,7 +348,7 @@ static dyd_status consider(plane *p, patch *q, size_t a, size_t b) {
     return p->c->found(p->c->context, &p->enough, i->member, j->member);
   }
   if (!q->listed) return DYD_OK;
-  if (!dyd_reserve((void **)&p->wish, &p->wish_cap, p->wishes + 1, sizeof *p->wish)) return DYD_E_NOMEM;
+  if (!DYD_GROW(p->wish, p->wish_cap, p->wishes + 1)) return DYD_E_NOMEM;
   p->wish[p->wishes++] = (wish){(uint16_t)a, (uint16_t)b};
   q->wishes++;
   return DYD_OK;
@@ -439,7 +439,7 @@ static dyd_status look(plane *p, patch q) {
   p->lost = p->lost || q.depth > MAX_DEPTH;
   if (p->enough || is_lost(p)) return DYD_OK;
   if (dyd_flag_is_set(p->c->cancel)) return DYD_CANCELLED;
-  if (!dyd_reserve((void **)&p->entry, &p->entry_cap, p->entries + 2 * before, sizeof *p->entry)) return DYD_E_NOMEM;
+  if (!DYD_GROW(p->entry, p->entry_cap, p->entries + 2 * before)) return DYD_E_NOMEM;
   dyd_status st = make_list(p, &q) < 2 ? DYD_OK : go_on(p, &q, before, open);
   p->entries = entries;
   p->wishes = wishes;
@@ -473,8 +473,7 @@ static dyd_status everybody(plane *p) {
   p->rival = dyd_alloc(t->count, sizeof *p->rival);
   p->wanted = dyd_alloc(t->count, sizeof *p->wanted);
   p->value = dyd_alloc(t->count, sizeof *p->value);
-  if (!p->place || !p->near || !p->rival || !p->wanted || !p->value ||
-      !dyd_reserve((void **)&p->entry, &p->entry_cap, t->count, sizeof *p->entry))
+  if (!p->place || !p->near || !p->rival || !p->wanted || !p->value || !DYD_GROW(p->entry, p->entry_cap, t->count))
     return DYD_E_NOMEM;
   for (uint32_t q = 0; q < t->count; q++) p->entry[q] = (entry){t->item[q], patches_member(p->c, t->item[q]), true};
   p->entries = t->count;
@@ -502,12 +501,6 @@ dyd_status dyd_patches_run(bool *complete, const dyd_patches *c) {
   p.last = true;
   if (finite && st == DYD_OK) st = pass(&p);
   *complete = finite && st == DYD_OK && !p.enough && !p.lost;
-  free(p.entry);
-  free(p.wish);
-  free(p.value);
-  free(p.wanted);
-  free(p.rival);
-  free(p.near);
-  free(p.place);
+  dyd_free_all(p.entry, p.wish, p.value, p.wanted, p.rival, p.near, p.place);
   return st;
 }

@@ -41,10 +41,7 @@ static void proof_clear(dyd_proof *p) {
   dyd_cert_tree_clear(&p->tree);
   dyd_cert_graph_clear(&p->graph);
   dyd_cert_faces_clear(&p->faces);
-  free(p->legal.item);
-  free(p->bridges.item);
-  free(p->open.item);
-  free(p->chained.item);
+  dyd_free_all(p->legal.item, p->bridges.item, p->open.item, p->chained.item);
   dyd_pair_list_clear(&p->pairs);
 }
 

@@ -42,8 +42,7 @@ static dyd_status make_rim(rim *r, const dyd_proof *p) {
   } else {
     st = DYD_E_NOMEM;
   }
-  free(copy);
-  free(times);
+  dyd_free_all(copy, times);
   return st;
 }
 
@@ -217,7 +216,7 @@ static crowds groups_beside(const rim *r, const dyd_cert_parts *parts, size_t q)
 }
 
 static dyd_status keep_corner(dyd_proof *p, uint32_t v, const dyd_exact u[2]) {
-  if (!dyd_reserve((void **)&p->corner, &p->corner_cap, p->corners + 1, sizeof *p->corner)) return DYD_E_NOMEM;
+  if (!DYD_GROW(p->corner, p->corner_cap, p->corners + 1)) return DYD_E_NOMEM;
   dyd_cert_corner *c = &p->corner[p->corners++];
   c->i = v;
   dyd_proof_init(c->u, 2);
@@ -272,9 +271,7 @@ static dyd_status rim_corners(dyd_proof *p) {
       dyd_proof_drop_corners(p);
   }
   if (p->corners) qsort(p->corner, p->corners, sizeof *p->corner, dyd_compare_index);
-  free(r.walk);
-  free(r.site);
-  free(r.corner);
+  dyd_free_all(r.walk, r.site, r.corner);
   return st;
 }
 
@@ -441,8 +438,7 @@ dyd_status dyd_proof_find_bridges(dyd_proof *p) {
       st = DYD_OK;
     }
   }
-  free(parent);
-  free(site);
+  dyd_free_all(parent, site);
   return st;
 }
 

@@ -40,7 +40,7 @@ typedef struct lines {
 } lines;
 
 static dyd_status add_line(lines *l, uint32_t i, uint32_t j, char kind) {
-  if (!dyd_reserve((void **)&l->item, &l->cap, l->count + 1, sizeof *l->item)) return DYD_E_NOMEM;
+  if (!DYD_GROW(l->item, l->cap, l->count + 1)) return DYD_E_NOMEM;
   l->item[l->count++] = (line){i, j, kind};
   return DYD_OK;
 }
@@ -103,7 +103,7 @@ typedef struct blockers {
 } blockers;
 
 static dyd_status add_blockers(blockers *b, const uint32_t *site, size_t count) {
-  if (!dyd_reserve((void **)&b->site, &b->cap, b->count + count, sizeof *b->site)) return DYD_E_NOMEM;
+  if (!DYD_GROW(b->site, b->cap, b->count + count)) return DYD_E_NOMEM;
   if (count) memcpy(b->site + b->count, site, count * sizeof *site);
   b->count += count;
   return DYD_OK;
@@ -329,7 +329,7 @@ static dyd_status add_near(disc_proof *w, uint32_t v, uint32_t i, uint32_t j) {
   for (size_t k = 0; k < w->near_count; k++)
     if (w->near[k] == v) return DYD_OK;
   if (v == i || v == j) return DYD_OK;
-  if (!dyd_reserve((void **)&w->near, &w->near_cap, w->near_count + 1, sizeof *w->near)) return DYD_E_NOMEM;
+  if (!DYD_GROW(w->near, w->near_cap, w->near_count + 1)) return DYD_E_NOMEM;
   dyd_status st = dyd_cert_caps_add(&added, &w->all, &w->disc[v]);
   if (st == DYD_OK && added) w->near[w->near_count++] = v;
   return st;
@@ -372,7 +372,7 @@ static dyd_status add_all_sites(disc_proof *w, uint32_t i, uint32_t j) {
 static dyd_status choose_cap(disc_proof *w, size_t k) {
   bool added;
   uint32_t v = w->near[k - 1];
-  if (!dyd_reserve((void **)&w->chosen, &w->chosen_cap, w->chosen_count + 1, sizeof *w->chosen)) return DYD_E_NOMEM;
+  if (!DYD_GROW(w->chosen, w->chosen_cap, w->chosen_count + 1)) return DYD_E_NOMEM;
   w->chosen[w->chosen_count++] = v;
   return dyd_cert_caps_add(&added, &w->some, &w->disc[v]);
 }
@@ -544,11 +544,7 @@ static void clear_search(disc_proof *w) {
   dyd_cert_caps_clear(&w->some);
   for (size_t i = 0; w->disc && i < w->p->sites.count; i++) dyd_cert_disc_clear(&w->disc[i]);
   dyd_proof_clear(w->at, 2);
-  free(w->disc);
-  free(w->start);
-  free(w->partner);
-  free(w->near);
-  free(w->chosen);
+  dyd_free_all(w->disc, w->start, w->partner, w->near, w->chosen);
 }
 
 static dyd_status put_discs(FILE *out, disc_proof *w) {

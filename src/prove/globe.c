@@ -145,8 +145,7 @@ static dyd_status put_neighbours(FILE *out, const dyd_proof *p, const dyd_sphere
   }
   if (st == DYD_OK) fprintf(out, "neighbours %zu\n", count);
   for (uint32_t k = 0; k < s->with_image && st == DYD_OK; k++) put_neighbour(out, p, kind[k], k, all, sites);
-  free(all);
-  free(kind);
+  dyd_free_all(all, kind);
   return st;
 }
 

@@ -97,8 +97,7 @@ static dyd_status side_interval(dyd_interval *out, const dyd_cert_side *s) {
 
 static void location_clear(location *l) {
   for (size_t i = 0; l->site && i < l->count; i++) dyd_rect_clear(&l->site[i]);
-  free(l->site);
-  free(l->found);
+  dyd_free_all(l->site, l->found);
 }
 
 static dyd_status location_init(location *l, const dyd_cert_sites *s) {

@@ -103,7 +103,7 @@ static bool shorten_witness(dyd_exact out[2], const dyd_proof *p, uint32_t i, ui
 
 dyd_status dyd_proof_add_witness(bool *found, dyd_proof_points *out, const dyd_proof *p, uint32_t i, uint32_t j,
                                  const dyd_point *c, bool places) {
-  if (!dyd_reserve((void **)&out->item, &out->cap, out->count + 1, sizeof *out->item)) return DYD_E_NOMEM;
+  if (!DYD_GROW(out->item, out->cap, out->count + 1)) return DYD_E_NOMEM;
   dyd_exact from[2], *to = out->item[out->count];
   dyd_proof_init(from, 2);
   dyd_proof_init(to, 2);

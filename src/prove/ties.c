@@ -386,7 +386,7 @@ static bool is_same_number(comparison *c, uint32_t n, uint32_t k) {
 /* Room for the lines of all forms. */
 static bool comparison_grow(comparison *c) {
   size_t before = c->cap;
-  if (!dyd_reserve((void **)&c->line, &c->cap, c->forms.count, sizeof *c->line)) return false;
+  if (!DYD_GROW(c->line, c->cap, c->forms.count)) return false;
   memset(c->line + before, 0xff, (c->cap - before) * sizeof *c->line);
   return true;
 }
@@ -421,8 +421,7 @@ static dyd_status compare_points(bool *found, size_t *others, const dyd_cert_blo
       ++*others;
   }
   dyd_forms_clear(&c.forms);
-  free(c.line);
-  free(c.form);
+  dyd_free_all(c.line, c.form);
   return st;
 }
 
@@ -450,9 +449,7 @@ typedef struct fact {
 static void block_clear(dyd_proof_block *b) {
   dyd_ring_clear(&b->ring);
   dyd_forms_clear(&b->forms);
-  free(b->site);
-  free(b->line);
-  free(b->at);
+  dyd_free_all(b->site, b->line, b->at);
 }
 
 /* The sites of the facts, each once. */
@@ -595,8 +592,7 @@ static dyd_status put_block(FILE *out, size_t *taken, uint64_t *work, const dyd_
   if (st == DYD_OK && good) st = facts_text(&facts, taken, &t, list, count);
   if (st == DYD_OK && *taken) fprintf(out, "algebra %" PRIu32 "\n%sfacts %zu\n%s", lines, text, *taken, facts);
   if (*taken) *work = t.block[0]->algebra.relations.work;
-  free(facts);
-  free(text);
+  dyd_free_all(facts, text);
   dyd_cert_ties_clear(&t);
   return st;
 }

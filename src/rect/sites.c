@@ -86,7 +86,7 @@ static dyd_status words_make_room(dyd_sites *s, size_t n, size_t corners) {
   if (!s->word && !(s->word = calloc(s->cap, sizeof *s->word))) return DYD_E_NOMEM;
   if (n * corners <= s->point_cap - s->points) return DYD_OK;
   size_t need = s->points + (s->cap - s->count) * corners;
-  return dyd_reserve((void **)&s->point, &s->point_cap, need, sizeof *s->point) ? DYD_OK : DYD_E_NOMEM;
+  return DYD_GROW(s->point, s->point_cap, need) ? DYD_OK : DYD_E_NOMEM;
 }
 
 /* Writes a site of one or two corners behind the last one, where there is room in every array. */
@@ -281,14 +281,9 @@ void dyd_sites_free(dyd_sites *s) {
   if (!s) return;
   if (s->exact)
     for (size_t i = 0; i < s->count; i++) free(s->exact[i]);
-  free(s->exact);
-  free(s->word);
-  free(s->point);
-  free(s->joined);
-  free(s->kind);
+  dyd_free_all(s->exact, s->word, s->point, s->joined, s->kind);
   for (int a = 0; a < 2; a++) {
-    free(s->lower[a]);
-    free(s->upper[a]);
+    dyd_free_all(s->lower[a], s->upper[a]);
   }
   free(s);
 }
@@ -378,7 +373,7 @@ dyd_status dyd_sites_add_columns(dyd_sites *s, size_t n, const dyd_column xy[2],
 dyd_status dyd_sites_set_kind(dyd_sites *s, size_t i, size_t n, dyd_site_kind kind) {
   if (i + n > s->kind_count) {
     if (kind == DYD_SITE_ANY && i >= s->kind_count) return DYD_OK;
-    if (!dyd_reserve((void **)&s->kind, &s->kind_cap, i + n, sizeof *s->kind)) return DYD_E_NOMEM;
+    if (!DYD_GROW(s->kind, s->kind_cap, i + n)) return DYD_E_NOMEM;
     memset(s->kind + s->kind_count, DYD_SITE_ANY, i + n - s->kind_count);
     s->kind_count = i + n;
   }
@@ -389,7 +384,7 @@ dyd_status dyd_sites_set_kind(dyd_sites *s, size_t i, size_t n, dyd_site_kind ki
 dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n, dyd_site_kind kind) {
   dyd_status st = dyd_sites_reserve(s, n);
   if (st == DYD_OK) st = sites_split_ends(s);
-  if (st == DYD_OK && !dyd_reserve((void **)&s->kind, &s->kind_cap, s->count + n, sizeof *s->kind)) st = DYD_E_NOMEM;
+  if (st == DYD_OK && !DYD_GROW(s->kind, s->kind_cap, s->count + n)) st = DYD_E_NOMEM;
   if (st != DYD_OK) return st;
   for (size_t i = s->count; i < s->count + n; i++) {
     for (int a = 0; a < 2; a++) {
@@ -554,7 +549,7 @@ dyd_status dyd_sites_add_rect(dyd_sites *s, const dyd_rect *r) {
   if (!s) return DYD_E_ARG;
   dyd_status st = dyd_sites_reserve(s, 1);
   if (st != DYD_OK) return st;
-  if (!dyd_reserve((void **)&s->kind, &s->kind_cap, s->count + 1, sizeof *s->kind)) return DYD_E_NOMEM;
+  if (!DYD_GROW(s->kind, s->kind_cap, s->count + 1)) return DYD_E_NOMEM;
   st = sites_put(s, s->count, r, NULL);
   return st == DYD_OK ? dyd_sites_set_kind(s, s->count++, 1, DYD_SITE_GIVEN) : st;
 }

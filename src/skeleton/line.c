@@ -21,9 +21,7 @@ typedef struct entry {
 } entry;
 
 void dyd_line_clear(dyd_line *l) {
-  free(l->order);
-  free(l->rank);
-  free(l->legal);
+  dyd_free_all(l->order, l->rank, l->legal);
   memset(l, 0, sizeof *l);
 }
 
@@ -59,9 +57,7 @@ static dyd_status line_load(entry *e, const dyd_rects *rects, uint32_t count, co
       dyd_rect_clear(&r[q]);
     }
   }
-  free(out);
-  free(in);
-  free(r);
+  dyd_free_all(out, in, r);
   return st;
 }
 

@@ -281,8 +281,7 @@ static void mesh_put_first(dyd_mesh *m, const uint32_t first[3]) {
 
 void dyd_mesh_trim(dyd_mesh *m) {
   dyd_fixed_free(m->fixed);
-  free(m->rim);
-  free(m->spare);
+  dyd_free_all(m->rim, m->spare);
   m->fixed = NULL;
   m->exact_s = -1;
   m->no_fixed = true; /* later questions are few, and the grid would cost O(n) */
@@ -293,9 +292,7 @@ void dyd_mesh_trim(dyd_mesh *m) {
 
 void dyd_mesh_clear(dyd_mesh *m) {
   dyd_mesh_trim(m);
-  free(m->own_xy);
-  free(m->tri);
-  free(m->alias);
+  dyd_free_all(m->own_xy, m->tri, m->alias);
   memset(m, 0, sizeof *m);
 }
 
@@ -341,8 +338,8 @@ struct dyd_rim {
 
 /* Room for one more edge of the rim and one more free triangle. */
 static inline bool insert_has_room(dyd_mesh *m, size_t edges, size_t spares) {
-  return (edges < m->rim_cap || dyd_reserve((void **)&m->rim, &m->rim_cap, edges + 1, sizeof *m->rim)) &&
-         (spares < m->spare_cap || dyd_reserve((void **)&m->spare, &m->spare_cap, spares + 1, sizeof *m->spare));
+  return (edges < m->rim_cap || DYD_GROW(m->rim, m->rim_cap, edges + 1)) &&
+         (spares < m->spare_cap || DYD_GROW(m->spare, m->spare_cap, spares + 1));
 }
 
 /* The rim of the triangle t alone; returns where it begins. The edge to be examined next is the last one. */
@@ -449,9 +446,9 @@ dyd_status dyd_mesh_grow(dyd_mesh *m, uint32_t n, uint32_t ghost, const double w
   size_t cap = 0;
   const dyd_half_edge first = dyd_hull_edge(m, ghost);
   dyd_half_edge h = first;
-  if (!dyd_reserve((void **)&m->tri, &cap, 2 * (size_t)n + 2, sizeof *m->tri)) return DYD_E_NOMEM;
+  if (!DYD_GROW(m->tri, cap, 2 * (size_t)n + 2)) return DYD_E_NOMEM;
   cap = 0;
-  if (m->alias && !dyd_reserve((void **)&m->alias, &cap, n, sizeof *m->alias)) return DYD_E_NOMEM;
+  if (m->alias && !DYD_GROW(m->alias, cap, n)) return DYD_E_NOMEM;
   for (uint32_t v = m->n; m->alias && v < n; v++) m->alias[v] = DYD_NONE;
   do m->tri[dyd_edge_triangle(h)].v[dyd_edge_corner(h)] = n;
   while ((h = dyd_hull_following(m, h)) != first);

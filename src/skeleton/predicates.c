@@ -32,8 +32,7 @@ enum { COORDINATE_BITS = 60 };
 
 void dyd_fixed_free(dyd_fixed *f) {
   if (!f) return;
-  free(f->z);
-  free(f);
+  dyd_free_all(f->z, f);
 }
 
 /* x = man * 2^exp, man odd; x finite, not 0 and not subnormal (false otherwise). */

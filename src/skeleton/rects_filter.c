@@ -47,8 +47,7 @@ dyd_status dyd_tree_init(dyd_tree *t, uint32_t *item, uint32_t count, const dyd_
 }
 
 void dyd_tree_clear(dyd_tree *t) {
-  free(t->item);
-  free(t->node);
+  dyd_free_all(t->item, t->node);
   memset(t, 0, sizeof *t);
 }
 

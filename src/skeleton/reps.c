@@ -196,10 +196,7 @@ dyd_status dyd_spatial_order(uint32_t *order, dyd_strips *strips, const dyd_site
     for (size_t i = 0; i < n; i++) order[i] = (uint32_t)b[i]; /* an odd number of passes ends in b */
     set_strips(strips, &k);
   }
-  free(k.column);
-  free(k.count);
-  free(b);
-  free(k.a);
+  dyd_free_all(k.column, k.count, b, k.a);
   return st;
 }
 
@@ -418,8 +415,6 @@ dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, co
 }
 
 void dyd_reps_clear(dyd_reps *r) {
-  free(r->site);
-  free(r->xy);
-  free(r->code);
+  dyd_free_all(r->site, r->xy, r->code);
   memset(r, 0, sizeof *r);
 }

@@ -16,8 +16,7 @@ void dyd_scale_set_init(dyd_scale_set *s, const dyd_rects *rects) {
 
 void dyd_scale_set_clear(dyd_scale_set *s) {
   for (size_t k = 0; k < s->made; k++) dyd_irect_clear(&s->rect[k]);
-  free(s->rect);
-  free(s->vertex);
+  dyd_free_all(s->rect, s->vertex);
   mpz_clears(s->lcm, s->growth, s->t, NULL);
   dyd_rect_clear(&s->load);
 }
@@ -83,8 +82,8 @@ static bool scale_find(size_t *index, const dyd_scale_set *s, uint32_t v) {
 dyd_status dyd_scale_add(size_t *index, bool *grown, dyd_scale_set *s, uint32_t v) {
   *grown = false;
   if (scale_find(index, s, v)) return DYD_OK;
-  if (!dyd_reserve((void **)&s->vertex, &s->vertex_cap, s->count + 1, sizeof *s->vertex)) return DYD_E_NOMEM;
-  if (!dyd_reserve((void **)&s->rect, &s->rect_cap, s->count + 1, sizeof *s->rect)) return DYD_E_NOMEM;
+  if (!DYD_GROW(s->vertex, s->vertex_cap, s->count + 1)) return DYD_E_NOMEM;
+  if (!DYD_GROW(s->rect, s->rect_cap, s->count + 1)) return DYD_E_NOMEM;
   dyd_rects_get(&s->load, s->rects, v);
   if (s->made == s->count) dyd_irect_init(&s->rect[s->made++]);
   *grown = scale_refine(s);

@@ -115,10 +115,7 @@ void dyd_skeleton_clear(dyd_skeleton *sk) {
   dyd_mesh_clear(&sk->mesh);
   dyd_line_clear(&sk->line);
   dyd_reps_clear(&sk->reps);
-  free(sk->rects.box);
-  free(sk->certain);
-  free(sk->leaving);
-  free(sk->vertex);
+  dyd_free_all(sk->rects.box, sk->certain, sk->leaving, sk->vertex);
   memset(sk, 0, sizeof *sk);
 }
 

@@ -394,11 +394,7 @@ dyd_status dyd_sphere_survey(dyd_survey **out, dyd_sphere *s, const char *accura
     dyd_survey_free(p.found);
   dyd_sphere_free(p.nominal);
   dyd_pair_list_clear(&p.target);
-  free(p.row_of);
-  free(p.taken);
-  free(p.view);
-  free(p.image);
-  free(p.within);
+  dyd_free_all(p.row_of, p.taken, p.view, p.image, p.within);
   mpq_clear(p.accuracy);
   return st == DYD_OK || (err && err->code == st) ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
 }

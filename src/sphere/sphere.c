@@ -176,9 +176,7 @@ void dyd_sphere_free(dyd_sphere *s) {
   dyd_near_index_free(s->near);
   dyd_engine_free(s->images);
   for (size_t i = 0; s->stream && i < s->count; i++) dyd_stream_free(s->stream[i]);
-  free(s->stream);
-  free(s->of);
-  free(s->alias);
+  dyd_free_all(s->stream, s->of, s->alias);
   dyd_eye_clear(&s->eye);
   mpq_clears(s->angle, s->degrees, s->metre, NULL);
   free(s);

@@ -134,7 +134,7 @@ bool dyd_draft_reserve_constant(dyd_draft *d) {
 }
 
 bool dyd_draft_reserve_root(dyd_draft *d) {
-  return dyd_reserve((void **)&d->e.root, &d->root_cap, d->e.roots + 1, sizeof *d->e.root);
+  return DYD_GROW(d->e.root, d->root_cap, d->e.roots + 1);
 }
 
 size_t dyd_expr_size(const dyd_expr *e) {

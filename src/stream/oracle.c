@@ -531,9 +531,5 @@ void dyd_oracle_free(dyd_oracle *o) {
   for (unsigned k = 0; k < o->jobs; k++) dyd_worker_clear(&o->worker[k]);
   dyd_close(&o->lifeline[0]);
   dyd_close(&o->lifeline[1]);
-  free(o->command);
-  free(o->cost);
-  free(o->poll);
-  free(o->worker);
-  free(o);
+  dyd_free_all(o->command, o->cost, o->poll, o->worker, o);
 }

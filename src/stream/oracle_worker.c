@@ -289,9 +289,7 @@ void dyd_worker_init(dyd_worker *w, unsigned batch) {
 void dyd_worker_clear(dyd_worker *w) {
   dyd_process_end(&w->process);
   for (size_t k = w->head; k < w->count; k++) free(w->asked[k].answer);
-  free(w->asked);
-  free(w->line);
-  free(w->text);
+  dyd_free_all(w->asked, w->line, w->text);
 }
 
 char *dyd_quoted(char *out, size_t size, const char *text, size_t length) {
@@ -335,7 +333,7 @@ static bool queue_is_valid(const dyd_worker *w) {
 #endif
 
 static bool push_asked(dyd_worker *w, dyd_asked a) {
-  if (!dyd_reserve((void **)&w->asked, &w->cap, w->count + 1, sizeof *w->asked)) return false;
+  if (!DYD_GROW(w->asked, w->cap, w->count + 1)) return false;
   w->asked[w->count++] = a;
   return true;
 }
@@ -379,8 +377,7 @@ void dyd_worker_adopt(dyd_worker *w, dyd_worker *old) {
   w->head = old->head;
   w->answered = w->sent = old->answered;
   w->count = old->count - (first - old->answered);
-  free(old->line);
-  free(old->text);
+  dyd_free_all(old->line, old->text);
   DYD_INVARIANT(queue_is_valid(w));
 }
 

@@ -286,8 +286,7 @@ void dyd_real_free(dyd_real *x) {
   if (x->release) x->release(x->user);
   dyd_real_free(x->claim);
   if (x->now) dyd_interval_clear(x->now);
-  free(x->now);
-  free(x);
+  dyd_free_all(x->now, x);
 }
 
 const dyd_interval *dyd_real_interval(const dyd_real *x) {

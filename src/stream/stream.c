@@ -124,8 +124,7 @@ void dyd_stream_free(dyd_stream *s) {
   if (!s || --s->refs) return;
   if (s->source.release) s->source.release(s->source.user);
   if (s->now) dyd_rect_clear(s->now);
-  free(s->now);
-  free(s);
+  dyd_free_all(s->now, s);
 }
 
 const dyd_rect *dyd_stream_rect(const dyd_stream *s) {

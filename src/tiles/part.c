@@ -31,8 +31,7 @@ static dyd_status file_fail(const tiles_file *f, dyd_error *err) {
 }
 
 static void file_clear(tiles_file *f) {
-  free(f->name);
-  free(f->temporary);
+  dyd_free_all(f->name, f->temporary);
   *f = (tiles_file){0};
 }
 
@@ -508,8 +507,7 @@ static dyd_status write_part_pairs(FILE *out, part_readers *all, dyd_error *err)
 static void readers_close(part_readers *all) {
   for (size_t k = 0; k < all->count; k++)
     if (all->item[k].in) fclose(all->item[k].in);
-  free(all->item);
-  free(all->aliases.item);
+  dyd_free_all(all->item, all->aliases.item);
 }
 
 dyd_status tiles_write_csv(FILE *out, const char *folder, bool comments, dyd_error *err) {

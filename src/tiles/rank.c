@@ -20,10 +20,7 @@ void tile_free(tile *t) {
     if (t->out) tiles_mail_clear(&t->out[r]);
     if (t->sent) tiles_set_clear(&t->sent[r]);
   }
-  free(t->in);
-  free(t->out);
-  free(t->info);
-  free(t->sent);
+  dyd_free_all(t->in, t->out, t->info, t->sent);
   tiles_sites_clear(&t->own);
   tiles_sites_clear(&t->ghosts);
   tiles_sites_clear(&t->fringe);
@@ -32,11 +29,7 @@ void tile_free(tile *t) {
   tiles_reach_clear(&t->reach);
   tiles_search_clear(&t->search);
   dyd_engine_free(t->engine);
-  free(t->alias);
-  free(t->mark);
-  free(t->late);
-  free(t->rows.item);
-  free(t->aliases.item);
+  dyd_free_all(t->alias, t->mark, t->late, t->rows.item, t->aliases.item);
   if (t->spool) fclose(t->spool);
   if (t->parked) fclose(t->parked);
 }

@@ -94,7 +94,7 @@ static double reach_cross(double ax, double ay, double bx, double by) {
 
 static bool reach_knot(reach_work *w, double x, double y, bool far) {
   tiles_reach *r = w->out;
-  if (!dyd_reserve((void **)&r->knot, &r->cap_knot, w->knots + 1, sizeof *r->knot)) return false;
+  if (!DYD_GROW(r->knot, r->cap_knot, w->knots + 1)) return false;
   r->knot[w->knots++] = (tiles_knot){x, y, far};
   return true;
 }
@@ -200,7 +200,7 @@ static size_t hull_of_spokes(tiles_spoke *out, tiles_spoke *s, size_t n) {
 static bool reach_spokes(reach_work *w, const tiles_view *v, uint32_t i, const tiles_partners *p) {
   enum { PARTS = 8 };
   tiles_reach *r = w->out;
-  if (!dyd_reserve((void **)&r->spoke, &r->cap_spoke, PARTS * (p->count + 1), sizeof *r->spoke)) return false;
+  if (!DYD_GROW(r->spoke, r->cap_spoke, PARTS * (p->count + 1))) return false;
   tiles_box own = tiles_view_box(v, i);
   w->own = reach_box(&own, own.x0, own.y0);
   w->cx = w->own.x1 / 2;
@@ -310,8 +310,7 @@ static tiles_disc knot_disc(const tiles_knot *e, const tiles_box *own) {
 bool tiles_reach_find(tiles_reach *out, const tiles_view *v, uint32_t i, const tiles_partners *p) {
   reach_work w = {.out = out};
   bool fits;
-  if (!reach_spokes(&w, v, i, p) || !reach_chain(&fits, &w) ||
-      !dyd_reserve((void **)&out->item, &out->cap, w.knots + 1, sizeof *out->item))
+  if (!reach_spokes(&w, v, i, p) || !reach_chain(&fits, &w) || !DYD_GROW(out->item, out->cap, w.knots + 1))
     return false;
   const tiles_box own = tiles_view_box(v, i);
   out->count = 0;
@@ -321,9 +320,7 @@ bool tiles_reach_find(tiles_reach *out, const tiles_view *v, uint32_t i, const t
 }
 
 void tiles_reach_clear(tiles_reach *r) {
-  free(r->item);
-  free(r->spoke);
-  free(r->knot);
+  dyd_free_all(r->item, r->spoke, r->knot);
   *r = (tiles_reach){0};
 }
 

@@ -80,8 +80,7 @@ static bool tiles_tree_make(tiles_tree *t, const tiles_sites *s) {
 }
 
 void tiles_tree_clear(tiles_tree *t) {
-  free(t->order);
-  free(t->box);
+  dyd_free_all(t->order, t->box);
   *t = (tiles_tree){0};
 }
 
@@ -91,8 +90,8 @@ static bool is_too_late(const tiles_search *q, double score) {
 
 static bool search_take(tiles_search *q, uint32_t site, double score) {
   if (q->count < q->most) {
-    if (!dyd_reserve((void **)&q->site, &q->cap_site, q->count + 1, sizeof *q->site)) return false;
-    if (!dyd_reserve((void **)&q->score, &q->cap_score, q->count + 1, sizeof *q->score)) return false;
+    if (!DYD_GROW(q->site, q->cap_site, q->count + 1)) return false;
+    if (!DYD_GROW(q->score, q->cap_score, q->count + 1)) return false;
     q->count++;
   }
   size_t at = q->count - 1;
@@ -126,8 +125,7 @@ static bool tiles_tree_search(tiles_search *q, const tiles_tree *t, const tiles_
 }
 
 void tiles_search_clear(tiles_search *q) {
-  free(q->site);
-  free(q->score);
+  dyd_free_all(q->site, q->score);
   *q = (tiles_search){.disc = q->disc};
 }
 

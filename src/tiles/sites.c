@@ -37,8 +37,7 @@ void tiles_mail_clear(tiles_mail *m) {
 }
 
 bool tiles_sites_reserve(tiles_sites *s, size_t count) {
-  return dyd_reserve((void **)&s->number, &s->cap_number, count, sizeof *s->number) &&
-         dyd_reserve((void **)&s->end, &s->cap_end, count * s->dim, sizeof *s->end);
+  return DYD_GROW(s->number, s->cap_number, count) && DYD_GROW(s->end, s->cap_end, count * s->dim);
 }
 
 bool tiles_sites_add(tiles_sites *s, uint64_t number, const double *end) {
@@ -71,8 +70,7 @@ bool tiles_sites_take(tiles_sites *s, const tiles_mail *m, size_t *read) {
 }
 
 void tiles_sites_clear(tiles_sites *s) {
-  free(s->number);
-  free(s->end);
+  dyd_free_all(s->number, s->end);
   *s = (tiles_sites){.dim = s->dim};
 }
 
@@ -181,8 +179,7 @@ dyd_status tile_load(tiles_view *v, tile *t, const tiles_sites *first, const til
 }
 
 void tiles_graph_clear(tiles_graph *g) {
-  free(g->start);
-  free(g->partner);
+  dyd_free_all(g->start, g->partner);
   *g = (tiles_graph){0};
 }
 
@@ -232,11 +229,11 @@ static bool list_partners(tiles_graph *g, const dyd_delaunay *pd, uint32_t first
   const uint32_t most = sites / PARTS < LEAST ? LEAST : sites / PARTS, left = sites - first;
   g->first = first;
   g->count = left < most ? left : most;
-  if (!dyd_reserve((void **)&g->start, &g->cap_start, g->count + 2, sizeof *g->start)) return false;
+  if (!DYD_GROW(g->start, g->cap_start, g->count + 2)) return false;
   memset(g->start, 0, (g->count + 2) * sizeof *g->start);
   dyd_delaunay_each_pair(pd, count_partners, g);
   for (size_t k = 2; k < g->count + 2; k++) g->start[k] += g->start[k - 1];
-  if (!dyd_reserve((void **)&g->partner, &g->cap_partner, g->start[g->count + 1] + 1, sizeof *g->partner)) return false;
+  if (!DYD_GROW(g->partner, g->cap_partner, g->start[g->count + 1] + 1)) return false;
   dyd_delaunay_each_pair(pd, place_partners, g);
   return true;
 }
@@ -264,7 +261,7 @@ void tiles_rows_sort(tiles_rows *rows, size_t from) {
 }
 
 dyd_status tiles_rows_add(tiles_rows *rows, tiles_row row, dyd_error *err) {
-  if (!dyd_reserve((void **)&rows->item, &rows->cap, rows->count + 1, sizeof *rows->item)) return tiles_no_memory(err);
+  if (!DYD_GROW(rows->item, rows->cap, rows->count + 1)) return tiles_no_memory(err);
   rows->item[rows->count++] = row;
   return DYD_OK;
 }

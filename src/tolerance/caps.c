@@ -92,7 +92,7 @@ static void cap_cross(mpq_ptr out, mpq_ptr spare, const dyd_cap *e, const dyd_ca
 /* ---- loading ---- */
 
 static dyd_cap *next_cap(dyd_caps *c) {
-  if (!dyd_reserve((void **)&c->item, &c->cap, c->count + 1, sizeof *c->item)) return NULL;
+  if (!DYD_GROW(c->item, c->cap, c->count + 1)) return NULL;
   dyd_cap *p = &c->item[c->count];
   if (c->count == c->made) {
     mpq_inits(p->wx, p->wy, p->tau, p->ww, p->c, NULL);

@@ -111,7 +111,7 @@ static bool is_seen(const dyd_disc_work *w, uint32_t v) {
 
 bool dyd_discs_see(dyd_disc_work *w, uint32_t v) {
   if (is_seen(w, v)) return false;
-  if (!dyd_reserve((void **)&w->seen, &w->cap, w->count + 1, sizeof *w->seen)) w->failed = true;
+  if (!DYD_GROW(w->seen, w->cap, w->count + 1)) w->failed = true;
   if (!w->failed) w->seen[w->count++] = v;
   return !w->failed;
 }
@@ -480,9 +480,7 @@ static dyd_status triangulate_scaled(dyd_disc_work *w) {
 static void discs_clear(dyd_disc_work *w) {
   dyd_caps_clear(&w->caps);
   for (uint32_t v = 0; w->disc && v < w->pd->sk.n; v++) dyd_disc_clear(&w->disc[v]);
-  free(w->disc);
-  free(w->about);
-  free(w->seen);
+  dyd_free_all(w->disc, w->about, w->seen);
   dyd_delaunay_free(w->scaled);
   dyd_sites_free(w->scaled_sites);
 }

@@ -22,18 +22,14 @@ void dyd_lines_clear(dyd_lines *l) {
     dyd_rect_clear(&l->rect[k]);
     dyd_irect_clear(&l->grid[k]);
   }
-  free(l->item);
-  free(l->rect);
-  free(l->grid);
+  dyd_free_all(l->item, l->rect, l->grid);
   mpz_clears(l->ix, l->iy, l->jx, l->jy, l->jj, l->u, l->v, l->x, l->y, NULL);
   mpq_clear(l->factor);
 }
 
 static dyd_status lines_reserve(dyd_lines *l, size_t need) {
   size_t cap[3] = {l->made, l->made, l->made};
-  if (!dyd_reserve((void **)&l->item, &cap[0], need, sizeof *l->item) ||
-      !dyd_reserve((void **)&l->rect, &cap[1], need, sizeof *l->rect) ||
-      !dyd_reserve((void **)&l->grid, &cap[2], need, sizeof *l->grid))
+  if (!DYD_GROW(l->item, cap[0], need) || !DYD_GROW(l->rect, cap[1], need) || !DYD_GROW(l->grid, cap[2], need))
     return DYD_E_NOMEM;
   for (; l->made < need; l->made++) {
     dyd_line_over *o = &l->item[l->made];

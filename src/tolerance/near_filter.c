@@ -96,12 +96,7 @@ dyd_status dyd_near_prepare(dyd_tolerance *t) {
 
 void dyd_near_clear(dyd_tolerance *t) {
   if (t->has_tree) dyd_tree_clear(&t->tree);
-  free(t->box);
-  free(t->start);
-  free(t->near);
-  free(t->legal);
-  free(t->low);
-  free(t->others.vertex);
+  dyd_free_all(t->box, t->start, t->near, t->legal, t->low, t->others.vertex);
 }
 
 dyd_status dyd_near_index(dyd_tolerance *t) {
@@ -126,7 +121,7 @@ dyd_status dyd_near_index(dyd_tolerance *t) {
 /* ---- others ---- */
 
 bool dyd_others_add(dyd_others *o, uint32_t v) {
-  if (!dyd_reserve((void **)&o->vertex, &o->cap, o->count + 1, sizeof *o->vertex)) return false;
+  if (!DYD_GROW(o->vertex, o->cap, o->count + 1)) return false;
   o->vertex[o->count++] = v;
   return true;
 }

@@ -453,7 +453,6 @@ dyd_status dyd_points_radius(dyd_tolerance *t) {
   t->radius = dyd_alloc(t->sk->n, sizeof *t->radius);
   dyd_status st = p.radius && t->radius ? pass_all(&p) : DYD_E_NOMEM;
   for (uint32_t i = 0; st == DYD_OK && i < t->sk->n; i++) t->radius[i] = p.radius[t->sk->vertex[i]];
-  free(p.radius);
-  free(p.most);
+  dyd_free_all(p.radius, p.most);
   return st;
 }

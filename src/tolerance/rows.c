@@ -39,7 +39,7 @@ static dyd_tolerance_row row_of_summit(const dyd_tolerance *t, uint32_t v, uint3
 }
 
 dyd_status dyd_row_add(dyd_tolerance *t, dyd_tolerance_row row) {
-  if (!dyd_reserve((void **)&t->row, &t->cap, t->rows + 1, sizeof *t->row)) return DYD_E_NOMEM;
+  if (!DYD_GROW(t->row, t->cap, t->rows + 1)) return DYD_E_NOMEM;
   t->row[t->rows++] = row;
   return DYD_OK;
 }
@@ -115,16 +115,14 @@ dyd_status dyd_rows_sort(dyd_tolerance *t) {
   size_t n = t->sk->n, *start = calloc(n + 2, sizeof *start);
   dyd_tolerance_row *to = dyd_alloc(t->rows, sizeof *to);
   if (!start || !to) {
-    free(start);
-    free(to);
+    dyd_free_all(start, to);
     return DYD_E_NOMEM;
   }
   for (size_t k = 0; k < t->rows; k++) start[t->row[k].i + 2]++;
   for (size_t i = 1; i <= n; i++) start[i + 1] += start[i];
   for (size_t k = 0; k < t->rows; k++) to[start[t->row[k].i + 1]++] = t->row[k];
   for (size_t i = 0; i < n; i++) rows_sort_site(to + start[i], start[i + 1] - start[i]);
-  free(start);
-  free(t->row);
+  dyd_free_all(start, t->row);
   t->row = to;
   t->cap = t->rows;
   return DYD_OK;
@@ -271,7 +269,7 @@ static bool death_of_edge(dyd_tolerance_row *row, death_part *p, const dyd_toler
     write_death(row, ring_of_edge(t, e), t, e, &d);
     return true;
   }
-  if (!dyd_reserve((void **)&p->later, &p->cap, p->count + 1, sizeof *p->later)) return false;
+  if (!DYD_GROW(p->later, p->cap, p->count + 1)) return false;
   p->later[p->count++] = *e;
   return true;
 }
@@ -411,8 +409,7 @@ dyd_status dyd_deaths(dyd_tolerance *t) {
   death_pass p = {t, calloc(n + 1, sizeof *p.first), calloc(ranges, sizeof *p.part)};
   dyd_status st = p.first && p.part ? deaths_in_mesh(&p, ranges) : DYD_E_NOMEM;
   for (size_t r = 0; p.part && r < ranges; r++) free(p.part[r].later);
-  free(p.first);
-  free(p.part);
+  dyd_free_all(p.first, p.part);
   return st;
 }
 

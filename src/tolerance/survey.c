@@ -422,10 +422,7 @@ void dyd_survey_free(dyd_survey *s) {
     mpq_clears(s->site[i].x, s->site[i].y, s->site[i].half, NULL);
   }
   dyd_survey_index_clear(s);
-  free(s->site);
-  free(s->chosen);
-  free(s->row);
-  free(s->draft);
+  dyd_free_all(s->site, s->chosen, s->row, s->draft);
   dyd_pair_list_clear(&s->target);
   mpq_clear(s->scale);
   free(s);

@@ -260,12 +260,7 @@ dyd_status dyd_survey_index_faces(dyd_survey *s, const dyd_delaunay *pd) {
 
 void dyd_survey_index_clear(dyd_survey *s) {
   for (size_t f = 0; s->open.face && f < s->open.count; f++) dyd_index_list_clear(&s->open.face[f]);
-  free(s->open.face);
-  free(s->open.owner);
-  free(s->open.start);
-  free(s->open.of);
-  free(s->first);
-  free(s->at);
+  dyd_free_all(s->open.face, s->open.owner, s->open.start, s->open.of, s->first, s->at);
 }
 
 /* Sites are measured one by one in a triangulation of all; how many targets each row of a plan decides after the rows
@@ -274,7 +269,7 @@ void dyd_survey_index_clear(dyd_survey *s) {
 
 /* Appends the next row of the face worked on. */
 static dyd_status choose_site(dyd_survey *s, uint32_t site, size_t decided) {
-  if (!dyd_reserve((void **)&s->chosen, &s->chosen_cap, s->chosens + 1, sizeof *s->chosen)) return DYD_E_NOMEM;
+  if (!DYD_GROW(s->chosen, s->chosen_cap, s->chosens + 1)) return DYD_E_NOMEM;
   s->chosen[s->chosens++] = (dyd_face_row){{.site = site, .decided = decided}, s->faces};
   s->site[site].chosen = true;
   return DYD_OK;
@@ -297,8 +292,7 @@ dyd_status dyd_measuring_begin(dyd_measuring *m, dyd_survey *s) {
 void dyd_measuring_end(dyd_measuring *m) {
   dyd_delaunay_free(m->now);
   dyd_sites_free(m->sites);
-  free(m->open);
-  free(m->degree);
+  dyd_free_all(m->open, m->degree);
 }
 
 static void note_decided(dyd_measuring *m, uint32_t i) {
@@ -341,7 +335,7 @@ dyd_status dyd_measuring_draft(size_t *decided, dyd_measuring *m, uint32_t i) {
   dyd_survey *s = m->s;
   dyd_status st = measuring_site(decided, m, i);
   if (st != DYD_OK) return st;
-  if (!dyd_reserve((void **)&s->draft, &s->draft_cap, s->drafts + 1, sizeof *s->draft)) return DYD_E_NOMEM;
+  if (!DYD_GROW(s->draft, s->draft_cap, s->drafts + 1)) return DYD_E_NOMEM;
   s->draft[s->drafts++] = (dyd_survey_row){i, dyd_survey_now(s, i), dyd_survey_needed(s, i), *decided, m->left};
   return DYD_OK;
 }
@@ -436,8 +430,7 @@ dyd_status dyd_survey_crowds(dyd_measuring *m) {
     if (st == DYD_OK) st = measure_first(m, crowd, count);
   }
   s->faces++;
-  free(mark);
-  free(crowd);
+  dyd_free_all(mark, crowd);
   return st;
 }
 
@@ -602,10 +595,7 @@ static dyd_status face_begin(face_try *f, size_t **open) {
 }
 
 static void face_end(face_try *f, size_t *open) {
-  free(open);
-  free(f->target);
-  free(f->measured);
-  free(f->order);
+  dyd_free_all(open, f->target, f->measured, f->order);
 }
 
 dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t face) {

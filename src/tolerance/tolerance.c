@@ -166,12 +166,7 @@ void dyd_tolerance_free(dyd_tolerance *t) {
   dyd_near_clear(t);
   dyd_summit_clear(&t->summit);
   dyd_lines_clear(&t->lines);
-  free(t->ring);
-  free(t->radius);
-  free(t->weight);
-  free(t->sigma);
-  free(t->chance);
-  free(t->row);
+  dyd_free_all(t->ring, t->radius, t->weight, t->sigma, t->chance, t->row);
   dyd_delaunay_free(t->centres);
   dyd_sites_free(t->sites);
   free(t);

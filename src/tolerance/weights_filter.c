@@ -444,9 +444,7 @@ static dyd_status weights_begin(weight_work *g) {
 
 static void weights_end(weight_work *g) {
   for (uint32_t v = 0; g->discs.disc && v < g->t->sk->n; v++) dyd_disc_clear(&g->discs.disc[v]);
-  free(g->discs.disc);
-  free(g->discs.about);
-  free(g->discs.seen);
+  dyd_free_all(g->discs.disc, g->discs.about, g->discs.seen);
   dyd_caps_clear(&g->discs.caps);
   mpq_clear(g->now);
 }

@@ -22,9 +22,7 @@ void dyd_forms_clear(dyd_forms *f) {
     dyd_root_free(f->node[n].root);
   }
   for (size_t k = 0; k < f->constants; k++) mpq_clear(f->constant[k]);
-  free(f->node);
-  free(f->constant);
-  free(f->seen);
+  dyd_free_all(f->node, f->constant, f->seen);
   dyd_forms_init(f);
 }
 
@@ -43,7 +41,7 @@ static bool forms_are_equal(const dyd_form *x, const dyd_form *y) {
 
 static uint32_t forms_append(dyd_forms *f, dyd_form n, uint32_t place) {
   if (f->count >= DYD_FORMS_MOST || n.depth > DYD_FORMS_DEPTH) return DYD_NONE;
-  if (!dyd_reserve((void **)&f->node, &f->cap, f->count + 1, sizeof *f->node)) {
+  if (!DYD_GROW(f->node, f->cap, f->count + 1)) {
     f->failed = true;
     return DYD_NONE;
   }
@@ -66,7 +64,7 @@ static dyd_form form_of_number(mpq_srcptr q) {
 }
 
 static bool forms_keep_number(dyd_forms *f, mpq_srcptr q) {
-  if (!dyd_reserve((void **)&f->constant, &f->constant_cap, f->constants + 1, sizeof *f->constant)) return false;
+  if (!DYD_GROW(f->constant, f->constant_cap, f->constants + 1)) return false;
   mpq_init(f->constant[f->constants]);
   mpq_set(f->constant[f->constants++], q);
   return true;
@@ -348,7 +346,7 @@ static dyd_form_point form_of_composed(dyd_forms *f, dyd_stream_kind kind, const
   for (size_t k = f->seen_count; k-- > 0;)
     if (f->seen[k].object == object) return f->seen[k].at;
   dyd_form_point at = kind == DYD_STREAM_IMAGE ? form_of_image(f, object) : form_of_centre(f, object);
-  if (!dyd_reserve((void **)&f->seen, &f->seen_cap, f->seen_count + 1, sizeof *f->seen)) {
+  if (!DYD_GROW(f->seen, f->seen_cap, f->seen_count + 1)) {
     f->failed = true;
     return NOWHERE;
   }

@@ -78,9 +78,7 @@ dyd_status dyd_ring_init(dyd_ring *r, dyd_forms *forms) {
 void dyd_ring_clear(dyd_ring *r) {
   ring_close(r);
   for (slong k = 0; k < r->bases; k++) fmpz_clear(r->base + k);
-  free(r->base);
-  free(r->frac);
-  free(r->none);
+  dyd_free_all(r->base, r->frac, r->none);
   fmpz_poly_clear(r->minimal);
 }
 
@@ -88,7 +86,7 @@ void dyd_ring_clear(dyd_ring *r) {
 
 bool dyd_ring_hold(dyd_ring *r) {
   size_t before = r->frac_cap;
-  if (!dyd_reserve((void **)&r->frac, &r->frac_cap, r->forms->count, sizeof *r->frac)) return false;
+  if (!DYD_GROW(r->frac, r->frac_cap, r->forms->count)) return false;
   if (r->frac_cap > before) memset(r->frac + before, 0, (r->frac_cap - before) * sizeof *r->frac);
   return true;
 }
