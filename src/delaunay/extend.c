@@ -8,7 +8,6 @@
 #include "delaunay/extend.h"
 
 #include "base/alloc.h"
-#include "base/error.h"
 #include "base/invariant.h"
 #include "delaunay/ties.h"
 #include "legal/certify.h"

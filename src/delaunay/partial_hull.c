@@ -18,8 +18,6 @@
 #include "delaunay/state.h"
 #include "delaunay/undecided.h"
 
-#include <string.h>
-
 /* Sites that can be extreme in a direction u >= 0 (mathematics: section 6, step 3).
  *
  * Write a_k for the lower left, b_k for the upper right corner of R_k, g(u) = max_k u.a_k. Site i can be extreme in

@@ -5,7 +5,6 @@
 #include "base/alloc.h"
 
 #include <math.h>
-#include <string.h>
 
 void dyd_scale_set_init(dyd_scale_set *s, const dyd_rects *rects) {
   *s = (dyd_scale_set){.rects = rects};

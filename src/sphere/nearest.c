@@ -10,12 +10,8 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "engine/plan.h"
-#include "rect/rect.h"
 #include "sphere/state.h"
 #include "stream/ball.h"
-#include "stream/stream.h"
-
-#include <string.h>
 
 enum { FIRST_PREC = 128 };
 

@@ -3,7 +3,6 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "engine/state.h"
-#include "rect/rect.h"
 #include "sphere/state.h"
 #include "stream/algebra/zero.h"
 #include "stream/ball.h"

@@ -9,7 +9,6 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
-#include "rect/rect.h"
 #include "sphere/state.h"
 #include "sphere/units.h"
 #include "stream/ball.h"

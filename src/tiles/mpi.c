@@ -4,7 +4,6 @@
 
 #include <mpi.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { PIECE = 1 << 30 };
 

@@ -2,10 +2,7 @@
 /* Tables of sites, mail, and the triangulation of sites: partners and rows. */
 #include "tiles/tiles.h"
 
-#include <errno.h>
-#include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>

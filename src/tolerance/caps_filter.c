@@ -6,7 +6,6 @@
  * computed, so nothing cancels. u.w_k - tau_k is then off by less than 2^-46 (|w_k| + tau_k), sum norm. */
 #include "tolerance/discs.h"
 
-#include <float.h>
 #include <math.h>
 
 /* Returns true if x is a normal number that stays one when squared. */

@@ -9,7 +9,6 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
-#include "base/float_filter.h"
 #include "rect/sites_table.h"
 
 #include <math.h>

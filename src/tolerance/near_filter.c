@@ -6,7 +6,6 @@
 
 #include <fenv.h>
 #include <math.h>
-#include <string.h>
 
 enum { AHEAD = 8 };
 

@@ -9,8 +9,6 @@
 #include "tolerance/lines.h"
 #include "tolerance/state.h"
 
-#include <string.h>
-
 /* ---- rows ---- */
 
 bool dyd_rows_have_room(dyd_tolerance *t, uint64_t pairs, const char *what) {
