@@ -376,8 +376,8 @@ static dyd_status policy_answer(dyd_plan *plan, PyObject *answer) {
 }
 
 /* Calls policy(pairs, plan): a list of undecided pairs, and a dict of bits by points. */
-static dyd_status policy_call(dyd_plan *plan, PyObject *policy, const dyd_pair_list *pairs, const dyd_request *request,
-                              size_t count) {
+static dyd_status python_policy(dyd_plan *plan, PyObject *policy, const dyd_pair_list *pairs,
+                                const dyd_request *request, size_t count) {
   PyObject *list = PyList_New(0), *dict = PyDict_New(), *answer = NULL;
   for (size_t k = 0; list && !PyErr_Occurred() && k < pairs->count; k++) {
     if (pairs->item[k].status != DYD_INDETERMINATE) continue;
@@ -405,7 +405,7 @@ static dyd_status policy_asked(dyd_plan *plan, void *user, const dyd_engine *e, 
   dyd_pair_list pairs = {0};
   dyd_status st = dyd_engine_delaunay(e) ? dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(e)) : DYD_OK;
   PyGILState_STATE gil = PyGILState_Ensure();
-  if (st == DYD_OK) st = PyErr_Occurred() ? DYD_E_STREAM : policy_call(plan, user, &pairs, request, count);
+  if (st == DYD_OK) st = PyErr_Occurred() ? DYD_E_STREAM : python_policy(plan, user, &pairs, request, count);
   if (PyErr_Occurred()) st = dyd_error_set(err, DYD_E_STREAM, "the policy raised an exception");
   PyGILState_Release(gil);
   dyd_pair_list_clear(&pairs);
