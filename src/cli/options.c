@@ -72,11 +72,8 @@ static dyd_status read_window_ends(mpq_t end[4], const char *text) {
 }
 
 static dyd_status round_window_side(dyd_interval *out, const mpq_t lo, const mpq_t hi) {
-  dyd_real *real = NULL;
-  dyd_status st = dyd_real_from_interval(&real, lo, hi);
-  if (st == DYD_OK) dyd_interval_set(out, dyd_real_interval(real));
-  dyd_real_free(real);
-  return st;
+  dyd_status st = dyd_interval_set_ends_q(out, lo, hi);
+  return st == DYD_OK ? dyd_interval_round(out, out) : st;
 }
 
 int cli_window_read(dyd_rect *out, const char *text) {
@@ -601,6 +598,18 @@ static int options_help(cli_options *o, const scan *s) {
   return 0;
 }
 
+/* Takes --threads N out of the words of the call: results do not depend on it, and so repeat the same call. */
+static void forget_threads(char **argv) {
+  char **kept = argv;
+  for (; *argv && strcmp(*argv, "--"); argv++) {
+    bool apart = strcmp(*argv, "--threads") == 0;
+    if (apart && argv[1]) argv++;
+    if (!apart && strncmp(*argv, "--threads=", 10)) *kept++ = *argv;
+  }
+  while (*argv) *kept++ = *argv++;
+  *kept = NULL;
+}
+
 int cli_options_read(cli_options *out, int argc, char **argv) {
   scan s;
   *out = (cli_options){.format = DYD_FORMAT_CSV, .read = {DYD_SIZED(dyd_read_options)}};
@@ -609,6 +618,7 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   scan_prepare(&s);
   int status = scan_all(&s, out, argc, argv);
   if (status) return status;
+  forget_threads(argv);
   if (s.operands == 0) {
     if (out->help || out->version) return 0;
     return cli_usage("a command is missing; try: dyadel delaunay FILE, or dyadel --help");

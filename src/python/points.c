@@ -299,6 +299,8 @@ int dydpy_window(dyd_rect *r, bool *given, PyObject *window) {
   *given = window != Py_None;
   if (!*given) return 0;
   dyd_status st = PySequence_Size(window) == 4 ? dydpy_answer(r, window, &err) : DYD_E_ARG;
+  if (st >= 0 && (dyd_interval_round(&r->x, &r->x) != DYD_OK || dyd_interval_round(&r->y, &r->y) != DYD_OK))
+    st = DYD_E_RANGE;
   bool wrong = st < 0 && st != DYD_E_NOMEM;
   if (wrong) {
     PyErr_Clear();
