@@ -444,6 +444,7 @@ class Sphere:
         v = self.at(1)[i]
         with mpmath.workprec(PRECISIONS[1]):
             out = [v, tuple(mpmath.mpf(rand.gauss(0, 1)) for _ in v)]
+            corners = [c for c in corners if c]  # of places on one great circle there is none
             for c in rand.sample(corners, min(3, len(corners))):
                 t = mpmath.mpf(rand.choice((0.5, 0.99, 1.01, 1.5)))
                 out.append(tuple(x + t * (y - x) for x, y in zip(v, c)))
