@@ -138,6 +138,8 @@ const char *cli_spatial_kind(const char *name);
 /* The name of the driver of GDAL that writes files of this ending, and whether these hold several layers; NULL: none,
  * also where ending is NULL. */
 const char *cli_spatial_driver(bool *layers, const char *ending);
+/* Sets path to the folder of this command, with a / at its end; "" where it is not known. */
+void cli_folder_find(char *path, size_t size);
 /* Becomes dyadel-gdal where the options take GDAL and this program has none. 0, or CLI_USAGE after a message. */
 int cli_spatial_switch(const cli_options *o, char **argv);
 

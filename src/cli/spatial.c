@@ -8,6 +8,9 @@
 #include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#ifdef __linux__
+#include <sys/auxv.h>
+#endif
 
 /* ---- the kind of a file ---- */
 
@@ -92,12 +95,23 @@ static int complain_without(const cli_options *o) {
                    file, missing, file, o->in_layer ? o->in_layer : "", o->command);
 }
 
+void cli_folder_find(char *path, size_t size) {
+  ssize_t length = readlink("/proc/self/exe", path, size);
+#ifdef __linux__
+  if (length < 0)
+    length = snprintf(path, size, "%s", (const char *)getauxval(AT_EXECFN)); /* no /proc, as in a chroot */
+#endif
+  if (length >= (ssize_t)size) length = 0;
+  while (length > 0 && path[length - 1] != '/') length--;
+  path[length > 0 ? length : 0] = 0;
+}
+
 /* Becomes the program, which is beside this one, or in libexec beside its folder; returns where it is in neither. */
 static void become_gdal(char **argv) {
   char path[4096];
-  ssize_t length = readlink("/proc/self/exe", path, sizeof path - 64);
-  while (length > 0 && path[length - 1] != '/') length--;
-  if (length <= 0) return;
+  cli_folder_find(path, sizeof path - 64);
+  size_t length = strlen(path);
+  if (!length) return;
   strcpy(path + length, "dyadel-gdal");
   execv(path, argv);
   if (length > 4 && memcmp(path + length - 4, "bin/", 4) == 0) strcpy(path + length - 4, "libexec/dyadel-gdal");

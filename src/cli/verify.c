@@ -34,14 +34,6 @@ static bool folder_ends(size_t *at, const char *folder, const char *end) {
   return strcmp(folder + *at, end) == 0;
 }
 
-/* Sets path to the folder of this command, "" where it is not known. */
-static void folder_find(char *path, size_t size) {
-  ssize_t length = readlink("/proc/self/exe", path, size);
-  if (length >= (ssize_t)size) length = 0;
-  while (length > 0 && path[length - 1] != '/') length--;
-  path[length > 0 ? length : 0] = 0;
-}
-
 /* Sets path to the program in one of the places, or to its name, for PATH to find it. */
 static void proved_find(char *path, size_t size, const char *folder) {
   size_t at;
@@ -82,7 +74,7 @@ static void proved_become(int out, int still, const char *path, const char *file
 static int proved_run(int out, int still, const char *file) {
   char folder[4096], path[sizeof folder + 64];
   int how = 0;
-  folder_find(folder, sizeof folder);
+  cli_folder_find(folder, sizeof folder);
   proved_find(path, sizeof path, folder);
   pid_t child = fork();
   if (child == 0) proved_become(out, still, path, file);

@@ -322,6 +322,20 @@ def test_without_gdal():
             expect(ask('delaunay', *words), 2, r'\A\Z', 'dyadel-gdal .*ogr2ogr -f CSV /vsistdout/')
 
 
+def test_without_proc():
+    """Where /proc is not mounted, as in a plain chroot, the command finds dyadel-gdal all the same."""
+    with Folder() as f:
+        f.write('p.txt', '0 0\n1 1\n2 5\n')
+        build = os.path.dirname(os.path.dirname(os.path.dirname(COMMAND)))
+        hidden = ['unshare', '--mount', 'sh', '-c', 'mount -t tmpfs none /proc && exec "$@"', 'sh', COMMAND]
+        if subprocess.run([*hidden, '--version'], env=os.environ | {'LD_LIBRARY_PATH': build}, capture_output=True, check=False).returncode:
+            return  # only root may
+        done = subprocess.run([*hidden, 'delaunay', 'p.txt', '-q', '-o', 'o.gpkg'], cwd=f.path, env=os.environ | {'LD_LIBRARY_PATH': build},
+                              capture_output=True, text=True, check=False)
+        assert (done.returncode, done.stderr) == (0, ''), done
+        assert os.path.exists(f.at('o.gpkg'))
+
+
 if HERE:
     main(globals())
 main({'test_without_gdal': test_without_gdal})
