@@ -85,9 +85,13 @@ typedef struct dyd_read_options {
    * nothing in common. Numbers that are not rational are merged where their rows are written alike. NULL: nothing is
    * merged. */
   const char *merge_by;
+  /* Memory that the points of this text may take while they are read and added, by an estimate within a factor of 2:
+   * DYD_E_NOMEM when it is more. 0: no bound. Lines and unpacking (a few megabytes) do not count. */
+  uint64_t max_bytes;
 } dyd_read_options;
 
-/* A field of dyd_read_options but struct_size and report, for programs that set fields by name or look at all. */
+/* A field of dyd_read_options but struct_size, report and max_bytes, for programs that set fields by name or look at
+ * all. */
 typedef struct dyd_read_field {
   size_t struct_size; /* set by the library */
   const char *name;   /* "radius_columns" */

@@ -273,7 +273,7 @@ dyd_status cli_session_cut(dyd_status st, const dyd_error *err);
 int cli_exit_cut(void);
 int cli_exit_status(dyd_outcome outcome);
 /* Where the library failed with st: CLI_BUDGET if --max-bytes refused memory, else CLI_FAILED. */
-int cli_exit_refused(const cli_session *s, dyd_status st);
+int cli_exit_refused(const cli_options *o, dyd_status st);
 /* Returns the reason why statuses are undecided, and the remedy. Static storage. */
 const char *cli_outcome_advice(const dyd_engine *e);
 /* The line that sums up a result with undecided pairs (dyd_pair_status counts) and names the next step; advice NULL:

@@ -104,7 +104,7 @@ static int session_complain_read(const cli_options *o, dyd_status st, const dyd_
     cli_complain("%s", err->message);
   else
     cli_complain_at(o->file, err);
-  return st == DYD_E_ARG ? CLI_USAGE : CLI_FAILED;
+  return st == DYD_E_ARG ? CLI_USAGE : cli_exit_refused(o, st);
 }
 
 static int session_read_file(dyd_engine *e, cli_options *o, dyd_read_report *report) {
@@ -117,6 +117,7 @@ static int session_read_file(dyd_engine *e, cli_options *o, dyd_read_report *rep
   dyd_error err;
   dyd_read_options read = o->read;
   read.report = report;
+  read.max_bytes = o->engine.max_bytes;
   dyd_status st = dyd_read_points(e, in, &read, &err);
   if (!features)
     cli_input_close(in);
@@ -177,8 +178,9 @@ static size_t places_ways(dyd_read_options way[4], const cli_options *of) {
   const dyd_read_options *r = &of->read;
   const char *columns = of->query_columns;
   if (!columns && r->columns && (of->query_id || !names_numbers(r->columns))) columns = r->columns;
-  dyd_read_options base = {DYD_SIZED(dyd_read_options), .decimal_comma = r->decimal_comma, .missing = r->missing,
-                           .skip_missing = r->skip_missing, .degrees = r->degrees};
+  dyd_read_options base = {DYD_SIZED(dyd_read_options), .decimal_comma = r->decimal_comma,
+                           .missing = r->missing,       .skip_missing = r->skip_missing,
+                           .degrees = r->degrees,       .max_bytes = of->engine.max_bytes};
   size_t ways = 0;
   if (columns) {
     dyd_read_options *table = &way[ways++];
@@ -198,6 +200,7 @@ int cli_places_read(dyd_engine *e, const cli_options *of) {
   dyd_read_options way[4];
   dyd_read_report report;
   dyd_error err;
+  o.engine.max_bytes = of->engine.max_bytes;
   if (cli_gdal_here && cli_spatial_kind(o.file)) {
     o.read.id = of->query_id;
     return cli_points_read(e, &o, false);
@@ -350,7 +353,7 @@ int cli_session_run(cli_session *s, const dyd_engine_options *options, cli_run_f
   if (s->forgot) return cli_complain_memory();
   if (st == DYD_OK) return 0;
   cli_complain_of(s->engine, s->o.file, &err);
-  return cli_exit_refused(s, st);
+  return cli_exit_refused(&s->o, st);
 }
 
 dyd_status cli_run_engine(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
@@ -358,8 +361,8 @@ dyd_status cli_run_engine(cli_session *s, const dyd_engine_options *options, dyd
   return dyd_engine_run(&outcome, s->engine, options, err);
 }
 
-int cli_exit_refused(const cli_session *s, dyd_status st) {
-  return st == DYD_E_NOMEM && s->o.engine.max_bytes ? CLI_BUDGET : CLI_FAILED;
+int cli_exit_refused(const cli_options *o, dyd_status st) {
+  return st == DYD_E_NOMEM && o->engine.max_bytes ? CLI_BUDGET : CLI_FAILED;
 }
 
 int cli_exit_status(dyd_outcome outcome) {
@@ -490,7 +493,7 @@ int cli_write_file(const char *name, const cli_session *s, cli_print_fn print) {
   else
     cli_output_drop(&out);
   if (done && cli_is_packed(name, o)) cli_note(o, "%s holds %s, packed", name, dyd_format_name(o->format));
-  return done ? 0 : cli_exit_refused(s, st);
+  return done ? 0 : cli_exit_refused(&s->o, st);
 }
 
 /* The certificate that the options ask for, after results were written with this status. Returns the status of all. */

@@ -43,7 +43,8 @@ static uint64_t bytes_of_ends(int64_t bits) {
 
 /* What the points take: their rectangles, records and streams. O(points). */
 static uint64_t engine_point_bytes(const dyd_engine *e) {
-  uint64_t bytes = dyd_sites_memory(e->sites) + e->point_cap * sizeof *e->point + e->change_cap * sizeof *e->changed;
+  uint64_t bytes = dyd_sites_memory(e->sites) + e->point_cap * sizeof *e->point + e->change_cap * sizeof *e->changed +
+                   dyd_labels_bytes(&e->labels);
   for (size_t k = 0; k < e->points; k++) {
     const dyd_refinable *p = &e->point[k];
     bytes += dyd_stream_bytes(p->stream) + (p->asked ? bytes_of_ends(p->bits) / 2 : 0); /* half is in the table */

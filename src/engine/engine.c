@@ -183,6 +183,10 @@ void dyd_labels_clear(dyd_labels *l) {
   *l = (dyd_labels){0};
 }
 
+size_t dyd_labels_bytes(const dyd_labels *l) {
+  return l->points * (sizeof *l->row + sizeof *l->id + sizeof *l->number) + l->used + l->merges * sizeof *l->merged;
+}
+
 bool dyd_labels_add(dyd_labels *l, const char *id, size_t length, const dyd_row_numbers *number) {
   if (!dyd_reserve((void **)&l->row, &l->row_cap, l->points + 1, sizeof *l->row) ||
       !dyd_reserve((void **)&l->id, &l->id_cap, l->points + 1, sizeof *l->id) ||

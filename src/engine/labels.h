@@ -38,6 +38,8 @@ typedef struct dyd_labels {
 } dyd_labels;
 
 void dyd_labels_clear(dyd_labels *l);
+/* Bytes that labels take. O(1) */
+size_t dyd_labels_bytes(const dyd_labels *l);
 /* The next point, of row l->rows; id (length bytes, copied, with carried texts behind a NUL
  * each) may be NULL. false: memory is exhausted. */
 bool dyd_labels_add(dyd_labels *l, const char *id, size_t length, const dyd_row_numbers *number);

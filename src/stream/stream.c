@@ -539,7 +539,7 @@ static uint64_t bytes_of_root(const dyd_root *r) {
   return bytes;
 }
 
-static uint64_t bytes_of_real(const dyd_real *x) {
+uint64_t dyd_real_bytes(const dyd_real *x) {
   const void *object;
   uint64_t bytes = RECORD + bytes_of_interval(dyd_real_interval(x));
   dyd_real_kind kind = dyd_real_object(&object, x);
@@ -554,7 +554,7 @@ uint64_t dyd_stream_bytes(const dyd_stream *s) {
   uint64_t bytes = RECORD + (now ? bytes_of_interval(&now->x) + bytes_of_interval(&now->y) : 0);
   if (dyd_stream_object(&object, s) != DYD_STREAM_PAIR) return bytes;
   const dyd_stream_pair *pair = object;
-  return bytes + bytes_of_real(pair->x) + (pair->y == pair->x ? 0 : bytes_of_real(pair->y));
+  return bytes + dyd_real_bytes(pair->x) + (pair->y == pair->x ? 0 : dyd_real_bytes(pair->y));
 }
 
 /* Numbers of as many digits as the value has: those of all nodes, and what a function computes with: powers, constants,

@@ -59,6 +59,7 @@ dyd_status dyd_stream_narrow_until(dyd_stream *s, int64_t bits, int64_t max_bits
 /* What s (NULL: none) takes in memory, and what narrowing it to 2^-bits takes for a while, by estimate. O(1), but for
  * polynomials. */
 uint64_t dyd_stream_bytes(const dyd_stream *s);
+uint64_t dyd_real_bytes(const dyd_real *x); /* of x alone, without operands */
 uint64_t dyd_stream_work_bytes(const dyd_stream *s, int64_t bits);
 
 /* How many times the source has been called. */

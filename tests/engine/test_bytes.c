@@ -422,12 +422,93 @@ static void test_uses(void **state) {
   }
 }
 
+/* ---- reading ---- */
+
+enum { ROWS = 20000 };
+
+/* Row k has these forms of the numbers x, y and k: how its points are written, and what comes with them. */
+static const struct {
+  const char *name, *header, *row;
+  dyd_read_options o;
+} TEXTS[] = {
+    {"doubles", "", "%.0f %.0f\n", {.columns = NULL}},
+    {"decimals", "", "%.5f %.5f\n", {.columns = NULL}},
+    {"merged places", "", "%.5f %.5f\n", {.merge = true}},
+    {"radii", "x,y\n", "%.5f,%.5f\n", {.columns = "x,y", .radius = "1/3"}},
+    {"intervals", "", "[%.5f,9e9] [%.5f,9e9]\n", {.columns = NULL}},
+    {"expressions", "", "sqrt(%.5f) sqrt(%.3f)\n", {.columns = NULL}},
+    {"roots", "", "root(x^5-x-1-%.0f,1,99) %.5f\n", {.columns = NULL}},
+    {"identifiers", "x,y,n\n", "%.5f,%.5f,name%d\n", {.columns = "x,y", .id = "n"}},
+    {"rows of identifiers",
+     "x,y,n\n",
+     "%.5f,%.5f,n%d\n",
+     {.columns = "x,y", .id = "n", .merge_by = "id", .radius = "1e9"}},
+    {"carried texts",
+     "x,y,n\n",
+     "%.5f,%.5f,a text of some length that is carried %d\n",
+     {.columns = "x,y", .carry = "all"}},
+    {"confidence", "x,y,s\n", "%.5f,%.5f,0.%d\n", {.columns = "x,y", .sigma_column = "s", .confidence = "0.95"}},
+};
+
+static FILE *text_of(size_t k) {
+  FILE *out = tmpfile();
+  assert_non_null(out);
+  fputs(TEXTS[k].header, out);
+  random_numbers.state = 777 + k;
+  for (int row = 0; row < ROWS; row++) {
+    char text[200];
+    double x = 1e6 * unit(), y = 1e6 * unit();
+    assert_true(snprintf(text, sizeof text, TEXTS[k].row, x, y, row / 2) < (int)sizeof text);
+    fputs(text, out);
+  }
+  return out;
+}
+
+/* Reads the text into an engine; *most_held: what it took. */
+static dyd_status read_within(double *most_held, FILE *in, const dyd_read_options *o) {
+  dyd_engine *e = engine_new();
+  dyd_error err;
+  rewind(in);
+  long long before = atomic_load(&held);
+  atomic_store(&most, before);
+  dyd_status st = dyd_read_points(e, in, o, &err);
+  *most_held = (double)(atomic_load(&most) - before);
+  if (st < 0 && (st != DYD_E_NOMEM || err.code != st || !strstr(err.message, "max_bytes") || dyd_engine_count(e)))
+    fail_msg("%d, %s", st, err.message);
+  dyd_engine_free(e);
+  return st;
+}
+
+/* What a text is granted from on is the memory that reading it takes, up to a factor of 2; below it is refused in time,
+ * and nothing is added. */
+static void test_reading(void **state) {
+  (void)state;
+  for (size_t k = 0; k < sizeof TEXTS / sizeof *TEXTS; k++) {
+    dyd_status st;
+    FILE *in = text_of(k);
+    dyd_read_options o = TEXTS[k].o;
+    o.struct_size = sizeof o;
+    double real, now, bound;
+    assert_int_equal(DYD_OK, read_within(&real, in, &o));
+    bound = real / 3;
+    do {
+      o.max_bytes = (uint64_t)(bound *= 1.2);
+      st = read_within(&now, in, &o);
+      if (now > 2 * bound + MEGABYTE) fail_msg("%s: %.0f held with %.0f allowed", TEXTS[k].name, now, bound);
+    } while (st == DYD_E_NOMEM);
+    print_message("%s: %.0f held, granted from %.0f on, ratio %.2f\n", TEXTS[k].name, real, bound, bound / real);
+    assert_true(bound < 2 * real + MEGABYTE && 2 * bound + MEGABYTE > real);
+    fclose(in);
+  }
+}
+
 int main(void) {
   random_numbers = test_random_start("bytes");
   dyd_rect_init(&square);
   assert_int_equal(DYD_OK, dyd_rect_set_d(&square, 0, 1, 0, 1));
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_estimates), cmocka_unit_test(test_refusals),
-                                     cmocka_unit_test(test_results_are_kept), cmocka_unit_test(test_uses)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_reading),  cmocka_unit_test(test_estimates),
+                                     cmocka_unit_test(test_refusals), cmocka_unit_test(test_results_are_kept),
+                                     cmocka_unit_test(test_uses),     cmocka_unit_test(test_reading)};
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   dyd_rect_clear(&square);
   return failed;

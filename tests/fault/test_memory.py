@@ -120,6 +120,33 @@ def test_max_bytes():
     print(tried, 'runs with --max-bytes')
 
 
+def most_held(*args):
+    """Status, messages, and the most bytes that the process held."""
+    with tempfile.TemporaryFile() as err:
+        pid = os.fork()
+        if not pid:
+            os.dup2(err.fileno(), 2)
+            os.execv(COMMAND, [COMMAND, *args])
+        _, status, used = os.wait4(pid, 0)
+        err.seek(0)
+        return os.waitstatus_to_exitcode(status), err.read().decode(), 1024 * used.ru_maxrss
+
+
+def test_reading_is_bounded():
+    """--max-bytes ends reading, of points and of places, before more is held."""
+    with tempfile.TemporaryDirectory() as folder:
+        many, few = os.path.join(folder, 'many'), os.path.join(folder, 'few')
+        with open(many, 'w') as out:
+            for _ in range(600000): out.write(f'{rand.uniform(0, 100):.6f} {rand.uniform(0, 100):.6f}\n')
+        with open(few, 'w') as out:
+            out.write('0 0\n3 1\n1 4\n')
+        for case in (('delaunay', many), ('nearest', few, '--queries', many)):
+            status, err, held = most_held(*case, '--max-bytes', '8M', '-o', os.devnull)
+            code, _, least = most_held('delaunay', few, '-q', '-o', os.devnull)
+            assert code == 0 and status == 4 and 'reading the points' in err and '--max-bytes' in err, (case, code, status, err)
+            assert held < least + 16 * MB, (case, held, least)
+
+
 def test_fonts_never_come():
     """A picture that is never done: the deadline holds, and outputs other than pictures are written."""
     with tempfile.TemporaryDirectory() as folder:

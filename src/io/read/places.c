@@ -16,6 +16,10 @@ void dyd_places_clear(dyd_places *n) {
   *n = (dyd_places){0};
 }
 
+size_t dyd_places_bytes(const dyd_places *n) {
+  return n->count * sizeof *n->item + n->slots * sizeof *n->slot + n->used;
+}
+
 static bool key_put(dyd_places *n, const char *text, size_t length) {
   if (!dyd_reserve((void **)&n->text, &n->text_cap, n->used + length + 1, 1)) return false;
   memcpy(n->text + n->used, text, length);

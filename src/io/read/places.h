@@ -34,6 +34,8 @@ typedef struct dyd_places {
 } dyd_places;
 
 void dyd_places_clear(dyd_places *n);
+/* Bytes that it takes. O(1) */
+size_t dyd_places_bytes(const dyd_places *n);
 /* Finds the place of the two coordinates and raises its count; *out is borrowed until the next call. Equal exact
  * numbers (the middle of an interval, a value without its radius) are equal however they are written; other expressions
  * are when their texts are equal. A new place has count 1. DYD_E_NOMEM. */

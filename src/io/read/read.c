@@ -316,6 +316,15 @@ static bool intake_labels(const intake *in) {
   return in->o->id || in->o->carry || in->o->skip_missing || in->o->merge || in->numbers;
 }
 
+/* false, with *err filled: reading takes more memory than `max_bytes`. The engine gets a copy of the labels. */
+static bool intake_has_room(const intake *in, dyd_error *err) {
+  dyd_room room = {.most = in->o->max_bytes};
+  uint64_t bytes = in->stage.bytes + 2 * dyd_labels_bytes(&in->labels) + dyd_places_bytes(&in->places) +
+                   dyd_places_bytes(&in->ids) + in->cells_used + in->sightings * sizeof *in->seen +
+                   (in->sigma ? in->stage.count * sizeof *in->sigma : 0);
+  return dyd_room_has(&room, bytes, "reading the points") || (dyd_fail_room(err, &room), false);
+}
+
 /* ---- fields ---- */
 
 static dyd_status fail_missing_field(const dyd_span *s, int role, dyd_error *err) {
@@ -500,6 +509,7 @@ static dyd_status intake_row(intake *in, dyd_span span[DYD_CSV_MOST], dyd_error 
   dyd_coordinate c[2] = {{.kind = DYD_COORDINATE_DOUBLE}, {.kind = DYD_COORDINATE_DOUBLE}};
   dyd_status st = DYD_OK;
   in->report.rows++;
+  if (!intake_has_room(in, err)) return DYD_E_NOMEM;
   for (int k = 0; k < in->roles; k++)
     if (span[k].text && dyd_cell_is_missing(&in->style, &span[k])) return intake_skip(in, &span[k], k, err);
   if (in->o->decimal_comma || in->style.thousands) st = dyd_cells_plain(&in->style, span, (size_t)in->roles, err);
@@ -598,6 +608,7 @@ static dyd_status intake_join(intake *in, dyd_error *err) {
   for (size_t k = 0; st == DYD_OK && k < in->ids.count; k++) {
     const dyd_place *id = &in->ids.item[k];
     if (id->count < 2) continue;
+    if (!intake_has_room(in, err)) return DYD_E_NOMEM;
     dyd_twin *row = dyd_alloc(id->count + 1, sizeof *row);
     if (!row) return dyd_fail_nomem(err);
     for (size_t j = 0; j <= id->count; j++) dyd_twin_init(&row[j]);
@@ -620,6 +631,7 @@ static dyd_status intake_commit(dyd_engine *e, intake *in, dyd_error *err) {
   dyd_status st = in->o->merge_by ? intake_join(in, err) : DYD_OK;
   if (st == DYD_OK && in->o->confidence) st = dyd_confidence_for(&c, e, in->o->confidence, in->uncertain, err);
   if (st == DYD_OK && in->o->confidence) st = intake_confide(in, c.k, err);
+  if (st == DYD_OK && !intake_has_room(in, err)) st = DYD_E_NOMEM;
   if (st == DYD_OK && labelled && dyd_labels_join(&all, e, own) != DYD_OK) st = dyd_fail_nomem(err);
   if (st == DYD_OK) st = dyd_stage_commit(e, &in->stage, err);
   if (st == DYD_OK && in->o->confidence) dyd_engine_give_confidence(e, &c);

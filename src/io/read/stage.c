@@ -6,6 +6,8 @@
 #include "base/error.h"
 #include "engine/add.h"
 #include "rect/rect.h"
+#include "stream/stream.h"
+
 #include <string.h>
 
 /* A point takes the most special kind of its coordinates; doubles fit all kinds. */
@@ -110,6 +112,15 @@ static void staged_join(dyd_staged *out, dyd_coordinate_kind kind, const dyd_coo
   }
 }
 
+/* Bytes of a point, here and in the table of sites: its ends, and a number that no double holds. */
+static uint64_t staged_bytes(const dyd_staged *p) {
+  enum { END = sizeof(double), RECORD = 64 };
+  uint64_t bytes = sizeof *p + (p->kind == DYD_COORDINATE_DOUBLE ? 2 : 4) * END;
+  if (p->kind == DYD_COORDINATE_PLAIN) bytes += sizeof(uint32_t) + sizeof(dyd_word_point);
+  if (p->kind == DYD_COORDINATE_REAL) bytes += RECORD + dyd_real_bytes(p->u.real[0]) + dyd_real_bytes(p->u.real[1]);
+  return bytes;
+}
+
 /* *out becomes the point; takes over reals, also on failure, and leaves both coordinates empty. */
 static dyd_status staged_put(dyd_staged *out, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
   dyd_status st = DYD_OK;
@@ -126,20 +137,29 @@ static dyd_status staged_put(dyd_staged *out, dyd_coordinate *x, dyd_coordinate 
   return DYD_OK;
 }
 
+/* Puts a point in place k, which is empty. */
+static dyd_status stage_put(dyd_stage *s, size_t k, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
+  dyd_status st = staged_put(staged_at(s, k), x, y, err);
+  if (st == DYD_OK) s->bytes += staged_bytes(staged_at(s, k));
+  return st;
+}
+
 dyd_status dyd_stage_add(dyd_stage *s, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
   if (!stage_make_room(s)) {
     dyd_coordinate_clear(x);
     dyd_coordinate_clear(y);
     return dyd_fail_nomem(err);
   }
-  dyd_status st = staged_put(staged_at(s, s->count), x, y, err);
+  dyd_status st = stage_put(s, s->count, x, y, err);
   s->count += st == DYD_OK;
   return st;
 }
 
-/* The coordinates of a point, which is empty afterwards: the inverse of staged_join. */
-static void staged_split(dyd_coordinate *x, dyd_coordinate *y, dyd_staged *p) {
+/* The coordinates of point k, which is empty afterwards: the inverse of stage_put. */
+static void stage_split(dyd_coordinate *x, dyd_coordinate *y, dyd_stage *s, size_t k) {
   dyd_coordinate *c[2] = {x, y};
+  dyd_staged *p = staged_at(s, k);
+  s->bytes -= staged_bytes(p);
   for (int a = 0; a < 2; a++) {
     *c[a] = (dyd_coordinate){.kind = (dyd_coordinate_kind)p->kind};
     if (p->kind == DYD_COORDINATE_BOX)
@@ -165,20 +185,20 @@ static void swap_coordinates(dyd_coordinate *a, dyd_coordinate *b) {
 dyd_status dyd_stage_replace(dyd_stage *s, size_t k, dyd_coordinate *x, dyd_coordinate *y, const bool take[2],
                              dyd_error *err) {
   dyd_coordinate old[2];
-  staged_split(&old[0], &old[1], staged_at(s, k));
+  stage_split(&old[0], &old[1], s, k);
   if (take[0]) swap_coordinates(&old[0], x);
   if (take[1]) swap_coordinates(&old[1], y);
   dyd_coordinate_clear(x);
   dyd_coordinate_clear(y);
-  return staged_put(staged_at(s, k), &old[0], &old[1], err);
+  return stage_put(s, k, &old[0], &old[1], err);
 }
 
 dyd_status dyd_stage_widen(dyd_stage *s, size_t k, const double by[2], dyd_error *err) {
   dyd_coordinate c[2];
   dyd_status st = DYD_OK;
-  staged_split(&c[0], &c[1], staged_at(s, k));
+  stage_split(&c[0], &c[1], s, k);
   for (int a = 0; a < 2 && st == DYD_OK; a++) st = dyd_coordinate_widen(&c[a], by[a]);
-  if (st == DYD_OK) return staged_put(staged_at(s, k), &c[0], &c[1], err);
+  if (st == DYD_OK) return stage_put(s, k, &c[0], &c[1], err);
   for (int a = 0; a < 2; a++) dyd_coordinate_clear(&c[a]);
   return dyd_fail(err, st, "%s", dyd_status_text(st));
 }

@@ -13,6 +13,7 @@ typedef struct dyd_stage {
   size_t count;
   dyd_staged **piece; /* the points, in pieces of one length; of the first one, first_cap has been allocated */
   size_t pieces, piece_cap, first_cap;
+  uint64_t bytes; /* that points take, here and in the engine, about */
 } dyd_stage;
 
 void dyd_stage_clear(dyd_stage *s);
