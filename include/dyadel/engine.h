@@ -211,9 +211,12 @@ DYD_API void dyd_engine_free(dyd_engine *e);
  * DYD_E_ARG for NaN, infinities and lower ends above upper ones, with the point.
  * Points added after a run or question get the next numbers, and invalidate the result, which is about fewer points:
  * dyd_engine_delaunay is NULL and dyd_engine_outcome DYD_OUTCOME_NONE until the next stage is complete. Rectangles stay
- * as narrow as they are, no request is repeated. The next run triangulates all points again, once for all that were
- * added before it. Its result equals that of an engine with all points from the start, for the rectangles reached.
- * Statements are monotone for fixed points; among more points a legal pair may become illegal. */
+ * as narrow as they are, no request is repeated. The result of the next run equals that of an engine with all points
+ * from the start, for the rectangles reached. Statements are monotone for fixed points; among more points a legal pair
+ * may become illegal. Cost: O(points added). The next run works only on the faces around the new points, O(sqrt(N)) for
+ * each that is far from the one before, if they are at most a sixteenth of the points that were triangulated last; they
+ * are no rectangles among exact points, and no exact point among rectangles has the place of another; no old point was
+ * narrowed in between; no face is capped; and there is no memory budget. Otherwise it triangulates all. */
 DYD_API dyd_status dyd_engine_add_points(dyd_engine *e, size_t n, const double *x, const double *y, dyd_error *err);
 DYD_API dyd_status dyd_engine_add_boxes(dyd_engine *e, size_t n, const double *x0, const double *x1, const double *y0,
                                         const double *y1, dyd_error *err);
@@ -234,7 +237,8 @@ DYD_API dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_sour
  * adds no information; DYD_E_CONTRADICTION, with err naming the point and both rectangles, when they have nothing in
  * common (then nothing changes: one of them is wrong; runs end with it when a stream's answer is of that kind);
  * DYD_E_ARG when there is no point i, when r is not valid, and from within a callback; DYD_E_NOMEM. r is copied. Not in
- * traces. O(log points); err may be NULL. */
+ * traces. O(log points), and the next run works only on the undecided faces that have point i as a corner; err may be
+ * NULL. */
 DYD_API dyd_status dyd_engine_remeasure(dyd_engine *e, uint32_t i, const dyd_rect *r, dyd_error *err);
 /* Point i, which can be narrowed, answered r when it was asked for `bits` in an earlier run (a dyd_step
  * with `called`); `final` as there. Given again instead of asking it, in the order of these calls: a request is

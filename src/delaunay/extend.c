@@ -1,14 +1,18 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Exact points put into a triangulation of exact points.
+/* Sites put into a triangulation.
  *
- * The triangles whose circle holds the new point are replaced by those around it. What is undecided are polygons on one
- * circle and chains on one line (ties.h). One that the new point is in, or on the circle or line of, is taken out
- * before; then the edges of the triangles around the point are decided, and what is undecided there is found again
- * [LOC-5]. */
+ * The triangles whose circle holds the new representative are replaced by those around it. Of exact points, what is
+ * undecided are polygons on one circle and chains on one line (ties.h). One that the new point is in, or on the circle
+ * or line of, is taken out before; then the edges of the triangles around the point are decided, and what is undecided
+ * there is found again [LOC-5]. Of rectangles, edges are decided again outward from the triangles around the new sites
+ * until legal ones surround them, and then those at the corners of what is inside; faces that one of these edges
+ * touches are found again [LOC-7]. */
 #include "delaunay/extend.h"
 
 #include "base/alloc.h"
 #include "base/invariant.h"
+#include "delaunay/face_table.h"
+#include "delaunay/faces.h"
 #include "delaunay/ties.h"
 #include "legal/certify.h"
 #include "skeleton/mesh_build.h"
@@ -16,36 +20,63 @@
 
 #include <string.h>
 
-/* hole: the triangles whose circle the point is in. */
+typedef struct triangles {
+  uint32_t *item;
+  size_t count, cap;
+} triangles;
+
+/* hole: the triangles whose circle the point is in. Of rectangles, near: those that may be in a face with a new site;
+ * seed: those of faces that were taken out, and at edges that are not certain any more; seen: see DECIDED; old: these
+ * faces. */
 typedef struct extension {
   dyd_delaunay *pd;
   dyd_work *w;
-  uint32_t *hole;
-  size_t count, cap;
+  triangles hole, near, seed;
+  uint8_t *seen;
+  dyd_face *old;
+  size_t olds, old_cap;
 } extension;
 
+static bool extension_list(triangles *list, const uint32_t *t, size_t count) {
+  if (!DYD_GROW(list->item, list->cap, list->count + count)) return false;
+  for (size_t k = 0; k < count; k++) list->item[list->count++] = t[k];
+  return true;
+}
+
+/* Takes the face of triangle t, if it has one, out of the table; *t becomes a seed. */
+static dyd_status face_drop(extension *x, uint32_t t) {
+  dyd_undecided *open = &x->pd->open;
+  const uint32_t f = dyd_face_of(x->pd, t);
+  if (open->kind == DYD_TIED) return dyd_ties_drop(x->pd, t);
+  if (f == DYD_NONE) return extension_list(&x->seed, &t, 1) ? DYD_OK : DYD_E_NOMEM;
+  if (!extension_list(&x->seed, open->tri + open->face[f].first_tri, open->face[f].tris)) return DYD_E_NOMEM;
+  if (!DYD_GROW(x->old, x->old_cap, x->olds + 1)) return DYD_E_NOMEM;
+  x->old[x->olds++] = open->face[f];
+  dyd_table_take_out(x->pd, f);
+  return DYD_OK;
+}
+
 static bool hole_has(const extension *x, uint32_t t) {
-  for (size_t k = 0; k < x->count; k++)
-    if (x->hole[k] == t) return true;
+  for (size_t k = 0; k < x->hole.count; k++)
+    if (x->hole.item[k] == t) return true;
   return false;
 }
 
 /* Finds the hole around v from t on, and takes out the faces in it, and those whose circle or line v is on. */
 static dyd_status hole_find(extension *x, uint32_t v, uint32_t t) {
   const dyd_mesh *m = &x->pd->sk.mesh;
-  x->count = 0;
-  if (!DYD_GROW(x->hole, x->cap, 1)) return DYD_E_NOMEM;
-  x->hole[x->count++] = t;
-  for (size_t k = 0; k < x->count; k++) {
-    dyd_status st = dyd_ties_drop(x->pd, x->hole[k]);
-    for (dyd_half_edge h = dyd_edge_of(x->hole[k], 0), end = dyd_edge_end(x->hole[k]); h < end && st == DYD_OK; h++) {
+  triangles *hole = &x->hole;
+  hole->count = 0;
+  if (!extension_list(hole, &t, 1)) return DYD_E_NOMEM;
+  for (size_t k = 0; k < hole->count; k++) {
+    dyd_status st = face_drop(x, hole->item[k]);
+    for (dyd_half_edge h = dyd_edge_of(hole->item[k], 0), end = dyd_edge_end(hole->item[k]); h < end && st == DYD_OK;
+         h++) {
       const uint32_t beyond = dyd_edge_triangle(dyd_edge_twin(m, h)), *c = m->tri[beyond].v;
       if (hole_has(x, beyond)) continue;
       int in = dyd_mesh_incircle(&x->w->tally, m, c[0], c[1], c[2], v);
-      if (in == 0) st = dyd_ties_drop(x->pd, beyond);
-      if (in <= 0) continue;
-      if (!DYD_GROW(x->hole, x->cap, x->count + 1)) return DYD_E_NOMEM;
-      x->hole[x->count++] = beyond;
+      if (in == 0) st = face_drop(x, beyond);
+      if (in > 0 && !extension_list(hole, &beyond, 1)) return DYD_E_NOMEM;
     }
     if (st != DYD_OK) return st;
   }
@@ -71,18 +102,128 @@ static dyd_status star_decide(uint32_t *ghost, extension *x, uint32_t v) {
   return st;
 }
 
-/* A point at the place of another one becomes its alias. */
+/* ---- of rectangles ---- */
+
+/* Of a triangle: bit k, half-edge k is decided; NEAR: it is in x->near. Of a vertex: CORNER, its edges are decided. */
+enum { DECIDED = 1, NEAR = 8, CORNER = 16 };
+
+/* The triangles around v: edges at v are not certain, others as their twins are. */
+static void star_open(uint32_t *ghost, const extension *x, uint32_t v) {
+  dyd_skeleton *sk = &x->pd->sk;
+  const dyd_mesh *m = &sk->mesh;
+  dyd_half_edge first = dyd_edge_of(m->hint, 2); /* m->tri[].v[0] is v */
+  for (dyd_half_edge h = first; h != DYD_NONE; h = dyd_edge_around(m, h, first)) {
+    const uint32_t t = dyd_edge_triangle(h), w = dyd_edge_target(m, h);
+    if (w != m->n) sk->leaving[w] = dyd_edge_next(h);
+    if (dyd_is_ghost_triangle(m, t)) *ghost = t;
+    sk->certain[t] = dyd_edge_is_certain(sk, dyd_edge_twin(m, dyd_edge_of(t, 0)));
+  }
+  sk->leaving[v] = first;
+}
+
+static dyd_status near_add(extension *x, uint32_t t) {
+  if (x->seen[t] & NEAR) return DYD_OK;
+  x->seen[t] |= NEAR;
+  dyd_status st = face_drop(x, t);
+  return st != DYD_OK || extension_list(&x->near, &t, 1) ? st : DYD_E_NOMEM;
+}
+
+/* Decides an edge that is certain, or has a new end. If it is certain no more, the faces at it change. */
+static dyd_status edge_decide(extension *x, dyd_half_edge h, uint32_t before) {
+  dyd_skeleton *sk = &x->pd->sk;
+  const dyd_half_edge twin = dyd_edge_twin(&sk->mesh, h);
+  uint8_t *seen = &x->seen[dyd_edge_triangle(h)], bit = (uint8_t)(DECIDED << dyd_edge_corner(h));
+  const uint32_t v = dyd_edge_origin(&sk->mesh, h), w = dyd_edge_target(&sk->mesh, h), n = sk->mesh.n;
+  const bool fresh = (v >= before && v != n) || (w >= before && w != n), was = dyd_edge_is_certain(sk, h);
+  if (*seen & bit || !(was || fresh)) return DYD_OK;
+  *seen |= bit;
+  x->seen[dyd_edge_triangle(twin)] |= (uint8_t)(DECIDED << dyd_edge_corner(twin));
+  dyd_set_certain(sk, h, false);
+  dyd_status st = dyd_certify_edge(sk, x->w, h);
+  if (st != DYD_OK || !was || dyd_edge_is_certain(sk, h)) return st;
+  st = face_drop(x, dyd_edge_triangle(h));
+  return st == DYD_OK ? face_drop(x, dyd_edge_triangle(twin)) : st;
+}
+
+/* Decides the edges of the triangles near new sites, and of those beyond edges that are not certain. */
+static dyd_status near_decide(extension *x, uint32_t before) {
+  const dyd_skeleton *sk = &x->pd->sk;
+  dyd_status st = DYD_OK;
+  for (uint32_t v = before; v < sk->n && st == DYD_OK; v++)
+    for (dyd_half_edge h = sk->leaving[v]; h != DYD_NONE && st == DYD_OK;
+         h = dyd_edge_around(&sk->mesh, h, sk->leaving[v]))
+      st = near_add(x, dyd_edge_triangle(h));
+  for (size_t k = 0; k < x->near.count && st == DYD_OK; k++) {
+    if (dyd_work_cancelled(x->w)) return DYD_CANCELLED;
+    for (dyd_half_edge h = dyd_edge_of(x->near.item[k], 0), end = h + 3; h < end && st == DYD_OK; h++) {
+      st = edge_decide(x, h, before);
+      if (st == DYD_OK && !dyd_edge_is_certain(sk, h)) st = near_add(x, dyd_edge_triangle(dyd_edge_twin(&sk->mesh, h)));
+    }
+  }
+  return st;
+}
+
+/* Decides the other edges at the corners of these triangles. */
+static dyd_status corners_decide(extension *x, uint32_t before) {
+  const dyd_skeleton *sk = &x->pd->sk;
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < 3 * x->near.count && st == DYD_OK; k++) {
+    const uint32_t v = sk->mesh.tri[x->near.item[k / 3]].v[k % 3];
+    if (v == sk->mesh.n || x->seen[v] & CORNER) continue;
+    x->seen[v] |= CORNER;
+    for (dyd_half_edge h = sk->leaving[v]; h != DYD_NONE && st == DYD_OK;
+         h = dyd_edge_around(&sk->mesh, h, sk->leaving[v]))
+      st = edge_decide(x, h, before);
+  }
+  return st;
+}
+
+static dyd_status near_faces_find(extension *x, uint32_t before) {
+  dyd_delaunay *pd = x->pd;
+  x->seen = calloc(2 * (size_t)pd->sk.n + 2, sizeof *x->seen);
+  if (!x->seen) return DYD_E_NOMEM;
+  dyd_status st = near_decide(x, before);
+  if (st == DYD_OK) st = corners_decide(x, before);
+  const size_t fresh = pd->open.count;
+  if (st == DYD_OK) st = dyd_faces_find(pd, x->w, x->seed.item, x->seed.count);
+  if (st == DYD_OK) st = dyd_faces_end_pairs(pd, x->w, x->old, x->olds, fresh);
+  if (st == DYD_OK) dyd_table_compact(&pd->open);
+  return st;
+}
+
+/* ---- one site ---- */
+
+/* Moves the representative of v, which is no point, until no other one is there. DYD_CANCELLED: it has to be one that
+ * was there before. */
+static dyd_status move_apart(uint32_t *t, dyd_skeleton *sk, uint32_t v) {
+  enum { MOST = 16 };
+  uint32_t same = v;
+  for (uint32_t k = 1; k < MOST && same != DYD_NONE; k++) {
+    dyd_status st = dyd_vertex_is_point(sk, v) ? DYD_CANCELLED : dyd_reps_choose(&sk->reps, v, k);
+    if (st != DYD_OK) return st;
+    dyd_mesh_follow(&sk->mesh);
+    dyd_mesh_find(t, &same, &sk->mesh, v);
+  }
+  return same == DYD_NONE ? DYD_OK : DYD_CANCELLED;
+}
+
+/* Among exact points, one at the place of another one becomes its alias. */
 static dyd_status extend_by(uint32_t *ghost, extension *x, uint32_t v) {
   dyd_skeleton *sk = &x->pd->sk;
+  const bool tied = x->pd->open.kind == DYD_TIED;
   uint32_t t, same;
+  dyd_status st = DYD_OK;
   dyd_mesh_find(&t, &same, &sk->mesh, v);
-  if (same != DYD_NONE) {
+  if (same != DYD_NONE && tied) {
     sk->vertex[sk->reps.site[v]] = same;
     return dyd_mesh_set_alias(&sk->mesh, v, same);
   }
-  dyd_status st = hole_find(x, v, t);
+  if (same != DYD_NONE) st = move_apart(&t, sk, v);
+  if (st == DYD_OK) st = hole_find(x, v, t);
   if (st == DYD_OK) st = dyd_mesh_put(&sk->mesh, v, t);
-  return st == DYD_OK ? star_decide(ghost, x, v) : st;
+  if (st == DYD_OK && tied) return star_decide(ghost, x, v);
+  if (st == DYD_OK) star_open(ghost, x, v);
+  return st;
 }
 
 /* ---- all ---- */
@@ -130,16 +271,19 @@ static dyd_status newcomers_order(uint32_t *order, const dyd_delaunay *pd, uint3
 }
 
 bool dyd_delaunay_is_extensible(const dyd_delaunay *pd) {
-  return pd->open.kind == DYD_TIED && !pd->sk.reps.code && !pd->room.most;
+  const bool points = pd->open.kind == DYD_TIED && !pd->sk.reps.code;
+  return (points || pd->open.kind == DYD_LISTED) && !pd->room.most && !pd->open.capped;
 }
 
+/* New vertices are the last ones, whatever place they have: all is made anew when they are a sixteenth. */
 static bool can_extend(const dyd_delaunay *pd, uint32_t count) {
   const dyd_skeleton *sk = &pd->sk;
-  bool points = dyd_delaunay_is_extensible(pd) && pd->joins == sk->rects.sites->joins &&
-                pd->options.no_filter == sk->mesh.no_filter && sk->n + count <= DYD_MAX_SITES;
-  for (uint32_t k = 0; k < count && points; k++)
-    points = dyd_sites_is_point(sk->rects.sites, sk->n + k) && dyd_sites_in_doubles(sk->rects.sites, sk->n + k);
-  return points;
+  bool fits = dyd_delaunay_is_extensible(pd) && pd->joins == sk->rects.sites->joins &&
+              pd->options.no_filter == sk->mesh.no_filter && sk->n + count <= DYD_MAX_SITES &&
+              sk->n + count - sk->built <= sk->built / 16 + 32;
+  for (uint32_t k = 0; k < count && fits && pd->open.kind == DYD_TIED; k++)
+    fits = dyd_sites_is_point(sk->rects.sites, sk->n + k) && dyd_sites_in_doubles(sk->rects.sites, sk->n + k);
+  return fits;
 }
 
 static dyd_status extend_all(dyd_delaunay *pd, dyd_work *w, uint32_t before, uint32_t *ghost) {
@@ -147,7 +291,8 @@ static dyd_status extend_all(dyd_delaunay *pd, dyd_work *w, uint32_t before, uin
   dyd_status st = DYD_OK;
   pd->sk.mesh.hint = *ghost;
   for (uint32_t v = before; v < pd->sk.n && st == DYD_OK; v++) st = extend_by(ghost, &x, v);
-  free(x.hole);
+  if (st == DYD_OK && pd->open.kind == DYD_LISTED) st = near_faces_find(&x, before);
+  dyd_free_all(x.hole.item, x.near.item, x.seed.item, x.seen, x.old);
   return st;
 }
 
@@ -169,7 +314,7 @@ dyd_status dyd_extend(bool *fits, dyd_delaunay *pd, dyd_error *err) {
   const dyd_mesh *m = &pd->sk.mesh;
   uint32_t ghost = m->hint, *order = NULL;
   dyd_work w;
-  *fits = count <= before / 32 + 32 && can_extend(pd, count);
+  *fits = can_extend(pd, count);
   if (!*fits || !count) return DYD_OK;
   if (!dyd_is_ghost_triangle(m, ghost)) ghost = dyd_edge_triangle(dyd_hull_first(m));
   order = dyd_alloc(count, sizeof *order);

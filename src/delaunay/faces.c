@@ -495,6 +495,18 @@ static void delete_ended(dyd_delaunay *pd, const dyd_vertex_pair *ended, size_t 
   }
 }
 
+dyd_status dyd_faces_end_pairs(dyd_delaunay *pd, dyd_work *w, const dyd_face *old, size_t olds, size_t fresh) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < olds && st == DYD_OK; k++) {
+    dyd_vertex_pair *ended = NULL;
+    size_t count = 0;
+    st = find_ended(&ended, &count, pd, w, &old[k], fresh);
+    if (st == DYD_OK) delete_ended(pd, ended, count, fresh);
+    free(ended);
+  }
+  return st;
+}
+
 /* All that can fail comes before the first change that cannot be taken back. */
 dyd_status dyd_faces_replace(bool *replaced, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count,
                              const dyd_narrowed *narrowed) {

@@ -39,4 +39,8 @@ dyd_status dyd_faces_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, si
 dyd_status dyd_faces_replace(bool *replaced, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count,
                              const dyd_narrowed *narrowed);
 
+/* Faces were taken out, those listed, and others found from number `fresh` on: takes pairs that the old ones listed and
+ * that are possible no more out of the other faces. */
+dyd_status dyd_faces_end_pairs(dyd_delaunay *pd, dyd_work *w, const dyd_face *old, size_t olds, size_t fresh);
+
 #endif

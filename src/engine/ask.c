@@ -282,7 +282,7 @@ static dyd_status ask_narrow(ask *a, const dyd_want *w) {
   if (st == DYD_CANCELLED) return ask_end_interrupted(a);
   if (st != DYD_OK) return st;
   if (w->bits > a->bits) a->bits = w->bits;
-  if (e->pd && calls && !guest) e->changed[e->changes++] = p->site;
+  if (calls && !guest) dyd_engine_note_change(e, p->site);
   return a->o.trace && !guest ? ask_tell_step(a, p, w, calls != 0) : DYD_OK;
 }
 
@@ -343,7 +343,8 @@ static dyd_status ask_begin_result(dyd_engine *e, const dyd_delaunay_options *o,
   dyd_delaunay *former = e->former;
   bool fits = false;
   e->former = NULL;
-  dyd_status st = former ? dyd_delaunay_extend(&fits, former, o, err) : DYD_OK;
+  const bool proved = !o->prove || e->proof_bits >= e->tie_bits;
+  dyd_status st = former && proved ? dyd_delaunay_extend(&fits, former, o, err) : DYD_OK;
   if (fits) return e->pd = former, st;
   dyd_delaunay_free(former);
   return dyd_delaunay_new(&e->pd, e->sites, o, err);

@@ -119,7 +119,7 @@ static void counters_add_past(dyd_delaunay_counters *out, const dyd_delaunay_cou
 void dyd_engine_end_result(dyd_engine *e) {
   dyd_delaunay_counters c = {DYD_SIZED(dyd_delaunay_counters)};
   if (e->pd && dyd_delaunay_get_counters(&c, e->pd, NULL) == DYD_OK) counters_add_past(&e->past, &c);
-  if (e->pd && dyd_delaunay_is_extensible(e->pd)) {
+  if (e->pd && !e->changes && dyd_delaunay_is_extensible(e->pd)) {
     e->former = e->pd;
     e->former->counters = (dyd_delaunay_counters){DYD_SIZED(dyd_delaunay_counters)};
   } else {

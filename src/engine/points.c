@@ -11,6 +11,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "delaunay/state.h"
 #include "engine/record.h"
 #include "rect/rect.h"
 #include "rect/sites_table.h"
@@ -230,6 +231,14 @@ dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, i
   return st == DYD_OK || st == DYD_CANCELLED ? st : point_blame(p, st, err);
 }
 
+void dyd_engine_note_change(dyd_engine *e, uint32_t site) {
+  if (e->former && site < e->former->sk.n) {
+    dyd_delaunay_free(e->former);
+    e->former = NULL;
+  }
+  if (e->pd) e->changed[e->changes++] = site;
+}
+
 /* ---- measuring again ---- */
 
 /* Puts *r, what site i and its new measurement have in common, into the table. */
@@ -248,7 +257,7 @@ static dyd_status site_put_measured(dyd_engine *e, uint32_t i, const dyd_rect *r
     p->final = p->final || dyd_rect_is_point(r);
     st = dyd_sites_set_kind(e->sites, i, 1, p->final ? DYD_SITE_ANY : DYD_SITE_BARE);
   }
-  if (st == DYD_OK && e->pd) e->changed[e->changes++] = i;
+  if (st == DYD_OK) dyd_engine_note_change(e, i);
   return st;
 }
 

@@ -20,6 +20,8 @@ dyd_status dyd_engine_request(dyd_request *out, const dyd_refinable *p, const dy
                               int64_t max_bits, dyd_error *err);
 /* The source added last gives first answers by fn, with its own user. */
 void dyd_engine_set_glance(dyd_engine *e, dyd_glance_fn fn);
+/* Called after a site was narrowed: it is listed in `changed`, which has room. */
+void dyd_engine_note_change(dyd_engine *e, uint32_t site);
 /* Called after points were added: drops the result and keeps its counters (engine.c). */
 void dyd_engine_end_result(dyd_engine *e);
 /* Releases streams and sources. */

@@ -34,6 +34,9 @@ typedef struct dyd_tree {
 
 /* Over the vertices item[0..count-1]; takes over the array. */
 dyd_status dyd_tree_init(dyd_tree *t, uint32_t *item, uint32_t count, const dyd_bbox *box);
+/* Appends entries for the vertices first .. first + count - 1, above all others. O(count), and an eighth of the nodes
+ * moves. DYD_E_NOMEM: only clearing is allowed. */
+dyd_status dyd_tree_grow(dyd_tree *t, uint32_t first, uint32_t count, const dyd_bbox *box);
 void dyd_tree_clear(dyd_tree *t);
 /* The entry of a vertex, in an ascending tree. */
 uint32_t dyd_tree_entry(const dyd_tree *t, uint32_t vertex);

@@ -30,19 +30,43 @@ static void fill_node(dyd_tree *t, int k, size_t q) {
   t->node[t->level[k] + q] = h;
 }
 
-dyd_status dyd_tree_init(dyd_tree *t, uint32_t *item, uint32_t count, const dyd_bbox *box) {
-  *t = (dyd_tree){.count = count, .item = item, .box = box, .ascending = true};
-  for (uint32_t q = 1; q < count && t->ascending; q++) t->ascending = item[q - 1] < item[q];
-  size_t width = count;
-  while (count && (t->levels == 0 || width > 1)) {
+static void tree_set_levels(dyd_tree *t) {
+  size_t width = t->count;
+  t->levels = 0;
+  while (t->count && (t->levels == 0 || width > 1)) {
     width = (width + DYD_TREE_FANOUT - 1) / DYD_TREE_FANOUT;
     t->level[t->levels + 1] = t->level[t->levels] + width;
     t->levels++;
   }
+}
+
+dyd_status dyd_tree_init(dyd_tree *t, uint32_t *item, uint32_t count, const dyd_bbox *box) {
+  *t = (dyd_tree){.count = count, .item = item, .box = box, .ascending = true};
+  for (uint32_t q = 1; q < count && t->ascending; q++) t->ascending = item[q - 1] < item[q];
+  tree_set_levels(t);
   t->node = dyd_alloc(t->level[t->levels], sizeof *t->node);
   if (!t->node) return DYD_E_NOMEM;
   for (int k = 0; k < t->levels; k++)
     for (size_t q = 0; q < t->level[k + 1] - t->level[k]; q++) fill_node(t, k, q);
+  return DYD_OK;
+}
+
+dyd_status dyd_tree_grow(dyd_tree *t, uint32_t first, uint32_t count, const dyd_bbox *box) {
+  const dyd_tree old = *t;
+  uint32_t *item = realloc(t->item, ((size_t)t->count + count) * sizeof *item);
+  if (!item) return DYD_E_NOMEM;
+  t->item = item;
+  t->box = box;
+  for (uint32_t q = 0; q < count; q++) item[t->count++] = first + q;
+  tree_set_levels(t);
+  dyd_bbox *node = realloc(t->node, t->level[t->levels] * sizeof *node);
+  if (!node) return DYD_E_NOMEM;
+  t->node = node;
+  for (int k = old.levels - 1; k > 0; k--)
+    memmove(node + t->level[k], node + old.level[k], (old.level[k + 1] - old.level[k]) * sizeof *node);
+  size_t changed = old.count;
+  for (int k = 0; k < t->levels; k++)
+    for (size_t q = changed /= DYD_TREE_FANOUT; q < t->level[k + 1] - t->level[k]; q++) fill_node(t, k, q);
   return DYD_OK;
 }
 

@@ -241,6 +241,7 @@ static dyd_status build_boxes(dyd_skeleton *sk) {
 
 dyd_status dyd_skeleton_build(dyd_skeleton *sk, const dyd_sites *sites, const dyd_skeleton_options *o) {
   *sk = (dyd_skeleton){.n = (uint32_t)dyd_sites_count(sites), .rects = {.sites = sites}};
+  sk->built = sk->n;
   dyd_status st = skeleton_triangulate(sk, o);
   if (st == DYD_OK && sk->mesh.collinear) st = dyd_line_build(&sk->line, &sk->mesh, &sk->rects, sk->n);
   if (st == DYD_OK) st = build_maps(sk, o->threads);
@@ -286,22 +287,27 @@ dyd_status dyd_skeleton_grow(dyd_skeleton *sk, const uint32_t *order, uint32_t c
   if (!skeleton_resize(&sk->reps.site, n, sizeof *sk->reps.site) ||
       !skeleton_resize(&sk->reps.xy, (size_t)n + 1, sizeof *sk->reps.xy) ||
       !skeleton_resize(&sk->vertex, n, sizeof *sk->vertex) || !skeleton_resize(&sk->leaving, n, sizeof *sk->leaving) ||
-      !skeleton_resize(&sk->certain, 2 * (size_t)n + 2, 1))
+      !skeleton_resize(&sk->certain, 2 * (size_t)n + 2, 1) ||
+      (sk->rects.box && !skeleton_resize(&sk->rects.box, n, sizeof *sk->rects.box)) ||
+      (sk->reps.code && !skeleton_resize(&sk->reps.code, n, sizeof *sk->reps.code)))
     return DYD_E_NOMEM;
   sk->rects.site = sk->reps.site;
   for (uint32_t k = 0; k < count; k++) {
-    double box[4];
-    dyd_sites_get_d(box, sk->rects.sites, order[k]);
     sk->reps.site[before + k] = order[k];
-    sk->reps.xy[before + k] = (dyd_xy){box[0], box[2]};
+    if (sk->reps.code) sk->reps.code[before + k] = 0;
+    if (sk->rects.box) dyd_rects_set_box(&sk->rects, before + k);
     sk->vertex[order[k]] = before + k;
     sk->leaving[before + k] = DYD_NONE;
   }
   sk->reps.xy[n] = (dyd_xy){NAN, NAN};
   sk->n = sk->reps.n = n;
-  dyd_status st = blocks_grow(sk, before);
+  dyd_status st = DYD_OK;
+  for (uint32_t v = before; v < n && st == DYD_OK; v++) st = dyd_reps_choose(&sk->reps, v, 0);
+  if (st == DYD_OK)
+    st = sk->rects.box ? dyd_tree_grow(&sk->rects.tree, before, count, sk->rects.box) : blocks_grow(sk, before);
   if (st != DYD_OK) return st;
-  const dyd_bbox *all = &sk->blocks.node[sk->blocks.level[sk->blocks.levels] - 1];
+  const dyd_tree *tree = sk->rects.box ? &sk->rects.tree : &sk->blocks;
+  const dyd_bbox *all = &tree->node[tree->level[tree->levels] - 1];
   return dyd_mesh_grow(&sk->mesh, n, ghost, (const double[]){all->e[1] - all->e[0], all->e[3] - all->e[2]});
 }
 

@@ -31,7 +31,7 @@ size_t dyd_line_legal_pairs(const dyd_line *l);
 size_t dyd_line_open_pairs(const dyd_line *l);
 
 typedef struct dyd_skeleton {
-  uint32_t n;
+  uint32_t n, built; /* sites; those that it was built from, others have been put in */
   dyd_reps reps;
   dyd_mesh mesh;
   dyd_line line;          /* instead of triangles, if mesh.collinear */
@@ -57,9 +57,9 @@ void dyd_skeleton_clear(dyd_skeleton *sk);
 void dyd_skeleton_moved(dyd_skeleton *sk);
 /* Box, tree and representative of a vertex follow its rectangle. */
 dyd_status dyd_skeleton_refresh(dyd_skeleton *sk, uint32_t v);
-/* Makes room for the sites from sk->n on, all of them, and the old ones, points of doubles: order[0..count-1] are the
- * sites of the new vertices, which are not in the mesh yet. ghost: a ghost triangle. On failure only clearing is
- * allowed. */
+/* Makes room for the sites from sk->n on; those of a skeleton of exact points are points of doubles. order[0..count-1]
+ * are the sites of the new vertices, which are not in the mesh yet. ghost: a ghost triangle. On failure only clearing
+ * is allowed. */
 dyd_status dyd_skeleton_grow(dyd_skeleton *sk, const uint32_t *order, uint32_t count, uint32_t ghost);
 /* Bytes allocated, of everything that stays; an estimate of what a skeleton of these sites will take while it is made.
  */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Points added to an engine that has a result: piece by piece, in random order, against all at once [LOC-5]. Grids,
- * circles, hulls with many points on a line, equal points, points far outside; rectangles and fractions among them.
- * The armed build checks each mesh. Then with memory that ends. */
+/* Points added to an engine that has a result: piece by piece, in random order, against all at once [LOC-5] [LOC-7].
+ * Grids, circles, hulls with many points on a line, equal points, points far outside; rectangles and fractions among
+ * them. The armed build checks each mesh. Then with memory that ends. */
 #include <setjmp.h>
 #include <stdarg.h>
 
@@ -98,32 +98,82 @@ static void same(const dyd_engine *a, const dyd_engine *b) {
   same_triangles(p, q);
 }
 
-static void add(dyd_engine *e, size_t count, const double *x, const double *y, bool wide) {
-  double x1 = *x + 0.25, y1 = *y + 0.5;
-  dyd_status st = wide ? dyd_engine_add_boxes(e, 1, x, &x1, y, &y1, NULL) : dyd_engine_add_points(e, count, x, y, NULL);
-  assert_int_equal(st, DYD_OK);
+static void add(dyd_engine *e, size_t count, const double *x, const double *y) {
+  assert_int_equal(dyd_engine_add_points(e, count, x, y, NULL), DYD_OK);
 }
 
-/* wide: the number of a rectangle among the points; MOST: none. */
+/* A rectangle, of a third of width: its ends are no doubles. */
+static void add_third(dyd_engine *e, double x, double y, double width) {
+  mpq_t q[4];
+  dyd_rect r;
+  dyd_rect_init(&r);
+  for (int k = 0; k < 4; k++) {
+    mpq_init(q[k]);
+    mpq_set_d(q[k], k < 2 ? x : y);
+    if (k % 2) mpq_set_d(q[k], (k < 2 ? x : y) + width);
+    mpz_mul_ui(mpq_denref(q[k]), mpq_denref(q[k]), 3);
+    mpq_canonicalize(q[k]);
+  }
+  assert_int_equal(dyd_rect_narrow_q(&r, (const mpq_t *)q, NULL), DYD_OK);
+  assert_int_equal(dyd_engine_add_rect(e, &r, NULL), DYD_OK);
+  for (int k = 0; k < 4; k++) mpq_clear(q[k]);
+  dyd_rect_clear(&r);
+}
+
+/* count places; each a point where width[k] is 0, else a rectangle; below 0: of thirds. */
+static void add_places(dyd_engine *e, size_t count, const double *x, const double *y, const double *width) {
+  for (size_t k = 0; k < count; k++) {
+    double x1 = x[k] + width[k], y1 = y[k] + 2 * width[k];
+    if (width[k] < 0)
+      add_third(e, x[k], y[k], -3 * width[k]);
+    else
+      assert_int_equal(dyd_engine_add_boxes(e, 1, x + k, &x1, y + k, &y1, NULL), DYD_OK);
+  }
+}
+
+/* One place of `wide` has a width; 0: none. */
+static double draw_width(size_t wide) {
+  static const double width[] = {1e-9, 1.0 / 64, 0.25, 0.25, 1, -0.25, -1e-6};
+  return wide && !test_below(&source, wide) ? width[test_below(&source, sizeof width / sizeof *width)] : 0;
+}
+
+/* One of the rectangles is measured again, and is half as wide and high. */
+static void narrow(dyd_engine *e, size_t count, const double *x, const double *y, double *width) {
+  size_t k = test_below(&source, count);
+  dyd_rect r;
+  if (width[k] <= 0) return;
+  width[k] /= 2;
+  dyd_rect_init(&r);
+  dyd_rect_set_d(&r, x[k], x[k] + width[k], y[k], y[k] + 2 * width[k]);
+  assert_int_equal(dyd_engine_remeasure(e, (uint32_t)k, &r, NULL), DYD_OK);
+  dyd_rect_clear(&r);
+}
+
+static size_t kept;
+
 static void run_case(size_t kind, size_t wide) {
-  double x[MOST], y[MOST];
+  double x[MOST], y[MOST], width[MOST];
   size_t n = 4 + test_below(&source, MOST - 4), at = 1 + test_below(&source, n);
   dyd_engine *e, *all;
   assert_int_equal(dyd_engine_new(&e), DYD_OK);
   for (size_t k = 0; k < n; k++) place(&x[k], &y[k], kind);
-  for (size_t k = 0; k < at; k++) add(e, 1, &x[k], &y[k], k == wide);
+  for (size_t k = 0; k < n; k++) width[k] = draw_width(wide);
+  add_places(e, at, x, y, width);
   run(e);
   while (at < n) {
+    const dyd_delaunay *before = dyd_engine_delaunay(e);
     size_t count = 1 + test_below(&source, 4);
     if (count > n - at) count = n - at;
-    if (wide >= at && wide < at + count) count = 1;
-    add(e, count, &x[at], &y[at], at == wide);
+    if (!test_below(&source, 4)) narrow(e, at, x, y, width);
+    add_places(e, count, &x[at], &y[at], &width[at]);
     at += count;
+    if (!test_below(&source, 8)) narrow(e, at, x, y, width);
     if (test_below(&source, 4)) run(e); /* else points come twice before a run */
+    kept += wide && dyd_engine_delaunay(e) == before;
     if (at < n && test_below(&source, 4)) continue;
     run(e);
     assert_int_equal(dyd_engine_new(&all), DYD_OK);
-    for (size_t k = 0; k < at; k++) add(all, 1, &x[k], &y[k], k == wide);
+    add_places(all, at, x, y, width);
     run(all);
     same(e, all);
     dyd_engine_free(all);
@@ -133,7 +183,9 @@ static void run_case(size_t kind, size_t wide) {
 
 static void test_pieces(void **state) {
   (void)state;
-  for (size_t k = 0; k < test_cases(600); k++) run_case(k % KINDS, k % 5 ? MOST : test_below(&source, MOST));
+  static const size_t wide[] = {0, 1, 1, 2, 8, 30};
+  for (size_t k = 0; k < test_cases(900); k++) run_case(k % KINDS, wide[k / KINDS % (sizeof wide / sizeof *wide)]);
+  assert_true(kept > 1000);
 }
 
 /* A point far outside of many, whose hull it replaces; more points than are put in one by one; none at all. */
@@ -147,10 +199,10 @@ static void test_many(void **state) {
   const size_t step[] = {2000, 10, 0, 1500, N - 3510, 1, 1};
   assert_int_equal(dyd_engine_new(&e), DYD_OK);
   for (size_t k = 0, at = 0; k < sizeof step / sizeof *step; at += step[k++]) {
-    if (step[k]) add(e, step[k], x + at, y + at, false);
+    if (step[k]) add(e, step[k], x + at, y + at);
     run(e);
     assert_int_equal(dyd_engine_new(&all), DYD_OK);
-    add(all, at + step[k], x, y, false);
+    add(all, at + step[k], x, y);
     run(all);
     same_pairs(dyd_engine_delaunay(e), dyd_engine_delaunay(all));
     same_triangles(dyd_engine_delaunay(e), dyd_engine_delaunay(all));
@@ -160,21 +212,20 @@ static void test_many(void **state) {
 }
 
 /* Where memory ends, the run says so, or does without; the next one is right. */
-static void test_memory(void **state) {
-  (void)state;
+static void memory_case(const double *width) {
   const double x[] = {0, 4, 0, 4, 2, 2, 1, 7}, y[] = {0, 0, 4, 4, 2, 9, 1, 7};
   dyd_engine *all;
   bool over = false;
   assert_int_equal(dyd_engine_new(&all), DYD_OK);
-  add(all, 8, x, y, false);
+  add_places(all, 8, x, y, width);
   run(all);
   for (size_t k = 1; !over; k++) {
     dyd_engine *e;
     dyd_outcome outcome;
     assert_int_equal(dyd_engine_new(&e), DYD_OK);
-    add(e, 4, x, y, false);
+    add_places(e, 4, x, y, width);
     run(e);
-    add(e, 4, x + 4, y + 4, false);
+    add_places(e, 4, x + 4, y + 4, width + 4);
     countdown = k;
     dyd_status st = dyd_engine_run(&outcome, e, NULL, NULL);
     over = countdown > 0;
@@ -185,6 +236,13 @@ static void test_memory(void **state) {
     dyd_engine_free(e);
   }
   dyd_engine_free(all);
+}
+
+static void test_memory(void **state) {
+  (void)state;
+  const double point[8] = {0}, wide[8] = {0, 0.5, 0.5, 0.5, 0.5, 0, 1, 0.5};
+  memory_case(point);
+  memory_case(wide);
 }
 
 int main(void) {
