@@ -601,14 +601,16 @@ def kind_program_boxes(case, rand):
 
 
 TABLES = ('csv', 'semicolon', 'tab', 'bar', 'numbers', 'blanks', 'headless', 'units row', 'apart')
+PYTHON = ('python', 'appended')  # all points at once; some of them later, in pieces
+LIBRARY = (*PYTHON, 'capi', 'tiles')
 TEXTS = ('text', 'comma', 'stdin', 'gzip', *TABLES)
 KINDS = {  # name: function, geometries, forms
-    'exact': (kind_exact, ('plane', 'sphere', 'discs'), TEXTS + ('python', 'capi', 'tiles')),
+    'exact': (kind_exact, ('plane', 'sphere', 'discs'), TEXTS + LIBRARY),
     'degrees': (kind_degrees, ('plane', 'sphere'), TEXTS),
-    'interval': (kind_interval, ('plane', 'sphere'), TEXTS + ('python', 'capi', 'tiles')),
-    'plusminus': (kind_plusminus, ('plane', 'sphere'), TEXTS + ('python',)),
-    'radius': (kind_radius, ('plane', 'discs'), TEXTS + ('python',)),
-    'column': (kind_column, ('plane', 'discs'), TABLES + ('python',)),
+    'interval': (kind_interval, ('plane', 'sphere'), TEXTS + LIBRARY),
+    'plusminus': (kind_plusminus, ('plane', 'sphere'), TEXTS + PYTHON),
+    'radius': (kind_radius, ('plane', 'discs'), TEXTS + PYTHON),
+    'column': (kind_column, ('plane', 'discs'), TABLES + PYTHON),
     'columns': (kind_columns, ('plane',), TABLES),
     'scaled column': (kind_scaled, ('plane', 'discs'), TABLES),
     'sigma': (kind_sigma, ('plane', 'sphere', 'discs'), TABLES),
@@ -617,14 +619,14 @@ KINDS = {  # name: function, geometries, forms
     'unit apart': (kind_unit_option, ('sphere',), TEXTS),
     'both': (kind_both, ('plane',), TABLES),
     'measured': (kind_measured, ('plane', 'sphere'), TEXTS),
-    'disguised': (kind_disguised, ('plane', 'sphere', 'discs'), TEXTS + ('python',)),
-    'real': (kind_real, ('plane', 'sphere', 'discs'), TEXTS + ('python',)),
+    'disguised': (kind_disguised, ('plane', 'sphere', 'discs'), TEXTS + PYTHON),
+    'real': (kind_real, ('plane', 'sphere', 'discs'), TEXTS + PYTHON),
     'real with radius': (kind_real_radius, ('plane', 'discs'), TEXTS),
     'callback': (kind_callback, ('plane', 'discs'), ('program', 'capi')),
     'boxes asked for': (kind_program_boxes, ('plane',), ('program',)),
     'column of units': (kind_column_units, ('sphere',), TABLES)}
 for _unit in UNITS:
-    KINDS['radius ' + _unit] = (unit_radius(_unit), ('sphere',), TEXTS + ('python',))
+    KINDS['radius ' + _unit] = (unit_radius(_unit), ('sphere',), TEXTS + PYTHON)
 
 
 # ---- forms of input ----
@@ -725,7 +727,7 @@ def form_program(case, put):
 FORMS = {'text': form_text, 'comma': form_comma, 'stdin': form_stdin, 'gzip': form_gzip, 'csv': form_csv,
          'semicolon': form_semicolon, 'tab': form_tab, 'bar': form_bar, 'numbers': form_numbers,
          'blanks': form_blanks, 'headless': form_headless, 'units row': form_units_row, 'apart': form_apart,
-         'program': form_program, 'python': None, 'capi': None, 'tiles': None}
+         'program': form_program, **dict.fromkeys(LIBRARY)}
 
 GEOMETRIES = {'plane': [], 'sphere': ['--sphere'], 'discs': ['--discs']}
 

@@ -82,7 +82,7 @@ def judge_all(judge, case, product, status, claims, err, last, rand, effort):
     try:
         {'certificate': judge_certificate, 'trace': judge_resume}.get(case.extra, lambda *a: None)(
             judge, case, product, claims)
-        if pairs is not None and case.form not in ('python', 'capi', 'tiles', 'program') and not case.softened and \
+        if pairs is not None and case.form not in (*axes.LIBRARY, 'program') and not case.softened and \
                 'listed only' not in claims:
             judge_same(judge, case, product, claims, rand)
     except Hangs as e:
@@ -99,7 +99,7 @@ def judge_exit(judge, case, status, claims):
     left = sorted(s for s in claims['pairs'].values() if s != 'legal')
     if case.extra in ('accept fixpoint', 'area', 'hausdorff') or case.extra == 'few pairs' or 'listed only' in claims:
         return
-    if case.geometry == 'discs' and case.form in ('python', 'capi'):  # the outcome is that of the squares
+    if case.geometry == 'discs' and case.form in axes.LIBRARY:  # the outcome is that of the squares
         return
     judge(status == 0 or left or case.softened or case.geometry == 'sphere', 'exit %d, but nothing is open', status)
     judge(status != 0 or not left, 'exit 0, but %d pairs are open', len(left))

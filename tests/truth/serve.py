@@ -6,13 +6,20 @@ import math
 import sys
 
 import dyadel
+import numpy as np
 
 NAMES = {0: 'illegal', 1: 'tie', 2: 'indeterminate', 3: 'legal'}
 
 
 def answer(q):
-    points = [tuple(p) for p in q['points']]
-    d = dyadel.delaunay(points, q['radius'], **({'sphere': True} if q['geometry'] == 'sphere' else {}))
+    points, at = [tuple(p) for p in q['points']], 0
+    for count in q['pieces']:
+        radius = q['radius'][at:at + count] if isinstance(q['radius'], list) else q['radius']
+        if at == 0:
+            d = dyadel.delaunay(points[:count], radius, **({'sphere': True} if q['geometry'] == 'sphere' else {}))
+        else:
+            d.append(points[at:at + count], radius)
+        at += count
     out = {'outcome': d.outcome, 'aliases': [[int(a), int(b)] for a, b in d.aliases],
            'pairs': [[int(i), int(j), NAMES[int(s)]] for i, j, s in d.discs()] if q['geometry'] == 'discs' else
            [[int(i), int(j), NAMES[int(s)]] for i, j, s in d.pairs]}
@@ -63,7 +70,12 @@ def region_rows(d, q):
                                                            enumerate(zip(r.faces.tolist(), ends(r.boxes))))]
 
 
-ROWS = {'graph nearest': graph_rows('nearest'), 'graph gabriel': graph_rows('gabriel'), 'graph mst': graph_rows('mst'),
+def range_rows(d, q):
+    lo, hi = d.interpolation_range([(7 * k * k + 3 * k) % 11 for k in range(len(d))], q['spots'])
+    return [('x', 'y', 'lo', 'hi'), *ends(np.column_stack((q['spots'], lo, hi)))]
+
+
+ROWS = {'interpolation range': range_rows, 'graph nearest': graph_rows('nearest'), 'graph gabriel': graph_rows('gabriel'), 'graph mst': graph_rows('mst'),
         'vertices': vertex_rows, 'edges': edge_rows, 'regions': region_rows}
 
 

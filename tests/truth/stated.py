@@ -321,6 +321,46 @@ def judge_triangles(judge, case, c, ch):
                     judge((i, j, k) in c['triangles'], 'triangle %s is missing', (i, j, k))
 
 
+# ---- interpolation ----
+
+def read_range(case, out, err, form):
+    return {'spots': [(tuple(Q(q[k]) for k in 'xy'), number(q['lo']), number(q['hi'])) for q in csv.DictReader(io.StringIO(out))]}
+
+
+def height(k):
+    """The value of a point."""
+    return (7 * k * k + 3 * k) % 11
+
+
+def judge_range(judge, case, c, ch):
+    """Bounds of a place hold the value of some triangulation of the choice, and its hull the place."""
+    near = Q(1, 2 ** 900) if case.true else 0  # how far the points of `true` may be from the true ones
+    pairs = list(itertools.combinations(ch.sites, 2))
+    for z, lo, hi in c['spots']:
+        if lo is None:
+            judge(case.kind != 'exact' or not any(ch.triangle(*t) == 1 and min(turns_at(ch, t, z)) > 0 for t in itertools.permutations(ch.sites, 3)),
+                  'of %s nothing is stated, and it is in a triangle of exact points', z)
+            continue
+        out = [(i, j) for i, j in pairs for a, b in ((i, j), (j, i)) if oracle.turn(ch.points[a], ch.points[b], z) < -near and
+               all(oracle.turn(ch.points[a], ch.points[b], ch.points[k]) >= near for k in ch.sites if k not in (i, j))]
+        judge(not out, '%s is outside of the hull, beyond %s', z, out[:1])
+        found = {}
+        for t in itertools.combinations(ch.sites, 3):
+            for way in (t, (t[0], t[2], t[1])):
+                e = ch.triangle(*way)
+                u = turns_at(ch, way, z) if e >= 0 else [-1]
+                if min(u) >= 0:
+                    found[way] = e, sum(Q(a) * height(k) for a, k in zip(u, way)) / sum(u)
+        fit = [lo - near <= v <= hi + near for e, v in found.values()]
+        judge(not found or any(fit) and (all(fit) or any(e == 0 for e, v in found.values())), 'at %s the value is in %s, not in [%s, %s]', z, found, lo, hi)
+
+
+def turns_at(ch, t, z):
+    """The place against the sides of a triangle, opposite to each corner."""
+    a, b, c = (ch.points[k] for k in t)
+    return oracle.turn(b, c, z), oracle.turn(c, a, z), oracle.turn(a, b, z)
+
+
 def read_graph(case, out, err, form):
     if form in ('svg', 'html') or not out.strip():  # a graph that is not known is not written: exit status 4
         return None
@@ -928,6 +968,7 @@ class Stated:
     kinds: object = None        # a test of the kind's name
     least: int = 1              # points
     layer: str = None
+    python: bool = False        # of the Python package only
 
     def words(self):
         return [*(['--layer', self.layer] if self.layer else []), *self.args]
@@ -951,6 +992,7 @@ STATED = {
     'triangles': Stated('delaunay', read_triangles, judge_triangles, layer='triangles', formats=ROWS,
                         geometries=ALL),
     **{'graph ' + g: Stated('delaunay', read_graph, judge_graph(g), layer='graph:' + g, formats=ROWS) for g in oracle.GRAPHS},
+    'interpolation range': Stated('delaunay', read_range, judge_range, python=True),
     'cells': Stated('voronoi', read_cells, judge_cells, formats=('csv', 'json', 'wkt', 'geojson'), layer=None, geometries=('plane', 'discs')),
     'layer cells': Stated('voronoi', read_cells, judge_cells, formats=ROWS, layer='cells', geometries=('plane', 'discs')),
     'tiles': Stated('voronoi', read_tiles, judge_tiles, layer='tiles', formats=(*ROWS, 'json'), geometries=('plane', 'discs')),

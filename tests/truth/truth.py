@@ -38,7 +38,7 @@ class Space:
 
     def __init__(self, command, python, capi, tiles):
         self.offers = offers(command)
-        self.without = {'python': not python, 'capi': not capi, 'tiles': not tiles}
+        self.without = {'python': not python, 'appended': not python, 'capi': not capi, 'tiles': not tiles}
         self.known = {}
 
     def fits(self, row):
@@ -69,11 +69,15 @@ class Space:
                 return False
             if form == 'program' and '--oracle' not in options:
                 return False
-            if form in ('python', 'capi', 'tiles') and not self.library_fits(form, s, g, fmt, extra, what):
+            if s.python and form and form not in axes.PYTHON:
+                return False
+            if form in axes.LIBRARY and not self.library_fits(form, s, g, fmt, extra, what):
                 return False
             if extra and any(w.split('=')[0] not in options for w in e.args if w.startswith('-') and w != '-o'):
                 return False
-        if form in ('python', 'capi', 'tiles') and (fmt not in (None, 'csv') or extra not in (None, 'none')):
+        if form == 'appended' and g == 'sphere':
+            return False
+        if form in axes.LIBRARY and (fmt not in (None, 'csv') or extra not in (None, 'none')):
             return False
         return self.extra_fits(row, e)
 
@@ -95,7 +99,7 @@ class Space:
             return what == 'pairs' and g in (None, 'plane')
         if form == 'capi':
             return what == 'pairs' and g in (None, 'plane')
-        return what in ('pairs', 'triangles') or what in PYTHON_ROWS and g in (None, 'plane')
+        return what in ('pairs', 'triangles') or (s.python or what in PYTHON_ROWS) and g in (None, 'plane')
 
     def extra_fits(self, row, e):
         g, kind, form, shape, what, extra, fmt = (row.get(a) for a in ORDER)
@@ -212,7 +216,8 @@ def build(row, seed):
         merge_by(case, rand, what)
     case.softened, case.weights, case.up_to = extra.softens, row['kind'] in ('column', 'scaled column'), None
     case.box_metric = row['extra'] == 'box metric'
-    case.tail = []
+    case.tail, case.spots = [], []
+    case.pieces = pieces(rand, len(case.sites))
     xs, ys = ([s.place[k] for s in case.sites] for k in (0, 1))
     if row['geometry'] != 'sphere':
         case.window = round_out(min(xs) - unit / 2, max(xs) + unit / 2) + round_out(min(ys) - unit / 2, max(ys) + unit / 2)
@@ -222,6 +227,7 @@ def build(row, seed):
         if row['kind'].startswith('real'):
             case.at = tuple(round_out(c, c)[0] for c in case.at)
         case.queries = [case.at, *(s.place for s in case.sites[:2] if not row['kind'].startswith('real'))]
+        case.spots = spots(case, rand, unit)
     elif case.sites:
         a, b = rand.choice(case.sites).place, rand.choice(case.sites).place
         at = tuple(Q((c + d) / 2) + unit * Q(rand.randint(-4, 4), 8) for c, d in zip(a, b))
@@ -253,6 +259,24 @@ def area_of(window, rand):
 def area_text(area):
     rings = ['(' + ', '.join(f'{float(x)!r} {float(y)!r}' for x, y in part + part[:1]) + ')' for _, part in area]
     return 'MULTIPOLYGON ((' + ', '.join(rings[:2]) + ')' + ''.join(f', ({r})' for r in rings[2:]) + ')'
+
+
+def pieces(rand, n):
+    """How many points come first, and after one another."""
+    counts = []
+    while sum(counts) < n:
+        counts.append(rand.randint(1, n - sum(counts)))
+    return counts
+
+
+def spots(case, rand, unit):
+    """Places of doubles: of points, between them, anywhere."""
+    def near(q):
+        return float(q) if abs(q) < Q(2) ** 1000 else 0.0
+    at = [s.place for s in case.sites]
+    middles = [tuple((a + b) / 2 for a, b in zip(rand.choice(at), rand.choice(at))) for _ in range(6)]
+    around = [tuple(c + unit * Q(rand.randint(-8, 8), 8) for c in rand.choice(at)) for _ in range(4)]
+    return [tuple(map(near, p)) for p in (*at[:4], *middles, *around)]
 
 
 def merge(case):
@@ -328,13 +352,14 @@ def command_of(case, product, keep=None):
 
 def ask(case, product):
     """What the product states of the case: exit status, claims, messages."""
-    if case.form in ('python', 'capi'):
+    if case.form in (*axes.PYTHON, 'capi'):
         q = {'points': [s.text for s in case.sites], 'radius': case.radius, 'geometry': case.geometry,
              'stated': case.stated, 'boxes': [[str(c) for c in s.region[1:]] for s in case.sites],
-             'callback': case.kind == 'callback', 'window': [str(c) for c in getattr(case, 'window', ())]}
+             'callback': case.kind == 'callback', 'window': [str(c) for c in getattr(case, 'window', ())],
+             'spots': case.spots, 'pieces': case.pieces if case.form == 'appended' else [len(case.sites)]}
         if case.form == 'capi':
             q = laws.capi_question(case)
-        a = product.serve(case.form, q if isinstance(q, str) else json.dumps(q))
+        a = product.serve('capi' if case.form == 'capi' else 'python', q if isinstance(q, str) else json.dumps(q))
         if 'error' in a:
             return 1, None, a['error']
         if 'csv' in a:
@@ -507,7 +532,7 @@ def shrink(case, space, product, effort):
 
 def described(case, product):
     """A command to type, with its file."""
-    if case.form in ('python', 'capi', 'tiles'):
+    if case.form in axes.LIBRARY:
         return f'{case.form}: points {[s.text for s in case.sites]} radius {case.radius}'
     product.text = None
     words = command_of(case, product)
