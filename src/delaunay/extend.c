@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Sites put into a triangulation.
  *
- * The triangles whose circle holds the new representative are replaced by those around it. Of exact points, what is
- * undecided are polygons on one circle and chains on one line (ties.h). One that the new point is in, or on the circle
- * or line of, is taken out before; then the edges of the triangles around the point are decided, and what is undecided
- * there is found again [LOC-5]. Of rectangles, edges are decided again outward from the triangles around the new sites
- * until legal ones surround them, and then those at the corners of what is inside; faces that one of these edges
- * touches are found again [LOC-7]. */
+ * The triangles whose circle holds the new representative are replaced by those around it. Faces of exact points are
+ * polygons on one circle and chains on one line (ties.h). One that the new point is in, or on the circle or line of, is
+ * taken out before; then the edges of the triangles around the point are decided, and the faces there are found again
+ * [LOC-5]. Of rectangles, edges are decided again outward from the triangles around the new sites until legal ones
+ * surround them, and then the other edges at these triangles' corners; faces that one of these edges touches are found
+ * again [LOC-7]. */
 #include "delaunay/extend.h"
 
 #include "base/alloc.h"
@@ -193,8 +193,8 @@ static dyd_status near_faces_find(extension *x, uint32_t before) {
 
 /* ---- one site ---- */
 
-/* Moves the representative of v, which is no point, until no other one is there. DYD_CANCELLED: it has to be one that
- * was there before. */
+/* Moves the representative of v, a rectangle, until it differs from all others. DYD_CANCELLED: an old one has to move.
+ */
 static dyd_status move_apart(uint32_t *t, dyd_skeleton *sk, uint32_t v) {
   enum { MOST = 16 };
   uint32_t same = v;

@@ -102,7 +102,7 @@ static void add(dyd_engine *e, size_t count, const double *x, const double *y) {
   assert_int_equal(dyd_engine_add_points(e, count, x, y, NULL), DYD_OK);
 }
 
-/* A rectangle, of a third of width: its ends are no doubles. */
+/* A rectangle, of a third of width: doubles do not hold its ends. */
 static void add_third(dyd_engine *e, double x, double y, double width) {
   mpq_t q[4];
   dyd_rect r;

@@ -228,6 +228,13 @@ def test_geopandas():
     assert frame.crs == gdf.crs and frame.id.tolist() == list('abcd') and d.to_geodataframe().geom_type[0] == 'LineString'
     assert '2056' in d.write('geojson') and '3857' in d.write('geojson', epsg=3857)
     assert dyadel.delaunay(gdf.geometry).crs == gdf.crs
+    words_in(harness.raised(ValueError, d.append, gdf.to_crs(3857)), '3857', '2056', 'to_crs')
+    assert len(d) == 4 and len(dyadel.delaunay(gdf).append(gdf.geometry).append([(1, 2)]).append([(3, 1)], crs=2056)) == 10
+    words_in(harness.raised(ValueError, dyadel.delaunay, gdf, 'nothing'), "radius='nothing'", 'name, acc')
+    for unit in '3 m', '0.5km', '1e-3in':
+        words_in(harness.raised(ValueError, dyadel.delaunay, gdf, unit), unit, 'unit of the coordinates')
+    for number in '1/8', '2^-3', '0x1p-3', '0.125', '125e-3':
+        assert dyadel.delaunay(gdf, number).rect(0)[1] == Fraction(8.5) + Fraction(1, 8), number
     assert dyadel.delaunay(gdf.bounds).legal.tolist() == LEGAL
     words_in(harness.raised(ValueError, dyadel.delaunay, gdf.bounds.to_numpy()), "order='xyxy'")
     degrees = gdf.set_crs(4326, allow_override=True)

@@ -6,6 +6,7 @@ Neither pandas, shapely nor geopandas is imported here: their objects bring them
 from __future__ import annotations
 
 import dataclasses
+import re
 import sys
 from typing import Any
 
@@ -87,6 +88,12 @@ def epsg_of(crs: Any) -> int:
     return number or 0
 
 
+def expect_same(crs: Any, other: Any) -> None:
+    """ValueError where both reference systems are known and differ."""
+    if crs is not None and other is not None and not (epsg_of(crs) == epsg_of(other) if epsg_of(crs) and epsg_of(other) else crs == other):
+        raise ValueError(f'these points have the reference system {other}, the others {crs}; pass points.to_crs(d.crs)')
+
+
 def is_geographic(crs: Any) -> bool:
     """True where coordinates are known to be degrees."""
     return bool(getattr(crs, 'is_geographic', epsg_of(crs) == 4326))
@@ -104,8 +111,8 @@ def take(points: Any, radius: Any = None, *, order: str | None = None, skip_miss
         raise TypeError(f'points is of type {type(points).__name__}; give an array (N, 2) or (N, 4), a list of pairs, a DataFrame, a '
                         f'Source or a Text{", such as numpy.column_stack((xs, ys))" * isinstance(points, dict)}')
     crs = getattr(points, 'crs', None) if crs is None else crs
-    if isinstance(radius, str) and radius in getattr(points, 'columns', ()):
-        radius = points[radius]
+    if isinstance(radius, str):
+        radius = _radius_named(points, radius)
     if isinstance(ids, str):
         if ids not in getattr(points, 'columns', ()):
             raise ValueError(f'ids={ids!r}: points have no such column; give one text for each point')
@@ -146,6 +153,18 @@ def take(points: Any, radius: Any = None, *, order: str | None = None, skip_miss
     elif order is not None and not framed:
         raise ValueError(f'order={order!r} is for boxes, points of shape (N, 4)')
     return given
+
+
+def _radius_named(points: Any, radius: str) -> Any:
+    """The column of that name, or the number that the text is."""
+    names = list(getattr(points, 'columns', ()))
+    if radius in names:
+        return points[radius]
+    if not any(c.isdigit() for c in radius) and names:
+        raise ValueError(f'radius={radius!r}: points have no such column; they have {", ".join(map(str, names))}')
+    if re.fullmatch(r'\s*[-+.\d/e*^]*\d\s*[A-Za-z]+\s*', radius):
+        raise ValueError(f'the radius {radius!r} has a unit, but radii in the plane are in the unit of the coordinates: give a number')
+    return radius
 
 
 def _carried(points: Any, carry: Any) -> dict[str, NDArray[Any]]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _dyadel, _geometry
 from ._arrays import Floats, Ints, Longs, Rect, ints, rect_of
-from ._inputs import Given
+from ._inputs import Given, expect_same
 from ._options import INPUTS, Path, engine_options, split_inputs, takes_options
 from ._outputs import COLOURS, plot_lines, plot_polygons
 from ._points import append_given, given_of
@@ -79,9 +79,10 @@ class Delaunay(Statuses):
 
     @takes_options(*INPUTS)
     def append(self, points: Any, radius: Any = None, **options: Any) -> Delaunay:
-        """Adds points, numbered on, of any kind that delaunay takes, and refines. Returns itself.
+        """Adds points, numbered on, of any kind that delaunay takes and in the same reference system, and refines. Returns itself.
 
-        Among more points a legal pair may become illegal.
+        Among more points a legal pair may become illegal. Only the faces around the points are worked on: one point to 10^6
+        takes a millisecond, up to a sixteenth of the points at once, where no uncertain point comes to exact ones only.
         """
         self._append(points, radius, **split_inputs(options))
         return self.refine(**options)
@@ -90,7 +91,8 @@ class Delaunay(Statuses):
     def remeasure(self, i: int, point: Sequence[Any], **options: Any) -> Delaunay:
         """Point i has been measured again: it also lies in (xlo, xhi, ylo, yhi), or in two intervals. Refines.
 
-        Error with code 'contradiction' when both measurements have nothing in common; then nothing changes.
+        Error with code 'contradiction' when both measurements have nothing in common; then nothing changes. Only the undecided
+        faces at the point are worked on.
         """
         self._engine.remeasure(i, point)
         self._measured.add(i)
@@ -102,6 +104,7 @@ class Delaunay(Statuses):
         self._add(given)
 
     def _add(self, given: Given) -> None:
+        expect_same(self.crs, given.crs)
         before = self._engine.count()
         self._cache = {}
         kept = append_given(self._engine, given)
