@@ -2,13 +2,15 @@
 /* Rows over cells: polygons of all cells and both bounds of the diagram on the unit square; cells of thin boxes, cells
  * near (boxes of three hundredths of the spacing), apart (boxes of a tenth of the spacing), cells touch (lightly: of
  * three tenths). Time a site; nobody else computes these. tiles: polygons of exact points, beside their triangulation;
- * tiles-grid: of a square grid. */
+ * tiles-grid: of a square grid; diagram: both together, beside CGAL; clip: tiles cut to a border. */
 #include "answers.h"
 #include "cloud.h"
 #include "harness.h"
+#include "peer.h"
 
 #include <dyadel/metric.h>
 #include <math.h>
+#include <stdlib.h>
 
 static const bench_series no_peer;
 
@@ -97,6 +99,84 @@ static void tiles_run(bench_series *plain, bench_series *ours, size_t answer[2],
   dyd_rect_clear(&window);
 }
 
+/* A jagged border around the middle of the unit square, counter-clockwise. */
+enum { BORDER = 20000 };
+static void border_init(dyd_area *a) {
+  const double turn = 6.283185307179586;
+  uint64_t state = 7;
+  *a = (dyd_area){1, calloc(2, sizeof *a->offset), calloc(2 * BORDER, sizeof *a->xy)};
+  if (!a->offset || !a->xy) bench_die("clip", "out of memory");
+  a->offset[1] = BORDER;
+  for (size_t k = 0; k < BORDER; k++) {
+    double t = turn * (double)k / BORDER,
+           r = 0.42 + 0.04 * sin(7 * t) + 0.02 * sin(41 * t) + 0.003 * cloud_unit(&state);
+    a->xy[2 * k] = 0.5 + r * cos(t);
+    a->xy[2 * k + 1] = 0.5 + r * sin(t);
+  }
+}
+
+/* Tiles cut to a border of 20,000 vertices, on top of the tiles. */
+static void row_clip(const bench_options *o, const char *name, size_t n) {
+  cloud points;
+  bench_series ours = {0};
+  size_t rings = 0, bad[2];
+  dyd_area border;
+  dyd_rect window;
+  if (!bench_wants(o, name)) return;
+  cloud_uniform(&points, bench_size(o, n));
+  border_init(&border);
+  dyd_rect_init(&window);
+  cells_check(name, dyd_rect_set_d(&window, 0, 1, 0, 1));
+  cells_check(name, dyd_area_orient(&border, bad));
+  for (size_t r = 0; r < bench_runs(o, 3); r++) {
+    dyd_sites *sites = NULL;
+    dyd_delaunay *pd = NULL;
+    dyd_tiles tiles = {0};
+    cells_check(name, dyd_sites_new(&sites));
+    cells_check(name, dyd_sites_add_points(sites, points.n, points.x, points.y));
+    cells_check(name, dyd_delaunay_new(&pd, sites, NULL, NULL));
+    cells_check(name, dyd_voronoi_tiles(&tiles, pd, &window, 0, NULL));
+    bench_meter meter = bench_start();
+    cells_check(name, dyd_tiles_clip(&tiles, &border, NULL));
+    bench_series_add(&ours, bench_stop(&meter));
+    rings = tiles.count;
+    dyd_tiles_clear(&tiles);
+    dyd_delaunay_free(pd);
+    dyd_sites_free(sites);
+  }
+  bench_check_numbers(o, name, points.n, rings, 0, 0);
+  bench_report_seconds(o, name, points.n, &ours, 1, "a border of 20,000 vertices");
+  dyd_rect_clear(&window);
+  dyd_area_clear(&border);
+  cloud_clear(&points);
+}
+
+/* Triangulation and tiles together, beside CGAL's diagram of the same points. */
+static void row_diagram(const bench_options *o, const char *name, size_t n) {
+  cloud points;
+  bench_series ours = {0}, plain = {0}, both = {0}, peer = {0};
+  size_t answer[2] = {0}, corners = 0;
+  if (!bench_wants(o, name)) return;
+  cloud_uniform(&points, bench_size(o, n));
+  for (size_t r = 0; r < bench_runs(o, 3); r++) {
+    bench_cost cost;
+    tiles_run(&plain, &ours, answer, name, &points, 1);
+    cost =
+        (bench_cost){plain.seconds[r] + ours.seconds[r], plain.wall[r] + ours.wall[r], plain.bytes[r] + ours.bytes[r]};
+    bench_series_add(&both, cost);
+    if (peer_voronoi(&cost, &corners, points.n, points.x, points.y)) bench_series_add(&peer, cost);
+  }
+  bench_check_numbers(o, name, points.n, answer[0], answer[1], 0);
+  bench_report(o, &(bench_row){.name = name,
+                               .n = points.n,
+                               .ours = &both,
+                               .peer = &peer,
+                               .peer_name = "CGAL's Voronoi_diagram_2",
+                               .ratio_goal = 0.5,
+                               .remark = "polygons as arrays, the triangulation included"});
+  cloud_clear(&points);
+}
+
 static void row_tiles(const bench_options *o, const char *name, size_t n, bool grid) {
   cloud points;
   bench_series ours = {0}, plain = {0};
@@ -130,6 +210,8 @@ int main(int argc, char **argv) {
     row_cells(&o, "cells-touch", 1000, 0.3, 100);
     row_tiles(&o, "tiles", 1000000, false);
     row_tiles(&o, "tiles-grid", 1000000, true);
+    row_diagram(&o, "diagram", 1000000);
+    row_clip(&o, "clip", 100000);
   }
   bench_options_close(&o);
   return 0;

@@ -3,8 +3,11 @@
 #include "peer.h"
 
 #include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_triangulation_adaptation_policies_2.h>
+#include <CGAL/Delaunay_triangulation_adaptation_traits_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel_with_sqrt.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Voronoi_diagram_2.h>
 #include <CGAL/version.h>
 #include <algorithm>
 #include <cstdlib>
@@ -75,6 +78,28 @@ bool peer_roots(bench_cost *cost, bench_edges *edges, size_t n, const uint32_t *
   dt.insert(points.begin(), points.end());
   *cost = bench_stop(&meter);
   if (edges) list_edges(edges, dt, points);
+  return true;
+}
+
+bool peer_voronoi(bench_cost *cost, size_t *corners, size_t n, const double *x, const double *y) {
+  typedef CGAL::Delaunay_triangulation_2<Doubles> Triangulation;
+  typedef CGAL::Voronoi_diagram_2<Triangulation, CGAL::Delaunay_triangulation_adaptation_traits_2<Triangulation>,
+                                  CGAL::Delaunay_triangulation_caching_degeneracy_removal_policy_2<Triangulation>>
+      Diagram;
+  std::vector<Doubles::Point_2> points, corner;
+  points.reserve(n);
+  for (size_t i = 0; i < n; i++) points.emplace_back(x[i], y[i]);
+  bench_meter meter = bench_start();
+  Triangulation dt;
+  dt.insert(points.begin(), points.end());
+  Diagram diagram(dt);
+  for (auto f = diagram.bounded_faces_begin(); f != diagram.bounded_faces_end(); ++f) {
+    auto h = f->ccb(), first = h;
+    do corner.push_back(h->source()->point());
+    while (++h != first);
+  }
+  *cost = bench_stop(&meter);
+  *corners = corner.size();
   return true;
 }
 

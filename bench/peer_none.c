@@ -12,6 +12,11 @@ bool peer_roots(bench_cost *cost, bench_edges *edges, size_t n, const uint32_t *
   return false;
 }
 
+bool peer_voronoi(bench_cost *cost, size_t *corners, size_t n, const double *x, const double *y) {
+  (void)cost, (void)corners, (void)n, (void)x, (void)y;
+  return false;
+}
+
 const char *peer_points_name(void) {
   return "none";
 }

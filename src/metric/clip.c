@@ -560,7 +560,7 @@ static bool clip_reserve(clip_work *w, size_t places) {
          dyd_reserve((void **)&o->xy, &w->xy_cap, 2 * places, sizeof *o->xy);
 }
 
-/* A ring up to vertex `end`, for which there is room. */
+/* A ring up to vertex `end`; the room is reserved. */
 static void clip_end_ring(dyd_tiles *o, uint32_t site, size_t end, double area) {
   o->site[o->count] = site;
   o->area[o->count] = area;
