@@ -35,6 +35,7 @@ typedef struct dyd_read_report {
   size_t repeated, repeat[2]; /* rows with the identifier of an earlier one, but for merge_by; the first such row,
                                  behind that earlier one, counted from 0 in this text */
   size_t vertices;            /* points that are vertices of lines and polygons in well-known text */
+  char zone[2][4];            /* two UTM zones that a column called zone holds, such as 32U and 33U; "": none, or one */
 } dyd_read_report;
 
 /* Columns are named as in the header (quoted as in RFC 4180 when they hold commas; capitals count only where names

@@ -3,6 +3,8 @@
 #include "cli.h"
 
 #include <math.h>
+#include <string.h>
+#include <strings.h>
 
 /* Returns true if all points can be places on the globe. */
 static bool points_are_degrees(const dyd_engine *e) {
@@ -54,9 +56,63 @@ static void note_repeated(const dyd_engine *e, const cli_options *o, const dyd_r
            o->file, r->repeat[0], r->repeat[1], id ? id : "", r->repeated);
 }
 
+/* What the name of a column of radii says of its numbers. part: the word is a part of it. scale: what makes standard
+ * deviations of them; NULL: give is to be given. */
+static const struct radius_name {
+  const char *word;
+  bool part;
+  const char *what, *scale, *give;
+} radius_names[] = {
+    {"ce90", false, "circles that hold 90 % of positions, each", " --radius-scale 0.466", NULL},
+    {"ce95", false, "circles that hold 95 % of positions, each", " --radius-scale 0.409", NULL},
+    {"cep", false, "circles that hold half of the positions", " --radius-scale 0.85", NULL},
+    {"2drms", false, "circles that hold about 97 % of positions, each", " --radius-scale 0.354", NULL},
+    {"dop", false, "factors of an error", NULL, "--radius-scale with the error of the receiver, such as 3"},
+    {"variance", false, "squares of standard deviations", NULL, "a column of their roots to --sigma-column"},
+    {"rms", false, "standard deviations", "", NULL},
+    {"sigma", false, "standard deviations", "", NULL},
+    {"std", false, "standard deviations", "", NULL},
+    {"sd", true, "standard deviations", "", NULL},
+    {"sde", true, "standard deviations", "", NULL},
+    {"sdn", true, "standard deviations", "", NULL},
+    {"mm", true, "millimetres", NULL, "--radius-scale 0.001 if those are metres"},
+    {"cm", true, "centimetres", NULL, "--radius-scale 0.01 if those are metres"}};
+
+static bool is_name_letter(char c) {
+  return (c | 0x20) >= 'a' && (c | 0x20) <= 'z';
+}
+
+static bool name_says(const char *name, const struct radius_name *r) {
+  size_t n = strlen(r->word);
+  for (const char *at = name; *at; at++)
+    if (strncasecmp(at, r->word, n) == 0 &&
+        (!r->part || ((at == name || !is_name_letter(at[-1])) && !is_name_letter(at[n]))))
+      return true;
+  return false;
+}
+
+/* Radii bound an error; a name may say that these do not, or in which unit they are. */
+static void note_radii(const cli_options *o) {
+  const char *names = o->read.radius_columns;
+  const struct radius_name *r = radius_names, *end = r + sizeof radius_names / sizeof *radius_names;
+  if (!names || o->read.radius_scale || o->content == DYD_CONTENT_TOLERANCE) return;
+  while (r < end && !name_says(names, r)) r++;
+  if (r == end || (o->sphere && strcmp(r->word + 1, "m") == 0)) return;
+  cli_note(o, "%s: by the name \"%.60s\" its numbers are %s; they are taken as bounds%s: give %s%.60s%s%s", o->file,
+           names, r->what, o->sphere ? "" : " in the unit of the coordinates", r->scale ? "--sigma-column " : r->give,
+           r->scale ? names : "", r->scale ? r->scale : "", r->scale ? " --confidence 95%" : "");
+}
+
 void cli_note_points(const dyd_engine *e, const cli_options *o, const dyd_read_report *r) {
   cli_note_lines(o, r);
   if (r->vertices) cli_note(o, "%s: the vertices of lines and polygons are the points: %zu", o->file, r->vertices);
+  note_radii(o);
+  if (r->zone[1][0] && !o->sphere)
+    cli_note(
+        o,
+        "%s: the column of zones has %s and %s; coordinates of several zones are not of one plane: transform them to "
+        "one system first, or give longitude and latitude with --sphere",
+        o->file, r->zone[0], r->zone[1]);
   note_confidence(e, o);
   if (r->merged)
     cli_note(o, "%s: %zu row%s merged with earlier ones of equal %s", o->file, r->merged,

@@ -283,4 +283,43 @@ def test_names_of_files():
         expect(run('delaunay', name, cwd=folder), 1, r'\A\Z', r'\Adyadel: é\\x1B\]0;x\\x07\\xC2\\x9B\\x0A€\.csv: cannot open')
 
 
+def test_header_is_no_geometry():
+    """A header that begins with Point was taken for well-known text without places, and skipped."""
+    expect(run('delaunay', '-', stdin='Point,Northing,Easting\nP1,2,3\n'), 1, r'\A\Z', r'-:1:15: .*columns X,Y; they are: Point, Northing, Easting$')
+    expect(run('delaunay', '-', stdin='point 1 2\n3 4\n'), 1, r'\A\Z', r'-:1:9: more than two')
+    expect(run('delaunay', '-', stdin='POINT EMPTY\nPoint Z (1 2 9)\npoint(1234.5 5)\nSRID=4326;POINT (5 1000)\n'), 0, re.escape(THREE))
+
+
+def test_remedies():
+    for text, remedy in (('P1,2.5,3.5,a\n', '--no-header --columns 1,2'), ('2023 1.5 2.5 3\n', '--delimiter blank'),
+                         ('$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\n', 'NMEA .*gpsbabel -i nmea')):
+        expect(run('delaunay', '-', stdin=text), 1, r'\A\Z', remedy)
+    for cell, remedy in (('?', "--missing '\\?' --skip-missing"), ('n.d.', "--missing 'n.d.'"), ('8 9 30', '47 36 18.3 N'), ('8.1O', 'O is east in German'),
+                         ('8.3w', 'N, S, E, W'), ('8d06m10sE', 'N, S, E, W')):
+        expect(run('delaunay', '--columns', 'x,y', '-', stdin=f'x,y\n1,2\n{cell},7\n'), 1, r'\A\Z', f'-:3:.*{remedy}')
+    expect(run('delaunay', '--columns', 'g', '-', stdin='g\n'), 2, r'\A\Z', 'its name twice')
+
+
+def test_names_of_radii():
+    """A column whose name says that it holds no bounds, or that its unit is another one, gets a note."""
+    def note(name, *more):
+        return run('delaunay', '--columns', 'x,y', '--radius-column', name, *more, '-', stdin=f'x,y,{name}\n1,2,0.1\n5,3,0.1\n2,9,0.1\n').err
+
+    for name, said in (('HRMS', '--sigma-column HRMS --confidence 95%'), ('Sigma_XY', 'standard deviations'), ('sd', '--sigma-column sd '),
+                       ('CE90', '--sigma-column CE90 --radius-scale 0.466 --confidence 95%'), ('HDOP', 'factors'), ('s [mm]', '--radius-scale 0.001'),
+                       ('acc(cm)', '--radius-scale 0.01')):
+        assert said in note(name), (name, note(name))
+        assert not note(name, '--radius-scale', '0.5')
+    for name in ('acc', 'radius', 'used', 's [m]', 'summit', 'wisdom', 'st'):
+        assert not note(name), (name, note(name))
+
+
+def test_zones():
+    rows = 'zone,x,y\n32U,1,2\n{},5,3\n32U,2,9\n'
+    for second, noted in (('33U', True), ('32 N', False), ('31', True), ('B2', False), ('', False), ('32T', False)):
+        found = run('delaunay', '--columns', 'x,y', '-', stdin=rows.format(second)).err
+        assert ('several zones' in found) == noted, (second, found)
+    expect(run('delaunay', '--columns', 'Hochwert,Rechtswert', '-', stdin='Rechtswert,Hochwert\n1,2\n3,4\n9,1\n'), 0, 'legal', 'mirrored map')
+
+
 main(globals())

@@ -171,8 +171,13 @@ def test_frames():
     import pandas
     df = pandas.DataFrame(PLACES, columns=['x', 'y'])
     for frame in (df, df.convert_dtypes(), df.astype(str), df.astype(object), df.astype('string'), df.set_index([[5, 5, 7, 1]]),
-                  df.rename(columns={'x': 'lat', 'y': 'lon'})):
+                  df.rename(columns={'x': 'lon', 'y': 'lat'})):
         assert dyadel.delaunay(frame).legal.tolist() == LEGAL, frame.dtypes
+    for x, y in (('lat', 'lon'), ('stop_lat', 'stop_lon'), ('decimalLatitude', 'decimalLongitude'), ('Northing', 'Easting')):
+        mirrored = df.rename(columns={'x': x, 'y': y})
+        for globe in (True, False):
+            words_in(harness.raised(ValueError, dyadel.delaunay, mirrored, sphere=globe), f"df[['{y}', '{x}']]")
+        assert dyadel.delaunay(mirrored.to_numpy()).legal.tolist() == LEGAL
     assert dyadel.delaunay(df.astype(str)).rect(0)[2] == Fraction('47.1'), 'text is decimal'
     assert dyadel.delaunay(df.astype('float32')).rect(0)[2] == Fraction(float(np.float32(47.1)))
     missing = pandas.concat([df.convert_dtypes(), pandas.DataFrame({'x': [None, 1], 'y': [pandas.NA, 2]})], ignore_index=True)

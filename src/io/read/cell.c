@@ -207,6 +207,15 @@ static bool has_no_digit(const dyd_span *s) {
   return true;
 }
 
+/* Returns true if digits are followed by a letter of a direction, a blank or a d, or have the sign of degrees.
+ */
+static bool is_like_degrees(const dyd_span *s) {
+  const char *end = s->text + s->length;
+  for (const char *at = s->text; at + 1 < end; at++)
+    if ((*at == '\xC2' && at[1] == '\xB0') || (is_digit(at, end) && (at[1] == ' ' || at[1] == 'd'))) return true;
+  return s->length > 1 && strchr("NSEWOnsewo", end[-1]) && has_mark(s->text, end - 1, '.');
+}
+
 dyd_status dyd_cell_hint(dyd_status st, const dyd_style *style, const dyd_span *s, bool first, dyd_error *err) {
   size_t length = strlen(err->message), size = sizeof err->message - length;
   char *out = err->message + length;
@@ -223,5 +232,12 @@ dyd_status dyd_cell_hint(dyd_status st, const dyd_style *style, const dyd_span *
     snprintf(out, size,
              o->no_header ? "; if this line names the columns, remove `no_header`"
                           : "; if this line holds units, give `units_row`");
+  else if (o->columns && has_no_digit(s) && s->length < 20)
+    snprintf(out, size, "; if the value is missing, give `missing` '%.*s' `skip_missing`", (int)s->length, s->text);
+  else if (is_like_degrees(s))
+    snprintf(out, size,
+             "; degrees are read as 47.605 N, 47\xC2\xB0"
+             "36'18.3\"N, 47 36 18.3 N or -47:36:18.3; their letters are N, S, "
+             "E, W (O is east in German, west in French)");
   return st;
 }

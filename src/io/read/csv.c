@@ -135,7 +135,7 @@ dyd_status dyd_csv_ask(dyd_csv *csv, int first, size_t least, size_t most, const
   if (split == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (split != DYD_OK || csv->fields < least || csv->fields > most) {
     return dyd_fail(err, DYD_E_ARG, "\"%.100s\" is not %s", text,
-                    least == 2  ? "two column names; give NAME,NAME"
+                    least == 2  ? "two column names; give NAME,NAME (of a column of WKT points: its name twice)"
                     : most == 1 ? "one column name; give NAME"
                     : most == 2 ? "one or two column names; give NAME or NAME,NAME"
                                 : "one, two or three column names; give S or SX,SY or SX,SY,RHO");
@@ -347,8 +347,8 @@ typedef struct axis_words {
 
 static const axis_words latitude = {"latitude", {"lat", "lat"}, {"lat", "lat", "lat"}},
                         longitude = {"longitude", {"lon", "lng"}, {"lon", "lng", "long"}},
-                        northing = {"northing", {"northing", "northing"}, {"north", "north", "north"}},
-                        easting = {"easting", {"easting", "easting"}, {"east", "east", "east"}};
+                        northing = {"northing", {"northing", "hochwert"}, {"north", "nord", "norte"}},
+                        easting = {"easting", {"easting", "rechtswert"}, {"east", "est", "este"}};
 
 /* The word is at place k of the field, in any case. */
 static bool has_word(const dyd_span *f, size_t k, const char *word) {

@@ -644,11 +644,16 @@ static dyd_status intake_commit(dyd_engine *e, intake *in, dyd_error *err) {
 
 /* ---- files and texts ---- */
 
-/* Appends a remedy to the error of the first line, where that may be a header. */
-static dyd_status hint_header(dyd_status st, const dyd_line *line, const intake *in, dyd_error *err) {
-  size_t length = strlen(err->message);
-  if (st == DYD_E_PARSE && in->report.rows <= 1 && !in->stage.count)
-    dyd_csv_hint(err->message + length, sizeof err->message - length, line);
+/* Appends a remedy to the error of the first line, where that may be of a table. */
+static dyd_status hint_table(dyd_status st, const dyd_line *line, const intake *in, dyd_error *err) {
+  char *out = err->message + strlen(err->message);
+  size_t size = sizeof err->message - strlen(err->message);
+  if (st != DYD_E_PARSE || in->report.rows > 1 || in->stage.count) return st;
+  dyd_csv_hint(out, size, line);
+  if (!*out && strncmp(err->message, "more than two", 13) == 0)
+    snprintf(out, size,
+             "; if this is a table, name two of its columns: `columns` X,Y, with `delimiter` blank where blanks are "
+             "between them, or by numbers where no line has names: `no_header` `columns` 1,2");
   return st;
 }
 
@@ -680,7 +685,7 @@ static dyd_status read_points_file(intake *in, dyd_text *text, dyd_error *err) {
     }
     st = dyd_points_split(span, &count, &line, in->o->decimal_comma ? ' ' : ',', err);
     if (st == DYD_OK && count) st = intake_row(in, span, err);
-    if (st != DYD_OK) return hint_header(st, &line, in, err);
+    if (st != DYD_OK) return hint_table(st, &line, in, err);
   }
 }
 
@@ -719,6 +724,28 @@ static dyd_status carry_row(intake *in, const dyd_csv *csv, const dyd_span *id, 
   return DYD_OK;
 }
 
+/* The number, from 1, of the column with zones of UTM; 0: there is none. */
+static size_t zone_find(const dyd_csv *csv) {
+  static const char *const names[] = {"zone", "utm_zone", "utm zone", "utmzone", "zona", "fuseau", "huso"};
+  for (size_t k = 0; k < csv->fields && !csv->headless; k++)
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++)
+      if (csv->field[k].length == strlen(names[n]) && dyd_same_name(csv->field[k].text, names[n], strlen(names[n])))
+        return k + 1;
+  return 0;
+}
+
+/* Remembers the zone of the present row, such as 32, 32U or 32 N, where it is the first one, or another. */
+static void zone_see(intake *in, const dyd_span *f) {
+  char zone[4] = "";
+  size_t used = 0;
+  for (size_t k = 0; k < f->length && f->length <= 4; k++)
+    if (f->text[k] != ' ' && used < 3) zone[used++] = f->text[k];
+  const int number = atoi(zone);
+  if (number < 1 || number > 60 || used > strspn(zone, "0123456789") + 1) return;
+  char(*seen)[4] = in->report.zone;
+  if (!seen[0][0] || number != atoi(seen[0])) memcpy(seen[seen[0][0] != 0], zone, sizeof zone);
+}
+
 static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
   dyd_csv csv = {.text = text, .headless = in->o->no_header, .units_row = in->o->units_row, .carry = in->o->carry};
   dyd_span span[DYD_CSV_MOST] = {{0}};
@@ -729,6 +756,7 @@ static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
   for (int role = 0; role < DYD_CSV_MOST && st == DYD_OK; role++)
     if (!in->unit[role]) in->unit[role] = csv.unit[role];
   if (st == DYD_OK && csv.carries) carry_begin(in, &csv);
+  const size_t zone = st == DYD_OK ? zone_find(&csv) : 0;
   while (st == DYD_OK && count) {
     st = dyd_csv_next(span, &count, &csv, err);
     dyd_wkt geometry;
@@ -742,6 +770,7 @@ static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
         span[DYD_CSV_X].length = span[DYD_CSV_Y].length = 0;
     }
     if (st == DYD_OK && count && csv.carries) st = carry_row(in, &csv, &span[DYD_ROLE_ID], err);
+    if (st == DYD_OK && zone && zone <= csv.fields && count) zone_see(in, &csv.field[zone - 1]);
     if (st == DYD_OK && count) st = intake_row(in, span, err);
   }
   in->report.commented = csv.commented;

@@ -6,6 +6,13 @@
 static const char *const words[] = {"POINT",           "LINESTRING",   "POLYGON",           "MULTIPOINT",
                                     "MULTILINESTRING", "MULTIPOLYGON", "GEOMETRYCOLLECTION"};
 
+/* "POINT Z (" and "POINT EMPTY" begin a geometry, "Point,X,Y" and "point 1 2" do not. */
+static bool wkt_opens(const char *at, const char *end) {
+  while (at < end && ((*at & ~0x20) >= 'A' && (*at & ~0x20) <= 'Z')) at++;
+  while (at < end && memchr(" \tZMzm", *at, 6)) at++;
+  return at < end && (*at == '(' || (end - at >= 5 && memcmp(at, "EMPTY", 5) == 0));
+}
+
 /* The word begins the text, in any case, and no letter follows. */
 static bool wkt_has_word(const char *at, const char *end, const char *word) {
   for (; *word; word++, at++)
@@ -28,7 +35,7 @@ bool dyd_wkt_begin(dyd_wkt *w, const dyd_span *text) {
   for (const char *p = w->at; p < w->end && k < count && *p != '('; p++)
     w->rings |= wkt_has_word(p, w->end, "POLYGON") || wkt_has_word(p, w->end, "MULTIPOLYGON");
   w->point = k == 0;
-  return k < count;
+  return k < count && wkt_opens(w->at, w->end);
 }
 
 static dyd_span wkt_number(dyd_wkt *w) {

@@ -102,6 +102,14 @@ def is_geographic(crs: Any) -> bool:
 # ---- all kinds ----
 
 
+def refuse_mirrored(names: list[str]) -> None:
+    """Columns that are latitude and longitude by their names, or northing and easting, would be a mirrored map."""
+    if len(names) == 2 and any(re.search(y, names[0], re.I) and re.search(x, names[1], re.I) for y, x in
+                               ((r'^lat|_lat$|latitude', r'^lon|^lng|_lon$|_lng$|longitude'), (r'^northing|^hochwert', r'^easting|^rechtswert'))):
+        raise ValueError(f'by their names the columns are {names[0]} and {names[1]}; x, or longitude, comes first: pass '
+                         f'df[[{names[1]!r}, {names[0]!r}]], or df.to_numpy() if this order is meant')
+
+
 def take(points: Any, radius: Any = None, *, order: str | None = None, skip_missing: bool = False, ids: Any = None,
          crs: Any = None, sigma: Any = None, confidence: float | str | None = None, carry: Any = None) -> Given:
     """Points of any kind but Source and Text, and their radius, in plain form."""
@@ -110,6 +118,7 @@ def take(points: Any, radius: Any = None, *, order: str | None = None, skip_miss
     if isinstance(points, (dict, str, bytes)) or not hasattr(points, '__iter__') and not hasattr(points, 'geom_type'):
         raise TypeError(f'points is of type {type(points).__name__}; give an array (N, 2) or (N, 4), a list of pairs, a DataFrame, a '
                         f'Source or a Text{", such as numpy.column_stack((xs, ys))" * isinstance(points, dict)}')
+    refuse_mirrored([str(name) for name in getattr(points, 'columns', ())])
     crs = getattr(points, 'crs', None) if crs is None else crs
     if isinstance(radius, str):
         radius = _radius_named(points, radius)
