@@ -12,7 +12,8 @@ extern "C" {
 
 /* Measure `site` so that it is within `needed` of its nominal place, the centre of its rectangle, in x and in y; half
  * of its larger side is `now`. Then, after the rows before, `decided` more of the pairs asked for are, and `left` are
- * not: counted in a triangulation of all, row by row. now is rounded up, needed down. */
+ * not: counted in a triangulation of all, row by row. now is rounded up; needed is the double nearest to a
+ * decimal of 6 digits, rounded down. */
 typedef struct dyd_survey_row {
   uint32_t site;
   double now, needed;

@@ -383,8 +383,8 @@ static dyd_status rows_of_plan(dyd_table *t, const dyd_output *o) {
     dyd_row_spot(t, row[k].site);
     dyd_row_index(t, k + 1);
     dyd_row_site(t, row[k].site);
-    dyd_row_brief(t, row[k].now);
-    dyd_row_brief(t, row[k].needed);
+    dyd_row_brief(t, row[k].now, false);
+    dyd_row_brief(t, row[k].needed, true);
     dyd_row_index(t, row[k].decided);
     dyd_row_index(t, row[k].left);
     dyd_row_id(t, row[k].site);

@@ -99,7 +99,7 @@ static void geojson_head(dyd_table *t, const dyd_output *o) {
   table_put(t, "\"}},\n\"rounding\": \"a coordinate differs from every point that it stands for by at most "
                "max_coordinate_error; numbers called lo, rho, probability, certain_area or half_width_needed are "
                "rounded down, others "
-               "that are not whole up\",\n\"outcome\": \"");
+               "that are not whole up, half_width_now to 6 digits\",\n\"outcome\": \"");
   table_put(t, dyd_outcome_text(outcome));
   table_put(t, "\",\n\"features\": [");
 }
@@ -325,8 +325,15 @@ void dyd_row_decimal(dyd_table *t, double x, dyd_round dir) {
   row_number(t, x, 17, dir);
 }
 
-void dyd_row_brief(dyd_table *t, double x) {
-  row_number(t, x, 6, DYD_DOWN);
+void dyd_row_brief(dyd_table *t, double x, bool decimal) {
+  char text[DYD_DECIMAL_SIZE];
+  double error;
+  value_begin(t);
+  if (decimal && isfinite(x))
+    dyd_decimal_within(text, &error, x, x);
+  else
+    dyd_decimal_directed(text, x, 6, DYD_DOWN);
+  table_put(t, text);
 }
 
 void dyd_row_box(dyd_table *t, const double box[4]) {

@@ -133,8 +133,8 @@ void dyd_row_index(dyd_table *t, size_t i);
 void dyd_row_word(dyd_table *t, const char *text);
 /* A decimal rounded in direction dir; none where x is not finite. */
 void dyd_row_decimal(dyd_table *t, double x, dyd_round dir);
-/* To 6 digits, rounded down. */
-void dyd_row_brief(dyd_table *t, double x);
+/* To 6 digits, rounded down. decimal: x is nearest to such a number, which is written. */
+void dyd_row_brief(dyd_table *t, double x, bool decimal);
 /* Four of them: the ends of a box, rounded outward. */
 void dyd_row_box(dyd_table *t, const double box[4]);
 /* In csv, a value, or several with commas, that is written to the file. */

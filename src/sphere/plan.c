@@ -12,6 +12,7 @@
 #include "sphere/state.h"
 #include "sphere/units.h"
 #include "stream/ball.h"
+#include "tolerance/lines.h"
 #include "tolerance/survey.h"
 
 #include <string.h>
@@ -112,9 +113,11 @@ static bool square_half(double *half, const plan_place *v, arb_srcptr angle) {
   return good && isfinite(*half);
 }
 
-/* The metres within which a place has to be so that its image is within `half`; a lower bound. */
+/* The metres within which a place has to be so that its image is within `half`; a lower bound, to 6 digits. */
 static double square_metres(const plan_place *v, const dyd_sphere *s, double half) {
   arb_ptr x = _arb_vec_init(2), t = x + 1;
+  mpq_t least;
+  mpq_init(least);
   arb_set_d(x, half);
   arb_set_d(t, v->off);
   arb_sub(x, x, t, PREC);
@@ -124,7 +127,9 @@ static double square_metres(const plan_place *v, const dyd_sphere *s, double hal
   arb_mul_2exp_si(x, x, 1);
   arb_sub(x, &v->angle, x, PREC);
   dyd_sphere_metres(x, s, PREC);
-  double metres = dyd_ball_ends(x).lo;
+  mpq_set_d(least, fmax(0, dyd_ball_ends(x).lo));
+  double metres = dyd_q_brief(least);
+  mpq_clear(least);
   _arb_vec_clear(x, 2);
   return metres;
 }
@@ -216,7 +221,7 @@ static dyd_status rows_take(sphere_plan *p, const dyd_survey *survey) {
     bool first = *of == DYD_NONE;
     if (first) *of = (uint32_t)p->rows;
     dyd_survey_row *to = &p->row[*of];
-    double metres = fmax(0, square_metres(v, p->s, row[k].needed));
+    double metres = square_metres(v, p->s, row[k].needed);
     if (first) {
       dyd_spot spot;
       arb_t x;

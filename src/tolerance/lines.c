@@ -6,6 +6,7 @@
 
 #include <dyadel/dyadic.h>
 #include <mpfr.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- life ---- */
@@ -274,6 +275,31 @@ double dyd_q_double(mpq_srcptr q, int up) {
   mpfr_rnd_t way = up ? MPFR_RNDU : MPFR_RNDD;
   mpfr_set_q(x, q, way);
   double out = mpfr_get_d(x, way);
+  mpfr_clear(x);
+  return out;
+}
+
+double dyd_q_brief(mpq_srcptr q) {
+  mpfr_t x;
+  mpfr_exp_t e;
+  mpq_t unit, t;
+  char digits[8];
+  mpfr_init2(x, 53);
+  mpq_inits(unit, t, NULL);
+  mpfr_set_q(x, q, MPFR_RNDD);
+  if (mpfr_regular_p(x) && mpfr_get_exp(x) > -1000 && mpfr_get_exp(x) < 1000) {
+    mpfr_get_str(digits, &e, 10, 2, x, MPFR_RNDD); /* 0.digits * 10^e */
+    mpq_set_ui(unit, 1, 1);
+    mpz_ui_pow_ui(mpq_numref(unit), 10, (unsigned long)labs(6 - (long)e));
+    if (e < 6) mpq_inv(unit, unit);
+    mpq_div(t, q, unit);
+    mpz_fdiv_q(mpq_numref(t), mpq_numref(t), mpq_denref(t));
+    mpz_set_ui(mpq_denref(t), 1);
+    mpq_mul(t, t, unit);
+    mpfr_set_q(x, t, MPFR_RNDN);
+  }
+  double out = mpfr_get_d(x, MPFR_RNDN);
+  mpq_clears(unit, t, NULL);
   mpfr_clear(x);
   return out;
 }

@@ -29,6 +29,8 @@ void dyd_side_sum(mpq_ptr sum, mpq_ptr width, const dyd_interval *side);
 dyd_status dyd_rect_widen(dyd_rect *r, mpq_srcptr half, int64_t exp);
 /* q rounded to a double, down (up = 0) or up (1). */
 double dyd_q_double(mpq_srcptr q, int up);
+/* The double nearest to the largest decimal of 6 digits that is at most q > 0: such as was typed. */
+double dyd_q_brief(mpq_srcptr q);
 
 /* The lines over a bisector (lines.h) in doubles, with error bounds [FLT-TOL]. */
 

@@ -80,7 +80,8 @@ static dyd_status cut_to_accuracy(dyd_interval *side, mpq_srcptr centre, mpq_src
   return st;
 }
 
-/* The rectangle of site i once measured, if `measured`, else as it is. */
+/* The rectangle of site i once measured, if `measured`, else as it is. Proved by 2^-52 of the accuracy more, which
+ * holds the double nearest to the decimal that is stated. */
 static dyd_status survey_rect(dyd_rect *out, const dyd_survey *s, uint32_t i, bool measured) {
   const dyd_survey_site *p = &s->site[i];
   dyd_rect_set(out, &p->rect);
@@ -88,6 +89,8 @@ static dyd_status survey_rect(dyd_rect *out, const dyd_survey *s, uint32_t i, bo
   mpq_t a, end[2];
   mpq_inits(a, end[0], end[1], NULL);
   accuracy_of(a, s, i);
+  mpq_div_2exp(end[0], a, 52);
+  mpq_add(a, a, end[0]);
   dyd_status st = cut_to_accuracy(&out->x, p->x, a, end);
   if (st == DYD_OK) st = cut_to_accuracy(&out->y, p->y, a, end);
   mpq_clears(a, end[0], end[1], NULL);
@@ -130,7 +133,7 @@ double dyd_survey_needed(const dyd_survey *s, uint32_t i) {
   mpq_t a;
   mpq_init(a);
   accuracy_of(a, s, i);
-  double out = dyd_q_double(a, 0);
+  double out = dyd_q_brief(a);
   mpq_clear(a);
   return out;
 }

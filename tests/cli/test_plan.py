@@ -31,6 +31,14 @@ def test_small():
     expect(run('plan', '-', stdin=''), 0, r'\A# plan 0 points')
 
 
+def test_numbers_as_typed():
+    """Multiples of the accuracy are decimals of 6 digits at most, not 2.87999."""
+    result = run('plan', '--columns', 'east,north', '--radius-column', 'accuracy', '--accuracy', '0.02', f'{DATA}/gps.csv')
+    needed = [r['half_width_needed'] for r in rows(result.out)]
+    assert needed[0] == '2.88' and all(len(n.lstrip('0.').replace('.', '')) <= 6 for n in needed), needed
+    assert not any('999' in n for n in needed), needed
+
+
 def test_accuracy_that_is_not_enough():
     expect(run('plan', '--accuracy', '3.9', '-', stdin=POINTS), 3, r'\A# plan \d points: not sufficient, 2 of 2 pairs stay undecided\n',
            'finer --accuracy')
