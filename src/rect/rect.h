@@ -8,8 +8,8 @@
 bool dyd_interval_is_valid(const dyd_interval *a);
 /* Returns true if the point is in the closed rectangle, whose ends are dyadic. */
 bool dyd_rect_holds(const dyd_rect *r, const dyd_point *p);
-/* What a callback is given where nothing is known: no interval, its lower end is above the upper one. So a side that it
- * leaves as it was is noticed. */
+/* What a callback is given at stage 0: no interval, its lower end is above the upper one. So a side that the callback
+ * does not set is noticed. */
 void dyd_interval_unset(dyd_interval *out);
 bool dyd_interval_is_unset(const dyd_interval *a);
 void dyd_rect_unset(dyd_rect *out);

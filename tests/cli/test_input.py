@@ -122,8 +122,13 @@ REFUSED = [
     ('--id name', '1 2\n', 2, r'--id is about columns; name those of x and y, too: --columns NAME,NAME$'),
     ('--radius-column r', '1 2\n', 2, r'--radius-column is about columns'),
     ('--delimiter ;', '1 2\n', 2, r'--delimiter is about columns'),
-    ('', 'id;x;y\na;1;2\n', 1, r'-:1:\d+: .* instead of \';\', or .*, name two of its columns: --columns X,Y; they are: id, x, y$'),
-    ('', 'id\tx\ty\na\t1\t2\n', 1, r'-:1:6: .*; if this is CSV with a header, name two of its columns: --columns X,Y; they are: id, x, y$'),
+    ('', 'id;x;y\na;1;2\n', 1, r'-:1:1: this line is a header and no point; name the columns of x and y: --columns x,y \(it has: id, x, y\)$'),
+    ('', 'id\tx\ty\na\t1\t2\n', 1, r'-:1:1: this line is a header and no point; name the columns of x and y: --columns x,y \(it has: id, x, y\)$'),
+    ('', 'id,rechts,"c d"\na,1,2\n', 1, r"-:1:1: .*: --columns 'rechts,c d' "),
+    ('', 'id,a,"b,c"\na,1,2\n', 1, r"""-:1:1: .*: --columns 'a,"b,c"' """),
+    ('', 'stop_lat,name,stop_lon\n1,a,2\n', 1, r'-:1:1: .*: --columns stop_lon,stop_lat '),
+    ('', 'id,a,b\np,q,r\n', 1, r'-:1:\d+: more than two .*: --columns X,Y \(it has: id, a, b\)$'),
+    ('', 'sqrt2 pie\n1 2\n', 1, r"-:1:1: the name 'sqrt2' is unknown; .*; if this line is a header, .*: --columns sqrt2,pie "),
     ('', '1 2\nNA 3\n', 1, r'-:2:1: the coordinate is missing \(NA\)'),
 ]
 
@@ -170,7 +175,7 @@ def test_missing():
     assert result.out == 'i,j,status\n1,3,legal\n1,4,legal\n3,4,legal\n', result.out
     expect(run('nearest', '--skip-missing', '-', '3', '0', stdin='NA 0\n0 0\n4 0\n'), 0, '^2,certain,1,1$')
     expect(run('disc', '--skip-missing', '-', stdin='0 0\nNA 0\n4 0\n0 4\n1 1\n'), 0,
-           r'# orientation of 0 2 3: counter(.|\n)*^4,inside$')
+           r'# orientation of 0 2 3: counter(.|\n)*^FFC,2,2,8,')
     expect(run('delaunay', '--skip-missing', '-', stdin='NA 0\n0 log(0-pi)\n'), 1, '', r'-:2:3: ')
     expect(run('delaunay', '--skip-missing', '--max-bits', '64', '-', stdin='NA 0\n0 0\n0 1/sin(pi)\n'), 1, '',
            r'-:3:4: point 2: ')

@@ -392,7 +392,7 @@ def test_queries_of_any_form():
         whole = json.loads(run(*given, *named, '-q', '--format', 'json', stdin='who;x;y\nc;11;5\n', cwd=folder).out)
         assert [(p['q'], p['id_q']) for p in whole['places']] == [(0, 'c')]
         for text, options, message in (
-                ('cust;lon;lat\nc;11;5\n', (), r'-:1:.*; if this is CSV with a header, name two of its columns: --query-columns X,Y; they are: cust, lon, lat$'),
+                ('cust;lon;lat\nc;11;5\n', (), r'-:1:1: this line is a header and no point; name the columns of x and y: --query-columns lon,lat \(it has: cust, lon, lat\)$'),
                 ('cust;lon;lat\nc;11;5\n', ('--query-columns', 'lon,latt'), r'-:1:1: no column is called "latt"; .* to --query-columns$'),
                 ('x;y\n11;5\n', ('--query-id', 'who'), r'-:1:1: no column is called "who"; .* to --query-id$'),
                 ('x,y\n1,b\n', (), '-:2:3: the name'), ('1 2\n3 b\n', (), '-:2:3: the name'),

@@ -8,115 +8,14 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "io/read/coordinate.h"
-#include "stream/degrees.h"
 
 #include <string.h>
 
 static dyd_status csv_record(dyd_line *out, dyd_csv *csv, dyd_error *err);
 static dyd_status csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err);
 static void span_trim(dyd_span *s);
-static bool is_comment(const dyd_line *line);
-
-/* One line of a points file: two coordinates separated by blanks or one comma, and a comment.
- *
- * Blanks and commas within parentheses or brackets belong to the coordinate. */
-
-typedef struct cursor {
-  const char *at, *end;
-  const dyd_line *line;
-  char comma; /* possible separators besides blanks */
-} cursor;
-
-static dyd_status points_fail(dyd_error *err, const cursor *c, const char *message) {
-  dyd_span span = {c->at, 0, c->at, c->line->text, c->line->number};
-  return dyd_span_fail(err, &span, 0, message);
-}
-
-static bool is_points_blank(char c) {
+static bool is_blank(char c) {
   return c == ' ' || c == '\t';
-}
-
-/* Skips blanks; how many commas stood among them (0, 1, or 2 for "too many"). */
-static int points_separator(cursor *c, int allowed) {
-  int commas = 0;
-  for (; c->at < c->end && (is_points_blank(*c->at) || *c->at == c->comma); c->at++)
-    if (*c->at == c->comma && ++commas > allowed) return commas;
-  return commas;
-}
-
-/* Characters that may end a coordinate or open a parenthesis in it. */
-static const bool special[256] = {
-    [' '] = true, ['\t'] = true, [','] = true, ['('] = true, [')'] = true, ['['] = true, [']'] = true};
-
-/* From c->at up to a separator outside all parentheses. */
-static dyd_span points_coordinate(cursor *c) {
-  const char *begin = c->at;
-  int depth = 0;
-  for (; c->at < c->end; c->at++) {
-    if (!special[(unsigned char)*c->at]) continue;
-    if (*c->at == '(' || *c->at == '[') depth++;
-    if ((*c->at == ')' || *c->at == ']') && depth > 0) depth--;
-    if (depth == 0 && (is_points_blank(*c->at) || *c->at == c->comma)) break;
-  }
-  return (dyd_span){begin, (size_t)(c->at - begin), begin, c->line->text, c->line->number};
-}
-
-static bool is_degrees(const char *begin, const char *end) {
-  mpq_t lo, hi;
-  char letter;
-  mpq_inits(lo, hi, NULL);
-  bool is = dyd_degrees_read(lo, hi, &letter, begin, (size_t)(end - begin), false, NULL) != DYD_E_ARG;
-  mpq_clears(lo, hi, NULL);
-  return is;
-}
-
-/* Degrees with blanks between minutes and seconds: the one place where both sides are such numbers. false: there is
- * none, or there are several. */
-static bool degrees_split(dyd_span coordinate[2], const dyd_line *line, const char *end, char comma) {
-  const char *begin = line->text, *found = NULL, *next = NULL;
-  while (begin < end && is_points_blank(*begin)) begin++;
-  for (const char *at = begin; at < end && end - begin < 200; at++) {
-    if (!is_points_blank(*at) && *at != comma) continue;
-    const char *left = at;
-    int commas = 0;
-    for (; at < end && (is_points_blank(*at) || *at == comma); at++) commas += *at == comma;
-    if (commas > 1 || !is_degrees(begin, left) || !is_degrees(at, end)) continue;
-    if (found) return false;
-    found = left;
-    next = at;
-  }
-  if (!found) return false;
-  while (end > next && is_points_blank(end[-1])) end--;
-  coordinate[0] = (dyd_span){begin, (size_t)(found - begin), begin, line->text, line->number};
-  coordinate[1] = (dyd_span){next, (size_t)(end - next), next, line->text, line->number};
-  return true;
-}
-
-dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_line *line, char comma, dyd_error *err) {
-  const char *comment = memchr(line->text, '#', line->length);
-  cursor c = {line->text, comment ? comment : line->text + line->length, line, comma};
-  *count = 0;
-  if (is_comment(line)) return DYD_OK;
-  if (points_separator(&c, 0))
-    return points_fail(err, &c, "a coordinate is missing before this comma; give two coordinates");
-  if (c.at == c.end) return DYD_OK;
-  coordinate[0] = points_coordinate(&c);
-  if (points_separator(&c, 1) > 1)
-    return points_fail(err, &c, "two commas in a row; separate the coordinates by one comma");
-  if (c.at == c.end)
-    return points_fail(err, &c,
-                       memchr(line->text, ';', (size_t)(c.end - line->text))
-                           ? "the line has one coordinate only; give two, separated by a blank or a comma instead of "
-                             "';', or a header and `columns` X,Y"
-                           : "the line has one coordinate only; give two, separated by a blank or a comma");
-  coordinate[1] = points_coordinate(&c);
-  int commas = points_separator(&c, 0);
-  if ((commas || c.at < c.end) && !degrees_split(coordinate, line, c.end, comma))
-    return points_fail(err, &c,
-                       "more than two coordinates on this line; give two, and write expressions without blanks "
-                       "outside parentheses");
-  *count = 2;
-  return DYD_OK;
 }
 
 /* The header of separated text: which delimiter it uses, and where the wanted columns are.
@@ -294,7 +193,7 @@ static dyd_status header_split(dyd_csv *csv, const dyd_line *line, char delimite
   csv->delimiter = delimiter;
   dyd_status st = csv_split(csv, line, err);
   for (size_t k = 0; k < csv->fields && st == DYD_OK; k++) span_trim(&csv->field[k]);
-  if (st != DYD_OK || !csv->fields || csv->headless || !is_comment(line)) return st;
+  if (st != DYD_OK || !csv->fields || csv->headless || !dyd_line_is_comment(line)) return st;
   dyd_span *first = &csv->field[0];
   csv->marked = first->length == 1;
   if (first->length > 1) first->text++, first->at++, first->length--;
@@ -386,6 +285,20 @@ static void put_name(char *out, size_t *used, const dyd_span *name) {
   if (quoted) out[(*used)++] = '"';
 }
 
+/* Two of them, quoted for a shell where that is needed. */
+static void put_names(char out[160], const dyd_span *x, const dyd_span *y) {
+  size_t used = 1;
+  put_name(out, &used, x);
+  out[used++] = ',';
+  put_name(out, &used, y);
+  out[0] = '\'';
+  out[used] = 0;
+  if (out[1 + strspn(out + 1, plain_letters)])
+    strcpy(out + used, "'");
+  else
+    memmove(out, out + 1, used);
+}
+
 /* What the names of the columns say of them. On the sphere, columns in the other order are refused. */
 static dyd_status read_meanings(dyd_csv *csv, bool degrees, dyd_error *err) {
   const dyd_span *x = &csv->field[csv->column[DYD_CSV_X]], *y = &csv->field[csv->column[DYD_CSV_Y]];
@@ -398,15 +311,9 @@ static dyd_status read_meanings(dyd_csv *csv, bool degrees, dyd_error *err) {
   csv->swapped = (x_lat || is_called(csv, DYD_CSV_X, &northing)) && (y_lon || is_called(csv, DYD_CSV_Y, &easting));
   if (!csv->swapped || !degrees) return DYD_OK;
   char names[160];
-  size_t used = 0;
-  put_name(names, &used, y);
-  names[used++] = ',';
-  put_name(names, &used, x);
-  names[used] = 0;
-  const char *quote = names[strspn(names, plain_letters)] ? "'" : "";
+  put_names(names, y, x);
   return dyd_fail(err, DYD_E_ARG,
-                  "by their names the columns are latitude and longitude; longitude comes first: `columns` %s%s%s",
-                  quote, names, quote);
+                  "by their names the columns are latitude and longitude; longitude comes first: `columns` %s", names);
 }
 
 /* Takes the line for the header, or for the first row. delimiter 0: taken from it. commented: comments precede it. */
@@ -494,7 +401,7 @@ static dyd_status header_read(dyd_csv *csv, char delimiter, dyd_error *err) {
     if (st != DYD_OK) return st;
     if (!line.text) break;
     char told = delimiter_line(&line);
-    const bool comment = is_comment(&line);
+    const bool comment = dyd_line_is_comment(&line);
     if (told && !delimiter) delimiter = told;
     commented = commented || comment;
     if (told || (comment && numbered)) continue;
@@ -554,21 +461,61 @@ static bool is_header(const dyd_csv *csv) {
   for (size_t k = 0; words && k < csv->fields; k++) {
     const dyd_span *f = &csv->field[k];
     char c = f->length ? lower_letter(f->text[0]) : 0;
-    words = f->text != f->at || c == '_' || (c >= 'a' && c <= 'z');
+    words = f->text != f->at || c == '_' || (c >= 'a' && c <= 'z') || (signed char)c < 0;
   }
   return words;
 }
 
-void dyd_csv_hint(char *out, size_t size, const dyd_line *line) {
-  dyd_csv csv = {0};
-  char names[160];
-  *out = 0;
-  for (const char *d = delimiters; *d && !*out; d++) {
-    if (header_split(&csv, line, *d, NULL) != DYD_OK || !is_header(&csv)) continue;
-    list_names(names, sizeof names, &csv);
-    snprintf(out, size, "; if this is CSV with a header, name two of its columns: `columns` X,Y; they are: %s", names);
+/* Sets the columns of x and y by their names, else to the first two that hold numbers in the row behind the header;
+ * false: neither tells. */
+static bool guess_columns(dyd_csv *csv, const dyd_csv *row) {
+  static const axis_words *const words[2][2] = {{&longitude, &easting}, {&latitude, &northing}};
+  size_t *k = csv->column, found = 0;
+  dyd_plain p;
+  for (int a = DYD_CSV_X; a <= DYD_CSV_Y; a++)
+    for (k[a] = 0; k[a] < csv->fields && !is_called(csv, a, words[a][0]) && !is_called(csv, a, words[a][1]) &&
+                   !ends_with_part(&csv->field[k[a]], a ? "y" : "x");)
+      k[a]++;
+  if (k[0] < csv->fields && k[1] < csv->fields && k[0] != k[1]) return true;
+  for (size_t f = 0; f < csv->fields && f < row->fields && found < 2; f++)
+    if (dyd_plain_scan(&p, row->field[f].text, row->field[f].length)) k[found++] = f;
+  return found == 2;
+}
+
+/* The line, a copy, separated by d. */
+static bool hint_with(dyd_csv *csv, dyd_csv *row, char d, const dyd_line *line, const dyd_line *next, dyd_error *err) {
+  char names[130], two[160], message[DYD_MESSAGE_SIZE];
+  size_t used = strlen(err->message);
+  if (header_split(csv, line, d, NULL) != DYD_OK || !is_header(csv)) return false;
+  if (next->text && header_split(row, next, d, NULL) != DYD_OK) row->fields = 0;
+  list_names(names, sizeof names, csv);
+  const bool guessed = guess_columns(csv, row);
+  strcpy(two, "X,Y");
+  if (guessed) put_names(two, &csv->field[csv->column[DYD_CSV_X]], &csv->field[csv->column[DYD_CSV_Y]]);
+  if (!guessed || csv->fields == 2) {
+    snprintf(err->message + used, sizeof err->message - used,
+             "; if this line is a header, name the columns of x and y: `columns` %s (it has: %s)", two, names);
+    return true;
   }
+  snprintf(message, sizeof message,
+           "this line is a header and no point; name the columns of x and y: `columns` %s (it has: %s)", two, names);
+  header_fail(csv, 0, err, message);
+  return true;
+}
+
+void dyd_csv_hint(dyd_error *err, const dyd_line *line, dyd_text *text) {
+  dyd_csv csv = {0}, row = {0};
+  dyd_line next = {0}, first = *line;
+  dyd_error own;
+  char *copy = dyd_alloc(line->length + 1, 1);
+  if (!copy) return;
+  memcpy(copy, line->text, line->length);
+  first.text = copy;
+  if (dyd_text_next(&next, text, &own) != DYD_OK) next.text = NULL;
+  for (const char *d = delimiters; *d && !hint_with(&csv, &row, *d, &first, &next, err);) d++;
+  dyd_csv_clear(&row);
   dyd_csv_clear(&csv);
+  free(copy);
 }
 
 /* Rows of fields: small tables that accompany the points, by the readers of lines and of separated text. */
@@ -576,7 +523,7 @@ void dyd_csv_hint(char *out, size_t size, const dyd_line *line) {
 /* Fields between runs of blanks, commas and semicolons, up to a comment; quotes mean nothing. */
 static dyd_status rows_split_runs(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
   static const bool between[256] = {[' '] = true, ['\t'] = true, [','] = true, [';'] = true, ['\r'] = true};
-  const char *at = line->text, *end = is_comment(line) ? at : at + line->length;
+  const char *at = line->text, *end = dyd_line_is_comment(line) ? at : at + line->length;
   for (csv->fields = 0;; csv->fields++) {
     while (at < end && between[(unsigned char)*at]) at++;
     if (at == end || *at == '#') return DYD_OK;
@@ -667,14 +614,13 @@ void dyd_csv_clear(dyd_csv *csv) {
 
 static bool is_blank_line(const dyd_line *line) {
   for (size_t k = 0; k < line->length; k++)
-    if (!is_points_blank(line->text[k])) return false;
+    if (!is_blank(line->text[k])) return false;
   return true;
 }
 
-/* Returns true if it begins with # or %. Error values of spreadsheets, such as #N/A, are not comments. */
-static bool is_comment(const dyd_line *line) {
+bool dyd_line_is_comment(const dyd_line *line) {
   const char *at = line->text, *end = at + line->length;
-  while (at < end && is_points_blank(*at)) at++;
+  while (at < end && is_blank(*at)) at++;
   return at < end && (*at == '%' || (*at == '#' && !dyd_is_sheet_error(at, (size_t)(end - at))));
 }
 
@@ -757,7 +703,7 @@ static dyd_status csv_record(dyd_line *out, dyd_csv *csv, dyd_error *err) {
   for (;;) {
     st = dyd_text_next(out, csv->text, err);
     if (st != DYD_OK || !out->text) return st;
-    if (csv->comments && is_comment(out))
+    if (csv->comments && dyd_line_is_comment(out))
       st = note_comment(csv, out, err);
     else if (!is_blank_line(out))
       break;
@@ -813,7 +759,7 @@ static dyd_status csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err) 
   csv->used = csv->fields = 0;
   if (!dyd_reserve((void **)&csv->plain, &csv->plain_cap, line->length, 1)) return dyd_fail_nomem(err);
   for (;;) {
-    while (csv->delimiter == ' ' && at < end && is_points_blank(*at)) at++;
+    while (csv->delimiter == ' ' && at < end && is_blank(*at)) at++;
     if (csv->delimiter == ' ' && at == end) return DYD_OK;
     if (!dyd_reserve((void **)&csv->field, &csv->field_cap, csv->fields + 1, sizeof *csv->field))
       return dyd_fail_nomem(err);

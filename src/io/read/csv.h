@@ -78,7 +78,10 @@ void dyd_csv_clear(dyd_csv *csv);
 dyd_status dyd_csv_next(dyd_span field[DYD_CSV_MOST], size_t *count, dyd_csv *csv, dyd_error *err);
 /* Returns true if the text begins with an error value of spreadsheets, such as #N/A. */
 bool dyd_is_sheet_error(const char *text, size_t length);
-/* Where a first line looks like a header, sets out to the remedy: "; if this is ..."; else to the empty text. */
-void dyd_csv_hint(char *out, size_t size, const dyd_line *line);
+/* Where a first line that is no point looks like a header, the message of *err becomes, or gets, the remedy. text: the
+ * lines behind it; the next one is taken. */
+void dyd_csv_hint(dyd_error *err, const dyd_line *line, dyd_text *text);
+/* Returns true if it begins with # or %. Error values of spreadsheets, such as #N/A, are not comments. */
+bool dyd_line_is_comment(const dyd_line *line);
 
 #endif

@@ -645,13 +645,12 @@ static dyd_status intake_commit(dyd_engine *e, intake *in, dyd_error *err) {
 /* ---- files and texts ---- */
 
 /* Appends a remedy to the error of the first line, where that may be of a table. */
-static dyd_status hint_table(dyd_status st, const dyd_line *line, const intake *in, dyd_error *err) {
-  char *out = err->message + strlen(err->message);
-  size_t size = sizeof err->message - strlen(err->message);
+static dyd_status hint_table(dyd_status st, const dyd_line *line, dyd_text *text, const intake *in, dyd_error *err) {
+  const size_t used = strlen(err->message);
   if (st != DYD_E_PARSE || in->report.rows > 1 || in->stage.count) return st;
-  dyd_csv_hint(out, size, line);
-  if (!*out && strncmp(err->message, "more than two", 13) == 0)
-    snprintf(out, size,
+  dyd_csv_hint(err, line, text);
+  if (strlen(err->message) == used && strncmp(err->message, "more than two", 13) == 0)
+    snprintf(err->message + used, sizeof err->message - used,
              "; if this is a table, name two of its columns: `columns` X,Y, with `delimiter` blank where blanks are "
              "between them, or by numbers where no line has names: `no_header` `columns` 1,2");
   return st;
@@ -685,7 +684,7 @@ static dyd_status read_points_file(intake *in, dyd_text *text, dyd_error *err) {
     }
     st = dyd_points_split(span, &count, &line, in->o->decimal_comma ? ' ' : ',', err);
     if (st == DYD_OK && count) st = intake_row(in, span, err);
-    if (st != DYD_OK) return hint_table(st, &line, in, err);
+    if (st != DYD_OK) return hint_table(st, &line, text, in, err);
   }
 }
 
