@@ -169,13 +169,16 @@ typedef struct ask {
 
 #define MOST_TIE_BITS ((int64_t)1 << 26)
 
-bool dyd_ask_options(dyd_engine_options *o) {
+const char *dyd_ask_options(dyd_engine_options *o) {
   if (o->max_bits == 0) o->max_bits = 4096;
   if (o->max_bits > MOST_BITS) o->max_bits = MOST_BITS;
   if (o->tie_bits == 0) o->tie_bits = DYD_TIE_BITS;
   if (o->tie_bits > MOST_TIE_BITS) o->tie_bits = MOST_TIE_BITS;
   if (o->start_bits > o->max_bits) o->start_bits = o->max_bits;
-  return o->tie_bits > 0 && o->start_bits >= -DYD_EXP_LIMIT && o->seconds >= 0 && o->step_bits >= 0;
+  if (o->tie_bits < 0) return "`tie_bits` is below 0; give bits from 1 on, or 0 for the default";
+  if (o->start_bits < -DYD_EXP_LIMIT) return "`start_bits` is below -1048576; give that or more";
+  if (!(o->seconds >= 0)) return "`seconds` is below 0 or no number; give a time above 0, or 0 for no limit";
+  return o->step_bits < 0 ? "`step_bits` is below 0; give bits from 1 on, or 0 for growing steps" : NULL;
 }
 
 /* ---- how it ends ---- */
@@ -573,8 +576,8 @@ dyd_status dyd_ask(dyd_outcome *outcome, dyd_budget *spent, dyd_engine *e, const
   if (st == DYD_OK) st = dyd_float_check(&a.err);
   if (st == DYD_OK) st = dyd_abi_take(&q, sizeof q, question, "dyd_question", &a.err);
   if (st == DYD_OK) st = dyd_abi_take(&a.o, sizeof a.o, options, "dyd_engine_options", &a.err);
-  if (st == DYD_OK && (!q.ask || !dyd_ask_options(&a.o)))
-    st = dyd_fail(&a.err, DYD_E_ARG, "%s", q.ask ? "an option is out of its range" : "the question is empty");
+  const char *wrong = st != DYD_OK ? NULL : q.ask ? dyd_ask_options(&a.o) : "the question is empty";
+  if (wrong) st = dyd_fail(&a.err, DYD_E_ARG, "%s", wrong);
   if (st == DYD_OK) st = dyd_policy_start(&policy, &a.o, &a.err);
   if (st == DYD_OK) st = ask_run(&a);
   dyd_policy_free(policy);

@@ -27,8 +27,8 @@ void dyd_watch_start(dyd_watch *w, double seconds, volatile int *flag);
 /* After this *flag is not touched any more. */
 void dyd_watch_stop(dyd_watch *w);
 
-/* Fills in defaults. false: an option that every question heeds is out of its range. */
-bool dyd_ask_options(dyd_engine_options *o);
+/* Fills in defaults. Returns NULL, or which option that every question heeds is out of its range. */
+const char *dyd_ask_options(dyd_engine_options *o);
 /* DYD_E_ARG, with a message, when the loop is at work and the call comes from one of its callbacks. */
 dyd_status dyd_ask_may_begin(const dyd_engine *e, dyd_error *err);
 /* dyd_engine_ask; *spent: the budget that was reached. *err, which may be NULL, is clear unless the call failed or the

@@ -677,11 +677,16 @@ static dyd_status goal_ask(bool *answered, dyd_plan *plan, void *user, const dyd
   return DYD_OK;
 }
 
-static bool goal_options_are_good(const dyd_engine_options *o) {
-  if (o->goal_bits > MOST_GOAL_BITS || o->goal_bits < -MOST_GOAL_BITS) return false;
-  if (o->goal < DYD_GOAL_DECIDED || o->goal > DYD_GOAL_VORONOI_HAUSDORFF) return false;
-  if (dyd_goal_is_voronoi(o->goal) && !dyd_goal_window_is_good(o->window)) return false;
-  return o->schedule == DYD_SCHEDULE_ADAPTIVE || o->schedule == DYD_SCHEDULE_UNIFORM;
+/* NULL, or which option of a run is out of its range. */
+static const char *goal_options_fault(const dyd_engine_options *o) {
+  if (o->goal_bits > MOST_GOAL_BITS || o->goal_bits < -MOST_GOAL_BITS)
+    return "`goal_bits` is not between -2^40 and 2^40; give a number between them";
+  if (o->goal < DYD_GOAL_DECIDED || o->goal > DYD_GOAL_VORONOI_HAUSDORFF) return "`goal` is not a dyd_goal; give one";
+  if (dyd_goal_is_voronoi(o->goal) && !dyd_goal_window_is_good(o->window))
+    return "the goal is about a diagram, and `window` has no area; give a rectangle with lower ends below upper ones";
+  return o->schedule == DYD_SCHEDULE_ADAPTIVE || o->schedule == DYD_SCHEDULE_UNIFORM
+             ? NULL
+             : "`schedule` is not a dyd_schedule; give one";
 }
 
 static dyd_status goal_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_options *o, dyd_error *err) {
@@ -716,10 +721,11 @@ dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_
   st = dyd_abi_take(&o, sizeof o, options, "dyd_engine_options", err);
   if (st == DYD_OK && !waiting_costs_are_good(e, &o))
     st = dyd_fail(err, DYD_E_ARG, "the cost of a point is not above 0");
-  else if (st == DYD_OK && dyd_ask_options(&o) && goal_options_are_good(&o))
-    st = goal_run(outcome, e, &o, err);
-  else if (st == DYD_OK)
-    st = dyd_fail(err, DYD_E_ARG, "an option of the run is out of its range");
+  if (st == DYD_OK) {
+    const char *wrong = dyd_ask_options(&o);
+    if (!wrong) wrong = goal_options_fault(&o);
+    st = wrong ? dyd_fail(err, DYD_E_ARG, "%s", wrong) : goal_run(outcome, e, &o, err);
+  }
   e->outcome = *outcome;
   return st;
 }

@@ -490,9 +490,12 @@ dyd_status dyd_oracle_new(dyd_oracle **out, const char *command, const dyd_oracl
   if (given.jobs == 0) given.jobs = 1;
   if (given.batch == 0) given.batch = 1;
   if (given.seconds == 0) given.seconds = DYD_ORACLE_SECONDS;
-  if (!command || given.jobs > DYD_ORACLE_MAX_JOBS || given.batch > DYD_ORACLE_MAX_BATCH || !(given.seconds > 0)) {
-    return dyd_fail(err, DYD_E_ARG, "an option of the oracle is out of its range");
-  }
+  if (!command) return dyd_fail_null(err);
+  if (given.jobs > DYD_ORACLE_MAX_JOBS || given.batch > DYD_ORACLE_MAX_BATCH)
+    return dyd_fail(err, DYD_E_ARG, "`jobs` is above %d or `batch` above %d, which are the most; give less",
+                    (int)DYD_ORACLE_MAX_JOBS, (int)DYD_ORACLE_MAX_BATCH);
+  if (!(given.seconds > 0))
+    return dyd_fail(err, DYD_E_ARG, "`seconds` is below 0 or no number; give a time above 0, or 0 for the default");
   dyd_oracle *o = oracle_new(command, &given);
   if (!o) return dyd_fail_nomem(err);
   dyd_status st = start_all_programs(o, given.jobs, given.stop, err);

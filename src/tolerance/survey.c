@@ -361,14 +361,16 @@ static dyd_status survey_check(const dyd_survey *s, const dyd_delaunay *pd, dyd_
   const dyd_survey_options *o = &s->options;
   if (dyd_delaunay_is_capped(pd))
     return dyd_fail(err, DYD_CAPPED, "more undecided pairs than can be stored; raise `max_pairs`");
-  if (o->accuracy && mpq_sgn(o->accuracy) <= 0) return dyd_fail(err, DYD_E_ARG, "an accuracy is above 0");
+  if (o->accuracy && mpq_sgn(o->accuracy) <= 0)
+    return dyd_fail(err, DYD_E_ARG, "the accuracy is not above 0; give a number above 0");
   if (o->site && *o->site >= s->sites)
     return dyd_fail(err, DYD_E_ARG, "there is no such point; give the number of one, from 0");
   for (size_t k = 0; o->pairs && k < o->pairs->count; k++)
     if (o->pairs->item[k].i >= s->sites || o->pairs->item[k].j >= s->sites)
       return dyd_fail(err, DYD_E_ARG, "pair number %zu names a point that does not exist", k);
   for (size_t i = 0; o->accuracies && i < s->sites; i++)
-    if (!(o->accuracies[i] > 0)) return dyd_fail(err, DYD_E_ARG, "an accuracy is above 0");
+    if (!(o->accuracies[i] > 0))
+      return dyd_fail(err, DYD_E_ARG, "the accuracy of point %zu is not above 0; give a number above 0", i);
   for (size_t i = 0; o->cost && i < s->sites; i++)
     if (!(o->cost[i] > 0)) return dyd_fail(err, DYD_E_ARG, "the cost of point %zu is not above 0", i);
   return DYD_OK;

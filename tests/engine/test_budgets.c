@@ -239,21 +239,44 @@ static void test_seconds_first(void **state) {
   dyd_engine_free(whole);
 }
 
+/* The message names the option. */
+static void check_refused(dyd_engine *e, const dyd_engine_options *o, const char *name) {
+  dyd_outcome outcome;
+  dyd_error err;
+  assert_int_equal(DYD_E_ARG, dyd_engine_run(&outcome, e, o, &err));
+  assert_int_equal(DYD_OUTCOME_ERROR, outcome);
+  if (!strstr(err.message, name)) fail_msg("no %s in: %s", name, err.message);
+}
+
 static void test_bad_options(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
   dyd_engine_options o = options();
   o.seconds = -1;
-  engine_run(e, &o, DYD_OUTCOME_ERROR);
+  check_refused(e, &o, "`seconds` is below 0");
+  o.seconds = (double)NAN;
+  check_refused(e, &o, "`seconds`");
   o = options();
   o.goal = (dyd_goal)9;
-  engine_run(e, &o, DYD_OUTCOME_ERROR);
+  check_refused(e, &o, "`goal`");
   o = options();
   o.schedule = (dyd_schedule)9;
-  engine_run(e, &o, DYD_OUTCOME_ERROR);
+  check_refused(e, &o, "`schedule`");
   o = options();
   o.goal_bits = INT64_MAX;
-  engine_run(e, &o, DYD_OUTCOME_ERROR);
+  check_refused(e, &o, "`goal_bits`");
+  o = options();
+  o.goal = DYD_GOAL_VORONOI_AREA;
+  check_refused(e, &o, "`window`");
+  o = options();
+  o.tie_bits = -1;
+  check_refused(e, &o, "`tie_bits`");
+  o = options();
+  o.step_bits = -1;
+  check_refused(e, &o, "`step_bits`");
+  o = options();
+  o.start_bits = -DYD_EXP_LIMIT - 1;
+  check_refused(e, &o, "`start_bits`");
   /* The engine has not started by any of these. */
   const double x = 1;
   assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &x, NULL));

@@ -135,6 +135,12 @@ def test_keywords():
     assert len(d) == 4
     for name in ('max_bits', 'threads', 'max_pairs', 'step_bits', 'max_calls'):
         words_in(harness.raised(ValueError, dyadel.delaunay, PLACES, **{name: -1}), f'{name}=-1')
+        words_in(harness.raised(ValueError, dyadel.delaunay, PLACES, **{name: 2**70}), f'{name}={2**70}; give at most')
+        words_in(harness.raised(TypeError, dyadel.delaunay, PLACES, **{name: 1.5}), f'{name}=1.5; give a whole number')
+    words_in(harness.raised(ValueError, dyadel.delaunay, PLACES, start_bits=-2**21), 'start_bits=', 'at least -1048576')
+    for wrong in (-1, float('nan'), 'soon'):
+        for function in (dyadel.delaunay, dyadel.converge, dyadel.check):
+            words_in(harness.raised(ValueError, function, PLACES, timeout=wrong), f'timeout={wrong!r}; give seconds')
     harness.raised(ValueError, dyadel.delaunay, PLACES, max_bits=0)
 
 

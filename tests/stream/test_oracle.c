@@ -296,7 +296,7 @@ static void test_starts(void **state) {
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
     bad[k].struct_size = sizeof bad[k];
     assert_int_equal(DYD_E_ARG, dyd_oracle_new(&oracle, "echo points 3", &bad[k], &err));
-    assert_says(&err, "out of its range");
+    assert_says(&err, k < 2 ? "`batch` above" : "`seconds` is below 0");
   }
   assert_int_equal(DYD_E_ARG, dyd_oracle_new(&oracle, NULL, NULL, &err));
   volatile int stop = 1;

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from . import _dyadel
 from ._arrays import rect_of
 from ._errors import BrokenPromise
-from ._options import INPUTS, takes_options
+from ._options import INPUTS, takes_options, time_limit
 from ._points import Source, append_points
 from ._triangulation import Delaunay
 
@@ -47,7 +47,7 @@ def check(points: Any, radius: Any = None, *, moves: Sequence[Move] | None = Non
         append_points(engine, points, radius, **inputs)
         return engine
     given = None if moves is None else sorted((stage, point, bits) for stage, point, bits in moves)
-    report = _dyadel.check(make, seed, schedules, stages, base_bits, max_bits, slack_bits, timeout or 0.0, given,
+    report = _dyadel.check(make, seed, schedules, stages, base_bits, max_bits, slack_bits, 0.0 if timeout is None else time_limit(timeout), given,
                            progress)
     if report['fault'] == 'fine':
         return report

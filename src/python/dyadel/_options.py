@@ -17,8 +17,9 @@ GOALS = ('decided', 'area', 'hausdorff', 'voronoi area', 'voronoi hausdorff')
 SCHEDULES = ('adaptive', 'uniform')
 #: What else functions take that take points.
 INPUTS = ('order', 'skip_missing', 'ids', 'crs', 'sigma', 'confidence', 'carry')
-AT_LEAST = {'max_bits': 1, 'max_pairs': 1, 'threads': 1, 'step_bits': 0, 'max_stages': 0, 'max_calls': 0,
-            'tie_bits': 0, 'max_bytes': 0}
+AT_LEAST = {'max_bits': 1, 'max_pairs': 1, 'threads': 1, 'start_bits': -2**20, 'step_bits': 0, 'max_stages': 0,
+            'max_calls': 0, 'tie_bits': 0, 'max_bytes': 0}
+AT_MOST = {'threads': 2**16}
 Arguments = ParamSpec('Arguments')
 Result = TypeVar('Result')
 
@@ -46,6 +47,27 @@ def takes_options(*more: str, runs: bool = True) -> Callable[[Callable[Arguments
 def split_inputs(options: dict[str, Any]) -> dict[str, Any]:
     """Removes the options of points from options and returns them."""
     return {name: options.pop(name) for name in INPUTS if name in options}
+
+
+def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> None:
+    """An error that names the option, unless value is a whole number between least and most."""
+    if not isinstance(value, (int, np.integer)):
+        raise TypeError(f'{name}={value!r}; give a whole number')
+    if value < least:
+        raise ValueError(f'{name}={value}; give at least {least}')
+    if value > most:
+        raise ValueError(f'{name}={value}; give at most {most}')
+
+
+def time_limit(timeout: Any) -> float:
+    """Seconds, above 0: 0 seconds are the shortest time."""
+    try:
+        seconds = float(timeout)
+    except (TypeError, ValueError):
+        seconds = -1.0
+    if not seconds >= 0:
+        raise ValueError(f'timeout={timeout!r}; give seconds, 0 or more')
+    return max(seconds, 1e-9)
 
 
 def engine_options(*, until: str = 'decided', timeout: float | None = None, max_bits: int = 4096,
@@ -84,17 +106,15 @@ def engine_options(*, until: str = 'decided', timeout: float | None = None, max_
                          'such as "hausdorff:40"')
     if schedule not in SCHEDULES:
         raise ValueError(f'schedule={schedule!r}; give "adaptive" or "uniform"')
-    for name, value in (('max_bits', max_bits), ('max_pairs', max_pairs), ('threads', threads), ('step_bits', step_bits),
-                        ('max_stages', max_stages), ('max_calls', max_calls), ('tie_bits', tie_bits),
-                        ('max_bytes', max_bytes)):
-        if value is not None and not isinstance(value, (int, np.integer)):
-            raise TypeError(f'{name}={value!r}; give a whole number')
-        if value is not None and value < AT_LEAST[name]:
-            raise ValueError(f'{name}={value}; give at least {AT_LEAST[name]}')
+    for name, value in (('max_bits', max_bits), ('max_pairs', max_pairs), ('threads', threads), ('start_bits', start_bits),
+                        ('step_bits', step_bits), ('max_stages', max_stages), ('max_calls', max_calls),
+                        ('tie_bits', tie_bits), ('max_bytes', max_bytes)):
+        if value is not None:
+            whole(name, value, AT_LEAST[name], AT_MOST.get(name, 2**63 - 1))
     if policy is not None and not callable(policy) and not isinstance(policy, str):
         raise TypeError(f'policy={policy!r}; give a function policy(pairs, plan), or a command')
     given = {'goal': GOALS.index(goal), 'goal_bits': int(bits or 0), 'schedule': SCHEDULES.index(schedule),
-             'seconds': None if timeout is None else max(float(timeout), 1e-9), 'max_bits': max_bits,
+             'seconds': None if timeout is None else time_limit(timeout), 'max_bits': max_bits,
              'max_pairs': max_pairs, 'threads': threads, 'start_bits': start_bits, 'step_bits': step_bits,
              'max_stages': max_stages, 'max_calls': max_calls, 'window': window, 'no_ties': not ties,
              'tie_bits': tie_bits, 'max_bytes': max_bytes, 'progress': progress, 'policy': policy,
