@@ -141,7 +141,7 @@ static void print_parts(FILE *out, const dyd_certificate_report *r) {
            r->discs_legal, r->discs_illegal);
   print_if(out, r->graph, "checked: %zu of %zu edges of the graph %s are certain\n", r->graph_certain, r->graph_rows,
            r->graph);
-  print_if(out, r->graph && !(r->gaps & DYD_GAP_GRAPH), "checked: pairs without a row are no edges of it\n");
+  print_if(out, r->graph && !(r->gaps & DYD_GAP_GRAPH), "checked: pairs without a row are not edges of it\n");
 }
 
 static void print_places(FILE *out, const dyd_certificate_report *r) {
@@ -191,7 +191,7 @@ static void print_part_gaps(FILE *out, const dyd_certificate_report *r) {
            "not proved: the statuses of %zu pairs of the discs, which have no witness or blockers\n",
            r->discs_unproved);
   print_if(out, r->gaps & DYD_GAP_GRAPH,
-           "not proved: that pairs without a row are no edges of the graph %s%s (%llu possible ones)\n", r->graph,
+           "not proved: that pairs without a row are not edges of the graph %s%s (%llu possible ones)\n", r->graph,
            !r->graph || strcmp(r->graph, "mst") ? "" : ", or that those stated to be certain are",
            (unsigned long long)r->graph_unproved);
   print_if(out, r->gaps & DYD_GAP_NEAREST,
@@ -203,7 +203,7 @@ static void print_gaps(FILE *out, const dyd_certificate_report *r) {
   print_if(out, r->gaps & DYD_GAP_IMAGES, "not proved: that %zu rectangles hold the images of their places\n",
            r->images_unproved);
   print_if(out, r->gaps & DYD_GAP_AROUND,
-           "not proved: that %zu images that are not listed are no neighbours of what is projected from\n",
+           "not proved: that %zu images that are not listed are not neighbours of the point projected from\n",
            r->around_unproved);
   print_if(out, r->gaps & DYD_GAP_LEGAL, "not proved: that %zu pairs without a witness are legal\n", r->legal_unproved);
   print_if(out, r->gaps & DYD_GAP_ILLEGAL, "not proved: that %llu pairs within %zu undecided faces are illegal\n",

@@ -96,7 +96,7 @@ static void geojson_head(dyd_table *t, const dyd_output *o) {
     table_put(t, t->sphere ? "urn:ogc:def:crs:OGC:1.3:CRS84" : no_system);
   }
   dyd_outcome outcome = t->sphere ? dyd_sphere_outcome(t->sphere) : dyd_engine_outcome(t->engine);
-  table_put(t, "\"}},\n\"rounding\": \"a coordinate differs from every point that it stands for by at most "
+  table_put(t, "\"}},\n\"rounding\": \"a coordinate differs from every point that it represents by at most "
                "max_coordinate_error; numbers called lo, rho, probability, certain_area or half_width_needed are "
                "rounded down, others "
                "that are not whole up, half_width_now to 6 digits\",\n\"outcome\": \"");

@@ -546,7 +546,7 @@ static dyd_status table_csv_comments(FILE *out, const dyd_convergence *c, bool t
         "# bits, decisions (filter, integer, exact) and calls are counted from the start; statuses is a digest of all "
         "pairs with their statuses\n",
         out);
-  fprintf(out, "# no random choice is made: there is no seed, and every run gives this table%s\n",
+  fprintf(out, "# no random choice is made and no seed is used: every run gives this table%s\n",
           times ? ", seconds (rounded up) aside" : "");
   return st;
 }

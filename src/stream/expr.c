@@ -771,7 +771,7 @@ static dyd_status parse_sum(parser *p) {
     if (c == '+' && p->pos + 1 < p->length && p->text[p->pos + 1] == '-') {
       if (!p->parentheses) break;
       return FAIL(p, p->pos, DYD_E_PARSE,
-                  "'+-' introduces a radius and can't stand in parentheses; for a sum write 'a - b'");
+                  "'+-' introduces a radius and is not allowed in parentheses; for a sum write 'a - b'");
     }
     size_t at = p->pos++, left = p->e->count - 1;
     st = parse_product(p);

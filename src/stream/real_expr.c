@@ -108,11 +108,10 @@ static dyd_status undefined_fail(dyd_error *err, const dyd_expr *e, size_t culpr
     return dyd_fail(err, DYD_E_DOMAIN,
                     "'%s' is undefined here: its argument lies outside its domain; correct the argument", name);
   }
-  return dyd_fail(
-      err, DYD_E_DOMAIN,
-      "'%s' stays undefined: its argument can't be told from a point where it has no value, up to %ld bits; "
-      "rewrite the expression or allow more bits",
-      name, (long)prec);
+  return dyd_fail(err, DYD_E_DOMAIN,
+                  "'%s' stays undefined: up to %ld bits its argument may be a point where it has no value; "
+                  "rewrite the expression or allow more bits",
+                  name, (long)prec);
 }
 
 /* The precision at which to give up: what the caller allows, beyond the places that large numbers take before the

@@ -567,8 +567,8 @@ dyd_status dyd_real_claim_root(dyd_real *x, const mpq_t *coeff, size_t count, co
   dyd_real *root = NULL;
   if (!x || dyd_real_is_final(x) || dyd_real_object(&object, x) != DYD_REAL_OPAQUE)
     return dyd_fail(err, DYD_E_ARG,
-                    "only what comes from a callback, and is not known to be exact, can be claimed to be "
-                    "a root, and once");
+                    "the real is exact, or no callback gives it, or it was claimed before: it cannot be "
+                    "claimed to be a root");
   dyd_status st = dyd_real_root(&root, coeff, count, lo, hi, err);
   if (st != DYD_OK) return st;
   if (dyd_real_object(&object, root) == DYD_REAL_ROOT && !root_is_alone(object, lo, hi))

@@ -426,7 +426,7 @@ static dyd_status readers_open(part_readers *all, const json_t *manifest, dyd_er
   dyd_status st = DYD_OK;
   if (!format || strcmp(format, "dyadel tiles 2") != 0 || !count || json_array_size(sums) != count ||
       json_integer_value(json_object_get(manifest, "ranks")) != (json_int_t)count)
-    return reader_fail(all, "manifest.json", "this is no manifest of the format \"dyadel tiles 2\"", err);
+    return reader_fail(all, "manifest.json", "the file is not a manifest of the format \"dyadel tiles 2\"", err);
   all->item = calloc(count, sizeof *all->item);
   if (!all->item) return tiles_no_memory(err);
   for (size_t k = 0; st == DYD_OK && k < count; k++) {

@@ -112,7 +112,7 @@ static dyd_status area_lists(area_text *t, bool wkt) {
       if (ring && !vertex && depth == deepest - (wkt ? 1 : 2)) st = area_ring_end(t), ring = false;
       t->at++;
     } else {
-      if (depth < (wkt ? 2 : 3)) return area_refuse(t, "this is no polygon; give one, or several");
+      if (depth < (wkt ? 2 : 3)) return area_refuse(t, "the geometry is not a polygon; give one, or several");
       ring = true;
       st = area_vertex(t, wkt ? ",)" : "]");
     }

@@ -854,7 +854,7 @@ dyd_status dyd_rect_set_text(dyd_rect *out, const char *text, size_t length, dyd
   size_t count;
   if (err) dyd_error_clear(err);
   dyd_status st = dyd_points_split(span, &count, &line, ',', err);
-  if (st == DYD_OK && !count) st = dyd_fail(err, DYD_E_PARSE, "there is no point in this text; give two coordinates");
+  if (st == DYD_OK && !count) st = dyd_fail(err, DYD_E_PARSE, "the text holds no point; give two coordinates");
   if (st != DYD_OK) return st;
   dyd_rect_init(&r);
   st = rect_set_side(&r.x, &span[0], err);
