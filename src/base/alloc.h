@@ -19,6 +19,10 @@ static inline void *dyd_alloc(size_t count, size_t size) {
   return dyd_alloc_in_large_pages(malloc(bytes), bytes);
 }
 
+/* Make an array of n items, ZEROED one of zeros. false: memory is exhausted, it is NULL. */
+#define DYD_NEW(array, n) (((array) = dyd_alloc((n), sizeof *(array))) != NULL)
+#define DYD_ZEROED(array, n) (((array) = calloc((n), sizeof *(array))) != NULL)
+
 /* Makes room for at least `need` items in *array (capacity *cap), growing by half. false: memory exhausted,
  * nothing changed. DYD_GROW(array, cap, need): the same of an array and its capacity. */
 static inline bool dyd_reserve(void **array, size_t *cap, size_t need, size_t size) {

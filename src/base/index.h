@@ -22,6 +22,11 @@ static inline int dyd_compare_two(const void *a, const void *b) {
   return (x[1] > y[1]) - (x[1] < y[1]);
 }
 
+/* The item of a sorted array that begins with the two numbers that *two begins with; NULL: there is none. */
+static inline void *dyd_find_two(const void *two, const void *item, size_t count, size_t size) {
+  return count ? bsearch(two, item, count, size, dyd_compare_two) : NULL;
+}
+
 /* The place of *index in an array that is sorted by the number each item begins with; NULL: there is none. */
 static inline void *dyd_find_index(const uint32_t *index, const void *item, size_t count, size_t size) {
   return count ? bsearch(index, item, count, size, dyd_compare_index) : NULL;

@@ -98,8 +98,7 @@ static dyd_status dyd_centre_shows(uint32_t **vertex, size_t *count, const dyd_s
 
 /* CROWD: least number of triangles of a face for which a search of the plane pays. PATIENCE: walks before the first
  * centre is tried. MOST_BITS: members of a face that has its pairs as bits, too. In the armed build small faces take
- * part, too.
- */
+ * part, too. */
 #ifdef DYD_ARMED
 enum { CROWD = 5, PATIENCE = 1, MOST_BITS = 16 };
 #else

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Whose rectangles meet a disc: the tree of boxes visits all candidates [FLT-DST]; each is then tested exactly.
- */
+/* Whose rectangles meet a disc: the tree of boxes visits all candidates [FLT-DST]; each is then tested exactly. */
 #include "delaunay/disc_filter.h"
 
 #include "delaunay/index_list.h"

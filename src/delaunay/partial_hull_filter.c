@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Signs for the partial hull: intervals in doubles first (predicate/interval_filter.h), rationals where they are
- * unsure.
- */
+ * unsure. */
 #include "delaunay/partial_hull.h"
 #include "dyadic/raw.h"
 

@@ -191,8 +191,7 @@ void dyd_index_list_clear(dyd_index_list *l) {
 }
 
 const dyd_sites *dyd_delaunay_sites(const dyd_delaunay *pd) {
-  if (!pd) return NULL;
-  return pd->sk.rects.sites;
+  return pd ? pd->sk.rects.sites : NULL;
 }
 
 dyd_status dyd_delaunay_get_counters(dyd_delaunay_counters *out, const dyd_delaunay *pd, dyd_error *err) {
@@ -202,8 +201,7 @@ dyd_status dyd_delaunay_get_counters(dyd_delaunay_counters *out, const dyd_delau
 }
 
 size_t dyd_delaunay_undecided_faces(const dyd_delaunay *pd) {
-  if (!pd) return 0;
-  return pd->open.count;
+  return pd ? pd->open.count : 0;
 }
 
 size_t dyd_delaunay_memory(const dyd_delaunay *pd) {

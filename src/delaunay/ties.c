@@ -66,9 +66,7 @@ static dyd_status rim_find(bool *found, rim *r, const dyd_delaunay *pd, const dy
   dyd_half_edge h = dyd_rim_start(&r->chain, pd, face);
   *found = false;
   if (h == DYD_NONE || face->tris < 2) return DYD_OK;
-  r->vertex = dyd_alloc(face->tris + 2, sizeof *r->vertex);
-  r->site = dyd_alloc(face->tris + 2, sizeof *r->site);
-  if (!r->vertex || !r->site) return DYD_E_NOMEM;
+  if (!DYD_NEW(r->vertex, face->tris + 2) || !DYD_NEW(r->site, face->tris + 2)) return DYD_E_NOMEM;
   uint32_t ghosts = 0;
   for (uint32_t q = 0; q < face->tris + 2; q++, h = dyd_tie_next(sk, h)) {
     uint32_t v = dyd_edge_origin(&sk->mesh, h);

@@ -236,20 +236,10 @@ static bool span_has_room(const span_work *s) {
 
 static bool span_alloc(span_work *s) {
   size_t n = s->w->n, pairs = s->w->pairs.count;
-  s->least = dyd_alloc(pairs, sizeof *s->least);
-  s->largest = dyd_alloc(pairs, sizeof *s->largest);
-  s->replaced = dyd_alloc(pairs, sizeof *s->replaced);
-  s->nearest = dyd_alloc(n, sizeof *s->nearest);
-  s->tree = calloc(pairs + 1, sizeof *s->tree);
-  s->never = calloc(pairs + 1, sizeof *s->never);
-  s->up = dyd_alloc(n, sizeof *s->up);
-  s->parent = dyd_alloc(n, sizeof *s->parent);
-  s->link = dyd_alloc(n, sizeof *s->link);
-  s->depth = dyd_alloc(n, sizeof *s->depth);
-  s->start = calloc(n + 2, sizeof *s->start);
-  s->edge = dyd_alloc(2 * n, sizeof *s->edge);
-  return s->least && s->largest && s->replaced && s->nearest && s->tree && s->never && s->up && s->parent && s->link &&
-         s->depth && s->start && s->edge;
+  return DYD_NEW(s->least, pairs) && DYD_NEW(s->largest, pairs) && DYD_NEW(s->replaced, pairs) &&
+         DYD_NEW(s->nearest, n) && DYD_ZEROED(s->tree, pairs + 1) && DYD_ZEROED(s->never, pairs + 1) &&
+         DYD_NEW(s->up, n) && DYD_NEW(s->parent, n) && DYD_NEW(s->link, n) && DYD_NEW(s->depth, n) &&
+         DYD_ZEROED(s->start, n + 2) && DYD_NEW(s->edge, 2 * n);
 }
 
 static void spanning_work_clear(span_work *s) {

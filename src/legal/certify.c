@@ -64,8 +64,7 @@ static bool is_met_across(const dyd_skeleton *sk, uint32_t i, uint32_t j, const 
 }
 
 /* Returns true if the middle of the two sites is a witness. On a straight part of the hull circumcentres are far away
- * and decide nothing.
- */
+ * and decide nothing. */
 static bool middle_is_witness(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
   dyd_point c;
   dyd_point_init(&c);

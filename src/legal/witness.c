@@ -225,8 +225,7 @@ static bool witness_is_excluded(const dyd_skeleton *sk, uint32_t i, uint32_t j, 
 }
 
 /* Before a search with big numbers: returns true if certainly none exists, or one lies between the centres of the
- * edge's two triangles.
- */
+ * edge's two triangles. */
 static bool witness_look_between(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
                                  const uint32_t across[2]) {
   dyd_point middle;

@@ -329,9 +329,7 @@ dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, co
   uint64_t bytes = dyd_bytes_times(n, sizeof *s->reach + sizeof *s->second);
   if (!dyd_room_has(&s->room, bytes, "the diagram")) return DYD_E_NOMEM;
   s->room.held += bytes;
-  s->reach = dyd_alloc(n, sizeof *s->reach);
-  s->second = dyd_alloc(n, sizeof *s->second);
-  if (!s->reach || !s->second) return DYD_E_NOMEM;
+  if (!DYD_NEW(s->reach, n) || !DYD_NEW(s->second, n)) return DYD_E_NOMEM;
   for (size_t i = 0; i < n; i++) s->reach[i] = s->second[i] = -1;
   return DYD_OK;
 }

@@ -106,12 +106,11 @@ bool dyd_surely_not_displaced(const dyd_skeleton *sk, uint32_t i, uint32_t j, ui
   return (int)dyd_filter_incircle(box[i].e, box[j].e, box[k].e, box[l].e) == -(int)turn;
 }
 
-/* Lists up to SHORT are examined pair by pair, longer ones when cutting makes them no shorter, and pairs of lists up
- * to LONG are noted. DEEP: how often a patch is cut for the pairs noted in the last pass. COARSE: a patch is, while so
- * many times more may be nearest somewhere in it than at its centre; not those cut more than
- * FINE times: ties. NARROW: strips cut so often stay coarse, near as they are at one end. WALK:
- * the cost of deciding one pair alone, in tests of a rectangle; WORK: most of them for each site and each pair
- * found. */
+/* Lists up to SHORT are examined pair by pair, longer ones when cutting makes them no shorter, and pairs of lists up to
+ * LONG are noted. DEEP: how often a patch is cut for the pairs noted in the last pass. COARSE: a patch is, while so
+ * many times more may be nearest somewhere in it than at its centre; not those cut more than FINE times: ties. NARROW:
+ * strips cut so often stay coarse, near as they are at one end. WALK: the cost of deciding one pair alone, in tests of
+ * a rectangle; WORK: most of them for each site and each pair found. */
 enum {
   SHORT = 48,
   LONG = 4096,
@@ -468,12 +467,8 @@ static void set_root(plane *p) {
 
 static dyd_status everybody(plane *p) {
   const dyd_tree *t = &p->c->rects->tree;
-  p->place = dyd_alloc(LONG, sizeof *p->place);
-  p->near = dyd_alloc(t->count, sizeof *p->near);
-  p->rival = dyd_alloc(t->count, sizeof *p->rival);
-  p->wanted = dyd_alloc(t->count, sizeof *p->wanted);
-  p->value = dyd_alloc(t->count, sizeof *p->value);
-  if (!p->place || !p->near || !p->rival || !p->wanted || !p->value || !DYD_GROW(p->entry, p->entry_cap, t->count))
+  if (!DYD_NEW(p->place, LONG) || !DYD_NEW(p->near, t->count) || !DYD_NEW(p->rival, t->count) ||
+      !DYD_NEW(p->wanted, t->count) || !DYD_NEW(p->value, t->count) || !DYD_GROW(p->entry, p->entry_cap, t->count))
     return DYD_E_NOMEM;
   for (uint32_t q = 0; q < t->count; q++) p->entry[q] = (entry){t->item[q], patches_member(p->c, t->item[q]), true};
   p->entries = t->count;

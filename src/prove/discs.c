@@ -227,8 +227,7 @@ typedef struct vector {
   mpf_t x, y;
 } vector;
 
-/* near: sites with their caps in `all`: cap k + 1 is that of site near[k]. some: those of a proof.
- */
+/* near: sites with their caps in `all`: cap k + 1 is that of site near[k]. some: those of a proof. */
 typedef struct disc_proof {
   const dyd_proof *p;
   const dyd_pair_list *pairs;

@@ -456,9 +456,7 @@ static void block_clear(dyd_proof_block *b) {
 static dyd_status block_gather(dyd_proof_block *b, const fact *list, size_t count) {
   size_t n = 0;
   for (size_t q = 0; q < count; q++) n += list[q].count;
-  b->site = dyd_alloc(n, sizeof *b->site);
-  b->at = dyd_alloc(n, sizeof *b->at);
-  if (!b->site || !b->at) return DYD_E_NOMEM;
+  if (!DYD_NEW(b->site, n) || !DYD_NEW(b->at, n)) return DYD_E_NOMEM;
   for (size_t q = 0; q < count; q++)
     for (size_t k = 0; k < list[q].count; k++) b->site[b->sites++] = list[q].member[k];
   b->sites = dyd_cert_distinct(b->site, b->sites);

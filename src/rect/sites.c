@@ -289,8 +289,7 @@ void dyd_sites_free(dyd_sites *s) {
 }
 
 size_t dyd_sites_count(const dyd_sites *s) {
-  if (!s) return 0;
-  return s->count;
+  return s ? s->count : 0;
 }
 
 static dyd_status sites_make_exact(dyd_sites *s) {

@@ -94,10 +94,7 @@ static void line_find_ends(dyd_line *l, const entry *e) {
 }
 
 static dyd_status line_allocate(dyd_line *l, uint32_t n) {
-  l->order = dyd_alloc(n, sizeof *l->order);
-  l->rank = dyd_alloc(n, sizeof *l->rank);
-  l->legal = calloc(n ? n : 1, sizeof *l->legal);
-  return l->order && l->rank && l->legal ? DYD_OK : DYD_E_NOMEM;
+  return DYD_NEW(l->order, n) && DYD_NEW(l->rank, n) && DYD_ZEROED(l->legal, n ? n : 1) ? DYD_OK : DYD_E_NOMEM;
 }
 
 /* Equal exact points are neighbours in the order: the later ones become aliases and leave the list. */

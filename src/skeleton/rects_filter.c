@@ -153,9 +153,8 @@ void dyd_tree_near(const dyd_tree *t, const dyd_bbox *c, const double *radius2, 
   }
 }
 
-/* Upper bound of max u.x over a box [FLT-DIR]: two products and a sum of relative error u, and the
- * bound's own rounding: below 8u(|ux x| + |uy
- * y|). */
+/* Upper bound of max u.x over a box [FLT-DIR]: two products and a sum of relative error u, and the bound's own
+ * rounding: below 8u(|ux x| + |uy y|). */
 static double reach(const dyd_bbox *b, double ux, double uy) {
   double px = ux * (ux > 0 ? b->e[1] : b->e[0]), py = uy * (uy > 0 ? b->e[3] : b->e[2]);
   double r = px + py + 8 * 0x1p-53 * (fabs(px) + fabs(py)) + DYD_TINY;

@@ -213,10 +213,9 @@ static void find_leaving(dyd_skeleton *sk, unsigned threads) {
 }
 
 static dyd_status build_maps(dyd_skeleton *sk, unsigned threads) {
-  sk->vertex = dyd_alloc(sk->n, sizeof *sk->vertex);
-  sk->leaving = dyd_alloc(sk->n, sizeof *sk->leaving);
-  sk->certain = calloc(sk->mesh.count ? sk->mesh.count : 1, 1);
-  if (!sk->vertex || !sk->leaving || !sk->certain) return DYD_E_NOMEM;
+  if (!DYD_NEW(sk->vertex, sk->n) || !DYD_NEW(sk->leaving, sk->n) ||
+      !DYD_ZEROED(sk->certain, sk->mesh.count ? sk->mesh.count : 1))
+    return DYD_E_NOMEM;
   settle_aliases(sk);
   find_leaving(sk, threads);
   sk->all_points = true;

@@ -224,8 +224,7 @@ dyd_status dyd_rect_narrow_q(dyd_rect *r, const mpq_t end[4], dyd_error *err) {
   return take_answer_ends(r, !answer_is_first(r), end, err);
 }
 
-/* Time for programs to end unforced, or for a replaced one to end by a signal; how often the stop flag is
- * examined. */
+/* Time for programs to end unforced, or for a replaced one to end by a signal; how often the stop flag is examined. */
 #define GRACE_SECONDS 1.0
 
 #define STOP_SECONDS 0.25
@@ -429,8 +428,7 @@ dyd_status dyd_oracle_source(dyd_source *out, dyd_oracle *o, dyd_error *err) {
 }
 
 size_t dyd_oracle_count(const dyd_oracle *o) {
-  if (!o) return 0;
-  return o->points;
+  return o ? o->points : 0;
 }
 
 /* ---- starting ---- */

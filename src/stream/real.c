@@ -290,13 +290,11 @@ void dyd_real_free(dyd_real *x) {
 }
 
 const dyd_interval *dyd_real_interval(const dyd_real *x) {
-  if (!x) return NULL;
-  return x->now;
+  return x ? x->now : NULL;
 }
 
 bool dyd_real_is_final(const dyd_real *x) {
-  if (!x) return false;
-  return x->final;
+  return x ? x->final : false;
 }
 
 void dyd_real_place(dyd_real *x, size_t line, size_t column) {
@@ -390,8 +388,7 @@ int64_t dyd_real_glance_bits(const dyd_real *x) {
   return x->spans && !x->now ? dyd_filter_bits(x->span) : INT64_MIN;
 }
 
-/* A span this short, rounded to the grid for `bits`, very likely gives one step of it, as it does with balls.
- */
+/* A span this short, rounded to the grid for `bits`, very likely gives one step of it, as it does with balls. */
 #define SPARE 16
 
 static bool span_is_short(const dyd_real *x, int64_t bits) {
@@ -411,8 +408,7 @@ static dyd_status real_take_span(dyd_real *x, dyd_double_span span, dyd_error *e
 }
 
 dyd_status dyd_real_narrow(dyd_real *x, int64_t bits, int64_t max_bits, dyd_error *err) {
-  if (!x) return dyd_fail_null(err);
-  return dyd_real_narrow_until(x, bits, max_bits, NULL, err);
+  return x ? dyd_real_narrow_until(x, bits, max_bits, NULL, err) : dyd_fail_null(err);
 }
 
 dyd_status dyd_real_narrow_until(dyd_real *x, int64_t bits, int64_t max_bits, const volatile int *stop,

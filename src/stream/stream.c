@@ -128,18 +128,15 @@ void dyd_stream_free(dyd_stream *s) {
 }
 
 const dyd_rect *dyd_stream_rect(const dyd_stream *s) {
-  if (!s) return NULL;
-  return s->now;
+  return s ? s->now : NULL;
 }
 
 bool dyd_stream_is_final(const dyd_stream *s) {
-  if (!s) return false;
-  return s->final;
+  return s ? s->final : false;
 }
 
 uint64_t dyd_stream_stage(const dyd_stream *s) {
-  if (!s) return 0;
-  return s->stage;
+  return s ? s->stage : 0;
 }
 
 static dyd_status stream_accept(dyd_stream *s, dyd_rect *next, dyd_error *err) {
@@ -177,8 +174,7 @@ static dyd_status stream_call_source(dyd_stream *s, const dyd_request *request, 
 }
 
 dyd_status dyd_stream_narrow(dyd_stream *s, int64_t bits, int64_t max_bits, dyd_error *err) {
-  if (!s) return dyd_fail_null(err);
-  return dyd_stream_narrow_until(s, bits, max_bits, NULL, err);
+  return s ? dyd_stream_narrow_until(s, bits, max_bits, NULL, err) : dyd_fail_null(err);
 }
 
 dyd_status dyd_stream_narrow_until(dyd_stream *s, int64_t bits, int64_t max_bits, const volatile int *stop,
