@@ -224,59 +224,6 @@ static dyd_status near_regions(near_question *q, dyd_error *err) {
   return st;
 }
 
-/* Drops places that are farther than another one for certain. */
-static dyd_status near_keep(near_question *q) {
-  way d;
-  arf_struct *low = dyd_alloc(q->near.count, sizeof *low);
-  arf_t most, end;
-  size_t kept = 0;
-  if (!low) return DYD_E_NOMEM;
-  way_init(&d, q->prec);
-  arf_init(most);
-  arf_init(end);
-  for (size_t k = 0; k < q->near.count; k++) {
-    way_set(&d, &q->spot[k], &q->here);
-    way_widen(&d.least, &d, q->spot[k].angle, -1);
-    way_widen(&d.largest, &d, q->spot[k].angle, 1);
-    arf_init(&low[k]);
-    arb_get_lbound_arf(&low[k], &d.least, q->prec);
-    arb_get_ubound_arf(end, &d.largest, q->prec);
-    if (!k || arf_cmp(end, most) < 0) arf_set(most, end);
-  }
-  for (size_t k = 0; k < q->near.count; k++) {
-    if (arf_cmp(&low[k], most) > 0) continue;
-    dyd_spot swap = q->spot[kept];
-    q->spot[kept] = q->spot[k];
-    q->spot[k] = swap;
-    q->near.item[kept++] = q->near.item[k];
-  }
-  for (size_t k = 0; k < q->near.count; k++) arf_clear(&low[k]);
-  q->near.count = kept;
-  arf_clear(end);
-  arf_clear(most);
-  way_clear(&d);
-  free(low);
-  return DYD_OK;
-}
-
-/* Of exact places about an exact one: until one is left, or those left are equally far; *blocked: not known at the
- * precision `most`. */
-static dyd_status near_separate(bool *blocked, near_question *q, slong most, const volatile int *stop) {
-  dyd_status st = DYD_OK;
-  while (st == DYD_OK && q->near.count > 1) {
-    if (dyd_flag_get(stop)) return DYD_CANCELLED;
-    if (q->tried != q->near.count) st = dyd_spots_equidistant(&q->tied, &q->here, q->spot, q->near.count);
-    q->tried = q->near.count;
-    *blocked = !q->tied && q->prec > most;
-    if (st != DYD_OK || q->tied || *blocked) return st;
-    q->prec *= 2;
-    st = near_keep(q);
-  }
-  return st;
-}
-
-/* ---- cores ---- */
-
 /* Sets core to the part of region k that no refinement takes away: radii in degrees, less half of the rectangle.
  * Returns false if that is nothing. */
 static bool near_core(dyd_spot *core, const near_question *q, size_t k) {
@@ -293,69 +240,97 @@ static bool near_core(dyd_spot *core, const near_question *q, size_t k) {
   return true;
 }
 
-/* Sets least to a bound from above of the least distance of region k, and largest to one from below of the largest,
- * that hold whatever is refined. */
-static void near_stays(way *d, dyd_spot *core, const near_question *q, size_t k) {
-  bool stays = near_core(core, q, k);
-  way_set(d, stays ? core : &q->spot[k], &q->here);
-  if (!stays) arb_swap(&d->least, &d->largest);
-  way_widen(&d->least, d, q->spot[k].angle, -1);
-  way_widen(&d->largest, d, q->spot[k].angle, 1);
-}
-
-/* Sets *out to whether two places stay listed. Those whose least distance is never above the largest of any. */
-static dyd_status near_is_settled(bool *out, const near_question *q) {
+/* A bound of the least distance of each region, and in `most` the least bound of the largest ones, from outside, or,
+ * with `stays`, from inside whatever is refined. NULL: memory is exhausted. */
+static arf_struct *near_bounds(arf_t most, const near_question *q, bool stays) {
   way d;
   dyd_spot core;
-  arf_struct *high = dyd_alloc(q->near.count, sizeof *high);
-  arf_t most, end;
-  size_t count = 0;
-  if (!high) return DYD_E_NOMEM;
+  arf_t end;
+  arf_struct *bound = dyd_alloc(q->near.count, sizeof *bound);
+  if (!bound) return NULL;
   way_init(&d, q->prec);
   dyd_spot_init(&core);
-  arf_init(most);
   arf_init(end);
   for (size_t k = 0; k < q->near.count; k++) {
-    near_stays(&d, &core, q, k);
-    arf_init(&high[k]);
-    arb_get_ubound_arf(&high[k], &d.least, q->prec);
-    arb_get_lbound_arf(end, &d.largest, q->prec);
+    bool held = stays && near_core(&core, q, k);
+    way_set(&d, held ? &core : &q->spot[k], &q->here);
+    if (stays && !held) arb_swap(&d.least, &d.largest);
+    way_widen(&d.least, &d, q->spot[k].angle, -1);
+    way_widen(&d.largest, &d, q->spot[k].angle, 1);
+    arf_init(&bound[k]);
+    (stays ? arb_get_ubound_arf : arb_get_lbound_arf)(&bound[k], &d.least, q->prec);
+    (stays ? arb_get_lbound_arf : arb_get_ubound_arf)(end, &d.largest, q->prec);
     if (!k || arf_cmp(end, most) < 0) arf_set(most, end);
   }
-  for (size_t k = 0; k < q->near.count; k++) {
-    count += arf_cmp(&high[k], most) <= 0;
-    arf_clear(&high[k]);
-  }
-  *out = count > 1;
   arf_clear(end);
-  arf_clear(most);
   dyd_spot_clear(&core);
   way_clear(&d);
-  free(high);
-  return DYD_OK;
+  return bound;
+}
+
+/* Drops places that are farther than another one for certain, or only counts those that stay, whatever is refined. */
+static dyd_status near_keep(size_t *kept, near_question *q, bool stays) {
+  arf_t most;
+  arf_init(most);
+  arf_struct *bound = near_bounds(most, q, stays);
+  *kept = 0;
+  for (size_t k = 0; bound && k < q->near.count; k++) {
+    bool near = arf_cmp(&bound[k], most) <= 0;
+    arf_clear(&bound[k]);
+    if (near && !stays) {
+      dyd_spot swap = q->spot[*kept];
+      q->spot[*kept] = q->spot[k];
+      q->spot[k] = swap;
+      q->near.item[*kept] = q->near.item[k];
+    }
+    *kept += near;
+  }
+  if (bound && !stays) q->near.count = *kept;
+  arf_clear(most);
+  free(bound);
+  return bound ? DYD_OK : DYD_E_NOMEM;
+}
+
+/* Of exact places about an exact one: until one is left, or those left are equally far; *blocked: not known at the
+ * precision `most`. */
+static dyd_status near_separate(bool *blocked, near_question *q, slong most, const volatile int *stop) {
+  dyd_status st = DYD_OK;
+  size_t kept;
+  while (st == DYD_OK && q->near.count > 1) {
+    if (dyd_flag_get(stop)) return DYD_CANCELLED;
+    if (q->tried != q->near.count) st = dyd_spots_equidistant(&q->tied, &q->here, q->spot, q->near.count);
+    q->tried = q->near.count;
+    *blocked = !q->tied && q->prec > most;
+    if (st != DYD_OK || q->tied || *blocked) return st;
+    q->prec *= 2;
+    st = near_keep(&kept, q, false);
+  }
+  return st;
 }
 
 /* ---- asking ---- */
 
 static dyd_status near_look(bool *blocked, near_question *q, slong most, const volatile int *stop, dyd_error *err) {
+  size_t kept;
   dyd_status st = near_place(q, err);
   if (st == DYD_OK && !q->listed) st = near_list(q, err);
   if (st != DYD_OK || q->near.count < 2) return st;
   q->prec = q->prec ? 2 * q->prec : FIRST_PREC;
   st = near_regions(q, err);
-  if (st == DYD_OK) st = near_keep(q);
+  if (st == DYD_OK) st = near_keep(&kept, q, false);
   return st == DYD_OK && q->exact ? near_separate(blocked, q, most, stop) : st;
 }
 
 static dyd_status near_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   near_question *q = user;
-  bool blocked = false, settled = false;
+  bool blocked = false;
+  size_t staying = 0;
   dyd_status st = near_look(&blocked, q, plan->o->max_bits, &e->stop, err);
   *answered = st == DYD_OK && q->near.count == 1;
   plan->blocked |= blocked;
   if (st != DYD_OK || *answered || q->exact || !q->near.count) return st;
-  st = near_is_settled(&settled, q);
-  if (st != DYD_OK || settled) return st;
+  st = near_keep(&staying, q, true);
+  if (st != DYD_OK || staying > 1) return st;
   for (size_t k = 0; k < q->near.count; k++) dyd_plan_add(plan, q->near.item[k], DYD_BITS_NEXT);
   dyd_plan_add(plan, (uint32_t)dyd_engine_count(e), DYD_BITS_NEXT);
   return DYD_OK;

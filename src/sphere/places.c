@@ -186,12 +186,11 @@ static dyd_status place_fail(uint32_t i, const char *what, dyd_error *err) {
 }
 
 /* What is within so many metres of the middle. */
-static dyd_status spot_within(dyd_spot *out, const dyd_sphere *s, double metres) {
+static void spot_within(dyd_spot *out, const dyd_sphere *s, double metres) {
   for (int a = 0; a < 2; a++) mpq_set_ui(out->half[a], 0, 1);
   mpq_set_d(out->angle, metres);
   mpq_mul(out->angle, out->angle, s->metre);
   out->stays = metres > 0;
-  return DYD_OK;
 }
 
 dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err) {
@@ -200,7 +199,10 @@ dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_e
   dyd_status st = dyd_sphere_stated(&r, s, i);
   bool good = st == DYD_OK && dyd_spot_set(out, &r, s->degrees);
   dyd_rect_clear(&r);
-  if (good && s->within && s->within[i] >= 0) return spot_within(out, s, s->within[i]);
+  if (good && s->within && s->within[i] >= 0) {
+    spot_within(out, s, s->within[i]);
+    return DYD_OK;
+  }
   if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
   if (!good)
     return place_fail(i, "the latitude is beyond 90 degrees; points are longitude and latitude, in this order", err);

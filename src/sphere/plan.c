@@ -35,6 +35,7 @@ typedef struct sphere_plan {
   uint32_t *image;  /* of each place from the eye at work; DYD_NONE */
   plan_place *view; /* of each image */
   size_t views;
+  dyd_pair_list asked;  /* the pairs in the options, sorted */
   dyd_pair_list target; /* open, but for ties; sorted */
   bool *taken;          /* of each target: an eye has planned for it */
   dyd_survey *found;
@@ -46,26 +47,33 @@ typedef struct sphere_plan {
 
 /* ---- targets ---- */
 
+static dyd_status targets_ask(sphere_plan *p, const dyd_pair_list *pairs) {
+  p->asked.item = dyd_alloc(pairs->count, sizeof *pairs->item);
+  if (!p->asked.item) return DYD_E_NOMEM;
+  for (; p->asked.count < pairs->count; p->asked.count++) p->asked.item[p->asked.count] = pairs->item[p->asked.count];
+  if (pairs->count) qsort(p->asked.item, pairs->count, sizeof *pairs->item, dyd_compare_two);
+  return DYD_OK;
+}
+
 static bool target_is_asked(const sphere_plan *p, const dyd_pair *q) {
-  const dyd_survey_options *o = &p->options;
-  if (o->site && q->i != *o->site && q->j != *o->site) return false;
-  for (size_t k = 0; o->pairs && k < o->pairs->count; k++)
-    if (o->pairs->item[k].i == q->i && o->pairs->item[k].j == q->j) return true;
-  return !o->pairs;
+  const uint32_t *site = p->options.site;
+  if (site && q->i != *site && q->j != *site) return false;
+  return !p->options.pairs || dyd_find_two(q, p->asked.item, p->asked.count, sizeof *q);
 }
 
 /* The open pairs, except ties where places are in the middle of their regions. */
 static dyd_status targets_find(sphere_plan *p) {
   dyd_pair_list all = {0}, nominal = {0};
   dyd_survey_result *r = &p->found->result;
-  dyd_status st = dyd_sphere_pairs(&all, p->s);
+  dyd_status st = p->options.pairs ? targets_ask(p, p->options.pairs) : DYD_OK;
+  if (st == DYD_OK) st = dyd_sphere_pairs(&all, p->s);
   if (st == DYD_OK) st = dyd_sphere_pairs(&nominal, p->nominal);
   p->target.item = st == DYD_OK ? dyd_alloc(all.count, sizeof *all.item) : NULL;
   if (st == DYD_OK && !p->target.item) st = DYD_E_NOMEM;
   for (size_t k = 0; k < all.count && st == DYD_OK; k++) {
     const dyd_pair *q = &all.item[k];
     if (q->status == DYD_LEGAL || !target_is_asked(p, q)) continue;
-    const dyd_pair *same = nominal.count ? bsearch(q, nominal.item, nominal.count, sizeof *q, dyd_compare_two) : NULL;
+    const dyd_pair *same = dyd_find_two(q, nominal.item, nominal.count, sizeof *q);
     const uint32_t alias[2] = {dyd_sphere_alias(p->nominal, q->i), dyd_sphere_alias(p->nominal, q->j)};
     for (int e = 0; e < 2 && r->same[0] == r->same[1] && q->status == DYD_INDETERMINATE; e++)
       r->same[0] = alias[e], r->same[1] = e ? q->j : q->i;
@@ -317,8 +325,7 @@ static dyd_status plan_verify(sphere_plan *p) {
   if (st == DYD_OK) st = dyd_sphere_run(&outcome, then, &o, p->err);
   if (st == DYD_OK) st = dyd_sphere_pairs(&pairs, then);
   for (size_t k = 0; k < open && st == DYD_OK; k++) {
-    const dyd_pair *q =
-        pairs.count ? bsearch(&p->target.item[k], pairs.item, pairs.count, sizeof *q, dyd_compare_two) : NULL;
+    const dyd_pair *q = dyd_find_two(&p->target.item[k], pairs.item, pairs.count, sizeof *q);
     left += q && q->status != DYD_LEGAL;
   }
   dyd_pair_list_clear(&pairs);
@@ -348,12 +355,10 @@ static dyd_status plan_eyes(sphere_plan *p) {
 }
 
 static dyd_status plan_make(sphere_plan *p) {
-  p->within = dyd_alloc(p->s->count, sizeof *p->within);
-  p->image = dyd_alloc(p->s->count, sizeof *p->image);
-  p->view = dyd_alloc(p->s->count, sizeof *p->view);
-  p->row = dyd_alloc(p->s->count, sizeof *p->row);
-  p->row_of = dyd_alloc(p->s->count, sizeof *p->row_of);
-  if (!p->within || !p->image || !p->view || !p->row || !p->row_of) return DYD_E_NOMEM;
+  size_t n = p->s->count;
+  if (!DYD_NEW(p->within, n) || !DYD_NEW(p->image, n) || !DYD_NEW(p->view, n) || !DYD_NEW(p->row, n) ||
+      !DYD_NEW(p->row_of, n))
+    return DYD_E_NOMEM;
   for (size_t i = 0; i < p->s->count; i++) p->row_of[i] = DYD_NONE;
   dyd_status st = nominal_make(p);
   if (st == DYD_OK && p->target.count) st = plan_eyes(p);
@@ -398,6 +403,7 @@ dyd_status dyd_sphere_survey(dyd_survey **out, dyd_sphere *s, const char *accura
     dyd_survey_free(p.found);
   dyd_sphere_free(p.nominal);
   dyd_pair_list_clear(&p.target);
+  dyd_pair_list_clear(&p.asked);
   dyd_free_all(p.row_of, p.taken, p.view, p.image, p.within);
   mpq_clear(p.accuracy);
   return st == DYD_OK || (err && err->code == st) ? st : dyd_fail(err, st, "%s", dyd_status_text(st));

@@ -185,18 +185,15 @@ void dyd_sphere_free(dyd_sphere *s) {
 /* ---- its parts ---- */
 
 dyd_engine *dyd_sphere_engine(dyd_sphere *s) {
-  if (!s) return NULL;
-  return s->images;
+  return s ? s->images : NULL;
 }
 
 const dyd_engine *dyd_sphere_places(const dyd_sphere *s) {
-  if (!s) return NULL;
-  return s->places;
+  return s ? s->places : NULL;
 }
 
 const dyd_engine *dyd_sphere_images(const dyd_sphere *s) {
-  if (!s) return NULL;
-  return s->images;
+  return s ? s->images : NULL;
 }
 
 uint32_t dyd_sphere_centre(const dyd_sphere *s) {
@@ -448,7 +445,7 @@ static dyd_pair pair_of(uint32_t i, uint32_t j, dyd_pair_status status) {
 
 static const dyd_pair *pair_find(const dyd_pair_list *l, uint32_t i, uint32_t j) {
   const dyd_pair key = pair_of(i, j, DYD_LEGAL);
-  return l->count ? bsearch(&key, l->item, l->count, sizeof key, dyd_compare_two) : NULL;
+  return dyd_find_two(&key, l->item, l->count, sizeof key);
 }
 
 /* The pairs of the centre; about one that is not a place, pairs of its neighbours that are not among the others. */
@@ -538,8 +535,7 @@ static dyd_status pairs_from(dyd_pair_list *out, const dyd_sphere *s, int eyes) 
 enum { ALL_EYES = 3 };
 
 dyd_status dyd_sphere_pairs(dyd_pair_list *out, const dyd_sphere *s) {
-  if (!s) return DYD_E_ARG;
-  return pairs_from(out, s, ALL_EYES);
+  return s ? pairs_from(out, s, ALL_EYES) : DYD_E_ARG;
 }
 
 static bool pairs_are_legal(const dyd_sphere *s, int eyes) {
@@ -564,8 +560,7 @@ static dyd_outcome outcome_from(const dyd_sphere *s, int eyes) {
 }
 
 dyd_outcome dyd_sphere_outcome(const dyd_sphere *s) {
-  if (!s) return DYD_OUTCOME_NONE;
-  return outcome_from(s, ALL_EYES);
+  return s ? outcome_from(s, ALL_EYES) : DYD_OUTCOME_NONE;
 }
 
 dyd_outcome dyd_sphere_proved_outcome(const dyd_sphere *s) {
