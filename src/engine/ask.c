@@ -170,7 +170,7 @@ typedef struct ask {
 #define MOST_TIE_BITS ((int64_t)1 << 26)
 
 const char *dyd_ask_options(dyd_engine_options *o) {
-  if (o->max_bits == 0) o->max_bits = 4096;
+  if (o->max_bits == 0) o->max_bits = DYD_BITS_ENOUGH;
   if (o->max_bits > MOST_BITS) o->max_bits = MOST_BITS;
   if (o->tie_bits == 0) o->tie_bits = DYD_TIE_BITS;
   if (o->tie_bits > MOST_TIE_BITS) o->tie_bits = MOST_TIE_BITS;

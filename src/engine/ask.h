@@ -27,6 +27,8 @@ void dyd_watch_start(dyd_watch *w, double seconds, volatile int *flag);
 /* After this *flag is not touched any more. */
 void dyd_watch_stop(dyd_watch *w);
 
+/* The precision at which to give up, unless options say otherwise. */
+enum { DYD_BITS_ENOUGH = 4096 };
 /* Fills in defaults. Returns NULL, or which option that every question heeds is out of its range. */
 const char *dyd_ask_options(dyd_engine_options *o);
 /* DYD_E_ARG, with a message, when the loop is at work and the call comes from one of its callbacks. */

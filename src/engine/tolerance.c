@@ -3,6 +3,7 @@
  * of the points [TOL-10]. */
 #include "base/abi.h"
 #include "base/error.h"
+#include "engine/ask.h"
 #include "engine/state.h"
 #include "rect/sites_table.h"
 #include "tolerance/state.h"
@@ -92,7 +93,7 @@ dyd_status dyd_engine_tolerance(dyd_tolerance **out, dyd_outcome *outcome, dyd_e
   st = tolerance_points_fit(&exact, e, &o, err);
   if (st == DYD_OK && exact) return dyd_tolerance_new(out, e->pd, &o, err);
   int64_t relative = relative_bits > 0 && relative_bits <= 40 ? relative_bits : 20, bits = finest_asked(e);
-  const int64_t most = run && run->max_bits ? run->max_bits : 4096;
+  const int64_t most = run && run->max_bits ? run->max_bits : DYD_BITS_ENOUGH;
   for (bool again = true; again && st == DYD_OK;) {
     dyd_outcome reached = *outcome;
     if (tolerance_goes_on(*outcome)) st = tolerance_refine(&reached, e, bits, run, err);
