@@ -171,10 +171,7 @@ static dyd_status gather_vertices(part *p) {
   const dyd_mesh *m = &p->pd->sk.mesh;
   size_t room = 3 * (size_t)p->tris + p->rim_count;
   uint32_t count = 0;
-  p->vertex = dyd_alloc(room, sizeof *p->vertex);
-  p->sorted = dyd_alloc(room, sizeof *p->sorted);
-  p->local = dyd_alloc(room, sizeof *p->local);
-  if (!p->vertex || !p->sorted || !p->local) return DYD_E_NOMEM;
+  if (!DYD_NEW(p->vertex, room) || !DYD_NEW(p->sorted, room) || !DYD_NEW(p->local, room)) return DYD_E_NOMEM;
   for (uint32_t q = 0; q < p->tris; q++)
     for (int k = 0; k < 3; k++) p->sorted[count++] = m->tri[p->tri[q]].v[k];
   for (size_t q = 0; q < p->rim_count; q++)
@@ -211,10 +208,8 @@ static dyd_status part_triangulate(part *p) {
   dyd_status st = dyd_mesh_build(&p->mesh, &sk->reps, p->vertex, p->vertices, sk->mesh.no_filter, p->w->run->cancel);
   if (st != DYD_OK) return st;
   dyd_tally_add(&p->w->counters, &p->mesh.tally, sk->mesh.no_filter);
-  p->leaving = dyd_alloc((size_t)p->vertices + 1, sizeof *p->leaving);
-  p->place = dyd_alloc(p->mesh.count, sizeof *p->place);
-  p->queue = dyd_alloc(p->tris, sizeof *p->queue);
-  if (!p->leaving || !p->place || !p->queue) return DYD_E_NOMEM;
+  if (!DYD_NEW(p->leaving, (size_t)p->vertices + 1) || !DYD_NEW(p->place, p->mesh.count) || !DYD_NEW(p->queue, p->tris))
+    return DYD_E_NOMEM;
   for (uint32_t t = 0; t < p->mesh.count; t++) {
     p->place[t] = DYD_NONE;
     for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++) p->leaving[dyd_edge_origin(&p->mesh, h)] = h;
@@ -604,9 +599,33 @@ dyd_status dyd_delaunay_new(dyd_delaunay **out, const dyd_sites *sites, const dy
   return st;
 }
 
+dyd_status dyd_delaunay_made(dyd_delaunay **out, size_t n, dyd_rect_fn *rect, const void *user,
+                             const dyd_delaunay_options *options, dyd_error *err) {
+  dyd_delaunay_options o = *options;
+  dyd_sites *sites = NULL;
+  dyd_rect r;
+  *out = NULL;
+  dyd_rect_init(&r);
+  dyd_status st = dyd_sites_new(&sites);
+  for (size_t i = 0; i < n && st == DYD_OK; i++) {
+    st = rect(&r, user, i);
+    if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
+  }
+  dyd_rect_clear(&r);
+  dyd_room room = {.most = o.max_bytes, .beside = o.max_bytes && sites ? dyd_sites_memory(sites) : 0};
+  o.max_bytes = dyd_room_left(&room);
+  st = st == DYD_OK ? dyd_delaunay_new(out, sites, &o, err) : dyd_fail(err, st, "%s", dyd_status_text(st));
+  if (*out)
+    (*out)->own = sites;
+  else
+    dyd_sites_free(sites);
+  return st;
+}
+
 void dyd_delaunay_free(dyd_delaunay *pd) {
   if (!pd) return;
   build_clear(pd);
+  dyd_sites_free(pd->own);
   free(pd);
 }
 
@@ -631,6 +650,5 @@ dyd_status dyd_delaunay_extend(bool *fits, dyd_delaunay *pd, const dyd_delaunay_
 }
 
 bool dyd_delaunay_is_capped(const dyd_delaunay *pd) {
-  if (!pd) return false;
-  return pd->open.capped > 0;
+  return pd ? pd->open.capped > 0 : false;
 }

@@ -69,9 +69,16 @@ struct dyd_delaunay {
   dyd_delaunay_counters counters;
   dyd_delaunay_options options;
   size_t max_pairs;
-  dyd_room room; /* of the call at work */
-  size_t joins;  /* of sites, when it was built */
+  dyd_room room;  /* of the call at work */
+  size_t joins;   /* of sites, when it was built */
+  dyd_sites *own; /* NULL: the sites are the caller's */
 };
+
+/* Sets *out to the rectangle of site i. */
+typedef dyd_status dyd_rect_fn(dyd_rect *out, const void *user, size_t i);
+/* As dyd_delaunay_new, of n sites that `rect` makes and *out owns; max_bytes counts them. */
+dyd_status dyd_delaunay_made(dyd_delaunay **out, size_t n, dyd_rect_fn *rect, const void *user,
+                             const dyd_delaunay_options *options, dyd_error *err);
 
 /* Returns true if no triangles exist, since the points are collinear for every choice, or at most two. */
 static inline bool dyd_is_line(const dyd_delaunay *pd) {

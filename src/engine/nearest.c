@@ -12,6 +12,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "delaunay/state.h"
 #include "engine/plan.h"
 #include "engine/points.h"
 #include "engine/settle.h"
@@ -77,21 +78,17 @@ static dyd_status nearest_try_tie(nearest_question *q, const dyd_engine_options 
  * in the problem of [NEAR-5]. */
 static dyd_status nearest_count_firm(size_t *count, const nearest_question *q, const dyd_rect *at,
                                      const dyd_dyadic *eps) {
-  dyd_sites *sites = NULL;
   dyd_delaunay *pd = NULL;
   dyd_index_list near = {0};
   bool sure, *firm = dyd_alloc(q->near.count, sizeof *firm);
+  const dyd_firm_sites cores = {q->e, eps, firm, q->near.item};
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = &q->e->stop};
-  dyd_status st = firm ? dyd_sites_new(&sites) : DYD_E_NOMEM;
+  dyd_status st = firm ? dyd_delaunay_made(&pd, q->near.count, dyd_firm_rect, &cores, &o, NULL) : DYD_E_NOMEM;
   *count = 0;
-  for (size_t k = 0; st == DYD_OK && k < q->near.count; k++)
-    st = dyd_firm_add(sites, &firm[k], q->e, eps, q->near.item[k]);
-  if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, NULL);
   if (st == DYD_OK) st = dyd_nearest(&near, &sure, pd, at);
   for (size_t k = 0; st == DYD_OK && k < near.count; k++) *count += firm[near.item[k]];
   dyd_index_list_clear(&near);
   dyd_delaunay_free(pd);
-  dyd_sites_free(sites);
   free(firm);
   return st == DYD_CAPPED ? DYD_OK : st;
 }
@@ -169,7 +166,6 @@ typedef struct graph_question {
 
 /* The problem of some choices: its edges, and of which sites more is known than a point. */
 typedef struct graph_problem {
-  dyd_sites *sites;
   dyd_delaunay *pd;
   dyd_graph_list edges;
   bool *firm;
@@ -180,27 +176,30 @@ static void graph_take(graph_question *q, uint32_t i) {
   q->seen[i] = true;
 }
 
+/* Some sites of the engine. */
+typedef struct some_sites {
+  const dyd_engine *e;
+  const uint32_t *site;
+} some_sites;
+
+static dyd_status some_rect(dyd_rect *out, const void *user, size_t k) {
+  const some_sites *s = user;
+  return dyd_sites_get(out, s->e->sites, s->site[k]);
+}
+
 /* Sets *may to whether the closed disc of a Gabriel edge may hold site k: the three alone are asked. */
 static dyd_status graph_may_hold(bool *may, const dyd_engine *e, const dyd_graph_edge *edge, uint32_t k) {
   const uint32_t site[3] = {edge->i, edge->j, k};
-  dyd_sites *sites = NULL;
+  const some_sites of = {e, site};
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options)};
   dyd_delaunay *pd = NULL;
   dyd_graph_list three = {0};
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_status st = dyd_sites_new(&sites);
-  for (int m = 0; st == DYD_OK && m < 3; m++) {
-    st = dyd_sites_get(&r, e->sites, site[m]);
-    if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
-  }
-  if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, NULL, NULL);
+  dyd_status st = dyd_delaunay_made(&pd, 3, some_rect, &of, &o, NULL);
   if (st == DYD_OK) st = dyd_graph_edges(&three, pd, DYD_GRAPH_GABRIEL, NULL, NULL);
   const dyd_graph_edge *first = st == DYD_OK && three.count ? three.item : NULL;
   *may = !first || first->i != 0 || first->j != 1 || !first->sure;
   dyd_graph_list_clear(&three);
   dyd_delaunay_free(pd);
-  dyd_sites_free(sites);
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -226,21 +225,23 @@ static dyd_status graph_take_edge(graph_question *q, const dyd_engine *e, const 
   return st;
 }
 
-/* Adds the site with an end of each core instead of its side, drawn by the number of the choice. */
-static dyd_status graph_draw_site(dyd_sites *sites, const dyd_engine *e, uint32_t site, uint32_t choice) {
+/* A choice, by its number: an end of each core. */
+typedef struct core_choice {
+  const dyd_engine *e;
+  uint32_t number;
+} core_choice;
+
+static dyd_status choice_rect(dyd_rect *out, const void *user, size_t k) {
+  const core_choice *c = user;
   bool core[2];
-  dyd_rect r;
-  dyd_rect_init(&r);
-  uint32_t bits = (site * 2654435761u) ^ (choice * 2246822519u);
+  uint32_t site = (uint32_t)k, bits = (site * 2654435761u) ^ (c->number * 2246822519u);
   bits = (bits ^ bits >> 15) * 2654435761u;
-  dyd_status st = dyd_site_get_core(&r, core, e, site);
+  dyd_status st = dyd_site_get_core(out, core, c->e, site);
   for (int a = 0; st == DYD_OK && a < 2; a++) {
-    dyd_interval *side = a ? &r.y : &r.x;
+    dyd_interval *side = a ? &out->y : &out->x;
     if (!core[a] || dyd_interval_is_point(side)) continue;
     dyd_interval_set_over(side, bits >> (30 + a) & 1 ? &side->hi : &side->lo, side->den);
   }
-  if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -254,17 +255,16 @@ static bool choice_joins(const dyd_delaunay *pd, const dyd_engine *e) {
 static void problem_clear(graph_problem *p) {
   dyd_graph_list_clear(&p->edges);
   dyd_delaunay_free(p->pd);
-  dyd_sites_free(p->sites);
   free(p->firm);
 }
 
 /* Triangulates the sites, and finds the graph, unless sites join. */
 static dyd_status problem_solve(bool *good, graph_problem *p, const graph_question *q, const dyd_plan *plan,
-                                dyd_error *err) {
+                                dyd_rect_fn *rect, const void *user, dyd_error *err) {
   const dyd_engine *e = plan->e;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = plan->o->max_pairs, .cancel = &e->stop,
                                   .threads = plan->o->threads, .no_filter = plan->o->no_filter};
-  dyd_status st = dyd_delaunay_new(&p->pd, p->sites, &o, err);
+  dyd_status st = dyd_delaunay_made(&p->pd, dyd_sites_count(e->sites), rect, user, &o, err);
   *good = st == DYD_OK && !choice_joins(p->pd, e);
   if (*good) st = dyd_graph_edges(&p->edges, p->pd, q->graph, &e->stop, err);
   return st == DYD_CAPPED ? DYD_OK : st;
@@ -280,10 +280,8 @@ static const dyd_graph_edge *problem_edge(const graph_problem *p, const dyd_grap
 static dyd_status graph_draw(bool *found, graph_question *q, const dyd_plan *plan, uint32_t choice, dyd_error *err) {
   graph_problem p = {0};
   bool good = false;
-  dyd_status st = dyd_sites_new(&p.sites);
-  for (uint32_t k = 0; st == DYD_OK && k < dyd_sites_count(plan->e->sites); k++)
-    st = graph_draw_site(p.sites, plan->e, k, choice);
-  if (st == DYD_OK) st = problem_solve(&good, &p, q, plan, err);
+  const core_choice drawn = {plan->e, choice};
+  dyd_status st = problem_solve(&good, &p, q, plan, choice_rect, &drawn, err);
   for (size_t k = 0; good && st == DYD_OK && k < q->edges.count; k++) {
     const dyd_graph_edge *same = problem_edge(&p, &q->edges.item[k]);
     *found |= (!q->may[k] && same && same->sure) || (!q->may_not[k] && !same);
@@ -302,12 +300,11 @@ static dyd_status graph_shrink(graph_question *q, const dyd_plan *plan, dyd_erro
   bool good = false;
   dyd_dyadic eps;
   dyd_dyadic_init(&eps);
-  dyd_status st = p.firm ? dyd_sites_new(&p.sites) : DYD_E_NOMEM;
-  if (st == DYD_OK) st = dyd_firm_eps(&eps, plan->e);
+  const dyd_firm_sites cores = {plan->e, &eps, p.firm, NULL};
+  dyd_status st = p.firm ? dyd_firm_eps(&eps, plan->e) : DYD_E_NOMEM;
   bool moving = dyd_dyadic_sgn(&eps) != 0;
   for (int k = 0; st == DYD_OK && k < 2; k++) st = dyd_dyadic_add(&eps, &eps, &eps);
-  for (uint32_t k = 0; st == DYD_OK && k < sites; k++) st = dyd_firm_add(p.sites, &p.firm[k], plan->e, &eps, k);
-  if (st == DYD_OK) st = problem_solve(&good, &p, q, plan, err);
+  if (st == DYD_OK) st = problem_solve(&good, &p, q, plan, dyd_firm_rect, &cores, err);
   for (size_t k = 0; good && st == DYD_OK && k < q->edges.count; k++) {
     const dyd_graph_edge *edge = &q->edges.item[k], *same = problem_edge(&p, edge);
     bool ends = p.firm[edge->j] && (q->graph == DYD_GRAPH_NEAREST || p.firm[edge->i]);
@@ -350,8 +347,7 @@ static dyd_status graph_has_cores(bool *out, const dyd_engine *e) {
 }
 
 static dyd_status graph_reserve(graph_question *q, size_t sites) {
-  free(q->may);
-  free(q->may_not);
+  dyd_free_all(q->may, q->may_not);
   q->may = dyd_alloc(q->edges.count, sizeof *q->may);
   q->may_not = dyd_alloc(q->edges.count, sizeof *q->may_not);
   if (!q->seen) q->seen = dyd_alloc(sites, sizeof *q->seen);
@@ -401,9 +397,7 @@ dyd_status dyd_engine_graph(dyd_graph_list *out, dyd_outcome *outcome, dyd_engin
   dyd_graph_list_clear(st == DYD_OK ? out : &q.edges);
   if (st == DYD_OK) *out = q.edges;
   dyd_index_list_clear(&q.site);
-  free(q.may);
-  free(q.may_not);
-  free(q.seen);
+  dyd_free_all(q.may, q.may_not, q.seen);
   return st;
 }
 

@@ -128,13 +128,9 @@ static dyd_status pair_is_firm(bool *out, const dyd_engine *e, const dyd_dyadic 
   return st;
 }
 
-dyd_status dyd_firm_add(dyd_sites *sites, bool *firm, const dyd_engine *e, const dyd_dyadic *eps, uint32_t k) {
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_status st = site_get_firm(&r, firm, e, eps, k);
-  if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
-  dyd_rect_clear(&r);
-  return st;
+dyd_status dyd_firm_rect(dyd_rect *out, const void *sites, size_t k) {
+  const dyd_firm_sites *s = sites;
+  return site_get_firm(out, &s->firm[k], s->e, s->eps, s->site ? s->site[k] : (uint32_t)k);
 }
 
 /* Pairs of one face: pairs that stay open wherever the points are that can be narrowed [SET-1].
@@ -160,8 +156,7 @@ typedef struct settling {
 
 static void settling_drop_rects(settling *s) {
   for (size_t k = 0; s->rect && k < s->site.count; k++) dyd_rect_clear(&s->rect[k]);
-  free(s->rect);
-  free(s->guess);
+  dyd_free_all(s->rect, s->guess);
   s->rect = NULL;
   s->guess = NULL;
 }
@@ -690,21 +685,17 @@ static dyd_status settle_firm(dyd_settled_pair *pair, size_t pairs, const dyd_pl
   const dyd_engine *e = plan->e;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = plan->o->max_pairs, .cancel = &e->stop,
                                   .threads = plan->o->threads, .no_filter = plan->o->no_filter};
-  dyd_sites *sites = NULL;
   dyd_delaunay *pd = NULL;
-  dyd_status st = dyd_sites_new(&sites);
-  for (size_t k = 0; st == DYD_OK && k < dyd_sites_count(e->sites); k++) {
-    bool firm;
-    st = dyd_firm_add(sites, &firm, e, eps, (uint32_t)k);
-  }
-  if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, NULL);
+  size_t sites = dyd_sites_count(e->sites);
+  dyd_firm_sites cores = {e, eps, dyd_alloc(sites, sizeof *cores.firm), NULL};
+  dyd_status st = cores.firm ? dyd_delaunay_made(&pd, sites, dyd_firm_rect, &cores, &o, NULL) : DYD_E_NOMEM;
   for (size_t k = 0; st == DYD_OK && k < pairs; k++) {
     dyd_pair_status status = dyd_delaunay_status(pd, pair[k].i, pair[k].j);
     pair[k].possible = pair[k].possible || status != DYD_ILLEGAL;
     pair[k].unsure = pair[k].unsure || status != DYD_LEGAL;
   }
   dyd_delaunay_free(pd);
-  dyd_sites_free(sites);
+  free(cores.firm);
   return st == DYD_CAPPED ? DYD_OK : st;
 }
 
@@ -724,8 +715,7 @@ static dyd_status take_pairs(dyd_settled *out, const dyd_settled *known, const d
                              size_t f, bool firm) {
   dyd_pair_list all = {0};
   dyd_status st = dyd_delaunay_face_pairs(&all, e->pd, f);
-  if (st == DYD_OK && !dyd_reserve((void **)&out->item, &out->cap, out->count + all.count, sizeof *out->item))
-    st = DYD_E_NOMEM;
+  if (st == DYD_OK && !DYD_GROW(out->item, out->cap, out->count + all.count)) st = DYD_E_NOMEM;
   for (size_t k = 0; st == DYD_OK && k < all.count; k++) {
     const dyd_pair *pair = &all.item[k];
     const dyd_settled_pair *old = settled_find(known, pair->i, pair->j);
@@ -776,7 +766,7 @@ static dyd_status settle_pairs(dyd_settled *fresh, dyd_settled *s, const dyd_pla
 }
 
 static dyd_status settled_append(dyd_settled *s, const dyd_settled *fresh) {
-  if (!dyd_reserve((void **)&s->item, &s->cap, s->count + fresh->count, sizeof *s->item)) return DYD_E_NOMEM;
+  if (!DYD_GROW(s->item, s->cap, s->count + fresh->count)) return DYD_E_NOMEM;
   for (size_t k = 0; k < fresh->count; k++) s->item[s->count++] = fresh->item[k];
   settled_sort(s);
   return DYD_OK;

@@ -19,9 +19,15 @@ dyd_status dyd_firm_eps(dyd_dyadic *eps, const dyd_engine *e);
 dyd_status dyd_firm_raise(dyd_dyadic *eps, const dyd_engine *e, uint32_t site);
 /* Sets *out to the core of a guest, with a point for each side that has none, and raises *eps as dyd_firm_eps does. */
 dyd_status dyd_firm_place(dyd_rect *out, dyd_dyadic *eps, const dyd_stream *at);
-/* Adds the core of site number k of the engine: less eps if it is firm, else with a point for each side that has no
- * core. */
-dyd_status dyd_firm_add(dyd_sites *sites, bool *firm, const dyd_engine *e, const dyd_dyadic *eps, uint32_t k);
+/* Sites by their cores; firm[k] becomes whether number k is firm. */
+typedef struct dyd_firm_sites {
+  const dyd_engine *e;
+  const dyd_dyadic *eps;
+  bool *firm;
+  const uint32_t *site; /* NULL: all */
+} dyd_firm_sites;
+/* The dyd_rect_fn of them: the core less eps if it is firm, else with a point for each side that has no core. */
+dyd_status dyd_firm_rect(dyd_rect *out, const void *sites, size_t k);
 
 /* Pairs of one undecided face, examined one by one [SET-1] [SET-4]. */
 

@@ -7,6 +7,7 @@
 #include "base/index.h"
 #include "checker/checker.h"
 #include "checker/parts.h"
+#include "delaunay/state.h"
 #include "metric/bounds.h"
 #include "prove/proof.h"
 
@@ -337,20 +338,15 @@ static dyd_status move_place(dyd_cert_site *s, uint32_t i, unsigned round) {
   return st == DYD_E_ARG ? DYD_OK : st;
 }
 
-/* The places as a table of exact points, site[k] being the site of point k. */
-static dyd_status table_of_places(dyd_sites *out, uint32_t *site, const dyd_proof *p) {
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_status st = DYD_OK;
-  size_t count = 0;
-  for (size_t i = 0; i < p->sites.count && st == DYD_OK; i++) {
-    if (p->sites.site[i].alias != i) continue;
-    site[count++] = (uint32_t)i;
-    st = place_rect(&r, &p->sites.site[i]);
-    if (st == DYD_OK) st = dyd_sites_add_rect(out, &r);
-  }
-  dyd_rect_clear(&r);
-  return st;
+/* Some sites of a proof. */
+typedef struct proof_places {
+  const dyd_proof *p;
+  const uint32_t *site;
+} proof_places;
+
+static dyd_status rect_of_place(dyd_rect *out, const void *user, size_t k) {
+  const proof_places *of = user;
+  return place_rect(out, &of->p->sites.site[of->site[k]]);
 }
 
 /* ---- bridges ---- */
@@ -386,14 +382,16 @@ static dyd_status add_bridges(dyd_proof *p, uint32_t *parent, const dyd_delaunay
 
 /* *apart: no two places coincide; else places are moved, and it may be tried again. */
 static dyd_status try_bridges(bool *apart, dyd_proof *p, uint32_t *parent, uint32_t *site, unsigned round) {
-  dyd_sites *table = NULL;
+  const proof_places of = {p, site};
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options)};
   dyd_delaunay *pd = NULL;
-  dyd_status st = dyd_sites_new(&table);
-  if (st == DYD_OK) st = table_of_places(table, site, p);
-  if (st == DYD_OK) st = dyd_delaunay_new(&pd, table, NULL, NULL);
+  size_t count = 0;
+  for (size_t i = 0; i < p->sites.count; i++)
+    if (p->sites.site[i].alias == i) site[count++] = (uint32_t)i;
+  dyd_status st = dyd_delaunay_made(&pd, count, rect_of_place, &of, &o, NULL);
   if (st == DYD_CAPPED) st = DYD_OK; /* its legal pairs will do */
   *apart = true;
-  for (size_t k = 0; st == DYD_OK && k < dyd_sites_count(table); k++) {
+  for (size_t k = 0; st == DYD_OK && k < count; k++) {
     uint32_t other = dyd_delaunay_alias(pd, (uint32_t)k);
     if (other == k) continue;
     *apart = false;
@@ -402,7 +400,6 @@ static dyd_status try_bridges(bool *apart, dyd_proof *p, uint32_t *parent, uint3
   }
   if (st == DYD_OK && *apart) st = add_bridges(p, parent, pd, site);
   dyd_delaunay_free(pd);
-  dyd_sites_free(table);
   return st;
 }
 

@@ -83,7 +83,6 @@ typedef struct dyd_disc_work {
   const dyd_sites *sites; /* the places; multiplied by 2^scale in pd, which is `scaled` where scale is not 0 */
   int scale;
   dyd_delaunay *scaled;
-  dyd_sites *scaled_sites;
   dyd_disc *disc;       /* by vertex */
   double (*about)[3];   /* x, y, r of these in doubles */
   const double *weight; /* by vertex: radii are weight[v] * now; NULL: those of `about` */

@@ -12,6 +12,7 @@
 #include "base/flag.h"
 #include "base/index.h"
 #include "base/invariant.h"
+#include "delaunay/state.h"
 #include "delaunay/undecided.h"
 #include "rect/rect.h"
 #include "rect/sites_table.h"
@@ -344,12 +345,12 @@ static bool discs_are_possible(dyd_disc_work *w) {
 
 /* ---- squares in discs ---- */
 
-/* A square in the disc of v, if there is one: half-width r / sqrt(2) less INSIDE of all sizes. The disc is known within
- * 2^-49 of these, x and its ends in doubles within 2^-50. */
-static bool add_inner_square(dyd_sites *sites, dyd_status *st, const dyd_disc_work *w, uint32_t v) {
+/* A square in the disc of v: half-width r / sqrt(2) less INSIDE of all sizes. The disc is known within 2^-49 of these,
+ * x and its ends in doubles within 2^-50. DYD_E_DOMAIN: there is none. */
+static dyd_status inner_square(dyd_rect *out, const void *discs, size_t v) {
+  const dyd_disc_work *w = discs;
   const double *d = w->about[v];
-  double half = mpq_sgn(w->disc[v].r) ? (d[2] - INSIDE * size_d(w, v)) * ROOT_HALF : 0;
-  const double b[4] = {d[0] - half, d[0] + half, d[1] - half, d[1] + half};
+  double half = mpq_sgn(w->disc[v].r) ? (d[2] - INSIDE * size_d(w, (uint32_t)v)) * ROOT_HALF : 0;
   mpq_t x;
   mpq_init(x);
   bool inside = half > 0;
@@ -360,20 +361,15 @@ static bool add_inner_square(dyd_sites *sites, dyd_status *st, const dyd_disc_wo
     inside = inside && mpq_equal(x, w->disc[v].y);
   }
   mpq_clear(x);
-  if (inside) *st = dyd_sites_add_boxes(sites, 1, &b[0], &b[1], &b[2], &b[3]);
-  return inside && *st == DYD_OK;
+  return inside ? dyd_rect_set_d(out, d[0] - half, d[0] + half, d[1] - half, d[1] + half) : DYD_E_DOMAIN;
 }
 
 /* Triangulates squares in the discs, numbered as vertices are [DISC-2]. *out = NULL: some disc has none that is worth
  * it, or there are too many pairs. */
-static dyd_status triangulate_inside(dyd_delaunay **out, dyd_sites **sites, const dyd_disc_work *w) {
+static dyd_status triangulate_inside(dyd_delaunay **out, const dyd_disc_work *w) {
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = w->cancel};
-  uint32_t v = 0, n = w->pd->sk.n;
-  dyd_status st = dyd_sites_new(sites);
-  *out = NULL;
-  while (st == DYD_OK && v < n && add_inner_square(*sites, &st, w, v)) v++;
-  if (st == DYD_OK && v == n) st = dyd_delaunay_new(out, *sites, &o, NULL);
-  if (st != DYD_CAPPED) return st;
+  dyd_status st = dyd_delaunay_made(out, w->pd->sk.n, inner_square, w, &o, NULL);
+  if (st != DYD_CAPPED && st != DYD_E_DOMAIN) return st;
   dyd_delaunay_free(*out);
   *out = NULL;
   return DYD_OK;
@@ -405,9 +401,8 @@ static dyd_pair_status discs_status(dyd_disc_work *w, uint32_t i, uint32_t j, co
 static dyd_status decide_discs(dyd_disc_work *w, size_t *left, dyd_pair_list *list) {
   const uint32_t *vertex = w->pd->sk.vertex;
   size_t kept = 0;
-  dyd_sites *sites = NULL;
   dyd_delaunay *inside = NULL;
-  dyd_status st = triangulate_inside(&inside, &sites, w);
+  dyd_status st = triangulate_inside(&inside, w);
   for (size_t k = 0; (st == DYD_OK || st == DYD_CANCELLED) && k < list->count && !w->failed; k++) {
     dyd_pair p = list->item[k];
     if (st == DYD_OK && p.status == DYD_INDETERMINATE && dyd_flag_is_set(w->cancel)) st = DYD_CANCELLED;
@@ -419,7 +414,6 @@ static dyd_status decide_discs(dyd_disc_work *w, size_t *left, dyd_pair_list *li
   }
   list->count = kept;
   dyd_delaunay_free(inside);
-  dyd_sites_free(sites);
   return w->failed ? DYD_E_NOMEM : st;
 }
 
@@ -456,20 +450,18 @@ static int scale_of_sites(const dyd_sites *s) {
   return plain || most < -FARTHEST_EXPONENT || most > FARTHEST_EXPONENT ? 0 : (int)-most;
 }
 
+static dyd_status scaled_rect(dyd_rect *out, const void *discs, size_t i) {
+  const dyd_disc_work *w = discs;
+  dyd_dyadic *end[4] = {&out->x.lo, &out->x.hi, &out->y.lo, &out->y.hi};
+  dyd_status st = dyd_sites_get(out, w->sites, i);
+  for (int k = 0; k < 4; k++) end[k]->exp += mpz_sgn(end[k]->man) ? w->scale : 0;
+  return st;
+}
+
 /* Triangulates the sites, multiplied by 2^scale, instead of pd; cancelled: all stays as it is. */
 static dyd_status triangulate_scaled(dyd_disc_work *w) {
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_status st = dyd_sites_new(&w->scaled_sites);
-  for (size_t i = 0; i < dyd_sites_count(w->sites) && st == DYD_OK; i++) {
-    st = dyd_sites_get(&r, w->sites, i);
-    dyd_dyadic *end[4] = {&r.x.lo, &r.x.hi, &r.y.lo, &r.y.hi};
-    for (int k = 0; k < 4; k++) end[k]->exp += mpz_sgn(end[k]->man) ? w->scale : 0;
-    if (st == DYD_OK) st = dyd_sites_add_rect(w->scaled_sites, &r);
-  }
-  dyd_rect_clear(&r);
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = w->cancel};
-  if (st == DYD_OK) st = dyd_delaunay_new(&w->scaled, w->scaled_sites, &o, NULL);
+  dyd_status st = dyd_delaunay_made(&w->scaled, dyd_sites_count(w->sites), scaled_rect, w, &o, NULL);
   if (w->scaled)
     w->pd = w->scaled;
   else
@@ -482,7 +474,6 @@ static void discs_clear(dyd_disc_work *w) {
   for (uint32_t v = 0; w->disc && v < w->pd->sk.n; v++) dyd_disc_clear(&w->disc[v]);
   dyd_free_all(w->disc, w->about, w->seen);
   dyd_delaunay_free(w->scaled);
-  dyd_sites_free(w->scaled_sites);
 }
 
 static dyd_status discs_begin(dyd_disc_work *w, dyd_error *err) {
@@ -531,27 +522,19 @@ dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, const vola
 
 /* ---- triangles ---- */
 
-/* Of the centres of all squares, which are one choice. To be released, whatever it returns. */
-static dyd_status triangulate_centres(dyd_delaunay **out, dyd_sites **sites, const dyd_sites *squares) {
+/* The centre of a square; all of them are one choice. */
+static dyd_status disc_centre(dyd_rect *out, const void *squares, size_t i) {
   dyd_disc d;
-  dyd_rect r;
   dyd_disc_init(&d);
-  dyd_rect_init(&r);
-  dyd_status st = dyd_sites_new(sites);
-  for (size_t i = 0; i < dyd_sites_count(squares) && st == DYD_OK; i++) {
-    st = dyd_disc_of_site(&d, squares, i);
-    if (st == DYD_OK) st = dyd_rect_set_q(&r, d.x, d.y);
-    if (st == DYD_OK) st = dyd_sites_add_rect(*sites, &r);
-  }
-  dyd_rect_clear(&r);
+  dyd_status st = dyd_disc_of_site(&d, squares, i);
+  if (st == DYD_OK) st = dyd_rect_set_q(out, d.x, d.y);
   dyd_disc_clear(&d);
-  if (st == DYD_OK) st = dyd_delaunay_new(out, *sites, NULL, NULL);
-  return st == DYD_CAPPED ? DYD_OK : st;
+  return st;
 }
 
 static bool is_legal_in(const dyd_pair_list *pairs, uint32_t i, uint32_t j) {
   const dyd_pair key = {i < j ? i : j, i < j ? j : i, DYD_LEGAL};
-  const dyd_pair *p = bsearch(&key, pairs->item, pairs->count, sizeof key, dyd_compare_two);
+  const dyd_pair *p = dyd_find_two(&key, pairs->item, pairs->count, sizeof key);
   return p && p->status == DYD_LEGAL;
 }
 
@@ -559,9 +542,11 @@ dyd_status dyd_disc_triangles(dyd_triangle_list *out, const dyd_pair_list *pairs
   if (!pd || !pairs || !out) return DYD_E_ARG;
   dyd_triangle_list list = {0};
   dyd_delaunay *centres = NULL;
-  dyd_sites *sites = NULL;
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options)};
+  const dyd_sites *squares = dyd_delaunay_sites(pd);
   size_t kept = 0;
-  dyd_status st = triangulate_centres(&centres, &sites, dyd_delaunay_sites(pd));
+  dyd_status st = dyd_delaunay_made(&centres, dyd_sites_count(squares), disc_centre, squares, &o, NULL);
+  if (st == DYD_CAPPED) st = DYD_OK;
   if (st == DYD_OK) st = dyd_delaunay_triangles(&list, NULL, centres, 0);
   for (size_t k = 0; k < list.count && pairs->count; k++) {
     const uint32_t *v = list.item[k].v;
@@ -571,7 +556,6 @@ dyd_status dyd_disc_triangles(dyd_triangle_list *out, const dyd_pair_list *pairs
   }
   list.count = kept;
   dyd_delaunay_free(centres);
-  dyd_sites_free(sites);
   if (st != DYD_OK) return st;
   dyd_triangle_list_clear(out);
   *out = list;

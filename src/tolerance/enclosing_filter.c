@@ -43,22 +43,17 @@ static dyd_status rect_centre(dyd_rect *r, double *off, dyd_metric metric) {
   return st;
 }
 
-/* The centres of all sites of pd, as sites, and their triangulation. */
-static dyd_status centres_triangulate(dyd_sites **sites, dyd_delaunay **out, double *off, const dyd_delaunay *pd,
-                                      const dyd_tolerance_options *o, dyd_error *err) {
-  const dyd_sites *from = dyd_delaunay_sites(pd);
-  dyd_rect r;
-  dyd_rect_init(&r);
-  *off = 0;
-  dyd_status st = dyd_sites_new(sites);
-  for (size_t i = 0; i < dyd_sites_count(from) && st == DYD_OK; i++) {
-    st = dyd_sites_get(&r, from, dyd_sites_joined(from, i));
-    if (st == DYD_OK) st = rect_centre(&r, off, o->metric);
-    if (st == DYD_OK) st = dyd_sites_add_rect(*sites, &r);
-  }
-  dyd_rect_clear(&r);
-  const dyd_delaunay_options how = {DYD_SIZED(dyd_delaunay_options), .max_pairs = o->max_pairs, .cancel = o->cancel};
-  return st == DYD_OK ? dyd_delaunay_new(out, *sites, &how, err) : dyd_fail(err, st, "%s", dyd_status_text(st));
+/* The sites whose centres are triangulated; *off is raised as above. */
+typedef struct centred {
+  const dyd_sites *from;
+  dyd_metric metric;
+  double *off;
+} centred;
+
+static dyd_status centre_of_site(dyd_rect *out, const void *user, size_t i) {
+  const centred *c = user;
+  dyd_status st = dyd_sites_get(out, c->from, dyd_sites_joined(c->from, i));
+  return st == DYD_OK ? rect_centre(out, c->off, c->metric) : st;
 }
 
 static double widened_down(double t, double off) {
@@ -114,8 +109,8 @@ static dyd_status tolerance_widen(double *least, dyd_tolerance *t, double off, c
   if (t->rows) qsort(t->row, t->rows, sizeof *t->row, compare_rows);
   const bool ties = count[DYD_TIE] > 0;
   dyd_tolerance_result *r = &t->result;
-  r->lo = t->lo = ties ? 0 : widened_down(r->lo, off);
-  r->hi = t->hi = ties ? 0 : widened_up(r->hi, off);
+  r->lo = ties ? 0 : widened_down(r->lo, off);
+  r->hi = ties ? 0 : widened_up(r->hi, off);
   for (size_t i = 0; t->radius && i < dyd_sites_count(dyd_delaunay_sites(pd)); i++)
     t->radius[i] = widened_down(t->radius[i], off);
   return DYD_OK;
@@ -123,15 +118,17 @@ static dyd_status tolerance_widen(double *least, dyd_tolerance *t, double off, c
 
 dyd_status dyd_tolerance_enclosing(dyd_tolerance **out, double *off, double *least, const dyd_delaunay *pd,
                                    const dyd_tolerance_options *options, dyd_error *err) {
-  dyd_sites *sites = NULL;
   dyd_delaunay *centres = NULL;
   dyd_tolerance_options o = *options;
+  const centred of = {dyd_delaunay_sites(pd), o.metric, off};
+  const dyd_delaunay_options how = {DYD_SIZED(dyd_delaunay_options), .max_pairs = o.max_pairs, .cancel = o.cancel};
   double up_to = HUGE_VAL;
   mpq_t beyond;
   mpq_init(beyond);
+  *off = 0;
   *least = HUGE_VAL;
   *out = NULL;
-  dyd_status st = centres_triangulate(&sites, &centres, off, pd, &o, err);
+  dyd_status st = dyd_delaunay_made(&centres, dyd_sites_count(of.from), centre_of_site, &of, &how, err);
   if (st == DYD_OK && o.up_to && mpq_sgn(o.up_to) > 0 && *off < HUGE_VAL) {
     up_to = dyd_upper(mpq_get_d(o.up_to));
     mpq_set_d(beyond, *off);
@@ -141,7 +138,6 @@ dyd_status dyd_tolerance_enclosing(dyd_tolerance **out, double *off, double *lea
   if (st == DYD_OK) st = dyd_tolerance_new(out, centres, &o, err);
   if (*out) {
     (*out)->centres = centres;
-    (*out)->sites = sites;
     dyd_status widened = tolerance_widen(least, *out, *off, pd, up_to);
     if (widened == DYD_OK) {
       mpq_clear(beyond);
@@ -152,7 +148,6 @@ dyd_status dyd_tolerance_enclosing(dyd_tolerance **out, double *off, double *lea
     st = dyd_fail(err, widened, "%s", dyd_status_text(widened));
   } else {
     dyd_delaunay_free(centres);
-    dyd_sites_free(sites);
   }
   mpq_clear(beyond);
   return st;

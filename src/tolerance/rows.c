@@ -5,6 +5,7 @@
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/prefetch.h"
+#include "delaunay/state.h"
 #include "dyadic/raw.h"
 #include "tolerance/lines.h"
 #include "tolerance/state.h"
@@ -63,12 +64,12 @@ dyd_status dyd_rows_rework(dyd_tolerance *t, dyd_row_work *work, void *user) {
 void dyd_rows_reached(dyd_tolerance *t) {
   size_t kept = 0, count[4];
   dyd_delaunay_count(count, t->pd);
-  t->edges_left = count[DYD_LEGAL];
+  t->result.edges_left = count[DYD_LEGAL];
   for (size_t k = 0; k < t->rows; k++) {
     const dyd_tolerance_row *row = &t->row[k];
     bool reached = row->hi != DYD_UNREACHED;
-    t->edges_left -= reached && row->event == DYD_EVENT_DEATH;
-    t->births_left += !reached && row->event == DYD_EVENT_BIRTH && t->births_left != SIZE_MAX;
+    t->result.edges_left -= reached && row->event == DYD_EVENT_DEATH;
+    t->result.births_left += !reached && row->event == DYD_EVENT_BIRTH && t->result.births_left != SIZE_MAX;
     if (reached) t->row[kept++] = *row;
   }
   t->rows = kept;
@@ -185,7 +186,7 @@ static dyd_status death_by_integers(dyd_tolerance_row *row, dyd_ring_d *ring, dy
                                     uint32_t w) {
   const dyd_summit *s = &t->summit;
   dyd_status st = death_exact(t, v, w);
-  t->exact++;
+  t->result.exact++;
   if (st != DYD_OK) return st;
   *row = row_of_summit(t, v, w, DYD_EVENT_DEATH);
   if (ring) *ring = (dyd_ring_d){v, w, dyd_summit_place(s), row->lo, mpz_sgn(s->at.q) ? 0 : mpz_sgn(s->at.p)};
@@ -279,7 +280,7 @@ static dyd_status death_later(dyd_tolerance *t, const death_edge *e) {
   dyd_status st = hub_in_doubles(&sure, &d, t, e);
   if (st != DYD_OK) return st;
   if (!sure) return death_by_integers(row, ring_of_edge(t, e), t, e->v, e->w);
-  t->filter++;
+  t->result.filter++;
   write_death(row, ring_of_edge(t, e), t, e, &d);
   return DYD_OK;
 }
@@ -391,7 +392,7 @@ static dyd_status deaths_in_mesh(death_pass *p, size_t ranges) {
   for (size_t r = 0; r < ranges && st == DYD_OK; r++) {
     const death_part *part = &p->part[r];
     st = part->status;
-    t->filter += part->filter;
+    t->result.filter += part->filter;
     for (size_t k = 0; k < part->count && st == DYD_OK; k++)
       st = dyd_flag_is_set(t->options.cancel) ? DYD_CANCELLED : death_later(t, &part->later[k]);
   }
@@ -450,38 +451,30 @@ static dyd_status birth_exact(bool *late, dyd_tolerance *t, uint32_t v, uint32_t
   return st;
 }
 
-/* Squares that hold the discs of radius up_to around the points, their ends rounded outward finely against up_to. */
-static dyd_status make_squares(dyd_sites *squares, const dyd_tolerance *t) {
-  const dyd_sites *sites = t->sk->reps.sites;
-  int64_t exp = dyd_q_log2_above(t->options.up_to) - 20;
-  dyd_rect r;
+/* A square that holds the disc of radius up_to around the point, its ends rounded outward finely against up_to. */
+static dyd_status square_of_birth(dyd_rect *out, const void *tolerance, size_t i) {
+  const dyd_tolerance *t = tolerance;
   mpq_t half;
-  dyd_rect_init(&r);
   mpq_init(half);
-  dyd_status st = DYD_OK;
-  for (size_t i = 0; i < dyd_sites_count(sites) && st == DYD_OK; i++) {
-    st = dyd_sites_get(&r, sites, i);
-    mpq_set(half, t->options.up_to);
-    if (t->weight) mpq_set_d(half, t->weight[t->sk->vertex[i]]);
-    if (t->weight) mpq_mul(half, half, t->options.up_to);
-    if (st == DYD_OK) st = dyd_rect_widen(&r, half, exp);
-    if (st == DYD_OK) st = dyd_sites_add_rect(squares, &r);
-  }
+  dyd_status st = dyd_sites_get(out, t->sk->reps.sites, i);
+  mpq_set(half, t->options.up_to);
+  if (t->weight) mpq_set_d(half, t->weight[t->sk->vertex[i]]);
+  if (t->weight) mpq_mul(half, half, t->options.up_to);
+  if (st == DYD_OK) st = dyd_rect_widen(out, half, dyd_q_log2_above(t->options.up_to) - 20);
   mpq_clear(half);
-  dyd_rect_clear(&r);
   return st;
 }
 
 static dyd_status births_among(dyd_tolerance *t, const dyd_pair_list *pairs) {
   dyd_status st = DYD_OK;
-  t->births_left = 0;
+  t->result.births_left = 0;
   for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
     const dyd_pair *p = &pairs->item[k];
     bool late;
     if (dyd_delaunay_alias(t->pd, p->i) != p->i || dyd_delaunay_alias(t->pd, p->j) != p->j) continue;
     if (p->status == DYD_LEGAL || dyd_delaunay_status(t->pd, p->i, p->j) != DYD_ILLEGAL) continue;
-    if (t->births_left || dyd_flag_is_set(t->options.cancel)) {
-      t->births_left++;
+    if (t->result.births_left || dyd_flag_is_set(t->options.cancel)) {
+      t->result.births_left++;
       continue;
     }
     uint32_t v = t->sk->vertex[p->i], w = t->sk->vertex[p->j];
@@ -492,27 +485,22 @@ static dyd_status births_among(dyd_tolerance *t, const dyd_pair_list *pairs) {
     st = birth_exact(&late, t, v, w);
     if (st == DYD_OK && !late) st = dyd_row_add(t, row_of_summit(t, v, w, DYD_EVENT_BIRTH));
   }
-  return st == DYD_OK && t->births_left ? DYD_CANCELLED : st;
+  return st == DYD_OK && t->result.births_left ? DYD_CANCELLED : st;
 }
 
 /* For the list of candidates beside their triangulation, and for rows of all of them. */
 static dyd_status births_have_room(dyd_tolerance *t, const dyd_delaunay *wide) {
   if (!t->room.most) return DYD_OK;
-  t->room.beside += dyd_delaunay_memory(wide) + dyd_pairs_bytes(wide, DYD_TIE);
+  t->room.beside = dyd_sites_memory(wide->own) + dyd_delaunay_memory(wide) + dyd_pairs_bytes(wide, DYD_TIE);
   return dyd_rows_have_room(t, dyd_pairs_bytes(wide, DYD_TIE) / sizeof(dyd_pair), "the births") ? DYD_OK : DYD_E_NOMEM;
 }
 
 dyd_status dyd_births(dyd_tolerance *t, dyd_error *err) {
-  dyd_sites *squares = NULL;
   dyd_delaunay *wide = NULL;
   dyd_pair_list pairs = {0};
-  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = t->options.cancel,
-                            .max_pairs = t->options.max_pairs};
-  dyd_status st = dyd_sites_new(&squares);
-  if (st == DYD_OK) st = make_squares(squares, t);
-  t->room.beside = squares ? dyd_sites_memory(squares) : 0;
-  o.max_bytes = dyd_room_left(&t->room);
-  if (st == DYD_OK) st = dyd_delaunay_new(&wide, squares, &o, err);
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = t->options.cancel,
+                                  .max_pairs = t->options.max_pairs, .max_bytes = dyd_room_left(&t->room)};
+  dyd_status st = dyd_delaunay_made(&wide, dyd_sites_count(t->sk->reps.sites), square_of_birth, t, &o, err);
   if (st == DYD_CAPPED)
     dyd_fail(err, st, "there are too many pairs that may be born up to there; ask for less, or raise `max_pairs`");
   if (st == DYD_OK) st = births_have_room(t, wide);
@@ -521,7 +509,6 @@ dyd_status dyd_births(dyd_tolerance *t, dyd_error *err) {
   t->room.beside = 0;
   dyd_pair_list_clear(&pairs);
   dyd_delaunay_free(wide);
-  dyd_sites_free(squares);
   return st;
 }
 
@@ -581,8 +568,8 @@ static void distance2(mpq_ptr out, mpq_t a[2], mpq_t b[2], dyd_metric metric) {
 }
 
 static void lower_whole(dyd_tolerance *t, double lo, double hi) {
-  if (lo < t->lo) t->lo = lo;
-  if (hi < t->hi) t->hi = hi;
+  if (lo < t->result.lo) t->result.lo = lo;
+  if (hi < t->result.hi) t->result.hi = hi;
 }
 
 /* Discs about u and w, of radius t times their weights, hold between them those about a + s b, 0 <= s <= 1, of radius t
@@ -651,11 +638,11 @@ dyd_status dyd_hull_corner(double *lo, double *hi, const dyd_tolerance *t, dyd_h
 dyd_status dyd_whole(dyd_tolerance *t) {
   const dyd_mesh *m = &t->sk->mesh;
   dyd_status st = DYD_OK;
-  t->lo = t->hi = HUGE_VAL;
+  t->result.lo = t->result.hi = HUGE_VAL;
   for (size_t k = 0; k < t->rows; k++)
     if (t->row[k].event != DYD_EVENT_BIRTH) lower_whole(t, t->row[k].lo, t->row[k].hi);
-  if (t->edges_left) t->lo = 0;
-  if (t->edges_left || dyd_is_line(t->pd)) return DYD_OK;
+  if (t->result.edges_left) t->result.lo = 0;
+  if (t->result.edges_left || dyd_is_line(t->pd)) return DYD_OK;
   dyd_half_edge first = dyd_hull_first(m), h = first;
   do {
     double lo, hi;

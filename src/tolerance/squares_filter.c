@@ -167,8 +167,7 @@ static bool meet_rival(void *context, uint32_t v) {
 }
 
 /* Includes sites whose squares do not certainly keep out of the witness disc about q->c: a few at most. *more: there
- * are some.
- */
+ * are some. */
 static dyd_status squares_see_rivals(bool *more, squares *q) {
   const dyd_rects *r = &q->sk.rects;
   square_search s = {.q = q, .c = dyd_point_box(&q->c), .legal = true};

@@ -32,25 +32,21 @@ typedef struct dyd_ring_d {
 } dyd_ring_d;
 
 struct dyd_tolerance {
-  dyd_tolerance_result result; /* of the members below, once all is done */
+  dyd_tolerance_result result;
   const dyd_delaunay *pd;
   const dyd_skeleton *sk;
-  dyd_sites *sites; /* owned, with their triangulation pd: centres of rectangles; NULL: pd is borrowed */
-  dyd_delaunay *centres;
+  dyd_delaunay *centres; /* pd, owned: of centres of rectangles; NULL: pd is borrowed */
   dyd_tolerance_options options;
   dyd_room room; /* what the triangulation leaves of max_bytes */
   dyd_tolerance_row *row;
-  size_t rows, cap, sorted;       /* sorted: rows of deaths that are */
-  size_t edges_left, births_left; /* of work that was cancelled */
-  double *weight;                 /* of a vertex, the largest of those at its place; NULL: all are 1 */
+  size_t rows, cap, sorted; /* sorted: rows of deaths that are */
+  double *weight;           /* of a vertex, the largest of those at its place; NULL: all are 1 */
   double heaviest;
   double *sigma, widest; /* the same of standard deviations; NULL: none are given */
-  double lo, hi;         /* of the whole */
   double *radius;
   double *chance;   /* of each row, once sorted, where sigma was given */
   dyd_ring_d *ring; /* of all edges, for radii or probabilities */
   size_t rings;
-  uint64_t filter, exact;
   /* scratch */
   dyd_points_d points;
   dyd_xy *low;

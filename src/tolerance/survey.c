@@ -51,12 +51,11 @@ static void note_nominal(dyd_survey_result *r, const dyd_delaunay *nominal, cons
 static dyd_status find_targets(dyd_survey *s, const dyd_delaunay *pd) {
   dyd_pair_list all = {0};
   dyd_delaunay *nominal = NULL;
-  dyd_sites *centres = NULL;
   const dyd_survey_options *o = &s->options;
   dyd_status st = o->pairs ? DYD_OK : dyd_pairs_take(&all, pd, dyd_least_bounding(pd));
   const dyd_pair_list *asked = o->pairs ? o->pairs : &all;
-  if (!o->pairs) s->ties = ties_left_out(pd);
-  if (st == DYD_OK) st = dyd_survey_triangulate(&nominal, &centres, s, true);
+  if (!o->pairs) s->result.ties = ties_left_out(pd);
+  if (st == DYD_OK) st = dyd_survey_triangulate(&nominal, s, true);
   if (st == DYD_OK && !(s->target.item = dyd_alloc(asked->count, sizeof *s->target.item))) st = DYD_E_NOMEM;
   for (size_t k = 0; k < asked->count && st == DYD_OK; k++) {
     dyd_pair p = asked->item[k];
@@ -67,12 +66,11 @@ static dyd_status find_targets(dyd_survey *s, const dyd_delaunay *pd) {
     note_nominal(&s->result, nominal, &p);
     if (dyd_delaunay_status(nominal, p.i, p.j) == DYD_TIE ||
         dyd_delaunay_alias(nominal, p.i) == dyd_delaunay_alias(nominal, p.j))
-      s->ties++;
+      s->result.ties++;
     else
       s->target.item[s->target.count++] = p;
   }
   dyd_delaunay_free(nominal);
-  dyd_sites_free(centres);
   dyd_pair_list_clear(&all);
   return st == DYD_OK ? dyd_survey_index_targets(s) : st;
 }
@@ -105,9 +103,8 @@ static void forget_rows(dyd_survey *s) {
 /* near[i] (may be NULL) is set where an open target, or a possible neighbour of one of its ends, is. */
 static dyd_status recount_left(dyd_survey *s, bool *near) {
   dyd_delaunay *now = NULL;
-  dyd_sites *sites = NULL;
-  dyd_status st = dyd_survey_triangulate(&now, &sites, s, false);
-  if (st == DYD_OK) s->left = dyd_survey_open(s, now);
+  dyd_status st = dyd_survey_triangulate(&now, s, false);
+  if (st == DYD_OK) s->result.left = dyd_survey_open(s, now);
   for (size_t k = 0; k < s->target.count && st == DYD_OK && near; k++) {
     const dyd_pair *p = &s->target.item[k];
     if (!dyd_survey_is_open(now, p)) continue;
@@ -115,7 +112,6 @@ static dyd_status recount_left(dyd_survey *s, bool *near) {
     if (st == DYD_OK) st = mark_near(near, now, p->j);
   }
   dyd_delaunay_free(now);
-  dyd_sites_free(sites);
   return st;
 }
 
@@ -138,12 +134,10 @@ static dyd_status measure_rounds(dyd_measuring *m, const dyd_delaunay *pd) {
   dyd_status st = has_large_face(pd) ? dyd_survey_crowds(m) : DYD_OK;
   for (int round = 0; round < ROUNDS && m->left && st == DYD_OK; round++) {
     dyd_delaunay *now = NULL;
-    dyd_sites *sites = NULL;
     size_t before = s->chosens;
-    if (before) st = dyd_survey_triangulate(&now, &sites, s, false);
+    if (before) st = dyd_survey_triangulate(&now, s, false);
     if (st == DYD_OK) st = choose_in_faces(m, before ? now : pd);
     dyd_delaunay_free(now);
-    dyd_sites_free(sites);
     if (s->chosens == before) break;
   }
   return st;
@@ -151,10 +145,10 @@ static dyd_status measure_rounds(dyd_measuring *m, const dyd_delaunay *pd) {
 
 static dyd_status choose_rounds(dyd_survey *s, const dyd_delaunay *pd) {
   dyd_measuring m;
-  s->left = s->target.count;
+  s->result.left = s->target.count;
   dyd_status st = dyd_measuring_begin(&m, s);
   if (st == DYD_OK) st = measure_rounds(&m, pd);
-  if (st == DYD_OK) s->left = m.left;
+  if (st == DYD_OK) s->result.left = m.left;
   dyd_measuring_end(&m);
   return st;
 }
@@ -181,12 +175,12 @@ static void restore_rows(dyd_survey *s, const bool *near) {
 static dyd_status restore_open(dyd_survey *s, size_t before) {
   bool *near = calloc(s->sites + 1, sizeof *near);
   dyd_status st = near ? recount_left(s, near) : DYD_E_NOMEM;
-  for (int round = 0; round < ROUNDS && st == DYD_OK && s->left > before; round++) {
+  for (int round = 0; round < ROUNDS && st == DYD_OK && s->result.left > before; round++) {
     restore_rows(s, near);
     st = recount_left(s, near);
   }
-  if (s->left > before) restore_rows(s, NULL);
-  s->left = before;
+  if (s->result.left > before) restore_rows(s, NULL);
+  s->result.left = before;
   free(near);
   return st;
 }
@@ -194,7 +188,7 @@ static dyd_status restore_open(dyd_survey *s, size_t before) {
 /* A site that one face needed may have become needless by another one: faces show it. A pair that is decided within its
  * face may be open together with the others, where a disc about both ends has room; then sites are taken back. */
 static dyd_status unchoose_by_faces(dyd_survey *s) {
-  size_t before = s->left;
+  size_t before = s->result.left;
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < s->chosens && st == DYD_OK; k++) {
     uint32_t site = s->chosen[k].row.site;
@@ -210,15 +204,15 @@ static dyd_status unchoose_by_faces(dyd_survey *s) {
 
 /* What a face cannot see: one triangulation of all for each row. */
 static dyd_status unchoose_by_all(dyd_survey *s) {
-  size_t before = s->left;
+  size_t before = s->result.left;
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < s->chosens && st == DYD_OK; k++) {
     bool *chosen = &s->site[s->chosen[k].row.site].chosen;
     *chosen = false;
     st = recount_left(s, NULL);
-    *chosen = s->left > before;
+    *chosen = s->result.left > before;
   }
-  s->left = before;
+  s->result.left = before;
   settle_rows(s);
   return st;
 }
@@ -232,7 +226,7 @@ static dyd_status choose_finely_enough(dyd_survey *s, const dyd_delaunay *pd) {
     mpq_set_ui(s->scale, 1, 1);
     mpq_div_2exp(s->scale, s->scale, (mp_bitcnt_t)finer[k]);
     st = choose_rounds(s, pd);
-    if (!s->left) break;
+    if (!s->result.left) break;
   }
   return st;
 }
@@ -241,15 +235,15 @@ static dyd_status choose_finely_enough(dyd_survey *s, const dyd_delaunay *pd) {
 
 /* *holds: no more is left open at this scale than before; s keeps it. */
 static dyd_status holds_at(bool *holds, dyd_survey *s, mpq_srcptr scale) {
-  size_t before = s->left;
+  size_t before = s->result.left;
   mpq_t old;
   mpq_init(old);
   mpq_set(old, s->scale);
   mpq_set(s->scale, scale);
   dyd_status st = recount_left(s, NULL);
-  *holds = st == DYD_OK && s->left <= before;
+  *holds = st == DYD_OK && s->result.left <= before;
   if (!*holds) mpq_set(s->scale, old);
-  s->left = before;
+  s->result.left = before;
   mpq_clear(old);
   return st;
 }
@@ -305,7 +299,7 @@ static dyd_status loosen_site(dyd_survey *s, uint32_t site) {
 
 /* Faces decide; all together are checked in the end, and where they fail, the common factor alone counts. */
 static dyd_status loosen_each(dyd_survey *s) {
-  size_t before = s->left;
+  size_t before = s->result.left;
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < s->chosens && st == DYD_OK; k++) st = loosen_site(s, s->chosen[k].row.site);
   return st == DYD_OK ? restore_open(s, before) : st;
@@ -382,10 +376,10 @@ static void keep_draft(dyd_survey *s, dyd_error *err) {
   s->row = s->draft;
   s->rows = s->drafts;
   s->draft = NULL;
-  s->left = s->rows ? s->row[s->rows - 1].left : s->target.count;
-  s->cut = true;
+  s->result.left = s->rows ? s->row[s->rows - 1].left : s->target.count;
+  s->result.cut = true;
   dyd_fail(err, DYD_CANCELLED, "the plan is not finished: %zu of %zu pairs are undecided after its first %zu points",
-           s->left, s->target.count, s->rows);
+           s->result.left, s->target.count, s->rows);
 }
 
 dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_survey_options *options, dyd_error *err) {
@@ -407,9 +401,8 @@ dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_su
   if (st == DYD_OK || (st == DYD_CANCELLED && s->first)) {
     *out = s;
     if (st == DYD_CANCELLED) keep_draft(s, err);
-    dyd_survey_result *r = &s->result; /* tie and same are in it */
-    r->struct_size = sizeof *r;
-    r->open = s->target.count, r->ties = s->ties, r->left = s->left, r->cut = s->cut;
+    s->result.struct_size = sizeof s->result;
+    s->result.open = s->target.count;
     return st;
   }
   if (st == DYD_E_NOMEM && s->room.refused) dyd_fail_room(err, &s->room);

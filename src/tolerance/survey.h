@@ -35,7 +35,7 @@ typedef struct dyd_survey_faces {
 /* Accuracies are min(scale * 2^coarser * unit, half): unit is the accuracy that was given, or each site's own half
  * (unit NULL). */
 struct dyd_survey {
-  dyd_survey_result result; /* of the members below, once all is done */
+  dyd_survey_result result; /* left: with the plan as it is */
   dyd_survey_options options;
   dyd_room room;  /* what the triangulation leaves of max_bytes */
   dyd_error *err; /* of the call that makes it; borrowed, may be NULL */
@@ -44,7 +44,6 @@ struct dyd_survey {
   dyd_pair_list target; /* asked for, open, and no tie; sorted */
   size_t *first, *at;   /* those with an end i: target.item[at[first[i]]] to target.item[at[first[i + 1] - 1]] */
   dyd_survey_faces open;
-  size_t ties, left;
   mpq_t scale;
   dyd_face_row *chosen; /* rows of one face after the other, each face in the order to measure */
   size_t chosens, chosen_cap, faces;
@@ -52,7 +51,6 @@ struct dyd_survey {
   size_t rows;
   dyd_survey_row *draft; /* sites chosen so far, in that order, counted in a triangulation of all; while work lasts */
   size_t drafts, draft_cap;
-  bool cut; /* cancelled: the rows are that draft */
 };
 
 /* Is it said how exactly can be measured? */
@@ -63,7 +61,7 @@ static inline bool dyd_survey_is_limited(const dyd_survey *s) {
 /* survey_face.c */
 dyd_status dyd_survey_load(dyd_survey *s, const dyd_sites *sites);
 /* A new triangulation of all sites, the chosen ones measured; of the centres of all. */
-dyd_status dyd_survey_triangulate(dyd_delaunay **pd, dyd_sites **sites, const dyd_survey *s, bool centres);
+dyd_status dyd_survey_triangulate(dyd_delaunay **pd, const dyd_survey *s, bool centres);
 bool dyd_survey_is_open(const dyd_delaunay *pd, const dyd_pair *p);
 /* How many of the targets are open in it. */
 size_t dyd_survey_open(const dyd_survey *s, const dyd_delaunay *pd);
@@ -87,7 +85,6 @@ enum { DYD_SURVEY_LARGE = 16 };
  * open ones end at site i. */
 typedef struct dyd_measuring {
   dyd_survey *s;
-  dyd_sites *sites;
   dyd_delaunay *now;
   bool *open;
   size_t *degree, left;

@@ -7,6 +7,7 @@
 #include "base/index.h"
 #include "base/invariant.h"
 #include "delaunay/index_list.h"
+#include "delaunay/state.h"
 #include "rect/rect.h"
 #include "tolerance/lines.h"
 #include "tolerance/survey.h"
@@ -97,23 +98,22 @@ static dyd_status survey_rect(dyd_rect *out, const dyd_survey *s, uint32_t i, bo
   return st;
 }
 
-dyd_status dyd_survey_triangulate(dyd_delaunay **pd, dyd_sites **sites, const dyd_survey *s, bool centres) {
-  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = s->options.cancel};
-  dyd_room room = s->room;
+static dyd_status planned_rect(dyd_rect *out, const void *survey, size_t i) {
+  const dyd_survey *s = survey;
+  return survey_rect(out, s, (uint32_t)i, s->site[i].chosen);
+}
+
+static dyd_status centre_rect(dyd_rect *out, const void *survey, size_t i) {
+  const dyd_survey *s = survey;
+  return dyd_rect_set_q(out, s->site[i].x, s->site[i].y);
+}
+
+dyd_status dyd_survey_triangulate(dyd_delaunay **pd, const dyd_survey *s, bool centres) {
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = s->options.cancel,
+                                  .max_bytes = dyd_room_left(&s->room)};
   dyd_error err;
-  dyd_rect r;
   dyd_error_clear(&err);
-  dyd_rect_init(&r);
-  *pd = NULL;
-  dyd_status st = dyd_sites_new(sites);
-  for (uint32_t i = 0; i < s->sites && st == DYD_OK; i++) {
-    st = centres ? dyd_rect_set_q(&r, s->site[i].x, s->site[i].y) : survey_rect(&r, s, i, s->site[i].chosen);
-    if (st == DYD_OK) st = dyd_sites_add_rect(*sites, &r);
-  }
-  if (room.most && st == DYD_OK) room.beside = dyd_sites_memory(*sites);
-  o.max_bytes = dyd_room_left(&room);
-  if (st == DYD_OK) st = dyd_delaunay_new(pd, *sites, &o, &err);
-  dyd_rect_clear(&r);
+  dyd_status st = dyd_delaunay_made(pd, s->sites, centres ? centre_rect : planned_rect, s, &o, &err);
   if (s->err && st < 0 && err.code == st) *s->err = err;
   return st == DYD_CAPPED ? DYD_OK : st;
 }
@@ -147,9 +147,7 @@ double dyd_survey_now(const dyd_survey *s, uint32_t i) {
 /* s->at: each target at its lower end and at its upper one. */
 static dyd_status index_ends(dyd_survey *s) {
   const dyd_pair_list *t = &s->target;
-  s->first = calloc(s->sites + 2, sizeof *s->first);
-  s->at = dyd_alloc(2 * t->count, sizeof *s->at);
-  if (!s->first || !s->at) return DYD_E_NOMEM;
+  if (!DYD_ZEROED(s->first, s->sites + 2) || !DYD_NEW(s->at, 2 * t->count)) return DYD_E_NOMEM;
   size_t *next =
       s->first + 1; /* where the next target of each site goes: when all are there, where those after begin */
   for (size_t k = 0; k < t->count; k++) next[t->item[k].i + 1]++, next[t->item[k].j + 1]++;
@@ -178,9 +176,7 @@ static bool is_of_owner(const dyd_survey_faces *open, size_t f, uint32_t site) {
 static dyd_status index_sites(dyd_survey_faces *open, size_t sites) {
   size_t total = 0;
   for (size_t f = 0; f < open->count; f++) total += open->face[f].count;
-  open->start = calloc(sites + 2, sizeof *open->start);
-  open->of = dyd_alloc(total, sizeof *open->of);
-  if (!open->start || !open->of) return DYD_E_NOMEM;
+  if (!DYD_ZEROED(open->start, sites + 2) || !DYD_NEW(open->of, total)) return DYD_E_NOMEM;
   size_t *next = open->start + 1;
   for (size_t f = 0; f < open->count; f++)
     for (size_t k = 0; k < open->face[f].count; k++) {
@@ -235,15 +231,13 @@ static dyd_status add_faces(bool *large, bool *is_in_large, dyd_survey_faces *op
 
 static dyd_status add_those_in_large(dyd_survey *s, const bool *is_in_large, const dyd_delaunay *pd) {
   dyd_delaunay *planned = NULL;
-  dyd_sites *sites = NULL;
-  dyd_status st = dyd_survey_triangulate(&planned, &sites, s, false);
+  dyd_status st = dyd_survey_triangulate(&planned, s, false);
   for (uint32_t i = 0; i < s->sites && st == DYD_OK; i++) {
     if (!is_in_large[i] || !s->site[i].chosen) continue;
     s->open.owner[s->open.count] = i;
     st = find_those_near(&s->open.face[s->open.count++], pd, planned, i);
   }
   dyd_delaunay_free(planned);
-  dyd_sites_free(sites);
   return st;
 }
 
@@ -280,10 +274,8 @@ static dyd_status choose_site(dyd_survey *s, uint32_t site, size_t decided) {
 
 dyd_status dyd_measuring_begin(dyd_measuring *m, dyd_survey *s) {
   *m = (dyd_measuring){.s = s};
-  m->open = calloc(s->target.count + 1, sizeof *m->open);
-  m->degree = calloc(s->sites + 1, sizeof *m->degree);
-  if (!m->open || !m->degree) return DYD_E_NOMEM;
-  dyd_status st = dyd_survey_triangulate(&m->now, &m->sites, s, false);
+  if (!DYD_ZEROED(m->open, s->target.count + 1) || !DYD_ZEROED(m->degree, s->sites + 1)) return DYD_E_NOMEM;
+  dyd_status st = dyd_survey_triangulate(&m->now, s, false);
   for (size_t k = 0; k < s->target.count && st == DYD_OK; k++) {
     const dyd_pair *p = &s->target.item[k];
     m->open[k] = dyd_survey_is_open(m->now, p);
@@ -294,7 +286,6 @@ dyd_status dyd_measuring_begin(dyd_measuring *m, dyd_survey *s) {
 
 void dyd_measuring_end(dyd_measuring *m) {
   dyd_delaunay_free(m->now);
-  dyd_sites_free(m->sites);
   dyd_free_all(m->open, m->degree);
 }
 
@@ -324,7 +315,7 @@ static dyd_status measuring_site(size_t *decided, dyd_measuring *m, uint32_t i) 
   dyd_rect_init(&r);
   dyd_status st = survey_rect(&r, m->s, i, true);
   if (st == DYD_OK) st = dyd_delaunay_neighbours(&near, m->now, i, DYD_TIE);
-  if (st == DYD_OK) st = dyd_sites_narrow(m->sites, i, &r);
+  if (st == DYD_OK) st = dyd_sites_narrow(m->now->own, i, &r);
   if (st == DYD_OK) st = dyd_delaunay_update(m->now, &i, 1, &o, m->s->err);
   if (st == DYD_CAPPED) st = DYD_OK;
   if (st == DYD_OK) note_decided_near(m, i, &near);
@@ -352,7 +343,7 @@ dyd_status dyd_survey_count_left(dyd_survey *s) {
     st = measuring_site(&s->row[k].decided, &m, s->row[k].site);
     s->row[k].left = m.left;
   }
-  DYD_INVARIANT(st != DYD_OK || m.left == s->left);
+  DYD_INVARIANT(st != DYD_OK || m.left == s->result.left);
   for (size_t k = 0; k < s->rows; k++) s->site[s->row[k].site].chosen = true;
   dyd_measuring_end(&m);
   return st;
@@ -454,20 +445,17 @@ static uint32_t survey_number_in(const dyd_index_list *sites, uint32_t site) {
   return at ? (uint32_t)(at - sites->item) : DYD_NONE;
 }
 
+static dyd_status tried_rect(dyd_rect *out, const void *face, size_t k) {
+  const face_try *f = face;
+  return survey_rect(out, f->s, f->sites.item[k], f->measured[k]);
+}
+
 /* How many targets are open; open[k] (may be NULL): of how many it is an end. */
 static dyd_status try_face(size_t *open_pairs, size_t *open, const face_try *f) {
-  dyd_sites *sites = NULL;
   dyd_delaunay *pd = NULL;
-  dyd_rect r;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = f->s->options.cancel};
   if (dyd_flag_is_set(o.cancel)) return DYD_CANCELLED;
-  dyd_rect_init(&r);
-  dyd_status st = dyd_sites_new(&sites);
-  for (size_t k = 0; k < f->sites.count && st == DYD_OK; k++) {
-    st = survey_rect(&r, f->s, f->sites.item[k], f->measured[k]);
-    if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
-  }
-  if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, NULL);
+  dyd_status st = dyd_delaunay_made(&pd, f->sites.count, tried_rect, f, &o, NULL);
   if (st == DYD_CAPPED) st = DYD_OK;
   *open_pairs = 0;
   if (open) memset(open, 0, f->sites.count * sizeof *open);
@@ -477,8 +465,6 @@ static dyd_status try_face(size_t *open_pairs, size_t *open, const face_try *f) 
     if (open) open[f->target[k].i]++, open[f->target[k].j]++;
   }
   dyd_delaunay_free(pd);
-  dyd_sites_free(sites);
-  dyd_rect_clear(&r);
   return st;
 }
 

@@ -78,7 +78,7 @@ static dyd_status tolerance_rows(dyd_tolerance *t, dyd_error *err) {
   tie_rows ties = {t, DYD_OK};
   const dyd_tolerance_options *o = &t->options;
   bool births = o->up_to && mpq_sgn(o->up_to);
-  t->births_left = births ? SIZE_MAX : 0;
+  t->result.births_left = births ? SIZE_MAX : 0;
   dyd_status st = dyd_deaths(t);
   if (may_go_on(st)) dyd_each_pair(t->pd, DYD_TIE, add_tie, &ties);
   if (may_go_on(st)) join_status(&st, ties.status);
@@ -116,13 +116,13 @@ static dyd_status tolerance_work(dyd_tolerance *t, dyd_error *err) {
 
 /* Reports how much is missing after a cancelled run. */
 static dyd_status tell_left(const dyd_tolerance *t, dyd_error *err) {
-  if (!t->edges_left && !t->births_left)
+  if (!t->result.edges_left && !t->result.births_left)
     return dyd_fail(err, DYD_CANCELLED, "all pairs were reached, but not all radii or probabilities");
-  if (t->births_left == SIZE_MAX)
+  if (t->result.births_left == SIZE_MAX)
     return dyd_fail(err, DYD_CANCELLED, "%zu edges were not reached: they have no row; births were not looked for",
-                    t->edges_left);
+                    t->result.edges_left);
   return dyd_fail(err, DYD_CANCELLED, "%zu edges and %zu pairs that may be born were not reached: they have no row",
-                  t->edges_left, t->births_left);
+                  t->result.edges_left, t->result.births_left);
 }
 
 dyd_status dyd_tolerance_new(dyd_tolerance **out, const dyd_delaunay *pd, const dyd_tolerance_options *options,
@@ -145,16 +145,10 @@ dyd_status dyd_tolerance_new(dyd_tolerance **out, const dyd_delaunay *pd, const 
   if (st == DYD_E_NOMEM && t->room.refused) dyd_fail_room(err, &t->room);
   if (st == DYD_OK || st == DYD_CANCELLED) {
     *out = t;
-    t->result = (dyd_tolerance_result){.struct_size = sizeof t->result,
-                                       .metric = t->options.metric,
-                                       .lo = t->lo,
-                                       .hi = t->hi,
-                                       .points = t->radius,
-                                       .chances = t->chance,
-                                       .edges_left = t->edges_left,
-                                       .births_left = t->births_left,
-                                       .filter = t->filter,
-                                       .exact = t->exact};
+    t->result.struct_size = sizeof t->result;
+    t->result.metric = t->options.metric;
+    t->result.points = t->radius;
+    t->result.chances = t->chance;
     return st == DYD_OK ? st : tell_left(t, err);
   }
   dyd_tolerance_free(t);
@@ -168,7 +162,6 @@ void dyd_tolerance_free(dyd_tolerance *t) {
   dyd_lines_clear(&t->lines);
   dyd_free_all(t->ring, t->radius, t->weight, t->sigma, t->chance, t->row);
   dyd_delaunay_free(t->centres);
-  dyd_sites_free(t->sites);
   free(t);
 }
 

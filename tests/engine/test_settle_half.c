@@ -254,14 +254,16 @@ static void test_runs(void **state) {
 
 /* The rectangle of site k of the engine, as P has it [SET-2]; core: with the core [SET-3]. */
 static void check_added(const half_case *c, const dyd_dyadic *eps, size_t k, const dyd_rect *rect, const bool core[2]) {
-  dyd_sites *sites;
+  const uint32_t site = (uint32_t)k;
+  dyd_rect made;
   double was[4], is[4];
   bool said;
-  assert_int_equal(DYD_OK, dyd_sites_new(&sites));
-  assert_int_equal(DYD_OK, dyd_firm_add(sites, &said, c->e, eps, (uint32_t)k));
+  const dyd_firm_sites cores = {c->e, eps, &said, &site};
+  dyd_rect_init(&made);
+  assert_int_equal(DYD_OK, dyd_firm_rect(&made, &cores, 0));
   dyd_rect_get_d(was, rect);
-  dyd_sites_get_d(is, sites, 0);
-  dyd_sites_free(sites);
+  dyd_rect_get_d(is, &made);
+  dyd_rect_clear(&made);
   double e = dyd_dyadic_get_d(eps, DYD_UP);
   bool firm = core[0] && core[1] && was[1] - was[0] > 2 * e && was[3] - was[2] > 2 * e;
   assert_true(said == firm);
