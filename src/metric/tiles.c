@@ -6,8 +6,6 @@
  * vertices whose box of the grid they meet, on both sides alike [PART-1], until all rings are simple: a ring is cut
  * where it touches itself, and parts without area are dropped. */
 #include "base/alloc.h"
-#include "base/error.h"
-#include "delaunay/memory.h"
 #include "metric/bounds.h"
 #include "metric/tiles_filter.h"
 #include "rect/rect.h"
@@ -48,11 +46,7 @@ typedef struct tiling {
 } tiling;
 
 void dyd_tiles_clear(dyd_tiles *t) {
-  free(t->site);
-  free(t->offset);
-  free(t->xy);
-  free(t->area);
-  free(t->bound);
+  dyd_free_all(t->site, t->offset, t->xy, t->area, t->bound);
   *t = (dyd_tiles){0};
 }
 
@@ -131,11 +125,9 @@ static dyd_status ring_area(double *out, const tiling *t, const dyd_xy *z, size_
 /* Makes room for this number of rings and vertices in all; false: memory is exhausted. */
 static bool reserve_rings(tiling *t, size_t rings, size_t vertices) {
   dyd_tiles *o = t->out;
-  return dyd_reserve((void **)&o->site, &t->ring_cap, rings, sizeof *o->site) &&
-         dyd_reserve((void **)&o->offset, &t->offset_cap, rings + 1, sizeof *o->offset) &&
-         dyd_reserve((void **)&o->area, &t->area_cap, rings, sizeof *o->area) &&
-         dyd_reserve((void **)&o->bound, &t->bound_cap, 2 * rings, sizeof *o->bound) &&
-         (t->areas_only || dyd_reserve((void **)&o->xy, &t->xy_cap, 2 * vertices, sizeof *o->xy));
+  return DYD_GROW(o->site, t->ring_cap, rings) && DYD_GROW(o->offset, t->offset_cap, rings + 1) &&
+         DYD_GROW(o->area, t->area_cap, rings) && DYD_GROW(o->bound, t->bound_cap, 2 * rings) &&
+         (t->areas_only || DYD_GROW(o->xy, t->xy_cap, 2 * vertices));
 }
 
 /* z = NULL: its places follow. */
@@ -170,13 +162,12 @@ static dyd_status loosen_ring(loose_ring **out, tiling *t, uint32_t site) {
   if (!t->loose_of) t->loose_of = calloc(dyd_sites_count(dyd_delaunay_sites(t->pd)), sizeof *t->loose_of);
   if (!t->loose_of) return DYD_E_NOMEM;
   if (!t->loose_of[site]) {
-    if (!dyd_reserve((void **)&t->loose, &t->loose_cap, t->loose_count + 1, sizeof *t->loose)) return DYD_E_NOMEM;
+    if (!DYD_GROW(t->loose, t->loose_cap, t->loose_count + 1)) return DYD_E_NOMEM;
     dyd_status st = dyd_shape_edges(&t->shape, t->pd, site, &t->w);
     if (st != DYD_OK) return st;
     loose_ring r = {.site = site};
     uint32_t n = t->shape.inner_count;
-    if (!dyd_reserve((void **)&r.z, &r.cap, n + 1, sizeof *r.z) ||
-        !dyd_reserve((void **)&r.across, &r.across_cap, n + 1, sizeof *r.across)) {
+    if (!DYD_GROW(r.z, r.cap, n + 1) || !DYD_GROW(r.across, r.across_cap, n + 1)) {
       free(r.z);
       return DYD_E_NOMEM;
     }
@@ -193,9 +184,7 @@ static dyd_status loosen_ring(loose_ring **out, tiling *t, uint32_t site) {
 
 /* Leads the edge from z[k] on through v. */
 static dyd_status ring_insert(loose_ring *r, size_t k, dyd_xy v) {
-  if (!dyd_reserve((void **)&r->z, &r->cap, r->count + 1, sizeof *r->z) ||
-      !dyd_reserve((void **)&r->across, &r->across_cap, r->count + 1, sizeof *r->across))
-    return DYD_E_NOMEM;
+  if (!DYD_GROW(r->z, r->cap, r->count + 1) || !DYD_GROW(r->across, r->across_cap, r->count + 1)) return DYD_E_NOMEM;
   memmove(&r->z[k + 2], &r->z[k + 1], (r->count - k - 1) * sizeof *r->z);
   memmove(&r->across[k + 2], &r->across[k + 1], (r->count - k - 1) * sizeof *r->across);
   r->z[k + 1] = v;
@@ -531,14 +520,9 @@ static dyd_status tile_all(tiling *t, dyd_voronoi_bounds *bounds, const dyd_dela
 
 static void tiling_clear(tiling *t) {
   for (size_t k = 0; k < t->loose_count; k++) {
-    free(t->loose[k].z);
-    free(t->loose[k].across);
+    dyd_free_all(t->loose[k].z, t->loose[k].across);
   }
-  free(t->loose);
-  free(t->loose_of);
-  free(t->quick);
-  free(t->centre);
-  free(t->bound);
+  dyd_free_all(t->loose, t->loose_of, t->quick, t->centre, t->bound);
   dyd_shape_clear(&t->shape);
 }
 

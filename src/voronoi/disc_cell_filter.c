@@ -151,7 +151,7 @@ static double rival_near(const disc_cell *c, uint32_t k, const double u[2]) {
 }
 
 static bool add_corner(disc_cell *c, double angle, uint32_t rival, double near) {
-  if (!dyd_reserve((void **)&c->corner, &c->corner_cap, c->corners + 1, sizeof *c->corner)) return false;
+  if (!DYD_GROW(c->corner, c->corner_cap, c->corners + 1)) return false;
   c->corner[c->corners++] = (disc_corner){angle, {cos(angle), sin(angle)}, near, rival};
   return true;
 }
@@ -425,8 +425,7 @@ static void disc_cell_clear(disc_cell *c) {
     dyd_disc_clear(&c->rival[k].disc);
     mpq_clear(c->rival[k].s);
   }
-  free(c->rival);
-  free(c->corner);
+  dyd_free_all(c->rival, c->corner);
   dyd_disc_clear(&c->own);
   mpq_clears(c->at[0], c->at[1], c->s, c->t, c->from, c->to, NULL);
 }

@@ -153,7 +153,7 @@ static void cell_sample(exact_cell *c, const dyd_elementary *arc, int window_sid
 /* ---- cuts and pieces ---- */
 
 static dyd_status cell_add_cut(exact_cell *c, size_t *count, const dyd_spot *s) {
-  if (!dyd_reserve((void **)&c->cut, &c->cut_cap, *count + 1, sizeof *c->cut)) return DYD_E_NOMEM;
+  if (!DYD_GROW(c->cut, c->cut_cap, *count + 1)) return DYD_E_NOMEM;
   c->cut[(*count)++] = s;
   return DYD_OK;
 }
@@ -181,7 +181,7 @@ static size_t cell_sort_cuts(const dyd_spot **cut, size_t count, int axis) {
 }
 
 static dyd_status cell_add_piece(exact_cell *c, cell_piece p) {
-  if (!dyd_reserve((void **)&c->piece, &c->piece_cap, c->pieces + 1, sizeof *c->piece)) return DYD_E_NOMEM;
+  if (!DYD_GROW(c->piece, c->piece_cap, c->pieces + 1)) return DYD_E_NOMEM;
   c->piece[c->pieces++] = p;
   return DYD_OK;
 }
@@ -351,7 +351,7 @@ static bool meets_have_room(exact_cell *c, const dyd_icircle *circle) {
 
 static dyd_status curves_add_meet(exact_cell *c, size_t j, size_t k, dyd_icircle *circle) {
   if (!meets_have_room(c, circle)) return DYD_E_NOMEM;
-  if (!dyd_reserve((void **)&c->meet, &c->meet_cap, c->meets + 1, sizeof *c->meet)) return DYD_E_NOMEM;
+  if (!DYD_GROW(c->meet, c->meet_cap, c->meets + 1)) return DYD_E_NOMEM;
   cell_meet *m = &c->meet[c->meets++];
   *m = (cell_meet){.curve = {(uint32_t)j, (uint32_t)k}};
   dyd_surd_point *p = &m->spot.at;
@@ -409,8 +409,7 @@ static void cell_init(exact_cell *c, const dyd_cell_task *task, const cell_frame
 }
 
 static void cell_clear(exact_cell *c) {
-  free(c->cut);
-  free(c->piece);
+  dyd_free_all(c->cut, c->piece);
   for (size_t m = c->meets; m-- > 0;) dyd_surd_point_clear(&c->meet[m].spot.at);
   free(c->meet);
   if (c->curve)
@@ -419,9 +418,7 @@ static void cell_clear(exact_cell *c) {
       free(c->curve[k].arc);
       mpz_clears(c->curve[k].middle[0], c->curve[k].middle[1], NULL);
     }
-  free(c->curve);
-  free(c->other);
-  free(c->site);
+  dyd_free_all(c->curve, c->other, c->site);
   dyd_surd_point_clear(&c->sample.spot.at);
   mpz_clear(c->sample.num);
 }
@@ -501,9 +498,7 @@ static dyd_status links_init(links *l, size_t count) {
 }
 
 static void links_clear(links *l) {
-  free(l->done);
-  free(l->last);
-  free(l->next);
+  dyd_free_all(l->done, l->last, l->next);
 }
 
 static bool same_spot(const dyd_spot *p, const dyd_spot *q) {

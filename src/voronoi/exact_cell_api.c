@@ -8,7 +8,6 @@
 #include "base/alloc.h"
 #include "delaunay/memory.h"
 #include "predicate/circle.h"
-#include "predicate/predicate_filter.h"
 #include "voronoi/exact_cell.h"
 #include "voronoi/sample.h"
 

@@ -13,7 +13,6 @@
 #include "base/alloc.h"
 
 #include <dyadel/voronoi.h>
-#include <string.h>
 
 /* ---- does a side of the query meet Pos_i? ----
  *
@@ -205,8 +204,7 @@ static void query_clear(query *q) {
   for (size_t k = 0; k < q->made; k++)
     for (int n = 0; n < 4; n++) mpq_clear(q->site[k].e[n]);
   for (int n = 0; n < 4; n++) mpq_clear(q->e[n]);
-  free(q->site);
-  free(q->vertex);
+  dyd_free_all(q->site, q->vertex);
 }
 
 static dyd_status query_load_sites(query *q) {

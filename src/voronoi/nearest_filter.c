@@ -53,8 +53,7 @@ static bool search_consider(search *s, uint32_t v) {
   double lower = dyd_ds2_lower(&s->q, &b);
   if (lower > s->bound) return true;
   if (!s->pd->sk.mesh.no_filter) search_lower_bound(s, &b);
-  s->failed = !dyd_reserve((void **)&s->vertex, &s->vertex_cap, s->count + 1, sizeof *s->vertex) ||
-              !dyd_reserve((void **)&s->lower, &s->lower_cap, s->count + 1, sizeof *s->lower);
+  s->failed = !DYD_GROW(s->vertex, s->vertex_cap, s->count + 1) || !DYD_GROW(s->lower, s->lower_cap, s->count + 1);
   if (s->failed) return false;
   s->vertex[s->count] = v;
   s->lower[s->count++] = lower;

@@ -9,10 +9,8 @@
  * only one beginning has a box that meets the box of the end, it is that one. */
 #include "voronoi/outline_filter.h"
 
-#include "delaunay/memory.h"
 #include "rect/sites_table.h"
 
-#include <dyadel/voronoi.h>
 #include <stdlib.h>
 
 /* ---- points ---- */

@@ -372,8 +372,7 @@ static dyd_status cut_polygon(dyd_polygon_list *out, dyd_polygon *p, const windo
   for (size_t k = 0; k < count && st == DYD_OK; k++)
     if (!c[k].out && !c[k].used) st = take_ring(&out->item[out->count++], c, count, k, p, side, w, bits);
   for (size_t k = 0; k < count; k++) mpq_clear(c[k].at);
-  free(c);
-  free(side);
+  dyd_free_all(c, side);
   return st;
 }
 

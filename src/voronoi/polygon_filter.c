@@ -68,7 +68,7 @@ static size_t grid_extend(grid_point *chain, size_t kept, size_t floor, grid_poi
 /* As dyd_polygon_make_convex. The hull is made behind the vertices. */
 static dyd_status grid_make_convex(grid_polygon *p) {
   size_t n = p->count, kept = 0;
-  if (!dyd_reserve((void **)&p->vertex, &p->cap, 3 * n + 1, sizeof *p->vertex)) return DYD_E_NOMEM;
+  if (!DYD_GROW(p->vertex, p->cap, 3 * n + 1)) return DYD_E_NOMEM;
   grid_point *z = p->vertex, *chain = z + n;
   qsort(z, n, sizeof *z, compare_grid);
   for (size_t k = 0; k < n; k++) kept = grid_extend(chain, kept, 0, z[k]);
@@ -218,7 +218,7 @@ static dyd_status grid_samples(grid_work *w) {
     if (st != DYD_OK) return st;
     if (w->samples + steps > SAMPLES) w->known = false;
     if (!w->known) return DYD_OK;
-    if (!dyd_reserve((void **)&w->sample, &w->sample_cap, w->samples + steps, sizeof *w->sample)) return DYD_E_NOMEM;
+    if (!DYD_GROW(w->sample, w->sample_cap, w->samples + steps)) return DYD_E_NOMEM;
     for (uint32_t s = 0; s < steps; s++) w->sample[w->samples++] = (grid_sample){part, s ? part : before, s, steps};
   }
   return DYD_OK;
@@ -388,7 +388,7 @@ typedef bool (*grid_place)(grid_point *z, grid_work *w, const grid_sample *s, in
 
 static dyd_status grid_place_all(grid_work *w, grid_place place) {
   grid_polygon *p = &w->polygon;
-  if (!dyd_reserve((void **)&p->vertex, &p->cap, 2 * w->samples + 1, sizeof *p->vertex)) return DYD_E_NOMEM;
+  if (!DYD_GROW(p->vertex, p->cap, 2 * w->samples + 1)) return DYD_E_NOMEM;
   p->count = 0;
   for (size_t k = 0; k < w->samples && w->known; k++) {
     int extra = FIRST_EXTRA;
@@ -475,8 +475,7 @@ dyd_status dyd_filter_polygons(bool *done, dyd_shape *s, const dyd_delaunay *pd,
   bool loaded;
   dyd_status st = dyd_outline_load(&loaded, w.o, pd, i, dyd_least_at(pd, i, window->proved));
   if (st == DYD_OK && loaded) st = grid_shape(done, s, &w, window);
-  free(w.sample);
-  free(w.polygon.vertex);
+  dyd_free_all(w.sample, w.polygon.vertex);
   mpq_clears(w.end[0][0], w.end[0][1], w.end[1][0], w.end[1][1], w.away[0], w.away[1], NULL);
   dyd_rect_clear(&w.rect);
   s->in_doubles = s->on_grid = *done;

@@ -4,11 +4,8 @@
 
 #include "base/alloc.h"
 #include "base/index.h"
-#include "delaunay/memory.h"
 #include "dyadic/raw.h"
 #include "predicate/circle.h"
-
-#include <string.h>
 
 /* ---- the sites of a cell ---- */
 
@@ -31,8 +28,7 @@ dyd_status dyd_cell_sites_init(dyd_cell_sites *s, const dyd_delaunay *pd, uint32
 
 void dyd_cell_sites_clear(dyd_cell_sites *s) {
   for (size_t k = 0; k < s->count; k++) dyd_rect_clear(&s->other[k]);
-  free(s->other);
-  free(s->site);
+  dyd_free_all(s->other, s->site);
   dyd_rect_clear(&s->own);
 }
 
@@ -220,7 +216,7 @@ dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const
     if (out->count + steps > (out->most ? out->most : DYD_MOST_SAMPLES)) return DYD_E_RANGE;
     uint64_t bytes = dyd_bytes_times(out->count + steps, bytes_of_sample(bits));
     if (room && !dyd_room_has(room, bytes, "the corners of a polygon")) return DYD_E_NOMEM;
-    if (!dyd_reserve((void **)&out->item, &out->cap, out->count + steps, sizeof *out->item)) return DYD_E_NOMEM;
+    if (!DYD_GROW(out->item, out->cap, out->count + steps)) return DYD_E_NOMEM;
     for (uint32_t step = 0; step < steps; step++)
       out->item[out->count++] = (dyd_arc_sample){arc, step ? arc : before, step, steps};
   }

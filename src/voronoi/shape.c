@@ -5,7 +5,6 @@
 #include "base/alloc.h"
 #include "base/flag.h"
 #include "delaunay/ties.h"
-#include "voronoi/outline_filter.h"
 
 #include <math.h>
 #include <mpfr.h>
@@ -166,9 +165,9 @@ static dyd_status centre_on_grid(int64_t n[2], const dyd_delaunay *pd, uint32_t 
 /* ---- partners ---- */
 
 static bool star_add(dyd_shape *s, uint32_t n, uint32_t v) {
-  if (!dyd_reserve((void **)&s->fan, &s->fan_cap, n + 1, sizeof *s->fan)) return false;
-  if (!dyd_reserve((void **)&s->key, &s->key_cap, n + 1, sizeof *s->key)) return false;
-  if (!dyd_reserve((void **)&s->fan_box, &s->box_cap, n + 1, sizeof *s->fan_box)) return false;
+  if (!DYD_GROW(s->fan, s->fan_cap, n + 1)) return false;
+  if (!DYD_GROW(s->key, s->key_cap, n + 1)) return false;
+  if (!DYD_GROW(s->fan_box, s->box_cap, n + 1)) return false;
   s->fan[n] = v;
   s->key[n] = DYD_NONE;
   return true;
@@ -246,10 +245,7 @@ static void clipping_clear(clipping *c) {
     mpz_clears(c->now[k].x, c->now[k].y, c->now[k].d, c->next[k].x, c->next[k].y, c->next[k].d, NULL);
     mpz_clears(c->plane[k].a, c->plane[k].b, c->plane[k].c, NULL);
   }
-  free(c->now);
-  free(c->next);
-  free(c->plane);
-  free(c->sign);
+  dyd_free_all(c->now, c->next, c->plane, c->sign);
   mpz_clear(c->t);
   scaled_clear(&c->point);
 }
@@ -374,7 +370,7 @@ static dyd_status corner_coordinate(double *out, clipping *c, const corner *z, i
 static dyd_status clip_deliver(dyd_shape *s, clipping *c, const dyd_window *w) {
   dyd_status st = DYD_OK;
   mpq_t area2;
-  if (!dyd_reserve((void **)&s->inner, &s->inner_cap, c->count + 1, sizeof *s->inner)) return DYD_E_NOMEM;
+  if (!DYD_GROW(s->inner, s->inner_cap, c->count + 1)) return DYD_E_NOMEM;
   s->inner_count = (uint32_t)c->count;
   for (size_t k = 0; k < c->count && st == DYD_OK; k++) {
     st = corner_coordinate(&s->inner[k].x, c, &c->now[k], 0, w);
@@ -460,7 +456,7 @@ dyd_status dyd_shape_edges(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, con
   if (st == DYD_OK) st = clip_all(&c, pd, v, s->fan, degree, w);
   if (st == DYD_OK) st = clip_deliver(s, &c, w);
   size_t room = st == DYD_OK ? c.count : 0;
-  if (!dyd_reserve((void **)&s->across, &s->across_cap, room + 1, sizeof *s->across)) st = DYD_E_NOMEM;
+  if (!DYD_GROW(s->across, s->across_cap, room + 1)) st = DYD_E_NOMEM;
   for (size_t k = 0; k < room && st == DYD_OK; k++) {
     const dyd_xy *z = &s->inner[k], *next = &s->inner[k + 1 == room ? 0 : k + 1];
     if (z->x == next->x && z->y == next->y) continue;
@@ -487,7 +483,7 @@ static dyd_status dyd_point_cell(bool *done, dyd_shape *s, const dyd_delaunay *p
   if (st != DYD_OK) return st;
   drop_repeated(s);
   s->outer_count = s->inner_count;
-  if (!dyd_reserve((void **)&s->outer, &s->outer_cap, s->inner_count + 1, sizeof *s->outer)) return DYD_E_NOMEM;
+  if (!DYD_GROW(s->outer, s->outer_cap, s->inner_count + 1)) return DYD_E_NOMEM;
   for (uint32_t k = 0; k < s->inner_count; k++) s->outer[k] = s->inner[k];
   s->rounding = ldexp(1, -w->grid - 1);
   *done = s->in_doubles = s->exact = true;
@@ -526,13 +522,7 @@ dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect) {
 void dyd_shape_clear(dyd_shape *s) {
   dyd_polygon_list_clear(&s->outer_exact);
   dyd_polygon_clear(&s->inner_exact);
-  free(s->inner);
-  free(s->outer);
-  free(s->fan);
-  free(s->fan_box);
-  free(s->key);
-  free(s->across);
-  free(s->outline);
+  dyd_free_all(s->inner, s->outer, s->fan, s->fan_box, s->key, s->across, s->outline);
   *s = (dyd_shape){0};
 }
 

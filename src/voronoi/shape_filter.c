@@ -14,7 +14,6 @@
 #include "base/alloc.h"
 #include "predicate/interval_filter.h"
 #include "voronoi/shape.h"
-#include "voronoi/vertex_filter.h"
 
 #include <math.h>
 
@@ -37,8 +36,8 @@ static dyd_status shape_find_fan(bool *done, uint32_t *degree, dyd_shape *s, con
   if (first == DYD_NONE) return DYD_OK;
   do {
     if (!dyd_triangle_is_sure(pd, dyd_edge_triangle(h))) return DYD_OK;
-    if (!dyd_reserve((void **)&s->fan, &s->fan_cap, n + 1, sizeof *s->fan)) return DYD_E_NOMEM;
-    if (!dyd_reserve((void **)&s->fan_box, &s->box_cap, n + 1, sizeof *s->fan_box)) return DYD_E_NOMEM;
+    if (!DYD_GROW(s->fan, s->fan_cap, n + 1)) return DYD_E_NOMEM;
+    if (!DYD_GROW(s->fan_box, s->box_cap, n + 1)) return DYD_E_NOMEM;
     s->fan[n] = dyd_edge_target(m, h);
     dyd_sites_get_d(s->fan_box[n].e, pd->sk.rects.sites, pd->sk.reps.site[s->fan[n]]);
     n++;
@@ -166,8 +165,8 @@ dyd_status dyd_filter_shape(bool *done, dyd_shape *s, const dyd_delaunay *pd, ui
   bool found;
   dyd_status st = shape_find_fan(&found, &degree, s, pd, v);
   if (st != DYD_OK || !found) return st;
-  if (!dyd_reserve((void **)&s->inner, &s->inner_cap, degree, sizeof *s->inner)) return DYD_E_NOMEM;
-  if (!dyd_reserve((void **)&s->outer, &s->outer_cap, degree, sizeof *s->outer)) return DYD_E_NOMEM;
+  if (!DYD_GROW(s->inner, s->inner_cap, degree)) return DYD_E_NOMEM;
+  if (!DYD_GROW(s->outer, s->outer_cap, degree)) return DYD_E_NOMEM;
   dyd_xy o = pd->sk.reps.xy[v];
   dyd_bbox own;
   dyd_sites_get_d(own.e, pd->sk.rects.sites, pd->sk.reps.site[v]);

@@ -173,7 +173,7 @@ dyd_status dyd_filter_point_cell(bool *done, dyd_shape *s, const dyd_delaunay *p
   if (!(area2.hi - area2.lo <= 0x1p-20 * area2.lo)) return DYD_OK;
   s->area[0] = dyd_down(area2.lo / 2);
   s->area[1] = dyd_up(area2.hi / 2);
-  if (!dyd_reserve((void **)&s->inner, &s->inner_cap, degree, sizeof *s->inner)) return DYD_E_NOMEM;
+  if (!DYD_GROW(s->inner, s->inner_cap, degree)) return DYD_E_NOMEM;
   for (; s->inner_count < degree; s->inner_count++) {
     const double *e = s->fan_box[s->inner_count].e;
     dyd_xy *z = &s->inner[s->inner_count];
@@ -289,8 +289,8 @@ static void region_cut(region_lists *at, search *s, const dyd_bbox *c) {
 /* *out = a copy of the lists, behind them. */
 static void region_copy_lists(region_lists *out, search *s, const region_lists *at) {
   *out = (region_lists){at->sites + at->site_count, at->site_count, at->pairs + at->pair_count, at->pair_count};
-  if (!dyd_reserve((void **)&s->list, &s->list_cap, out->sites + out->site_count, sizeof *s->list) ||
-      !dyd_reserve((void **)&s->pair, &s->pair_cap, out->pairs + out->pair_count, sizeof *s->pair)) {
+  if (!DYD_GROW(s->list, s->list_cap, out->sites + out->site_count) ||
+      !DYD_GROW(s->pair, s->pair_cap, out->pairs + out->pair_count)) {
     s->st = DYD_E_NOMEM;
     return;
   }
@@ -360,8 +360,7 @@ dyd_status dyd_filter_region(dyd_bbox *box, bool *any, const dyd_delaunay *pd, c
   dyd_bbox c = *box;
   s.site = dyd_alloc(sites->count, sizeof *s.site);
   s.in = dyd_alloc(sites->count, sizeof *s.in);
-  if (!s.site || !s.in || !dyd_reserve((void **)&s.list, &s.list_cap, sites->count, sizeof *s.list) ||
-      !dyd_reserve((void **)&s.pair, &s.pair_cap, pairs->count, sizeof *s.pair))
+  if (!s.site || !s.in || !DYD_GROW(s.list, s.list_cap, sites->count) || !DYD_GROW(s.pair, s.pair_cap, pairs->count))
     s.st = DYD_E_NOMEM;
   if (s.st == DYD_OK) {
     region_load(&s, pd, pairs, sites);
@@ -371,9 +370,6 @@ dyd_status dyd_filter_region(dyd_bbox *box, bool *any, const dyd_delaunay *pd, c
     *any = s.any;
     if (s.any) *box = c;
   }
-  free(s.pair);
-  free(s.list);
-  free(s.in);
-  free(s.site);
+  dyd_free_all(s.pair, s.list, s.in, s.site);
   return s.st;
 }
