@@ -29,7 +29,11 @@ typedef struct dyd_stage_row {
   dyd_delaunay_counters rungs; /* decisions since the start, by rung */
   uint64_t calls;              /* stream calls since the start */
   uint64_t digest;             /* of all pairs with their statuses (FNV-1a, 64 bits) */
-  double seconds;              /* wall clock since the start of the run, the making of this table included */
+  /* Known a priori from the rectangles of this stage (dyd_converge_options.rates): of any that are narrower, at most w
+   * wide, the Hausdorff distance is at most 2^rate w, where that is at most 2^-rate_from [RATE-1]. */
+  bool rated;
+  int64_t rate, rate_from;
+  double seconds; /* wall clock since the start of the run, the making of this table included */
 } dyd_stage_row;
 
 /* What a table is about. */
@@ -51,6 +55,8 @@ typedef struct dyd_convergence {
   dyd_engine_options *options; /* as given to the run, pointers and callbacks aside; NULL before the run */
   dyd_rect *window;            /* of the bounds of V or of the bisector; NULL when there is none */
   dyd_converge_of of;
+  bool sought;        /* dyd_converge_options.hindsight was given: */
+  uint64_t best_bits; /* see there; 0: not known */
 } dyd_convergence;
 DYD_API void dyd_convergence_clear(dyd_convergence *c);
 
@@ -82,6 +88,13 @@ typedef struct dyd_converge_options {
   /* when it points to a non-zero value, bounds not known by then are omitted from rows; NULL: never. At the
    * deadline and when the engine is cancelled, dyd_converge_run omits them without this flag */
   const volatile int *cancel;
+  bool rates; /* of plane rectangles: rows say what is known a priori, from the first one for which that is */
+  /* Not 0: after a run whose goal holds (decided, or a bound of the triangulation), the least sum of bits is sought by
+   * which it could have held, had all answers been known: best_bits. At most this number of triangulations is tried,
+   * each of all points; the search grows with the power of the number of points, so that few points are meant. Point by
+   * point the bits are from those of the first stage to twice the most that the run asked for, and the answer is that
+   * of expressions, multiples of 2^-(bits + 2) about the point, which is narrowed for this after the run. */
+  uint64_t hindsight;
 } dyd_converge_options;
 
 /* Runs e as dyd_engine_run does, callbacks of options included, and notes a row after each stage. *out, given cleared,

@@ -76,6 +76,8 @@ typedef struct cli_options {
   bool max_bits_set;
   bool no_times, no_header;
   dyd_converge_of of;
+  const char *modulus; /* A:B */
+  uint64_t hindsight;
   const char *label;
   bool discs;         /* delaunay: radii are discs */
   bool sphere, plane; /* points are longitude and latitude on a sphere; coordinates of a plane, whatever named */

@@ -14,6 +14,7 @@ typedef struct converge_run {
   dyd_converge_options how;
   dyd_voronoi_bounds bounds;
   dyd_status replayed; /* how a replay ended */
+  int64_t from, to;    /* --modulus */
 } converge_run;
 
 /* By the name of the plot's file; false when no format of that ending holds a plot. */
@@ -32,13 +33,55 @@ static bool is_piece(const cli_session *s) {
   return s->o.of >= DYD_CONVERGE_DISC;
 }
 
+/* Reads --modulus, and sets what it implies. */
+static bool read_modulus(cli_session *s) {
+  cli_options *o = &s->o;
+  converge_run *r = s->state;
+  int end = 0;
+  enum { MOST = 1000000 };
+  if (!o->modulus) return true;
+  long long from = 0, to = 0;
+  if (sscanf(o->modulus, "%9lld:%9lld%n", &from, &to, &end) != 2 || o->modulus[end] || from > to || from < -MOST ||
+      to > MOST)
+    return false;
+  r->from = from;
+  r->to = to;
+  r->how.rates = true;
+  if (o->engine.goal == DYD_GOAL_DECIDED) o->engine.goal = DYD_GOAL_HAUSDORFF;
+  if (o->engine.goal_bits < to) o->engine.goal_bits = to;
+  if (!o->engine.step_bits) o->engine.step_bits = 1;
+  if (!o->start_set) o->engine.start_bits = 1;
+  return o->start_set = true;
+}
+
+/* False after a message about --modulus or --hindsight. ranged: the former is well-formed. */
+static bool experiment_fits(const cli_options *o, bool ranged) {
+  if (!ranged)
+    cli_complain("--modulus \"%s\" is not A:B; give two whole numbers, the lower one first: --modulus 0:40",
+                 o->modulus);
+  else if (o->modulus && (o->sphere || o->discs || o->format == DYD_FORMAT_HTML))
+    cli_complain("--modulus is about rectangles in the plane, as csv or json; remove %s", o->sphere  ? "--sphere"
+                                                                                          : o->discs ? "--discs"
+                                                                                                     : "html");
+  else if (o->hindsight && (o->sphere || o->discs || o->of != DYD_CONVERGE_DELAUNAY))
+    cli_complain("--hindsight is about the triangulation of rectangles in the plane; remove %s", o->sphere  ? "--sphere"
+                                                                                                 : o->discs ? "--discs"
+                                                                                                            : "--of");
+  else if (o->replay && (o->modulus || o->hindsight))
+    cli_complain("--replay repeats a table as it was; remove --%s", o->modulus ? "modulus" : "hindsight");
+  else
+    return true;
+  return false;
+}
+
 static int converge_begin(cli_session *s) {
   const cli_options *o = &s->o;
   converge_run *r = s->state;
   dyd_format format;
   r->table = (dyd_convergence){DYD_SIZED(dyd_convergence)};
-  r->how = (dyd_converge_options){DYD_SIZED(dyd_converge_options), .of = o->of};
+  r->how = (dyd_converge_options){DYD_SIZED(dyd_converge_options), .of = o->of, .hindsight = o->hindsight};
   dyd_voronoi_bounds_init(&r->bounds);
+  const bool ranged = read_modulus(s);
   if (o->of == DYD_CONVERGE_VORONOI) s->o.engine.goal = cli_voronoi_goal(o->engine.goal);
   if (!o->start_set) s->o.engine.start_bits = 4;
   if (o->plot && !plot_format(&format, o->plot))
@@ -48,6 +91,8 @@ static int converge_begin(cli_session *s) {
     cli_complain("--label \"%s\" is not understood; give NAME=VALUE,NAME=VALUE without quotes and "
                  "backslashes, names that differ, and none that is a column of the table",
                  o->label);
+  else if (!experiment_fits(o, ranged))
+    return CLI_USAGE;
   else if (is_piece(s) && o->format == DYD_FORMAT_HTML)
     cli_complain("html shows the triangulation of all points; remove --of %s, or give another format",
                  dyd_converge_of_text(o->of));
@@ -141,7 +186,10 @@ static dyd_status converge_write(FILE *out, const cli_session *s, dyd_error *err
                                  .label = o->label,
                                  .style = &o->style,
                                  .comments = cli_comments(out, s),
-                                 .no_header = o->no_header};
+                                 .no_header = o->no_header,
+                                 .modulus = o->modulus != NULL,
+                                 .modulus_from = ((const converge_run *)s->state)->from,
+                                 .modulus_to = ((const converge_run *)s->state)->to};
   return dyd_write(out, s->engine, o->content, o->format, &how, err);
 }
 
@@ -180,7 +228,10 @@ static int discs_summary(cli_session *s, int status) {
 }
 
 static int converge_summary(cli_session *s, int status) {
+  const dyd_convergence *table = &((converge_run *)s->state)->table;
   note_steps(s);
+  if (s->o.hindsight && !table->best_bits)
+    cli_note(&s->o, "no best plan was found in hindsight (raise --hindsight, or take fewer points)");
   if (s->sphere) return cli_sphere_summary(s, status);
   if (is_piece(s)) return status ? status : cli_pieces_outcome(s);
   if (!status) status = note_cut(s);

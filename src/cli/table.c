@@ -220,6 +220,17 @@ const cli_option cli_option_table[] = {
      "diagram as\n"
      "well: they cost most); disc (of the first three points, and\nCon of the others); bisector (of the first two)",
      AT(of), WORDS("delaunay voronoi disc bisector")},
+    {"modulus", 0, "A:B", CLI_TEXT, BIT(CLI_CONVERGE), CLI_REFINEMENT,
+     "instead of stages: for each m from A to B the first stage with\na distance of at most 2^-m (with --until area:M, "
+     "an area),\nthe bits asked of all points and of one, and the bits known a\npriori to suffice; steps of 1 bit from "
+     "1 on "
+     "(--step-bits,\n--start-bits), until 2^-B is reached",
+     AT(modulus)},
+    {"hindsight", 0, "K", CLI_INTEGER, BIT(CLI_CONVERGE), CLI_REFINEMENT,
+     "column ratio: bits_total to the least bits by which the goal\ncould have been reached; of few points, found with "
+     "up "
+     "to K\ntriangulations",
+     AT(hindsight), RANGE(1, (long long)1 << 40)},
     {"max-bits", 0, "B", CLI_INTEGER, REFINE, CLI_REFINEMENT,
      "precision at which to give up (default 4096, of check 192)", AT(engine.max_bits), RANGE(1, DYD_EXP_LIMIT),
      GIVEN(max_bits_set)},
@@ -255,7 +266,8 @@ const cli_option cli_option_table[] = {
 
     {"window", 0, "XLO,XHI,YLO,YHI", CLI_WINDOW, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_OUTPUT,
      "part of the plane, exact numbers;\nvoronoi, converge, check: of the diagram (default: the box of the\n"
-     "points enlarged by half);\ndelaunay, tolerance: what svg, pdf, png and html show (default: all),\nother formats "
+     "points enlarged by half);\ndelaunay, "
+     "tolerance: what svg, pdf, png and html show (default: all),\nother formats "
      "list everything all the same;\nwith "
      "--sphere: the degrees that svg, pdf and png show;\n"
      "plan: only pairs with an end in it are to be decided",

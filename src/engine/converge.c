@@ -12,6 +12,7 @@
 #include "base/flag.h"
 #include "delaunay/memory.h"
 #include "engine/goal_voronoi.h"
+#include "engine/hindsight.h"
 #include "engine/record.h"
 #include "metric/bounds.h"
 #include <dyadel/metric.h>
@@ -221,6 +222,27 @@ static dyd_status measure_voronoi(dyd_stage_row *row, const dyd_convergence *out
   return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
+/* Where all pairs are legal, edges have the ends of their rectangles, whose diameter is at most sqrt(2) w. */
+static dyd_status row_rate(dyd_stage_row *row, const dyd_convergence *out, const dyd_delaunay *pd,
+                           const volatile int *cancel) {
+  if (out->count && out->row[out->count - 1]->rated) {
+    const dyd_stage_row *last = out->row[out->count - 1];
+    row->rated = true;
+    row->rate = last->rate;
+    row->rate_from = last->rate_from;
+    return DYD_OK;
+  }
+  row->rate_from = INT64_MIN;
+  row->rate = 1;
+  if (out->of == DYD_CONVERGE_DELAUNAY) {
+    row->rated = row->count[DYD_INDETERMINATE] + row->count[DYD_TIE] == 0 && !dyd_delaunay_is_capped(pd);
+    return DYD_OK;
+  }
+  if (!out->window || dyd_delaunay_is_capped(pd)) return DYD_OK;
+  dyd_status st = dyd_metric_voronoi_rate(&row->rate, &row->rated, pd, out->window, cancel);
+  return st == DYD_E_NOMEM ? st : DYD_OK;
+}
+
 /* discs: their statuses; NULL: those of rectangles, or those of o->pairs. */
 static dyd_status row_measure(dyd_stage_row *row, const dyd_delaunay *pd, const dyd_pair_list *discs,
                               const dyd_converge_options *o) {
@@ -259,6 +281,7 @@ dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const 
   st = discs ? row_discs(r, pd, &o, err) : row_measure(r, pd, NULL, &o);
   if (st == DYD_OK && o.of == DYD_CONVERGE_VORONOI) st = convergence_set_window(out, dyd_delaunay_sites(pd), o.window);
   if (st == DYD_OK && out->window) st = measure_voronoi(r, out, pd, discs, o.cancel);
+  if (st == DYD_OK && o.rates && !discs && !o.pairs) st = row_rate(r, out, pd, o.cancel);
   if (st != DYD_OK) {
     row_free(r);
     return err && err->code == st ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
@@ -386,6 +409,7 @@ static dyd_status piece_bisector(dyd_stage_row *row, const piece_run *p) {
   if (st == DYD_OK) st = convergence_set_window(out, two, p->r->o->window ? p->r->o->window : p->r->converge->window);
   if (st == DYD_OK && out->window) st = dyd_delaunay_new(&pd, two, NULL, NULL);
   if (st == DYD_OK && pd) st = measure_voronoi(row, out, pd, false, p->r->converge->cancel);
+  if (st == DYD_OK && pd && p->r->converge->rates) st = row_rate(row, out, pd, p->r->converge->cancel);
   row->bounded = row->voronoi;
   row->voronoi = false;
   dyd_dyadic_swap(&row->area, &row->v_area);
@@ -409,6 +433,8 @@ static dyd_status piece_disc(dyd_stage_row *row, const piece_run *p) {
   dyd_dyadic_swap(&row->area, &b.area);
   dyd_dyadic_swap(&row->hausdorff, &b.hausdorff);
   dyd_voronoi_bounds_clear(&b);
+  if (st == DYD_OK && p->r->converge->rates)
+    st = dyd_metric_disc_rate(&row->rate, &row->rate_from, &row->rated, &r[0], &r[1], &r[2]);
   return st;
 }
 
@@ -510,6 +536,7 @@ dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engin
   if (st == DYD_OK) st = note_options(out, &given, err);
   if (st != DYD_OK) return st;
   if (!c.cancel) c.cancel = &e->stop;
+  out->sought = c.hindsight != 0;
   o = given;
   o.progress = recorder_stage;
   o.progress_user = &r;
@@ -517,6 +544,8 @@ dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engin
   if (c.of >= DYD_CONVERGE_DISC) return converge_piece(&r, &given, err);
   st = dyd_goal_is_voronoi(o.goal) && !o.window ? converge_run_on_default(&r, &o, err)
                                                 : dyd_engine_run(&out->outcome, e, &o, err);
+  if (st == DYD_OK && r.failed == DYD_OK && c.hindsight && !given.discs && !c.pairs)
+    st = dyd_hindsight_find(&out->best_bits, e, &given, out->outcome, out->row, out->count, c.hindsight, err);
   if (st != DYD_OK || r.failed == DYD_OK) return st;
   if (err && r.why.code == r.failed) *err = r.why;
   return r.why.code == r.failed ? r.failed : dyd_fail(err, r.failed, "%s", dyd_status_text(r.failed));

@@ -16,6 +16,7 @@
  *   nearest.c       the question after the nearest sites of a computable point
  *   ties.c          proofs about true points: ties, and points that are the same place
  *   converge.c      tables of runs, stage by stage
+ *   hindsight.c     the best plan, once all is known
  *   check.c         the harness of monotone refinement */
 #ifndef DYD_ENGINE_STATE_H
 #define DYD_ENGINE_STATE_H

@@ -293,7 +293,13 @@ static dyd_status write_stages(dyd_output *to, dyd_write_options *o, dyd_error *
   if (to->content == DYD_CONTENT_PLOT) return write_what(to, o->stages, err);
   if (o->label && !dyd_label_fits(o->label))
     return dyd_fail(err, DYD_E_ARG, "the label \"%.60s\" is none; give NAME=VALUE,NAME=VALUE", o->label);
-  dyd_stage_table table = {.stages = o->stages, .times = o->times, .label = o->label, .no_header = o->no_header};
+  dyd_stage_table table = {.stages = o->stages,
+                           .times = o->times,
+                           .label = o->label,
+                           .no_header = o->no_header,
+                           .modulus = o->modulus,
+                           .from = o->modulus_from,
+                           .to = o->modulus_to};
   if (to->format != DYD_FORMAT_HTML) return write_what(to, &table, err);
   if (!to->engine || !o->history) return dyd_fail(err, DYD_E_ARG, "html shows the points: give engine and history");
   dyd_result r;

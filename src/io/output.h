@@ -39,6 +39,8 @@ typedef struct dyd_stage_table {
   const struct dyd_result *result; /* with its history (result.h), for html; NULL: none */
   const char *label;               /* well-formed, or NULL */
   bool no_header;
+  bool modulus; /* for each m from .. to, as dyd_write_options says */
+  int64_t from, to;
 } dyd_stage_table;
 /* Is it a column of such a table? */
 bool dyd_is_stage_column(const char *name, size_t length);

@@ -439,6 +439,7 @@ typedef enum stage_kind {
   STAGE_CON, /* how many points are on one side (offset), and the side of each */
   STAGE_CONS,
   STAGE_DIGEST,
+  STAGE_RATIO, /* of bits_total to the best in hindsight */
   STAGE_SECONDS
 } stage_kind;
 
@@ -481,6 +482,7 @@ static const stage_column stage_columns[] = {
     {"exact", OF_T, STAGE_INDEX, ROW(rungs.exact)},
     {"calls", OF_ANY, STAGE_INDEX, ROW(calls)},
     {"statuses", OF_T, STAGE_DIGEST, 0},
+    {"ratio", OF_T, STAGE_RATIO, 0},
     {"seconds", OF_ANY, STAGE_SECONDS, 0},
 };
 enum { STAGE_COLUMNS = sizeof stage_columns / sizeof *stage_columns };
@@ -488,7 +490,8 @@ enum { STAGE_COLUMNS = sizeof stage_columns / sizeof *stage_columns };
 /* The k-th column of the table, k <= STAGE_COLUMNS, that it has; NULL: it does not have it. */
 static const stage_column *stage_column_at(size_t k, const dyd_convergence *c, bool times) {
   const stage_column *column = &stage_columns[k];
-  return column->of & 1u << c->of && (times || column->kind != STAGE_SECONDS) ? column : NULL;
+  bool has = column->kind == STAGE_SECONDS ? times : column->kind != STAGE_RATIO || c->sought;
+  return column->of & 1u << c->of && has ? column : NULL;
 }
 
 bool dyd_is_stage_column(const char *name, size_t length) {
@@ -566,12 +569,23 @@ static void put_seconds(FILE *out, double seconds) {
   fprintf(out, "%" PRIu64 ".%03" PRIu64, thousandths / 1000, thousandths % 1000);
 }
 
+/* bits_total / best, rounded up to millionths; `unknown` where best is 0. */
+static void put_ratio(FILE *out, const dyd_stage_row *r, uint64_t best, const char *unknown) {
+  enum { UNIT = 1000000 };
+  const uint64_t whole = best ? r->bits_total / best : 0, rest = best ? r->bits_total % best : 0;
+  const uint64_t part = best ? (rest * UNIT + best - 1) / best : 0;
+  if (!best)
+    fputs(unknown, out);
+  else
+    fprintf(out, "%" PRIu64 ".%06" PRIu64, whole + part / UNIT, part % UNIT);
+}
+
 /* "3:inside 5:unknown": points by their numbers. */
 static void put_cons(FILE *out, const dyd_stage_row *r) {
   for (size_t k = 0; k < r->cons; k++) fprintf(out, "%s%zu:%s", k ? " " : "", k + 3, con_text(r->con[k]));
 }
 
-static void stage_csv(FILE *out, const stage_column *c, const dyd_stage_row *r) {
+static void stage_csv(FILE *out, const stage_column *c, const dyd_stage_row *r, uint64_t best) {
   char text[DYD_DECIMAL_SIZE] = "";
   const dyd_dyadic *x;
   switch (c->kind) {
@@ -586,6 +600,9 @@ static void stage_csv(FILE *out, const stage_column *c, const dyd_stage_row *r) 
     break;
   case STAGE_CONS:
     put_cons(out, r);
+    break;
+  case STAGE_RATIO:
+    put_ratio(out, r, best, "");
     break;
   case STAGE_SECONDS:
     put_seconds(out, row_seconds(r));
@@ -604,14 +621,105 @@ static void table_csv_row(FILE *out, const dyd_stage_table *t, const dyd_stage_r
   for (size_t k = 0; k < STAGE_COLUMNS; k++) {
     const stage_column *c = stage_column_at(k, t->stages, t->times);
     if (c && k) fputs(",", out);
-    if (c) stage_csv(out, c, r);
+    if (c) stage_csv(out, c, r, t->stages->best_bits);
   }
   fputs("\n", out);
+}
+
+/* ---- the modulus ---- */
+
+/* first: from this row on the bound is at most 2^-m; rated: the first one with a rate. NULL: there is none. */
+typedef struct modulus_row {
+  const dyd_stage_row *first, *rated;
+  int64_t apriori;
+} modulus_row;
+
+static bool modulus_is_of_area(const dyd_convergence *c) {
+  return c->options->goal == DYD_GOAL_AREA || c->options->goal == DYD_GOAL_VORONOI_AREA;
+}
+
+/* NULL: the row has none. */
+static const dyd_dyadic *modulus_bound(const dyd_convergence *c, const dyd_stage_row *r) {
+  const bool diagram = c->of == DYD_CONVERGE_VORONOI, area = modulus_is_of_area(c);
+  if (!(diagram ? r->voronoi : r->bounded)) return NULL;
+  return diagram ? area ? &r->v_area : &r->v_hausdorff : area ? &r->area : &r->hausdorff;
+}
+
+static dyd_status modulus_find(modulus_row *out, const dyd_convergence *c, int64_t m) {
+  dyd_dyadic goal;
+  *out = (modulus_row){NULL, NULL, 0};
+  dyd_dyadic_init(&goal);
+  dyd_status st = dyd_dyadic_set_si_2exp(&goal, 1, -m);
+  for (size_t k = c->count; st == DYD_OK && k-- > 0;) {
+    const dyd_dyadic *bound = modulus_bound(c, c->row[k]);
+    if (!bound || dyd_dyadic_cmp(bound, &goal) > 0) break;
+    out->first = c->row[k];
+  }
+  for (size_t k = 0; k < c->count && !out->rated && !modulus_is_of_area(c); k++)
+    if (c->row[k]->rated) out->rated = c->row[k];
+  if (out->rated) {
+    out->apriori = (m > out->rated->rate_from ? m : out->rated->rate_from) + out->rated->rate;
+    if (out->apriori < out->rated->bits_most) out->apriori = out->rated->bits_most;
+  }
+  dyd_dyadic_clear(&goal);
+  return st;
+}
+
+static dyd_status modulus_csv(const dyd_output *o, const dyd_stage_table *t) {
+  const dyd_convergence *c = t->stages;
+  dyd_status st = DYD_OK;
+  if (!t->no_header) {
+    label_csv(o->out, t->label, false);
+    fputs("m,stage,bits_total,bits_most,bound,apriori_bits,apriori_stage\n", o->out);
+  }
+  for (int64_t m = t->from; st == DYD_OK && m <= t->to; m++) {
+    modulus_row r;
+    char text[DYD_DECIMAL_SIZE] = "";
+    st = modulus_find(&r, c, m);
+    label_csv(o->out, t->label, true);
+    fprintf(o->out, "%" PRId64 ",", m);
+    if (r.first) dyd_decimal_dyadic(text, modulus_bound(c, r.first), DIGITS, DYD_UP);
+    if (r.first)
+      fprintf(o->out, "%" PRIu64 ",%" PRIu64 ",%" PRId64 ",%s,", r.first->stage, r.first->bits_total,
+              r.first->bits_most, text);
+    else
+      fputs(",,,,", o->out);
+    if (r.rated)
+      fprintf(o->out, "%" PRId64 ",%" PRIu64 "\n", r.apriori, r.rated->stage);
+    else
+      fputs(",\n", o->out);
+  }
+  return st;
+}
+
+static dyd_status modulus_json(dyd_json *j, const dyd_stage_table *t) {
+  dyd_status st = DYD_OK;
+  dyd_json_array(j, "modulus", DYD_JSON_LIST);
+  for (int64_t m = t->from; st == DYD_OK && m <= t->to; m++) {
+    modulus_row r;
+    st = modulus_find(&r, t->stages, m);
+    dyd_json_object(j, NULL, DYD_JSON_FLAT);
+    dyd_json_signed(j, "m", m);
+    if (r.first) {
+      dyd_json_index(j, "stage", r.first->stage);
+      dyd_json_index(j, "bits_total", r.first->bits_total);
+      dyd_json_signed(j, "bits_most", r.first->bits_most);
+      dyd_json_bound(j, "bound", modulus_bound(t->stages, r.first));
+    }
+    if (r.rated) {
+      dyd_json_signed(j, "apriori_bits", r.apriori);
+      dyd_json_index(j, "apriori_stage", r.rated->stage);
+    }
+    dyd_json_close(j, 1);
+  }
+  dyd_json_close(j, 1);
+  return st;
 }
 
 static dyd_status convergence_csv(const dyd_output *o) {
   const dyd_stage_table *t = o->what;
   dyd_status st = t->no_header || !o->comments ? DYD_OK : table_csv_comments(o->comments, t->stages, t->times);
+  if (st == DYD_OK && t->modulus) return modulus_csv(o, t);
   if (!t->no_header) table_csv_head(o->out, t);
   for (size_t k = 0; k < t->stages->count; k++) {
     label_csv(o->out, t->label, true);
@@ -648,7 +756,7 @@ static void stage_json_cons(dyd_json *j, const dyd_stage_row *r) {
   dyd_json_close(j, 1);
 }
 
-static void stage_json_value(dyd_json *j, const stage_column *c, const dyd_stage_row *r) {
+static void stage_json_value(dyd_json *j, const stage_column *c, const dyd_stage_row *r, uint64_t best) {
   char digest[17];
   switch (c->kind) {
   case STAGE_BITS:
@@ -661,6 +769,9 @@ static void stage_json_value(dyd_json *j, const stage_column *c, const dyd_stage
     break;
   case STAGE_CONS:
     stage_json_cons(j, r);
+    break;
+  case STAGE_RATIO:
+    put_ratio(dyd_json_file(j, c->name), r, best, "null");
     break;
   case STAGE_SECONDS:
     put_seconds(dyd_json_file(j, c->name), row_seconds(r));
@@ -679,7 +790,7 @@ static void stage_json(dyd_json *j, const dyd_stage_table *t, const dyd_stage_ro
   dyd_json_object(j, NULL, DYD_JSON_FLAT);
   for (size_t k = 0; k < STAGE_COLUMNS; k++) {
     const stage_column *c = stage_column_at(k, t->stages, t->times);
-    if (c) stage_json_value(j, c, r);
+    if (c) stage_json_value(j, c, r, t->stages->best_bits);
     if (c && k % 8 == 7) dyd_json_break(j, ",\n ");
   }
   dyd_json_close(j, 1);
@@ -694,5 +805,8 @@ dyd_status dyd_convergence_json(const dyd_output *o) {
   dyd_json_array(&j, "stages", DYD_JSON_LIST);
   for (size_t k = 0; k < t->stages->count; k++) stage_json(&j, t, t->stages->row[k]);
   dyd_json_close(&j, 1);
-  return dyd_json_end(&j, "}\n");
+  if (t->stages->sought && t->stages->best_bits) dyd_json_index(&j, "best_bits", t->stages->best_bits);
+  dyd_status st = t->modulus ? modulus_json(&j, t) : DYD_OK;
+  dyd_status ended = dyd_json_end(&j, "}\n");
+  return st == DYD_OK ? ended : st;
 }

@@ -557,6 +557,68 @@ dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, dyd_voronoi_sums *s
   return st;
 }
 
+/* ---- rates ---- */
+
+/* Raises *most to sqrt(2) (reach_i + reach_j) / gap of a pair, rounded up: times w this is at least the width of the
+ * pair for narrower rectangles of sides up to w, since reaches and gaps only come closer [HAUS-V]. */
+static dyd_status rate_add_pair(mpfr_ptr most, bool *known, const dyd_voronoi_sums *s, dyd_measure *m,
+                                const dyd_pair *pair) {
+  double reach[2];
+  dyd_voronoi_pair_reach(reach, s, pair);
+  if (reach[0] < 0) return DYD_OK;
+  mpfr_t gap, one;
+  mpfr_inits2(DYD_MEASURE_PREC, gap, one, (mpfr_ptr)0);
+  dyd_status st = pair_extent(gap, one, m, pair);
+  *known = *known && st == DYD_OK && !mpfr_zero_p(gap);
+  if (*known) {
+    mpfr_set_d(one, reach[0], MPFR_RNDU);
+    mpfr_add_d(one, one, reach[1], MPFR_RNDU);
+    mpfr_div(one, one, gap, MPFR_RNDU);
+    mpfr_sqr(gap, one, MPFR_RNDU);
+    mpfr_mul_2ui(gap, gap, 1, MPFR_RNDU);
+    mpfr_sqrt(one, gap, MPFR_RNDU);
+    mpfr_max(most, most, one, MPFR_RNDU);
+  }
+  mpfr_clears(gap, one, (mpfr_ptr)0);
+  return st;
+}
+
+/* The least e with x <= 2^e, x > 0. */
+static int64_t log2_above(mpfr_srcptr x) {
+  return (int64_t)mpfr_get_exp(x) - (mpfr_cmp_ui_2exp(x, 1, mpfr_get_exp(x) - 1) == 0);
+}
+
+static dyd_status sums_rate(int64_t *rate, bool *known, dyd_voronoi_sums *s) {
+  dyd_pair_list pairs = {0};
+  dyd_measure m;
+  mpfr_t most;
+  dyd_measure_init(&m, dyd_delaunay_sites(s->pd));
+  mpfr_init2(most, DYD_MEASURE_PREC);
+  mpfr_set_zero(most, 1);
+  *known = true;
+  dyd_status st = dyd_pairs_list(&pairs, s->pd, dyd_least_bounding(s->pd));
+  for (size_t k = 0; st == DYD_OK && *known && k < pairs.count; k++)
+    st = rate_add_pair(most, known, s, &m, &pairs.item[k]);
+  *known = *known && mpfr_number_p(most);
+  if (*known) *rate = mpfr_zero_p(most) ? 0 : log2_above(most); /* 0: nothing is undetermined in the window */
+  mpfr_clear(most);
+  dyd_measure_clear(&m);
+  dyd_pair_list_clear(&pairs);
+  return st;
+}
+
+dyd_status dyd_metric_voronoi_rate(int64_t *rate, bool *known, const dyd_delaunay *pd, const dyd_rect *window,
+                                   const volatile int *cancel) {
+  dyd_voronoi_sums s;
+  *known = false;
+  dyd_status st = dyd_voronoi_sums_init(&s, pd, window, dyd_metric_coarseness(pd, window));
+  s.cancel = cancel;
+  if (st == DYD_OK) st = dyd_voronoi_sums_all(&s, NULL, NULL);
+  if (st == DYD_OK) st = sums_rate(rate, known, &s);
+  dyd_voronoi_sums_clear(&s);
+  return st;
+}
+
 /* ---- public ---- */
 
 dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, dyd_voronoi_sums *s) {

@@ -93,6 +93,14 @@ enum { DYD_TIGHT_SITES = 512 };
 dyd_status dyd_voronoi_bounds_within(dyd_voronoi_bounds *out, const dyd_delaunay *pd, const dyd_rect *window,
                                      int64_t bits, size_t corners, bool discs, const volatile int *cancel);
 
+/* Rates: of any narrower rectangles, at most w wide, the diagram in the window is within 2^*rate w of the true one, and
+ * the disc, as both of its parts, within 2^*rate w of the true disc, where that is at most 2^-*from [RATE-1]. *known =
+ * false: rectangles of a possible pair meet, or the triple is not certainly oriented. */
+dyd_status dyd_metric_voronoi_rate(int64_t *rate, bool *known, const dyd_delaunay *pd, const dyd_rect *window,
+                                   const volatile int *cancel);
+dyd_status dyd_metric_disc_rate(int64_t *rate, int64_t *from, bool *known, const dyd_rect *a, const dyd_rect *b,
+                                const dyd_rect *c);
+
 /* bits: of the polygons to come; sums are kept so precise that rounding does not spoil what these give. */
 dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits);
 void dyd_voronoi_sums_clear(dyd_voronoi_sums *s);

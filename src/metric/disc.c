@@ -10,7 +10,8 @@
 #include <dyadel/metric.h>
 
 #include "base/abi.h"
-#include "stream/arb.h"
+#include "metric/bounds.h"
+#include "stream/ball.h"
 #include <dyadel/predicate.h>
 
 enum { SECTORS = 1024, CIRCLES = 6, INNER = 3, SPARE = 64 };
@@ -236,6 +237,121 @@ static dyd_status disc_measure(dyd_voronoi_bounds *out, const dyd_partial_disc *
   }
   sector_for_each(&s, ball_clear, end_clear);
   return st;
+}
+
+/* ---- its rate ----
+ *
+ * [RATE-1] K = 2 sqrt(2) r (a + b + c) / D = sqrt(2) a b c (a + b + c) / D^2 at its largest, D being twice the area. */
+
+/* The largest squared distance of points of a and b. */
+static void rate_longest(mpq_t out, const dyd_rect *a, const dyd_rect *b) {
+  const dyd_interval *side[2][2] = {{&a->x, &b->x}, {&a->y, &b->y}};
+  mpq_t end[2][2];
+  for (int k = 0; k < 4; k++) mpq_init(end[k / 2][k % 2]);
+  mpq_set_ui(out, 0, 1);
+  for (int k = 0; k < 2; k++) {
+    for (int m = 0; m < 2; m++) dyd_interval_get_q(end[m][0], end[m][1], side[k][m]);
+    mpq_sub(end[0][1], end[0][1], end[1][0]);
+    mpq_sub(end[1][1], end[1][1], end[0][0]);
+    mpq_abs(end[0][1], end[0][1]);
+    mpq_abs(end[1][1], end[1][1]);
+    mpq_ptr far = mpq_cmp(end[0][1], end[1][1]) > 0 ? end[0][1] : end[1][1];
+    mpq_mul(far, far, far);
+    mpq_add(out, out, far);
+  }
+  for (int k = 0; k < 4; k++) mpq_clear(end[k / 2][k % 2]);
+}
+
+/* The least |D| of a certainly oriented triple: D is affine in each coordinate, so it is that of corners. */
+static void rate_least_area(mpq_t out, const dyd_rect *const r[3]) {
+  mpq_t end[3][2][2], s, t;
+  mpq_inits(s, t, NULL);
+  for (int k = 0; k < 12; k++) mpq_init(end[k / 4][k / 2 % 2][k % 2]);
+  for (int k = 0; k < 3; k++) {
+    dyd_interval_get_q(end[k][0][0], end[k][0][1], &r[k]->x);
+    dyd_interval_get_q(end[k][1][0], end[k][1][1], &r[k]->y);
+  }
+  for (unsigned corner = 0; corner < 64; corner++) {
+    mpq_srcptr p[6];
+    for (unsigned k = 0; k < 6; k++) p[k] = end[k / 2][k % 2][corner >> k & 1];
+    mpq_t u, v;
+    mpq_inits(u, v, NULL);
+    mpq_sub(s, p[2], p[0]);
+    mpq_sub(t, p[5], p[1]);
+    mpq_mul(u, s, t);
+    mpq_sub(s, p[4], p[0]);
+    mpq_sub(t, p[3], p[1]);
+    mpq_mul(v, s, t);
+    mpq_sub(u, u, v);
+    mpq_abs(u, u);
+    if (corner == 0 || mpq_cmp(u, out) < 0) mpq_set(out, u);
+    mpq_clears(u, v, NULL);
+  }
+  for (int k = 0; k < 12; k++) mpq_clear(end[k / 4][k / 2 % 2][k % 2]);
+  mpq_clears(s, t, NULL);
+}
+
+/* The least e with x <= 2^e, from a ball about x > 0, or one more. */
+static int64_t rate_log2(arb_srcptr x) {
+  arf_t end;
+  fmpz_t exp;
+  arf_init(end);
+  fmpz_init(exp);
+  arb_get_ubound_arf(end, x, 64);
+  arf_abs_bound_le_2exp_fmpz(exp, end);
+  int64_t e = fmpz_fits_si(exp) ? fmpz_get_si(exp) : INT64_MAX / 4;
+  fmpz_clear(exp);
+  arf_clear(end);
+  return e;
+}
+
+/* The product and the sum of the longest sides. */
+static void rate_sides(arb_ptr product, arb_ptr sum, const dyd_rect *const r[3], slong prec) {
+  mpq_t q;
+  arb_t x;
+  mpq_init(q);
+  arb_init(x);
+  arb_one(product);
+  arb_zero(sum);
+  for (int k = 0; k < 3; k++) {
+    rate_longest(q, r[k], r[(k + 1) % 3]);
+    dyd_ball_set_q(x, q, prec);
+    arb_sqrt(x, x, prec);
+    arb_mul(product, product, x, prec);
+    arb_add(sum, sum, x, prec);
+  }
+  arb_clear(x);
+  mpq_clear(q);
+}
+
+dyd_status dyd_metric_disc_rate(int64_t *rate, int64_t *from, bool *known, const dyd_rect *a, const dyd_rect *b,
+                                const dyd_rect *c) {
+  const dyd_rect *const r[3] = {a, b, c};
+  enum { PREC = 96 };
+  mpq_t q;
+  arb_t product, sum, x;
+  *known = dyd_orientation(a, b, c) != DYD_UNSURE;
+  if (!*known) return DYD_OK;
+  mpq_init(q);
+  arb_init(product);
+  arb_init(sum);
+  arb_init(x);
+  rate_sides(product, sum, r, PREC);
+  rate_least_area(q, r);
+  dyd_ball_set_q(x, q, PREC);
+  arb_mul(product, product, sum, PREC);
+  arb_div(sum, sum, x, PREC); /* at least 1 / r, since D / (a + b + c) is the radius of the inscribed circle */
+  *from = rate_log2(sum);
+  arb_sqr(x, x, PREC);
+  arb_div(product, product, x, PREC);
+  arb_sqrt_ui(x, 2, PREC);
+  arb_mul(product, product, x, PREC);
+  *rate = rate_log2(product);
+  arb_clear(x);
+  arb_clear(sum);
+  arb_clear(product);
+  mpq_clear(q);
+  return DYD_OK;
 }
 
 dyd_status dyd_metric_disc(dyd_voronoi_bounds *out, const dyd_rect *a, const dyd_rect *b, const dyd_rect *c) {

@@ -108,7 +108,8 @@ static PyMethodDef engine_methods[] = {
      "tolerance(up_to or None, points, max_pairs, sigma, box) -> (rows, (lo, hi), radii or None, chances or None)"},
     {"plan", dydpy_plan, METH_VARARGS,
      "plan(accuracy or None, window or None, site or None) -> (rows, (undecided, ties, left))"},
-    {"converge", dydpy_converge, METH_VARARGS, "converge(options, window or None, of, times) -> (outcome, csv, svg)"},
+    {"converge", dydpy_converge, METH_VARARGS,
+     "converge(options, window or None, of, times, hindsight, (from, to) or None) -> (outcome, csv, svg)"},
     {NULL, NULL, 0, NULL},
 };
 

@@ -129,14 +129,19 @@ PyObject *dydpy_recall(PyObject *object, PyObject *args) {
 /* ---- runs stage by stage, as tables ---- */
 
 /* Writes the table, or draws it, whatever the run returned. */
-static PyObject *table_text(const dyd_convergence *table, const char *name, bool times) {
+static PyObject *table_text(const dyd_convergence *table, const char *name, bool times, const long long *modulus) {
   dyd_format format;
   dydpy_text text;
   dyd_error err;
   dyd_error_clear(&err);
   if (!dyd_format_from_name(&format, name)) return PyErr_Format(PyExc_ValueError, "there is no format \"%s\"", name);
   if (!dydpy_text_open(&text)) return NULL;
-  const dyd_write_options o = {DYD_SIZED(dyd_write_options), .stages = table, .times = times};
+  const dyd_write_options o = {DYD_SIZED(dyd_write_options),
+                               .stages = table,
+                               .times = times,
+                               .modulus = modulus != NULL,
+                               .modulus_from = modulus ? modulus[0] : 0,
+                               .modulus_to = modulus ? modulus[1] : 0};
   bool rows = dyd_format_holds(format, DYD_CONTENT_CONVERGENCE);
   dyd_status st = dyd_write(text.file, NULL, rows ? DYD_CONTENT_CONVERGENCE : DYD_CONTENT_PLOT, format, &o, &err);
   if (st < 0) dydpy_raise(&err, st);
@@ -144,11 +149,11 @@ static PyObject *table_text(const dyd_convergence *table, const char *name, bool
 }
 
 /* (outcome, csv, svg) of a table, which is cleared; NULL unless the call that made it went well. */
-static PyObject *table_found(bool good, dyd_convergence *table, bool times) {
+static PyObject *table_found(bool good, dyd_convergence *table, bool times, const long long *modulus) {
   PyObject *found = NULL;
   if (good)
-    found = Py_BuildValue("sNN", dyd_outcome_text(table->outcome), table_text(table, "csv", times),
-                          table_text(table, "svg", times));
+    found = Py_BuildValue("sNN", dyd_outcome_text(table->outcome), table_text(table, "csv", times, modulus),
+                          table_text(table, "svg", times, NULL));
   dyd_convergence_clear(table);
   return found;
 }
@@ -164,28 +169,31 @@ PyObject *dydpy_replay(PyObject *module, PyObject *args) {
   if (!in) return NULL;
   bool good = dydpy_begin(&c, NULL, 0) && dydpy_end(&c, dyd_trace_replay(&table, in, NULL, &c.err));
   fclose(in);
-  return table_found(good, &table, false);
+  return table_found(good, &table, false, NULL);
 }
 
 PyObject *dydpy_converge(PyObject *self, PyObject *args) {
-  PyObject *dict, *window;
+  PyObject *dict, *window, *range;
   int times;
   unsigned of;
+  unsigned long long hindsight;
+  long long modulus[2];
   bool windowed = false;
   dyd_convergence table = {DYD_SIZED(dyd_convergence)};
   dydpy_options o;
   dyd_rect view;
   dydpy_call c;
-  if (!PyArg_ParseTuple(args, "O!OIp", &PyDict_Type, &dict, &window, &of, &times)) return NULL;
+  if (!PyArg_ParseTuple(args, "O!OIpKO", &PyDict_Type, &dict, &window, &of, &times, &hindsight, &range)) return NULL;
+  if (range != Py_None && !PyArg_ParseTuple(range, "LL", &modulus[0], &modulus[1])) return NULL;
   if (dydpy_options_init(&o, (dydpy_engine *)self, dict) < 0) return NULL;
   dyd_rect_init(&view);
   bool good = dydpy_window(&view, &windowed, window) == 0 && dydpy_begin(&c, self, DYDPY_REFINES);
   const dyd_converge_options how = {DYD_SIZED(dyd_converge_options), .window = windowed ? &view : NULL,
-                                    .of = (dyd_converge_of)of};
+                                    .of = (dyd_converge_of)of, .rates = range != Py_None, .hindsight = hindsight};
   good = good && dydpy_end(&c, dyd_converge_run(&table, c.self->engine, &o.o, &how, &c.err));
   dyd_rect_clear(&view);
   dydpy_options_clear(&o);
-  return table_found(good, &table, times);
+  return table_found(good, &table, times, range != Py_None ? modulus : NULL);
 }
 
 /* ---- check: the harness of monotone refinement over points of Python ---- */

@@ -20,7 +20,7 @@ SECONDS = ('0', '-1', 'nan', 'inf', 'x', '', '1s')
 WRONG = {
     '--until': ('', 'area', 'area:', 'are:3', 'decided:3', 'hausdorff:3x', 'hausdorff:99999999'),
     '--max-bytes': WHOLE + ('3X', 'M', '2GB', '99999999T', '9' * 80, '-1K'), '--max-bits': WHOLE, '--relative-bits': WHOLE + ('41',), '--max-pairs': WHOLE, '--threads': WHOLE, '--tie-bits': WHOLE, '--start-bits': WHOLE, '--step-bits': WHOLE,
-    '--oracle-jobs': WHOLE, '--oracle-batch': WHOLE, '--schedules': WHOLE,
+    '--oracle-jobs': WHOLE, '--oracle-batch': WHOLE, '--schedules': WHOLE, '--hindsight': WHOLE, '--modulus': ('3', '9:3', 'a:b', '1:2:3'),
     '--seed': WHOLE[1:], '--site': WHOLE[1:], '--oracle-retries': WHOLE[1:],
     '--flatten': WHOLE[2:],
     '--max-arc': SECONDS, '--timeout': SECONDS, '--oracle-timeout': SECONDS, '--trace-sync': SECONDS,
@@ -38,7 +38,7 @@ WRONG = {
     '--width': ('', '0', '-3', '12km', 'cm', '12 cm', '5001', '6e3mm', 'nan', 'inf'), '--font-size': ('', '0', '12px', '71in'),
     '--help': ('fish', 'MAN'),
 }
-RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--ties': 'off', '--list-ties': 'none', '--metric': 'box', '--until': 'decided', '--width': '85mm', '--font-size': '9'}
+RIGHT = {'--modulus': '0:9', '--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--ties': 'off', '--list-ties': 'none', '--metric': 'box', '--until': 'decided', '--width': '85mm', '--font-size': '9'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
 TEXTS = {'--queries', '--query-columns', '--query-id', '--up-to', '--sigma', '--sigma-column', '--confidence', '--cost-column', '--label', '--font', '--pgf', '--accuracy', '--pairs', '--clip-to', '--columns', '--delimiter', '--id', '--in-layer', '--carry', '--merge-by', '--points', '--radius', '--radius-column', '--radius-unit', '--radius-scale', '--skip-lines', '--thousands', '--missing', '--oracle', '--policy', '--output', '--trace',
          '--replay', '--resume', '--certificate'}

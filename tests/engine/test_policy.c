@@ -66,7 +66,7 @@ static dyd_engine_options policy_options(gambler *g, test_random *r) {
 static void test_no_false_statement(void **state) {
   (void)state;
   test_random r = test_random_start("policy");
-  for (size_t k = 0; k < test_cases(60); k++) {
+  for (size_t k = 0; k < test_cases(30); k++) {
     uint64_t seed = test_below(&r, 1u << 30);
     dyd_engine *e = engine_of_seed(seed), *f = engine_of_seed(seed);
     gambler g = {.random = &r, .at = SIZE_MAX, .enters = test_chance(&r, 4)};
@@ -169,8 +169,86 @@ static void test_programs(void **state) {
   }
 }
 
+/* ---- hindsight: the best plan is the one that a literal search finds ---- */
+
+enum { FEW = 4 };
+
+/* Is the triangulation decided when point k is known to bits[k]? */
+static bool is_decided(char text[FEW][2][40], const int64_t bits[FEW]) {
+  dyd_sites *sites = NULL;
+  dyd_delaunay *pd = NULL;
+  dyd_rect r;
+  mpq_t lo, hi;
+  size_t count[4];
+  mpq_inits(lo, hi, NULL);
+  dyd_rect_init(&r);
+  assert_int_equal(DYD_OK, dyd_sites_new(&sites));
+  for (int k = 0; k < FEW; k++) {
+    for (int a = 0; a < 2; a++) {
+      dyd_real *x = NULL;
+      assert_int_equal(DYD_OK, dyd_real_parse(&x, text[k][a], strlen(text[k][a]), NULL));
+      assert_true(dyd_real_narrow(x, 200, 200, NULL) >= 0);
+      dyd_interval_get_q(lo, hi, dyd_real_interval(x));
+      assert_int_equal(DYD_OK, dyd_interval_set_outward(a ? &r.y : &r.x, lo, hi, -bits[k] - 2));
+      dyd_real_free(x);
+    }
+    assert_int_equal(DYD_OK, dyd_sites_add_rect(sites, &r));
+  }
+  assert_int_equal(DYD_OK, dyd_delaunay_new(&pd, sites, NULL, NULL));
+  dyd_delaunay_count(count, pd);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  dyd_rect_clear(&r);
+  mpq_clears(lo, hi, NULL);
+  return count[DYD_INDETERMINATE] + count[DYD_TIE] == 0;
+}
+
+static uint64_t best_of_all(char text[FEW][2][40], int64_t first, int64_t top) {
+  int64_t bits[FEW] = {first, first, first, first};
+  uint64_t best = UINT64_MAX;
+  for (;;) {
+    uint64_t sum = 0;
+    int k = 0;
+    for (int j = 0; j < FEW; j++) sum += (uint64_t)bits[j];
+    if (sum < best && is_decided(text, bits)) best = sum;
+    while (k < FEW && ++bits[k] > top) bits[k++] = first;
+    if (k == FEW) return best;
+  }
+}
+
+static void test_hindsight(void **state) {
+  (void)state;
+  test_random r = test_random_start("hindsight");
+  size_t compared = 0;
+  for (size_t tries = 0; compared < 4 && tries < 400; tries++) {
+    char text[FEW][2][40];
+    dyd_engine *e = engine_new();
+    for (int k = 0; k < FEW; k++) {
+      int radius = 20 + (int)test_below(&r, 3), angle = 1 + 7 * k + (int)test_below(&r, 7);
+      for (int a = 0; a < 2; a++)
+        snprintf(text[k][a], sizeof text[k][a], "%d/16*%s(%d/4)", radius, a ? "sin" : "cos", angle);
+      engine_add_text(e, text[k][0], text[k][1]);
+    }
+    dyd_engine_options o;
+    dyd_engine_options_init(&o);
+    o.start_bits = o.step_bits = 1;
+    o.max_bits = 40;
+    const dyd_converge_options how = {DYD_SIZED(dyd_converge_options), .hindsight = 1000000};
+    dyd_convergence table = {DYD_SIZED(dyd_convergence)};
+    assert_int_equal(DYD_OK, dyd_converge_run(&table, e, &o, &how, NULL));
+    int64_t most = table.count ? table.row[table.count - 1]->bits_most : 0;
+    if (table.outcome == DYD_OUTCOME_DECIDED && most >= 2 && most <= 4) {
+      assert_int_equal(best_of_all(text, 1, 2 * most), table.best_bits);
+      compared++;
+    }
+    dyd_convergence_clear(&table);
+    dyd_engine_free(e);
+  }
+  assert_int_equal(4, compared);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_no_false_statement), cmocka_unit_test(test_bad_answers),
-                                     cmocka_unit_test(test_programs)};
+                                     cmocka_unit_test(test_programs), cmocka_unit_test(test_hindsight)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

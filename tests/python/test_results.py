@@ -662,6 +662,13 @@ def test_plan():
 
 def test_converge():
     points = [(f'sqrt({k})', f'sqrt({k * k + 1})') for k in range(2, 14)]
+    m = dyadel.converge(points, modulus=(2, 12))
+    assert m['m'].tolist() == list(range(2, 13)) and (np.diff(m['stage']) >= 0).all() and (np.diff(m['apriori_bits']) >= 0).all()
+    assert (m['bound'] <= 2.0 ** -m['m'] * 1.00001).all() and m.outcome == 'certified'
+    for of, until in (('voronoi', 'hausdorff:3'), ('disc', 'area:3'), ('bisector', 'decided')):
+        assert len(dyadel.converge(points, of=of, until=until, modulus=(0, 9))['m']) == 10
+    few = dyadel.converge([(f'sqrt({k})', f'exp({k}/7)') for k in (2, 3, 5, 7)], start_bits=1, step_bits=1, hindsight=10**5)
+    assert few['ratio'][-1] >= 1
     c = dyadel.converge(points, times=False, step_bits=4)
     assert c.outcome == 'decided' and c['stage'].tolist() == list(range(1, len(c['stage']) + 1))
     assert (np.diff(c['indeterminate']) <= 0).all() and (np.diff(c['hausdorff']) <= 0).all() and '<svg' in c._repr_svg_()

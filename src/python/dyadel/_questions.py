@@ -388,26 +388,39 @@ def _column(cells: Sequence[str]) -> NDArray[Any]:
 
 @takes_options(*INPUTS)
 def converge(points: Any, radius: Any = None, window: Sequence[Any] | None = None, of: str = 'delaunay',
-             times: bool = True, start_bits: int = 4, trace: Path | None = None, resume: Path | None = None,
+             times: bool = True, start_bits: int | None = None, modulus: tuple[int, int] | None = None, hindsight: int = 0,
+             trace: Path | None = None, resume: Path | None = None,
              **options: Any) -> Convergence:
     """Runs the refinement and notes every stage.
 
     of: which bounds are computed: 'delaunay', 'voronoi' (those of the diagram on the window as well, which cost most),
     'disc' (the partial disc of the first three points and Con of the others), 'bisector' (the partial bisector of the
     first two on the window); until means these. window: of the diagram or bisector; times=False omits seconds, so
-    that equal runs give equal tables; points, radius, trace, resume, options: as for delaunay.
+    that equal runs give equal tables. start_bits: of the first stage, 4 if not given. modulus=(A, B): instead of stages a row for
+    each m from A to B: the first stage with a distance (until='area:M': an area) of at most 2^-m, bits asked, and the bits
+    known a priori to suffice, by steps of 1 bit from 1 on, until 2^-B is reached. hindsight=K: a column ratio of bits_total to the
+    least bits by which the goal could have been reached, of few points, found with up to K triangulations. points, radius,
+    trace, resume, options: as for delaunay.
     """
     if of not in CONVERGE_OF:
         raise ValueError(f'of is {of!r}; give one of {", ".join(CONVERGE_OF)}')
     engine = _dyadel.Engine()
     append_points(engine, points, radius, **split_inputs(options))
-    ready = engine_options(start_bits=start_bits, **options)
+    if modulus is not None:
+        if modulus[0] > modulus[1]:
+            raise ValueError(f'modulus={modulus!r}; give the lower number first')
+        goal, _, bits = options.get('until', 'hausdorff:').partition(':')
+        options['until'] = f'{"hausdorff" if goal == "decided" else goal}:{max(int(bits or 0), modulus[1], 0)}'
+        options.setdefault('step_bits', 1)
+    if of == 'voronoi' and options.get('until', 'decided')[0] in 'ah':
+        options['until'] = 'voronoi ' + options['until']
+    ready = engine_options(start_bits=start_bits or (4 if modulus is None else 1), **options)
     if resume is not None:
         engine.recall(os.fsencode(resume))
     if trace is not None:
         engine.trace_begin(os.fsencode(trace), ready, (window, CONVERGE_OF.index(of)))
     try:
-        return _convergence(*engine.converge(ready, window, CONVERGE_OF.index(of), times))
+        return _convergence(*engine.converge(ready, window, CONVERGE_OF.index(of), times, hindsight, modulus))
     finally:
         engine.trace_end()
 
