@@ -62,6 +62,20 @@ static dyd_status pieces_refine(cli_session *s, const dyd_engine_options *option
   return dyd_engine_ask(&s->outcome, s->engine, &question, options, err);
 }
 
+/* The same stage by stage, to the goal and by the steps that were given. */
+static dyd_status pieces_converge(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
+  cli_pieces *p = s->state;
+  dyd_convergence table = {DYD_SIZED(dyd_convergence)};
+  const dyd_converge_options how = {DYD_SIZED(dyd_converge_options), .window = s->view,
+                                    .of = p->first == 2 ? DYD_CONVERGE_BISECTOR : DYD_CONVERGE_DISC};
+  cli_progress_phase(s->progress, "refining");
+  dyd_status st = dyd_converge_run(&table, s->engine, options, &how, err);
+  s->outcome = table.outcome;
+  for (size_t i = 0; st == DYD_OK && i < p->count; i++) st = dyd_sites_get(&p->own[i], dyd_engine_sites(s->engine), i);
+  dyd_convergence_clear(&table);
+  return st;
+}
+
 /* Makes space for `count` rectangles. */
 static bool pieces_reserve(cli_pieces *p, size_t count) {
   p->own = calloc(count, sizeof *p->own);
@@ -89,7 +103,8 @@ static int pieces_find(cli_session *s, size_t least, size_t most) {
   p->first = least;
   p->bits = FIRST_BITS;
   if (!pieces_reserve(p, count < most ? count : most)) return cli_complain_memory();
-  int status = cli_session_run(s, &s->o.engine, pieces_refine);
+  const bool staged = s->o.start_set || s->o.engine.step_bits || s->o.engine.goal != DYD_GOAL_DECIDED;
+  int status = cli_session_run(s, &s->o.engine, staged ? pieces_converge : pieces_refine);
   s->known = !status && pieces_are_known(p, s->engine);
   if (!status && !s->known) cli_session_lacks(s, s->outcome, "the points were known");
   return status;
@@ -97,9 +112,13 @@ static int pieces_find(cli_session *s, size_t least, size_t most) {
 
 static dyd_status pieces_write(FILE *out, const cli_session *s, dyd_error *err) {
   const cli_pieces *p = s->state;
-  const dyd_write_options how = {
-      DYD_SIZED(dyd_write_options),    .style = &s->o.style, .rect = p->rect, .rects = p->count, .outcome = s->outcome,
-      .comments = cli_comments(out, s)};
+  const dyd_write_options how = {DYD_SIZED(dyd_write_options),
+                                 .style = &s->o.style,
+                                 .rect = p->rect,
+                                 .rects = p->count,
+                                 .outcome = s->outcome,
+                                 .window = s->view,
+                                 .comments = cli_comments(out, s)};
   return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
 }
 

@@ -213,8 +213,8 @@ const cli_option cli_option_table[] = {
     {"query-id", 0, "NAME", CLI_TEXT, BIT(CLI_NEAREST), CLI_INPUT,
      "write the value of this column of the file of places", AT(query_id)},
 
-    {"until", 0, "GOAL", CLI_GOAL, RUN, CLI_REFINEMENT, "decided (default), area:M or hausdorff:M (bound 2^-M)",
-     AT(engine), WORDS("decided area: hausdorff:")},
+    {"until", 0, "GOAL", CLI_GOAL, RUN | PIECES, CLI_REFINEMENT,
+     "decided (default), area:M or hausdorff:M (bound 2^-M)", AT(engine), WORDS("decided area: hausdorff:")},
     {"of", 0, "WHAT", CLI_CHOICE, BIT(CLI_CONVERGE), CLI_REFINEMENT,
      "what the table is about, which bounds it has, and --until\nmeans: delaunay (default); voronoi (those of the "
      "diagram as\n"
@@ -251,10 +251,11 @@ const cli_option cli_option_table[] = {
      "pair, \"plan I B\" for each point planned, \"choose\"; it answers\nby lines \"refine I B\" instead of the plan, "
      "and \"go\"",
      AT(engine.policy_program)},
-    {"start-bits", 0, "B", CLI_INTEGER, RUN, CLI_REFINEMENT, "precision of the first stage (default 64, of converge 4)",
-     AT(engine.start_bits), RANGE(1, DYD_EXP_LIMIT), GIVEN(start_set)},
-    {"step-bits", 0, "K", CLI_INTEGER, RUN, CLI_REFINEMENT, "refine in steps of K bits (default: geometric growth)",
-     AT(engine.step_bits), RANGE(1, DYD_EXP_LIMIT)},
+    {"start-bits", 0, "B", CLI_INTEGER, RUN | PIECES, CLI_REFINEMENT,
+     "precision of the first stage (default 64, of converge 4)", AT(engine.start_bits), RANGE(1, DYD_EXP_LIMIT),
+     GIVEN(start_set)},
+    {"step-bits", 0, "K", CLI_INTEGER, RUN | PIECES, CLI_REFINEMENT,
+     "refine in steps of K bits (default: geometric growth)", AT(engine.step_bits), RANGE(1, DYD_EXP_LIMIT)},
     {"ties", 0, "WHICH", CLI_CHOICE, RUN | BIT(CLI_NEAREST) | BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "prove (default): prove that points given by expressions\nand roots are the same, on one line or circle; off: do "
      "not",
@@ -264,9 +265,9 @@ const cli_option cli_option_table[] = {
     {"threads", 0, "T", CLI_INTEGER, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_REFINEMENT,
      "threads to use (default 1); results do not depend on it", AT(engine.threads), RANGE(1, 1024)},
 
-    {"window", 0, "XLO,XHI,YLO,YHI", CLI_WINDOW, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_OUTPUT,
+    {"window", 0, "XLO,XHI,YLO,YHI", CLI_WINDOW, RUN | PIECES | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_OUTPUT,
      "part of the plane, exact numbers;\nvoronoi, converge, check: of the diagram (default: the box of the\n"
-     "points enlarged by half);\ndelaunay, "
+     "points enlarged by half);\nbisector: where --until holds, and of pictures; disc: of\npictures; delaunay, "
      "tolerance: what svg, pdf, png and html show (default: all),\nother formats "
      "list everything all the same;\nwith "
      "--sphere: the degrees that svg, pdf and png show;\n"
