@@ -41,8 +41,8 @@ DYD_API dyd_status dyd_interval_set_q(dyd_interval *out, const mpq_t q);
 DYD_API dyd_status dyd_interval_set_ends_q(dyd_interval *out, const mpq_t lo, const mpq_t hi);
 /* [lo,hi] rounded outward to multiples of 2^exp; lo <= hi are canonical rationals. */
 DYD_API dyd_status dyd_interval_set_outward(dyd_interval *out, const mpq_t lo, const mpq_t hi, int64_t exp);
-/* a itself where its ends are dyadic, or it is a point; else [lo,hi] rounded outward by less than 2^-64 of its width, as
- * windows are to be. DYD_E_RANGE. */
+/* a itself where its ends are dyadic, or it is a point; else [lo,hi] rounded outward by less than 2^-64 of its width,
+ * as windows are to be. DYD_E_RANGE. */
 DYD_API dyd_status dyd_interval_round(dyd_interval *out, const dyd_interval *a);
 DYD_API bool dyd_interval_is_point(const dyd_interval *a);
 /* Ends as canonical rationals; lo, hi initialised by the caller. */
