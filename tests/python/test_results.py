@@ -212,6 +212,9 @@ def source(i, bits):
 def test_formats():
     d = dyadel.delaunay(GPS)
     for name, about, binary in dyadel.formats():
+        if name == 'pgf':  # holds curves of convergence only
+            assert 'pgf cannot hold this' in str(harness.raised(dyadel.Error, d.write, name))
+            continue
         text = d.write(name)
         assert isinstance(text, bytes if binary else str) and len(text) > 100 and about
     lines = d.write().splitlines()
