@@ -769,5 +769,5 @@ EXTRAS = {
     'box metric': Extra(['--metric', 'box']), 'euclid metric': Extra(['--metric', 'euclid']),
     'births': Extra(['--up-to', '@unit']), 'accuracy': Extra(['--accuracy', '@small'], softens=True),
     'site': Extra(['--site', '0']), 'next': Extra(['--next']),
-    'modulus': Extra(['--modulus', '0:9'], softens=True), 'hindsight': Extra(['--hindsight', '900']),
+    'hindsight': Extra(['--hindsight', '900']),
     'more digits': Extra(['--relative-bits', '33'])}

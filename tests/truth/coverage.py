@@ -26,6 +26,7 @@ REASONS = {  # (command or *, option, format:F, layer:L or OPTION=word): why no 
     ('*', '--help'): 'says nothing about points', ('*', '--version'): 'says nothing about points',
     ('*', '--resume'): 'laws.judge_resume gives it what --trace wrote',
     ('converge', '--trace-sync'): 'as --trace', ('converge', '--trace'): 'a trace of stages says what its table does', ('converge', '--resume'): 'as --trace',
+    ('converge', '--modulus'): 'judged against true errors in 60 digits by tests/cli/test_modulus.py',
     ('check', '--trace'): 'writes the schedule of a fault, and none is expected', ('check', '--replay'): 'as --trace',
     ('converge', '--replay'): 'as --trace', ('converge', '--plot'): PICTURE,
     ('converge', '--rows-only'): 'leaves the header out, and says nothing else',
