@@ -436,6 +436,7 @@ static const struct {
     {"merged places", "", "%.5f %.5f\n", {.merge = true}},
     {"radii", "x,y\n", "%.5f,%.5f\n", {.columns = "x,y", .radius = "1/3"}},
     {"intervals", "", "[%.5f,9e9] [%.5f,9e9]\n", {.columns = NULL}},
+    {"measured decimals", "", "%.5f %.5f\n", {.measured = true}},
     {"expressions", "", "sqrt(%.5f) sqrt(%.3f)\n", {.columns = NULL}},
     {"roots", "", "root(x^5-x-1-%.0f,1,99) %.5f\n", {.columns = NULL}},
     {"identifiers", "x,y,n\n", "%.5f,%.5f,name%d\n", {.columns = "x,y", .id = "n"}},

@@ -117,6 +117,7 @@ static uint64_t staged_bytes(const dyd_staged *p) {
   enum { END = sizeof(double), RECORD = 64 };
   uint64_t bytes = sizeof *p + (p->kind == DYD_COORDINATE_DOUBLE ? 2 : 4) * END;
   if (p->kind == DYD_COORDINATE_PLAIN) bytes += sizeof(uint32_t) + sizeof(dyd_word_point);
+  if (p->kind == DYD_COORDINATE_SPAN) bytes += END + RECORD;
   if (p->kind == DYD_COORDINATE_REAL) bytes += RECORD + dyd_real_bytes(p->u.real[0]) + dyd_real_bytes(p->u.real[1]);
   return bytes;
 }
