@@ -94,14 +94,16 @@ typedef struct dyd_area {
 DYD_API void dyd_area_clear(dyd_area *a);
 /* Turns the rings of an area so that its inside is on their left, as dyd_tiles_clip takes it. DYD_E_ARG: edges cross,
  * or have a piece in common, or a ring touches itself within an edge; bad[0] and bad[1] are the first vertices of two
- * such edges, in xy. Exact. O(n log n) for n edges of borders as they are in maps. */
+ * such edges, in xy; or this vertex, twice, is not finite. Exact. O(n log n) for n edges of borders as they are in
+ * maps. */
 DYD_API dyd_status dyd_area_orient(dyd_area *a, size_t bad[2]);
 /* Cuts tiles to an area. The areas of the parts, as rationals, have exactly the area's as their sum, as far as it is in
  * the window. Vertices are those of tiles and of the area, and crossings of their edges, each rounded to the nearest
  * double; t->rounding becomes the most that any was rounded by. A site may have several rings. A ring of area[r] = 0 is
  * a hole of the last ring before it that is none, whose area[] is that without the holes, rounded up. bound[] is of
- * the part of the site's cell in the area. DYD_E_NOMEM, DYD_CANCELLED and DYD_E_RANGE, doubles are too coarse for the
- * parts, leave *t as it was. cancel may be NULL. O(log n) for each tile and each edge of the area in its box. */
+ * the part of the site's cell in the area. DYD_E_ARG (the area has a vertex that is not finite), DYD_E_NOMEM,
+ * DYD_CANCELLED and DYD_E_RANGE, doubles are too coarse for the parts, leave *t as it was. cancel may be NULL. O(log n)
+ * for each tile and each edge of the area in its box. */
 DYD_API dyd_status dyd_tiles_clip(dyd_tiles *t, const dyd_area *area, const volatile int *cancel);
 /* *out is replaced. window as above, with doubles as its ends; bits: of the polygons that bound the areas, as in
  * dyd_metric_voronoi. cancel may be NULL. DYD_CAPPED, DYD_CANCELLED, DYD_E_ARG, DYD_E_NOMEM leave *out as it was; so

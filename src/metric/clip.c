@@ -12,6 +12,7 @@
 #include "metric/edge_tree.h"
 #include "metric/tiles_filter.h"
 #include <gmp.h>
+#include <math.h>
 #include <mpfr.h>
 #include <stdlib.h>
 #include <string.h>
@@ -286,7 +287,17 @@ static void ring_reverse(double *xy, size_t n) {
   }
 }
 
+/* Returns the first vertex that is no place: not finite; SIZE_MAX: all are places. */
+static size_t area_lost_vertex(const dyd_area *a) {
+  for (size_t k = 0; a->rings && k < a->offset[a->rings]; k++)
+    if (!isfinite(a->xy[2 * k]) || !isfinite(a->xy[2 * k + 1])) return k;
+  return SIZE_MAX;
+}
+
 dyd_status dyd_area_orient(dyd_area *a, size_t bad[2]) {
+  if (!a || !bad) return DYD_E_ARG;
+  bad[0] = bad[1] = area_lost_vertex(a);
+  if (bad[0] != SIZE_MAX) return DYD_E_ARG;
   dyd_edge_tree t;
   q_place z;
   mpq_t area2;
@@ -790,7 +801,7 @@ static dyd_status clip_site(clip_work *w, const dyd_tiles *t, size_t *r) {
 }
 
 dyd_status dyd_tiles_clip(dyd_tiles *t, const dyd_area *area, const volatile int *cancel) {
-  if (!t || !area) return DYD_E_ARG;
+  if (!t || !area || area_lost_vertex(area) != SIZE_MAX) return DYD_E_ARG;
   dyd_tiles made = {.coincident = t->coincident, .rounding = t->rounding};
   dyd_edge_tree tree;
   clip_work w = {.area = &tree, .out = &made};

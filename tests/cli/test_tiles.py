@@ -338,6 +338,8 @@ def test_areas_that_are_none():
     for area, line in (('POLYGON ((0 0,\n 4 4, 4 0, 0 4, 0 0))', '1:11: the edge from (0, 0) on crosses or touches another'),
                        ('POLYGON ((0 0, 1 1, 0 0))', '1:24: a ring of a polygon has at least three different vertices'),
                        ('POLYGON ((0 0, 2 0, 2 2, x 2))', '1:26: a coordinate has to be here, a number'),
+                       ('POLYGON ((0 0, 1e400 0, 2 2, 0 0))', '1:16: a coordinate has to be here, a number'),
+                       ('{"type": "Polygon", "coordinates": [[[0, 0], [0, -1e309], [2, 2], [0, 0]]]}', 'a coordinate has to be here, a number'),
                        ('POLYGON ((0 0, 2 0, 2 2', 'the polygon has no end here; a bracket is missing'),
                        ('LINESTRING (0 0, 2 0)', 'a polygon has to be here, not a point or line'),
                        ('{"type": "Point",\n"coordinates": [0, 0]}', 'a polygon has to be here, not a point or line'),

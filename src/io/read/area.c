@@ -7,6 +7,7 @@
 
 #include <dyadel/io.h>
 #include <gmp.h>
+#include <math.h>
 #include <mpfr.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,7 +57,7 @@ static dyd_status area_number(double *out, area_text *t) {
   dyd_status st = length ? dyd_parse_number(q, t->at, length, &why) : DYD_E_PARSE;
   mpfr_set_q(r, q, MPFR_RNDN);
   *out = mpfr_get_d(r, MPFR_RNDN);
-  if (st == DYD_OK && !mpfr_number_p(r)) st = DYD_E_PARSE;
+  if (st == DYD_OK && !isfinite(*out)) st = DYD_E_PARSE;
   mpfr_clear(r);
   mpq_clear(q);
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(t->err);
