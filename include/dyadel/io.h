@@ -227,7 +227,9 @@ typedef enum dyd_content {
   DYD_CONTENT_VORONOI_ALIASES, /* and of the diagram */
   DYD_CONTENT_TIES,            /* groups of ties */
   DYD_CONTENT_TILES,           /* a partition of the window (dyd_voronoi_tiles): a layer of the diagram */
-  DYD_CONTENT_CON              /* Con of the other rectangles: a layer of the disc, which is circles as csv */
+  DYD_CONTENT_CON,             /* Con of the other rectangles: a layer of the disc, which is circles as csv */
+  DYD_CONTENT_HULLS,           /* partial edges and certain partial triangles (dyd_rect_hull), */
+  DYD_CONTENT_EXTERIOR         /* and where certainly no edge is (dyd_delaunay_exterior): layers of the triangulation */
 } dyd_content;
 
 /* How ties are listed beside other pairs. */

@@ -9,6 +9,30 @@
 extern "C" {
 #endif
 
+/* ---- T as a region ----
+ *
+ * T = (empty, E), where E is the complement of the union of the partial edges of all possible pairs: no choice has an
+ * edge that meets E. */
+
+/* The hull of `count` rectangles, 1 to 3: of two the partial edge, of three the partial triangle. Its vertices are
+ * out[2 k], out[2 k + 1] for k below the result, counter-clockwise; two of a segment, one of a point. out is
+ * initialised by the caller. 0 for other counts. Exact. */
+DYD_API size_t dyd_rect_hull(mpq_t out[24], const dyd_rect *const *r, size_t count);
+
+/* The components of E. Ring r has the vertices xy[2 k], xy[2 k + 1] for offset[r] <= k < offset[r + 1], with the
+ * component on its left, from its least vertex in x, then y; the first is not repeated. Ring 0 is that of the unbounded
+ * component, clockwise around the union, and may go along a segment twice; each other one is the boundary of a bounded
+ * component, counter-clockwise. No ring: no pair, E is the plane [EXT-1]. Owned: init with {0}. */
+typedef struct dyd_exterior {
+  size_t rings, *offset;
+  mpq_t *xy;
+} dyd_exterior;
+DYD_API void dyd_exterior_clear(dyd_exterior *e);
+/* *out is replaced. cancel may be NULL. DYD_CAPPED, DYD_CANCELLED, DYD_E_RANGE for 2^32 pairs and DYD_E_NOMEM leave
+ * *out as it was. Exact. Cost: for each pair exact steps with each pair whose box meets its own; numbers have the
+ * digits of the common denominator of all coordinates. */
+DYD_API dyd_status dyd_delaunay_exterior(dyd_exterior *out, const dyd_delaunay *pd, const volatile int *cancel);
+
 /* Bounds on the partial Voronoi diagram on a window W (dyadic ends, positive area). The undecided set U is W minus
  * the union of all Int_i; it holds the true diagram (the union of the boundaries of the true cells) inside W.
  *

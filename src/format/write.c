@@ -102,6 +102,15 @@ static bool rows_hold_ties(const dyd_result *r, const dyd_output *to, const dyd_
   return rows && to->content == DYD_CONTENT_DELAUNAY && !o->pairs && o->ties == DYD_LIST_TIES_PAIRS && count[DYD_TIE];
 }
 
+/* What layers of T as a region need all pairs for. */
+static dyd_status result_region(dyd_result *r, const dyd_output *to, const dyd_write_options *o, dyd_error *err) {
+  if (to->content != DYD_CONTENT_HULLS && to->content != DYD_CONTENT_EXTERIOR) return DYD_OK;
+  if (dyd_delaunay_is_capped(r->pd))
+    return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so edges are missing; raise `max_pairs`");
+  dyd_status st = to->content == DYD_CONTENT_EXTERIOR ? dyd_delaunay_exterior(&r->exterior, r->pd, o->cancel) : DYD_OK;
+  return st == DYD_OK ? st : fail_status(st, err);
+}
+
 static dyd_status write_delaunay(dyd_output *to, dyd_write_options *o, dyd_error *err) {
   dyd_result r;
   bool graph;
@@ -118,6 +127,8 @@ static dyd_status write_delaunay(dyd_output *to, dyd_write_options *o, dyd_error
   dyd_pair_status least = o->ties || r.ties_apart || to->content == DYD_CONTENT_POINTS ? DYD_INDETERMINATE : DYD_TIE;
   st = grant_output(r.pd, to, false, o->pairs, least, err);
   if (st != DYD_OK) return st;
+  st = result_region(&r, to, o, err);
+  if (st != DYD_OK) return st;
   st = result_graph(&graph, &r, to->content, o, err);
   if (graph) r.history = NULL, r.tolerance = NULL; /* both are about the triangulation */
   bool pairs = !graph && !o->pairs && to->content != DYD_CONTENT_TIES && to->content != DYD_CONTENT_ALIASES;
@@ -129,6 +140,7 @@ static dyd_status write_delaunay(dyd_output *to, dyd_write_options *o, dyd_error
     fail_status(st, err);
   if (!o->pairs) dyd_pair_list_clear(&r.pairs);
   if (!o->graph) dyd_graph_list_clear(&r.graph);
+  dyd_exterior_clear(&r.exterior);
   return st;
 }
 

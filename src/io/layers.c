@@ -232,6 +232,77 @@ static dyd_status rows_of_triangles(dyd_table *t, const dyd_output *o) {
   return st;
 }
 
+/* ---- T as a region ---- */
+
+/* Vertices in turn, exactly: "0 0;1 0;1/2 2"; as a polygon if they are one. */
+static dyd_status row_corners(dyd_table *t, mpq_t *xy, size_t n) {
+  char *text = NULL;
+  size_t size;
+  dyd_rect r;
+  dyd_status st = DYD_OK;
+  FILE *out = open_memstream(&text, &size);
+  if (!out) return DYD_E_NOMEM;
+  dyd_rect_init(&r);
+  for (size_t k = 0; k <= n && st == DYD_OK; k++) {
+    mpq_t *z = &xy[2 * (k % n)];
+    double box[4];
+    st = dyd_interval_set_q(&r.x, z[0]);
+    if (st == DYD_OK) st = dyd_interval_set_q(&r.y, z[1]);
+    dyd_rect_get_d(box, &r);
+    if (st == DYD_OK && n > 2 && t->drawn) dyd_row_at(t, box);
+    if (k < n) gmp_fprintf(out, "%s%Qd %Qd", k ? ";" : "", z[0], z[1]);
+  }
+  dyd_rect_clear(&r);
+  bool whole = fclose(out) == 0;
+  if (st == DYD_OK && whole) dyd_row_word(t, text);
+  free(text);
+  return whole ? st : DYD_E_NOMEM;
+}
+
+/* The hull of n sites. */
+static dyd_status row_hull(dyd_table *t, const uint32_t *site, int n, const char *status) {
+  dyd_rect own[3];
+  const dyd_rect *r[3] = {&own[0], &own[1], &own[2]};
+  mpq_t xy[24];
+  dyd_status st = DYD_OK;
+  for (int k = 0; k < 24; k++) mpq_init(xy[k]);
+  for (int k = 0; k < 3; k++) dyd_rect_init(&own[k]);
+  for (int k = 0; k < n && st == DYD_OK; k++) st = dyd_sites_get(&own[k], dyd_engine_sites(t->engine), site[k]);
+  dyd_row_begin(t);
+  if (st == DYD_OK) st = row_corners(t, xy, dyd_rect_hull(xy, r, (size_t)n));
+  for (int k = 0; k < 3; k++) k < n ? dyd_row_site(t, site[k]) : dyd_row_word(t, "");
+  dyd_row_word(t, status);
+  for (int k = 0; k < 3 && dyd_engine_id(t->engine, site[0]); k++) k < n ? dyd_row_id(t, site[k]) : dyd_row_word(t, "");
+  dyd_row_end(t);
+  for (int k = 0; k < 3; k++) dyd_rect_clear(&own[k]);
+  for (int k = 0; k < 24; k++) mpq_clear(xy[k]);
+  return st;
+}
+
+static dyd_status rows_of_hulls(dyd_table *t, const dyd_output *o) {
+  const dyd_result *r = o->what;
+  dyd_triangle_list list = {0};
+  dyd_status st = dyd_result_triangles(&list, r);
+  for (size_t k = 0; k < r->pairs.count && st == DYD_OK; k++)
+    st = row_hull(t, (const uint32_t[]){r->pairs.item[k].i, r->pairs.item[k].j}, 2,
+                  dyd_pair_status_text(r->pairs.item[k].status));
+  for (size_t k = 0; k < list.count && st == DYD_OK; k++) st = row_hull(t, list.item[k].v, 3, "certain");
+  dyd_triangle_list_clear(&list);
+  return st;
+}
+
+static dyd_status rows_of_exterior(dyd_table *t, const dyd_output *o) {
+  const dyd_exterior *e = &((const dyd_result *)o->what)->exterior;
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < e->rings && st == DYD_OK; k++) {
+    dyd_row_begin(t);
+    st = row_corners(t, &e->xy[2 * e->offset[k]], e->offset[k + 1] - e->offset[k]);
+    dyd_row_word(t, k ? "bounded" : "unbounded");
+    dyd_row_end(t);
+  }
+  return st;
+}
+
 /* ---- tolerances ---- */
 
 /* Aliases, the tolerance of the whole, and the number of missing rows. */
@@ -415,6 +486,9 @@ static const dyd_layer layers[] = {
     {IN(GRAPH_GABRIEL), "graph:gabriel", IN(DELAUNAY), true, true, LINE, alias_comments, rows_of_graph, PAIRS},
     {IN(GRAPH_MST), "graph:mst", IN(DELAUNAY), true, true, LINE, alias_comments, rows_of_graph, PAIRS},
     {IN(ALIASES), "aliases", IN(DELAUNAY), true, false, POINT, NULL, rows_of_aliases, "i,of"},
+    {IN(HULLS), "hulls", IN(DELAUNAY), true, false, POLYGON, alias_comments, rows_of_hulls,
+     "corners,i,j,k,status,id_i,id_j,id_k"},
+    {IN(EXTERIOR), "exterior", IN(DELAUNAY), true, false, POLYGON, alias_comments, rows_of_exterior, "corners,part"},
     {IN(TIES), "ties", IN(DELAUNAY), false, false, POINT, NULL, rows_of_ties, "kind,sites"},
     {IN(VORONOI), "cells", IN(VORONOI), true, false, POLYGON, dyd_cell_comments, dyd_cell_rows,
      "?kind,i,id,*,xlo,xhi,ylo,yhi,area_lo,area_hi,undetermined"},

@@ -28,7 +28,7 @@ typedef struct dyd_output {
 typedef dyd_status dyd_writer(const dyd_output *o);
 /* The writers of a format are an array by content, NULL where it cannot hold that: dyd_NAME_writers, in the file that
  * writes it. Layers have none, they are rows (table.h). */
-enum { DYD_CONTENTS = DYD_CONTENT_CON + 1 };
+enum { DYD_CONTENTS = DYD_CONTENT_EXTERIOR + 1 };
 
 /* `what` by content: dyd_diagram (diagram.h) of a Voronoi diagram of the plane and its layers; dyd_stage_table,
  * dyd_convergence, dyd_check_report, dyd_disc_output, dyd_bisector_output, dyd_nearest_output; of all others a

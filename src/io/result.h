@@ -27,6 +27,7 @@ typedef struct dyd_result {
   const dyd_history *history;     /* ends with pairs; NULL: not known */
   const dyd_tolerance *tolerance; /* NULL: not known */
   const dyd_survey *survey;       /* the plan, where one is written */
+  dyd_exterior exterior;          /* where it is written; owned, too */
 } dyd_result;
 
 /* Properties of a site. */

@@ -82,6 +82,7 @@ static PyMethodDef engine_methods[] = {
     {"bounds", dydpy_bounds, METH_NOARGS, "bounds() -> (area, hausdorff) as (numerator, denominator)"},
     {"boxes", dydpy_boxes, METH_NOARGS, "boxes() -> Buffer of doubles (N, 4): xlo, xhi, ylo, yhi, rounded outward"},
     {"rect", dydpy_rect, METH_O, "rect(i) -> four (numerator, denominator)"},
+    {"piece", dydpy_piece, METH_VARARGS, "piece('disc', 'bisector' or 'hull') -> bytes: of the rectangles as they are"},
     {"rects", dydpy_rects, METH_NOARGS, "rects() -> bytes: a line XLO XHI YLO YHI of exact numbers for each point"},
     {"window", dydpy_window_of, METH_NOARGS, "window() -> four (numerator, denominator): the default one of diagrams"},
     {"cells", dydpy_cells, METH_VARARGS,

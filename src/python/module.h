@@ -171,6 +171,7 @@ PyObject *dydpy_rect(PyObject *self, PyObject *site);
 PyObject *dydpy_window_of(PyObject *self, PyObject *none);
 PyObject *dydpy_rects(PyObject *self, PyObject *none);
 PyObject *dydpy_write(PyObject *self, PyObject *args);
+PyObject *dydpy_piece(PyObject *self, PyObject *args);
 PyObject *dydpy_write_voronoi(PyObject *self, PyObject *args);
 PyObject *dydpy_certificate(PyObject *self, PyObject *args);
 PyObject *dydpy_nearest(PyObject *self, PyObject *args);

@@ -655,6 +655,39 @@ PyObject *dydpy_write_voronoi(PyObject *self, PyObject *args) {
   return order_write(&t, &o);
 }
 
+/* "disc" and "bisector": of the first rectangles, as json; "hull": of all, at most three, its vertices a line. */
+static dyd_status write_piece(text_order *t, const char *name, const dyd_rect *const *r, size_t n) {
+  const dyd_write_options o = {DYD_SIZED(dyd_write_options), .rect = r, .rects = n,
+                               .outcome = dyd_engine_outcome(t->call.self->engine)};
+  dyd_content piece = strcmp(name, "disc") == 0 ? DYD_CONTENT_DISC : DYD_CONTENT_BISECTOR;
+  mpq_t xy[24];
+  if (strcmp(name, "hull") != 0) return dyd_write(t->text.file, NULL, piece, DYD_FORMAT_JSON, &o, &t->call.err);
+  for (int k = 0; k < 24; k++) mpq_init(xy[k]);
+  const size_t corners = dyd_rect_hull(xy, r, n);
+  for (size_t k = 0; k < corners; k++) gmp_fprintf(t->text.file, "%Qd %Qd\n", xy[2 * k], xy[2 * k + 1]);
+  for (int k = 0; k < 24; k++) mpq_clear(xy[k]);
+  return DYD_OK;
+}
+
+PyObject *dydpy_piece(PyObject *self, PyObject *args) {
+  const char *name;
+  text_order t;
+  if (!PyArg_ParseTuple(args, "s", &name) || !order_begin(&t, self, Py_None, 0)) return NULL;
+  const dyd_engine *e = t.call.self->engine;
+  size_t n = dyd_engine_count(e);
+  dyd_rect *own = malloc((n + 1) * sizeof *own);
+  const dyd_rect **r = malloc((n + 1) * sizeof(const dyd_rect *));
+  dyd_status st = own && r ? DYD_OK : DYD_E_NOMEM;
+  for (size_t k = 0; st == DYD_OK && k < n; k++) dyd_rect_init(&own[k]), r[k] = &own[k];
+  const bool made = st == DYD_OK;
+  for (size_t k = 0; st == DYD_OK && k < n; k++) st = dyd_sites_get(&own[k], dyd_engine_sites(e), k);
+  if (st == DYD_OK) st = write_piece(&t, name, r, n);
+  for (size_t k = 0; made && k < n; k++) dyd_rect_clear(&own[k]);
+  free(r);
+  free(own);
+  return order_end(&t, st);
+}
+
 PyObject *dydpy_rects(PyObject *self, PyObject *none) {
   text_order t;
   (void)none;

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-enum { CONTENTS = DYD_CONTENT_CON + 1 };
+enum { CONTENTS = DYD_CONTENT_EXTERIOR + 1 };
 
 static void test_names(void **state) {
   (void)state;

@@ -46,6 +46,32 @@ def test_statuses():
     assert d.aliases.tolist() == [[3, 1]] and len(d.boxes) == len(d) == 4
 
 
+def test_notions():
+    """Of few points, as the command has them; T as a region."""
+    a, b, c, r = ((0, 1), (0, '1/2')), ((4, 6), (0, 2)), ((1, '5/2'), (4, 5)), ((2, '5/2'), (2, '5/2'))
+    assert dyadel.orientation(a, b, c) == 'counter-clockwise' and dyadel.orientation(a, c, b) == 'clockwise'
+    assert dyadel.orientation((0, 0), (1, 0), (2, (0, 1))) == 'unknown'
+    assert [dyadel.con(p, a, b, c) for p in (r, ((8, 9), (5, 6)), ((-1, 0), (3, 4)))] == ['inside', 'outside', 'unknown']
+    disc = dyadel.disc([a, b, c, r])
+    assert (disc.orientation, disc.con, disc.outcome) == ('counter-clockwise', ['inside'], 'decided') and len(disc.circles) == 6
+    assert disc.circles[0].labels == 'FCC' and disc.circles[0].x == '-4+4*sqrt(2)' and disc.circles[2].radius_squared == '45/8'
+    assert all(k.radius[0] <= k.radius[1] and k.centre[0] <= k.centre[1] for k in disc.circles)
+    assert dyadel.disc([(0, 0), (1, 0), (2, 0)]).circles == [] and dyadel.con((1, 1), (0, 0), (1, 0), (2, 0)) == 'unknown'
+    assert dyadel.con(('sqrt(2)', 1), (0, 0), ('pi', 0), (1, 'e')) == 'inside'
+    near, far = dyadel.bisector([((0, 2), (0, 1)), (5, 4)]).curves
+    assert [k.kind for k in near] == ['line'] * 3 and {k.kind for k in far} == {'line', 'parabola'}
+    assert near[0].begin is None and near[-1].end is None and near[0].end is not None
+    assert dyadel.bisector([((0, 2), (0, 2)), ((1, 3), (1, 3))]).curves == ([], [])
+    assert dyadel.hull([(1, '1/3')]) == [(1, Fraction(1, 3))] and dyadel.hull([(0, 0), (1, 2)]) == [(0, 0), (1, 2)]
+    assert dyadel.hull([a, b]) == [(0, 0), (6, 0), (6, 2), (4, 2), (0, Fraction(1, 2))] and len(dyadel.hull([a, b, c])) == 6
+    for wrong in ([], [a] * 4):
+        assert 'one to three points' in str(harness.raised(ValueError, dyadel.hull, wrong))
+    assert '3 points are needed' in str(harness.raised(dyadel.Error, dyadel.disc, [a, b]))
+    square = dyadel.delaunay(SQUARE).exterior
+    assert square[0] == [(0, 0), (0, 1), (1, 1), (1, 0)] and len(square) == 5 and all((Fraction(1, 2),) * 2 in t for t in square[1:])
+    assert dyadel.delaunay([(0, 0)]).exterior == []
+
+
 def test_airports():
     """README's table; the same from arrays and from the text."""
     d = dyadel.delaunay(AIRPORTS)

@@ -11,6 +11,7 @@ import re
 import mpmath
 
 import oracle
+import region
 
 Q = fractions.Fraction
 CERTAIN, POSSIBLE = ('surely', 'sure', 'certain'), ('possibly', 'possible')
@@ -359,6 +360,20 @@ def turns_at(ch, t, z):
     """The place against the sides of a triangle, opposite to each corner."""
     a, b, c = (ch.points[k] for k in t)
     return oracle.turn(b, c, z), oracle.turn(c, a, z), oracle.turn(a, b, z)
+
+
+# ---- hulls and the exterior ----
+
+def ring_of(text):
+    return [tuple(map(Q, z.split())) for z in text.split(';')]
+
+
+def read_hulls(case, out, err, form):
+    return (out.strip() or None) and {'hulls': {tuple(int(q[k]) for k in 'ijk' if q[k] not in (None, '')): ring_of(q['corners']) for q in rows(out, form)[0]}}
+
+
+def read_exterior(case, out, err, form):
+    return (out.strip() or None) and {'exterior': [ring_of(q['corners']) for q in rows(out, form)[0]]}
 
 
 def read_graph(case, out, err, form):
@@ -1023,4 +1038,6 @@ STATED = {
     'disc': Stated('disc', read_disc, judge_disc, formats=('csv', 'json'), least=3),
     'circles': Stated('disc', read_disc, judge_disc, layer='circles', least=3),
     'con': Stated('disc', read_disc, judge_disc, layer='con', least=3),
-    'bisector': Stated('bisector', read_bisector, judge_bisector, formats=('csv', 'json'), least=2)}
+    'bisector': Stated('bisector', read_bisector, judge_bisector, formats=('csv', 'json'), least=2),
+    'hulls': Stated('delaunay', read_hulls, region.judge_hulls, layer='hulls', formats=ROWS, least=2),
+    'exterior': Stated('delaunay', read_exterior, region.judge_exterior, layer='exterior', formats=ROWS)}

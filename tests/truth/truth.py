@@ -19,6 +19,7 @@ import struct
 import sys
 
 import axes
+import chains
 import draws
 import laws
 import oracle
@@ -647,6 +648,7 @@ def main():
         laws_judge = stated.Judge()
         if a.only is None and not want:
             laws.complete(laws_judge, product, a.seed, max(6, a.cases // 200) // n, run.out)
+            chains.continuity(laws_judge, product, f'{a.seed} {a.shard}', max(6, a.cases // 200) // n, run.out)
             run.judged += laws_judge.judged
     finally:
         product.close()

@@ -12,6 +12,7 @@ from ._dyadel import formats
 from ._dyadel import version as __version__
 from ._errors import BrokenPromise, Error
 from ._geometry import OPEN, RAY, Edges, Enclosures, Rings
+from ._notions import Arc, Bisector, Circle, PartialDisc, bisector, con, disc, hull, orientation
 from ._points import Confidence, Source, Text
 from ._questions import (OUTSIDE, UNDECIDED, Convergence, Graph, Nearest, NearestPlaces, Plan, Table, Tolerance, Verdict,
                          converge, replay, verify)
@@ -20,8 +21,9 @@ from ._statuses import INDETERMINATE, LEGAL, TIE
 from ._triangulation import Bounds, Delaunay
 from ._voronoi import Cell, Voronoi
 
-__all__ = ['Bounds', 'BrokenPromise', 'Cell', 'Confidence', 'Convergence', 'Delaunay', 'Edges', 'Enclosures', 'Error',
-           'Graph', 'INDETERMINATE', 'LEGAL', 'Nearest', 'NearestPlaces', 'OPEN', 'OUTSIDE', 'Plan', 'RAY', 'Rings',
+__all__ = ['Arc', 'Bisector', 'Bounds', 'BrokenPromise', 'Cell', 'Circle', 'Confidence', 'Convergence', 'Delaunay', 'Edges',
+           'Enclosures', 'Error', 'Graph', 'INDETERMINATE', 'LEGAL', 'Nearest', 'NearestPlaces', 'OPEN', 'OUTSIDE',
+           'PartialDisc', 'Plan', 'RAY', 'Rings',
            'Source', 'Sphere', 'SphereCell', 'SphereVoronoi', 'TIE', 'Table', 'Text', 'Tolerance', 'UNDECIDED',
-           'Verdict', 'Voronoi', '__version__', 'check', 'converge', 'delaunay', 'formats', 'moves', 'plan', 'replay',
-           'tolerance', 'verify']
+           'Verdict', 'Voronoi', '__version__', 'bisector', 'check', 'con', 'converge', 'delaunay', 'disc', 'formats', 'hull',
+           'moves', 'orientation', 'plan', 'replay', 'tolerance', 'verify']

@@ -12,6 +12,7 @@ import numpy as np
 from . import _dyadel, _geometry
 from ._arrays import Floats, Ints, Longs, Rect, ints, rect_of
 from ._inputs import Given, expect_same
+from ._notions import Corner, corners_of
 from ._options import INPUTS, Path, engine_options, split_inputs, takes_options
 from ._outputs import COLOURS, plot_lines, plot_polygons
 from ._points import append_given, given_of
@@ -152,6 +153,16 @@ class Delaunay(Statuses):
         """
         certain, possible = self._once('hull', lambda: around(self._engine, *map(ints, self._engine.hull())))
         return certain, possible
+
+    @property
+    def exterior(self) -> list[list[Corner]]:
+        """E of T (KEL, figure 6; section 3): where no choice has an edge, the complement of the partial edges of all possible
+        pairs. A ring for each component, with the component on its left, of exact vertices: the first is that of the
+        unbounded one, clockwise around all partial edges, the others are polygons, counter-clockwise."""
+        def found() -> list[list[Corner]]:
+            text = self._engine.write('csv', 'exterior', None, 0).decode()
+            return [corners_of(line.rsplit(',', 1)[0], ';') for line in text.splitlines()[1:]]
+        return [list(ring) for ring in self._once('exterior', found)]
 
     def find_triangle(self, xy: Any) -> Ints:
         """The certain triangle that holds each place (M, 2), as a row of `simplices`: it does for every choice, or the place is
