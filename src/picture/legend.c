@@ -230,6 +230,8 @@ void dyd_legend_begin(dyd_legend *l, dyd_canvas *c, const dyd_view *v) {
   l->x = DYD_VIEW_LEFT;
   l->y = DYD_VIEW_EDGE + v->height + AXIS * c->text;
   legend_bar(l);
+  /* Below the bar where it leaves less than half of the width. */
+  if (l->bar < DYD_VIEW_LEFT + v->width / 2) l->y += 1.7 * ROW * c->text;
 }
 
 /* Where the row at hand ends: the first two leave room for the bar and its length. */

@@ -313,7 +313,7 @@ def test_tikz_escapes():
 def test_sizes():
     """--width is that of all, --font-size of texts, in points; --bare leaves the frame alone."""
     for command, place in ALL:
-        for options, width, size in ((('--width', '4in'), 288, 7), (('--width', '1600'), 1600, 20), (('--width', '254mm', '--font-size', '12'), 720, 12),
+        for options, width, size in ((('--width', '4in'), 288, 7), (('--width', '72.5mm'), 205.51, 7), (('--width', '1600'), 1600, 20), (('--width', '254mm', '--font-size', '12'), 720, 12),
                                      (('--font-size', '7'), None, 7), (('--font-size', '21pt'), None, 21)):
             text = picture(command, TWELVE, *options, place=place)
             head = re.search(r'width="([\d.]+)(pt)?" height="([\d.]+)(pt)?" viewBox="(\S+) (\S+) (\S+) (\S+)"', text)
@@ -323,6 +323,9 @@ def test_sizes():
             assert abs(float(legend.look['font-size']) * scale - size) < 0.06 or (size == 20 and scale > 1), (command, options)
             low, high = float(head[6]), float(head[6]) + float(head[8])
             assert all(low < float(e.look['y']) < high for e in svg.elements(text) if e.tag == 'text'), (command, options)
+            big, end = float(legend.look['font-size']), float(legend.look['x']) - 0.45 * float(legend.look['font-size']) * len(legend.text)
+            assert not any(e.text != legend.text and e.look['font-size'] == legend.look['font-size'] and abs(float(e.look['y']) - float(legend.look['y'])) < 0.7 * big
+                           and float(e.look['x']) + 0.45 * big * len(e.text) > end for e in svg.elements(text) if e.tag == 'text'), (command, options)
             assert all(float(e.look['x']) >= float(head[5]) for e in svg.elements(text) if e.tag == 'text')
         bare = picture(command, TWELVE, '--bare', '--width', '85mm', place=place)
         left, right, top, bottom = svg.frame(bare)
