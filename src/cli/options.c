@@ -598,13 +598,22 @@ static int options_help(cli_options *o, const scan *s) {
   return 0;
 }
 
-/* Takes --threads N out of the words of the call: results do not depend on it, and so repeat the same call. */
-static void forget_threads(char **argv) {
+/* Takes options out of the words of the call on which the result does not depend, so that equal results are equal
+ * files. */
+static void forget_silent(char **argv) {
+  static const char *const silent[] = {"--threads",    "--output", "-o",       "--trace",
+                                       "--trace-sync", "--resume", "--timeout"};
   char **kept = argv;
   for (; *argv && strcmp(*argv, "--"); argv++) {
-    bool apart = strcmp(*argv, "--threads") == 0;
+    bool drop = strcmp(*argv, "--quiet") == 0 || strcmp(*argv, "-q") == 0, apart = false;
+    for (size_t k = 0; k < sizeof silent / sizeof *silent; k++) {
+      size_t length = strlen(silent[k]);
+      if (strncmp(*argv, silent[k], length)) continue;
+      apart = apart || !(*argv)[length];
+      drop = drop || !(*argv)[length] || (*argv)[length] == '=';
+    }
     if (apart && argv[1]) argv++;
-    if (!apart && strncmp(*argv, "--threads=", 10)) *kept++ = *argv;
+    if (!drop) *kept++ = *argv;
   }
   while (*argv) *kept++ = *argv++;
   *kept = NULL;
@@ -613,12 +622,11 @@ static void forget_threads(char **argv) {
 int cli_options_read(cli_options *out, int argc, char **argv) {
   scan s;
   *out = (cli_options){.format = DYD_FORMAT_CSV, .read = {DYD_SIZED(dyd_read_options)}};
-  out->style = (dyd_write_style){DYD_SIZED(dyd_write_style), .command_line = (const char *const *)argv};
+  out->style = (dyd_write_style){DYD_SIZED(dyd_write_style)};
   dyd_engine_options_init(&out->engine);
   scan_prepare(&s);
   int status = scan_all(&s, out, argc, argv);
   if (status) return status;
-  forget_threads(argv);
   if (s.operands == 0) {
     if (out->help || out->version) return 0;
     return cli_usage("a command is missing; try: dyadel delaunay FILE, or dyadel --help");
@@ -628,7 +636,10 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   if (!c) return unknown_command(s.operand[0]);
   out->command = c->name;
   if (out->help || out->version) return 0;
-  if (out->no_times) out->style.command_line = NULL;
+  if (out->comments && !out->no_times) {
+    forget_silent(argv);
+    out->style.command_line = (const char *const *)argv;
+  }
   out->read.round = out->engine.discs = out->discs;
   status = options_fit(out, s.seen, c);
   if (!status) status = layer_fits(out, c);

@@ -330,7 +330,8 @@ const cli_option cli_option_table[] = {
     {"length", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY), CLI_OUTPUT,
      "rows of pairs and graphs have bounds of the length: columns\nlength_lo and length_hi", AT(lengths)},
     {"comments", 0, NULL, CLI_FLAG, READ & ~BIT(CLI_CHECK), CLI_OUTPUT,
-     "csv begins with lines of \"# \": window, bounds, goal, points\nthat coincide, how numbers are rounded",
+     "csv begins with lines of \"# \": window, bounds, goal, points\nthat coincide, how numbers are rounded; json "
+     "repeats the call",
      AT(comments)},
     {"output", 'o', "FILE", CLI_FILE, CLI_ALL, CLI_OUTPUT,
      "write to FILE, whole or not at all; its ending, such as\n.svg, chooses the format", AT(output)},
