@@ -70,6 +70,7 @@ void fuzz_table(const uint8_t *data, size_t size);
 void fuzz_wkt(const uint8_t *data, size_t size);
 void fuzz_degrees(const uint8_t *data, size_t size);
 void fuzz_packed(const uint8_t *data, size_t size);
+void fuzz_area(const uint8_t *data, size_t size);
 void fuzz_expression(const uint8_t *data, size_t size);
 void fuzz_trace(const uint8_t *data, size_t size);
 void fuzz_certificate(const uint8_t *data, size_t size);
@@ -196,6 +197,22 @@ static FILE *file_of(uint8_t **copy, const uint8_t *data, size_t size) {
   FILE *in = fmemopen(*copy, size + !size, "rb");
   MUST(in);
   return in;
+}
+
+/* Polygons as well-known text or GeoJSON: read; to turn them again is no error. */
+void fuzz_area(const uint8_t *data, size_t size) {
+  uint8_t *copy;
+  dyd_error err;
+  dyd_area area = {0};
+  size_t bad[2];
+  FILE *in = file_of(&copy, data, size);
+  dyd_status st = dyd_area_read(&area, in, &err);
+  must_tell(st, &err);
+  MUST(st >= 0 || !area.rings);
+  if (st >= 0) MUST(dyd_area_orient(&area, bad) == DYD_OK);
+  dyd_area_clear(&area);
+  fclose(in);
+  free(copy);
 }
 
 void fuzz_trace(const uint8_t *data, size_t size) {
