@@ -208,7 +208,7 @@ def test_vtk_holds_all():
 
 def test_refusals():
     expect(run('delaunay', '--layer', 'cells', '-', stdin=POINTS), 2, r'\A\Z',
-           'delaunay has no layer "cells"; give pairs, points, triangles, graph:nearest, graph:gabriel, graph:mst, aliases, ties$')
+           'delaunay has no layer "cells"; give pairs, points, triangles, graph:nearest, graph:gabriel, graph:mst, aliases, hulls, exterior, ties$')
     for form in ('json', 'vtk', 'obj', 'svg'):
         expect(run('delaunay', '--layer', 'points', '--format', form, '-', stdin=POINTS), 2, r'\A\Z',
                'delaunay --layer points does not write ' + form + '; give csv, wkt, geojson, html$')

@@ -166,7 +166,7 @@ static void test_layers(void **state) {
       bool shared = strcmp(dyd_layer_name(of[k], l), "aliases") == 0;
       assert_int_equal(dyd_layer_from_name(&found, of[k ^ 1], dyd_layer_name(of[k], l)), shared);
     }
-  assert_int_equal(count, 20);
+  assert_int_equal(count, 22);
   assert_null(dyd_layer_name(DYD_CONTENT_CHECK, 0));
 }
 

@@ -48,7 +48,7 @@ FAULTS = [  # where it shows, file, what stands there, what is put there
     ('stated=rho', 'tolerance/points_filter.c', 'gap_of(&p->lines, &line, p->ring) - p->ring->half;', 'gap_of(&p->lines, &line, p->ring);'),
     ('stated=tolerance', 'tolerance/rows.c', 'dyd_roots_half(&lo, &hi, s->plus, s->minus);', 'dyd_roots_half(&lo, &hi, s->plus, s->minus), lo *= 1.0001, hi *= 1.0001;'),
     ('stated=tolerance', 'tolerance/lines.c', '<= 0)\n', '>= 0)\n'),
-    ('stated=plan', 'tolerance/survey.c', '*holds = st == DYD_OK && s->left <= before;', '*holds = st == DYD_OK;'),
+    ('stated=plan', 'tolerance/survey.c', '*holds = st == DYD_OK && s->result.left <= before;', '*holds = st == DYD_OK;'),
     ('stated=plan', 'tolerance/survey_face.c', 'double out = dyd_q_brief(a);', 'double out = 1.5 * dyd_q_brief(a);'),
     ('stated=graph nearest', 'graph/graph_filter.c', 'dyd_dl2_upper(a, &w->box[w->other[q]]) < dyd_ds2_lower(a, b))', 'dyd_ds2_upper(a, &w->box[w->other[q]], 0) < dyd_ds2_lower(a, b))'),
     ('stated=graph gabriel', 'graph/graph_filter.c', 'double least = 0.25 * dyd_ds2_lower(a, b), most', 'double least = 0.5 * dyd_ds2_lower(a, b), most'),

@@ -71,7 +71,7 @@ def _engine(points: Any, radius: Any, options: dict[str, Any]) -> tuple[_dyadel.
 
 def _piece(points: Any, radius: Any, of: int, options: dict[str, Any]) -> dict[str, Any]:
     engine, ready = _engine(points, radius, options)
-    outcome = engine.converge(ready, None, of, False)[0]
+    outcome = engine.converge(ready, None, of, False, 0, None)[0]
     found: dict[str, Any] = json.loads(engine.piece('disc' if of == DISC else 'bisector'))
     return {**found, 'outcome': outcome}
 
