@@ -226,18 +226,6 @@ static bool value_format(dyd_format *place, const cli_option *option, const char
   return false;
 }
 
-/* Whether it is one of the command is seen later. */
-static bool value_layer(const char **place, const cli_option *option, const char *text) {
-  dyd_content layer;
-  *place = text;
-  for (unsigned c = 0; c < CLI_COMMANDS; c++)
-    if (dyd_layer_from_name(&layer, cli_commands[c].content, text)) return true;
-  fprintf(stderr, "dyadel: --%s \"%s\" is not understood; give ", option->name, text);
-  cli_layers_print(stderr, CLI_ALL, ", ");
-  fputs("\n", stderr);
-  return false;
-}
-
 static bool value_crs(unsigned *place, const cli_option *option, const char *text) {
   long long number;
   if (strncasecmp(text, "EPSG:", 5) != 0 || !value_scan_integer(&number, text + 5, 1, 999999))
@@ -285,8 +273,9 @@ static bool value_any(cli_options *o, const cli_option *option, const char *text
     return value_choice(place, option, text);
   case CLI_FORMAT:
     return value_format(place, option, text);
-  case CLI_LAYER:
-    return value_layer(place, option, text);
+  case CLI_LAYER: /* whether the command has it is seen later */
+    *(const char **)place = text;
+    return true;
   case CLI_CRS:
     return value_crs(place, option, text);
   case CLI_HELP:
