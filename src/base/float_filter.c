@@ -60,7 +60,7 @@ dyd_status dyd_float_check(dyd_error *err) {
                     "call fesetenv(FE_DFL_ENV) before, and link no library built with -ffast-math");
   if (!float_rounds_to_nearest())
     return dyd_fail(err, DYD_E_ARG,
-                    "this thread does not round to nearest, which all bounds stand on; call fesetround(FE_TONEAREST)");
+                    "this thread does not round to nearest, and all bounds assume that; call fesetround(FE_TONEAREST)");
   if (float_contracts())
     return dyd_fail(err, DYD_E_ARG,
                     "this library was compiled to fuse products and sums, which its bounds do not hold for; compile it "

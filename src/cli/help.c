@@ -33,7 +33,7 @@ static const help_term help_coordinate_forms[] = {
                      "sin cos tan asin acos atan sinh cosh tanh abs min max; blanks are allowed inside parentheses"},
     {"root(x^5-x-1, 1, 2)", "the root of the polynomial between 1 and 2; also inside expressions"},
     {"random(7) slow(pi)", "for experiments: the number in [0,1] whose digits seed 7 draws; a number of which answer n "
-                           "is 1/n wide, however many bits are asked for"},
+                           "is 1/n wide, whatever precision is requested"},
     {NULL, NULL}};
 
 static const help_term help_exit_statuses[] = {

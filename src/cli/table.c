@@ -246,7 +246,7 @@ const cli_option cli_option_table[] = {
      "adaptive (default): refine undecided pairs;\nuniform: refine all points", AT(engine.schedule),
      WORDS("adaptive uniform")},
     {"policy", 0, "COMMAND", CLI_TEXT, RUN & ~BIT(CLI_CHECK), CLI_REFINEMENT,
-     "this program (sh -c) may change what each stage refines: it\nreads \"stage S points N\", \"pair I J\" for each "
+     "this program (sh -c) may change the plan of each stage: it\nreads \"stage S points N\", \"pair I J\" for each "
      "undecided\n"
      "pair, \"plan I B\" for each point planned, \"choose\"; it answers\nby lines \"refine I B\" instead of the plan, "
      "and \"go\"",

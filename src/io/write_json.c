@@ -367,7 +367,7 @@ static dyd_status voronoi_json(const dyd_output *o) {
   diagram_head_json(j, o, "dyadel voronoi 1",
                     "texts are exact numbers; pairs of numbers are rounded outward: the first down, the second up; "
                     "null is unbounded or beyond the largest double; inner and outer of a cell with vertex_error are "
-                    "that cell, with vertices rounded by at most so much in each coordinate");
+                    "that cell, with vertices rounded by at most vertex_error in each coordinate");
   dyd_json_array(j, "cells", DYD_JSON_LIST);
   if (j->st == DYD_OK) dyd_json_good(j, dyd_diagram_visit(d, cell_json, &c));
   dyd_point_texts_clear(&c.texts);

@@ -301,12 +301,11 @@ static void pgf_curve(FILE *out, const dyd_convergence *c, const plot_series *se
 static dyd_status convergence_pgf(const dyd_output *o) {
   const dyd_convergence *c = o->what;
   const plot_series *series = c->of >= DYD_CONVERGE_DISC ? piece_bounds : bounds;
-  fprintf(
-      o->out,
-      "%% dyadel converge: %s, %s schedule, outcome %s; bounds and widths are rounded up, those that are 0 omitted\n"
-      "\\begin{tikzpicture}\n\\begin{axis}[xlabel={bits},ylabel={upper bound},ymode=log,log basis y=2,legend "
-      "pos=outer north east]\n",
-      dyd_converge_of_text(c->of), dyd_schedule_text(c->options->schedule), dyd_outcome_text(c->outcome));
+  fprintf(o->out,
+          "%% dyadel converge: %s, %s schedule, outcome %s; bounds and widths are rounded up, zeros omitted\n"
+          "\\begin{tikzpicture}\n\\begin{axis}[xlabel={bits},ylabel={upper bound},ymode=log,log basis y=2,legend "
+          "pos=outer north east]\n",
+          dyd_converge_of_text(c->of), dyd_schedule_text(c->options->schedule), dyd_outcome_text(c->outcome));
   for (size_t k = 0; k < BOUNDS; k++) pgf_curve(o->out, c, &series[k], k, !o->style.bare);
   fputs("\\end{axis}\n\\end{tikzpicture}\n", o->out);
   return DYD_OK;

@@ -58,7 +58,7 @@ static PyMethodDef engine_methods[] = {
     {"carried", dydpy_carried, METH_NOARGS, "carried() -> {name: [text of each point]}"},
     {"names", dydpy_names, METH_NOARGS, "names() -> (Buffer of int64 rows, list of ids or None)"},
     {"confidence", dydpy_confidence, METH_VARARGS,
-     "confidence(text, n) -> (probability, k, n), stated of n points that come next; (None, 0): what was stated, or "
+     "confidence(text, n) -> (probability, k, n), stated of n points that come next; (None, 0): the one stated, or "
      "None"},
     {"remeasure", dydpy_remeasure, METH_VARARGS, "remeasure(i, (xlo, xhi, ylo, yhi))"},
     {"recall", dydpy_recall, METH_VARARGS, "recall(path) -> int: answers taken from a trace"},

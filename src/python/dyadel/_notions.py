@@ -32,7 +32,7 @@ class Circle(NamedTuple):
 class PartialDisc(NamedTuple):
     """The partial disc (I, E) of three partial points (KEL, figure 5; section 4): I is the interior of the intersection of the
     discs of the first three circles, E the complement of the union of the others. orientation: as orientation() says; if
-    'unknown', there are no circles, and I and E are empty. con: Con of each further point. outcome: how refining ended."""
+    'unknown', circles is empty, and so are I and E. con: Con of each further point. outcome: how refining ended."""
 
     orientation: str
     circles: list[Circle]
@@ -119,7 +119,7 @@ def bisector(points: Any, radius: Any = None, **options: Any) -> Bisector:
 @takes_options(*INPUTS)
 def hull(points: Any, radius: Any = None, **options: Any) -> list[Corner]:
     """The convex hull of one to three partial points (section 3): of two the partial edge Ed(a, b), of three the partial
-    triangle. Vertices counter-clockwise, exact. The points have to be rectangles; d.rect(i) gives those that a run reached."""
+    triangle. Vertices counter-clockwise, exact. The points have to be rectangles; d.rect(i) gives the one that a run reached."""
     engine = _engine(points, radius, options)[0]
     if not 1 <= engine.count() <= 3:
         raise ValueError(f'give one to three points, not {engine.count()}')
