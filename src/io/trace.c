@@ -661,9 +661,7 @@ static dyd_status replay_triangulate(replay *r, const dyd_delaunay_options *o) {
 
 static dyd_status replay_proof(replay *r, const json_t *line) {
   dyd_status st = trace_proofs_read(&r->proofs, line, r->points);
-  return st == DYD_E_PARSE
-             ? replay_fail(r, "the proof is not of the form that traces have; give the trace as it was written")
-             : st;
+  return st == DYD_E_PARSE ? replay_fail(r, "this is not what can be proved of points") : st;
 }
 
 static dyd_status replay_stage(replay *r, const json_t *line) {
