@@ -236,11 +236,12 @@ static int voronoi_begin(cli_session *s) {
   return cli_usage("--max-arc is about the globe; give --sphere or remove it");
 }
 
-/* Sets the default window, which needs to know where the points are: a first stage. false after a message. */
+/* Sets the default window, which needs to know where the points are: after a first stage if the goal is about it, else
+ * after the run. false after a message. */
 static bool voronoi_window(int *status, cli_session *s) {
   dyd_engine_options first = s->o.engine;
+  if (first.goal != DYD_GOAL_DECIDED) first.max_stages = 1;
   first.goal = DYD_GOAL_DECIDED;
-  first.max_stages = 1;
   *status = cli_session_run(s, &first, cli_run_engine);
   const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
   if (!pd || dyd_voronoi_window(&s->window, dyd_delaunay_sites(pd)) == DYD_OK) return true;
@@ -250,8 +251,10 @@ static bool voronoi_window(int *status, cli_session *s) {
 
 static int voronoi_find(cli_session *s) {
   int status = 0;
+  bool more = s->view || s->o.engine.goal != DYD_GOAL_DECIDED;
   if (!s->view && !voronoi_window(&status, s)) return status ? status : CLI_FAILED;
-  if (!status && (s->view || cli_run_was_whole(s->engine))) status = cli_session_run(s, &s->o.engine, cli_run_engine);
+  more = more && !status && (s->view || cli_run_was_whole(s->engine));
+  if (more) status = cli_session_run(s, &s->o.engine, cli_run_engine);
   const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
   s->known = pd && !dyd_delaunay_is_capped(pd);
   if (pd && !s->known)
