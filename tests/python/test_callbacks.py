@@ -333,6 +333,9 @@ def test_check():
     report = dyadel.check(dyadel.Source(5, half_line), schedules=8)
     assert report['fault'] == 'fine' and report['schedules'] == 8
     assert dyadel.check(np.random.default_rng(1).random((8, 2)), radius=0.01, schedules=2)['fault'] == 'fine'
+    for name, value in (('seed', -1), ('seed', 2**64), ('schedules', 0), ('schedules', 2**32), ('max_bits', -1)):
+        error = harness.raised(ValueError, dyadel.check, [(0, 0), (1, 1), (0, 2)], **{name: value})
+        assert str(error).startswith(f'{name}={value}; give at '), error
 
     def drifts(i, bits):
         return i, i, Fraction(bits, 10**6), Fraction(bits, 10**6) + Fraction(1, 2**bits)

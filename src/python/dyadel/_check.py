@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from . import _dyadel
 from ._arrays import rect_of
 from ._errors import BrokenPromise
-from ._options import INPUTS, takes_options, time_limit
+from ._options import INPUTS, takes_options, time_limit, whole
 from ._points import Source, append_points
 from ._triangulation import Delaunay
 
@@ -34,10 +34,9 @@ def check(points: Any, radius: Any = None, *, moves: Sequence[Move] | None = Non
     Raises BrokenPromise (an AssertionError) with the shortest schedule found; returns the numbers of schedules, stages,
     pairs and cells tried. moves: this one schedule [(stage, point, bits), ...] instead of random ones.
     """
-    for name, value in (('schedules', schedules), ('stages', stages), ('base_bits', base_bits), ('max_bits', max_bits),
-                        ('slack_bits', slack_bits)):
-        if value < 1:
-            raise ValueError(f'{name}={value}; give a number from 1 on')
+    for name, value, least, most in (('schedules', schedules, 1, 2**32 - 1), ('stages', stages, 1, 2**32 - 1), ('base_bits', base_bits, 1, 2**63 - 1),
+                                     ('max_bits', max_bits, 1, 2**63 - 1), ('slack_bits', slack_bits, 1, 2**63 - 1), ('seed', seed, 0, 2**64 - 1)):
+        whole(name, value, least, most)
 
     if reference is not None:
         points = _compared(points, reference, max_bits)
