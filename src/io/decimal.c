@@ -261,9 +261,18 @@ static char *rational_text(const dyd_interval *a, bool upper) {
   return text;
 }
 
+/* One end may be dyadic where the other is not. */
 char *dyd_end_text(const dyd_interval *a, bool upper) {
-  if (mpz_cmp_ui(a->den, 1) != 0) return rational_text(a, upper);
-  return dyd_dyadic_get_str(upper ? &a->hi : &a->lo);
+  const dyd_dyadic *end = upper ? &a->hi : &a->lo;
+  if (mpz_cmp_ui(a->den, 1) == 0) return dyd_dyadic_get_str(end);
+  if (!mpz_divisible_p(end->man, a->den)) return rational_text(a, upper);
+  dyd_dyadic whole;
+  dyd_dyadic_init(&whole);
+  dyd_dyadic_set(&whole, end);
+  mpz_divexact(whole.man, whole.man, a->den);
+  char *text = dyd_dyadic_get_str(&whole);
+  dyd_dyadic_clear(&whole);
+  return text;
 }
 
 static char *put_wide_digits(char *to, wide n) {
