@@ -498,7 +498,8 @@ static dyd_status layer_write(GDALDatasetH set, OGRSpatialReferenceH crs, cli_se
   return st;
 }
 
-/* All layers of the content, or the one of the options. Layers that these points do not allow are omitted. */
+/* All layers of the content, or the one of the options. Layers that these points do not allow are omitted, and
+ * those of the region of all possible edges, which are asked for by name. */
 static dyd_status layers_write(GDALDatasetH set, OGRSpatialReferenceH crs, cli_session *s, cli_print_fn print,
                                const char *base, dyd_error *err) {
   const dyd_content all = s->o.content;
@@ -510,6 +511,7 @@ static dyd_status layers_write(GDALDatasetH set, OGRSpatialReferenceH crs, cli_s
     snprintf(plain, sizeof plain, "%s", name);
     for (char *c = plain; (c = strchr(c, ':'));) *c = '_';
     dyd_layer_from_name(&s->o.content, all, name);
+    if (s->o.content == DYD_CONTENT_HULLS || s->o.content == DYD_CONTENT_EXTERIOR) continue;
     s->o.format = dyd_format_holds(DYD_FORMAT_WKT, s->o.content) ? DYD_FORMAT_WKT : DYD_FORMAT_CSV;
     st = layer_write(set, crs, s, print, plain, err);
     if (st == DYD_E_ARG && k) st = DYD_OK;

@@ -234,7 +234,7 @@ static dyd_status rows_of_triangles(dyd_table *t, const dyd_output *o) {
 
 /* ---- T as a region ---- */
 
-/* Vertices in turn, exactly: "0 0;1 0;1/2 2"; as a polygon if they are one. */
+/* Vertices in turn, exactly: "0 0;1 0;1/2 2"; and a polygon, which is empty where they are a segment. */
 static dyd_status row_corners(dyd_table *t, mpq_t *xy, size_t n) {
   char *text = NULL;
   size_t size;
@@ -243,6 +243,7 @@ static dyd_status row_corners(dyd_table *t, mpq_t *xy, size_t n) {
   FILE *out = open_memstream(&text, &size);
   if (!out) return DYD_E_NOMEM;
   dyd_rect_init(&r);
+  if (n > 2 && t->drawn) dyd_row_part(t);
   for (size_t k = 0; k <= n && st == DYD_OK; k++) {
     mpq_t *z = &xy[2 * (k % n)];
     double box[4];
@@ -486,9 +487,9 @@ static const dyd_layer layers[] = {
     {IN(GRAPH_GABRIEL), "graph:gabriel", IN(DELAUNAY), true, true, LINE, alias_comments, rows_of_graph, PAIRS},
     {IN(GRAPH_MST), "graph:mst", IN(DELAUNAY), true, true, LINE, alias_comments, rows_of_graph, PAIRS},
     {IN(ALIASES), "aliases", IN(DELAUNAY), true, false, POINT, NULL, rows_of_aliases, "i,of"},
-    {IN(HULLS), "hulls", IN(DELAUNAY), true, false, POLYGON, alias_comments, rows_of_hulls,
+    {IN(HULLS), "hulls", IN(DELAUNAY), true, false, POLYGONS, alias_comments, rows_of_hulls,
      "corners,i,j,k,status,id_i,id_j,id_k"},
-    {IN(EXTERIOR), "exterior", IN(DELAUNAY), true, false, POLYGON, alias_comments, rows_of_exterior, "corners,part"},
+    {IN(EXTERIOR), "exterior", IN(DELAUNAY), true, false, POLYGONS, alias_comments, rows_of_exterior, "corners,part"},
     {IN(TIES), "ties", IN(DELAUNAY), false, false, POINT, NULL, rows_of_ties, "kind,sites"},
     {IN(VORONOI), "cells", IN(VORONOI), true, false, POLYGON, dyd_cell_comments, dyd_cell_rows,
      "?kind,i,id,*,xlo,xhi,ylo,yhi,area_lo,area_hi,undetermined"},

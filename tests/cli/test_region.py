@@ -151,7 +151,7 @@ def test_formats():
     points = ''.join(f'{x}+-0.25 {y}+-0.25\n' for x, y in ((0, 0), (9, 1), (4, 8), (5, 3)))
     exact = [corners(r['corners']) for r in table(points, 'exterior')]
     for row, ring in zip(table(points, 'exterior', '--format', 'wkt'), exact):
-        shown = [tuple(map(Q, z.split())) for z in re.search(r'\(\((.*)\)\)', row['WKT'])[1].split(',')]
+        shown = [tuple(map(Q, z.split())) for z in re.search(r'\(\(\((.*)\)\)\)', row['WKT'])[1].split(',')]
         error = Q(row['max_coordinate_error'])
         assert shown[0] == shown[-1] and len(shown) == len(ring) + 1
         assert all(abs(a - b) <= error for p, q in zip(shown, ring) for a, b in zip(p, q))
