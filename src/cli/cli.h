@@ -93,6 +93,9 @@ typedef struct cli_options {
 
 /* options.c: 0, or CLI_USAGE after a message. */
 int cli_options_read(cli_options *out, int argc, char **argv);
+/* Keeps the words of the call for json, if --comments asks for them, but for those on which the result does not depend,
+ * so that equal results are equal files: argv becomes these. */
+void cli_options_keep_call(cli_options *o, char **argv);
 
 /* process.c: prints "dyadel: ..." to standard error. */
 void cli_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));

@@ -48,6 +48,7 @@ int main(int argc, char **argv) {
   cli_memory_guard();
   int status = cli_options_read(&options, argc, argv);
   if (!status) status = cli_spatial_switch(&options, argv);
+  if (!status) cli_options_keep_call(&options, argv);
   /* A broken pipe is noticed when writing fails, so that other files are finished and all messages printed. At the end
    * the process dies of SIGPIPE as others do, unless the parent ignores it. */
   void (*before)(int) = signal(SIGPIPE, SIG_IGN);

@@ -587,12 +587,12 @@ static int options_help(cli_options *o, const scan *s) {
   return 0;
 }
 
-/* Takes options out of the words of the call on which the result does not depend, so that equal results are equal
- * files. */
-static void forget_silent(char **argv) {
+void cli_options_keep_call(cli_options *o, char **argv) {
   static const char *const silent[] = {"--threads",    "--output", "-o",       "--trace",
                                        "--trace-sync", "--resume", "--timeout"};
   char **kept = argv;
+  if (!o->comments || o->no_times) return;
+  o->style.command_line = (const char *const *)argv;
   for (; *argv && strcmp(*argv, "--"); argv++) {
     bool drop = strcmp(*argv, "--quiet") == 0 || strcmp(*argv, "-q") == 0, apart = false;
     for (size_t k = 0; k < sizeof silent / sizeof *silent; k++) {
@@ -625,10 +625,6 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   if (!c) return unknown_command(s.operand[0]);
   out->command = c->name;
   if (out->help || out->version) return 0;
-  if (out->comments && !out->no_times) {
-    forget_silent(argv);
-    out->style.command_line = (const char *const *)argv;
-  }
   out->read.round = out->engine.discs = out->discs;
   status = options_fit(out, s.seen, c);
   if (!status) status = layer_fits(out, c);
