@@ -53,6 +53,14 @@ def row_shapely(a, n=100_000):
     return {'n': n, 'ours': ours, 'peer': 'scipy + shapely', 'theirs': theirs, 'ratio_goal': 0.5}
 
 
+def row_tiles(a, n=100_000):
+    """From points to polygons that cover the window: arrays, against the collection that GEOS makes."""
+    points = points_of(n)
+    ours, theirs = in_turns(a.runs, lambda: dyadel.delaunay(points).voronoi().tiles,
+                            lambda: ops.voronoi_diagram(geometry.MultiPoint(points)))
+    return {'n': n, 'ours': ours, 'peer': 'GEOS', 'theirs': theirs, 'ratio_goal': 0.5}
+
+
 def row_nearest(a, n=1_000_000):
     """As many places as points."""
     d, places = dyadel.delaunay(points_of(n)), points_of(n, 2)
@@ -96,7 +104,7 @@ def row_memory(a, n=1_000_000):
     return {'n': n, 'ours': took, 'ours_bytes': peak, 'measure': 'MiB', 'figure': peak / 2**20, 'figure_goal': 1024}
 
 
-ROWS = {'py-memory': row_memory, 'py-cells': row_cells, 'py-shapely': row_shapely, 'py-nearest': row_nearest,
+ROWS = {'py-memory': row_memory, 'py-cells': row_cells, 'py-shapely': row_shapely, 'py-tiles': row_tiles, 'py-nearest': row_nearest,
         **{f'py-append-{count}{name}': functools.partial(row_append, count=count, radius=radius)
            for count in (1, 1000) for name, radius in (('', None), ('-boxes', 1e-7), ('-wide', 1e-5))},
         'py-remeasure': row_remeasure}
@@ -141,7 +149,7 @@ if __name__ == '__main__':
     peers = all(map(importlib.util.find_spec, ('scipy', 'shapely')))
     if peers:
         from scipy import spatial
-        from shapely import geometry
+        from shapely import geometry, ops
     for wanted in given.row or ROWS:
-        if wanted != 'py-shapely' or peers:
+        if wanted not in ('py-shapely', 'py-tiles') or peers:
             report(given.csv, wanted, ROWS[wanted](given, **({'n': given.n} if given.n else {})))
