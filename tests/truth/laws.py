@@ -194,9 +194,10 @@ def judge_rho(judge, case, claims, last, rand, effort):
 
 
 def judge_motion(judge, case, claims, last, rand, effort):
-    """Below its death an edge is one for each motion; before its birth a pair is none."""
+    """Below its death an edge is one for each motion; before its birth a pair is none. With ties off, equal places are two
+    sites, of which this oracle knows one."""
     place = [s.place for s in case.sites]
-    events = [(p, e) for p, e in claims['events'].items() if e[0] != 'tie' and e[1]]
+    events = [(p, e) for p, e in claims['events'].items() if e[0] != 'tie' and e[1] and set(p) <= set(last.sites)]
     for (i, j), (event, lo, _) in rand.sample(events, min(len(events), 3)):
         t = lo * (1 - Q(1, 2 ** 45))
         regions = [('box', p[0] - t, p[0] + t, p[1] - t, p[1] + t) if case.box_metric else ('disc', *p, t * s.weight)
