@@ -80,19 +80,21 @@ static void row_update(const bench_options *o, size_t k) {
 /* ---- one giant face ---- */
 
 /* A random part of the interval, a quarter to three quarters as wide. */
-static void shrink(dyd_interval *a, uint64_t *state) {
-  double lo = dyd_dyadic_get_d(&a->lo, DYD_UP), hi = dyd_dyadic_get_d(&a->hi, DYD_DOWN);
-  double width = (hi - lo) * (0.25 + 0.5 * cloud_unit(state)), from = lo + (hi - lo - width) * cloud_unit(state);
+static void shrink(dyd_interval *a, const double box[2], uint64_t *state) {
+  double width = (box[1] - box[0]) * (0.25 + 0.5 * cloud_unit(state)),
+         from = box[0] + (box[1] - box[0] - width) * cloud_unit(state);
   check(dyd_interval_set_d(a, from, from + width));
 }
 
 static void measure(dyd_engine *e, uint32_t i, uint64_t *state) {
   dyd_outcome outcome;
+  double box[4];
   dyd_rect r;
   dyd_rect_init(&r);
   check(dyd_sites_get(&r, dyd_engine_sites(e), i));
-  shrink(&r.x, state);
-  shrink(&r.y, state);
+  dyd_rect_get_d(box, &r);
+  shrink(&r.x, box, state);
+  shrink(&r.y, box + 2, state);
   check(dyd_engine_remeasure(e, i, &r, NULL));
   check(dyd_engine_run(&outcome, e, NULL, NULL));
   dyd_rect_clear(&r);
