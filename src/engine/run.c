@@ -7,6 +7,7 @@
 #include "delaunay/memory.h"
 #include "delaunay/state.h"
 #include "delaunay/undecided.h"
+#include "dyadic/raw.h"
 #include "engine/ask.h"
 #include "engine/coarse.h"
 #include "engine/goal_voronoi.h"
@@ -117,8 +118,8 @@ static dyd_status coarse_fetch(dyd_coarse *c, const dyd_delaunay *pd, size_t f) 
 /* By left ends, then by lower ends; equal ones by their place, so that the order is always the same. */
 static int coarse_compare_place(const void *a, const void *b) {
   const dyd_coarse_site *s = *(dyd_coarse_site *const *)a, *t = *(dyd_coarse_site *const *)b;
-  int c = dyd_dyadic_cmp(&s->rect.x.lo, &t->rect.x.lo);
-  if (c == 0) c = dyd_dyadic_cmp(&s->rect.y.lo, &t->rect.y.lo);
+  int c = dyd_raw_cmp(&s->rect.x.lo, t->rect.x.den, &t->rect.x.lo, s->rect.x.den);
+  if (c == 0) c = dyd_raw_cmp(&s->rect.y.lo, t->rect.y.den, &t->rect.y.lo, s->rect.y.den);
   return c ? c : (s > t) - (s < t);
 }
 

@@ -9,6 +9,8 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "dyadic/raw.h"
+#include "rect/rect.h"
 #include "rect/sites_table.h"
 
 #include <math.h>
@@ -19,9 +21,9 @@ static dyd_status side_middle(dyd_interval *out, double *half, const dyd_interva
   dyd_dyadic_init(&x);
   dyd_status st = dyd_dyadic_sub(&x, &side->hi, &side->lo);
   if (st == DYD_OK) st = dyd_dyadic_mul_2exp(&x, &x, -1);
-  if (st == DYD_OK) *half = dyd_dyadic_get_d(&x, DYD_UP);
+  if (st == DYD_OK) *half = dyd_raw_quotient_get_d(x.man, x.exp, side->den, DYD_UP);
   if (st == DYD_OK) st = dyd_dyadic_add(&x, &x, &side->lo);
-  if (st == DYD_OK) st = dyd_interval_set_ends(out, &x, &x);
+  if (st == DYD_OK) dyd_interval_set_over(out, &x, side->den);
   dyd_dyadic_clear(&x);
   return st;
 }

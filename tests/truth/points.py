@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""An oracle program: boxes of a file of fractions; a place of no width is enclosed as finely as is asked."""
+"""An oracle program: boxes of a file of fractions; a place of no width is enclosed as finely as is asked, by dyadics and,
+every third one, by decimals."""
 import fractions
 import sys
 
@@ -15,6 +16,12 @@ def outward(q, bits, up):
     return f'{n}*2^{-bits}'
 
 
+def decimal(q, bits, up):
+    """An end that is a decimal; of a width below 2^-bits."""
+    digits = max(bits, 0) * 31 // 100 + 1
+    return f'{q.numerator * 10**digits // q.denominator + up}e-{digits}'
+
+
 for line in sys.stdin:
     word, i, bits = line.split()
     b = boxes[int(i)]
@@ -22,4 +29,5 @@ for line in sys.stdin:
         print(i, *(f'{c.numerator}/{c.denominator}' for c in b), 'fixed', flush=True)
     else:
         # nested: the ends of a finer grid that holds the coarser one lie inside
-        print(i, *(outward(c, int(bits) + 1, k % 2) for k, c in enumerate(b)), flush=True)
+        end = decimal if int(i) % 3 == 1 else outward
+        print(i, *(end(c, int(bits) + 1, k % 2) for k, c in enumerate(b)), flush=True)
