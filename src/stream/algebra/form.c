@@ -120,12 +120,17 @@ static uint32_t forms_opaque(dyd_forms *f, const void *object, uint32_t part, co
   f->opaque = true;
   f->node[n].prec = WORD_MAX;
   arb_indeterminate(&f->node[n].value);
-  if (!now || mpz_cmp_ui(now->den, 1)) return n;
+  if (!now) return n;
   arb_t hi;
+  fmpz_t den;
   arb_init(hi);
+  fmpz_init(den);
+  fmpz_set_mpz(den, now->den);
   dyd_ball_set_z_2exp(&f->node[n].value, now->lo.man, (slong)now->lo.exp);
   dyd_ball_set_z_2exp(hi, now->hi.man, (slong)now->hi.exp);
   arb_union(&f->node[n].value, &f->node[n].value, hi, 256);
+  arb_div_fmpz(&f->node[n].value, &f->node[n].value, den, 256);
+  fmpz_clear(den);
   arb_clear(hi);
   return n;
 }
