@@ -410,7 +410,7 @@ static void ext_pieces_of(ext_work *w, const ext_edge *e) {
     return;
   }
   for (size_t k = 0; k < e->count; k++) t[2 * k] = e->cover[k].lo, t[2 * k + 1] = e->cover[k].hi;
-  qsort(t, 2 * e->count, sizeof *t, ext_compare_q);
+  if (e->count) qsort(t, 2 * e->count, sizeof *t, ext_compare_q);
   for (size_t k = 0; k + 1 < 2 * e->count; k++) {
     bool open[2] = {true, true};
     if (mpq_equal(t[k], t[k + 1])) continue;
@@ -467,7 +467,7 @@ static int ext_compare_piece(const void *a, const void *b) {
 /* Equal pieces become one: each knows all hulls. */
 static void ext_unite(ext_work *w) {
   size_t kept = 0;
-  qsort(w->piece, w->pieces, sizeof *w->piece, ext_compare_piece);
+  if (w->pieces) qsort(w->piece, w->pieces, sizeof *w->piece, ext_compare_piece);
   for (size_t k = 0; k < w->pieces; k++) {
     if (kept && ext_compare_piece(&w->piece[k], &w->piece[kept - 1]) == 0) {
       for (int e = 0; e < 2; e++) {
@@ -576,7 +576,7 @@ static dyd_status ext_rings(dyd_exterior *out, ext_work *w) {
   bool good = dart && dyd_reserve((void **)&out->offset, &caps[0], 2, sizeof *out->offset);
   if (good) out->offset[0] = out->offset[1] = 0;
   for (size_t k = 0; good && k < count; k++) dart[k] = (ext_dart){&w->piece[k / 2], k & 1, false};
-  if (good) qsort(dart, count, sizeof *dart, ext_compare_dart);
+  if (good && count) qsort(dart, count, sizeof *dart, ext_compare_dart);
   if (good && count) good = ext_ring(out, caps, dart, count, ext_outermost(dart, count));
   for (size_t k = 0; good && k < count; k++)
     if (!dart[k].used && dart[k].piece->open[dart[k].back]) good = ext_ring(out, caps, dart, count, k);
