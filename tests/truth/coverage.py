@@ -38,8 +38,6 @@ REASONS = {  # (command or *, option, format:F, layer:L or OPTION=word): why no 
     ('disc', 'format:svg'): PICTURE, ('bisector', 'format:svg'): PICTURE, ('nearest', 'format:svg'): PICTURE,
     ('tolerance', 'format:svg'): PICTURE, ('tolerance', '--sigma'): 'probabilities: tests/tolerance/test_chance.c',
     ('tolerance', '--sigma-column'): 'probabilities: tests/tolerance/test_chance.c',
-    **{('tolerance', '--oracle' + o): 'takes exact places: a program gives rectangles'
-       for o in ('', '-jobs', '-batch', '-retries', '-timeout')},
     ('plan', '--pairs'): 'as --site: a part of the pairs', ('*', 'help=man'): 'says nothing about points',
     ('*', 'help=bash'): 'says nothing about points', ('*', 'help=zsh'): 'says nothing about points'}
 
