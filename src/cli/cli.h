@@ -91,11 +91,9 @@ typedef struct cli_options {
   const char *help;     /* "" (--help), or the kind of --help=KIND */
 } cli_options;
 
-/* options.c: 0, or CLI_USAGE after a message. */
-int cli_options_read(cli_options *out, int argc, char **argv);
-/* Keeps the words of the call for json, if --comments asks for them, but for those on which the result does not depend,
- * so that equal results are equal files: argv becomes these. */
-void cli_options_keep_call(cli_options *o, char **argv);
+/* options.c: 0, or CLI_USAGE after a message. call, of argc + 1 words, becomes those on which the result depends, up to
+ * a NULL: json repeats them with --comments, so that equal results are equal files. Borrowed by *out. */
+int cli_options_read(cli_options *out, int argc, char **argv, char **call);
 
 /* process.c: prints "dyadel: ..." to standard error. */
 void cli_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
@@ -423,6 +421,7 @@ typedef struct cli_option {
   long long least, most;
   const char *words; /* that completion offers, with a blank between two; NULL: none */
   size_t given;      /* offset of a bool that is set, 0: none */
+  bool silent;       /* the result does not depend on it */
 } cli_option;
 
 typedef struct cli_command {

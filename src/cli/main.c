@@ -2,6 +2,7 @@
 /* The command dyadel. */
 #include "cli.h"
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 
 #ifndef DYD_GDAL
@@ -46,14 +47,15 @@ int main(int argc, char **argv) {
   cli_options options;
   if (!cli_guard_descriptors()) return CLI_FAILED;
   cli_memory_guard();
-  int status = cli_options_read(&options, argc, argv);
+  char **call = calloc((size_t)argc + 1, sizeof *call);
+  int status = call ? cli_options_read(&options, argc, argv, call) : cli_complain_memory();
   if (!status) status = cli_spatial_switch(&options, argv);
-  if (!status) cli_options_keep_call(&options, argv);
   /* A broken pipe is noticed when writing fails, so that other files are finished and all messages printed. At the end
    * the process dies of SIGPIPE as others do, unless the parent ignores it. */
   void (*before)(int) = signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN); /* a file that may grow no more is noticed at the writing, too */
   if (!status) status = run_command(&options);
+  free(call);
   if (cli_output_lost_reader() && before == SIG_DFL) {
     signal(SIGPIPE, SIG_DFL);
     raise(SIGPIPE);

@@ -303,6 +303,7 @@ typedef struct scan {
   bool seen[MOST_OPTIONS];
   const char *operand[MOST_OPERANDS];
   size_t operands;
+  char **call; /* where the next word of the call goes on which the result depends */
 } scan;
 
 /* Tells getopt_long of all options; its value for option k is FIRST_VALUE + k. */
@@ -370,8 +371,10 @@ static int scan_operand(scan *s, const char *text) {
 static int scan_all(scan *s, cli_options *o, int argc, char **argv) {
   bool operands_only = false;
   opterr = 0;
+  if (argc) *s->call++ = argv[0];
   for (int status = 0; optind < argc;) {
-    char *a = argv[optind];
+    char **word = &argv[optind], *a = *word;
+    bool silent = false;
     if (!operands_only && strcmp(a, "--") == 0) {
       operands_only = true;
       optind++;
@@ -383,10 +386,13 @@ static int scan_all(scan *s, cli_options *o, int argc, char **argv) {
       if (value == '?' || value == ':') return complain_option(value, a);
       size_t k = option_number(value);
       s->seen[k] = true;
+      silent = cli_option_table[k].silent;
       status = value_read(o, &cli_option_table[k], optarg);
     }
     if (status) return status;
+    while (word < &argv[optind] && !silent) *s->call++ = *word++;
   }
+  *s->call = NULL;
   return 0;
 }
 
@@ -587,33 +593,13 @@ static int options_help(cli_options *o, const scan *s) {
   return 0;
 }
 
-void cli_options_keep_call(cli_options *o, char **argv) {
-  static const char *const silent[] = {"--threads",    "--output", "-o",       "--trace",
-                                       "--trace-sync", "--resume", "--timeout"};
-  char **kept = argv;
-  if (!o->comments || o->no_times) return;
-  o->style.command_line = (const char *const *)argv;
-  for (; *argv && strcmp(*argv, "--"); argv++) {
-    bool drop = strcmp(*argv, "--quiet") == 0 || strcmp(*argv, "-q") == 0, apart = false;
-    for (size_t k = 0; k < sizeof silent / sizeof *silent; k++) {
-      size_t length = strlen(silent[k]);
-      if (strncmp(*argv, silent[k], length)) continue;
-      apart = apart || !(*argv)[length];
-      drop = drop || !(*argv)[length] || (*argv)[length] == '=';
-    }
-    if (apart && argv[1]) argv++;
-    if (!drop) *kept++ = *argv;
-  }
-  while (*argv) *kept++ = *argv++;
-  *kept = NULL;
-}
-
-int cli_options_read(cli_options *out, int argc, char **argv) {
+int cli_options_read(cli_options *out, int argc, char **argv, char **call) {
   scan s;
   *out = (cli_options){.format = DYD_FORMAT_CSV, .read = {DYD_SIZED(dyd_read_options)}};
   out->style = (dyd_write_style){DYD_SIZED(dyd_write_style)};
   dyd_engine_options_init(&out->engine);
   scan_prepare(&s);
+  s.call = call;
   int status = scan_all(&s, out, argc, argv);
   if (status) return status;
   if (s.operands == 0) {
@@ -625,6 +611,7 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   if (!c) return unknown_command(s.operand[0]);
   out->command = c->name;
   if (out->help || out->version) return 0;
+  if (out->comments && !out->no_times) out->style.command_line = (const char *const *)call;
   out->read.round = out->engine.discs = out->discs;
   status = options_fit(out, s.seen, c);
   if (!status) status = layer_fits(out, c);

@@ -12,6 +12,7 @@
 #define RANGE(low, high) .least = (low), .most = (high)
 #define WORDS(text) .words = (text)
 #define GIVEN(field) .given = offsetof(cli_options, field)
+#define SILENT .silent = true
 
 enum {
   READ = CLI_ALL & ~BIT(CLI_VERIFY),                                               /* reads points */
@@ -241,7 +242,7 @@ const cli_option cli_option_table[] = {
      "would be\ntaken the command ends with status 4 (default: no limit)",
      AT(engine.max_bytes), RANGE(1, (long long)1 << 50)},
     {"timeout", 0, "SECONDS", CLI_SECONDS, CLI_ALL, CLI_REFINEMENT, "end after this time, reading and writing included",
-     AT(engine.seconds)},
+     AT(engine.seconds), SILENT},
     {"schedule", 0, "WHICH", CLI_CHOICE, RUN, CLI_REFINEMENT,
      "adaptive (default): refine undecided pairs;\nuniform: refine all points", AT(engine.schedule),
      WORDS("adaptive uniform")},
@@ -263,7 +264,7 @@ const cli_option cli_option_table[] = {
     {"tie-bits", 0, "B", CLI_INTEGER, RUN | BIT(CLI_NEAREST) | BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "precision at which to give up a proof (default 131072)", AT(engine.tie_bits), RANGE(1, 1 << 26)},
     {"threads", 0, "T", CLI_INTEGER, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_REFINEMENT,
-     "threads to use (default 1); results do not depend on it", AT(engine.threads), RANGE(1, 1024)},
+     "threads to use (default 1); results do not depend on it", AT(engine.threads), RANGE(1, 1024), SILENT},
 
     {"window", 0, "XLO,XHI,YLO,YHI", CLI_WINDOW, RUN | PIECES | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_OUTPUT,
      "part of the plane, exact numbers;\nvoronoi, converge, check: of the diagram (default: the box of the\n"
@@ -334,7 +335,7 @@ const cli_option cli_option_table[] = {
      "repeats the call",
      AT(comments)},
     {"output", 'o', "FILE", CLI_FILE, CLI_ALL, CLI_OUTPUT,
-     "write to FILE, whole or not at all; its ending, such as\n.svg, chooses the format", AT(output)},
+     "write to FILE, whole or not at all; its ending, such as\n.svg, chooses the format", AT(output), SILENT},
     {"bare", 0, NULL, CLI_FLAG, DRAW, CLI_OUTPUT, "pictures: without legend, scale and coordinates", AT(style.bare)},
     {"width", 0, "LENGTH", CLI_LENGTH, DRAW, CLI_OUTPUT,
      "pictures: so wide: 85mm, 12cm, 3.25in, or points of 1/72 inch\n(default: 1120)", AT(style.width)},
@@ -348,7 +349,7 @@ const cli_option cli_option_table[] = {
     {"stats", 0, NULL, CLI_FLAG, RUN, CLI_OUTPUT, "print counters to standard error", AT(stats)},
     {"accept-fixpoint", 0, NULL, CLI_FLAG, REFINE & ~BIT(CLI_CHECK) & ~BIT(CLI_TOLERANCE), CLI_OUTPUT,
      "exit status 0 instead of 3, for scripts that stop at errors", AT(accept_fixpoint)},
-    {"quiet", 'q', NULL, CLI_FLAG, CLI_ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
+    {"quiet", 'q', NULL, CLI_FLAG, CLI_ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet), SILENT},
 
     {"plot", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
      "draw the table; FILE ends in .svg, .pdf, .png, .tikz or .pgf", AT(plot)},
@@ -356,14 +357,15 @@ const cli_option cli_option_table[] = {
      "write the curves of bounds and widths as an axis of pgfplots,\nfor \\input in a LaTeX document", AT(pgf)},
     {"trace", 0, "FILE", CLI_FILE, REFINE, CLI_EXPERIMENTS,
      "write which point was narrowed to what, and why, as it\nhappens; check: the schedule that shows a fault",
-     AT(trace)},
+     AT(trace), SILENT},
     {"trace-sync", 0, "SECONDS", CLI_SECONDS, REFINE & ~BIT(CLI_CHECK), CLI_EXPERIMENTS,
      "sync the trace with the disk after this time of asking (default 5):\nwhen the machine fails, only later answers "
      "are "
      "lost",
-     AT(trace_sync)},
+     AT(trace_sync), SILENT},
     {"resume", 0, "FILE", CLI_SOURCE, REFINE & ~BIT(CLI_CHECK), CLI_INPUT,
-     "continue from this trace, which may have been cut short: its\nanswers are not requested again", AT(resume)},
+     "continue from this trace, which may have been cut short: its\nanswers are not requested again", AT(resume),
+     SILENT},
     {"replay", 0, "FILE", CLI_SOURCE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
      "repeat a trace instead of asking points;\ncheck: repeat a schedule on the points of FILE or --oracle",
      AT(replay)},
