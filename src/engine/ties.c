@@ -201,17 +201,11 @@ static size_t described_points(const question *q) {
 static dyd_status rect_choose(dyd_rect *r, unsigned place) {
   dyd_interval *side[2] = {&r->x, &r->y};
   dyd_status st = DYD_OK;
-  dyd_dyadic at;
-  dyd_dyadic_init(&at);
-  for (int a = 0; st == DYD_OK && a < 2; a++) {
+  for (int a = 0; st == DYD_OK && a < 2; a++)
     if (place == 0)
-      st = dyd_dyadic_add(&at, &side[a]->lo, &side[a]->hi);
+      st = dyd_interval_halve(side[a]);
     else
-      dyd_dyadic_set(&at, (place - 1) >> a & 1 ? &side[a]->hi : &side[a]->lo);
-    if (st == DYD_OK && place == 0) st = dyd_dyadic_mul_2exp(&at, &at, -1);
-    if (st == DYD_OK) dyd_interval_set_over(side[a], &at, side[a]->den);
-  }
-  dyd_dyadic_clear(&at);
+      dyd_interval_set_over(side[a], (place - 1) >> a & 1 ? &side[a]->hi : &side[a]->lo, side[a]->den);
   return st;
 }
 

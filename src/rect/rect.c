@@ -188,6 +188,16 @@ void dyd_interval_set_over(dyd_interval *out, const dyd_dyadic *x, const mpz_t d
   mpz_clear(g);
 }
 
+dyd_status dyd_interval_halve(dyd_interval *a) {
+  dyd_dyadic x;
+  dyd_dyadic_init(&x);
+  dyd_status st = dyd_dyadic_add(&x, &a->lo, &a->hi);
+  if (st == DYD_OK) st = dyd_dyadic_mul_2exp(&x, &x, -1);
+  if (st == DYD_OK) dyd_interval_set_over(a, &x, a->den);
+  dyd_dyadic_clear(&x);
+  return st;
+}
+
 dyd_status dyd_interval_round(dyd_interval *out, const dyd_interval *a) {
   if (!mpz_cmp_ui(a->den, 1)) return dyd_interval_set(out, a), DYD_OK;
   mpq_t lo, hi;

@@ -19,6 +19,8 @@ bool dyd_interval_get_exact_d(double *lo, double *hi, const dyd_interval *a);
 void dyd_interval_swap(dyd_interval *a, dyd_interval *b);
 /* out becomes the point x/den; x and den may be parts of it. */
 void dyd_interval_set_over(dyd_interval *out, const dyd_dyadic *x, const mpz_t den);
+/* a becomes its middle, exactly. DYD_E_RANGE. */
+dyd_status dyd_interval_halve(dyd_interval *a);
 /* The intersection; DYD_E_ARG (out unchanged) when it is empty. */
 dyd_status dyd_interval_intersect(dyd_interval *out, const dyd_interval *a, const dyd_interval *b);
 void dyd_rect_swap(dyd_rect *a, dyd_rect *b);

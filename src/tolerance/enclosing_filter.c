@@ -15,15 +15,13 @@
 
 #include <math.h>
 
-/* The middle of a side that is no point; *half: at least half of its length. */
-static dyd_status side_middle(dyd_interval *out, double *half, const dyd_interval *side) {
+/* At least half of the length of a side. */
+static dyd_status side_half(double *half, const dyd_interval *side) {
   dyd_dyadic x;
   dyd_dyadic_init(&x);
   dyd_status st = dyd_dyadic_sub(&x, &side->hi, &side->lo);
   if (st == DYD_OK) st = dyd_dyadic_mul_2exp(&x, &x, -1);
   if (st == DYD_OK) *half = dyd_raw_quotient_get_d(x.man, x.exp, side->den, DYD_UP);
-  if (st == DYD_OK) st = dyd_dyadic_add(&x, &x, &side->lo);
-  if (st == DYD_OK) dyd_interval_set_over(out, &x, side->den);
   dyd_dyadic_clear(&x);
   return st;
 }
@@ -31,15 +29,13 @@ static dyd_status side_middle(dyd_interval *out, double *half, const dyd_interva
 /* r becomes its centre; *off is raised to how far points of it are from there. */
 static dyd_status rect_centre(dyd_rect *r, double *off, dyd_metric metric) {
   double half[2] = {0, 0};
-  dyd_interval *side[2] = {&r->x, &r->y}, middle;
+  dyd_interval *side[2] = {&r->x, &r->y};
   dyd_status st = DYD_OK;
-  dyd_interval_init(&middle);
   for (int a = 0; a < 2 && st == DYD_OK; a++) {
     if (dyd_interval_is_point(side[a])) continue;
-    st = side_middle(&middle, &half[a], side[a]);
-    if (st == DYD_OK) dyd_interval_set(side[a], &middle);
+    st = side_half(&half[a], side[a]);
+    if (st == DYD_OK) st = dyd_interval_halve(side[a]);
   }
-  dyd_interval_clear(&middle);
   double most = metric == DYD_METRIC_BOX ? fmax(half[0], half[1]) : dyd_upper(dyd_upper(half[0]) + half[1]);
   if (most > *off) *off = most;
   return st;
