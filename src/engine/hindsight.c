@@ -9,6 +9,8 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/index.h"
+#include "delaunay/state.h"
 #include "engine/points.h"
 #include "metric/bounds.h"
 #include "rect/rect.h"
@@ -21,7 +23,8 @@ typedef struct hindsight {
   const dyd_engine_options *o;
   dyd_rect *rect; /* of all sites, narrow */
   int64_t *bits, *least, first, top;
-  size_t *site, points;
+  uint32_t *site; /* of these points, ascending */
+  size_t points;
   uint64_t best, left;
   bool known; /* false: the budget is spent */
 } hindsight;
@@ -40,22 +43,15 @@ static dyd_status hindsight_round(dyd_interval *out, const dyd_interval *r, int6
   return st;
 }
 
-/* The sites at h->bits. */
-static dyd_status hindsight_sites(dyd_sites *out, const hindsight *h) {
-  dyd_rect r;
-  dyd_status st = DYD_OK;
-  dyd_rect_init(&r);
-  for (size_t i = 0, k = 0; st == DYD_OK && i < dyd_sites_count(h->e->sites); i++) {
-    dyd_rect_set(&r, &h->rect[i]);
-    if (k < h->points && h->site[k] == i) {
-      st = hindsight_round(&r.x, &h->rect[i].x, h->bits[k]);
-      if (st == DYD_OK) st = hindsight_round(&r.y, &h->rect[i].y, h->bits[k]);
-      k++;
-    }
-    if (st == DYD_OK) st = dyd_sites_add_rect(out, &r);
-  }
-  dyd_rect_clear(&r);
-  return st;
+/* A site at h->bits. */
+static dyd_status hindsight_rect(dyd_rect *out, const void *user, size_t i) {
+  const hindsight *h = user;
+  const uint32_t *at = dyd_find_index(&(uint32_t){(uint32_t)i}, h->site, h->points, sizeof *h->site);
+  dyd_rect_set(out, &h->rect[i]);
+  if (!at) return DYD_OK;
+  const int64_t bits = h->bits[at - h->site];
+  dyd_status st = hindsight_round(&out->x, &h->rect[i].x, bits);
+  return st == DYD_OK ? hindsight_round(&out->y, &h->rect[i].y, bits) : st;
 }
 
 static dyd_status hindsight_judge(bool *out, const dyd_delaunay *pd, const dyd_engine_options *o) {
@@ -79,7 +75,6 @@ static dyd_status hindsight_judge(bool *out, const dyd_delaunay *pd, const dyd_e
 
 /* Does the goal hold at h->bits? */
 static dyd_status hindsight_holds(bool *out, hindsight *h) {
-  dyd_sites *sites = NULL;
   dyd_delaunay *pd = NULL;
   *out = false;
   if (!h->left || dyd_flag_get(&h->e->cancelled)) {
@@ -88,12 +83,9 @@ static dyd_status hindsight_holds(bool *out, hindsight *h) {
   }
   h->left--;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = h->o->no_filter};
-  dyd_status st = dyd_sites_new(&sites);
-  if (st == DYD_OK) st = hindsight_sites(sites, h);
-  if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, NULL);
+  dyd_status st = dyd_delaunay_made(&pd, dyd_sites_count(h->e->sites), hindsight_rect, h, &o, NULL);
   if (st == DYD_OK) st = hindsight_judge(out, pd, h->o);
   dyd_delaunay_free(pd);
-  dyd_sites_free(sites);
   return st == DYD_CAPPED ? DYD_OK : st;
 }
 
