@@ -201,6 +201,12 @@ static size_t circle_places(const circle_question *q) {
   return q->count + q->line;
 }
 
+/* Which place number k is; the last one is that which is projected from. */
+static uint32_t place_of_circle(const circle_question *q, size_t k) {
+  if (k == q->count) return q->s->centre;
+  return q->s->of[q->chosen ? q->chosen[k].site : q->site[k]];
+}
+
 /* Reads place number k; the last one is that which is projected from, where a line is asked for. */
 static dyd_status circle_read_one(circle_question *q, size_t k, dyd_error *err) {
   const dyd_sphere *s = q->s;
@@ -209,7 +215,7 @@ static dyd_status circle_read_one(circle_question *q, size_t k, dyd_error *err) 
     for (int a = 0; a < 2; a++) mpq_set(spot->mid[a], s->eye.spot.mid[a]);
     return DYD_OK;
   }
-  uint32_t i = k == q->count ? s->centre : s->of[q->chosen ? q->chosen[k].site : q->site[k]];
+  const uint32_t i = place_of_circle(q, k);
   dyd_status st = dyd_sphere_spot(spot, s, i, err);
   if (st == DYD_OK && q->chosen && spot->stays && dyd_sphere_is_fixed(s, i))
     dyd_spot_choose(spot, k < q->count ? q->chosen[k].place : 0);
@@ -330,26 +336,26 @@ dyd_status dyd_sphere_on_circle(bool *proved, const dyd_sphere *s, bool centre, 
   return circle_decide(proved, &q, err);
 }
 
+/* Decides once the places that may be exact are recognised. */
+static dyd_status images_prove(bool *proved, dyd_sphere *s, circle_question q, dyd_error *err) {
+  const size_t count = q.count + (q.line && !s->free);
+  dyd_status st = DYD_OK;
+  *proved = false;
+  for (size_t k = 0; k < count && st == DYD_OK; k++) st = dyd_sphere_recognise(s, place_of_circle(&q, k), err);
+  return st == DYD_OK ? circle_decide(proved, &q, err) : st;
+}
+
 dyd_status dyd_sphere_prove_places(bool *proved, void *user, dyd_relation relation, const dyd_site_place *at,
                                    size_t count) {
-  dyd_sphere *s = user;
-  circle_question q = {.s = s, .chosen = at, .count = count, .line = relation == DYD_COLLINEAR};
-  dyd_status st = DYD_OK;
-  for (size_t k = 0; k < count && st == DYD_OK; k++) st = dyd_sphere_recognise(s, s->of[at[k].site], NULL);
-  if (st == DYD_OK && q.line && !s->free) st = dyd_sphere_recognise(s, s->centre, NULL);
-  return st == DYD_OK ? circle_decide(proved, &q, NULL) : st;
+  const circle_question q = {.s = user, .chosen = at, .count = count, .line = relation == DYD_COLLINEAR};
+  return images_prove(proved, user, q, NULL);
 }
 
 dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                             dyd_error *err) {
-  dyd_sphere *s = user;
-  bool line = relation == DYD_COLLINEAR;
-  dyd_status st = DYD_OK;
+  const circle_question q = {.s = user, .site = site, .count = count, .line = relation == DYD_COLLINEAR};
   *proved = false;
-  if (relation == DYD_COINCIDENT) return DYD_OK;
-  for (size_t k = 0; k < count && st == DYD_OK; k++) st = dyd_sphere_recognise(s, s->of[site[k]], err);
-  if (st == DYD_OK && line && !s->free) st = dyd_sphere_recognise(s, s->centre, err);
-  return st == DYD_OK ? dyd_sphere_on_circle(proved, s, line, site, count, err) : st;
+  return relation == DYD_COINCIDENT ? DYD_OK : images_prove(proved, user, q, err);
 }
 
 /* ---- distances ---- */
