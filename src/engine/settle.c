@@ -331,23 +331,22 @@ static bool surely_crossed(const dyd_rect r[4]) {
          dyd_con(&r[3], &r[0], &r[1], &r[2]) == DYD_SURE_PLUS;
 }
 
-/* Returns true if sites number i and k may be the same place, whatever is narrowed: no disc holds all of i and nothing
- * of k. */
-static bool stay_together(const settling *s, size_t i, size_t k) {
+/* Returns true if site number k has a core along both sides in which all of site i is, or which meets the core of i. */
+static bool core_holds(const settling *s, size_t k, size_t i) {
   const bool *of_i = s->guess[i].core, *of_k = s->guess[k].core;
   const double *a = s->guess[i].box, *b = s->guess[k].box;
-  if (i == k || !of_k[0] || !of_k[1] || a[1] < b[0] || b[1] < a[0] || a[3] < b[2] || b[3] < a[2]) return false;
-  if (of_i[0] && of_i[1]) return dyd_rect_meets(&s->rect[i], &s->rect[k]);
-  return dyd_rect_contains(&s->rect[k], &s->rect[i]);
+  if (!of_k[0] || !of_k[1] || a[1] < b[0] || b[1] < a[0] || a[3] < b[2] || b[3] < a[2]) return false;
+  return of_i[0] && of_i[1] ? dyd_rect_meets(&s->rect[i], &s->rect[k]) : dyd_rect_contains(&s->rect[k], &s->rect[i]);
 }
 
-/* Looks for another site that may be where an end is. */
+/* Looks for another site that may be where an end is, whatever is narrowed: no disc holds all of the end and nothing of
+ * that site. */
 static bool settling_meets(const settling *s, size_t i, size_t j) {
-  bool found = false;
-  for (size_t k = 0; k < s->site.count && !found; k++)
-    found = k != i && k != j &&
-            (stay_together(s, i, k) || stay_together(s, j, k) || stay_together(s, k, i) || stay_together(s, k, j));
-  return found;
+  const size_t end[2] = {i, j};
+  for (size_t k = 0; k < s->site.count; k++)
+    for (int e = 0; e < 2 && k != i && k != j; e++)
+      if (core_holds(s, k, end[e]) || core_holds(s, end[e], k)) return true;
+  return false;
 }
 
 /* Looks for points that show that the pair is never legal. */
