@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Hulls of rectangles, and the exterior of T: the complement of the union of the partial edges, by exact polygons.
  *
- * The boundary of the union consists of the parts of edges of hulls that are in the interior of no hull. Along an edge
- * p
- * + t (q - p) each side of another hull has an affine value, so the t inside that hull are an interval, found by signs
- * and quotients of integers: all corners are scaled by one denominator. The ends of these intervals cut the edge into
- * pieces, and each piece is inside of a hull, or not; on its left, and on its right, there is a hull, or the exterior.
+ * The boundary of the union consists of the parts of edges of hulls that are in the interior of no hull. Along an edge,
+ * p + t (q - p), each side of another hull has an affine value, so the t inside that hull are an interval, found by
+ * signs and quotients of integers: all corners are scaled by one denominator. The ends of these intervals cut the edge
+ * into pieces, and each piece is inside of a hull, or not; on its left, and on its right, there is a hull, or the
+ * exterior.
  *
  * Pieces that have the exterior on their left are joined to rings [EXT-1]: behind a piece comes the first one clockwise
  * from its way back, since what is between the two is exterior. All possible pairs hold a Delaunay triangulation of a
@@ -161,12 +161,15 @@ typedef struct ext_work {
   bool failed; /* memory ran out */
 } ext_work;
 
+static void ext_piece_clear(ext_piece *p) {
+  for (int e = 0; e < 2; e++) {
+    mpz_clear(p->way[e]);
+    for (int a = 0; a < 2; a++) mpq_clear(p->end[e].at[a]);
+  }
+}
+
 static void ext_work_clear(ext_work *w) {
-  for (size_t k = 0; k < w->pieces; k++)
-    for (int e = 0; e < 2; e++) {
-      mpz_clear(w->piece[k].way[e]);
-      for (int a = 0; a < 2; a++) mpq_clear(w->piece[k].end[e].at[a]);
-    }
+  for (size_t k = 0; k < w->pieces; k++) ext_piece_clear(&w->piece[k]);
   for (size_t k = 0; k < w->corners; k++) mpz_clears(w->z[k].at[0], w->z[k].at[1], NULL);
   dyd_tree_clear(&w->tree);
   free(w->piece);
@@ -469,15 +472,10 @@ static void ext_unite(ext_work *w) {
   size_t kept = 0;
   if (w->pieces) qsort(w->piece, w->pieces, sizeof *w->piece, ext_compare_piece);
   for (size_t k = 0; k < w->pieces; k++) {
-    if (kept && ext_compare_piece(&w->piece[k], &w->piece[kept - 1]) == 0) {
-      for (int e = 0; e < 2; e++) {
-        mpz_clear(w->piece[k].way[e]);
-        for (int a = 0; a < 2; a++) mpq_clear(w->piece[k].end[e].at[a]);
-      }
-      continue;
-    }
-    if (kept != k) w->piece[kept] = w->piece[k];
-    kept++;
+    if (kept && ext_compare_piece(&w->piece[k], &w->piece[kept - 1]) == 0)
+      ext_piece_clear(&w->piece[k]);
+    else
+      w->piece[kept++] = w->piece[k];
   }
   w->pieces = kept;
 }
