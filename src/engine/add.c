@@ -128,7 +128,7 @@ dyd_status dyd_engine_add_words(dyd_engine *e, size_t n, const dyd_words *xy, bo
 static dyd_status points_add_refinable(dyd_engine *e, size_t n, dyd_refinable p) {
   size_t first = dyd_sites_count(e->sites);
   if (n > DYD_MAX_SITES) return DYD_E_RANGE;
-  if (!dyd_reserve((void **)&e->point, &e->point_cap, e->points + n, sizeof *e->point)) return DYD_E_NOMEM;
+  if (!DYD_GROW(e->point, e->point_cap, e->points + n)) return DYD_E_NOMEM;
   dyd_site_kind kind = p.stream ? dyd_stream_site_kind(p.stream) : DYD_SITE_BARE;
   dyd_status st = dyd_sites_add_planes(e->sites, n, kind);
   if (st != DYD_OK) return st;
@@ -153,7 +153,7 @@ dyd_status dyd_engine_add_stream(dyd_engine *e, dyd_stream *s, dyd_error *err) {
 }
 
 static dyd_status points_add_source(dyd_engine *e, size_t n, const dyd_source *source) {
-  if (!dyd_reserve((void **)&e->source, &e->source_cap, e->sources + 1, sizeof *e->source)) return DYD_E_NOMEM;
+  if (!DYD_GROW(e->source, e->source_cap, e->sources + 1)) return DYD_E_NOMEM;
   size_t first = dyd_sites_count(e->sites);
   dyd_status st = points_add_refinable(e, n, (dyd_refinable){.source = (uint32_t)e->sources});
   if (st == DYD_OK) e->source[e->sources++] = (dyd_source_use){.source = *source, .first = (uint32_t)first};

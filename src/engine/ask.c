@@ -293,7 +293,7 @@ static dyd_status ask_narrow(ask *a, const dyd_want *w) {
 static dyd_status ask_narrow_all(bool *cut, ask *a) {
   dyd_engine *e = a->e;
   size_t need = e->pd ? e->changes + a->plan.count : 0;
-  if (!dyd_reserve((void **)&e->changed, &e->change_cap, need, sizeof *e->changed)) return DYD_E_NOMEM;
+  if (!DYD_GROW(e->changed, e->change_cap, need)) return DYD_E_NOMEM;
   dyd_plan_sort(&a->plan);
   dyd_status st = ask_room_to_narrow(a);
   if (st != DYD_OK) return st;
@@ -319,7 +319,7 @@ static dyd_status ask_list_undecided(dyd_engine *e) {
     bool outer;
     st = dyd_delaunay_face(&sites, &outer, e->pd, f);
     size_t need = e->changes + sites.count;
-    if (st == DYD_OK && !dyd_reserve((void **)&e->changed, &e->change_cap, need, sizeof *e->changed)) st = DYD_E_NOMEM;
+    if (st == DYD_OK && !DYD_GROW(e->changed, e->change_cap, need)) st = DYD_E_NOMEM;
     for (size_t k = 0; st == DYD_OK && k < sites.count; k++) e->changed[e->changes++] = sites.item[k];
     dyd_index_list_clear(&sites);
   }
@@ -368,8 +368,7 @@ static dyd_status ask_settle(dyd_engine *e, const dyd_delaunay_options *o, dyd_e
     if (st == DYD_OK && ask_was_cut(e, o)) return st;
     if (st == DYD_OK && o->prove) st = dyd_aliases_find(&joined, e, e->pd, err);
     /* should this be cut short, the next run sees that the result is not up to date */
-    if (st == DYD_OK && joined && !e->changes)
-      st = dyd_reserve((void **)&e->changed, &e->change_cap, 1, sizeof *e->changed) ? DYD_OK : DYD_E_NOMEM;
+    if (st == DYD_OK && joined && !e->changes) st = DYD_GROW(e->changed, e->change_cap, 1) ? DYD_OK : DYD_E_NOMEM;
     if (st == DYD_OK && joined && !e->changes) e->changed[e->changes++] = 0;
   }
   return st;

@@ -98,7 +98,7 @@ static dyd_status check_narrow(check_state *s, uint32_t point, int64_t bits) {
   if (st != DYD_OK)
     return check_found(s, DYD_CHECK_STREAM, "point %u, asked for %lld bits: %s", (unsigned)point, (long long)bits,
                        err.message);
-  if (!dyd_reserve((void **)&s->changed, &s->change_cap, s->changes + 1, sizeof *s->changed)) return DYD_E_NOMEM;
+  if (!DYD_GROW(s->changed, s->change_cap, s->changes + 1)) return DYD_E_NOMEM;
   s->changed[s->changes++] = point;
   if (p->final) return DYD_OK;
   dyd_rect r;
@@ -371,8 +371,7 @@ static dyd_status check_stage(check_state *s, bool last) {
 
 static void check_state_clear(check_state *s) {
   for (size_t k = 0; s->watched && k < s->o->cells; k++) watched_forget(&s->watched[k]);
-  free(s->watched);
-  free(s->changed);
+  dyd_free_all(s->watched, s->changed);
   dyd_pair_list_clear(&s->before);
   dyd_delaunay_free(s->pd);
   dyd_engine_free(s->e);
@@ -468,7 +467,7 @@ static dyd_status schedule_play(dyd_check_report *report, dyd_check_open_fn open
 /* ---- random schedules ---- */
 
 static dyd_status moves_add(moves *m, uint32_t stage, uint32_t point, int64_t bits) {
-  if (!dyd_reserve((void **)&m->item, &m->cap, m->count + 1, sizeof *m->item)) return DYD_E_NOMEM;
+  if (!DYD_GROW(m->item, m->cap, m->count + 1)) return DYD_E_NOMEM;
   m->item[m->count++] = (dyd_check_move){stage, point, bits};
   return DYD_OK;
 }
@@ -636,9 +635,7 @@ dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *us
     if (st == DYD_OK) out->schedules++;
     if (st == DYD_OK && out->fault != DYD_CHECK_FINE) st = report_keep_fault(out, &m, seed, open, user, &o);
   }
-  free(m.item);
-  free(points.point);
-  free(points.asked);
+  dyd_free_all(m.item, points.point, points.asked);
   return st;
 }
 

@@ -29,13 +29,12 @@ static void row_for_each(dyd_stage_row *r, void (*act)(dyd_dyadic *)) {
 
 static void row_free(dyd_stage_row *r) {
   row_for_each(r, dyd_dyadic_clear);
-  free(r->con);
-  free(r);
+  dyd_free_all(r->con, r);
 }
 
 /* A row behind those of out, not counted yet; NULL: memory is exhausted. */
 static dyd_stage_row *row_new(dyd_convergence *out) {
-  if (!dyd_reserve((void **)&out->row, &out->cap, out->count + 1, sizeof *out->row)) return NULL;
+  if (!DYD_GROW(out->row, out->cap, out->count + 1)) return NULL;
   dyd_stage_row *r = malloc(sizeof *r);
   if (!r) return NULL;
   *r = (dyd_stage_row){DYD_SIZED(dyd_stage_row), .rungs = {DYD_SIZED(dyd_delaunay_counters)}};
@@ -47,8 +46,7 @@ static dyd_stage_row *row_new(dyd_convergence *out) {
 void dyd_convergence_clear(dyd_convergence *c) {
   const dyd_convergence none = {0};
   for (size_t k = 0; k < c->count; k++) row_free(c->row[k]);
-  free(c->row);
-  free(c->options);
+  dyd_free_all(c->row, c->options);
   if (c->window) dyd_rect_clear(c->window);
   free(c->window);
   dyd_abi_give(c, &none, sizeof none);

@@ -50,8 +50,7 @@ void dyd_engine_free(dyd_engine *e) {
   dyd_ties_free(e->ties);
   dyd_recall_free(e->recall);
   dyd_sites_free(e->sites);
-  free(e->changed);
-  free(e);
+  dyd_free_all(e->changed, e);
 }
 
 size_t dyd_engine_count(const dyd_engine *e) {
@@ -174,12 +173,7 @@ dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, const dyd_
 /* What points are called where they were read. Points added in other ways are rows of their own, without identifier. */
 
 void dyd_labels_clear(dyd_labels *l) {
-  free(l->row);
-  free(l->id);
-  free(l->number);
-  free(l->text);
-  free(l->names);
-  free(l->merged);
+  dyd_free_all(l->row, l->id, l->number, l->text, l->names, l->merged);
   *l = (dyd_labels){0};
 }
 
@@ -188,9 +182,8 @@ size_t dyd_labels_bytes(const dyd_labels *l) {
 }
 
 bool dyd_labels_add(dyd_labels *l, const char *id, size_t length, const dyd_row_numbers *number) {
-  if (!dyd_reserve((void **)&l->row, &l->row_cap, l->points + 1, sizeof *l->row) ||
-      !dyd_reserve((void **)&l->id, &l->id_cap, l->points + 1, sizeof *l->id) ||
-      !dyd_reserve((void **)&l->number, &l->number_cap, l->points + 1, sizeof *l->number) ||
+  if (!DYD_GROW(l->row, l->row_cap, l->points + 1) || !DYD_GROW(l->id, l->id_cap, l->points + 1) ||
+      !DYD_GROW(l->number, l->number_cap, l->points + 1) ||
       !dyd_reserve((void **)&l->text, &l->text_cap, l->used + length + 2 * (1 + l->carried), 1))
     return false;
   if (!l->used) { /* place 0 has the empty texts of those without identifier */
@@ -208,7 +201,7 @@ bool dyd_labels_add(dyd_labels *l, const char *id, size_t length, const dyd_row_
 }
 
 bool dyd_labels_merge(dyd_labels *l, size_t point) {
-  if (!dyd_reserve((void **)&l->merged, &l->merged_cap, l->merges + 1, sizeof *l->merged)) return false;
+  if (!DYD_GROW(l->merged, l->merged_cap, l->merges + 1)) return false;
   l->merged[l->merges++] = (dyd_merged_row){l->rows++, point};
   return true;
 }

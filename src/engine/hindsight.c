@@ -177,9 +177,6 @@ dyd_status dyd_hindsight_find(uint64_t *bits, dyd_engine *e, const dyd_engine_op
   if (st == DYD_OK && holds) st = hindsight_search(&h, 0, 0);
   if (st == DYD_OK && holds && h.known) *bits = h.best;
   for (size_t i = 0; h.rect && i < n; i++) dyd_rect_clear(&h.rect[i]);
-  free(h.least);
-  free(h.site);
-  free(h.bits);
-  free(h.rect);
+  dyd_free_all(h.least, h.site, h.bits, h.rect);
   return st == DYD_E_NOMEM ? dyd_fail_nomem(err) : st;
 }

@@ -19,8 +19,7 @@ void dyd_plan_init(dyd_plan *p, const dyd_engine *e, const dyd_engine_options *o
 }
 
 void dyd_plan_clear(dyd_plan *p) {
-  free(p->item);
-  free(p->slot);
+  dyd_free_all(p->item, p->slot);
 }
 
 void dyd_plan_empty(dyd_plan *p) {
@@ -99,7 +98,7 @@ void dyd_plan_mark(dyd_plan *p, const dyd_refinable *point, int64_t bits, dyd_re
   if (bits > p->o->max_bits) bits = p->o->max_bits;
   dyd_want *w = dyd_plan_find(p, point);
   if (p->failed || (w && w->bits >= bits)) return;
-  if (!w && !dyd_reserve((void **)&p->item, &p->cap, p->count + 1, sizeof *p->item)) {
+  if (!w && !DYD_GROW(p->item, p->cap, p->count + 1)) {
     p->failed = DYD_E_NOMEM;
     return;
   }

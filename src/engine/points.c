@@ -33,8 +33,7 @@ void dyd_engine_clear_points(dyd_engine *e) {
     else if (s->release)
       s->release(s->user);
   }
-  free(e->point);
-  free(e->source);
+  dyd_free_all(e->point, e->source);
 }
 
 const dyd_refinable *dyd_engine_find(const dyd_engine *e, uint32_t site) {
@@ -245,7 +244,7 @@ void dyd_engine_note_change(dyd_engine *e, uint32_t site) {
 static dyd_status site_put_measured(dyd_engine *e, uint32_t i, const dyd_rect *r) {
   dyd_refinable *p = (dyd_refinable *)dyd_find_index(&i, e->point, e->points, sizeof *e->point);
   dyd_rect before;
-  if (!dyd_reserve((void **)&e->changed, &e->change_cap, e->changes + 1, sizeof *e->changed)) return DYD_E_NOMEM;
+  if (!DYD_GROW(e->changed, e->change_cap, e->changes + 1)) return DYD_E_NOMEM;
   dyd_rect_init(&before);
   dyd_status st = dyd_sites_get(&before, e->sites, i);
   bool news = st == DYD_OK && !dyd_rect_equal(&before, r);

@@ -60,8 +60,7 @@ dyd_status dyd_policy_apply(dyd_plan *plan, bool first, dyd_error *err) {
     const dyd_refinable *point = dyd_plan_point(plan, w);
     if (!dyd_plan_find(plan, point)) dyd_plan_mark(plan, point, w->bits, w->reason, w->i, w->j);
   }
-  free(kept);
-  free(was);
+  dyd_free_all(kept, was);
   return st == DYD_OK ? plan->failed : st;
 }
 
@@ -193,8 +192,7 @@ void dyd_policy_free(dyd_policy *p) {
   dyd_process_ended(how, sizeof how, &p->process, 0.5);
   dyd_process_end(&p->process);
   for (int k = 0; k < 2; k++) dyd_close(&p->lifeline[k]);
-  free(p->text);
-  free(p);
+  dyd_free_all(p->text, p);
 }
 
 dyd_status dyd_policy_start(dyd_policy **out, dyd_engine_options *o, dyd_error *err) {

@@ -47,12 +47,7 @@ dyd_status dyd_history_new(dyd_history **out) {
 void dyd_history_free(dyd_history *h) {
   if (!h) return;
   dyd_pair_list_clear(&h->last);
-  free(h->change_begin);
-  free(h->box_begin);
-  free(h->change);
-  free(h->box);
-  free(h->last_box);
-  free(h);
+  dyd_free_all(h->change_begin, h->box_begin, h->change, h->box, h->last_box, h);
 }
 
 /* ---- pairs ---- */
@@ -73,7 +68,7 @@ static bool history_add_changes(dyd_history *h, const dyd_pair_list *now) {
   dyd_pair_change p;
   for (size_t at[2] = {0, 0}; dyd_pairs_next(&p, at, &h->last, now);) {
     if (p.before == p.pair.status) continue;
-    if (!dyd_reserve((void **)&h->change, &h->change_cap, h->changes + 1, sizeof *h->change)) return false;
+    if (!DYD_GROW(h->change, h->change_cap, h->changes + 1)) return false;
     h->change[h->changes++] = p.pair;
   }
   return true;
@@ -99,7 +94,7 @@ static bool history_add_boxes(dyd_history *h, const dyd_delaunay *pd) {
     dyd_sites_get_d(b.box, sites, i);
     size_t last = h->last_box[i];
     if (last != DYD_HISTORY_NO_BOX && memcmp(h->box[last].box, b.box, sizeof b.box) == 0) continue;
-    if (!dyd_reserve((void **)&h->box, &h->box_cap, h->boxes + 1, sizeof *h->box)) return false;
+    if (!DYD_GROW(h->box, h->box_cap, h->boxes + 1)) return false;
     h->box[h->boxes++] = b;
   }
   return true;
@@ -108,8 +103,8 @@ static bool history_add_boxes(dyd_history *h, const dyd_delaunay *pd) {
 /* ---- a stage ---- */
 
 static bool history_reserve_stage(dyd_history *h) {
-  return dyd_reserve((void **)&h->change_begin, &h->stage_cap, h->stages + 1, sizeof *h->change_begin) &&
-         dyd_reserve((void **)&h->box_begin, &h->box_stage_cap, h->stages + 1, sizeof *h->box_begin);
+  return DYD_GROW(h->change_begin, h->stage_cap, h->stages + 1) &&
+         DYD_GROW(h->box_begin, h->box_stage_cap, h->stages + 1);
 }
 
 dyd_status dyd_history_add(dyd_history *h, const dyd_delaunay *pd, dyd_pair_list *pairs) {
@@ -155,8 +150,7 @@ struct dyd_recall {
 void dyd_recall_free(dyd_recall *m) {
   if (!m) return;
   for (size_t k = 0; k < m->count; k++) dyd_rect_clear(&m->item[k].rect);
-  free(m->item);
-  free(m);
+  dyd_free_all(m->item, m);
 }
 
 static int recalled_compare(const void *a, const void *b) {
@@ -213,7 +207,7 @@ dyd_status dyd_engine_recall(dyd_engine *e, uint32_t i, int64_t bits, const dyd_
   if (st != DYD_OK) return st;
   if (!e->recall) e->recall = calloc(1, sizeof *e->recall);
   dyd_recall *m = e->recall;
-  if (!m || !dyd_reserve((void **)&m->item, &m->cap, m->count + 1, sizeof *m->item)) return dyd_fail_nomem(err);
+  if (!m || !DYD_GROW(m->item, m->cap, m->count + 1)) return dyd_fail_nomem(err);
   dyd_recalled *a = &m->item[m->count];
   *a = (dyd_recalled){.site = i, .number = (uint32_t)m->count, .bits = bits, .final = final};
   dyd_rect_init(&a->rect);

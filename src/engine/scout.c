@@ -32,8 +32,7 @@
 #define MOST_LEAP 16
 
 void dyd_scouts_clear(dyd_scouts *s) {
-  free(s->item);
-  free(s->of);
+  dyd_free_all(s->item, s->of);
   *s = (dyd_scouts){0};
 }
 
@@ -124,7 +123,7 @@ static dyd_status race_find_quad(size_t *at, dyd_race *race, const dyd_plan *pla
 static dyd_status scouts_append(dyd_scouts *s, const dyd_plan *plan, const dyd_pair_list *pairs, const dyd_race *race) {
   const dyd_engine *e = plan->e;
   if (!s->of) s->of = calloc(e->points, sizeof *s->of);
-  if (!s->of || s->count >= UINT32_MAX || !dyd_reserve((void **)&s->item, &s->cap, s->count + 1, sizeof *s->item)) {
+  if (!s->of || s->count >= UINT32_MAX || !DYD_GROW(s->item, s->cap, s->count + 1)) {
     return DYD_E_NOMEM;
   }
   s->item[s->count++] = *race;

@@ -581,9 +581,7 @@ static dyd_status settling_circle_pair(settling *s, settled_circle *c, const dyd
 
 static void circle_clear(settled_circle *c, size_t most) {
   for (size_t k = 0; c->at && k < most; k++) dyd_rect_clear(&c->at[k]);
-  free(c->at);
-  free(c->place);
-  free(c->member);
+  dyd_free_all(c->at, c->place, c->member);
 }
 
 /* most: the members there may be, and one more that is tried. */

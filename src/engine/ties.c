@@ -425,8 +425,7 @@ static dyd_status question_answer(dyd_zero *out, bool *final, question *q) {
   if (st == DYD_OK && e->room && e->room->refused) st = DYD_E_NOMEM;
   *final = !q->algebra.forms.opaque && !dyd_flag_get(&e->stop);
   dyd_algebra_close(&q->algebra);
-  free(q->zero);
-  free(q->at);
+  dyd_free_all(q->zero, q->at);
   count_question(e, &q->algebra.count, dyd_seconds() - begin);
   return st;
 }

@@ -393,8 +393,7 @@ static dyd_status write_nearest(dyd_output *to, dyd_write_options *o, dyd_error 
     st = result_init(&r, to, o, err);
   if (st == DYD_OK)
     st = write_what(to, &(dyd_nearest_output){r.engine, r.pd, taken, o->answers, o->outcome, o->sphere}, err);
-  free(taken);
-  free(own);
+  dyd_free_all(taken, own);
   return st;
 }
 
@@ -439,8 +438,7 @@ static dyd_status put_side(FILE *out, const dyd_interval *a, char behind) {
   char *lo = dyd_end_text(a, false), *hi = dyd_end_text(a, true);
   dyd_status st = lo && hi ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK) fprintf(out, "%s %s%c", lo, hi, behind);
-  free(lo);
-  free(hi);
+  dyd_free_all(lo, hi);
   return st;
 }
 

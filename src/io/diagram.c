@@ -87,9 +87,7 @@ dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *c
 
 void dyd_cells_clear(dyd_cells *c) {
   if (!c) return;
-  free(c->ring);
-  free(c->xy);
-  free(c->area);
+  dyd_free_all(c->ring, c->xy, c->area);
   *c = (dyd_cells){0};
 }
 
@@ -113,9 +111,8 @@ static dyd_status cells_begin(double **xy, cells_maker *m, uint32_t i, dyd_ring_
   *xy = NULL;
   if (count < 3) return DYD_OK;
   uint64_t bytes = dyd_bytes_times(end, 2 * sizeof *c->xy) + dyd_bytes_times(c->count + 1, sizeof *c->ring);
-  if (!dyd_room_has(m->d->room, bytes, "the polygons of the cells") ||
-      !dyd_reserve((void **)&c->ring, &m->ring_cap, c->count + 1, sizeof *c->ring) ||
-      !dyd_reserve((void **)&c->xy, &m->xy_cap, 2 * end, sizeof *c->xy))
+  if (!dyd_room_has(m->d->room, bytes, "the polygons of the cells") || !DYD_GROW(c->ring, m->ring_cap, c->count + 1) ||
+      !DYD_GROW(c->xy, m->xy_cap, 2 * end))
     return DYD_E_NOMEM;
   *xy = c->xy + 2 * m->vertices;
   c->ring[c->count++] = (dyd_cell_ring){.site = i, .kind = (uint32_t)kind, .end = m->vertices = end};
@@ -476,12 +473,7 @@ bool dyd_diagram_edge(double box[2][4], const dyd_diagram *d, const dyd_dual_edg
 
 void dyd_frame_clear(dyd_frame *f) {
   if (!f) return;
-  free(f->box);
-  free(f->end);
-  free(f->site);
-  free(f->face);
-  free(f->edge);
-  free(f->ray);
+  dyd_free_all(f->box, f->end, f->site, f->face, f->edge, f->ray);
   *f = (dyd_frame){0};
 }
 
@@ -496,9 +488,8 @@ static dyd_status frame_add(frame_maker *m, const double box[4], dyd_index_list 
   dyd_frame *f = m->out;
   size_t k = f->vertices + f->regions, end = m->sites + sites->count;
   dyd_status st = DYD_OK;
-  if (!dyd_reserve((void **)&f->box, &m->box_cap, 4 * (k + 1), sizeof *f->box) ||
-      !dyd_reserve((void **)&f->end, &m->end_cap, k + 1, sizeof *f->end) ||
-      !dyd_reserve((void **)&f->site, &m->site_cap, end, sizeof *f->site))
+  if (!DYD_GROW(f->box, m->box_cap, 4 * (k + 1)) || !DYD_GROW(f->end, m->end_cap, k + 1) ||
+      !DYD_GROW(f->site, m->site_cap, end))
     st = DYD_E_NOMEM;
   for (size_t q = 0; q < 4 && st == DYD_OK; q++) f->box[4 * k + q] = box[q];
   for (size_t q = 0; q < sites->count && st == DYD_OK; q++) f->site[m->sites + q] = sites->item[q];
@@ -512,7 +503,7 @@ static dyd_status frame_add_region(void *context, size_t face, const double box[
   dyd_index_list sites = {0};
   bool outer;
   if (!box) return DYD_OK;
-  if (!dyd_reserve((void **)&m->out->face, &m->face_cap, m->out->regions + 1, sizeof *m->out->face)) return DYD_E_NOMEM;
+  if (!DYD_GROW(m->out->face, m->face_cap, m->out->regions + 1)) return DYD_E_NOMEM;
   dyd_status st = dyd_delaunay_face(&sites, &outer, m->d->pd, face);
   if (st == DYD_OK) st = frame_add(m, box, &sites);
   if (st == DYD_OK) m->out->face[m->out->regions++] = (uint32_t)face;
@@ -526,7 +517,7 @@ static dyd_status frame_add_ends(frame_maker *m, const dyd_dual_edge *e) {
   for (int end = 0; end < 2; end++) {
     if (e->end[end].kind == DYD_DUAL_VERTEX) to->end[end] = (int64_t)e->end[end].vertex;
     if (e->end[end].kind != DYD_DUAL_RAY) continue;
-    if (!dyd_reserve((void **)&f->ray, &m->ray_cap, f->rays + 1, sizeof *f->ray)) return DYD_E_NOMEM;
+    if (!DYD_GROW(f->ray, m->ray_cap, f->rays + 1)) return DYD_E_NOMEM;
     dyd_frame_ray *r = &f->ray[f->rays];
     bool known = edge_place(r->box, m->d, e, end);
     for (int k = 0; k < 4; k++) r->direction[k] = e->end[end].direction[k], r->box[k] = known ? r->box[k] : NAN;
@@ -648,6 +639,5 @@ dyd_status dyd_diagram_init(dyd_diagram *d, const dyd_output *to, const dyd_writ
 void dyd_diagram_clear(dyd_diagram *d) {
   dyd_rect_clear(&d->window);
   dyd_triangle_list_clear(&d->triangles);
-  free(d->vertex);
-  free(d->tied);
+  dyd_free_all(d->vertex, d->tied);
 }

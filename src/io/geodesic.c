@@ -79,7 +79,7 @@ typedef struct great_circle {
 } great_circle;
 
 static void way_put(way *w, dyd_lon_lat p) {
-  if (!dyd_reserve((void **)&w->p, &w->cap, w->count + 1, sizeof *w->p))
+  if (!DYD_GROW(w->p, w->cap, w->count + 1))
     w->st = DYD_E_NOMEM;
   else
     w->p[w->count++] = p;
@@ -353,8 +353,7 @@ static dyd_status around_put(dyd_table *t, const way *w, bool pole) {
     part_put(t, place, work + room, m, 360.0 * k);
   }
   dyd_status st = work && place ? DYD_OK : DYD_E_NOMEM;
-  free(place);
-  free(work);
+  dyd_free_all(place, work);
   return st;
 }
 
@@ -381,8 +380,7 @@ dyd_status dyd_row_around(dyd_table *t, const dyd_side *side, size_t sides, doub
       closed.count--;
     st = closed.st == DYD_OK ? around_put(t, &closed, pole) : closed.st;
   }
-  free(closed.p);
-  free(w.p);
+  dyd_free_all(closed.p, w.p);
   return st;
 }
 
@@ -406,13 +404,7 @@ typedef struct face_list {
 } face_list;
 
 void dyd_sphere_cells_clear(dyd_sphere_cells *c) {
-  free(c->node);
-  free(c->first);
-  free(c->of);
-  free(c->beyond);
-  free(c->gap);
-  free(c->closed);
-  free(c->middle);
+  dyd_free_all(c->node, c->first, c->of, c->beyond, c->gap, c->closed, c->middle);
   *c = (dyd_sphere_cells){0};
 }
 
@@ -476,8 +468,7 @@ static void cells_walk(dyd_sphere_cells *c, corner_view *view, size_t count) {
 static dyd_status face_put(void *user, dyd_group_kind kind, const dyd_index_list *l) {
   face_list *f = user;
   (void)kind;
-  if (!dyd_reserve((void **)&f->node, &f->node_cap, f->nodes + 1, sizeof *f->node) ||
-      !dyd_reserve((void **)&f->view, &f->view_cap, f->views + l->count, sizeof *f->view))
+  if (!DYD_GROW(f->node, f->node_cap, f->nodes + 1) || !DYD_GROW(f->view, f->view_cap, f->views + l->count))
     return DYD_E_NOMEM;
   f->node[f->nodes].of = (dyd_triangle){{l->item[0], l->item[l->count / 3], l->item[2 * l->count / 3]}};
   for (size_t k = 0; k < l->count; k++)

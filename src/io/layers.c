@@ -597,8 +597,6 @@ dyd_status dyd_layer_write(const dyd_output *o) {
     st = t.layer->rows(&t, o);
     dyd_table_end(&t);
   }
-  free(t.kept);
-  free(t.box);
-  free(t.place);
+  dyd_free_all(t.kept, t.box, t.place);
   return st;
 }

@@ -103,17 +103,14 @@ static dyd_status trace_head(dyd_trace *t, const char *input, const dyd_engine_o
 
 static void trace_free(dyd_trace *t) {
   if (t->line) fclose(t->line);
-  free(t->text);
-  free(t->seen);
-  free(t);
+  dyd_free_all(t->text, t->seen, t);
 }
 
 static dyd_status trace_side(FILE *out, const char *name, const dyd_interval *a) {
   char *lo = dyd_end_text(a, false), *hi = dyd_end_text(a, true);
   dyd_status st = lo && hi ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK) fprintf(out, ",\"%s\":[\"%s\",\"%s\"]", name, lo, hi);
-  free(lo);
-  free(hi);
+  dyd_free_all(lo, hi);
   return st;
 }
 
@@ -324,7 +321,7 @@ static dyd_status trace_proofs_read(proof_list *p, const json_t *line, size_t po
   trace_proof proof = {.count = json_array_size(list)};
   if (proof.count < 2 || !proof_relation(&proof.relation, json_string_value(json_object_get(line, "proved"))))
     return DYD_E_PARSE;
-  if (!dyd_reserve((void **)&p->item, &p->cap, p->count + 1, sizeof *p->item)) return DYD_E_NOMEM;
+  if (!DYD_GROW(p->item, p->cap, p->count + 1)) return DYD_E_NOMEM;
   proof.site = dyd_alloc(proof.count, sizeof *proof.site);
   if (!proof.site) return DYD_E_NOMEM;
   for (size_t k = 0; k < proof.count; k++) {
@@ -481,9 +478,7 @@ dyd_status dyd_trace_recall(dyd_recall_report *out, dyd_engine *e, FILE *in, con
   if (out) dyd_abi_give(out, &r.report, sizeof r.report);
   dyd_text_clear(&text);
   for (size_t i = 0; i < r.points; i++) dyd_rect_clear(&r.last[i]);
-  free(r.last);
-  free(r.had);
-  free(r.kept);
+  dyd_free_all(r.last, r.had, r.kept);
   return st;
 }
 
@@ -585,8 +580,7 @@ static dyd_status replay_rect(replay *r, size_t i, const dyd_rect *rect, bool ca
   }
   dyd_status st = dyd_sites_narrow(r->sites, i, rect);
   if (st == DYD_E_NESTING) return replay_fail(r, "this rectangle is not inside the one before");
-  if (st == DYD_OK && !dyd_reserve((void **)&r->changed, &r->change_cap, r->changes + 1, sizeof *r->changed))
-    st = DYD_E_NOMEM;
+  if (st == DYD_OK && !DYD_GROW(r->changed, r->change_cap, r->changes + 1)) st = DYD_E_NOMEM;
   if (st != DYD_OK) return dyd_fail(r->err, st, "%s", dyd_status_text(st));
   if (called) r->changed[r->changes++] = (uint32_t)i;
   return DYD_OK;
@@ -721,8 +715,7 @@ static void replay_clear(replay *r) {
   dyd_delaunay_free(r->pd);
   dyd_sites_free(r->sites);
   for (size_t i = 0; i < r->points; i++) dyd_rect_clear(&r->point[i].rect);
-  free(r->point);
-  free(r->changed);
+  dyd_free_all(r->point, r->changed);
   trace_proofs_clear(&r->proofs);
   dyd_rect_clear(&r->window);
 }

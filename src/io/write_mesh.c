@@ -225,8 +225,7 @@ static bool figures_have_room(const gathered *g, size_t corners) {
 
 static dyd_status gather_figure(gathered *g, figure_kind kind, uint32_t site, size_t corners) {
   if (!figures_have_room(g, corners)) return DYD_E_NOMEM;
-  if (!dyd_reserve((void **)&g->item, &g->cap, g->count + 1, sizeof *g->item) ||
-      !dyd_reserve((void **)&g->at, &g->points_cap, g->points + corners, sizeof *g->at))
+  if (!DYD_GROW(g->item, g->cap, g->count + 1) || !DYD_GROW(g->at, g->points_cap, g->points + corners))
     return DYD_E_NOMEM;
   g->item[g->count++] = (figure){kind, site, g->points, corners};
   g->points += corners;
@@ -371,8 +370,7 @@ static dyd_status voronoi_vtk(const dyd_output *o) {
     vtk_numbers(&g, "site", false);
     vtk_numbers(&g, "kind", true);
   }
-  free(g.at);
-  free(g.item);
+  dyd_free_all(g.at, g.item);
   return st;
 }
 

@@ -18,8 +18,7 @@
 #include <string.h>
 
 void dyd_area_clear(dyd_area *a) {
-  free(a->offset);
-  free(a->xy);
+  dyd_free_all(a->offset, a->xy);
   *a = (dyd_area){0};
 }
 
@@ -343,9 +342,7 @@ typedef struct clip_work {
 } clip_work;
 
 static bool clip_add_cut(clip_work *w, const q_place *z) {
-  if (!dyd_reserve((void **)&w->cut, &w->cut_cap, w->cuts + 1, sizeof *w->cut) ||
-      !dyd_reserve((void **)&w->place, &w->place_cap, w->places + 1, sizeof *w->place))
-    return false;
+  if (!DYD_GROW(w->cut, w->cut_cap, w->cuts + 1) || !DYD_GROW(w->place, w->place_cap, w->places + 1)) return false;
   q_place_init(&w->place[w->places]);
   q_place_copy(&w->place[w->places], z);
   w->cut[w->cuts++] = w->places++;
@@ -397,7 +394,7 @@ static bool clip_edge(clip_work *w, const dyd_area_edge *e, bool tile, const dyd
   for (size_t k = 0; k + 1 < w->cuts && good; k++) {
     size_t from = w->cut[k], to = w->cut[k + 1];
     if (q_place_compare(&w->place[from], &w->place[to]) == 0) continue;
-    good = dyd_reserve((void **)&w->piece, &w->piece_cap, w->pieces + 1, sizeof *w->piece);
+    good = DYD_GROW(w->piece, w->piece_cap, w->pieces + 1);
     if (good) w->piece[w->pieces++] = (edge_piece){.from = from, .to = to, .tile = tile};
   }
   for (int k = 0; k < 5; k++) q_place_clear(&p[k]);
@@ -425,8 +422,7 @@ static dyd_status clip_number(clip_work *w) {
     }
   }
   dyd_status st = order && number ? DYD_OK : DYD_E_NOMEM;
-  free(number);
-  free(order);
+  dyd_free_all(number, order);
   return st;
 }
 
@@ -498,18 +494,13 @@ typedef struct clip_loops {
 
 static void clip_loops_clear(clip_loops *l) {
   for (size_t k = 0; k < l->count; k++) mpq_clear(l->area2[k]);
-  free(l->place);
-  free(l->start);
-  free(l->area2);
-  free(l->box);
+  dyd_free_all(l->place, l->start, l->area2, l->box);
 }
 
 static bool loops_add(clip_loops *l, const clip_work *w, const size_t *at, size_t n) {
   if (n < 3) return true;
-  if (!dyd_reserve((void **)&l->place, &l->place_cap, l->places + n, sizeof *l->place) ||
-      !dyd_reserve((void **)&l->start, &l->start_cap, l->count + 2, sizeof *l->start) ||
-      !dyd_reserve((void **)&l->area2, &l->area_cap, l->count + 1, sizeof *l->area2) ||
-      !dyd_reserve((void **)&l->box, &l->box_cap, l->count + 1, sizeof *l->box))
+  if (!DYD_GROW(l->place, l->place_cap, l->places + n) || !DYD_GROW(l->start, l->start_cap, l->count + 2) ||
+      !DYD_GROW(l->area2, l->area_cap, l->count + 1) || !DYD_GROW(l->box, l->box_cap, l->count + 1))
     return false;
   mpq_t t;
   mpq_init(t);
@@ -540,7 +531,7 @@ static dyd_status clip_loops_find(clip_loops *l, clip_work *w) {
     size_t n = 0;
     for (edge_piece *p = &w->piece[k]; p && !p->done && good; p = piece_after(w, p)) {
       p->done = true;
-      good = dyd_reserve((void **)&w->walk, &w->walk_cap, n + 2, sizeof *w->walk);
+      good = DYD_GROW(w->walk, w->walk_cap, n + 2);
       if (!good) break;
       if (!n) seen[p->from] = 0, w->walk[n++] = p->from;
       size_t back = seen[p->to];
@@ -564,11 +555,9 @@ static dyd_status clip_loops_find(clip_loops *l, clip_work *w) {
 static bool clip_reserve(clip_work *w, size_t places) {
   dyd_tiles *o = w->out;
   size_t rings = o->count + 1;
-  return dyd_reserve((void **)&o->site, &w->site_cap, rings, sizeof *o->site) &&
-         dyd_reserve((void **)&o->offset, &w->offset_cap, rings + 1, sizeof *o->offset) &&
-         dyd_reserve((void **)&o->area, &w->area_cap, rings, sizeof *o->area) &&
-         dyd_reserve((void **)&o->bound, &w->bound_cap, 2 * rings, sizeof *o->bound) &&
-         dyd_reserve((void **)&o->xy, &w->xy_cap, 2 * places, sizeof *o->xy);
+  return DYD_GROW(o->site, w->site_cap, rings) && DYD_GROW(o->offset, w->offset_cap, rings + 1) &&
+         DYD_GROW(o->area, w->area_cap, rings) && DYD_GROW(o->bound, w->bound_cap, 2 * rings) &&
+         DYD_GROW(o->xy, w->xy_cap, 2 * places);
 }
 
 /* A ring up to vertex `end`; the room is reserved. */
@@ -811,10 +800,7 @@ dyd_status dyd_tiles_clip(dyd_tiles *t, const dyd_area *area, const volatile int
   if (st == DYD_OK && !clip_reserve(&w, 0)) st = DYD_E_NOMEM;
   if (st == DYD_OK) made.offset[0] = 0;
   for (size_t r = 0; r < t->count && st == DYD_OK;) st = dyd_flag_is_set(cancel) ? DYD_CANCELLED : clip_site(&w, t, &r);
-  free(w.place);
-  free(w.piece);
-  free(w.cut);
-  free(w.walk);
+  dyd_free_all(w.place, w.piece, w.cut, w.walk);
   q_place_clear(&w.corner);
   mpq_clears(w.inside, w.error, NULL);
   dyd_edge_tree_clear(&tree);

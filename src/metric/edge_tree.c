@@ -8,8 +8,7 @@
 enum { LEAF = 4 };
 
 void dyd_edge_tree_clear(dyd_edge_tree *t) {
-  free(t->edge);
-  free(t->box);
+  dyd_free_all(t->edge, t->box);
 }
 
 static void edge_tree_fill(dyd_edge_tree *t) {

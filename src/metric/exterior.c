@@ -172,11 +172,7 @@ static void ext_work_clear(ext_work *w) {
   for (size_t k = 0; k < w->pieces; k++) ext_piece_clear(&w->piece[k]);
   for (size_t k = 0; k < w->corners; k++) mpz_clears(w->z[k].at[0], w->z[k].at[1], NULL);
   dyd_tree_clear(&w->tree);
-  free(w->piece);
-  free(w->near);
-  free(w->box);
-  free(w->hull);
-  free(w->z);
+  dyd_free_all(w->piece, w->near, w->box, w->hull, w->z);
   mpz_clear(w->den);
 }
 
@@ -240,9 +236,7 @@ static dyd_status ext_tree(ext_work *w, const dyd_pair_list *pairs, const dyd_si
     st = dyd_tree_init(&w->tree, item, (uint32_t)pairs->count, w->box);
     item = NULL;
   }
-  free(item);
-  free(rank);
-  free(order);
+  dyd_free_all(item, rank, order);
   return st;
 }
 
@@ -547,7 +541,7 @@ static bool ext_straight(const ext_dart *a, const ext_dart *b) {
 
 /* The ring from this dart: its first place, and all where it turns. */
 static bool ext_ring(dyd_exterior *out, size_t caps[2], ext_dart *dart, size_t count, size_t first) {
-  if (!dyd_reserve((void **)&out->offset, &caps[0], out->rings + 3, sizeof *out->offset)) return false;
+  if (!DYD_GROW(out->offset, caps[0], out->rings + 3)) return false;
   out->offset[out->rings + 1] = out->offset[out->rings];
   out->rings++;
   for (size_t at = first, before = count; !dart[at].used; at = ext_next(dart, count, &dart[before])) {
@@ -571,7 +565,7 @@ static size_t ext_outermost(const ext_dart *dart, size_t count) {
 static dyd_status ext_rings(dyd_exterior *out, ext_work *w) {
   ext_dart *dart = dyd_alloc(2 * w->pieces, sizeof *dart);
   size_t caps[2] = {0}, count = 2 * w->pieces;
-  bool good = dart && dyd_reserve((void **)&out->offset, &caps[0], 2, sizeof *out->offset);
+  bool good = dart && DYD_GROW(out->offset, caps[0], 2);
   if (good) out->offset[0] = out->offset[1] = 0;
   for (size_t k = 0; good && k < count; k++) dart[k] = (ext_dart){&w->piece[k / 2], k & 1, false};
   if (good && count) qsort(dart, count, sizeof *dart, ext_compare_dart);
@@ -584,8 +578,7 @@ static dyd_status ext_rings(dyd_exterior *out, ext_work *w) {
 
 void dyd_exterior_clear(dyd_exterior *e) {
   for (size_t k = 0; e->rings && k < 2 * e->offset[e->rings]; k++) mpq_clear(e->xy[k]);
-  free(e->xy);
-  free(e->offset);
+  dyd_free_all(e->xy, e->offset);
   *e = (dyd_exterior){0};
 }
 

@@ -210,7 +210,7 @@ static const double full_turn = 6.283185307179586;
 /* ---- the path ---- */
 
 static void path_add(dyd_canvas *c, dyd_path_step step) {
-  if (!dyd_reserve((void **)&c->step, &c->cap, c->count + 1, sizeof *c->step))
+  if (!DYD_GROW(c->step, c->cap, c->count + 1))
     c->failed = true;
   else
     c->step[c->count++] = step;
@@ -361,7 +361,6 @@ dyd_status dyd_canvas_end(dyd_canvas *c, dyd_status st, dyd_error *err) {
     dyd_sink_flush(&c->to);
   }
   st = dyd_cairo_end(c, st, err);
-  free(c->step);
-  free(c);
+  dyd_free_all(c->step, c);
   return st;
 }

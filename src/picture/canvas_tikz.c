@@ -51,7 +51,7 @@ typedef struct tikz_line {
 } tikz_line;
 
 static void line_add(tikz_line *l, double x, double y) {
-  if (!dyd_reserve((void **)&l->z, &l->cap, l->count + 1, sizeof *l->z))
+  if (!DYD_GROW(l->z, l->cap, l->count + 1))
     l->c->failed = true;
   else
     l->z[l->count][0] = x, l->z[l->count++][1] = y;

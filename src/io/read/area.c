@@ -68,8 +68,7 @@ static dyd_status area_number(double *out, area_text *t) {
 
 /* A vertex; up to one of `close` what follows its two numbers is skipped: heights and measures. */
 static dyd_status area_vertex(area_text *t, const char *close) {
-  if (!dyd_reserve((void **)&t->place, &t->place_cap, t->vertices + 1, sizeof *t->place) ||
-      !dyd_reserve((void **)&t->area->xy, &t->xy_cap, 2 * (t->vertices + 1), sizeof *t->area->xy))
+  if (!DYD_GROW(t->place, t->place_cap, t->vertices + 1) || !DYD_GROW(t->area->xy, t->xy_cap, 2 * (t->vertices + 1)))
     return dyd_fail_nomem(t->err);
   skip_any_of(t, " \t\r\n");
   t->place[t->vertices] = (size_t)(t->at - t->text);
@@ -90,7 +89,7 @@ static dyd_status area_ring_end(area_text *t) {
   const double *xy = &a->xy[2 * first];
   if (n > 1 && xy[0] == xy[2 * n - 2] && xy[1] == xy[2 * n - 1]) t->vertices--, n--;
   if (n < 3) return area_refuse(t, "a ring of a polygon has at least three different vertices");
-  if (!dyd_reserve((void **)&a->offset, &t->offset_cap, a->rings + 2, sizeof *a->offset)) return dyd_fail_nomem(t->err);
+  if (!DYD_GROW(a->offset, t->offset_cap, a->rings + 2)) return dyd_fail_nomem(t->err);
   a->offset[++a->rings] = t->vertices;
   return DYD_OK;
 }
@@ -181,8 +180,7 @@ dyd_status dyd_area_read(dyd_area *out, FILE *in, dyd_error *err) {
   if (err) dyd_error_clear(err);
   dyd_status st = area_load(&text, &count, in, err);
   area_text t = {.text = text, .at = text, .end = text + count, .area = &made, .err = err};
-  if (st == DYD_OK && !dyd_reserve((void **)&made.offset, &t.offset_cap, 1, sizeof *made.offset))
-    st = dyd_fail_nomem(err);
+  if (st == DYD_OK && !DYD_GROW(made.offset, t.offset_cap, 1)) st = dyd_fail_nomem(err);
   if (st == DYD_OK) {
     made.offset[0] = 0;
     skip_any_of(&t, "\xEF\xBB\xBF \t\r\n");
@@ -200,8 +198,7 @@ dyd_status dyd_area_read(dyd_area *out, FILE *in, dyd_error *err) {
   } else if (st == DYD_E_NOMEM) {
     st = dyd_fail_nomem(err);
   }
-  free(t.place);
-  free(text);
+  dyd_free_all(t.place, text);
   dyd_area_clear(st == DYD_OK ? out : &made);
   if (st == DYD_OK) *out = made;
   return st;

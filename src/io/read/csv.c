@@ -337,7 +337,7 @@ static dyd_status carry_put(dyd_csv *csv, size_t k, dyd_error *err) {
   snprintf(number, sizeof number, "%zu", k + 1);
   const char *name = csv->headless ? number : csv->field[k].text;
   size_t length = csv->headless ? strlen(number) : csv->field[k].length;
-  if (!dyd_reserve((void **)&csv->carried, &csv->carried_cap, csv->carries + 1, sizeof *csv->carried) ||
+  if (!DYD_GROW(csv->carried, csv->carried_cap, csv->carries + 1) ||
       !dyd_reserve((void **)&csv->names, &csv->names_cap, csv->names_used + length + 1, 1))
     return dyd_fail_nomem(err);
   csv->carried[csv->carries++] = k;
@@ -527,8 +527,7 @@ static dyd_status rows_split_runs(dyd_csv *csv, const dyd_line *line, dyd_error 
   for (csv->fields = 0;; csv->fields++) {
     while (at < end && between[(unsigned char)*at]) at++;
     if (at == end || *at == '#') return DYD_OK;
-    if (!dyd_reserve((void **)&csv->field, &csv->field_cap, csv->fields + 1, sizeof *csv->field))
-      return dyd_fail_nomem(err);
+    if (!DYD_GROW(csv->field, csv->field_cap, csv->fields + 1)) return dyd_fail_nomem(err);
     const char *from = at;
     while (at < end && *at != '#' && !between[(unsigned char)*at]) at++;
     csv->field[csv->fields] = (dyd_span){from, (size_t)(at - from), from, line->text, line->number};
@@ -602,11 +601,7 @@ void dyd_record_place(dyd_error *err, const dyd_record *row, size_t k) {
 
 void dyd_csv_clear(dyd_csv *csv) {
   for (int k = 0; k < DYD_CSV_MOST; k++) free(csv->want[k].name);
-  free(csv->carried);
-  free(csv->names);
-  free(csv->record);
-  free(csv->plain);
-  free(csv->field);
+  dyd_free_all(csv->carried, csv->names, csv->record, csv->plain, csv->field);
   *csv = (dyd_csv){0};
 }
 
@@ -761,8 +756,7 @@ static dyd_status csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err) 
   for (;;) {
     while (csv->delimiter == ' ' && at < end && is_blank(*at)) at++;
     if (csv->delimiter == ' ' && at == end) return DYD_OK;
-    if (!dyd_reserve((void **)&csv->field, &csv->field_cap, csv->fields + 1, sizeof *csv->field))
-      return dyd_fail_nomem(err);
+    if (!DYD_GROW(csv->field, csv->field_cap, csv->fields + 1)) return dyd_fail_nomem(err);
     dyd_span *field = &csv->field[csv->fields++];
     *field = (dyd_span){.origin = line->text, .line = line->number};
     dyd_status st = record_field(field, &at, end, csv, err);

@@ -10,9 +10,7 @@
 #include <string.h>
 
 void dyd_places_clear(dyd_places *n) {
-  free(n->item);
-  free(n->slot);
-  free(n->text);
+  dyd_free_all(n->item, n->slot, n->text);
   *n = (dyd_places){0};
 }
 
@@ -122,7 +120,7 @@ static bool slots_grow(dyd_places *n) {
 
 /* The item of the key that ends the text, begun at `begin`, with its count raised by 1. */
 static dyd_status places_count(dyd_place **out, dyd_places *n, size_t begin) {
-  if (!slots_grow(n) || !dyd_reserve((void **)&n->item, &n->cap, n->count + 1, sizeof *n->item)) return DYD_E_NOMEM;
+  if (!slots_grow(n) || !DYD_GROW(n->item, n->cap, n->count + 1)) return DYD_E_NOMEM;
   size_t length = n->used - begin;
   uint64_t hash = hash_text(n->text + begin, length);
   dyd_place_slot *slot = slot_find(n, hash, n->text + begin, length);

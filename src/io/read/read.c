@@ -199,7 +199,7 @@ static dyd_status intake_sigma(intake *in, const dyd_span *span, dyd_error *err)
 /* Remembers in->row for the point that was staged last. */
 static dyd_status intake_keep_sigma(intake *in, dyd_error *err) {
   if (!in->o->confidence) return DYD_OK;
-  if (!dyd_reserve((void **)&in->sigma, &in->sigma_cap, in->stage.count, sizeof *in->sigma)) return dyd_fail_nomem(err);
+  if (!DYD_GROW(in->sigma, in->sigma_cap, in->stage.count)) return dyd_fail_nomem(err);
   in->sigma[in->stage.count - 1] = in->row;
   return DYD_OK;
 }
@@ -300,9 +300,7 @@ static dyd_status intake_init(intake *in, const dyd_read_options *o, dyd_error *
 static void intake_clear(intake *in) {
   free(in->label);
   dyd_style_clear(&in->style);
-  free(in->sigma);
-  free(in->seen);
-  free(in->cells);
+  dyd_free_all(in->sigma, in->seen, in->cells);
   dyd_places_clear(&in->ids);
   dyd_places_clear(&in->places);
   dyd_labels_clear(&in->labels);
@@ -387,7 +385,7 @@ static dyd_status intake_see(intake *in, dyd_place *id, const dyd_span span[DYD_
   }
   s.length = in->cells_used - s.cells;
   dyd_span_position(&s.line, &s.column, &span[0], 0);
-  if (!dyd_reserve((void **)&in->seen, &in->seen_cap, in->sightings + 1, sizeof *in->seen)) return dyd_fail_nomem(err);
+  if (!DYD_GROW(in->seen, in->seen_cap, in->sightings + 1)) return dyd_fail_nomem(err);
   if (id->count == 1)
     id->row[0] = in->sightings, id->point = in->stage.count;
   else

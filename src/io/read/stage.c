@@ -51,7 +51,7 @@ void dyd_stage_clear(dyd_stage *s) {
 static bool stage_make_room(dyd_stage *s) {
   size_t k = s->count / PIECE;
   if (k == s->pieces) {
-    if (!dyd_reserve((void **)&s->piece, &s->piece_cap, k + 1, sizeof *s->piece)) return false;
+    if (!DYD_GROW(s->piece, s->piece_cap, k + 1)) return false;
     s->piece[k] = k ? dyd_alloc(PIECE, sizeof **s->piece) : NULL;
     if (k && !s->piece[k]) return false;
     s->pieces++;

@@ -165,9 +165,7 @@ void dyd_text_init(dyd_text *t, FILE *in) {
 void dyd_text_clear(dyd_text *t) {
   if (t->unpacker && t->unpacker->is_gzip) inflateEnd(&t->unpacker->gzip);
   if (t->unpacker) ZSTD_freeDStream(t->unpacker->zstd);
-  free(t->unpacker);
-  free(t->buffer);
-  free(t->recode);
+  dyd_free_all(t->unpacker, t->buffer, t->recode);
   *t = (dyd_text){0};
 }
 
