@@ -38,9 +38,10 @@ dyd_status dyd_dyadic_mul_2exp(dyd_dyadic *out, const dyd_dyadic *x, int64_t e);
 void dyd_dyadic_neg(dyd_dyadic *out, const dyd_dyadic *x);
 /*@ requires dyadic(x); assigns \nothing; exits \false; ensures \result == sign(&x->man[0]); */
 int dyd_dyadic_sgn(const dyd_dyadic *x);
-/*@ requires dyadic(x) && dyadic(y); assigns \nothing; exits \false; */
+/*@ predicate raw(number x) = \valid_read(x) && whole(&x->man[0]) && -1048576 <= x->exp <= 1048576; */
+/*@ requires raw(x) && raw(y); assigns \nothing; exits \false; */
 static int cmp_aligned(const dyd_dyadic *x, const dyd_dyadic *y);
-/*@ requires dyadic(x) && dyadic(y); assigns \nothing; exits \false; ensures -1 <= \result <= 1; */
+/*@ requires raw(x) && raw(y); assigns \nothing; exits \false; ensures -1 <= \result <= 1; */
 int dyd_dyadic_cmp(const dyd_dyadic *x, const dyd_dyadic *y);
 /*@ requires dyadic(x) && dyadic(y) && whole(p) && whole(q); assigns \nothing; exits \false;
     ensures -1 <= \result <= 1; */

@@ -158,15 +158,14 @@ int dyd_dyadic_cmp(const dyd_dyadic *x, const dyd_dyadic *y) {
 
 int dyd_raw_cmp(const dyd_dyadic *x, mpz_srcptr p, const dyd_dyadic *y, mpz_srcptr q) {
   if (!mpz_cmp(p, q)) return dyd_dyadic_cmp(x, y);
-  mpz_t s, t;
-  mpz_init(s);
-  mpz_init(t);
-  mpz_mul(s, x->man, p);
-  mpz_mul(t, y->man, q);
-  if (x->exp > y->exp) mpz_mul_2exp(s, s, (mp_bitcnt_t)(x->exp - y->exp));
-  if (y->exp > x->exp) mpz_mul_2exp(t, t, (mp_bitcnt_t)(y->exp - x->exp));
-  int order = mpz_cmp(s, t);
-  mpz_clear(t);
-  mpz_clear(s);
-  return (order > 0) - (order < 0);
+  dyd_dyadic s, t; /* not in normal form, which a comparison does not need */
+  mpz_init(s.man);
+  mpz_init(t.man);
+  mpz_mul(s.man, x->man, p);
+  mpz_mul(t.man, y->man, q);
+  s.exp = x->exp, t.exp = y->exp;
+  int order = dyd_dyadic_cmp(&s, &t);
+  mpz_clear(t.man);
+  mpz_clear(s.man);
+  return order;
 }
