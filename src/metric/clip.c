@@ -745,22 +745,24 @@ static void clip_measure(mpq_t whole, mpq_t blur, const dyd_tiles *t, size_t r) 
 
 /* The bounds of a cell, lo and hi, become those of its part in the area. Its certain part lies in the tile, and the
  * tile in what is possible, as they were before rounding: so `whole` - inside of the former may be lost at most, and
- * of the latter hi - whole may be inside without being in the tile. */
+ * of the latter hi - whole may be inside without being in the tile. An area beyond all doubles is infinite: it bounds
+ * nothing, and stays. */
 static void clip_bound(double bound[2], const clip_work *w, const mpq_t whole, const mpq_t blur) {
   mpq_t lo, hi;
   mpq_inits(lo, hi, NULL);
+  bool bounded = isfinite(bound[1]);
   mpq_set_d(lo, bound[0]);
   mpq_sub(lo, lo, whole);
   mpq_add(lo, lo, w->inside);
   mpq_sub(lo, lo, blur);
-  mpq_set_d(hi, bound[1]);
+  mpq_set_d(hi, bounded ? bound[1] : 0);
   mpq_sub(hi, hi, whole);
   if (mpq_sgn(hi) < 0) mpq_set_ui(hi, 0, 1);
   mpq_add(hi, hi, w->inside);
   mpq_add(hi, hi, blur);
   double low = q_rounded(lo, MPFR_RNDD), high = q_rounded(hi, MPFR_RNDU);
   bound[0] = low > 0 ? low : 0;
-  if (high < bound[1]) bound[1] = high;
+  if (bounded && high < bound[1]) bound[1] = high;
   mpq_clears(lo, hi, NULL);
 }
 

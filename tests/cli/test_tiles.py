@@ -354,6 +354,18 @@ def test_areas_that_are_none():
     expect(run('voronoi', '--layer', 'tiles', '--clip-to', 'x', '-', stdin=three), 1, '', 'x')
 
 
+def test_areas_beyond_doubles():
+    """What no double holds is left out; it once ended the command by a signal."""
+    side = '2^700'
+    asked = ['voronoi', '--layer', 'tiles', f'--window=-1*{side},1*{side},-1*{side},1*{side}', '-']
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'area')
+        with open(path, 'w', encoding='utf-8') as out:
+            out.write('POLYGON ((0 0, 6e199 0, 6e199 4e199, 0 4e199, 0 0))')
+        for points in ('[2^658,2^659] [2^658,2^659]\n3*2^658 2^657\n', '2^658 2^658\n3*2^658 2^657\n'):
+            expect(run(*asked, '--clip-to', path, stdin=points), 0, r'(?m)\A(#.*\n)*i,area,certain_area,area_lo,area_hi\n0,,0,0,\n1,,0,0,\n\Z')
+
+
 def test_formats():
     """csv and geojson state what wkt does."""
     points = numbers(uniform(random.Random(SEED), 30))
