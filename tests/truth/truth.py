@@ -499,6 +499,8 @@ def like(case, **changes):
     c.row = {**case.row, **changes}
     extra = axes.EXTRAS[c.row['extra']]
     c.softened = extra.softens
+    if c.row['extra'] != case.row['extra']:
+        c.up_to = None
     return c
 
 
