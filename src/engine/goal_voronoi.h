@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Goals on the Voronoi diagram. */
+/* Goals: those on pairs, run.c, and those on the Voronoi diagram. */
 #ifndef DYD_ENGINE_GOAL_VORONOI_H
 #define DYD_ENGINE_GOAL_VORONOI_H
 
@@ -9,6 +9,8 @@
 static inline bool dyd_goal_is_voronoi(dyd_goal goal) {
   return goal == DYD_GOAL_VORONOI_AREA || goal == DYD_GOAL_VORONOI_HAUSDORFF;
 }
+/* Sets *out to whether the other goals hold for pd; m: of its sites. */
+dyd_status dyd_goal_of_pairs_holds(bool *out, dyd_measure *m, const dyd_delaunay *pd, const dyd_engine_options *o);
 /* Returns true if a window is given, with positive area and dyadic ends. */
 bool dyd_goal_window_is_good(const dyd_rect *window);
 /* Sets *out to whether the goal, one of these two, holds. If it does not, *sums, NULL before, keeps the sums found, for

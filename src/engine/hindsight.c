@@ -11,11 +11,9 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "delaunay/state.h"
+#include "engine/goal_voronoi.h"
 #include "engine/points.h"
-#include "metric/bounds.h"
 #include "rect/rect.h"
-
-#include <dyadel/metric.h>
 
 /* Invariant: bits[k], of refinable points alone, from `first` to `top`; sum > best is of no use. */
 typedef struct hindsight {
@@ -54,25 +52,6 @@ static dyd_status hindsight_rect(dyd_rect *out, const void *user, size_t i) {
   return st == DYD_OK ? hindsight_round(&out->y, &h->rect[i].y, bits) : st;
 }
 
-static dyd_status hindsight_judge(bool *out, const dyd_delaunay *pd, const dyd_engine_options *o) {
-  size_t count[4];
-  dyd_dyadic bound, goal;
-  dyd_status st = DYD_OK;
-  if (o->goal == DYD_GOAL_DECIDED) {
-    dyd_delaunay_count(count, pd);
-    *out = count[DYD_INDETERMINATE] + count[DYD_TIE] == 0;
-    return DYD_OK;
-  }
-  dyd_dyadic_init(&bound);
-  dyd_dyadic_init(&goal);
-  st = o->goal == DYD_GOAL_AREA ? dyd_metric_area(&bound, pd) : dyd_metric_hausdorff(&bound, pd);
-  if (st == DYD_OK) st = dyd_dyadic_set_si_2exp(&goal, 1, -o->goal_bits);
-  *out = st == DYD_OK && dyd_dyadic_cmp(&bound, &goal) <= 0;
-  dyd_dyadic_clear(&goal);
-  dyd_dyadic_clear(&bound);
-  return st;
-}
-
 /* Does the goal hold at h->bits? */
 static dyd_status hindsight_holds(bool *out, hindsight *h) {
   dyd_delaunay *pd = NULL;
@@ -84,7 +63,12 @@ static dyd_status hindsight_holds(bool *out, hindsight *h) {
   h->left--;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = h->o->no_filter};
   dyd_status st = dyd_delaunay_made(&pd, dyd_sites_count(h->e->sites), hindsight_rect, h, &o, NULL);
-  if (st == DYD_OK) st = hindsight_judge(out, pd, h->o);
+  if (st == DYD_OK) {
+    dyd_measure m;
+    dyd_measure_init(&m, dyd_delaunay_sites(pd));
+    st = dyd_goal_of_pairs_holds(out, &m, pd, h->o);
+    dyd_measure_clear(&m);
+  }
   dyd_delaunay_free(pd);
   return st == DYD_CAPPED ? DYD_OK : st;
 }

@@ -577,17 +577,25 @@ static dyd_status plan_all(dyd_plan *plan, dyd_helpers *h, dyd_settled *settled,
 
 /* ---- goals ---- */
 
-static dyd_status goal_bound_holds(bool *out, dyd_measure *m, const dyd_engine *e, const dyd_engine_options *o) {
+static dyd_status goal_bound_holds(bool *out, dyd_measure *m, const dyd_delaunay *pd, const dyd_engine_options *o) {
   dyd_pair_list pairs = {0};
   mpfr_t bound;
   mpfr_init2(bound, DYD_MEASURE_PREC);
-  dyd_status st = dyd_pairs_list(&pairs, e->pd, DYD_TIE);
+  dyd_status st = dyd_pairs_list(&pairs, pd, DYD_TIE);
   if (st == DYD_OK)
     st = o->goal == DYD_GOAL_AREA ? dyd_bound_area(bound, m, &pairs) : dyd_bound_hausdorff(bound, m, &pairs);
   *out = st == DYD_OK && mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
   mpfr_clear(bound);
   dyd_pair_list_clear(&pairs);
   return st;
+}
+
+dyd_status dyd_goal_of_pairs_holds(bool *out, dyd_measure *m, const dyd_delaunay *pd, const dyd_engine_options *o) {
+  size_t count[4];
+  if (o->goal != DYD_GOAL_DECIDED) return goal_bound_holds(out, m, pd, o);
+  dyd_delaunay_count(count, pd);
+  *out = count[DYD_INDETERMINATE] == 0 && count[DYD_TIE] == 0;
+  return DYD_OK;
 }
 
 /* The bound holds, and no vertex is left that is too wide and could be narrowed. */
@@ -608,12 +616,8 @@ static dyd_status goal_holds(bool *out, dyd_measure *m, dyd_voronoi_sums **sums,
                              const dyd_engine_options *o) {
   *out = false;
   if (dyd_delaunay_is_capped(e->pd)) return DYD_OK;
-  if (dyd_goal_is_voronoi(o->goal)) return goal_voronoi_and_vertices_hold(out, sums, e, o);
-  if (o->goal != DYD_GOAL_DECIDED) return goal_bound_holds(out, m, e, o);
-  size_t count[4];
-  dyd_delaunay_count(count, e->pd);
-  *out = count[DYD_INDETERMINATE] == 0 && count[DYD_TIE] == 0;
-  return DYD_OK;
+  return dyd_goal_is_voronoi(o->goal) ? goal_voronoi_and_vertices_hold(out, sums, e, o)
+                                      : dyd_goal_of_pairs_holds(out, m, e->pd, o);
 }
 
 /* Else a plan is empty, whatever the goal. */
