@@ -611,6 +611,7 @@ class Run:
 
 
 def main():
+    sys.set_int_max_str_digits(0)  # corners of exteriors have thousands
     p = argparse.ArgumentParser()
     p.add_argument('command')
     p.add_argument('--seed', type=int, default=1)
