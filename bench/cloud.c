@@ -5,6 +5,7 @@
 #include "harness.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,6 +18,12 @@ static uint64_t next_random(uint64_t *state) {
 
 double cloud_unit(uint64_t *state) {
   return (double)(next_random(state) >> 11) * 0x1p-53;
+}
+
+double cloud_gauss(uint64_t *state) {
+  double sum = -6;
+  for (int k = 0; k < 12; k++) sum += cloud_unit(state);
+  return sum;
 }
 
 static double *doubles(size_t n) {
@@ -149,6 +156,25 @@ void cloud_widen(cloud *c, double half_width) {
   for (size_t i = 0; i < c->n; i++) cloud_widen_one(c, i, half_width);
 }
 
+void cloud_gps(cloud *c, size_t n) {
+  uint64_t state = 16;
+  double side = sqrt((double)n), x = 0, y = 0;
+  start(c, n);
+  c->radius = doubles(n);
+  for (size_t i = 0; i < n; i++) {
+    bool alone = i < n / 2;
+    if (alone || (i - n / 2) % 50 == 0) {
+      x = side * cloud_unit(&state);
+      y = side * cloud_unit(&state);
+    }
+    c->x[i] = round(1000 * (alone ? x : x + 2 * cloud_gauss(&state))) / 1000;
+    c->y[i] = round(1000 * (alone ? y : y + 2 * cloud_gauss(&state))) / 1000;
+    c->radius[i] = round(1000 * pow(0.02, cloud_unit(&state))) / 1000;
+  }
+  cloud_widen(c, 0);
+  for (size_t i = 0; i < n; i++) cloud_widen_one(c, i, c->radius[i]);
+}
+
 void cloud_clear(cloud *c) {
   free(c->x);
   free(c->y);
@@ -156,5 +182,6 @@ void cloud_clear(cloud *c) {
   free(c->x1);
   free(c->y0);
   free(c->y1);
+  free(c->radius);
   memset(c, 0, sizeof *c);
 }

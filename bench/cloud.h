@@ -12,10 +12,13 @@ typedef struct cloud {
   size_t n;
   double *x, *y;
   double *x0, *x1, *y0, *y1;
+  double *radius; /* of cloud_gps alone */
 } cloud;
 
 /* The next number of a generator in [0,1), a multiple of 2^-53. */
 double cloud_unit(uint64_t *state);
+/* About normal, with variance 1: twelve uniform numbers, so that no function of the C library is asked. */
+double cloud_gauss(uint64_t *state);
 
 /* All end the program when memory runs out. */
 /* Coordinates uniform multiples of 2^-53 in [0,1). */
@@ -30,6 +33,10 @@ void cloud_hub(cloud *c, size_t n);
  * 2 k^2 is the number there is. */
 void cloud_globe(cloud *c, size_t n);
 void cloud_parallels(cloud *c, size_t n);
+/* Positions by a receiver, in a square of side sqrt(n): half of them uniform, half in clusters of 50 with deviation 2;
+ * radii from 0.02 to 1, as many between 0.02 and 0.04 as between 0.5 and 1. All are thousandths. Boxes are the squares
+ * of these half-widths, rounded outward. */
+void cloud_gps(cloud *c, size_t n);
 /* All integer points on the circle about the origin whose squared radius is the product of the first `primes` primes of
  * the form 4k + 1: 4 * 2^primes of them, in random order. At most 10 primes. */
 void cloud_cocircular(cloud *c, size_t primes);

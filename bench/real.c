@@ -11,13 +11,6 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* About normal, with variance 1: twelve uniform numbers, so that no function of the C library is asked. */
-static double gauss(uint64_t *state) {
-  double sum = -6;
-  for (int k = 0; k < 12; k++) sum += cloud_unit(state);
-  return sum;
-}
-
 static double between(uint64_t *state, double lo, double hi) {
   return lo + (hi - lo) * cloud_unit(state);
 }
@@ -46,7 +39,7 @@ FILE *real_outliers(size_t n) {
   FILE *f = start_file();
   for (size_t k = 0; k < n; k++) {
     double far = k % (n / 20) == 0 ? 50 : 1;
-    fprintf(f, "%.6f+-0.05 %.6f+-0.05\n", far * gauss(&state), far * gauss(&state));
+    fprintf(f, "%.6f+-0.05 %.6f+-0.05\n", far * cloud_gauss(&state), far * cloud_gauss(&state));
   }
   return end_file(f);
 }
@@ -66,7 +59,8 @@ FILE *real_clusters(size_t n) {
     if (k < ALONE)
       fprintf(f, "%.2f+-0.01 %.2f+-0.01\n", between(&state, -1000, 1000), between(&state, -1000, 1000));
     else
-      fprintf(f, "%.7f+-0.002 %.7f+-0.002\n", x[c] + width[c] * gauss(&state), y[c] + width[c] * gauss(&state));
+      fprintf(f, "%.7f+-0.002 %.7f+-0.002\n", x[c] + width[c] * cloud_gauss(&state),
+              y[c] + width[c] * cloud_gauss(&state));
   }
   return end_file(f);
 }
@@ -84,7 +78,7 @@ FILE *real_tracks(size_t n) {
       y = between(&state, 0, side);
       heading = between(&state, 0, 2 * PI);
     }
-    heading += 0.2 * gauss(&state);
+    heading += 0.2 * cloud_gauss(&state);
     if (!stays) {
       x += 8 * cos(heading);
       y += 8 * sin(heading);
@@ -110,5 +104,15 @@ FILE *real_coast(size_t n) {
     for (int b = 0; b < bays; b++) r += 0.5 / often[b] * sin(often[b] * angle + phase[b]);
     fprintf(f, "%.8f+-%.8f %.8f+-%.8f\n", r * cos(angle), 0.01 * step, r * sin(angle), 0.01 * step);
   }
+  return end_file(f);
+}
+
+FILE *real_gps(size_t n) {
+  cloud c;
+  FILE *f = start_file();
+  cloud_gps(&c, n);
+  fprintf(f, "east,north,accuracy\n");
+  for (size_t i = 0; i < n; i++) fprintf(f, "%.3f,%.3f,%.3f\n", c.x[i], c.y[i], c.radius[i]);
+  cloud_clear(&c);
   return end_file(f);
 }

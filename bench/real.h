@@ -17,5 +17,7 @@ FILE *real_clusters(size_t n);
 FILE *real_tracks(size_t n);
 /* A coast line: a closed curve with bays in bays, surveyed to 1 % of its steps. */
 FILE *real_coast(size_t n);
+/* The positions of cloud_gps: CSV with the columns east, north and accuracy. */
+FILE *real_gps(size_t n);
 
 #endif
