@@ -104,6 +104,8 @@ int cli_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void cli_note(const cli_options *o, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Prints notes on the rows of a file: rows skipped, and values read in another way than written. */
 void cli_note_lines(const cli_options *o, const dyd_read_report *r);
+/* A name or list of names as a shell takes it, quoted where that is needed. */
+void cli_shell_name(char *out, size_t size, const char *name);
 /* Prints these and notes on the points, which e holds: merged points, and points with another possible meaning. */
 void cli_note_points(const dyd_engine *e, const cli_options *o, const dyd_read_report *r);
 /* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: without FILE. */

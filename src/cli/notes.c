@@ -34,6 +34,21 @@ void cli_note_lines(const cli_options *o, const dyd_read_report *r) {
              o->file, r->recoded, o->file, o->command ? o->command : "nearest FILE --queries");
 }
 
+void cli_shell_name(char *out, size_t size, const char *name) {
+  static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./-+:,=@%";
+  if (!name[strspn(name, plain)]) {
+    snprintf(out, size, "%s", name);
+    return;
+  }
+  size_t n = 0;
+  out[n++] = '\'';
+  for (; *name && n + 6 < size; name++) {
+    if (*name == '\'') n += (size_t)snprintf(out + n, size - n, "'\\'");
+    out[n++] = *name;
+  }
+  snprintf(out + n, size - n, "'");
+}
+
 /* k is shown rounded up. */
 static void note_confidence(const dyd_engine *e, const cli_options *o) {
   dyd_confidence c = {DYD_SIZED(dyd_confidence)};
@@ -76,7 +91,13 @@ static const struct radius_name {
     {"sde", true, "standard deviations", "", NULL},
     {"sdn", true, "standard deviations", "", NULL},
     {"mm", true, "millimetres", NULL, "--radius-scale 0.001 if those are metres"},
-    {"cm", true, "centimetres", NULL, "--radius-scale 0.01 if those are metres"}};
+    {"cm", true, "centimetres", NULL, "--radius-scale 0.01 if those are metres"},
+    {"km", true, "kilometres", NULL, "--radius-scale 1000 if those are metres"},
+    {"ft", true, "feet", NULL, "--radius-scale 0.3048 if those are metres"}};
+
+static bool is_unit(const struct radius_name *r) {
+  return r->give && strstr(r->give, "if those are metres");
+}
 
 static bool is_name_letter(char c) {
   return (c | 0x20) >= 'a' && (c | 0x20) <= 'z';
@@ -91,22 +112,46 @@ static bool name_says(const char *name, const struct radius_name *r) {
   return false;
 }
 
-/* Radii bound an error; a name may say that these do not, or in which unit they are. */
+/* Radii bound an error; a name may say that these do not, or in which unit they or standard deviations are. */
 static void note_radii(const cli_options *o) {
-  const char *names = o->read.radius_columns;
+  const bool sigma = !o->read.radius_columns;
+  const char *names = sigma ? o->read.sigma_column : o->read.radius_columns;
   const struct radius_name *r = radius_names, *end = r + sizeof radius_names / sizeof *radius_names;
+  char typed[160];
   if (!names || o->read.radius_scale || o->content == DYD_CONTENT_TOLERANCE) return;
-  while (r < end && !name_says(names, r)) r++;
-  if (r == end || (o->sphere && strcmp(r->word + 1, "m") == 0)) return;
-  cli_note(o, "%s: by the name \"%.60s\" its numbers are %s; they are taken as bounds%s: give %s%.60s%s%s", o->file,
-           names, r->what, o->sphere ? "" : " in the unit of the coordinates", r->scale ? "--sigma-column " : r->give,
-           r->scale ? names : "", r->scale ? r->scale : "", r->scale ? " --confidence 95%" : "");
+  while (r < end && !((is_unit(r) || !sigma) && name_says(names, r))) r++;
+  if (r == end || (o->sphere && is_unit(r))) return;
+  cli_shell_name(typed, sizeof typed, names);
+  cli_note(o, "%s: by the name \"%.60s\" its numbers are %s; they are taken as %s%s: give %s%s%s%s", o->file, names,
+           r->what, sigma ? "standard deviations" : "bounds", o->sphere ? "" : " in the unit of the coordinates",
+           r->scale ? "--sigma-column " : r->give, r->scale ? typed : "", r->scale ? r->scale : "",
+           r->scale ? " --confidence 95%" : "");
+}
+
+/* Points both of whose coordinates are a number that many programs write for none. */
+static void note_nowhere(const dyd_engine *e, const cli_options *o) {
+  static const double none[] = {-9999, -99999, -999999, -999, 9999, 99999, -32768};
+  double b[4];
+  size_t found = 0, k = 0, at = 0;
+  for (size_t i = 0; i < dyd_engine_count(e) && !o->read.missing; i++) {
+    if (!dyd_engine_knows(e, (uint32_t)i)) continue;
+    dyd_sites_get_d(b, dyd_engine_sites(e), i);
+    if (b[0] != b[2] || b[0] != b[1] || b[0] != b[3]) continue;
+    for (k = 0; k < sizeof none / sizeof *none && none[k] != b[0];) k++;
+    if (k < sizeof none / sizeof *none && !found++) at = k;
+  }
+  if (found)
+    cli_note(o,
+             "%s: points with %.0f for both coordinates: %zu; if it means a missing value, give --missing %.0f "
+             "--skip-missing",
+             o->file, none[at], found, none[at]);
 }
 
 void cli_note_points(const dyd_engine *e, const cli_options *o, const dyd_read_report *r) {
   cli_note_lines(o, r);
   if (r->vertices) cli_note(o, "%s: the vertices of lines and polygons are the points: %zu", o->file, r->vertices);
   note_radii(o);
+  if (o->read.columns && !o->sphere) note_nowhere(e, o);
   if (r->zone[1][0] && !o->sphere)
     cli_note(
         o,

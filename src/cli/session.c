@@ -50,28 +50,12 @@ static int session_read_oracle(dyd_engine *e, const cli_options *o) {
   return status;
 }
 
-/* A file's name as a shell takes it. */
-static void shell_name(char *out, size_t size, const char *name) {
-  static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./-+:,=@%";
-  if (!name[strspn(name, plain)]) {
-    snprintf(out, size, "%s", name);
-    return;
-  }
-  size_t n = 0;
-  out[n++] = '\'';
-  for (; *name && n + 6 < size; name++) {
-    if (*name == '\'') n += (size_t)snprintf(out + n, size - n, "'\\'");
-    out[n++] = *name;
-  }
-  snprintf(out + n, size - n, "'");
-}
-
 /* The file has another format: names it, and the command to type. */
 static void complain_kind(const cli_options *o, const dyd_read_report *r) {
   const char *make = r->make, *place;
   char name[1024], line[2048] = "";
   bool gdal = strncmp(make, "ogr2ogr", 7) == 0;
-  shell_name(name, sizeof name, strcmp(o->file, "-") != 0 ? o->file : gdal ? "/vsistdin/" : "/dev/stdin");
+  cli_shell_name(name, sizeof name, strcmp(o->file, "-") != 0 ? o->file : gdal ? "/vsistdin/" : "/dev/stdin");
   if ((place = strstr(make, "FILE"))) {
     snprintf(line, sizeof line, "%.*s%s%s", (int)(place - make), make, name, place + strlen("FILE"));
     make = line;
@@ -79,7 +63,7 @@ static void complain_kind(const cli_options *o, const dyd_read_report *r) {
   const char *columns = r->make_columns ? r->make_columns : "";
   const char *option = !*columns ? "" : o->command ? " --columns " : " --query-columns ";
   const char *before = !o->command ? " --queries" : o->points ? " CERT --points" : "";
-  const char *install = gdal && strcmp(o->file, "-") != 0 ? ", or install dyadel-gdal, which reads such files" : "";
+  const char *install = gdal && cli_spatial_kind(o->file) ? ", or install dyadel-gdal, which reads such files" : "";
   cli_complain("%s: the file is %s; give %s | dyadel %s%s%s%s -%s", o->file, r->kind, make,
                o->command ? o->command : "nearest FILE", option, columns, before, install);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Files of geographic information systems. GDAL takes 50 ms to load, so that it is in a program of its own,
  * dyadel-gdal: this command with gdal.c. What needs it is started again there. */
+#define _GNU_SOURCE /* memmem */
 #include "cli.h"
 
 #include <ctype.h>
@@ -14,17 +15,21 @@
 
 /* ---- the kind of a file ---- */
 
-/* By the first bytes; texts after blanks. Neither begins a point. */
+/* By the first bytes; texts after blanks, which hold a word. Neither begins a point. */
 static const struct {
   const char *first;
   size_t length;
-  const char *kind;
-} first_bytes[] = {{"SQLite format 3", 16, "GeoPackage"},
-                   {"\0\0\x27\x0A", 4, "Shapefile"},
-                   {"fgb\x03", 4, "FlatGeobuf"},
-                   {"PAR1", 4, "Parquet"},
-                   {"{", 1, "GeoJSON"},
-                   {"<", 1, "GPX, KML or GML"}};
+  const char *within, *kind;
+} first_bytes[] = {{"SQLite format 3", 16, "", "GeoPackage"},
+                   {"\0\0\x27\x0A", 4, "", "Shapefile"},
+                   {"fgb\x03", 4, "", "FlatGeobuf"},
+                   {"PAR1", 4, "", "Parquet"},
+                   {"{", 1, "\"type\"", "GeoJSON"},
+                   {"{", 1, "\"geometryType\"", "JSON of ESRI"},
+                   {"<", 1, "<gpx", "GPX"},
+                   {"<", 1, "<kml", "KML"},
+                   {"<", 1, "<osm", "OpenStreetMap XML"},
+                   {"<", 1, "gml", "GML"}};
 
 /* Formats that the first bytes of a file do not show, and names of databases and services. */
 static const struct {
@@ -43,7 +48,7 @@ static bool has_ends(const char *name, const char *begin, const char *end) {
 
 const char *cli_spatial_kind(const char *name) {
   struct stat info;
-  unsigned char text[512];
+  unsigned char text[4096];
   if (!name || strcmp(name, "-") == 0) return NULL;
   bool there = stat(name, &info) == 0;
   for (size_t k = 0; k < sizeof names / sizeof *names; k++)
@@ -54,7 +59,8 @@ const char *cli_spatial_kind(const char *name) {
   fclose(in);
   while (at < count && isspace(text[at])) at++;
   for (size_t k = 0; k < sizeof first_bytes / sizeof *first_bytes; k++)
-    if (count - at >= first_bytes[k].length && memcmp(text + at, first_bytes[k].first, first_bytes[k].length) == 0)
+    if (count - at >= first_bytes[k].length && memcmp(text + at, first_bytes[k].first, first_bytes[k].length) == 0 &&
+        memmem(text + at, count - at, first_bytes[k].within, strlen(first_bytes[k].within)))
       return first_bytes[k].kind;
   return NULL;
 }

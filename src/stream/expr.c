@@ -725,7 +725,7 @@ static dyd_status parse_primary(parser *p) {
   if (c == '(') return parse_group(p, DYD_OP_CONST, p->pos);
   if (is_letter(c)) return parse_name(p);
   if (c < 0) return FAIL(p, p->pos, DYD_E_PARSE, "the expression ends too early; a number, a name or '(' is missing");
-  return FAIL(p, p->pos, DYD_E_PARSE, "a number, a name or '(' is missing here");
+  return dyd_text_unexpected(p->err, p->text, p->length, p->pos, "; a number, a name or '(' is expected");
 }
 
 static dyd_status parse_power(parser *p) {

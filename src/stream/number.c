@@ -133,6 +133,15 @@ dyd_status dyd_text_fail(dyd_error *err, dyd_status code, const char *text, size
   return code;
 }
 
+dyd_status dyd_text_unexpected(dyd_error *err, const char *text, size_t length, size_t offset, const char *remedy) {
+  size_t end = offset + 1;
+  if (dyd_is_blank(text[offset]))
+    return dyd_text_fail(err, DYD_E_PARSE, text, offset, "unexpected blank inside a number");
+  while (end < length && ((unsigned char)text[end] & 0xC0) == 0x80) end++;
+  return dyd_text_fail(err, DYD_E_PARSE, text, offset, "unexpected \"%.*s\"%s", (int)(end - offset), text + offset,
+                       remedy);
+}
+
 /* 10^400000 and 16^400000 exceed 2^DYD_EXP_LIMIT. */
 #define MAX_DIGITS ((size_t)400000)
 

@@ -46,6 +46,10 @@ __attribute__((format(printf, 5, 6)))
 dyd_status
 dyd_text_fail(dyd_error *err, dyd_status code, const char *text, size_t offset, const char *format, ...);
 
+/* The same, with DYD_E_PARSE, of a character that cannot be at offset, which is before length; the message quotes it,
+ * and ends with `remedy`. */
+dyd_status dyd_text_unexpected(dyd_error *err, const char *text, size_t length, size_t offset, const char *remedy);
+
 /* Returns true if the text, without blanks around it, is a plain number by its form. Computes no value: O(length). */
 bool dyd_is_plain_number(const char *text, size_t length);
 /* The exact value of such a text; out, initialised by the caller, becomes canonical, and is unchanged on failure.

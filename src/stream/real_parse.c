@@ -389,8 +389,8 @@ static dyd_status read_real_radius(dyd_real **x, reader *r) {
 static dyd_status trailing_fail(reader *r) {
   char c = r->text[r->pos];
   bool operand = c == '(' || c == '.' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-  return FAIL(r, r->pos, DYD_E_PARSE,
-              operand ? "an operator is missing here, such as *" : "this does not belong to a number");
+  return dyd_text_unexpected(r->err, r->text, r->length, r->pos,
+                             operand ? " behind a number; between factors write *" : " in a number");
 }
 
 /* *out is set on success only. */

@@ -43,6 +43,13 @@ SAME = [
     ('--columns x,y', 'x,y,name,\n1,2,a\n1234.5,5,b\n5,1000,c\n'),
     ('--columns x,y', 'x,y,name\n1,2,a,\n1234.5,5,b,\n5,1000,c,\n'),
     ('--columns x,y', 'x,y\r1,2\r1234.5,5\r5,1000\r'),
+    ('--columns x,y', 'id, "x", "y"\nA, "1", "2"\nB, "1234.5" , "5"\nC, "5", "1000"\n'),
+    ('--columns x,y', '| id | x | y |\n|:---|--:|---|\n| A | 1 | 2 |\n| B | 1234.5 | 5 |\n| C | 5 | 1000 |\n'),
+    ('--columns x,y', ' id |   x    |  y  \n----+--------+-----\n A  |      1 |    2\n B  | 1234.5 |    5\n C  |      5 | 1000\n'),
+    ('--columns x,y', 'x      y   n\n------ --- -\n1      2   a\n1234.5 5   b\n5    1000  c\n'),
+    ('--columns x,y --units-row', 'x,y\n-,m\n1,2\n1234.5,5\n5,1000\n'),
+    ('--columns x,y', 'x,y\n1,2\n1234.5,5\n5,1000\n\x1a'),
+    ('', '1 2\n1234.5 5\n5 1000\n\x1a\n'),
     ('', '1 2\r1234.5 5\r5 1000'),
     ('--columns x,y --thousands ,', 'x,y\n1,2\n"1,234.5",5\n5,"1,000"\n'),
     ('--columns x,y --decimal-comma --thousands .', 'x;y\n1;2\n1.234,5;5\n5;1.000\n'),
@@ -104,6 +111,30 @@ TOLD = [
     ('--columns x,y', 'n,x,y\n%,1,2\n', 0, r'there are no points'),
     ('--sphere --columns lat,lon', 'lon,lat\n1,2\n', 2, 'longitude comes first: --columns lon,lat$'),
     ('--sphere --columns 1,2', 'Lat (deg),Lon (deg)\n1,2\n', 2, r"longitude comes first: --columns 'Lon \(deg\),Lat \(deg\)'$"),
+    ('--columns x,y', 'Survey of 2024\nOperator: Smith, J.\n\nid,x,y\nA,1,2\n', 1, r'-:1:1: line 4 has the names of the columns: pass over those before it by --skip-lines 3$'),
+    ('--columns x,y', 'Station,Coordinates,,Quality\n,x,y,sigma\nA,0,0,0.1\n', 1, r'line 2 has .*--skip-lines 1$'),
+    ('', 'Survey of 2024\nOperator: Smith, J.\n\nid,x,y\nA,1,2\n', 1, r'-:4:1: this line is a header .*: --skip-lines 3 --columns x,y \(it has: id, x, y\)$'),
+    ('', 'Station,Coordinates,,Quality\n,x,y,sigma\nA,0,0,0.1\n', 1, r'-:2:1: this line is a header .*: --skip-lines 1 --columns x,y '),
+    ('', 'Name,X,Y,\nA,1,2,\n', 1, r'-:1:1: this line is a header .*: --columns X,Y '),
+    ('', ',x,y\n0,1,2\n', 1, r'-:1:1: this line is a header .*: --columns x,y '),
+    ('', '@id\t@lat\t@lon\n7\t1\t2\n', 1, r"this line is a header .*: --columns '@lon,@lat' "),
+    ('', 'sep=,\nid,x,y\nA,1,2\n', 1, r'-:2:1: this line is a header .*: --columns x,y '),
+    ('', 'geom,id\nPOINT (1 2),3\n', 1, r'--columns geom,geom '),
+    ('', '// by a tool\n1 2\n', 1, r'; comments begin with # or %: pass over the first lines by --skip-lines N$'),
+    ('', '; by\n1 2\n', 1, r'-:1:1: unexpected ";"; .*--skip-lines N$'),
+    ('', '(0, 1)\n(2, 3)\n', 1, r"where a pair is in brackets, remove them: tr -d '\(\)\[\]' < FILE$"),
+    ('--columns x,y', 'id,x,y\nA,1,2\nid,x,y\nB,2,3\n', 1, r'-:3:4: this line is the header again; remove it$'),
+    ('--columns x,y', 'id,x,y\nA,1\n', 1, r'-:2:1: this record has 2 fields, the header 3; complete the line, or remove it$'),
+    ('--columns x,y', ' id | x\n A | 1\n(1 row)\n', 1, r'no column is called "y"'),
+    ('--columns x,y', ' x | y\n 1 | 1\n(1 row)\n', 1, r'-:3:1: this record has 1 field, the header 2; complete the line, or remove it$'),
+    ('--columns x,y', 'id,x,y\nA,1,2\rB,3,4\nC,5,9\n', 1, r"-:2:1: .* a CR alone ends a line in it: tr '\\r' '\\n' < FILE "),
+    ('--columns x,y', '"x" "y"\n"1" 0 0\n', 1, r'-:2:2: .* as R writes tables, give --skip-lines 1 --no-header and numbers to --columns$'),
+    ('--columns 2,3 --no-header --delimiter blank', '4 2 0 0\n1 0 0\n', 1, r'lines before the table are passed over by --skip-lines$'),
+    ('--columns x,y', 'x,y\ninf,0\n', 1, r"-:2:1: coordinates are finite, .*--missing 'inf' --skip-missing$"),
+    ('--columns x,y', 'x,y\n-9999,-9999\n1,2\n', 0, r'points with -9999 for both coordinates: 1; .* --missing -9999 --skip-missing$'),
+    ('--columns x,y --missing -9999', 'x,y\n99999,99999\n1,2\n', 0, ''),
+    ('--columns x,y', 'x,y\n-9999,9999\n1,2\n', 0, ''),
+    ('--columns x,y', 'x,y\n1,2\n\0\0\n', 1, r"-:3:1: a NUL byte; .*tr -d '\\000' < FILE"),
     ('--columns x,y', 'x,\x1b[31my\x9b2J\x07\n1,2\n', 1, r'names are: x, \\x1B\[31my›2J\\x07; give'),
 ]
 
@@ -244,16 +275,29 @@ def test_units_of_radii():
 KINDS = [(b'{"type":"FeatureCollection","features":[]}', 'GeoJSON', 'ogr2ogr'), (b'\n <?xml version="1.0"?>\n<gpx>', 'GPX', 'waypoints'),
          (b'<kml>', 'KML', 'ogr2ogr'), (b'<?xml?><osm>', 'OpenStreetMap XML', 'points'), (b'PAR1\x15\x04', 'Parquet', 'ogr2ogr'),
          (b'\0\0\x27\x0a\0\0', 'a Shapefile', 'ogr2ogr'), (b'SQLite format 3\0', 'an SQLite database', 'ogr2ogr'), (b'fgb\3fgb\0', 'FlatGeobuf', 'ogr2ogr'),
-         (b'[[1,2],[3,4]]', 'JSON', 'jq'),
+         (b'[[1,2],[3,4]]', 'JSON', 'jq'), (b'[[0. 1.]\n [2. 3.]]\n', 'an array as NumPy prints it', 'tr -d'),
+         (b'  0\nSECTION\n  2\nENTITIES\n', 'DXF', 'ogr2ogr'), (b'0\r\nSECTION\r\n', 'DXF', 'ogr2ogr'), (b'ply\nformat ascii 1.0\n', 'PLY', 'sed'),
+         (b'AXXX\nHFDTE010124\n', 'IGC', 'gpsbabel'), (b'<?xml?><TrainingCenterDatabase>', 'TCX', 'gpsbabel'),
+         (b'NAME : a\nNODE_COORD_SECTION\n1 2 3\nEOF\n', 'TSPLIB', 'sed'),
          (b'PK\3\4 a.shp', 'a zip archive with a Shapefile', '/vsizip/'), (b'PK\3\4 doc.kml', 'KML in a zip archive', '/vsizip/')]
 
 
 def test_other_formats():
     """What a file is comes from its first bytes, packed or not; the command to type is one."""
     for data, name, make in KINDS:
-        expect(run('delaunay', '-', stdin=data), 1, r'\A\Z', rf'\Adyadel: -: the file is {name}.*; give .*{make}.* \| dyadel delaunay (--columns X,Y )?-$')
+        expect(run('delaunay', '-', stdin=data), 1, r'\A\Z', rf'\Adyadel: -: the file is {name}.*; give .*{make}.* \| dyadel delaunay (--columns (X,Y|Longitude,Latitude) )?-$')
         expect(run('delaunay', '--columns', 'x,y', '-', stdin=data), 1, r'\A\Z', f'the file is {name}')
-    expect(run('delaunay', '-', stdin=b'{"a":1}'), 1, '', 'the file is JSON; make a table of it')
+    for data, name in ((b'{"a":1}', 'JSON; make a table of it, for instance jq'), (b'[{"x":1}]', 'JSON; make a table'), (b'<?xml?><LandXML>', 'LandXML; export'),
+                       (b'<?xml?><JOBFile>', 'JobXML'), (b'\x89PNG\r\n', r'a picture \(PNG\)'), (b'\xff\xd8\xff\xe0', 'a picture'), (b'\x89HDF\r\n', 'HDF5'),
+                       (b'CDF\1\0', 'NetCDF'), (b'MATLAB 5.0 MAT-file', 'a MAT-file'), (b'\x80\4\x95\0', 'binary'), (b'*110001+01 81..00+01\n', 'GSI'),
+                       (b'     3.04           OBSERVATION DATA    M    RINEX VERSION / TYPE\n', 'RINEX')):
+        expect(run('delaunay', '-', stdin=data), 1, r'\A\Z', r'\Adyadel: -: the file is ' + name)
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / 'f').write_bytes(data)
+            expect(run('delaunay', 'f', cwd=folder), 1, r'\A\Z', r'\Adyadel: f: the file is ' + name)
+    for cell, name in (('{""type"":""Point"",""coordinates"":[0,0]}', 'GeoJSON'), ('0101000020E6100000000000000000F03F0000000000000000', 'WKB')):
+        for options in ((), ('--columns', 'geom,geom')):
+            expect(run('delaunay', *options, '-', stdin=f'id,geom\n1,"{cell}"\n'), 1, '', f'a table with a column of {name}.*ogr2ogr .*GEOM_POSSIBLE_NAMES=.geom')
     for data in (b'[0,1] 0\n', b'Point,X,Y\n'):
         assert 'the file is' not in run('delaunay', '-', stdin=data).err
     expect(run('delaunay', '--columns', 'i,g', '-', stdin='i;g\n1;POINT(1 2)\n'), 1, '', r'a table with a column of WKT .*GEOM_POSSIBLE_NAMES.* \| dyadel delaunay --columns X,Y -$')
@@ -295,7 +339,9 @@ def test_remedies():
                          ('$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\n', 'NMEA .*gpsbabel -i nmea')):
         expect(run('delaunay', '-', stdin=text), 1, r'\A\Z', remedy)
     for cell, remedy in (('?', "--missing '\\?' --skip-missing"), ('n.d.', "--missing 'n.d.'"), ('8 9 30', '47 36 18.3 N'), ('8.1O', 'O is east in German'),
-                         ('8.3w', 'N, S, E, W'), ('8d06m10sE', 'N, S, E, W')):
+                         ('8.3w', 'N, S, E, W'), ('8d06m10sE', 'N, S, E, W'), ('\u22121.5', "sed 's/\u2212/-/g' FILE"), ('\u20131.5', "sed 's/\u2013/-/g' FILE"),
+                         ('1 +/- 0.1', r"sed 's\|\+/-\|\+-\|g' FILE"), ('"(48.1, 11.5)"', 'two coordinates'), ('48.1 11.5', 'two coordinates'), ('1.234(5)', r'1\.234\+-0\.005'),
+                         ('0.1D+01', r'sed -E .*\[Dd\]'), ('32UPU9100034289', 'GeoConvert'), ("'5'", r"""tr "'" '"' < FILE""")):
         expect(run('delaunay', '--columns', 'x,y', '-', stdin=f'x,y\n1,2\n{cell},7\n'), 1, r'\A\Z', f'-:3:.*{remedy}')
     expect(run('delaunay', '--columns', 'g', '-', stdin='g\n'), 2, r'\A\Z', 'its name twice')
 
@@ -307,11 +353,26 @@ def test_names_of_radii():
 
     for name, said in (('HRMS', '--sigma-column HRMS --confidence 95%'), ('Sigma_XY', 'standard deviations'), ('sd', '--sigma-column sd '),
                        ('CE90', '--sigma-column CE90 --radius-scale 0.466 --confidence 95%'), ('HDOP', 'factors'), ('s [mm]', '--radius-scale 0.001'),
-                       ('acc(cm)', '--radius-scale 0.01')):
+                       ('acc(cm)', '--radius-scale 0.01'), ('err_ft', '--radius-scale 0.3048'), ('Lateral RMS', "--sigma-column 'Lateral RMS' --confidence 95%")):
         assert said in note(name), (name, note(name))
         assert not note(name, '--radius-scale', '0.5')
     for name in ('acc', 'radius', 'used', 's [m]', 'summit', 'wisdom', 'st'):
         assert not note(name), (name, note(name))
+    for name, said in (('s [mm]', '--radius-scale 0.001'), ('sd', '')):
+        found = run('delaunay', '--columns', 'x,y', '--sigma-column', name, '--confidence', '95%', '-', stdin=f'x,y,{name}\n1,2,1\n5,3,1\n2,9,1\n').err
+        assert ('taken as standard deviations' in found) == (said != '') and said in found, (name, found)
+
+
+def test_typed_remedies():
+    """What a message gives to type makes a file that is read."""
+    for text, command in (('0.1D+01 2\n4D0 1\n2 6\n', r"sed -E 's/([0-9.])[Dd]([-+0-9])/\1e\2/g'"), ('(1, 2)\n(4, 1)\n(2, 6)\n', "tr -d '()[]'"),
+                          ('1 2\n4 1\n2 6\n\0\0', r"tr -d '\000'"), ('[[1. 2.]\n [4. 1.]\n [2. 6.]]\n', "tr -d '[]'"),
+                          ('NAME : a\nNODE_COORD_SECTION\n 1 1 2\n2 4 1\n3 2 6\nEOF\n', r"sed -nE 's/^ *[0-9]+ +([^ ]+ +[^ ]+) *$/\1/p'"),
+                          ('1 2\n4 1\r2 6\n', r"tr '\r' '\n'")):
+        told = run('delaunay', '-', stdin=text)
+        assert told.code == 1 and (command in told.err or '\r' in text), (command, told)
+        made = subprocess.run(['sh', '-c', command], input=text.encode(), stdout=subprocess.PIPE, check=True).stdout
+        expect(run('delaunay', '-', stdin=made), 0, re.escape(THREE), r'\A\Z')
 
 
 def test_zones():

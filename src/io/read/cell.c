@@ -5,6 +5,7 @@
  * be that or a decimal; which one is meant the options say. Where they only say that commas are decimal, in a table
  * that has commas between its columns as well, a file in which each number with a comma may be of either kind is
  * refused. */
+#define _GNU_SOURCE /* memmem */
 #include "io/read/cell.h"
 
 #include "base/alloc.h"
@@ -207,6 +208,76 @@ static bool has_no_digit(const dyd_span *s) {
   return true;
 }
 
+/* How many of the characters at from, up to the end of the cell, are in the set. */
+static size_t cell_span(const dyd_span *s, size_t from, const char *set) {
+  size_t n = 0, most = strlen(set);
+  while (from + n < s->length && memchr(set, s->text[from + n], most)) n++;
+  return n;
+}
+
+/* The length of the decimal at from, the longest one. */
+static size_t number_length(const dyd_span *s, size_t from) {
+  dyd_plain p;
+  size_t n = cell_span(s, from, "+-0123456789.eE");
+  while (n && !dyd_plain_scan(&p, s->text + from, n)) n--;
+  return n;
+}
+
+/* Two decimals with points, in brackets or not. */
+static bool holds_pair(const dyd_span *s) {
+  const bool inside = s->length > 2 && *s->text == '(' && s->text[s->length - 1] == ')';
+  const size_t x = number_length(s, inside), gap = cell_span(s, inside + x, " ,;"),
+               y = number_length(s, inside + x + gap);
+  if (!x || !gap || !y || 2 * inside + x + gap + y != s->length) return false;
+  return inside || (memchr(s->text, '.', x) && memchr(s->text + x + gap, '.', y));
+}
+
+/* 1.234(5) */
+static bool is_concise(const dyd_span *s) {
+  const size_t n = number_length(s, 0), digits = cell_span(s, n + 1, "0123456789");
+  return n && digits && s->text[n] == '(' && n + digits + 2 == s->length && s->text[s->length - 1] == ')';
+}
+
+/* 0.1D+01 */
+static bool is_fortran(const dyd_span *s) {
+  const size_t n = number_length(s, 0);
+  return n && n + 1 < s->length && (s->text[n] | 0x20) == 'd' && n + 1 + number_length(s, n + 1) == s->length;
+}
+
+/* 32UPU9100034289 */
+static bool is_grid_reference(const dyd_span *s) {
+  const size_t zone = cell_span(s, 0, "0123456789"), letters = cell_span(s, zone, "ABCDEFGHJKLMNPQRSTUVWXYZ"),
+               digits = cell_span(s, zone + letters, "0123456789");
+  return (zone == 1 || zone == 2) && letters == 3 && digits && digits % 2 == 0 && zone + letters + digits == s->length;
+}
+
+static bool is_quoted(const dyd_span *s) {
+  return s->length > 2 && *s->text == '\'' && s->text[s->length - 1] == '\'';
+}
+
+/* Ways to write numbers that are not read: a text that the cell holds, or a test of the cell; what to do. */
+static const struct habit {
+  const char *holds;
+  bool (*is)(const dyd_span *s);
+  const char *remedy;
+} habits[] = {
+    {"\xE2\x88\x92", NULL,
+     "; this minus is a character of its own: sed 's/\xE2\x88\x92/-/g' FILE makes it a plain one"},
+    {"\xE2\x80\x93", NULL, "; this is a dash, not a minus: sed 's/\xE2\x80\x93/-/g' FILE makes it one"},
+    {"+/-", NULL, "; a radius follows +-, as in 1.25+-0.01: sed 's|+/-|+-|g' FILE"},
+    {NULL, holds_pair, "; this cell holds two coordinates; give each a column of its own"},
+    {NULL, is_concise, "; if the digits in brackets are the error of the last ones, write it as in 1.234+-0.005"},
+    {NULL, is_fortran, "; exponents begin with e, not D: sed -E 's/([0-9.])[Dd]([-+0-9])/\\1e\\2/g' FILE"},
+    {NULL, is_grid_reference, "; this is a grid reference (MGRS); make degrees of it, by GeoConvert of geographiclib"},
+    {NULL, is_quoted, "; fields are quoted by \", not by ': tr \"'\" '\"' < FILE"},
+};
+
+static const char *habit_remedy(const dyd_span *s) {
+  for (const struct habit *h = habits; h < habits + sizeof habits / sizeof *habits; h++)
+    if (h->is ? h->is(s) : memmem(s->text, s->length, h->holds, strlen(h->holds)) != NULL) return h->remedy;
+  return NULL;
+}
+
 /* Returns true if digits are followed by a letter of a direction, a blank or a d, or have the sign of degrees.
  */
 static bool is_like_degrees(const dyd_span *s) {
@@ -221,14 +292,16 @@ dyd_status dyd_cell_hint(dyd_status st, const dyd_style *style, const dyd_span *
   char *out = err->message + length;
   const dyd_read_options *o = style->o;
   const dyd_span written = {.text = o->decimal_comma ? s->at : s->text, .length = s->length};
-  if (st != DYD_E_PARSE || !s->length || has_brackets(s)) return st;
+  const char *remedy = st == DYD_E_PARSE ? habit_remedy(&written) : NULL;
+  if (remedy) snprintf(out, size, "%s", remedy);
+  if (remedy || st != DYD_E_PARSE || !s->length || has_brackets(s)) return st;
   for (const char *mark = ",. '"; *mark && o->columns && !style->thousands; mark++)
     if (hint_groups(out, size, &written, *mark)) return st;
   if (!o->decimal_comma && memchr(s->text, ',', s->length))
     snprintf(out, size, "; where commas are decimal points, give `decimal_comma`");
   else if (dyd_cell_number(s))
     snprintf(out, size, "; coordinates are numbers without a unit: give %.*s", (int)dyd_cell_number(s), s->text);
-  else if (first && o->columns && has_no_digit(s))
+  else if (first && o->columns && has_no_digit(s) && !strstr(err->message, "infinite"))
     snprintf(out, size,
              o->no_header ? "; if this line names the columns, remove `no_header`"
                           : "; if this line holds units, give `units_row`");

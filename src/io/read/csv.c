@@ -387,6 +387,19 @@ static char delimiter_line(const dyd_line *line) {
   return memcmp(at + quoted, "sep=", 4) == 0 || memcmp(at + quoted, "Sep=", 4) == 0 ? at[4 + quoted] : 0;
 }
 
+/* One of the next lines has all columns: the error says which. */
+static void header_seek(dyd_csv *csv, char delimiter, dyd_error *err) {
+  enum { LOOKED_AT = 20 };
+  dyd_line line = {"", 0, 0};
+  for (int k = 0; k < LOOKED_AT && err; k++) {
+    if (csv_record(&line, csv, NULL) != DYD_OK || !line.text) return;
+    if (header_take(csv, &line, delimiter, false, NULL) != DYD_OK) continue;
+    dyd_fail(err, DYD_E_PARSE, "line %zu has the names of the columns: pass over those before it by `skip_lines` %zu",
+             line.number, line.number - 1);
+    return;
+  }
+}
+
 /* Lines before the header that begin with # or % and have not got the columns are comments, as in files written by
  * dyadel. One that has as many fields as the line behind it, in which columns are missing as well, was the header.
  * Where all columns are numbers, all of them are comments, and a row may follow. */
@@ -409,6 +422,7 @@ static dyd_status header_read(dyd_csv *csv, char delimiter, dyd_error *err) {
     if (st != DYD_E_PARSE) return st;
     if (!comment) {
       if (err && fields && fields == csv->fields) *err = before;
+      header_seek(csv, delimiter, err);
       return st;
     }
     if (err) before = *err;
@@ -455,19 +469,20 @@ dyd_status dyd_csv_open(dyd_csv *csv, const char *delimiter, bool degrees, dyd_e
 
 /* ---- a file that is taken for a points file ---- */
 
-/* Returns true if every field is a word, or quoted. */
+/* Returns true if there are words, or quoted fields, and no others but empty ones. */
 static bool is_header(const dyd_csv *csv) {
-  bool words = csv->fields > 1;
-  for (size_t k = 0; words && k < csv->fields; k++) {
+  size_t words = 0, others = 0;
+  for (size_t k = 0; k < csv->fields; k++) {
     const dyd_span *f = &csv->field[k];
-    char c = f->length ? lower_letter(f->text[0]) : 0;
-    words = f->text != f->at || c == '_' || (c >= 'a' && c <= 'z') || (signed char)c < 0;
+    const bool word = f->text != f->at || (f->length && !memchr("0123456789+-.([{", f->text[0], 16));
+    words += word;
+    others += !word && f->length;
   }
-  return words;
+  return words && !others && csv->fields > 1;
 }
 
-/* Sets the columns of x and y by their names, else to the first two that hold numbers in the row behind the header;
- * false: neither tells. */
+/* Sets the columns of x and y by their names, else (row is not NULL) to the first two that hold numbers in the row
+ * behind the header, or twice to one of WKT; false: none of these tells. */
 static bool guess_columns(dyd_csv *csv, const dyd_csv *row) {
   static const axis_words *const words[2][2] = {{&longitude, &easting}, {&latitude, &northing}};
   size_t *k = csv->column, found = 0;
@@ -477,45 +492,64 @@ static bool guess_columns(dyd_csv *csv, const dyd_csv *row) {
                    !ends_with_part(&csv->field[k[a]], a ? "y" : "x");)
       k[a]++;
   if (k[0] < csv->fields && k[1] < csv->fields && k[0] != k[1]) return true;
-  for (size_t f = 0; f < csv->fields && f < row->fields && found < 2; f++)
-    if (dyd_plain_scan(&p, row->field[f].text, row->field[f].length)) k[found++] = f;
+  for (size_t f = 0; row && f < csv->fields && f < row->fields && found < 2; f++) {
+    const dyd_span *cell = &row->field[f];
+    const bool wkt = cell->length > 5 && dyd_same_name(cell->text, "POINT", 5);
+    if (wkt && dyd_kind_of_cell(cell->text, cell->length)) k[0] = k[1] = f, found = 2;
+    if (found < 2 && dyd_plain_scan(&p, cell->text, cell->length)) k[found++] = f;
+  }
   return found == 2;
 }
 
-/* The line, a copy, separated by d. */
-static bool hint_with(dyd_csv *csv, dyd_csv *row, char d, const dyd_line *line, const dyd_line *next, dyd_error *err) {
-  char names[130], two[160], message[DYD_MESSAGE_SIZE];
+/* The line, a copy, separated by d. skip: how many lines are before it. */
+static bool hint_with(dyd_csv *csv, dyd_csv *row, char d, const dyd_line *line, const dyd_line *next, size_t skip,
+                      dyd_text *text, dyd_error *err) {
+  char names[110], two[160], lines[40] = "", message[DYD_MESSAGE_SIZE];
   size_t used = strlen(err->message);
-  if (header_split(csv, line, d, NULL) != DYD_OK || !is_header(csv)) return false;
-  if (next->text && header_split(row, next, d, NULL) != DYD_OK) row->fields = 0;
+  if (header_split(csv, line, d, NULL) != DYD_OK || !is_header(csv) || (skip && !guess_columns(csv, NULL)))
+    return false;
+  if (!next->text || header_split(row, next, d, NULL) != DYD_OK) row->fields = 0;
   list_names(names, sizeof names, csv);
   const bool guessed = guess_columns(csv, row);
   strcpy(two, "X,Y");
   if (guessed) put_names(two, &csv->field[csv->column[DYD_CSV_X]], &csv->field[csv->column[DYD_CSV_Y]]);
-  if (!guessed || csv->fields == 2) {
+  for (size_t k = 0; k < row->fields && !guessed; k++)
+    if ((text->kind = dyd_kind_of_cell(row->field[k].text, row->field[k].length)))
+      return dyd_kind_fail(err, text->kind), true;
+  if (skip) snprintf(lines, sizeof lines, "`skip_lines` %zu ", skip);
+  if (!guessed || (csv->fields == 2 && !skip)) {
     snprintf(err->message + used, sizeof err->message - used,
              "; if this line is a header, name the columns of x and y: `columns` %s (it has: %s)", two, names);
-    return true;
+    return guessed;
   }
   snprintf(message, sizeof message,
-           "this line is a header and no point; name the columns of x and y: `columns` %s (it has: %s)", two, names);
+           "this line is a header and no point; name the columns of x and y: %s`columns` %s (it has: %s)", lines, two,
+           names);
   header_fail(csv, 0, err, message);
   return true;
 }
 
 void dyd_csv_hint(dyd_error *err, const dyd_line *line, dyd_text *text) {
+  enum { LOOKED_AT = 20 };
   dyd_csv csv = {0}, row = {0};
-  dyd_line next = {0}, first = *line;
+  dyd_line next = *line;
   dyd_error own;
-  char *copy = dyd_alloc(line->length + 1, 1);
-  if (!copy) return;
-  memcpy(copy, line->text, line->length);
-  first.text = copy;
-  if (dyd_text_next(&next, text, &own) != DYD_OK) next.text = NULL;
-  for (const char *d = delimiters; *d && !hint_with(&csv, &row, *d, &first, &next, err);) d++;
+  const size_t used = strlen(err->message);
+  bool found = false;
+  if (delimiter_line(line) && dyd_text_next(&next, text, &own) != DYD_OK) next.text = NULL;
+  const size_t first = next.number;
+  for (int k = 0; k < LOOKED_AT && next.text && !found; k++) {
+    char *copy = dyd_alloc(next.length + 1, 1);
+    if (!copy) break;
+    memcpy(copy, next.text, next.length);
+    const dyd_line here = {copy, next.length, next.number};
+    if (dyd_text_next(&next, text, &own) != DYD_OK) next.text = NULL;
+    for (const char *d = delimiters; *d && !found && (here.number > first || strlen(err->message) == used); d++)
+      found = hint_with(&csv, &row, *d, &here, &next, here.number == first ? 0 : here.number - 1, text, err);
+    free(copy);
+  }
   dyd_csv_clear(&row);
   dyd_csv_clear(&csv);
-  free(copy);
 }
 
 /* Rows of fields: small tables that accompany the points, by the readers of lines and of separated text. */
@@ -635,7 +669,7 @@ static bool leaves_quote_open(bool inside, const char *text, size_t length, char
       text++;
     else if (*text == '"' && (inside || begin))
       inside = !inside;
-    begin = delimiter ? *text == delimiter : *text && strchr(",;\t|", *text);
+    begin = (begin && *text == ' ') || (delimiter ? *text == delimiter : *text && strchr(",;\t|", *text));
     if (delimiter == ' ' && *text == '\t') begin = true;
   }
   return inside;
@@ -726,15 +760,20 @@ static dyd_status record_quoted_field(dyd_span *field, const char **at, const ch
     field->length++;
   }
   if (p == end) return dyd_span_fail(err, field, 0, "this quoted field is not closed; add a quote");
-  *at = p + 1;
+  for (*at = p + 1; *at < end && **at == ' ' && csv->delimiter != ' ';) ++*at;
   if (*at == end || is_delimiter(csv, **at)) return DYD_OK;
   return dyd_span_fail(err, field, (size_t)(*at - field->at),
                        "text behind a closing quote; double the quotes inside a quoted field");
 }
 
 static dyd_status record_field(dyd_span *field, const char **at, const char *end, dyd_csv *csv, dyd_error *err) {
+  const char *first = *at;
+  while (first < end && *first == ' ') first++;
+  if (first < end && *first == '"') {
+    *at = first;
+    return record_quoted_field(field, at, end, csv, err);
+  }
   field->text = field->at = *at;
-  if (*at < end && **at == '"') return record_quoted_field(field, at, end, csv, err);
   const char *stop = csv->delimiter == ' ' ? *at : memchr(*at, csv->delimiter, (size_t)(end - *at));
   while (csv->delimiter == ' ' && stop < end && !is_delimiter(csv, *stop)) stop++;
   if (!stop) stop = end;
@@ -773,19 +812,11 @@ static void span_trim(dyd_span *s) {
 
 /* ---- the next point ---- */
 
-/* "commas", "a comma". Static storage. */
-static const char *delimiter_name(char delimiter, bool many) {
-  static const struct {
-    char c;
-    const char *one, *many;
-  } name[] = {{',', "a comma", "commas"},
-              {';', "a semicolon", "semicolons"},
-              {'\t', "a tab", "tabs"},
-              {'|', "a bar", "bars"},
-              {' ', "a blank", "blanks"}};
-  for (size_t k = 0; k < sizeof name / sizeof *name; k++)
-    if (name[k].c == delimiter) return many ? name[k].many : name[k].one;
-  return many ? "delimiters" : "a delimiter";
+/* Static storage. */
+static const char *delimiter_name(char delimiter) {
+  static const char *const name[] = {"commas", "semicolons", "tabs", "bars", "blanks"};
+  const char *found = strchr(delimiters, delimiter);
+  return found ? name[found - delimiters] : "delimiters";
 }
 
 /* Returns true if the first record after the header has a matching number of fields. A lone comment mark in the header
@@ -803,25 +834,65 @@ static bool fields_fit(dyd_csv *csv, bool first) {
   return last < csv->fields;
 }
 
+/* The record has another number of fields than the header. */
+static dyd_status fail_fields(const dyd_csv *csv, bool first, dyd_error *err) {
+  const dyd_span *f = csv->field, *last = &f[csv->fields - 1];
+  const bool more = csv->fields > csv->columns, named = !csv->headless;
+  char remedy[160];
+  if (memchr(f->origin, '\r', (size_t)(last->at + last->length - f->origin)))
+    snprintf(remedy, sizeof remedy, "a CR alone ends a line in it: tr '\\r' '\\n' < FILE ends all lines alike");
+  else if (more && first && csv->fields == csv->columns + 1 && named && is_blank(csv->delimiter))
+    snprintf(remedy, sizeof remedy,
+             "if the first column has no name, as R writes tables, give `skip_lines` %zu `no_header` and numbers to "
+             "`columns`",
+             f->line - 1);
+  else if (more)
+    snprintf(remedy, sizeof remedy, "quote fields that hold %s%s", delimiter_name(csv->delimiter),
+             named ? "" : ", or pass over lines before the table by `skip_lines`");
+  else
+    snprintf(remedy, sizeof remedy, "complete the line, or remove it%s",
+             named ? "" : "; lines before the table are passed over by `skip_lines`");
+  if (err) dyd_span_position(&err->line, &err->column, f, 0);
+  return dyd_fail(err, DYD_E_PARSE, "this record has %zu field%s, the %s %zu; %s", csv->fields,
+                  csv->fields == 1 ? "" : "s", named ? "header" : "first one", csv->columns, remedy);
+}
+
+/* A line below the header as |---|:--:|, ----+---- */
+static bool is_rule(const dyd_line *line) {
+  size_t run = 0, longest = 0;
+  for (size_t k = 0; k < line->length; k++) {
+    const char c = line->text[k];
+    if (!memchr("-=+|: \t", c, 7)) return false;
+    run = c == '-' || c == '=' ? run + 1 : 0;
+    if (run > longest) longest = run;
+  }
+  return longest > 2;
+}
+
+static bool is_header_again(const dyd_csv *csv, const dyd_span field[DYD_CSV_MOST]) {
+  for (int k = DYD_CSV_X; k <= DYD_CSV_Y; k++)
+    if (csv->headless || !is_named(&field[k], csv->want[k].name, true) || is_numbered(&csv->want[k])) return false;
+  return true;
+}
+
 dyd_status dyd_csv_next(dyd_span field[DYD_CSV_MOST], size_t *count, dyd_csv *csv, dyd_error *err) {
   dyd_line line;
   *count = 0;
   dyd_status st = csv->held ? DYD_OK : csv_record(&line, csv, err);
+  if (st == DYD_OK && csv->fresh && !csv->held && line.text && is_rule(&line)) st = csv_record(&line, csv, err);
   if (st != DYD_OK || (!csv->held && !line.text)) return st;
   if (!csv->held) st = csv_split(csv, &line, err);
   const bool first = csv->fresh;
   csv->held = csv->fresh = false;
   if (st != DYD_OK) return st;
-  if (csv->fields != csv->columns && !fields_fit(csv, first)) {
-    if (err) dyd_span_position(&err->line, &err->column, &csv->field[0], 0);
-    return dyd_fail(err, DYD_E_PARSE, "this record has %zu fields, the %s %zu; quote fields that hold %s", csv->fields,
-                    csv->headless ? "first one" : "header", csv->columns, delimiter_name(csv->delimiter, true));
-  }
+  if (csv->fields != csv->columns && !fields_fit(csv, first)) return fail_fields(csv, first, err);
   for (int k = 0; k < csv->roles; k++) {
     if (!csv->want[k].name) continue;
     field[k] = csv->field[csv->column[k]];
     span_trim(&field[k]);
   }
   *count = csv->columns;
-  return DYD_OK;
+  return is_header_again(csv, field)
+             ? dyd_span_fail(err, &field[DYD_CSV_X], 0, "this line is the header again; remove it")
+             : DYD_OK;
 }

@@ -41,6 +41,37 @@ static const struct kind_row {
      true,
      {"an array of NumPy", "python3 -c 'import sys, numpy; numpy.savetxt(sys.stdout, numpy.load(\"FILE\"), \"%r\")'",
       NULL, NULL}},
+    {BYTES("\x89PNG"), NULL, false, {"a picture (PNG)", NULL, NULL, "give the table that it was made of"}},
+    {BYTES("\xFF\xD8\xFF"),
+     NULL,
+     false,
+     {"a picture (JPEG)", NULL, NULL, "give a table with its coordinates, by exiftool -csv"}},
+    {BYTES("\x89HDF"), NULL, true, {"HDF5 or NetCDF", NULL, NULL, "write its coordinates as CSV, by h5dump or xarray"}},
+    {BYTES("CDF"), "\1", true, {"NetCDF", NULL, NULL, "write its coordinates as CSV, by ncdump or xarray"}},
+    {BYTES("MATLAB 5.0"), NULL, true, {"a MAT-file of MATLAB", NULL, NULL, "write x and y as text, by writematrix"}},
+    {BYTES("\x80\4\x95"),
+     NULL,
+     true,
+     {"binary, perhaps a pickle of Python", NULL, NULL, "write it as CSV, by to_csv or numpy.savetxt"}},
+    {BYTES("ply\n"), NULL, true, {"PLY", "sed '1,/^end_header/d' FILE | cut -d' ' -f1,2", NULL, NULL}},
+    {BYTES("0\n"), "SECTION", true, {"DXF", TABLE("FILE")}},
+    {BYTES("0\r\n"), "SECTION", true, {"DXF", TABLE("FILE")}},
+    {BYTES("*11"),
+     "81..",
+     true,
+     {"GSI of Leica", NULL, NULL, "export the points as CSV (words 81 and 82 are x and y)"}},
+    {BYTES("A"),
+     "\nHFDTE",
+     true,
+     {"IGC", "gpsbabel -i igc -f FILE -o unicsv -F /dev/stdout", "Longitude,Latitude", NULL}},
+    {BYTES(""),
+     "NODE_COORD_SECTION",
+     true,
+     {"TSPLIB", "sed -nE 's/^ *[0-9]+ +([^ ]+ +[^ ]+) *$/\\1/p' FILE", NULL, NULL}},
+    {BYTES(""),
+     "RINEX VERSION",
+     true,
+     {"RINEX, observations without positions", NULL, NULL, "compute positions first, by rnx2rtkp"}},
     {BYTES("LASF"), NULL, true, {"LAS or LAZ", NULL, NULL, "write x and y as text, by las2txt or pdal"}},
     {BYTES("$G"),
      "GGA,",
@@ -49,20 +80,34 @@ static const struct kind_row {
     {BYTES("%PDF"), NULL, true, {"PDF", NULL, NULL, "copy its table to a text file"}},
     {BYTES("<"), "<gpx", true, {"GPX", TABLE("FILE waypoints")}},
     {BYTES("<"), "<kml", true, {"KML", TABLE("FILE")}},
+    {BYTES("<"),
+     "<TrainingCenterDatabase",
+     true,
+     {"TCX", "gpsbabel -i gtrnctr -f FILE -o unicsv -F /dev/stdout", "Longitude,Latitude", NULL}},
+    {BYTES("<"), "<LandXML", true, {"LandXML", NULL, NULL, "export its points as CSV"}},
+    {BYTES("<"), "<JOBFile", true, {"JobXML of Trimble", NULL, NULL, "export its points as CSV"}},
     {BYTES("<"), "<osm", true, {"OpenStreetMap XML", TABLE("FILE points")}},
     {BYTES("<"), "<html", true, {"HTML", NULL, NULL, "save its table as CSV"}},
     {BYTES("<"), "gml", true, {"GML", TABLE("FILE")}},
     {BYTES("<"), "<", true, {"XML or HTML", NULL, NULL, "save its table as CSV"}},
     {BYTES("{"), "\"Topology\"", true, {"TopoJSON", TABLE("FILE")}},
     {BYTES("{"), "\"type\"", true, {"GeoJSON", TABLE("FILE")}},
-    {BYTES("{"), NULL, true, {"JSON", NULL, NULL, "make a table of it, for instance by jq"}},
-    {BYTES("[{"), NULL, true, {"JSON", NULL, NULL, "make a table of it, for instance by jq"}},
-    {BYTES("[["), NULL, true, {"JSON", "jq -r '.[] | @tsv' FILE", NULL, NULL}},
+    {BYTES("{"), NULL, true, {"JSON", NULL, NULL, "make a table of it, for instance jq -r '[.x, .y] | @csv' FILE"}},
+    {BYTES("[{"),
+     NULL,
+     true,
+     {"JSON", NULL, NULL, "make a table of it, for instance jq -r '.[] | [.x, .y] | @csv' FILE"}},
+    {BYTES("[["), ",", true, {"JSON", "jq -r '.[] | @tsv' FILE", NULL, NULL}},
+    {BYTES("[["), NULL, true, {"an array as NumPy prints it", "tr -d '[]' < FILE", NULL, NULL}},
 };
 
 /* Words that begin a geometry in WKT. */
 static const char *const shapes[] = {"POINT",        "MULTIPOINT",         "LINESTRING", "MULTILINESTRING",   "POLYGON",
                                      "MULTIPOLYGON", "GEOMETRYCOLLECTION", "TRIANGLE",   "POLYHEDRALSURFACE", "TIN"};
+static const dyd_file_kind wkb_cells = {"a table with a column of WKB (geometries in hexadecimal digits)",
+                                        TABLE("FILE -oo GEOM_POSSIBLE_NAMES=*geom*,*wkb*,*shape*,*point*")},
+                           json_cells = {"a table with a column of GeoJSON",
+                                         TABLE("FILE -oo GEOM_POSSIBLE_NAMES=*geom*,*json*,*shape*,*point*")};
 static const dyd_file_kind wkt_cells = {"a table with a column of WKT (geometries in words)",
                                         TABLE("FILE -oo GEOM_POSSIBLE_NAMES=*geom*,*wkt*,*shape*,*point*")};
 
@@ -95,6 +140,10 @@ const dyd_file_kind *dyd_kind_find(const char *first, size_t length, bool data) 
 }
 
 const dyd_file_kind *dyd_kind_of_cell(const char *text, size_t length) {
+  if (length > 9 && *text == '{' && memmem(text, length, "\"type\"", 6)) return &json_cells;
+  size_t hex = 0;
+  while (hex < length && memchr("0123456789ABCDEFabcdef", text[hex], 22)) hex++;
+  if (hex == length && length > 41 && *text == '0' && (text[1] | 1) == '1') return &wkb_cells;
   return is_wkt(text, text + length) ? &wkt_cells : NULL;
 }
 

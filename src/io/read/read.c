@@ -479,7 +479,7 @@ static dyd_status intake_skip(intake *in, const dyd_span *s, int role, dyd_error
 static dyd_status intake_coordinate(dyd_coordinate *out, intake *in, int axis, const dyd_span *span, dyd_error *err) {
   dyd_status st = dyd_coordinate_read(out, span, &in->manner[axis], err);
   if (st == DYD_OK) return st;
-  if (st == DYD_E_PARSE && in->o->columns && (in->kind = dyd_kind_of_cell(span->text, span->length)))
+  if (st != DYD_E_NOMEM && in->o->columns && (in->kind = dyd_kind_of_cell(span->text, span->length)))
     return dyd_kind_fail(err, in->kind);
   return dyd_cell_hint(st, &in->style, span, in->report.rows == 1, err);
 }
@@ -644,11 +644,18 @@ static dyd_status intake_commit(dyd_engine *e, intake *in, dyd_error *err) {
 
 /* Appends a remedy to the error of the first line, where that may be of a table. */
 static dyd_status hint_table(dyd_status st, const dyd_line *line, dyd_text *text, const intake *in, dyd_error *err) {
-  const size_t used = strlen(err->message);
+  const size_t used = strlen(err->message), left = sizeof err->message - used;
+  const char first = line->length ? *line->text : ' ';
+  char *end = err->message + used;
   if (st != DYD_E_PARSE || in->report.rows > 1 || in->stage.count) return st;
-  dyd_csv_hint(err, line, text);
-  if (strlen(err->message) == used && strncmp(err->message, "more than two", 13) == 0)
-    snprintf(err->message + used, sizeof err->message - used,
+  if (!strchr("/;!", first)) dyd_csv_hint(err, line, text);
+  if (strlen(err->message) > used) return st;
+  if (strchr("/;!", first))
+    snprintf(end, left, "; comments begin with # or %%: pass over the first lines by `skip_lines` N");
+  else if (strchr("([", first) && strncmp(err->message, "the line has one", 16) == 0)
+    snprintf(end, left, "; where a pair is in brackets, remove them: tr -d '()[]' < FILE");
+  else if (strncmp(err->message, "more than two", 13) == 0)
+    snprintf(end, left,
              "; if this is a table, name two of its columns: `columns` X,Y, with `delimiter` blank where blanks are "
              "between them, or by numbers where no line has names: `no_header` `columns` 1,2");
   return st;

@@ -15,7 +15,7 @@
 #include <zlib.h>
 #include <zstd.h>
 
-enum { PACKED_BLOCK = 1 << 16, TEXT_BLOCK = 1 << 17, AUTOMATIC_GZIP = 15 + 16 };
+enum { PACKED_BLOCK = 1 << 16, TEXT_BLOCK = 1 << 17, AUTOMATIC_GZIP = 15 + 16, END_OF_DOS = 26 };
 
 /* Packed bytes read and not yet unpacked: at[0 .. left). Exactly one of the two unpackers is in use.
  * between: the last byte unpacked was the last of a packed file. */
@@ -242,7 +242,10 @@ static dyd_status refuse_line(const dyd_line *line, dyd_error *err) {
     return dyd_span_fail(err, &span, 0, "this line is longer than 1048576 bytes; give one point per line");
   const char *nul = memchr(line->text, 0, line->length);
   if (!nul) return DYD_OK;
-  return dyd_span_fail(err, &span, (size_t)(nul - line->text), "a NUL byte; give plain text in UTF-8");
+  return dyd_span_fail(err, &span, (size_t)(nul - line->text),
+                       line->number > 1
+                           ? "a NUL byte; give plain text in UTF-8 (tr -d '\\000' < FILE removes NUL bytes)"
+                           : "a NUL byte; give plain text in UTF-8");
 }
 
 size_t dyd_utf8_length(const char *text, size_t length) {
@@ -305,6 +308,7 @@ dyd_status dyd_text_next(dyd_line *out, dyd_text *t, dyd_error *err) {
   *out = (dyd_line){t->buffer + t->start, length, ++t->line};
   t->start += length + newline;
   if (out->length && out->text[out->length - 1] == '\r') out->length--;
+  if (out->length == 1 && out->text[0] == END_OF_DOS) out->length = 0;
   st = refuse_line(out, err);
   return st == DYD_OK && t->data ? line_recode(out, t, err) : st;
 }
