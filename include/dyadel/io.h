@@ -257,6 +257,9 @@ DYD_API const char *dyd_format_about(dyd_format format);
  * storage. */
 DYD_API const char *dyd_layer_name(dyd_content of, size_t k);
 DYD_API bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *name);
+/* Returns true if a layer is many times as large as the default one, or as slow to find: files of several layers hold
+ * it only if it is named. */
+DYD_API bool dyd_layer_is_large(dyd_content layer);
 /* Returns true if the format can hold the content. Otherwise dyd_write returns DYD_E_ARG with a message that names the
  * formats that can. */
 DYD_API bool dyd_format_holds(dyd_format format, dyd_content content);

@@ -498,8 +498,8 @@ static dyd_status layer_write(GDALDatasetH set, OGRSpatialReferenceH crs, cli_se
   return st;
 }
 
-/* All layers of the content, or the one of the options. Layers that these points do not allow are omitted, and
- * those of the region of all possible edges, which are asked for by name. */
+/* All layers of the content but large ones, or the one of the options. Layers that these points do not allow are
+ * omitted. */
 static dyd_status layers_write(GDALDatasetH set, OGRSpatialReferenceH crs, cli_session *s, cli_print_fn print,
                                const char *base, dyd_error *err) {
   const dyd_content all = s->o.content;
@@ -511,7 +511,7 @@ static dyd_status layers_write(GDALDatasetH set, OGRSpatialReferenceH crs, cli_s
     snprintf(plain, sizeof plain, "%s", name);
     for (char *c = plain; (c = strchr(c, ':'));) *c = '_';
     dyd_layer_from_name(&s->o.content, all, name);
-    if (s->o.content == DYD_CONTENT_HULLS || s->o.content == DYD_CONTENT_EXTERIOR) continue;
+    if (dyd_layer_is_large(s->o.content)) continue;
     s->o.format = dyd_format_holds(DYD_FORMAT_WKT, s->o.content) ? DYD_FORMAT_WKT : DYD_FORMAT_CSV;
     st = layer_write(set, crs, s, print, plain, err);
     if (st == DYD_E_ARG && k) st = DYD_OK;
@@ -578,8 +578,17 @@ static int complain_writing(const cli_options *o, dyd_status st, const dyd_error
 /* Says which layers there are. */
 static void note_layers(const cli_options *o, GDALDatasetH set) {
   char list[1024] = "";
+  const char *name, *before = "; not ";
   list_layers(list, sizeof list, set);
-  cli_note(o, "%s (%s) holds %s", o->output, o->driver, list);
+  size_t used = strlen(list);
+  for (size_t k = 0; o->all_layers && used < sizeof list && (name = dyd_layer_name(o->content, k)); k++) {
+    dyd_content content;
+    if (!dyd_layer_from_name(&content, o->content, name) || !dyd_layer_is_large(content)) continue;
+    used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", before, name);
+    before = ", ";
+  }
+  cli_note(o, "%s (%s) holds %s%s", o->output, o->driver, list,
+           *before == ',' ? ", which are large: name one by --layer" : "");
 }
 
 /* Writes in the folder, which is next to the target. */

@@ -478,56 +478,60 @@ static dyd_status rows_of_plan(dyd_table *t, const dyd_output *o) {
 #define POINTS "i,id,*,xlo,xhi,ylo,yhi,legal,indeterminate,tie,hull"
 #define TRIANGLES "i,j,k,id_i,id_j,id_k"
 
-/* content, name, layer of, in wkt and geojson, drawn at sites, geometry, comments, rows, columns */
+/* content, name, layer of, in wkt and geojson, drawn at sites, large, geometry, comments, rows, columns */
 static const dyd_layer layers[] = {
-    {IN(DELAUNAY), "pairs", IN(DELAUNAY), true, true, LINE, pair_comments, rows_of_pairs, PAIRS},
-    {IN(POINTS), "points", IN(DELAUNAY), true, true, POINT, point_comments, rows_of_points, POINTS},
-    {IN(TRIANGLES), "triangles", IN(DELAUNAY), true, true, POLYGON, alias_comments, rows_of_triangles, TRIANGLES},
-    {IN(GRAPH_NEAREST), "graph:nearest", IN(DELAUNAY), true, true, LINE, alias_comments, rows_of_graph, PAIRS},
-    {IN(GRAPH_GABRIEL), "graph:gabriel", IN(DELAUNAY), true, true, LINE, alias_comments, rows_of_graph, PAIRS},
-    {IN(GRAPH_MST), "graph:mst", IN(DELAUNAY), true, true, LINE, alias_comments, rows_of_graph, PAIRS},
-    {IN(ALIASES), "aliases", IN(DELAUNAY), true, false, POINT, NULL, rows_of_aliases, "i,of"},
-    {IN(HULLS), "hulls", IN(DELAUNAY), true, false, POLYGONS, alias_comments, rows_of_hulls,
+    {IN(DELAUNAY), "pairs", IN(DELAUNAY), true, true, false, LINE, pair_comments, rows_of_pairs, PAIRS},
+    {IN(POINTS), "points", IN(DELAUNAY), true, true, false, POINT, point_comments, rows_of_points, POINTS},
+    {IN(TRIANGLES), "triangles", IN(DELAUNAY), true, true, false, POLYGON, alias_comments, rows_of_triangles,
+     TRIANGLES},
+    {IN(GRAPH_NEAREST), "graph:nearest", IN(DELAUNAY), true, true, false, LINE, alias_comments, rows_of_graph, PAIRS},
+    {IN(GRAPH_GABRIEL), "graph:gabriel", IN(DELAUNAY), true, true, false, LINE, alias_comments, rows_of_graph, PAIRS},
+    {IN(GRAPH_MST), "graph:mst", IN(DELAUNAY), true, true, false, LINE, alias_comments, rows_of_graph, PAIRS},
+    {IN(ALIASES), "aliases", IN(DELAUNAY), true, false, false, POINT, NULL, rows_of_aliases, "i,of"},
+    {IN(HULLS), "hulls", IN(DELAUNAY), true, false, true, POLYGONS, alias_comments, rows_of_hulls,
      "corners,i,j,k,status,id_i,id_j,id_k"},
-    {IN(EXTERIOR), "exterior", IN(DELAUNAY), true, false, POLYGONS, alias_comments, rows_of_exterior, "corners,part"},
-    {IN(TIES), "ties", IN(DELAUNAY), false, false, POINT, NULL, rows_of_ties, "kind,sites"},
-    {IN(VORONOI), "cells", IN(VORONOI), true, false, POLYGON, dyd_cell_comments, dyd_cell_rows,
+    {IN(EXTERIOR), "exterior", IN(DELAUNAY), true, false, true, POLYGONS, alias_comments, rows_of_exterior,
+     "corners,part"},
+    {IN(TIES), "ties", IN(DELAUNAY), false, false, false, POINT, NULL, rows_of_ties, "kind,sites"},
+    {IN(VORONOI), "cells", IN(VORONOI), true, false, false, POLYGON, dyd_cell_comments, dyd_cell_rows,
      "?kind,i,id,*,xlo,xhi,ylo,yhi,area_lo,area_hi,undetermined"},
-    {IN(TILES), "tiles", IN(VORONOI), true, false, POLYGON, dyd_tile_comments, dyd_tile_rows,
+    {IN(TILES), "tiles", IN(VORONOI), true, false, false, POLYGON, dyd_tile_comments, dyd_tile_rows,
      "i,id,*,area,certain_area,area_lo,area_hi"},
-    {IN(VERTICES), "vertices", IN(VORONOI), true, false, POINT, dyd_vertex_comments, dyd_vertex_rows,
+    {IN(VERTICES), "vertices", IN(VORONOI), true, false, false, POINT, dyd_vertex_comments, dyd_vertex_rows,
      "i,j,k,xlo,xhi,ylo,yhi,id_i,id_j,id_k"},
-    {IN(REGIONS), "regions", IN(VORONOI), true, false, POLYGON, dyd_diagram_comments, dyd_region_rows,
+    {IN(REGIONS), "regions", IN(VORONOI), true, false, false, POLYGON, dyd_diagram_comments, dyd_region_rows,
      "face,xlo,xhi,ylo,yhi,sites"},
-    {IN(EDGES), "edges", IN(VORONOI), true, false, LINE, dyd_diagram_comments, dyd_edge_rows,
+    {IN(EDGES), "edges", IN(VORONOI), true, false, false, LINE, dyd_diagram_comments, dyd_edge_rows,
      "i,j,left,right,id_i,id_j"},
-    {IN(VORONOI_ALIASES), "aliases", IN(VORONOI), true, false, POINT, NULL, rows_of_aliases, "i,of"},
-    {IN(TOLERANCE), "pairs", IN(TOLERANCE), true, true, LINE, tolerance_comments, rows_of_events,
+    {IN(VORONOI_ALIASES), "aliases", IN(VORONOI), true, false, false, POINT, NULL, rows_of_aliases, "i,of"},
+    {IN(TOLERANCE), "pairs", IN(TOLERANCE), true, true, false, LINE, tolerance_comments, rows_of_events,
      "i,j,event,lo,hi,k,l,?probability,id_i,id_j"},
-    {IN(RADII), "points", IN(TOLERANCE), true, true, POINT, tolerance_comments, rows_of_radii, "i,id,*,rho"},
-    {IN(BARCODE), "barcode", IN(TOLERANCE), false, false, POINT, tolerance_comments, rows_of_barcode,
+    {IN(RADII), "points", IN(TOLERANCE), true, true, false, POINT, tolerance_comments, rows_of_radii, "i,id,*,rho"},
+    {IN(BARCODE), "barcode", IN(TOLERANCE), false, false, false, POINT, tolerance_comments, rows_of_barcode,
      "accuracy,certain,open"},
-    {IN(PLAN), NULL, IN(PLAN), true, true, POINT, plan_comments, rows_of_plan,
+    {IN(PLAN), NULL, IN(PLAN), true, true, false, POINT, plan_comments, rows_of_plan,
      "rank,i,half_width_now,half_width_needed,pairs_decided,pairs_left,id,*"},
-    {IN(SPHERE), "pairs", IN(SPHERE), true, true, LINES, pair_comments, rows_of_pairs, PAIRS},
-    {IN(SPHERE_POINTS), "points", IN(SPHERE), true, true, POINT, point_comments, rows_of_points, POINTS},
-    {IN(SPHERE_TRIANGLES), "triangles", IN(SPHERE), true, true, POLYGONS, alias_comments, rows_of_triangles, TRIANGLES},
-    {IN(SPHERE_VORONOI), "cells", IN(SPHERE_VORONOI), true, false, POLYGONS, alias_comments, dyd_globe_cell_rows,
+    {IN(SPHERE), "pairs", IN(SPHERE), true, true, false, LINES, pair_comments, rows_of_pairs, PAIRS},
+    {IN(SPHERE_POINTS), "points", IN(SPHERE), true, true, false, POINT, point_comments, rows_of_points, POINTS},
+    {IN(SPHERE_TRIANGLES), "triangles", IN(SPHERE), true, true, false, POLYGONS, alias_comments, rows_of_triangles,
+     TRIANGLES},
+    {IN(SPHERE_VORONOI), "cells", IN(SPHERE_VORONOI), true, false, false, POLYGONS, alias_comments, dyd_globe_cell_rows,
      "i,id,*,complete,vertices"},
-    {IN(SPHERE_VERTICES), "vertices", IN(SPHERE_VORONOI), true, false, POINT, dyd_globe_vertex_comments,
+    {IN(SPHERE_VERTICES), "vertices", IN(SPHERE_VORONOI), true, false, false, POINT, dyd_globe_vertex_comments,
      dyd_globe_vertex_rows, "i,j,k,id_i,id_j,id_k,xlo,xhi,ylo,yhi"},
-    {IN(SPHERE_REGIONS), "regions", IN(SPHERE_VORONOI), false, false, POINT, alias_comments, dyd_globe_region_rows,
-     "face,status,sites"},
-    {IN(CHECK), NULL, IN(CHECK), false, false, POINT, NULL, dyd_check_rows,
+    {IN(SPHERE_REGIONS), "regions", IN(SPHERE_VORONOI), false, false, false, POINT, alias_comments,
+     dyd_globe_region_rows, "face,status,sites"},
+    {IN(CHECK), NULL, IN(CHECK), false, false, false, POINT, NULL, dyd_check_rows,
      "fault,schedules,stages,pairs,cells,floors,seed,moves"},
-    {IN(DISC), "circles", IN(DISC), false, false, POINT, dyd_disc_comments, dyd_disc_rows,
+    {IN(DISC), "circles", IN(DISC), false, false, false, POINT, dyd_disc_comments, dyd_disc_rows,
      "circle,x,y,radius_squared,xlo,xhi,ylo,yhi,rlo,rhi"},
-    {IN(CON), "con", IN(DISC), false, false, POINT, dyd_disc_comments, dyd_con_rows, "i,con,id"},
-    {IN(BISECTOR), NULL, IN(BISECTOR), false, false, POINT, dyd_bisector_comments, dyd_bisector_rows,
+    {IN(CON), "con", IN(DISC), false, false, false, POINT, dyd_disc_comments, dyd_con_rows, "i,con,id"},
+    {IN(BISECTOR), NULL, IN(BISECTOR), false, false, false, POINT, dyd_bisector_comments, dyd_bisector_rows,
      "far,near,kind,corner,feature,begin,begin_x,begin_y,begin_xlo,begin_xhi,begin_ylo,begin_yhi,end,end_x,end_y,"
      "end_xlo,end_xhi,end_ylo,end_yhi,id_far,id_near"},
-    {IN(NEAREST), NULL, IN(NEAREST), false, false, POINT, dyd_nearest_comments, dyd_nearest_rows, "i,status,lo,hi,id"},
-    {IN(PLACES), NULL, IN(PLACES), false, false, POINT, dyd_nearest_comments, dyd_nearest_rows,
+    {IN(NEAREST), NULL, IN(NEAREST), false, false, false, POINT, dyd_nearest_comments, dyd_nearest_rows,
+     "i,status,lo,hi,id"},
+    {IN(PLACES), NULL, IN(PLACES), false, false, false, POINT, dyd_nearest_comments, dyd_nearest_rows,
      "q,?id_q,i,status,lo,hi,id"},
 };
 
@@ -539,6 +543,11 @@ const dyd_layer *dyd_layer_of(dyd_content content) {
   size_t k = 0;
   while (dyd_layer_at(k) && layers[k].content != content) k++;
   return dyd_layer_at(k);
+}
+
+bool dyd_layer_is_large(dyd_content layer) {
+  const dyd_layer *l = dyd_layer_of(layer);
+  return l && l->large;
 }
 
 /* ---- writing ---- */

@@ -47,6 +47,7 @@ typedef struct dyd_layer {
   dyd_content of;   /* whose layer it is */
   bool geographic;  /* wkt and geojson hold it, too */
   bool sites;       /* features are drawn at sites, see dyd_row_spot */
+  bool large;       /* much larger, or slower to find, than the default one */
   dyd_geometry geometry;
   dyd_layer_part *comments; /* writes the lines of csv before the header; NULL: there are none */
   dyd_layer_part *rows;
