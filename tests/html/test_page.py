@@ -53,6 +53,23 @@ def place_of(page, x, y):
     return left + (plot[0] + plot[1]) / 2 + (x - cx) * scale, top + (plot[2] + plot[3]) / 2 - (y - cy) * scale
 
 
+def test_resized():
+    """A page that shows everything still does when its window becomes narrower; a view that was chosen stays."""
+    def seen(click):  # by the address, which a click on a box of the legend writes, too
+        page.value(f"history.replaceState(null, '', '#'); document.querySelector('{click}').click()")
+        page.until("location.hash.includes('at=')")
+        return page.value('new URLSearchParams(location.hash.slice(1)).get("at")')
+
+    for chosen in False, True:
+        with opened(pages.page('delaunay', *pages.FIXES)) as page:
+            if chosen:
+                seen('#closer')
+            page.call('Emulation.setDeviceMetricsOverride', width=400, height=800, deviceScaleFactor=1, mobile=False)
+            page.until("document.querySelector('#map').clientWidth <= 400")
+            page.frames(4)
+            assert (seen('input[type=checkbox]') == seen('#all')) != chosen
+
+
 def partners_of(pairs, row, names):
     out = {s: [] for s in ('legal', 'indeterminate', 'tie')}
     for (i, j), status in pairs.items():

@@ -34,6 +34,13 @@ function see(set) {
   set();
 }
 
+// Shows everything; a window that changes its size goes on to show it while nothing else was chosen.
+let fitted = {};
+function seeAll() {
+  see(() => fitBox(all));
+  fitted = {...view};
+}
+
 function redraw() {
   waiting ||= requestAnimationFrame(draw);
 }
@@ -270,7 +277,7 @@ function zoomMiddle(factor) {
 }
 
 function showAll() {
-  see(() => fitBox(all));
+  seeAll();
   move();
 }
 
@@ -312,7 +319,12 @@ function listen() {
   addEventListener("hashchange", () => { readAddress(); redraw(); });
   addEventListener("beforeprint", () => { document.documentElement.classList.remove("dark"); readColours(); resize(3); draw(); });
   addEventListener("afterprint", () => { setTheme(dark); resize(); redraw(); });
-  new ResizeObserver(() => { resize(); draw(); }).observe(map);
+  new ResizeObserver(() => {
+    const whole = view.x === fitted.x && view.y === fitted.y && view.scale === fitted.scale;
+    resize();
+    if (whole) seeAll();
+    draw();
+  }).observe(map);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => setTheme(dark));
   $("closer").addEventListener("click", () => zoomMiddle(1.5));
   $("farther").addEventListener("click", () => zoomMiddle(1 / 1.5));
@@ -352,7 +364,7 @@ async function start() {
   buildStages(scene, goStage);
   $("message").textContent = scene.n ? "" : "there are no points";
   resize();
-  see(() => fitBox(all));
+  seeAll();
   readAddress();
   draw();
   performance.mark("first picture");
