@@ -27,10 +27,10 @@ enum {
 
 const cli_command cli_commands[CLI_COMMANDS] = {
     [CLI_DELAUNAY] = {"delaunay", "FILE", "edges of the Delaunay triangulation: certain, possible, tied",
-                      "Delaunay triangulation of the points. A pair is legal (an edge whatever the points\n"
-                      "in the rectangles are, or one place if the two meet), indeterminate (an edge for some\n"
-                      "choice), a tie (as indeterminate, but no refinement can decide it), or not listed\n"
-                      "(never an edge).",
+                      "Delaunay triangulation of the points. A pair is legal (an edge wherever in their\n"
+                      "rectangles the points lie; if two rectangles meet, the points may also coincide),\n"
+                      "indeterminate (an edge for some choices), a tie (as indeterminate, but no refinement\n"
+                      "can decide it), or not listed (never an edge).",
                       DYD_CONTENT_DELAUNAY, &cli_delaunay},
     [CLI_VORONOI] = {"voronoi", "FILE", "the cells of the points on a window, with certified bounds",
                      "Voronoi diagram of the points on a window: for each point the part of the window that\n"
@@ -71,8 +71,8 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                       "are refined until their rectangles are disjoint.",
                       DYD_CONTENT_BISECTOR, &cli_bisector},
     [CLI_NEAREST] = {"nearest", "FILE X Y", "the points that are certainly or possibly nearest to a place",
-                     "The points nearest to the place (X,Y), coordinates of any form: certain when\n"
-                     "exactly one is, whatever the points in the rectangles are; possible otherwise; with\n"
+                     "The points nearest to the place (X,Y), coordinates of any form: certain if\n"
+                     "one is nearest wherever in their rectangles the points lie, possible otherwise; with\n"
                      "bounds of the distance. The place and the points concerned are refined until one is\n"
                      "certain. --queries FILE answers many places at once.",
                      DYD_CONTENT_NEAREST, &cli_nearest},

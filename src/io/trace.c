@@ -655,7 +655,7 @@ static dyd_status replay_triangulate(replay *r, const dyd_delaunay_options *o) {
 
 static dyd_status replay_proof(replay *r, const json_t *line) {
   dyd_status st = trace_proofs_read(&r->proofs, line, r->points);
-  return st == DYD_E_PARSE ? replay_fail(r, "this is not what can be proved of points") : st;
+  return st == DYD_E_PARSE ? replay_fail(r, "no such proof about points is known") : st;
 }
 
 static dyd_status replay_stage(replay *r, const json_t *line) {

@@ -343,7 +343,7 @@ def test_areas_that_are_none():
                        ('POLYGON ((0 0, 2 0, 2 2', 'the polygon has no end here; a bracket is missing'),
                        ('LINESTRING (0 0, 2 0)', 'a polygon has to be here, not a point or line'),
                        ('{"type": "Point",\n"coordinates": [0, 0]}', 'a polygon has to be here, not a point or line'),
-                       ('1,2\n', 'there is no polygon; give well-known text')):
+                       ('1,2\n', 'the file holds no polygon; give well-known text')):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, 'area')
             with open(path, 'w', encoding='utf-8') as out:

@@ -187,7 +187,7 @@ dyd_status dyd_area_read(dyd_area *out, FILE *in, dyd_error *err) {
     st = t.at < t.end && *t.at == '{' ? area_json(&t) : area_wkt(&t);
   }
   if (st == DYD_OK && !made.rings)
-    st = dyd_fail(err, DYD_E_PARSE, "there is no polygon; give well-known text (POLYGON ((...))) or GeoJSON");
+    st = dyd_fail(err, DYD_E_PARSE, "the file holds no polygon; give well-known text (POLYGON ((...))) or GeoJSON");
   if (st == DYD_OK) turned = (st = dyd_area_orient(&made, bad)) == DYD_E_ARG;
   if (turned) {
     area_place(&t, t.place[bad[0]]);
