@@ -7,6 +7,8 @@
 #include <mpfr.h>
 #include <string.h>
 
+#define NEAR 0x1p-30
+
 void dyd_disc_init(dyd_disc *d) {
   mpq_inits(d->x, d->y, d->r, NULL);
 }
@@ -102,34 +104,6 @@ static dyd_cap *next_cap(dyd_caps *c) {
   return p;
 }
 
-static void finish_cap(dyd_caps *c, dyd_cap *p) {
-  cap_product(p->ww, c->t, p, p);
-  mpq_mul(c->t, p->tau, p->tau);
-  mpq_sub(p->c, p->ww, c->t);
-  p->w[0] = mpq_get_d(p->wx);
-  p->w[1] = mpq_get_d(p->wy);
-  p->top = mpq_get_d(p->tau);
-}
-
-/* The bound: u.(-q_j) > rho_j is forbidden where possible is asked, u.q_j > rho_j wanted where legal is. */
-bool dyd_caps_begin(dyd_caps *c, const dyd_disc *i, const dyd_disc *j, bool legal) {
-  c->count = 0;
-  dyd_cap *p = next_cap(c);
-  if (!p) return false;
-  mpq_sub(c->rho, j->r, i->r);
-  invert(c->qx, c->qy, c->rho, c->n, c, i, j);
-  p->vertex = UINT32_MAX;
-  mpq_set(p->wx, c->qx);
-  mpq_set(p->wy, c->qy);
-  mpq_set(p->tau, c->rho);
-  if (!legal) {
-    mpq_neg(p->wx, p->wx);
-    mpq_neg(p->wy, p->wy);
-  }
-  finish_cap(c, p);
-  return true;
-}
-
 /* out = out n_j + sign at_j n_k, n_j and n_k those of discs j and k. */
 static void against_j(mpq_ptr out, dyd_caps *c, mpq_srcptr at_j, mpq_srcptr n_k, int sign) {
   mpq_mul(out, out, c->n);
@@ -137,21 +111,55 @@ static void against_j(mpq_ptr out, dyd_caps *c, mpq_srcptr at_j, mpq_srcptr n_k,
   (sign < 0 ? mpq_sub : mpq_add)(out, out, c->t);
 }
 
+/* The bound: u.(-q_j) > rho_j is forbidden where possible is asked, u.q_j > rho_j wanted where legal is. */
+static void set_bound(dyd_caps *c, dyd_cap *p) {
+  mpq_sub(c->rho, p->disc->r, c->i->r);
+  invert(c->qx, c->qy, c->rho, c->n, c, c->i, p->disc);
+  mpq_set(p->wx, c->qx);
+  mpq_set(p->wy, c->qy);
+  mpq_set(p->tau, c->rho);
+}
+
 /* u.(q_k - q_j) > rho_k + rho_j, times n_k n_j. */
-bool dyd_caps_add(dyd_caps *c, const dyd_disc *i, const dyd_disc *k, uint32_t vertex, bool legal) {
-  dyd_cap *p = next_cap(c);
-  if (!p) return false;
-  mpq_add(p->tau, k->r, i->r);
-  invert(p->wx, p->wy, p->tau, c->a, c, i, k);
+static void set_cap(dyd_caps *c, dyd_cap *p) {
+  mpq_add(p->tau, p->disc->r, c->i->r);
+  invert(p->wx, p->wy, p->tau, c->a, c, c->i, p->disc);
   against_j(p->wx, c, c->qx, c->a, -1);
   against_j(p->wy, c, c->qy, c->a, -1);
   against_j(p->tau, c, c->rho, c->a, 1);
-  if (legal) {
+}
+
+/* Its rationals, and doubles as near to them as can be. */
+static void need_exact(dyd_caps *c, dyd_cap *p) {
+  bool bound = p == c->item;
+  if (p->exact) return;
+  if (!bound) need_exact(c, c->item);
+  (bound ? set_bound : set_cap)(c, p);
+  if (bound != c->legal) {
     mpq_neg(p->wx, p->wx);
     mpq_neg(p->wy, p->wy);
   }
+  cap_product(p->ww, c->t, p, p);
+  mpq_mul(c->t, p->tau, p->tau);
+  mpq_sub(p->c, p->ww, c->t);
+  p->exact = true;
+  dyd_filter_cap_rounded(p);
+}
+
+bool dyd_caps_begin(dyd_caps *c, const dyd_disc *i, const dyd_disc *j, bool legal) {
+  c->count = 0;
+  c->i = i;
+  c->legal = legal;
+  return dyd_caps_add(c, j, UINT32_MAX);
+}
+
+bool dyd_caps_add(dyd_caps *c, const dyd_disc *k, uint32_t vertex) {
+  dyd_cap *p = next_cap(c);
+  if (!p) return false;
   p->vertex = vertex;
-  finish_cap(c, p);
+  p->disc = k;
+  p->exact = false;
+  dyd_filter_cap(p, c);
   return true;
 }
 
@@ -171,9 +179,11 @@ static int sign_of_root(dyd_caps *c, mpq_srcptr a, mpq_srcptr b, mpq_srcptr q) {
 
 /* The end of cap e on the side `turn` (1: counter-clockwise): u = (tau w + turn sqrt(c) w') / ww, w' the left turn of
  * w. The sign of u.w_k - tau_k. */
-static int end_against(dyd_caps *c, const dyd_cap *e, int turn, const dyd_direction *u, const dyd_cap *k) {
+static int end_against(dyd_caps *c, dyd_cap *e, int turn, const dyd_direction *u, dyd_cap *k) {
   int sure = dyd_filter_cap_side(u, k);
   if (sure) return sure;
+  need_exact(c, e);
+  need_exact(c, k);
   cap_product(c->a, c->s, e, k);
   mpq_mul(c->a, c->a, e->tau);
   mpq_mul(c->b, k->tau, e->ww);
@@ -195,27 +205,44 @@ static bool same_side(dyd_caps *c, const dyd_cap *e, int turn, const dyd_cap *k)
   return turn > 0 ? rises < 0 : rises > 0;
 }
 
-static bool is_empty(const dyd_cap *k) {
-  return mpq_sgn(k->c) <= 0;
+static bool is_empty(dyd_caps *c, dyd_cap *k) {
+  int sure = dyd_filter_cap_size(k);
+  if (!sure) need_exact(c, k);
+  return sure ? sure < 0 : mpq_sgn(k->c) <= 0;
+}
+
+/* An end, as near as it takes to go on with. */
+static dyd_direction cap_end(dyd_caps *c, dyd_cap *e, int turn) {
+  dyd_direction u = dyd_filter_cap_end(e, turn);
+  if (u.off < NEAR) return u;
+  need_exact(c, e);
+  return dyd_filter_cap_end(e, turn);
 }
 
 /* ---- answers ---- */
 
+/* Is the end u of cap e on the side `turn` in no other? */
+static bool is_uncovered(dyd_caps *c, size_t e, int turn, const dyd_direction *u) {
+  for (size_t k = 0; k < c->count; k++) {
+    dyd_cap *p = &c->item[k];
+    if (k != e && !is_empty(c, p) && end_against(c, &c->item[e], turn, u, p) > 0) return false;
+  }
+  return true;
+}
+
 bool dyd_caps_uncovered(dyd_direction *u, dyd_caps *c) {
   bool any = false;
   for (size_t e = 0; e < c->count; e++) {
-    if (is_empty(&c->item[e])) continue;
+    if (is_empty(c, &c->item[e])) continue;
     any = true;
     for (int turn = -1; turn <= 1; turn += 2) {
-      size_t k = 0;
-      *u = dyd_filter_cap_end(&c->item[e], turn);
-      while (k < c->count && (is_empty(&c->item[k]) || end_against(c, &c->item[e], turn, u, &c->item[k]) <= 0)) k++;
-      if (k < c->count) continue;
+      *u = cap_end(c, &c->item[e], turn);
+      if (!is_uncovered(c, e, turn, u)) continue;
       c->by[0] = c->by[1] = e;
       return true;
     }
   }
-  if (!any) *u = (dyd_direction){1, 0};
+  if (!any) *u = (dyd_direction){1, 0, 0};
   return !any;
 }
 
@@ -232,11 +259,11 @@ bool dyd_caps_common(dyd_direction *u, dyd_caps *c) {
   dyd_direction end[2];
   bool found[2] = {false, false};
   for (size_t e = 0; e < c->count; e++) {
-    if (is_empty(&c->item[e])) return false;
+    if (is_empty(c, &c->item[e])) return false;
     for (int turn = -1; turn <= 1; turn += 2) {
       bool *have = &found[turn > 0];
       if (*have) continue;
-      end[turn > 0] = dyd_filter_cap_end(&c->item[e], turn);
+      end[turn > 0] = cap_end(c, &c->item[e], turn);
       *have = begins_common(c, e, turn, &end[turn > 0]);
       c->by[turn > 0] = e;
     }
@@ -321,7 +348,10 @@ static void reach_to(dyd_disc *c, const dyd_disc *k, mpfr_prec_t bits) {
   mpq_clears(x, y, (mpq_ptr)0);
 }
 
-bool dyd_caps_circle(dyd_disc *out, const dyd_caps *c, const dyd_disc *i, const dyd_disc *j, unsigned bits) {
+bool dyd_caps_circle(dyd_disc *out, dyd_caps *c, unsigned bits) {
+  const dyd_disc *i = c->i, *j = c->item->disc;
+  for (int k = 0; k < 2; k++) need_exact(c, &c->item[c->by[k]]);
+  need_exact(c, c->item);
   mpfr_t u[2], d;
   mpfr_inits2((mpfr_prec_t)bits, u[0], u[1], d, (mpfr_ptr)0);
   circle_set_direction(u, c);

@@ -31,20 +31,35 @@ bool dyd_discs_meet(const dyd_disc *a, const dyd_disc *b);
 /* Returns true if the one of the smaller radius is in the other. */
 bool dyd_disc_is_within(const dyd_disc *small, const dyd_disc *large);
 
-/* A direction in doubles, approximately; its circle is tested afterwards. */
+/* A direction in doubles, approximately; its circle is tested afterwards. off: of an end, how far it is off at most. */
 typedef struct dyd_direction {
-  double x, y;
+  double x, y, off;
 } dyd_direction;
 
+/* tau >= 0, ww = |w|^2, c = ww - tau^2: the cap is empty unless c > 0. Rationals are there once they are needed: wx to
+ * c where `exact`. In doubles, w and tau to within `off`, c to within off_c; for both, w and tau may be multiplied by
+ * different numbers above 0. */
 typedef struct dyd_cap {
   uint32_t vertex;
-  mpq_t wx, wy, tau, ww, c; /* tau >= 0, ww = |w|^2, c = ww - tau^2: the cap is empty unless c > 0 */
-  double w[2], top;         /* w and tau, within 2^-51 of themselves */
+  const dyd_disc *disc;
+  bool exact;
+  mpq_t wx, wy, tau, ww, c;
+  double w[2], top, off, in_c, off_c;
 } dyd_cap;
 
+/* A disc seen from i, in doubles: centre, sum (of j: difference) of the radii, n; their sum norm and that of their
+ * errors are at most size and off, that of n is off_n. */
+typedef struct dyd_relative {
+  double x, y, r, n, size, off, off_n;
+} dyd_relative;
+
 /* Invariant: item[0 .. made-1] are initialised, item[0 .. count-1] in use; (qx, qy) / n, rho / n, n > 0: what became of
- * disc j. */
+ * disc j, where item[0] is exact. i, and the discs of caps: borrowed until the next dyd_caps_begin. */
 typedef struct dyd_caps {
+  const dyd_disc *i;
+  bool legal;
+  double at[3]; /* of i */
+  dyd_relative j;
   mpq_t qx, qy, rho, n;
   dyd_cap *item;
   size_t count, made, cap;
@@ -57,11 +72,15 @@ void dyd_caps_clear(dyd_caps *c);
 
 /* Begins for the discs i, j with i.r <= j.r, neither inside the other. legal: which of the two questions. */
 bool dyd_caps_begin(dyd_caps *c, const dyd_disc *i, const dyd_disc *j, bool legal);
-/* Adds disc k, disjoint from i. false: memory is exhausted. */
-bool dyd_caps_add(dyd_caps *c, const dyd_disc *i, const dyd_disc *k, uint32_t vertex, bool legal);
+/* Adds disc k, disjoint from i, which is borrowed. false: memory is exhausted. */
+bool dyd_caps_add(dyd_caps *c, const dyd_disc *k, uint32_t vertex);
 
-/* caps_filter.c: the end of cap e on the side `turn` (1: counter-clockwise), and the sign of u.w_k - tau_k there; 0:
- * not certain. */
+/* caps_filter.c: the doubles of cap k, from those of discs or from its rationals. */
+void dyd_filter_cap(dyd_cap *k, dyd_caps *c);
+void dyd_filter_cap_rounded(dyd_cap *k);
+/* The sign of c; 0: not certain. */
+int dyd_filter_cap_size(const dyd_cap *k);
+/* The end of cap e on the side `turn` (1: counter-clockwise), and the sign of u.w_k - tau_k there; 0: not certain. */
 dyd_direction dyd_filter_cap_end(const dyd_cap *e, int turn);
 /* About the middle of two directions less than half a turn apart. */
 dyd_direction dyd_filter_between(const dyd_direction end[2]);
@@ -72,9 +91,9 @@ int dyd_filter_cap_side(const dyd_direction *u, const dyd_cap *k);
 bool dyd_caps_uncovered(dyd_direction *u, dyd_caps *c);
 /* Returns true if all caps hold a common direction. *u: about the middle of them. */
 bool dyd_caps_common(dyd_direction *u, dyd_caps *c);
-/* A circle about the direction that was found last, within about 2^-bits of its size; it holds i and j.
+/* A circle about the direction that was found last, within about 2^-bits of its size; it holds the two discs.
  * false: at this precision it is a half-plane. */
-bool dyd_caps_circle(dyd_disc *out, const dyd_caps *c, const dyd_disc *i, const dyd_disc *j, unsigned bits);
+bool dyd_caps_circle(dyd_disc *out, dyd_caps *c, unsigned bits);
 
 /* A pair, and the other discs considered for it. Invariant: i and j are not among seen[0 .. count-1], and no vertex is
  * twice. */

@@ -28,6 +28,7 @@
 #define ROOT_HALF 0x1.6a09e667f3bccp-1 /* below it */
 enum {
   FIRST_SEEN = 10,
+  MOST_SMALLER = 10,
   MOST_ROUNDS = 400,
   LEAST_BITS = 128,
   MOST_BITS = 8192,
@@ -224,7 +225,7 @@ static bool circle_is_witness(dyd_disc_work *w) {
   size_t had = w->count;
   dyd_disc_init(&c.disc);
   for (unsigned bits = LEAST_BITS; bits <= MOST_BITS && w->count == had && !w->failed && !c.clear; bits *= 4)
-    if (dyd_caps_circle(&c.disc, &w->caps, &w->disc[w->i], &w->disc[w->j], bits)) visit_exactly(&c);
+    if (dyd_caps_circle(&c.disc, &w->caps, bits)) visit_exactly(&c);
   dyd_disc_clear(&c.disc);
   return c.clear;
 }
@@ -251,19 +252,38 @@ static void visit_circle(circle_d *c) {
   if (c->reach > 0) dyd_tree_near(&c->at.w->pd->sk.rects.tree, &at, &radius2, meet_square, c);
 }
 
+/* The circle of the same direction and height h, through i. */
+static void set_height(circle_d *c, double h) {
+  const double *i = c->at.w->about[c->at.w->i];
+  double distance = 1 / (2 * h), r = i[2];
+  c->at.x = i[0] + c->u.x * distance;
+  c->at.y = i[1] + c->u.y * distance;
+  c->at.radius = c->reach = distance + (c->at.legal ? r : -r);
+}
+
 /* A still higher disc is in the smaller circle that the worst allows. */
 static bool see_worst(circle_d *c) {
-  const double *i = c->at.w->about[c->at.w->i];
   uint32_t last = DYD_NONE;
   while (c->worst != last && c->highest > 0 && isfinite(c->highest)) {
-    double distance = 1 / (2 * c->highest), r = i[2];
     last = c->worst;
-    c->at.x = i[0] + c->u.x * distance;
-    c->at.y = i[1] + c->u.y * distance;
-    c->at.radius = c->reach = distance + (c->at.legal ? r : -r);
+    set_height(c, c->highest);
     visit_circle(c);
   }
   return c->worst != DYD_NONE && dyd_discs_see(c->at.w, c->worst);
+}
+
+/* Where the circle is much larger than the pair, or a half-plane, many discs are in its way, the highest in smaller
+ * circles, which it holds. Returns true if one is there. */
+static bool look_nearby(const circle_d *c) {
+  circle_d small = *c;
+  const double *i = c->at.w->about[c->at.w->i], *j = c->at.w->about[c->at.w->j];
+  double h = 1 / (4 * hypot(j[0] - i[0], j[1] - i[1]));
+  for (int k = 0; k < MOST_SMALLER && h > 4 * c->highest && small.worst == DYD_NONE; k++, h /= 4) {
+    small.highest = h;
+    set_height(&small, h);
+    visit_circle(&small);
+  }
+  return see_worst(&small);
 }
 
 /* Far circles: all discs beyond the tangent of i, about. */
@@ -275,20 +295,21 @@ static void look_beyond(circle_d *c) {
 
 /* ---- one pair ---- */
 
-static bool vertices_meet(const dyd_disc_work *w, uint32_t v, uint32_t k) {
+/* Are the centres as near as the sum (sign = 1) or the difference of the radii? */
+static bool vertices_near(const dyd_disc_work *w, uint32_t v, uint32_t k, int sign) {
   const double *a = w->about[v], *b = w->about[k];
-  double gap = hypot(b[0] - a[0], b[1] - a[1]) - (dyd_filter_radius(w, v) + dyd_filter_radius(w, k));
+  double gap = hypot(b[0] - a[0], b[1] - a[1]) - fabs(dyd_filter_radius(w, v) + sign * dyd_filter_radius(w, k));
   if (fabs(gap) > ROOM * (size_d(w, v) + size_d(w, k))) return gap < 0;
-  return dyd_discs_meet(&w->disc[v], &w->disc[k]);
+  return (sign < 0 ? dyd_disc_is_within : dyd_discs_meet)(&w->disc[v], &w->disc[k]);
 }
 
 /* The caps of those seen that have none yet. */
 static bool load_more(dyd_disc_work *w, bool legal) {
   for (; w->loaded < w->count && !w->failed; w->loaded++) {
     uint32_t v = w->seen[w->loaded];
-    bool meets = vertices_meet(w, w->i, v) || vertices_meet(w, w->j, v);
+    bool meets = vertices_near(w, w->i, v, 1) || vertices_near(w, w->j, v, 1);
     if (meets && legal) return false;
-    if (!meets && !dyd_caps_add(&w->caps, &w->disc[w->i], &w->disc[v], v, legal)) w->failed = true;
+    if (!meets && !dyd_caps_add(&w->caps, &w->disc[v], v)) w->failed = true;
   }
   return !w->failed;
 }
@@ -334,10 +355,9 @@ static bool discs_are_possible(dyd_disc_work *w) {
     DYD_INVARIANT(2 * round < MOST_ROUNDS); /* the worst first: a few are enough */
     if (!(round ? load_more : dyd_discs_load)(w, false)) return true;
     if (!dyd_caps_uncovered(&u, &w->caps)) return false;
-    if (place_circle_of(&c, w, u, false))
-      visit_circle(&c);
-    else
-      look_beyond(&c);
+    bool placed = place_circle_of(&c, w, u, false);
+    if (look_nearby(&c)) continue;
+    (placed ? visit_circle : look_beyond)(&c);
     if (!see_worst(&c)) return true;
   }
   return true;
@@ -382,7 +402,8 @@ static dyd_status triangulate_inside(dyd_delaunay **out, const dyd_disc_work *w)
 static dyd_pair_status discs_status(dyd_disc_work *w, uint32_t i, uint32_t j, const dyd_delaunay *inside) {
   dyd_pair_status known = inside ? dyd_delaunay_status(inside, i, j) : DYD_TIE;
   if (known == DYD_INDETERMINATE) return known;
-  bool swap = mpq_cmp(w->disc[i].r, w->disc[j].r) > 0;
+  double more = w->about[i][2] - w->about[j][2], doubt = ROOM * (w->about[i][2] + w->about[j][2]);
+  bool swap = fabs(more) > doubt ? more > 0 : mpq_cmp(w->disc[i].r, w->disc[j].r) > 0;
   w->i = swap ? j : i;
   w->j = swap ? i : j;
   w->count = 0;
@@ -390,10 +411,8 @@ static dyd_pair_status discs_status(dyd_disc_work *w, uint32_t i, uint32_t j, co
     dyd_legal_each_at(w->pd, end ? j : i, see_neighbour, w);
     dyd_open_each_at(w->pd, end ? j : i, DYD_TIE, see_neighbour, w);
   }
-  if (known != DYD_ILLEGAL &&
-      (dyd_disc_is_within(&w->disc[w->i], &w->disc[w->j]) ? large_is_legal(w) : discs_are_legal(w)))
-    return DYD_LEGAL;
-  bool possible = known == DYD_LEGAL || vertices_meet(w, i, j) || discs_are_possible(w);
+  if (known != DYD_ILLEGAL && (vertices_near(w, i, j, -1) ? large_is_legal(w) : discs_are_legal(w))) return DYD_LEGAL;
+  bool possible = known == DYD_LEGAL || vertices_near(w, i, j, 1) || discs_are_possible(w);
   return possible ? DYD_INDETERMINATE : DYD_ILLEGAL;
 }
 

@@ -264,7 +264,7 @@ static bool is_some_common(dyd_direction *u, weight_work *g) {
   if (hypot(a.x + b.x, a.y + b.y) > 0x1p-8) return true;
   const double *i = w->about[w->i], *j = w->about[w->j];
   double x = j[0] - i[0], y = j[1] - i[1], size = hypot(x, y);
-  *u = (dyd_direction){x / size, y / size};
+  *u = (dyd_direction){x / size, y / size, 0};
   return true;
 }
 
