@@ -13,6 +13,8 @@
 
 #include <stdlib.h>
 
+enum { STRETCHES = 3 }; /* how often an arc is halved, to find that it is taken */
+
 /* ---- points ---- */
 
 int dyd_outline_order(bool *unsure, dyd_iv a, dyd_iv b) {
@@ -47,16 +49,58 @@ static bool outline_taken(bool *doubt, dyd_outline *o, size_t own, const dyd_iv 
 
 /* ---- the elementary arcs of bisector.c in intervals ---- */
 
-/* at: as given; to: relative to the origin. unsure: set where the order of marks is not known. */
+/* at: as given; to: relative to the origin. of: rectangles far and near, along an axis. */
 typedef struct ruler {
   dyd_iv at[DYD_MARKS], to[DYD_MARKS], far_at[2], far_to[2];
-  bool of_window[2], *unsure;
+  bool of_window[2];
+  dyd_outline *o;
+  size_t far, near;
+  int axis;
   dyd_marks marks;
 } ruler;
 
+/* The rectangle of a site; false, and in doubt: memory. */
+static bool outline_rect(dyd_rect *r, dyd_outline *o, size_t k) {
+  if (dyd_sites_get(r, o->sites, o->site[k]) == DYD_OK) return true;
+  o->unsure = true;
+  return false;
+}
+
+/* Marks that doubles do not tell apart may be one number: DYD_MARKS and the next are the ends of the far rectangle. */
+static void ruler_number(mpq_ptr out, mpq_ptr spare, const ruler *r, int mark) {
+  bool window = mark == DYD_WINDOW_LO || mark == DYD_WINDOW_HI, near = mark == DYD_NEAR_LO || mark == DYD_NEAR_HI;
+  bool high = mark == DYD_WINDOW_HI || mark == DYD_NEAR_HI || mark == DYD_MARKS + 1;
+  dyd_rect rect;
+  dyd_rect_init(&rect);
+  if (window && !r->of_window[high])
+    mpq_set_d(out, r->at[mark].lo);
+  else if (window)
+    dyd_interval_get_q(high ? spare : out, high ? out : spare, r->axis ? &r->o->rect->y : &r->o->rect->x);
+  else if (outline_rect(&rect, r->o, near ? r->near : r->far))
+    dyd_interval_get_q(high ? spare : out, high ? out : spare, r->axis ? &rect.y : &rect.x);
+  if (mark == DYD_MIDDLE) {
+    mpq_add(out, out, spare);
+    mpq_div_2exp(out, out, 1);
+  }
+  dyd_rect_clear(&rect);
+}
+
+static dyd_iv ruler_at(const ruler *r, int mark) {
+  return mark < DYD_MARKS ? r->at[mark] : r->far_at[mark - DYD_MARKS];
+}
+
 static int ruler_order(const void *axis, int a, int b) {
   const ruler *r = axis;
-  return a == b ? 0 : dyd_outline_order(r->unsure, r->at[a], r->at[b]);
+  bool doubt = false;
+  int order = a == b ? 0 : dyd_outline_order(&doubt, ruler_at(r, a), ruler_at(r, b));
+  if (!doubt) return order;
+  mpq_t x, y, spare;
+  mpq_inits(x, y, spare, NULL);
+  ruler_number(x, spare, r, a);
+  ruler_number(y, spare, r, b);
+  order = mpq_cmp(x, y);
+  mpq_clears(x, y, spare, NULL);
+  return order;
 }
 
 static void ruler_set(ruler *r, dyd_outline *o, size_t far, size_t near, int axis) {
@@ -69,13 +113,22 @@ static void ruler_set(ruler *r, dyd_outline *o, size_t far, size_t near, int axi
     r->far_at[e] = o->box[far].end[2 * axis + e];
     r->far_to[e] = o->near[far].end[2 * axis + e];
   }
-  r->unsure = &o->unsure;
+  r->o = o;
+  r->far = far;
+  r->near = near;
+  r->axis = axis;
   r->marks = (dyd_marks){ruler_order, r, o->thin[far][axis], o->thin[near][axis]};
   r->at[DYD_MIDDLE] = r->marks.far_thin ? r->far_at[0] : dyd_iv_scale(dyd_iv_add(r->far_at[0], r->far_at[1]), 0.5);
   r->to[DYD_MIDDLE] = r->marks.far_thin ? r->far_to[0] : dyd_iv_scale(dyd_iv_add(r->far_to[0], r->far_to[1]), 0.5);
 }
 
 /* ---- points of an arc ---- */
+
+/* Around both; unknown where an end is not a number. */
+static dyd_iv outline_hull(dyd_iv p, dyd_iv q) {
+  if (!isfinite(p.lo + p.hi + q.lo + q.hi)) return DYD_IV_UNKNOWN;
+  return (dyd_iv){p.lo < q.lo ? p.lo : q.lo, p.hi > q.hi ? p.hi : q.hi};
+}
 
 /* The point of an arc at t along its axis. */
 static dyd_outline_spot outline_arc_at(const dyd_outline_arc *a, dyd_iv t) {
@@ -86,12 +139,7 @@ static dyd_outline_spot outline_arc_at(const dyd_outline_arc *a, dyd_iv t) {
 }
 
 static void outline_set_span(dyd_outline_arc *a) {
-  for (int k = 0; k < 2; k++) {
-    dyd_iv p = a->end[0].at[k], q = a->end[1].at[k]; /* monotone between them [ARC-1] */
-    a->span[k] = DYD_IV_UNKNOWN;
-    if (isfinite(p.lo + p.hi + q.lo + q.hi))
-      a->span[k] = (dyd_iv){p.lo < q.lo ? p.lo : q.lo, p.hi > q.hi ? p.hi : q.hi};
-  }
+  for (int k = 0; k < 2; k++) a->span[k] = outline_hull(a->end[0].at[k], a->end[1].at[k]); /* monotone [ARC-1] */
 }
 
 /* Where the other coordinate is `level`; 0: there, else which side of the level the parabola stays on. */
@@ -182,14 +230,14 @@ static int outline_axis(bool *either, const dyd_filter_arc *a, bool side_y) {
 }
 
 /* As curve_set_arc. */
-static bool outline_set_arc(dyd_outline_arc *a, pane_sides *m, bool *unsure, const ruler r[2], const dyd_strip s[2]) {
+static bool outline_set_arc(dyd_outline_arc *a, pane_sides *m, const ruler r[2], const dyd_strip s[2]) {
   if (!s[0].fixed && !s[1].fixed) return false;
   for (int k = 0; k < 2; k++) {
     a->shape.s[k] = r[k].far_to[s[k].far_end];
     a->shape.q[k] = s[k].fixed ? r[k].to[s[k].q] : DYD_IV_UNKNOWN;
     a->lo[k] = r[k].to[s[k].lo];
     a->hi[k] = r[k].to[s[k].hi];
-    a->tilt[k] = s[k].fixed ? dyd_outline_order(unsure, r[k].at[s[k].q], r[k].far_at[s[k].far_end]) : 0;
+    a->tilt[k] = s[k].fixed ? ruler_order(&r[k], s[k].q, DYD_MARKS + s[k].far_end) : 0;
     a->near_side[k] = s[k].over ? 1 : -1;
     m->end[k][0] = window_side(&r[k], s[k].lo);
     m->end[k][1] = window_side(&r[k], s[k].hi);
@@ -219,9 +267,26 @@ static bool pane_is_clear(const dyd_outline *o, size_t far, size_t near, const r
          outline_distance2(o, &most, far, true, true) < outline_distance2(o, &most, near, false, false);
 }
 
+/* Is all of the arc between p and q taken, whole or in parts? A middle that is not ends it. */
+static bool outline_stretch_taken(dyd_outline *o, const dyd_outline_arc *a, const dyd_outline_spot *p,
+                                  const dyd_outline_spot *q, int depth) {
+  int k = a->axis;
+  double t = p->at[k].hi / 2 + q->at[k].lo / 2;
+  if (!depth || !(p->at[k].hi < t && t < q->at[k].lo)) return false;
+  dyd_outline_spot m = outline_arc_at(a, dyd_iv_point(t));
+  if (!outline_taken(NULL, o, a->curve, m.at)) return false;
+  for (int part = 0; part < 2; part++) {
+    const dyd_outline_spot *from = part ? &m : p, *to = part ? q : &m;
+    dyd_iv span[2];
+    for (int c = 0; c < 2; c++) span[c] = outline_hull(from->at[c], to->at[c]); /* monotone between them [ARC-1] */
+    if (!outline_taken(NULL, o, a->curve, span) && !outline_stretch_taken(o, a, from, to, depth - 1)) return false;
+  }
+  return true;
+}
+
 /* All of it? Its boundary points are boundary of nothing then, and cuts there decide nothing. */
 static bool arc_is_taken(dyd_outline *o, const dyd_outline_arc *a) {
-  return outline_taken(NULL, o, a->curve, a->span);
+  return outline_taken(NULL, o, a->curve, a->span) || outline_stretch_taken(o, a, &a->end[0], &a->end[1], STRETCHES);
 }
 
 static void outline_add_curve(dyd_outline *o, uint32_t other) {
@@ -238,7 +303,7 @@ static void outline_add_curve(dyd_outline *o, uint32_t other) {
     if (pane_is_clear(o, far, near, r, s)) continue;
     if (o->arcs == DYD_OUTLINE_ARCS) {
       o->unsure = true;
-    } else if (outline_set_arc(a, &m, &o->unsure, r, s) && outline_clip(a, &o->unsure, &m)) {
+    } else if (outline_set_arc(a, &m, r, s) && outline_clip(a, &o->unsure, &m)) {
       a->curve = other;
       outline_set_span(a);
       o->arcs += !arc_is_taken(o, a);
@@ -466,9 +531,10 @@ dyd_status dyd_outline_load(bool *done, dyd_outline *o, const dyd_delaunay *pd, 
   *done = st == DYD_OK && list.count <= DYD_OUTLINE_OTHERS;
   if (*done) {
     o->count = list.count;
+    o->sites = s;
     for (size_t k = 0; k <= list.count && *done && st == DYD_OK; k++) {
       uint32_t site = k < list.count ? list.item[k] : i;
-      if (k < list.count) o->site[k] = site;
+      o->site[k] = site;
       *done = box_load(&o->box[k], s, site);
       if (*done) st = box_find_thin(o->thin[k], &o->box[k], s, site);
     }
@@ -490,26 +556,30 @@ static void box_place(dyd_box *out, double *slack, const dyd_box *b, const doubl
   }
 }
 
-/* Returns true if the closed rectangles meet. */
-static bool outline_rects_meet(bool *unsure, const dyd_box *a, const dyd_box *b) {
+/* Returns true if the closed rectangles of sites a and b meet. */
+static bool outline_rects_meet(dyd_outline *o, size_t a, size_t b) {
   bool doubt = false;
+  const dyd_iv *p = o->box[a].end, *q = o->box[b].end;
   for (int k = 0; k < 4; k += 2)
-    if (dyd_outline_order(&doubt, a->end[k], b->end[k + 1]) > 0 ||
-        dyd_outline_order(&doubt, b->end[k], a->end[k + 1]) > 0)
-      return false;
-  if (doubt) *unsure = true;
-  return true;
+    if (dyd_outline_order(&doubt, p[k], q[k + 1]) > 0 || dyd_outline_order(&doubt, q[k], p[k + 1]) > 0) return false;
+  if (!doubt) return true;
+  dyd_rect r[2];
+  for (int k = 0; k < 2; k++) dyd_rect_init(&r[k]);
+  bool meet = outline_rect(&r[0], o, a) && outline_rect(&r[1], o, b) && dyd_rect_meets(&r[0], &r[1]);
+  for (int k = 0; k < 2; k++) dyd_rect_clear(&r[k]);
+  return meet;
 }
 
 /* Relative to the origin; false: some other meets the site. */
 static bool outline_place(dyd_outline *o, const dyd_rect *window) {
   bool free = true;
   dyd_filter_box(&o->window, window);
+  o->rect = window;
   double none;
   box_place(&o->frame, &none, &o->window, o->origin);
   for (size_t k = 0; k <= o->count; k++) box_place(&o->near[k], &o->slack[k], &o->box[k], o->origin);
   for (size_t k = 0; k < o->count; k++) {
-    o->drop[k] = outline_rects_meet(&o->unsure, &o->box[k], &o->box[o->count]);
+    o->drop[k] = outline_rects_meet(o, k, o->count);
     free = free && !o->drop[k];
   }
   for (int k = 0; k < 4; k++) {

@@ -9,7 +9,7 @@
 #include "delaunay/state.h"
 #include "voronoi/exact_cell_filter.h"
 
-enum { DYD_OUTLINE_OTHERS = 48, DYD_OUTLINE_ARCS = 256, DYD_OUTLINE_MEETS = 512, DYD_OUTLINE_PIECES = 128 };
+enum { DYD_OUTLINE_OTHERS = 96, DYD_OUTLINE_ARCS = 512, DYD_OUTLINE_MEETS = 512, DYD_OUTLINE_PIECES = 128 };
 
 /* A point, relative to the origin of the outline. at[a] encloses coordinate a. side[a]: which end of the window (0, 1)
  * coordinate a is, exactly; else -1. */
@@ -43,11 +43,13 @@ typedef struct dyd_outline_meet {
   dyd_outline_spot spot;
 } dyd_outline_meet;
 
-/* Loaded once for a site: site, count, box and thin (its own last). The rest is found by dyd_filter_outline: part[0 ..
- * parts) is the closed boundary, with the region on the left; parts = 0: there is none. curve = count + side: of the
- * window. */
+/* Loaded once for a site: site, count, sites, box and thin (its own last). The rest is found by dyd_filter_outline:
+ * part[0 .. parts) is the closed boundary, with the region on the left; parts = 0: there is none. curve = count + side:
+ * of the window. */
 typedef struct dyd_outline {
-  uint32_t site[DYD_OUTLINE_OTHERS];
+  uint32_t site[DYD_OUTLINE_OTHERS + 1];
+  const dyd_sites *sites; /* borrowed, as rect is: the window */
+  const dyd_rect *rect;
   size_t count;
   dyd_box box[DYD_OUTLINE_OTHERS + 1], window;
   bool thin[DYD_OUTLINE_OTHERS + 1][2]; /* equal ends, though doubles may not hold them */

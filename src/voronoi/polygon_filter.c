@@ -3,8 +3,8 @@
  *
  * All points of that rung are multiples of some 2^-scale. Here they are integers of at most GRID bits, so that sums,
  * means, steps and turns are exact; where a coordinate is rounded to the grid its enclosure has to lie between two
- * neighbours there, and where a point is proved the bounds of [FLT-DST] have to say yes or no. So the polygons are the
- * same ones, or the filter declines [OUTLINE-1]. */
+ * neighbours there, or it is taken from one of them, and where a point is proved the bounds of [FLT-DST] have to say
+ * yes or no. So the polygons are the same ones, or as good (`loose`), or the filter declines [OUTLINE-1]. */
 #include "base/alloc.h"
 #include "voronoi/outline_filter.h"
 #include "voronoi/sample.h"
@@ -12,6 +12,8 @@
 
 #include <limits.h>
 #include <stdlib.h>
+
+#define WIDEST 0x1p-4 /* enclosures that are rounded, in steps of the grid */
 
 enum { GRID = 50, FIRST_EXTRA = 8, FINER = 2, SAMPLES = 1 << 14 };
 
@@ -149,26 +151,25 @@ typedef struct grid_work {
   dyd_rect rect; /* of the site */
   mpq_t end[2][2], away[2];
   bool fetched;
-  bool known; /* no number was in doubt */
+  bool known; /* no number was in doubt, */
+  bool loose; /* but for the last place of a rounding */
 } grid_work;
 
 /* ---- rounding ---- */
 
-/* floor(x 2^scale); *whole: it is that number. */
-static int64_t grid_floor(bool *whole, bool *known, dyd_iv x, int scale) {
+/* floor(x 2^scale), or, `loose`, the number below where x may be on either side of one; *whole: it is that number. */
+static int64_t grid_floor(bool *whole, grid_work *w, dyd_iv x, int scale) {
   double lo = ldexp(x.lo, scale), hi = ldexp(x.hi, scale), low = floor(lo);
   *whole = lo == hi && lo == low;
-  if (!(fabs(lo) < 0x1p50 && fabs(hi) < 0x1p50) || low != floor(hi) || (lo == low && !*whole)) {
-    *known = false;
-    return 0;
-  }
+  if (!(fabs(lo) < 0x1p50 && fabs(hi) < 0x1p50 && hi - lo <= WIDEST)) return w->known = false, 0;
+  if (low != floor(hi) || (lo == low && !*whole)) w->loose = true;
   return (int64_t)low;
 }
 
 /* The middle of the cell of the grid 2^-bits in which the coordinate is, on the grid 2^-(bits+1). */
 static int64_t grid_end(grid_work *w, const dyd_outline_spot *p, int axis, int bits) {
   bool whole;
-  int64_t n = grid_floor(&whole, &w->known, dyd_outline_coordinate(w->o, p, axis), bits);
+  int64_t n = grid_floor(&whole, w, dyd_outline_coordinate(w->o, p, axis), bits);
   return 2 * n + !whole;
 }
 
@@ -189,8 +190,9 @@ static dyd_status grid_steps(uint32_t *out, grid_work *w, const dyd_outline_piec
   *out = 1;
   if (!p->arc || !p->arc->shape.parabola) return DYD_OK;
   int k = p->arc->axis, o = 1 - k, exp[2];
-  int64_t length = grid_end(w, p->begin, k, bits + 4) - grid_end(w, p->end, k, bits + 4);
+  int64_t length = llabs(grid_end(w, p->begin, k, bits + 4) - grid_end(w, p->end, k, bits + 4));
   if (!w->known || !length) return DYD_OK;
+  if (w->loose) length += 2;
   dyd_iv q = dyd_iv_sub(p->arc->shape.s[o], p->arc->shape.q[o]), square = dyd_iv_sqr(dyd_iv_point((double)length));
   if (dyd_iv_sign(q) < 0) q = dyd_iv_neg(q);
   if (!(q.lo > ldexp(1, -bits - DYD_NARROW))) return w->known = false, DYD_OK;
@@ -240,7 +242,7 @@ static grid_point sample_on_grid(grid_work *w, const grid_sample *s, int bits) {
   dyd_iv at = dyd_iv_sub(dyd_iv_point(grid_double(t, bits + 1 + more)), dyd_iv_point(w->o->origin[k]));
   dyd_iv other = dyd_iv_add(dyd_filter_arc_other(&p->arc->shape, k, at), dyd_iv_point(w->o->origin[1 - k]));
   z.at[k] = t >> more;
-  z.at[1 - k] = grid_floor(&whole, &w->known, other, bits + 1);
+  z.at[1 - k] = grid_floor(&whole, w, other, bits + 1);
   return z;
 }
 
@@ -375,7 +377,7 @@ static bool grid_place_outer(grid_point *z, grid_work *w, const grid_sample *s, 
     bool whole;
     dyd_iv at = dyd_iv_point(grid_double(z->at[a], z->scale));
     if (end[a] >= 0) at = dyd_iv_add(at, (dyd_iv){ldexp(away[a].lo, -shift), ldexp(away[a].hi, -shift)});
-    z->at[a] = grid_floor(&whole, &w->known, at, fine);
+    z->at[a] = grid_floor(&whole, w, at, fine);
   }
   z->scale = fine;
   dyd_bbox c = grid_box(z);
@@ -479,5 +481,6 @@ dyd_status dyd_filter_polygons(bool *done, dyd_shape *s, const dyd_delaunay *pd,
   mpq_clears(w.end[0][0], w.end[0][1], w.end[1][0], w.end[1][1], w.away[0], w.away[1], NULL);
   dyd_rect_clear(&w.rect);
   s->in_doubles = s->on_grid = *done;
+  s->loose = w.loose;
   return st;
 }

@@ -527,7 +527,7 @@ void dyd_shape_clear(dyd_shape *s) {
 }
 
 static void shape_empty(dyd_shape *s) {
-  s->in_doubles = s->on_grid = s->exact = false;
+  s->in_doubles = s->on_grid = s->exact = s->loose = false;
   dyd_polygon_clear(&s->inner_exact);
   dyd_polygon_list_clear(&s->outer_exact);
 }

@@ -52,10 +52,11 @@ struct dyd_outline;
 /* Invariant: in_doubles: inner[inner_count], outer[outer_count] are the polygons (at most one outer part),
  * counter-clockwise, and the areas of the polygons lie within area[]: inner from below, outer from above; or on_grid:
  * they are those of grid_area[], twice; or exact: both are the true cell, its vertices rounded by at most `rounding` in
- * each coordinate, and area[] encloses the area of the true one. Otherwise the exact ones. The arrays behind are
- * scratch, kept from cell to cell. */
+ * each coordinate, and area[] encloses the area of the true one. Otherwise the exact ones. loose: they are as near to
+ * the true cell as those of dyd_exact_polygons, but some vertices may be others. The arrays behind are scratch, kept
+ * from cell to cell. */
 typedef struct dyd_shape {
-  bool in_doubles, on_grid, exact;
+  bool in_doubles, on_grid, exact, loose;
   double rounding;
   uint32_t inner_count, outer_count;
   dyd_xy *inner, *outer;
