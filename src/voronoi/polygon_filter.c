@@ -95,20 +95,30 @@ static bool grid_edges_near(const grid_point *a, const grid_point *b, const grid
   return true;
 }
 
-/* Returns true if no edge meets another but in the common vertex of neighbours. *known = false: edges only seem to
- * meet, by a turn that is 0. O(n^2). */
-static bool grid_is_simple(bool *known, const grid_polygon *p) {
+/* Edge c d and the next one, d e, in one line: does the second go back? */
+static bool grid_folds(const grid_point *c, const grid_point *d, const grid_point *e) {
+  dyd_i128 x = (dyd_i128)(d->at[0] - c->at[0]) * (e->at[0] - d->at[0]);
+  return !grid_turn(c, d, e) && x + (dyd_i128)(d->at[1] - c->at[1]) * (e->at[1] - d->at[1]) <= 0;
+}
+
+/* Are two points not on one side of a line, by their turns? */
+static bool turns_apart(dyd_i128 s, dyd_i128 t) {
+  return !((s < 0 && t < 0) || (s > 0 && t > 0));
+}
+
+/* Returns true if no edge meets another but in the common vertex of neighbours. Edges whose boxes meet do if neither
+ * has both ends on one side of the other's line. O(n^2). */
+static bool grid_is_simple(const grid_polygon *p) {
   const grid_point *z = p->vertex;
   size_t n = p->count;
   for (size_t j = 0; j < n; j++) {
     const grid_point *c = &z[j], *d = &z[j + 1 == n ? 0 : j + 1];
-    if (!grid_turn(c, d, &z[(j + 2) % n])) *known = false;
+    if (grid_folds(c, d, &z[(j + 2) % n])) return false;
     for (size_t i = 0; i + 1 < j; i++) {
       const grid_point *a = &z[i], *b = &z[i + 1];
       if ((j + 1 == n && i == 0) || !grid_edges_near(a, b, c, d)) continue;
-      dyd_i128 s = grid_turn(a, b, c), t = grid_turn(a, b, d), u = grid_turn(c, d, a), v = grid_turn(c, d, b);
-      if (!s || !t || !u || !v) *known = false;
-      if ((s < 0) != (t < 0) && (u < 0) != (v < 0)) return false;
+      if (turns_apart(grid_turn(a, b, c), grid_turn(a, b, d)) && turns_apart(grid_turn(c, d, a), grid_turn(c, d, b)))
+        return false;
     }
   }
   return n >= 3;
@@ -199,10 +209,11 @@ static dyd_status grid_steps(uint32_t *out, grid_work *w, const dyd_outline_piec
   dyd_iv share = dyd_iv_div(square, q);
   (void)frexp(share.lo, &exp[0]);
   (void)frexp(share.hi, &exp[1]);
+  if (!(share.lo > 0 && isfinite(share.hi))) return w->known = false, DYD_OK;
   int twice = exp[0] - 2 * (bits + 5) + bits - 3;
-  w->known = w->known && share.lo > 0 && isfinite(share.hi) && exp[0] == exp[1] && twice < 26;
-  if (!w->known || twice + 1 <= 0) return DYD_OK;
-  if (twice > 0 && twice & 1) {
+  w->known = twice < 26;
+  if (!w->known || (twice + 1 <= 0 && exp[0] == exp[1])) return DYD_OK;
+  if (twice > 0 && twice & 1 && exp[0] == exp[1]) {
     *out = (uint32_t)1 << ((twice + 1) / 2);
     return DYD_OK;
   }
@@ -370,7 +381,9 @@ static bool grid_place_outer(grid_point *z, grid_work *w, const grid_sample *s, 
   int end[2];
   for (int a = 0; a < 2; a++)
     away[a] = coordinate_away(&end[a], &w->known, grid_double(z->at[a], z->scale), &own->end[2 * a]);
-  int64_t size = own->exact ? grid_log2(&w->known, away) : grid_log2_exact(w, z, end);
+  bool sure = own->exact;
+  int64_t size = sure ? grid_log2(&sure, away) : 0;
+  if (!sure) size = grid_log2_exact(w, z, end);
   if (!w->known || size > 2000 || size < -2000) return w->known = false;
   int shift = (int)size + w->bits + 2;
   for (int a = 0; a < 2; a++) {
@@ -437,7 +450,7 @@ static dyd_status grid_outer(grid_work *w) {
     if (st != DYD_OK || !w->known) break;
     w->known = grid_align(&w->polygon);
     grid_drop_repeats(&w->polygon);
-    simple = w->known && grid_is_simple(&w->known, &w->polygon);
+    simple = w->known && grid_is_simple(&w->polygon);
   }
   w->bits = bits;
   if (w->known && grid_area2(&w->polygon) <= 0) w->polygon.count = 0;
