@@ -63,9 +63,9 @@ typedef struct dyd_tolerance dyd_tolerance;
  * be NULL. Returns DYD_OK; DYD_E_ARG with a message when a site is no exact point, or for a negative up_to; DYD_CAPPED
  * when there are too many pairs for births; DYD_E_NOMEM: *out is NULL then. DYD_CANCELLED: *out holds the rows that
  * were reached, see dyd_tolerance_result, and err says how many were not.
- * In the max norm each pair takes some twenty triangulations of the sites around it, half a millisecond or more.
- * With weights [TOL-8] hi - lo may be more where doubles do not place a circle: where one disc grows to be all but in
- * another one; and each pair costs a few exact decisions about discs, a fifth of a millisecond or more.
+ * With weights, or in the max norm, a death takes about ten microseconds [TOL-11]; edges that only the end of their
+ * bisector binds, as many of the hull, and births, take half a millisecond or more. With weights [TOL-8] hi - lo may be
+ * more where doubles do not place a circle: where one disc grows to be all but in another one.
  * Cost: O(N log N) for deaths [TOL-4]; births take the partial triangulation of squares of half-width up_to, and a few
  * searches for each of its pairs; points a search for each edge, which takes several times as long as the deaths. Both
  * are shared among as many threads as the options of pd name; results do not depend on it. */

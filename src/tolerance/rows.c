@@ -2,6 +2,7 @@
 /* Rows: one for each pair, sorted in the end by i, then j; deaths, births, and the whole. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/flag.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/prefetch.h"
@@ -9,6 +10,9 @@
 #include "dyadic/raw.h"
 #include "tolerance/lines.h"
 #include "tolerance/state.h"
+
+/* Rows that are worked on together. */
+enum { SHARE = 64 };
 
 /* ---- rows ---- */
 
@@ -43,22 +47,50 @@ dyd_status dyd_row_add(dyd_tolerance *t, dyd_tolerance_row row) {
   return DYD_OK;
 }
 
-dyd_status dyd_rows_rework(dyd_tolerance *t, dyd_row_work *work, void *user) {
+/* Which rows are finished: by ranges of SHARE rows. */
+typedef struct quick_rows {
+  const dyd_tolerance *t;
+  bool *done;
+} quick_rows;
+
+static void rework_quickly(void *context, size_t number) {
+  const quick_rows *q = context;
+  const dyd_tolerance *t = q->t;
+  dyd_others spare = {0};
+  size_t end = (number + 1) * SHARE < t->rows ? (number + 1) * SHARE : t->rows;
+  for (size_t k = number * SHARE; k < end && !dyd_flag_is_set(t->options.cancel); k++) {
+    dyd_tolerance_row *row = &t->row[k];
+    if (row->event == DYD_EVENT_DEATH && row->hi != DYD_UNREACHED) q->done[k] = dyd_filter_moved_death(row, t, &spare);
+  }
+  free(spare.vertex);
+}
+
+static dyd_status rework_slowly(dyd_tolerance *t, const bool *done, dyd_row_work *work, void *user) {
   size_t kept = 0;
   bool cut = false;
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < t->rows && st == DYD_OK; k++) {
     dyd_tolerance_row *row = &t->row[k];
-    bool late = false;
+    bool late = false, open = !done[k] && row->event != DYD_EVENT_TIE && row->hi != DYD_UNREACHED;
     cut = cut || dyd_flag_is_set(t->options.cancel);
-    if (cut && row->event != DYD_EVENT_TIE)
+    if (cut && open)
       row->hi = DYD_UNREACHED;
-    else if (row->event != DYD_EVENT_TIE && row->hi != DYD_UNREACHED)
+    else if (open)
       st = work(&late, row, user);
     if (!late) t->row[kept++] = *row;
   }
   t->rows = kept;
   return st == DYD_OK && cut ? DYD_CANCELLED : st;
+}
+
+dyd_status dyd_rows_rework(dyd_tolerance *t, dyd_row_work *work, void *user) {
+  bool *done = calloc(t->rows + 1, sizeof *done);
+  quick_rows q = {t, done};
+  if (!done) return DYD_E_NOMEM;
+  if (!t->options.no_filter) dyd_parallel(t->pd->options.threads, t->rows / SHARE + 1, rework_quickly, &q);
+  dyd_status st = rework_slowly(t, done, work, user);
+  free(done);
+  return st;
 }
 
 void dyd_rows_reached(dyd_tolerance *t) {

@@ -6,6 +6,7 @@
  *   near_filter.c     the sites that a pair needs; the others near a place
  *   rows.c            all pairs, sorted; the whole
  *   points_filter.c   each point; probabilities
+ *   moves_filter.c    deaths in discs of weights and in squares, by the sites that bind
  *   weights_filter.c  all pairs where points have weights
  *   squares_filter.c  all pairs where points move in squares
  *   enclosing_filter.c  the tolerances of true points in small rectangles
@@ -110,10 +111,13 @@ dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd
                              uint32_t l, double lo, double hi);
 /* The upper end of a row that work did not reach before it was cancelled. */
 #define DYD_UNREACHED (-1.0)
-/* Rows but ties become what `work` makes of them, and those go that it finds too late. DYD_CANCELLED: rows that were
- * not reached are marked. */
+/* Rows but ties become what dyd_filter_moved_death makes of them, on the threads of the options, or else `work`, and
+ * those go that it finds too late. DYD_CANCELLED: rows that were not reached are marked. After dyd_near_index. */
 typedef dyd_status dyd_row_work(bool *late, dyd_tolerance_row *row, void *user);
 dyd_status dyd_rows_rework(dyd_tolerance *t, dyd_row_work *work, void *user);
+/* moves_filter.c: the row of a death of unmoved weights, 1 each, in discs, becomes that of t's weights and metric
+ * [TOL-11]; false: not certain, and unchanged. spare: of the calling thread. */
+bool dyd_filter_moved_death(dyd_tolerance_row *row, const dyd_tolerance *t, dyd_others *spare);
 /* After work that was cancelled: removes marked rows, and counts the pairs without one. */
 void dyd_rows_reached(dyd_tolerance *t);
 dyd_status dyd_row_add(dyd_tolerance *t, dyd_tolerance_row row);

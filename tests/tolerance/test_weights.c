@@ -236,11 +236,50 @@ static void test_weights_of_use(void **state) {
   mpq_clears(q[0], q[1], NULL);
 }
 
+/* Deaths by the sites that bind [TOL-11] against those by exact statuses: discs of weights, squares. */
+static void test_binding_against_statuses(void **state) {
+  (void)state;
+  test_random r = test_random_start("binding");
+  size_t deaths = 0, same = 0, sharp = 0;
+  for (size_t c = 0; c < test_cases(240); c++) {
+    brute_points p;
+    cases_answer a, b;
+    const dyd_tolerance_row *row;
+    static const double some[] = {0, 0x1p-30, 0.02, 0.3, 1, 1, 60, 0x1p20};
+    double weight[BRUTE_MOST];
+    dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options)};
+    cases_make(&p, &r, c % 6);
+    int shift = c % 7 == 0 ? 30 : 0, scale = c % 11 == 0 ? -300 : 0;
+    for (size_t i = 0; i < p.n; i++) {
+      weight[i] = some[test_below(&r, 8)];
+      p.x[i] = ldexp(p.x[i] + (shift ? ldexp(1, shift) : 0), scale);
+      p.y[i] = ldexp(p.y[i], scale);
+    }
+    if (c % 2) o.weight = weight;
+    if (!(c % 2)) o.metric = DYD_METRIC_BOX;
+    cases_ask(&a, &p, &o);
+    o.no_filter = true;
+    cases_ask(&b, &p, &o);
+    size_t n = dyd_tolerance_rows(&row, a.t);
+    for (; n--; row++) {
+      const dyd_tolerance_row *q = cases_row(b.t, row->i, row->j);
+      assert_true(q && q->event == row->event && row->lo <= q->hi && q->lo <= row->hi);
+      if (row->event != DYD_EVENT_DEATH || row->lo == HUGE_VAL || row->lo == 0) continue;
+      deaths++;
+      same += row->lo == q->lo && row->hi == q->hi;
+      sharp += row->hi <= row->lo * (1 + 0x1p-40);
+    }
+    cases_forget(&a);
+    cases_forget(&b);
+  }
+  assert_true(deaths > 400 && same * 2 < deaths && sharp * 2 > deaths);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_equal_weights),    cmocka_unit_test(test_weights_against_discs),
       cmocka_unit_test(test_weighted_attacks), cmocka_unit_test(test_weighted_whole),
-      cmocka_unit_test(test_weights_of_use),
+      cmocka_unit_test(test_weights_of_use),   cmocka_unit_test(test_binding_against_statuses),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
