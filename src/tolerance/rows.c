@@ -497,27 +497,69 @@ static dyd_status square_of_birth(dyd_rect *out, const void *tolerance, size_t i
   return st;
 }
 
-static dyd_status births_among(dyd_tolerance *t, const dyd_pair_list *pairs) {
+/* Of each pair listed: what doubles find. */
+typedef enum birth_state { BIRTH_NONE, BIRTH_OPEN, BIRTH_LATE, BIRTH_FOUND } birth_state;
+
+typedef struct birth_pass {
+  const dyd_tolerance *t;
+  const dyd_pair_list *pairs;
+  dyd_tolerance_row *row;
+  uint8_t *state;
+  double up_to;
+} birth_pass;
+
+static bool may_be_born(const dyd_tolerance *t, const dyd_pair *p) {
+  return p->status != DYD_LEGAL && dyd_delaunay_alias(t->pd, p->i) == p->i && dyd_delaunay_alias(t->pd, p->j) == p->j &&
+         dyd_delaunay_status(t->pd, p->i, p->j) == DYD_ILLEGAL;
+}
+
+static void births_in_doubles(void *context, size_t number) {
+  const birth_pass *p = context;
+  const dyd_tolerance *t = p->t;
+  bool moved = t->weight || t->options.metric == DYD_METRIC_BOX, late;
+  dyd_others spare = {0};
+  size_t end = (number + 1) * SHARE < p->pairs->count ? (number + 1) * SHARE : p->pairs->count;
+  for (size_t k = number * SHARE; k < end; k++) {
+    const dyd_pair *q = &p->pairs->item[k];
+    p->state[k] = may_be_born(t, q) ? BIRTH_OPEN : BIRTH_NONE;
+    if (p->state[k] == BIRTH_NONE || moved || t->options.no_filter || dyd_flag_is_set(t->options.cancel)) continue;
+    if (dyd_filter_birth(&p->row[k], &late, t, t->sk->vertex[q->i], t->sk->vertex[q->j], p->up_to, &spare))
+      p->state[k] = late ? BIRTH_LATE : BIRTH_FOUND;
+  }
+  free(spare.vertex);
+}
+
+static dyd_status birth_open(dyd_tolerance *t, const dyd_pair *p) {
+  uint32_t v = t->sk->vertex[p->i], w = t->sk->vertex[p->j];
+  bool late;
+  if (t->weight || t->options.metric == DYD_METRIC_BOX)
+    return dyd_row_add(t, dyd_row_of(t, v, w, DYD_EVENT_BIRTH, DYD_NONE, DYD_NONE, 0, HUGE_VAL));
+  dyd_status st = birth_exact(&late, t, v, w);
+  return st == DYD_OK && !late ? dyd_row_add(t, row_of_summit(t, v, w, DYD_EVENT_BIRTH)) : st;
+}
+
+static dyd_status births_in_order(dyd_tolerance *t, const birth_pass *p) {
   dyd_status st = DYD_OK;
   t->result.births_left = 0;
-  for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
-    const dyd_pair *p = &pairs->item[k];
-    bool late;
-    if (dyd_delaunay_alias(t->pd, p->i) != p->i || dyd_delaunay_alias(t->pd, p->j) != p->j) continue;
-    if (p->status == DYD_LEGAL || dyd_delaunay_status(t->pd, p->i, p->j) != DYD_ILLEGAL) continue;
-    if (t->result.births_left || dyd_flag_is_set(t->options.cancel)) {
+  for (size_t k = 0; k < p->pairs->count && st == DYD_OK; k++) {
+    if (p->state[k] == BIRTH_FOUND) st = dyd_row_add(t, p->row[k]);
+    if (p->state[k] != BIRTH_OPEN) continue;
+    if (t->result.births_left || dyd_flag_is_set(t->options.cancel))
       t->result.births_left++;
-      continue;
-    }
-    uint32_t v = t->sk->vertex[p->i], w = t->sk->vertex[p->j];
-    if (t->weight || t->options.metric == DYD_METRIC_BOX) {
-      st = dyd_row_add(t, dyd_row_of(t, v, w, DYD_EVENT_BIRTH, DYD_NONE, DYD_NONE, 0, HUGE_VAL));
-      continue;
-    }
-    st = birth_exact(&late, t, v, w);
-    if (st == DYD_OK && !late) st = dyd_row_add(t, row_of_summit(t, v, w, DYD_EVENT_BIRTH));
+    else
+      st = birth_open(t, &p->pairs->item[k]);
   }
   return st == DYD_OK && t->result.births_left ? DYD_CANCELLED : st;
+}
+
+static dyd_status births_among(dyd_tolerance *t, const dyd_pair_list *pairs) {
+  birth_pass p = {t, pairs, dyd_alloc(pairs->count, sizeof *p.row), calloc(pairs->count + 1, sizeof *p.state),
+                  dyd_q_double(t->options.up_to, 1)};
+  dyd_status st = p.row && p.state ? dyd_near_index(t) : DYD_E_NOMEM;
+  if (st == DYD_OK) dyd_parallel(t->pd->options.threads, pairs->count / SHARE + 1, births_in_doubles, &p);
+  if (st == DYD_OK) st = births_in_order(t, &p);
+  dyd_free_all(p.row, p.state);
+  return st;
 }
 
 /* For the list of candidates beside their triangulation, and for rows of all of them. */

@@ -6,6 +6,7 @@
  *   near_filter.c     the sites that a pair needs; the others near a place
  *   rows.c            all pairs, sorted; the whole
  *   points_filter.c   each point; probabilities
+ *   births_filter.c   births in doubles
  *   moves_filter.c    deaths in discs of weights and in squares, by the sites that bind
  *   weights_filter.c  all pairs where points have weights
  *   squares_filter.c  all pairs where points move in squares
@@ -115,6 +116,10 @@ dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd
  * those go that it finds too late. DYD_CANCELLED: rows that were not reached are marked. After dyd_near_index. */
 typedef dyd_status dyd_row_work(bool *late, dyd_tolerance_row *row, void *user);
 dyd_status dyd_rows_rework(dyd_tolerance *t, dyd_row_work *work, void *user);
+/* births_filter.c: the row of a pair that is no edge, as exact numbers make it; or *late: it is born above up_to, which
+ * is rounded up. false: not certain [FLT-BIRTH]. After dyd_near_index; spare: of the calling thread. */
+bool dyd_filter_birth(dyd_tolerance_row *row, bool *late, const dyd_tolerance *t, uint32_t i, uint32_t j, double up_to,
+                      dyd_others *spare);
 /* moves_filter.c: the row of a death of unmoved weights, 1 each, in discs, becomes that of t's weights and metric
  * [TOL-11]; false: not certain, and unchanged. spare: of the calling thread. */
 bool dyd_filter_moved_death(dyd_tolerance_row *row, const dyd_tolerance *t, dyd_others *spare);

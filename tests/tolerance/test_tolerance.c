@@ -222,6 +222,53 @@ static void compare_rungs(size_t n, const double *x, const double *y, bool point
   dyd_sites_free(sites);
 }
 
+/* Births are the same numbers, by the same sites, whether doubles or integers find them [FLT-BIRTH]. */
+static void test_births_by_rungs(void **state) {
+  (void)state;
+  enum { SOME = 70 };
+  test_random r = test_random_start("births by rungs");
+  size_t births = 0;
+  for (size_t c = 0; c < test_cases(24); c++) {
+    double x[SOME], y[SOME];
+    const double shift = c % 3 == 1 ? 0x1p30 : 0, size = c % 4 == 3 ? 0x1p-120 : 1;
+    dyd_sites *sites;
+    dyd_delaunay *pd[WAYS];
+    dyd_tolerance *t[WAYS];
+    const dyd_tolerance_row *row[WAYS];
+    dyd_error err;
+    mpq_t up_to;
+    for (size_t i = 0; i < SOME; i++) { /* anywhere, in a crowd, or on a grid */
+      double share = c % 5 == 4 || i % 3 ? 1 : 0.05;
+      x[i] = size * (shift + share * (c % 2 ? test_unit(&r) : (double)test_below(&r, 12) / 8));
+      y[i] = size * share * (c % 2 ? test_unit(&r) : (double)test_below(&r, 12) / 8);
+    }
+    mpq_init(up_to);
+    mpq_set_d(up_to, size * (0.02 + 0.15 * test_unit(&r)));
+    assert_int_equal(dyd_sites_new(&sites), DYD_OK);
+    assert_int_equal(dyd_sites_add_points(sites, SOME, x, y), DYD_OK);
+    for (int k = 0; k < WAYS; k++) {
+      dyd_delaunay_options threads = {DYD_SIZED(dyd_delaunay_options), .threads = k == BY_THREADS ? 3 : 1};
+      dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .no_filter = k == BY_INTEGERS, .up_to = up_to};
+      assert_int_equal(dyd_delaunay_new(&pd[k], sites, &threads, &err), DYD_OK);
+      assert_int_equal(dyd_tolerance_new(&t[k], pd[k], &o, &err), DYD_OK);
+    }
+    size_t n = dyd_tolerance_rows(&row[0], t[0]);
+    for (int k = 1; k < WAYS; k++) assert_int_equal(dyd_tolerance_rows(&row[k], t[k]), n);
+    for (size_t q = 0; q < n; q++)
+      for (int k = 1; k < WAYS; k++) {
+        const dyd_tolerance_row *a = &row[0][q], *b = &row[k][q];
+        assert_true(a->i == b->i && a->j == b->j && a->event == b->event);
+        if (a->event != DYD_EVENT_BIRTH) continue;
+        assert_true(a->lo == b->lo && a->hi == b->hi);
+        births += k == BY_INTEGERS && a->k == b->k && a->l == b->l;
+      }
+    for (int k = 0; k < WAYS; k++) dyd_tolerance_free(t[k]), dyd_delaunay_free(pd[k]);
+    dyd_sites_free(sites);
+    mpq_clear(up_to);
+  }
+  assert_true(births > 500);
+}
+
 static void test_rungs(void **state) {
   (void)state;
   enum { MANY = 2000 };
@@ -274,7 +321,8 @@ static void test_edges_of_use(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_all_annuli),     cmocka_unit_test(test_attacks), cmocka_unit_test(test_points_and_whole),
-      cmocka_unit_test(test_point_far_away), cmocka_unit_test(test_rungs),   cmocka_unit_test(test_edges_of_use),
+      cmocka_unit_test(test_point_far_away), cmocka_unit_test(test_rungs),   cmocka_unit_test(test_births_by_rungs),
+      cmocka_unit_test(test_edges_of_use),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
