@@ -113,6 +113,11 @@ dyd_status dyd_engine_reserve(dyd_engine *e, size_t n) {
   return dyd_sites_reserve(e->sites, n);
 }
 
+void dyd_engine_take_back(dyd_engine *e, size_t before) {
+  while (e->points && e->point[e->points - 1].site >= before) dyd_stream_free(e->point[--e->points].stream);
+  dyd_sites_cut(e->sites, before);
+}
+
 dyd_status dyd_engine_add_words(dyd_engine *e, size_t n, const dyd_words *xy, bool boxes, dyd_error *err) {
   size_t before = dyd_sites_count(e->sites);
   dyd_status st = dyd_engine_may_add(e, err);

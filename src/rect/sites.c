@@ -279,8 +279,7 @@ dyd_status dyd_sites_new(dyd_sites **out) {
 
 void dyd_sites_free(dyd_sites *s) {
   if (!s) return;
-  if (s->exact)
-    for (size_t i = 0; i < s->count; i++) free(s->exact[i]);
+  dyd_sites_cut(s, 0);
   dyd_free_all(s->exact, s->word, s->point, s->joined, s->kind);
   for (int a = 0; a < 2; a++) {
     dyd_free_all(s->lower[a], s->upper[a]);
@@ -405,6 +404,16 @@ static size_t packed_size(const dyd_packed *p) {
   size_t limbs = 0;
   for (int k = 0; k < 6; k++) limbs += limbs_of(p->size[k]);
   return sizeof *p + limbs * sizeof(mp_limb_t);
+}
+
+void dyd_sites_cut(dyd_sites *s, size_t count) {
+  while (s->count > count) {
+    const size_t i = --s->count;
+    if (s->exact && s->exact[i]) s->packed_bytes -= packed_size(s->exact[i]);
+    if (s->exact) free(s->exact[i]);
+    if (dyd_sites_in_words(s, i)) s->points = (s->word[i] & ~DYD_WORD_BOX) - 1;
+  }
+  if (s->kind_count > count) s->kind_count = count;
 }
 
 static void interval_sizes(int32_t size[3], int64_t exp[2], const dyd_interval *a) {

@@ -56,6 +56,8 @@ struct dyd_sites {
 
 /* Room for `more` further sites in every array there is. */
 dyd_status dyd_sites_reserve(dyd_sites *s, size_t more);
+/* Takes back all sites from number `count` on, which nobody was told of. */
+void dyd_sites_cut(dyd_sites *s, size_t count);
 /* Appends n exact points, number k being (xy[2 k], xy[2 k + 1]); none on failure. */
 dyd_status dyd_sites_add_words(dyd_sites *s, size_t n, const dyd_words *xy);
 /* The same of rectangles from a lower left to an upper right corner: point 2 k to point 2 k + 1. */

@@ -325,8 +325,10 @@ static dyd_status stage_commit_from(size_t *count, dyd_engine *e, dyd_stage *s, 
 }
 
 dyd_status dyd_stage_commit(dyd_engine *e, dyd_stage *s, dyd_error *err) {
+  const size_t before = dyd_engine_count(e);
   dyd_status st = dyd_engine_reserve(e, s->count);
   for (size_t k = 0, count = 1; k < s->count && st == DYD_OK; k += count) st = stage_commit_from(&count, e, s, k, err);
+  if (st != DYD_OK) dyd_engine_take_back(e, before);
   dyd_stage_clear(s);
   return st != DYD_OK && !err->message[0] ? dyd_fail(err, st, "%s", dyd_status_text(st)) : st;
 }
