@@ -35,7 +35,7 @@ static dyd_engine_options small_run(void) {
 }
 
 static void run_small(dyd_engine *e) {
-  enum { MOST_POINTS = 60 };
+  enum { MOST_POINTS = 20 };
   const dyd_engine_options o = small_run();
   dyd_outcome outcome;
   dyd_error err;
