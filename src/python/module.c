@@ -228,6 +228,10 @@ static int add_types(PyObject *module) {
 PyMODINIT_FUNC PyInit__dyadel(void); /* for the import of Python alone */
 
 PyMODINIT_FUNC PyInit__dyadel(void) {
+  if (PyInterpreterState_GetID(PyInterpreterState_Get()) != 0) {
+    PyErr_SetString(PyExc_ImportError, "dyadel and NumPy run in the main interpreter; use processes instead of others");
+    return NULL;
+  }
   PyObject *module = PyModule_Create(&module_definition);
   if (!module) return NULL;
   if (dydpy_guard_prepare() < 0 || add_types(module) < 0 ||

@@ -4,8 +4,11 @@
 import gc
 import importlib.util
 import math
+import os
 import pickle
 import re
+import subprocess
+import sys
 import threading
 import time
 import weakref
@@ -351,6 +354,27 @@ def test_check():
     def raises(i, bits):
         raise Mine
     harness.raised(Mine, dyadel.check, dyadel.Source(4, raises))
+
+
+def test_interpreters():
+    """A second interpreter of the process is refused, whether it comes first or not; the main one goes on."""
+    code = 'import dyadel; assert len(dyadel.delaunay([(0, 0), (1, 0), (0, 1)]).legal) == 3'
+    for first in ('', code):
+        done = subprocess.run([sys.executable, '-W', 'ignore', '-c', f'''
+import _xxsubinterpreters as other
+{first}
+for k in range(2):
+    i = other.create()
+    try:
+        other.run_string(i, 'import dyadel')
+    except other.RunFailedError as error:
+        assert 'ImportError' in str(error) and 'interpreter' in str(error), error
+    else:
+        raise AssertionError
+    other.destroy(i)
+{code}
+'''], env=dict(os.environ, PYTHONPATH=os.path.dirname(os.path.dirname(dyadel.__file__))), capture_output=True, check=False)
+        assert done.returncode == 0 or b"No module named '_xxsub" in done.stderr, done
 
 
 harness.run_all(globals())

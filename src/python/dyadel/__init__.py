@@ -6,10 +6,10 @@
     d.outcome, d.legal, d.indeterminate, d.ties      # for every choice of points in the squares
     d.simplices, d.neighbors                         # certain triangles, as scipy.spatial.Delaunay names them
 """
+from ._dyadel import formats  # before NumPy, which other interpreters than the main one would damage
+from ._dyadel import version as __version__
 from ._calls import delaunay, plan, tolerance
 from ._check import check, moves
-from ._dyadel import formats
-from ._dyadel import version as __version__
 from ._errors import BrokenPromise, Error
 from ._geometry import OPEN, RAY, Edges, Enclosures, Rings
 from ._notions import Arc, Bisector, Circle, PartialDisc, bisector, con, disc, hull, orientation
