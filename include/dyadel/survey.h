@@ -34,16 +34,15 @@ typedef struct dyd_survey_options {
 typedef struct dyd_survey dyd_survey;
 
 /* A plan: if the points of the rows are found where the rows place them, no requested pair is indeterminate, except for
- * ties at the nominal places. One triangulation of these rectangles proves this. No row is superfluous, as judged by
- * its own faces (in small plans: by all faces; in large faces: by the sites near it), and all accuracies are as coarse
- * as one common factor makes them, then each alone in powers of 2 [SUR-1]. dyd_survey_get has the number of pairs that
+ * ties at the nominal places. One triangulation of these rectangles proves this. No row is superfluous, and all
+ * accuracies are as coarse as one common factor makes them, then each alone in powers of 2, as judged by the pairs
+ * around it [SUR-1]. dyd_survey_get has the number of pairs that
  * stay undecided even so (the accuracy is not enough, or rectangles are fixed by their centres). pd is borrowed for the
  * call; options may be NULL. Returns DYD_OK; DYD_E_ARG; DYD_CAPPED when pd is; DYD_E_NOMEM: *out is NULL then.
  * DYD_CANCELLED: *out has the rows that were chosen by then, with their effect, see dyd_survey_result, and err names
  * the undecided pairs; or it is NULL, before any pair was examined. Cost: for a face of m sites at most m^2
- * triangulations of m sites, m <= 16; in larger ones an update for each row, and some triangulations of the sites near
- * it; some of all.
- */
+ * triangulations of m sites, m <= 8; in larger ones some work near each row; some triangulations of all.
+ * These use as many threads as the last call of pd. */
 DYD_API dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_survey_options *options,
                                   dyd_error *err);
 DYD_API void dyd_survey_free(dyd_survey *s);

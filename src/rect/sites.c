@@ -582,6 +582,11 @@ dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {
   return st;
 }
 
+dyd_status dyd_sites_replace(dyd_sites *s, size_t i, const dyd_rect *r) {
+  kind_narrow(s, i);
+  return sites_put(s, i, r, s->exact ? s->exact[i] : NULL);
+}
+
 /* Narrows site i to a rectangle of doubles by way of exact ones. */
 static dyd_status sites_narrow_exact(dyd_sites *s, size_t i, const double box[4]) {
   dyd_rect r;

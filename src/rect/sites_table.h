@@ -67,6 +67,9 @@ bool dyd_sites_get_words(dyd_words end[4], const dyd_sites *s, size_t i);
 /* As dyd_sites_narrow, for the rectangle [box[0],box[1]] x [box[2],box[3]] of finite doubles, without -0. */
 dyd_status dyd_sites_narrow_d(dyd_sites *s, size_t i, const double box[4]);
 
+/* Site i becomes r, even where that is wider: for tables whose owner knows what depends on them. */
+dyd_status dyd_sites_replace(dyd_sites *s, size_t i, const dyd_rect *r);
+
 /* Facts about a site besides its rectangle. GIVEN: it was added as an exact one, and not narrowed since, so that only
  * its maker rounded its ends. Of sites that can be narrowed, BARE: it encloses one place, with no radius about it;
  * ROUND: all within one radius of a place, as [DISC-4] has it. */

@@ -40,7 +40,7 @@ dyd_status dyd_tree_grow(dyd_tree *t, uint32_t first, uint32_t count, const dyd_
 void dyd_tree_clear(dyd_tree *t);
 /* The entry of a vertex, in an ascending tree. */
 uint32_t dyd_tree_entry(const dyd_tree *t, uint32_t vertex);
-/* Entry q's box has shrunk. */
+/* Entry q's box has changed. */
 void dyd_tree_refresh(dyd_tree *t, uint32_t q);
 
 /* Returns false to end the search. */

@@ -302,6 +302,11 @@ static dyd_status holds(bool *inside, const dyd_reps *r, uint32_t v, dyd_xy p) {
   return st;
 }
 
+dyd_status dyd_reps_stay(bool *stays, const dyd_reps *r, uint32_t v) {
+  *stays = false;
+  return dyd_reps_is_double(r, v) ? holds(stays, r, v, r->xy[v]) : DYD_OK;
+}
+
 /* An exact point that is not a double: the table has the doubles next to it. They are what choose_exact would find. */
 static dyd_status choose_point(dyd_reps *r, uint32_t v, uint32_t k, const double b[4]) {
   dyd_status st = keep_code(r, v, k + 1);

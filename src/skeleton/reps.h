@@ -35,6 +35,8 @@ void dyd_reps_clear(dyd_reps *r);
 /* Chooses the representative of v anew: the double nearest to fraction k if it lies in the rectangle (k = 0 only),
  * else the exact fraction k. Different k give different points of a rectangle that is not a point. */
 dyd_status dyd_reps_choose(dyd_reps *r, uint32_t v, uint32_t k);
+/* *stays: it is a double point in the present rectangle of v. */
+dyd_status dyd_reps_stay(bool *stays, const dyd_reps *r, uint32_t v);
 /* The exact representative of v as a singleton rectangle. */
 dyd_status dyd_reps_get(dyd_rect *out, const dyd_reps *r, uint32_t v);
 static inline bool dyd_reps_is_double(const dyd_reps *r, uint32_t v) {

@@ -250,11 +250,15 @@ dyd_status dyd_skeleton_build(dyd_skeleton *sk, const dyd_sites *sites, const dy
   return st;
 }
 
-dyd_status dyd_skeleton_refresh(dyd_skeleton *sk, uint32_t v) {
+void dyd_skeleton_set_box(dyd_skeleton *sk, uint32_t v) {
   dyd_tree *tree = &sk->rects.tree;
   dyd_rects_set_box(&sk->rects, v);
   bool own_number = v < tree->count && tree->item[v] == v; /* no aliases before it */
   dyd_tree_refresh(tree, own_number ? v : dyd_tree_entry(tree, v));
+}
+
+dyd_status dyd_skeleton_refresh(dyd_skeleton *sk, uint32_t v) {
+  dyd_skeleton_set_box(sk, v);
   return dyd_reps_choose(&sk->reps, v, sk->reps.code && sk->reps.code[v] ? sk->reps.code[v] - 1 : 0);
 }
 

@@ -55,7 +55,8 @@ dyd_status dyd_skeleton_build(dyd_skeleton *sk, const dyd_sites *sites, const dy
 void dyd_skeleton_clear(dyd_skeleton *sk);
 /* It has moved in memory: what points into it follows. */
 void dyd_skeleton_moved(dyd_skeleton *sk);
-/* Box, tree and representative of a vertex follow its rectangle. */
+/* Box and tree follow the rectangle of a vertex; its representative, too. */
+void dyd_skeleton_set_box(dyd_skeleton *sk, uint32_t v);
 dyd_status dyd_skeleton_refresh(dyd_skeleton *sk, uint32_t v);
 /* Makes room for the sites from sk->n on; those of a skeleton of exact points are points of doubles. order[0..count-1]
  * are the sites of the new vertices, which are not in the mesh yet. ghost: a ghost triangle. On failure only clearing

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Plans: targets, face by face, proof by a triangulation of all, accuracies as coarse as can be [SUR-1]. */
+/* Plans: targets, site by site, proof by a triangulation of all, accuracies as coarse as can be [SUR-1]. */
 #include "tolerance/survey.h"
 
 #include "base/abi.h"
@@ -14,13 +14,6 @@
  * faces, of which more than one is needed where the needs of a face show only together with the others. */
 static const int finer[] = {10, 20, 40};
 enum { FINER = sizeof finer / sizeof *finer, ROUNDS = 8, STEPS = 4 };
-
-/* Rows times sites up to which every row is tried on all. */
-#ifdef DYD_ARMED
-enum { SMALL = 81 };
-#else
-enum { SMALL = 1 << 17 };
-#endif
 
 /* ---- targets ---- */
 
@@ -93,11 +86,6 @@ static dyd_status mark_near(bool *near, const dyd_delaunay *pd, uint32_t i) {
   for (size_t k = 0; k < l.count && st == DYD_OK; k++) near[l.item[k]] = true;
   dyd_index_list_clear(&l);
   return st;
-}
-
-static void forget_rows(dyd_survey *s) {
-  s->chosens = s->drafts = s->faces = 0;
-  for (size_t i = 0; i < s->sites; i++) s->site[i].chosen = false;
 }
 
 /* near[i] (may be NULL) is set where an open target, or a possible neighbour of one of its ends, is. */
@@ -185,48 +173,34 @@ static dyd_status restore_open(dyd_survey *s, size_t before) {
   return st;
 }
 
-/* A site that one face needed may have become needless by another one: faces show it. A pair that is decided within its
- * face may be open together with the others, where a disc about both ends has room; then sites are taken back. */
-static dyd_status unchoose_by_faces(dyd_survey *s) {
+/* Sites that are not needed after all, seen one by one. All together are checked, as everywhere. */
+static dyd_status unchoose(dyd_survey *s) {
+  dyd_measuring m;
   size_t before = s->result.left;
-  dyd_status st = DYD_OK;
+  dyd_status st = dyd_measuring_begin(&m, s);
   for (size_t k = 0; k < s->chosens && st == DYD_OK; k++) {
     uint32_t site = s->chosen[k].row.site;
-    bool needs = false;
-    for (size_t q = s->open.start[site]; q < s->open.start[site + 1] && !needs && st == DYD_OK; q++)
-      st = dyd_survey_face_needs(&needs, s, &s->open.face[s->open.of[q]], site);
-    if (st == DYD_OK && !needs) s->site[site].chosen = false;
+    bool holds = false;
+    s->site[site].chosen = false;
+    st = dyd_measuring_loosens(&holds, &m, site);
+    s->site[site].chosen = !holds;
   }
+  dyd_measuring_end(&m);
   if (st == DYD_OK) st = restore_open(s, before);
   settle_rows(s);
   return st;
 }
 
-/* What a face cannot see: one triangulation of all for each row. */
-static dyd_status unchoose_by_all(dyd_survey *s) {
-  size_t before = s->result.left;
-  dyd_status st = DYD_OK;
-  for (size_t k = 0; k < s->chosens && st == DYD_OK; k++) {
-    bool *chosen = &s->site[s->chosen[k].row.site].chosen;
-    *chosen = false;
-    st = recount_left(s, NULL);
-    *chosen = s->result.left > before;
-  }
-  s->result.left = before;
-  settle_rows(s);
-  return st;
-}
-
+/* Where this was not enough, sites are measured more finely, and others with them. The draft stays as it is. */
 static dyd_status choose_finely_enough(dyd_survey *s, const dyd_delaunay *pd) {
   dyd_status st = DYD_OK;
   mpq_set_ui(s->scale, 1, 1);
   if (dyd_survey_is_limited(s)) return choose_rounds(s, pd);
-  for (int k = 0; k < FINER && st == DYD_OK; k++) {
-    forget_rows(s);
+  for (int k = 0; k < FINER && st == DYD_OK && (k == 0 || s->result.left); k++) {
     mpq_set_ui(s->scale, 1, 1);
     mpq_div_2exp(s->scale, s->scale, (mp_bitcnt_t)finer[k]);
     st = choose_rounds(s, pd);
-    if (!s->result.left) break;
+    s->drafted = true;
   }
   return st;
 }
@@ -271,37 +245,40 @@ static dyd_status loosen(dyd_survey *s) {
 
 /* ---- each site alone ---- */
 
-static dyd_status open_around(size_t *open, dyd_survey *s, uint32_t site) {
+/* By the greatest power of two, at most 2^most, with which no more is open. */
+static dyd_status loosen_site(dyd_measuring *m, uint32_t site, unsigned most) {
+  unsigned least = 0;
   dyd_status st = DYD_OK;
-  *open = 0;
-  for (size_t q = s->open.start[site]; q < s->open.start[site + 1] && st == DYD_OK; q++) {
-    size_t now;
-    st = dyd_survey_face_open(&now, s, &s->open.face[s->open.of[q]]);
-    *open += now;
+  while (least < most && st == DYD_OK) {
+    bool holds;
+    unsigned middle = least + (most - least + 1) / 2;
+    m->s->site[site].coarser = middle;
+    st = dyd_measuring_loosens(&holds, m, site);
+    if (holds)
+      least = middle;
+    else
+      most = middle - 1;
   }
+  m->s->site[site].coarser = least;
   return st;
 }
 
-/* Twice as coarse, as long as its faces stay as they are, and it has to be measured at all. */
-static dyd_status loosen_site(dyd_survey *s, uint32_t site) {
-  size_t before, now;
-  dyd_status st = open_around(&before, s, site);
-  while (st == DYD_OK) {
-    s->site[site].coarser++;
-    bool less = dyd_survey_needed(s, site) * 2 <= dyd_survey_now(s, site);
-    if (less) st = open_around(&now, s, site);
-    if (st == DYD_OK && less && now <= before) continue;
-    s->site[site].coarser--;
-    return st;
-  }
-  return st;
+/* It has to be measured at all. */
+static unsigned loosen_most(dyd_survey *s, uint32_t site) {
+  unsigned *coarser = &s->site[site].coarser, most = 0;
+  for (*coarser = 1; dyd_survey_needed(s, site) * 2 <= dyd_survey_now(s, site); ++*coarser) most = *coarser;
+  *coarser = 0;
+  return most;
 }
 
-/* Faces decide; all together are checked in the end, and where they fail, the common factor alone counts. */
+/* One after the other; all together are checked in the end, and where they fail, the common factor alone counts. */
 static dyd_status loosen_each(dyd_survey *s) {
+  dyd_measuring m;
   size_t before = s->result.left;
-  dyd_status st = DYD_OK;
-  for (size_t k = 0; k < s->chosens && st == DYD_OK; k++) st = loosen_site(s, s->chosen[k].row.site);
+  dyd_status st = dyd_measuring_begin(&m, s);
+  for (size_t k = 0; k < s->chosens && st == DYD_OK; k++)
+    st = loosen_site(&m, s->chosen[k].row.site, loosen_most(s, s->chosen[k].row.site));
+  dyd_measuring_end(&m);
   return st == DYD_OK ? restore_open(s, before) : st;
 }
 
@@ -342,9 +319,8 @@ static dyd_status merge_rows(dyd_survey *s) {
 }
 
 /* The plan made small, and its accuracies coarse; then its rows. */
-static dyd_status simplify(dyd_survey *s, const dyd_delaunay *pd) {
-  dyd_status st = dyd_survey_index_faces(s, pd);
-  if (st == DYD_OK) st = s->chosens * s->sites <= SMALL ? unchoose_by_all(s) : unchoose_by_faces(s);
+static dyd_status simplify(dyd_survey *s) {
+  dyd_status st = unchoose(s);
   if (st == DYD_OK) st = loosen(s);
   if (st == DYD_OK) st = loosen_each(s);
   if (st == DYD_OK) st = merge_rows(s);
@@ -390,13 +366,14 @@ dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_su
   if (!s) return dyd_fail_nomem(err);
   mpq_init(s->scale);
   s->room = dyd_delaunay_room(pd);
+  s->threads = pd->options.threads;
   s->err = err;
   dyd_status st = dyd_abi_take(&s->options, sizeof s->options, options, "dyd_survey_options", err);
   if (st == DYD_OK) st = dyd_survey_load(s, dyd_delaunay_sites(pd));
   if (st == DYD_OK) st = survey_check(s, pd, err);
   if (st == DYD_OK) st = find_targets(s, pd);
   if (st == DYD_OK) st = choose_finely_enough(s, pd);
-  if (st == DYD_OK) st = simplify(s, pd);
+  if (st == DYD_OK) st = simplify(s);
   s->err = NULL;
   if (st == DYD_OK || (st == DYD_CANCELLED && s->first)) {
     *out = s;
@@ -416,7 +393,7 @@ void dyd_survey_free(dyd_survey *s) {
     dyd_rect_clear(&s->site[i].rect);
     mpq_clears(s->site[i].x, s->site[i].y, s->site[i].half, NULL);
   }
-  dyd_survey_index_clear(s);
+  dyd_free_all(s->first, s->at);
   dyd_free_all(s->site, s->chosen, s->row, s->draft);
   dyd_pair_list_clear(&s->target);
   mpq_clear(s->scale);

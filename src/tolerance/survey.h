@@ -4,6 +4,7 @@
 #define DYD_TOLERANCE_SURVEY_H
 
 #include "delaunay/memory.h"
+#include "delaunay/steps.h"
 #include <dyadel/survey.h>
 
 /* A site as it is, and how small it can be measured. rect: now; centre, half: of it, exactly (half of the larger
@@ -21,17 +22,6 @@ typedef struct dyd_face_row {
   size_t face;
 } dyd_face_row;
 
-/* Where the effect of a site is examined: the undecided faces of the triangulation, and for each site of the plan in a
- * large one, the sites near it (owner: this site; else DYD_NONE). The sites of each are ascending; those of site i are
- * of[start[i]] to of[start[i + 1] - 1]. */
-typedef struct dyd_survey_faces {
-  dyd_index_list *face;
-  uint32_t *owner;
-  size_t count;
-  size_t *start;
-  uint32_t *of;
-} dyd_survey_faces;
-
 /* Accuracies are min(scale * 2^coarser * unit, half): unit is the accuracy that was given, or each site's own half
  * (unit NULL). */
 struct dyd_survey {
@@ -39,11 +29,11 @@ struct dyd_survey {
   dyd_survey_options options;
   dyd_room room;  /* what the triangulation leaves of max_bytes */
   dyd_error *err; /* of the call that makes it; borrowed, may be NULL */
+  unsigned threads;
   size_t sites;
   dyd_survey_site *site;
   dyd_pair_list target; /* asked for, open, and no tie; sorted */
   size_t *first, *at;   /* those with an end i: target.item[at[first[i]]] to target.item[at[first[i + 1] - 1]] */
-  dyd_survey_faces open;
   mpq_t scale;
   dyd_face_row *chosen; /* rows of one face after the other, each face in the order to measure */
   size_t chosens, chosen_cap, faces;
@@ -51,6 +41,7 @@ struct dyd_survey {
   size_t rows;
   dyd_survey_row *draft; /* sites chosen so far, in that order, counted in a triangulation of all; while work lasts */
   size_t drafts, draft_cap;
+  bool drafted; /* nothing more is added to it */
 };
 
 /* Is it said how exactly can be measured? */
@@ -69,23 +60,18 @@ size_t dyd_survey_open(const dyd_survey *s, const dyd_delaunay *pd);
 double dyd_survey_needed(const dyd_survey *s, uint32_t i);
 double dyd_survey_now(const dyd_survey *s, uint32_t i);
 
-/* survey_face.c: sorts the targets, finds s->first and s->at; fills in s->open; releases them. */
+/* survey_face.c: sorts the targets, finds s->first and s->at. */
 dyd_status dyd_survey_index_targets(dyd_survey *s);
-dyd_status dyd_survey_index_faces(dyd_survey *s, const dyd_delaunay *pd);
-void dyd_survey_index_clear(dyd_survey *s);
 
 /* A face of more sites than these is large. */
-#ifdef DYD_ARMED
 enum { DYD_SURVEY_LARGE = 8 };
-#else
-enum { DYD_SURVEY_LARGE = 16 };
-#endif
 
 /* survey_face.c: sites are measured one by one in a triangulation of all. open[k]: is target k; degree[i]: how many
- * open ones end at site i. */
+ * open ones end at site i. Without steps it is made anew each time. */
 typedef struct dyd_measuring {
   dyd_survey *s;
   dyd_delaunay *now;
+  dyd_steps steps;
   bool *open;
   size_t *degree, left;
 } dyd_measuring;
@@ -101,11 +87,9 @@ dyd_status dyd_measuring_draft(size_t *decided, dyd_measuring *m, uint32_t i);
 dyd_status dyd_survey_crowds(dyd_measuring *m);
 /* Chooses among the sites of face f of pd so that its targets are decided; appends to s->chosen. */
 dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t f);
-/* How many targets of the face with these sites (ascending) are open at present. */
-dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_index_list *sites);
-/* Sets *needs to whether more targets of the face with these sites (ascending) would be open, were this one of them not
- * measured. */
-dyd_status dyd_survey_face_needs(bool *needs, dyd_survey *s, const dyd_index_list *sites, uint32_t site);
+/* Site i is wider in the survey than where it is measured one by one: *holds if no more targets are open so; then it is
+ * as wide there, else nothing has changed. */
+dyd_status dyd_measuring_loosens(bool *holds, dyd_measuring *m, uint32_t i);
 
 /* survey_face.c: sets how many pairs each row decides after the rows before it. */
 dyd_status dyd_survey_count_left(dyd_survey *s);

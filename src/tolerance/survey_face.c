@@ -108,14 +108,18 @@ static dyd_status centre_rect(dyd_rect *out, const void *survey, size_t i) {
   return dyd_rect_set_q(out, s->site[i].x, s->site[i].y);
 }
 
-dyd_status dyd_survey_triangulate(dyd_delaunay **pd, const dyd_survey *s, bool centres) {
-  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = s->options.cancel,
+static dyd_status survey_made(dyd_delaunay **pd, const dyd_survey *s, dyd_rect_fn *rect, const void *user) {
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = s->options.cancel, .threads = s->threads,
                                   .max_bytes = dyd_room_left(&s->room)};
   dyd_error err;
   dyd_error_clear(&err);
-  dyd_status st = dyd_delaunay_made(pd, s->sites, centres ? centre_rect : planned_rect, s, &o, &err);
+  dyd_status st = dyd_delaunay_made(pd, s->sites, rect, user, &o, &err);
   if (s->err && st < 0 && err.code == st) *s->err = err;
   return st == DYD_CAPPED ? DYD_OK : st;
+}
+
+dyd_status dyd_survey_triangulate(dyd_delaunay **pd, const dyd_survey *s, bool centres) {
+  return survey_made(pd, s, centres ? centre_rect : planned_rect, s);
 }
 
 bool dyd_survey_is_open(const dyd_delaunay *pd, const dyd_pair *p) {
@@ -142,7 +146,7 @@ double dyd_survey_now(const dyd_survey *s, uint32_t i) {
   return dyd_q_double(s->site[i].half, 1);
 }
 
-/* The faces and targets of each site, to avoid searching all of them. */
+/* The targets of each site, to avoid searching all of them. */
 
 /* s->at: each target at its lower end and at its upper one. */
 static dyd_status index_ends(dyd_survey *s) {
@@ -166,100 +170,6 @@ dyd_status dyd_survey_index_targets(dyd_survey *s) {
   return index_ends(s);
 }
 
-/* ---- where to look ---- */
-
-static bool is_of_owner(const dyd_survey_faces *open, size_t f, uint32_t site) {
-  return open->owner[f] == DYD_NONE || open->owner[f] == site;
-}
-
-/* open.start[i + 1]: where the next face of site i goes; when all are there, where those of the next site begin. */
-static dyd_status index_sites(dyd_survey_faces *open, size_t sites) {
-  size_t total = 0;
-  for (size_t f = 0; f < open->count; f++) total += open->face[f].count;
-  if (!DYD_ZEROED(open->start, sites + 2) || !DYD_NEW(open->of, total)) return DYD_E_NOMEM;
-  size_t *next = open->start + 1;
-  for (size_t f = 0; f < open->count; f++)
-    for (size_t k = 0; k < open->face[f].count; k++) {
-      uint32_t i = open->face[f].item[k];
-      next[i + 1] += is_of_owner(open, f, i);
-    }
-  for (size_t i = 0; i < sites; i++) next[i + 1] += next[i];
-  for (size_t f = 0; f < open->count; f++)
-    for (size_t k = 0; k < open->face[f].count; k++) {
-      uint32_t i = open->face[f].item[k];
-      if (is_of_owner(open, f, i)) open->of[next[i]++] = (uint32_t)f;
-    }
-  return DYD_OK;
-}
-
-/* A site, its possible neighbours without the plan, and the possible neighbours of all these with it: what the site can
- * change has an end among the former [LOC-4], and sites that can be in the way of that are mostly among the latter. */
-static dyd_status find_those_near(dyd_index_list *out, const dyd_delaunay *pd, const dyd_delaunay *planned,
-                                  uint32_t site) {
-  dyd_index_list near = {0};
-  size_t cap = 0;
-  dyd_status st = dyd_delaunay_neighbours(&near, pd, site, DYD_TIE);
-  if (st == DYD_OK) st = dyd_index_list_add(out, &cap, near.item, near.count);
-  if (st == DYD_OK) st = dyd_index_list_add(out, &cap, &site, 1);
-  for (size_t k = 0, first = out->count; k < first && st == DYD_OK; k++) {
-    st = dyd_delaunay_neighbours(&near, planned, out->item[k], DYD_TIE);
-    if (st == DYD_OK) st = dyd_index_list_add(out, &cap, near.item, near.count);
-  }
-  dyd_index_list_sort(out);
-  dyd_index_list_clear(&near);
-  return st;
-}
-
-/* Faces that are not large; *large, where there are others, and each of their sites. */
-static dyd_status add_faces(bool *large, bool *is_in_large, dyd_survey_faces *open, const dyd_delaunay *pd) {
-  bool outer;
-  dyd_status st = DYD_OK;
-  *large = false;
-  for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd) && st == DYD_OK; f++) {
-    dyd_index_list *face = &open->face[open->count];
-    st = dyd_delaunay_face(face, &outer, pd, f);
-    if (st == DYD_OK && face->count <= DYD_SURVEY_LARGE) {
-      open->owner[open->count++] = DYD_NONE;
-      continue;
-    }
-    *large = true;
-    for (size_t k = 0; k < face->count; k++) is_in_large[face->item[k]] = true;
-    dyd_index_list_clear(face);
-  }
-  return st;
-}
-
-static dyd_status add_those_in_large(dyd_survey *s, const bool *is_in_large, const dyd_delaunay *pd) {
-  dyd_delaunay *planned = NULL;
-  dyd_status st = dyd_survey_triangulate(&planned, s, false);
-  for (uint32_t i = 0; i < s->sites && st == DYD_OK; i++) {
-    if (!is_in_large[i] || !s->site[i].chosen) continue;
-    s->open.owner[s->open.count] = i;
-    st = find_those_near(&s->open.face[s->open.count++], pd, planned, i);
-  }
-  dyd_delaunay_free(planned);
-  return st;
-}
-
-dyd_status dyd_survey_index_faces(dyd_survey *s, const dyd_delaunay *pd) {
-  dyd_survey_faces *open = &s->open;
-  size_t most = dyd_delaunay_undecided_faces(pd) + s->sites + 1;
-  bool large = false, *is_in_large = calloc(s->sites + 1, sizeof *is_in_large);
-  open->face = calloc(most, sizeof *open->face);
-  open->owner = dyd_alloc(most, sizeof *open->owner);
-  dyd_status st = is_in_large && open->face && open->owner ? DYD_OK : DYD_E_NOMEM;
-  if (st == DYD_OK) st = add_faces(&large, is_in_large, open, pd);
-  if (st == DYD_OK && large) st = add_those_in_large(s, is_in_large, pd);
-  if (st == DYD_OK) st = index_sites(open, s->sites);
-  free(is_in_large);
-  return st;
-}
-
-void dyd_survey_index_clear(dyd_survey *s) {
-  for (size_t f = 0; s->open.face && f < s->open.count; f++) dyd_index_list_clear(&s->open.face[f]);
-  dyd_free_all(s->open.face, s->open.owner, s->open.start, s->open.of, s->first, s->at);
-}
-
 /* Sites are measured one by one in a triangulation of all; how many targets each row of a plan decides after the rows
  * before. A pair whose status changes has an end at the site or at a possible neighbour of it [LOC-4]: only these are
  * examined. */
@@ -272,55 +182,87 @@ static dyd_status choose_site(dyd_survey *s, uint32_t site, size_t decided) {
   return DYD_OK;
 }
 
+static void measuring_note(dyd_measuring *m, size_t k) {
+  const dyd_pair *p = &m->s->target.item[k];
+  if (!m->open[k]) return;
+  m->open[k] = false;
+  m->left--, m->degree[p->i]--, m->degree[p->j]--;
+}
+
+/* Targets that are open no longer, in the triangulation as it is made. */
+static dyd_status measuring_look(dyd_measuring *m) {
+  uint64_t bytes = dyd_bytes_add(dyd_delaunay_memory(m->now), dyd_steps_bytes(m->now));
+  for (size_t k = 0; k < m->s->target.count; k++)
+    if (!dyd_survey_is_open(m->now, &m->s->target.item[k])) measuring_note(m, k);
+  if (!dyd_steps_can(m->now)) return DYD_OK;
+  if (!dyd_room_has(&m->s->room, bytes, "the plan")) return DYD_E_NOMEM;
+  return dyd_steps_begin(&m->steps, m->now, m->s->options.cancel);
+}
+
 dyd_status dyd_measuring_begin(dyd_measuring *m, dyd_survey *s) {
-  *m = (dyd_measuring){.s = s};
-  if (!DYD_ZEROED(m->open, s->target.count + 1) || !DYD_ZEROED(m->degree, s->sites + 1)) return DYD_E_NOMEM;
-  dyd_status st = dyd_survey_triangulate(&m->now, s, false);
-  for (size_t k = 0; k < s->target.count && st == DYD_OK; k++) {
-    const dyd_pair *p = &s->target.item[k];
-    m->open[k] = dyd_survey_is_open(m->now, p);
-    if (m->open[k]) m->left++, m->degree[p->i]++, m->degree[p->j]++;
+  *m = (dyd_measuring){.s = s, .left = s->target.count};
+  if (!DYD_NEW(m->open, s->target.count) || !DYD_ZEROED(m->degree, s->sites + 1)) return DYD_E_NOMEM;
+  for (size_t k = 0; k < s->target.count; k++) {
+    m->open[k] = true;
+    m->degree[s->target.item[k].i]++, m->degree[s->target.item[k].j]++;
   }
-  return st;
+  dyd_status st = dyd_survey_triangulate(&m->now, s, false);
+  return st == DYD_OK ? measuring_look(m) : st;
 }
 
 void dyd_measuring_end(dyd_measuring *m) {
+  dyd_steps_clear(&m->steps);
   dyd_delaunay_free(m->now);
   dyd_free_all(m->open, m->degree);
 }
 
-static void note_decided(dyd_measuring *m, uint32_t i) {
-  const dyd_survey *s = m->s;
-  for (size_t q = s->first[i]; q < s->first[i + 1] && m->degree[i]; q++) {
-    const dyd_pair *p = &s->target.item[s->at[q]];
-    if (!m->open[s->at[q]] || dyd_survey_is_open(m->now, p)) continue;
-    m->open[s->at[q]] = false;
-    m->left--, m->degree[p->i]--, m->degree[p->j]--;
-  }
+static dyd_status table_rect(dyd_rect *out, const void *sites, size_t i) {
+  return dyd_sites_get(out, sites, i);
 }
 
-/* Where there are more open pairs than can be stored, neighbours are not all listed. */
-static void note_decided_near(dyd_measuring *m, uint32_t i, const dyd_index_list *near) {
-  note_decided(m, i);
-  for (size_t k = 0; k < near->count; k++) note_decided(m, near->item[k]);
-  for (uint32_t k = 0; k < m->s->sites && dyd_delaunay_is_capped(m->now); k++) note_decided(m, k);
+/* Made anew of the rectangles as they are. */
+static dyd_status measuring_renew(dyd_measuring *m) {
+  dyd_delaunay *next = NULL;
+  dyd_status st = survey_made(&next, m->s, table_rect, m->now->own);
+  if (st != DYD_OK) return st;
+  dyd_steps_clear(&m->steps);
+  dyd_delaunay_free(m->now);
+  m->now = next;
+  return measuring_look(m);
+}
+
+/* The number of a target; SIZE_MAX: it is none. */
+static size_t target_number(const dyd_survey *s, uint32_t i, uint32_t j) {
+  const uint32_t key[2] = {i < j ? i : j, i < j ? j : i};
+  const dyd_pair *p = dyd_find_two(key, s->target.item, s->target.count, sizeof *p);
+  return p ? (size_t)(p - s->target.item) : SIZE_MAX;
+}
+
+static bool is_target(void *survey, uint32_t i, uint32_t j) {
+  return target_number(survey, i, j) != SIZE_MAX;
+}
+
+static void measuring_note_ended(dyd_measuring *m) {
+  const uint32_t *site = m->now->sk.reps.site;
+  for (size_t k = 0; k < m->steps.ended.count; k++) {
+    const dyd_vertex_pair *p = &m->steps.pair[m->steps.ended.item[k]];
+    size_t number = target_number(m->s, site[p->i], site[p->j]);
+    if (number != SIZE_MAX) measuring_note(m, number);
+  }
 }
 
 /* *decided: how many targets this measurement decides. */
 static dyd_status measuring_site(size_t *decided, dyd_measuring *m, uint32_t i) {
-  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = m->s->options.cancel};
-  dyd_index_list near = {0};
   size_t before = m->left;
+  bool holds = false;
   dyd_rect r;
   dyd_rect_init(&r);
   dyd_status st = survey_rect(&r, m->s, i, true);
-  if (st == DYD_OK) st = dyd_delaunay_neighbours(&near, m->now, i, DYD_TIE);
   if (st == DYD_OK) st = dyd_sites_narrow(m->now->own, i, &r);
-  if (st == DYD_OK) st = dyd_delaunay_update(m->now, &i, 1, &o, m->s->err);
-  if (st == DYD_CAPPED) st = DYD_OK;
-  if (st == DYD_OK) note_decided_near(m, i, &near);
+  if (st == DYD_OK && m->steps.pd) st = dyd_steps_narrow(&holds, &m->steps, i);
+  if (st == DYD_OK && holds) measuring_note_ended(m);
+  if (st == DYD_OK && !holds) st = measuring_renew(m);
   *decided = before - m->left;
-  dyd_index_list_clear(&near);
   dyd_rect_clear(&r);
   return st;
 }
@@ -328,7 +270,7 @@ static dyd_status measuring_site(size_t *decided, dyd_measuring *m, uint32_t i) 
 dyd_status dyd_measuring_draft(size_t *decided, dyd_measuring *m, uint32_t i) {
   dyd_survey *s = m->s;
   dyd_status st = measuring_site(decided, m, i);
-  if (st != DYD_OK) return st;
+  if (st != DYD_OK || s->drafted) return st;
   if (!DYD_GROW(s->draft, s->draft_cap, s->drafts + 1)) return DYD_E_NOMEM;
   s->draft[s->drafts++] = (dyd_survey_row){i, dyd_survey_now(s, i), dyd_survey_needed(s, i), *decided, m->left};
   return DYD_OK;
@@ -373,17 +315,11 @@ static double worth_of(const dyd_measuring *m, uint32_t i) {
 
 /* Marks sites of large faces at which open targets end and that can be measured. */
 static dyd_status mark_crowd(bool *mark, const dyd_measuring *m) {
-  dyd_index_list face = {0};
-  bool outer;
-  dyd_status st = DYD_OK;
-  for (size_t f = 0; f < dyd_delaunay_undecided_faces(m->now) && st == DYD_OK; f++) {
-    st = dyd_delaunay_face(&face, &outer, m->now, f);
-    for (size_t k = 0; k < face.count && st == DYD_OK && face.count > DYD_SURVEY_LARGE; k++) {
-      const dyd_survey_site *p = &m->s->site[face.item[k]];
-      mark[face.item[k]] = m->degree[face.item[k]] && !p->chosen && mpq_sgn(p->half) > 0;
-    }
+  dyd_status st = m->steps.pd ? dyd_steps_large(mark, &m->steps, DYD_SURVEY_LARGE) : DYD_OK;
+  for (size_t i = 0; i < m->s->sites; i++) {
+    const dyd_survey_site *p = &m->s->site[i];
+    mark[i] = (mark[i] || !m->steps.pd) && m->degree[i] && !p->chosen && mpq_sgn(p->half) > 0;
   }
-  dyd_index_list_clear(&face);
   return st;
 }
 
@@ -431,6 +367,7 @@ dyd_status dyd_survey_crowds(dyd_measuring *m) {
 /* Sites and targets by their numbers in the face; measured[k]: how it is tried. */
 typedef struct face_try {
   dyd_survey *s;
+  const dyd_sites *own; /* NULL: as measured[] says; else they are as in this table */
   dyd_index_list sites;
   dyd_pair *target;
   size_t targets;
@@ -447,6 +384,7 @@ static uint32_t survey_number_in(const dyd_index_list *sites, uint32_t site) {
 
 static dyd_status tried_rect(dyd_rect *out, const void *face, size_t k) {
   const face_try *f = face;
+  if (f->own) return dyd_sites_get(out, f->own, f->sites.item[k]);
   return survey_rect(out, f->s, f->sites.item[k], f->measured[k]);
 }
 
@@ -601,28 +539,56 @@ dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t face) {
   return st;
 }
 
-dyd_status dyd_survey_face_needs(bool *needs, dyd_survey *s, const dyd_index_list *sites, uint32_t site) {
-  face_try f = {.s = s, .sites = *sites};
-  size_t *open = NULL, with, without;
-  uint32_t k = survey_number_in(sites, site);
-  *needs = false;
-  dyd_status st = face_begin(&f, &open);
-  if (st == DYD_OK) st = try_face(&with, NULL, &f);
-  if (st == DYD_OK) {
-    f.measured[k] = false;
-    st = try_face(&without, NULL, &f);
-    *needs = st == DYD_OK && without > with;
-  }
+/* How many targets of the part that the step reached are open in it. */
+static dyd_status part_open(size_t *open_pairs, dyd_measuring *m) {
+  face_try f = {.s = m->s, .own = m->now->own};
+  size_t *open = NULL;
+  *open_pairs = 0;
+  dyd_status st = dyd_steps_part_sites(&f.sites, &m->steps);
+  if (st == DYD_OK) st = face_begin(&f, &open);
+  if (st == DYD_OK && f.targets) st = try_face(open_pairs, NULL, &f);
   face_end(&f, open);
+  dyd_index_list_clear(&f.sites);
   return st;
 }
 
-dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_index_list *sites) {
-  face_try f = {.s = s, .sites = *sites};
-  size_t *open = NULL;
-  *open_pairs = 0;
-  dyd_status st = face_begin(&f, &open);
-  if (st == DYD_OK && f.targets) st = try_face(open_pairs, NULL, &f);
-  face_end(&f, open);
+/* Pairs of faces in the part are counted in a triangulation of the part alone [LOC-1]. */
+static dyd_status part_holds(bool *holds, dyd_measuring *m, uint32_t i, const dyd_rect *old, const dyd_rect *now) {
+  size_t before = 0, after = 0;
+  if (dyd_steps_part_is_sure(&m->steps)) return DYD_OK;
+  dyd_status st = part_open(&after, m);
+  if (st == DYD_OK && after) st = dyd_sites_replace(m->now->own, i, old);
+  if (st == DYD_OK && after) st = part_open(&before, m);
+  if (st == DYD_OK && after) st = dyd_sites_replace(m->now->own, i, now);
+  *holds = after <= before;
+  return st;
+}
+
+/* Without steps: in a triangulation of all. */
+static dyd_status all_holds(bool *holds, dyd_survey *s, size_t before) {
+  dyd_delaunay *pd = NULL;
+  dyd_status st = dyd_survey_triangulate(&pd, s, false);
+  *holds = st == DYD_OK && dyd_survey_open(s, pd) <= before;
+  dyd_delaunay_free(pd);
+  return st;
+}
+
+dyd_status dyd_measuring_loosens(bool *holds, dyd_measuring *m, uint32_t i) {
+  dyd_rect old, now;
+  if (!m->steps.pd) return all_holds(holds, m->s, m->left);
+  dyd_rect_init(&old);
+  dyd_rect_init(&now);
+  *holds = false;
+  dyd_status st = dyd_sites_get(&old, m->now->own, i);
+  if (st == DYD_OK) st = survey_rect(&now, m->s, i, m->s->site[i].chosen);
+  if (st == DYD_OK) st = dyd_sites_replace(m->now->own, i, &now);
+  if (st == DYD_OK) st = dyd_steps_widen(holds, &m->steps, i, is_target, m->s);
+  if (st == DYD_OK && *holds) st = part_holds(holds, m, i, &old, &now);
+  if (st == DYD_OK && !*holds) {
+    st = dyd_sites_replace(m->now->own, i, &old);
+    dyd_steps_back(&m->steps, i);
+  }
+  dyd_rect_clear(&now);
+  dyd_rect_clear(&old);
   return st;
 }
