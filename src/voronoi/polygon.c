@@ -191,34 +191,58 @@ static bool boxes_meet(const double a[4], const double b[4]) {
   return a[0] <= b[1] && b[0] <= a[1] && a[2] <= b[3] && b[2] <= a[3];
 }
 
-/* Edge j against the edges before it; box holds those of edges 0 .. j. */
-static bool edge_is_free(const dyd_polygon *p, double (*box)[4], size_t j) {
+/* Edges i < j, whose boxes meet. */
+static bool edges_are_free(const dyd_polygon *p, size_t i, size_t j) {
   size_t n = p->count;
-  const dyd_point *z = p->vertex, *c = &z[j], *d = &z[(j + 1) % n];
-  for (size_t i = 0; i < j; i++) {
-    if (!boxes_meet(box[i], box[j])) continue;
-    const dyd_point *a = &z[i], *b = &z[i + 1];
-    bool after = i + 1 == j, before = j + 1 == n && i == 0;
-    if (after && folds_back(a, b, d)) return false;
-    if (before && folds_back(c, d, b)) return false;
-    if (!after && !before && segments_meet(a, b, c, d)) return false;
-  }
+  const dyd_point *z = p->vertex, *a = &z[i], *b = &z[i + 1], *c = &z[j], *d = &z[(j + 1) % n];
+  bool after = i + 1 == j, before = j + 1 == n && i == 0;
+  if (after && folds_back(a, b, d)) return false;
+  if (before && folds_back(c, d, b)) return false;
+  return after || before || !segments_meet(a, b, c, d);
+}
+
+/* Boxes of the edges, from number `leaves` on, which is a power of 2, and of all below a node: 2 k and 2 k + 1 are
+ * below k. Edges that follow each other are near each other, so few boxes meet. */
+typedef struct edge_boxes {
+  const dyd_polygon *p;
+  double (*box)[4];
+  size_t leaves;
+  const volatile int *cancel;
+} edge_boxes;
+
+/* Returns true if no edge below a meets one below b, which come later, or the work is cancelled. */
+static bool branches_are_free(const edge_boxes *t, size_t a, size_t b) {
+  if (!boxes_meet(t->box[a], t->box[b]) || dyd_flag_is_set(t->cancel)) return true;
+  if (a >= t->leaves) return edges_are_free(t->p, a - t->leaves, b - t->leaves);
+  for (size_t k = 0; k < 4; k++)
+    if (!branches_are_free(t, 2 * a + (k >> 1), 2 * b + (k & 1))) return false;
   return true;
 }
 
-dyd_status dyd_polygon_is_simple(bool *out, dyd_polygon *p, const volatile int *cancel) {
-  drop_repeats(p);
-  double(*box)[4] = dyd_alloc(p->count, sizeof *box);
-  if (!box) return DYD_E_NOMEM;
-  *out = p->count >= 3;
-  dyd_status st = DYD_OK;
-  for (size_t j = 0; *out && j < p->count && st == DYD_OK; j++) {
-    edge_box(box[j], &p->vertex[j], &p->vertex[(j + 1) % p->count]);
-    *out = edge_is_free(p, box, j);
-    if (dyd_flag_is_set(cancel)) st = DYD_CANCELLED;
+static void fill_boxes(edge_boxes *t) {
+  for (size_t k = 2 * t->leaves; k-- > 1;) {
+    double *out = t->box[k];
+    size_t j = k - t->leaves, n = t->p->count;
+    for (int q = 0; q < 4; q++) out[q] = q & 1 ? -INFINITY : INFINITY;
+    if (k >= t->leaves && j < n) edge_box(out, &t->p->vertex[j], &t->p->vertex[(j + 1) % n]);
+    for (size_t half = 0; k < t->leaves && half < 2; half++) {
+      const double *b = t->box[2 * k + half];
+      for (int q = 0; q < 4; q++) out[q] = q & 1 ? fmax(out[q], b[q]) : fmin(out[q], b[q]);
+    }
   }
-  free(box);
-  return st;
+}
+
+dyd_status dyd_polygon_is_simple(bool *out, dyd_polygon *p, const volatile int *cancel) {
+  edge_boxes t = {.p = p, .leaves = 1, .cancel = cancel};
+  drop_repeats(p);
+  while (t.leaves < p->count) t.leaves *= 2;
+  t.box = dyd_alloc(2 * t.leaves, sizeof *t.box);
+  if (!t.box) return DYD_E_NOMEM;
+  fill_boxes(&t);
+  *out = p->count >= 3;
+  for (size_t k = 1; *out && k < t.leaves; k++) *out = branches_are_free(&t, 2 * k, 2 * k + 1);
+  free(t.box);
+  return dyd_flag_is_set(cancel) ? DYD_CANCELLED : DYD_OK;
 }
 
 /* ---- copies ---- */

@@ -138,8 +138,8 @@ dyd_status dyd_window_enlarge(dyd_rect *out, const dyd_rect *window, int64_t bit
 /* The vertices become those of their convex hull, counter-clockwise; none when they lie on a line. O(n log n). */
 dyd_status dyd_polygon_make_convex(dyd_polygon *p);
 /* Sets *out to whether no edge meets another one but in the common vertex of neighbours. Repeated consecutive vertices
- * are taken out first. O(n^2) comparisons of doubles, exact steps only where boxes of edges meet. DYD_CANCELLED once
- * *cancel, which may be NULL, is set. */
+ * are taken out first. About O(n log n) comparisons of doubles where the curve is smooth, exact steps only where boxes
+ * of edges meet. DYD_CANCELLED once *cancel, which may be NULL, is set. */
 dyd_status dyd_polygon_is_simple(bool *out, dyd_polygon *p, const volatile int *cancel);
 /* Cuts simple polygons, counter-clockwise, to the window: the new ones lie in it and hold what of the old ones did;
  * where they cross its sides they are rounded outward along them, to multiples of 2^-bits. *simple = false: rounding,

@@ -17,6 +17,8 @@
 #include <dyadel/stream.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { LATTICE, DOUBLES, DECIMALS, MIXED, KINDS, MOST = 60 };
 
@@ -269,7 +271,67 @@ static void same_as_exact(void **state) {
               10 * done[MIXED] > 7 * cells[MIXED] && done[LATTICE] > 0);
 }
 
+/* ---- simple or not: small lattices, where much touches ---- */
+
+static long turn_of(const long a[2], const long b[2], const long c[2]) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/* z, on the line through a and b, is between them, or one of them. */
+static bool is_between(const long z[2], const long a[2], const long b[2]) {
+  return (z[0] - a[0]) * (z[0] - b[0]) + (z[1] - a[1]) * (z[1] - b[1]) <= 0;
+}
+
+static bool edges_meet(const long a[2], const long b[2], const long c[2], const long d[2]) {
+  long s = turn_of(a, b, c), t = turn_of(a, b, d), u = turn_of(c, d, a), v = turn_of(c, d, b);
+  if (((s > 0 && t < 0) || (s < 0 && t > 0)) && ((u > 0 && v < 0) || (u < 0 && v > 0))) return true;
+  return (!s && is_between(c, a, b)) || (!t && is_between(d, a, b)) || (!u && is_between(a, c, d)) ||
+         (!v && is_between(b, c, d));
+}
+
+/* No vertex is that before it. */
+static bool simple_by_all_pairs(long z[][2], size_t n) {
+  for (size_t i = 0; i < n; i++) {
+    long *a = z[i], *b = z[(i + 1) % n], *c = z[(i + 2) % n];
+    if (!turn_of(a, b, c) && is_between(c, a, b)) return false;
+    if (!turn_of(a, b, c) && is_between(a, b, c)) return false;
+    for (size_t j = i + 2; j < n; j++)
+      if (!(i == 0 && j + 1 == n) && edges_meet(a, b, z[j], z[(j + 1) % n])) return false;
+  }
+  return n >= 3;
+}
+
+static void simple_as_by_all_pairs(void **state) {
+  (void)state;
+  enum { MOST_CORNERS = 9 };
+  test_random r = test_random_start("simple polygons");
+  size_t simple = 0, all = 20 * test_cases(1000);
+  for (size_t times = 0; times < all; times++) {
+    size_t n = (size_t)test_between(&r, 3, MOST_CORNERS);
+    long z[MOST_CORNERS][2];
+    bool found;
+    dyd_polygon p = {0};
+    p.vertex = calloc(n, sizeof *p.vertex);
+    assert_non_null(p.vertex);
+    for (; p.count < n; p.count++) {
+      dyd_point *v = &p.vertex[p.count];
+      do
+        for (int k = 0; k < 2; k++) z[p.count][k] = (long)test_below(&r, 5);
+      while ((p.count && !memcmp(z[p.count], z[p.count - 1], sizeof *z)) ||
+             (p.count + 1 == n && !memcmp(z[p.count], z[0], sizeof *z)));
+      dyd_point_init(v);
+      assert_int_equal(dyd_dyadic_set_si_2exp(&v->x, z[p.count][0], -3), DYD_OK);
+      assert_int_equal(dyd_dyadic_set_si_2exp(&v->y, z[p.count][1], 40), DYD_OK);
+    }
+    assert_int_equal(dyd_polygon_is_simple(&found, &p, NULL), DYD_OK);
+    assert_int_equal(found, simple_by_all_pairs(z, n));
+    simple += found;
+    dyd_polygon_clear(&p);
+  }
+  assert_true(20 * simple > all && 20 * simple < 19 * all);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(same_as_exact)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(same_as_exact), cmocka_unit_test(simple_as_by_all_pairs)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
