@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Rows over cells: polygons of all cells and both bounds of the diagram on the unit square; cells of thin boxes, cells
  * near (boxes of three hundredths of the spacing), apart (boxes of a tenth of the spacing), cells touch (lightly: of
- * three tenths). Time a site; nobody else computes these. tiles: polygons of exact points, beside their triangulation;
- * tiles-grid: of a square grid; diagram: both together, beside CGAL; clip: tiles cut to a border. */
+ * three tenths), cells gps (squares of a receiver, many of which overlap). Time a site; nobody else computes these.
+ * discs: statuses of the discs in those squares, beside their triangulation. tiles: polygons of exact points, beside
+ * their triangulation; tiles-grid: of a square grid; diagram: both together, beside CGAL; clip: tiles cut to a border.
+ */
 #include "answers.h"
 #include "cloud.h"
 #include "harness.h"
 #include "peer.h"
 
 #include <dyadel/metric.h>
+#include <dyadel/tolerance.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -26,17 +29,17 @@ typedef struct cells_answer {
 
 /* One run on a triangulation that is there. The whole square is undetermined at most, and something is wherever boxes
  * have an extent. */
-static bench_cost cells_run(cells_answer *answer, const char *row, const dyd_delaunay *pd) {
+static bench_cost cells_run(cells_answer *answer, const char *row, const dyd_delaunay *pd, double side) {
   dyd_rect window;
   dyd_voronoi_bounds b;
   dyd_rect_init(&window);
   dyd_voronoi_bounds_init(&b);
-  cells_check(row, dyd_interval_set_d(&window.x, 0, 1));
-  cells_check(row, dyd_interval_set_d(&window.y, 0, 1));
+  cells_check(row, dyd_rect_set_d(&window, 0, side, 0, side));
   bench_meter meter = bench_start();
   cells_check(row, dyd_metric_voronoi(&b, pd, &window, dyd_metric_coarseness(pd, &window) + 4, NULL));
   bench_cost cost = bench_stop(&meter);
-  double area = dyd_dyadic_get_d(&b.area, DYD_UP), distance = dyd_dyadic_get_d(&b.hausdorff, DYD_UP);
+  double area = dyd_dyadic_get_d(&b.area, DYD_UP) / (side * side);
+  double distance = dyd_dyadic_get_d(&b.hausdorff, DYD_UP) / side;
   if (!b.finite || !(area > 0 && area <= 1 && distance > 0 && distance < 1)) bench_die(row, "the bounds are wrong");
   answer->area = (size_t)llround(area * 1e9);
   answer->distance = (size_t)llround(distance * 1e9);
@@ -46,20 +49,24 @@ static bench_cost cells_run(cells_answer *answer, const char *row, const dyd_del
   return cost;
 }
 
-/* Boxes of half-width share / sqrt(n). goal: microseconds a site. */
+/* Boxes of half-width share / sqrt(n) in the unit square; share 0: the squares of a receiver. goal: microseconds a
+ * site.
+ */
 static void row_cells(const bench_options *o, const char *name, size_t n, double share, double goal) {
   cloud boxes;
+  bool gps = share == 0;
   bench_series ours = {0};
   dyd_sites *sites = NULL;
   dyd_delaunay *pd = NULL;
   cells_answer answer = {0};
   if (!bench_wants(o, name)) return;
-  cloud_uniform(&boxes, bench_size(o, n));
-  cloud_widen(&boxes, share / sqrt((double)boxes.n));
+  (gps ? cloud_gps : cloud_uniform)(&boxes, bench_size(o, n));
+  if (!gps) cloud_widen(&boxes, share / sqrt((double)boxes.n));
+  double side = gps ? sqrt((double)boxes.n) : 1;
   cells_check(name, dyd_sites_new(&sites));
   cells_check(name, dyd_sites_add_boxes(sites, boxes.n, boxes.x0, boxes.x1, boxes.y0, boxes.y1));
   cells_check(name, dyd_delaunay_new(&pd, sites, NULL, NULL));
-  for (size_t r = 0; r < bench_runs(o, 3); r++) bench_series_add(&ours, cells_run(&answer, name, pd));
+  for (size_t r = 0; r < bench_runs(o, 3); r++) bench_series_add(&ours, cells_run(&answer, name, pd, side));
   bench_check_numbers(o, name, boxes.n, answer.area, answer.distance, 0);
   bench_report(o, &(bench_row){.name = name,
                                .n = boxes.n,
@@ -71,6 +78,44 @@ static void row_cells(const bench_options *o, const char *name, size_t n, double
                                .remark = answer.remark});
   dyd_delaunay_free(pd);
   dyd_sites_free(sites);
+  cloud_clear(&boxes);
+}
+
+/* Statuses of the discs of a receiver, the triangulation of their squares included, beside that alone. */
+static void row_discs(const bench_options *o, const char *name, size_t n) {
+  cloud boxes;
+  bench_series ours = {0}, plain = {0};
+  size_t count[4] = {0};
+  if (!bench_wants(o, name)) return;
+  cloud_gps(&boxes, bench_size(o, n));
+  for (size_t r = 0; r < bench_runs(o, 3); r++) {
+    dyd_sites *sites = NULL;
+    dyd_delaunay *pd = NULL;
+    dyd_pair_list pairs = {0};
+    cells_check(name, dyd_sites_new(&sites));
+    cells_check(name, dyd_sites_add_boxes(sites, boxes.n, boxes.x0, boxes.x1, boxes.y0, boxes.y1));
+    bench_meter squares = bench_start(), all = squares;
+    cells_check(name, dyd_delaunay_new(&pd, sites, NULL, NULL));
+    bench_series_add(&plain, bench_stop(&squares));
+    cells_check(name, dyd_disc_pairs(&pairs, pd, NULL, NULL));
+    bench_series_add(&ours, bench_stop(&all));
+    for (int k = 0; k < 4; k++) count[k] = 0;
+    for (size_t k = 0; k < pairs.count; k++) count[pairs.item[k].status]++;
+    dyd_pair_list_clear(&pairs);
+    dyd_delaunay_free(pd);
+    dyd_sites_free(sites);
+  }
+  bench_check_numbers(o, name, boxes.n, count[DYD_LEGAL], count[DYD_INDETERMINATE], 0);
+  bench_report(o, &(bench_row){.name = name,
+                               .n = boxes.n,
+                               .ours = &ours,
+                               .peer = &plain,
+                               .peer_name = "own triangulation",
+                               .ratio_goal = 3,
+                               .measure = "us an open pair",
+                               .figure = bench_series_median(&ours).seconds / (double)count[DYD_INDETERMINATE] * 1e6,
+                               .figure_goal = 10,
+                               .remark = "statuses of discs, squares included"});
   cloud_clear(&boxes);
 }
 
@@ -208,6 +253,8 @@ int main(int argc, char **argv) {
     row_cells(&o, "cells-near", 2000, 0.03, 100);
     row_cells(&o, "cells-apart", 1000, 0.1, 100);
     row_cells(&o, "cells-touch", 1000, 0.3, 100);
+    row_cells(&o, "cells-gps", 10000, 0, 100);
+    row_discs(&o, "discs", 10000);
     row_tiles(&o, "tiles", 1000000, false);
     row_tiles(&o, "tiles-grid", 1000000, true);
     row_diagram(&o, "diagram", 1000000);
