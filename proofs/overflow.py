@@ -51,7 +51,7 @@ PARTS = {  # tests of some minutes; those but the first are of what reads and ke
 }
 UNWRITTEN = {'caps', 'discs', 'graphs', 'near', 'places'}  # of src/checker, all functions left out: contract not written yet
 # About certificates on a sphere: of fractions of GMP, lists of enclosures, and a checker within one no header says enough.
-LEFT_OUT = {'around', 'cocircular', 'globe', 'globe_places', 'image', 'region', 'sphere'}
+LEFT_OUT = {'around', 'cocircular', 'globe', 'globe_near', 'globe_places', 'image', 'region', 'sphere'}
 # Not proved again since they, or headers that they include, were changed: passed over where a part is asked for.
 OUTDATED = {'parts', 'checker', 'measure', 'still', 'faces', 'certificate', 'pairs', 'diagram'}
 ITEMS = {'start': 'sizes', 'first': 'sizes', 'entry': 'entries', 'term': 'terms', 'digits': 'chars', 'den': 'numbers',

@@ -38,8 +38,10 @@ typedef struct dyd_certificate_parts {
   bool diagram;
   const struct dyd_rect *window;
   const struct dyd_sphere *sphere; /* the current result of a sphere, with a section on it; e is ignored */
-  /* The answers of dyd_engine_nearest to so many places, for the rectangles of e as they are now, and their outcome, a
-   * dyd_outcome, in place of everything else [CERT-12]. */
+  /* The answers of dyd_engine_nearest, dyd_disc_nearest or, with a sphere, dyd_sphere_nearest to so many places, for
+   * the rectangles as they are now, and their outcome, a dyd_outcome, in place of everything else [CERT-12]. An answer
+   * that is certain only by less than rounding takes becomes one that is not, and the outcome budget; bounds of
+   * distances may be wider than those of the answers. */
   const struct dyd_nearest_answer *const *answer;
   size_t answers;
   int outcome;

@@ -273,10 +273,11 @@ let skip_discs s discs =
 let read_rest s known size =
   let ends blocks diagram beside sphere = ends s; (List.rev blocks, diagram, List.rev beside, sphere) in
   let rec skip_all () = if next s <> "end" || s.at < String.length s.text then skip_all () in
+  let in_discs = ref false in
   let rec sections blocks beside =
     match words s with
     | [ "end" ] -> ends blocks None beside false
-    | "discs" :: discs :: ([] | [ "fixed" ]) -> sections blocks (skip_discs s discs :: beside)
+    | "discs" :: discs :: ([] | [ "fixed" ]) -> in_discs := true; sections blocks (skip_discs s discs :: beside)
     | [ "graph"; name; rows ] ->
       skip s rows;
       sections blocks (Printf.sprintf "the graph %s, of which %s edges are listed" name rows :: beside)
@@ -284,19 +285,28 @@ let read_rest s known size =
     | "window" :: corners ->
       let diagram = read_diagram s known corners in
       if next s <> "end" then bad s "\"end\" is missing";
-      ends blocks (Some diagram) beside false
+      if !in_discs then ends blocks None ("the diagram of points in discs" :: beside) false
+      else ends blocks (Some diagram) beside false
     | [ "algebra"; k ] -> sections (Described.block s size k :: blocks) beside
     | _ -> bad s "this is no section"
   in
   sections [] []
 
+(* Places on a sphere, their radius and number: the checker does not know them. *)
+let skip_globe s =
+  (match words s with "radius" :: _ -> () | _ -> bad s "\"radius\" is missing");
+  match words s with [ "places"; n ] -> skip s n | _ -> bad s "\"places\" is missing"
+
 (* A certificate of nearest sites: the checker knows of the sites only. *)
 let read_nearest s (outcome, goal, capped) (sites, aliases, rects) =
-  let beside =
+  let rec places () =
     match words s with
+    | "discs" :: discs :: ([] | [ "fixed" ]) -> skip s discs; places ()
+    | [ "sphere" ] -> skip_globe s; places ()
     | [ "nearest"; q ] -> skip s q; Printf.sprintf "which sites are nearest to %s places, and how far they are" q
     | _ -> bad s "\"nearest\" is missing"
   in
+  let beside = places () in
   if next s <> "end" then bad s "\"end\" is missing";
   ends s;
   let pairs =

@@ -199,8 +199,9 @@ dyd_status dyd_checker_settle(dyd_checker *c, const bool *still) {
   dyd_certificate_report *r = &c->report;
   bool stays = false;
   settle_sections(c, still);
-  if (c->globe.stated && checker_settle_sphere(&stays, c, still) != DYD_OK) return dyd_fail_nomem(c->in.err);
-  if (strcmp(r->outcome, "fixpoint") == 0 && !c->globe.stated && dyd_checker_stays(&stays, c, still) != DYD_OK)
+  const bool images = c->globe.stated && strcmp(r->goal, "nearest") != 0;
+  if (images && checker_settle_sphere(&stays, c, still) != DYD_OK) return dyd_fail_nomem(c->in.err);
+  if (strcmp(r->outcome, "fixpoint") == 0 && !images && dyd_checker_stays(&stays, c, still) != DYD_OK)
     return dyd_fail_nomem(c->in.err);
   if (r->legal_unproved) r->gaps |= DYD_GAP_LEGAL;
   if (r->unproved && !r->capped) r->gaps |= DYD_GAP_ILLEGAL;

@@ -74,6 +74,8 @@ dyd_status dyd_cert_boxes_unproved(uint64_t *out, const dyd_cert_sites *s, const
 dyd_status dyd_checker_diagram(dyd_checker *c);
 /* The section on discs, or on a graph, whose first line has been read. */
 dyd_status dyd_checker_discs(dyd_checker *c);
+/* Its first lines, "discs C" or "discs C fixed", and the discs. */
+dyd_status dyd_checker_read_discs(dyd_checker *c);
 void dyd_checker_discs_clear(dyd_checker *c);
 dyd_status dyd_checker_graph(dyd_checker *c);
 /* The places of a certificate with the goal "nearest". */
@@ -86,7 +88,9 @@ void dyd_checker_join(dyd_checker *c);
 dyd_status dyd_checker_stays_on_sphere(bool *out, dyd_checker *c, const bool *place_still);
 /* still[k]: nothing narrows the image that is site k, place_still[i] telling of place i (NULL: of exact ones). */
 void dyd_checker_still_images(bool *still, const dyd_checker *c, const bool *place_still);
-/* globe.c: the section but for its last lines. */
+/* globe.c: the lines on the radius and the places. */
+dyd_status dyd_checker_globe_places(dyd_checker *c);
+/* The section but for its last lines. */
 dyd_status dyd_checker_globe(dyd_checker *c);
 /* around.c: what follows for pairs of places; reads the list of neighbours of the eye. */
 dyd_status dyd_checker_around(dyd_checker *c);

@@ -71,7 +71,9 @@ static dyd_status check_polygon(dyd_checker *c, dyd_exact *area2, const dyd_cert
   for (size_t k = 0; k < c->chain.points; k++) {
     if (!dyd_cert_window_has(w, c->chain.point[k]))
       return dyd_cert_reject(&c->in, "vertex %zu lies outside of the window", k);
-    if (!dyd_cert_is_witness(&other, &c->sites, &c->tree, i, i, c->chain.point[k], false))
+    const dyd_exact *at = c->chain.point[k];
+    if (!dyd_cert_is_witness(&other, &c->sites, &c->tree, i, i, at, false) &&
+        !(c->disc && dyd_cert_is_disc_witness(&other, &c->sites, &c->tree, c->disc, i, i, at)))
       return dyd_cert_reject(&c->in, "vertex %zu may be as near to site %u as to %u", k, (unsigned)other, (unsigned)i);
   }
   dyd_cert_polygon_area2(area2, &c->chain);

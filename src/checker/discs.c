@@ -44,8 +44,7 @@ static dyd_status read_disc(dyd_checker *c, uint32_t i) {
   return DYD_OK;
 }
 
-/* "discs C" or "discs C fixed", and the discs. */
-static dyd_status read_discs(dyd_checker *c) {
+dyd_status dyd_checker_read_discs(dyd_checker *c) {
   uint32_t count;
   dyd_status st = dyd_cert_expect_word(c, "discs");
   if (st == DYD_OK) st = dyd_cert_read_index(&count, &c->in, DYD_CERT_NONE);
@@ -131,7 +130,7 @@ static dyd_status check_refined(dyd_checker *c, dyd_cert_edge *p) {
 dyd_status dyd_checker_discs(dyd_checker *c) {
   uint32_t count = 0;
   dyd_cert_edge pair = {0, 0};
-  dyd_status st = read_discs(c);
+  dyd_status st = dyd_checker_read_discs(c);
   if (st == DYD_OK) st = dyd_cert_expect_line(c, "refined");
   if (st == DYD_OK) st = dyd_cert_read_index(&count, &c->in, DYD_CERT_NONE);
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);

@@ -162,14 +162,17 @@ static dyd_status check_images(dyd_checker *c) {
 
 /* ---- the section ---- */
 
+dyd_status dyd_checker_globe_places(dyd_checker *c) {
+  c->globe.stated = c->report.sphere = true;
+  dyd_status st = read_radius(c);
+  if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
+  return st == DYD_OK ? read_places(c) : st;
+}
+
 /* The radius and the places; of the second certificate those of the first. */
 static dyd_status read_all_places(dyd_checker *c) {
   dyd_cert_globe *g = &c->globe;
-  if (!c->first) {
-    dyd_status st = read_radius(c);
-    if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
-    return st == DYD_OK ? read_places(c) : st;
-  }
+  if (!c->first) return dyd_checker_globe_places(c);
   const dyd_cert_globe *from = &c->first->globe;
   dyd_cert_sites_clear(&g->place);
   g->place = from->place;

@@ -4,6 +4,7 @@
 #ifndef DYD_CHECKER_GLOBE_H
 #define DYD_CHECKER_GLOBE_H
 
+#include "checker/globe_near.h"
 #include "checker/image.h"
 
 typedef struct dyd_cert_globe {

@@ -30,7 +30,7 @@ typedef struct graph_rows {
 /* The rows of site i are read. */
 static dyd_status check_nearest_of(graph_rows *g, uint32_t i, bool certain) {
   dyd_checker *c = g->c;
-  const dyd_cert_near q = {&c->sites, &c->tree, g->span, &g->span[i], i, g->list, g->count};
+  const dyd_cert_near q = {&c->sites, &c->tree, g->span, NULL, &g->span[i], i, g->list, g->count};
   uint32_t other = DYD_CERT_NONE;
   size_t unproved = 0;
   if (certain && g->count > 1) return dyd_cert_reject(&c->in, "of site %u another one is nearest, too", (unsigned)i);
@@ -513,7 +513,7 @@ static bool spanning_is_certain(const cert_spanning *s, const dyd_cert_edge *row
   }
   for (int k = 0; k < 2; k++) {
     uint32_t other, self = k ? row->j : row->i, near = k ? row->i : row->j;
-    const dyd_cert_near q = {&g->c->sites, &g->c->tree, g->span, &g->span[self], self, &near, 1};
+    const dyd_cert_near q = {&g->c->sites, &g->c->tree, g->span, NULL, &g->span[self], self, &near, 1};
     if (dyd_cert_near_is_certain(&other, &q)) return true;
   }
   return false;

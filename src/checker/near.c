@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Which sites are nearest to somewhere in a box [CERT-12].
  *
- * C_kj = { c : dl_k(c) < ds_j(c) } is convex: when the corners of a box lie in it, j is nearest nowhere in the box. A
- * box whose corners no C_kj has all is cut in the middle of its longer side. */
+ * C_kj, where k is nearer than j for every choice, is convex: when the corners of a box lie in it, j is nearest nowhere
+ * in the box. Rectangles show it by dl_k(c) < ds_j(c), discs by their distances. A box whose corners no C_kj has all is
+ * cut in the middle of its longer side. */
 #include "checker/near.h"
 #include "base/alloc.h"
 
@@ -98,10 +99,16 @@ bool dyd_cert_span_prefers(const dyd_cert_span *b, int q, const dyd_cert_span *k
   return prefers;
 }
 
-static bool span_has_corners_in(const dyd_cert_span *b, const dyd_cert_span *k, const dyd_cert_span *j) {
+static bool corner_prefers(const dyd_cert_near *q, const dyd_cert_span *b, int corner, uint32_t k, uint32_t j) {
+  const dyd_exact at[2] = {b->e[corner & 1], b->e[2 + (corner >> 1)]}; /* borrowed */
+  return dyd_cert_span_prefers(b, corner, &q->span[k], &q->span[j]) ||
+         (q->disc && dyd_cert_disc_is_nearer(at, &q->disc[k], &q->disc[j]));
+}
+
+static bool span_has_corners_in(const dyd_cert_near *q, const dyd_cert_span *b, uint32_t k, uint32_t j) {
   int corners = dyd_cert_span_is_point(b) ? 1 : 4;
-  for (int q = 0; q < corners; q++)
-    if (!dyd_cert_span_prefers(b, q, k, j)) return false;
+  for (int corner = 0; corner < corners; corner++)
+    if (!corner_prefers(q, b, corner, k, j)) return false;
   return true;
 }
 
@@ -128,7 +135,7 @@ static bool is_farther_everywhere(void *context, uint32_t k) {
   near_search *s = context;
   const dyd_cert_near *q = s->q;
   uint32_t i = q->list[0];
-  if (k == i || k == q->self || span_has_corners_in(q->at, &q->span[i], &q->span[k])) return true;
+  if (k == i || k == q->self || span_has_corners_in(q, q->at, i, k)) return true;
   s->other = k;
   return false;
 }
@@ -165,7 +172,7 @@ void dyd_cert_span_half(dyd_cert_span *part, const dyd_cert_span *b, bool upper)
 static bool span_is_covered(near_search *s, const dyd_cert_span *b, uint32_t j, int cuts) {
   const dyd_cert_near *q = s->q;
   for (size_t k = 0; k < q->count; k++)
-    if (span_has_corners_in(b, &q->span[q->list[k]], &q->span[j])) return true;
+    if (span_has_corners_in(q, b, q->list[k], j)) return true;
   bool more = cuts < MOST_CUTS && s->effort > q->count && !dyd_cert_span_is_point(b);
   if (!more) return false;
   s->effort -= q->count;
@@ -226,21 +233,39 @@ static void span_distances2(dyd_exact out[2], const dyd_cert_span *a, const dyd_
   dyd_exact_clear(&d[1]);
 }
 
-bool dyd_cert_near_bounds_hold(const dyd_cert_span *a, const dyd_cert_span *b, const dyd_exact *lo,
-                               const dyd_exact *hi) {
+/* The same when distances may be up to *more above, or below, those of the boxes. */
+static bool near_bounds_hold(const dyd_cert_span *a, const dyd_cert_span *b, const dyd_exact *more, const dyd_exact *lo,
+                             const dyd_exact *hi) {
   dyd_exact d[2], t;
   dyd_exact_init(&d[0]);
   dyd_exact_init(&d[1]);
   dyd_exact_init(&t);
   span_distances2(d, a, b);
-  dyd_exact_mul(&t, lo, lo);
+  dyd_exact_add(&t, lo, more);
+  dyd_exact_mul(&t, &t, &t);
   bool hold = dyd_exact_sgn(lo) <= 0 || dyd_exact_cmp(&t, &d[0]) <= 0;
   if (hi) {
-    dyd_exact_mul(&t, hi, hi);
-    hold = hold && dyd_exact_sgn(hi) >= 0 && dyd_exact_cmp(&t, &d[1]) >= 0;
+    dyd_exact_sub(&t, hi, more);
+    hold = hold && dyd_exact_sgn(&t) >= 0;
+    dyd_exact_mul(&t, &t, &t);
+    hold = hold && dyd_exact_cmp(&t, &d[1]) >= 0;
   }
   dyd_exact_clear(&d[0]);
   dyd_exact_clear(&d[1]);
   dyd_exact_clear(&t);
   return hold;
+}
+
+bool dyd_cert_near_bounds_hold(const dyd_cert_span *a, const dyd_cert_span *b, const dyd_cert_disc *disc,
+                               const dyd_exact *lo, const dyd_exact *hi) {
+  dyd_exact none;
+  dyd_exact_init(&none);
+  bool low = near_bounds_hold(a, b, &none, lo, NULL), high = !hi || near_bounds_hold(a, b, &none, &none, hi);
+  if (disc) {
+    const dyd_cert_span centre = {{disc->x, disc->x, disc->y, disc->y}}; /* borrowed */
+    low = low || near_bounds_hold(a, &centre, &disc->r, lo, NULL);
+    high = high || near_bounds_hold(a, &centre, &disc->r, &none, hi);
+  }
+  dyd_exact_clear(&none);
+  return low && high;
 }

@@ -3,7 +3,7 @@
 #ifndef DYD_CHECKER_NEAR_H
 #define DYD_CHECKER_NEAR_H
 
-#include "checker/tree.h"
+#include "checker/caps.h"
 
 /* Ends of a box: x lower, x upper, y lower, y upper. */
 typedef struct dyd_cert_span {
@@ -39,6 +39,7 @@ typedef struct dyd_cert_near {
   const dyd_cert_sites *sites;
   const dyd_cert_tree *tree;
   const dyd_cert_span *span; /* by site */
+  const dyd_cert_disc *disc; /* by site: the point lies in it, too; NULL: in none */
   const dyd_cert_span *at;
   uint32_t self;
   const uint32_t *list;
@@ -52,8 +53,9 @@ bool dyd_cert_near_is_certain(uint32_t *other, const dyd_cert_near *q);
  * nearest, and *other one of them. A box is cut to show it; that gives up after *effort comparisons, which are taken
  * from it. */
 void dyd_cert_near_count(size_t *unproved, uint32_t *other, uint64_t *effort, const dyd_cert_near *q);
-/* Is the distance of any two points of the boxes in [lo, hi]? hi: NULL: no bound. */
-bool dyd_cert_near_bounds_hold(const dyd_cert_span *a, const dyd_cert_span *b, const dyd_exact *lo,
-                               const dyd_exact *hi);
+/* Is the distance of any two points of the boxes in [lo, hi]? hi: NULL: no bound. disc: the second lies in it, too;
+ * NULL: in none. */
+bool dyd_cert_near_bounds_hold(const dyd_cert_span *a, const dyd_cert_span *b, const dyd_cert_disc *disc,
+                               const dyd_exact *lo, const dyd_exact *hi);
 
 #endif

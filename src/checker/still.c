@@ -94,16 +94,18 @@ static bool places_stay(const dyd_checker *c, const movers *m) {
 dyd_status dyd_checker_stays(bool *out, const dyd_checker *c, const bool *still) {
   const dyd_certificate_report *r = &c->report;
   bool all = true, of_pairs = strcmp(r->goal, "decided") == 0 && !r->unproved && !r->capped && !r->discs;
-  *out = r->discs_fixed && !still;
+  *out = r->discs_fixed && !still && !c->near_moves && !r->near_unproved;
   if (*out) return DYD_OK;
-  movers m = {.movable = calloc(c->sites.count ? c->sites.count : 1, sizeof *m.movable)};
+  const bool nearest = strcmp(r->goal, "nearest") == 0;
+  const dyd_cert_sites *sites = nearest && c->globe.stated ? &c->globe.place : &c->sites;
+  movers m = {.movable = calloc(sites->count ? sites->count : 1, sizeof *m.movable)};
   if (!m.movable) return DYD_E_NOMEM;
-  for (size_t i = 0; i < c->sites.count; i++) {
-    if (still ? still[i] : dyd_cert_is_point(&c->sites.site[i])) continue;
-    m.movable[c->sites.site[i].alias] = true;
+  for (size_t i = 0; i < sites->count; i++) {
+    if (still ? still[i] : dyd_cert_is_point(&sites->site[i])) continue;
+    m.movable[sites->site[i].alias] = true;
     all = false;
   }
-  *out = strcmp(r->goal, "nearest") == 0 ? places_stay(c, &m) : all;
+  *out = nearest ? places_stay(c, &m) : all;
   dyd_status st = !all && of_pairs ? movers_list(&m, c) : DYD_OK;
   if (st == DYD_OK && !all && of_pairs) *out = open_pairs_stay(c, &m);
   movers_clear(&m);

@@ -79,7 +79,7 @@ static dyd_status write_certificate(FILE *out, const cli_session *s, dyd_error *
   dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .window = s->o.engine.window};
   dyd_status st = DYD_OK;
   parts.diagram = parts.window;
-  parts.discs = parts.diagram ? NULL : s->discs;
+  parts.discs = s->discs;
   if (!parts.diagram && !s->discs && cli_layer_is_graph(s->o.content)) {
     parts.kind = (int)(s->o.content - DYD_CONTENT_GRAPH_NEAREST);
     /* Where the run was cut, rectangles may be narrower than those of the graph. */
@@ -230,8 +230,6 @@ static int voronoi_begin(cli_session *s) {
   s->o.engine.goal = cli_voronoi_goal(s->o.engine.goal);
   s->o.engine.window = &s->window;
   s->share = 0.75; /* the cells get some of the time, too */
-  if (s->o.discs && s->o.certificate)
-    return cli_usage("no certificate proves cells of discs; remove --certificate or --discs");
   if (!(s->o.max_arc > 0)) return s->o.clip_to ? voronoi_read_area(s) : 0;
   return cli_usage("--max-arc is about the globe; give --sphere or remove it");
 }

@@ -256,10 +256,6 @@ static int places_read_file(query *q, dyd_engine *from, const cli_options *o) {
 
 static int places_read(cli_session *s) {
   const cli_options *o = &s->o;
-  if (o->discs && o->certificate)
-    return cli_usage("no certificate proves which discs are nearest: leave --certificate or --discs out");
-  if (o->sphere && o->certificate)
-    return cli_usage("no certificate proves which places of a sphere are nearest: leave --certificate or --sphere out");
   if (o->sphere && o->format != DYD_FORMAT_CSV && o->format != DYD_FORMAT_JSON)
     return cli_usage("on a sphere nearest writes csv and json; remove --format %s or --sphere",
                      dyd_format_name(o->format));
@@ -397,7 +393,7 @@ static dyd_status places_prove(FILE *out, const cli_session *s, dyd_error *err) 
   const dyd_nearest_answer **list = list_answers(q);
   if (!list) return DYD_E_NOMEM;
   const dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .answer = list, .answers = q->answered,
-                                       .outcome = q->outcome};
+                                       .sphere = s->sphere, .outcome = q->outcome};
   dyd_status st = dyd_write_certificate(out, s->engine, &parts, err);
   free(list);
   return st;

@@ -151,7 +151,10 @@ static void print_places(FILE *out, const dyd_certificate_report *r) {
 }
 
 static void print_proved(FILE *out, const dyd_certificate_report *r) {
-  if (r->sphere)
+  const bool nearest = strcmp(r->goal, "nearest") == 0;
+  if (r->sphere && nearest)
+    fprintf(out, "places: %zu on a sphere\n", r->sphere_places);
+  else if (r->sphere)
     fprintf(out, "places: %zu on a sphere, projected from %s: %zu images\n", r->sphere_places,
             r->gap ? "a gap between them" : "one of them", r->sites);
   else
@@ -160,8 +163,9 @@ static void print_proved(FILE *out, const dyd_certificate_report *r) {
   print_if(out, r->bound && !r->unlocated, "checked: the points given %s%s\n",
            r->sphere ? "are its places, with their radii" : "lie in its rectangles",
            r->discs && !r->undescribed ? " and discs" : "");
-  print_if(out, r->sphere && !r->images_unproved, "checked: each image lies in its rectangle, radii included\n");
-  if (strcmp(r->goal, "nearest") == 0) {
+  print_if(out, r->sphere && !nearest && !r->images_unproved,
+           "checked: each image lies in its rectangle, radii included\n");
+  if (nearest) {
     print_places(out, r);
   } else {
     print_pairs(out, r);

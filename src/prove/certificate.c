@@ -7,7 +7,6 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "checker/bounds.h"
-#include "checker/near.h"
 #include "delaunay/memory.h"
 #include "io/output.h"
 #include "prove/proof.h"
@@ -47,25 +46,6 @@ static void proof_clear(dyd_proof *p) {
 
 /* ---- gathering ---- */
 
-static dyd_status proof_gather_sites(dyd_proof *p) {
-  const dyd_sites *sites = dyd_delaunay_sites(p->pd);
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_status st = DYD_OK;
-  for (size_t i = 0; i < dyd_sites_count(sites) && st == DYD_OK; i++) {
-    st = dyd_sites_get(&r, sites, i);
-    for (int a = 0; a < 2; a++) {
-      const dyd_interval *side = a ? &r.y : &r.x;
-      p->rounded |= mpz_cmp_ui(side->den, 1) && !dyd_interval_is_point(side);
-    }
-    if (st == DYD_OK) st = dyd_proof_add_site(&p->sites, &r);
-    if (st == DYD_OK) p->sites.site[i].alias = dyd_delaunay_alias(p->pd, (uint32_t)i);
-  }
-  dyd_rect_clear(&r);
-  if (st == DYD_OK) st = dyd_cert_sites_finish(&p->sites);
-  return st == DYD_OK ? dyd_cert_tree_init(&p->tree, &p->sites) : st;
-}
-
 /* Legal pairs with a witness become edges; the others stay in the list of pairs only. */
 static dyd_status proof_gather_legal(dyd_proof *p) {
   dyd_point c;
@@ -85,7 +65,7 @@ static dyd_status proof_gather_legal(dyd_proof *p) {
 }
 
 static dyd_status proof_gather(dyd_proof *p) {
-  dyd_status st = proof_gather_sites(p);
+  dyd_status st = dyd_proof_gather_sites(p);
   if (st == DYD_OK) st = proof_gather_legal(p);
   if (st == DYD_OK) st = dyd_proof_find_bridges(p);
   return st == DYD_OK ? dyd_proof_find_faces(p) : st;
@@ -108,17 +88,6 @@ static void certificate_head(FILE *out, const dyd_proof *p, const dyd_certificat
           dyd_goal_text(goal));
   if (goal != DYD_GOAL_DECIDED) fprintf(out, " %" PRId64, bits);
   fprintf(out, "\ncapped %s\n", dyd_delaunay_is_capped(p->pd) ? "yes" : "no");
-}
-
-static void certificate_sites(FILE *out, const dyd_proof *p) {
-  fprintf(out, "sites %zu\n", p->sites.count);
-  for (size_t i = 0; i < p->sites.count; i++) {
-    const dyd_cert_site *s = &p->sites.site[i];
-    if (s->alias != i)
-      dyd_proof_put(out, "= %i\n", s->alias);
-    else
-      dyd_proof_put(out, "%s %s\n", &s->side[0], &s->side[1]);
-  }
 }
 
 static void certificate_edges(FILE *out, const char *name, const dyd_cert_edges *edges,
@@ -205,7 +174,7 @@ static void certificate_graph(FILE *out, const dyd_graph_list *l, int kind) {
 static dyd_status certificate_sections(FILE *out, dyd_proof *p, const subject *of) {
   const dyd_certificate_parts *parts = of->parts;
   certificate_head(out, p, parts);
-  certificate_sites(out, p);
+  dyd_proof_put_sites(out, p);
   certificate_edges(out, "legal", &p->legal, &p->witness);
   certificate_places(out, p);
   certificate_edges(out, "bridges", &p->bridges, &p->centre);
@@ -215,7 +184,7 @@ static dyd_status certificate_sections(FILE *out, dyd_proof *p, const subject *o
   if (st == DYD_OK) st = dyd_proof_put_ties(out, p);
   if (st == DYD_OK && parts->discs) st = dyd_proof_put_discs(out, p, parts->discs);
   if (st == DYD_OK && parts->graph) certificate_graph(out, parts->graph, parts->kind);
-  if (st == DYD_OK && of->window) st = dyd_proof_put_diagram(out, p, of->window);
+  if (st == DYD_OK && of->window) st = dyd_proof_put_diagram(out, p, of->window, parts->discs);
   if (st == DYD_OK && of->sphere) st = dyd_proof_put_globe(out, p, of->sphere, of->again);
   return st;
 }
@@ -290,97 +259,6 @@ static dyd_status certificate_window(dyd_rect *out, const dyd_delaunay *pd, cons
   return dyd_fail(err, DYD_E_ARG, "the window has to have positive area and dyadic ends");
 }
 
-/* ---- places ---- */
-
-/* Sets *out to a bound; returns false if it is infinite. */
-static bool near_bound_set(dyd_exact *out, double bound) {
-  dyd_dyadic d;
-  dyd_dyadic_init(&d);
-  bool finite = dyd_dyadic_set_d(&d, bound) == DYD_OK;
-  if (finite) dyd_proof_set(out, &d);
-  dyd_dyadic_clear(&d);
-  return finite;
-}
-
-static void put_near_bound(FILE *out, double bound) {
-  dyd_exact x;
-  dyd_exact_init(&x);
-  bool finite = near_bound_set(&x, bound);
-  dyd_proof_put(out, finite ? " %n" : " none", &x);
-  dyd_exact_clear(&x);
-}
-
-/* Until the checker, which rounds rational ends outward, sees the distance between them. */
-static void widen_near_bounds(double *lo, double *hi, const dyd_cert_site *place, const dyd_cert_site *site) {
-  dyd_cert_span a, b;
-  dyd_exact low, high;
-  dyd_cert_span_init(&a);
-  dyd_cert_span_init(&b);
-  dyd_exact_init(&low);
-  dyd_exact_init(&high);
-  dyd_cert_span_set(&a, place);
-  dyd_cert_span_set(&b, site);
-  double step = *hi > 0 ? *hi * 0x1p-52 : 0x1p-1000;
-  for (; near_bound_set(&low, *lo) && near_bound_set(&high, *hi); step *= 16) {
-    if (dyd_cert_near_bounds_hold(&a, &b, &low, &high)) break;
-    *lo = *lo > step ? *lo - step : 0;
-    *hi += step;
-  }
-  dyd_exact_clear(&high);
-  dyd_exact_clear(&low);
-  dyd_cert_span_clear(&b);
-  dyd_cert_span_clear(&a);
-}
-
-static dyd_status put_near_site(FILE *out, const dyd_proof *p, const dyd_rect *at, const dyd_cert_site *place,
-                                uint32_t i, dyd_rect *scratch) {
-  double lo, hi;
-  dyd_status st = dyd_sites_get(scratch, dyd_delaunay_sites(p->pd), i);
-  if (st != DYD_OK) return st;
-  dyd_rect_distance(&lo, &hi, at, scratch);
-  widen_near_bounds(&lo, &hi, place, &p->sites.site[i]);
-  dyd_proof_put(out, " %i", i);
-  put_near_bound(out, lo);
-  put_near_bound(out, hi);
-  return DYD_OK;
-}
-
-static dyd_status put_near_place(FILE *out, const dyd_proof *p, const dyd_nearest_answer *a, dyd_rect *scratch) {
-  dyd_cert_sites at;
-  dyd_cert_sites_init(&at);
-  dyd_status st = dyd_proof_add_site(&at, a->at);
-  if (st == DYD_OK) dyd_proof_put(out, a->sure ? "%s %s c" : "%s %s p", &at.site[0].side[0], &at.site[0].side[1]);
-  for (size_t k = 0; k < a->found->count && st == DYD_OK; k++)
-    st = put_near_site(out, p, a->at, &at.site[0], a->found->item[k], scratch);
-  putc('\n', out);
-  dyd_cert_sites_clear(&at);
-  return st;
-}
-
-static dyd_status nearest_sections(FILE *out, dyd_proof *p, const dyd_nearest_answer *const *answer, size_t count,
-                                   int outcome) {
-  dyd_rect scratch;
-  dyd_status st = proof_gather_sites(p);
-  if (st != DYD_OK) return st;
-  fprintf(out, "dyadel certificate 1\noutcome %s\ngoal nearest\ncapped no\n", dyd_outcome_text((dyd_outcome)outcome));
-  certificate_sites(out, p);
-  fprintf(out, "nearest %zu\n", count);
-  dyd_rect_init(&scratch);
-  for (size_t k = 0; k < count && st == DYD_OK; k++) st = put_near_place(out, p, answer[k], &scratch);
-  dyd_rect_clear(&scratch);
-  return st;
-}
-
-static dyd_status nearest_write(FILE *out, const dyd_engine *e, const dyd_certificate_parts *parts, dyd_error *err) {
-  dyd_proof p = {.engine = e, .pd = dyd_engine_delaunay(e)};
-  dyd_cert_sites_init(&p.sites);
-  dyd_status st = nearest_sections(out, &p, parts->answer, parts->answers, parts->outcome);
-  proof_clear(&p);
-  if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
-  fputs("end\n", out);
-  return dyd_output_end(out, err);
-}
-
 /* ---- all kinds ---- */
 
 static bool needs_window(const dyd_engine *e) {
@@ -396,12 +274,13 @@ dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, const dy
   if (err) dyd_error_clear(err);
   dyd_status st = dyd_abi_take(&parts, sizeof parts, given, "dyd_certificate_parts", err);
   if (st != DYD_OK) return st;
+  if (parts.answer && parts.sphere) return dyd_proof_put_nearest(out, NULL, &parts, err);
   if (parts.sphere) e = dyd_sphere_images(parts.sphere);
   const dyd_delaunay *pd = dyd_engine_delaunay(e);
   if (parts.graph && (parts.kind < DYD_GRAPH_NEAREST || parts.kind > DYD_GRAPH_MST))
     return dyd_fail(err, DYD_E_ARG, "the kind of the graph is no dyd_graph");
   if (!pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
-  if (parts.answer) return nearest_write(out, e, &parts, err);
+  if (parts.answer) return dyd_proof_put_nearest(out, e, &parts, err);
   if (!parts.diagram && !parts.sphere && needs_window(e))
     return dyd_fail(err, DYD_E_ARG, "a goal on the diagram was reached; its certificate needs the window");
   dyd_rect_init(&window);

@@ -444,7 +444,8 @@ typedef struct section {
   dyd_proof *proof;
   dyd_cert_window window;
   dyd_cert_chain polygon;
-  dyd_exact area2; /* twice the area of the polygons written */
+  dyd_cert_disc *disc; /* NULL: rectangles */
+  dyd_exact area2;     /* twice the area of the polygons written */
 } section;
 
 /* ---- polygons ---- */
@@ -454,8 +455,9 @@ static bool polygon_passes(const section *s, uint32_t i) {
   if (!dyd_cert_polygon_is_convex(&s->polygon)) return false;
   for (size_t k = 0; k < s->polygon.points; k++) {
     const dyd_exact *at = s->polygon.point[k];
-    if (!dyd_cert_window_has(&s->window, at) || !dyd_cert_is_witness(NULL, &p->sites, &p->tree, i, i, at, false))
-      return false;
+    const bool inside = dyd_cert_is_witness(NULL, &p->sites, &p->tree, i, i, at, false) ||
+                        (s->disc && dyd_cert_is_disc_witness(NULL, &p->sites, &p->tree, s->disc, i, i, at));
+    if (!inside || !dyd_cert_window_has(&s->window, at)) return false;
   }
   return true;
 }
@@ -546,7 +548,7 @@ static dyd_status section_distance(const section *s, const dyd_voronoi_bounds *b
 /* ---- all ---- */
 
 /* Fine for the eye; where a goal on the area was reached, as fine as that takes. */
-static dyd_status section_bits(int64_t *out, const dyd_proof *p, const dyd_rect *window) {
+static dyd_status section_bits(int64_t *out, const dyd_proof *p, const dyd_rect *window, bool discs) {
   enum { FINER = 8, MOST_FINER = 72 };
   int64_t goal_bits;
   dyd_dyadic goal;
@@ -562,7 +564,7 @@ static dyd_status section_bits(int64_t *out, const dyd_proof *p, const dyd_rect 
   bool holds = false;
   for (int finer = 0; st == DYD_OK && !holds && finer <= MOST_FINER; finer += FINER) {
     if (least + finer > *out) *out = least + finer;
-    st = dyd_metric_voronoi(&b, p->pd, window, *out, NULL);
+    st = dyd_voronoi_bounds_within(&b, p->pd, window, *out, 0, discs, NULL);
     holds = st == DYD_OK && dyd_dyadic_cmp(&b.area, &goal) <= 0;
   }
   dyd_voronoi_bounds_clear(&b);
@@ -574,11 +576,12 @@ static dyd_status section_write(section *s, const dyd_rect *window) {
   dyd_voronoi_sums sums;
   dyd_voronoi_bounds bounds;
   int64_t bits;
-  dyd_status st = section_bits(&bits, s->proof, window);
+  dyd_status st = section_bits(&bits, s->proof, window, s->disc);
   if (st != DYD_OK) return st;
   dyd_voronoi_bounds_init(&bounds);
   st = dyd_voronoi_sums_init(&sums, s->proof->pd, window, bits);
   sums.exact = false;
+  sums.discs = s->disc;
   dyd_proof_put(s->out, "window %p %p\npolygons\n", &s->window.e[0], &s->window.e[2]);
   if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, section_polygon, s);
   if (st == DYD_OK) st = dyd_voronoi_sums_bounds(&bounds, &sums);
@@ -589,7 +592,7 @@ static dyd_status section_write(section *s, const dyd_rect *window) {
   return st;
 }
 
-dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window) {
+dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window, bool discs) {
   const dyd_dyadic *end[4] = {&window->x.lo, &window->x.hi, &window->y.lo, &window->y.hi};
   section s = {.out = out, .proof = p};
   if (dyd_delaunay_is_capped(p->pd)) return DYD_OK;
@@ -597,7 +600,10 @@ dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window
   dyd_cert_chain_init(&s.polygon);
   dyd_exact_init(&s.area2);
   for (int k = 0; k < 4; k++) dyd_proof_set(&s.window.e[k], end[k]);
-  dyd_status st = section_write(&s, window);
+  bool fixed;
+  dyd_status st = discs ? dyd_proof_gather_discs(&s.disc, &fixed, p) : DYD_OK;
+  if (st == DYD_OK) st = section_write(&s, window);
+  dyd_proof_free_discs(s.disc, p);
   dyd_exact_clear(&s.area2);
   dyd_cert_chain_clear(&s.polygon);
   dyd_cert_window_clear(&s.window);

@@ -244,21 +244,36 @@ typedef struct disc_proof {
 
 /* ---- discs ---- */
 
-/* *fixed: nothing narrows any of them. */
-static dyd_status gather_discs(bool *fixed, disc_proof *w) {
-  const dyd_sites *sites = dyd_delaunay_sites(w->p->pd);
+dyd_status dyd_proof_gather_discs(dyd_cert_disc **out, bool *fixed, const dyd_proof *p) {
+  const dyd_sites *sites = dyd_delaunay_sites(p->pd);
   dyd_disc d;
+  dyd_cert_disc *disc = *out = dyd_alloc(p->sites.count, sizeof *disc);
   dyd_status st = DYD_OK;
   *fixed = true;
+  if (!disc) return DYD_E_NOMEM;
+  for (size_t i = 0; i < p->sites.count; i++) dyd_cert_disc_init(&disc[i]);
   dyd_disc_init(&d);
-  for (size_t i = 0; i < w->p->sites.count && st == DYD_OK; i++) {
-    const dyd_refinable *point = dyd_engine_find(w->p->engine, (uint32_t)i);
+  for (size_t i = 0; i < p->sites.count && st == DYD_OK; i++) {
+    const dyd_refinable *point = dyd_engine_find(p->engine, (uint32_t)i);
     *fixed = *fixed && (!point || point->final);
     st = dyd_disc_of_site(&d, sites, i);
-    if (st == DYD_OK) dyd_proof_hold_disc(&w->disc[i], &d);
+    if (st == DYD_OK) dyd_proof_hold_disc(&disc[i], &d);
   }
   dyd_disc_clear(&d);
   return st;
+}
+
+void dyd_proof_put_disc_lines(FILE *out, const dyd_cert_disc *disc, bool fixed, const dyd_proof *p) {
+  size_t count = 0;
+  for (size_t i = 0; i < p->sites.count; i++) count += p->sites.site[i].alias == i;
+  fprintf(out, "discs %zu%s\n", count, fixed ? " fixed" : "");
+  for (size_t i = 0; i < p->sites.count; i++)
+    if (p->sites.site[i].alias == i) dyd_proof_put(out, "%n %n %n\n", &disc[i].x, &disc[i].y, &disc[i].r);
+}
+
+void dyd_proof_free_discs(dyd_cert_disc *disc, const dyd_proof *p) {
+  for (size_t i = 0; disc && i < p->sites.count; i++) dyd_cert_disc_clear(&disc[i]);
+  free(disc);
 }
 
 /* ---- vectors ---- */
@@ -541,20 +556,17 @@ static void clear_search(disc_proof *w) {
              w->t, w->best, NULL);
   dyd_cert_caps_clear(&w->all);
   dyd_cert_caps_clear(&w->some);
-  for (size_t i = 0; w->disc && i < w->p->sites.count; i++) dyd_cert_disc_clear(&w->disc[i]);
+  dyd_proof_free_discs(w->disc, w->p);
   dyd_proof_clear(w->at, 2);
-  dyd_free_all(w->disc, w->start, w->partner, w->near, w->chosen);
+  dyd_free_all(w->start, w->partner, w->near, w->chosen);
 }
 
 static dyd_status put_discs(FILE *out, disc_proof *w) {
   size_t count = 0;
   bool fixed;
-  dyd_status st = gather_discs(&fixed, w);
+  dyd_status st = dyd_proof_gather_discs(&w->disc, &fixed, w->p);
   if (st != DYD_OK) return st;
-  for (size_t i = 0; i < w->p->sites.count; i++) count += w->p->sites.site[i].alias == i;
-  fprintf(out, "discs %zu%s\n", count, fixed ? " fixed" : "");
-  for (size_t i = 0; i < w->p->sites.count; i++)
-    if (w->p->sites.site[i].alias == i) dyd_proof_put(out, "%n %n %n\n", &w->disc[i].x, &w->disc[i].y, &w->disc[i].r);
+  dyd_proof_put_disc_lines(out, w->disc, fixed, w->p);
   each_refined(&count, NULL, w);
   fprintf(out, "refined %zu\n", count);
   return each_refined(&count, out, w);
@@ -563,9 +575,7 @@ static dyd_status put_discs(FILE *out, disc_proof *w) {
 dyd_status dyd_proof_put_discs(FILE *out, const dyd_proof *p, const dyd_pair_list *pairs) {
   disc_proof w = {.p = p, .pairs = pairs};
   init_search(&w);
-  w.disc = dyd_alloc(p->sites.count, sizeof *w.disc);
-  for (size_t i = 0; w.disc && i < p->sites.count; i++) dyd_cert_disc_init(&w.disc[i]);
-  dyd_status st = w.disc ? dyd_pairs_deal(&w.start, &w.partner, &p->pairs, p->sites.count) : DYD_E_NOMEM;
+  dyd_status st = dyd_pairs_deal(&w.start, &w.partner, &p->pairs, p->sites.count);
   if (st == DYD_OK) st = put_discs(out, &w);
   clear_search(&w);
   return st;

@@ -6,6 +6,7 @@
 #include "sphere/state.h"
 #include <dyadel/io.h>
 #include <inttypes.h>
+#include <math.h>
 
 static dyd_status put_interval(FILE *out, const dyd_interval *a) {
   dyd_cert_sites one;
@@ -149,6 +150,32 @@ static dyd_status put_neighbours(FILE *out, const dyd_proof *p, const dyd_sphere
   return st;
 }
 
+dyd_status dyd_proof_put_compass(FILE *out, const struct dyd_sphere *s) {
+  dyd_status st = put_radius(out, s);
+  return st == DYD_OK ? put_places(out, s) : st;
+}
+
+dyd_status dyd_proof_set_region(dyd_cert_region *out, const struct dyd_sphere *s, uint32_t i) {
+  dyd_cert_sites one;
+  dyd_rect r;
+  mpq_t angle;
+  dyd_cert_sites_init(&one);
+  dyd_rect_init(&r);
+  mpq_init(angle);
+  dyd_cert_site *site = dyd_cert_sites_add(&one);
+  dyd_status st = site ? place_narrowest(&r, s, i) : DYD_E_NOMEM;
+  if (st == DYD_OK) st = dyd_proof_set_side(&site->side[0], &r.x);
+  if (st == DYD_OK) st = dyd_proof_set_side(&site->side[1], &r.y);
+  mpq_set_d(angle, fmax(0, dyd_engine_number(s->places, i, DYD_ROW_RADIUS)));
+  mpq_mul(angle, angle, s->metre);
+  mpq_add(angle, angle, s->angle);
+  if (st == DYD_OK && !dyd_cert_region_set(out, site->side, s->degrees, angle)) st = DYD_E_DOMAIN;
+  mpq_clear(angle);
+  dyd_rect_clear(&r);
+  dyd_cert_sites_clear(&one);
+  return st;
+}
+
 const struct dyd_sphere *dyd_proof_second(const struct dyd_sphere *s) {
   return !s->free && s->second && dyd_engine_delaunay(s->second->images) ? s->second : NULL;
 }
@@ -156,7 +183,6 @@ const struct dyd_sphere *dyd_proof_second(const struct dyd_sphere *s) {
 dyd_status dyd_proof_put_globe(FILE *out, const dyd_proof *p, const struct dyd_sphere *s, bool again) {
   fputs("sphere\n", out);
   dyd_status st = put_eye(out, s);
-  if (st == DYD_OK && !again) st = put_radius(out, s);
-  if (st == DYD_OK && !again) st = put_places(out, s);
+  if (st == DYD_OK && !again) st = dyd_proof_put_compass(out, s);
   return st == DYD_OK ? put_neighbours(out, p, s) : st;
 }

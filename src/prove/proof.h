@@ -6,6 +6,7 @@
 #include "checker/caps.h"
 #include "checker/chain.h"
 #include "checker/faces.h"
+#include "checker/globe_near.h"
 #include "checker/ties.h"
 #include "checker/witness.h"
 #include "tolerance/discs.h"
@@ -34,6 +35,10 @@ typedef struct dyd_proof {
   dyd_cert_graph graph;
   dyd_cert_faces faces;
 } dyd_proof;
+
+/* Sets the sites and the tree, which the caller clears. */
+dyd_status dyd_proof_gather_sites(dyd_proof *p);
+void dyd_proof_put_sites(FILE *out, const dyd_proof *p);
 
 /* Copies a site into the checker's form. */
 dyd_status dyd_proof_add_site(dyd_cert_sites *out, const dyd_rect *r);
@@ -72,17 +77,32 @@ dyd_status dyd_proof_compare_points(bool *found, size_t *others, const dyd_cert_
 
 /* A disc of dyadics that holds d. */
 void dyd_proof_hold_disc(dyd_cert_disc *out, const dyd_disc *d);
+/* The discs by site; *fixed: nothing narrows any of them. The caller frees them, on failure too. DYD_E_ARG: a rectangle
+ * is no square. */
+dyd_status dyd_proof_gather_discs(dyd_cert_disc **out, bool *fixed, const dyd_proof *p);
+void dyd_proof_free_discs(dyd_cert_disc *disc, const dyd_proof *p);
+/* Writes the first lines of the section on discs. */
+void dyd_proof_put_disc_lines(FILE *out, const dyd_cert_disc *disc, bool fixed, const dyd_proof *p);
 /* Writes the section on discs, whose pairs these are: fewer are open than p->pairs. DYD_E_ARG: a rectangle is no
  * square.
  */
 dyd_status dyd_proof_put_discs(FILE *out, const dyd_proof *p, const dyd_pair_list *pairs);
 
-/* Writes the section on the diagram; nothing for a result that is capped. DYD_E_ARG for a wrong window. */
-dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window);
+/* Writes the section on the diagram, of points in discs or in rectangles; nothing for a result that is capped.
+ * DYD_E_ARG for a wrong window. */
+dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window, bool discs);
 
 struct dyd_sphere;
 /* Writes the section on a sphere, of whose images the sites are. again: the places are those of a section before. */
 dyd_status dyd_proof_put_globe(FILE *out, const dyd_proof *p, const struct dyd_sphere *s, bool again);
+/* Sets the region where the certificate says that place i is. */
+dyd_status dyd_proof_set_region(dyd_cert_region *out, const struct dyd_sphere *s, uint32_t i);
+/* Writes the lines on radii and places. */
+dyd_status dyd_proof_put_compass(FILE *out, const struct dyd_sphere *s);
+struct dyd_certificate_parts;
+/* Writes a certificate of answers, as dyd_write_certificate; e: NULL: on a sphere. */
+dyd_status dyd_proof_put_nearest(FILE *out, const dyd_engine *e, const struct dyd_certificate_parts *parts,
+                                 dyd_error *err);
 /* The same places from a second eye; NULL: it has no result. */
 const struct dyd_sphere *dyd_proof_second(const struct dyd_sphere *s);
 

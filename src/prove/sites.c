@@ -121,6 +121,27 @@ dyd_status dyd_proof_add_witness(bool *found, dyd_proof_points *out, const dyd_p
   return DYD_OK;
 }
 
+/* ---- all sites ---- */
+
+dyd_status dyd_proof_gather_sites(dyd_proof *p) {
+  const dyd_sites *sites = dyd_delaunay_sites(p->pd);
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = DYD_OK;
+  for (size_t i = 0; i < dyd_sites_count(sites) && st == DYD_OK; i++) {
+    st = dyd_sites_get(&r, sites, i);
+    for (int a = 0; a < 2; a++) {
+      const dyd_interval *side = a ? &r.y : &r.x;
+      p->rounded |= mpz_cmp_ui(side->den, 1) && !dyd_interval_is_point(side);
+    }
+    if (st == DYD_OK) st = dyd_proof_add_site(&p->sites, &r);
+    if (st == DYD_OK) p->sites.site[i].alias = dyd_delaunay_alias(p->pd, (uint32_t)i);
+  }
+  dyd_rect_clear(&r);
+  if (st == DYD_OK) st = dyd_cert_sites_finish(&p->sites);
+  return st == DYD_OK ? dyd_cert_tree_init(&p->tree, &p->sites) : st;
+}
+
 /* ---- discs ---- */
 
 /* x rounded down to a multiple of 2^exp; the difference is added to *lost. */
@@ -222,4 +243,15 @@ void dyd_proof_put(FILE *out, const char *format, ...) {
     }
   }
   va_end(of);
+}
+
+void dyd_proof_put_sites(FILE *out, const dyd_proof *p) {
+  fprintf(out, "sites %zu\n", p->sites.count);
+  for (size_t i = 0; i < p->sites.count; i++) {
+    const dyd_cert_site *s = &p->sites.site[i];
+    if (s->alias != i)
+      dyd_proof_put(out, "= %i\n", s->alias);
+    else
+      dyd_proof_put(out, "%s %s\n", &s->side[0], &s->side[1]);
+  }
 }

@@ -699,14 +699,19 @@ PyObject *dydpy_rects(PyObject *self, PyObject *none) {
 /* ---- certificates ---- */
 
 PyObject *dydpy_certificate(PyObject *self, PyObject *args) {
-  int diagram;
+  int diagram, discs;
   PyObject *window;
+  dyd_pair_list pairs = {0};
   text_order t;
-  if (!PyArg_ParseTuple(args, "pO", &diagram, &window) || !order_begin(&t, self, window, DYDPY_RESULT)) return NULL;
+  if (!PyArg_ParseTuple(args, "pOp", &diagram, &window, &discs) || !order_begin(&t, self, window, DYDPY_RESULT))
+    return NULL;
   const dydpy_engine *of = t.call.self;
-  const dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .diagram = diagram, .window = t.view,
-                                       .sphere = diagram ? NULL : of->sphere};
-  return order_end(&t, dyd_write_certificate(t.text.file, of->engine, &parts, &t.call.err));
+  dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .diagram = diagram, .window = t.view,
+                                 .discs = discs ? &pairs : NULL, .sphere = diagram ? NULL : of->sphere};
+  dyd_status st = discs ? dyd_disc_pairs(&pairs, t.call.pd, &t.call.cancel, &t.call.err) : DYD_OK;
+  if (st == DYD_OK) st = dyd_write_certificate(t.text.file, of->engine, &parts, &t.call.err);
+  dyd_pair_list_clear(&pairs);
+  return order_end(&t, st);
 }
 
 static PyObject *report_of(const dyd_certificate_report *r) {

@@ -5,6 +5,8 @@ accepted [CERT-14].
 
 Usage: test_globe.py DYADEL AIRPORTS [COUNT]
 
+So are certificates of the places nearest to a place [CERT-12].
+
 Images are computed here by mpmath, from vectors, by no formula of the checker. Prints its seed (DYADEL_TEST_SEED).
 """
 import collections
@@ -409,6 +411,127 @@ def check_plane(folder):
     assert wrong.returncode == 1 and wrong.stderr.endswith('remove --sphere\n'), wrong
 
 
+# ---- nearest places ----
+
+Near = collections.namedtuple('Near', 'radius places rows')
+
+
+def near_section(lines):
+    at = lines.index('sphere')
+    n = int(lines[at + 2].split()[1])
+    rows = lines[at + 4 + n:-1]
+    assert lines[at + 3 + n] == f'nearest {len(rows)}' and lines[-1] == 'end', lines
+    return Near(lines[at + 1].split()[1:], [l.split() for l in lines[at + 3:at + 3 + n]], [l.split() for l in rows])
+
+
+def angle(a, b):
+    return 2 * mpmath.asin(min(mpmath.mpf(1), mpmath.sqrt(sum((x - y) ** 2 for x, y in zip(a, b))) / 2))
+
+
+def false_near(r, lines, tries):
+    """A statement that is false for some choice of the places; None: none was found."""
+    s, slack = near_section(lines), mpmath.mpf(10) ** -45
+    for x, y, kind, *rest in s.rows if s.places else []:
+        asked = Near(['none'], [[x, y]], [])
+        listed = {int(i): (value(lo), None if hi == 'none' else value(hi)) for i, lo, hi in zip(rest[::3], rest[1::3], rest[2::3])}
+        for _ in range(tries):
+            z = choice(r, asked, 0)
+            far = [angle(z, choice(r, s, i)) for i in range(len(s.places))]
+            first = min(range(len(far)), key=far.__getitem__)
+            if any(kind == 'c' and far[k] <= far[int(rest[0])] - slack for k in range(len(far)) if k not in listed):
+                return x, y, 'not certain'
+            if first not in listed and '=' not in s.places[first] and far[first] < min(far[k] for k in listed) - slack:
+                return x, y, first, 'is nearest'
+            for i, (lo, hi) in listed.items():
+                metres = far[i] * number(EARTH)
+                if metres < number(lo) - slack * 10**8 or (hi is not None and metres > number(hi) + slack * 10**8):
+                    return x, y, i, metres, 'is out of bounds'
+    return None
+
+
+def forge_near(r, lines):
+    """One change: of a place, a radius, a row."""
+    out, at = list(lines), lines.index('sphere')
+    n = int(lines[at + 2].split()[1])
+    what, row = r.randrange(6), at + 4 + n + r.randrange(len(lines) - at - 5 - n)
+    words = out[row].split()
+    def by(text):
+        return r.choice([1, -1]) * (Q(2) ** r.randrange(-60, 8) if r.randrange(2) else abs(value(text)) / 2 ** r.randrange(30))
+    if what == 0 and n:  # a place is moved, or has another radius
+        k = at + 3 + r.randrange(n)
+        place = out[k].split()
+        a = r.randrange(len(place)) if '=' not in place else 0
+        place[a] = nudged(r, place[a], by('1'))
+        out[k] = ' '.join(place)
+    elif what == 1:
+        out[at + 1] = r.choice(['radius none', 'radius degrees 1', 'radius metres 125*2^4', 'radius metres 125*2^14'])
+    elif what == 2:  # another place is asked about
+        a = r.randrange(2)
+        words[a] = nudged(r, words[a], by('1'))
+    elif what == 3:  # one less is listed
+        if len(words) > 6:
+            k = 3 * r.randrange(1, len(words) // 3)
+            del words[k:k + 3]
+        if len(words) == 6 and r.randrange(2):
+            words[2] = 'c'
+    elif what == 4:  # one more, or another one
+        k = 3 * r.randrange(1, len(words) // 3) if len(words) > 3 else 3
+        words[k:k + r.choice([0, 3])] = [str(r.randrange(max(n, 1))), '0', 'none']
+    elif len(words) > 5:  # a bound
+        k = r.choice([q for q in range(4, len(words)) if q % 3])
+        words[k] = nudged(r, words[k], by(words[k])) if words[k] != 'none' else '1*2^10'
+    out[row] = ' '.join(words) if what > 1 else out[row]
+    return what, out
+
+
+def asked_about(r, places):
+    """Places of queries: near the others, between two, any, boxes."""
+    for _ in range(3):
+        x, y = r.choice(places or [(0, 0)])
+        kind = r.randrange(5)
+        if kind == 0 and len(places) > 1 and all(isinstance(v, (int, float)) for p in places for v in p):
+            (a, b), (c, d) = r.sample(places, 2)
+            x, y = (a + c) / 2, (b + d) / 2
+        elif kind > 1:
+            x, y = round(r.uniform(-180, 180), 2), round(r.uniform(-90, 90), 2)
+        if kind == 2:
+            x, y = f'[{x},{x + r.choice([0.01, 1, 40])}]', f'[{max(y - 3, -90)},{y}]'
+        yield x, y
+
+
+def check_nearest(folder, r, k, met):
+    places, options = degrees(r, k % 8), RADII[r.randrange(len(RADII))]
+    path, queries = folder / 'certificate', folder / 'queries'
+    path.unlink(missing_ok=True)
+    queries.write_text(''.join(f'{x} {y}\n' for x, y in asked_about(r, places)))
+    given = points_file(folder, r, places, options)
+    done = run('nearest', '--sphere', '--quiet', *options, *given, '--queries', queries, '--certificate', path)
+    about = (SEED, k, places, options, queries.read_text())
+    if not path.exists():
+        assert done.returncode in (1, 2), (about, done)
+        met['nearest', 'none'] += 1
+        return
+    lines = path.read_text().splitlines()
+    kinds = [row[2] for row in near_section(lines).rows]
+    rows = [l.split(',') for l in done.stdout.splitlines() if l[0] not in '#q']
+    for q, row in enumerate(near_section(lines).rows):  # what the command says
+        assert {int(i) for i in row[3::3]} == {int(v[1]) for v in rows if v[0] == str(q)}, (about, q)
+        assert (row[2] == 'c') == all(v[2] == 'certain' for v in rows if v[0] == str(q)) or not rows, (about, q)
+    for said in (verified(folder, lines), verified(folder, lines, '--sphere', '--points', given[-1], *given[:-1], *options)):
+        gaps = [l for l in said.stdout.splitlines() if l.startswith('not proved')]
+        assert said.returncode in (0, 3) and all('the outcome' in l for l in gaps), (about, said)
+    met['nearest', 'certain', kinds.count('c') == len(kinds), said.returncode] += 1
+    assert not false_near(r, lines, 20), (about, false_near(r, lines, 20))
+    for _ in range(8):
+        what, forged = forge_near(r, lines)
+        done = verified(folder, forged)
+        assert done.returncode in (0, 1, 3), (about, what, done)
+        met['nearest', 'forged', what, done.returncode] += forged != lines
+        if done.returncode != 1 and 'do not list them' not in done.stdout:
+            found = false_near(r, forged, 60)
+            assert not found, (about, what, forged, found)
+
+
 def main():
     r, met = random.Random(SEED), collections.Counter()
     print('seed', SEED)
@@ -418,6 +541,8 @@ def main():
         check_plane(folder)
         for k in range(COUNT):
             check_random(folder, r, k, met)
+            if k % 3 == 0:
+                check_nearest(folder, r, k, met)
     for what, count in sorted(met.items(), key=str):
         print(count, what)
 

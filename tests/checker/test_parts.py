@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Certificates of discs, of graphs and of nearest sites: what the command writes is accepted, and all of it proved; what
+"""Certificates of discs, their cells, of graphs and of nearest sites: what the command writes is accepted, and all of it proved; what
 is changed and accepted all the same is true [CERT-11] [CERT-12] [CERT-13].
 
 Usage: test_parts.py DYADEL   (DYADEL_TEST_SEED chooses the cases; DYADEL_TEST_SCALE multiplies them)
@@ -54,6 +54,7 @@ class Certificate:
         lines = iter(text.splitlines())
         self.box, self.disc, self.refined, self.rows, self.places = [], {}, [], [], []
         self.legal, self.open, self.graph = [], [], None
+        self.window, self.polygons, self.undetermined = None, {}, None
         for line in lines:
             word = line.split()
             if word[0] == 'sites':
@@ -73,6 +74,13 @@ class Certificate:
             elif word[0] == 'graph':
                 self.graph = word[1]
                 self.rows = [next(lines).split() for _ in range(int(word[2]))]
+            elif word[0] == 'window':
+                self.window = tuple(map(number, word[1:]))
+                line = next(lines)
+                while not (line := next(lines)).startswith('undetermined '):
+                    i, *at = line.split()
+                    self.polygons[int(i)] = list(zip(map(number, at[::2]), map(number, at[1::2])))
+                self.undetermined = number(line.split()[1])
             elif word[0] == 'nearest':
                 self.places = [next(lines).split() for _ in range(int(word[1]))]
         self.sites = [k for k, box in enumerate(self.box) if box]
@@ -220,6 +228,24 @@ def judge_graph(c, R, complete, tries=30):
 # ---- places ----
 
 
+def is_nearer(c, i, k, z, d):
+    """Do the rectangles, or the discs, show that i is nearer to z than k?"""
+    if d[i][1] < d[k][0]:
+        return True
+    a, b = (distance2(z, c.disc[m][:2]) for m in (i, k)) if c.disc else (0, 0)
+    return bool(c.disc) and root_difference(a, b, c.disc[i][2] + c.disc[k][2]) > 0
+
+
+def is_within(c, i, z, lo, hi, d):
+    """Do they show that the distance of i from z is in [lo, hi]?"""
+    near, far = d
+    r, between = (c.disc[i][2], distance2(z, c.disc[i][:2])) if c.disc else (0, 0)
+    above = number(lo) <= 0 or number(lo) ** 2 <= near or (c.disc and (number(lo) + r) ** 2 <= between)
+    below = hi == 'none' or (number(hi) >= 0 and number(hi) ** 2 >= far) or (
+        c.disc and number(hi) >= r and (number(hi) - r) ** 2 >= between)
+    return above and below
+
+
 def judge_places(c, R, complete):
     for line in c.places:
         box, rest = (side(line[0]), side(line[1])), line[3:]
@@ -227,16 +253,32 @@ def judge_places(c, R, complete):
         at = [(x, y) for x in {*box[0], sum(box[0]) / 2} for y in {*box[1], sum(box[1]) / 2}]
         for x, y in at:
             d = {k: near_far(c.box[k], x, y) for k in c.sites}
-            if line[2] == 'c' and any(d[int(rest[0])][1] >= d[k][0] for k in c.sites if k != int(rest[0])):
+            if line[2] == 'c' and not all(is_nearer(c, int(rest[0]), k, (x, y), d) for k in c.sites if k != int(rest[0])):
                 return f'{line[:3]}: not certain'
-            least = min(far for _, far in d.values()) if d else 0
-            if complete and {k for k in c.sites if d[k][0] <= least} - listed:
+            if complete and any(all(not is_nearer(c, i, k, (x, y), d) for i in c.sites) for k in set(c.sites) - listed):
                 return f'{line[:3]}: another one may be nearest'
             for i, lo, hi in zip(rest[::3], rest[1::3], rest[2::3]):
-                near, far = d[int(i)]
-                if (number(lo) > 0 and number(lo) ** 2 > near) or (hi != 'none' and (number(hi) < 0 or number(hi) ** 2 < far)):
+                if not is_within(c, int(i), (x, y), lo, hi, d[int(i)]):
                     return f'{line[:3]}: a distance is out of bounds'
     return None
+
+
+# ---- the diagram ----
+
+
+def judge_diagram(c):
+    xlo, xhi, ylo, yhi = c.window
+    area = (xhi - xlo) * (yhi - ylo)
+    for i, at in c.polygons.items():
+        turns = [(b[0] - a[0]) * (d[1] - b[1]) - (b[1] - a[1]) * (d[0] - b[0]) for a, b, d in zip(at, at[1:] + at[:1], at[2:] + at[:2])]
+        if len(at) < 3 or min(turns) <= 0:
+            return f'polygon {i} is not convex'
+        for x, y in at:
+            d = {k: near_far(c.box[k], x, y) for k in c.sites}
+            if not (xlo <= x <= xhi and ylo <= y <= yhi and all(is_nearer(c, i, k, (x, y), d) for k in c.sites if k != i)):
+                return f'a vertex of polygon {i} is not inside its cell'
+        area -= sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(at, at[1:] + at[:1])) / 2
+    return None if area <= c.undetermined else 'more area is undetermined'
 
 
 def judge(text, R, complete):
@@ -244,6 +286,8 @@ def judge(text, R, complete):
     wrong = judge_discs(c) if c.disc else None
     if c.graph and not wrong:
         wrong = judge_graph(c, R, complete)
+    if c.window and not wrong:
+        wrong = judge_diagram(c)
     return wrong or judge_places(c, R, complete)
 
 
@@ -274,7 +318,7 @@ def points_case(R):
 
 def sections(text):
     """Where the part under test begins: before it other tests change everything."""
-    found = [m.start() for m in re.finditer(r'^(discs|graph|nearest) ', text, re.M)]
+    found = [m.start() for m in re.finditer(r'^(discs|graph|window|nearest) ', text, re.M)]
     return min(found)
 
 
@@ -363,7 +407,7 @@ def check_case(folder, R, mutated):
     certificate = folder / 'certificate.txt'
     for command in (['delaunay', '--discs'], ['delaunay', '--layer', 'graph:nearest'], ['delaunay', '--layer', 'graph:gabriel'],
                     ['delaunay', '--layer', 'graph:mst'],
-                    ['nearest', '--queries', places]):
+                    ['nearest', '--queries', places], ['nearest', '--queries', places, '--discs'], ['voronoi', '--discs']):
         certificate.unlink(missing_ok=True)
         done = run(*command, '--quiet', '-o', folder / 'out.csv', '--certificate', certificate, *reading)
         assert done.returncode in (0, 3), (done, points.read_text())
@@ -371,10 +415,10 @@ def check_case(folder, R, mutated):
         text = certificate.read_text()
         discs = command[-1] == '--discs'
         verdict = run('verify', certificate, *(['--discs'] if discs else []), '--points', points, *reading[:-1])
-        ties = 'places' in str(command[-1])
+        ties = command[0] == 'nearest'
         assert verdict.returncode == 0 or (ties and re.findall('not proved: .*', verdict.stdout) and
                                            all('outcome' in v for v in re.findall('not proved: .*', verdict.stdout))), (verdict, points.read_text(), text)
-        if discs:
+        if discs and not ties:
             assert run('verify', certificate).returncode == 0, text
         wrong = judge(text, R, True)
         assert not wrong, f'{wrong}\n{text}'

@@ -261,7 +261,12 @@ def test_discs():
         near += len(want) < len(rows(run('nearest', *words, stdin=text).out))
     assert near > cases(150) // 20, near
     expect(run('nearest', '--discs', '-', '1', '1', stdin='[0,1] [0,2]\n3 4\n'), 1, r'\A\Z', 'a disc needs one radius')
-    expect(run('nearest', '--discs', '--certificate', 'c', '-', '1', '1', stdin='3 4\n'), 2, r'\A\Z', 'no certificate proves')
+    with tempfile.TemporaryDirectory() as folder:
+        near = ('nearest', '--discs', '--radius', '1', '--certificate', 'c', '-', '1', '1')
+        expect(run(*near, stdin='3 4\n5 4.5\n', cwd=folder), 0, 'certain')
+        expect(run('verify', 'c', cwd=folder), 0, 'all of it proved(.|\n)*points in 2 discs(.|\n)*1 of 1 places')
+        expect(run(*near, stdin='3 4\n4 3\n', cwd=folder), 3, 'possible')
+        expect(run('verify', 'c', cwd=folder), 0, 'the outcome fixpoint')
 
 
 EARTH = 6371008.8
@@ -334,7 +339,7 @@ def test_queries_on_sphere():
             doubt = {k for k, d in enumerate(far) if abs(d - min(far) - 2 * radius) < 1e-3}
             assert found[q] ^ want <= doubt and found[q], (q, found[q], want)
     for words, message in ((('--discs',), '--discs is about the plane; remove --discs or --sphere'),
-                           (('--certificate', 'c'), 'no certificate proves which places'), (('--plane',), 'contradict'),
+                           (('--plane',), 'contradict'),
                            (('--radius', '3'), 'has no unit'), (('--format', 'svg'), 'on a sphere nearest writes csv and json')):
         expect(run('nearest', '--sphere', *words, '-', '1', '1', stdin='1 1\n'), 2, r'\A\Z', message)
     expect(run('nearest', '--sphere', '-', '1', '91', stdin='1 1\n'), 1, r'\A\Z', 'the latitude is beyond 90 degrees')

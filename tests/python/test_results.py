@@ -714,6 +714,8 @@ def test_certificates():
     assert verdict.proved and verdict.outcome == 'decided' and verdict.report['legal'] == len(d.legal)
     assert dyadel.verify(d.certificate(), points).report['bound']
     assert dyadel.verify(d.voronoi(window=(0, 4, 0, 3)).certificate()).report['diagram']
+    of_discs = dyadel.verify(d.voronoi(window=(0, 4, 0, 3), discs=True).certificate())
+    assert of_discs.proved and of_discs.report['diagram'] and of_discs.report['discs'] == len(d)
     text = d.certificate()
     error = harness.raised(dyadel.Error, dyadel.verify, text[:len(text) // 2])
     assert error.code == 'parse' and error.line

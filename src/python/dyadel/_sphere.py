@@ -169,7 +169,7 @@ class Sphere(Statuses):
 
     def certificate(self) -> bytes:
         """What proves the statuses, for verify()."""
-        return self._engine.certificate(False, None)
+        return self._engine.certificate(False, None, False)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """The points given: a copy is triangulated anew."""

@@ -298,9 +298,10 @@ class Delaunay(Statuses):
         """Which points to measure next, and how accurately: see dyadel.plan."""
         return plan_of(self._engine, accuracy, window, site)
 
-    def certificate(self, diagram: bool = False, window: Sequence[Any] | None = None) -> bytes:
-        """What proves the result, for verify(); diagram: and its Voronoi diagram on the window."""
-        return self._engine.certificate(diagram or window is not None, window)
+    def certificate(self, diagram: bool = False, window: Sequence[Any] | None = None, discs: bool = False) -> bytes:
+        """What proves the result, for verify(); diagram: and its Voronoi diagram on the window; discs: of points in the
+        discs that the boxes hold."""
+        return self._engine.certificate(diagram or window is not None, window, discs)
 
     def to_wkb(self, layer: str = 'pairs') -> list[bytes]:
         """Well-known binary, one for each row of `pairs`, `simplices` ('triangles') or point ('points').

@@ -52,7 +52,7 @@ class Triangulation(Protocol):
     def named(self, **points: Ints) -> dict[str, Any]:
         """Columns that name points."""
 
-    def certificate(self, diagram: bool, window: Sequence[Any] | None) -> bytes:
+    def certificate(self, diagram: bool, window: Sequence[Any] | None, discs: bool) -> bytes:
         """What proves it."""
 
 
@@ -220,9 +220,7 @@ class Voronoi(Saved):
 
     def certificate(self) -> bytes:
         """What proves triangulation and diagram, for verify()."""
-        if self._discs:
-            raise ValueError('no certificate proves cells of discs; take that of voronoi() without discs=True')
-        return self._of.certificate(True, self._window)
+        return self._of.certificate(True, self._window, self._discs)
 
     def to_geodataframe(self, layer: str = 'cells', crs: Any = None) -> Any:
         """A layer of the command ('cells', 'tiles', 'vertices', 'edges', 'regions') as a GeoDataFrame.
