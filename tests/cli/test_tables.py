@@ -24,6 +24,8 @@ THREE = HEAD + '0,1,legal\n0,2,legal\n1,2,legal\n'
 # Options and text: each holds the points 1 2, 1234.5 5, 5 1000.
 SAME = [
     ('--columns x,y', 'x,y\n1,2\n1234.5,5\n5,1000\n'),
+    ('--columns x,y', 'x,y\n(3-2),22/11\n2469/2,1/2*10\n5,1e3\n'),
+    ('--columns 2,3 --no-header --decimal-comma', '1;1;2,0\n2;1234,5;5\n3;5,0;1000\n'),
     ('--columns x,y --delimiter blank', 'x  y\n 1\t2\n1234.5   5  \n\n   \n5 1000\n'),
     ('--columns x,y --delimiter blank', '"x"  "y z"  y\n 1 "a ""b" 2\n1234.5 c  5  \n5 d 1000\n'),
     ('--columns x,y', 'x y n\n1 2 a\n1234.5 5 b\n5 1000 c\n'),
@@ -130,6 +132,14 @@ TOLD = [
     ('--columns x,y', 'id,x,y\nA,1,2\rB,3,4\nC,5,9\n', 1, r"-:2:1: .* a CR alone ends a line in it: tr '\\r' '\\n' < FILE "),
     ('--columns x,y', '"x" "y"\n"1" 0 0\n', 1, r'-:2:2: .* as R writes tables, give --skip-lines 1 --no-header and numbers to --columns$'),
     ('--columns 2,3 --no-header --delimiter blank', '4 2 0 0\n1 0 0\n', 1, r'lines before the table are passed over by --skip-lines$'),
+    ('--columns x,y', 'x,y\n2024-01-02,0\n', 1, r'-:2:1: this is a date or a range; write a range as \[1\.2,1\.4\]'),
+    ('--columns x,y', 'x,y\n5,1.2-1.4\n', 1, r'-:2:3: this is a date or a range'),
+    ('--columns x,y', 'x,y\n5,-1.2-1.4\n', 1, r'-:2:3: this is a date or a range'),
+    ('--columns x,y', 'x,y\n1/2/2024,0\n', 1, r'-:2:1: this is a date or a range'),
+    ('--columns lon,lat --sphere', 'lon,lat\n691000,5334289\n', 1, r'-:2:8: the latitude is beyond 90 degrees; give degrees, not metres'),
+    ('--columns lon,lat --sphere', 'lon,lat\n48.1,111.5\n', 1, r'-:2:6: the latitude is beyond 90 degrees; longitude comes first'),
+    ('', 'ID,XCOORD,YCOORD\n1,1,2\n', 1, r'--columns XCOORD,YCOORD '),
+    ('', 'Nr;X [m];Y [m]\n1;5 000,1;6 000,1\n', 1, r"--columns 'X \[m\],Y \[m\]' "),
     ('--columns x,y', 'x,y\ninf,0\n', 1, r"-:2:1: coordinates are finite, .*--missing 'inf' --skip-missing$"),
     ('--columns x,y', 'x,y\n-9999,-9999\n1,2\n', 0, r'points with -9999 for both coordinates: 1; .* --missing -9999 --skip-missing$'),
     ('--columns x,y --missing -9999', 'x,y\n99999,99999\n1,2\n', 0, ''),

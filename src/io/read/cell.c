@@ -251,6 +251,15 @@ static bool is_grid_reference(const dyd_span *s) {
   return (zone == 1 || zone == 2) && letters == 3 && digits && digits % 2 == 0 && zone + letters + digits == s->length;
 }
 
+bool dyd_cell_is_difference(const dyd_span *s) {
+  const size_t first = s->length && (*s->text == '-' || *s->text == '+');
+  size_t at = first, parts = 0, n;
+  const char between = memchr(s->text, '/', s->length) ? '/' : '-';
+  for (; (n = cell_span(s, at, "0123456789.")); at += n + 1, parts++)
+    if (at + n < s->length && s->text[at + n] != between) return false;
+  return at == s->length + 1 && parts > 1 + (between == '/');
+}
+
 static bool is_quoted(const dyd_span *s) {
   return s->length > 2 && *s->text == '\'' && s->text[s->length - 1] == '\'';
 }

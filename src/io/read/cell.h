@@ -30,6 +30,8 @@ dyd_status dyd_style_settle(const dyd_style *style, dyd_error *err);
 /* Appends to the message, after the failure st at a cell, how people may mean it and what to give then; returns st.
  * first: the cell is in the first row of a table. */
 dyd_status dyd_cell_hint(dyd_status st, const dyd_style *style, const dyd_span *cell, bool first, dyd_error *err);
+/* Returns true for 2024-01-02, 1.2-1.4 and 1/2/2024: decimals between minus signs, or three between slashes. */
+bool dyd_cell_is_difference(const dyd_span *cell);
 /* Returns the length of the number in "0.02 m", and 0 if the cell is not a number and a unit. */
 size_t dyd_cell_number(const dyd_span *cell);
 

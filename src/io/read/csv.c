@@ -23,6 +23,7 @@ static bool is_blank(char c) {
  * A column is wanted by its name or, in digits without quotes, by its number from 1. */
 
 static const char delimiters[] = ",;\t| ";
+enum { LOOKED_AT = 20 }; /* lines that may be the header */
 
 /* ---- columns requested ---- */
 
@@ -202,13 +203,13 @@ static dyd_status header_split(dyd_csv *csv, const dyd_line *line, char delimite
 }
 
 /* The delimiter that makes the most columns among those by which all wanted ones are found; when there is none, the one
- * that makes the most. Blanks are tried last. */
+ * that makes the most. Blanks are tried last, commas that may be decimal before them. */
 static dyd_status find_delimiter(char *best, dyd_csv *csv, const dyd_line *line, dyd_error *err) {
   size_t most = 0;
   bool found = false;
   *best = delimiters[0];
-  for (const char *d = delimiters; *d; d++) {
-    if (*d == ' ' && found) break;
+  for (const char *d = csv->decimal_comma ? ";\t|, " : delimiters; *d; d++) {
+    if (found && (*d == ' ' || (*d == ',' && csv->decimal_comma))) break;
     dyd_status st = header_split(csv, line, *d, NULL);
     if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
     if (st != DYD_OK) continue;
@@ -263,6 +264,12 @@ static bool ends_with_part(const dyd_span *f, const char *word) {
   char before = f->text[f->length - n - 1], first = f->text[f->length - n];
   bool letter = lower_letter(before) >= 'a' && lower_letter(before) <= 'z';
   return !letter || (lower_letter(before) == before && lower_letter(first) != first);
+}
+
+/* X, POINT_X, XCOORD, "X [m]", X-Koordinate */
+static bool is_axis(const dyd_span *f, const char *x) {
+  const char next = f->length > 1 && has_word(f, 0, x) ? lower_letter(f->text[1]) : 'a';
+  return ends_with_part(f, x) || next < 'a' || next > 'z' || (has_word(f, 0, x) && has_word(f, 1, "coord"));
 }
 
 static bool is_called(const dyd_csv *csv, int role, const axis_words *w) {
@@ -389,7 +396,6 @@ static char delimiter_line(const dyd_line *line) {
 
 /* One of the next lines has all columns: the error says which. */
 static void header_seek(dyd_csv *csv, char delimiter, dyd_error *err) {
-  enum { LOOKED_AT = 20 };
   dyd_line line = {"", 0, 0};
   for (int k = 0; k < LOOKED_AT && err; k++) {
     if (csv_record(&line, csv, NULL) != DYD_OK || !line.text) return;
@@ -489,7 +495,7 @@ static bool guess_columns(dyd_csv *csv, const dyd_csv *row) {
   dyd_plain p;
   for (int a = DYD_CSV_X; a <= DYD_CSV_Y; a++)
     for (k[a] = 0; k[a] < csv->fields && !is_called(csv, a, words[a][0]) && !is_called(csv, a, words[a][1]) &&
-                   !ends_with_part(&csv->field[k[a]], a ? "y" : "x");)
+                   !is_axis(&csv->field[k[a]], a ? "y" : "x");)
       k[a]++;
   if (k[0] < csv->fields && k[1] < csv->fields && k[0] != k[1]) return true;
   for (size_t f = 0; row && f < csv->fields && f < row->fields && found < 2; f++) {
@@ -530,7 +536,6 @@ static bool hint_with(dyd_csv *csv, dyd_csv *row, char d, const dyd_line *line, 
 }
 
 void dyd_csv_hint(dyd_error *err, const dyd_line *line, dyd_text *text) {
-  enum { LOOKED_AT = 20 };
   dyd_csv csv = {0}, row = {0};
   dyd_line next = *line;
   dyd_error own;
@@ -859,14 +864,10 @@ static dyd_status fail_fields(const dyd_csv *csv, bool first, dyd_error *err) {
 
 /* A line below the header as |---|:--:|, ----+---- */
 static bool is_rule(const dyd_line *line) {
-  size_t run = 0, longest = 0;
-  for (size_t k = 0; k < line->length; k++) {
-    const char c = line->text[k];
-    if (!memchr("-=+|: \t", c, 7)) return false;
-    run = c == '-' || c == '=' ? run + 1 : 0;
-    if (run > longest) longest = run;
-  }
-  return longest > 2;
+  size_t run = 0, k = 0;
+  for (; k < line->length && memchr("-=+|: \t", line->text[k], 7); k++)
+    if (run < 3) run = memchr("-=", line->text[k], 2) ? run + 1 : 0;
+  return k == line->length && run == 3;
 }
 
 static bool is_header_again(const dyd_csv *csv, const dyd_span field[DYD_CSV_MOST]) {

@@ -43,6 +43,7 @@ typedef struct dyd_csv {
   bool degrees, swapped;              /* x and y are called longitude and latitude; latitude and longitude */
   const dyd_unit *unit[DYD_CSV_MOST]; /* that the columns of radii and standard deviations state; NULL: none */
   bool headless, units_row;           /* set by the caller: no header; a row of units behind it */
+  bool decimal_comma;                 /* set by the caller: commas separate columns only where nothing else does */
   bool comments;                      /* records that begin with # or % are passed over */
   bool fresh;                         /* no record behind the header has been read */
   bool held, marked, trails; /* the record in `field` is the next; the header begins with # or % alone; its last name is

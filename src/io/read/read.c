@@ -460,13 +460,13 @@ static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_MOST], dy
   return dyd_labels_add(&in->labels, text, length, &own) ? DYD_OK : dyd_fail_nomem(err);
 }
 
-/* Returns true if all of the coordinate is beyond 90. Of computable numbers that is not known yet. */
-static bool is_beyond_poles(const dyd_coordinate *c) {
+/* Returns true if all of the coordinate is beyond most, on either side. Of computable numbers that is not known yet. */
+static bool latitude_beyond(const dyd_coordinate *c, double most) {
   double lo = c->lo, hi = c->hi;
-  if (c->kind == DYD_COORDINATE_PLAIN) return dyd_plain_get_rounded(&lo, c->plain, DYD_UP) && fabs(lo) > 90;
+  if (c->kind == DYD_COORDINATE_PLAIN) return dyd_plain_get_rounded(&lo, c->plain, DYD_UP) && fabs(lo) > most;
   if (c->kind == DYD_COORDINATE_REAL && !dyd_real_is_final(c->real)) return false;
   if (c->kind == DYD_COORDINATE_REAL) dyd_interval_get_d(&lo, &hi, dyd_real_interval(c->real));
-  return lo > 90 || hi < -90;
+  return lo > most || hi < -most;
 }
 
 static dyd_status intake_skip(intake *in, const dyd_span *s, int role, dyd_error *err) {
@@ -478,6 +478,12 @@ static dyd_status intake_skip(intake *in, const dyd_span *s, int role, dyd_error
 
 static dyd_status intake_coordinate(dyd_coordinate *out, intake *in, int axis, const dyd_span *span, dyd_error *err) {
   dyd_status st = dyd_coordinate_read(out, span, &in->manner[axis], err);
+  if (st == DYD_OK && in->o->columns && out->kind == DYD_COORDINATE_REAL && dyd_cell_is_difference(span)) {
+    dyd_coordinate_clear(out);
+    return dyd_span_fail(err, span, 0,
+                         "this is a date or a range; write a range as [1.2,1.4], and put a difference or quotient that "
+                         "is meant into brackets");
+  }
   if (st == DYD_OK) return st;
   if (st != DYD_E_NOMEM && in->o->columns && (in->kind = dyd_kind_of_cell(span->text, span->length)))
     return dyd_kind_fail(err, in->kind);
@@ -517,8 +523,11 @@ static dyd_status intake_row(intake *in, dyd_span span[DYD_CSV_MOST], dyd_error 
     if (st == DYD_OK) st = intake_letter(in, a, &c[a], &span[a], err);
   }
   if (st == DYD_OK && in->o->confidence) st = intake_sigma(in, &span[DYD_ROLE_SIGMA], err);
-  if (st == DYD_OK && in->o->degrees && is_beyond_poles(&c[1]))
-    st = dyd_span_fail(err, &span[1], 0, "the latitude is beyond 90 degrees; longitude comes first, then latitude");
+  if (st == DYD_OK && in->o->degrees && latitude_beyond(&c[1], 90))
+    st = dyd_span_fail(err, &span[1], 0,
+                       latitude_beyond(&c[1], 360)
+                           ? "the latitude is beyond 90 degrees; give degrees, not metres or other units"
+                           : "the latitude is beyond 90 degrees; longitude comes first, then latitude");
   if (st == DYD_OK) return intake_point(in, span, c, err);
   dyd_coordinate_clear(&c[1]);
   dyd_coordinate_clear(&c[0]);
@@ -751,7 +760,11 @@ static void zone_see(intake *in, const dyd_span *f) {
 }
 
 static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
-  dyd_csv csv = {.text = text, .headless = in->o->no_header, .units_row = in->o->units_row, .carry = in->o->carry};
+  dyd_csv csv = {.text = text,
+                 .headless = in->o->no_header,
+                 .units_row = in->o->units_row,
+                 .decimal_comma = in->o->decimal_comma,
+                 .carry = in->o->carry};
   dyd_span span[DYD_CSV_MOST] = {{0}};
   size_t count = 1;
   dyd_status st = csv_begin(&csv, in->o, err);
