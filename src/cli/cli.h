@@ -2,7 +2,8 @@
 /* The parts of the command. It uses the public headers only.
  *
  *   main.c       the words, then help or a command
- *   table.c      all commands and options: parsing, help, manual page and completion come from there
+ *   table.c      all commands and options, made of the texts in manual/: parsing, help, manual page and completion come
+ *                from there
  *   options.c    arguments to cli_options, values of options
  *   help.c       --help, the manual page, completion scripts
  *   session.c    runs a command: reads points, runs the engine, writes a result and a trace, exit status

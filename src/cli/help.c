@@ -4,11 +4,7 @@
 
 #include <string.h>
 
-/* ---- the prose of help and manual page ----
- *
- * Plain text; the manual page escapes what troff would take for its own. */
-
-/* Day of the last change of these texts, as the manual page shows it. */
+/* Day of the last change of the texts, as the manual page shows it. */
 #define MANUAL_DATE "November 21, 2026"
 
 /* A paragraph "TERM\tMEANING"; lists end with NULL. */
@@ -16,108 +12,7 @@ typedef struct help_term {
   const char *term, *meaning;
 } help_term;
 
-static const char help_summary[] =
-    "Delaunay triangulation and Voronoi diagram of points that are exact, imprecise or computable\n"
-    "reals. Every statement holds for every choice of points in the rectangles.";
-
-static const char help_file_text[] = "FILE has one point per line: two coordinates separated by blanks or one comma.\n"
-                                     "\"#\" starts a comment; \"-\" is standard input. Points are numbered from 0.";
-
-static const help_term help_coordinate_forms[] = {
-    {"-3.25 1e-3 22/7", "decimal, integer, rational: exact"},
-    {"47:36:18.3 N47.605", "degrees, minutes, seconds, in the usual forms: exact"},
-    {"0x1.8p-3 5*2^-20", "hexadecimal float, dyadic: exact"},
-    {"[1.2,1.3]", "interval: fixed, with exact ends; never refined"},
-    {"1.25+-0.01", "value with radius: the interval"},
-    {"sqrt(2)+pi/4", "expression: a computable real, refined on demand. Known are + - * / ^, pi e, sqrt cbrt exp log "
-                     "sin cos tan asin acos atan sinh cosh tanh abs min max; blanks are allowed inside parentheses"},
-    {"root(x^5-x-1, 1, 2)", "the root of the polynomial between 1 and 2; also inside expressions"},
-    {"random(7) slow(pi)", "for experiments: the number in [0,1] whose digits seed 7 draws; a number of which answer n "
-                           "is 1/n wide, whatever precision is requested"},
-    {NULL, NULL}};
-
-static const help_term help_exit_statuses[] = {
-    {"0", "decided (every pair), or certified (the requested bound holds)"},
-    {"1",
-     "bad input, a failed point, or a failure to read or write; all that was known before a point failed is written"},
-    {"2", "bad usage"},
-    {"3", "fixpoint: only better measurements can decide more (or ties are left). The normal result of measurements"},
-    {"4", "budget: the limit of bits, pairs, memory or time was reached"},
-    {"5", "cancelled (Ctrl-C: the first one stops the work and writes all known statements)"},
-    {NULL, NULL}};
-
-static const help_term help_examples[] = {
-    {"dyadel delaunay points.txt", "edges as csv"},
-    {"dyadel delaunay --columns longitude,latitude --measured --format svg -o map.svg airports.csv",
-     "a picture of columns of measured decimals"},
-    {"dyadel delaunay --columns x,y --radius-column accuracy --id name --skip-missing -o edges.csv survey.csv.gz",
-     "points with their own accuracies; the result names them"},
-    {"dyadel delaunay --until hausdorff:40 points.txt", "refine until edges are known to 2^-40"},
-    {"dyadel delaunay --certificate c.txt points.txt && dyadel verify c.txt", "edges, and a check of what proves them"},
-    {"dyadel voronoi --window 0,10,0,10 --until area:20 -o cells.html points.txt",
-     "cells on a window, to an undecided area of at most 2^-20, as a page"},
-    {"dyadel voronoi --columns x,y --layer tiles -o tiles.geojson stations.csv", "Thiessen polygons of stations"},
-    {"dyadel nearest --columns x,y --queries places.txt stations.csv", "the nearest station of each place"},
-    {"dyadel tolerance --up-to 0.5 points.txt", "how far points may move before edges are lost or born"},
-    {"dyadel plan --columns x,y --radius-column accuracy --accuracy 0.01 survey.csv",
-     "what to measure next with an instrument good to 0.01"},
-    {"dyadel check --schedules 1000 --oracle ./my-points", "test a program that refines points"},
-    {"dyadel disc -o disc.svg points.txt", "the partial disc of the first three points, drawn"},
-    {"dyadel bisector -o bisector.svg points.txt", "the partial bisector of the first two points, drawn"},
-    {"dyadel converge --schedule uniform --step-bits 8 --plot run.svg points.txt",
-     "how bounds and statuses develop with the precision"},
-    {NULL, NULL}};
-
-static const help_term help_results[] = {
-    {"csv, wkt, geojson",
-     "one layer each (see --layer), with plain columns and one kind of geometry. A point represents its rectangle; "
-     "max_coordinate_error bounds, rounded up, how far in x or y any point of the rectangle is from it: 0 for "
-     "coordinates "
-     "printed exactly. Without --crs geojson claims no reference system; programs that see none would take the "
-     "coordinates "
-     "for degrees. csv is plain, the names of its columns first. --comments puts lines in front of it: \"# alias 7 3\" "
-     "for "
-     "each point 7 that is the same as point 3; where the cap on pairs was met, \"# capped\" and \"# face i j k ...\" "
-     "name the faces within which further pairs may be possible; of voronoi the window and two bounds, the undecided "
-     "area, "
-     "and the distance of undecided points to the true diagram. Without it standard error gets "
-     "these, "
-     "in short. Files whose names end in .gz or .zst are packed."},
-    {"json",
-     "delaunay: the rectangles reached (exact, and as decimals rounded outward), aliases, pairs, certain triangles, "
-     "outcome, bounds of area and Hausdorff distance (exact, and rounded up), counters. voronoi: besides these "
-     "the exact boundaries, arc by arc (line or parabola, focus, feature, ends as (a + b sqrt(c)) / d), the "
-     "polygons, edges with their vertices, rays with bounds of their directions. Exact numbers are texts m*2^e "
-     "or p/q."},
-    {"obj", "vertices \"v x y 0\", legal edges l, certain triangles f; a comment bounds the error of vertices."},
-    {"svg, pdf, png",
-     "Lines that would be one mass are shown by their density; a cluster too small to see is named with "
-     "the --window that shows it. In svg, text is text, and each element has an id (pair-3-7) and a "
-     "title. The picture of nearest shows the disc that is certainly free of points, the ring that certainly "
-     "holds the nearest point, and the rectangles that reach into it."},
-    {"polygons of voronoi", "For each point a certain polygon, inside its cell for every choice, and possible "
-                            "polygons that contain its cell for every choice; vertices are dyadic, so that distances "
-                            "can be compared in integers. The cell of an exact point among exact "
-                            "points is one polygon (kind exact), whose vertices are rounded by at most vertex_error. "
-                            "All lie in the window."},
-    {"converge", "One line for each stage: bits asked for (least, most, total), largest and median width, pairs by "
-                 "status, undecided faces, bounds of the triangulation and of the diagram on the window, decisions per "
-                 "rung, calls, a digest of all statuses, seconds. Widths and bounds are rounded up."},
-    {"--trace FILE", "one JSON object per line; the format is in dyadel/io.h, that of certificates in "
-                     "proofs/certificates.md of the sources"},
-    {NULL, NULL}};
-
-static const char help_oracle_text[] =
-    "With --oracle, a program (sh -c COMMAND) takes the place of FILE. It prints \"points N\"; then for each line "
-    "\"refine I B\" that it reads, it answers one line \"I XLO XHI YLO YHI\": exact numbers (any plain form of the "
-    "points file) between which point I lies, aiming at widths of 2^-B, inside its former answers for I. It may add "
-    "the word \"fixed\" when that can never be narrowed. Where points cost differently, it begins with \"points N "
-    "cost C ... C\", one number above 0 for each, and cheap ones are asked before expensive ones. It flushes after "
-    "every line, answers in the order of the requests, and ends when its input ends. Of K programs, number I modulo "
-    "K is always asked for point I. Results do not depend on --oracle-jobs and --oracle-batch. A program that dies, "
-    "is silent, or writes something other than an answer ends the run with exit status 1 and a message that names "
-    "the point and the request; all that was known before is written. No process is left behind, even when dyadel "
-    "itself is killed. Begin COMMAND with exec when it is a single program, so that no shell stands between.";
+#include "manual.inc" /* made of manual/manual.txt; the manual page escapes what troff would take for its own */
 
 /* ---- --help: of everything, or of one command ---- */
 
@@ -274,7 +169,7 @@ void cli_help(FILE *out, const cli_command *command) {
     }
     fputs("\n", out);
   }
-  if (!command || strncmp(command->operands, "FILE", 4) == 0) fprintf(out, "%s\n\n", help_file_text);
+  if (!command || strncmp(command->operands, "FILE", 4) == 0) fprintf(out, "%s\n\n", help_file);
   help_options(out, command ? cli_command_bit(command) : CLI_ALL);
   if (command) help_samples(out, command);
   fputs("\nExit status: 0 decided or certified, 1 bad input or failure, 2 bad usage,\n"
@@ -405,7 +300,7 @@ void cli_help_man(FILE *out) {
   fputs(".Pp\nThe commands are:\n", out);
   man_commands(out);
   fputs(".Ss The points file\n", out);
-  man_text(out, help_file_text);
+  man_text(out, help_file);
   fputs("A coordinate is one of\n", out);
   man_terms(out, help_coordinate_forms, "Li");
   fputs(".Sh OPTIONS\n", out);
@@ -418,7 +313,7 @@ void cli_help_man(FILE *out) {
   fputs(".Ss Contents\n", out);
   man_terms(out, help_results, "Li");
   fputs(".Sh PROGRAMS THAT SERVE POINTS\n", out);
-  man_text(out, help_oracle_text);
+  man_text(out, help_oracle);
   fputs(".Sh EXIT STATUS\n", out);
   man_terms(out, help_exit_statuses, "Li");
   fputs(".Pp\n", out);
