@@ -7,16 +7,15 @@
  *   record.c        answers of an earlier run; the statuses of each stage
  *   compose.c       points of the engine as streams
  *   plan.c          which points to narrow, and how far: a value
- *   policy.c        plans changed by a callback or a program
- *   ask.c           the loop: a question, its plan, narrowing, triangulating, until it is answered
+ *   ask.c           the loop: a question, its plan, narrowing, triangulating, until it is answered;
+ *                   plans changed by a callback or a program
  *   run.c           the question of a run: does the goal hold, and what to narrow where it does not
  *   scout.c         a few points that go ahead of the others
  *   settle.c        pairs that no refinement decides
  *   goal_voronoi.c  goals on the Voronoi diagram
  *   nearest.c       the question after the nearest sites of a computable point
  *   ties.c          proofs about true points: ties, and points that are the same place
- *   converge.c      tables of runs, stage by stage
- *   hindsight.c     the best plan, once all is known
+ *   converge.c      tables of runs, stage by stage, and the best plan, once all is known
  *   check.c         the harness of monotone refinement */
 #ifndef DYD_ENGINE_STATE_H
 #define DYD_ENGINE_STATE_H

@@ -145,8 +145,6 @@ typedef struct tiles_tree {
   tiles_box *box;
   size_t count;
 } tiles_tree;
-/* false: memory is exhausted. O(n log n). */
-void tiles_tree_clear(tiles_tree *t);
 
 /* The sites that may meet `disc`, without those of `skip`; no more than `most` of them, those with the least scores. */
 typedef struct tiles_search {
@@ -159,8 +157,6 @@ typedef struct tiles_search {
   uint32_t *site;
   double *score;
 } tiles_search;
-/* Replaces the answer. false: memory is exhausted. */
-void tiles_search_clear(tiles_search *q);
 
 /* ---- one rank at work: its steps between one delivery of mail and the next ---- */
 
