@@ -17,7 +17,6 @@
 #include "stream/stream.h"
 
 #include <math.h>
-#include <string.h>
 
 /* ---- when points may come ---- */
 

@@ -7,7 +7,6 @@
  * answers of such a point are intersected with it. */
 #include "engine/points.h"
 
-#include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"

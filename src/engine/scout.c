@@ -18,7 +18,6 @@
 #include "engine/points.h"
 #include "predicate/circle.h"
 #include <dyadel/predicate.h>
-#include <string.h>
 
 /* For each quad to be found: number of tries of the quad rule for one pair, number of tries for four in all, and number
  * of pairs examined. The stride is a prime beyond the number of pairs, so that it leads to all of them. */

@@ -20,7 +20,6 @@
 #include "engine/points.h"
 #include "engine/settle_filter.h"
 #include "rect/rect.h"
-#include "stream/real.h"
 #include "stream/stream.h"
 
 #include <dyadel/predicate.h>

@@ -2,7 +2,6 @@
 /* The Voronoi diagram to be written: its window, vertices, cells and bounds. */
 #include "io/diagram.h"
 
-#include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"

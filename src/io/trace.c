@@ -20,7 +20,6 @@
 #include "io/read/text.h"
 #include "io/result.h"
 #include "rect/sites_table.h"
-#include "stream/real.h"
 
 #include <dyadel/delaunay.h>
 #include <dyadel/engine.h>

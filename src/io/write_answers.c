@@ -3,7 +3,6 @@
  * table of convergence. */
 #include "io/decimal.h"
 #include "io/json.h"
-#include "io/label_text.h"
 #include "io/table.h"
 #include "predicate/circle.h"
 #include "rect/rect.h"

@@ -3,7 +3,6 @@
  *
  * And how many lines cross each small square of the page: squares are shown instead of lines that would be one mass.
  * Where only full squares are drawn, lines and marks inside of them are omitted. */
-#include "io/decimal.h"
 #include "picture/picture.h"
 
 #include <math.h>

@@ -46,71 +46,15 @@ static PyObject *engine_new(PyTypeObject *type, PyObject *args, PyObject *kwargs
   return (PyObject *)self;
 }
 
+#define ROW(name, how, doc) {#name, dydpy_##name, METH_##how, doc},
+#define NO_ROW(name, how, doc)
+
 static PyMethodDef engine_methods[] = {
-    {"append_array", dydpy_append_array, METH_VARARGS,
-     "append_array(xy, radius): doubles of shape (N, 2) both; radius may be None"},
-    {"append_boxes", dydpy_append_boxes, METH_VARARGS,
-     "append_boxes(xlo, xhi, ylo, yhi): contiguous arrays of doubles"},
-    {"append_values", dydpy_append_values, METH_VARARGS, "append_values([(x, y), ...], [(rx, ry), ...] or None)"},
-    {"append_source", dydpy_append_source, METH_VARARGS, "append_source(n, narrow)"},
-    {"append_text", dydpy_append_text, METH_VARARGS, "append_text(bytes, options): fields of dyd_read_options by name"},
-    {"name", dydpy_name, METH_VARARGS, "name(rows, ids or None): the points added last"},
-    {"carried", dydpy_carried, METH_NOARGS, "carried() -> {name: [text of each point]}"},
-    {"names", dydpy_names, METH_NOARGS, "names() -> (Buffer of int64 rows, list of ids or None)"},
-    {"confidence", dydpy_confidence, METH_VARARGS,
-     "confidence(text, n) -> (probability, k, n), stated of n points that come next; (None, 0): the one stated, or "
-     "None"},
-    {"remeasure", dydpy_remeasure, METH_VARARGS, "remeasure(i, (xlo, xhi, ylo, yhi))"},
-    {"recall", dydpy_recall, METH_VARARGS, "recall(path) -> int: answers taken from a trace"},
-    {"trace_begin", dydpy_trace_begin, METH_VARARGS, "trace_begin(path, options, (window, of) or None)"},
-    {"trace_end", dydpy_trace_end, METH_NOARGS, "trace_end(): nothing where there is no trace"},
-    {"run", dydpy_run, METH_O, "run(options)"},
-    {"cancel", dydpy_cancel, METH_NOARGS, "cancel(): from any thread"},
-    {"count", dydpy_count, METH_NOARGS, "count() -> int: points"},
-    {"outcome", dydpy_outcome, METH_NOARGS, "outcome() -> str"},
-    {"counters", dydpy_counters, METH_NOARGS, "counters() -> dict"},
-    {"counts", dydpy_counts, METH_NOARGS, "counts() -> (legal, indeterminate, tie)"},
-    {"pair_status", dydpy_pair_status, METH_VARARGS, "pair_status(i, j) -> int"},
-    {"pairs", dydpy_pairs, METH_NOARGS, "pairs() -> Buffer of (uint32 i, uint32 j, int32 status), sorted"},
-    {"discs", dydpy_discs, METH_NOARGS, "discs() -> the same of the discs in the squares"},
-    {"graph", dydpy_graph, METH_VARARGS,
-     "graph(number, options) -> (Buffer of (uint32 i, uint32 j, int32 certain), sorted, outcome)"},
-    {"triangles", dydpy_triangles, METH_NOARGS,
-     "triangles() -> (Buffer, Buffer) of uint32 (T, 3): corners, neighbours"},
-    {"aliases", dydpy_aliases, METH_NOARGS, "aliases() -> Buffer of uint32 (N,)"},
-    {"hull", dydpy_hull, METH_NOARGS, "hull() -> (Buffer, Buffer) of uint32: certain, possible"},
-    {"bounds", dydpy_bounds, METH_NOARGS, "bounds() -> (area, hausdorff) as (numerator, denominator)"},
-    {"boxes", dydpy_boxes, METH_NOARGS, "boxes() -> Buffer of doubles (N, 4): xlo, xhi, ylo, yhi, rounded outward"},
-    {"rect", dydpy_rect, METH_O, "rect(i) -> four (numerator, denominator)"},
-    {"piece", dydpy_piece, METH_VARARGS, "piece('disc', 'bisector' or 'hull') -> bytes: of the rectangles as they are"},
-    {"rects", dydpy_rects, METH_NOARGS, "rects() -> bytes: a line XLO XHI YLO YHI of exact numbers for each point"},
-    {"window", dydpy_window_of, METH_NOARGS, "window() -> four (numerator, denominator): the default one of diagrams"},
-    {"cells", dydpy_cells, METH_VARARGS,
-     "cells(window or None, flatten_bits or None, discs) -> (Buffer of dyd_cell_ring, Buffer of doubles xy, Buffer of "
-     "doubles "
-     "(N, 2) areas, bits, area, hausdorff or None, window)"},
-    {"frame", dydpy_frame, METH_VARARGS,
-     "frame(window or None, flatten_bits, discs) -> (vertices, boxes, ends, sites, faces, edges, rays): see dyd_frame"},
-    {"tiles", dydpy_tiles, METH_VARARGS,
-     "tiles(window or None, flatten_bits) -> (sites, offsets, xy, areas, bounds, rounding): see dyd_tiles"},
-    {"exact_area", dydpy_exact_area, METH_VARARGS, "exact_area(i, window or None) -> (numerator, denominator) or None"},
-    {"write", dydpy_write, METH_VARARGS, "write(format, layer or None, window or None, epsg) -> bytes"},
-    {"write_voronoi", dydpy_write_voronoi, METH_VARARGS,
-     "write_voronoi(format, layer or None, window or None, flatten_bits or None, epsg, discs) -> bytes"},
-    {"certificate", dydpy_certificate, METH_VARARGS, "certificate(diagram, window or None, discs) -> bytes"},
-    {"nearest", dydpy_nearest, METH_VARARGS, "nearest((x, y), options) -> (Buffer of uint32, certain, outcome, at)"},
-    {"locate", dydpy_locate, METH_VARARGS,
-     "locate(doubles (M, 2)) -> (Buffer of uint32 (M, 3) corners, Buffer of int32 dyd_truth): see dyd_delaunay_locate"},
-    {"nearest_places", dydpy_nearest_places, METH_VARARGS,
-     "nearest_places(doubles (M, 2)) -> (Buffer of uint32 points, Buffer of int64 ends (M,), Buffer of bool (M,))"},
-    {"corners", dydpy_corners, METH_VARARGS,
-     "corners(doubles (M, 2)) -> the same of the corners of the triangle around each place, of any choice"},
-    {"tolerance", dydpy_tolerance, METH_VARARGS,
-     "tolerance(up_to or None, points, max_pairs, sigma, box) -> (rows, (lo, hi), radii or None, chances or None)"},
-    {"plan", dydpy_plan, METH_VARARGS,
-     "plan(accuracy or None, window or None, site or None) -> (rows, (undecided, ties, left))"},
-    {"converge", dydpy_converge, METH_VARARGS,
-     "converge(options, window or None, of, times, hindsight, (from, to) or None) -> (outcome, csv, svg)"},
+#define ENGINE ROW
+#define BOTH ROW
+#define SPHERE NO_ROW
+#define MODULE NO_ROW
+#include "methods.def"
     {NULL, NULL, 0, NULL},
 };
 
@@ -160,24 +104,11 @@ static PyObject *globe_new(PyTypeObject *type, PyObject *args, PyObject *kwargs)
 }
 
 static PyMethodDef globe_methods[] = {
-    {"recall", dydpy_recall, METH_VARARGS, "recall(path) -> int: answers of images taken from a trace"},
-    {"trace_begin", dydpy_trace_begin, METH_VARARGS, "trace_begin(path, options, None)"},
-    {"trace_end", dydpy_trace_end, METH_NOARGS, "trace_end()"},
-    {"run", dydpy_run, METH_O, "run(options)"},
-    {"cancel", dydpy_cancel, METH_NOARGS, "cancel(): from any thread"},
-    {"count", dydpy_count, METH_NOARGS, "count() -> int: points"},
-    {"outcome", dydpy_outcome, METH_NOARGS, "outcome() -> str"},
-    {"counters", dydpy_counters, METH_NOARGS, "counters() -> dict"},
-    {"certificate", dydpy_certificate, METH_VARARGS, "certificate(False, None, False) -> bytes"},
-    {"pairs", dydpy_pairs, METH_NOARGS, "pairs() -> Buffer of (uint32 i, uint32 j, int32 status), sorted"},
-    {"triangles", dydpy_triangles, METH_NOARGS, "triangles() -> (Buffer of uint32 (T, 3): corners, an empty one)"},
-    {"centre", dydpy_centre, METH_NOARGS, "centre() -> int or None: the point projected from"},
-    {"aliases", dydpy_aliases, METH_NOARGS, "aliases() -> Buffer of uint32 (N,)"},
-    {"rect", dydpy_rect, METH_O, "rect(i) -> four (numerator, denominator), degrees"},
-    {"boxes", dydpy_boxes, METH_NOARGS, "boxes() -> Buffer of doubles (N, 4), degrees, rounded outward"},
-    {"write", dydpy_write, METH_VARARGS, "write(format, layer or None, None, epsg) -> bytes"},
-    {"write_voronoi", dydpy_write_voronoi, METH_VARARGS,
-     "write_voronoi(format, layer or None, None, None, epsg) -> bytes"},
+#undef ENGINE
+#define ENGINE NO_ROW
+#undef SPHERE
+#define SPHERE ROW
+#include "methods.def"
     {NULL, NULL, 0, NULL},
 };
 
@@ -201,13 +132,13 @@ static PyType_Spec globe_spec = {
 /* ---- the module ---- */
 
 static PyMethodDef module_functions[] = {
-    {"formats", dydpy_formats, METH_NOARGS, "formats() -> [(name, what it is, is it binary), ...]"},
-    {"replay", dydpy_replay, METH_VARARGS, "replay(path) -> (outcome, csv, svg)"},
-    {"verify", dydpy_verify, METH_VARARGS,
-     "verify(certificate, engine or None, sphere, radius, unit, scale, options) -> dict"},
-    {"check", dydpy_check, METH_VARARGS,
-     "check(make, seed, schedules, stages, base_bits, max_bits, slack_bits, seconds, moves or None, progress or None) "
-     "-> dict"},
+#undef SPHERE
+#define SPHERE NO_ROW
+#undef BOTH
+#define BOTH NO_ROW
+#undef MODULE
+#define MODULE ROW
+#include "methods.def"
     {NULL, NULL, 0, NULL},
 };
 

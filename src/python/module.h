@@ -57,7 +57,7 @@ int dydpy_rational(mpq_t out, PyObject *value);
  * DYD_OK, DYD_FIXED, or an error with err filled or an exception set. */
 dyd_status dydpy_answer(dyd_rect *r, PyObject *answer, dyd_error *err);
 /* Four ends, or None: *given = false. r is initialised. 0, or -1 with an exception set. */
-int dydpy_window(dyd_rect *r, bool *given, PyObject *window);
+int dydpy_window_take(dyd_rect *r, bool *given, PyObject *window);
 /* The four ends as (numerator, denominator). */
 PyObject *dydpy_rect_ends(const dyd_rect *r);
 /* (numerator, denominator). */
@@ -133,54 +133,17 @@ size_t dydpy_points(const dydpy_engine *self);
 /* The point of that number; false with IndexError when there is none. */
 bool dydpy_site(uint32_t *out, dydpy_engine *self, Py_ssize_t number);
 
-/* Methods; the tables in module.c have their arguments and results. */
-PyObject *dydpy_append_array(PyObject *self, PyObject *args);
-PyObject *dydpy_append_boxes(PyObject *self, PyObject *args);
-PyObject *dydpy_append_values(PyObject *self, PyObject *args);
-PyObject *dydpy_append_source(PyObject *self, PyObject *args);
-PyObject *dydpy_append_text(PyObject *self, PyObject *args);
-PyObject *dydpy_confidence(PyObject *self, PyObject *args);
-PyObject *dydpy_name(PyObject *self, PyObject *args);
-PyObject *dydpy_names(PyObject *self, PyObject *none);
-PyObject *dydpy_carried(PyObject *self, PyObject *none);
-PyObject *dydpy_remeasure(PyObject *self, PyObject *args);
-PyObject *dydpy_recall(PyObject *self, PyObject *args);
-PyObject *dydpy_trace_begin(PyObject *self, PyObject *args);
-PyObject *dydpy_trace_end(PyObject *self, PyObject *none);
-PyObject *dydpy_run(PyObject *self, PyObject *options);
-PyObject *dydpy_cancel(PyObject *self, PyObject *none);
-PyObject *dydpy_count(PyObject *self, PyObject *none);
-PyObject *dydpy_centre(PyObject *self, PyObject *none);
-PyObject *dydpy_outcome(PyObject *self, PyObject *none);
-PyObject *dydpy_counters(PyObject *self, PyObject *none);
-PyObject *dydpy_counts(PyObject *self, PyObject *none);
-PyObject *dydpy_pair_status(PyObject *self, PyObject *args);
-PyObject *dydpy_pairs(PyObject *self, PyObject *none);
-PyObject *dydpy_discs(PyObject *self, PyObject *none);
-PyObject *dydpy_graph(PyObject *self, PyObject *number);
-PyObject *dydpy_triangles(PyObject *self, PyObject *none);
-PyObject *dydpy_aliases(PyObject *self, PyObject *none);
-PyObject *dydpy_hull(PyObject *self, PyObject *none);
-PyObject *dydpy_bounds(PyObject *self, PyObject *none);
-PyObject *dydpy_boxes(PyObject *self, PyObject *none);
-PyObject *dydpy_cells(PyObject *self, PyObject *args);
-PyObject *dydpy_frame(PyObject *self, PyObject *args);
-PyObject *dydpy_tiles(PyObject *self, PyObject *args);
-PyObject *dydpy_exact_area(PyObject *self, PyObject *args);
-PyObject *dydpy_rect(PyObject *self, PyObject *site);
-PyObject *dydpy_window_of(PyObject *self, PyObject *none);
-PyObject *dydpy_rects(PyObject *self, PyObject *none);
-PyObject *dydpy_write(PyObject *self, PyObject *args);
-PyObject *dydpy_piece(PyObject *self, PyObject *args);
-PyObject *dydpy_write_voronoi(PyObject *self, PyObject *args);
-PyObject *dydpy_certificate(PyObject *self, PyObject *args);
-PyObject *dydpy_nearest(PyObject *self, PyObject *args);
-PyObject *dydpy_locate(PyObject *self, PyObject *args);
-PyObject *dydpy_corners(PyObject *self, PyObject *args);
-PyObject *dydpy_nearest_places(PyObject *self, PyObject *args);
-PyObject *dydpy_tolerance(PyObject *self, PyObject *args);
-PyObject *dydpy_plan(PyObject *self, PyObject *args);
-PyObject *dydpy_converge(PyObject *self, PyObject *args);
+/* The methods and functions. */
+#define DYDPY_DECLARE(name, how, doc) PyObject *dydpy_##name(PyObject *self, PyObject *args);
+#define ENGINE DYDPY_DECLARE
+#define BOTH DYDPY_DECLARE
+#define SPHERE DYDPY_DECLARE
+#define MODULE DYDPY_DECLARE
+#include "methods.def"
+#undef ENGINE
+#undef BOTH
+#undef SPHERE
+#undef MODULE
 
 /* Ends the trace, if there is one; err may be NULL. */
 dyd_status dydpy_trace_close(dydpy_engine *self, dyd_error *err);
@@ -196,10 +159,5 @@ typedef struct dydpy_text {
 bool dydpy_text_open(dydpy_text *t);
 /* bytes; NULL where the text is not good (an exception is set), or with MemoryError. */
 PyObject *dydpy_text_close(dydpy_text *t, bool good);
-/* Of the module. */
-PyObject *dydpy_formats(PyObject *module, PyObject *none);
-PyObject *dydpy_replay(PyObject *module, PyObject *args);
-PyObject *dydpy_verify(PyObject *module, PyObject *args);
-PyObject *dydpy_check(PyObject *module, PyObject *args);
 
 #endif

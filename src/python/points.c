@@ -293,7 +293,7 @@ static int rect_of(dyd_rect *r, PyObject *ends) {
   return st < 0 ? -1 : 0;
 }
 
-int dydpy_window(dyd_rect *r, bool *given, PyObject *window) {
+int dydpy_window_take(dyd_rect *r, bool *given, PyObject *window) {
   dyd_error err;
   dyd_error_clear(&err);
   *given = window != Py_None;

@@ -106,7 +106,7 @@ PyObject *dydpy_rect(PyObject *object, PyObject *site) {
   return ends;
 }
 
-PyObject *dydpy_window_of(PyObject *object, PyObject *none) {
+PyObject *dydpy_window(PyObject *object, PyObject *none) {
   PyObject *ends = NULL;
   dyd_rect r;
   dydpy_call c;
@@ -228,7 +228,7 @@ PyObject *dydpy_boxes(PyObject *self, PyObject *none) {
 static bool diagram_begin(dydpy_call *c, dyd_rect *view, PyObject *self, PyObject *window) {
   bool given = false;
   dyd_rect_init(view);
-  if (dydpy_window(view, &given, window) == 0 && dydpy_begin(c, self, DYDPY_RESULT | DYDPY_CANCELS)) {
+  if (dydpy_window_take(view, &given, window) == 0 && dydpy_begin(c, self, DYDPY_RESULT | DYDPY_CANCELS)) {
     dyd_status st = given ? DYD_OK : dyd_voronoi_window(view, dyd_delaunay_sites(c->pd));
     if (st == DYD_OK) return true;
     dydpy_end(c, st);
@@ -545,7 +545,7 @@ PyObject *dydpy_plan(PyObject *self, PyObject *args) {
   mpq_init(exact);
   dyd_rect_init(&view);
   if (!PyErr_Occurred() && (accuracy == Py_None || dydpy_rational(exact, accuracy) == 0) &&
-      dydpy_window(&view, &windowed, window) == 0 && dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_CANCELS)) {
+      dydpy_window_take(&view, &windowed, window) == 0 && dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_CANCELS)) {
     const dyd_survey_options o = {DYD_SIZED(dyd_survey_options), .window = windowed ? &view : NULL,
                                   .site = site != Py_None ? &only : NULL,
                                   .accuracy = accuracy != Py_None ? exact : NULL, .cancel = &c.cancel};
@@ -598,7 +598,7 @@ static bool order_form(text_order *t, dyd_content of, const char *name, const ch
 static bool order_begin(text_order *t, PyObject *self, PyObject *window, int how) {
   bool windowed = false;
   dyd_rect_init(&t->window);
-  if (dydpy_window(&t->window, &windowed, window) == 0 && dydpy_text_open(&t->text)) {
+  if (dydpy_window_take(&t->window, &windowed, window) == 0 && dydpy_text_open(&t->text)) {
     t->view = windowed ? &t->window : NULL;
     if (dydpy_begin(&t->call, self, how)) return true;
     dydpy_text_close(&t->text, false);

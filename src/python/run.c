@@ -87,7 +87,7 @@ PyObject *dydpy_trace_begin(PyObject *object, PyObject *args) {
   if (converge != Py_None && !PyArg_ParseTuple(converge, "OI", &window, &of)) return NULL;
   if (dydpy_options_init(&o, self, dict) < 0) return NULL;
   dyd_rect_init(&view);
-  if (dydpy_window(&view, &windowed, window) == 0 && dydpy_begin(&call, object, DYDPY_HOLDS)) {
+  if (dydpy_window_take(&view, &windowed, window) == 0 && dydpy_begin(&call, object, DYDPY_HOLDS)) {
     const dyd_converge_options c = {DYD_SIZED(dyd_converge_options), .window = windowed ? &view : NULL,
                                     .of = (dyd_converge_of)of};
     done = dydpy_end_none(&call, trace_open(self, path, &o.o, converge != Py_None ? &c : NULL, &call.err));
@@ -187,7 +187,7 @@ PyObject *dydpy_converge(PyObject *self, PyObject *args) {
   if (range != Py_None && !PyArg_ParseTuple(range, "LL", &modulus[0], &modulus[1])) return NULL;
   if (dydpy_options_init(&o, (dydpy_engine *)self, dict) < 0) return NULL;
   dyd_rect_init(&view);
-  bool good = dydpy_window(&view, &windowed, window) == 0 && dydpy_begin(&c, self, DYDPY_REFINES);
+  bool good = dydpy_window_take(&view, &windowed, window) == 0 && dydpy_begin(&c, self, DYDPY_REFINES);
   const dyd_converge_options how = {DYD_SIZED(dyd_converge_options), .window = windowed ? &view : NULL,
                                     .of = (dyd_converge_of)of, .rates = range != Py_None, .hindsight = hindsight};
   good = good && dydpy_end(&c, dyd_converge_run(&table, c.self->engine, &o.o, &how, &c.err));
@@ -452,7 +452,7 @@ int dydpy_options_init(dydpy_options *out, dydpy_engine *self, PyObject *dict) {
   PyObject *cost = PyDict_GetItemString(dict, "cost"), *policy = PyDict_GetItemString(dict, "policy");
   if (!PyErr_Occurred() && cost) option_costs(out, self, cost);
   if (!PyErr_Occurred() && policy) option_policy(&out->o, policy);
-  if (!PyErr_Occurred() && window) dydpy_window(&out->window, &given, window);
+  if (!PyErr_Occurred() && window) dydpy_window_take(&out->window, &given, window);
   if (given) out->o.window = &out->window;
   out->progress = (dydpy_progress_user){progress, self ? self->engine : NULL, self ? self->trace : NULL};
   if (self && (self->trace || (progress && progress != Py_None))) {

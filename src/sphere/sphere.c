@@ -16,7 +16,6 @@
 #include "base/index.h"
 #include "delaunay/state.h"
 #include "engine/points.h"
-#include "engine/ties.h"
 #include "rect/rect.h"
 #include "sphere/state.h"
 #include "sphere/units.h"

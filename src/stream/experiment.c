@@ -2,7 +2,6 @@
 /* Reals for experiments: a random one, and one that is known slowly. */
 #include "base/alloc.h"
 #include "base/error.h"
-#include "rect/rect.h"
 #include "stream/real.h"
 
 /* ---- random: binary digits of a number in [0,1], a function of seed and place, so that they are drawn once ---- */

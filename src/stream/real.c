@@ -5,7 +5,6 @@
  * encloses it too, so nestedness needs no trust. An empty intersection would disprove an enclosure: it is
  * reported as DYD_E_NESTING, never papered over. */
 #include "stream/real.h"
-#include "stream/number.h"
 
 #include "base/alloc.h"
 #include "base/error.h"

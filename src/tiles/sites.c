@@ -2,7 +2,6 @@
 /* Tables of sites, mail, and the triangulation of sites: partners and rows. */
 #include "tiles/tiles.h"
 
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>

@@ -4,7 +4,6 @@
 
 #include "base/alloc.h"
 #include "base/flag.h"
-#include "rect/rect.h"
 #include "stream/ball.h"
 #include "stream/real.h"
 #include "stream/stream.h"
