@@ -293,10 +293,10 @@ int cli_write_file(const char *name, const cli_session *s, cli_print_fn print);
 dyd_status cli_write_content(FILE *out, const char *name, const cli_session *s, cli_print_fn print, dyd_error *err);
 /* Returns true if output to this file is compressed. */
 bool cli_is_packed(const char *name, const cli_options *o);
-/* Where the comments of csv go that is written to out: into it, or aside. */
-FILE *cli_comments(FILE *out, const cli_session *s);
-/* The last part of the name of the points file; NULL: there is none. */
-const char *cli_points_name(const cli_options *o);
+/* What most results take, from the options and the session: window, discs, sphere, history, names, comments. */
+dyd_write_options cli_write_options(FILE *out, const cli_session *s);
+/* Writes the result of the engine of s in the layer and format of its options. */
+dyd_status cli_write(FILE *out, const cli_session *s, const dyd_write_options *how, dyd_error *err);
 /* The summary of a triangulation: undecided pairs and the reason, notes on radii and equal points, --stats. */
 int cli_pairs_summary(cli_session *s, int status);
 /* False after a message: there are fewer points than needed. */

@@ -176,21 +176,16 @@ static int converge_find(cli_session *s) {
 }
 
 static dyd_status converge_write(FILE *out, const cli_session *s, dyd_error *err) {
-  const cli_options *o = &s->o;
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options),
-                                 .stages = &((converge_run *)s->state)->table,
-                                 .times = !o->no_times,
-                                 .history = s->history,
-                                 .window = s->view,
-                                 .name = cli_points_name(o),
-                                 .label = o->label,
-                                 .style = &o->style,
-                                 .comments = cli_comments(out, s),
-                                 .no_header = o->no_header,
-                                 .modulus = o->modulus != NULL,
-                                 .modulus_from = ((const converge_run *)s->state)->from,
-                                 .modulus_to = ((const converge_run *)s->state)->to};
-  return dyd_write(out, s->engine, o->content, o->format, &how, err);
+  const converge_run *r = s->state;
+  dyd_write_options how = cli_write_options(out, s);
+  how.stages = &r->table;
+  how.times = !s->o.no_times;
+  how.label = s->o.label;
+  how.no_header = s->o.no_header;
+  how.modulus = s->o.modulus;
+  how.modulus_from = r->from;
+  how.modulus_to = r->to;
+  return cli_write(out, s, &how, err);
 }
 
 /* The last row lacks bounds since no time was left for them: says so. Returns the exit status. */

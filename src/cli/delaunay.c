@@ -55,20 +55,13 @@ static dyd_status delaunay_write(FILE *out, const cli_session *s, dyd_error *err
   const cli_options *o = &s->o;
   dyd_tolerance *tolerance = NULL;
   if (!s->discs && o->format == DYD_FORMAT_HTML) tolerance = find_tolerance(dyd_engine_delaunay(s->engine));
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options),
-                                 .style = &s->o.style,
-                                 .window = s->view,
-                                 .graph = s->graph,
-                                 .pairs = s->discs,
-                                 .epsg = o->epsg,
-                                 .name = cli_points_name(o),
-                                 .history = s->discs ? NULL : s->history,
-                                 .tolerance = tolerance,
-                                 .cancel = cli_signals_flag(),
-                                 .ties = o->list_ties,
-                                 .comments = cli_comments(out, s),
-                                 .lengths = o->lengths};
-  dyd_status st = dyd_write(out, s->engine, o->content, o->format, &how, err);
+  dyd_write_options how = cli_write_options(out, s);
+  how.graph = s->graph;
+  how.tolerance = tolerance;
+  how.cancel = cli_signals_flag();
+  how.ties = o->list_ties;
+  how.lengths = o->lengths;
+  dyd_status st = cli_write(out, s, &how, err);
   dyd_tolerance_free(tolerance);
   return st;
 }
@@ -264,23 +257,17 @@ static int voronoi_find(cli_session *s) {
 
 static dyd_status voronoi_write(FILE *out, const cli_session *s, dyd_error *err) {
   cli_diagram *r = s->diagram;
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options),
-                                 .style = &s->o.style,
-                                 .flatten_bits = s->o.flatten_bits,
-                                 .flatten_set = s->o.flatten_set,
-                                 .window = s->o.engine.window,
-                                 .pairs = s->discs,
-                                 .bounds = &r->bounds,
-                                 .epsg = s->o.epsg,
-                                 .name = cli_points_name(&s->o),
-                                 .cancel = cli_deadline_flag(),
-                                 .clip = s->o.clip,
-                                 .clip_to = s->o.clip_to && s->o.content == DYD_CONTENT_TILES ? &r->clip_to : NULL,
-                                 .cut = &r->cut,
-                                 .coincident = &r->coincident,
-                                 .comments = cli_comments(out, s),
-                                 .history = s->discs ? NULL : s->history};
-  return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
+  dyd_write_options how = cli_write_options(out, s);
+  how.flatten_bits = s->o.flatten_bits;
+  how.flatten_set = s->o.flatten_set;
+  how.window = s->o.engine.window;
+  how.bounds = &r->bounds;
+  how.cancel = cli_deadline_flag();
+  how.clip = s->o.clip;
+  if (s->o.clip_to && s->o.content == DYD_CONTENT_TILES) how.clip_to = &r->clip_to;
+  how.cut = &r->cut;
+  how.coincident = &r->coincident;
+  return cli_write(out, s, &how, err);
 }
 
 static int voronoi_summary(cli_session *s, int status) {
@@ -378,10 +365,9 @@ static int sphere_find(cli_session *s) {
 }
 
 static dyd_status sphere_write(FILE *out, const cli_session *s, dyd_error *err) {
-  const dyd_write_options how = {
-      DYD_SIZED(dyd_write_options),   .style = &s->o.style, .sphere = s->sphere,     .epsg = s->o.epsg,
-      .name = cli_points_name(&s->o), .window = s->view,    .max_arc = s->o.max_arc, .comments = cli_comments(out, s)};
-  return dyd_write(out, NULL, s->o.content, s->o.format, &how, err);
+  dyd_write_options how = cli_write_options(out, s);
+  how.max_arc = s->o.max_arc;
+  return cli_write(out, s, &how, err);
 }
 
 static dyd_status sphere_prove(FILE *out, const cli_session *s, dyd_error *err) {

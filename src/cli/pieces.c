@@ -112,14 +112,10 @@ static int pieces_find(cli_session *s, size_t least, size_t most) {
 
 static dyd_status pieces_write(FILE *out, const cli_session *s, dyd_error *err) {
   const cli_pieces *p = s->state;
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options),
-                                 .style = &s->o.style,
-                                 .rect = p->rect,
-                                 .rects = p->count,
-                                 .outcome = s->outcome,
-                                 .window = s->view,
-                                 .comments = cli_comments(out, s)};
-  return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
+  dyd_write_options how = cli_write_options(out, s);
+  how.rect = p->rect;
+  how.rects = p->count;
+  return cli_write(out, s, &how, err);
 }
 
 int cli_pieces_outcome(const cli_session *s) {
@@ -380,10 +376,11 @@ static dyd_status places_write(FILE *out, const cli_session *s, dyd_error *err) 
   const query *q = s->state;
   const dyd_nearest_answer **list = list_answers(q);
   if (!list) return DYD_E_NOMEM;
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options),    .style = &s->o.style, .answer = list,
-                                 .answers = q->answered,          .sphere = s->sphere,  .outcome = q->outcome,
-                                 .comments = cli_comments(out, s)};
-  dyd_status st = dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
+  dyd_write_options how = cli_write_options(out, s);
+  how.answer = list;
+  how.answers = q->answered;
+  how.outcome = q->outcome;
+  dyd_status st = cli_write(out, s, &how, err);
   free(list);
   return st;
 }

@@ -497,13 +497,27 @@ static int session_prove(cli_session *s, int status) {
  *
  * Without --comments their summary of the whole result goes to standard error. */
 
-FILE *cli_comments(FILE *out, const cli_session *s) {
-  return s->o.comments ? out : s->noted;
-}
-
-const char *cli_points_name(const cli_options *o) {
+/* The last part of the name of the points file; NULL: there is none. */
+static const char *points_name(const cli_options *o) {
   const char *slash = o->file ? strrchr(o->file, '/') : NULL;
   return !o->file || strcmp(o->file, "-") == 0 ? NULL : slash ? slash + 1 : o->file;
+}
+
+dyd_write_options cli_write_options(FILE *out, const cli_session *s) {
+  return (dyd_write_options){DYD_SIZED(dyd_write_options),
+                             .style = &s->o.style,
+                             .window = s->view,
+                             .sphere = s->sphere,
+                             .pairs = s->discs,
+                             .history = s->discs ? NULL : s->history,
+                             .epsg = s->o.epsg,
+                             .name = points_name(&s->o),
+                             .outcome = s->outcome,
+                             .comments = s->o.comments ? out : s->noted};
+}
+
+dyd_status cli_write(FILE *out, const cli_session *s, const dyd_write_options *how, dyd_error *err) {
+  return dyd_write(out, s->engine, s->o.content, s->o.format, how, err);
 }
 
 /* Returns true if the line says something that no other line of ours says. */

@@ -86,13 +86,9 @@ static int tolerance_find(cli_session *s) {
 }
 
 static dyd_status tolerance_write(FILE *out, const cli_session *s, dyd_error *err) {
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options),
-                                 .style = &s->o.style,
-                                 .tolerance = ((tolerance_run *)s->state)->tolerance,
-                                 .window = s->view,
-                                 .epsg = s->o.epsg,
-                                 .comments = cli_comments(out, s)};
-  return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
+  dyd_write_options how = cli_write_options(out, s);
+  how.tolerance = ((tolerance_run *)s->state)->tolerance;
+  return cli_write(out, s, &how, err);
 }
 
 /* Ties are events here, nothing left open. */
@@ -317,14 +313,10 @@ static int plan_find(cli_session *s) {
 }
 
 static dyd_status plan_write(FILE *out, const cli_session *s, dyd_error *err) {
-  const dyd_write_options how = {DYD_SIZED(dyd_write_options),
-                                 .style = &s->o.style,
-                                 .plan = ((plan_run *)s->state)->survey,
-                                 .sphere = s->sphere,
-                                 .next = s->o.next,
-                                 .epsg = s->o.epsg,
-                                 .comments = cli_comments(out, s)};
-  return dyd_write(out, s->engine, s->o.content, s->o.format, &how, err);
+  dyd_write_options how = cli_write_options(out, s);
+  how.plan = ((plan_run *)s->state)->survey;
+  how.next = s->o.next;
+  return cli_write(out, s, &how, err);
 }
 
 /* What rows alone do not say: ties at the nominal places, points that coincide there, rows that decide nothing yet. */

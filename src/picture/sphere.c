@@ -204,18 +204,6 @@ static bool sphere_site_box(double out[4], const void *context, size_t i) {
   return true;
 }
 
-static dyd_status find_places(sphere_drawing *d) {
-  dyd_rect rect;
-  dyd_status st = DYD_OK;
-  dyd_rect_init(&rect);
-  for (uint32_t i = 0; i < d->count && st == DYD_OK; i++) {
-    st = dyd_sphere_rect(&rect, d->r->sphere, i);
-    if (st == DYD_OK) dyd_rect_get_d(d->box[i], &rect);
-  }
-  dyd_rect_clear(&rect);
-  return st;
-}
-
 /* In the middle of the widest range of longitudes without a place, where that is more than half of all; else -180. */
 static dyd_status find_seam(sphere_drawing *d) {
   double *lon = dyd_alloc(d->count + 1, sizeof *lon), widest = 180;
@@ -268,7 +256,7 @@ static dyd_status find_window(double all[4], sphere_drawing *d, dyd_error *err) 
 
 static dyd_status sphere_see(sphere_drawing *d, dyd_error *err) {
   double all[4];
-  dyd_status st = find_places(d);
+  dyd_status st = dyd_sphere_boxes(&d->box, d->r->sphere);
   if (st == DYD_OK) st = d->r->window ? find_window(all, d, err) : find_seam(d);
   if (st != DYD_OK) return st;
   for (size_t i = 0; i < d->count; i++) {
@@ -287,8 +275,7 @@ static dyd_status sphere_draw(const dyd_output *o, const dyd_sphere_cells *cells
   d.count = dyd_engine_count(places);
   d.marks =
       (dyd_site_marks){.engine = places, .count = d.count, .box = sphere_site_box, .context = &d, .rgb = RECTANGLE};
-  d.box = dyd_alloc(d.count, sizeof *d.box);
-  dyd_status st = d.box ? sphere_see(&d, o->err) : DYD_E_NOMEM;
+  dyd_status st = sphere_see(&d, o->err);
   if (st == DYD_OK) st = dyd_view_write(o, &d.view, title, sphere_inside, sphere_legend, &d);
   dyd_density_clear(&d.open);
   free(d.box);
