@@ -331,6 +331,18 @@ static void option_names(FILE *out, unsigned commands) {
   }
 }
 
+/* What stands in a completion script for {{NAME}}. */
+typedef void (*script_part)(FILE *out);
+
+/* The script, with the parts in their order. */
+static void print_script(FILE *out, const char *script, const script_part *part) {
+  for (const char *at; (at = strstr(script, "{{")); script = strstr(at, "}}") + 2) {
+    fwrite(script, 1, (size_t)(at - script), out);
+    (*part++)(out);
+  }
+  fputs(script, out);
+}
+
 /* ---- completion for bash ---- */
 
 /* The pattern of a case for the option: "--output|-o)". */
@@ -374,40 +386,30 @@ static void bash_value(FILE *out, const cli_option *o) {
   }
 }
 
-void cli_help_bash(FILE *out) {
-  fputs("# SPDX-License-Identifier: LGPL-3.0-or-later\n# Completion of dyadel for bash.\n"
-        "_dyadel() {\n"
-        "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command='' words='' equals='' k\n"
-        "  COMPREPLY=()\n"
-        "  # bash takes --format=js for three words\n"
-        "  if [[ $cur == = ]]; then cur='' equals=1\n"
-        "  elif [[ $prev == = ]]; then prev=${COMP_WORDS[COMP_CWORD-2]} equals=1; fi\n"
-        "  for ((k = 1; k < COMP_CWORD; k++)); do\n"
-        "    case ${COMP_WORDS[k]} in\n"
-        "    ",
-        out);
+static void bash_alternatives(FILE *out) {
   cli_commands_print(out, CLI_ALL, "|");
-  fputs(") command=${COMP_WORDS[k]}; break ;;\n    esac\n  done\n  case $prev in\n", out);
+}
+
+static void bash_values(FILE *out) {
   for (size_t k = 0; k < cli_option_count; k++) bash_value(out, &cli_option_table[k]);
   for (size_t k = 0; k < cli_option_count; k++) {
-    const cli_option *o = &cli_option_table[k];
-    if (!cli_kind_is_file(o->kind)) continue;
-    bash_pattern(out, o);
+    if (!cli_kind_is_file(cli_option_table[k].kind)) continue;
+    bash_pattern(out, &cli_option_table[k]);
     fputs("return ;;\n", out);
   }
-  fputs("  esac\n  if [[ -z $words && $cur == -* ]]; then\n    case $command in\n", out);
+}
+
+static void bash_options(FILE *out) {
   bash_words(out, "    ", option_names);
-  fputs("    esac\n  elif [[ -z $words && -z $command ]]; then words='", out);
+}
+
+static void bash_commands(FILE *out) {
   cli_commands_print(out, CLI_ALL, " ");
-  fputs("'; fi\n"
-        "  [[ $words ]] || return # names of files\n"
-        "  compopt +o default 2>/dev/null\n"
-        "  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$cur\")\n"
-        "  [[ ${COMPREPLY[0]-} == *: ]] && compopt -o nospace 2>/dev/null\n"
-        "  return 0\n"
-        "}\n"
-        "complete -o default -F _dyadel dyadel\n",
-        out);
+}
+
+void cli_help_bash(FILE *out) {
+  static const script_part parts[] = {bash_alternatives, bash_values, bash_options, bash_commands};
+  print_script(out, help_bash, parts);
 }
 
 /* ---- completion for zsh ---- */
@@ -459,32 +461,19 @@ static void zsh_command(FILE *out, const cli_command *c) {
   fputs("      '1:file:_files'\n      '*:number:'\n      ) ;;\n", out);
 }
 
-void cli_help_zsh(FILE *out) {
-  fputs("#compdef dyadel\n# SPDX-License-Identifier: LGPL-3.0-or-later\n# Completion of dyadel for zsh.\n"
-        "_dyadel() {\n"
-        "  local -a commands options\n"
-        "  local context state state_descr line\n"
-        "  typeset -A opt_args\n"
-        "  commands=(\n",
-        out);
+static void zsh_commands(FILE *out) {
   for (size_t c = 0; c < CLI_COMMANDS; c++) {
     fprintf(out, "    '%s:", cli_commands[c].name);
     zsh_text(out, cli_commands[c].line);
     fputs("'\n", out);
   }
-  fputs("  )\n"
-        "  _arguments -C '(-h --help)'{-h,--help}'[help]' '--version[the version]' '1:command:->command' "
-        "'*::argument:->arguments' && return\n"
-        "  case $state in\n"
-        "  command) _describe command commands ;;\n"
-        "  arguments)\n"
-        "    case $line[1] in\n",
-        out);
+}
+
+static void zsh_options(FILE *out) {
   for (size_t c = 0; c < CLI_COMMANDS; c++) zsh_command(out, &cli_commands[c]);
-  fputs("    esac\n"
-        "    _arguments $options ;;\n"
-        "  esac\n"
-        "}\n"
-        "_dyadel \"$@\"\n",
-        out);
+}
+
+void cli_help_zsh(FILE *out) {
+  static const script_part parts[] = {zsh_commands, zsh_options};
+  print_script(out, help_zsh, parts);
 }

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Makes C of the texts of the command: the rows of its table of options and of that of its commands, and what --help and
-the manual page say besides.
+"""Makes C of the texts of the command: the rows of its table of options and of that of its commands, and what --help, the
+manual page and the completion scripts say besides.
 
-Usage: pack.py options.txt manual.txt OPTIONS.inc COMMANDS.inc MANUAL.inc
+Usage: pack.py options.txt manual.txt completion.bash completion.zsh OPTIONS.inc COMMANDS.inc MANUAL.inc
 """
 import json
 import pathlib
@@ -92,10 +92,12 @@ def prose(name, lines):
 
 
 def main():
-    table, manual, *out = sys.argv[1:]
+    table, manual, bash, zsh, *out = sys.argv[1:]
     parts = sections(lines_of(manual))
     commands = ''.join(command(*entry) for entry in terms(parts.pop('commands')))
-    made = options(lines_of(table)), commands, ''.join(prose(*part) for part in parts.items())
+    scripts = (f'static const char help_{pathlib.Path(path).suffix[1:]}[] = '
+               f"{quoted(pathlib.Path(path).read_text(encoding='utf-8'))};\n" for path in (bash, zsh))
+    made = options(lines_of(table)), commands, ''.join([*(prose(*part) for part in parts.items()), *scripts])
     for path, text in zip(out, made):
         pathlib.Path(path).write_text('/* Made by pack.py. */\n' + text, encoding='utf-8')
 
