@@ -117,6 +117,16 @@ dyd_status dyd_near_index(dyd_tolerance *t) {
   return st;
 }
 
+/* ---- rows ---- */
+
+dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event, uint32_t k,
+                             uint32_t l, double lo, double hi) {
+  const uint32_t *site = t->sk->reps.site;
+  uint32_t i = site[v], j = site[w], a = k == DYD_NONE ? DYD_NO_SITE : site[k],
+           b = l == DYD_NONE || l == k ? DYD_NO_SITE : site[l];
+  return (dyd_tolerance_row){i < j ? i : j, i < j ? j : i, event, a < b ? a : b, a < b ? b : a, lo, hi};
+}
+
 /* ---- others ---- */
 
 bool dyd_others_add(dyd_others *o, uint32_t v) {

@@ -25,14 +25,6 @@ bool dyd_rows_have_room(dyd_tolerance *t, uint64_t pairs, const char *what) {
   return true;
 }
 
-dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event, uint32_t k,
-                             uint32_t l, double lo, double hi) {
-  const uint32_t *site = t->sk->reps.site;
-  uint32_t i = site[v], j = site[w], a = k == DYD_NONE ? DYD_NO_SITE : site[k],
-           b = l == DYD_NONE || l == k ? DYD_NO_SITE : site[l];
-  return (dyd_tolerance_row){i < j ? i : j, i < j ? j : i, event, a < b ? a : b, a < b ? b : a, lo, hi};
-}
-
 static dyd_tolerance_row row_of_summit(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event) {
   const dyd_summit *s = &t->summit;
   double lo = HUGE_VAL, hi = HUGE_VAL;

@@ -107,7 +107,7 @@ dyd_status dyd_points_radius(dyd_tolerance *t);
 /* After dyd_rows_sort. */
 dyd_status dyd_chances(dyd_tolerance *t);
 
-/* rows.c: the row of vertices v, w; with the value and binding of t->summit. */
+/* near_filter.c: the row of vertices v, w, bound by the vertices k and l, or DYD_NONE. */
 dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event, uint32_t k,
                              uint32_t l, double lo, double hi);
 /* The upper end of a row that work did not reach before it was cancelled. */

@@ -422,7 +422,7 @@ static dyd_status weights_begin(weight_work *g) {
   const dyd_skeleton *sk = g->t->sk;
   mpq_t other;
   dyd_rect r;
-  dyd_status st = dyd_near_index(g->t);
+  dyd_status st = DYD_OK;
   g->discs.weight = g->t->weight;
   g->discs.about = dyd_alloc(sk->n, sizeof *g->discs.about);
   g->discs.disc = g->discs.about ? dyd_alloc(sk->n, sizeof *g->discs.disc) : NULL;
@@ -449,7 +449,11 @@ static void weights_end(weight_work *g) {
   mpq_clear(g->now);
 }
 
+/* Exact discs are made when the first row needs them. */
 static dyd_status weigh_row(bool *late, dyd_tolerance_row *row, void *work) {
+  weight_work *g = work;
+  dyd_status st = g->discs.disc ? DYD_OK : weights_begin(g);
+  if (st != DYD_OK) return st;
   return row->event == DYD_EVENT_DEATH ? weigh_death(work, row) : weigh_birth(late, work, row);
 }
 
@@ -457,7 +461,7 @@ dyd_status dyd_weigh(dyd_tolerance *t) {
   weight_work g = {.t = t};
   dyd_caps_init(&g.discs.caps);
   mpq_init(g.now);
-  dyd_status st = weights_begin(&g);
+  dyd_status st = dyd_near_index(t);
   if (st == DYD_OK) st = dyd_rows_rework(t, weigh_row, &g);
   weights_end(&g);
   return st;
