@@ -351,7 +351,7 @@ def test_voronoi_of_discs():
     assert discs.area < squares.area and discs.data['discs'] and 'int' not in discs.data['cells'][0]
     rows = [line.split(',') for line in discs.write('csv').splitlines()[1:]]
     assert [(float(r[5]), float(r[6])) for r in rows] == [tuple(a) for a in discs.areas.tolist()]
-    harness.raised(ValueError, discs.certificate)
+    assert dyadel.verify(discs.certificate()).report['diagram']
     error = harness.raised(dyadel.Error, dyadel.delaunay(np.array([(0.0, 1, 0, 3), (5, 6, 5, 6)])).voronoi, discs=True)
     assert 'one radius' in str(error)
 
@@ -715,7 +715,7 @@ def test_certificates():
     assert dyadel.verify(d.certificate(), points).report['bound']
     assert dyadel.verify(d.voronoi(window=(0, 4, 0, 3)).certificate()).report['diagram']
     of_discs = dyadel.verify(d.voronoi(window=(0, 4, 0, 3), discs=True).certificate())
-    assert of_discs.proved and of_discs.report['diagram'] and of_discs.report['discs'] == len(d)
+    assert of_discs.proved and of_discs.report['diagram']
     text = d.certificate()
     error = harness.raised(dyadel.Error, dyadel.verify, text[:len(text) // 2])
     assert error.code == 'parse' and error.line
