@@ -263,21 +263,13 @@ static dyd_status loosen_site(dyd_measuring *m, uint32_t site, unsigned most) {
   return st;
 }
 
-/* It has to be measured at all. */
-static unsigned loosen_most(dyd_survey *s, uint32_t site) {
-  unsigned *coarser = &s->site[site].coarser, most = 0;
-  for (*coarser = 1; dyd_survey_needed(s, site) * 2 <= dyd_survey_now(s, site); ++*coarser) most = *coarser;
-  *coarser = 0;
-  return most;
-}
-
 /* One after the other; all together are checked in the end, and where they fail, the common factor alone counts. */
 static dyd_status loosen_each(dyd_survey *s) {
   dyd_measuring m;
   size_t before = s->result.left;
   dyd_status st = dyd_measuring_begin(&m, s);
   for (size_t k = 0; k < s->chosens && st == DYD_OK; k++)
-    st = loosen_site(&m, s->chosen[k].row.site, loosen_most(s, s->chosen[k].row.site));
+    st = loosen_site(&m, s->chosen[k].row.site, dyd_survey_doublings(s, s->chosen[k].row.site));
   dyd_measuring_end(&m);
   return st == DYD_OK ? restore_open(s, before) : st;
 }

@@ -59,6 +59,8 @@ size_t dyd_survey_open(const dyd_survey *s, const dyd_delaunay *pd);
 /* The accuracy of site i, rounded down. */
 double dyd_survey_needed(const dyd_survey *s, uint32_t i);
 double dyd_survey_now(const dyd_survey *s, uint32_t i);
+/* How often its accuracy can be doubled and still asks for a measurement. */
+unsigned dyd_survey_doublings(const dyd_survey *s, uint32_t i);
 
 /* survey_face.c: sorts the targets, finds s->first and s->at. */
 dyd_status dyd_survey_index_targets(dyd_survey *s);

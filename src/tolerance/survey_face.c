@@ -142,6 +142,21 @@ double dyd_survey_needed(const dyd_survey *s, uint32_t i) {
   return out;
 }
 
+unsigned dyd_survey_doublings(const dyd_survey *s, uint32_t i) {
+  long most = 0;
+  mpq_t a;
+  mpq_init(a);
+  accuracy_of(a, s, i);
+  if (mpq_sgn(a) > 0) {
+    mpq_div(a, s->site[i].half, a);
+    most = (long)mpz_sizeinbase(mpq_numref(a), 2) - (long)mpz_sizeinbase(mpq_denref(a), 2);
+    if (most > 0) mpq_div_2exp(a, a, (mp_bitcnt_t)most);
+    if (mpq_cmp_ui(a, 1, 1) < 0) most--;
+  }
+  mpq_clear(a);
+  return most > 1 ? (unsigned)most - 1 : 0;
+}
+
 double dyd_survey_now(const dyd_survey *s, uint32_t i) {
   return dyd_q_double(s->site[i].half, 1);
 }

@@ -11,6 +11,7 @@ import os
 import pathlib
 import random
 import re
+import sys
 import tempfile
 
 from harness import DATA, count, expect, main, run
@@ -231,6 +232,24 @@ def test_discs():
         more = run('plan', '--pairs', 'pairs', *gps, cwd=folder).out.splitlines()[2:]
         assert sum(int(line.split(',')[4]) for line in more) == 2, more
     expect(run('plan', '--discs', '-', stdin='[0,1] [0,2]\n3 4\n5 9\n'), 1, r'\A\Z', 'a disc needs one radius')
+
+
+PROGRAM = '''import sys
+places = (-15, 10), (15, -5), (9, -1), (17, -6), (-3, 4), (3, 1)
+print("points", len(places), flush=True)
+for line in sys.stdin:
+    i, bits = map(int, line.split()[1:])
+    print(i, *(f"{end * 2**max(bits, 0) + more}*2^{-max(bits, 0)}" for end in places[i] for more in (0, 1 + (i == 1))), flush=True)
+'''
+
+
+def test_rectangles_below_doubles():
+    """Four of these places are on a line, which no rectangle tells: all have a width of 2^-4096, which doubles take for 0."""
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, 'points.py'), 'w', encoding='utf-8') as out:
+            out.write(PROGRAM)
+        result = run('plan', '--comments', '--oracle', f'exec {sys.executable} points.py', cwd=folder, timeout=120)
+        expect(result, 0, r'\A# plan 2 points: sufficient .*; verified\n(#.*\n)*rank,.*\n1,1,4.94065e-324,0,0,3\n')
 
 
 main(globals())
