@@ -299,14 +299,16 @@ let skip_globe s =
 
 (* A certificate of nearest sites: the checker knows of the sites only. *)
 let read_nearest s (outcome, goal, capped) (sites, aliases, rects) =
-  let rec places () =
+  let rec places beside =
     match words s with
-    | "discs" :: discs :: ([] | [ "fixed" ]) -> skip s discs; places ()
-    | [ "sphere" ] -> skip_globe s; places ()
-    | [ "nearest"; q ] -> skip s q; Printf.sprintf "which sites are nearest to %s places, and how far they are" q
+    | "discs" :: discs :: ([] | [ "fixed" ]) -> skip s discs; places " for points in discs"
+    | [ "sphere" ] -> skip_globe s; places beside
+    | [ "nearest"; q ] ->
+      skip s q;
+      Printf.sprintf "which sites are nearest to %s places%s, and how far they are" q beside
     | _ -> bad s "\"nearest\" is missing"
   in
-  let beside = places () in
+  let beside = places "" in
   if next s <> "end" then bad s "\"end\" is missing";
   ends s;
   let pairs =

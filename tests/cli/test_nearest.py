@@ -263,7 +263,7 @@ def test_discs():
     expect(run('nearest', '--discs', '-', '1', '1', stdin='[0,1] [0,2]\n3 4\n'), 1, r'\A\Z', 'a disc needs one radius')
     with tempfile.TemporaryDirectory() as folder:
         near = ('nearest', '--discs', '--radius', '1', '--certificate', 'c', '-', '1', '1')
-        expect(run(*near, stdin='3 4\n5 4.5\n', cwd=folder), 0, 'certain')
+        expect(run(*near, stdin='3 4\n6 6\n', cwd=folder), 0, 'certain')
         expect(run('verify', 'c', cwd=folder), 0, 'all of it proved(.|\n)*points in 2 discs(.|\n)*1 of 1 places')
         expect(run(*near, stdin='3 4\n4 3\n', cwd=folder), 3, 'possible')
         expect(run('verify', 'c', cwd=folder), 0, 'the outcome fixpoint')

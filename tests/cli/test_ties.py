@@ -335,7 +335,7 @@ def test_traces():
             trace = f.read()
         assert '"proved":"co' in trace
         broken = trace.replace('"proved":"co', '"proved":"no')
-        expect(run('converge', '--replay', '-', stdin=broken), 1, err='not what can be proved of points')
+        expect(run('converge', '--replay', '-', stdin=broken), 1, err='no such proof about points is known')
 
 
 def test_certificates():
