@@ -50,13 +50,14 @@ static const char usage[] =
     "it.\n"
     "Exit status: 0 decided, 3 fixpoint, 4 budget (--max-pairs), 1 failure, 2 bad usage.\n";
 
+/* In one piece: other ranks may complain at the same time. */
 static void main_complain(const char *format, ...) {
+  char text[8192];
   va_list args;
   va_start(args, format);
-  fputs("dyadel-tiles: ", stderr);
-  vfprintf(stderr, format, args);
-  fputs("\n", stderr);
+  vsnprintf(text, sizeof text, format, args);
   va_end(args);
+  fprintf(stderr, "dyadel-tiles: %s\n", text);
 }
 
 /* ---- words ---- */
