@@ -8,6 +8,7 @@
 #include "answers.h"
 #include "cloud.h"
 #include "harness.h"
+#include "ours.h"
 #include "peer.h"
 
 #include <dyadel/metric.h>
@@ -16,10 +17,6 @@
 #include <stdlib.h>
 
 static const bench_series no_peer;
-
-static void cells_check(const char *row, dyd_status status) {
-  if (status != DYD_OK) bench_die(row, dyd_status_text(status));
-}
 
 /* area, distance: both bounds, up to rounding, times 10^9. */
 typedef struct cells_answer {
@@ -34,9 +31,9 @@ static bench_cost cells_run(cells_answer *answer, const char *row, const dyd_del
   dyd_voronoi_bounds b;
   dyd_rect_init(&window);
   dyd_voronoi_bounds_init(&b);
-  cells_check(row, dyd_rect_set_d(&window, 0, side, 0, side));
+  bench_need(row, dyd_rect_set_d(&window, 0, side, 0, side), NULL);
   bench_meter meter = bench_start();
-  cells_check(row, dyd_metric_voronoi(&b, pd, &window, dyd_metric_coarseness(pd, &window) + 4, NULL));
+  bench_need(row, dyd_metric_voronoi(&b, pd, &window, dyd_metric_coarseness(pd, &window) + 4, NULL), NULL);
   bench_cost cost = bench_stop(&meter);
   double area = dyd_dyadic_get_d(&b.area, DYD_UP) / (side * side);
   double distance = dyd_dyadic_get_d(&b.hausdorff, DYD_UP) / side;
@@ -63,9 +60,9 @@ static void row_cells(const bench_options *o, const char *name, size_t n, double
   (gps ? cloud_gps : cloud_uniform)(&boxes, bench_size(o, n));
   if (!gps) cloud_widen(&boxes, share / sqrt((double)boxes.n));
   double side = gps ? sqrt((double)boxes.n) : 1;
-  cells_check(name, dyd_sites_new(&sites));
-  cells_check(name, dyd_sites_add_boxes(sites, boxes.n, boxes.x0, boxes.x1, boxes.y0, boxes.y1));
-  cells_check(name, dyd_delaunay_new(&pd, sites, NULL, NULL));
+  bench_need(name, dyd_sites_new(&sites), NULL);
+  bench_need(name, dyd_sites_add_boxes(sites, boxes.n, boxes.x0, boxes.x1, boxes.y0, boxes.y1), NULL);
+  bench_need(name, dyd_delaunay_new(&pd, sites, NULL, NULL), NULL);
   for (size_t r = 0; r < bench_runs(o, 3); r++) bench_series_add(&ours, cells_run(&answer, name, pd, side));
   bench_check_numbers(o, name, boxes.n, answer.area, answer.distance, 0);
   bench_report(o, &(bench_row){.name = name,
@@ -92,12 +89,12 @@ static void row_discs(const bench_options *o, const char *name, size_t n) {
     dyd_sites *sites = NULL;
     dyd_delaunay *pd = NULL;
     dyd_pair_list pairs = {0};
-    cells_check(name, dyd_sites_new(&sites));
-    cells_check(name, dyd_sites_add_boxes(sites, boxes.n, boxes.x0, boxes.x1, boxes.y0, boxes.y1));
+    bench_need(name, dyd_sites_new(&sites), NULL);
+    bench_need(name, dyd_sites_add_boxes(sites, boxes.n, boxes.x0, boxes.x1, boxes.y0, boxes.y1), NULL);
     bench_meter squares = bench_start(), all = squares;
-    cells_check(name, dyd_delaunay_new(&pd, sites, NULL, NULL));
+    bench_need(name, dyd_delaunay_new(&pd, sites, NULL, NULL), NULL);
     bench_series_add(&plain, bench_stop(&squares));
-    cells_check(name, dyd_disc_pairs(&pairs, pd, NULL, NULL));
+    bench_need(name, dyd_disc_pairs(&pairs, pd, NULL, NULL), NULL);
     bench_series_add(&ours, bench_stop(&all));
     for (int k = 0; k < 4; k++) count[k] = 0;
     for (size_t k = 0; k < pairs.count; k++) count[pairs.item[k].status]++;
@@ -127,14 +124,14 @@ static void tiles_run(bench_series *plain, bench_series *ours, size_t answer[2],
   dyd_tiles tiles = {0};
   dyd_rect window;
   dyd_rect_init(&window);
-  cells_check(row, dyd_rect_set_d(&window, 0, side, 0, side));
-  cells_check(row, dyd_sites_new(&sites));
-  cells_check(row, dyd_sites_add_points(sites, c->n, c->x, c->y));
+  bench_need(row, dyd_rect_set_d(&window, 0, side, 0, side), NULL);
+  bench_need(row, dyd_sites_new(&sites), NULL);
+  bench_need(row, dyd_sites_add_points(sites, c->n, c->x, c->y), NULL);
   bench_meter meter = bench_start();
-  cells_check(row, dyd_delaunay_new(&pd, sites, NULL, NULL));
+  bench_need(row, dyd_delaunay_new(&pd, sites, NULL, NULL), NULL);
   bench_series_add(plain, bench_stop(&meter));
   meter = bench_start();
-  cells_check(row, dyd_voronoi_tiles(&tiles, pd, &window, 0, NULL));
+  bench_need(row, dyd_voronoi_tiles(&tiles, pd, &window, 0, NULL), NULL);
   bench_series_add(ours, bench_stop(&meter));
   answer[0] = tiles.count;
   answer[1] = tiles.offset[tiles.count];
@@ -171,18 +168,18 @@ static void row_clip(const bench_options *o, const char *name, size_t n) {
   cloud_uniform(&points, bench_size(o, n));
   border_init(&border);
   dyd_rect_init(&window);
-  cells_check(name, dyd_rect_set_d(&window, 0, 1, 0, 1));
-  cells_check(name, dyd_area_orient(&border, bad));
+  bench_need(name, dyd_rect_set_d(&window, 0, 1, 0, 1), NULL);
+  bench_need(name, dyd_area_orient(&border, bad), NULL);
   for (size_t r = 0; r < bench_runs(o, 3); r++) {
     dyd_sites *sites = NULL;
     dyd_delaunay *pd = NULL;
     dyd_tiles tiles = {0};
-    cells_check(name, dyd_sites_new(&sites));
-    cells_check(name, dyd_sites_add_points(sites, points.n, points.x, points.y));
-    cells_check(name, dyd_delaunay_new(&pd, sites, NULL, NULL));
-    cells_check(name, dyd_voronoi_tiles(&tiles, pd, &window, 0, NULL));
+    bench_need(name, dyd_sites_new(&sites), NULL);
+    bench_need(name, dyd_sites_add_points(sites, points.n, points.x, points.y), NULL);
+    bench_need(name, dyd_delaunay_new(&pd, sites, NULL, NULL), NULL);
+    bench_need(name, dyd_voronoi_tiles(&tiles, pd, &window, 0, NULL), NULL);
     bench_meter meter = bench_start();
-    cells_check(name, dyd_tiles_clip(&tiles, &border, NULL));
+    bench_need(name, dyd_tiles_clip(&tiles, &border, NULL), NULL);
     bench_series_add(&ours, bench_stop(&meter));
     rings = tiles.count;
     dyd_tiles_clear(&tiles);

@@ -6,6 +6,7 @@
 #include "answers.h"
 #include "cloud.h"
 #include "harness.h"
+#include "ours.h"
 
 #include <dyadel/io.h>
 
@@ -30,10 +31,6 @@ typedef struct series {
   size_t written[FORMATS], count[4];
 } series;
 
-static void check(dyd_status status, const dyd_error *err) {
-  if (status != DYD_OK) bench_die("files", *err->message ? err->message : dyd_status_text(status));
-}
-
 static FILE *points_file(const cloud *c, bool hex) {
   FILE *f = tmpfile();
   if (!f) bench_die("files", "no temporary file");
@@ -48,7 +45,7 @@ static void write_all(series *s, const dyd_engine *e, int k) {
   if (!out) bench_die("files", "no temporary file");
   dyd_error_clear(&err);
   bench_meter meter = bench_start();
-  check(dyd_write(out, e, DYD_CONTENT_DELAUNAY, (dyd_format)k, NULL, &err), &err);
+  bench_need("files", dyd_write(out, e, DYD_CONTENT_DELAUNAY, (dyd_format)k, NULL, &err), &err);
   if (fflush(out)) bench_die("files", "writing failed");
   bench_series_add(&s->write[k], bench_stop(&meter));
   s->written[k] = (size_t)ftell(out);
@@ -62,13 +59,13 @@ static void round_trip(series *s, const bench_options *o, FILE *in, size_t n) {
   dyd_error err;
   dyd_error_clear(&err);
   rewind(in);
-  check(dyd_engine_new(&e), &err);
+  bench_need("files", dyd_engine_new(&e), &err);
   bench_meter meter = bench_start();
-  check(dyd_read_points(e, in, NULL, &err), &err);
+  bench_need("files", dyd_read_points(e, in, NULL, &err), &err);
   bench_series_add(&s->read, bench_stop(&meter));
   if (dyd_engine_count(e) != n) bench_die("files", "not as many points as lines");
   meter = bench_start();
-  check(dyd_engine_run(&outcome, e, NULL, &err), &err);
+  bench_need("files", dyd_engine_run(&outcome, e, NULL, &err), &err);
   bench_series_add(&s->run, bench_stop(&meter));
   dyd_delaunay_count(s->count, dyd_engine_delaunay(e));
   for (int k = 0; k < FORMATS; k++)

@@ -3,14 +3,11 @@
  * decided: the time, and the bits asked for each point, compared with 10000. */
 #include "answers.h"
 #include "harness.h"
+#include "ours.h"
 
 #include <dyadel/engine.h>
 
 enum { POINTS = 64, APART = 10000 };
-
-static void check(dyd_status status, const dyd_error *err) {
-  if (status != DYD_OK) bench_die("near", *err->message ? err->message : dyd_status_text(status));
-}
 
 static void add_point(dyd_engine *e, int k, dyd_error *err) {
   static const char *const function[2] = {"cos", "sin"};
@@ -20,10 +17,10 @@ static void add_point(dyd_engine *e, int k, dyd_error *err) {
     char text[100];
     int length =
         snprintf(text, sizeof text, "%s(2*pi*%d/%d)*(1+%d*2^-%d)", function[a], k, POINTS, k * 37 % POINTS, APART);
-    check(dyd_real_parse(&coordinate[a], text, (size_t)length, err), err);
+    bench_need("near", dyd_real_parse(&coordinate[a], text, (size_t)length, err), err);
   }
-  check(dyd_stream_from_reals(&s, coordinate[0], coordinate[1]), err);
-  check(dyd_engine_add_stream(e, s, NULL), err);
+  bench_need("near", dyd_stream_from_reals(&s, coordinate[0], coordinate[1]), err);
+  bench_need("near", dyd_engine_add_stream(e, s, NULL), err);
 }
 
 static bench_cost run(size_t count[4], double *bits, char *remark, size_t size) {
@@ -34,9 +31,9 @@ static bench_cost run(size_t count[4], double *bits, char *remark, size_t size) 
   dyd_error err;
   dyd_error_clear(&err);
   bench_meter meter = bench_start();
-  check(dyd_engine_new(&e), &err);
+  bench_need("near", dyd_engine_new(&e), &err);
   for (int k = 0; k < POINTS; k++) add_point(e, k, &err);
-  check(dyd_engine_run(&outcome, e, &options, &err), &err);
+  bench_need("near", dyd_engine_run(&outcome, e, &options, &err), &err);
   bench_cost cost = bench_stop(&meter);
   dyd_engine_get_counters(&counters, e, NULL);
   dyd_delaunay_count(count, dyd_engine_delaunay(e));

@@ -3,12 +3,9 @@
 #include "answers.h"
 #include "cloud.h"
 #include "harness.h"
+#include "ours.h"
 
 #include <dyadel/survey.h>
-
-static void plan_check(dyd_status status) {
-  if (status != DYD_OK) bench_die("plan", dyd_status_text(status));
-}
 
 /* The triangulation, then the plan. */
 static void plan_run(bench_series *before, bench_series *ours, size_t answer[3], const cloud *c) {
@@ -17,12 +14,12 @@ static void plan_run(bench_series *before, bench_series *ours, size_t answer[3],
   dyd_delaunay *pd;
   dyd_survey *s;
   bench_meter meter = bench_start();
-  plan_check(dyd_sites_new(&sites));
-  plan_check(dyd_sites_add_boxes(sites, c->n, c->x0, c->x1, c->y0, c->y1));
-  plan_check(dyd_delaunay_new(&pd, sites, NULL, NULL));
+  bench_need("plan", dyd_sites_new(&sites), NULL);
+  bench_need("plan", dyd_sites_add_boxes(sites, c->n, c->x0, c->x1, c->y0, c->y1), NULL);
+  bench_need("plan", dyd_delaunay_new(&pd, sites, NULL, NULL), NULL);
   bench_series_add(before, bench_stop(&meter));
   meter = bench_start();
-  plan_check(dyd_survey_new(&s, pd, NULL, NULL));
+  bench_need("plan", dyd_survey_new(&s, pd, NULL, NULL), NULL);
   bench_series_add(ours, bench_stop(&meter));
   answer[0] = dyd_survey_get(s)->open;
   answer[1] = dyd_survey_get(s)->left;

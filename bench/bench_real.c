@@ -4,6 +4,7 @@
  * of crowds, beside the run that they come from. */
 #include "answers.h"
 #include "harness.h"
+#include "ours.h"
 #include "real.h"
 
 #include <dyadel/certificate.h>
@@ -16,18 +17,14 @@ typedef struct real_row {
   const char *columns, *radius;
 } real_row;
 
-static void check(const char *row, dyd_status status, const dyd_error *err) {
-  if (status != DYD_OK) bench_die(row, *err->message ? err->message : dyd_status_text(status));
-}
-
 static dyd_engine *engine_of(const real_row *row, FILE *in) {
   dyd_read_options read = {DYD_SIZED(dyd_read_options), .columns = row->columns, .radius = row->radius};
   dyd_engine *e = NULL;
   dyd_error err;
   dyd_error_clear(&err);
   rewind(in);
-  check(row->name, dyd_engine_new(&e), &err);
-  check(row->name, dyd_read_points(e, in, &read, &err), &err);
+  bench_need(row->name, dyd_engine_new(&e), &err);
+  bench_need(row->name, dyd_read_points(e, in, &read, &err), &err);
   return e;
 }
 
@@ -38,8 +35,8 @@ static bench_cost run(size_t count[4], const real_row *row, FILE *in, size_t *po
   dyd_pair_list pairs = {0};
   dyd_error err;
   bench_meter meter = bench_start();
-  check(row->name, dyd_engine_run(&outcome, e, NULL, &err), &err);
-  check(row->name, dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(e)), &err);
+  bench_need(row->name, dyd_engine_run(&outcome, e, NULL, &err), &err);
+  bench_need(row->name, dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(e)), &err);
   bench_cost cost = bench_stop(&meter);
   dyd_pair_list_clear(&pairs);
   *points = dyd_engine_count(e);
@@ -77,15 +74,15 @@ static void run_and_verify(bench_series *run, bench_series *verify, dyd_certific
   dyd_outcome outcome;
   dyd_error err;
   bench_meter meter = bench_start();
-  check(row->name, dyd_engine_run(&outcome, e, NULL, &err), &err);
+  bench_need(row->name, dyd_engine_run(&outcome, e, NULL, &err), &err);
   bench_series_add(run, bench_stop(&meter));
   FILE *certificate = tmpfile();
   if (!certificate) bench_die(row->name, "there is no room for a file");
-  check(row->name, dyd_write_certificate(certificate, e, NULL, &err), &err);
+  bench_need(row->name, dyd_write_certificate(certificate, e, NULL, &err), &err);
   dyd_engine_free(e);
   rewind(certificate);
   meter = bench_start();
-  check(row->name, dyd_verify_certificate(report, certificate, NULL, &err), &err);
+  bench_need(row->name, dyd_verify_certificate(report, certificate, NULL, &err), &err);
   bench_series_add(verify, bench_stop(&meter));
   fclose(certificate);
 }

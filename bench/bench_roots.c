@@ -8,10 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void check(dyd_status status, const dyd_error *err) {
-  if (status != DYD_OK) bench_die("roots", *err->message ? err->message : dyd_status_text(status));
-}
-
 /* Writes "sqrt(a)" at the end of a text. */
 static char *write_root(char *end, uint32_t a) {
   char digit[10];
@@ -33,10 +29,10 @@ static void add_point(dyd_engine *e, const uint32_t r[4], dyd_error *err) {
     char *end = write_root(text, r[2 * k]);
     *end++ = '+';
     end = write_root(end, r[2 * k + 1]);
-    check(dyd_real_parse(&coordinate[k], text, (size_t)(end - text), err), err);
+    bench_need("roots", dyd_real_parse(&coordinate[k], text, (size_t)(end - text), err), err);
   }
-  check(dyd_stream_from_reals(&s, coordinate[0], coordinate[1]), err);
-  check(dyd_engine_add_stream(e, s, NULL), err);
+  bench_need("roots", dyd_stream_from_reals(&s, coordinate[0], coordinate[1]), err);
+  bench_need("roots", dyd_engine_add_stream(e, s, NULL), err);
 }
 
 /* Writing the text is part of the cost, as is making the numbers for the peer. */
@@ -48,9 +44,9 @@ static bench_cost run(char *remark, size_t size, bench_edges *edges, size_t *leg
   size_t count[4];
   dyd_error_clear(&err);
   bench_meter meter = bench_start();
-  check(dyd_engine_new(&e), &err);
+  bench_need("roots", dyd_engine_new(&e), &err);
   for (size_t i = 0; i < n; i++) add_point(e, r + 4 * i, &err);
-  check(dyd_engine_run(&outcome, e, NULL, &err), &err);
+  bench_need("roots", dyd_engine_run(&outcome, e, NULL, &err), &err);
   const dyd_delaunay *pd = dyd_engine_delaunay(e);
   dyd_delaunay_count(count, pd);
   bench_cost cost = bench_stop(&meter);

@@ -4,14 +4,11 @@
 #include "answers.h"
 #include "cloud.h"
 #include "harness.h"
+#include "ours.h"
 #include "real.h"
 
 #include <dyadel/io.h>
 #include <dyadel/sphere.h>
-
-static void sphere_check(const char *row, dyd_status status, const dyd_error *err) {
-  if (status != DYD_OK) bench_die(row, err && err->message[0] ? err->message : dyd_status_text(status));
-}
 
 /* Where the points come from: a file, or a cloud. */
 typedef struct globe_input {
@@ -24,12 +21,12 @@ static dyd_engine *engine_fill(const globe_input *g) {
   const dyd_read_options how = {DYD_SIZED(dyd_read_options), .columns = "longitude,latitude"};
   dyd_engine *e = NULL;
   dyd_error err;
-  sphere_check(g->row, dyd_engine_new(&e), NULL);
+  bench_need(g->row, dyd_engine_new(&e), NULL);
   if (g->in) rewind(g->in);
   if (g->in)
-    sphere_check(g->row, dyd_read_points(e, g->in, &how, &err), &err);
+    bench_need(g->row, dyd_read_points(e, g->in, &how, &err), &err);
   else
-    sphere_check(g->row, dyd_engine_add_points(e, g->points->n, g->points->x, g->points->y, NULL), NULL);
+    bench_need(g->row, dyd_engine_add_points(e, g->points->n, g->points->x, g->points->y, NULL), NULL);
   return e;
 }
 
@@ -42,12 +39,12 @@ static bench_cost globe_run(size_t count[4], const globe_input *g, bool sphere) 
   bench_meter meter = bench_start();
   dyd_engine *e = engine_fill(g);
   if (sphere) {
-    sphere_check(g->row, dyd_sphere_new(&s, e, NULL, &err), &err);
-    sphere_check(g->row, dyd_sphere_run(&outcome, s, NULL, &err), &err);
-    sphere_check(g->row, dyd_sphere_pairs(&pairs, s), NULL);
+    bench_need(g->row, dyd_sphere_new(&s, e, NULL, &err), &err);
+    bench_need(g->row, dyd_sphere_run(&outcome, s, NULL, &err), &err);
+    bench_need(g->row, dyd_sphere_pairs(&pairs, s), NULL);
   } else {
-    sphere_check(g->row, dyd_engine_run(&outcome, e, NULL, &err), &err);
-    sphere_check(g->row, dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(e)), NULL);
+    bench_need(g->row, dyd_engine_run(&outcome, e, NULL, &err), &err);
+    bench_need(g->row, dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(e)), NULL);
   }
   bench_cost cost = bench_stop(&meter);
   for (int k = 0; k < 4; k++) count[k] = 0;

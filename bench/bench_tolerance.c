@@ -4,12 +4,9 @@
 #include "answers.h"
 #include "cloud.h"
 #include "harness.h"
+#include "ours.h"
 
 #include <dyadel/tolerance.h>
-
-static void tolerance_check(const char *row, dyd_status status) {
-  if (status != DYD_OK) bench_die(row, dyd_status_text(status));
-}
 
 typedef struct deaths_answer {
   uint64_t filter, exact;
@@ -24,12 +21,12 @@ static void deaths_run(bench_series *before, bench_series *ours, deaths_answer *
   dyd_tolerance *t = NULL;
   const dyd_tolerance_options how = {DYD_SIZED(dyd_tolerance_options), .points = radii};
   bench_meter meter = bench_start();
-  tolerance_check(row, dyd_sites_new(&sites));
-  tolerance_check(row, dyd_sites_add_points(sites, c->n, c->x, c->y));
-  tolerance_check(row, dyd_delaunay_new(&pd, sites, NULL, NULL));
+  bench_need(row, dyd_sites_new(&sites), NULL);
+  bench_need(row, dyd_sites_add_points(sites, c->n, c->x, c->y), NULL);
+  bench_need(row, dyd_delaunay_new(&pd, sites, NULL, NULL), NULL);
   bench_series_add(before, bench_stop(&meter));
   meter = bench_start();
-  tolerance_check(row, dyd_tolerance_new(&t, pd, &how, NULL));
+  bench_need(row, dyd_tolerance_new(&t, pd, &how, NULL), NULL);
   bench_series_add(ours, bench_stop(&meter));
   answer->filter = dyd_tolerance_get(t)->filter, answer->exact = dyd_tolerance_get(t)->exact;
   answer->least = dyd_tolerance_get(t)->lo;
@@ -72,15 +69,15 @@ static size_t moved_run(bench_series *squares, bench_series *ours, double *least
   dyd_tolerance *t = NULL;
   const dyd_tolerance_row *rows;
   bench_meter meter = bench_start();
-  tolerance_check(row, dyd_sites_new(&sites[0]));
-  tolerance_check(row, dyd_sites_add_boxes(sites[0], c->n, c->x0, c->x1, c->y0, c->y1));
-  tolerance_check(row, dyd_delaunay_new(&pd[0], sites[0], NULL, NULL));
+  bench_need(row, dyd_sites_new(&sites[0]), NULL);
+  bench_need(row, dyd_sites_add_boxes(sites[0], c->n, c->x0, c->x1, c->y0, c->y1), NULL);
+  bench_need(row, dyd_delaunay_new(&pd[0], sites[0], NULL, NULL), NULL);
   bench_series_add(squares, bench_stop(&meter));
-  tolerance_check(row, dyd_sites_new(&sites[1]));
-  tolerance_check(row, dyd_sites_add_points(sites[1], c->n, c->x, c->y));
-  tolerance_check(row, dyd_delaunay_new(&pd[1], sites[1], NULL, NULL));
+  bench_need(row, dyd_sites_new(&sites[1]), NULL);
+  bench_need(row, dyd_sites_add_points(sites[1], c->n, c->x, c->y), NULL);
+  bench_need(row, dyd_delaunay_new(&pd[1], sites[1], NULL, NULL), NULL);
   meter = bench_start();
-  tolerance_check(row, dyd_tolerance_new(&t, pd[1], how, NULL));
+  bench_need(row, dyd_tolerance_new(&t, pd[1], how, NULL), NULL);
   bench_series_add(ours, bench_stop(&meter));
   size_t count = dyd_tolerance_rows(&rows, t);
   *least = dyd_tolerance_get(t)->lo;

@@ -12,16 +12,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-static void check(dyd_status status) {
-  if (status != DYD_OK) bench_die("update", dyd_status_text(status));
-}
-
 static void narrow(dyd_sites *sites, const cloud *c, size_t i, double half_width) {
   dyd_rect r;
   dyd_rect_init(&r);
   double x = c->x[i], y = c->y[i], h = half_width;
-  check(dyd_rect_set_d(&r, fmax(x - h, c->x0[i]), fmin(x + h, c->x1[i]), fmax(y - h, c->y0[i]), fmin(y + h, c->y1[i])));
-  check(dyd_sites_narrow(sites, i, &r));
+  bench_need(
+      "update",
+      dyd_rect_set_d(&r, fmax(x - h, c->x0[i]), fmin(x + h, c->x1[i]), fmax(y - h, c->y0[i]), fmin(y + h, c->y1[i])),
+      NULL);
+  bench_need("update", dyd_sites_narrow(sites, i, &r), NULL);
   dyd_rect_clear(&r);
 }
 
@@ -32,9 +31,9 @@ static void run(bench_series *first, bench_series *again, size_t *faces, size_t 
   uint32_t *changed = malloc(k * sizeof *changed);
   if (!changed) bench_die("update", "out of memory");
   bench_meter meter = bench_start();
-  check(dyd_sites_new(&sites));
-  check(dyd_sites_add_boxes(sites, c->n, c->x0, c->x1, c->y0, c->y1));
-  check(dyd_delaunay_new(&pd, sites, NULL, NULL));
+  bench_need("update", dyd_sites_new(&sites), NULL);
+  bench_need("update", dyd_sites_add_boxes(sites, c->n, c->x0, c->x1, c->y0, c->y1), NULL);
+  bench_need("update", dyd_delaunay_new(&pd, sites, NULL, NULL), NULL);
   bench_series_add(first, bench_stop(&meter));
   *faces = dyd_delaunay_undecided_faces(pd);
   for (size_t q = 0; q < k; q++) {
@@ -42,7 +41,7 @@ static void run(bench_series *first, bench_series *again, size_t *faces, size_t 
     narrow(sites, c, changed[q], 0x1p-30);
   }
   meter = bench_start();
-  check(dyd_delaunay_update(pd, changed, k, NULL, NULL));
+  bench_need("update", dyd_delaunay_update(pd, changed, k, NULL, NULL), NULL);
   bench_series_add(again, bench_stop(&meter));
   *left = dyd_delaunay_undecided_faces(pd);
   dyd_delaunay_free(pd);
@@ -83,7 +82,7 @@ static void row_update(const bench_options *o, size_t k) {
 static void shrink(dyd_interval *a, const double box[2], uint64_t *state) {
   double width = (box[1] - box[0]) * (0.25 + 0.5 * cloud_unit(state)),
          from = box[0] + (box[1] - box[0] - width) * cloud_unit(state);
-  check(dyd_interval_set_d(a, from, from + width));
+  bench_need("update", dyd_interval_set_d(a, from, from + width), NULL);
 }
 
 static void measure(dyd_engine *e, uint32_t i, uint64_t *state) {
@@ -91,12 +90,12 @@ static void measure(dyd_engine *e, uint32_t i, uint64_t *state) {
   double box[4];
   dyd_rect r;
   dyd_rect_init(&r);
-  check(dyd_sites_get(&r, dyd_engine_sites(e), i));
+  bench_need("update", dyd_sites_get(&r, dyd_engine_sites(e), i), NULL);
   dyd_rect_get_d(box, &r);
   shrink(&r.x, box, state);
   shrink(&r.y, box + 2, state);
-  check(dyd_engine_remeasure(e, i, &r, NULL));
-  check(dyd_engine_run(&outcome, e, NULL, NULL));
+  bench_need("update", dyd_engine_remeasure(e, i, &r, NULL), NULL);
+  bench_need("update", dyd_engine_run(&outcome, e, NULL, NULL), NULL);
   dyd_rect_clear(&r);
 }
 
@@ -107,13 +106,13 @@ static bench_cost remeasure(size_t count[4], size_t *face, FILE *in, size_t upda
   dyd_index_list sites = {0};
   uint64_t state = 15;
   rewind(in);
-  check(dyd_engine_new(&e));
-  check(dyd_read_points(e, in, NULL, NULL));
-  check(dyd_engine_run(&outcome, e, NULL, NULL));
+  bench_need("update", dyd_engine_new(&e), NULL);
+  bench_need("update", dyd_read_points(e, in, NULL, NULL), NULL);
+  bench_need("update", dyd_engine_run(&outcome, e, NULL, NULL), NULL);
   *face = 0;
   for (size_t f = 0; f < dyd_delaunay_undecided_faces(dyd_engine_delaunay(e)); f++) {
     bool outer;
-    check(dyd_delaunay_face(&sites, &outer, dyd_engine_delaunay(e), f));
+    bench_need("update", dyd_delaunay_face(&sites, &outer, dyd_engine_delaunay(e), f), NULL);
     if (sites.count > *face) *face = sites.count;
     dyd_index_list_clear(&sites);
   }

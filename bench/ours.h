@@ -22,6 +22,8 @@ typedef enum ours_what {
   OURS_AND_EDGES /* like OURS_STATUSES; the pairs are listed after the clock has stopped */
 } ours_what;
 
+/* Ends the program with a message, err's if it has one, unless the call succeeded. */
+void bench_need(const char *row, dyd_status status, const dyd_error *err);
 /* Table of sites (points, or boxes when the cloud has them), partial triangulation, counts. Ends the program with a
  * message when the library fails. */
 bench_cost ours_run(ours_answer *out, const char *row, const cloud *c, ours_what what, unsigned threads);
