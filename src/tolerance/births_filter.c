@@ -94,26 +94,18 @@ static dyd_dd dd_over(dyd_dd a, dyd_dd b) {
   return dyd_dd_renormal(q, rest.h / b.h, b.e < 0x1p-30 * fabs(b.h) ? e : HUGE_VAL);
 }
 
-/* m, n of a vertex, as in lines.h. j: seen from i. */
-static void birth_line(dyd_dd out[2], const birth_work *b, const dyd_dd j[2], uint32_t vertex) {
-  dyd_dd p[2], q[2];
-  dyd_dd_vector(p, &b->t->points, vertex, b->pair.i);
-  dyd_dd_vector(q, &b->t->points, vertex, b->pair.j);
-  out[0] = dyd_dd_plus(dyd_dd_times(p[0], q[0]), dyd_dd_times(p[1], q[1]), 1);
-  out[1] = dyd_dd_plus(dyd_dd_times(p[1], j[0]), dyd_dd_times(p[0], j[1]), -1);
-}
-
 /* Where the birth is by the best corner, its place *s within *es, *radius2 at least the squared distance of its lines
  * there. */
 static dyd_dd birth_at_corner(double *s, double *es, double *radius2, const birth_work *b) {
+  const dyd_points_d *points = &b->t->points;
   dyd_dd j[2], k[2], l[2];
-  dyd_dd_vector(j, &b->t->points, b->pair.j, b->pair.i);
-  birth_line(k, b, j, b->line[b->chain[b->best - 1]].vertex);
-  birth_line(l, b, j, b->line[b->chain[b->best]].vertex);
+  dyd_dd_vector(j, points, b->pair.j, b->pair.i);
+  dyd_dd_line(&k[0], &k[1], points, b->line[b->chain[b->best - 1]].vertex, b->pair.i, b->pair.j, j);
+  dyd_dd_line(&l[0], &l[1], points, b->line[b->chain[b->best]].vertex, b->pair.i, b->pair.j, j);
   dyd_dd e = dyd_dd_plus(l[1], k[1], -1);
   dyd_dd height = dd_over(dyd_dd_plus(dyd_dd_times(l[1], k[0]), dyd_dd_times(k[1], l[0]), -1), e);
   dyd_dd place = dd_over(dyd_dd_plus(l[0], k[0], -1), dyd_dd_times(e, dyd_dd_of(2)));
-  dyd_dd jj = dyd_dd_plus(dyd_dd_times(j[0], j[0]), dyd_dd_times(j[1], j[1]), 1);
+  dyd_dd jj = dyd_dd_square_sum(j[0], j[1]);
   dyd_dd r2 = dyd_dd_times(jj, dyd_dd_plus(dyd_dd_of(0.25), dyd_dd_times(place, place), 1));
   dyd_dd other = dyd_dd_plus(r2, height, 1);
   *s = place.h;

@@ -55,6 +55,20 @@ static inline void dyd_dd_vector(dyd_dd out[2], const dyd_points_d *p, uint32_t 
   out[1] = dyd_dd_between(p->xy[a].y, p->xy[b].y, low[0].y, low[1].y, p->slack);
 }
 
+static inline dyd_dd dyd_dd_square_sum(dyd_dd x, dyd_dd y) {
+  return dyd_dd_plus(dyd_dd_times(x, x), dyd_dd_times(y, y), 1);
+}
+
+/* m and n of the line of vertex k, lines.h, for i and j. j_from_i: dyd_dd_vector of these. */
+static inline void dyd_dd_line(dyd_dd *m, dyd_dd *n, const dyd_points_d *at, uint32_t k, uint32_t i, uint32_t j,
+                               const dyd_dd j_from_i[2]) {
+  dyd_dd p[2], q[2];
+  dyd_dd_vector(p, at, k, i);
+  dyd_dd_vector(q, at, k, j);
+  *m = dyd_dd_plus(dyd_dd_times(p[0], q[0]), dyd_dd_times(p[1], q[1]), 1);
+  *n = dyd_dd_plus(dyd_dd_times(p[1], j_from_i[0]), dyd_dd_times(p[0], j_from_i[1]), -1);
+}
+
 static inline dyd_dd dyd_dd_root(dyd_dd a) {
   double s = sqrt(a.h), r = s > 0 ? (fma(-s, s, a.h) + a.l) / (2 * s) : 0;
   return dyd_dd_renormal(s, r, a.e / s + DYD_DD_ROUND / 16 * s);

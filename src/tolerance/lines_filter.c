@@ -33,22 +33,14 @@
 
 #define TINY DYD_DD_TINY
 
-static void line_between(dyd_dd *m, dyd_dd *n, const dyd_points_d *at, uint32_t k, uint32_t i, uint32_t j) {
-  dyd_dd p[2], q[2], d[2];
-  dyd_dd_vector(p, at, k, i);
-  dyd_dd_vector(q, at, k, j);
-  dyd_dd_vector(d, at, j, i);
-  *m = dyd_dd_plus(dyd_dd_times(p[0], q[0]), dyd_dd_times(p[1], q[1]), 1);
-  *n = dyd_dd_plus(dyd_dd_times(p[1], d[0]), dyd_dd_times(p[0], d[1]), -1);
-}
-
 /* The height of the crossing of the lines of vertices a and b, within *relative of itself (not below 2^-30, or NaN: not
  * known), and its place s within es. */
 static double filter_crossing(double *s, double *es, double *relative, const dyd_points_d *p, const dyd_lines_d *l,
                               uint32_t a, uint32_t b) {
-  dyd_dd m[2], n[2];
-  line_between(&m[0], &n[0], p, a, l->i, l->j);
-  line_between(&m[1], &n[1], p, b, l->i, l->j);
+  dyd_dd m[2], n[2], j[2];
+  dyd_dd_vector(j, p, l->j, l->i);
+  dyd_dd_line(&m[0], &n[0], p, a, l->i, l->j, j);
+  dyd_dd_line(&m[1], &n[1], p, b, l->i, l->j, j);
   dyd_dd num = dyd_dd_plus(dyd_dd_times(n[1], m[0]), dyd_dd_times(n[0], m[1]), -1);
   dyd_dd d = dyd_dd_plus(m[1], m[0], -1), e = dyd_dd_plus(n[1], n[0], -1);
   double ee = e.e + 2 * U * fabs(e.h), ed = d.e + 2 * U * fabs(d.h);

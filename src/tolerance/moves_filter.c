@@ -273,10 +273,6 @@ static bool moves_climb(moves *m) {
 
 /* ---- in double-doubles ---- */
 
-static dyd_dd dd_square_sum(dyd_dd x, dyd_dd y) {
-  return dyd_dd_plus(dyd_dd_times(x, x), dyd_dd_times(y, y), 1);
-}
-
 static dyd_dd dd_size(dyd_dd a) {
   return a.h < 0 ? (dyd_dd){-a.h, -a.l, a.e} : a;
 }
@@ -295,12 +291,12 @@ static void move_from(dyd_dd out[2], const moves *m, const move_site *s) {
 static dyd_dd move_reach(const moves *m, const move_site *s, double t, int way) {
   dyd_dd d[2];
   move_from(d, m, s);
-  if (!m->square) return dyd_dd_plus(dyd_dd_root(dd_square_sum(d[0], d[1])), dd_product(t, s->weight), way);
+  if (!m->square) return dyd_dd_plus(dyd_dd_root(dyd_dd_square_sum(d[0], d[1])), dd_product(t, s->weight), way);
   for (int a = 0; a < 2; a++) {
     d[a] = dyd_dd_plus(dd_size(d[a]), dyd_dd_of(t), way);
     if (!(d[a].h > 0)) d[a] = (dyd_dd){0, 0, 0};
   }
-  return dd_square_sum(d[0], d[1]);
+  return dyd_dd_square_sum(d[0], d[1]);
 }
 
 /* How far c is too low for a plane at t. */
@@ -311,7 +307,8 @@ static double move_residue(const moves *m, const move_plane *p, double t) {
   move_from(d, m, e);
   for (int a = 0; a < 2; a++) d[a] = dyd_dd_plus(d[a], dyd_dd_of(p->way[a] * t), 1);
   double f = fmax(fabs(m->x - k->x.h) - t, 0), g = fmax(fabs(m->y - k->y.h) - t, 0);
-  return dyd_dd_plus(near, dd_square_sum(d[0], d[1]), -1).h / (2 * (p->way[0] * d[0].h + p->way[1] * d[1].h + f + g));
+  return dyd_dd_plus(near, dyd_dd_square_sum(d[0], d[1]), -1).h /
+         (2 * (p->way[0] * d[0].h + p->way[1] * d[1].h + f + g));
 }
 
 /* c and t become more precise than doubles make them. */
@@ -437,7 +434,7 @@ static bool move_refutes(double out[3], const moves *m, const move_plane *plane,
     else
       disc_choice(p[n], s, d, t, n ? 1 : -1);
     for (int a = 0; a < 2; a++) d[a] = dyd_dd_plus(m->at[a], p[n][a], -1);
-    far[n] = dd_square_sum(d[0], d[1]);
+    far[n] = dyd_dd_square_sum(d[0], d[1]);
   }
   out[2] = 0;
   for (int a = 0; a < 2; a++) {
@@ -462,7 +459,7 @@ static bool moves_fail(const moves *m, double t) {
     const move_site *e = &m->site[m->touch[0]], *k = &m->site[m->touch[1]];
     dyd_dd x = dyd_dd_plus(k->x, e->x, -1), y = dyd_dd_plus(k->y, e->y, -1);
     dyd_dd r = dyd_dd_plus(dd_product(t, k->weight), dd_product(t, e->weight), 1);
-    if (dyd_dd_sign(dyd_dd_plus(dyd_dd_times(r, r), dd_square_sum(x, y), -1)) > 0) return true;
+    if (dyd_dd_sign(dyd_dd_plus(dyd_dd_times(r, r), dyd_dd_square_sum(x, y), -1)) > 0) return true;
   }
   for (int n = 0; n < 3; n++)
     if (m->basis[n] < CONE || !move_refutes(d[n], m, &m->plane[m->basis[n]], t)) return false;
