@@ -9,6 +9,7 @@
 #include "checker/globe_near.h"
 
 #include "base/alloc.h"
+#include "base/index.h"
 #include "checker/algebra.h"
 #include "checker/tree.h"
 
@@ -97,18 +98,18 @@ static void cosine_between(dyd_cert_enclosure *out, const ball *a, const ball *b
 typedef struct view {
   const dyd_cert_region *of[3];
   ball ball[3];
-  dyd_cert_enclosure pi, near, far, c, s, t;
+  dyd_cert_enclosure pi, near, far, s, t;
   long p;
 } view;
 
 static void near_view_init(view *v) {
-  dyd_cert_enclosure *all[] = {&v->pi, &v->near, &v->far, &v->c, &v->s, &v->t};
+  dyd_cert_enclosure *all[] = {&v->pi, &v->near, &v->far, &v->s, &v->t};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) dyd_cert_enclosure_init(all[k]);
   for (int k = 0; k < 3; k++) place_ball_init(&v->ball[k]);
 }
 
 static void near_view_clear(view *v) {
-  dyd_cert_enclosure *all[] = {&v->pi, &v->near, &v->far, &v->c, &v->s, &v->t};
+  dyd_cert_enclosure *all[] = {&v->pi, &v->near, &v->far, &v->s, &v->t};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) dyd_cert_enclosure_clear(all[k]);
   for (int k = 0; k < 3; k++) place_ball_clear(&v->ball[k]);
 }
@@ -338,16 +339,6 @@ bool dyd_cert_compass_is_certain(uint32_t *other, const dyd_cert_compass *c, con
   return true;
 }
 
-/* The places listed are in order. */
-static bool is_listed_place(uint32_t j, const uint32_t *list, size_t count) {
-  size_t low = 0;
-  for (size_t high = count; low < high;) {
-    size_t middle = low + (high - low) / 2;
-    list[middle] < j ? (low = middle + 1) : (high = middle);
-  }
-  return low < count && list[low] == j;
-}
-
 void dyd_cert_compass_count(uint64_t *unproved, const dyd_cert_compass *c, const dyd_cert_region *at,
                             const uint32_t *list, size_t count) {
   dyd_cert_bowl here;
@@ -363,7 +354,7 @@ void dyd_cert_compass_count(uint64_t *unproved, const dyd_cert_compass *c, const
   }
   for (uint32_t j = 0; j < c->count; j++) {
     const bool apart = c->bowl[j].alias || bowls_are_apart(&here, &c->bowl[j], least);
-    if (apart || is_listed_place(j, list, count)) continue;
+    if (apart || dyd_find_index(&j, list, count, sizeof *list)) continue;
     bool nowhere = false;
     for (size_t k = 0; k < count && !nowhere; k++)
       nowhere = region_is_nearer(at, &c->region[list[(best + k) % count]], &c->region[j], &effort);
