@@ -250,23 +250,26 @@ bool dyd_steps_part_is_sure(const dyd_steps *s) {
   return true;
 }
 
-dyd_status dyd_steps_part_sites(dyd_index_list *out, const dyd_steps *s) {
-  const dyd_skeleton *sk = &s->pd->sk;
+/* The sites at the corners of triangles, ascending. */
+static dyd_status corner_sites(dyd_index_list *out, const dyd_skeleton *sk, const dyd_index_list *triangles) {
   size_t cap = 0;
   dyd_status st = DYD_OK;
-  for (size_t k = 0; k < 3 * s->part.count && st == DYD_OK; k++) {
-    const uint32_t v = sk->mesh.tri[s->part.item[k / 3]].v[k % 3];
+  for (size_t k = 0; k < 3 * triangles->count && st == DYD_OK; k++) {
+    const uint32_t v = sk->mesh.tri[triangles->item[k / 3]].v[k % 3];
     if (v != sk->mesh.n) st = dyd_index_list_add(out, &cap, &sk->reps.site[v], 1);
   }
   dyd_index_list_sort(out);
   return st;
 }
 
+dyd_status dyd_steps_part_sites(dyd_index_list *out, const dyd_steps *s) {
+  return corner_sites(out, &s->pd->sk, &s->part);
+}
+
 /* ---- faces ---- */
 
 /* The triangles joined to t by edges that are not certain; marked in `seen`. */
-static dyd_status face_flood(dyd_index_list *out, size_t *cap, uint8_t *seen, const dyd_steps *s, uint32_t t) {
-  const dyd_skeleton *sk = &s->pd->sk;
+static dyd_status face_flood(dyd_index_list *out, size_t *cap, uint8_t *seen, const dyd_skeleton *sk, uint32_t t) {
   out->count = 0;
   seen[t] = 1;
   dyd_status st = dyd_index_list_add(out, cap, &t, 1);
@@ -282,17 +285,19 @@ static dyd_status face_flood(dyd_index_list *out, size_t *cap, uint8_t *seen, co
 
 dyd_status dyd_steps_large(bool *large, const dyd_steps *s, size_t most) {
   const dyd_skeleton *sk = &s->pd->sk;
-  dyd_steps face = {.pd = s->pd};
+  dyd_index_list face = {0};
+  size_t cap = 0;
   uint8_t *seen = calloc((size_t)sk->mesh.count + 1, 1);
   dyd_status st = seen ? DYD_OK : DYD_E_NOMEM;
   for (uint32_t t = 0; t < sk->mesh.count && st == DYD_OK; t++) {
     dyd_index_list sites = {0};
     if (seen[t] || dyd_triangle_is_certain(sk, t)) continue;
-    st = face_flood(&face.part, &face.part_cap, seen, s, t);
-    if (st == DYD_OK && face.part.count > most / 3) st = dyd_steps_part_sites(&sites, &face);
+    st = face_flood(&face, &cap, seen, sk, t);
+    if (st == DYD_OK && face.count > most / 3) st = corner_sites(&sites, sk, &face);
     for (size_t k = 0; k < sites.count && sites.count > most; k++) large[sites.item[k]] = true;
     dyd_index_list_clear(&sites);
   }
-  dyd_free_all(seen, face.part.item);
+  free(seen);
+  dyd_index_list_clear(&face);
   return st;
 }
