@@ -9,7 +9,6 @@ import pathlib
 import re
 import sys
 
-COMMANDS = 'delaunay|voronoi|converge|check|verify|disc|bisector|nearest|tolerance|plan'
 HEAD = re.compile(r'--(?P<name>[\w-]+)(?:, -(?P<letter>\w))?(?: (?P<argument>\S+))? = (?P<field>[\w.]+)')
 
 
@@ -21,13 +20,13 @@ def lines_of(path):
     return [line for line in pathlib.Path(path).read_text(encoding='utf-8').splitlines() if not line.startswith('#')]
 
 
-def option(head, group, text):
+def option(head, group, text, commands):
     """A row of cli_option_table."""
     name, kind, takers, *rest = head.split('; ')
     name = HEAD.fullmatch(name)
     kind, _, values = kind.partition(' ')
     row = [quoted(name['name']), f"'{name['letter']}'" if name['letter'] else '0', quoted(name['argument']),
-           f'CLI_{kind.upper()}', re.sub(rf'\b({COMMANDS})\b', lambda m: f'BIT(CLI_{m[1].upper()})', takers),
+           f'CLI_{kind.upper()}', re.sub(rf'\b({"|".join(commands)})\b', lambda m: f'BIT(CLI_{m[1].upper()})', takers),
            f'CLI_{group.upper()}', quoted('\n'.join(text)), f"AT({name['field']})"]
     if kind == 'choice':
         row.append(f'WORDS({quoted(values)})')
@@ -38,13 +37,13 @@ def option(head, group, text):
     return '{' + ', '.join(row) + '},\n'
 
 
-def options(lines):
+def options(lines, commands):
     rows, group, head, text = [], None, None, []
     for line in lines + ['']:
         if line.startswith('    '):
             text.append(line[4:])
         elif head:
-            rows.append(option(head, group, text))
+            rows.append(option(head, group, text, commands))
             head, text = None, []
         if line.startswith('--'):
             head = line
@@ -94,10 +93,11 @@ def prose(name, lines):
 def main():
     table, manual, bash, zsh, *out = sys.argv[1:]
     parts = sections(lines_of(manual))
-    commands = ''.join(command(*entry) for entry in terms(parts.pop('commands')))
+    commands = terms(parts.pop('commands'))
     scripts = (f'static const char help_{pathlib.Path(path).suffix[1:]}[] = '
                f"{quoted(pathlib.Path(path).read_text(encoding='utf-8'))};\n" for path in (bash, zsh))
-    made = options(lines_of(table)), commands, ''.join([*(prose(*part) for part in parts.items()), *scripts])
+    rows = options(lines_of(table), [term.partition(' ')[0] for term, _ in commands])
+    made = rows, ''.join(command(*entry) for entry in commands), ''.join([*(prose(*part) for part in parts.items()), *scripts])
     for path, text in zip(out, made):
         pathlib.Path(path).write_text('/* Made by pack.py. */\n' + text, encoding='utf-8')
 
