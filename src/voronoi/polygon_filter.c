@@ -167,9 +167,18 @@ typedef struct grid_work {
 
 /* ---- rounding ---- */
 
+/* x 2^e. Products with a power of two are exact where none is subnormal. */
+static double times_power(double x, int e) {
+  union {
+    uint64_t bits;
+    double power;
+  } u = {.bits = (uint64_t)(1023 + e) << 52};
+  return -900 < e && e < 900 && (x == 0 || (fabs(x) > 0x1p-100 && fabs(x) < 0x1p100)) ? x * u.power : ldexp(x, e);
+}
+
 /* floor(x 2^scale), or, `loose`, the number below where x may be on either side of one; *whole: it is that number. */
 static int64_t grid_floor(bool *whole, grid_work *w, dyd_iv x, int scale) {
-  double lo = ldexp(x.lo, scale), hi = ldexp(x.hi, scale), low = floor(lo);
+  double lo = times_power(x.lo, scale), hi = times_power(x.hi, scale), low = floor(lo);
   *whole = lo == hi && lo == low;
   if (!(fabs(lo) < 0x1p50 && fabs(hi) < 0x1p50 && hi - lo <= WIDEST)) return w->known = false, 0;
   if (low != floor(hi) || (lo == low && !*whole)) w->loose = true;
@@ -184,7 +193,7 @@ static int64_t grid_end(grid_work *w, const dyd_outline_spot *p, int axis, int b
 }
 
 static double grid_double(int64_t n, int scale) {
-  return ldexp((double)n, -scale);
+  return times_power((double)n, -scale);
 }
 
 static int grid_bits(uint64_t n) {
@@ -195,7 +204,7 @@ static int grid_bits(uint64_t n) {
 
 /* ---- samples ---- */
 
-/* As arc_count_steps: n^2 >= (length^2 / q) 2^bits / 8, where the exponent may be one more than need be. */
+/* As arc_count_steps: n^2 >= (length^2 / q) 2^bits / 8. */
 static dyd_status grid_steps(uint32_t *out, grid_work *w, const dyd_outline_piece *p, int bits) {
   *out = 1;
   if (!p->arc || !p->arc->shape.parabola) return DYD_OK;
@@ -212,11 +221,8 @@ static dyd_status grid_steps(uint32_t *out, grid_work *w, const dyd_outline_piec
   if (!(share.lo > 0 && isfinite(share.hi))) return w->known = false, DYD_OK;
   int twice = exp[0] - 2 * (bits + 5) + bits - 3;
   w->known = twice < 26;
-  if (!w->known || (twice + 1 <= 0 && exp[0] == exp[1])) return DYD_OK;
-  if (twice > 0 && twice & 1 && exp[0] == exp[1]) {
-    *out = (uint32_t)1 << ((twice + 1) / 2);
-    return DYD_OK;
-  }
+  if (exp[0] == exp[1] && w->known && twice > 0) *out = (uint32_t)1 << ((twice + 1) / 2);
+  if (exp[0] == exp[1] || !w->known) return DYD_OK;
   const uint32_t other = w->o->site[p->curve], site[2] = {w->o->outer ? other : w->own, w->o->outer ? w->own : other};
   const int end[2] = {p->arc->corner >> o & 1, p->arc->feature & 1};
   return dyd_parabola_steps(out, dyd_delaunay_sites(w->pd), site, end, o, length, bits);
@@ -341,8 +347,7 @@ static dyd_iv coordinate_away(int *end, bool *known, double at, const dyd_iv sid
   return dyd_iv_point(0);
 }
 
-/* dyd_log2_length of a point's distances to the ends of the site that are not doubles: it depends on their fractions.
- */
+/* dyd_log2_length of a point's distances to the ends of the site. */
 static int64_t grid_log2_exact(grid_work *w, const grid_point *z, const int end[2]) {
   if (!w->fetched) {
     const dyd_interval *side[2] = {&w->rect.x, &w->rect.y};
@@ -381,15 +386,15 @@ static bool grid_place_outer(grid_point *z, grid_work *w, const grid_sample *s, 
   int end[2];
   for (int a = 0; a < 2; a++)
     away[a] = coordinate_away(&end[a], &w->known, grid_double(z->at[a], z->scale), &own->end[2 * a]);
-  bool sure = own->exact;
-  int64_t size = sure ? grid_log2(&sure, away) : 0;
+  bool sure = true;
+  int64_t size = grid_log2(&sure, away);
   if (!sure) size = grid_log2_exact(w, z, end);
   if (!w->known || size > 2000 || size < -2000) return w->known = false;
   int shift = (int)size + w->bits + 2;
   for (int a = 0; a < 2; a++) {
     bool whole;
     dyd_iv at = dyd_iv_point(grid_double(z->at[a], z->scale));
-    if (end[a] >= 0) at = dyd_iv_add(at, (dyd_iv){ldexp(away[a].lo, -shift), ldexp(away[a].hi, -shift)});
+    if (end[a] >= 0) at = dyd_iv_add(at, (dyd_iv){times_power(away[a].lo, -shift), times_power(away[a].hi, -shift)});
     z->at[a] = grid_floor(&whole, w, at, fine);
   }
   z->scale = fine;

@@ -43,6 +43,19 @@ bool dyd_cell_holds(const dyd_cell_sites *s, const dyd_point *c) {
   return true;
 }
 
+/* The e with 2^(e-1) <= |q| < 2^e; q is not 0. */
+static int64_t fraction_exponent(const mpq_t q) {
+  int64_t e = dyd_q_log2_above(q) - 1; /* 2^(e-1) < |q| < 2^(e+1) */
+  mpz_t n, d;
+  mpz_init_set(n, mpq_numref(q));
+  mpz_init_set(d, mpq_denref(q));
+  mpz_mul_2exp(e < 0 ? n : d, e < 0 ? n : d, (mp_bitcnt_t)(e < 0 ? -e : e));
+  if (mpz_cmpabs(n, d) >= 0) e++;
+  mpz_clear(d);
+  mpz_clear(n);
+  return e;
+}
+
 int64_t dyd_log2_length(const mpq_t x, const mpq_t y) {
   mpq_t s;
   mpq_init(s);
@@ -51,7 +64,7 @@ int64_t dyd_log2_length(const mpq_t x, const mpq_t y) {
     mpq_add(s, s, y);
   else
     mpq_sub(s, s, y);
-  int64_t e = mpq_sgn(s) == 0 ? INT64_MIN / 2 : dyd_q_log2_above(s);
+  int64_t e = mpq_sgn(s) == 0 ? INT64_MIN / 2 : fraction_exponent(s);
   mpq_clear(s);
   return e;
 }
@@ -140,7 +153,7 @@ static dyd_status arc_ends_along(mpq_t begin, mpq_t end, const dyd_arc *arc, int
 static dyd_status count_steps(uint32_t *out, mpq_t length, const mpq_t q, int64_t bits) {
   mpq_mul(length, length, length);
   mpq_div(length, length, q);
-  int64_t twice = mpq_sgn(length) ? dyd_q_log2_above(length) + bits - 3 : -1;
+  int64_t twice = mpq_sgn(length) ? fraction_exponent(length) + bits - 3 : -1;
   int64_t shift = twice <= 0 ? 0 : (twice + 1) / 2;
   if (shift > 24) return DYD_E_RANGE;
   *out = (uint32_t)1 << shift;

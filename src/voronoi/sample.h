@@ -42,7 +42,7 @@ typedef struct dyd_arc_samples {
  * (NULL: no bound) has none for polygons with corners there. */
 dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const dyd_cell_sites *s, uint32_t own,
                              int64_t bits, dyd_room *room);
-/* log2 of the length of (x, y), rounded up by at most 2; INT64_MIN / 2 where that is 0. */
+/* The e with 2^(e-1) <= |x| + |y| < 2^e, so that (x, y) is shorter than 2^e; INT64_MIN / 2 where both are 0. */
 int64_t dyd_log2_length(const mpq_t x, const mpq_t y);
 /* The arcs of parabolas whose focus and directrix are at least 2^-(bits + DYD_NARROW) apart are measured with
  * bits + 4. */
