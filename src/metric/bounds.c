@@ -482,27 +482,32 @@ dyd_status dyd_voronoi_pair_width(mpfr_ptr out, bool *finite, const dyd_voronoi_
   return st;
 }
 
-dyd_status dyd_voronoi_pair_second(double *out, dyd_voronoi_sums *s, const dyd_pair *pair) {
+/* seen[i]: what was found for site i, -1 until then. */
+static dyd_status pair_find_second(double *out, double *seen, const dyd_voronoi_sums *s, const dyd_pair *pair,
+                                   double enough) {
   const uint32_t end[2] = {pair->i, pair->j};
   dyd_status st = DYD_OK;
   *out = 0;
   for (int k = 0; k < 2 && st == DYD_OK && *out < HUGE_VAL; k++) {
-    double *second = &s->second[end[k]];
-    if (*second < 0)
-      st = dyd_filter_second(second, s->pd, end[k], s->window, s->reach[end[k]], s->most, s->discs, s->cancel);
-    if (*second > *out) *out = *second;
+    if (seen[end[k]] < 0) st = dyd_filter_second(&seen[end[k]], s, end[k], enough);
+    if (seen[end[k]] > *out) *out = seen[end[k]];
   }
   return st;
 }
 
-/* The bound for one possible pair: its width, or the distance of other points where that is smaller. The latter is not
- * computed where the width is at most `enough`. *known = false: there is neither. */
-static dyd_status pair_distance(mpfr_ptr out, bool *known, dyd_voronoi_sums *s, dyd_measure *m, const dyd_pair *pair,
-                                mpfr_srcptr enough) {
+dyd_status dyd_voronoi_pair_second(double *out, dyd_voronoi_sums *s, const dyd_pair *pair) {
+  return pair_find_second(out, s->second, s, pair, 0);
+}
+
+/* The bound for one possible pair: its width, or the distance of other points where that is smaller; or else less than
+ * `enough`. *known = false: there is neither. */
+static dyd_status pair_distance(mpfr_ptr out, bool *known, double *seen, const dyd_voronoi_sums *s, dyd_measure *m,
+                                const dyd_pair *pair, double enough) {
   double second;
-  dyd_status st = dyd_voronoi_pair_width(out, known, s, m, pair);
-  if (st != DYD_OK || (*known && mpfr_cmp(out, enough) <= 0)) return st;
-  st = dyd_voronoi_pair_second(&second, s, pair);
+  *known = true;
+  dyd_status st = pair_find_second(&second, seen, s, pair, enough);
+  mpfr_set_d(out, second, MPFR_RNDU);
+  if (st == DYD_OK && !(second <= enough)) st = dyd_voronoi_pair_width(out, known, s, m, pair);
   if (st == DYD_OK && second < HUGE_VAL && (!*known || mpfr_cmp_d(out, second) > 0)) {
     mpfr_set_d(out, second, MPFR_RNDU);
     *known = true;
@@ -525,7 +530,10 @@ dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, dyd_voronoi_sums *s
   dyd_measure m;
   mpfr_t one;
   bool open = false;
-  dyd_status st = DYD_OK;
+  size_t n = dyd_sites_count(dyd_delaunay_sites(s->pd));
+  double *seen = dyd_alloc(n, sizeof *seen);
+  dyd_status st = seen ? DYD_OK : DYD_E_NOMEM;
+  for (size_t i = 0; i < n && seen; i++) seen[i] = -1;
   dyd_measure_init(&m, dyd_delaunay_sites(s->pd));
   m.discs = s->discs;
   mpfr_init2(one, DYD_MEASURE_PREC);
@@ -536,7 +544,7 @@ dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, dyd_voronoi_sums *s
     if (dyd_flag_is_set(s->cancel)) st = DYD_CANCELLED;
     if (st != DYD_OK) break;
     if (pair_is_small(s, &pairs->item[k], out)) continue;
-    st = pair_distance(one, &known, s, &m, &pairs->item[k], out);
+    st = pair_distance(one, &known, seen, s, &m, &pairs->item[k], mpfr_get_d(out, MPFR_RNDD));
     open |= !known;
     if (known) mpfr_max(out, out, one, MPFR_RNDU);
   }
@@ -554,6 +562,7 @@ dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, dyd_voronoi_sums *s
   }
   mpfr_clear(one);
   dyd_measure_clear(&m);
+  free(seen);
   return st;
 }
 

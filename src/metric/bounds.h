@@ -64,7 +64,7 @@ dyd_status dyd_bound_pair_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair
 
 /* Invariant: inner <= the areas of the inner polygons added; reach[i] >= dl_i over Pos_i n W, -1 where that is
  * empty or i was not added; second[i]: the result of dyd_filter_second for `most`
- * (HUGE_VAL: no limit), -1 until it is computed.
+ * (HUGE_VAL: no limit), nothing being enough, -1 until it is computed.
  * cancel: checked by all work on these sums; NULL: never. cut: NULL: a shape that is cancelled ends the walk with
  * DYD_CANCELLED; else it and all later ones become unknown shapes (dyd_shape_set_unknown), counted here. Both are set
  * by the caller after dyd_voronoi_sums_init. */

@@ -64,46 +64,64 @@ static bool second_is_inside(const second_search *s, const dyd_bbox *c) {
   return true;
 }
 
-/* The least far[] of a rectangle disjoint from box[from]. */
-static double second_least(const second_search *s, size_t from) {
+/* The least far[] of a rectangle disjoint from box[from]; *with: which. */
+static double second_least(size_t *with, const second_search *s, size_t from) {
   double least = HUGE_VAL;
   for (size_t k = 0; k < s->count; k++)
-    if (s->far[k] < least && dyd_boxes_disjoint(&s->box[from], &s->box[k])) least = s->far[k];
+    if (s->far[k] < least && dyd_boxes_disjoint(&s->box[from], &s->box[k])) least = s->far[k], *with = k;
   return least;
 }
 
-/* Of the largest dl^2 over c: of the nearest one and the next that is disjoint from it; two points that differ, none of
- * them farther. */
-static double second_value(const second_search *s, const dyd_bbox *c) {
-  size_t nearest = 0;
+/* A box, and of the largest dl^2 over it: of the nearest one and the next that is disjoint from it; two points that
+ * differ, none of them farther. pair: those that give it, or one that is disjoint from the own, twice. */
+typedef struct second_box {
+  dyd_bbox c;
+  double value;
+  size_t pair[2];
+} second_box;
+
+static void second_find_value(second_box *b, const second_search *s) {
+  size_t nearest = 0, own_with = s->own, with = s->own;
   for (size_t k = 0; k < s->count; k++) {
-    s->far[k] = dyd_dl2_upper(c, &s->box[k]);
+    s->far[k] = dyd_dl2_upper(&b->c, &s->box[k]);
     if (s->far[k] < s->far[nearest]) nearest = k;
   }
-  return dyd_min(second_least(s, s->own), second_least(s, nearest));
+  double own = second_least(&own_with, s, s->own), least = second_least(&with, s, nearest);
+  b->value = dyd_min(own, least);
+  b->pair[0] = own < least ? own_with : nearest;
+  b->pair[1] = own < least ? own_with : with;
+}
+
+/* One half of a box. The pair of the whole suffices where it shows that the half does not count. */
+static void second_set_half(second_box *b, const second_box *whole, const second_search *s, int end, double at) {
+  *b = *whole;
+  b->c.e[end] = at;
+  b->value = dyd_max(dyd_dl2_upper(&b->c, &s->box[b->pair[0]]), dyd_dl2_upper(&b->c, &s->box[b->pair[1]]));
+  if (!(whole->value < HUGE_VAL && b->value <= s->best)) second_find_value(b, s);
 }
 
 /* The longer side is halved, so boxes stay about as high as wide, however long W is: along a strip there are about
  * FINER of them each time the distance from the site doubles. The half of the larger value comes first: it often shows
  * that the other one does not count. */
-static void second_visit(second_search *s, const dyd_bbox *c, double value, int depth) {
+static void second_visit(second_search *s, const second_box *b, int depth) {
+  const dyd_bbox *c = &b->c;
   double width = c->e[1] - c->e[0], height = c->e[3] - c->e[2];
-  if (s->best > s->most || value <= s->best || second_is_outside(s, c) || second_is_inside(s, c)) return;
+  if (s->best > s->most || b->value <= s->best || second_is_outside(s, c) || second_is_inside(s, c)) return;
   if (dyd_flag_is_set(s->cancel)) {
     s->best = HUGE_VAL;
     return;
   }
-  if (depth == 0 || !(FINER * FINER * (width * width + height * height) > value)) {
-    s->best = value;
+  if (depth == 0 || !(FINER * FINER * (width * width + height * height) > b->value)) {
+    s->best = b->value;
     return;
   }
   int axis = height > width ? 2 : 0;
-  dyd_bbox part[2] = {*c, *c};
-  part[0].e[axis + 1] = part[1].e[axis] = c->e[axis] / 2 + c->e[axis + 1] / 2;
-  double half[2] = {second_value(s, &part[0]), second_value(s, &part[1])};
-  int first = half[1] > half[0];
-  second_visit(s, &part[first], half[first], depth - 1);
-  second_visit(s, &part[1 - first], half[1 - first], depth - 1);
+  double middle = c->e[axis] / 2 + c->e[axis + 1] / 2;
+  second_box half[2];
+  for (int k = 0; k < 2; k++) second_set_half(&half[k], b, s, axis + 1 - k, middle);
+  int first = half[1].value > half[0].value;
+  second_visit(s, &half[first], depth - 1);
+  second_visit(s, &half[1 - first], depth - 1);
 }
 
 /* *c = a box round { dl_i <= reach } n W; false: none of finite ends. */
@@ -118,22 +136,23 @@ static bool second_start(dyd_bbox *c, const dyd_bbox *own, const dyd_rect *windo
   return true;
 }
 
-dyd_status dyd_filter_second(double *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, double reach,
-                             double most, bool discs, const volatile int *cancel) {
+dyd_status dyd_filter_second(double *out, const dyd_voronoi_sums *sums, uint32_t i, double enough) {
   dyd_index_list near = {0};
-  dyd_bbox c;
-  dyd_status st = dyd_delaunay_neighbours(&near, pd, i, dyd_least_bounding(pd));
+  second_box b;
+  dyd_status st = dyd_delaunay_neighbours(&near, sums->pd, i, dyd_least_bounding(sums->pd));
   if (st != DYD_OK) return st;
-  second_search s = {.count = near.count + 1, .own = near.count, .most = most * most, .cancel = cancel};
+  double most = sums->most * sums->most, begin = dyd_min(enough * enough * (1 - 0x1p-50), most);
+  second_search s = {.count = near.count + 1, .own = near.count, .best = begin, .most = most, .cancel = sums->cancel};
   s.box = dyd_alloc(s.count, sizeof *s.box);
   s.far = dyd_alloc(s.count, sizeof *s.far);
   if (s.box && s.far) {
     for (size_t k = 0; k < s.count; k++)
-      dyd_measure_box(s.box[k].e, dyd_delaunay_sites(pd), k == s.own ? i : near.item[k], discs);
+      dyd_measure_box(s.box[k].e, dyd_delaunay_sites(sums->pd), k == s.own ? i : near.item[k], sums->discs);
     *out = HUGE_VAL;
-    if (second_start(&c, &s.box[s.own], window, reach)) {
-      second_visit(&s, &c, second_value(&s, &c), DEPTH);
-      if (!(s.best > s.most)) *out = sqrt(s.best) * SAFE;
+    if (second_start(&b.c, &s.box[s.own], sums->window, sums->reach[i])) {
+      second_find_value(&b, &s);
+      second_visit(&s, &b, DEPTH);
+      if (!(s.best > s.most)) *out = s.best > begin ? sqrt(s.best) * SAFE : enough;
     }
   }
   dyd_index_list_clear(&near);

@@ -3,16 +3,15 @@
 #ifndef DYD_METRIC_BOUNDS_FILTER_H
 #define DYD_METRIC_BOUNDS_FILTER_H
 
-#include "voronoi/shape.h"
+#include "metric/bounds.h"
 
 /* *out = an upper bound, over the points z of Pos_i n W that are not in Int_i, of the distance to a chosen point that
  * differs from p_i, for every choice (discs: in the squares around the discs): the least of dl_k(z), R_k disjoint from
  * R_i, and of max(dl_k, dl_l)(z), R_k disjoint from R_l, among the possible neighbours of i [HAUS-V]; about a sixteenth
- * above the best such bound, 0 when there are no such points. HUGE_VAL: none is known, or it is above `most`, or
- * *cancel (which may be NULL) was set. reach >= dl_i over Pos_i n W; i is not an alias. DYD_OK or DYD_E_NOMEM. O(K) for
- * each of the boxes, K possible neighbours. */
-dyd_status dyd_filter_second(double *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, double reach,
-                             double most, bool discs, const volatile int *cancel);
+ * above the best such bound, 0 when there are no such points; `enough` where it is not above that. HUGE_VAL: none is
+ * known, or it is above sums->most, or *sums->cancel was set. i is not an alias and has been added to the sums. DYD_OK
+ * or DYD_E_NOMEM. O(K) for each of the boxes, K possible neighbours. */
+dyd_status dyd_filter_second(double *out, const dyd_voronoi_sums *sums, uint32_t i, double enough);
 
 /* ---- Areas and lengths of rectangles with double ends, in double-double arithmetic with proved error bounds.
  *
