@@ -248,8 +248,8 @@ int main(int argc, char **argv) {
   while (bench_next_part(&o)) {
     row_cells(&o, "cells", 100000, 0x1p-20, 10);
     row_cells(&o, "cells-near", 2000, 0.03, 100);
-    row_cells(&o, "cells-apart", 1000, 0.1, 100);
-    row_cells(&o, "cells-touch", 1000, 0.3, 100);
+    row_cells(&o, "cells-apart", 1000, 0.1, 60);
+    row_cells(&o, "cells-touch", 1000, 0.3, 120);
     row_cells(&o, "cells-gps", 10000, 0, 100);
     row_discs(&o, "discs", 10000);
     row_tiles(&o, "tiles", 1000000, false);

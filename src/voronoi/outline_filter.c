@@ -24,26 +24,66 @@ int dyd_outline_order(bool *unsure, dyd_iv a, dyd_iv b) {
   return 0;
 }
 
-/* A lower or upper bound of the squared distance to box k of all points in c. */
-static double outline_distance2(const dyd_outline *o, const dyd_bbox *c, size_t k, bool farthest, bool upper) {
-  const double *e = o->near[k].outer;
-  const dyd_bbox b = {{e[0], e[1], e[2], e[3]}};
-  if (farthest) return upper ? dyd_dl2_upper(c, &b) : dyd_dl2_lower(c, &b, o->slack[k]);
-  return upper ? dyd_ds2_upper(c, &b, o->slack[k]) : dyd_ds2_lower(c, &b);
+/* A lower or upper bound of the squared distance to a box of all points in c. */
+static inline double outline_distance2(const dyd_bbox *c, const dyd_outline_rival *r, bool farthest, bool upper) {
+  if (farthest) return upper ? dyd_dl2_upper(c, &r->box) : dyd_dl2_lower(c, &r->box, r->slack);
+  return upper ? dyd_ds2_upper(c, &r->box, r->slack) : dyd_ds2_lower(c, &r->box);
 }
 
-/* Returns true if a site other than `own` certainly takes all points of the box away from it. *doubt (or NULL): a site
- * may take a point. */
-static bool outline_taken(bool *doubt, dyd_outline *o, size_t own, const dyd_iv at[2]) {
-  const dyd_bbox c = {{at[0].lo, at[0].hi, at[1].lo, at[1].hi}};
-  double least = outline_distance2(o, &c, o->count, !o->outer, false);
-  double most = doubt ? outline_distance2(o, &c, o->count, !o->outer, true) : 0;
-  for (size_t m = 0; m <= o->count; m++) {
-    size_t k = m ? m - 1 : o->taker;
-    if (k >= o->count || k == own || o->drop[k]) continue;
-    if (outline_distance2(o, &c, k, o->outer, true) < least) return o->taker = k, true;
-    if (doubt && !(outline_distance2(o, &c, k, o->outer, false) > most)) *doubt = true;
+/* Exchanges rivals a and b. */
+static void rivals_swap(dyd_outline_rivals *r, size_t a, size_t b) {
+  for (int e = 0; e < DYD_RIVAL_PARTS; e++) {
+    double part = r->part[e][a];
+    r->part[e][a] = r->part[e][b];
+    r->part[e][b] = part;
   }
+}
+
+/* Only sites other than `own` take points from now on. */
+static void rivals_exclude(dyd_outline_rivals *r, size_t own) {
+  r->count = r->all;
+  for (size_t k = 0; k < r->all && r->count == r->all; k++)
+    if (r->part[DYD_RIVAL_NUMBER][k] == (double)own) rivals_swap(r, k, --r->count);
+}
+
+/* The first rival, of DYD_OUTLINE_LANES from m on, whose distance is certainly below `least`; r->all: none. */
+static inline size_t rivals_nearer(const dyd_outline_rivals *r, size_t m, const dyd_bbox *c, bool farthest,
+                                   double least) {
+  double upper[DYD_OUTLINE_LANES], below = HUGE_VAL;
+  for (int k = 0; k < DYD_OUTLINE_LANES; k++) {
+    const dyd_bbox b = {{r->part[0][m + k], r->part[1][m + k], r->part[2][m + k], r->part[3][m + k]}};
+    upper[k] = farthest ? dyd_dl2_upper(c, &b) : dyd_ds2_upper(c, &b, r->part[DYD_RIVAL_SLACK][m + k]);
+  }
+  for (int k = 0; k < DYD_OUTLINE_LANES; k++) below = dyd_min(below, upper[k]);
+  if (!(below < least)) return r->all;
+  for (int k = 0; k < DYD_OUTLINE_LANES; k++)
+    if (upper[k] < least && m + k < r->count) return m + k;
+  return r->all;
+}
+
+/* Returns true if a site certainly takes all points of the box away from all that are excluded. A site that takes a
+ * point likely takes the next, and comes first. */
+static bool outline_taken(dyd_outline *o, const dyd_iv at[2]) {
+  const dyd_bbox c = {{at[0].lo, at[0].hi, at[1].lo, at[1].hi}};
+  dyd_outline_rivals *r = &o->rivals;
+  double least = outline_distance2(&c, &o->reach[o->count], !o->outer, false);
+  if (!isfinite(c.e[0] + c.e[1] + c.e[2] + c.e[3])) return false;
+  for (size_t m = 0; m < r->count; m += DYD_OUTLINE_LANES) {
+    size_t k = o->outer ? rivals_nearer(r, m, &c, true, least) : rivals_nearer(r, m, &c, false, least);
+    if (k == r->all) continue;
+    if (k) rivals_swap(r, k, 0);
+    return true;
+  }
+  return false;
+}
+
+/* May one of them take a point of the box? */
+static bool outline_may_be_taken(const dyd_outline *o, const dyd_iv at[2]) {
+  const dyd_bbox c = {{at[0].lo, at[0].hi, at[1].lo, at[1].hi}};
+  double most = outline_distance2(&c, &o->reach[o->count], !o->outer, true);
+  for (size_t m = 0; m < o->rivals.count; m++)
+    if (!(outline_distance2(&c, &o->reach[(size_t)o->rivals.part[DYD_RIVAL_NUMBER][m]], o->outer, false) > most))
+      return true;
   return false;
 }
 
@@ -109,9 +149,9 @@ static void ruler_set(ruler *r, dyd_outline *o, size_t far, size_t near, int axi
     r->to[DYD_WINDOW_LO + e] = dyd_iv_sub(o->bound[2 * axis + e], dyd_iv_point(o->origin[axis]));
     r->of_window[e] = o->of_window[2 * axis + e];
     r->at[DYD_NEAR_LO + e] = o->box[near].end[2 * axis + e];
-    r->to[DYD_NEAR_LO + e] = o->near[near].end[2 * axis + e];
+    r->to[DYD_NEAR_LO + e] = o->near[near][2 * axis + e];
     r->far_at[e] = o->box[far].end[2 * axis + e];
-    r->far_to[e] = o->near[far].end[2 * axis + e];
+    r->far_to[e] = o->near[far][2 * axis + e];
   }
   r->o = o;
   r->far = far;
@@ -251,20 +291,37 @@ static bool outline_set_arc(dyd_outline_arc *a, pane_sides *m, const ruler r[2],
   return a->tilt[1 - a->axis];
 }
 
-/* Has the pane certainly no point of the curve? The difference of squares is monotone in each coordinate there [ARC-1].
- */
-static bool pane_is_clear(const dyd_outline *o, size_t far, size_t near, const ruler r[2], const dyd_strip s[2]) {
-  dyd_bbox least, most;
-  for (int k = 0; k < 2; k++) {
-    dyd_iv q = r[k].at[s[k].q], f = r[k].far_at[s[k].far_end], lo = r[k].to[s[k].lo], hi = r[k].to[s[k].hi];
-    bool grows = s[k].fixed ? q.lo > f.hi : s[k].above;
-    if (s[k].fixed && !grows && !(q.hi < f.lo)) return false;
-    dyd_iv from = grows ? lo : hi, to = grows ? hi : lo;
-    least.e[2 * k] = from.lo, least.e[2 * k + 1] = from.hi;
-    most.e[2 * k] = to.lo, most.e[2 * k + 1] = to.hi;
-  }
-  return outline_distance2(o, &least, far, true, false) > outline_distance2(o, &least, near, false, true) ||
-         outline_distance2(o, &most, far, true, true) < outline_distance2(o, &most, near, false, false);
+/* Parts of squared distances along one axis, of a strip, to the far and the near rectangle: at the end where their
+ * difference is least, from below and from above; where it is most, from above and from below. none: which end is which
+ * is not known. */
+typedef struct strip_reach {
+  bool none;
+  double far_least, near_least, far_most, near_most;
+} strip_reach;
+
+/* d^2, or 0 if d is negative. */
+static double reach_square(double d) {
+  return !(d <= DBL_MAX) ? HUGE_VAL : d > 0 ? d * d : 0;
+}
+
+static strip_reach strip_reach_of(const ruler *r, const dyd_strip *s) {
+  const dyd_outline_rival *far = &r->o->reach[r->far], *near = &r->o->reach[r->near];
+  const double *f = far->box.e + 2 * r->axis, *n = near->box.e + 2 * r->axis;
+  dyd_iv q = r->at[s->q], end = r->far_at[s->far_end];
+  bool grows = s->fixed ? q.lo > end.hi : s->above;
+  dyd_iv least = r->to[grows ? s->lo : s->hi], most = r->to[grows ? s->hi : s->lo];
+  return (strip_reach){
+      s->fixed && !grows && !(q.hi < end.lo), reach_square(dyd_max(f[1] - least.hi, least.lo - f[0]) - far->slack),
+      reach_square(dyd_max(n[0] - least.lo, least.hi - n[1]) + near->slack),
+      reach_square(dyd_max(f[1] - most.lo, most.hi - f[0])), reach_square(dyd_max(n[0] - most.hi, most.lo - n[1]))};
+}
+
+/* Has the pane certainly no point of the curve? The difference of squares is monotone in each coordinate there [ARC-1];
+ * the bounds are those of [FLT-DST]. */
+static bool pane_is_clear(const strip_reach *x, const strip_reach *y) {
+  if (x->none || y->none) return false;
+  return dyd_lower(x->far_least + y->far_least) > dyd_upper(x->near_least + y->near_least) ||
+         dyd_upper(x->far_most + y->far_most) < dyd_lower(x->near_most + y->near_most);
 }
 
 /* Is all of the arc between p and q taken, whole or in parts? A middle that is not ends it. */
@@ -274,19 +331,19 @@ static bool outline_stretch_taken(dyd_outline *o, const dyd_outline_arc *a, cons
   double t = p->at[k].hi / 2 + q->at[k].lo / 2;
   if (!depth || !(p->at[k].hi < t && t < q->at[k].lo)) return false;
   dyd_outline_spot m = outline_arc_at(a, dyd_iv_point(t));
-  if (!outline_taken(NULL, o, a->curve, m.at)) return false;
+  if (!outline_taken(o, m.at)) return false;
   for (int part = 0; part < 2; part++) {
     const dyd_outline_spot *from = part ? &m : p, *to = part ? q : &m;
     dyd_iv span[2];
     for (int c = 0; c < 2; c++) span[c] = outline_hull(from->at[c], to->at[c]); /* monotone between them [ARC-1] */
-    if (!outline_taken(NULL, o, a->curve, span) && !outline_stretch_taken(o, a, from, to, depth - 1)) return false;
+    if (!outline_taken(o, span) && !outline_stretch_taken(o, a, from, to, depth - 1)) return false;
   }
   return true;
 }
 
 /* All of it? Its boundary points are boundary of nothing then, and cuts there decide nothing. */
 static bool arc_is_taken(dyd_outline *o, const dyd_outline_arc *a) {
-  return outline_taken(NULL, o, a->curve, a->span) || outline_stretch_taken(o, a, &a->end[0], &a->end[1], STRETCHES);
+  return outline_taken(o, a->span) || outline_stretch_taken(o, a, &a->end[0], &a->end[1], STRETCHES);
 }
 
 static void outline_add_curve(dyd_outline *o, uint32_t other) {
@@ -296,11 +353,14 @@ static void outline_add_curve(dyd_outline *o, uint32_t other) {
   for (int k = 0; k < 2; k++) ruler_set(&r[k], o, far, near, k);
   bool near_point = r[0].marks.near_thin && r[1].marks.near_thin;
   size_t columns = dyd_marks_strips(x, &r[0].marks, near_point), rows = dyd_marks_strips(y, &r[1].marks, near_point);
+  strip_reach across[4], up[4];
+  for (size_t k = 0; k < columns; k++) across[k] = strip_reach_of(&r[0], &x[k]);
+  for (size_t k = 0; k < rows; k++) up[k] = strip_reach_of(&r[1], &y[k]);
   for (size_t k = 0; k < columns * rows && !o->unsure; k++) {
     const dyd_strip s[2] = {x[k / rows], y[k % rows]};
     dyd_outline_arc *a = &o->arc[o->arcs];
     pane_sides m;
-    if (pane_is_clear(o, far, near, r, s)) continue;
+    if (pane_is_clear(&across[k / rows], &up[k % rows])) continue;
     if (o->arcs == DYD_OUTLINE_ARCS) {
       o->unsure = true;
     } else if (outline_set_arc(a, &m, r, s) && outline_clip(a, &o->unsure, &m)) {
@@ -314,8 +374,11 @@ static void outline_add_curve(dyd_outline *o, uint32_t other) {
 /* Finds the arcs of the curves of all others, except arcs that are taken away. Sets o->unsure in doubt. */
 static void outline_find_arcs(dyd_outline *o) {
   o->arcs = 0;
-  for (uint32_t k = 0; k < o->count && !o->unsure; k++)
-    if (!o->drop[k]) outline_add_curve(o, k);
+  for (uint32_t k = 0; k < o->count && !o->unsure; k++) {
+    if (o->drop[k]) continue;
+    rivals_exclude(&o->rivals, k);
+    outline_add_curve(o, k);
+  }
 }
 
 /* ---- where the curves of two others cross, arc by arc ----
@@ -460,7 +523,7 @@ static void add_meet(dyd_outline *o, uint32_t a, uint32_t b, dyd_iv u) {
   if (dyd_outline_order(&unsure, t, p->end[0].at[p->axis]) < 0) return;
   if (dyd_outline_order(&unsure, t, p->end[1].at[p->axis]) > 0) return;
   dyd_outline_spot spot = outline_arc_at(p, t);
-  if (!pane_holds(&unsure, q, &spot)) return;
+  if (!pane_holds(&unsure, q, &spot) || outline_taken(o, spot.at)) return;
   if (unsure || o->meets == DYD_OUTLINE_MEETS)
     o->unsure = true;
   else
@@ -481,11 +544,12 @@ static void arcs_meet(dyd_outline *o, uint32_t a, uint32_t b, const profile *w) 
   for (int k = 0; k < count; k++) add_meet(o, a, b, root[k]);
 }
 
-/* Where the curves cross. */
+/* Where the curves cross. What a third takes away begins and ends no piece. */
 static void outline_find_meets(dyd_outline *o) {
   o->meets = 0;
   for (uint32_t a = 0; a < o->arcs && !o->unsure; a++) {
     profile w = profile_of(&o->arc[a]);
+    rivals_exclude(&o->rivals, o->arc[a].curve);
     for (uint32_t b = a + 1; b < o->arcs && !o->unsure; b++)
       if (o->arc[a].curve != o->arc[b].curve) arcs_meet(o, a, b, &w);
   }
@@ -546,14 +610,16 @@ dyd_status dyd_outline_load(bool *done, dyd_outline *o, const dyd_delaunay *pd, 
   return st;
 }
 
-static void box_place(dyd_box *out, double *slack, const dyd_box *b, const double origin[2]) {
-  *out = *b;
-  *slack = 0;
-  for (int k = 0; k < 4; k++) {
-    out->end[k] = dyd_iv_sub(b->end[k], dyd_iv_point(origin[k >> 1]));
-    out->outer[k] = k & 1 ? out->end[k].hi : out->end[k].lo;
-    *slack = dyd_max(*slack, dyd_up(out->end[k].hi - out->end[k].lo));
-  }
+static void ends_place(dyd_iv out[4], const dyd_box *b, const double origin[2]) {
+  for (int k = 0; k < 4; k++) out[k] = dyd_iv_sub(b->end[k], dyd_iv_point(origin[k >> 1]));
+}
+
+static void outline_place_site(dyd_outline *o, uint32_t k) {
+  dyd_outline_rival *r = &o->reach[k];
+  const dyd_iv *end = o->near[k];
+  ends_place(o->near[k], &o->box[k], o->origin);
+  *r = (dyd_outline_rival){{{end[0].lo, end[1].hi, end[2].lo, end[3].hi}}, 0};
+  for (int e = 0; e < 4; e++) r->slack = dyd_max(r->slack, dyd_up(end[e].hi - end[e].lo));
 }
 
 /* Returns true if the closed rectangles of sites a and b meet. */
@@ -575,16 +641,24 @@ static bool outline_place(dyd_outline *o, const dyd_rect *window) {
   bool free = true;
   dyd_filter_box(&o->window, window);
   o->rect = window;
-  double none;
-  box_place(&o->frame, &none, &o->window, o->origin);
-  for (size_t k = 0; k <= o->count; k++) box_place(&o->near[k], &o->slack[k], &o->box[k], o->origin);
-  for (size_t k = 0; k < o->count; k++) {
+  ends_place(o->frame, &o->window, o->origin);
+  for (uint32_t k = 0; k <= o->count; k++) outline_place_site(o, k);
+  dyd_outline_rivals *v = &o->rivals;
+  v->all = 0;
+  for (uint32_t k = 0; k < o->count; k++) {
     o->drop[k] = outline_rects_meet(o, k, o->count);
     free = free && !o->drop[k];
+    if (o->drop[k]) continue;
+    for (int e = 0; e < 4; e++) v->part[e][v->all] = o->reach[k].box.e[e];
+    v->part[DYD_RIVAL_SLACK][v->all] = o->reach[k].slack;
+    v->part[DYD_RIVAL_NUMBER][v->all++] = k;
   }
+  for (size_t k = v->all; k % DYD_OUTLINE_LANES; k++) /* never nearer */
+    for (int e = 0; e <= DYD_RIVAL_SLACK; e++) v->part[e][k] = HUGE_VAL;
+  v->count = v->all;
   for (int k = 0; k < 4; k++) {
     int side[2] = {k == 1 || k == 2, k >= 2};
-    o->corner[k] = (dyd_outline_spot){{o->frame.end[side[0]], o->frame.end[2 + side[1]]}, {side[0], side[1]}};
+    o->corner[k] = (dyd_outline_spot){{o->frame[side[0]], o->frame[2 + side[1]]}, {side[0], side[1]}};
   }
   return free;
 }
@@ -595,42 +669,56 @@ static bool outline_place(dyd_outline *o, const dyd_rect *window) {
 static double outline_reach(const dyd_outline *o) {
   double most = 0;
   for (size_t k = 0; k < o->count; k++)
-    for (int e = 0; e < 4; e++) most = fmax(most, fabs(o->near[k].outer[e]));
+    for (int e = 0; e < 4; e++) most = fmax(most, fabs(o->reach[k].box.e[e]));
   return most;
 }
 
-/* Returns true if all of the square ring is taken away around the site. Then Pos, which is connected and holds the
- * site, is inside. */
-static bool ring_is_taken(dyd_outline *o, const double ring[4]) {
-  enum { PARTS = 4 };
-  for (int k = 0; k < 4; k++) {
-    int across = k >> 1, along = 1 - across;
-    dyd_iv at[2];
-    at[across] = dyd_iv_point(ring[k]);
-    double from = ring[2 * along], length = ring[2 * along + 1] - from;
-    for (int part = 0; part < PARTS; part++) {
-      at[along] = (dyd_iv){from + length * part / PARTS, from + length * (part + 1) / PARTS};
-      if (!outline_taken(NULL, o, o->count, at)) return false;
-    }
-  }
-  return true;
+/* Is all of side k of the box taken away, whole or in parts, from `from` to `to` along it? A middle that is not ends
+ * it.
+ */
+static bool side_is_taken(dyd_outline *o, const double box[4], int k, double from, double to, int depth) {
+  int across = k >> 1;
+  double middle = from / 2 + to / 2;
+  dyd_iv at[2];
+  at[across] = dyd_iv_point(box[k]);
+  at[1 - across] = (dyd_iv){from, to};
+  if (outline_taken(o, at)) return true;
+  at[1 - across] = dyd_iv_point(middle);
+  return depth > 0 && outline_taken(o, at) && side_is_taken(o, box, k, from, middle, depth - 1) &&
+         side_is_taken(o, box, k, middle, to, depth - 1);
 }
 
-static void limit_by_ring(dyd_outline *o) {
-  static const double share[] = {0.6, 0.8, 1.25, 2};
-  double reach = outline_reach(o);
-  const dyd_box *own = &o->near[o->count];
-  for (size_t m = 0; m < sizeof share / sizeof *share; m++) {
-    double ring[4];
-    for (int k = 0; k < 4; k++) ring[k] = own->outer[k] + (k & 1 ? reach : -reach) * share[m];
-    if (!(ring[0] < own->outer[0] && own->outer[1] < ring[1] && ring[2] < own->outer[2] && own->outer[3] < ring[3]) ||
-        !ring_is_taken(o, ring))
-      continue;
-    for (int k = 0; k < 4; k++) {
-      double at = o->origin[k >> 1] + ring[k];
-      o->limit[k] = k & 1 ? dyd_up(at) : dyd_down(at);
-    }
-    return;
+/* Is the site inside of the box, and is that side of it taken away? */
+static bool box_has_side(dyd_outline *o, const double box[4], int k) {
+  const double *own = o->reach[o->count].box.e, *along = box + (k < 2 ? 2 : 0);
+  for (int e = 0; e < 4; e++)
+    if (e & 1 ? !(own[e] < box[e]) : !(box[e] < own[e])) return false;
+  return side_is_taken(o, box, k, along[0], along[1], STRETCHES + 1);
+}
+
+/* Draws side k nearer to the site as long as it is taken away. Other sides become shorter, so they stay so. */
+static void draw_side(dyd_outline *o, double box[4], int k) {
+  for (int step = 0; step < 4; step++) {
+    double old = box[k];
+    box[k] = o->reach[o->count].box.e[k] * 0.25 + old * 0.75;
+    if (!box_has_side(o, box, k)) box[k] = old;
+  }
+}
+
+/* A box whose border is taken away around the site has Pos, which is connected and holds the site, inside. */
+static void limit_by_box(dyd_outline *o) {
+  static const double share[] = {0.4, 0.6, 0.8, 1.25, 2, 4};
+  double reach = outline_reach(o), box[4];
+  size_t shares = sizeof share / sizeof *share, m = 0;
+  for (int sides = 0; m < shares && sides < 4; m += sides < 4) {
+    for (int k = 0; k < 4; k++) box[k] = o->reach[o->count].box.e[k] + (k & 1 ? reach : -reach) * share[m];
+    for (sides = 0; sides < 4 && box_has_side(o, box, sides);) sides++;
+  }
+  if (m == shares) return;
+  for (int k = 0; k < 4; k++) draw_side(o, box, k);
+  for (int k = 0; k < 4; k++) {
+    double at = o->origin[k >> 1] + box[k];
+    o->limit[k] = k & 1 ? dyd_up(at) : dyd_down(at);
   }
 }
 
@@ -664,9 +752,9 @@ dyd_iv dyd_outline_coordinate(const dyd_outline *o, const dyd_outline_spot *p, i
 
 /* ---- samples ---- */
 
-static bool point_is_taken(dyd_outline *o, size_t own, const dyd_iv at[2]) {
-  bool doubt = false, taken = outline_taken(&doubt, o, own, at);
-  if (doubt && !taken) o->unsure = true;
+static bool point_is_taken(dyd_outline *o, const dyd_iv at[2]) {
+  bool taken = outline_taken(o, at);
+  if (!taken && outline_may_be_taken(o, at)) o->unsure = true;
   return taken;
 }
 
@@ -704,6 +792,7 @@ static void add_part(dyd_outline *o, size_t curve, const dyd_outline_arc *arc, b
 static void outline_arc_pieces(dyd_outline *o, uint32_t a) {
   const dyd_outline_arc *p = &o->arc[a];
   size_t count = 2;
+  rivals_exclude(&o->rivals, p->curve);
   o->cut[0] = &p->end[0];
   o->cut[1] = &p->end[1];
   for (size_t m = 0; m < o->meets; m++)
@@ -715,7 +804,7 @@ static void outline_arc_pieces(dyd_outline *o, uint32_t a) {
   for (size_t k = 0; k + 1 < count && !o->unsure; k++) {
     dyd_iv t = coordinate_between(o, o->cut[k]->at[p->axis], o->cut[k + 1]->at[p->axis]);
     dyd_outline_spot sample = outline_arc_at(p, t);
-    if (!point_is_taken(o, p->curve, sample.at)) add_part(o, p->curve, p, grows, k);
+    if (!point_is_taken(o, sample.at)) add_part(o, p->curve, p, grows, k);
   }
   if (p->either && o->pieces > before + 1) o->unsure = true; /* in which order? */
 }
@@ -726,6 +815,7 @@ static void outline_side_pieces(dyd_outline *o, int side) {
   bool grows = side < 2;
   size_t count = 2;
   if (!o->of_window[2 * (1 - axis) + end]) return; /* out of reach */
+  rivals_exclude(&o->rivals, o->count);
   o->cut[0] = &o->corner[side];
   o->cut[1] = &o->corner[(side + 1) & 3];
   for (size_t a = 0; a < o->arcs; a++)
@@ -740,7 +830,7 @@ static void outline_side_pieces(dyd_outline *o, int side) {
     dyd_iv at[2];
     at[axis] = coordinate_between(o, o->cut[k]->at[axis], o->cut[k + 1]->at[axis]);
     at[1 - axis] = o->corner[side].at[1 - axis];
-    if (!point_is_taken(o, o->count, at)) add_part(o, o->count + (size_t)side, NULL, grows, k);
+    if (!point_is_taken(o, at)) add_part(o, o->count + (size_t)side, NULL, grows, k);
   }
 }
 
@@ -794,9 +884,8 @@ bool dyd_filter_outline(dyd_outline *o, const dyd_rect *window, bool outer) {
   o->outer = outer;
   o->unsure = false;
   o->arcs = o->meets = o->pieces = o->parts = 0;
-  o->taker = o->count;
   if (!outline_place(o, window) && !outer) return !o->unsure;
-  if (outer) limit_by_ring(o);
+  if (outer) limit_by_box(o);
   set_bounds(o);
   outline_find_arcs(o);
   if (!o->unsure) outline_find_meets(o);

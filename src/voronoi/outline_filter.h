@@ -9,7 +9,7 @@
 #include "delaunay/state.h"
 #include "voronoi/exact_cell_filter.h"
 
-enum { DYD_OUTLINE_OTHERS = 96, DYD_OUTLINE_ARCS = 512, DYD_OUTLINE_MEETS = 512, DYD_OUTLINE_PIECES = 128 };
+enum { DYD_OUTLINE_OTHERS = 1024, DYD_OUTLINE_ARCS = 2048, DYD_OUTLINE_MEETS = 512, DYD_OUTLINE_PIECES = 512 };
 
 /* A point, relative to the origin of the outline. at[a] encloses coordinate a. side[a]: which end of the window (0, 1)
  * coordinate a is, exactly; else -1. */
@@ -43,6 +43,20 @@ typedef struct dyd_outline_meet {
   dyd_outline_spot spot;
 } dyd_outline_meet;
 
+/* The box of a site relative to the origin, which may be too wide by slack on each side. */
+typedef struct dyd_outline_rival {
+  dyd_bbox box;
+  double slack;
+} dyd_outline_rival;
+
+/* Those that may take points, the first `count` of `all`, in any order, a row for each part of a rival: xlo, xhi, ylo,
+ * yhi, slack and number. */
+enum { DYD_OUTLINE_LANES = 4, DYD_RIVAL_SLACK = 4, DYD_RIVAL_NUMBER, DYD_RIVAL_PARTS };
+typedef struct dyd_outline_rivals {
+  double part[DYD_RIVAL_PARTS][DYD_OUTLINE_OTHERS];
+  size_t count, all;
+} dyd_outline_rivals;
+
 /* Loaded once for a site: site, count, sites, box and thin (its own last). The rest is found by dyd_filter_outline:
  * part[0 .. parts) is the closed boundary, with the region on the left; parts = 0: there is none. curve = count + side:
  * of the window. */
@@ -55,17 +69,18 @@ typedef struct dyd_outline {
   bool thin[DYD_OUTLINE_OTHERS + 1][2]; /* equal ends, though doubles may not hold them */
   double origin[2];
   bool outer, unsure;
-  dyd_box near[DYD_OUTLINE_OTHERS + 1], frame; /* relative to the origin; frame: the window */
-  double slack[DYD_OUTLINE_OTHERS + 1];        /* by how much `outer` of near may be too far out */
-  bool drop[DYD_OUTLINE_OTHERS];               /* meets the site: does not matter to Pos */
-  double limit[4];                             /* lower and upper bounds of all points of Pos, hence of Int */
-  dyd_iv bound[4];                             /* the window cut down to them, */
-  bool of_window[4];                           /* where that is an end of the window */
+  dyd_iv near[DYD_OUTLINE_OTHERS + 1][4], frame[4]; /* relative to the origin; frame: the window */
+  bool drop[DYD_OUTLINE_OTHERS];                    /* meets the site: does not matter to Pos */
+  dyd_outline_rival reach[DYD_OUTLINE_OTHERS + 1];
+  dyd_outline_rivals rivals; /* those not dropped */
+  double limit[4];           /* lower and upper bounds of all points of Pos, hence of Int */
+  dyd_iv bound[4];           /* the window cut down to them, */
+  bool of_window[4];         /* where that is an end of the window */
   dyd_outline_arc arc[DYD_OUTLINE_ARCS];
   dyd_outline_meet meet[DYD_OUTLINE_MEETS];
   dyd_outline_spot corner[4];
   dyd_outline_piece piece[DYD_OUTLINE_PIECES], part[DYD_OUTLINE_PIECES];
-  size_t arcs, meets, pieces, parts, taker;
+  size_t arcs, meets, pieces, parts;
   const dyd_outline_spot *cut[DYD_OUTLINE_MEETS + 2];
 } dyd_outline;
 
