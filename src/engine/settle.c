@@ -25,120 +25,20 @@
 #include <dyadel/predicate.h>
 #include <stdlib.h>
 
-/* Cores [SET-3], and firm ones: wider both ways than twice the unknown width of sides without a core [SET-2]. */
-
-/* Sides of r that have a core, or sides without one, become their lower ends. */
-static void rect_collapse(dyd_rect *r, const bool core[2], bool which) {
-  dyd_interval *side[2] = {&r->x, &r->y};
-  for (int a = 0; a < 2; a++)
-    if (core[a] == which && !dyd_interval_is_point(side[a])) dyd_interval_set_over(side[a], &side[a]->lo, side[a]->den);
-}
-
-dyd_status dyd_site_get_core(dyd_rect *r, bool core[2], const dyd_engine *e, uint32_t site) {
-  const dyd_refinable *p = dyd_engine_find(e, site);
-  core[0] = core[1] = !p || p->final;
-  dyd_status st = dyd_sites_get(r, e->sites, site);
-  return st == DYD_OK && !core[0] && p->stream ? dyd_stream_core(r, core, p->stream, p->measured) : st;
-}
-
-/* Raises *eps to the largest difference of two points of r along sides without a core. */
-static dyd_status eps_raise(dyd_dyadic *eps, const dyd_rect *r, const bool core[2]) {
-  dyd_dyadic more;
-  dyd_rect rest;
-  dyd_dyadic_init(&more);
-  dyd_rect_init(&rest);
-  dyd_rect_set(&rest, r);
-  dyd_status st = DYD_OK;
-  rect_collapse(&rest, core, true);
-  if (!dyd_rect_is_point(&rest)) /* widths of 2^-b, a diameter below 2^(1-b) */
-    st = dyd_dyadic_set_si_2exp(&more, 1, 1 - dyd_rect_bits(&rest));
-  if (dyd_dyadic_cmp(&more, eps) > 0) dyd_dyadic_swap(&more, eps);
-  dyd_rect_clear(&rest);
-  dyd_dyadic_clear(&more);
-  return st;
-}
-
-dyd_status dyd_firm_raise(dyd_dyadic *eps, const dyd_engine *e, uint32_t site) {
-  bool core[2];
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_status st = dyd_site_get_core(&r, core, e, site);
-  if (st == DYD_OK) st = eps_raise(eps, &r, core);
-  dyd_rect_clear(&r);
-  return st;
-}
-
-dyd_status dyd_firm_eps(dyd_dyadic *eps, const dyd_engine *e) {
-  dyd_status st = dyd_dyadic_set_si_2exp(eps, 0, 0);
-  for (size_t k = 0; st == DYD_OK && k < e->points; k++)
-    if (!e->point[k].final) st = dyd_firm_raise(eps, e, e->point[k].site);
-  return st;
-}
-
-dyd_status dyd_firm_place(dyd_rect *out, dyd_dyadic *eps, const dyd_stream *at) {
-  bool core[2] = {false, false};
-  dyd_rect_set(out, dyd_stream_rect(at));
-  dyd_status st = dyd_stream_core(out, core, at, false);
-  if (st == DYD_OK) st = eps_raise(eps, out, core);
-  if (st == DYD_OK) rect_collapse(out, core, false);
-  return st;
-}
-
-/* a becomes smaller by eps on each side, if it is wide enough: *can. */
-static dyd_status side_shrink(dyd_interval *a, bool *can, const dyd_dyadic *eps) {
-  mpq_t lo, hi, by;
-  mpq_inits(lo, hi, by, NULL);
-  dyd_interval_get_q(lo, hi, a);
-  dyd_dyadic_get_q(by, eps);
-  mpq_add(lo, lo, by);
-  mpq_sub(hi, hi, by);
-  *can = !dyd_interval_is_point(a) && mpq_cmp(lo, hi) < 0;
-  dyd_status st = *can ? dyd_interval_set_ends_q(a, lo, hi) : DYD_OK;
-  mpq_clears(lo, hi, by, NULL);
-  return st;
-}
-
-/* Sets *r to the core of a site: less eps on each side if it is firm, all of it if a side is too narrow for that, and a
- * point instead of each side that has no core. */
-static dyd_status site_get_firm(dyd_rect *r, bool *firm, const dyd_engine *e, const dyd_dyadic *eps, uint32_t site) {
-  bool core[2], wide[2] = {false, false};
-  dyd_rect s;
-  *firm = false;
-  dyd_status st = dyd_site_get_core(r, core, e, site);
-  if (st != DYD_OK) return st;
-  if (!core[0] || !core[1]) return rect_collapse(r, core, false), DYD_OK;
-  dyd_rect_init(&s);
-  dyd_rect_set(&s, r);
-  st = side_shrink(&s.x, &wide[0], eps);
-  if (st == DYD_OK) st = side_shrink(&s.y, &wide[1], eps);
-  *firm = st == DYD_OK && wide[0] && wide[1];
-  if (*firm) dyd_rect_swap(r, &s);
-  dyd_rect_clear(&s);
-  return st;
-}
-
-/* Sets *out to whether the cores of both ends are firm. */
-static dyd_status pair_is_firm(bool *out, const dyd_engine *e, const dyd_dyadic *eps, const dyd_pair *pair) {
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_status st = site_get_firm(&r, out, e, eps, pair->i);
-  if (st == DYD_OK && *out) st = site_get_firm(&r, out, e, eps, pair->j);
-  dyd_rect_clear(&r);
-  return st;
-}
-
-dyd_status dyd_firm_rect(dyd_rect *out, const void *sites, size_t k) {
-  const dyd_firm_sites *s = sites;
-  return site_get_firm(out, &s->firm[k], s->e, s->eps, s->site ? s->site[k] : (uint32_t)k);
-}
-
 /* Pairs of one face: pairs that stay open wherever the points are that can be narrowed [SET-1].
  *
  * A side has a core, which no refinement leaves, or can be narrowed to any point of it. A disc to which both ends may
  * reach along their cores, wherever they are along the others, while no other site has to meet it, makes a pair
  * possible for good. Points of both ends that four points show to be in no disc of their own, make it never legal. */
 
-/* site: sites of the face and their legal neighbours, ascending; rect and guess: one for each of them; pair: the pairs
+/* Numbers of the sites that have a point in common with one, whatever is narrowed. */
+typedef struct settled_touch {
+  bool known;
+  dyd_index_list with;
+  size_t cap;
+} settled_touch;
+
+/* site: sites of the face and their legal neighbours, ascending; rect, guess, touch: one for each of them; pair: pairs
  * examined; work: the work left for all faces. */
 typedef struct settling {
   const dyd_engine *e;
@@ -146,6 +46,7 @@ typedef struct settling {
   size_t cap; /* of site */
   dyd_rect *rect;
   dyd_settle_site *guess;
+  settled_touch *touch;
   dyd_settled_pair *pair;
   size_t pairs;
   dyd_settle_work *work;
@@ -155,9 +56,11 @@ typedef struct settling {
 
 static void settling_drop_rects(settling *s) {
   for (size_t k = 0; s->rect && k < s->site.count; k++) dyd_rect_clear(&s->rect[k]);
-  dyd_free_all(s->rect, s->guess);
+  for (size_t k = 0; s->touch && k < s->site.count; k++) dyd_index_list_clear(&s->touch[k].with);
+  dyd_free_all(s->rect, s->guess, s->touch);
   s->rect = NULL;
   s->guess = NULL;
+  s->touch = NULL;
 }
 
 static void settling_clear(settling *s) {
@@ -179,9 +82,10 @@ static dyd_status settling_take_rects(settling *s) {
   dyd_status st = DYD_OK;
   dyd_index_list_sort(&s->site);
   s->rect = dyd_alloc(s->site.count, sizeof *s->rect);
-  s->guess = dyd_alloc(s->site.count, sizeof *s->guess);
+  s->guess = calloc(s->site.count + 1, sizeof *s->guess);
+  s->touch = calloc(s->site.count + 1, sizeof *s->touch);
   for (size_t k = 0; s->rect && k < s->site.count; k++) dyd_rect_init(&s->rect[k]);
-  if (!s->rect || !s->guess) return DYD_E_NOMEM;
+  if (!s->rect || !s->guess || !s->touch) return DYD_E_NOMEM;
   for (size_t k = 0; st == DYD_OK && k < s->site.count; k++) {
     bool *core = s->guess[k].core;
     st = dyd_site_get_core(&s->rect[k], core, s->e, s->site.item[k]);
@@ -192,11 +96,67 @@ static dyd_status settling_take_rects(settling *s) {
   return st;
 }
 
-/* ---- a disc that joins ---- */
+/* Predicates of rectangles are exact where they are close: as much as many sites in doubles. */
+enum { COST_PREDICATE = 16, COST_PROOF = 1 << 12, MOST_SEEDS = 64, HELD = 8 };
 
-static void settling_spend(settling *s) {
-  s->work->sites -= s->work->sites < s->site.count ? s->work->sites : s->site.count;
+static void settling_pay(const settling *s, size_t cost) {
+  s->work->sites -= s->work->sites < cost ? s->work->sites : cost;
 }
+
+/* How many places of site number k stay in its rectangle, as far as is known: 1 where it closes in on a true point. */
+static unsigned settling_places(const settling *s, size_t k) {
+  const bool *core = s->guess[k].core;
+  bool narrow[2] = {!core[0] || dyd_interval_is_point(&s->rect[k].x), !core[1] || dyd_interval_is_point(&s->rect[k].y)};
+  if (narrow[0] && narrow[1]) return 1;
+  return core[0] && core[1] ? DYD_REGION_PLACES : 0;
+}
+
+/* ---- sites that have a point in common ---- */
+
+/* Returns true if site number k has a core along both sides in which all of site i is, or which meets the core of i. */
+static bool core_holds(const settling *s, size_t k, size_t i) {
+  const bool *of_i = s->guess[i].core, *of_k = s->guess[k].core;
+  const double *a = s->guess[i].box, *b = s->guess[k].box;
+  if (!of_k[0] || !of_k[1] || a[1] < b[0] || b[1] < a[0] || a[3] < b[2] || b[3] < a[2]) return false;
+  return of_i[0] && of_i[1] ? dyd_rect_meets(&s->rect[i], &s->rect[k]) : dyd_rect_contains(&s->rect[k], &s->rect[i]);
+}
+
+/* Sets *out to whether sites number k and n have a point in common, whatever is narrowed: their cores show it, or it is
+ * proved of regions of which one touches the other. */
+static dyd_status settling_touch(bool *out, settling *s, size_t k, size_t n) {
+  const double *a = s->guess[k].box, *b = s->guess[n].box;
+  *out = core_holds(s, k, n) || core_holds(s, n, k);
+  bool apart = a[1] < b[0] || b[1] < a[0] || a[3] < b[2] || b[3] < a[2];
+  if (*out || apart || !s->known || !s->known->prover.meet || !s->work->proofs) return DYD_OK;
+  s->work->proofs--;
+  settling_pay(s, COST_PROOF);
+  return s->known->prover.meet(out, s->known->prover.user, s->site.item[k], s->site.item[n]);
+}
+
+/* Lists the sites that have a point in common with number i. */
+static dyd_status settling_touches(const dyd_index_list **out, settling *s, size_t i) {
+  settled_touch *t = &s->touch[i];
+  dyd_status st = DYD_OK;
+  for (uint32_t k = 0; st == DYD_OK && !t->known && k < s->site.count; k++) {
+    bool touch = false;
+    if (k != i) st = settling_touch(&touch, s, i, k);
+    if (st == DYD_OK && touch) st = dyd_index_list_add(&t->with, &t->cap, &k, 1);
+  }
+  t->known = true;
+  *out = &t->with;
+  return st;
+}
+
+/* Sets *out to whether another site but number j has a point in common with number i, whatever is narrowed: no disc
+ * holds all of the one and nothing of the other. */
+static dyd_status settling_meets(bool *out, settling *s, size_t i, size_t j) {
+  const dyd_index_list *with;
+  dyd_status st = settling_touches(&with, s, i);
+  *out = with->count > 1 || (with->count == 1 && with->item[0] != j);
+  return st;
+}
+
+/* ---- a disc that joins ---- */
 
 /* a becomes its end that is farther from v. */
 static dyd_status side_set_far(dyd_interval *a, const dyd_dyadic *v) {
@@ -243,11 +203,60 @@ static dyd_status disc_spares(bool *out, const dyd_engine *e, const dyd_point *c
   return st;
 }
 
-/* Sets *out to whether a disc around c shows that the pair is possible, wherever points are that can be narrowed. *met:
- * the sites that meet it. */
-static dyd_status disc_joins(bool *out, dyd_index_list *met, const settling *s, const dyd_point *c,
-                             const dyd_settled_pair *p) {
-  const size_t end[2] = {settling_place(s, p->i), settling_place(s, p->j)};
+/* Marks the sites that hold an end which is one point, for a disc with these ends; *any: there are some. */
+static dyd_status settling_hold(bool *any, settling *s, const size_t end[2]) {
+  const dyd_index_list *with;
+  dyd_status st = DYD_OK;
+  *any = false;
+  for (int e = 0; st == DYD_OK && e < 2; e++) {
+    if (settling_places(s, end[e]) != 1) continue;
+    st = settling_touches(&with, s, end[e]);
+    for (size_t k = 0; k < with->count; k++) *any = s->guess[with->item[k]].absent = true;
+  }
+  return st;
+}
+
+/* Sets *out to whether c is near enough to a centre as far from one end as from the other, both points, for a disc with
+ * a radius larger by 2^-41 of it to hold all that the disc around that centre does; radius2 becomes that of this disc.
+ */
+static bool disc_is_even(mpq_t radius2, const settling *s, const dyd_point *c, const size_t end[2]) {
+  mpq_t off, most, least, apart;
+  double lo, hi;
+  mpq_inits(off, most, least, apart, NULL);
+  for (int e = 0; e < 2; e++) {
+    dyd_rect_dl2(most, c, &s->rect[end[e]]);
+    dyd_rect_ds2(least, c, &s->rect[end[!e]]);
+    mpq_sub(most, most, least);
+    if (mpq_cmp(most, off) > 0) mpq_swap(most, off);
+  }
+  dyd_rect_distance(&lo, &hi, &s->rect[end[0]], &s->rect[end[1]]);
+  mpq_set_d(apart, lo);
+  mpq_mul(apart, apart, apart);
+  mpq_mul(apart, apart, radius2);
+  mpq_mul(off, off, off);
+  mpq_mul_2exp(off, off, 84);
+  bool even = mpq_cmp(off, apart) <= 0;
+  mpq_div_2exp(most, radius2, 40);
+  mpq_add(radius2, radius2, most);
+  mpq_clears(off, most, least, apart, NULL);
+  return even;
+}
+
+/* The same for one end that is a point: it is the farther one. */
+static dyd_status disc_leans(bool *out, const settling *s, const dyd_point *c, size_t beside, size_t other) {
+  mpq_t least, most;
+  mpq_inits(least, most, NULL);
+  dyd_rect_ds2(least, c, &s->rect[beside]);
+  dyd_status st = rect_reach2(most, c, &s->rect[other], s->guess[other].core);
+  *out = st == DYD_OK && mpq_cmp(most, least) <= 0;
+  mpq_clears(least, most, NULL);
+  return st;
+}
+
+/* Sets *out to whether a disc around c shows that ends, or two sites that hold points of these, are possible, wherever
+ * points are that can be narrowed. *met: the sites that meet it. held: sites were marked that need not be outside. */
+static dyd_status disc_joins(bool *out, dyd_index_list *met, const settling *s, const dyd_point *c, const size_t end[2],
+                             bool held) {
   mpq_t radius2, other;
   dyd_status st = DYD_OK;
   mpq_inits(radius2, other, (mpq_ptr)0);
@@ -255,23 +264,32 @@ static dyd_status disc_joins(bool *out, dyd_index_list *met, const settling *s, 
     st = rect_reach2(other, c, &s->rect[end[k]], s->guess[end[k]].core);
     if (mpq_cmp(other, radius2) > 0) mpq_swap(other, radius2);
   }
-  if (st == DYD_OK) st = dyd_delaunay_meet_disc(met, s->e->pd, c, radius2);
   *out = st == DYD_OK;
-  for (size_t k = 0; st == DYD_OK && *out && k < met->count; k++)
-    if (met->item[k] != p->i && met->item[k] != p->j) st = disc_spares(out, s->e, c, radius2, met->item[k]);
+  bool point = settling_places(s, end[0]) == 1;
+  if (st == DYD_OK && held && point && settling_places(s, end[1]) == 1)
+    *out = disc_is_even(radius2, s, c, end);
+  else if (st == DYD_OK && held)
+    st = disc_leans(out, s, c, end[!point], end[point]);
+  if (st == DYD_OK && *out) st = dyd_delaunay_meet_disc(met, s->e->pd, c, radius2);
+  for (size_t k = 0; st == DYD_OK && *out && k < met->count; k++) {
+    size_t at = settling_place(s, met->item[k]);
+    if (at == end[0] || at == end[1] || (at != SIZE_MAX && s->guess[at].absent)) continue;
+    st = disc_spares(out, s->e, c, radius2, met->item[k]);
+  }
   mpq_clears(radius2, other, (mpq_ptr)0);
   return st;
 }
 
 /* Examines the disc around a guess; where others than the sites meet it, these become more. */
-static dyd_status settling_join_at(settling *s, dyd_settled_pair *p, const double at[2]) {
+static dyd_status settling_join_at(settling *s, dyd_settled_pair *p, const double at[2], const size_t end[2],
+                                   bool held) {
   dyd_index_list met = {0};
   dyd_point c;
   dyd_point_init(&c);
   dyd_status st = dyd_dyadic_set_d(&c.x, at[0]);
   if (st == DYD_OK) st = dyd_dyadic_set_d(&c.y, at[1]);
-  if (st == DYD_OK) st = disc_joins(&p->possible, &met, s, &c, p);
-  if (st == DYD_OK && !p->possible) {
+  if (st == DYD_OK) st = disc_joins(&p->possible, &met, s, &c, end, held);
+  if (st == DYD_OK && !p->possible && met.count) {
     settling_drop_rects(s);
     st = settling_append(s, &met);
     if (st == DYD_OK) st = settling_take_rects(s);
@@ -281,16 +299,53 @@ static dyd_status settling_join_at(settling *s, dyd_settled_pair *p, const doubl
   return st;
 }
 
-/* Looks for a disc for one pair. */
-static dyd_status settling_join(settling *s, dyd_settled_pair *p, bool thorough) {
+/* Guesses a centre of a disc with the ends. held: with points as ends, where sites are marked. */
+static bool settling_guess(double at[2], const settling *s, const size_t end[2], bool held, bool thorough) {
+  const bool point[2] = {settling_places(s, end[0]) == 1, settling_places(s, end[1]) == 1};
+  bool found = dyd_filter_find_centre(at, s->guess, s->site.count, end[0], end[1], thorough);
+  for (int e = 0; found && held && e < 2; e++)
+    if (point[e]) dyd_filter_lean(at, s->guess, end[e], end[!e], point[!e] ? 0 : 0x1p-20);
+  return found;
+}
+
+/* Looks for a disc for one pair: with these sites as ends. */
+static dyd_status settling_join(settling *s, dyd_settled_pair *p, const uint32_t site[2], bool held, bool thorough) {
   dyd_status st = DYD_OK;
   for (size_t had = 0; st == DYD_OK && !p->possible && had < s->site.count && s->work->sites;) {
+    const size_t end[2] = {settling_place(s, site[0]), settling_place(s, site[1])};
     double at[2];
-    size_t i = settling_place(s, p->i), j = settling_place(s, p->j);
+    bool any = true;
     had = s->site.count;
-    settling_spend(s);
-    if (!dyd_filter_find_centre(at, s->guess, had, i, j, thorough)) break;
-    st = settling_join_at(s, p, at);
+    for (size_t k = 0; k < had; k++) s->guess[k].absent = false;
+    if (held) st = settling_hold(&any, s, end);
+    settling_pay(s, had);
+    if (st != DYD_OK || !any || !settling_guess(at, s, end, held, thorough)) break;
+    st = settling_join_at(s, p, at, end, held);
+  }
+  return st;
+}
+
+/* The site, and first ones of the points that it holds: their number. */
+static dyd_status settling_held(uint32_t out[HELD], size_t *count, settling *s, uint32_t site) {
+  const dyd_index_list *with;
+  dyd_status st = settling_touches(&with, s, settling_place(s, site));
+  out[0] = site;
+  *count = 1;
+  for (size_t k = 0; st == DYD_OK && k < with->count && *count < HELD; k++)
+    if (settling_places(s, with->item[k]) == 1) out[(*count)++] = s->site.item[with->item[k]];
+  return st;
+}
+
+/* Looks for a disc for a pair whose ends have a point in common with others: an end, or another site, at such a point
+ * is in no way. */
+static dyd_status settling_join_held(settling *s, dyd_settled_pair *p) {
+  uint32_t a[HELD], b[HELD];
+  size_t as, bs;
+  dyd_status st = settling_held(a, &as, s, p->i);
+  if (st == DYD_OK) st = settling_held(b, &bs, s, p->j);
+  for (size_t k = 0; st == DYD_OK && !p->possible && k < as * bs; k++) {
+    const uint32_t site[2] = {a[k / bs], b[k % bs]};
+    if (site[0] != site[1]) st = settling_join(s, p, site, true, true);
   }
   return st;
 }
@@ -330,45 +385,30 @@ static bool surely_crossed(const dyd_rect r[4]) {
          dyd_con(&r[3], &r[0], &r[1], &r[2]) == DYD_SURE_PLUS;
 }
 
-/* Returns true if site number k has a core along both sides in which all of site i is, or which meets the core of i. */
-static bool core_holds(const settling *s, size_t k, size_t i) {
-  const bool *of_i = s->guess[i].core, *of_k = s->guess[k].core;
-  const double *a = s->guess[i].box, *b = s->guess[k].box;
-  if (!of_k[0] || !of_k[1] || a[1] < b[0] || b[1] < a[0] || a[3] < b[2] || b[3] < a[2]) return false;
-  return of_i[0] && of_i[1] ? dyd_rect_meets(&s->rect[i], &s->rect[k]) : dyd_rect_contains(&s->rect[k], &s->rect[i]);
-}
-
-/* Looks for another site that may be where an end is, whatever is narrowed: no disc holds all of the end and nothing of
- * that site. */
-static bool settling_meets(const settling *s, size_t i, size_t j) {
-  const size_t end[2] = {i, j};
-  for (size_t k = 0; k < s->site.count; k++)
-    for (int e = 0; e < 2 && k != i && k != j; e++)
-      if (core_holds(s, k, end[e]) || core_holds(s, end[e], k)) return true;
-  return false;
-}
-
 /* Looks for points that show that the pair is never legal. */
-static void settling_part(const settling *s, dyd_settled_pair *p) {
+static dyd_status settling_part(settling *s, dyd_settled_pair *p) {
   dyd_settle_cut cut;
   dyd_rect r[4];
   size_t i = settling_place(s, p->i), j = settling_place(s, p->j);
-  p->unsure = settling_meets(s, i, j);
-  if (p->unsure || !dyd_filter_find_cut(&cut, s->guess, s->site.count, i, j)) return;
+  dyd_status st = settling_meets(&p->unsure, s, i, j);
+  if (st == DYD_OK && !p->unsure) st = settling_meets(&p->unsure, s, j, i);
+  if (st != DYD_OK || p->unsure || !dyd_filter_find_cut(&cut, s->guess, s->site.count, i, j)) return st;
   for (int k = 0; k < 4; k++) {
     dyd_rect_init(&r[k]);
     settling_choose(&r[k], s, cut.site[k], cut.at[k]);
   }
   p->unsure = cut.inside ? surely_inside(r) : surely_crossed(r);
   for (int k = 0; k < 4; k++) dyd_rect_clear(&r[k]);
+  return DYD_OK;
 }
 
 /* ---- one pair after the other ---- */
 
 static dyd_status settling_do_pair(settling *s, dyd_settled_pair *p, bool thorough) {
-  dyd_status st = p->possible ? DYD_OK : settling_join(s, p, thorough);
-  if (st == DYD_OK && !p->unsure && !thorough) settling_part(s, p);
-  settling_spend(s);
+  dyd_status st = settling_join(s, p, (const uint32_t[2]){p->i, p->j}, false, thorough);
+  if (st == DYD_OK && thorough && !p->possible) st = settling_join_held(s, p);
+  if (st == DYD_OK && !p->unsure && !thorough) st = settling_part(s, p);
+  settling_pay(s, s->site.count);
   return st == DYD_OK && dyd_flag_get(&s->e->stop) ? DYD_CANCELLED : st;
 }
 
@@ -392,21 +432,6 @@ typedef struct settled_circle {
   unsigned *place;
   dyd_rect *at;
 } settled_circle;
-
-/* Predicates of rectangles are exact where they are close: as much as many sites in doubles. */
-enum { COST_PREDICATE = 16, COST_PROOF = 1 << 12, MOST_SEEDS = 64 };
-
-static void settling_pay(const settling *s, size_t cost) {
-  s->work->sites -= s->work->sites < cost ? s->work->sites : cost;
-}
-
-/* How many places of site number k stay in its rectangle, as far as is known: 1 where it closes in on a true point. */
-static unsigned settling_places(const settling *s, size_t k) {
-  const bool *core = s->guess[k].core;
-  bool narrow[2] = {!core[0] || dyd_interval_is_point(&s->rect[k].x), !core[1] || dyd_interval_is_point(&s->rect[k].y)};
-  if (narrow[0] && narrow[1]) return 1;
-  return core[0] && core[1] ? DYD_REGION_PLACES : 0;
-}
 
 static dyd_site_place settling_site(const settling *s, size_t k, unsigned place) {
   return (dyd_site_place){s->site.item[k], place};
@@ -706,7 +731,7 @@ static bool any_can_narrow(const dyd_engine *e, const dyd_index_list *site) {
   return false;
 }
 
-/* Appends the indeterminate pairs of face f that are not settled: those of firm sites, or the others. */
+/* Appends the indeterminate pairs of face f that are not settled: those of firm sites, or all. */
 static dyd_status take_pairs(dyd_settled *out, const dyd_settled *known, const dyd_engine *e, const dyd_dyadic *eps,
                              size_t f, bool firm) {
   dyd_pair_list all = {0};
@@ -717,14 +742,14 @@ static dyd_status take_pairs(dyd_settled *out, const dyd_settled *known, const d
     const dyd_settled_pair *old = settled_find(known, pair->i, pair->j);
     bool both;
     if (pair->status != DYD_INDETERMINATE || (old && dyd_pair_is_settled(old))) continue;
-    st = pair_is_firm(&both, e, eps, pair);
-    if (both == firm) out->item[out->count++] = old ? *old : (dyd_settled_pair){pair->i, pair->j, false, false};
+    st = dyd_firm_pair(&both, e, eps, pair);
+    if (both || !firm) out->item[out->count++] = old ? *old : (dyd_settled_pair){pair->i, pair->j, false, false};
   }
   dyd_pair_list_clear(&all);
   return st;
 }
 
-/* Takes pairs of face f, if a point of it can be narrowed; unless they are of firm sites, examines them. */
+/* Takes pairs of face f, if a point of it can be narrowed; unless only those of firm sites are taken, examines them. */
 static dyd_status settle_face_pairs(dyd_settled *fresh, dyd_settled *s, dyd_settle_work *work, const dyd_engine *e,
                                     const dyd_dyadic *eps, size_t f, bool firm) {
   size_t first = fresh->count;
@@ -746,6 +771,15 @@ static int64_t most_bits(const dyd_engine *e) {
   return most;
 }
 
+/* Moves the entries of `fresh`. */
+static dyd_status settled_append(dyd_settled *s, dyd_settled *fresh) {
+  if (!DYD_GROW(s->item, s->cap, s->count + fresh->count)) return DYD_E_NOMEM;
+  for (size_t k = 0; k < fresh->count; k++) s->item[s->count++] = fresh->item[k];
+  settled_sort(s);
+  fresh->count = 0;
+  return DYD_OK;
+}
+
 static dyd_status settle_pairs(dyd_settled *fresh, dyd_settled *s, const dyd_plan *plan) {
   const dyd_engine *e = plan->e;
   dyd_settle_work work = {WORK + WORK_PER_SITE * dyd_sites_count(e->sites), PROOFS};
@@ -755,17 +789,11 @@ static dyd_status settle_pairs(dyd_settled *fresh, dyd_settled *s, const dyd_pla
   dyd_status st = dyd_firm_eps(&eps, e);
   for (size_t f = 0; st == DYD_OK && f < faces; f++) st = settle_face_pairs(fresh, s, &work, e, &eps, f, true);
   if (st == DYD_OK && fresh->count) st = settle_firm(fresh->item, fresh->count, plan, &eps);
+  if (st == DYD_OK) st = settled_append(s, fresh); /* what firm sites do not settle, a point at a corner may */
   for (size_t f = 0; st == DYD_OK && work.sites && f < faces; f++)
     st = settle_face_pairs(fresh, s, &work, e, &eps, f, false);
   dyd_dyadic_clear(&eps);
   return st;
-}
-
-static dyd_status settled_append(dyd_settled *s, const dyd_settled *fresh) {
-  if (!DYD_GROW(s->item, s->cap, s->count + fresh->count)) return DYD_E_NOMEM;
-  for (size_t k = 0; k < fresh->count; k++) s->item[s->count++] = fresh->item[k];
-  settled_sort(s);
-  return DYD_OK;
 }
 
 /* Sets *out to whether a point that can be narrowed has a core. */

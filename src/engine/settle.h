@@ -19,6 +19,8 @@ dyd_status dyd_firm_eps(dyd_dyadic *eps, const dyd_engine *e);
 dyd_status dyd_firm_raise(dyd_dyadic *eps, const dyd_engine *e, uint32_t site);
 /* Sets *out to the core of a guest, with a point for each side that has none, and raises *eps as dyd_firm_eps does. */
 dyd_status dyd_firm_place(dyd_rect *out, dyd_dyadic *eps, const dyd_stream *at);
+/* Sets *out to whether the cores of both ends are firm. */
+dyd_status dyd_firm_pair(bool *out, const dyd_engine *e, const dyd_dyadic *eps, const dyd_pair *pair);
 /* Sites by their cores; firm[k] becomes whether number k is firm. */
 typedef struct dyd_firm_sites {
   const dyd_engine *e;

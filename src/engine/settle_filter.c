@@ -223,7 +223,7 @@ static double centre_room(joining *q, const double c[2], double most) {
   const double enough = inner + most > 0 ? most * (2 * inner + most) : -square(inner);
   for (size_t n = 0; n <= q->count && least > enough; n++) {
     size_t k = n ? n - 1 : q->last;
-    if (k == q->i || k == q->j) continue;
+    if (k == q->i || k == q->j || q->site[k].absent) continue;
     joining_spot(other, q, k, c);
     double more = farther_by(other, end, c);
     if (more < least) {
@@ -334,7 +334,7 @@ static void pencil_next_gap(double *t, double *end, const pencil *p, const joini
     moved = false;
     for (size_t k = 0; k < q->count; k++) {
       double lo, hi;
-      if (k == q->i || k == q->j) continue;
+      if (k == q->i || k == q->j || q->site[k].absent) continue;
       pencil_blocked(&lo, &hi, p, &q->site[k]);
       if (lo > *t && lo < hi) *end = fmin(*end, lo);
       if (lo > *t || !(hi > *t)) continue;
@@ -384,4 +384,12 @@ bool dyd_filter_find_centre(double c[2], const dyd_settle_site *site, size_t cou
   c[0] = best.at[0];
   c[1] = best.at[1];
   return best.room > 0 && isfinite(c[0]) && isfinite(c[1]);
+}
+
+void dyd_filter_lean(double c[2], const dyd_settle_site *site, size_t beside, size_t other, double more) {
+  const double *a = site[beside].box, *b = site[other].box;
+  const double from[2] = {fmin(fmax(c[0], b[0]), b[1]), fmin(fmax(c[1], b[2]), b[3])};
+  const double v[2] = {c[0] - from[0], c[1] - from[1]}, w[2] = {from[0] - a[0], from[1] - a[2]};
+  const double t = -(square(w[0]) + square(w[1])) / (2 * (w[0] * v[0] + w[1] * v[1])) * (1 - more);
+  for (int x = 0; t > 0 && t < 1 && x < 2; x++) c[x] = from[x] + t * v[x];
 }

@@ -8,16 +8,21 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A site: its outward box (x lower, x upper, y lower, y upper), and along which sides its point may be chosen. */
+/* A site: its outward box (x lower, x upper, y lower, y upper), and along which sides its point may be chosen. absent:
+ * a disc may hold all of it. */
 typedef struct dyd_settle_site {
   double box[4];
-  bool core[2];
+  bool core[2], absent;
 } dyd_settle_site;
 
 /* The centre of a disc that holds points of sites i and j, and of each other site not all, by choices along cores
  * sides, wherever points are along the others; of such centres one with much room. false: none with any room was
  * found. thorough: looks about ten times as long. */
 bool dyd_filter_find_centre(double c[2], const dyd_settle_site *site, size_t count, size_t i, size_t j, bool thorough);
+
+/* Moves the centre c of a disc for two sites that is farther from `other` to where the point of `beside` is as far, or
+ * farther by about `more` of the disc, which is within the old one, or hardly larger. */
+void dyd_filter_lean(double c[2], const dyd_settle_site *site, size_t beside, size_t other, double more);
 
 /* Four points at[k] of site[k]. inside: number 3 is among the three others, all of them of the two ends; else 0 and 1
  * are of ends, and 2 and 3 of others: the segments 01 and 23 cross, and the circle through 0, 1, 2 goes around 3. Sites

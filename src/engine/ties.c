@@ -162,7 +162,8 @@ bool dyd_ties_proved(dyd_relation *relation, const uint32_t **site, size_t *coun
 
 /* ---- one question ---- */
 
-/* place: NULL, or the sites are asked to be equally far from it; chosen: NULL, or given instead of `site`. */
+/* place: NULL, or the sites are asked to be equally far from it; chosen: NULL, or given instead of `site`; meet: of two
+ * sites, whether their regions have a point in common; a third point is then the sums of half their sides. */
 typedef struct question {
   dyd_engine *e;
   dyd_algebra algebra;
@@ -170,6 +171,7 @@ typedef struct question {
   const dyd_stream *place;
   const uint32_t *site;
   const dyd_site_place *chosen;
+  bool meet;
   size_t count;
   dyd_form_point *at; /* in the order of the sites; the place comes last */
   uint32_t *zero;     /* forms that are to be 0 */
@@ -240,10 +242,43 @@ static dyd_status describe_site(dyd_form_point *out, question *q, size_t k) {
   return describe_place(out, &q->algebra.forms, q->e, &q->chosen[k]);
 }
 
+/* The region that the site keeps: its centre, and half its sides are added to `sum`. One that others have cut is not
+ * known. */
+static dyd_status describe_region(dyd_form_point *out, mpq_t sum[2], question *q, uint32_t site) {
+  const dyd_refinable *p = dyd_engine_find(q->e, site);
+  const bool still = !p || p->final;
+  dyd_status st = DYD_OK;
+  dyd_rect r;
+  mpq_t half[2];
+  mpq_inits(half[0], half[1], NULL);
+  dyd_rect_init(&r);
+  *out = (dyd_form_point){DYD_NONE, DYD_NONE};
+  if (still) st = dyd_sites_get(&r, q->e->sites, site);
+  if (still && st == DYD_OK) *out = dyd_forms_middle(&q->algebra.forms, half, &r);
+  if (!still && p->stream && !p->measured) *out = dyd_forms_region(&q->algebra.forms, half, p->stream);
+  for (int a = 0; a < 2; a++) mpq_add(sum[a], sum[a], half[a]);
+  dyd_rect_clear(&r);
+  mpq_clears(half[0], half[1], NULL);
+  return st;
+}
+
+static dyd_status describe_regions(bool *known, question *q) {
+  mpq_t sum[2];
+  mpq_inits(sum[0], sum[1], NULL);
+  dyd_status st = describe_region(&q->at[0], sum, q, q->site[0]);
+  if (st == DYD_OK) st = describe_region(&q->at[1], sum, q, q->site[1]);
+  for (int a = 0; a < 2; a++) *(a ? &q->at[2].y : &q->at[2].x) = dyd_forms_number(&q->algebra.forms, sum[a]);
+  *known = st == DYD_OK && is_described(&q->at[0]) && is_described(&q->at[1]) && is_described(&q->at[2]) &&
+           !q->algebra.forms.opaque;
+  mpq_clears(sum[0], sum[1], NULL);
+  return st;
+}
+
 /* *known: all of them are described. */
 static dyd_status describe_all(bool *known, question *q) {
   dyd_status st = DYD_OK;
   const dyd_form_point none = {DYD_NONE, DYD_NONE};
+  if (q->meet) return describe_regions(known, q);
   q->at[q->count] = q->place ? dyd_forms_stream(&q->algebra.forms, q->place) : none;
   *known = !q->place || is_described(&q->at[q->count]);
   for (size_t k = 0; k < q->count && st == DYD_OK && *known; k++) {
@@ -308,7 +343,21 @@ static bool all_are_apart(question *q) {
   return apart;
 }
 
+/* Along one axis: the distance of the centres is at most `sum`. Returns false if it is more; 0 is to be proved where it
+ * may be the same. */
+static bool put_near(question *q, uint32_t a, uint32_t b, uint32_t sum) {
+  dyd_forms *f = &q->algebra.forms;
+  uint32_t d = dyd_forms_binary(f, DYD_OP_SUB, a, b);
+  if (arb_is_negative(dyd_forms_value(f, d, DYD_ZERO_FIRST_BITS))) d = dyd_forms_binary(f, DYD_OP_SUB, b, a);
+  d = dyd_forms_binary(f, DYD_OP_SUB, d, sum);
+  if (d == DYD_NONE || arb_is_positive(dyd_forms_value(f, d, DYD_ZERO_FIRST_BITS))) return false;
+  if (!arb_is_negative(dyd_forms_value(f, d, DYD_ZERO_FIRST_BITS))) q->zero[q->zeros++] = d;
+  return true;
+}
+
 static bool put_zeros(question *q) {
+  const dyd_form_point *at = q->at;
+  if (q->meet) return put_near(q, at[0].x, at[1].x, at[2].x) && put_near(q, at[0].y, at[1].y, at[2].y);
   if (q->chosen && !all_are_apart(q)) return false;
   if (q->place) {
     put_equidistant(q);
@@ -509,9 +558,19 @@ static dyd_status ties_place(dyd_rect *out, void *user, const dyd_site_place *at
   return place_choose(out, &chosen, user, at);
 }
 
+static dyd_status ties_meet(bool *proved, void *user, uint32_t i, uint32_t j) {
+  const uint32_t site[2] = {i, j};
+  question q = {.e = user, .meet = true, .site = site, .count = 3};
+  dyd_zero zero = DYD_ZERO_UNKNOWN;
+  bool final;
+  dyd_status st = question_answer(&zero, &final, &q);
+  *proved = zero == DYD_ZERO_PROVED;
+  return st;
+}
+
 dyd_prover dyd_engine_prover(dyd_engine *e, const dyd_engine_options *o) {
   if (o->no_ties) return (dyd_prover){0};
-  return e->prover.prove ? e->prover : (dyd_prover){dyd_ties_prove, ties_prove_places, ties_place, e};
+  return e->prover.prove ? e->prover : (dyd_prover){dyd_ties_prove, ties_prove_places, ties_place, ties_meet, e};
 }
 
 dyd_status dyd_ties_equidistant(bool *tied, int64_t *needed, dyd_engine *e, dyd_stream *at, const dyd_index_list *sites,

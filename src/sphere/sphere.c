@@ -69,7 +69,7 @@ static dyd_status images_make(dyd_sphere *s, dyd_error *err) {
     if (s->alias[i] == i && i != s->centre) s->of[s->with_image++] = i;
   dyd_status st = dyd_sphere_add_images(s, err);
   if (st != DYD_OK) return st;
-  s->images->prover = (dyd_prover){dyd_sphere_prove, dyd_sphere_prove_places, dyd_sphere_place_at, s};
+  s->images->prover = (dyd_prover){dyd_sphere_prove, dyd_sphere_prove_places, dyd_sphere_place_at, NULL, s};
   return images_label(s) == DYD_OK ? DYD_OK : dyd_fail_nomem(err);
 }
 

@@ -543,6 +543,11 @@ static void real_radius(mpq_t radius, const dyd_real *x) {
   for (const widened *w; (w = dyd_real_user(x, widened_narrow)); x = w->x) mpq_add(radius, radius, w->radius);
 }
 
+const dyd_real *dyd_real_centre(const dyd_real *x) {
+  for (const widened *w; (w = dyd_real_user(x, widened_narrow));) x = w->x;
+  return x;
+}
+
 void dyd_real_radius(mpq_t radius, const dyd_real *x) {
   mpq_t lo;
   real_radius(radius, x);

@@ -61,6 +61,8 @@ void *dyd_real_user(const dyd_real *x, dyd_narrow_real_fn narrow);
 bool dyd_real_reaches(const dyd_real *x, const dyd_interval *now, int64_t bits);
 /* Sets radius to the sum of the radii around x; of a final real to half of its width. */
 void dyd_real_radius(mpq_t radius, const dyd_real *x);
+/* Returns what the radii are around, borrowed: x itself where it has none, or is final. */
+const dyd_real *dyd_real_centre(const dyd_real *x);
 /* Sets *core to an interval that every interval which x gives from now on contains [SET-3], and *has. Final reals and
  * reals widened by a radius have a core; for others *has is false. now: an interval that contains all that x gives from
  * now on (NULL: not known; out = now is allowed). */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Exact points on circles and lines beside regions [SET-4]: pairs that are said to stay open do, for rectangles that go
- * on to hold the true points, by the literal oracle; and runs end there, with points that the engine proves to be on
- * one circle itself. */
+/* Exact points on circles and lines, and at corners, beside regions [SET-1] [SET-4]: pairs that are said to stay open
+ * do, for rectangles that go on to hold the true points, by the literal oracle; and runs end there, with points that
+ * the engine proves to be on one circle itself. */
 #include "engine/help.h"
 #include "engine/settle.h"
 #include "engine/ties.h"
@@ -13,13 +13,14 @@
 enum { MOST_SITES = 8 };
 
 /* Sites: boxes, and places that are hidden in rectangles as wide as asked; all in 64ths. Some boxes are off the grid of
- * places, so that their corners are on no circle of these; others have middles and corners on it, or no height. */
+ * places, so that their corners are on no circle of these; others have middles and corners on it, or no height. Soft
+ * ones are regions around hidden places; soft or not, places are at corners and sides of some. */
 enum { UNIT = 64 };
 
 typedef struct circled {
   dyd_engine *e;
   size_t n;
-  bool box[MOST_SITES];
+  bool box[MOST_SITES], soft[MOST_SITES];
   int at[MOST_SITES][2], half[MOST_SITES][2];
   test_random random;
 } circled;
@@ -98,8 +99,16 @@ static dyd_status hidden_place(dyd_rect *out, void *user, const dyd_site_place *
   return c->box[at->site] ? dyd_rect_set_d(out, x, x, y, y) : DYD_OK;
 }
 
+/* Boxes are their regions, and places points. */
+static dyd_status hidden_meet(bool *proved, void *user, uint32_t i, uint32_t j) {
+  const circled *c = user;
+  *proved = true;
+  for (int a = 0; a < 2; a++) *proved = *proved && abs(c->at[i][a] - c->at[j][a]) <= c->half[i][a] + c->half[j][a];
+  return DYD_OK;
+}
+
 static dyd_prover hidden_prover(circled *c) {
-  return (dyd_prover){hidden_prove, hidden_prove_places, hidden_place, c};
+  return (dyd_prover){hidden_prove, hidden_prove_places, hidden_place, hidden_meet, c};
 }
 
 static bool is_new_place(const circled *c, const int *at) {
@@ -117,24 +126,44 @@ static void draw_place(int *at, test_random *r, bool line) {
   if (known && line) at[1] = 2 * UNIT + at[0] / 2;
 }
 
+/* A place at a corner of a box, or on a side. */
+static void touch_box(int *at, const circled *c, size_t k, test_random *r) {
+  const bool corner = test_chance(r, 2), along = test_chance(r, 2);
+  for (int a = 0; a < 2; a++) {
+    const int half = c->half[k][a], end = test_chance(r, 2) ? half : -half;
+    at[a] = c->at[k][a] + (corner || along == (a == 1) ? end : (int)test_between(r, -half, half));
+  }
+}
+
+/* Side of site number n: hidden, an interval, or around a hidden place. */
+static void side_new(dyd_real **x, const circled *c, hidden_side *side, mpq_t end[2]) {
+  const bool hidden = !c->box[c->n] || c->soft[c->n];
+  assert_int_equal(DYD_OK,
+                   hidden ? dyd_real_new(x, hidden_narrow, NULL, side) : dyd_real_from_interval(x, end[0], end[1]));
+  if (!c->soft[c->n]) return;
+  mpq_sub(end[1], end[1], end[0]);
+  mpq_div_2exp(end[1], end[1], 1);
+  assert_int_equal(DYD_OK, dyd_real_widen(x, *x, end[1]));
+}
+
 static void circled_add(circled *c, hidden_side side[2], bool box, const int *at, test_random *r) {
   dyd_real *x[2];
   dyd_stream *s;
   mpq_t end[2];
   mpq_inits(end[0], end[1], NULL);
   c->box[c->n] = box;
+  c->soft[c->n] = box && test_chance(r, 2);
   int shape = (int)test_below(r, 3); /* off the grid, on it, flat */
   for (int a = 0; a < 2; a++) {
     c->at[c->n][a] = at[a] + (box && shape == 0 ? 2 * (int)test_between(r, -4, 4) + 1 : 0);
     c->half[c->n][a] = !box ? 0 : shape == 0 ? 4 * (int)test_between(r, 1, 20) : UNIT * (int)test_between(r, 1, 2);
     if (shape == 2 && a == 1) c->half[c->n][a] = 0;
-    side[a] = (hidden_side){c, at[a]};
+    side[a] = (hidden_side){c, c->at[c->n][a]};
     mpq_set_si(end[0], c->at[c->n][a] - c->half[c->n][a], UNIT);
     mpq_set_si(end[1], c->at[c->n][a] + c->half[c->n][a], UNIT);
     mpq_canonicalize(end[0]);
     mpq_canonicalize(end[1]);
-    assert_int_equal(DYD_OK, box ? dyd_real_from_interval(&x[a], end[0], end[1])
-                                 : dyd_real_new(&x[a], hidden_narrow, NULL, &side[a]));
+    side_new(&x[a], c, &side[a], end);
   }
   c->n++;
   assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, x[0], x[1]));
@@ -151,6 +180,8 @@ static void circled_new(circled *c, hidden_side side[MOST_SITES][2], test_random
     int at[2];
     draw_place(at, r, line);
     bool box = test_chance(r, 5) || (c->n + 1 == n && !boxes);
+    size_t k = test_below(r, c->n + 1);
+    if (!box && k < c->n && c->box[k]) touch_box(at, c, k, r);
     if (!is_new_place(c, at)) continue;
     boxes += box;
     circled_add(c, side[c->n], box, at, r);
@@ -164,8 +195,8 @@ static void circled_narrow(orc_case *out, const circled *c, test_random *r, bool
   for (size_t k = 0; k < c->n; k++) {
     orc_rect *q = &out->rect[out->n++];
     for (int a = 0; a < 2; a++) {
-      int below = whole || c->box[k] ? 0 : (int)test_below(r, 3),
-          above = whole || c->box[k] ? 0 : (int)test_below(r, 3);
+      const bool still = whole || (c->box[k] && !c->soft[k]);
+      int below = still ? 0 : (int)test_below(r, 3), above = still ? 0 : (int)test_below(r, 3);
       mpq_set_si(q->e[2 * a], 64L * (c->at[k][a] - c->half[k][a]) - below, 4096);
       mpq_set_si(q->e[2 * a + 1], 64L * (c->at[k][a] + c->half[k][a]) + above, 4096);
       mpq_canonicalize(q->e[2 * a]);
@@ -302,8 +333,40 @@ static void test_touching(void **state) {
   }
 }
 
+/* Regions around computable points, at a corner or side of which exact points are: nothing that is open can be decided,
+ * and that is seen at once. The ends of pairs: regions, points at corners, others; of discs that pass such a point, one
+ * end, both, or another site is there. */
+static void test_corners(void **state) {
+  static const char *const at[][9][2] = {
+      {{"sqrt(2)+-3/4", "0+-3/4"}, {"sqrt(2)+3/4", "3/4"}, {"-sqrt(2)", "sqrt(3)"}},
+      {{"-2", "-2"}, {"-pi+-3/2", "0+-3/2"}, {"-pi+-3/2", "e/3+-3/2"}, {"2", "sqrt(2)"}, {"3/2-pi", "-3/2"}},
+      {{"sqrt(3)", "3/2"}, {"-pi+-3/2", "sqrt(2)+-3/2"}, {"3/2-pi", "sqrt(2)-3/2"}, {"e", "sqrt(2)+1"}},
+      {{"11/8", "pi+1/4"},
+       {"1/sqrt(7)+-1/4", "1+-1/4"},
+       {"1/3", "-2"},
+       {"3/2+-1/4", "pi+-1/4"},
+       {"1/sqrt(7)-1/4", "3/4"},
+       {"pi/7", "-1"}},
+      {{"sqrt(2)+1+-1/4", "sqrt(2)+1+-1/4"},
+       {"-9/4", "1/4-sqrt(2)"},
+       {"sqrt(2)+5/4", "sqrt(2)+3/4"},
+       {"pi/7", "1/3"},
+       {"-2+-1/4", "-sqrt(2)+-1/4"},
+       {"sqrt(2)+1", "pi/7"},
+       {"-7/4", "-sqrt(2)-1/12"}}};
+  (void)state;
+  for (size_t n = 0; n < sizeof at / sizeof *at; n++) {
+    dyd_engine *e = engine_new();
+    for (int k = 0; k < 9 && at[n][k][0]; k++) engine_add_text(e, at[n][k][0], at[n][k][1]);
+    engine_run(e, NULL, DYD_OUTCOME_FIXPOINT);
+    assert_true(engine_counters(e).bits_most <= 512);
+    dyd_engine_free(e);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_pairs), cmocka_unit_test(test_run_ends),
-                                     cmocka_unit_test(test_roots), cmocka_unit_test(test_touching)};
+                                     cmocka_unit_test(test_roots), cmocka_unit_test(test_touching),
+                                     cmocka_unit_test(test_corners)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -384,6 +384,39 @@ dyd_form_point dyd_forms_stream(dyd_forms *f, const dyd_stream *s) {
   }
 }
 
+static uint32_t form_of_middle(dyd_forms *f, mpq_t half, const dyd_interval *a) {
+  mpq_t lo;
+  mpq_init(lo);
+  dyd_interval_get_q(lo, half, a);
+  mpq_sub(half, half, lo);
+  mpq_div_2exp(half, half, 1);
+  mpq_add(lo, lo, half);
+  uint32_t n = dyd_forms_number(f, lo);
+  mpq_clear(lo);
+  return n;
+}
+
+dyd_form_point dyd_forms_middle(dyd_forms *f, mpq_t half[2], const dyd_rect *r) {
+  return (dyd_form_point){form_of_middle(f, half[0], &r->x), form_of_middle(f, half[1], &r->y)};
+}
+
+static uint32_t form_of_side(dyd_forms *f, mpq_t half, const dyd_real *x) {
+  if (dyd_real_is_final(x)) return form_of_middle(f, half, dyd_real_interval(x));
+  dyd_real_radius(half, x);
+  return dyd_forms_real(f, dyd_real_centre(x));
+}
+
+dyd_form_point dyd_forms_region(dyd_forms *f, mpq_t half[2], const dyd_stream *s) {
+  const void *object;
+  if (dyd_stream_object(&object, s) != DYD_STREAM_PAIR) {
+    mpq_set_ui(half[0], 0, 1);
+    mpq_set_ui(half[1], 0, 1);
+    return dyd_forms_stream(f, s);
+  }
+  const dyd_stream_pair *pair = object;
+  return (dyd_form_point){form_of_side(f, half[0], pair->x), form_of_side(f, half[1], pair->y)};
+}
+
 /* ---- determinants ---- */
 
 uint32_t dyd_forms_collinear(dyd_forms *f, const dyd_form_point p[3]) {

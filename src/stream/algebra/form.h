@@ -91,6 +91,9 @@ uint32_t dyd_forms_real(dyd_forms *f, const dyd_real *x);
  * unknown. */
 dyd_form_point dyd_forms_stream(dyd_forms *f, const dyd_stream *s);
 dyd_form_point dyd_forms_rect(dyd_forms *f, const dyd_rect *r);
+/* The centre of the region that all rectangles of s hold, s not final, and of the rectangle r; half its sides. */
+dyd_form_point dyd_forms_region(dyd_forms *f, mpq_t half[2], const dyd_stream *s);
+dyd_form_point dyd_forms_middle(dyd_forms *f, mpq_t half[2], const dyd_rect *r);
 
 /* Forms that are 0 where three points are on one line, where four are on one circle or line. */
 uint32_t dyd_forms_collinear(dyd_forms *f, const dyd_form_point p[3]);
