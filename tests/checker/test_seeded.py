@@ -338,6 +338,7 @@ FAULTS = [
     ('globe_near.c', '(greatest ? mpq_add : mpq_sub)(out, out, half);', ''),
     ('globe_near.c', 'if (mpq_cmp(half, out) < 0) mpq_set(out, half);', ''),
     ('globe_near.c', 'if (b->upper && mpz_cmp(v->t.lo, v->pi.hi) >= 0) return 1;', 'if (b->upper) return 1;'),
+    ('globe_near.c', 'mpz_sub(v->t.lo, v->t.lo, v->ball[k].box);', ';'),
     ('globe_near.c', 'c->bowl[i].alias = alias;', 'c->bowl[i].alias = false;'),
     ('graphs.c', 'if (certain && g->count > 1) return', 'if (false) return'),
     ('graphs.c', 'if (certain && !dyd_cert_near_is_certain(&other, &q))', 'if (false)'),
