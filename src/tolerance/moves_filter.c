@@ -11,156 +11,97 @@
  * vectors b - a hold 0 between them, the half-planes have no common point. So no centre shows the pair. Where two
  * regions meet there is none either.
  *
- * Coordinates are those seen from i. */
-#include "tolerance/dd_filter.h"
+ * Births (moved_births_filter.c) climb by the same planes, a site and an end in each other's place. Coordinates are
+ * those seen from i. */
+#include "tolerance/moves_filter.h"
 #include "tolerance/state.h"
 
-enum {
-  MOST_SEEN = 64,
-  MOST_PLANES = 259,
-  MOST_STEPS = 60,
-  MOST_PIVOTS = 80,
-  MOST_ADDED = 8,
-  MOST_LOOKS = 12,
-  CONE = 3
-};
-
-#define SPARE 0x1p-51 /* weights may be the doubles next to the intended ones */
-
-#define CLOSE 0x1p-48 /* relative heights in doubles that count as equal */
+enum { MOST_STEPS = 60, MOST_PIVOTS = 80, MOST_LOOKS = 12, FIRST_AROUND = 24 };
 
 #define FURTHER 8 /* slopes of the cone, over the steepest */
 
 /* Half of the relative widths that are tried. */
 static const double move_widths[] = {0x1p-44, 0x1p-42, 0x1p-34, 0x1p-22};
 
-typedef struct move_site {
-  dyd_dd x, y;
-  double weight;
-  uint32_t vertex;
-} move_site;
-
-/* t <= top + (x, y).(c' - c), by site[end] and site[other]. A square of the end counts by one corner, that on the side
- * `way` of the centre from c. */
-typedef struct move_plane {
-  double top, x, y;
-  uint32_t end, other;
-  int way[2];
-} move_plane;
-
-/* site[0], site[1]: i and j. The first planes keep c within about 2 far. contact: two regions meet from there on, those
- * of end and site `touch`. */
-typedef struct moves {
-  const dyd_tolerance *t;
-  bool square;
-  uint32_t count, planes, basis[3];
-  move_site site[2 + MOST_SEEN];
-  move_plane plane[MOST_PLANES];
-  double x, y, now, far, contact;
-  dyd_dd at[2];
-  uint32_t touch[2];
-} moves;
+double dyd_moves_width(const dyd_moves *m, size_t tries) {
+  return tries < (m->square ? 4 : 2) ? move_widths[tries] : 0;
+}
 
 /* ---- sites ---- */
 
-static double move_weight(const moves *m, uint32_t v) {
+static double move_weight(const dyd_moves *m, uint32_t v) {
   return m->square || !m->t->weight ? 1 : m->t->weight[v];
 }
 
-/* false: it is seen already, or there are too many. */
-static bool moves_see(moves *m, uint32_t v) {
-  if (m->count == 2 + MOST_SEEN) return false;
+bool dyd_moves_see(dyd_moves *m, uint32_t v) {
+  if (m->count == 2 + DYD_MOVES_MOST_SEEN) return false;
   for (uint32_t k = 0; k < m->count; k++)
     if (m->site[k].vertex == v) return false;
   dyd_dd p[2];
   dyd_dd_vector(p, &m->t->points, v, m->count ? m->site[0].vertex : v);
-  m->site[m->count++] = (move_site){p[0], p[1], move_weight(m, v), v};
+  m->site[m->count++] = (dyd_move_site){p[0], p[1], move_weight(m, v), v};
   return true;
 }
 
 /* ---- planes ---- */
 
-/* The t up to which c at (x, y) shows end e nearer than k, with its slope. */
-static void plane_of_discs(move_plane *p, const move_site *e, const move_site *k, double x, double y) {
-  double ax = x - e->x.h, ay = y - e->y.h, bx = x - k->x.h, by = y - k->y.h, r = e->weight + k->weight;
-  double a = sqrt(ax * ax + ay * ay), b = sqrt(bx * bx + by * by);
-  p->top = ((e->x.h - k->x.h) * (ax + bx) + (e->y.h - k->y.h) * (ay + by)) / ((a + b) * r);
-  p->x = (bx / b - ax / a) / r;
-  p->y = (by / b - ay / a) / r;
-}
-
-/* (a + t)^2 + (b + t)^2 = max(f - t, 0)^2 + max(g - t, 0)^2 */
-static void plane_of_squares(move_plane *p, const move_site *e, const move_site *k, double x, double y) {
-  double a = (x - e->x.h) * p->way[0], b = (y - e->y.h) * p->way[1], bx = x - k->x.h, by = y - k->y.h;
-  double f = fabs(bx), g = fabs(by), most = fmax(f, g), least = fmin(f, g);
-  double t = ((f - a) * (f + a) + (g - b) * (g + b)) / (2 * (a + b + f + g));
-  if (t > least) {
-    double sum = a + b + most, gain = (most - a) * (most + a) - b * b;
-    t = gain / (sum + sqrt(fmax(0, sum * sum + gain)));
-  }
-  f = fmax(f - t, 0);
-  g = fmax(g - t, 0);
-  double steep = a + t + b + t + f + g;
-  p->top = t;
-  p->x = (copysign(f, bx) - p->way[0] * (a + t)) / steep;
-  p->y = (copysign(g, by) - p->way[1] * (b + t)) / steep;
-}
-
 /* The plane of the corner farthest from c, and those of corners that are for centres within m->far. */
-static void planes_of_squares(moves *m, const move_plane *p, double *least) {
-  const move_site *e = &m->site[p->end], *k = &m->site[p->other];
+static void planes_of_squares(dyd_moves *m, const dyd_move_plane *p, double *least) {
+  const dyd_move_site *e = &m->site[p->end], *k = &m->site[p->other];
   double ax = m->x - e->x.h, ay = m->y - e->y.h;
   bool both[2] = {fabs(ax) < m->far, fabs(ay) < m->far};
-  for (int n = 0; n < 4 && m->planes < MOST_PLANES; n++) {
+  for (int n = 0; n < 4 && m->planes < DYD_MOVES_MOST_PLANES; n++) {
     if ((n % 2 && !both[0]) || (n / 2 && !both[1])) continue;
-    move_plane *q = &m->plane[m->planes++];
+    dyd_move_plane *q = &m->plane[m->planes++];
     *q = *p;
     q->way[0] = (ax < 0) == (n % 2) ? 1 : -1;
     q->way[1] = (ay < 0) == (n / 2) ? 1 : -1;
-    plane_of_squares(q, e, k, m->x, m->y);
+    dyd_plane_of_squares(q, e, k, m->x, m->y);
     if ((n % 2 && !(fabs(ax) < q->top)) || (n / 2 && !(fabs(ay) < q->top))) m->planes--;
     if (n == 0 && !(q->top >= *least)) *least = q->top;
   }
 }
 
-/* All planes at c; *least: their least height. */
-static void moves_measure(moves *m) {
-  m->planes = CONE;
+/* All planes at c, for a birth those of the pair in the place of the ends; m->now: their least height. */
+static void moves_measure(dyd_moves *m) {
+  bool born = m->way < 0;
+  uint32_t end = born ? 4 : m->count;
+  m->planes = DYD_MOVES_CONE;
   m->now = HUGE_VAL;
-  for (uint32_t k = 2; k < m->count; k++)
-    for (uint32_t e = 0; e < 2 && m->planes < MOST_PLANES; e++) {
-      move_plane p = {.end = e, .other = k};
+  for (uint32_t k = 2; k < end; k++)
+    for (uint32_t e = 0; e < 2 && m->planes < DYD_MOVES_MOST_PLANES; e++) {
+      dyd_move_plane p = {.end = born ? m->pair[k - 2] : e, .other = born ? e : k};
       if (m->square) {
         planes_of_squares(m, &p, &m->now);
         continue;
       }
-      plane_of_discs(&p, &m->site[e], &m->site[k], m->x, m->y);
+      dyd_plane_of_discs(&p, &m->site[p.end], &m->site[p.other], m->x, m->y);
       if (!(p.top >= m->now)) m->now = p.top;
       m->plane[m->planes++] = p;
     }
 }
 
 /* Planes that fall so steeply from above c that the summit is less than about 2 far away. */
-static void cone_begin(moves *m) {
+static void cone_begin(dyd_moves *m) {
   static const double turn[3][2] = {{1, 0}, {-0.5, 0.8660254037844386}, {-0.5, -0.8660254037844386}};
   double steepest = 0;
-  for (uint32_t k = CONE; k < m->planes; k++) steepest = fmax(steepest, fabs(m->plane[k].x) + fabs(m->plane[k].y));
-  for (uint32_t k = 0; k < CONE; k++) {
+  for (uint32_t k = DYD_MOVES_CONE; k < m->planes; k++)
+    steepest = fmax(steepest, fabs(m->plane[k].x) + fabs(m->plane[k].y));
+  for (uint32_t k = 0; k < DYD_MOVES_CONE; k++) {
     double slope = FURTHER * steepest;
-    m->plane[k] = (move_plane){.top = m->now + slope * m->far, .x = -slope * turn[k][0], .y = -slope * turn[k][1]};
+    m->plane[k] = (dyd_move_plane){.top = m->now + slope * m->far, .x = -slope * turn[k][0], .y = -slope * turn[k][1]};
     m->basis[k] = k;
   }
 }
 
 /* ---- the summit of planes ---- */
 
-static double move_cross(const move_plane *a, const move_plane *b, const move_plane *c) {
+static double move_cross(const dyd_move_plane *a, const dyd_move_plane *b, const dyd_move_plane *c) {
   return (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x);
 }
 
-/* Where three planes meet. */
-static bool planes_meet(move_plane *at, const moves *m) {
-  const move_plane *a = &m->plane[m->basis[0]], *b = &m->plane[m->basis[1]], *c = &m->plane[m->basis[2]];
+bool dyd_planes_meet(dyd_move_plane *at, const dyd_moves *m) {
+  const dyd_move_plane *a = &m->plane[m->basis[0]], *b = &m->plane[m->basis[1]], *c = &m->plane[m->basis[2]];
   double det = move_cross(a, b, c), p = a->top - b->top, q = a->top - c->top;
   at->x = (p * (c->y - a->y) - q * (b->y - a->y)) / det;
   at->y = (q * (b->x - a->x) - p * (c->x - a->x)) / det;
@@ -169,8 +110,8 @@ static bool planes_meet(move_plane *at, const moves *m) {
 }
 
 /* Weights of the slopes of the basis that make (x, y). */
-static void planes_weigh(double out[3], const moves *m, const move_plane *slope) {
-  const move_plane *a = &m->plane[m->basis[0]], *b = &m->plane[m->basis[1]], *c = &m->plane[m->basis[2]];
+static void planes_weigh(double out[3], const dyd_moves *m, const dyd_move_plane *slope) {
+  const dyd_move_plane *a = &m->plane[m->basis[0]], *b = &m->plane[m->basis[1]], *c = &m->plane[m->basis[2]];
   double det = move_cross(a, b, c);
   out[1] = move_cross(a, slope, c) / det;
   out[2] = move_cross(a, b, slope) / det;
@@ -179,10 +120,10 @@ static void planes_weigh(double out[3], const moves *m, const move_plane *slope)
 
 /* The place of the highest point below all planes, seen from c. The basis always holds 0 between its slopes; the plane
  * that is lowest at its point enters, and the one leaves that keeps it so. */
-static bool planes_summit(move_plane *at, moves *m) {
-  static const move_plane flat = {0};
+static bool planes_summit(dyd_move_plane *at, dyd_moves *m) {
+  static const dyd_move_plane flat = {0};
   for (int pivot = 0; pivot < MOST_PIVOTS; pivot++) {
-    if (!planes_meet(at, m)) return false;
+    if (!dyd_planes_meet(at, m)) return false;
     uint32_t low = 0;
     double least = -0x1p-50 * fabs(at->top);
     for (uint32_t k = 0; k < m->planes; k++) {
@@ -206,11 +147,11 @@ static bool planes_summit(move_plane *at, moves *m) {
 /* ---- the way up ---- */
 
 /* Discs: from where on one of i, j meets another one. */
-static void moves_contact(moves *m) {
+static void moves_contact(dyd_moves *m) {
   m->contact = HUGE_VAL;
-  for (uint32_t k = 2; k < m->count && !m->square; k++)
+  for (uint32_t k = 2; k < m->count && !m->square && m->way > 0; k++)
     for (uint32_t e = 0; e < 2; e++) {
-      const move_site *a = &m->site[e], *b = &m->site[k];
+      const dyd_move_site *a = &m->site[e], *b = &m->site[k];
       double t = hypot(a->x.h - b->x.h, a->y.h - b->y.h) / (a->weight + b->weight);
       if (!(t < m->contact)) continue;
       m->contact = t;
@@ -220,8 +161,8 @@ static void moves_contact(moves *m) {
 }
 
 /* The point of the ray from the centre of the touching end, away from what it touches, next to (x, y). */
-static void move_to_ray(double *x, double *y, const moves *m) {
-  const move_site *e = &m->site[m->touch[0]], *k = &m->site[m->touch[1]];
+static void move_to_ray(double *x, double *y, const dyd_moves *m) {
+  const dyd_move_site *e = &m->site[m->touch[0]], *k = &m->site[m->touch[1]];
   double ux = e->x.h - k->x.h, uy = e->y.h - k->y.h, size = hypot(ux, uy);
   double along = fmax(((*x - e->x.h) * ux + (*y - e->y.h) * uy) / size, 0);
   *x = e->x.h + along * ux / size;
@@ -229,7 +170,7 @@ static void move_to_ray(double *x, double *y, const moves *m) {
 }
 
 /* Goes there if it is higher. Otherwise planes are left those of (x, y). */
-static bool moves_try(moves *m, double x, double y) {
+static bool moves_try(dyd_moves *m, double x, double y) {
   double now = m->now, back[2] = {m->x, m->y};
   m->x = x;
   m->y = y;
@@ -241,22 +182,21 @@ static bool moves_try(moves *m, double x, double y) {
   return false;
 }
 
-static bool has_cone(const moves *m) {
-  return m->basis[0] < CONE || m->basis[1] < CONE || m->basis[2] < CONE;
+static bool has_cone(const dyd_moves *m) {
+  return m->basis[0] < DYD_MOVES_CONE || m->basis[1] < DYD_MOVES_CONE || m->basis[2] < DYD_MOVES_CONE;
 }
 
-/* From (m->x, m->y) to about the highest place. false: it is not found, or far away. */
-static bool moves_climb(moves *m) {
+bool dyd_moves_climb(dyd_moves *m) {
   double start = m->far = hypot(m->x, m->y);
   moves_contact(m);
   moves_measure(m);
   for (int step = 0; step < MOST_STEPS; step++) {
-    move_plane to;
-    if (m->now >= m->contact * (1 - CLOSE)) return true;
+    dyd_move_plane to;
+    if (m->now >= m->contact * (1 - DYD_MOVES_CLOSE)) return true;
     cone_begin(m);
     if (!planes_summit(&to, m)) return false;
     bool held = has_cone(m);
-    if (to.top - m->now <= CLOSE * fabs(m->now)) return m->now > 0;
+    if (to.top - m->now <= DYD_MOVES_CLOSE * fabs(m->now)) return m->now > 0;
     double x = m->x + to.x, y = m->y + to.y, size = hypot(to.x, to.y);
     if (m->contact < to.top) move_to_ray(&x, &y, m);
     if (moves_try(m, x, y) || (m->contact < to.top && moves_try(m, m->x + to.x, m->y + to.y))) {
@@ -282,28 +222,27 @@ static dyd_dd dd_product(double a, double b) {
 }
 
 /* The place of c seen from a site. */
-static void move_from(dyd_dd out[2], const moves *m, const move_site *s) {
+static void move_from(dyd_dd out[2], const dyd_moves *m, const dyd_move_site *s) {
   out[0] = dyd_dd_plus(m->at[0], s->x, -1);
   out[1] = dyd_dd_plus(m->at[1], s->y, -1);
 }
 
-/* How far the region of a site may be from c at t (way = 1), or must be (way = -1): of squares the square of that. */
-static dyd_dd move_reach(const moves *m, const move_site *s, double t, int way) {
+dyd_dd dyd_move_reach(const dyd_moves *m, const dyd_move_site *s, double t, int way) {
   dyd_dd d[2];
   move_from(d, m, s);
   if (!m->square) return dyd_dd_plus(dyd_dd_root(dyd_dd_square_sum(d[0], d[1])), dd_product(t, s->weight), way);
   for (int a = 0; a < 2; a++) {
     d[a] = dyd_dd_plus(dd_size(d[a]), dyd_dd_of(t), way);
-    if (!(d[a].h > 0)) d[a] = (dyd_dd){0, 0, 0};
+    if (!(d[a].h > 0)) d[a] = (dyd_dd){0, 0, fmax(d[a].h + d[a].e, 0)};
   }
   return dyd_dd_square_sum(d[0], d[1]);
 }
 
 /* How far c is too low for a plane at t. */
-static double move_residue(const moves *m, const move_plane *p, double t) {
-  const move_site *e = &m->site[p->end], *k = &m->site[p->other];
-  dyd_dd near = move_reach(m, k, t, -1), d[2];
-  if (!m->square) return dyd_dd_plus(near, move_reach(m, e, t, 1), -1).h / (e->weight + k->weight);
+static double move_residue(const dyd_moves *m, const dyd_move_plane *p, double t) {
+  const dyd_move_site *e = &m->site[p->end], *k = &m->site[p->other];
+  dyd_dd near = dyd_move_reach(m, k, t, -1), d[2];
+  if (!m->square) return dyd_dd_plus(near, dyd_move_reach(m, e, t, 1), -1).h / (e->weight + k->weight);
   move_from(d, m, e);
   for (int a = 0; a < 2; a++) d[a] = dyd_dd_plus(d[a], dyd_dd_of(p->way[a] * t), 1);
   double f = fmax(fabs(m->x - k->x.h) - t, 0), g = fmax(fabs(m->y - k->y.h) - t, 0);
@@ -311,69 +250,74 @@ static double move_residue(const moves *m, const move_plane *p, double t) {
          (2 * (p->way[0] * d[0].h + p->way[1] * d[1].h + f + g));
 }
 
-/* c and t become more precise than doubles make them. */
-static void moves_refine(moves *m) {
+void dyd_moves_refine(dyd_moves *m) {
   m->at[0] = dyd_dd_of(m->x);
   m->at[1] = dyd_dd_of(m->y);
-  if (m->now >= m->contact * (1 - CLOSE) || has_cone(m)) return;
+  if (m->now >= m->contact * (1 - DYD_MOVES_CLOSE) || has_cone(m)) return;
   for (int step = 0; step < 2; step++) {
-    move_plane to;
+    dyd_move_plane to;
     for (int k = 0; k < 3; k++) m->plane[m->basis[k]].top = move_residue(m, &m->plane[m->basis[k]], m->now);
-    if (!planes_meet(&to, m)) return;
+    if (!dyd_planes_meet(&to, m)) return;
     if (!(hypot(to.x, to.y) < 0x1p-10 * hypot(m->x, m->y) && fabs(to.top) < 0x1p-10 * m->now)) return;
     m->at[0] = dyd_dd_plus(m->at[0], dyd_dd_of(to.x), 1);
     m->at[1] = dyd_dd_plus(m->at[1], dyd_dd_of(to.y), 1);
     for (int a = 0; a < 2; a++) m->at[a].e = 0; /* it is that number */
+    m->x = m->at[0].h;                          /* what searches are about */
+    m->y = m->at[1].h;
     m->now += to.top;
   }
 }
 
 /* ---- below ---- */
 
-/* The search for sites in the way of the circle about c at t. reach: of the pair, as of move_reach. */
+/* The search for sites in the way of the circle about c at t. reach: of the pair, as of move_reach. radius2: of the
+ * search, of a birth the least of those found: these are in the way longest, about. */
 typedef struct move_look {
-  moves *m;
-  double t, radius;
+  dyd_moves *m;
+  double t, radius, radius2;
   dyd_dd reach;
   int added;
 } move_look;
 
 /* Is a site out of the way for certain? */
-static bool move_keeps_clear(const move_look *l, const move_site *s) {
-  dyd_dd gap = dyd_dd_plus(move_reach(l->m, s, l->t, -1), l->reach, -1);
+static bool move_keeps_clear(const move_look *l, const dyd_move_site *s) {
+  dyd_dd gap = dyd_dd_plus(dyd_move_reach(l->m, s, l->t, -l->m->way), l->reach, -1);
   return dyd_dd_sign(gap) > 0;
 }
 
 /* The same in doubles, with much room. */
 static bool move_is_far(const move_look *l, uint32_t v) {
-  const moves *m = l->m;
+  const dyd_moves *m = l->m;
   const dyd_points_d *p = &m->t->points;
   dyd_xy at = p->xy[v], i = p->xy[m->site[0].vertex];
   double x = at.x - i.x - m->x, y = at.y - i.y - m->y, size = fabs(at.x) + fabs(at.y) + fabs(i.x) + fabs(i.y);
-  double room = 0x1p-45 * (size + fabs(m->x) + fabs(m->y) + l->radius), w = l->t * move_weight(m, v);
+  double w = m->way * l->t * move_weight(m, v), room = 0x1p-45 * (size + fabs(m->x) + fabs(m->y) + l->radius + fabs(w));
   if (m->square) x = fmax(fabs(x) - w, 0), y = fmax(fabs(y) - w, 0), w = 0;
   return sqrt(x * x + y * y) > l->radius + w + room;
 }
 
 static bool move_meet(void *context, uint32_t v) {
   move_look *l = context;
-  moves *m = l->m;
+  dyd_moves *m = l->m;
   uint32_t had = m->count;
   if (move_is_far(l, v) || v == m->site[0].vertex || v == m->site[1].vertex) return true;
-  if (!moves_see(m, v)) {
-    l->added += had == 2 + MOST_SEEN ? MOST_ADDED : 0; /* seen before: looked at already */
-    return l->added < MOST_ADDED;
+  if (!dyd_moves_see(m, v)) {
+    l->added += had == 2 + DYD_MOVES_MOST_SEEN ? DYD_MOVES_MOST_ADDED : 0; /* seen before: looked at already */
+    return l->added < DYD_MOVES_MOST_ADDED;
   }
-  if (move_keeps_clear(l, &m->site[had]))
+  if (move_keeps_clear(l, &m->site[had])) {
     m->count = had;
-  else
+  } else {
+    double x = m->site[had].x.h - m->x, y = m->site[had].y.h - m->y;
     l->added++;
-  return l->added < MOST_ADDED;
+    if (m->way < 0) l->radius2 = fmin(l->radius2, (x * x + y * y) * (1 + DYD_MOVES_CLOSE));
+  }
+  return l->added < DYD_MOVES_MOST_ADDED;
 }
 
 /* What is beyond both, and what holds all roundings of where c and the sites are. */
-static bool move_look_begin(move_look *l, moves *m, double t) {
-  dyd_dd of[2] = {move_reach(m, &m->site[0], t, 1), move_reach(m, &m->site[1], t, 1)};
+static bool move_look_begin(move_look *l, dyd_moves *m, double t) {
+  dyd_dd of[2] = {dyd_move_reach(m, &m->site[0], t, m->way), dyd_move_reach(m, &m->site[1], t, m->way)};
   dyd_dd more = dyd_dd_plus(of[1], of[0], -1);
   *l = (move_look){.m = m, .t = t, .reach = of[0]};
   if (more.h > -more.e) l->reach = of[1];
@@ -382,8 +326,7 @@ static bool move_look_begin(move_look *l, moves *m, double t) {
   return isfinite(l->radius) && l->radius > 0;
 }
 
-/* Does c show the pair at t, for all sites? *added: some were in the way that are seen now. */
-static bool moves_hold(bool *added, moves *m, double t) {
+bool dyd_moves_hold(bool *added, dyd_moves *m, double t) {
   move_look l;
   *added = false;
   if (!move_look_begin(&l, m, t)) return false;
@@ -392,12 +335,12 @@ static bool moves_hold(bool *added, moves *m, double t) {
   const dyd_points_d *p = &m->t->points;
   dyd_xy i = p->xy[m->site[0].vertex];
   double x = i.x + m->x, y = i.y + m->y, size = fabs(i.x) + fabs(i.y) + fabs(m->x) + fabs(m->y) + l.radius;
-  double most = m->square ? 1.5 : m->t->heaviest, reach = l.radius + t * most;
+  double most = m->way < 0 ? 0 : m->square ? 1.5 : m->t->heaviest, reach = l.radius + t * most;
   reach += 0x1p-44 * (size + reach + m->t->sk->mesh.extent[0] + m->t->sk->mesh.extent[1]);
   const dyd_bbox at = {{x, x, y, y}};
-  double radius2 = reach * reach * (1 + 0x1p-45);
-  if (!isfinite(radius2)) return false;
-  dyd_tree_near(&m->t->tree, &at, &radius2, move_meet, &l);
+  l.radius2 = reach * reach * (1 + 0x1p-45);
+  if (!isfinite(l.radius2)) return false;
+  dyd_tree_near(&m->t->tree, &at, &l.radius2, move_meet, &l);
   *added = l.added > 0;
   return !*added;
 }
@@ -406,15 +349,16 @@ static bool moves_hold(bool *added, moves *m, double t) {
 
 /* A point of the disc: the farthest from c (way = -1), or the nearest, but for 2^-50 of the radius. d: c seen from the
  * site. */
-static void disc_choice(dyd_dd out[2], const move_site *s, const dyd_dd d[2], double t, int way) {
+static void disc_choice(dyd_dd out[2], const dyd_move_site *s, const dyd_dd d[2], double t, int way) {
   double size = hypot(d[0].h, d[1].h), r = way * s->weight * (1 - 0x1p-50);
   out[0] = dyd_dd_plus(s->x, dd_product(t, r * (d[0].h / size)), 1);
   out[1] = dyd_dd_plus(s->y, dd_product(t, r * (d[1].h / size)), 1);
 }
 
 /* A corner of the square of the end, and the point of another square that is nearest to c. */
-static void square_choice(dyd_dd out[2], const moves *m, const move_plane *p, const dyd_dd d[2], double t, bool end) {
-  const move_site *s = &m->site[end ? p->end : p->other];
+static void square_choice(dyd_dd out[2], const dyd_moves *m, const dyd_move_plane *p, const dyd_dd d[2], double t,
+                          bool end) {
+  const dyd_move_site *s = &m->site[end ? p->end : p->other];
   const dyd_dd *place[2] = {&s->x, &s->y};
   for (int a = 0; a < 2; a++) {
     bool beside = !end && dyd_dd_sign(dyd_dd_plus(dyd_dd_of(t), dd_size(d[a]), -1)) > 0;
@@ -424,10 +368,10 @@ static void square_choice(dyd_dd out[2], const moves *m, const move_plane *p, co
 }
 
 /* The vector between choices, and a bound of its errors: false, unless c is as near to b as to a. */
-static bool move_refutes(double out[3], const moves *m, const move_plane *plane, double t) {
+static bool move_refutes(double out[3], const dyd_moves *m, const dyd_move_plane *plane, double t) {
   dyd_dd p[2][2], far[2], d[2];
   for (int n = 0; n < 2; n++) {
-    const move_site *s = &m->site[n ? plane->other : plane->end];
+    const dyd_move_site *s = &m->site[n ? plane->other : plane->end];
     move_from(d, m, s);
     if (m->square)
       square_choice(p[n], m, plane, d, t, n == 0);
@@ -453,16 +397,16 @@ static int move_turn(const double a[3], const double b[3]) {
 }
 
 /* Does no centre show the pair at t? */
-static bool moves_fail(const moves *m, double t) {
+static bool moves_fail(const dyd_moves *m, double t) {
   double d[3][3];
   if (t >= m->contact) {
-    const move_site *e = &m->site[m->touch[0]], *k = &m->site[m->touch[1]];
+    const dyd_move_site *e = &m->site[m->touch[0]], *k = &m->site[m->touch[1]];
     dyd_dd x = dyd_dd_plus(k->x, e->x, -1), y = dyd_dd_plus(k->y, e->y, -1);
     dyd_dd r = dyd_dd_plus(dd_product(t, k->weight), dd_product(t, e->weight), 1);
     if (dyd_dd_sign(dyd_dd_plus(dyd_dd_times(r, r), dyd_dd_square_sum(x, y), -1)) > 0) return true;
   }
   for (int n = 0; n < 3; n++)
-    if (m->basis[n] < CONE || !move_refutes(d[n], m, &m->plane[m->basis[n]], t)) return false;
+    if (m->basis[n] < DYD_MOVES_CONE || !move_refutes(d[n], m, &m->plane[m->basis[n]], t)) return false;
   int turn = move_turn(d[0], d[1]);
   return turn && move_turn(d[1], d[2]) == turn && move_turn(d[2], d[0]) == turn;
 }
@@ -470,7 +414,7 @@ static bool moves_fail(const moves *m, double t) {
 /* ---- a row ---- */
 
 /* Where the row without weights says: the bisectors of ij and kl cross; or beyond the end that k touches. */
-static void moves_start(moves *m, bool two) {
+static void moves_start(dyd_moves *m, bool two) {
   double jx = m->site[1].x.h, jy = m->site[1].y.h, ax = m->site[2].x.h, ay = m->site[2].y.h;
   if (two) {
     double bx = m->site[3].x.h, by = m->site[3].y.h, dx = bx - ax, dy = by - ay;
@@ -485,27 +429,29 @@ static void moves_start(moves *m, bool two) {
   }
 }
 
-static bool moves_begin(moves *m, dyd_others *o, const dyd_tolerance *t, const dyd_tolerance_row *row) {
-  const uint32_t *vertex = t->sk->vertex;
-  *m = (moves){.t = t, .square = t->options.metric == DYD_METRIC_BOX};
-  if (dyd_is_line(t->pd) || !t->points.usable || row->k == DYD_NO_SITE) return false;
-  moves_see(m, vertex[row->i]);
-  moves_see(m, vertex[row->j]);
-  if (dyd_others_around(o, t, vertex[row->i], vertex[row->j], DYD_HUB) != DYD_OK) return false;
-  moves_see(m, vertex[row->k]);
-  if (row->l != DYD_NO_SITE) moves_see(m, vertex[row->l]);
-  bool two = m->count == 4;
-  for (size_t k = 0; k < o->count; k++) moves_see(m, o->vertex[k]);
-  double jx = m->site[1].x.h, jy = m->site[1].y.h, jj = jx * jx + jy * jy;
-  moves_start(m, two);
-  return isfinite(m->x) && isfinite(m->y) && jj > 0x1p-400 && jj < 0x1p400;
+bool dyd_moves_begin(dyd_moves *m, dyd_others *o, const dyd_tolerance *t, const uint32_t of[4], int way) {
+  uint32_t most = way > 0 ? DYD_HUB : FIRST_AROUND;
+  m->t = t;
+  m->square = t->options.metric == DYD_METRIC_BOX;
+  m->way = way;
+  m->count = 0;
+  m->contact = HUGE_VAL;
+  for (uint32_t k = 0; k < 3; k++) m->basis[k] = k;
+  for (uint32_t k = 0; k < 2; k++) m->touch[k] = k;
+  if (dyd_is_line(t->pd) || !t->points.usable || dyd_others_around(o, t, of[0], of[1], most) != DYD_OK) return false;
+  for (int k = 0; k < 4; k++)
+    if (of[k] != DYD_NONE) dyd_moves_see(m, of[k]);
+  for (size_t k = 0; k < o->count; k++) dyd_moves_see(m, o->vertex[k]);
+  const dyd_dd *x = &m->site[1].x, *y = &m->site[1].y;
+  double jj = x->h * x->h + y->h * y->h;
+  return m->count > 2 && jj > 0x1p-400 && jj < 0x1p400 && x->e + y->e < 0x1p-60 * sqrt(jj);
 }
 
 /* Of squares, about: the site that is nearest to c on each side of ij. */
-static void squares_beside(uint32_t k[2], const moves *m) {
+static void squares_beside(uint32_t k[2], const dyd_moves *m) {
   double least[2] = {HUGE_VAL, HUGE_VAL}, jx = m->site[1].x.h, jy = m->site[1].y.h;
   for (uint32_t n = 2; n < m->count; n++) {
-    const move_site *s = &m->site[n];
+    const dyd_move_site *s = &m->site[n];
     double x = fmax(fabs(s->x.h - m->x) - m->now, 0), y = fmax(fabs(s->y.h - m->y) - m->now, 0), d = x * x + y * y;
     int side = jx * s->y.h - jy * s->x.h > 0;
     if (!(d < least[side])) continue;
@@ -515,40 +461,48 @@ static void squares_beside(uint32_t k[2], const moves *m) {
 }
 
 /* Of discs: the sites of the planes that meet. */
-static void discs_beside(uint32_t k[2], const moves *m) {
-  bool touches = m->now >= m->contact * (1 - CLOSE);
+static void discs_beside(uint32_t k[2], const dyd_moves *m) {
+  bool touches = m->now >= m->contact * (1 - DYD_MOVES_CLOSE);
   for (int n = 0; n < 3; n++) {
     uint32_t v = m->t->sk->reps.site[m->site[touches ? m->touch[1] : m->plane[m->basis[n]].other].vertex];
     if (v != k[0] && v != k[1]) k[k[0] != DYD_NO_SITE] = v;
   }
 }
 
-static void moves_bind(dyd_tolerance_row *row, const moves *m) {
+static void moves_bind(dyd_tolerance_row *row, const dyd_moves *m) {
   uint32_t k[2] = {DYD_NO_SITE, DYD_NO_SITE};
   (m->square ? squares_beside : discs_beside)(k, m);
   row->k = k[0] < k[1] ? k[0] : k[1];
   row->l = k[0] < k[1] ? k[1] : k[0];
 }
 
+static bool begin_death(dyd_moves *m, dyd_others *o, const dyd_tolerance *t, const dyd_tolerance_row *row) {
+  const uint32_t *v = t->sk->vertex, l = row->l == DYD_NO_SITE ? DYD_NONE : v[row->l];
+  if (row->k == DYD_NO_SITE || !dyd_moves_begin(m, o, t, (uint32_t[]){v[row->i], v[row->j], v[row->k], l}, 1))
+    return false;
+  moves_start(m, l != DYD_NONE);
+  return isfinite(m->x) && isfinite(m->y);
+}
+
 bool dyd_filter_moved_death(dyd_tolerance_row *row, const dyd_tolerance *t, dyd_others *spare) {
-  moves m;
-  bool added = true, known = moves_begin(&m, spare, t, row);
+  dyd_moves m;
+  bool added = true, known = begin_death(&m, spare, t, row);
   double lo = 0, hi = 0;
   for (int look = 0; known && added && look < MOST_LOOKS; look++) {
     added = false;
-    known = moves_climb(&m);
-    if (known) moves_refine(&m);
+    known = dyd_moves_climb(&m);
+    if (known) dyd_moves_refine(&m);
     bool good = false;
-    for (size_t w = 0; known && !good && !added && w < (m.square ? 4 : 2); w++) {
-      lo = m.now * (1 - move_widths[w]);
-      hi = m.now * (1 + move_widths[w]);
-      good = moves_fail(&m, hi) && moves_hold(&added, &m, lo);
+    for (size_t w = 0; known && !good && !added && dyd_moves_width(&m, w) > 0; w++) {
+      lo = m.now * (1 - dyd_moves_width(&m, w));
+      hi = m.now * (1 + dyd_moves_width(&m, w));
+      good = moves_fail(&m, hi) && dyd_moves_hold(&added, &m, lo);
     }
     known = good || added;
   }
   if (!known || added) return false;
-  row->lo = lo * (m.square ? 1 : 1 - SPARE);
-  row->hi = hi * (m.square ? 1 : 1 + 2 * SPARE);
+  row->lo = lo * (m.square ? 1 : 1 - DYD_MOVES_SPARE);
+  row->hi = hi * (m.square ? 1 : 1 + 2 * DYD_MOVES_SPARE);
   moves_bind(row, &m);
   return true;
 }

@@ -52,7 +52,10 @@ static void rework_quickly(void *context, size_t number) {
   size_t end = (number + 1) * SHARE < t->rows ? (number + 1) * SHARE : t->rows;
   for (size_t k = number * SHARE; k < end && !dyd_flag_is_set(t->options.cancel); k++) {
     dyd_tolerance_row *row = &t->row[k];
-    if (row->event == DYD_EVENT_DEATH && row->hi != DYD_UNREACHED) q->done[k] = dyd_filter_moved_death(row, t, &spare);
+    if (row->event == DYD_EVENT_BIRTH)
+      q->done[k] = row->hi < HUGE_VAL; /* made when it was listed */
+    else if (row->event == DYD_EVENT_DEATH && row->hi != DYD_UNREACHED)
+      q->done[k] = dyd_filter_moved_death(row, t, &spare);
   }
   free(spare.vertex);
 }
@@ -508,14 +511,16 @@ static bool may_be_born(const dyd_tolerance *t, const dyd_pair *p) {
 static void births_in_doubles(void *context, size_t number) {
   const birth_pass *p = context;
   const dyd_tolerance *t = p->t;
-  bool moved = t->weight || t->options.metric == DYD_METRIC_BOX, late;
+  bool late, moved = t->weight || t->options.metric == DYD_METRIC_BOX;
+  bool (*filter)(dyd_tolerance_row *, bool *, const dyd_tolerance *, uint32_t, uint32_t, double, dyd_others *) =
+      moved ? dyd_filter_moved_birth : dyd_filter_birth;
   dyd_others spare = {0};
   size_t end = (number + 1) * SHARE < p->pairs->count ? (number + 1) * SHARE : p->pairs->count;
   for (size_t k = number * SHARE; k < end; k++) {
     const dyd_pair *q = &p->pairs->item[k];
     p->state[k] = may_be_born(t, q) ? BIRTH_OPEN : BIRTH_NONE;
-    if (p->state[k] == BIRTH_NONE || moved || t->options.no_filter || dyd_flag_is_set(t->options.cancel)) continue;
-    if (dyd_filter_birth(&p->row[k], &late, t, t->sk->vertex[q->i], t->sk->vertex[q->j], p->up_to, &spare))
+    if (p->state[k] == BIRTH_NONE || t->options.no_filter || dyd_flag_is_set(t->options.cancel)) continue;
+    if (filter(&p->row[k], &late, t, t->sk->vertex[q->i], t->sk->vertex[q->j], p->up_to, &spare))
       p->state[k] = late ? BIRTH_LATE : BIRTH_FOUND;
   }
   free(spare.vertex);

@@ -123,6 +123,9 @@ bool dyd_filter_birth(dyd_tolerance_row *row, bool *late, const dyd_tolerance *t
 /* moves_filter.c: the row of a death of unmoved weights, 1 each, in discs, becomes that of t's weights and metric
  * [TOL-11]; false: not certain, and unchanged. spare: of the calling thread. */
 bool dyd_filter_moved_death(dyd_tolerance_row *row, const dyd_tolerance *t, dyd_others *spare);
+/* The row of a pair that is no edge, or *late, as dyd_filter_birth, but of t's weights and metric [TOL-12]. */
+bool dyd_filter_moved_birth(dyd_tolerance_row *row, bool *late, const dyd_tolerance *t, uint32_t i, uint32_t j,
+                            double up_to, dyd_others *spare);
 /* After work that was cancelled: removes marked rows, and counts the pairs without one. */
 void dyd_rows_reached(dyd_tolerance *t);
 dyd_status dyd_row_add(dyd_tolerance *t, dyd_tolerance_row row);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Tolerances in the max norm: against the literal oracle, all choices of corners, both rungs, statuses, random choices
- * [TOL-9]. */
+ * [TOL-9] [TOL-12]. */
 #include <setjmp.h>
 #include <stdarg.h>
 

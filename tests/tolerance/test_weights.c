@@ -236,43 +236,104 @@ static void test_weights_of_use(void **state) {
   mpq_clears(q[0], q[1], NULL);
 }
 
-/* Deaths by the sites that bind [TOL-11] against those by exact statuses: discs of weights, squares. */
+/* What the two rungs say of the same points. */
+typedef struct binding_count {
+  size_t deaths, births, quick, sharp;
+} binding_count;
+
+static void binding_compare(binding_count *n, const cases_answer *a, const cases_answer *b) {
+  const dyd_tolerance_row *x, *y;
+  size_t rows = dyd_tolerance_rows(&x, a->t);
+  assert_true(rows == dyd_tolerance_rows(&y, b->t));
+  for (; rows--; x++, y++) {
+    assert_true(x->i == y->i && x->j == y->j && x->event == y->event && x->lo <= y->hi && y->lo <= x->hi);
+    if (x->event == DYD_EVENT_TIE || x->lo == HUGE_VAL || x->lo == 0) continue;
+    *(x->event == DYD_EVENT_DEATH ? &n->deaths : &n->births) += 1;
+    n->quick += x->lo != y->lo || x->hi != y->hi;
+    n->sharp += x->hi <= x->lo * (1 + 0x1p-40);
+  }
+}
+
+static double weight_at_random(test_random *r) {
+  static const double some[] = {0, 0x1p-30, 0.02, 0.3, 1, 1, 60, 0x1p20};
+  return some[test_below(r, 8)];
+}
+
+/* Deaths [TOL-11] and births [TOL-12] by the sites that bind against those by exact statuses: discs of weights,
+ * squares.
+ */
 static void test_binding_against_statuses(void **state) {
   (void)state;
   test_random r = test_random_start("binding");
-  size_t deaths = 0, same = 0, sharp = 0;
+  binding_count n = {0, 0, 0, 0};
   for (size_t c = 0; c < test_cases(240); c++) {
     brute_points p;
     cases_answer a, b;
-    const dyd_tolerance_row *row;
-    static const double some[] = {0, 0x1p-30, 0.02, 0.3, 1, 1, 60, 0x1p20};
     double weight[BRUTE_MOST];
-    dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options)};
+    mpq_t up_to;
+    dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .up_to = up_to};
     cases_make(&p, &r, c % 6);
     int shift = c % 7 == 0 ? 30 : 0, scale = c % 11 == 0 ? -300 : 0;
     for (size_t i = 0; i < p.n; i++) {
-      weight[i] = some[test_below(&r, 8)];
+      weight[i] = weight_at_random(&r);
       p.x[i] = ldexp(p.x[i] + (shift ? ldexp(1, shift) : 0), scale);
       p.y[i] = ldexp(p.y[i], scale);
     }
+    mpq_init(up_to);
+    mpq_set_d(up_to, ldexp(0.01 + test_unit(&r), scale));
     if (c % 2) o.weight = weight;
     if (!(c % 2)) o.metric = DYD_METRIC_BOX;
     cases_ask(&a, &p, &o);
     o.no_filter = true;
     cases_ask(&b, &p, &o);
-    size_t n = dyd_tolerance_rows(&row, a.t);
-    for (; n--; row++) {
-      const dyd_tolerance_row *q = cases_row(b.t, row->i, row->j);
-      assert_true(q && q->event == row->event && row->lo <= q->hi && q->lo <= row->hi);
-      if (row->event != DYD_EVENT_DEATH || row->lo == HUGE_VAL || row->lo == 0) continue;
-      deaths++;
-      same += row->lo == q->lo && row->hi == q->hi;
-      sharp += row->hi <= row->lo * (1 + 0x1p-40);
-    }
+    binding_compare(&n, &a, &b);
     cases_forget(&a);
     cases_forget(&b);
+    mpq_clear(up_to);
   }
-  assert_true(deaths > 400 && same * 2 < deaths && sharp * 2 > deaths);
+  print_message("%zu deaths, %zu births, %zu quick, %zu sharp\n", n.deaths, n.births, n.quick, n.sharp);
+  assert_true(n.deaths > 400 && n.births > 200 && n.quick * 2 > n.deaths + n.births &&
+              n.sharp * 2 > n.deaths + n.births);
+}
+
+enum { MANY = 24 };
+
+/* 24 points, some sets so flat that centres are far away: chains of many sites. */
+static void test_binding_of_many(void **state) {
+  (void)state;
+  test_random r = test_random_start("binding of many");
+  binding_count n = {0, 0, 0, 0};
+  for (size_t c = 0; c < test_cases(12); c++) {
+    cases_answer a[2];
+    double x[MANY], y[MANY], weight[MANY];
+    mpq_t up_to;
+    dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .up_to = up_to};
+    double flat = c % 3 == 0 ? 0x1p-12 : 1;
+    for (size_t i = 0; i < MANY; i++) {
+      x[i] = test_unit(&r), y[i] = test_unit(&r) * flat;
+      if (c % 3 == 1) x[i] *= x[i] * x[i], y[i] *= y[i] * y[i];
+      weight[i] = test_chance(&r, 4) ? 0 : 0.02 + test_unit(&r);
+    }
+    mpq_init(up_to);
+    mpq_set_d(up_to, (c % 3 == 0 ? 0.02 : 0.04) * (0.5 + test_unit(&r)) * (flat < 1 ? 0x1p-8 : 1));
+    if (c % 2) o.weight = weight;
+    if (!(c % 2)) o.metric = DYD_METRIC_BOX;
+    for (int k = 0; k < 2; k++) {
+      dyd_error err;
+      o.no_filter = k;
+      assert_int_equal(dyd_sites_new(&a[k].sites), DYD_OK);
+      assert_int_equal(dyd_sites_add_points(a[k].sites, MANY, x, y), DYD_OK);
+      assert_int_equal(dyd_delaunay_new(&a[k].pd, a[k].sites, NULL, &err), DYD_OK);
+      assert_int_equal(dyd_tolerance_new(&a[k].t, a[k].pd, &o, &err), DYD_OK);
+    }
+    binding_compare(&n, &a[0], &a[1]);
+    cases_forget(&a[0]);
+    cases_forget(&a[1]);
+    mpq_clear(up_to);
+  }
+  print_message("%zu deaths, %zu births, %zu quick, %zu sharp\n", n.deaths, n.births, n.quick, n.sharp);
+  assert_true(n.deaths > 300 && n.births > 300 && n.quick * 2 > n.deaths + n.births &&
+              n.sharp * 2 > n.deaths + n.births);
 }
 
 int main(void) {
@@ -280,6 +341,7 @@ int main(void) {
       cmocka_unit_test(test_equal_weights),    cmocka_unit_test(test_weights_against_discs),
       cmocka_unit_test(test_weighted_attacks), cmocka_unit_test(test_weighted_whole),
       cmocka_unit_test(test_weights_of_use),   cmocka_unit_test(test_binding_against_statuses),
+      cmocka_unit_test(test_binding_of_many),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
