@@ -42,6 +42,7 @@ dyd_status dyd_row_add(dyd_tolerance *t, dyd_tolerance_row row) {
 /* Which rows are finished: by ranges of SHARE rows. */
 typedef struct quick_rows {
   const dyd_tolerance *t;
+  size_t first;
   bool *done;
 } quick_rows;
 
@@ -49,8 +50,8 @@ static void rework_quickly(void *context, size_t number) {
   const quick_rows *q = context;
   const dyd_tolerance *t = q->t;
   dyd_others spare = {0};
-  size_t end = (number + 1) * SHARE < t->rows ? (number + 1) * SHARE : t->rows;
-  for (size_t k = number * SHARE; k < end && !dyd_flag_is_set(t->options.cancel); k++) {
+  size_t begin = q->first + number * SHARE, end = begin + SHARE < t->rows ? begin + SHARE : t->rows;
+  for (size_t k = begin; k < end && !dyd_flag_is_set(t->options.cancel); k++) {
     dyd_tolerance_row *row = &t->row[k];
     if (row->event == DYD_EVENT_BIRTH)
       q->done[k] = row->hi < HUGE_VAL; /* made when it was listed */
@@ -60,11 +61,11 @@ static void rework_quickly(void *context, size_t number) {
   free(spare.vertex);
 }
 
-static dyd_status rework_slowly(dyd_tolerance *t, const bool *done, dyd_row_work *work, void *user) {
-  size_t kept = 0;
+static dyd_status rework_slowly(dyd_tolerance *t, size_t first, const bool *done, dyd_row_work *work, void *user) {
+  size_t kept = first;
   bool cut = false;
   dyd_status st = DYD_OK;
-  for (size_t k = 0; k < t->rows && st == DYD_OK; k++) {
+  for (size_t k = first; k < t->rows && st == DYD_OK; k++) {
     dyd_tolerance_row *row = &t->row[k];
     bool late = false, open = !done[k] && row->event != DYD_EVENT_TIE && row->hi != DYD_UNREACHED;
     cut = cut || dyd_flag_is_set(t->options.cancel);
@@ -78,12 +79,12 @@ static dyd_status rework_slowly(dyd_tolerance *t, const bool *done, dyd_row_work
   return st == DYD_OK && cut ? DYD_CANCELLED : st;
 }
 
-dyd_status dyd_rows_rework(dyd_tolerance *t, dyd_row_work *work, void *user) {
+dyd_status dyd_rows_rework(dyd_tolerance *t, size_t first, dyd_row_work *work, void *user) {
   bool *done = calloc(t->rows + 1, sizeof *done);
-  quick_rows q = {t, done};
+  quick_rows q = {t, first, done};
   if (!done) return DYD_E_NOMEM;
-  if (!t->options.no_filter) dyd_parallel(t->pd->options.threads, t->rows / SHARE + 1, rework_quickly, &q);
-  dyd_status st = rework_slowly(t, done, work, user);
+  if (!t->options.no_filter) dyd_parallel(t->pd->options.threads, (t->rows - first) / SHARE + 1, rework_quickly, &q);
+  dyd_status st = rework_slowly(t, first, done, work, user);
   free(done);
   return st;
 }

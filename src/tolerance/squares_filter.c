@@ -381,12 +381,12 @@ static dyd_status square_row(bool *late, dyd_tolerance_row *row, void *user) {
   return row->event == DYD_EVENT_DEATH ? square_death(user, row) : square_birth(late, user, row);
 }
 
-dyd_status dyd_square_rows(dyd_tolerance *t) {
+dyd_status dyd_square_rows(dyd_tolerance *t, size_t first) {
   squares q = {.t = t};
   mpq_init(q.half);
   dyd_point_init(&q.c);
   dyd_status st = dyd_near_index(t);
-  if (st == DYD_OK) st = dyd_rows_rework(t, square_row, &q);
+  if (st == DYD_OK) st = dyd_rows_rework(t, first, square_row, &q);
   dyd_point_clear(&q.c);
   mpq_clear(q.half);
   free(q.seen.vertex);

@@ -92,12 +92,11 @@ dyd_status dyd_others_nearer(bool *more, dyd_others *o, dyd_tolerance *t, uint32
 
 dyd_status dyd_deaths(dyd_tolerance *t);
 dyd_status dyd_births(dyd_tolerance *t, dyd_error *err);
-/* Where points have weights: the deaths and births found so far become those with weights, without births above up_to.
- * Births given are only listed. */
-dyd_status dyd_weigh(dyd_tolerance *t);
-/* squares_filter.c: the deaths found so far become those for squares, and the births listed, without those above up_to.
- */
-dyd_status dyd_square_rows(dyd_tolerance *t);
+/* Where points have weights: rows from number `first` on become those with weights, without births above up_to. Births
+ * of an infinite `hi` are only listed; others are made. */
+dyd_status dyd_weigh(dyd_tolerance *t, size_t first);
+/* squares_filter.c: the same for squares. */
+dyd_status dyd_square_rows(dyd_tolerance *t, size_t first);
 dyd_status dyd_whole(dyd_tolerance *t);
 /* Half the distance of a corner v of the hull, at which hull edge h ends, to the line through the corners before and
  * behind, unless these are an edge: infinite then. In the metric of t. weighted: from where on their discs let v come
@@ -112,10 +111,11 @@ dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd
                              uint32_t l, double lo, double hi);
 /* The upper end of a row that work did not reach before it was cancelled. */
 #define DYD_UNREACHED (-1.0)
-/* Rows but ties become what dyd_filter_moved_death makes of them, on the threads of the options, or else `work`, and
- * those go that it finds too late. DYD_CANCELLED: rows that were not reached are marked. After dyd_near_index. */
+/* Rows from number `first` on, but ties, become what dyd_filter_moved_death makes of them, on the threads of the
+ * options, or else `work`, and those go that it finds too late. DYD_CANCELLED: rows that were not reached are marked.
+ * After dyd_near_index. */
 typedef dyd_status dyd_row_work(bool *late, dyd_tolerance_row *row, void *user);
-dyd_status dyd_rows_rework(dyd_tolerance *t, dyd_row_work *work, void *user);
+dyd_status dyd_rows_rework(dyd_tolerance *t, size_t first, dyd_row_work *work, void *user);
 /* births_filter.c: the row of a pair that is no edge, as exact numbers make it; or *late: it is born above up_to, which
  * is rounded up. false: not certain [FLT-BIRTH]. After dyd_near_index; spare: of the calling thread. */
 bool dyd_filter_birth(dyd_tolerance_row *row, bool *late, const dyd_tolerance *t, uint32_t i, uint32_t j, double up_to,

@@ -73,6 +73,12 @@ static void join_status(dyd_status *st, dyd_status next) {
   if (next != DYD_OK) *st = next;
 }
 
+/* Rows from number `first` on become those of weights, or in squares. */
+static dyd_status move_rows(dyd_tolerance *t, size_t first) {
+  if (t->weight) return dyd_weigh(t, first);
+  return t->options.metric == DYD_METRIC_BOX ? dyd_square_rows(t, first) : DYD_OK;
+}
+
 /* All rows; with DYD_CANCELLED, the rows reached. */
 static dyd_status tolerance_rows(dyd_tolerance *t, dyd_error *err) {
   tie_rows ties = {t, DYD_OK};
@@ -83,9 +89,10 @@ static dyd_status tolerance_rows(dyd_tolerance *t, dyd_error *err) {
   if (may_go_on(st)) dyd_each_pair(t->pd, DYD_TIE, add_tie, &ties);
   if (may_go_on(st)) join_status(&st, ties.status);
   if (may_go_on(st) && o->weight) join_status(&st, take_by_vertex(&t->weight, &t->heaviest, t->sk, o->weight, 1));
+  if (may_go_on(st)) join_status(&st, move_rows(t, 0));
+  size_t deaths = t->rows;
   if (st == DYD_OK && births) st = dyd_births(t, err);
-  if (may_go_on(st) && t->weight) join_status(&st, dyd_weigh(t));
-  if (may_go_on(st) && o->metric == DYD_METRIC_BOX) join_status(&st, dyd_square_rows(t));
+  if (may_go_on(st) && t->rows > deaths) join_status(&st, move_rows(t, deaths));
   if (st == DYD_CANCELLED) dyd_rows_reached(t);
   return st;
 }

@@ -457,12 +457,12 @@ static dyd_status weigh_row(bool *late, dyd_tolerance_row *row, void *work) {
   return row->event == DYD_EVENT_DEATH ? weigh_death(work, row) : weigh_birth(late, work, row);
 }
 
-dyd_status dyd_weigh(dyd_tolerance *t) {
+dyd_status dyd_weigh(dyd_tolerance *t, size_t first) {
   weight_work g = {.t = t};
   dyd_caps_init(&g.discs.caps);
   mpq_init(g.now);
   dyd_status st = dyd_near_index(t);
-  if (st == DYD_OK) st = dyd_rows_rework(t, weigh_row, &g);
+  if (st == DYD_OK) st = dyd_rows_rework(t, first, weigh_row, &g);
   weights_end(&g);
   return st;
 }

@@ -248,6 +248,15 @@ def test_tolerances_that_are_cut():
         assert int(edges) or births[0] != '0', cut.out
         lo, hi = (float(x) for x in re.search('^# tolerance (.*) (.*)$', cut.out, re.M).groups())
         assert (lo == 0 or not int(edges)) and hi >= float(re.search('^# tolerance (.*) ', whole.out, re.M).group(1)), how
+    for how in (('--radius-column', 'r', '--up-to', '20'), ('--metric', 'box', '--up-to', '300')):  # deaths come first
+        given = ('tolerance', '--columns', 'x,y', *how, '-')
+
+        def before_births(result):
+            return 1 if result.code != 4 else 0 if '\n# cut: 0 edges have no row' in result.out else -1
+
+        cut = cut_between(lambda seconds, given=given: timed(seconds, *given, stdin=MANY), before_births, 0.3)
+        expect(cut, 4, 'birth' if 'not looked for' not in cut.out else '^# cut: 0 edges', r'^dyadel: budget: 0 edges')
+        assert len(rows_of(cut)) >= len(rows_of(run(*given[:-3], '-', stdin=MANY)))
     given = ('tolerance', '--columns', 'x,y', '--radius-column', 'r', '--format', 'json', '-')
     cut = cut_between(lambda seconds: timed(seconds, *given, stdin=MANY),
                       lambda result: 1 if result.code != 4 else 0 if '"death"' in result.out else -1, 0.05)
