@@ -93,7 +93,8 @@ static const struct radius_name {
     {"mm", true, "millimetres", NULL, "--radius-scale 0.001 if those are metres"},
     {"cm", true, "centimetres", NULL, "--radius-scale 0.01 if those are metres"},
     {"km", true, "kilometres", NULL, "--radius-scale 1000 if those are metres"},
-    {"ft", true, "feet", NULL, "--radius-scale 0.3048 if those are metres"}};
+    {"ft", true, "feet", NULL, "--radius-scale 0.3048 if those are metres"},
+    {"in", true, "inches", NULL, "--radius-scale 0.0254 if those are metres"}};
 
 static bool is_unit(const struct radius_name *r) {
   return r->give && strstr(r->give, "if those are metres");
@@ -107,7 +108,8 @@ static bool name_says(const char *name, const struct radius_name *r) {
   size_t n = strlen(r->word);
   for (const char *at = name; *at; at++)
     if (strncasecmp(at, r->word, n) == 0 &&
-        (!r->part || ((at == name || !is_name_letter(at[-1])) && !is_name_letter(at[n]))))
+        (!r->part || ((at == name || !is_name_letter(at[-1])) && !is_name_letter(at[n]))) &&
+        (*r->word != 'i' || strchr(")]", at[n]))) /* "error in m" */
       return true;
   return false;
 }
@@ -128,30 +130,72 @@ static void note_radii(const cli_options *o) {
            r->scale ? " --confidence 95%" : "");
 }
 
-/* Points both of whose coordinates are a number that many programs write for none. */
-static void note_nowhere(const dyd_engine *e, const cli_options *o) {
-  static const double none[] = {-9999, -99999, -999999, -999, 9999, 99999, -32768};
+/* Points both of whose coordinates are a number that many programs write for none. 0 is one where degrees are meant and
+ * nothing else is on the equator or the first meridian. */
+static void note_nowhere(const dyd_engine *e, const cli_options *o, bool degrees) {
+  static const double none[] = {0, -9999, -99999, -999999, -999, 9999, 99999, -32768, 1e20, 1e30, -1e30};
   double b[4];
-  size_t found = 0, k = 0, at = 0;
+  size_t found = 0, k = 0, at = 0, zeros = 0;
   for (size_t i = 0; i < dyd_engine_count(e) && !o->read.missing; i++) {
     if (!dyd_engine_knows(e, (uint32_t)i)) continue;
     dyd_sites_get_d(b, dyd_engine_sites(e), i);
+    zeros += (b[0] <= 0 && b[1] >= 0) != (b[2] <= 0 && b[3] >= 0);
     if (b[0] != b[2] || b[0] != b[1] || b[0] != b[3]) continue;
-    for (k = 0; k < sizeof none / sizeof *none && none[k] != b[0];) k++;
+    for (k = !degrees; k < sizeof none / sizeof *none && none[k] != b[0];) k++;
     if (k < sizeof none / sizeof *none && !found++) at = k;
   }
-  if (found)
+  if (found && (at || !zeros) && found < dyd_engine_count(e))
     cli_note(o,
-             "%s: points with %.0f for both coordinates: %zu; if it means a missing value, give --missing %.0f "
+             "%s: points with %g for both coordinates: %zu; if it means a missing value, give --missing %g "
              "--skip-missing",
              o->file, none[at], found, none[at]);
+}
+
+/* Columns called longitude and latitude in the plane that hold ddmm.mmmm, as sentences of receivers do. */
+static void note_minutes(const dyd_engine *e, const cli_options *o, const dyd_read_report *r) {
+  double b[4], most = 0;
+  bool all = r->degrees && !o->sphere && !o->plane;
+  for (size_t i = 0; all && i < dyd_engine_count(e); i++) {
+    if (!dyd_engine_knows(e, (uint32_t)i)) continue;
+    dyd_sites_get_d(b, dyd_engine_sites(e), i);
+    most = fmax(most, fabs(b[2]));
+    all = fabs(b[0]) < 18100 && fabs(b[2]) < 9100 && fmod(fabs(b[0]), 100) < 60 && fmod(fabs(b[2]), 100) < 60;
+  }
+  if (all && most > 90)
+    cli_note(o,
+             "%s: the columns are longitude and latitude by their names, and hold degrees and minutes (ddmm.mmmm); for "
+             "degrees give sed -E 's/([0-9]+)([0-9]{2}\\.[0-9]+)/\\1:\\2/g' %s | dyadel %s ... -",
+             o->file, o->file, o->command);
+}
+
+/* Eastings with the number of a zone in front (Gauss-Krueger, UTM), of several zones: each is within 300 km of the
+ * middle of its zone, which is 500 km. */
+static void note_eastings(const dyd_engine *e, const cli_options *o) {
+  double b[4], zone[2] = {0, 0};
+  bool all = o->read.columns && !o->sphere && dyd_engine_count(e) > 2;
+  for (size_t i = 0; all && i < dyd_engine_count(e); i++) {
+    if (!dyd_engine_knows(e, (uint32_t)i)) continue;
+    dyd_sites_get_d(b, dyd_engine_sites(e), i);
+    const double own = floor(b[0] / 1e6);
+    all = own >= 1 && own <= 60 && b[2] >= 0 && b[2] < 1e7 && fabs(b[0] - own * 1e6 - 5e5) < 3e5;
+    if (!zone[0]) zone[0] = own;
+    if (own != zone[0]) zone[1] = own;
+  }
+  if (all && zone[1])
+    cli_note(
+        o,
+        "%s: x seems to begin with numbers of zones, %g and %g; coordinates of several zones are not of one plane: "
+        "transform them to one system first",
+        o->file, zone[0], zone[1]);
 }
 
 void cli_note_points(const dyd_engine *e, const cli_options *o, const dyd_read_report *r) {
   cli_note_lines(o, r);
   if (r->vertices) cli_note(o, "%s: the vertices of lines and polygons are the points: %zu", o->file, r->vertices);
   note_radii(o);
-  if (o->read.columns && !o->sphere) note_nowhere(e, o);
+  if (o->read.columns) note_nowhere(e, o, o->sphere || r->degrees);
+  note_minutes(e, o, r);
+  note_eastings(e, o);
   if (r->zone[1][0] && !o->sphere)
     cli_note(
         o,

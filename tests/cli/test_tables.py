@@ -61,6 +61,10 @@ SAME = [
     ('--columns x,y --thousands ’', "x;y\n1;2\n1'234.5;5\n5;1’000\n"),
     ('--columns x,y --thousands _', 'x;y\n1;2\n1_234.5;5\n5;1_000\n'),
     ('--columns x,y --decimal-comma', 'x,y\n1,2\n"1234,5",5\n5,"1000,000"\n'),
+    ('--columns x,y', 'n,x,y\n="01",="1",2\n="a,b",="1234.5",5\n="",5, ="1000"\n'),
+    ('--columns x,y', 'x,y\n"=""1""",2\n"=""1234.5""",5\n5,"=""1000"""\n'),
+    ('--columns geom,geom', 'geom\n"EPSG:25832;POINT(1 2)"\n"SRID=25832;POINT(1234.5 5)"\nPOINT(5 1000)\n'),
+    ('', 'EPSG:25832;POINT(1 2)\nEPSG:25832;POINT(1234.5 5)\nPOINT(5 1000)\n'),
 ]
 
 
@@ -124,7 +128,12 @@ TOLD = [
     ('', 'geom,id\nPOINT (1 2),3\n', 1, r'--columns geom,geom '),
     ('', '// by a tool\n1 2\n', 1, r'; comments begin with # or %: pass over the first lines by --skip-lines N$'),
     ('', '; by\n1 2\n', 1, r'-:1:1: unexpected ";"; .*--skip-lines N$'),
-    ('', '(0, 1)\n(2, 3)\n', 1, r"where a pair is in brackets, remove them: tr -d '\(\)\[\]' < FILE$"),
+    ('', '(0, 1)\n(2, 3)\n', 1, r"; pairs in brackets: sed -E '.*' FILE writes one a line, without them$"),
+    ('', '3\nC 1 2 0\n', 1, '; if this is the number of points, pass over it by --skip-lines 1$'),
+    ('', '> part\n1 2\n', 1, "grep -v '\\^>' FILE$"),
+    ('', '1\xa02\n', 1, "its blank is one that does not break: sed "),
+    ('', '1 & 2 \\\\\n', 1, "columns of LaTeX: sed"),
+    ('', '0101000000000000000000F03F0000000000000040\n', 1, "; this is WKB; .* --columns wkb,wkb$"),
     ('--columns x,y', 'id,x,y\nA,1,2\nid,x,y\nB,2,3\n', 1, r'-:3:4: this line is the header again; remove it$'),
     ('--columns x,y', 'id,x,y\nA,1\n', 1, r'-:2:1: this record has 2 fields, the header 3; complete the line, or remove it$'),
     ('--columns x,y', ' id | x\n A | 1\n(1 row)\n', 1, r'no column is called "y"'),
@@ -132,10 +141,46 @@ TOLD = [
     ('--columns x,y', 'id,x,y\nA,1,2\rB,3,4\nC,5,9\n', 1, r"-:2:1: .* a CR alone ends a line in it: tr '\\r' '\\n' < FILE "),
     ('--columns x,y', '"x" "y"\n"1" 0 0\n', 1, r'-:2:2: .* as R writes tables, give --skip-lines 1 --no-header and numbers to --columns$'),
     ('--columns 2,3 --no-header --delimiter blank', '4 2 0 0\n1 0 0\n', 1, r'lines before the table are passed over by --skip-lines$'),
-    ('--columns x,y', 'x,y\n2024-01-02,0\n', 1, r'-:2:1: this is a date or a range; write a range as \[1\.2,1\.4\]'),
-    ('--columns x,y', 'x,y\n5,1.2-1.4\n', 1, r'-:2:3: this is a date or a range'),
-    ('--columns x,y', 'x,y\n5,-1.2-1.4\n', 1, r'-:2:3: this is a date or a range'),
-    ('--columns x,y', 'x,y\n1/2/2024,0\n', 1, r'-:2:1: this is a date or a range'),
+    ('--columns x,y', 'x,y\n2024-01-02,0\n', 1, r'-:2:1: this is a date, a range or a mixed number; write a range as \[1\.2,1\.4\]'),
+    ('--columns x,y', 'x,y\n5,1.2-1.4\n', 1, r'-:2:3: this is a date, a range'),
+    ('--columns x,y', 'x,y\n5,-1.2-1.4\n', 1, r'-:2:3: this is a date, a range'),
+    ('--columns x,y', 'x,y\n1/2/2024,0\n', 1, r'-:2:1: this is a date, a range'),
+    ('--columns x,y', 'x,y\n5-1/2,0\n', 1, r'-:2:1: this is .* a mixed number; .* 5 1/2 as \(5\+1/2\)'),
+    ('--columns x,y', 'x,y\n(5-1/2),1/3\n', 0, ''),
+    ('--columns x,y', 'x,y\n7,(1.5)\n', 1, r'-:2:3: a number in brackets may be one below 0;'),
+    ('--columns x,y', 'x,y\n1.5+103,2\n', 1, r'-:2:1: Fortran writes 1\.5e103 as 1\.5\+103;'),
+    ('--columns x,y', 'x,y\n1.5+10,2\n', 0, ''),
+    ('--columns x,y', 'x,y\n<NA>,2\n', 1, r'-:2:1: the coordinate is missing \(<NA>\)'),
+    ('--columns x,y --skip-missing', 'x,y\n-1.#IND,2\n1,1.#QNAN\n-nan(ind),3\n', 0, '3 of 3 rows are skipped'),
+    ('--columns x,y', 'x,y\n1,2\n3;4\n', 1, r'-:3:1: .*; columns are separated by semicolons here, and by commas before; make all lines alike$'),
+    ('', 'SRID=4326;POINT(1 2)\nSRID=3857;POINT(3 4)\n', 1, r'-:2:1: SRID 3857 here, and 4326 before; transform all'),
+    ('--columns g,g', 'g\nEPSG:25832;POINT(1 2)\nEPSG:25833;POINT(3 4)\n', 1, r'-:3:1: SRID 25833 here, and 25832 before;'),
+    ('', 'SRID=4326;POINT(1 2)\n', 0, 'taken as coordinates in a plane; .* --sphere'),
+    ('--columns x_km,y_m', 'x_km,y_m\n1,2\n', 2, 'x is in km and y in m; convert one of them'),
+    ('--columns 1,2', 'x [ft];y [m]\n1;2\n', 2, 'x is in ft and y in m'),
+    ('--columns x,y --units-row', 'x,y\nkm,m\n1,2\n', 2, 'x is in km and y in m'),
+    ('--columns x_m,y_in_m', 'x_m,y_in_m\n1,2\n', 0, ''),
+    ('--columns lonE7,latE7 --sphere', 'latE7,lonE7\n476101234,-122.3\n', 1, r'-:2:11: columns called E7 hold integers, of 1e-7 degrees'),
+    ('--columns latE7,lonE7 --sphere', 'latE7,lonE7\n476101234,-1223\n', 2, 'longitude comes first: --columns lonE7,latE7$'),
+    ('--columns lon_rad,lat_rad --sphere', 'lat_rad,lon_rad\n0.8,-1.2\n', 2, r'in another unit \(rad\); coordinates on the sphere are degrees'),
+    ('--columns 2,1 --sphere', 'lat (gon),lon [gon]\n0.8,-1.2\n', 2, r'in another unit \(gon\)'),
+    ('--columns 2,1 --sphere', 'lat (arcsec),lon (arcsec)\n0.8,-1.2\n', 2, r'in another unit \(arcsec\)'),
+    ('--columns 2,1 --sphere', 'lat (deg),lon (deg)\n0.8,-1.2\n', 0, ''),
+    ('--columns lon_deg,lat_deg --sphere', 'lat_deg,lat_min,lon_deg\n47,36,8\n', 1, r'-:2:7: degrees and minutes are in columns apart'),
+    ('--columns LonDegrees,LatDegrees --plane', 'LatDegrees,LatMinutes,LonDegrees\n47,36,8\n', 1, r'degrees and minutes are in columns apart'),
+    ('--columns lon_deg,lat_deg --sphere', 'lat_deg,lat_min,lon_deg\n47.6,36,8.1\n47:36.5,0,8:1\n', 0, ''),
+    ('--columns lon,lat --sphere', 'lat,ns,lon,ew\n47.1,N,122.1,W\n', 1, r'-:2:8: the letter in the column beside makes this number negative; .*122\.5W'),
+    ('--columns lon,lat', 'ns;lat;ew;lon\n South;47.1;E;122.1\n', 1, r'-:2:8: the letter in the column beside'),
+    ('--columns lon,lat --plane', 'lat,ns,lon,ew\n-47.1,S,122.1W,W\n47,N,8,E\n', 0, ''),
+    ('--columns x,y', 'x,y,side\n1,2,S\n3,4,W\n', 0, ''),
+    ('--columns lon,lat', 'lat,lon\n4807.038,01131.000\n4808.1,1133.5\n', 0, r"hold degrees and minutes \(ddmm\.mmmm\); for degrees give sed "),
+    ('--columns lon,lat', 'lat,lon\n4807.038,01131.000\n4868.1,1133.5\n', 0, ''),
+    ('--columns x,y', 'x,y\n3500000,5300000\n4500100,5300100\n4500200,5300000\n', 0, r'begin with numbers of zones, 3 and 4; '),
+    ('--columns x,y', 'x,y\n3500000,5300000\n4500100,5300100\n4900200,5300000\n', 0, ''),
+    ('--columns lon,lat --sphere', 'lat,lon\n0,0\n47.1,-122.1\n47,-121\n', 0, r'points with 0 for both coordinates: 1; .* --missing 0 --skip-missing$'),
+    ('--columns lon,lat --sphere', 'lat,lon\n0,0\n0,10\n10,0\n', 0, ''),
+    ('--columns x,y', 'x,y\n1e20,1e20\n1,2\n', 0, r'points with 1e\+20 for both .*--missing 1e\+20 '),
+    ('--columns x,y', 'x,y\n0,0\n1,2\n', 0, ''),
     ('--columns lon,lat --sphere', 'lon,lat\n691000,5334289\n', 1, r'-:2:8: the latitude is beyond 90 degrees; give degrees, not metres'),
     ('--columns lon,lat --sphere', 'lon,lat\n48.1,111.5\n', 1, r'-:2:6: the latitude is beyond 90 degrees; longitude comes first'),
     ('', 'ID,XCOORD,YCOORD\n1,1,2\n', 1, r'--columns XCOORD,YCOORD '),
@@ -167,7 +212,7 @@ def test_missing_words():
             expect(run('delaunay', '--skip-missing', *options, stdin=text), 0, r'\A' + HEAD + '0,2,legal\n0,3,legal\n2,3,legal\n\\Z', '1 of 4 rows are skipped')
     for word in ('-5', '-0', '+', '--', 'N', 'nano'):
         result = run('delaunay', '--skip-missing', '--missing', '9999', '--columns', 'x,y', '-', stdin=f'x,y\n0,0\n4,{word}\n2,6\n')
-        assert 'left out' not in result.err, (word, result)
+        assert 'are skipped' not in result.err, (word, result)
 
 
 def exact(text):
@@ -284,7 +329,9 @@ def test_units_of_radii():
 
 KINDS = [(b'{"type":"FeatureCollection","features":[]}', 'GeoJSON', 'ogr2ogr'), (b'\n <?xml version="1.0"?>\n<gpx>', 'GPX', 'waypoints'),
          (b'<kml>', 'KML', 'ogr2ogr'), (b'<?xml?><osm>', 'OpenStreetMap XML', 'points'), (b'PAR1\x15\x04', 'Parquet', 'ogr2ogr'),
-         (b'\0\0\x27\x0a\0\0', 'a Shapefile', 'ogr2ogr'), (b'SQLite format 3\0', 'an SQLite database', 'ogr2ogr'), (b'fgb\3fgb\0', 'FlatGeobuf', 'ogr2ogr'),
+         (b'OFF\n3 1 0\n1 2 0\n', 'OFF', 'awk'), (b'# .PCD v.7\nDATA ascii\n1 2 0\n', 'PCD', 'sed'), (b'# a\nmtllib a\nv 1 2 0\n', 'OBJ', 'sed'), (b'ncols 3\ncellsize 1\n', 'a grid of ESRI', 'gdal_translate'),
+         (b'DSAA\n', 'a grid of Surfer', 'gdal_translate'), (b'EXP  0 a\n', r'an export of ArcInfo \(E00\)', 'ogr2ogr'), (b'$GNRMC,1,A\n', 'NMEA', 'gpsbabel'),
+         (b'{"locations":[{"latitudeE7":1}]}', 'a timeline of Google', 'jq'), (b'\0\0\x27\x0a\0\0', 'a Shapefile', 'ogr2ogr'), (b'SQLite format 3\0', 'an SQLite database', 'ogr2ogr'), (b'fgb\3fgb\0', 'FlatGeobuf', 'ogr2ogr'),
          (b'[[1,2],[3,4]]', 'JSON', 'jq'), (b'[[0. 1.]\n [2. 3.]]\n', 'an array as NumPy prints it', 'tr -d'),
          (b'  0\nSECTION\n  2\nENTITIES\n', 'DXF', 'ogr2ogr'), (b'0\r\nSECTION\r\n', 'DXF', 'ogr2ogr'), (b'ply\nformat ascii 1.0\n', 'PLY', 'sed'),
          (b'AXXX\nHFDTE010124\n', 'IGC', 'gpsbabel'), (b'<?xml?><TrainingCenterDatabase>', 'TCX', 'gpsbabel'),
@@ -295,11 +342,17 @@ KINDS = [(b'{"type":"FeatureCollection","features":[]}', 'GeoJSON', 'ogr2ogr'), 
 def test_other_formats():
     """What a file is comes from its first bytes, packed or not; the command to type is one."""
     for data, name, make in KINDS:
-        expect(run('delaunay', '-', stdin=data), 1, r'\A\Z', rf'\Adyadel: -: the file is {name}.*; give .*{make}.* \| dyadel delaunay (--columns (X,Y|Longitude,Latitude) )?-$')
+        expect(run('delaunay', '-', stdin=data), 1, r'\A\Z', rf'\Adyadel: -: the file is {name}.*; give .*{make}.* \| dyadel delaunay (--columns (X,Y|Longitude,Latitude|lonE7,latE7) )?-$')
         expect(run('delaunay', '--columns', 'x,y', '-', stdin=data), 1, r'\A\Z', f'the file is {name}')
     for data, name in ((b'{"a":1}', 'JSON; make a table of it, for instance jq'), (b'[{"x":1}]', 'JSON; make a table'), (b'<?xml?><LandXML>', 'LandXML; export'),
                        (b'<?xml?><JOBFile>', 'JobXML'), (b'\x89PNG\r\n', r'a picture \(PNG\)'), (b'\xff\xd8\xff\xe0', 'a picture'), (b'\x89HDF\r\n', 'HDF5'),
                        (b'CDF\1\0', 'NetCDF'), (b'MATLAB 5.0 MAT-file', 'a MAT-file'), (b'\x80\4\x95\0', 'binary'), (b'*110001+01 81..00+01\n', 'GSI'),
+                       (b'110001+01 81..00+01\n', 'GSI'), (b'MATLAB 7.3 MAT-file, a', 'a MAT-file'), (b'AutoCAD Binary DXF\r\n', 'binary DXF'), (b'AC1027\0\1', 'DWG'),
+                       (b'ASTM-E57\1', 'E57'), (b'# .PCD\nDATA binary\n', 'binary PCD'), (b'# vtk DataFile Version 3.0\n', 'VTK'), (b'solid a\nfacet\n', 'STL'),
+                       (b'$MeshFormat\n', 'a mesh of Gmsh'), (b'structure(list(x = 1))', 'code of R'), (b'X\n\0\0\0\3', r'data of R \(RDS'), (b'RDX3\nX\n', r'data of R \(RData'),
+                       (b'$FL2@(#) SPSS', 'data of SPSS'), (b'<stata_dta>', 'data of Stata'), (b'HEADER RECORD*******LIB', 'data of SAS'), (b'%=SNX 2.02', 'SINEX'),
+                       (b'JB,NMX,DT\n', 'a raw file of Carlson'), (b'00NMSC V10\n', 'a DC file of Trimble'), (b'PK\3\4 a.npy', 'an archive of NumPy'),
+                       (b'7z\xbc\xaf\x27', 'packed by 7-Zip'), (b'Rar!\x1a', 'packed by RAR'), (b'\x04"M\x18', 'packed by LZ4'), (b'\xff\xfe\0\0x\0\0\0', 'text in UTF-32'),
                        (b'     3.04           OBSERVATION DATA    M    RINEX VERSION / TYPE\n', 'RINEX')):
         expect(run('delaunay', '-', stdin=data), 1, r'\A\Z', r'\Adyadel: -: the file is ' + name)
         with tempfile.TemporaryDirectory() as folder:
@@ -351,8 +404,15 @@ def test_remedies():
     for cell, remedy in (('?', "--missing '\\?' --skip-missing"), ('n.d.', "--missing 'n.d.'"), ('8 9 30', '47 36 18.3 N'), ('8.1O', 'O is east in German'),
                          ('8.3w', 'N, S, E, W'), ('8d06m10sE', 'N, S, E, W'), ('\u22121.5', "sed 's/\u2212/-/g' FILE"), ('\u20131.5', "sed 's/\u2013/-/g' FILE"),
                          ('1 +/- 0.1', r"sed 's\|\+/-\|\+-\|g' FILE"), ('"(48.1, 11.5)"', 'two coordinates'), ('48.1 11.5', 'two coordinates'), ('1.234(5)', r'1\.234\+-0\.005'),
-                         ('0.1D+01', r'sed -E .*\[Dd\]'), ('32UPU9100034289', 'GeoConvert'), ("'5'", r"""tr "'" '"' < FILE""")):
+                         ('0.1D+01', r'sed -E .*\[Dd\]'), ('32UPU9100034289', 'GeoConvert'), ("'5'", r"""tr "'" '"' < FILE"""), ('5%', "tr -d '%\\$'"), ('$5', 'no such sign'), ('\u20ac5', 'no such sign'), ('~5', 'all its values'),
+                         ('<0.5', 'all its values'), ('\u22645', 'all its values'), ('5\' 6"', 'feet and inches'), ('12\'', 'feet and inches'), ('5 1/2', 'sums of such numbers'), ('5-', 'belongs in front'),
+                         ('5f', 'end with a digit'), ('7L', 'end with a digit'), ('1+2i', 'complex'), ('(1-2j)', 'complex'), ('\uff11', 'not 0 to 9'), ('\u0661\u066b\u0665', 'not 0 to 9'), ('\u0967', 'not 0 to 9'),
+                         ('\xa05', 'not seen'), ('5\u200b', 'not seen'), ('\x0b5', 'not seen'), ('1\xb75', 'a plain one'), ('1\u22c55', 'a plain one'), ('1.5\xd710', 'as in 1.5e3'), ('1.5x10^3', 'as in 1.5e3'),
+                         ('1.5*^3', 'as in 1.5e3'), ('1.5`', 'Mathematica'), ('****', 'did not fit'), ('=A1', 'formula'), ('<Point>', 'XML'), ('{5}', "tr -d '{}'"), ("'5", 'apostrophe'), ('10T 550200 5272748', 'code of a place'),
+                         ('TQ 300 775', 'code of a place'), ('849VCWC8+R9', 'code of a place'), ('c23nb62w', 'code of a place'), ('8928308280fffff', 'code of a place'), ('CN87uo', 'code of a place')):
         expect(run('delaunay', '--columns', 'x,y', '-', stdin=f'x,y\n1,2\n{cell},7\n'), 1, r'\A\Z', f'-:3:.*{remedy}')
+    for cell, remedy in (('<0.5', 'as the largest value'), ('5%', 'no such sign'), ('\xb10.5', 'as the largest value'), ('5"', 'feet and inches'), ('low', 'give one such as')):
+        expect(run('delaunay', '--columns', 'x,y', '--radius-column', 'r', '-', stdin=f'x,y,r\n1,2,{cell}\n'), 1, r'\A\Z', f'-:2:5: the radius is not .*{remedy}')
     expect(run('delaunay', '--columns', 'g', '-', stdin='g\n'), 2, r'\A\Z', 'its name twice')
 
 
@@ -363,10 +423,10 @@ def test_names_of_radii():
 
     for name, said in (('HRMS', '--sigma-column HRMS --confidence 95%'), ('Sigma_XY', 'standard deviations'), ('sd', '--sigma-column sd '),
                        ('CE90', '--sigma-column CE90 --radius-scale 0.466 --confidence 95%'), ('HDOP', 'factors'), ('s [mm]', '--radius-scale 0.001'),
-                       ('acc(cm)', '--radius-scale 0.01'), ('err_ft', '--radius-scale 0.3048'), ('Lateral RMS', "--sigma-column 'Lateral RMS' --confidence 95%")):
+                       ('acc(cm)', '--radius-scale 0.01'), ('r_in', '--radius-scale 0.0254'), ('err_ft', '--radius-scale 0.3048'), ('Lateral RMS', "--sigma-column 'Lateral RMS' --confidence 95%")):
         assert said in note(name), (name, note(name))
         assert not note(name, '--radius-scale', '0.5')
-    for name in ('acc', 'radius', 'used', 's [m]', 'summit', 'wisdom', 'st'):
+    for name in ('acc', 'radius', 'used', 'error in m', 'r_inner', 's [m]', 'summit', 'wisdom', 'st'):
         assert not note(name), (name, note(name))
     for name, said in (('s [mm]', '--radius-scale 0.001'), ('sd', '')):
         found = run('delaunay', '--columns', 'x,y', '--sigma-column', name, '--confidence', '95%', '-', stdin=f'x,y,{name}\n1,2,1\n5,3,1\n2,9,1\n').err
@@ -375,7 +435,7 @@ def test_names_of_radii():
 
 def test_typed_remedies():
     """What a message gives to type makes a file that is read."""
-    for text, command in (('0.1D+01 2\n4D0 1\n2 6\n', r"sed -E 's/([0-9.])[Dd]([-+0-9])/\1e\2/g'"), ('(1, 2)\n(4, 1)\n(2, 6)\n', "tr -d '()[]'"),
+    for text, command in (('0.1D+01 2\n4D0 1\n2 6\n', r"sed -E 's/([0-9.])[Dd]([-+0-9])/\1e\2/g'"), 
                           ('1 2\n4 1\n2 6\n\0\0', r"tr -d '\000'"), ('[[1. 2.]\n [4. 1.]\n [2. 6.]]\n', "tr -d '[]'"),
                           ('NAME : a\nNODE_COORD_SECTION\n 1 1 2\n2 4 1\n3 2 6\nEOF\n', r"sed -nE 's/^ *[0-9]+ +([^ ]+ +[^ ]+) *$/\1/p'"),
                           ('1 2\n4 1\r2 6\n', r"tr '\r' '\n'")):
@@ -383,6 +443,44 @@ def test_typed_remedies():
         assert told.code == 1 and (command in told.err or '\r' in text), (command, told)
         made = subprocess.run(['sh', '-c', command], input=text.encode(), stdout=subprocess.PIPE, check=True).stdout
         expect(run('delaunay', '-', stdin=made), 0, re.escape(THREE), r'\A\Z')
+
+
+# Options and text of 1 2, 4.5 1, 2 6: the message has a command of which FILE is the input, up to its name.
+REWRITTEN = [
+    ('', '(1, 2)\n(4.5, 1)\n(2, 6)\n'), ('', '[(1, 2), (4.5, 1), (2, 6)]\n'), ('', 'P = [1 2; 4.5 1; 2 6];\n'), ('', 'P = [\n1 2\n4.5 1\n2 6\n];\n'), ('', '{{1,2},{4.5,1},{2,6}}\n'),
+    ('', '(1,2) (4.5,1) (2,6)\n'), ('', '{1, 2},\n{4.5, 1},\n{2, 6},\n'), ('', '1 & 2 \\\\\n4.5 & 1 \\\\\n2 & 6 \\\\ \\hline\n'), ('', '> a\n1 2\n4.5 1\n> b\n2 6\n'), ('', '1\xa02\n4.5\xa01\n2\xa06\n'),
+    ('xy', 'x,y\n1\' 0",2\'\n4\' 6",1\'-0"\n2\',6\'\n'), ('xy', 'x,y\n"1\' 0""",2\'\n"4\'6""",1\'\n2\',6\'\n'), ('xy', 'x;y\n1;2\n4 1/2;1\n2;6\n'), ('xy', 'x,y\n1f,2.f\n4.5F,1f\n2L,6L\n'),
+    ('xy', 'x,y\n\uff11,\uff12\n\uff14\uff0e\uff15,1\n2,6\n'), ('xy', 'x,y\n\u0661,\u0662\n\u0664\u066b\u0665,1\n2,6\n'), ('xy', 'x,y\n\xa01,2\u200b\n\u200e4.5,1\x0b\n2,\ufeff6\x0c\n'),
+    ('xy', 'x,y\n1\xb70,2\n4\xb75,1\n2,6\n'), ('xy', 'x,y\n1`,2`15.2\n4.5`3,1\n2,6\n'), ('xy', "x,y\n'1,2\n4.5,1\n2,6\n"), ('xy', 'x,y\n{1},{2}\n{4.5},{1}\n{2},{6}\n'), ('xy', 'x;y\n$1;$2\n$4.5;$1\n2;6\n'),
+]
+
+
+def test_rewritten():
+    for options, text in REWRITTEN:
+        options = ['--columns', 'x,y'] if options else []
+        told = run('delaunay', *options, '-', stdin=text)
+        command = re.search(r"((LC_ALL=C )?(sed|tr|grep|python3) .*?) (< )?FILE", told.err)
+        assert told.code == 1 and command, (text, told)
+        made = subprocess.run(['sh', '-c', command[1]], input=text.encode(), stdout=subprocess.PIPE, check=True).stdout
+        got = read_exact(made.decode().splitlines(), *options)
+        assert [[p[0], p[2]] for p in got.values()] == [[1, 2], [4.5, 1], [2, 6]], (text, command[1], made)
+    for text, want in (('x,y\n1-,2.5-\n', [-1, -2.5]), ("x,y\n-5' 6\",-1'\n", [-5.5, -1])):
+        told = run('delaunay', '--columns', 'x,y', '-', stdin=text)
+        command = re.search(r"(sed .*) FILE", told.err)[1]
+        made = subprocess.run(['sh', '-c', command], input=text.encode(), stdout=subprocess.PIPE, check=True).stdout
+        got = read_exact(made.decode().splitlines(), '--columns', 'x,y')[0]
+        assert [got[0], got[2]] == want, (made, got)
+
+
+def test_e7():
+    """Columns called E7 are integers of 1e-7 degrees, on the sphere and in the plane, however small."""
+    text = 'latE7,lonE7\n476101234,-1223301234\n-5,+7\n0,1700000000\n'
+    want = [[Fraction(-1223301234, 10**7), Fraction(476101234, 10**7)], [Fraction(7, 10**7), Fraction(-5, 10**7)], [170, 0]]
+    for options in ([], ['--sphere']):
+        got = read_exact(text.splitlines(), '--columns', 'lonE7,latE7', *options)
+        assert all(p[0] <= w[0] <= p[1] and p[2] <= w[1] <= p[3] and p[1] - p[0] < Fraction(1, 2**40) for p, w in zip(got.values(), want)), got
+    result = run('delaunay', '--columns', 'longitudeE7,latitudeE7', '--skip-missing', '-', stdin='latitudeE7,longitudeE7\n1,2\n,3\n5,NA\n')
+    expect(result, 0, '', '2 of 3 rows are skipped')
 
 
 def test_zones():

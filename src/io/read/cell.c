@@ -14,6 +14,7 @@
 #include "io/read/csv.h"
 #include "sphere/units.h"
 
+#include <regex.h>
 #include <string.h>
 
 /* ---- options ---- */
@@ -59,7 +60,8 @@ static bool is_the_missing(const char *missing, const dyd_span *s) {
 }
 
 bool dyd_cell_is_missing(const dyd_style *style, const dyd_span *s) {
-  static const char *const words[] = {"na", "n/a", "nan", "null", "none", "-", "\\n"};
+  static const char *const words[] = {"na",   "n/a",      "nan",       "null",   "none",    "-",       "\\n",
+                                      "<na>", "nan(ind)", "-nan(ind)", "1.#ind", "-1.#ind", "1.#qnan", "-1.#qnan"};
   if (!s->length || (style->o->missing && is_the_missing(style->o->missing, s))) return true;
   if (s->text[s->length - 1] >= '0' && s->text[s->length - 1] <= '9') return false;
   size_t sign = *s->text == '-' || *s->text == '+';
@@ -208,6 +210,12 @@ static bool has_no_digit(const dyd_span *s) {
   return true;
 }
 
+static bool has_no_letter(const dyd_span *s) {
+  for (size_t k = 0; k < s->length; k++)
+    if ((s->text[k] | 0x20) >= 'a' && (s->text[k] | 0x20) <= 'z') return false;
+  return true;
+}
+
 /* How many of the characters at from, up to the end of the cell, are in the set. */
 static size_t cell_span(const dyd_span *s, size_t from, const char *set) {
   size_t n = 0, most = strlen(set);
@@ -223,67 +231,135 @@ static size_t number_length(const dyd_span *s, size_t from) {
   return n;
 }
 
-/* Two decimals with points, in brackets or not. */
-static bool holds_pair(const dyd_span *s) {
-  const bool inside = s->length > 2 && *s->text == '(' && s->text[s->length - 1] == ')';
-  const size_t x = number_length(s, inside), gap = cell_span(s, inside + x, " ,;"),
-               y = number_length(s, inside + x + gap);
-  if (!x || !gap || !y || 2 * inside + x + gap + y != s->length) return false;
-  return inside || (memchr(s->text, '.', x) && memchr(s->text + x + gap, '.', y));
-}
-
-/* 1.234(5) */
-static bool is_concise(const dyd_span *s) {
-  const size_t n = number_length(s, 0), digits = cell_span(s, n + 1, "0123456789");
-  return n && digits && s->text[n] == '(' && n + digits + 2 == s->length && s->text[s->length - 1] == ')';
-}
-
-/* 0.1D+01 */
-static bool is_fortran(const dyd_span *s) {
-  const size_t n = number_length(s, 0);
-  return n && n + 1 < s->length && (s->text[n] | 0x20) == 'd' && n + 1 + number_length(s, n + 1) == s->length;
-}
-
-/* 32UPU9100034289 */
-static bool is_grid_reference(const dyd_span *s) {
-  const size_t zone = cell_span(s, 0, "0123456789"), letters = cell_span(s, zone, "ABCDEFGHJKLMNPQRSTUVWXYZ"),
-               digits = cell_span(s, zone + letters, "0123456789");
-  return (zone == 1 || zone == 2) && letters == 3 && digits && digits % 2 == 0 && zone + letters + digits == s->length;
-}
-
-bool dyd_cell_is_difference(const dyd_span *s) {
+/* Decimals between minus signs, or three between slashes. */
+static bool is_difference(const dyd_span *s) {
   const size_t first = s->length && (*s->text == '-' || *s->text == '+');
   size_t at = first, parts = 0, n;
-  const char between = memchr(s->text, '/', s->length) ? '/' : '-';
-  for (; (n = cell_span(s, at, "0123456789.")); at += n + 1, parts++)
-    if (at + n < s->length && s->text[at + n] != between) return false;
-  return at == s->length + 1 && parts > 1 + (between == '/');
+  bool minus = false;
+  for (; (n = cell_span(s, at, "0123456789.")); at += n + 1, parts++) {
+    if (at + n < s->length && !memchr("-/", s->text[at + n], 2)) return false;
+    minus = minus || (at + n < s->length && s->text[at + n] == '-');
+  }
+  return at == s->length + 1 && parts > (minus ? 1 : 2);
 }
 
-static bool is_quoted(const dyd_span *s) {
-  return s->length > 2 && *s->text == '\'' && s->text[s->length - 1] == '\'';
+/* 1.5+103 */
+static bool is_wide_exponent(const dyd_span *s) {
+  const size_t n = s->length < 5 ? 0 : s->length - 4;
+  return n && s->text[n] == '+' && memchr(s->text, '.', n) && number_length(s, 0) == n &&
+         cell_span(s, n + 1, "0123456789") == 3;
 }
 
-/* Ways to write numbers that are not read: a text that the cell holds, or a test of the cell; what to do. */
+const char *dyd_cell_doubt(const dyd_span *s) {
+  if (s->length > 2 && *s->text == '(' && number_length(s, 1) == s->length - 2 && s->text[s->length - 1] == ')')
+    return "a number in brackets may be one below 0; write it without brackets, and with a minus if that is meant";
+  if (is_wide_exponent(s)) return "Fortran writes 1.5e103 as 1.5+103; write the e, or brackets around a sum";
+  return is_difference(s) ? "this is a date, a range or a mixed number; write a range as [1.2,1.4], 5 1/2 as (5+1/2), "
+                            "and put a difference or quotient that is meant into brackets"
+                          : NULL;
+}
+
+static bool has_foreign_digit(const char *text) {
+  static const struct script {
+    const char *lead;
+    int first;
+  } scripts[] = {{"\xEF\xBC", 0x90}, {"\xD9", 0xA0}, {"\xDB", 0xB0}, {"\xE0\xA5", 0xA6}, {"\xE0\xA7", 0xA6}};
+  for (size_t k = 0; k < sizeof scripts / sizeof *scripts; k++) {
+    const char *at = strstr(text, scripts[k].lead);
+    const int behind = at ? (unsigned char)at[strlen(scripts[k].lead)] - scripts[k].first : -1;
+    if (behind >= 0 && behind < 10) return true;
+  }
+  return false;
+}
+
+/* Characters of no width, blanks that do not break, and others below the blank. */
+static bool is_invisible(const char *text) {
+  static const char *const marks[] = {"\xC2\xA0",     "\xE2\x80\xAF", "\xE2\x80\x8B", "\xE2\x80\x8E",
+                                      "\xE2\x80\x8F", "\xE2\x81\xA0", "\xEF\xBB\xBF"};
+  for (const char *at = text; *at; at++)
+    if ((unsigned char)*at < ' ') return true;
+  for (size_t k = 0; k < sizeof marks / sizeof *marks; k++)
+    if (strstr(text, marks[k])) return true;
+  return false;
+}
+
+#define NUMBER "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?"
+#define POINTED "[-+]?[0-9]*\\.[0-9]*"
+
+/* Ways to write numbers that are not read: a pattern (extended, POSIX) that the cell holds, or a test of it; what to
+ * do. The first that fits counts. */
 static const struct habit {
-  const char *holds;
-  bool (*is)(const dyd_span *s);
+  const char *pattern;
+  bool (*is)(const char *text);
   const char *remedy;
 } habits[] = {
     {"\xE2\x88\x92", NULL,
      "; this minus is a character of its own: sed 's/\xE2\x88\x92/-/g' FILE makes it a plain one"},
     {"\xE2\x80\x93", NULL, "; this is a dash, not a minus: sed 's/\xE2\x80\x93/-/g' FILE makes it one"},
-    {"+/-", NULL, "; a radius follows +-, as in 1.25+-0.01: sed 's|+/-|+-|g' FILE"},
-    {NULL, holds_pair, "; this cell holds two coordinates; give each a column of its own"},
-    {NULL, is_concise, "; if the digits in brackets are the error of the last ones, write it as in 1.234+-0.005"},
-    {NULL, is_fortran, "; exponents begin with e, not D: sed -E 's/([0-9.])[Dd]([-+0-9])/\\1e\\2/g' FILE"},
-    {NULL, is_grid_reference, "; this is a grid reference (MGRS); make degrees of it, by GeoConvert of geographiclib"},
-    {NULL, is_quoted, "; fields are quoted by \", not by ': tr \"'\" '\"' < FILE"},
+    {"\\+/-", NULL, "; a radius follows +-, as in 1.25+-0.01: sed 's|+/-|+-|g' FILE"},
+    {"^(\\(" NUMBER "[ ,;]+" NUMBER "\\)|" POINTED "[ ,;]+" POINTED ")$", NULL,
+     "; this cell holds two coordinates; give each a column of its own"},
+    {"^" NUMBER "\\([0-9]+\\)$", NULL,
+     "; if the digits in brackets are the error of the last ones, write it as in 1.234+-0.005"},
+    {"^" NUMBER "[dD]" NUMBER "$", NULL,
+     "; exponents begin with e, not D: sed -E 's/([0-9.])[Dd]([-+0-9])/\\1e\\2/g' FILE"},
+    {"^'.+'$", NULL, "; fields are quoted by \", not by ': tr \"'\" '\"' < FILE"},
+    {"^[-+]?[0-9.]+('[-0-9 ./\"]*|\")$", NULL,
+     "; if these are feet and inches: sed -E \"s/([0-9.]+)' *-?([0-9.]+)\\\"{1,2}/(\\1+\\2\\/12)/g; "
+     "s/([0-9.]+)'/\\1/g\" "
+     "FILE "
+     "makes feet of them"},
+    {"^[-+]?[0-9]+ +[0-9]+/[0-9]+$", NULL,
+     "; sed -E 's,([0-9]+) +([0-9]+/[0-9]+),(\\1+\\2),g' FILE makes sums of such numbers"},
+    {"^" NUMBER "-$", NULL, "; the minus belongs in front: sed -E 's/([0-9.]+)-([,;|\\t ]|$)/-\\1\\2/g' FILE"},
+    {"^" NUMBER "[fFlL]$", NULL, "; numbers end with a digit: sed -E 's/([0-9.])[fFlL]([,;|\\t ]|$)/\\1\\2/g' FILE"},
+    {"^\\(?" NUMBER "[-+][0-9.]+[ijIJ]\\)?$", NULL,
+     "; this is a complex number: give its two parts as two coordinates"},
+    {NULL, has_foreign_digit,
+     "; these digits are not 0 to 9: python3 -c 'import sys, unicodedata as u; sys.stdout.write(\"\".join(str(int(c)) "
+     "if "
+     "c.isdecimal() else c for c in u.normalize(\"NFKC\", sys.stdin.read()).replace(chr(0x66b), \".\")))' < FILE"},
+    {NULL, is_invisible,
+     "; it holds a character that is not seen: LC_ALL=C sed "
+     "'s/\\xC2\\xA0\\|\\xE2\\x80[\\x8B-\\x8F\\xAF]\\|\\xE2\\x81\\xA0\\|\\xEF\\xBB\\xBF\\|[\\x0B\\x0C]//g' FILE removes "
+     "such"},
+    {"\xC2\xB7", NULL, "; this point is a character of its own: sed 's/\xC2\xB7/./g' FILE makes it a plain one"},
+    {"\xE2\x8B\x85", NULL,
+     "; this point is a character of its own: sed 's/\xE2\x8B\x85/./g' FILE makes it a plain one"},
+    {"^(~|<[^a-zA-Z/!?]|>|\xE2\x89\x88|\xE2\x89\xA4|\xE2\x89\xA5|\xC2\xB1)", NULL,
+     "; write a bound or an estimate as the interval of all its values, such as [0,0.5]; a radius as the largest "
+     "value"},
+    {"[$%]|\xE2\x82\xAC|\xC2\xA3", NULL, "; numbers have no such sign: tr -d '%$' < FILE"},
+    {"[0-9.] ?(x ?10|\xC3\x97|\\*\\^)", NULL, "; powers of ten are written with e, as in 1.5e3"},
+    {"[0-9.]`", NULL, "; sed -E 's/`[0-9.]*//g' FILE removes the precision that Mathematica writes"},
+    {"^\\*+$", NULL, "; the number did not fit its field; write the file with wider fields"},
+    {"^=", NULL, "; this is a formula of a spreadsheet; save the values"},
+    {"^<[a-zA-Z]", NULL, "; this cell holds XML; make columns of its coordinates"},
+    {"^\\{.*\\}$", NULL, "; brackets do not belong to numbers: tr -d '{}' < FILE"},
+    {"^'[-+0-9.]", NULL, "; an apostrophe marks text in spreadsheets: tr -d \"'\" < FILE"},
+    {"^(([0-9]{1,2}[A-Z] ?)?[A-Z]{2}( ?[0-9]){2,10}|[0-9]{1,2}[A-Z]( [0-9.]+){2}|[A-R]{2}[0-9]{2}[A-Xa-x]{2}|"
+     "[2-9C-X]{4,8}\\+[2-9C-X]{2,3}|([0-9]+[b-z]|[b-z]+[0-9])[0-9b-z]{4,10}|8[0-9a-f]{14})$",
+     NULL,
+     "; if this is the code of a place (MGRS or UTM, a national grid, geohash, Plus Code, H3), make degrees of it; "
+     "GeoConvert of geographiclib does of MGRS, UTM and geohashes"},
 };
 
-static const char *habit_remedy(const dyd_span *s) {
+/* Returns true if the text, of less than 80 bytes, has the pattern. */
+static bool fits_pattern(const char *text, const char *pattern) {
+  regex_t r;
+  if (regcomp(&r, pattern, REG_EXTENDED | REG_NOSUB) != 0) return false;
+  const bool fits = regexec(&r, text, 0, NULL, 0) == 0;
+  regfree(&r);
+  return fits;
+}
+
+const char *dyd_cell_remedy(const dyd_span *s) {
+  char text[80];
+  if (!s->length || s->length >= sizeof text) return NULL;
+  memcpy(text, s->text, s->length);
+  text[s->length] = 0;
   for (const struct habit *h = habits; h < habits + sizeof habits / sizeof *habits; h++)
-    if (h->is ? h->is(s) : memmem(s->text, s->length, h->holds, strlen(h->holds)) != NULL) return h->remedy;
+    if (h->is ? h->is(text) : fits_pattern(text, h->pattern)) return h->remedy;
   return NULL;
 }
 
@@ -301,16 +377,16 @@ dyd_status dyd_cell_hint(dyd_status st, const dyd_style *style, const dyd_span *
   char *out = err->message + length;
   const dyd_read_options *o = style->o;
   const dyd_span written = {.text = o->decimal_comma ? s->at : s->text, .length = s->length};
-  const char *remedy = st == DYD_E_PARSE ? habit_remedy(&written) : NULL;
+  const char *remedy = st == DYD_E_PARSE ? dyd_cell_remedy(&written) : NULL;
+  for (const char *mark = ",. '"; *mark && st == DYD_E_PARSE && o->columns && !style->thousands; mark++)
+    if (hint_groups(out, size, &written, *mark)) return st;
   if (remedy) snprintf(out, size, "%s", remedy);
   if (remedy || st != DYD_E_PARSE || !s->length || has_brackets(s)) return st;
-  for (const char *mark = ",. '"; *mark && o->columns && !style->thousands; mark++)
-    if (hint_groups(out, size, &written, *mark)) return st;
   if (!o->decimal_comma && memchr(s->text, ',', s->length))
     snprintf(out, size, "; where commas are decimal points, give `decimal_comma`");
   else if (dyd_cell_number(s))
     snprintf(out, size, "; coordinates are numbers without a unit: give %.*s", (int)dyd_cell_number(s), s->text);
-  else if (first && o->columns && has_no_digit(s) && !strstr(err->message, "infinite"))
+  else if (first && o->columns && has_no_digit(s) && !has_no_letter(s) && !strstr(err->message, "infinite"))
     snprintf(out, size,
              o->no_header ? "; if this line names the columns, remove `no_header`"
                           : "; if this line holds units, give `units_row`");

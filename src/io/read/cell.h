@@ -30,8 +30,12 @@ dyd_status dyd_style_settle(const dyd_style *style, dyd_error *err);
 /* Appends to the message, after the failure st at a cell, how people may mean it and what to give then; returns st.
  * first: the cell is in the first row of a table. */
 dyd_status dyd_cell_hint(dyd_status st, const dyd_style *style, const dyd_span *cell, bool first, dyd_error *err);
-/* Returns true for 2024-01-02, 1.2-1.4 and 1/2/2024: decimals between minus signs, or three between slashes. */
-bool dyd_cell_is_difference(const dyd_span *cell);
+/* Returns what a cell that is an expression may mean besides, and what to write instead, where people write such for
+ * something else: 2024-01-02, 1.2-1.4, 1/2/2024, 5-1/2, (1.5), 1.5+103; NULL for others. Static storage. */
+const char *dyd_cell_doubt(const dyd_span *cell);
+/* Returns what to do about a cell that is no number: "; " and a sentence; NULL where that is not known. Static storage.
+ */
+const char *dyd_cell_remedy(const dyd_span *cell);
 /* Returns the length of the number in "0.02 m", and 0 if the cell is not a number and a unit. */
 size_t dyd_cell_number(const dyd_span *cell);
 

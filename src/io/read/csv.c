@@ -239,90 +239,6 @@ static bool all_numbered(const dyd_csv *csv) {
   return true;
 }
 
-/* Words that the names of coordinates hold: anywhere in a name, at its begin, or as its last part (stop_lat, gpsLon).
- */
-typedef struct axis_words {
-  const char *any, *begin[2], *last[3];
-} axis_words;
-
-static const axis_words latitude = {"latitude", {"lat", "lat"}, {"lat", "lat", "lat"}},
-                        longitude = {"longitude", {"lon", "lng"}, {"lon", "lng", "long"}},
-                        northing = {"northing", {"northing", "hochwert"}, {"north", "nord", "norte"}},
-                        easting = {"easting", {"easting", "rechtswert"}, {"east", "est", "este"}};
-
-/* The word is at place k of the field, in any case. */
-static bool has_word(const dyd_span *f, size_t k, const char *word) {
-  for (; *word && k < f->length && lower_letter(f->text[k]) == *word; k++) word++;
-  return !*word;
-}
-
-/* A part of a name begins where a capital follows a small letter, or after a character that is not a letter. */
-static bool ends_with_part(const dyd_span *f, const char *word) {
-  size_t n = strlen(word);
-  if (n > f->length || !has_word(f, f->length - n, word)) return false;
-  if (n == f->length) return true;
-  char before = f->text[f->length - n - 1], first = f->text[f->length - n];
-  bool letter = lower_letter(before) >= 'a' && lower_letter(before) <= 'z';
-  return !letter || (lower_letter(before) == before && lower_letter(first) != first);
-}
-
-/* X, POINT_X, XCOORD, "X [m]", X-Koordinate */
-static bool is_axis(const dyd_span *f, const char *x) {
-  const char next = f->length > 1 && has_word(f, 0, x) ? lower_letter(f->text[1]) : 'a';
-  return ends_with_part(f, x) || next < 'a' || next > 'z' || (has_word(f, 0, x) && has_word(f, 1, "coord"));
-}
-
-static bool is_called(const dyd_csv *csv, int role, const axis_words *w) {
-  const dyd_span *f = &csv->field[csv->column[role]];
-  for (size_t k = 0; k < f->length; k++)
-    if (has_word(f, k, w->any)) return true;
-  return has_word(f, 0, w->begin[0]) || has_word(f, 0, w->begin[1]) || ends_with_part(f, w->last[0]) ||
-         ends_with_part(f, w->last[1]) || ends_with_part(f, w->last[2]);
-}
-
-static const char plain_letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.,";
-
-/* A name as `columns` takes it, at most 60 bytes of it. */
-static void put_name(char *out, size_t *used, const dyd_span *name) {
-  size_t length = name->length < 60 ? name->length : 60;
-  bool quoted = memchr(name->text, ',', length);
-  if (quoted) out[(*used)++] = '"';
-  memcpy(out + *used, name->text, length);
-  *used += length;
-  if (quoted) out[(*used)++] = '"';
-}
-
-/* Two of them, quoted for a shell where that is needed. */
-static void put_names(char out[160], const dyd_span *x, const dyd_span *y) {
-  size_t used = 1;
-  put_name(out, &used, x);
-  out[used++] = ',';
-  put_name(out, &used, y);
-  out[0] = '\'';
-  out[used] = 0;
-  if (out[1 + strspn(out + 1, plain_letters)])
-    strcpy(out + used, "'");
-  else
-    memmove(out, out + 1, used);
-}
-
-/* What the names of the columns say of them. On the sphere, columns in the other order are refused. */
-static dyd_status read_meanings(dyd_csv *csv, bool degrees, dyd_error *err) {
-  const dyd_span *x = &csv->field[csv->column[DYD_CSV_X]], *y = &csv->field[csv->column[DYD_CSV_Y]];
-  bool x_lat = is_called(csv, DYD_CSV_X, &latitude), y_lon = is_called(csv, DYD_CSV_Y, &longitude);
-  for (int role = DYD_CSV_RADIUS_X; role < csv->roles; role++) {
-    const dyd_span *f = csv->want[role].name ? &csv->field[csv->column[role]] : NULL;
-    csv->unit[role] = f ? dyd_unit_of_column(f->text, f->length) : NULL;
-  }
-  csv->degrees = is_called(csv, DYD_CSV_X, &longitude) && is_called(csv, DYD_CSV_Y, &latitude);
-  csv->swapped = (x_lat || is_called(csv, DYD_CSV_X, &northing)) && (y_lon || is_called(csv, DYD_CSV_Y, &easting));
-  if (!csv->swapped || !degrees) return DYD_OK;
-  char names[160];
-  put_names(names, y, x);
-  return dyd_fail(err, DYD_E_ARG,
-                  "by their names the columns are latitude and longitude; longitude comes first: `columns` %s", names);
-}
-
 /* Takes the line for the header, or for the first row. delimiter 0: taken from it. commented: comments precede it. */
 static dyd_status header_take(dyd_csv *csv, const dyd_line *line, char delimiter, bool commented, dyd_error *err) {
   dyd_status st = delimiter ? DYD_OK : find_delimiter(&delimiter, csv, line, err);
@@ -449,13 +365,13 @@ static dyd_status units_read(dyd_csv *csv, dyd_error *err) {
   if (st != DYD_OK || !count) return st;
   if (dyd_plain_scan(&p, field[DYD_CSV_X].text, field[DYD_CSV_X].length))
     return dyd_span_fail(err, &field[DYD_CSV_X], 0, "this row holds numbers, not units; remove `units_row`");
-  for (int role = DYD_CSV_RADIUS_X; role < csv->roles; role++) {
+  for (int role = DYD_CSV_X; role < csv->roles; role++) {
     const dyd_span *f = csv->want[role].name ? &field[role] : NULL;
     const dyd_unit *unit = f ? dyd_unit_find(f->text, f->length) : NULL;
     if (f && !unit) unit = dyd_unit_of_column(f->text, f->length);
     if (unit) csv->unit[role] = unit;
   }
-  return DYD_OK;
+  return dyd_names_agree(&field[DYD_CSV_Y], csv->unit[DYD_CSV_X], csv->unit[DYD_CSV_Y], err);
 }
 
 dyd_status dyd_csv_open(dyd_csv *csv, const char *delimiter, bool degrees, dyd_error *err) {
@@ -468,7 +384,7 @@ dyd_status dyd_csv_open(dyd_csv *csv, const char *delimiter, bool degrees, dyd_e
   csv->fresh = true;
   csv->trails = csv->fields > 1 && !csv->headless && !csv->field[csv->fields - 1].length;
   csv->held = csv->headless && csv->fields;
-  if (st == DYD_OK && !csv->headless) st = read_meanings(csv, degrees, err);
+  if (st == DYD_OK && !csv->headless) st = dyd_names_mean(csv, degrees, err);
   if (st == DYD_OK) st = carry_find(csv, err);
   return st == DYD_OK && csv->units_row ? units_read(csv, err) : st;
 }
@@ -490,13 +406,10 @@ static bool is_header(const dyd_csv *csv) {
 /* Sets the columns of x and y by their names, else (row is not NULL) to the first two that hold numbers in the row
  * behind the header, or twice to one of WKT; false: none of these tells. */
 static bool guess_columns(dyd_csv *csv, const dyd_csv *row) {
-  static const axis_words *const words[2][2] = {{&longitude, &easting}, {&latitude, &northing}};
   size_t *k = csv->column, found = 0;
   dyd_plain p;
   for (int a = DYD_CSV_X; a <= DYD_CSV_Y; a++)
-    for (k[a] = 0; k[a] < csv->fields && !is_called(csv, a, words[a][0]) && !is_called(csv, a, words[a][1]) &&
-                   !is_axis(&csv->field[k[a]], a ? "y" : "x");)
-      k[a]++;
+    for (k[a] = 0; k[a] < csv->fields && !dyd_name_is_axis(&csv->field[k[a]], a);) k[a]++;
   if (k[0] < csv->fields && k[1] < csv->fields && k[0] != k[1]) return true;
   for (size_t f = 0; row && f < csv->fields && f < row->fields && found < 2; f++) {
     const dyd_span *cell = &row->field[f];
@@ -518,7 +431,7 @@ static bool hint_with(dyd_csv *csv, dyd_csv *row, char d, const dyd_line *line, 
   list_names(names, sizeof names, csv);
   const bool guessed = guess_columns(csv, row);
   strcpy(two, "X,Y");
-  if (guessed) put_names(two, &csv->field[csv->column[DYD_CSV_X]], &csv->field[csv->column[DYD_CSV_Y]]);
+  if (guessed) dyd_names_put(two, &csv->field[csv->column[DYD_CSV_X]], &csv->field[csv->column[DYD_CSV_Y]]);
   for (size_t k = 0; k < row->fields && !guessed; k++)
     if ((text->kind = dyd_kind_of_cell(row->field[k].text, row->field[k].length)))
       return dyd_kind_fail(err, text->kind), true;
@@ -674,7 +587,8 @@ static bool leaves_quote_open(bool inside, const char *text, size_t length, char
       text++;
     else if (*text == '"' && (inside || begin))
       inside = !inside;
-    begin = (begin && *text == ' ') || (delimiter ? *text == delimiter : *text && strchr(",;\t|", *text));
+    begin =
+        (begin && (*text == ' ' || *text == '=')) || (delimiter ? *text == delimiter : *text && strchr(",;\t|", *text));
     if (delimiter == ' ' && *text == '\t') begin = true;
   }
   return inside;
@@ -774,6 +688,7 @@ static dyd_status record_quoted_field(dyd_span *field, const char **at, const ch
 static dyd_status record_field(dyd_span *field, const char **at, const char *end, dyd_csv *csv, dyd_error *err) {
   const char *first = *at;
   while (first < end && *first == ' ') first++;
+  if (end - first > 1 && first[0] == '=' && first[1] == '"') first++; /* ="007", text to spreadsheets */
   if (first < end && *first == '"') {
     *at = first;
     return record_quoted_field(field, at, end, csv, err);
@@ -809,10 +724,12 @@ static dyd_status csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err) 
   }
 }
 
-/* Takes off blanks at both ends. */
+/* Takes off blanks at both ends, and what a spreadsheet puts around a text, as in ="007". */
 static void span_trim(dyd_span *s) {
   while (s->length && (*s->text == ' ' || *s->text == '\t')) s->text++, s->at++, s->length--;
   while (s->length && (s->text[s->length - 1] == ' ' || s->text[s->length - 1] == '\t')) s->length--;
+  if (s->length > 2 && s->text[0] == '=' && s->text[1] == '"' && s->text[s->length - 1] == '"')
+    s->text += 2, s->at += 2, s->length -= 3;
 }
 
 /* ---- the next point ---- */
@@ -843,14 +760,19 @@ static bool fields_fit(dyd_csv *csv, bool first) {
 static dyd_status fail_fields(const dyd_csv *csv, bool first, dyd_error *err) {
   const dyd_span *f = csv->field, *last = &f[csv->fields - 1];
   const bool more = csv->fields > csv->columns, named = !csv->headless;
+  const dyd_line line = {f->origin, (size_t)(last->at + last->length - f->origin), f->line};
+  const char other = rows_delimiter(&line);
   char remedy[160];
-  if (memchr(f->origin, '\r', (size_t)(last->at + last->length - f->origin)))
+  if (memchr(line.text, '\r', line.length))
     snprintf(remedy, sizeof remedy, "a CR alone ends a line in it: tr '\\r' '\\n' < FILE ends all lines alike");
   else if (more && first && csv->fields == csv->columns + 1 && named && is_blank(csv->delimiter))
     snprintf(remedy, sizeof remedy,
              "if the first column has no name, as R writes tables, give `skip_lines` %zu `no_header` and numbers to "
              "`columns`",
              f->line - 1);
+  else if (csv->fields == 1 && other != ' ' && other != csv->delimiter)
+    snprintf(remedy, sizeof remedy, "columns are separated by %s here, and by %s before; make all lines alike",
+             delimiter_name(other), delimiter_name(csv->delimiter));
   else if (more)
     snprintf(remedy, sizeof remedy, "quote fields that hold %s%s", delimiter_name(csv->delimiter),
              named ? "" : ", or pass over lines before the table by `skip_lines`");

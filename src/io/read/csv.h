@@ -14,6 +14,7 @@ dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_lin
 /* The places of a geometry in well-known text, one after another; without the place that closes a ring. */
 typedef struct dyd_wkt {
   dyd_span text, first[2]; /* of the ring */
+  dyd_span srid;           /* 4326 in "SRID=4326;" or "EPSG:4326;" in front; length 0: there is none */
   const char *at, *end;
   bool point, rings, inside; /* it is a point; it has rings; the first parenthesis is behind */
 } dyd_wkt;
@@ -37,10 +38,13 @@ typedef struct dyd_csv {
   dyd_text *text; /* borrowed */
   char delimiter;
   dyd_csv_want want[DYD_CSV_MOST];
-  size_t column[DYD_CSV_MOST];        /* where they are, from 0 */
-  int roles;                          /* all that are wanted are smaller */
-  size_t columns;                     /* how many the header has */
-  bool degrees, swapped;              /* x and y are called longitude and latitude; latitude and longitude */
+  size_t column[DYD_CSV_MOST]; /* where they are, from 0 */
+  int roles;                   /* all that are wanted are smaller */
+  size_t columns;              /* how many the header has */
+  bool degrees, swapped;       /* x and y are called longitude and latitude; latitude and longitude */
+  bool e7,
+      minutes; /* theirs are integers of 1e-7 degrees; another column is called as one of theirs, with min for deg */
+  char scaled[2][24];                 /* x and y of the present record, where e7 */
   const dyd_unit *unit[DYD_CSV_MOST]; /* that the columns of radii and standard deviations state; NULL: none */
   bool headless, units_row;           /* set by the caller: no header; a row of units behind it */
   bool decimal_comma;                 /* set by the caller: commas separate columns only where nothing else does */
@@ -77,6 +81,22 @@ void dyd_csv_clear(dyd_csv *csv);
 /* The fields of the next record, blanks around them removed; fields not requested stay as they are. *count is
  * 0 at the end, else above. Borrowed until the next call. */
 dyd_status dyd_csv_next(dyd_span field[DYD_CSV_MOST], size_t *count, dyd_csv *csv, dyd_error *err);
+/* Returns true if a column is called as x, easting or longitude are (axis 0), or y, northing or latitude (1). */
+bool dyd_name_is_axis(const dyd_span *name, int axis);
+/* Writes two names as `columns` takes them, quoted for a shell where that is needed. */
+void dyd_names_put(char out[160], const dyd_span *x, const dyd_span *y);
+/* Sets what the names of the header say of the columns. Fails with DYD_E_ARG where x and y have other units than one
+ * another and, with degrees, where they are in the other order or not in degrees. */
+dyd_status dyd_names_mean(dyd_csv *csv, bool degrees, dyd_error *err);
+/* Fails with DYD_E_ARG, at the cell, where two units are known (not NULL) and differ. */
+dyd_status dyd_names_agree(const dyd_span *cell, const dyd_unit *x, const dyd_unit *y, dyd_error *err);
+/* Makes degrees of x and y of the present record where they are integers of 1e-7 degrees. Fails with DYD_E_PARSE where
+ * the rest of an angle is in another column: W or S, minutes. */
+dyd_status dyd_names_complete(dyd_csv *csv, dyd_span cell[2], dyd_error *err);
+/* The number, from 1, of the column with zones of UTM; 0: there is none. */
+size_t dyd_zone_find(const dyd_csv *csv);
+/* Remembers a zone such as 32, 32U or 32 N where it is the first one, or another. */
+void dyd_zone_see(char seen[2][4], const dyd_span *cell);
 /* Returns true if the text begins with an error value of spreadsheets, such as #N/A. */
 bool dyd_is_sheet_error(const char *text, size_t length);
 /* Where a first line that is no point looks like a header, the message of *err becomes, or gets, the remedy. text: the

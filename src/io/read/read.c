@@ -5,6 +5,7 @@
  * more than once are handled here. Staged points are kept back until the whole file is read, so that bad input adds
  * nothing.
  */
+#define _GNU_SOURCE /* memmem */
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
@@ -65,6 +66,7 @@ typedef struct intake {
   int roles;                 /* numbers that rows have are in columns of smaller roles */
   const dyd_file_kind *kind; /* of a cell that is not a coordinate; NULL: none */
   bool numbers;              /* points have numbers beside their rectangles */
+  char srid[12];             /* of the first geometry that has one; "": none */
   char *label;               /* identifier and carried texts of the present row, a NUL between two */
   size_t label_length, label_cap;
 } intake;
@@ -76,10 +78,12 @@ static dyd_status radius_fail(const intake *in, const dyd_span *span, int role, 
     return dyd_span_fail(err, span, dyd_cell_number(span),
                          "radii in the plane are in the unit of the coordinates: write the number without a unit, or "
                          "convert all by `radius_scale`");
-  char message[160];
+  char message[DYD_MESSAGE_SIZE];
+  const char *remedy = dyd_cell_remedy(span);
   snprintf(message, sizeof message, "the %s is not an exact number >= 0%s", dyd_role_holds(role),
-           in->o->degrees ? " and a unit; give one such as 0.01deg, 30m or 2km"
-                          : "; give one such as 0.01 or 1/64 (units: with `sphere`)");
+           remedy           ? remedy
+           : in->o->degrees ? " and a unit; give one such as 0.01deg, 30m or 2km"
+                            : "; give one such as 0.01 or 1/64 (units: with `sphere`)");
   return dyd_span_fail(err, span, 0, message);
 }
 
@@ -478,11 +482,10 @@ static dyd_status intake_skip(intake *in, const dyd_span *s, int role, dyd_error
 
 static dyd_status intake_coordinate(dyd_coordinate *out, intake *in, int axis, const dyd_span *span, dyd_error *err) {
   dyd_status st = dyd_coordinate_read(out, span, &in->manner[axis], err);
-  if (st == DYD_OK && in->o->columns && out->kind == DYD_COORDINATE_REAL && dyd_cell_is_difference(span)) {
+  const char *doubt = st == DYD_OK && in->o->columns && out->kind == DYD_COORDINATE_REAL ? dyd_cell_doubt(span) : NULL;
+  if (doubt) {
     dyd_coordinate_clear(out);
-    return dyd_span_fail(err, span, 0,
-                         "this is a date or a range; write a range as [1.2,1.4], and put a difference or quotient that "
-                         "is meant into brackets");
+    return dyd_span_fail(err, span, 0, doubt);
   }
   if (st == DYD_OK) return st;
   if (st != DYD_E_NOMEM && in->o->columns && (in->kind = dyd_kind_of_cell(span->text, span->length)))
@@ -656,13 +659,28 @@ static dyd_status hint_table(dyd_status st, const dyd_line *line, dyd_text *text
   const size_t used = strlen(err->message), left = sizeof err->message - used;
   const char first = line->length ? *line->text : ' ';
   char *end = err->message + used;
+  const bool one = strncmp(err->message, "the line has one", 16) == 0;
+  const dyd_file_kind *kind;
   if (st != DYD_E_PARSE || in->report.rows > 1 || in->stage.count) return st;
-  if (!strchr("/;!", first)) dyd_csv_hint(err, line, text);
+  if (!strchr("/;!>", first)) dyd_csv_hint(err, line, text);
   if (strlen(err->message) > used) return st;
   if (strchr("/;!", first))
     snprintf(end, left, "; comments begin with # or %%: pass over the first lines by `skip_lines` N");
-  else if (strchr("([", first) && strncmp(err->message, "the line has one", 16) == 0)
-    snprintf(end, left, "; where a pair is in brackets, remove them: tr -d '()[]' < FILE");
+  else if (first == '>')
+    snprintf(end, left, "; lines that begin with > separate parts in files of GMT: grep -v '^>' FILE");
+  else if (strchr("([{", first) || memmem(line->text, line->length, "= [", 3))
+    snprintf(end, left,
+             "; pairs in brackets: sed -E 's/^[^[({]*=//; s/[])}][ ,;]*[[({]/\\n/g; s/[][(){}]//g; s/;/\\n/g; "
+             "s/[, ]*$//Mg' FILE writes one a line, without them");
+  else if (one && line->length == strspn(line->text, "0123456789"))
+    snprintf(end, left, "; if this is the number of points, pass over it by `skip_lines` 1");
+  else if (one && memmem(line->text, line->length, "\xC2\xA0", 2))
+    snprintf(end, left, "; its blank is one that does not break: sed 's/\xC2\xA0/ /g' FILE makes it a plain one");
+  else if (memchr(line->text, '&', line->length))
+    snprintf(end, left, "; columns of LaTeX: sed 's/&/,/g; s/\\\\.*//' FILE");
+  else if ((kind = dyd_kind_of_cell(line->text, line->length)) && strstr(kind->name, "WKB"))
+    snprintf(end, left,
+             "; this is WKB; give it a header, as a table: sed '1i wkb' FILE, and name its column: `columns` wkb,wkb");
   else if (strncmp(err->message, "more than two", 13) == 0)
     snprintf(end, left,
              "; if this is a table, name two of its columns: `columns` X,Y, with `delimiter` blank where blanks are "
@@ -670,10 +688,25 @@ static dyd_status hint_table(dyd_status st, const dyd_line *line, dyd_text *text
   return st;
 }
 
+/* Coordinates of geometries of several reference systems are not of one plane. */
+static dyd_status geometry_see(intake *in, const dyd_wkt *w, dyd_error *err) {
+  static const char *const degrees[] = {"4326", "4258", "4269", "4979"};
+  const size_t n = w->srid.length;
+  if (!n || n >= sizeof in->srid) return DYD_OK;
+  for (size_t k = 0; k < sizeof degrees / sizeof *degrees; k++)
+    in->report.degrees = in->report.degrees || (n == 4 && memcmp(w->srid.text, degrees[k], n) == 0);
+  if (!in->srid[0]) memcpy(in->srid, w->srid.text, n);
+  if (strlen(in->srid) == n && memcmp(in->srid, w->srid.text, n) == 0) return DYD_OK;
+  char message[120];
+  snprintf(message, sizeof message, "SRID %.*s here, and %s before; transform all to one reference system first",
+           (int)n, w->srid.text, in->srid);
+  return dyd_span_fail(err, &w->text, 0, message);
+}
+
 /* A geometry in a line: its places are points. */
 static dyd_status read_geometry(intake *in, dyd_wkt *w, dyd_error *err) {
   dyd_span place[2], span[DYD_CSV_MOST] = {{0}};
-  dyd_status st = DYD_OK;
+  dyd_status st = geometry_see(in, w, err);
   while (st == DYD_OK && dyd_wkt_next(place, w)) {
     memset(span, 0, sizeof span);
     memcpy(span, place, sizeof place);
@@ -737,28 +770,6 @@ static dyd_status carry_row(intake *in, const dyd_csv *csv, const dyd_span *id, 
   return DYD_OK;
 }
 
-/* The number, from 1, of the column with zones of UTM; 0: there is none. */
-static size_t zone_find(const dyd_csv *csv) {
-  static const char *const names[] = {"zone", "utm_zone", "utm zone", "utmzone", "zona", "fuseau", "huso"};
-  for (size_t k = 0; k < csv->fields && !csv->headless; k++)
-    for (size_t n = 0; n < sizeof names / sizeof *names; n++)
-      if (csv->field[k].length == strlen(names[n]) && dyd_same_name(csv->field[k].text, names[n], strlen(names[n])))
-        return k + 1;
-  return 0;
-}
-
-/* Remembers the zone of the present row, such as 32, 32U or 32 N, where it is the first one, or another. */
-static void zone_see(intake *in, const dyd_span *f) {
-  char zone[4] = "";
-  size_t used = 0;
-  for (size_t k = 0; k < f->length && f->length <= 4; k++)
-    if (f->text[k] != ' ' && used < 3) zone[used++] = f->text[k];
-  const int number = atoi(zone);
-  if (number < 1 || number > 60 || used > strspn(zone, "0123456789") + 1) return;
-  char(*seen)[4] = in->report.zone;
-  if (!seen[0][0] || number != atoi(seen[0])) memcpy(seen[seen[0][0] != 0], zone, sizeof zone);
-}
-
 static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
   dyd_csv csv = {.text = text,
                  .headless = in->o->no_header,
@@ -773,21 +784,24 @@ static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
   for (int role = 0; role < DYD_CSV_MOST && st == DYD_OK; role++)
     if (!in->unit[role]) in->unit[role] = csv.unit[role];
   if (st == DYD_OK && csv.carries) carry_begin(in, &csv);
-  const size_t zone = st == DYD_OK ? zone_find(&csv) : 0;
+  const size_t zone = st == DYD_OK ? dyd_zone_find(&csv) : 0;
   while (st == DYD_OK && count) {
     st = dyd_csv_next(span, &count, &csv, err);
     dyd_wkt geometry;
     if (st == DYD_OK && count && csv.column[DYD_CSV_X] == csv.column[DYD_CSV_Y] &&
         dyd_wkt_begin(&geometry, &span[DYD_CSV_X])) {
-      if (!geometry.point)
+      st = geometry_see(in, &geometry, err);
+      if (st == DYD_OK && !geometry.point)
         st = dyd_span_fail(err, &span[DYD_CSV_X], 0,
                            "this geometry is not a POINT; take one point of each, such as the "
                            "centroid, or write its vertices as WKT alone, a geometry a line");
-      else if (!dyd_wkt_next(span, &geometry))
+      else if (st == DYD_OK && !dyd_wkt_next(span, &geometry))
         span[DYD_CSV_X].length = span[DYD_CSV_Y].length = 0;
     }
+    if (st == DYD_OK && count && (csv.degrees || csv.e7 || csv.minutes || in->o->degrees))
+      st = dyd_names_complete(&csv, span, err);
     if (st == DYD_OK && count && csv.carries) st = carry_row(in, &csv, &span[DYD_ROLE_ID], err);
-    if (st == DYD_OK && zone && zone <= csv.fields && count) zone_see(in, &csv.field[zone - 1]);
+    if (st == DYD_OK && zone && zone <= csv.fields && count) dyd_zone_see(in->report.zone, &csv.field[zone - 1]);
     if (st == DYD_OK && count) st = intake_row(in, span, err);
   }
   in->report.commented = csv.commented;

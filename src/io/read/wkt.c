@@ -20,7 +20,7 @@ static bool wkt_opens(const char *at, const char *end) {
 static bool wkt_has_word(const char *at, const char *end, const char *word) {
   for (; *word; word++, at++)
     if (at == end || (*word >= 'A' ? *at & ~0x20 : *at) != *word) return false;
-  return at == end || word[-1] == '=' || !((*at & ~0x20) >= 'A' && (*at & ~0x20) <= 'Z');
+  return at == end || word[-1] == '=' || word[-1] == ':' || !((*at & ~0x20) >= 'A' && (*at & ~0x20) <= 'Z');
 }
 
 static bool wkt_is_blank(char c) {
@@ -31,9 +31,12 @@ bool dyd_wkt_begin(dyd_wkt *w, const dyd_span *text) {
   size_t k = 0, count = sizeof words / sizeof *words;
   *w = (dyd_wkt){.text = *text, .at = text->text, .end = text->text + text->length};
   while (w->at < w->end && wkt_is_blank(*w->at)) w->at++;
-  if (wkt_has_word(w->at, w->end, "SRID="))
+  if (wkt_has_word(w->at, w->end, "SRID=") || wkt_has_word(w->at, w->end, "EPSG:")) {
+    w->srid = (dyd_span){.text = w->at + 5};
     while (w->at < w->end && *w->at++ != ';') {
     }
+    w->srid.length = w->at > w->srid.text ? (size_t)(w->at - w->srid.text) - 1 : 0;
+  }
   while (k < count && !wkt_has_word(w->at, w->end, words[k])) k++;
   for (const char *p = w->at; p < w->end && k < count && *p != '('; p++)
     w->rings |= wkt_has_word(p, w->end, "POLYGON") || wkt_has_word(p, w->end, "MULTIPOLYGON");
