@@ -40,6 +40,11 @@ static dyd_status read_place_alias(dyd_checker *c, uint32_t i) {
   return same ? DYD_OK : dyd_cert_reject(&c->in, "it is not seen to be the same place as %u", (unsigned)k);
 }
 
+static dyd_status read_globe_side(dyd_cert_side *out, dyd_checker *c) {
+  dyd_status st = dyd_cert_read_side(out, &c->in);
+  return st == DYD_E_NOMEM ? dyd_fail_nomem(c->in.err) : st;
+}
+
 static dyd_status read_metres(dyd_checker *c, uint32_t i) {
   dyd_exact *metres = &c->globe.metres[i];
   dyd_status st = dyd_cert_read_number(metres, &c->in);
@@ -51,7 +56,7 @@ static dyd_status read_place_line(dyd_checker *c, uint32_t i) {
   dyd_cert_site *site = add_place(&c->globe);
   if (!site) return dyd_fail_nomem(c->in.err);
   dyd_status st = dyd_cert_next_line(&c->in);
-  for (int a = 0; a < 2 && st == DYD_OK; a++) st = dyd_cert_read_side(&site->side[a], &c->in);
+  for (int a = 0; a < 2 && st == DYD_OK; a++) st = read_globe_side(&site->side[a], c);
   if (st == DYD_OK && dyd_cert_line_has_more(&c->in))
     st = c->in.at[0] == '=' ? read_place_alias(c, i) : read_metres(c, i);
   return st == DYD_OK ? dyd_cert_line_done(&c->in) : st;
@@ -83,7 +88,7 @@ static dyd_status read_eye(dyd_checker *c) {
   mpq_init(none);
   dyd_cert_site *at = dyd_cert_sites_add(&one);
   if (!at) st = dyd_fail_nomem(c->in.err);
-  for (int a = 0; a < 2 && st == DYD_OK; a++) st = dyd_cert_read_side(&at->side[a], &c->in);
+  for (int a = 0; a < 2 && st == DYD_OK; a++) st = read_globe_side(&at->side[a], c);
   if (st == DYD_OK &&
       (!dyd_cert_region_set(&g->lens.eye, at->side, none, none) || !dyd_cert_region_is_exact(&g->lens.eye)))
     st = dyd_cert_reject(&c->in, "the eye is no place");
@@ -104,7 +109,7 @@ static dyd_status read_radius(dyd_checker *c) {
   g->ground = k == 2;
   dyd_cert_sites_init(&one);
   dyd_cert_site *at = dyd_cert_sites_add(&one);
-  st = at ? dyd_cert_read_side(&at->side[0], &c->in) : dyd_fail_nomem(c->in.err);
+  st = at ? read_globe_side(&at->side[0], c) : dyd_fail_nomem(c->in.err);
   if (st == DYD_OK && (!at->side[0].point || dyd_exact_sgn(&at->side[0].lo) <= 0))
     st = dyd_cert_reject(&c->in, "this is no radius");
   if (st == DYD_OK) dyd_cert_exact_to_q(g->radius, &at->side[0].lo, dyd_cert_den(&at->side[0]));

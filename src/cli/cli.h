@@ -245,6 +245,8 @@ int cli_points_read(dyd_engine *e, cli_options *o, bool noting);
 int cli_places_read(dyd_engine *e, const cli_options *o);
 /* For reading points as longitude and latitude. */
 void cli_options_degrees(cli_options *o);
+/* Returns true if the number of EPSG is known as that of a system in degrees. */
+bool cli_crs_is_degrees(unsigned epsg);
 /* delaunay.c: what a command with --sphere begins with: points are read as degrees. 0, or CLI_USAGE after a message
  * that --discs is about the plane. */
 int cli_sphere_begin(cli_session *s);

@@ -189,11 +189,22 @@ static void note_eastings(const dyd_engine *e, const cli_options *o) {
         o->file, zone[0], zone[1]);
 }
 
+/* The reference system and the coordinates: degrees both, or neither. */
+static void note_system(const dyd_engine *e, const cli_options *o, const dyd_read_report *r) {
+  if (!o->epsg || o->sphere || !dyd_engine_count(e)) return;
+  const bool known = cli_crs_is_degrees(o->epsg);
+  if (known == points_are_degrees(e) || (!known && !r->degrees)) return;
+  cli_note(o, "%s: EPSG:%u is %s, and the coordinates are %s; give their own reference system to --crs", o->file,
+           o->epsg, known ? "a system of degrees" : "not known as a system of degrees",
+           known ? "beyond 180 or 90" : "longitude and latitude by their names or letters");
+}
+
 void cli_note_points(const dyd_engine *e, const cli_options *o, const dyd_read_report *r) {
   cli_note_lines(o, r);
   if (r->vertices) cli_note(o, "%s: the vertices of lines and polygons are the points: %zu", o->file, r->vertices);
   note_radii(o);
   if (o->read.columns) note_nowhere(e, o, o->sphere || r->degrees);
+  note_system(e, o, r);
   note_minutes(e, o, r);
   note_eastings(e, o);
   if (r->zone[1][0] && !o->sphere)

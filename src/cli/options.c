@@ -538,7 +538,7 @@ static int format_from_output(cli_options *o, const cli_command *c) {
 }
 
 /* Longitude and latitude in degrees: WGS 84, ETRS89, NAD27, NAD83, GDA94, SIRGAS, GDA2020 and others much used. */
-static bool crs_is_degrees(unsigned epsg) {
+bool cli_crs_is_degrees(unsigned epsg) {
   static const unsigned of_degrees[] = {4326, 4979, 4258, 4267, 4269, 4283, 4674, 7844, 4617, 4167, 4490,
                                         6318, 6668, 4612, 4148, 4171, 4277, 4314, 4275, 4265, 4230, 4322};
   size_t k = 0, count = sizeof of_degrees / sizeof *of_degrees;
@@ -550,7 +550,7 @@ static bool crs_is_degrees(unsigned epsg) {
 static int crs_fits(const cli_options *o) {
   static const bool none[] = {
       [DYD_FORMAT_CSV] = true, [DYD_FORMAT_WKT] = true, [DYD_FORMAT_OBJ] = true, [DYD_FORMAT_VTK] = true};
-  if (o->epsg && o->sphere && !crs_is_degrees(o->epsg))
+  if (o->epsg && o->sphere && !cli_crs_is_degrees(o->epsg))
     return cli_usage("with --sphere coordinates are degrees, and EPSG:%u is not known as a system of degrees; give "
                      "--crs EPSG:4326",
                      o->epsg);

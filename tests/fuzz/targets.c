@@ -139,7 +139,9 @@ void fuzz_wkt(const uint8_t *data, size_t size) {
 /* Longitude and latitude, in a table or not, and their images. */
 void fuzz_degrees(const uint8_t *data, size_t size) {
   dyd_read_options o = {DYD_SIZED(dyd_read_options), .degrees = true};
-  if (size % 2) o.columns = "lon,lat", o.radius_columns = size % 3 ? "r" : NULL, o.radius_unit = size % 5 ? "m" : NULL;
+  static const char *const names[] = {"lonE7,latE7", "lon_deg,lat_deg", "lon,lat", "lon,lat", "lon,lat"};
+  if (size % 2)
+    o.columns = names[size % 5], o.radius_columns = size % 3 ? "r" : NULL, o.radius_unit = size % 11 ? "m" : NULL;
   const dyd_sphere_options how = {DYD_SIZED(dyd_sphere_options), .radius = size % 7 ? NULL : "3arcsec"};
   const dyd_engine_options run = small_run();
   dyd_engine *places = NULL;

@@ -163,28 +163,36 @@ dyd_status dyd_names_mean(dyd_csv *csv, bool degrees, dyd_error *err) {
 
 /* ---- cells ---- */
 
-/* Returns true if the cell beside says that the number is below 0: W or S. */
-static bool is_negated(const dyd_csv *csv, int axis, bool behind) {
-  static const char *const words[2][2] = {{"w", "west"}, {"s", "south"}};
-  const size_t k = csv->column[axis];
-  if (behind ? k + 1 >= csv->fields : !k) return false;
-  dyd_span f = csv->field[behind ? k + 1 : k - 1];
-  while (f.length && *f.text == ' ') f.text++, f.length--;
-  while (f.length && f.text[f.length - 1] == ' ') f.length--;
-  for (int n = 0; n < 2; n++)
-    if (f.length == strlen(words[axis][n]) && dyd_same_name(f.text, words[axis][n], f.length)) return true;
-  return false;
+/* Returns true if the cell says that the number beside is below 0: W or S. */
+static bool is_negative(const dyd_span *cell, int axis) {
+  static const char *const words[2] = {"west", "south"};
+  const char *at = cell->text, *end = at + cell->length;
+  while (at < end && *at == ' ') at++;
+  while (at < end && end[-1] == ' ') end--;
+  const size_t n = (size_t)(end - at), word = strlen(words[axis]);
+  return (n == 1 || n == word) && dyd_same_name(at, words[axis], n);
+}
+
+/* Most cells are seen by their first character not to be such. */
+static bool is_negated(const dyd_csv *csv, int axis) {
+  const dyd_span *cell = csv->field + csv->column[axis], *end = csv->field + csv->fields;
+  const char letter = axis ? 's' : 'w';
+  return (cell > csv->field && cell[-1].length && (cell[-1].text[0] == ' ' || (cell[-1].text[0] | 0x20) == letter) &&
+          is_negative(cell - 1, axis)) ||
+         (cell + 1 < end && cell[1].length && (cell[1].text[0] == ' ' || (cell[1].text[0] | 0x20) == letter) &&
+          is_negative(cell + 1, axis));
 }
 
 dyd_status dyd_names_complete(dyd_csv *csv, dyd_span cell[2], dyd_error *err) {
   static const char digits[] = "0123456789";
   for (int a = DYD_CSV_X; a <= DYD_CSV_Y; a++) {
+    const bool negated = is_negated(csv, a);
+    if (!negated && !csv->minutes && !csv->e7) continue;
     const bool sign = cell[a].length && (*cell[a].text == '-' || *cell[a].text == '+');
     size_t n = sign;
     while (n < cell[a].length && memchr(digits, cell[a].text[n], 10)) n++;
     const bool number = n > sign, whole = number && n == cell[a].length;
-    if (number && *cell[a].text != '-' && !is_latin(cell[a].text[cell[a].length - 1]) &&
-        (is_negated(csv, a, true) || is_negated(csv, a, false)))
+    if (negated && number && *cell[a].text != '-' && !is_latin(cell[a].text[cell[a].length - 1]))
       return dyd_span_fail(err, &cell[a], 0,
                            "the letter in the column beside makes this number negative; write both into one cell, as "
                            "122.5W: sed -E 's/([0-9.])([,;|\\t])([NSEWnsew])/\\1\\3\\2/g' FILE");

@@ -31,6 +31,7 @@ bool dyd_wkt_begin(dyd_wkt *w, const dyd_span *text) {
   size_t k = 0, count = sizeof words / sizeof *words;
   *w = (dyd_wkt){.text = *text, .at = text->text, .end = text->text + text->length};
   while (w->at < w->end && wkt_is_blank(*w->at)) w->at++;
+  if (w->at == w->end || *w->at < 'A') return false;
   if (wkt_has_word(w->at, w->end, "SRID=") || wkt_has_word(w->at, w->end, "EPSG:")) {
     w->srid = (dyd_span){.text = w->at + 5};
     while (w->at < w->end && *w->at++ != ';') {
