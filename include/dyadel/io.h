@@ -229,7 +229,9 @@ typedef enum dyd_content {
   DYD_CONTENT_TILES,           /* a partition of the window (dyd_voronoi_tiles): a layer of the diagram */
   DYD_CONTENT_CON,             /* Con of the other rectangles: a layer of the disc, which is circles as csv */
   DYD_CONTENT_HULLS,           /* partial edges and certain partial triangles (dyd_rect_hull), */
-  DYD_CONTENT_EXTERIOR         /* and where certainly no edge is (dyd_delaunay_exterior): layers of the triangulation */
+  DYD_CONTENT_EXTERIOR,        /* and where certainly no edge is (dyd_delaunay_exterior): layers of the triangulation */
+  DYD_CONTENT_PLAN_PAIRS,      /* which pairs each point of a plan decides: a layer of DYD_CONTENT_PLAN */
+  DYD_CONTENT_TRIALS           /* a plan tried on drawn places (dyd_survey_simulate) */
 } dyd_content;
 
 /* How ties are listed beside other pairs. */
@@ -252,8 +254,8 @@ DYD_API bool dyd_format_is_binary(dyd_format format);
 DYD_API const char *dyd_format_name(dyd_format format);
 /* A description without a full stop; NULL as above. Static storage. */
 DYD_API const char *dyd_format_about(dyd_format format);
-/* The layers of DYD_CONTENT_DELAUNAY, _VORONOI, _TOLERANCE, _SPHERE and _SPHERE_VORONOI: the k-th name, the default
- * first, NULL behind the last one; and the content of a name ("points"), false when there is none. Static
+/* The layers of DYD_CONTENT_DELAUNAY, _VORONOI, _TOLERANCE, _PLAN, _SPHERE and _SPHERE_VORONOI: the k-th name, the
+ * default first, NULL behind the last one; and the content of a name ("points"), false when there is none. Static
  * storage. */
 DYD_API const char *dyd_layer_name(dyd_content of, size_t k);
 DYD_API bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *name);
@@ -300,6 +302,9 @@ typedef struct dyd_write_options {
   const dyd_tolerance
       *tolerance; /* tolerances of the result; also for html of the triangulation: with points; NULL: html shows none */
   const dyd_survey *plan;
+  const dyd_survey_trial *trial; /* of a plan, `trials` of them, with the seed for json */
+  size_t trials;
+  uint64_t seed;
   const dyd_convergence *stages; /* for tables of convergence and their plot, of a run */
   const dyd_check_report *report;
   const dyd_rect *const *rect; /* a disc: of the first three, and where the others are; a bisector: of the first */
@@ -375,7 +380,8 @@ DYD_API bool dyd_label_fits(const char *label);
  * circles exactly and enclosed, the box of the partial centre, and Con of the other rectangles. DYD_CONTENT_NEAREST and
  * DYD_CONTENT_PLACES: the points that are possibly, or the one that is certainly nearest, with bounds of their
  * distances. DYD_CONTENT_PLOT: bounds and counts against stages on logarithmic scales. Pictures of tolerances colour
- * edges by the death.
+ * edges by the death; those of plans label points with rank and name, and colour open pairs by the ranks that decide
+ * them.
  *
  * On a sphere, in wkt and geojson, edges are great circles, a place at every 2 degrees at most, cut where they cross
  * the meridian of 180 degrees; of triangles that hold more than half of the sphere the geometry is empty. Cells that

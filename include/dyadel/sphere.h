@@ -114,11 +114,15 @@ DYD_API dyd_status dyd_sphere_distance(double *lo, double *hi, const dyd_sphere 
 /* Which points to measure next, after dyd_sphere_run, as dyd_survey_new: a point of a row has to be within `needed`
  * metres, on the ground, of the middle of its region; `now` is how far it may be from there. accuracy: NULL, or the
  * best possible accuracy of a measurement, a length with its unit ("5m"); of the options pairs, site, cost and cancel
- * count. Planned from one gap, and from another one for pairs around that; `left` counts the pairs that a run on the
- * sphere with these accuracies leaves undecided, whereas `decided` counts the pairs that were planned for together
- * [SPH-7]. DYD_E_ARG for an invalid accuracy. */
+ * count. Planned from one gap, and from another one for pairs around that; each row decides the pairs that the images
+ * show to be decided by it and those before, and `left` are those that a run on the sphere with these accuracies leaves
+ * undecided [SPH-7]. DYD_E_ARG for an invalid accuracy. */
 DYD_API dyd_status dyd_sphere_survey(dyd_survey **out, dyd_sphere *s, const char *accuracy,
                                      const dyd_survey_options *options, dyd_error *err);
+/* dyd_survey_simulate of the plans of dyd_sphere_survey: true places are drawn in the regions, and what lies within
+ * `needed` metres of one replaces its region. Cancelled between plans. */
+DYD_API dyd_status dyd_sphere_simulate(dyd_survey_trial *out, size_t count, uint64_t seed, dyd_sphere *s,
+                                       const char *accuracy, const dyd_survey_options *options, dyd_error *err);
 
 #ifdef __cplusplus
 }

@@ -29,6 +29,7 @@ typedef struct dyd_survey_options {
   const double *accuracies;   /* the same of each site; NULL: `accuracy` counts */
   const double *cost;         /* of measuring each site, above 0; NULL: the same for all */
   const volatile int *cancel; /* as in dyd_delaunay_options */
+  bool discs; /* only pairs that are indeterminate for the discs in the squares of sites (dyd_disc_pairs) */
 } dyd_survey_options;
 
 typedef struct dyd_survey dyd_survey;
@@ -39,8 +40,8 @@ typedef struct dyd_survey dyd_survey;
  * around it [SUR-1]. dyd_survey_get has the number of pairs that
  * stay undecided even so (the accuracy is not enough, or rectangles are fixed by their centres). pd is borrowed for the
  * call; options may be NULL. Returns DYD_OK; DYD_E_ARG; DYD_CAPPED when pd is; DYD_E_NOMEM: *out is NULL then.
- * DYD_CANCELLED: *out has the rows that were chosen by then, with their effect, see dyd_survey_result, and err names
- * the undecided pairs; or it is NULL, before any pair was examined. Cost: for a face of m sites at most m^2
+ * DYD_CANCELLED: *out has the rows that were chosen by then, if any, with their effect, see dyd_survey_result, and err
+ * names the undecided pairs. Cost: for a face of m sites at most m^2
  * triangulations of m sites, m <= 8; in larger ones some work near each row; some triangulations of all.
  * These use as many threads as the last call of pd. */
 DYD_API dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_survey_options *options,
@@ -48,6 +49,28 @@ DYD_API dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, cons
 DYD_API void dyd_survey_free(dyd_survey *s);
 /* In the order to measure them, the most telling first. Borrowed until s is freed. */
 DYD_API size_t dyd_survey_rows(const dyd_survey_row **row, const dyd_survey *s);
+/* A pair asked for (i < j), but for ties at the nominal places, and the number of the row, from 0, after which it is
+ * decided; SIZE_MAX: the plan leaves it undecided. */
+typedef struct dyd_survey_pair {
+  uint32_t i, j;
+  size_t row;
+} dyd_survey_pair;
+/* Sorted by i, then j. Borrowed until s is freed. */
+DYD_API size_t dyd_survey_pairs(const dyd_survey_pair **pair, const dyd_survey *s);
+/* A plan tried on drawn places: how often it was followed and made anew, how many points were measured, how many
+ * measurements that took, and how many of the pairs asked for stay undecided, ties included. */
+typedef struct dyd_survey_trial {
+  size_t rounds, points, measurements, left;
+  bool done; /* false: work was cancelled before */
+} dyd_survey_trial;
+/* Tries the plan of dyd_survey_new `count` times. For each trial the seed draws a true place in each rectangle (with
+ * options.discs: disc), evenly. Each point of the plan is then known within `needed` of its true place, in addition to
+ * its old rectangle (of discs the new disc alone counts), and the pairs that are open still are planned for, until a
+ * plan has no row; 64 times at most. out: room for `count`. Trials are shared among as many threads as pd has, which
+ * results do not depend on. Returns as dyd_survey_new; DYD_CANCELLED: trials that are not done are marked, and err
+ * counts them. Cost: that of a plan for each round, of which all trials share the first. */
+DYD_API dyd_status dyd_survey_simulate(dyd_survey_trial *out, size_t count, uint64_t seed, const dyd_delaunay *pd,
+                                       const dyd_survey_options *options, dyd_error *err);
 /* What a plan comes to. */
 typedef struct dyd_survey_result {
   size_t struct_size; /* set by the library */

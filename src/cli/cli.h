@@ -73,6 +73,7 @@ typedef struct cli_options {
   uint64_t seed;
   bool seed_set;
   unsigned schedules; /* 0: default */
+  unsigned simulate;  /* trials of a plan; 0: none, the plan itself */
   bool start_set;     /* engine.start_bits was given */
   bool max_bits_set;
   bool no_times, no_header;

@@ -460,7 +460,7 @@ static int layer_fits(cli_options *o, const cli_command *c) {
   dyd_content of = c->content;
   if (o->sphere && of == DYD_CONTENT_DELAUNAY) of = DYD_CONTENT_SPHERE;
   if (o->sphere && of == DYD_CONTENT_VORONOI) of = DYD_CONTENT_SPHERE_VORONOI;
-  o->content = o->queries ? DYD_CONTENT_PLACES : of;
+  o->content = o->queries ? DYD_CONTENT_PLACES : o->simulate ? DYD_CONTENT_TRIALS : of;
   if (!o->layer || dyd_layer_from_name(&o->content, of, o->layer)) return 0;
   fprintf(stderr, "dyadel: %s%s has no layer \"%s\"; give ", c->name, o->sphere ? " --sphere" : "", o->layer);
   for (size_t k = 0; dyd_layer_name(of, k); k++) fprintf(stderr, "%s%s", k ? ", " : "", dyd_layer_name(of, k));
@@ -474,9 +474,10 @@ static int format_fits(cli_options *o, const cli_command *c) {
   if (!o->format_set || dyd_format_holds(o->format, o->content)) return 0;
   fprintf(stderr, "dyadel: %s%s%s%s does not write %s; give", c->name, o->sphere ? " --sphere" : "",
           o->layer ? " --layer " : "",
-          o->layer     ? o->layer
-          : o->queries ? " --queries"
-                       : "",
+          o->layer      ? o->layer
+          : o->queries  ? " --queries"
+          : o->simulate ? " --simulate"
+                        : "",
           dyd_format_name(o->format));
   const char *before = " ";
   for (unsigned f = 0; dyd_format_name((dyd_format)f); f++) {

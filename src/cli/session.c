@@ -522,8 +522,9 @@ dyd_status cli_write(FILE *out, const cli_session *s, const dyd_write_options *h
 
 /* Returns true if the line says something that no other line of ours says. */
 static bool comment_is_summary(const char *line) {
-  static const char *const begin[] = {"undetermined_area", "distance_to", "tolerance ",      "plan ",     "ties ",
-                                      "orientation ",      "partial ",    "the rectangles ", "schedule ", "con "};
+  static const char *const begin[] = {
+      "undetermined_area", "distance_to",     "tolerance ", "plan ", "ties ",  "orientation ",
+      "partial ",          "the rectangles ", "schedule ",  "con ",  "trials "};
   for (size_t k = 0; k < sizeof begin / sizeof *begin; k++)
     if (strncmp(line, begin[k], strlen(begin[k])) == 0) return true;
   return false;

@@ -124,6 +124,9 @@ typedef struct plan_run {
   size_t *line; /* of each pair in its file */
   uint32_t site;
   double *cost;
+  dyd_survey_trial *trial; /* with --simulate, instead of the plan */
+  bool cut;
+  dyd_pair_list discs; /* with --discs: of all, where pictures show them */
 } plan_run;
 
 static bool plan_add_pair(plan_run *r, uint32_t i, uint32_t j, size_t line) {
@@ -195,6 +198,9 @@ static int plan_begin(cli_session *s) {
   plan_run *r = s->state;
   const cli_options *o = &s->o;
   mpq_init(r->accuracy);
+  if (o->seed_set && !o->simulate) return cli_usage("--seed is about the trials of --simulate; remove it or add that");
+  if (o->simulate && (o->layer || o->next))
+    return cli_usage("--simulate writes trials instead of a plan; remove it or %s", o->layer ? "--layer" : "--next");
   if (o->sphere && o->window) return cli_usage("--window of plan is about the plane; remove it or --sphere");
   int status = o->sphere ? cli_sphere_begin(s) : 0;
   if (!status && o->accuracy && !o->sphere) status = cli_number_read(r->accuracy, "accuracy", o->accuracy);
@@ -239,83 +245,67 @@ static int plan_find_points(cli_session *s) {
   return 0;
 }
 
-static int compare_pairs(const void *a, const void *b) {
-  const dyd_pair *p = a, *q = b;
-  return p->i != q->i ? (p->i > q->i) - (p->i < q->i) : (p->j > q->j) - (p->j < q->j);
+static uint64_t plan_seed(const cli_session *s) {
+  return s->o.seed_set ? s->o.seed : 1;
 }
 
-/* Restricts the requested pairs to the pairs that are undecided for the discs: a plan that decides them for the squares
- * of the discs is enough. */
-static dyd_status plan_take_discs(plan_run *r, const cli_session *s, dyd_error *err) {
-  dyd_pair_list all = {0}, *asked = s->o.pairs ? &r->pairs : &all;
-  size_t kept = 0;
-  dyd_status st = dyd_disc_pairs(&all, dyd_engine_delaunay(s->engine), cli_signals_flag(), err);
-  for (size_t k = 0; k < asked->count && st >= 0; k++) {
-    const dyd_pair *p =
-        asked == &all ? &all.item[k] : bsearch(&asked->item[k], all.item, all.count, sizeof *p, compare_pairs);
-    if (p && p->status == DYD_INDETERMINATE) asked->item[kept++] = asked->item[k];
-  }
-  asked->count = kept;
-  dyd_pair_list_clear(asked == &all ? &r->pairs : &all);
-  r->pairs = *asked;
-  return st;
+/* The plan, or its trials, of what is known; where that was cut, so are they, before their first row. */
+static dyd_status plan_or_trials(cli_session *s, dyd_error *err) {
+  static const volatile int raised = 1;
+  plan_run *r = s->state;
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
+  const size_t trials = s->o.simulate;
+  const dyd_survey_options how = {DYD_SIZED(dyd_survey_options),
+                                  .pairs = s->o.pairs ? &r->pairs : NULL,
+                                  .window = s->view,
+                                  .site = s->o.site_set ? &r->site : NULL,
+                                  .accuracy = s->o.accuracy && !s->sphere ? r->accuracy : NULL,
+                                  .cost = r->cost,
+                                  .discs = s->o.discs,
+                                  .cancel = cli_run_was_whole(s->engine) ? cli_signals_flag() : &raised};
+  dyd_status st = DYD_E_NOMEM;
+  if (trials) r->trial = calloc(trials, sizeof *r->trial);
+  if (trials && r->trial)
+    st = s->sphere ? dyd_sphere_simulate(r->trial, trials, plan_seed(s), s->sphere, s->o.accuracy, &how, err)
+                   : dyd_survey_simulate(r->trial, trials, plan_seed(s), pd, &how, err);
+  else if (!trials)
+    st = s->sphere ? dyd_sphere_survey(&r->survey, s->sphere, s->o.accuracy, &how, err)
+                   : dyd_survey_new(&r->survey, pd, &how, err);
+  r->cut = st == DYD_CANCELLED;
+  const bool drawn = s->o.format != DYD_FORMAT_JSON && !dyd_format_holds(s->o.format, DYD_CONTENT_PLAN_PAIRS);
+  if (st == DYD_OK && s->o.discs && drawn) st = dyd_disc_pairs(&r->discs, pd, cli_signals_flag(), err);
+  return cli_session_cut(st, err);
 }
 
 static dyd_status plan_run_engine(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
-  plan_run *r = s->state;
-  dyd_status st = cli_run_engine(s, options, err);
-  if (st != DYD_OK || !cli_run_was_whole(s->engine)) return st;
-  r->cost = of_each_point(s->engine, DYD_ROW_COST);
-  if (!r->cost) return DYD_E_NOMEM;
-  if (s->o.discs) st = plan_take_discs(r, s, err);
-  if (st < 0) return st;
-  const dyd_survey_options how = {DYD_SIZED(dyd_survey_options),
-                                  .pairs = s->o.pairs || s->o.discs ? &r->pairs : NULL,
-                                  .window = s->view,
-                                  .site = s->o.site_set ? &r->site : NULL,
-                                  .accuracy = s->o.accuracy ? r->accuracy : NULL,
-                                  .cost = r->cost,
-                                  .cancel = cli_signals_flag()};
-  st = dyd_survey_new(&r->survey, dyd_engine_delaunay(s->engine), &how, err);
-  return r->survey ? cli_session_cut(st, err) : st == DYD_CANCELLED ? DYD_OK : st;
-}
-
-static dyd_status plan_run_sphere(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
-  plan_run *r = s->state;
   dyd_outcome outcome;
-  dyd_status st = dyd_sphere_run(&outcome, s->sphere, options, err);
-  if (st != DYD_OK || !cli_run_was_whole(s->engine)) return st;
-  const dyd_survey_options how = {DYD_SIZED(dyd_survey_options), .pairs = s->o.pairs ? &r->pairs : NULL,
-                                  .site = s->o.site_set ? &r->site : NULL, .cost = r->cost,
-                                  .cancel = cli_signals_flag()};
-  st = dyd_sphere_survey(&r->survey, s->sphere, s->o.accuracy, &how, err);
-  return r->survey ? cli_session_cut(st, err) : st == DYD_CANCELLED ? DYD_OK : st;
-}
-
-static int plan_find_on_sphere(cli_session *s) {
-  plan_run *r = s->state;
-  dyd_engine_options o = s->o.engine;
-  r->cost = of_each_point(s->engine, DYD_ROW_COST);
-  if (!r->cost) return cli_complain_memory();
-  int status = cli_sphere_look(s);
-  o.start_bits = 0;
-  if (!status) status = cli_session_run(s, &o, plan_run_sphere);
-  s->known = !status && r->survey;
-  return status || s->known ? status : cli_session_stopped(s, "the plan was");
+  dyd_status st = s->sphere ? dyd_sphere_run(&outcome, s->sphere, options, err) : cli_run_engine(s, options, err);
+  return st == DYD_OK && dyd_engine_delaunay(s->engine) ? plan_or_trials(s, err) : st;
 }
 
 static int plan_find(cli_session *s) {
+  plan_run *r = s->state;
+  dyd_engine_options o = s->o.engine;
   int status = plan_find_points(s);
-  if (!status && s->o.sphere) return plan_find_on_sphere(s);
-  if (!status) status = cli_session_run(s, &s->o.engine, plan_run_engine);
-  s->known = !status && ((plan_run *)s->state)->survey;
+  r->cost = of_each_point(s->engine, DYD_ROW_COST);
+  if (!status && !r->cost) status = cli_complain_memory();
+  if (!status && s->o.sphere) status = cli_sphere_look(s);
+  if (s->o.sphere) o.start_bits = 0;
+  if (!status) status = cli_session_run(s, &o, plan_run_engine);
+  s->known = !status && (r->survey || r->trial);
   return status || s->known ? status : cli_session_stopped(s, "the plan was");
 }
 
 static dyd_status plan_write(FILE *out, const cli_session *s, dyd_error *err) {
+  const plan_run *r = s->state;
   dyd_write_options how = cli_write_options(out, s);
-  how.plan = ((plan_run *)s->state)->survey;
+  how.plan = r->survey;
+  how.pairs = r->discs.item ? &r->discs : NULL;
+  if (how.pairs) how.history = NULL; /* is that of squares */
   how.next = s->o.next;
+  how.trial = r->trial;
+  how.trials = s->o.simulate;
+  how.seed = plan_seed(s);
   return cli_write(out, s, &how, err);
 }
 
@@ -346,16 +336,18 @@ static void plan_notes(const cli_session *s, const dyd_survey *plan) {
 
 static int plan_summary(cli_session *s, int status) {
   const plan_run *r = s->state;
-  const dyd_survey_result *of = dyd_survey_get(r->survey);
   if (status) return status;
-  if (of->cut) return cli_exit_cut();
+  if (r->cut) return s->outcome == DYD_OUTCOME_BUDGET ? CLI_BUDGET : cli_exit_cut();
+  if (r->trial) return CLI_OK;
   plan_notes(s, r->survey);
-  return of->left ? CLI_FIXPOINT : CLI_OK;
+  return dyd_survey_get(r->survey)->left ? CLI_FIXPOINT : CLI_OK;
 }
 
 static void plan_end(cli_session *s) {
   plan_run *r = s->state;
   dyd_survey_free(r->survey);
+  free(r->trial);
+  dyd_pair_list_clear(&r->discs);
   free(r->cost);
   free(r->line);
   dyd_pair_list_clear(&r->pairs);

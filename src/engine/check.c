@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "base/random.h"
 #include "engine/ask.h"
 #include "engine/points.h"
 #include "engine/record.h"
@@ -59,12 +60,9 @@ static bool check_is_over(const check_state *s) {
   return dyd_flag_get(&s->e->stop) || (s->o->cancel && dyd_flag_get(s->o->cancel));
 }
 
-/* Uniform in 0 .. n-1, n > 0, by splitmix64. */
+/* Uniform in 0 .. n-1, n > 0. */
 static uint64_t check_below(uint64_t *random, uint64_t n) {
-  uint64_t z = *random += UINT64_C(0x9E3779B97F4A7C15);
-  z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
-  z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
-  return (z ^ (z >> 31)) % n;
+  return dyd_random(*random += DYD_RANDOM_STEP, 0) % n;
 }
 
 /* Notes a fault; returns DYD_OK. */

@@ -144,6 +144,10 @@ static dyd_status write_delaunay(dyd_output *to, dyd_write_options *o, dyd_error
   return st;
 }
 
+static bool is_text_format(dyd_format f) {
+  return f == DYD_FORMAT_CSV || f == DYD_FORMAT_WKT || f == DYD_FORMAT_GEOJSON || f == DYD_FORMAT_JSON;
+}
+
 /* Tolerances and plans. */
 static dyd_status write_motion(dyd_output *to, dyd_write_options *o, dyd_error *err) {
   dyd_result r;
@@ -151,14 +155,37 @@ static dyd_status write_motion(dyd_output *to, dyd_write_options *o, dyd_error *
   dyd_status st = places ? DYD_OK : result_init(&r, to, o, err);
   if (st != DYD_OK) return st;
   if (places) {
-    r = (dyd_result){.engine = places, .sphere = o->sphere, .epsg = o->epsg, .next = o->next, .survey = o->plan};
+    r = (dyd_result){.out = to->out,
+                     .engine = places,
+                     .sphere = o->sphere,
+                     .pd = dyd_engine_delaunay(dyd_sphere_images(o->sphere)),
+                     .count = dyd_engine_count(places),
+                     .epsg = o->epsg,
+                     .next = o->next,
+                     .survey = o->plan};
     to->engine = places;
     to->sphere = o->sphere;
   }
-  if (to->content == DYD_CONTENT_PLAN ? !o->plan : !o->tolerance) return dyd_fail_null(err);
+  const bool plan = to->content == DYD_CONTENT_PLAN || to->content == DYD_CONTENT_PLAN_PAIRS;
+  if (plan ? !o->plan : !o->tolerance) return dyd_fail_null(err);
   if (to->content == DYD_CONTENT_RADII && !dyd_tolerance_get(o->tolerance)->points)
     return dyd_fail(err, DYD_E_ARG, "how far points may be from their places was not asked for");
-  return write_what(to, &r, err);
+  /* Pictures and pages of a plan show all pairs. */
+  if (plan && !is_text_format(to->format)) {
+    if (o->pairs)
+      r.pairs = *o->pairs;
+    else
+      st = places ? dyd_sphere_pairs(&r.pairs, o->sphere) : dyd_pairs_take(&r.pairs, r.pd, DYD_TIE);
+  }
+  if (st == DYD_OK) st = write_what(to, &r, err);
+  if (!o->pairs) dyd_pair_list_clear(&r.pairs);
+  return st;
+}
+
+/* A plan tried. */
+static dyd_status write_trials(dyd_output *to, dyd_write_options *o, dyd_error *err) {
+  if (o->trials && !o->trial) return dyd_fail_null(err);
+  return write_what(to, &(dyd_trials_output){o->trial, o->trials, o->seed}, err);
 }
 
 static dyd_status write_sphere(dyd_output *to, dyd_write_options *o, dyd_error *err) {
@@ -406,7 +433,7 @@ static content_writer *const writers[DYD_CONTENTS] = {
     [DYD_CONTENT_BISECTOR] = write_bisector,     [DYD_CONTENT_NEAREST] = write_nearest,
     [DYD_CONTENT_PLACES] = write_nearest,        [DYD_CONTENT_PLAN] = write_motion,
     [DYD_CONTENT_TOLERANCE] = write_motion,      [DYD_CONTENT_SPHERE] = write_sphere,
-    [DYD_CONTENT_SPHERE_VORONOI] = write_sphere,
+    [DYD_CONTENT_SPHERE_VORONOI] = write_sphere, [DYD_CONTENT_TRIALS] = write_trials,
 };
 
 dyd_status dyd_write(FILE *out, const dyd_engine *e, dyd_content content, dyd_format format,

@@ -466,6 +466,65 @@ static dyd_status rows_of_plan(dyd_table *t, const dyd_output *o) {
   return DYD_OK;
 }
 
+static dyd_status rows_of_plan_pairs(dyd_table *t, const dyd_output *o) {
+  const dyd_survey_pair *pair;
+  const size_t pairs = dyd_survey_pairs(&pair, ((const dyd_result *)o->what)->survey);
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < pairs && st == DYD_OK; k++) {
+    st = row_line(t, pair[k].i, pair[k].j);
+    dyd_row_site(t, pair[k].i);
+    dyd_row_site(t, pair[k].j);
+    if (pair[k].row == SIZE_MAX)
+      dyd_row_decimal(t, NAN, DYD_DOWN);
+    else
+      dyd_row_index(t, pair[k].row + 1);
+    dyd_row_id(t, pair[k].i);
+    dyd_row_id(t, pair[k].j);
+    dyd_row_end(t);
+  }
+  return st;
+}
+
+/* "# trials 1000: 1 round in 912, 2 in 80, at most 3; 14.2 points measured on average" */
+static dyd_status trial_comments(dyd_table *t, const dyd_output *o) {
+  const dyd_trials_output *of = o->what;
+  size_t rounds[3] = {0}, most = 0, points = 0, done = 0, left = 0;
+  (void)t;
+  for (size_t k = 0; k < of->count; k++) {
+    const dyd_survey_trial *one = &of->trial[k];
+    if (!one->done) continue;
+    done++;
+    points += one->points;
+    left += one->left > 0;
+    most = one->rounds > most ? one->rounds : most;
+    if (one->rounds < 3) rounds[one->rounds]++;
+  }
+  fprintf(o->out, "# trials %zu of %zu:", done, of->count);
+  for (size_t k = 0; k < 3; k++)
+    if (rounds[k]) fprintf(o->out, " %zu round%s in %zu,", k, k == 1 ? "" : "s", rounds[k]);
+  fprintf(o->out, " at most %zu", most);
+  const size_t tenths = done ? (10 * points + done / 2) / done : 0;
+  fprintf(o->out, "; %zu.%zu points measured on average", tenths / 10, tenths % 10);
+  fprintf(o->out, left ? "; pairs stay undecided in %zu\n" : "\n", left);
+  return DYD_OK;
+}
+
+static dyd_status rows_of_trials(dyd_table *t, const dyd_output *o) {
+  const dyd_trials_output *of = o->what;
+  for (size_t k = 0; k < of->count; k++) {
+    const dyd_survey_trial *one = &of->trial[k];
+    if (!one->done) continue;
+    dyd_row_begin(t);
+    dyd_row_index(t, k);
+    dyd_row_index(t, one->rounds);
+    dyd_row_index(t, one->points);
+    dyd_row_index(t, one->measurements);
+    dyd_row_index(t, one->left);
+    dyd_row_end(t);
+  }
+  return DYD_OK;
+}
+
 /* ---- the table ---- */
 
 #define POINT DYD_GEOMETRY_POINT
@@ -509,8 +568,12 @@ static const dyd_layer layers[] = {
     {IN(RADII), "points", IN(TOLERANCE), true, true, false, POINT, tolerance_comments, rows_of_radii, "i,id,*,rho"},
     {IN(BARCODE), "barcode", IN(TOLERANCE), false, false, false, POINT, tolerance_comments, rows_of_barcode,
      "accuracy,certain,open"},
-    {IN(PLAN), NULL, IN(PLAN), true, true, false, POINT, plan_comments, rows_of_plan,
+    {IN(PLAN), "points", IN(PLAN), true, true, false, POINT, plan_comments, rows_of_plan,
      "rank,i,half_width_now,half_width_needed,pairs_decided,pairs_left,id,*"},
+    {IN(PLAN_PAIRS), "pairs", IN(PLAN), true, true, false, LINES, plan_comments, rows_of_plan_pairs,
+     "i,j,rank,id_i,id_j"},
+    {IN(TRIALS), NULL, IN(TRIALS), false, false, false, POINT, trial_comments, rows_of_trials,
+     "trial,rounds,points,measurements,pairs_left"},
     {IN(SPHERE), "pairs", IN(SPHERE), true, true, false, LINES, pair_comments, rows_of_pairs, PAIRS},
     {IN(SPHERE_POINTS), "points", IN(SPHERE), true, true, false, POINT, point_comments, rows_of_points, POINTS},
     {IN(SPHERE_TRIANGLES), "triangles", IN(SPHERE), true, true, false, POLYGONS, alias_comments, rows_of_triangles,
@@ -593,7 +656,9 @@ dyd_status dyd_layer_write(const dyd_output *o) {
   const dyd_layer *layer = dyd_layer_of(o->content);
   bool cut = o->content == DYD_CONTENT_TILES && ((const dyd_diagram *)o->what)->clip_to;
   dyd_table t = {.layer = layer,
-                 .geometry = cut ? DYD_GEOMETRY_POLYGONS : layer->geometry,
+                 .geometry = cut                                      ? DYD_GEOMETRY_POLYGONS
+                             : layer->geometry == LINES && !o->sphere ? LINE
+                                                                      : layer->geometry,
                  .engine = o->engine,
                  .sphere = o->sphere,
                  .lengths = o->lengths && !o->sphere,

@@ -587,10 +587,98 @@ static dyd_status tolerance_json(const dyd_output *o) {
   return dyd_json_end(&j, "}\n");
 }
 
-dyd_writer *const dyd_json_writers[DYD_CONTENTS] = {
-    [DYD_CONTENT_DELAUNAY] = delaunay_json,     [DYD_CONTENT_VORONOI] = voronoi_json,
-    [DYD_CONTENT_TILES] = tiles_json,           [DYD_CONTENT_CONVERGENCE] = dyd_convergence_json,
-    [DYD_CONTENT_CHECK] = dyd_check_json,       [DYD_CONTENT_DISC] = dyd_disc_json,
-    [DYD_CONTENT_BISECTOR] = dyd_bisector_json, [DYD_CONTENT_NEAREST] = dyd_nearest_json,
-    [DYD_CONTENT_PLACES] = dyd_nearest_json,    [DYD_CONTENT_TOLERANCE] = tolerance_json,
-    [DYD_CONTENT_SPHERE] = delaunay_json,       [DYD_CONTENT_SPHERE_VORONOI] = globe_voronoi_json};
+/* ---- plans ---- */
+
+static void plan_rows_json(dyd_json *j, const dyd_result *r) {
+  const dyd_survey_row *row;
+  const size_t rows = dyd_survey_rows(&row, r->survey);
+  char text[DYD_DECIMAL_SIZE];
+  double error;
+  dyd_json_array(j, "points", DYD_JSON_LIST);
+  for (size_t k = 0; k < rows && (k == 0 || !r->next); k++) {
+    dyd_json_object(j, NULL, DYD_JSON_FLAT);
+    dyd_json_index(j, "rank", k + 1);
+    dyd_json_site(j, "i", r->engine, row[k].site);
+    dyd_json_decimal(j, "half_width_now", row[k].now, DYD_UP);
+    dyd_decimal_within(text, &error, row[k].needed, row[k].needed);
+    dyd_json_raw(j, "half_width_needed", text);
+    dyd_json_index(j, "pairs_decided", row[k].decided);
+    dyd_json_index(j, "pairs_left", row[k].left);
+    dyd_json_ids(j, r->engine, &row[k].site, 0);
+    dyd_json_carried(j, r->engine, row[k].site);
+    dyd_json_close(j, 1);
+  }
+  dyd_json_close(j, 1);
+}
+
+static void plan_pairs_json(dyd_json *j, const dyd_result *r) {
+  const dyd_survey_pair *pair;
+  const size_t pairs = dyd_survey_pairs(&pair, r->survey);
+  dyd_json_array(j, "pairs", DYD_JSON_LIST);
+  for (size_t k = 0; k < pairs; k++) {
+    dyd_json_object(j, NULL, DYD_JSON_FLAT);
+    dyd_json_site(j, "i", r->engine, pair[k].i);
+    dyd_json_site(j, "j", r->engine, pair[k].j);
+    if (pair[k].row == SIZE_MAX)
+      dyd_json_raw(j, "rank", "null");
+    else
+      dyd_json_index(j, "rank", pair[k].row + 1);
+    dyd_json_close(j, 1);
+  }
+  dyd_json_close(j, 1);
+}
+
+static dyd_status plan_json(const dyd_output *o) {
+  const dyd_result *r = o->what;
+  const dyd_survey_result *of = dyd_survey_get(r->survey);
+  dyd_json j;
+  dyd_json_begin(&j, o->out);
+  dyd_json_head(&j, "dyadel plan 1", o);
+  dyd_json_word(&j, "unit", r->sphere ? "metres" : "coordinates");
+  dyd_json_bool(&j, "finished", !of->cut);
+  dyd_json_index(&j, "undecided", of->open);
+  dyd_json_index(&j, "ties", of->ties);
+  dyd_json_index(&j, "left", of->left);
+  plan_rows_json(&j, r);
+  plan_pairs_json(&j, r);
+  dyd_json_aliases(&j, r->engine, r->sphere);
+  return dyd_json_end(&j, "}\n");
+}
+
+static dyd_status trials_json(const dyd_output *o) {
+  const dyd_trials_output *of = o->what;
+  dyd_json j;
+  dyd_json_begin(&j, o->out);
+  dyd_json_head(&j, "dyadel trials 1", o);
+  dyd_json_index(&j, "seed", of->seed);
+  dyd_json_index(&j, "asked", of->count);
+  dyd_json_array(&j, "trials", DYD_JSON_LIST);
+  for (size_t k = 0; k < of->count; k++) {
+    const dyd_survey_trial *one = &of->trial[k];
+    if (!one->done) continue;
+    dyd_json_object(&j, NULL, DYD_JSON_FLAT);
+    dyd_json_index(&j, "trial", k);
+    dyd_json_index(&j, "rounds", one->rounds);
+    dyd_json_index(&j, "points", one->points);
+    dyd_json_index(&j, "measurements", one->measurements);
+    dyd_json_index(&j, "pairs_left", one->left);
+    dyd_json_close(&j, 1);
+  }
+  dyd_json_close(&j, 1);
+  return dyd_json_end(&j, "}\n");
+}
+
+dyd_writer *const dyd_json_writers[DYD_CONTENTS] = {[DYD_CONTENT_PLAN] = plan_json,
+                                                    [DYD_CONTENT_TRIALS] = trials_json,
+                                                    [DYD_CONTENT_DELAUNAY] = delaunay_json,
+                                                    [DYD_CONTENT_VORONOI] = voronoi_json,
+                                                    [DYD_CONTENT_TILES] = tiles_json,
+                                                    [DYD_CONTENT_CONVERGENCE] = dyd_convergence_json,
+                                                    [DYD_CONTENT_CHECK] = dyd_check_json,
+                                                    [DYD_CONTENT_DISC] = dyd_disc_json,
+                                                    [DYD_CONTENT_BISECTOR] = dyd_bisector_json,
+                                                    [DYD_CONTENT_NEAREST] = dyd_nearest_json,
+                                                    [DYD_CONTENT_PLACES] = dyd_nearest_json,
+                                                    [DYD_CONTENT_TOLERANCE] = tolerance_json,
+                                                    [DYD_CONTENT_SPHERE] = delaunay_json,
+                                                    [DYD_CONTENT_SPHERE_VORONOI] = globe_voronoi_json};

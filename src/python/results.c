@@ -532,29 +532,55 @@ static PyObject *plan_found(const dyd_survey *s) {
   return Py_BuildValue("N(nnn)", copied(row, rows * sizeof *row), (Py_ssize_t)open, (Py_ssize_t)ties, (Py_ssize_t)left);
 }
 
-PyObject *dydpy_plan(PyObject *self, PyObject *args) {
-  PyObject *accuracy, *window, *site, *found = NULL;
+/* The plan, or its trials where `trials` is above 0. */
+static PyObject *plan_asked(PyObject *self, PyObject *accuracy, PyObject *window, PyObject *site, int discs,
+                                Py_ssize_t trials, uint64_t seed) {
+  PyObject *found = NULL;
   dyd_survey *survey = NULL;
+  dyd_survey_trial *trial = NULL;
   dyd_rect view;
   bool windowed = false;
   uint32_t only = 0;
   mpq_t exact;
   dydpy_call c;
-  if (!PyArg_ParseTuple(args, "OOO", &accuracy, &window, &site)) return NULL;
   if (site != Py_None && !dydpy_site(&only, (dydpy_engine *)self, PyLong_AsSsize_t(site))) return NULL;
+  if (trials && !(trial = calloc((size_t)trials, sizeof *trial))) return PyErr_NoMemory();
   mpq_init(exact);
   dyd_rect_init(&view);
   if (!PyErr_Occurred() && (accuracy == Py_None || dydpy_rational(exact, accuracy) == 0) &&
       dydpy_window_take(&view, &windowed, window) == 0 && dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_CANCELS)) {
-    const dyd_survey_options o = {DYD_SIZED(dyd_survey_options), .window = windowed ? &view : NULL,
+    const dyd_survey_options o = {DYD_SIZED(dyd_survey_options),
+                                  .window = windowed ? &view : NULL,
                                   .site = site != Py_None ? &only : NULL,
-                                  .accuracy = accuracy != Py_None ? exact : NULL, .cancel = &c.cancel};
-    if (dydpy_end(&c, dyd_survey_new(&survey, c.pd, &o, &c.err))) found = plan_found(survey);
+                                  .accuracy = accuracy != Py_None ? exact : NULL,
+                                  .cancel = &c.cancel,
+                                  .discs = discs};
+    const dyd_status st = trials ? dyd_survey_simulate(trial, (size_t)trials, seed, c.pd, &o, &c.err)
+                                 : dyd_survey_new(&survey, c.pd, &o, &c.err);
+    if (dydpy_end(&c, st)) found = trials ? copied(trial, (size_t)trials * sizeof *trial) : plan_found(survey);
   }
   dyd_survey_free(survey);
+  free(trial);
   dyd_rect_clear(&view);
   mpq_clear(exact);
   return found;
+}
+
+PyObject *dydpy_plan(PyObject *self, PyObject *args) {
+  PyObject *accuracy, *window, *site;
+  int discs;
+  if (!PyArg_ParseTuple(args, "OOOp", &accuracy, &window, &site, &discs)) return NULL;
+  return plan_asked(self, accuracy, window, site, discs, 0, 0);
+}
+
+PyObject *dydpy_simulate(PyObject *self, PyObject *args) {
+  PyObject *accuracy, *window, *site;
+  int discs;
+  Py_ssize_t trials;
+  unsigned long long seed;
+  if (!PyArg_ParseTuple(args, "OOOpnK", &accuracy, &window, &site, &discs, &trials, &seed)) return NULL;
+  if (trials > 0) return plan_asked(self, accuracy, window, site, discs, trials, seed);
+  return PyErr_Format(PyExc_ValueError, "simulate=%zd; give a number of trials above 0", trials);
 }
 
 /* ---- texts ---- */

@@ -8,7 +8,9 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/flag.h"
 #include "base/index.h"
+#include "engine/points.h"
 #include "sphere/state.h"
 #include "sphere/units.h"
 #include "stream/ball.h"
@@ -36,9 +38,11 @@ typedef struct sphere_plan {
   plan_place *view; /* of each image */
   size_t views;
   dyd_pair_list asked;  /* the pairs in the options, sorted */
-  dyd_pair_list target; /* open, but for ties; sorted */
+  dyd_pair_list target; /* open, but for ties, which come behind; sorted */
+  dyd_pair *tied;       /* these */
   bool *taken;          /* of each target: an eye has planned for it */
   dyd_survey *found;
+  dyd_survey_pair *pair; /* of each target */
   dyd_survey_row *row;
   size_t rows;
   uint32_t *row_of; /* of each place; DYD_NONE */
@@ -67,9 +71,9 @@ static dyd_status targets_find(sphere_plan *p) {
   dyd_survey_result *r = &p->found->result;
   dyd_status st = p->options.pairs ? targets_ask(p, p->options.pairs) : DYD_OK;
   if (st == DYD_OK) st = dyd_sphere_pairs(&all, p->s);
-  if (st == DYD_OK) st = dyd_sphere_pairs(&nominal, p->nominal);
+  if (st == DYD_OK && dyd_engine_delaunay(p->nominal->images)) st = dyd_sphere_pairs(&nominal, p->nominal);
   p->target.item = st == DYD_OK ? dyd_alloc(all.count, sizeof *all.item) : NULL;
-  if (st == DYD_OK && !p->target.item) st = DYD_E_NOMEM;
+  if (st == DYD_OK && (!p->target.item || !DYD_NEW(p->tied, all.count))) st = DYD_E_NOMEM;
   for (size_t k = 0; k < all.count && st == DYD_OK; k++) {
     const dyd_pair *q = &all.item[k];
     if (q->status == DYD_LEGAL || !target_is_asked(p, q)) continue;
@@ -80,28 +84,40 @@ static dyd_status targets_find(sphere_plan *p) {
     bool tied = same && same->status == DYD_TIE;
     if (tied && q->status == DYD_INDETERMINATE && r->tie[0] == r->tie[1]) r->tie[0] = q->i, r->tie[1] = q->j;
     if (tied || alias[0] == alias[1])
-      r->ties++;
+      p->tied[r->ties++] = *q;
     else
       p->target.item[p->target.count++] = *q;
   }
+  for (size_t k = 0; k < r->ties; k++) p->target.item[p->target.count + k] = p->tied[k];
   dyd_pair_list_clear(&nominal);
   dyd_pair_list_clear(&all);
-  p->taken = st == DYD_OK ? calloc(p->target.count + 1, sizeof *p->taken) : NULL;
-  return st == DYD_OK && !p->taken ? DYD_E_NOMEM : st;
+  if (st == DYD_OK && (!DYD_ZEROED(p->taken, p->target.count + 1) || !DYD_NEW(p->pair, p->target.count)))
+    st = DYD_E_NOMEM;
+  for (size_t k = 0; k < p->target.count && st == DYD_OK; k++)
+    p->pair[k] = (dyd_survey_pair){p->target.item[k].i, p->target.item[k].j, SIZE_MAX};
+  return st;
+}
+
+/* A run that ends with that of the sphere. */
+static dyd_status plan_run(const sphere_plan *p, dyd_sphere *then) {
+  dyd_outcome outcome;
+  dyd_engine_options o;
+  dyd_engine_options_init(&o);
+  dyd_engine_follow(p->s->images, then->images);
+  dyd_status st = dyd_sphere_run(&outcome, then, &o, p->err);
+  dyd_engine_follow(p->s->images, NULL);
+  return st == DYD_OK && (outcome == DYD_OUTCOME_CANCELLED || dyd_flag_is_set(p->options.cancel)) ? DYD_CANCELLED : st;
 }
 
 /* Places in the middle of their regions, triangulated. */
 static dyd_status nominal_make(sphere_plan *p) {
-  dyd_outcome outcome;
-  dyd_engine_options o;
-  dyd_engine_options_init(&o);
   for (size_t i = 0; i < p->s->count; i++) p->within[i] = 0;
   dyd_status st = dyd_sphere_new_within(&p->nominal, p->s, p->within, p->err);
   if (st != DYD_OK) return st;
-  st = dyd_sphere_run(&outcome, p->nominal, &o, p->err);
-  if (st == DYD_OK) st = targets_find(p);
+  st = plan_run(p, p->nominal);
+  dyd_status found = st == DYD_OK || st == DYD_CANCELLED ? targets_find(p) : st;
   for (size_t i = 0; i < p->s->count; i++) p->within[i] = -1;
-  return st;
+  return found == DYD_OK ? st : found;
 }
 
 /* ---- images ---- */
@@ -246,9 +262,28 @@ static dyd_status rows_take(sphere_plan *p, const dyd_survey *survey) {
       if (st != DYD_OK) return st;
     }
     to->needed = fmin(to->needed, metres);
-    to->decided += row[k].decided;
     p->within[v->place] = to->needed;
   }
+  return DYD_OK;
+}
+
+/* Pairs of images that the first rows of their plan decide are decided by the rows of the same places [SPH-7]. */
+static dyd_status pairs_take(sphere_plan *p, const dyd_survey *survey) {
+  const dyd_survey_row *row;
+  const dyd_survey_pair *pair;
+  const size_t rows = dyd_survey_rows(&row, survey), pairs = dyd_survey_pairs(&pair, survey);
+  size_t *last = dyd_alloc(rows, sizeof *last); /* of the rows of places that the first ones are */
+  if (!last) return DYD_E_NOMEM;
+  for (size_t k = 0; k < rows; k++) {
+    const size_t of = p->row_of[p->view[row[k].site].place];
+    last[k] = k && last[k - 1] > of ? last[k - 1] : of;
+  }
+  for (size_t k = 0; k < pairs; k++) {
+    const uint32_t a = p->view[pair[k].i].place, b = p->view[pair[k].j].place, key[2] = {a < b ? a : b, a < b ? b : a};
+    const dyd_pair *at = dyd_find_two(key, p->target.item, p->target.count, sizeof *at);
+    if (at && pair[k].row < rows) p->pair[at - p->target.item].row = last[pair[k].row];
+  }
+  free(last);
   return DYD_OK;
 }
 
@@ -275,6 +310,7 @@ static dyd_status eye_plan(sphere_plan *p, const dyd_delaunay *pd, const double 
                                   .cost = p->options.cost ? cost : NULL, .cancel = p->options.cancel};
   if (st == DYD_OK && pairs.count) st = dyd_survey_new(&survey, pd, &how, p->err);
   dyd_status taken = survey ? rows_take(p, survey) : DYD_OK;
+  if (survey && taken == DYD_OK) taken = pairs_take(p, survey);
   dyd_survey_free(survey);
   dyd_pair_list_clear(&pairs);
   return taken == DYD_OK ? st : taken;
@@ -313,31 +349,32 @@ static dyd_status eye_look(sphere_plan *p, dyd_sphere *eye) {
 
 /* ---- all ---- */
 
-/* How many targets stay open with the plan: on the sphere, by a run of its own. */
+/* Which targets stay open with the plan: on the sphere, by a run of its own. Those decided that no eye saw are the last
+ * row's. */
 static dyd_status plan_verify(sphere_plan *p) {
-  dyd_outcome outcome;
-  dyd_engine_options o;
   dyd_sphere *then = NULL;
   dyd_pair_list pairs = {0};
-  size_t left = 0, decided = 0, open = p->target.count;
-  dyd_engine_options_init(&o);
   dyd_status st = dyd_sphere_new_within(&then, p->s, p->within, p->err);
-  if (st == DYD_OK) st = dyd_sphere_run(&outcome, then, &o, p->err);
+  if (st == DYD_OK) st = plan_run(p, then);
   if (st == DYD_OK) st = dyd_sphere_pairs(&pairs, then);
-  for (size_t k = 0; k < open && st == DYD_OK; k++) {
+  for (size_t k = 0; k < p->target.count && st == DYD_OK; k++) {
     const dyd_pair *q = dyd_find_two(&p->target.item[k], pairs.item, pairs.count, sizeof *q);
-    left += q && q->status != DYD_LEGAL;
+    if (q && q->status != DYD_LEGAL)
+      p->pair[k].row = SIZE_MAX;
+    else if (p->pair[k].row == SIZE_MAX && p->rows)
+      p->pair[k].row = p->rows - 1;
   }
   dyd_pair_list_clear(&pairs);
   dyd_sphere_free(then);
-  p->found->result.left = left;
-  for (size_t k = 0; k < p->rows; k++) { /* the last row leaves as many as the plan */
-    size_t more = p->row[k].decided;
-    if (more > open - left - decided || k + 1 == p->rows) more = open - left - decided;
-    decided += p->row[k].decided = more;
-    p->row[k].left = open - decided;
-  }
   return st;
+}
+
+static void rows_count(sphere_plan *p) {
+  size_t left = p->target.count;
+  for (size_t k = 0; k < p->target.count; k++)
+    if (p->pair[k].row < p->rows) p->row[p->pair[k].row].decided++;
+  for (size_t k = 0; k < p->rows; k++) p->row[k].left = left -= p->row[k].decided;
+  p->found->result.left = left;
 }
 
 static dyd_status plan_eyes(sphere_plan *p) {
@@ -362,14 +399,23 @@ static dyd_status plan_make(sphere_plan *p) {
   for (size_t i = 0; i < p->s->count; i++) p->row_of[i] = DYD_NONE;
   dyd_status st = nominal_make(p);
   if (st == DYD_OK && p->target.count) st = plan_eyes(p);
-  bool cut = st == DYD_CANCELLED;
-  if (st == DYD_OK || cut) {
-    dyd_status verified = p->target.count ? plan_verify(p) : DYD_OK;
-    p->found->result.cut = cut;
-    p->found->result.open = p->target.count;
-    if (verified != DYD_OK) st = verified;
-  }
-  return st;
+  if (st == DYD_OK && p->target.count) st = plan_verify(p);
+  if (st != DYD_OK && st != DYD_CANCELLED) return st;
+  rows_count(p);
+  p->found->result.open = p->target.count;
+  p->found->result.cut = st == DYD_CANCELLED;
+  return dyd_survey_tell_cut(p->found, p->err);
+}
+
+/* Work was cancelled before, perhaps that on the sphere, too. */
+static dyd_status plan_not_begun(sphere_plan *p) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(p->s->images);
+  dyd_survey_result *r = &p->found->result;
+  size_t count[4] = {0};
+  if (pd) dyd_delaunay_count(count, pd);
+  r->open = r->left = p->options.pairs ? p->options.pairs->count : count[DYD_INDETERMINATE];
+  r->cut = true;
+  return dyd_survey_tell_cut(p->found, p->err);
 }
 
 static dyd_status accuracy_take(sphere_plan *p, const char *text) {
@@ -393,18 +439,21 @@ dyd_status dyd_sphere_survey(dyd_survey **out, dyd_sphere *s, const char *accura
   if (!p.found) return dyd_fail_nomem(err);
   mpq_init(p.found->scale);
   st = accuracy_take(&p, accuracy);
+  if (st == DYD_OK && dyd_flag_is_set(p.options.cancel)) st = plan_not_begun(&p);
   if (st == DYD_OK) st = plan_make(&p);
   p.found->result.struct_size = sizeof p.found->result;
   p.found->row = p.row;
   p.found->rows = p.rows;
-  if (st == DYD_OK || (st == DYD_CANCELLED && p.rows))
+  p.found->pair = p.pair;
+  p.found->target = p.target;
+  p.found->tied = p.found->result.ties;
+  if (st == DYD_OK || st == DYD_CANCELLED)
     *out = p.found;
   else
     dyd_survey_free(p.found);
   dyd_sphere_free(p.nominal);
-  dyd_pair_list_clear(&p.target);
   dyd_pair_list_clear(&p.asked);
-  dyd_free_all(p.row_of, p.taken, p.view, p.image, p.within);
+  dyd_free_all(p.row_of, p.taken, p.view, p.image, p.within, p.tied);
   mpq_clear(p.accuracy);
   return st == DYD_OK || (err && err->code == st) ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
 }

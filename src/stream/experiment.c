@@ -2,17 +2,10 @@
 /* Reals for experiments: a random one, and one that is known slowly. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/random.h"
 #include "stream/real.h"
 
 /* ---- random: binary digits of a number in [0,1], a function of seed and place, so that they are drawn once ---- */
-
-/* The 64 digits number k (splitmix64). */
-static uint64_t random_digits(uint64_t seed, uint64_t k) {
-  uint64_t z = seed + k * UINT64_C(0x9E3779B97F4A7C15);
-  z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
-  z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
-  return z ^ (z >> 31);
-}
 
 /* The interval of all numbers with these first digits: 2^-bits wide. */
 static dyd_status random_narrow(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
@@ -20,7 +13,7 @@ static dyd_status random_narrow(dyd_interval *out, void *user, const dyd_request
   const size_t bits = request->bits > 0 ? (size_t)request->bits : 0, words = bits / 64 + 1;
   uint64_t *digits = dyd_alloc(words, sizeof *digits);
   if (!digits) return dyd_fail_nomem(err);
-  for (size_t k = 0; k < words; k++) digits[k] = random_digits(seed, k + 1);
+  for (size_t k = 0; k < words; k++) digits[k] = dyd_random(seed, k + 1);
   mpz_t first;
   dyd_dyadic lo, hi;
   mpz_init(first);
@@ -42,7 +35,7 @@ static dyd_status random_narrow(dyd_interval *out, void *user, const dyd_request
 dyd_status dyd_real_random(dyd_real **out, uint64_t seed) {
   void *user;
   dyd_status st = dyd_real_new_inside(out, &user, sizeof seed, random_narrow, NULL);
-  if (st == DYD_OK) *(uint64_t *)user = random_digits(seed, 0); /* neighbouring seeds begin far apart */
+  if (st == DYD_OK) *(uint64_t *)user = dyd_random(seed, 0); /* neighbouring seeds begin far apart */
   return st;
 }
 

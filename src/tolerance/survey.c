@@ -5,7 +5,11 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/flag.h"
+#include "base/index.h"
 #include "delaunay/memory.h"
+
+#include <dyadel/tolerance.h>
 
 #include <stdlib.h>
 #include <string.h>
@@ -40,15 +44,22 @@ static void note_nominal(dyd_survey_result *r, const dyd_delaunay *nominal, cons
   }
 }
 
-/* Of the pairs asked for: those open, but for the ties of the nominal places. */
-static dyd_status find_targets(dyd_survey *s, const dyd_delaunay *pd) {
-  dyd_pair_list all = {0};
-  dyd_delaunay *nominal = NULL;
+/* Is the pair, open for the rectangles, open for the discs in them, too? */
+static bool is_open_in_discs(const dyd_pair_list *discs, const dyd_pair *p) {
+  const uint32_t key[2] = {p->i < p->j ? p->i : p->j, p->i < p->j ? p->j : p->i};
+  const dyd_pair *found = dyd_find_two(key, discs->item, discs->count, sizeof *found);
+  return found && found->status == DYD_INDETERMINATE;
+}
+
+/* Of the pairs asked for: those open. Cancelled: perhaps more of them. */
+static dyd_status list_open(dyd_survey *s, const dyd_delaunay *pd) {
+  dyd_pair_list all = {0}, discs = {0};
   const dyd_survey_options *o = &s->options;
-  dyd_status st = o->pairs ? DYD_OK : dyd_pairs_take(&all, pd, dyd_least_bounding(pd));
+  dyd_status st = o->pairs ? DYD_OK : dyd_pairs_take(&all, pd, dyd_least_bounding(pd)), found = st;
   const dyd_pair_list *asked = o->pairs ? o->pairs : &all;
   if (!o->pairs) s->result.ties = ties_left_out(pd);
-  if (st == DYD_OK) st = dyd_survey_triangulate(&nominal, s, true);
+  if (st == DYD_OK && o->discs) found = dyd_disc_pairs(&discs, pd, o->cancel, s->err);
+  if (found != DYD_CANCELLED) st = found;
   if (st == DYD_OK && !(s->target.item = dyd_alloc(asked->count, sizeof *s->target.item))) st = DYD_E_NOMEM;
   for (size_t k = 0; k < asked->count && st == DYD_OK; k++) {
     dyd_pair p = asked->item[k];
@@ -56,16 +67,38 @@ static dyd_status find_targets(dyd_survey *s, const dyd_delaunay *pd) {
     p.j = dyd_delaunay_alias(pd, p.j);
     p.status = dyd_delaunay_status(pd, p.i, p.j);
     if ((p.status != DYD_INDETERMINATE && p.status != DYD_TIE) || !is_asked(o, s, &p)) continue;
-    note_nominal(&s->result, nominal, &p);
-    if (dyd_delaunay_status(nominal, p.i, p.j) == DYD_TIE ||
-        dyd_delaunay_alias(nominal, p.i) == dyd_delaunay_alias(nominal, p.j))
-      s->result.ties++;
-    else
-      s->target.item[s->target.count++] = p;
+    if (!o->discs || is_open_in_discs(&discs, &p)) s->target.item[s->target.count++] = p;
   }
-  dyd_delaunay_free(nominal);
+  dyd_pair_list_clear(&discs);
   dyd_pair_list_clear(&all);
-  return st == DYD_OK ? dyd_survey_index_targets(s) : st;
+  return st == DYD_OK ? found : st;
+}
+
+/* Moves the ties of the nominal places behind the others. */
+static void leave_out_ties(dyd_survey *s, const dyd_delaunay *nominal) {
+  dyd_pair_list *t = &s->target;
+  for (size_t k = 0; k < t->count; k++) note_nominal(&s->result, nominal, &t->item[k]);
+  for (size_t k = 0; k < t->count;) {
+    const dyd_pair p = t->item[k];
+    bool tied = dyd_delaunay_status(nominal, p.i, p.j) == DYD_TIE ||
+                dyd_delaunay_alias(nominal, p.i) == dyd_delaunay_alias(nominal, p.j);
+    k += !tied;
+    if (!tied) continue;
+    t->item[k] = t->item[--t->count];
+    t->item[t->count] = p;
+    s->tied++;
+  }
+  s->result.ties += s->tied;
+}
+
+static dyd_status find_targets(dyd_survey *s, const dyd_delaunay *pd) {
+  dyd_delaunay *nominal = NULL;
+  dyd_status st = list_open(s, pd);
+  if (st == DYD_OK && s->target.count) st = dyd_survey_triangulate(&nominal, s, true);
+  if (nominal) leave_out_ties(s, nominal);
+  dyd_delaunay_free(nominal);
+  dyd_status indexed = st == DYD_OK || st == DYD_CANCELLED ? dyd_survey_index_targets(s) : st;
+  return indexed == DYD_OK ? st : indexed;
 }
 
 /* ---- choosing ---- */
@@ -339,15 +372,31 @@ static dyd_status survey_check(const dyd_survey *s, const dyd_delaunay *pd, dyd_
 }
 
 /* Work was cancelled when targets were known. */
-static void keep_draft(dyd_survey *s, dyd_error *err) {
+static void keep_draft(dyd_survey *s) {
   free(s->row);
   s->row = s->draft;
   s->rows = s->drafts;
   s->draft = NULL;
   s->result.left = s->rows ? s->row[s->rows - 1].left : s->target.count;
   s->result.cut = true;
-  dyd_fail(err, DYD_CANCELLED, "the plan is not finished: %zu of %zu pairs are undecided after its first %zu points",
-           s->result.left, s->target.count, s->rows);
+}
+
+dyd_status dyd_survey_tell_cut(const dyd_survey *s, dyd_error *err) {
+  if (!s->result.cut) return DYD_OK;
+  return dyd_fail(err, DYD_CANCELLED,
+                  "the plan is not finished: %zu of %zu pairs are undecided after its first %zu points", s->result.left,
+                  s->result.open, s->rows);
+}
+
+/* Work was cancelled before, perhaps that on pd, too. */
+static dyd_status survey_not_begun(dyd_survey **out, dyd_survey *s, const dyd_delaunay *pd, dyd_error *err) {
+  size_t count[4];
+  dyd_delaunay_count(count, pd);
+  s->result.open = s->result.left = s->options.pairs ? s->options.pairs->count : count[DYD_INDETERMINATE];
+  s->result.cut = true;
+  s->result.struct_size = sizeof s->result;
+  *out = s;
+  return dyd_survey_tell_cut(s, err);
 }
 
 dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_survey_options *options, dyd_error *err) {
@@ -361,6 +410,7 @@ dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_su
   s->threads = pd->options.threads;
   s->err = err;
   dyd_status st = dyd_abi_take(&s->options, sizeof s->options, options, "dyd_survey_options", err);
+  if (st == DYD_OK && dyd_flag_is_set(s->options.cancel)) return survey_not_begun(out, s, pd, err);
   if (st == DYD_OK) st = dyd_survey_load(s, dyd_delaunay_sites(pd));
   if (st == DYD_OK) st = survey_check(s, pd, err);
   if (st == DYD_OK) st = find_targets(s, pd);
@@ -369,10 +419,10 @@ dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_su
   s->err = NULL;
   if (st == DYD_OK || (st == DYD_CANCELLED && s->first)) {
     *out = s;
-    if (st == DYD_CANCELLED) keep_draft(s, err);
+    if (st == DYD_CANCELLED) keep_draft(s);
     s->result.struct_size = sizeof s->result;
     s->result.open = s->target.count;
-    return st;
+    return dyd_survey_tell_cut(s, err);
   }
   if (st == DYD_E_NOMEM && s->room.refused) dyd_fail_room(err, &s->room);
   dyd_survey_free(s);
@@ -385,7 +435,7 @@ void dyd_survey_free(dyd_survey *s) {
     dyd_rect_clear(&s->site[i].rect);
     mpq_clears(s->site[i].x, s->site[i].y, s->site[i].half, NULL);
   }
-  dyd_free_all(s->first, s->at);
+  dyd_free_all(s->first, s->at, s->pair);
   dyd_free_all(s->site, s->chosen, s->row, s->draft);
   dyd_pair_list_clear(&s->target);
   mpq_clear(s->scale);
@@ -396,6 +446,12 @@ size_t dyd_survey_rows(const dyd_survey_row **row, const dyd_survey *s) {
   if (!s) return 0;
   *row = s->row;
   return s->rows;
+}
+
+size_t dyd_survey_pairs(const dyd_survey_pair **pair, const dyd_survey *s) {
+  if (!s) return 0;
+  *pair = s->pair;
+  return s->target.count;
 }
 
 const dyd_survey_result *dyd_survey_get(const dyd_survey *s) {

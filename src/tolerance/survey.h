@@ -32,8 +32,10 @@ struct dyd_survey {
   unsigned threads;
   size_t sites;
   dyd_survey_site *site;
-  dyd_pair_list target; /* asked for, open, and no tie; sorted */
-  size_t *first, *at;   /* those with an end i: target.item[at[first[i]]] to target.item[at[first[i + 1] - 1]] */
+  dyd_pair_list target; /* asked for, open, and no tie; sorted; behind them `tied` more that tie at the centres */
+  size_t tied;
+  dyd_survey_pair *pair; /* the same, with the rows that decide them */
+  size_t *first, *at;    /* those with an end i: target.item[at[first[i]]] to target.item[at[first[i + 1] - 1]] */
   mpq_t scale;
   dyd_face_row *chosen; /* rows of one face after the other, each face in the order to measure */
   size_t chosens, chosen_cap, faces;
@@ -49,7 +51,8 @@ static inline bool dyd_survey_is_limited(const dyd_survey *s) {
   return s->options.accuracy || s->options.accuracies;
 }
 
-/* survey_face.c */
+/* survey_face.c: sets side to its part within a of the centre, rounded outward; end: scratch. */
+dyd_status dyd_survey_cut(dyd_interval *side, mpq_srcptr centre, mpq_srcptr a, mpq_t end[2]);
 dyd_status dyd_survey_load(dyd_survey *s, const dyd_sites *sites);
 /* A new triangulation of all sites, the chosen ones measured; of the centres of all. */
 dyd_status dyd_survey_triangulate(dyd_delaunay **pd, const dyd_survey *s, bool centres);
@@ -72,6 +75,8 @@ enum { DYD_SURVEY_LARGE = 8 };
  * open ones end at site i. Without steps it is made anew each time. */
 typedef struct dyd_measuring {
   dyd_survey *s;
+  dyd_survey_pair *pair; /* where the targets that `row` decides are noted; NULL: nowhere */
+  size_t row;
   dyd_delaunay *now;
   dyd_steps steps;
   bool *open;
@@ -92,6 +97,9 @@ dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t f);
 /* Site i is wider in the survey than where it is measured one by one: *holds if no more targets are open so; then it is
  * as wide there, else nothing has changed. */
 dyd_status dyd_measuring_loosens(bool *holds, dyd_measuring *m, uint32_t i);
+
+/* DYD_CANCELLED, with a message about what is there, if the plan is not finished. */
+dyd_status dyd_survey_tell_cut(const dyd_survey *s, dyd_error *err);
 
 /* survey_face.c: sets how many pairs each row decides after the rows before it. */
 dyd_status dyd_survey_count_left(dyd_survey *s);

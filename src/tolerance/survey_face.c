@@ -67,8 +67,8 @@ static void accuracy_of(mpq_ptr out, const dyd_survey *s, uint32_t i) {
   if (mpq_cmp(out, p->half) > 0) mpq_set(out, p->half);
 }
 
-/* The part of the side within a of the centre; rounded outward, so that the plan never says less than is needed. */
-static dyd_status cut_to_accuracy(dyd_interval *side, mpq_srcptr centre, mpq_srcptr a, mpq_t end[2]) {
+/* Outward, so that the plan never says less than is needed. */
+dyd_status dyd_survey_cut(dyd_interval *side, mpq_srcptr centre, mpq_srcptr a, mpq_t end[2]) {
   dyd_interval near;
   if (dyd_interval_is_point(side)) return DYD_OK;
   dyd_interval_init(&near);
@@ -92,8 +92,8 @@ static dyd_status survey_rect(dyd_rect *out, const dyd_survey *s, uint32_t i, bo
   accuracy_of(a, s, i);
   mpq_div_2exp(end[0], a, 52);
   mpq_add(a, a, end[0]);
-  dyd_status st = cut_to_accuracy(&out->x, p->x, a, end);
-  if (st == DYD_OK) st = cut_to_accuracy(&out->y, p->y, a, end);
+  dyd_status st = dyd_survey_cut(&out->x, p->x, a, end);
+  if (st == DYD_OK) st = dyd_survey_cut(&out->y, p->y, a, end);
   mpq_clears(a, end[0], end[1], NULL);
   return st;
 }
@@ -166,7 +166,9 @@ double dyd_survey_now(const dyd_survey *s, uint32_t i) {
 /* s->at: each target at its lower end and at its upper one. */
 static dyd_status index_ends(dyd_survey *s) {
   const dyd_pair_list *t = &s->target;
-  if (!DYD_ZEROED(s->first, s->sites + 2) || !DYD_NEW(s->at, 2 * t->count)) return DYD_E_NOMEM;
+  if (!DYD_ZEROED(s->first, s->sites + 2) || !DYD_NEW(s->at, 2 * t->count) || !DYD_NEW(s->pair, t->count))
+    return DYD_E_NOMEM;
+  for (size_t k = 0; k < t->count; k++) s->pair[k] = (dyd_survey_pair){t->item[k].i, t->item[k].j, SIZE_MAX};
   size_t *next =
       s->first + 1; /* where the next target of each site goes: when all are there, where those after begin */
   for (size_t k = 0; k < t->count; k++) next[t->item[k].i + 1]++, next[t->item[k].j + 1]++;
@@ -201,6 +203,7 @@ static void measuring_note(dyd_measuring *m, size_t k) {
   const dyd_pair *p = &m->s->target.item[k];
   if (!m->open[k]) return;
   m->open[k] = false;
+  if (m->pair) m->pair[k].row = m->row;
   m->left--, m->degree[p->i]--, m->degree[p->j]--;
 }
 
@@ -284,6 +287,8 @@ static dyd_status measuring_site(size_t *decided, dyd_measuring *m, uint32_t i) 
 
 dyd_status dyd_measuring_draft(size_t *decided, dyd_measuring *m, uint32_t i) {
   dyd_survey *s = m->s;
+  m->pair = s->drafted ? NULL : s->pair;
+  m->row = s->drafts;
   dyd_status st = measuring_site(decided, m, i);
   if (st != DYD_OK || s->drafted) return st;
   if (!DYD_GROW(s->draft, s->draft_cap, s->drafts + 1)) return DYD_E_NOMEM;
@@ -294,15 +299,21 @@ dyd_status dyd_measuring_draft(size_t *decided, dyd_measuring *m, uint32_t i) {
 dyd_status dyd_survey_count_left(dyd_survey *s) {
   dyd_measuring m;
   if (!s->rows) return DYD_OK;
+  dyd_survey_pair *pair = dyd_alloc(s->target.count, sizeof *pair);
+  for (size_t k = 0; pair && k < s->target.count; k++)
+    pair[k] = (dyd_survey_pair){s->pair[k].i, s->pair[k].j, SIZE_MAX};
   for (size_t k = 0; k < s->rows; k++) s->site[s->row[k].site].chosen = false;
   dyd_status st = dyd_measuring_begin(&m, s);
-  for (size_t k = 0; k < s->rows && st == DYD_OK; k++) {
-    st = measuring_site(&s->row[k].decided, &m, s->row[k].site);
-    s->row[k].left = m.left;
+  if (!pair) st = DYD_E_NOMEM;
+  for (m.pair = pair; m.row < s->rows && st == DYD_OK; m.row++) {
+    st = measuring_site(&s->row[m.row].decided, &m, s->row[m.row].site);
+    s->row[m.row].left = m.left;
   }
   DYD_INVARIANT(st != DYD_OK || m.left == s->result.left);
   for (size_t k = 0; k < s->rows; k++) s->site[s->row[k].site].chosen = true;
   dyd_measuring_end(&m);
+  free(st == DYD_OK ? s->pair : pair);
+  if (st == DYD_OK) s->pair = pair;
   return st;
 }
 

@@ -20,7 +20,7 @@ SECONDS = ('0', '-1', 'nan', 'inf', 'x', '', '1s')
 WRONG = {
     '--until': ('', 'area', 'area:', 'are:3', 'decided:3', 'hausdorff:3x', 'hausdorff:99999999'),
     '--max-bytes': WHOLE + ('3X', 'M', '2GB', '99999999T', '9' * 80, '-1K'), '--max-bits': WHOLE, '--relative-bits': WHOLE + ('41',), '--max-pairs': WHOLE, '--threads': WHOLE, '--tie-bits': WHOLE, '--start-bits': WHOLE, '--step-bits': WHOLE,
-    '--oracle-jobs': WHOLE, '--oracle-batch': WHOLE, '--schedules': WHOLE, '--hindsight': WHOLE, '--modulus': ('3', '9:3', 'a:b', '1:2:3'),
+    '--oracle-jobs': WHOLE, '--oracle-batch': WHOLE, '--schedules': WHOLE, '--simulate': WHOLE, '--hindsight': WHOLE, '--modulus': ('3', '9:3', 'a:b', '1:2:3'),
     '--seed': WHOLE[1:], '--site': WHOLE[1:], '--oracle-retries': WHOLE[1:],
     '--flatten': WHOLE[2:],
     '--max-arc': SECONDS, '--timeout': SECONDS, '--oracle-timeout': SECONDS, '--trace-sync': SECONDS,

@@ -234,6 +234,79 @@ def test_discs():
     expect(run('plan', '--discs', '-', stdin='[0,1] [0,2]\n3 4\n5 9\n'), 1, r'\A\Z', 'a disc needs one radius')
 
 
+GPS = '--columns', 'east,north', '--radius-column', 'accuracy', f'{DATA}/gps.csv'
+
+
+GLOBE = ''.join(f'{random.Random(k).uniform(-20, 20):.3f} {random.Random(k + 100).uniform(30, 60):.3f}\n' for k in range(25))
+
+
+def test_pairs():
+    """Which point decides each pair: json, csv and geojson say the same; delaunay proves it for the first points."""
+    with open(f'{DATA}/gps.csv', encoding='utf-8') as f:
+        text = ''.join(f"{r['east']}+-{r['accuracy']} {r['north']}+-{r['accuracy']}\n" for r in csv.DictReader(f))
+    whole = json.loads(run('plan', '--format', 'json', *GPS).out)
+    plan, pairs = rows(run('plan', *GPS).out), rows(run('plan', '--layer', 'pairs', *GPS).out)
+    assert [[p['i'], p['j'], p['rank']] for p in whole['pairs']] == [[int(p[k]) for k in ('i', 'j', 'rank')] for p in pairs]
+    assert [{k: str(v) for k, v in p.items()} for p in whole['points']] == plan
+    shown = json.loads(run('plan', '--layer', 'pairs', '--format', 'geojson', *GPS).out)['features']
+    assert [f['properties']['rank'] for f in shown] == [p['rank'] for p in whole['pairs']]
+    assert (whole['undecided'], whole['left'], whole['finished']) == (len(pairs), 0, True)
+    for k in (0, 4, 9, len(plan)):
+        now = rows(run('delaunay', '-', stdin=measured(text, plan[:k])).out)
+        assert [[p['i'], p['j']] for p in now if p['status'] == 'indeterminate'] == [[p['i'], p['j']] for p in pairs if int(p['rank']) > k], k
+    some = rows(run('plan', '--layer', 'pairs', '--accuracy', '3.9', '-', stdin=POINTS).out)
+    assert [p['rank'] for p in some] == ['', ''], some
+    decided = rows(run('plan', '--layer', 'pairs', '--sphere', '--radius', '40km', '-', stdin=GLOBE).out)
+    points = rows(run('plan', '--sphere', '--radius', '40km', '-', stdin=GLOBE).out)
+    assert decided and all([sum(p['rank'] == r['rank'] for p in decided) == int(r['pairs_decided']) for r in points]), (decided, points)
+
+
+def test_simulate():
+    """Trials: the same for any number of threads, others for another seed; a column for what each took. (That each is
+    what following the plan comes to: tests/tolerance/test_survey.c.)"""
+    for more in ((), ('--discs',), ('--accuracy', '0.5'), ('--site', '15')):
+        one = run('plan', '--simulate', '60', '--seed', '7', *more, *GPS)
+        expect(one, 0, r'^trial,rounds,points,measurements,pairs_left$')
+        table = rows(one.out)
+        assert [int(t['trial']) for t in table] == list(range(60)) and all(int(t['points']) <= int(t['measurements']) for t in table)
+        assert run('plan', '--simulate', '60', '--seed', '7', '--threads', '3', *more, *GPS).out == one.out
+        assert rows(run('plan', '--simulate', '20', '--seed', '7', *more, *GPS).out) == table[:20]
+        assert more == ('--site', '15') or run('plan', '--simulate', '60', '--seed', '8', *more, *GPS).out != one.out
+        whole = json.loads(run('plan', '--simulate', '60', '--seed', '7', '--format', 'json', *more, *GPS).out)
+        assert [{k: str(v) for k, v in t.items()} for t in whole['trials']] == table and whole['seed'] == 7
+    line = re.search('trials 60 of 60: (.*)', run('plan', '--simulate', '60', '--seed', '7', *GPS, comments=False).err)[1]
+    table = rows(run('plan', '--simulate', '60', '--seed', '7', *GPS).out)
+    count_of = [sum(int(t['rounds']) == k for t in table) for k in range(3)]
+    assert f"2 rounds in {count_of[2]}, at most {max(int(t['rounds']) for t in table)}; " in line, line
+    mean = sum(int(t['points']) for t in table) / 60
+    assert abs(float(re.search(r'; (\S+) points measured on average', line)[1]) - mean) <= 0.05001, (line, mean)
+    expect(run('plan', '--simulate', '5', '-', stdin='0 0\n1 0\n0 1\n'), 0, r'0,0,0,0,0\n1,0,0,0,0\n')
+    square = '0+-0.1 0\n1 0+-0.1\n1 1\n0 1\n'
+    expect(run('plan', '--simulate', '2', '-', stdin=square), 0, r'0,0,0,0,2\n1,0,0,0,2\n')
+    globe = run('plan', '--simulate', '4', '--sphere', '--radius', '40km', '-', stdin=GLOBE)
+    expect(globe, 0)
+    assert len(rows(globe.out)) == 4 and all(int(t['rounds']) for t in rows(globe.out)), globe.out
+    for wrong, message in ((('--seed', '3'), '--seed is about the trials'), (('--simulate', '3', '--next'), 'remove it or --next'),
+                           (('--simulate', '3', '--layer', 'pairs'), 'remove it or --layer'), (('--simulate', '3', '-o', 'a.svg'), 'svg')):
+        expect(run('plan', *wrong, '-', stdin=POINTS), 2, r'\A\Z', message)
+
+
+def test_cut():
+    """What is known when time ends is written: a plan without its last points, trials that are done."""
+    chance = random.Random(5)
+    text = ''.join(f'{chance.uniform(0, 100):.3f}+-{chance.uniform(0, 2):.3f} {chance.uniform(0, 100):.3f}+-{chance.uniform(0, 2):.3f}\n' for _ in range(60))
+    result = run('plan', '--simulate', '1000000', '--timeout', '3', '-', stdin=text, timeout=60)
+    expect(result, 4, '', 'of 1000000 trials of the plan are not done .raise --timeout')
+    table = [int(t['trial']) for t in rows(result.out)]
+    assert 0 < len(table) < 1000000 and table == sorted(table)
+    discs = ''.join(f'{chance.uniform(0, 1000):.3f} {chance.uniform(0, 1000):.3f}\n' for _ in range(20000))
+    for more in (('--discs', '--radius', '3'), ('--radius', '3'), ('--layer', 'pairs', '--radius', '3')):
+        for seconds in ('0.4', '0.8', '1.5'):
+            result = run('plan', *more, '--timeout', seconds, '-', stdin=discs, timeout=60)
+            assert result.code == 4 and ('there is no result to write' in result.err or 'the plan is not finished' in result.err), result.err
+            assert ('not finished' in result.err) == bool(rows(result.out) or 'rank' in result.out), (more, seconds, result)
+
+
 PROGRAM = '''import sys
 places = (-15, 10), (15, -5), (9, -1), (17, -6), (-3, 4), (3, 1)
 print("points", len(places), flush=True)

@@ -161,6 +161,23 @@ def test_confidence():
     harness.raised(dyadel.Error, d.append, [(0, 0)], sigma=1, confidence=0.5)
 
 
+def test_trials():
+    """A plan tried on drawn points: the first trials are those of fewer, whatever the threads; exact points take none."""
+    d = dyadel.delaunay(GPS)
+    for discs in (False, True):
+        made, plan = d.simulate(30, seed=7, discs=discs), d.plan(discs=discs)
+        assert list(made) == ['rounds', 'points', 'measurements', 'pairs_left'] and not made['pairs_left'].any()
+        assert (made['points'] >= len(plan['i'])).all() and (made['measurements'] >= made['points']).all() and (made['rounds'] > 0).all()
+        assert (made['measurements'][made['rounds'] == 1] == len(plan['i'])).all()
+        for other in (d, dyadel.delaunay(GPS, threads=3)):
+            assert other.simulate(12, seed=7, discs=discs).rows == made.rows[:12]
+        assert d.simulate(30, discs=discs).rows != made.rows
+    assert d.plan(discs=True).undecided < d.plan().undecided == dyadel.plan(GPS).undecided
+    assert not any(dyadel.delaunay(SQUARE[:3]).simulate(2)['rounds'])
+    harness.raised(ValueError, d.simulate, 0)
+    harness.raised(TypeError, dyadel.Trials, 1)
+
+
 def test_boxes_and_rects():
     points = [('sqrt(2)', '1/3'), (0.5, (1, 2)), (Fraction(1, 10), 7)]
     d = dyadel.delaunay(points)

@@ -6,6 +6,7 @@
 #include "support/random.h"
 #include <cmocka.h>
 #include <dyadel/survey.h>
+#include <dyadel/tolerance.h>
 #include <math.h>
 #include <string.h>
 
@@ -80,6 +81,21 @@ static size_t least_plan(const box_case *c) {
   return least;
 }
 
+/* With the first rows measured, just the pairs that name these are decided. */
+static void check_pairs(const box_case *c, const double *half, const dyd_survey *s, size_t rows) {
+  const dyd_survey_pair *pair;
+  dyd_sites *sites;
+  dyd_delaunay *pd = boxes(&sites, c, half);
+  const size_t pairs = dyd_survey_pairs(&pair, s);
+  assert_int_equal(pairs, dyd_survey_get(s)->open);
+  for (size_t k = 0; k < pairs; k++) {
+    assert_true(k == 0 || pair[k - 1].i < pair[k].i || (pair[k - 1].i == pair[k].i && pair[k - 1].j < pair[k].j));
+    assert_int_equal(is_open(dyd_delaunay_status(pd, pair[k].i, pair[k].j)), pair[k].row >= rows);
+  }
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+}
+
 /* Each row states how many pairs it decides after the rows before. Sets half[] as measured; returns the rest. */
 static size_t follow_rows(double *half, const box_case *c, const dyd_survey *s, size_t open) {
   const dyd_survey_row *row;
@@ -89,6 +105,7 @@ static size_t follow_rows(double *half, const box_case *c, const dyd_survey *s, 
     assert_true(row[k].site < c->n && row[k].now == c->h[row[k].site] && half[row[k].site] == row[k].now);
     assert_true(row[k].needed > 0 && row[k].needed < row[k].now);
     half[row[k].site] = row[k].needed;
+    check_pairs(c, half, s, k + 1);
     assert_int_equal(row[k].left, count_open(c, half));
     assert_int_equal(row[k].decided, left - row[k].left);
     left = row[k].left;
@@ -423,9 +440,199 @@ static void test_parts(void **state) {
   dyd_sites_free(sites);
 }
 
+/* ---- trials, followed step by step ---- */
+
+static uint64_t mixed(uint64_t seed, uint64_t k) {
+  uint64_t z = seed + k * UINT64_C(0x9E3779B97F4A7C15);
+  z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
+  z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
+  return z ^ (z >> 31);
+}
+
+/* side[2 * axis + end] of each box; at[axis]: the true place. */
+typedef struct true_case {
+  size_t n;
+  mpq_t side[MOST][4], at[MOST][2], t;
+  bool discs;
+} true_case;
+
+static bool is_in_disc(const true_case *c, size_t i) {
+  double d[2], half = (mpq_get_d(c->side[i][1]) - mpq_get_d(c->side[i][0])) / 2;
+  for (int a = 0; a < 2; a++)
+    d[a] = mpq_get_d(c->at[i][a]) - (mpq_get_d(c->side[i][2 * a]) + mpq_get_d(c->side[i][2 * a + 1])) / 2;
+  return half == 0 || hypot(d[0], d[1]) < half;
+}
+
+static void true_begin(true_case *c, const box_case *b, uint64_t seed, bool discs) {
+  c->n = b->n;
+  c->discs = discs;
+  mpq_init(c->t);
+  for (size_t i = 0; i < c->n; i++) {
+    uint64_t own = mixed(seed, i), k = 0;
+    const double end[4] = {b->x[i] - b->h[i], b->x[i] + b->h[i], b->y[i] - b->h[i], b->y[i] + b->h[i]};
+    mpq_inits(c->at[i][0], c->at[i][1], NULL);
+    for (int e = 0; e < 4; e++) mpq_init(c->side[i][e]), mpq_set_d(c->side[i][e], end[e]);
+    do {
+      for (int a = 0; a < 2; a++) {
+        mpq_set_ui(c->t, (unsigned long)(2 * (mixed(own, k++) >> 11) + 1), 1);
+        mpq_div_2exp(c->t, c->t, 54);
+        mpq_sub(c->at[i][a], c->side[i][2 * a + 1], c->side[i][2 * a]);
+        mpq_mul(c->at[i][a], c->at[i][a], c->t);
+        mpq_add(c->at[i][a], c->at[i][a], c->side[i][2 * a]);
+      }
+    } while (discs && !is_in_disc(c, i));
+  }
+}
+
+static void true_end(true_case *c) {
+  for (size_t i = 0; i < c->n; i++) {
+    for (int e = 0; e < 4; e++) mpq_clear(c->side[i][e]);
+    mpq_clears(c->at[i][0], c->at[i][1], NULL);
+  }
+  mpq_clear(c->t);
+}
+
+static void true_measure(true_case *c, size_t i, double needed) {
+  mpq_t h;
+  mpq_init(h);
+  mpq_set_d(h, needed);
+  for (int a = 0; a < 2; a++) {
+    mpq_sub(c->t, c->at[i][a], h);
+    if (c->discs || mpq_cmp(c->t, c->side[i][2 * a]) > 0) mpq_set(c->side[i][2 * a], c->t);
+    mpq_add(c->t, c->at[i][a], h);
+    if (c->discs || mpq_cmp(c->t, c->side[i][2 * a + 1]) < 0) mpq_set(c->side[i][2 * a + 1], c->t);
+  }
+  mpq_clear(h);
+}
+
+static dyd_delaunay *true_now(dyd_sites **sites, const true_case *c) {
+  dyd_delaunay *pd;
+  dyd_rect r;
+  dyd_rect_init(&r);
+  assert_int_equal(dyd_sites_new(sites), DYD_OK);
+  for (size_t i = 0; i < c->n; i++) {
+    assert_int_equal(dyd_interval_set_outward(&r.x, c->side[i][0], c->side[i][1], -2048), DYD_OK);
+    assert_int_equal(dyd_interval_set_outward(&r.y, c->side[i][2], c->side[i][3], -2048), DYD_OK);
+    assert_int_equal(dyd_sites_add_rect(*sites, &r), DYD_OK);
+  }
+  assert_int_equal(dyd_delaunay_new(&pd, *sites, NULL, NULL), DYD_OK);
+  dyd_rect_clear(&r);
+  return pd;
+}
+
+/* Measures what plans say until one says nothing. The pairs open at first are asked for. */
+static dyd_survey_trial true_follow(true_case *c, dyd_survey_options o, const dyd_pair_list *asked) {
+  dyd_survey_trial found = {.done = true};
+  bool measured[MOST] = {0};
+  o.pairs = asked;
+  for (size_t rows = 1; rows && found.rounds < 64;) {
+    dyd_sites *sites;
+    dyd_survey *s;
+    const dyd_survey_row *row;
+    dyd_delaunay *pd = true_now(&sites, c);
+    assert_int_equal(dyd_survey_new(&s, pd, &o, NULL), DYD_OK);
+    rows = dyd_survey_rows(&row, s);
+    for (size_t k = 0; k < rows; k++) {
+      true_measure(c, row[k].site, row[k].needed);
+      found.points += !measured[row[k].site];
+      measured[row[k].site] = true;
+    }
+    found.rounds += rows > 0;
+    found.measurements += rows;
+    found.left = dyd_survey_get(s)->left + dyd_survey_get(s)->ties;
+    dyd_survey_free(s);
+    dyd_delaunay_free(pd);
+    dyd_sites_free(sites);
+  }
+  return found;
+}
+
+/* Of squares, or of the discs in them. */
+static dyd_pair_list all_open(const dyd_delaunay *pd, bool discs) {
+  dyd_pair_list all = {0};
+  size_t kept = 0;
+  if (discs)
+    assert_int_equal(dyd_disc_pairs(&all, pd, NULL, NULL), DYD_OK);
+  else
+    assert_int_equal(dyd_delaunay_pairs(&all, pd), DYD_OK);
+  for (size_t k = 0; k < all.count; k++)
+    if (is_open(all.item[k].status)) all.item[kept++] = all.item[k];
+  all.count = kept;
+  return all;
+}
+
+static void check_trials(const box_case *c, dyd_survey_options o, uint64_t seed) {
+  enum { TRIALS = 6 };
+  dyd_survey_trial out[2][TRIALS];
+  dyd_sites *sites;
+  dyd_delaunay *pd = boxes(&sites, c, c->h);
+  for (unsigned side = 0; side < 2; side++) {
+    dyd_delaunay_options how = {DYD_SIZED(dyd_delaunay_options), .threads = side ? 3 : 1};
+    assert_int_equal(dyd_delaunay_update(pd, NULL, 0, &how, NULL), DYD_OK);
+    assert_int_equal(dyd_survey_simulate(out[side], TRIALS, seed, pd, &o, NULL), DYD_OK);
+  }
+  assert_memory_equal(out[0], out[1], sizeof out[0]);
+  dyd_pair_list asked = all_open(pd, o.discs);
+  for (uint64_t k = 0; k < TRIALS; k++) {
+    true_case t;
+    true_begin(&t, c, mixed(seed, k), o.discs);
+    const dyd_survey_trial want = true_follow(&t, o, &asked);
+    assert_true(out[0][k].done && out[0][k].rounds == want.rounds && out[0][k].points == want.points);
+    assert_true(out[0][k].measurements == want.measurements && out[0][k].left == want.left);
+    true_end(&t);
+  }
+  dyd_pair_list_clear(&asked);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+}
+
+static void test_trials(void **state) {
+  (void)state;
+  test_random r = test_random_start("trials of plans");
+  mpq_t accuracy;
+  mpq_init(accuracy);
+  for (size_t k = 0; k < test_cases(24); k++) {
+    box_case c;
+    make_boxes_case(&c, &r, 4 + test_below(&r, 12), 12);
+    mpq_set_ui(accuracy, 1, 4 + test_below(&r, 30));
+    const dyd_survey_options o = {DYD_SIZED(dyd_survey_options), .accuracy = k % 3 == 1 ? accuracy : NULL,
+                                  .discs = k % 3 == 2};
+    check_trials(&c, o, test_below(&r, 1000));
+  }
+  mpq_clear(accuracy);
+}
+
+/* Cancelled before anything: a plan without rows, trials of which none is done; the pairs are counted. */
+static void test_cancelled_before(void **state) {
+  (void)state;
+  const volatile int raised = 1;
+  const dyd_survey_options o = {DYD_SIZED(dyd_survey_options), .cancel = &raised};
+  box_case c;
+  test_random r = test_random_start("cancelled plans");
+  dyd_survey_trial out[3];
+  dyd_survey *s;
+  dyd_sites *sites;
+  dyd_error err;
+  const dyd_survey_row *row;
+  make_boxes_case(&c, &r, 20, 12);
+  dyd_delaunay *pd = boxes(&sites, &c, c.h);
+  dyd_pair_list open = all_open(pd, false);
+  assert_int_equal(dyd_survey_new(&s, pd, &o, &err), DYD_CANCELLED);
+  assert_true(s && dyd_survey_get(s)->cut && dyd_survey_rows(&row, s) == 0);
+  assert_int_equal(dyd_survey_get(s)->open, open.count);
+  assert_int_equal(dyd_survey_get(s)->left, open.count);
+  dyd_survey_free(s);
+  assert_int_equal(dyd_survey_simulate(out, 3, 1, pd, &o, &err), DYD_CANCELLED);
+  for (int k = 0; k < 3; k++) assert_false(out[k].done);
+  dyd_pair_list_clear(&open);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_against_brute_force), cmocka_unit_test(test_one_by_one),
-                                     cmocka_unit_test(test_large), cmocka_unit_test(test_taken_back),
-                                     cmocka_unit_test(test_parts)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_against_brute_force), cmocka_unit_test(test_one_by_one), cmocka_unit_test(test_large),
+      cmocka_unit_test(test_taken_back),          cmocka_unit_test(test_parts),      cmocka_unit_test(test_trials),
+      cmocka_unit_test(test_cancelled_before)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -74,7 +74,7 @@ def judge_all(judge, case, product, status, claims, err, last, rand, effort):
         judge(status != 0 or not left, 'exit 0, but %s are only possible', left[:3])
     if claims.get('aliases') is not None:
         judge_aliases(judge, case, claims)
-    extra = {'rho': judge_rho, 'plan': judge_plan, 'tolerance': judge_motion, 'layer tolerance': judge_motion}.get(case.stated)
+    extra = {'rho': judge_rho, 'plan': judge_plan, 'layer plan': judge_plan, 'tolerance': judge_motion, 'layer tolerance': judge_motion}.get(case.stated)
     if extra:
         extra(judge, case, claims, last, rand, effort)
     if judge.refuted:
@@ -208,19 +208,11 @@ def judge_motion(judge, case, claims, last, rand, effort):
             judge(e == (1 if event == 'death' else -1), 'a motion below %s makes %d,%d end (%s)', stated.shown(t), i, j, event)
 
 
-def judge_plan(judge, case, claims, last, rand, effort):
-    """Within the accuracies of a plan all choices have the same edges."""
-    if case.true or case.extra in ('next', 'site', 'window') or 'stay undecided' in claims['err'] or 'leave' in claims['err'] or claims['left']:
-        return
-    if case.extra == 'accuracy' or case.kind == 'real with radius':
-        return
-    globe = case.geometry == 'sphere'
-    make = stated.Globe if globe else stated.Choice
-    if globe and any(s.region[0] == 'degrees' and not -90 < s.region[3] <= s.region[4] < 90 for s in case.sites):
-        return  # the middle of a region about a pole
-    regions = []
+def measured_regions(case, half):
+    """The regions, those of the points in half within so much of their middles."""
+    globe, regions = case.geometry == 'sphere', []
     for k, s in enumerate(case.sites):
-        h = claims['plan'].get(k)
+        h = half.get(k)
         if case.geometry == 'discs':
             regions.append(s.region if h is None else (*s.region[:3], min(s.region[3], h * (1 - Q(1, 2 ** 40)))))
             continue
@@ -232,19 +224,39 @@ def judge_plan(judge, case, claims, last, rand, effort):
         x, y = (xlo + xhi) / 2, (ylo + yhi) / 2
         h = None if h is None else h * (1 - Q(1, 2 ** 40))
         regions.append(s.region if h is None else (n, max(xlo, x - h), min(xhi, x + h), max(ylo, y - h), min(yhi, y + h)))
+    return regions
+
+
+def judge_plan(judge, case, claims, last, rand, effort):
+    """Within the accuracies of a plan all choices have the same edges; within those of its first rows, the pairs that these decide."""
+    if case.true or case.extra in ('next', 'site', 'window') or 'stay undecided' in claims['err'] or 'leave' in claims['err'] or claims['left']:
+        return
+    if case.extra == 'accuracy' or case.kind == 'real with radius':
+        return
+    globe = case.geometry == 'sphere'
+    make = stated.Globe if globe else stated.Choice
+    if globe and any(s.region[0] == 'degrees' and not -90 < s.region[3] <= s.region[4] < 90 for s in case.sites):
+        return  # the middle of a region about a pole
+    regions = measured_regions(case, claims['plan'])
     middle = make([r[1:3] if r[0] in ('disc', 'cap') else ((r[1] + r[2]) / 2, (r[3] + r[4]) / 2) for r in regions], last.sites)
     if len({(middle.places if globe else middle.points)[k] for k in last.sites}) < len(last.sites):
         return
     pairs = [p for p in itertools.combinations(last.sites, 2) if middle.edge(*p) != 0]
     if len(pairs) < len(last.sites) * (len(last.sites) - 1) // 2:
         return
-    moved = list(draws.choices(regions, rand, effort))
-    for i, j in rand.sample(pairs, min(4, len(pairs))):
-        moved.append(draws.climb(regions, last.sites, i, j, middle.edge(i, j) < 0, rand, globe))
-    for p in moved:
-        ch = make(p, last.sites)
-        for i, j in pairs:
-            judge(ch.edge(i, j) in (middle.edge(i, j), 0 if globe else None), 'within what the plan asks for, %d,%d changes', i, j)
+    tries = [(claims['plan'], pairs)]
+    if claims.get('ranks') and claims['plan']:
+        first = rand.randint(1, len(claims['plan']))
+        tries.append((dict(list(claims['plan'].items())[:first]), [p for p, rank in claims['ranks'].items() if rank and rank <= first]))
+    for half, pairs in tries:
+        regions = measured_regions(case, half)
+        moved = list(draws.choices(regions, rand, effort))
+        for i, j in rand.sample(pairs, min(4, len(pairs))):
+            moved.append(draws.climb(regions, last.sites, i, j, middle.edge(i, j) < 0, rand, globe))
+        for p in moved:
+            ch = make(p, last.sites)
+            for i, j in pairs:
+                judge(ch.edge(i, j) in (middle.edge(i, j), 0 if globe else None), 'within what the plan asks for, %d,%d changes', i, j)
 
 
 def judge_certificate(judge, case, product, claims):

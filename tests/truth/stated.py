@@ -815,9 +815,36 @@ def judge_barcode(judge, case, c, ch):
 # ---- what to measure ----
 
 def read_plan(case, out, err, form):
-    r, notes = rows(out, form)
+    d = parsed(out) if form == 'json' else {}
+    r, notes = (d['points'], {}) if d else rows(out, form)
     return {'aliases': aliases_of(notes, '') if form == 'csv' else None, 'err': err, 'left': r and int(r[-1]['pairs_left']),
-            'plan': {int(q['i']): number(q['half_width_needed']) for q in r if q.get('half_width_needed') not in (None, '')}}
+            'plan': {int(q['i']): number(q['half_width_needed']) for q in r if q.get('half_width_needed') not in (None, '')},
+            'ranks': {(q['i'], q['j']): q['rank'] for q in d.get('pairs', [])}}
+
+
+def read_decided(case, out, err, form):
+    r, notes = rows(out, form)
+    return {'aliases': aliases_of(notes, '') if form == 'csv' else None,
+            'decided': [(int(q['i']), int(q['j']), int(q['rank'] or 0)) for q in r]}
+
+
+def judge_decided_by(judge, case, c, ch):
+    for i, j, rank in c['decided']:
+        judge(i < j and rank >= 0 and {i, j} <= set(ch.sites), 'pair %d,%d of a plan, rank %d', i, j, rank)
+
+
+def read_trials(case, out, err, form):
+    r = parsed(out)['trials'] if form == 'json' else rows(out, form)[0]
+    return {'trials': [tuple(int(q[k]) for k in ('trial', 'rounds', 'points', 'measurements', 'pairs_left')) for q in r]}
+
+
+def judge_trials(judge, case, c, ch):
+    """What any plan comes to; exact points are not measured."""
+    judge([t[0] for t in c['trials']] == [0, 1, 2], 'trials are %s', c['trials'])
+    for k, rounds, points, measured, left in c['trials']:
+        judge((rounds > 0) == (points > 0) and points <= min(measured, len(ch.sites)) and rounds <= measured <= rounds * points,
+              'trial %d: %d rounds, %d points, %d measurements', k, rounds, points, measured)
+        judge(not case.exact or not rounds, 'exact points are measured')
 
 
 # ---- counts ----
@@ -1028,7 +1055,11 @@ STATED = {
                               least=2),
     'rho': Stated('tolerance', read_rho, None, layer='points', formats=ROWS, kinds=TRUE, least=2),
     'barcode': Stated('tolerance', read_barcode, judge_barcode, layer='barcode', kinds=FIRM, least=2),
-    'plan': Stated('plan', read_plan, None, formats=ROWS, geometries=ALL, least=2),
+    'plan': Stated('plan', read_plan, None, formats=(*ROWS, 'json'), geometries=ALL, least=2),
+    'layer plan': Stated('plan', read_plan, None, layer='points', formats=ROWS, geometries=ALL, least=2),
+    'pairs of a plan': Stated('plan', read_decided, judge_decided_by, layer='pairs', formats=ROWS, geometries=ALL, least=2),
+    'trials': Stated('plan', read_trials, judge_trials, args=['--simulate', '3', '--seed', '5'], formats=('csv', 'json'), geometries=ALL,
+                     least=2),
     'converge': Stated('converge', read_converge, judge_count, args=['--no-times'], formats=('csv', 'json'), geometries=ALL),
     'converge of voronoi': Stated('converge', read_converge, judge_count, args=['--of', 'voronoi', '--label', 'a=b'], geometries=('plane', 'discs')),
     'converge of delaunay': Stated('converge', read_converge, judge_count, args=['--of', 'delaunay'], geometries=('plane', 'discs')),

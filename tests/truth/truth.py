@@ -111,7 +111,7 @@ class Space:
             return False
         if e.fits == 'program' and form and form != 'program':
             return False
-        if extra == 'window' and g == 'sphere' and what == 'plan':
+        if extra == 'window' and g == 'sphere' and what and stated.STATED[what].command == 'plan' or extra == 'next' and what == 'trials':
             return False
         if extra == 'crs' and (fmt and fmt not in ('geojson', 'json') or g == 'sphere'):
             return False

@@ -14,7 +14,7 @@ from ._errors import BrokenPromise, Error
 from ._geometry import OPEN, RAY, Edges, Enclosures, Rings
 from ._notions import Arc, Bisector, Circle, PartialDisc, bisector, con, disc, hull, orientation
 from ._points import Confidence, Source, Text
-from ._questions import (OUTSIDE, UNDECIDED, Convergence, Graph, Nearest, NearestPlaces, Plan, Table, Tolerance, Verdict,
+from ._questions import (OUTSIDE, UNDECIDED, Convergence, Graph, Nearest, NearestPlaces, Plan, Table, Tolerance, Trials, Verdict,
                          converge, replay, verify)
 from ._sphere import Sphere, SphereCell, SphereVoronoi
 from ._statuses import INDETERMINATE, LEGAL, TIE
@@ -24,6 +24,6 @@ from ._voronoi import Cell, Voronoi
 __all__ = ['Arc', 'Bisector', 'Bounds', 'BrokenPromise', 'Cell', 'Circle', 'Confidence', 'Convergence', 'Delaunay', 'Edges',
            'Enclosures', 'Error', 'Graph', 'INDETERMINATE', 'LEGAL', 'Nearest', 'NearestPlaces', 'OPEN', 'OUTSIDE',
            'PartialDisc', 'Plan', 'RAY', 'Rings',
-           'Source', 'Sphere', 'SphereCell', 'SphereVoronoi', 'TIE', 'Table', 'Text', 'Tolerance', 'UNDECIDED',
+           'Source', 'Sphere', 'SphereCell', 'SphereVoronoi', 'TIE', 'Table', 'Text', 'Tolerance', 'Trials', 'UNDECIDED',
            'Verdict', 'Voronoi', '__version__', 'bisector', 'check', 'con', 'converge', 'delaunay', 'disc', 'formats', 'hull',
            'moves', 'orientation', 'plan', 'replay', 'tolerance', 'verify']

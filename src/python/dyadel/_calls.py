@@ -98,10 +98,11 @@ def tolerance(points: Any, up_to: Any = None, radii: bool = False, sigma: float 
 
 @takes_options(*INPUTS, 'trace', 'resume')
 def plan(points: Any, radius: Any = None, accuracy: Any = None, window: Sequence[Any] | None = None,
-         site: int | None = None, **options: Any) -> Plan:
-    """Which points to measure next, and how accurately, so that all is decided.
+         site: int | None = None, discs: bool = False, **options: Any) -> Plan:
+    """Which points to measure next, and how accurately, so that all is decided. Delaunay.simulate tries that on drawn points.
 
     accuracy: what a measurement gives at best, in units of the points; window, site: only pairs that reach into
-    (xlo, xhi, ylo, yhi), or that end at this point; points, radius, options: as for delaunay.
+    (xlo, xhi, ylo, yhi), or that end at this point; discs: only pairs that discs leave undecided; points, radius,
+    options: as for delaunay.
     """
-    return Delaunay(points, radius, **options).plan(accuracy, window, site)
+    return Delaunay(points, radius, **options).plan(accuracy, window, site, discs)

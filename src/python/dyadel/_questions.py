@@ -260,7 +260,7 @@ class Table(Mapping[str, NDArray[Any]]):
     def __init__(self, columns: Mapping[str, NDArray[Any]]) -> None:
         if not isinstance(columns, Mapping):
             name = type(self).__name__
-            raise TypeError(f'{name} is a result: call dyadel.{"converge" if name == "Convergence" else name.lower()}(points)')
+            raise TypeError(f'{name} is a result: call dyadel.{ {"Convergence": "converge", "Trials": "plan"}.get(name, name.lower()) }(points)')
         self._columns = dict(columns)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
@@ -345,9 +345,21 @@ class Plan(Table):
     left: int
 
 
-def plan_of(engine: _dyadel.Engine, accuracy: Any, window: Sequence[Any] | None, site: int | None) -> Plan:
+class Trials(Table):
+    """A plan tried on drawn true points, a row for each trial: columns rounds (how often it was measured and planned again),
+    points (how many were measured), measurements (how many that took), pairs_left (pairs that stay undecided)."""
+
+
+def trials_of(engine: _dyadel.Engine, accuracy: Any, window: Sequence[Any] | None, site: int | None, discs: bool, trials: int,
+              seed: int) -> Trials:
     """See plan."""
-    rows, (undecided, ties, left) = engine.plan(accuracy, window, site)
+    rows = engine.simulate(accuracy, window, site, discs, trials, seed)
+    return Trials(_fields(rows, {'rounds': ('u8', 0), 'points': ('u8', 8), 'measurements': ('u8', 16), 'pairs_left': ('u8', 24)}, 40))
+
+
+def plan_of(engine: _dyadel.Engine, accuracy: Any, window: Sequence[Any] | None, site: int | None, discs: bool) -> Plan:
+    """See plan."""
+    rows, (undecided, ties, left) = engine.plan(accuracy, window, site, discs)
     made = Plan(_fields(rows, {'i': ('u4', 0), 'half_width_now': ('f8', 8), 'half_width_needed': ('f8', 16),
                                'pairs_decided': ('u8', 24), 'pairs_left': ('u8', 32)}, 40))
     made.undecided, made.ties, made.left = undecided, ties, left

@@ -16,8 +16,8 @@ from ._notions import Corner, corners_of
 from ._options import INPUTS, Path, engine_options, split_inputs, takes_options
 from ._outputs import COLOURS, plot_lines, plot_polygons
 from ._points import append_given, given_of
-from ._questions import (GRAPHS, Graph, Nearest, NearestPlaces, Plan, Tolerance, around, csr_of, graph_of, interpolated,
-                         interpolation_range, named_triangles, nearest_places, nearest_to, plan_of, tolerance_of,
+from ._questions import (GRAPHS, Graph, Nearest, NearestPlaces, Plan, Tolerance, Trials, around, csr_of, graph_of, interpolated,
+                         interpolation_range, named_triangles, nearest_places, nearest_to, plan_of, tolerance_of, trials_of,
                          triangles_at)
 from ._statuses import STATUS, Statuses
 from ._voronoi import Voronoi
@@ -294,9 +294,15 @@ class Delaunay(Statuses):
         """How far the points, which have to be exact, may move: see dyadel.tolerance."""
         return tolerance_of(self._engine, up_to, points, sigma, metric)
 
-    def plan(self, accuracy: Any = None, window: Sequence[Any] | None = None, site: int | None = None) -> Plan:
+    def plan(self, accuracy: Any = None, window: Sequence[Any] | None = None, site: int | None = None, discs: bool = False) -> Plan:
         """Which points to measure next, and how accurately: see dyadel.plan."""
-        return plan_of(self._engine, accuracy, window, site)
+        return plan_of(self._engine, accuracy, window, site, discs)
+
+    def simulate(self, trials: int, seed: int = 1, accuracy: Any = None, window: Sequence[Any] | None = None, site: int | None = None,
+                 discs: bool = False) -> Trials:
+        """Tries the plan on true points that the seed draws, one in each rectangle (disc), evenly, as often as `trials` says:
+        each point of the plan is measured, and planned again, until no measurement is left that decides a pair."""
+        return trials_of(self._engine, accuracy, window, site, discs, trials, seed)
 
     def certificate(self, diagram: bool = False, window: Sequence[Any] | None = None, discs: bool = False) -> bytes:
         """What proves the result, for verify(); diagram: and its Voronoi diagram on the window; discs: of points in the
