@@ -43,13 +43,17 @@ void dyd_picture_name_pair(dyd_canvas *c, const dyd_engine *e, size_t i, size_t 
   dyd_canvas_name(c, id, title);
 }
 
+static bool is_dot(const dyd_view *v, const double box[4]) {
+  return v->dots || fmax(box[1] - box[0], box[3] - box[2]) * v->scale < 2 * v->dot;
+}
+
 static dyd_site_mark picture_site(dyd_canvas *c, const dyd_view *v, const double box[4], const dyd_engine *e,
                                   size_t site, unsigned rgb) {
   double x0 = dyd_view_x(v, box[0]), x1 = dyd_view_x(v, box[1]), y0 = dyd_view_y(v, box[3]), y1 = dyd_view_y(v, box[2]);
   const double *f = v->frame;
   if (!dyd_view_sees(v, box)) return DYD_MARK_NONE;
   name_site(c, box, e, site);
-  if (v->dots || fmax(x1 - x0, y1 - y0) < 2 * v->dot) {
+  if (is_dot(v, box)) {
     dyd_canvas_circle(c, x0 / 2 + x1 / 2, y0 / 2 + y1 / 2, v->dot);
     dyd_picture_fill(c, 0x222222);
     return DYD_MARK_DOT;
@@ -135,14 +139,11 @@ void dyd_numbers_keep_off(dyd_numbers *l, const double box[4]) {
   if (dyd_view_sees(l->view, box)) take_squares(l, z);
 }
 
-void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double size, const dyd_engine *e,
-                     size_t site) {
+static void put_text(dyd_numbers *l, dyd_canvas *c, const double box[4], double size, const char *text) {
   /* Steps right and down from the box: -1 before, 0 about the middle, 1 behind. */
   static const int place[8][2] = {{1, -1}, {1, 1}, {-1, -1}, {-1, 1}, {1, 0}, {-1, 0}, {0, -1}, {0, 1}};
-  char spare[DYD_LABEL_SIZE];
   double b[4], z[4];
   if (!dyd_view_sees(l->view, box)) return;
-  const char *text = dyd_label_text(spare, e, site);
   double wide = dyd_canvas_width(c, size, text), high = 0.74 * size * c->text, gap = 3;
   page_box(b, l->view, box, fmax(l->view->dot, 3.5));
   for (int k = 0; k < 8; k++) {
@@ -155,6 +156,12 @@ void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double 
     dyd_canvas_text(c, z[0], z[3], 0, size, true, text);
     return;
   }
+}
+
+void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double size, const dyd_engine *e,
+                     size_t site) {
+  char spare[DYD_LABEL_SIZE];
+  put_text(l, c, box, size, dyd_label_text(spare, e, site));
 }
 
 /* ---- all sites ---- */
@@ -179,17 +186,38 @@ static bool is_mark_covered(const dyd_site_marks *m, const dyd_view *v, const do
   return dyd_density_covers(m->under, z);
 }
 
+/* Points of a plan are marked, however small they are. */
+static void draw_mark(dyd_site_marks *m, dyd_canvas *c, const dyd_view *v, const double box[4], size_t i) {
+  const unsigned rgb = m->plan ? m->plan->rgb[i] : m->rgb;
+  if (m->plan && m->plan->rank[i] && is_dot(v, box) && dyd_view_sees(v, box))
+    dyd_picture_marked(c, v, box, m->engine, i, rgb);
+  else
+    m->drawn[picture_site(c, v, box, m->engine, i, rgb)] = true;
+}
+
+/* "1: T16": ranks and points, where there is room. */
+static void draw_ranks(const dyd_site_marks *m, dyd_canvas *c, dyd_numbers *labels) {
+  for (size_t k = 0; k < m->plan->rows; k++) {
+    char spare[DYD_LABEL_SIZE], text[DYD_LABEL_SIZE + 32];
+    double box[4];
+    if (!m->box(box, m->context, m->plan->row[k].site)) continue;
+    snprintf(text, sizeof text, "%zu: %s", k + 1, dyd_label_text(spare, m->engine, m->plan->row[k].site));
+    put_text(labels, c, box, 13, text);
+  }
+}
+
 void dyd_site_marks_draw(dyd_site_marks *m, dyd_canvas *c, const dyd_view *v) {
   dyd_numbers labels = {0};
-  bool numbers = v->apart >= ROOMY && dyd_numbers_init(&labels, v);
-  for (int pass = 0; pass < (numbers ? 2 : 1); pass++)
+  bool numbers = (m->plan || v->apart >= ROOMY) && dyd_numbers_init(&labels, v);
+  for (int pass = 0; pass < (numbers && !m->plan ? 2 : 1); pass++)
     for (size_t i = 0; i < m->count; i++) {
       double b[4];
       if (!m->box(b, m->context, i)) continue;
       if (is_mark_covered(m, v, b)) continue;
-      if (!pass) m->drawn[picture_site(c, v, b, m->engine, i, m->rgb)] = true;
-      if (!pass && numbers) dyd_numbers_keep_off(&labels, b);
+      if (!pass) draw_mark(m, c, v, b, i);
+      if (!pass && numbers && (!m->plan || m->plan->rank[i])) dyd_numbers_keep_off(&labels, b);
       if (pass) dyd_numbers_put(&labels, c, b, 13, m->engine, i);
     }
+  if (numbers && m->plan) draw_ranks(m, c, &labels);
   dyd_numbers_clear(&labels);
 }

@@ -15,7 +15,7 @@ typedef void (*dyd_draw_fn)(dyd_canvas *c, void *context);
 /* The writers of pictures. */
 dyd_writer dyd_delaunay_picture, dyd_voronoi_picture, dyd_convergence_picture;
 dyd_writer dyd_sphere_picture, dyd_sphere_voronoi_picture;
-dyd_writer dyd_disc_picture, dyd_bisector_picture, dyd_nearest_picture, dyd_tolerance_picture;
+dyd_writer dyd_disc_picture, dyd_bisector_picture, dyd_nearest_picture, dyd_tolerance_picture, dyd_plan_picture;
 
 /* Up to this count each line and triangle has a name; beyond, a file would be all names. */
 enum { DYD_PICTURE_NAMES = 40000 };
@@ -123,6 +123,7 @@ typedef struct dyd_site_marks {
   const void *context;
   unsigned rgb;                       /* of rectangles */
   const struct dyd_density *under;    /* marks that its squares cover are omitted; NULL: none are */
+  const struct dyd_plan_dress *plan;  /* its points are marked by their ranks, and no others are numbered; NULL: none */
   bool drawn[DYD_MARK_RECTANGLE + 1]; /* which marks were */
 } dyd_site_marks;
 
@@ -130,6 +131,27 @@ typedef struct dyd_site_marks {
 dyd_site_marks dyd_site_marks_of(const dyd_delaunay *pd, const dyd_engine *e, unsigned rgb);
 /* All of them, with their numbers where neighbours are far enough apart. */
 void dyd_site_marks_draw(dyd_site_marks *m, dyd_canvas *c, const dyd_view *v);
+
+/* ---- plan.c ---- */
+
+/* Classes of pairs: decided by the first quarter of the rows of a plan, and so on; not by it; legal already. */
+enum { DYD_PLAN_QUARTERS = 4, DYD_PLAN_LEFT = DYD_PLAN_QUARTERS, DYD_PLAN_LEGAL, DYD_PLAN_CLASSES };
+
+/* A plan in a picture. rank: of each site in it, else 0; rgb: of each site; both owned. shown: pairs drawn of each
+ * class. */
+typedef struct dyd_plan_dress {
+  const dyd_survey *plan;
+  const dyd_survey_row *row;
+  const dyd_survey_pair *pair;
+  size_t rows, pairs, *rank, shown[DYD_PLAN_CLASSES];
+  unsigned *rgb;
+} dyd_plan_dress;
+
+dyd_status dyd_plan_dress_init(dyd_plan_dress *d, const dyd_survey *plan, size_t sites);
+void dyd_plan_dress_clear(dyd_plan_dress *d);
+int dyd_plan_class(const dyd_plan_dress *d, const dyd_pair *p);
+/* Names and strokes the line of a pair of sites of e, which is the path. */
+void dyd_plan_stroke(dyd_canvas *c, const dyd_plan_dress *d, const dyd_view *v, const dyd_engine *e, const dyd_pair *p);
 
 /* ---- legend.c ---- */
 
@@ -149,6 +171,8 @@ void dyd_legend_dot(dyd_legend *l, unsigned fill, unsigned edge, const char *tex
 void dyd_legend_marks(dyd_legend *l, const dyd_site_marks *m, unsigned rgb);
 /* "N points"; where a window is given, how many of them are in it. */
 void dyd_points_text(char *out, size_t size, size_t inside, size_t count, bool window);
+/* plan.c: of the classes. */
+void dyd_plan_legend(dyd_legend *l, const dyd_plan_dress *d);
 /* A sentence, on lines of its own. */
 void dyd_legend_text(dyd_legend *l, const char *text);
 /* Where most sites are, when they are in a small part of the view. */

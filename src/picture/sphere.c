@@ -30,8 +30,9 @@ typedef struct sphere_drawing {
   double seam;                   /* the longitude of the left end of the map, of 360 degrees */
   dyd_view view;
   dyd_site_marks marks;
-  dyd_density open; /* of indeterminate edges */
-  bool crowded;     /* it is drawn instead of them */
+  dyd_plan_dress plan; /* where r holds one */
+  dyd_density open;    /* of indeterminate edges */
+  bool crowded;        /* it is drawn instead of them */
   dyd_canvas *canvas;
   /* The line at hand: where it is on the page; is it in the frame, and of an indeterminate edge? */
   double at[2];
@@ -111,6 +112,17 @@ static void draw_graticule(sphere_drawing *d) {
   dyd_picture_stroke(d->canvas, GRATICULE, 0.5, 0, 0);
 }
 
+static void draw_plan(sphere_drawing *d) {
+  for (int class = DYD_PLAN_CLASSES; class --;)
+    for (size_t k = 0; k < d->r->pairs.count; k++) {
+      const dyd_pair *p = &d->r->pairs.item[k];
+      if (dyd_plan_class(&d->plan, p) != class) continue;
+      d->plan.shown[class]++;
+      arc_follow(d, d->box[p->i], d->box[p->j], arc_draw);
+      dyd_plan_stroke(d->canvas, &d->plan, &d->view, d->r->engine, p);
+    }
+}
+
 static void draw_pairs(sphere_drawing *d) {
   const dyd_pair_list *l = &d->r->pairs;
   const dyd_engine *places = dyd_sphere_places(d->r->sphere);
@@ -150,10 +162,12 @@ static void draw_cells(sphere_drawing *d) {
 static void sphere_inside(dyd_canvas *c, void *context) {
   sphere_drawing *d = context;
   d->canvas = c;
-  if (d->crowded) dyd_density_draw(c, &d->open, NULL);
+  if (d->crowded && !d->r->survey) dyd_density_draw(c, &d->open, NULL);
   draw_graticule(d);
   if (d->cells)
     draw_cells(d);
+  else if (d->r->survey)
+    draw_plan(d);
   else
     draw_pairs(d);
   dyd_site_marks_draw(&d->marks, c, &d->view);
@@ -164,6 +178,10 @@ static void sphere_legend(dyd_canvas *c, void *context) {
   char text[300], points[100];
   dyd_legend l;
   dyd_legend_begin(&l, c, &d->view);
+  if (d->r->survey) {
+    dyd_plan_legend(&l, &d->plan);
+    return;
+  }
   for (int k = 2; k >= 0 && !d->cells; k--) {
     if (!d->shown[kind[k].status] || (d->crowded && k == OPEN)) continue;
     snprintf(text, sizeof text, "%s: %zu", kind[k].name, d->shown[kind[k].status]);
@@ -276,14 +294,18 @@ static dyd_status sphere_draw(const dyd_output *o, const dyd_sphere_cells *cells
   d.marks =
       (dyd_site_marks){.engine = places, .count = d.count, .box = sphere_site_box, .context = &d, .rgb = RECTANGLE};
   dyd_status st = sphere_see(&d, o->err);
+  if (d.r->survey && st == DYD_OK) st = dyd_plan_dress_init(&d.plan, d.r->survey, d.count);
+  if (d.r->survey) d.marks.plan = &d.plan;
   if (st == DYD_OK) st = dyd_view_write(o, &d.view, title, sphere_inside, sphere_legend, &d);
+  dyd_plan_dress_clear(&d.plan);
   dyd_density_clear(&d.open);
   free(d.box);
   return st == DYD_OK ? d.failed : st;
 }
 
 dyd_status dyd_sphere_picture(const dyd_output *o) {
-  return sphere_draw(o, NULL, "partial Delaunay triangulation of a sphere");
+  const bool plan = ((const dyd_result *)o->what)->survey;
+  return sphere_draw(o, NULL, plan ? "plan of measurements" : "partial Delaunay triangulation of a sphere");
 }
 
 dyd_status dyd_sphere_voronoi_picture(const dyd_output *o) {

@@ -17,7 +17,8 @@ import svg
 from harness import DATA, expect, main, run
 
 TWELVE = ''.join(f'{500000 + 17 * k * k % 211}+-{1 + k % 3} {5400000 + 31 * k % 197}+-{1 + k % 2}\n' for k in range(12))
-ALL = [('delaunay', ()), ('voronoi', ()), ('disc', ()), ('bisector', ()), ('nearest', ('500100', '5400100'))]
+ALL = [('delaunay', ()), ('voronoi', ()), ('disc', ()), ('bisector', ()), ('nearest', ('500100', '5400100')), ('plan', ())]
+FIXES = '--columns', 'east,north', '--radius-column', 'accuracy', '--id', 'name', f'{DATA}/gps.csv'
 NUMBER = re.compile(r'-?\d+(\.\d+)?(e-?\d+)?\Z')
 
 
@@ -252,6 +253,26 @@ def test_few_open_lines_are_all_drawn():
     assert ids == {'pair-{}-{}'.format(*r.split(',')) for r in rows} and sum('indet' in r for r in rows) > 200
 
 
+def test_plan():
+    """A line for each pair, named by the point that decides it; a label for each point, rank first, where there is room."""
+    gps, globe = [*FIXES], ['--sphere', '--radius', '60km', '--columns', 'longitude,latitude', 'some.csv']
+    with tempfile.TemporaryDirectory() as folder, open(f'{DATA}/airports.csv', encoding='utf-8') as f:
+        pathlib.Path(folder, 'some.csv').write_text(''.join(list(f)[:40]), encoding='utf-8')
+        for more in (gps, ['--discs', *gps], ['--accuracy', '3', *gps], globe):
+            text = run('plan', '--quiet', '--format', 'svg', *more, cwd=folder).out
+            pairs = list(csv.DictReader(run('plan', '--quiet', '--layer', 'pairs', *more, cwd=folder, comments=False).out.splitlines()))
+            plan = list(csv.DictReader(run('plan', '--quiet', *more, cwd=folder, comments=False).out.splitlines()))
+            said = {e.look['id'][5:]: e.title.split(': ')[1] for e in svg.elements(text) if e.look.get('id', '').startswith('pair-')}
+            want = {f"{p['i']}-{p['j']}": f"decided by point {p['rank']} of the plan" if p['rank'] else 'not decided by the plan' for p in pairs}
+            assert want and {k: v for k, v in said.items() if v != 'legal'} == want, more
+            names = {f"{r['rank']}: {r.get('id', r['i'])}" for r in plan}
+            labels = {w for w in svg.words(text) if re.fullmatch(r'\d+: \S+', w)}
+            assert labels <= names and len(labels) > len(names) / 3 and (more is globe or f"1: {plan[0].get('id', plan[0]['i'])}" in labels), (labels, names)
+            assert any(w.startswith(f'labels: rank: point; {len(plan)} points to measure, ') for w in svg.words(text))
+    assert run('plan', '--quiet', '--format', 'svg', '-', stdin='0 0\n1 0\n0 1\n').code == 0
+    expect(run('plan', '--format', 'svg', '--layer', 'pairs', '-', stdin='0 0\n1 0\n'), 2, r'\A\Z', 'does not write svg')
+
+
 def test_kinds_agree():
     """pdf and png of everything that svg shows."""
     for command, place in ALL:
@@ -330,7 +351,7 @@ def test_sizes():
         bare = picture(command, TWELVE, '--bare', '--width', '85mm', place=place)
         left, right, top, bottom = svg.frame(bare)
         view = [float(v) for v in re.search(r'viewBox="(.*?)"', bare)[1].split()]
-        assert view == [left, top, right - left, bottom - top] and all(NUMBER.match(w) for w in svg.words(bare)), command
+        assert view == [left, top, right - left, bottom - top] and all(NUMBER.match(re.sub(r'\A\d+: ', '', w) if command == 'plan' else w) for w in svg.words(bare)), command
     expect(run('delaunay', '--format', 'svg', '--width', '40', '-', stdin=TWELVE), 1, r'\A\Z', 'no room beside texts')
     expect(run('delaunay', '--width', '40mm', '-', stdin=TWELVE), 2, r'\A\Z', 'about pictures; give -o')
     text = picture('delaunay', TWELVE, '--font', 'A "b" <c>')

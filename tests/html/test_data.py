@@ -247,6 +247,17 @@ def test_tolerance():
     assert 'rho' not in pages.data(pages.page('delaunay', pages.points(pages.TWELVE)))['points'][0]
 
 
+def test_plan():
+    """The page of a plan has what json has, and the statuses of delaunay; on the globe, too."""
+    globe = ['--sphere', '--radius', '60km', pages.points('10 50\n11 51\n13 50.3\n11.2 49\n12 52\n14.1 51.2\n9 51\n', 'globe.txt')]
+    for args in pages.FIXES, ['--discs', *pages.FIXES], ['--accuracy', '3', *pages.FIXES], globe:
+        page, whole = pages.data(pages.page('plan', *args)), json.loads(harness.run('plan', '--format', 'json', '--quiet', *args).out)
+        assert page['kind'] == 'plan' and page['plan']['finished'] is True
+        assert page['plan']['pairs'] == [[p['i'], p['j'], p['rank'] or 0] for p in whole['pairs']]
+        assert page['plan']['points'] == [[p[k] for k in ('i', 'half_width_now', 'half_width_needed', 'pairs_decided', 'pairs_left')] for p in whole['points']]
+        assert pages.statuses(page)[-1] == pages.csv_pairs('delaunay', *(a for a in args if a not in ('--accuracy', '3')))
+
+
 def test_names_do_not_run():
     """A name cannot leave the data, whatever is in it."""
     names = ['</script><script>seize()</script>', '<img src=x onerror=seize()>', '&amp;"\'', 'Zürich']

@@ -42,6 +42,19 @@ def test_counts():
             assert shown_counts(page) == counts(pages.csv_pairs('delaunay', *args))
 
 
+def test_plan():
+    """Points to measure in their order; one of them says what is to be done."""
+    whole = json.loads(harness.run('plan', '--format', 'json', '--quiet', *pages.FIXES).out)
+    with opened(pages.page('plan', *pages.FIXES)) as page:
+        listed = json.loads(page.value("JSON.stringify([...document.querySelectorAll('#plan-points li')].map((li) => li.textContent))"))
+        assert [line.split()[0] for line in listed] == [p['id'] for p in whole['points']], listed
+        assert f"{len(whole['points'])} points, 0 of {whole['undecided']} " in page.text('#plan-about')
+        page.value("document.querySelector('#plan-points li:nth-child(2) button').click()")
+        second = whole['points'][1]
+        assert page.text('#measure') == (f"as number 2, within {second['half_width_needed']} (now {second['half_width_now']}): "
+                                         f"decides {second['pairs_decided']}, leaves {second['pairs_left']}"), page.text('#measure')
+
+
 def place_of(page, x, y):
     """Where on the screen a place of the plane is, by the address."""
     page.until("location.hash.includes('at=')")

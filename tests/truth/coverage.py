@@ -36,7 +36,7 @@ REASONS = {  # (command or *, option, format:F, layer:L or OPTION=word): why no 
     ('*', 'format:html'): 'a page holds the data of json: tests/html compares both',
     ('voronoi', 'format:svg'): PICTURE, ('voronoi', 'format:vtk'): 'holds what json does: tests/cli/test_voronoi.py compares',
     ('disc', 'format:svg'): PICTURE, ('bisector', 'format:svg'): PICTURE, ('nearest', 'format:svg'): PICTURE,
-    ('tolerance', 'format:svg'): PICTURE, ('tolerance', '--sigma'): 'probabilities: tests/tolerance/test_chance.c',
+    ('tolerance', 'format:svg'): PICTURE, ('plan', 'format:svg'): PICTURE, ('tolerance', '--sigma'): 'probabilities: tests/tolerance/test_chance.c',
     ('tolerance', '--sigma-column'): 'probabilities: tests/tolerance/test_chance.c',
     ('plan', '--pairs'): 'as --site: a part of the pairs', ('*', 'help=man'): 'says nothing about points',
     ('*', 'help=bash'): 'says nothing about points', ('*', 'help=zsh'): 'says nothing about points'}

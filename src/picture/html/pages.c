@@ -133,7 +133,7 @@ typedef dyd_status (*html_own_fn)(FILE *out, const void *user);
 typedef struct html_scene {
   FILE *out; /* JSON */
   const dyd_result *r;
-  const char *kind; /* "delaunay", "voronoi", "converge" */
+  const char *kind; /* "delaunay", "voronoi", "converge", "plan" */
   html_own_fn own;
   const void *user;
   const dyd_history *history; /* NULL: of a globe, whose pairs are those of r */
@@ -462,6 +462,37 @@ static dyd_status html_whole(FILE *out, const void *result) {
   return dyd_json_end(&j, ",\n");
 }
 
+/* Its points, in order: row, half-widths now and needed, pairs decided and left; and which rank decides each pair. */
+static dyd_status html_plan(FILE *out, const void *result) {
+  const dyd_result *r = result;
+  const dyd_survey_row *row;
+  const dyd_survey_pair *pair;
+  const size_t rows = dyd_survey_rows(&row, r->survey), pairs = dyd_survey_pairs(&pair, r->survey);
+  char text[DYD_DECIMAL_SIZE];
+  double error;
+  fputs("\"plan\": {\"points\": [", out);
+  for (size_t k = 0; k < rows; k++) {
+    fprintf(out, "%s[%zu,", k ? "," : "", dyd_engine_row(r->engine, row[k].site));
+    dyd_decimal_put(out, row[k].now, DYD_UP, "null");
+    dyd_decimal_within(text, &error, row[k].needed, row[k].needed);
+    fprintf(out, ",%s,%zu,%zu]", text, row[k].decided, row[k].left);
+  }
+  fputs("], \"pairs\": [", out);
+  for (size_t k = 0; k < pairs; k++)
+    fprintf(out, "%s[%zu,%zu,%zu]", k ? "," : "", dyd_engine_row(r->engine, pair[k].i),
+            dyd_engine_row(r->engine, pair[k].j), pair[k].row == SIZE_MAX ? 0 : pair[k].row + 1);
+  fprintf(out, "], \"finished\": %s},\n", dyd_survey_get(r->survey)->cut ? "false" : "true");
+  return html_whole(out, result);
+}
+
+static dyd_status html_plan_page(FILE *to, const dyd_output *o) {
+  return html_scene_write(&(html_scene){.out = to, .r = o->what, .kind = "plan", .own = html_plan, .user = o->what}, o);
+}
+
+static dyd_status html_plan_of(const dyd_output *o) {
+  return html_write(o, html_plan_page);
+}
+
 static dyd_status html_pairs_page(FILE *to, const dyd_output *o) {
   return html_scene_write(
       &(html_scene){.out = to, .r = o->what, .kind = "delaunay", .own = html_whole, .user = o->what}, o);
@@ -676,18 +707,12 @@ static dyd_status html_diagram_page(const dyd_output *o) {
   return html_write(o, html_cells_page);
 }
 
-dyd_writer *const dyd_html_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = html_triangulation,
-                                                    [DYD_CONTENT_POINTS] = html_triangulation,
-                                                    [DYD_CONTENT_TRIANGLES] = html_triangulation,
-                                                    [DYD_CONTENT_GRAPH_NEAREST] = html_triangulation,
-                                                    [DYD_CONTENT_GRAPH_GABRIEL] = html_triangulation,
-                                                    [DYD_CONTENT_GRAPH_MST] = html_triangulation,
-                                                    [DYD_CONTENT_CONVERGENCE] = html_convergence,
-                                                    [DYD_CONTENT_VORONOI] = html_diagram_page,
-                                                    [DYD_CONTENT_VERTICES] = html_diagram_page,
-                                                    [DYD_CONTENT_REGIONS] = html_diagram_page,
-                                                    [DYD_CONTENT_TILES] = html_diagram_page,
-                                                    [DYD_CONTENT_EDGES] = html_diagram_page,
-                                                    [DYD_CONTENT_SPHERE] = html_triangulation,
-                                                    [DYD_CONTENT_SPHERE_POINTS] = html_triangulation,
-                                                    [DYD_CONTENT_SPHERE_TRIANGLES] = html_triangulation};
+dyd_writer *const dyd_html_writers[DYD_CONTENTS] = {
+    [DYD_CONTENT_DELAUNAY] = html_triangulation,      [DYD_CONTENT_PLAN] = html_plan_of,
+    [DYD_CONTENT_POINTS] = html_triangulation,        [DYD_CONTENT_TRIANGLES] = html_triangulation,
+    [DYD_CONTENT_GRAPH_NEAREST] = html_triangulation, [DYD_CONTENT_GRAPH_GABRIEL] = html_triangulation,
+    [DYD_CONTENT_GRAPH_MST] = html_triangulation,     [DYD_CONTENT_CONVERGENCE] = html_convergence,
+    [DYD_CONTENT_VORONOI] = html_diagram_page,        [DYD_CONTENT_VERTICES] = html_diagram_page,
+    [DYD_CONTENT_REGIONS] = html_diagram_page,        [DYD_CONTENT_TILES] = html_diagram_page,
+    [DYD_CONTENT_EDGES] = html_diagram_page,          [DYD_CONTENT_SPHERE] = html_triangulation,
+    [DYD_CONTENT_SPHERE_POINTS] = html_triangulation, [DYD_CONTENT_SPHERE_TRIANGLES] = html_triangulation};

@@ -53,11 +53,20 @@ function spacing(scene, pairs) {
   return length.length ? length.sort((a, b) => a - b)[length.length >> 1] * view.scale : 100;
 }
 
-function drawLines(ctx, scene, pairs, status, frame, apart) {
+// Those that a plan decides in the colour of their ranks.
+function drawPlanned(ctx, scene, pairs, status, frame, apart) {
+  if (!scene.rank || status === LEGAL) { drawLines(ctx, scene, pairs, status, frame, apart, STATUS[status]); return; }
+  for (const c of [0, 4, 3, 2, 1]) {
+    const own = pairs.filter((p) => planClass(scene, scene.rank[p]) === c);
+    drawLines(ctx, scene, own, c ? LEGAL : TIE, frame, apart * (c ? 1.5 : 1), c ? "plan-" + c : "tie");
+  }
+}
+
+function drawLines(ctx, scene, pairs, status, frame, apart, colour) {
   ctx.beginPath();
   for (const p of pairs) pathLine(ctx, scene, p, frame);
   const dashed = pairs.length <= DASHED;
-  ctx.strokeStyle = colours[STATUS[status]];
+  ctx.strokeStyle = colours[colour];
   ctx.lineWidth = Math.min(1.4, Math.max(0.35, apart / 12));
   ctx.setLineDash(!dashed || status === LEGAL ? [] : status === TIE ? [1.3, 3] : [6, 4]);
   ctx.stroke();
@@ -141,13 +150,15 @@ function pathBox(ctx, scene, k, frame) {
 function drawPoints(ctx, scene, seen, frame, apart) {
   const wide = [], small = [];
   visitGrid(scene.grid.points, seen, (k) => (boxPixels(scene, k) > 3.5 ? wide : small).push(k));
-  ctx.beginPath();
-  for (const k of wide) pathBox(ctx, scene, k, frame);
-  ctx.fillStyle = colours.box;
-  ctx.fill();
-  ctx.strokeStyle = colours["box-edge"];
-  ctx.lineWidth = 1;
-  ctx.stroke();
+  for (const c of scene.place ? [0, 4, 3, 2, 1] : [0]) {
+    ctx.beginPath();
+    for (const k of wide) if (!scene.place || planClass(scene, scene.place[k]) === c) pathBox(ctx, scene, k, frame);
+    ctx.fillStyle = colours[c ? "plan-" + c : scene.place ? "grid" : "box"];
+    ctx.fill();
+    ctx.strokeStyle = colours["box-edge"];
+    ctx.lineWidth = 1;
+    ctx.stroke();
+  }
   const size = Math.min(5, Math.max(0.8, apart / 5));
   ctx.fillStyle = colours.dot;
   ctx.beginPath();
@@ -162,6 +173,7 @@ function drawPoints(ctx, scene, seen, frame, apart) {
 
 // Names beside their points, on no other name.
 function drawNames(ctx, scene, points) {
+  if (scene.place) points = points.filter((k) => scene.place[k]).sort((a, b) => scene.place[a] - scene.place[b]).slice(0, NAMED);
   if (points.length > NAMED) return;
   const taken = new Set(), HIGH = 14;
   ctx.font = "12px system-ui, sans-serif";
@@ -171,7 +183,7 @@ function drawNames(ctx, scene, points) {
   ctx.fillStyle = colours.ink;
   ctx.lineJoin = "round";
   for (const k of points) {
-    const text = nameOf(scene, k), half = (scene.box[4 * k + 1] - scene.box[4 * k]) * view.scale / 2, squares = [];
+    const text = (scene.place ? scene.place[k] + ": " : "") + nameOf(scene, k), half = (scene.box[4 * k + 1] - scene.box[4 * k]) * view.scale / 2, squares = [];
     const x = toX(middle(scene, k, 0)) + Math.min(half, 60) + 5, y = toY(middle(scene, k, 1)) - Math.min(half + 5, 9);
     const wide = ctx.measureText(text).width;
     for (let s = Math.floor(x / HIGH); s <= Math.floor((x + wide) / HIGH); s++)
@@ -244,7 +256,7 @@ function drawMap(ctx, scene, on) {
   drawCells(ctx, scene, shown, seen, frame);
   if (shown.has("triangles")) drawTriangles(ctx, scene, seen, frame);
   if (shown.has("areas")) for (const s of order) drawAreas(ctx, scene, pairs[s], s, frame);
-  for (const s of order) drawLines(ctx, scene, pairs[s], s, frame, apart);
+  for (const s of order) drawPlanned(ctx, scene, pairs[s], s, frame, apart);
   drawVertices(ctx, scene, shown, seen, frame);
   const points = shown.has("boxes") ? drawPoints(ctx, scene, seen, frame, apart) : [];
   if (shown.has("names") && apart > 12) drawNames(ctx, scene, points);

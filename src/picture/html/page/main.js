@@ -357,9 +357,10 @@ async function start() {
   scene = makeScene(await unpack($("data").textContent));
   makeCells(scene);
   all = wholeBox();
-  shown = new Set(LAYERS[scene.data.layer]);
+  shown = new Set(LAYERS[scene.data.layer].filter((name) => !scene.rank || name !== "areas"));
   showSummary(scene);
   showOutliers(scene, goToPoint, fitOthers);
+  showPlan(scene, goToPoint);
   buildLegend(scene, shown, () => { base = null; redraw(); writeAddressSoon(); });
   buildStages(scene, goStage);
   $("message").textContent = scene.n ? "" : "there are no points";

@@ -33,8 +33,10 @@ const PAIRS = [
 
 // Of a graph of neighbours there are edges alone, and areas of the plane are none of a sphere.
 const OF_GRAPHS = {legal: "certain: for every choice", indeterminate: "possible: for some"};
+const OF_PLANS = {legal: "legal already", indeterminate: "undecided: in the colour of the point that decides it, dotted if none does", names: "ranks: points"};
 function pairEntries({data}) {
   if (data.graph) return PAIRS.filter(([name]) => !["tie", "triangles"].includes(name)).map(([name, text]) => [name, OF_GRAPHS[name] ?? text]);
+  if (data.plan) return PAIRS.filter(([name]) => !["tie", "areas"].includes(name)).map(([name, text]) => [name, OF_PLANS[name] ?? text]);
   return data.surface === "sphere" ? PAIRS.filter(([name]) => name !== "areas") : PAIRS;
 }
 
@@ -77,8 +79,8 @@ function showCounts(scene) {
 function showSummary({data, n}) {
   const goal = data.goal === "decided" ? "" : `, goal ${data.goal} 2^-${data.goal_bits}`;
   const part = n === data.sites ? "" : ` of ${grouped(data.sites)}`;
-  const title = {delaunay: "Delaunay triangulation", voronoi: "Voronoi diagram", converge: "Convergence"}[data.kind];
-  const what = data.graph ? data.graph[0].toUpperCase() + data.graph.slice(1) : title + (data.surface ? " of a " + data.surface : "");
+  const title = {delaunay: "Delaunay triangulation", plan: "Plan of measurements", voronoi: "Voronoi diagram", converge: "Convergence"}[data.kind];
+  const what = data.graph ? data.graph[0].toUpperCase() + data.graph.slice(1) : title + (data.surface && !data.plan ? " of a " + data.surface : "");
   $("title").textContent = data.name ? `${data.name}: ${what}` : what;
   document.title = `${data.name ?? "dyadel"}: ${what}`;
   $("summary").textContent = `${grouped(n)}${part} points, outcome ${data.outcome}${goal}` +
@@ -111,6 +113,31 @@ function showOutliers(scene, choose, fit) {
   $("outliers").hidden = !far.length;
   $("outliers").replaceChildren(`${far.length === 1 ? "One point is" : far.length + " points are"} far from all others: `,
     ...far.slice(0, 8).map((k) => element("button", {onclick: () => choose(k)}, nameOf(scene, k))), element("button", {id: "fit-others", onclick: () => fit(far)}, "Fit the others"));
+}
+
+// ---- plans ----
+
+// The points to measure, in order.
+function showPlan(scene, choose) {
+  const {plan} = scene.data, MOST = 200;
+  if (!plan) return;
+  $("plan").hidden = false;
+  document.documentElement.style.setProperty("--legal", "var(--decided)");
+  const left = plan.points.length ? plan.points.at(-1)[4] : plan.pairs.length;
+  $("plan-about").textContent = `${grouped(plan.points.length)} points, ${grouped(left)} of ${grouped(plan.pairs.length)} undecided pairs stay so` +
+    (plan.finished ? "." : "; the plan is not finished.");
+  $("plan-points").replaceChildren(...plan.points.slice(0, MOST).map(([row, , needed, decided], k) => {
+    const at = scene.numberOf.get(row), name = at === undefined ? String(row) : nameOf(scene, at);
+    return element("li", {class: "plan-" + planClass(scene, k + 1)},
+      element("button", {onclick: () => { if (at !== undefined) choose(at); }}, name), ` ±${needed}: ${decided} pair${decided === 1 ? "" : "s"}`);
+  }));
+}
+
+function planLines(scene, k) {
+  const rank = scene.place?.[k];
+  if (!rank) return [];
+  const [, now, needed, decided, left] = scene.data.plan.points[rank - 1], unit = scene.globe ? " m" : "";
+  return [element("dt", {}, "measure"), element("dd", {id: "measure"}, `as number ${rank}, within ${needed}${unit} (now ${now}${unit}): decides ${decided}, leaves ${left}`)];
 }
 
 // ---- stages ----
@@ -203,7 +230,7 @@ function showPoint(scene, k, kept, choose) {
   if (same.length) lines.push(element("dt", {}, "duplicates"), element("dd", {}, same.join(", ")));
   if (point.hull) lines.push(element("dt", {}, "corner of the hull"), element("dd", {}, point.hull));
   if (point.rho !== undefined) lines.push(element("dt", {}, "tolerance"), element("dd", {id: "rho", title: "all points may move this far at once without a change at this one"}, point.rho === null ? "without bound" : String(point.rho)));
-  lines.push(...cellLines(scene, k), ...partnerLines(scene, k, choose));
+  lines.push(...planLines(scene, k), ...cellLines(scene, k), ...partnerLines(scene, k, choose));
   const title = "id" in point ? `${point.id} (point ${point.i})` : `Point ${point.i}`;
   $("card").replaceChildren(element("h2", {}, title), element("dl", {}, ...lines), element("p", {}, kept ? "Pinned. Esc to release." : "Click to pin it."));
 }

@@ -24,9 +24,25 @@ function makeScene(data) {
   scene.status = new Uint8Array(scene.pairs);
   scene.since = new Uint32Array(scene.pairs);
   scene.sides = triangleSides(scene, known);
+  if (data.plan) readPlan(scene, known);
   Object.assign(scene, partnersByPoint(scene));
   return scene;
 }
+
+// rank[p]: of the point of the plan that decides pair p, 0: none. place[k]: the rank of point k, 0: it is not in the plan.
+function readPlan(scene, known) {
+  const {plan} = scene.data, at = (row) => scene.numberOf.get(row);
+  scene.rank = new Uint32Array(scene.pairs);
+  scene.place = new Uint32Array(scene.n);
+  plan.points.forEach(([row], k) => { if (at(row) !== undefined) scene.place[at(row)] = k + 1; });
+  for (const [i, j, rank] of plan.pairs) {
+    const p = known.get(Math.min(at(i), at(j)) * scene.n + Math.max(at(i), at(j)));
+    if (p !== undefined) scene.rank[p] = rank;
+  }
+}
+
+// Ranks in four classes of colours, 1 to 4; 0: no rank.
+const planClass = (scene, rank) => (rank ? 1 + Math.floor(4 * (rank - 1) / scene.data.plan.points.length) : 0);
 
 // The pairs that are the sides of each triangle.
 function triangleSides(scene, known) {
