@@ -616,6 +616,7 @@ int cli_options_read(cli_options *out, int argc, char **argv, char **call) {
   out->read.round = out->engine.discs = out->discs;
   status = options_fit(out, s.seen, c);
   if (!status) status = layer_fits(out, c);
+  if (out->output && strcmp(out->output, "-") == 0) out->output = NULL; /* standard output, as without -o */
   if (!status) status = format_from_output(out, c);
   if (!status) status = meanings_fit(out, c);
   if (!status) status = format_fits(out, c);

@@ -333,7 +333,11 @@ int cli_files_check(const cli_options *o) {
     int descriptor = -1;
     if (!file[k].option && file[k].written) descriptor = STDOUT_FILENO;
     if (!file[k].written && strcmp(file[k].name, "-") == 0) descriptor = STDIN_FILENO;
-    if (!named_open(&file[k], descriptor)) status = cli_complain_memory();
+    if (file[k].option && file[k].written && strcmp(file[k].name, "-") == 0)
+      status =
+          cli_usage("--%s -: standard output is for the result; give a name (./- for a file called -)", file[k].option);
+    else if (!named_open(&file[k], descriptor))
+      status = cli_complain_memory();
     for (size_t m = 0; m < k && !status; m++) {
       if ((!file[k].written && !file[m].written) || !named_equal(&file[k], &file[m])) continue;
       complain_equal(&file[k], &file[m]);

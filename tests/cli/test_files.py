@@ -93,6 +93,9 @@ def test_outputs_are_no_inputs():
         expect(f.run('converge', 'in.txt', '-o', 'x.csv', '--trace', 'x.csv'), 2, r'\A\Z', same)
         expect(f.run('converge', 'in.txt', '--plot', 'x.svg', '--trace', './x.svg'), 2, r'\A\Z', same)
         expect(f.run('check', 'in.txt', '--replay', 'hard.txt', '-o', 'soft.txt'), 2, r'\A\Z', 'is the input file')
+        for option in ('--certificate', '--trace'):
+            expect(f.run('delaunay', 'in.txt', option, '-'), 2, r'\A\Z', rf'{option} -: standard output is for the result; give a name')
+        assert f.run('delaunay', 'in.txt', '-o', '-', '--format', 'svg').out == f.run('delaunay', 'in.txt', '--format', 'svg').out
         assert f.names() == before and f.read('in.txt') == POINTS.encode()
         for mode, message in (('ab', 'standard output is the input file'), ('rb', None)):
             with open(absolute, mode) as out, open(absolute, 'rb') as source:
