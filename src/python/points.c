@@ -616,6 +616,10 @@ static int read_option_set(dyd_read_options *o, Py_ssize_t *given, const dyd_rea
     *(bool *)at = truth > 0;
     return truth < 0 ? -1 : 0;
   }
+  if (!PyUnicode_Check(value)) {
+    PyErr_Format(PyExc_TypeError, "%s=%R; give a text", field->name, value);
+    return -1;
+  }
   const char *text = PyUnicode_AsUTF8AndSize(value, NULL);
   memcpy(at, &text, sizeof text);
   return text ? 0 : -1;

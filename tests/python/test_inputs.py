@@ -121,6 +121,16 @@ def test_callbacks_are_named():
         words_in(harness.raised(ValueError, d.voronoi, window), '(xlo, xhi, ylo, yhi)', repr(window))
     words_in(harness.raised(ValueError, d.voronoi, until='area'), "until='area'", 'area:M')
     words_in(harness.raised(TypeError, dyadel.delaunay, PLACES, threads='two'), "threads='two'", 'whole number')
+    for function, name, wrong in ((dyadel.delaunay, 'until', 30), (dyadel.delaunay, 'until', None), (dyadel.converge, 'until', 30),
+                                  (dyadel.converge, 'modulus', 20), (dyadel.converge, 'modulus', '4:20'),
+                                  (dyadel.converge, 'hindsight', 'x'), (dyadel.delaunay, 'progress', 3), (dyadel.delaunay, 'trace', 3),
+                                  (dyadel.delaunay, 'ids', 3), (dyadel.delaunay, 'carry', 1.5), (dyadel.delaunay, 'cost', 'x'),
+                                  (dyadel.check, 'moves', 3), (dyadel.tolerance, 'sigma', [1])):
+        words_in(harness.raised((TypeError, ValueError), function, PLACES, **{name: wrong}), f'{name}={wrong!r}; give ')
+    for name, wrong in (('format', 3), ('layer', 3), ('epsg', '2056')):
+        words_in(harness.raised(TypeError, d.write, **{name: wrong}), f'{name}={wrong!r}; give ')
+    words_in(harness.raised(TypeError, dyadel.delaunay, dyadel.Text('0 0', radius=1)), 'radius=1; give a text')
+    words_in(harness.raised(TypeError, dyadel.Source, print, 3), ', 3)', 'give the number of points, then the function')
 
 
 def test_keywords():

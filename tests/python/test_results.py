@@ -322,7 +322,11 @@ def test_save():
             d.plan().save(pathlib.Path('plan.csv'))
             with open('plan.csv', encoding='utf-8') as file:
                 assert [int(row['i']) for row in csv.DictReader(file)] == d.plan()['i'].tolist()
+            run = dyadel.converge([('sqrt(2)', 0), (0, 1), (1, 1)])
+            run.save('run.svg')
+            assert pathlib.Path('run.svg').read_text(encoding='utf-8') == run.svg
             names = sorted(os.listdir())
+            assert '.csv' in str(harness.raised(ValueError, run.save, 'a.pdf')) and '.csv' in str(harness.raised(ValueError, d.plan().save, 'a.svg'))
             assert '.xyz' in str(harness.raised(ValueError, d.save, 'a.xyz')) and 'save' in str(harness.raised(ValueError, d.write, 'a.svg'))
             harness.raised(dyadel.Error, v.save, 'a.obj')
             harness.raised(FileNotFoundError, d.save, 'no/such.csv')

@@ -6,7 +6,7 @@ import difflib
 import functools
 import inspect
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
@@ -20,6 +20,15 @@ INPUTS = ('order', 'skip_missing', 'ids', 'crs', 'sigma', 'confidence', 'carry')
 AT_LEAST = {'max_bits': 1, 'max_pairs': 1, 'threads': 1, 'start_bits': -2**20, 'step_bits': 0, 'max_stages': 0,
             'max_calls': 0, 'tie_bits': 0, 'max_bytes': 0}
 AT_MOST = {'threads': 2**16}
+_FILE = (str, bytes, os.PathLike), 'the name of a file'
+_WHOLE = (int, np.integer), 'a whole number'
+#: Types of arguments that more than one function takes, and what an error tells to give.
+KINDS: Mapping[str, tuple[Any, str]] = {
+    'until': (str, 'a text such as "area:40"'), 'progress': (Callable, 'a function'), 'trace': _FILE, 'resume': _FILE,
+    'ids': (Iterable, 'a text for each point, or the name of a column'), 'moves': (Iterable, 'a list of (stage, point, bits)'),
+    'carry': (Iterable, '"all", names of columns, or a dict of arrays'), 'hindsight': _WHOLE, 'flatten': _WHOLE, 'epsg': _WHOLE,
+    'format': (str, 'a name such as "csv"'), 'layer': (str, 'a name such as "points"'), 'name': (str, 'a name such as "mst"'),
+}
 Arguments = ParamSpec('Arguments')
 Result = TypeVar('Result')
 
@@ -39,6 +48,10 @@ def takes_options(*more: str, runs: bool = True) -> Callable[[Callable[Arguments
                     near = difflib.get_close_matches(option, known, 1)
                     raise TypeError(f'{name}() got an unexpected keyword argument {option!r}' +
                                     (f'; did you mean {near[0]!r}?' if near else ''))
+            for option, value in (dict(zip(own, args)) | options).items():
+                kind, words = KINDS.get(option, (object, ''))
+                if not isinstance(value, kind) and (value is not None or option in ('until', 'format', 'name')):
+                    raise TypeError(f'{option}={value!r}; give {words}')
             return function(*args, **options)
         return checked
     return decorate
@@ -113,10 +126,14 @@ def engine_options(*, until: str = 'decided', timeout: float | None = None, max_
             whole(name, value, AT_LEAST[name], AT_MOST.get(name, 2**63 - 1))
     if policy is not None and not callable(policy) and not isinstance(policy, str):
         raise TypeError(f'policy={policy!r}; give a function policy(pairs, plan), or a command')
+    try:
+        costs = None if cost is None else np.ascontiguousarray(cost, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(f'cost={cost!r}; give a number for each point') from None
     given = {'goal': GOALS.index(goal), 'goal_bits': int(bits or 0), 'schedule': SCHEDULES.index(schedule),
              'seconds': None if timeout is None else time_limit(timeout), 'max_bits': max_bits,
              'max_pairs': max_pairs, 'threads': threads, 'start_bits': start_bits, 'step_bits': step_bits,
              'max_stages': max_stages, 'max_calls': max_calls, 'window': window, 'no_ties': not ties,
              'tie_bits': tie_bits, 'max_bytes': max_bytes, 'progress': progress, 'policy': policy,
-             'cost': None if cost is None else np.ascontiguousarray(cost, dtype=np.float64)}
+             'cost': costs}
     return {name: value for name, value in given.items() if value is not None}

@@ -27,6 +27,10 @@ class Source:
     n: int
     narrow: Callable[[int, int], Sequence[Any]]
 
+    def __post_init__(self) -> None:
+        if not isinstance(self.n, (int, np.integer)) or not callable(self.narrow):
+            raise TypeError(f'Source({self.n!r}, {self.narrow!r}); give the number of points, then the function')
+
 
 @dataclasses.dataclass(frozen=True, init=False)
 class Text:

@@ -275,6 +275,8 @@ class Table(Mapping[str, NDArray[Any]]):
 
     def save(self, path: Path) -> None:
         """Writes the columns to a csv file, numbers as Python writes them."""
+        if os.path.splitext(path)[1].lower() not in ('', '.csv', '.txt', '.dat'):
+            raise ValueError(f'{os.fspath(path)!r}: a table is written as csv; end the name in .csv')
         with open(path, 'w', encoding='utf-8', newline='') as file:
             out = csv.writer(file, lineterminator='\n')
             out.writerow(self)
@@ -318,7 +320,7 @@ class Tolerance(Table):
 
 def tolerance_of(engine: _dyadel.Engine, up_to: Any, points: bool, sigma: float | None, metric: str) -> Tolerance:
     """See tolerance."""
-    if sigma is not None and not 0 < sigma < np.inf:
+    if sigma is not None and not (isinstance(sigma, (int, float, np.number)) and 0 < sigma < np.inf):
         raise ValueError(f'sigma={sigma!r}; give a standard deviation above 0, in units of the points')
     if metric not in ('euclid', 'box'):
         raise ValueError(f"metric={metric!r}; give 'euclid' or 'box'")
@@ -384,6 +386,13 @@ class Convergence(Table):
     def _repr_svg_(self) -> str:
         return self.svg
 
+    def save(self, path: Path) -> None:
+        """Writes the columns to a csv file or, if the name ends in .svg, the plot."""
+        if os.path.splitext(path)[1].lower() != '.svg':
+            return super().save(path)
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(self.svg)
+
 
 def _convergence(outcome: str, text: bytes, svg: bytes) -> Convergence:
     lines = [line.split(',') for line in text.decode().splitlines()]
@@ -419,12 +428,14 @@ def converge(points: Any, radius: Any = None, window: Sequence[Any] | None = Non
     engine = _dyadel.Engine()
     append_points(engine, points, radius, **split_inputs(options))
     if modulus is not None:
+        if not isinstance(modulus, (tuple, list)) or len(modulus) != 2 or not all(isinstance(m, (int, np.integer)) for m in modulus):
+            raise TypeError(f'modulus={modulus!r}; give two whole numbers, the lower one first, such as (0, 40)')
         if modulus[0] > modulus[1]:
             raise ValueError(f'modulus={modulus!r}; give the lower number first')
         goal, _, bits = options.get('until', 'hausdorff:').partition(':')
         options['until'] = f'{"hausdorff" if goal == "decided" else goal}:{max(int(bits or 0), modulus[1], 0)}'
         options.setdefault('step_bits', 1)
-    if of == 'voronoi' and options.get('until', 'decided')[0] in 'ah':
+    if of == 'voronoi' and options.get('until', 'decided').startswith(('area', 'hausdorff')):
         options['until'] = 'voronoi ' + options['until']
     ready = engine_options(start_bits=start_bits or (4 if modulus is None else 1), **options)
     if resume is not None:

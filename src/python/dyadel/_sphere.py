@@ -93,6 +93,7 @@ class SphereVoronoi(Saved):
         regions: list[dict[str, Any]] = self.data['regions']
         return regions
 
+    @takes_options(runs=False)
     def write(self, format: str = 'csv', layer: str | None = None, epsg: int = 0) -> str | bytes:
         """The diagram, as the triangulation is now, in a format of the command; layer: 'cells', 'vertices' or 'regions'."""
         return _geometry.text_of(format, self._of._engine.write_voronoi(format_of(format), layer, None, None, epsg, False))

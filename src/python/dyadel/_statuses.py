@@ -14,7 +14,7 @@ import numpy as np
 from . import _dyadel, _geometry
 from ._arrays import Floats, Ints, Longs, Rect, floats, ints, longs, rect_of
 from ._inputs import Given, epsg_of
-from ._options import Path, engine_options
+from ._options import Path, engine_options, takes_options
 from ._outputs import Saved, format_of
 from ._points import Confidence
 
@@ -159,6 +159,7 @@ class Statuses(Saved):
         """Counters of the run: stages, calls, bits_least, bits_most, bits_total, seconds, spent (which budget), decisions by rung."""
         return self._engine.counters()
 
+    @takes_options(runs=False)
     def write(self, format: str = 'csv', layer: str | None = None, window: Any = None, epsg: int | None = None) -> str | bytes:
         """Returns the result as a text in a format of the command ('csv', 'json', 'geojson', 'svg', 'html', ...), bytes of binary
         formats; save() writes a file.

@@ -200,6 +200,7 @@ class Delaunay(Statuses):
         self._cache = {}
         return graph_of(self._engine, name, engine_options(**{**self._options, **options}))
 
+    @takes_options(runs=False)
     def write(self, format: str = 'csv', layer: str | None = None, window: Any = None, epsg: int | None = None) -> str | bytes:
         """See Statuses.write; graphs are refined first, see graph()."""
         if layer is not None and layer.startswith('graph:') and layer[6:] in GRAPHS:

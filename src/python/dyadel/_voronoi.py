@@ -14,6 +14,7 @@ from . import _dyadel, _geometry
 from ._arrays import Floats, Ints, Longs, Rect, floats, ints, longs, records, rect_of
 from ._inputs import epsg_of
 from ._geometry import OPEN, Edges, Enclosures, Rings
+from ._options import takes_options
 from ._outputs import COLOURS, Saved, format_of, plot_polygons
 
 
@@ -211,6 +212,7 @@ class Voronoi(Saved):
         """Certain edges, between `vertices`."""
         return self._frame[2]
 
+    @takes_options(runs=False)
     def write(self, format: str = 'csv', layer: str | None = None, epsg: int | None = None) -> str | bytes:
         """Returns the diagram, as the triangulation is now, as a text in a format of the command (bytes of binary formats);
         save() writes a file. epsg: number of the reference system; None: that of the points, if it has one."""
