@@ -43,6 +43,20 @@ pkg-config --cflags dyadel | grep -Eq 'cairo|glib|freetype|jansson' && fail "--c
 pkg-config --libs dyadel | grep -Eq 'cairo|flint' && fail "--libs: $(pkg-config --libs dyadel)"
 pkg-config --static --libs dyadel | grep -q 'lflint-arb' || fail "--static --libs: $(pkg-config --static --libs dyadel)"
 
+# CMake finds the moved installation by its own file, and refuses a version that is not there yet.
+if command -v cmake >/dev/null; then
+  mkdir "$work/program"
+  printf '%s\n' '#include <dyadel/dyadel.h>' '#include <stdio.h>' 'int main(void) { return puts(dyd_version()) < 0; }' >"$work/program/a.c"
+  printf '%s\n' 'cmake_minimum_required(VERSION 3.13)' 'project(a C)' "find_package(dyadel \${WANTED} REQUIRED)" 'add_executable(a a.c)' \
+    'target_link_libraries(a dyadel::dyadel)' >"$work/program/CMakeLists.txt"
+  prefix=$(dirname "$(dirname "$(find "$work/moved" -name dyadel -type d -path '*include*')")")
+  {
+    cmake -S "$work/program" -B "$work/program/b" -DCMAKE_PREFIX_PATH="$prefix" && cmake --build "$work/program/b"
+  } >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+  [ "dyadel $("$work/program/b/a")" = "$printed" ] || fail "a program built by CMake runs another library"
+  cmake -S "$work/program" -B "$work/program/c" -DCMAKE_PREFIX_PATH="$prefix" -DWANTED=99 >/dev/null 2>&1 && fail "CMake finds version 99"
+fi
+
 meson setup -Dtests=disabled "$work/bare" "$1" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 ninja -C "$work/bare" -n install | grep -E 'tests/|bench/|armed' && fail "this is built for an installation"
 exit 0
