@@ -32,6 +32,8 @@ typedef enum dyd_pair_status {
   DYD_INDETERMINATE = 2, /* possible, no witness */
   DYD_LEGAL = 3          /* an edge for every choice */
 } dyd_pair_status;
+/* "illegal", "tie", "indeterminate", "legal". Static storage. */
+DYD_API const char *dyd_pair_status_text(dyd_pair_status status);
 
 /* Invariant: i < j. */
 typedef struct dyd_pair {

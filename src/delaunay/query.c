@@ -175,6 +175,11 @@ uint64_t dyd_triangles_bytes(const dyd_delaunay *pd) {
          dyd_bytes_times((uint64_t)pd->sk.n + 1, sizeof(uint32_t));
 }
 
+const char *dyd_pair_status_text(dyd_pair_status status) {
+  static const char *const text[] = {"illegal", "tie", "indeterminate", "legal"};
+  return (unsigned)status < sizeof text / sizeof *text ? text[status] : "unknown status";
+}
+
 void dyd_pair_list_clear(dyd_pair_list *l) {
   free(l->item);
   *l = (dyd_pair_list){0};

@@ -116,11 +116,6 @@ static bool is_alias(const dyd_delaunay *pd, uint32_t i) {
   return dyd_delaunay_alias(pd, i) != i;
 }
 
-static const char *pair_word(dyd_pair_status st) {
-  static const char *const text[] = {"illegal", "tie", "indeterminate", "legal"};
-  return text[st];
-}
-
 /* The statuses of one pair before and now. */
 typedef void (*pair_visit)(check_state *s, const dyd_pair *pair, dyd_pair_status before, dyd_pair_status now);
 
@@ -135,8 +130,8 @@ static void not_retracted(check_state *s, const dyd_pair *p, dyd_pair_status bef
   if (is_alias(s->pd, p->i) || is_alias(s->pd, p->j)) return; /* became one exact point with another */
   bool settled = before == DYD_LEGAL || (before == DYD_TIE && !s->o->no_ties);
   if (before == DYD_ILLEGAL || (settled && now != before))
-    check_found(s, DYD_CHECK_RETRACT, "pair %u %u was %s and is %s", (unsigned)p->i, (unsigned)p->j, pair_word(before),
-                pair_word(now));
+    check_found(s, DYD_CHECK_RETRACT, "pair %u %u was %s and is %s", (unsigned)p->i, (unsigned)p->j,
+                dyd_pair_status_text(before), dyd_pair_status_text(now));
 }
 
 static void same_or_floor(check_state *s, const dyd_pair *p, dyd_pair_status before, dyd_pair_status now) {
@@ -144,7 +139,7 @@ static void same_or_floor(check_state *s, const dyd_pair *p, dyd_pair_status bef
   s->report->floors += floor;
   if (before != now && !floor)
     check_found(s, DYD_CHECK_PATH, "pair %u %u is %s, but %s in a fresh run from the same rectangles", (unsigned)p->i,
-                (unsigned)p->j, pair_word(before), pair_word(now));
+                (unsigned)p->j, dyd_pair_status_text(before), dyd_pair_status_text(now));
 }
 
 static dyd_delaunay_options check_options(const check_state *s) {

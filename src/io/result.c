@@ -114,12 +114,6 @@ dyd_status dyd_result_box(double box[4], const dyd_result *r, size_t i, dyd_erro
 
 /* ---- words and texts ---- */
 
-const char *dyd_pair_status_text(dyd_pair_status status) {
-  static const char *const text[] = {
-      [DYD_ILLEGAL] = "illegal", [DYD_TIE] = "tie", [DYD_INDETERMINATE] = "indeterminate", [DYD_LEGAL] = "legal"};
-  return text[status];
-}
-
 const char *dyd_group_text(dyd_group_kind kind) {
   static const char *const text[] = {"circle", "chain", "pair"};
   return text[kind];

@@ -59,8 +59,6 @@ dyd_status dyd_result_box(double box[4], const dyd_result *r, size_t i, dyd_erro
 
 /* ---- words and texts ---- */
 
-/* "legal", "indeterminate", "tie", "illegal". */
-const char *dyd_pair_status_text(dyd_pair_status status);
 /* "circle", "chain", "pair". */
 const char *dyd_group_text(dyd_group_kind kind);
 /* "adaptive", "uniform". */

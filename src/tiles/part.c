@@ -490,11 +490,11 @@ static dyd_status heap_of_readers(part_readers *all, dyd_error *err) {
 }
 
 static dyd_status write_part_pairs(FILE *out, part_readers *all, dyd_error *err) {
-  static const char *const word[] = {"illegal", "tie", "indeterminate", "legal"};
   dyd_status st = heap_of_readers(all, err);
   while (st == DYD_OK && all->open > 0) {
     part_reader *p = &all->item[0];
-    fprintf(out, "%" PRIu64 ",%" PRIu64 ",%s\n", p->row.i, p->row.j, word[p->row.status & 3]);
+    fprintf(out, "%" PRIu64 ",%" PRIu64 ",%s\n", p->row.i, p->row.j,
+            dyd_pair_status_text((dyd_pair_status)(p->row.status & 3)));
     if (p->pairs == 0)
       swap_readers(all, 0, --all->open);
     else if (p->pairs--, !get_row(&p->row, p->in))
