@@ -436,6 +436,38 @@ def test_outliers():
             assert page.value('document.querySelector("#outliers").hidden'), args
 
 
+def test_fit():
+    """All points are on the first map, beside their coordinates; a pinned point stays in view when the map is zoomed."""
+    places = pages.points('2600000.123 1200000.456\n2600010.5 1200003.25\n2600005.75 1200011.125\n2600001 1200007\n9e6 9e6\n')
+
+    def seen(page):
+        page.value("history.replaceState(null, '', '#'); document.querySelector('input[type=checkbox]').click()")
+        page.until("location.hash.includes('at=')")
+        x, _, wide = map(float, page.value('new URLSearchParams(location.hash.slice(1)).get("at")').split(','))
+        return x - wide / 2, x + wide / 2
+
+    for wide, high in (390, 844), (640, 400), (1200, 800):
+        with opened(pages.page('delaunay', places), wide=wide, high=high, place='#point=4') as page:
+            before, rim = seen(page), 6.4e6 / wide
+            assert before[0] + 4 * rim < 2.6e6 and 9e6 < before[1] - 4 * rim, (wide, before)
+            assert not page.value('document.querySelector("#outliers").hidden')
+            for _ in range(8):
+                page.key('+')
+            page.frames()
+            after = seen(page)
+            assert after[0] < 9e6 < after[1] and after[1] - after[0] < (before[1] - before[0]) / 8, (before, after)
+
+
+def test_discs():
+    """Cells of discs stand beside discs and the statuses of discs."""
+    pairs = pages.csv_pairs('delaunay', '--discs', *pages.FIXES)
+    with opened(pages.page('voronoi', '--discs', *pages.FIXES), place='#point=20') as page:
+        assert 'points, discs' in page.text('aside')
+        for status, name in ('legal', 'legal'), ('indeterminate', 'undecided'):
+            own = sum(20 in ends and word == status for ends, word in pairs.items())
+            assert f'{name} ({own})' in page.text('#card'), (status, own, page.text('#card'))
+
+
 def test_phone_card():
     """Facts about a pinned point are on the first screen of a phone."""
     with opened(pages.page('delaunay', '--discs', *pages.FIXES), wide=390, high=844, place='#point=3') as page:

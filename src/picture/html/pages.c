@@ -339,9 +339,7 @@ static bool scene_sees_triangle(const html_scene *s, const uint32_t v[3]) {
 static dyd_status html_triangles(const html_scene *s) {
   dyd_triangle_list list = {0};
   html_list l;
-  dyd_status st = s->r->graph_name ? DYD_OK
-                  : s->r->sphere   ? dyd_sphere_triangles(&list, s->r->sphere)
-                                   : dyd_delaunay_triangles(&list, NULL, s->r->pd, 0);
+  dyd_status st = s->r->graph_name ? DYD_OK : dyd_result_triangles(&list, s->r);
   html_list_begin(&l, s->out, "triangles");
   for (size_t k = 0; k < list.count; k++) {
     const uint32_t *v = list.item[k].v;
@@ -694,12 +692,14 @@ static dyd_status html_cells_page(FILE *to, const dyd_output *o) {
                   .count = d->count,
                   .window = &d->window,
                   .epsg = d->epsg,
-                  .history = d->history};
-  dyd_status st = dyd_delaunay_pairs(&r.pairs, d->pd);
+                  .discs = d->discs,
+                  .history = d->discs ? NULL : d->history};
+  dyd_status st = d->discs ? DYD_OK : dyd_delaunay_pairs(&r.pairs, d->pd);
+  if (d->discs) r.pairs = *d->discs;
   if (st == DYD_OK)
     st =
         html_scene_write(&(html_scene){.out = to, .r = &r, .kind = "voronoi", .own = html_diagram_parts, .user = o}, o);
-  dyd_pair_list_clear(&r.pairs);
+  if (!d->discs) dyd_pair_list_clear(&r.pairs);
   return st;
 }
 

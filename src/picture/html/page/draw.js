@@ -171,7 +171,7 @@ function drawPoints(ctx, scene, seen, frame, apart) {
   return wide.concat(small);
 }
 
-// Names beside their points, on no other name.
+// Names beside their points, on no other name and within the map.
 function drawNames(ctx, scene, points) {
   if (scene.place) points = points.filter((k) => scene.place[k]).sort((a, b) => scene.place[a] - scene.place[b]).slice(0, NAMED);
   if (points.length > NAMED) return;
@@ -184,11 +184,12 @@ function drawNames(ctx, scene, points) {
   ctx.lineJoin = "round";
   for (const k of points) {
     const text = (scene.place ? scene.place[k] + ": " : "") + nameOf(scene, k), half = (scene.box[4 * k + 1] - scene.box[4 * k]) * view.scale / 2, squares = [];
-    const x = toX(middle(scene, k, 0)) + Math.min(half, 60) + 5, y = toY(middle(scene, k, 1)) - Math.min(half + 5, 9);
-    const wide = ctx.measureText(text).width;
+    const wide = ctx.measureText(text).width, right = toX(middle(scene, k, 0)) + Math.min(half, 60) + 5;
+    const y = Math.max(toY(middle(scene, k, 1)) - Math.min(half + 5, 9), plot.top + 7);
+    const x = right + wide > plot.right ? 2 * toX(middle(scene, k, 0)) - right - wide : right;
     for (let s = Math.floor(x / HIGH); s <= Math.floor((x + wide) / HIGH); s++)
       for (const r of [Math.floor((y - 6) / HIGH), Math.floor((y + 6) / HIGH)]) squares.push(s + ":" + r);
-    if (x + wide > plot.right || squares.some((s) => taken.has(s))) continue;
+    if (squares.some((s) => taken.has(s))) continue;
     squares.forEach((s) => taken.add(s));
     ctx.strokeText(text, x, y);
     ctx.fillText(text, x, y);
@@ -208,10 +209,10 @@ function ticks(scene, axis, apart) {
 const AXIS_FONT = "11px system-ui, sans-serif";
 const widest = (ctx, list) => list.reduce((most, {text}) => Math.max(most, ctx.measureText(text).width), 0);
 
-// The left margin grows with the texts along it; what is seen stays where it is.
-function fitMargin(ctx, scene) {
+// The left margin grows with the texts along it, from `least` on; what is seen stays where it is.
+function fitMargin(ctx, scene, least = plot.narrow ? 46 : 64) {
   ctx.font = AXIS_FONT;
-  const left = Math.max(plot.narrow ? 46 : 64, Math.ceil(widest(ctx, ticks(scene, 1, 90))) + 10), more = left - plot.left;
+  const left = Math.max(least, Math.ceil(widest(ctx, ticks(scene, 1, 90))) + 10), more = left - plot.left;
   plot.left = left;
   view.x += more / 2 / view.scale;
 }

@@ -27,11 +27,16 @@ function draw() {
   drawMarks();
 }
 
-// Sets the view, and again when the margin for the coordinates is known.
+// Sets the view, and again until the margin has room for its coordinates.
 function see(set) {
+  const ctx = map.getContext("2d");
   set();
-  fitMargin(map.getContext("2d"), scene);
-  set();
+  fitMargin(ctx, scene);
+  for (let left = -1; left < plot.left;) {
+    left = plot.left;
+    set();
+    fitMargin(ctx, scene, left);
+  }
 }
 
 // Shows everything; a window that changes its size goes on to show it while nothing else was chosen.
@@ -271,8 +276,11 @@ function step(dx, dy) {
   move();
 }
 
+// Zooms at the pinned point if it is in view.
 function zoomMiddle(factor) {
-  zoomAt((plot.left + plot.right) / 2, (plot.top + plot.bottom) / 2, factor, all);
+  const x = kept === null ? NaN : toX(middle(scene, kept, 0)), y = kept === null ? NaN : toY(middle(scene, kept, 1));
+  const seen = x >= plot.left && x <= plot.right && y >= plot.top && y <= plot.bottom;
+  zoomAt(seen ? x : (plot.left + plot.right) / 2, seen ? y : (plot.top + plot.bottom) / 2, factor, all);
   move();
 }
 

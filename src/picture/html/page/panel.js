@@ -99,7 +99,7 @@ function showSummary({data, n}) {
 // Points far from all others, that leave these little of the map: more than FAR times the range of the middle half away.
 function findOutliers(scene) {
   const FAR = 20, MOST = Math.max(1, Math.floor(scene.n / 50)), out = new Set();
-  for (const axis of scene.n < 8 || scene.globe ? [] : [0, 1]) {
+  for (const axis of scene.n < 5 || scene.globe ? [] : [0, 1]) {
     const at = (k) => scene.final[4 * k + 2 * axis] / 2 + scene.final[4 * k + 2 * axis + 1] / 2;
     const sorted = Float64Array.from({length: scene.n}, (_, k) => at(k)).sort(), low = sorted[scene.n >> 2], high = sorted[(3 * scene.n) >> 2];
     for (let k = 0; k < scene.n && high > low; k++) if (at(k) < low - FAR * (high - low) || at(k) > high + FAR * (high - low)) out.add(k);
