@@ -88,7 +88,7 @@ typedef struct dyd_converge_options {
   /* when it points to a non-zero value, bounds not known by then are omitted from rows; NULL: never. At the
    * deadline and when the engine is cancelled, dyd_converge_run omits them without this flag */
   const volatile int *cancel;
-  bool rates; /* of plane rectangles: rows say what is known a priori, from the first one for which that is */
+  bool rates; /* of plane rectangles: rows have the a priori bounds, from the first one that has one */
   /* Not 0: after a run whose goal holds (decided, or a bound of the triangulation), the least sum of bits is sought by
    * which it could have held, had all answers been known: best_bits. At most this number of triangulations is tried,
    * each of all points; the search grows with the power of the number of points, so that few points are meant. Point by

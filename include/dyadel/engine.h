@@ -132,11 +132,11 @@ typedef struct dyd_plan dyd_plan;
 typedef struct dyd_engine dyd_engine;
 
 /* Changes what a stage narrows. `request`, count (dyd_request_at): points, by their numbers as sites, and bits that the
- * schedule has planned. What is added to *plan (dyd_plan_add), empty when called, replaces that; if nothing is added,
+ * schedule has planned. Entries added to *plan (dyd_plan_add), empty when called, replace that; if none is added,
  * it stays. Before the first stage every point is in the plan, and one that is not added keeps its bits. e as for
  * dyd_ask_fn: dyd_engine_delaunay has the undecided pairs, NULL before the first stage. Returns DYD_OK; DYD_CANCELLED
  * to give up; an error < 0 with *err (clear when called) filled. Statements do not depend on it, nor does the end of a
- * run: each point added is asked for more than before, up to max_bits. */
+ * run: each point added gets a request for more bits than before, up to max_bits. */
 typedef dyd_status (*dyd_policy_fn)(dyd_plan *plan, void *user, const dyd_engine *e, const dyd_request *request,
                                     size_t count, dyd_error *err);
 

@@ -349,9 +349,9 @@ typedef struct dyd_write_options {
   bool no_header;
   /* Of that table, instead of its rows (json: in addition): for each m from modulus_from to modulus_to the first stage
    * from which on the bound is at most 2^-m (that of areas where these are the goal, else of the distance; of the
-   * diagram where the table is about it), the bits asked of all points and of one until then, and what is known a
-   * priori (dyd_converge_options.rates): bits for every point by which the distance is at most 2^-m, and the stage from
-   * which they follow. Empty: not reached, not known. */
+   * diagram where the table is about it), the bits asked of all points and of one until then, and the a priori
+   * modulus (dyd_converge_options.rates): bits for every point by which the distance is at most 2^-m, and the stage
+   * from which they follow. Empty: not reached, not known. */
   bool modulus;
   int64_t modulus_from, modulus_to;
   /* Receives, before csv is written, lines that begin with "# ": window, bounds, goal, aliases, how numbers are

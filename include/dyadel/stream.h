@@ -34,8 +34,7 @@ typedef struct dyd_request {
 } dyd_request;
 
 /* The callback of the library.
- * out    in: the rectangle known so far; at stage 0, where nothing is known, no rectangle: its lower ends are above
- *        its upper ones;
+ * out    in: the rectangle known so far; at stage 0 it is unset: its lower ends are above its upper ones;
  *        out: a rectangle inside it; DYD_E_STREAM where a side is still unset. Initialised and owned by the caller.
  * Returns DYD_OK; DYD_FIXED when this rectangle is final; DYD_CANCELLED when request->stop was seen; < 0 with *err
  * filled (message at least).
@@ -88,8 +87,8 @@ DYD_API dyd_status dyd_real_from_interval(dyd_real **out, const mpq_t lo, const 
 /* Every coordinate form of the points file: decimal, rational, hexadecimal float, dyadic, degrees with minutes and
  * seconds (47°36'18.3"N, N47.605, 47:36:18.3), [lo,hi], value+-radius, expression, root(polynomial,lo,hi). And, for
  * experiments, random(seed), the number in [0,1] whose binary digits a whole number below 2^64 draws, exactly 2^-bits
- * wide; slow(expression), of which answer n is at most 1/n wide, however many bits are asked for. On DYD_E_PARSE err
- * has the column (from 1). */
+ * wide; slow(expression), of which answer n is at most 1/n wide, whatever number of bits a request has. On DYD_E_PARSE
+ * err has the column (from 1). */
 DYD_API dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_error *err);
 /* The interval [value - radius, value + radius] around any real, at every precision; takes over x. */
 DYD_API dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radius);

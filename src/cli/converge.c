@@ -33,7 +33,7 @@ static bool is_piece(const cli_session *s) {
   return s->o.of >= DYD_CONVERGE_DISC;
 }
 
-/* Reads --modulus, and sets what it implies. */
+/* Reads --modulus, and sets the options that follow from it. */
 static bool read_modulus(cli_session *s) {
   cli_options *o = &s->o;
   converge_run *r = s->state;

@@ -331,7 +331,7 @@ static void option_names(FILE *out, unsigned commands) {
   }
 }
 
-/* What stands in a completion script for {{NAME}}. */
+/* Prints the replacement of {{NAME}} in a completion script. */
 typedef void (*script_part)(FILE *out);
 
 /* The script, with the parts in their order. */

@@ -19,7 +19,7 @@ static bool points_are_degrees(const dyd_engine *e) {
 }
 
 void cli_note_lines(const cli_options *o, const dyd_read_report *r) {
-  if (!r->rows) cli_note(o, "%s: there are no points in this file", o->file);
+  if (!r->rows) cli_note(o, "%s: this file has no points", o->file);
   if (r->missing)
     cli_note(o,
              "%s: %zu of %zu rows are skipped because a coordinate or radius is missing; the others keep their numbers",

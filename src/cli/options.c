@@ -303,7 +303,7 @@ typedef struct scan {
   bool seen[MOST_OPTIONS];
   const char *operand[MOST_OPERANDS];
   size_t operands;
-  char **call; /* where the next word of the call goes on which the result depends */
+  char **call; /* place of the next word of the call that changes the result */
 } scan;
 
 /* Tells getopt_long of all options; its value for option k is FIRST_VALUE + k. */

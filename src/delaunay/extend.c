@@ -25,9 +25,9 @@ typedef struct triangles {
   size_t count, cap;
 } triangles;
 
-/* hole: the triangles whose circle the point is in. Of rectangles, near: those that may be in a face with a new site;
- * seed: those of faces that were taken out, and at edges that are not certain any more; seen: see DECIDED; old: these
- * faces. */
+/* hole: the triangles whose circle the point is in. Of rectangles, near: triangles that may be in a face with a new
+ * site; seed: those of faces that were taken out, and at edges that are not certain any more; seen: see DECIDED; old:
+ * these faces. */
 typedef struct extension {
   dyd_delaunay *pd;
   dyd_work *w;
@@ -296,7 +296,7 @@ static dyd_status extend_all(dyd_delaunay *pd, dyd_work *w, uint32_t before, uin
   return st;
 }
 
-/* Resizes what is known of triangles to what the mesh can come to hold. */
+/* Resizes the marks of triangles for the largest mesh that these sites can make. */
 static dyd_status marks_grow(dyd_delaunay *pd) {
   const size_t count = pd->sk.mesh.count, most = 2 * (size_t)pd->sk.n + 2;
   memset(pd->sk.certain + count, 0, most - count);

@@ -233,7 +233,7 @@ static bool is_at(const dyd_skeleton *sk, uint32_t v, dyd_xy z) {
 }
 
 /* [LOC-6] From the triangle t of the representatives over all edges that z is not on the inner side of for every
- * choice, or that are no edges for every choice. *sure: none leads outside. */
+ * choice, or that some choice does not have as an edge. *sure: none leads outside. */
 static dyd_status corner_flood(bool *sure, corner_search *s, uint32_t t, dyd_xy z) {
   const dyd_skeleton *sk = &s->l.pd->sk;
   s->count = 0;

@@ -196,7 +196,7 @@ static dyd_status step_reach(dyd_steps *s, uint32_t t) {
   return dyd_index_list_add(&s->part, &s->part_cap, &t, 1);
 }
 
-/* Decides an edge that was certain, once; what is beyond it joins the part if it is so no longer. *stops: that is
+/* Decides an edge that was certain, once; if it no longer is, the faces beyond it join the part. *stops: that is
  * enough. */
 static dyd_status step_edge(bool *stops, dyd_steps *s, dyd_half_edge h, bool (*stop)(void *user, uint32_t, uint32_t),
                             void *user) {

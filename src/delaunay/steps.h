@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* A triangulation whose sites become narrower, or wider again, one at a time. Faces are not kept: only what is near
- * the site is looked at, however large its face is. */
+/* A triangulation whose sites become narrower, or wider again, one at a time. Faces are not kept: a step visits only
+ * the surroundings of the site, however large its face is. */
 #ifndef DYD_DELAUNAY_STEPS_H
 #define DYD_DELAUNAY_STEPS_H
 
@@ -31,7 +31,7 @@ uint64_t dyd_steps_bytes(const dyd_delaunay *pd);
 dyd_status dyd_steps_begin(dyd_steps *s, dyd_delaunay *pd, const volatile int *cancel);
 void dyd_steps_clear(dyd_steps *s);
 /* The site was narrowed in the table, and *holds its representative; else *holds is false, and all has to be made anew.
- * What is decided now is what dyd_delaunay_update would decide [LOC-4]. */
+ * Its decisions are those of dyd_delaunay_update [LOC-4]. */
 dyd_status dyd_steps_narrow(bool *holds, dyd_steps *s, uint32_t site);
 /* The site has become wider in the table: decides edges again outward from it until certain ones surround it.
  * stop(user, i, j), asked about each pair of sites that is legal no longer, says whether that is enough. *holds: it was

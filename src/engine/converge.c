@@ -300,7 +300,7 @@ static dyd_status measure_widths(dyd_stage_row *row, const dyd_sites *sites, siz
 
 /* ---- a row ---- */
 
-/* A capped result has no bounds, nor has one for which no time is left, which is no failure. */
+/* Leaves the bounds out, without an error, if the result is capped or no time is left. */
 static dyd_status measure_bounds(dyd_stage_row *row, const dyd_delaunay *pd, const dyd_pair_list *discs,
                                  const volatile int *cancel) {
   dyd_status st = dyd_flag_is_set(cancel) ? DYD_CANCELLED : dyd_metric_bound(&row->area, pd, discs, true);

@@ -5,7 +5,7 @@
 
 #include "engine/plan.h"
 
-/* Returns true if a policy chooses what is narrowed. */
+/* Returns true if a policy chooses the points to narrow. */
 static inline bool dyd_has_policy(const dyd_engine_options *o) {
   return o->policy || o->policy_program;
 }

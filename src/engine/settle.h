@@ -54,7 +54,7 @@ typedef struct dyd_settled {
   dyd_prover prover;
 } dyd_settled;
 
-/* What is left to be done: sites examined, and proofs about places of regions. */
+/* Budget left: sites to examine, and proofs about places of regions. */
 typedef struct dyd_settle_work {
   size_t sites, proofs;
 } dyd_settle_work;

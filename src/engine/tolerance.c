@@ -46,7 +46,7 @@ static dyd_status tolerance_points_fit(bool *all, const dyd_engine *e, const dyd
   return dyd_fail(err, DYD_E_ARG, "weights and standard deviations are for points given by plain numbers");
 }
 
-/* One more round? *bits becomes what it takes. */
+/* Returns true if another round is needed, and sets *bits for it. */
 static bool tolerance_is_coarse(int64_t *bits, double off, double least, int64_t relative) {
   if (off == 0 || least == HUGE_VAL) return false;
   if (ldexp(off, (int)relative + 2) <= least) return false;

@@ -86,7 +86,7 @@ typedef struct dyd_voronoi_sums {
 } dyd_voronoi_sums;
 
 /* As dyd_metric_voronoi, with corners 0; of rectangles, or of the discs in them. Else DYD_E_RANGE where a polygon would
- * have more than so many corners; and of more than DYD_TIGHT_SITES sites, polygons with a vertex for each certain
+ * have more than `corners` corners; and of more than DYD_TIGHT_SITES sites, polygons with a vertex for each certain
  * triangle are only within 2^-dyd_metric_coarseness: the width of the rectangles, and not the flattening of arcs, makes
  * them smaller than their cells. That is ten times as fast, and the area up to five times as large. */
 enum { DYD_TIGHT_SITES = 512 };

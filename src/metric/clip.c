@@ -286,7 +286,7 @@ static void ring_reverse(double *xy, size_t n) {
   }
 }
 
-/* Returns the first vertex that is no place: not finite; SIZE_MAX: all are places. */
+/* Returns the first vertex with a coordinate that is not finite; SIZE_MAX if there is none. */
 static size_t area_lost_vertex(const dyd_area *a) {
   for (size_t k = 0; a->rings && k < a->offset[a->rings]; k++)
     if (!isfinite(a->xy[2 * k]) || !isfinite(a->xy[2 * k + 1])) return k;
@@ -744,7 +744,7 @@ static void clip_measure(mpq_t whole, mpq_t blur, const dyd_tiles *t, size_t r) 
 }
 
 /* The bounds of a cell, lo and hi, become those of its part in the area. Its certain part lies in the tile, and the
- * tile in what is possible, as they were before rounding: so `whole` - inside of the former may be lost at most, and
+ * tile in the possible part, as they were before rounding: so `whole` - inside of the former may be lost at most, and
  * of the latter hi - whole may be inside without being in the tile. An area beyond all doubles is infinite: it bounds
  * nothing, and stays. */
 static void clip_bound(double bound[2], const clip_work *w, const mpq_t whole, const mpq_t blur) {

@@ -8,7 +8,7 @@
  * exterior.
  *
  * Pieces that have the exterior on their left are joined to rings [EXT-1]: behind a piece comes the first one clockwise
- * from its way back, since what is between the two is exterior. All possible pairs hold a Delaunay triangulation of a
+ * from its way back, since the angle between the two is exterior. All possible pairs hold a Delaunay triangulation of a
  * choice, so the union is connected: each component of the exterior has one ring, and all but one are bounded.
  * Hulls of exact points are segments, which have the exterior on both sides. */
 #include "base/alloc.h"
@@ -271,7 +271,7 @@ typedef struct ext_edge {
   size_t count, cap;
 } ext_edge;
 
-/* The covers so far are kept for the next edge: count <= those that were initialised. */
+/* The covers so far are kept for the next edge: at least `count` are initialised. */
 static ext_cover *ext_cover_next(ext_work *w, ext_edge *e, size_t *made) {
   if (!DYD_GROW(e->cover, e->cap, e->count + 1)) {
     w->failed = true;
@@ -534,7 +534,7 @@ static bool ext_ring_add(dyd_exterior *out, size_t *cap, const ext_place *at) {
   return true;
 }
 
-/* Two darts go on in one direction. */
+/* Returns true if both darts have one direction. */
 static bool ext_straight(const ext_dart *a, const ext_dart *b) {
   return ext_half(a) == ext_half(b) && ext_compare_way(a, b) == 0;
 }
@@ -553,8 +553,8 @@ static bool ext_ring(dyd_exterior *out, size_t caps[2], ext_dart *dart, size_t c
   return true;
 }
 
-/* The dart from the least place of all that has the unbounded component on its left: what is left of that place is in
- * it, so of all ways from there it is the last one before the way to the left. */
+/* The dart from the least place of all that has the unbounded component on its left: the plane to the left of that
+ * place is in it, so of all ways from there it is the last one before the way to the left. */
 static size_t ext_outermost(const ext_dart *dart, size_t count) {
   size_t end = 1, upper = 0;
   while (end < count && ext_compare_place(ext_from(&dart[end]), ext_from(&dart[0])) == 0) end++;

@@ -26,7 +26,8 @@ typedef struct dyd_paint {
   double alpha, width, on, off;
 } dyd_paint;
 
-/* How large a page is: texts are `text` times as large as usual beside the drawing, and everything is scaled. */
+/* How large a page is: texts are `text` times as large as usual in relation to the drawing, and everything is scaled.
+ */
 typedef struct dyd_page {
   double text, scale;
 } dyd_page;

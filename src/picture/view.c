@@ -323,7 +323,7 @@ static dyd_status page_of_view(dyd_page *page, double box[4], const dyd_output *
   nowhere.format = DYD_FORMAT_CSV;
   dyd_canvas *c = dyd_canvas_new(&nowhere, page, box, "");
   if (c) {
-    inside(c, context); /* the legend is of what was drawn */
+    inside(c, context); /* the legend explains the marks that were drawn */
     legend(c, context);
     box[3] = c->low + 10 * page->text;
   }

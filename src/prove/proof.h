@@ -78,7 +78,7 @@ dyd_status dyd_proof_compare_points(bool *found, size_t *others, const dyd_cert_
 /* A disc of dyadics that holds d. */
 void dyd_proof_hold_disc(dyd_cert_disc *out, const dyd_disc *d);
 /* The discs by site; *fixed: nothing narrows any of them. The caller frees them, on failure too. DYD_E_ARG: a rectangle
- * is no square. */
+ * has unequal sides. */
 dyd_status dyd_proof_gather_discs(dyd_cert_disc **out, bool *fixed, const dyd_proof *p);
 void dyd_proof_free_discs(dyd_cert_disc *disc, const dyd_proof *p);
 /* Writes the first lines of the section on discs. */

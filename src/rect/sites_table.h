@@ -56,7 +56,7 @@ struct dyd_sites {
 
 /* Room for `more` further sites in every array there is. */
 dyd_status dyd_sites_reserve(dyd_sites *s, size_t more);
-/* Takes back all sites from number `count` on, which nobody was told of. */
+/* Removes the sites from number `count` on, which were never visible to callers. */
 void dyd_sites_cut(dyd_sites *s, size_t count);
 /* Appends n exact points, number k being (xy[2 k], xy[2 k + 1]); none on failure. */
 dyd_status dyd_sites_add_words(dyd_sites *s, size_t n, const dyd_words *xy);

@@ -31,7 +31,7 @@ size_t dyd_line_legal_pairs(const dyd_line *l);
 size_t dyd_line_open_pairs(const dyd_line *l);
 
 typedef struct dyd_skeleton {
-  uint32_t n, built; /* sites; those that it was built from, others have been put in */
+  uint32_t n, built; /* all sites; sites of the first construction, the others were inserted later */
   dyd_reps reps;
   dyd_mesh mesh;
   dyd_line line;          /* instead of triangles, if mesh.collinear */

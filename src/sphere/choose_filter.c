@@ -103,7 +103,7 @@ static double guess_best(uint32_t *out, const ball_guess *g, size_t n) {
   return best;
 }
 
-/* A direction, as of an eye that is no place: the k-th of a Fibonacci lattice, which is spread evenly over the sphere.
+/* A direction for an eye that is not a place: the k-th of a Fibonacci lattice, which is spread evenly over the sphere.
  */
 static ball_guess gap_anywhere(size_t k) {
   double z = 1 - (double)(2 * (k * 1597 % GAPS) + 1) / GAPS, r = sqrt(1 - z * z);

@@ -268,7 +268,8 @@ static arf_struct *near_bounds(arf_t most, const near_question *q, bool stays) {
   return bound;
 }
 
-/* Drops places that are farther than another one for certain, or only counts those that stay, whatever is refined. */
+/* Drops places that are farther than another one for certain, or only counts the places that stay, whatever is refined.
+ */
 static dyd_status near_keep(size_t *kept, near_question *q, bool stays) {
   arf_t most;
   arf_init(most);

@@ -185,7 +185,7 @@ static dyd_status place_fail(uint32_t i, const char *what, dyd_error *err) {
   return dyd_fail(err, DYD_E_DOMAIN, "%s", what);
 }
 
-/* What is within so many metres of the middle. */
+/* Sets *out to all places within `metres` of its middle. */
 static void spot_within(dyd_spot *out, const dyd_sphere *s, double metres) {
   for (int a = 0; a < 2; a++) mpq_set_ui(out->half[a], 0, 1);
   mpq_set_d(out->angle, metres);

@@ -503,10 +503,11 @@ static dyd_status image_fail(const image *m, dyd_error *err) {
     return dyd_fail(err, DYD_E_DOMAIN,
                     "it may be nearly anywhere, and no place of the sphere is apart from all points; give a smaller "
                     "radius, or `merge` where points that meet are one place");
-  return dyd_fail(err, DYD_E_DOMAIN,
-                  "it cannot be told from point %zu, from which the sphere is projected; narrow one of them, or give "
-                  "`merge` where both are one place",
-                  dyd_engine_row(m->s->places, m->s->centre));
+  return dyd_fail(
+      err, DYD_E_DOMAIN,
+      "it cannot be distinguished from point %zu, from which the sphere is projected; narrow one of them, or give "
+      "`merge` where both are one place",
+      dyd_engine_row(m->s->places, m->s->centre));
 }
 
 /* Tries until the image is as narrow as asked for; or will not be, as the part that stays wide is wide compared with

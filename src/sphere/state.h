@@ -112,7 +112,7 @@ struct dyd_sphere {
    * none. */
   dyd_sphere *second;
   bool gap_decided;     /* all pairs around a centre that is no place are known to be legal, or illegal */
-  const double *within; /* of a plan: places are within so many metres of the middles of their regions; below 0: as they
+  const double *within; /* of a plan: distances in metres of places from the middles of their regions; below 0: as they
                            are; NULL: all are */
   dyd_near_index *near; /* for dyd_sphere_near; NULL: not made yet */
 };
@@ -194,9 +194,9 @@ void dyd_near_index_free(dyd_near_index *index);
 /* ---- sphere.c ---- */
 
 /* A sphere of the same places and radii, without images yet, projected from a gap: far from that of `other` where it
- * is one. *out is NULL where there is no gap. */
+ * is one. *out is NULL if none is found. */
 dyd_status dyd_sphere_new_gap(dyd_sphere **out, const dyd_sphere *other, dyd_error *err);
-/* The same places, within so many metres of the middles of their regions (`within` above), projected from the place
+/* The same places, within the distances `within` (above) of the middles of their regions, projected from the place
  * that suits them; `within` is borrowed. */
 dyd_status dyd_sphere_new_within(dyd_sphere **out, const dyd_sphere *s, const double *within, dyd_error *err);
 

@@ -207,7 +207,7 @@ static uint32_t place_of_circle(const circle_question *q, size_t k) {
   return q->s->of[q->chosen ? q->chosen[k].site : q->site[k]];
 }
 
-/* Reads place number k; the last one is that which is projected from, where a line is asked for. */
+/* Reads place number k; of a line the last one is the centre of the projection. */
 static dyd_status circle_read_one(circle_question *q, size_t k, dyd_error *err) {
   const dyd_sphere *s = q->s;
   dyd_spot *spot = &q->spot[k];

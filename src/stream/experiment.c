@@ -39,7 +39,7 @@ dyd_status dyd_real_random(dyd_real **out, uint64_t seed) {
   return st;
 }
 
-/* ---- slow: answer number n is about 1/n wide, however many bits are asked for ---- */
+/* ---- slow: answer number n is about 1/n wide, whatever number of bits a request has ---- */
 
 typedef struct slow_real {
   dyd_real *x;

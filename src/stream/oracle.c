@@ -165,8 +165,8 @@ static dyd_status read_answer_ends(mpq_t end[4], const char *line, const word *w
   return st;
 }
 
-/* Returns true if nothing is known: r is unset, or a point (an exact one is not requested again, so that it is what
- * dyd_rect_init gives). */
+/* Returns true if no answer was given: r is unset, or the point that dyd_rect_init gives (an exact point is not
+ * requested again). */
 static bool answer_is_first(const dyd_rect *r) {
   return dyd_rect_is_point(r) || dyd_interval_is_unset(&r->x) || dyd_interval_is_unset(&r->y);
 }
@@ -268,8 +268,9 @@ static void oracle_fail_silent(const dyd_oracle *o, dyd_worker *w) {
   char how[100];
   const char *deaf = dyd_process_is_deaf(&w->process) ? " and has closed its standard input" : "";
   if (dyd_process_ended(how, sizeof how, &w->process, 0))
-    dyd_worker_fail(w, DYD_E_STREAM, "%s, and what it left running was silent for %g s; answer until the input ends",
-                    how, o->seconds);
+    dyd_worker_fail(w, DYD_E_STREAM,
+                    "%s, and a process that it started was silent for %g s; answer until the input ends", how,
+                    o->seconds);
   else
     dyd_worker_fail(w, DYD_E_STREAM,
                     "it was silent for %g s%s; flush its output after each line, or allow more time (`oracle_timeout`)",

@@ -462,7 +462,7 @@ static void take_answer(dyd_worker *w, const char *line, size_t length) {
   dyd_asked *a = &w->asked[w->answered];
   char shown[80];
   if (a->point != DYD_NO_POINT && !names_point(line, length, a->point)) {
-    dyd_worker_fail(w, DYD_E_STREAM, "it wrote %s, which is no answer for point %zu",
+    dyd_worker_fail(w, DYD_E_STREAM, "it wrote %s instead of an answer for point %zu",
                     dyd_quoted(shown, sizeof shown, line, length), a->point);
     return;
   }

@@ -154,7 +154,7 @@ def test_outcomes():
     expect(run('converge', '-', '--max-bits', '100', stdin=SQUARE), 4, 'outcome budget', 'precision limit reached')
     expect(run('converge', '-', stdin='0 0\n1 0\n1 1\n0 1\n'), 3, 'outcome fixpoint', '2 tied pairs; ties')
     expect(run('converge', '-', '--until', 'area:30', stdin=SQUARE), 0, 'goal area 2.-30; .*outcome certified', r'\A\Z')
-    expect(run('converge', '-', stdin=''), 0, r'^1,0,0,0,0,0,0,0,0,0,0,', 'there are no points in this file')
+    expect(run('converge', '-', stdin=''), 0, r'^1,0,0,0,0,0,0,0,0,0,0,', 'this file has no points')
 
 
 # The corners of a square, nearly; no more than 60 bits are to be had.

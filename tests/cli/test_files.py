@@ -188,7 +188,7 @@ def test_empty_files():
         f.write('comments', '# nothing\n\n')
         f.write('header.csv', 'x,y\n')
         for args in (('empty',), ('comments',), ('--columns', 'x,y', 'header.csv')):
-            expect(f.run('delaunay', *args), 0, r'\Ai,j,status\n\Z', rf'\Adyadel: {args[-1]}: there are no points in this file$')
+            expect(f.run('delaunay', *args), 0, r'\Ai,j,status\n\Z', rf'\Adyadel: {args[-1]}: this file has no points$')
             expect(f.run('delaunay', '-q', *args), 0, r'\Ai,j,status\n\Z', r'\A\Z')
 
 

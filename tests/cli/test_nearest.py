@@ -355,7 +355,7 @@ def test_wrong_places():
     expect(run('nearest', '--queries', 'nowhere', '-', '1', stdin='1 1\n'), 2, r'\A\Z', 'give dyadel nearest FILE$')
     expect(ask('1 1\n1\n', points='1 1\n', code=1), 1, r'\A\Z', r'places:2:2: ')
     expect(ask('1 1\nlog(sqrt(2)-sqrt(2)) 0\n', points='1 1\n', code=1), 1, '', 'place 1 of .*places: .*log')
-    expect(ask('', points='1 1\n'), 0, r'\nq,i,status,lo,hi\n\Z', r'\Adyadel: \S+places: there are no points in this file\n\Z')
+    expect(ask('', points='1 1\n'), 0, r'\nq,i,status,lo,hi\n\Z', r'\Adyadel: \S+places: this file has no points\n\Z')
     expect(ask('1 1\n', points='', code=3), 3, r'\nq,i,status,lo,hi\n\Z', '1 of 1 places have no certain nearest point')
 
 

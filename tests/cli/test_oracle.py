@@ -144,15 +144,15 @@ FAULTS = [
     ('sys.exit(3)', 'it ended with exit status 3; it must answer'),
     ('os.kill(os.getpid(), 9)', 'it was killed by signal 9'),
     ('time.sleep(1000)', r'silent for 3 s; flush its output .*--oracle-timeout'),
-    ('print("lorem \x1b[2J ipsum", flush=True); return True', r'it wrote "lorem \?\[2J ipsum", which is no answer for point 3'),
+    ('print("lorem \x1b[2J ipsum", flush=True); return True', r'it wrote "lorem \?\[2J ipsum" instead of an answer for point 3'),
     ('print("3 -9 9 -9 9", flush=True); return True', 'the new x side .* is not inside the old one .*must be a subset'),
-    ('print("2 0 1 0 1", flush=True); return True', 'it wrote "2 0 1 0 1", which is no answer for point 3'),
+    ('print("2 0 1 0 1", flush=True); return True', 'it wrote "2 0 1 0 1" instead of an answer for point 3'),
     ('print("3 0 1 0", flush=True); return True', 'has not the five words I XLO XHI YLO YHI'),
     ('os.close(1); time.sleep(1000)', 'it has closed its standard output'),
     ('os.fork() or os.setpgid(0, 0) or time.sleep(3); sys.exit(4)', 'exit status 4'),
-    ('os.fork() and sys.exit(3); time.sleep(1000)', 'exit status 3, and what it left running was silent for 3 s'),
+    ('os.fork() and sys.exit(3); time.sleep(1000)', 'exit status 3, and a process that it started was silent for 3 s'),
     ('[os.write(1, b"7" * 65536) for _ in iter(int, 1)]', 'a line of more than 1048576 bytes'),
-    ('[os.write(1, b"\\n" * 65536) for _ in iter(int, 1)]', 'it wrote "", which is no answer'),
+    ('[os.write(1, b"\\n" * 65536) for _ in iter(int, 1)]', 'it wrote "" instead of an answer'),
 ]
 
 

@@ -250,7 +250,7 @@ def test_picture_of_all_kinds():
 def test_no_points_in_all_formats():
     for name in ('csv', 'json', 'wkt', 'geojson', 'obj', 'svg', 'vtk'):
         result = run('delaunay', '-', '--format', name)
-        expect(result, 0, '.', r'\Adyadel: -: there are no points in this file\n\Z')
+        expect(result, 0, '.', r'\Adyadel: -: this file has no points\n\Z')
         if 'json' in name:
             json.loads(result.out)
 

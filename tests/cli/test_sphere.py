@@ -281,7 +281,7 @@ def test_choices_within_boxes():
         text = [(f'{x}+-{half}', f'{y}+-{half}') if w else (x, y) for (x, y), w in zip(places, wide)]
         got, result = sphere(text)
         if result.code == 1:
-            assert 'cannot be told from point' in result.err or 'may be nearly anywhere' in result.err, result
+            assert 'cannot be distinguished from point' in result.err or 'may be nearly anywhere' in result.err, result
             continue
         for _ in range(6):
             choice = []

@@ -11,7 +11,7 @@ HEADER = r'\Ai,j,status\n'
 TWO = HEADER + r'0,1,legal\n\Z'
 
 # (arguments after "delaunay -", standard input, exit status, standard output, standard error)
-EMPTY = r'\Adyadel: -: there are no points in this file\n\Z'
+EMPTY = r'\Adyadel: -: this file has no points\n\Z'
 INPUT = [
     ('', '', 0, HEADER + r'\Z', EMPTY),
     ('', '# nothing\n\n   \n', 0, HEADER + r'\Z', EMPTY),
