@@ -377,7 +377,7 @@ WORDS = ('statuses', 'orientation', 'con', 'disjoint')
 
 class Convergence(Table):
     """A run stage by stage: widths, pairs by status, bounds (rounded up), decisions, calls; the columns of `dyadel
-    converge`. outcome: how it ended; csv: the table as the command writes it; svg: its plot."""
+    converge`. outcome: how it ended; csv: the table as the command writes it; svg: its plot, which save("run.svg") writes."""
 
     outcome: str
     csv: str
