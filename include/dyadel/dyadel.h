@@ -7,7 +7,7 @@
  *
  * NULL instead of an object with a life (an engine, a stream, a result that does not exist yet) is DYD_E_ARG.
  * Functions without a status then return 0, false, NULL, or the answer that states nothing, such as DYD_INDETERMINATE.
- * Functions that free an object take NULL; those that clear a struct of the caller do not. Outputs, numbers,
+ * Functions that free an object take NULL; functions that clear a struct of the caller do not. Outputs, numbers,
  * rectangles, texts and arrays that are not empty are never NULL unless the function says so.
  *
  * Points come in and statements go out as doubles, texts and numbers of sites. Only for exact corners, witnesses and

@@ -115,12 +115,12 @@ DYD_API dyd_status dyd_sphere_distance(double *lo, double *hi, const dyd_sphere 
  * metres, on the ground, of the middle of its region; `now` is how far it may be from there. accuracy: NULL, or the
  * best possible accuracy of a measurement, a length with its unit ("5m"); of the options pairs, site, cost and cancel
  * count. Planned from one gap, and from another one for pairs around that; each row decides the pairs that the images
- * show to be decided by it and those before, and `left` are those that a run on the sphere with these accuracies leaves
- * undecided [SPH-7]. DYD_E_ARG for an invalid accuracy. */
+ * show to be decided by it and those before, and `left` are the pairs that a run on the sphere with these accuracies
+ * leaves undecided [SPH-7]. DYD_E_ARG for an invalid accuracy. */
 DYD_API dyd_status dyd_sphere_survey(dyd_survey **out, dyd_sphere *s, const char *accuracy,
                                      const dyd_survey_options *options, dyd_error *err);
-/* dyd_survey_simulate of the plans of dyd_sphere_survey: true places are drawn in the regions, and what lies within
- * `needed` metres of one replaces its region. Cancelled between plans. */
+/* dyd_survey_simulate of the plans of dyd_sphere_survey: true places are drawn in the regions, and the ball of `needed`
+ * metres around one replaces its region. Cancelled between plans. */
 DYD_API dyd_status dyd_sphere_simulate(dyd_survey_trial *out, size_t count, uint64_t seed, dyd_sphere *s,
                                        const char *accuracy, const dyd_survey_options *options, dyd_error *err);
 

@@ -249,7 +249,7 @@ static uint64_t plan_seed(const cli_session *s) {
   return s->o.seed_set ? s->o.seed : 1;
 }
 
-/* The plan, or its trials, of what is known; where that was cut, so are they, before their first row. */
+/* The plan, or its trials, of the result of the run; if the run was cut, so are they, before their first row. */
 static dyd_status plan_or_trials(cli_session *s, dyd_error *err) {
   static const volatile int raised = 1;
   plan_run *r = s->state;

@@ -482,7 +482,7 @@ dyd_status dyd_voronoi_pair_width(mpfr_ptr out, bool *finite, const dyd_voronoi_
   return st;
 }
 
-/* seen[i]: what was found for site i, -1 until then. */
+/* seen[i]: the value found for site i, -1 until then. */
 static dyd_status pair_find_second(double *out, double *seen, const dyd_voronoi_sums *s, const dyd_pair *pair,
                                    double enough) {
   const uint32_t end[2] = {pair->i, pair->j};

@@ -73,7 +73,7 @@ static double second_least(size_t *with, const second_search *s, size_t from) {
 }
 
 /* A box, and of the largest dl^2 over it: of the nearest one and the next that is disjoint from it; two points that
- * differ, none of them farther. pair: those that give it, or one that is disjoint from the own, twice. */
+ * differ, none of them farther. pair: the two sites that give it, or one that is disjoint from the own, twice. */
 typedef struct second_box {
   dyd_bbox c;
   double value;

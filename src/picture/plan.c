@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* By quarters of the ranks, then what stays undecided, and what is decided already; distinct for all kinds of sight,
+/* By quarters of the ranks, then pairs that stay undecided, and decided pairs; distinct for all kinds of sight,
  * and in grey. */
 static const struct {
   unsigned rgb;

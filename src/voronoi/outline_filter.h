@@ -49,7 +49,7 @@ typedef struct dyd_outline_rival {
   double slack;
 } dyd_outline_rival;
 
-/* Those that may take points, the first `count` of `all`, in any order, a row for each part of a rival: xlo, xhi, ylo,
+/* Rivals that may take points, the first `count` of `all`, in any order, a row for each part of a rival: xlo, xhi, ylo,
  * yhi, slack and number. */
 enum { DYD_OUTLINE_LANES = 4, DYD_RIVAL_SLACK = 4, DYD_RIVAL_NUMBER, DYD_RIVAL_PARTS };
 typedef struct dyd_outline_rivals {
