@@ -20,7 +20,7 @@ enum {
   RUN = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_CHECK), /* runs the engine to a goal */
   TEXT = READ | BIT(CLI_VERIFY),                                                   /* from a file */
   PIECES = BIT(CLI_DISC) | BIT(CLI_BISECTOR),
-  REFINE = RUN | PIECES | BIT(CLI_NEAREST) | BIT(CLI_TOLERANCE),                   /* asks points to narrow */
+  REFINE = RUN | PIECES | BIT(CLI_NEAREST) | BIT(CLI_TOLERANCE), /* asks points to narrow */
   DRAW = (RUN & ~BIT(CLI_CHECK)) | PIECES | BIT(CLI_NEAREST) | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), /* pictures */
   GLOBE = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_NEAREST) | BIT(CLI_PLAN) |
           BIT(CLI_VERIFY) /* takes --sphere */

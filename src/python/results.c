@@ -534,7 +534,7 @@ static PyObject *plan_found(const dyd_survey *s) {
 
 /* The plan, or its trials where `trials` is above 0. */
 static PyObject *plan_asked(PyObject *self, PyObject *accuracy, PyObject *window, PyObject *site, int discs,
-                                Py_ssize_t trials, uint64_t seed) {
+                            Py_ssize_t trials, uint64_t seed) {
   PyObject *found = NULL;
   dyd_survey *survey = NULL;
   dyd_survey_trial *trial = NULL;
