@@ -9,6 +9,7 @@
  *
  * The nearest sites are listed. If all that are listed are equally far from the point, all of them are nearest, and no
  * refinement changes that: a tie. It is looked for when the list has changed [NEAR-4]. */
+#include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
@@ -406,9 +407,10 @@ dyd_status dyd_engine_graph(dyd_graph_list *out, dyd_outcome *outcome, dyd_engin
 /* Discs are computed to 2^-48 of their size: centres known a little better than that make no difference [DISC-1]. */
 enum { DISC_SPARE = 56 };
 
-/* st: DYD_CANCELLED where pairs were not reached, with why. */
+/* st: DYD_CANCELLED where pairs were not reached, with why. settled: pairs that no precision decides. */
 typedef struct disc_question {
   dyd_pair_list pairs;
+  dyd_settled settled;
   dyd_status st;
   dyd_error why;
 } disc_question;
@@ -438,21 +440,33 @@ static dyd_status disc_mark_near(dyd_plan *plan, uint32_t end) {
   return st;
 }
 
+static dyd_status disc_mark_pairs(dyd_plan *plan, const disc_question *q) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; st == DYD_OK && k < q->pairs.count; k++) {
+    const dyd_pair *pair = &q->pairs.item[k];
+    if (pair->status != DYD_INDETERMINATE || dyd_is_settled(&q->settled, pair)) continue;
+    st = disc_mark_near(plan, pair->i);
+    if (st == DYD_OK) st = disc_mark_near(plan, pair->j);
+  }
+  return st;
+}
+
 static dyd_status disc_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   disc_question *q = user;
   q->st = dyd_disc_pairs(&q->pairs, e->pd, &e->stop, err);
   if (q->st == DYD_CANCELLED && err) q->why = *err;
   if (q->st == DYD_CANCELLED || q->st < 0) return q->st;
   *answered = q->st == DYD_OK;
-  dyd_status st = DYD_OK;
   bool narrows = false;
   for (size_t k = 0; k < e->points && !narrows; k++) narrows = !e->point[k].final;
-  for (size_t k = 0; st == DYD_OK && k < q->pairs.count; k++) {
-    const dyd_pair *pair = &q->pairs.item[k];
-    *answered = *answered && pair->status == DYD_LEGAL;
-    if (!narrows || pair->status != DYD_INDETERMINATE) continue;
-    st = disc_mark_near(plan, pair->i);
-    if (st == DYD_OK) st = disc_mark_near(plan, pair->j);
+  for (size_t k = 0; k < q->pairs.count; k++) *answered = *answered && q->pairs.item[k].status == DYD_LEGAL;
+  if (!narrows) return DYD_OK;
+  q->settled.discs = &q->pairs;
+  dyd_status st = disc_mark_pairs(plan, q);
+  if (st == DYD_OK && plan->count + plan->blocked) {
+    st = dyd_settle(&q->settled, plan);
+    dyd_plan_empty(plan);
+    if (st == DYD_OK) st = disc_mark_pairs(plan, q);
   }
   return st;
 }
@@ -461,10 +475,14 @@ dyd_status dyd_engine_discs(dyd_pair_list *out, dyd_outcome *outcome, dyd_engine
                             dyd_error *err) {
   if (!e) return dyd_fail_null(err);
   disc_question q = {.st = DYD_CANCELLED};
+  dyd_engine_options o;
   const dyd_question question = {DYD_SIZED(dyd_question), .ask = disc_ask, .user = &q, .triangulate = true};
   *outcome = DYD_OUTCOME_ERROR;
-  dyd_status st = dyd_engine_ask(outcome, e, &question, options, err);
+  dyd_status st = dyd_abi_take(&o, sizeof o, options, "dyd_engine_options", err);
+  if (st == DYD_OK) q.settled.prover = dyd_engine_prover(e, &o);
+  if (st == DYD_OK) st = dyd_engine_ask(outcome, e, &question, options, err);
   dyd_pair_list_clear(st == DYD_OK ? out : &q.pairs);
+  dyd_settled_clear(&q.settled);
   if (st != DYD_OK) return st;
   *out = q.pairs;
   if (q.st == DYD_CANCELLED && err) *err = q.why;

@@ -77,6 +77,26 @@ static dyd_status settling_append(settling *s, const dyd_index_list *more) {
   return dyd_index_list_add(&s->site, &s->cap, more->item, more->count);
 }
 
+static bool settling_is_round(const settling *s) {
+  return s->known && s->known->discs;
+}
+
+/* Sets *r, and core or disc of *guess: where points are in discs, *r is all of the rectangle, without a core, unless it
+ * is a point. */
+static dyd_status settling_core(dyd_rect *r, dyd_settle_site *guess, const settling *s, uint32_t site) {
+  if (!settling_is_round(s)) return dyd_site_get_core(r, guess->core, s->e, site);
+  dyd_status st = dyd_sites_get(r, s->e->sites, site);
+  guess->core[0] = guess->core[1] = st == DYD_OK && dyd_rect_is_point(r);
+  return st == DYD_OK ? dyd_disc_get_core(guess->disc, s->e, site) : st;
+}
+
+/* *r becomes a point of the core of the site. */
+static dyd_status site_set_point(dyd_rect *r, const dyd_settle_site *guess, const double at[2], bool farthest) {
+  double z[2];
+  dyd_filter_disc_point(z, guess->disc, at, farthest);
+  return dyd_rect_set_d(r, z[0], z[0], z[1], z[1]);
+}
+
 /* The sites are in order, each once, with their rectangles. */
 static dyd_status settling_take_rects(settling *s) {
   dyd_status st = DYD_OK;
@@ -87,10 +107,10 @@ static dyd_status settling_take_rects(settling *s) {
   for (size_t k = 0; s->rect && k < s->site.count; k++) dyd_rect_init(&s->rect[k]);
   if (!s->rect || !s->guess || !s->touch) return DYD_E_NOMEM;
   for (size_t k = 0; st == DYD_OK && k < s->site.count; k++) {
-    bool *core = s->guess[k].core;
-    st = dyd_site_get_core(&s->rect[k], core, s->e, s->site.item[k]);
+    const bool *core = s->guess[k].core;
+    st = settling_core(&s->rect[k], &s->guess[k], s, s->site.item[k]);
     dyd_rect_get_d(s->guess[k].box, &s->rect[k]);
-    s->mixed = s->mixed || (core[0] && !dyd_interval_is_point(&s->rect[k].x)) ||
+    s->mixed = s->mixed || s->guess[k].disc[2] > 0 || (core[0] && !dyd_interval_is_point(&s->rect[k].x)) ||
                (core[1] && !dyd_interval_is_point(&s->rect[k].y));
   }
   return st;
@@ -106,6 +126,7 @@ static void settling_pay(const settling *s, size_t cost) {
 /* How many places of site number k stay in its rectangle, as far as is known: 1 where it closes in on a true point. */
 static unsigned settling_places(const settling *s, size_t k) {
   const bool *core = s->guess[k].core;
+  if (s->guess[k].disc[2] > 0) return 0;
   bool narrow[2] = {!core[0] || dyd_interval_is_point(&s->rect[k].x), !core[1] || dyd_interval_is_point(&s->rect[k].y)};
   if (narrow[0] && narrow[1]) return 1;
   return core[0] && core[1] ? DYD_REGION_PLACES : 0;
@@ -113,8 +134,19 @@ static unsigned settling_places(const settling *s, size_t k) {
 
 /* ---- sites that have a point in common ---- */
 
+/* Returns true if the disc k holds the box of i, or meets the disc i: by more than doubles are off by. */
+static bool disc_holds(const dyd_settle_site *k, const dyd_settle_site *i) {
+  const double *d = k->disc, *b = i->box, *o = i->disc;
+  if (!(d[2] > 0)) return false;
+  if (o[2] > 0) return dyd_filter_within(d, o[0], o[1], d[2] + o[2]);
+  bool in = true;
+  for (int n = 0; n < 4; n++) in = in && dyd_filter_within(d, b[n & 1], b[2 + n / 2], d[2]);
+  return in;
+}
+
 /* Returns true if site number k has a core along both sides in which all of site i is, or which meets the core of i. */
 static bool core_holds(const settling *s, size_t k, size_t i) {
+  if (settling_is_round(s)) return disc_holds(&s->guess[k], &s->guess[i]);
   const bool *of_i = s->guess[i].core, *of_k = s->guess[k].core;
   const double *a = s->guess[i].box, *b = s->guess[k].box;
   if (!of_k[0] || !of_k[1] || a[1] < b[0] || b[1] < a[0] || a[3] < b[2] || b[3] < a[2]) return false;
@@ -130,7 +162,8 @@ static dyd_status settling_touch(bool *out, settling *s, size_t k, size_t n) {
   if (*out || apart || !s->known || !s->known->prover.meet || !s->work->proofs) return DYD_OK;
   s->work->proofs--;
   settling_pay(s, COST_PROOF);
-  return s->known->prover.meet(out, s->known->prover.user, s->site.item[k], s->site.item[n]);
+  const uint32_t site[2] = {s->site.item[k], s->site.item[n]};
+  return s->known->prover.meet(out, s->known->prover.user, site, settling_is_round(s));
 }
 
 /* Lists the sites that have a point in common with number i. */
@@ -188,18 +221,33 @@ static dyd_status rect_reach2(mpq_t out, const dyd_point *c, const dyd_rect *r, 
 }
 
 /* Sets *out to whether a point of site k is outside the disc (c, r), wherever it is along narrowable sides. */
-static dyd_status disc_spares(bool *out, const dyd_engine *e, const dyd_point *c, const mpq_t radius2, uint32_t k) {
+static dyd_status disc_spares(bool *out, const settling *s, const dyd_point *c, const mpq_t radius2, uint32_t k) {
   mpq_t far2;
   dyd_rect r;
-  bool core[2] = {false, false};
+  dyd_settle_site guess = {.absent = false};
   mpq_init(far2);
   dyd_rect_init(&r);
-  dyd_status st = dyd_site_get_core(&r, core, e, k);
-  const bool near[2] = {!core[0], !core[1]};
+  dyd_status st = settling_core(&r, &guess, s, k);
+  const double at[2] = {dyd_dyadic_get_d(&c->x, DYD_DOWN), dyd_dyadic_get_d(&c->y, DYD_DOWN)};
+  if (st == DYD_OK && guess.disc[2] > 0) st = site_set_point(&r, &guess, at, true);
+  const bool near[2] = {!guess.core[0], !guess.core[1]};
   if (st == DYD_OK) st = rect_reach2(far2, c, &r, near);
   *out = st == DYD_OK && mpq_cmp(far2, radius2) >= 0;
   dyd_rect_clear(&r);
   mpq_clear(far2);
+  return st;
+}
+
+/* The square of the distance from c to the point of an end that is nearest along its core. */
+static dyd_status end_reach2(mpq_t out, const settling *s, const dyd_point *c, size_t end) {
+  const dyd_settle_site *guess = &s->guess[end];
+  const double at[2] = {dyd_dyadic_get_d(&c->x, DYD_DOWN), dyd_dyadic_get_d(&c->y, DYD_DOWN)};
+  dyd_rect r;
+  if (!(guess->disc[2] > 0)) return rect_reach2(out, c, &s->rect[end], guess->core);
+  dyd_rect_init(&r);
+  dyd_status st = site_set_point(&r, guess, at, false);
+  dyd_rect_ds2(out, c, &r);
+  dyd_rect_clear(&r);
   return st;
 }
 
@@ -247,7 +295,7 @@ static dyd_status disc_leans(bool *out, const settling *s, const dyd_point *c, s
   mpq_t least, most;
   mpq_inits(least, most, NULL);
   dyd_rect_ds2(least, c, &s->rect[beside]);
-  dyd_status st = rect_reach2(most, c, &s->rect[other], s->guess[other].core);
+  dyd_status st = end_reach2(most, s, c, other);
   *out = st == DYD_OK && mpq_cmp(most, least) <= 0;
   mpq_clears(least, most, NULL);
   return st;
@@ -261,7 +309,7 @@ static dyd_status disc_joins(bool *out, dyd_index_list *met, const settling *s, 
   dyd_status st = DYD_OK;
   mpq_inits(radius2, other, (mpq_ptr)0);
   for (int k = 0; st == DYD_OK && k < 2; k++) {
-    st = rect_reach2(other, c, &s->rect[end[k]], s->guess[end[k]].core);
+    st = end_reach2(other, s, c, end[k]);
     if (mpq_cmp(other, radius2) > 0) mpq_swap(other, radius2);
   }
   *out = st == DYD_OK;
@@ -274,7 +322,7 @@ static dyd_status disc_joins(bool *out, dyd_index_list *met, const settling *s, 
   for (size_t k = 0; st == DYD_OK && *out && k < met->count; k++) {
     size_t at = settling_place(s, met->item[k]);
     if (at == end[0] || at == end[1] || (at != SIZE_MAX && s->guess[at].absent)) continue;
-    st = disc_spares(out, s->e, c, radius2, met->item[k]);
+    st = disc_spares(out, s, c, radius2, met->item[k]);
   }
   mpq_clears(radius2, other, (mpq_ptr)0);
   return st;
@@ -366,6 +414,7 @@ static void choose_on_side(dyd_interval *out, const dyd_interval *a, double at) 
 static void settling_choose(dyd_rect *out, const settling *s, size_t k, const double at[2]) {
   dyd_rect_set(out, &s->rect[k]);
   const bool *core = s->guess[k].core;
+  if (s->guess[k].disc[2] > 0 && site_set_point(out, &s->guess[k], at, false) != DYD_OK) dyd_rect_set(out, &s->rect[k]);
   if (core[0] && !dyd_interval_is_point(&out->x)) choose_on_side(&out->x, &s->rect[k].x, at[0]);
   if (core[1] && !dyd_interval_is_point(&out->y)) choose_on_side(&out->y, &s->rect[k].y, at[1]);
 }
@@ -525,11 +574,11 @@ static dyd_status circle_is_empty(bool *out, const settling *s, const settled_ci
   dyd_rect_init(&r);
   *out = true;
   for (uint32_t k = 0; st == DYD_OK && *out && k < dyd_sites_count(s->e->sites); k++) {
-    bool core[2];
+    dyd_settle_site guess = {.absent = false};
     if (dyd_delaunay_alias(s->e->pd, k) != k || circle_find(s, c, k) < c->count) continue;
     settling_pay(s, 1);
-    st = dyd_site_get_core(&r, core, s->e, k);
-    *out = st == DYD_OK && core_is_beside(c, way, &r, core);
+    st = settling_core(&r, &guess, s, k);
+    *out = st == DYD_OK && core_is_beside(c, way, &r, guess.core);
   }
   dyd_rect_clear(&r);
   return st;
@@ -731,6 +780,12 @@ static bool any_can_narrow(const dyd_engine *e, const dyd_index_list *site) {
   return false;
 }
 
+/* Returns true if the list has another status for the pair; NULL has none. */
+static bool is_decided(const dyd_pair_list *list, const dyd_pair *pair) {
+  const dyd_pair *p = list && list->count ? bsearch(pair, list->item, list->count, sizeof *p, dyd_compare_two) : NULL;
+  return list && (!p || p->status != DYD_INDETERMINATE);
+}
+
 /* Appends the indeterminate pairs of face f that are not settled: those of firm sites, or all. */
 static dyd_status take_pairs(dyd_settled *out, const dyd_settled *known, const dyd_engine *e, const dyd_dyadic *eps,
                              size_t f, bool firm) {
@@ -741,7 +796,8 @@ static dyd_status take_pairs(dyd_settled *out, const dyd_settled *known, const d
     const dyd_pair *pair = &all.item[k];
     const dyd_settled_pair *old = settled_find(known, pair->i, pair->j);
     bool both;
-    if (pair->status != DYD_INDETERMINATE || (old && dyd_pair_is_settled(old))) continue;
+    if (pair->status != DYD_INDETERMINATE || is_decided(known->discs, pair) || (old && dyd_pair_is_settled(old)))
+      continue;
     st = dyd_firm_pair(&both, e, eps, pair);
     if (both || !firm) out->item[out->count++] = old ? *old : (dyd_settled_pair){pair->i, pair->j, false, false};
   }
@@ -787,7 +843,8 @@ static dyd_status settle_pairs(dyd_settled *fresh, dyd_settled *s, const dyd_pla
   dyd_dyadic eps;
   dyd_dyadic_init(&eps);
   dyd_status st = dyd_firm_eps(&eps, e);
-  for (size_t f = 0; st == DYD_OK && f < faces; f++) st = settle_face_pairs(fresh, s, &work, e, &eps, f, true);
+  for (size_t f = 0; st == DYD_OK && f < faces && !s->discs; f++)
+    st = settle_face_pairs(fresh, s, &work, e, &eps, f, true);
   if (st == DYD_OK && fresh->count) st = settle_firm(fresh->item, fresh->count, plan, &eps);
   if (st == DYD_OK) st = settled_append(s, fresh); /* what firm sites do not settle, a point at a corner may */
   for (size_t f = 0; st == DYD_OK && work.sites && f < faces; f++)

@@ -12,6 +12,9 @@
  * leaves: core[0] for x, core[1] for y. A side that is fixed is its own core; one with a radius has a core once the
  * centre is known to within the radius. */
 dyd_status dyd_site_get_core(dyd_rect *r, bool core[2], const dyd_engine *e, uint32_t site);
+/* Sets disc to centre and radius of a disc that every disc of the site holds [DISC-4]; the radius is 0 where none is
+ * known, and the disc is smaller by about 2^-30 of it. Its centre is at most 2^20 radii from 0 along an axis. */
+dyd_status dyd_disc_get_core(double disc[3], const dyd_engine *e, uint32_t site);
 /* Sets *eps to 0 or a power of 2 that is at least the distance of any two points of a rectangle that differ only along
  * sides without a core. */
 dyd_status dyd_firm_eps(dyd_dyadic *eps, const dyd_engine *e);
@@ -46,12 +49,13 @@ static inline bool dyd_pair_is_settled(const dyd_settled_pair *p) {
 
 /* Settled facts about pairs, for ever unless points are measured again. Init with {0}. Invariant: item is
  * sorted by i, j, without repeats; next: the bits from which another try pays; prover: proves that places are on one
- * circle or line. */
+ * circle or line; discs: NULL, or statuses of pairs whose points are in discs: these pairs are examined. */
 typedef struct dyd_settled {
   dyd_settled_pair *item;
   size_t count, cap;
   int64_t next;
   dyd_prover prover;
+  const dyd_pair_list *discs;
 } dyd_settled;
 
 /* Budget left: sites to examine, and proofs about places of regions. */

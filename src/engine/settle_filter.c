@@ -5,7 +5,10 @@
  * when the farther of i and j is then nearer to c than all others, wherever those are that cannot be chosen. */
 #include "engine/settle_filter.h"
 
+#include "engine/settle.h"
+
 #include "legal/lp_filter.h"
+#include "rect/rect.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,8 +20,8 @@
  * crossing segments, where |a - z| |a' - z| > |b - z| |b' - z| at the crossing z, or one b among three a. Half-planes
  * are added as witnesses are searched for, for the farthest a and the nearest b, until nothing is left. */
 
-/* Corners of both ends; points of others, and half-planes. */
-enum { ENDS = 8, MOST = 64 };
+/* Points of others, and half-planes; corners of both ends, or points on the rims of their discs. */
+enum { AROUND = 8, MOST = 64, ENDS = 2 * AROUND + MOST };
 
 typedef struct spot {
   double at[2];
@@ -52,8 +55,34 @@ static double spot_turn(const spot *a, const spot *b, const spot *c) {
   return (b->at[0] - a->at[0]) * (c->at[1] - a->at[1]) - (b->at[1] - a->at[1]) * (c->at[0] - a->at[0]);
 }
 
+void dyd_filter_disc_point(double z[2], const double disc[3], const double at[2], bool farthest) {
+  const double x = at[0] - disc[0], y = at[1] - disc[1], far = hypot(x, y), r = disc[2] * (1 - 0x1p-20);
+  const double t = !(far > 0) ? 0 : farthest ? -r / far : fmin(1, r / far);
+  z[0] = disc[0] + (far > 0 ? t * x : farthest ? r : 0);
+  z[1] = disc[1] + t * y;
+}
+
+bool dyd_filter_within(const double disc[3], double x, double y, double r) {
+  return hypot(x - disc[0], y - disc[1]) <= r * (1 - 0x1p-20);
+}
+
+static void cutting_add_disc(cutting *q, size_t k) {
+  const double *d = q->site[k].disc;
+  for (int n = 0; n < AROUND; n++) {
+    const double t = 2 * 3.14159265358979 * n / AROUND, far[2] = {d[0] + 4 * d[2] * cos(t), d[1] + 4 * d[2] * sin(t)};
+    spot *s = &q->end[q->ends++];
+    dyd_filter_disc_point(s->at, d, far, false);
+    s->site = k;
+    for (int x = 0; x < 2; x++) s->at[x] -= q->origin[x];
+  }
+}
+
 static void cutting_add_end(cutting *q, size_t k) {
   const double *o = q->origin;
+  if (q->site[k].disc[2] > 0) {
+    cutting_add_disc(q, k);
+    return;
+  }
   double b[4];
   for (int n = 0; n < 4; n++) {
     const double *side = &q->site[k].box[n & 2];
@@ -96,10 +125,30 @@ static void cutting_look(cutting *q, size_t k) {
     }
 }
 
-static spot farthest_end(const cutting *q, const double c[2]) {
+/* What the last of the ends does with all others. */
+static void cutting_look_end(cutting *q) {
+  const spot *last = &q->end[q->ends - 1];
+  for (const spot *a = q->end; a < last; a++)
+    for (size_t k = 0; k < q->others; k++)
+      for (size_t n = 0; n < k; n++) cutting_look_crossed(q, a, last, &q->other[n], &q->other[k]);
+}
+
+/* The point of the ends that is farthest from c; a point of a disc is added. */
+static spot farthest_end(cutting *q, const double c[2]) {
+  const double at[2] = {c[0] + q->origin[0], c[1] + q->origin[1]};
+  const size_t end[2] = {q->i, q->j}, had = q->ends;
   spot best = q->end[0];
+  for (int e = 0; e < 2 && q->ends < ENDS; e++) {
+    spot *s = &q->end[q->ends];
+    if (!(q->site[end[e]].disc[2] > 0)) continue;
+    dyd_filter_disc_point(s->at, q->site[end[e]].disc, at, true);
+    s->site = end[e];
+    for (int x = 0; x < 2; x++) s->at[x] -= q->origin[x];
+    if (q->ends == had || spot_distance2(s, c) > spot_distance2(&q->end[had], c)) q->end[had] = *s, q->ends = had + 1;
+  }
   for (size_t k = 1; k < q->ends; k++)
     if (spot_distance2(&q->end[k], c) > spot_distance2(&best, c)) best = q->end[k];
+  if (q->ends > had) cutting_look_end(q);
   return best;
 }
 
@@ -109,9 +158,11 @@ static spot nearest_other(const cutting *q, const double c[2]) {
   for (size_t k = 0; k < q->count; k++) {
     spot s = {.site = k};
     if (k == q->i || k == q->j) continue;
+    const double *d = q->site[k].disc, at[2] = {c[0] + q->origin[0], c[1] + q->origin[1]};
+    if (d[2] > 0) dyd_filter_disc_point(s.at, d, at, false);
     for (int a = 0; a < 2; a++) {
       const double *side = &q->site[k].box[2 * a];
-      s.at[a] = fmin(fmax(c[a], side[0] - q->origin[a]), side[1] - q->origin[a]);
+      s.at[a] = d[2] > 0 ? s.at[a] - q->origin[a] : fmin(fmax(c[a], side[0] - q->origin[a]), side[1] - q->origin[a]);
     }
     if (best.site == q->count || spot_distance2(&s, c) < spot_distance2(&best, c)) best = s;
   }
@@ -199,6 +250,10 @@ static double site_middle(const dyd_settle_site *s, int axis) {
 static void joining_spot(double out[2], const joining *q, size_t k, const double c[2]) {
   const dyd_settle_site *s = &q->site[k];
   bool end = k == q->i || k == q->j;
+  if (s->disc[2] > 0) {
+    dyd_filter_disc_point(out, s->disc, c, !end);
+    return;
+  }
   for (int a = 0; a < 2; a++) {
     const double *side = &s->box[2 * a];
     if (s->core[a] == end)
@@ -286,7 +341,7 @@ static void centre_list_start(centre_list *l, joining *q) {
 
 /* Returns true if the site has more than one choice. */
 static bool site_is_wide(const dyd_settle_site *s) {
-  return (s->core[0] && s->box[0] < s->box[1]) || (s->core[1] && s->box[2] < s->box[3]);
+  return s->disc[2] > 0 || (s->core[0] && s->box[0] < s->box[1]) || (s->core[1] && s->box[2] < s->box[3]);
 }
 
 /* Number n of a row of points around the box; false: there is none. */
@@ -392,4 +447,44 @@ void dyd_filter_lean(double c[2], const dyd_settle_site *site, size_t beside, si
   const double v[2] = {c[0] - from[0], c[1] - from[1]}, w[2] = {from[0] - a[0], from[1] - a[2]};
   const double t = -(square(w[0]) + square(w[1])) / (2 * (w[0] * v[0] + w[1] * v[1])) * (1 - more);
   for (int x = 0; t > 0 && t < 1 && x < 2; x++) c[x] = from[x] + t * v[x];
+}
+
+/* ---- discs that stay ---- */
+
+/* Along one axis: *mid, the middle of the core, and *half, a little less than half of it, as doubles; false where the
+ * core is more than 2^-34 of it smaller than the side, or in doubles. */
+static bool side_get_disc(double *mid, double *half, const dyd_interval *core, const dyd_interval *whole) {
+  mpq_t lo, hi, from, to;
+  mpq_inits(lo, hi, from, to, NULL);
+  dyd_interval_get_q(lo, hi, core);
+  dyd_interval_get_q(from, to, whole);
+  mpq_sub(to, to, from);
+  mpq_add(from, lo, hi);
+  mpq_sub(hi, hi, lo);
+  mpq_sub(to, to, hi);
+  mpq_mul_2exp(to, to, 34);
+  *mid = mpq_get_d(from) / 2;
+  *half = mpq_get_d(hi) / 2 * (1 - 0x1p-30);
+  bool good = mpq_cmp(to, hi) <= 0 && *half > 0x1p-500 && *half < 0x1p500 && fabs(*mid) <= 0x1p20 * *half;
+  mpq_clears(lo, hi, from, to, NULL);
+  return good;
+}
+
+dyd_status dyd_disc_get_core(double disc[3], const dyd_engine *e, uint32_t site) {
+  bool core[2];
+  double half = 0;
+  dyd_rect whole, r;
+  dyd_rect_init(&whole);
+  dyd_rect_init(&r);
+  disc[2] = 0;
+  dyd_status st = dyd_sites_get(&whole, e->sites, site);
+  if (st == DYD_OK) st = dyd_site_get_core(&r, core, e, site);
+  if (st == DYD_OK && core[0] && core[1] && !dyd_rect_is_point(&r) &&
+      side_get_disc(&disc[0], &disc[2], &r.x, &whole.x) && side_get_disc(&disc[1], &half, &r.y, &whole.y))
+    disc[2] = half < disc[2] ? half : disc[2];
+  else
+    disc[2] = 0;
+  dyd_rect_clear(&r);
+  dyd_rect_clear(&whole);
+  return st;
 }

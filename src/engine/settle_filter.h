@@ -9,11 +9,20 @@
 #include <stdint.h>
 
 /* A site: its outward box (x lower, x upper, y lower, y upper), and along which sides its point may be chosen. absent:
- * a disc may hold all of it. */
+ * a disc may hold all of it. disc: centre and radius of one in which the point may be chosen; radius 0: the box counts.
+ */
 typedef struct dyd_settle_site {
   double box[4];
   bool core[2], absent;
+  double disc[3];
 } dyd_settle_site;
+
+/* Sets z to the point of the disc that is nearest to `at`, or one that is farthest, off by less than 2^-19 radii; it is
+ * in the disc for certain, if the centre is at most 2^20 radii from 0. */
+void dyd_filter_disc_point(double z[2], const double disc[3], const double at[2], bool farthest);
+
+/* Returns true if (x, y) is for certain within r of the centre of the disc, r at most a few of its radii. */
+bool dyd_filter_within(const double disc[3], double x, double y, double r);
 
 /* The centre of a disc that holds points of sites i and j, and of each other site not all, by choices along cores
  * sides, wherever points are along the others; of such centres one with much room. false: none with any room was

@@ -69,12 +69,12 @@ typedef struct dyd_site_place {
 
 /* Callbacks about the true points, and such places. prove_places: as prove, which is NULL where nothing is proved;
  * false where two places are the same. place: sets *out, the rectangle of the site, to one that holds the place. meet:
- * the regions that two sites keep have a point in common. */
+ * the regions that two sites keep, or the discs in them, have a point in common. */
 typedef struct dyd_prover {
   dyd_prove_fn prove;
   dyd_status (*prove_places)(bool *proved, void *user, dyd_relation relation, const dyd_site_place *at, size_t count);
   dyd_status (*place)(dyd_rect *out, void *user, const dyd_site_place *at);
-  dyd_status (*meet)(bool *proved, void *user, uint32_t i, uint32_t j);
+  dyd_status (*meet)(bool *proved, void *user, const uint32_t site[2], bool discs);
   void *user;
 } dyd_prover;
 

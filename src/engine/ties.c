@@ -163,7 +163,8 @@ bool dyd_ties_proved(dyd_relation *relation, const uint32_t **site, size_t *coun
 /* ---- one question ---- */
 
 /* place: NULL, or the sites are asked to be equally far from it; chosen: NULL, or given instead of `site`; meet: of two
- * sites, whether their regions have a point in common; a third point is then the sums of half their sides. */
+ * sites, whether their regions have a point in common; a third point is then the sums of half their sides; discs:
+ * whether the discs in these have. */
 typedef struct question {
   dyd_engine *e;
   dyd_algebra algebra;
@@ -171,7 +172,7 @@ typedef struct question {
   const dyd_stream *place;
   const uint32_t *site;
   const dyd_site_place *chosen;
-  bool meet;
+  bool meet, discs;
   size_t count;
   dyd_form_point *at; /* in the order of the sites; the place comes last */
   uint32_t *zero;     /* forms that are to be 0 */
@@ -256,7 +257,8 @@ static dyd_status describe_region(dyd_form_point *out, mpq_t sum[2], question *q
   if (still) st = dyd_sites_get(&r, q->e->sites, site);
   if (still && st == DYD_OK) *out = dyd_forms_middle(&q->algebra.forms, half, &r);
   if (!still && p->stream && !p->measured) *out = dyd_forms_region(&q->algebra.forms, half, p->stream);
-  for (int a = 0; a < 2; a++) mpq_add(sum[a], sum[a], half[a]);
+  bool less = mpq_cmp(half[0], half[1]) < 0;
+  for (int a = 0; a < 2; a++) mpq_add(sum[a], sum[a], half[q->discs ? !less : a]);
   dyd_rect_clear(&r);
   mpq_clears(half[0], half[1], NULL);
   return st;
@@ -355,8 +357,19 @@ static bool put_near(question *q, uint32_t a, uint32_t b, uint32_t sum) {
   return true;
 }
 
+/* The same of the distance of the centres. */
+static bool put_discs_near(question *q) {
+  dyd_forms *f = &q->algebra.forms;
+  uint32_t d = dyd_forms_binary(f, DYD_OP_SUB, dyd_forms_distance2(f, q->at[0], q->at[1]),
+                                dyd_forms_binary(f, DYD_OP_MUL, q->at[2].x, q->at[2].x));
+  if (d == DYD_NONE || arb_is_positive(dyd_forms_value(f, d, DYD_ZERO_FIRST_BITS))) return false;
+  if (!arb_is_negative(dyd_forms_value(f, d, DYD_ZERO_FIRST_BITS))) q->zero[q->zeros++] = d;
+  return true;
+}
+
 static bool put_zeros(question *q) {
   const dyd_form_point *at = q->at;
+  if (q->discs) return put_discs_near(q);
   if (q->meet) return put_near(q, at[0].x, at[1].x, at[2].x) && put_near(q, at[0].y, at[1].y, at[2].y);
   if (q->chosen && !all_are_apart(q)) return false;
   if (q->place) {
@@ -558,9 +571,8 @@ static dyd_status ties_place(dyd_rect *out, void *user, const dyd_site_place *at
   return place_choose(out, &chosen, user, at);
 }
 
-static dyd_status ties_meet(bool *proved, void *user, uint32_t i, uint32_t j) {
-  const uint32_t site[2] = {i, j};
-  question q = {.e = user, .meet = true, .site = site, .count = 3};
+static dyd_status ties_meet(bool *proved, void *user, const uint32_t site[2], bool discs) {
+  question q = {.e = user, .meet = true, .discs = discs, .site = site, .count = 3};
   dyd_zero zero = DYD_ZERO_UNKNOWN;
   bool final;
   dyd_status st = question_answer(&zero, &final, &q);

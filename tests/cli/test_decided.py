@@ -164,6 +164,18 @@ def test_discs_are_refined_as_far_as_they_are_told():
     assert result.code == 4 and '0,1,indeterminate' in result.out.split(), result
 
 
+def test_discs_beside_exact_points_settle():
+    """Exact points next to discs of computed centres, on the circles too: more bits decide no pair."""
+    for points in ('3/2+-1 sqrt(3)+-1\n2 -1\n5/2 sqrt(3)+1\nsqrt(2)+1 1/3\n',
+                   'sqrt(2)+1+-1 -pi+-1\n1/sqrt(7) sqrt(5)\ne/3+-1 -pi+-1\nsqrt(2) -pi-1\n',
+                   '-1/4 -1/2\npi/7 -2\n1/3 2\n0 sqrt(2)+1\n0+-1/2 0+-1/2\n-1/2 -1/2\n',
+                   'sqrt(2)+-1/4 0+-1/4\n-sqrt(2)-1/4 -7/4\n-sqrt(2)-1/4 -2\n-sqrt(2)+-1/4 -2+-1/4\n',
+                   'e+-1.5 1+-1.5\ne-1.5 -1/2\ne 2.5\n1/3 pi/7\n'):
+        result = run('delaunay', '-', '--discs', '--stats', stdin=points)
+        most = int(re.search(r'bits asked, most +(\d+)', result.err).group(1))
+        assert result.code == 3 and most <= 512 and 'indeterminate' in result.out, (points, most, result)
+
+
 def test_regions_beside_nearly_collinear_points_settle():
     """Four places within 2^-27 of a parallel that a region crosses: no refinement decides its pairs, and it is known."""
     result = run('delaunay', '-', '--sphere', '--stats',

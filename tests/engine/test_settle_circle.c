@@ -100,9 +100,10 @@ static dyd_status hidden_place(dyd_rect *out, void *user, const dyd_site_place *
 }
 
 /* Boxes are their regions, and places points. */
-static dyd_status hidden_meet(bool *proved, void *user, uint32_t i, uint32_t j) {
+static dyd_status hidden_meet(bool *proved, void *user, const uint32_t site[2], bool discs) {
+  const uint32_t i = site[0], j = site[1];
   const circled *c = user;
-  *proved = true;
+  *proved = !discs;
   for (int a = 0; a < 2; a++) *proved = *proved && abs(c->at[i][a] - c->at[j][a]) <= c->half[i][a] + c->half[j][a];
   return DYD_OK;
 }
