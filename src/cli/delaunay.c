@@ -372,6 +372,8 @@ static dyd_status sphere_write(FILE *out, const cli_session *s, dyd_error *err) 
 
 static dyd_status sphere_prove(FILE *out, const cli_session *s, dyd_error *err) {
   const dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .sphere = s->sphere};
+  if (strcmp(s->o.command, "voronoi") == 0)
+    cli_note(&s->o, "the certificate states the pairs of neighbours on the sphere, not the cells");
   return dyd_write_certificate(out, NULL, &parts, err);
 }
 

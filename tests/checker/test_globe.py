@@ -411,6 +411,14 @@ def check_plane(folder):
     assert wrong.returncode == 1 and wrong.stderr.endswith('remove --sphere\n'), wrong
 
 
+def check_cells(folder):
+    """Cells are not stated: the command says so."""
+    (folder / 'points').write_text('0 0\n90 10\n180 -20\n-80 40\n')
+    for command in ('voronoi', 'delaunay'):
+        done = run(command, '--sphere', folder / 'points', '--certificate', folder / 'sphere', '-o', folder / 'out')
+        assert done.returncode == 0 and ('not the cells' in done.stderr) == (command == 'voronoi'), done
+
+
 # ---- nearest places ----
 
 Near = collections.namedtuple('Near', 'radius places rows')
@@ -539,6 +547,7 @@ def main():
         folder = pathlib.Path(name)
         check_airports(folder)
         check_plane(folder)
+        check_cells(folder)
         for k in range(COUNT):
             check_random(folder, r, k, met)
             if k % 3 == 0:
