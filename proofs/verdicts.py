@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """`dyadel verify` and dyadel-proved give the same verdict, and neither accepts a false statement [CERT-1] [CERT-5] [CERT-6]
-[CERT-7] [CERT-8] [CERT-9] [CERT-10].
+[CERT-7] [CERT-8] [CERT-9] [CERT-10] [CERT-11] [CERT-12] [CERT-13] [CERT-14].
 
 Usage: verdicts.py ROOT DYADEL_PROVED DYADEL [CASES]   (DYADEL_PROVED "-": without it; DYADEL_TEST_SCALE multiplies CASES)
 
 CASES true certificates (default 60; A-B: numbers A to B - 1) of up to nine points: exact ones, ties on circles and lines, boxes, crowds, points
-among boxes, roots and their ties, aliases, bounds and diagrams; and ten changes of each: lines, statuses, pairs, numbers,
+among boxes, roots and their ties, aliases, bounds and diagrams; of discs and their cells, of graphs, places of queries, and
+places of a sphere (verdict_parts.py); and ten changes of each: lines, statuses, pairs, numbers,
 outcomes, counts, bounds and blocks, the counts put right afterwards. An oracle in exact numbers, below, judges each accepted
 certificate for many choices of the points. Verdicts are the exit statuses; where they differ, DIFFERENCES has the
 reason, by a name that SOUNDNESS.md explains. Its table is what a run printed.
@@ -24,6 +25,8 @@ import subprocess
 import sys
 import tempfile
 from fractions import Fraction
+
+import verdict_parts
 
 SEED = 1
 CHANGES = 10
@@ -206,7 +209,8 @@ class Statement:
             yield next(lines).split(' ')
 
     def rest(self, lines):
-        for line in lines:
+        """Up to the sphere, discs and graphs, which others judge."""
+        for line in itertools.takewhile(lambda line: not re.match('sphere|discs |graph ', line), lines):
             if line.startswith('algebra '):
                 self.blocks.append(Block(itertools.chain([line], lines)))
             elif line.startswith('window '):
@@ -711,6 +715,10 @@ def counts_right(ask, text):
 
 # name; exit statuses of verify, and of dyadel-proved; patterns of their output
 DIFFERENCES = [
+    ('points in discs', (ALL, NOT_ALL, REJECTED), (NOT_ALL,), '', 'not proved: [^\n]* (for|of) points in discs'),
+    ('places on a sphere', (ALL, NOT_ALL, REJECTED), (NOT_ALL,), '', 'not proved: the projection: '),
+    ('nearest places', (ALL, NOT_ALL, REJECTED), (NOT_ALL,), '', 'not proved: which sites are nearest'),
+    ('graphs of neighbours', (ALL, NOT_ALL, REJECTED), (NOT_ALL,), '', 'not proved: the graph '),
     ('places and bridges', (REJECTED,), (ALL, NOT_ALL), r'no witness of|the place is not in|a bridge joins', 'not used: places'),
     ('pairs in no open set', (REJECTED,), (ALL, NOT_ALL), 'in no open set', ''),
     ('ties beside boxes', (NOT_ALL,), (ALL,), r'not proved: that \d+ pairs are ties\n$', ''),
@@ -732,8 +740,9 @@ class Answer:
 
 
 class Checkers:
-    def __init__(self, proved, dyadel, folder):
+    def __init__(self, root, proved, dyadel, folder):
         self.proved, self.dyadel, self.folder = proved, dyadel, folder
+        self.parts = verdict_parts.Parts(root, dyadel)
 
     def ask(self, text, *command):
         with tempfile.NamedTemporaryFile('w', dir=self.folder, suffix='.txt') as file:
@@ -767,6 +776,16 @@ def difference(here, there):
     return None
 
 
+def judge_parts(both, rng, text, answer, here):
+    """Answers about parts that the plane has not: what verify proves of these, and what the rectangles show; of images
+    only dyadel-proved's, which proves nothing of their places."""
+    wrong = both.parts.judge(rng, text, answer) if here else None
+    if wrong or '\ngoal nearest\n' in text or (here and '\nsphere\n' in text):
+        return wrong
+    answer.status = NOT_ALL
+    return judge(rng, text, answer)
+
+
 def try_text(both, count, rng, text, name):
     """Runs both on one certificate, and the oracle on each that accepts it."""
     here = Answer(both.ask(text))
@@ -782,11 +801,12 @@ def try_text(both, count, rng, text, name):
         count.example.setdefault(why, text)
         if not difference(here, there):
             count.faults.append(f'{name}: {why}')
-    for answer in {here.status: here, there.status: there}.values():
+    for answer in [here] + [there] * (here.status != there.status):
         if answer.status == REJECTED:
             continue
         try:
-            false = judge(rng, text, answer)
+            more = re.search(r'\n(sphere|discs|graph|goal nearest)\b', text)
+            false = judge_parts(both, rng, text, answer, answer is here) if more else judge(rng, text, answer)
             count.judged += 1
         except Beyond:
             count.beyond += 1
@@ -810,12 +830,16 @@ def changed(rng, both, text):
 def try_case(both, number):
     """One true certificate and its changes."""
     rng, count = random.Random(SEED * 10**6 + number), Count()
-    kind = KINDS[number % len(KINDS)]
-    command = 'voronoi' if rng.randrange(5) == 0 else 'delaunay'
-    text = both.certificate(kind(rng), *rng.choice(GOALS), command=command)
+    kind = number % (len(KINDS) + len(both.parts.commands)) - len(KINDS)
+    if kind >= 0:
+        text = both.parts.certificate(rng, both.parts.commands[kind])
+    else:
+        command = 'voronoi' if rng.randrange(5) == 0 else 'delaunay'
+        text = both.certificate(KINDS[kind](rng), *rng.choice(GOALS), command=command)
     try_text(both, count, rng, text, 'true')
     for _ in range(CHANGES):
-        try_text(both, count, rng, changed(rng, both, text), 'changed')
+        plane = kind < 0 or (rng.randrange(4) == 0 and '\ngoal nearest\n' not in text)
+        try_text(both, count, rng, changed(rng, both, text) if plane else both.parts.changed(rng, text), 'changed')
     return count
 
 
@@ -827,7 +851,7 @@ def main():
         first = sum(begin)
     total = Count()
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        both = Checkers(None if proved == '-' else proved, dyadel, folder)
+        both = Checkers(root, None if proved == '-' else proved, dyadel, folder)
         for count in pool.map(lambda k: try_case(both, k), range(first, last)):
             total.verdicts += count.verdicts
             total.why += count.why

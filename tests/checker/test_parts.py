@@ -433,4 +433,5 @@ def main():
     print(TALLY)
 
 
-main()
+if __name__ == '__main__':
+    main()
