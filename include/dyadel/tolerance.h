@@ -91,7 +91,7 @@ typedef struct dyd_tolerance_result {
    * unless options.sigma, or sigmas, was set. NaN where work was cancelled before. */
   const double *chances;
   /* After DYD_CANCELLED: edges that have no row, and pairs that may be born and have none; SIZE_MAX births: they were
-   * not looked for. Both 0: rows are complete. */
+   * not all looked for. Both 0: rows are complete. */
   size_t edges_left, births_left;
   uint64_t filter, exact; /* how many deaths doubles decided, and how many integers */
 } dyd_tolerance_result;

@@ -78,7 +78,8 @@ static dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known 
   dyd_status st = dyd_skeleton_build(&pd->sk, sites, &o);
   if (st != DYD_OK) return st;
   pd->joins = sites->joins;
-  const dyd_run run = {.cancel = o.cancel, .threads = o.threads, .keep_cut = pd->options.keep_cut, .err = err};
+  const dyd_run run = {
+      .cancel = o.cancel, .threads = o.threads, .keep_cut = pd->options.keep_cut, .err = err, .decider = pd->decider};
   dyd_work w;
   dyd_work_init(&w, &pd->sk, &run);
   w.room = pd->room;
@@ -575,14 +576,15 @@ static dyd_status finish(dyd_delaunay *pd, dyd_status st, dyd_error *err) {
   pd->options.cancel = NULL;
   pd->options.prove = NULL;
   pd->options.narrows = NULL;
+  pd->decider = NULL;
   if (pd->room.peak > pd->counters.bytes_most) pd->counters.bytes_most = pd->room.peak;
   if (st == DYD_E_NOMEM && pd->room.refused) return dyd_fail_room(err, &pd->room);
   if (st == DYD_OK) return dyd_delaunay_is_capped(pd) ? DYD_CAPPED : DYD_OK;
   return dyd_fail(err, st, "%s", dyd_status_text(st));
 }
 
-dyd_status dyd_delaunay_new(dyd_delaunay **out, const dyd_sites *sites, const dyd_delaunay_options *options,
-                            dyd_error *err) {
+static dyd_status build_new(dyd_delaunay **out, const dyd_sites *sites, const dyd_decider *decider,
+                            const dyd_delaunay_options *options, dyd_error *err) {
   dyd_delaunay_options o;
   *out = NULL;
   if (dyd_abi_take(&o, sizeof o, options, "dyd_delaunay_options", err) != DYD_OK) return DYD_E_ARG;
@@ -591,6 +593,7 @@ dyd_status dyd_delaunay_new(dyd_delaunay **out, const dyd_sites *sites, const dy
   dyd_delaunay *pd = calloc(1, sizeof *pd);
   if (!pd) return dyd_fail_nomem(err);
   set_options(pd, &o, dyd_sites_count(sites));
+  pd->decider = decider;
   dyd_status st = finish(pd, dyd_build(pd, sites, (dyd_known){NULL, 0}, err), err);
   if (dyd_failed(st) || st == DYD_CANCELLED)
     free(pd);
@@ -599,8 +602,18 @@ dyd_status dyd_delaunay_new(dyd_delaunay **out, const dyd_sites *sites, const dy
   return st;
 }
 
+dyd_status dyd_delaunay_new(dyd_delaunay **out, const dyd_sites *sites, const dyd_delaunay_options *options,
+                            dyd_error *err) {
+  return build_new(out, sites, NULL, options, err);
+}
+
 dyd_status dyd_delaunay_made(dyd_delaunay **out, size_t n, dyd_rect_fn *rect, const void *user,
                              const dyd_delaunay_options *options, dyd_error *err) {
+  return dyd_delaunay_decided(out, n, rect, user, NULL, options, err);
+}
+
+dyd_status dyd_delaunay_decided(dyd_delaunay **out, size_t n, dyd_rect_fn *rect, const void *user,
+                                const dyd_decider *decider, const dyd_delaunay_options *options, dyd_error *err) {
   dyd_delaunay_options o = *options;
   dyd_sites *sites = NULL;
   dyd_rect r;
@@ -614,7 +627,7 @@ dyd_status dyd_delaunay_made(dyd_delaunay **out, size_t n, dyd_rect_fn *rect, co
   dyd_rect_clear(&r);
   dyd_room room = {.most = o.max_bytes, .beside = o.max_bytes && sites ? dyd_sites_memory(sites) : 0};
   o.max_bytes = dyd_room_left(&room);
-  st = st == DYD_OK ? dyd_delaunay_new(out, sites, &o, err) : dyd_fail(err, st, "%s", dyd_status_text(st));
+  st = st == DYD_OK ? build_new(out, sites, decider, &o, err) : dyd_fail(err, st, "%s", dyd_status_text(st));
   if (*out)
     (*out)->own = sites;
   else

@@ -313,12 +313,20 @@ static dyd_status add_meeting(closing *c) {
   return st;
 }
 
+/* Does the decider of the run know whether the pair is possible? */
+static bool closing_is_told(bool *possible, const closing *c, uint32_t a, uint32_t b) {
+  const dyd_decider *d = c->w->run->decider;
+  const uint32_t *site = c->sk->reps.site, *v = c->out->vertex;
+  return d && d->tell(possible, d->context, site[v[a]], site[v[b]]);
+}
+
 static dyd_status closing_decide(void *context, bool *enough, uint32_t a, uint32_t b) {
   static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
   closing *c = context;
   const uint32_t *v = c->out->vertex;
-  dyd_cover found;
-  dyd_status st = dyd_cover_possible(&found, c->w, c->sk, v[a], v[b], no_hint);
+  dyd_cover found = {0};
+  bool told = closing_is_told(&found.possible, c, a, b);
+  dyd_status st = told ? DYD_OK : dyd_cover_possible(&found, c->w, c->sk, v[a], v[b], no_hint);
   if (st == DYD_OK) st = found.possible ? add_possible(c, a, b) : closing_add(c, a, b, DYD_PAIR_IMPOSSIBLE);
   *enough = c->full || c->known == c->all;
   return st;
@@ -374,10 +382,11 @@ static dyd_status closing_flip(closing *c, uint32_t i, uint32_t j, uint32_t k, u
   uint32_t ghost = c->out->vertices;
   const uint32_t *v = c->out->vertex;
   const uint32_t hint[2] = {i == ghost ? DYD_NONE : v[i], j == ghost ? DYD_NONE : v[j]};
-  dyd_cover found;
+  dyd_cover found = {0};
   if (k == ghost || l == ghost || dyd_pair_map_get(&c->map, k, l) != DYD_PAIR_UNKNOWN) return DYD_OK;
   if (i != ghost && j != ghost && dyd_surely_not_displaced(c->sk, v[i], v[j], v[k], v[l])) return DYD_OK;
-  dyd_status st = dyd_cover_possible(&found, c->w, c->sk, v[k], v[l], hint);
+  bool told = closing_is_told(&found.possible, c, k, l);
+  dyd_status st = told ? DYD_OK : dyd_cover_possible(&found, c->w, c->sk, v[k], v[l], hint);
   if (st != DYD_OK) return st;
   st = found.possible ? add_possible(c, k, l) : closing_add(c, k, l, DYD_PAIR_IMPOSSIBLE);
   if (st == DYD_OK && found.possible && found.walked) st = closing_try_centre(c, v[k], v[l], hint[0]);

@@ -6,6 +6,7 @@
 
 #include "base/room.h"
 #include "skeleton/skeleton.h"
+#include "skeleton/work.h"
 
 /* Two vertices, i < j. Two sites on the rims of two faces may make a pair that both closures find; it stays in both
  * lists, since either face may be worked on again alone, and is hidden in all but one. */
@@ -69,9 +70,10 @@ struct dyd_delaunay {
   dyd_delaunay_counters counters;
   dyd_delaunay_options options;
   size_t max_pairs;
-  dyd_room room;  /* of the call at work */
-  size_t joins;   /* of sites, when it was built */
-  dyd_sites *own; /* NULL: the sites are the caller's */
+  dyd_room room;              /* of the call at work */
+  size_t joins;               /* of sites, when it was built */
+  dyd_sites *own;             /* NULL: the sites are the caller's */
+  const dyd_decider *decider; /* while it is built; may be NULL */
 };
 
 /* Sets *out to the rectangle of site i. */
@@ -79,6 +81,9 @@ typedef dyd_status dyd_rect_fn(dyd_rect *out, const void *user, size_t i);
 /* As dyd_delaunay_new, of n sites that `rect` makes and *out owns; max_bytes counts them. */
 dyd_status dyd_delaunay_made(dyd_delaunay **out, size_t n, dyd_rect_fn *rect, const void *user,
                              const dyd_delaunay_options *options, dyd_error *err);
+/* The same with a decider, by one thread: all possible pairs of its regions are among those found [CLO-1]. */
+dyd_status dyd_delaunay_decided(dyd_delaunay **out, size_t n, dyd_rect_fn *rect, const void *user,
+                                const dyd_decider *decider, const dyd_delaunay_options *options, dyd_error *err);
 
 /* Returns true if no triangles exist, since the points are collinear for every choice, or at most two. */
 static inline bool dyd_is_line(const dyd_delaunay *pd) {

@@ -321,7 +321,7 @@ static dyd_status tolerance_comments(dyd_table *t, const dyd_output *o) {
   if (!dyd_tolerance_is_cut(&edges, &births, r->tolerance)) return DYD_OK;
   fprintf(o->out, "# cut: %zu edges have no row; ", edges);
   if (births == SIZE_MAX)
-    fputs("births were not looked for\n", o->out);
+    fputs("births were not all looked for\n", o->out);
   else
     fprintf(o->out, "%zu pairs that may be born have none\n", births);
   return DYD_OK;

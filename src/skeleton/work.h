@@ -13,12 +13,20 @@
 /* A site has at most this many critical circles with two others [CRIT-1]. */
 enum { DYD_CIRCLES = 8 };
 
+/* Tells whether sites i and j are possible neighbours for regions in their rectangles. false: it does not know. For
+ * runs of one thread. */
+typedef struct dyd_decider {
+  bool (*tell)(bool *possible, void *context, uint32_t i, uint32_t j);
+  void *context;
+} dyd_decider;
+
 /* Settings that all threads of a run share. */
 typedef struct dyd_run {
   const volatile int *cancel; /* NULL: the run cannot be cancelled */
   unsigned threads;           /* for passes over everything */
   bool keep_cut;              /* faces that cancelling leaves open count as met by the cap */
   dyd_error *err;             /* may be NULL */
+  const dyd_decider *decider; /* asked before pairs that are no edges of the skeleton are decided; may be NULL */
 } dyd_run;
 
 /* Of one thread. */

@@ -496,12 +496,29 @@ static dyd_status square_of_birth(dyd_rect *out, const void *tolerance, size_t i
 /* Of each pair listed: what doubles find. */
 typedef enum birth_state { BIRTH_NONE, BIRTH_OPEN, BIRTH_LATE, BIRTH_FOUND } birth_state;
 
+typedef bool birth_filter(dyd_tolerance_row *, bool *, const dyd_tolerance *, uint32_t, uint32_t, double, dyd_others *);
+
+static birth_filter *filter_of(const dyd_tolerance *t) {
+  bool moved = t->weight || t->options.metric == DYD_METRIC_BOX;
+  return t->options.no_filter ? NULL : moved ? dyd_filter_moved_birth : dyd_filter_birth;
+}
+
+/* Rows that doubles have found while pairs were listed. */
+typedef struct births_told {
+  const dyd_tolerance *t;
+  birth_filter *filter;
+  double up_to;
+  dyd_tolerance_row *row;
+  size_t rows, cap;
+  dyd_others spare;
+} births_told;
+
 typedef struct birth_pass {
   const dyd_tolerance *t;
   const dyd_pair_list *pairs;
+  const births_told *told;
   dyd_tolerance_row *row;
   uint8_t *state;
-  double up_to;
 } birth_pass;
 
 static bool may_be_born(const dyd_tolerance *t, const dyd_pair *p) {
@@ -509,19 +526,36 @@ static bool may_be_born(const dyd_tolerance *t, const dyd_pair *p) {
          dyd_delaunay_status(t->pd, p->i, p->j) == DYD_ILLEGAL;
 }
 
+/* For the closure of squares. */
+static bool tell_birth(bool *possible, void *context, uint32_t i, uint32_t j) {
+  births_told *told = context;
+  const dyd_tolerance *t = told->t;
+  uint32_t a = i < j ? i : j, b = i + j - a;
+  dyd_tolerance_row row;
+  bool late;
+  if (dyd_delaunay_alias(t->pd, a) != a || dyd_delaunay_alias(t->pd, b) != b) return false;
+  *possible = dyd_delaunay_status(t->pd, a, b) != DYD_ILLEGAL;
+  if (*possible) return true;
+  if (!told->filter(&row, &late, t, t->sk->vertex[a], t->sk->vertex[b], told->up_to, &told->spare)) return false;
+  *possible = !late;
+  if (!late && DYD_GROW(told->row, told->cap, told->rows + 1)) told->row[told->rows++] = row;
+  return true;
+}
+
 static void births_in_doubles(void *context, size_t number) {
   const birth_pass *p = context;
   const dyd_tolerance *t = p->t;
-  bool late, moved = t->weight || t->options.metric == DYD_METRIC_BOX;
-  bool (*filter)(dyd_tolerance_row *, bool *, const dyd_tolerance *, uint32_t, uint32_t, double, dyd_others *) =
-      moved ? dyd_filter_moved_birth : dyd_filter_birth;
+  const births_told *b = p->told;
+  bool late;
   dyd_others spare = {0};
   size_t end = (number + 1) * SHARE < p->pairs->count ? (number + 1) * SHARE : p->pairs->count;
   for (size_t k = number * SHARE; k < end; k++) {
     const dyd_pair *q = &p->pairs->item[k];
-    p->state[k] = may_be_born(t, q) ? BIRTH_OPEN : BIRTH_NONE;
-    if (p->state[k] == BIRTH_NONE || t->options.no_filter || dyd_flag_is_set(t->options.cancel)) continue;
-    if (filter(&p->row[k], &late, t, t->sk->vertex[q->i], t->sk->vertex[q->j], p->up_to, &spare))
+    const dyd_tolerance_row *row = b->rows ? bsearch(q, b->row, b->rows, sizeof *row, dyd_compare_two) : NULL;
+    p->state[k] = row ? BIRTH_FOUND : may_be_born(t, q) ? BIRTH_OPEN : BIRTH_NONE;
+    if (row) p->row[k] = *row;
+    if (p->state[k] != BIRTH_OPEN || !b->filter || dyd_flag_is_set(t->options.cancel)) continue;
+    if (b->filter(&p->row[k], &late, t, t->sk->vertex[q->i], t->sk->vertex[q->j], b->up_to, &spare))
       p->state[k] = late ? BIRTH_LATE : BIRTH_FOUND;
   }
   free(spare.vertex);
@@ -550,14 +584,23 @@ static dyd_status births_in_order(dyd_tolerance *t, const birth_pass *p) {
   return st == DYD_OK && t->result.births_left ? DYD_CANCELLED : st;
 }
 
-static dyd_status births_among(dyd_tolerance *t, const dyd_pair_list *pairs) {
-  birth_pass p = {t, pairs, dyd_alloc(pairs->count, sizeof *p.row), calloc(pairs->count + 1, sizeof *p.state),
-                  dyd_q_double(t->options.up_to, 1)};
-  dyd_status st = p.row && p.state ? dyd_near_index(t) : DYD_E_NOMEM;
+static dyd_status births_among(dyd_tolerance *t, const dyd_pair_list *pairs, const births_told *told) {
+  birth_pass p = {t, pairs, told, dyd_alloc(pairs->count, sizeof *p.row), calloc(pairs->count + 1, sizeof *p.state)};
+  dyd_status st = p.row && p.state ? DYD_OK : DYD_E_NOMEM;
+  if (told->rows) qsort(told->row, told->rows, sizeof *told->row, dyd_compare_two);
   if (st == DYD_OK) dyd_parallel(t->pd->options.threads, pairs->count / SHARE + 1, births_in_doubles, &p);
   if (st == DYD_OK) st = births_in_order(t, &p);
   dyd_free_all(p.row, p.state);
   return st;
+}
+
+/* Work was cancelled while pairs were listed: the births found so far, each once. */
+static dyd_status births_so_far(dyd_tolerance *t, const births_told *told) {
+  dyd_status st = DYD_OK;
+  if (told->rows) qsort(told->row, told->rows, sizeof *told->row, dyd_compare_two);
+  for (size_t k = 0; k < told->rows && st == DYD_OK; k++)
+    if (!k || dyd_compare_two(&told->row[k - 1], &told->row[k])) st = dyd_row_add(t, told->row[k]);
+  return st == DYD_OK ? DYD_CANCELLED : st;
 }
 
 /* For the list of candidates beside their triangulation, and for rows of all of them. */
@@ -572,13 +615,22 @@ dyd_status dyd_births(dyd_tolerance *t, dyd_error *err) {
   dyd_pair_list pairs = {0};
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = t->options.cancel,
                                   .max_pairs = t->options.max_pairs, .max_bytes = dyd_room_left(&t->room)};
-  dyd_status st = dyd_delaunay_made(&wide, dyd_sites_count(t->sk->reps.sites), square_of_birth, t, &o, err);
+  births_told told = {.t = t, .filter = filter_of(t), .up_to = dyd_q_double(t->options.up_to, 1)};
+  const dyd_decider decider = {tell_birth, &told};
+  dyd_status st = dyd_near_index(t);
+  if (st == DYD_OK)
+    st = dyd_delaunay_decided(&wide, dyd_sites_count(t->sk->reps.sites), square_of_birth, t,
+                              told.filter ? &decider : NULL, &o, err);
   if (st == DYD_CAPPED)
     dyd_fail(err, st, "there are too many pairs that may be born up to there; ask for less, or raise `max_pairs`");
   if (st == DYD_OK) st = births_have_room(t, wide);
   if (st == DYD_OK) st = dyd_delaunay_pairs(&pairs, wide);
-  if (st == DYD_OK) st = births_among(t, &pairs);
+  if (st == DYD_OK)
+    st = births_among(t, &pairs, &told);
+  else if (st == DYD_CANCELLED)
+    st = births_so_far(t, &told);
   t->room.beside = 0;
+  dyd_free_all(told.row, told.spare.vertex);
   dyd_pair_list_clear(&pairs);
   dyd_delaunay_free(wide);
   return st;

@@ -126,7 +126,7 @@ static dyd_status tell_left(const dyd_tolerance *t, dyd_error *err) {
   if (!t->result.edges_left && !t->result.births_left)
     return dyd_fail(err, DYD_CANCELLED, "all pairs were reached, but not all radii or probabilities");
   if (t->result.births_left == SIZE_MAX)
-    return dyd_fail(err, DYD_CANCELLED, "%zu edges were not reached: they have no row; births were not looked for",
+    return dyd_fail(err, DYD_CANCELLED, "%zu edges were not reached: they have no row; births were not all looked for",
                     t->result.edges_left);
   return dyd_fail(err, DYD_CANCELLED, "%zu edges and %zu pairs that may be born were not reached: they have no row",
                   t->result.edges_left, t->result.births_left);

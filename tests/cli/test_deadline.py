@@ -237,7 +237,7 @@ def test_tolerances_that_are_cut():
         given = ('tolerance', '--columns', 'x,y', *how, '-')
         points = WEIGHED if '--up-to' in how else MANY
         cut = cut_between(lambda seconds, given=given, points=points: timed(seconds, *given, stdin=points), place_of_cut, 0.05)
-        expect(cut, 4, '^# tolerance .*\n# cut: ', r'^dyadel: budget: .*(no row|not looked for) \(raise --timeout\)$')
+        expect(cut, 4, '^# tolerance .*\n# cut: ', r'^dyadel: budget: .*(no row|not all looked for) \(raise --timeout\)$')
         if how == ('--up-to', '1000'):  # all pairs are born
             continue
         whole = run(*given, stdin=points)
@@ -255,7 +255,7 @@ def test_tolerances_that_are_cut():
             return 1 if result.code != 4 else 0 if '\n# cut: 0 edges have no row' in result.out else -1
 
         cut = cut_between(lambda seconds, given=given: timed(seconds, *given, stdin=MANY), before_births, 0.3)
-        expect(cut, 4, 'birth' if 'not looked for' not in cut.out else '^# cut: 0 edges', r'^dyadel: budget: 0 edges')
+        expect(cut, 4, 'birth' if 'not all looked for' not in cut.out else '^# cut: 0 edges', r'^dyadel: budget: 0 edges')
         assert len(rows_of(cut)) >= len(rows_of(run(*given[:-3], '-', stdin=MANY)))
     given = ('tolerance', '--columns', 'x,y', '--radius-column', 'r', '--format', 'json', '-')
     cut = cut_between(lambda seconds: timed(seconds, *given, stdin=MANY),
