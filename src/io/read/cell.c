@@ -363,6 +363,34 @@ const char *dyd_cell_remedy(const dyd_span *s) {
   return NULL;
 }
 
+static bool is_count(const dyd_line *line) {
+  size_t k = 0;
+  while (k < line->length && line->text[k] >= '0' && line->text[k] <= '9') k++;
+  return k == line->length;
+}
+
+const char *dyd_line_remedy(const dyd_line *line, const char *message) {
+  const char first = line->length ? *line->text : ' ';
+  const bool one = strncmp(message, "the line has one", 16) == 0;
+  const dyd_file_kind *kind = dyd_kind_of_cell(line->text, line->length);
+  if (strchr("/;!", first)) return "; comments begin with # or %: pass over the first lines by `skip_lines` N";
+  if (first == '>') return "; lines that begin with > separate parts in files of GMT: grep -v '^>' FILE";
+  if (strchr("([{", first) || memmem(line->text, line->length, "= [", 3))
+    return "; pairs in brackets: sed -E 's/^[^[({]*=//; s/[])}][ ,;]*[[({]/\\n/g; s/[][(){}]//g; s/;/\\n/g; s/[, "
+           "]*$//Mg' "
+           "FILE writes one a line, without them";
+  if (one && is_count(line)) return "; if this is the number of points, pass over it by `skip_lines` 1";
+  if (one && memmem(line->text, line->length, "\xC2\xA0", 2))
+    return "; its blank is one that does not break: sed 's/\xC2\xA0/ /g' FILE makes it a plain one";
+  if (memchr(line->text, '&', line->length)) return "; columns of LaTeX: sed 's/&/,/g; s/\\\\.*//' FILE";
+  if (kind && strstr(kind->name, "WKB"))
+    return "; this is WKB; give it a header, as a table: sed '1i wkb' FILE, and name its column: `columns` wkb,wkb";
+  return strncmp(message, "more than two", 13) != 0
+             ? ""
+             : "; if this is a table, name two of its columns: `columns` X,Y, with `delimiter` blank where blanks are "
+               "between them, or by numbers where no line has names: `no_header` `columns` 1,2";
+}
+
 /* Returns true if digits are followed by a letter of a direction, a blank or a d, or have the sign of degrees.
  */
 static bool is_like_degrees(const dyd_span *s) {

@@ -36,6 +36,8 @@ const char *dyd_cell_doubt(const dyd_span *cell);
 /* Returns what to do about a cell that is no number: "; " and a sentence; NULL where that is not known. Static storage.
  */
 const char *dyd_cell_remedy(const dyd_span *cell);
+/* Returns the same about a first line that is no point, of which the message is; "" where that is not known. */
+const char *dyd_line_remedy(const dyd_line *line, const char *message);
 /* Returns the length of the number in "0.02 m", and 0 if the cell is not a number and a unit. */
 size_t dyd_cell_number(const dyd_span *cell);
 

@@ -5,7 +5,6 @@
  * more than once are handled here. Staged points are kept back until the whole file is read, so that bad input adds
  * nothing.
  */
-#define _GNU_SOURCE /* memmem */
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
@@ -654,37 +653,15 @@ static dyd_status intake_commit(dyd_engine *e, intake *in, dyd_error *err) {
 
 /* ---- files and texts ---- */
 
-/* Appends a remedy to the error of the first line, where that may be of a table. */
+/* Appends a remedy to the error of the first line, where that may be of a table. The line is gone when others have been
+ * read. */
 static dyd_status hint_table(dyd_status st, const dyd_line *line, dyd_text *text, const intake *in, dyd_error *err) {
-  const size_t used = strlen(err->message), left = sizeof err->message - used;
+  const size_t used = strlen(err->message);
   const char first = line->length ? *line->text : ' ';
-  char *end = err->message + used;
-  const bool one = strncmp(err->message, "the line has one", 16) == 0;
-  const dyd_file_kind *kind;
   if (st != DYD_E_PARSE || in->report.rows > 1 || in->stage.count) return st;
+  const char *remedy = dyd_line_remedy(line, err->message);
   if (!strchr("/;!>", first)) dyd_csv_hint(err, line, text);
-  if (strlen(err->message) > used) return st;
-  if (strchr("/;!", first))
-    snprintf(end, left, "; comments begin with # or %%: pass over the first lines by `skip_lines` N");
-  else if (first == '>')
-    snprintf(end, left, "; lines that begin with > separate parts in files of GMT: grep -v '^>' FILE");
-  else if (strchr("([{", first) || memmem(line->text, line->length, "= [", 3))
-    snprintf(end, left,
-             "; pairs in brackets: sed -E 's/^[^[({]*=//; s/[])}][ ,;]*[[({]/\\n/g; s/[][(){}]//g; s/;/\\n/g; "
-             "s/[, ]*$//Mg' FILE writes one a line, without them");
-  else if (one && line->length == strspn(line->text, "0123456789"))
-    snprintf(end, left, "; if this is the number of points, pass over it by `skip_lines` 1");
-  else if (one && memmem(line->text, line->length, "\xC2\xA0", 2))
-    snprintf(end, left, "; its blank is one that does not break: sed 's/\xC2\xA0/ /g' FILE makes it a plain one");
-  else if (memchr(line->text, '&', line->length))
-    snprintf(end, left, "; columns of LaTeX: sed 's/&/,/g; s/\\\\.*//' FILE");
-  else if ((kind = dyd_kind_of_cell(line->text, line->length)) && strstr(kind->name, "WKB"))
-    snprintf(end, left,
-             "; this is WKB; give it a header, as a table: sed '1i wkb' FILE, and name its column: `columns` wkb,wkb");
-  else if (strncmp(err->message, "more than two", 13) == 0)
-    snprintf(end, left,
-             "; if this is a table, name two of its columns: `columns` X,Y, with `delimiter` blank where blanks are "
-             "between them, or by numbers where no line has names: `no_header` `columns` 1,2");
+  if (strlen(err->message) == used) snprintf(err->message + used, sizeof err->message - used, "%s", remedy);
   return st;
 }
 
