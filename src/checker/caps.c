@@ -39,26 +39,17 @@ static void centre_distance2(dyd_exact *out, const dyd_exact *x, const dyd_exact
   dyd_exact_clear(&dy);
 }
 
-/* Is the distance of the centres at most |a.r + sign b.r|? */
-static bool centres_are_within(const dyd_cert_disc *a, const dyd_cert_disc *b, int sign) {
+bool dyd_cert_discs_meet(const dyd_cert_disc *a, const dyd_cert_disc *b) {
   dyd_exact d, s;
   dyd_exact_init(&d);
   dyd_exact_init(&s);
   centre_distance2(&d, &a->x, &a->y, b);
-  sign > 0 ? dyd_exact_add(&s, &a->r, &b->r) : dyd_exact_sub(&s, &a->r, &b->r);
+  dyd_exact_add(&s, &a->r, &b->r);
   dyd_exact_mul(&s, &s, &s);
-  bool within = dyd_exact_cmp(&d, &s) <= 0;
+  bool meet = dyd_exact_cmp(&d, &s) <= 0;
   dyd_exact_clear(&d);
   dyd_exact_clear(&s);
-  return within;
-}
-
-bool dyd_cert_discs_meet(const dyd_cert_disc *a, const dyd_cert_disc *b) {
-  return centres_are_within(a, b, 1);
-}
-
-bool dyd_cert_disc_is_within(const dyd_cert_disc *a, const dyd_cert_disc *b) {
-  return centres_are_within(a, b, -1);
+  return meet;
 }
 
 /* sqrt(A) + s < sqrt(B), s = r_i + r_k >= 0, A and B the squared distances: D = B - A - s^2 is positive, and D^2 > 4

@@ -21,9 +21,8 @@ typedef struct dyd_cert_disc {
 
 void dyd_cert_disc_init(dyd_cert_disc *d);
 void dyd_cert_disc_clear(dyd_cert_disc *d);
-/* Returns true if |p_a - p_b| <= r: the sum of the radii, and their difference. */
+/* Returns true if |p_a - p_b| is at most the sum of the radii. */
 bool dyd_cert_discs_meet(const dyd_cert_disc *a, const dyd_cert_disc *b);
-bool dyd_cert_disc_is_within(const dyd_cert_disc *a, const dyd_cert_disc *b);
 /* Returns true if |c - p_i| + r_i < |c - p_k| - r_k. */
 bool dyd_cert_disc_is_nearer(const dyd_exact c[2], const dyd_cert_disc *i, const dyd_cert_disc *k);
 
