@@ -399,6 +399,7 @@ typedef struct face_try {
   size_t targets;
   bool *measured;
   uint32_t *order; /* those chosen here */
+  size_t *left;    /* targets that are open before them, and after each, as they were chosen */
   size_t chosen;
 } face_try;
 
@@ -440,13 +441,14 @@ static double cost_of(const face_try *f, size_t k) {
   return f->s->options.cost ? f->s->options.cost[f->sites.item[k]] : 1;
 }
 
-/* The site that decides most for its cost; where no single one decides anything, an end of most open pairs. */
-static dyd_status best_site(size_t *best, const face_try *f, size_t open_pairs, const size_t *open) {
+/* The site that decides most for its cost, *left: what it leaves; where no single one decides anything, an end of most
+ * open pairs. The first that decides all is best, unless costs differ. */
+static dyd_status best_site(size_t *best, size_t *left, const face_try *f, size_t open_pairs, const size_t *open) {
   double most = 0;
-  size_t fallback = f->sites.count;
+  size_t fallback = f->sites.count, now = 1;
   *best = f->sites.count;
-  for (size_t k = 0; k < f->sites.count; k++) {
-    size_t now;
+  *left = open_pairs;
+  for (size_t k = 0; k < f->sites.count && (now || f->s->options.cost); k++) {
     if (!can_be_measured(f, k)) continue;
     if (fallback == f->sites.count || (double)open[k] * cost_of(f, fallback) > (double)open[fallback] * cost_of(f, k))
       fallback = k;
@@ -455,22 +457,38 @@ static dyd_status best_site(size_t *best, const face_try *f, size_t open_pairs, 
     f->measured[k] = false;
     if (st != DYD_OK) return st;
     double gain = ((double)open_pairs - (double)now) / cost_of(f, k);
-    if (gain > most) most = gain, *best = k;
+    if (gain > most) most = gain, *best = k, *left = now;
   }
   if (*best == f->sites.count) *best = fallback;
   return DYD_OK;
 }
 
-static dyd_status choose_sites(face_try *f, size_t *open) {
+/* As try_face, before anything is tried: where no site was measured for another face, by the triangulation that has
+ * this one [LOC-1]. */
+static dyd_status face_open(size_t *open_pairs, size_t *open, const face_try *f, const dyd_delaunay *pd) {
+  *open_pairs = 0;
+  for (size_t k = 0; k < f->sites.count; k++)
+    if (f->measured[k]) return try_face(open_pairs, open, f);
+  for (size_t k = 0; k < f->targets; k++) {
+    const dyd_pair *p = &f->target[k];
+    if (!dyd_survey_is_open(pd, &(dyd_pair){f->sites.item[p->i], f->sites.item[p->j], p->status})) continue;
+    ++*open_pairs, open[p->i]++, open[p->j]++;
+  }
+  return DYD_OK;
+}
+
+static dyd_status choose_sites(face_try *f, size_t *open, const dyd_delaunay *pd) {
   size_t open_pairs;
-  dyd_status st = try_face(&open_pairs, open, f);
+  dyd_status st = face_open(&open_pairs, open, f, pd);
+  f->left[0] = open_pairs;
   while (st == DYD_OK && open_pairs) {
     size_t best;
-    st = best_site(&best, f, open_pairs, open);
+    st = best_site(&best, &open_pairs, f, open_pairs, open);
     if (st != DYD_OK || best == f->sites.count) return st;
     f->measured[best] = true;
     f->order[f->chosen++] = (uint32_t)best;
-    st = try_face(&open_pairs, open, f);
+    if (open_pairs) st = try_face(&open_pairs, open, f);
+    f->left[f->chosen] = open_pairs;
   }
   return st;
 }
@@ -484,10 +502,13 @@ static void order_to_drop(uint32_t *dear, const face_try *f) {
   }
 }
 
-static dyd_status drop_sites(face_try *f) {
-  size_t wanted, open_pairs, kept = 0;
+/* *dropped: some are not needed. */
+static dyd_status drop_sites(bool *dropped, face_try *f) {
+  size_t wanted = f->left[f->chosen], open_pairs, kept = 0;
+  *dropped = false;
+  if (f->chosen == 1 && wanted < f->left[0]) return DYD_OK;
   uint32_t *dear = dyd_alloc(f->chosen, sizeof *dear);
-  dyd_status st = dear ? try_face(&wanted, NULL, f) : DYD_E_NOMEM;
+  dyd_status st = dear ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK) order_to_drop(dear, f);
   for (size_t q = 0; q < f->chosen && st == DYD_OK; q++) {
     f->measured[dear[q]] = false;
@@ -496,22 +517,22 @@ static dyd_status drop_sites(face_try *f) {
   }
   for (size_t q = 0; q < f->chosen; q++)
     if (f->measured[f->order[q]]) f->order[kept++] = f->order[q];
+  *dropped = kept < f->chosen;
   f->chosen = kept;
   free(dear);
   return st;
 }
 
-/* The rows, in the order chosen, with the number of pairs each decides in the face. */
-static dyd_status write_rows(face_try *f) {
-  size_t before, after;
+/* The rows, in the order chosen, with the number of pairs each decides in the face. dropped: some that were chosen are
+ * not among them any more. */
+static dyd_status write_rows(face_try *f, bool dropped) {
+  dyd_status st = DYD_OK;
   if (!f->chosen) return DYD_OK;
-  for (size_t q = 0; q < f->chosen; q++) f->measured[f->order[q]] = false;
-  dyd_status st = try_face(&before, NULL, f);
+  for (size_t q = 0; q < f->chosen && dropped; q++) f->measured[f->order[q]] = false;
   for (size_t q = 0; q < f->chosen && st == DYD_OK; q++) {
     f->measured[f->order[q]] = true;
-    st = try_face(&after, NULL, f);
-    if (st == DYD_OK) st = choose_site(f->s, f->sites.item[f->order[q]], before - after);
-    before = after;
+    if (dropped) st = try_face(&f->left[q + 1], NULL, f);
+    if (st == DYD_OK) st = choose_site(f->s, f->sites.item[f->order[q]], f->left[q] - f->left[q + 1]);
   }
   f->s->faces++;
   return st;
@@ -541,25 +562,26 @@ static dyd_status face_begin(face_try *f, size_t **open) {
   *open = calloc(n + 1, sizeof **open);
   f->measured = dyd_alloc(n, sizeof *f->measured);
   f->order = dyd_alloc(n, sizeof *f->order);
-  if (!*open || !make_targets(f) || !f->measured || !f->order) return DYD_E_NOMEM;
+  f->left = dyd_alloc(n + 1, sizeof *f->left);
+  if (!*open || !make_targets(f) || !f->measured || !f->order || !f->left) return DYD_E_NOMEM;
   for (size_t k = 0; k < n; k++) f->measured[k] = f->s->site[f->sites.item[k]].chosen;
   take_targets(f);
   return DYD_OK;
 }
 
 static void face_end(face_try *f, size_t *open) {
-  dyd_free_all(open, f->target, f->measured, f->order);
+  dyd_free_all(open, f->target, f->measured, f->order, f->left);
 }
 
 dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t face) {
   face_try f = {.s = s};
-  bool outer;
+  bool outer, dropped;
   size_t *open = NULL;
   dyd_status st = dyd_delaunay_face(&f.sites, &outer, pd, face);
   if (st == DYD_OK) st = face_begin(&f, &open);
-  if (st == DYD_OK && f.targets) st = choose_sites(&f, open);
-  if (st == DYD_OK && f.targets) st = drop_sites(&f);
-  if (st == DYD_OK && f.targets) st = write_rows(&f);
+  if (st == DYD_OK && f.targets) st = choose_sites(&f, open, pd);
+  if (st == DYD_OK && f.targets) st = drop_sites(&dropped, &f);
+  if (st == DYD_OK && f.targets) st = write_rows(&f, dropped);
   face_end(&f, open);
   dyd_index_list_clear(&f.sites);
   return st;
