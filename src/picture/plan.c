@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* By quarters of the ranks, then pairs that stay undecided, and decided pairs; distinct for all kinds of sight,
- * and in grey. */
+/* By quarters of the ranks, then pairs that stay undecided, then decided ones; distinct for all kinds of sight, and in
+ * grey. */
 static const struct {
   unsigned rgb;
   double on, off, width;

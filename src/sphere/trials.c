@@ -19,8 +19,7 @@ typedef struct globe_trials {
   dyd_survey_options options; /* of the plans after the first one */
 } globe_trials;
 
-/* now, places: the current result (NULL: the first one, of all trials); needed: metres of each place in the plan
- * followed, else 0. */
+/* now, places: the regions so far (NULL: those of `of`); needed: metres of each place in the plan followed, else 0. */
 typedef struct globe_draw {
   const globe_trials *of;
   uint64_t seed;

@@ -441,8 +441,8 @@ static double cost_of(const face_try *f, size_t k) {
   return f->s->options.cost ? f->s->options.cost[f->sites.item[k]] : 1;
 }
 
-/* The site that decides most for its cost, *left: what it leaves; where no single one decides anything, an end of most
- * open pairs. The first that decides all is best, unless costs differ. */
+/* The site that decides most for its cost, *left: open pairs after it; where no single one decides anything, an end of
+ * most open pairs. The first that decides all is best, unless costs differ. */
 static dyd_status best_site(size_t *best, size_t *left, const face_try *f, size_t open_pairs, const size_t *open) {
   double most = 0;
   size_t fallback = f->sites.count, now = 1;

@@ -96,7 +96,7 @@ typedef struct plane_trials {
   dyd_survey_options options; /* of the plans after the first one */
 } plane_trials;
 
-/* now: the triangulation of what is known (NULL: that of all trials); needed: of each site in the plan followed, else
+/* now: the triangulation of the rectangles so far (NULL: that of `of`); needed: of each site in the plan followed, else
  * 0. */
 typedef struct plane_draw {
   const plane_trials *of;
@@ -121,7 +121,7 @@ static void plane_end(void *draw) {
   dyd_free_all(d->needed, d);
 }
 
-/* The place of the side that u in [0, 1] stands for. */
+/* The place at the share u of the side. */
 static void side_place(mpq_ptr at, const dyd_interval *side, mpq_srcptr u, mpq_t lo) {
   dyd_interval_get_q(lo, at, side);
   mpq_sub(at, at, lo);

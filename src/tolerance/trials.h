@@ -5,7 +5,7 @@
 
 #include "tolerance/survey.h"
 
-/* What all trials of a plan have in common. begin makes the state of a trial, whose places the seed draws; step
+/* Shared by all trials of a plan. begin makes the state of a trial, whose places the seed draws; step
  * measures the points of a plan in it, and plans again for `asked`; end frees it. */
 typedef struct dyd_trials {
   dyd_survey_trial *out;
