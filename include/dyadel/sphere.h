@@ -121,7 +121,7 @@ DYD_API dyd_status dyd_sphere_survey(dyd_survey **out, dyd_sphere *s, const char
                                      const dyd_survey_options *options, dyd_error *err);
 /* dyd_survey_simulate of the plans of dyd_sphere_survey: true places are drawn in the regions, and the ball of `needed`
  * metres around one replaces its region. Cancelled between plans. */
-DYD_API dyd_status dyd_sphere_simulate(dyd_survey_trial *out, size_t count, uint64_t seed, dyd_sphere *s,
+DYD_API dyd_status dyd_sphere_simulate(dyd_survey_trial *out, dyd_sphere *s, size_t count, uint64_t seed,
                                        const char *accuracy, const dyd_survey_options *options, dyd_error *err);
 
 #ifdef __cplusplus

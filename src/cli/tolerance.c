@@ -266,7 +266,7 @@ static dyd_status plan_or_trials(cli_session *s, dyd_error *err) {
   dyd_status st = DYD_E_NOMEM;
   if (trials) r->trial = calloc(trials, sizeof *r->trial);
   if (trials && r->trial)
-    st = s->sphere ? dyd_sphere_simulate(r->trial, trials, plan_seed(s), s->sphere, s->o.accuracy, &how, err)
+    st = s->sphere ? dyd_sphere_simulate(r->trial, s->sphere, trials, plan_seed(s), s->o.accuracy, &how, err)
                    : dyd_survey_simulate(r->trial, trials, plan_seed(s), pd, &how, err);
   else if (!trials)
     st = s->sphere ? dyd_sphere_survey(&r->survey, s->sphere, s->o.accuracy, &how, err)

@@ -194,7 +194,7 @@ static dyd_status globe_step(dyd_survey **next, void *draw, const dyd_trials *t,
   return st == DYD_OK ? dyd_sphere_survey(next, then, d->of->accuracy, &how, err) : st;
 }
 
-dyd_status dyd_sphere_simulate(dyd_survey_trial *out, size_t count, uint64_t seed, dyd_sphere *s, const char *accuracy,
+dyd_status dyd_sphere_simulate(dyd_survey_trial *out, dyd_sphere *s, size_t count, uint64_t seed, const char *accuracy,
                                const dyd_survey_options *options, dyd_error *err) {
   if (!s || (count && !out)) return dyd_fail_null(err);
   globe_trials p = {.s = s, .accuracy = accuracy};
