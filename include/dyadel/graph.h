@@ -40,6 +40,13 @@ DYD_API void dyd_graph_list_clear(dyd_graph_list *l);
 DYD_API dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_graph graph,
                                    const volatile int *cancel, dyd_error *err);
 
+/* The same where each point is in the disc in its square, the site of pd; pairs: those of dyd_disc_pairs for pd
+ * (tolerance.h). "Sure" and "not listed" are true for every choice in the discs. By what squares show, and by bounds
+ * for discs in doubles: an edge that is listed may be one for no choice [GRD-1]. DYD_E_ARG for a site that is no
+ * square. */
+DYD_API dyd_status dyd_disc_graph(dyd_graph_list *out, const dyd_delaunay *pd, const dyd_pair_list *pairs,
+                                  dyd_graph graph, const volatile int *cancel, dyd_error *err);
+
 #ifdef __cplusplus
 }
 #endif

@@ -31,8 +31,15 @@ static int pairs_find(cli_session *s) {
   return status;
 }
 
+/* The first member of what a command keeps that takes --discs. */
+typedef struct disc_result {
+  dyd_pair_list pairs;
+  dyd_graph_list graph;
+  bool cut; /* not all pairs were reached */
+} disc_result;
+
 static dyd_status run_graph(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
-  dyd_graph_list *list = s->state;
+  dyd_graph_list *list = s->o.discs ? &((disc_result *)s->state)->graph : s->state;
   dyd_graph graph = (dyd_graph)(s->o.content - DYD_CONTENT_GRAPH_NEAREST);
   dyd_status st = dyd_engine_graph(list, &s->outcome, s->engine, graph, options, err);
   if (st == DYD_OK)
@@ -42,12 +49,15 @@ static dyd_status run_graph(cli_session *s, const dyd_engine_options *options, d
   return st > 0 ? DYD_OK : st;
 }
 
-static int delaunay_find(cli_session *s) {
-  int status = pairs_find(s);
+static int find_graph(cli_session *s, int status) {
   if (status || !cli_layer_is_graph(s->o.content) || !cli_run_was_whole(s->engine)) return status;
   status = cli_session_run(s, &s->o.engine, run_graph);
   if (status == CLI_BUDGET) s->known = false; /* memory was refused */
   return status;
+}
+
+static int delaunay_find(cli_session *s) {
+  return find_graph(s, pairs_find(s));
 }
 
 /* The pairs of s->discs, if there are any; else those of the engine. */
@@ -71,6 +81,8 @@ static dyd_status write_certificate(FILE *out, const cli_session *s, dyd_error *
   dyd_graph_list list = {0};
   dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .window = s->o.engine.window};
   dyd_status st = DYD_OK;
+  if (s->discs && cli_layer_is_graph(s->o.content))
+    cli_note(&s->o, "the certificate states the pairs of the discs, not the graph");
   parts.diagram = parts.window;
   parts.discs = s->discs;
   if (!parts.diagram && !s->discs && cli_layer_is_graph(s->o.content)) {
@@ -87,16 +99,19 @@ static dyd_status write_certificate(FILE *out, const cli_session *s, dyd_error *
 }
 
 /* Of a graph, how many of its edges are certain. */
-static int delaunay_summary(cli_session *s, int status) {
+static int graph_summary(cli_session *s, int status) {
   const dyd_graph_list *list = s->graph;
   size_t sure = 0;
-  status = cli_pairs_summary(s, status);
   bool failed = status == CLI_FAILED || status == CLI_USAGE;
   if (failed || !list || cli_exit_status(s->outcome) <= status) return status;
   for (size_t k = 0; k < list->count; k++) sure += list->item[k].sure;
   cli_note(&s->o, "%s: %zu edges of the graph are certain, %zu possible", dyd_outcome_text(s->outcome), sure,
            list->count - sure);
   return cli_exit_status(s->outcome);
+}
+
+static int delaunay_summary(cli_session *s, int status) {
+  return graph_summary(s, cli_pairs_summary(s, status));
 }
 
 static void delaunay_end(cli_session *s) {
@@ -112,12 +127,6 @@ const cli_work cli_delaunay = {.size = sizeof(dyd_graph_list),
                                .end = delaunay_end};
 
 /* ---- --discs ---- */
-
-/* The first member of what a command keeps that takes --discs. */
-typedef struct disc_result {
-  dyd_pair_list pairs;
-  bool cut; /* not all pairs were reached */
-} disc_result;
 
 static dyd_status run_discs(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
   disc_result *r = s->state;
@@ -143,7 +152,8 @@ static int find_discs(cli_session *s) {
 static int disc_pairs_find(cli_session *s) {
   int status = pairs_find(s);
   s->known = s->known && !status;
-  return s->known ? find_discs(s) : status;
+  if (s->known) status = find_discs(s);
+  return s->known && !((disc_result *)s->state)->cut ? find_graph(s, status) : status;
 }
 
 /* Counts pairs by status. */
@@ -169,12 +179,13 @@ static int disc_pairs_outcome(const cli_session *s) {
 }
 
 static int disc_pairs_summary(cli_session *s, int status) {
-  if (!status) status = disc_pairs_outcome(s);
+  if (!status && !s->graph) status = disc_pairs_outcome(s);
   cli_session_stats(s, NULL);
-  return status;
+  return graph_summary(s, status);
 }
 
 static void disc_pairs_end(cli_session *s) {
+  dyd_graph_list_clear(&((disc_result *)s->state)->graph);
   dyd_pair_list_clear(&((disc_result *)s->state)->pairs);
 }
 

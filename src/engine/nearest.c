@@ -18,8 +18,9 @@
 #include "engine/points.h"
 #include "engine/settle.h"
 #include "engine/ties.h"
+#include "graph/graph.h"
 #include "rect/rect.h"
-#include <dyadel/graph.h>
+#include "tolerance/discs.h"
 #include <dyadel/tolerance.h>
 #include <dyadel/voronoi.h>
 
@@ -154,15 +155,16 @@ bool dyd_engine_nearest_tied(const dyd_engine *e) {
 enum { CHOICES_MOST = 128, CHOICES_IDLE = 8 };
 
 /* site: where edges are that refinement may make certain; seen: of each site, is it in the list; known: edges are those
- * of some rectangles reached. may, may_not: of each edge, is there a choice in the cores that makes it one, and one
- * that makes it none, whatever the other points are [NEAR-6]. */
+ * of some rectangles reached; discs: of the discs in them, with these pairs. may, may_not: of each edge, is there a
+ * choice in the cores that makes it one, and one that makes it none, whatever the other points are [NEAR-6]. */
 typedef struct graph_question {
   dyd_graph graph;
   int64_t level;
   uint32_t drawn;
   dyd_graph_list edges;
   dyd_index_list site;
-  bool *seen, *may, *may_not, known;
+  bool *seen, *may, *may_not, known, discs;
+  dyd_pair_list pairs;
 } graph_question;
 
 /* The problem of some choices: its edges, and of which sites more is known than a point. */
@@ -361,14 +363,71 @@ static dyd_status graph_reserve(graph_question *q, size_t sites) {
   return DYD_OK;
 }
 
+/* Takes edges that are in no tree by the squares from those by the discs, and makes those sure that are by squares:
+ * lengths of squares are compared exactly. */
+static dyd_status tree_of_both(dyd_graph_list *l, const dyd_delaunay *pd, const volatile int *cancel, dyd_error *err) {
+  dyd_graph_list squares = {0};
+  size_t kept = 0;
+  dyd_status st = dyd_graph_edges(&squares, pd, DYD_GRAPH_MST, cancel, err);
+  for (size_t k = 0; st == DYD_OK && k < l->count; k++) {
+    const dyd_graph_edge *same =
+        squares.count ? bsearch(&l->item[k], squares.item, squares.count, sizeof *squares.item, dyd_compare_two) : NULL;
+    if (!same) continue;
+    l->item[kept] = l->item[k];
+    l->item[kept++].sure |= same->sure;
+  }
+  if (st == DYD_OK) l->count = kept;
+  dyd_graph_list_clear(&squares);
+  return st;
+}
+
+dyd_status dyd_disc_graph(dyd_graph_list *out, const dyd_delaunay *pd, const dyd_pair_list *pairs, dyd_graph graph,
+                          const volatile int *cancel, dyd_error *err) {
+  if (!pd || !pairs) return dyd_fail_null(err);
+  const dyd_sites *sites = dyd_delaunay_sites(pd);
+  size_t n = dyd_sites_count(sites);
+  bool points = true; /* the squares say all then */
+  dyd_iv(*ball)[3] = dyd_alloc(n, sizeof *ball);
+  dyd_status st = ball ? DYD_OK : DYD_E_NOMEM;
+  for (size_t i = 0; i < n && st == DYD_OK; i++) {
+    points = points && dyd_sites_is_point(sites, i);
+    st = dyd_filter_ball(ball[i], sites, i);
+    if (st == DYD_E_ARG) dyd_fail(err, st, "site %zu is not a square", i);
+  }
+  if (st == DYD_E_NOMEM) dyd_fail_nomem(err);
+  dyd_graph_list found = {0};
+  if (st == DYD_OK) st = dyd_graph_of_discs(&found, pd, points ? NULL : pairs, ball, graph, cancel, err);
+  if (st == DYD_OK && !points && graph == DYD_GRAPH_MST) st = tree_of_both(&found, pd, cancel, err);
+  free(ball);
+  dyd_graph_list_clear(st == DYD_OK ? out : &found);
+  if (st == DYD_OK) *out = found;
+  return st;
+}
+
+static dyd_status disc_mark_near(dyd_plan *plan, uint32_t end);
+
+/* Asks for the centres that edges that are not certain depend on, up to the accuracy of discs. */
+static dyd_status graph_mark_discs(dyd_plan *plan, const dyd_graph_list *edges) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; st == DYD_OK && k < edges->count; k++) {
+    if (edges->item[k].sure) continue;
+    st = disc_mark_near(plan, edges->item[k].i);
+    if (st == DYD_OK) st = disc_mark_near(plan, edges->item[k].j);
+  }
+  return st;
+}
+
 static dyd_status graph_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   graph_question *q = user;
   size_t sites = dyd_sites_count(e->sites);
-  dyd_status st = dyd_graph_edges(&q->edges, e->pd, q->graph, &e->stop, err);
+  dyd_status st = q->discs ? dyd_disc_pairs(&q->pairs, e->pd, &e->stop, err) : DYD_OK;
+  if (st == DYD_OK && q->discs) st = dyd_disc_graph(&q->edges, e->pd, &q->pairs, q->graph, &e->stop, err);
+  if (!q->discs) st = dyd_graph_edges(&q->edges, e->pd, q->graph, &e->stop, err);
   *answered = st == DYD_OK;
   q->known |= *answered;
   for (size_t k = 0; *answered && k < q->edges.count; k++) *answered = q->edges.item[k].sure;
   if (st != DYD_OK || *answered) return st;
+  if (q->discs) return graph_mark_discs(plan, &q->edges);
   bool cores = false;
   st = graph_reserve(q, sites);
   if (st == DYD_OK && graph_can_narrow(q, e)) st = graph_has_cores(&cores, e);
@@ -388,15 +447,18 @@ static dyd_status graph_ask(bool *answered, dyd_plan *plan, void *user, const dy
 dyd_status dyd_engine_graph(dyd_graph_list *out, dyd_outcome *outcome, dyd_engine *e, dyd_graph graph,
                             const dyd_engine_options *options, dyd_error *err) {
   if (!e) return dyd_fail_null(err);
-  graph_question q = {.graph = graph, .level = INT64_MIN};
-  const dyd_question question = {DYD_SIZED(dyd_question), .ask = graph_ask, .user = &q, .triangulate = true};
+  dyd_engine_options o;
   *outcome = DYD_OUTCOME_ERROR;
+  dyd_status st = dyd_abi_take(&o, sizeof o, options, "dyd_engine_options", err);
+  graph_question q = {.graph = graph, .level = INT64_MIN, .discs = o.discs};
+  const dyd_question question = {DYD_SIZED(dyd_question), .ask = graph_ask, .user = &q, .triangulate = true};
   if (e->pd && dyd_delaunay_is_capped(e->pd))
     return dyd_fail(err, DYD_CAPPED, "there are more pairs than can be stored");
-  dyd_status st = dyd_engine_ask(outcome, e, &question, options, err);
+  if (st == DYD_OK) st = dyd_engine_ask(outcome, e, &question, options, err);
   if (st == DYD_OK && !q.known) st = DYD_CANCELLED;
   dyd_graph_list_clear(st == DYD_OK ? out : &q.edges);
   if (st == DYD_OK) *out = q.edges;
+  dyd_pair_list_clear(&q.pairs);
   dyd_index_list_clear(&q.site);
   dyd_free_all(q.may, q.may_not, q.seen);
   return st;

@@ -73,6 +73,8 @@ static dyd_status result_graph(bool *graph, dyd_result *r, dyd_content layer, co
   dyd_status st = DYD_OK;
   if (o->graph)
     r->graph = *o->graph;
+  else if (o->pairs)
+    st = dyd_disc_graph(&r->graph, r->pd, o->pairs, which, o->cancel, err);
   else
     st = dyd_graph_edges(&r->graph, r->pd, which, o->cancel, err);
   return st == DYD_OK ? pairs_of_graph(r) : st;
@@ -87,10 +89,10 @@ static dyd_status grant_output(const dyd_delaunay *pd, const dyd_output *to, boo
   return dyd_delaunay_grant(pd, bytes, "this output", err);
 }
 
-/* Graphs and other formats state more than discs decide. */
+/* Other layers and formats state more than discs decide. */
 static bool holds_discs(dyd_content layer, dyd_format format) {
   bool known = layer == DYD_CONTENT_DELAUNAY || layer == DYD_CONTENT_POINTS || layer == DYD_CONTENT_TRIANGLES ||
-               layer == DYD_CONTENT_ALIASES;
+               layer == DYD_CONTENT_ALIASES || (layer >= DYD_CONTENT_GRAPH_NEAREST && layer <= DYD_CONTENT_GRAPH_MST);
   return known && format != DYD_FORMAT_JSON && format != DYD_FORMAT_OBJ && format != DYD_FORMAT_VTK;
 }
 
@@ -117,10 +119,10 @@ static dyd_status write_delaunay(dyd_output *to, dyd_write_options *o, dyd_error
   dyd_status st = result_init(&r, to, o, err);
   if (st != DYD_OK) return st;
   if (o->pairs && !holds_discs(to->content, to->format))
-    return dyd_fail(
-        err, DYD_E_ARG,
-        "statuses of discs are written as pairs, points or triangles: in csv, wkt, geojson, or pairs in svg, pdf, "
-        "png or html");
+    return dyd_fail(err, DYD_E_ARG,
+                    "statuses of discs are written as pairs, points, triangles or graphs: in csv, wkt, geojson, or "
+                    "pairs and graphs "
+                    "in svg, pdf, png or html");
   if (o->ties == DYD_LIST_TIES_GROUPS && to->content == DYD_CONTENT_DELAUNAY && to->format == DYD_FORMAT_CSV)
     to->content = DYD_CONTENT_TIES;
   r.ties_apart = rows_hold_ties(&r, to, o);
@@ -133,12 +135,12 @@ static dyd_status write_delaunay(dyd_output *to, dyd_write_options *o, dyd_error
   if (graph) r.history = NULL, r.tolerance = NULL; /* both are about the triangulation */
   bool pairs = !graph && !o->pairs && to->content != DYD_CONTENT_TIES && to->content != DYD_CONTENT_ALIASES;
   if (st == DYD_OK && pairs) st = dyd_pairs_take(&r.pairs, r.pd, least);
-  if (o->pairs) r.pairs = *o->pairs;
+  if (o->pairs && !graph) r.pairs = *o->pairs;
   if (st == DYD_OK)
     st = write_what(to, &r, err);
   else if (!err || err->code != st)
     fail_status(st, err);
-  if (!o->pairs) dyd_pair_list_clear(&r.pairs);
+  if (!o->pairs || graph) dyd_pair_list_clear(&r.pairs);
   if (!o->graph) dyd_graph_list_clear(&r.graph);
   dyd_exterior_clear(&r.exterior);
   return st;

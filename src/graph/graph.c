@@ -105,8 +105,9 @@ static dyd_status nearest_of_point(dyd_graph_work *w, uint32_t i) {
 /* Of w->other[number] as the nearest one to i. *loaded: w->reach holds i and all others. */
 static dyd_status status_as_nearest(dyd_graph_status *out, dyd_graph_work *w, bool *loaded, uint32_t i, size_t number) {
   dyd_graph_verdict v = dyd_filter_nearest(w, i, w->other[number]);
+  if (w->discs && v.status == DYD_GRAPH_POSSIBLE) v.status = dyd_filter_ball_nearest(w, i, w->other[number]);
   *out = v.status;
-  if (v.known) return DYD_OK;
+  if (v.known || v.status != DYD_GRAPH_POSSIBLE) return DYD_OK;
   if (!*loaded) {
     dyd_status st = dyd_reach_load(&w->reach, w->sites, i, w->other, w->others);
     if (st != DYD_OK) return st;
@@ -163,8 +164,9 @@ static dyd_status gabriel_status(dyd_graph_status *out, dyd_graph_work *w, uint3
     i = j, j = other;
   }
   dyd_graph_verdict v = dyd_filter_gabriel(w, i, j);
+  if (w->discs && v.status == DYD_GRAPH_POSSIBLE) v.status = dyd_filter_ball_gabriel(w, i, j);
   *out = v.status;
-  if (v.known) return DYD_OK;
+  if (v.known || v.status != DYD_GRAPH_POSSIBLE) return DYD_OK;
   dyd_status st = dyd_reach_load(&w->reach, w->sites, i, &w->partner[w->start[i]], degree_of(w, i));
   if (st != DYD_OK) return st;
   size_t number = partner_number(w, i, j) + 1;
@@ -411,9 +413,19 @@ static bool partners_have_room(dyd_graph_work *w, size_t most) {
   return dyd_room_has(&w->room, dyd_bytes_times(most, each), "the partners of a point");
 }
 
+/* Those of the discs that may bound something. */
+static dyd_status take_disc_pairs(dyd_graph_work *w) {
+  dyd_pair *item = dyd_alloc(w->discs->count, sizeof *item);
+  w->pairs = (dyd_pair_list){0, item};
+  if (!item) return DYD_E_NOMEM;
+  for (size_t k = 0; k < w->discs->count; k++)
+    if (w->discs->item[k].status >= w->least) item[w->pairs.count++] = w->discs->item[k];
+  return DYD_OK;
+}
+
 static dyd_status graph_prepare(dyd_graph_work *w) {
   if (!graph_has_room(w)) return DYD_E_NOMEM;
-  dyd_status st = dyd_pairs_take(&w->pairs, w->pd, w->least);
+  dyd_status st = w->discs ? take_disc_pairs(w) : dyd_pairs_take(&w->pairs, w->pd, w->least);
   if (st != DYD_OK) return st;
   size_t most = 0;
   w->box = dyd_alloc(w->n, sizeof *w->box);
@@ -434,8 +446,8 @@ static void graph_work_clear(dyd_graph_work *w) {
   dyd_free_all(w->start, w->partner, w->box, w->other);
 }
 
-dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_graph graph, const volatile int *cancel,
-                           dyd_error *err) {
+dyd_status dyd_graph_of_discs(dyd_graph_list *out, const dyd_delaunay *pd, const dyd_pair_list *discs,
+                              dyd_iv (*ball)[3], dyd_graph graph, const volatile int *cancel, dyd_error *err) {
   if (!pd) return dyd_fail_null(err);
   static dyd_status (*const make[])(dyd_graph_work *) = {nearest_graph, gabriel_graph, spanning_graph};
   if (err) dyd_error_clear(err);
@@ -444,7 +456,12 @@ dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_grap
     return dyd_fail(err, DYD_E_ARG, "there is no graph number %d", (int)graph);
   if (dyd_delaunay_is_capped(pd))
     return dyd_fail(err, DYD_CAPPED, "there are more pairs than can be stored; raise `max_pairs`");
-  dyd_graph_work w = {.pd = pd, .sites = dyd_delaunay_sites(pd), .cancel = cancel, .room = dyd_delaunay_room(pd)};
+  dyd_graph_work w = {.pd = pd,
+                      .sites = dyd_delaunay_sites(pd),
+                      .discs = discs,
+                      .ball = ball,
+                      .cancel = cancel,
+                      .room = dyd_delaunay_room(pd)};
   w.n = dyd_sites_count(w.sites);
   /* A tied pair is longer than those between on the rim [GRP-1] [GRP-2]; it may be a diameter of its circle. */
   w.least = graph == DYD_GRAPH_GABRIEL && !dyd_is_line(pd) ? DYD_TIE : dyd_least_bounding_true(pd);
@@ -460,4 +477,9 @@ dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_grap
   dyd_graph_list_clear(out);
   *out = w.out;
   return DYD_OK;
+}
+
+dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_graph graph, const volatile int *cancel,
+                           dyd_error *err) {
+  return dyd_graph_of_discs(out, pd, NULL, NULL, graph, cancel, err);
 }

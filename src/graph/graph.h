@@ -9,6 +9,7 @@
 #define DYD_GRAPH_GRAPH_H
 
 #include "delaunay/memory.h"
+#include "predicate/interval_filter.h"
 #include "rect/irect.h"
 #include "skeleton/distance_filter.h"
 #include <dyadel/graph.h>
@@ -48,7 +49,9 @@ typedef struct dyd_graph_work {
   dyd_pair_list pairs;
   size_t *start;
   uint32_t *partner;
-  dyd_bbox *box; /* outward; of each site */
+  dyd_bbox *box;              /* outward; of each site */
+  const dyd_pair_list *discs; /* dyd_disc_pairs: edges are about the discs in the squares of sites; NULL: rectangles */
+  dyd_iv (*ball)[3];          /* with discs: centre and radius, of each site */
   dyd_reach reach;
   dyd_room room;   /* what the triangulation leaves of max_bytes */
   uint32_t *other; /* scratch, as long as the longest list of partners */
@@ -77,6 +80,17 @@ void dyd_filter_nearest_few(dyd_graph_work *w, uint32_t i);
 dyd_graph_verdict dyd_filter_nearest(const dyd_graph_work *w, uint32_t i, uint32_t j);
 /* Against the partners of i. */
 dyd_graph_verdict dyd_filter_gabriel(const dyd_graph_work *w, uint32_t i, uint32_t j);
+/* With discs: an end of the enclosed lengths themselves, which is known. */
 dyd_length dyd_filter_length(const dyd_graph_work *w, uint32_t pair, bool largest);
+
+/* The status of what its squares leave possible, for discs [GRD-1]: as nearest, against w->other; in the Gabriel graph,
+ * against the partners of i. */
+dyd_graph_status dyd_filter_ball_nearest(const dyd_graph_work *w, uint32_t i, uint32_t j);
+dyd_graph_status dyd_filter_ball_gabriel(const dyd_graph_work *w, uint32_t i, uint32_t j);
+
+/* dyd_graph_edges where pairs and balls are those of discs in the squares of sites [GRD-1]; both NULL: of rectangles.
+ */
+dyd_status dyd_graph_of_discs(dyd_graph_list *out, const dyd_delaunay *pd, const dyd_pair_list *discs,
+                              dyd_iv (*ball)[3], dyd_graph graph, const volatile int *cancel, dyd_error *err);
 
 #endif

@@ -44,8 +44,65 @@ static bool exact_length2(double *out, const dyd_bbox *a, const dyd_bbox *b, boo
   return exact && exact_square(&xx, x) && exact_square(&yy, y) && exact_sum(out, xx, yy);
 }
 
+/* ---- discs ---- */
+
+static dyd_iv iv_norm(dyd_iv x, dyd_iv y) {
+  return dyd_iv_sqrt(dyd_iv_add(dyd_iv_sqr(x), dyd_iv_sqr(y)));
+}
+
+/* The lengths of the pair for all choices in the discs: from lo to hi. */
+static dyd_iv ball_lengths(const dyd_graph_work *w, uint32_t i, uint32_t j) {
+  const dyd_iv *a = w->ball[i], *b = w->ball[j];
+  dyd_iv d = iv_norm(dyd_iv_sub(a[0], b[0]), dyd_iv_sub(a[1], b[1])), r = dyd_iv_add(a[2], b[2]);
+  double lo = dyd_iv_sub(d, r).lo, hi = dyd_iv_add(d, r).hi;
+  return (dyd_iv){lo > 0 ? lo : 0, hi >= 0 ? hi : HUGE_VAL};
+}
+
+dyd_graph_status dyd_filter_ball_nearest(const dyd_graph_work *w, uint32_t i, uint32_t j) {
+  dyd_iv own = ball_lengths(w, i, j);
+  bool sure = true;
+  for (size_t q = 0; q < w->others; q++) {
+    if (w->other[q] == j) continue;
+    dyd_iv length = ball_lengths(w, i, w->other[q]);
+    if (length.hi < own.lo) return DYD_GRAPH_NEVER;
+    sure = sure && own.hi < length.lo;
+  }
+  return sure ? DYD_GRAPH_SURE : DYD_GRAPH_POSSIBLE;
+}
+
+/* (p_i - p_k).(p_j - p_k) for all choices [GRD-1]. */
+static dyd_iv ball_product(const dyd_iv *i, const dyd_iv *j, const dyd_iv *k) {
+  dyd_iv a[2], b[2], product = dyd_iv_point(0), half = dyd_iv_scale(dyd_iv_add(i[2], j[2]), 0.5);
+  for (int c = 0; c < 2; c++) {
+    a[c] = dyd_iv_sub(i[c], k[c]);
+    b[c] = dyd_iv_sub(j[c], k[c]);
+    product = dyd_iv_add(product, dyd_iv_mul(a[c], b[c]));
+  }
+  dyd_iv spread = dyd_iv_mul(k[2], iv_norm(dyd_iv_add(a[0], b[0]), dyd_iv_add(a[1], b[1])));
+  spread = dyd_iv_add(spread, dyd_iv_mul(j[2], iv_norm(a[0], a[1])));
+  spread = dyd_iv_add(spread, dyd_iv_mul(i[2], iv_norm(b[0], b[1])));
+  dyd_iv lo = dyd_iv_sub(dyd_iv_sub(product, spread), dyd_iv_sqr(half));
+  return (dyd_iv){lo.lo, dyd_iv_add(dyd_iv_add(product, spread), dyd_iv_sqr(dyd_iv_add(half, k[2]))).hi};
+}
+
+dyd_graph_status dyd_filter_ball_gabriel(const dyd_graph_work *w, uint32_t i, uint32_t j) {
+  bool sure = true;
+  for (size_t q = w->start[i]; q < w->start[i + 1]; q++) {
+    if (w->partner[q] == j) continue;
+    dyd_iv product = ball_product(w->ball[i], w->ball[j], w->ball[w->partner[q]]);
+    if (product.hi < 0) return DYD_GRAPH_NEVER;
+    sure = sure && product.lo > 0;
+  }
+  return sure ? DYD_GRAPH_SURE : DYD_GRAPH_POSSIBLE;
+}
+
 dyd_length dyd_filter_length(const dyd_graph_work *w, uint32_t pair, bool largest) {
   uint32_t i = w->pairs.item[pair].i, j = w->pairs.item[pair].j;
+  if (w->discs) {
+    dyd_iv length = ball_lengths(w, i, j);
+    double end = largest ? length.hi : length.lo;
+    return (dyd_length){w, end, end, pair, largest};
+  }
   const dyd_bbox *a = &w->box[i], *b = &w->box[j];
   dyd_length l = {w, 0, HUGE_VAL, pair, largest};
   if (dyd_sites_is_point(w->sites, i) && dyd_sites_is_point(w->sites, j)) largest = l.largest = false;

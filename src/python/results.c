@@ -445,11 +445,12 @@ PyObject *dydpy_graph(PyObject *self, PyObject *args) {
   dyd_outcome outcome;
   PyObject *dict, *found = NULL;
   dydpy_options o;
-  int graph;
+  int graph, discs;
   dydpy_call c;
-  if (!PyArg_ParseTuple(args, "iO!", &graph, &PyDict_Type, &dict) ||
+  if (!PyArg_ParseTuple(args, "iO!p", &graph, &PyDict_Type, &dict, &discs) ||
       dydpy_options_init(&o, (dydpy_engine *)self, dict) < 0)
     return NULL;
+  o.o.discs = discs;
   if (dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_REFINES) &&
       dydpy_end(&c, dyd_engine_graph(&list, &outcome, c.self->engine, (dyd_graph)graph, &o.o, &c.err)))
     found = Py_BuildValue("Ns", graph_found(&list), dyd_outcome_text(outcome));

@@ -13,6 +13,8 @@
 #ifndef DYD_TOLERANCE_DISCS_H
 #define DYD_TOLERANCE_DISCS_H
 
+#include "predicate/interval_filter.h"
+
 #include <dyadel/delaunay.h>
 #include <gmp.h>
 #include <stdbool.h>
@@ -119,6 +121,8 @@ typedef struct dyd_disc_work {
  * enclose a place without a radius, and may be narrowed, a disc that holds the rectangle [DISC-5]. DYD_E_ARG: the
  * rectangle is not a square. */
 dyd_status dyd_disc_of_site(dyd_disc *d, const dyd_sites *s, size_t i);
+/* discs_filter.c: encloses its centre and radius in doubles. */
+dyd_status dyd_filter_ball(dyd_iv ball[3], const dyd_sites *s, size_t i);
 /* Includes v from now on; false: it is i, j or seen already, or memory is exhausted. */
 bool dyd_discs_see(dyd_disc_work *w, uint32_t v);
 /* The caps of all discs seen. false: legal, and one of them meets i or j, so that none is a witness. A disc that meets

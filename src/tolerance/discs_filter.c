@@ -14,6 +14,7 @@
 #include "base/invariant.h"
 #include "delaunay/state.h"
 #include "delaunay/undecided.h"
+#include "dyadic/raw.h"
 #include "rect/rect.h"
 #include "rect/sites_table.h"
 #include "tolerance/discs.h"
@@ -579,4 +580,17 @@ dyd_status dyd_disc_triangles(dyd_triangle_list *out, const dyd_pair_list *pairs
   dyd_triangle_list_clear(out);
   *out = list;
   return DYD_OK;
+}
+
+dyd_status dyd_filter_ball(dyd_iv ball[3], const dyd_sites *sites, size_t i) {
+  dyd_disc d;
+  dyd_disc_init(&d);
+  dyd_status st = dyd_disc_of_site(&d, sites, i);
+  mpq_srcptr number[3] = {d.x, d.y, d.r};
+  for (int k = 0; k < 3 && st == DYD_OK; k++) {
+    ball[k].lo = dyd_raw_quotient_get_d(mpq_numref(number[k]), 0, mpq_denref(number[k]), DYD_DOWN);
+    ball[k].hi = dyd_raw_quotient_get_d(mpq_numref(number[k]), 0, mpq_denref(number[k]), DYD_UP);
+  }
+  dyd_disc_clear(&d);
+  return st;
 }

@@ -136,6 +136,51 @@ def test_choices_never_refute():
     assert open_edges > 200 and seen_both > 0.9 * open_edges, (open_edges, seen_both)
 
 
+def of_discs(graph, discs, *options):
+    text = 'x,y,r\n' + ''.join(f'{x},{y},{float(r)}\n' for x, y, r in discs)
+    result = run('delaunay', '--quiet', '--accept-fixpoint', '--columns', 'x,y', '--radius-column', 'r', '--layer', 'graph:' + graph, *options, '-',
+                 stdin=text)
+    expect(result, 0, r'^i,j,status\n')
+    return {(int(i), int(j)): status for i, j, status in (line.split(',') for line in result.out.splitlines()[1:])}
+
+
+def place_in(rng, x, y, r):
+    """A rational place in the disc, most often on its circle."""
+    t = F(rng.randint(-12, 12), rng.randint(1, 6))
+    share = rng.choice([1, 1, 1, 0, F(rng.randint(0, 8), 8)]) * r * rng.choice([1, -1])
+    return x + share * (1 - t * t) / (1 + t * t), y + share * 2 * t / (1 + t * t)
+
+
+def test_choices_in_discs_never_refute():
+    """[GRD-1]: no choice is refuted, squares say no more than discs, and smaller discs lose nothing that is certain."""
+    rng = random.Random(SEED)
+    sharper = {'certain': 0, 'no edge': 0}
+    for _ in range(cases(25 * SCALE)):
+        size = rng.choice([6, 20])
+        discs = [(x, y, F(rng.randint(0, 6), rng.choice([2, 4]))) for x, y in
+                 {(rng.randint(0, size), rng.randint(0, size)) for _ in range(rng.randint(0, 7))}]
+        found = {g: of_discs(g, discs, '--discs') for g in GRAPHS}
+        for g in GRAPHS:
+            squares, inner = of_discs(g, discs), of_discs(g, [(x, y, r / 2) for x, y, r in discs], '--discs')
+            for more, less in ((found[g], squares), (inner, found[g])):
+                assert set(more) <= set(less), (g, set(more) - set(less), discs)
+                assert all(more.get(e) == 'certain' for e in less if less[e] == 'certain'), (g, discs)
+            sharper['certain'] += sum(found[g].get(e) == 'certain' != squares[e] for e in squares)
+            sharper['no edge'] += len(squares) - len(found[g])
+        for _ in range(60):
+            p = [place_in(rng, *d) for d in discs]
+            if len(set(p)) < len(p):
+                continue
+            weak, strict = of_points(p)
+            for g in GRAPHS:
+                assert weak[g] <= set(found[g]), (g, weak[g] - set(found[g]), discs, p)
+                assert {e for e in found[g] if found[g][e] == 'certain'} <= strict[g], (g, discs, p)
+    assert all(sharper.values()), sharper
+    computed = run('delaunay', '--discs', '--radius', '0.2', '--layer', 'graph:mst', '-',
+                   stdin='sqrt(2) 0\n0 sqrt(3)\n2 2\nsqrt(5) e\n1/3 pi/7\n')
+    expect(computed, 3, r'^i,j,status\n', r'\d+ edges of the graph are certain')
+
+
 def test_exact_points():
     """All three graphs as they are defined; ties are possible, not certain."""
     rng = random.Random(SEED)

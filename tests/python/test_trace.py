@@ -139,6 +139,9 @@ def test_graphs():
         graph = wide.graph(name)
         sure, possible = ({tuple(p) for p in edges.tolist()} for edges in graph[:2])
         assert graph.outcome == 'fixpoint'
+        round_ = wide.graph(name, discs=True)  # discs are in the squares
+        assert sure <= {tuple(p) for p in round_.certain.tolist()} and round_.outcome == 'fixpoint'
+        assert {tuple(p) for edges in round_[:2] for p in edges.tolist()} <= sure | possible
         assert sure <= {tuple(p) for p in exact.certain.tolist()} <= sure | possible and possible and not sure & possible
     lines = wide.write(layer='graph:mst').splitlines()[1:]
     assert [line.rsplit(',', 1)[1] for line in lines].count('certain') == len(wide.graph('mst').certain)

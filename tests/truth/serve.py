@@ -35,7 +35,7 @@ def answer(q):
 
 def graph_rows(name):
     def rows(d, q):
-        found = d.graph(name)
+        found = d.graph(name, discs=q['geometry'] == 'discs')
         q['outcome'] = found.outcome
         return [('i', 'j', 'status'), *((i, j, word) for word, edges in (('certain', found.certain), ('possible', found.possible))
                                         for i, j in edges.tolist())]

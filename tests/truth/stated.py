@@ -1034,7 +1034,8 @@ STATED = {
     'hull': Stated('delaunay', read_points, judge_points, layer='points', formats=ROWS, geometries=ALL),
     'triangles': Stated('delaunay', read_triangles, judge_triangles, layer='triangles', formats=ROWS,
                         geometries=ALL),
-    **{'graph ' + g: Stated('delaunay', read_graph, judge_graph(g), layer='graph:' + g, formats=ROWS) for g in oracle.GRAPHS},
+    **{'graph ' + g: Stated('delaunay', read_graph, judge_graph(g), layer='graph:' + g, formats=ROWS, geometries=('plane', 'discs'))
+       for g in oracle.GRAPHS},
     'interpolation range': Stated('delaunay', read_range, judge_range, python=True),
     'cells': Stated('voronoi', read_cells, judge_cells, formats=('csv', 'json', 'wkt', 'geojson'), layer=None, geometries=('plane', 'discs')),
     'layer cells': Stated('voronoi', read_cells, judge_cells, formats=ROWS, layer='cells', geometries=('plane', 'discs')),

@@ -234,18 +234,18 @@ GRAPHS = ('nearest', 'gabriel', 'mst')
 class Graph(NamedTuple):
     """Edges i, j of a graph of neighbours. certain: edges for every choice of points, with no others as good: (C, 2);
     possible: edges for some choice, or one of several that are equally good: (P, 2). Others are edges for no choice; of
-    a spanning tree of rectangles some that are listed may be, too. outcome: 'decided', 'fixpoint', 'budget' or 'cancelled'."""
+    a spanning tree of rectangles, and of discs, some that are listed may be, too. outcome: 'decided', 'fixpoint', 'budget' or 'cancelled'."""
 
     certain: Ints
     possible: Ints
     outcome: str
 
 
-def graph_of(engine: _dyadel.Engine, name: str, options: dict[str, Any]) -> Graph:
+def graph_of(engine: _dyadel.Engine, name: str, options: dict[str, Any], discs: bool) -> Graph:
     """See Delaunay.graph."""
     if name not in GRAPHS:
         raise ValueError(f'graph {name!r}; give one of {", ".join(map(repr, GRAPHS))}')
-    found, outcome = engine.graph(GRAPHS.index(name), options)
+    found, outcome = engine.graph(GRAPHS.index(name), options, discs)
     edges = ints(found).reshape(-1, 3)
     certain = edges[:, 2] != 0
     return Graph(edges[certain, :2], edges[~certain, :2], outcome)

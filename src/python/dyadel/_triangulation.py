@@ -193,12 +193,13 @@ class Delaunay(Statuses):
         return interpolation_range(self._engine, values, xy, len(self))
 
     @takes_options()
-    def graph(self, name: str, **options: Any) -> Graph:
+    def graph(self, name: str, discs: bool = False, **options: Any) -> Graph:
         """Edges of a graph of neighbours: 'nearest' (j is nearest to i), 'gabriel' or 'mst' (minimum spanning tree). Refines
-        until its edges are certain, as `dyadel delaunay --layer graph:NAME`; options: budgets of delaunay.
+        until its edges are certain, as `dyadel delaunay --layer graph:NAME`; discs: points are in the discs in their squares;
+        options: budgets of delaunay.
         """
         self._cache = {}
-        return graph_of(self._engine, name, engine_options(**{**self._options, **options}))
+        return graph_of(self._engine, name, engine_options(**{**self._options, **options}), discs)
 
     @takes_options(runs=False)
     def write(self, format: str = 'csv', layer: str | None = None, window: Any = None, epsg: int | None = None) -> str | bytes:
