@@ -186,7 +186,7 @@ static dyd_status write_motion(dyd_output *to, dyd_write_options *o, dyd_error *
 
 /* A plan tried. */
 static dyd_status write_trials(dyd_output *to, dyd_write_options *o, dyd_error *err) {
-  if (o->trials && !o->trial) return dyd_fail_null(err);
+  if (!o->trial) return dyd_fail_null(err);
   return write_what(to, &(dyd_trials_output){o->trial, o->trials, o->seed}, err);
 }
 

@@ -341,7 +341,7 @@ bool dyd_filter_moved_birth(dyd_tolerance_row *row, bool *late, const dyd_tolera
   birth_chain(&m);
   for (int round = 0; round < MOST_ROUNDS; round++) {
     double least;
-    int end;
+    int end = 1;
     uint32_t n = birth_lowest(&least, &end, &m);
     if (least > up_to) return *late = birth_is_above(&m, m.links, up_to);
     if (n == m.links) {

@@ -257,7 +257,7 @@ FAULTS = [
     ('read.c', 'if (getc(r->in) != EOF) return', 'if (false) return'),
     ('read.c', 'return r->at ? dyd_cert_reject', 'return false ? dyd_cert_reject'),
     ('read.c', 'if (!end || *end || end - text > 18) return false;', 'if (!end || *end) return false;'),
-    ('caps.c', 'bool within = dyd_exact_cmp(&d, &s) <= 0;', 'bool within = false;'),
+    ('caps.c', 'bool meet = dyd_exact_cmp(&d, &s) <= 0;', 'bool meet = false;'),
     ('caps.c', 'bool nearer = dyd_exact_sgn(&b) > 0;', 'bool nearer = true;'),
     ('caps.c', 'nearer = nearer && dyd_exact_cmp(&b, &a) > 0;', 'nearer = nearer && dyd_exact_cmp(&b, &a) >= 0;'),
     ('caps.c', 'nearer = nearer && dyd_exact_cmp(&b, &a) > 0;', ''),

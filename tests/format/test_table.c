@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-enum { CONTENTS = DYD_CONTENT_EXTERIOR + 1 };
+enum { CONTENTS = DYD_CONTENT_TRIALS + 1 };
 
 static void test_names(void **state) {
   (void)state;
@@ -137,7 +137,12 @@ static dyd_status write_content(FILE *out, const example *x, dyd_content content
   case DYD_CONTENT_SPHERE_VERTICES:
   case DYD_CONTENT_SPHERE_REGIONS:
     return write_sphere(out, content, format, err);
+  case DYD_CONTENT_TRIALS:
+    o.trial = &(const dyd_survey_trial){2, 3, 4, 1, true};
+    o.trials = 1;
+    break;
   case DYD_CONTENT_PLAN:
+  case DYD_CONTENT_PLAN_PAIRS:
     assert_int_equal(dyd_survey_new(&s, dyd_engine_delaunay(x->e), NULL, NULL), DYD_OK);
     o.plan = s;
     break;
