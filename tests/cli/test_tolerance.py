@@ -184,7 +184,7 @@ def test_discs():
     partners = collections.Counter((row[end], row['status']) for row in listed for end in ('i', 'j'))
     for row in of_discs:
         assert all(int(row[s]) == partners[row['i'], s] for s in ('legal', 'indeterminate', 'tie')), row
-    expect(run('delaunay', '--discs', '--layer', 'graph:mst', '-', stdin='0 0\n'), 1, r'\A\Z', 'written as pairs, points or triangles')
+    expect(run('delaunay', '--discs', '--layer', 'hulls', '-', stdin='0 0\n'), 1, r'\A\Z', 'written as pairs, points, triangles or graphs')
     stats = run('delaunay', '--discs', '--stats', '--radius', '0.01', *AIRPORTS)
     for status in ('legal', 'indeterminate'):
         assert re.search(rf'^pairs {status} +{stats.out.count("," + status)}$', stats.err, re.M), stats.err
