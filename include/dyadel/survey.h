@@ -66,9 +66,10 @@ typedef struct dyd_survey_trial {
 /* Tries the plan of dyd_survey_new `count` times. For each trial the seed draws a true place in each rectangle (with
  * options.discs: disc), evenly. Each point of the plan is then known within `needed` of its true place, in addition to
  * its old rectangle (of discs the new disc alone counts), and the pairs that are open still are planned for, until a
- * plan has no row; 64 times at most. out: room for `count`. Trials are shared among as many threads as pd has, which
- * results do not depend on. Returns as dyd_survey_new; DYD_CANCELLED: trials that are not done are marked, and err
- * counts them. Cost: that of a plan for each round, of which all trials share the first. */
+ * plan has no row, or four rounds in a row decided nothing; 64 times at most. out: room for `count`. Trials are shared
+ * among as many threads as pd has, which results do not depend on. Returns as dyd_survey_new; DYD_CANCELLED: trials
+ * that are not done are marked, and err counts them. Cost: that of a plan for each round, of which all trials share the
+ * first. */
 DYD_API dyd_status dyd_survey_simulate(dyd_survey_trial *out, size_t count, uint64_t seed, const dyd_delaunay *pd,
                                        const dyd_survey_options *options, dyd_error *err);
 /* What a plan comes to. */

@@ -12,7 +12,8 @@
 
 #include <stdlib.h>
 
-enum { ROUNDS_MOST = 64 };
+/* Of rounds: in all, and in a row that decide nothing. */
+enum { ROUNDS_MOST = 64, ROUNDS_IDLE = 4 };
 
 void dyd_trial_draw(mpq_ptr u, uint64_t seed, uint64_t k) {
   mpq_set_ui(u, (unsigned long)(dyd_random(seed, k) >> 11), 1);
@@ -44,13 +45,16 @@ static dyd_status trial_follow(dyd_survey_trial *out, void *draw, const dyd_tria
   const dyd_survey *plan = t->first;
   dyd_survey *own = NULL;
   dyd_status st = DYD_OK;
-  while (st == DYD_OK && trial_measure(out, measured, plan) && out->rounds < ROUNDS_MOST) {
+  size_t fewest = plan->result.open, idle = 0;
+  while (st == DYD_OK && idle < ROUNDS_IDLE && trial_measure(out, measured, plan) && out->rounds < ROUNDS_MOST) {
     dyd_survey *next = NULL;
     dyd_error err;
     dyd_error_clear(&err);
     st = t->step(&next, draw, t, plan, &err);
     dyd_survey_free(own);
     plan = own = next;
+    idle = st == DYD_OK && plan->result.open >= fewest ? idle + 1 : 0;
+    if (!idle && st == DYD_OK) fewest = plan->result.open;
   }
   if (st == DYD_OK) out->left = plan->result.left + plan->result.ties;
   out->done = st == DYD_OK;

@@ -520,18 +520,23 @@ static dyd_delaunay *true_now(dyd_sites **sites, const true_case *c) {
   return pd;
 }
 
-/* Measures what plans say until one says nothing. The pairs open at first are asked for. */
+/* Measures what plans say until one says nothing, or four in a row decided nothing. The pairs open at first are asked
+ * for. */
 static dyd_survey_trial true_follow(true_case *c, dyd_survey_options o, const dyd_pair_list *asked) {
   dyd_survey_trial found = {.done = true};
   bool measured[MOST] = {0};
   o.pairs = asked;
-  for (size_t rows = 1; rows && found.rounds < 64;) {
+  size_t fewest = SIZE_MAX, idle = 0;
+  for (size_t rows = 1; rows && idle < 4 && found.rounds < 64;) {
     dyd_sites *sites;
     dyd_survey *s;
     const dyd_survey_row *row;
     dyd_delaunay *pd = true_now(&sites, c);
     assert_int_equal(dyd_survey_new(&s, pd, &o, NULL), DYD_OK);
-    rows = dyd_survey_rows(&row, s);
+    size_t open = dyd_survey_get(s)->open;
+    idle = open < fewest ? 0 : idle + 1;
+    if (open < fewest) fewest = open;
+    rows = idle < 4 ? dyd_survey_rows(&row, s) : 0;
     for (size_t k = 0; k < rows; k++) {
       true_measure(c, row[k].site, row[k].needed);
       found.points += !measured[row[k].site];
