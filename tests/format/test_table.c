@@ -124,6 +124,7 @@ static dyd_status write_content(FILE *out, const example *x, dyd_content content
                          .rects = 3,
                          .answer = &answers,
                          .answers = 1};
+  const dyd_survey_trial trial = {2, 3, 4, 1, true};
   dyd_survey *s = NULL;
   switch (content) {
   case DYD_CONTENT_TOLERANCE:
@@ -138,7 +139,7 @@ static dyd_status write_content(FILE *out, const example *x, dyd_content content
   case DYD_CONTENT_SPHERE_REGIONS:
     return write_sphere(out, content, format, err);
   case DYD_CONTENT_TRIALS:
-    o.trial = &(const dyd_survey_trial){2, 3, 4, 1, true};
+    o.trial = &trial;
     o.trials = 1;
     break;
   case DYD_CONTENT_PLAN:
