@@ -332,7 +332,7 @@ static void test_binding_of_many(void **state) {
     mpq_clear(up_to);
   }
   print_message("%zu deaths, %zu births, %zu quick, %zu sharp\n", n.deaths, n.births, n.quick, n.sharp);
-  assert_true(n.deaths > 300 && n.births > 300 && n.quick * 2 > n.deaths + n.births &&
+  assert_true(n.deaths > 25 * test_cases(12) && n.births > 25 * test_cases(12) && n.quick * 2 > n.deaths + n.births &&
               n.sharp * 2 > n.deaths + n.births);
 }
 
