@@ -155,7 +155,7 @@ def test_choices_in_discs_never_refute():
     """[GRD-1]: no choice is refuted, squares say no more than discs, and smaller discs lose nothing that is certain."""
     rng = random.Random(SEED)
     sharper = {'certain': 0, 'no edge': 0}
-    for _ in range(cases(25 * SCALE)):
+    for _ in range(25 * SCALE):
         size = rng.choice([6, 20])
         discs = [(x, y, F(rng.randint(0, 6), rng.choice([2, 4]))) for x, y in
                  {(rng.randint(0, size), rng.randint(0, size)) for _ in range(rng.randint(0, 7))}]
