@@ -7,6 +7,7 @@
  * all [TIE-1]. */
 #include "legal/certify.h"
 
+#include "base/local.h"
 #include "legal/star_filter.h"
 #include "legal/witness.h"
 #include "skeleton/centre_filter.h"
@@ -66,12 +67,10 @@ static bool is_met_across(const dyd_skeleton *sk, uint32_t i, uint32_t j, const 
 /* Returns true if the middle of the two sites is a witness. On a straight part of the hull circumcentres are far away
  * and decide nothing. */
 static bool middle_is_witness(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
-  dyd_point c;
-  dyd_point_init(&c);
+  DYD_LOCAL(dyd_point, c);
   dyd_point_set_xy(&c, dyd_edge_middle(sk, h));
   bool good = dyd_witness_check(w, sk, dyd_edge_origin(&sk->mesh, h), dyd_edge_target(&sk->mesh, h), &c);
   w->counters.witness_guess += good;
-  dyd_point_clear(&c);
   return good;
 }
 

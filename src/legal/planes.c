@@ -4,6 +4,7 @@
 
 #include "base/flag.h"
 #include "base/invariant.h"
+#include "base/local.h"
 #include "rect/irect.h"
 #include "skeleton/circumcentre.h"
 
@@ -123,11 +124,8 @@ static void exact_lp_exchange(const dyd_half_plane *basis[3], dyd_exact_centre *
 
 bool dyd_exact_lp(dyd_exact_centre *out, const dyd_half_plane *h, size_t count, const volatile int *cancel) {
   const dyd_half_plane *basis[3] = {&h[0], &h[1], &h[2]};
-  dyd_exact_centre trial, next;
-  mpz_t scratch[5];
-  dyd_exact_centre_init(&trial);
-  dyd_exact_centre_init(&next);
-  for (int k = 0; k < 5; k++) mpz_init(scratch[k]);
+  DYD_LOCAL(dyd_exact_centre, trial, next);
+  DYD_LOCAL_ARRAY(mpz_t, scratch, [5]);
   bool bounded = common_value(out, scratch, scratch[3], basis), done = false;
   DYD_INVARIANT(bounded);
   (void)bounded;
@@ -138,9 +136,6 @@ bool dyd_exact_lp(dyd_exact_centre *out, const dyd_half_plane *h, size_t count, 
     exact_lp_exchange(basis, &next, &trial, scratch, &h[k]);
     swap_centres(out, &next);
   }
-  for (int k = 0; k < 5; k++) mpz_clear(scratch[k]);
-  dyd_exact_centre_clear(&next);
-  dyd_exact_centre_clear(&trial);
   return done;
 }
 
@@ -210,11 +205,9 @@ static void plane_to_user(dyd_half_plane *h, const mpz_t factor, int64_t exp) {
 /* The half-plane |q|^2 - |s|^2 + 2 (s - q).x > 0. Returns the sign of that at c; *differ: s != q. */
 static int plane_set(bool *differ, dyd_half_plane *h, const dyd_point *c, const dyd_rect *own, const dyd_rect *other) {
   const dyd_rect *in[2] = {own, other};
-  dyd_irect r[2];
-  mpz_t cx, cy, factor, t;
   int64_t exp;
-  mpz_inits(cx, cy, factor, t, NULL);
-  for (int k = 0; k < 2; k++) dyd_irect_init(&r[k]);
+  DYD_LOCAL_NUMBERS(mpz, cx, cy, factor, t);
+  DYD_LOCAL_ARRAY(dyd_irect, r, [2]);
   dyd_irects_scale_with(cx, cy, r, c, in, 2, factor, &exp);
   mpz_set_ui(h->c, 0);
   plane_axis(h->a, h->c, t, cx, r[0].x0, r[0].x1, r[1].x0, r[1].x1);
@@ -226,8 +219,6 @@ static int plane_set(bool *differ, dyd_half_plane *h, const dyd_point *c, const 
   mpz_add(t, t, h->c);
   int sign = mpz_sgn(t);
   if (*differ) plane_to_user(h, factor, exp + 1);
-  for (int k = 0; k < 2; k++) dyd_irect_clear(&r[k]);
-  mpz_clears(cx, cy, factor, t, NULL);
   return sign;
 }
 
@@ -270,9 +261,8 @@ static int64_t floor_exponent(const dyd_plane_list *l) {
 }
 
 dyd_status dyd_planes_centre(dyd_truth *room, dyd_point *c, dyd_plane_list *l) {
-  dyd_exact_centre p;
   dyd_status st = DYD_OK;
-  dyd_exact_centre_init(&p);
+  DYD_LOCAL(dyd_exact_centre, p);
   *room = DYD_FALSE;
   for (int k = 0; k < REACHES && *room == DYD_FALSE; k++) {
     planes_square(l, l->top + how_far[k]);
@@ -283,7 +273,6 @@ dyd_status dyd_planes_centre(dyd_truth *room, dyd_point *c, dyd_plane_list *l) {
   }
   if (dyd_flag_is_set(l->cancel)) st = DYD_CANCELLED;
   if (*room == DYD_TRUE && st == DYD_OK) st = dyd_centre_round(c, p.x, p.y, p.d, step_within(&p));
-  dyd_exact_centre_clear(&p);
   if (st != DYD_E_RANGE) return st;
   *room = DYD_UNKNOWN; /* beyond the numbers there are */
   return DYD_OK;

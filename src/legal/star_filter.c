@@ -15,6 +15,7 @@
 
 #include "base/alloc.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "base/prefetch.h"
 #include "skeleton/centre_filter.h"
 #include "skeleton/mesh_filter.h"
@@ -396,11 +397,10 @@ static dyd_status pass_over_stars(pass *p) {
 
 /* The first pass, where fat rectangles do not spoil it [WIT-FAT]. */
 static dyd_status certify_thin(const pass *p) {
-  uint32_t *met = NULL;
+  DYD_FREED uint32_t *met = NULL;
   if (p->sk->reps.code) return DYD_OK;
   dyd_status st = dyd_fat_meet(&met, p->sk, p->fat.item, p->fat.count, p->reach / 2);
   if (st == DYD_OK && (met || p->fat.count == 0)) st = dyd_certify_near(p->sk, p->w, p->reach / 2, met, p->edge);
-  free(met);
   return st;
 }
 

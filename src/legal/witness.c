@@ -10,6 +10,7 @@
  * First in doubles (witness_filter.c), which is enough for nearly all; else with exact half-planes. */
 #include "legal/witness.h"
 
+#include "base/local.h"
 #include "legal/planes.h"
 #include "legal/witness_filter.h"
 #include "predicate/circle.h"
@@ -89,22 +90,18 @@ static bool witness_examine(void *context, uint32_t k) {
   if (k == s->i || k == s->j || witness_is_surely_outside(s, k)) return true;
   if (dyd_flag_is_set(s->cancel)) s->status = DYD_CANCELLED; /* each that follows may take long */
   if (s->status != DYD_OK) return false;
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_rects_get(&r, s->rects, k);
   if (!witness_is_outside(s, &r)) witness_add_rival(s, &r);
-  dyd_rect_clear(&r);
   return !s->ended && s->rivals < MAX_RIVALS;
 }
 
 static bool witness_meets(void *context, uint32_t k) {
   search *s = context;
   if (k == s->i || k == s->j) return true;
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_rects_get(&r, s->rects, k);
   s->ended = dyd_rect_meets(&r, &s->own[0]) || dyd_rect_meets(&r, &s->own[1]);
-  dyd_rect_clear(&r);
   return !s->ended;
 }
 
@@ -141,8 +138,7 @@ static int64_t witness_steps(const dyd_plane_list *l) {
 /* end: the end of the three sides that is nearest to x; gap: how near. */
 static void witness_nearest_end(const dyd_dyadic **end, dyd_dyadic *gap, const dyd_dyadic *x,
                                 const dyd_interval *const side[3]) {
-  dyd_dyadic d;
-  dyd_dyadic_init(&d);
+  DYD_LOCAL(dyd_dyadic, d);
   *end = NULL;
   for (int k = 0; k < 6; k++) {
     const dyd_dyadic *e = k % 2 ? &side[k / 2]->hi : &side[k / 2]->lo;
@@ -152,7 +148,6 @@ static void witness_nearest_end(const dyd_dyadic **end, dyd_dyadic *gap, const d
     *end = e;
     dyd_dyadic_swap(&d, gap);
   }
-  dyd_dyadic_clear(&d);
 }
 
 /* Where witnesses have next to no room, the centres come nearer to it by a fixed part in each step: as many steps as
@@ -162,8 +157,7 @@ static void witness_snap(search *s, bool both) {
   const dyd_interval *const x[3] = {&s->own[0].x, &s->own[1].x, &s->rival.x};
   const dyd_interval *const y[3] = {&s->own[0].y, &s->own[1].y, &s->rival.y};
   const dyd_dyadic *end[2];
-  dyd_dyadic gap[2];
-  for (int k = 0; k < 2; k++) dyd_dyadic_init(&gap[k]);
+  DYD_LOCAL_ARRAY(dyd_dyadic, gap, [2]);
   witness_nearest_end(&end[0], &gap[0], &s->c.x, x);
   witness_nearest_end(&end[1], &gap[1], &s->c.y, y);
   if (end[0] && end[1]) {
@@ -172,7 +166,6 @@ static void witness_snap(search *s, bool both) {
     if (both || order > 0) dyd_dyadic_set(&s->c.y, end[1]);
     witness_evaluate(s);
   }
-  for (int k = 0; k < 2; k++) dyd_dyadic_clear(&gap[k]);
 }
 
 /* Ends with no rivals (a witness), or with some (none, the floor, or too many steps). */
@@ -212,28 +205,21 @@ static dyd_status witness_search_exactly(dyd_truth *exists, dyd_point *c, dyd_wo
  * sides of ij. Then there is no witness [WIT-QUAD]. */
 static bool witness_is_excluded(const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t across[2]) {
   const uint32_t v[4] = {i, j, across[0], across[1]};
-  dyd_rect r[4];
-  for (int k = 0; k < 4; k++) {
-    dyd_rect_init(&r[k]);
-    dyd_rects_get(&r[k], &sk->rects, v[k]);
-  }
+  DYD_LOCAL_ARRAY(dyd_rect, r, [4]);
+  for (int k = 0; k < 4; k++) dyd_rects_get(&r[k], &sk->rects, v[k]);
   dyd_sure a = dyd_orientation(&r[0], &r[1], &r[2]), b = dyd_orientation(&r[0], &r[1], &r[3]);
   bool opposite = a != DYD_UNSURE && (int)a == -(int)b;
-  bool excluded = opposite && dyd_con(&r[3], &r[0], &r[1], &r[2]) == DYD_UNSURE;
-  for (int k = 0; k < 4; k++) dyd_rect_clear(&r[k]);
-  return excluded;
+  return opposite && dyd_con(&r[3], &r[0], &r[1], &r[2]) == DYD_UNSURE;
 }
 
 /* Before a search with big numbers: returns true if certainly none exists, or one lies between the centres of the
  * edge's two triangles. */
 static bool witness_look_between(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
                                  const uint32_t across[2]) {
-  dyd_point middle;
   if (witness_is_excluded(sk, i, j, across)) return true;
-  dyd_point_init(&middle);
+  DYD_LOCAL(dyd_point, middle);
   *found = dyd_circumcentre_between(&middle, sk, i, j, across) && dyd_witness_check(w, sk, i, j, &middle);
   if (*found && c) dyd_point_set(c, &middle);
-  dyd_point_clear(&middle);
   return *found;
 }
 
@@ -288,22 +274,17 @@ bool dyd_witness_check(dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t
 /* c = p + 2^m u for a vertex's double p. */
 static dyd_status witness_far_centre(dyd_point *c, const dyd_skeleton *sk, uint32_t i, const mpz_t ux, const mpz_t uy,
                                      int64_t m) {
-  dyd_dyadic d;
-  dyd_dyadic_init(&d);
+  DYD_LOCAL(dyd_dyadic, d);
   witness_set_start(c, sk, i, (dyd_xy){NAN, NAN});
   dyd_status st = dyd_dyadic_set_z_2exp(&d, ux, m);
   if (st == DYD_OK) st = dyd_dyadic_add(&c->x, &c->x, &d);
   if (st == DYD_OK) st = dyd_dyadic_set_z_2exp(&d, uy, m);
-  if (st == DYD_OK) st = dyd_dyadic_add(&c->y, &c->y, &d);
-  dyd_dyadic_clear(&d);
-  return st;
+  return st == DYD_OK ? dyd_dyadic_add(&c->y, &c->y, &d) : st;
 }
 
 dyd_status dyd_witness_far(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j) {
-  mpz_t ux, uy;
-  dyd_point far;
-  mpz_inits(ux, uy, NULL);
-  dyd_point_init(&far);
+  DYD_LOCAL_NUMBERS(mpz, ux, uy);
+  DYD_LOCAL(dyd_point, far);
   dyd_status st = dyd_hull_direction(found, ux, uy, w, sk, i, j);
   bool direction = *found;
   *found = false;
@@ -313,7 +294,5 @@ dyd_status dyd_witness_far(bool *found, dyd_point *c, dyd_work *w, const dyd_ske
   }
   if (st == DYD_E_RANGE) st = DYD_OK; /* farther than numbers go: the floor */
   if (*found && c) dyd_point_set(c, &far);
-  dyd_point_clear(&far);
-  mpz_clears(ux, uy, NULL);
   return st;
 }

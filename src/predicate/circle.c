@@ -4,6 +4,7 @@
 #include "predicate/circle.h"
 
 #include "base/invariant.h"
+#include "base/local.h"
 #include "predicate/pane.h"
 
 #include <dyadel/dyadic.h>
@@ -60,10 +61,8 @@ static void surd_add_square(mpz_ptr p, mpz_ptr q, mpz_ptr t, const dyd_surd *s, 
 }
 
 void dyd_surd_add_distance2(mpz_ptr p, mpz_ptr q, const dyd_surd xy[2], const dyd_irect *r, dyd_touch touch) {
-  mpz_t t, u;
-  mpz_inits(t, u, NULL);
+  DYD_LOCAL_NUMBERS(mpz, t, u);
   for (int axis = 0; axis < 2; axis++) surd_add_square(p, q, t, &xy[axis], surd_end(t, u, &xy[axis], r, axis, touch));
-  mpz_clears(t, u, NULL);
 }
 
 /* Circles with centre A + B sqrt(C) against integer rectangles.
@@ -137,7 +136,7 @@ static int side_of_line(frame *f, const dyd_icircle *k, mpz_srcptr au, mpz_srcpt
 
 int dyd_icircle_side(const dyd_icircle *k, const dyd_irect *r, dyd_touch touch) {
   DYD_INVARIANT(mpz_sgn(k->d) > 0 && mpz_sgn(k->c) >= 0);
-  frame f;
+  DYD_SCOPED(frame) f;
   frame_init(&f, k);
   dyd_surd ox = {k->ax, k->bx, k->c, k->d}, oy = {k->ay, k->by, k->c, k->d};
   mpz_srcptr x = surd_end(f.s, f.t, &ox, r, 0, touch), y = surd_end(f.s, f.t, &oy, r, 1, touch);
@@ -152,22 +151,18 @@ int dyd_icircle_side(const dyd_icircle *k, const dyd_irect *r, dyd_touch touch) 
     mpz_set(f.l, f.m);
     side = side_of_line(&f, k, f.av, k->by, f.au, k->bx);
   }
-  frame_clear(&f);
   return side;
 }
 
 int dyd_icircle_compare(const dyd_icircle *k, const dyd_icircle *l, int axis) {
   mpz_srcptr ak = axis ? k->ay : k->ax, bk = axis ? k->by : k->bx, al = axis ? l->ay : l->ax, bl = axis ? l->by : l->bx;
-  mpz_t a, b, d;
-  mpz_inits(a, b, d, NULL);
+  DYD_LOCAL_NUMBERS(mpz, a, b, d);
   mpz_mul(a, ak, l->d);
   mpz_submul(a, al, k->d);
   mpz_mul(b, bk, l->d);
   mpz_mul(d, bl, k->d);
   mpz_neg(d, d);
-  int sign = dyd_sqrt2_sign(a, b, k->c, d, l->c);
-  mpz_clears(a, b, d, NULL);
-  return sign;
+  return dyd_sqrt2_sign(a, b, k->c, d, l->c);
 }
 
 /* Cutting an axis into the slabs of predicate/pane.h.
@@ -223,8 +218,7 @@ static mpz_srcptr shown_end(const dyd_slab *s, const dyd_irect *r, dyd_touch tou
 /* The slabs of axis 0 (x) or 1 (y). */
 static void axis_set(dyd_axis *out, const dyd_irect *const r[3], const dyd_touch touch[3], int axis, mpz_srcptr origin,
                      int64_t shift) {
-  mpz_t t, origin2;
-  mpz_inits(t, origin2, NULL);
+  DYD_LOCAL_NUMBERS(mpz, t, origin2);
   mpz_mul_2exp(origin2, origin, 1);
   size_t lines = set_slab_lines(out, r, touch, axis);
   dyd_iv near_end[3][2];
@@ -245,7 +239,6 @@ static void axis_set(dyd_axis *out, const dyd_irect *const r[3], const dyd_touch
       s->mark[m].near = at == dyd_irect_end(r[m], axis, 1) ? near_end[m][1] : near_end[m][0];
     }
   }
-  mpz_clears(t, origin2, NULL);
 }
 
 /* Circles through the origin and two more features: points (P) and axis-parallel lines (L).
@@ -607,33 +600,23 @@ static void circle_rescale(dyd_circle *k, dyd_irect *r, mpz_srcptr man, int64_t 
 /* Sign of distance^2 - radius^2 = (p + q sqrt c) / d^2 - (ar + br sqrt c) / dr. */
 static int circle_side_scaled(const dyd_circle *k, const dyd_irect *r, dyd_touch touch) {
   const dyd_surd centre[2] = {{k->ax, k->bx, k->c, k->d}, {k->ay, k->by, k->c, k->d}};
-  mpz_t p, q, t;
-  mpz_inits(p, q, t, NULL);
+  DYD_LOCAL_NUMBERS(mpz, p, q, t);
   dyd_surd_add_distance2(p, q, centre, r, touch);
   mpz_mul(p, p, k->dr);
   mpz_mul(q, q, k->dr);
   mpz_mul(t, k->d, k->d);
   mpz_submul(p, k->ar, t);
   mpz_submul(q, k->br, t);
-  int sign = dyd_sqrt_sign(p, q, k->c);
-  mpz_clears(p, q, t, NULL);
-  return sign;
+  return dyd_sqrt_sign(p, q, k->c);
 }
 
 int dyd_circle_side(const dyd_circle *c, const dyd_rect *r, dyd_touch touch) {
-  dyd_circle k;
-  dyd_irect scaled;
-  mpz_t man;
   int64_t exp;
-  dyd_circle_init(&k);
-  dyd_irect_init(&scaled);
-  mpz_init(man);
+  DYD_LOCAL(dyd_circle, k);
+  DYD_LOCAL(dyd_irect, scaled);
+  DYD_LOCAL_NUMBERS(mpz, man);
   dyd_irects_scale(&scaled, &r, 1, man, &exp);
   dyd_circle_set(&k, c);
   circle_rescale(&k, &scaled, man, exp);
-  int sign = circle_side_scaled(&k, &scaled, touch);
-  mpz_clear(man);
-  dyd_irect_clear(&scaled);
-  dyd_circle_clear(&k);
-  return sign;
+  return circle_side_scaled(&k, &scaled, touch);
 }

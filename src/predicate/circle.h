@@ -37,6 +37,7 @@ typedef struct dyd_icircle {
 
 void dyd_icircle_init(dyd_icircle *k);
 void dyd_icircle_clear(dyd_icircle *k);
+DYD_ARRAYS(dyd_icircle)
 void dyd_icircle_swap(dyd_icircle *k, dyd_icircle *l);
 
 /* Every circle that meets r[m] as touch[m] says (closest: ds = radius; farthest: dl = radius), m = 0, 1, 2;

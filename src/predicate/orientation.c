@@ -3,6 +3,7 @@
  *
  * A filter answers when every choice in the outward boxes agrees, or, for boxes that are the rectangles themselves,
  * when two choices certainly differ. Everything else goes to the exact rung [ORI-1] [CON-1]. */
+#include "base/local.h"
 #include "predicate/circle.h"
 #include "predicate/predicate_filter.h"
 #include "rect/irect.h"
@@ -40,21 +41,18 @@ static bool surely_turns(const dyd_irect *a, const dyd_irect *b, const dyd_irect
 }
 
 dyd_sure dyd_irect_orientation(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c) {
-  mpz_t t[4];
-  for (int k = 0; k < 4; k++) mpz_init(t[k]);
+  DYD_LOCAL_ARRAY(mpz_t, t, [4]);
   mpz_ptr scratch[4] = {t[0], t[1], t[2], t[3]};
-  dyd_sure answer = surely_turns(a, b, c, 1, scratch)    ? DYD_SURE_PLUS
-                    : surely_turns(a, b, c, -1, scratch) ? DYD_SURE_MINUS
-                                                         : DYD_UNSURE;
-  for (int k = 4; k-- > 0;) mpz_clear(t[k]);
-  return answer;
+  return surely_turns(a, b, c, 1, scratch)    ? DYD_SURE_PLUS
+         : surely_turns(a, b, c, -1, scratch) ? DYD_SURE_MINUS
+                                              : DYD_UNSURE;
 }
 
 /* The in-circle determinant of the lower left corners, times the orientation of a, b, c: 1 inside, -1 outside. */
 static int corner_in_circle(const dyd_irect *r, const dyd_irect *const abc[3], dyd_sure orientation) {
-  mpz_t x[3], y[3], n[3], det, t;
+  mpz_t x[3], y[3], n[3];
   for (int k = 0; k < 3; k++) mpz_inits(x[k], y[k], n[k], NULL);
-  mpz_inits(det, t, NULL);
+  DYD_LOCAL_NUMBERS(mpz, det, t);
   for (int k = 0; k < 3; k++) {
     mpz_sub(x[k], abc[k]->x0, r->x0);
     mpz_sub(y[k], abc[k]->y0, r->y0);
@@ -68,7 +66,6 @@ static int corner_in_circle(const dyd_irect *r, const dyd_irect *const abc[3], d
     mpz_addmul(det, t, n[k]);
   }
   int sign = mpz_sgn(det) * (int)orientation;
-  mpz_clears(det, t, NULL);
   for (int k = 3; k-- > 0;) mpz_clears(x[k], y[k], n[k], NULL);
   return sign;
 }
@@ -77,15 +74,13 @@ static int corner_in_circle(const dyd_irect *r, const dyd_irect *const abc[3], d
  * others not. */
 static bool beyond_critical_circles(const dyd_irect *r, const dyd_irect *const abc[3], dyd_touch odd, int sign) {
   dyd_touch even = odd == DYD_FARTHEST ? DYD_CLOSEST : DYD_FARTHEST;
-  dyd_icircle circle;
-  dyd_icircle_init(&circle);
+  DYD_LOCAL(dyd_icircle, circle);
   bool beyond = true;
   for (int k = 0; k < 3 && beyond; k++) {
     dyd_touch touch[3] = {even, even, even};
     touch[k] = odd;
     beyond = dyd_icircles(&circle, 1, abc, touch) == 1 && dyd_icircle_side(&circle, r, odd) == sign;
   }
-  dyd_icircle_clear(&circle);
   return beyond;
 }
 
@@ -130,21 +125,18 @@ static void triple_clear(triple *t) {
 
 static bool find_critical_circle(dyd_circle *out, const triple *t, const dyd_touch touch[3]) {
   const dyd_irect *r[3] = {&t->r[0], &t->r[1], &t->r[2]};
-  dyd_icircle k;
-  dyd_icircle_init(&k);
+  DYD_LOCAL(dyd_icircle, k);
   bool found = dyd_icircles(&k, 1, r, touch) == 1;
   if (found) dyd_circle_unscale(out, &k, t->man, t->exp);
-  dyd_icircle_clear(&k);
   return found;
 }
 
 dyd_status dyd_critical_circle(dyd_circle *out, const dyd_rect *const r[3], const dyd_touch touch[3]) {
   if (touch[0] == touch[1] && touch[1] == touch[2]) return DYD_E_ARG;
   if (dyd_orientation(r[0], r[1], r[2]) == DYD_UNSURE) return DYD_E_ARG;
-  triple t;
+  DYD_SCOPED(triple) t;
   triple_init(&t, r);
   bool found = find_critical_circle(out, &t, touch);
-  triple_clear(&t);
   return found ? DYD_OK : DYD_E_ARG;
 }
 
@@ -162,7 +154,7 @@ void dyd_partial_disc_set(dyd_partial_disc *out, const dyd_rect *a, const dyd_re
   out->known = dyd_orientation(a, b, c) != DYD_UNSURE;
   if (!out->known) return;
   bool exact = dyd_rect_is_point(a) && dyd_rect_is_point(b) && dyd_rect_is_point(c); /* then all six are one */
-  triple t;
+  DYD_SCOPED(triple) t;
   triple_init(&t, r);
   for (int k = 0; k < CIRCLES && out->known; k++) {
     dyd_touch touch[3];
@@ -173,7 +165,6 @@ void dyd_partial_disc_set(dyd_partial_disc *out, const dyd_rect *a, const dyd_re
     circle_labels(touch, k);
     out->known = find_critical_circle(&out->circle[k], &t, touch);
   }
-  triple_clear(&t);
 }
 
 /* Is r on the side `sign` of circles first .. first + 2, in the given sense? */
@@ -212,13 +203,9 @@ dyd_truth dyd_cannot_displace(const dyd_rect *i, const dyd_rect *j, const dyd_re
 }
 
 static int compare_distance_exact(const dyd_point *c, const dyd_rect *const in[2], const dyd_touch touch[2]) {
-  dyd_irect r[2];
-  mpz_t cx, cy, distance[2];
-  for (int k = 0; k < 2; k++) {
-    dyd_irect_init(&r[k]);
-    mpz_init(distance[k]);
-  }
-  mpz_inits(cx, cy, NULL);
+  DYD_LOCAL_ARRAY(dyd_irect, r, [2]);
+  DYD_LOCAL_ARRAY(mpz_t, distance, [2]);
+  DYD_LOCAL_NUMBERS(mpz, cx, cy);
   dyd_irects_scale_point(cx, cy, r, c, in, 2);
   for (int k = 0; k < 2; k++) {
     if (touch[k] == DYD_FARTHEST) {
@@ -228,11 +215,6 @@ static int compare_distance_exact(const dyd_point *c, const dyd_rect *const in[2
     }
   }
   int order = mpz_cmp(distance[0], distance[1]);
-  mpz_clears(cx, cy, NULL);
-  for (int k = 2; k-- > 0;) {
-    mpz_clear(distance[k]);
-    dyd_irect_clear(&r[k]);
-  }
   return (order > 0) - (order < 0);
 }
 

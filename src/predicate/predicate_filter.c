@@ -7,6 +7,7 @@
  * of a, each a determinant of points. */
 #include "predicate/predicate_filter.h"
 
+#include "base/local.h"
 #include "dyadic/raw.h"
 #include "predicate/circle.h"
 #include "predicate/pane.h"
@@ -42,8 +43,7 @@ static void centre_quotient(double out[2], mpz_ptr n, unsigned long width, const
 }
 
 static void centre_coordinate(double out[2], mpz_srcptr a, mpz_srcptr b, const dyd_icircle *k, int64_t shift) {
-  mpz_t n, t;
-  mpz_inits(n, t, NULL);
+  DYD_LOCAL_NUMBERS(mpz, n, t);
   if (!mpz_sgn(b) || !mpz_sgn(k->c)) {
     mpz_set(n, a);
     centre_quotient(out, n, 0, k, -shift);
@@ -58,7 +58,6 @@ static void centre_coordinate(double out[2], mpz_srcptr a, mpz_srcptr b, const d
     }
     centre_quotient(out, n, 1, k, -g - shift);
   }
-  mpz_clears(n, t, NULL);
 }
 
 void dyd_icircle_centre_d(double out[4], const dyd_icircle *k, int64_t shift) {

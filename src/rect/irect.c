@@ -10,6 +10,7 @@
 #include "rect/irect.h"
 
 #include "base/invariant.h"
+#include "base/local.h"
 
 /* Convex hulls of two integer rectangles: area and disjointness.
  *
@@ -29,8 +30,7 @@ static mpz_srcptr larger_z(mpz_srcptr a, mpz_srcptr b) {
 }
 
 void dyd_irect_partial_edge_area2(mpz_ptr out, const dyd_irect *a, const dyd_irect *b) {
-  mpz_t w, h;
-  mpz_inits(w, h, NULL);
+  DYD_LOCAL_NUMBERS(mpz, w, h);
   mpz_sub(w, larger_z(a->x1, b->x1), lesser_z(a->x0, b->x0));
   mpz_sub(h, larger_z(a->y1, b->y1), lesser_z(a->y0, b->y0));
   mpz_mul(out, w, h);
@@ -45,7 +45,6 @@ void dyd_irect_partial_edge_area2(mpz_ptr out, const dyd_irect *a, const dyd_ire
     mpz_abs(w, w);
     mpz_sub(out, out, w);
   }
-  mpz_clears(w, h, NULL);
 }
 
 /* out = largest value of nx x + ny y over r (side = 1) or smallest (side = 0). */
@@ -83,8 +82,7 @@ static bool edge_boxes_disjoint(const dyd_irect *const p[2], const dyd_irect *co
 bool dyd_irect_partial_edges_disjoint(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c, const dyd_irect *d) {
   const dyd_irect *p[2] = {a, b}, *q[2] = {c, d};
   if (edge_boxes_disjoint(p, q)) return true;
-  mpz_t nx, ny, u, v;
-  mpz_inits(nx, ny, u, v, NULL);
+  DYD_LOCAL_NUMBERS(mpz, nx, ny, u, v);
   bool disjoint = false;
   for (int join = 0; join < 8 && !disjoint; join++) {
     const dyd_irect *const *e = join < 4 ? p : q;
@@ -93,7 +91,6 @@ bool dyd_irect_partial_edges_disjoint(const dyd_irect *a, const dyd_irect *b, co
     mpz_sub(ny, dyd_irect_end(e[1], 0, right), dyd_irect_end(e[0], 0, right));
     disjoint = normal_separates(nx, ny, p, q, u, v);
   }
-  mpz_clears(nx, ny, u, v, NULL);
   return disjoint;
 }
 
@@ -147,9 +144,9 @@ static void scale_interval(mpz_ptr lo, mpz_ptr hi, const dyd_interval *a, const 
 
 void dyd_irects_scale_with(mpz_ptr cx, mpz_ptr cy, dyd_irect *out, const dyd_point *c, const dyd_rect *const *in,
                            size_t n, mpz_ptr scale_man, int64_t *scale_exp) {
-  mpz_t lcm, quotient;
-  mpz_init_set_ui(lcm, 1);
-  mpz_init(quotient);
+  DYD_LOCAL_NUMBERS(mpz, lcm);
+  mpz_set_ui(lcm, 1);
+  DYD_LOCAL_NUMBERS(mpz, quotient);
   scale s = {false, 0, lcm};
   for (size_t k = 0; k < n; k++) {
     see_interval(&s, &in[k]->x);
@@ -167,7 +164,6 @@ void dyd_irects_scale_with(mpz_ptr cx, mpz_ptr cy, dyd_irect *out, const dyd_poi
   }
   if (scale_man) mpz_set(scale_man, lcm);
   if (scale_exp) *scale_exp = -s.exp;
-  mpz_clears(lcm, quotient, NULL);
 }
 
 void dyd_irects_scale(dyd_irect *out, const dyd_rect *const *in, size_t n, mpz_ptr scale_man, int64_t *scale_exp) {
@@ -198,21 +194,17 @@ static void farthest_on_axis(mpz_ptr t, mpz_ptr s, mpz_srcptr c, mpz_srcptr lo, 
 }
 
 void dyd_irect_ds2(mpz_ptr out, mpz_srcptr cx, mpz_srcptr cy, const dyd_irect *r) {
-  mpz_t t;
-  mpz_init(t);
+  DYD_LOCAL_NUMBERS(mpz, t);
   closest_on_axis(t, cx, r->x0, r->x1);
   mpz_mul(out, t, t);
   closest_on_axis(t, cy, r->y0, r->y1);
   mpz_addmul(out, t, t);
-  mpz_clear(t);
 }
 
 void dyd_irect_dl2(mpz_ptr out, mpz_srcptr cx, mpz_srcptr cy, const dyd_irect *r) {
-  mpz_t s, t;
-  mpz_inits(s, t, NULL);
+  DYD_LOCAL_NUMBERS(mpz, s, t);
   farthest_on_axis(t, s, cx, r->x0, r->x1);
   mpz_mul(out, t, t);
   farthest_on_axis(t, s, cy, r->y0, r->y1);
   mpz_addmul(out, t, t);
-  mpz_clears(s, t, NULL);
 }

@@ -7,6 +7,7 @@
 #ifndef DYD_RECT_IRECT_H
 #define DYD_RECT_IRECT_H
 
+#include "base/local.h"
 #include <dyadel/rect.h>
 
 /* [x0,x1] x [y0,y1]. Invariant: x0 <= x1, y0 <= y1. */
@@ -16,6 +17,7 @@ typedef struct dyd_irect {
 
 void dyd_irect_init(dyd_irect *r);
 void dyd_irect_clear(dyd_irect *r);
+DYD_ARRAYS(dyd_irect)
 
 /* The lower (upper = 0) or upper end (1) of the side along axis 0 (x) or 1 (y). */
 static inline mpz_srcptr dyd_irect_end(const dyd_irect *r, int axis, int upper) {

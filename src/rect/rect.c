@@ -4,6 +4,7 @@
  * A rectangle is a product of intervals, and inclusion, meeting and equality are those of its sides. */
 #include "rect/rect.h"
 #include "base/invariant.h"
+#include "base/local.h"
 #include "dyadic/raw.h"
 #include "rect/irect.h"
 
@@ -18,13 +19,10 @@
 bool dyd_interval_is_valid(const dyd_interval *a) {
   if (!dyd_dyadic_is_valid(&a->lo) || !dyd_dyadic_is_valid(&a->hi)) return false;
   if (mpz_sgn(a->den) <= 0 || !mpz_odd_p(a->den) || dyd_dyadic_cmp(&a->lo, &a->hi) > 0) return false;
-  mpz_t g;
-  mpz_init(g);
+  DYD_LOCAL_NUMBERS(mpz, g);
   mpz_gcd(g, a->lo.man, a->den);
   mpz_gcd(g, g, a->hi.man);
-  bool lowest = !mpz_cmp_ui(g, 1);
-  mpz_clear(g);
-  return lowest;
+  return !mpz_cmp_ui(g, 1);
 }
 
 void dyd_interval_init(dyd_interval *a) {
@@ -75,23 +73,19 @@ void dyd_interval_swap(dyd_interval *a, dyd_interval *b) {
 
 dyd_status dyd_interval_set_ends(dyd_interval *out, const dyd_dyadic *lo, const dyd_dyadic *hi) {
   if (dyd_dyadic_cmp(lo, hi) > 0) return DYD_E_ARG;
-  dyd_interval t;
-  dyd_interval_init(&t);
+  DYD_LOCAL(dyd_interval, t);
   dyd_dyadic_set(&t.lo, lo);
   dyd_dyadic_set(&t.hi, hi);
   dyd_interval_swap(out, &t);
-  dyd_interval_clear(&t);
   return DYD_OK;
 }
 
 dyd_status dyd_interval_set_d(dyd_interval *out, double lo, double hi) {
   if (!(lo <= hi)) return DYD_E_ARG;
-  dyd_interval t;
-  dyd_interval_init(&t);
+  DYD_LOCAL(dyd_interval, t);
   dyd_status st = dyd_dyadic_set_d(&t.lo, lo);
   if (st == DYD_OK) st = dyd_dyadic_set_d(&t.hi, hi);
   if (st == DYD_OK) dyd_interval_swap(out, &t);
-  dyd_interval_clear(&t);
   return st;
 }
 
@@ -101,39 +95,32 @@ dyd_status dyd_interval_set_q(dyd_interval *out, const mpq_t q) {
 
 /* *out = den q, for a multiple den of the odd part of the denominator of q. */
 static dyd_status end_set_q(dyd_dyadic *out, const mpq_t q, const mpz_t den) {
-  mpz_t man;
   mp_bitcnt_t twos = mpz_scan1(mpq_denref(q), 0);
-  mpz_init(man);
+  DYD_LOCAL_NUMBERS(mpz, man);
   mpz_tdiv_q_2exp(man, mpq_denref(q), twos);
   mpz_divexact(man, den, man);
   mpz_mul(man, man, mpq_numref(q));
-  dyd_status st = dyd_dyadic_set_z_2exp(out, man, -(int64_t)twos);
-  mpz_clear(man);
-  return st;
+  return dyd_dyadic_set_z_2exp(out, man, -(int64_t)twos);
 }
 
 dyd_status dyd_interval_set_ends_q(dyd_interval *out, const mpq_t lo, const mpq_t hi) {
   if (mpq_cmp(lo, hi) > 0) return DYD_E_ARG;
-  dyd_interval t;
-  dyd_interval_init(&t);
+  DYD_LOCAL(dyd_interval, t);
   mpz_lcm(t.den, mpq_denref(lo), mpq_denref(hi));
   mpz_tdiv_q_2exp(t.den, t.den, mpz_scan1(t.den, 0));
   dyd_status st = dyd_bits(t.den) > DYD_EXP_LIMIT ? DYD_E_RANGE : end_set_q(&t.lo, lo, t.den);
   if (st == DYD_OK) st = end_set_q(&t.hi, hi, t.den);
   if (st == DYD_OK) dyd_interval_swap(out, &t);
   DYD_INVARIANT(st != DYD_OK || dyd_interval_is_valid(out));
-  dyd_interval_clear(&t);
   return st;
 }
 
 dyd_status dyd_interval_set_outward(dyd_interval *out, const mpq_t lo, const mpq_t hi, int64_t exp) {
   if (mpq_cmp(lo, hi) > 0) return DYD_E_ARG;
-  dyd_interval t;
-  dyd_interval_init(&t);
+  DYD_LOCAL(dyd_interval, t);
   dyd_status st = dyd_dyadic_round_q(&t.lo, lo, exp, DYD_DOWN);
   if (st == DYD_OK) st = dyd_dyadic_round_q(&t.hi, hi, exp, DYD_UP);
   if (st == DYD_OK) dyd_interval_swap(out, &t);
-  dyd_interval_clear(&t);
   return st;
 }
 
@@ -168,45 +155,35 @@ dyd_status dyd_interval_intersect(dyd_interval *out, const dyd_interval *a, cons
   const bool a_is_lower = interval_cmp_ends(&a->lo, a, &b->lo, b) < 0;
   const dyd_interval *low = a_is_lower ? a : b, *high = a_is_lower ? b : a;
   if (!mpz_cmp_ui(a->den, 1) && !mpz_cmp_ui(b->den, 1)) return dyd_interval_set_ends(out, &high->lo, &low->hi);
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   interval_end_get_q(lo, &high->lo, high);
   interval_end_get_q(hi, &low->hi, low);
-  dyd_status st = dyd_interval_set_ends_q(out, lo, hi);
-  mpq_clears(lo, hi, NULL);
-  return st;
+  return dyd_interval_set_ends_q(out, lo, hi);
 }
 
 void dyd_interval_set_over(dyd_interval *out, const dyd_dyadic *x, const mpz_t den) {
-  mpz_t g;
-  mpz_init(g);
+  DYD_LOCAL_NUMBERS(mpz, g);
   mpz_gcd(g, x->man, den);
   dyd_dyadic_set(&out->lo, x);
   mpz_divexact(out->den, den, g);
   mpz_divexact(out->lo.man, out->lo.man, g);
   dyd_dyadic_set(&out->hi, &out->lo);
-  mpz_clear(g);
 }
 
 dyd_status dyd_interval_halve(dyd_interval *a) {
-  dyd_dyadic x;
-  dyd_dyadic_init(&x);
+  DYD_LOCAL(dyd_dyadic, x);
   dyd_status st = dyd_dyadic_add(&x, &a->lo, &a->hi);
   if (st == DYD_OK) st = dyd_dyadic_mul_2exp(&x, &x, -1);
   if (st == DYD_OK) dyd_interval_set_over(a, &x, a->den);
-  dyd_dyadic_clear(&x);
   return st;
 }
 
 dyd_status dyd_interval_round(dyd_interval *out, const dyd_interval *a) {
   if (!mpz_cmp_ui(a->den, 1)) return dyd_interval_set(out, a), DYD_OK;
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   dyd_interval_get_q(lo, hi, a);
-  dyd_status st = dyd_interval_is_point(a) ? dyd_interval_set_q(out, lo)
-                                           : dyd_interval_set_outward(out, lo, hi, -dyd_interval_bits(a) - 66);
-  mpq_clears(lo, hi, NULL);
-  return st;
+  return dyd_interval_is_point(a) ? dyd_interval_set_q(out, lo)
+                                  : dyd_interval_set_outward(out, lo, hi, -dyd_interval_bits(a) - 66);
 }
 
 void dyd_interval_get_q(mpq_t lo, mpq_t hi, const dyd_interval *a) {
@@ -217,15 +194,13 @@ void dyd_interval_get_q(mpq_t lo, mpq_t hi, const dyd_interval *a) {
 /* A width m 2^e / d, m and d of the sizes 2^(a-1) to 2^a and 2^(b-1) to 2^b, is above 2^(e+a-b-1) and below
  * 2^(e+a-b+1): it is at most 2^(e+a-b) if m <= d 2^(a-b). */
 int64_t dyd_interval_bits(const dyd_interval *a) {
-  mpz_t width;
   int64_t exp, bits = INT64_MAX;
-  mpz_init(width);
+  DYD_LOCAL_NUMBERS(mpz, width);
   dyd_raw_add(width, &exp, &a->hi, &a->lo, -1);
   if (mpz_sgn(width)) {
     dyd_dyadic m = {.man = {width[0]}}, d = {.man = {a->den[0]}, .exp = dyd_bits(width) - dyd_bits(a->den)};
     bits = -(exp + d.exp + (dyd_dyadic_cmp(&m, &d) > 0));
   }
-  mpz_clear(width);
   return bits;
 }
 
@@ -247,8 +222,7 @@ bool dyd_interval_get_exact_d(double *lo, double *hi, const dyd_interval *a) {
 
 /* *out += d^2 for d = max(p - q, r - s, 0). */
 static void add_apart2(mpq_ptr out, mpq_srcptr p, mpq_srcptr q, mpq_srcptr r, mpq_srcptr s) {
-  mpq_t d[2];
-  mpq_inits(d[0], d[1], NULL);
+  DYD_LOCAL_ARRAY(mpq_t, d, [2]);
   mpq_sub(d[0], p, q);
   mpq_sub(d[1], r, s);
   mpq_ptr more = mpq_cmp(d[0], d[1]) > 0 ? d[0] : d[1];
@@ -256,22 +230,18 @@ static void add_apart2(mpq_ptr out, mpq_srcptr p, mpq_srcptr q, mpq_srcptr r, mp
     mpq_mul(more, more, more);
     mpq_add(out, out, more);
   }
-  mpq_clears(d[0], d[1], NULL);
 }
 
 static double root_of(const mpq_t square, mpfr_rnd_t round) {
-  mpfr_t root;
-  mpfr_init2(root, 128);
+  DYD_LOCAL_FLOATS(128, root);
   mpfr_set_q(root, square, round);
   mpfr_sqrt(root, root, round);
-  double d = mpfr_get_d(root, round);
-  mpfr_clear(root);
-  return d;
+  return mpfr_get_d(root, round);
 }
 
 void dyd_rect_distance(double *lo, double *hi, const dyd_rect *a, const dyd_rect *b) {
-  mpq_t e[2][2], least, largest;
-  mpq_inits(e[0][0], e[0][1], e[1][0], e[1][1], least, largest, NULL);
+  DYD_LOCAL_NUMBERS(mpq, least, largest);
+  DYD_LOCAL_ARRAY(mpq_t, e, [2][2]);
   for (int axis = 0; axis < 2; axis++) {
     dyd_interval_get_q(e[0][0], e[0][1], axis ? &a->y : &a->x);
     dyd_interval_get_q(e[1][0], e[1][1], axis ? &b->y : &b->x);
@@ -280,7 +250,6 @@ void dyd_rect_distance(double *lo, double *hi, const dyd_rect *a, const dyd_rect
   }
   *lo = root_of(least, MPFR_RNDD);
   *hi = root_of(largest, MPFR_RNDU);
-  mpq_clears(e[0][0], e[0][1], e[1][0], e[1][1], least, largest, NULL);
 }
 
 void dyd_rect_init(dyd_rect *r) {
@@ -304,22 +273,18 @@ void dyd_rect_swap(dyd_rect *a, dyd_rect *b) {
 }
 
 dyd_status dyd_rect_set_d(dyd_rect *out, double x0, double x1, double y0, double y1) {
-  dyd_rect t;
-  dyd_rect_init(&t);
+  DYD_LOCAL(dyd_rect, t);
   dyd_status st = dyd_interval_set_d(&t.x, x0, x1);
   if (st == DYD_OK) st = dyd_interval_set_d(&t.y, y0, y1);
   if (st == DYD_OK) dyd_rect_swap(out, &t);
-  dyd_rect_clear(&t);
   return st;
 }
 
 dyd_status dyd_rect_set_q(dyd_rect *out, const mpq_t x, const mpq_t y) {
-  dyd_rect t;
-  dyd_rect_init(&t);
+  DYD_LOCAL(dyd_rect, t);
   dyd_status st = dyd_interval_set_q(&t.x, x);
   if (st == DYD_OK) st = dyd_interval_set_q(&t.y, y);
   if (st == DYD_OK) dyd_rect_swap(out, &t);
-  dyd_rect_clear(&t);
   return st;
 }
 
@@ -385,16 +350,12 @@ static void unscale_square(mpq_t q, mpz_srcptr man, int64_t exp) {
 typedef void distance_function(mpz_ptr, mpz_srcptr, mpz_srcptr, const dyd_irect *);
 
 static void rect_distance2(mpq_t out, const dyd_point *c, const dyd_rect *r, distance_function *distance) {
-  dyd_irect scaled;
-  mpz_t cx, cy, man;
   int64_t exp;
-  dyd_irect_init(&scaled);
-  mpz_inits(cx, cy, man, NULL);
+  DYD_LOCAL(dyd_irect, scaled);
+  DYD_LOCAL_NUMBERS(mpz, cx, cy, man);
   dyd_irects_scale_with(cx, cy, &scaled, c, &r, 1, man, &exp);
   distance(mpq_numref(out), cx, cy, &scaled);
   unscale_square(out, man, exp);
-  mpz_clears(cx, cy, man, NULL);
-  dyd_irect_clear(&scaled);
 }
 
 void dyd_rect_ds2(mpq_t out, const dyd_point *c, const dyd_rect *r) {
@@ -407,26 +368,17 @@ void dyd_rect_dl2(mpq_t out, const dyd_point *c, const dyd_rect *r) {
 
 void dyd_partial_edge_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b) {
   const dyd_rect *in[2] = {a, b};
-  dyd_irect scaled[2];
-  mpz_t man;
   int64_t exp;
-  dyd_irect_init(&scaled[0]);
-  dyd_irect_init(&scaled[1]);
-  mpz_init(man);
+  DYD_LOCAL_ARRAY(dyd_irect, scaled, [2]);
+  DYD_LOCAL_NUMBERS(mpz, man);
   dyd_irects_scale(scaled, in, 2, man, &exp);
   dyd_irect_partial_edge_area2(mpq_numref(out), &scaled[0], &scaled[1]);
   unscale_square(out, man, exp);
-  mpz_clear(man);
-  dyd_irect_clear(&scaled[1]);
-  dyd_irect_clear(&scaled[0]);
 }
 
 bool dyd_partial_edges_disjoint(const dyd_rect *a, const dyd_rect *b, const dyd_rect *c, const dyd_rect *d) {
   const dyd_rect *in[4] = {a, b, c, d};
-  dyd_irect scaled[4];
-  for (int k = 0; k < 4; k++) dyd_irect_init(&scaled[k]);
+  DYD_LOCAL_ARRAY(dyd_irect, scaled, [4]);
   dyd_irects_scale(scaled, in, 4, NULL, NULL);
-  bool disjoint = dyd_irect_partial_edges_disjoint(&scaled[0], &scaled[1], &scaled[2], &scaled[3]);
-  for (int k = 4; k-- > 0;) dyd_irect_clear(&scaled[k]);
-  return disjoint;
+  return dyd_irect_partial_edges_disjoint(&scaled[0], &scaled[1], &scaled[2], &scaled[3]);
 }

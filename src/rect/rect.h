@@ -3,7 +3,11 @@
 #ifndef DYD_RECT_RECT_H
 #define DYD_RECT_RECT_H
 
+#include "base/local.h"
 #include <dyadel/rect.h>
+
+DYD_ARRAYS(dyd_rect)
+DYD_ARRAYS(dyd_dyadic)
 
 bool dyd_interval_is_valid(const dyd_interval *a);
 /* Returns true if the point is in the closed rectangle, whose ends are dyadic. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The table of sites: outward doubles in arrays, with packed exact rectangles where needed. */
 #include "base/alloc.h"
+#include "base/local.h"
 #include "rect/columns_filter.h"
 #include "rect/rect.h"
 #include "rect/sites_table.h"
@@ -233,15 +234,12 @@ static dyd_status joined_make_room(dyd_sites *s) {
 
 /* *common = what sites i and j have in common. */
 static dyd_status joined_rect(dyd_rect *common, const dyd_sites *s, size_t i, size_t j) {
-  dyd_rect other;
-  dyd_rect_init(&other);
+  DYD_LOCAL(dyd_rect, other);
   dyd_status st = dyd_sites_get(common, s, i);
   if (st == DYD_OK) st = dyd_sites_get(&other, s, j);
   if (st == DYD_OK && !dyd_rect_meets(common, &other)) st = DYD_E_NESTING;
   if (st == DYD_OK) st = dyd_interval_intersect(&common->x, &common->x, &other.x);
-  if (st == DYD_OK) st = dyd_interval_intersect(&common->y, &common->y, &other.y);
-  dyd_rect_clear(&other);
-  return st;
+  return st == DYD_OK ? dyd_interval_intersect(&common->y, &common->y, &other.y) : st;
 }
 
 /* Of the two and all that are joined with them. */
@@ -261,12 +259,10 @@ dyd_status dyd_sites_join(dyd_sites *s, size_t i, size_t j) {
   if (st != DYD_OK) return st;
   uint32_t low = s->joined[i < j ? i : j], high = s->joined[i < j ? j : i];
   if (low == high) return DYD_OK;
-  dyd_rect common;
-  dyd_rect_init(&common);
+  DYD_LOCAL(dyd_rect, common);
   st = joined_rect(&common, s, low, high);
   if (st == DYD_OK) st = low < high ? joined_narrow(s, low, high, &common) : joined_narrow(s, high, low, &common);
   if (st == DYD_OK) s->joins++;
-  dyd_rect_clear(&common);
   return st;
 }
 
@@ -474,21 +470,14 @@ static const mp_limb_t *unpack_interval(dyd_interval *out, const mp_limb_t *from
 /* ---- single sites ---- */
 
 static dyd_status sites_get_plane(dyd_rect *out) {
-  mpz_t man;
-  dyd_dyadic lo, hi;
-  mpz_init(man);
-  dyd_dyadic_init(&lo);
-  dyd_dyadic_init(&hi);
+  DYD_LOCAL_NUMBERS(mpz, man);
+  DYD_LOCAL(dyd_dyadic, lo, hi);
   mpz_ui_pow_ui(man, 2, 64);
   mpz_sub_ui(man, man, 1);
   dyd_status st = dyd_dyadic_set_z_2exp(&hi, man, DYD_EXP_LIMIT - 64);
   dyd_dyadic_neg(&lo, &hi);
   if (st == DYD_OK) st = dyd_interval_set_ends(&out->x, &lo, &hi);
-  if (st == DYD_OK) st = dyd_interval_set_ends(&out->y, &lo, &hi);
-  dyd_dyadic_clear(&hi);
-  dyd_dyadic_clear(&lo);
-  mpz_clear(man);
-  return st;
+  return st == DYD_OK ? dyd_interval_set_ends(&out->y, &lo, &hi) : st;
 }
 
 dyd_status dyd_sites_get(dyd_rect *out, const dyd_sites *s, size_t i) {
@@ -570,15 +559,13 @@ static void kind_narrow(dyd_sites *s, size_t i) {
 dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {
   if (!s) return DYD_E_ARG;
   if (i >= s->count) return DYD_E_ARG;
-  dyd_rect now;
-  dyd_rect_init(&now);
+  DYD_LOCAL(dyd_rect, now);
   dyd_status st = dyd_sites_get(&now, s, i);
   if (st == DYD_OK && !dyd_rect_contains(&now, r)) st = DYD_E_NESTING;
   if (st == DYD_OK && (!dyd_sites_in_words(s, i) || is_word_box(s, i))) {
     st = sites_put(s, i, r, s->exact ? s->exact[i] : NULL);
     kind_narrow(s, i);
   }
-  dyd_rect_clear(&now);
   return st;
 }
 
@@ -589,12 +576,9 @@ dyd_status dyd_sites_replace(dyd_sites *s, size_t i, const dyd_rect *r) {
 
 /* Narrows site i to a rectangle of doubles by way of exact ones. */
 static dyd_status sites_narrow_exact(dyd_sites *s, size_t i, const double box[4]) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_rect_set_d(&r, box[0], box[1], box[2], box[3]);
-  if (st == DYD_OK) st = dyd_sites_narrow(s, i, &r);
-  dyd_rect_clear(&r);
-  return st;
+  return st == DYD_OK ? dyd_sites_narrow(s, i, &r) : st;
 }
 
 dyd_status dyd_sites_narrow_d(dyd_sites *s, size_t i, const double box[4]) {

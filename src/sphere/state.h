@@ -38,6 +38,7 @@ typedef struct dyd_spot_d {
 void dyd_spot_get_d(dyd_spot_d *out, const dyd_spot *s);
 void dyd_spot_init(dyd_spot *s);
 void dyd_spot_clear(dyd_spot *s);
+DYD_ARRAYS(dyd_spot)
 /* Sets s to the rectangle r of degrees, widened by `more` on each side, with no angle; longitudes are taken modulo 360.
  * Where its latitudes reach beyond a pole, or are the pole, all longitudes are equivalent: beyond, the spot is
  * all of the cap; a pole itself has longitude 0. Returns false if no latitude of r is within 90. */

@@ -4,7 +4,7 @@
 #ifndef DYD_STREAM_ARB_H
 #define DYD_STREAM_ARB_H
 
-#include <gmp.h>
+#include "base/local.h"
 #ifdef DYD_ARB_IN_FLINT
 #include <flint/arb.h>
 #include <flint/arb_fmpz_poly.h>
@@ -12,5 +12,13 @@
 #include <arb.h>
 #include <arb_fmpz_poly.h>
 #endif
+
+DYD_NUMBER(arb)
+DYD_RUNS(arb_struct, arb_init, arb_clear, &)
+DYD_NUMBER(arf)
+DYD_NUMBER(mag)
+DYD_NUMBER(fmpz)
+DYD_NUMBER(fmpq)
+DYD_NUMBER(fmpz_poly)
 
 #endif

@@ -6,6 +6,8 @@
 #include "rect/irect.h"
 #include <dyadel/arc.h>
 
+DYD_ARRAYS(dyd_surd_point)
+
 /* Sign of (coordinate of p) - (that of q); axis 0: x, 1: y. */
 int dyd_surd_point_cmp(const dyd_surd_point *p, const dyd_surd_point *q, int axis);
 /* Sign of (coordinate of p) - z. */
