@@ -6,6 +6,7 @@
  * unknown yet; it is never assumed that the value is inside. */
 #include "stream/ball.h"
 
+#include "base/local.h"
 #include "base/parallel.h"
 
 #include <stdlib.h>
@@ -19,18 +20,14 @@ void dyd_ball_set_z_2exp(arb_ptr out, mpz_srcptr man, slong exp) {
 }
 
 void dyd_ball_set_q(arb_ptr out, mpq_srcptr q, slong prec) {
-  fmpq_t f;
-  fmpq_init(f);
+  DYD_LOCAL_NUMBERS(fmpq, f);
   fmpq_set_mpq(f, q);
   arb_set_fmpq(out, f, prec);
-  fmpq_clear(f);
 }
 
 /* x = [f(l), f(u)] for the ends l <= u of x, cut to the range known. f is monotone there. */
 static void ball_monotone(arb_ptr x, ball_fn f, dyd_range cut, slong prec) {
-  arb_t l, u;
-  arb_init(l);
-  arb_init(u);
+  DYD_LOCAL_NUMBERS(arb, l, u);
   arb_get_lbound_arf(arb_midref(l), x, prec + 32);
   arb_get_ubound_arf(arb_midref(u), x, prec + 32);
   if (cut.lo != -DYD_NO_END && arf_cmp_si(arb_midref(l), cut.lo) < 0) arb_set_si(l, cut.lo);
@@ -43,8 +40,6 @@ static void ball_monotone(arb_ptr x, ball_fn f, dyd_range cut, slong prec) {
   } else {
     arb_union(x, l, u, prec);
   }
-  arb_clear(l);
-  arb_clear(u);
 }
 
 static void ball_cube_root(arb_t out, const arb_t x, slong prec) {
@@ -59,26 +54,22 @@ static void ball_cube_root(arb_t out, const arb_t x, slong prec) {
 
 /* -1: all of x is below the integer lo; 1: all is above hi; 0: neither. */
 static int ball_beside(arb_srcptr x, slong lo, slong hi) {
-  arb_t t;
-  arb_init(t);
+  DYD_LOCAL_NUMBERS(arb, t);
   arb_set_si(t, lo);
   int result = arb_lt(x, t) ? -1 : 0;
   arb_set_si(t, hi);
   if (arb_gt(x, t)) result = 1;
-  arb_clear(t);
   return result;
 }
 
 /* arcsine and arccosine: every end beyond +-1 must be known to be harmless. */
 static dyd_defined ball_arc(arb_ptr x, ball_fn f, dyd_range range, slong prec) {
   if (ball_beside(x, -1, 1)) return DYD_UNDEFINED;
-  arb_t one;
-  arb_init(one);
+  DYD_LOCAL_NUMBERS(arb, one);
   arb_set_si(one, -1);
   bool low = range.lo >= -1 || arb_ge(x, one);
   arb_set_si(one, 1);
   bool high = range.hi <= 1 || arb_le(x, one);
-  arb_clear(one);
   if (!low || !high) return DYD_UNDEFINED_YET;
   ball_monotone(x, f, (dyd_range){-1, 1}, prec);
   return DYD_DEFINED;
@@ -102,12 +93,9 @@ static dyd_defined ball_logarithm(arb_ptr x, slong prec) {
 static int against_exponent_limit(arb_srcptr x) {
   int side = ball_beside(x, -(slong)DYD_EXP_LIMIT, (slong)DYD_EXP_LIMIT);
   if (side) return side;
-  mag_t m;
-  mag_init(m);
+  DYD_LOCAL_NUMBERS(mag, m);
   arb_get_mag(m, x);
-  int result = mag_cmp_2exp_si(m, 21) <= 0 ? 0 : 2;
-  mag_clear(m);
-  return result;
+  return mag_cmp_2exp_si(m, 21) <= 0 ? 0 : 2;
 }
 
 /* x = a ball about 0 that holds all values below 2^-DYD_BALL_LIMIT in magnitude. */
@@ -147,21 +135,16 @@ static void ball_absolute(arb_ptr x, slong prec) {
     arb_abs(x, x);
     return;
   }
-  arf_t zero, most;
-  arf_init(zero);
-  arf_init(most);
+  DYD_LOCAL_NUMBERS(arf, zero, most);
   arb_get_abs_ubound_arf(most, x, prec);
   arb_set_interval_arf(x, zero, most, prec);
-  arf_clear(zero);
-  arf_clear(most);
 }
 
 static dyd_defined ball_power(arb_ptr x, long n, slong prec) {
   if (n < 0 && arb_contains_zero(x)) return arb_is_zero(x) ? DYD_UNDEFINED : DYD_UNDEFINED_YET;
-  fmpz_t k;
-  fmpz_init_set_si(k, n);
+  DYD_LOCAL_NUMBERS(fmpz, k);
+  fmpz_set_si(k, n);
   arb_pow_fmpz(x, x, k, prec);
-  fmpz_clear(k);
   return DYD_DEFINED;
 }
 
@@ -215,18 +198,14 @@ static dyd_defined ball_binary(arb_ptr x, dyd_op op, arb_srcptr y, slong prec) {
 }
 
 bool dyd_ball_exceeds(arb_srcptr x, slong e) {
-  mag_t m;
-  mag_init(m);
+  DYD_LOCAL_NUMBERS(mag, m);
   arb_get_mag_lower(m, x);
-  bool result = mag_cmp_2exp_si(m, e) > 0;
-  mag_clear(m);
-  return result;
+  return mag_cmp_2exp_si(m, e) > 0;
 }
 
 dyd_defined dyd_ball_check(arb_ptr x, slong *exponent) {
   if (!arb_is_finite(x)) return DYD_UNDEFINED_YET;
-  mag_t m;
-  mag_init(m);
+  DYD_LOCAL_NUMBERS(mag, m);
   arb_get_mag(m, x);
   dyd_defined d = DYD_DEFINED;
   if (mag_cmp_2exp_si(m, DYD_BALL_LIMIT) > 0) {
@@ -237,7 +216,6 @@ dyd_defined dyd_ball_check(arb_ptr x, slong *exponent) {
     slong e = fmpz_get_si(MAG_EXPREF(m));
     if (e > *exponent) *exponent = e;
   }
-  mag_clear(m);
   return d;
 }
 
@@ -322,41 +300,26 @@ slong dyd_ball_radius_exponent(arb_srcptr x) {
 
 /* out = x rounded to the grid. */
 static dyd_status ball_grid_end(dyd_dyadic *out, arf_t x, int64_t exp, dyd_round dir) {
-  fmpz_t f;
-  mpz_t z;
-  fmpz_init(f);
-  mpz_init(z);
+  DYD_LOCAL_NUMBERS(fmpz, f);
+  DYD_LOCAL_NUMBERS(mpz, z);
   arf_mul_2exp_si(x, x, (slong)-exp);
   arf_get_fmpz(f, x, dir == DYD_DOWN ? ARF_RND_FLOOR : ARF_RND_CEIL);
   fmpz_get_mpz(z, f);
-  dyd_status st = dyd_dyadic_set_z_2exp(out, z, exp);
-  mpz_clear(z);
-  fmpz_clear(f);
-  return st;
+  return dyd_dyadic_set_z_2exp(out, z, exp);
 }
 
 /* The point itself when the ball is exact and within range. */
 static dyd_status ball_exact_point(dyd_dyadic *out, arb_srcptr x) {
-  fmpz_t man, exp;
-  mpz_t z;
-  fmpz_init(man);
-  fmpz_init(exp);
-  mpz_init(z);
+  DYD_LOCAL_NUMBERS(fmpz, man, exp);
+  DYD_LOCAL_NUMBERS(mpz, z);
   arf_get_fmpz_2exp(man, exp, arb_midref(x));
   fmpz_get_mpz(z, man);
-  dyd_status st = fmpz_fits_si(exp) ? dyd_dyadic_set_z_2exp(out, z, (int64_t)fmpz_get_si(exp)) : DYD_E_RANGE;
-  mpz_clear(z);
-  fmpz_clear(exp);
-  fmpz_clear(man);
-  return st;
+  return fmpz_fits_si(exp) ? dyd_dyadic_set_z_2exp(out, z, (int64_t)fmpz_get_si(exp)) : DYD_E_RANGE;
 }
 
 dyd_status dyd_ball_interval(dyd_interval *out, arb_srcptr x, int64_t exp) {
-  dyd_dyadic lo, hi;
-  arf_t end;
-  dyd_dyadic_init(&lo);
-  dyd_dyadic_init(&hi);
-  arf_init(end);
+  DYD_LOCAL(dyd_dyadic, lo, hi);
+  DYD_LOCAL_NUMBERS(arf, end);
   dyd_status st = DYD_E_RANGE;
   if (arb_is_exact(x)) st = ball_exact_point(&lo, x);
   if (st == DYD_OK) {
@@ -367,9 +330,5 @@ dyd_status dyd_ball_interval(dyd_interval *out, arb_srcptr x, int64_t exp) {
     arb_get_ubound_arf(end, x, ARF_PREC_EXACT);
     if (st == DYD_OK) st = ball_grid_end(&hi, end, exp, DYD_UP);
   }
-  if (st == DYD_OK) st = dyd_interval_set_ends(out, &lo, &hi);
-  arf_clear(end);
-  dyd_dyadic_clear(&hi);
-  dyd_dyadic_clear(&lo);
-  return st;
+  return st == DYD_OK ? dyd_interval_set_ends(out, &lo, &hi) : st;
 }

@@ -5,6 +5,7 @@
  * identifies this form: marks may be replaced by blanks or colons, so that "47 36 18.3" alone is not read. */
 #include "stream/degrees.h"
 
+#include "base/local.h"
 #include "stream/number.h"
 
 #include <string.h>
@@ -106,12 +107,11 @@ static size_t degrees_decimals(const degrees *d, size_t k) {
 static dyd_status degrees_add(mpq_t sum, mpq_t half, const degrees *d, size_t k, dyd_error *err) {
   static const unsigned long in_degree[PARTS] = {1, 60, 3600};
   static const char *const name[PARTS] = {"degrees", "minutes", "seconds"};
-  mpq_t part;
   const size_t at = d->first[k], unit = d->unit[k], decimals = degrees_decimals(d, k);
   if (k + 1 < d->count && memchr(d->text + at, '.', d->length[k]))
     return dyd_text_fail(err, DYD_E_PARSE, d->text, at, "only the last number may have decimals: write whole %s",
                          name[unit]);
-  mpq_init(part);
+  DYD_LOCAL_NUMBERS(mpq, part);
   dyd_status st = dyd_parse_number(part, d->text + at, d->length[k], NULL);
   if (st == DYD_OK && unit && mpq_cmp_ui(part, 60, 1) >= 0)
     st = dyd_text_fail(err, DYD_E_PARSE, d->text, at, "%s are below 60", name[unit]);
@@ -120,7 +120,6 @@ static dyd_status degrees_add(mpq_t sum, mpq_t half, const degrees *d, size_t k,
   mpz_mul_ui(mpq_denref(part), mpq_denref(part), in_degree[unit]);
   mpq_canonicalize(part);
   mpq_add(sum, sum, part);
-  mpq_clear(part);
   mpz_ui_pow_ui(mpq_denref(half), 10, decimals);
   mpz_mul_ui(mpq_denref(half), mpq_denref(half), 2 * in_degree[unit]);
   mpz_set_ui(mpq_numref(half), 1);
@@ -140,8 +139,7 @@ dyd_status dyd_degrees_read(mpq_t lo, mpq_t hi, char *letter, const char *text, 
                             dyd_error *err) {
   degrees d = {.text = text, .at = text, .end = text + length};
   if (!degrees_scan(&d)) return DYD_E_ARG;
-  mpq_t half;
-  mpq_init(half);
+  DYD_LOCAL_NUMBERS(mpq, half);
   mpq_set_ui(lo, 0, 1);
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < d.count && st == DYD_OK; k++) st = degrees_add(lo, half, &d, k, err);
@@ -151,6 +149,5 @@ dyd_status dyd_degrees_read(mpq_t lo, mpq_t hi, char *letter, const char *text, 
   if (measured) mpq_sub(lo, lo, half);
   if (measured) mpq_add(hi, hi, half);
   *letter = d.letter;
-  mpq_clear(half);
   return st;
 }

@@ -2,6 +2,7 @@
 /* Reals for experiments: a random one, and one that is known slowly. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "base/random.h"
 #include "stream/real.h"
 
@@ -11,24 +12,17 @@
 static dyd_status random_narrow(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
   const uint64_t seed = *(const uint64_t *)user;
   const size_t bits = request->bits > 0 ? (size_t)request->bits : 0, words = bits / 64 + 1;
-  uint64_t *digits = dyd_alloc(words, sizeof *digits);
+  DYD_FREED uint64_t *digits = dyd_alloc(words, sizeof *digits);
   if (!digits) return dyd_fail_nomem(err);
   for (size_t k = 0; k < words; k++) digits[k] = dyd_random(seed, k + 1);
-  mpz_t first;
-  dyd_dyadic lo, hi;
-  mpz_init(first);
-  dyd_dyadic_init(&lo);
-  dyd_dyadic_init(&hi);
+  DYD_LOCAL_NUMBERS(mpz, first);
+  DYD_LOCAL(dyd_dyadic, lo, hi);
   mpz_import(first, words, 1, sizeof *digits, 0, 0, digits);
   mpz_tdiv_q_2exp(first, first, 64 * words - bits);
   dyd_status st = dyd_dyadic_set_z_2exp(&lo, first, -(int64_t)bits);
   mpz_add_ui(first, first, 1);
   if (st == DYD_OK) st = dyd_dyadic_set_z_2exp(&hi, first, -(int64_t)bits);
   if (st == DYD_OK) st = dyd_interval_set_ends(out, &lo, &hi);
-  dyd_dyadic_clear(&hi);
-  dyd_dyadic_clear(&lo);
-  mpz_clear(first);
-  free(digits);
   return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
 }
 
@@ -59,8 +53,7 @@ static dyd_status slow_narrow(dyd_interval *out, void *user, const dyd_request *
   while (log2 < 63 && (uint64_t)1 << log2 < n) log2++;
   dyd_status st = dyd_real_narrow_until(s->x, log2 + 2, request->max_bits, request->stop, err);
   if (dyd_narrow_ended(st)) return st;
-  mpq_t lo, hi, r;
-  mpq_inits(lo, hi, r, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi, r);
   dyd_interval_get_q(lo, hi, dyd_real_interval(s->x));
   mpz_setbit(mpq_numref(r), (mp_bitcnt_t)log2 + 7);
   mpz_sub_ui(mpq_numref(r), mpq_numref(r), 1);
@@ -69,7 +62,6 @@ static dyd_status slow_narrow(dyd_interval *out, void *user, const dyd_request *
   mpq_sub(hi, hi, r);
   mpq_add(lo, lo, r);
   st = dyd_interval_set_outward(out, hi, lo, -log2 - 70);
-  mpq_clears(lo, hi, r, NULL);
   if (st != DYD_OK) return dyd_fail(err, st, "a slow value: %s", dyd_status_text(st));
   s->answers = n;
   return DYD_OK;

@@ -11,6 +11,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "stream/number.h"
 
 #include <string.h>
@@ -66,12 +67,9 @@ static dyd_status constant_literal(dyd_constant *c, const dyd_literal *in) {
     c->den = (int64_t)den;
     return DYD_OK;
   }
-  mpq_t q;
-  mpq_init(q);
+  DYD_LOCAL_NUMBERS(mpq, q);
   dyd_status st = dyd_literal_value(q, in);
-  if (st == DYD_OK) st = dyd_constant_set(c, q);
-  mpq_clear(q);
-  return st;
+  return st == DYD_OK ? dyd_constant_set(c, q) : st;
 }
 
 static size_t bits_of_short(int64_t x) {
@@ -328,11 +326,9 @@ static dyd_status fold_power(mpq_ptr x, long n) {
 
 /* x = its square or cube root when numerator and denominator are perfect powers. */
 static bool fold_root(mpq_ptr x, unsigned long k) {
-  mpq_t r;
-  mpq_init(r);
+  DYD_LOCAL_NUMBERS(mpq, r);
   bool done = mpz_root(mpq_numref(r), mpq_numref(x), k) && mpz_root(mpq_denref(r), mpq_denref(x), k);
   if (done) mpq_swap(x, r);
-  mpq_clear(r);
   return done;
 }
 
@@ -391,13 +387,11 @@ static dyd_status fold_binary(mpq_ptr x, dyd_op op, mpq_srcptr y) {
 /* x = op of a copy of x, where that is rational. */
 static dyd_status with_rational(dyd_constant *x, bool *done, dyd_op op, long exponent, const dyd_constant *y) {
   dyd_constant_view view;
-  mpq_t q;
-  mpq_init(q);
+  DYD_LOCAL_NUMBERS(mpq, q);
   mpq_set(q, dyd_constant_get(&view, x));
   *done = true;
   dyd_status st = y ? fold_binary(q, op, dyd_constant_get(&view, y)) : fold_unary(q, done, op, exponent);
   if (st == DYD_OK && *done) st = dyd_constant_set(x, q);
-  mpq_clear(q);
   return st;
 }
 
@@ -646,16 +640,14 @@ static dyd_status name_fail(parser *p, size_t at, size_t n) {
 
 /* A root that is rational becomes a constant. */
 static dyd_status push_known_root(parser *p, const dyd_real *x, size_t at) {
-  mpq_t lo, hi;
   dyd_status st = push_node(p, DYD_OP_CONST, at);
   if (st != DYD_OK) return st;
   if (!dyd_draft_reserve_constant(p->d)) return dyd_fail_nomem(p->err);
   last_node(p)->argument = (int32_t)p->e->constants;
   p->e->constant[p->e->constants++] = (dyd_constant){.den = 1};
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   dyd_interval_get_q(lo, hi, dyd_real_interval(x));
   st = dyd_constant_set(last_constant(p), lo);
-  mpq_clears(lo, hi, NULL);
   return st == DYD_OK ? charge_constant(p, at) : fold_fail(p, st, DYD_OP_ROOT, at);
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 
 #include <limits.h>
 #include <stdarg.h>
@@ -218,7 +219,7 @@ static dyd_status all_digits(mpz_t out, const dyd_literal *in) {
   size_t first = in->first, count = 0;
   while (first < in->mantissa_end && (in->text[first] == '0' || in->text[first] == '.')) first++;
   if (in->mantissa_end - first > MAX_DIGITS) return DYD_E_RANGE;
-  char *buffer = dyd_alloc(in->mantissa_end - first + 2, 1);
+  DYD_FREED char *buffer = dyd_alloc(in->mantissa_end - first + 2, 1);
   if (!buffer) return DYD_E_NOMEM;
   for (size_t i = first; i < in->mantissa_end; i++) {
     if (in->text[i] != '.') buffer[count++] = in->text[i];
@@ -226,7 +227,6 @@ static dyd_status all_digits(mpz_t out, const dyd_literal *in) {
   if (!count) buffer[count++] = '0';
   buffer[count] = 0;
   mpz_set_str(out, buffer, in->hex ? 16 : 10);
-  free(buffer);
   return DYD_OK;
 }
 
@@ -246,15 +246,13 @@ static dyd_status scale_two(mpq_ptr x, int64_t two) {
 static dyd_status scale_ten(mpq_ptr x, int64_t ten) {
   if (!mpq_sgn(x)) return DYD_OK;
   if (ten > (int64_t)MAX_DIGITS || ten < -(int64_t)MAX_DIGITS) return DYD_E_RANGE;
-  mpq_t power;
-  mpq_init(power);
+  DYD_LOCAL_NUMBERS(mpq, power);
   mpz_ui_pow_ui(mpq_numref(power), 10, (unsigned long)(ten < 0 ? -ten : ten));
   if (ten < 0) {
     mpq_div(x, x, power);
   } else {
     mpq_mul(x, x, power);
   }
-  mpq_clear(power);
   return dyd_rational_fits(x);
 }
 
@@ -272,14 +270,12 @@ static dyd_status form_value(mpq_ptr out, size_t *at, const dyd_number_form *f) 
   dyd_status st = dyd_literal_value(out, &f->literal);
   if (st == DYD_OK && f->dyadic) st = scale_two(out, f->two);
   if (st == DYD_OK && f->rational) {
-    mpq_t q;
-    mpq_init(q);
+    DYD_LOCAL_NUMBERS(mpq, q);
     *at = f->denominator.first;
     st = dyd_literal_value(q, &f->denominator);
     if (st == DYD_OK && !mpq_sgn(q)) st = DYD_E_DOMAIN;
     if (st == DYD_OK) mpq_div(out, out, q);
     if (st == DYD_OK) st = dyd_rational_fits(out);
-    mpq_clear(q);
   }
   if (f->negative) mpq_neg(out, out);
   return st;
@@ -308,19 +304,16 @@ dyd_status dyd_parse_number(mpq_t out, const char *text, size_t length, dyd_erro
     if (f.negative) mpq_neg(out, out);
     return DYD_OK;
   }
-  mpq_t value;
   size_t at = 0;
-  mpq_init(value);
+  DYD_LOCAL_NUMBERS(mpq, value);
   st = form_value(value, &at, &f);
   if (st == DYD_OK) mpq_swap(out, value);
-  mpq_clear(value);
   return st != DYD_OK ? number_value_fail(err, st, text, at) : DYD_OK;
 }
 
 /* lo = x - h, hi = x + h with h = 10^unit / 2. */
 static dyd_status half_unit_around(mpq_ptr lo, mpq_ptr hi, mpq_srcptr x, int64_t unit) {
-  mpq_t h;
-  mpq_init(h);
+  DYD_LOCAL_NUMBERS(mpq, h);
   mpq_set_ui(h, 1, 2);
   dyd_status st = scale_ten(h, unit);
   if (st == DYD_OK) {
@@ -329,7 +322,6 @@ static dyd_status half_unit_around(mpq_ptr lo, mpq_ptr hi, mpq_srcptr x, int64_t
     st = dyd_rational_fits(lo);
     if (st == DYD_OK) st = dyd_rational_fits(hi);
   }
-  mpq_clear(h);
   return st;
 }
 
@@ -354,9 +346,8 @@ dyd_status dyd_parse_measured(mpq_t lo, mpq_t hi, const char *text, size_t lengt
   dyd_status st = scan_or_fail(&f, text, length, err);
   if (st != DYD_OK) return st;
   bool decimal = !f.rational && !f.dyadic && !f.literal.hex;
-  mpq_t value[3];
   size_t at = f.literal.first;
-  for (int i = 0; i < 3; i++) mpq_init(value[i]);
+  DYD_LOCAL_ARRAY(mpq_t, value, [3]);
   if (!decimal || !small_measured(value[0], value[1], &f)) {
     st = form_value(value[2], &at, &f);
     if (st == DYD_OK && decimal) {
@@ -370,6 +361,5 @@ dyd_status dyd_parse_measured(mpq_t lo, mpq_t hi, const char *text, size_t lengt
     mpq_swap(lo, value[0]);
     mpq_swap(hi, value[1]);
   }
-  for (int i = 0; i < 3; i++) mpq_clear(value[i]);
   return st != DYD_OK ? number_value_fail(err, st, text, at) : DYD_OK;
 }

@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/flag.h"
+#include "base/local.h"
 #include "rect/rect.h"
 #include "stream/number.h"
 #include "stream/oracle_answer.h"
@@ -78,11 +79,9 @@ static bool read_answer_count(size_t *out, const char *line, word w) {
 
 static dyd_status read_cost(double *out, const char *line, word w, size_t point, dyd_error *err) {
   char shown[80];
-  mpq_t own;
-  mpq_init(own);
+  DYD_LOCAL_NUMBERS(mpq, own);
   dyd_status st = dyd_parse_number(own, line + w.begin, w.end - w.begin, NULL);
   *out = st == DYD_OK ? mpq_get_d(own) : 0;
-  mpq_clear(own);
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (*out > 0 && isfinite(*out)) return DYD_OK;
   return dyd_fail(err, DYD_E_STREAM,
@@ -147,15 +146,13 @@ static dyd_status read_answer_end(mpq_t out, const char *line, word w, dyd_error
 /* *side is the known side on entry (if known) and the new side on return. */
 static dyd_status set_answer_side(dyd_interval *side, bool known, const char *name, const mpq_t lo, const mpq_t hi,
                                   dyd_error *err) {
-  dyd_interval next;
-  dyd_interval_init(&next);
+  DYD_LOCAL(dyd_interval, next);
   dyd_status st = dyd_interval_set_ends_q(&next, lo, hi);
   if (st != DYD_OK)
     dyd_fail(err, st, "the %s of its answer: %s", name, dyd_status_text(st));
   else if (known && !dyd_interval_contains(side, &next))
     st = dyd_nesting_fail(err, name, side, &next);
   if (st == DYD_OK) dyd_interval_swap(side, &next);
-  dyd_interval_clear(&next);
   return st;
 }
 
@@ -173,28 +170,23 @@ static bool answer_is_first(const dyd_rect *r) {
 
 /* *r is the known rectangle on entry (if known), on return that of the four ends, which must be in order. */
 static dyd_status take_answer_ends(dyd_rect *r, bool known, const mpq_t end[4], dyd_error *err) {
-  dyd_rect next;
   for (int k = 0; k < 4; k += 2) {
     if (mpq_cmp(end[k], end[k + 1]) <= 0) continue;
     return dyd_fail(err, DYD_E_STREAM,
                     "the lower end of the %c side in its answer is above the upper end; exchange them", k ? 'y' : 'x');
   }
-  dyd_rect_init(&next);
+  DYD_LOCAL(dyd_rect, next);
   if (known) dyd_rect_set(&next, r);
   dyd_status st = set_answer_side(&next.x, known, "x side", end[0], end[1], err);
   if (st == DYD_OK) st = set_answer_side(&next.y, known, "y side", end[2], end[3], err);
   if (st == DYD_OK) dyd_rect_swap(r, &next);
-  dyd_rect_clear(&next);
   return st;
 }
 
 static dyd_status read_answer_rect(dyd_rect *r, bool known, const char *line, const word *w, dyd_error *err) {
-  mpq_t end[4];
-  for (int k = 0; k < 4; k++) mpq_init(end[k]);
+  DYD_LOCAL_ARRAY(mpq_t, end, [4]);
   dyd_status st = read_answer_ends(end, line, w, err);
-  if (st == DYD_OK) st = take_answer_ends(r, known, (const mpq_t *)end, err);
-  for (int k = 0; k < 4; k++) mpq_clear(end[k]);
-  return st;
+  return st == DYD_OK ? take_answer_ends(r, known, (const mpq_t *)end, err) : st;
 }
 
 /* The four ends behind `before` words, and whether they are fixed. */
@@ -313,14 +305,13 @@ static dyd_status program_read_count(size_t *count, dyd_oracle *o, unsigned k, c
     return dyd_fail(err, st, "the oracle program was to print \"points N\", with the number of points: %s", w->why);
   }
   if (st != DYD_OK) return st;
-  double *cost = NULL;
+  DYD_FREED double *cost = NULL;
   st = dyd_oracle_read_count(count, &cost, w->asked[w->head].answer, w->asked[w->head].length, err);
   dyd_worker_drop(w);
   if (!o->points && !o->cost) {
     o->cost = cost;
     cost = NULL;
   }
-  free(cost);
   if (st != DYD_OK || !o->points || *count == o->points) return st;
   return dyd_fail(err, DYD_E_STREAM, "oracle program 0 has %zu points, program %u has %zu; all must serve the same",
                   o->points, k, *count);

@@ -11,6 +11,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/invariant.h"
+#include "base/local.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -122,12 +123,10 @@ static char **make_environment(char *job) {
 static int spawn_command(pid_t *pid, const char *command, unsigned number, int in, int out) {
   char job[40];
   snprintf(job, sizeof job, "DYADEL_JOB=%u", number);
-  char **env = make_environment(job);
+  DYD_FREED char **env = make_environment(job);
   if (!env) return ENOMEM;
   char *const argv[] = {shell_word("sh"), shell_word("-c"), shell_word(command), NULL};
-  int why = spawn_child(pid, 0, in, out, argv, env);
-  free(env);
-  return why;
+  return spawn_child(pid, 0, in, out, argv, env);
 }
 
 /* Ends the group when the lifeline does: each that can ends in an orderly way, as programs with processes elsewhere do.

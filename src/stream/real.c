@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/flag.h"
 #include "base/invariant.h"
+#include "base/local.h"
 #include "rect/rect.h"
 
 #include <stdio.h>
@@ -45,8 +46,7 @@ typedef struct nest_ends {
 
 /* Finds the end by which `now` leaves `old` farther. */
 static void nest_find(nest_ends *n, const dyd_interval *old, const dyd_interval *now) {
-  mpq_t a, b, c, d;
-  mpq_inits(a, b, c, d, NULL);
+  DYD_LOCAL_NUMBERS(mpq, a, b, c, d);
   dyd_interval_get_q(a, b, old);
   dyd_interval_get_q(c, d, now);
   mpq_set(n->end[0], a);
@@ -60,7 +60,6 @@ static void nest_find(nest_ends *n, const dyd_interval *old, const dyd_interval 
     mpq_swap(a, c);
   }
   n->e = 1 + (int64_t)mpz_sizeinbase(mpq_numref(a), 2) - (int64_t)mpz_sizeinbase(mpq_denref(a), 2);
-  mpq_clears(a, b, c, d, NULL);
 }
 
 /* Digits that distinguish the ends, three more than their leading bits have in common; at most NEST_DIGITS. */
@@ -85,7 +84,7 @@ static void nest_show(char shown[2][NEST_SHOWN], const nest_ends *n) {
   static char const none[] = "(memory is exhausted)";
   const int digits = nest_digits(n);
   const size_t size = (size_t)digits + 32;
-  char *text = malloc(2 * size);
+  DYD_FREED char *text = malloc(2 * size);
   mpf_t near;
   mpf_init2(near, (mp_bitcnt_t)digits * 4 + 64);
   for (int k = 0; text && k < 2; k++) {
@@ -102,7 +101,6 @@ static void nest_show(char shown[2][NEST_SHOWN], const nest_ends *n) {
     else
       snprintf(shown[k], NEST_SHOWN, "%.*s...%.*s", NEST_EDGE, whole, NEST_EDGE, whole + same - 4);
   }
-  free(text);
 }
 
 /* The shortest number m*2^e that the new interval has and the old one has not; "" where it is too long to be shown. */
@@ -112,10 +110,8 @@ static void nest_witness(char shown[NEST_SHOWN], const nest_ends *n) {
   if (nest_top(n->end[1]) > exp) exp = nest_top(n->end[1]);
   *shown = 0;
   if (exp - n->e > LONGEST) return;
-  mpq_t at;
-  mpz_t m;
-  mpq_init(at);
-  mpz_init(m);
+  DYD_LOCAL_NUMBERS(mpq, at);
+  DYD_LOCAL_NUMBERS(mpz, m);
   for (bool found = false; !found; exp--) {
     (exp < 0 ? mpq_mul_2exp : mpq_div_2exp)(at, n->end[1], (mp_bitcnt_t)(exp < 0 ? -exp : exp));
     (n->low ? mpz_cdiv_q : mpz_fdiv_q)(m, mpq_numref(at), mpq_denref(at));
@@ -128,8 +124,6 @@ static void nest_witness(char shown[NEST_SHOWN], const nest_ends *n) {
     else if (found)
       gmp_snprintf(shown, NEST_SHOWN, "%Zd*2^%lld", m, (long long)exp);
   }
-  mpz_clear(m);
-  mpq_clear(at);
 }
 
 dyd_status dyd_nesting_fail(dyd_error *err, const char *side, const dyd_interval *old, const dyd_interval *now) {
@@ -304,14 +298,11 @@ void dyd_real_place(dyd_real *x, size_t line, size_t column) {
 /* next, made for `bits`, and the span, which comes rounded to the same grid where it is the shorter one: so all
  * intervals are inside of the glance for fewer bits, and as wide as without the span. */
 static dyd_status real_cut_to_span(dyd_interval *next, dyd_double_span span, int64_t bits, dyd_error *err) {
-  dyd_interval old;
   if (bits < 0) return DYD_OK;
   dyd_filter_round(&span, span, bits);
-  dyd_interval_init(&old);
+  DYD_LOCAL(dyd_interval, old);
   dyd_status st = dyd_interval_set_d(&old, span.lo, span.hi);
-  st = st == DYD_OK ? dyd_nest(next, &old, true, "interval", err) : dyd_fail(err, st, "%s", dyd_status_text(st));
-  dyd_interval_clear(&old);
-  return st;
+  return st == DYD_OK ? dyd_nest(next, &old, true, "interval", err) : dyd_fail(err, st, "%s", dyd_status_text(st));
 }
 
 /* Takes `next` over if it may follow; it becomes the interval now. */
@@ -343,10 +334,9 @@ dyd_status dyd_real_set_claim(dyd_real *x, dyd_real *claim, dyd_error *err) {
 }
 
 static dyd_status real_call_source(dyd_real *x, const dyd_request *request, dyd_error *err) {
-  dyd_interval next;
   dyd_error own;
   dyd_error_clear(&own);
-  dyd_interval_init(&next);
+  DYD_LOCAL(dyd_interval, next);
   if (x->now)
     dyd_interval_set(&next, x->now);
   else
@@ -358,7 +348,6 @@ static dyd_status real_call_source(dyd_real *x, const dyd_request *request, dyd_
   if (st == DYD_OK && x->spans) st = real_cut_to_span(&next, x->span, request->bits, &own);
   if (st == DYD_OK && x->claim) st = real_check_claim(x->claim, &next, request, &own);
   if (st == DYD_OK) st = real_accept(x, &next, &own);
-  dyd_interval_clear(&next);
   if (st == DYD_CANCELLED && dyd_flag_is_set(request->stop)) return st;
   if (st == DYD_OK) {
     x->final = fixed || dyd_interval_is_point(x->now);
@@ -397,11 +386,9 @@ static bool span_is_short(const dyd_real *x, int64_t bits) {
 
 /* Narrows to what the span gives for `bits`. */
 static dyd_status real_take_span(dyd_real *x, dyd_double_span span, dyd_error *err) {
-  dyd_interval next;
-  dyd_interval_init(&next);
+  DYD_LOCAL(dyd_interval, next);
   dyd_status st = dyd_interval_set_d(&next, span.lo, span.hi);
   st = st == DYD_OK ? real_accept(x, &next, err) : dyd_fail(err, st, "%s", dyd_status_text(st));
-  dyd_interval_clear(&next);
   if (st == DYD_OK) x->final = dyd_interval_is_point(x->now);
   return st;
 }
@@ -475,8 +462,7 @@ static void real_radius(mpq_t radius, const dyd_real *x);
 
 /* By how much more than the radius an interval of x that is not final is widened, on the grid of 2^exp [DISC-4]. */
 static void widened_margin(mpq_t out, const dyd_real *x, const mpq_t lo, const mpq_t hi, int64_t exp) {
-  mpq_t radius;
-  mpq_init(radius);
+  DYD_LOCAL_NUMBERS(mpq, radius);
   real_radius(radius, x);
   mpq_sub(out, hi, lo);
   mpq_sub(out, out, radius);
@@ -485,22 +471,18 @@ static void widened_margin(mpq_t out, const dyd_real *x, const mpq_t lo, const m
   mpq_set_ui(radius, 1, 1);
   (exp < 0 ? mpq_div_2exp : mpq_mul_2exp)(radius, radius, (mp_bitcnt_t)(exp < 0 ? -exp : exp));
   mpq_add(out, out, radius);
-  mpq_clear(radius);
 }
 
 /* out = the interval of w->x, widened; fixed once and for all when x is final, else on the grid of 2^exp. */
 static dyd_status widened_interval(dyd_interval *out, const widened *w, int64_t exp) {
   const bool final = dyd_real_is_final(w->x);
-  mpq_t lo, hi, more;
-  mpq_inits(lo, hi, more, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi, more);
   dyd_interval_get_q(lo, hi, dyd_real_interval(w->x));
   if (!final) widened_margin(more, w->x, lo, hi, exp);
   mpq_add(more, more, w->radius);
   mpq_sub(lo, lo, more);
   mpq_add(hi, hi, more);
-  dyd_status st = final ? dyd_interval_set_ends_q(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
-  mpq_clears(lo, hi, more, NULL);
-  return st;
+  return final ? dyd_interval_set_ends_q(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
 }
 
 static dyd_status widened_narrow(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
@@ -549,20 +531,17 @@ const dyd_real *dyd_real_centre(const dyd_real *x) {
 }
 
 void dyd_real_radius(mpq_t radius, const dyd_real *x) {
-  mpq_t lo;
   real_radius(radius, x);
   if (!dyd_real_is_final(x)) return;
-  mpq_init(lo);
+  DYD_LOCAL_NUMBERS(mpq, lo);
   dyd_interval_get_q(lo, radius, dyd_real_interval(x));
   mpq_sub(radius, radius, lo);
   mpq_div_2exp(radius, radius, 1);
-  mpq_clear(lo);
 }
 
 bool dyd_real_reaches(const dyd_real *x, const dyd_interval *now, int64_t bits) {
   if (dyd_real_is_final(x)) return true;
-  mpq_t lo, hi, most, radius;
-  mpq_inits(lo, hi, most, radius, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi, most, radius);
   dyd_interval_get_q(lo, hi, now);
   mpq_set_ui(most, 1, 1);
   (bits >= 0 ? mpq_div_2exp : mpq_mul_2exp)(most, most, (mp_bitcnt_t)(bits >= 0 ? bits : -bits));
@@ -570,32 +549,25 @@ bool dyd_real_reaches(const dyd_real *x, const dyd_interval *now, int64_t bits) 
   mpq_add(most, most, radius);
   mpq_add(most, most, radius);
   mpq_sub(hi, hi, lo);
-  bool reaches = mpq_cmp(hi, most) <= 0;
-  mpq_clears(lo, hi, most, radius, NULL);
-  return reaches;
+  return mpq_cmp(hi, most) <= 0;
 }
 
 /* [lo,hi] rounded inward by less than a quarter of `slack`; *has: something is left. */
 static dyd_status interval_set_inward(dyd_interval *out, bool *has, const mpq_t lo, const mpq_t hi, const mpq_t slack) {
-  dyd_dyadic l, h;
-  dyd_dyadic_init(&l);
-  dyd_dyadic_init(&h);
+  DYD_LOCAL(dyd_dyadic, l, h);
   int64_t exp = (int64_t)mpz_sizeinbase(mpq_numref(slack), 2) - (int64_t)mpz_sizeinbase(mpq_denref(slack), 2) - 3;
   dyd_status st = fixed_end(&l, lo, exp, DYD_UP);
   if (st == DYD_OK) st = fixed_end(&h, hi, exp, DYD_DOWN);
   *has = st == DYD_OK && dyd_dyadic_cmp(&l, &h) <= 0;
   if (*has) st = dyd_interval_set_ends(out, &l, &h);
-  dyd_dyadic_clear(&h);
-  dyd_dyadic_clear(&l);
   return st;
 }
 
 /* Twice the radius away from each end: every interval of x holds those within the radius of some place, and this
  * place is no nearer to the ends of `now` than the radius [SET-3]. */
 static dyd_status widened_core(dyd_interval *core, bool *has, const mpq_t radius, const dyd_interval *now) {
-  mpq_t lo, hi, slack;
   dyd_status st = DYD_OK;
-  mpq_inits(lo, hi, slack, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi, slack);
   dyd_interval_get_q(lo, hi, now);
   mpq_sub(slack, hi, lo);
   for (int k = 0; k < 2; k++) {
@@ -606,21 +578,18 @@ static dyd_status widened_core(dyd_interval *core, bool *has, const mpq_t radius
   *has = mpq_sgn(slack) >= 0 && mpq_cmp(hi, lo) <= 0;
   if (mpq_sgn(slack) == 0) mpq_div_2exp(slack, radius, 64);
   if (*has) st = interval_set_inward(core, has, hi, lo, slack);
-  mpq_clears(lo, hi, slack, NULL);
   return st;
 }
 
 dyd_status dyd_real_core(dyd_interval *core, bool *has, const dyd_real *x, const dyd_interval *now) {
-  mpq_t radius;
   *has = dyd_real_is_final(x);
   if (*has) {
     dyd_interval_set(core, dyd_real_interval(x));
     return DYD_OK;
   }
   dyd_status st = DYD_OK;
-  mpq_init(radius);
+  DYD_LOCAL_NUMBERS(mpq, radius);
   real_radius(radius, x);
   if (now && mpq_sgn(radius) > 0) st = widened_core(core, has, radius, now);
-  mpq_clear(radius);
   return st;
 }

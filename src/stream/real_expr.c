@@ -3,6 +3,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/flag.h"
+#include "base/local.h"
 #include "stream/ball.h"
 #include "stream/expr.h"
 #include "stream/real.h"
@@ -36,22 +37,18 @@ static slong machine_stack_need(const dyd_expr *e) {
 
 /* A root lies in its interval, which is narrowed to about 2^-prec. */
 static void machine_push_root(machine *m, arb_ptr out, dyd_real *root, const dyd_node *n) {
-  mpq_t end[2];
-  arb_t hi;
   dyd_status st = dyd_real_narrow_until(root, m->prec, m->prec, m->stop, m->err);
   if (dyd_narrow_ended(st)) {
     if (m->err) m->err->column = n->column;
     m->failed = st;
     return;
   }
-  mpq_inits(end[0], end[1], NULL);
-  arb_init(hi);
+  DYD_LOCAL_ARRAY(mpq_t, end, [2]);
+  DYD_LOCAL_NUMBERS(arb, hi);
   dyd_interval_get_q(end[0], end[1], dyd_real_interval(root));
   dyd_ball_set_q(out, end[0], m->prec);
   dyd_ball_set_q(hi, end[1], m->prec);
   arb_union(out, out, hi, m->prec);
-  arb_clear(hi);
-  mpq_clears(end[0], end[1], NULL);
 }
 
 static void machine_push_leaf(machine *m, const dyd_expr *e, const dyd_node *n) {
@@ -270,13 +267,11 @@ static dyd_status draft_push_real(dyd_draft *d, dyd_real *x) {
     d->e.root[d->e.roots++] = x;
     return DYD_OK;
   }
-  mpq_t q;
-  mpq_init(q);
+  DYD_LOCAL_NUMBERS(mpq, q);
   dyd_interval_get_q(q, q, now);
   d->e.constant[d->e.constants] = (dyd_constant){.den = 1};
   dyd_status st = dyd_constant_set(&d->e.constant[d->e.constants++], q);
   n->range = dyd_range_of_constant(&d->e.constant[n->argument]);
-  mpq_clear(q);
   dyd_real_free(x);
   return st;
 }
@@ -324,19 +319,16 @@ static const char *operation_text(dyd_status st) {
 
 /* Takes over x and y. */
 static dyd_status operation_make(dyd_real **out, dyd_real_operation operation, dyd_real *x, dyd_real *y) {
-  dyd_draft d;
   dyd_op op = op_of_operation[operation];
   int left = real_depth(x), right = y ? real_depth(y) : 0, depth = 1 + (left > right ? left : right);
-  dyd_draft_init(&d);
+  DYD_LOCAL(dyd_draft, d);
   dyd_status st = draft_push_real(&d, x);
   if (y) {
     dyd_status second = draft_push_real(&d, y);
     if (st == DYD_OK) st = second;
   }
   if (st == DYD_OK && depth > MOST_DEPTH) st = DYD_E_RANGE;
-  if (st == DYD_OK) st = real_from_operation(out, &d, op, depth);
-  dyd_draft_clear(&d);
-  return st;
+  return st == DYD_OK ? real_from_operation(out, &d, op, depth) : st;
 }
 
 dyd_status dyd_real_op(dyd_real **out, dyd_real *x, dyd_real *y, dyd_real_operation operation, dyd_error *err) {

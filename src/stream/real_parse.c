@@ -7,6 +7,8 @@
  * may be part of a sum; a root alone is a real. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
+#include "stream/arb.h"
 #include "stream/degrees.h"
 #include "stream/expr.h"
 #include "stream/expr_filter.h"
@@ -46,12 +48,10 @@ static void poly_set_leaf(fmpq_poly_t out, const dyd_expr *e, const dyd_node *n)
     fmpq_poly_zero(out);
     fmpq_poly_set_coeff_ui(out, 1, 1);
   } else {
-    fmpq_t c;
     dyd_constant_view view;
-    fmpq_init(c);
+    DYD_LOCAL_NUMBERS(fmpq, c);
     fmpq_set_mpq(c, dyd_constant_get(&view, &e->constant[n->argument]));
     fmpq_poly_set_fmpq(out, c);
-    fmpq_clear(c);
   }
 }
 
@@ -137,14 +137,12 @@ static dyd_status poly_apply(ring *r, const dyd_expr *e, const dyd_node *n, dyd_
 static dyd_status poly_copy_coefficients(dyd_poly *out, const fmpq_poly_t p, dyd_error *err) {
   out->coeff = dyd_alloc((size_t)p->length, sizeof *out->coeff);
   if (!out->coeff) return dyd_fail_nomem(err);
-  fmpq_t c;
-  fmpq_init(c);
+  DYD_LOCAL_NUMBERS(fmpq, c);
   for (out->count = 0; out->count < (size_t)p->length; out->count++) {
     fmpq_poly_get_coeff_fmpq(c, p, (slong)out->count);
     mpq_init(out->coeff[out->count]);
     fmpq_get_mpq(out->coeff[out->count], c);
   }
-  fmpq_clear(c);
   return DYD_OK;
 }
 
@@ -222,16 +220,14 @@ static dyd_status real_from_draft(dyd_real **out, reader *r, size_t at, dyd_draf
 
 /* An expression that must be rational; what names it in messages. */
 static dyd_status read_rational(mpq_t out, reader *r, const char *what) {
-  dyd_draft d;
   dyd_constant_view view;
   skip_blanks(r);
   size_t at = r->pos;
-  dyd_draft_init(&d);
+  DYD_LOCAL(dyd_draft, d);
   dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, (dyd_expr_names){0}, r->err);
   const dyd_constant *q = st != DYD_OK ? NULL : dyd_expr_rational(&d.e);
   if (st == DYD_OK && !q) st = FAIL(r, at, DYD_E_PARSE, "%s must be rational: numbers and + - * / ^ only", what);
   if (st == DYD_OK) mpq_set(out, dyd_constant_get(&view, q));
-  dyd_draft_clear(&d);
   return st;
 }
 
@@ -247,35 +243,29 @@ static dyd_status read_interval_ends(mpq_t lo, mpq_t hi, reader *r, const char *
 
 static dyd_status read_interval(dyd_real **out, reader *r) {
   size_t at = r->pos;
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   dyd_status st = read_interval_ends(lo, hi, r, "]");
   if (st == DYD_OK && mpq_cmp(lo, hi) > 0) {
     st = FAIL(r, at, DYD_E_PARSE, "the lower end of the interval is above the upper end; exchange them");
   }
-  if (st == DYD_OK) st = plain_fail(r, at, dyd_real_from_interval(out, lo, hi));
-  mpq_clears(lo, hi, NULL);
-  return st;
+  return st == DYD_OK ? plain_fail(r, at, dyd_real_from_interval(out, lo, hi)) : st;
 }
 
 /* ---- roots ---- */
 
 static dyd_status read_polynomial(dyd_poly *out, reader *r) {
-  dyd_draft d;
-  dyd_draft_init(&d);
+  DYD_LOCAL(dyd_draft, d);
   dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, (dyd_expr_names){.x = true}, r->err);
   if (st == DYD_OK) st = poly_expand(out, &d.e, r->err);
   if (st == DYD_OK && !take_word(r, ",")) st = FAIL(r, r->pos, DYD_E_PARSE, "a ',' is missing after the polynomial");
-  dyd_draft_clear(&d);
   return st;
 }
 
 /* Behind "root(". */
 static dyd_status read_root(dyd_real **out, reader *r) {
   dyd_poly p = {0};
-  mpq_t lo, hi;
   size_t at = r->pos;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   dyd_status st = read_polynomial(&p, r);
   if (st == DYD_OK) {
     skip_blanks(r);
@@ -289,33 +279,26 @@ static dyd_status read_root(dyd_real **out, reader *r) {
     if (st != DYD_OK && r->err) r->err->code = st;
   }
   poly_clear(&p);
-  mpq_clears(lo, hi, NULL);
   return st;
 }
 
 /* Behind "random(". */
 static dyd_status read_random(dyd_real **out, reader *r) {
-  mpq_t seed;
   size_t at = r->pos;
-  mpq_init(seed);
+  DYD_LOCAL_NUMBERS(mpq, seed);
   dyd_status st = read_rational(seed, r, "the seed");
   if (st == DYD_OK && (mpz_cmp_ui(mpq_denref(seed), 1) != 0 || !mpz_fits_ulong_p(mpq_numref(seed))))
     st = FAIL(r, at, DYD_E_PARSE, "the seed is a whole number from 0 on, below 2^64");
   if (st == DYD_OK && !take_word(r, ")")) st = FAIL(r, r->pos, DYD_E_PARSE, "a ')' is missing here");
-  if (st == DYD_OK) st = plain_fail(r, at, dyd_real_random(out, mpz_get_ui(mpq_numref(seed))));
-  mpq_clear(seed);
-  return st;
+  return st == DYD_OK ? plain_fail(r, at, dyd_real_random(out, mpz_get_ui(mpq_numref(seed)))) : st;
 }
 
 /* A sum that may have parts which `within` reads. */
 static dyd_status read_sum(dyd_real **out, reader *r, dyd_root_reader *within) {
-  dyd_draft d;
   size_t at = r->pos;
-  dyd_draft_init(&d);
+  DYD_LOCAL(dyd_draft, d);
   dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, (dyd_expr_names){.root = within}, r->err);
-  if (st == DYD_OK) st = real_from_draft(out, r, at, &d);
-  dyd_draft_clear(&d);
-  return st;
+  return st == DYD_OK ? real_from_draft(out, r, at, &d) : st;
 }
 
 static dyd_status read_within_slow(dyd_real **out, dyd_real_word word, size_t *pos, const char *text, size_t length,
@@ -371,9 +354,8 @@ static dyd_real_word starts_root(reader *r) {
 
 /* Behind "+-". Widens *x, which is released on failure. */
 static dyd_status read_real_radius(dyd_real **x, reader *r) {
-  mpq_t radius;
   size_t at = r->pos;
-  mpq_init(radius);
+  DYD_LOCAL_NUMBERS(mpq, radius);
   dyd_status st = read_rational(radius, r, "the radius");
   if (st == DYD_OK && mpq_sgn(radius) < 0)
     st = FAIL(r, at, DYD_E_PARSE, "the radius is negative; give one that is 0 or more");
@@ -382,7 +364,6 @@ static dyd_status read_real_radius(dyd_real **x, reader *r) {
   } else {
     st = plain_fail(r, at, dyd_real_widen(x, *x, radius));
   }
-  mpq_clear(radius);
   return st;
 }
 
@@ -415,23 +396,17 @@ static dyd_status read_real_coordinate(dyd_real **out, reader *r) {
 }
 
 static dyd_status read_plain_number(dyd_real **out, reader *r) {
-  mpq_t q;
-  mpq_init(q);
+  DYD_LOCAL_NUMBERS(mpq, q);
   dyd_status st = dyd_parse_number(q, r->text, r->length, r->err);
-  if (st == DYD_OK) st = plain_fail(r, 0, dyd_real_from_q(out, q));
-  mpq_clear(q);
-  return st;
+  return st == DYD_OK ? plain_fail(r, 0, dyd_real_from_q(out, q)) : st;
 }
 
 /* DYD_E_ARG: it is of another form. */
 static dyd_status read_degrees(dyd_real **out, reader *r) {
-  mpq_t lo, hi;
   char letter;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   dyd_status st = dyd_degrees_read(lo, hi, &letter, r->text, r->length, false, r->err);
-  if (st == DYD_OK) st = plain_fail(r, 0, dyd_real_from_q(out, lo));
-  mpq_clears(lo, hi, NULL);
-  return st;
+  return st == DYD_OK ? plain_fail(r, 0, dyd_real_from_q(out, lo)) : st;
 }
 
 dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_error *err) {
@@ -455,11 +430,9 @@ dyd_status dyd_interval_set_text(dyd_interval *out, const char *text, size_t len
 }
 
 dyd_status dyd_real_parse_exact(mpq_t out, const char *text, size_t length) {
-  dyd_interval a;
-  dyd_interval_init(&a);
+  DYD_LOCAL(dyd_interval, a);
   dyd_status st = dyd_interval_set_text(&a, text, length, NULL);
   if (st == DYD_OK && !dyd_interval_is_point(&a)) st = DYD_E_PARSE;
   if (st == DYD_OK) dyd_interval_get_q(out, out, &a);
-  dyd_interval_clear(&a);
   return st;
 }

@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/flag.h"
+#include "base/local.h"
 #include "base/parallel.h"
 #include "stream/ball.h"
 #include "stream/real.h"
@@ -72,18 +73,13 @@ static slong start_precision(mpz_srcptr m) {
 
 /* The exact sign at m 2^-s. */
 static int root_sign_at(const dyd_root *r, mpz_srcptr m, int64_t s) {
-  arb_t x, y;
-  arb_init(x);
-  arb_init(y);
+  DYD_LOCAL_NUMBERS(arb, x, y);
   dyd_ball_set_z_2exp(x, m, (slong)-s);
   for (slong prec = start_precision(m);; prec *= 2) {
     arb_fmpz_poly_evaluate_arb(y, r->poly, x, prec);
     if (!arb_contains_zero(y) || arb_is_exact(y)) break;
   }
-  int sign = arf_sgn(arb_midref(y));
-  arb_clear(y);
-  arb_clear(x);
-  return sign;
+  return arf_sgn(arb_midref(y));
 }
 
 /* Makes m 2^-s the exact root when sign says so. */
@@ -97,8 +93,7 @@ static bool root_hit(dyd_root *r, int sign, mpz_srcptr m, int64_t s) {
 
 /* q = floor or ceiling of x 2^s. */
 static void to_grid(mpz_ptr q, mpq_srcptr x, int64_t s, dyd_round dir) {
-  mpq_t t;
-  mpq_init(t);
+  DYD_LOCAL_NUMBERS(mpq, t);
   if (s >= 0) {
     mpq_mul_2exp(t, x, (mp_bitcnt_t)s);
   } else {
@@ -109,7 +104,6 @@ static void to_grid(mpz_ptr q, mpq_srcptr x, int64_t s, dyd_round dir) {
   } else {
     mpz_fdiv_q(q, mpq_numref(t), mpq_denref(t));
   }
-  mpq_clear(t);
 }
 
 /* x = m 2^-s. */
@@ -124,18 +118,14 @@ static void from_grid(mpq_ptr x, mpz_srcptr m, int64_t s) {
 
 /* An s with 4 * 2^-s < hi - lo < 16 * 2^-s. */
 static int64_t grid_for(const dyd_root *r) {
-  mpq_t w;
-  mpq_init(w);
+  DYD_LOCAL_NUMBERS(mpq, w);
   mpq_sub(w, r->hi, r->lo);
-  int64_t s = (int64_t)mpz_sizeinbase(mpq_denref(w), 2) - (int64_t)mpz_sizeinbase(mpq_numref(w), 2) + 3;
-  mpq_clear(w);
-  return s;
+  return (int64_t)mpz_sizeinbase(mpq_denref(w), 2) - (int64_t)mpz_sizeinbase(mpq_numref(w), 2) + 3;
 }
 
 /* Between the grid points first < last lies the sign change: bisects the slots. */
 static void root_choose_slot(dyd_root *r, mpz_ptr first, mpz_ptr last, int64_t s) {
-  mpz_t middle;
-  mpz_init(middle);
+  DYD_LOCAL_NUMBERS(mpz, middle);
   for (;;) {
     mpz_add(middle, first, last);
     mpz_fdiv_q_2exp(middle, middle, 1);
@@ -149,7 +139,6 @@ static void root_choose_slot(dyd_root *r, mpz_ptr first, mpz_ptr last, int64_t s
     r->s = s;
     r->on_grid = true;
   }
-  mpz_clear(middle);
 }
 
 /* Phase 1. The bracket (lo,hi) has inner grid points first <= last; the sign change is left of first, right of last,
@@ -159,8 +148,7 @@ static dyd_status root_enter_grid(dyd_root *r, dyd_error *err) {
   if (s > DYD_EXP_LIMIT) {
     return dyd_fail(err, DYD_E_RANGE, "the root lies too close to an end of its interval; give another interval");
   }
-  mpz_t first, last;
-  mpz_inits(first, last, NULL);
+  DYD_LOCAL_NUMBERS(mpz, first, last);
   to_grid(first, r->lo, s, DYD_UP);
   to_grid(last, r->hi, s, DYD_DOWN);
   int left = root_sign_at(r, first, s), right = root_sign_at(r, last, s);
@@ -172,17 +160,13 @@ static dyd_status root_enter_grid(dyd_root *r, dyd_error *err) {
   } else if (!done) {
     root_choose_slot(r, first, last, s);
   }
-  mpz_clears(first, last, NULL);
   return DYD_OK;
 }
 
 /* Returns true if p' has no zero on the slot. */
 static bool is_isolated(const dyd_root *r) {
-  fmpz_poly_t d;
-  arb_t x, y;
-  fmpz_poly_init(d);
-  arb_init(x);
-  arb_init(y);
+  DYD_LOCAL_NUMBERS(fmpz_poly, d);
+  DYD_LOCAL_NUMBERS(arb, x, y);
   fmpz_poly_derivative(d, r->poly);
   arf_set_mpz(arb_midref(x), r->slot);
   arb_mul_2exp_si(x, x, 1);
@@ -190,16 +174,11 @@ static bool is_isolated(const dyd_root *r) {
   mag_one(arb_radref(x));
   arb_mul_2exp_si(x, x, (slong)-r->s - 1);
   arb_fmpz_poly_evaluate_arb_horner(y, d, x, start_precision(r->slot));
-  bool result = !arb_contains_zero(y);
-  arb_clear(y);
-  arb_clear(x);
-  fmpz_poly_clear(d);
-  return result;
+  return !arb_contains_zero(y);
 }
 
 static void root_bisect(dyd_root *r) {
-  mpz_t middle;
-  mpz_init(middle);
+  DYD_LOCAL_NUMBERS(mpz, middle);
   mpz_mul_2exp(middle, r->slot, 1);
   mpz_add_ui(middle, middle, 1);
   int sign = root_sign_at(r, middle, r->s + 1);
@@ -207,15 +186,11 @@ static void root_bisect(dyd_root *r) {
     mpz_sub_ui(r->slot, middle, sign == r->sign_left ? 0 : 1);
     r->s++;
   }
-  mpz_clear(middle);
 }
 
 /* The secant's proposal m, 0 < m < 2^j, for the root at (slot 2^j + m) 2^-(s+j). Only a guess. */
 static void root_propose(mpz_ptr m, const dyd_root *r, unsigned j) {
-  arb_t x, a, b;
-  arb_init(x);
-  arb_init(a);
-  arb_init(b);
+  DYD_LOCAL_NUMBERS(arb, x, a, b);
   slong prec = start_precision(r->slot) + 2 * (slong)j;
   dyd_ball_set_z_2exp(x, r->slot, (slong)-r->s);
   arb_fmpz_poly_evaluate_arb(a, r->poly, x, prec);
@@ -227,33 +202,26 @@ static void root_propose(mpz_ptr m, const dyd_root *r, unsigned j) {
   arb_div(a, a, b, prec);
   mpz_set_ui(m, 0);
   if (arb_is_finite(a)) {
-    fmpz_t f;
-    fmpz_init(f);
+    DYD_LOCAL_NUMBERS(fmpz, f);
     arf_mul_2exp_si(arb_midref(a), arb_midref(a), (slong)j);
     if (arf_cmpabs_2exp_si(arb_midref(a), (slong)j + 1) < 0) arf_get_fmpz(f, arb_midref(a), ARF_RND_NEAR);
     fmpz_get_mpz(m, f);
-    fmpz_clear(f);
   }
-  arb_clear(b);
-  arb_clear(a);
-  arb_clear(x);
 }
 
 /* Holds m within 1 .. 2^j - 1. */
 static void root_clamp(mpz_ptr m, unsigned j) {
-  mpz_t most;
-  mpz_init_set_ui(most, 1);
+  DYD_LOCAL_NUMBERS(mpz, most);
+  mpz_set_ui(most, 1);
   mpz_mul_2exp(most, most, j);
   mpz_sub_ui(most, most, 1);
   if (mpz_sgn(m) <= 0) mpz_set_ui(m, 1);
   if (mpz_cmp(m, most) > 0) mpz_set(m, most);
-  mpz_clear(most);
 }
 
 /* Phase 3: tries the part next to the proposal. Returns false if it is refuted; r is unchanged then. */
 static bool root_quadratic(dyd_root *r, unsigned j) {
-  mpz_t m, base, other;
-  mpz_inits(m, base, other, NULL);
+  DYD_LOCAL_NUMBERS(mpz, m, base, other);
   root_propose(m, r, j);
   root_clamp(m, j);
   mpz_mul_2exp(base, r->slot, j);
@@ -276,7 +244,6 @@ static bool root_quadratic(dyd_root *r, unsigned j) {
       found = true;
     }
   }
-  mpz_clears(m, base, other, NULL);
   return found;
 }
 
@@ -364,19 +331,12 @@ static void root_release(void *user) {
 /* The bracket as an interval. */
 static dyd_status root_interval(dyd_interval *out, const dyd_root *r, int64_t bits) {
   if (!r->on_grid) return dyd_interval_set_outward(out, r->lo, r->hi, -bits - 2);
-  dyd_dyadic lo, hi;
-  mpz_t next;
-  dyd_dyadic_init(&lo);
-  dyd_dyadic_init(&hi);
-  mpz_init(next);
+  DYD_LOCAL(dyd_dyadic, lo, hi);
+  DYD_LOCAL_NUMBERS(mpz, next);
   mpz_add_ui(next, r->slot, r->exact ? 0 : 1);
   dyd_status st = dyd_dyadic_set_z_2exp(&lo, r->slot, -r->s);
   if (st == DYD_OK) st = dyd_dyadic_set_z_2exp(&hi, next, -r->s);
-  if (st == DYD_OK) st = dyd_interval_set_ends(out, &lo, &hi);
-  mpz_clear(next);
-  dyd_dyadic_clear(&hi);
-  dyd_dyadic_clear(&lo);
-  return st;
+  return st == DYD_OK ? dyd_interval_set_ends(out, &lo, &hi) : st;
 }
 
 static dyd_status root_narrow(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
@@ -392,11 +352,10 @@ static dyd_status root_narrow(dyd_interval *out, void *user, const dyd_request *
 
 /* p = the polynomial times the least common multiple of its denominators. */
 static void integer_polynomial(fmpz_poly_t p, const mpq_t *coeff, size_t count) {
-  mpz_t scale, c;
-  fmpz_t f;
-  mpz_init_set_ui(scale, 1);
-  mpz_init(c);
-  fmpz_init(f);
+  DYD_LOCAL_NUMBERS(mpz, scale);
+  mpz_set_ui(scale, 1);
+  DYD_LOCAL_NUMBERS(mpz, c);
+  DYD_LOCAL_NUMBERS(fmpz, f);
   for (size_t k = 0; k < count; k++) mpz_lcm(scale, scale, mpq_denref(coeff[k]));
   for (size_t k = count; k-- > 0;) {
     mpz_divexact(c, scale, mpq_denref(coeff[k]));
@@ -404,8 +363,6 @@ static void integer_polynomial(fmpz_poly_t p, const mpq_t *coeff, size_t count) 
     fmpz_set_mpz(f, c);
     fmpz_poly_set_coeff_fmpz(p, (slong)k, f);
   }
-  fmpz_clear(f);
-  mpz_clears(scale, c, NULL);
 }
 
 /* g = the part of p where its sign changes [ROOT-2]. */
@@ -422,15 +379,10 @@ static void odd_part(fmpz_poly_t g, const fmpz_poly_t p) {
 
 /* The exact sign at a rational. */
 static int sign_at_q(const fmpz_poly_t p, const mpq_t x) {
-  fmpq_t a, y;
-  fmpq_init(a);
-  fmpq_init(y);
+  DYD_LOCAL_NUMBERS(fmpq, a, y);
   fmpq_set_mpq(a, x);
   fmpz_poly_evaluate_fmpq(y, p, a);
-  int sign = fmpq_sgn(y);
-  fmpq_clear(y);
-  fmpq_clear(a);
-  return sign;
+  return fmpq_sgn(y);
 }
 
 static dyd_status root_new(dyd_real **out, const fmpz_poly_t g, const mpq_t lo, const mpq_t hi) {
@@ -446,17 +398,12 @@ static dyd_status root_new(dyd_real **out, const fmpz_poly_t g, const mpq_t lo, 
 
 /* The root -c0/c1 of a polynomial of degree one. */
 static dyd_status linear_root(dyd_real **out, const fmpz_poly_t g) {
-  fmpq_t f;
-  mpq_t q;
-  fmpq_init(f);
-  mpq_init(q);
+  DYD_LOCAL_NUMBERS(fmpq, f);
+  DYD_LOCAL_NUMBERS(mpq, q);
   fmpq_set_fmpz_frac(f, fmpz_poly_get_coeff_ptr(g, 0), fmpz_poly_get_coeff_ptr(g, 1));
   fmpq_neg(f, f);
   fmpq_get_mpq(q, f);
-  dyd_status st = dyd_real_from_q(out, q);
-  mpq_clear(q);
-  fmpq_clear(f);
-  return st;
+  return dyd_real_from_q(out, q);
 }
 
 static dyd_status root_of_polynomial(dyd_real **out, const fmpz_poly_t p, const mpq_t lo, const mpq_t hi,
@@ -469,12 +416,9 @@ static dyd_status root_of_polynomial(dyd_real **out, const fmpz_poly_t p, const 
                     "the polynomial is %s at both ends of the interval; give ends where its signs differ",
                     left < 0 ? "negative" : "positive");
   }
-  fmpz_poly_t g;
-  fmpz_poly_init(g);
+  DYD_LOCAL_NUMBERS(fmpz_poly, g);
   odd_part(g, p);
-  dyd_status st = fmpz_poly_degree(g) == 1 ? linear_root(out, g) : root_new(out, g, lo, hi);
-  fmpz_poly_clear(g);
-  return st;
+  return fmpz_poly_degree(g) == 1 ? linear_root(out, g) : root_new(out, g, lo, hi);
 }
 
 static size_t bits_of_rational(const mpq_t q) {
@@ -498,11 +442,9 @@ dyd_status dyd_real_root(dyd_real **out, const mpq_t *coeff, size_t count, const
   if (mpq_cmp(lo, hi) > 0) return dyd_fail(err, DYD_E_ARG, "the interval is empty: its ends are in the wrong order");
   dyd_status st = root_check_size(coeff, count, lo, hi, err);
   if (st != DYD_OK) return st;
-  fmpz_poly_t p;
-  fmpz_poly_init(p);
+  DYD_LOCAL_NUMBERS(fmpz_poly, p);
   integer_polynomial(p, coeff, count);
   st = root_of_polynomial(out, p, lo, hi, err);
-  fmpz_poly_clear(p);
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (st == DYD_E_RANGE) return dyd_fail(err, st, "the root leaves the range of numbers; scale the input");
   return st;
@@ -512,25 +454,18 @@ dyd_status dyd_real_root(dyd_real **out, const mpq_t *coeff, size_t count, const
 
 /* p becomes (1 + x)^n p((lo + hi x) / (1 + x)) times a number: its positive zeros are those of p between lo and hi. */
 static void zoom_in(fmpz_poly_t p, const mpq_t lo, const mpq_t hi) {
-  fmpz_poly_t sum, near, far, power;
   slong n = fmpz_poly_degree(p);
-  mpz_t den, z;
-  mpz_inits(den, z, NULL);
-  fmpz_poly_init(sum);
-  fmpz_poly_init(near);
-  fmpz_poly_init(far);
-  fmpz_poly_init(power);
+  DYD_LOCAL_NUMBERS(mpz, den, z);
+  DYD_LOCAL_NUMBERS(fmpz_poly, sum, near, far, power);
   mpz_lcm(den, mpq_denref(lo), mpq_denref(hi));
   for (int k = 0; k < 2; k++) { /* near = (lo + hi x) den, far = (1 + x) den */
     mpz_divexact(z, den, mpq_denref(k ? hi : lo));
     mpz_mul(z, z, mpq_numref(k ? hi : lo));
-    fmpz_t c;
-    fmpz_init(c);
+    DYD_LOCAL_NUMBERS(fmpz, c);
     fmpz_set_mpz(c, z);
     fmpz_poly_set_coeff_fmpz(near, k, c);
     fmpz_set_mpz(c, den);
     fmpz_poly_set_coeff_fmpz(far, k, c);
-    fmpz_clear(c);
   }
   fmpz_poly_set_ui(power, 1); /* Horner's rule: the powers of far grow from the highest coefficient down */
   for (slong e = n; e >= 0; e--) {
@@ -539,25 +474,16 @@ static void zoom_in(fmpz_poly_t p, const mpq_t lo, const mpq_t hi) {
     fmpz_poly_mul(power, power, far);
   }
   fmpz_poly_swap(p, sum);
-  fmpz_poly_clear(power);
-  fmpz_poly_clear(far);
-  fmpz_poly_clear(near);
-  fmpz_poly_clear(sum);
-  mpz_clears(den, z, NULL);
 }
 
 /* Returns true if the root lies alone in (lo, hi). Its polynomial has simple zeros and is not 0 at the ends; positive
  * zeros of q(x) are half the zeros of q(x^2). */
 static bool root_is_alone(const dyd_root *r, const mpq_t lo, const mpq_t hi) {
-  fmpz_poly_t p, squared;
-  fmpz_poly_init(p);
-  fmpz_poly_init(squared);
+  DYD_LOCAL_NUMBERS(fmpz_poly, p, squared);
   fmpz_poly_set(p, r->poly);
   zoom_in(p, lo, hi);
   fmpz_poly_inflate(squared, p, 2);
   slong roots = fmpz_poly_num_real_roots(squared);
-  fmpz_poly_clear(squared);
-  fmpz_poly_clear(p);
   return roots == 2;
 }
 

@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/flag.h"
+#include "base/local.h"
 #include "base/room.h"
 #include "dyadic/raw.h"
 #include "rect/rect.h"
@@ -94,11 +95,9 @@ dyd_status dyd_stream_new_fixed(dyd_stream **out, dyd_rect *value) {
 
 static dyd_status stream_new_final(dyd_stream **out, const dyd_source *source) {
   dyd_request any = {DYD_SIZED(dyd_request)};
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = source->narrow(&r, source->user, &any, NULL);
   if (!dyd_failed(st)) st = dyd_stream_new_fixed(out, &r);
-  dyd_rect_clear(&r);
   source->release(source->user);
   return st;
 }
@@ -149,10 +148,9 @@ static dyd_status stream_accept(dyd_stream *s, dyd_rect *next, dyd_error *err) {
 }
 
 static dyd_status stream_call_source(dyd_stream *s, const dyd_request *request, dyd_error *err) {
-  dyd_rect next;
   dyd_error own;
   dyd_error_clear(&own);
-  dyd_rect_init(&next);
+  DYD_LOCAL(dyd_rect, next);
   if (s->now)
     dyd_rect_set(&next, s->now);
   else
@@ -162,7 +160,6 @@ static dyd_status stream_call_source(dyd_stream *s, const dyd_request *request, 
   if (fixed) st = DYD_OK;
   if (st == DYD_OK) st = dyd_rect_check_set(&next, s->point, s->stage, &own);
   if (st == DYD_OK) st = stream_accept(s, &next, &own);
-  dyd_rect_clear(&next);
   if (st == DYD_CANCELLED && dyd_flag_is_set(request->stop)) return st;
   if (st == DYD_OK) {
     s->final = fixed || dyd_rect_is_point(s->now);
@@ -236,22 +233,19 @@ static bool image_is_final(const dyd_stream_image *a) {
 
 /* [lo,hi] += c r. */
 static void image_add_scaled(mpq_t lo, mpq_t hi, const mpq_t c, const dyd_interval *r) {
-  mpq_t end[2];
   bool flip = mpq_sgn(c) < 0;
   if (!mpq_sgn(c)) return;
-  mpq_inits(end[0], end[1], NULL);
+  DYD_LOCAL_ARRAY(mpq_t, end, [2]);
   dyd_interval_get_q(end[0], end[1], r);
   mpq_mul(end[0], end[0], c);
   mpq_mul(end[1], end[1], c);
   mpq_add(lo, lo, end[flip]);
   mpq_add(hi, hi, end[!flip]);
-  mpq_clears(end[0], end[1], NULL);
 }
 
 /* One side of the image. Fixed rectangles are rounded once and for all. */
 static dyd_status image_side(dyd_interval *out, const dyd_stream_image *a, int axis, int64_t exp) {
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   mpq_set(lo, a->shift[axis]);
   mpq_set(hi, a->shift[axis]);
   for (size_t k = 0; k < a->count; k++) {
@@ -260,9 +254,7 @@ static dyd_status image_side(dyd_interval *out, const dyd_stream_image *a, int a
     image_add_scaled(lo, hi, a->term[k].m[2 * axis + 1], &r->y);
   }
   bool exact = image_is_final(a) || mpq_equal(lo, hi);
-  dyd_status st = exact ? dyd_interval_set_ends_q(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
-  mpq_clears(lo, hi, NULL);
-  return st;
+  return exact ? dyd_interval_set_ends_q(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
 }
 
 /* what: for messages. */
@@ -282,8 +274,7 @@ static dyd_status image_narrow(dyd_rect *out, const dyd_stream_image *a, const d
 /* The least gain found by lengths of numbers; very small for a constant map. */
 static int64_t image_gain(const dyd_stream_image *a) {
   int64_t gain = -DYD_EXP_LIMIT;
-  mpq_t sum, t;
-  mpq_inits(sum, t, NULL);
+  DYD_LOCAL_NUMBERS(mpq, sum, t);
   for (int axis = 0; axis < 2; axis++) {
     mpq_set_ui(sum, 0, 1);
     for (size_t k = 0; k < 2 * a->count; k++) {
@@ -293,7 +284,6 @@ static int64_t image_gain(const dyd_stream_image *a) {
     int64_t g = mpq_sgn(sum) ? dyd_q_log2_above(sum) : gain;
     if (g > gain) gain = g;
   }
-  mpq_clears(sum, t, NULL);
   return gain;
 }
 
@@ -315,8 +305,7 @@ static dyd_status affine_narrow(dyd_rect *out, void *user, const dyd_request *re
 
 /* The only term and the shift of a become those of m, or of m after inner. */
 static void affine_set(dyd_stream_image *a, const mpq_t m[6], const dyd_stream_image *inner) {
-  mpq_t t;
-  mpq_init(t);
+  DYD_LOCAL_NUMBERS(mpq, t);
   for (int k = 0; k < 6; k++) {
     int row = k / 3, column = k % 3;
     mpq_ptr entry = column < 2 ? a->term->m[2 * row + column] : a->shift[row];
@@ -329,7 +318,6 @@ static void affine_set(dyd_stream_image *a, const mpq_t m[6], const dyd_stream_i
     mpq_add(entry, entry, t);
     if (column == 2) mpq_add(entry, entry, m[k]);
   }
-  mpq_clear(t);
 }
 
 dyd_status dyd_stream_affine(dyd_stream **out, dyd_stream *of, const mpq_t m[6]) {
@@ -372,25 +360,17 @@ dyd_status dyd_stream_combination(dyd_stream **out, size_t n, dyd_stream *const 
 
 dyd_status dyd_stream_midpoint(dyd_stream **out, dyd_stream *a, dyd_stream *b) {
   dyd_stream *const of[2] = {a, b};
-  mpq_t half[2];
-  for (int k = 0; k < 2; k++) {
-    mpq_init(half[k]);
-    mpq_set_ui(half[k], 1, 2);
-  }
-  dyd_status st = dyd_stream_combination(out, 2, of, (const mpq_t *)half, NULL);
-  mpq_clears(half[0], half[1], NULL);
-  return st;
+  DYD_LOCAL_ARRAY(mpq_t, half, [2]);
+  for (int k = 0; k < 2; k++) mpq_set_ui(half[k], 1, 2);
+  return dyd_stream_combination(out, 2, of, (const mpq_t *)half, NULL);
 }
 
 /* Streams from rectangles and from pairs of reals. */
 
 dyd_status dyd_stream_from_rect(dyd_stream **out, const dyd_rect *r) {
-  dyd_rect copy;
-  dyd_rect_init(&copy);
+  DYD_LOCAL(dyd_rect, copy);
   dyd_rect_set(&copy, r);
-  dyd_status st = dyd_stream_new_fixed(out, &copy);
-  dyd_rect_clear(&copy);
-  return st;
+  return dyd_stream_new_fixed(out, &copy);
 }
 
 static void pair_release(void *user) {
@@ -419,12 +399,9 @@ static dyd_status pair_narrow(dyd_rect *out, void *user, const dyd_request *requ
 }
 
 static dyd_status pair_fixed(dyd_stream **out, const dyd_stream_pair *p) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   pair_rect(&r, p);
-  dyd_status st = dyd_stream_new_fixed(out, &r);
-  dyd_rect_clear(&r);
-  return st;
+  return dyd_stream_new_fixed(out, &r);
 }
 
 dyd_status dyd_stream_from_reals(dyd_stream **out, dyd_real *x, dyd_real *y) {
@@ -453,12 +430,10 @@ bool dyd_stream_reaches(const dyd_stream *s, const dyd_rect *now, int64_t bits) 
 
 /* Replaces a side by its core, with the cuts that others made. */
 static dyd_status side_core(dyd_interval *side, bool *has, const dyd_real *x, bool narrower) {
-  dyd_interval core;
-  dyd_interval_init(&core);
+  DYD_LOCAL(dyd_interval, core);
   dyd_status st = dyd_real_core(&core, has, x, narrower ? dyd_real_interval(x) : side);
   *has = *has && dyd_interval_meets(&core, side);
   if (st == DYD_OK && *has) st = dyd_interval_intersect(side, side, &core);
-  dyd_interval_clear(&core);
   return st;
 }
 
@@ -472,24 +447,21 @@ dyd_status dyd_stream_core(dyd_rect *r, bool core[2], const dyd_stream *s, bool 
 
 /* Sets radius to that of a side, and adds to `off` the bound of its rounding: 2^-50 of the ends of a final one. */
 static void side_radius(mpq_t radius, mpq_t off, const dyd_real *x) {
-  mpq_t lo, hi;
   dyd_real_radius(radius, x);
   if (!dyd_real_is_final(x)) return;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   dyd_interval_get_q(lo, hi, dyd_real_interval(x));
   mpq_abs(lo, lo);
   mpq_abs(hi, hi);
   mpq_add(lo, lo, hi);
   mpq_div_2exp(lo, lo, 50);
   mpq_add(off, off, lo);
-  mpq_clears(lo, hi, NULL);
 }
 
 dyd_site_kind dyd_stream_site_kind(const dyd_stream *s) {
   const dyd_stream_pair *p = stream_user(s, pair_narrow);
-  mpq_t x, y, off;
   if (!p) return DYD_SITE_BARE;
-  mpq_inits(x, y, off, NULL);
+  DYD_LOCAL_NUMBERS(mpq, x, y, off);
   side_radius(x, off, p->x);
   side_radius(y, off, p->y);
   bool bare = mpq_sgn(x) == 0 && mpq_sgn(y) == 0;
@@ -497,7 +469,6 @@ dyd_site_kind dyd_stream_site_kind(const dyd_stream *s) {
   mpq_sub(y, y, x);
   mpq_abs(y, y);
   round = round && mpq_cmp(y, off) <= 0;
-  mpq_clears(x, y, off, NULL);
   return bare ? DYD_SITE_BARE : round ? DYD_SITE_ROUND : DYD_SITE_ANY;
 }
 

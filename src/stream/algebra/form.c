@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/flag.h"
+#include "base/local.h"
 #include "stream/ball.h"
 #include "stream/real.h"
 #include "stream/stream.h"
@@ -120,17 +121,13 @@ static uint32_t forms_opaque(dyd_forms *f, const void *object, uint32_t part, co
   f->node[n].prec = WORD_MAX;
   arb_indeterminate(&f->node[n].value);
   if (!now) return n;
-  arb_t hi;
-  fmpz_t den;
-  arb_init(hi);
-  fmpz_init(den);
+  DYD_LOCAL_NUMBERS(arb, hi);
+  DYD_LOCAL_NUMBERS(fmpz, den);
   fmpz_set_mpz(den, now->den);
   dyd_ball_set_z_2exp(&f->node[n].value, now->lo.man, (slong)now->lo.exp);
   dyd_ball_set_z_2exp(hi, now->hi.man, (slong)now->hi.exp);
   arb_union(&f->node[n].value, &f->node[n].value, hi, 256);
   arb_div_fmpz(&f->node[n].value, &f->node[n].value, den, 256);
-  fmpz_clear(den);
-  arb_clear(hi);
   return n;
 }
 
@@ -144,10 +141,9 @@ static dyd_range form_domain(dyd_op op) {
 }
 
 static void value_of_root(arb_ptr out, dyd_root *r, slong prec, const volatile int *stop) {
-  arb_t hi;
   dyd_status st = DYD_OK;
   while (st == DYD_OK && !dyd_root_is_narrow(r, prec)) st = dyd_root_step(r, prec, stop, NULL);
-  arb_init(hi);
+  DYD_LOCAL_NUMBERS(arb, hi);
   if (r->on_grid) {
     dyd_ball_set_z_2exp(out, r->slot, 0);
     arb_add_ui(hi, out, r->exact ? 0 : 1, ARF_PREC_EXACT);
@@ -158,7 +154,6 @@ static void value_of_root(arb_ptr out, dyd_root *r, slong prec, const volatile i
     dyd_ball_set_q(hi, r->hi, prec);
   }
   arb_union(out, out, hi, prec + 64);
-  arb_clear(hi);
 }
 
 static dyd_defined value_of_leaf(arb_ptr out, dyd_forms *f, const dyd_form *n, slong prec) {
@@ -219,12 +214,9 @@ arb_srcptr dyd_forms_value(dyd_forms *f, uint32_t n, slong prec) {
 /* ---- reals ---- */
 
 static uint32_t form_of_interval(dyd_forms *f, const dyd_interval *a) {
-  mpq_t q;
-  mpq_init(q);
+  DYD_LOCAL_NUMBERS(mpq, q);
   dyd_interval_get_q(q, q, a);
-  uint32_t n = dyd_forms_number(f, q);
-  mpq_clear(q);
-  return n;
+  return dyd_forms_number(f, q);
 }
 
 /* Finds each leaf by the contents of its node without the operation; a node of another kind would be the same form
@@ -385,15 +377,12 @@ dyd_form_point dyd_forms_stream(dyd_forms *f, const dyd_stream *s) {
 }
 
 static uint32_t form_of_middle(dyd_forms *f, mpq_t half, const dyd_interval *a) {
-  mpq_t lo;
-  mpq_init(lo);
+  DYD_LOCAL_NUMBERS(mpq, lo);
   dyd_interval_get_q(lo, half, a);
   mpq_sub(half, half, lo);
   mpq_div_2exp(half, half, 1);
   mpq_add(lo, lo, half);
-  uint32_t n = dyd_forms_number(f, lo);
-  mpq_clear(lo);
-  return n;
+  return dyd_forms_number(f, lo);
 }
 
 dyd_form_point dyd_forms_middle(dyd_forms *f, mpq_t half[2], const dyd_rect *r) {

@@ -7,6 +7,7 @@
 #include "stream/algebra/leaves.h"
 
 #include "base/alloc.h"
+#include "base/local.h"
 #include "stream/arb.h"
 
 #include <flint/fmpq.h>
@@ -19,10 +20,8 @@ enum { MOST_BASES = 64 };
 
 /* n becomes the root of which it is a power. */
 static void strip_powers(fmpz_t n) {
-  fmpz_t root;
-  fmpz_init(root);
+  DYD_LOCAL_NUMBERS(fmpz, root);
   while (fmpz_cmp_ui(n, 1) > 0 && fmpz_is_perfect_power(root, n)) fmpz_swap(n, root);
-  fmpz_clear(root);
 }
 
 static bool base_append(dyd_ring *r, const fmpz_t n) {
@@ -45,8 +44,7 @@ static bool base_append(dyd_ring *r, const fmpz_t n) {
 /* Makes the elements from `from` on coprime to all others: a common factor of two becomes an element of its own. The
  * product of all elements shrinks with every split. */
 static void base_refine(dyd_ring *r) {
-  fmpz_t g;
-  fmpz_init(g);
+  DYD_LOCAL_NUMBERS(fmpz, g);
   for (slong k = 1; k < r->bases && !r->failed; k++)
     for (slong l = 0; l < k && !r->failed; l++) {
       fmpz_gcd(g, r->base + k, r->base + l);
@@ -65,7 +63,6 @@ static void base_refine(dyd_ring *r) {
   }
   for (slong k = kept; k < r->bases; k++) fmpz_clear(r->base + k);
   r->bases = kept;
-  fmpz_clear(g);
 }
 
 /* ---- of numbers ---- */
@@ -104,10 +101,10 @@ static void take_out_powers(fmpz_t root, fmpz_t n, slong k) {
 /* x = the k-th root of n > 0, an integer; n becomes what the base does not know. */
 static bool radical_over_base(fmpz_mpoly_t x, dyd_ring *r, dyd_op op, fmpz_t n, slong k) {
   bool fits = true;
-  fmpz_t factor, power;
   fmpz_mpoly_t root;
-  fmpz_init_set_ui(factor, 1);
-  fmpz_init(power);
+  DYD_LOCAL_NUMBERS(fmpz, factor);
+  fmpz_set_ui(factor, 1);
+  DYD_LOCAL_NUMBERS(fmpz, power);
   fmpz_mpoly_init(root, r->ctx);
   fmpz_mpoly_one(x, r->ctx);
   take_out_powers(factor, n, k);
@@ -125,16 +122,14 @@ static bool radical_over_base(fmpz_mpoly_t x, dyd_ring *r, dyd_op op, fmpz_t n, 
   }
   fmpz_mpoly_scalar_mul_fmpz(x, x, factor, r->ctx);
   fmpz_mpoly_clear(root, r->ctx);
-  fmpz_clear(power);
-  fmpz_clear(factor);
   return fits;
 }
 
 /* The same; what the base does not know is put into it. */
 static bool radical_of_integer(fmpz_mpoly_t x, dyd_ring *r, dyd_op op, const fmpz_t of, slong k) {
-  fmpz_t n;
   if (fmpz_bits(of) > DYD_RING_BASE_BITS) return false;
-  fmpz_init_set(n, of);
+  DYD_LOCAL_NUMBERS(fmpz, n);
+  fmpz_set(n, of);
   bool fits = radical_over_base(x, r, op, n, k);
   if (!fmpz_is_one(n)) {
     fits = false;
@@ -143,7 +138,6 @@ static bool radical_of_integer(fmpz_mpoly_t x, dyd_ring *r, dyd_op op, const fmp
       r->stale = true;
     }
   }
-  fmpz_clear(n);
   return fits;
 }
 
@@ -171,9 +165,8 @@ static slong nested_leaf(dyd_ring *r, dyd_op op, const fmpz_mpoly_t key, slong k
 
 /* x->num = the root of key, a polynomial that is not constant. */
 static bool radical_of_polynomial(dyd_fraction *x, dyd_ring *r, dyd_op op, fmpz_mpoly_t key, slong k) {
-  fmpz_t factor;
   bool negative = op == DYD_OP_CBRT && fmpz_sgn(key->coeffs) < 0;
-  fmpz_init(factor);
+  DYD_LOCAL_NUMBERS(fmpz, factor);
   _fmpz_vec_content(factor, key->coeffs, key->length);
   fmpz_mpoly_scalar_divexact_fmpz(key, key, factor, r->ctx);
   if (negative) fmpz_mpoly_neg(key, key, r->ctx);
@@ -185,20 +178,17 @@ static bool radical_of_polynomial(dyd_fraction *x, dyd_ring *r, dyd_op op, fmpz_
     fmpz_mpoly_mul(x->num, x->num, key, r->ctx);
     if (negative) fmpz_mpoly_neg(x->num, x->num, r->ctx);
   }
-  fmpz_clear(factor);
   return fits;
 }
 
 /* The same for an integer that is not 0; square roots are of positive ones. */
 static bool radical_of_number(dyd_fraction *x, dyd_ring *r, dyd_op op, fmpz_mpoly_t key, slong k) {
-  fmpz_t n;
-  fmpz_init(n);
+  DYD_LOCAL_NUMBERS(fmpz, n);
   fmpz_mpoly_get_fmpz(n, key, r->ctx);
   bool negative = fmpz_sgn(n) < 0;
   fmpz_abs(n, n);
   bool fits = !(negative && op == DYD_OP_SQRT) && radical_of_integer(x->num, r, op, n, k);
   if (fits && negative) fmpz_mpoly_neg(x->num, x->num, r->ctx);
-  fmpz_clear(n);
   return fits;
 }
 
@@ -234,15 +224,13 @@ enum { FACTOR_DEGREE = 32, FACTOR_BITS = 4096, RELATION_BITS = 1 << 20, APART_BI
 /* How many factors may vanish at x, and the last of them. */
 static slong count_vanishing(slong *which, const fmpz_poly_factor_t list, const arb_t x, slong prec) {
   slong count = 0;
-  arb_t y;
-  arb_init(y);
+  DYD_LOCAL_NUMBERS(arb, y);
   for (slong k = 0; k < list->num; k++) {
     arb_fmpz_poly_evaluate_arb(y, list->p + k, x, prec);
     if (!arb_contains_zero(y)) continue;
     count++;
     *which = k;
   }
-  arb_clear(y);
   return count;
 }
 
@@ -264,26 +252,22 @@ static void keep_own_factor(fmpz_poly_t f, dyd_ring *r, uint32_t node) {
 /* ---- degrees 1 and 2 ---- */
 
 static bool root_is_number(dyd_fraction *x, const dyd_ring *r, const fmpz_poly_t f) {
-  fmpz_t minus;
-  fmpz_init(minus);
+  DYD_LOCAL_NUMBERS(fmpz, minus);
   fmpz_neg(minus, fmpz_poly_get_coeff_ptr(f, 0));
   dyd_fraction_set_number(x, minus, fmpz_poly_get_coeff_ptr(f, 1), r);
-  fmpz_clear(minus);
   return true;
 }
 
 /* The sign of 2 a x + b at the root x; 0: not known. */
 static int side_of_middle(dyd_ring *r, const fmpz_poly_t f, uint32_t node) {
-  arb_t y;
   int sign = 0;
-  arb_init(y);
+  DYD_LOCAL_NUMBERS(arb, y);
   for (slong prec = 128; prec <= APART_BITS && !sign; prec *= 2) {
     arb_mul_fmpz(y, dyd_forms_value(r->forms, node, prec), fmpz_poly_get_coeff_ptr(f, 2), prec);
     arb_mul_2exp_si(y, y, 1);
     arb_add_fmpz(y, y, fmpz_poly_get_coeff_ptr(f, 1), prec);
     if (!arb_contains_zero(y)) sign = arf_sgn(arb_midref(y));
   }
-  arb_clear(y);
   return sign;
 }
 
@@ -292,8 +276,7 @@ static bool root_is_quadratic(dyd_fraction *x, dyd_ring *r, const fmpz_poly_t f,
   const fmpz *a = fmpz_poly_get_coeff_ptr(f, 2), *b = fmpz_poly_get_coeff_ptr(f, 1), *c = fmpz_poly_get_coeff_ptr(f, 0);
   int sign = side_of_middle(r, f, node);
   dyd_fraction u;
-  fmpz_t t;
-  fmpz_init(t);
+  DYD_LOCAL_NUMBERS(fmpz, t);
   fmpz_mpoly_init(u.num, r->ctx);
   fmpz_mpoly_init(u.den, r->ctx);
   fmpz_mul(t, a, c);
@@ -312,7 +295,6 @@ static bool root_is_quadratic(dyd_fraction *x, dyd_ring *r, const fmpz_poly_t f,
   }
   fmpz_mpoly_clear(u.den, r->ctx);
   fmpz_mpoly_clear(u.num, r->ctx);
-  fmpz_clear(t);
   return fits;
 }
 
@@ -328,10 +310,8 @@ static slong bits_apart(const fmpz_poly_t f) {
 static bool roots_are_same(dyd_ring *r, const fmpz_poly_t f, uint32_t a, uint32_t b) {
   slong bits = bits_apart(f);
   bool apart = a != b && bits > APART_BITS, same = a == b;
-  arb_t d;
-  mag_t most;
-  arb_init(d);
-  mag_init(most);
+  DYD_LOCAL_NUMBERS(arb, d);
+  DYD_LOCAL_NUMBERS(mag, most);
   for (slong prec = 64; !apart && !same; prec *= 2) {
     arb_set(d, dyd_forms_value(r->forms, a, prec));
     arb_sub(d, d, dyd_forms_value(r->forms, b, prec), prec + 64);
@@ -339,8 +319,6 @@ static bool roots_are_same(dyd_ring *r, const fmpz_poly_t f, uint32_t a, uint32_
     apart = !arb_contains_zero(d) || prec > 4 * APART_BITS;
     same = !apart && mag_cmp_2exp_si(most, -bits) < 0;
   }
-  mag_clear(most);
-  arb_clear(d);
   return same;
 }
 
@@ -349,9 +327,9 @@ static void monic_relation(fmpz_mpoly_t relation, const dyd_ring *r, const fmpz_
   ulong exponent[DYD_RING_LEAVES] = {0};
   slong n = fmpz_poly_degree(f);
   fmpz_mpoly_struct *terms = relation;
-  fmpz_t power, c;
-  fmpz_init_set_ui(power, 1);
-  fmpz_init(c);
+  DYD_LOCAL_NUMBERS(fmpz, power);
+  fmpz_set_ui(power, 1);
+  DYD_LOCAL_NUMBERS(fmpz, c);
   fmpz_mpoly_zero(terms, r->ctx);
   for (slong e = n; e >= 0; e--) {
     exponent[dyd_ring_var(r, l)] = (ulong)e;
@@ -362,8 +340,6 @@ static void monic_relation(fmpz_mpoly_t relation, const dyd_ring *r, const fmpz_
     if (!fmpz_is_zero(c)) fmpz_mpoly_push_term_fmpz_ui(terms, c, exponent, r->ctx);
     if (e < n) fmpz_mul(power, power, fmpz_poly_get_coeff_ptr(f, n));
   }
-  fmpz_clear(c);
-  fmpz_clear(power);
 }
 
 static bool is_root_leaf(dyd_ring *r, slong l, const fmpz_poly_t f, uint32_t node) {
@@ -388,12 +364,10 @@ static slong root_leaf(dyd_ring *r, const fmpz_poly_t f, uint32_t node) {
   monic_relation(leaf->relation, r, f, l);
   leaf->degree = fmpz_poly_degree(f);
   leaf->whole = true;
-  fmpz_t bound;
-  fmpz_init(bound);
+  DYD_LOCAL_NUMBERS(fmpz, bound);
   fmpz_poly_bound_roots(bound, f);
   fmpz_mul(bound, bound, leaf->base);
   mag_set_fmpz(leaf->bound, bound);
-  fmpz_clear(bound);
   return l;
 }
 
@@ -407,17 +381,12 @@ static bool root_is_leaf(dyd_fraction *x, dyd_ring *r, const fmpz_poly_t f, uint
 }
 
 bool dyd_leaf_root(dyd_fraction *x, dyd_ring *r, uint32_t node) {
-  fmpz_poly_t f;
-  fmpz_poly_init(f);
+  DYD_LOCAL_NUMBERS(fmpz_poly, f);
   fmpz_poly_primitive_part(f, r->forms->node[node].root->poly);
   keep_own_factor(f, r, node);
   if (fmpz_sgn(fmpz_poly_lead(f)) < 0) fmpz_poly_neg(f, f);
   slong n = fmpz_poly_degree(f);
-  bool fits = n == 1   ? root_is_number(x, r, f)
-              : n == 2 ? root_is_quadratic(x, r, f, node)
-                       : root_is_leaf(x, r, f, node);
-  fmpz_poly_clear(f);
-  return fits;
+  return n == 1 ? root_is_number(x, r, f) : n == 2 ? root_is_quadratic(x, r, f, node) : root_is_leaf(x, r, f, node);
 }
 
 /* Cosines and sines, and free variables.
@@ -438,8 +407,7 @@ static slong leaf_pi(const dyd_ring *r) {
 
 /* a = C_k, b = C_k+1. */
 static void dickson_pair(fmpz_poly_t a, fmpz_poly_t b, const fmpz_poly_t minimal, const fmpz_poly_t c, ulong k) {
-  fmpz_poly_t t;
-  fmpz_poly_init(t);
+  DYD_LOCAL_NUMBERS(fmpz_poly, t);
   fmpz_poly_set_si(a, 2);
   fmpz_poly_set(b, c);
   for (int bit = (int)FLINT_BIT_COUNT(k) - 1; bit >= 0; bit--) {
@@ -452,7 +420,6 @@ static void dickson_pair(fmpz_poly_t a, fmpz_poly_t b, const fmpz_poly_t minimal
     fmpz_poly_rem(doubled, doubled, minimal);
     fmpz_poly_swap(k >> bit & 1 ? a : b, t);
   }
-  fmpz_poly_clear(t);
 }
 
 /* x = p(leaf l). */
@@ -481,11 +448,8 @@ static slong cycle_leaf(dyd_ring *r) {
 
 /* x = cos(2 pi k / order). */
 static bool cosine_of_part(dyd_fraction *x, dyd_ring *r, ulong k) {
-  fmpz_poly_t c, a, b;
   bool fits = true;
-  fmpz_poly_init(c);
-  fmpz_poly_init(a);
-  fmpz_poly_init(b);
+  DYD_LOCAL_NUMBERS(fmpz_poly, c, a, b);
   fmpz_poly_set_coeff_ui(c, 1, 1);
   fmpz_poly_rem(c, c, r->minimal);
   dickson_pair(a, b, r->minimal, c, k);
@@ -497,9 +461,6 @@ static bool cosine_of_part(dyd_fraction *x, dyd_ring *r, ulong k) {
     fmpz_mpoly_set_ui(x->den, 2, r->ctx);
     dyd_fraction_lowest(x, r);
   }
-  fmpz_poly_clear(b);
-  fmpz_poly_clear(a);
-  fmpz_poly_clear(c);
   return fits;
 }
 
@@ -566,8 +527,8 @@ static slong angle_leaf(dyd_ring *r, const dyd_fraction *u) {
 static bool cosine_of_angle(dyd_fraction *x, dyd_ring *r, dyd_op op, const dyd_fraction *u) {
   bool negative = dyd_fraction_leads_negative(u);
   dyd_fraction angle;
-  fmpz_t one;
-  fmpz_init_set_ui(one, 1);
+  DYD_LOCAL_NUMBERS(fmpz, one);
+  fmpz_set_ui(one, 1);
   fmpz_mpoly_init(angle.num, r->ctx);
   fmpz_mpoly_init(angle.den, r->ctx);
   dyd_fraction_set(&angle, u, r);
@@ -577,16 +538,13 @@ static bool cosine_of_angle(dyd_fraction *x, dyd_ring *r, dyd_op op, const dyd_f
   if (negative && op == DYD_OP_SIN) fmpz_mpoly_neg(x->num, x->num, r->ctx);
   fmpz_mpoly_clear(angle.den, r->ctx);
   fmpz_mpoly_clear(angle.num, r->ctx);
-  fmpz_clear(one);
   return l >= 0;
 }
 
 bool dyd_leaf_cosine(dyd_fraction *x, dyd_ring *r, dyd_op op, const dyd_fraction *u) {
-  fmpq_t turn, quarter;
   bool far = false, fits;
   ulong k;
-  fmpq_init(turn);
-  fmpq_init(quarter);
+  DYD_LOCAL_NUMBERS(fmpq, turn, quarter);
   fmpq_set_si(quarter, 1, 4);
   bool part = part_of_turn(turn, r, u);
   if (part && op == DYD_OP_SIN) fmpq_sub(turn, turn, quarter);
@@ -594,8 +552,6 @@ bool dyd_leaf_cosine(dyd_fraction *x, dyd_ring *r, dyd_op op, const dyd_fraction
     fits = cosine_of_part(x, r, k);
   else
     fits = (!part || far) && cosine_of_angle(x, r, op, u);
-  fmpq_clear(quarter);
-  fmpq_clear(turn);
   return fits;
 }
 
@@ -607,7 +563,6 @@ static bool is_free_leaf(const dyd_leaf *l, dyd_op op, const dyd_fraction *u, ui
 
 bool dyd_leaf_free(dyd_fraction *x, dyd_ring *r, dyd_op op, const dyd_fraction *u, uint32_t node) {
   slong l = 0;
-  fmpz_t one;
   while (l < r->leaves && !is_free_leaf(&r->leaf[l], op, u, node, r)) l++;
   if (l == r->leaves) {
     l = dyd_ring_add_leaf(r, DYD_LEAF_FREE, op);
@@ -615,8 +570,8 @@ bool dyd_leaf_free(dyd_fraction *x, dyd_ring *r, dyd_op op, const dyd_fraction *
     r->leaf[l].node = node;
     if (u) dyd_fraction_set(&r->leaf[l].key, u, r);
   }
-  fmpz_init_set_ui(one, 1);
+  DYD_LOCAL_NUMBERS(fmpz, one);
+  fmpz_set_ui(one, 1);
   dyd_fraction_set_leaf(x, l, one, r);
-  fmpz_clear(one);
   return true;
 }

@@ -3,6 +3,7 @@
 #include "stream/algebra/ring.h"
 
 #include "base/alloc.h"
+#include "base/local.h"
 
 #include <flint/fmpz_vec.h>
 #include <string.h>
@@ -181,9 +182,7 @@ static bool ring_mul(fmpz_mpoly_t x, const dyd_ring *r, const fmpz_mpoly_t a, co
 /* The absolute values of the terms at the bounds of the leaves, every step rounded up. */
 void dyd_ring_bound(mag_t out, const dyd_ring *r, const fmpz_mpoly_t p) {
   ulong exponent[DYD_RING_LEAVES];
-  mag_t term, power;
-  mag_init(term);
-  mag_init(power);
+  DYD_LOCAL_NUMBERS(mag, term, power);
   mag_zero(out);
   for (slong t = 0; t < p->length; t++) {
     fmpz_mpoly_get_term_exp_ui(exponent, p, t, r->ctx);
@@ -196,8 +195,6 @@ void dyd_ring_bound(mag_t out, const dyd_ring *r, const fmpz_mpoly_t p) {
     }
     mag_add(out, out, term);
   }
-  mag_clear(power);
-  mag_clear(term);
 }
 
 bool dyd_ring_is_whole(const dyd_ring *r, const fmpz_mpoly_t p) {
@@ -229,9 +226,7 @@ void dyd_fraction_set_leaf(dyd_fraction *x, slong k, const fmpz_t den, const dyd
 
 void dyd_fraction_lowest(dyd_fraction *x, const dyd_ring *r) {
   fmpz_mpoly_struct *num = x->num, *den = x->den;
-  fmpz_t g, h;
-  fmpz_init(g);
-  fmpz_init(h);
+  DYD_LOCAL_NUMBERS(fmpz, g, h);
   _fmpz_vec_content(g, num->coeffs, num->length);
   _fmpz_vec_content(h, den->coeffs, den->length);
   fmpz_gcd(g, g, h);
@@ -240,8 +235,6 @@ void dyd_fraction_lowest(dyd_fraction *x, const dyd_ring *r) {
     fmpz_mpoly_scalar_divexact_fmpz(num, num, g, r->ctx);
     fmpz_mpoly_scalar_divexact_fmpz(den, den, g, r->ctx);
   }
-  fmpz_clear(h);
-  fmpz_clear(g);
 }
 
 /* The sum or difference of numerators brought to one denominator, the least for integers. */

@@ -4,6 +4,7 @@
 #include "stream/algebra/zero.h"
 
 #include "base/flag.h"
+#include "base/local.h"
 #include "stream/algebra/leaves.h"
 #include "stream/algebra/ring.h"
 #include "stream/arb.h"
@@ -36,14 +37,12 @@ static bool normal_arithmetic(dyd_fraction *x, dyd_ring *r, const dyd_form *n) {
 /* The sign of a - b, or of a where b is DYD_NONE; 0: not known. */
 static int sign_of_difference(dyd_ring *r, uint32_t a, uint32_t b) {
   int sign = 0;
-  arb_t d;
-  arb_init(d);
+  DYD_LOCAL_NUMBERS(arb, d);
   for (slong prec = 128; prec <= SIGN_BITS && !sign; prec *= 2) {
     arb_set(d, dyd_forms_value(r->forms, a, prec));
     if (b != DYD_NONE) arb_sub(d, d, dyd_forms_value(r->forms, b, prec), prec);
     if (!arb_contains_zero(d)) sign = arf_sgn(arb_midref(d));
   }
-  arb_clear(d);
   return sign;
 }
 
@@ -165,14 +164,10 @@ static bool normal_function(dyd_fraction *x, dyd_ring *r, const dyd_form *n, uin
 }
 
 static void normal_number(dyd_fraction *x, const dyd_ring *r, mpq_srcptr q) {
-  fmpz_t num, den;
-  fmpz_init(num);
-  fmpz_init(den);
+  DYD_LOCAL_NUMBERS(fmpz, num, den);
   fmpz_set_mpz(num, mpq_numref(q));
   fmpz_set_mpz(den, mpq_denref(q));
   dyd_fraction_set_number(x, num, den, r);
-  fmpz_clear(den);
-  fmpz_clear(num);
 }
 
 /* x = e, exp of 1. */
@@ -309,11 +304,9 @@ static void part_multiply(part *p, const part *q) {
 
 /* Brings both to one denominator, the least one for integers, and adds. */
 static void part_add(part *p, const part *q) {
-  mag_t t;
-  mag_init(t);
+  DYD_LOCAL_NUMBERS(mag, t);
   if (!fmpz_is_zero(p->whole) && !fmpz_is_zero(q->whole)) {
-    fmpz_t g;
-    fmpz_init(g);
+    DYD_LOCAL_NUMBERS(fmpz, g);
     fmpz_gcd(g, p->whole, q->whole);
     fmpz_divexact(g, q->whole, g); /* by which p is extended */
     mag_mul_fmpz(p->num, p->num, g);
@@ -321,7 +314,6 @@ static void part_add(part *p, const part *q) {
     fmpz_divexact(g, p->whole, q->whole);
     mag_mul_fmpz(t, q->num, g);
     mag_set_fmpz(p->den, p->whole);
-    fmpz_clear(g);
   } else {
     mag_mul(p->num, p->num, q->den);
     mag_mul(t, q->num, p->den);
@@ -329,7 +321,6 @@ static void part_add(part *p, const part *q) {
     fmpz_zero(p->whole);
   }
   mag_add(p->num, p->num, t);
-  mag_clear(t);
 }
 
 static bool part_of_form(part *p, dyd_ring *r, uint32_t n);
@@ -372,11 +363,8 @@ static bool degree_of_tower(slong *degree, part *p, const dyd_ring *r) {
 
 /* out >= (degree - 1) log2 u; false: it is more than `most`. */
 static bool bits_of_bound(slong *out, const mag_t u, slong degree, slong most) {
-  arb_t x, two;
-  arf_t upper;
-  arb_init(x);
-  arb_init(two);
-  arf_init(upper);
+  DYD_LOCAL_NUMBERS(arb, x, two);
+  DYD_LOCAL_NUMBERS(arf, upper);
   arf_set_mag(arb_midref(x), u);
   if (arf_cmp_si(arb_midref(x), 1) < 0) arb_one(x);
   arb_const_log2(two, 64);
@@ -386,9 +374,6 @@ static bool bits_of_bound(slong *out, const mag_t u, slong degree, slong most) {
   arb_get_ubound_arf(upper, x, 64);
   bool small = arf_cmp_si(upper, most) <= 0;
   *out = small ? arf_get_si(upper, ARF_RND_CEIL) : most;
-  arf_clear(upper);
-  arb_clear(two);
-  arb_clear(x);
   return small;
 }
 
@@ -434,13 +419,10 @@ static bool zero_is_excluded(dyd_algebra *a, uint32_t n, slong prec) {
 
 /* |P| = |value| |Q| < 2^-bits: then P = 0. */
 static bool is_below_separation(dyd_algebra *a, uint32_t n, slong prec, const dyd_separation *s) {
-  mag_t m;
-  mag_init(m);
+  DYD_LOCAL_NUMBERS(mag, m);
   arb_get_mag(m, dyd_forms_value(&a->forms, n, prec));
   mag_mul(m, m, s->den);
-  bool below = mag_cmp_2exp_si(m, -s->bits) < 0;
-  mag_clear(m);
-  return below;
+  return mag_cmp_2exp_si(m, -s->bits) < 0;
 }
 
 /* Room for the values of all forms to `prec` bits, and for what functions compute with. */
@@ -501,12 +483,10 @@ bool dyd_algebra_is_nonzero(dyd_algebra *a, uint32_t n) {
 int64_t dyd_algebra_smallness(dyd_algebra *a, uint32_t n, slong prec) {
   int64_t e = INT64_MAX;
   if (n == DYD_NONE) return e;
-  arf_t least;
-  arf_init(least);
+  DYD_LOCAL_NUMBERS(arf, least);
   arb_get_abs_lbound_arf(least, dyd_forms_value(&a->forms, n, prec), prec);
   /* balls have exponents of limited size (dyd_ball_check) */
   if (arf_is_finite(least) && arf_sgn(least) > 0) e = 1 - (int64_t)fmpz_get_si(ARF_EXPREF(least));
-  arf_clear(least);
   return e;
 }
 
