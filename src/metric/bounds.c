@@ -21,6 +21,7 @@
 
 #include "base/abi.h"
 #include "base/alloc.h"
+#include "base/local.h"
 #include "dyadic/raw.h"
 #include "metric/bounds_filter.h"
 #include "rect/rect.h"
@@ -91,14 +92,12 @@ static dyd_status measure_fetch(dyd_measure *m, size_t i, size_t j) {
 
 /* sum += max(p1 - q0, q1 - p0)^2 for the intervals at end[p] and end[q]. */
 static void add_farthest2(dyd_measure *m, size_t p, size_t q) {
-  mpq_t other;
-  mpq_init(other);
+  DYD_LOCAL_NUMBERS(mpq, other);
   mpq_sub(m->term, m->end[p + 1], m->end[q]);
   mpq_sub(other, m->end[q + 1], m->end[p]);
   if (mpq_cmp(other, m->term) > 0) mpq_swap(other, m->term);
   mpq_mul(m->term, m->term, m->term);
   mpq_add(m->sum, m->sum, m->term);
-  mpq_clear(other);
 }
 
 /* out = the largest distance of a point of the rectangle at end[p] to one at end[q]; p = q: the diameter. */
@@ -187,9 +186,7 @@ static dyd_status measure_gap(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) 
 
 /* pair_extent of discs. */
 static dyd_status discs_extent(mpfr_ptr gap, mpfr_ptr diameters, dyd_measure *m, const dyd_pair *pair) {
-  dyd_disc a, b;
-  dyd_disc_init(&a);
-  dyd_disc_init(&b);
+  DYD_LOCAL(dyd_disc, a, b);
   dyd_status st = dyd_disc_of_site(&a, m->sites, pair->i);
   if (st == DYD_OK) st = dyd_disc_of_site(&b, m->sites, pair->j);
   mpq_sub(m->sum, a.x, b.x);
@@ -204,8 +201,6 @@ static dyd_status discs_extent(mpfr_ptr gap, mpfr_ptr diameters, dyd_measure *m,
   if (mpfr_sgn(gap) < 0) mpfr_set_zero(gap, 1);
   mpfr_set_q(diameters, m->term, MPFR_RNDU);
   mpfr_mul_2ui(diameters, diameters, 1, MPFR_RNDU);
-  dyd_disc_clear(&b);
-  dyd_disc_clear(&a);
   return st;
 }
 
@@ -213,26 +208,22 @@ dyd_status dyd_bound_pair_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair
   if (pair->status != DYD_LEGAL) return dyd_measure_reach(out, m, pair->i, pair->j);
   dyd_status st = dyd_measure_diameter(out, m, pair->i);
   if (st != DYD_OK) return st;
-  mpfr_t other;
-  mpfr_init2(other, DYD_MEASURE_PREC);
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, other);
   st = dyd_measure_diameter(other, m, pair->j);
   mpfr_max(out, out, other, MPFR_RNDU);
-  mpfr_clear(other);
   return st;
 }
 
 /* The sum of the areas of the pairs, or the largest distance of one pair. */
 static dyd_status bound_over(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs, bool area) {
   dyd_status st = DYD_OK;
-  mpfr_t term;
-  mpfr_init2(term, DYD_MEASURE_PREC);
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, term);
   mpfr_set_zero(out, 1);
   for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
     const dyd_pair *p = &pairs->item[k];
     st = area ? dyd_measure_area(term, m, p->i, p->j) : dyd_bound_pair_hausdorff(term, m, p);
     (area ? mpfr_add : mpfr_max)(out, out, term, MPFR_RNDU);
   }
-  mpfr_clear(term);
   return st;
 }
 
@@ -249,20 +240,15 @@ static dyd_status bound_to_dyadic(dyd_dyadic *out, mpfr_srcptr x) {
   if (mpfr_zero_p(x)) return dyd_dyadic_set_si_2exp(out, 0, 0);
   if (!mpfr_regular_p(x)) return DYD_E_RANGE;
   if (mpfr_cmp_ui_2exp(x, 1, -(mpfr_exp_t)DYD_EXP_LIMIT) <= 0) return dyd_dyadic_set_si_2exp(out, 1, -DYD_EXP_LIMIT);
-  mpfr_t short_x;
-  mpz_t man;
-  mpz_init(man);
-  mpfr_init2(short_x, 64);
+  DYD_LOCAL_NUMBERS(mpz, man);
+  DYD_LOCAL_FLOATS(64, short_x);
   mpfr_set(short_x, x, MPFR_RNDU);
   mpfr_exp_t exp = mpfr_get_z_2exp(man, short_x);
   if (exp < -DYD_EXP_LIMIT) {
     mpz_cdiv_q_2exp(man, man, (mp_bitcnt_t)(-DYD_EXP_LIMIT - exp));
     exp = -DYD_EXP_LIMIT;
   }
-  dyd_status st = dyd_dyadic_set_z_2exp(out, man, exp);
-  mpfr_clear(short_x);
-  mpz_clear(man);
-  return st;
+  return dyd_dyadic_set_z_2exp(out, man, exp);
 }
 
 /* Where all are exact points and nothing is open every term of both bounds is zero. */
@@ -279,7 +265,7 @@ dyd_status dyd_metric_bound(dyd_dyadic *out, const dyd_delaunay *pd, const dyd_p
   if (!pd) return DYD_E_ARG;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   if (bounds_are_zero(pd)) return dyd_dyadic_set_si_2exp(out, 0, 0);
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_measure m;
   mpfr_t x;
   dyd_status st = discs ? DYD_OK : dyd_delaunay_pairs(&pairs, pd);
@@ -291,7 +277,6 @@ dyd_status dyd_metric_bound(dyd_dyadic *out, const dyd_delaunay *pd, const dyd_p
     mpfr_clear(x);
     dyd_measure_clear(&m);
   }
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 
@@ -383,7 +368,7 @@ static dyd_status find_shape(dyd_shape *shape, dyd_voronoi_sums *s, uint32_t i, 
 
 dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, void *context) {
   size_t n = dyd_sites_count(dyd_delaunay_sites(s->pd));
-  dyd_shape shape = {0};
+  DYD_SCOPED(dyd_shape) shape = {0};
   dyd_window w;
   dyd_status st = dyd_window_init(&w, s->window);
   w.cancel = s->cancel;
@@ -400,18 +385,15 @@ dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, vo
     if (st == DYD_OK) st = add_shape(area, s, (uint32_t)i, &shape);
     if (st == DYD_OK && visit) st = visit(context, (uint32_t)i, &shape, area);
   }
-  dyd_shape_clear(&shape);
   return st;
 }
 
 /* ---- area ---- */
 
 void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s) {
-  dyd_dyadic side[2], area;
-  for (int k = 0; k < 2; k++) dyd_dyadic_init(&side[k]);
-  dyd_dyadic_init(&area);
-  mpfr_t exact;
-  mpfr_init2(exact, mpfr_get_prec(s->inner));
+  DYD_LOCAL_ARRAY(dyd_dyadic, side, [2]);
+  DYD_LOCAL(dyd_dyadic, area);
+  DYD_LOCAL_FLOATS(mpfr_get_prec(s->inner), exact);
   mpfr_set_inf(out, 1);
   if (dyd_dyadic_sub(&side[0], &s->window->x.hi, &s->window->x.lo) == DYD_OK &&
       dyd_dyadic_sub(&side[1], &s->window->y.hi, &s->window->y.lo) == DYD_OK &&
@@ -421,9 +403,6 @@ void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s) {
     bool whole = s->added && !s->inexact; /* cells of exact points fill W */
     if (whole || mpfr_sgn(out) < 0) mpfr_set_zero(out, 1);
   }
-  mpfr_clear(exact);
-  dyd_dyadic_clear(&area);
-  for (int k = 0; k < 2; k++) dyd_dyadic_clear(&side[k]);
 }
 
 /* ---- Hausdorff ---- */
@@ -431,13 +410,11 @@ void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s) {
 /* Bounds of the distance of both regions from below, and of the sum of their diameters from above. */
 static dyd_status pair_extent(mpfr_ptr gap, mpfr_ptr diameters, dyd_measure *m, const dyd_pair *pair) {
   if (m->discs) return discs_extent(gap, diameters, m, pair);
-  mpfr_t other;
-  mpfr_init2(other, DYD_MEASURE_PREC);
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, other);
   dyd_status st = measure_gap(gap, m, pair->i, pair->j);
   if (st == DYD_OK) st = dyd_measure_diameter(diameters, m, pair->i);
   if (st == DYD_OK) st = dyd_measure_diameter(other, m, pair->j);
   mpfr_add(diameters, diameters, other, MPFR_RNDU);
-  mpfr_clear(other);
   return st;
 }
 
@@ -465,8 +442,7 @@ dyd_status dyd_voronoi_pair_width(mpfr_ptr out, bool *finite, const dyd_voronoi_
   const dyd_sites *sites = m->sites;
   dyd_voronoi_pair_reach(reach, s, pair);
   if (reach[0] < 0 || (dyd_sites_is_point(sites, pair->i) && dyd_sites_is_point(sites, pair->j))) return DYD_OK;
-  mpfr_t gap, other;
-  mpfr_inits2(DYD_MEASURE_PREC, gap, other, (mpfr_ptr)0);
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, gap, other);
   dyd_status st = pair_extent(gap, out, m, pair);
   *finite = st != DYD_OK || !mpfr_zero_p(gap);
   if (st == DYD_OK && *finite) {
@@ -478,7 +454,6 @@ dyd_status dyd_voronoi_pair_width(mpfr_ptr out, bool *finite, const dyd_voronoi_
     double most = reach[0] > reach[1] ? reach[0] : reach[1];
     if (mpfr_cmp_d(out, most) > 0) mpfr_set_d(out, most, MPFR_RNDU);
   }
-  mpfr_clears(gap, other, (mpfr_ptr)0);
   return st;
 }
 
@@ -527,16 +502,15 @@ static bool pair_is_small(const dyd_voronoi_sums *s, const dyd_pair *pair, mpfr_
 }
 
 dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, dyd_voronoi_sums *s, const dyd_pair_list *pairs) {
-  dyd_measure m;
-  mpfr_t one;
+  DYD_SCOPED(dyd_measure) m;
   bool open = false;
   size_t n = dyd_sites_count(dyd_delaunay_sites(s->pd));
-  double *seen = dyd_alloc(n, sizeof *seen);
+  DYD_FREED double *seen = dyd_alloc(n, sizeof *seen);
   dyd_status st = seen ? DYD_OK : DYD_E_NOMEM;
   for (size_t i = 0; i < n && seen; i++) seen[i] = -1;
   dyd_measure_init(&m, dyd_delaunay_sites(s->pd));
   m.discs = s->discs;
-  mpfr_init2(one, DYD_MEASURE_PREC);
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, one);
   mpfr_set_zero(out, 1);
   *finite = true;
   for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
@@ -560,9 +534,6 @@ dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, dyd_voronoi_sums *s
     *finite = false;
     mpfr_set_zero(out, 1);
   }
-  mpfr_clear(one);
-  dyd_measure_clear(&m);
-  free(seen);
   return st;
 }
 
@@ -575,8 +546,7 @@ static dyd_status rate_add_pair(mpfr_ptr most, bool *known, const dyd_voronoi_su
   double reach[2];
   dyd_voronoi_pair_reach(reach, s, pair);
   if (reach[0] < 0) return DYD_OK;
-  mpfr_t gap, one;
-  mpfr_inits2(DYD_MEASURE_PREC, gap, one, (mpfr_ptr)0);
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, gap, one);
   dyd_status st = pair_extent(gap, one, m, pair);
   *known = *known && st == DYD_OK && !mpfr_zero_p(gap);
   if (*known) {
@@ -588,7 +558,6 @@ static dyd_status rate_add_pair(mpfr_ptr most, bool *known, const dyd_voronoi_su
     mpfr_sqrt(one, gap, MPFR_RNDU);
     mpfr_max(most, most, one, MPFR_RNDU);
   }
-  mpfr_clears(gap, one, (mpfr_ptr)0);
   return st;
 }
 
@@ -598,11 +567,10 @@ static int64_t log2_above(mpfr_srcptr x) {
 }
 
 static dyd_status sums_rate(int64_t *rate, bool *known, dyd_voronoi_sums *s) {
-  dyd_pair_list pairs = {0};
-  dyd_measure m;
-  mpfr_t most;
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
+  DYD_SCOPED(dyd_measure) m;
   dyd_measure_init(&m, dyd_delaunay_sites(s->pd));
-  mpfr_init2(most, DYD_MEASURE_PREC);
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, most);
   mpfr_set_zero(most, 1);
   *known = true;
   dyd_status st = dyd_pairs_list(&pairs, s->pd, dyd_least_bounding(s->pd));
@@ -610,30 +578,24 @@ static dyd_status sums_rate(int64_t *rate, bool *known, dyd_voronoi_sums *s) {
     st = rate_add_pair(most, known, s, &m, &pairs.item[k]);
   *known = *known && mpfr_number_p(most);
   if (*known) *rate = mpfr_zero_p(most) ? 0 : log2_above(most); /* 0: nothing is undetermined in the window */
-  mpfr_clear(most);
-  dyd_measure_clear(&m);
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 
 dyd_status dyd_metric_voronoi_rate(int64_t *rate, bool *known, const dyd_delaunay *pd, const dyd_rect *window,
                                    const volatile int *cancel) {
-  dyd_voronoi_sums s;
+  DYD_SCOPED(dyd_voronoi_sums) s;
   *known = false;
   dyd_status st = dyd_voronoi_sums_init(&s, pd, window, dyd_metric_coarseness(pd, window));
   s.cancel = cancel;
   if (st == DYD_OK) st = dyd_voronoi_sums_all(&s, NULL, NULL);
-  if (st == DYD_OK) st = sums_rate(rate, known, &s);
-  dyd_voronoi_sums_clear(&s);
-  return st;
+  return st == DYD_OK ? sums_rate(rate, known, &s) : st;
 }
 
 /* ---- public ---- */
 
 dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, dyd_voronoi_sums *s) {
-  dyd_pair_list pairs = {0};
-  mpfr_t area, hausdorff;
-  mpfr_inits2(DYD_MEASURE_PREC, area, hausdorff, (mpfr_ptr)0);
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, area, hausdorff);
   dyd_status st =
       dyd_room_has(&s->room, dyd_pairs_bytes(s->pd, sums_least(s)), "the bounds of the diagram") ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK) st = dyd_pairs_take(&pairs, s->pd, sums_least(s));
@@ -645,23 +607,19 @@ dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, dyd_voronoi_sums *s)
     mpfr_set_zero(hausdorff, 1);
   }
   if (st == DYD_OK) st = bound_to_dyadic(&out->area, area);
-  if (st == DYD_OK) st = bound_to_dyadic(&out->hausdorff, hausdorff);
-  mpfr_clears(area, hausdorff, (mpfr_ptr)0);
-  dyd_pair_list_clear(&pairs);
-  return st;
+  return st == DYD_OK ? bound_to_dyadic(&out->hausdorff, hausdorff) : st;
 }
 
 dyd_status dyd_voronoi_bounds_within(dyd_voronoi_bounds *out, const dyd_delaunay *pd, const dyd_rect *window,
                                      int64_t bits, size_t corners, bool discs, const volatile int *cancel) {
-  dyd_voronoi_sums s;
-  dyd_voronoi_bounds b;
   dyd_window w;
   if (dyd_abi_check(out, sizeof *out, "dyd_voronoi_bounds", NULL) != DYD_OK) return DYD_E_ARG;
   if (bits < -DYD_EXP_LIMIT / 4 || bits > DYD_EXP_LIMIT / 4) return DYD_E_ARG;
   dyd_status st = dyd_window_init(&w, window);
   if (st != DYD_OK) return st;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
-  dyd_voronoi_bounds_init(&b);
+  DYD_LOCAL(dyd_voronoi_bounds, b);
+  DYD_SCOPED(dyd_voronoi_sums) s;
   st = dyd_voronoi_sums_init(&s, pd, window, bits);
   s.cancel = cancel;
   s.corners = corners;
@@ -673,8 +631,6 @@ dyd_status dyd_voronoi_bounds_within(dyd_voronoi_bounds *out, const dyd_delaunay
     dyd_dyadic_swap(&out->hausdorff, &b.hausdorff);
     out->finite = b.finite;
   }
-  dyd_voronoi_sums_clear(&s);
-  dyd_voronoi_bounds_clear(&b);
   return st;
 }
 
@@ -710,15 +666,13 @@ int64_t dyd_metric_flattening(const dyd_delaunay *pd, const dyd_rect *window, in
 /* The e with 2^e <= the shorter side < 2^(e+1). */
 static int64_t log2_short_side(const dyd_rect *window) {
   const dyd_interval *side[2] = {&window->x, &window->y};
-  dyd_dyadic length;
   int64_t least = INT64_MAX;
-  dyd_dyadic_init(&length);
+  DYD_LOCAL(dyd_dyadic, length);
   for (int a = 0; a < 2; a++) {
     if (dyd_dyadic_sub(&length, &side[a]->hi, &side[a]->lo) != DYD_OK) continue;
     int64_t log2 = length.exp + dyd_bits(length.man) - 1;
     if (log2 < least) least = log2;
   }
-  dyd_dyadic_clear(&length);
   return least;
 }
 

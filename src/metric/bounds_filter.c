@@ -8,6 +8,7 @@
 
 #include "base/alloc.h"
 #include "base/flag.h"
+#include "base/local.h"
 #include "delaunay/memory.h"
 #include "metric/bounds.h"
 #include "rect/rect.h"
@@ -162,10 +163,9 @@ dyd_status dyd_filter_second(double *out, const dyd_voronoi_sums *sums, uint32_t
 }
 
 void dyd_measure_box(double out[4], const dyd_sites *sites, uint32_t i, bool discs) {
-  dyd_disc d;
   dyd_sites_get_d(out, sites, i);
   if (!discs) return;
-  dyd_disc_init(&d);
+  DYD_LOCAL(dyd_disc, d);
   bool good = dyd_disc_of_site(&d, sites, i) == DYD_OK;
   for (int k = 0; k < 4 && good; k++) {
     mpq_ptr c = k < 2 ? d.x : d.y;
@@ -173,7 +173,6 @@ void dyd_measure_box(double out[4], const dyd_sites *sites, uint32_t i, bool dis
     out[k] = nextafter(mpq_get_d(c), k & 1 ? INFINITY : -INFINITY); /* mpq_get_d cuts off */
     (k & 1 ? mpq_sub : mpq_add)(c, c, d.r);
   }
-  dyd_disc_clear(&d);
 }
 
 double dyd_filter_reach_of_shape(const dyd_shape *s, const double box[4]) {

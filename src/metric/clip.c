@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/flag.h"
+#include "base/local.h"
 #include "metric/bounds.h"
 #include "metric/edge_tree.h"
 #include "metric/tiles_filter.h"
@@ -50,12 +51,9 @@ static void q_place_copy(q_place *p, const q_place *of) {
 }
 
 static double q_rounded(const mpq_t x, mpfr_rnd_t rnd) {
-  mpfr_t r;
-  mpfr_init2(r, 53);
+  DYD_LOCAL_FLOATS(53, r);
   mpfr_set_q(r, x, rnd);
-  double d = mpfr_get_d(r, rnd);
-  mpfr_clear(r);
-  return d;
+  return mpfr_get_d(r, rnd);
 }
 
 /* Sets low[]. */
@@ -83,8 +81,7 @@ static int q_place_compare(const q_place *a, const q_place *b) {
 
 /* out = (b - a) x (d - c) */
 static void q_cross(mpq_t out, const q_place *a, const q_place *b, const q_place *c, const q_place *d) {
-  mpq_t t[4];
-  for (int k = 0; k < 4; k++) mpq_init(t[k]);
+  DYD_LOCAL_ARRAY(mpq_t, t, [4]);
   for (int k = 0; k < 2; k++) {
     mpq_sub(t[k], b->at[k], a->at[k]);
     mpq_sub(t[2 + k], d->at[k], c->at[k]);
@@ -92,19 +89,15 @@ static void q_cross(mpq_t out, const q_place *a, const q_place *b, const q_place
   mpq_mul(t[0], t[0], t[3]);
   mpq_mul(t[1], t[1], t[2]);
   mpq_sub(out, t[0], t[1]);
-  for (int k = 0; k < 4; k++) mpq_clear(t[k]);
 }
 
 /* Sign of the turn a, b, c. */
 static int q_turn(const q_place *a, const q_place *b, const q_place *c) {
   int sign = dyd_filter_low_turn(a->low, b->low, c->low);
   if (sign || !q_place_compare(a, c) || !q_place_compare(b, c)) return sign;
-  mpq_t t;
-  mpq_init(t);
+  DYD_LOCAL_NUMBERS(mpq, t);
   q_cross(t, a, b, a, c);
-  sign = mpq_sgn(t);
-  mpq_clear(t);
-  return sign;
+  return mpq_sgn(t);
 }
 
 /* ---- inside the area ---- */
@@ -119,14 +112,10 @@ static bool ray_passes(const q_place *z, const dyd_area_edge *e) {
   bool up = place_is_above(z, e->p), left[2] = {e->p[0] <= z->low[0], e->q[0] <= z->low[0]};
   if (up == place_is_above(z, e->q) || !(left[0] || left[1])) return false;
   if (left[0] && left[1]) return true;
-  q_place a, b;
-  q_place_init(&a);
-  q_place_init(&b);
+  DYD_LOCAL(q_place, a, b);
   q_place_set(&a, e->p);
   q_place_set(&b, e->q);
   int turn = q_turn(&a, &b, z);
-  q_place_clear(&a);
-  q_place_clear(&b);
   return up ? turn < 0 : turn > 0;
 }
 
@@ -179,8 +168,7 @@ static enum segment_meeting area_segments_meet(q_place *at, const q_place *a, co
   for (int k = 0; k < 4; k++)
     if (!side[k]) q_place_copy(at, end[k]), ends++; /* it is on the other line */
   if (ends) return ends == 1 ? TOUCH : SHARE;
-  mpq_t s, t;
-  mpq_inits(s, t, NULL);
+  DYD_LOCAL_NUMBERS(mpq, s, t);
   q_cross(s, c, d, c, a);
   q_cross(t, c, d, b, a); /* s / t of the way from a to b */
   mpq_div(s, s, t);
@@ -190,7 +178,6 @@ static enum segment_meeting area_segments_meet(q_place *at, const q_place *a, co
     mpq_add(at->at[k], a->at[k], t);
   }
   q_place_end(at);
-  mpq_clears(s, t, NULL);
   return CROSS;
 }
 
@@ -233,8 +220,7 @@ static void find_bad_edges(size_t bad[2], const dyd_edge_tree *t) {
 
 /* Twice the area of a ring of doubles. */
 static void ring_area2_q(mpq_t out, const double *xy, size_t n) {
-  mpq_t x, y;
-  mpq_inits(x, y, NULL);
+  DYD_LOCAL_NUMBERS(mpq, x, y);
   mpq_set_ui(out, 0, 1);
   for (size_t k = 0; k < n; k++) {
     const double *a = &xy[2 * k], *b = &xy[2 * ((k + 1) % n)];
@@ -245,36 +231,29 @@ static void ring_area2_q(mpq_t out, const double *xy, size_t n) {
       (way ? mpq_sub : mpq_add)(out, out, x);
     }
   }
-  mpq_clears(x, y, NULL);
 }
 
 /* Is z on an edge of another ring? */
 static bool place_is_on_edge(const dyd_edge_tree *t, const q_place *z, size_t but) {
-  q_place a, b;
   bool on = false;
   double up[2] = {q_rounded(z->at[0], MPFR_RNDU), q_rounded(z->at[1], MPFR_RNDU)};
-  q_place_init(&a);
-  q_place_init(&b);
+  DYD_LOCAL(q_place, a, b);
   dyd_tree_walk w = dyd_tree_walk_begin(t, (const double[]){z->low[0], up[0], z->low[1], up[1]});
   for (const dyd_area_edge *e; !on && (e = dyd_tree_walk_next(&w));) {
     q_place_set(&a, e->p);
     q_place_set(&b, e->q);
     on = e->ring != but && !q_turn(&a, &b, z);
   }
-  q_place_clear(&a);
-  q_place_clear(&b);
   return on;
 }
 
 /* A place of the first edge of a ring that is on no other ring: these touch it here and there only. */
 static void ring_free_place(q_place *out, const dyd_edge_tree *t, size_t first) {
-  q_place a;
-  q_place_init(&a);
+  DYD_LOCAL(q_place, a);
   q_place_set(&a, t->edge[first].p);
   q_place_set(out, t->edge[first].q);
   do q_place_middle(out, out, &a);
   while (place_is_on_edge(t, out, t->edge[first].ring));
-  q_place_clear(&a);
 }
 
 static void ring_reverse(double *xy, size_t n) {
@@ -297,23 +276,18 @@ dyd_status dyd_area_orient(dyd_area *a, size_t bad[2]) {
   if (!a || !bad) return DYD_E_ARG;
   bad[0] = bad[1] = area_lost_vertex(a);
   if (bad[0] != SIZE_MAX) return DYD_E_ARG;
-  dyd_edge_tree t;
-  q_place z;
-  mpq_t area2;
+  DYD_SCOPED(dyd_edge_tree) t;
   dyd_status st = dyd_edge_tree_init(&t, a);
   if (st == DYD_OK) find_bad_edges(bad, &t);
   if (st == DYD_OK && bad[0] < t.count) st = DYD_E_ARG;
-  q_place_init(&z);
-  mpq_init(area2);
+  DYD_LOCAL(q_place, z);
+  DYD_LOCAL_NUMBERS(mpq, area2);
   for (size_t r = 0; r < a->rings && st == DYD_OK; r++) {
     size_t first = a->offset[r], n = a->offset[r + 1] - first;
     ring_free_place(&z, &t, first);
     ring_area2_q(area2, &a->xy[2 * first], n);
     if ((mpq_sgn(area2) > 0) == place_is_inside(&t, &z, r)) ring_reverse(&a->xy[2 * first], n);
   }
-  mpq_clear(area2);
-  q_place_clear(&z);
-  dyd_edge_tree_clear(&t);
   return st;
 }
 
@@ -407,8 +381,9 @@ static int compare_places(const void *a, const void *b) {
 
 /* Ends of pieces that are one place get one number. */
 static dyd_status clip_number(clip_work *w) {
-  const q_place **order = dyd_alloc(w->places, sizeof *order);
-  size_t *number = dyd_alloc(w->places, sizeof *number), one = 0;
+  DYD_FREED const q_place **order = dyd_alloc(w->places, sizeof *order);
+  DYD_FREED size_t *number = dyd_alloc(w->places, sizeof *number);
+  size_t one = 0;
   if (order && number) {
     for (size_t k = 0; k < w->places; k++) order[k] = &w->place[k];
     qsort(order, w->places, sizeof *order, compare_places);
@@ -421,9 +396,7 @@ static dyd_status clip_number(clip_work *w) {
       w->piece[k].to = number[w->piece[k].to];
     }
   }
-  dyd_status st = order && number ? DYD_OK : DYD_E_NOMEM;
-  dyd_free_all(number, order);
-  return st;
+  return order && number ? DYD_OK : DYD_E_NOMEM;
 }
 
 static int compare_ends(const void *a, const void *b) {
@@ -435,9 +408,8 @@ static int compare_ends(const void *a, const void *b) {
 
 /* Which pieces bound the intersection. One of the tile and one of the area at most have the same ends. */
 static void clip_choose(clip_work *w, const dyd_edge_tree *tile) {
-  q_place z;
   size_t kept = 0;
-  q_place_init(&z);
+  DYD_LOCAL(q_place, z);
   if (w->pieces) qsort(w->piece, w->pieces, sizeof *w->piece, compare_ends);
   for (size_t k = 0; k < w->pieces; k++) {
     edge_piece *p = &w->piece[k];
@@ -450,7 +422,6 @@ static void clip_choose(clip_work *w, const dyd_edge_tree *tile) {
     k += both;
   }
   w->pieces = kept;
-  q_place_clear(&z);
 }
 
 /* ---- loops ---- */
@@ -502,8 +473,7 @@ static bool loops_add(clip_loops *l, const clip_work *w, const size_t *at, size_
   if (!DYD_GROW(l->place, l->place_cap, l->places + n) || !DYD_GROW(l->start, l->start_cap, l->count + 2) ||
       !DYD_GROW(l->area2, l->area_cap, l->count + 1) || !DYD_GROW(l->box, l->box_cap, l->count + 1))
     return false;
-  mpq_t t;
-  mpq_init(t);
+  DYD_LOCAL_NUMBERS(mpq, t);
   mpq_init(l->area2[l->count]);
   memcpy(l->box[l->count], dyd_no_box, sizeof dyd_no_box);
   for (size_t k = 0; k < n; k++) {
@@ -515,7 +485,6 @@ static bool loops_add(clip_loops *l, const clip_work *w, const size_t *at, size_
       (way ? mpq_sub : mpq_add)(l->area2[l->count], l->area2[l->count], t);
     }
   }
-  mpq_clear(t);
   l->start[l->count++] = l->places;
   l->start[l->count] = l->places += n;
   return true;
@@ -523,7 +492,7 @@ static bool loops_add(clip_loops *l, const clip_work *w, const size_t *at, size_
 
 /* Follows the pieces, the inside on the left, and cuts a loop out wherever the walk comes back to a place. */
 static dyd_status clip_loops_find(clip_loops *l, clip_work *w) {
-  size_t *seen = dyd_alloc(w->places, sizeof *seen);
+  DYD_FREED size_t *seen = dyd_alloc(w->places, sizeof *seen);
   bool good = seen != NULL;
   for (size_t k = 0; k < w->places && good; k++) seen[k] = SIZE_MAX;
   if (w->pieces) qsort(w->piece, w->pieces, sizeof *w->piece, compare_pieces);
@@ -546,7 +515,6 @@ static dyd_status clip_loops_find(clip_loops *l, clip_work *w) {
     }
     for (size_t m = 0; m < n; m++) seen[w->walk[m]] = SIZE_MAX;
   }
-  free(seen);
   return good ? DYD_OK : DYD_E_NOMEM;
 }
 
@@ -604,16 +572,14 @@ static dyd_status clip_append(bool *any, clip_work *w, const clip_loops *l, size
 static bool loop_holds(const clip_work *w, const clip_loops *l, size_t outer, size_t inner) {
   size_t n = l->start[outer + 1] - l->start[outer], m = l->start[inner + 1] - l->start[inner];
   const size_t *o = &l->place[l->start[outer]], *i = &l->place[l->start[inner]];
-  q_place z;
   bool odd = false;
-  q_place_init(&z);
+  DYD_LOCAL(q_place, z);
   q_place_middle(&z, &w->place[i[0]], &w->place[i[1 % m]]); /* of an edge: on no other one */
   for (size_t k = 0; k < n; k++) {
     const q_place *a = &w->place[o[k]], *b = &w->place[o[(k + 1) % n]];
     bool up = q_compare(a, &z, 1) <= 0;
     if (up != (q_compare(b, &z, 1) <= 0) && (up ? q_turn(a, b, &z) < 0 : q_turn(a, b, &z) > 0)) odd = !odd;
   }
-  q_place_clear(&z);
   return odd;
 }
 
@@ -630,25 +596,23 @@ static size_t loop_around(const clip_work *w, const clip_loops *l, size_t h) {
 /* Do the rings from `first` on bound an area after rounding? */
 static dyd_status clip_check(const dyd_tiles *o, size_t first) {
   dyd_area a = {.rings = o->count - first, .xy = o->xy + 2 * (o->count > first ? o->offset[first] : 0)};
-  dyd_edge_tree t;
   size_t bad[2];
   if (!a.rings) return DYD_OK;
   a.offset = dyd_alloc(a.rings + 1, sizeof *a.offset);
   if (!a.offset) return DYD_E_NOMEM;
   for (size_t k = 0; k <= a.rings; k++) a.offset[k] = o->offset[first + k] - o->offset[first];
+  DYD_SCOPED(dyd_edge_tree) t;
   dyd_status st = dyd_edge_tree_init(&t, &a);
   if (st == DYD_OK) find_bad_edges(bad, &t);
   if (st == DYD_OK && bad[0] < t.count) st = DYD_E_RANGE;
-  dyd_edge_tree_clear(&t);
   free(a.offset);
   return st;
 }
 
 static dyd_status clip_deliver_loops(clip_work *w, const clip_loops *l, uint32_t site) {
   size_t *around = dyd_alloc(l->count, sizeof *around), first = w->out->count;
-  mpq_t area;
   dyd_status st = around ? DYD_OK : DYD_E_NOMEM;
-  mpq_init(area);
+  DYD_LOCAL_NUMBERS(mpq, area);
   for (size_t h = 0; h < l->count && around; h++)
     around[h] = mpq_sgn(l->area2[h]) < 0 ? loop_around(w, l, h) : SIZE_MAX;
   for (size_t k = 0; k < l->count && st == DYD_OK; k++) {
@@ -666,7 +630,6 @@ static dyd_status clip_deliver_loops(clip_work *w, const clip_loops *l, uint32_t
     mpq_add(w->inside, w->inside, area);
     if (st == DYD_OK && any) w->out->area[ring] = q_rounded(area, MPFR_RNDU);
   }
-  mpq_clear(area);
   free(around);
   return st == DYD_OK ? clip_check(w->out, first) : st;
 }
@@ -683,7 +646,7 @@ static dyd_status clip_copy(clip_work *w, const dyd_tiles *t, size_t r) {
 }
 
 static dyd_status clip_cut_tile(clip_work *w, uint32_t site, const dyd_edge_tree *tile) {
-  clip_loops loops = {0};
+  DYD_SCOPED(clip_loops) loops = {0};
   const dyd_area_edge *e;
   bool good = true;
   w->pieces = w->places = 0;
@@ -694,7 +657,6 @@ static dyd_status clip_cut_tile(clip_work *w, uint32_t site, const dyd_edge_tree
   if (st == DYD_OK) clip_choose(w, tile);
   if (st == DYD_OK) st = clip_loops_find(&loops, w);
   if (st == DYD_OK) st = clip_deliver_loops(w, &loops, site);
-  clip_loops_clear(&loops);
   for (size_t k = 0; k < w->places; k++) q_place_clear(&w->place[k]);
   return st;
 }
@@ -712,11 +674,9 @@ static dyd_status clip_ring(bool *cut, clip_work *w, const dyd_tiles *t, size_t 
     q_place_set(&w->corner, one.xy);
     return place_is_inside(w->area, &w->corner, SIZE_MAX) ? clip_copy(w, t, r) : DYD_OK;
   }
-  dyd_edge_tree tile;
+  DYD_SCOPED(dyd_edge_tree) tile;
   dyd_status st = dyd_edge_tree_init(&tile, &one);
-  if (st == DYD_OK) st = clip_cut_tile(w, t->site[r], &tile);
-  dyd_edge_tree_clear(&tile);
-  return st;
+  return st == DYD_OK ? clip_cut_tile(w, t->site[r], &tile) : st;
 }
 
 /* Adds to `whole` the area of ring r, and to `blur` how much its rounding may have changed it: its vertices were moved
@@ -724,8 +684,7 @@ static dyd_status clip_ring(bool *cut, clip_work *w, const dyd_tiles *t, size_t 
 static void clip_measure(mpq_t whole, mpq_t blur, const dyd_tiles *t, size_t r) {
   size_t n = t->offset[r + 1] - t->offset[r];
   const double *xy = &t->xy[2 * t->offset[r]];
-  mpq_t x, y;
-  mpq_inits(x, y, NULL);
+  DYD_LOCAL_NUMBERS(mpq, x, y);
   ring_area2_q(x, xy, n);
   mpq_div_2exp(x, x, 1);
   mpq_add(whole, whole, x);
@@ -740,7 +699,6 @@ static void clip_measure(mpq_t whole, mpq_t blur, const dyd_tiles *t, size_t r) 
     mpq_mul(x, x, y);
     mpq_add(blur, blur, x);
   }
-  mpq_clears(x, y, NULL);
 }
 
 /* The bounds of a cell, lo and hi, become those of its part in the area. Its certain part lies in the tile, and the
@@ -748,8 +706,7 @@ static void clip_measure(mpq_t whole, mpq_t blur, const dyd_tiles *t, size_t r) 
  * of the latter hi - whole may be inside without being in the tile. An area beyond all doubles is infinite: it bounds
  * nothing, and stays. */
 static void clip_bound(double bound[2], const clip_work *w, const mpq_t whole, const mpq_t blur) {
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   bool bounded = isfinite(bound[1]);
   mpq_set_d(lo, bound[0]);
   mpq_sub(lo, lo, whole);
@@ -763,17 +720,15 @@ static void clip_bound(double bound[2], const clip_work *w, const mpq_t whole, c
   double low = q_rounded(lo, MPFR_RNDD), high = q_rounded(hi, MPFR_RNDU);
   bound[0] = low > 0 ? low : 0;
   if (bounded && high < bound[1]) bound[1] = high;
-  mpq_clears(lo, hi, NULL);
 }
 
 /* All rings of one site, from *r on. Of a tile that is inside as a whole nothing changes. */
 static dyd_status clip_site(clip_work *w, const dyd_tiles *t, size_t *r) {
-  mpq_t whole, blur, own;
   size_t first = w->out->count, from = *r;
   double bound[2] = {t->bound[2 * from], t->bound[2 * from + 1]};
   bool any = false, cut, many = from + 1 < t->count && t->site[from + 1] == t->site[from];
   dyd_status st = DYD_OK;
-  mpq_inits(whole, blur, own, NULL);
+  DYD_LOCAL_NUMBERS(mpq, whole, blur, own);
   mpq_set_ui(w->inside, 0, 1);
   for (; *r < t->count && t->site[*r] == t->site[from] && st == DYD_OK; ++*r) {
     size_t before = w->out->count;
@@ -787,14 +742,13 @@ static dyd_status clip_site(clip_work *w, const dyd_tiles *t, size_t *r) {
   for (size_t k = from; any && w->out->count > first && k < *r; k++) clip_measure(whole, blur, t, k);
   if (any && w->out->count > first) clip_bound(bound, w, whole, blur);
   for (size_t k = first; k < w->out->count; k++) memcpy(&w->out->bound[2 * k], bound, sizeof bound);
-  mpq_clears(whole, blur, own, NULL);
   return st;
 }
 
 dyd_status dyd_tiles_clip(dyd_tiles *t, const dyd_area *area, const volatile int *cancel) {
   if (!t || !area || area_lost_vertex(area) != SIZE_MAX) return DYD_E_ARG;
   dyd_tiles made = {.coincident = t->coincident, .rounding = t->rounding};
-  dyd_edge_tree tree;
+  DYD_SCOPED(dyd_edge_tree) tree;
   clip_work w = {.area = &tree, .out = &made};
   mpq_inits(w.inside, w.error, NULL);
   q_place_init(&w.corner);
@@ -805,7 +759,6 @@ dyd_status dyd_tiles_clip(dyd_tiles *t, const dyd_area *area, const volatile int
   dyd_free_all(w.place, w.piece, w.cut, w.walk);
   q_place_clear(&w.corner);
   mpq_clears(w.inside, w.error, NULL);
-  dyd_edge_tree_clear(&tree);
   dyd_tiles_clear(st == DYD_OK ? t : &made);
   if (st == DYD_OK) *t = made;
   return st;

@@ -10,6 +10,7 @@
 #include <dyadel/metric.h>
 
 #include "base/abi.h"
+#include "base/local.h"
 #include "metric/bounds.h"
 #include "stream/ball.h"
 #include <dyadel/predicate.h>
@@ -22,35 +23,29 @@ typedef struct ball_circle {
 } ball_circle;
 
 static void ball_set_z(arb_ptr out, mpz_srcptr z) {
-  fmpz_t f;
-  fmpz_init(f);
+  DYD_LOCAL_NUMBERS(fmpz, f);
   fmpz_set_mpz(f, z);
   arb_set_fmpz(out, f);
-  fmpz_clear(f);
 }
 
 /* (a + b sqrt(c)) / d; c is given by its root. */
 static void ball_set_surd(arb_ptr out, mpz_srcptr a, mpz_srcptr b, arb_srcptr root, mpz_srcptr d, slong prec) {
-  arb_t t;
-  arb_init(t);
+  DYD_LOCAL_NUMBERS(arb, t);
   ball_set_z(t, b);
   arb_mul(out, t, root, prec);
   ball_set_z(t, a);
   arb_add(out, out, t, prec);
   ball_set_z(t, d);
   arb_div(out, out, t, prec);
-  arb_clear(t);
 }
 
 static void ball_circle_set(ball_circle *out, const dyd_circle *k, slong prec) {
-  arb_t root;
-  arb_init(root);
+  DYD_LOCAL_NUMBERS(arb, root);
   ball_set_z(root, k->c);
   arb_sqrt(root, root, prec);
   ball_set_surd(out->x, k->ax, k->bx, root, k->d, prec);
   ball_set_surd(out->y, k->ay, k->by, root, k->d, prec);
   ball_set_surd(out->r2, k->ar, k->br, root, k->dr, prec);
-  arb_clear(root);
 }
 
 /* Digits with which differences of these numbers keep SPARE bits. */
@@ -67,11 +62,8 @@ static slong disc_precision(const dyd_partial_disc *d) {
 
 /* A lower bound of how far the point is inside the discs that make I; at most 0: it may be outside. */
 static void disc_margin(arf_t out, arb_srcptr x, arb_srcptr y, const ball_circle *circle, slong prec) {
-  arb_t t, r;
-  arf_t low;
-  arb_init(t);
-  arb_init(r);
-  arf_init(low);
+  DYD_LOCAL_NUMBERS(arb, t, r);
+  DYD_LOCAL_NUMBERS(arf, low);
   for (int k = 0; k < INNER; k++) {
     arb_sub(t, x, circle[k].x, prec);
     arb_sub(r, y, circle[k].y, prec);
@@ -81,19 +73,12 @@ static void disc_margin(arf_t out, arb_srcptr x, arb_srcptr y, const ball_circle
     arb_get_lbound_arf(low, t, prec);
     if (k == 0 || arf_cmp(low, out) < 0) arf_set(out, low);
   }
-  arf_clear(low);
-  arb_clear(r);
-  arb_clear(t);
 }
 
 /* The middle of one of the centres, the one farthest inside of I; false: none is inside. */
 static bool disc_find_inside(arb_ptr x, arb_ptr y, const ball_circle *circle, slong prec) {
-  arf_t best, margin;
-  arb_t at[2];
-  arf_init(best);
-  arf_init(margin);
-  arb_init(at[0]);
-  arb_init(at[1]);
+  DYD_LOCAL_NUMBERS(arf, best, margin);
+  DYD_LOCAL_ARRAY(arb_t, at, [2]);
   for (int k = 0; k < INNER; k++) {
     arb_get_mid_arb(at[0], circle[k].x);
     arb_get_mid_arb(at[1], circle[k].y);
@@ -103,12 +88,7 @@ static bool disc_find_inside(arb_ptr x, arb_ptr y, const ball_circle *circle, sl
     arb_set(x, at[0]);
     arb_set(y, at[1]);
   }
-  bool inside = arf_sgn(best) > 0;
-  arb_clear(at[1]);
-  arb_clear(at[0]);
-  arf_clear(margin);
-  arf_clear(best);
-  return inside;
+  return arf_sgn(best) > 0;
 }
 
 /* Bounds for the rays of one sector; `at` is the point they start from. */
@@ -174,28 +154,17 @@ static void sector_set(sector *s, slong number, const ball_circle *circle, slong
 /* x >= 0 rounded up to 64 bits. */
 static dyd_status end_to_dyadic(dyd_dyadic *out, arf_t x) {
   if (!arf_is_finite(x)) return DYD_E_RANGE;
-  fmpz_t man, exp;
-  mpz_t z;
-  mpz_init(z);
-  fmpz_init(man);
-  fmpz_init(exp);
+  DYD_LOCAL_NUMBERS(mpz, z);
+  DYD_LOCAL_NUMBERS(fmpz, man, exp);
   arf_set_round(x, x, 64, ARF_RND_CEIL);
   arf_get_fmpz_2exp(man, exp, x);
   fmpz_get_mpz(z, man);
-  dyd_status st = fmpz_fits_si(exp) ? dyd_dyadic_set_z_2exp(out, z, fmpz_get_si(exp)) : DYD_E_RANGE;
-  fmpz_clear(exp);
-  fmpz_clear(man);
-  mpz_clear(z);
-  return st;
+  return fmpz_fits_si(exp) ? dyd_dyadic_set_z_2exp(out, z, fmpz_get_si(exp)) : DYD_E_RANGE;
 }
 
 /* Sums up the sectors; the point is s->at. */
 static dyd_status disc_sum(dyd_voronoi_bounds *out, sector *s, const ball_circle *circle, slong prec) {
-  arf_t sum, most, a, b;
-  arf_init(sum);
-  arf_init(most);
-  arf_init(a);
-  arf_init(b);
+  DYD_LOCAL_NUMBERS(arf, sum, most, a, b);
   for (slong k = 0; k < SECTORS; k++) {
     sector_set(s, k, circle, prec);
     arf_sub(a, s->greatest, s->least, prec, ARF_RND_CEIL);
@@ -211,10 +180,6 @@ static dyd_status disc_sum(dyd_voronoi_bounds *out, sector *s, const ball_circle
   dyd_status st = end_to_dyadic(&out->area, sum);
   if (st == DYD_OK) st = end_to_dyadic(&out->hausdorff, most);
   out->finite = st == DYD_OK;
-  arf_clear(b);
-  arf_clear(a);
-  arf_clear(most);
-  arf_clear(sum);
   return st == DYD_E_RANGE ? DYD_OK : st;
 }
 
@@ -246,8 +211,7 @@ static dyd_status disc_measure(dyd_voronoi_bounds *out, const dyd_partial_disc *
 /* The largest squared distance of points of a and b. */
 static void rate_longest(mpq_t out, const dyd_rect *a, const dyd_rect *b) {
   const dyd_interval *side[2][2] = {{&a->x, &b->x}, {&a->y, &b->y}};
-  mpq_t end[2][2];
-  for (int k = 0; k < 4; k++) mpq_init(end[k / 2][k % 2]);
+  DYD_LOCAL_ARRAY(mpq_t, end, [2][2]);
   mpq_set_ui(out, 0, 1);
   for (int k = 0; k < 2; k++) {
     for (int m = 0; m < 2; m++) dyd_interval_get_q(end[m][0], end[m][1], side[k][m]);
@@ -259,14 +223,12 @@ static void rate_longest(mpq_t out, const dyd_rect *a, const dyd_rect *b) {
     mpq_mul(far, far, far);
     mpq_add(out, out, far);
   }
-  for (int k = 0; k < 4; k++) mpq_clear(end[k / 2][k % 2]);
 }
 
 /* The least |D| of a certainly oriented triple: D is affine in each coordinate, so it is that of corners. */
 static void rate_least_area(mpq_t out, const dyd_rect *const r[3]) {
-  mpq_t end[3][2][2], s, t;
-  mpq_inits(s, t, NULL);
-  for (int k = 0; k < 12; k++) mpq_init(end[k / 4][k / 2 % 2][k % 2]);
+  DYD_LOCAL_NUMBERS(mpq, s, t);
+  DYD_LOCAL_ARRAY(mpq_t, end, [3][2][2]);
   for (int k = 0; k < 3; k++) {
     dyd_interval_get_q(end[k][0][0], end[k][0][1], &r[k]->x);
     dyd_interval_get_q(end[k][1][0], end[k][1][1], &r[k]->y);
@@ -274,8 +236,7 @@ static void rate_least_area(mpq_t out, const dyd_rect *const r[3]) {
   for (unsigned corner = 0; corner < 64; corner++) {
     mpq_srcptr p[6];
     for (unsigned k = 0; k < 6; k++) p[k] = end[k / 2][k % 2][corner >> k & 1];
-    mpq_t u, v;
-    mpq_inits(u, v, NULL);
+    DYD_LOCAL_NUMBERS(mpq, u, v);
     mpq_sub(s, p[2], p[0]);
     mpq_sub(t, p[5], p[1]);
     mpq_mul(u, s, t);
@@ -285,32 +246,22 @@ static void rate_least_area(mpq_t out, const dyd_rect *const r[3]) {
     mpq_sub(u, u, v);
     mpq_abs(u, u);
     if (corner == 0 || mpq_cmp(u, out) < 0) mpq_set(out, u);
-    mpq_clears(u, v, NULL);
   }
-  for (int k = 0; k < 12; k++) mpq_clear(end[k / 4][k / 2 % 2][k % 2]);
-  mpq_clears(s, t, NULL);
 }
 
 /* The least e with x <= 2^e, from a ball about x > 0, or one more. */
 static int64_t rate_log2(arb_srcptr x) {
-  arf_t end;
-  fmpz_t exp;
-  arf_init(end);
-  fmpz_init(exp);
+  DYD_LOCAL_NUMBERS(arf, end);
+  DYD_LOCAL_NUMBERS(fmpz, exp);
   arb_get_ubound_arf(end, x, 64);
   arf_abs_bound_le_2exp_fmpz(exp, end);
-  int64_t e = fmpz_fits_si(exp) ? fmpz_get_si(exp) : INT64_MAX / 4;
-  fmpz_clear(exp);
-  arf_clear(end);
-  return e;
+  return fmpz_fits_si(exp) ? fmpz_get_si(exp) : INT64_MAX / 4;
 }
 
 /* The product and the sum of the longest sides. */
 static void rate_sides(arb_ptr product, arb_ptr sum, const dyd_rect *const r[3], slong prec) {
-  mpq_t q;
-  arb_t x;
-  mpq_init(q);
-  arb_init(x);
+  DYD_LOCAL_NUMBERS(mpq, q);
+  DYD_LOCAL_NUMBERS(arb, x);
   arb_one(product);
   arb_zero(sum);
   for (int k = 0; k < 3; k++) {
@@ -320,22 +271,16 @@ static void rate_sides(arb_ptr product, arb_ptr sum, const dyd_rect *const r[3],
     arb_mul(product, product, x, prec);
     arb_add(sum, sum, x, prec);
   }
-  arb_clear(x);
-  mpq_clear(q);
 }
 
 dyd_status dyd_metric_disc_rate(int64_t *rate, int64_t *from, bool *known, const dyd_rect *a, const dyd_rect *b,
                                 const dyd_rect *c) {
   const dyd_rect *const r[3] = {a, b, c};
   enum { PREC = 96 };
-  mpq_t q;
-  arb_t product, sum, x;
   *known = dyd_orientation(a, b, c) != DYD_UNSURE;
   if (!*known) return DYD_OK;
-  mpq_init(q);
-  arb_init(product);
-  arb_init(sum);
-  arb_init(x);
+  DYD_LOCAL_NUMBERS(mpq, q);
+  DYD_LOCAL_NUMBERS(arb, product, sum, x);
   rate_sides(product, sum, r, PREC);
   rate_least_area(q, r);
   dyd_ball_set_q(x, q, PREC);
@@ -347,17 +292,12 @@ dyd_status dyd_metric_disc_rate(int64_t *rate, int64_t *from, bool *known, const
   arb_sqrt_ui(x, 2, PREC);
   arb_mul(product, product, x, PREC);
   *rate = rate_log2(product);
-  arb_clear(x);
-  arb_clear(sum);
-  arb_clear(product);
-  mpq_clear(q);
   return DYD_OK;
 }
 
 dyd_status dyd_metric_disc(dyd_voronoi_bounds *out, const dyd_rect *a, const dyd_rect *b, const dyd_rect *c) {
   if (dyd_abi_check(out, sizeof *out, "dyd_voronoi_bounds", NULL) != DYD_OK || !a || !b || !c) return DYD_E_ARG;
-  dyd_partial_disc d;
-  dyd_partial_disc_init(&d);
+  DYD_LOCAL(dyd_partial_disc, d);
   dyd_partial_disc_set(&d, a, b, c);
   out->finite = false;
   dyd_status st = dyd_dyadic_set_si_2exp(&out->area, 0, 0);
@@ -365,6 +305,5 @@ dyd_status dyd_metric_disc(dyd_voronoi_bounds *out, const dyd_rect *a, const dyd
   bool exact = dyd_rect_is_point(a) && dyd_rect_is_point(b) && dyd_rect_is_point(c);
   if (st == DYD_OK && d.known && exact) out->finite = true;
   if (st == DYD_OK && d.known && !exact) st = disc_measure(out, &d);
-  dyd_partial_disc_clear(&d);
   return st;
 }

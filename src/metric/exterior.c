@@ -13,6 +13,7 @@
  * Hulls of exact points are segments, which have the exterior on both sides. */
 #include "base/alloc.h"
 #include "base/flag.h"
+#include "base/local.h"
 #include "rect/sites_table.h"
 #include "skeleton/rects.h"
 #include "skeleton/reps.h"
@@ -31,8 +32,7 @@ typedef struct ext_spot {
 
 /* Twice the signed area of a, b, c, points (x, y): positive if they turn left. */
 static void ext_turn(mpz_ptr out, mpz_ptr scratch, const ext_spot *a, const ext_spot *b, const ext_spot *c) {
-  mpz_t d[2];
-  mpz_inits(d[0], d[1], NULL);
+  DYD_LOCAL_ARRAY(mpz_t, d, [2]);
   mpz_sub(out, b->at[0], a->at[0]);
   mpz_sub(d[0], c->at[1], a->at[1]);
   mpz_mul(out, out, d[0]);
@@ -40,16 +40,12 @@ static void ext_turn(mpz_ptr out, mpz_ptr scratch, const ext_spot *a, const ext_
   mpz_sub(d[1], c->at[0], a->at[0]);
   mpz_mul(scratch, d[0], d[1]);
   mpz_sub(out, out, scratch);
-  mpz_clears(d[0], d[1], NULL);
 }
 
 static int ext_turn_sign(const ext_spot *a, const ext_spot *b, const ext_spot *c) {
-  mpz_t out, scratch;
-  mpz_inits(out, scratch, NULL);
+  DYD_LOCAL_NUMBERS(mpz, out, scratch);
   ext_turn(out, scratch, a, b, c);
-  int sign = mpz_sgn(out);
-  mpz_clears(scratch, out, NULL);
-  return sign;
+  return mpz_sgn(out);
 }
 
 static int ext_compare(const ext_spot *a, const ext_spot *b) {
@@ -89,13 +85,11 @@ static size_t ext_hull(uint32_t v[HULL_MOST], size_t n, const ext_spot *z) {
 
 /* Corner k of a rectangle: bit 0 chooses x1 over x0, bit 1 y1 over y0. */
 static void ext_corner(mpq_t out[2], const dyd_rect *r, int k) {
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   for (int a = 0; a < 2; a++) {
     dyd_interval_get_q(lo, hi, a ? &r->y : &r->x);
     mpq_set(out[a], k >> a & 1 ? hi : lo);
   }
-  mpq_clears(hi, lo, NULL);
 }
 
 static void ext_scale(ext_spot *out, mpq_t in[2], const mpz_t den) {
@@ -108,10 +102,10 @@ static void ext_scale(ext_spot *out, mpq_t in[2], const mpz_t den) {
 size_t dyd_rect_hull(mpq_t out[24], const dyd_rect *const *r, size_t count) {
   mpq_t corner[HULL_MOST][2];
   ext_spot z[HULL_MOST];
-  mpz_t den;
   uint32_t v[HULL_MOST];
   size_t n = count > 3 ? 0 : CORNERS * count;
-  mpz_init_set_ui(den, 1);
+  DYD_LOCAL_NUMBERS(mpz, den);
+  mpz_set_ui(den, 1);
   for (uint32_t k = 0; k < HULL_MOST; k++) {
     v[k] = k;
     for (int a = 0; a < 2; a++) mpq_init(corner[k][a]), mpz_init(z[k].at[a]);
@@ -124,7 +118,6 @@ size_t dyd_rect_hull(mpq_t out[24], const dyd_rect *const *r, size_t count) {
     for (int a = 0; a < 2; a++) mpq_set(out[2 * k + (size_t)a], corner[v[k]][a]);
   for (size_t k = 0; k < HULL_MOST; k++)
     for (int a = 0; a < 2; a++) mpq_clear(corner[k][a]), mpz_clear(z[k].at[a]);
-  mpz_clear(den);
   return n;
 }
 
@@ -179,13 +172,11 @@ static void ext_work_clear(ext_work *w) {
 /* The common denominator first, then the corners. */
 static dyd_status ext_corners(ext_work *w, const dyd_sites *sites) {
   size_t n = CORNERS * dyd_sites_count(sites);
-  mpq_t at[2];
-  dyd_rect r;
   dyd_status st = DYD_OK;
   w->z = dyd_alloc(n, sizeof *w->z);
   if (!w->z) return DYD_E_NOMEM;
-  mpq_inits(at[0], at[1], NULL);
-  dyd_rect_init(&r);
+  DYD_LOCAL_ARRAY(mpq_t, at, [2]);
+  DYD_LOCAL(dyd_rect, r);
   for (int pass = 0; pass < 2; pass++)
     for (size_t k = 0; k < n && st == DYD_OK; k++) {
       if (k % CORNERS == 0) st = dyd_sites_get(&r, sites, k / CORNERS);
@@ -196,8 +187,6 @@ static dyd_status ext_corners(ext_work *w, const dyd_sites *sites) {
       w->corners++;
       ext_scale(&w->z[k], at, w->den);
     }
-  dyd_rect_clear(&r);
-  mpq_clears(at[0], at[1], NULL);
   return st;
 }
 
@@ -226,8 +215,8 @@ static void ext_rank(uint32_t *rank, const uint32_t *order, size_t sites, const 
 
 static dyd_status ext_tree(ext_work *w, const dyd_pair_list *pairs, const dyd_sites *sites) {
   size_t n = dyd_sites_count(sites);
-  uint32_t *order = dyd_alloc(n, sizeof *order), *rank = dyd_alloc(n, sizeof *rank);
-  uint32_t *item = dyd_alloc(pairs->count, sizeof *item);
+  DYD_FREED uint32_t *order = dyd_alloc(n, sizeof *order), *rank = dyd_alloc(n, sizeof *rank);
+  DYD_FREED uint32_t *item = dyd_alloc(pairs->count, sizeof *item);
   dyd_strips strips;
   dyd_status st = order && rank && item ? dyd_spatial_order(order, &strips, sites, 1) : DYD_E_NOMEM;
   if (st == DYD_OK) {
@@ -236,13 +225,12 @@ static dyd_status ext_tree(ext_work *w, const dyd_pair_list *pairs, const dyd_si
     st = dyd_tree_init(&w->tree, item, (uint32_t)pairs->count, w->box);
     item = NULL;
   }
-  dyd_free_all(item, rank, order);
   return st;
 }
 
 static dyd_status ext_hulls(ext_work *w, const dyd_delaunay *pd) {
   const dyd_sites *sites = dyd_delaunay_sites(pd);
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = dyd_delaunay_pairs(&pairs, pd);
   if (st == DYD_OK && pairs.count >= UINT32_MAX) st = DYD_E_RANGE;
   if (st == DYD_OK) st = ext_corners(w, sites);
@@ -252,7 +240,6 @@ static dyd_status ext_hulls(ext_work *w, const dyd_delaunay *pd) {
   for (size_t k = 0; k < pairs.count && st == DYD_OK; k++) ext_hull_of(w, k, &pairs.item[k], sites);
   w->count = pairs.count;
   if (st == DYD_OK && pairs.count) st = ext_tree(w, &pairs, sites);
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 
@@ -286,37 +273,31 @@ static ext_cover *ext_cover_next(ext_work *w, ext_edge *e, size_t *made) {
 
 /* Cuts [lo, hi] to the t with f + t (g - f) >= 0; false: none is left. */
 static bool ext_cut(ext_cover *c, const mpz_t f, const mpz_t g) {
-  mpq_t t;
-  bool left = true;
   if (mpz_sgn(f) >= 0 && mpz_sgn(g) >= 0) return true;
   if (mpz_sgn(f) < 0 && mpz_sgn(g) < 0) return false;
-  mpq_init(t);
+  DYD_LOCAL_NUMBERS(mpq, t);
   mpz_set(mpq_numref(t), f);
   mpz_sub(mpq_denref(t), f, g);
   mpq_canonicalize(t);
   if (mpz_sgn(f) < 0 ? mpq_cmp(t, c->lo) > 0 : mpq_cmp(t, c->hi) < 0) mpq_set(mpz_sgn(f) < 0 ? c->lo : c->hi, t);
-  left = mpq_cmp(c->lo, c->hi) <= 0;
-  mpq_clear(t);
-  return left;
+  return mpq_cmp(c->lo, c->hi) <= 0;
 }
 
 /* The products (u - p).(q - p) of both ends of a side on the edge's line: its place along the edge. */
 static void ext_along(mpz_t out, const ext_edge *e, const ext_spot *u) {
-  mpz_t a, b;
-  mpz_inits(a, b, NULL);
+  DYD_LOCAL_NUMBERS(mpz, a, b);
   mpz_set_ui(out, 0);
   for (int k = 0; k < 2; k++) {
     mpz_sub(a, u->at[k], e->p->at[k]);
     mpz_sub(b, e->q->at[k], e->p->at[k]);
     mpz_addmul(out, a, b);
   }
-  mpz_clears(a, b, NULL);
 }
 
 /* Cuts to the side u v, which is on the edge's line. */
 static bool ext_cut_along(ext_cover *c, const ext_edge *e, const ext_spot *u, const ext_spot *v, bool *same) {
-  mpz_t at[3], other;
-  mpz_inits(at[0], at[1], at[2], other, NULL);
+  DYD_LOCAL_NUMBERS(mpz, other);
+  DYD_LOCAL_ARRAY(mpz_t, at, [3]);
   ext_along(at[0], e, u);
   ext_along(at[1], e, v);
   ext_along(at[2], e, e->q); /* |q - p|^2 */
@@ -327,21 +308,18 @@ static bool ext_cut_along(ext_cover *c, const ext_edge *e, const ext_spot *u, co
   mpz_add(other, at[0], at[2]);
   bool left = ext_cut(c, at[0], other);
   mpz_sub(other, at[1], at[2]);
-  left = left && ext_cut(c, at[1], other);
-  mpz_clears(at[0], at[1], at[2], other, NULL);
-  return left;
+  return left && ext_cut(c, at[1], other);
 }
 
 /* Notes how the hull covers the edge. */
 static void ext_meet(ext_work *w, ext_edge *e, const ext_face *h, size_t *made) {
   ext_cover *c = ext_cover_next(w, e, made);
-  mpz_t f, g, scratch;
   bool left = c, same;
   if (!c) return;
   mpq_set_ui(c->lo, 0, 1);
   mpq_set_ui(c->hi, 1, 1);
   c->side = h->n > 2 ? 2 : 3; /* 3: a segment covers nothing */
-  mpz_inits(f, g, scratch, NULL);
+  DYD_LOCAL_NUMBERS(mpz, f, g, scratch);
   for (uint32_t k = 0; k < h->n && left; k++) {
     const ext_spot *u = &w->z[h->v[k]], *v = &w->z[h->v[(k + 1) % h->n]];
     ext_turn(f, scratch, u, v, e->p);
@@ -358,22 +336,19 @@ static void ext_meet(ext_work *w, ext_edge *e, const ext_face *h, size_t *made) 
     int a = ext_turn_sign(e->p, e->q, u), b = ext_turn_sign(e->p, e->q, v);
     left = a * b <= 0;
   }
-  mpz_clears(scratch, g, f, NULL);
   e->count += left;
 }
 
 /* ---- pieces ---- */
 
 static void ext_locate(mpq_t out, const ext_work *w, const ext_edge *e, int axis, const mpq_t t) {
-  mpq_t span;
-  mpq_init(span);
+  DYD_LOCAL_NUMBERS(mpq, span);
   mpz_sub(mpq_numref(span), e->q->at[axis], e->p->at[axis]);
   mpq_mul(out, span, t);
   mpz_set(mpq_numref(span), e->p->at[axis]);
   mpq_add(out, out, span);
   mpz_set(mpq_numref(span), w->den);
   mpq_div(out, out, span);
-  mpq_clear(span);
 }
 
 static void ext_piece_add(ext_work *w, const ext_edge *e, const mpq_t from, const mpq_t to, const bool open[2]) {
@@ -401,7 +376,7 @@ static int ext_compare_q(const void *a, const void *b) {
 
 /* The parts between neighbouring ends of covers. */
 static void ext_pieces_of(ext_work *w, const ext_edge *e) {
-  mpq_srcptr *t = dyd_alloc(2 * e->count, sizeof *t);
+  DYD_FREED mpq_srcptr *t = dyd_alloc(2 * e->count, sizeof *t);
   if (!t) {
     w->failed = true;
     return;
@@ -418,7 +393,6 @@ static void ext_pieces_of(ext_work *w, const ext_edge *e) {
     }
     if (open[0] || open[1]) ext_piece_add(w, e, t[k], t[k + 1], open);
   }
-  free(t);
 }
 
 static bool ext_visit(void *context, uint32_t hull) {
@@ -493,14 +467,12 @@ static int ext_half(const ext_dart *d) {
 
 /* Around one place: counter-clockwise from the right. */
 static int ext_compare_way(const ext_dart *a, const ext_dart *b) {
-  mpz_t left, right;
   int half = ext_half(a) - ext_half(b);
   if (half) return half;
-  mpz_inits(left, right, NULL);
+  DYD_LOCAL_NUMBERS(mpz, left, right);
   mpz_mul(left, a->piece->way[0], b->piece->way[1]);
   mpz_mul(right, a->piece->way[1], b->piece->way[0]);
   int turn = mpz_cmp(right, left); /* both ways are turned, or none */
-  mpz_clears(right, left, NULL);
   return a->back == b->back ? turn : -turn;
 }
 
@@ -563,7 +535,7 @@ static size_t ext_outermost(const ext_dart *dart, size_t count) {
 }
 
 static dyd_status ext_rings(dyd_exterior *out, ext_work *w) {
-  ext_dart *dart = dyd_alloc(2 * w->pieces, sizeof *dart);
+  DYD_FREED ext_dart *dart = dyd_alloc(2 * w->pieces, sizeof *dart);
   size_t caps[2] = {0}, count = 2 * w->pieces;
   bool good = dart && DYD_GROW(out->offset, caps[0], 2);
   if (good) out->offset[0] = out->offset[1] = 0;
@@ -572,7 +544,6 @@ static dyd_status ext_rings(dyd_exterior *out, ext_work *w) {
   if (good && count) good = ext_ring(out, caps, dart, count, ext_outermost(dart, count));
   for (size_t k = 0; good && k < count; k++)
     if (!dart[k].used && dart[k].piece->open[dart[k].back]) good = ext_ring(out, caps, dart, count, k);
-  free(dart);
   return good ? DYD_OK : DYD_E_NOMEM;
 }
 
@@ -583,14 +554,13 @@ void dyd_exterior_clear(dyd_exterior *e) {
 }
 
 dyd_status dyd_delaunay_exterior(dyd_exterior *out, const dyd_delaunay *pd, const volatile int *cancel) {
-  ext_work w = {0};
+  DYD_SCOPED(ext_work) w = {0};
   dyd_exterior made = {0};
   mpz_init_set_ui(w.den, 1);
   dyd_status st = dyd_delaunay_is_capped(pd) ? DYD_CAPPED : ext_hulls(&w, pd);
   if (st == DYD_OK) st = ext_pieces(&w, cancel);
   if (st == DYD_OK) ext_unite(&w);
   if (st == DYD_OK) st = ext_rings(&made, &w);
-  ext_work_clear(&w);
   dyd_exterior_clear(st == DYD_OK ? out : &made);
   if (st == DYD_OK) *out = made;
   return st;

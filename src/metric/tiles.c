@@ -6,6 +6,7 @@
  * vertices whose box of the grid they meet, on both sides alike [PART-1], until all rings are simple: a ring is cut
  * where it touches itself, and parts without area are dropped. */
 #include "base/alloc.h"
+#include "base/local.h"
 #include "metric/bounds.h"
 #include "metric/tiles_filter.h"
 #include "rect/rect.h"
@@ -53,10 +54,8 @@ void dyd_tiles_clear(dyd_tiles *t) {
 /* ---- representatives ---- */
 
 static dyd_status add_centre(dyd_sites *to, const dyd_sites *of, size_t i) {
-  dyd_rect r;
-  mpq_t end[4];
-  for (int k = 0; k < 4; k++) mpq_init(end[k]);
-  dyd_rect_init(&r);
+  DYD_LOCAL_ARRAY(mpq_t, end, [4]);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_sites_get(&r, of, i);
   dyd_interval_get_q(end[0], end[1], &r.x);
   dyd_interval_get_q(end[2], end[3], &r.y);
@@ -65,10 +64,7 @@ static dyd_status add_centre(dyd_sites *to, const dyd_sites *of, size_t i) {
     mpq_div_2exp(end[k], end[k], 1);
   }
   if (st == DYD_OK) st = dyd_rect_set_q(&r, end[0], end[2]);
-  if (st == DYD_OK) st = dyd_sites_add_rect(to, &r);
-  dyd_rect_clear(&r);
-  for (int k = 0; k < 4; k++) mpq_clear(end[k]);
-  return st;
+  return st == DYD_OK ? dyd_sites_add_rect(to, &r) : st;
 }
 
 /* The triangulation of the centres of all rectangles; the caller frees both, whatever is returned. */
@@ -101,24 +97,20 @@ static dyd_status ring_area2(dyd_dyadic *out, bool *simple, const dyd_xy *z, siz
 
 /* Sets *good to whether it is a simple polygon, counter-clockwise. */
 static dyd_status ring_is_good(bool *good, const tiling *t, const dyd_xy *z, size_t n) {
-  dyd_dyadic area2;
   *good = n < 3 || dyd_filter_is_convex(z, n);
   if (*good) return DYD_OK;
-  dyd_dyadic_init(&area2);
+  DYD_LOCAL(dyd_dyadic, area2);
   dyd_status st = ring_area2(&area2, good, z, n, t->w.cancel);
   *good = *good && dyd_dyadic_sgn(&area2) > 0;
-  dyd_dyadic_clear(&area2);
   return st;
 }
 
 static dyd_status ring_area(double *out, const tiling *t, const dyd_xy *z, size_t n) {
-  dyd_dyadic area2;
   if (dyd_filter_grid_area(out, z, n, t->w.grid)) return DYD_OK;
-  dyd_dyadic_init(&area2);
+  DYD_LOCAL(dyd_dyadic, area2);
   dyd_status st = ring_area2(&area2, NULL, z, n, t->w.cancel);
   if (st == DYD_OK) st = dyd_dyadic_mul_2exp(&area2, &area2, -1);
   *out = dyd_dyadic_get_d(&area2, DYD_UP);
-  dyd_dyadic_clear(&area2);
   return st;
 }
 
@@ -225,15 +217,11 @@ static bool edge_goes_to(edge_test *e, mpq_t a[2], mpq_t b[2]) {
 }
 
 static dyd_status edge_test_site(mpq_t out[2], const tiling *t, uint32_t site) {
-  dyd_rect r;
-  mpq_t hi;
-  dyd_rect_init(&r);
-  mpq_init(hi);
+  DYD_LOCAL(dyd_rect, r);
+  DYD_LOCAL_NUMBERS(mpq, hi);
   dyd_status st = dyd_sites_get(&r, dyd_delaunay_sites(t->pd), site);
   dyd_interval_get_q(out[0], hi, &r.x);
   dyd_interval_get_q(out[1], hi, &r.y);
-  mpq_clear(hi);
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -243,8 +231,7 @@ static bool bisector_meets(edge_test *e, int grid) {
   mpq_set_ui(e->sum, 0, 1);
   mpq_set_ui(e->limit, 0, 1);
   for (int k = 0; k < 2; k++) {
-    mpq_t d;
-    mpq_init(d);
+    DYD_LOCAL_NUMBERS(mpq, d);
     mpq_sub(d, e->q[k], e->p[k]);
     mpq_add(e->term, e->v[k], e->v[k]);
     mpq_sub(e->term, e->term, e->q[k]);
@@ -253,7 +240,6 @@ static bool bisector_meets(edge_test *e, int grid) {
     mpq_add(e->sum, e->sum, e->term);
     mpq_abs(d, d);
     mpq_add(e->limit, e->limit, d);
-    mpq_clear(d);
   }
   if (grid >= 0)
     mpq_div_2exp(e->limit, e->limit, (mp_bitcnt_t)grid);
@@ -328,7 +314,7 @@ static dyd_status settle_all(tiling *t) {
 
 /* Appends the loops of the ring: each is cut out where it comes back to a vertex. */
 static dyd_status append_loops(tiling *t, const loose_ring *r, const double bound[2]) {
-  dyd_xy *open = dyd_alloc(r->count + 1, sizeof *open);
+  DYD_FREED dyd_xy *open = dyd_alloc(r->count + 1, sizeof *open);
   size_t n = 0;
   dyd_status st = open ? DYD_OK : DYD_E_NOMEM;
   for (size_t k = 0; k <= r->count && st == DYD_OK && r->count; k++) {
@@ -344,7 +330,6 @@ static dyd_status append_loops(tiling *t, const loose_ring *r, const double boun
     n = from;
     open[n++] = z;
   }
-  free(open);
   return st;
 }
 
@@ -477,13 +462,12 @@ static dyd_status keep_bound(void *context, uint32_t i, const dyd_shape *shape, 
 /* Bounds the areas of the true cells, and the undetermined part of the diagram. */
 static dyd_status bound_areas(double *bound, dyd_voronoi_bounds *bounds, const dyd_delaunay *pd, const dyd_rect *window,
                               int64_t bits, bool discs, const volatile int *cancel) {
-  dyd_voronoi_sums sums;
+  DYD_SCOPED(dyd_voronoi_sums) sums;
   dyd_status st = dyd_voronoi_sums_init(&sums, pd, window, bits);
   sums.cancel = cancel;
   sums.discs = discs;
   if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, keep_bound, bound);
   if (st == DYD_OK && bounds) st = dyd_voronoi_sums_bounds(bounds, &sums);
-  dyd_voronoi_sums_clear(&sums);
   return st;
 }
 
@@ -531,14 +515,13 @@ dyd_status dyd_tiles_find(dyd_tiles *out, dyd_voronoi_bounds *bounds, const dyd_
   dyd_tiles made = {0};
   dyd_sites *sites = NULL;
   dyd_delaunay *centres = NULL;
-  tiling t = {.out = &made, .pd = pd, .areas_only = areas_only, .discs = discs};
+  DYD_SCOPED(tiling) t = {.out = &made, .pd = pd, .areas_only = areas_only, .discs = discs};
   dyd_status st = DYD_OK;
   if (!pd->sk.all_points) {
     st = tiling_of_centres(&sites, &centres, dyd_delaunay_sites(pd), cancel);
     t.pd = centres;
   }
   if (st == DYD_OK) st = tile_all(&t, bounds, pd, window, bits, cancel);
-  tiling_clear(&t);
   dyd_delaunay_free(centres);
   dyd_sites_free(sites);
   dyd_tiles_clear(st == DYD_OK ? out : &made);

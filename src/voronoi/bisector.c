@@ -11,6 +11,7 @@
 #include "voronoi/exact_cell.h"
 
 #include "base/invariant.h"
+#include "base/local.h"
 
 /* ---- marks ---- */
 
@@ -51,8 +52,7 @@ static void side_set_init(side_set *s, const dyd_scaled *far, const dyd_scaled *
 static void point_of_line(dyd_surd_point *out, const dyd_elementary *a, int k, mpz_srcptr num, int64_t bits) {
   int o = 1 - k;
   mpz_ptr to[2] = {out->ax, out->ay};
-  mpz_t n, m;
-  mpz_inits(n, m, NULL);
+  DYD_LOCAL_NUMBERS(mpz, n, m);
   mpz_sub(n, a->q[k], a->s[k]);
   mpz_add(m, a->q[k], a->s[k]);
   mpz_mul(to[o], n, m);
@@ -65,7 +65,6 @@ static void point_of_line(dyd_surd_point *out, const dyd_elementary *a, int k, m
   mpz_mul_2exp(out->d, out->d, 1);
   mpz_mul(to[k], num, out->d);
   mpz_mul_2exp(out->d, out->d, (mp_bitcnt_t)bits);
-  mpz_clears(n, m, NULL);
 }
 
 /* v = ((t - s_k)^2 + h (L + s_o)) / 2h */
@@ -149,8 +148,7 @@ static void tighten_end(dyd_spot *end, dyd_surd_point *p, int axis, int e) {
 /* A line along `axis`, v = m/2 everywhere: is it in the pane, and on its border only with the region inside? */
 static bool level_is_inside(const dyd_elementary *a, int side) {
   int o = 1 - a->axis;
-  mpz_t m, t;
-  mpz_inits(m, t, NULL);
+  DYD_LOCAL_NUMBERS(mpz, m, t);
   mpz_add(m, a->q[o], a->s[o]);
   bool inside = true;
   for (int e = 0; e < 2 && inside; e++) {
@@ -160,7 +158,6 @@ static bool level_is_inside(const dyd_elementary *a, int side) {
     int beyond = mpz_cmp(m, t) * (e ? 1 : -1), region = side * (mpz_cmp(a->s[o], a->q[o]) > 0 ? 1 : -1);
     inside = beyond < 0 || (beyond == 0 && region == (e ? -1 : 1));
   }
-  mpz_clears(m, t, NULL);
   return inside;
 }
 
@@ -200,13 +197,10 @@ static bool clip_arc(dyd_elementary *a, dyd_surd_point *p, int side) {
 /* Which coordinate to go along: across n where n is longer, or along the directrix. */
 static int arc_choose_axis(const dyd_elementary *a) {
   if (a->parabola) return a->q[0] ? 1 : 0;
-  mpz_t x, y;
-  mpz_inits(x, y, NULL);
+  DYD_LOCAL_NUMBERS(mpz, x, y);
   mpz_sub(x, a->q[0], a->s[0]);
   mpz_sub(y, a->q[1], a->s[1]);
-  int axis = mpz_cmpabs(x, y) <= 0 ? 0 : 1;
-  mpz_clears(x, y, NULL);
-  return axis;
+  return mpz_cmpabs(x, y) <= 0 ? 0 : 1;
 }
 
 /* The arc of the pane of two strips; false: the pane is the near rectangle, or certainly without an arc. The branch is
@@ -241,8 +235,7 @@ size_t dyd_curve_set(dyd_elementary *out, mpz_t middle[2], const dyd_scaled *far
                      const dyd_scaled *window, int side, int64_t shift) {
   dyd_strip x[4], y[4];
   side_set s[2];
-  dyd_surd_point p;
-  dyd_surd_point_init(&p);
+  DYD_LOCAL(dyd_surd_point, p);
   for (int k = 0; k < 2; k++) {
     mpz_add(middle[k], dyd_irect_end(&far->r, k, 0), dyd_irect_end(&far->r, k, 1));
     mpz_tdiv_q_2exp(middle[k], middle[k], 1);
@@ -259,7 +252,6 @@ size_t dyd_curve_set(dyd_elementary *out, mpz_t middle[2], const dyd_scaled *far
       if (!a->end[e].infinite) dyd_filter_spot_box(&a->end[e], shift);
     count++;
   }
-  dyd_surd_point_clear(&p);
   return count;
 }
 

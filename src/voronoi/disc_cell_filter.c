@@ -16,6 +16,7 @@
  *   Pos_i n W, since that lies in Pos_i n W' and meets no edge [POLY-2]. */
 #include "base/alloc.h"
 #include "base/flag.h"
+#include "base/local.h"
 #include "rect/rect.h"
 #include "tolerance/discs.h"
 #include "tolerance/lines.h"
@@ -99,7 +100,7 @@ static disc_rival *rival_next(disc_cell *c) {
 }
 
 static dyd_status load_partners(disc_cell *c, const dyd_delaunay *pd, uint32_t i) {
-  dyd_index_list near = {0};
+  DYD_SCOPED(dyd_index_list) near = {0};
   const dyd_sites *sites = dyd_delaunay_sites(pd);
   dyd_status st = dyd_disc_of_site(&c->own, sites, i);
   if (st == DYD_OK) st = dyd_delaunay_neighbours(&near, pd, i, dyd_least_bounding(pd));
@@ -116,7 +117,6 @@ static dyd_status load_partners(disc_cell *c, const dyd_delaunay *pd, uint32_t i
     c->overlaps = c->overlaps || !apart;
   }
   c->partners = c->count;
-  dyd_index_list_clear(&near);
   return st;
 }
 
@@ -226,7 +226,7 @@ static dyd_status divide(disc_cell *c, const disc_corner *p, const disc_corner *
 static dyd_status find_border(disc_cell *c) {
   if (!find_breaks(c)) return DYD_E_NOMEM;
   size_t breaks = c->corners;
-  disc_corner *b = dyd_alloc(breaks + 1, sizeof *b);
+  DYD_FREED disc_corner *b = dyd_alloc(breaks + 1, sizeof *b);
   dyd_status st = b ? DYD_OK : DYD_E_NOMEM;
   double enough = ldexp(1, (int)fmax(-1000, fmin(1000, -(double)c->bits - 3)));
   for (size_t k = 0; b && k < breaks; k++) b[k] = c->corner[k];
@@ -234,11 +234,10 @@ static dyd_status find_border(disc_cell *c) {
   for (size_t k = 0; k < breaks && st == DYD_OK; k++) {
     disc_corner next = b[(k + 1) % breaks];
     if (k + 1 == breaks) next.angle += TURN;
-    if (!(b[k].near > LEAST && b[k].near < 1 / LEAST)) return free(b), c->corners = 0, DYD_OK;
+    if (!(b[k].near > LEAST && b[k].near < 1 / LEAST)) return c->corners = 0, DYD_OK;
     st = add_corner(c, b[k].angle, b[k].rival, b[k].near) ? divide(c, &b[k], &next, enough, DEEP) : DYD_E_NOMEM;
     if (dyd_flag_is_set(c->w->cancel)) st = DYD_CANCELLED;
   }
-  free(b);
   return st;
 }
 
@@ -432,7 +431,7 @@ static void disc_cell_clear(disc_cell *c) {
 
 dyd_status dyd_disc_shape(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w,
                           int64_t bits) {
-  disc_cell c = {.w = w, .bits = bits, .no_filter = pd->sk.mesh.no_filter};
+  DYD_SCOPED(disc_cell) c = {.w = w, .bits = bits, .no_filter = pd->sk.mesh.no_filter};
   bool certain = false;
   *done = false;
   dyd_disc_init(&c.own);
@@ -445,6 +444,5 @@ dyd_status dyd_disc_shape(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint
   if (!*done) dyd_polygon_list_clear(&s->outer_exact);
   if (st == DYD_OK && *done && !c.overlaps) st = make_polygons(&certain, s, &c, false);
   if (!certain) dyd_polygon_clear(&s->inner_exact);
-  disc_cell_clear(&c);
   return st;
 }

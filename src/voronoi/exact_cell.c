@@ -13,6 +13,7 @@
 
 #include "base/alloc.h"
 #include "base/invariant.h"
+#include "base/local.h"
 #include "predicate/circle.h"
 #include "voronoi/surd_point.h"
 
@@ -122,8 +123,7 @@ static int cell_side(const exact_cell *c, dyd_sample *s, const dyd_elementary *a
 
 /* num / 2^bits strictly between two points, by enclosures of growing precision; some number when both are infinite. */
 static void sample_between(dyd_sample *s, const dyd_spot *low, const dyd_spot *high, int axis) {
-  mpz_t up, down, t;
-  mpz_inits(up, down, t, NULL);
+  DYD_LOCAL_NUMBERS(mpz, up, down, t);
   for (s->bits = 4;; s->bits *= 2) {
     if (!low->infinite) dyd_surd_point_floor(t, up, &low->at, axis, s->bits);
     if (!high->infinite) dyd_surd_point_floor(down, t, &high->at, axis, s->bits);
@@ -133,7 +133,6 @@ static void sample_between(dyd_sample *s, const dyd_spot *low, const dyd_spot *h
   }
   mpz_add(s->num, up, down);
   s->bits++;
-  mpz_clears(up, down, t, NULL);
 }
 
 /* A sample strictly between two points, on an arc or (arc = NULL) on a side of the window. */
@@ -373,8 +372,7 @@ static bool curves_may_meet(const exact_cell *c, size_t j, size_t k) {
 }
 
 static dyd_status curves_find_meets(exact_cell *c) {
-  dyd_icircle circle[CELL_CIRCLES];
-  for (int m = 0; m < CELL_CIRCLES; m++) dyd_icircle_init(&circle[m]);
+  DYD_LOCAL_ARRAY(dyd_icircle, circle, [CELL_CIRCLES]);
   const dyd_touch touch[3] = {c->frame->fixed_touch, c->frame->other_touch, c->frame->other_touch};
   dyd_status st = DYD_OK;
   for (size_t j = 0; j < c->count; j++)
@@ -386,7 +384,6 @@ static dyd_status curves_find_meets(exact_cell *c) {
       DYD_INVARIANT(found < CELL_CIRCLES);
       for (size_t m = 0; m < found && st == DYD_OK; m++) st = curves_add_meet(c, j, k, &circle[m]);
     }
-  for (int m = CELL_CIRCLES; m-- > 0;) dyd_icircle_clear(&circle[m]);
   return st;
 }
 
@@ -625,14 +622,13 @@ static dyd_status links_write_all(dyd_boundary *out, links *l, const exact_cell 
 
 /* Joins the pieces to chains. *out is empty before; on failure the caller clears it. */
 static dyd_status cell_link(dyd_boundary *out, const exact_cell *c) {
-  links l;
+  DYD_SCOPED(links) l;
   dyd_status st = links_init(&l, c->pieces);
   if (st == DYD_OK) {
     links_join(&l, c, true);
     links_join(&l, c, false);
     st = links_write_all(out, &l, c);
   }
-  links_clear(&l);
   return st;
 }
 
@@ -691,10 +687,10 @@ static void cell_frame_set_corners(cell_frame *c) {
 static dyd_status cell_set_rects(bool *blocked, exact_cell *c, cell_frame *frame) {
   const dyd_cell_task *t = c->task;
   size_t n = t->count + 1 + (t->windowed ? 1 : 0);
-  dyd_irect *r = dyd_alloc(n, sizeof *r);
+  DYD_FREED dyd_irect *r = dyd_alloc(n, sizeof *r);
   c->other = dyd_alloc(t->count, sizeof *c->other);
   c->site = dyd_alloc(t->count, sizeof *c->site);
-  if (!r || !c->other || !c->site) return free(r), DYD_E_NOMEM;
+  if (!r || !c->other || !c->site) return DYD_E_NOMEM;
   for (size_t k = 0; k < n; k++) dyd_irect_init(&r[k]);
   cell_frame_scale(frame, t, r, n);
   scaled_take(&frame->fixed, &r[0], frame->shift);
@@ -713,7 +709,6 @@ static dyd_status cell_set_rects(bool *blocked, exact_cell *c, cell_frame *frame
     scaled_take(&c->other[c->count++], &r[k + 1], frame->shift);
   }
   for (size_t k = n; k-- > 0;) dyd_irect_clear(&r[k]);
-  free(r);
   return DYD_OK;
 }
 
@@ -742,7 +737,7 @@ static bool cell_is_whole(const exact_cell *c) {
 }
 
 dyd_status dyd_cell_boundary(dyd_boundary *out, const dyd_cell_task *task) {
-  cell_frame frame;
+  DYD_SCOPED(cell_frame) frame;
   exact_cell c;
   dyd_boundary b = {0};
   bool blocked = false;
@@ -756,7 +751,6 @@ dyd_status dyd_cell_boundary(dyd_boundary *out, const dyd_cell_task *task) {
   }
   for (size_t k = c.count; k-- > 0;) dyd_irect_clear(&c.other[k].r);
   cell_clear(&c);
-  cell_frame_clear(&frame);
   if (st != DYD_OK) return dyd_boundary_clear(&b), st;
   dyd_boundary_clear(out);
   *out = b;

@@ -6,6 +6,7 @@
  * under the choice with p_i closest to it and all others farthest, is nearer to some Delaunay neighbour of i, hence in
  * C_ji for a possible neighbour j. No other site matters. */
 #include "base/alloc.h"
+#include "base/local.h"
 #include "delaunay/memory.h"
 #include "predicate/circle.h"
 #include "voronoi/exact_cell.h"
@@ -28,15 +29,13 @@ static bool window_has_area(const dyd_rect *w) {
 /* The region of `site` among the sites s of its cell; window: NULL for the whole plane. */
 static dyd_status cell_region_among(dyd_boundary *out, const dyd_delaunay *pd, const dyd_cell_sites *s, uint32_t site,
                                     bool outer, const dyd_rect *window, dyd_room *room, const volatile int *cancel) {
-  const dyd_rect **in = dyd_alloc(s->count + 2, sizeof *in);
+  DYD_FREED const dyd_rect **in = dyd_alloc(s->count + 2, sizeof *in);
   if (!in) return DYD_E_NOMEM;
   in[0] = &s->own;
   for (size_t k = 0; k < s->count; k++) in[k + 1] = &s->other[k];
   in[s->count + 1] = window;
   dyd_cell_task task = {site, s->site, s->count, in, outer, window != NULL, pd, false, cancel, room};
-  dyd_status st = dyd_cell_boundary(out, &task);
-  free(in);
-  return st;
+  return dyd_cell_boundary(out, &task);
 }
 
 dyd_status dyd_cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer, bool proved,
@@ -46,14 +45,12 @@ dyd_status dyd_cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i
   if (dyd_flag_is_set(cancel)) return DYD_CANCELLED;
   dyd_status st = find_cell_site(&site, pd, i);
   if (st != DYD_OK) return st;
-  dyd_cell_sites s;
+  DYD_SCOPED(dyd_cell_sites) s;
   dyd_pair_status least = dyd_least_at(pd, site, proved);
   st = dyd_cell_sites_init(&s, pd, site, least);
   const dyd_delaunay *complete =
       least == dyd_least_bounding(pd) ? pd : NULL; /* of some sites only: all may share one */
-  if (st == DYD_OK) st = cell_region_among(out, complete, &s, site, outer, window, room, cancel);
-  dyd_cell_sites_clear(&s);
-  return st;
+  return st == DYD_OK ? cell_region_among(out, complete, &s, site, outer, window, room, cancel) : st;
 }
 
 dyd_status dyd_voronoi_cell(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, dyd_cell_bound bound,
@@ -86,10 +83,9 @@ dyd_status dyd_cell_point_side(dyd_truth *out, const dyd_delaunay *pd, uint32_t 
   uint32_t site;
   dyd_status st = find_cell_site(&site, pd, i);
   if (st != DYD_OK) return st;
-  dyd_cell_sites s;
+  DYD_SCOPED(dyd_cell_sites) s;
   st = dyd_cell_sites_init(&s, pd, site, dyd_least_bounding(pd));
   if (st == DYD_OK) *out = side_of_cell(&s, c);
-  dyd_cell_sites_clear(&s);
   return st;
 }
 

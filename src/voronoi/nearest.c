@@ -11,6 +11,7 @@
 #include "voronoi/nearest.h"
 
 #include "base/alloc.h"
+#include "base/local.h"
 
 #include <dyadel/voronoi.h>
 
@@ -210,8 +211,7 @@ static void query_clear(query *q) {
 static dyd_status query_load_sites(query *q) {
   q->site = dyd_alloc(q->count, sizeof *q->site);
   if (!q->site) return DYD_E_NOMEM;
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < q->count && st == DYD_OK; k++) {
     uint32_t i = q->pd->sk.reps.site[q->vertex[k]];
@@ -223,7 +223,6 @@ static dyd_status query_load_sites(query *q) {
     dyd_sites_get_d(s->box.e, q->pd->sk.rects.sites, i);
     s->slack = dyd_filter_slack(&s->box, dyd_sites_in_doubles(q->pd->sk.rects.sites, i));
   }
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -233,8 +232,7 @@ static dyd_status query_load_sites(query *q) {
 static void query_distance2(mpq_t out, mpq_t t, const query *q, const dyd_near_site *s, bool farthest) {
   mpq_set_ui(out, 0, 1);
   for (int a = 0; a < 4; a += 2) {
-    mpq_t below, above;
-    mpq_inits(below, above, NULL);
+    DYD_LOCAL_NUMBERS(mpq, below, above);
     mpq_sub(below, s->e[a], q->e[a]);     /* > 0: the point is below */
     mpq_sub(above, q->e[a], s->e[a + 1]); /* > 0: above */
     if (farthest) {
@@ -247,14 +245,12 @@ static void query_distance2(mpq_t out, mpq_t t, const query *q, const dyd_near_s
     mpq_ptr d = mpq_cmp(below, above) > 0 ? below : above;
     mpq_mul(t, d, d);
     mpq_add(out, out, t);
-    mpq_clears(below, above, NULL);
   }
 }
 
 /* Keeps the sites with ds <= the least dl. */
 static void query_keep_at_point(query *q) {
-  mpq_t least, d, t;
-  mpq_inits(least, d, t, NULL);
+  DYD_LOCAL_NUMBERS(mpq, least, d, t);
   for (size_t k = 0; k < q->count; k++) {
     query_distance2(d, t, q, &q->site[k], true);
     if (k == 0 || mpq_cmp(d, least) < 0) mpq_set(least, d);
@@ -265,7 +261,6 @@ static void query_keep_at_point(query *q) {
     if (mpq_cmp(d, least) <= 0) q->vertex[kept++] = q->vertex[k];
   }
   q->count = kept;
-  mpq_clears(least, d, t, NULL);
 }
 
 /* ---- a rectangle ---- */
@@ -290,7 +285,7 @@ static bool query_lists(dyd_near_work *w, const query *q, size_t i) {
 }
 
 static dyd_status query_keep_in_rect(query *q) {
-  bool *keep = dyd_alloc(q->count, sizeof *keep);
+  DYD_FREED bool *keep = dyd_alloc(q->count, sizeof *keep);
   if (!keep) return DYD_E_NOMEM;
   dyd_near_work w;
   near_work_init(&w);
@@ -300,7 +295,6 @@ static dyd_status query_keep_in_rect(query *q) {
   for (size_t i = 0; i < q->count; i++)
     if (keep[i]) q->vertex[kept++] = q->vertex[i];
   q->count = kept;
-  free(keep);
   return DYD_OK;
 }
 
@@ -317,7 +311,7 @@ static void query_deliver(dyd_index_list *out, query *q) {
 
 dyd_status dyd_nearest(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, const dyd_rect *rect) {
   if (!pd) return DYD_E_ARG;
-  query q = {.pd = pd};
+  DYD_SCOPED(query) q = {.pd = pd};
   for (int n = 0; n < 4; n++) mpq_init(q.e[n]);
   dyd_status st = dyd_near_candidates(&q.vertex, &q.count, pd, rect);
   if (st == DYD_OK && q.count > 1) {
@@ -332,7 +326,6 @@ dyd_status dyd_nearest(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, 
     query_deliver(out, &q);
     *sure = out->count == 1;
   }
-  query_clear(&q);
   return st;
 }
 
@@ -347,11 +340,9 @@ static dyd_status near_list_add(dyd_place_list *l, size_t *cap, uint32_t *v, con
     l->sure[l->places] = true;
     found = (dyd_index_list){1, &pd->sk.reps.site[*v]};
   } else {
-    dyd_rect at;
-    dyd_rect_init(&at);
+    DYD_LOCAL(dyd_rect, at);
     st = dyd_rect_set_d(&at, z.x, z.x, z.y, z.y);
     if (st == DYD_OK) st = dyd_nearest(&found, &l->sure[l->places], pd, &at);
-    dyd_rect_clear(&at);
     if (st == DYD_OK && found.count) *v = pd->sk.vertex[found.item[0]];
   }
   if (st == DYD_OK && !dyd_reserve((void **)&l->site, cap, before + found.count, sizeof *l->site)) st = DYD_E_NOMEM;

@@ -9,6 +9,8 @@
  * only one beginning has a box that meets the box of the end, it is that one. */
 #include "voronoi/outline_filter.h"
 
+#include "base/local.h"
+#include "rect/rect.h"
 #include "rect/sites_table.h"
 
 #include <stdlib.h>
@@ -110,8 +112,7 @@ static bool outline_rect(dyd_rect *r, dyd_outline *o, size_t k) {
 static void ruler_number(mpq_ptr out, mpq_ptr spare, const ruler *r, int mark) {
   bool window = mark == DYD_WINDOW_LO || mark == DYD_WINDOW_HI, near = mark == DYD_NEAR_LO || mark == DYD_NEAR_HI;
   bool high = mark == DYD_WINDOW_HI || mark == DYD_NEAR_HI || mark == DYD_MARKS + 1;
-  dyd_rect rect;
-  dyd_rect_init(&rect);
+  DYD_LOCAL(dyd_rect, rect);
   if (window && !r->of_window[high])
     mpq_set_d(out, r->at[mark].lo);
   else if (window)
@@ -122,7 +123,6 @@ static void ruler_number(mpq_ptr out, mpq_ptr spare, const ruler *r, int mark) {
     mpq_add(out, out, spare);
     mpq_div_2exp(out, out, 1);
   }
-  dyd_rect_clear(&rect);
 }
 
 static dyd_iv ruler_at(const ruler *r, int mark) {
@@ -134,13 +134,10 @@ static int ruler_order(const void *axis, int a, int b) {
   bool doubt = false;
   int order = a == b ? 0 : dyd_outline_order(&doubt, ruler_at(r, a), ruler_at(r, b));
   if (!doubt) return order;
-  mpq_t x, y, spare;
-  mpq_inits(x, y, spare, NULL);
+  DYD_LOCAL_NUMBERS(mpq, x, y, spare);
   ruler_number(x, spare, r, a);
   ruler_number(y, spare, r, b);
-  order = mpq_cmp(x, y);
-  mpq_clears(x, y, spare, NULL);
-  return order;
+  return mpq_cmp(x, y);
 }
 
 static void ruler_set(ruler *r, dyd_outline *o, size_t far, size_t near, int axis) {
@@ -565,14 +562,12 @@ static dyd_status box_find_thin(bool thin[2], const dyd_box *b, const dyd_sites 
     open[a] = !thin[a] && b->end[2 * a].hi >= b->end[2 * a + 1].lo;
   }
   if (!open[0] && !open[1]) return DYD_OK;
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_sites_get(&r, s, i);
   for (int a = 0; a < 2; a++) {
     const dyd_interval *side = a ? &r.y : &r.x;
     if (open[a]) thin[a] = !dyd_dyadic_cmp(&side->lo, &side->hi);
   }
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -589,7 +584,7 @@ static bool box_load(dyd_box *out, const dyd_sites *s, uint32_t i) {
 }
 
 dyd_status dyd_outline_load(bool *done, dyd_outline *o, const dyd_delaunay *pd, uint32_t i, dyd_pair_status least) {
-  dyd_index_list list = {0};
+  DYD_SCOPED(dyd_index_list) list = {0};
   const dyd_sites *s = dyd_delaunay_sites(pd);
   dyd_status st = dyd_delaunay_neighbours(&list, pd, i, least);
   *done = st == DYD_OK && list.count <= DYD_OUTLINE_OTHERS;
@@ -606,7 +601,6 @@ dyd_status dyd_outline_load(bool *done, dyd_outline *o, const dyd_delaunay *pd, 
     o->origin[1] = o->box[list.count].outer[2];
     for (int k = 0; k < 4; k++) o->limit[k] = k & 1 ? INFINITY : -INFINITY;
   }
-  dyd_index_list_clear(&list);
   return st;
 }
 
@@ -629,11 +623,8 @@ static bool outline_rects_meet(dyd_outline *o, size_t a, size_t b) {
   for (int k = 0; k < 4; k += 2)
     if (dyd_outline_order(&doubt, p[k], q[k + 1]) > 0 || dyd_outline_order(&doubt, q[k], p[k + 1]) > 0) return false;
   if (!doubt) return true;
-  dyd_rect r[2];
-  for (int k = 0; k < 2; k++) dyd_rect_init(&r[k]);
-  bool meet = outline_rect(&r[0], o, a) && outline_rect(&r[1], o, b) && dyd_rect_meets(&r[0], &r[1]);
-  for (int k = 0; k < 2; k++) dyd_rect_clear(&r[k]);
-  return meet;
+  DYD_LOCAL_ARRAY(dyd_rect, r, [2]);
+  return outline_rect(&r[0], o, a) && outline_rect(&r[1], o, b) && dyd_rect_meets(&r[0], &r[1]);
 }
 
 /* Relative to the origin; false: some other meets the site. */

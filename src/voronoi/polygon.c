@@ -12,6 +12,7 @@
 
 #include "base/alloc.h"
 #include "base/flag.h"
+#include "base/local.h"
 #include "dyadic/raw.h"
 #include "predicate/circle.h"
 #include "rect/rect.h"
@@ -65,33 +66,27 @@ static void raw_cross(raw r[6], const dyd_point *a, const dyd_point *b, const dy
   raw_subtract(&r[0], &r[1]);
 }
 
-static void raws_init(raw *r, size_t n) {
-  for (size_t k = 0; k < n; k++) {
-    mpz_init(r[k].man);
-    r[k].exp = 0;
-  }
+static void raw_init(raw *r) {
+  mpz_init(r->man);
+  r->exp = 0;
 }
 
-static void raws_clear(raw *r, size_t n) {
-  for (size_t k = 0; k < n; k++) mpz_clear(r[k].man);
+static void raw_clear(raw *r) {
+  mpz_clear(r->man);
 }
+
+DYD_ARRAYS(raw)
 
 /* Sign of the turn a, b, c: > 0 left. */
 static int turn_sign(const dyd_point *a, const dyd_point *b, const dyd_point *c) {
-  raw r[6];
-  raws_init(r, 6);
+  DYD_LOCAL_ARRAY(raw, r, [6]);
   raw_cross(r, a, b, c);
-  int sign = mpz_sgn(r[0].man);
-  raws_clear(r, 6);
-  return sign;
+  return mpz_sgn(r[0].man);
 }
 
 dyd_status dyd_polygon_area2(dyd_dyadic *out, const dyd_polygon *p) {
-  raw r[6];
-  dyd_dyadic sum, term;
-  raws_init(r, 6);
-  dyd_dyadic_init(&sum);
-  dyd_dyadic_init(&term);
+  DYD_LOCAL_ARRAY(raw, r, [6]);
+  DYD_LOCAL(dyd_dyadic, sum, term);
   dyd_status st = DYD_OK;
   for (size_t k = 1; k + 1 < p->count && st == DYD_OK; k++) {
     raw_cross(r, &p->vertex[0], &p->vertex[k], &p->vertex[k + 1]);
@@ -99,9 +94,6 @@ dyd_status dyd_polygon_area2(dyd_dyadic *out, const dyd_polygon *p) {
     if (st == DYD_OK) st = dyd_dyadic_add(&sum, &sum, &term);
   }
   if (st == DYD_OK) dyd_dyadic_swap(out, &sum);
-  dyd_dyadic_clear(&term);
-  dyd_dyadic_clear(&sum);
-  raws_clear(r, 6);
   return st;
 }
 
@@ -123,7 +115,7 @@ static size_t extend_chain(const dyd_point **chain, size_t kept, size_t floor, c
 /* Monotone chains: lower, then upper. */
 dyd_status dyd_polygon_make_convex(dyd_polygon *p) {
   size_t n = p->count, kept = 0;
-  const dyd_point **chain = dyd_alloc(2 * n + 1, sizeof *chain);
+  DYD_FREED const dyd_point **chain = dyd_alloc(2 * n + 1, sizeof *chain);
   if (!chain) return DYD_E_NOMEM;
   qsort(p->vertex, n, sizeof *p->vertex, compare_vertices);
   for (size_t k = 0; k < n; k++) kept = extend_chain(chain, kept, 0, &p->vertex[k]);
@@ -138,7 +130,6 @@ dyd_status dyd_polygon_make_convex(dyd_polygon *p) {
     dyd_point_set(&hull.vertex[k], chain[k]);
     hull.count++;
   }
-  free(chain);
   if (st != DYD_OK) return st;
   dyd_polygon_clear(p);
   *p = hull;
@@ -304,8 +295,7 @@ static size_t find_sides(int *side, const dyd_polygon *p, const window_side *w) 
 
 /* The other coordinate of the point of pq on the line. */
 static void crossing_place(mpq_t out, const dyd_point *p, const dyd_point *q, const window_side *w) {
-  mpq_t a, b, t;
-  mpq_inits(a, b, t, NULL);
+  DYD_LOCAL_NUMBERS(mpq, a, b, t);
   dyd_dyadic_get_q(a, coordinate_of(p, w->axis));
   dyd_dyadic_get_q(b, coordinate_of(q, w->axis));
   dyd_dyadic_get_q(t, w->level);
@@ -317,7 +307,6 @@ static void crossing_place(mpq_t out, const dyd_point *p, const dyd_point *q, co
   mpq_sub(a, a, out);
   mpq_mul(a, a, t);
   mpq_add(out, out, a);
-  mpq_clears(a, b, t, NULL);
 }
 
 static int compare_crossings(const void *a, const void *b) {
@@ -387,16 +376,15 @@ static dyd_status take_ring(dyd_polygon *out, crossing *c, size_t count, size_t 
 /* Appends what of p is not beyond the side; p is taken over. */
 static dyd_status cut_polygon(dyd_polygon_list *out, dyd_polygon *p, const window_side *w, int64_t bits) {
   size_t count = 0;
-  int *side = dyd_alloc(p->count + 1, sizeof *side);
+  DYD_FREED int *side = dyd_alloc(p->count + 1, sizeof *side);
   if (!side) return DYD_E_NOMEM;
   size_t beyond = find_sides(side, p, w);
   if (!beyond) out->item[out->count++] = *p, *p = (dyd_polygon){0};
-  crossing *c = beyond && beyond < p->count ? find_crossings(&count, side, p, w) : NULL;
+  DYD_FREED crossing *c = beyond && beyond < p->count ? find_crossings(&count, side, p, w) : NULL;
   dyd_status st = beyond && beyond < p->count && !c ? DYD_E_NOMEM : DYD_OK;
   for (size_t k = 0; k < count && st == DYD_OK; k++)
     if (!c[k].out && !c[k].used) st = take_ring(&out->item[out->count++], c, count, k, p, side, w, bits);
   for (size_t k = 0; k < count; k++) mpq_clear(c[k].at);
-  dyd_free_all(c, side);
   return st;
 }
 
@@ -414,10 +402,9 @@ static dyd_status cut_list(dyd_polygon_list *l, const window_side *w, int64_t bi
 
 /* Drops polygons without area; *simple: the others are simple. */
 static dyd_status check_list(bool *simple, dyd_polygon_list *l, const volatile int *cancel) {
-  dyd_dyadic area2;
   size_t kept = 0;
   dyd_status st = DYD_OK;
-  dyd_dyadic_init(&area2);
+  DYD_LOCAL(dyd_dyadic, area2);
   *simple = true;
   for (size_t k = 0; k < l->count && st == DYD_OK; k++) {
     bool good = true;
@@ -431,7 +418,6 @@ static dyd_status check_list(bool *simple, dyd_polygon_list *l, const volatile i
     if (some) l->item[kept++] = p;
   }
   if (st == DYD_OK) l->count = kept;
-  dyd_dyadic_clear(&area2);
   return st;
 }
 
@@ -496,9 +482,8 @@ static dyd_status move_by_step(dyd_point *z, work *w, bool stretch, int64_t fine
 
 /* goal = the mean of the samples, rounded: inside when fine is large enough. */
 static dyd_status find_inner_goal(bool *out, work *w, int64_t fine) {
-  dyd_point z;
   dyd_status st = DYD_OK;
-  dyd_point_init(&z);
+  DYD_LOCAL(dyd_point, z);
   for (int a = 0; a < 2; a++) mpq_set_ui(w->d[a], 0, 1);
   for (size_t k = 0; k < w->samples.count && st == DYD_OK; k++) {
     if (dyd_flag_is_set(w->cancel)) st = DYD_CANCELLED;
@@ -514,7 +499,6 @@ static dyd_status find_inner_goal(bool *out, work *w, int64_t fine) {
     st = dyd_dyadic_round_q(a ? &w->goal.y : &w->goal.x, w->d[a], -fine, DYD_DOWN);
   }
   *out = st == DYD_OK && dyd_rect_holds(w->window, &w->goal) && dyd_cell_holds(&w->sites, &w->goal);
-  dyd_point_clear(&z);
   return st;
 }
 
@@ -620,11 +604,9 @@ static dyd_status exact_outer_part(dyd_polygon *out, work *w, const dyd_chain *c
 
 /* A polygon that comes out clockwise winds round no point of Pos_i n W: its part was outside of W, and is dropped. */
 static dyd_status drop_if_clockwise(dyd_polygon_list *l) {
-  dyd_dyadic area2;
-  dyd_dyadic_init(&area2);
+  DYD_LOCAL(dyd_dyadic, area2);
   dyd_status st = dyd_polygon_area2(&area2, &l->item[l->count - 1]);
   if (st == DYD_OK && dyd_dyadic_sgn(&area2) <= 0) dyd_polygon_clear(&l->item[--l->count]);
-  dyd_dyadic_clear(&area2);
   return st;
 }
 
@@ -656,8 +638,7 @@ static dyd_status exact_outer(dyd_polygon_list *out, work *w, const dyd_rect *wi
 }
 
 dyd_status dyd_window_enlarge(dyd_rect *out, const dyd_rect *window, int64_t bits) {
-  dyd_dyadic margin;
-  dyd_dyadic_init(&margin);
+  DYD_LOCAL(dyd_dyadic, margin);
   dyd_status st = dyd_dyadic_set_si_2exp(&margin, 1, -(bits + 1));
   dyd_rect_set(out, window);
   for (int axis = 0; axis < 2 && st == DYD_OK; axis++) {
@@ -665,7 +646,6 @@ dyd_status dyd_window_enlarge(dyd_rect *out, const dyd_rect *window, int64_t bit
     st = dyd_dyadic_sub(&side->lo, &side->lo, &margin);
     if (st == DYD_OK) st = dyd_dyadic_add(&side->hi, &side->hi, &margin);
   }
-  dyd_dyadic_clear(&margin);
   return st;
 }
 
@@ -677,8 +657,7 @@ dyd_status dyd_exact_polygons(dyd_polygon *inner, dyd_polygon_list *outer, const
             .cancel = window->cancel,
             .room = window->room,
             .samples = {.most = window->most}};
-  dyd_rect wide;
-  dyd_rect_init(&wide);
+  DYD_LOCAL(dyd_rect, wide);
   dyd_point_init(&w.goal);
   mpq_inits(w.d[0], w.d[1], w.s, w.t, NULL);
   dyd_status st = dyd_cell_sites_init(&w.sites, pd, i, dyd_least_at(pd, i, window->proved));
@@ -693,6 +672,5 @@ dyd_status dyd_exact_polygons(dyd_polygon *inner, dyd_polygon_list *outer, const
   free(w.samples.item);
   dyd_boundary_clear(&w.boundary);
   dyd_cell_sites_clear(&w.sites);
-  dyd_rect_clear(&wide);
   return st;
 }

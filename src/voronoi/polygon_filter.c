@@ -6,6 +6,7 @@
  * neighbours there, or it is taken from one of them, and where a point is proved the bounds of [FLT-DST] have to say
  * yes or no. So the polygons are the same ones, or as good (`loose`), or the filter declines [OUTLINE-1]. */
 #include "base/alloc.h"
+#include "base/local.h"
 #include "voronoi/outline_filter.h"
 #include "voronoi/sample.h"
 #include "voronoi/shape.h"
@@ -464,13 +465,11 @@ static dyd_status grid_outer(grid_work *w) {
 
 /* W enlarged as in polygon.c; the window of doubles for points inside. */
 static dyd_status grid_shape(bool *done, dyd_shape *s, grid_work *w, const dyd_window *window) {
-  dyd_rect wide;
   dyd_status st = DYD_OK;
   for (int k = 0; k < 4; k++) w->window[k] = window->d[k];
-  dyd_rect_init(&wide);
+  DYD_LOCAL(dyd_rect, wide);
   st = dyd_window_enlarge(&wide, window->rect, w->bits);
   w->known = st == DYD_OK && dyd_filter_outline(w->o, &wide, true);
-  dyd_rect_clear(&wide);
   if (st == DYD_OK && w->known) st = grid_outer(w);
   if (st == DYD_OK && w->known) st = grid_deliver(&s->grid_area[1], &s->outer, &s->outer_cap, &s->outer_count, w);
   if (st != DYD_OK || !w->known) return st;

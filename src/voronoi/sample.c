@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "dyadic/raw.h"
 #include "predicate/circle.h"
 
@@ -46,27 +47,23 @@ bool dyd_cell_holds(const dyd_cell_sites *s, const dyd_point *c) {
 /* The e with 2^(e-1) <= |q| < 2^e; q is not 0. */
 static int64_t fraction_exponent(const mpq_t q) {
   int64_t e = dyd_q_log2_above(q) - 1; /* 2^(e-1) < |q| < 2^(e+1) */
-  mpz_t n, d;
-  mpz_init_set(n, mpq_numref(q));
-  mpz_init_set(d, mpq_denref(q));
+  DYD_LOCAL_NUMBERS(mpz, n);
+  mpz_set(n, mpq_numref(q));
+  DYD_LOCAL_NUMBERS(mpz, d);
+  mpz_set(d, mpq_denref(q));
   mpz_mul_2exp(e < 0 ? n : d, e < 0 ? n : d, (mp_bitcnt_t)(e < 0 ? -e : e));
   if (mpz_cmpabs(n, d) >= 0) e++;
-  mpz_clear(d);
-  mpz_clear(n);
   return e;
 }
 
 int64_t dyd_log2_length(const mpq_t x, const mpq_t y) {
-  mpq_t s;
-  mpq_init(s);
+  DYD_LOCAL_NUMBERS(mpq, s);
   mpq_abs(s, x);
   if (mpq_sgn(y) >= 0)
     mpq_add(s, s, y);
   else
     mpq_sub(s, s, y);
-  int64_t e = mpq_sgn(s) == 0 ? INT64_MIN / 2 : fraction_exponent(s);
-  mpq_clear(s);
-  return e;
+  return mpq_sgn(s) == 0 ? INT64_MIN / 2 : fraction_exponent(s);
 }
 
 /* ---- parabolas ---- */
@@ -88,8 +85,7 @@ static void parabola_clear(parabola *p) {
 static void parabola_set(parabola *p, const dyd_arc *arc, const dyd_cell_sites *s, uint32_t own) {
   const dyd_rect *far = arc->far_site == own ? &s->own : dyd_cell_site(s, arc->far_site);
   const dyd_rect *near = arc->near_site == own ? &s->own : dyd_cell_site(s, arc->near_site);
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   dyd_interval_get_q(lo, hi, &far->x);
   mpq_set(p->focus[0], arc->corner & 1 ? hi : lo);
   dyd_interval_get_q(lo, hi, &far->y);
@@ -97,13 +93,11 @@ static void parabola_set(parabola *p, const dyd_arc *arc, const dyd_cell_sites *
   p->along = arc->feature >= DYD_SIDE_Y0 ? 0 : 1;
   dyd_interval_get_q(lo, hi, p->along == 0 ? &near->y : &near->x);
   mpq_set(p->directrix, arc->feature & 1 ? hi : lo);
-  mpq_clears(lo, hi, NULL);
 }
 
 /* across = the other coordinate at abscissa t. */
 static void parabola_at(mpq_t across, const parabola *p, const mpq_t t) {
-  mpq_t a, b;
-  mpq_inits(a, b, NULL);
+  DYD_LOCAL_NUMBERS(mpq, a, b);
   mpq_srcptr f = p->focus[1 - p->along];
   mpq_sub(a, t, p->focus[p->along]);
   mpq_mul(a, a, a);
@@ -114,38 +108,31 @@ static void parabola_at(mpq_t across, const parabola *p, const mpq_t t) {
   mpq_sub(b, f, p->directrix);
   mpq_mul_2exp(b, b, 1);
   mpq_div(across, a, b);
-  mpq_clears(a, b, NULL);
 }
 
 /* ---- samples ---- */
 
 /* The middle of an enclosure of the end, within 2^-bits of it. */
 static dyd_status arc_end_point(dyd_point *out, const dyd_arc_end *end, int64_t bits) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_surd_point_enclose(&r, &end->at, bits);
-  mpq_t a, b;
-  mpq_inits(a, b, NULL);
+  DYD_LOCAL_NUMBERS(mpq, a, b);
   for (int axis = 0; st == DYD_OK && axis < 2; axis++) {
     dyd_interval_get_q(a, b, axis ? &r.y : &r.x);
     mpq_add(a, a, b);
     mpq_div_2exp(a, a, 1);
     st = dyd_dyadic_round_q(axis ? &out->y : &out->x, a, -(bits + 1), DYD_DOWN);
   }
-  mpq_clears(a, b, NULL);
-  dyd_rect_clear(&r);
   return st;
 }
 
 /* The coordinates of both ends of an arc along its directrix, within 2^-bits. */
 static dyd_status arc_ends_along(mpq_t begin, mpq_t end, const dyd_arc *arc, int along, int64_t bits) {
-  dyd_point z;
-  dyd_point_init(&z);
+  DYD_LOCAL(dyd_point, z);
   dyd_status st = arc_end_point(&z, &arc->begin, bits);
   dyd_dyadic_get_q(begin, along ? &z.y : &z.x);
   if (st == DYD_OK) st = arc_end_point(&z, &arc->end, bits);
   dyd_dyadic_get_q(end, along ? &z.y : &z.x);
-  dyd_point_clear(&z);
   return st;
 }
 
@@ -162,10 +149,9 @@ static dyd_status count_steps(uint32_t *out, mpq_t length, const mpq_t q, int64_
 
 dyd_status dyd_parabola_steps(uint32_t *out, const dyd_sites *sites, const uint32_t site[2], const int end[2],
                               int across, int64_t length, int64_t bits) {
-  dyd_rect r;
-  mpq_t lo, hi, at[2];
-  dyd_rect_init(&r);
-  mpq_inits(lo, hi, at[0], at[1], NULL);
+  DYD_LOCAL(dyd_rect, r);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
+  DYD_LOCAL_ARRAY(mpq_t, at, [2]);
   dyd_status st = DYD_OK;
   for (int k = 0; k < 2 && st == DYD_OK; k++) {
     st = dyd_sites_get(&r, sites, site[k]);
@@ -178,10 +164,7 @@ dyd_status dyd_parabola_steps(uint32_t *out, const dyd_sites *sites, const uint3
     mpq_div_2exp(lo, lo, (mp_bitcnt_t)(bits + 5));
   else
     mpq_mul_2exp(lo, lo, (mp_bitcnt_t) - (bits + 5));
-  if (st == DYD_OK) st = count_steps(out, lo, at[0], bits);
-  mpq_clears(lo, hi, at[0], at[1], NULL);
-  dyd_rect_clear(&r);
-  return st;
+  return st == DYD_OK ? count_steps(out, lo, at[0], bits) : st;
 }
 
 /* The bits with which ends of an arc are found, for its length. An error d of the length adds d sqrt(2^bits / (8 q)) to
@@ -197,18 +180,13 @@ static dyd_status arc_count_steps(uint32_t *out, const dyd_arc *arc, const dyd_c
                                   int64_t bits) {
   *out = 1;
   if (arc->kind != DYD_ARC_PARABOLA) return DYD_OK;
-  parabola p;
-  mpq_t begin, end, q;
-  parabola_init(&p);
-  mpq_inits(begin, end, q, NULL);
+  DYD_LOCAL(parabola, p);
+  DYD_LOCAL_NUMBERS(mpq, begin, end, q);
   parabola_set(&p, arc, s, own);
   mpq_sub(q, p.focus[1 - p.along], p.directrix);
   dyd_status st = arc_ends_along(begin, end, arc, p.along, length_bits(q, bits));
   mpq_sub(begin, begin, end);
-  if (st == DYD_OK) st = count_steps(out, begin, q, bits);
-  mpq_clears(begin, end, q, NULL);
-  parabola_clear(&p);
-  return st;
+  return st == DYD_OK ? count_steps(out, begin, q, bits) : st;
 }
 
 /* Of a sample, of the polygons that it is a corner of (one at work, its hull or its copy, the inner one while the outer
@@ -239,10 +217,8 @@ dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const
 dyd_status dyd_sample_point(dyd_point *out, const dyd_arc_sample *at, const dyd_cell_sites *s, uint32_t own,
                             int64_t bits) {
   if (at->step == 0) return arc_end_point(out, &at->arc->begin, bits);
-  parabola p;
-  mpq_t t, u;
-  parabola_init(&p);
-  mpq_inits(t, u, NULL);
+  DYD_LOCAL(parabola, p);
+  DYD_LOCAL_NUMBERS(mpq, t, u);
   parabola_set(&p, at->arc, s, own);
   dyd_status st = arc_ends_along(t, u, at->arc, p.along, bits);
   if (st == DYD_OK) { /* the part number step of steps */
@@ -255,7 +231,5 @@ dyd_status dyd_sample_point(dyd_point *out, const dyd_arc_sample *at, const dyd_
     st = dyd_dyadic_round_q(p.along ? &out->y : &out->x, t, -(bits + 1), DYD_DOWN);
   }
   if (st == DYD_OK) st = dyd_dyadic_round_q(p.along ? &out->x : &out->y, u, -(bits + 1), DYD_DOWN);
-  mpq_clears(t, u, NULL);
-  parabola_clear(&p);
   return st;
 }

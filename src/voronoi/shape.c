@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/flag.h"
+#include "base/local.h"
 #include "delaunay/ties.h"
 
 #include <math.h>
@@ -35,8 +36,7 @@ void dyd_window_set_grid(dyd_window *w, int fine) {
 
 /* floor(x 2^grid / d + 1/2), d > 0; DYD_E_RANGE where that is beyond 2^62. */
 static dyd_status grid_round(int64_t *out, const mpz_t x, const mpz_t d, int grid) {
-  mpz_t n, m;
-  mpz_inits(n, m, NULL);
+  DYD_LOCAL_NUMBERS(mpz, n, m);
   mpz_mul_2exp(n, x, (mp_bitcnt_t)(grid > -1 ? grid + 1 : 0));
   mpz_mul_2exp(m, d, (mp_bitcnt_t)(grid > -1 ? 0 : -grid - 1));
   mpz_add(n, n, m);
@@ -44,7 +44,6 @@ static dyd_status grid_round(int64_t *out, const mpz_t x, const mpz_t d, int gri
   mpz_fdiv_q(n, n, m);
   bool fits = mpz_sizeinbase(n, 2) <= 62;
   if (fits) *out = mpz_get_si(n);
-  mpz_clears(n, m, NULL);
   return fits ? DYD_OK : DYD_E_RANGE;
 }
 
@@ -85,13 +84,13 @@ static dyd_status scaled_init(scaled_points *p, size_t room) {
 
 /* Appends the lower or the upper ends of r. */
 static void scaled_add(scaled_points *p, const dyd_rect *r, bool upper) {
-  mpq_t *at = p->at[p->count++], other;
-  mpq_inits(at[0], at[1], other, NULL);
+  mpq_t *at = p->at[p->count++];
+  DYD_LOCAL_NUMBERS(mpq, other);
+  mpq_inits(at[0], at[1], NULL);
   for (int a = 0; a < 2; a++) {
     dyd_interval_get_q(upper ? other : at[a], upper ? at[a] : other, a ? &r->y : &r->x);
     mpz_lcm(p->scale, p->scale, mpq_denref(at[a]));
   }
-  mpq_clear(other);
 }
 
 static dyd_status scaled_add_vertex(scaled_points *p, dyd_rect *r, const dyd_delaunay *pd, uint32_t v) {
@@ -143,9 +142,8 @@ static dyd_status centre_on_grid(int64_t n[2], const dyd_delaunay *pd, uint32_t 
   scaled_points p;
   half_plane h[2];
   corner z;
-  dyd_rect r;
   dyd_status st = scaled_init(&p, 3);
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   mpz_inits(z.x, z.y, z.d, h[0].a, h[0].b, h[0].c, h[1].a, h[1].b, h[1].c, NULL);
   for (int k = 0; k < 3 && st == DYD_OK; k++) st = scaled_add_vertex(&p, &r, pd, pd->sk.mesh.tri[t].v[k]);
   if (st == DYD_OK) {
@@ -157,7 +155,6 @@ static dyd_status centre_on_grid(int64_t n[2], const dyd_delaunay *pd, uint32_t 
   }
   if (st == DYD_OK) st = grid_round(&n[1], z.y, z.d, w->grid);
   mpz_clears(z.x, z.y, z.d, h[0].a, h[0].b, h[0].c, h[1].a, h[1].b, h[1].c, NULL);
-  dyd_rect_clear(&r);
   scaled_clear(&p);
   return st;
 }
@@ -325,8 +322,7 @@ static void clip_by(clipping *c, uint32_t plane) {
 
 /* Twice the area, of the caller's coordinates. */
 static void clip_area2(mpq_t sum, const clipping *c) {
-  mpq_t term;
-  mpq_init(term);
+  DYD_LOCAL_NUMBERS(mpq, term);
   for (size_t k = 0; k < c->count; k++) {
     const corner *p = &c->now[k], *q = &c->now[(k + 1) % c->count];
     mpz_mul(mpq_numref(term), p->x, q->y);
@@ -338,17 +334,13 @@ static void clip_area2(mpq_t sum, const clipping *c) {
   mpq_set_z(term, c->point.scale);
   mpq_div(sum, sum, term);
   mpq_div(sum, sum, term);
-  mpq_clear(term);
 }
 
 static double area_rounded(const mpq_t twice, mpfr_rnd_t rnd) {
-  mpfr_t x;
-  mpfr_init2(x, 53);
+  DYD_LOCAL_FLOATS(53, x);
   mpfr_set_q(x, twice, rnd);
   mpfr_div_2ui(x, x, 1, rnd);
-  double d = mpfr_get_d(x, rnd);
-  mpfr_clear(x);
-  return d;
+  return mpfr_get_d(x, rnd);
 }
 
 /* A coordinate of a corner as it is written: on a side of W its end, else a multiple of 2^-grid that is not beyond W.
@@ -369,26 +361,23 @@ static dyd_status corner_coordinate(double *out, clipping *c, const corner *z, i
 
 static dyd_status clip_deliver(dyd_shape *s, clipping *c, const dyd_window *w) {
   dyd_status st = DYD_OK;
-  mpq_t area2;
   if (!DYD_GROW(s->inner, s->inner_cap, c->count + 1)) return DYD_E_NOMEM;
   s->inner_count = (uint32_t)c->count;
   for (size_t k = 0; k < c->count && st == DYD_OK; k++) {
     st = corner_coordinate(&s->inner[k].x, c, &c->now[k], 0, w);
     if (st == DYD_OK) st = corner_coordinate(&s->inner[k].y, c, &c->now[k], 1, w);
   }
-  mpq_init(area2);
+  DYD_LOCAL_NUMBERS(mpq, area2);
   clip_area2(area2, c);
   s->area[0] = area_rounded(area2, MPFR_RNDD);
   s->area[1] = area_rounded(area2, MPFR_RNDU);
-  mpq_clear(area2);
   return st;
 }
 
 /* *c, initialised, becomes the cell of v with the partners given, on W. */
 static dyd_status clip_all(clipping *c, const dyd_delaunay *pd, uint32_t v, const uint32_t *partner, uint32_t degree,
                            const dyd_window *w) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = scaled_add_vertex(&c->point, &r, pd, v);
   for (uint32_t k = 0; k < degree && st == DYD_OK; k++) st = scaled_add_vertex(&c->point, &r, pd, partner[k]);
   if (st == DYD_OK) {
@@ -402,17 +391,14 @@ static dyd_status clip_all(clipping *c, const dyd_delaunay *pd, uint32_t v, cons
     clip_by(c, k + 4);
     if (dyd_flag_is_set(w->cancel)) st = DYD_CANCELLED;
   }
-  dyd_rect_clear(&r);
   return st;
 }
 
 static dyd_status clip_cell(dyd_shape *s, const dyd_delaunay *pd, uint32_t v, uint32_t degree, const dyd_window *w) {
-  clipping c;
+  DYD_SCOPED(clipping) c;
   dyd_status st = clipping_init(&c, degree);
   if (st == DYD_OK) st = clip_all(&c, pd, v, s->fan, degree, w);
-  if (st == DYD_OK) st = clip_deliver(s, &c, w);
-  clipping_clear(&c);
-  return st;
+  return st == DYD_OK ? clip_deliver(s, &c, w) : st;
 }
 
 /* ---- the cell of a point ---- */
@@ -447,11 +433,11 @@ static void drop_repeated(dyd_shape *s) {
 }
 
 dyd_status dyd_shape_edges(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w) {
-  clipping c;
   uint32_t degree, v = pd->sk.vertex[i], kept = 0;
   bool known;
   dyd_status st = point_star(&known, &degree, s, pd, v);
   if (st != DYD_OK || !known || !w->exact) return st == DYD_OK ? DYD_E_RANGE : st;
+  DYD_SCOPED(clipping) c;
   st = clipping_init(&c, degree);
   if (st == DYD_OK) st = clip_all(&c, pd, v, s->fan, degree, w);
   if (st == DYD_OK) st = clip_deliver(s, &c, w);
@@ -465,7 +451,6 @@ dyd_status dyd_shape_edges(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, con
     s->inner[kept++] = *z;
   }
   s->inner_count = kept;
-  clipping_clear(&c);
   return st;
 }
 
@@ -493,10 +478,10 @@ static dyd_status dyd_point_cell(bool *done, dyd_shape *s, const dyd_delaunay *p
 /* *out = its area, where it is exact; s is scratch. */
 static dyd_status point_cell_area(mpq_t out, bool *exact, dyd_shape *s, const dyd_delaunay *pd, uint32_t i,
                                   const dyd_window *w) {
-  clipping c;
   uint32_t degree, v = pd->sk.vertex[i];
   dyd_status st = point_star(exact, &degree, s, pd, v);
   if (st != DYD_OK || !*exact) return st;
+  DYD_SCOPED(clipping) c;
   st = clipping_init(&c, degree);
   if (st == DYD_OK) st = clip_all(&c, pd, v, s->fan, degree, w);
   if (st == DYD_OK) {
@@ -504,7 +489,6 @@ static dyd_status point_cell_area(mpq_t out, bool *exact, dyd_shape *s, const dy
     clip_area2(out, &c);
     mpq_div_2exp(out, out, 1);
   }
-  clipping_clear(&c);
   return st;
 }
 
@@ -620,41 +604,33 @@ dyd_status dyd_shape_outer(dyd_polygon_list *out, const dyd_shape *s) {
 }
 
 static dyd_status polygon_list_area2(dyd_dyadic *out, const dyd_polygon_list *l) {
-  dyd_dyadic sum, one;
-  dyd_dyadic_init(&sum);
-  dyd_dyadic_init(&one);
+  DYD_LOCAL(dyd_dyadic, sum, one);
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < l->count && st == DYD_OK; k++) {
     st = dyd_polygon_area2(&one, &l->item[k]);
     if (st == DYD_OK) st = dyd_dyadic_add(&sum, &sum, &one);
   }
   if (st == DYD_OK) dyd_dyadic_swap(out, &sum);
-  dyd_dyadic_clear(&one);
-  dyd_dyadic_clear(&sum);
   return st;
 }
 
 static dyd_status grid_area_to_dyadic(dyd_dyadic *out, const dyd_grid_area *a) {
-  mpz_t n;
   bool minus = a->twice < 0;
   __extension__ unsigned __int128 size = minus ? -(unsigned __int128)a->twice : (unsigned __int128)a->twice;
-  mpz_init_set_ui(n, (uint64_t)(size >> 64));
+  DYD_LOCAL_NUMBERS(mpz, n);
+  mpz_set_ui(n, (uint64_t)(size >> 64));
   mpz_mul_2exp(n, n, 64);
   mpz_add_ui(n, n, (uint64_t)size);
   if (minus) mpz_neg(n, n);
-  dyd_status st = dyd_dyadic_set_z_2exp(out, n, -2 * (int64_t)a->scale);
-  mpz_clear(n);
-  return st;
+  return dyd_dyadic_set_z_2exp(out, n, -2 * (int64_t)a->scale);
 }
 
 dyd_status dyd_shape_area2(dyd_dyadic *out, const dyd_shape *s, bool outer) {
   if (s->on_grid) return grid_area_to_dyadic(out, &s->grid_area[outer]);
   if (!s->in_doubles) return outer ? polygon_list_area2(out, &s->outer_exact) : dyd_polygon_area2(out, &s->inner_exact);
-  dyd_polygon p = {0};
+  DYD_SCOPED(dyd_polygon) p = {0};
   dyd_status st = polygon_from_doubles(&p, outer ? s->outer : s->inner, outer ? s->outer_count : s->inner_count);
-  if (st == DYD_OK) st = dyd_polygon_area2(out, &p);
-  dyd_polygon_clear(&p);
-  return st;
+  return st == DYD_OK ? dyd_polygon_area2(out, &p) : st;
 }
 
 /* ---- public ---- */
@@ -668,7 +644,7 @@ static dyd_status shape_polygons(dyd_polygon *inner, dyd_polygon_list *outer, co
   if (st != DYD_OK) return st;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   dyd_room room = dyd_delaunay_room(pd);
-  dyd_shape s = {0};
+  DYD_SCOPED(dyd_shape) s = {0};
   dyd_polygon p = {0};
   dyd_polygon_list l = {0};
   w.room = &room;
@@ -681,7 +657,6 @@ static dyd_status shape_polygons(dyd_polygon *inner, dyd_polygon_list *outer, co
     dyd_polygon_list_clear(outer);
     *outer = l;
   }
-  dyd_shape_clear(&s);
   return st;
 }
 
@@ -696,11 +671,9 @@ dyd_status dyd_voronoi_outer_polygon(dyd_polygon_list *out, const dyd_delaunay *
 }
 
 dyd_status dyd_voronoi_exact_area(mpq_t out, bool *exact, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {
-  dyd_shape s = {0};
+  DYD_SCOPED(dyd_shape) s = {0};
   dyd_window w;
   if (!pd || i >= pd->sk.n) return DYD_E_ARG;
   dyd_status st = dyd_window_init(&w, window);
-  if (st == DYD_OK) st = point_cell_area(out, exact, &s, pd, dyd_delaunay_alias(pd, i), &w);
-  dyd_shape_clear(&s);
-  return st;
+  return st == DYD_OK ? point_cell_area(out, exact, &s, pd, dyd_delaunay_alias(pd, i), &w) : st;
 }

@@ -7,6 +7,7 @@
  * c)) for b >= 0, a - ceil(sqrt(b^2 c)) for b < 0; so integer roots decide. */
 #include "voronoi/surd_point.h"
 
+#include "base/local.h"
 #include "predicate/circle.h"
 #include "rect/rect.h"
 
@@ -35,38 +36,29 @@ static dyd_surd surd_coordinate(const dyd_surd_point *p, int axis) {
 
 int dyd_surd_point_cmp(const dyd_surd_point *p, const dyd_surd_point *q, int axis) {
   dyd_surd s = surd_coordinate(p, axis), t = surd_coordinate(q, axis);
-  mpz_t a, b, d;
-  mpz_inits(a, b, d, NULL);
+  DYD_LOCAL_NUMBERS(mpz, a, b, d);
   mpz_mul(a, s.a, t.d);
   mpz_submul(a, t.a, s.d);
   mpz_mul(b, s.b, t.d);
   mpz_mul(d, t.b, s.d);
   mpz_neg(d, d);
-  int sign = dyd_sqrt2_sign(a, b, s.c, d, t.c);
-  mpz_clears(a, b, d, NULL);
-  return sign;
+  return dyd_sqrt2_sign(a, b, s.c, d, t.c);
 }
 
 int dyd_surd_point_cmp_z(const dyd_surd_point *p, int axis, mpz_srcptr z) {
   dyd_surd s = surd_coordinate(p, axis);
-  mpz_t t;
-  mpz_init(t);
-  int sign = dyd_surd_compare(t, &s, z);
-  mpz_clear(t);
-  return sign;
+  DYD_LOCAL_NUMBERS(mpz, t);
+  return dyd_surd_compare(t, &s, z);
 }
 
 int dyd_surd_point_side(const dyd_surd_point *p, const dyd_irect *a, dyd_touch ta, const dyd_irect *b, dyd_touch tb) {
   const dyd_surd xy[2] = {surd_coordinate(p, 0), surd_coordinate(p, 1)};
-  mpz_t pa, qa, pb, qb;
-  mpz_inits(pa, qa, pb, qb, NULL);
+  DYD_LOCAL_NUMBERS(mpz, pa, qa, pb, qb);
   dyd_surd_add_distance2(pa, qa, xy, a, ta);
   dyd_surd_add_distance2(pb, qb, xy, b, tb);
   mpz_sub(pa, pa, pb);
   mpz_sub(qa, qa, qb);
-  int sign = dyd_sqrt_sign(pa, qa, p->c);
-  mpz_clears(pa, qa, pb, qb, NULL);
-  return sign;
+  return dyd_sqrt_sign(pa, qa, p->c);
 }
 
 void dyd_surd_point_drop_root(dyd_surd_point *p) {
@@ -105,11 +97,10 @@ void dyd_surd_point_tidy(dyd_surd_point *p) {
   surd_make_rational(p);
   surd_shrink_root(p);
   mpz_ptr part[5] = {p->ax, p->bx, p->ay, p->by, p->d};
-  mpz_t gcd;
-  mpz_init_set(gcd, p->d);
+  DYD_LOCAL_NUMBERS(mpz, gcd);
+  mpz_set(gcd, p->d);
   for (int k = 0; k < 4; k++) mpz_gcd(gcd, gcd, part[k]);
   for (int k = 0; k < 5; k++) mpz_divexact(part[k], part[k], gcd);
-  mpz_clear(gcd);
 }
 
 void dyd_surd_point_unscale(dyd_surd_point *p, mpz_srcptr ox, mpz_srcptr oy, mpz_srcptr man, int64_t exp) {
@@ -134,27 +125,19 @@ static void surd_point_scale(dyd_surd_point *p, mpz_srcptr man, int64_t exp) {
 
 int dyd_surd_point_compare(const dyd_surd_point *p, const dyd_rect *a, dyd_touch ta, const dyd_rect *b, dyd_touch tb) {
   const dyd_rect *in[2] = {a, b};
-  dyd_irect r[2];
-  dyd_surd_point q;
-  mpz_t man;
   int64_t exp;
-  mpz_init(man);
-  for (int k = 0; k < 2; k++) dyd_irect_init(&r[k]);
-  dyd_surd_point_init(&q);
+  DYD_LOCAL_NUMBERS(mpz, man);
+  DYD_LOCAL_ARRAY(dyd_irect, r, [2]);
+  DYD_LOCAL(dyd_surd_point, q);
   dyd_irects_scale(r, in, 2, man, &exp);
   dyd_surd_point_set(&q, p);
   surd_point_scale(&q, man, exp);
-  int sign = dyd_surd_point_side(&q, &r[0], ta, &r[1], tb);
-  dyd_surd_point_clear(&q);
-  for (int k = 2; k-- > 0;) dyd_irect_clear(&r[k]);
-  mpz_clear(man);
-  return sign;
+  return dyd_surd_point_side(&q, &r[0], ta, &r[1], tb);
 }
 
 void dyd_surd_point_floor(mpz_ptr floor, mpz_ptr ceiling, const dyd_surd_point *p, int axis, int64_t bits) {
   dyd_surd s = surd_coordinate(p, axis);
-  mpz_t root, rest, d;
-  mpz_inits(root, rest, d, NULL);
+  DYD_LOCAL_NUMBERS(mpz, root, rest, d);
   mpz_mul(root, s.b, s.b);
   mpz_mul(root, root, s.c);
   dyd_shift_up(root, 2 * bits);
@@ -173,32 +156,22 @@ void dyd_surd_point_floor(mpz_ptr floor, mpz_ptr ceiling, const dyd_surd_point *
   }
   mpz_fdiv_q(floor, floor, d);
   mpz_cdiv_q(ceiling, ceiling, d);
-  mpz_clears(root, rest, d, NULL);
 }
 
 static dyd_status surd_enclose_side(dyd_interval *out, const dyd_surd_point *p, int axis, int64_t bits) {
-  mpz_t floor, ceiling;
-  dyd_dyadic lo, hi;
-  mpz_inits(floor, ceiling, NULL);
-  dyd_dyadic_init(&lo);
-  dyd_dyadic_init(&hi);
+  DYD_LOCAL_NUMBERS(mpz, floor, ceiling);
+  DYD_LOCAL(dyd_dyadic, lo, hi);
   dyd_surd_point_floor(floor, ceiling, p, axis, bits);
   dyd_status st = dyd_dyadic_set_z_2exp(&lo, floor, -bits);
   if (st == DYD_OK) st = dyd_dyadic_set_z_2exp(&hi, ceiling, -bits);
-  if (st == DYD_OK) st = dyd_interval_set_ends(out, &lo, &hi);
-  dyd_dyadic_clear(&hi);
-  dyd_dyadic_clear(&lo);
-  mpz_clears(floor, ceiling, NULL);
-  return st;
+  return st == DYD_OK ? dyd_interval_set_ends(out, &lo, &hi) : st;
 }
 
 dyd_status dyd_surd_point_enclose(dyd_rect *out, const dyd_surd_point *p, int64_t bits) {
   if (bits > DYD_EXP_LIMIT || bits < -DYD_EXP_LIMIT) return DYD_E_RANGE;
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = surd_enclose_side(&r.x, p, 0, bits);
   if (st == DYD_OK) st = surd_enclose_side(&r.y, p, 1, bits);
   if (st == DYD_OK) dyd_rect_swap(out, &r);
-  dyd_rect_clear(&r);
   return st;
 }

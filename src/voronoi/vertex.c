@@ -3,6 +3,7 @@
  * windows. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "delaunay/index_list.h"
 #include "delaunay/state.h"
 #include "delaunay/undecided.h"
@@ -23,7 +24,7 @@
 
 /* The ends of the pairs and all their possible neighbours: no other site bounds their cells [CELL-2]. */
 static dyd_status region_sites(dyd_index_list *out, const dyd_delaunay *pd, const dyd_pair_list *pairs) {
-  dyd_index_list near = {0};
+  DYD_SCOPED(dyd_index_list) near = {0};
   size_t cap = 0;
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
@@ -36,7 +37,6 @@ static dyd_status region_sites(dyd_index_list *out, const dyd_delaunay *pd, cons
     if (st == DYD_OK) st = dyd_index_list_add(out, &cap, near.item, near.count);
   }
   dyd_index_list_sort(out);
-  dyd_index_list_clear(&near);
   return st;
 }
 
@@ -46,7 +46,7 @@ static bool box_is_finite(const dyd_bbox *b) {
 
 static dyd_status region_find(dyd_rect *out, bool *any, const dyd_delaunay *pd, const dyd_pair_list *pairs,
                               const dyd_rect *window) {
-  dyd_index_list sites = {0};
+  DYD_SCOPED(dyd_index_list) sites = {0};
   dyd_bbox box;
   dyd_status st = region_sites(&sites, pd, pairs);
   dyd_interval_get_d(&box.e[0], &box.e[1], &window->x);
@@ -58,19 +58,16 @@ static dyd_status region_find(dyd_rect *out, bool *any, const dyd_delaunay *pd, 
     st = dyd_filter_region(&box, any, pd, pairs, &sites);
     if (st == DYD_OK && *any) st = dyd_rect_set_d(out, box.e[0], box.e[1], box.e[2], box.e[3]);
   }
-  dyd_index_list_clear(&sites);
   return st;
 }
 
 dyd_status dyd_voronoi_region(dyd_rect *out, bool *any, const dyd_delaunay *pd, size_t f, const dyd_rect *window) {
   if (!pd) return DYD_E_ARG;
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   if (f >= dyd_delaunay_undecided_faces(pd)) return DYD_E_ARG;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   dyd_status st = dyd_delaunay_face_pairs(&pairs, pd, f);
-  if (st == DYD_OK) st = region_find(out, any, pd, &pairs, window);
-  dyd_pair_list_clear(&pairs);
-  return st;
+  return st == DYD_OK ? region_find(out, any, pd, &pairs, window) : st;
 }
 
 /* ---- partial centres, partial discs and bisectors ----
@@ -82,8 +79,7 @@ dyd_status dyd_voronoi_region(dyd_rect *out, bool *any, const dyd_delaunay *pd, 
 enum { CENTRES = 6 };
 
 dyd_status dyd_partial_centre(dyd_surd_point out[6], const dyd_rect *a, const dyd_rect *b, const dyd_rect *c) {
-  dyd_partial_disc d;
-  dyd_partial_disc_init(&d);
+  DYD_LOCAL(dyd_partial_disc, d);
   dyd_partial_disc_set(&d, a, b, c);
   bool known = d.known;
   for (int k = 0; known && k < CENTRES; k++) {
@@ -91,7 +87,6 @@ dyd_status dyd_partial_centre(dyd_surd_point out[6], const dyd_rect *a, const dy
     dyd_surd_point_set(&out[k],
                        &(dyd_surd_point){{o->ax[0]}, {o->bx[0]}, {o->ay[0]}, {o->by[0]}, {o->c[0]}, {o->d[0]}});
   }
-  dyd_partial_disc_clear(&d);
   return known ? DYD_OK : DYD_E_ARG;
 }
 
@@ -99,45 +94,36 @@ dyd_status dyd_partial_centre(dyd_surd_point out[6], const dyd_rect *a, const dy
 static dyd_status interval_grow(dyd_interval *side, const dyd_interval *s) {
   const dyd_dyadic *lo = dyd_dyadic_cmp(&s->lo, &side->lo) < 0 ? &s->lo : &side->lo;
   const dyd_dyadic *hi = dyd_dyadic_cmp(&s->hi, &side->hi) > 0 ? &s->hi : &side->hi;
-  dyd_interval both;
-  dyd_interval_init(&both);
+  DYD_LOCAL(dyd_interval, both);
   dyd_status st = dyd_interval_set_ends(&both, lo, hi);
   if (st == DYD_OK) dyd_interval_swap(side, &both);
-  dyd_interval_clear(&both);
   return st;
 }
 
 static dyd_status enclose_centres(dyd_rect *out, const dyd_surd_point centre[CENTRES], int64_t bits) {
-  dyd_rect one;
-  dyd_rect_init(&one);
+  DYD_LOCAL(dyd_rect, one);
   dyd_status st = dyd_surd_point_enclose(out, &centre[0], bits);
   for (int k = 1; k < CENTRES && st == DYD_OK; k++) {
     st = dyd_surd_point_enclose(&one, &centre[k], bits);
     if (st == DYD_OK) st = interval_grow(&out->x, &one.x);
     if (st == DYD_OK) st = interval_grow(&out->y, &one.y);
   }
-  dyd_rect_clear(&one);
   return st;
 }
 
 dyd_status dyd_partial_centre_enclose(dyd_rect *out, const dyd_rect *a, const dyd_rect *b, const dyd_rect *c,
                                       int64_t bits) {
-  dyd_surd_point centre[CENTRES];
-  dyd_rect r;
-  dyd_rect_init(&r);
-  for (int k = 0; k < CENTRES; k++) dyd_surd_point_init(&centre[k]);
+  DYD_LOCAL(dyd_rect, r);
+  DYD_LOCAL_ARRAY(dyd_surd_point, centre, [CENTRES]);
   dyd_status st = dyd_partial_centre(centre, a, b, c);
   if (st == DYD_OK) st = enclose_centres(&r, centre, bits);
   if (st == DYD_OK) dyd_rect_swap(out, &r);
-  for (int k = CENTRES; k-- > 0;) dyd_surd_point_clear(&centre[k]);
-  dyd_rect_clear(&r);
   return st;
 }
 
 /* Returns true if all corners of q are nearer to a than to b, dl_a < ds_b. */
 static bool corners_nearer(const dyd_irect *q, const dyd_irect *a, const dyd_irect *b) {
-  mpz_t dl, ds;
-  mpz_inits(dl, ds, NULL);
+  DYD_LOCAL_NUMBERS(mpz, dl, ds);
   bool nearer = true;
   for (int corner = 0; corner < 4 && nearer; corner++) {
     mpz_srcptr x = corner & 1 ? q->x1 : q->x0, y = corner & 2 ? q->y1 : q->y0;
@@ -145,14 +131,12 @@ static bool corners_nearer(const dyd_irect *q, const dyd_irect *a, const dyd_ire
     dyd_irect_ds2(ds, x, y, b);
     nearer = mpz_cmp(dl, ds) < 0;
   }
-  mpz_clears(dl, ds, NULL);
   return nearer;
 }
 
 dyd_truth dyd_rect_nearer(const dyd_rect *q, const dyd_rect *a, const dyd_rect *b) {
   const dyd_rect *in[3] = {q, a, b};
-  dyd_irect r[3];
-  for (int k = 0; k < 3; k++) dyd_irect_init(&r[k]);
+  DYD_LOCAL_ARRAY(dyd_irect, r, [3]);
   dyd_irects_scale(r, in, 3, NULL, NULL);
   dyd_truth answer = DYD_UNKNOWN;
   if (corners_nearer(&r[0], &r[1], &r[2])) {
@@ -160,7 +144,6 @@ dyd_truth dyd_rect_nearer(const dyd_rect *q, const dyd_rect *a, const dyd_rect *
   } else if (corners_nearer(&r[0], &r[2], &r[1])) {
     answer = DYD_FALSE;
   }
-  for (int k = 3; k-- > 0;) dyd_irect_clear(&r[k]);
   return answer;
 }
 
@@ -189,10 +172,11 @@ static void span_clear(span *a) {
   mpz_clears(a->lo, a->hi, NULL);
 }
 
+DYD_ARRAYS(span)
+
 /* out = a b; out is none of them. */
 static void span_mul(span *out, const span *a, const span *b) {
-  mpz_t t;
-  mpz_init(t);
+  DYD_LOCAL_NUMBERS(mpz, t);
   mpz_mul(out->lo, a->lo, b->lo);
   mpz_set(out->hi, out->lo);
   for (int k = 1; k < 4; k++) {
@@ -200,25 +184,21 @@ static void span_mul(span *out, const span *a, const span *b) {
     if (mpz_cmp(t, out->lo) < 0) mpz_set(out->lo, t);
     if (mpz_cmp(t, out->hi) > 0) mpz_set(out->hi, t);
   }
-  mpz_clear(t);
 }
 
 /* out = a b - c d */
 static void span_cross(span *out, const span *a, const span *b, const span *c, const span *d) {
-  span t;
-  span_init(&t);
+  DYD_LOCAL(span, t);
   span_mul(out, a, b);
   span_mul(&t, c, d);
   mpz_sub(out->lo, out->lo, t.hi);
   mpz_sub(out->hi, out->hi, t.lo);
-  span_clear(&t);
 }
 
 /* out = x^2 + y^2 */
 static void span_norm(span *out, const span *x, const span *y) {
   const span *in[2] = {x, y};
-  mpz_t s, t;
-  mpz_inits(s, t, NULL);
+  DYD_LOCAL_NUMBERS(mpz, s, t);
   mpz_set_ui(out->lo, 0);
   mpz_set_ui(out->hi, 0);
   for (int k = 0; k < 2; k++) {
@@ -228,7 +208,6 @@ static void span_norm(span *out, const span *x, const span *y) {
     if (!zero) mpz_add(out->lo, out->lo, s);
     mpz_add(out->hi, out->hi, t);
   }
-  mpz_clears(s, t, NULL);
 }
 
 /* ---- the formula ---- */
@@ -264,8 +243,7 @@ static void span_negate(span *a) {
 /* The ends end[0..3] = x lower, x upper, y lower, y upper of an enclosure; false if the formula gives none. */
 static bool vertex_enclose_scaled(mpq_t end[4], const dyd_irect r[3], mpz_srcptr man, int64_t exp) {
   enum { PX, PY, QX, QY, PP, QQ, D, NX, NY, SPANS };
-  span s[SPANS];
-  for (int k = 0; k < SPANS; k++) span_init(&s[k]);
+  DYD_LOCAL_ARRAY(span, s, [SPANS]);
   span_difference(&s[PX], &s[PY], &r[1], &r[0]);
   span_difference(&s[QX], &s[QY], &r[2], &r[0]);
   span_cross(&s[D], &s[PX], &s[QY], &s[PY], &s[QX]);
@@ -282,20 +260,16 @@ static bool vertex_enclose_scaled(mpq_t end[4], const dyd_irect r[3], mpz_srcptr
     span_shifted_quotient(end[0], end[1], r[0].x0, r[0].x1, &s[NX], &s[D], man, exp);
     span_shifted_quotient(end[2], end[3], r[0].y0, r[0].y1, &s[NY], &s[D], man, exp);
   }
-  for (int k = 0; k < SPANS; k++) span_clear(&s[k]);
   return known;
 }
 
 /* An enclosure of the centre for all choices in the three rectangles, rounded outward to multiples of 2^exp unless it
  * is a point. DYD_E_DOMAIN: the formula gives none. */
 static dyd_status vertex_enclose(dyd_rect *out, const dyd_rect *const in[3], int64_t exp) {
-  dyd_irect r[3];
-  mpq_t end[4];
-  mpz_t man;
   int64_t scale;
-  for (int k = 0; k < 3; k++) dyd_irect_init(&r[k]);
-  for (int k = 0; k < 4; k++) mpq_init(end[k]);
-  mpz_init(man);
+  DYD_LOCAL_ARRAY(dyd_irect, r, [3]);
+  DYD_LOCAL_ARRAY(mpq_t, end, [4]);
+  DYD_LOCAL_NUMBERS(mpz, man);
   dyd_irects_scale(r, in, 3, man, &scale);
   dyd_status st = DYD_E_DOMAIN;
   if (vertex_enclose_scaled(end, r, man, scale)) {
@@ -305,9 +279,6 @@ static dyd_status vertex_enclose(dyd_rect *out, const dyd_rect *const in[3], int
       st = mpq_equal(e[0], e[1]) ? dyd_interval_set_q(side, e[0]) : dyd_interval_set_outward(side, e[0], e[1], exp);
     }
   }
-  mpz_clear(man);
-  for (int k = 0; k < 4; k++) mpq_clear(end[k]);
-  for (int k = 0; k < 3; k++) dyd_irect_clear(&r[k]);
   return st;
 }
 
@@ -417,20 +388,15 @@ dyd_status dyd_stream_voronoi_vertex(dyd_stream **out, dyd_stream *a, dyd_stream
 /* The rectangle of the centre of three sites: counter-clockwise, or (turn) certainly oriented. */
 static dyd_status enclose_centre(dyd_rect *out, const dyd_sites *sites, const uint32_t corner[3], int64_t bits,
                                  bool turn) {
-  dyd_rect r[3];
+  DYD_LOCAL_ARRAY(dyd_rect, r, [3]);
   dyd_status st = DYD_OK;
-  for (int k = 0; k < 3; k++) {
-    dyd_rect_init(&r[k]);
-    if (st == DYD_OK) st = dyd_sites_get(&r[k], sites, corner[k]);
-  }
+  for (int k = 0; k < 3 && st == DYD_OK; k++) st = dyd_sites_get(&r[k], sites, corner[k]);
   if (st == DYD_OK && turn) {
     dyd_sure sign = dyd_orientation(&r[0], &r[1], &r[2]);
     if (sign == DYD_SURE_MINUS) dyd_rect_swap(&r[1], &r[2]);
     if (sign == DYD_UNSURE) st = DYD_E_RANGE;
   }
-  if (st == DYD_OK) st = dyd_partial_centre_enclose(out, &r[0], &r[1], &r[2], bits);
-  for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);
-  return st;
+  return st == DYD_OK ? dyd_partial_centre_enclose(out, &r[0], &r[1], &r[2], bits) : st;
 }
 
 /* Returns true if t is a certain triangle of pd. v becomes its vertices. */
@@ -478,7 +444,7 @@ static void spread_corners(uint32_t corner[3], const dyd_sites *sites, const dyd
 
 dyd_status dyd_voronoi_tied_vertex(dyd_rect *out, bool *tied, const dyd_delaunay *pd, size_t f, int64_t bits) {
   if (!pd) return DYD_E_ARG;
-  dyd_index_list sites = {0};
+  DYD_SCOPED(dyd_index_list) sites = {0};
   uint32_t corner[3];
   bool outer;
   if (f >= dyd_delaunay_undecided_faces(pd)) return DYD_E_ARG;
@@ -489,7 +455,6 @@ dyd_status dyd_voronoi_tied_vertex(dyd_rect *out, bool *tied, const dyd_delaunay
     spread_corners(corner, pd->sk.rects.sites, &sites);
     st = enclose_centre(out, pd->sk.rects.sites, corner, bits, true);
   }
-  dyd_index_list_clear(&sites);
   return st;
 }
 
