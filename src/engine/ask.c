@@ -22,6 +22,7 @@
 #include "base/error.h"
 #include "base/flag.h"
 #include "base/float_filter.h"
+#include "base/local.h"
 #include "base/parallel.h"
 #include "delaunay/extend.h"
 #include "delaunay/memory.h"
@@ -75,8 +76,8 @@ static dyd_status dyd_policy_apply(dyd_plan *plan, bool first, dyd_error *err) {
   const size_t count = plan->count;
   const bool blocked = plan->blocked;
   dyd_plan_sort(plan);
-  dyd_request *was = policy_requests(plan);
-  dyd_want *kept = dyd_alloc(count, sizeof *kept);
+  DYD_FREED dyd_request *was = policy_requests(plan);
+  DYD_FREED dyd_want *kept = dyd_alloc(count, sizeof *kept);
   dyd_status st = was && kept ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK) {
     memcpy(kept, plan->item, count * sizeof *kept);
@@ -91,7 +92,6 @@ static dyd_status dyd_policy_apply(dyd_plan *plan, bool first, dyd_error *err) {
     const dyd_refinable *point = dyd_plan_point(plan, w);
     if (!dyd_plan_find(plan, point)) dyd_plan_mark(plan, point, w->bits, w->reason, w->i, w->j);
   }
-  dyd_free_all(kept, was);
   return st == DYD_OK ? plan->failed : st;
 }
 
@@ -168,7 +168,7 @@ static dyd_status policy_hear(char **line, dyd_policy *p, const volatile int *st
 
 /* The undecided pairs and the plan. */
 static dyd_status policy_describe(FILE *out, const dyd_engine *e, const dyd_request *request, size_t count) {
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = e->pd ? dyd_delaunay_pairs(&pairs, e->pd) : DYD_OK;
   fprintf(out, "stage %" PRIu64 " points %zu\n", e->stages + 1, dyd_sites_count(e->sites));
   for (size_t k = 0; k < pairs.count; k++)
@@ -179,7 +179,6 @@ static dyd_status policy_describe(FILE *out, const dyd_engine *e, const dyd_requ
     fprintf(out, "plan %zu %" PRId64 "\n", r->point, r->bits);
   }
   fputs("choose\n", out);
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 
@@ -475,8 +474,7 @@ static dyd_status ask_room_to_judge(ask *a) {
 
 /* Reports the step by which p was narrowed for w. */
 static dyd_status ask_tell_step(const ask *a, const dyd_refinable *p, const dyd_want *w, bool called) {
-  dyd_rect rect;
-  dyd_rect_init(&rect);
+  DYD_LOCAL(dyd_rect, rect);
   dyd_status st = dyd_sites_get(&rect, a->e->sites, p->site);
   dyd_step step = {DYD_SIZED(dyd_step), .stage = a->e->stages + 1, .site = p->site,
                    .bits = w->bits,     .reason = w->reason,       .called = called};
@@ -485,7 +483,6 @@ static dyd_status ask_tell_step(const ask *a, const dyd_refinable *p, const dyd_
   step.rect = &rect;
   step.final = p->final;
   if (st == DYD_OK) a->o.trace(a->o.trace_user, &step);
-  dyd_rect_clear(&rect);
   return st;
 }
 
@@ -595,12 +592,9 @@ static bool ask_narrows(void *user, uint32_t site) {
   const ask *a = user;
   const dyd_refinable *p = dyd_engine_find(a->e, site);
   if (!p || p->final || p->bits >= a->o.max_bits) return false;
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   bool core[2], narrows = dyd_site_get_core(&r, core, a->e, site) == DYD_OK;
-  narrows = narrows && (!core[0] || dyd_interval_is_point(&r.x)) && (!core[1] || dyd_interval_is_point(&r.y));
-  dyd_rect_clear(&r);
-  return narrows;
+  return narrows && (!core[0] || dyd_interval_is_point(&r.x)) && (!core[1] || dyd_interval_is_point(&r.y));
 }
 
 /* Makes the result, or brings it up to date, and reports. failed: no stage follows. */

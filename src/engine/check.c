@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "base/random.h"
 #include "engine/ask.h"
 #include "engine/points.h"
@@ -99,14 +100,12 @@ static dyd_status check_narrow(check_state *s, uint32_t point, int64_t bits) {
   if (!DYD_GROW(s->changed, s->change_cap, s->changes + 1)) return DYD_E_NOMEM;
   s->changed[s->changes++] = point;
   if (p->final) return DYD_OK;
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   st = dyd_sites_get(&r, s->e->sites, point);
   int64_t least = bits - s->o->slack_bits;
   if (st == DYD_OK && !(p->stream ? dyd_stream_reaches(p->stream, &r, least) : dyd_rect_bits(&r) >= least))
     check_found(s, DYD_CHECK_RATE, "point %u, asked for %lld bits, is only within 2^%lld", (unsigned)point,
                 (long long)bits, -(long long)dyd_rect_bits(&r));
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -149,12 +148,11 @@ static dyd_delaunay_options check_options(const check_state *s) {
 
 static dyd_status check_path(check_state *s) {
   dyd_delaunay *fresh = NULL;
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_delaunay_options options = check_options(s);
   dyd_status st = dyd_delaunay_new(&fresh, s->e->sites, &options, NULL);
   if (st == DYD_OK) st = dyd_delaunay_pairs(&pairs, fresh);
   if (st == DYD_OK) pairs_compare_lists(s, &s->before, &pairs, same_or_floor);
-  dyd_pair_list_clear(&pairs);
   dyd_delaunay_free(fresh);
   return st == DYD_CAPPED ? DYD_OK : st;
 }
@@ -163,23 +161,18 @@ static dyd_status check_path(check_state *s) {
 
 /* A point of an interval: an end, or a multiple of an eighth of the way. */
 static void choice_point(mpq_t out, uint64_t *random, const dyd_interval *a) {
-  mpq_t hi;
-  mpq_init(hi);
+  DYD_LOCAL_NUMBERS(mpq, hi);
   dyd_interval_get_q(out, hi, a);
   mpq_sub(hi, hi, out);
   mpz_mul_ui(mpq_numref(hi), mpq_numref(hi), (unsigned long)check_below(random, 9));
   mpz_mul_ui(mpq_denref(hi), mpq_denref(hi), 8);
   mpq_canonicalize(hi);
   mpq_add(out, out, hi);
-  mpq_clear(hi);
 }
 
 static dyd_status choose_all(dyd_sites *out, check_state *s) {
-  dyd_rect r, point;
-  mpq_t x, y;
-  dyd_rect_init(&r);
-  dyd_rect_init(&point);
-  mpq_inits(x, y, NULL);
+  DYD_LOCAL(dyd_rect, r, point);
+  DYD_LOCAL_NUMBERS(mpq, x, y);
   dyd_status st = DYD_OK;
   for (size_t i = 0; i < dyd_sites_count(s->e->sites) && st == DYD_OK; i++) {
     size_t same = dyd_sites_joined(s->e->sites, i);
@@ -190,9 +183,6 @@ static dyd_status choose_all(dyd_sites *out, check_state *s) {
     st = dyd_rect_set_q(&point, x, y);
     if (st == DYD_OK) st = dyd_sites_add_rect(out, &point);
   }
-  mpq_clears(x, y, NULL);
-  dyd_rect_clear(&point);
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -217,14 +207,13 @@ static void compare_choice(check_state *s, const dyd_delaunay *exact, const dyd_
 static dyd_status check_choice(check_state *s) {
   dyd_sites *sites = NULL;
   dyd_delaunay *exact = NULL;
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = check_flag(s)};
   dyd_status st = dyd_sites_new(&sites);
   if (st == DYD_OK) st = choose_all(sites, s);
   if (st == DYD_OK) st = dyd_delaunay_new(&exact, sites, &options, NULL);
   if (st == DYD_OK) st = dyd_delaunay_pairs(&pairs, exact);
   if (st == DYD_OK) compare_choice(s, exact, &pairs);
-  dyd_pair_list_clear(&pairs);
   dyd_delaunay_free(exact);
   dyd_sites_free(sites);
   return st == DYD_CAPPED ? DYD_OK : st;
@@ -239,19 +228,14 @@ static void watched_forget(watched_cell *w) {
 
 /* Sets *out to whether both points are in one C_ji for a possible neighbour j. */
 static dyd_status edge_is_outside(bool *out, const check_state *s, uint32_t i, const dyd_point *a, const dyd_point *b) {
-  dyd_index_list list = {0};
-  dyd_rect own, other;
-  dyd_rect_init(&own);
-  dyd_rect_init(&other);
+  DYD_SCOPED(dyd_index_list) list = {0};
+  DYD_LOCAL(dyd_rect, own, other);
   dyd_status st = dyd_delaunay_neighbours(&list, s->pd, i, DYD_TIE);
   if (st == DYD_OK) st = dyd_sites_get(&own, s->e->sites, i);
   for (size_t k = 0; k < list.count && st == DYD_OK && !*out; k++) {
     st = dyd_sites_get(&other, s->e->sites, list.item[k]);
     *out = st == DYD_OK && dyd_nearer(a, &other, &own) == DYD_TRUE && dyd_nearer(b, &other, &own) == DYD_TRUE;
   }
-  dyd_index_list_clear(&list);
-  dyd_rect_clear(&other);
-  dyd_rect_clear(&own);
   return st;
 }
 
@@ -440,7 +424,7 @@ static dyd_status schedule_start(check_state *s, dyd_check_open_fn open, void *u
 /* Runs a schedule; counters and the fault go to *report. */
 static dyd_status schedule_play(dyd_check_report *report, dyd_check_open_fn open, void *user, const moves *m,
                                 uint64_t seed, const dyd_check_options *o, dyd_error *err) {
-  check_state s = {.o = o, .report = report, .random = seed};
+  DYD_SCOPED(check_state) s = {.o = o, .report = report, .random = seed};
   dyd_rect_init(&s.window);
   dyd_status st = schedule_start(&s, open, user, m, err);
   size_t k = 0;
@@ -452,7 +436,6 @@ static dyd_status schedule_play(dyd_check_report *report, dyd_check_open_fn open
     if (st == DYD_OK && report->fault == DYD_CHECK_FINE) st = check_stage(&s, k == m->count);
   }
   if (s.e) dyd_watch_stop(&s.watch);
-  check_state_clear(&s);
   if (st == DYD_E_NOMEM) dyd_fail_nomem(err);
   return st;
 }
@@ -554,7 +537,7 @@ static dyd_status schedule_make(moves *m, uint64_t seed, const askable *p, bool 
 static dyd_status schedule_try_without(bool *cut, moves *m, size_t from, size_t to, dyd_check_fault fault,
                                        dyd_check_open_fn open, void *user, uint64_t seed, const dyd_check_options *o) {
   moves less = {0};
-  dyd_check_report report = {0};
+  DYD_SCOPED(dyd_check_report) report = {0};
   *cut = false;
   less.item = dyd_alloc(m->count, sizeof *less.item);
   if (!less.item) return DYD_E_NOMEM;
@@ -568,7 +551,6 @@ static dyd_status schedule_try_without(bool *cut, moves *m, size_t from, size_t 
     *cut = true;
   }
   free(less.item);
-  dyd_check_report_clear(&report);
   return st;
 }
 
@@ -598,13 +580,12 @@ static dyd_status schedule_cut_down(moves *m, dyd_check_fault fault, dyd_check_o
 /* Keeps the shortest schedule that shows the fault found by m. */
 static dyd_status report_keep_fault(dyd_check_report *out, moves *m, uint64_t seed, dyd_check_open_fn open, void *user,
                                     const dyd_check_options *o) {
-  dyd_check_report again = {0};
+  DYD_SCOPED(dyd_check_report) again = {0};
   out->seed = seed;
   out->base_bits = o->base_bits;
   dyd_status st = schedule_cut_down(m, out->fault, open, user, seed, o);
   if (st == DYD_OK) st = schedule_play(&again, open, user, m, seed, o, NULL);
   if (st == DYD_OK && again.fault == out->fault) memcpy(out->message, again.message, sizeof out->message);
-  dyd_check_report_clear(&again);
   out->move = m->item;
   out->moves = m->count;
   *m = (moves){0};

@@ -9,6 +9,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "rect/rect.h"
 #include <dyadel/compose.h>
 
@@ -94,12 +95,9 @@ static dyd_status taken_new(dyd_stream **out, dyd_engine *e, const dyd_refinable
 }
 
 static dyd_status fixed_copy(dyd_stream **out, const dyd_engine *e, uint32_t i) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_sites_get(&r, e->sites, i);
-  if (st == DYD_OK) st = dyd_stream_from_rect(out, &r);
-  dyd_rect_clear(&r);
-  return st;
+  return st == DYD_OK ? dyd_stream_from_rect(out, &r) : st;
 }
 
 dyd_status dyd_engine_stream(dyd_stream **out, dyd_engine *e, uint32_t i) {

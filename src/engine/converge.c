@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/flag.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "delaunay/memory.h"
 #include "delaunay/state.h"
 #include "engine/goal_voronoi.h"
@@ -44,16 +45,13 @@ typedef struct hindsight {
 
 /* r rounded outward, unless it is a point. */
 static dyd_status hindsight_round(dyd_interval *out, const dyd_interval *r, int64_t bits) {
-  mpq_t lo, hi;
   if (dyd_interval_is_point(r)) {
     dyd_interval_set(out, r);
     return DYD_OK;
   }
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   dyd_interval_get_q(lo, hi, r);
-  dyd_status st = dyd_interval_set_outward(out, lo, hi, -bits - 2);
-  mpq_clears(lo, hi, NULL);
-  return st;
+  return dyd_interval_set_outward(out, lo, hi, -bits - 2);
 }
 
 /* A site at h->bits. */
@@ -79,10 +77,9 @@ static dyd_status hindsight_holds(bool *out, hindsight *h) {
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = h->o->no_filter};
   dyd_status st = dyd_delaunay_made(&pd, dyd_sites_count(h->e->sites), hindsight_rect, h, &o, NULL);
   if (st == DYD_OK) {
-    dyd_measure m;
+    DYD_SCOPED(dyd_measure) m;
     dyd_measure_init(&m, dyd_delaunay_sites(pd));
     st = dyd_goal_of_pairs_holds(out, &m, pd, h->o);
-    dyd_measure_clear(&m);
   }
   dyd_delaunay_free(pd);
   return st == DYD_CAPPED ? DYD_OK : st;
@@ -246,12 +243,9 @@ static width width_above(dyd_dyadic *x) {
 }
 
 static dyd_status width_get(dyd_dyadic *out, width w) {
-  mpz_t top;
-  mpz_init(top);
+  DYD_LOCAL_NUMBERS(mpz, top);
   mpz_import(top, 1, 1, sizeof w.top, 0, 0, &w.top);
-  dyd_status st = dyd_dyadic_set_z_2exp(out, top, w.top ? w.exp : 0);
-  mpz_clear(top);
-  return st;
+  return dyd_dyadic_set_z_2exp(out, top, w.top ? w.exp : 0);
 }
 
 /* The longer side of r, rounded up. spare is overwritten. */
@@ -274,13 +268,11 @@ static dyd_status rect_width(width *out, dyd_dyadic *spare, const dyd_rect *r) {
 
 /* Of the first n sites. */
 static dyd_status measure_widths(dyd_stage_row *row, const dyd_sites *sites, size_t n) {
-  width *w = dyd_alloc(n, sizeof *w);
+  DYD_FREED width *w = dyd_alloc(n, sizeof *w);
   if (!w) return DYD_E_NOMEM;
-  dyd_rect rect;
-  dyd_dyadic spare;
   dyd_status st = DYD_OK;
-  dyd_rect_init(&rect);
-  dyd_dyadic_init(&spare);
+  DYD_LOCAL(dyd_rect, rect);
+  DYD_LOCAL(dyd_dyadic, spare);
   for (size_t i = 0; st == DYD_OK && i < n; i++) {
     w[i] = (width){INT64_MIN, 0};
     if (dyd_sites_is_point(sites, i)) continue;
@@ -292,9 +284,6 @@ static dyd_status measure_widths(dyd_stage_row *row, const dyd_sites *sites, siz
     st = width_get(&row->width_largest, w[n - 1]);
     if (st == DYD_OK) st = width_get(&row->width_median, w[n / 2]);
   }
-  dyd_dyadic_clear(&spare);
-  dyd_rect_clear(&rect);
-  free(w);
   return st;
 }
 
@@ -344,11 +333,9 @@ static dyd_status find_voronoi(dyd_voronoi_bounds *b, const dyd_delaunay *pd, co
   enum { PLAIN = 16, FIRST_STEP = 6, CORNERS = 1 << 14 };
   int64_t bits = dyd_metric_coarseness(pd, window) + PLAIN, step = FIRST_STEP;
   bool helps = true;
-  dyd_dyadic old;
-  dyd_dyadic_init(&old);
+  DYD_LOCAL(dyd_dyadic, old);
   dyd_status st = dyd_voronoi_bounds_within(b, pd, window, bits < fine ? bits : fine, CORNERS, discs, cancel);
-  dyd_voronoi_bounds finer;
-  dyd_voronoi_bounds_init(&finer);
+  DYD_LOCAL(dyd_voronoi_bounds, finer);
   for (; bits < fine && helps && st == DYD_OK; step *= 2) {
     bits = fine - bits < step ? fine : bits + step;
     st = dyd_voronoi_bounds_within(&finer, pd, window, bits, CORNERS, discs, cancel);
@@ -362,23 +349,19 @@ static dyd_status find_voronoi(dyd_voronoi_bounds *b, const dyd_delaunay *pd, co
     st = dyd_dyadic_mul_2exp(&old, &old, -1);
     helps = st == DYD_OK && dyd_dyadic_cmp(&b->area, &old) < 0;
   }
-  dyd_voronoi_bounds_clear(&finer);
-  dyd_dyadic_clear(&old);
   return st;
 }
 
 /* Bounds that cannot be had (a capped result, rectangles that all meet, numbers out of range, no time) are omitted. */
 static dyd_status measure_voronoi(dyd_stage_row *row, const dyd_convergence *out, const dyd_delaunay *pd, bool discs,
                                   const volatile int *cancel) {
-  dyd_voronoi_bounds b;
-  dyd_voronoi_bounds_init(&b);
+  DYD_LOCAL(dyd_voronoi_bounds, b);
   dyd_status st = find_voronoi(&b, pd, out->window, row_flattening(row), discs, cancel);
   row->voronoi = st == DYD_OK && b.finite;
   if (row->voronoi) {
     dyd_dyadic_swap(&row->v_area, &b.area);
     dyd_dyadic_swap(&row->v_hausdorff, &b.hausdorff);
   }
-  dyd_voronoi_bounds_clear(&b);
   return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
@@ -406,14 +389,13 @@ static dyd_status row_rate(dyd_stage_row *row, const dyd_convergence *out, const
 /* discs: their statuses; NULL: those of rectangles, or those of o->pairs. */
 static dyd_status row_measure(dyd_stage_row *row, const dyd_delaunay *pd, const dyd_pair_list *discs,
                               const dyd_converge_options *o) {
-  dyd_pair_list others = {0};
+  DYD_SCOPED(dyd_pair_list) others = {0};
   const dyd_pair_list *instead = o->pairs ? &others : discs;
   dyd_status st = o->pairs ? o->pairs(&others, o->pairs_user) : DYD_OK;
   dyd_pairs_count(row->count, instead, pd);
   row->undecided_faces = dyd_delaunay_undecided_faces(pd);
   if (instead) row->digest = dyd_digest_list(instead);
   if (st == DYD_OK && !instead) st = dyd_digest_pairs(&row->digest, pd);
-  dyd_pair_list_clear(&others);
   if (st == DYD_OK) st = dyd_delaunay_get_counters(&row->rungs, pd, NULL);
   if (st == DYD_OK) st = measure_widths(row, dyd_delaunay_sites(pd), dyd_sites_count(dyd_delaunay_sites(pd)));
   if (st == DYD_OK && !o->pairs) st = measure_bounds(row, pd, discs, o->cancel);
@@ -422,10 +404,9 @@ static dyd_status row_measure(dyd_stage_row *row, const dyd_delaunay *pd, const 
 
 /* Statuses of discs that were not reached in time are those of squares, which hold. */
 static dyd_status row_discs(dyd_stage_row *row, const dyd_delaunay *pd, const dyd_converge_options *o, dyd_error *err) {
-  dyd_pair_list discs = {0};
+  DYD_SCOPED(dyd_pair_list) discs = {0};
   dyd_status st = dyd_disc_pairs(&discs, pd, o->cancel, err);
   if (st >= 0) st = row_measure(row, pd, &discs, o);
-  dyd_pair_list_clear(&discs);
   return st;
 }
 
@@ -513,8 +494,7 @@ static bool converge_goes_on(const dyd_engine *e) {
 static dyd_status converge_run_on_default(recorder *r, const dyd_engine_options *options, dyd_error *err) {
   dyd_engine_options o = *options;
   double begun = dyd_seconds();
-  dyd_rect window;
-  dyd_rect_init(&window);
+  DYD_LOCAL(dyd_rect, window);
   o.goal = DYD_GOAL_DECIDED;
   o.max_stages = 1;
   dyd_status st = dyd_engine_run(&r->out->outcome, r->e, &o, err);
@@ -527,7 +507,6 @@ static dyd_status converge_run_on_default(recorder *r, const dyd_engine_options 
     if (o.max_stages) o.max_stages--;
     if (st == DYD_OK && options->max_stages != 1) st = dyd_engine_run(&r->out->outcome, r->e, &o, err);
   }
-  dyd_rect_clear(&window);
   return st;
 }
 
@@ -581,18 +560,16 @@ static dyd_status piece_bisector(dyd_stage_row *row, const piece_run *p) {
 
 static dyd_status piece_disc(dyd_stage_row *row, const piece_run *p) {
   const dyd_rect *r = p->rect;
-  dyd_voronoi_bounds b;
   row->orientation = dyd_orientation(&r[0], &r[1], &r[2]);
   row->con = calloc(p->count, sizeof *row->con);
   if (!row->con) return DYD_E_NOMEM;
   for (row->cons = 0; row->cons < p->count - p->first; row->cons++)
     row->con[row->cons] = dyd_con(&r[p->first + row->cons], &r[0], &r[1], &r[2]);
-  dyd_voronoi_bounds_init(&b);
+  DYD_LOCAL(dyd_voronoi_bounds, b);
   dyd_status st = dyd_metric_disc(&b, &r[0], &r[1], &r[2]);
   row->bounded = st == DYD_OK && b.finite;
   dyd_dyadic_swap(&row->area, &b.area);
   dyd_dyadic_swap(&row->hausdorff, &b.hausdorff);
-  dyd_voronoi_bounds_clear(&b);
   if (st == DYD_OK && p->r->converge->rates)
     st = dyd_metric_disc_rate(&row->rate, &row->rate_from, &row->rated, &r[0], &r[1], &r[2]);
   return st;
@@ -651,11 +628,9 @@ static dyd_status piece_ask(bool *answered, dyd_plan *plan, void *user, const dy
     if (st == DYD_OK) st = dyd_sites_get(&p->rect[i], dyd_engine_sites(e), i);
   }
   if (st != DYD_OK || !known) return st;
-  dyd_dyadic goal;
-  dyd_dyadic_init(&goal);
+  DYD_LOCAL(dyd_dyadic, goal);
   st = piece_row(&row, p);
   *answered = st == DYD_OK && piece_goal_holds(p, row, &goal);
-  dyd_dyadic_clear(&goal);
   for (size_t i = 0; st == DYD_OK && !*answered && i < p->count; i++)
     if (piece_wants(p, row, i)) st = dyd_plan_add(plan, (uint32_t)i, DYD_BITS_NEXT);
   return st;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Cores [SET-3], and firm ones: wider both ways than twice the unknown width of sides without a core [SET-2]. */
+#include "base/local.h"
 #include "engine/points.h"
 #include "engine/settle.h"
 #include "rect/rect.h"
@@ -21,29 +22,22 @@ dyd_status dyd_site_get_core(dyd_rect *r, bool core[2], const dyd_engine *e, uin
 
 /* Raises *eps to the largest difference of two points of r along sides without a core. */
 static dyd_status eps_raise(dyd_dyadic *eps, const dyd_rect *r, const bool core[2]) {
-  dyd_dyadic more;
-  dyd_rect rest;
-  dyd_dyadic_init(&more);
-  dyd_rect_init(&rest);
+  DYD_LOCAL(dyd_dyadic, more);
+  DYD_LOCAL(dyd_rect, rest);
   dyd_rect_set(&rest, r);
   dyd_status st = DYD_OK;
   rect_collapse(&rest, core, true);
   if (!dyd_rect_is_point(&rest)) /* widths of 2^-b, a diameter below 2^(1-b) */
     st = dyd_dyadic_set_si_2exp(&more, 1, 1 - dyd_rect_bits(&rest));
   if (dyd_dyadic_cmp(&more, eps) > 0) dyd_dyadic_swap(&more, eps);
-  dyd_rect_clear(&rest);
-  dyd_dyadic_clear(&more);
   return st;
 }
 
 dyd_status dyd_firm_raise(dyd_dyadic *eps, const dyd_engine *e, uint32_t site) {
   bool core[2];
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_site_get_core(&r, core, e, site);
-  if (st == DYD_OK) st = eps_raise(eps, &r, core);
-  dyd_rect_clear(&r);
-  return st;
+  return st == DYD_OK ? eps_raise(eps, &r, core) : st;
 }
 
 dyd_status dyd_firm_eps(dyd_dyadic *eps, const dyd_engine *e) {
@@ -64,43 +58,36 @@ dyd_status dyd_firm_place(dyd_rect *out, dyd_dyadic *eps, const dyd_stream *at) 
 
 /* a becomes smaller by eps on each side, if it is wide enough: *can. */
 static dyd_status side_shrink(dyd_interval *a, bool *can, const dyd_dyadic *eps) {
-  mpq_t lo, hi, by;
-  mpq_inits(lo, hi, by, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi, by);
   dyd_interval_get_q(lo, hi, a);
   dyd_dyadic_get_q(by, eps);
   mpq_add(lo, lo, by);
   mpq_sub(hi, hi, by);
   *can = !dyd_interval_is_point(a) && mpq_cmp(lo, hi) < 0;
-  dyd_status st = *can ? dyd_interval_set_ends_q(a, lo, hi) : DYD_OK;
-  mpq_clears(lo, hi, by, NULL);
-  return st;
+  return *can ? dyd_interval_set_ends_q(a, lo, hi) : DYD_OK;
 }
 
 /* Sets *r to the core of a site: less eps on each side if it is firm, all of it if a side is too narrow for that, and a
  * point instead of each side that has no core. */
 static dyd_status site_get_firm(dyd_rect *r, bool *firm, const dyd_engine *e, const dyd_dyadic *eps, uint32_t site) {
   bool core[2], wide[2] = {false, false};
-  dyd_rect s;
   *firm = false;
   dyd_status st = dyd_site_get_core(r, core, e, site);
   if (st != DYD_OK) return st;
   if (!core[0] || !core[1]) return rect_collapse(r, core, false), DYD_OK;
-  dyd_rect_init(&s);
+  DYD_LOCAL(dyd_rect, s);
   dyd_rect_set(&s, r);
   st = side_shrink(&s.x, &wide[0], eps);
   if (st == DYD_OK) st = side_shrink(&s.y, &wide[1], eps);
   *firm = st == DYD_OK && wide[0] && wide[1];
   if (*firm) dyd_rect_swap(r, &s);
-  dyd_rect_clear(&s);
   return st;
 }
 
 dyd_status dyd_firm_pair(bool *out, const dyd_engine *e, const dyd_dyadic *eps, const dyd_pair *pair) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = site_get_firm(&r, out, e, eps, pair->i);
   if (st == DYD_OK && *out) st = site_get_firm(&r, out, e, eps, pair->j);
-  dyd_rect_clear(&r);
   return st;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Life, counters and results of an engine. */
 #include "base/error.h"
+#include "base/local.h"
 #include "delaunay/extend.h"
 #include "engine/points.h"
 #include "engine/record.h"
@@ -161,12 +162,10 @@ dyd_status dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e
 dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, const dyd_engine *e) {
   if (!e) return DYD_E_ARG;
   if (!e->pd) return DYD_E_ARG;
-  dyd_dyadic a;
-  dyd_dyadic_init(&a);
+  DYD_LOCAL(dyd_dyadic, a);
   dyd_status st = dyd_metric_area(&a, e->pd);
   if (st == DYD_OK) st = dyd_metric_hausdorff(hausdorff, e->pd);
   if (st == DYD_OK) dyd_dyadic_swap(area, &a);
-  dyd_dyadic_clear(&a);
   return st;
 }
 
@@ -252,16 +251,14 @@ dyd_status dyd_labels_join(dyd_labels *out, const dyd_engine *e, const dyd_label
 }
 
 dyd_status dyd_labels_cost(dyd_labels *out, const dyd_engine *e, size_t n, const double *cost) {
-  dyd_labels more = {0};
+  DYD_SCOPED(dyd_labels) more = {0};
   dyd_row_numbers own = dyd_no_row_numbers;
   bool good = true;
   for (size_t k = 0; good && k < n; k++) {
     own.of[DYD_ROW_COST] = cost[k];
     good = dyd_labels_add(&more, NULL, 0, &own);
   }
-  dyd_status st = good ? dyd_labels_join(out, e, &more) : DYD_E_NOMEM;
-  dyd_labels_clear(&more);
-  return st;
+  return good ? dyd_labels_join(out, e, &more) : DYD_E_NOMEM;
 }
 
 void dyd_labels_give(dyd_engine *e, dyd_labels *l) {

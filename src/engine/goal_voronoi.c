@@ -7,6 +7,7 @@
  * smaller reach of the two cells (half its length). Where all numbers together stay below the goal and the area does
  * not, it is the flattening of the polygons that costs, and they are made finer. */
 #include "engine/goal_voronoi.h"
+#include "base/local.h"
 #include "delaunay/memory.h"
 
 #include "base/alloc.h"
@@ -82,19 +83,16 @@ dyd_status dyd_goal_voronoi_number(mpfr_ptr out, dyd_voronoi_sums *sums, dyd_mea
 /* Sets *out to whether the numbers of all pairs stay below the goal. */
 static dyd_status goal_numbers_are_small(bool *out, dyd_voronoi_sums *sums, const dyd_engine *e,
                                          const dyd_engine_options *o, const dyd_pair_list *pairs) {
-  dyd_measure m;
-  mpfr_t sum, one;
+  DYD_SCOPED(dyd_measure) m;
   dyd_status st = DYD_OK;
   dyd_measure_init(&m, e->sites);
-  mpfr_inits2(DYD_MEASURE_PREC, sum, one, (mpfr_ptr)0);
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, sum, one);
   mpfr_set_zero(sum, 1);
   for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
     st = dyd_goal_voronoi_number(one, sums, &m, &pairs->item[k], o);
     mpfr_add(sum, sum, one, MPFR_RNDU);
   }
   *out = st == DYD_OK && mpfr_cmp_ui_2exp(sum, 1, (mpfr_exp_t)-o->goal_bits) < 0;
-  mpfr_clears(sum, one, (mpfr_ptr)0);
-  dyd_measure_clear(&m);
   return st;
 }
 
@@ -102,13 +100,10 @@ static dyd_status goal_numbers_are_small(bool *out, dyd_voronoi_sums *sums, cons
  * (about 2^-(bits - flattening of goal 0)). Then finer polygons do not help. */
 static bool goal_is_hopeless(mpfr_srcptr bound, int64_t bits, const dyd_engine *e, const dyd_engine_options *o) {
   int64_t flat = bits - dyd_metric_flattening(e->pd, o->window, 0);
-  mpfr_t rest;
-  mpfr_init2(rest, DYD_MEASURE_PREC);
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, rest);
   mpfr_set_ui_2exp(rest, 1, (mpfr_exp_t)-flat, MPFR_RNDU);
   mpfr_sub(rest, bound, rest, MPFR_RNDD);
-  bool out = mpfr_cmp_ui_2exp(rest, 1, (mpfr_exp_t)-o->goal_bits) > 0;
-  mpfr_clear(rest);
-  return out;
+  return mpfr_cmp_ui_2exp(rest, 1, (mpfr_exp_t)-o->goal_bits) > 0;
 }
 
 /* Polygons start coarse and become as fine as the goal asks, or only so fine that they show that it does not hold:
@@ -133,10 +128,9 @@ static dyd_status goal_area_holds(bool *out, mpfr_ptr bound, dyd_voronoi_sums **
 
 dyd_status dyd_goal_voronoi_holds(bool *out, dyd_voronoi_sums **sums, const dyd_engine *e,
                                   const dyd_engine_options *o) {
-  dyd_pair_list pairs = {0};
-  mpfr_t bound;
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   bool finite = false;
-  mpfr_init2(bound, DYD_MEASURE_PREC);
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, bound);
   dyd_status st = dyd_pairs_list(&pairs, e->pd, dyd_least_bounding_true(e->pd));
   if (st == DYD_OK && o->goal == DYD_GOAL_VORONOI_AREA) {
     st = goal_area_holds(out, bound, sums, e, o, &pairs);
@@ -146,8 +140,6 @@ dyd_status dyd_goal_voronoi_holds(bool *out, dyd_voronoi_sums **sums, const dyd_
     *out = st == DYD_OK && finite && mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
   }
   if (*out || st != DYD_OK) dyd_goal_sums_free(sums);
-  mpfr_clear(bound);
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 
@@ -155,11 +147,9 @@ dyd_status dyd_goal_voronoi_holds(bool *out, dyd_voronoi_sums **sums, const dyd_
 
 dyd_status dyd_goal_vertex_excess(int64_t *out, const dyd_engine *e, const dyd_triangle *t,
                                   const dyd_engine_options *o) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_voronoi_vertex(&r, e->pd, t, o->goal_bits + 2);
   int64_t bits = dyd_rect_bits(&r);
   *out = st != DYD_OK || bits >= o->goal_bits || !dyd_rect_meets(&r, o->window) ? 0 : o->goal_bits - bits;
-  dyd_rect_clear(&r);
   return st;
 }

@@ -13,6 +13,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "delaunay/state.h"
 #include "engine/plan.h"
 #include "engine/points.h"
@@ -81,7 +82,7 @@ static dyd_status nearest_try_tie(nearest_question *q, const dyd_engine_options 
 static dyd_status nearest_count_firm(size_t *count, const nearest_question *q, const dyd_rect *at,
                                      const dyd_dyadic *eps) {
   dyd_delaunay *pd = NULL;
-  dyd_index_list near = {0};
+  DYD_SCOPED(dyd_index_list) near = {0};
   bool sure, *firm = dyd_alloc(q->near.count, sizeof *firm);
   const dyd_firm_sites cores = {q->e, eps, firm, q->near.item};
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = &q->e->stop};
@@ -89,7 +90,6 @@ static dyd_status nearest_count_firm(size_t *count, const nearest_question *q, c
   *count = 0;
   if (st == DYD_OK) st = dyd_nearest(&near, &sure, pd, at);
   for (size_t k = 0; st == DYD_OK && k < near.count; k++) *count += firm[near.item[k]];
-  dyd_index_list_clear(&near);
   dyd_delaunay_free(pd);
   free(firm);
   return st == DYD_CAPPED ? DYD_OK : st;
@@ -98,17 +98,13 @@ static dyd_status nearest_count_firm(size_t *count, const nearest_question *q, c
 /* Sets *out to whether two sites stay possible, whatever is refined [NEAR-5]. */
 static dyd_status nearest_is_settled(bool *out, const nearest_question *q) {
   size_t count = 0;
-  dyd_dyadic eps;
-  dyd_rect at;
-  dyd_dyadic_init(&eps);
-  dyd_rect_init(&at);
+  DYD_LOCAL(dyd_dyadic, eps);
+  DYD_LOCAL(dyd_rect, at);
   dyd_status st = dyd_firm_place(&at, &eps, q->at);
   for (size_t k = 0; st == DYD_OK && k < q->near.count; k++) st = dyd_firm_raise(&eps, q->e, q->near.item[k]);
   for (int k = 0; st == DYD_OK && k < 2; k++) st = dyd_dyadic_add(&eps, &eps, &eps);
   if (st == DYD_OK) st = nearest_count_firm(&count, q, &at, &eps);
   *out = count > 1;
-  dyd_rect_clear(&at);
-  dyd_dyadic_clear(&eps);
   return st;
 }
 
@@ -196,12 +192,11 @@ static dyd_status graph_may_hold(bool *may, const dyd_engine *e, const dyd_graph
   const some_sites of = {e, site};
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options)};
   dyd_delaunay *pd = NULL;
-  dyd_graph_list three = {0};
+  DYD_SCOPED(dyd_graph_list) three = {0};
   dyd_status st = dyd_delaunay_made(&pd, 3, some_rect, &of, &o, NULL);
   if (st == DYD_OK) st = dyd_graph_edges(&three, pd, DYD_GRAPH_GABRIEL, NULL, NULL);
   const dyd_graph_edge *first = st == DYD_OK && three.count ? three.item : NULL;
   *may = !first || first->i != 0 || first->j != 1 || !first->sure;
-  dyd_graph_list_clear(&three);
   dyd_delaunay_free(pd);
   return st;
 }
@@ -274,8 +269,7 @@ static dyd_status problem_solve(bool *good, graph_problem *p, const graph_questi
 }
 
 static const dyd_graph_edge *problem_edge(const graph_problem *p, const dyd_graph_edge *edge) {
-  if (!p->edges.count) return NULL;
-  return bsearch(edge, p->edges.item, p->edges.count, sizeof *edge, dyd_compare_two);
+  return dyd_find_two(edge, p->edges.item, p->edges.count, sizeof *edge);
 }
 
 /* Draws one choice in the cores, and looks which edges are certain, and which none, whatever the other points are.
@@ -301,8 +295,7 @@ static dyd_status graph_shrink(graph_question *q, const dyd_plan *plan, dyd_erro
   size_t sites = dyd_sites_count(plan->e->sites);
   graph_problem p = {.firm = dyd_alloc(sites, sizeof *p.firm)};
   bool good = false;
-  dyd_dyadic eps;
-  dyd_dyadic_init(&eps);
+  DYD_LOCAL(dyd_dyadic, eps);
   const dyd_firm_sites cores = {plan->e, &eps, p.firm, NULL};
   dyd_status st = p.firm ? dyd_firm_eps(&eps, plan->e) : DYD_E_NOMEM;
   bool moving = dyd_dyadic_sgn(&eps) != 0;
@@ -313,7 +306,6 @@ static dyd_status graph_shrink(graph_question *q, const dyd_plan *plan, dyd_erro
     bool ends = p.firm[edge->j] && (q->graph == DYD_GRAPH_NEAREST || p.firm[edge->i]);
     q->may[k] = q->may_not[k] = same && !same->sure && (!moving || (ends && q->graph != DYD_GRAPH_MST));
   }
-  dyd_dyadic_clear(&eps);
   problem_clear(&p);
   return st;
 }
@@ -336,8 +328,7 @@ static bool graph_can_narrow(const graph_question *q, const dyd_engine *e) {
 
 /* Sets *out to whether some core is not a point. */
 static dyd_status graph_has_cores(bool *out, const dyd_engine *e) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = DYD_OK;
   *out = false;
   for (uint32_t k = 0; st == DYD_OK && !*out && k < dyd_sites_count(e->sites); k++) {
@@ -345,7 +336,6 @@ static dyd_status graph_has_cores(bool *out, const dyd_engine *e) {
     st = dyd_site_get_core(&r, core, e, k);
     *out = st == DYD_OK && ((core[0] && !dyd_interval_is_point(&r.x)) || (core[1] && !dyd_interval_is_point(&r.y)));
   }
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -366,18 +356,16 @@ static dyd_status graph_reserve(graph_question *q, size_t sites) {
 /* Takes edges that are in no tree by the squares from those by the discs, and makes those sure that are by squares:
  * lengths of squares are compared exactly. */
 static dyd_status tree_of_both(dyd_graph_list *l, const dyd_delaunay *pd, const volatile int *cancel, dyd_error *err) {
-  dyd_graph_list squares = {0};
+  DYD_SCOPED(dyd_graph_list) squares = {0};
   size_t kept = 0;
   dyd_status st = dyd_graph_edges(&squares, pd, DYD_GRAPH_MST, cancel, err);
   for (size_t k = 0; st == DYD_OK && k < l->count; k++) {
-    const dyd_graph_edge *same =
-        squares.count ? bsearch(&l->item[k], squares.item, squares.count, sizeof *squares.item, dyd_compare_two) : NULL;
+    const dyd_graph_edge *same = dyd_find_two(&l->item[k], squares.item, squares.count, sizeof *same);
     if (!same) continue;
     l->item[kept] = l->item[k];
     l->item[kept++].sure |= same->sure;
   }
   if (st == DYD_OK) l->count = kept;
-  dyd_graph_list_clear(&squares);
   return st;
 }
 
@@ -480,25 +468,22 @@ typedef struct disc_question {
 /* Adds a want for the site up to the accuracy of discs. */
 static dyd_status disc_mark(dyd_plan *plan, uint32_t site) {
   const dyd_refinable *p = dyd_engine_find(plan->e, site);
-  dyd_rect r;
   if (!p || p->final) return DYD_OK;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_sites_get(&r, plan->e->sites, site);
   int64_t bits = st == DYD_OK ? dyd_rect_bits(&r) + DISC_SPARE : INT64_MIN;
   plan->blocked = plan->blocked || (p->bits < bits && bits > plan->o->max_bits);
   if (bits > plan->o->max_bits) bits = plan->o->max_bits;
   if (st == DYD_OK && p->bits < bits) dyd_plan_mark_alone(plan, p, bits, DYD_REASON_QUESTION);
-  dyd_rect_clear(&r);
   return st;
 }
 
 /* Of the end of an open pair, and of all that may be next to it. */
 static dyd_status disc_mark_near(dyd_plan *plan, uint32_t end) {
-  dyd_index_list near = {0};
+  DYD_SCOPED(dyd_index_list) near = {0};
   dyd_status st = dyd_delaunay_neighbours(&near, plan->e->pd, end, DYD_INDETERMINATE);
   if (st == DYD_OK) st = disc_mark(plan, end);
   for (size_t k = 0; st == DYD_OK && k < near.count; k++) st = disc_mark(plan, near.item[k]);
-  dyd_index_list_clear(&near);
   return st;
 }
 

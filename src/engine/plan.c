@@ -7,6 +7,7 @@
 #include "engine/plan.h"
 
 #include "base/alloc.h"
+#include "base/local.h"
 #include "engine/points.h"
 #include "engine/record.h"
 #include "stream/stream.h"
@@ -156,10 +157,9 @@ static bool announce_is_due(dyd_rect *scratch, const dyd_refinable *p, const dyd
 static void announce_source(uint64_t *left, const dyd_plan *plan, size_t first, size_t end) {
   const dyd_engine *e = plan->e;
   const dyd_source *source = &e->source[dyd_plan_point(plan, &plan->item[first])->source].source;
-  dyd_request *list = dyd_alloc(end - first, sizeof *list);
-  dyd_rect scratch;
+  DYD_FREED dyd_request *list = dyd_alloc(end - first, sizeof *list);
   size_t count = 0;
-  dyd_rect_init(&scratch);
+  DYD_LOCAL(dyd_rect, scratch);
   for (size_t k = first; list && *left && k < end; k++) {
     const dyd_want *w = &plan->item[k];
     const dyd_refinable *p = dyd_plan_point(plan, w);
@@ -167,9 +167,7 @@ static void announce_source(uint64_t *left, const dyd_plan *plan, size_t first, 
     --*left;
     if (dyd_engine_request(&list[count], p, e, w->bits, plan->o->max_bits, NULL) == DYD_OK) count++;
   }
-  dyd_rect_clear(&scratch);
   if (count) source->announce(source->user, list, count);
-  free(list);
 }
 
 void dyd_plan_announce(const dyd_plan *plan, uint64_t most) {

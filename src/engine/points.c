@@ -10,6 +10,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "delaunay/state.h"
 #include "engine/record.h"
 #include "rect/rect.h"
@@ -84,8 +85,7 @@ static dyd_status point_ask_stream(dyd_rect *r, bool *final, const dyd_refinable
 
 /* DYD_E_NESTING with the sides that are not nested. */
 static dyd_status point_nesting_fail(dyd_error *err, const dyd_engine *e, const dyd_refinable *p, const dyd_rect *r) {
-  dyd_rect old;
-  dyd_rect_init(&old);
+  DYD_LOCAL(dyd_rect, old);
   dyd_status st = dyd_sites_get(&old, e->sites, p->site);
   if (st != DYD_OK)
     dyd_fail(err, st, "%s", dyd_status_text(st));
@@ -93,7 +93,6 @@ static dyd_status point_nesting_fail(dyd_error *err, const dyd_engine *e, const 
     st = dyd_nesting_fail(err, "x side", &old.x, &r->x);
   else
     st = dyd_nesting_fail(err, "y side", &old.y, &r->y);
-  dyd_rect_clear(&old);
   return st;
 }
 
@@ -112,9 +111,7 @@ static dyd_status site_contradiction(dyd_error *err, uint32_t site, const char *
 
 /* Intersects *r with the rectangle of a site; `told`: name of r in messages. */
 static dyd_status site_meet(dyd_rect *r, const dyd_engine *e, uint32_t site, const char *told, dyd_error *err) {
-  dyd_rect known, both;
-  dyd_rect_init(&known);
-  dyd_rect_init(&both);
+  DYD_LOCAL(dyd_rect, known, both);
   dyd_status st = dyd_sites_get(&known, e->sites, site);
   if (st == DYD_OK) st = dyd_interval_intersect(&both.x, &known.x, &r->x);
   if (st == DYD_OK) st = dyd_interval_intersect(&both.y, &known.y, &r->y);
@@ -124,8 +121,6 @@ static dyd_status site_meet(dyd_rect *r, const dyd_engine *e, uint32_t site, con
     st = site_contradiction(err, site, told, r, &known);
   else
     dyd_fail(err, st, "%s", dyd_status_text(st));
-  dyd_rect_clear(&both);
-  dyd_rect_clear(&known);
   return st;
 }
 
@@ -204,12 +199,11 @@ static dyd_status guest_narrow(dyd_refinable *p, uint64_t *calls, const dyd_engi
 
 dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, int64_t bits, int64_t max_bits,
                              dyd_error *err) {
-  dyd_rect r;
   bool final = p->final;
   if (p->site >= dyd_sites_count(e->sites)) return guest_narrow(p, calls, e, bits, max_bits, err);
   if (point_narrow_in_doubles(p, calls, e, bits)) return DYD_OK;
   dyd_error_clear(err);
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   if (!p->asked) dyd_rect_unset(&r);
   dyd_status st = p->asked ? dyd_sites_get(&r, e->sites, p->site) : DYD_OK;
   if (st == DYD_OK && !(p->asked && dyd_rect_bits(&r) >= bits)) {
@@ -225,7 +219,6 @@ dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, i
     p->asked = true;
     if (final) st = dyd_sites_set_kind(e->sites, p->site, 1, DYD_SITE_ANY);
   }
-  dyd_rect_clear(&r);
   return st == DYD_OK || st == DYD_CANCELLED ? st : point_blame(p, st, err);
 }
 
@@ -242,12 +235,10 @@ void dyd_engine_note_change(dyd_engine *e, uint32_t site) {
 /* Puts *r, what site i and its new measurement have in common, into the table. */
 static dyd_status site_put_measured(dyd_engine *e, uint32_t i, const dyd_rect *r) {
   dyd_refinable *p = (dyd_refinable *)dyd_find_index(&i, e->point, e->points, sizeof *e->point);
-  dyd_rect before;
   if (!DYD_GROW(e->changed, e->change_cap, e->changes + 1)) return DYD_E_NOMEM;
-  dyd_rect_init(&before);
+  DYD_LOCAL(dyd_rect, before);
   dyd_status st = dyd_sites_get(&before, e->sites, i);
   bool news = st == DYD_OK && !dyd_rect_equal(&before, r);
-  dyd_rect_clear(&before);
   if (!news) return st;
   st = dyd_sites_narrow(e->sites, i, r);
   if (st == DYD_OK && p) {
@@ -268,15 +259,13 @@ static dyd_status site_measure(dyd_engine *e, uint32_t i, const dyd_rect *r, dyd
                     dyd_sites_count(e->sites));
   if (!dyd_interval_is_valid(&r->x) || !dyd_interval_is_valid(&r->y))
     return dyd_fail(err, DYD_E_ARG, "the rectangle measured is not valid; fill it with dyd_interval_set_ends");
-  dyd_rect both;
-  dyd_rect_init(&both);
+  DYD_LOCAL(dyd_rect, both);
   dyd_rect_set(&both, r);
   dyd_status st = site_meet(&both, e, i, "a measurement gives", err);
   if (st == DYD_OK) {
     st = site_put_measured(e, i, &both);
     if (st != DYD_OK) dyd_fail(err, st, "%s", dyd_status_text(st));
   }
-  dyd_rect_clear(&both);
   return st;
 }
 

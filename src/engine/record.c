@@ -7,6 +7,7 @@
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "delaunay/memory.h"
 #include "rect/rect.h"
 
@@ -28,10 +29,9 @@ uint64_t dyd_digest_list(const dyd_pair_list *pairs) {
 }
 
 dyd_status dyd_digest_pairs(uint64_t *out, const dyd_delaunay *pd) {
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = dyd_pairs_list(&pairs, pd, DYD_TIE);
   if (st == DYD_OK) *out = dyd_digest_list(&pairs);
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 
@@ -127,11 +127,9 @@ dyd_status dyd_history_add(dyd_history *h, const dyd_delaunay *pd, dyd_pair_list
 
 dyd_status dyd_history_note(dyd_history *h, const dyd_delaunay *pd) {
   if (!h || !pd) return DYD_E_ARG;
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = dyd_pairs_list(&pairs, pd, DYD_TIE);
-  if (st == DYD_OK) st = dyd_history_add(h, pd, &pairs);
-  dyd_pair_list_clear(&pairs);
-  return st;
+  return st == DYD_OK ? dyd_history_add(h, pd, &pairs) : st;
 }
 
 struct dyd_recalled {

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "delaunay/memory.h"
 #include "delaunay/state.h"
 #include "delaunay/undecided.h"
@@ -43,21 +44,18 @@ static dyd_status exponent_above(int64_t *out, const dyd_interval *low, bool low
   dyd_status st = DYD_OK;
   *out = INT64_MIN;
   if (mpz_cmp_ui(low->den, 1) == 0 && mpz_cmp_ui(high->den, 1) == 0) {
-    dyd_dyadic d;
-    dyd_dyadic_init(&d);
+    DYD_LOCAL(dyd_dyadic, d);
     st = dyd_dyadic_sub(&d, high_end_up ? &high->hi : &high->lo, low_end_up ? &low->hi : &low->lo);
     if (st == DYD_OK && dyd_dyadic_sgn(&d) > 0) *out = d.exp + (int64_t)mpz_sizeinbase(d.man, 2);
-    dyd_dyadic_clear(&d);
     return st;
   }
-  mpq_t a[2], b[2];
-  mpq_inits(a[0], a[1], b[0], b[1], (mpq_ptr)0);
+  DYD_LOCAL_ARRAY(mpq_t, a, [2]);
+  DYD_LOCAL_ARRAY(mpq_t, b, [2]);
   dyd_interval_get_q(a[0], a[1], low);
   dyd_interval_get_q(b[0], b[1], high);
   mpq_sub(a[0], b[high_end_up], a[low_end_up]);
   if (mpq_sgn(a[0]) > 0)
     *out = (int64_t)mpz_sizeinbase(mpq_numref(a[0]), 2) - (int64_t)mpz_sizeinbase(mpq_denref(a[0]), 2) + 1;
-  mpq_clears(a[0], a[1], b[0], b[1], (mpq_ptr)0);
   return st;
 }
 
@@ -125,14 +123,13 @@ static int coarse_compare_place(const void *a, const void *b) {
 
 static dyd_status coarse_meet_next(dyd_coarse *c) {
   dyd_status st = DYD_OK;
-  dyd_coarse_site **order = dyd_alloc(c->sites.count, sizeof *order);
+  DYD_FREED dyd_coarse_site **order = dyd_alloc(c->sites.count, sizeof *order);
   if (!order) return DYD_E_NOMEM;
   for (size_t k = 0; k < c->sites.count; k++) order[k] = &c->item[k];
   qsort(order, c->sites.count, sizeof *order, coarse_compare_place);
   for (size_t k = 0; k < c->sites.count; k++)
     for (size_t l = k + 1; st == DYD_OK && l < c->sites.count && l <= k + NEXT; l++)
       st = coarse_meet(order[k], order[l]);
-  free(order);
   return st;
 }
 
@@ -305,8 +302,7 @@ static dyd_status pair_matters(bool *out, mpfr_ptr number, dyd_measure *m, const
 static dyd_status keep_pairs(dyd_pair_list *pairs, dyd_measure *m, const dyd_settled *settled,
                              const dyd_engine_options *o) {
   dyd_status st = DYD_OK;
-  mpfr_t number;
-  mpfr_init2(number, DYD_MEASURE_PREC);
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, number);
   size_t kept = 0;
   for (size_t k = 0; st == DYD_OK && k < pairs->count; k++) {
     bool matters;
@@ -315,7 +311,6 @@ static dyd_status keep_pairs(dyd_pair_list *pairs, dyd_measure *m, const dyd_set
     if (st == DYD_OK && matters) pairs->item[kept++] = pairs->item[k];
   }
   pairs->count = kept;
-  mpfr_clear(number);
   return st;
 }
 
@@ -405,10 +400,10 @@ static void mark_blockers(dyd_plan *plan, const dyd_coarse *c, bool ends, int64_
 /* Marks all sites of a face whose pairs are not all known: to twice their bits, or to where a tie was seen to be none.
  * Which of them suffice is not known yet. Scouts need pairs that cross: each site with one half of the face on. */
 static dyd_status plan_capped(dyd_plan *plan, dyd_helpers *h, size_t f) {
-  dyd_index_list sites = {0};
+  DYD_SCOPED(dyd_index_list) sites = {0};
   bool outer, lacks = false;
   dyd_status st = dyd_delaunay_face(&sites, &outer, plan->e->pd, f);
-  dyd_pair_list across = {st == DYD_OK ? sites.count : 0, dyd_alloc(sites.count, sizeof *across.item)};
+  DYD_SCOPED(dyd_pair_list) across = {st == DYD_OK ? sites.count : 0, dyd_alloc(sites.count, sizeof *across.item)};
   if (!across.item) st = DYD_E_NOMEM;
   for (size_t k = 0; st == DYD_OK && k < sites.count; k++) {
     const dyd_refinable *p = dyd_engine_find(plan->e, sites.item[k]);
@@ -420,16 +415,14 @@ static dyd_status plan_capped(dyd_plan *plan, dyd_helpers *h, size_t f) {
   }
   bool scouts = h->scouts && !lacks && dyd_open_is_postponed(plan->e->pd, f);
   if (st == DYD_OK && scouts) st = dyd_scouts_add(h->scouts, plan, &across);
-  dyd_pair_list_clear(&across);
-  dyd_index_list_clear(&sites);
   return st;
 }
 
 static dyd_status plan_face(dyd_plan *plan, dyd_helpers *h, size_t f, dyd_measure *m, const dyd_settled *settled) {
   const dyd_delaunay *pd = plan->e->pd;
   if (dyd_open_is_capped(pd, f)) return plan_capped(plan, h, f);
-  dyd_coarse c = {0};
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_coarse) c = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = dyd_delaunay_face_pairs(&pairs, pd, f);
   if (st == DYD_OK) st = keep_pairs(&pairs, m, settled, plan->o);
   if (st == DYD_OK && pairs.count) st = dyd_coarse_set(&c, pd, f, &pairs);
@@ -442,8 +435,6 @@ static dyd_status plan_face(dyd_plan *plan, dyd_helpers *h, size_t f, dyd_measur
     waiting_choose(plan, h->waiting, &c.sites);
     if (ends && h->scouts && !any_lacks_needed(&c, plan)) st = dyd_scouts_add(h->scouts, plan, &pairs);
   }
-  dyd_coarse_clear(&c);
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 
@@ -461,8 +452,7 @@ static dyd_status plan_hausdorff(dyd_plan *plan, dyd_helpers *h, dyd_measure *m)
   const dyd_engine *e = plan->e;
   const dyd_engine_options *o = plan->o;
   dyd_status st = plan_faces(plan, h, m, &none);
-  mpfr_t diameter;
-  mpfr_init2(diameter, DYD_MEASURE_PREC);
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, diameter);
   for (size_t k = 0; st == DYD_OK && k < e->points; k++) {
     const dyd_refinable *p = &e->point[k];
     if (p->final) continue;
@@ -473,7 +463,6 @@ static dyd_status plan_hausdorff(dyd_plan *plan, dyd_helpers *h, dyd_measure *m)
                         p->bits <= o->goal_bits && !o->step_bits ? o->goal_bits + 1 : dyd_bits_grown(p->bits, plan->o),
                         DYD_REASON_BOUND);
   }
-  mpfr_clear(diameter);
   return st;
 }
 
@@ -483,8 +472,7 @@ static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_measure *m, d
                              const dyd_pair_list *pairs, mpfr_srcptr least, mpfr_srcptr share) {
   const dyd_engine_options *o = plan->o;
   dyd_status st = DYD_OK;
-  mpfr_t value;
-  mpfr_init2(value, DYD_MEASURE_PREC);
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, value);
   mpfr_set_zero(largest, 1);
   for (size_t k = 0; st == DYD_OK && k < pairs->count; k++) {
     const uint32_t end[2] = {pairs->item[k].i, pairs->item[k].j};
@@ -501,16 +489,14 @@ static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_measure *m, d
         dyd_plan_mark(plan, p, excess_step(p, excess, o), DYD_REASON_BOUND, end[0], end[1]);
     }
   }
-  mpfr_clear(value);
   return st;
 }
 
 /* The ends of the pairs whose numbers are above 2^-M, or above the share 2^-M / P of P pairs; where none of them can be
  * narrowed, those of at least half the largest number with an end that can. */
 static dyd_status plan_bound(dyd_plan *plan, dyd_measure *m, dyd_voronoi_sums *sums, bool shared) {
-  dyd_pair_list pairs = {0};
-  mpfr_t share, largest, unused;
-  mpfr_inits2(DYD_MEASURE_PREC, share, largest, unused, (mpfr_ptr)0);
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, share, largest, unused);
   dyd_status st = dyd_pairs_list(&pairs, plan->e->pd, sums ? dyd_least_bounding_true(plan->e->pd) : DYD_TIE);
   if (st == DYD_OK && pairs.count) {
     mpfr_set_ui_2exp(share, 1, (mpfr_exp_t)-plan->o->goal_bits, MPFR_RNDD);
@@ -521,15 +507,13 @@ static dyd_status plan_bound(dyd_plan *plan, dyd_measure *m, dyd_voronoi_sums *s
       st = mark_bound(plan, unused, m, sums, &pairs, largest, share);
     }
   }
-  mpfr_clears(share, largest, unused, (mpfr_ptr)0);
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 
 /* Marks the ends of certain triangles whose Voronoi vertex may be in the window and is enclosed in more than 2^-M. */
 static dyd_status plan_vertices(dyd_plan *plan) {
   const dyd_engine_options *o = plan->o;
-  dyd_triangle_list list = {0};
+  DYD_SCOPED(dyd_triangle_list) list = {0};
   dyd_status st = dyd_delaunay_triangles(&list, NULL, plan->e->pd, 0);
   for (size_t k = 0; k < list.count && st == DYD_OK; k++) {
     const uint32_t *v = list.item[k].v;
@@ -541,7 +525,6 @@ static dyd_status plan_vertices(dyd_plan *plan) {
         dyd_plan_mark(plan, p, excess_step(p, excess, o), DYD_REASON_BOUND, v[m], v[(m + 1) % 3]);
     }
   }
-  dyd_triangle_list_clear(&list);
   return st;
 }
 
@@ -578,15 +561,12 @@ static dyd_status plan_all(dyd_plan *plan, dyd_helpers *h, dyd_settled *settled,
 /* ---- goals ---- */
 
 static dyd_status goal_bound_holds(bool *out, dyd_measure *m, const dyd_delaunay *pd, const dyd_engine_options *o) {
-  dyd_pair_list pairs = {0};
-  mpfr_t bound;
-  mpfr_init2(bound, DYD_MEASURE_PREC);
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, bound);
   dyd_status st = dyd_pairs_list(&pairs, pd, DYD_TIE);
   if (st == DYD_OK)
     st = o->goal == DYD_GOAL_AREA ? dyd_bound_area(bound, m, &pairs) : dyd_bound_hausdorff(bound, m, &pairs);
   *out = st == DYD_OK && mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
-  mpfr_clear(bound);
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 
@@ -603,12 +583,11 @@ static dyd_status goal_voronoi_and_vertices_hold(bool *out, dyd_voronoi_sums **s
                                                  const dyd_engine_options *o) {
   dyd_status st = dyd_goal_voronoi_holds(out, sums, e, o);
   if (st != DYD_OK || !*out || o->goal != DYD_GOAL_VORONOI_HAUSDORFF) return st;
-  dyd_plan plan;
+  DYD_SCOPED(dyd_plan) plan;
   dyd_plan_init(&plan, e, o, NULL, 0);
   st = plan_vertices(&plan);
   if (st == DYD_OK) st = plan.failed;
   *out = st == DYD_OK && plan.count == 0;
-  dyd_plan_clear(&plan);
   return st;
 }
 
@@ -634,7 +613,7 @@ static bool any_point_is_left(const dyd_engine *e) {
 static dyd_status schedule_judge(bool *holds, dyd_plan *plan, dyd_scouts *scouts, dyd_waiting *waiting,
                                  dyd_settled *settled) {
   dyd_helpers h = {scouts, waiting};
-  dyd_measure m;
+  DYD_SCOPED(dyd_measure) m;
   dyd_voronoi_sums *sums = NULL;
   dyd_measure_init(&m, plan->e->sites);
   dyd_status st = goal_holds(holds, &m, &sums, plan->e, plan->o);
@@ -642,7 +621,6 @@ static dyd_status schedule_judge(bool *holds, dyd_plan *plan, dyd_scouts *scouts
   if (st == DYD_OK) st = plan->failed;
   if (st == DYD_OK && plan->count && plan->o->schedule == DYD_SCHEDULE_UNIFORM) plan_uniform(plan);
   dyd_goal_sums_free(&sums);
-  dyd_measure_clear(&m);
   return st;
 }
 

@@ -17,6 +17,7 @@
 #include "base/alloc.h"
 #include "engine/points.h"
 #include "predicate/circle.h"
+#include "rect/rect.h"
 #include <dyadel/predicate.h>
 
 /* For each quad to be found: number of tries of the quad rule for one pair, number of tries for four in all, and number
@@ -48,20 +49,10 @@ static bool quad_rule_decides(const dyd_rect r[4]) {
          dyd_cannot_displace(&r[2], &r[3], &r[0], &r[1]) == DYD_TRUE;
 }
 
-static void quad_init(dyd_rect r[4]) {
-  for (int k = 0; k < 4; k++) dyd_rect_init(&r[k]);
-}
-
-static void quad_clear(dyd_rect r[4]) {
-  for (int k = 0; k < 4; k++) dyd_rect_clear(&r[k]);
-}
-
 static dyd_status quad_is_decided(bool *out, const dyd_engine *e, const dyd_quad_sites *q) {
-  dyd_rect r[4];
-  quad_init(r);
+  DYD_LOCAL_ARRAY(dyd_rect, r, [4]);
   dyd_status st = quad_fetch(r, e, q);
   if (st == DYD_OK) *out = quad_rule_decides(r);
-  quad_clear(r);
   return st;
 }
 
@@ -153,28 +144,25 @@ static dyd_status quad_widen_side(dyd_interval *a, int64_t bits) {
 }
 
 static dyd_status quad_decides_at(bool *out, const dyd_rect r[4], int64_t bits) {
-  dyd_rect wide[4];
+  DYD_LOCAL_ARRAY(dyd_rect, wide, [4]);
   dyd_status st = DYD_OK;
-  quad_init(wide);
   for (int k = 0; st == DYD_OK && k < 4; k++) {
     dyd_rect_set(&wide[k], &r[k]);
     st = quad_widen_side(&wide[k].x, bits);
     if (st == DYD_OK) st = quad_widen_side(&wide[k].y, bits);
   }
   if (st == DYD_OK) *out = quad_rule_decides(wide);
-  quad_clear(wide);
   return st;
 }
 
 /* About the least bits that decide the quad, which is decided now: at most what its points were asked for. */
 static dyd_status quad_find_need(int64_t *out, const dyd_engine *e, const dyd_quad_sites *q) {
-  dyd_rect r[4];
+  DYD_LOCAL_ARRAY(dyd_rect, r, [4]);
   int64_t hi = 0, lo = 0;
   for (int k = 0; k < 4; k++) {
     const dyd_refinable *p = dyd_engine_find(e, q->v[k]);
     if (p && p->bits > hi) hi = p->bits;
   }
-  quad_init(r);
   dyd_status st = quad_fetch(r, e, q);
   while (st == DYD_OK && hi - lo > MARGIN + hi / 128) {
     int64_t mid = lo + (hi - lo) / 2;
@@ -185,7 +173,6 @@ static dyd_status quad_find_need(int64_t *out, const dyd_engine *e, const dyd_qu
     else
       lo = mid;
   }
-  quad_clear(r);
   *out = hi;
   return st;
 }

@@ -13,6 +13,7 @@
 #include "base/alloc.h"
 #include "base/flag.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "delaunay/disc_filter.h"
 #include "delaunay/index_list.h"
 #include "delaunay/state.h"
@@ -193,48 +194,38 @@ static dyd_status settling_meets(bool *out, settling *s, size_t i, size_t j) {
 
 /* a becomes its end that is farther from v. */
 static dyd_status side_set_far(dyd_interval *a, const dyd_dyadic *v) {
-  dyd_dyadic sum;
-  mpz_t twice, one;
   if (dyd_interval_is_point(a)) return DYD_OK;
-  dyd_dyadic_init(&sum);
-  mpz_init(twice);
-  mpz_init_set_ui(one, 1);
+  DYD_LOCAL(dyd_dyadic, sum);
+  DYD_LOCAL_NUMBERS(mpz, twice, one);
+  mpz_set_ui(one, 1);
   mpz_mul_2exp(twice, a->den, 1);
   dyd_status st = dyd_dyadic_add(&sum, &a->lo, &a->hi);
   if (st == DYD_OK) dyd_interval_set_over(a, dyd_raw_cmp(v, twice, &sum, one) > 0 ? &a->lo : &a->hi, a->den);
-  mpz_clears(twice, one, NULL);
-  dyd_dyadic_clear(&sum);
   return st;
 }
 
 /* The square of the distance from c to the point of r that is nearest to c along x (near[0]) and y (near[1]), or else
  * farthest. */
 static dyd_status rect_reach2(mpq_t out, const dyd_point *c, const dyd_rect *r, const bool near[2]) {
-  dyd_rect s;
-  dyd_rect_init(&s);
+  DYD_LOCAL(dyd_rect, s);
   dyd_rect_set(&s, r);
   dyd_status st = near[0] ? DYD_OK : side_set_far(&s.x, &c->x);
   if (st == DYD_OK && !near[1]) st = side_set_far(&s.y, &c->y);
   dyd_rect_ds2(out, c, &s);
-  dyd_rect_clear(&s);
   return st;
 }
 
 /* Sets *out to whether a point of site k is outside the disc (c, r), wherever it is along narrowable sides. */
 static dyd_status disc_spares(bool *out, const settling *s, const dyd_point *c, const mpq_t radius2, uint32_t k) {
-  mpq_t far2;
-  dyd_rect r;
   dyd_settle_site guess = {.absent = false};
-  mpq_init(far2);
-  dyd_rect_init(&r);
+  DYD_LOCAL_NUMBERS(mpq, far2);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = settling_core(&r, &guess, s, k);
   const double at[2] = {dyd_dyadic_get_d(&c->x, DYD_DOWN), dyd_dyadic_get_d(&c->y, DYD_DOWN)};
   if (st == DYD_OK && guess.disc[2] > 0) st = site_set_point(&r, &guess, at, true);
   const bool near[2] = {!guess.core[0], !guess.core[1]};
   if (st == DYD_OK) st = rect_reach2(far2, c, &r, near);
   *out = st == DYD_OK && mpq_cmp(far2, radius2) >= 0;
-  dyd_rect_clear(&r);
-  mpq_clear(far2);
   return st;
 }
 
@@ -242,12 +233,10 @@ static dyd_status disc_spares(bool *out, const settling *s, const dyd_point *c, 
 static dyd_status end_reach2(mpq_t out, const settling *s, const dyd_point *c, size_t end) {
   const dyd_settle_site *guess = &s->guess[end];
   const double at[2] = {dyd_dyadic_get_d(&c->x, DYD_DOWN), dyd_dyadic_get_d(&c->y, DYD_DOWN)};
-  dyd_rect r;
   if (!(guess->disc[2] > 0)) return rect_reach2(out, c, &s->rect[end], guess->core);
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = site_set_point(&r, guess, at, false);
   dyd_rect_ds2(out, c, &r);
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -268,9 +257,8 @@ static dyd_status settling_hold(bool *any, settling *s, const size_t end[2]) {
  * a radius larger by 2^-41 of it to hold all that the disc around that centre does; radius2 becomes that of this disc.
  */
 static bool disc_is_even(mpq_t radius2, const settling *s, const dyd_point *c, const size_t end[2]) {
-  mpq_t off, most, least, apart;
   double lo, hi;
-  mpq_inits(off, most, least, apart, NULL);
+  DYD_LOCAL_NUMBERS(mpq, off, most, least, apart);
   for (int e = 0; e < 2; e++) {
     dyd_rect_dl2(most, c, &s->rect[end[e]]);
     dyd_rect_ds2(least, c, &s->rect[end[!e]]);
@@ -286,18 +274,15 @@ static bool disc_is_even(mpq_t radius2, const settling *s, const dyd_point *c, c
   bool even = mpq_cmp(off, apart) <= 0;
   mpq_div_2exp(most, radius2, 40);
   mpq_add(radius2, radius2, most);
-  mpq_clears(off, most, least, apart, NULL);
   return even;
 }
 
 /* The same for one end that is a point: it is the farther one. */
 static dyd_status disc_leans(bool *out, const settling *s, const dyd_point *c, size_t beside, size_t other) {
-  mpq_t least, most;
-  mpq_inits(least, most, NULL);
+  DYD_LOCAL_NUMBERS(mpq, least, most);
   dyd_rect_ds2(least, c, &s->rect[beside]);
   dyd_status st = end_reach2(most, s, c, other);
   *out = st == DYD_OK && mpq_cmp(most, least) <= 0;
-  mpq_clears(least, most, NULL);
   return st;
 }
 
@@ -305,9 +290,8 @@ static dyd_status disc_leans(bool *out, const settling *s, const dyd_point *c, s
  * points are that can be narrowed. *met: the sites that meet it. held: sites were marked that need not be outside. */
 static dyd_status disc_joins(bool *out, dyd_index_list *met, const settling *s, const dyd_point *c, const size_t end[2],
                              bool held) {
-  mpq_t radius2, other;
   dyd_status st = DYD_OK;
-  mpq_inits(radius2, other, (mpq_ptr)0);
+  DYD_LOCAL_NUMBERS(mpq, radius2, other);
   for (int k = 0; st == DYD_OK && k < 2; k++) {
     st = end_reach2(other, s, c, end[k]);
     if (mpq_cmp(other, radius2) > 0) mpq_swap(other, radius2);
@@ -324,16 +308,14 @@ static dyd_status disc_joins(bool *out, dyd_index_list *met, const settling *s, 
     if (at == end[0] || at == end[1] || (at != SIZE_MAX && s->guess[at].absent)) continue;
     st = disc_spares(out, s, c, radius2, met->item[k]);
   }
-  mpq_clears(radius2, other, (mpq_ptr)0);
   return st;
 }
 
 /* Examines the disc around a guess; where others than the sites meet it, these become more. */
 static dyd_status settling_join_at(settling *s, dyd_settled_pair *p, const double at[2], const size_t end[2],
                                    bool held) {
-  dyd_index_list met = {0};
-  dyd_point c;
-  dyd_point_init(&c);
+  DYD_SCOPED(dyd_index_list) met = {0};
+  DYD_LOCAL(dyd_point, c);
   dyd_status st = dyd_dyadic_set_d(&c.x, at[0]);
   if (st == DYD_OK) st = dyd_dyadic_set_d(&c.y, at[1]);
   if (st == DYD_OK) st = disc_joins(&p->possible, &met, s, &c, end, held);
@@ -342,8 +324,6 @@ static dyd_status settling_join_at(settling *s, dyd_settled_pair *p, const doubl
     st = settling_append(s, &met);
     if (st == DYD_OK) st = settling_take_rects(s);
   }
-  dyd_index_list_clear(&met);
-  dyd_point_clear(&c);
   return st;
 }
 
@@ -437,17 +417,13 @@ static bool surely_crossed(const dyd_rect r[4]) {
 /* Looks for points that show that the pair is never legal. */
 static dyd_status settling_part(settling *s, dyd_settled_pair *p) {
   dyd_settle_cut cut;
-  dyd_rect r[4];
   size_t i = settling_place(s, p->i), j = settling_place(s, p->j);
   dyd_status st = settling_meets(&p->unsure, s, i, j);
   if (st == DYD_OK && !p->unsure) st = settling_meets(&p->unsure, s, j, i);
   if (st != DYD_OK || p->unsure || !dyd_filter_find_cut(&cut, s->guess, s->site.count, i, j)) return st;
-  for (int k = 0; k < 4; k++) {
-    dyd_rect_init(&r[k]);
-    settling_choose(&r[k], s, cut.site[k], cut.at[k]);
-  }
+  DYD_LOCAL_ARRAY(dyd_rect, r, [4]);
+  for (int k = 0; k < 4; k++) settling_choose(&r[k], s, cut.site[k], cut.at[k]);
   p->unsure = cut.inside ? surely_inside(r) : surely_crossed(r);
-  for (int k = 0; k < 4; k++) dyd_rect_clear(&r[k]);
   return DYD_OK;
 }
 
@@ -548,15 +524,13 @@ static bool surely_beside(const settled_circle *c, dyd_sure way, const dyd_rect 
 /* The same for some choice along the cores of r: its corners are tried. */
 static bool core_is_beside(const settled_circle *c, dyd_sure way, const dyd_rect *r, const bool core[2]) {
   bool found = false;
-  dyd_rect q;
-  dyd_rect_init(&q);
+  DYD_LOCAL(dyd_rect, q);
   for (int k = 0; k < 4 && !found; k++) {
     dyd_rect_set(&q, r);
     if (core[0]) dyd_interval_set_over(&q.x, k & 1 ? &r->x.hi : &r->x.lo, r->x.den);
     if (core[1]) dyd_interval_set_over(&q.y, k & 2 ? &r->y.hi : &r->y.lo, r->y.den);
     found = surely_beside(c, way, &q);
   }
-  dyd_rect_clear(&q);
   return found;
 }
 
@@ -570,8 +544,7 @@ static size_t circle_find(const settling *s, const settled_circle *c, uint32_t s
 /* Need no site but members be inside of the circle, or beyond the line from the side `way`? */
 static dyd_status circle_is_empty(bool *out, const settling *s, const settled_circle *c, dyd_sure way) {
   dyd_status st = DYD_OK;
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   *out = true;
   for (uint32_t k = 0; st == DYD_OK && *out && k < dyd_sites_count(s->e->sites); k++) {
     dyd_settle_site guess = {.absent = false};
@@ -580,7 +553,6 @@ static dyd_status circle_is_empty(bool *out, const settling *s, const settled_ci
     st = settling_core(&r, &guess, s, k);
     *out = st == DYD_OK && core_is_beside(c, way, &r, guess.core);
   }
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -683,21 +655,19 @@ static dyd_status settling_circles(settling *s) {
 static dyd_status settling_begin(settling *s, const dyd_index_list *face) {
   dyd_status st = settling_append(s, face);
   for (size_t k = 0; st == DYD_OK && k < face->count; k++) {
-    dyd_index_list ring = {0};
+    DYD_SCOPED(dyd_index_list) ring = {0};
     st = dyd_delaunay_neighbours(&ring, s->e->pd, face->item[k], DYD_LEGAL);
     if (st == DYD_OK) st = settling_append(s, &ring);
-    dyd_index_list_clear(&ring);
   }
   return st == DYD_OK ? settling_take_rects(s) : st;
 }
 
 dyd_status dyd_settle_face(dyd_settled_pair *pair, dyd_settle_work *work, const dyd_settled *known, const dyd_engine *e,
                            size_t pairs, const dyd_index_list *face) {
-  settling s = {.e = e, .pair = pair, .pairs = pairs, .work = work, .known = known};
+  DYD_SCOPED(settling) s = {.e = e, .pair = pair, .pairs = pairs, .work = work, .known = known};
   dyd_status st = settling_begin(&s, face);
   if (st == DYD_OK && s.mixed) st = settling_run(&s);
   if (st == DYD_OK && s.mixed && known && known->prover.prove) st = settling_circles(&s);
-  settling_clear(&s);
   return st;
 }
 
@@ -722,13 +692,8 @@ void dyd_settled_clear(dyd_settled *s) {
 
 /* ---- pairs settled ---- */
 
-static const dyd_settled_pair *settled_find(const dyd_settled *s, uint32_t i, uint32_t j) {
-  const dyd_settled_pair key = {.i = i, .j = j};
-  return s->count ? bsearch(&key, s->item, s->count, sizeof key, dyd_compare_two) : NULL;
-}
-
 bool dyd_is_settled(const dyd_settled *s, const dyd_pair *pair) {
-  const dyd_settled_pair *p = settled_find(s, pair->i, pair->j);
+  const dyd_settled_pair *p = dyd_find_two(pair, s->item, s->count, sizeof *p);
   return p && dyd_pair_is_settled(p);
 }
 
@@ -782,26 +747,25 @@ static bool any_can_narrow(const dyd_engine *e, const dyd_index_list *site) {
 
 /* Returns true if the list has another status for the pair; NULL has none. */
 static bool is_decided(const dyd_pair_list *list, const dyd_pair *pair) {
-  const dyd_pair *p = list && list->count ? bsearch(pair, list->item, list->count, sizeof *p, dyd_compare_two) : NULL;
+  const dyd_pair *p = list ? dyd_find_two(pair, list->item, list->count, sizeof *p) : NULL;
   return list && (!p || p->status != DYD_INDETERMINATE);
 }
 
 /* Appends the indeterminate pairs of face f that are not settled: those of firm sites, or all. */
 static dyd_status take_pairs(dyd_settled *out, const dyd_settled *known, const dyd_engine *e, const dyd_dyadic *eps,
                              size_t f, bool firm) {
-  dyd_pair_list all = {0};
+  DYD_SCOPED(dyd_pair_list) all = {0};
   dyd_status st = dyd_delaunay_face_pairs(&all, e->pd, f);
   if (st == DYD_OK && !DYD_GROW(out->item, out->cap, out->count + all.count)) st = DYD_E_NOMEM;
   for (size_t k = 0; st == DYD_OK && k < all.count; k++) {
     const dyd_pair *pair = &all.item[k];
-    const dyd_settled_pair *old = settled_find(known, pair->i, pair->j);
+    const dyd_settled_pair *old = dyd_find_two(pair, known->item, known->count, sizeof *old);
     bool both;
     if (pair->status != DYD_INDETERMINATE || is_decided(known->discs, pair) || (old && dyd_pair_is_settled(old)))
       continue;
     st = dyd_firm_pair(&both, e, eps, pair);
     if (both || !firm) out->item[out->count++] = old ? *old : (dyd_settled_pair){pair->i, pair->j, false, false};
   }
-  dyd_pair_list_clear(&all);
   return st;
 }
 
@@ -809,13 +773,12 @@ static dyd_status take_pairs(dyd_settled *out, const dyd_settled *known, const d
 static dyd_status settle_face_pairs(dyd_settled *fresh, dyd_settled *s, dyd_settle_work *work, const dyd_engine *e,
                                     const dyd_dyadic *eps, size_t f, bool firm) {
   size_t first = fresh->count;
-  dyd_index_list face = {0};
+  DYD_SCOPED(dyd_index_list) face = {0};
   bool outer;
   dyd_status st = dyd_delaunay_face(&face, &outer, e->pd, f);
   if (st == DYD_OK && any_can_narrow(e, &face)) st = take_pairs(fresh, s, e, eps, f, firm);
   if (st == DYD_OK && !firm && fresh->count > first)
     st = dyd_settle_face(&fresh->item[first], work, s, e, fresh->count - first, &face);
-  dyd_index_list_clear(&face);
   return st;
 }
 
@@ -840,8 +803,7 @@ static dyd_status settle_pairs(dyd_settled *fresh, dyd_settled *s, const dyd_pla
   const dyd_engine *e = plan->e;
   dyd_settle_work work = {WORK + WORK_PER_SITE * dyd_sites_count(e->sites), PROOFS};
   size_t faces = dyd_delaunay_undecided_faces(e->pd);
-  dyd_dyadic eps;
-  dyd_dyadic_init(&eps);
+  DYD_LOCAL(dyd_dyadic, eps);
   dyd_status st = dyd_firm_eps(&eps, e);
   for (size_t f = 0; st == DYD_OK && f < faces && !s->discs; f++)
     st = settle_face_pairs(fresh, s, &work, e, &eps, f, true);
@@ -849,23 +811,20 @@ static dyd_status settle_pairs(dyd_settled *fresh, dyd_settled *s, const dyd_pla
   if (st == DYD_OK) st = settled_append(s, fresh); /* what firm sites do not settle, a point at a corner may */
   for (size_t f = 0; st == DYD_OK && work.sites && f < faces; f++)
     st = settle_face_pairs(fresh, s, &work, e, &eps, f, false);
-  dyd_dyadic_clear(&eps);
   return st;
 }
 
 /* Sets *out to whether a point that can be narrowed has a core. */
 static dyd_status any_core(bool *out, const dyd_engine *e) {
   dyd_status st = DYD_OK;
-  dyd_rect r;
   *out = false;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   for (size_t k = 0; st == DYD_OK && !*out && k < e->points; k++) {
     bool core[2];
     if (e->point[k].final) continue;
     st = dyd_site_get_core(&r, core, e, e->point[k].site);
     *out = st == DYD_OK && core[0] && core[1];
   }
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -878,13 +837,11 @@ static dyd_status settle_is_due(bool *out, const dyd_settled *s, const dyd_plan 
 
 dyd_status dyd_settle(dyd_settled *s, const dyd_plan *plan) {
   int64_t bits = most_bits(plan->e);
-  dyd_settled fresh = {0};
+  DYD_SCOPED(dyd_settled) fresh = {0};
   bool due;
   dyd_status st = settle_is_due(&due, s, plan, bits);
   if (st != DYD_OK || !due) return st;
   s->next = dyd_bits_raised(bits, bits > 0 ? 3 * bits : 0, INT64_MAX);
   st = settle_pairs(&fresh, s, plan);
-  if (st == DYD_OK) st = settled_append(s, &fresh);
-  dyd_settled_clear(&fresh);
-  return st;
+  return st == DYD_OK ? settled_append(s, &fresh) : st;
 }

@@ -5,6 +5,7 @@
  * when the farther of i and j is then nearer to c than all others, wherever those are that cannot be chosen. */
 #include "engine/settle_filter.h"
 
+#include "base/local.h"
 #include "engine/settle.h"
 
 #include "legal/lp_filter.h"
@@ -454,8 +455,7 @@ void dyd_filter_lean(double c[2], const dyd_settle_site *site, size_t beside, si
 /* Along one axis: *mid, the middle of the core, and *half, a little less than half of it, as doubles; false where the
  * core is more than 2^-34 of it smaller than the side, or in doubles. */
 static bool side_get_disc(double *mid, double *half, const dyd_interval *core, const dyd_interval *whole) {
-  mpq_t lo, hi, from, to;
-  mpq_inits(lo, hi, from, to, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi, from, to);
   dyd_interval_get_q(lo, hi, core);
   dyd_interval_get_q(from, to, whole);
   mpq_sub(to, to, from);
@@ -465,17 +465,13 @@ static bool side_get_disc(double *mid, double *half, const dyd_interval *core, c
   mpq_mul_2exp(to, to, 34);
   *mid = mpq_get_d(from) / 2;
   *half = mpq_get_d(hi) / 2 * (1 - 0x1p-30);
-  bool good = mpq_cmp(to, hi) <= 0 && *half > 0x1p-500 && *half < 0x1p500 && fabs(*mid) <= 0x1p20 * *half;
-  mpq_clears(lo, hi, from, to, NULL);
-  return good;
+  return mpq_cmp(to, hi) <= 0 && *half > 0x1p-500 && *half < 0x1p500 && fabs(*mid) <= 0x1p20 * *half;
 }
 
 dyd_status dyd_disc_get_core(double disc[3], const dyd_engine *e, uint32_t site) {
   bool core[2];
   double half = 0;
-  dyd_rect whole, r;
-  dyd_rect_init(&whole);
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, whole, r);
   disc[2] = 0;
   dyd_status st = dyd_sites_get(&whole, e->sites, site);
   if (st == DYD_OK) st = dyd_site_get_core(&r, core, e, site);
@@ -484,7 +480,5 @@ dyd_status dyd_disc_get_core(double disc[3], const dyd_engine *e, uint32_t site)
     disc[2] = half < disc[2] ? half : disc[2];
   else
     disc[2] = 0;
-  dyd_rect_clear(&r);
-  dyd_rect_clear(&whole);
   return st;
 }

@@ -13,6 +13,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "delaunay/memory.h"
 #include "engine/points.h"
 #include "engine/settle.h"
@@ -82,7 +83,7 @@ static dyd_status try_pair(bool *any, dyd_engine *e, const candidate *a, const c
 
 /* A sweep from left to right over the described sites. */
 static dyd_status try_group(bool *any, dyd_engine *e, const uint32_t *site, size_t count, dyd_error *err) {
-  candidate *c = dyd_alloc(count, sizeof *c);
+  DYD_FREED candidate *c = dyd_alloc(count, sizeof *c);
   size_t n = 0;
   dyd_status st = c ? DYD_OK : dyd_fail_nomem(err);
   for (size_t k = 0; k < count && c; k++) n += candidate_set(&c[n], e, site[k]);
@@ -90,19 +91,17 @@ static dyd_status try_group(bool *any, dyd_engine *e, const uint32_t *site, size
   for (size_t k = 0; k < n && st == DYD_OK; k++)
     for (size_t l = k + 1; l < n && c[l].box[0] <= c[k].box[1] && st == DYD_OK; l++)
       st = dyd_flag_get(&e->stop) ? DYD_CANCELLED : try_pair(any, e, &c[k], &c[l], err);
-  free(c);
   return st;
 }
 
 /* Two sites without others, aliases apart, may be joined by a legal edge alone. */
 static dyd_status try_last_pair(bool *any, dyd_engine *e, const dyd_delaunay *pd, dyd_error *err) {
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   size_t count[4];
   dyd_delaunay_count(count, pd);
   if (count[DYD_LEGAL] != 1) return DYD_OK;
   dyd_status st = dyd_pairs_list(&pairs, pd, DYD_TIE);
   if (st == DYD_OK && pairs.count == 1) st = try_group(any, e, (uint32_t[]){pairs.item->i, pairs.item->j}, 2, err);
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 
@@ -113,11 +112,10 @@ dyd_status dyd_aliases_find(bool *any, dyd_engine *e, const dyd_delaunay *pd, dy
   if (e->points == 0) return DYD_OK;
   if (faces == 0) return try_last_pair(any, e, pd, err);
   for (size_t f = 0; f < faces && st == DYD_OK; f++) {
-    dyd_index_list sites = {0};
+    DYD_SCOPED(dyd_index_list) sites = {0};
     bool outer;
     st = dyd_delaunay_face(&sites, &outer, pd, f);
     if (st == DYD_OK) st = try_group(any, e, sites.item, sites.count, err);
-    dyd_index_list_clear(&sites);
   }
   return st;
 }
@@ -188,11 +186,9 @@ dyd_status dyd_ties_describe(dyd_form_point *out, dyd_forms *f, const dyd_engine
     return DYD_OK;
   }
   if (!dyd_sites_is_point(e->sites, i)) return DYD_OK;
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_sites_get(&r, e->sites, i);
   if (st == DYD_OK) *out = dyd_forms_rect(f, &r);
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -224,11 +220,9 @@ static dyd_status place_choose(dyd_rect *r, bool *chosen, const dyd_engine *e, c
 
 static dyd_status describe_place(dyd_form_point *out, dyd_forms *f, const dyd_engine *e, const dyd_site_place *at) {
   bool chosen;
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = place_choose(&r, &chosen, e, at);
   if (st == DYD_OK && chosen) *out = dyd_forms_rect(f, &r);
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -249,30 +243,24 @@ static dyd_status describe_region(dyd_form_point *out, mpq_t sum[2], question *q
   const dyd_refinable *p = dyd_engine_find(q->e, site);
   const bool still = !p || p->final;
   dyd_status st = DYD_OK;
-  dyd_rect r;
-  mpq_t half[2];
-  mpq_inits(half[0], half[1], NULL);
-  dyd_rect_init(&r);
+  DYD_LOCAL_ARRAY(mpq_t, half, [2]);
+  DYD_LOCAL(dyd_rect, r);
   *out = (dyd_form_point){DYD_NONE, DYD_NONE};
   if (still) st = dyd_sites_get(&r, q->e->sites, site);
   if (still && st == DYD_OK) *out = dyd_forms_middle(&q->algebra.forms, half, &r);
   if (!still && p->stream && !p->measured) *out = dyd_forms_region(&q->algebra.forms, half, p->stream);
   bool less = mpq_cmp(half[0], half[1]) < 0;
   for (int a = 0; a < 2; a++) mpq_add(sum[a], sum[a], half[q->discs ? !less : a]);
-  dyd_rect_clear(&r);
-  mpq_clears(half[0], half[1], NULL);
   return st;
 }
 
 static dyd_status describe_regions(bool *known, question *q) {
-  mpq_t sum[2];
-  mpq_inits(sum[0], sum[1], NULL);
+  DYD_LOCAL_ARRAY(mpq_t, sum, [2]);
   dyd_status st = describe_region(&q->at[0], sum, q, q->site[0]);
   if (st == DYD_OK) st = describe_region(&q->at[1], sum, q, q->site[1]);
   for (int a = 0; a < 2; a++) *(a ? &q->at[2].y : &q->at[2].x) = dyd_forms_number(&q->algebra.forms, sum[a]);
   *known = st == DYD_OK && is_described(&q->at[0]) && is_described(&q->at[1]) && is_described(&q->at[2]) &&
            !q->algebra.forms.opaque;
-  mpq_clears(sum[0], sum[1], NULL);
   return st;
 }
 
@@ -392,11 +380,9 @@ static bool put_zeros(question *q) {
 /* Differences of coordinates are below 2^this in absolute value. */
 static int64_t question_scale(question *q) {
   dyd_forms *f = &q->algebra.forms;
-  arb_t d;
-  arf_t most;
   int64_t scale = INT64_MIN;
-  arb_init(d);
-  arf_init(most);
+  DYD_LOCAL_NUMBERS(arb, d);
+  DYD_LOCAL_NUMBERS(arf, most);
   for (size_t k = 0; k < 2 * described_points(q); k++) {
     uint32_t of = k & 1 ? q->at[k / 2].y : q->at[k / 2].x, from = k & 1 ? q->at[0].y : q->at[0].x;
     arb_sub(d, dyd_forms_value(f, of, DYD_ZERO_FIRST_BITS), dyd_forms_value(f, from, DYD_ZERO_FIRST_BITS),
@@ -406,8 +392,6 @@ static int64_t question_scale(question *q) {
     int64_t size = (int64_t)fmpz_get_si(ARF_EXPREF(most));
     if (size > scale) scale = size;
   }
-  arf_clear(most);
-  arb_clear(d);
   return scale == INT64_MIN ? 0 : scale;
 }
 

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/flag.h"
 #include "base/float_filter.h"
+#include "base/local.h"
 #include "delaunay/state.h"
 #include "rect/sites_table.h"
 
@@ -26,8 +27,7 @@ static dyd_status graph_add(dyd_graph_work *w, uint32_t i, uint32_t j, bool sure
 
 /* Adds the square of what counts along one side. */
 static void add_side2(mpq_ptr sum, const dyd_interval *a, const dyd_interval *b, bool largest) {
-  mpq_t alo, ahi, blo, bhi;
-  mpq_inits(alo, ahi, blo, bhi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, alo, ahi, blo, bhi);
   dyd_interval_get_q(alo, ahi, a);
   dyd_interval_get_q(blo, bhi, b);
   mpq_sub(ahi, ahi, blo); /* how far a reaches beyond b, and b beyond a */
@@ -38,21 +38,16 @@ static void add_side2(mpq_ptr sum, const dyd_interval *a, const dyd_interval *b,
     mpq_mul(d, d, d);
     mpq_add(sum, sum, d);
   }
-  mpq_clears(alo, ahi, blo, bhi, NULL);
 }
 
 static void exact_length(mpq_ptr out, const dyd_length *l) {
   const dyd_pair *p = &l->of->pairs.item[l->pair];
-  dyd_rect a, b;
-  dyd_rect_init(&a);
-  dyd_rect_init(&b);
+  DYD_LOCAL(dyd_rect, a, b);
   dyd_sites_get(&a, l->of->sites, p->i);
   dyd_sites_get(&b, l->of->sites, p->j);
   mpq_set_ui(out, 0, 1);
   add_side2(out, &a.x, &b.x, l->largest);
   add_side2(out, &a.y, &b.y, l->largest);
-  dyd_rect_clear(&b);
-  dyd_rect_clear(&a);
 }
 
 /* Sign of a - b. */
@@ -61,13 +56,10 @@ static int length_compare(const dyd_length *a, const dyd_length *b) {
   if (b->hi < a->lo) return 1;
   if (a->lo == a->hi && b->lo == b->hi) return 0;
   if (a->pair == b->pair && a->largest == b->largest) return 0;
-  mpq_t x, y;
-  mpq_inits(x, y, NULL);
+  DYD_LOCAL_NUMBERS(mpq, x, y);
   exact_length(x, a);
   exact_length(y, b);
-  int sign = mpq_cmp(x, y);
-  mpq_clears(x, y, NULL);
-  return sign;
+  return mpq_cmp(x, y);
 }
 
 /* By length; for qsort. */
@@ -81,9 +73,9 @@ static int length_order(const void *a, const void *b) {
  * about that one, so a hub takes time by its degree. */
 static dyd_status nearest_of_point(dyd_graph_work *w, uint32_t i) {
   dyd_reach *r = &w->reach;
-  mpz_t least[2], own; /* the two least of dl^2 */
+  DYD_LOCAL_ARRAY(mpz_t, least, [2]); /* the two least of dl^2 */
+  DYD_LOCAL_NUMBERS(mpz, own);
   size_t who = 0;
-  mpz_inits(least[0], least[1], own, NULL);
   dyd_status st = DYD_OK;
   for (size_t k = 1; k < r->count; k++) {
     dyd_irect_dl2(own, r->grid[0].x0, r->grid[0].y0, &r->grid[k]);
@@ -98,7 +90,6 @@ static dyd_status nearest_of_point(dyd_graph_work *w, uint32_t i) {
     bool sure = who == k && dyd_reach_is_nearest(r, k);
     st = graph_add(w, i, w->other[k - 1], sure);
   }
-  mpz_clears(least[0], least[1], own, NULL);
   return st;
 }
 

@@ -15,6 +15,7 @@
 #include "graph/graph.h"
 
 #include "base/alloc.h"
+#include "base/local.h"
 
 /* ---- polygons in a box ---- */
 
@@ -39,8 +40,7 @@ static void clip_clear(dyd_clip *c) {
 
 /* The largest level in the box against the least distance of the point to the box, both squared. */
 static bool is_far(const dyd_clip *c, mpz_srcptr x, mpz_srcptr y) {
-  mpz_t most, d, t;
-  mpz_inits(most, d, t, NULL);
+  DYD_LOCAL_NUMBERS(mpz, most, d, t);
   for (int axis = 0; axis < 2; axis++) {
     mpz_sub(d, dyd_irect_end(c->box, axis, 0), c->level[axis]);
     mpz_sub(t, dyd_irect_end(c->box, axis, 1), c->level[axis]);
@@ -48,9 +48,7 @@ static bool is_far(const dyd_clip *c, mpz_srcptr x, mpz_srcptr y) {
     if (!c->flat[axis]) mpz_addmul(most, longer, longer);
   }
   dyd_irect_ds2(d, x, y, c->box);
-  bool far = mpz_cmp(d, most) >= 0;
-  mpz_clears(most, d, t, NULL);
-  return far;
+  return mpz_cmp(d, most) >= 0;
 }
 
 /* Adds a point, unless it is far enough from everywhere in the box. false: memory is exhausted. */
@@ -101,8 +99,7 @@ static bool polygon_box(clip_polygon *p, const dyd_irect *box) {
 
 /* *out = 2 (k - l).m + |l|^2 - |k|^2: at least 0 where k is as near as l. */
 static void nearer_by(mpq_ptr out, const clip_corner *m, const dyd_clip_point *k, const dyd_clip_point *l) {
-  mpq_t s, t;
-  mpq_inits(s, t, NULL);
+  DYD_LOCAL_NUMBERS(mpq, s, t);
   mpq_set_ui(out, 0, 1);
   for (int axis = 0; axis < 2; axis++) {
     mpz_sub(mpq_numref(s), k->at[axis], l->at[axis]);
@@ -114,15 +111,13 @@ static void nearer_by(mpq_ptr out, const clip_corner *m, const dyd_clip_point *k
     mpq_add(out, out, s);
     mpq_set_ui(t, 0, 1);
   }
-  mpq_clears(s, t, NULL);
 }
 
 /* Adds the place between a and b where a value that is f at a and g at b, of opposite signs, is 0. */
 static bool polygon_between(clip_polygon *p, const clip_corner *a, const clip_corner *b, mpq_srcptr f, mpq_srcptr g) {
-  mpq_t w, t;
   clip_corner *to = polygon_add(p);
   if (!to) return false;
-  mpq_inits(w, t, NULL);
+  DYD_LOCAL_NUMBERS(mpq, w, t);
   mpq_sub(w, f, g);
   mpq_div(w, f, w);
   for (int axis = 0; axis < 2; axis++) {
@@ -130,7 +125,6 @@ static bool polygon_between(clip_polygon *p, const clip_corner *a, const clip_co
     mpq_mul(t, t, w);
     mpq_add(to->at[axis], a->at[axis], t);
   }
-  mpq_clears(w, t, NULL);
   return true;
 }
 
@@ -142,9 +136,8 @@ static bool polygon_keep(clip_polygon *p, const clip_corner *a) {
 
 /* The part of `from` that is as near to k as to l. */
 static bool polygon_cut(clip_polygon *to, const clip_polygon *from, const dyd_clip_point *k, const dyd_clip_point *l) {
-  mpq_t f, g;
   bool good = true;
-  mpq_inits(f, g, NULL);
+  DYD_LOCAL_NUMBERS(mpq, f, g);
   to->count = 0;
   for (size_t q = 0; q < from->count && good; q++) {
     const clip_corner *a = &from->corner[q], *b = &from->corner[(q + 1) % from->count];
@@ -153,14 +146,12 @@ static bool polygon_cut(clip_polygon *to, const clip_polygon *from, const dyd_cl
     if (mpq_sgn(f) >= 0) good = polygon_keep(to, a);
     if (good && mpq_sgn(f) * mpq_sgn(g) < 0) good = polygon_between(to, a, b, f, g);
   }
-  mpq_clears(f, g, NULL);
   return good;
 }
 
 /* Returns true if the point k is as far as the level. */
 static bool corner_has_room(const dyd_clip *c, const clip_corner *m, const dyd_clip_point *k) {
-  mpq_t sum, t;
-  mpq_inits(sum, t, NULL);
+  DYD_LOCAL_NUMBERS(mpq, sum, t);
   for (int axis = 0; axis < 2; axis++) {
     mpq_set_z(t, k->at[axis]);
     mpq_sub(t, m->at[axis], t);
@@ -171,9 +162,7 @@ static bool corner_has_room(const dyd_clip *c, const clip_corner *m, const dyd_c
     mpq_mul(t, t, t);
     if (!c->flat[axis]) mpq_sub(sum, sum, t);
   }
-  bool room = mpq_sgn(sum) >= 0;
-  mpq_clears(sum, t, NULL);
-  return room;
+  return mpq_sgn(sum) >= 0;
 }
 
 /* Where k is the nearest of all: a polygon, cut by one bisector after another. The squared distance to k less the
@@ -282,9 +271,8 @@ static void least_product(mpz_ptr least, mpz_ptr z, mpz_ptr t, const dyd_irect *
 /* p_k is outside of the disc with diameter p_i p_j iff (p_k - p_i).(p_k - p_j) > 0: a sum over both coordinates, each
  * with its own variables. */
 bool dyd_reach_is_gabriel(dyd_reach *r, size_t j) {
-  mpz_t z;
   bool free_of_all = true;
-  mpz_init(z);
+  DYD_LOCAL_NUMBERS(mpz, z);
   for (size_t k = 1; k < r->count && free_of_all; k++) {
     if (k == j) continue;
     least_product(r->d, z, r->rho, &r->grid[0], &r->grid[j], &r->grid[k], 0);
@@ -292,7 +280,6 @@ bool dyd_reach_is_gabriel(dyd_reach *r, size_t j) {
     mpz_add(r->d, r->d, r->e);
     free_of_all = mpz_sgn(r->d) > 0;
   }
-  mpz_clear(z);
   return free_of_all;
 }
 
@@ -403,8 +390,8 @@ static bool rho_form(mpz_ptr e, mpz_ptr t, const reach_quest *q, const dyd_irect
 static bool leaf_has_room(reach_quest *q, const dyd_irect *box) {
   dyd_reach *r = q->r;
   dyd_clip c = {.box = box};
-  mpz_t t, middle;
-  mpz_inits(c.level[0], c.level[1], t, middle, NULL);
+  DYD_LOCAL_NUMBERS(mpz, t, middle);
+  mpz_inits(c.level[0], c.level[1], NULL);
   for (int axis = 0; axis < 2; axis++) c.flat[axis] = !rho_form(c.level[axis], t, q, box, axis);
   for (size_t k = 1; k < r->count && !q->failed; k++) {
     if (k == q->j) continue;
@@ -420,23 +407,20 @@ static bool leaf_has_room(reach_quest *q, const dyd_irect *box) {
   bool room = false;
   q->failed = q->failed || !clip_has_room(&room, &c);
   clip_clear(&c);
-  mpz_clears(t, middle, NULL);
   return room;
 }
 
 static bool box_has_room(reach_quest *q, const dyd_irect *box);
 
 static bool half_has_room(reach_quest *q, const dyd_irect *box, int axis, mpz_srcptr at) {
-  dyd_irect half;
   bool room = false;
-  dyd_irect_init(&half);
+  DYD_LOCAL(dyd_irect, half);
   for (int side = 0; side < 2 && !room; side++) {
     mpz_set(half.x0, box->x0), mpz_set(half.x1, box->x1);
     mpz_set(half.y0, box->y0), mpz_set(half.y1, box->y1);
     mpz_set(axis ? (side ? half.y0 : half.y1) : (side ? half.x0 : half.x1), at);
     room = box_has_room(q, &half);
   }
-  dyd_irect_clear(&half);
   return room;
 }
 
@@ -444,8 +428,7 @@ static bool half_has_room(reach_quest *q, const dyd_irect *box, int axis, mpz_sr
 static bool box_has_room(reach_quest *q, const dyd_irect *box) {
   if (q->failed) return false;
   if (has_free_corner(q, box)) return true;
-  mpz_t at;
-  mpz_init(at);
+  DYD_LOCAL_NUMBERS(mpz, at);
   bool room = false, covered = false;
   int axis = find_cut(at, q, box);
   for (size_t k = 1; axis < 0 && k < q->r->count; k++) covered = covered || q->r->mark[k];
@@ -454,7 +437,6 @@ static bool box_has_room(reach_quest *q, const dyd_irect *box) {
     room = half_has_room(q, box, axis, at);
   else if (!covered)
     room = leaf_has_room(q, box);
-  mpz_clear(at);
   return room;
 }
 
@@ -491,14 +473,11 @@ bool dyd_reach_may_be_nearest(dyd_reach *r, size_t j) {
 bool dyd_reach_may_be_gabriel(dyd_reach *r, size_t j) {
   reach_quest q = {.r = r, .j = j, .both = true};
   const dyd_irect *a = &r->grid[0], *b = &r->grid[j];
-  dyd_irect middle;
-  dyd_irect_init(&middle);
+  DYD_LOCAL(dyd_irect, middle);
   mpz_ptr end[4] = {middle.x0, middle.x1, middle.y0, middle.y1};
   for (int k = 0; k < 4; k++) {
     mpz_add(end[k], dyd_irect_end(a, k / 2, k % 2), dyd_irect_end(b, k / 2, k % 2));
     mpz_fdiv_q_2exp(end[k], end[k], 1);
   }
-  bool may = quest_has_room(&q, &middle);
-  dyd_irect_clear(&middle);
-  return may;
+  return quest_has_room(&q, &middle);
 }
