@@ -6,6 +6,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "checker/bounds.h"
 #include "delaunay/memory.h"
 #include "io/output.h"
@@ -48,8 +49,7 @@ static void proof_clear(dyd_proof *p) {
 
 /* Legal pairs with a witness become edges; the others stay in the list of pairs only. */
 static dyd_status proof_gather_legal(dyd_proof *p) {
-  dyd_point c;
-  dyd_point_init(&c);
+  DYD_LOCAL(dyd_point, c);
   dyd_status st = dyd_delaunay_pairs(&p->pairs, p->pd);
   for (size_t k = 0; k < p->pairs.count && st == DYD_OK; k++) {
     const dyd_pair *pair = &p->pairs.item[k];
@@ -60,7 +60,6 @@ static dyd_status proof_gather_legal(dyd_proof *p) {
     if (st == DYD_E_RANGE) st = DYD_OK;
     if (st == DYD_OK && found) st = dyd_cert_edges_add(&p->legal, pair->i, pair->j);
   }
-  dyd_point_clear(&c);
   return st;
 }
 
@@ -114,8 +113,7 @@ static void certificate_corners(FILE *out, const dyd_proof *p) {
 
 /* Sets *fits: do the bounds of area and distance hold for the rectangles stated, which may be rounded? */
 static void bounds_check(bool fits[2], const dyd_proof *p, const dyd_exact bound[2]) {
-  dyd_cert_bounds b;
-  dyd_cert_bounds_init(&b);
+  DYD_LOCAL(dyd_cert_bounds, b);
   b.hausdorff = &bound[1];
   for (size_t e = 0; e < p->legal.count; e++)
     dyd_cert_bounds_add(&b, &p->sites, p->legal.item[e].i, p->legal.item[e].j, true);
@@ -123,14 +121,12 @@ static void bounds_check(bool fits[2], const dyd_proof *p, const dyd_exact bound
     dyd_cert_bounds_add(&b, &p->sites, p->open.item[e].i, p->open.item[e].j, false);
   fits[0] = dyd_cert_bounds_area_holds(&b, &bound[0]);
   fits[1] = !b.exceeded;
-  dyd_cert_bounds_clear(&b);
 }
 
 /* Raises the bounds of rectangles that are stated rounded: by 2^-60 of each, by 16 times as much, and so on. */
 static void bounds_raise(dyd_exact bound[2], const dyd_proof *p) {
-  dyd_exact more;
   bool fits[2];
-  dyd_exact_init(&more);
+  DYD_LOCAL(dyd_exact, more);
   for (int64_t exp = -60; exp < 0 && (bounds_check(fits, p, bound), !fits[0] || !fits[1]); exp += 4)
     for (int k = 0; k < 2; k++) {
       if (fits[k]) continue;
@@ -138,15 +134,11 @@ static void bounds_raise(dyd_exact bound[2], const dyd_proof *p) {
       more.exp = dyd_exact_top(&bound[k]) + exp;
       dyd_exact_add(&bound[k], &bound[k], &more);
     }
-  dyd_exact_clear(&more);
 }
 
 static dyd_status certificate_end(FILE *out, const dyd_proof *p) {
-  dyd_dyadic area, hausdorff;
-  dyd_exact bound[2];
-  dyd_dyadic_init(&area);
-  dyd_dyadic_init(&hausdorff);
-  dyd_proof_init(bound, 2);
+  DYD_LOCAL_ARRAY(dyd_exact, bound, [2]);
+  DYD_LOCAL(dyd_dyadic, area, hausdorff);
   fprintf(out, "triangles %zu\nunproved %" PRIu64 "\n", p->faces.triangles, p->unproved);
   dyd_status st = dyd_engine_bounds(&area, &hausdorff, p->engine);
   if (st == DYD_OK) {
@@ -157,9 +149,6 @@ static dyd_status certificate_end(FILE *out, const dyd_proof *p) {
   } else {
     fputs("area none\nhausdorff none\n", out);
   }
-  dyd_proof_clear(bound, 2);
-  dyd_dyadic_clear(&area);
-  dyd_dyadic_clear(&hausdorff);
   return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
@@ -191,7 +180,7 @@ static dyd_status certificate_sections(FILE *out, dyd_proof *p, const subject *o
 
 /* The pairs of sites of one undecided face each. */
 static dyd_status pairs_of_faces(uint64_t *out, const dyd_delaunay *pd) {
-  dyd_index_list sites = {0};
+  DYD_SCOPED(dyd_index_list) sites = {0};
   dyd_status st = DYD_OK;
   *out = 0;
   for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd) && st == DYD_OK; f++) {
@@ -199,7 +188,6 @@ static dyd_status pairs_of_faces(uint64_t *out, const dyd_delaunay *pd) {
     st = dyd_delaunay_face(&sites, &outer, pd, f);
     if (st == DYD_OK && sites.count) *out += (uint64_t)sites.count * (sites.count - 1) / 2;
   }
-  dyd_index_list_clear(&sites);
   return st;
 }
 

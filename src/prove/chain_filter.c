@@ -5,6 +5,8 @@
  * next one that overlaps it, with a point in each overlap. Rounding errors only make the search fail: a chain found is
  * shortened and kept if the exact checker takes it. */
 #include "prove/proof.h"
+
+#include "base/local.h"
 #include <math.h>
 
 #define STEPS 16  /* bisections along the curve */
@@ -294,8 +296,7 @@ dyd_status dyd_proof_find_chain(bool *found, dyd_cert_chain *out, const dyd_proo
   curve c;
   *found = false;
   if (!make_curve(&c, p, i, j)) return DYD_OK;
-  dyd_cert_chain chain;
-  dyd_cert_chain_init(&chain);
+  DYD_LOCAL(dyd_cert_chain, chain);
   bool good = true;
   for (int k = 0; k < 2; k++) {
     xy u = end_direction(&c, k ? 1 : -1);
@@ -303,6 +304,5 @@ dyd_status dyd_proof_find_chain(bool *found, dyd_cert_chain *out, const dyd_proo
   }
   dyd_status st = DYD_OK;
   if (good && chain_walk(&chain, &c, i, j, near, count)) st = keep_shortest(found, out, &chain, &c, i, j);
-  dyd_cert_chain_clear(&chain);
   return st;
 }

@@ -5,6 +5,7 @@
  * checker's own tests reject is not written. */
 #include "base/alloc.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "checker/checker.h"
 #include "checker/parts.h"
 #include "delaunay/state.h"
@@ -12,6 +13,8 @@
 #include "prove/proof.h"
 
 #include <inttypes.h>
+
+DYD_ARRAYS(dyd_cert_fraction)
 
 /* Corners of a certificate: a direction in which a site is certainly beyond the parts of the rim on either side.
  *
@@ -31,7 +34,7 @@ static dyd_status make_rim(rim *r, const dyd_proof *p) {
   r->site = dyd_alloc(r->count, sizeof *r->site);
   if (!r->site) return DYD_E_NOMEM;
   for (size_t q = 0; q < r->count; q++) r->site[q] = dyd_cert_origin(&p->graph, r->walk[q]);
-  uint32_t *copy = dyd_alloc(r->count, sizeof *copy), *times = calloc(p->sites.count, sizeof *times);
+  DYD_FREED uint32_t *copy = dyd_alloc(r->count, sizeof *copy), *times = calloc(p->sites.count, sizeof *times);
   r->corner = dyd_alloc(p->sites.count, sizeof *r->corner);
   size_t kept = 0;
   if (copy && times && r->corner) {
@@ -43,7 +46,6 @@ static dyd_status make_rim(rim *r, const dyd_proof *p) {
   } else {
     st = DYD_E_NOMEM;
   }
-  dyd_free_all(copy, times);
   return st;
 }
 
@@ -55,14 +57,11 @@ typedef struct cone {
 
 /* Sign of the cross product, or of the inner one. */
 static int cone_product(const dyd_exact a[2], const dyd_exact b[2], bool inner) {
-  dyd_exact s[2];
-  dyd_proof_init(s, 2);
+  DYD_LOCAL_ARRAY(dyd_exact, s, [2]);
   dyd_exact_mul(&s[0], &a[0], &b[!inner]);
   dyd_exact_mul(&s[1], &a[1], &b[inner]);
   if (inner) mpz_neg(s[1].man, s[1].man);
-  int sign = dyd_exact_cmp(&s[0], &s[1]);
-  dyd_proof_clear(s, 2);
-  return sign;
+  return dyd_exact_cmp(&s[0], &s[1]);
 }
 
 static int cone_cross(const dyd_exact a[2], const dyd_exact b[2]) {
@@ -101,10 +100,8 @@ static void cone_widen(cone *k, const dyd_exact d[2]) {
 
 /* The cone takes in all differences of a point of w and a point of v. */
 static void cone_take_in(cone *k, const dyd_cert_sites *s, uint32_t v, uint32_t w) {
-  dyd_cert_fraction end[2][2];
-  dyd_exact d[2];
-  for (int q = 0; q < 4; q++) dyd_cert_fraction_init(&end[q / 2][q % 2]);
-  dyd_proof_init(d, 2);
+  DYD_LOCAL_ARRAY(dyd_exact, d, [2]);
+  DYD_LOCAL_ARRAY(dyd_cert_fraction, end, [2][2]);
   for (int a = 0; a < 2; a++) {
     const dyd_cert_side *from = &s->site[v].side[a], *to = &s->site[w].side[a];
     dyd_cert_fraction_sub(&end[a][0], &to->lo, dyd_cert_den(to), dyd_cert_high(from), dyd_cert_den(from));
@@ -118,8 +115,6 @@ static void cone_take_in(cone *k, const dyd_cert_sites *s, uint32_t v, uint32_t 
     if (!x->whole) dyd_exact_mul_z(&d[1], &d[1], x->den);
     cone_widen(k, (const dyd_exact *)d);
   }
-  for (int q = 0; q < 4; q++) dyd_cert_fraction_clear(&end[q / 2][q % 2]);
-  dyd_proof_clear(d, 2);
 }
 
 /* ---- a direction ---- */
@@ -142,8 +137,8 @@ static void turn_quarter(dyd_exact out[2], const dyd_exact d[2], int sign) {
 
 /* u = a direction at an obtuse angle to the sides of the cone, as far as `bits` bits allow. */
 static void cone_choose(dyd_exact u[2], const cone *k, int64_t bits) {
-  dyd_exact all[6], *a = all, *b = all + 2, *t = all + 4;
-  dyd_proof_init(all, 6);
+  DYD_LOCAL_ARRAY(dyd_exact, all, [6]);
+  dyd_exact *a = all, *b = all + 2, *t = all + 4;
   bool wide = cone_dot(k->first, k->last) <= 0;
   cut_direction(a, k->first, bits);
   cut_direction(b, k->last, bits);
@@ -158,7 +153,6 @@ static void cone_choose(dyd_exact u[2], const cone *k, int64_t bits) {
     if (!wide) mpz_neg(u[q].man, u[q].man);
     dyd_proof_trim(&u[q]);
   }
-  dyd_proof_clear(all, 6);
 }
 
 /* Two lists of sites. */
@@ -239,12 +233,11 @@ void dyd_proof_drop_corners(dyd_proof *p) {
 /* Keeps the corners that have a direction; *again: some have none and are corners no more, so parts have grown. */
 static dyd_status try_corners(bool *again, dyd_proof *p, rim *r) {
   dyd_cert_parts parts;
-  dyd_exact u[2];
   *again = false;
   dyd_proof_drop_corners(p);
   dyd_status st = dyd_cert_parts_init(&parts, &p->graph, r->walk, r->count, r->corner);
   if (st != DYD_OK) return st;
-  dyd_proof_init(u, 2);
+  DYD_LOCAL_ARRAY(dyd_exact, u, [2]);
   for (size_t q = 0; q < r->count && st == DYD_OK; q++) {
     if (!r->corner[r->site[q]]) continue;
     const crowds beside = groups_beside(r, &parts, q);
@@ -255,7 +248,6 @@ static dyd_status try_corners(bool *again, dyd_proof *p, rim *r) {
       *again = true;
     }
   }
-  dyd_proof_clear(u, 2);
   dyd_cert_parts_clear(&parts);
   return st;
 }
@@ -299,29 +291,24 @@ static dyd_status place_rect(dyd_rect *out, const dyd_cert_site *s) {
     mpz_srcptr den;
     const dyd_exact *at = dyd_cert_place(&den, s, a);
     dyd_interval *side = a ? &out->y : &out->x;
-    dyd_dyadic v;
-    mpq_t q;
-    dyd_dyadic_init(&v);
-    mpq_init(q);
+    DYD_LOCAL(dyd_dyadic, v);
+    DYD_LOCAL_NUMBERS(mpq, q);
     st = dyd_dyadic_set_z_2exp(&v, at->man, at->exp);
     dyd_dyadic_get_q(q, &v);
     if (den) mpz_mul(mpq_denref(q), mpq_denref(q), den);
     if (den) mpq_canonicalize(q);
     if (st == DYD_OK) st = dyd_interval_set_q(side, q);
-    mpq_clear(q);
-    dyd_dyadic_clear(&v);
   }
   return st;
 }
 
 /* Moves a place that another site has too to a point of the rectangle that depends on the number of the site. */
 static dyd_status move_place(dyd_cert_site *s, uint32_t i, unsigned round) {
-  dyd_exact at[2], width;
-  dyd_exact_init(&width);
+  DYD_LOCAL_ARRAY(dyd_exact, at, [2]);
+  DYD_LOCAL(dyd_exact, width);
   uint64_t part[2] = {i, (i + 1) * UINT64_C(0x9E3779B97F4A7C15) >> 32};
   dyd_status st = DYD_OK;
   for (int a = 0; a < 2; a++) {
-    dyd_exact_init(&at[a]);
     if (s->side[a].den) st = DYD_E_ARG; /* a place is given in dyadics */
     dyd_exact_set(&at[a], &s->side[a].lo);
     if (s->side[a].point) continue;
@@ -332,9 +319,6 @@ static dyd_status move_place(dyd_cert_site *s, uint32_t i, unsigned round) {
     dyd_proof_trim(&at[a]);
   }
   if (st == DYD_OK) st = dyd_cert_site_set_place(s, at);
-  dyd_exact_clear(&at[0]);
-  dyd_exact_clear(&at[1]);
-  dyd_exact_clear(&width);
   return st == DYD_E_ARG ? DYD_OK : st;
 }
 
@@ -359,9 +343,8 @@ static bool bridge_join(uint32_t *parent, uint32_t a, uint32_t b) {
 }
 
 static dyd_status add_bridges(dyd_proof *p, uint32_t *parent, const dyd_delaunay *pd, const uint32_t *site) {
-  dyd_pair_list pairs = {0};
-  dyd_point c;
-  dyd_point_init(&c);
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
+  DYD_LOCAL(dyd_point, c);
   dyd_status st = dyd_delaunay_pairs(&pairs, pd);
   for (size_t k = 0; k < pairs.count && st == DYD_OK; k++) {
     const dyd_pair *pair = &pairs.item[k];
@@ -375,8 +358,6 @@ static dyd_status add_bridges(dyd_proof *p, uint32_t *parent, const dyd_delaunay
     bridge_join(parent, i, j);
     st = dyd_cert_edges_add(&p->bridges, i, j);
   }
-  dyd_point_clear(&c);
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 
@@ -423,7 +404,7 @@ static bool have_joined_places(const dyd_proof *p) {
 
 dyd_status dyd_proof_find_bridges(dyd_proof *p) {
   size_t n = p->sites.count;
-  uint32_t *parent = dyd_alloc(n, sizeof *parent), *site = dyd_alloc(n, sizeof *site);
+  DYD_FREED uint32_t *parent = dyd_alloc(n, sizeof *parent), *site = dyd_alloc(n, sizeof *site);
   dyd_status st = parent && site ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK && (bridge_unite(parent, p) > 1 || have_joined_places(p))) {
     bool apart = false;
@@ -435,7 +416,6 @@ dyd_status dyd_proof_find_bridges(dyd_proof *p) {
       st = DYD_OK;
     }
   }
-  dyd_free_all(parent, site);
   return st;
 }
 
@@ -464,7 +444,7 @@ static bool polygon_passes(const section *s, uint32_t i) {
 
 static dyd_status section_polygon(void *context, uint32_t i, const dyd_shape *shape, const double area[2]) {
   section *s = context;
-  dyd_polygon polygon = {0};
+  DYD_SCOPED(dyd_polygon) polygon = {0};
   (void)area;
   dyd_status st = dyd_shape_inner(&polygon, shape);
   if (st == DYD_OK) st = dyd_cert_chain_resize(&s->polygon, polygon.count);
@@ -472,7 +452,6 @@ static dyd_status section_polygon(void *context, uint32_t i, const dyd_shape *sh
     dyd_proof_set(&s->polygon.point[k][0], &polygon.vertex[k].x);
     dyd_proof_set(&s->polygon.point[k][1], &polygon.vertex[k].y);
   }
-  dyd_polygon_clear(&polygon);
   if (st != DYD_OK || !polygon_passes(s, i)) return st;
   dyd_proof_put(s->out, "%i", i);
   for (size_t k = 0; k < s->polygon.points; k++) dyd_proof_put(s->out, " %p", s->polygon.point[k]);
@@ -492,21 +471,18 @@ static void exact_round_up(dyd_exact *x) {
 }
 
 static void section_area(section *s) {
-  dyd_exact left;
-  dyd_exact_init(&left);
+  DYD_LOCAL(dyd_exact, left);
   dyd_cert_window_area(&left, &s->window);
   s->area2.exp--;
   dyd_exact_sub(&left, &left, &s->area2);
   exact_round_up(&left);
   dyd_proof_put(s->out, "undetermined %n\n", &left);
-  dyd_exact_clear(&left);
 }
 
 /* *bound, or up to four times as much, is proved, within the goal if one was reached; else *proved = false. */
 static dyd_status section_prove_distance(bool *proved, dyd_exact *bound, const section *s, const dyd_exact *goal) {
   static const unsigned long sixteenths[] = {16, 17, 32, 64};
-  dyd_exact try;
-  dyd_exact_init(&try);
+  DYD_LOCAL(dyd_exact, try);
   dyd_status st = DYD_OK;
   *proved = false;
   for (int k = 0; k < 4 && st == DYD_OK && !*proved; k++) {
@@ -518,7 +494,6 @@ static dyd_status section_prove_distance(bool *proved, dyd_exact *bound, const s
     if (last) break;
   }
   if (st == DYD_OK && *proved) dyd_exact_set(bound, &try);
-  dyd_exact_clear(&try);
   return st;
 }
 
@@ -532,16 +507,12 @@ static dyd_status section_distance(const section *s, const dyd_voronoi_bounds *b
     fputs("distance none\n", s->out);
     return DYD_OK;
   }
-  dyd_exact bound, goal;
-  dyd_exact_init(&bound);
-  dyd_exact_init(&goal);
+  DYD_LOCAL(dyd_exact, bound, goal);
   dyd_proof_set(&bound, &b->hausdorff);
   mpz_set_ui(goal.man, 1);
   goal.exp = -bits;
   dyd_status st = section_prove_distance(&proved, &bound, s, asked ? &goal : NULL);
   dyd_proof_put(s->out, proved ? "distance %n\n" : "distance %n unproved\n", &bound);
-  dyd_exact_clear(&bound);
-  dyd_exact_clear(&goal);
   return st;
 }
 
@@ -551,14 +522,12 @@ static dyd_status section_distance(const section *s, const dyd_voronoi_bounds *b
 static dyd_status section_bits(int64_t *out, const dyd_proof *p, const dyd_rect *window, bool discs) {
   enum { FINER = 8, MOST_FINER = 72 };
   int64_t goal_bits;
-  dyd_dyadic goal;
-  dyd_voronoi_bounds b;
   *out = dyd_metric_coarseness(p->pd, window) + 4;
   if (dyd_engine_goal(&goal_bits, p->engine) != DYD_GOAL_VORONOI_AREA ||
       dyd_engine_outcome(p->engine) != DYD_OUTCOME_CERTIFIED)
     return DYD_OK;
-  dyd_dyadic_init(&goal);
-  dyd_voronoi_bounds_init(&b);
+  DYD_LOCAL(dyd_dyadic, goal);
+  DYD_LOCAL(dyd_voronoi_bounds, b);
   dyd_status st = dyd_dyadic_set_si_2exp(&goal, 1, -goal_bits);
   int64_t least = dyd_metric_flattening(p->pd, window, goal_bits);
   bool holds = false;
@@ -567,18 +536,15 @@ static dyd_status section_bits(int64_t *out, const dyd_proof *p, const dyd_rect 
     st = dyd_voronoi_bounds_within(&b, p->pd, window, *out, 0, discs, NULL);
     holds = st == DYD_OK && dyd_dyadic_cmp(&b.area, &goal) <= 0;
   }
-  dyd_voronoi_bounds_clear(&b);
-  dyd_dyadic_clear(&goal);
   return st;
 }
 
 static dyd_status section_write(section *s, const dyd_rect *window) {
-  dyd_voronoi_sums sums;
-  dyd_voronoi_bounds bounds;
   int64_t bits;
   dyd_status st = section_bits(&bits, s->proof, window, s->disc);
   if (st != DYD_OK) return st;
-  dyd_voronoi_bounds_init(&bounds);
+  DYD_LOCAL(dyd_voronoi_bounds, bounds);
+  DYD_SCOPED(dyd_voronoi_sums) sums;
   st = dyd_voronoi_sums_init(&sums, s->proof->pd, window, bits);
   sums.exact = false;
   sums.discs = s->disc;
@@ -586,10 +552,7 @@ static dyd_status section_write(section *s, const dyd_rect *window) {
   if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, section_polygon, s);
   if (st == DYD_OK) st = dyd_voronoi_sums_bounds(&bounds, &sums);
   if (st == DYD_OK) section_area(s);
-  if (st == DYD_OK) st = section_distance(s, &bounds);
-  dyd_voronoi_sums_clear(&sums);
-  dyd_voronoi_bounds_clear(&bounds);
-  return st;
+  return st == DYD_OK ? section_distance(s, &bounds) : st;
 }
 
 dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window, bool discs) {

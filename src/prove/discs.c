@@ -7,6 +7,7 @@
 #include "tolerance/discs.h"
 #include "base/alloc.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "checker/caps.h"
 #include "checker/checker.h"
 #include "delaunay/memory.h"
@@ -180,9 +181,8 @@ static dyd_status pair_put_chain(FILE *out, dyd_cert_chain *chain, blockers *nea
 }
 
 static dyd_status pair_put_lines(FILE *out, dyd_proof *p, const lines *l) {
-  dyd_cert_chain chain;
   blockers near = {0};
-  dyd_cert_chain_init(&chain);
+  DYD_LOCAL(dyd_cert_chain, chain);
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < l->count && st == DYD_OK; k++) {
     const line *at = &l->item[k];
@@ -192,7 +192,6 @@ static dyd_status pair_put_lines(FILE *out, dyd_proof *p, const lines *l) {
     else
       fprintf(out, "%c %" PRIu32 " %" PRIu32 "\n", at->kind, at->i, at->j);
   }
-  dyd_cert_chain_clear(&chain);
   free(near.site);
   return st;
 }
@@ -246,20 +245,18 @@ typedef struct disc_proof {
 
 dyd_status dyd_proof_gather_discs(dyd_cert_disc **out, bool *fixed, const dyd_proof *p) {
   const dyd_sites *sites = dyd_delaunay_sites(p->pd);
-  dyd_disc d;
   dyd_cert_disc *disc = *out = dyd_alloc(p->sites.count, sizeof *disc);
   dyd_status st = DYD_OK;
   *fixed = true;
   if (!disc) return DYD_E_NOMEM;
   for (size_t i = 0; i < p->sites.count; i++) dyd_cert_disc_init(&disc[i]);
-  dyd_disc_init(&d);
+  DYD_LOCAL(dyd_disc, d);
   for (size_t i = 0; i < p->sites.count && st == DYD_OK; i++) {
     const dyd_refinable *point = dyd_engine_find(p->engine, (uint32_t)i);
     *fixed = *fixed && (!point || point->final);
     st = dyd_disc_of_site(&d, sites, i);
     if (st == DYD_OK) dyd_proof_hold_disc(&disc[i], &d);
   }
-  dyd_disc_clear(&d);
   return st;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The section of a certificate on a sphere: places, radii, the eye, its possible neighbours. */
 #include "base/alloc.h"
+#include "base/local.h"
 #include "prove/proof.h"
 #include "rect/rect.h"
 #include "sphere/state.h"
@@ -9,33 +10,25 @@
 #include <math.h>
 
 static dyd_status put_interval(FILE *out, const dyd_interval *a) {
-  dyd_cert_sites one;
-  dyd_cert_sites_init(&one);
+  DYD_LOCAL(dyd_cert_sites, one);
   dyd_cert_site *site = dyd_cert_sites_add(&one);
   dyd_status st = site ? dyd_proof_set_side(&site->side[0], a) : DYD_E_NOMEM;
   if (st == DYD_OK) dyd_proof_put(out, "%s", &site->side[0]);
-  dyd_cert_sites_clear(&one);
   return st;
 }
 
 static dyd_status put_rational(FILE *out, mpq_srcptr q) {
-  dyd_interval a;
-  dyd_interval_init(&a);
+  DYD_LOCAL(dyd_interval, a);
   dyd_status st = dyd_interval_set_q(&a, q);
-  if (st == DYD_OK) st = put_interval(out, &a);
-  dyd_interval_clear(&a);
-  return st;
+  return st == DYD_OK ? put_interval(out, &a) : st;
 }
 
 static dyd_status put_metres(FILE *out, double metres) {
-  mpq_t q;
   if (!(metres > 0)) return DYD_OK;
-  mpq_init(q);
+  DYD_LOCAL_NUMBERS(mpq, q);
   mpq_set_d(q, metres);
   putc(' ', out);
-  dyd_status st = put_rational(out, q);
-  mpq_clear(q);
-  return st;
+  return put_rational(out, q);
 }
 
 static dyd_status put_eye(FILE *out, const dyd_sphere *s) {
@@ -70,15 +63,12 @@ static dyd_status put_radius(FILE *out, const dyd_sphere *s) {
 
 /* Each eye has streams of its own: the rectangle stated lies in those of both. */
 static dyd_status place_narrowest(dyd_rect *out, const dyd_sphere *s, uint32_t i) {
-  dyd_rect other;
   dyd_status st = dyd_sphere_stated(out, s, i);
   if (st != DYD_OK || !dyd_proof_second(s)) return st;
-  dyd_rect_init(&other);
+  DYD_LOCAL(dyd_rect, other);
   st = dyd_sphere_stated(&other, s->second, i);
   if (st == DYD_OK) st = dyd_interval_intersect(&out->x, &out->x, &other.x);
-  if (st == DYD_OK) st = dyd_interval_intersect(&out->y, &out->y, &other.y);
-  dyd_rect_clear(&other);
-  return st;
+  return st == DYD_OK ? dyd_interval_intersect(&out->y, &out->y, &other.y) : st;
 }
 
 static dyd_status put_stated_place(FILE *out, const dyd_sphere *s, uint32_t i, dyd_rect *r) {
@@ -93,23 +83,20 @@ static dyd_status put_stated_place(FILE *out, const dyd_sphere *s, uint32_t i, d
 }
 
 static dyd_status put_places(FILE *out, const dyd_sphere *s) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = DYD_OK;
   fprintf(out, "places %zu\n", s->count);
   for (uint32_t i = 0; i < s->count && st == DYD_OK; i++) st = put_stated_place(out, s, i, &r);
-  dyd_rect_clear(&r);
   return st;
 }
 
 /* kind[k]: of image k and the eye, as a letter of the list; 0: no neighbour. */
 static dyd_status find_kinds(char *kind, const dyd_sphere *s) {
   static const char letter[] = {[DYD_TIE] = 't', [DYD_INDETERMINATE] = 'o', [DYD_LEGAL] = 'l'};
-  dyd_pair_status *status = dyd_alloc(s->with_image, sizeof *status);
+  DYD_FREED dyd_pair_status *status = dyd_alloc(s->with_image, sizeof *status);
   dyd_status st = status ? dyd_sphere_about_centre(status, s) : DYD_E_NOMEM;
   for (size_t k = 0; k < s->with_image && st == DYD_OK; k++)
     kind[k] = status[k] == DYD_ILLEGAL ? '\0' : s->free ? 'o' : letter[status[k]];
-  free(status);
   return st;
 }
 
@@ -121,11 +108,9 @@ static bool is_among_corners(const dyd_proof *p, uint32_t k) {
 
 /* A corner of the hull that is not listed as one, with a direction, all sites being those of the list. */
 static void put_direction(FILE *out, const dyd_proof *p, uint32_t k, const uint32_t *all, size_t count) {
-  dyd_exact u[2];
   if (p->sites.count <= 2 || is_among_corners(p, k)) return;
-  dyd_proof_init(u, 2);
+  DYD_LOCAL_ARRAY(dyd_exact, u, [2]);
   if (dyd_proof_find_direction(u, p, k, all, count)) dyd_proof_put(out, " %p", u);
-  dyd_proof_clear(u, 2);
 }
 
 static void put_neighbour(FILE *out, const dyd_proof *p, char kind, uint32_t k, const uint32_t *all, size_t count) {
@@ -136,8 +121,8 @@ static void put_neighbour(FILE *out, const dyd_proof *p, char kind, uint32_t k, 
 }
 
 static dyd_status put_neighbours(FILE *out, const dyd_proof *p, const dyd_sphere *s) {
-  char *kind = dyd_alloc(s->with_image, sizeof *kind);
-  uint32_t *all = dyd_alloc(s->with_image, sizeof *all);
+  DYD_FREED char *kind = dyd_alloc(s->with_image, sizeof *kind);
+  DYD_FREED uint32_t *all = dyd_alloc(s->with_image, sizeof *all);
   dyd_status st = kind && all ? find_kinds(kind, s) : DYD_E_NOMEM;
   size_t count = 0, sites = 0;
   for (uint32_t k = 0; k < s->with_image && st == DYD_OK; k++) {
@@ -146,7 +131,6 @@ static dyd_status put_neighbours(FILE *out, const dyd_proof *p, const dyd_sphere
   }
   if (st == DYD_OK) fprintf(out, "neighbours %zu\n", count);
   for (uint32_t k = 0; k < s->with_image && st == DYD_OK; k++) put_neighbour(out, p, kind[k], k, all, sites);
-  dyd_free_all(all, kind);
   return st;
 }
 
@@ -156,12 +140,9 @@ dyd_status dyd_proof_put_compass(FILE *out, const struct dyd_sphere *s) {
 }
 
 dyd_status dyd_proof_set_region(dyd_cert_region *out, const struct dyd_sphere *s, uint32_t i) {
-  dyd_cert_sites one;
-  dyd_rect r;
-  mpq_t angle;
-  dyd_cert_sites_init(&one);
-  dyd_rect_init(&r);
-  mpq_init(angle);
+  DYD_LOCAL(dyd_cert_sites, one);
+  DYD_LOCAL(dyd_rect, r);
+  DYD_LOCAL_NUMBERS(mpq, angle);
   dyd_cert_site *site = dyd_cert_sites_add(&one);
   dyd_status st = site ? place_narrowest(&r, s, i) : DYD_E_NOMEM;
   if (st == DYD_OK) st = dyd_proof_set_side(&site->side[0], &r.x);
@@ -170,9 +151,6 @@ dyd_status dyd_proof_set_region(dyd_cert_region *out, const struct dyd_sphere *s
   mpq_mul(angle, angle, s->metre);
   mpq_add(angle, angle, s->angle);
   if (st == DYD_OK && !dyd_cert_region_set(out, site->side, s->degrees, angle)) st = DYD_E_DOMAIN;
-  mpq_clear(angle);
-  dyd_rect_clear(&r);
-  dyd_cert_sites_clear(&one);
   return st;
 }
 

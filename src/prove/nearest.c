@@ -2,6 +2,7 @@
 /* Certificates of nearest sites: in the plane, of discs, on a sphere [CERT-12]. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "checker/near.h"
 #include "io/output.h"
 #include "prove/proof.h"
@@ -63,16 +64,14 @@ static dyd_status near_gather(near_proof *w, bool discs) {
 }
 
 static dyd_status near_set_place(near_proof *w, const dyd_nearest_answer *a) {
-  mpq_t none;
   dyd_cert_sites_clear(&w->place);
   dyd_cert_sites_init(&w->place);
   dyd_status st = dyd_proof_add_site(&w->place, a->at);
   if (st != DYD_OK) return st;
   dyd_cert_span_set(&w->at, w->place.site);
   if (!w->sphere) return DYD_OK;
-  mpq_init(none);
+  DYD_LOCAL_NUMBERS(mpq, none);
   if (!dyd_cert_region_set(&w->here, w->place.site->side, none, none)) st = DYD_E_DOMAIN;
-  mpq_clear(none);
   return st;
 }
 
@@ -90,11 +89,9 @@ static bool near_is_proved(const near_proof *w, const dyd_nearest_answer *a) {
 
 /* Sets *out to a bound; returns false if it is infinite. */
 static bool near_bound_set(dyd_exact *out, double bound) {
-  dyd_dyadic d;
-  dyd_dyadic_init(&d);
+  DYD_LOCAL(dyd_dyadic, d);
   bool finite = dyd_dyadic_set_d(&d, bound) == DYD_OK;
   if (finite) dyd_proof_set(out, &d);
-  dyd_dyadic_clear(&d);
   return finite;
 }
 
@@ -105,8 +102,7 @@ static bool near_bounds_pass(const near_proof *w, uint32_t i, const dyd_exact *l
 
 /* Writes bounds that the checker sees to hold: each as it is, or, where it does not, wider. */
 static void put_near_bounds(near_proof *w, uint32_t i, double lo, double hi) {
-  dyd_exact bound[2];
-  dyd_proof_init(bound, 2);
+  DYD_LOCAL_ARRAY(dyd_exact, bound, [2]);
   const double least = w->sphere ? 0x1p-60 : 0x1p-1000;
   /* of boxes of degrees the checker looks at parts */
   const bool boxed = w->sphere && (mpq_sgn(w->here.half[1]) || mpq_sgn(w->compass.region[i].half[1]));
@@ -119,14 +115,12 @@ static void put_near_bounds(near_proof *w, uint32_t i, double lo, double hi) {
   for (double by = step; finite && !near_bounds_pass(w, i, &bound[0], &bound[1]); by *= 16)
     finite = near_bound_set(&bound[1], hi += by);
   dyd_proof_put(w->out, finite ? " %n" : " none", &bound[1]);
-  dyd_proof_clear(bound, 2);
 }
 
 static dyd_status put_near_site(near_proof *w, const dyd_nearest_answer *a, uint32_t i) {
-  dyd_rect r;
   double lo = 0, hi = 0;
   dyd_status st = DYD_OK;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   if (w->sphere) {
     st = dyd_sphere_distance(&lo, &hi, w->sphere, i, a->at);
   } else if (w->disc) {
@@ -136,7 +130,6 @@ static dyd_status put_near_site(near_proof *w, const dyd_nearest_answer *a, uint
     if (st == DYD_OK) dyd_rect_distance(&lo, &hi, a->at, &r);
   }
   if (st == DYD_OK) put_near_bounds(w, i, lo, hi);
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -181,12 +174,10 @@ static dyd_status put_near_answers(near_proof *w, const dyd_certificate_parts *p
 
 dyd_status dyd_proof_put_nearest(FILE *out, const dyd_engine *e, const struct dyd_certificate_parts *parts,
                                  dyd_error *err) {
-  near_proof w;
-  bool *proved = dyd_alloc(parts->answers, sizeof *proved);
+  DYD_SCOPED(near_proof) w;
+  DYD_FREED bool *proved = dyd_alloc(parts->answers, sizeof *proved);
   near_proof_init(&w, out, e, parts->sphere);
   dyd_status st = proved ? put_near_answers(&w, parts, proved) : DYD_E_NOMEM;
-  near_proof_clear(&w);
-  free(proved);
   if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
   fputs("end\n", out);
   return dyd_output_end(out, err);

@@ -8,6 +8,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "checker/checker.h"
 #include "prove/proof.h"
 #include "rect/rect.h"
@@ -53,9 +54,8 @@ static dyd_status locate_point(location *l, const dyd_engine *e, dyd_rect *r, ui
 
 static dyd_status location_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   location *l = user;
-  dyd_rect r;
   (void)err;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = DYD_OK;
   l->open = 0;
   for (uint32_t i = 0; i < l->count && st == DYD_OK && !l->why; i++) {
@@ -66,32 +66,25 @@ static dyd_status location_ask(bool *answered, dyd_plan *plan, void *user, const
     st = dyd_plan_add(plan, i, DYD_BITS_NEXT);
   }
   *answered = l->open == 0 || l->why;
-  dyd_rect_clear(&r);
   return st;
 }
 
 /* ---- rectangles of the certificate ---- */
 
 static dyd_status side_interval(dyd_interval *out, const dyd_cert_side *s) {
-  dyd_dyadic lo, hi;
-  dyd_dyadic_init(&lo);
-  dyd_dyadic_init(&hi);
+  DYD_LOCAL(dyd_dyadic, lo, hi);
   const dyd_exact *top = dyd_cert_high(s);
   dyd_status st = dyd_dyadic_set_z_2exp(&lo, s->lo.man, s->lo.exp);
   if (st == DYD_OK) st = dyd_dyadic_set_z_2exp(&hi, top->man, top->exp);
   if (st == DYD_OK && s->den) {
-    mpq_t q;
-    mpq_init(q);
+    DYD_LOCAL_NUMBERS(mpq, q);
     dyd_dyadic_get_q(q, &lo);
     mpz_mul(mpq_denref(q), mpq_denref(q), *s->den);
     mpq_canonicalize(q);
     st = dyd_interval_set_q(out, q);
-    mpq_clear(q);
   } else if (st == DYD_OK) {
     st = dyd_interval_set_ends(out, &lo, &hi);
   }
-  dyd_dyadic_clear(&lo);
-  dyd_dyadic_clear(&hi);
   return st;
 }
 
@@ -116,10 +109,8 @@ static dyd_status location_init(location *l, const dyd_cert_sites *s) {
 
 /* A disc that holds the rectangle of a site: the sum of the half-widths is at least half of a diagonal. */
 static dyd_status disc_around_site(dyd_disc *out, const dyd_sites *s, size_t i) {
-  dyd_rect r;
-  mpq_t width;
-  mpq_init(width);
-  dyd_rect_init(&r);
+  DYD_LOCAL_NUMBERS(mpq, width);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_sites_get(&r, s, i);
   if (st == DYD_OK) {
     dyd_side_sum(out->x, out->r, &r.x);
@@ -128,29 +119,23 @@ static dyd_status disc_around_site(dyd_disc *out, const dyd_sites *s, size_t i) 
     mpq_ptr all[3] = {out->x, out->y, out->r};
     for (int k = 0; k < 3; k++) mpq_div_2exp(all[k], all[k], 1);
   }
-  dyd_rect_clear(&r);
-  mpq_clear(width);
   return st;
 }
 
 /* Returns true if the disc of the certificate holds that of the point. */
 static bool disc_holds_point(const dyd_cert_disc *d, const dyd_disc *own) {
-  dyd_disc held;
-  dyd_disc_init(&held);
+  DYD_LOCAL(dyd_disc, held);
   dyd_cert_exact_to_q(held.x, &d->x, NULL);
   dyd_cert_exact_to_q(held.y, &d->y, NULL);
   dyd_cert_exact_to_q(held.r, &d->r, NULL);
-  bool holds = mpq_cmp(own->r, held.r) <= 0 && dyd_disc_is_within(own, &held);
-  dyd_disc_clear(&held);
-  return holds;
+  return mpq_cmp(own->r, held.r) <= 0 && dyd_disc_is_within(own, &held);
 }
 
 /* Adds to the report the points that are not seen to lie in their discs. A fixed one does or does not. */
 static dyd_status locate_in_discs(location *l, dyd_checker *c, const dyd_engine *e, bool discs) {
   const dyd_sites *sites = dyd_engine_sites(e);
-  dyd_disc d;
   dyd_status st = DYD_OK;
-  dyd_disc_init(&d);
+  DYD_LOCAL(dyd_disc, d);
   for (uint32_t i = 0; c->disc && i < l->count && st == DYD_OK; i++) {
     st = (discs ? dyd_disc_of_site : disc_around_site)(&d, sites, i);
     const bool square = st != DYD_E_ARG;
@@ -161,7 +146,6 @@ static dyd_status locate_in_discs(location *l, dyd_checker *c, const dyd_engine 
       location_wrong(l, i, square ? "has a disc that does not hold that of the point" : "is that of no disc");
     c->report.undescribed++;
   }
-  dyd_disc_clear(&d);
   return st;
 }
 
@@ -169,15 +153,13 @@ static dyd_status locate_in_discs(location *l, dyd_checker *c, const dyd_engine 
 
 /* still[i]: no call narrows point i any more, and its site is as narrow. */
 static dyd_status list_still(bool *still, const location *l, const dyd_engine *e) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = DYD_OK;
   for (uint32_t i = 0; i < l->count && st == DYD_OK; i++) {
     const dyd_refinable *p = dyd_engine_find(e, i);
     st = rect_round(&r, dyd_engine_sites(e), i);
     still[i] = (!p || p->final) && dyd_rect_equal(&l->site[i], &r);
   }
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -189,17 +171,15 @@ static dyd_status write_still(FILE *out, const bool *still, size_t count, dyd_er
 
 /* The same of the images of places. */
 static dyd_status write_still_images(FILE *out, const bool *still, const dyd_checker *c) {
-  bool *image = dyd_alloc(c->sites.count, sizeof *image);
+  DYD_FREED bool *image = dyd_alloc(c->sites.count, sizeof *image);
   if (!image) return DYD_E_NOMEM;
   dyd_checker_still_images(image, c, still);
-  dyd_status st = write_still(out, image, c->sites.count, c->in.err);
-  free(image);
-  return st;
+  return write_still(out, image, c->sites.count, c->in.err);
 }
 
 static dyd_status location_settle(dyd_checker *c, FILE *out, const location *l, const dyd_engine *e) {
   if (l->why) return dyd_fail(c->in.err, DYD_E_PARSE, "the rectangle of site %u %s", (unsigned)l->wrong, l->why);
-  bool *still = dyd_alloc(l->count, sizeof *still);
+  DYD_FREED bool *still = dyd_alloc(l->count, sizeof *still);
   if (!still) return DYD_E_NOMEM;
   dyd_status st = list_still(still, l, e);
   c->report.bound = true;
@@ -208,7 +188,6 @@ static dyd_status location_settle(dyd_checker *c, FILE *out, const location *l, 
   if (st == DYD_OK) st = dyd_checker_settle(c, still);
   if (st == DYD_OK && out && !c->globe.stated) st = write_still(out, still, l->count, c->in.err);
   if (st == DYD_OK && out && c->globe.stated) st = write_still_images(out, still, c);
-  free(still);
   return st;
 }
 
@@ -228,16 +207,14 @@ static dyd_status compare_radius(const dyd_checker *c, const dyd_sphere_options 
 
 /* And that of each? */
 static dyd_status compare_metres(const dyd_checker *c, const dyd_engine *e) {
-  mpq_t given, stated;
   uint32_t i = 0;
   bool same = true;
-  mpq_inits(given, stated, NULL);
+  DYD_LOCAL_NUMBERS(mpq, given, stated);
   for (; i < c->globe.place.count && same; i++) {
     mpq_set_d(given, dyd_engine_number(e, i, DYD_ROW_RADIUS));
     dyd_cert_exact_to_q(stated, &c->globe.metres[i], NULL);
     same = mpq_equal(given, stated);
   }
-  mpq_clears(given, stated, NULL);
   if (same) return DYD_OK;
   return dyd_fail(c->in.err, DYD_E_PARSE, "the radius of point %u is not the one that it states", (unsigned)(i - 1));
 }
@@ -277,7 +254,6 @@ static dyd_status checker_locate(dyd_checker *c, bool discs, FILE *still, dyd_en
 
 dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, const dyd_verify_options *about,
                                   dyd_error *err) {
-  dyd_checker c;
   dyd_error unused;
   dyd_verify_options o;
   dyd_sphere_options sphere;
@@ -287,10 +263,10 @@ dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, const d
   if (dyd_abi_take(&o, sizeof o, about, "dyd_verify_options", err) != DYD_OK) return DYD_E_ARG;
   if (!o.engine) return dyd_checker_verify(out, in, err);
   if (dyd_abi_take(&sphere, sizeof sphere, o.sphere, "dyd_sphere_options", err) != DYD_OK) return DYD_E_ARG;
+  DYD_SCOPED(dyd_checker) c;
   dyd_checker_init(&c, in, err);
   dyd_status st = dyd_checker_run(&c);
   if (st == DYD_OK) st = checker_locate(&c, o.discs, o.still, o.engine, o.sphere ? &sphere : NULL, o.options);
   if (st == DYD_OK) dyd_abi_give(out, &c.report, sizeof c.report);
-  dyd_checker_clear(&c);
   return st;
 }

@@ -3,6 +3,7 @@
 #ifndef DYD_PROVE_PROOF_H
 #define DYD_PROVE_PROOF_H
 
+#include "base/local.h"
 #include "checker/caps.h"
 #include "checker/chain.h"
 #include "checker/faces.h"
@@ -63,6 +64,7 @@ dyd_status dyd_proof_find_chain(bool *found, dyd_cert_chain *out, const dyd_proo
 /* Writes the format, and for %i a site (uint32_t), %n a number (const dyd_exact *), %p a point (of two numbers), %s a
  * side (const dyd_cert_side *). */
 void dyd_proof_put(FILE *out, const char *format, ...);
+DYD_ARRAYS(dyd_exact)
 /* Initialises, clears `count` numbers. */
 void dyd_proof_init(dyd_exact *x, size_t count);
 void dyd_proof_clear(dyd_exact *x, size_t count);

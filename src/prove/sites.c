@@ -2,6 +2,7 @@
 /* Sites and witnesses in the form that the checker of certificates takes; witnesses shortened; numbers as they are
  * written. */
 #include "base/alloc.h"
+#include "base/local.h"
 #include "checker/region.h"
 #include "prove/proof.h"
 #include "rect/rect.h"
@@ -15,14 +16,12 @@ void dyd_proof_set(dyd_exact *out, const dyd_dyadic *x) {
 }
 
 dyd_status dyd_proof_set_side(dyd_cert_side *out, const dyd_interval *a) {
-  dyd_interval held;
-  dyd_interval_init(&held);
+  DYD_LOCAL(dyd_interval, held);
   dyd_status st = dyd_interval_round(&held, a);
   dyd_proof_set(&out->lo, &held.lo);
   out->point = dyd_interval_is_point(&held);
   if (!out->point) dyd_proof_set(&out->hi, &held.hi);
   if (st == DYD_OK && mpz_cmp_ui(held.den, 1)) st = dyd_cert_side_set_den(out, held.den);
-  dyd_interval_clear(&held);
   return st;
 }
 
@@ -60,20 +59,18 @@ void dyd_proof_trim(dyd_exact *x) {
 void dyd_proof_round(dyd_exact *out, const dyd_exact *x, int64_t exp) {
   dyd_exact_set(out, x);
   if (x->exp >= exp) return;
-  mpz_t half;
-  mpz_init_set_ui(half, 1);
+  DYD_LOCAL_NUMBERS(mpz, half);
+  mpz_set_ui(half, 1);
   mpz_mul_2exp(half, half, (mp_bitcnt_t)(exp - x->exp - 1));
   mpz_add(half, half, x->man);
   mpz_fdiv_q_2exp(out->man, half, (mp_bitcnt_t)(exp - x->exp));
   out->exp = exp;
-  mpz_clear(half);
   dyd_proof_trim(out);
 }
 
 /* A power of two about the distance of c from the lower left corner of the site. */
 static int64_t size_of_distance(const dyd_exact c[2], const dyd_cert_site *s) {
-  dyd_exact d;
-  dyd_exact_init(&d);
+  DYD_LOCAL(dyd_exact, d);
   int64_t top = INT64_MIN;
   for (int a = 0; a < 2; a++) {
     mpz_srcptr den;
@@ -83,7 +80,6 @@ static int64_t size_of_distance(const dyd_exact c[2], const dyd_cert_site *s) {
     dyd_exact_sub(&d, &c[a], &d);
     if (dyd_exact_top(&d) > top) top = dyd_exact_top(&d);
   }
-  dyd_exact_clear(&d);
   return top;
 }
 
@@ -104,13 +100,12 @@ static bool shorten_witness(dyd_exact out[2], const dyd_proof *p, uint32_t i, ui
 dyd_status dyd_proof_add_witness(bool *found, dyd_proof_points *out, const dyd_proof *p, uint32_t i, uint32_t j,
                                  const dyd_point *c, bool places) {
   if (!DYD_GROW(out->item, out->cap, out->count + 1)) return DYD_E_NOMEM;
-  dyd_exact from[2], *to = out->item[out->count];
-  dyd_proof_init(from, 2);
+  DYD_LOCAL_ARRAY(dyd_exact, from, [2]);
+  dyd_exact *to = out->item[out->count];
   dyd_proof_init(to, 2);
   dyd_proof_set(&from[0], &c->x);
   dyd_proof_set(&from[1], &c->y);
   *found = shorten_witness(to, p, i, j, from, places);
-  dyd_proof_clear(from, 2);
   if (!*found) {
     dyd_proof_clear(to, 2);
     return DYD_OK;
@@ -125,8 +120,7 @@ dyd_status dyd_proof_add_witness(bool *found, dyd_proof_points *out, const dyd_p
 
 dyd_status dyd_proof_gather_sites(dyd_proof *p) {
   const dyd_sites *sites = dyd_delaunay_sites(p->pd);
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = DYD_OK;
   for (size_t i = 0; i < dyd_sites_count(sites) && st == DYD_OK; i++) {
     st = dyd_sites_get(&r, sites, i);
@@ -137,7 +131,6 @@ dyd_status dyd_proof_gather_sites(dyd_proof *p) {
     if (st == DYD_OK) st = dyd_proof_add_site(&p->sites, &r);
     if (st == DYD_OK) p->sites.site[i].alias = dyd_delaunay_alias(p->pd, (uint32_t)i);
   }
-  dyd_rect_clear(&r);
   if (st == DYD_OK) st = dyd_cert_sites_finish(&p->sites);
   return st == DYD_OK ? dyd_cert_tree_init(&p->tree, &p->sites) : st;
 }
@@ -146,8 +139,7 @@ dyd_status dyd_proof_gather_sites(dyd_proof *p) {
 
 /* x rounded down to a multiple of 2^exp; the difference is added to *lost. */
 static void round_rational(dyd_exact *out, mpq_t lost, mpq_srcptr x, int64_t exp) {
-  mpq_t at;
-  mpq_init(at);
+  DYD_LOCAL_NUMBERS(mpq, at);
   if (exp < 0)
     mpq_mul_2exp(at, x, (mp_bitcnt_t)-exp);
   else
@@ -157,7 +149,6 @@ static void round_rational(dyd_exact *out, mpq_t lost, mpq_srcptr x, int64_t exp
   dyd_cert_exact_to_q(at, out, NULL);
   mpq_sub(at, x, at);
   mpq_add(lost, lost, at);
-  mpq_clear(at);
 }
 
 static int64_t exponent_of(mpq_srcptr x) {
@@ -181,8 +172,7 @@ static int64_t grid_of_disc(const dyd_disc *d) {
 }
 
 void dyd_proof_hold_disc(dyd_cert_disc *out, const dyd_disc *d) {
-  mpq_t lost, r;
-  mpq_inits(lost, r, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lost, r);
   int64_t exp = grid_of_disc(d);
   round_rational(&out->x, lost, d->x, exp);
   round_rational(&out->y, lost, d->y, exp);
@@ -190,19 +180,16 @@ void dyd_proof_hold_disc(dyd_cert_disc *out, const dyd_disc *d) {
   mpq_set_ui(lost, 0, 1);
   round_rational(&out->r, lost, r, exp);
   if (mpq_sgn(lost)) mpz_add_ui(out->r.man, out->r.man, 1);
-  mpq_clears(lost, r, NULL);
 }
 
 /* ---- writing ---- */
 
 static void put_number(FILE *out, const dyd_exact *x) {
-  dyd_exact t;
-  dyd_exact_init(&t);
+  DYD_LOCAL(dyd_exact, t);
   dyd_exact_set(&t, x);
   dyd_proof_trim(&t);
   mpz_out_str(out, 10, t.man);
   if (t.exp) fprintf(out, "*2^%" PRId64, t.exp);
-  dyd_exact_clear(&t);
 }
 
 static void proof_put_side(FILE *out, const dyd_cert_side *s) {
@@ -212,12 +199,10 @@ static void proof_put_side(FILE *out, const dyd_cert_side *s) {
     mpz_out_str(out, 10, *s->den);
   }
   if (s->point) return;
-  dyd_exact width;
-  dyd_exact_init(&width);
+  DYD_LOCAL(dyd_exact, width);
   dyd_exact_sub(&width, &s->hi, &s->lo);
   putc('+', out);
   put_number(out, &width);
-  dyd_exact_clear(&width);
 }
 
 void dyd_proof_put(FILE *out, const char *format, ...) {

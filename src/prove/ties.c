@@ -6,6 +6,7 @@
  * block; where that is too much for the checker, each has its own. */
 #include "engine/ties.h"
 #include "base/alloc.h"
+#include "base/local.h"
 #include "checker/parts.h"
 #include "prove/proof.h"
 #include "stream/algebra/ring.h"
@@ -57,8 +58,7 @@ static void put_powers(dyd_proof_block *b, const ulong *exponent, bool first) {
 
 static void put_polynomial(dyd_proof_block *b, const fmpz_mpoly_t p) {
   ulong exponent[DYD_RING_LEAVES];
-  fmpz_t c;
-  fmpz_init(c);
+  DYD_LOCAL_NUMBERS(fmpz, c);
   if (!p->length) putc('0', b->out);
   for (slong t = 0; t < p->length; t++) {
     bool constant = true;
@@ -73,7 +73,6 @@ static void put_polynomial(dyd_proof_block *b, const fmpz_mpoly_t p) {
     if (!one) put_integer(b->out, c);
     put_powers(b, exponent, one);
   }
-  fmpz_clear(c);
 }
 
 static void put_quotient(dyd_proof_block *b, const dyd_fraction *x) {
@@ -93,27 +92,19 @@ static uint32_t end_line(dyd_proof_block *b) {
 
 /* The bracket of the form's value at `prec`, as dyadic fractions with odd denominators 1. */
 static void bracket_from_value(dyd_cert_bracket *r, dyd_proof_block *b, uint32_t node, slong prec) {
-  arb_t x;
-  arf_t end[2];
-  fmpz_t man, exp;
-  arb_init(x);
-  fmpz_init(man);
-  fmpz_init(exp);
+  DYD_LOCAL_NUMBERS(arb, x);
+  DYD_LOCAL_NUMBERS(fmpz, man, exp);
   arb_set(x, dyd_forms_value(&b->forms, node, prec));
   for (int k = 0; k < 2; k++) {
-    arf_init(end[k]);
-    (k ? arb_get_ubound_arf : arb_get_lbound_arf)(end[k], x, prec + 64);
-    arf_get_fmpz_2exp(man, exp, end[k]);
+    DYD_LOCAL_NUMBERS(arf, end);
+    (k ? arb_get_ubound_arf : arb_get_lbound_arf)(end, x, prec + 64);
+    arf_get_fmpz_2exp(man, exp, end);
     fmpz_get_mpz(r->end[2 * k], man);
     mpz_set_ui(r->end[2 * k + 1], 1);
     mpz_ptr shifted = r->end[2 * k + (fmpz_sgn(exp) < 0)];
     if (fmpz_cmp_si(exp, 1 << 20) < 0 && fmpz_cmp_si(exp, -(1 << 20)) > 0)
       mpz_mul_2exp(shifted, shifted, (mp_bitcnt_t)FLINT_ABS(fmpz_get_si(exp)));
-    arf_clear(end[k]);
   }
-  fmpz_clear(exp);
-  fmpz_clear(man);
-  arb_clear(x);
 }
 
 static void put_end(FILE *out, mpz_t *end) {
@@ -160,10 +151,8 @@ static bool put_root(dyd_proof_block *b, uint32_t node, const fmpz_poly_t f) {
 static bool put_root_leaf(dyd_proof_block *b, slong l) {
   const dyd_leaf *leaf = &b->ring.leaf[l];
   ulong exponent[DYD_RING_LEAVES];
-  fmpz_poly_t f;
-  fmpz_t power;
-  fmpz_poly_init(f);
-  fmpz_init(power);
+  DYD_LOCAL_NUMBERS(fmpz_poly, f);
+  DYD_LOCAL_NUMBERS(fmpz, power);
   fmpz_poly_set_coeff_fmpz(f, leaf->degree, leaf->base);
   for (slong t = 0; t < leaf->relation->length; t++) {
     fmpz_mpoly_get_term_exp_ui(exponent, leaf->relation, t, b->ring.ctx);
@@ -173,10 +162,7 @@ static bool put_root_leaf(dyd_proof_block *b, slong l) {
     fmpz_divexact(power, leaf->relation->coeffs + t, power);
     fmpz_poly_set_coeff_fmpz(f, e, power);
   }
-  bool written = put_root(b, leaf->node, f);
-  fmpz_clear(power);
-  fmpz_poly_clear(f);
-  return written;
+  return put_root(b, leaf->node, f);
 }
 
 /* The checker's name of an operation on forms; NULL: it has none. */
@@ -314,21 +300,16 @@ static bool is_same_root(comparison *c, uint32_t n, const dyd_cert_bracket *r) {
   const fmpz_poly_struct *f = c->forms.node[n].root->poly;
   if (!r || (size_t)f->length != r->count) return false;
   bool inside = true;
-  fmpz_t given;
-  fmpz_init(given);
+  DYD_LOCAL_NUMBERS(fmpz, given);
   for (size_t k = 0; k < r->count; k++) {
     fmpz_set_mpz(given, r->coeff[k]);
     if (fmpz_sgn(fmpz_poly_lead(f)) < 0) fmpz_neg(given, given);
     inside = inside && fmpz_equal(given, f->coeffs + k);
   }
-  fmpz_clear(given);
   if (!inside) return false;
   inside = false;
-  arb_t x, end;
-  mpq_t q;
-  arb_init(x);
-  arb_init(end);
-  mpq_init(q);
+  DYD_LOCAL_NUMBERS(arb, x, end);
+  DYD_LOCAL_NUMBERS(mpq, q);
   for (slong prec = 64; prec <= 2 * DYD_PROOF_BRACKET && !inside; prec *= 2) {
     inside = true;
     for (int k = 0; k < 2; k++) {
@@ -339,9 +320,6 @@ static bool is_same_root(comparison *c, uint32_t n, const dyd_cert_bracket *r) {
       inside = inside && (k ? arb_lt(x, end) : arb_gt(x, end));
     }
   }
-  mpq_clear(q);
-  arb_clear(end);
-  arb_clear(x);
   return inside;
 }
 
@@ -510,7 +488,7 @@ static dyd_status block_text(char **text, size_t *size, uint32_t *lines, const d
 /* The block as the checker sees it, without facts; *taken: it takes it. */
 static dyd_status block_check(bool *taken, dyd_cert_ties *t, const char *text, size_t size, uint32_t lines,
                               const dyd_proof *p) {
-  char *whole = dyd_alloc(size + 64, 1);
+  DYD_FREED char *whole = dyd_alloc(size + 64, 1);
   dyd_error err;
   *taken = false;
   if (!whole) return DYD_E_NOMEM;
@@ -525,7 +503,6 @@ static dyd_status block_check(bool *taken, dyd_cert_ties *t, const char *text, s
   *taken = st == DYD_OK;
   dyd_cert_reader_clear(&in);
   if (in.in) fclose(in.in);
-  free(whole);
   return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
@@ -547,7 +524,7 @@ static dyd_status put_fact(bool *written, FILE *out, dyd_cert_ties *t, const fac
   static const dyd_cert_relation_kind kind[] = {
       [DYD_COINCIDENT] = DYD_CERT_SAME, [DYD_COLLINEAR] = DYD_CERT_LINE, [DYD_COCIRCULAR] = DYD_CERT_CIRCLE};
   dyd_cert_block *b = t->block[t->blocks - 1];
-  uint32_t *site = dyd_alloc(f->count, sizeof *site);
+  DYD_FREED uint32_t *site = dyd_alloc(f->count, sizeof *site);
   if (!site) return DYD_E_NOMEM;
   base_first(site, f);
   bool identity = dyd_cert_fact_holds(b, kind[f->relation], site, f->count, false);
@@ -557,7 +534,6 @@ static dyd_status put_fact(bool *written, FILE *out, dyd_cert_ties *t, const fac
     for (size_t k = 0; k < f->count; k++) fprintf(out, " %" PRIu32, site[k]);
     fputs(identity ? " identity\n" : " bound\n", out);
   }
-  free(site);
   return b->algebra.relations.nomem ? DYD_E_NOMEM : DYD_OK;
 }
 
@@ -579,8 +555,8 @@ static dyd_status facts_text(char **text, size_t *taken, dyd_cert_ties *t, const
 /* Writes one block for these facts; *taken: how many of them it has. *work: that of the blocks written. */
 static dyd_status put_block(FILE *out, size_t *taken, uint64_t *work, const dyd_proof *p, const fact *list,
                             size_t count) {
-  dyd_cert_ties t = {.work = *work};
-  char *text = NULL, *facts = NULL;
+  DYD_SCOPED(dyd_cert_ties) t = {.work = *work};
+  DYD_FREED char *text = NULL, *facts = NULL;
   size_t size;
   uint32_t lines;
   bool good = false;
@@ -590,8 +566,6 @@ static dyd_status put_block(FILE *out, size_t *taken, uint64_t *work, const dyd_
   if (st == DYD_OK && good) st = facts_text(&facts, taken, &t, list, count);
   if (st == DYD_OK && *taken) fprintf(out, "algebra %" PRIu32 "\n%sfacts %zu\n%s", lines, text, *taken, facts);
   if (*taken) *work = t.block[0]->algebra.relations.work;
-  dyd_free_all(facts, text);
-  dyd_cert_ties_clear(&t);
   return st;
 }
 
@@ -617,7 +591,7 @@ static dyd_status facts_gather(fact **list, size_t *count, const dyd_proof *p, b
 }
 
 static dyd_status put_facts(FILE *out, uint64_t *work, const dyd_proof *p, bool same) {
-  fact *list = NULL;
+  DYD_FREED fact *list = NULL;
   size_t count = 0, taken = 0;
   dyd_status st = facts_gather(&list, &count, p, same);
   if (st == DYD_OK && count) st = put_block(out, &taken, work, p, list, count);
@@ -625,7 +599,6 @@ static dyd_status put_facts(FILE *out, uint64_t *work, const dyd_proof *p, bool 
     size_t one;
     st = put_block(out, &one, work, p, &list[q], 1);
   }
-  free(list);
   return st;
 }
 

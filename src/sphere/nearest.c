@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "engine/plan.h"
 #include "sphere/state.h"
 #include "stream/ball.h"
@@ -38,19 +39,16 @@ static void way_clear(way *d) {
 
 /* x = q degrees, or up to `half` more or less, in units of pi. */
 static void half_turn_ball(arb_t x, mpq_srcptr q, mpq_srcptr half, slong prec) {
-  arb_t more;
-  arb_init(more);
+  DYD_LOCAL_NUMBERS(arb, more);
   dyd_ball_set_q(x, q, prec);
   dyd_ball_set_q(more, half, prec);
   arb_add_error(x, more);
   arb_div_ui(x, x, 180, prec);
-  arb_clear(more);
 }
 
 /* value = h for the latitude f, an end of the box. */
 static void way_end(way *d, mpq_srcptr f, const dyd_spot *at) {
-  mpq_t u;
-  mpq_init(u);
+  DYD_LOCAL_NUMBERS(mpq, u);
   mpq_sub(u, f, at->mid[1]);
   half_turn_ball(&d->t, u, at->half[1], d->prec);
   arb_mul_2exp_si(&d->t, &d->t, -1);
@@ -62,7 +60,6 @@ static void way_end(way *d, mpq_srcptr f, const dyd_spot *at) {
   arb_nonnegative_part(&d->t, &d->t);
   arb_mul(&d->t, &d->t, &d->cos0, d->prec);
   arb_addmul(&d->value, &d->t, &d->versine, d->prec);
-  mpq_clear(u);
 }
 
 /* value = h at g, or opposite to it; t = that latitude in units of pi. */
@@ -91,14 +88,12 @@ static void way_critical(way *d, bool opposite) {
 
 /* The latitude t is outside for certain, -1, inside, 1, or 0. */
 static int way_holds(way *d, mpq_srcptr lo, mpq_srcptr hi) {
-  mpq_t zero;
-  mpq_init(zero);
+  DYD_LOCAL_NUMBERS(mpq, zero);
   int sign[2];
   for (int k = 0; k < 2; k++) {
     half_turn_ball(&d->end, k ? hi : lo, zero, d->prec);
     sign[k] = arb_lt(&d->t, &d->end) ? -1 : arb_gt(&d->t, &d->end);
   }
-  mpq_clear(zero);
   return sign[0] < 0 || sign[1] > 0 ? -1 : sign[0] > 0 && sign[1] < 0;
 }
 
@@ -136,8 +131,7 @@ static void way_reach(arb_t out, way *d, mpq_srcptr degrees, mpq_srcptr lo, mpq_
 
 /* The box of the spot, without its angle. */
 static void way_set(way *d, const dyd_spot *spot, const dyd_spot *at) {
-  mpq_t across, side, lo, hi;
-  mpq_inits(across, side, lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, across, side, lo, hi);
   half_turn_ball(&d->lat0, at->mid[1], at->half[1], d->prec);
   arb_sin_cos_pi(&d->sin0, &d->cos0, &d->lat0, d->prec);
   arb_nonnegative_part(&d->cos0, &d->cos0);
@@ -153,29 +147,23 @@ static void way_set(way *d, const dyd_spot *spot, const dyd_spot *at) {
   mpq_add(side, across, spot->half[0]);
   if (mpq_cmp_si(side, 180, 1) > 0) mpq_set_si(side, 180, 1);
   way_reach(&d->largest, d, side, lo, hi, at);
-  mpq_clears(across, side, lo, hi, NULL);
 }
 
 /* Adds the angle `times` times. */
 static void way_widen(arb_t out, const way *d, mpq_srcptr angle, int times) {
-  arb_t a;
-  arb_init(a);
+  DYD_LOCAL_NUMBERS(arb, a);
   dyd_ball_set_q(a, angle, d->prec);
   arb_addmul_si(out, a, times, d->prec);
-  arb_clear(a);
 }
 
 void dyd_spot_reach(arb_t out, const dyd_spot *spot, slong prec) {
-  way d;
-  dyd_spot at;
+  DYD_SCOPED(way) d;
   way_init(&d, prec);
-  dyd_spot_init(&at);
+  DYD_LOCAL(dyd_spot, at);
   for (int a = 0; a < 2; a++) mpq_set(at.mid[a], spot->mid[a]);
   way_set(&d, spot, &at);
   way_widen(&d.largest, &d, spot->angle, 1);
   arb_swap(out, &d.largest);
-  dyd_spot_clear(&at);
-  way_clear(&d);
 }
 
 /* ---- the question ---- */
@@ -193,10 +181,8 @@ typedef struct near_question {
 } near_question;
 
 static dyd_status near_place(near_question *q, dyd_error *err) {
-  mpq_t zero;
-  mpq_init(zero);
+  DYD_LOCAL_NUMBERS(mpq, zero);
   bool good = dyd_spot_set(&q->here, dyd_stream_rect(q->at), zero);
-  mpq_clear(zero);
   if (good) return DYD_OK;
   return dyd_fail(err, DYD_E_DOMAIN,
                   "the latitude is beyond 90 degrees; places are longitude and latitude, in this order");
@@ -243,14 +229,12 @@ static bool near_core(dyd_spot *core, const near_question *q, size_t k) {
 /* A bound of the least distance of each region, and in `most` the least bound of the largest ones, from outside, or,
  * with `stays`, from inside whatever is refined. NULL: memory is exhausted. */
 static arf_struct *near_bounds(arf_t most, const near_question *q, bool stays) {
-  way d;
-  dyd_spot core;
-  arf_t end;
   arf_struct *bound = dyd_alloc(q->near.count, sizeof *bound);
   if (!bound) return NULL;
+  DYD_SCOPED(way) d;
   way_init(&d, q->prec);
-  dyd_spot_init(&core);
-  arf_init(end);
+  DYD_LOCAL(dyd_spot, core);
+  DYD_LOCAL_NUMBERS(arf, end);
   for (size_t k = 0; k < q->near.count; k++) {
     bool held = stays && near_core(&core, q, k);
     way_set(&d, held ? &core : &q->spot[k], &q->here);
@@ -262,17 +246,13 @@ static arf_struct *near_bounds(arf_t most, const near_question *q, bool stays) {
     (stays ? arb_get_lbound_arf : arb_get_ubound_arf)(end, &d.largest, q->prec);
     if (!k || arf_cmp(end, most) < 0) arf_set(most, end);
   }
-  arf_clear(end);
-  dyd_spot_clear(&core);
-  way_clear(&d);
   return bound;
 }
 
 /* Drops places that are farther than another one for certain, or only counts the places that stay, whatever is refined.
  */
 static dyd_status near_keep(size_t *kept, near_question *q, bool stays) {
-  arf_t most;
-  arf_init(most);
+  DYD_LOCAL_NUMBERS(arf, most);
   arf_struct *bound = near_bounds(most, q, stays);
   *kept = 0;
   for (size_t k = 0; bound && k < q->near.count; k++) {
@@ -287,7 +267,6 @@ static dyd_status near_keep(size_t *kept, near_question *q, bool stays) {
     *kept += near;
   }
   if (bound && !stays) q->near.count = *kept;
-  arf_clear(most);
   free(bound);
   return bound ? DYD_OK : DYD_E_NOMEM;
 }
@@ -362,15 +341,13 @@ dyd_status dyd_sphere_nearest(dyd_index_list *out, bool *sure, bool *tied, dyd_o
 /* ---- bounds ---- */
 
 void dyd_sphere_metres(arb_t x, const dyd_sphere *s, slong prec) {
-  arb_t metre;
-  arb_init(metre);
+  DYD_LOCAL_NUMBERS(arb, metre);
   dyd_ball_set_q(metre, s->metre, prec);
   arb_div(x, x, metre, prec);
-  arb_clear(metre);
 }
 
 static void distance_set(double *lo, double *hi, const dyd_sphere *s, const dyd_spot *spot, const dyd_spot *at) {
-  way d;
+  DYD_SCOPED(way) d;
   way_init(&d, FIRST_PREC);
   way_set(&d, spot, at);
   way_widen(&d.least, &d, spot->angle, -1);
@@ -381,21 +358,14 @@ static void distance_set(double *lo, double *hi, const dyd_sphere *s, const dyd_
   dyd_sphere_metres(&d.largest, s, FIRST_PREC);
   *lo = fmax(0, dyd_ball_ends(&d.least).lo);
   *hi = dyd_ball_ends(&d.largest).hi;
-  way_clear(&d);
 }
 
 dyd_status dyd_sphere_distance(double *lo, double *hi, const dyd_sphere *s, uint32_t i, const dyd_rect *at) {
   if (!lo || !hi || !s || !at || i >= s->count) return DYD_E_ARG;
-  dyd_spot spot, here;
-  mpq_t zero;
-  mpq_init(zero);
-  dyd_spot_init(&spot);
-  dyd_spot_init(&here);
+  DYD_LOCAL_NUMBERS(mpq, zero);
+  DYD_LOCAL(dyd_spot, spot, here);
   dyd_status st = dyd_sphere_spot(&spot, s, i, NULL);
   if (st == DYD_OK && !dyd_spot_set(&here, at, zero)) st = DYD_E_DOMAIN;
   if (st == DYD_OK) distance_set(lo, hi, s, &spot, &here);
-  dyd_spot_clear(&here);
-  dyd_spot_clear(&spot);
-  mpq_clear(zero);
   return st;
 }

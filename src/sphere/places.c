@@ -2,6 +2,7 @@
 /* Where the places are, and which are the same. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "engine/state.h"
 #include "sphere/state.h"
 #include "stream/algebra/zero.h"
@@ -48,9 +49,8 @@ static bool spot_cut_poles(dyd_spot *s, mpq_t lo, mpq_t hi) {
 
 /* x becomes the number equal to it modulo 360 that is in [-180, 180). */
 static void reduce_longitude(mpq_t x) {
-  mpz_t turns, unit;
   if (mpq_cmp_si(x, 180, 1) < 0 && mpq_cmp_si(x, -180, 1) >= 0) return;
-  mpz_inits(turns, unit, NULL);
+  DYD_LOCAL_NUMBERS(mpz, turns, unit);
   mpz_mul_ui(unit, mpq_denref(x), 180);
   mpz_add(turns, mpq_numref(x), unit);
   mpz_mul_2exp(unit, unit, 1);
@@ -58,12 +58,10 @@ static void reduce_longitude(mpq_t x) {
   mpz_tdiv_q_2exp(unit, unit, 1);
   mpz_sub(mpq_numref(x), turns, unit);
   mpq_canonicalize(x);
-  mpz_clears(turns, unit, NULL);
 }
 
 bool dyd_spot_set(dyd_spot *s, const dyd_rect *r, mpq_srcptr more) {
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   mpq_set_ui(s->angle, 0, 1);
   dyd_interval_get_q(lo, hi, &r->x);
   spot_set_side(s, 0, lo, hi);
@@ -74,9 +72,7 @@ bool dyd_spot_set(dyd_spot *s, const dyd_rect *r, mpq_srcptr more) {
     mpq_sub(lo, lo, more);
     mpq_add(hi, hi, more);
   }
-  bool good = spot_cut_poles(s, lo, hi);
-  mpq_clears(lo, hi, NULL);
-  return good;
+  return spot_cut_poles(s, lo, hi);
 }
 
 bool dyd_spot_is_exact(const dyd_spot *s) {
@@ -95,10 +91,8 @@ void dyd_spot_choose(dyd_spot *s, unsigned place) {
 
 /* out = an upper bound of x degrees, x in radians. */
 static void degrees_above(mpq_t out, arb_t x) {
-  arb_t pi;
-  arf_t up;
-  arb_init(pi);
-  arf_init(up);
+  DYD_LOCAL_NUMBERS(arb, pi);
+  DYD_LOCAL_NUMBERS(arf, up);
   arb_const_pi(pi, 64);
   arb_mul_ui(x, x, 180, 64);
   arb_div(x, x, pi, 64);
@@ -107,18 +101,13 @@ static void degrees_above(mpq_t out, arb_t x) {
     mpq_set_d(out, arf_get_d(up, ARF_RND_CEIL));
   else
     mpq_set_si(out, 180, 1);
-  arf_clear(up);
-  arb_clear(pi);
 }
 
 /* The cap about (l, f) of an angle a holds longitudes up to asin(sin a / cos f) from l, while f + a < 90 degrees. */
 void dyd_spot_box(dyd_spot *s) {
-  arb_t a, f;
-  mpq_t lo, hi, more;
   if (mpq_sgn(s->angle) == 0) return;
-  arb_init(a);
-  arb_init(f);
-  mpq_inits(lo, hi, more, NULL);
+  DYD_LOCAL_NUMBERS(arb, a, f);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi, more);
   mpq_sub(lo, s->mid[1], s->half[1]);
   mpq_add(hi, s->mid[1], s->half[1]);
   mpq_neg(more, lo);
@@ -137,9 +126,6 @@ void dyd_spot_box(dyd_spot *s) {
   mpq_add(hi, hi, more);
   spot_cut_poles(s, lo, hi);
   mpq_set_ui(s->angle, 0, 1);
-  mpq_clears(lo, hi, more, NULL);
-  arb_clear(f);
-  arb_clear(a);
 }
 
 /* The next double at or below x (side < 0), or at or above. */
@@ -151,8 +137,7 @@ static double rounded_to(mpq_srcptr x, int side, mpq_t exact) {
 }
 
 void dyd_spot_get_d(dyd_spot_d *out, const dyd_spot *s) {
-  mpq_t end, exact;
-  mpq_inits(end, exact, NULL);
+  DYD_LOCAL_NUMBERS(mpq, end, exact);
   for (int a = 0; a < 2; a++) {
     mpq_sub(end, s->mid[a], s->half[a]);
     out->box[2 * a] = rounded_to(end, -1, exact);
@@ -160,7 +145,6 @@ void dyd_spot_get_d(dyd_spot_d *out, const dyd_spot *s) {
     out->box[2 * a + 1] = rounded_to(end, 1, exact);
   }
   out->angle = rounded_to(s->angle, 1, exact);
-  mpq_clears(end, exact, NULL);
 }
 
 /* Where the places themselves are asked, their engine knows more than a stream that was taken out, unless that was
@@ -194,11 +178,9 @@ static void spot_within(dyd_spot *out, const dyd_sphere *s, double metres) {
 }
 
 dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_sphere_stated(&r, s, i);
   bool good = st == DYD_OK && dyd_spot_set(out, &r, s->degrees);
-  dyd_rect_clear(&r);
   if (good && s->within && s->within[i] >= 0) {
     spot_within(out, s, s->within[i]);
     return DYD_OK;
@@ -224,13 +206,11 @@ static bool place_is_plain(double box[4], const dyd_sphere *s, uint32_t i) {
 }
 
 dyd_status dyd_sphere_spot_d(dyd_spot_d *out, const dyd_sphere *s, uint32_t i, dyd_error *err) {
-  dyd_spot spot;
   out->angle = 0;
   if (place_is_plain(out->box, s, i)) return DYD_OK;
-  dyd_spot_init(&spot);
+  DYD_LOCAL(dyd_spot, spot);
   dyd_status st = dyd_sphere_spot(&spot, s, i, err);
   if (st == DYD_OK) dyd_spot_get_d(out, &spot);
-  dyd_spot_clear(&spot);
   return st;
 }
 
@@ -253,14 +233,11 @@ static bool form_is_rational(mpq_ptr q, dyd_algebra *a, uint32_t n) {
 
 /* Sets out to the exact place that the forms are; a pole has longitude 0, whatever the form of its longitude. */
 static bool forms_are_exact(dyd_rect *out, dyd_algebra *a, dyd_form_point at) {
-  mpq_t x, y;
-  mpq_inits(x, y, NULL);
+  DYD_LOCAL_NUMBERS(mpq, x, y);
   bool good = form_is_rational(y, a, at.y);
   bool pole = good && (mpq_cmp_si(y, 90, 1) == 0 || mpq_cmp_si(y, -90, 1) == 0);
   good = good && (pole || form_is_rational(x, a, at.x));
-  good = good && dyd_interval_set_q(&out->x, x) == DYD_OK && dyd_interval_set_q(&out->y, y) == DYD_OK;
-  mpq_clears(x, y, NULL);
-  return good;
+  return good && dyd_interval_set_q(&out->x, x) == DYD_OK && dyd_interval_set_q(&out->y, y) == DYD_OK;
 }
 
 static dyd_status place_becomes(dyd_sphere *s, uint32_t i, const dyd_rect *r) {
@@ -274,15 +251,13 @@ static dyd_status place_becomes(dyd_sphere *s, uint32_t i, const dyd_rect *r) {
 
 dyd_status dyd_sphere_recognise(dyd_sphere *s, uint32_t i, dyd_error *err) {
   dyd_algebra a;
-  dyd_rect r;
   if (dyd_sphere_is_fixed(s, i) || dyd_stream_is_final(s->stream[i])) return DYD_OK;
   dyd_status st = dyd_algebra_open(&a, DYD_TIE_BITS, &s->images->stop);
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_form_point at = dyd_forms_stream(&a.forms, s->stream[i]);
   bool both = at.x != DYD_NONE; /* a longitude that is measured may be that of a pole */
   if (st == DYD_OK && at.y != DYD_NONE) st = dyd_algebra_settle(&a, both ? &at.x : &at.y, both ? 2 : 1);
   if (st == DYD_OK && a.settled && forms_are_exact(&r, &a, at)) st = place_becomes(s, i, &r);
-  dyd_rect_clear(&r);
   dyd_algebra_close(&a);
   return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
 }
@@ -308,10 +283,8 @@ static int compare_rounded(const void *a, const void *b) {
 /* Among places with equal rounded degrees: each becomes an alias of the first that is equal to it. Computable ones are
  * recognised here, so that single ones cost nothing. */
 static dyd_status aliases_in_run(dyd_sphere *s, const rounded_place *run, size_t count, dyd_error *err) {
-  dyd_spot a, b;
   dyd_status st = DYD_OK;
-  dyd_spot_init(&a);
-  dyd_spot_init(&b);
+  DYD_LOCAL(dyd_spot, a, b);
   for (size_t k = 0; k < count && st == DYD_OK; k++) {
     uint32_t i = run[k].place;
     st = dyd_sphere_recognise(s, i, err);
@@ -325,8 +298,6 @@ static dyd_status aliases_in_run(dyd_sphere *s, const rounded_place *run, size_t
       if (mpq_equal(a.mid[0], b.mid[0]) && mpq_equal(a.mid[1], b.mid[1])) s->alias[i] = j;
     }
   }
-  dyd_spot_clear(&b);
-  dyd_spot_clear(&a);
   return st;
 }
 
@@ -391,7 +362,7 @@ static dyd_status places_thin(rounded_place *place, size_t *count) {
 }
 
 dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err) {
-  rounded_place *place = dyd_alloc(s->count * (s->stream ? MOST_SQUARES : 1), sizeof *place);
+  DYD_FREED rounded_place *place = dyd_alloc(s->count * (s->stream ? MOST_SQUARES : 1), sizeof *place);
   size_t count = 0;
   dyd_status st = place ? places_round(place, &count, s, err) : dyd_fail_nomem(err);
   if (st == DYD_OK && places_thin(place, &count) != DYD_OK) st = dyd_fail_nomem(err);
@@ -401,6 +372,5 @@ dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err) {
     if (end > k + 1) st = aliases_in_run(s, place + k, end - k, err);
   }
   for (uint32_t i = 0; i < s->count && st == DYD_OK; i++) s->alias[i] = s->alias[s->alias[i]];
-  free(place);
   return st;
 }

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/flag.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "engine/points.h"
 #include "sphere/state.h"
 #include "sphere/units.h"
@@ -67,7 +68,7 @@ static bool target_is_asked(const sphere_plan *p, const dyd_pair *q) {
 
 /* The open pairs, except ties where places are in the middle of their regions. */
 static dyd_status targets_find(sphere_plan *p) {
-  dyd_pair_list all = {0}, nominal = {0};
+  DYD_SCOPED(dyd_pair_list) all = {0}, nominal = {0};
   dyd_survey_result *r = &p->found->result;
   dyd_status st = p->options.pairs ? targets_ask(p, p->options.pairs) : DYD_OK;
   if (st == DYD_OK) st = dyd_sphere_pairs(&all, p->s);
@@ -89,8 +90,6 @@ static dyd_status targets_find(sphere_plan *p) {
       p->target.item[p->target.count++] = *q;
   }
   for (size_t k = 0; k < r->ties; k++) p->target.item[p->target.count + k] = p->tied[k];
-  dyd_pair_list_clear(&nominal);
-  dyd_pair_list_clear(&all);
   if (st == DYD_OK && (!DYD_ZEROED(p->taken, p->target.count + 1) || !DYD_NEW(p->pair, p->target.count)))
     st = DYD_E_NOMEM;
   for (size_t k = 0; k < p->target.count && st == DYD_OK; k++)
@@ -125,23 +124,21 @@ static dyd_status nominal_make(sphere_plan *p) {
 /* Sets half to an upper bound of the half of a square that holds the images of all within the angle; false: no square
  * does. */
 static bool square_half(double *half, const plan_place *v, arb_srcptr angle) {
-  arb_t x;
-  arb_init(x);
+  DYD_LOCAL_NUMBERS(arb, x);
   arb_sub(x, &v->angle, angle, PREC);
   bool good = arb_is_positive(x);
   arb_mul_2exp_si(x, x, -1);
   arb_cot(x, x, PREC);
   arb_sub(x, x, &v->far, PREC);
   *half = nextafter(dyd_ball_ends(x).hi + v->off, HUGE_VAL);
-  arb_clear(x);
   return good && isfinite(*half);
 }
 
 /* The metres within which a place has to be so that its image is within `half`; a lower bound, to 6 digits. */
 static double square_metres(const plan_place *v, const dyd_sphere *s, double half) {
-  arb_ptr x = _arb_vec_init(2), t = x + 1;
-  mpq_t least;
-  mpq_init(least);
+  DYD_LOCAL_ARRAY(arb_struct, x, [2]);
+  arb_ptr t = x + 1;
+  DYD_LOCAL_NUMBERS(mpq, least);
   arb_set_d(x, half);
   arb_set_d(t, v->off);
   arb_sub(x, x, t, PREC);
@@ -152,17 +149,13 @@ static double square_metres(const plan_place *v, const dyd_sphere *s, double hal
   arb_sub(x, &v->angle, x, PREC);
   dyd_sphere_metres(x, s, PREC);
   mpq_set_d(least, fmax(0, dyd_ball_ends(x).lo));
-  double metres = dyd_q_brief(least);
-  mpq_clear(least);
-  _arb_vec_clear(x, 2);
-  return metres;
+  return dyd_q_brief(least);
 }
 
 /* Sets the view of a place in the middle of the spot; false: it is at the eye. */
 static bool view_place(plan_place *v, dyd_sphere *eye, const dyd_spot *spot) {
-  arb_ptr x = _arb_vec_init(4);
-  dyd_spot mid;
-  dyd_spot_init(&mid);
+  DYD_LOCAL_ARRAY(arb_struct, x, [4]);
+  DYD_LOCAL(dyd_spot, mid);
   for (int a = 0; a < 2; a++) mpq_set(mid.mid[a], spot->mid[a]);
   bool good = dyd_project(x, x + 1, &mid, &eye->eye, PREC);
   v->off = 0;
@@ -175,18 +168,15 @@ static bool view_place(plan_place *v, dyd_sphere *eye, const dyd_spot *spot) {
   arb_one(x);
   arb_atan2(&v->angle, x, &v->far, PREC);
   arb_mul_2exp_si(&v->angle, &v->angle, 1);
-  dyd_spot_clear(&mid);
-  _arb_vec_clear(x, 4);
   return good;
 }
 
 /* Adds the square of half-width h about the image. */
 static dyd_status square_add(dyd_sites *sites, const plan_place *v, double h) {
-  mpq_t c, half, end[2];
-  dyd_rect r;
   dyd_status st = DYD_OK;
-  mpq_inits(c, half, end[0], end[1], NULL);
-  dyd_rect_init(&r);
+  DYD_LOCAL_NUMBERS(mpq, c, half);
+  DYD_LOCAL_ARRAY(mpq_t, end, [2]);
+  DYD_LOCAL(dyd_rect, r);
   mpq_set_d(half, h);
   for (int a = 0; a < 2 && st == DYD_OK; a++) {
     mpq_set_d(c, v->at[a]);
@@ -194,24 +184,19 @@ static dyd_status square_add(dyd_sites *sites, const plan_place *v, double h) {
     mpq_add(end[1], c, half);
     st = dyd_interval_set_outward(a ? &r.y : &r.x, end[0], end[1], -2048); /* exact */
   }
-  if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
-  dyd_rect_clear(&r);
-  mpq_clears(c, half, end[0], end[1], NULL);
-  return st;
+  return st == DYD_OK ? dyd_sites_add_rect(sites, &r) : st;
 }
 
 /* Of place i, as it is, or as the plan so far has it; *accuracy: half of the square for the accuracy asked for. Left
  * out where its region reaches the eye. */
 static dyd_status square_make(double *accuracy, sphere_plan *p, dyd_sites *sites, dyd_sphere *eye, uint32_t i) {
   plan_place *v = &p->view[p->views];
-  dyd_spot spot;
-  arb_t reach;
   double half = 0;
   arb_init(&v->far);
   arb_init(&v->angle);
   p->views++;
-  arb_init(reach);
-  dyd_spot_init(&spot);
+  DYD_LOCAL_NUMBERS(arb, reach);
+  DYD_LOCAL(dyd_spot, spot);
   v->place = i;
   dyd_status st = dyd_sphere_spot(&spot, p->s, i, p->err);
   if (st == DYD_OK) dyd_spot_reach(reach, &spot, PREC);
@@ -228,8 +213,6 @@ static dyd_status square_make(double *accuracy, sphere_plan *p, dyd_sites *sites
     arb_clear(&v->far);
     p->views--;
   }
-  dyd_spot_clear(&spot);
-  arb_clear(reach);
   return st;
 }
 
@@ -247,17 +230,13 @@ static dyd_status rows_take(sphere_plan *p, const dyd_survey *survey) {
     dyd_survey_row *to = &p->row[*of];
     double metres = square_metres(v, p->s, row[k].needed);
     if (first) {
-      dyd_spot spot;
-      arb_t x;
       *to = (dyd_survey_row){.site = v->place, .needed = metres};
-      dyd_spot_init(&spot);
-      arb_init(x);
+      DYD_LOCAL(dyd_spot, spot);
+      DYD_LOCAL_NUMBERS(arb, x);
       dyd_status st = dyd_sphere_spot(&spot, p->s, v->place, p->err);
       if (st == DYD_OK) dyd_spot_reach(x, &spot, PREC);
       dyd_sphere_metres(x, p->s, PREC);
       to->now = dyd_ball_ends(x).hi;
-      arb_clear(x);
-      dyd_spot_clear(&spot);
       p->rows++;
       if (st != DYD_OK) return st;
     }
@@ -272,7 +251,7 @@ static dyd_status pairs_take(sphere_plan *p, const dyd_survey *survey) {
   const dyd_survey_row *row;
   const dyd_survey_pair *pair;
   const size_t rows = dyd_survey_rows(&row, survey), pairs = dyd_survey_pairs(&pair, survey);
-  size_t *last = dyd_alloc(rows, sizeof *last); /* of the rows of places that the first ones are */
+  DYD_FREED size_t *last = dyd_alloc(rows, sizeof *last); /* of the rows of places that the first ones are */
   if (!last) return DYD_E_NOMEM;
   for (size_t k = 0; k < rows; k++) {
     const size_t of = p->row_of[p->view[row[k].site].place];
@@ -283,7 +262,6 @@ static dyd_status pairs_take(sphere_plan *p, const dyd_survey *survey) {
     const dyd_pair *at = dyd_find_two(key, p->target.item, p->target.count, sizeof *at);
     if (at && pair[k].row < rows) p->pair[at - p->target.item].row = last[pair[k].row];
   }
-  free(last);
   return DYD_OK;
 }
 
@@ -302,7 +280,7 @@ static dyd_status eye_targets(dyd_pair_list *out, sphere_plan *p, const dyd_dela
 }
 
 static dyd_status eye_plan(sphere_plan *p, const dyd_delaunay *pd, const double *accuracy, const double *cost) {
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_survey *survey = NULL;
   dyd_status st = eye_targets(&pairs, p, pd);
   const dyd_survey_options how = {DYD_SIZED(dyd_survey_options), .pairs = &pairs,
@@ -312,7 +290,6 @@ static dyd_status eye_plan(sphere_plan *p, const dyd_delaunay *pd, const double 
   dyd_status taken = survey ? rows_take(p, survey) : DYD_OK;
   if (survey && taken == DYD_OK) taken = pairs_take(p, survey);
   dyd_survey_free(survey);
-  dyd_pair_list_clear(&pairs);
   return taken == DYD_OK ? st : taken;
 }
 
@@ -353,7 +330,7 @@ static dyd_status eye_look(sphere_plan *p, dyd_sphere *eye) {
  * row's. */
 static dyd_status plan_verify(sphere_plan *p) {
   dyd_sphere *then = NULL;
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = dyd_sphere_new_within(&then, p->s, p->within, p->err);
   if (st == DYD_OK) st = plan_run(p, then);
   if (st == DYD_OK) st = dyd_sphere_pairs(&pairs, then);
@@ -364,7 +341,6 @@ static dyd_status plan_verify(sphere_plan *p) {
     else if (p->pair[k].row == SIZE_MAX && p->rows)
       p->pair[k].row = p->rows - 1;
   }
-  dyd_pair_list_clear(&pairs);
   dyd_sphere_free(then);
   return st;
 }

@@ -11,6 +11,7 @@
  * from q, are cut; where pieces are too many, they reach q. */
 #include "base/error.h"
 #include "base/flag.h"
+#include "base/local.h"
 #include "engine/points.h"
 #include "rect/rect.h"
 #include "sphere/state.h"
@@ -122,11 +123,9 @@ static void slope_set(sight *g, int k, int axis, int side) {
 /* Grows the end by the least (side < 0) or greatest value of one image coordinate over the piece [SPH-2]: at an end of
  * each variable where the slope by it has one sign, else at its middle, and the slope times its half-width off. */
 static void piece_bound(sight *g, const piece *p, int axis, int side) {
-  arb_ptr at = _arb_vec_init(VARIABLES);
-  mag_t off, more;
+  DYD_LOCAL_ARRAY(arb_struct, at, [VARIABLES]);
   arf_struct *end = &g->end[2 * axis + (side > 0)];
-  mag_init(off);
-  mag_init(more);
+  DYD_LOCAL_NUMBERS(mag, off, more);
   for (int k = 0; k < VARIABLES; k++) {
     arb_set(at + k, &p->mid[k]);
     if (mag_is_zero(&p->half[k])) continue;
@@ -146,9 +145,6 @@ static void piece_bound(sight *g, const piece *p, int axis, int side) {
   else
     arb_get_ubound_arf(g->limit, g->number, g->prec);
   if (!g->any || arf_cmp(g->limit, end) * side > 0 || arf_is_nan(g->limit)) arf_set(end, g->limit);
-  _arb_vec_clear(at, VARIABLES);
-  mag_clear(more);
-  mag_clear(off);
 }
 
 static void piece_add(sight *g, const piece *p) {
@@ -163,26 +159,21 @@ static void piece_add(sight *g, const piece *p) {
  * latitudes do. So that they are narrow for a turn as well, no longitude is taken for shorter than the angle at which
  * places are seen from q, E >= least. */
 static void piece_step(mag_t step, const sight *g, const piece *p, int k, const mag_t least) {
-  mag_t across;
   mag_set(step, &p->half[k]);
   if (k) return;
-  mag_init(across);
+  DYD_LOCAL_NUMBERS(mag, across);
   mag_mul_2exp_si(across, least, -1);
   mag_sqrt(across, across);
   arb_get_mag(step, &g->over.cf);
   mag_max(step, step, across);
   mag_mul(step, step, &p->half[0]);
-  mag_clear(across);
 }
 
 /* Sets the view over the box. Returns true if the box is narrow for its distance from q, E > 2^8 step^2. *widest: the
  * variable to be cut, that of the longest step. */
 static bool piece_is_narrow(int *widest, sight *g, const piece *p) {
-  arb_ptr box = _arb_vec_init(VARIABLES);
-  mag_t least, most, step;
-  mag_init(least);
-  mag_init(most);
-  mag_init(step);
+  DYD_LOCAL_ARRAY(arb_struct, box, [VARIABLES]);
+  DYD_LOCAL_NUMBERS(mag, least, most, step);
   for (int k = 0; k < VARIABLES; k++) {
     arb_set(box + k, &p->mid[k]);
     arb_add_error_mag(box + k, &p->half[k]);
@@ -197,12 +188,7 @@ static bool piece_is_narrow(int *widest, sight *g, const piece *p) {
   }
   mag_mul(most, most, most);
   mag_mul_2exp_si(most, most, 8);
-  bool narrow = arb_is_positive(&g->over.E) && mag_cmp(most, least) <= 0;
-  _arb_vec_clear(box, VARIABLES);
-  mag_clear(step);
-  mag_clear(most);
-  mag_clear(least);
-  return narrow;
+  return arb_is_positive(&g->over.E) && mag_cmp(most, least) <= 0;
 }
 
 static void piece_init(piece *p) {
@@ -221,8 +207,7 @@ static void piece_clear(piece *p) {
 
 /* *out is one half of p, across variable k. */
 static void piece_cut(piece *out, const piece *p, int k, int side, slong prec) {
-  arb_t move;
-  arb_init(move);
+  DYD_LOCAL_NUMBERS(arb, move);
   for (int j = 0; j < VARIABLES; j++) {
     arb_set(&out->mid[j], &p->mid[j]);
     mag_set(&out->half[j], &p->half[j]);
@@ -231,13 +216,11 @@ static void piece_cut(piece *out, const piece *p, int k, int side, slong prec) {
   arf_set_mag(arb_midref(move), &out->half[k]);
   arb_mul_si(move, move, side, prec);
   arb_add(&out->mid[k], &out->mid[k], move, prec);
-  arb_clear(move);
 }
 
 /* Cut across the widest variable, a piece MOST_DEPTH cuts deep is as thin as 2^-64 of the whole: near the centre none
  * is narrow. */
 static bool sight_cover(sight *g, const piece *all, int depth) {
-  piece p;
   int widest;
   if (!g->wide || piece_is_narrow(&widest, g, all)) {
     view_set(&g->at, &all->mid[0], &all->mid[1], &all->mid[2], g);
@@ -246,20 +229,19 @@ static bool sight_cover(sight *g, const piece *all, int depth) {
     return true;
   }
   if (++g->pieces > MOST_PIECES || depth == MOST_DEPTH || dyd_flag_is_set(g->stop)) return false;
-  piece_init(&p);
+  DYD_LOCAL(piece, p);
   piece_cut(&p, all, widest, -1, g->prec);
   bool good = sight_cover(g, &p, depth + 1);
   if (good) piece_cut(&p, all, widest, 1, g->prec);
-  good = good && sight_cover(g, &p, depth + 1);
-  piece_clear(&p);
-  return good;
+  return good && sight_cover(g, &p, depth + 1);
 }
 
 /* ---- the image ---- */
 
 /* out = q degrees in radians, half: upper bound of h degrees. */
 static void radians(arb_t out, mag_t half, mpq_srcptr q, mpq_srcptr h, slong prec) {
-  arb_ptr pi = _arb_vec_init(2), t = pi + 1;
+  DYD_LOCAL_ARRAY(arb_struct, pi, [2]);
+  arb_ptr t = pi + 1;
   arb_const_pi(pi, prec);
   arb_div_ui(pi, pi, 180, prec);
   dyd_ball_set_q(out, q, prec);
@@ -267,7 +249,6 @@ static void radians(arb_t out, mag_t half, mpq_srcptr q, mpq_srcptr h, slong pre
   dyd_ball_set_q(t, h, MAG_BITS + 2);
   arb_mul(t, t, pi, MAG_BITS + 2);
   arb_get_mag(half, t);
-  _arb_vec_clear(pi, 2);
 }
 
 static void sight_init(sight *g, mpq_srcptr angle, slong prec) {
@@ -306,14 +287,12 @@ static void sight_clear(sight *g) {
 
 /* The variables: longitudes enter by their difference, which is taken before anything is rounded. */
 static void piece_set(piece *p, const dyd_spot *s, const dyd_spot *q, slong prec) {
-  mpq_t mid, half;
-  mpq_inits(mid, half, NULL);
+  DYD_LOCAL_NUMBERS(mpq, mid, half);
   mpq_sub(mid, s->mid[0], q->mid[0]);
   mpq_add(half, s->half[0], q->half[0]);
   radians(&p->mid[0], &p->half[0], mid, half, prec);
   radians(&p->mid[1], &p->half[1], s->mid[1], s->half[1], prec);
   radians(&p->mid[2], &p->half[2], q->mid[1], q->half[1], prec);
-  mpq_clears(mid, half, NULL);
 }
 
 /* ---- exact places ---- */
@@ -342,13 +321,11 @@ static void eye_prepare(dyd_eye *e, slong prec) {
 }
 
 dyd_iv dyd_ball_ends(arb_srcptr x) {
-  arf_t end;
-  arf_init(end);
+  DYD_LOCAL_NUMBERS(arf, end);
   arb_get_lbound_arf(end, x, EYE_BITS);
   double lo = arf_get_d(end, ARF_RND_FLOOR);
   arb_get_ubound_arf(end, x, EYE_BITS);
   double hi = arf_get_d(end, ARF_RND_CEIL);
-  arf_clear(end);
   return (dyd_iv){lo, hi};
 }
 
@@ -359,7 +336,8 @@ void dyd_eye_enclose(dyd_eye_d *out, dyd_eye *e) {
 
 /* Of one place in balls of degrees, seen from an exact place: three sines at half the angles. */
 static bool project_degrees(arb_ptr x, arb_ptr y, arb_srcptr lon, arb_srcptr lat, dyd_eye *e, slong prec) {
-  arb_ptr f = _arb_vec_init(3), D = f + 1, w = f + 2;
+  DYD_LOCAL_ARRAY(arb_struct, f, [3]);
+  arb_ptr D = f + 1, w = f + 2;
   eye_prepare(e, prec);
   arb_sub(w, lon, &e->lon, prec);
   arb_mul(w, w, &e->unit, prec);
@@ -380,24 +358,21 @@ static bool project_degrees(arb_ptr x, arb_ptr y, arb_srcptr lon, arb_srcptr lat
   bool good = arb_is_positive(D);
   if (good) arb_div(x, x, D, prec);
   if (good) arb_div(y, y, D, prec);
-  _arb_vec_clear(f, 3);
   return good;
 }
 
 static bool project_exact(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec) {
-  arb_ptr lon = _arb_vec_init(2), lat = lon + 1;
+  DYD_LOCAL_ARRAY(arb_struct, lon, [2]);
+  arb_ptr lat = lon + 1;
   dyd_ball_set_q(lon, s->mid[0], prec);
   dyd_ball_set_q(lat, s->mid[1], prec);
-  bool good = project_degrees(x, y, lon, lat, e, prec);
-  _arb_vec_clear(lon, 2);
-  return good;
+  return project_degrees(x, y, lon, lat, e, prec);
 }
 
 static bool project_sight(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec) {
-  sight g;
-  piece p;
+  DYD_SCOPED(sight) g;
   sight_init(&g, s->angle, prec);
-  piece_init(&p);
+  DYD_LOCAL(piece, p);
   piece_set(&p, s, &e->spot, prec);
   g.stop = e->stop;
   g.wide = false;
@@ -408,8 +383,6 @@ static bool project_sight(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, s
     arb_set_interval_arf(y, &g.end[2], &g.end[3], prec);
     good = arb_is_finite(x) && arb_is_finite(y);
   }
-  piece_clear(&p);
-  sight_clear(&g);
   return good;
 }
 
@@ -430,12 +403,9 @@ static bool spot_about_pole(dyd_spot *out, const dyd_spot *s) {
 }
 
 bool dyd_project(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec) {
-  dyd_spot disc;
   if (dyd_spot_is_exact(s) && dyd_spot_is_exact(&e->spot)) return project_exact(x, y, s, e, prec);
-  dyd_spot_init(&disc);
-  bool good = project_sight(x, y, spot_about_pole(&disc, s) ? &disc : s, e, prec);
-  dyd_spot_clear(&disc);
-  return good;
+  DYD_LOCAL(dyd_spot, disc);
+  return project_sight(x, y, spot_about_pole(&disc, s) ? &disc : s, e, prec);
 }
 
 /* ---- what the engine of images asks for ---- */
@@ -528,16 +498,14 @@ static dyd_status image_find(image *m, const image_wish *w, dyd_error *err) {
 
 /* Rounds outward and intersects with the image before. */
 static dyd_status image_give(dyd_rect *out, const image *m, bool known, int64_t bits) {
-  dyd_rect now;
   slong width = image_width(m) - 16;
   int64_t grid = m->wide && width > -bits - 2 - GUARD ? width : -bits - 2;
-  dyd_rect_init(&now);
+  DYD_LOCAL(dyd_rect, now);
   dyd_status st = dyd_ball_interval(&now.x, m->x, grid);
   if (st == DYD_OK) st = dyd_ball_interval(&now.y, m->y, grid);
   if (st == DYD_OK && known) st = dyd_interval_intersect(&now.x, &now.x, &out->x);
   if (st == DYD_OK && known) st = dyd_interval_intersect(&now.y, &now.y, &out->y);
   if (st == DYD_OK) dyd_rect_swap(out, &now);
-  dyd_rect_clear(&now);
   return st;
 }
 
@@ -556,12 +524,11 @@ static void image_clear(image *m) {
 
 static dyd_status image_request(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
   dyd_sphere *s = user;
-  image m;
+  DYD_SCOPED(image) m;
   image_init(&m, s, s->of[request->point]);
   dyd_status st = image_find(&m, &(image_wish){request->bits, request->max_bits, request->stop}, err);
   if (st == DYD_OK) st = image_give(out, &m, dyd_engine_knows(s->images, (uint32_t)request->point), request->bits);
   if (st == DYD_OK && m.wide && (!m.moving || request->bits >= WIDE_BITS)) st = DYD_FIXED;
-  image_clear(&m);
   return st;
 }
 
@@ -569,24 +536,20 @@ static dyd_status image_request(dyd_rect *out, void *user, const dyd_request *re
 static bool place_project(image *m, slong prec) {
   dyd_sphere *s = m->s;
   if (s->free || !dyd_sphere_is_fixed(s, s->centre)) return dyd_project(m->x, m->y, &m->spot, &s->eye, prec);
-  dyd_eye eye;
-  dyd_eye_init(&eye);
+  DYD_LOCAL(dyd_eye, eye);
   bool seen = dyd_sphere_spot(&eye.spot, s, s->centre, NULL) == DYD_OK;
   if (seen) dyd_spot_choose(&eye.spot, 0);
-  seen = seen && dyd_project(m->x, m->y, &m->spot, &eye, prec);
-  dyd_eye_clear(&eye);
-  return seen;
+  return seen && dyd_project(m->x, m->y, &m->spot, &eye, prec);
 }
 
 dyd_status dyd_sphere_place_at(dyd_rect *out, void *user, const dyd_site_place *at) {
   enum { PREC = 256 };
   dyd_sphere *s = user;
-  image m;
+  DYD_SCOPED(image) m;
   image_init(&m, s, s->of[at->site]);
   dyd_status st = dyd_sphere_spot(&m.spot, s, m.i, NULL);
   if (st == DYD_OK && m.spot.stays && dyd_sphere_is_fixed(s, m.i)) dyd_spot_choose(&m.spot, at->place);
   if (st == DYD_OK && place_project(&m, PREC)) st = image_give(out, &m, false, PREC / 2);
-  image_clear(&m);
   return st;
 }
 

@@ -14,6 +14,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "delaunay/state.h"
 #include "engine/points.h"
 #include "rect/rect.h"
@@ -96,13 +97,10 @@ static dyd_status radius_take(mpq_ptr radius, bool *ground, const dyd_sphere_opt
 }
 
 dyd_status dyd_sphere_radius(mpq_ptr out, bool *ground, const dyd_sphere_options *o, dyd_error *err) {
-  mpq_t scale;
-  mpq_init(scale);
+  DYD_LOCAL_NUMBERS(mpq, scale);
   mpq_set_ui(out, 0, 1);
   *ground = false;
-  dyd_status st = radius_take(out, ground, o, scale, err);
-  mpq_clear(scale);
-  return st;
+  return radius_take(out, ground, o, scale, err);
 }
 
 /* Metres are an angle, degrees stay degrees. */
@@ -285,17 +283,15 @@ static dyd_status second_run(dyd_sphere *s, dyd_sphere *first, const dyd_engine_
 
 /* About a centre that is not a place: all that may be its neighbours. */
 static dyd_status face_of_gap(dyd_index_list *face, bool *tie, const dyd_delaunay *pd) {
-  dyd_index_list sure = {0};
+  DYD_SCOPED(dyd_index_list) sure = {0};
   *tie = false;
-  dyd_status st = dyd_delaunay_hull_vertices(&sure, face, pd);
-  dyd_index_list_clear(&sure);
-  return st;
+  return dyd_delaunay_hull_vertices(&sure, face, pd);
 }
 
 /* Finds whether a pair around the centre, which is not a place, is open. */
 static dyd_status gap_look(dyd_sphere *s) {
-  dyd_index_list face = {0};
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_index_list) face = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   bool tie, *in = calloc(s->count, sizeof *in);
   dyd_status st = in ? face_of_gap(&face, &tie, dyd_engine_delaunay(s->images)) : DYD_E_NOMEM;
   for (size_t k = 0; st == DYD_OK && k < face.count; k++) in[s->of[face.item[k]]] = true;
@@ -305,8 +301,6 @@ static dyd_status gap_look(dyd_sphere *s) {
     const dyd_pair *p = &pairs.item[k];
     s->gap_decided = p->status == DYD_LEGAL || !in[p->i] || !in[p->j];
   }
-  dyd_pair_list_clear(&pairs);
-  dyd_index_list_clear(&face);
   free(in);
   return st;
 }
@@ -358,7 +352,7 @@ dyd_status dyd_sphere_converge(dyd_convergence *out, dyd_sphere *s, const dyd_en
  */
 static dyd_status face_look(dyd_index_list *face, bool *outer, bool *tie, const dyd_sphere *s, size_t f) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = dyd_delaunay_face(face, outer, pd, f);
   if (st == DYD_OK) st = dyd_delaunay_face_pairs(&pairs, pd, f);
   *tie = !dyd_delaunay_is_capped(pd);
@@ -367,7 +361,6 @@ static dyd_status face_look(dyd_index_list *face, bool *outer, bool *tie, const 
     *tie = false;
     if (*outer && face->count > 2) st = dyd_sphere_on_circle(tie, s, true, face->item, face->count, NULL);
   }
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 
@@ -378,12 +371,11 @@ static dyd_status mark_outer(uint8_t *in, const dyd_sphere *s) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
   dyd_status st = DYD_OK;
   for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd) && st == DYD_OK; f++) {
-    dyd_index_list face = {0};
+    DYD_SCOPED(dyd_index_list) face = {0};
     bool outer, tie;
     st = face_look(&face, &outer, &tie, s, f);
     for (size_t k = 0; k < face.count && outer; k++)
       if (in[face.item[k]] != IN_OPEN) in[face.item[k]] = tie ? IN_TIE : IN_OPEN;
-    dyd_index_list_clear(&face);
   }
   return st;
 }
@@ -397,7 +389,7 @@ size_t dyd_sphere_faces(const dyd_sphere *s) {
 dyd_status dyd_sphere_face(dyd_index_list *out, bool *tie, const dyd_sphere *s, size_t f) {
   if (!s) return DYD_E_ARG;
   const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
-  dyd_index_list face = {0};
+  DYD_SCOPED(dyd_index_list) face = {0};
   bool outer = false;
   if (!pd || f >= dyd_sphere_faces(s)) return DYD_E_ARG;
   bool gap = f == dyd_delaunay_undecided_faces(pd);
@@ -412,7 +404,6 @@ dyd_status dyd_sphere_face(dyd_index_list *out, bool *tie, const dyd_sphere *s, 
     dyd_index_list_clear(out);
     *out = (dyd_index_list){n, item};
   }
-  dyd_index_list_clear(&face);
   return st;
 }
 
@@ -424,17 +415,14 @@ static dyd_pair_status status_on_hull(const dyd_sphere *s, uint8_t in) {
 
 dyd_status dyd_sphere_about_centre(dyd_pair_status *status, const dyd_sphere *s) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
-  dyd_index_list sure = {0}, possible = {0};
-  uint8_t *in = calloc(s->with_image + 1, sizeof *in);
+  DYD_SCOPED(dyd_index_list) sure = {0}, possible = {0};
+  DYD_FREED uint8_t *in = calloc(s->with_image + 1, sizeof *in);
   dyd_status st = in ? mark_outer(in, s) : DYD_E_NOMEM;
   if (st == DYD_OK) st = dyd_delaunay_hull_vertices(&sure, &possible, pd);
   for (size_t k = 0; k < s->with_image; k++) status[k] = DYD_ILLEGAL;
   for (size_t k = 0; k < possible.count; k++)
     status[possible.item[k]] = status_on_hull(s, in ? in[possible.item[k]] : IN_OPEN);
   for (size_t k = 0; k < sure.count; k++) status[sure.item[k]] = DYD_LEGAL;
-  dyd_index_list_clear(&possible);
-  dyd_index_list_clear(&sure);
-  free(in);
   return st;
 }
 
@@ -463,14 +451,13 @@ static size_t pairs_about_centre(dyd_pair *item, const dyd_sphere *s, const dyd_
 
 /* Merges the sorted items from `first` on, fewer, with the sorted ones before. */
 static dyd_status pairs_merge(dyd_pair *item, size_t first, size_t n) {
-  dyd_pair *late = dyd_alloc(n - first, sizeof *late);
+  DYD_FREED dyd_pair *late = dyd_alloc(n - first, sizeof *late);
   if (!late) return DYD_E_NOMEM;
   for (size_t k = first; k < n; k++) late[k - first] = item[k];
   for (size_t at = n, left = n - first; left;) {
     bool early = first && dyd_compare_two(&item[first - 1], &late[left - 1]) > 0;
     item[--at] = early ? item[--first] : late[--left];
   }
-  free(late);
   return DYD_OK;
 }
 
@@ -499,14 +486,11 @@ static dyd_status pairs_join(dyd_pair_list *out, const dyd_sphere *s, const dyd_
 static dyd_status pairs_seen(dyd_pair_list *out, const dyd_sphere *s) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
   if (!pd) return DYD_E_ARG;
-  dyd_pair_list images = {0};
-  dyd_pair_status *status = dyd_alloc(s->with_image, sizeof *status);
+  DYD_SCOPED(dyd_pair_list) images = {0};
+  DYD_FREED dyd_pair_status *status = dyd_alloc(s->with_image, sizeof *status);
   dyd_status st = status ? dyd_delaunay_pairs(&images, pd) : DYD_E_NOMEM;
   if (st == DYD_OK) st = dyd_sphere_about_centre(status, s);
-  if (st == DYD_OK) st = pairs_join(out, s, &images, status);
-  dyd_pair_list_clear(&images);
-  free(status);
-  return st;
+  return st == DYD_OK ? pairs_join(out, s, &images, status) : st;
 }
 
 /* Gives indeterminate pairs the status seen from another eye. */
@@ -522,12 +506,11 @@ static void pairs_improve(dyd_pair_list *l, const dyd_pair_list *other) {
 
 /* Lists the pairs as seen from the given number of eyes. */
 static dyd_status pairs_from(dyd_pair_list *out, const dyd_sphere *s, int eyes) {
-  dyd_pair_list other = {0};
+  DYD_SCOPED(dyd_pair_list) other = {0};
   dyd_status st = pairs_seen(out, s);
   if (st != DYD_OK || eyes == 1 || !s->second || !dyd_engine_delaunay(s->second->images)) return st;
   st = pairs_from(&other, s->second, eyes - 1);
   if (st == DYD_OK) pairs_improve(out, &other);
-  dyd_pair_list_clear(&other);
   return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
@@ -538,10 +521,9 @@ dyd_status dyd_sphere_pairs(dyd_pair_list *out, const dyd_sphere *s) {
 }
 
 static bool pairs_are_legal(const dyd_sphere *s, int eyes) {
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   bool legal = pairs_from(&pairs, s, eyes) == DYD_OK;
   for (size_t k = 0; k < pairs.count; k++) legal = legal && pairs.item[k].status == DYD_LEGAL;
-  dyd_pair_list_clear(&pairs);
   return legal;
 }
 
@@ -611,18 +593,14 @@ static dyd_status triangles_join(dyd_triangle_list *out, const dyd_sphere *s, co
 static dyd_status triangles_seen(dyd_triangle_list *out, const dyd_sphere *s) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
   if (!pd) return DYD_E_ARG;
-  dyd_triangle_list images = {0};
-  dyd_index_list around = {0};
-  dyd_hull hull = {0};
+  DYD_SCOPED(dyd_triangle_list) images = {0};
+  DYD_SCOPED(dyd_index_list) around = {0};
+  DYD_SCOPED(dyd_hull) hull = {0};
   dyd_status st = dyd_delaunay_triangles(&images, NULL, pd, 0);
   if (st == DYD_OK && !s->free) st = dyd_delaunay_hull(&around, pd);
   if (st == DYD_OK && !s->free) st = dyd_delaunay_partial_hull(&hull, pd);
   if (st == DYD_CAPPED) st = DYD_OK; /* then no side of the hull is listed */
-  if (st == DYD_OK) st = triangles_join(out, s, &images, &around, &hull);
-  dyd_hull_clear(&hull);
-  dyd_index_list_clear(&around);
-  dyd_triangle_list_clear(&images);
-  return st;
+  return st == DYD_OK ? triangles_join(out, s, &images, &around, &hull) : st;
 }
 
 /* Adds triangles that are certain from another eye. */
@@ -641,13 +619,11 @@ static dyd_status triangles_add(dyd_triangle_list *l, const dyd_triangle_list *m
 
 dyd_status dyd_sphere_triangles(dyd_triangle_list *out, const dyd_sphere *s) {
   if (!s) return DYD_E_ARG;
-  dyd_triangle_list other = {0};
+  DYD_SCOPED(dyd_triangle_list) other = {0};
   dyd_status st = triangles_seen(out, s);
   if (st != DYD_OK || !s->second || !dyd_engine_delaunay(s->second->images)) return st;
   st = dyd_sphere_triangles(&other, s->second);
-  if (st == DYD_OK) st = triangles_add(out, &other);
-  dyd_triangle_list_clear(&other);
-  return st;
+  return st == DYD_OK ? triangles_add(out, &other) : st;
 }
 
 /* ---- circles ---- */
@@ -685,28 +661,21 @@ dyd_status dyd_sphere_each_circle(const dyd_sphere *s, dyd_group_fn visit, void 
 /* ---- places ---- */
 
 static dyd_status spot_side(dyd_interval *out, const dyd_spot *spot, int a) {
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   mpq_sub(lo, spot->mid[a], spot->half[a]);
   mpq_add(hi, spot->mid[a], spot->half[a]);
-  dyd_status st = mpq_equal(lo, hi) ? dyd_interval_set_q(out, lo) : dyd_interval_set_outward(out, lo, hi, -64);
-  mpq_clears(lo, hi, NULL);
-  return st;
+  return mpq_equal(lo, hi) ? dyd_interval_set_q(out, lo) : dyd_interval_set_outward(out, lo, hi, -64);
 }
 
 dyd_status dyd_sphere_rect(dyd_rect *out, const dyd_sphere *s, uint32_t i) {
   if (!s) return DYD_E_ARG;
-  dyd_spot spot;
-  dyd_rect r;
   if (i >= s->count) return DYD_E_ARG;
-  dyd_spot_init(&spot);
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_spot, spot);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_sphere_spot(&spot, s, i, NULL);
   if (st == DYD_OK) dyd_spot_box(&spot);
   if (st == DYD_OK) st = spot_side(&r.x, &spot, 0);
   if (st == DYD_OK) st = spot_side(&r.y, &spot, 1);
   if (st == DYD_OK) dyd_rect_swap(out, &r);
-  dyd_rect_clear(&r);
-  dyd_spot_clear(&spot);
   return st;
 }

@@ -18,6 +18,7 @@
  * be 0, and so on down to classes of equal e, which are not 0 once equal e are one term. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "sphere/state.h"
 
 #include <string.h>
@@ -106,13 +107,11 @@ static size_t runs_find(root_run *run, dyd_root_term *term, size_t count, dyd_tu
 
 /* Sets *zero to whether the sum of a less that of b is 0. b stays as it is. */
 static dyd_status runs_agree(bool *zero, const root_run *a, const root_run *b, dyd_turns m) {
-  dyd_root_term *term = dyd_alloc(a->count + b->count, sizeof *term);
+  DYD_FREED dyd_root_term *term = dyd_alloc(a->count + b->count, sizeof *term);
   if (!term) return DYD_E_NOMEM;
   memcpy(term, a->term, a->count * sizeof *term);
   for (size_t k = 0; k < b->count; k++) term[a->count + k] = (dyd_root_term){b->term[k].e, -b->term[k].c};
-  dyd_status st = dyd_cyclic_is_zero(zero, term, a->count + b->count, m);
-  free(term);
-  return st;
+  return dyd_cyclic_is_zero(zero, term, a->count + b->count, m);
 }
 
 static size_t least_run(const root_run *run, size_t runs) {
@@ -125,7 +124,7 @@ static size_t least_run(const root_run *run, size_t runs) {
 static dyd_status split_is_zero(bool *zero, dyd_root_term *term, size_t count, dyd_turns n, unsigned p) {
   dyd_turns m = n / p, of_m = m % p ? inverse_of(m, p) : 0;
   dyd_status st = DYD_OK;
-  root_run *run = dyd_alloc(p, sizeof *run);
+  DYD_FREED root_run *run = dyd_alloc(p, sizeof *run);
   if (!run) return DYD_E_NOMEM;
   for (size_t k = 0; k < count; k++) term[k].e = term_split(term[k].e, p, n, of_m);
   qsort(term, count, sizeof *term, compare_terms);
@@ -138,7 +137,6 @@ static dyd_status split_is_zero(bool *zero, dyd_root_term *term, size_t count, d
     else if (k != least)
       st = runs_agree(zero, &run[k], &run[least], m);
   }
-  free(run);
   return st;
 }
 
@@ -162,28 +160,23 @@ typedef struct turned {
 /* ---- places ---- */
 
 static bool turns_set_z(dyd_turns *out, mpz_srcptr z) {
-  mpz_t high;
   if (mpz_sizeinbase(z, 2) > 110) return false;
-  mpz_init(high);
+  DYD_LOCAL_NUMBERS(mpz, high);
   mpz_tdiv_q_2exp(high, z, 62);
   dyd_turns value = (dyd_turns)mpz_get_si(high) << 62;
   mpz_tdiv_r_2exp(high, z, 62);
   *out = value + mpz_get_si(high);
-  mpz_clear(high);
   return true;
 }
 
 /* x degrees, a multiple of 1/n of a turn; reduced to a turn. */
 static bool turns_set_degrees(dyd_turns *out, mpq_srcptr x, mpz_srcptr n) {
-  mpz_t z;
-  mpz_init(z);
+  DYD_LOCAL_NUMBERS(mpz, z);
   mpz_mul(z, n, mpq_numref(x));
   mpz_divexact_ui(z, z, 360);
   mpz_divexact(z, z, mpq_denref(x));
   mpz_mod(z, z, n);
-  bool good = turns_set_z(out, z);
-  mpz_clear(z);
-  return good;
+  return turns_set_z(out, z);
 }
 
 /* The subject of the question: places, the unit of their angles. chosen: NULL, or given instead of `site`. */
@@ -389,14 +382,12 @@ static dyd_status distances_agree(bool *proved, const dyd_spot *at, const dyd_sp
 }
 
 dyd_status dyd_spots_equidistant(bool *proved, const dyd_spot *at, const dyd_spot *spot, size_t count) {
-  mpz_t n;
-  mpz_init_set_ui(n, 1);
+  DYD_LOCAL_NUMBERS(mpz, n);
+  mpz_set_ui(n, 1);
   for (int a = 0; a < 2; a++) {
     mpz_lcm(n, n, mpq_denref(at->mid[a]));
     for (size_t k = 0; k < count; k++) mpz_lcm(n, n, mpq_denref(spot[k].mid[a]));
   }
   mpz_mul_ui(n, n, 360);
-  dyd_status st = distances_agree(proved, at, spot, count, n);
-  mpz_clear(n);
-  return st;
+  return distances_agree(proved, at, spot, count, n);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Plans on the sphere tried on drawn places. */
 #include "tolerance/trials.h"
+#include "base/local.h"
 
 #include "base/abi.h"
 #include "base/alloc.h"
@@ -48,8 +49,7 @@ static void globe_end(void *draw) {
 /* Sets u, v to a place in the unit disc about 0. */
 static void disc_draw(mpq_ptr u, mpq_ptr v, uint64_t seed) {
   uint64_t k = 0;
-  mpq_t sum, part;
-  mpq_inits(sum, part, NULL);
+  DYD_LOCAL_NUMBERS(mpq, sum, part);
   do {
     for (int a = 0; a < 2; a++) {
       mpq_ptr at = a ? v : u;
@@ -61,13 +61,13 @@ static void disc_draw(mpq_ptr u, mpq_ptr v, uint64_t seed) {
     mpq_mul(part, v, v);
     mpq_add(sum, sum, part);
   } while (mpq_cmp_ui(sum, 1, 1) >= 0);
-  mpq_clears(sum, part, NULL);
 }
 
 /* Moves the place (at[0], at[1]), degrees, to (u, v) of the disc of this angle about it: eastward, northward. */
 static void place_move(double at[2], mpq_srcptr angle, mpq_srcptr u, mpq_srcptr v) {
-  arb_ptr x = _arb_vec_init(10), lon = x, lat = x + 1, east = x + 2, north = x + 3, far = x + 4, sf = x + 5, cf = x + 6,
-          sd = x + 7, cd = x + 8, t = x + 9;
+  DYD_LOCAL_ARRAY(arb_struct, x, [10]);
+  arb_ptr lon = x, lat = x + 1, east = x + 2, north = x + 3, far = x + 4, sf = x + 5, cf = x + 6, sd = x + 7,
+          cd = x + 8, t = x + 9;
   arb_set_d(lat, at[1] / 180);
   arb_sin_cos_pi(sf, cf, lat, PREC);
   dyd_ball_set_q(east, u, PREC);
@@ -94,16 +94,13 @@ static void place_move(double at[2], mpq_srcptr angle, mpq_srcptr u, mpq_srcptr 
   }
   at[0] += arf_get_d(arb_midref(lon), ARF_RND_NEAR);
   at[1] = arf_get_d(arb_midref(lat), ARF_RND_NEAR);
-  _arb_vec_clear(x, 10);
 }
 
 /* at: the true place of i, in degrees. */
 static dyd_status globe_truth(double at[2], const globe_draw *d, uint32_t i) {
   const uint64_t own = dyd_random(d->seed, i);
-  dyd_spot spot;
-  mpq_t u[2];
-  dyd_spot_init(&spot);
-  mpq_inits(u[0], u[1], NULL);
+  DYD_LOCAL(dyd_spot, spot);
+  DYD_LOCAL_ARRAY(mpq_t, u, [2]);
   dyd_status st = dyd_sphere_spot(&spot, d->of->s, i, NULL);
   for (int a = 0; a < 2; a++) {
     dyd_trial_draw(u[a], dyd_random(own, 1), (uint64_t)a);
@@ -115,24 +112,20 @@ static dyd_status globe_truth(double at[2], const globe_draw *d, uint32_t i) {
   }
   disc_draw(u[0], u[1], dyd_random(own, 2));
   if (mpq_sgn(spot.angle)) place_move(at, spot.angle, u[0], u[1]);
-  mpq_clears(u[0], u[1], NULL);
-  dyd_spot_clear(&spot);
   return st;
 }
 
 /* The region of place i as it is, or as it was measured, as a rectangle and metres about it. */
 static dyd_status globe_region(dyd_rect *out, double *metres, const globe_draw *d, uint32_t i) {
   const dyd_sphere *s = d->now ? d->now : d->of->s;
-  dyd_spot spot;
-  mpq_t lo, hi;
   double at[2];
   *metres = d->needed[i];
   if (*metres > 0) {
     dyd_status st = globe_truth(at, d, i);
     return st == DYD_OK ? dyd_rect_set_d(out, at[0], at[0], at[1], at[1]) : st;
   }
-  dyd_spot_init(&spot);
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL(dyd_spot, spot);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   dyd_status st = dyd_sphere_spot(&spot, s, i, NULL);
   for (int a = 0; a < 2 && st == DYD_OK; a++) {
     mpq_sub(lo, spot.mid[a], spot.half[a]);
@@ -142,16 +135,13 @@ static dyd_status globe_region(dyd_rect *out, double *metres, const globe_draw *
   }
   mpq_div(lo, spot.angle, s->metre);
   *metres = dyd_q_double(lo, 1);
-  mpq_clears(lo, hi, NULL);
-  dyd_spot_clear(&spot);
   return st;
 }
 
 static dyd_status globe_add(dyd_engine *e, const globe_draw *d, size_t sites, dyd_error *err) {
-  dyd_labels labels = {0};
+  DYD_SCOPED(dyd_labels) labels = {0};
   dyd_row_numbers own = dyd_no_row_numbers;
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = DYD_OK;
   for (uint32_t i = 0; i < sites && st == DYD_OK; i++) {
     st = globe_region(&r, &own.of[DYD_ROW_RADIUS], d, i);
@@ -159,8 +149,6 @@ static dyd_status globe_add(dyd_engine *e, const globe_draw *d, size_t sites, dy
     if (st == DYD_OK && !dyd_labels_add(&labels, NULL, 0, &own)) st = DYD_E_NOMEM;
   }
   if (st == DYD_OK) dyd_labels_give(e, &labels);
-  dyd_labels_clear(&labels);
-  dyd_rect_clear(&r);
   return st;
 }
 

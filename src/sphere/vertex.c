@@ -8,6 +8,7 @@
  * theirs. With the axes of the globe it would be wider by as much as the globe is larger than the triangle. Longitudes
  * are measured from a place near, so that none is cut at 180 degrees. */
 #include "base/error.h"
+#include "base/local.h"
 #include "sphere/state.h"
 #include "stream/ball.h"
 #include <math.h>
@@ -16,10 +17,8 @@ enum { PREC = 128 };
 
 /* x = degrees, half: off by so many, and shifted by those of `from` (NULL: none), in units of pi. */
 static void half_turns(arb_ptr x, mpq_srcptr degrees, mpq_srcptr half, mpq_srcptr from) {
-  mpq_t shifted;
-  mag_t error;
-  mpq_init(shifted);
-  mag_init(error);
+  DYD_LOCAL_NUMBERS(mpq, shifted);
+  DYD_LOCAL_NUMBERS(mag, error);
   dyd_ball_set_q(x, half, PREC);
   arb_get_mag(error, x);
   mpq_set(shifted, degrees);
@@ -27,19 +26,17 @@ static void half_turns(arb_ptr x, mpq_srcptr degrees, mpq_srcptr half, mpq_srcpt
   dyd_ball_set_q(x, shifted, PREC);
   arb_add_error_mag(x, error);
   arb_div_ui(x, x, 180, PREC);
-  mag_clear(error);
-  mpq_clear(shifted);
 }
 
 /* v = the vector of all places of the spot. */
 static void spot_vector(arb_ptr v, const dyd_spot *spot) {
-  arb_ptr angle = _arb_vec_init(4), sin = angle + 2, cos = angle + 3;
+  DYD_LOCAL_ARRAY(arb_struct, angle, [4]);
+  arb_ptr sin = angle + 2, cos = angle + 3;
   for (int a = 0; a < 2; a++) half_turns(angle + a, spot->mid[a], spot->half[a], NULL);
   arb_sin_cos_pi(v + 2, cos, angle + 1, PREC);
   arb_sin_cos_pi(sin, v, angle, PREC);
   arb_mul(v + 1, sin, cos, PREC);
   arb_mul(v, v, cos, PREC);
-  _arb_vec_clear(angle, 4);
 }
 
 /* n = (b - a) x (c - a); v: a, b, c, of which b and c are lost. */
@@ -57,7 +54,8 @@ static void normal_set(arb_ptr n, arb_ptr v) {
 
 /* Lower and upper ends of an angle, in degrees, shifted by so many. */
 static void degrees_out(double out[2], arb_t angle, double shift) {
-  arb_ptr pi = _arb_vec_init(2), t = pi + 1;
+  DYD_LOCAL_ARRAY(arb_struct, pi, [2]);
+  arb_ptr t = pi + 1;
   arb_const_pi(pi, PREC);
   arb_mul_ui(t, angle, 180, PREC);
   arb_div(t, t, pi, PREC);
@@ -66,12 +64,12 @@ static void degrees_out(double out[2], arb_t angle, double shift) {
   const dyd_iv ends = dyd_ball_ends(t);
   out[0] = ends.lo;
   out[1] = ends.hi;
-  _arb_vec_clear(pi, 2);
 }
 
 /* Turns the direction n about the axis by a whole number of degrees, so that it is near longitude 0; *shift: these. */
 static void turn_near(double *shift, arb_ptr n) {
-  arb_ptr s = _arb_vec_init(3), c = s + 1, x = s + 2;
+  DYD_LOCAL_ARRAY(arb_struct, s, [3]);
+  arb_ptr c = s + 1, x = s + 2;
   double lon = atan2(arf_get_d(arb_midref(n + 1), ARF_RND_NEAR), arf_get_d(arb_midref(n), ARF_RND_NEAR));
   *shift = nearbyint(lon * 57.29577951308232);
   arb_set_d(x, *shift);
@@ -82,12 +80,12 @@ static void turn_near(double *shift, arb_ptr n) {
   arb_mul(n + 1, n + 1, c, PREC);
   arb_submul(n + 1, n, s, PREC);
   arb_swap(n, x);
-  _arb_vec_clear(s, 3);
 }
 
 /* The box of the direction n. Where it may be along the axis, all longitudes. */
 static void box_of_direction(double box[4], arb_ptr n) {
-  arb_ptr lon = _arb_vec_init(2), lat = lon + 1;
+  DYD_LOCAL_ARRAY(arb_struct, lon, [2]);
+  arb_ptr lat = lon + 1;
   double shift;
   turn_near(&shift, n);
   arb_atan2(lon, n + 1, n, PREC);
@@ -99,7 +97,6 @@ static void box_of_direction(double box[4], arb_ptr n) {
   if (!(box[1] - box[0] < 360)) box[0] = -180, box[1] = 180;
   box[2] = fmax(box[2], -90); /* NaN, too, where unknown */
   box[3] = fmin(box[3], 90);
-  _arb_vec_clear(lon, 2);
 }
 
 /* Axes at a place: where it is, in degrees, and cosine and sine of its longitude and of its latitude. */
@@ -120,9 +117,8 @@ static void axes_clear(axes *f) {
 
 /* About where n points to, to 7 mm on the earth, so that whatever is wrong with axes shows. */
 static void axes_set(axes *f, arb_srcptr n) {
-  arb_t angle;
   double d[3];
-  arb_init(angle);
+  DYD_LOCAL_NUMBERS(arb, angle);
   for (int a = 0; a < 3; a++) d[a] = arf_get_d(arb_midref(n + a), ARF_RND_NEAR);
   const double at[2] = {atan2(d[1], d[0]), atan2(d[2], hypot(d[0], d[1]))};
   for (int a = 0; a < 2; a++) {
@@ -131,14 +127,14 @@ static void axes_set(axes *f, arb_srcptr n) {
     arb_div_ui(angle, angle, 180, PREC);
     arb_sin_cos_pi(&f->turn[2 * a + 1], &f->turn[2 * a], angle, PREC);
   }
-  arb_clear(angle);
 }
 
 /* v = how far east, north and above the place of the axes all places of the spot are: with d of longitude, f and f0 of
  * latitude and h = 2 cos f sin^2(d/2), these are cos f sin d, sin(f - f0) + h sin f0, -2 sin^2((f - f0)/2) - h cos f0.
  */
 static void axes_see(arb_ptr v, const axes *f, const dyd_spot *spot) {
-  arb_ptr d = _arb_vec_init(4), u = d + 1, across = d + 2, cos = d + 3;
+  DYD_LOCAL_ARRAY(arb_struct, d, [4]);
+  arb_ptr u = d + 1, across = d + 2, cos = d + 3;
   half_turns(d, spot->mid[0], spot->half[0], f->at[0]);
   half_turns(u, spot->mid[1], spot->half[1], NULL);
   arb_cos_pi(cos, u, PREC);
@@ -158,14 +154,13 @@ static void axes_see(arb_ptr v, const axes *f, const dyd_spot *spot) {
   arb_mul_2exp_si(v + 2, v + 2, 1);
   arb_addmul(v + 2, across, &f->turn[2], PREC);
   arb_neg(v + 2, v + 2);
-  _arb_vec_clear(d, 4);
 }
 
 /* n, from these axes, becomes a direction from those of the globe. Of length about 1 if possible: else the uncertainty
  * of its length would add to that of its direction. */
 static void axes_leave(arb_ptr n, const axes *f) {
   arb_srcptr cl = &f->turn[0], sl = &f->turn[1], cf = &f->turn[2], sf = &f->turn[3];
-  arb_ptr w = _arb_vec_init(2);
+  DYD_LOCAL_ARRAY(arb_struct, w, [2]);
   if (arb_is_positive(n + 2)) {
     arb_div(n, n, n + 2, PREC);
     arb_div(n + 1, n + 1, n + 2, PREC);
@@ -180,39 +175,31 @@ static void axes_leave(arb_ptr n, const axes *f) {
   arb_submul(n, w + 1, sl, PREC);
   arb_mul(n + 1, w, sl, PREC);
   arb_addmul(n + 1, w + 1, cl, PREC);
-  _arb_vec_clear(w, 2);
 }
 
 /* A point within an angle of a place is within it of its vector. */
 static dyd_status place_vector(arb_ptr v, const dyd_sphere *s, uint32_t i, dyd_error *err) {
-  dyd_spot spot;
-  arb_t reach;
-  mag_t error;
-  dyd_spot_init(&spot);
-  arb_init(reach);
-  mag_init(error);
+  DYD_LOCAL(dyd_spot, spot);
+  DYD_LOCAL_NUMBERS(arb, reach);
+  DYD_LOCAL_NUMBERS(mag, error);
   dyd_status st = dyd_sphere_spot(&spot, s, i, err);
   dyd_ball_set_q(reach, spot.angle, PREC);
   arb_get_mag(error, reach);
   if (st == DYD_OK) spot_vector(v, &spot);
   for (int a = 0; a < 3; a++) arb_add_error_mag(v + a, error);
-  mag_clear(error);
-  arb_clear(reach);
-  dyd_spot_clear(&spot);
   return st;
 }
 
 dyd_status dyd_sphere_vector(double box[6], const dyd_sphere *s, uint32_t i, dyd_error *err) {
   if (!s) return dyd_fail_null(err);
   if (i >= s->count) return dyd_fail(err, DYD_E_ARG, "there is no point %lu", (unsigned long)i);
-  arb_ptr v = _arb_vec_init(3);
+  DYD_LOCAL_ARRAY(arb_struct, v, [3]);
   dyd_status st = place_vector(v, s, i, err);
   for (int a = 0; a < 3 && st == DYD_OK; a++) {
     const dyd_iv ends = dyd_ball_ends(v + a);
     box[2 * a] = fmax(ends.lo, -1);
     box[2 * a + 1] = fmin(ends.hi, 1);
   }
-  _arb_vec_clear(v, 3);
   return st;
 }
 
@@ -228,11 +215,10 @@ static dyd_status triangle_spots(dyd_spot spot[3], const dyd_sphere *s, const dy
 
 dyd_status dyd_sphere_vertex(double box[4], const dyd_sphere *s, const dyd_triangle *t, dyd_error *err) {
   if (!s) return dyd_fail_null(err);
-  arb_ptr v = _arb_vec_init(9), n = _arb_vec_init(3);
-  dyd_spot spot[3];
-  axes f;
-  axes_init(&f);
-  for (int k = 0; k < 3; k++) dyd_spot_init(&spot[k]);
+  DYD_LOCAL_ARRAY(arb_struct, v, [9]);
+  arb_ptr n = _arb_vec_init(3);
+  DYD_LOCAL(axes, f);
+  DYD_LOCAL_ARRAY(dyd_spot, spot, [3]);
   dyd_status st = triangle_spots(spot, s, t, err);
   if (st == DYD_OK) {
     for (int k = 0; k < 3; k++) spot_vector(v + 3 * k, &spot[k]);
@@ -243,9 +229,6 @@ dyd_status dyd_sphere_vertex(double box[4], const dyd_sphere *s, const dyd_trian
     axes_leave(n, &f);
     box_of_direction(box, n);
   }
-  for (int k = 0; k < 3; k++) dyd_spot_clear(&spot[k]);
-  axes_clear(&f);
   _arb_vec_clear(n, 3);
-  _arb_vec_clear(v, 9);
   return st;
 }

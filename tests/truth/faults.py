@@ -26,7 +26,7 @@ FAULTS = [  # where it shows, file, what stands there, what is put there
     (GLOBE, 'sphere/units.c', 'true, 1000, 1}', 'true, 100, 1}'),
     (GLOBE, 'sphere/units.c', '{"cm", "centimeter", "centimetre", true, 1, 100}', '{"cm", "centimeter", "centimetre", true, 1, 1000}'),
     (GLOBE, 'sphere/units.c', 'if (!own) own = unit;', 'if (unit) own = &units[6];'),
-    (GLOBE, 'sphere/places.c', 'mpq_sub(lo, lo, more);\n    mpq_add(hi, hi, more);\n  }\n  bool good', 'mpq_add(hi, hi, more);\n  }\n  bool good'),
+    (GLOBE, 'sphere/places.c', 'mpq_sub(lo, lo, more);\n    mpq_add(hi, hi, more);\n  }\n  return', 'mpq_add(hi, hi, more);\n  }\n  return'),
     (GLOBE, 'sphere/places.c', 'mpq_set_si(s->half[0], pole ? 0 : 180, 1);', 'mpq_set_si(s->half[0], pole ? 0 : 90, 1);'),
     (GLOBE, 'sphere/places.c', 'arb_div(a, a, f, 64);', 'arb_mul(a, a, f, 64);'),
     (GLOBE, 'sphere/project.c', 'if (!way) mag_addmul(off, more, &p->half[k]);', 'if (!way && k) mag_addmul(off, more, &p->half[k]);'),
