@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "delaunay/memory.h"
 #include "format/table.h"
 #include "io/decimal.h"
@@ -243,7 +244,6 @@ static dyd_status find_arrays(const diagram_arrays *out, const dyd_diagram *d, d
 /* arrays NULL: writes the content. */
 static dyd_status make_diagram(const diagram_arrays *arrays, dyd_output *to, dyd_write_options *o, dyd_error *err) {
   dyd_result r;
-  dyd_diagram d;
   dyd_voronoi_bounds bounds, *wanted = o->bounds;
   size_t cut;
   dyd_status st = o->bounds ? dyd_abi_check(o->bounds, sizeof *o->bounds, "dyd_voronoi_bounds", err) : DYD_OK;
@@ -257,6 +257,7 @@ static dyd_status make_diagram(const diagram_arrays *arrays, dyd_output *to, dyd
   dyd_voronoi_bounds_init(&bounds);
   o->bounds = &bounds;
   if (!o->cut) o->cut = &cut;
+  DYD_SCOPED(dyd_diagram) d;
   st = dyd_diagram_init(&d, to, o, has_vertices(to->content, to->format), &room, err);
   if (st == DYD_OK) st = tell_fineness(arrays ? find_arrays(arrays, &d, err) : write_what(to, &d, err), &d, err);
   if (st == DYD_E_NOMEM && room.refused) dyd_fail_room(err, &room);
@@ -265,7 +266,6 @@ static dyd_status make_diagram(const diagram_arrays *arrays, dyd_output *to, dyd
     dyd_dyadic_swap(&wanted->hausdorff, &bounds.hausdorff);
     wanted->finite = bounds.finite;
   }
-  dyd_diagram_clear(&d);
   dyd_voronoi_bounds_clear(&bounds);
   return st;
 }
@@ -364,12 +364,9 @@ static dyd_status write_check(dyd_output *to, dyd_write_options *o, dyd_error *e
 
 static dyd_status write_disc(dyd_output *to, dyd_write_options *o, dyd_error *err) {
   if (o->rects < 3) return dyd_fail(err, DYD_E_ARG, "a disc needs three points");
-  dyd_partial_disc disc;
-  dyd_partial_disc_init(&disc);
+  DYD_LOCAL(dyd_partial_disc, disc);
   dyd_partial_disc_set(&disc, o->rect[0], o->rect[1], o->rect[2]);
-  dyd_status st = write_what(to, &(dyd_disc_output){&disc, o->rect, o->rects, o->outcome, to->engine}, err);
-  dyd_partial_disc_clear(&disc);
-  return st;
+  return write_what(to, &(dyd_disc_output){&disc, o->rect, o->rects, o->outcome, to->engine}, err);
 }
 
 /* The curve of (b,a) names its sites 0, 1 for b, a. */
@@ -410,8 +407,8 @@ static dyd_status take_answers(dyd_nearest_answer *own, const dyd_nearest_answer
 static dyd_status write_nearest(dyd_output *to, dyd_write_options *o, dyd_error *err) {
   if (to->content == DYD_CONTENT_NEAREST && o->answers != 1)
     return dyd_fail(err, DYD_E_ARG, "there is no answer to be written");
-  dyd_nearest_answer *own = dyd_alloc(o->answers, sizeof *own);
-  const dyd_nearest_answer **taken = dyd_alloc(o->answers, sizeof(const dyd_nearest_answer *));
+  DYD_FREED dyd_nearest_answer *own = dyd_alloc(o->answers, sizeof *own);
+  DYD_FREED const dyd_nearest_answer **taken = dyd_alloc(o->answers, sizeof(const dyd_nearest_answer *));
   dyd_result r;
   dyd_status st = take_answers(own, taken, o, err);
   if (st == DYD_OK && o->sphere && to->format != DYD_FORMAT_CSV && to->format != DYD_FORMAT_JSON)
@@ -422,7 +419,6 @@ static dyd_status write_nearest(dyd_output *to, dyd_write_options *o, dyd_error 
     st = result_init(&r, to, o, err);
   if (st == DYD_OK)
     st = write_what(to, &(dyd_nearest_output){r.engine, r.pd, taken, o->answers, o->outcome, o->sphere}, err);
-  dyd_free_all(taken, own);
   return st;
 }
 
@@ -464,26 +460,23 @@ dyd_status dyd_write(FILE *out, const dyd_engine *e, dyd_content content, dyd_fo
 /* ---- exact rectangles as plain text, for programs that cannot read dyd_rect ---- */
 
 static dyd_status put_side(FILE *out, const dyd_interval *a, char behind) {
-  char *lo = dyd_end_text(a, false), *hi = dyd_end_text(a, true);
+  DYD_FREED char *lo = dyd_end_text(a, false), *hi = dyd_end_text(a, true);
   dyd_status st = lo && hi ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK) fprintf(out, "%s %s%c", lo, hi, behind);
-  dyd_free_all(lo, hi);
   return st;
 }
 
 dyd_status dyd_write_rects(FILE *out, const dyd_sites *sites, size_t first, size_t count, dyd_error *err) {
   if (!sites) return dyd_fail_null(err);
-  dyd_rect r;
   dyd_status st = DYD_OK;
   if (first > dyd_sites_count(sites) || count > dyd_sites_count(sites) - first)
     return dyd_fail(err, DYD_E_ARG, "there are %zu points; ask for some of them", dyd_sites_count(sites));
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   for (size_t i = first; st == DYD_OK && i < first + count; i++) {
     st = dyd_sites_get(&r, sites, i);
     if (st == DYD_OK) st = put_side(out, &r.x, ' ');
     if (st == DYD_OK) st = put_side(out, &r.y, '\n');
   }
-  dyd_rect_clear(&r);
   if (st == DYD_OK && ferror(out)) return dyd_fail(err, DYD_E_IO, "writing rectangles failed");
   return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
 }

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "base/prefetch.h"
 #include "io/decimal.h"
 #include "picture/picture.h"
@@ -393,24 +394,21 @@ static const char *rounded(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd
 static double two_digits(double x) {
   char cut[DYD_DECIMAL_SIZE], again[DYD_DECIMAL_SIZE];
   if (!(x > 0 && isfinite(x))) return x;
-  mpq_t digits;
-  mpq_init(digits);
+  DYD_LOCAL_NUMBERS(mpq, digits);
   /* The point of strtod is that of the caller's locale. */
   dyd_status st = dyd_real_parse_exact(digits, cut, rounded(cut, x, 2, DYD_DOWN) ? strlen(cut) : 0);
   double at = st == DYD_OK ? mpq_get_d(digits) : x;
-  mpq_clear(digits);
   return strcmp(rounded(again, at, 2, DYD_DOWN), cut) == 0 ? at : nextafter(at, HUGE_VAL);
 }
 
 static dyd_status find_classes(tolerance_drawing *g) {
-  double *death = malloc((g->rows + 1) * sizeof *death);
+  DYD_FREED double *death = malloc((g->rows + 1) * sizeof *death);
   size_t count = 0;
   if (!death) return DYD_E_NOMEM;
   for (size_t k = 0; k < g->rows; k++)
     if (g->row[k].event == DYD_EVENT_DEATH) death[count++] = g->row[k].lo;
   qsort(death, count, sizeof *death, dyd_compare_double);
   for (int c = 0; c < CLASSES - 1; c++) g->bound[c] = count ? two_digits(death[count * (size_t)(c + 1) / CLASSES]) : 0;
-  free(death);
   return DYD_OK;
 }
 

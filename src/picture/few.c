@@ -15,6 +15,7 @@
  * within m of Q is certainly free of points, and the nearest point certainly is within M of Q. Both are discs where Q
  * is a point. */
 #include "base/error.h"
+#include "base/local.h"
 #include "io/decimal.h"
 #include "picture/picture.h"
 #include "predicate/circle.h"
@@ -30,7 +31,7 @@ typedef unsigned (*site_colour)(const void *context, size_t i);
  * choice where they stand. over: the first ones are drawn over the others. */
 static void draw_called(dyd_canvas *c, const dyd_view *v, const dyd_engine *e, const dyd_rect *const *r, size_t n,
                         bool over, site_colour colour, const void *context) {
-  dyd_numbers labels;
+  DYD_SCOPED(dyd_numbers) labels;
   double b[4];
   bool numbers = dyd_numbers_init(&labels, v);
   for (size_t k = 0; k < n; k++) {
@@ -43,7 +44,6 @@ static void draw_called(dyd_canvas *c, const dyd_view *v, const dyd_engine *e, c
     dyd_rect_get_d(b, r[i]);
     dyd_numbers_put(&labels, c, b, 18, e, i);
   }
-  dyd_numbers_clear(&labels);
 }
 
 /* ---- a partial disc ---- */
@@ -64,16 +64,12 @@ typedef struct disc_drawing {
 } disc_drawing;
 
 static void place_circle(double out[3], const dyd_circle *k) {
-  dyd_surd_point centre, radius2;
   double lo, hi;
-  dyd_surd_point_init(&centre);
-  dyd_surd_point_init(&radius2);
+  DYD_LOCAL(dyd_surd_point, centre, radius2);
   dyd_exact_circle(&centre, &radius2, k);
   dyd_exact_middle(out, &centre);
   dyd_exact_enclose_root(&lo, &hi, &radius2);
   out[2] = lo / 2 + hi / 2;
-  dyd_surd_point_clear(&radius2);
-  dyd_surd_point_clear(&centre);
 }
 
 /* A large disc near the picture: a piece of its edge about the point closest to the middle of the picture, and three
@@ -614,7 +610,7 @@ static void nearest_legend(dyd_canvas *c, void *context) {
 
 static void nearest_inside(dyd_canvas *c, void *context) {
   nearest_drawing *g = context;
-  dyd_numbers labels = {0};
+  DYD_SCOPED(dyd_numbers) labels = {0};
   bool numbers = g->view.apart >= 28 && dyd_numbers_init(&labels, &g->view);
   if (g->count) nearest_areas(c, g);
   nearest_each(c, g, &labels, false, nearest_mark_site);
@@ -623,7 +619,6 @@ static void nearest_inside(dyd_canvas *c, void *context) {
   draw_place(c, g);
   if (numbers) dyd_numbers_keep_off(&labels, g->place);
   if (numbers) nearest_each(c, g, &labels, true, nearest_number);
-  dyd_numbers_clear(&labels);
 }
 
 dyd_status dyd_nearest_picture(const dyd_output *o) {

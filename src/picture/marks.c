@@ -3,6 +3,7 @@
  *
  * For numbers the page is divided into small squares; a drawn mark takes the squares that it meets, and a number is
  * written at the first of eight places around its site whose squares are all free. */
+#include "base/local.h"
 #include "io/decimal.h"
 #include "io/diagram.h"
 #include "io/label_text.h"
@@ -104,9 +105,8 @@ void dyd_numbers_clear(dyd_numbers *l) {
 /* The squares that a box on the page meets, as far as they are in the frame. */
 static squares squares_of(const dyd_numbers *l, const double z[4]) {
   const double *f = l->view->frame;
-  squares s = {(size_t)(fmax(z[0], f[0]) / SQUARE), (size_t)(fmax(fmin(z[1], f[1]), 0) / SQUARE) + 1,
-               (size_t)(fmax(z[2], f[2]) / SQUARE), (size_t)(fmax(fmin(z[3], f[3]), 0) / SQUARE) + 1};
-  return s;
+  return (squares){(size_t)(fmax(z[0], f[0]) / SQUARE), (size_t)(fmax(fmin(z[1], f[1]), 0) / SQUARE) + 1,
+                   (size_t)(fmax(z[2], f[2]) / SQUARE), (size_t)(fmax(fmin(z[3], f[3]), 0) / SQUARE) + 1};
 }
 
 static void take_squares(dyd_numbers *l, const double z[4]) {
@@ -207,7 +207,7 @@ static void draw_ranks(const dyd_site_marks *m, dyd_canvas *c, dyd_numbers *labe
 }
 
 void dyd_site_marks_draw(dyd_site_marks *m, dyd_canvas *c, const dyd_view *v) {
-  dyd_numbers labels = {0};
+  DYD_SCOPED(dyd_numbers) labels = {0};
   bool numbers = (m->plan || v->apart >= ROOMY) && dyd_numbers_init(&labels, v);
   for (int pass = 0; pass < (numbers && !m->plan ? 2 : 1); pass++)
     for (size_t i = 0; i < m->count; i++) {
@@ -219,5 +219,4 @@ void dyd_site_marks_draw(dyd_site_marks *m, dyd_canvas *c, const dyd_view *v) {
       if (pass) dyd_numbers_put(&labels, c, b, 13, m->engine, i);
     }
   if (numbers && m->plan) draw_ranks(m, c, &labels);
-  dyd_numbers_clear(&labels);
 }

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "io/geodesic.h"
 #include "picture/picture.h"
 #include <math.h>
@@ -73,7 +74,7 @@ static double map_longitude(const sphere_drawing *d, double lon) {
 
 /* Beyond the seam it continues at the other side of the map. */
 static void side_follow(sphere_drawing *d, const dyd_side *side, bool whole, arc_step step) {
-  dyd_lon_lat *p = NULL;
+  DYD_FREED dyd_lon_lat *p = NULL;
   size_t n = 0;
   dyd_status st = dyd_side_places(&p, &n, side, whole);
   for (size_t k = 0; k < n; k++) {
@@ -85,7 +86,6 @@ static void side_follow(sphere_drawing *d, const dyd_side *side, bool whole, arc
     }
     arc_to(d, step, k == 0, p[k].lon, p[k].lat);
   }
-  free(p);
   if (st != DYD_OK) d->failed = st;
 }
 
@@ -310,9 +310,7 @@ dyd_status dyd_sphere_picture(const dyd_output *o) {
 
 dyd_status dyd_sphere_voronoi_picture(const dyd_output *o) {
   const dyd_result *r = o->what;
-  dyd_sphere_cells cells = {0};
+  DYD_SCOPED(dyd_sphere_cells) cells = {0};
   dyd_status st = dyd_sphere_cells_find(&cells, r->sphere, o->err);
-  if (st == DYD_OK) st = sphere_draw(o, &cells, "Voronoi diagram of a sphere");
-  dyd_sphere_cells_clear(&cells);
-  return st;
+  return st == DYD_OK ? sphere_draw(o, &cells, "Voronoi diagram of a sphere") : st;
 }

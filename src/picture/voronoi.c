@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The picture of the Voronoi diagram: the part certainly nearest to a point, the undetermined rest of the window,
  * rectangles, certain vertices, regions of undecided faces; or its tiles. */
+#include "base/local.h"
 #include "io/diagram.h"
 #include "picture/picture.h"
 #include <math.h>
@@ -45,7 +46,7 @@ static void name_of(const voronoi_drawing *g, const char *id, const char *title,
 
 static dyd_status voronoi_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
   voronoi_drawing *g = context;
-  dyd_polygon inner = {0};
+  DYD_SCOPED(dyd_polygon) inner = {0};
   (void)row;
   dyd_status st = dyd_shape_inner(&inner, shape);
   if (st == DYD_OK && inner.count) {
@@ -54,13 +55,12 @@ static dyd_status voronoi_cell(void *context, uint32_t i, const dyd_shape *shape
     dyd_picture_shape(g->canvas, tints[i % 4], 1, 0x0072b2, g->view.line * 0.6);
     g->cell = true;
   }
-  dyd_polygon_clear(&inner);
   return st;
 }
 
 static dyd_status voronoi_tiles(voronoi_drawing *g) {
   const dyd_diagram *d = g->d;
-  dyd_tiles tiles = {0};
+  DYD_SCOPED(dyd_tiles) tiles = {0};
   dyd_status st = dyd_diagram_tiles(&tiles, d, false, g->err);
   for (size_t r = 0, end = 0; r < tiles.count && st == DYD_OK;) {
     uint32_t site = tiles.site[r];
@@ -74,7 +74,6 @@ static dyd_status voronoi_tiles(voronoi_drawing *g) {
     }
     dyd_picture_shape(g->canvas, tints[site % 4], 1, 0x0072b2, g->view.line * 0.6);
   }
-  dyd_tiles_clear(&tiles);
   return st;
 }
 
@@ -98,12 +97,11 @@ static dyd_status voronoi_region(void *context, size_t face, const double box[4]
 
 /* A tied one is named by its first sites. */
 static dyd_status name_of_vertex(const voronoi_drawing *g, size_t k) {
-  dyd_index_list sites = {0};
+  DYD_SCOPED(dyd_index_list) sites = {0};
   dyd_status st = dyd_diagram_vertex_sites(&sites, g->d, k);
   bool tied = sites.count > 3;
   if (st == DYD_OK)
     name_of(g, "vertex", tied ? "holds the vertex of a tie, of" : "holds the vertex of", sites.item, sites.count);
-  dyd_index_list_clear(&sites);
   return st;
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The command dyadel-tiles: its words, one job, the exit status. */
+#include "base/local.h"
 #include "tiles/tiles.h"
 
 #include <errno.h>
@@ -162,9 +163,8 @@ static int prepare_folder(const tiles_job *job, size_t rank) {
     main_complain("%s: cannot make the folder: %s; choose another one with -o", job->folder, strerror(errno));
     return EXIT_FAILED;
   }
-  char *manifest = tiles_path(job->folder, "manifest.json");
+  DYD_FREED char *manifest = tiles_path(job->folder, "manifest.json");
   if (manifest && rank == 0) unlink(manifest);
-  free(manifest);
   return 0;
 }
 

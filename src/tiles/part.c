@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Parts, the results of one rank as a file; the manifest; parts joined to csv. */
 #include "base/digest.h"
+#include "base/local.h"
 #include "tiles/tiles.h"
 
 #include <errno.h>
@@ -130,11 +131,10 @@ static dyd_status spool_fail(const tile *t, dyd_error *err) {
 static dyd_status open_working_file(FILE **out, const tile *t, dyd_error *err) {
   char name[40];
   snprintf(name, sizeof name, ".rows-%05zu", t->rank);
-  char *path = tiles_path(t->job->folder, name);
+  DYD_FREED char *path = tiles_path(t->job->folder, name);
   if (!path) return tiles_no_memory(err);
   *out = fopen(path, "w+b");
   if (*out) unlink(path);
-  free(path);
   return *out ? DYD_OK : spool_fail(t, err);
 }
 
@@ -199,10 +199,9 @@ static json_t *header_of(const tile *t) {
 }
 
 static bool put_json_line(FILE *out, uint64_t *sum, json_t *j) {
-  char *text = j ? json_dumps(j, JSON_COMPACT) : NULL;
+  DYD_FREED char *text = j ? json_dumps(j, JSON_COMPACT) : NULL;
   bool fits = text && fprintf(out, "%s\n", text) > 0;
   if (text) *sum = dyd_digest(dyd_digest(*sum, text, strlen(text)), "\n", 1);
-  free(text);
   json_decref(j);
   return fits;
 }
@@ -297,7 +296,7 @@ dyd_status tile_find_part(tile *t, dyd_error *err) {
   char name[32];
   if (!t->job->restart) return DYD_OK;
   tiles_part_name(name, t->rank);
-  char *path = tiles_path(t->job->folder, name);
+  DYD_FREED char *path = tiles_path(t->job->folder, name);
   if (!path) return tiles_no_memory(err);
   FILE *in = fopen(path, "rb");
   json_t *j = in && tiles_part_sum(&t->counters.sum, in) ? tiles_part_header(in) : NULL;
@@ -306,7 +305,6 @@ dyd_status tile_find_part(tile *t, dyd_error *err) {
   }
   json_decref(j);
   if (in) fclose(in);
-  free(path);
   return DYD_OK;
 }
 
@@ -403,9 +401,8 @@ static dyd_status reader_open(part_reader *p, const part_readers *all, const cha
                               dyd_error *err) {
   char sum[20] = "";
   uint64_t found;
-  char *path = tiles_path(all->folder, name);
+  DYD_FREED char *path = tiles_path(all->folder, name);
   p->in = path ? fopen(path, "rb") : NULL;
-  free(path);
   if (!p->in) return reader_fail(all, name, strerror(errno), err);
   const bool whole = tiles_part_sum(&found, p->in);
   snprintf(sum, sizeof sum, "%016" PRIx64, found);
@@ -512,10 +509,9 @@ static void readers_close(part_readers *all) {
 
 dyd_status tiles_write_csv(FILE *out, const char *folder, bool comments, dyd_error *err) {
   part_readers all = {.folder = folder};
-  char *path = tiles_path(folder, "manifest.json");
+  DYD_FREED char *path = tiles_path(folder, "manifest.json");
   if (!path) return tiles_no_memory(err);
   json_t *j = json_load_file(path, 0, NULL);
-  free(path);
   if (!j) return reader_fail(&all, "manifest.json", "is not there, or none", err);
   dyd_status st = readers_open(&all, j, err);
   if (st == DYD_OK && comments) st = write_aliases(out, &all, err);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* A rank: its begin and end, the order of its steps, and mail within one process. */
+#include "base/local.h"
 #include "tiles/tiles.h"
 
 #include <errno.h>
@@ -138,8 +139,8 @@ static bool take_sample(tiles_mail *all, const tile *t) {
 
 dyd_status tile_split(tile *t, dyd_error *err) {
   const size_t ranks = t->job->ranks;
-  tiles_mail sample = {0};
-  split_cut *cut = calloc(ranks, sizeof *cut);
+  DYD_SCOPED(tiles_mail) sample = {0};
+  DYD_FREED split_cut *cut = calloc(ranks, sizeof *cut);
   bool fits = cut && take_sample(&sample, t);
   if (fits && sample.count)
     split_ranks(cut, (double(*)[2])(void *)sample.bytes, sample.count / sizeof(double[2]), 0, ranks);
@@ -148,8 +149,6 @@ dyd_status tile_split(tile *t, dyd_error *err) {
     fits = tiles_sites_put(&t->out[owner_of(cut, ranks, &b)], &t->own, k);
   }
   tiles_sites_clear(&t->own);
-  tiles_mail_clear(&sample);
-  free(cut);
   return fits ? DYD_OK : tiles_no_memory(err);
 }
 
@@ -522,12 +521,10 @@ static dyd_status fringe_discs(tile *t, const tiles_view *v, uint32_t i, dyd_err
 /* The disc about the witness of a legal pair with a rectangle. */
 static dyd_status fringe_witness(tile *t, const tiles_view *v, uint32_t i, uint32_t j, dyd_error *err) {
   tiles_box a = tiles_view_box(v, i), b = tiles_view_box(v, j);
-  dyd_point c;
-  dyd_point_init(&c);
+  DYD_LOCAL(dyd_point, c);
   dyd_status st = dyd_delaunay_witness(&c, dyd_engine_delaunay(t->engine), i, j);
   const double centre[2] = {dyd_dyadic_get_d(&c.x, DYD_DOWN), dyd_dyadic_get_d(&c.y, DYD_DOWN)};
   tiles_disc d = tiles_witness_disc(centre, &a, &b);
-  dyd_point_clear(&c);
   return st == DYD_OK ? fringe_ask(t, &d, err) : dyd_fail(err, st, "%s", dyd_status_text(st));
 }
 

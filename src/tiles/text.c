@@ -5,6 +5,7 @@
  * Statuses do not change when all coordinates are multiplied by the same power of ten. Where that makes them whole
  * numbers of at most 15 digits, which doubles hold, points are exact; else each number becomes the interval between the
  * doubles next to it. */
+#include "base/local.h"
 #include "dyadic/raw.h"
 #include "stream/number.h"
 #include "tiles/tiles.h"
@@ -72,13 +73,10 @@ static double text_scaled(const text_decimal *d, long after) {
 
 /* The double below, or above, unless it is the number; NAN beyond the range of exponents. */
 static double text_rounded(const text_field *f, bool up) {
-  mpq_t exact;
-  mpq_init(exact);
+  DYD_LOCAL_NUMBERS(mpq, exact);
   const bool known = dyd_real_parse_exact(exact, f->text, f->length) == DYD_OK;
   const dyd_round side = up ? DYD_UP : DYD_DOWN;
-  double value = known ? dyd_raw_quotient_get_d(mpq_numref(exact), 0, mpq_denref(exact), side) : NAN;
-  mpq_clear(exact);
-  return value;
+  return known ? dyd_raw_quotient_get_d(mpq_numref(exact), 0, mpq_denref(exact), side) : NAN;
 }
 
 /* ---- lines ---- */

@@ -14,6 +14,7 @@
 #define ZLIB_CONST              /* packed data are read only */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "engine/record.h"
 #include "io/diagram.h"
 #include "io/json.h"
@@ -293,9 +294,8 @@ static dyd_status html_head(const html_scene *s, const dyd_output *o) {
 /* row: NULL on a globe, where no point is on the hull. */
 static dyd_status html_point(const html_scene *s, uint32_t i, const dyd_site_row *row) {
   const double *radius = s->r->tolerance ? dyd_tolerance_get(s->r->tolerance)->points : NULL;
-  dyd_rect rect;
   dyd_json j;
-  dyd_rect_init(&rect);
+  DYD_LOCAL(dyd_rect, rect);
   dyd_json_begin(&j, s->out);
   dyd_json_break(&j, s->number[i] ? ",\n" : "\n");
   dyd_json_object(&j, NULL, DYD_JSON_FLAT);
@@ -309,19 +309,17 @@ static dyd_status html_point(const html_scene *s, uint32_t i, const dyd_site_row
     if (isfinite(radius[i])) dyd_decimal_directed(text, radius[i], 6, DYD_DOWN);
     dyd_json_raw(&j, "rho", text);
   }
-  dyd_rect_clear(&rect);
   return dyd_json_end(&j, "}");
 }
 
 static dyd_status html_points(const html_scene *s) {
-  dyd_site_row *rows = NULL;
+  DYD_FREED dyd_site_row *rows = NULL;
   dyd_json j;
   dyd_status st = s->r->sphere ? DYD_OK : dyd_result_sites(&rows, s->r);
   fputs("\"points\": [", s->out);
   for (uint32_t i = 0; i < s->r->count && st == DYD_OK; i++)
     if (s->number[i] != NOT_SHOWN) st = html_point(s, i, rows ? &rows[i] : NULL);
   fputs("],\n", s->out);
-  free(rows);
   dyd_json_begin(&j, s->out);
   dyd_json_aliases(&j, s->r->engine, s->r->sphere);
   dyd_json_end(&j, ",\n");
@@ -337,7 +335,7 @@ static bool scene_sees_triangle(const html_scene *s, const uint32_t v[3]) {
 
 /* Beside a graph there are none. */
 static dyd_status html_triangles(const html_scene *s) {
-  dyd_triangle_list list = {0};
+  DYD_SCOPED(dyd_triangle_list) list = {0};
   html_list l;
   dyd_status st = s->r->graph_name ? DYD_OK : dyd_result_triangles(&list, s->r);
   html_list_begin(&l, s->out, "triangles");
@@ -348,7 +346,6 @@ static dyd_status html_triangles(const html_scene *s) {
   }
   html_list_end(&l);
   fputs(",\n", s->out);
-  dyd_triangle_list_clear(&list);
   return st;
 }
 
@@ -544,8 +541,8 @@ static void put_polygon(html_diagram *g, const dyd_polygon *p) {
 
 static dyd_status html_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
   html_diagram *g = context;
-  dyd_polygon inner = {0};
-  dyd_polygon_list outer = {0};
+  DYD_SCOPED(dyd_polygon) inner = {0};
+  DYD_SCOPED(dyd_polygon_list) outer = {0};
   dyd_json j;
   if (!row->present) return DYD_OK;
   dyd_status st = dyd_shape_inner(&inner, shape);
@@ -565,14 +562,12 @@ static dyd_status html_cell(void *context, uint32_t i, const dyd_shape *shape, c
   }
   fputs("]}", g->out);
   g->any = true;
-  dyd_polygon_list_clear(&outer);
-  dyd_polygon_clear(&inner);
   return st;
 }
 
 /* A tile is a cell of one choice: all its rings are "outer", and none is certain. */
 static dyd_status html_tiles(html_diagram *g) {
-  dyd_tiles t = {0};
+  DYD_SCOPED(dyd_tiles) t = {0};
   dyd_json j;
   dyd_status st = dyd_diagram_tiles(&t, g->d, false, g->err);
   for (size_t r = 0, end = 0; r < t.count && st == DYD_OK;) {
@@ -592,7 +587,6 @@ static dyd_status html_tiles(html_diagram *g) {
     }
     fputs("]}", g->out);
   }
-  dyd_tiles_clear(&t);
   return st;
 }
 
@@ -602,21 +596,20 @@ static dyd_status html_vertices(html_diagram *g) {
   dyd_json_begin(&j, g->out);
   dyd_json_array(&j, "vertices", DYD_JSON_ROWS);
   for (size_t k = 0; k < dyd_diagram_vertices(d) && j.st == DYD_OK; k++) {
-    dyd_index_list sites = {0};
+    DYD_SCOPED(dyd_index_list) sites = {0};
     if (!dyd_diagram_vertex_in_window(d, k)) continue;
     dyd_json_good(&j, dyd_diagram_vertex_sites(&sites, d, k));
     dyd_json_object(&j, NULL, DYD_JSON_FLAT);
     dyd_json_sites(&j, "sites", d->engine, &sites);
     dyd_json_box(&j, false, d->vertex[k]);
     dyd_json_close(&j, 1);
-    dyd_index_list_clear(&sites);
   }
   return dyd_json_end(&j, "],\n");
 }
 
 static dyd_status html_region(void *context, size_t face, const double box[4]) {
   html_diagram *g = context;
-  dyd_index_list sites = {0};
+  DYD_SCOPED(dyd_index_list) sites = {0};
   bool outer;
   dyd_json j;
   if (!box) return DYD_OK;
@@ -628,13 +621,12 @@ static dyd_status html_region(void *context, size_t face, const double box[4]) {
   dyd_json_box(&j, false, box);
   dyd_json_end(&j, "}");
   g->any = true;
-  dyd_index_list_clear(&sites);
   return st;
 }
 
 /* Those of which both ends are known, as lines between the middles of these. */
 static dyd_status html_edges(html_diagram *g) {
-  dyd_dual_edge *edge = NULL;
+  DYD_FREED dyd_dual_edge *edge = NULL;
   size_t count = 0;
   double box[2][4];
   dyd_status st = dyd_diagram_edges(&edge, &count, g->d);
@@ -652,7 +644,6 @@ static dyd_status html_edges(html_diagram *g) {
     between = ",";
   }
   fputs("],\n", g->out);
-  free(edge);
   return st;
 }
 
