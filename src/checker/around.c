@@ -7,6 +7,7 @@
  * share the quarter are enough. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "checker/checker.h"
 #include "checker/cocircular.h"
 
@@ -86,12 +87,10 @@ static dyd_cert_spot corner_of(const dyd_cert_site *s, int quarter, bool last) {
 
 /* Is b beyond a along an axis, in the directions of the quarter? */
 static bool is_beyond(const dyd_cert_spot *a, const dyd_cert_spot *b, int axis, int quarter) {
-  dyd_cert_fraction t;
-  dyd_cert_fraction_init(&t);
+  DYD_LOCAL(dyd_cert_fraction, t);
   dyd_cert_fraction_sub(&t, b->v[axis], b->den[axis], a->v[axis], a->den[axis]);
   bool up = axis ? !(quarter & 1) : !(quarter & 2);
   int sign = dyd_exact_sgn(&t.num);
-  dyd_cert_fraction_clear(&t);
   return up ? sign > 0 : sign < 0;
 }
 
@@ -135,8 +134,8 @@ static dyd_status find_outer_sites(bool *rim, const dyd_checker *c) {
 /* What is not listed is no neighbour. */
 static dyd_status check_unlisted(dyd_checker *c) {
   const dyd_cert_globe *g = &c->globe;
-  uint32_t *listed = dyd_alloc(c->sites.count, sizeof *listed);
-  bool *rim = dyd_alloc(c->sites.count, sizeof *rim);
+  DYD_FREED uint32_t *listed = dyd_alloc(c->sites.count, sizeof *listed);
+  DYD_FREED bool *rim = dyd_alloc(c->sites.count, sizeof *rim);
   dyd_status st = listed && rim ? find_outer_sites(rim, c) : DYD_E_NOMEM;
   size_t count = 0;
   for (uint32_t k = 0; k < c->sites.count && st == DYD_OK; k++)
@@ -148,8 +147,6 @@ static dyd_status check_unlisted(dyd_checker *c) {
     if (looked) left -= count;
     c->report.around_unproved += !looked || !is_off_hull(c, listed, count, k);
   }
-  free(rim);
-  free(listed);
   return st == DYD_OK ? st : dyd_fail_nomem(c->in.err);
 }
 

@@ -2,6 +2,7 @@
 /* Discs of a certificate, exactly: witnesses by two square roots, caps by ends a + b sqrt(c). */
 #include "checker/caps.h"
 #include "base/alloc.h"
+#include "base/local.h"
 
 void dyd_cert_disc_init(dyd_cert_disc *d) {
   dyd_exact_init(&d->x);
@@ -19,46 +20,32 @@ void dyd_cert_disc_clear(dyd_cert_disc *d) {
 
 /* out = x^2 + y^2; out is neither. */
 static void square_norm(dyd_exact *out, const dyd_exact *x, const dyd_exact *y) {
-  dyd_exact t;
-  dyd_exact_init(&t);
+  DYD_LOCAL(dyd_exact, t);
   dyd_exact_mul(out, x, x);
   dyd_exact_mul(&t, y, y);
   dyd_exact_add(out, out, &t);
-  dyd_exact_clear(&t);
 }
 
 /* The square of the distance of (x, y) and the centre of d. */
 static void centre_distance2(dyd_exact *out, const dyd_exact *x, const dyd_exact *y, const dyd_cert_disc *d) {
-  dyd_exact dx, dy;
-  dyd_exact_init(&dx);
-  dyd_exact_init(&dy);
+  DYD_LOCAL(dyd_exact, dx, dy);
   dyd_exact_sub(&dx, x, &d->x);
   dyd_exact_sub(&dy, y, &d->y);
   square_norm(out, &dx, &dy);
-  dyd_exact_clear(&dx);
-  dyd_exact_clear(&dy);
 }
 
 bool dyd_cert_discs_meet(const dyd_cert_disc *a, const dyd_cert_disc *b) {
-  dyd_exact d, s;
-  dyd_exact_init(&d);
-  dyd_exact_init(&s);
+  DYD_LOCAL(dyd_exact, d, s);
   centre_distance2(&d, &a->x, &a->y, b);
   dyd_exact_add(&s, &a->r, &b->r);
   dyd_exact_mul(&s, &s, &s);
-  bool meet = dyd_exact_cmp(&d, &s) <= 0;
-  dyd_exact_clear(&d);
-  dyd_exact_clear(&s);
-  return meet;
+  return dyd_exact_cmp(&d, &s) <= 0;
 }
 
 /* sqrt(A) + s < sqrt(B), s = r_i + r_k >= 0, A and B the squared distances: D = B - A - s^2 is positive, and D^2 > 4
  * s^2 A. */
 bool dyd_cert_disc_is_nearer(const dyd_exact c[2], const dyd_cert_disc *i, const dyd_cert_disc *k) {
-  dyd_exact a, b, s;
-  dyd_exact_init(&a);
-  dyd_exact_init(&b);
-  dyd_exact_init(&s);
+  DYD_LOCAL(dyd_exact, a, b, s);
   centre_distance2(&a, &c[0], &c[1], i);
   centre_distance2(&b, &c[0], &c[1], k);
   dyd_exact_add(&s, &i->r, &k->r);
@@ -69,11 +56,7 @@ bool dyd_cert_disc_is_nearer(const dyd_exact c[2], const dyd_cert_disc *i, const
   dyd_exact_mul(&b, &b, &b);
   dyd_exact_mul(&a, &a, &s);
   a.exp += 2;
-  nearer = nearer && dyd_exact_cmp(&b, &a) > 0;
-  dyd_exact_clear(&a);
-  dyd_exact_clear(&b);
-  dyd_exact_clear(&s);
-  return nearer;
+  return nearer && dyd_exact_cmp(&b, &a) > 0;
 }
 
 /* ---- witnesses ---- */
@@ -151,25 +134,21 @@ static dyd_cert_cap *next_cert_cap(dyd_cert_caps *c) {
 
 /* c from w and tau. */
 static void finish_cert_cap(dyd_cert_cap *p) {
-  dyd_exact t;
-  dyd_exact_init(&t);
+  DYD_LOCAL(dyd_exact, t);
   square_norm(&p->ww, &p->wx, &p->wy);
   dyd_exact_mul(&t, &p->tau, &p->tau);
   dyd_exact_sub(&p->c, &p->ww, &t);
-  dyd_exact_clear(&t);
 }
 
 /* x, y = P_k; n = |P_k|^2 - r^2. */
 static void invert_disc(dyd_exact *x, dyd_exact *y, dyd_exact *n, const dyd_cert_disc *i, const dyd_cert_disc *k,
                         const dyd_exact *r) {
-  dyd_exact t;
-  dyd_exact_init(&t);
+  DYD_LOCAL(dyd_exact, t);
   dyd_exact_sub(x, &k->x, &i->x);
   dyd_exact_sub(y, &k->y, &i->y);
   square_norm(n, x, y);
   dyd_exact_mul(&t, r, r);
   dyd_exact_sub(n, n, &t);
-  dyd_exact_clear(&t);
 }
 
 dyd_status dyd_cert_caps_begin(bool *good, dyd_cert_caps *c, const dyd_cert_disc *a, const dyd_cert_disc *b) {
@@ -193,12 +172,10 @@ dyd_status dyd_cert_caps_begin(bool *good, dyd_cert_caps *c, const dyd_cert_disc
 /* out = N_j out + sign N_k at_j. */
 static void cap_against_pair(dyd_exact *out, const dyd_cert_caps *c, const dyd_exact *at_j, const dyd_exact *n_k,
                              int sign) {
-  dyd_exact t;
-  dyd_exact_init(&t);
+  DYD_LOCAL(dyd_exact, t);
   dyd_exact_mul(out, out, &c->nj);
   dyd_exact_mul(&t, at_j, n_k);
   sign > 0 ? dyd_exact_add(out, out, &t) : dyd_exact_sub(out, out, &t);
-  dyd_exact_clear(&t);
 }
 
 dyd_status dyd_cert_caps_add(bool *added, dyd_cert_caps *c, const dyd_cert_disc *k) {
@@ -222,43 +199,32 @@ static int root_sum_sign(const dyd_exact *a, const dyd_exact *b, const dyd_exact
   int x = dyd_exact_sgn(a), y = dyd_exact_sgn(b);
   if (x == y || !y) return x;
   if (!x) return y;
-  dyd_exact s, t;
-  dyd_exact_init(&s);
-  dyd_exact_init(&t);
+  DYD_LOCAL(dyd_exact, s, t);
   dyd_exact_mul(&s, a, a);
   dyd_exact_mul(&t, b, b);
   dyd_exact_mul(&t, &t, c);
   int larger = dyd_exact_cmp(&s, &t);
-  dyd_exact_clear(&s);
-  dyd_exact_clear(&t);
   return larger > 0 ? x : larger < 0 ? y : 0;
 }
 
 /* out = a b + sign c d. */
 static void product_sum(dyd_exact *out, const dyd_exact *a, const dyd_exact *b, int sign, const dyd_exact *c,
                         const dyd_exact *d) {
-  dyd_exact t;
-  dyd_exact_init(&t);
+  DYD_LOCAL(dyd_exact, t);
   dyd_exact_mul(&t, c, d);
   dyd_exact_mul(out, a, b);
   sign > 0 ? dyd_exact_add(out, out, &t) : dyd_exact_sub(out, out, &t);
-  dyd_exact_clear(&t);
 }
 
 /* The counter-clockwise end of cap e is u = (tau w + sqrt(c) w') / ww, w' the left turn of w. The sign of u.w_k -
  * tau_k.
  */
 static int cap_end_sign(const dyd_cert_cap *e, const dyd_cert_cap *k) {
-  dyd_exact a, b;
-  dyd_exact_init(&a);
-  dyd_exact_init(&b);
+  DYD_LOCAL(dyd_exact, a, b);
   product_sum(&b, &e->wx, &k->wx, 1, &e->wy, &k->wy);
   product_sum(&a, &b, &e->tau, -1, &k->tau, &e->ww);
   product_sum(&b, &e->wx, &k->wy, -1, &e->wy, &k->wx);
-  int sign = root_sum_sign(&a, &b, &e->c);
-  dyd_exact_clear(&a);
-  dyd_exact_clear(&b);
-  return sign;
+  return root_sum_sign(&a, &b, &e->c);
 }
 
 /* A part of the circle that open caps hold, but for all of it, ends counter-clockwise where one of them does, and none

@@ -7,7 +7,10 @@
  * circles that show without digits: parallels, meridians, and two chords across the plane of one meridian. */
 #include "checker/cocircular.h"
 
+#include "base/local.h"
 #include "checker/algebra.h"
+
+DYD_ARRAYS(dyd_cert_enclosure)
 
 enum { MOST_ORDER = 1 << 20, SPARE = 64 };
 
@@ -21,15 +24,12 @@ static bool is_multiple(mpq_srcptr q, unsigned long of) {
 /* Are a and b on one parallel, c and d on another, with the same meridian, or the one opposite, half way? */
 static bool chords_are_mirrored(const dyd_cert_region *a, const dyd_cert_region *b, const dyd_cert_region *c,
                                 const dyd_cert_region *d) {
-  mpq_t turn;
   if (!mpq_equal(a->mid[1], b->mid[1]) || !mpq_equal(c->mid[1], d->mid[1])) return false;
-  mpq_init(turn);
+  DYD_LOCAL_NUMBERS(mpq, turn);
   mpq_add(turn, a->mid[0], b->mid[0]);
   mpq_sub(turn, turn, c->mid[0]);
   mpq_sub(turn, turn, d->mid[0]);
-  bool mirrored = is_multiple(turn, 360);
-  mpq_clear(turn);
-  return mirrored;
+  return is_multiple(turn, 360);
 }
 
 static bool are_on_parallel(const dyd_cert_region *const at[4]) {
@@ -40,13 +40,11 @@ static bool are_on_parallel(const dyd_cert_region *const at[4]) {
 
 static bool are_on_meridian(const dyd_cert_region *const at[4]) {
   bool all = true;
-  mpq_t turn;
-  mpq_init(turn);
+  DYD_LOCAL_NUMBERS(mpq, turn);
   for (int k = 1; k < 4; k++) {
     mpq_sub(turn, at[k]->mid[0], at[0]->mid[0]);
     all = all && is_multiple(turn, 180);
   }
-  mpq_clear(turn);
   return all;
 }
 
@@ -69,41 +67,32 @@ static long order_totient(unsigned long n) {
 
 /* phi(n) for the least n that all degrees are multiples of 360/n for; 0: n is too large. */
 static long order_degree(const dyd_cert_region *const at[4]) {
-  mpq_t turn;
-  mpz_t n;
-  mpq_init(turn);
-  mpz_init_set_ui(n, 1);
+  DYD_LOCAL_NUMBERS(mpq, turn);
+  DYD_LOCAL_NUMBERS(mpz, n);
+  mpz_set_ui(n, 1);
   for (int k = 0; k < 8; k++) {
     mpq_set(turn, at[k / 2]->mid[k % 2]);
     mpz_mul_ui(mpq_denref(turn), mpq_denref(turn), 360);
     mpq_canonicalize(turn);
     mpz_lcm(n, n, mpq_denref(turn));
   }
-  long degree = mpz_cmp_ui(n, MOST_ORDER) <= 0 ? order_totient(mpz_get_ui(n)) : 0;
-  mpz_clear(n);
-  mpq_clear(turn);
-  return degree;
+  return mpz_cmp_ui(n, MOST_ORDER) <= 0 ? order_totient(mpz_get_ui(n)) : 0;
 }
 
 /* The vector of a place. */
 static void place_vector_set(dyd_cert_enclosure v[3], const dyd_cert_region *at, const dyd_cert_enclosure *pi, long p) {
-  dyd_cert_trig lon, lat;
-  dyd_cert_trig_init(&lon);
-  dyd_cert_trig_init(&lat);
+  DYD_LOCAL(dyd_cert_trig, lon, lat);
   dyd_cert_trig_of_degrees(&lon, at->mid[0], pi, p);
   dyd_cert_trig_of_degrees(&lat, at->mid[1], pi, p);
   dyd_cert_enclosure_set(&v[0], &lon.c);
   dyd_cert_enclosure_set(&v[1], &lon.s);
   dyd_cert_enclosure_set(&v[2], &lat.s);
   for (int a = 0; a < 2; a++) dyd_cert_enclosure_mul(&v[a], &lat.c, p);
-  dyd_cert_trig_clear(&lat);
-  dyd_cert_trig_clear(&lon);
 }
 
 /* out = the determinant of v[1] - v[0], v[2] - v[0], v[3] - v[0], of which the latter are left in v. */
 static void determinant(dyd_cert_enclosure *out, dyd_cert_enclosure v[4][3], long p) {
-  dyd_cert_enclosure t;
-  dyd_cert_enclosure_init(&t);
+  DYD_LOCAL(dyd_cert_enclosure, t);
   dyd_cert_enclosure_set_si(out, 0, p);
   for (int k = 1; k < 4; k++)
     for (int a = 0; a < 3; a++) dyd_cert_enclosure_sub(&v[k][a], &v[0][a]);
@@ -114,7 +103,6 @@ static void determinant(dyd_cert_enclosure *out, dyd_cert_enclosure v[4][3], lon
     dyd_cert_enclosure_mul(&t, &v[3][c], p);
     (k < 3 ? dyd_cert_enclosure_add : dyd_cert_enclosure_sub)(out, &t);
   }
-  dyd_cert_enclosure_clear(&t);
 }
 
 /* Is it known that |x| < 2^bits, both times 2^-p? */
@@ -124,18 +112,12 @@ static bool is_below(const dyd_cert_enclosure *x, long bits) {
 
 /* Is the determinant below 2^-bits in absolute value, to precision p > bits? */
 static bool is_flat(const dyd_cert_region *const at[4], long bits, long p) {
-  dyd_cert_enclosure v[4][3], pi, det;
-  dyd_cert_enclosure_init(&pi);
-  dyd_cert_enclosure_init(&det);
+  DYD_LOCAL(dyd_cert_enclosure, pi, det);
   dyd_cert_enclosure_pi(&pi, p);
-  for (int k = 0; k < 12; k++) dyd_cert_enclosure_init(&v[k / 3][k % 3]);
+  DYD_LOCAL_ARRAY(dyd_cert_enclosure, v, [4][3]);
   for (int k = 0; k < 4; k++) place_vector_set(v[k], at[k], &pi, p);
   determinant(&det, v, p);
-  bool flat = is_below(&det, p - bits);
-  for (int k = 0; k < 12; k++) dyd_cert_enclosure_clear(&v[k / 3][k % 3]);
-  dyd_cert_enclosure_clear(&det);
-  dyd_cert_enclosure_clear(&pi);
-  return flat;
+  return is_below(&det, p - bits);
 }
 
 /* A look with few digits first: most that are on no circle are seen by it. */

@@ -3,6 +3,7 @@
  * lies in its disc, too [CERT-11]. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "checker/checker.h"
 
 #include <stdlib.h>
@@ -19,15 +20,10 @@ void dyd_checker_discs_clear(dyd_checker *c) {
 /* Some point of the rectangle is in the disc: else every statement on it is true. */
 static bool disc_meets_site(const dyd_cert_disc *d, const dyd_cert_site *s) {
   const dyd_exact centre[2] = {d->x, d->y};
-  dyd_cert_fraction near, r2;
-  dyd_cert_fraction_init(&near);
-  dyd_cert_fraction_init(&r2);
+  DYD_LOCAL(dyd_cert_fraction, near, r2);
   dyd_cert_distance2(&near, centre, s, DYD_CERT_NEAR);
   dyd_exact_mul(&r2.num, &d->r, &d->r);
-  bool meets = dyd_cert_fraction_cmp(&near, &r2) <= 0;
-  dyd_cert_fraction_clear(&near);
-  dyd_cert_fraction_clear(&r2);
-  return meets;
+  return dyd_cert_fraction_cmp(&near, &r2) <= 0;
 }
 
 static dyd_status read_disc(dyd_checker *c, uint32_t i) {
@@ -98,13 +94,11 @@ static dyd_status check_disc_caps(dyd_checker *c, const dyd_cert_edge *p) {
     c->report.discs_unproved++;
     return DYD_OK;
   }
-  dyd_cert_caps caps;
   size_t end;
   bool good = false;
-  dyd_cert_caps_init(&caps);
+  DYD_LOCAL(dyd_cert_caps, caps);
   dyd_status st = read_caps(&good, c, &caps, p);
   good = good && !dyd_cert_discs_meet(caps.i, caps.j) && dyd_cert_caps_cover(&end, &caps);
-  dyd_cert_caps_clear(&caps);
   if (st != DYD_OK) return st;
   if (!good)
     return dyd_cert_reject(&c->in, "the discs do not prove that %u %u is illegal", (unsigned)p->i, (unsigned)p->j);

@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "checker/checker.h"
 
 #include <string.h>
@@ -24,18 +25,14 @@ static dyd_cert_site *add_place(dyd_cert_globe *g) {
 /* The rest of a line: "= K": the place is exactly where place K is. */
 static dyd_status read_place_alias(dyd_checker *c, uint32_t i) {
   dyd_cert_globe *g = &c->globe;
-  dyd_cert_region own, of;
   uint32_t k = 0;
   dyd_status st = dyd_cert_expect_word(c, "=");
   if (st == DYD_OK) st = dyd_cert_read_index(&k, &c->in, i);
   if (st != DYD_OK) return st;
   if (k == i || g->place.site[k].alias != k) return dyd_cert_reject(&c->in, "place %u is an alias", (unsigned)k);
-  dyd_cert_region_init(&own);
-  dyd_cert_region_init(&of);
+  DYD_LOCAL(dyd_cert_region, own, of);
   bool same = dyd_cert_globe_region(&own, g, i) && dyd_cert_globe_region(&of, g, k);
   same = same && dyd_cert_region_is_exact(&own) && dyd_cert_region_is_exact(&of) && dyd_cert_region_is_same(&own, &of);
-  dyd_cert_region_clear(&of);
-  dyd_cert_region_clear(&own);
   g->place.site[i].alias = k;
   return same ? DYD_OK : dyd_cert_reject(&c->in, "it is not seen to be the same place as %u", (unsigned)k);
 }
@@ -77,23 +74,19 @@ static dyd_status read_places(dyd_checker *c) {
 /* "eye K", or "eye gap LON LAT"; K is looked at when there are places. */
 static dyd_status read_eye(dyd_checker *c) {
   dyd_cert_globe *g = &c->globe;
-  dyd_cert_sites one;
-  mpq_t none;
   dyd_status st = dyd_cert_expect_line(c, "eye");
   g->gap = st == DYD_OK && c->in.at && strncmp(c->in.at, "gap ", 4) == 0;
   if (st == DYD_OK && !g->gap) return dyd_cert_read_index(&g->eye, &c->in, DYD_CERT_NONE - 1);
   if (st == DYD_OK) st = dyd_cert_expect_word(c, "gap");
   if (st != DYD_OK) return st;
-  dyd_cert_sites_init(&one);
-  mpq_init(none);
+  DYD_LOCAL(dyd_cert_sites, one);
+  DYD_LOCAL_NUMBERS(mpq, none);
   dyd_cert_site *at = dyd_cert_sites_add(&one);
   if (!at) st = dyd_fail_nomem(c->in.err);
   for (int a = 0; a < 2 && st == DYD_OK; a++) st = read_globe_side(&at->side[a], c);
   if (st == DYD_OK &&
       (!dyd_cert_region_set(&g->lens.eye, at->side, none, none) || !dyd_cert_region_is_exact(&g->lens.eye)))
     st = dyd_cert_reject(&c->in, "the eye is no place");
-  mpq_clear(none);
-  dyd_cert_sites_clear(&one);
   return st;
 }
 
@@ -102,18 +95,16 @@ static dyd_status read_radius(dyd_checker *c) {
   static const char *const unit[] = {"none", "degrees", "metres"};
   dyd_cert_globe *g = &c->globe;
   size_t k = 0;
-  dyd_cert_sites one;
   dyd_status st = dyd_cert_expect_line(c, "radius");
   if (st == DYD_OK) st = dyd_cert_read_choice(&k, c, unit, 3);
   if (st != DYD_OK || k == 0) return st;
   g->ground = k == 2;
-  dyd_cert_sites_init(&one);
+  DYD_LOCAL(dyd_cert_sites, one);
   dyd_cert_site *at = dyd_cert_sites_add(&one);
   st = at ? read_globe_side(&at->side[0], c) : dyd_fail_nomem(c->in.err);
   if (st == DYD_OK && (!at->side[0].point || dyd_exact_sgn(&at->side[0].lo) <= 0))
     st = dyd_cert_reject(&c->in, "this is no radius");
   if (st == DYD_OK) dyd_cert_exact_to_q(g->radius, &at->side[0].lo, dyd_cert_den(&at->side[0]));
-  dyd_cert_sites_clear(&one);
   return st;
 }
 
@@ -152,16 +143,14 @@ static dyd_status check_image(dyd_checker *c, dyd_cert_region *r, uint32_t k) {
 
 static dyd_status check_images(dyd_checker *c) {
   dyd_cert_globe *g = &c->globe;
-  dyd_cert_region r;
   dyd_status st = find_images(c);
   if (st != DYD_OK) return st;
   g->lens.pieces = PIECES + PIECES_EACH * c->sites.count;
-  dyd_cert_region_init(&r);
+  DYD_LOCAL(dyd_cert_region, r);
   if (!g->gap && !dyd_cert_globe_region(&g->lens.eye, g, g->eye))
     st = dyd_cert_reject(&c->in, "the eye is no place with a radius on the sphere");
   dyd_cert_region_box(&g->lens.eye);
   for (uint32_t k = 0; k < c->sites.count && st == DYD_OK; k++) st = check_image(c, &r, k);
-  dyd_cert_region_clear(&r);
   return st;
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/alloc.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "checker/algebra.h"
 #include "checker/tree.h"
 
@@ -38,31 +39,25 @@ static void place_ball_clear(ball *b) {
 
 /* x = q degrees in radians, rounded up, q >= 0: a degree is less than 0.0174533. */
 static void radians_above(mpz_t x, mpq_srcptr q, long p) {
-  mpz_t den;
-  mpz_init(den);
+  DYD_LOCAL_NUMBERS(mpz, den);
   mpz_mul_ui(x, mpq_numref(q), 174533);
   mpz_mul_2exp(x, x, (mp_bitcnt_t)p);
   mpz_mul_ui(den, mpq_denref(q), 10000000);
   mpz_cdiv_q(x, x, den);
-  mpz_clear(den);
 }
 
 /* From the middle along its parallel, then along a meridian. cosine: of the middle latitude. */
 static void ball_set_box(ball *b, const dyd_cert_region *r, const dyd_cert_enclosure *cosine, long p) {
-  mpz_t lat;
-  mpz_init(lat);
+  DYD_LOCAL_NUMBERS(mpz, lat);
   radians_above(lat, r->half[1], p);
   radians_above(b->box, r->half[0], p);
   mpz_mul(b->box, b->box, cosine->hi);
   mpz_cdiv_q_2exp(b->box, b->box, (mp_bitcnt_t)p);
   mpz_add(b->box, b->box, lat);
-  mpz_clear(lat);
 }
 
 static void ball_set(ball *b, const dyd_cert_region *r, const dyd_cert_enclosure *pi, long p) {
-  dyd_cert_trig lon, lat;
-  dyd_cert_trig_init(&lon);
-  dyd_cert_trig_init(&lat);
+  DYD_LOCAL(dyd_cert_trig, lon, lat);
   dyd_cert_trig_of_degrees(&lon, r->mid[0], pi, p);
   dyd_cert_trig_of_degrees(&lat, r->mid[1], pi, p);
   dyd_cert_enclosure_set(&b->v[0], &lon.c);
@@ -71,14 +66,11 @@ static void ball_set(ball *b, const dyd_cert_region *r, const dyd_cert_enclosure
   dyd_cert_enclosure_set(&b->v[2], &lat.s);
   dyd_cert_enclosure_set_q(&b->cap, mpq_numref(r->angle), mpq_denref(r->angle), p);
   ball_set_box(b, r, &lat.c, p);
-  dyd_cert_trig_clear(&lat);
-  dyd_cert_trig_clear(&lon);
 }
 
 /* out = the cosine of the angle between the middles, within [-1, 1]. */
 static void cosine_between(dyd_cert_enclosure *out, const ball *a, const ball *b, long p) {
-  dyd_cert_enclosure x;
-  dyd_cert_enclosure_init(&x);
+  DYD_LOCAL(dyd_cert_enclosure, x);
   dyd_cert_enclosure_set_si(out, 0, p);
   for (int k = 0; k < 3; k++) {
     dyd_cert_enclosure_set(&x, &a->v[k]);
@@ -89,7 +81,6 @@ static void cosine_between(dyd_cert_enclosure *out, const ball *a, const ball *b
   dyd_cert_enclosure_extreme(out, -1, &x);
   dyd_cert_enclosure_neg(&x);
   dyd_cert_enclosure_extreme(out, 1, &x);
-  dyd_cert_enclosure_clear(&x);
 }
 
 /* ---- two regions from a third ---- */
@@ -121,12 +112,9 @@ static void view_focus(view *v, long p, int regions) {
 }
 
 static bool sum_is_large(const view *v) {
-  mpz_t halves;
-  mpz_init(halves);
+  DYD_LOCAL_NUMBERS(mpz, halves);
   mpz_fdiv_q_2exp(halves, v->s.hi, (mp_bitcnt_t)(v->p - 1));
-  bool large = mpz_cmp_ui(halves, 3) >= 0;
-  mpz_clear(halves);
-  return large;
+  return mpz_cmp_ui(halves, 3) >= 0;
 }
 
 /* t = cos(A + s), A having the cosine `near`; returns true if A + s is below half a turn for certain: as A is below a
@@ -182,8 +170,7 @@ static bool region_is_boxed(const dyd_cert_region *r) {
 
 /* *out is one half of r, across its longer side: longitudes, whose cosine is that of the ball, or latitudes. */
 static void region_halve(dyd_cert_region *out, const dyd_cert_region *r, const ball *b, bool upper, long p) {
-  mpz_t lat;
-  mpz_init(lat);
+  DYD_LOCAL_NUMBERS(mpz, lat);
   radians_above(lat, r->half[1], p);
   mpz_mul_2exp(lat, lat, 1);
   int axis = mpz_cmp(lat, b->box) > 0;
@@ -194,7 +181,6 @@ static void region_halve(dyd_cert_region *out, const dyd_cert_region *r, const b
   mpq_set(out->angle, r->angle);
   mpq_div_2exp(out->half[axis], out->half[axis], 1);
   (upper ? mpq_add : mpq_sub)(out->mid[axis], out->mid[axis], out->half[axis]);
-  mpz_clear(lat);
 }
 
 /* Of the first `regions` that one whose box adds most to the sum. */
@@ -230,8 +216,7 @@ static bool view_holds(view *v, int regions, view_test *test, void *user, uint64
   if (holds || cuts == MOST_CUTS) return holds > 0;
   int widest = view_widest(v, regions);
   const dyd_cert_region *whole = v->of[widest];
-  dyd_cert_region part;
-  dyd_cert_region_init(&part);
+  DYD_LOCAL(dyd_cert_region, part);
   bool good = true;
   for (int upper = 0; upper < 2 && good; upper++) {
     view_focus(v, FIRST_PRECISION, regions);
@@ -240,7 +225,6 @@ static bool view_holds(view *v, int regions, view_test *test, void *user, uint64
     good = view_holds(v, regions, test, user, effort, cuts + 1);
     v->of[widest] = whole;
   }
-  dyd_cert_region_clear(&part);
   return good;
 }
 
@@ -263,10 +247,9 @@ static bool region_is_nearer(const dyd_cert_region *at, const dyd_cert_region *i
 /* ---- in whole numbers ---- */
 
 static void bowl_set(dyd_cert_bowl *out, const dyd_cert_region *r) {
-  dyd_cert_enclosure pi;
   ball b;
   place_ball_init(&b);
-  dyd_cert_enclosure_init(&pi);
+  DYD_LOCAL(dyd_cert_enclosure, pi);
   dyd_cert_enclosure_pi(&pi, 2 * COARSE_BITS);
   ball_set(&b, r, &pi, 2 * COARSE_BITS);
   mpz_add(b.box, b.box, b.cap.hi);
@@ -278,7 +261,6 @@ static void bowl_set(dyd_cert_bowl *out, const dyd_cert_region *r) {
     mpz_fdiv_q_2exp(b.v[k].lo, b.v[k].lo, COARSE_BITS);
     out->v[k] = mpz_get_si(b.v[k].lo);
   }
-  dyd_cert_enclosure_clear(&pi);
   place_ball_clear(&b);
 }
 
@@ -293,12 +275,10 @@ static uint64_t bowl_distance2(const dyd_cert_bowl *a, const dyd_cert_bowl *b) {
 
 /* At least the distance of any two of their points. */
 static int64_t bowl_far(const dyd_cert_bowl *a, const dyd_cert_bowl *b) {
-  mpz_t root;
-  mpz_init_set_ui(root, bowl_distance2(a, b));
+  DYD_LOCAL_NUMBERS(mpz, root);
+  mpz_set_ui(root, bowl_distance2(a, b));
   mpz_sqrt(root, root);
-  int64_t far = mpz_get_si(root) + 1 + a->r + b->r;
-  mpz_clear(root);
-  return far;
+  return mpz_get_si(root) + 1 + a->r + b->r;
 }
 
 /* Are all points of the one farther than `far` from all of the other? */
@@ -393,10 +373,8 @@ static int test_ground(view *v, void *user) {
 
 /* out = the least, or the greatest difference of longitudes of the two, at most 180. */
 static void longitudes_apart(mpq_ptr out, const dyd_cert_region *a, const dyd_cert_region *b, bool greatest) {
-  mpq_t half, turn;
-  mpz_t turns;
-  mpq_inits(half, turn, NULL);
-  mpz_init(turns);
+  DYD_LOCAL_NUMBERS(mpq, half, turn);
+  DYD_LOCAL_NUMBERS(mpz, turns);
   mpq_set_ui(turn, 360, 1);
   mpq_sub(out, a->mid[0], b->mid[0]);
   mpq_abs(out, out);
@@ -411,8 +389,6 @@ static void longitudes_apart(mpq_ptr out, const dyd_cert_region *a, const dyd_ce
   (greatest ? mpq_add : mpq_sub)(out, out, half);
   if (mpq_sgn(out) < 0) mpq_set_ui(out, 0, 1);
   if (mpq_cmp_ui(out, 180, 1) > 0) mpq_set_ui(out, 180, 1);
-  mpz_clear(turns);
-  mpq_clears(half, turn, NULL);
 }
 
 /* The distance grows with the difference of longitudes: only boxes of latitudes are left. */
@@ -421,9 +397,8 @@ static bool ground_bound_holds(const dyd_cert_region *a, const dyd_cert_region *
   ground_bound bound = {.upper = upper};
   uint64_t effort = EFFORT / 4;
   dyd_cert_region end[2];
-  mpq_t metre;
   view v = {.of = {&end[0], &end[1]}};
-  mpq_init(metre);
+  DYD_LOCAL_NUMBERS(mpq, metre);
   mpq_init(bound.angle);
   mpq_set_ui(metre, 5, 31855044); /* globe_places.c */
   dyd_cert_exact_to_q(bound.angle, metres, NULL);
@@ -440,7 +415,6 @@ static bool ground_bound_holds(const dyd_cert_region *a, const dyd_cert_region *
   near_view_clear(&v);
   for (int k = 0; k < 2; k++) dyd_cert_region_clear(&end[k]);
   mpq_clear(bound.angle);
-  mpq_clear(metre);
   return holds;
 }
 

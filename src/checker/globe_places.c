@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The places of a certificate on a sphere, and where each may be. */
+#include "base/local.h"
 #include "checker/globe.h"
 
 #include <stdlib.h>
@@ -24,21 +25,16 @@ void dyd_cert_globe_clear(dyd_cert_globe *g) {
 
 /* The mean radius of the earth (IUGG) is 6371008.8 metres. */
 static void angle_of_metres(mpq_ptr x) {
-  mpq_t metre;
-  mpq_init(metre);
+  DYD_LOCAL_NUMBERS(mpq, metre);
   mpq_set_ui(metre, 5, 31855044);
   mpq_mul(x, x, metre);
-  mpq_clear(metre);
 }
 
 bool dyd_cert_globe_region(dyd_cert_region *out, const dyd_cert_globe *g, uint32_t i) {
-  mpq_t angle, degrees;
-  mpq_inits(angle, degrees, NULL);
+  DYD_LOCAL_NUMBERS(mpq, angle, degrees);
   dyd_cert_exact_to_q(angle, &g->metres[i], NULL);
   if (g->ground) mpq_add(angle, angle, g->radius);
   angle_of_metres(angle);
   if (!g->ground) mpq_set(degrees, g->radius);
-  bool good = dyd_cert_region_set(out, g->place.site[i].side, degrees, angle);
-  mpq_clears(angle, degrees, NULL);
-  return good;
+  return dyd_cert_region_set(out, g->place.site[i].side, degrees, angle);
 }

@@ -3,12 +3,15 @@
  * [CERT-13]. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "checker/by_key.h"
 #include "checker/checker.h"
 #include "checker/near.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+DYD_ARRAYS(dyd_exact)
 
 #define EFFORT_BITS 16
 #define MOST_CUTS 3000 /* of a box of middles */
@@ -90,9 +93,7 @@ static dyd_status check_nearest_rows(graph_rows *g, uint32_t rows) {
 
 /* Lowers `least` to (z - x)(z - y), z in [side[0], side[1]] as near to the middle of x and y as can be. */
 static void lower_angle(dyd_exact *least, bool first, const dyd_exact *x, const dyd_exact *y, const dyd_exact side[2]) {
-  dyd_exact z, t;
-  dyd_exact_init(&z);
-  dyd_exact_init(&t);
+  DYD_LOCAL(dyd_exact, z, t);
   dyd_exact_add(&z, x, y);
   z.exp--;
   if (dyd_exact_cmp(&z, &side[0]) < 0) dyd_exact_set(&z, &side[0]);
@@ -101,23 +102,16 @@ static void lower_angle(dyd_exact *least, bool first, const dyd_exact *x, const 
   dyd_exact_sub(&z, &z, y);
   dyd_exact_mul(&t, &t, &z);
   if (first || dyd_exact_cmp(&t, least) < 0) dyd_exact_set(least, &t);
-  dyd_exact_clear(&z);
-  dyd_exact_clear(&t);
 }
 
 /* Is (p_k - p_i).(p_k - p_j) > 0 for every choice? */
 static bool is_outside_diameter(const dyd_cert_span *i, const dyd_cert_span *j, const dyd_cert_span *k) {
-  dyd_exact least[2];
-  dyd_exact_init(&least[0]);
-  dyd_exact_init(&least[1]);
+  DYD_LOCAL_ARRAY(dyd_exact, least, [2]);
   for (int a = 0; a < 2; a++)
     for (int q = 0; q < 4; q++)
       lower_angle(&least[a], q == 0, &i->e[2 * a + (q & 1)], &j->e[2 * a + (q >> 1)], &k->e[2 * a]);
   dyd_exact_add(&least[0], &least[0], &least[1]);
-  bool outside = dyd_exact_sgn(&least[0]) > 0;
-  dyd_exact_clear(&least[0]);
-  dyd_exact_clear(&least[1]);
-  return outside;
+  return dyd_exact_sgn(&least[0]) > 0;
 }
 
 typedef struct diameter {
@@ -145,13 +139,11 @@ static void span_of_middles(dyd_cert_span *out, const dyd_cert_span *i, const dy
 static bool gabriel_is_certain(uint32_t *other, const graph_rows *g, const dyd_cert_edge *p) {
   const dyd_cert_sites *s = &g->c->sites;
   diameter d = {g->span, p->i, p->j, DYD_CERT_NONE};
-  dyd_cert_span middles;
   dyd_cert_centre centre, end;
-  dyd_cert_span_init(&middles);
+  DYD_LOCAL(dyd_cert_span, middles);
   span_of_middles(&middles, &g->span[p->i], &g->span[p->j]);
   dyd_cert_span_on_grid(&centre, s, &middles);
   dyd_cert_span_on_grid(&end, s, &g->span[p->i]);
-  dyd_cert_span_clear(&middles);
   dyd_cert_area limit = end.far ? 0 : dyd_cert_far_upper(&end, &s->box[p->j]) / 4 + 1;
   centre.far |= end.far;
   bool certain = dyd_cert_tree_visit(&g->c->tree, &centre, limit, meet_diameter, &d);
@@ -164,10 +156,7 @@ static bool gabriel_is_certain(uint32_t *other, const graph_rows *g, const dyd_c
 /* The square of half the least length of a pair whose middle is corner q of the box. */
 static void middle_radius2(dyd_exact *out, const dyd_cert_span *b, int q, const dyd_cert_span *i,
                            const dyd_cert_span *j) {
-  dyd_exact d, t, u;
-  dyd_exact_init(&d);
-  dyd_exact_init(&t);
-  dyd_exact_init(&u);
+  DYD_LOCAL(dyd_exact, d, t, u);
   mpz_set_ui(out->man, 0);
   for (int a = 0; a < 2; a++) {
     const dyd_exact *c = &b->e[2 * a + (a ? q >> 1 : q & 1)];
@@ -177,24 +166,17 @@ static void middle_radius2(dyd_exact *out, const dyd_cert_span *b, int q, const 
     dyd_exact_mul(&d, &d, &d);
     dyd_exact_add(out, out, &d);
   }
-  dyd_exact_clear(&d);
-  dyd_exact_clear(&t);
-  dyd_exact_clear(&u);
 }
 
 /* Is k inside, for every choice, of each disc whose middle is a corner of the box? */
 static bool is_inside_middles(const graph_rows *g, const dyd_cert_span *b, const dyd_cert_edge *p, uint32_t k) {
-  dyd_exact far, radius;
   bool inside = true;
-  dyd_exact_init(&far);
-  dyd_exact_init(&radius);
+  DYD_LOCAL(dyd_exact, far, radius);
   for (int q = 0; q < 4 && inside; q++) {
     dyd_cert_corner_distance2(&far, b, q, &g->span[k], true);
     middle_radius2(&radius, b, q, &g->span[p->i], &g->span[p->j]);
     inside = dyd_exact_cmp(&far, &radius) < 0;
   }
-  dyd_exact_clear(&far);
-  dyd_exact_clear(&radius);
   return inside;
 }
 
@@ -207,13 +189,11 @@ static bool middles_are_covered(graph_rows *g, const dyd_cert_span *b, const dyd
   bool more = cuts < MOST_CUTS && g->effort > to - from && !dyd_cert_span_is_point(b);
   if (!more) return false;
   g->effort -= to - from;
-  dyd_cert_span part;
-  dyd_cert_span_init(&part);
+  DYD_LOCAL(dyd_cert_span, part);
   for (int upper = 0; upper < 2 && more; upper++) {
     dyd_cert_span_half(&part, b, upper);
     more = middles_are_covered(g, &part, p, cuts + 1);
   }
-  dyd_cert_span_clear(&part);
   return more;
 }
 
@@ -243,14 +223,11 @@ static int cut_middles(dyd_exact cut[8], const dyd_exact middle[2], const dyd_ex
 }
 
 static bool gabriel_is_never(graph_rows *g, const dyd_cert_edge *p) {
-  dyd_exact cut[2][8];
-  dyd_cert_span middles, part;
   const dyd_cert_span *i = &g->span[p->i], *j = &g->span[p->j];
   int count[2];
   bool never = true;
-  for (int k = 0; k < 16; k++) dyd_exact_init(&cut[k / 8][k % 8]);
-  dyd_cert_span_init(&middles);
-  dyd_cert_span_init(&part);
+  DYD_LOCAL_ARRAY(dyd_exact, cut, [2][8]);
+  DYD_LOCAL(dyd_cert_span, middles, part);
   span_of_middles(&middles, i, j);
   for (int a = 0; a < 2; a++) count[a] = cut_middles(cut[a], &middles.e[2 * a], &i->e[2 * a], &j->e[2 * a]);
   int last[2] = {count[0] > 1 ? count[0] - 1 : 1, count[1] > 1 ? count[1] - 1 : 1};
@@ -262,9 +239,6 @@ static bool gabriel_is_never(graph_rows *g, const dyd_cert_edge *p) {
     }
     never = middles_are_covered(g, &part, p, 0);
   }
-  for (int k = 0; k < 16; k++) dyd_exact_clear(&cut[k / 8][k % 8]);
-  dyd_cert_span_clear(&middles);
-  dyd_cert_span_clear(&part);
   return never;
 }
 
@@ -274,7 +248,7 @@ static bool gabriel_is_never(graph_rows *g, const dyd_cert_edge *p) {
 static dyd_status index_partners(graph_rows *g) {
   const dyd_cert_edges *list[2] = {&g->c->legal, &g->c->open};
   size_t all = 2 * (list[0]->count + list[1]->count), count = 0;
-  dyd_cert_entry *entry = dyd_alloc(all, sizeof *entry);
+  DYD_FREED dyd_cert_entry *entry = dyd_alloc(all, sizeof *entry);
   g->first = dyd_alloc(g->c->sites.count + 1, sizeof *g->first);
   g->partner = dyd_alloc(all, sizeof *g->partner);
   bool good = entry && g->first && g->partner;
@@ -285,7 +259,6 @@ static dyd_status index_partners(graph_rows *g) {
       entry[count++] = (dyd_cert_entry){p->j, p->i};
     }
   if (good) dyd_cert_by_key(g->first, g->partner, g->c->sites.count, entry, count);
-  free(entry);
   return good ? DYD_OK : dyd_fail_nomem(g->c->in.err);
 }
 
@@ -344,9 +317,7 @@ typedef struct cert_spanning {
 
 /* out = the square of the least, or the largest, distance of two points of the boxes. */
 static void span_length2(dyd_exact *out, const dyd_cert_span *i, const dyd_cert_span *j, bool largest) {
-  dyd_exact d, t;
-  dyd_exact_init(&d);
-  dyd_exact_init(&t);
+  DYD_LOCAL(dyd_exact, d, t);
   mpz_set_ui(out->man, 0);
   for (int a = 0; a < 4; a += 2) {
     dyd_exact_sub(&d, &i->e[a + largest], &j->e[a + !largest]);
@@ -356,8 +327,6 @@ static void span_length2(dyd_exact *out, const dyd_cert_span *i, const dyd_cert_
     dyd_exact_mul(&d, &d, &d);
     dyd_exact_add(out, out, &d);
   }
-  dyd_exact_clear(&d);
-  dyd_exact_clear(&t);
 }
 
 static int squared_length_order(const void *a, const void *b) {
@@ -444,7 +413,7 @@ static void spanning_never(cert_spanning *s, const dyd_cert_edges *listed) {
 
 /* The tree by least lengths, dealt to its sites. */
 static dyd_status spanning_tree(cert_spanning *s) {
-  dyd_cert_entry *entry = dyd_alloc(2 * s->sites, sizeof *entry);
+  DYD_FREED dyd_cert_entry *entry = dyd_alloc(2 * s->sites, sizeof *entry);
   size_t count = 0;
   if (!entry) return dyd_fail_nomem(s->g->c->in.err);
   spanning_apart(s);
@@ -457,7 +426,6 @@ static dyd_status spanning_tree(cert_spanning *s) {
     entry[count++] = (dyd_cert_entry){s->pair[p].j, p};
   }
   dyd_cert_by_key(s->start, s->at, s->sites, entry, count);
-  free(entry);
   return DYD_OK;
 }
 

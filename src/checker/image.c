@@ -10,6 +10,7 @@
  * the greatest slope times half the width. A box that is too wide for this is cut in two. */
 #include "checker/image.h"
 
+#include "base/local.h"
 #include "checker/algebra.h"
 
 enum { FIRST_PRECISION = 128, MOST_DEPTH = 64 * DYD_CERT_ANGLES, FORMS = 5, DISTANCE = 4 };
@@ -50,9 +51,8 @@ static void values_clear(values *v) {
 
 static void add_trig_product(dyd_cert_enclosure *out, const product *t, const dyd_cert_trig *const at[DYD_CERT_ANGLES],
                              long p) {
-  dyd_cert_enclosure x;
   if (!t->sign) return;
-  dyd_cert_enclosure_init(&x);
+  DYD_LOCAL(dyd_cert_enclosure, x);
   for (int k = 0; k < 3; k++) {
     if (t->of[k] == ONE) continue;
     const dyd_cert_trig *of = at[t->of[k] / 2];
@@ -60,7 +60,6 @@ static void add_trig_product(dyd_cert_enclosure *out, const product *t, const dy
     k ? dyd_cert_enclosure_mul(&x, y, p) : dyd_cert_enclosure_set(&x, y);
   }
   (t->sign > 0 ? dyd_cert_enclosure_add : dyd_cert_enclosure_sub)(out, &x);
-  dyd_cert_enclosure_clear(&x);
 }
 
 /* row: of the sums above. */
@@ -100,28 +99,24 @@ static void angle_span_clear(dyd_cert_angle_span *v) {
 
 static const dyd_cert_trig *span_at(dyd_cert_angle_span *v, int end, const dyd_cert_lens *g) {
   if (v->known[end]) return &v->at[end];
-  mpq_t q;
-  mpq_init(q);
+  DYD_LOCAL_NUMBERS(mpq, q);
   mpq_set(q, v->mid);
   if (end == DYD_CERT_LOW) mpq_sub(q, q, v->half);
   if (end == DYD_CERT_UPPER) mpq_add(q, q, v->half);
   dyd_cert_trig_of_degrees(&v->at[end], q, &g->pi, g->p);
   v->known[end] = true;
-  mpq_clear(q);
   return &v->at[end];
 }
 
 /* x becomes wider by reach on both sides, within [-1, 1]. */
 static void widen(dyd_cert_enclosure *x, mpz_srcptr reach, long p) {
-  dyd_cert_enclosure one;
-  dyd_cert_enclosure_init(&one);
+  DYD_LOCAL(dyd_cert_enclosure, one);
   mpz_sub(x->lo, x->lo, reach);
   mpz_add(x->hi, x->hi, reach);
   dyd_cert_enclosure_set_si(&one, 1, p);
   dyd_cert_enclosure_extreme(x, -1, &one);
   dyd_cert_enclosure_neg(&one);
   dyd_cert_enclosure_extreme(x, 1, &one);
-  dyd_cert_enclosure_clear(&one);
 }
 
 static void span_set(dyd_cert_angle_span *v, mpq_srcptr mid, mpq_srcptr half, const dyd_cert_lens *g) {
@@ -135,11 +130,9 @@ static void span_set(dyd_cert_angle_span *v, mpq_srcptr mid, mpq_srcptr half, co
   dyd_cert_enclosure_set(&v->over.s, &middle->s);
   mpz_set_ui(v->reach, 0);
   if (!mpq_sgn(half)) return;
-  dyd_cert_enclosure x;
-  dyd_cert_enclosure_init(&x);
+  DYD_LOCAL(dyd_cert_enclosure, x);
   dyd_cert_radians(&x, half, &g->pi, g->p);
   mpz_set(v->reach, x.hi);
-  dyd_cert_enclosure_clear(&x);
   widen(&v->over.c, v->reach, g->p);
   widen(&v->over.s, v->reach, g->p);
 }
@@ -155,28 +148,24 @@ typedef struct descent {
 
 /* The slope of the form by angle k is known over the part. */
 static void descend(descent *to, int k, const dyd_cert_enclosure *slope, const dyd_cert_lens *g) {
-  mpz_t t;
   to->end[k] = DYD_CERT_LOW;
   if (slope->known && mpz_sgn(slope->lo) >= 0) return;
   to->end[k] = DYD_CERT_UPPER;
   if (slope->known && mpz_sgn(slope->hi) <= 0) return;
   to->end[k] = DYD_CERT_MIDDLE;
   to->known = to->known && slope->known;
-  mpz_init(t);
+  DYD_LOCAL_NUMBERS(mpz, t);
   mpz_abs(t, mpz_cmpabs(slope->lo, slope->hi) > 0 ? slope->lo : slope->hi);
   mpz_mul(t, t, g->span[k].reach);
   mpz_cdiv_q_2exp(t, t, (mp_bitcnt_t)g->p);
   mpz_add(to->loss, to->loss, t);
-  mpz_clear(t);
 }
 
 /* Sets where each form is looked at. */
 static void descents_set(descent to[FORMS], dyd_cert_lens *g) {
   const dyd_cert_trig *const over[DYD_CERT_ANGLES] = {&g->span[0].over, &g->span[1].over, &g->span[2].over};
-  values slopes;
-  dyd_cert_enclosure slope;
-  values_init(&slopes);
-  dyd_cert_enclosure_init(&slope);
+  DYD_LOCAL(values, slopes);
+  DYD_LOCAL(dyd_cert_enclosure, slope);
   for (int k = 0; k < DYD_CERT_ANGLES; k++) {
     for (int form = 0; form < FORMS; form++) to[form].end[k] = DYD_CERT_MIDDLE;
     if (!mpq_sgn(g->span[k].half)) continue;
@@ -186,8 +175,6 @@ static void descents_set(descent to[FORMS], dyd_cert_lens *g) {
       descend(&to[form], k, &slope, g);
     }
   }
-  dyd_cert_enclosure_clear(&slope);
-  values_clear(&slopes);
 }
 
 /* What is known of a form over a part: FINER: more digits would tell more; CUT: smaller parts. */
@@ -195,11 +182,9 @@ typedef enum verdict { HOLDS, FAILS, FINER, CUT } verdict;
 
 static verdict form_judge(const descent *to, int form, dyd_cert_lens *g) {
   const dyd_cert_trig *at[DYD_CERT_ANGLES];
-  values v;
-  dyd_cert_enclosure x;
   for (int k = 0; k < DYD_CERT_ANGLES; k++) at[k] = span_at(&g->span[k], to->end[k], g);
-  values_init(&v);
-  dyd_cert_enclosure_init(&x);
+  DYD_LOCAL(values, v);
+  DYD_LOCAL(dyd_cert_enclosure, x);
   values_set(&v, 0, at, g->p);
   dyd_cert_enclosure_add(&v.of[2], &g->cap.c);
   form_set(&x, form, &v, g);
@@ -211,8 +196,6 @@ static verdict form_judge(const descent *to, int form, dyd_cert_lens *g) {
     mpz_sub(x.lo, x.lo, to->loss);
     if (mpz_sgn(x.lo) < least) found = CUT;
   }
-  dyd_cert_enclosure_clear(&x);
-  values_clear(&v);
   return found;
 }
 
@@ -300,8 +283,7 @@ void dyd_cert_lens_clear(dyd_cert_lens *g) {
 }
 
 static void lens_focus(dyd_cert_lens *g, const dyd_cert_region *place, const dyd_cert_side rect[2], long p) {
-  mpq_t end;
-  mpq_init(end);
+  DYD_LOCAL_NUMBERS(mpq, end);
   if (g->p != p) dyd_cert_enclosure_pi(&g->pi, p);
   g->p = p;
   dyd_cert_trig_of_radians(&g->cap, place->angle, p);
@@ -311,7 +293,6 @@ static void lens_focus(dyd_cert_lens *g, const dyd_cert_region *place, const dyd
     dyd_cert_exact_to_q(end, dyd_cert_high(&rect[axis]), dyd_cert_den(&rect[axis]));
     dyd_cert_enclosure_set_q(&g->side[axis][1], mpq_numref(end), mpq_denref(end), p);
   }
-  mpq_clear(end);
 }
 
 dyd_cert_holds dyd_cert_image_in(dyd_cert_lens *g, const dyd_cert_region *place, const dyd_cert_side rect[2]) {

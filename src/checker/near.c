@@ -6,6 +6,9 @@
  * cut in the middle of its longer side. */
 #include "checker/near.h"
 #include "base/alloc.h"
+#include "base/local.h"
+
+DYD_ARRAYS(dyd_exact)
 
 #define MOST_CUTS 3000 /* of a box: what is near one site may be 2^-900 of it */
 
@@ -75,28 +78,19 @@ void dyd_cert_axis_gap(dyd_exact *d, dyd_exact *scratch, const dyd_exact *c, con
 }
 
 void dyd_cert_corner_distance2(dyd_exact *out, const dyd_cert_span *b, int q, const dyd_cert_span *site, bool far) {
-  dyd_exact d, t;
-  dyd_exact_init(&d);
-  dyd_exact_init(&t);
+  DYD_LOCAL(dyd_exact, d, t);
   dyd_cert_axis_gap(&d, &t, &b->e[q & 1], site->e, far);
   dyd_exact_mul(out, &d, &d);
   dyd_cert_axis_gap(&d, &t, &b->e[2 + (q >> 1)], site->e + 2, far);
   dyd_exact_mul(&d, &d, &d);
   dyd_exact_add(out, out, &d);
-  dyd_exact_clear(&d);
-  dyd_exact_clear(&t);
 }
 
 bool dyd_cert_span_prefers(const dyd_cert_span *b, int q, const dyd_cert_span *k, const dyd_cert_span *j) {
-  dyd_exact far, near;
-  dyd_exact_init(&far);
-  dyd_exact_init(&near);
+  DYD_LOCAL(dyd_exact, far, near);
   dyd_cert_corner_distance2(&far, b, q, k, true);
   dyd_cert_corner_distance2(&near, b, q, j, false);
-  bool prefers = dyd_exact_cmp(&far, &near) < 0;
-  dyd_exact_clear(&far);
-  dyd_exact_clear(&near);
-  return prefers;
+  return dyd_exact_cmp(&far, &near) < 0;
 }
 
 static bool corner_prefers(const dyd_cert_near *q, const dyd_cert_span *b, int corner, uint32_t k, uint32_t j) {
@@ -153,19 +147,14 @@ bool dyd_cert_near_is_certain(uint32_t *other, const dyd_cert_near *q) {
 /* ---- nearest nowhere ---- */
 
 void dyd_cert_span_half(dyd_cert_span *part, const dyd_cert_span *b, bool upper) {
-  dyd_exact w[2], middle;
-  dyd_exact_init(&w[0]);
-  dyd_exact_init(&w[1]);
-  dyd_exact_init(&middle);
+  DYD_LOCAL_ARRAY(dyd_exact, w, [2]);
+  DYD_LOCAL(dyd_exact, middle);
   for (int a = 0; a < 2; a++) dyd_exact_sub(&w[a], &b->e[2 * a + 1], &b->e[2 * a]);
   int axis = dyd_exact_cmp(&w[1], &w[0]) > 0;
   dyd_exact_add(&middle, &b->e[2 * axis], &b->e[2 * axis + 1]);
   middle.exp--;
   set_span(part, b);
   dyd_exact_set(&part->e[2 * axis + !upper], &middle);
-  dyd_exact_clear(&w[0]);
-  dyd_exact_clear(&w[1]);
-  dyd_exact_clear(&middle);
 }
 
 /* Is the box covered by the C_kj of the sites listed? */
@@ -176,13 +165,11 @@ static bool span_is_covered(near_search *s, const dyd_cert_span *b, uint32_t j, 
   bool more = cuts < MOST_CUTS && s->effort > q->count && !dyd_cert_span_is_point(b);
   if (!more) return false;
   s->effort -= q->count;
-  dyd_cert_span part;
-  dyd_cert_span_init(&part);
+  DYD_LOCAL(dyd_cert_span, part);
   for (int upper = 0; upper < 2 && more; upper++) {
     dyd_cert_span_half(&part, b, upper);
     more = span_is_covered(s, &part, j, cuts + 1);
   }
-  dyd_cert_span_clear(&part);
   return more;
 }
 
@@ -215,9 +202,7 @@ void dyd_cert_near_count(size_t *unproved, uint32_t *other, uint64_t *effort, co
 
 /* The squares of the least and the greatest distance of two boxes. */
 static void span_distances2(dyd_exact out[2], const dyd_cert_span *a, const dyd_cert_span *b) {
-  dyd_exact d[2];
-  dyd_exact_init(&d[0]);
-  dyd_exact_init(&d[1]);
+  DYD_LOCAL_ARRAY(dyd_exact, d, [2]);
   for (int far = 0; far < 2; far++) {
     mpz_set_ui(out[far].man, 0);
     for (int axis = 0; axis < 4; axis += 2) {
@@ -229,17 +214,13 @@ static void span_distances2(dyd_exact out[2], const dyd_cert_span *a, const dyd_
       dyd_exact_add(&out[far], &out[far], &d[0]);
     }
   }
-  dyd_exact_clear(&d[0]);
-  dyd_exact_clear(&d[1]);
 }
 
 /* The same when distances may be up to *more above, or below, those of the boxes. */
 static bool near_bounds_hold(const dyd_cert_span *a, const dyd_cert_span *b, const dyd_exact *more, const dyd_exact *lo,
                              const dyd_exact *hi) {
-  dyd_exact d[2], t;
-  dyd_exact_init(&d[0]);
-  dyd_exact_init(&d[1]);
-  dyd_exact_init(&t);
+  DYD_LOCAL_ARRAY(dyd_exact, d, [2]);
+  DYD_LOCAL(dyd_exact, t);
   span_distances2(d, a, b);
   dyd_exact_add(&t, lo, more);
   dyd_exact_mul(&t, &t, &t);
@@ -250,22 +231,17 @@ static bool near_bounds_hold(const dyd_cert_span *a, const dyd_cert_span *b, con
     dyd_exact_mul(&t, &t, &t);
     hold = hold && dyd_exact_cmp(&t, &d[1]) >= 0;
   }
-  dyd_exact_clear(&d[0]);
-  dyd_exact_clear(&d[1]);
-  dyd_exact_clear(&t);
   return hold;
 }
 
 bool dyd_cert_near_bounds_hold(const dyd_cert_span *a, const dyd_cert_span *b, const dyd_cert_disc *disc,
                                const dyd_exact *lo, const dyd_exact *hi) {
-  dyd_exact none;
-  dyd_exact_init(&none);
+  DYD_LOCAL(dyd_exact, none);
   bool low = near_bounds_hold(a, b, &none, lo, NULL), high = !hi || near_bounds_hold(a, b, &none, &none, hi);
   if (disc) {
     const dyd_cert_span centre = {{disc->x, disc->x, disc->y, disc->y}}; /* borrowed */
     low = low || near_bounds_hold(a, &centre, &disc->r, lo, NULL);
     high = high || near_bounds_hold(a, &centre, &disc->r, &none, hi);
   }
-  dyd_exact_clear(&none);
   return low && high;
 }

@@ -2,6 +2,7 @@
 /* A certificate of nearest sites: for each place the sites that may be nearest to it, or the one that is [CERT-12]. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "checker/checker.h"
 #include "checker/near.h"
 
@@ -94,10 +95,8 @@ static dyd_status check_place(places *p, size_t kind, bool point) {
 /* The rectangle that is asked about; *point: it is one. */
 static dyd_status read_place_asked(bool *point, places *p) {
   dyd_checker *c = p->c;
-  dyd_cert_sites at;
-  mpq_t none;
-  mpq_init(none);
-  dyd_cert_sites_init(&at);
+  DYD_LOCAL_NUMBERS(mpq, none);
+  DYD_LOCAL(dyd_cert_sites, at);
   dyd_cert_site *site = dyd_cert_sites_add(&at);
   dyd_status st = site ? dyd_cert_next_line(&c->in) : dyd_fail_nomem(c->in.err);
   if (st == DYD_OK) st = dyd_cert_read_side(&site->side[0], &c->in);
@@ -106,8 +105,6 @@ static dyd_status read_place_asked(bool *point, places *p) {
   if (st == DYD_OK) dyd_cert_span_set(&p->at, site);
   if (st == DYD_OK && c->globe.stated && !dyd_cert_region_set(&p->here, site->side, none, none))
     st = dyd_cert_reject(&c->in, "this is no place on the sphere");
-  dyd_cert_sites_clear(&at);
-  mpq_clear(none);
   return st;
 }
 

@@ -2,6 +2,8 @@
 /* Where a place of the sphere may be, and cosines and sines of degrees. */
 #include "checker/region.h"
 
+#include "base/local.h"
+
 /* Precision of the ends of a box about a cap. */
 enum { BOX = 128 };
 
@@ -18,20 +20,16 @@ void dyd_cert_trig_clear(dyd_cert_trig *t) {
 }
 
 void dyd_cert_radians(dyd_cert_enclosure *x, mpq_srcptr q, const dyd_cert_enclosure *pi, long p) {
-  mpz_t den;
-  mpz_init(den);
+  DYD_LOCAL_NUMBERS(mpz, den);
   mpz_mul_ui(den, mpq_denref(q), 180);
   dyd_cert_enclosure_set_q(x, mpq_numref(q), den, p);
   dyd_cert_enclosure_mul(x, pi, p);
-  mpz_clear(den);
 }
 
 /* q = 90 turns + rest, rest in [-45, 45); returns turns modulo 4. */
 static unsigned long quarters(mpq_ptr rest, mpq_srcptr q) {
-  mpz_t turns;
-  mpq_t whole;
-  mpz_init(turns);
-  mpq_init(whole);
+  DYD_LOCAL_NUMBERS(mpz, turns);
+  DYD_LOCAL_NUMBERS(mpq, whole);
   mpq_set_si(rest, 45, 1);
   mpq_add(rest, q, rest);
   mpz_mul_ui(turns, mpq_denref(rest), 90);
@@ -40,8 +38,6 @@ static unsigned long quarters(mpq_ptr rest, mpq_srcptr q) {
   mpz_mul_ui(mpq_numref(whole), mpq_numref(whole), 90);
   mpq_sub(rest, q, whole);
   unsigned long k = mpz_fdiv_ui(turns, 4);
-  mpq_clear(whole);
-  mpz_clear(turns);
   return k;
 }
 
@@ -53,28 +49,22 @@ static void turn_trig(dyd_cert_trig *t) {
 }
 
 void dyd_cert_trig_of_degrees(dyd_cert_trig *t, mpq_srcptr q, const dyd_cert_enclosure *pi, long p) {
-  mpq_t rest;
-  dyd_cert_enclosure x;
-  mpq_init(rest);
-  dyd_cert_enclosure_init(&x);
+  DYD_LOCAL_NUMBERS(mpq, rest);
+  DYD_LOCAL(dyd_cert_enclosure, x);
   unsigned long k = quarters(rest, q);
   dyd_cert_enclosure_set_si(&t->c, 1, p);
   dyd_cert_enclosure_set_si(&t->s, 0, p);
   dyd_cert_radians(&x, rest, pi, p);
   if (mpq_sgn(rest)) dyd_cert_enclosure_cos_sin(&t->c, &t->s, &x, p);
   while (k-- > 0) turn_trig(t);
-  dyd_cert_enclosure_clear(&x);
-  mpq_clear(rest);
 }
 
 void dyd_cert_trig_of_radians(dyd_cert_trig *t, mpq_srcptr angle, long p) {
-  dyd_cert_enclosure x;
-  dyd_cert_enclosure_init(&x);
+  DYD_LOCAL(dyd_cert_enclosure, x);
   dyd_cert_enclosure_set_si(&t->c, 1, p);
   dyd_cert_enclosure_set_si(&t->s, 0, p);
   dyd_cert_enclosure_set_q(&x, mpq_numref(angle), mpq_denref(angle), p);
   if (mpq_sgn(angle)) dyd_cert_enclosure_cos_sin(&t->c, &t->s, &x, p);
-  dyd_cert_enclosure_clear(&x);
 }
 
 /* ---- regions ---- */
@@ -125,8 +115,7 @@ static void side_to_q(mpq_ptr lo, mpq_ptr hi, const dyd_cert_side *side) {
 }
 
 bool dyd_cert_region_set(dyd_cert_region *r, const dyd_cert_side side[2], mpq_srcptr degrees, mpq_srcptr angle) {
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   mpq_set(r->angle, angle);
   side_to_q(lo, hi, &side[0]);
   region_set_side(r, 0, lo, hi);
@@ -134,9 +123,7 @@ bool dyd_cert_region_set(dyd_cert_region *r, const dyd_cert_side side[2], mpq_sr
   side_to_q(lo, hi, &side[1]);
   mpq_sub(lo, lo, degrees);
   mpq_add(hi, hi, degrees);
-  bool good = region_set_latitudes(r, lo, hi) && mpq_cmp_si(angle, 1, 1) <= 0;
-  mpq_clears(lo, hi, NULL);
-  return good;
+  return region_set_latitudes(r, lo, hi) && mpq_cmp_si(angle, 1, 1) <= 0;
 }
 
 bool dyd_cert_region_is_exact(const dyd_cert_region *r) {
@@ -144,11 +131,9 @@ bool dyd_cert_region_is_exact(const dyd_cert_region *r) {
 }
 
 bool dyd_cert_region_is_same(const dyd_cert_region *a, const dyd_cert_region *b) {
-  mpq_t turns;
-  mpq_init(turns);
+  DYD_LOCAL_NUMBERS(mpq, turns);
   mpq_sub(turns, a->mid[0], b->mid[0]);
   bool turned = mpz_cmp_ui(mpq_denref(turns), 1) == 0 && mpz_divisible_ui_p(mpq_numref(turns), 360);
-  mpq_clear(turns);
   return mpq_equal(a->mid[1], b->mid[1]) && turned;
 }
 
@@ -156,8 +141,7 @@ bool dyd_cert_region_is_same(const dyd_cert_region *a, const dyd_cert_region *b)
 
 /* out = an upper bound of x radians, in degrees, not above 180; x is destroyed. */
 static void degrees_at_least(mpq_ptr out, dyd_cert_enclosure *x) {
-  dyd_cert_enclosure unit;
-  dyd_cert_enclosure_init(&unit);
+  DYD_LOCAL(dyd_cert_enclosure, unit);
   dyd_cert_enclosure_pi(&unit, BOX);
   mpz_mul_ui(x->lo, x->lo, 180);
   mpz_mul_ui(x->hi, x->hi, 180);
@@ -165,17 +149,12 @@ static void degrees_at_least(mpq_ptr out, dyd_cert_enclosure *x) {
   mpq_set_z(out, x->hi);
   mpq_div_2exp(out, out, BOX);
   if (!x->known || mpq_cmp_si(out, 180, 1) > 0) mpq_set_si(out, 180, 1);
-  dyd_cert_enclosure_clear(&unit);
 }
 
 /* out = how far in longitude a cap of the angle about a latitude of at most `lat` degrees in absolute value reaches. */
 static void longitudes_above(mpq_ptr out, mpq_srcptr lat, mpq_srcptr angle) {
-  dyd_cert_trig place, cap;
-  dyd_cert_enclosure pi, one;
-  dyd_cert_enclosure_init(&pi);
-  dyd_cert_enclosure_init(&one);
-  dyd_cert_trig_init(&place);
-  dyd_cert_trig_init(&cap);
+  DYD_LOCAL(dyd_cert_enclosure, pi, one);
+  DYD_LOCAL(dyd_cert_trig, place, cap);
   dyd_cert_enclosure_pi(&pi, BOX);
   dyd_cert_enclosure_set_si(&one, 1, BOX);
   dyd_cert_trig_of_degrees(&place, lat, &pi, BOX);
@@ -184,19 +163,13 @@ static void longitudes_above(mpq_ptr out, mpq_srcptr lat, mpq_srcptr angle) {
   cap.s.known = cap.s.known && mpz_cmp(cap.s.hi, one.lo) < 0;
   if (cap.s.known) dyd_cert_enclosure_asin(&cap.s, BOX);
   degrees_at_least(out, &cap.s);
-  dyd_cert_trig_clear(&cap);
-  dyd_cert_trig_clear(&place);
-  dyd_cert_enclosure_clear(&one);
-  dyd_cert_enclosure_clear(&pi);
 }
 
 /* A cap of an angle a about (l, f) has longitudes up to asin(sin a / cos f) from l, while |f| + a < 90 degrees. */
 void dyd_cert_region_box(dyd_cert_region *r) {
-  mpq_t lo, hi, more;
-  dyd_cert_enclosure x;
   if (!mpq_sgn(r->angle)) return;
-  mpq_inits(lo, hi, more, NULL);
-  dyd_cert_enclosure_init(&x);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi, more);
+  DYD_LOCAL(dyd_cert_enclosure, x);
   mpq_sub(lo, r->mid[1], r->half[1]);
   mpq_add(hi, r->mid[1], r->half[1]);
   mpq_neg(more, lo);
@@ -209,6 +182,4 @@ void dyd_cert_region_box(dyd_cert_region *r) {
   mpq_add(hi, hi, more);
   region_set_latitudes(r, lo, hi);
   mpq_set_ui(r->angle, 0, 1);
-  dyd_cert_enclosure_clear(&x);
-  mpq_clears(lo, hi, more, NULL);
 }

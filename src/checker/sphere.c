@@ -5,6 +5,7 @@
  * certificate may follow, of the same places from a second eye: each proves what it states, and open is what is open in
  * both. */
 #include "base/alloc.h"
+#include "base/local.h"
 #include "checker/checker.h"
 
 #include <stdlib.h>
@@ -55,12 +56,11 @@ static bool all_stay(const dyd_checker *c, const bool *still) {
 }
 
 dyd_status dyd_checker_stays_on_sphere(bool *stays, dyd_checker *c, const bool *place_still) {
-  bool *still = dyd_alloc(c->sites.count, sizeof *still);
+  DYD_FREED bool *still = dyd_alloc(c->sites.count, sizeof *still);
   if (!still) return DYD_E_NOMEM;
   dyd_checker_still_images(still, c, place_still);
   dyd_status st = dyd_checker_stays(stays, c, still);
   if (!all_stay(c, still)) *stays = *stays && !lens_is_wide(&c->globe) && dyd_checker_is_closed_around(c);
   *stays = *stays && !c->report.images_unproved && !c->report.around_unproved;
-  free(still);
   return st;
 }
