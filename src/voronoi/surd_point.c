@@ -113,28 +113,6 @@ void dyd_surd_point_unscale(dyd_surd_point *p, mpz_srcptr ox, mpz_srcptr oy, mpz
   dyd_surd_point_tidy(p);
 }
 
-/* p = p * man * 2^exp. */
-static void surd_point_scale(dyd_surd_point *p, mpz_srcptr man, int64_t exp) {
-  mpz_ptr part[4] = {p->ax, p->bx, p->ay, p->by};
-  for (int k = 0; k < 4; k++) {
-    mpz_mul(part[k], part[k], man);
-    dyd_shift_up(part[k], exp);
-  }
-  dyd_shift_up(p->d, -exp);
-}
-
-int dyd_surd_point_compare(const dyd_surd_point *p, const dyd_rect *a, dyd_touch ta, const dyd_rect *b, dyd_touch tb) {
-  const dyd_rect *in[2] = {a, b};
-  int64_t exp;
-  DYD_LOCAL_NUMBERS(mpz, man);
-  DYD_LOCAL_ARRAY(dyd_irect, r, [2]);
-  DYD_LOCAL(dyd_surd_point, q);
-  dyd_irects_scale(r, in, 2, man, &exp);
-  dyd_surd_point_set(&q, p);
-  surd_point_scale(&q, man, exp);
-  return dyd_surd_point_side(&q, &r[0], ta, &r[1], tb);
-}
-
 void dyd_surd_point_floor(mpz_ptr floor, mpz_ptr ceiling, const dyd_surd_point *p, int axis, int64_t bits) {
   dyd_surd s = surd_coordinate(p, axis);
   DYD_LOCAL_NUMBERS(mpz, root, rest, d);

@@ -12,7 +12,7 @@ DYD_ARRAYS(dyd_surd_point)
 int dyd_surd_point_cmp(const dyd_surd_point *p, const dyd_surd_point *q, int axis);
 /* Sign of (coordinate of p) - z. */
 int dyd_surd_point_cmp_z(const dyd_surd_point *p, int axis, mpz_srcptr z);
-/* dyd_surd_point_compare on one integer scale. */
+/* Sign of (distance of p to a) - (distance of p to b), each closest or farthest. Exact. */
 int dyd_surd_point_side(const dyd_surd_point *p, const dyd_irect *a, dyd_touch ta, const dyd_irect *b, dyd_touch tb);
 /* Only the rational parts of the coordinates stay. */
 void dyd_surd_point_drop_root(dyd_surd_point *p);
@@ -24,8 +24,6 @@ void dyd_surd_point_floor(mpz_ptr floor, mpz_ptr ceiling, const dyd_surd_point *
 void dyd_surd_point_unscale(dyd_surd_point *p, mpz_srcptr ox, mpz_srcptr oy, mpz_srcptr man, int64_t exp);
 
 void dyd_surd_point_set(dyd_surd_point *out, const dyd_surd_point *p);
-/* Sign of (distance of p to a) - (distance of p to b), each closest or farthest. Exact. */
-int dyd_surd_point_compare(const dyd_surd_point *p, const dyd_rect *a, dyd_touch ta, const dyd_rect *b, dyd_touch tb);
 /* The partial centre O(a,b,c) = { o : some circle about o meets all three } of a certainly oriented triple: its six
  * vertices, the centres of the critical circles in the order FCC CFC CCF CFF FCF FFC. DYD_E_ARG for others. */
 dyd_status dyd_partial_centre(dyd_surd_point out[6], const dyd_rect *a, const dyd_rect *b, const dyd_rect *c);
