@@ -135,12 +135,37 @@ bool dyd_filter_no_arc(const dyd_filter_arc *arc, int axis, int branch, const dy
 
 /* ---- arcs that others take ---- */
 
+/* A lower bound, over c in `at`, of (the largest (c - p)^2 of ends p) - (the least (c - q)^2 of q between ends): that
+ * of one p and q, chosen at a place of `at`. */
+static double gain_chosen_at(double place, dyd_iv at, const dyd_iv p[2], const dyd_iv q[2]) {
+  dyd_iv far = p[place - p[0].lo < p[1].hi - place];
+  dyd_iv near = place < q[0].hi ? q[0] : place > q[1].lo ? q[1] : dyd_iv_point(place);
+  return dyd_iv_mul(dyd_iv_sub(near, far), dyd_iv_sub(dyd_iv_scale(at, 2), dyd_iv_add(near, far))).lo;
+}
+
+static double axis_gain(dyd_iv at, const dyd_iv p[2], const dyd_iv q[2]) {
+  double low = gain_chosen_at(at.lo, at, p, q), high = gain_chosen_at(at.hi, at, p, q);
+  return fmax(fmax(low, high), gain_chosen_at(at.lo / 2 + at.hi / 2, at, p, q));
+}
+
+/* Returns true if k is nearer than the radius in all of a box: r^2 - D_k^2 is a sum of one function of each coordinate,
+ * both convex where r is a distance to farthest points, else both concave and so least at a corner [PRUNE-1]. */
+static bool takes_box(const dyd_takers *t, const dyd_box *k, const dyd_iv at[2]) {
+  const dyd_box *fixed = &t->fixed->box;
+  if (t->fixed_touch == DYD_FARTHEST)
+    return dyd_down(axis_gain(at[0], fixed->end, k->end) + axis_gain(at[1], fixed->end + 2, k->end + 2)) > 0;
+  for (int corner = 0; corner < 4; corner++) {
+    dyd_iv x = dyd_iv_point(corner & 1 ? at[0].hi : at[0].lo), y = dyd_iv_point(corner & 2 ? at[1].hi : at[1].lo);
+    if (!(dyd_filter_distance2(x, y, k, t->other_touch).hi < dyd_filter_distance2(x, y, fixed, t->fixed_touch).lo))
+      return false;
+  }
+  return true;
+}
+
 static bool box_is_taken(dyd_takers *t, size_t own, const dyd_iv at[2]) {
-  dyd_iv radius = dyd_filter_distance2(at[0], at[1], &t->fixed->box, t->fixed_touch);
   for (size_t m = 0; m <= t->count; m++) {
     size_t k = m ? m - 1 : t->taker;
-    if (k >= t->count || k == own) continue;
-    if (dyd_filter_distance2(at[0], at[1], &t->other[k].box, t->other_touch).hi < radius.lo) return t->taker = k, true;
+    if (k < t->count && k != own && takes_box(t, &t->other[k].box, at)) return t->taker = k, true;
   }
   return false;
 }
