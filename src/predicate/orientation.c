@@ -221,13 +221,12 @@ static int compare_distance_exact(const dyd_point *c, const dyd_rect *const in[2
 int dyd_compare_distance(const dyd_point *c, const dyd_rect *a, dyd_touch ta, const dyd_rect *b, dyd_touch tb) {
   const dyd_rect *const in[2] = {a, b};
   const dyd_touch touch[2] = {ta, tb};
-  dyd_iv cx = {dyd_dyadic_get_d(&c->x, DYD_DOWN), dyd_dyadic_get_d(&c->x, DYD_UP)};
-  dyd_iv cy = {dyd_dyadic_get_d(&c->y, DYD_DOWN), dyd_dyadic_get_d(&c->y, DYD_UP)};
-  dyd_iv distance[2];
+  dyd_iv at[2], distance[2];
+  dyd_filter_point(at, c);
   for (int k = 0; k < 2; k++) {
     dyd_box box;
     dyd_filter_box(&box, in[k]);
-    distance[k] = dyd_filter_distance2(cx, cy, &box, touch[k]);
+    distance[k] = dyd_filter_distance2(at[0], at[1], &box, touch[k]);
   }
   if (distance[0].hi < distance[1].lo) return -1;
   if (distance[0].lo > distance[1].hi) return 1;

@@ -291,6 +291,13 @@ void dyd_filter_box(dyd_box *out, const dyd_rect *r) {
   }
 }
 
+void dyd_filter_point(dyd_iv out[2], const dyd_point *c) {
+  for (int axis = 0; axis < 2; axis++) {
+    const dyd_dyadic *d = axis ? &c->y : &c->x;
+    out[axis] = (dyd_iv){dyd_dyadic_get_d(d, DYD_DOWN), dyd_dyadic_get_d(d, DYD_UP)};
+  }
+}
+
 static dyd_iv side_x(const double a[4]) {
   return (dyd_iv){a[0], a[1]};
 }

@@ -20,6 +20,8 @@ typedef struct dyd_box {
 } dyd_box;
 
 void dyd_filter_box(dyd_box *out, const dyd_rect *r);
+/* Enclosures of both coordinates. */
+void dyd_filter_point(dyd_iv out[2], const dyd_point *c);
 
 /* How the choices of corners turn, as far as known. all_*: for every choice in the boxes. some_*: for some choice of
  * corners of the boxes. */

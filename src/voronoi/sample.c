@@ -19,17 +19,21 @@ dyd_status dyd_cell_sites_init(dyd_cell_sites *s, const dyd_delaunay *pd, uint32
   if (st != DYD_OK) return st;
   s->site = list.item;
   s->other = dyd_alloc(list.count, sizeof *s->other);
-  if (!s->other) return DYD_E_NOMEM;
+  s->box = dyd_alloc(list.count + 1, sizeof *s->box);
+  if (!s->other || !s->box) return DYD_E_NOMEM;
   for (; s->count < list.count && st == DYD_OK; s->count++) {
-    dyd_rect_init(&s->other[s->count]);
-    st = dyd_sites_get(&s->other[s->count], dyd_delaunay_sites(pd), list.item[s->count]);
+    dyd_rect *other = &s->other[s->count];
+    dyd_rect_init(other);
+    st = dyd_sites_get(other, dyd_delaunay_sites(pd), list.item[s->count]);
+    dyd_filter_box(&s->box[s->count], other);
   }
+  dyd_filter_box(&s->box[s->count], &s->own);
   return st;
 }
 
 void dyd_cell_sites_clear(dyd_cell_sites *s) {
   for (size_t k = 0; k < s->count; k++) dyd_rect_clear(&s->other[k]);
-  dyd_free_all(s->other, s->site);
+  dyd_free_all(s->box, s->other, s->site);
   dyd_rect_clear(&s->own);
 }
 
@@ -39,8 +43,14 @@ const dyd_rect *dyd_cell_site(const dyd_cell_sites *s, uint32_t site) {
 }
 
 bool dyd_cell_holds(const dyd_cell_sites *s, const dyd_point *c) {
-  for (size_t k = 0; k < s->count; k++)
-    if (dyd_nearer(c, &s->own, &s->other[k]) != DYD_TRUE) return false;
+  dyd_iv at[2];
+  dyd_filter_point(at, c);
+  dyd_iv own = dyd_filter_distance2(at[0], at[1], &s->box[s->count], DYD_FARTHEST);
+  for (size_t k = 0; k < s->count; k++) {
+    dyd_iv other = dyd_filter_distance2(at[0], at[1], &s->box[k], DYD_CLOSEST);
+    if (!(own.hi < other.lo) && dyd_compare_distance(c, &s->own, DYD_FARTHEST, &s->other[k], DYD_CLOSEST) >= 0)
+      return false;
+  }
   return true;
 }
 

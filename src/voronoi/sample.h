@@ -7,6 +7,7 @@
 #define DYD_VORONOI_SAMPLE_H
 
 #include "base/room.h"
+#include "predicate/predicate_filter.h"
 #include <dyadel/voronoi.h>
 
 /* The cell's own rectangle and those of its possible neighbours, fetched once. */
@@ -15,6 +16,7 @@ typedef struct dyd_cell_sites {
   size_t count;
   uint32_t *site; /* ascending */
   dyd_rect *other;
+  dyd_box *box; /* those of `other`, then own, in doubles */
 } dyd_cell_sites;
 /* The neighbours with at least the status `least`. */
 dyd_status dyd_cell_sites_init(dyd_cell_sites *s, const dyd_delaunay *pd, uint32_t i, dyd_pair_status least);
