@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Rows over cells: polygons of all cells and both bounds of the diagram on the unit square; cells of thin boxes, cells
  * near (boxes of three hundredths of the spacing), apart (boxes of a tenth of the spacing), cells touch (lightly: of
- * three tenths), cells gps (squares of a receiver, many of which overlap). Time a site; nobody else computes these.
- * discs: statuses of the discs in those squares, beside their triangulation. tiles: polygons of exact points, beside
- * their triangulation; tiles-grid: of a square grid; diagram: both together, beside CGAL; clip: tiles cut to a border.
+ * three tenths), cells gps (squares of a receiver, many of which overlap), cells grid (squares of two tenths on a grid,
+ * and their surroundings). Time a site; nobody else computes these. discs: statuses of the discs in those squares,
+ * beside their triangulation. tiles: polygons of exact points, beside their triangulation; tiles-grid: of a square
+ * grid; diagram: both together, beside CGAL; clip: tiles cut to a border.
  */
 #include "answers.h"
 #include "cloud.h"
@@ -26,12 +27,13 @@ typedef struct cells_answer {
 
 /* One run on a triangulation that is there. The whole square is undetermined at most, and something is wherever boxes
  * have an extent. */
-static bench_cost cells_run(cells_answer *answer, const char *row, const dyd_delaunay *pd, double side) {
+static bench_cost cells_run(cells_answer *answer, const char *row, const dyd_delaunay *pd, double low, double high) {
   dyd_rect window;
+  double side = high - low;
   dyd_voronoi_bounds b;
   dyd_rect_init(&window);
   dyd_voronoi_bounds_init(&b);
-  bench_need(row, dyd_rect_set_d(&window, 0, side, 0, side), NULL);
+  bench_need(row, dyd_rect_set_d(&window, low, high, low, high), NULL);
   bench_meter meter = bench_start();
   bench_need(row, dyd_metric_voronoi(&b, pd, &window, dyd_metric_coarseness(pd, &window) + 4, NULL), NULL);
   bench_cost cost = bench_stop(&meter);
@@ -46,24 +48,24 @@ static bench_cost cells_run(cells_answer *answer, const char *row, const dyd_del
   return cost;
 }
 
-/* Boxes of half-width share / sqrt(n) in the unit square; share 0: the squares of a receiver. goal: microseconds a
- * site.
- */
+/* Boxes of half-width share / sqrt(n) in the unit square; share 0: the squares of a receiver, -1: of half-width 0.2 on
+ * a square grid, in a window twice as wide. goal: microseconds a site. */
 static void row_cells(const bench_options *o, const char *name, size_t n, double share, double goal) {
   cloud boxes;
-  bool gps = share == 0;
+  bool grid = share < 0;
   bench_series ours = {0};
   dyd_sites *sites = NULL;
   dyd_delaunay *pd = NULL;
   cells_answer answer = {0};
   if (!bench_wants(o, name)) return;
-  (gps ? cloud_gps : cloud_uniform)(&boxes, bench_size(o, n));
-  if (!gps) cloud_widen(&boxes, share / sqrt((double)boxes.n));
-  double side = gps ? sqrt((double)boxes.n) : 1;
+  (grid ? cloud_grid : share > 0 ? cloud_uniform : cloud_gps)(&boxes, bench_size(o, n));
+  if (share != 0) cloud_widen(&boxes, grid ? 0.2 : share / sqrt((double)boxes.n));
+  double side = share > 0 ? 1 : sqrt((double)boxes.n), margin = grid ? side / 2 : 0;
   bench_need(name, dyd_sites_new(&sites), NULL);
   bench_need(name, dyd_sites_add_boxes(sites, boxes.n, boxes.x0, boxes.x1, boxes.y0, boxes.y1), NULL);
   bench_need(name, dyd_delaunay_new(&pd, sites, NULL, NULL), NULL);
-  for (size_t r = 0; r < bench_runs(o, 3); r++) bench_series_add(&ours, cells_run(&answer, name, pd, side));
+  for (size_t r = 0; r < bench_runs(o, 3); r++)
+    bench_series_add(&ours, cells_run(&answer, name, pd, -margin, side + margin));
   bench_check_numbers(o, name, boxes.n, answer.area, answer.distance, 0);
   bench_report(o, &(bench_row){.name = name,
                                .n = boxes.n,
@@ -251,6 +253,7 @@ int main(int argc, char **argv) {
     row_cells(&o, "cells-apart", 1000, 0.1, 60);
     row_cells(&o, "cells-touch", 1000, 0.3, 120);
     row_cells(&o, "cells-gps", 10000, 0, 100);
+    row_cells(&o, "cells-grid", 10000, -1, 300);
     row_discs(&o, "discs", 10000);
     row_tiles(&o, "tiles", 1000000, false);
     row_tiles(&o, "tiles-grid", 1000000, true);
