@@ -308,14 +308,17 @@ def test_well_known_text():
     want = run('delaunay', '-', stdin='0.1 0\n1/3 5\n7 2e-1\n').out
     for text in ('POINT (0.1 0)\nPOINT(1/3 5)\npoint z ( 7 2e-1 9)\n', 'SRID=4326;POINT(0.1 0)\n\nPOINT(1/3 5)\nPOINT M (7 2e-1 1)\n',
                  'MULTIPOINT ((0.1 0), (1/3 5), (7 2e-1))\n', 'MULTIPOINT (0.1 0,1/3 5,7 2e-1)\n', 'LINESTRING(0.1 0,1/3 5,7 2e-1)\n',
-                 'POLYGON ((0.1 0, 1/3 5, 7 2e-1, 0.1 0))\n', 'GEOMETRYCOLLECTION (POINT (0.1 0), LINESTRING (1/3 5, 7 2e-1))\n'):
+                 'POLYGON ((0.1 0, 1/3 5, 7 2e-1, 0.1 0))\n', 'GEOMETRYCOLLECTION (POINT (0.1 0), LINESTRING (1/3 5, 7 2e-1))\n',
+                 'PointZ (0.1 0 4)\nPOINT(1/3 5), POINTZM(7 2e-1 4 5); # two\n'):
         result = run('delaunay', '-', stdin=text)
         assert (result.code, result.out) == (0, want), (text, result)
         assert ('vertices of lines and polygons' in result.err) == (text[0] in 'MLG' or 'POLYGON' in text), (text, result.err)
     two = 'MULTIPOLYGON (((0 0, 9 0, 0 9, 0 0), (1 1, 2 1, 1 2, 1 1)), ((20 0, 30 0, 20 9, 20 0)))'
     assert run('delaunay', '-', stdin=two).out == run('delaunay', '-', stdin='0 0\n9 0\n0 9\n1 1\n2 1\n1 2\n20 0\n30 0\n20 9\n').out
     expect(run('delaunay', '-', stdin='POINT (0 0)\nPOINT (1 x)\n'), 1, r'\A\Z', r'^dyadel: -:2:10: ')
-    expect(run('delaunay', '-', stdin='POINT EMPTY\n'), 0, r'\Ai,j,status\n\Z', 'no points')
+    for text in ('POINT EMPTY', 'MULTIPOINT ((1 2), EMPTY)', 'GEOMETRYCOLLECTION (LINESTRING EMPTY, POINT (1 2))', 'POINT(nan nan)', 'POLYGON()'):
+        expect(run('delaunay', '-', stdin=text + '\n'), 1, r'\A\Z', r'-:1:\d+: the coordinate is .*--skip-missing$')
+    expect(run('delaunay', '--skip-missing', '-', stdin='POINT(0 0)\nPOINT EMPTY\nPOINT(1 2)\n'), 0, '^0,2,legal$', '1 of 3 rows are skipped')
     table = 'id;name;geometry\n17;"a; b";"POINT(0.1 0)"\n18;c;POINT (1/3 5)\n19;d;"POINT Z (7 2e-1 4)"\n'
     columns = '--columns', 'geometry,geometry', '--id', 'id'
     expect(run('delaunay', *columns, '-', stdin=table), 0, '^0,1,legal,17,18$')

@@ -155,6 +155,12 @@ TOLD = [
     ('--columns x,y', 'x,y\n1,2\n3;4\n', 1, r'-:3:1: .*; columns are separated by semicolons here, and by commas before; make all lines alike$'),
     ('', 'SRID=4326;POINT(1 2)\nSRID=3857;POINT(3 4)\n', 1, r'-:2:1: SRID 3857 here, and 4326 before; transform all'),
     ('--columns g,g', 'g\nEPSG:25832;POINT(1 2)\nEPSG:25833;POINT(3 4)\n', 1, r'-:3:1: SRID 25833 here, and 25832 before;'),
+    ('', 'POINT(1 2),3 7\n', 1, r'-:1:12: there is more than a geometry on this line; .*--columns G,G, or without a header --no-header --columns 1,1$'),
+    ('--no-header --columns 1,1', 'POINT(1 2),3 7\nPOINT(4 2),name\n', 0, ''),
+    ('', 'POINT(1 2\nPOINT(3 4)\n', 1, r'-:1:10: the parentheses of this geometry do not match'),
+    ('', 'POINT(1,2)\n', 1, r'-:1:8: this place has one coordinate only; two have a blank between'),
+    ('', 'POINT(inf 2)\n', 1, r'-:1:7: .*infinite'),
+    ('--columns g,g', 'g\n"POINT(1 2),POINT(3 4)"\n', 1, 'this geometry is not a POINT'),
     ('', 'SRID=4326;POINT(1 2)\n', 0, 'taken as coordinates in a plane; .* --sphere'),
     ('--columns x_km,y_m', 'x_km,y_m\n1,2\n', 2, 'x is in km and y in m; convert one of them'),
     ('--columns 1,2', 'x [ft];y [m]\n1;2\n', 2, 'x is in ft and y in m'),
@@ -398,7 +404,7 @@ def test_header_is_no_geometry():
     """A header that begins with Point was taken for well-known text without places, and skipped."""
     expect(run('delaunay', '-', stdin='Point,Northing,Easting\nP1,2,3\n'), 1, r'\A\Z', r'-:1:1: this line is a header .*--columns Easting,Northing \(it has: Point, Northing, Easting\)$')
     expect(run('delaunay', '-', stdin='point 1 2\n3 4\n'), 1, r'\A\Z', r'-:1:9: more than two')
-    expect(run('delaunay', '-', stdin='POINT EMPTY\nPoint Z (1 2 9)\npoint(1234.5 5)\nSRID=4326;POINT (5 1000)\n'), 0, re.escape(THREE))
+    expect(run('delaunay', '-', stdin='Point Z (1 2 9)\npoint(1234.5 5)\nSRID=4326;POINT (5 1000)\n'), 0, re.escape(THREE))
 
 
 def test_remedies():

@@ -16,11 +16,14 @@ typedef struct dyd_wkt {
   dyd_span text, first[2]; /* of the ring */
   dyd_span srid;           /* 4326 in "SRID=4326;" or "EPSG:4326;" in front; length 0: there is none */
   const char *at, *end;
-  bool point, rings, inside; /* it is a point; it has rings; the first parenthesis is behind */
+  const char *wrong;         /* what is wrong at `at`; NULL: nothing */
+  int depth;                 /* parentheses that are open */
+  bool point, rings, inside; /* it is a point; it has rings; it has been entered */
 } dyd_wkt;
 /* Returns true if the text begins as a geometry does. */
 bool dyd_wkt_begin(dyd_wkt *w, const dyd_span *text);
-/* Returns false after the last one. */
+/* Returns false after the last one, or where something is wrong. A geometry without places, "POINT EMPTY", has one of
+ * length 0. */
 bool dyd_wkt_next(dyd_span place[2], dyd_wkt *w);
 
 /* What a column is wanted for. Roles from DYD_CSV_OTHER on are the caller's. */

@@ -665,6 +665,10 @@ static dyd_status hint_table(dyd_status st, const dyd_line *line, dyd_text *text
   return st;
 }
 
+static dyd_status geometry_end(const dyd_wkt *w, dyd_error *err) {
+  return w->wrong ? dyd_span_fail(err, &w->text, (size_t)(w->at - w->text.text), w->wrong) : DYD_OK;
+}
+
 /* Coordinates of geometries of several reference systems are not of one plane. */
 static dyd_status geometry_see(intake *in, const dyd_wkt *w, dyd_error *err) {
   static const char *const degrees[] = {"4326", "4258", "4269", "4979"};
@@ -690,7 +694,7 @@ static dyd_status read_geometry(intake *in, dyd_wkt *w, dyd_error *err) {
     in->report.vertices += !w->point;
     st = intake_row(in, span, err);
   }
-  return st;
+  return st == DYD_OK ? geometry_end(w, err) : st;
 }
 
 static dyd_status read_points_file(intake *in, dyd_text *text, dyd_error *err) {
@@ -753,7 +757,7 @@ static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
                  .units_row = in->o->units_row,
                  .decimal_comma = in->o->decimal_comma,
                  .carry = in->o->carry};
-  dyd_span span[DYD_CSV_MOST] = {{0}};
+  dyd_span span[DYD_CSV_MOST] = {{0}}, more[2];
   size_t count = 1;
   dyd_status st = csv_begin(&csv, in->o, err);
   in->report.degrees = csv.degrees;
@@ -768,12 +772,12 @@ static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
     if (st == DYD_OK && count && csv.column[DYD_CSV_X] == csv.column[DYD_CSV_Y] &&
         dyd_wkt_begin(&geometry, &span[DYD_CSV_X])) {
       st = geometry_see(in, &geometry, err);
-      if (st == DYD_OK && !geometry.point)
+      const bool one = geometry.point && dyd_wkt_next(span, &geometry) && !dyd_wkt_next(more, &geometry);
+      if (st == DYD_OK) st = geometry_end(&geometry, err);
+      if (st == DYD_OK && !one)
         st = dyd_span_fail(err, &span[DYD_CSV_X], 0,
                            "this geometry is not a POINT; take one point of each, such as the "
                            "centroid, or write its vertices as WKT alone, a geometry a line");
-      else if (st == DYD_OK && !dyd_wkt_next(span, &geometry))
-        span[DYD_CSV_X].length = span[DYD_CSV_Y].length = 0;
     }
     if (st == DYD_OK && count && (csv.degrees || csv.e7 || csv.minutes || in->o->degrees))
       st = dyd_names_complete(&csv, span, err);

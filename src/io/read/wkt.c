@@ -9,18 +9,33 @@
 static const char *const words[] = {"POINT",           "LINESTRING",   "POLYGON",           "MULTIPOINT",
                                     "MULTILINESTRING", "MULTIPOLYGON", "GEOMETRYCOLLECTION"};
 
-/* "POINT Z (" and "POINT EMPTY" begin a geometry, "Point,X,Y" and "point 1 2" do not. */
-static bool wkt_opens(const char *at, const char *end) {
-  while (at < end && ((*at & ~0x20) >= 'A' && (*at & ~0x20) <= 'Z')) at++;
-  while (at < end && memchr(" \tZMzm", *at, 6)) at++;
-  return at < end && (*at == '(' || (end - at >= 5 && memcmp(at, "EMPTY", 5) == 0));
+static bool wkt_is_letter(const char *at, const char *end) {
+  return at < end && (*at & ~0x20) >= 'A' && (*at & ~0x20) <= 'Z';
 }
 
-/* The word begins the text, in any case, and no letter follows. */
+/* "POINT Z (" and "POINT EMPTY" begin a geometry, "Point,X,Y" and "point 1 2" do not. Returns what follows the
+ * parenthesis or EMPTY; NULL: none begins. */
+static const char *wkt_opens(const char *at, const char *end) {
+  while (wkt_is_letter(at, end)) at++;
+  while (at < end && memchr(" \tZMzm", *at, 6)) at++;
+  if (at < end && *at == '(') return at + 1;
+  return end - at >= 5 && memcmp(at, "EMPTY", 5) == 0 ? at + 5 : NULL;
+}
+
+/* The word begins the text, in any case, and no letter follows but Z and M ("PointZ"). */
 static bool wkt_has_word(const char *at, const char *end, const char *word) {
   for (; *word; word++, at++)
     if (at == end || (*word >= 'A' ? *at & ~0x20 : *at) != *word) return false;
-  return at == end || word[-1] == '=' || word[-1] == ':' || !((*at & ~0x20) >= 'A' && (*at & ~0x20) <= 'Z');
+  if (word[-1] == '=' || word[-1] == ':') return true;
+  for (const char *more = "ZM"; *more; more++) at += at < end && (*at & ~0x20) == *more;
+  return !wkt_is_letter(at, end);
+}
+
+/* Returns which of the words begins the text; 7: none. */
+static size_t wkt_word(const char *at, const char *end) {
+  size_t k = 0;
+  while (k < sizeof words / sizeof *words && !wkt_has_word(at, end, words[k])) k++;
+  return k;
 }
 
 static bool wkt_is_blank(char c) {
@@ -28,7 +43,6 @@ static bool wkt_is_blank(char c) {
 }
 
 bool dyd_wkt_begin(dyd_wkt *w, const dyd_span *text) {
-  size_t k = 0, count = sizeof words / sizeof *words;
   *w = (dyd_wkt){.text = *text, .at = text->text, .end = text->text + text->length};
   while (w->at < w->end && wkt_is_blank(*w->at)) w->at++;
   if (w->at == w->end || *w->at < 'A') return false;
@@ -38,11 +52,11 @@ bool dyd_wkt_begin(dyd_wkt *w, const dyd_span *text) {
     }
     w->srid.length = w->at > w->srid.text ? (size_t)(w->at - w->srid.text) - 1 : 0;
   }
-  while (k < count && !wkt_has_word(w->at, w->end, words[k])) k++;
+  const size_t k = wkt_word(w->at, w->end), count = sizeof words / sizeof *words;
   for (const char *p = w->at; p < w->end && k < count && *p != '('; p++)
     w->rings |= wkt_has_word(p, w->end, "POLYGON") || wkt_has_word(p, w->end, "MULTIPOLYGON");
   w->point = k == 0;
-  return k < count && wkt_opens(w->at, w->end);
+  return k < count && wkt_opens(w->at, w->end) != NULL;
 }
 
 static dyd_span wkt_number(dyd_wkt *w) {
@@ -56,28 +70,71 @@ static dyd_span wkt_number(dyd_wkt *w) {
   return s;
 }
 
+static const dyd_span wkt_empty = {.text = "EMPTY", .length = 5};
+
 static bool wkt_same(const dyd_span *a, const dyd_span *b) {
-  return a->length == b->length && memcmp(a->text, b->text, a->length) == 0;
+  return a->length && a->length == b->length && memcmp(a->text, b->text, a->length) == 0;
+}
+
+/* Enters the next geometry of the text; several have commas between. false: there is none. */
+static bool wkt_enter(dyd_wkt *w) {
+  while (w->at < w->end && (wkt_is_blank(*w->at) || (w->inside && strchr(",;", *w->at)))) w->at++;
+  w->inside = true;
+  if (w->at == w->end || *w->at == '#') return false;
+  const bool word = wkt_word(w->at, w->end) < sizeof words / sizeof *words;
+  const char *behind = word ? wkt_opens(w->at, w->end) : NULL;
+  if (behind)
+    w->at = behind;
+  else
+    w->wrong = "there is more than a geometry on this line; if it is a table, name its column of geometries twice: "
+               "`columns` G,G, or without a header `no_header` `columns` 1,1";
+  return behind != NULL;
+}
+
+/* What stands at w->at, between a parenthesis or comma and the next. false: it is a word, or wrong. */
+static bool wkt_place(dyd_span place[2], dyd_wkt *w) {
+  place[0] = wkt_number(w);
+  place[1] = wkt_number(w);
+  while (w->at < w->end && !strchr(",()", *w->at)) w->at++; /* z and m */
+  const bool letter = wkt_is_letter(place[0].text, w->end);
+  if (w->at < w->end && *w->at == '(' && letter) return false;
+  if (w->at == w->end || *w->at == '(')
+    w->wrong = "the parentheses of this geometry do not match; complete the line, or remove it";
+  else if (letter && (wkt_same(&place[0], &wkt_empty) || wkt_same(&place[1], &wkt_empty)))
+    place[0].length = place[1].length = 0;
+  else if (!place[1].length)
+    w->wrong = "this place has one coordinate only; two have a blank between, and commas separate places";
+  return !w->wrong;
+}
+
+/* A geometry without places is a point that is missing. */
+static bool wkt_missing(dyd_span place[2], dyd_wkt *w) {
+  place[0] = place[1] = (dyd_span){w->at, 0, w->text.at + (w->at - w->text.text), w->text.origin, w->text.line};
+  return true;
 }
 
 bool dyd_wkt_next(dyd_span place[2], dyd_wkt *w) {
-  for (;;) {
-    bool opened = false;
-    while (w->at < w->end && (*w->at == '(' || *w->at == ',' || *w->at == ')' || !w->inside || wkt_is_blank(*w->at))) {
-      opened |= *w->at == '(';
-      w->inside |= *w->at++ == '(';
+  for (bool opened = false; !w->wrong;) { /* opened: a parenthesis, and nothing behind it */
+    if (!w->depth) {
+      if (!wkt_enter(w)) return false;
+      w->depth = opened = w->at[-1] == '(';
+      if (!opened) return wkt_missing(place, w);
     }
-    if (w->at == w->end) return false;
-    place[0] = wkt_number(w);
-    place[1] = wkt_number(w);
-    while (w->at < w->end && *w->at != ',' && *w->at != ')' && *w->at != '(') w->at++; /* z and m */
-    if (place[0].length && ((place[0].text[0] & ~0x20) >= 'A' && (place[0].text[0] & ~0x20) <= 'Z'))
-      continue; /* a word */
+    const char c = w->at < w->end ? *w->at : 'x';
+    if (strchr("(), \t\r\n", c)) {
+      w->at++;
+      w->depth += (c == '(') - (c == ')');
+      if (opened && c == ')') return wkt_missing(place, w);
+      if (!wkt_is_blank(c)) opened = c == '(';
+      continue;
+    }
+    if (!wkt_place(place, w)) continue;
     if (opened) memcpy(w->first, place, sizeof w->first);
-    bool last = w->at < w->end && *w->at == ')';
-    if (w->rings && !opened && last && wkt_same(&place[0], &w->first[0]) && wkt_same(&place[1], &w->first[1])) continue;
+    if (w->rings && !opened && *w->at == ')' && wkt_same(&place[0], &w->first[0]) && wkt_same(&place[1], &w->first[1]))
+      continue;
     return true;
   }
+  return false;
 }
 
 /* One line of a points file: two coordinates separated by blanks or one comma, and a comment.
