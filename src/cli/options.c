@@ -468,6 +468,17 @@ static int layer_fits(cli_options *o, const cli_command *c) {
   return CLI_USAGE;
 }
 
+/* Json, obj and vtk hold all layers, and these three layers state more than discs decide. */
+static int discs_fit(const cli_options *o, const cli_command *c) {
+  const dyd_content l = o->content;
+  const bool layer = l == DYD_CONTENT_TIES || l == DYD_CONTENT_HULLS || l == DYD_CONTENT_EXTERIOR;
+  const bool format = o->format == DYD_FORMAT_JSON || o->format == DYD_FORMAT_OBJ || o->format == DYD_FORMAT_VTK;
+  if (!o->discs || c != &cli_commands[CLI_DELAUNAY] || (!layer && !format)) return 0;
+  return cli_usage("delaunay --discs does not write %s%s; give a layer of pairs, points, triangles, aliases or graphs, "
+                   "as csv, wkt or geojson, or pairs or graphs as svg, pdf, png, html or tikz",
+                   layer ? "--layer " : "", layer ? o->layer : dyd_format_name(o->format));
+}
+
 /* The format has to hold the content; without --format, the first that does is taken. */
 static int format_fits(cli_options *o, const cli_command *c) {
   while (!o->format_set && dyd_format_name(o->format) && !dyd_format_holds(o->format, o->content)) o->format++;
@@ -620,6 +631,7 @@ int cli_options_read(cli_options *out, int argc, char **argv, char **call) {
   if (!status) status = format_from_output(out, c);
   if (!status) status = meanings_fit(out, c);
   if (!status) status = format_fits(out, c);
+  if (!status) status = discs_fit(out, c);
   if (!status) status = crs_fits(out);
   return status ? status : place_operands(out, &s, c);
 }

@@ -157,7 +157,10 @@ def test_formats():
         assert all(abs(a - b) <= error for p, q in zip(shown, ring) for a, b in zip(p, q))
     named = table('x,y,n\n0,0,a\n3,0,b\n0,3,c\n', 'hulls', '--columns', 'x,y', '--id', 'n')
     assert [[r['id_i'], r['id_j'], r['id_k']] for r in named] == [['a', 'b', ''], ['a', 'c', ''], ['b', 'c', ''], ['a', 'b', 'c']]
-    expect(run('delaunay', '--discs', '--layer', 'exterior', '-', stdin=points), 1, '', 'statuses of discs are written as')
+    for layer in ('exterior', 'hulls', 'ties'):
+        expect(run('delaunay', '--discs', '--layer', layer, 'none'), 2, '', f'delaunay --discs does not write --layer {layer}; give')
+    for name in ('json', 'obj', 'vtk'):
+        expect(run('delaunay', '--discs', '-o', f'x.{name}', 'none'), 2, '', f'delaunay --discs does not write {name}; give')
     expect(run('delaunay', '--max-pairs', '3', '--layer', 'exterior', '-', stdin=''.join(f'[0,1] [{k},{k + 9}]\n' for k in range(9))), 4, r'\A\Z', 'raise --max-pairs')
 
 

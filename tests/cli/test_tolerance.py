@@ -173,7 +173,7 @@ def test_discs():
         assert {(r['i'], r['j']): r['status'] for r in rows(discs.out)} == wanted
     expect(run('delaunay', '--discs', '-', stdin='0 0\n9 0\n4+-1 8+-1\n'), 0, r'\Ai,j,status\n(\d,\d,legal\n){3}\Z', r'\A\Z')
     expect(run('delaunay', '--discs', '-', stdin='0 0\n9 0\n4+-1 8\n'), 1, r'\A\Z', 'point 2: a disc needs one radius')
-    expect(run('delaunay', '--discs', '--format', 'json', '-', stdin='0 0\n'), 1, r'\A\Z', 'written as pairs')
+    expect(run('delaunay', '--discs', '--format', 'json', '-', stdin='0 0\n'), 2, r'\A\Z', 'does not write json')
     for layer in ('triangles', 'points'):
         of_discs, of_squares = (rows(run('delaunay', '--layer', layer, '--radius', '0.003', *how, *AIRPORTS).out)
                                 for how in (('--discs',), ()))
@@ -184,7 +184,7 @@ def test_discs():
     partners = collections.Counter((row[end], row['status']) for row in listed for end in ('i', 'j'))
     for row in of_discs:
         assert all(int(row[s]) == partners[row['i'], s] for s in ('legal', 'indeterminate', 'tie')), row
-    expect(run('delaunay', '--discs', '--layer', 'hulls', '-', stdin='0 0\n'), 1, r'\A\Z', 'written as pairs, points, triangles or graphs')
+    expect(run('delaunay', '--discs', '--layer', 'hulls', '-', stdin='0 0\n'), 2, r'\A\Z', 'does not write --layer hulls')
     stats = run('delaunay', '--discs', '--stats', '--radius', '0.01', *AIRPORTS)
     for status in ('legal', 'indeterminate'):
         assert re.search(rf'^pairs {status} +{stats.out.count("," + status)}$', stats.err, re.M), stats.err

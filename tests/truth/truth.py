@@ -385,7 +385,7 @@ def ask(case, product):
 
 REFUSALS = {  # part of a message: why the command refuses
     'leave no place of the sphere free': 'regions cover the sphere',
-    'statuses of discs are written as pairs': 'not offered', 'is about the plane': 'not offered',
+    'delaunay --discs does not write': 'not offered', 'is about the plane': 'not offered',
     'on a sphere --window is the part that a picture shows': 'not offered',
     'so that nothing is known of any': 'regions cover the sphere',
     'take more points or digits than can be held': 'polygons beyond what is held',
