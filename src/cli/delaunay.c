@@ -135,6 +135,7 @@ static dyd_status run_discs(cli_session *s, const dyd_engine_options *options, d
                       : dyd_disc_pairs(&r->pairs, dyd_engine_delaunay(s->engine), cli_signals_flag(), err);
   r->cut = st == DYD_CANCELLED;
   cli_session_cut(st, err);
+  cli_note_unlisted(s);
   return st < 0 ? st : DYD_OK;
 }
 
@@ -399,6 +400,7 @@ int cli_sphere_summary(cli_session *s, int status) {
   if (dyd_sphere_pairs(&pairs, sphere) != DYD_OK) return cli_complain_memory();
   count_pairs(count, &pairs);
   dyd_pair_list_clear(&pairs);
+  cli_note_unlisted(s);
   if (!s->o.quiet) cli_note_pairs(s, outcome, count, NULL);
   cli_note_spacing(s, dyd_engine_delaunay(s->engine));
   return cli_exit_status(outcome);

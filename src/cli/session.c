@@ -383,6 +383,16 @@ void cli_note_pairs(const cli_session *s, dyd_outcome outcome, const size_t coun
                advice ? advice : cli_outcome_advice(s->engine));
 }
 
+static bool session_is_capped(const cli_session *s) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
+  return pd && dyd_delaunay_is_capped(pd);
+}
+
+void cli_note_unlisted(const cli_session *s) {
+  if (session_is_capped(s))
+    cli_note(&s->o, "not all pairs are known: one that is not listed, or not counted, may be an edge, too");
+}
+
 const char *cli_outcome_advice(const dyd_engine *e) {
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
   switch (dyd_engine_outcome(e)) {
@@ -638,6 +648,7 @@ static void session_note_outcome(const cli_session *s) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
   dyd_outcome outcome = dyd_engine_outcome(s->engine);
   if (!pd || outcome == DYD_OUTCOME_DECIDED || outcome == DYD_OUTCOME_CERTIFIED) return;
+  cli_note_unlisted(s);
   if (note_goal(s, cli_outcome_advice(s->engine))) return;
   size_t count[4];
   dyd_delaunay_count(count, pd);
@@ -704,9 +715,9 @@ void cli_note_spacing(const cli_session *s, const dyd_delaunay *pd) {
   if (!pd || o->quiet || (!o->read.radius && !o->read.radius_columns)) return;
   if (!count_meetings(&rectangles, &meeting, pd, s->sphere) || 2 * meeting <= rectangles) return;
   cli_note(o,
-           "the radius is large for the spacing of the points: %zu of %zu %s meet another one, so that few "
+           "the radius is large for the spacing of the points: %s%zu of %zu %s meet another one, so that few "
            "pairs can be decided (a smaller radius decides more)",
-           meeting, rectangles, s->sphere ? "regions" : "rectangles");
+           session_is_capped(s) ? "at least " : "", meeting, rectangles, s->sphere ? "regions" : "rectangles");
 }
 
 /* A line when points have no row in wkt or geojson, since they coincide with others. */

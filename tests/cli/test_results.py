@@ -259,6 +259,12 @@ def test_pairs_cap():
     result = run('delaunay', '-', '--max-pairs', '10', stdin=''.join(f'[-{k},{k}] [-{k},{k}]\n' for k in range(1, 60)))
     expect(result, 4, r'^# capped: ', 'limit of stored pairs reached .raise --max-pairs')
     assert re.search(r'^# face( \d+)+$', result.out, re.M)
+    for more in ((), ('--discs',), ('--layer', 'points'), ('--until', 'area:3'), ('--sphere', '--merge')):
+        text = 'x,y,r\n' + ''.join(f'{k % 8 / 2},{k // 8 / 2},{1 + k / 90}\n' for k in range(60))
+        given = ('--columns', 'x,y', '--radius-column', 'r', *(('--radius-unit', 'deg') if '--sphere' in more else ()), '-')
+        cut, whole = (run('delaunay', *more, *cap, *given, stdin=text) for cap in (('--max-pairs', '1'), ()))
+        expect(cut, 4, '', 'not all pairs are known: one that is not listed, or not counted, may be an edge')
+        assert cut.out != whole.out and 'not all pairs are known' not in whole.err, (more, cut.err, whole.err)
 
 
 def test_output_file():
