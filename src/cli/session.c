@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -384,8 +385,7 @@ void cli_note_pairs(const cli_session *s, dyd_outcome outcome, const size_t coun
 }
 
 static bool session_is_capped(const cli_session *s) {
-  const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
-  return pd && dyd_delaunay_is_capped(pd);
+  return dyd_engine_delaunay(s->engine) && dyd_delaunay_is_capped(dyd_engine_delaunay(s->engine));
 }
 
 void cli_note_unlisted(const cli_session *s) {
@@ -832,12 +832,22 @@ int cli_pairs_summary(cli_session *s, int status) {
 
 /* ---- a command ---- */
 
+/* The ends of the window of tiles are corners of these: doubles, outward. What doubles do not hold stays. */
+static int window_of_tiles(cli_session *s) {
+  double b[4];
+  dyd_rect_get_d(b, &s->window);
+  const bool held = isfinite(b[0]) && isfinite(b[1]) && isfinite(b[2]) && isfinite(b[3]);
+  if (!held || !s->diagram || (s->o.content != DYD_CONTENT_TILES && !s->o.all_layers)) return 0;
+  return dyd_rect_set_d(&s->window, b[0], b[1], b[2], b[3]) == DYD_OK ? 0 : cli_complain_memory();
+}
+
 /* Runs `begin`, and reads the window. */
 static int work_begin(cli_session *s) {
   int status = s->work->begin ? s->work->begin(s) : 0;
   if (!status && s->o.window) {
     s->view = &s->window;
     status = cli_window_read(&s->window, s->o.window);
+    if (!status) status = window_of_tiles(s);
   }
   if (!status && s->o.format == DYD_FORMAT_HTML && !s->o.sphere && dyd_history_new(&s->history) != DYD_OK)
     return cli_complain_memory();

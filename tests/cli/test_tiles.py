@@ -237,6 +237,14 @@ def test_few_points():
     assert len(rings) == 1 and sorted(rings[0][1]) == [(-1, -1), (-1, 1), (1, -1), (1, 1)]
     rings = tiles('0 0\n1 0\n0 1\n', tuple(map(Fraction, (5, 6, -9, -8))))
     assert [row['i'] for row, _ in rings] == ['1']
+    for window in ('0,0.1,0,0.1', '8.2,8.9,47.1,47.5', '-1/3,1/3,0.1,0.7', '1e-9,2e-9,0,1e-9'):
+        ends = [Fraction(end) for end in window.split(',')]
+        said = run('voronoi', '-', '--layer', 'tiles', '--format', 'wkt', '--window=' + window, stdin='0.01 0.02\n0.05 0.06\n0.09 0.01\n')
+        expect(said, 0)
+        shown = [xy for _, ring in rings_of(said.out) for xy in ring]
+        shown = [f(xy[k] for xy in shown) for k in (0, 1) for f in (min, max)]
+        outward = [(a - e) * (-1) ** (k + 1) for k, (a, e) in enumerate(zip(shown, ends))]
+        assert all(0 <= o <= abs(e) / 2 ** 52 for o, e in zip(outward, ends)), (window, shown)
     said = run('voronoi', '-', '--layer', 'tiles', '--window=1e300,1.0000000000000003e300,0,1', stdin='0 0\n1 1\n')
     expect(said, 1, err='doubles are too coarse for tiles on this window')
 
