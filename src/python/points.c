@@ -301,6 +301,7 @@ int dydpy_window_take(dyd_rect *r, bool *given, PyObject *window) {
   dyd_status st = PySequence_Size(window) == 4 ? dydpy_answer(r, window, &err) : DYD_E_ARG;
   if (st >= 0 && (dyd_interval_round(&r->x, &r->x) != DYD_OK || dyd_interval_round(&r->y, &r->y) != DYD_OK))
     st = DYD_E_RANGE;
+  if (st >= 0 && (dyd_dyadic_cmp(&r->x.lo, &r->x.hi) >= 0 || dyd_dyadic_cmp(&r->y.lo, &r->y.hi) >= 0)) st = DYD_E_ARG;
   bool wrong = st < 0 && st != DYD_E_NOMEM;
   if (wrong) {
     PyErr_Clear();

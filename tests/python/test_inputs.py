@@ -211,6 +211,10 @@ def test_frames():
     named = df.assign(acc=[1e-3, 2e-3, 3e-3, 4e-3], name=list('pqrs'))
     d = dyadel.delaunay(named[['x', 'y']], radius=named.acc, ids=named.name)
     assert d.ids == list('pqrs') and d.rect(3)[1] > Fraction('8.4539')
+    for name, value in (('radius', named.acc), ('ids', named.name), ('carry', named[['acc']]), ('sigma', named.acc)):
+        for other in (value.iloc[::-1], value.reset_index(drop=True).set_axis([1, 2, 3, 4])):
+            words_in(harness.raised(ValueError, dyadel.delaunay, df, **{name: other}), f'{name}.reindex(points.index)', f'{name}.to_numpy()')
+    assert dyadel.delaunay(df, radius=named.acc.iloc[::-1].to_numpy()).rect(0)[1] > Fraction('8.5039')
     for order in (['minx', 'miny', 'maxx', 'maxy'], ['minx', 'maxx', 'miny', 'maxy']):
         boxes = pandas.DataFrame({'minx': df.x, 'miny': df.y, 'maxx': df.x, 'maxy': df.y})[order]
         assert dyadel.delaunay(boxes).legal.tolist() == LEGAL
@@ -262,7 +266,9 @@ def test_geopandas():
     words_in(harness.raised(ValueError, dyadel.delaunay, degrees), 'sphere=True', 'sphere=False')
     assert dyadel.delaunay(degrees, sphere=False).legal.tolist() == LEGAL
     assert dyadel.delaunay(degrees, sphere=True).to_geodataframe().crs == degrees.crs
+    words_in(harness.raised(ValueError, dyadel.delaunay, gdf, sphere=True), 'not degrees', gdf.crs.name, 'to_crs(4326)')
     assert dyadel.delaunay(PLACES, crs=2056).crs == 2056
+    words_in(harness.raised(ValueError, d.voronoi, window=(2, 2, 5, 9)), 'xlo < xhi', '(2, 2, 5, 9)')
     words_in(harness.raised(ValueError, dyadel.delaunay, PLACES, crs='EPSG:4326'), 'sphere=True')
 
 

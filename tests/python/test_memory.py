@@ -29,7 +29,7 @@ def once():
     small = dyadel.delaunay(MIXED)
     v = small.voronoi()
     v.tiles, v.certain, v.possible, v.data, v.exact_area(4), list(v)
-    harness.raised(dyadel.Error, small.voronoi, (0, 0, 0, 1))
+    harness.raised(dyadel.Error, dyadel.delaunay, [('1/0', 0)])
     small.write('json'), small.plan(), pickle.loads(pickle.dumps(small))
     dyadel.verify(small.certificate(), MIXED)
     dyadel.tolerance(POINTS[:50], radii=True)

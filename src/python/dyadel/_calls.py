@@ -66,7 +66,10 @@ def delaunay(points: Any, radius: Any = None, *, sphere: bool | None = None, rad
     a run.
 
     """
-    if sphere is None and is_geographic(options.get('crs') or getattr(points, 'crs', None)):
+    crs: Any = options.get('crs') or getattr(points, 'crs', None)
+    if sphere and getattr(crs, 'is_projected', False):
+        raise ValueError(f'the coordinates are not degrees, as their crs says ({crs.name}); pass points.to_crs(4326), or remove sphere=True')
+    if sphere is None and is_geographic(crs):
         raise ValueError('the coordinates are degrees, as their crs says; give sphere=True for distances on the globe, or '
                          'sphere=False to take degrees for a plane')
     if not sphere:

@@ -110,6 +110,14 @@ def refuse_mirrored(names: list[str]) -> None:
                          f'df[[{names[1]!r}, {names[0]!r}]], or df.to_numpy() if this order is meant')
 
 
+def refuse_other_index(points: Any, **columns: Any) -> None:
+    """Columns of a frame in another order of rows than the points would give each point the value of another."""
+    for name, column in columns.items():
+        if hasattr(points, 'iloc') and hasattr(column, 'iloc') and not column.index.equals(points.index):
+            raise ValueError(f'{name} has another index than points; pass {name}.reindex(points.index), or {name}.to_numpy() if the '
+                             'rows are in the order of points')
+
+
 def take(points: Any, radius: Any = None, *, order: str | None = None, skip_missing: bool = False, ids: Any = None,
          crs: Any = None, sigma: Any = None, confidence: float | str | None = None, carry: Any = None) -> Given:
     """Points of any kind but Source and Text, and their radius, in plain form."""
@@ -119,6 +127,7 @@ def take(points: Any, radius: Any = None, *, order: str | None = None, skip_miss
         raise TypeError(f'points is of type {type(points).__name__}; give an array (N, 2) or (N, 4), a list of pairs, a DataFrame, a '
                         f'Source or a Text{", such as numpy.column_stack((xs, ys))" * isinstance(points, dict)}')
     refuse_mirrored([str(name) for name in getattr(points, 'columns', ())])
+    refuse_other_index(points, radius=radius, ids=ids, sigma=sigma, carry=carry)
     crs = getattr(points, 'crs', None) if crs is None else crs
     if isinstance(radius, str):
         radius = _radius_named(points, radius)
