@@ -249,6 +249,12 @@ def test_radii_apart():
             run('delaunay', *PLACE, '--radius', '0.01', '-q', AIRPORTS).out)
 
 
+def test_measured_with_radius():
+    """A radius that is written says more than the digits, with either sign for it."""
+    stated = sides(run('delaunay', '--measured', '-', '--format', 'json', stdin='1.250+-0.1 -3.0+-1/8\n1.250±0.1 -3.0±0.125\n').out)
+    assert stated[0] == stated[1] == sides(run('delaunay', '-', '--format', 'json', stdin='1.250+-0.1 -3.0+-1/8\n').out)[0], stated
+
+
 def test_merge():
     """However a number is written it is the same; the smaller radius wins in each coordinate; the lowest row stays."""
     text = '1.5 0+-1\n3/2 0.00+-1/2\n9 9\n15e-1+-0.25 [-2,2]\n0x1.8p0 0\n[1,2] -0\nsqrt(2) 4\nsqrt(2) 4.0\n'

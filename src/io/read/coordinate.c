@@ -274,7 +274,9 @@ static bool coordinate_plain(dyd_coordinate *out, const dyd_span *span, const dy
 
 /* ---- the general way ---- */
 
+/* "1.5+-0.1" states its radius, and has the characters of decimals, too. */
 static bool looks_decimal(const dyd_span *span) {
+  if (dyd_nominal_length(span) < span->length) return false;
   for (size_t k = 0; k < span->length; k++)
     if (!memchr("0123456789.eE+-", span->text[k], 15)) return false;
   return true;
