@@ -369,6 +369,8 @@ static dyd_status units_read(dyd_csv *csv, dyd_error *err) {
     const dyd_span *f = csv->want[role].name ? &field[role] : NULL;
     const dyd_unit *unit = f ? dyd_unit_find(f->text, f->length) : NULL;
     if (f && !unit) unit = dyd_unit_of_column(f->text, f->length);
+    if (unit && csv->unit[role] && unit != csv->unit[role])
+      return dyd_span_fail(err, f, 0, "the name of this column states another unit; correct one of the two");
     if (unit) csv->unit[role] = unit;
   }
   return dyd_names_agree(&field[DYD_CSV_Y], csv->unit[DYD_CSV_X], csv->unit[DYD_CSV_Y], err);

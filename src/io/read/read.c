@@ -751,6 +751,22 @@ static dyd_status carry_row(intake *in, const dyd_csv *csv, const dyd_span *id, 
   return DYD_OK;
 }
 
+/* Takes over the units that the table states. */
+static dyd_status units_join(intake *in, const dyd_csv *csv, dyd_error *err) {
+  for (int role = 0; role < DYD_CSV_MOST; role++) {
+    const dyd_unit *own = csv->unit[role], *given = in->unit[role];
+    const bool length =
+        role == DYD_CSV_RADIUS_X || role == DYD_CSV_RADIUS_Y || role == DYD_ROLE_SIGMA || role == DYD_ROLE_SIGMA + 1;
+    if (!given) in->unit[role] = own;
+    if (length && own && given && own != given)
+      return dyd_fail(err, DYD_E_ARG,
+                      "the table says that the %s is in %s, and `radius_unit` says %s; remove `radius_unit`, and where "
+                      "the table is wrong convert by `radius_scale`",
+                      dyd_role_holds(role), own->name, given->name);
+  }
+  return DYD_OK;
+}
+
 static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
   dyd_csv csv = {.text = text,
                  .headless = in->o->no_header,
@@ -762,8 +778,7 @@ static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
   dyd_status st = csv_begin(&csv, in->o, err);
   in->report.degrees = csv.degrees;
   in->report.swapped = csv.swapped;
-  for (int role = 0; role < DYD_CSV_MOST && st == DYD_OK; role++)
-    if (!in->unit[role]) in->unit[role] = csv.unit[role];
+  if (st == DYD_OK) st = units_join(in, &csv, err);
   if (st == DYD_OK && csv.carries) carry_begin(in, &csv);
   const size_t zone = st == DYD_OK ? dyd_zone_find(&csv) : 0;
   while (st == DYD_OK && count) {
