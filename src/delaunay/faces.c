@@ -425,6 +425,31 @@ static dyd_status close_faces(dyd_delaunay *pd, dyd_work *w, size_t from) {
   return st;
 }
 
+/* Faces after those there are, and which of them are proved ties. */
+static dyd_status find_and_prove(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count) {
+  size_t first = pd->open.count;
+  dyd_status st = find_faces(pd, w, tri, count);
+  for (size_t g = first; g < pd->open.count && st == DYD_OK; g++) st = dyd_prove_face(pd, w, g);
+  return st == DYD_CANCELLED && w->run->keep_cut ? DYD_OK : st;
+}
+
+static void share_out_from(dyd_delaunay *pd, size_t first) {
+  for (size_t g = first; g < pd->open.count; g++) dyd_table_share_out(pd, (uint32_t)g);
+}
+
+dyd_status dyd_faces_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count) {
+  const dyd_undecided before = pd->open;
+  dyd_status st = find_and_prove(pd, w, tri, tri ? count : pd->sk.mesh.count);
+  if (st == DYD_OK) st = close_faces(pd, w, before.count);
+  if (st == DYD_OK)
+    share_out_from(pd, before.count);
+  else
+    dyd_table_roll_back(pd, &before);
+  return st;
+}
+
+/* ---- replacing one face ---- */
+
 /* Closes the faces from `from` on, the remaining parts of an old one. */
 static dyd_status close_parts(dyd_delaunay *pd, dyd_work *w, size_t from, const dyd_narrowed *narrowed) {
   dyd_closure c;
@@ -436,31 +461,6 @@ static dyd_status close_parts(dyd_delaunay *pd, dyd_work *w, size_t from, const 
   }
   return st;
 }
-
-/* narrowed: NULL unless the new faces are the remaining parts of an old face. */
-static dyd_status find_and_close(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count,
-                                 const dyd_narrowed *narrowed) {
-  dyd_undecided before = pd->open;
-  dyd_status st = find_faces(pd, w, tri, tri ? count : pd->sk.mesh.count);
-  for (size_t g = before.count; g < pd->open.count && st == DYD_OK; g++) st = dyd_prove_face(pd, w, g);
-  if (st == DYD_CANCELLED && w->run->keep_cut) st = DYD_OK;
-  if (st == DYD_OK) st = narrowed ? close_parts(pd, w, before.count, narrowed) : close_faces(pd, w, before.count);
-  if (st != DYD_OK) dyd_table_roll_back(pd, &before);
-  return st;
-}
-
-static void share_out_from(dyd_delaunay *pd, size_t first) {
-  for (size_t g = first; g < pd->open.count; g++) dyd_table_share_out(pd, (uint32_t)g);
-}
-
-dyd_status dyd_faces_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count) {
-  size_t first = pd->open.count;
-  dyd_status st = find_and_close(pd, w, tri, count, NULL);
-  if (st == DYD_OK) share_out_from(pd, first);
-  return st;
-}
-
-/* ---- replacing one face ---- */
 
 /* Pairs of the face replaced, which is not in the table, that a face before `fresh` lists, but none of the new ones: by
  * what changed here they may have become legal or impossible. Pairs that have are put into *ended. */
@@ -517,17 +517,16 @@ dyd_status dyd_faces_replace(bool *replaced, dyd_delaunay *pd, dyd_work *w, cons
   dyd_undecided before = *f;
   dyd_vertex_pair *ended = NULL;
   size_t ended_count = 0;
-  dyd_status st = find_and_close(pd, w, tri, count, narrowed);
-  if (st == DYD_OK) {
-    st = find_ended(&ended, &ended_count, pd, w, &old, before.count);
-    if (st != DYD_OK) dyd_table_roll_back(pd, &before);
-  }
+  dyd_status st = find_and_prove(pd, w, tri, count);
+  if (st == DYD_OK) st = close_parts(pd, w, before.count, narrowed);
+  if (st == DYD_OK) st = find_ended(&ended, &ended_count, pd, w, &old, before.count);
   *replaced = st == DYD_OK;
   if (*replaced) {
     share_out_from(pd, before.count);
     delete_ended(pd, ended, ended_count, before.count);
     dyd_table_compact(f);
   } else {
+    dyd_table_roll_back(pd, &before);
     dyd_table_put_back(pd, &old);
   }
   free(ended);
