@@ -216,7 +216,8 @@ static dyd_status extend_by(uint32_t *ghost, extension *x, uint32_t v) {
   dyd_mesh_find(&t, &same, &sk->mesh, v);
   if (same != DYD_NONE && tied) {
     sk->vertex[sk->reps.site[v]] = same;
-    return dyd_mesh_set_alias(&sk->mesh, v, same);
+    sk->mesh.alias[v] = same;
+    return DYD_OK;
   }
   if (same != DYD_NONE) st = move_apart(&t, sk, v);
   if (st == DYD_OK) st = hole_find(x, v, t);

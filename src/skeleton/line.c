@@ -98,27 +98,25 @@ static dyd_status line_allocate(dyd_line *l, uint32_t n) {
 }
 
 /* Equal exact points are neighbours in the order: the later ones become aliases and leave the list. */
-static dyd_status line_drop_aliases(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, entry *e) {
+static void line_drop_aliases(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, entry *e) {
   uint32_t kept = 0;
-  dyd_status st = DYD_OK;
   for (uint32_t q = 0; q < l->count; q++) {
     bool same = kept && dyd_rects_is_point(rects, e[q].vertex) && dyd_rects_is_point(rects, e[kept - 1].vertex) &&
                 mpz_cmp(e[q].r.x0, e[kept - 1].r.x0) == 0 && mpz_cmp(e[q].r.y0, e[kept - 1].r.y0) == 0;
-    if (same && st == DYD_OK) st = dyd_mesh_set_alias(m, e[q].vertex, e[kept - 1].vertex);
-    if (same)
+    if (same) {
+      m->alias[e[q].vertex] = e[kept - 1].vertex;
       dyd_irect_clear(&e[q].r);
-    else
+    } else
       e[kept++] = e[q];
   }
   l->count = kept;
-  return st;
 }
 
-static dyd_status line_sort(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, entry *e) {
+static void line_sort(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, entry *e) {
   int axis = line_axis(e, l->count);
   for (uint32_t q = 0; q < l->count; q++) e[q].axis = axis;
   qsort(e, l->count, sizeof *e, line_compare);
-  dyd_status st = line_drop_aliases(l, m, rects, e);
+  line_drop_aliases(l, m, rects, e);
   for (uint32_t q = 0; q < l->count; q++) {
     l->order[q] = e[q].vertex;
     l->rank[e[q].vertex] = q;
@@ -126,7 +124,6 @@ static dyd_status line_sort(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, en
   line_find_legal(l, e);
   line_find_ends(l, e);
   for (uint32_t q = 0; q < l->count; q++) dyd_irect_clear(&e[q].r);
-  return st;
 }
 
 dyd_status dyd_line_build(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, uint32_t n) {
@@ -140,7 +137,7 @@ dyd_status dyd_line_build(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, uint
   entry *e = dyd_alloc(l->count, sizeof *e);
   if (!e) return DYD_E_NOMEM;
   st = line_load(e, rects, l->count, l->order);
-  if (st == DYD_OK) st = line_sort(l, m, rects, e);
+  if (st == DYD_OK) line_sort(l, m, rects, e);
   free(e);
   return st;
 }

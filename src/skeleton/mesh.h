@@ -48,7 +48,8 @@ typedef struct dyd_mesh {
   dyd_xy *own_xy;
   dyd_tri *tri;
   uint32_t count;   /* triangles, that is the number after the last one */
-  uint32_t *alias;  /* alias[v]: the vertex with the same exact point, DYD_NONE if v is in the mesh; NULL: no aliases */
+  uint32_t *alias;  /* alias[v]: the vertex with the same exact point, DYD_NONE if v is in the mesh; NULL: no aliases.
+                       While points come in, it is there. */
   bool collinear;   /* every choice of points is collinear: no triangles */
   dyd_tally tally;  /* of its construction */
   double extent[2]; /* of all points any representative may be; x, y */

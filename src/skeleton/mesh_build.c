@@ -5,7 +5,6 @@
 #include "base/alloc.h"
 #include "base/invariant.h"
 #include "base/parallel.h"
-#include "dyadic/raw.h"
 #include "rect/rect.h"
 #include "rect/sites_table.h"
 #include "skeleton/mesh.h"
@@ -31,20 +30,6 @@ static bool edge_is_delaunay(const dyd_mesh *m, dyd_half_edge h) {
   return dyd_mesh_orient_exact(m, dyd_edge_origin(m, hull), dyd_edge_target(m, hull), p) <= 0;
 }
 
-/* In the order of x, then y; exactly. */
-static bool comes_before(const dyd_mesh *m, uint32_t v, uint32_t w) {
-  dyd_rect p, q;
-  dyd_rect_init(&p);
-  dyd_rect_init(&q);
-  (void)dyd_reps_get(&p, m->reps, dyd_mesh_rep(m, v));
-  (void)dyd_reps_get(&q, m->reps, dyd_mesh_rep(m, w));
-  int c = dyd_raw_cmp(&p.x.lo, q.x.den, &q.x.lo, p.x.den);
-  if (c == 0) c = dyd_raw_cmp(&p.y.lo, q.y.den, &q.y.lo, p.y.den);
-  dyd_rect_clear(&q);
-  dyd_rect_clear(&p);
-  return c < 0;
-}
-
 /* All hull edges are in one cycle, and it goes to the right once and back once: a cycle that is convex everywhere could
  * wind twice around overlapping parts. */
 static bool hull_turns_once(const dyd_mesh *m) {
@@ -54,7 +39,7 @@ static bool hull_turns_once(const dyd_mesh *m) {
   dyd_half_edge first = dyd_hull_first(m), h = first;
   bool before = false;
   do {
-    bool right = comes_before(m, dyd_hull_origin(m, h), dyd_hull_target(m, h));
+    bool right = dyd_mesh_compare(m, dyd_hull_origin(m, h), dyd_hull_target(m, h)) < 0;
     turns += met && right != before;
     before = right;
     h = dyd_hull_following(m, h);
@@ -81,14 +66,8 @@ static bool mesh_is_point(const dyd_mesh *m, uint32_t v) {
   return dyd_sites_is_point(m->reps->sites, m->reps->site[dyd_mesh_rep(m, v)]);
 }
 
-dyd_status dyd_mesh_set_alias(dyd_mesh *m, uint32_t v, uint32_t of) {
-  if (!m->alias) {
-    m->alias = dyd_alloc(m->n, sizeof *m->alias);
-    if (!m->alias) return DYD_E_NOMEM;
-    memset(m->alias, 0xff, m->n * sizeof *m->alias);
-  }
-  m->alias[v] = of;
-  return DYD_OK;
+static void no_aliases(dyd_mesh *m, uint32_t from, uint32_t end) {
+  for (uint32_t v = from; v < end; v++) m->alias[v] = DYD_NONE;
 }
 
 /* Representatives stay inside their rectangles, whose extent only shrinks. */
@@ -148,7 +127,8 @@ static dyd_status separate(bool *differs, dyd_mesh *m, uint32_t v, uint32_t w) {
   for (uint32_t k = 1; st == DYD_OK && dyd_mesh_same(m, v, w); k++) {
     if (mesh_is_point(m, v)) {
       *differs = false;
-      return dyd_mesh_set_alias(m, v, w);
+      m->alias[v] = w;
+      return DYD_OK;
     }
     st = mesh_move(m, v, k);
   }
@@ -426,7 +406,8 @@ static dyd_status insert_vertex(dyd_mesh *m, uint32_t v) {
     if (same == DYD_NONE) return insert_at(m, v, t);
     if (mesh_is_point(m, v)) {
       DYD_INVARIANT(mesh_is_point(m, same));
-      return dyd_mesh_set_alias(m, v, same);
+      m->alias[v] = same;
+      return DYD_OK;
     }
     dyd_status st = mesh_move(m, v, m->moved + 1);
     if (st != DYD_OK) return st;
@@ -448,8 +429,9 @@ dyd_status dyd_mesh_grow(dyd_mesh *m, uint32_t n, uint32_t ghost, const double w
   dyd_half_edge h = first;
   if (!DYD_GROW(m->tri, cap, 2 * (size_t)n + 2)) return DYD_E_NOMEM;
   cap = 0;
-  if (m->alias && !DYD_GROW(m->alias, cap, n)) return DYD_E_NOMEM;
-  for (uint32_t v = m->n; m->alias && v < n; v++) m->alias[v] = DYD_NONE;
+  uint32_t before = m->alias ? m->n : 0;
+  if (!DYD_GROW(m->alias, cap, n)) return DYD_E_NOMEM;
+  no_aliases(m, before, n);
   do m->tri[dyd_edge_triangle(h)].v[dyd_edge_corner(h)] = n;
   while ((h = dyd_hull_following(m, h)) != first);
   m->n = m->end = m->strips.begin[m->strips.count] = n;
@@ -694,15 +676,6 @@ static void close_gaps(dyd_mesh *m, gap *gaps, unsigned count) {
   }
 }
 
-static dyd_status gather_aliases(dyd_mesh *m, const seams *s) {
-  for (unsigned k = 0; k < s->parts; k++) {
-    const dyd_mesh *p = &s->part[k];
-    for (uint32_t v = 0; p->alias && v < m->n; v++)
-      if (p->alias[v] != DYD_NONE && dyd_mesh_set_alias(m, v, p->alias[v]) != DYD_OK) return DYD_E_NOMEM;
-  }
-  return DYD_OK;
-}
-
 static void add_tallies(dyd_mesh *m, const seams *s) {
   for (unsigned k = 0; k < s->parts; k++) {
     const dyd_tally *c = &s->part[k].tally;
@@ -735,22 +708,38 @@ static dyd_status mesh_join_strips(bool *joined, dyd_mesh *m, const dyd_strips *
     m->count = s->part[0].count;
     m->hint = s->part[0].hint;
     close_gaps(m, s->gap + 1, s->parts - 1);
-    st = gather_aliases(m, s);
-    *joined = st == DYD_OK;
+    add_tallies(m, s);
+    *joined = true;
     m->strips = *strips;
-  }
-  for (unsigned k = 0; k < s->parts; k++) {
-    dyd_mesh_trim(&s->part[k]);
-    free(s->part[k].alias);
-  }
-  if (*joined) add_tallies(m, s);
+  } else
+    no_aliases(m, 0, m->n);
+  for (unsigned k = 0; k < s->parts; k++) dyd_mesh_trim(&s->part[k]);
   free(s);
   return st;
 }
 
 static dyd_status mesh_init(dyd_mesh *m, dyd_reps *reps, const uint32_t *local, uint32_t n, bool no_filter) {
   *m = (dyd_mesh){.reps = reps, .local = local, .n = n, .end = n, .strips = {1, {0, n}}, .no_filter = no_filter};
+  m->alias = dyd_alloc(n, sizeof *m->alias);
+  if (!m->alias) return DYD_E_NOMEM;
+  no_aliases(m, 0, n);
   return dyd_mesh_coordinates(m);
+}
+
+/* Returns true if some vertex is an alias, or may become one: a line finds its own. */
+static bool has_aliases(const dyd_mesh *m) {
+  for (uint32_t v = 0; v < m->n; v++)
+    if (m->alias[v] != DYD_NONE) return true;
+  return m->collinear;
+}
+
+/* What building leaves. */
+static dyd_status mesh_finish(dyd_mesh *m, dyd_status st) {
+  if (st != DYD_OK) return dyd_mesh_clear(m), st;
+  if (has_aliases(m)) return st;
+  free(m->alias);
+  m->alias = NULL;
+  return st;
 }
 
 /* Sites joined with a lower one are aliases from the start. */
@@ -759,9 +748,9 @@ static dyd_status mesh_put_joined(dyd_mesh *m) {
   uint32_t *vertex = dyd_alloc(m->n, sizeof *vertex);
   dyd_status st = vertex ? DYD_OK : DYD_E_NOMEM;
   for (uint32_t v = 0; v < m->n && vertex; v++) vertex[m->reps->site[v]] = v;
-  for (uint32_t v = 0; v < m->n && st == DYD_OK; v++) {
+  for (uint32_t v = 0; v < m->n && vertex; v++) {
     uint32_t of = vertex[dyd_sites_joined(sites, m->reps->site[v])];
-    if (of != v) st = dyd_mesh_set_alias(m, v, of);
+    if (of != v) m->alias[v] = of;
   }
   free(vertex);
   return st;
@@ -771,8 +760,7 @@ dyd_status dyd_mesh_build(dyd_mesh *m, dyd_reps *reps, const uint32_t *local, ui
                           const volatile int *cancel) {
   dyd_status st = mesh_init(m, reps, local, n, no_filter);
   if (st == DYD_OK) st = mesh_fill(m, cancel);
-  if (st != DYD_OK) dyd_mesh_clear(m);
-  return st;
+  return mesh_finish(m, st);
 }
 
 dyd_status dyd_mesh_build_strips(dyd_mesh *m, dyd_reps *reps, const dyd_strips *strips, bool no_filter,
@@ -784,6 +772,5 @@ dyd_status dyd_mesh_build_strips(dyd_mesh *m, dyd_reps *reps, const dyd_strips *
   else if (st == DYD_OK && dyd_strips_are_apart(reps, strips))
     st = mesh_join_strips(&joined, m, strips, cancel, threads);
   if (st == DYD_OK && !joined) st = mesh_fill(m, cancel);
-  if (st != DYD_OK) dyd_mesh_clear(m);
-  return st;
+  return mesh_finish(m, st);
 }

@@ -21,7 +21,6 @@ dyd_status dyd_mesh_coordinates(dyd_mesh *m);
 /* A point that coincides with a vertex becomes its alias, anything else gives way; so points have to come first. Where
  * the order is another one, as that of several strips is, vertices are taken in two rounds: is it the turn of v? */
 void dyd_mesh_set_rounds(dyd_mesh *m);
-dyd_status dyd_mesh_set_alias(dyd_mesh *m, uint32_t v, uint32_t of);
 /* Representatives have been chosen anew: the filter constants follow. */
 void dyd_mesh_follow(dyd_mesh *m);
 /* Makes room for vertices up to n, which are points that reps has already; the ghost gets the number n. ghost: a ghost
