@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "base/float_filter.h"
 #include "base/invariant.h"
-#include "base/prefetch.h"
 #include "delaunay/extend.h"
 #include "delaunay/face_table.h"
 #include "delaunay/faces.h"
@@ -413,18 +412,18 @@ static dyd_status note_faces(uint32_t **seed, size_t *count, size_t *cap, bool *
 static void fetch_ahead(const dyd_delaunay *pd, const uint32_t *changed, size_t left) {
   enum { STEP = 6 };
   const dyd_skeleton *sk = &pd->sk;
-  if (left > 3 * STEP) dyd_prefetch(&sk->vertex[changed[3 * STEP]]);
+  if (left > 3 * STEP) __builtin_prefetch(&sk->vertex[changed[3 * STEP]]);
   if (left > 2 * STEP) {
     uint32_t v = sk->vertex[changed[2 * STEP]];
-    dyd_prefetch(&sk->leaving[v]);
-    dyd_prefetch(&sk->rects.box[v]);
-    dyd_prefetch(&sk->reps.xy[v]);
+    __builtin_prefetch(&sk->leaving[v]);
+    __builtin_prefetch(&sk->rects.box[v]);
+    __builtin_prefetch(&sk->reps.xy[v]);
     dyd_sites_fetch(sk->rects.sites, changed[2 * STEP]);
   }
   if (left > STEP) {
     uint32_t t = dyd_edge_triangle(sk->leaving[sk->vertex[changed[STEP]]]);
-    dyd_prefetch(&sk->mesh.tri[t]);
-    dyd_prefetch(&pd->open.of[t]);
+    __builtin_prefetch(&sk->mesh.tri[t]);
+    __builtin_prefetch(&pd->open.of[t]);
   }
 }
 

@@ -8,7 +8,6 @@
 
 #include "base/alloc.h"
 #include "base/index.h"
-#include "base/prefetch.h"
 #include "io/diagram.h"
 #include "io/geodesic.h"
 #include "rect/rect.h"
@@ -121,8 +120,8 @@ static dyd_status rows_of_pairs(dyd_table *t, const dyd_output *o) {
   for (size_t k = 0; !r->ties_apart && k < r->pairs.count && st == DYD_OK; k++) {
     const dyd_pair *p = &r->pairs.item[k];
     if (t->place && k + AHEAD < r->pairs.count) {
-      dyd_prefetch(t->place[p[AHEAD].j].x);
-      dyd_prefetch(t->place[p[AHEAD].j].length);
+      __builtin_prefetch(t->place[p[AHEAD].j].x);
+      __builtin_prefetch(t->place[p[AHEAD].j].length);
     }
     st = row_pair(t, p->i, p->j, dyd_pair_status_text(p->status));
   }

@@ -16,7 +16,6 @@
 #include "base/alloc.h"
 #include "base/index.h"
 #include "base/local.h"
-#include "base/prefetch.h"
 #include "skeleton/centre_filter.h"
 #include "skeleton/mesh_filter.h"
 
@@ -147,10 +146,10 @@ static bool is_near(const near_pass *p, dyd_half_edge h) {
 static void decide_batch(const near_pass *p, dyd_marks *range, const dyd_half_edge *edge, unsigned count) {
   const dyd_mesh *m = &p->sk->mesh;
   for (unsigned q = 0; q < count; q++) {
-    dyd_prefetch(&m->xy[dyd_edge_origin(m, edge[q])]);
-    dyd_prefetch(&m->xy[dyd_edge_target(m, edge[q])]);
-    dyd_prefetch(&m->xy[dyd_edge_apex(m, edge[q])]);
-    dyd_prefetch(&m->xy[dyd_edge_across(m, edge[q])]);
+    __builtin_prefetch(&m->xy[dyd_edge_origin(m, edge[q])]);
+    __builtin_prefetch(&m->xy[dyd_edge_target(m, edge[q])]);
+    __builtin_prefetch(&m->xy[dyd_edge_apex(m, edge[q])]);
+    __builtin_prefetch(&m->xy[dyd_edge_across(m, edge[q])]);
   }
   for (unsigned q = 0; q < count; q++)
     if (is_near(p, edge[q])) dyd_mark(range, p->sk, edge[q]);
@@ -166,7 +165,7 @@ static void near_of_range(void *context, size_t number) {
     for (; t < range->end && count < BATCH; t++)
       for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++) {
         dyd_half_edge twin = dyd_edge_twin(m, h);
-        dyd_prefetch(&m->tri[dyd_edge_triangle(twin)]);
+        __builtin_prefetch(&m->tri[dyd_edge_triangle(twin)]);
         edge[count] = h;
         count += twin > h;
       }

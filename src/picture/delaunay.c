@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "base/local.h"
-#include "base/prefetch.h"
 #include "io/decimal.h"
 #include "picture/picture.h"
 
@@ -73,7 +72,7 @@ static bool find_middles(delaunay_drawing *d) {
 /* Asks memory for the ends of a line to come: those of the second sites lie anywhere. */
 static void fetch_line(const delaunay_drawing *d, size_t p) {
   enum { AHEAD = 16 };
-  if (p + AHEAD < d->r->pairs.count) dyd_prefetch(d->at[d->r->pairs.item[p + AHEAD].j]);
+  if (p + AHEAD < d->r->pairs.count) __builtin_prefetch(d->at[d->r->pairs.item[p + AHEAD].j]);
 }
 
 static bool line_of(double z[2][2], const delaunay_drawing *d, const dyd_pair *pair, const double frame[4]) {

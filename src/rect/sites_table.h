@@ -3,7 +3,6 @@
 #ifndef DYD_RECT_SITES_TABLE_H
 #define DYD_RECT_SITES_TABLE_H
 
-#include "base/prefetch.h"
 #include "rect/irect.h"
 #include <dyadel/sites.h>
 
@@ -89,20 +88,20 @@ static inline double dyd_sites_hi(const dyd_sites *s, int axis, size_t i) {
 }
 /* Asks memory for where the exact rectangle of site i is, for loops that visit the sites in another order. */
 static inline void dyd_sites_fetch_entry(const dyd_sites *s, size_t i) {
-  if (s->exact) dyd_prefetch(&s->exact[i]);
-  if (s->word) dyd_prefetch(&s->word[i]);
+  if (s->exact) __builtin_prefetch(&s->exact[i]);
+  if (s->word) __builtin_prefetch(&s->word[i]);
 }
 /* For that and its doubles. */
 static inline void dyd_sites_fetch(const dyd_sites *s, size_t i) {
   for (int a = 0; a < 2; a++) {
-    dyd_prefetch(&s->lower[a][i]);
-    if (s->upper[a]) dyd_prefetch(&s->upper[a][i]);
+    __builtin_prefetch(&s->lower[a][i]);
+    if (s->upper[a]) __builtin_prefetch(&s->upper[a][i]);
   }
   dyd_sites_fetch_entry(s, i);
 }
 /* A while after either: for the exact rectangle, if there is one. */
 static inline void dyd_sites_fetch_exact(const dyd_sites *s, size_t i) {
-  if (s->exact && s->exact[i]) dyd_prefetch(s->exact[i]);
+  if (s->exact && s->exact[i]) __builtin_prefetch(s->exact[i]);
 }
 /* Returns true if every site is certainly a point that is held by doubles, without a test of each. */
 static inline bool dyd_sites_are_double_points(const dyd_sites *s) {

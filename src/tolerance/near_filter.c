@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The sites that a pair needs, and the others near a place. */
 #include "base/alloc.h"
-#include "base/prefetch.h"
 #include "tolerance/state.h"
 
 #include <fenv.h>
@@ -56,7 +55,7 @@ static void fill_near(dyd_tolerance *t) {
     dyd_half_edge first = t->sk->leaving[v];
     t->start[v] = count;
     if (v + AHEAD < m->n && t->sk->leaving[v + AHEAD] != DYD_NONE)
-      dyd_prefetch(&m->tri[dyd_edge_triangle(t->sk->leaving[v + AHEAD])]);
+      __builtin_prefetch(&m->tri[dyd_edge_triangle(t->sk->leaving[v + AHEAD])]);
     for (dyd_half_edge h = first; h != DYD_NONE; h = dyd_edge_around(m, h, first)) {
       uint32_t w = t->near[count] = dyd_edge_target(m, h);
       t->legal[count++] = w != m->n && dyd_edge_is_certain(t->sk, h);

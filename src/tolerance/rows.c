@@ -5,7 +5,6 @@
 #include "base/flag.h"
 #include "base/index.h"
 #include "base/parallel.h"
-#include "base/prefetch.h"
 #include "delaunay/state.h"
 #include "dyadic/raw.h"
 #include "tolerance/lines.h"
@@ -366,9 +365,9 @@ static void deaths_of_range(void *context, size_t number) {
   size_t end = dyd_range_begin(t->sk->n, number + 1);
   for (uint32_t v = (uint32_t)dyd_range_begin(t->sk->n, number); v < end && part->status != DYD_E_NOMEM; v++) {
     if (v + 2 * AHEAD < end) {
-      dyd_prefetch(&p->first[site[v + 2 * AHEAD]]);
-      dyd_prefetch(&t->row[p->first[site[v + AHEAD]]]);
-      dyd_prefetch(&t->row[p->first[site[v + AHEAD]] + 2]);
+      __builtin_prefetch(&p->first[site[v + 2 * AHEAD]]);
+      __builtin_prefetch(&t->row[p->first[site[v + AHEAD]]]);
+      __builtin_prefetch(&t->row[p->first[site[v + AHEAD]] + 2]);
     }
     if (dyd_flag_is_set(t->options.cancel)) part->status = DYD_CANCELLED; /* from here on rows get their pairs alone */
     if (!deaths_at(part, t->row + p->first[site[v]], t, v)) part->status = DYD_E_NOMEM;
