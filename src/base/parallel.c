@@ -91,3 +91,20 @@ void dyd_parallel(unsigned threads, size_t tasks, dyd_task *task, void *context)
   work_on_tasks(&c);
   while (started) pthread_join(helper[--started], NULL);
 }
+
+typedef struct range_crew {
+  dyd_range_task *task;
+  void *context;
+  size_t count;
+} range_crew;
+
+static void work_on_range(void *context, size_t number) {
+  const range_crew *c = context;
+  c->task(c->context, number, dyd_range_begin(c->count, number), dyd_range_begin(c->count, number + 1));
+}
+
+size_t dyd_parallel_ranges(unsigned threads, size_t count, dyd_range_task *task, void *context) {
+  range_crew c = {task, context, count};
+  dyd_parallel(threads, dyd_ranges(count), work_on_range, &c);
+  return dyd_ranges(count);
+}

@@ -40,6 +40,11 @@ static inline size_t dyd_range_begin(size_t count, size_t number) {
   return count / n * number + (number < count % n ? number : count % n);
 }
 
+/* For the items begin .. end - 1, which are range `number`. */
+typedef void dyd_range_task(void *context, size_t number, size_t begin, size_t end);
+/* As dyd_parallel, a task for each range of 0 .. count - 1. Returns how many there were. */
+size_t dyd_parallel_ranges(unsigned threads, size_t count, dyd_range_task *task, void *context);
+
 /* ---- work apart ----
  *
  * Long work that cannot be interrupted, such as one function of millions of digits: a thread of its own does it, so

@@ -82,9 +82,9 @@ static dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known 
   dyd_work w;
   dyd_work_init(&w, &pd->sk, &run);
   w.room = pd->room;
+  w.tally = pd->sk.mesh.tally;
   pd->open.kind = pd->sk.mesh.collinear ? DYD_LINE : pd->sk.all_points ? DYD_TIED : DYD_LISTED;
   st = build_statuses(pd, &w, known);
-  dyd_tally_add(&pd->counters, &pd->sk.mesh.tally, o.no_filter);
   dyd_work_count(&pd->counters, &w, &pd->sk);
   dyd_room_join(&pd->room, &w.room);
   dyd_work_clear(&w);
@@ -207,7 +207,7 @@ static dyd_status part_triangulate(part *p) {
   dyd_skeleton *sk = &p->pd->sk;
   dyd_status st = dyd_mesh_build(&p->mesh, &sk->reps, p->vertex, p->vertices, sk->mesh.no_filter, p->w->run->cancel);
   if (st != DYD_OK) return st;
-  dyd_tally_add(&p->w->counters, &p->mesh.tally, sk->mesh.no_filter);
+  dyd_tally_join(&p->w->tally, &p->mesh.tally);
   if (!DYD_NEW(p->leaving, (size_t)p->vertices + 1) || !DYD_NEW(p->place, p->mesh.count) || !DYD_NEW(p->queue, p->tris))
     return DYD_E_NOMEM;
   for (uint32_t t = 0; t < p->mesh.count; t++) {

@@ -35,13 +35,19 @@ bool dyd_point_edge_is_certain(dyd_tally *tally, const dyd_mesh *m, dyd_half_edg
 
 /* ---- exact points ---- */
 
-static void decide_point_edges(void *context, size_t number) {
-  dyd_mark_tasks *p = context;
-  dyd_marks *range = &p->task[number];
-  for (uint32_t t = range->first; t < range->end; t++)
+typedef struct edge_pass {
+  dyd_skeleton *sk;
+  dyd_marks marks[DYD_RANGES_MOST];
+} edge_pass;
+
+static dyd_status decide_point_edges(void *context, dyd_work *w, size_t number, size_t begin, size_t end) {
+  edge_pass *p = context;
+  const dyd_mesh *m = &p->sk->mesh;
+  p->marks[number] = (dyd_marks){.first = begin, .end = end};
+  for (uint32_t t = (uint32_t)begin; t < end; t++)
     for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++)
-      if (dyd_edge_is_first(&p->sk->mesh, h) && dyd_point_edge_is_certain(&range->work.tally, &p->sk->mesh, h))
-        dyd_mark(range, p->sk, h);
+      if (dyd_edge_is_first(m, h) && dyd_point_edge_is_certain(&w->tally, m, h)) dyd_mark(&p->marks[number], p->sk, h);
+  return DYD_OK;
 }
 
 /* ---- rectangles ---- */
@@ -97,30 +103,31 @@ dyd_status dyd_certify_edge(dyd_skeleton *sk, dyd_work *w, dyd_half_edge h) {
   return st;
 }
 
-static void decide_edges(void *context, size_t number) {
-  dyd_mark_tasks *p = context;
-  dyd_marks *range = &p->task[number];
-  for (uint32_t t = range->first; t < range->end && range->status == DYD_OK; t++) {
-    if (dyd_work_cancelled(&range->work)) range->status = DYD_CANCELLED;
+static dyd_status decide_edges(void *context, dyd_work *w, size_t number, size_t begin, size_t end) {
+  edge_pass *p = context;
+  dyd_status st = DYD_OK;
+  p->marks[number] = (dyd_marks){.first = begin, .end = end};
+  for (uint32_t t = (uint32_t)begin; t < end && st == DYD_OK; t++) {
+    if (dyd_work_cancelled(w)) return DYD_CANCELLED;
     if (dyd_triangle_is_certain(p->sk, t)) continue;
-    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t) && range->status == DYD_OK; h++) {
+    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t) && st == DYD_OK; h++) {
       bool certain = false;
       if (!dyd_edge_is_first(&p->sk->mesh, h) || dyd_edge_is_certain(p->sk, h)) continue;
-      range->status = decide_edge(&certain, &range->work, p->sk, h);
-      if (certain) dyd_mark(range, p->sk, h);
+      st = decide_edge(&certain, w, p->sk, h);
+      if (certain) dyd_mark(&p->marks[number], p->sk, h);
     }
   }
+  return st;
 }
 
 /* ---- the passes ---- */
 
-static dyd_status certify_pass(dyd_skeleton *sk, dyd_work *w, dyd_task *task) {
-  dyd_mark_tasks p;
+static dyd_status certify_pass(dyd_skeleton *sk, dyd_work *w, dyd_work_task *task) {
+  edge_pass p = {.sk = sk};
   if (sk->all_points || sk->reps.code) dyd_fixed_prepare(&sk->mesh); /* before several ask for it; else few will */
-  dyd_status st = dyd_mark_tasks_init(&p, sk, w);
-  if (st != DYD_OK) return st;
-  dyd_parallel(w->run->threads, p.count, task, &p);
-  return dyd_mark_tasks_settle(&p, true);
+  dyd_status st = dyd_work_ranges(w, sk, sk->mesh.count, task, &p);
+  dyd_status marked = dyd_marks_settle(p.marks, DYD_RANGES_MOST, sk, true);
+  return st == DYD_OK ? marked : st;
 }
 
 dyd_status dyd_certify_points(dyd_skeleton *sk, dyd_work *w) {
@@ -134,6 +141,12 @@ dyd_status dyd_certify_points(dyd_skeleton *sk, dyd_work *w) {
 }
 
 dyd_status dyd_certify_all(dyd_skeleton *sk, dyd_work *w) {
-  dyd_status st = sk->mesh.no_filter ? DYD_OK : dyd_certify_stars(sk, w);
-  return st == DYD_OK ? certify_pass(sk, w, decide_edges) : st;
+  if (!sk->mesh.no_filter) {
+    dyd_status st = dyd_certify_stars(sk, w->run->threads);
+    if (st != DYD_OK) return st;
+    uint64_t edges = dyd_certain_edges(sk);
+    w->counters.filter += edges + dyd_certain_corners(sk);
+    w->counters.witness_guess += edges;
+  }
+  return certify_pass(sk, w, decide_edges);
 }

@@ -24,18 +24,6 @@
 
 /* ---- ranges of triangles, and the lists of edges between them ---- */
 
-dyd_status dyd_mark_tasks_init(dyd_mark_tasks *tasks, dyd_skeleton *sk, dyd_work *w) {
-  size_t n = sk->mesh.count;
-  *tasks = (dyd_mark_tasks){.sk = sk, .w = w, .count = dyd_ranges(n)};
-  tasks->task = dyd_alloc(tasks->count, sizeof *tasks->task);
-  if (!tasks->task) return DYD_E_NOMEM;
-  for (size_t r = 0; r < tasks->count; r++) {
-    tasks->task[r] = (dyd_marks){.first = (uint32_t)dyd_range_begin(n, r), .end = (uint32_t)dyd_range_begin(n, r + 1)};
-    dyd_work_fork(&tasks->task[r].work, w, sk);
-  }
-  return DYD_OK;
-}
-
 void dyd_mark_later(dyd_marks *m, dyd_half_edge h) {
   if (DYD_GROW(m->edge, m->cap, m->count + 1))
     m->edge[m->count++] = h;
@@ -51,16 +39,13 @@ void dyd_mark(dyd_marks *m, dyd_skeleton *sk, dyd_half_edge h) {
     dyd_mark_later(m, h);
 }
 
-dyd_status dyd_mark_tasks_settle(dyd_mark_tasks *tasks, bool certain) {
+dyd_status dyd_marks_settle(dyd_marks *marks, size_t ranges, dyd_skeleton *sk, bool certain) {
   dyd_status st = DYD_OK;
-  for (size_t r = 0; r < tasks->count; r++) {
-    dyd_marks *m = &tasks->task[r];
-    for (size_t q = 0; q < m->count; q++) dyd_set_certain(tasks->sk, m->edge[q], certain);
-    dyd_work_join(tasks->w, &m->work);
+  for (dyd_marks *m = marks; m < marks + ranges; m++) {
+    for (size_t q = 0; q < m->count; q++) dyd_set_certain(sk, m->edge[q], certain);
     if (st == DYD_OK) st = m->status;
     free(m->edge);
   }
-  free(tasks->task);
   return st;
 }
 
@@ -74,11 +59,10 @@ enum { BATCH = 240 };
 
 typedef struct near_pass {
   dyd_skeleton *sk;
-  dyd_work *w;
   double reach, least, most;
   const uint32_t *met; /* triangles whose edges are left to later passes: not 0. NULL: none */
   uint8_t *close;      /* of each vertex: it has an edge shorter than `most` */
-  dyd_mark_tasks tasks;
+  dyd_marks marks[DYD_RANGES_MOST];
   double shortest2[DYD_RANGES_MOST]; /* in each range */
 } near_pass;
 
@@ -103,12 +87,11 @@ static void set_close(const near_pass *p, uint32_t v) {
 }
 
 /* Least edge, and the vertices that have a short one. Ghost edges are NaN and change nothing. */
-static void measure_range(void *context, size_t number) {
+static void measure_range(void *context, size_t number, size_t begin, size_t end) {
   near_pass *p = context;
   const dyd_mesh *m = &p->sk->mesh;
-  const dyd_marks *range = &p->tasks.task[number];
   double least2 = DBL_MAX, most2 = p->most * p->most;
-  for (uint32_t t = range->first; t < range->end; t++) {
+  for (size_t t = begin; t < end; t++) {
     const uint32_t *v = m->tri[t].v;
     for (unsigned k = 0; k < 3; k++) {
       uint32_t a = v[k], b = v[dyd_next(k)];
@@ -120,10 +103,10 @@ static void measure_range(void *context, size_t number) {
   p->shortest2[number] = least2;
 }
 
-static void measure_edges(near_pass *p) {
+static void measure_edges(near_pass *p, unsigned threads) {
   double least2 = DBL_MAX;
-  dyd_parallel(p->w->run->threads, p->tasks.count, measure_range, p);
-  for (size_t r = 0; r < p->tasks.count; r++)
+  size_t ranges = dyd_parallel_ranges(threads, p->sk->mesh.count, measure_range, p);
+  for (size_t r = 0; r < ranges; r++)
     if (p->shortest2[r] < least2) least2 = p->shortest2[r];
   p->least = sqrt(least2);
   if (p->most < p->least) p->most = p->least;
@@ -155,14 +138,15 @@ static void decide_batch(const near_pass *p, dyd_marks *range, const dyd_half_ed
     if (is_near(p, edge[q])) dyd_mark(range, p->sk, edge[q]);
 }
 
-static void near_of_range(void *context, size_t number) {
+static void near_of_range(void *context, size_t number, size_t begin, size_t end) {
   near_pass *p = context;
   const dyd_mesh *m = &p->sk->mesh;
-  dyd_marks *range = &p->tasks.task[number];
+  dyd_marks *range = &p->marks[number];
   dyd_half_edge edge[BATCH + 3];
-  for (uint32_t t = range->first; t < range->end;) {
+  *range = (dyd_marks){.first = begin, .end = end};
+  for (uint32_t t = (uint32_t)begin; t < end;) {
     unsigned count = 0;
-    for (; t < range->end && count < BATCH; t++)
+    for (; t < end && count < BATCH; t++)
       for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++) {
         dyd_half_edge twin = dyd_edge_twin(m, h);
         __builtin_prefetch(&m->tri[dyd_edge_triangle(twin)]);
@@ -173,27 +157,22 @@ static void near_of_range(void *context, size_t number) {
   }
 }
 
-dyd_status dyd_certify_near(dyd_skeleton *sk, dyd_work *w, double reach, const uint32_t *met, double most) {
-  near_pass p = {.sk = sk, .w = w, .met = met, .most = most, .reach = reach > 0x1p-300 ? reach : 0x1p-300};
+dyd_status dyd_certify_near(dyd_skeleton *sk, unsigned threads, double reach, const uint32_t *met, double most) {
+  near_pass p = {.sk = sk, .met = met, .most = most, .reach = reach > 0x1p-300 ? reach : 0x1p-300};
   p.close = calloc((size_t)sk->mesh.n + 1, 1);
   if (!p.close) return DYD_E_NOMEM;
-  dyd_status st = dyd_mark_tasks_init(&p.tasks, sk, w);
-  if (st == DYD_OK) {
-    measure_edges(&p);
-    dyd_parallel(w->run->threads, p.tasks.count, near_of_range, &p);
-    st = dyd_mark_tasks_settle(&p.tasks, true);
-  }
+  measure_edges(&p, threads);
+  size_t ranges = dyd_parallel_ranges(threads, sk->mesh.count, near_of_range, &p);
   free(p.close);
-  return st;
+  return dyd_marks_settle(p.marks, ranges, sk, true);
 }
 
 enum { MAX_DEGREE = 62, LONG = 256 };
 
 typedef struct pass {
   dyd_skeleton *sk;
-  dyd_work *w;
   uint8_t *open; /* of each vertex: it has an edge, real or ghost, that is not certain yet */
-  dyd_mark_tasks tasks;
+  dyd_marks marks[DYD_RANGES_MOST];
   double edge;  /* nearly all edges are longer */
   double limit; /* radius above which a rectangle is fat */
   double reach; /* 2 E */
@@ -345,13 +324,13 @@ static void certify_hull(const pass *p, const star *s) {
 /* ---- the pass ---- */
 
 /* An edge is certain when both its ends found their stars clear; a half alone is revoked, where the other half is. */
-static void join_halves(void *context, size_t number) {
+static void join_halves(void *context, size_t number, size_t begin, size_t end) {
   pass *p = context;
   const dyd_skeleton *sk = p->sk;
-  dyd_marks *range = &p->tasks.task[number];
-  for (uint32_t t = range->first; t < range->end; t++)
+  for (uint32_t t = (uint32_t)begin; t < end; t++)
     for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t) && !dyd_triangle_is_certain(sk, t); h++)
-      if (!dyd_edge_is_certain(sk, h) && dyd_edge_is_certain(sk, dyd_edge_twin(&sk->mesh, h))) dyd_mark_later(range, h);
+      if (!dyd_edge_is_certain(sk, h) && dyd_edge_is_certain(sk, dyd_edge_twin(&sk->mesh, h)))
+        dyd_mark_later(&p->marks[number], h);
 }
 
 static void certify_star(const pass *p, star *s, uint32_t v) {
@@ -360,19 +339,19 @@ static void certify_star(const pass *p, star *s, uint32_t v) {
   if (s->ghost >= 0) certify_hull(p, s);
 }
 
-static void stars_of_range(void *context, size_t number) {
+static void stars_of_range(void *context, size_t number, size_t begin, size_t end) {
   const pass *p = context;
   star s;
-  for (size_t v = dyd_range_begin(p->sk->n, number); v < dyd_range_begin(p->sk->n, number + 1); v++)
-    certify_star(p, &s, (uint32_t)v);
+  (void)number;
+  for (size_t v = begin; v < end; v++) certify_star(p, &s, (uint32_t)v);
 }
 
 /* Several tasks may say the same of one vertex at once. */
-static void find_open(void *context, size_t number) {
+static void find_open(void *context, size_t number, size_t begin, size_t end) {
   pass *p = context;
   const dyd_mesh *m = &p->sk->mesh;
-  const dyd_marks *range = &p->tasks.task[number];
-  for (uint32_t t = range->first; t < range->end; t++)
+  (void)number;
+  for (uint32_t t = (uint32_t)begin; t < end; t++)
     for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t) && !dyd_triangle_is_certain(p->sk, t); h++) {
       uint32_t v = dyd_edge_origin(m, h), w = dyd_edge_target(m, h);
       if (dyd_edge_is_certain(p->sk, h)) continue;
@@ -381,36 +360,29 @@ static void find_open(void *context, size_t number) {
     }
 }
 
-static dyd_status pass_over_stars(pass *p) {
-  dyd_status st = dyd_mark_tasks_init(&p->tasks, p->sk, p->w);
-  if (st != DYD_OK) return st;
-  dyd_parallel(p->w->run->threads, p->tasks.count, find_open, p);
-  dyd_parallel(p->w->run->threads, dyd_ranges(p->sk->n), stars_of_range, p);
-  dyd_parallel(p->w->run->threads, p->tasks.count, join_halves, p);
-  st = dyd_mark_tasks_settle(&p->tasks, false);
-  uint64_t edges = dyd_certain_edges(p->sk);
-  p->w->counters.filter += edges + dyd_certain_corners(p->sk);
-  p->w->counters.witness_guess += edges;
-  return st;
+static dyd_status pass_over_stars(pass *p, unsigned threads) {
+  const uint32_t triangles = p->sk->mesh.count;
+  dyd_parallel_ranges(threads, triangles, find_open, p);
+  dyd_parallel_ranges(threads, p->sk->n, stars_of_range, p);
+  size_t ranges = dyd_parallel_ranges(threads, triangles, join_halves, p);
+  return dyd_marks_settle(p->marks, ranges, p->sk, false);
 }
 
 /* The first pass, where fat rectangles do not spoil it [WIT-FAT]. */
-static dyd_status certify_thin(const pass *p) {
+static dyd_status certify_thin(const pass *p, unsigned threads) {
   DYD_FREED uint32_t *met = NULL;
   if (p->sk->reps.code) return DYD_OK;
   dyd_status st = dyd_fat_meet(&met, p->sk, p->fat.item, p->fat.count, p->reach / 2);
-  if (st == DYD_OK && (met || p->fat.count == 0)) st = dyd_certify_near(p->sk, p->w, p->reach / 2, met, p->edge);
+  if (st == DYD_OK && (met || p->fat.count == 0)) st = dyd_certify_near(p->sk, threads, p->reach / 2, met, p->edge);
   return st;
 }
 
-dyd_status dyd_certify_stars(dyd_skeleton *sk, dyd_work *w) {
-  pass p = {.sk = sk, .w = w, .edge = dyd_short_edge(&sk->mesh)};
+dyd_status dyd_certify_stars(dyd_skeleton *sk, unsigned threads) {
+  pass p = {.sk = sk, .edge = dyd_short_edge(&sk->mesh)};
   dyd_status st = gather_fat(&p);
-  if (st == DYD_OK) st = certify_thin(&p);
-  if (st == DYD_OK) {
-    p.open = calloc((size_t)sk->n + 1, 1);
-    st = p.open ? pass_over_stars(&p) : DYD_E_NOMEM;
-  }
+  if (st == DYD_OK) st = certify_thin(&p, threads);
+  if (st == DYD_OK && !DYD_ZEROED(p.open, (size_t)sk->n + 1)) st = DYD_E_NOMEM;
+  if (st == DYD_OK) st = pass_over_stars(&p, threads);
   free(p.open);
   dyd_tree_clear(&p.fat);
   return st;

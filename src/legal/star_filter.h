@@ -5,44 +5,29 @@
 
 #include "base/parallel.h"
 #include "skeleton/skeleton.h"
-#include "skeleton/work.h"
 
 #include <math.h>
 
-/* Marking certain edges from several tasks.
+/* Marking certain edges from several ranges of triangles.
  *
- * An edge is marked in both its triangles. A task has a range of triangles and marks edges inside of it at once; edges
- * that reach into another range wait in a list until all tasks are done. */
-
-/* One task: its triangles, its scratch, the edges that wait. */
+ * An edge is marked in both its triangles. Those inside of a range are marked at once; edges that reach into another
+ * range wait in a list until all are done. */
 typedef struct dyd_marks {
-  uint32_t first, end;
+  size_t first, end;
   dyd_half_edge *edge;
   size_t count, cap;
-  dyd_work work;
   dyd_status status;
 } dyd_marks;
 
-/* Tasks over all triangles of the skeleton: one for each range of dyd_ranges(triangles). */
-typedef struct dyd_mark_tasks {
-  dyd_skeleton *sk;
-  dyd_work *w;
-  size_t count;
-  dyd_marks *task;
-} dyd_mark_tasks;
-
-/* Settling releases it. */
-dyd_status dyd_mark_tasks_init(dyd_mark_tasks *tasks, dyd_skeleton *sk, dyd_work *w);
 /* Half-edge h, of a triangle in the range, is certain. Sets status on failure. */
 void dyd_mark(dyd_marks *marks, dyd_skeleton *sk, dyd_half_edge h);
 /* Remembers the edge for later; sets status on failure. */
 void dyd_mark_later(dyd_marks *marks, dyd_half_edge h);
-/* Edges that waited become certain, or uncertain. Counters are added up in w, lists freed. The first failure of a task.
- */
-dyd_status dyd_mark_tasks_settle(dyd_mark_tasks *tasks, bool certain);
+/* Edges that waited become certain, or uncertain; their lists are freed. The first failure of a range. */
+dyd_status dyd_marks_settle(dyd_marks *marks, size_t ranges, dyd_skeleton *sk, bool certain);
 
 /* Marks the edges whose first guess is proved a witness, and vertices that are certainly on the hull [FLT-STAR]. */
-dyd_status dyd_certify_stars(dyd_skeleton *sk, dyd_work *w);
+dyd_status dyd_certify_stars(dyd_skeleton *sk, unsigned threads);
 
 /* Certifying an edge in doubles from its two triangles alone.
  *
@@ -100,7 +85,7 @@ double dyd_short_edge(const dyd_mesh *m);
 /* The first quick pass, for representatives that are doubles and sites within `reach` of them: marks the edges that
  * their two triangles prove legal. met (NULL: no site is farther): from dyd_fat_meet for sites that are farther. most:
  * the distance tried first, any, best dyd_short_edge. */
-dyd_status dyd_certify_near(dyd_skeleton *sk, dyd_work *w, double reach, const uint32_t *met, double most);
+dyd_status dyd_certify_near(dyd_skeleton *sk, unsigned threads, double reach, const uint32_t *met, double most);
 
 /* Which triangles a few large rectangles can spoil for the first pass [WIT-FAT]. *met, released with free(): a number
  * for each triangle, 0 when no rectangle of the vertices fat[0 .. count-1] comes within `reach` of its circle (of a

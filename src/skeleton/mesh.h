@@ -35,6 +35,13 @@ typedef struct dyd_tally {
   uint64_t ties; /* exact zeros met in in-circle and hull tests: 0 means no tie anywhere [TIE-1] */
 } dyd_tally;
 
+static inline void dyd_tally_join(dyd_tally *sum, const dyd_tally *more) {
+  sum->asked += more->asked;
+  sum->integer += more->integer;
+  sum->exact += more->exact;
+  sum->ties += more->ties;
+}
+
 /* Invariant: every twin's twin is the edge itself, twins share their two vertices in opposite order, every real
  * triangle turns left and no vertex lies inside its circle (checked by dyd_mesh_is_valid in the armed build). */
 typedef struct dyd_mesh {

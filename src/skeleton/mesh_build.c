@@ -676,16 +676,6 @@ static void close_gaps(dyd_mesh *m, gap *gaps, unsigned count) {
   }
 }
 
-static void add_tallies(dyd_mesh *m, const seams *s) {
-  for (unsigned k = 0; k < s->parts; k++) {
-    const dyd_tally *c = &s->part[k].tally;
-    m->tally.asked += c->asked;
-    m->tally.integer += c->integer;
-    m->tally.exact += c->exact;
-    m->tally.ties += c->ties;
-  }
-}
-
 static void join_parts(seams *s, unsigned threads) {
   for (s->stride = 1; s->stride < s->parts; s->stride *= 2)
     dyd_parallel(threads, (s->parts + 2 * s->stride - 1) / (2 * s->stride), join_pair, s);
@@ -708,7 +698,7 @@ static dyd_status mesh_join_strips(bool *joined, dyd_mesh *m, const dyd_strips *
     m->count = s->part[0].count;
     m->hint = s->part[0].hint;
     close_gaps(m, s->gap + 1, s->parts - 1);
-    add_tallies(m, s);
+    for (unsigned k = 0; k < s->parts; k++) dyd_tally_join(&m->tally, &s->part[k].tally);
     *joined = true;
     m->strips = *strips;
   } else

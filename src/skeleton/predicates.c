@@ -457,10 +457,3 @@ int dyd_build_incircle_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uin
   if (!tried && (real || !dyd_filter_orient(m, m->xy[u], m->xy[v], m->xy[p]))) dyd_fixed_prepare(m);
   return incircle_slow(&m->tally, m, a, b, c, p);
 }
-
-void dyd_tally_add(dyd_delaunay_counters *sum, const dyd_tally *tally, bool no_filter) {
-  uint64_t beyond = tally->integer + tally->exact;
-  if (!no_filter && tally->asked > beyond) sum->filter += tally->asked - beyond;
-  sum->integer += tally->integer;
-  sum->exact += tally->exact;
-}

@@ -43,9 +43,6 @@ static inline int dyd_build_incircle(dyd_mesh *m, uint32_t a, uint32_t b, uint32
   return dyd_incircle_quick(&sign, &m->tally, m, a, b, c, p) ? sign : dyd_build_incircle_slow(m, a, b, c, p);
 }
 
-/* Adds the tally to the public counters: tests that were not passed on were answered by a filter. */
-void dyd_tally_add(dyd_delaunay_counters *sum, const dyd_tally *tally, bool no_filter);
-
 /* ---- the middle rung: representatives as 64-bit integers on one common grid, products in 128 and 256 bits ---- */
 
 /* Puts all representatives of m on a common grid with coordinates below 2^60, if there is one and that was not tried

@@ -162,11 +162,10 @@ static void radix_sort(uint64_t *a, uint64_t *b, size_t n, size_t count[PASSES][
   }
 }
 
-static void keys_of_range(void *context, size_t number) {
+static void keys_of_range(void *context, size_t number, size_t begin, size_t end) {
   const keys *k = context;
-  size_t n = k->sites->count;
-  for (size_t i = dyd_range_begin(n, number); i < dyd_range_begin(n, number + 1); i++)
-    k->a[i] = (uint64_t)order_key(k, (uint32_t)i) << 32 | i;
+  (void)number;
+  for (size_t i = begin; i < end; i++) k->a[i] = (uint64_t)order_key(k, (uint32_t)i) << 32 | i;
 }
 
 static void count_keys(keys *k) {
@@ -179,8 +178,9 @@ static void count_keys(keys *k) {
 
 dyd_status dyd_spatial_order(uint32_t *order, dyd_strips *strips, const dyd_sites *s, unsigned threads) {
   size_t n = s->count;
+  keys k = {.sites = s, .strips = strips_for(n)};
   uint64_t *b = dyd_alloc(n, sizeof *b);
-  keys k = {.sites = s, .strips = strips_for(n), .a = dyd_alloc(n, sizeof *k.a)};
+  k.a = dyd_alloc(n, sizeof *k.a);
   k.count = calloc(PASSES, sizeof *k.count);
   if (k.strips > 1) k.column = calloc(COLUMNS, sizeof *k.column);
   k.shift = k.strips > 1 ? 31 - STRIP_BIT : 0;
@@ -190,7 +190,7 @@ dyd_status dyd_spatial_order(uint32_t *order, dyd_strips *strips, const dyd_site
     k.mixed = !dyd_sites_are_double_points(s);
     fill_table(&k.h);
     if (k.column) share_columns(&k);
-    dyd_parallel(threads, dyd_ranges(n), keys_of_range, &k);
+    dyd_parallel_ranges(threads, n, keys_of_range, &k);
     count_keys(&k);
     radix_sort(k.a, b, n, k.count);
     for (size_t i = 0; i < n; i++) order[i] = (uint32_t)b[i]; /* an odd number of passes ends in b */
@@ -376,9 +376,8 @@ static dyd_status choose_any(dyd_reps *r, const dyd_bbox *box, size_t begin, siz
   return st;
 }
 
-static void choose_part_of_reps(void *context, size_t number) {
+static void choose_part_of_reps(void *context, size_t number, size_t begin, size_t end) {
   choice *c = context;
-  size_t begin = dyd_range_begin(c->r->n, number), end = dyd_range_begin(c->r->n, number + 1);
   dyd_reps part = *c->r; /* the same arrays */
   if (dyd_sites_are_double_points(part.sites))
     choose_points(&part, begin, end);
@@ -401,8 +400,8 @@ static dyd_status choose_reps(dyd_reps *r, const dyd_bbox *box, unsigned threads
   choice c = {.r = r, .box = box};
   dyd_status st = DYD_OK;
   if (!dyd_sites_all_in_doubles(r->sites) && !(r->code = calloc((size_t)r->n + 1, sizeof *r->code))) return DYD_E_NOMEM;
-  dyd_parallel(threads, dyd_ranges(r->n), choose_part_of_reps, &c);
-  for (size_t k = 0; k < dyd_ranges(r->n); k++) {
+  size_t ranges = dyd_parallel_ranges(threads, r->n, choose_part_of_reps, &c);
+  for (size_t k = 0; k < ranges; k++) {
     r->delta = fmax(r->delta, c.delta[k]);
     if (st == DYD_OK) st = c.status[k];
   }

@@ -12,8 +12,6 @@
 #include <math.h>
 #include <string.h>
 
-static void blocks_clear(dyd_skeleton *sk);
-
 /* ---- edges ---- */
 
 dyd_half_edge dyd_find_edge(const dyd_skeleton *sk, uint32_t v, uint32_t w) {
@@ -84,38 +82,37 @@ void dyd_vertex_box(dyd_bbox *out, const dyd_skeleton *sk, uint32_t v) {
   }
 }
 
-/* Builds sk->block and sk->blocks over all vertices, aliases included; needs reps and all_points. On failure
- * blocks_clear is due as well. */
-static dyd_status blocks_build(dyd_skeleton *sk) {
-  uint32_t count = sk->n / DYD_BLOCK + (sk->n % DYD_BLOCK != 0);
-  uint32_t *item = dyd_alloc(count, sizeof *item);
-  sk->block = dyd_alloc(count, sizeof *sk->block);
-  if (!item || !sk->block) return free(item), DYD_E_NOMEM;
-  for (uint32_t b = 0; b < count; b++) {
-    dyd_bbox one;
-    item[b] = b;
-    dyd_vertex_box(&sk->block[b], sk, b * DYD_BLOCK);
-    for (uint32_t v = b * DYD_BLOCK + 1; v < dyd_block_end(sk, b); v++) {
-      dyd_vertex_box(&one, sk, v);
-      dyd_box_widen(&sk->block[b], &one);
-    }
-  }
-  return dyd_tree_init(&sk->blocks, item, count, sk->block);
+/* Resizes an array; false: it stays as it is. */
+static bool skeleton_resize(void *array, size_t count, size_t size) {
+  void *to = realloc(*(void **)array, count ? count * size : 1);
+  if (to) *(void **)array = to;
+  return to;
 }
 
-static void blocks_clear(dyd_skeleton *sk) {
+/* The boxes of the blocks from the last one of `before` vertices on, and the tree over all, aliases included; needs
+ * reps and all_points. On failure clearing is due as well. */
+static dyd_status blocks_make(dyd_skeleton *sk, uint32_t before) {
+  uint32_t count = sk->n / DYD_BLOCK + (sk->n % DYD_BLOCK != 0);
+  uint32_t *item = dyd_alloc(count, sizeof *item);
+  if (!item || !skeleton_resize(&sk->block, count, sizeof *sk->block)) return free(item), DYD_E_NOMEM;
+  for (uint32_t b = 0; b < count; b++) item[b] = b;
+  for (uint32_t v = before - before % DYD_BLOCK; v < sk->n; v++) {
+    dyd_bbox one;
+    dyd_vertex_box(&one, sk, v);
+    if (v % DYD_BLOCK == 0) sk->block[v / DYD_BLOCK] = one;
+    dyd_box_widen(&sk->block[v / DYD_BLOCK], &one);
+  }
   dyd_tree_clear(&sk->blocks);
-  free(sk->block);
-  sk->block = NULL;
+  return dyd_tree_init(&sk->blocks, item, count, sk->block);
 }
 
 void dyd_skeleton_clear(dyd_skeleton *sk) {
   dyd_tree_clear(&sk->rects.tree);
-  blocks_clear(sk);
+  dyd_tree_clear(&sk->blocks);
   dyd_mesh_clear(&sk->mesh);
   dyd_line_clear(&sk->line);
   dyd_reps_clear(&sk->reps);
-  dyd_free_all(sk->rects.box, sk->certain, sk->leaving, sk->vertex);
+  dyd_free_all(sk->block, sk->rects.box, sk->certain, sk->leaving, sk->vertex);
   memset(sk, 0, sizeof *sk);
 }
 
@@ -126,10 +123,10 @@ void dyd_skeleton_moved(dyd_skeleton *sk) {
 
 enum { FETCH_AHEAD = 24 };
 
-static void boxes_of_range(void *context, size_t number) {
+static void boxes_of_range(void *context, size_t number, size_t begin, size_t end) {
   dyd_skeleton *sk = context;
-  size_t end = dyd_range_begin(sk->n, number + 1);
-  for (size_t v = dyd_range_begin(sk->n, number); v < end; v++) {
+  (void)number;
+  for (size_t v = begin; v < end; v++) {
     if (v + FETCH_AHEAD < end) dyd_sites_fetch(sk->rects.sites, sk->rects.site[v + FETCH_AHEAD]);
     dyd_rects_set_box(&sk->rects, (uint32_t)v);
   }
@@ -140,7 +137,7 @@ static dyd_status gather_boxes(dyd_skeleton *sk, unsigned threads) {
   if (dyd_sites_are_double_points(sk->rects.sites)) return DYD_OK;
   sk->rects.box = dyd_alloc(sk->n, sizeof *sk->rects.box);
   if (!sk->rects.box) return DYD_E_NOMEM;
-  dyd_parallel(threads, dyd_ranges(sk->n), boxes_of_range, sk);
+  dyd_parallel_ranges(threads, sk->n, boxes_of_range, sk);
   return DYD_OK;
 }
 
@@ -174,7 +171,10 @@ static void settle_aliases(dyd_skeleton *sk) {
     uint32_t t = site[v];
     site[v] = site[a];
     site[a] = t;
-    if (sk->rects.box) dyd_rects_set_box(&sk->rects, v), dyd_rects_set_box(&sk->rects, a);
+    if (!sk->rects.box) continue;
+    dyd_bbox box = sk->rects.box[v];
+    sk->rects.box[v] = sk->rects.box[a];
+    sk->rects.box[a] = box;
   }
   for (uint32_t v = 0; v < sk->n; v++) {
     uint32_t a = dyd_mesh_alias(&sk->mesh, v);
@@ -226,7 +226,7 @@ static dyd_status build_maps(dyd_skeleton *sk, unsigned threads) {
 
 static dyd_status build_boxes(dyd_skeleton *sk) {
   if (sk->all_points || sk->mesh.collinear) {
-    dyd_status st = blocks_build(sk); /* while the boxes are at hand in this order */
+    dyd_status st = blocks_make(sk, 0); /* while the boxes are at hand in this order */
     free(sk->rects.box);
     sk->rects.box = NULL;
     return st;
@@ -262,29 +262,6 @@ dyd_status dyd_skeleton_refresh(dyd_skeleton *sk, uint32_t v) {
   return dyd_reps_choose(&sk->reps, v, sk->reps.code && sk->reps.code[v] ? sk->reps.code[v] - 1 : 0);
 }
 
-/* Resizes an array; false: it stays as it is. */
-static bool skeleton_resize(void *array, size_t count, size_t size) {
-  void *to = realloc(*(void **)array, count * size);
-  if (to) *(void **)array = to;
-  return to;
-}
-
-/* Boxes of the blocks from the last one of `before` vertices on, and the tree over all. */
-static dyd_status blocks_grow(dyd_skeleton *sk, uint32_t before) {
-  uint32_t count = sk->n / DYD_BLOCK + (sk->n % DYD_BLOCK != 0), first = before / DYD_BLOCK;
-  uint32_t *item = dyd_alloc(count, sizeof *item);
-  if (!item || !skeleton_resize(&sk->block, count, sizeof *sk->block)) return free(item), DYD_E_NOMEM;
-  for (uint32_t b = 0; b < count; b++) item[b] = b;
-  for (uint32_t v = first * DYD_BLOCK; v < sk->n; v++) {
-    dyd_bbox one;
-    dyd_vertex_box(&one, sk, v);
-    if (v % DYD_BLOCK == 0) sk->block[v / DYD_BLOCK] = one;
-    dyd_box_widen(&sk->block[v / DYD_BLOCK], &one);
-  }
-  dyd_tree_clear(&sk->blocks);
-  return dyd_tree_init(&sk->blocks, item, count, sk->block);
-}
-
 dyd_status dyd_skeleton_grow(dyd_skeleton *sk, const uint32_t *order, uint32_t count, uint32_t ghost) {
   const uint32_t before = sk->n, n = before + count;
   if (!skeleton_resize(&sk->reps.site, n, sizeof *sk->reps.site) ||
@@ -307,7 +284,7 @@ dyd_status dyd_skeleton_grow(dyd_skeleton *sk, const uint32_t *order, uint32_t c
   dyd_status st = DYD_OK;
   for (uint32_t v = before; v < n && st == DYD_OK; v++) st = dyd_reps_choose(&sk->reps, v, 0);
   if (st == DYD_OK)
-    st = sk->rects.box ? dyd_tree_grow(&sk->rects.tree, before, count, sk->rects.box) : blocks_grow(sk, before);
+    st = sk->rects.box ? dyd_tree_grow(&sk->rects.tree, before, count, sk->rects.box) : blocks_make(sk, before);
   if (st != DYD_OK) return st;
   const dyd_tree *tree = sk->rects.box ? &sk->rects.tree : &sk->blocks;
   const dyd_bbox *all = &tree->node[tree->level[tree->levels] - 1];
@@ -350,11 +327,6 @@ void dyd_work_clear(dyd_work *w) {
   dyd_scale_set_clear(&w->set);
 }
 
-void dyd_work_fork(dyd_work *task, const dyd_work *w, const dyd_skeleton *sk) {
-  dyd_work_init(task, sk, w->run);
-  task->room = w->room;
-}
-
 static void add_counters(dyd_delaunay_counters *sum, const dyd_delaunay_counters *c) {
   sum->filter += c->filter;
   sum->integer += c->integer;
@@ -365,17 +337,50 @@ static void add_counters(dyd_delaunay_counters *sum, const dyd_delaunay_counters
   sum->faces += c->faces;
 }
 
-void dyd_work_join(dyd_work *w, dyd_work *task) {
-  w->tally.asked += task->tally.asked;
-  w->tally.integer += task->tally.integer;
-  w->tally.exact += task->tally.exact;
-  w->tally.ties += task->tally.ties;
+typedef struct work_pass {
+  dyd_work_task *task;
+  void *context;
+  dyd_work *work;
+  dyd_status status[DYD_RANGES_MOST];
+} work_pass;
+
+static void task_of_range(void *context, size_t number, size_t begin, size_t end) {
+  work_pass *p = context;
+  p->status[number] = p->task(p->context, &p->work[number], number, begin, end);
+}
+
+static void work_join(dyd_work *w, dyd_work *task) {
+  dyd_tally_join(&w->tally, &task->tally);
   add_counters(&w->counters, &task->counters);
   dyd_room_join(&w->room, &task->room);
   dyd_work_clear(task);
 }
 
+dyd_status dyd_work_ranges(dyd_work *w, const dyd_skeleton *sk, size_t count, dyd_work_task *task, void *context) {
+  size_t ranges = dyd_ranges(count);
+  work_pass p = {.task = task, .context = context};
+  dyd_status st = DYD_OK;
+  if (ranges == 1) return task(context, w, 0, 0, count); /* with the scratch that is there */
+  if (!DYD_NEW(p.work, ranges)) return DYD_E_NOMEM;
+  for (size_t r = 0; r < ranges; r++) {
+    dyd_work_init(&p.work[r], sk, w->run);
+    p.work[r].room = w->room;
+    dyd_room_share(&p.work[r].room, w->run->threads);
+  }
+  dyd_parallel_ranges(w->run->threads, count, task_of_range, &p);
+  for (size_t r = 0; r < ranges; r++) {
+    if (st == DYD_OK) st = p.status[r];
+    work_join(w, &p.work[r]);
+  }
+  free(p.work);
+  return st;
+}
+
 void dyd_work_count(dyd_delaunay_counters *sum, const dyd_work *w, const dyd_skeleton *sk) {
+  const dyd_tally *t = &w->tally;
+  uint64_t beyond = t->integer + t->exact;
   add_counters(sum, &w->counters);
-  dyd_tally_add(sum, &w->tally, sk->mesh.no_filter);
+  if (!sk->mesh.no_filter && t->asked > beyond) sum->filter += t->asked - beyond;
+  sum->integer += t->integer;
+  sum->exact += t->exact;
 }

@@ -149,13 +149,11 @@ static void test_flood(void **state) {
 /* What the first pass marks is legal. */
 static void check_first_pass(const dyd_sites *s, const dyd_delaunay *plain, double thin, size_t *marked) {
   dyd_skeleton sk;
-  dyd_work w;
   bool is_thin = thin_skeleton(&sk, s);
-  dyd_work_init(&w, &sk, NULL);
   if (is_thin) {
     uint32_t fat[MOST], count = fat_ones(fat, &sk, thin), *met = NULL;
     assert_int_equal(dyd_fat_meet(&met, &sk, fat, count, thin), DYD_OK);
-    if (met) assert_int_equal(dyd_certify_near(&sk, &w, thin, met, dyd_short_edge(&sk.mesh)), DYD_OK);
+    if (met) assert_int_equal(dyd_certify_near(&sk, 1, thin, met, dyd_short_edge(&sk.mesh)), DYD_OK);
     for (uint32_t t = 0; met && t < sk.mesh.count; t++)
       for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++) {
         if (!dyd_edge_is_certain(&sk, h)) continue;
@@ -166,7 +164,6 @@ static void check_first_pass(const dyd_sites *s, const dyd_delaunay *plain, doub
       }
     free(met);
   }
-  dyd_work_clear(&w);
   dyd_skeleton_clear(&sk);
 }
 
