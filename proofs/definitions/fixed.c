@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* In-circle determinants in 256 bits, of skeleton/predicates.c. */
-#include "skeleton/predicates.c" /* functions are static */
+/* In-circle determinants in 256 bits, of skeleton/mesh_filter.c. */
+#include "skeleton/mesh_filter.c" /* functions are static */
 #include "vectors.h"
 
 static u128 wide_of(mpz_srcptr z) {

@@ -50,7 +50,7 @@ Notation w128 := (2 ^ 128).
 Definition i256 := (Z * Z)%type.
 Definition value (r : i256) : Z := fst r + w128 * snd r.
 
-(* C src/skeleton/predicates.c product
+(* C src/skeleton/mesh_filter.c product
   bool negative = cross_value < 0;
   u128 x = (u128)lift_value, y = negative ? -(u128)cross_value : (u128)cross_value;
   uint64_t x0 = (uint64_t)x, x1 = (uint64_t)(x >> 64), y0 = (uint64_t)y, y1 = (uint64_t)(y >> 64);
@@ -79,7 +79,7 @@ Definition product (lift_value cross_value : Z) : i256 :=
     (low', (w128 - 1 - high + (if low' =? 0 then 1 else 0)) mod w128)
   else (low, high).
 
-(* C src/skeleton/predicates.c sum
+(* C src/skeleton/mesh_filter.c sum
   i256 r = {a.low + b.low, a.high + b.high};
   r.high += r.low < a.low;
   return r;
@@ -227,7 +227,7 @@ Proof.
     + symmetry; apply Z.sgn_pos; lia.
 Qed.
 
-(* C src/skeleton/predicates.c dyd_fixed_incircle
+(* C src/skeleton/mesh_filter.c dyd_fixed_incircle
   int64_t z[4][2];
   if (m->fixed && m->fixed->z) {
     const uint32_t v[4] = {a, b, c, p};

@@ -17,7 +17,7 @@
 #include "skeleton/centre_filter.h"
 #include "skeleton/circumcentre.h"
 #include "skeleton/mesh_build.h"
-#include "skeleton/predicates.h"
+#include "skeleton/mesh_filter.h"
 #include "skeleton/work.h"
 
 #include <dyadel/delaunay.h>

@@ -16,7 +16,7 @@
 #include "delaunay/ties.h"
 #include "legal/certify.h"
 #include "skeleton/mesh_build.h"
-#include "skeleton/predicates.h"
+#include "skeleton/mesh_filter.h"
 
 #include <string.h>
 

@@ -106,6 +106,13 @@ void dyd_table_roll_back(dyd_delaunay *pd, const dyd_undecided *before) {
 
 /* ---- one face for each pair ---- */
 
+dyd_vertex_pair *dyd_listed_pair(const dyd_delaunay *pd, size_t f, uint32_t v, uint32_t w) {
+  const dyd_face *face = &pd->open.face[f];
+  dyd_vertex_pair key = {v < w ? v : w, v < w ? w : v, 0};
+  if (!face->pairs) return NULL;
+  return bsearch(&key, pd->open.pair + face->first_pair, face->pairs, sizeof key, dyd_compare_vertex_pair);
+}
+
 /* A face but `self` that lists p, numbered at least `from` and below `to`, and where; hidden: 1 only where it is
  * hidden, 0 only where it is shown, -1 both. */
 static dyd_vertex_pair *table_find(dyd_face **owner, const dyd_delaunay *pd, dyd_vertex_pair p, size_t from, size_t to,

@@ -6,8 +6,6 @@
 #include "delaunay/state.h"
 #include "skeleton/work.h"
 
-#include <stdlib.h>
-
 void dyd_table_clear(dyd_undecided *f);
 /* Marks all triangles as decided, unless there are marks. */
 dyd_status dyd_table_mark(dyd_delaunay *pd);
@@ -42,12 +40,7 @@ dyd_vertex_pair *dyd_table_listed(dyd_face **owner, const dyd_delaunay *pd, dyd_
 void dyd_table_delete(dyd_undecided *f, dyd_face *face, dyd_vertex_pair *at);
 
 /* Where listed face f has the pair, shown or hidden; NULL: nowhere. */
-static inline dyd_vertex_pair *dyd_listed_pair(const dyd_delaunay *pd, size_t f, uint32_t v, uint32_t w) {
-  const dyd_face *face = &pd->open.face[f];
-  dyd_vertex_pair key = {v < w ? v : w, v < w ? w : v, 0};
-  if (!face->pairs) return NULL;
-  return bsearch(&key, pd->open.pair + face->first_pair, face->pairs, sizeof key, dyd_compare_vertex_pair);
-}
+dyd_vertex_pair *dyd_listed_pair(const dyd_delaunay *pd, size_t f, uint32_t v, uint32_t w);
 
 /* The pairs of faces with more are found by both vertices in O(log pairs), so that going through the neighbours of each
  * vertex stays linear in the number of pairs. In the armed build small faces are, too. */

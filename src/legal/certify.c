@@ -13,7 +13,7 @@
 #include "skeleton/centre_filter.h"
 #include "skeleton/circumcentre.h"
 #include "skeleton/hull.h"
-#include "skeleton/predicates.h"
+#include "skeleton/mesh_filter.h"
 #include "skeleton/rects_filter.h"
 
 #include <string.h>

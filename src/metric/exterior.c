@@ -15,7 +15,7 @@
 #include "base/flag.h"
 #include "base/local.h"
 #include "rect/sites_table.h"
-#include "skeleton/rects.h"
+#include "skeleton/rects_filter.h"
 #include "skeleton/reps.h"
 #include <dyadel/metric.h>
 

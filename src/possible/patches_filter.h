@@ -8,7 +8,7 @@
 
 #include "possible/pair_map.h"
 #include "skeleton/mesh.h"
-#include "skeleton/rects.h"
+#include "skeleton/rects_filter.h"
 #include "skeleton/reps.h"
 #include "skeleton/work.h"
 

@@ -8,56 +8,10 @@
 #include "rect/rect.h"
 #include "rect/sites_table.h"
 #include "skeleton/mesh.h"
-#include "skeleton/predicates.h"
+#include "skeleton/mesh_filter.h"
 
 #include <math.h>
 #include <string.h>
-
-/* ---- the invariant, edge by edge with the exact rung ---- */
-
-static bool twins_agree(const dyd_mesh *m, dyd_half_edge h) {
-  dyd_half_edge twin = dyd_edge_twin(m, h);
-  return dyd_edge_triangle(twin) < m->count && dyd_edge_corner(twin) < 3 && dyd_edge_twin(m, twin) == h &&
-         dyd_edge_origin(m, twin) == dyd_edge_target(m, h) && dyd_edge_target(m, twin) == dyd_edge_origin(m, h);
-}
-
-static bool edge_is_delaunay(const dyd_mesh *m, dyd_half_edge h) {
-  uint32_t t = dyd_edge_triangle(h), p = dyd_edge_across(m, h);
-  const uint32_t *v = m->tri[t].v;
-  if (p == m->n) return true;
-  if (!dyd_is_ghost_triangle(m, t)) return dyd_mesh_incircle_exact(m, v[0], v[1], v[2], p) <= 0;
-  dyd_half_edge hull = dyd_hull_edge(m, t);
-  return dyd_mesh_orient_exact(m, dyd_edge_origin(m, hull), dyd_edge_target(m, hull), p) <= 0;
-}
-
-/* All hull edges are in one cycle, and it goes to the right once and back once: a cycle that is convex everywhere could
- * wind twice around overlapping parts. */
-static bool hull_turns_once(const dyd_mesh *m) {
-  uint32_t ghosts = 0, met = 0, turns = 0;
-  for (uint32_t t = 0; t < m->count; t++) ghosts += dyd_is_ghost_triangle(m, t);
-  if (!ghosts) return false;
-  dyd_half_edge first = dyd_hull_first(m), h = first;
-  bool before = false;
-  do {
-    bool right = dyd_mesh_compare(m, dyd_hull_origin(m, h), dyd_hull_target(m, h)) < 0;
-    turns += met && right != before;
-    before = right;
-    h = dyd_hull_following(m, h);
-  } while (++met <= ghosts && h != first);
-  return met == ghosts && turns <= 2;
-}
-
-bool dyd_mesh_is_valid(const dyd_mesh *m) {
-  if (m->count == 0) return true; /* all on one line */
-  if (!hull_turns_once(m)) return false;
-  for (uint32_t t = 0; t < m->count; t++) {
-    const uint32_t *v = m->tri[t].v;
-    if (!dyd_is_ghost_triangle(m, t) && dyd_mesh_orient_exact(m, v[0], v[1], v[2]) <= 0) return false;
-    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++)
-      if (!twins_agree(m, h) || !edge_is_delaunay(m, h)) return false;
-  }
-  return true;
-}
 
 /* ---- the first triangle; representatives that coincide or are collinear ---- */
 
@@ -90,18 +44,12 @@ void dyd_mesh_follow(dyd_mesh *m) {
   if (m->no_filter || isnan(m->orient_bound)) m->orient_bound = INFINITY;
 }
 
-dyd_status dyd_mesh_coordinates(dyd_mesh *m) {
-  m->xy = m->reps->xy;
-  if (m->local) {
-    m->own_xy = dyd_alloc((size_t)m->n + 1, sizeof *m->own_xy);
-    if (!m->own_xy) return DYD_E_NOMEM;
-    for (uint32_t v = 0; v < m->n; v++) m->own_xy[v] = m->reps->xy[m->local[v]];
-    m->own_xy[m->n] = (dyd_xy){NAN, NAN};
-    m->xy = m->own_xy;
-  }
+void dyd_mesh_coordinates(dyd_mesh *m) {
+  m->xy = m->own_xy ? m->own_xy : m->reps->xy;
+  for (uint32_t v = 0; v < m->n && m->own_xy; v++) m->own_xy[v] = m->reps->xy[m->local[v]];
+  if (m->own_xy) m->own_xy[m->n] = (dyd_xy){NAN, NAN};
   set_extent(m);
   dyd_mesh_follow(m);
-  return DYD_OK;
 }
 
 /* Moves the representative of v to fraction k of its rectangle. A moved point may be inexact: the constants follow, and
@@ -459,8 +407,7 @@ static dyd_status mesh_fill(dyd_mesh *m, const volatile int *cancel) {
   dyd_mesh_set_rounds(m);
   dyd_status st = mesh_first_triangle(first, m);
   if (st != DYD_OK || m->collinear) return st;
-  if (!m->tri) m->tri = dyd_alloc(2 * (size_t)m->n + 2, sizeof *m->tri);
-  if (!m->tri || !insert_has_room(m, 61, 63)) return DYD_E_NOMEM;
+  if (!insert_has_room(m, 61, 63)) return DYD_E_NOMEM;
   mesh_put_first(m, first);
   return insert_all(m, first, cancel);
 }
@@ -687,8 +634,7 @@ static dyd_status mesh_join_strips(bool *joined, dyd_mesh *m, const dyd_strips *
   bool stuck = false;
   seams *s = calloc(1, sizeof *s);
   *joined = false;
-  if (s) m->tri = dyd_alloc(2 * (size_t)m->n + 2, sizeof *m->tri);
-  if (!s || !m->tri) return free(s), DYD_E_NOMEM;
+  if (!s) return DYD_E_NOMEM;
   s->cancel = cancel;
   make_parts(s, m, strips);
   dyd_status st = fill_parts(&stuck, s, threads);
@@ -710,25 +656,29 @@ static dyd_status mesh_join_strips(bool *joined, dyd_mesh *m, const dyd_strips *
 
 static dyd_status mesh_init(dyd_mesh *m, dyd_reps *reps, const uint32_t *local, uint32_t n, bool no_filter) {
   *m = (dyd_mesh){.reps = reps, .local = local, .n = n, .end = n, .strips = {1, {0, n}}, .no_filter = no_filter};
-  m->alias = dyd_alloc(n, sizeof *m->alias);
-  if (!m->alias) return DYD_E_NOMEM;
+  if (!DYD_NEW(m->tri, 2 * (size_t)n + 2) || !DYD_NEW(m->alias, n) || (local && !DYD_NEW(m->own_xy, (size_t)n + 1)))
+    return DYD_E_NOMEM;
   no_aliases(m, 0, n);
-  return dyd_mesh_coordinates(m);
+  dyd_mesh_coordinates(m);
+  return DYD_OK;
 }
 
-/* Returns true if some vertex is an alias, or may become one: a line finds its own. */
 static bool has_aliases(const dyd_mesh *m) {
   for (uint32_t v = 0; v < m->n; v++)
     if (m->alias[v] != DYD_NONE) return true;
-  return m->collinear;
+  return false;
 }
 
-/* What building leaves. */
+/* What building leaves. A line has no triangles, and finds its aliases later. */
 static dyd_status mesh_finish(dyd_mesh *m, dyd_status st) {
   if (st != DYD_OK) return dyd_mesh_clear(m), st;
-  if (has_aliases(m)) return st;
-  free(m->alias);
-  m->alias = NULL;
+  if (m->collinear) {
+    free(m->tri);
+    m->tri = NULL;
+  } else if (!has_aliases(m)) {
+    free(m->alias);
+    m->alias = NULL;
+  }
   return st;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Building a skeleton, at once or from strips; checking it. */
+/* Building a skeleton, at once or from strips. */
 #ifndef DYD_SKELETON_MESH_BUILD_H
 #define DYD_SKELETON_MESH_BUILD_H
 
@@ -16,8 +16,8 @@ dyd_status dyd_mesh_build(dyd_mesh *m, dyd_reps *reps, const uint32_t *local, ui
 dyd_status dyd_mesh_build_strips(dyd_mesh *m, dyd_reps *reps, const dyd_strips *strips, bool no_filter,
                                  const volatile int *cancel, unsigned threads);
 
-/* Sets xy (a copy for a part of the vertices) and the filter constants. */
-dyd_status dyd_mesh_coordinates(dyd_mesh *m);
+/* Sets xy (own_xy, a copy, for a part of the vertices) and the filter constants. */
+void dyd_mesh_coordinates(dyd_mesh *m);
 /* A point that coincides with a vertex becomes its alias, anything else gives way; so points have to come first. Where
  * the order is another one, as that of several strips is, vertices are taken in two rounds: is it the turn of v? */
 void dyd_mesh_set_rounds(dyd_mesh *m);
@@ -34,10 +34,6 @@ dyd_status dyd_mesh_put(dyd_mesh *m, uint32_t v, uint32_t t);
 /* Gives back what only building needs. */
 void dyd_mesh_trim(dyd_mesh *m);
 void dyd_mesh_clear(dyd_mesh *m);
-
-/* Twins agree, triangles turn left, every edge is locally (weakly) Delaunay, the hull is one cycle that turns once:
- * hence the whole is a Delaunay triangulation. Exact; O(n). */
-bool dyd_mesh_is_valid(const dyd_mesh *m);
 
 /* Returns true if vertical lines divide the strips of representatives. */
 bool dyd_strips_are_apart(const dyd_reps *reps, const dyd_strips *strips);

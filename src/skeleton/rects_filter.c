@@ -4,7 +4,6 @@
 
 #include "base/alloc.h"
 #include "base/invariant.h"
-#include "skeleton/rects.h"
 
 #include <math.h>
 #include <string.h>

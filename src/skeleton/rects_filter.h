@@ -1,9 +1,85 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Which vertices can block a centre: distance bounds in doubles. */
+/* The rectangles by vertex: exact ones in the table of sites, boxes in doubles around them, a tree over these; and
+ * bounds of their distances from a centre.
+ *
+ * Questions about discs need no more: only the vertices in the tree count. */
 #ifndef DYD_SKELETON_RECTS_FILTER_H
 #define DYD_SKELETON_RECTS_FILTER_H
 
-#include "skeleton/rects.h"
+#include "base/index.h"
+#include "base/invariant.h"
+#include "rect/sites_table.h"
+#include "skeleton/distance_filter.h"
+#include <dyadel/status.h>
+
+#include <stdbool.h>
+
+/* A packed tree of boxes over the vertices in spatial order: which can be near, which can lie beyond a line.
+ *
+ * Every node holds the hull of 8 consecutive vertices or nodes, so extents count, not only centres. Answers are
+ * conservative: every vertex that might qualify is visited. */
+
+enum { DYD_TREE_FANOUT = 8, DYD_TREE_LEVELS = 12 };
+
+/* Invariant: node level[k] .. level[k+1]-1 are the nodes of level k (0: over items); a node's box holds the boxes of
+ * its children. item[q] is the vertex of entry q; ascending: they go up. */
+typedef struct dyd_tree {
+  uint32_t count;
+  uint32_t *item;
+  const dyd_bbox *box; /* by vertex; borrowed */
+  dyd_bbox *node;
+  size_t level[DYD_TREE_LEVELS + 1];
+  int levels;
+  bool ascending;
+} dyd_tree;
+
+/* Over the vertices item[0..count-1]; takes over the array. */
+dyd_status dyd_tree_init(dyd_tree *t, uint32_t *item, uint32_t count, const dyd_bbox *box);
+/* Appends entries for the vertices first .. first + count - 1, above all others. O(count), and an eighth of the nodes
+ * moves. DYD_E_NOMEM: only clearing is allowed. */
+dyd_status dyd_tree_grow(dyd_tree *t, uint32_t first, uint32_t count, const dyd_bbox *box);
+void dyd_tree_clear(dyd_tree *t);
+/* The entry of a vertex, in an ascending tree. */
+uint32_t dyd_tree_entry(const dyd_tree *t, uint32_t vertex);
+/* Entry q's box has changed. */
+void dyd_tree_refresh(dyd_tree *t, uint32_t q);
+
+/* Returns false to end the search. */
+typedef bool (*dyd_visit)(void *context, uint32_t vertex);
+/* Visits every vertex whose box may come within sqrt(*radius2) of a centre in c (closed). The visitor may lower
+ * *radius2. */
+void dyd_tree_near(const dyd_tree *t, const dyd_bbox *c, const double *radius2, dyd_visit visit, void *context);
+/* Visits every vertex whose box may reach u.x >= *height for the direction u = (ux, uy). The visitor may raise *height.
+ */
+void dyd_tree_beyond(const dyd_tree *t, double ux, double uy, const double *height, dyd_visit visit, void *context);
+
+/* Invariant: box[v] holds the rectangle of site[v] for every v of the tree. */
+typedef struct dyd_rects {
+  const dyd_sites *sites;
+  const uint32_t *site; /* vertex -> site; borrowed */
+  dyd_bbox *box;
+  dyd_tree tree;
+} dyd_rects;
+
+/* The rectangle of vertex v, exactly. */
+static inline void dyd_rects_get(dyd_rect *out, const dyd_rects *r, uint32_t v) {
+  dyd_status st = dyd_sites_get(out, r->sites, r->site[v]); /* fails for sites that do not exist */
+  DYD_INVARIANT(st == DYD_OK);
+  (void)st;
+}
+static inline bool dyd_rects_is_point(const dyd_rects *r, uint32_t v) {
+  return dyd_sites_is_point(r->sites, r->site[v]);
+}
+/* Returns true if box[v] is the rectangle itself. */
+static inline bool dyd_rects_in_doubles(const dyd_rects *r, uint32_t v) {
+  return dyd_sites_in_doubles(r->sites, r->site[v]);
+}
+/* Brings the box of v up to date. */
+static inline void dyd_rects_set_box(dyd_rects *r, uint32_t v) {
+  dyd_sites_get_d(r->box[v].e, r->sites, r->site[v]);
+}
+
+/* ---- bounds of distances ---- */
 
 /* By how much an end of v's outward box can lie outside its rectangle: 0 when doubles hold it, else one unit in the
  * last place of the largest end, at most 2^-52 of it (or 2^-1074). */

@@ -7,7 +7,7 @@
 #define DYD_SKELETON_SCALE_SET_H
 
 #include "rect/irect.h"
-#include "skeleton/rects.h"
+#include "skeleton/rects_filter.h"
 
 typedef struct dyd_scale_set {
   const dyd_rects *rects;

@@ -6,7 +6,7 @@
 #include "base/invariant.h"
 #include "base/parallel.h"
 #include "skeleton/mesh_build.h"
-#include "skeleton/predicates.h"
+#include "skeleton/mesh_filter.h"
 #include "skeleton/work.h"
 
 #include <math.h>

@@ -8,7 +8,7 @@
 #define DYD_SKELETON_SKELETON_H
 
 #include "skeleton/mesh.h"
-#include "skeleton/rects.h"
+#include "skeleton/rects_filter.h"
 
 /* The path that replaces triangles when every choice of points is collinear, or there are at most two sites.
  * The vertices without aliases, along the common line. legal[q]: order[q], order[q+1] is legal. rank[order[q]] is

@@ -83,8 +83,8 @@ FAULTS = [
 # file, text, its replacement (all occurrences), what renew_quotes.py says
 CHANGES = [
     ('src/predicate/predicate_filter.c', 'det2', 'twice', 'names only (det2 -> twice)'),
-    ('src/skeleton/predicates.c', 'product(', 'fixed_product(', 'fixed_product of src/skeleton/predicates.c: the place only'),
-    ('src/skeleton/predicates.c', 'r.low < a.low', 'r.low <= a.low', 'prove anew: fixed_incircle_correct, sum_correct'),
+    ('src/skeleton/mesh_filter.c', 'product(', 'fixed_product(', 'fixed_product of src/skeleton/mesh_filter.c: the place only'),
+    ('src/skeleton/mesh_filter.c', 'r.low < a.low', 'r.low <= a.low', 'prove anew: fixed_incircle_correct, sum_correct'),
     ('src/metric/measure_filter.c', 'return two_sum(a, -b);', 'return two_sum(b, -a);', 'compare dd_sub_d'),
 ]
 

@@ -6,7 +6,7 @@
 
 #include "rect/rect.h"
 #include "skeleton/mesh_build.h"
-#include "skeleton/predicates.h"
+#include "skeleton/mesh_filter.h"
 #include "support/random.h"
 #include <cmocka.h>
 #include <string.h>

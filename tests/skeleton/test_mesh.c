@@ -6,7 +6,7 @@
 
 #include "rect/rect.h"
 #include "skeleton/mesh_build.h"
-#include "skeleton/predicates.h"
+#include "skeleton/mesh_filter.h"
 #include "support/random.h"
 #include <cmocka.h>
 #include <math.h>
@@ -47,7 +47,7 @@ static void bed_make(bed *b) {
   dyd_rect_clear(&r);
   assert_int_equal(dyd_reps_init(&b->reps, b->s, site, NULL, POINTS, 1), DYD_OK);
   b->m = (dyd_mesh){.reps = &b->reps, .n = POINTS, .end = POINTS};
-  assert_int_equal(dyd_mesh_coordinates(&b->m), DYD_OK);
+  dyd_mesh_coordinates(&b->m);
 }
 
 static void bed_close(bed *b) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The rungs in their order: filter, fixed-size integers, GMP. */
-#include "skeleton/predicates.h"
+#include "skeleton/mesh_filter.h"
 
 #include "base/alloc.h"
 #include "rect/irect.h"
@@ -456,4 +456,50 @@ int dyd_build_incircle_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uin
   bool real = a != g && b != g && c != g, tried = m->fixed || m->no_fixed;
   if (!tried && (real || !dyd_filter_orient(m, m->xy[u], m->xy[v], m->xy[p]))) dyd_fixed_prepare(m);
   return incircle_slow(&m->tally, m, a, b, c, p);
+}
+
+/* ---- the invariant, edge by edge with the exact rung ---- */
+
+static bool twins_agree(const dyd_mesh *m, dyd_half_edge h) {
+  dyd_half_edge twin = dyd_edge_twin(m, h);
+  return dyd_edge_triangle(twin) < m->count && dyd_edge_corner(twin) < 3 && dyd_edge_twin(m, twin) == h &&
+         dyd_edge_origin(m, twin) == dyd_edge_target(m, h) && dyd_edge_target(m, twin) == dyd_edge_origin(m, h);
+}
+
+static bool edge_is_delaunay(const dyd_mesh *m, dyd_half_edge h) {
+  uint32_t t = dyd_edge_triangle(h), p = dyd_edge_across(m, h);
+  const uint32_t *v = m->tri[t].v;
+  if (p == m->n) return true;
+  if (!dyd_is_ghost_triangle(m, t)) return dyd_mesh_incircle_exact(m, v[0], v[1], v[2], p) <= 0;
+  dyd_half_edge hull = dyd_hull_edge(m, t);
+  return dyd_mesh_orient_exact(m, dyd_edge_origin(m, hull), dyd_edge_target(m, hull), p) <= 0;
+}
+
+/* All hull edges are in one cycle, and it goes to the right once and back once: a cycle that is convex everywhere could
+ * wind twice around overlapping parts. */
+static bool hull_turns_once(const dyd_mesh *m) {
+  uint32_t ghosts = 0, met = 0, turns = 0;
+  for (uint32_t t = 0; t < m->count; t++) ghosts += dyd_is_ghost_triangle(m, t);
+  if (!ghosts) return false;
+  dyd_half_edge first = dyd_hull_first(m), h = first;
+  bool before = false;
+  do {
+    bool right = dyd_mesh_compare(m, dyd_hull_origin(m, h), dyd_hull_target(m, h)) < 0;
+    turns += met && right != before;
+    before = right;
+    h = dyd_hull_following(m, h);
+  } while (++met <= ghosts && h != first);
+  return met == ghosts && turns <= 2;
+}
+
+bool dyd_mesh_is_valid(const dyd_mesh *m) {
+  if (m->count == 0) return true; /* all on one line */
+  if (!hull_turns_once(m)) return false;
+  for (uint32_t t = 0; t < m->count; t++) {
+    const uint32_t *v = m->tri[t].v;
+    if (!dyd_is_ghost_triangle(m, t) && dyd_mesh_orient_exact(m, v[0], v[1], v[2]) <= 0) return false;
+    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++)
+      if (!twins_agree(m, h) || !edge_is_delaunay(m, h)) return false;
+  }
+  return true;
 }
