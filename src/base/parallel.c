@@ -92,6 +92,22 @@ void dyd_parallel(unsigned threads, size_t tasks, dyd_task *task, void *context)
   while (started) pthread_join(helper[--started], NULL);
 }
 
+#ifdef DYD_ARMED
+enum { RANGE_LEAST = 5 };
+#else
+enum { RANGE_LEAST = 1 << 13 };
+#endif
+
+size_t dyd_ranges(size_t count) {
+  size_t n = count / RANGE_LEAST;
+  return n < 1 ? 1 : n > DYD_RANGES_MOST ? DYD_RANGES_MOST : n;
+}
+
+size_t dyd_range_begin(size_t count, size_t number) {
+  size_t n = dyd_ranges(count);
+  return count / n * number + (number < count % n ? number : count % n);
+}
+
 typedef struct range_crew {
   dyd_range_task *task;
   void *context;

@@ -21,25 +21,14 @@ void dyd_parallel(unsigned threads, size_t tasks, dyd_task *task, void *context)
 /* Starts up to `want` threads, all signals blocked, since handlers stay with the threads of the program; how many. */
 unsigned dyd_start_helpers(pthread_t *helper, unsigned want, void *(*work)(void *), void *context);
 
-/* A long loop over 0 .. count - 1 is cut into at most 64 ranges, which depend on count alone. The armed build cuts
+/* A long loop over 0 .. count - 1 is cut into at most so many ranges, which depend on count alone. The armed build cuts
  * short ones, too. */
-#ifdef DYD_ARMED
-enum { DYD_RANGE_LEAST = 5 };
-#else
-enum { DYD_RANGE_LEAST = 1 << 13 };
-#endif
 enum { DYD_RANGES_MOST = 64 };
 
-static inline size_t dyd_ranges(size_t count) {
-  size_t n = count / DYD_RANGE_LEAST;
-  return n < 1 ? 1 : n > DYD_RANGES_MOST ? DYD_RANGES_MOST : n;
-}
+/* How many. */
+size_t dyd_ranges(size_t count);
 /* First item of range `number`; of the range after the last: count. */
-static inline size_t dyd_range_begin(size_t count, size_t number) {
-  size_t n = dyd_ranges(count);
-  return count / n * number + (number < count % n ? number : count % n);
-}
-
+size_t dyd_range_begin(size_t count, size_t number);
 /* For the items begin .. end - 1, which are range `number`. */
 typedef void dyd_range_task(void *context, size_t number, size_t begin, size_t end);
 /* As dyd_parallel, a task for each range of 0 .. count - 1. Returns how many there were. */

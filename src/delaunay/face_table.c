@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "legal/certify.h"
 
 #include <string.h>
 
@@ -15,8 +16,7 @@ void dyd_table_clear(dyd_undecided *f) {
 dyd_status dyd_table_mark(dyd_delaunay *pd) {
   size_t count = 2 * (size_t)pd->sk.n + 2; /* vertices may still come into the mesh */
   if (pd->open.of) return DYD_OK;
-  pd->open.of = dyd_alloc(count, sizeof *pd->open.of);
-  if (!pd->open.of) return DYD_E_NOMEM;
+  if (!DYD_NEW(pd->open.of, count)) return DYD_E_NOMEM;
   memset(pd->open.of, 0xff, count * sizeof *pd->open.of);
   return DYD_OK;
 }
@@ -28,7 +28,7 @@ static dyd_status table_append(dyd_undecided *f, uint32_t t, uint32_t face) {
   return DYD_OK;
 }
 
-dyd_status dyd_table_flood(dyd_delaunay *pd, uint32_t t, uint32_t face) {
+static dyd_status table_flood(dyd_delaunay *pd, uint32_t t, uint32_t face) {
   dyd_undecided *f = &pd->open;
   size_t done = f->tri_count;
   dyd_status st = table_append(f, t, face);
@@ -40,7 +40,7 @@ dyd_status dyd_table_flood(dyd_delaunay *pd, uint32_t t, uint32_t face) {
   return st;
 }
 
-dyd_status dyd_table_add(dyd_delaunay *pd, size_t first_tri) {
+static dyd_status table_add(dyd_delaunay *pd, size_t first_tri) {
   dyd_undecided *f = &pd->open;
   if (!DYD_GROW(f->face, f->face_cap, f->count + 1)) return DYD_E_NOMEM;
   f->face[f->count++] =
@@ -49,11 +49,96 @@ dyd_status dyd_table_add(dyd_delaunay *pd, size_t first_tri) {
   return DYD_OK;
 }
 
-void dyd_table_take_back(dyd_delaunay *pd, size_t first_tri) {
+static void table_take_back(dyd_delaunay *pd, size_t first_tri) {
   dyd_undecided *f = &pd->open;
   for (size_t q = first_tri; q < f->tri_count; q++) f->of[f->tri[q]] = DYD_NONE;
   f->tri_count = first_tri;
 }
+
+size_t dyd_delaunay_memory(const dyd_delaunay *pd) {
+  if (!pd) return 0;
+  const dyd_undecided *f = &pd->open;
+  size_t bytes = sizeof *pd + dyd_skeleton_memory(&pd->sk);
+  bytes += f->face_cap * sizeof *f->face + (f->tri_cap + f->seed_cap) * sizeof *f->tri;
+  return bytes + f->pair_cap * sizeof *f->pair + f->turned_cap * sizeof *f->turned +
+         (f->of ? pd->sk.mesh.count * sizeof *f->of : 0);
+}
+
+/* ---- finding ---- */
+
+static bool is_all_points(const dyd_skeleton *sk, const uint32_t *tri, size_t tris) {
+  for (size_t q = 0; q < tris; q++)
+    for (int k = 0; k < 3; k++) {
+      uint32_t v = sk->mesh.tri[tri[q]].v[k];
+      if (v != sk->mesh.n && !dyd_vertex_is_point(sk, v)) return false;
+    }
+  return true;
+}
+
+/* A face of exact points: the triangles at an edge inside are Delaunay triangles for every choice of all points, so the
+ * inside of their Voronoi edge consists of witnesses unless it is one point [TIE-2]. The search for witnesses may have
+ * missed some. *any: an edge has become certain. */
+static void settle_points(bool *any, dyd_skeleton *sk, dyd_work *w, const uint32_t *tri, size_t tris) {
+  *any = false;
+  if (!is_all_points(sk, tri, tris)) return;
+  for (size_t q = 0; q < tris; q++)
+    for (dyd_half_edge h = dyd_edge_of(tri[q], 0); h < dyd_edge_end(tri[q]); h++)
+      if (!dyd_edge_is_certain(sk, h) && dyd_point_edge_is_certain(&w->tally, &sk->mesh, h)) {
+        dyd_set_certain(sk, h, true);
+        *any = true;
+      }
+}
+
+/* The faces among the triangles of one that has fallen apart. */
+static dyd_status find_parts(dyd_delaunay *pd, size_t first) {
+  dyd_undecided *f = &pd->open;
+  size_t tris = f->tri_count - first;
+  uint32_t *tri = dyd_alloc(tris, sizeof *tri);
+  if (!tri) return DYD_E_NOMEM;
+  memcpy(tri, f->tri + first, tris * sizeof *tri);
+  table_take_back(pd, first);
+  dyd_status st = DYD_OK;
+  for (size_t q = 0; q < tris && st == DYD_OK; q++) {
+    if (dyd_triangle_is_certain(&pd->sk, tri[q]) || f->of[tri[q]] != DYD_NONE) continue;
+    size_t start = f->tri_count;
+    st = table_flood(pd, tri[q], (uint32_t)f->count);
+    if (st == DYD_OK) st = table_add(pd, start);
+  }
+  free(tri);
+  return st;
+}
+
+static dyd_status find_face(dyd_delaunay *pd, dyd_work *w, uint32_t t) {
+  dyd_undecided *f = &pd->open;
+  size_t first = f->tri_count;
+  bool apart = false;
+  dyd_status st = table_flood(pd, t, (uint32_t)f->count);
+  if (st == DYD_OK) settle_points(&apart, &pd->sk, w, f->tri + first, f->tri_count - first);
+  if (st == DYD_OK && apart) return find_parts(pd, first);
+  return st == DYD_OK ? table_add(pd, first) : st;
+}
+
+/* For marks, and for triangles in faces of several each. */
+static bool table_has_room(const dyd_delaunay *pd, dyd_work *w) {
+  enum { A_FACE = 4 };
+  uint64_t each = sizeof *pd->open.of + sizeof *pd->open.tri + sizeof *pd->open.face / A_FACE;
+  w->room.held = dyd_delaunay_memory(pd);
+  return dyd_room_has(&w->room, pd->sk.mesh.count * each, "the undecided faces");
+}
+
+dyd_status dyd_table_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t all) {
+  dyd_status st = DYD_OK;
+  for (size_t q = 0; q < all && st == DYD_OK; q++) {
+    uint32_t t = tri ? tri[q] : (uint32_t)q;
+    if (dyd_triangle_is_certain(&pd->sk, t)) continue;
+    if (!pd->open.of && !table_has_room(pd, w)) return DYD_E_NOMEM;
+    st = dyd_table_mark(pd);
+    if (st == DYD_OK && pd->open.of[t] == DYD_NONE) st = find_face(pd, w, t);
+  }
+  return st;
+}
+
+/* ---- pairs of a face ---- */
 
 static int compare_turned(const void *a, const void *b) {
   uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
@@ -95,7 +180,7 @@ dyd_status dyd_table_store(dyd_delaunay *pd, size_t g, dyd_face as, const dyd_ve
 
 void dyd_table_roll_back(dyd_delaunay *pd, const dyd_undecided *before) {
   dyd_undecided *f = &pd->open;
-  dyd_table_take_back(pd, before->tri_count);
+  table_take_back(pd, before->tri_count);
   f->count = before->count;
   f->pair_count = before->pair_count;
   f->others = before->others;
@@ -160,10 +245,7 @@ static uint32_t skeleton_face(const dyd_delaunay *pd, dyd_vertex_pair p) {
 static void table_hide(dyd_face *face, dyd_vertex_pair *at, bool hidden) {
   if (at->hidden == hidden) return;
   at->hidden = hidden;
-  if (hidden)
-    face->hidden++;
-  else
-    face->hidden--;
+  face->hidden = hidden ? face->hidden + 1 : face->hidden - 1;
 }
 
 /* No two faces share a pair when all are polygons. */

@@ -9,12 +9,9 @@
 void dyd_table_clear(dyd_undecided *f);
 /* Marks all triangles as decided, unless there are marks. */
 dyd_status dyd_table_mark(dyd_delaunay *pd);
-/* Appends t and the triangles joined to it by uncertain edges, and marks them with `face`. */
-dyd_status dyd_table_flood(dyd_delaunay *pd, uint32_t t, uint32_t face);
-/* An entry for the triangles from first_tri on, without pairs. */
-dyd_status dyd_table_add(dyd_delaunay *pd, size_t first_tri);
-/* Takes back the marks and entries of the triangles from first_tri on. */
-void dyd_table_take_back(dyd_delaunay *pd, size_t first_tri);
+/* Adds the faces, without pairs, among the triangles tri[0..all-1], or of all that there are (NULL). Exact points that
+ * are no tie make edges certain on the way. */
+dyd_status dyd_table_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t all);
 /* Gives face g its pairs, copied, and what `as` says of them. */
 dyd_status dyd_table_store(dyd_delaunay *pd, size_t g, dyd_face as, const dyd_vertex_pair *pair);
 /* Back to what the table was before faces were added. */

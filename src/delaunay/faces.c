@@ -3,11 +3,9 @@
 #include "delaunay/faces.h"
 
 #include "base/alloc.h"
-#include "base/parallel.h"
 #include "delaunay/closure.h"
 #include "delaunay/face_table.h"
 #include "delaunay/ties.h"
-#include "legal/certify.h"
 #include "possible/cover.h"
 #include "possible/patches_filter.h"
 #include "skeleton/rects_filter.h"
@@ -219,80 +217,6 @@ static dyd_status narrowed_close(bool *closed, dyd_delaunay *pd, dyd_work *w, co
   return st;
 }
 
-/* ---- finding ---- */
-
-static bool is_all_points(const dyd_skeleton *sk, const uint32_t *tri, size_t tris) {
-  for (size_t q = 0; q < tris; q++)
-    for (int k = 0; k < 3; k++) {
-      uint32_t v = sk->mesh.tri[tri[q]].v[k];
-      if (v != sk->mesh.n && !dyd_vertex_is_point(sk, v)) return false;
-    }
-  return true;
-}
-
-/* A face of exact points: the triangles at an edge inside are Delaunay triangles for every choice of all points, so the
- * inside of their Voronoi edge consists of witnesses unless it is one point [TIE-2]. The search for witnesses may have
- * missed some. *any: an edge has become certain. */
-static void settle_points(bool *any, dyd_skeleton *sk, dyd_work *w, const uint32_t *tri, size_t tris) {
-  *any = false;
-  if (!is_all_points(sk, tri, tris)) return;
-  for (size_t q = 0; q < tris; q++)
-    for (dyd_half_edge h = dyd_edge_of(tri[q], 0); h < dyd_edge_end(tri[q]); h++)
-      if (!dyd_edge_is_certain(sk, h) && dyd_point_edge_is_certain(&w->tally, &sk->mesh, h)) {
-        dyd_set_certain(sk, h, true);
-        *any = true;
-      }
-}
-
-/* The faces among the triangles of one that has fallen apart. */
-static dyd_status find_parts(dyd_delaunay *pd, size_t first) {
-  dyd_undecided *f = &pd->open;
-  size_t tris = f->tri_count - first;
-  uint32_t *tri = dyd_alloc(tris, sizeof *tri);
-  if (!tri) return DYD_E_NOMEM;
-  memcpy(tri, f->tri + first, tris * sizeof *tri);
-  dyd_table_take_back(pd, first);
-  dyd_status st = DYD_OK;
-  for (size_t q = 0; q < tris && st == DYD_OK; q++) {
-    if (dyd_triangle_is_certain(&pd->sk, tri[q]) || f->of[tri[q]] != DYD_NONE) continue;
-    size_t start = f->tri_count;
-    st = dyd_table_flood(pd, tri[q], (uint32_t)f->count);
-    if (st == DYD_OK) st = dyd_table_add(pd, start);
-  }
-  free(tri);
-  return st;
-}
-
-static dyd_status find_face(dyd_delaunay *pd, dyd_work *w, uint32_t t) {
-  dyd_undecided *f = &pd->open;
-  size_t first = f->tri_count;
-  bool apart = false;
-  dyd_status st = dyd_table_flood(pd, t, (uint32_t)f->count);
-  if (st == DYD_OK) settle_points(&apart, &pd->sk, w, f->tri + first, f->tri_count - first);
-  if (st == DYD_OK && apart) return find_parts(pd, first);
-  return st == DYD_OK ? dyd_table_add(pd, first) : st;
-}
-
-/* For marks, and for triangles in faces of several each. */
-static bool table_has_room(const dyd_delaunay *pd, dyd_work *w) {
-  enum { A_FACE = 4 };
-  uint64_t each = sizeof *pd->open.of + sizeof *pd->open.tri + sizeof *pd->open.face / A_FACE;
-  w->room.held = dyd_delaunay_memory(pd);
-  return dyd_room_has(&w->room, pd->sk.mesh.count * each, "the undecided faces");
-}
-
-static dyd_status find_faces(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t all) {
-  dyd_status st = DYD_OK;
-  for (size_t q = 0; q < all && st == DYD_OK; q++) {
-    uint32_t t = tri ? tri[q] : (uint32_t)q;
-    if (dyd_triangle_is_certain(&pd->sk, t)) continue;
-    if (!pd->open.of && !table_has_room(pd, w)) return DYD_E_NOMEM;
-    st = dyd_table_mark(pd);
-    if (st == DYD_OK && pd->open.of[t] == DYD_NONE) st = find_face(pd, w, t);
-  }
-  return st;
-}
-
 /* ---- closing ---- */
 
 typedef struct batch {
@@ -411,7 +335,7 @@ static dyd_status close_faces(dyd_delaunay *pd, dyd_work *w, size_t from) {
 /* Faces after those there are, and which of them are proved ties. */
 static dyd_status find_and_prove(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count) {
   size_t first = pd->open.count;
-  dyd_status st = find_faces(pd, w, tri, count);
+  dyd_status st = dyd_table_find(pd, w, tri, count);
   for (size_t g = first; g < pd->open.count && st == DYD_OK; g++) st = dyd_prove_face(pd, w, g);
   return st == DYD_CANCELLED && w->run->keep_cut ? DYD_OK : st;
 }

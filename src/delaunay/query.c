@@ -209,15 +209,6 @@ size_t dyd_delaunay_undecided_faces(const dyd_delaunay *pd) {
   return pd ? pd->open.count : 0;
 }
 
-size_t dyd_delaunay_memory(const dyd_delaunay *pd) {
-  if (!pd) return 0;
-  const dyd_undecided *f = &pd->open;
-  size_t bytes = sizeof *pd + dyd_skeleton_memory(&pd->sk);
-  bytes += f->face_cap * sizeof *f->face + (f->tri_cap + f->seed_cap) * sizeof *f->tri;
-  return bytes + f->pair_cap * sizeof *f->pair + f->turned_cap * sizeof *f->turned +
-         (f->of ? pd->sk.mesh.count * sizeof *f->of : 0);
-}
-
 uint32_t dyd_delaunay_alias(const dyd_delaunay *pd, uint32_t i) {
   if (!pd) return 0;
   return pd->sk.mesh.alias ? pd->sk.reps.site[pd->sk.vertex[i]] : i;
