@@ -15,7 +15,6 @@
 #include "legal/certify.h"
 #include "legal/witness.h"
 #include "skeleton/centre_filter.h"
-#include "skeleton/circumcentre.h"
 #include "skeleton/mesh_build.h"
 #include "skeleton/mesh_filter.h"
 #include "skeleton/work.h"
@@ -443,25 +442,11 @@ static dyd_status affected(uint32_t **seed, size_t *seeds, dyd_delaunay *pd, con
 
 /* ---- one face ---- */
 
-#ifdef DYD_ARMED
-
-/* Returns true if the first guess is a witness for an edge among all sites. Exact. */
-static bool guess_is_witness(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
-  dyd_point c;
-  dyd_point_init(&c);
-  dyd_point_set_xy(&c, dyd_edge_centre(sk, h));
-  bool good = dyd_witness_check(w, sk, dyd_edge_origin(&sk->mesh, h), dyd_edge_target(&sk->mesh, h), &c);
-  dyd_point_clear(&c);
-  return good;
-}
-
-#endif
-
 /* Certifies an edge. The first guess of a witness proves most edges; it is tested against nearby sites first. */
 static dyd_status recertify(dyd_delaunay *pd, dyd_work *w, dyd_half_edge h) {
   if (pd->sk.mesh.no_filter || !dyd_filter_local_witness(pd, h, dyd_edge_centre(&pd->sk, h)))
     return dyd_certify_edge(&pd->sk, w, h);
-  DYD_INVARIANT(guess_is_witness(w, &pd->sk, h));
+  DYD_INVARIANT(dyd_witness_at(w, &pd->sk, h, dyd_edge_centre(&pd->sk, h)));
   dyd_set_certain(&pd->sk, h, true);
   w->counters.filter++;
   w->counters.witness_guess++;

@@ -11,7 +11,6 @@
 #include "legal/star_filter.h"
 #include "legal/witness.h"
 #include "skeleton/centre_filter.h"
-#include "skeleton/circumcentre.h"
 #include "skeleton/hull.h"
 #include "skeleton/mesh_filter.h"
 #include "skeleton/rects_filter.h"
@@ -70,16 +69,6 @@ static bool is_met_across(const dyd_skeleton *sk, uint32_t i, uint32_t j, const 
   return met;
 }
 
-/* Returns true if the middle of the two sites is a witness. On a straight part of the hull circumcentres are far away
- * and decide nothing. */
-static bool middle_is_witness(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
-  DYD_LOCAL(dyd_point, c);
-  dyd_point_set_xy(&c, dyd_edge_middle(sk, h));
-  bool good = dyd_witness_check(w, sk, dyd_edge_origin(&sk->mesh, h), dyd_edge_target(&sk->mesh, h), &c);
-  w->counters.witness_guess += good;
-  return good;
-}
-
 static dyd_status decide_edge(bool *certain, dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
   const dyd_mesh *m = &sk->mesh;
   uint32_t i = dyd_edge_origin(m, h), j = dyd_edge_target(m, h);
@@ -88,8 +77,9 @@ static dyd_status decide_edge(bool *certain, dyd_work *w, const dyd_skeleton *sk
   *certain = false;
   if (i == m->n || j == m->n) return dyd_hull_sure(certain, w, sk, i == m->n ? j : i);
   if (is_met_across(sk, i, j, across) || is_exact_tie(w, sk, h)) return DYD_OK;
-  *certain = (hull || dyd_edge_centre_is_far(sk, h)) && middle_is_witness(w, sk, h);
-  if (*certain) return DYD_OK;
+  /* On a straight part of the hull circumcentres are far away and decide nothing: the middle of the two sites may. */
+  *certain = (hull || dyd_edge_centre_is_far(sk, h)) && dyd_witness_at(w, sk, h, dyd_edge_middle(sk, h));
+  if (*certain) return w->counters.witness_guess++, DYD_OK;
   dyd_status st = dyd_witness_search(certain, NULL, w, sk, i, j, dyd_edge_centre(sk, h), hull ? NULL : across);
   if (st == DYD_OK && !*certain && hull) st = dyd_witness_far(certain, NULL, w, sk, i, j);
   if (*certain) w->counters.witness_search++;

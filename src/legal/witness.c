@@ -271,6 +271,15 @@ bool dyd_witness_check(dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t
   return good;
 }
 
+bool dyd_witness_at(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h, dyd_xy at) {
+  dyd_point c;
+  dyd_point_init(&c);
+  dyd_point_set_xy(&c, at);
+  bool good = dyd_witness_check(w, sk, dyd_edge_origin(&sk->mesh, h), dyd_edge_target(&sk->mesh, h), &c);
+  dyd_point_clear(&c);
+  return good;
+}
+
 /* c = p + 2^m u for a vertex's double p. */
 static dyd_status witness_far_centre(dyd_point *c, const dyd_skeleton *sk, uint32_t i, const mpz_t ux, const mpz_t uy,
                                      int64_t m) {

@@ -23,5 +23,7 @@ dyd_status dyd_witness_decide(dyd_truth *exists, dyd_point *c, dyd_work *w, cons
 dyd_status dyd_witness_far(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j);
 /* Returns true if c is a witness of i, j. Exact. */
 bool dyd_witness_check(dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j, const dyd_point *c);
+/* The same of the ends of a half-edge. */
+bool dyd_witness_at(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h, dyd_xy at);
 
 #endif
