@@ -88,38 +88,35 @@ static dyd_status deal_triangles(dealt **out, size_t *count, const dyd_delaunay 
   return *out ? DYD_OK : DYD_E_NOMEM;
 }
 
-static dyd_status list_triangles(dyd_triangle_list *out, const dealt *from, size_t count) {
-  dyd_triangle *item = dyd_alloc(count, sizeof *item);
-  if (!item) return DYD_E_NOMEM;
-  for (size_t k = 0; k < count; k++) item[k] = from[k].sites;
-  *out = (dyd_triangle_list){count, item};
+/* The number of every triangle of the mesh among the certain ones, sorted; DYD_NO_TRIANGLE: it is none. */
+static dyd_status number_sorted(uint32_t *place, size_t *count, const dyd_delaunay *pd) {
+  dealt *all;
+  dyd_status st = deal_triangles(&all, count, pd);
+  if (st != DYD_OK) return st;
+  if (pd->sk.mesh.count) memset(place, 0xff, pd->sk.mesh.count * sizeof *place);
+  for (size_t k = 0; k < *count; k++) place[all[k].mesh] = (uint32_t)k;
+  free(all);
   return DYD_OK;
 }
 
-/* The number in the list of every triangle of the mesh, where it has one. */
-static dyd_status number_triangles(uint32_t **out, const dyd_mesh *m, const dealt *from, size_t count) {
-  uint32_t *place = dyd_alloc(m->count, sizeof *place);
-  if (!place) return DYD_E_NOMEM;
-  if (m->count) memset(place, 0xff, m->count * sizeof *place);
-  for (size_t k = 0; k < count; k++) place[from[k].mesh] = (uint32_t)k;
-  *out = place;
+/* The same in the order of the mesh. */
+static dyd_status number_as_found(uint32_t *place, size_t *count, const dyd_delaunay *pd) {
+  uint32_t found = 0;
+  for (uint32_t t = 0; t < pd->sk.mesh.count; t++) place[t] = dyd_triangle_is_sure(pd, t) ? found++ : DYD_NO_TRIANGLE;
+  *count = found;
   return DYD_OK;
 }
 
-static dyd_status list_neighbours(dyd_triangle_list *out, const dyd_skeleton *sk, const dealt *from, size_t count) {
-  uint32_t *place;
-  dyd_status st = number_triangles(&place, &sk->mesh, from, count);
-  dyd_triangle *item = st == DYD_OK ? dyd_alloc(count, sizeof *item) : NULL;
-  for (size_t k = 0; item && k < count; k++) {
-    unsigned corner = lowest_corner(sk, from[k].mesh);
+/* Each begins at its lowest site. beyond: NULL, or for the triangles next to them. */
+static void list_numbered(dyd_triangle *triangle, dyd_triangle *beyond, const uint32_t *place, const dyd_skeleton *sk) {
+  for (uint32_t t = 0; t < sk->mesh.count; t++) {
+    if (place[t] == DYD_NO_TRIANGLE) continue;
+    unsigned corner = lowest_corner(sk, t);
     for (int q = 0; q < 3; q++, corner = dyd_next(corner)) {
-      dyd_half_edge beyond = dyd_edge_twin(&sk->mesh, dyd_edge_of(from[k].mesh, corner));
-      item[k].v[q] = place[dyd_edge_triangle(beyond)];
+      triangle[place[t]].v[q] = sk->reps.site[sk->mesh.tri[t].v[corner]];
+      if (beyond) beyond[place[t]].v[q] = place[dyd_edge_triangle(dyd_edge_twin(&sk->mesh, dyd_edge_of(t, corner)))];
     }
   }
-  if (st == DYD_OK) free(place);
-  if (st == DYD_OK && item) *out = (dyd_triangle_list){count, item};
-  return item ? DYD_OK : DYD_E_NOMEM;
 }
 
 static uint64_t triangles_bytes(const dyd_delaunay *pd, bool neighbours) {
@@ -127,77 +124,31 @@ static uint64_t triangles_bytes(const dyd_delaunay *pd, bool neighbours) {
   return dyd_bytes_add(dyd_triangles_bytes(pd), neighbours ? beyond : 0);
 }
 
-static dyd_status triangles_sorted(dyd_triangle_list *out, dyd_triangle_list *neighbours, const dyd_delaunay *pd) {
-  dealt *all = NULL;
-  size_t count = 0;
-  dyd_triangle_list triangles = {0}, beyond = {0};
-  dyd_status st = dyd_delaunay_grant(pd, triangles_bytes(pd, neighbours), "the list of triangles", NULL);
-  if (st == DYD_OK) st = deal_triangles(&all, &count, pd);
-  if (st == DYD_OK) st = list_triangles(&triangles, all, count);
-  if (st == DYD_OK && neighbours) st = list_neighbours(&beyond, &pd->sk, all, count);
-  free(all);
-  if (st != DYD_OK) {
-    dyd_triangle_list_clear(&triangles);
-    return st;
-  }
-  dyd_triangle_list_clear(out);
-  *out = triangles;
-  if (neighbours) {
-    dyd_triangle_list_clear(neighbours);
-    *neighbours = beyond;
-  }
-  return DYD_OK;
-}
-
-/* ---- in the order of the mesh ---- */
-
-/* The number of every triangle of the mesh among the certain ones, and how many these are. */
-static size_t number_as_found(uint32_t *place, const dyd_delaunay *pd) {
-  uint32_t count = 0;
-  for (uint32_t t = 0; t < pd->sk.mesh.count; t++) place[t] = dyd_triangle_is_sure(pd, t) ? count++ : DYD_NO_TRIANGLE;
-  return count;
-}
-
-static void list_as_found(dyd_triangle *triangle, dyd_triangle *beyond, const uint32_t *place, const dyd_delaunay *pd) {
-  const dyd_skeleton *sk = &pd->sk;
-  for (uint32_t t = 0; t < sk->mesh.count; t++) {
-    if (place[t] == DYD_NO_TRIANGLE) continue;
-    unsigned corner = lowest_corner(sk, t);
-    for (int q = 0; q < 3; q++, corner = dyd_next(corner)) {
-      triangle[place[t]].v[q] = sk->reps.site[sk->mesh.tri[t].v[corner]];
-      beyond[place[t]].v[q] = place[dyd_edge_triangle(dyd_edge_twin(&sk->mesh, dyd_edge_of(t, corner)))];
-    }
-  }
-}
-
-static dyd_status triangles_as_found(dyd_triangle_list *out, dyd_triangle_list *neighbours, const dyd_delaunay *pd) {
-  uint32_t *place = dyd_alloc(pd->sk.mesh.count, sizeof *place);
-  if (!place) return DYD_E_NOMEM;
-  size_t count = number_as_found(place, pd);
-  dyd_triangle_list found = {count, dyd_alloc(count, sizeof *found.item)},
-                    beyond = {count, dyd_alloc(count, sizeof *beyond.item)};
-  bool fits = found.item && beyond.item;
-  if (fits) {
-    list_as_found(found.item, beyond.item, place, pd);
-    dyd_triangle_list_clear(out);
-    *out = found;
-    found = (dyd_triangle_list){0};
-  }
-  if (fits && neighbours) {
-    dyd_triangle_list_clear(neighbours);
-    *neighbours = beyond;
-    beyond = (dyd_triangle_list){0};
-  }
-  dyd_triangle_list_clear(&found);
-  dyd_triangle_list_clear(&beyond);
-  free(place);
-  return fits ? DYD_OK : DYD_E_NOMEM;
-}
-
 dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, dyd_triangle_list *neighbours, const dyd_delaunay *pd,
                                   unsigned flags) {
+  uint32_t *place;
+  dyd_triangle_list found = {0}, beyond = {0};
   if (!pd || flags > DYD_TRIANGLES_AS_FOUND) return DYD_E_ARG;
-  return (flags ? triangles_as_found : triangles_sorted)(out, neighbours, pd);
+  dyd_status st = DYD_OK;
+  if (!flags) st = dyd_delaunay_grant(pd, triangles_bytes(pd, neighbours), "the list of triangles", NULL);
+  if (st != DYD_OK) return st;
+  if (!DYD_NEW(place, pd->sk.mesh.count)) return DYD_E_NOMEM;
+  st = (flags ? number_as_found : number_sorted)(place, &found.count, pd);
+  beyond.count = found.count;
+  if (st == DYD_OK && (!DYD_NEW(found.item, found.count) || (neighbours && !DYD_NEW(beyond.item, beyond.count))))
+    st = DYD_E_NOMEM;
+  if (st == DYD_OK) {
+    list_numbered(found.item, beyond.item, place, &pd->sk);
+    dyd_triangle_list_clear(out);
+    *out = found;
+  } else
+    dyd_triangle_list_clear(&found);
+  if (st == DYD_OK && neighbours) {
+    dyd_triangle_list_clear(neighbours);
+    *neighbours = beyond;
+  }
+  free(place);
+  return st;
 }
 
 /* A visit by vertices, passed on by sites. */
@@ -343,8 +294,7 @@ dyd_status dyd_pairs_list(dyd_pair_list *out, const dyd_delaunay *pd, dyd_pair_s
   while (pd->sk.n && (pd->sk.n - 1) >> s.shift >= MOST_BLOCKS) s.shift++;
   dyd_each_pair(pd, least, count_pair, &s);
   size_t total = starts_from_counts(s.end, MOST_BLOCKS);
-  s.to = dyd_alloc(total, sizeof *s.to);
-  if (!s.to) return DYD_E_NOMEM;
+  if (!DYD_NEW(s.to, total)) return DYD_E_NOMEM;
   dyd_each_pair(pd, least, place_pair, &s);
   dyd_status st = sort_blocks(&s, total < FEW ? 1 : pd->options.threads);
   if (st != DYD_OK) {
