@@ -124,8 +124,7 @@ typedef struct closing {
 static dyd_status closing_gather(closing *c) {
   const dyd_mesh *m = &c->sk->mesh;
   dyd_closure *out = c->out;
-  out->vertex = dyd_alloc(3 * (size_t)c->tris, sizeof *out->vertex);
-  if (!out->vertex) return DYD_E_NOMEM;
+  if (!DYD_NEW(out->vertex, 3 * (size_t)c->tris)) return DYD_E_NOMEM;
   uint32_t count = 0;
   for (uint32_t q = 0; q < c->tris; q++)
     for (int k = 0; k < 3; k++) {

@@ -180,8 +180,7 @@ static dyd_status corners_decide(extension *x, uint32_t before) {
 
 static dyd_status near_faces_find(extension *x, uint32_t before) {
   dyd_delaunay *pd = x->pd;
-  x->seen = calloc(2 * (size_t)pd->sk.n + 2, sizeof *x->seen);
-  if (!x->seen) return DYD_E_NOMEM;
+  if (!DYD_ZEROED(x->seen, 2 * (size_t)pd->sk.n + 2)) return DYD_E_NOMEM;
   dyd_status st = near_decide(x, before);
   if (st == DYD_OK) st = corners_decide(x, before);
   const size_t fresh = pd->open.count;

@@ -76,8 +76,7 @@ dyd_status dyd_narrowed_init(dyd_narrowed *n, const dyd_delaunay *pd, uint32_t f
   *n = (dyd_narrowed){.old = pd->open.face[f]};
   bool large = n->old.tris >= CROWD && !n->old.capped && !n->old.tie;
   if (!large || count > n->old.tris) return DYD_OK;
-  n->mark = calloc((size_t)pd->sk.mesh.n + 1, sizeof *n->mark);
-  if (!n->mark) return DYD_E_NOMEM;
+  if (!DYD_ZEROED(n->mark, (size_t)pd->sk.mesh.n + 1)) return DYD_E_NOMEM;
   if (note_changed(n, pd, f, changed, count))
     note_neighbours(n, pd);
   else
@@ -119,8 +118,7 @@ static bool doubt_vertex(doubt *d, const dyd_narrowed *n, uint32_t v) {
 /* Pairs of members that have become legal are gone, others are in doubt. */
 static dyd_status find_doubts(doubt *d, const dyd_narrowed *n, const dyd_delaunay *pd) {
   const dyd_vertex_pair *p = pd->open.pair + n->old.first_pair;
-  d->gone = calloc(n->old.pairs ? n->old.pairs : 1, sizeof *d->gone);
-  if (!d->gone) return DYD_E_NOMEM;
+  if (!DYD_ZEROED(d->gone, n->old.pairs ? n->old.pairs : 1)) return DYD_E_NOMEM;
   for (uint32_t q = 0; q < n->old.pairs; q++, p++) {
     uint8_t a = n->mark[p->i], b = n->mark[p->j];
     if (!(a & b & MEMBER)) continue;

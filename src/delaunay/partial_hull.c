@@ -391,8 +391,7 @@ static void decide_pairs(hull *h) {
 /* ---- the result ---- */
 
 static dyd_status list_vertices(dyd_index_list *out, const hull *h, bool sure) {
-  out->item = dyd_alloc(h->count, sizeof *out->item);
-  if (!out->item) return DYD_E_NOMEM;
+  if (!DYD_NEW(out->item, h->count)) return DYD_E_NOMEM;
   for (size_t k = 0; k < h->count; k++)
     if (sure ? h->x[k].sure : h->x[k].possible) out->item[out->count++] = h->pd->sk.reps.site[h->x[k].vertex];
   if (out->count) qsort(out->item, out->count, sizeof *out->item, dyd_compare_index);

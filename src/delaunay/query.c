@@ -297,8 +297,8 @@ dyd_status dyd_delaunay_face(dyd_index_list *out, bool *outer, const dyd_delauna
 /* For visits: a list of pairs. */
 typedef struct pair_collector {
   const uint32_t *site;
-  dyd_pair *item;
-  size_t count, cap;
+  dyd_pair_list list;
+  size_t cap;
   dyd_status status;
 } pair_collector;
 
@@ -306,10 +306,10 @@ static void collect_pair(void *context, uint32_t v, uint32_t w, dyd_pair_status 
   pair_collector *c = context;
   uint32_t i = c->site[v], j = c->site[w];
   if (c->status != DYD_OK) return;
-  if (!DYD_GROW(c->item, c->cap, c->count + 1))
+  if (!DYD_GROW(c->list.item, c->cap, c->list.count + 1))
     c->status = DYD_E_NOMEM;
   else
-    c->item[c->count++] = (dyd_pair){i < j ? i : j, i < j ? j : i, status};
+    c->list.item[c->list.count++] = (dyd_pair){i < j ? i : j, i < j ? j : i, status};
 }
 
 dyd_status dyd_delaunay_face_pairs(dyd_pair_list *out, const dyd_delaunay *pd, size_t f) {
@@ -317,29 +317,19 @@ dyd_status dyd_delaunay_face_pairs(dyd_pair_list *out, const dyd_delaunay *pd, s
   pair_collector c = {.site = pd->sk.reps.site};
   if (f >= pd->open.count) return DYD_E_ARG;
   dyd_open_each_in(pd, f, collect_pair, &c);
-  if (c.status != DYD_OK) {
-    free(c.item);
-    return c.status;
-  }
-  if (c.count) qsort(c.item, c.count, sizeof *c.item, dyd_compare_two);
-  dyd_pair_list_clear(out);
-  *out = (dyd_pair_list){c.count, c.item};
-  return DYD_OK;
+  if (c.list.count) qsort(c.list.item, c.list.count, sizeof *c.list.item, dyd_compare_two);
+  dyd_pair_list_clear(c.status == DYD_OK ? out : &c.list);
+  if (c.status == DYD_OK) *out = c.list;
+  return c.status;
 }
 
 /* ---- ties as groups: the sites of one circle, in its order, or of one line of the hull ---- */
 
 typedef struct group_list {
-  uint32_t *site;
-  size_t count, cap;
+  dyd_index_list sites;
+  size_t cap;
   bool chain;
 } group_list;
-
-static dyd_status group_add(group_list *g, uint32_t site) {
-  if (!DYD_GROW(g->site, g->cap, g->count + 1)) return DYD_E_NOMEM;
-  g->site[g->count++] = site;
-  return DYD_OK;
-}
 
 /* Around the rim from h on; a chain begins behind the ghost. */
 static dyd_status group_walk(group_list *g, const dyd_delaunay *pd, dyd_half_edge h) {
@@ -353,7 +343,7 @@ static dyd_status group_walk(group_list *g, const dyd_delaunay *pd, dyd_half_edg
   first = h;
   do {
     uint32_t v = dyd_edge_origin(m, h);
-    if (v != m->n) st = group_add(g, pd->sk.reps.site[v]);
+    if (v != m->n) st = dyd_index_list_add(&g->sites, &g->cap, &pd->sk.reps.site[v], 1);
     h = dyd_tie_next(&pd->sk, h);
   } while (st == DYD_OK && h != first);
   return st;
@@ -362,7 +352,8 @@ static dyd_status group_walk(group_list *g, const dyd_delaunay *pd, dyd_half_edg
 static dyd_status group_of_line(group_list *g, const dyd_line *l, const uint32_t *site) {
   dyd_status st = DYD_OK;
   g->chain = true;
-  for (uint32_t q = 0; q < l->count && st == DYD_OK; q++) st = group_add(g, site[l->order[q]]);
+  for (uint32_t q = 0; q < l->count && st == DYD_OK; q++)
+    st = dyd_index_list_add(&g->sites, &g->cap, &site[l->order[q]], 1);
   return st;
 }
 
@@ -394,13 +385,12 @@ dyd_status dyd_delaunay_each_group(const dyd_delaunay *pd, dyd_group_fn visit, v
       st = visit_pairs_of_face(pd, f, visit, user);
       continue;
     }
-    g.count = 0;
+    g.sites.count = 0;
     st = line ? group_of_line(&g, &pd->sk.line, pd->sk.reps.site) : group_walk(&g, pd, start);
     bool again = all;
-    all = all || (g.chain && 2 * g.count == (size_t)pd->sk.mesh.count + 2);
-    const dyd_index_list sites = {g.count, g.site};
-    if (st == DYD_OK && !again) st = visit(user, g.chain ? DYD_GROUP_CHAIN : DYD_GROUP_CIRCLE, &sites);
+    all = all || (g.chain && 2 * g.sites.count == (size_t)pd->sk.mesh.count + 2);
+    if (st == DYD_OK && !again) st = visit(user, g.chain ? DYD_GROUP_CHAIN : DYD_GROUP_CIRCLE, &g.sites);
   }
-  free(g.site);
+  dyd_index_list_clear(&g.sites);
   return st;
 }

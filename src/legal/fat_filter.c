@@ -109,8 +109,7 @@ dyd_status dyd_fat_meet(uint32_t **met, const dyd_skeleton *sk, const uint32_t *
   dyd_status st = DYD_OK;
   *met = NULL;
   if (count == 0) return DYD_OK;
-  f.met = calloc((size_t)sk->mesh.count + 1, sizeof *f.met);
-  if (!f.met) return DYD_E_NOMEM;
+  if (!DYD_ZEROED(f.met, (size_t)sk->mesh.count + 1)) return DYD_E_NOMEM;
   for (uint32_t q = 0; q < count && st == DYD_OK; q++) {
     f.mark = q + 1;
     st = flood_from(&f, sk, fat[q]);

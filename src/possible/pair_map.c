@@ -40,8 +40,7 @@ static dyd_status resize(dyd_pair_map *m, size_t size) {
 
 dyd_status dyd_pair_map_init(dyd_pair_map *m, uint32_t members) {
   *m = (dyd_pair_map){.members = members};
-  m->head = dyd_alloc(members, sizeof *m->head);
-  if (!m->head) return DYD_E_NOMEM;
+  if (!DYD_NEW(m->head, members)) return DYD_E_NOMEM;
   memset(m->head, 0xff, members * sizeof *m->head);
   return resize(m, 64);
 }

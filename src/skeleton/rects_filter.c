@@ -43,8 +43,7 @@ dyd_status dyd_tree_init(dyd_tree *t, uint32_t *item, uint32_t count, const dyd_
   *t = (dyd_tree){.count = count, .item = item, .box = box, .ascending = true};
   for (uint32_t q = 1; q < count && t->ascending; q++) t->ascending = item[q - 1] < item[q];
   tree_set_levels(t);
-  t->node = dyd_alloc(t->level[t->levels], sizeof *t->node);
-  if (!t->node) return DYD_E_NOMEM;
+  if (!DYD_NEW(t->node, t->level[t->levels])) return DYD_E_NOMEM;
   for (int k = 0; k < t->levels; k++)
     for (size_t q = 0; q < t->level[k + 1] - t->level[k]; q++) fill_node(t, k, q);
   return DYD_OK;

@@ -265,8 +265,7 @@ static double spread(double lo, double hi) {
 
 static dyd_status keep_code(dyd_reps *r, uint32_t v, uint32_t code) {
   if (!r->code && code) {
-    r->code = calloc(r->n ? r->n : 1, sizeof *r->code);
-    if (!r->code) return DYD_E_NOMEM;
+    if (!DYD_ZEROED(r->code, r->n ? r->n : 1)) return DYD_E_NOMEM;
   }
   if (r->code && r->code[v] != code) r->code[v] = code; /* most stay 0: their pages are never there */
   return DYD_OK;
@@ -412,8 +411,7 @@ static dyd_status choose_reps(dyd_reps *r, const dyd_bbox *box, unsigned threads
 dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, const dyd_bbox *box, uint32_t n,
                          unsigned threads) {
   *r = (dyd_reps){.sites = sites, .n = n, .site = site};
-  r->xy = dyd_alloc((size_t)n + 1, sizeof *r->xy);
-  if (!r->xy) return DYD_E_NOMEM;
+  if (!DYD_NEW(r->xy, (size_t)n + 1)) return DYD_E_NOMEM;
   r->xy[n] = (dyd_xy){NAN, NAN};
   return choose_reps(r, box, threads);
 }

@@ -135,8 +135,7 @@ static void boxes_of_range(void *context, size_t number, size_t begin, size_t en
 /* The table of sites in the order of the vertices, read once for whatever is made of it. */
 static dyd_status gather_boxes(dyd_skeleton *sk, unsigned threads) {
   if (dyd_sites_are_double_points(sk->rects.sites)) return DYD_OK;
-  sk->rects.box = dyd_alloc(sk->n, sizeof *sk->rects.box);
-  if (!sk->rects.box) return DYD_E_NOMEM;
+  if (!DYD_NEW(sk->rects.box, sk->n)) return DYD_E_NOMEM;
   dyd_parallel_ranges(threads, sk->n, boxes_of_range, sk);
   return DYD_OK;
 }
