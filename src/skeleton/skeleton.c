@@ -132,28 +132,24 @@ static void boxes_of_range(void *context, size_t number, size_t begin, size_t en
   }
 }
 
-/* The table of sites in the order of the vertices, read once for whatever is made of it. */
-static dyd_status gather_boxes(dyd_skeleton *sk, unsigned threads) {
-  if (dyd_sites_are_double_points(sk->rects.sites)) return DYD_OK;
-  if (!DYD_NEW(sk->rects.box, sk->n)) return DYD_E_NOMEM;
-  dyd_parallel_ranges(threads, sk->n, boxes_of_range, sk);
+static dyd_status skeleton_reserve(dyd_skeleton *sk) {
+  const bool boxed = !dyd_sites_are_double_points(sk->rects.sites);
+  if (!DYD_NEW(sk->reps.site, sk->n) || !DYD_NEW(sk->vertex, sk->n) || !DYD_NEW(sk->leaving, sk->n) ||
+      (boxed && !DYD_NEW(sk->rects.box, sk->n)))
+    return DYD_E_NOMEM;
+  sk->rects.site = sk->reps.site;
   return DYD_OK;
 }
 
+/* Boxes: the table of sites in the order of the vertices, read once for whatever is made of it. */
 static dyd_status skeleton_triangulate(dyd_skeleton *sk, const dyd_skeleton_options *o) {
-  uint32_t *order = dyd_alloc(sk->n, sizeof *order);
-  if (!order) return DYD_E_NOMEM;
+  const dyd_sites *sites = sk->rects.sites;
   dyd_strips strips;
-  dyd_status st = dyd_spatial_order(order, &strips, sk->rects.sites, o->threads);
+  dyd_status st = dyd_spatial_order(sk->reps.site, &strips, sites, o->threads);
   if (st == DYD_OK && dyd_flag_is_set(o->cancel)) st = DYD_CANCELLED;
-  if (st != DYD_OK) {
-    free(order);
-    return st;
-  }
-  sk->rects.site = order;
-  st = gather_boxes(sk, o->threads);
-  if (st != DYD_OK) return free(order), st;
-  st = dyd_reps_init(&sk->reps, sk->rects.sites, order, sk->rects.box, sk->n, o->threads);
+  if (st != DYD_OK) return st;
+  if (sk->rects.box) dyd_parallel_ranges(o->threads, sk->n, boxes_of_range, sk);
+  st = dyd_reps_init(&sk->reps, sites, sk->reps.site, sk->rects.box, sk->n, o->threads);
   if (st == DYD_OK) st = dyd_mesh_build_strips(&sk->mesh, &sk->reps, &strips, o->no_filter, o->cancel, o->threads);
   return st;
 }
@@ -212,9 +208,7 @@ static void find_leaving(dyd_skeleton *sk, unsigned threads) {
 }
 
 static dyd_status build_maps(dyd_skeleton *sk, unsigned threads) {
-  if (!DYD_NEW(sk->vertex, sk->n) || !DYD_NEW(sk->leaving, sk->n) ||
-      !DYD_ZEROED(sk->certain, sk->mesh.count ? sk->mesh.count : 1))
-    return DYD_E_NOMEM;
+  if (!DYD_ZEROED(sk->certain, sk->mesh.count ? sk->mesh.count : 1)) return DYD_E_NOMEM;
   settle_aliases(sk);
   find_leaving(sk, threads);
   sk->all_points = true;
@@ -240,7 +234,8 @@ static dyd_status build_boxes(dyd_skeleton *sk) {
 dyd_status dyd_skeleton_build(dyd_skeleton *sk, const dyd_sites *sites, const dyd_skeleton_options *o) {
   *sk = (dyd_skeleton){.n = (uint32_t)dyd_sites_count(sites), .rects = {.sites = sites}};
   sk->built = sk->n;
-  dyd_status st = skeleton_triangulate(sk, o);
+  dyd_status st = skeleton_reserve(sk);
+  if (st == DYD_OK) st = skeleton_triangulate(sk, o);
   if (st == DYD_OK && sk->mesh.collinear) st = dyd_line_build(&sk->line, &sk->mesh, &sk->rects, sk->n);
   if (st == DYD_OK) st = build_maps(sk, o->threads);
   if (st == DYD_OK) st = build_boxes(sk);
