@@ -15,13 +15,11 @@
 extern "C" {
 #endif
 
-/* The point ((ax + bx sqrt(c)) / d, (ay + by sqrt(c)) / d). Invariant: c >= 0, d > 0. Init before use, clear after. */
+/* The point ((ax + bx sqrt(c)) / d, (ay + by sqrt(c)) / d). Invariant: c >= 0, d > 0. */
 typedef struct dyd_surd_point {
   mpz_t ax, bx, ay, by, c, d;
 } dyd_surd_point;
 
-DYD_API void dyd_surd_point_init(dyd_surd_point *p);
-DYD_API void dyd_surd_point_clear(dyd_surd_point *p);
 /* The smallest rectangle with ends that are multiples of 2^-bits around p: widths 0 or 2^-bits. Exact.
  * DYD_E_RANGE when bits or p leave the exponent range. */
 DYD_API dyd_status dyd_surd_point_enclose(dyd_rect *out, const dyd_surd_point *p, int64_t bits);

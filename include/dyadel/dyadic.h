@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Exact dyadic numbers m * 2^e, outward rounding, and exact signs of A + B sqrt(C). */
+/* Exact dyadic numbers m * 2^e. For arithmetic take their rationals (dyd_dyadic_get_q) and GMP. */
 #ifndef DYADEL_DYADIC_H
 #define DYADEL_DYADIC_H
 
@@ -30,34 +30,19 @@ typedef enum dyd_round { DYD_DOWN = -1, DYD_UP = 1 } dyd_round;
 DYD_API void dyd_dyadic_init(dyd_dyadic *x);
 DYD_API void dyd_dyadic_clear(dyd_dyadic *x);
 DYD_API void dyd_dyadic_set(dyd_dyadic *out, const dyd_dyadic *x);
-DYD_API void dyd_dyadic_swap(dyd_dyadic *x, dyd_dyadic *y);
 
 /* DYD_E_ARG for infinities and NaN; DYD_E_RANGE when the value leaves the exponent range. */
 DYD_API dyd_status dyd_dyadic_set_d(dyd_dyadic *out, double x);
-DYD_API dyd_status dyd_dyadic_set_si_2exp(dyd_dyadic *out, long man, int64_t exp);
 DYD_API dyd_status dyd_dyadic_set_z_2exp(dyd_dyadic *out, const mpz_t man, int64_t exp);
-
-/* Exact arithmetic. Outputs may alias inputs. DYD_E_RANGE when the result leaves the exponent range. */
-DYD_API dyd_status dyd_dyadic_add(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y);
-DYD_API dyd_status dyd_dyadic_sub(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y);
-DYD_API dyd_status dyd_dyadic_mul(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y);
-DYD_API dyd_status dyd_dyadic_mul_2exp(dyd_dyadic *out, const dyd_dyadic *x, int64_t e);
-DYD_API void dyd_dyadic_neg(dyd_dyadic *out, const dyd_dyadic *x);
 
 /* -1, 0 or 1. */
 DYD_API int dyd_dyadic_sgn(const dyd_dyadic *x);
 DYD_API int dyd_dyadic_cmp(const dyd_dyadic *x, const dyd_dyadic *y);
 
-/* The nearest multiple of 2^exp that is <= x (DYD_DOWN) or >= x (DYD_UP). */
-DYD_API dyd_status dyd_dyadic_round(dyd_dyadic *out, const dyd_dyadic *x, int64_t exp, dyd_round dir);
-/* The same for a rational. q must be canonical. */
-DYD_API dyd_status dyd_dyadic_round_q(dyd_dyadic *out, const mpq_t q, int64_t exp, dyd_round dir);
 /* The exact value as a canonical rational; q is initialised by the caller. */
 DYD_API void dyd_dyadic_get_q(mpq_t q, const dyd_dyadic *x);
 /* The nearest double in the given direction: -inf / +inf beyond the largest double, subnormals included. */
 DYD_API double dyd_dyadic_get_d(const dyd_dyadic *x, dyd_round dir);
-/* Does x fit a double without rounding? */
-DYD_API bool dyd_dyadic_is_double(const dyd_dyadic *x);
 
 /* Lossless text "m*2^e" (or a plain integer when 0 <= e <= 64). Owned by the caller, release with free();
  * NULL when memory is exhausted. */
@@ -65,11 +50,6 @@ DYD_API char *dyd_dyadic_get_str(const dyd_dyadic *x);
 /* Reads an integer, "m*2^e", a hexadecimal float or a decimal that is a dyadic ("0.125"), surrounding blanks
  * allowed. err may be NULL; on DYD_E_PARSE its column names the first bad character. */
 DYD_API dyd_status dyd_dyadic_set_str(dyd_dyadic *out, const char *text, dyd_error *err);
-
-/* Sign of a + b sqrt(c) for integers, c >= 0 [SQR-1]. Exact. */
-DYD_API int dyd_sqrt_sign(const mpz_t a, const mpz_t b, const mpz_t c);
-/* Sign of a + b sqrt(c) + d sqrt(e) for integers, c, e >= 0 [SQR-2]. Exact. */
-DYD_API int dyd_sqrt2_sign(const mpz_t a, const mpz_t b, const mpz_t c, const mpz_t d, const mpz_t e);
 
 #ifdef __cplusplus
 }

@@ -220,7 +220,9 @@ DYD_API void dyd_engine_free(dyd_engine *e);
 DYD_API dyd_status dyd_engine_add_points(dyd_engine *e, size_t n, const double *x, const double *y, dyd_error *err);
 DYD_API dyd_status dyd_engine_add_boxes(dyd_engine *e, size_t n, const double *x0, const double *x1, const double *y0,
                                         const double *y1, dyd_error *err);
-/* From columns, as dyd_sites_add_columns: of an array of n pairs, {{a, 16}, {a + 1, 16}}. radius may be NULL. */
+/* The same from the columns x and y: of an array of n pairs, {{a, 16}, {a + 1, 16}}. radius: NULL, or columns of
+ * half-widths in x and in y, not negative: then point k is x - radius, x + radius and so on, rounded outward to the
+ * next double where it is none. DYD_E_ARG also for ends beyond the largest double. */
 DYD_API dyd_status dyd_engine_add_columns(dyd_engine *e, size_t n, const dyd_column xy[2], const dyd_column *radius,
                                           dyd_error *err);
 /* A fixed rectangle or exact point. Copied. */

@@ -32,7 +32,6 @@ DYD_API void dyd_interval_init(dyd_interval *a);
 DYD_API void dyd_interval_clear(dyd_interval *a);
 DYD_API void dyd_interval_set(dyd_interval *out, const dyd_interval *a);
 /* DYD_E_ARG unless lo <= hi. */
-DYD_API dyd_status dyd_interval_set_ends(dyd_interval *out, const dyd_dyadic *lo, const dyd_dyadic *hi);
 DYD_API dyd_status dyd_interval_set_d(dyd_interval *out, double lo, double hi);
 /* The exact point q (canonical rational). DYD_E_RANGE when it leaves the exponent range. */
 DYD_API dyd_status dyd_interval_set_q(dyd_interval *out, const mpq_t q);
@@ -44,7 +43,6 @@ DYD_API dyd_status dyd_interval_set_outward(dyd_interval *out, const mpq_t lo, c
 /* a itself where its ends are dyadic, or it is a point; else [lo,hi] rounded outward by less than 2^-64 of its width,
  * as windows are to be. DYD_E_RANGE. */
 DYD_API dyd_status dyd_interval_round(dyd_interval *out, const dyd_interval *a);
-DYD_API bool dyd_interval_is_point(const dyd_interval *a);
 /* Ends as canonical rationals; lo, hi initialised by the caller. */
 DYD_API void dyd_interval_get_q(mpq_t lo, mpq_t hi, const dyd_interval *a);
 
@@ -57,8 +55,6 @@ DYD_API void dyd_rect_get_d(double out[4], const dyd_rect *r);
 DYD_API bool dyd_rect_is_point(const dyd_rect *r);
 DYD_API bool dyd_rect_contains(const dyd_rect *outer, const dyd_rect *inner);
 DYD_API bool dyd_rect_meets(const dyd_rect *a, const dyd_rect *b);
-/* The most bits for which both widths are at most 2^-bits; INT64_MAX for a point. */
-DYD_API int64_t dyd_rect_bits(const dyd_rect *r);
 
 DYD_API void dyd_point_init(dyd_point *p);
 DYD_API void dyd_point_clear(dyd_point *p);

@@ -24,16 +24,12 @@ DYD_API void dyd_sites_free(dyd_sites *s);
 DYD_API dyd_status dyd_sites_add_points(dyd_sites *s, size_t n, const double *x, const double *y);
 DYD_API dyd_status dyd_sites_add_boxes(dyd_sites *s, size_t n, const double *x0, const double *x1, const double *y0,
                                        const double *y1);
-/* Doubles in a table of the caller's: `first`, and each `step` bytes behind the one before; 0: one number for all. They
- * need not be aligned. */
+/* Doubles in a table of the caller's (dyd_engine_add_columns): `first`, and each `step` bytes behind the one before; 0:
+ * one number for all. They need not be aligned. */
 typedef struct dyd_column {
   const double *first;
   ptrdiff_t step;
 } dyd_column;
-/* The same from the columns x and y. radius: NULL, or columns of half-widths in x and in y, not negative: then site k
- * is x - radius, x + radius and so on, rounded outward to the next double where it is none. DYD_E_ARG also for ends
- * beyond the largest double. */
-DYD_API dyd_status dyd_sites_add_columns(dyd_sites *s, size_t n, const dyd_column xy[2], const dyd_column *radius);
 DYD_API dyd_status dyd_sites_add_rect(dyd_sites *s, const dyd_rect *r);
 DYD_API size_t dyd_sites_count(const dyd_sites *s);
 /* The exact rectangle of site i, copied into *out. */

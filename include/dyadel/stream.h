@@ -81,7 +81,6 @@ typedef struct dyd_real dyd_real;
 /* All constructors: *out is new, with one reference, released by dyd_real_free. err may be NULL everywhere.
  * dyd_real_new calls release when it fails; its requests name point 0. */
 DYD_API dyd_status dyd_real_new(dyd_real **out, dyd_narrow_real_fn narrow, dyd_release_fn release, void *user);
-DYD_API dyd_status dyd_real_from_q(dyd_real **out, const mpq_t q);
 /* The fixed interval [lo,hi], exactly. lo = hi is the exact point. */
 DYD_API dyd_status dyd_real_from_interval(dyd_real **out, const mpq_t lo, const mpq_t hi);
 /* Every coordinate form of the points file: decimal, rational, hexadecimal float, dyadic, degrees with minutes and

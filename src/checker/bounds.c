@@ -4,6 +4,7 @@
  * Twice the area of the hull of two rectangles is twice that of its bounding box less, at each corner of the box that
  * neither rectangle reaches, the product of the legs between their corners there. */
 #include "checker/bounds.h"
+#include "dyadic/raw.h"
 #include <dyadel/dyadic.h>
 
 void dyd_cert_bounds_init(dyd_cert_bounds *b) {

@@ -22,6 +22,7 @@
 
 #include "base/room.h"
 #include "engine/labels.h"
+#include "rect/rect.h"
 
 /* Bits for a proof that true points are the same, on one line or circle, unless others are given. */
 #define DYD_TIE_BITS ((int64_t)1 << 17)

@@ -6,6 +6,7 @@
 #include "base/index.h"
 #include "base/local.h"
 #include "delaunay/memory.h"
+#include "dyadic/raw.h"
 #include "format/table.h"
 #include "io/decimal.h"
 #include "io/diagram.h"

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The Voronoi diagram to be written: its window, vertices, cells and bounds. */
 #include "io/diagram.h"
+#include "dyadic/raw.h"
 
 #include "base/alloc.h"
 #include "base/error.h"

@@ -6,6 +6,7 @@
 #include "io/table.h"
 #include "predicate/circle.h"
 #include "rect/rect.h"
+#include "voronoi/surd_point.h"
 #include <inttypes.h>
 #include <math.h>
 

@@ -11,6 +11,7 @@
 
 #include "base/abi.h"
 #include "base/local.h"
+#include "dyadic/raw.h"
 #include "metric/bounds.h"
 #include "stream/ball.h"
 #include <dyadel/predicate.h>

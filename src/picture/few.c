@@ -19,6 +19,7 @@
 #include "io/decimal.h"
 #include "picture/picture.h"
 #include "predicate/circle.h"
+#include "voronoi/surd_point.h"
 
 #include <math.h>
 

@@ -2,6 +2,7 @@
 /* Critical circles of three rectangles, exactly: surds, circles in scaled integers, the panes that may hold a centre,
  * the circles through features, and circles in the coordinates of the caller. */
 #include "predicate/circle.h"
+#include "dyadic/raw.h"
 
 #include "base/invariant.h"
 #include "base/local.h"

@@ -9,6 +9,7 @@
 #include "checker/checker.h"
 #include "checker/parts.h"
 #include "delaunay/state.h"
+#include "dyadic/raw.h"
 #include "metric/bounds.h"
 #include "prove/proof.h"
 

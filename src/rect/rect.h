@@ -4,6 +4,7 @@
 #define DYD_RECT_RECT_H
 
 #include "base/local.h"
+#include "dyadic/raw.h"
 #include <dyadel/rect.h>
 
 DYD_ARRAYS(dyd_rect)
@@ -51,5 +52,11 @@ int64_t dyd_interval_bits(const dyd_interval *a);
 dyd_status dyd_rect_set_q(dyd_rect *out, const mpq_t x, const mpq_t y);
 /* Enclosing doubles, rounded outward (infinite beyond the range of doubles). */
 void dyd_interval_get_d(double *lo, double *hi, const dyd_interval *a);
+
+/* DYD_E_ARG unless lo <= hi. */
+dyd_status dyd_interval_set_ends(dyd_interval *out, const dyd_dyadic *lo, const dyd_dyadic *hi);
+bool dyd_interval_is_point(const dyd_interval *a);
+/* The most bits for which both widths are at most 2^-bits; INT64_MAX for a point. */
+int64_t dyd_rect_bits(const dyd_rect *r);
 
 #endif

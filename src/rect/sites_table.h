@@ -127,4 +127,7 @@ size_t dyd_sites_joined(const dyd_sites *s, size_t i);
  * common, DYD_E_ARG when there is no such site. A triangulation follows in dyd_delaunay_update. */
 dyd_status dyd_sites_join(dyd_sites *s, size_t i, size_t j);
 
+/* As dyd_engine_add_columns. */
+dyd_status dyd_sites_add_columns(dyd_sites *s, size_t n, const dyd_column xy[2], const dyd_column *radius);
+
 #endif

@@ -5,6 +5,7 @@
  * range of the value [RANGE-1]: all of them are monotone. Where the ball still sticks out of the domain, the result is
  * unknown yet; it is never assumed that the value is inside. */
 #include "stream/ball.h"
+#include "rect/rect.h"
 
 #include "base/local.h"
 #include "base/parallel.h"

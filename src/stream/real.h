@@ -3,6 +3,7 @@
 #ifndef DYD_STREAM_REAL_H
 #define DYD_STREAM_REAL_H
 
+#include "rect/rect.h"
 #include "stream/span_filter.h"
 #include <dyadel/stream.h>
 
@@ -85,5 +86,8 @@ dyd_status dyd_callback_fail(dyd_error *err, const dyd_error *own, dyd_status st
 /* The same where the text is an exact number, [lo,hi] or value+-radius, or an expression whose value is rational: out
  * becomes the number, or the interval, rounded as dyd_real_from_interval says. DYD_E_PARSE for other expressions. */
 dyd_status dyd_interval_set_text(dyd_interval *out, const char *text, size_t length, dyd_error *err);
+
+/* dyd_real_from_interval of [q,q]. */
+dyd_status dyd_real_from_q(dyd_real **out, const mpq_t q);
 
 #endif

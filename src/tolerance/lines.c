@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Lines over a bisector in integers: their places, the direction of f on them, its largest value. */
 #include "tolerance/lines.h"
+#include "dyadic/raw.h"
 
 #include "base/alloc.h"
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The polygons of a cell: in doubles, else in dyadics. */
 #include "voronoi/shape.h"
+#include "dyadic/raw.h"
 
 #include "base/alloc.h"
 #include "base/flag.h"

@@ -6,6 +6,8 @@
 #include "rect/irect.h"
 #include <dyadel/arc.h>
 
+void dyd_surd_point_init(dyd_surd_point *p);
+void dyd_surd_point_clear(dyd_surd_point *p);
 DYD_ARRAYS(dyd_surd_point)
 
 /* Sign of (coordinate of p) - (that of q); axis 0: x, 1: y. */

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 
 #include "delaunay/harness.h"
+#include "rect/rect.h"
 #include <cmocka.h>
 #include <signal.h>
 #include <string.h>

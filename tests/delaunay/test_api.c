@@ -5,6 +5,7 @@
 
 #include "delaunay/harness.h"
 #include "delaunay/state.h"
+#include "rect/rect.h"
 #include <cmocka.h>
 #include <fenv.h>
 #include <string.h>

@@ -8,6 +8,7 @@
 
 #include "delaunay/disc_filter.h"
 #include "delaunay/state.h"
+#include "dyadic/raw.h"
 #include "support/failing_memory.h"
 #include "support/random.h"
 #include <cmocka.h>

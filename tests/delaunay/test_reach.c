@@ -6,6 +6,7 @@
 
 #include "delaunay/harness.h"
 #include "delaunay/state.h"
+#include "rect/rect.h"
 #include <cmocka.h>
 #include <math.h>
 #include <string.h>

@@ -12,6 +12,7 @@
 #include <mpfr.h>
 
 #include "dyadic/random_dyadic.h"
+#include "dyadic/raw.h"
 
 enum { PRECISION = 2000, ZERO_BELOW = -400 };
 

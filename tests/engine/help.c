@@ -163,12 +163,15 @@ static void around(dyd_interval *out, long num, int64_t bits) {
 
 /* An interval of width 2^-bits about, moved by a third of that, to the right for odd bits. */
 static void sway(dyd_interval *side, int64_t bits) {
-  dyd_dyadic step;
-  dyd_dyadic_init(&step);
-  assert_int_equal(DYD_OK, dyd_dyadic_set_si_2exp(&step, bits % 2 ? 3 : -3, -bits - 4));
-  assert_int_equal(DYD_OK, dyd_dyadic_add(&side->lo, &side->lo, &step));
-  assert_int_equal(DYD_OK, dyd_dyadic_add(&side->hi, &side->hi, &step));
-  dyd_dyadic_clear(&step);
+  mpq_t lo, hi, step;
+  mpq_inits(lo, hi, step, NULL);
+  dyd_interval_get_q(lo, hi, side);
+  mpq_set_si(step, bits % 2 ? 3 : -3, 1);
+  mpq_div_2exp(step, step, (mp_bitcnt_t)bits + 4);
+  mpq_add(lo, lo, step);
+  mpq_add(hi, hi, step);
+  assert_int_equal(DYD_OK, dyd_interval_set_ends_q(side, lo, hi));
+  mpq_clears(lo, hi, step, NULL);
 }
 
 static dyd_status misbehave(dyd_rect *out, const faulty *f, const dyd_request *q, dyd_error *err) {

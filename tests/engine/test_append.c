@@ -2,6 +2,7 @@
 /* Points that come after a run, and points that are measured again: results are those of an engine that has had it all
  * from the start; refused calls give a reason and change nothing. */
 #include "engine/help.h"
+#include "rect/rect.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,6 +2,7 @@
 /* [NEST-1] Streams and sources that widen, drift, fail, stall or answer nonsense: the right error, nothing lost,
  * everything released once. */
 #include "engine/help.h"
+#include "rect/rect.h"
 
 #include <string.h>
 

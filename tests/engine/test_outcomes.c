@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* How runs end: decided, fixpoint, budget of bits; schedules agree; statements are never retracted. */
 #include "engine/help.h"
+#include "rect/rect.h"
 
 static void test_texts(void **state) {
   (void)state;

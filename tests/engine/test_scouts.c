@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Points that go ahead in crowded faces: how many bits are requested, and that nothing else depends on them. */
 #include "engine/help.h"
+#include "rect/rect.h"
 
 #include <string.h>
 

@@ -5,6 +5,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
+#include "dyadic/raw.h"
 #include "legal/witness.h"
 #include "legal/witness_filter.h"
 #include "support/random.h"

@@ -3,6 +3,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
+#include "rect/sites_table.h"
 #include "support/random.h"
 #include <cmocka.h>
 #include <dyadel/sites.h>

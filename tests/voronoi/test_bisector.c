@@ -4,6 +4,7 @@
 #include <stdarg.h>
 
 #include "predicate/circle.h"
+#include "rect/rect.h"
 #include "voronoi/region_oracle.h"
 #include "voronoi/surd_point.h"
 #include <cmocka.h>

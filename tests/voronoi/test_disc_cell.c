@@ -4,6 +4,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
+#include "dyadic/raw.h"
 #include "support/random.h"
 #include "voronoi/shape.h"
 #include <cmocka.h>
