@@ -28,8 +28,8 @@
  * started again, so often for one request, and gets the open requests again: it then knows nothing of its former
  * answers, which its new ones still have to lie in (or say the same).
  *
- * Nothing is left behind: every program and its children are one process group. When the oracle is freed their inputs
- * end, half a second later they get SIGTERM (srun and the like free resources elsewhere), and are killed after
+ * Nothing is left behind: every program and its children are one process group. When the source is released their
+ * inputs end, half a second later they get SIGTERM (srun and the like free resources elsewhere), and are killed after
  * another half; likewise, within three seconds, when the process that uses the library dies of whatever cause (a shell
  * next to it watches for that). Only a process that leaves the group, such as a daemon, or runs on
  * another machine, must detect that its input has ended. SIGPIPE is never raised. */
@@ -53,27 +53,16 @@ typedef struct dyd_oracle_options {
   unsigned retries;         /* how often a program is started again for one request before that has failed */
   double seconds;           /* the longest wait for one line; 0: DYD_ORACLE_SECONDS */
   const volatile int *stop; /* not NULL: starting gives up with DYD_CANCELLED when it becomes not 0; borrowed for
-                             * the call of dyd_oracle_new only */
+                             * the call only */
 } dyd_oracle_options;
 
-/* Programs that run, and their requests. Counted references; used by one thread at a time. */
-typedef struct dyd_oracle dyd_oracle;
-
-/* Starts the programs and waits until each has said how many points there are. options may be NULL.
- * *out is new, with one reference. DYD_E_ARG for options out of range, DYD_E_STREAM when a program cannot be started or
- * does not begin as it should, DYD_E_NOMEM, DYD_CANCELLED; *err (may be NULL) says more. Nothing is left running then.
- */
-DYD_API dyd_status dyd_oracle_new(dyd_oracle **out, const char *command, const dyd_oracle_options *options,
-                                  dyd_error *err);
-/* How many points the programs serve. */
-DYD_API size_t dyd_oracle_count(const dyd_oracle *o);
-/* A source of points 0 .. dyd_oracle_count(o) - 1, for dyd_engine_add_source or dyd_stream_new. It holds a reference,
- * which its release gives back; call this once for each time the source is handed over. *out is begun with DYD_SIZED.
- */
-DYD_API dyd_status dyd_oracle_source(dyd_source *out, dyd_oracle *o, dyd_error *err);
-/* Gives back a reference. With the last one the inputs of the programs end; programs that run a second later are
- * killed. NULL is allowed. */
-DYD_API void dyd_oracle_free(dyd_oracle *o);
+/* Starts the programs, waits until each has reported how many points there are, and sets *out, begun with DYD_SIZED, to
+ * a source of points 0 .. *points - 1, for dyd_engine_add_source. Its release ends the programs: their inputs end, and
+ * those that run a second later are killed. options may be NULL. DYD_E_ARG for options out of range, DYD_E_STREAM when
+ * a program cannot be started or does not begin as it should, DYD_E_NOMEM, DYD_CANCELLED; *err (may be NULL) says more,
+ * outputs are unchanged, and nothing is left running. */
+DYD_API dyd_status dyd_oracle_source(dyd_source *out, size_t *points, const char *command,
+                                     const dyd_oracle_options *options, dyd_error *err);
 
 #ifdef __cplusplus
 }

@@ -14,14 +14,6 @@
 
 /* ---- reading ---- */
 
-static int oracle_add(dyd_engine *e, dyd_oracle *oracle) {
-  dyd_source source = {DYD_SIZED(dyd_source)};
-  dyd_status st = dyd_oracle_source(&source, oracle, NULL);
-  if (st == DYD_OK) st = dyd_engine_add_source(e, dyd_oracle_count(oracle), &source, NULL);
-  if (st == DYD_OK) return 0;
-  return cli_fail("the points of the oracle cannot be added: %s", dyd_status_text(st));
-}
-
 /* Options that say how a text is read mean nothing for the answers of a program. */
 static int oracle_refuse(const dyd_read_options *read) {
   const dyd_read_field *field;
@@ -40,15 +32,16 @@ static int oracle_refuse(const dyd_read_options *read) {
 static int session_read_oracle(dyd_engine *e, const cli_options *o) {
   int status = oracle_refuse(&o->read);
   if (status) return status;
-  dyd_oracle *oracle = NULL;
+  dyd_source source = {DYD_SIZED(dyd_source)};
+  size_t points;
   dyd_error err;
   dyd_error_clear(&err);
   const dyd_oracle_options options = {DYD_SIZED(dyd_oracle_options), .jobs = o->oracle_jobs, .batch = o->oracle_batch,
                                       .retries = o->oracle_retries, .seconds = o->oracle_timeout};
-  if (dyd_oracle_new(&oracle, o->oracle, &options, &err) != DYD_OK) return cli_fail("%s", err.message);
-  status = oracle_add(e, oracle);
-  dyd_oracle_free(oracle);
-  return status;
+  dyd_status st = dyd_oracle_source(&source, &points, o->oracle, &options, &err);
+  if (st != DYD_OK) return cli_fail("%s", err.message);
+  st = dyd_engine_add_source(e, points, &source, NULL);
+  return st == DYD_OK ? 0 : cli_fail("the points of the oracle cannot be added: %s", dyd_status_text(st));
 }
 
 /* The file has another format: names it, and the command to type. */

@@ -225,8 +225,7 @@ dyd_status dyd_rect_narrow_q(dyd_rect *r, const mpq_t end[4], dyd_error *err) {
 
 /* Invariant: lifeline is the pipe the watchers read, both ends of it; worker[0 .. jobs) are initialised; room for two
  * entries of poll per worker. */
-struct dyd_oracle {
-  size_t refs;
+typedef struct dyd_oracle {
   char *command;
   pid_t owner;
   dyd_worker *worker;
@@ -236,7 +235,7 @@ struct dyd_oracle {
   size_t points; /* 0 until the first program has reported */
   double *cost;  /* of each, as it reported; NULL: it did not */
   int lifeline[2];
-};
+} dyd_oracle;
 
 /* ---- waiting ---- */
 
@@ -404,23 +403,34 @@ static dyd_status oracle_narrow(dyd_rect *out, void *user, const dyd_request *re
   return dyd_failed(st) ? oracle_fail_request(err, st, request, own.message) : st;
 }
 
+/* ---- ending ---- */
+
+/* Waits at most that time in total for programs that are to end. */
+static void wait_for_programs(const dyd_oracle *o, double seconds) {
+  double until = dyd_seconds() + seconds;
+  for (unsigned k = 0; k < o->jobs; k++) {
+    char how[100];
+    double left = until - dyd_seconds();
+    dyd_process_ended(how, sizeof how, &o->worker[k].process, left > 0 ? left : 0);
+  }
+}
+
+/* Closes all pipes, so that programs that read on can end; busy ones get a signal. */
+static void let_programs_end(dyd_oracle *o) {
+  for (unsigned k = 0; k < o->jobs; k++) dyd_process_close(&o->worker[k].process);
+  wait_for_programs(o, GRACE_SECONDS / 2);
+  for (unsigned k = 0; k < o->jobs; k++) dyd_process_stop(&o->worker[k].process);
+  wait_for_programs(o, GRACE_SECONDS / 2);
+}
+
 static void oracle_release(void *user) {
-  dyd_oracle_free(user);
-}
-
-dyd_status dyd_oracle_source(dyd_source *out, dyd_oracle *o, dyd_error *err) {
-  if (!o) return dyd_fail_null(err);
-  const dyd_source source = {
-      .narrow = oracle_narrow, .release = oracle_release, .user = o, .announce = oracle_announce, .cost = o->cost};
-  dyd_status st = dyd_abi_check(out, 0, "dyd_source", err);
-  if (st != DYD_OK) return st;
-  o->refs++;
-  dyd_abi_give(out, &source, sizeof source);
-  return DYD_OK;
-}
-
-size_t dyd_oracle_count(const dyd_oracle *o) {
-  return o ? o->points : 0;
+  dyd_oracle *o = user;
+  for (unsigned k = 0; k < o->jobs && !oracle_is_ours(o); k++) dyd_process_disown(&o->worker[k].process);
+  let_programs_end(o);
+  for (unsigned k = 0; k < o->jobs; k++) dyd_worker_clear(&o->worker[k]);
+  dyd_close(&o->lifeline[0]);
+  dyd_close(&o->lifeline[1]);
+  dyd_free_all(o->command, o->cost, o->poll, o->worker, o);
 }
 
 /* ---- starting ---- */
@@ -459,8 +469,7 @@ static dyd_status start_all_programs(dyd_oracle *o, unsigned jobs, const volatil
 static dyd_oracle *oracle_new(const char *command, const dyd_oracle_options *options) {
   dyd_oracle *o = dyd_alloc(1, sizeof *o);
   if (!o) return NULL;
-  *o = (dyd_oracle){.refs = 1,
-                    .owner = getpid(),
+  *o = (dyd_oracle){.owner = getpid(),
                     .batch = options->batch,
                     .retries = options->retries,
                     .seconds = options->seconds,
@@ -469,14 +478,17 @@ static dyd_oracle *oracle_new(const char *command, const dyd_oracle_options *opt
   o->worker = dyd_alloc(options->jobs, sizeof *o->worker);
   o->poll = dyd_alloc(2 * (size_t)options->jobs, sizeof *o->poll);
   if (o->command && o->worker && o->poll) return o;
-  dyd_oracle_free(o);
+  oracle_release(o);
   return NULL;
 }
 
-dyd_status dyd_oracle_new(dyd_oracle **out, const char *command, const dyd_oracle_options *options, dyd_error *err) {
+dyd_status dyd_oracle_source(dyd_source *out, size_t *points, const char *command, const dyd_oracle_options *options,
+                             dyd_error *err) {
   dyd_oracle_options given;
   if (err) dyd_error_clear(err);
-  if (dyd_abi_take(&given, sizeof given, options, "dyd_oracle_options", err) != DYD_OK) return DYD_E_ARG;
+  if (dyd_abi_take(&given, sizeof given, options, "dyd_oracle_options", err) != DYD_OK ||
+      dyd_abi_check(out, 0, "dyd_source", err) != DYD_OK)
+    return DYD_E_ARG;
   if (given.jobs == 0) given.jobs = 1;
   if (given.batch == 0) given.batch = 1;
   if (given.seconds == 0) given.seconds = DYD_ORACLE_SECONDS;
@@ -489,39 +501,13 @@ dyd_status dyd_oracle_new(dyd_oracle **out, const char *command, const dyd_oracl
   dyd_oracle *o = oracle_new(command, &given);
   if (!o) return dyd_fail_nomem(err);
   dyd_status st = start_all_programs(o, given.jobs, given.stop, err);
-  if (st == DYD_OK)
-    *out = o;
-  else
-    dyd_oracle_free(o);
-  return st;
-}
-
-/* ---- ending ---- */
-
-/* Waits at most that time in total for programs that are to end. */
-static void wait_for_programs(const dyd_oracle *o, double seconds) {
-  double until = dyd_seconds() + seconds;
-  for (unsigned k = 0; k < o->jobs; k++) {
-    char how[100];
-    double left = until - dyd_seconds();
-    dyd_process_ended(how, sizeof how, &o->worker[k].process, left > 0 ? left : 0);
+  if (st != DYD_OK) {
+    oracle_release(o);
+    return st;
   }
-}
-
-/* Closes all pipes, so that programs that read on can end; busy ones get a signal. */
-static void let_programs_end(dyd_oracle *o) {
-  for (unsigned k = 0; k < o->jobs; k++) dyd_process_close(&o->worker[k].process);
-  wait_for_programs(o, GRACE_SECONDS / 2);
-  for (unsigned k = 0; k < o->jobs; k++) dyd_process_stop(&o->worker[k].process);
-  wait_for_programs(o, GRACE_SECONDS / 2);
-}
-
-void dyd_oracle_free(dyd_oracle *o) {
-  if (!o || --o->refs) return;
-  for (unsigned k = 0; k < o->jobs && !oracle_is_ours(o); k++) dyd_process_disown(&o->worker[k].process);
-  let_programs_end(o);
-  for (unsigned k = 0; k < o->jobs; k++) dyd_worker_clear(&o->worker[k]);
-  dyd_close(&o->lifeline[0]);
-  dyd_close(&o->lifeline[1]);
-  dyd_free_all(o->command, o->cost, o->poll, o->worker, o);
+  const dyd_source source = {
+      .narrow = oracle_narrow, .release = oracle_release, .user = o, .announce = oracle_announce, .cost = o->cost};
+  dyd_abi_give(out, &source, sizeof source);
+  *points = o->points;
+  return DYD_OK;
 }

@@ -142,9 +142,10 @@ static dyd_status check_replay(fixture *f, const void *s, dyd_error *err) {
 
 static dyd_status oracle_new(fixture *f, const void *s, dyd_error *err) {
   (void)f;
-  dyd_oracle *o = NULL;
-  dyd_status st = dyd_oracle_new(&o, "echo points 3; exec cat >/dev/null", s, err);
-  dyd_oracle_free(o);
+  dyd_source source = {DYD_SIZED(dyd_source)};
+  size_t points;
+  dyd_status st = dyd_oracle_source(&source, &points, "echo points 3; exec cat >/dev/null", s, err);
+  if (st == DYD_OK) source.release(source.user);
   return st;
 }
 
@@ -246,11 +247,10 @@ static dyd_status verify(fixture *f, void *s, dyd_error *err) {
 
 static dyd_status oracle_source(fixture *f, void *s, dyd_error *err) {
   (void)f;
-  dyd_oracle *o = NULL;
-  assert_int_equal(DYD_OK, dyd_oracle_new(&o, "echo points 3; exec cat >/dev/null", NULL, NULL));
-  dyd_status st = dyd_oracle_source(s, o, err);
-  if (st == DYD_OK) dyd_oracle_free(o); /* the reference of the source */
-  dyd_oracle_free(o);
+  size_t points;
+  dyd_source *source = s;
+  dyd_status st = dyd_oracle_source(source, &points, "echo points 3; exec cat >/dev/null", NULL, err);
+  if (st == DYD_OK) source->release(source->user);
   return st;
 }
 

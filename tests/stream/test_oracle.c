@@ -34,14 +34,16 @@ static void assert_says(const dyd_error *err, const char *words) {
 
 /* ---- engines ---- */
 
-static void start(dyd_oracle **out, const char *fault, int stage, const char *more, const dyd_oracle_options *o,
+static void start(dyd_source *out, const char *fault, int stage, const char *more, const dyd_oracle_options *o,
                   dyd_status want, const char *says) {
+  size_t points = 0;
   char command[1000];
   dyd_error err;
   dyd_error_clear(&err);
   snprintf(command, sizeof command, "exec '%s' serve %s %d %d %s", self, fault, POINTS, stage, more);
-  dyd_status status = dyd_oracle_new(out, command, o, &err);
+  dyd_status status = dyd_oracle_source(out, &points, command, o, &err);
   if (status != want) fail_msg("%s: status %d: %s", fault, status, err.message);
+  assert_int_equal(want == DYD_OK ? POINTS : 0, points);
   assert_says(&err, says);
 }
 
@@ -56,12 +58,8 @@ static dyd_engine *engine_of(const dyd_source *source) {
 }
 
 static dyd_engine *engine_with(const char *fault, int stage, const char *more, const dyd_oracle_options *o) {
-  dyd_oracle *oracle = NULL;
-  start(&oracle, fault, stage, more, o, DYD_OK, "");
-  assert_int_equal(POINTS, dyd_oracle_count(oracle));
   dyd_source source = {DYD_SIZED(dyd_source)};
-  assert_int_equal(DYD_OK, dyd_oracle_source(&source, oracle, NULL));
-  dyd_oracle_free(oracle);
+  start(&source, fault, stage, more, o, DYD_OK, "");
   return engine_of(&source);
 }
 
@@ -285,29 +283,30 @@ static const struct {
 
 static void test_starts(void **state) {
   (void)state;
-  dyd_oracle *oracle = NULL;
+  dyd_source source = {DYD_SIZED(dyd_source)};
+  size_t points;
   dyd_error err;
   for (size_t k = 0; k < sizeof starts / sizeof *starts; k++) {
     dyd_oracle_options o = {DYD_SIZED(dyd_oracle_options), .jobs = 2, .seconds = 0.4};
     if (strstr("start-flood start-differ start-exit", starts[k].name)) o.seconds = 60;
-    start(&oracle, starts[k].name, 0, "", &o, DYD_E_STREAM, starts[k].says);
-    assert_null(oracle);
+    start(&source, starts[k].name, 0, "", &o, DYD_E_STREAM, starts[k].says);
+    assert_null(source.user);
     assert_nothing_left();
   }
-  assert_int_equal(DYD_E_STREAM, dyd_oracle_new(&oracle, "/nowhere/nothing 2>/dev/null", NULL, &err));
+  assert_int_equal(DYD_E_STREAM, dyd_oracle_source(&source, &points, "/nowhere/nothing 2>/dev/null", NULL, &err));
   assert_says(&err, "did not find the command");
-  assert_int_equal(DYD_E_STREAM, dyd_oracle_new(&oracle, "", NULL, NULL));
+  assert_int_equal(DYD_E_STREAM, dyd_oracle_source(&source, &points, "", NULL, NULL));
   dyd_oracle_options bad[] = {{.jobs = 5000}, {.batch = 100000}, {.seconds = -1}, {.seconds = (double)NAN}};
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
     bad[k].struct_size = sizeof bad[k];
-    assert_int_equal(DYD_E_ARG, dyd_oracle_new(&oracle, "echo points 3", &bad[k], &err));
+    assert_int_equal(DYD_E_ARG, dyd_oracle_source(&source, &points, "echo points 3", &bad[k], &err));
     assert_says(&err, k < 2 ? "`batch` above" : "`seconds` is below 0");
   }
-  assert_int_equal(DYD_E_ARG, dyd_oracle_new(&oracle, NULL, NULL, &err));
+  assert_int_equal(DYD_E_ARG, dyd_oracle_source(&source, &points, NULL, NULL, &err));
   volatile int stop = 1;
   dyd_oracle_options o = {DYD_SIZED(dyd_oracle_options), .stop = &stop};
-  start(&oracle, "start-hang", 0, "", &o, DYD_CANCELLED, "");
-  assert_null(oracle);
+  start(&source, "start-hang", 0, "", &o, DYD_CANCELLED, "");
+  assert_null(source.user);
   assert_nothing_left();
 }
 
@@ -315,7 +314,8 @@ static void test_starts(void **state) {
 static void test_no_descriptors(void **state) {
   (void)state;
   struct rlimit old, few;
-  dyd_oracle *oracle = NULL;
+  dyd_source source = {DYD_SIZED(dyd_source)};
+  size_t points;
   dyd_error err;
   int open_now = count_descriptors();
   assert_int_equal(0, getrlimit(RLIMIT_NOFILE, &old));
@@ -324,11 +324,11 @@ static void test_no_descriptors(void **state) {
     few.rlim_cur = (rlim_t)(open_now + more);
     assert_int_equal(0, setrlimit(RLIMIT_NOFILE, &few));
     dyd_oracle_options o = {DYD_SIZED(dyd_oracle_options), .jobs = 2};
-    dyd_status status = dyd_oracle_new(&oracle, "echo points 3; cat >/dev/null", &o, &err);
+    dyd_status status = dyd_oracle_source(&source, &points, "echo points 3; cat >/dev/null", &o, &err);
     assert_int_equal(0, setrlimit(RLIMIT_NOFILE, &old));
     if (more < 4) assert_int_equal(DYD_E_STREAM, status);
     if (more == 12) assert_int_equal(DYD_OK, status);
-    if (status == DYD_OK) dyd_oracle_free(oracle);
+    if (status == DYD_OK) source.release(source.user);
     assert_nothing_left();
   }
 }
@@ -408,40 +408,35 @@ static void test_orphans(void **state) {
   assert_nothing_left();
 }
 
-/* Without an engine: points asked in any order, one source used twice. */
-static void test_streams(void **state) {
+/* Without an engine: points asked in any order. */
+static void test_requests(void **state) {
   (void)state;
-  dyd_oracle *oracle = NULL;
-  dyd_stream *stream[POINTS];
+  dyd_source source = {DYD_SIZED(dyd_source)};
+  dyd_rect rect[POINTS];
   dyd_oracle_options o = {DYD_SIZED(dyd_oracle_options), .jobs = 2, .batch = 3};
   dyd_error err;
-  start(&oracle, "none", 0, "", &o, DYD_OK, "");
+  start(&source, "none", 0, "", &o, DYD_OK, "");
   for (size_t k = 0; k < POINTS; k++) {
-    dyd_source source = {DYD_SIZED(dyd_source)};
-    assert_int_equal(DYD_OK, dyd_oracle_source(&source, oracle, NULL));
-    assert_int_equal(DYD_OK, dyd_stream_new(&stream[k], &source, k, NULL));
+    dyd_rect_init(&rect[k]);
+    dyd_rect_unset(&rect[k]);
   }
-  dyd_source source = {DYD_SIZED(dyd_source)};
-  assert_int_equal(DYD_OK, dyd_oracle_source(&source, oracle, NULL));
-  dyd_stream *beyond = NULL;
-  assert_int_equal(DYD_OK, dyd_stream_new(&beyond, &source, POINTS, NULL));
-  dyd_oracle_free(oracle);
   test_random r = test_random_start("oracle streams");
   for (size_t k = test_cases(200); k; k--) {
     size_t p = (size_t)test_below(&r, POINTS);
     int64_t bits = test_between(&r, 0, 300);
-    dyd_request list[POINTS];
+    dyd_request list[POINTS], one = {DYD_SIZED(dyd_request), .point = p, .bits = bits, .max_bits = 4096};
     for (size_t j = 0; j < POINTS; j++)
       list[j] = (dyd_request){DYD_SIZED(dyd_request), .point = test_below(&r, POINTS + 1), .bits = bits};
     if (test_chance(&r, 3)) source.announce(source.user, list, (size_t)test_below(&r, POINTS));
-    dyd_status status = dyd_stream_narrow(stream[p], bits, 4096, &err);
+    dyd_status status = source.narrow(&rect[p], source.user, &one, &err);
     if (status < 0) fail_msg("%s", err.message);
-    assert_true(status == DYD_FIXED || dyd_rect_bits(dyd_stream_rect(stream[p])) >= bits);
+    assert_true(status == DYD_FIXED || dyd_rect_bits(&rect[p]) >= bits);
   }
-  assert_int_equal(DYD_E_ARG, dyd_stream_narrow(beyond, 3, 4096, &err));
+  const dyd_request beyond = {DYD_SIZED(dyd_request), .point = POINTS, .bits = 3, .max_bits = 4096};
+  assert_int_equal(DYD_E_ARG, source.narrow(&rect[0], source.user, &beyond, &err));
   assert_says(&err, "has 5 points only");
-  for (size_t k = 0; k < POINTS; k++) dyd_stream_free(stream[k]);
-  dyd_stream_free(beyond);
+  for (size_t k = 0; k < POINTS; k++) dyd_rect_clear(&rect[k]);
+  source.release(source.user);
   assert_nothing_left();
 }
 
@@ -487,7 +482,7 @@ int main(int argc, char **argv) {
       cmocka_unit_test(test_same),        cmocka_unit_test(test_forked),  cmocka_unit_test(test_side_by_side),
       cmocka_unit_test(test_faults),      cmocka_unit_test(test_starts),  cmocka_unit_test(test_no_descriptors),
       cmocka_unit_test(test_interrupted), cmocka_unit_test(test_resumed), cmocka_unit_test(test_orphans),
-      cmocka_unit_test(test_streams),
+      cmocka_unit_test(test_requests),
   };
   return cmocka_run_group_tests(tests, NULL, release_caches);
 }
