@@ -245,23 +245,23 @@ typedef enum dyd_list_ties {
  * none. */
 DYD_API bool dyd_format_from_name(dyd_format *out, const char *name);
 DYD_API bool dyd_format_from_file(dyd_format *out, const char *file);
-/* Returns true if the ending of the file's name suits the format: it belongs to no other format, or it is csv for wkt
- * or json for geojson. */
-DYD_API bool dyd_format_suits_file(dyd_format format, const char *file);
-/* Returns true if the format is not text. */
-DYD_API bool dyd_format_is_binary(dyd_format format);
-/* The name of a format; NULL behind the last one, so that counting up from 0 lists them all. Static storage. */
-DYD_API const char *dyd_format_name(dyd_format format);
-/* A description without a full stop; NULL as above. Static storage. */
-DYD_API const char *dyd_format_about(dyd_format format);
-/* The layers of DYD_CONTENT_DELAUNAY, _VORONOI, _TOLERANCE, _PLAN, _SPHERE and _SPHERE_VORONOI: the k-th name, the
- * default first, NULL behind the last one; and the content of a name ("points"), false when there is none. Static
- * storage. */
-DYD_API const char *dyd_layer_name(dyd_content of, size_t k);
+/* What there is to know of a format. Texts have static storage. */
+typedef struct dyd_format_facts {
+  size_t struct_size; /* set by the library */
+  const char *name;   /* which is the ending of its files, too */
+  const char *about;  /* a description without a full stop */
+  const char *also;   /* another ending that suits it: csv for wkt, json for geojson; NULL: none */
+  bool binary;        /* it is not text */
+} dyd_format_facts;
+/* Returns NULL behind the last format, so that counting up from 0 lists them all. */
+DYD_API const dyd_format_facts *dyd_format_get(dyd_format format);
+/* The layers of DYD_CONTENT_DELAUNAY, _VORONOI, _TOLERANCE, _PLAN, _SPHERE and _SPHERE_VORONOI. Returns the k-th name,
+ * the default first, NULL behind the last one, in static storage. Sets *layer to its content, and *large if it is many
+ * times as large as the default one, or as slow to find: files of several layers hold it only if it is named. Both may
+ * be NULL. */
+DYD_API const char *dyd_layer_name(dyd_content *layer, bool *large, dyd_content of, size_t k);
+/* Finds the content of a layer by its name ("points"); false when there is none. */
 DYD_API bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *name);
-/* Returns true if a layer is many times as large as the default one, or as slow to find: files of several layers hold
- * it only if it is named. */
-DYD_API bool dyd_layer_is_large(dyd_content layer);
 /* Returns true if the format can hold the content. Otherwise dyd_write returns DYD_E_ARG with a message that names the
  * formats that can. */
 DYD_API bool dyd_format_holds(dyd_format format, dyd_content content);

@@ -504,14 +504,14 @@ static dyd_status layers_write(GDALDatasetH set, OGRSpatialReferenceH crs, cli_s
                                const char *base, dyd_error *err) {
   const dyd_content all = s->o.content;
   const dyd_format format = s->o.format;
-  const char *name = s->o.all_layers ? dyd_layer_name(all, 0) : NULL;
+  const char *name = s->o.all_layers ? dyd_layer_name(NULL, NULL, all, 0) : NULL;
   dyd_status st = name ? DYD_OK : layer_write(set, crs, s, print, base, err);
-  for (size_t k = 0; st == DYD_OK && (name = s->o.all_layers ? dyd_layer_name(all, k) : NULL); k++) {
+  bool large;
+  for (size_t k = 0; name && st == DYD_OK && (name = dyd_layer_name(&s->o.content, &large, all, k)); k++) {
     char plain[64];
     snprintf(plain, sizeof plain, "%s", name);
     for (char *c = plain; (c = strchr(c, ':'));) *c = '_';
-    dyd_layer_from_name(&s->o.content, all, name);
-    if (dyd_layer_is_large(s->o.content)) continue;
+    if (large) continue;
     s->o.format = dyd_format_holds(DYD_FORMAT_WKT, s->o.content) ? DYD_FORMAT_WKT : DYD_FORMAT_CSV;
     st = layer_write(set, crs, s, print, plain, err);
     if (st == DYD_E_ARG && k) st = DYD_OK;
@@ -581,9 +581,9 @@ static void note_layers(const cli_options *o, GDALDatasetH set) {
   const char *name, *before = "; not ";
   list_layers(list, sizeof list, set);
   size_t used = strlen(list);
-  for (size_t k = 0; o->all_layers && used < sizeof list && (name = dyd_layer_name(o->content, k)); k++) {
-    dyd_content content;
-    if (!dyd_layer_from_name(&content, o->content, name) || !dyd_layer_is_large(content)) continue;
+  bool large;
+  for (size_t k = 0; o->all_layers && used < sizeof list && (name = dyd_layer_name(NULL, &large, o->content, k)); k++) {
+    if (!large) continue;
     used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", before, name);
     before = ", ";
   }

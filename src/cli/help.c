@@ -282,9 +282,9 @@ static void man_commands(FILE *out) {
 
 static void man_formats(FILE *out) {
   fputs(".Bl -tag -width Ds\n", out);
-  for (unsigned f = 0; dyd_format_name((dyd_format)f); f++) {
-    fprintf(out, ".It Cm %s\n", dyd_format_name((dyd_format)f));
-    man_text(out, dyd_format_about((dyd_format)f));
+  for (unsigned f = 0; dyd_format_get((dyd_format)f); f++) {
+    fprintf(out, ".It Cm %s\n", dyd_format_get((dyd_format)f)->name);
+    man_text(out, dyd_format_get((dyd_format)f)->about);
   }
   fputs(".El\n", out);
 }

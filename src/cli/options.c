@@ -463,7 +463,8 @@ static int layer_fits(cli_options *o, const cli_command *c) {
   o->content = o->queries ? DYD_CONTENT_PLACES : o->simulate ? DYD_CONTENT_TRIALS : of;
   if (!o->layer || dyd_layer_from_name(&o->content, of, o->layer)) return 0;
   fprintf(stderr, "dyadel: %s%s has no layer \"%s\"; give ", c->name, o->sphere ? " --sphere" : "", o->layer);
-  for (size_t k = 0; dyd_layer_name(of, k); k++) fprintf(stderr, "%s%s", k ? ", " : "", dyd_layer_name(of, k));
+  for (size_t k = 0; dyd_layer_name(NULL, NULL, of, k); k++)
+    fprintf(stderr, "%s%s", k ? ", " : "", dyd_layer_name(NULL, NULL, of, k));
   fputs("\n", stderr);
   return CLI_USAGE;
 }
@@ -476,12 +477,12 @@ static int discs_fit(const cli_options *o, const cli_command *c) {
   if (!o->discs || c != &cli_commands[CLI_DELAUNAY] || (!layer && !format)) return 0;
   return cli_usage("delaunay --discs does not write %s%s; give a layer of pairs, points, triangles, aliases or graphs, "
                    "as csv, wkt or geojson, or pairs or graphs as svg, pdf, png, html or tikz",
-                   layer ? "--layer " : "", layer ? o->layer : dyd_format_name(o->format));
+                   layer ? "--layer " : "", layer ? o->layer : dyd_format_get(o->format)->name);
 }
 
 /* The format has to hold the content; without --format, the first that does is taken. */
 static int format_fits(cli_options *o, const cli_command *c) {
-  while (!o->format_set && dyd_format_name(o->format) && !dyd_format_holds(o->format, o->content)) o->format++;
+  while (!o->format_set && dyd_format_get(o->format) && !dyd_format_holds(o->format, o->content)) o->format++;
   if (!o->format_set || dyd_format_holds(o->format, o->content)) return 0;
   fprintf(stderr, "dyadel: %s%s%s%s does not write %s; give", c->name, o->sphere ? " --sphere" : "",
           o->layer ? " --layer " : "",
@@ -489,11 +490,11 @@ static int format_fits(cli_options *o, const cli_command *c) {
           : o->queries  ? " --queries"
           : o->simulate ? " --simulate"
                         : "",
-          dyd_format_name(o->format));
+          dyd_format_get(o->format)->name);
   const char *before = " ";
-  for (unsigned f = 0; dyd_format_name((dyd_format)f); f++) {
+  for (unsigned f = 0; dyd_format_get((dyd_format)f); f++) {
     if (!dyd_format_holds((dyd_format)f, o->content)) continue;
-    fprintf(stderr, "%s%s", before, dyd_format_name((dyd_format)f));
+    fprintf(stderr, "%s%s", before, dyd_format_get((dyd_format)f)->name);
     before = ", ";
   }
   fputs("\n", stderr);
@@ -520,7 +521,7 @@ static int ending_unknown(const cli_options *o, const char *name, const cli_comm
 /* Rows go to GDAL as wkt, or as csv where they have no geometry. */
 static int format_of_driver(cli_options *o, bool several) {
   if (o->format_set)
-    return cli_usage("-o %s says the format; remove --format %s", o->output, dyd_format_name(o->format));
+    return cli_usage("-o %s says the format; remove --format %s", o->output, dyd_format_get(o->format)->name);
   if (cli_name_is_packed(&(size_t){0}, o->output)) return cli_usage("-o %s: GDAL packs no such file", o->output);
   o->all_layers = several && !o->layer;
   o->format = dyd_format_holds(DYD_FORMAT_WKT, o->content) ? DYD_FORMAT_WKT : DYD_FORMAT_CSV;
@@ -543,10 +544,10 @@ static int format_from_output(cli_options *o, const cli_command *c) {
   if (o->driver) return format_of_driver(o, several);
   if (!o->format_set && !known && ending && strcmp(ending, "txt") != 0) return ending_unknown(o, name, c);
   o->format_set |= known;
-  if (dyd_format_suits_file(o->format, name)) return 0;
-  const char *format = dyd_format_name(o->format);
-  return cli_usage("-o %s does not name a %s file; remove --format %s, or end the name in .%s", o->output, format,
-                   format, format);
+  const dyd_format_facts *f = dyd_format_get(o->format);
+  if (!known || strcasecmp(ending, f->name) == 0 || (f->also && strcasecmp(ending, f->also) == 0)) return 0;
+  return cli_usage("-o %s does not name a %s file; remove --format %s, or end the name in .%s", o->output, f->name,
+                   f->name, f->name);
 }
 
 /* Longitude and latitude in degrees: WGS 84, ETRS89, NAD27, NAD83, GDA94, SIRGAS, GDA2020 and others much used. */
@@ -569,7 +570,7 @@ static int crs_fits(const cli_options *o) {
   if (o->driver) return 0;
   if (!o->epsg || (size_t)o->format >= sizeof none / sizeof *none || !none[o->format]) return 0;
   return cli_usage("%s has no place for a reference system; remove --crs, or give --format geojson",
-                   dyd_format_name(o->format));
+                   dyd_format_get(o->format)->name);
 }
 
 /* Hands the operands behind the command's name to their fields. An oracle or a trace replaces the file, with a

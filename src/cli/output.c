@@ -345,9 +345,9 @@ int cli_files_check(const cli_options *o) {
     }
   }
   for (size_t k = 0; k < n; k++) free(file[k].last);
-  if (status || o->output || !dyd_format_is_binary(o->format) || !isatty(STDOUT_FILENO)) return status;
-  return cli_usage("%s is nothing for a terminal; give a file: -o NAME.%s", dyd_format_name(o->format),
-                   dyd_format_name(o->format));
+  const dyd_format_facts *f = dyd_format_get(o->format); /* NULL: the command has no format */
+  if (status || o->output || !f || !f->binary || !isatty(STDOUT_FILENO)) return status;
+  return cli_usage("%s is nothing for a terminal; give a file: -o NAME.%s", f->name, f->name);
 }
 
 FILE *cli_input_open(const char *name, const char *advice) {

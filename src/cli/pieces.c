@@ -254,7 +254,7 @@ static int places_read(cli_session *s) {
   const cli_options *o = &s->o;
   if (o->sphere && o->format != DYD_FORMAT_CSV && o->format != DYD_FORMAT_JSON)
     return cli_usage("on a sphere nearest writes csv and json; remove --format %s or --sphere",
-                     dyd_format_name(o->format));
+                     dyd_format_get(o->format)->name);
   int begun = o->sphere ? cli_sphere_begin(s) : 0;
   if (begun) return begun;
   query *q = s->state;

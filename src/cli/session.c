@@ -479,7 +479,8 @@ int cli_write_file(const char *name, const cli_session *s, cli_print_fn print) {
     done = cli_output_finish(&out, o);
   else
     cli_output_drop(&out);
-  if (done && cli_is_packed(name, o)) cli_note(o, "%s holds %s, packed", name, dyd_format_name(o->format));
+  const dyd_format_facts *f = dyd_format_get(o->format);
+  if (done && f && cli_is_packed(name, o)) cli_note(o, "%s holds %s, packed", name, f->name);
   return done ? 0 : cli_exit_refused(&s->o, st);
 }
 

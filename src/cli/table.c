@@ -51,8 +51,8 @@ static bool is_format_of(dyd_format format, unsigned commands) {
 bool cli_option_exists(const cli_option *option, unsigned commands) {
   unsigned f = 0, takers = option->commands & commands;
   if (option->kind != CLI_FORMAT) return takers != 0;
-  while (dyd_format_name((dyd_format)f) && !is_format_of((dyd_format)f, takers)) f++;
-  return dyd_format_name((dyd_format)f) != NULL;
+  while (dyd_format_get((dyd_format)f) && !is_format_of((dyd_format)f, takers)) f++;
+  return dyd_format_get((dyd_format)f);
 }
 
 const cli_command *cli_command_find(const char *name) {
@@ -77,17 +77,18 @@ void cli_commands_print(FILE *out, unsigned commands, const char *separator) {
 void cli_layers_print(FILE *out, unsigned commands, const char *separator) {
   const char *before = "";
   for (unsigned c = 0; c < CLI_COMMANDS; c++)
-    for (size_t k = 0; commands & BIT(c) && dyd_layer_name(cli_commands[c].content, k); k++) {
-      fprintf(out, "%s%s", before, dyd_layer_name(cli_commands[c].content, k));
+    for (size_t k = 0; commands & BIT(c) && dyd_layer_name(NULL, NULL, cli_commands[c].content, k); k++) {
+      fprintf(out, "%s%s", before, dyd_layer_name(NULL, NULL, cli_commands[c].content, k));
       before = separator;
     }
 }
 
 void cli_formats_print(FILE *out, unsigned commands, const char *separator, bool mark) {
   bool first = true;
-  for (unsigned f = 0; dyd_format_name((dyd_format)f); f++) {
+  for (unsigned f = 0; dyd_format_get((dyd_format)f); f++) {
     if (!is_format_of((dyd_format)f, commands)) continue;
-    fprintf(out, "%s%s%s", first ? "" : separator, dyd_format_name((dyd_format)f), first && mark ? " (default)" : "");
+    fprintf(out, "%s%s%s", first ? "" : separator, dyd_format_get((dyd_format)f)->name,
+            first && mark ? " (default)" : "");
     first = false;
   }
 }

@@ -16,54 +16,74 @@ typedef dyd_writer *const writers[DYD_CONTENTS];
 extern writers dyd_csv_writers, dyd_json_writers, dyd_obj_writers, dyd_vtk_writers, dyd_picture_writers,
     dyd_html_writers, dyd_pgf_writers;
 
+enum { BYTES = sizeof(dyd_format_facts), USUAL_WIDTH = 1120 };
+
 static const struct {
-  const char *name, *ending, *about;
+  dyd_format_facts facts;
   dyd_writer *const *write; /* by content; NULL: none but layers */
   enum { NO_LAYERS, ALL_LAYERS, GEOGRAPHIC } layers;
-  const char *also; /* another ending that suits it; that of the format that it is a kind of */
-  bool binary;
   bool (*there)(void); /* NULL: always; else it may be missing from this library */
   struct bytes {
     uint32_t page, site, pair;
   } plain, diagram; /* what writing takes, as measured; of the diagram, beside what its writers ask for */
 } formats[] = {
-    [DYD_FORMAT_CSV] = {"csv", "csv",
-                        "a table: of delaunay one line for each pair that is possible (i,j,status), of converge one "
-                        "for each stage",
-                        dyd_csv_writers, ALL_LAYERS, .plain = {0, 0, 20}},
-    [DYD_FORMAT_JSON] = {"json", "json",
-                         "everything: rectangles reached, statuses or exact arcs, outcome, bounds, counters",
-                         dyd_json_writers, .plain = {0, 0, 48}},
-    [DYD_FORMAT_WKT] = {"wkt", "wkt", "a CSV table with a geometry per line, as QGIS and ogr2ogr read it", NULL,
-                        GEOGRAPHIC, "csv", .plain = {0, 55, 20}},
-    [DYD_FORMAT_GEOJSON] = {"geojson", "geojson", "a FeatureCollection", NULL, GEOGRAPHIC, "json",
-                            .plain = {0, 55, 20}},
-    [DYD_FORMAT_OBJ] = {"obj", "obj", "vertices, legal edges, certain triangles", dyd_obj_writers,
+    [DYD_FORMAT_CSV] = {{BYTES, "csv",
+                         "a table: of delaunay one line for each pair that is possible (i,j,status), of converge "
+                         "one for each stage"},
+                        dyd_csv_writers,
+                        ALL_LAYERS,
+                        .plain = {0, 0, 20}},
+    [DYD_FORMAT_JSON] = {{BYTES, "json",
+                          "everything: rectangles reached, statuses or exact arcs, outcome, bounds, counters"},
+                         dyd_json_writers,
+                         .plain = {0, 0, 48}},
+    [DYD_FORMAT_WKT] = {{BYTES, "wkt", "a CSV table with a geometry per line, as QGIS and ogr2ogr read it", "csv"},
+                        NULL,
+                        GEOGRAPHIC,
+                        .plain = {0, 55, 20}},
+    [DYD_FORMAT_GEOJSON] = {{BYTES, "geojson", "a FeatureCollection", "json"}, NULL, GEOGRAPHIC, .plain = {0, 55, 20}},
+    [DYD_FORMAT_OBJ] = {{BYTES, "obj", "vertices, legal edges, certain triangles"},
+                        dyd_obj_writers,
                         .plain = {0, 110, 20}},
-    [DYD_FORMAT_SVG] = {"svg", "svg", "a picture with legend and scale", dyd_picture_writers, .plain = {0, 630, 36},
+    [DYD_FORMAT_SVG] = {{BYTES, "svg", "a picture with legend and scale"},
+                        dyd_picture_writers,
+                        .plain = {0, 630, 36},
                         .diagram = {0, 150, 0}},
-    [DYD_FORMAT_VTK] = {"vtk", "vtk", "legacy VTK text, as ParaView reads it", dyd_vtk_writers, .plain = {0, 200, 25}},
-    [DYD_FORMAT_PDF] = {"pdf", "pdf", "the same picture", dyd_picture_writers, .binary = true,
-                        .there = dyd_cairo_is_there, .plain = {0, 2900, 36}, .diagram = {0, 5000, 0}},
-    [DYD_FORMAT_PNG] = {"png", "png", "the same picture", dyd_picture_writers, .binary = true,
-                        .there = dyd_cairo_is_there, .plain = {20000000, 5500, 36}, .diagram = {20000000, 300, 0}},
+    [DYD_FORMAT_VTK] = {{BYTES, "vtk", "legacy VTK text, as ParaView reads it"},
+                        dyd_vtk_writers,
+                        .plain = {0, 200, 25}},
+    [DYD_FORMAT_PDF] = {{BYTES, "pdf", "the same picture", NULL, true},
+                        dyd_picture_writers,
+                        .there = dyd_cairo_is_there,
+                        .plain = {0, 2900, 36},
+                        .diagram = {0, 5000, 0}},
+    [DYD_FORMAT_PNG] = {{BYTES, "png", "the same picture", NULL, true},
+                        dyd_picture_writers,
+                        .there = dyd_cairo_is_there,
+                        .plain = {20000000, 5500, 36},
+                        .diagram = {20000000, 300, 0}},
     [DYD_FORMAT_HTML] =
-        {"html", "html",
-         "a page to move about in, with all statements about each point, stage by stage; one file that asks "
-         "for nothing",
-         dyd_html_writers, .plain = {0, 400, 50}, .diagram = {0, 1500, 0}},
-    [DYD_FORMAT_TIKZ] = {"tikz", "tikz", "the same picture as a tikzpicture, for \\input in a LaTeX document",
-                         dyd_picture_writers, .plain = {0, 630, 36}, .diagram = {0, 150, 0}},
-    [DYD_FORMAT_PGF] = {"pgf", "pgf", "of converge the curves as an axis of pgfplots, for \\input in a LaTeX document",
+        {{BYTES, "html",
+          "a page to move about in, with all statements about each point, stage by stage; one file that asks "
+          "for nothing"},
+         dyd_html_writers,
+         .plain = {0, 400, 50},
+         .diagram = {0, 1500, 0}},
+    [DYD_FORMAT_TIKZ] = {{BYTES, "tikz", "the same picture as a tikzpicture, for \\input in a LaTeX document"},
+                         dyd_picture_writers,
+                         .plain = {0, 630, 36},
+                         .diagram = {0, 150, 0}},
+    [DYD_FORMAT_PGF] = {{BYTES, "pgf",
+                         "of converge the curves as an axis of pgfplots, for \\input in a LaTeX document"},
                         dyd_pgf_writers},
 };
-enum { FORMATS = sizeof formats / sizeof *formats, USUAL_WIDTH = 1120 };
+enum { FORMATS = sizeof formats / sizeof *formats };
 
 /* ---- what the table says ---- */
 
 bool dyd_format_from_name(dyd_format *out, const char *name) {
   size_t k = 0;
-  while (k < FORMATS && strcmp(formats[k].name, name) != 0) k++;
+  while (k < FORMATS && strcmp(formats[k].facts.name, name) != 0) k++;
   if (k < FORMATS) *out = (dyd_format)k;
   return k < FORMATS;
 }
@@ -71,34 +91,21 @@ bool dyd_format_from_name(dyd_format *out, const char *name) {
 bool dyd_format_from_file(dyd_format *out, const char *file) {
   const char *dot = strrchr(file, '.');
   size_t k = 0;
-  while (dot && k < FORMATS && strcasecmp(formats[k].ending, dot + 1) != 0) k++;
+  while (dot && k < FORMATS && strcasecmp(formats[k].facts.name, dot + 1) != 0) k++;
   if (dot && k < FORMATS) *out = (dyd_format)k;
   return dot && k < FORMATS;
 }
 
-bool dyd_format_suits_file(dyd_format format, const char *file) {
-  dyd_format other;
-  if (!dyd_format_from_file(&other, file) || other == format) return true;
-  return (size_t)format < FORMATS && formats[format].also && strcmp(formats[format].also, formats[other].ending) == 0;
+const dyd_format_facts *dyd_format_get(dyd_format format) {
+  return (size_t)format < FORMATS ? &formats[format].facts : NULL;
 }
 
-bool dyd_format_is_binary(dyd_format format) {
-  return (size_t)format < FORMATS && formats[format].binary;
-}
-
-const char *dyd_format_name(dyd_format format) {
-  return (size_t)format < FORMATS ? formats[format].name : NULL;
-}
-
-const char *dyd_format_about(dyd_format format) {
-  return (size_t)format < FORMATS ? formats[format].about : NULL;
-}
-
-const char *dyd_layer_name(dyd_content of, size_t k) {
-  const dyd_layer *layer;
-  for (size_t l = 0; (layer = dyd_layer_at(l)); l++)
-    if (layer->name && layer->of == of && k-- == 0) return layer->name;
-  return NULL;
+const char *dyd_layer_name(dyd_content *layer, bool *large, dyd_content of, size_t k) {
+  const dyd_layer *l;
+  for (size_t at = 0; (l = dyd_layer_at(at)) && (!l->name || l->of != of || k-- > 0);) at++;
+  if (l && layer) *layer = l->content;
+  if (l && large) *large = l->large;
+  return l ? l->name : NULL;
 }
 
 bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *name) {
@@ -145,15 +152,15 @@ static dyd_status refuse_format(dyd_format format, dyd_content content, dyd_erro
   for (size_t k = 0; k < FORMATS && used < sizeof names; k++) {
     if (!dyd_format_holds((dyd_format)k, content)) continue;
     const char *before = !used ? "" : left > 1 ? ", " : " or ";
-    used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", before, formats[k].name);
+    used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", before, formats[k].facts.name);
     left--;
   }
   if ((size_t)format >= FORMATS)
     return dyd_fail(err, DYD_E_ARG, "there is no format number %d; give %s", (int)format, names);
   if (format_is_missing(format))
     return dyd_fail(err, DYD_E_ARG, "%s takes cairo, which this library was built without; give %s",
-                    formats[format].name, names);
-  return dyd_fail(err, DYD_E_ARG, "%s cannot hold this; give %s", formats[format].name, names);
+                    formats[format].facts.name, names);
+  return dyd_fail(err, DYD_E_ARG, "%s cannot hold this; give %s", formats[format].facts.name, names);
 }
 
 dyd_status dyd_format_write(const dyd_output *given, dyd_error *err) {

@@ -607,11 +607,6 @@ const dyd_layer *dyd_layer_of(dyd_content content) {
   return dyd_layer_at(k);
 }
 
-bool dyd_layer_is_large(dyd_content layer) {
-  const dyd_layer *l = dyd_layer_of(layer);
-  return l && l->large;
-}
-
 /* ---- writing ---- */
 
 /* Where the sites of a layer are drawn. */

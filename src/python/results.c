@@ -589,9 +589,9 @@ PyObject *dydpy_simulate(PyObject *self, PyObject *args) {
 PyObject *dydpy_formats(PyObject *module, PyObject *none) {
   PyObject *list = PyList_New(0);
   (void)module, (void)none;
-  for (int k = 0; list && dyd_format_name((dyd_format)k); k++) {
-    PyObject *row = Py_BuildValue("ssN", dyd_format_name((dyd_format)k), dyd_format_about((dyd_format)k),
-                                  PyBool_FromLong(dyd_format_is_binary((dyd_format)k)));
+  const dyd_format_facts *f;
+  for (int k = 0; list && (f = dyd_format_get((dyd_format)k)); k++) {
+    PyObject *row = Py_BuildValue("ssN", f->name, f->about, PyBool_FromLong(f->binary));
     if (!row || PyList_Append(list, row) < 0) Py_CLEAR(list);
     Py_XDECREF(row);
   }

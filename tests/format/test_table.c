@@ -16,13 +16,13 @@ static void test_names(void **state) {
   (void)state;
   dyd_format found;
   size_t count = 0;
-  for (; dyd_format_name((dyd_format)count); count++) {
-    const char *name = dyd_format_name((dyd_format)count);
+  for (; dyd_format_get((dyd_format)count); count++) {
+    const char *name = dyd_format_get((dyd_format)count)->name;
     char file[64];
     snprintf(file, sizeof file, "a.b/c.%s", name);
     assert_true(dyd_format_from_name(&found, name) && (size_t)found == count);
     assert_true(dyd_format_from_file(&found, file) && (size_t)found == count);
-    assert_non_null(dyd_format_about((dyd_format)count));
+    assert_non_null(dyd_format_get((dyd_format)count)->about);
     assert_false(dyd_format_holds((dyd_format)count, DYD_CONTENT_NONE));
     assert_false(dyd_format_holds((dyd_format)count, (dyd_content)CONTENTS));
     bool some = false;
@@ -31,7 +31,7 @@ static void test_names(void **state) {
     assert_true(some == (!cairo || dyd_cairo_is_there()));
   }
   assert_true(count > DYD_FORMAT_PNG);
-  assert_null(dyd_format_about((dyd_format)count));
+  assert_null(dyd_format_get((dyd_format)count));
   assert_false(dyd_format_holds((dyd_format)count, DYD_CONTENT_DELAUNAY));
   found = DYD_FORMAT_OBJ;
   assert_false(dyd_format_from_name(&found, "CSV") || dyd_format_from_name(&found, ""));
@@ -162,18 +162,18 @@ static void test_layers(void **state) {
                                     DYD_CONTENT_SPHERE_VORONOI};
   size_t count = 0;
   for (int k = 0; k < 4; k++)
-    for (size_t l = 0; dyd_layer_name(of[k], l); l++, count++) {
+    for (size_t l = 0; dyd_layer_name(NULL, NULL, of[k], l); l++, count++) {
       dyd_content found = DYD_CONTENT_NONE;
-      assert_true(dyd_layer_from_name(&found, of[k], dyd_layer_name(of[k], l)));
+      assert_true(dyd_layer_from_name(&found, of[k], dyd_layer_name(NULL, NULL, of[k], l)));
       assert_true(l == 0 ? found == of[k] : found != of[k]);
       assert_true(dyd_format_holds(DYD_FORMAT_CSV, found));
       assert_int_equal(dyd_format_holds(DYD_FORMAT_GEOJSON, found),
                        found != DYD_CONTENT_SPHERE_REGIONS && found != DYD_CONTENT_TIES);
-      bool shared = strcmp(dyd_layer_name(of[k], l), "aliases") == 0;
-      assert_int_equal(dyd_layer_from_name(&found, of[k ^ 1], dyd_layer_name(of[k], l)), shared);
+      bool shared = strcmp(dyd_layer_name(NULL, NULL, of[k], l), "aliases") == 0;
+      assert_int_equal(dyd_layer_from_name(&found, of[k ^ 1], dyd_layer_name(NULL, NULL, of[k], l)), shared);
     }
   assert_int_equal(count, 22);
-  assert_null(dyd_layer_name(DYD_CONTENT_CHECK, 0));
+  assert_null(dyd_layer_name(NULL, NULL, DYD_CONTENT_CHECK, 0));
 }
 
 /* An option that a content needs and lacks is named, as are contents that do not exist. */
@@ -197,11 +197,11 @@ static void test_missing(void **state) {
 static void assert_refused(const char *message, dyd_content content) {
   const char *list = strstr(message, "give ");
   assert_non_null(list);
-  for (size_t f = 0; dyd_format_name((dyd_format)f); f++) {
+  for (size_t f = 0; dyd_format_get((dyd_format)f); f++) {
     bool named = false;
-    size_t length = strlen(dyd_format_name((dyd_format)f));
+    size_t length = strlen(dyd_format_get((dyd_format)f)->name);
     for (const char *at = list + 5; *at; at += strcspn(at, " ,"), at += strspn(at, " ,"))
-      named |= strcspn(at, " ,") == length && strncmp(at, dyd_format_name((dyd_format)f), length) == 0;
+      named |= strcspn(at, " ,") == length && strncmp(at, dyd_format_get((dyd_format)f)->name, length) == 0;
     assert_int_equal(named, dyd_format_holds((dyd_format)f, content));
   }
 }
@@ -211,7 +211,7 @@ static void test_writers(void **state) {
   example x;
   example_init(&x);
   for (int k = DYD_CONTENT_DELAUNAY; k < CONTENTS; k++)
-    for (size_t f = 0; f == 0 || dyd_format_name((dyd_format)(f - 1)); f++) { /* one behind the last */
+    for (size_t f = 0; f == 0 || dyd_format_get((dyd_format)(f - 1)); f++) { /* one behind the last */
       char *text = NULL;
       size_t size = 0;
       dyd_error err;
@@ -234,7 +234,7 @@ static void test_full_device(void **state) {
   example x;
   example_init(&x);
   for (int k = DYD_CONTENT_DELAUNAY; k < CONTENTS; k++)
-    for (size_t f = 0; dyd_format_name((dyd_format)f); f++)
+    for (size_t f = 0; dyd_format_get((dyd_format)f); f++)
       for (int told = 0; told < 2 && dyd_format_holds((dyd_format)f, (dyd_content)k); told++) {
         dyd_error err = {.message = ""};
         FILE *out = fopen("/dev/full", "w");
