@@ -375,9 +375,6 @@ DYD_API dyd_status dyd_engine_ask(dyd_outcome *outcome, dyd_engine *e, const dyd
  * rectangle that e knows. Points that one of the two narrows later may be wider in the other; both enclose the same
  * point. DYD_E_ARG when there is no point i. */
 DYD_API dyd_status dyd_engine_stream(dyd_stream **out, dyd_engine *e, uint32_t i);
-/* The centre of the circle through the corners of t (dyd_stream_voronoi_vertex): for a triangle of
- * dyd_delaunay_triangles, a Voronoi vertex. */
-DYD_API dyd_status dyd_engine_voronoi_vertex(dyd_stream **out, dyd_engine *e, const dyd_triangle *t);
 
 /* Which points of e are possibly nearest to the point `at`, ascending; *sure: exactly one is, and it is certainly
  * nearest. Refines `at` and the points that are possibly nearest until that is certain (decided), until nothing

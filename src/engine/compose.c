@@ -109,13 +109,3 @@ dyd_status dyd_engine_stream(dyd_stream **out, dyd_engine *e, uint32_t i) {
   *out = dyd_stream_ref(p->stream);
   return DYD_OK;
 }
-
-dyd_status dyd_engine_voronoi_vertex(dyd_stream **out, dyd_engine *e, const dyd_triangle *t) {
-  if (!e) return DYD_E_ARG;
-  dyd_stream *corner[3] = {NULL, NULL, NULL};
-  dyd_status st = DYD_OK;
-  for (int k = 0; k < 3 && st == DYD_OK; k++) st = dyd_engine_stream(&corner[k], e, t->v[k]);
-  if (st == DYD_OK) return dyd_stream_voronoi_vertex(out, corner[0], corner[1], corner[2]);
-  for (int k = 0; k < 3; k++) dyd_stream_free(corner[k]);
-  return st;
-}

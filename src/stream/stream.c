@@ -358,13 +358,6 @@ dyd_status dyd_stream_combination(dyd_stream **out, size_t n, dyd_stream *const 
   return image_stream(out, a, combination_narrow);
 }
 
-dyd_status dyd_stream_midpoint(dyd_stream **out, dyd_stream *a, dyd_stream *b) {
-  dyd_stream *const of[2] = {a, b};
-  DYD_LOCAL_ARRAY(mpq_t, half, [2]);
-  for (int k = 0; k < 2; k++) mpq_set_ui(half[k], 1, 2);
-  return dyd_stream_combination(out, 2, of, (const mpq_t *)half, NULL);
-}
-
 /* Streams from rectangles and from pairs of reals. */
 
 dyd_status dyd_stream_from_rect(dyd_stream **out, const dyd_rect *r) {

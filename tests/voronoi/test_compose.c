@@ -2,6 +2,7 @@
 /* Outputs as inputs: Voronoi vertices, combinations, streams taken out of engines, their life times
  * [VTX-1] [CMB-1]. */
 #include "rect/rect.h"
+#include "support/compose.h"
 #include "voronoi/streams.h"
 
 #include <dyadel/arc.h>
@@ -238,13 +239,13 @@ static void test_combinations(void **state) {
     dyd_stream_free(s);
   }
   dyd_stream *m = NULL;
-  assert_int_equal(dyd_stream_midpoint(&m, text_stream("1/3", "1"), text_stream("1", "2")), DYD_OK);
+  assert_int_equal(test_midpoint(&m, text_stream("1/3", "1"), text_stream("1", "2")), DYD_OK);
   mpq_set_si(sum[0], 2, 3);
   mpq_set_si(sum[1], 3, 2);
   ends(e, dyd_stream_rect(m));
   assert_true(mpq_equal(e[0], sum[0]) && mpq_equal(e[1], sum[0]) && mpq_equal(e[2], sum[1]) && mpq_equal(e[3], sum[1]));
   dyd_stream_free(m);
-  assert_int_equal(dyd_stream_midpoint(&m, NULL, text_stream("1", "2")), DYD_E_ARG);
+  assert_int_equal(test_midpoint(&m, NULL, text_stream("1", "2")), DYD_E_ARG);
   mpq_clears(weight[0], weight[1], weight[2], shift[0], shift[1], sum[0], sum[1], t, NULL);
   clear4(e);
 }
@@ -258,7 +259,7 @@ static dyd_engine *next_level(dyd_engine *e) {
   assert_int_equal(dyd_delaunay_triangles(&t, NULL, dyd_engine_delaunay(e), 0), DYD_OK);
   for (size_t k = 0; k < t.count; k++) {
     dyd_stream *v = NULL;
-    assert_int_equal(dyd_engine_voronoi_vertex(&v, e, &t.item[k]), DYD_OK);
+    assert_int_equal(test_vertex(&v, e, &t.item[k]), DYD_OK);
     assert_int_equal(dyd_engine_add_stream(next, v, NULL), DYD_OK);
   }
   dyd_triangle_list_clear(&t);

@@ -6,6 +6,7 @@
 
 #include "delaunay/harness.h"
 #include "support/failing_memory.h"
+#include "support/compose.h"
 #include <cmocka.h>
 #include <dyadel/dyadel.h>
 
@@ -64,11 +65,11 @@ static dyd_status ask_streams(dyd_engine *e) {
   dyd_status st = dyd_engine_stream(&a, e, 1);
   if (st == DYD_OK) st = dyd_engine_stream(&b, e, 2);
   if (st == DYD_OK) {
-    st = dyd_stream_midpoint(&m, a, b);
+    st = test_midpoint(&m, a, b);
     a = b = NULL;
   }
   if (st == DYD_OK) st = dyd_engine_nearest(&l, &sure, &outcome, e, m, NULL, NULL);
-  dyd_status made = st == DYD_OK ? dyd_engine_voronoi_vertex(&v, e, &t) : st;
+  dyd_status made = st == DYD_OK ? test_vertex(&v, e, &t) : st;
   if (made == DYD_E_NOMEM) st = made; /* a collinear triangle is not a failure here */
   dyd_index_list_clear(&l);
   dyd_stream_free(v);
