@@ -224,11 +224,10 @@ typedef struct dyd_hull {
   dyd_pair_list pairs;
 } dyd_hull;
 DYD_API void dyd_hull_clear(dyd_hull *h);
-/* Exact [HST-1] [HST-2]. *out is replaced. DYD_CAPPED: more pairs than the cap of pd; `pairs` is empty then, the rest
- * is complete. O(h log h + pairs), h the sites on the skeleton's hull or in unbounded undecided faces. */
-DYD_API dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd);
-/* The vertices alone, as in dyd_hull, however many pairs there are. Both are replaced. Exact [HST-1]. O(h log h). */
-DYD_API dyd_status dyd_delaunay_hull_vertices(dyd_index_list *sure, dyd_index_list *possible, const dyd_delaunay *pd);
+/* Exact [HST-1] [HST-2]. *out is replaced. pairs: false leaves out->pairs empty, however many there are. DYD_CAPPED:
+ * more pairs than the cap of pd; `pairs` is empty then, the rest is complete. O(h log h + pairs), h the sites on the
+ * skeleton's hull or in unbounded undecided faces. */
+DYD_API dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd, bool pairs);
 
 #ifdef __cplusplus
 }

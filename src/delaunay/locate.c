@@ -62,20 +62,20 @@ static dyd_status hull_of_corners(locator *l) {
 
 /* Makes the hull of all sites that may be on the hull of some choice; no corners where doubles do not hold them. */
 static dyd_status make_hull(locator *l) {
-  dyd_index_list sure = {0}, possible = {0};
-  dyd_status st = dyd_delaunay_hull_vertices(&sure, &possible, l->pd);
-  if (st == DYD_OK) l->corner = dyd_alloc(4 * possible.count, sizeof *l->corner);
+  dyd_hull hull = {0};
+  const dyd_index_list *possible = &hull.possible_vertices;
+  dyd_status st = dyd_delaunay_partial_hull(&hull, l->pd, false);
+  if (st == DYD_OK) l->corner = dyd_alloc(4 * possible->count, sizeof *l->corner);
   if (st == DYD_OK && !l->corner) st = DYD_E_NOMEM;
   bool finite = true;
-  for (size_t k = 0; k < possible.count && st == DYD_OK; k++) {
+  for (size_t k = 0; k < possible->count && st == DYD_OK; k++) {
     double b[4];
-    dyd_sites_get_d(b, dyd_delaunay_sites(l->pd), possible.item[k]);
+    dyd_sites_get_d(b, dyd_delaunay_sites(l->pd), possible->item[k]);
     for (int q = 0; q < 4; q++) finite = finite && isfinite(b[q]);
     for (int q = 0; q < 4; q++) l->corner[l->count++] = (dyd_xy){b[q & 1], b[2 + (q >> 1)]};
   }
   if (!finite) l->count = 0;
-  dyd_index_list_clear(&sure);
-  dyd_index_list_clear(&possible);
+  dyd_hull_clear(&hull);
   l->made = true;
   return st == DYD_OK && l->count ? hull_of_corners(l) : st;
 }

@@ -421,8 +421,7 @@ static dyd_status fill_pairs(dyd_hull *out, hull *h) {
   return DYD_OK;
 }
 
-/* *out is replaced, unless it fails. */
-static dyd_status fill(dyd_hull *out, const dyd_delaunay *pd, bool pairs) {
+dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd, bool pairs) {
   if (!pd) return DYD_E_ARG;
   hull h = {.pd = pd, .pairs = {.most = pd->max_pairs}};
   dyd_hull found = {0};
@@ -431,17 +430,5 @@ static dyd_status fill(dyd_hull *out, const dyd_delaunay *pd, bool pairs) {
   hull_clear(&h);
   dyd_hull_clear(dyd_failed(st) ? &found : out);
   if (!dyd_failed(st)) *out = found;
-  return st;
-}
-
-dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd) {
-  return fill(out, pd, true);
-}
-
-dyd_status dyd_delaunay_hull_vertices(dyd_index_list *sure, dyd_index_list *possible, const dyd_delaunay *pd) {
-  dyd_hull found = {.sure_vertices = *sure, .possible_vertices = *possible};
-  dyd_status st = fill(&found, pd, false);
-  *sure = found.sure_vertices;
-  *possible = found.possible_vertices;
   return st;
 }

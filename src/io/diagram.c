@@ -388,7 +388,7 @@ static void dual_join_ties(dyd_dual_edge *e, const dyd_delaunay *pd, const dual_
 /* A certain hull edge with a vertex on one side has its ray on the other. Both sides open: the ray is unknown. */
 static dyd_status dual_join_rays(dyd_dual_edge *edge, size_t count, const dyd_delaunay *pd) {
   dyd_hull hull = {0};
-  dyd_status st = dyd_delaunay_partial_hull(&hull, pd);
+  dyd_status st = dyd_delaunay_partial_hull(&hull, pd, true);
   if (st == DYD_CAPPED) st = DYD_OK; /* then it lists no pairs */
   for (size_t k = 0; st == DYD_OK && k < hull.pairs.count; k++) {
     if (hull.pairs.item[k].status != DYD_LEGAL) continue;

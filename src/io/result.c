@@ -57,13 +57,12 @@ static void mark_hull(dyd_site_row *rows, const dyd_index_list *list, const char
 }
 
 static dyd_status find_hull(dyd_site_row *rows, const dyd_result *r) {
-  dyd_index_list sure = {0}, possible = {0};
-  dyd_status st = r->sphere ? DYD_OK : dyd_delaunay_hull_vertices(&sure, &possible, r->pd);
+  dyd_hull hull = {0};
+  dyd_status st = r->sphere ? DYD_OK : dyd_delaunay_partial_hull(&hull, r->pd, false);
   for (size_t i = 0; i < r->count; i++) rows[i].hull = "no";
-  mark_hull(rows, &possible, "possible");
-  mark_hull(rows, &sure, "certain");
-  dyd_index_list_clear(&possible);
-  dyd_index_list_clear(&sure);
+  mark_hull(rows, &hull.possible_vertices, "possible");
+  mark_hull(rows, &hull.sure_vertices, "certain");
+  dyd_hull_clear(&hull);
   return st;
 }
 

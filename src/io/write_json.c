@@ -121,7 +121,7 @@ static void json_faces(dyd_json *j, const dyd_result *r) {
 /* The hull: possible pairs as hull edges; "capped" when they are too many to be listed. */
 static void json_hull(dyd_json *j, const dyd_result *r) {
   dyd_hull hull = {0};
-  dyd_status st = dyd_delaunay_partial_hull(&hull, r->pd);
+  dyd_status st = dyd_delaunay_partial_hull(&hull, r->pd, true);
   dyd_json_good(j, st == DYD_CAPPED ? DYD_OK : st);
   dyd_json_object(j, "hull", DYD_JSON_LINES);
   dyd_json_bool(j, "capped", st == DYD_CAPPED);

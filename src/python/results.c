@@ -186,13 +186,14 @@ PyObject *dydpy_aliases(PyObject *self, PyObject *none) {
 }
 
 PyObject *dydpy_hull(PyObject *self, PyObject *none) {
-  dyd_index_list sure = {0}, possible = {0};
+  dyd_hull hull = {0};
+  const dyd_index_list *sure = &hull.sure_vertices, *possible = &hull.possible_vertices;
   dydpy_call c;
   (void)none;
-  if (!dydpy_begin(&c, self, DYDPY_RESULT) || !dydpy_end(&c, dyd_delaunay_hull_vertices(&sure, &possible, c.pd)))
+  if (!dydpy_begin(&c, self, DYDPY_RESULT) || !dydpy_end(&c, dyd_delaunay_partial_hull(&hull, c.pd, false)))
     return NULL;
-  return Py_BuildValue("NN", array_new(true, sure.item, sure.count, sizeof *sure.item),
-                       array_new(true, possible.item, possible.count, sizeof *possible.item));
+  return Py_BuildValue("NN", array_new(true, sure->item, sure->count, sizeof *sure->item),
+                       array_new(true, possible->item, possible->count, sizeof *possible->item));
 }
 
 /* In degrees, of places. */

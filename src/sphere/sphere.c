@@ -283,9 +283,12 @@ static dyd_status second_run(dyd_sphere *s, dyd_sphere *first, const dyd_engine_
 
 /* About a centre that is not a place: all that may be its neighbours. */
 static dyd_status face_of_gap(dyd_index_list *face, bool *tie, const dyd_delaunay *pd) {
-  DYD_SCOPED(dyd_index_list) sure = {0};
+  dyd_hull hull = {0};
   *tie = false;
-  return dyd_delaunay_hull_vertices(&sure, face, pd);
+  dyd_status st = dyd_delaunay_partial_hull(&hull, pd, false);
+  *face = hull.possible_vertices;
+  dyd_index_list_clear(&hull.sure_vertices);
+  return st;
 }
 
 /* Finds whether a pair around the centre, which is not a place, is open. */
@@ -415,14 +418,15 @@ static dyd_pair_status status_on_hull(const dyd_sphere *s, uint8_t in) {
 
 dyd_status dyd_sphere_about_centre(dyd_pair_status *status, const dyd_sphere *s) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
-  DYD_SCOPED(dyd_index_list) sure = {0}, possible = {0};
+  DYD_SCOPED(dyd_hull) hull = {0};
+  const dyd_index_list *sure = &hull.sure_vertices, *possible = &hull.possible_vertices;
   DYD_FREED uint8_t *in = calloc(s->with_image + 1, sizeof *in);
   dyd_status st = in ? mark_outer(in, s) : DYD_E_NOMEM;
-  if (st == DYD_OK) st = dyd_delaunay_hull_vertices(&sure, &possible, pd);
+  if (st == DYD_OK) st = dyd_delaunay_partial_hull(&hull, pd, false);
   for (size_t k = 0; k < s->with_image; k++) status[k] = DYD_ILLEGAL;
-  for (size_t k = 0; k < possible.count; k++)
-    status[possible.item[k]] = status_on_hull(s, in ? in[possible.item[k]] : IN_OPEN);
-  for (size_t k = 0; k < sure.count; k++) status[sure.item[k]] = DYD_LEGAL;
+  for (size_t k = 0; k < possible->count; k++)
+    status[possible->item[k]] = status_on_hull(s, in ? in[possible->item[k]] : IN_OPEN);
+  for (size_t k = 0; k < sure->count; k++) status[sure->item[k]] = DYD_LEGAL;
   return st;
 }
 
@@ -598,7 +602,7 @@ static dyd_status triangles_seen(dyd_triangle_list *out, const dyd_sphere *s) {
   DYD_SCOPED(dyd_hull) hull = {0};
   dyd_status st = dyd_delaunay_triangles(&images, NULL, pd, 0);
   if (st == DYD_OK && !s->free) st = dyd_delaunay_hull(&around, pd);
-  if (st == DYD_OK && !s->free) st = dyd_delaunay_partial_hull(&hull, pd);
+  if (st == DYD_OK && !s->free) st = dyd_delaunay_partial_hull(&hull, pd, true);
   if (st == DYD_CAPPED) st = DYD_OK; /* then no side of the hull is listed */
   return st == DYD_OK ? triangles_join(out, s, &images, &around, &hull) : st;
 }

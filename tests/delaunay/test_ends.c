@@ -273,7 +273,7 @@ static void each_end(void **state) {
 /* ---- questions ---- */
 
 static dyd_status ask(const dyd_delaunay *pd, size_t question, size_t *items) {
-  dyd_index_list list = {0}, sure = {0};
+  dyd_index_list list = {0};
   dyd_pair_list pairs = {0};
   dyd_triangle_list triangles = {0}, beyond = {0};
   dyd_hull hull = {.pairs = {0}};
@@ -290,20 +290,20 @@ static dyd_status ask(const dyd_delaunay *pd, size_t question, size_t *items) {
   if (question == 3) st = dyd_delaunay_neighbours(&list, pd, 0, DYD_TIE);
   if (question == 4) st = dyd_delaunay_undecided_faces(pd) ? dyd_delaunay_face(&list, &outer, pd, 0) : DYD_OK;
   if (question == 5) st = dyd_delaunay_undecided_faces(pd) ? dyd_delaunay_face_pairs(&pairs, pd, 0) : DYD_OK;
-  if (question == 6) st = dyd_delaunay_partial_hull(&hull, pd);
-  if (question == 7) st = dyd_delaunay_hull_vertices(&sure, &list, pd);
+  if (question == 6) st = dyd_delaunay_partial_hull(&hull, pd, true);
+  if (question == 7) st = dyd_delaunay_partial_hull(&hull, pd, false);
   if (question == 8) st = dyd_delaunay_triangles(&triangles, &beyond, pd, 0);
   if (question == 9) st = dyd_delaunay_triangles(&triangles, &beyond, pd, DYD_TRIANGLES_AS_FOUND);
   if (question == 10) st = dyd_delaunay_meet_disc(&list, pd, &c, radius2);
   if (question == 11 && dyd_delaunay_status(pd, 0, 1) == DYD_LEGAL) st = dyd_delaunay_witness(&c, pd, 0, 1);
-  *items = pairs.count + triangles.count + list.count + sure.count + beyond.count + hull.pairs.count;
+  *items = pairs.count + triangles.count + list.count + hull.sure_vertices.count + hull.possible_vertices.count +
+           beyond.count + hull.pairs.count;
   mpq_clear(radius2);
   dyd_point_clear(&c);
   dyd_hull_clear(&hull);
   dyd_triangle_list_clear(&beyond);
   dyd_triangle_list_clear(&triangles);
   dyd_pair_list_clear(&pairs);
-  dyd_index_list_clear(&sure);
   dyd_index_list_clear(&list);
   return st;
 }

@@ -59,19 +59,21 @@ static void same_pairs(const dyd_delaunay *a, const dyd_delaunay *b) {
 
 static void same_triangles(const dyd_delaunay *a, const dyd_delaunay *b) {
   dyd_triangle_list s = {0}, t = {0}, beyond[2] = {{0}};
-  dyd_index_list hull[4] = {{0}};
+  dyd_hull hull[2] = {{.pairs = {0}}};
   assert_int_equal(dyd_delaunay_triangles(&s, &beyond[0], a, 0), DYD_OK);
   assert_int_equal(dyd_delaunay_triangles(&t, &beyond[1], b, 0), DYD_OK);
   assert_int_equal(s.count, t.count);
   assert_true(!s.count || memcmp(s.item, t.item, s.count * sizeof *s.item) == 0);
   assert_true(!s.count || memcmp(beyond[0].item, beyond[1].item, s.count * sizeof *s.item) == 0);
-  assert_int_equal(dyd_delaunay_hull_vertices(&hull[0], &hull[1], a), DYD_OK);
-  assert_int_equal(dyd_delaunay_hull_vertices(&hull[2], &hull[3], b), DYD_OK);
+  assert_int_equal(dyd_delaunay_partial_hull(&hull[0], a, false), DYD_OK);
+  assert_int_equal(dyd_delaunay_partial_hull(&hull[1], b, false), DYD_OK);
   for (int k = 0; k < 2; k++) {
-    assert_int_equal(hull[k].count, hull[k + 2].count);
-    assert_true(!hull[k].count || memcmp(hull[k].item, hull[k + 2].item, hull[k].count * sizeof *hull[k].item) == 0);
+    const dyd_index_list *p = k ? &hull[0].sure_vertices : &hull[0].possible_vertices;
+    const dyd_index_list *q = k ? &hull[1].sure_vertices : &hull[1].possible_vertices;
+    assert_int_equal(p->count, q->count);
+    assert_true(!p->count || memcmp(p->item, q->item, p->count * sizeof *p->item) == 0);
   }
-  for (int k = 0; k < 4; k++) dyd_index_list_clear(&hull[k]);
+  for (int k = 0; k < 2; k++) dyd_hull_clear(&hull[k]);
   for (int k = 0; k < 2; k++) dyd_triangle_list_clear(&beyond[k]);
   dyd_triangle_list_clear(&s);
   dyd_triangle_list_clear(&t);

@@ -37,11 +37,11 @@ static bool queries_fail_well(char *message, const dyd_delaunay *pd) {
       dyd_pair_list pairs = {0};
       dyd_triangle_list triangles = {0};
       dyd_triangle_list beyond = {0};
-      dyd_index_list list = {0}, sure = {0};
+      dyd_index_list list = {0};
       dyd_hull corners = {.pairs = {0}};
       countdown = k;
-      if (which == 5) status = dyd_delaunay_partial_hull(&corners, pd);
-      if (which == 6) status = dyd_delaunay_hull_vertices(&sure, &list, pd);
+      if (which == 5) status = dyd_delaunay_partial_hull(&corners, pd, true);
+      if (which == 6) status = dyd_delaunay_partial_hull(&corners, pd, false);
       if (which == 7) status = dyd_delaunay_triangles(&triangles, &beyond, pd, 0);
       if (which == 0) status = dyd_delaunay_pairs(&pairs, pd);
       if (which == 1) status = dyd_delaunay_triangles(&triangles, NULL, pd, 0);
@@ -56,7 +56,6 @@ static bool queries_fail_well(char *message, const dyd_delaunay *pd) {
       bool failed = countdown == 0, empty = !pairs.item && !triangles.item && !list.item && !beyond.item;
       countdown = 0;
       dyd_hull_clear(&corners);
-      dyd_index_list_clear(&sure);
       dyd_triangle_list_clear(&beyond);
       dyd_pair_list_clear(&pairs);
       dyd_triangle_list_clear(&triangles);

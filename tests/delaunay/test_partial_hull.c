@@ -148,19 +148,21 @@ static bool same_list(char *message, const char *what, const dyd_index_list *l, 
 
 /* The vertices computed alone equal the vertices of the whole answer. */
 static void assert_vertices(const dyd_hull *hull, const dyd_delaunay *pd) {
-  dyd_index_list list[2] = {{0}, {0}};
+  dyd_hull alone = {0};
+  const dyd_index_list *list[2] = {&alone.sure_vertices, &alone.possible_vertices};
   const dyd_index_list *should[2] = {&hull->sure_vertices, &hull->possible_vertices};
-  assert_int_equal(dyd_delaunay_hull_vertices(&list[0], &list[1], pd), DYD_OK);
+  assert_int_equal(dyd_delaunay_partial_hull(&alone, pd, false), DYD_OK);
   for (int k = 0; k < 2; k++) {
-    assert_int_equal(list[k].count, should[k]->count);
-    for (size_t q = 0; q < list[k].count; q++) assert_int_equal(list[k].item[q], should[k]->item[q]);
-    dyd_index_list_clear(&list[k]);
+    assert_int_equal(list[k]->count, should[k]->count);
+    for (size_t q = 0; q < list[k]->count; q++) assert_int_equal(list[k]->item[q], should[k]->item[q]);
   }
+  assert_int_equal(alone.pairs.count, 0);
+  dyd_hull_clear(&alone);
 }
 
 static bool hull_right(char *message, orc_pool *p, const orc_case *c, const dyd_delaunay *pd) {
   dyd_hull hull = {0};
-  assert_int_equal(dyd_delaunay_partial_hull(&hull, pd), DYD_OK);
+  assert_int_equal(dyd_delaunay_partial_hull(&hull, pd, true), DYD_OK);
   assert_vertices(&hull, pd);
   bool sure[ORC_MAX], possible[ORC_MAX], good = true;
   for (size_t i = 0; i < c->n; i++) {
@@ -299,7 +301,7 @@ static void run_large(const char *what, size_t n, bool circle, double width) {
   }
   assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
   clock_t begun = clock();
-  assert_int_equal(dyd_delaunay_partial_hull(&hull, pd), DYD_OK);
+  assert_int_equal(dyd_delaunay_partial_hull(&hull, pd, true), DYD_OK);
   double seconds = (double)(clock() - begun) / CLOCKS_PER_SEC;
   size_t legal = 0;
   for (size_t k = 0; k < hull.pairs.count; k++) legal += hull.pairs.item[k].status == DYD_LEGAL;
@@ -334,7 +336,7 @@ static void test_cap(void **state) {
     dyd_sites_add_points(s, 1, &x, &y);
   }
   assert_true(dyd_delaunay_new(&pd, s, &o, &err) >= 0);
-  assert_int_equal(dyd_delaunay_partial_hull(&hull, pd), DYD_CAPPED);
+  assert_int_equal(dyd_delaunay_partial_hull(&hull, pd, true), DYD_CAPPED);
   assert_int_equal(hull.pairs.count, 0);
   assert_int_equal(hull.possible_vertices.count, 61);
   assert_int_equal(hull.sure_vertices.count, 3);
@@ -348,7 +350,7 @@ static void test_cap(void **state) {
 static void run_vertices(size_t n, bool line, size_t sure, size_t possible) {
   dyd_sites *s = NULL;
   dyd_delaunay *pd = NULL;
-  dyd_index_list list[2] = {{0}, {0}};
+  dyd_hull hull = {0};
   assert_int_equal(dyd_sites_new(&s), DYD_OK);
   for (size_t i = 0; i < n; i++) {
     double x = (double)(i * 7919 % n), y = line ? 0 : 1e9 * (double)(i % 2), x1 = line ? x : x + (double)n;
@@ -357,12 +359,13 @@ static void run_vertices(size_t n, bool line, size_t sure, size_t possible) {
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = 9};
   assert_true(dyd_delaunay_new(&pd, s, &o, NULL) >= 0);
   clock_t begun = clock();
-  assert_int_equal(dyd_delaunay_hull_vertices(&list[0], &list[1], pd), DYD_OK);
+  assert_int_equal(dyd_delaunay_partial_hull(&hull, pd, false), DYD_OK);
   double seconds = (double)(clock() - begun) / CLOCKS_PER_SEC;
-  fprintf(stderr, "# %zu: %zu sure, %zu possible vertices, %.3f s\n", n, list[0].count, list[1].count, seconds);
-  assert_int_equal(list[0].count, sure);
-  assert_int_equal(list[1].count, possible);
-  for (int k = 0; k < 2; k++) dyd_index_list_clear(&list[k]);
+  fprintf(stderr, "# %zu: %zu sure, %zu possible vertices, %.3f s\n", n, hull.sure_vertices.count,
+          hull.possible_vertices.count, seconds);
+  assert_int_equal(hull.sure_vertices.count, sure);
+  assert_int_equal(hull.possible_vertices.count, possible);
+  dyd_hull_clear(&hull);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);
 }

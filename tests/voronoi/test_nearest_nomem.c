@@ -5,8 +5,8 @@
 #include <stdarg.h>
 
 #include "delaunay/harness.h"
-#include "support/failing_memory.h"
 #include "support/compose.h"
+#include "support/failing_memory.h"
 #include <cmocka.h>
 #include <dyadel/dyadel.h>
 
@@ -49,7 +49,7 @@ static dyd_status ask_places(dyd_engine *e) {
 
 static dyd_status ask_hull(dyd_engine *e) {
   dyd_hull h = {0};
-  dyd_status st = dyd_delaunay_partial_hull(&h, dyd_engine_delaunay(e));
+  dyd_status st = dyd_delaunay_partial_hull(&h, dyd_engine_delaunay(e), true);
   assert_true(st == DYD_OK || (!h.possible_vertices.item && !h.sure_vertices.item && !h.pairs.item));
   dyd_hull_clear(&h);
   return st;
