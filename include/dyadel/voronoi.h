@@ -34,34 +34,33 @@ DYD_API dyd_truth dyd_voronoi_side(const dyd_delaunay *pd, uint32_t i, const dyd
 
 /* ---- proved polygons on a window ---- */
 
-/* A simple polygon with dyadic vertices, counter-clockwise; count 0: empty. Owned: init with {0}. */
+/* A simple polygon with dyadic vertices, counter-clockwise. */
 typedef struct dyd_polygon {
   size_t count;
   dyd_point *vertex;
 } dyd_polygon;
-DYD_API void dyd_polygon_clear(dyd_polygon *p);
 
-/* Several of them; their insides are disjoint. */
+/* Several of them; their insides are disjoint. Owned: init with {0}. */
 typedef struct dyd_polygon_list {
   size_t count;
   dyd_polygon *item;
 } dyd_polygon_list;
 DYD_API void dyd_polygon_list_clear(dyd_polygon_list *l);
 
-/* The window W below: a closed rectangle of positive area with dyadic ends (DYD_E_ARG otherwise).
+/* Polygons for Int_i or Pos_i in the window W, a closed rectangle of positive area with dyadic ends (DYD_E_ARG
+ * otherwise). *out is replaced.
  *
- * A convex polygon inside Int_i n W: each vertex lies in W and satisfies dl_i < ds_j for all possible neighbours j
- * [POLY-1]. Every point of Int_i n W is within 2^-bits of it; only where Int_i n W holds no disc of radius 2^-bits the
- * polygon may be empty. *out is replaced. */
-DYD_API dyd_status dyd_voronoi_inner_polygon(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i,
-                                             const dyd_rect *window, int64_t bits);
-/* Polygons that hold Pos_i n W, one for each part of it: the ends of each edge lie in one convex C_ji, so the edge lies
- * in Ext_i [POLY-2], but where they are cut to W, in which they lie [POLY-3]. They reach at most 2^-bits beyond
- * Pos_i. */
-DYD_API dyd_status dyd_voronoi_outer_polygon(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i,
-                                             const dyd_rect *window, int64_t bits);
+ * SURE: one convex polygon inside Int_i n W, or none: each vertex lies in W and satisfies dl_i < ds_j for all possible
+ * neighbours j [POLY-1]. Every point of Int_i n W is within 2^-bits of it; only where Int_i n W holds no disc of radius
+ * 2^-bits there may be none.
+ *
+ * POSSIBLE: polygons that hold Pos_i n W, one for each part of it: the ends of each edge lie in one convex C_ji, so the
+ * edge lies in Ext_i [POLY-2], but where they are cut to W, in which they lie [POLY-3]. They reach at most 2^-bits
+ * beyond Pos_i. */
+DYD_API dyd_status dyd_voronoi_polygons(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, dyd_cell_bound bound,
+                                        const dyd_rect *window, int64_t bits);
 
-/* Sets out to the area of the cell of site i on the window. *exact = false, and out is unchanged, where the cell
+/* Sets out to the area of the cell of site i on the window W. *exact = false, and out is unchanged, where the cell
  * depends on a choice: i or one of its possible partners is not an exact point, or partners are undecided (ties apart).
  * The caller initialises out. Cost: O(K^2) exact steps for K legal partners. */
 DYD_API dyd_status dyd_voronoi_exact_area(mpq_t out, bool *exact, const dyd_delaunay *pd, uint32_t i,

@@ -28,8 +28,7 @@
 /* A site whose polygons of the last stage are kept. */
 typedef struct watched_cell {
   uint32_t site;
-  dyd_polygon inner;
-  dyd_polygon_list outer;
+  dyd_polygon_list inner, outer;
 } watched_cell;
 
 /* One schedule under way. */
@@ -222,7 +221,7 @@ static dyd_status check_choice(check_state *s) {
 /* ---- cells ---- */
 
 static void watched_forget(watched_cell *w) {
-  dyd_polygon_clear(&w->inner);
+  dyd_polygon_list_clear(&w->inner);
   dyd_polygon_list_clear(&w->outer);
 }
 
@@ -267,9 +266,9 @@ static dyd_status outer_edge_holds(bool *out, const check_state *s, uint32_t i, 
 static dyd_status check_cell(check_state *s, const watched_cell *w) {
   dyd_status st = DYD_OK;
   if (is_alias(s->pd, w->site)) return DYD_OK;
-  for (size_t k = 0; k < w->inner.count && st == DYD_OK && !fault_found(s); k++) {
+  for (size_t k = 0; w->inner.count && k < w->inner.item->count && st == DYD_OK && !fault_found(s); k++) {
     bool inside;
-    st = point_is_on_side(&inside, s, w->site, &w->inner.vertex[k], DYD_TRUE);
+    st = point_is_on_side(&inside, s, w->site, &w->inner.item->vertex[k], DYD_TRUE);
     if (st == DYD_OK && !inside) check_found(s, DYD_CHECK_CELL, "Int of site %u has lost a point", (unsigned)w->site);
   }
   for (size_t p = 0; p < w->outer.count; p++)
@@ -290,8 +289,8 @@ static dyd_status watched_make(watched_cell *w, check_state *s) {
   int64_t bits = dyd_metric_coarseness(s->pd, &s->window) + 6;
   watched_forget(w);
   w->site = dyd_delaunay_alias(s->pd, (uint32_t)check_below(&s->random, n));
-  dyd_status st = dyd_voronoi_inner_polygon(&w->inner, s->pd, w->site, &s->window, bits);
-  if (st == DYD_OK) st = dyd_voronoi_outer_polygon(&w->outer, s->pd, w->site, &s->window, bits);
+  dyd_status st = dyd_voronoi_polygons(&w->inner, s->pd, w->site, DYD_CELL_SURE, &s->window, bits);
+  if (st == DYD_OK) st = dyd_voronoi_polygons(&w->outer, s->pd, w->site, DYD_CELL_POSSIBLE, &s->window, bits);
   return st == DYD_E_RANGE ? DYD_OK : st; /* scales too far apart for polygons: nothing to watch */
 }
 

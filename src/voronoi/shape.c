@@ -636,9 +636,18 @@ dyd_status dyd_shape_area2(dyd_dyadic *out, const dyd_shape *s, bool outer) {
 
 /* ---- public ---- */
 
-/* The inner polygon, or (inner = NULL) the outer ones. */
-static dyd_status shape_polygons(dyd_polygon *inner, dyd_polygon_list *outer, const dyd_delaunay *pd, uint32_t i,
-                                 const dyd_rect *window, int64_t bits) {
+/* The inner polygon, if it has corners. */
+static dyd_status shape_inner_list(dyd_polygon_list *out, const dyd_shape *s) {
+  out->item = calloc(1, sizeof *out->item);
+  if (!out->item) return DYD_E_NOMEM;
+  dyd_status st = dyd_shape_inner(out->item, s);
+  out->count = st == DYD_OK && out->item->count;
+  if (!out->count) dyd_polygon_clear(out->item);
+  return st;
+}
+
+dyd_status dyd_voronoi_polygons(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, dyd_cell_bound bound,
+                                const dyd_rect *window, int64_t bits) {
   dyd_window w;
   if (!pd || i >= pd->sk.n || bits < -DYD_EXP_LIMIT / 4 || bits > DYD_EXP_LIMIT / 4) return DYD_E_ARG;
   dyd_status st = dyd_window_init(&w, window);
@@ -646,29 +655,14 @@ static dyd_status shape_polygons(dyd_polygon *inner, dyd_polygon_list *outer, co
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   dyd_room room = dyd_delaunay_room(pd);
   DYD_SCOPED(dyd_shape) s = {0};
-  dyd_polygon p = {0};
   dyd_polygon_list l = {0};
   w.room = &room;
   st = dyd_shape_find(&s, pd, dyd_delaunay_alias(pd, i), &w, bits);
-  if (st == DYD_OK) st = inner ? dyd_shape_inner(&p, &s) : dyd_shape_outer(&l, &s);
-  if (st == DYD_OK && inner) {
-    dyd_polygon_clear(inner);
-    *inner = p;
-  } else if (st == DYD_OK) {
-    dyd_polygon_list_clear(outer);
-    *outer = l;
-  }
+  if (st == DYD_OK && bound == DYD_CELL_POSSIBLE) st = dyd_shape_outer(&l, &s);
+  if (st == DYD_OK && bound == DYD_CELL_SURE) st = shape_inner_list(&l, &s);
+  dyd_polygon_list_clear(st == DYD_OK ? out : &l);
+  if (st == DYD_OK) *out = l;
   return st;
-}
-
-dyd_status dyd_voronoi_inner_polygon(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window,
-                                     int64_t bits) {
-  return shape_polygons(out, NULL, pd, i, window, bits);
-}
-
-dyd_status dyd_voronoi_outer_polygon(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window,
-                                     int64_t bits) {
-  return shape_polygons(NULL, out, pd, i, window, bits);
 }
 
 dyd_status dyd_voronoi_exact_area(mpq_t out, bool *exact, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {

@@ -149,6 +149,7 @@ dyd_status dyd_polygons_clip(bool *simple, dyd_polygon_list *l, const dyd_rect *
                              const volatile int *cancel);
 /* A copy; out is empty before. */
 dyd_status dyd_polygon_copy(dyd_polygon *out, const dyd_polygon *p);
+void dyd_polygon_clear(dyd_polygon *p);
 
 /* Twice the area. Exact, initialised by the caller. */
 dyd_status dyd_polygon_area2(dyd_dyadic *out, const dyd_polygon *p);

@@ -130,16 +130,16 @@ static void setting_clear(setting *s) {
 
 /* Twice the areas of the polygons of site i. */
 static void polygon_areas2(mpq_ptr inner, mpq_ptr outer, const setting *s, uint32_t i) {
-  dyd_polygon in = {0};
+  dyd_polygon_list in = {0};
   dyd_polygon_list out = {0};
   dyd_dyadic d;
   mpq_t q;
   dyd_dyadic_init(&d);
   mpq_init(q);
   mpq_set_ui(outer, 0, 1);
-  assert_int_equal(dyd_voronoi_inner_polygon(&in, s->pd, i, &s->window, BITS), DYD_OK);
-  assert_int_equal(dyd_voronoi_outer_polygon(&out, s->pd, i, &s->window, BITS), DYD_OK);
-  assert_int_equal(dyd_polygon_area2(&d, &in), DYD_OK);
+  assert_int_equal(dyd_voronoi_polygons(&in, s->pd, i, DYD_CELL_SURE, &s->window, BITS), DYD_OK);
+  assert_int_equal(dyd_voronoi_polygons(&out, s->pd, i, DYD_CELL_POSSIBLE, &s->window, BITS), DYD_OK);
+  assert_int_equal(dyd_polygon_area2(&d, in.count ? in.item : &(dyd_polygon){0}), DYD_OK);
   dyd_dyadic_get_q(inner, &d);
   for (size_t k = 0; k < out.count; k++) {
     assert_int_equal(dyd_polygon_area2(&d, &out.item[k]), DYD_OK);
@@ -149,7 +149,7 @@ static void polygon_areas2(mpq_ptr inner, mpq_ptr outer, const setting *s, uint3
   mpq_clear(q);
   dyd_dyadic_clear(&d);
   dyd_polygon_list_clear(&out);
-  dyd_polygon_clear(&in);
+  dyd_polygon_list_clear(&in);
 }
 
 /* a <= b <= a + slack * 2^-WANTED */

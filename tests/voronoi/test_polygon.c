@@ -276,16 +276,22 @@ static bool check_shape(char *message, orc_pool *p, const setting *s, size_t i) 
 
 /* ---- one case ---- */
 
+static const dyd_polygon *inner_of(const dyd_polygon_list *l) {
+  static const dyd_polygon none = {0};
+  return l->count ? l->item : &none;
+}
+
 static bool check_site(char *message, setting *s, size_t i) {
-  dyd_polygon inner = {0};
+  dyd_polygon_list inner = {0};
   dyd_polygon_list outer = {0};
-  bool good = dyd_voronoi_inner_polygon(&inner, s->pd, (uint32_t)i, &s->rect, s->bits) == DYD_OK &&
-              dyd_voronoi_outer_polygon(&outer, s->pd, (uint32_t)i, &s->rect, s->bits) == DYD_OK;
+  bool good = dyd_voronoi_polygons(&inner, s->pd, (uint32_t)i, DYD_CELL_SURE, &s->rect, s->bits) == DYD_OK &&
+              dyd_voronoi_polygons(&outer, s->pd, (uint32_t)i, DYD_CELL_POSSIBLE, &s->rect, s->bits) == DYD_OK;
   if (!good) wrong(message, "site %zu: no polygons", i);
-  good = good && check_inner(message, &s->h->pool, s, i, &inner) && check_outer(message, &s->h->pool, s, i, &outer);
+  good = good && check_inner(message, &s->h->pool, s, i, inner_of(&inner)) &&
+         check_outer(message, &s->h->pool, s, i, &outer);
   good = good && check_shape(message, &s->h->pool, s, i);
   dyd_polygon_list_clear(&outer);
-  dyd_polygon_clear(&inner);
+  dyd_polygon_list_clear(&inner);
   return good;
 }
 
@@ -367,14 +373,14 @@ static bool check_areas(char *message, setting *s, const orc_case *choice, const
   dyd_dyadic d;
   dyd_dyadic_init(&d);
   for (size_t i = 0; i < s->c->n && good; i++) {
-    dyd_polygon inner = {0};
+    dyd_polygon_list inner = {0};
     dyd_polygon_list outer = {0};
     if (orc_case_alias(s->c, i) != i) continue;
     mpq_srcptr truth = true_area2(p, s, choice, i), all = orc_si(p, 0, 1);
     mpq_ptr q = orc_new(p);
-    good = dyd_voronoi_inner_polygon(&inner, s->pd, (uint32_t)i, &s->rect, s->bits) == DYD_OK &&
-           dyd_voronoi_outer_polygon(&outer, s->pd, (uint32_t)i, &s->rect, s->bits) == DYD_OK &&
-           dyd_polygon_area2(&d, &inner) == DYD_OK;
+    good = dyd_voronoi_polygons(&inner, s->pd, (uint32_t)i, DYD_CELL_SURE, &s->rect, s->bits) == DYD_OK &&
+           dyd_voronoi_polygons(&outer, s->pd, (uint32_t)i, DYD_CELL_POSSIBLE, &s->rect, s->bits) == DYD_OK &&
+           dyd_polygon_area2(&d, inner_of(&inner)) == DYD_OK;
     dyd_dyadic_get_q(q, &d);
     good = good && cell_area2(message, p, &sum, s, i, q, truth);
     if (good && mpq_cmp(q, truth) > 0) good = wrong(message, "the inner polygon of %zu is larger than a true cell", i);
@@ -386,7 +392,7 @@ static bool check_areas(char *message, setting *s, const orc_case *choice, const
     }
     if (good && mpq_cmp(all, truth) < 0)
       good = wrong(message, "the outer polygons of %zu are smaller than a true cell", i);
-    dyd_polygon_clear(&inner);
+    dyd_polygon_list_clear(&inner);
     dyd_polygon_list_clear(&outer);
   }
   mpq_ptr bound = orc_new(p);
@@ -483,7 +489,7 @@ static void part_outside_the_window(void **state) {
   dyd_rect_set_d(&w, 0.9375, 1.5625, 0.875, 1.5625);
   for (uint32_t i = 0; i < 4; i++) {
     dyd_polygon_list l = {0};
-    assert_int_equal(dyd_voronoi_outer_polygon(&l, pd, i, &w, 2), DYD_OK);
+    assert_int_equal(dyd_voronoi_polygons(&l, pd, i, DYD_CELL_POSSIBLE, &w, 2), DYD_OK);
     for (size_t k = 0; k < l.count; k++) {
       assert_int_equal(dyd_polygon_area2(&area2, &l.item[k]), DYD_OK);
       assert_true(dyd_dyadic_sgn(&area2) > 0);
