@@ -47,6 +47,8 @@ typedef struct dyd_check_options {
   double seconds;   /* of all schedules together; 0: no limit */
   int64_t tie_bits; /* as in dyd_engine_options */
   bool no_ties;
+  const dyd_check_move *move; /* the one schedule to run, such as a report holds; NULL: `schedules` of them are made */
+  size_t moves;
 } dyd_check_options;
 
 typedef enum dyd_check_fault {
@@ -76,15 +78,11 @@ DYD_API void dyd_check_report_clear(dyd_check_report *r);
 
 /* Runs the schedules: the first one brings each point from base_bits to max_bits in small steps, the others are random.
  * Returns DYD_OK, also when a fault was found (see the report); DYD_CANCELLED, also at the time limit, with the counts
- * until then and the shortest schedule found so far; errors of `open`; DYD_E_NOMEM. */
+ * until then and the shortest schedule found so far; errors of `open`; DYD_E_NOMEM; DYD_E_ARG, with err->line the
+ * number of the move from 1, where one of the options names a point that does not exist or a stage before the last one;
+ * stages begin with 1. */
 DYD_API dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *user, const dyd_check_options *o,
                                  dyd_error *err);
-/* Runs one schedule, such as a report holds. DYD_E_ARG, with err->line the number of the move from 1, where one names a
- * point that does not exist or a stage before the last one; stages begin with 1. */
-DYD_API dyd_status dyd_check_replay(dyd_check_report *out, dyd_check_open_fn open, void *user,
-                                    const dyd_check_move *move, size_t moves, const dyd_check_options *o,
-                                    dyd_error *err);
-
 #ifdef __cplusplus
 }
 #endif

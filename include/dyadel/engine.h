@@ -397,7 +397,7 @@ DYD_API bool dyd_engine_nearest_tied(const dyd_engine *e);
  * or equal distances of fixed points, radii that stay [NEAR-6]); budget; cancelled. Equal distances of points that are
  * not exact end with budget: they are not proved. *out is right for the rectangles reached; refined later it only loses
  * edges that are not certain. DYD_CANCELLED if it was cancelled, or the time ended, before any were found: *out is as
- * before, as on errors. options->discs: as dyd_disc_graph has them, whose points are refined as for dyd_engine_discs.
+ * before, as on errors. options->discs: of discs, whose points are refined as for dyd_engine_discs.
  * options and errors as in dyd_engine_ask. */
 DYD_API dyd_status dyd_engine_graph(dyd_graph_list *out, dyd_outcome *outcome, dyd_engine *e, dyd_graph graph,
                                     const dyd_engine_options *options, dyd_error *err);

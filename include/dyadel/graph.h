@@ -31,21 +31,16 @@ typedef struct dyd_graph_list {
 } dyd_graph_list;
 DYD_API void dyd_graph_list_clear(dyd_graph_list *l);
 
-/* The edges of a graph, sorted by i, then j; aliases take part in nothing. *out is replaced. "Sure" and "not listed"
- * are true for every choice, and narrower rectangles never take them back. Exact for the first two. The spanning tree
- * goes by the least and the largest length of each pair: an edge that is listed may be one for no choice; for exact
- * points there is none such. cancel: as in dyd_delaunay_options, may be NULL. Returns DYD_OK; DYD_E_ARG for an unknown
- * graph; DYD_CAPPED when pd is; DYD_CANCELLED; DYD_E_NOMEM. O(pairs log pairs) where rectangles are small; in crowds
- * of d rectangles up to d^3 for a pair. */
-DYD_API dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_graph graph,
-                                   const volatile int *cancel, dyd_error *err);
-
-/* The same where each point is in the disc in its square, the site of pd; pairs: those of dyd_disc_pairs for pd
- * (tolerance.h). "Sure" and "not listed" are true for every choice in the discs. By what squares show, and by bounds
- * for discs in doubles: an edge that is listed may be one for no choice [GRD-1]. DYD_E_ARG for a site that is no
- * square. */
-DYD_API dyd_status dyd_disc_graph(dyd_graph_list *out, const dyd_delaunay *pd, const dyd_pair_list *pairs,
-                                  dyd_graph graph, const volatile int *cancel, dyd_error *err);
+/* The edges of a graph, sorted by i, then j; aliases take part in nothing. *out is replaced. pairs: NULL for points in
+ * the rectangles of pd; or those of dyd_disc_pairs for pd (tolerance.h) for points in the discs in its squares. "Sure"
+ * and "not listed" are true for every choice, and narrower rectangles never take them back. Exact for the first two
+ * graphs of rectangles. The spanning tree goes by the least and the largest length of each pair, and discs by what
+ * squares show and by bounds in doubles [GRD-1]: an edge that is listed may be one for no choice; for exact points
+ * there is none such. cancel: as in dyd_delaunay_options, may be NULL. Returns DYD_OK; DYD_E_ARG for an unknown graph,
+ * and with pairs for a site that is no square; DYD_CAPPED when pd is; DYD_CANCELLED; DYD_E_NOMEM. O(pairs log pairs)
+ * where rectangles are small; in crowds of d rectangles up to d^3 for a pair. */
+DYD_API dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, const dyd_pair_list *pairs,
+                                   dyd_graph graph, const volatile int *cancel, dyd_error *err);
 
 #ifdef __cplusplus
 }

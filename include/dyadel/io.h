@@ -113,11 +113,9 @@ typedef enum dyd_row_number {
   DYD_ROW_SIGMA,  /* the standard deviation of its errors (sigma_column); 0 where the row has none */
   DYD_ROW_NUMBERS
 } dyd_row_number;
-/* Returns the name of the k-th column that points carry (dyd_read_options.carry); NULL behind the last one. Borrowed.
- */
-DYD_API const char *dyd_engine_carried_name(const dyd_engine *e, size_t k);
-/* Returns the text in this column in the row of point i; "" where the point has no row in a file. Borrowed. O(k) */
-DYD_API const char *dyd_engine_carried(const dyd_engine *e, size_t i, size_t k);
+/* Returns the text in the k-th column that points carry (dyd_read_options.carry) in the row of point i, "" where the
+ * point has no row in a file; NULL behind the last column. *name (unless NULL) becomes its name. Borrowed. O(k) */
+DYD_API const char *dyd_engine_carried(const char **name, const dyd_engine *e, size_t i, size_t k);
 /* With at least this probability all points lie in their regions. */
 typedef struct dyd_confidence {
   size_t struct_size;

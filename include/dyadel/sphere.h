@@ -49,9 +49,9 @@ DYD_API dyd_status dyd_sphere_new(dyd_sphere **out, dyd_engine *places, const dy
 DYD_API void dyd_sphere_free(dyd_sphere *s);
 /* The engine of the images: to be run, cancelled and asked for counters. Its points are called by the rows of the
  * places; its statuses are those of images alone. Owned by s. */
-DYD_API dyd_engine *dyd_sphere_engine(dyd_sphere *s);
+DYD_API dyd_engine *dyd_sphere_images(const dyd_sphere *s);
+/* The engine that it was made of. */
 DYD_API const dyd_engine *dyd_sphere_places(const dyd_sphere *s);
-DYD_API const dyd_engine *dyd_sphere_images(const dyd_sphere *s);
 /* As dyd_engine_run of the images; start_bits 0: 40, which doubles hold; cost: of places. Decided means that all pairs
  * are.
  * Places are asked again what images were recalled (dyd_engine_recall) for. */

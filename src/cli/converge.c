@@ -347,6 +347,9 @@ static int read_schedule_file(check_run *s, const char *name) {
   dyd_status st = dyd_read_records(in, ' ', read_given_move, s, &err);
   cli_input_close(in);
   if (st != DYD_OK) cli_complain_at(name, &err);
+  static const dyd_check_move none;
+  s->options.move = s->move ? s->move : &none;
+  s->options.moves = s->count;
   return st == DYD_OK ? 0 : CLI_FAILED;
 }
 
@@ -398,9 +401,7 @@ static int schedules_find(cli_session *s) {
   dyd_error_clear(&err);
   s->progress = cli_progress_start(s->o.quiet);
   cli_progress_phase(s->progress, "checking");
-  dyd_status st = s->o.replay
-                      ? dyd_check_replay(&r->report, open_checked_points, r, r->move, r->count, &r->options, &err)
-                      : dyd_check_run(&r->report, open_checked_points, r, &r->options, &err);
+  dyd_status st = dyd_check_run(&r->report, open_checked_points, r, &r->options, &err);
   cli_progress_stop(s->progress);
   s->progress = NULL;
   r->late = st == DYD_CANCELLED; /* with a report of the schedules until then */

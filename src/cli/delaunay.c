@@ -91,7 +91,7 @@ static dyd_status write_certificate(FILE *out, const cli_session *s, dyd_error *
     bool found = s->graph && (s->outcome == DYD_OUTCOME_DECIDED || s->outcome == DYD_OUTCOME_FIXPOINT);
     parts.graph = found ? s->graph : &list;
     if (!found)
-      st = dyd_graph_edges(&list, dyd_engine_delaunay(s->engine), (dyd_graph)parts.kind, cli_signals_flag(), err);
+      st = dyd_graph_edges(&list, dyd_engine_delaunay(s->engine), NULL, (dyd_graph)parts.kind, cli_signals_flag(), err);
   }
   if (st == DYD_OK) st = dyd_write_certificate(out, s->engine, &parts, err);
   dyd_graph_list_clear(&list);
@@ -345,7 +345,7 @@ int cli_sphere_look(cli_session *s) {
   int status = cli_sphere_make(s, false);
   if (status) return status;
   s->places = s->engine;
-  s->engine = dyd_sphere_engine(s->sphere);
+  s->engine = dyd_sphere_images(s->sphere);
   return s->o.resume ? cli_trace_resume(s) : 0;
 }
 

@@ -591,6 +591,25 @@ static dyd_status report_keep_fault(dyd_check_report *out, moves *m, uint64_t se
   return st;
 }
 
+/* Runs the schedule of the options. */
+static dyd_status schedule_replay(dyd_check_report *out, dyd_check_open_fn open, void *user, const dyd_check_options *o,
+                                  dyd_error *err) {
+  moves m = {.item = dyd_alloc(o->moves, sizeof *m.item), .count = o->moves};
+  if (!m.item) return dyd_fail_nomem(err);
+  memcpy(m.item, o->move, o->moves * sizeof *m.item);
+  dyd_status st = schedule_play(out, open, user, &m, o->seed, o, err);
+  out->schedules = 1;
+  out->seed = o->seed;
+  out->base_bits = o->base_bits;
+  if (st == DYD_OK && out->fault != DYD_CHECK_FINE) {
+    out->move = m.item;
+    out->moves = m.count;
+  } else {
+    free(m.item);
+  }
+  return st;
+}
+
 dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *user, const dyd_check_options *given,
                          dyd_error *err) {
   dyd_check_options o;
@@ -599,6 +618,7 @@ dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *us
   dyd_error unused;
   if (!err) err = &unused;
   dyd_status st = check_begin(&o, out, given, err);
+  if (st == DYD_OK && o.move) return schedule_replay(out, open, user, &o, err);
   if (st == DYD_OK) st = schedule_list_points(&points, open, user, err);
   for (unsigned k = 0; k < o.schedules && st == DYD_OK && out->fault == DYD_CHECK_FINE; k++) {
     uint64_t seed = o.seed + k;
@@ -609,28 +629,5 @@ dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *us
     if (st == DYD_OK && out->fault != DYD_CHECK_FINE) st = report_keep_fault(out, &m, seed, open, user, &o);
   }
   dyd_free_all(m.item, points.point, points.asked);
-  return st;
-}
-
-dyd_status dyd_check_replay(dyd_check_report *out, dyd_check_open_fn open, void *user, const dyd_check_move *move,
-                            size_t count, const dyd_check_options *given, dyd_error *err) {
-  dyd_check_options o;
-  dyd_error unused;
-  if (!err) err = &unused;
-  dyd_status st = check_begin(&o, out, given, err);
-  if (st != DYD_OK) return st;
-  moves m = {.item = dyd_alloc(count, sizeof *m.item), .count = count};
-  if (!m.item) return dyd_fail_nomem(err);
-  memcpy(m.item, move, count * sizeof *move);
-  st = schedule_play(out, open, user, &m, o.seed, &o, err);
-  out->schedules = 1;
-  out->seed = o.seed;
-  out->base_bits = o.base_bits;
-  if (st == DYD_OK && out->fault != DYD_CHECK_FINE) {
-    out->move = m.item;
-    out->moves = count;
-  } else {
-    free(m.item);
-  }
   return st;
 }

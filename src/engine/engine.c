@@ -311,16 +311,11 @@ const char *dyd_engine_id(const dyd_engine *e, size_t i) {
   return i < l->points ? l->text + l->id[i] : "";
 }
 
-const char *dyd_engine_carried_name(const dyd_engine *e, size_t k) {
-  if (!e || k >= e->labels.carried) return NULL;
-  return e->labels.names + (k ? texts_length(e->labels.names, k) + 1 : 0);
-}
-
-const char *dyd_engine_carried(const dyd_engine *e, size_t i, size_t k) {
+const char *dyd_engine_carried(const char **name, const dyd_engine *e, size_t i, size_t k) {
   const dyd_labels *l = e ? &e->labels : NULL;
-  return l && i < l->points && l->has_ids && k < l->carried
-             ? l->text + l->id[i] + texts_length(l->text + l->id[i], k + 1) + 1
-             : "";
+  if (!l || k >= l->carried) return NULL;
+  if (name) *name = l->names + (k ? texts_length(l->names, k) + 1 : 0);
+  return i < l->points && l->has_ids ? l->text + l->id[i] + texts_length(l->text + l->id[i], k + 1) + 1 : "";
 }
 
 double dyd_engine_number(const dyd_engine *e, size_t i, dyd_row_number which) {

@@ -194,7 +194,7 @@ static dyd_status graph_may_hold(bool *may, const dyd_engine *e, const dyd_graph
   dyd_delaunay *pd = NULL;
   DYD_SCOPED(dyd_graph_list) three = {0};
   dyd_status st = dyd_delaunay_made(&pd, 3, some_rect, &of, &o, NULL);
-  if (st == DYD_OK) st = dyd_graph_edges(&three, pd, DYD_GRAPH_GABRIEL, NULL, NULL);
+  if (st == DYD_OK) st = dyd_graph_edges(&three, pd, NULL, DYD_GRAPH_GABRIEL, NULL, NULL);
   const dyd_graph_edge *first = st == DYD_OK && three.count ? three.item : NULL;
   *may = !first || first->i != 0 || first->j != 1 || !first->sure;
   dyd_delaunay_free(pd);
@@ -264,7 +264,7 @@ static dyd_status problem_solve(bool *good, graph_problem *p, const graph_questi
                                   .threads = plan->o->threads, .no_filter = plan->o->no_filter};
   dyd_status st = dyd_delaunay_made(&p->pd, dyd_sites_count(e->sites), rect, user, &o, err);
   *good = st == DYD_OK && !choice_joins(p->pd, e);
-  if (*good) st = dyd_graph_edges(&p->edges, p->pd, q->graph, &e->stop, err);
+  if (*good) st = dyd_graph_edges(&p->edges, p->pd, NULL, q->graph, &e->stop, err);
   return st == DYD_CAPPED ? DYD_OK : st;
 }
 
@@ -358,7 +358,7 @@ static dyd_status graph_reserve(graph_question *q, size_t sites) {
 static dyd_status tree_of_both(dyd_graph_list *l, const dyd_delaunay *pd, const volatile int *cancel, dyd_error *err) {
   DYD_SCOPED(dyd_graph_list) squares = {0};
   size_t kept = 0;
-  dyd_status st = dyd_graph_edges(&squares, pd, DYD_GRAPH_MST, cancel, err);
+  dyd_status st = dyd_graph_edges(&squares, pd, NULL, DYD_GRAPH_MST, cancel, err);
   for (size_t k = 0; st == DYD_OK && k < l->count; k++) {
     const dyd_graph_edge *same = dyd_find_two(&l->item[k], squares.item, squares.count, sizeof *same);
     if (!same) continue;
@@ -369,9 +369,9 @@ static dyd_status tree_of_both(dyd_graph_list *l, const dyd_delaunay *pd, const 
   return st;
 }
 
-dyd_status dyd_disc_graph(dyd_graph_list *out, const dyd_delaunay *pd, const dyd_pair_list *pairs, dyd_graph graph,
-                          const volatile int *cancel, dyd_error *err) {
-  if (!pd || !pairs) return dyd_fail_null(err);
+dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, const dyd_pair_list *pairs, dyd_graph graph,
+                           const volatile int *cancel, dyd_error *err) {
+  if (!pd || !pairs) return dyd_graph_of_discs(out, pd, NULL, NULL, graph, cancel, err);
   const dyd_sites *sites = dyd_delaunay_sites(pd);
   size_t n = dyd_sites_count(sites);
   bool points = true; /* the squares say all then */
@@ -409,8 +409,7 @@ static dyd_status graph_ask(bool *answered, dyd_plan *plan, void *user, const dy
   graph_question *q = user;
   size_t sites = dyd_sites_count(e->sites);
   dyd_status st = q->discs ? dyd_disc_pairs(&q->pairs, e->pd, &e->stop, err) : DYD_OK;
-  if (st == DYD_OK && q->discs) st = dyd_disc_graph(&q->edges, e->pd, &q->pairs, q->graph, &e->stop, err);
-  if (!q->discs) st = dyd_graph_edges(&q->edges, e->pd, q->graph, &e->stop, err);
+  if (st == DYD_OK) st = dyd_graph_edges(&q->edges, e->pd, q->discs ? &q->pairs : NULL, q->graph, &e->stop, err);
   *answered = st == DYD_OK;
   q->known |= *answered;
   for (size_t k = 0; *answered && k < q->edges.count; k++) *answered = q->edges.item[k].sure;

@@ -75,10 +75,8 @@ static dyd_status result_graph(bool *graph, dyd_result *r, dyd_content layer, co
   dyd_status st = DYD_OK;
   if (o->graph)
     r->graph = *o->graph;
-  else if (o->pairs)
-    st = dyd_disc_graph(&r->graph, r->pd, o->pairs, which, o->cancel, err);
   else
-    st = dyd_graph_edges(&r->graph, r->pd, which, o->cancel, err);
+    st = dyd_graph_edges(&r->graph, r->pd, o->pairs, which, o->cancel, err);
   return st == DYD_OK ? pairs_of_graph(r) : st;
 }
 

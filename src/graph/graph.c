@@ -469,8 +469,3 @@ dyd_status dyd_graph_of_discs(dyd_graph_list *out, const dyd_delaunay *pd, const
   *out = w.out;
   return DYD_OK;
 }
-
-dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_graph graph, const volatile int *cancel,
-                           dyd_error *err) {
-  return dyd_graph_of_discs(out, pd, NULL, NULL, graph, cancel, err);
-}

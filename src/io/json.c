@@ -197,11 +197,10 @@ bool dyd_json_is_number(const char *s) {
 }
 
 void dyd_json_carried(dyd_json *j, const dyd_engine *e, size_t i) {
-  const char *name;
-  if (!dyd_engine_carried_name(e, 0)) return;
+  const char *name, *text;
+  if (!dyd_engine_carried(NULL, e, 0, 0)) return;
   dyd_json_object(j, "carried", DYD_JSON_FLAT);
-  for (size_t k = 0; (name = dyd_engine_carried_name(e, k)); k++) {
-    const char *text = dyd_engine_carried(e, i, k);
+  for (size_t k = 0; (text = dyd_engine_carried(&name, e, i, k)); k++) {
     dyd_json_text(j, NULL, name); /* may hold quotes */
     dyd_sink_put(&j->to, ": ", 2);
     if (!*text || dyd_json_is_number(text))

@@ -59,8 +59,9 @@ static bool name_is_taken(const dyd_table *t, const char *name) {
 
 /* The name of the k-th column that points carry; one that the layer has itself gets "_2". */
 static const char *carried_name(char *out, size_t size, const dyd_table *t, size_t k) {
-  const char *name = dyd_engine_carried_name(t->engine, k);
-  if (!name || !name_is_taken(t, name)) return name;
+  const char *name;
+  if (!dyd_engine_carried(&name, t->engine, 0, k)) return NULL;
+  if (!name_is_taken(t, name)) return name;
   snprintf(out, size, "%s_2", name);
   return out;
 }
@@ -167,7 +168,7 @@ static void table_lead(dyd_table *t, const char *name) {
 
 void dyd_table_begin(dyd_table *t, const dyd_output *o, bool optional) {
   const dyd_encoder *e = t->encode = &encoders[o->format];
-  bool ids = dyd_engine_id(t->engine, 0), carried = dyd_engine_carried_name(t->engine, 0);
+  bool ids = dyd_engine_id(t->engine, 0), carried = dyd_engine_carried(NULL, t->engine, 0, 0);
   t->rows = t->columns = t->begin.length = 0;
   t->most = 0;
   for (const char *name = t->layer->columns; name; name = strchr(name, ','), name += name != NULL)
@@ -291,7 +292,7 @@ void dyd_row_carried(dyd_table *t, size_t i) {
   char own[256];
   const char *name;
   for (size_t k = 0; (name = carried_name(own, sizeof own, t, k)); k++) {
-    const char *text = dyd_engine_carried(t->engine, i, k);
+    const char *text = dyd_engine_carried(NULL, t->engine, i, k);
     table_put(t, e->lead[1]);
     if (e->named) e->text(&t->to, name), table_put_short(t, ": ");
     if (e->named && (!*text || dyd_json_is_number(text)))

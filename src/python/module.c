@@ -98,7 +98,7 @@ static PyObject *globe_new(PyTypeObject *type, PyObject *args, PyObject *kwargs)
     Py_DECREF(self);
     return NULL;
   }
-  self->engine = dyd_sphere_engine(self->sphere);
+  self->engine = dyd_sphere_images(self->sphere);
   self->places = Py_NewRef(places);
   return (PyObject *)self;
 }

@@ -592,10 +592,10 @@ PyObject *dydpy_carried(PyObject *self, PyObject *none) {
   const dyd_engine *e = c.self->engine;
   const size_t count = dyd_engine_count(e);
   PyObject *all = PyDict_New();
-  for (size_t k = 0; all && (name = dyd_engine_carried_name(e, k)); k++) {
+  for (size_t k = 0; all && dyd_engine_carried(&name, e, 0, k); k++) {
     PyObject *column = PyList_New((Py_ssize_t)count);
     for (size_t i = 0; column && i < count; i++) {
-      const char *text = dyd_engine_carried(e, i, k);
+      const char *text = dyd_engine_carried(NULL, e, i, k);
       PyList_SetItem(column, (Py_ssize_t)i, PyUnicode_DecodeUTF8(text, (Py_ssize_t)strlen(text), "replace"));
     }
     if (!column || PyErr_Occurred() || PyDict_SetItemString(all, name, column) < 0) Py_CLEAR(all);

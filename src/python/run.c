@@ -285,7 +285,7 @@ static PyObject *harness_found(const dyd_check_report *r) {
   return dydpy_dict(entry, sizeof entry / sizeof *entry);
 }
 
-static PyObject *harness_run(harness_user *u, dyd_check_options *o, const dyd_check_move *move, size_t moves) {
+static PyObject *harness_run(harness_user *u, dyd_check_options *o) {
   dyd_check_report report = {DYD_SIZED(dyd_check_report)};
   PyObject *found = NULL;
   dydpy_call c;
@@ -294,8 +294,7 @@ static PyObject *harness_run(harness_user *u, dyd_check_options *o, const dyd_ch
   o->progress = harness_progress;
   o->progress_user = u;
   if (!dydpy_begin(&c, NULL, DYDPY_CANCELS)) return NULL;
-  dyd_status st = move ? dyd_check_replay(&report, harness_open, u, move, moves, o, &c.err)
-                       : dyd_check_run(&report, harness_open, u, o, &c.err);
+  dyd_status st = dyd_check_run(&report, harness_open, u, o, &c.err);
   if (dydpy_end(&c, st < 0 ? st : DYD_OK)) found = harness_found(&report);
   dyd_check_report_clear(&report);
   return found;
@@ -307,7 +306,6 @@ PyObject *dydpy_check(PyObject *module, PyObject *args) {
   unsigned long long seed;
   long long base_bits, max_bits, slack_bits;
   PyObject *list;
-  size_t count;
   (void)module;
   if (!PyArg_ParseTuple(args, "OKIILLLdOO", &u.make, &seed, &o.schedules, &o.stages, &base_bits, &max_bits, &slack_bits,
                         &o.seconds, &list, &u.progress))
@@ -316,10 +314,11 @@ PyObject *dydpy_check(PyObject *module, PyObject *args) {
   o.base_bits = base_bits;
   o.max_bits = max_bits;
   o.slack_bits = slack_bits;
-  dyd_check_move *move = moves_of(&count, list);
+  dyd_check_move *move = moves_of(&o.moves, list);
   if (PyErr_Occurred()) return NULL;
+  o.move = move;
   u.kept = PyList_New(0);
-  PyObject *found = u.kept ? harness_run(&u, &o, move, count) : NULL;
+  PyObject *found = u.kept ? harness_run(&u, &o) : NULL;
   Py_XDECREF(u.kept);
   free(move);
   return found;

@@ -181,16 +181,12 @@ void dyd_sphere_free(dyd_sphere *s) {
 
 /* ---- its parts ---- */
 
-dyd_engine *dyd_sphere_engine(dyd_sphere *s) {
+dyd_engine *dyd_sphere_images(const dyd_sphere *s) {
   return s ? s->images : NULL;
 }
 
 const dyd_engine *dyd_sphere_places(const dyd_sphere *s) {
   return s ? s->places : NULL;
-}
-
-const dyd_engine *dyd_sphere_images(const dyd_sphere *s) {
-  return s ? s->images : NULL;
 }
 
 uint32_t dyd_sphere_centre(const dyd_sphere *s) {

@@ -261,7 +261,7 @@ static void use_cells(dyd_status *st, const dyd_engine *e, dyd_error *err) {
 }
 static void use_graph(dyd_status *st, const dyd_engine *e, dyd_graph graph, dyd_error *err) {
   dyd_graph_list l = {0};
-  *st = dyd_graph_edges(&l, dyd_engine_delaunay(e), graph, NULL, err);
+  *st = dyd_graph_edges(&l, dyd_engine_delaunay(e), NULL, graph, NULL, err);
   dyd_graph_list_clear(&l);
 }
 static void use_gabriel(dyd_status *st, const dyd_engine *e, dyd_error *err) {

@@ -16,7 +16,7 @@ enum { GRAPHS = 3 };
 static dyd_graph_list edges_of(const dyd_delaunay *pd, int graph) {
   dyd_graph_list l = {0};
   dyd_error err;
-  assert_int_equal(dyd_graph_edges(&l, pd, (dyd_graph)graph, NULL, &err), DYD_OK);
+  assert_int_equal(dyd_graph_edges(&l, pd, NULL, (dyd_graph)graph, NULL, &err), DYD_OK);
   return l;
 }
 
@@ -105,14 +105,15 @@ static void test_wrong_calls(void **state) {
   assert_int_equal(dyd_sites_new(&s), DYD_OK);
   assert_int_equal(dyd_sites_add_boxes(s, 4, x0, x1, y, y), DYD_OK);
   dyd_delaunay *pd = triangulated(s, NULL);
-  assert_int_equal(dyd_graph_edges(&l, pd, (dyd_graph)GRAPHS, NULL, &err), DYD_E_ARG);
+  assert_int_equal(dyd_graph_edges(&l, pd, NULL, (dyd_graph)GRAPHS, NULL, &err), DYD_E_ARG);
   assert_non_null(strstr(err.message, "no graph number 3"));
-  for (int g = 0; g < GRAPHS; g++) assert_int_equal(dyd_graph_edges(&l, pd, (dyd_graph)g, &stop, NULL), DYD_CANCELLED);
+  for (int g = 0; g < GRAPHS; g++)
+    assert_int_equal(dyd_graph_edges(&l, pd, NULL, (dyd_graph)g, &stop, NULL), DYD_CANCELLED);
   assert_null(l.item);
   dyd_delaunay_free(pd);
   pd = triangulated(s, &(dyd_delaunay_options){DYD_SIZED(dyd_delaunay_options), .max_pairs = 1});
   assert_true(dyd_delaunay_is_capped(pd));
-  assert_int_equal(dyd_graph_edges(&l, pd, DYD_GRAPH_MST, NULL, &err), DYD_CAPPED);
+  assert_int_equal(dyd_graph_edges(&l, pd, NULL, DYD_GRAPH_MST, NULL, &err), DYD_CAPPED);
   assert_non_null(strstr(err.message, "`max_pairs`"));
   dyd_delaunay_free(pd);
   dyd_sites_free(s);

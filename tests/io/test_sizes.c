@@ -130,11 +130,10 @@ static dyd_status trace_replay(fixture *f, const void *s, dyd_error *err) {
   return st;
 }
 
-static dyd_status check_replay(fixture *f, const void *s, dyd_error *err) {
+static dyd_status check_run(fixture *f, const void *s, dyd_error *err) {
   (void)f;
   dyd_check_report report = {DYD_SIZED(dyd_check_report)};
-  const dyd_check_move move = {1, 1, 20};
-  dyd_status st = dyd_check_replay(&report, open_engine, NULL, &move, 1, s, err);
+  dyd_status st = dyd_check_run(&report, open_engine, NULL, s, err);
   dyd_check_report_clear(&report);
   assert_true(report.struct_size == sizeof report);
   return st;
@@ -190,7 +189,7 @@ static const taking takings[] = {
     {"dyd_converge_options", sizeof(dyd_converge_options), convergence_add},
     {"dyd_converge_options", sizeof(dyd_converge_options), trace_new_converge},
     {"dyd_converge_options", sizeof(dyd_converge_options), trace_replay},
-    {"dyd_check_options", sizeof(dyd_check_options), check_replay},
+    {"dyd_check_options", sizeof(dyd_check_options), check_run},
     {"dyd_oracle_options", sizeof(dyd_oracle_options), oracle_new},
     {"dyd_read_options", sizeof(dyd_read_options), add_text},
     {"dyd_read_options", sizeof(dyd_read_options), read_points},
