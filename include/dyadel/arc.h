@@ -91,9 +91,6 @@ DYD_API void dyd_boundary_clear(dyd_boundary *b);
  * [BIS-1]; C_ab is empty when the rectangles meet. The partial bisector of a and b is the complement of C_ab u C_ba.
  * *out is replaced. Exact. */
 DYD_API dyd_status dyd_bisector(dyd_boundary *out, const dyd_rect *a, const dyd_rect *b);
-/* Returns TRUE if every point of the rectangle q is in C_ab, FALSE if every point is in C_ba, UNKNOWN otherwise. The
- * four corners decide, as both are convex. Exact. */
-DYD_API dyd_truth dyd_rect_nearer(const dyd_rect *q, const dyd_rect *a, const dyd_rect *b);
 
 #ifdef __cplusplus
 }

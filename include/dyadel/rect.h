@@ -33,10 +33,8 @@ DYD_API void dyd_interval_clear(dyd_interval *a);
 DYD_API void dyd_interval_set(dyd_interval *out, const dyd_interval *a);
 /* DYD_E_ARG unless lo <= hi. */
 DYD_API dyd_status dyd_interval_set_d(dyd_interval *out, double lo, double hi);
-/* The exact point q (canonical rational). DYD_E_RANGE when it leaves the exponent range. */
-DYD_API dyd_status dyd_interval_set_q(dyd_interval *out, const mpq_t q);
-/* The exact interval [lo,hi] of canonical rationals. DYD_E_ARG unless lo <= hi; DYD_E_RANGE when an end leaves the
- * exponent range. */
+/* The exact interval [lo,hi] of canonical rationals, a point where they are equal. DYD_E_ARG unless lo <= hi;
+ * DYD_E_RANGE when an end leaves the exponent range. */
 DYD_API dyd_status dyd_interval_set_ends_q(dyd_interval *out, const mpq_t lo, const mpq_t hi);
 /* [lo,hi] rounded outward to multiples of 2^exp; lo <= hi are canonical rationals. */
 DYD_API dyd_status dyd_interval_set_outward(dyd_interval *out, const mpq_t lo, const mpq_t hi, int64_t exp);

@@ -12,6 +12,7 @@
 #include "dyadic/raw.h"
 #include "metric/bounds.h"
 #include "prove/proof.h"
+#include "rect/rect.h"
 
 #include <inttypes.h>
 

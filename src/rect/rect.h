@@ -59,4 +59,7 @@ bool dyd_interval_is_point(const dyd_interval *a);
 /* The most bits for which both widths are at most 2^-bits; INT64_MAX for a point. */
 int64_t dyd_rect_bits(const dyd_rect *r);
 
+/* dyd_interval_set_ends_q of [q,q]. */
+dyd_status dyd_interval_set_q(dyd_interval *out, const mpq_t q);
+
 #endif

@@ -121,32 +121,6 @@ dyd_status dyd_partial_centre_enclose(dyd_rect *out, const dyd_rect *a, const dy
   return st;
 }
 
-/* Returns true if all corners of q are nearer to a than to b, dl_a < ds_b. */
-static bool corners_nearer(const dyd_irect *q, const dyd_irect *a, const dyd_irect *b) {
-  DYD_LOCAL_NUMBERS(mpz, dl, ds);
-  bool nearer = true;
-  for (int corner = 0; corner < 4 && nearer; corner++) {
-    mpz_srcptr x = corner & 1 ? q->x1 : q->x0, y = corner & 2 ? q->y1 : q->y0;
-    dyd_irect_dl2(dl, x, y, a);
-    dyd_irect_ds2(ds, x, y, b);
-    nearer = mpz_cmp(dl, ds) < 0;
-  }
-  return nearer;
-}
-
-dyd_truth dyd_rect_nearer(const dyd_rect *q, const dyd_rect *a, const dyd_rect *b) {
-  const dyd_rect *in[3] = {q, a, b};
-  DYD_LOCAL_ARRAY(dyd_irect, r, [3]);
-  dyd_irects_scale(r, in, 3, NULL, NULL);
-  dyd_truth answer = DYD_UNKNOWN;
-  if (corners_nearer(&r[0], &r[1], &r[2])) {
-    answer = DYD_TRUE;
-  } else if (corners_nearer(&r[0], &r[2], &r[1])) {
-    answer = DYD_FALSE;
-  }
-  return answer;
-}
-
 /* ---- the centre of the circle through three computable points, as a stream ----
  *
  * [VTX-1] For a in A, b in B, c in C and p = b - a, q = c - a the centre is a + n/d with

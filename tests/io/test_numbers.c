@@ -2,6 +2,7 @@
 /* The quick decimals of the reader and the directed decimals of the writers, against exact rationals. */
 #include "io/decimal.h"
 #include "io/read/coordinate.h"
+#include "rect/rect.h"
 #include "stream/number.h"
 #include "support/random.h"
 #include <inttypes.h>

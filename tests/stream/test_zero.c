@@ -3,6 +3,7 @@
  * unknown ones. */
 #include "harness.h"
 
+#include "rect/rect.h"
 #include "stream/algebra/form.h"
 #include "stream/algebra/zero.h"
 

@@ -228,48 +228,6 @@ static void structure(void **state) {
   assert_string_equal(kinds, "bbb");
 }
 
-/* ---- rectangles ---- */
-
-static int literal_nearer(orc_pool *p, const orc_case *c, mpq_srcptr x, mpq_srcptr y) {
-  orc_point at = {orc_alg_q(p, x), orc_alg_q(p, y)};
-  if (orc_alg_cmp(p, orc_dl2(p, at, &c->rect[0]), orc_ds2(p, at, &c->rect[1])) < 0) return 1;
-  return orc_alg_cmp(p, orc_dl2(p, at, &c->rect[1]), orc_ds2(p, at, &c->rect[0])) < 0 ? -1 : 0;
-}
-
-/* q = rect[2]: nearer iff a lattice of points of it is; the corners are among them. */
-static void nearer(void **state) {
-  (void)state;
-  harness h;
-  harness_init(&h, "rectangle nearer");
-  orc_pool *p = &h.pool;
-  orc_case c;
-  orc_case_init(&c);
-  dyd_rect r[3];
-  for (int k = 0; k < 3; k++) dyd_rect_init(&r[k]);
-  size_t sure = 0;
-  for (size_t k = 0; k < test_cases(1500); k++) {
-    size_t mark = orc_mark(p);
-    orc_generate(&c, &h.random, k % ORC_KINDS, 3);
-    for (int m = 0; m < 3; m++) harness_rect(&r[m], &c.rect[m]);
-    mpq_t *e = c.rect[2].e;
-    int all = 2;
-    for (int m = 0; m < 9; m++) {
-      mpq_srcptr x = m % 3 == 1 ? orc_mid(p, e[0], e[1]) : e[m % 3 / 2],
-                 y = m / 3 == 1 ? orc_mid(p, e[2], e[3]) : e[2 + m / 6];
-      int one = literal_nearer(p, &c, x, y);
-      all = all == 2 || all == one ? one : 0;
-    }
-    assert_int_equal(dyd_rect_nearer(&r[2], &r[0], &r[1]), all);
-    assert_int_equal(dyd_rect_nearer(&r[2], &r[1], &r[0]), -all);
-    sure += all != 0;
-    orc_release(p, mark);
-  }
-  assert_true(sure > 50);
-  for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);
-  orc_case_clear(&c);
-  harness_clear(&h);
-}
-
 /* ---- partial centres and discs ---- */
 
 /* The circumcentre of three points (lower corners); false when they are collinear. */
@@ -422,8 +380,7 @@ static void discs(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(enclosures),      cmocka_unit_test(comparisons), cmocka_unit_test(random_bisectors),
-      cmocka_unit_test(small_bisectors), cmocka_unit_test(structure),   cmocka_unit_test(nearer),
-      cmocka_unit_test(discs),
+      cmocka_unit_test(small_bisectors), cmocka_unit_test(structure),   cmocka_unit_test(discs),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
