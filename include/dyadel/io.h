@@ -463,11 +463,11 @@ DYD_API dyd_status dyd_write_rects(FILE *out, const dyd_sites *sites, size_t fir
 typedef bool (*dyd_put_fn)(void *user, const char *bytes, size_t count);
 /* Gives at most `room` bytes and says how many in *got; 0 at the end. false: it failed. */
 typedef bool (*dyd_get_fn)(size_t *got, void *user, char *bytes, size_t room);
-/* A file for all functions that write (read) one; output goes to put, in pieces of any size, the last ones
- * when the file is closed. Release with fclose, which returns EOF when a call failed. Callbacks come from the thread
- * that uses the file. DYD_E_NOMEM; DYD_E_IO where the C library cannot do this (POSIX lacks it). */
-DYD_API dyd_status dyd_file_to_callback(FILE **out, dyd_put_fn put, void *user, dyd_error *err);
-DYD_API dyd_status dyd_file_from_callback(FILE **out, dyd_get_fn get, void *user, dyd_error *err);
+/* A file for all functions that write one, if there is put, or read one, if there is get; the other is NULL. Output
+ * goes to put in pieces of any size, the last ones when the file is closed. Release with fclose, which returns EOF when
+ * a call failed. Callbacks come from the thread that uses the file. DYD_E_NOMEM; DYD_E_IO where the C library cannot do
+ * this (POSIX lacks it). */
+DYD_API dyd_status dyd_file_of_callback(FILE **out, dyd_put_fn put, dyd_get_fn get, void *user, dyd_error *err);
 
 /* ---- traces ---- */
 

@@ -314,7 +314,7 @@ static int source_begin(feature_source *s, const char *name, cli_options *o) {
 static int features_open(FILE **out, const char *name, cli_options *o) {
   feature_source *s = source_open = calloc(1, sizeof *s);
   int status = s ? source_begin(s, name, o) : cli_complain_memory();
-  if (!status && dyd_file_from_callback(out, source_get, s, NULL) != DYD_OK) status = cli_complain_memory();
+  if (!status && dyd_file_of_callback(out, NULL, source_get, s, NULL) != DYD_OK) status = cli_complain_memory();
   if (status && s) source_free(s);
   return status;
 }
@@ -486,7 +486,7 @@ static dyd_status layer_write(GDALDatasetH set, OGRSpatialReferenceH crs, cli_se
                               const char *name, dyd_error *err) {
   feature_sink sink = {.set = set, .crs = crs, .name = name, .fields = 1};
   FILE *out;
-  dyd_status st = dyd_file_to_callback(&out, sink_put, &sink, err);
+  dyd_status st = dyd_file_of_callback(&out, sink_put, NULL, &sink, err);
   if (st == DYD_OK) {
     st = print(out, s, err);
     bool good = fclose(out) == 0 && !sink.failed;

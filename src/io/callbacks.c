@@ -43,39 +43,21 @@ static int callback_close(void *cookie) {
   return failed ? -1 : 0;
 }
 
-static dyd_status callback_open(FILE **out, byte_callback with, dyd_error *err) {
+#endif
+
+dyd_status dyd_file_of_callback(FILE **out, dyd_put_fn put, dyd_get_fn get, void *user, dyd_error *err) {
+  if (!put == !get) return dyd_fail_null(err);
+#ifdef DYD_HAS_FOPENCOOKIE
   const cookie_io_functions_t call = {.read = callback_read, .write = callback_write, .close = callback_close};
   byte_callback *b = malloc(sizeof *b);
-  if (b) *b = with;
-  FILE *f = b ? fopencookie(b, with.put ? "w" : "r", call) : NULL;
+  if (b) *b = (byte_callback){.put = put, .get = get, .user = user};
+  FILE *f = b ? fopencookie(b, put ? "w" : "r", call) : NULL;
   if (!f) free(b);
   if (!f) return dyd_fail_nomem(err);
   *out = f;
   return DYD_OK;
-}
-
-dyd_status dyd_file_to_callback(FILE **out, dyd_put_fn put, void *user, dyd_error *err) {
-  return callback_open(out, (byte_callback){.put = put, .user = user}, err);
-}
-
-dyd_status dyd_file_from_callback(FILE **out, dyd_get_fn get, void *user, dyd_error *err) {
-  return callback_open(out, (byte_callback){.get = get, .user = user}, err);
-}
-
 #else
-
-static dyd_status callback_refuse(dyd_error *err) {
+  (void)out, (void)user;
   return dyd_fail(err, DYD_E_IO, "the C library of this system has no fopencookie; use a file or a pipe");
-}
-
-dyd_status dyd_file_to_callback(FILE **out, dyd_put_fn put, void *user, dyd_error *err) {
-  (void)out, (void)put, (void)user;
-  return callback_refuse(err);
-}
-
-dyd_status dyd_file_from_callback(FILE **out, dyd_get_fn get, void *user, dyd_error *err) {
-  (void)out, (void)get, (void)user;
-  return callback_refuse(err);
-}
-
 #endif
+}

@@ -100,7 +100,7 @@ static dyd_status slice_open(text_slice *s, dyd_error *err) {
   return ferror(s->in) ? read_fail(s->t, err) : DYD_OK;
 }
 
-/* The bytes of those lines, for dyd_file_from_callback; the last line ends behind the slice. */
+/* The bytes of those lines, for dyd_file_of_callback; the last line ends behind the slice. */
 static bool slice_get(size_t *got, void *user, char *bytes, size_t room) {
   text_slice *s = user;
   const int64_t left = s->end - s->at;
@@ -130,7 +130,7 @@ static dyd_status slice_read(text_slice *s, dyd_record_fn fn, dyd_error *err) {
   dyd_error why;
   dyd_error_clear(&why);
   dyd_status st = slice_open(s, err);
-  if (st == DYD_OK) st = dyd_file_from_callback(&lines, slice_get, s, err);
+  if (st == DYD_OK) st = dyd_file_of_callback(&lines, NULL, slice_get, s, err);
   if (st == DYD_OK) {
     st = dyd_read_records(lines, ' ', fn, s, &why);
     if (st == DYD_E_PARSE) slice_count_lines(s, &why);

@@ -49,7 +49,7 @@ static void test_written_and_read(void **state) {
     tape t = {.piece = piece, .most = sizeof t.bytes};
     FILE *f = NULL;
     dyd_engine *e = engine_of(points), *again = NULL;
-    assert_int_equal(DYD_OK, dyd_file_to_callback(&f, tape_put, &t, NULL));
+    assert_int_equal(DYD_OK, dyd_file_of_callback(&f, tape_put, NULL, &t, NULL));
     assert_int_equal(DYD_OK, dyd_write_rects(f, dyd_engine_sites(e), 0, 5, NULL));
     assert_int_equal(DYD_E_ARG, dyd_write_rects(f, dyd_engine_sites(e), 1, 5, NULL));
     assert_int_equal(0, fclose(f));
@@ -64,7 +64,7 @@ static void test_written_and_read(void **state) {
     t.length = strlen(text);
     memcpy(t.bytes, text, t.length);
     assert_int_equal(DYD_OK, dyd_engine_new(&again));
-    assert_int_equal(DYD_OK, dyd_file_from_callback(&f, tape_get, &t, NULL));
+    assert_int_equal(DYD_OK, dyd_file_of_callback(&f, NULL, tape_get, &t, NULL));
     assert_int_equal(DYD_OK, dyd_read_points(again, f, NULL, NULL));
     assert_int_equal(0, fclose(f));
     dyd_rect a, b;
@@ -89,14 +89,16 @@ static void test_failing(void **state) {
   FILE *f = NULL;
   dyd_error err;
   dyd_engine *e = engine_of(points), *again = NULL;
-  assert_int_equal(DYD_OK, dyd_file_to_callback(&f, tape_put, &t, &err));
+  assert_int_equal(DYD_E_ARG, dyd_file_of_callback(&f, NULL, NULL, &t, &err));
+  assert_int_equal(DYD_E_ARG, dyd_file_of_callback(&f, tape_put, tape_get, &t, &err));
+  assert_int_equal(DYD_OK, dyd_file_of_callback(&f, tape_put, NULL, &t, &err));
   setvbuf(f, NULL, _IONBF, 0);
   assert_int_equal(DYD_E_IO, dyd_write_rects(f, dyd_engine_sites(e), 0, 5, &err));
   assert_int_equal(EOF, fclose(f));
   t.length = sizeof points - 1;
   memcpy(t.bytes, points, t.length);
   assert_int_equal(DYD_OK, dyd_engine_new(&again));
-  assert_int_equal(DYD_OK, dyd_file_from_callback(&f, tape_get, &t, &err));
+  assert_int_equal(DYD_OK, dyd_file_of_callback(&f, NULL, tape_get, &t, &err));
   assert_int_equal(DYD_E_IO, dyd_read_points(again, f, NULL, &err));
   assert_int_equal(EOF, fclose(f));
   assert_int_equal(0, dyd_engine_count(again));
