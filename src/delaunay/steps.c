@@ -12,7 +12,6 @@
 #include "legal/certify.h"
 #include "possible/cover.h"
 #include "possible/patches_filter.h"
-#include "rect/rect.h"
 #include "skeleton/rects_filter.h"
 
 #include <string.h>

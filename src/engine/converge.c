@@ -13,7 +13,6 @@
 #include "delaunay/memory.h"
 #include "delaunay/state.h"
 #include "engine/goal_voronoi.h"
-#include "engine/points.h"
 #include "engine/record.h"
 #include "metric/bounds.h"
 #include "rect/rect.h"

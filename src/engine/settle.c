@@ -11,7 +11,6 @@
 #include "engine/settle.h"
 
 #include "base/alloc.h"
-#include "base/flag.h"
 #include "base/index.h"
 #include "base/local.h"
 #include "delaunay/disc_filter.h"

@@ -9,7 +9,6 @@
 #include "engine/settle.h"
 
 #include "legal/lp_filter.h"
-#include "rect/rect.h"
 
 #include <math.h>
 #include <stdlib.h>

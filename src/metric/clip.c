@@ -6,7 +6,6 @@
  * once if it has the inside of both on its left, else not at all. So the areas of all tiles have the area's as their
  * sum, as those of the tiles have the window's [PART-1]. Vertices are rounded once, when a ring is done. */
 #include "base/alloc.h"
-#include "base/error.h"
 #include "base/flag.h"
 #include "base/local.h"
 #include "metric/bounds.h"

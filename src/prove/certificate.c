@@ -11,7 +11,6 @@
 #include "delaunay/memory.h"
 #include "io/output.h"
 #include "prove/proof.h"
-#include "rect/rect.h"
 #include "sphere/state.h"
 #include "voronoi/shape.h"
 #include <dyadel/certificate.h>

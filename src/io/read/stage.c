@@ -5,7 +5,6 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "engine/add.h"
-#include "rect/rect.h"
 #include "stream/stream.h"
 
 #include <string.h>

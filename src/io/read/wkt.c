@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Lines of a points file without a header: a geometry as well-known text, whose places are points, or two coordinates.
  */
-#include "base/error.h"
 #include "io/read/csv.h"
 #include "stream/degrees.h"
 #include <string.h>
