@@ -467,13 +467,11 @@ static PyObject *doubles_or_none(const double *value, size_t count) {
 }
 
 static PyObject *tolerance_found(const dyd_tolerance *t, size_t points) {
+  const dyd_tolerance_result *r = dyd_tolerance_get(t);
   const dyd_tolerance_row *row;
-  double lo, hi;
   size_t rows = dyd_tolerance_rows(&row, t);
-  lo = dyd_tolerance_get(t)->lo, hi = dyd_tolerance_get(t)->hi;
-  return Py_BuildValue("N(dd)NN", copied(row, rows * sizeof *row), lo, hi,
-                       doubles_or_none(dyd_tolerance_get(t)->points, points),
-                       doubles_or_none(dyd_tolerance_get(t)->chances, rows));
+  return Py_BuildValue("N(dd)NN", copied(row, rows * sizeof *row), r->lo, r->hi, doubles_or_none(r->points, points),
+                       doubles_or_none(r->chances, rows));
 }
 
 /* *out becomes the numbers of all points, the caller's. DYD_E_NOMEM. */
@@ -528,10 +526,11 @@ PyObject *dydpy_tolerance(PyObject *self, PyObject *args) {
 /* ---- plan ---- */
 
 static PyObject *plan_found(const dyd_survey *s) {
+  const dyd_survey_result *r = dyd_survey_get(s);
   const dyd_survey_row *row;
-  size_t open, ties, left, rows = dyd_survey_rows(&row, s);
-  open = dyd_survey_get(s)->open, ties = dyd_survey_get(s)->ties, left = dyd_survey_get(s)->left;
-  return Py_BuildValue("N(nnn)", copied(row, rows * sizeof *row), (Py_ssize_t)open, (Py_ssize_t)ties, (Py_ssize_t)left);
+  size_t rows = dyd_survey_rows(&row, s);
+  return Py_BuildValue("N(nnn)", copied(row, rows * sizeof *row), (Py_ssize_t)r->open, (Py_ssize_t)r->ties,
+                       (Py_ssize_t)r->left);
 }
 
 /* The plan, or its trials where `trials` is above 0. */

@@ -128,34 +128,21 @@ static bool area_word(const area_text *t, const char *word) {
   return true;
 }
 
-/* Every POLYGON or MULTIPOLYGON in the text. */
-static dyd_status area_wkt(area_text *t) {
-  static const char *const others[] = {"POINT", "LINESTRING", "CURVE", "CIRCULARSTRING"};
+/* Every POLYGON or MULTIPOLYGON in the text, or every "coordinates" of GeoJSON. */
+static dyd_status area_geometries(area_text *t, bool wkt) {
+  static const char *const others[][4] = {{"\"POINT\"", "\"MULTIPOINT\"", "\"LINESTRING\"", "\"MULTILINESTRING\""},
+                                          {"POINT", "LINESTRING", "CURVE", "CIRCULARSTRING"}};
+  const char *word = wkt ? "POLYGON" : "\"COORDINATES\"";
   for (; t->at < t->end; t->at++) {
-    for (size_t k = 0; k < sizeof others / sizeof *others; k++)
-      if (area_word(t, others[k])) return area_refuse(t, "a polygon has to be here, not a point or line");
-    if (!area_word(t, "POLYGON")) continue;
-    t->at += strlen("POLYGON");
-    skip_any_of(t, " ZMzm");
-    if (area_word(t, "EMPTY")) continue;
-    dyd_status st = t->at < t->end && *t->at == '(' ? area_lists(t, true) : area_refuse(t, "a bracket is missing here");
-    if (st != DYD_OK) return st;
-    t->at--;
-  }
-  return DYD_OK;
-}
-
-/* Every "coordinates" in the text. */
-static dyd_status area_json(area_text *t) {
-  static const char *const others[] = {"\"POINT\"", "\"MULTIPOINT\"", "\"LINESTRING\"", "\"MULTILINESTRING\""};
-  for (; t->at < t->end; t->at++) {
-    for (size_t k = 0; k < sizeof others / sizeof *others; k++)
-      if (area_word(t, others[k])) return area_refuse(t, "a polygon has to be here, not a point or line");
-    if (!area_word(t, "\"COORDINATES\"")) continue;
-    t->at += strlen("\"COORDINATES\"");
-    skip_any_of(t, " \t\r\n:");
-    if (t->at == t->end || *t->at != '[') return area_refuse(t, "a list of coordinates has to be here");
-    dyd_status st = area_lists(t, false);
+    for (size_t k = 0; k < 4; k++)
+      if (area_word(t, others[wkt][k])) return area_refuse(t, "a polygon has to be here, not a point or line");
+    if (!area_word(t, word)) continue;
+    t->at += strlen(word);
+    skip_any_of(t, wkt ? " ZMzm" : " \t\r\n:");
+    if (wkt && area_word(t, "EMPTY")) continue;
+    if (t->at == t->end || *t->at != (wkt ? '(' : '['))
+      return area_refuse(t, wkt ? "a bracket is missing here" : "a list of coordinates has to be here");
+    dyd_status st = area_lists(t, wkt);
     if (st != DYD_OK) return st;
     t->at--;
   }
@@ -184,7 +171,7 @@ dyd_status dyd_area_read(dyd_area *out, FILE *in, dyd_error *err) {
   if (st == DYD_OK) {
     made.offset[0] = 0;
     skip_any_of(&t, "\xEF\xBB\xBF \t\r\n");
-    st = t.at < t.end && *t.at == '{' ? area_json(&t) : area_wkt(&t);
+    st = area_geometries(&t, t.at == t.end || *t.at != '{');
   }
   if (st == DYD_OK && !made.rings)
     st = dyd_fail(err, DYD_E_PARSE, "the file holds no polygon; give well-known text (POLYGON ((...))) or GeoJSON");
