@@ -205,10 +205,6 @@ bool dyd_labels_merge(dyd_labels *l, size_t point) {
   return true;
 }
 
-void dyd_labels_skip(dyd_labels *l) {
-  l->rows++;
-}
-
 /* Length of `count` terminated texts, one after another, without the last end. */
 static size_t texts_length(const char *text, size_t count) {
   size_t length = 0;

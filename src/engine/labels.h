@@ -45,8 +45,6 @@ size_t dyd_labels_bytes(const dyd_labels *l);
 bool dyd_labels_add(dyd_labels *l, const char *id, size_t length, const dyd_row_numbers *number);
 /* The next row, which is that of `point` again. false: memory is exhausted. */
 bool dyd_labels_merge(dyd_labels *l, size_t point);
-/* The next row, which gives no point. */
-void dyd_labels_skip(dyd_labels *l);
 /* *out becomes the labels of e with those of `more` behind, for the points that come next. DYD_E_NOMEM. */
 dyd_status dyd_labels_join(dyd_labels *out, const dyd_engine *e, const dyd_labels *more);
 /* *out becomes the labels of e with n points behind that cost so much. DYD_E_NOMEM. */

@@ -19,10 +19,6 @@ static uint32_t result_alias(const dyd_result *r, uint32_t i) {
   return r->sphere ? dyd_sphere_alias(r->sphere, i) : dyd_delaunay_alias(r->pd, i);
 }
 
-dyd_status dyd_result_rect(dyd_rect *out, const dyd_result *r, uint32_t i) {
-  return r->sphere ? dyd_sphere_rect(out, r->sphere, i) : dyd_sites_get(out, r->sites, i);
-}
-
 dyd_status dyd_result_triangles(dyd_triangle_list *out, const dyd_result *r) {
   if (r->sphere) return dyd_sphere_triangles(out, r->sphere);
   return r->discs ? dyd_disc_triangles(out, &r->pairs, r->pd) : dyd_delaunay_triangles(out, NULL, r->pd, 0);

@@ -39,8 +39,6 @@ typedef struct dyd_site_row {
 /* ---- a result of a plane or of a sphere ---- */
 
 dyd_outcome dyd_result_outcome(const dyd_result *r);
-/* Where site i may be; on a sphere in degrees. */
-dyd_status dyd_result_rect(dyd_rect *out, const dyd_result *r, uint32_t i);
 /* The certain triangles. */
 dyd_status dyd_result_triangles(dyd_triangle_list *out, const dyd_result *r);
 /* How many pairs of each status there are. */

@@ -511,19 +511,15 @@ static dyd_status replay_fail(const replay *r, const char *what) {
   return dyd_fail(r->err, DYD_E_PARSE, "%s; give a trace as dyadel wrote it", what);
 }
 
-/* A goal or schedule by its word; false when there is none of that name. */
-static bool json_get_goal(dyd_goal *out, const json_t *line) {
-  int k = 0;
-  while (k <= LAST_GOAL && !trace_has_text(line, "goal", dyd_goal_text((dyd_goal)k))) k++;
-  *out = (dyd_goal)k;
-  return k <= LAST_GOAL;
-}
-
-static bool json_get_schedule(dyd_schedule *out, const json_t *line) {
-  int k = 0;
-  while (k <= LAST_SCHEDULE && !trace_has_text(line, "schedule", dyd_schedule_text((dyd_schedule)k))) k++;
-  *out = (dyd_schedule)k;
-  return k <= LAST_SCHEDULE;
+/* A goal and a schedule by their words; false when there is none of that name. */
+static bool replay_goal(dyd_engine_options *o, const json_t *line) {
+  int goal = 0, schedule = 0;
+  while (goal <= LAST_GOAL && !trace_has_text(line, "goal", dyd_goal_text((dyd_goal)goal))) goal++;
+  while (schedule <= LAST_SCHEDULE && !trace_has_text(line, "schedule", dyd_schedule_text((dyd_schedule)schedule)))
+    schedule++;
+  o->goal = (dyd_goal)goal;
+  o->schedule = (dyd_schedule)schedule;
+  return goal <= LAST_GOAL && schedule <= LAST_SCHEDULE;
 }
 
 /* The window of the bounds of V, when one was given. */
@@ -550,8 +546,7 @@ static dyd_status replay_head(replay *r, const json_t *line) {
       !trace_integer(&o->start_bits, line, "start_bits", INT64_MIN, INT64_MAX) ||
       !trace_integer(&o->step_bits, line, "step_bits", 0, INT64_MAX) ||
       !trace_integer(&o->max_bits, line, "max_bits", INT64_MIN, INT64_MAX) ||
-      !trace_integer(&max_pairs, line, "max_pairs", 0, INT64_MAX) || !json_get_schedule(&o->schedule, line) ||
-      !json_get_goal(&o->goal, line) || !replay_window(r, line))
+      !trace_integer(&max_pairs, line, "max_pairs", 0, INT64_MAX) || !replay_goal(o, line) || !replay_window(r, line))
     return replay_fail(r, "the first line lacks a field, or has a wrong one");
   if (r->converge.of >= DYD_CONVERGE_DISC)
     return dyd_fail(r->err, DYD_E_PARSE,

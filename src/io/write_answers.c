@@ -388,10 +388,6 @@ dyd_status dyd_check_json(const dyd_output *o) {
 
 enum { DIGITS = 6 };
 
-static size_t possible_pairs(const dyd_stage_row *r) {
-  return r->count[DYD_LEGAL] + r->count[DYD_INDETERMINATE] + r->count[DYD_TIE];
-}
-
 /* Milliseconds, rounded up. */
 static double row_seconds(const dyd_stage_row *r) {
   return ceil(r->seconds * 1000) / 1000;
@@ -509,7 +505,7 @@ static const dyd_dyadic *stage_bound(const stage_column *c, const dyd_stage_row 
 static uint64_t stage_count(const stage_column *c, const dyd_stage_row *r) {
   const void *at = (const char *)r + c->offset;
   uint64_t n = 0;
-  if (c->kind == STAGE_POSSIBLE) return possible_pairs(r);
+  if (c->kind == STAGE_POSSIBLE) return r->count[DYD_LEGAL] + r->count[DYD_INDETERMINATE] + r->count[DYD_TIE];
   if (c->kind != STAGE_CON) return c->kind == STAGE_SIZE ? *(const size_t *)at : *(const uint64_t *)at;
   for (size_t k = 0; k < r->cons; k++) n += r->con[k] == (int)c->offset - 1;
   return n;

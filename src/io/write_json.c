@@ -52,7 +52,7 @@ static void json_site(dyd_json *j, const dyd_result *r, uint32_t i, const dyd_si
   dyd_json_site(j, "i", r->engine, i);
   if (json_short_sides(j, r, i)) {
     dyd_sites_get_d(box, r->sites, i);
-  } else if (dyd_json_good(j, dyd_result_rect(rect, r, i))) {
+  } else if (dyd_json_good(j, r->sphere ? dyd_sphere_rect(rect, r->sphere, i) : dyd_sites_get(rect, r->sites, i))) {
     dyd_json_sides(j, rect);
     dyd_rect_get_d(box, rect);
   }
