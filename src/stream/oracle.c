@@ -487,7 +487,7 @@ dyd_status dyd_oracle_source(dyd_source *out, size_t *points, const char *comman
   dyd_oracle_options given;
   if (err) dyd_error_clear(err);
   if (dyd_abi_take(&given, sizeof given, options, "dyd_oracle_options", err) != DYD_OK ||
-      dyd_abi_check(out, 0, "dyd_source", err) != DYD_OK)
+      dyd_abi_check(out, offsetof(dyd_source, announce), "dyd_source", err) != DYD_OK)
     return DYD_E_ARG;
   if (given.jobs == 0) given.jobs = 1;
   if (given.batch == 0) given.batch = 1;
