@@ -21,7 +21,8 @@ enum {
   SAMPLE = 16,
   LEVELS = 2,
   COLUMNS = 1 << 16,
-  STRIP_BIT = 29
+  STRIP_BIT = 29,
+  FEW = 64 /* sites: for so few, a table and counts of digits cost more than they save */
 };
 
 /* A strip has at least this many sites. The armed build divides every second set of sites, however small. */
@@ -36,25 +37,32 @@ typedef struct hilbert_table {
   uint16_t step[4][256];
 } hilbert_table;
 
-static void fill_table(hilbert_table *h) {
+/* Goes along the curve by so many bits of both coordinates; returns those of the curve. */
+static uint32_t hilbert_walk(unsigned *state, uint32_t x, uint32_t y, int bits) {
   static const uint8_t order[4][4] = {{0, 1, 3, 2}, {0, 3, 1, 2}, {2, 1, 3, 0}, {2, 3, 1, 0}};
   static const uint8_t next[4][4] = {{1, 0, 3, 0}, {0, 2, 1, 1}, {2, 1, 2, 3}, {3, 3, 0, 2}};
+  uint32_t key = 0;
+  for (int b = bits - 1; b >= 0; b--) {
+    unsigned quadrant = (x >> b & 1) << 1 | (y >> b & 1);
+    key = key << 2 | order[*state][quadrant];
+    *state = next[*state][quadrant];
+  }
+  return key;
+}
+
+static void fill_table(hilbert_table *h) {
   for (unsigned state = 0; state < 4; state++)
     for (unsigned cell = 0; cell < 256; cell++) {
-      unsigned s = state, key = 0;
-      for (int b = 3; b >= 0; b--) {
-        unsigned quadrant = (cell >> 4 >> b & 1) << 1 | (cell >> b & 1);
-        key = key << 2 | order[s][quadrant];
-        s = next[s][quadrant];
-      }
+      unsigned s = state, key = hilbert_walk(&s, cell >> 4, cell & 15, 4);
       h->step[state][cell] = (uint16_t)(key | s << 8);
     }
 }
 
-/* 28 bits of the curve from 16-bit coordinates. */
+/* 28 bits of the curve from 16-bit coordinates; h: NULL for few sites. */
 static uint32_t hilbert_key(const hilbert_table *h, uint32_t x, uint32_t y) {
   unsigned state = 0;
   uint32_t key = 0;
+  if (!h) return hilbert_walk(&state, x, y, 16) >> 4;
   for (int b = 12; b >= 0; b -= 4) {
     unsigned e = h->step[state][(x >> b & 15) << 4 | (y >> b & 15)];
     key = key << 8 | (e & 255);
@@ -102,7 +110,7 @@ static unsigned level_of(uint32_t i) {
 typedef struct keys {
   const dyd_sites *sites;
   frame f;
-  hilbert_table h;
+  const hilbert_table *h; /* NULL, as count: few sites */
   bool mixed;
   unsigned strips, shift;
   uint32_t *column; /* the strip of each column of the frame; NULL: one strip */
@@ -117,7 +125,7 @@ static uint32_t order_place(const keys *k, int axis, size_t i) {
 
 static uint32_t order_key(const keys *k, uint32_t i) {
   uint32_t x = order_place(k, 0, i), y = order_place(k, 1, i), fat = k->mixed && !dyd_sites_is_point(k->sites, i);
-  uint32_t key = (fat << 30 | (uint32_t)level_of(i) << 28 | hilbert_key(&k->h, x, y)) >> k->shift;
+  uint32_t key = (fat << 30 | (uint32_t)level_of(i) << 28 | hilbert_key(k->h, x, y)) >> k->shift;
   return k->column ? key | k->column[x] << STRIP_BIT : key;
 }
 
@@ -162,6 +170,16 @@ static void radix_sort(uint64_t *a, uint64_t *b, size_t n, size_t count[PASSES][
   }
 }
 
+/* All differ, so that every way to sort them has the same result. */
+static void sort_few(uint64_t *a, size_t n) {
+  for (size_t i = 1; i < n; i++) {
+    uint64_t key = a[i];
+    size_t at = i;
+    for (; at && a[at - 1] > key; at--) a[at] = a[at - 1];
+    a[at] = key;
+  }
+}
+
 static void keys_of_range(void *context, size_t number, size_t begin, size_t end) {
   const keys *k = context;
   (void)number;
@@ -172,28 +190,39 @@ static void count_keys(keys *k) {
   for (size_t i = 0; i < k->sites->count; i++) {
     uint32_t key = (uint32_t)(k->a[i] >> 32);
     k->members[k->column ? key >> STRIP_BIT : 0]++;
-    for (int p = 0; p < PASSES; p++) k->count[p][key >> (RADIX_BITS * p) & (RADIX - 1)]++;
+    for (int p = 0; p < PASSES && k->count; p++) k->count[p][key >> (RADIX_BITS * p) & (RADIX - 1)]++;
   }
+}
+
+/* a in order of keys; b: scratch, where the result is unless sites are few. */
+static const uint64_t *sorted_keys(keys *k, hilbert_table *h, uint64_t *b, unsigned threads) {
+  size_t n = k->sites->count;
+  k->f = frame_of(k->sites);
+  k->mixed = !dyd_sites_are_double_points(k->sites);
+  if (k->count) fill_table(h);
+  if (k->column) share_columns(k);
+  dyd_parallel_ranges(threads, n, keys_of_range, k);
+  count_keys(k);
+  if (k->count)
+    radix_sort(k->a, b, n, k->count); /* an odd number of passes ends in b */
+  else
+    sort_few(k->a, n);
+  return k->count ? b : k->a;
 }
 
 dyd_status dyd_spatial_order(uint32_t *order, dyd_strips *strips, const dyd_sites *s, unsigned threads) {
   size_t n = s->count;
-  keys k = {.sites = s, .strips = strips_for(n)};
-  uint64_t *b = dyd_alloc(n, sizeof *b);
-  k.a = dyd_alloc(n, sizeof *k.a);
-  k.count = calloc(PASSES, sizeof *k.count);
+  hilbert_table h;
+  bool few = n <= FEW;
+  uint64_t *b = few ? NULL : dyd_alloc(n, sizeof *b);
+  keys k = {.sites = s, .h = few ? NULL : &h, .strips = strips_for(n), .a = dyd_alloc(n, sizeof *k.a)};
+  if (!few) k.count = calloc(PASSES, sizeof *k.count);
   if (k.strips > 1) k.column = calloc(COLUMNS, sizeof *k.column);
   k.shift = k.strips > 1 ? 31 - STRIP_BIT : 0;
-  dyd_status st = k.a && b && k.count && (k.strips == 1 || k.column) ? DYD_OK : DYD_E_NOMEM;
+  dyd_status st = k.a && (few || (b && k.count)) && (k.strips == 1 || k.column) ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK) {
-    k.f = frame_of(s);
-    k.mixed = !dyd_sites_are_double_points(s);
-    fill_table(&k.h);
-    if (k.column) share_columns(&k);
-    dyd_parallel_ranges(threads, n, keys_of_range, &k);
-    count_keys(&k);
-    radix_sort(k.a, b, n, k.count);
-    for (size_t i = 0; i < n; i++) order[i] = (uint32_t)b[i]; /* an odd number of passes ends in b */
+    const uint64_t *key = sorted_keys(&k, &h, b, threads);
+    for (size_t i = 0; i < n; i++) order[i] = (uint32_t)key[i];
     set_strips(strips, &k);
   }
   dyd_free_all(k.column, k.count, b, k.a);
