@@ -390,6 +390,11 @@ dyd_status dyd_survey_crowds(dyd_measuring *m) {
   return st;
 }
 
+/* A try: bits of the sites that were measured in it, and of the targets that it left open. */
+typedef struct face_known {
+  uint64_t measured, open;
+} face_known;
+
 /* Sites and targets by their numbers in the face; measured[k]: how it is tried. */
 typedef struct face_try {
   dyd_survey *s;
@@ -397,10 +402,13 @@ typedef struct face_try {
   dyd_index_list sites;
   dyd_pair *target;
   size_t targets;
-  bool *measured;
-  uint32_t *order; /* those chosen here */
-  size_t *left;    /* targets that are open before them, and after each, as they were chosen */
+  bool *measured, *open; /* open[k]: is target k, in the last try */
+  dyd_rect *small;       /* of each site, once measured; NULL with own */
+  uint32_t *order;       /* those chosen here */
+  size_t *left;          /* targets that are open before them, and after each, as they were chosen */
   size_t chosen;
+  face_known *known; /* tries so far, where there are bits for all sites and targets */
+  size_t knowns, known_cap;
 } face_try;
 
 /* survey_face.c: the number of a site among these, ascending, or DYD_NONE. */
@@ -412,24 +420,73 @@ static uint32_t survey_number_in(const dyd_index_list *sites, uint32_t site) {
 static dyd_status tried_rect(dyd_rect *out, const void *face, size_t k) {
   const face_try *f = face;
   if (f->own) return dyd_sites_get(out, f->own, f->sites.item[k]);
-  return survey_rect(out, f->s, f->sites.item[k], f->measured[k]);
+  dyd_rect_set(out, f->measured[k] ? &f->small[k] : &f->s->site[f->sites.item[k]].rect);
+  return DYD_OK;
 }
 
-/* How many targets are open; open[k] (may be NULL): of how many it is an end. */
-static dyd_status try_face(size_t *open_pairs, size_t *open, const face_try *f) {
+static bool has_bits(const face_try *f) {
+  return f->sites.count <= 64 && f->targets <= 64;
+}
+
+static uint64_t flag_bits(const bool *flag, size_t count) {
+  uint64_t bits = 0;
+  for (size_t k = 0; k < count; k++) bits |= (uint64_t)flag[k] << k;
+  return bits;
+}
+
+/* *open: bits of what a try with these sites measured leaves open, if tries so far tell: a smaller rectangle opens no
+ * pair, so what fewer sites decide is decided, and what more of them leave open is open. */
+static bool face_recalls(uint64_t *open, const face_try *f, uint64_t measured) {
+  uint64_t certain = 0;
+  *open = UINT64_MAX >> (64 - f->targets);
+  for (size_t q = 0; q < f->knowns; q++) {
+    const face_known *a = &f->known[q];
+    if (!(a->measured & ~measured)) *open &= a->open;
+    if (!(measured & ~a->measured)) certain |= a->open;
+  }
+  return *open == certain;
+}
+
+static dyd_status face_remember(face_try *f) {
+  if (!has_bits(f)) return DYD_OK;
+  if (!DYD_GROW(f->known, f->known_cap, f->knowns + 1)) return DYD_E_NOMEM;
+  f->known[f->knowns++] = (face_known){flag_bits(f->measured, f->sites.count), flag_bits(f->open, f->targets)};
+  return DYD_OK;
+}
+
+static dyd_status face_triangulate(face_try *f) {
   dyd_delaunay *pd = NULL;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = f->s->options.cancel};
   if (dyd_flag_is_set(o.cancel)) return DYD_CANCELLED;
   dyd_status st = dyd_delaunay_made(&pd, f->sites.count, tried_rect, f, &o, NULL);
   if (st == DYD_CAPPED) st = DYD_OK;
-  *open_pairs = 0;
-  if (open) memset(open, 0, f->sites.count * sizeof *open);
-  for (size_t k = 0; k < f->targets && st == DYD_OK; k++) {
-    if (!dyd_survey_is_open(pd, &f->target[k])) continue;
-    ++*open_pairs;
-    if (open) open[f->target[k].i]++, open[f->target[k].j]++;
-  }
+  for (size_t k = 0; k < f->targets && st == DYD_OK; k++) f->open[k] = dyd_survey_is_open(pd, &f->target[k]);
   dyd_delaunay_free(pd);
+  return st;
+}
+
+/* How many targets are open; degree[k] (may be NULL): of how many it is an end. */
+static void count_open(size_t *open_pairs, size_t *degree, const face_try *f) {
+  *open_pairs = 0;
+  if (degree) memset(degree, 0, f->sites.count * sizeof *degree);
+  for (size_t k = 0; k < f->targets; k++) {
+    *open_pairs += f->open[k];
+    if (degree && f->open[k]) degree[f->target[k].i]++, degree[f->target[k].j]++;
+  }
+}
+
+/* The same with sites measured as they are. */
+static dyd_status try_face(size_t *open_pairs, size_t *degree, face_try *f) {
+  uint64_t open = 0;
+  dyd_status st = DYD_OK;
+  if (has_bits(f) && face_recalls(&open, f, flag_bits(f->measured, f->sites.count))) {
+    DYD_INVARIANT(face_triangulate(f) != DYD_OK || flag_bits(f->open, f->targets) == open);
+    for (size_t k = 0; k < f->targets; k++) f->open[k] = open >> k & 1;
+  } else {
+    st = face_triangulate(f);
+    if (st == DYD_OK) st = face_remember(f);
+  }
+  if (st == DYD_OK) count_open(open_pairs, degree, f);
   return st;
 }
 
@@ -443,7 +500,7 @@ static double cost_of(const face_try *f, size_t k) {
 
 /* The site that decides most for its cost, *left: open pairs after it; where no single one decides anything, an end of
  * most open pairs. The first that decides all is best, unless costs differ. */
-static dyd_status best_site(size_t *best, size_t *left, const face_try *f, size_t open_pairs, const size_t *open) {
+static dyd_status best_site(size_t *best, size_t *left, face_try *f, size_t open_pairs, const size_t *open) {
   double most = 0;
   size_t fallback = f->sites.count, now = 1;
   *best = f->sites.count;
@@ -465,15 +522,14 @@ static dyd_status best_site(size_t *best, size_t *left, const face_try *f, size_
 
 /* As try_face, before anything is tried: where no site was measured for another face, by the triangulation that has
  * this one [LOC-1]. */
-static dyd_status face_open(size_t *open_pairs, size_t *open, const face_try *f, const dyd_delaunay *pd) {
-  *open_pairs = 0;
+static dyd_status face_open(size_t *open_pairs, size_t *degree, face_try *f, const dyd_delaunay *pd) {
   for (size_t k = 0; k < f->sites.count; k++)
-    if (f->measured[k]) return try_face(open_pairs, open, f);
+    if (f->measured[k]) return try_face(open_pairs, degree, f);
   for (size_t k = 0; k < f->targets; k++) {
     const dyd_pair *p = &f->target[k];
-    if (!dyd_survey_is_open(pd, &(dyd_pair){f->sites.item[p->i], f->sites.item[p->j], p->status})) continue;
-    ++*open_pairs, open[p->i]++, open[p->j]++;
+    f->open[k] = dyd_survey_is_open(pd, &(dyd_pair){f->sites.item[p->i], f->sites.item[p->j], p->status});
   }
+  count_open(open_pairs, degree, f);
   return DYD_OK;
 }
 
@@ -542,8 +598,7 @@ static dyd_status write_rows(face_try *f, bool dropped) {
 static bool make_targets(face_try *f) {
   size_t most = 0;
   for (size_t a = 0; a < f->sites.count; a++) most += f->s->first[f->sites.item[a] + 1] - f->s->first[f->sites.item[a]];
-  f->target = dyd_alloc(most, sizeof *f->target);
-  return f->target;
+  return DYD_NEW(f->target, most) && DYD_NEW(f->open, most);
 }
 
 static void take_targets(face_try *f) {
@@ -556,21 +611,32 @@ static void take_targets(face_try *f) {
     }
 }
 
-/* Room for n sites; measured as they are chosen now. *open gets room for n numbers. */
-static dyd_status face_begin(face_try *f, size_t **open) {
+/* The rectangles of all sites, once measured. */
+static dyd_status make_small(face_try *f) {
   size_t n = f->sites.count;
-  *open = calloc(n + 1, sizeof **open);
+  dyd_status st = DYD_NEW(f->small, n) ? DYD_OK : DYD_E_NOMEM;
+  for (size_t k = 0; k < n && f->small; k++) dyd_rect_init(&f->small[k]);
+  for (size_t k = 0; k < n && st == DYD_OK; k++) st = survey_rect(&f->small[k], f->s, f->sites.item[k], true);
+  return st;
+}
+
+/* Room for n sites; measured as they are chosen now. *degree gets room for n numbers. */
+static dyd_status face_begin(face_try *f, size_t **degree) {
+  size_t n = f->sites.count;
+  *degree = calloc(n + 1, sizeof **degree);
   f->measured = dyd_alloc(n, sizeof *f->measured);
   f->order = dyd_alloc(n, sizeof *f->order);
   f->left = dyd_alloc(n + 1, sizeof *f->left);
-  if (!*open || !make_targets(f) || !f->measured || !f->order || !f->left) return DYD_E_NOMEM;
+  if (!*degree || !make_targets(f) || !f->measured || !f->order || !f->left) return DYD_E_NOMEM;
   for (size_t k = 0; k < n; k++) f->measured[k] = f->s->site[f->sites.item[k]].chosen;
   take_targets(f);
-  return DYD_OK;
+  return f->own || !f->targets ? DYD_OK : make_small(f);
 }
 
-static void face_end(face_try *f, size_t *open) {
-  dyd_free_all(open, f->target, f->measured, f->order, f->left);
+static void face_end(face_try *f, size_t *degree) {
+  for (size_t k = 0; f->small && k < f->sites.count; k++) dyd_rect_clear(&f->small[k]);
+  dyd_free_all(degree, f->target, f->measured, f->order, f->left);
+  dyd_free_all(f->small, f->open, f->known);
 }
 
 dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t face) {
