@@ -255,19 +255,33 @@ static dyd_status holds_at(bool *holds, dyd_survey *s, mpq_srcptr scale) {
   return st;
 }
 
-/* Doubling as long as it holds, then halving the step. */
+/* Doubled as often as that holds: the less exactly, the more is open. By halves, where it starts below 1 and ends
+ * there; where the accuracy is given, one by one. */
+static dyd_status double_scale(dyd_survey *s, mpq_t next) {
+  bool limited = dyd_survey_is_limited(s);
+  size_t least = 0, most = limited ? 64 : mpz_sizeinbase(mpq_denref(s->scale), 2) - 1;
+  dyd_status st = DYD_OK;
+  while (least < most && st == DYD_OK) {
+    bool holds;
+    size_t middle = limited ? least + 1 : least + (most - least + 1) / 2;
+    mpq_mul_2exp(next, s->scale, middle - least);
+    st = holds_at(&holds, s, next);
+    if (holds)
+      least = middle;
+    else
+      most = middle - 1;
+  }
+  return st;
+}
+
+/* Then halving the step. */
 static dyd_status loosen(dyd_survey *s) {
   mpq_t next, step;
-  bool holds = s->chosens > 0;
-  dyd_status st = DYD_OK;
   mpq_inits(next, step, NULL);
-  for (int k = 0; k < 64 && holds && st == DYD_OK; k++) {
-    if (!dyd_survey_is_limited(s) && mpq_cmp_ui(s->scale, 1, 2) > 0) break;
-    mpq_mul_2exp(next, s->scale, 1);
-    st = holds_at(&holds, s, next);
-  }
+  dyd_status st = s->chosens ? double_scale(s, next) : DYD_OK;
   mpq_div_2exp(step, s->scale, 1);
   for (int k = 0; k < STEPS && s->chosens && st == DYD_OK; k++) {
+    bool holds;
     mpq_add(next, s->scale, step);
     if (dyd_survey_is_limited(s) || mpq_cmp_ui(next, 1, 1) < 0) st = holds_at(&holds, s, next);
     mpq_div_2exp(step, step, 1);
