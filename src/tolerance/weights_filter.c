@@ -231,8 +231,9 @@ static bool circle_of_direction(dyd_circle_d *c, weight_work *g, dyd_direction u
   double ri = dyd_filter_radius(w, w->i), rj = dyd_filter_radius(w, w->j), delta = rj - ri;
   double n = size * size - delta * delta, coordinates = fabs(i[0]) + fabs(i[1]) + fabs(j[0]) + fabs(j[1]);
   double num = u.x * jx + u.y * jy + (legal ? -delta : delta), from = 1 / (2 * num / n);
-  double doubt = (TURN * size + 0x1p-49 * (size + delta + coordinates)) / fabs(num) +
-                 0x1p-48 * (size * size + delta * delta + size * coordinates) / n;
+  double off = TURN * size + 0x1p-49 * (size + delta + coordinates) +
+               0x1p-48 * (size * size + delta * delta + size * coordinates) / n * fabs(num),
+         doubt = off / fabs(num);
   *c = (dyd_circle_d){.w = w, .legal = legal};
   if (!(n > 0x1p-20 * size * size && n > 0x1p-400 && n < 0x1p400)) return false;
   if (num > 0 && doubt < 0.25) {
@@ -248,7 +249,7 @@ static bool circle_of_direction(dyd_circle_d *c, weight_work *g, dyd_direction u
   c->x = u.x;
   c->y = u.y;
   c->height = legal ? fmin(a - ri, b - rj) : fmin(a + ri, b + rj);
-  c->clear = 8 * (TURN + doubt * fabs(num) / size) * (size + g->t->sk->mesh.extent[0] + g->t->sk->mesh.extent[1]);
+  c->clear = 8 * (TURN + off / size) * (size + g->t->sk->mesh.extent[0] + g->t->sk->mesh.extent[1]);
   c->clear *= 1 + size * size / n;
   return true;
 }
