@@ -17,6 +17,8 @@ enum { MOST_ROUNDS = 200 };
 
 #define PATH_ROOM 0x1p-46 /* of the sizes, more than roundings of sides make */
 
+#define LEAP 16 /* times the distance of a place from i that a step may take it: farther out paths are not proved */
+
 #define DROP 0x1p-20 /* more than a place found may miss the best by */
 
 /* ---- the chain of a birth ---- */
@@ -80,7 +82,7 @@ static void birth_climb(dyd_moves *m, uint32_t n) {
   m->x = a->x;
   m->y = a->y;
   dyd_moves_climb(m);
-  *a = (dyd_move_link){a->site, m->x, m->y, m->now, true};
+  *a = (dyd_move_link){a->site, m->x, m->y, m->now, !(m->now > m->goal)};
 }
 
 /* Three planes of place n become the basis. Returns true if all four have one height: the fourth follows then. */
@@ -95,19 +97,30 @@ static bool birth_planes(dyd_moves *m, uint32_t n) {
   return most <= a->t + DROP * fabs(a->t);
 }
 
-/* A step towards that place: to where the planes meet, unless it is there, or must climb. */
-static void birth_step(dyd_moves *m, uint32_t n) {
+/* Goes from place n to one that is better, no farther than a leap. */
+static bool birth_goes(dyd_moves *m, uint32_t n, const dyd_move_plane *to) {
   dyd_move_link *a = &m->link[n], old = *a;
-  dyd_move_plane to;
-  bool even = birth_planes(m, n), met = dyd_planes_meet(&to, m),
-       more = met && to.top - a->t > DYD_MOVES_CLOSE * fabs(a->t);
-  if (more) link_measure(m, n, a->x + to.x, a->y + to.y);
-  if (more && a->t > old.t) return;
+  double part = fmin(1, LEAP * (fabs(a->x) + fabs(a->y)) / hypot(to->x, to->y));
+  if (!(to->top - a->t > DYD_MOVES_CLOSE * fabs(a->t))) return false;
+  link_measure(m, n, a->x + part * to->x, a->y + part * to->y);
+  if (a->t > old.t) return true;
   *a = old;
-  if (met && even && !(to.top - a->t > DROP * fabs(a->t)))
-    a->climbed = true;
-  else
-    birth_climb(m, n);
+  return false;
+}
+
+/* A step towards the best place: to where the first three planes meet; there all four do, mostly. Or else to the summit
+ * of all four, unless it is there, or must climb. */
+static void birth_step(dyd_moves *m, uint32_t n) {
+  dyd_move_link *a = &m->link[n];
+  dyd_move_plane to;
+  bool even = birth_planes(m, n), met = dyd_planes_meet(&to, m);
+  if (met && birth_goes(m, n, &to)) return;
+  a->climbed = met && even && !(to.top - a->t > DROP * fabs(a->t));
+  if (a->climbed) return;
+  met = dyd_planes_four(&to, m);
+  if (met && birth_goes(m, n, &to)) return;
+  a->climbed = met && !(to.top - a->t > DROP * fabs(a->t));
+  if (!a->climbed) birth_climb(m, n);
 }
 
 /* The direction of an end of the path, way = -1 or 1: across ij, or that in which the two are equally far out at t. */
@@ -210,16 +223,20 @@ static double birth_end_room(const dyd_moves *m, int way) {
   return n / (hypot(jx, jy) * (q->weight + fmax(m->site[0].weight, m->site[1].weight)));
 }
 
-/* The number of the place, or of links where an end comes first, that is kept up to the least *t. */
-static uint32_t birth_lowest(double *t, int *end, const dyd_moves *m) {
+/* The number of the place, or of links where an end comes first, that is kept up to the least *t; *next: the least of
+ * the others. */
+static uint32_t birth_lowest(double *t, double *next, int *end, const dyd_moves *m) {
   uint32_t best = m->links;
-  *t = HUGE_VAL;
+  *t = *next = HUGE_VAL;
   for (int way = -1; way <= 1; way += 2) {
     double room = birth_end_room(m, way);
     if (!(room >= *t)) *t = room, *end = way;
   }
-  for (uint32_t n = 0; n + 1 < m->links; n++)
-    if (!(m->link[n].t >= *t)) *t = m->link[n].t, best = n;
+  for (uint32_t n = 0; n + 1 < m->links; n++) {
+    double here = m->link[n].t;
+    *next = fmin(*next, here >= *t ? here : *t);
+    if (!(here >= *t)) *t = here, best = n;
+  }
   return best;
 }
 
@@ -237,6 +254,19 @@ static bool birth_look_out(dyd_moves *m, int way) {
   m->planes = 0; /* of sites added */
   dyd_tree_beyond(&m->t->tree, x, y, &height, meet_beyond, m);
   return m->planes > 0;
+}
+
+/* Of the sites seen only those of the chain stay: searches find the others again, if they are needed. */
+static void birth_forget(dyd_moves *m) {
+  uint32_t count = 2, to[2 + DYD_MOVES_MOST_SEEN];
+  for (uint32_t k = 2; k < m->count; k++) {
+    uint32_t n = 0;
+    while (n < m->links && m->link[n].site != k) n++;
+    to[k] = count;
+    if (n < m->links) m->site[count++] = m->site[k];
+  }
+  for (uint32_t n = 0; n < m->links; n++) m->link[n].site = to[m->link[n].site];
+  m->count = count;
 }
 
 static void move_links(dyd_moves *m, uint32_t from, uint32_t to) {
@@ -312,9 +342,10 @@ static bool birth_drop(dyd_moves *m, uint32_t n) {
 /* The row by place n, or *added: sites that may keep it. false: not certain. */
 static bool birth_confirm(bool *added, dyd_tolerance_row *row, dyd_moves *m, uint32_t n, double up_to) {
   dyd_move_link *a = &m->link[n];
+  dyd_move_plane to;
   m->x = a->x;
   m->y = a->y;
-  if (!birth_planes(m, n)) birth_climb(m, n);
+  if (!birth_planes(m, n) && !dyd_planes_four(&to, m)) birth_climb(m, n);
   m->now = fmax(a->t, 0);
   dyd_moves_refine(m);
   a->x = m->x;
@@ -340,15 +371,18 @@ bool dyd_filter_moved_birth(dyd_tolerance_row *row, bool *late, const dyd_tolera
   if (!dyd_moves_begin(&m, spare, t, (uint32_t[]){i, j, DYD_NONE, DYD_NONE}, -1)) return false;
   birth_chain(&m);
   for (int round = 0; round < MOST_ROUNDS; round++) {
-    double least;
+    double least, next;
     int end = 1;
-    uint32_t n = birth_lowest(&least, &end, &m);
+    if (m.count + DYD_MOVES_MOST_ADDED > 2 + DYD_MOVES_MOST_SEEN) birth_forget(&m);
+    uint32_t n = birth_lowest(&least, &next, &end, &m);
     if (least > up_to) return *late = birth_is_above(&m, m.links, up_to);
     if (n == m.links) {
       if (!birth_look_out(&m, end)) return false;
       birth_chain(&m);
     } else if (!m.link[n].climbed) {
+      m.goal = fmin(next, up_to); /* above it other places count */
       birth_step(&m, n);
+      m.goal = HUGE_VAL;
     } else if (!birth_drop(&m, n) && !birth_split(&m, n)) {
       if (!birth_confirm(&added, row, &m, n, up_to)) return false;
       if (!added) return true;

@@ -118,6 +118,21 @@ static void planes_weigh(double out[3], const dyd_moves *m, const dyd_move_plane
   out[0] = 1 - out[1] - out[2];
 }
 
+bool dyd_planes_four(dyd_move_plane *at, dyd_moves *m) {
+  static const dyd_move_plane flat = {0};
+  for (uint32_t out = 4; out-- > 0;) {
+    const dyd_move_plane *p = &m->plane[DYD_MOVES_CONE + out];
+    double zero[3];
+    for (uint32_t k = 0; k < 3; k++) m->basis[k] = DYD_MOVES_CONE + k + (k >= out);
+    if (!dyd_planes_meet(at, m)) continue;
+    planes_weigh(zero, m, &flat);
+    if (zero[0] >= 0 && zero[1] >= 0 && zero[2] >= 0 &&
+        p->top + p->x * at->x + p->y * at->y - at->top >= -0x1p-50 * fabs(at->top))
+      return true;
+  }
+  return false;
+}
+
 /* The place of the highest point below all planes, seen from c. The basis always holds 0 between its slopes; the plane
  * that is lowest at its point enters, and the one leaves that keeps it so. */
 static bool planes_summit(dyd_move_plane *at, dyd_moves *m) {
@@ -192,7 +207,7 @@ bool dyd_moves_climb(dyd_moves *m) {
   moves_measure(m);
   for (int step = 0; step < MOST_STEPS; step++) {
     dyd_move_plane to;
-    if (m->now >= m->contact * (1 - DYD_MOVES_CLOSE)) return true;
+    if (m->now > m->goal || m->now >= m->contact * (1 - DYD_MOVES_CLOSE)) return true;
     cone_begin(m);
     if (!planes_summit(&to, m)) return false;
     bool held = has_cone(m);
@@ -435,7 +450,7 @@ bool dyd_moves_begin(dyd_moves *m, dyd_others *o, const dyd_tolerance *t, const 
   m->square = t->options.metric == DYD_METRIC_BOX;
   m->way = way;
   m->count = 0;
-  m->contact = HUGE_VAL;
+  m->contact = m->goal = HUGE_VAL;
   for (uint32_t k = 0; k < 3; k++) m->basis[k] = k;
   for (uint32_t k = 0; k < 2; k++) m->touch[k] = k;
   if (dyd_is_line(t->pd) || !t->points.usable || dyd_others_around(o, t, of[0], of[1], most) != DYD_OK) return false;

@@ -36,7 +36,8 @@ typedef struct dyd_move_link {
 } dyd_move_link;
 
 /* site[0], site[1]: i and j. The first planes keep c within about 2 far. contact: two regions meet from there on, those
- * of end and site `touch`. way: 1 for a death, -1 for a birth; pair: two sites of its chain. */
+ * of end and site `touch`. goal: climbing ends above it. way: 1 for a death, -1 for a birth; pair: two sites of its
+ * chain. */
 typedef struct dyd_moves {
   const dyd_tolerance *t;
   bool square;
@@ -44,7 +45,7 @@ typedef struct dyd_moves {
   uint32_t count, planes, links, basis[3];
   dyd_move_site site[2 + DYD_MOVES_MOST_SEEN];
   dyd_move_plane plane[DYD_MOVES_MOST_PLANES];
-  double x, y, now, far, contact;
+  double x, y, now, far, contact, goal;
   dyd_dd at[2];
   uint32_t touch[2], pair[2];
   dyd_move_link link[DYD_MOVES_MOST_SEEN];
@@ -82,10 +83,13 @@ static inline void dyd_plane_of_squares(dyd_move_plane *p, const dyd_move_site *
 bool dyd_moves_begin(dyd_moves *m, dyd_others *o, const dyd_tolerance *t, const uint32_t of[4], int way);
 /* false: it is seen already, or there are too many. */
 bool dyd_moves_see(dyd_moves *m, uint32_t v);
-/* From (m->x, m->y) to about the highest place. false: it is not found, or far away. */
+/* From (m->x, m->y) to about the highest place, or one above m->goal. false: it is not found, or far away. */
 bool dyd_moves_climb(dyd_moves *m);
 /* Where the three planes of the basis meet, seen from c. */
 bool dyd_planes_meet(dyd_move_plane *at, const dyd_moves *m);
+/* The highest point below the first four planes behind the cone, seen from c; the three that make it become the basis.
+ * false: there is none. */
+bool dyd_planes_four(dyd_move_plane *at, dyd_moves *m);
 /* m->at and m->now become c and t, more precise than doubles make them. */
 void dyd_moves_refine(dyd_moves *m);
 /* Half of the relative width around t that is tried, after `tries`; 0: no more. */
