@@ -42,15 +42,14 @@ typedef struct dyd_points_d {
   bool usable;
 } dyd_points_d;
 
-/* Loops over lines run to a multiple of a block, since few branches depend on that. */
-enum { DYD_LINES_BLOCK = 4, DYD_LINES_D = 48 };
-/* Of one pair: J, and P = p_k - p_i of the vertices added, none of which is i or j; up to the next multiple of a block
- * follow NaN. apex: next to the pair, one on each side, or DYD_NONE the second; both are among them. */
+/* Pairs whose ends have more neighbours in all have one end that is a hub. */
+enum { DYD_HUB = 40 };
+/* Of one pair: J, and in two lists the vertices that may bind, more than once where they are in both. i, j and vertices
+ * at NaN do not count. apex: next to the pair, the first on its left; or one alone, and DYD_NONE. */
 typedef struct dyd_lines_d {
   double jx, jy, jj, ejj, rjj; /* rjj: ejj / jj */
-  uint32_t i, j, count, apex[2];
-  double px[DYD_LINES_D + DYD_LINES_BLOCK], py[DYD_LINES_D + DYD_LINES_BLOCK];
-  uint32_t vertex[DYD_LINES_D + DYD_LINES_BLOCK];
+  uint32_t i, j, apex[2], rings[2];
+  const uint32_t *ring[2];
 } dyd_lines_d;
 
 /* One of them, with Q = p_k - p_j: em, en, ea bound the errors of m, n and along = P.J. */
@@ -67,16 +66,32 @@ typedef struct dyd_death_d {
   int end;
 } dyd_death_d;
 
-/* Begins with no vertex. false: doubles cannot hold the pair well. */
+/* Without vertices. false: doubles cannot hold the pair well. */
 bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t j);
-/* Adds `count` vertices of a cyclic list of `size`, from number `first` on, which is below 2 size; false: there is no
- * room. Vertices with NaN as coordinates do not count. */
-bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *p, const uint32_t *ring, uint32_t size, uint32_t first,
-                    uint32_t count);
 void dyd_filter_line(dyd_line_d *o, const dyd_lines_d *l, const dyd_points_d *p, uint32_t vertex);
 /* The death of a strictly Delaunay pair with these others; false: not certain. `box` (may be NULL) gets a box around
  * the centre, *radius2 an upper bound of its squared distance to the sites that bind; infinite for a half-plane. */
-bool dyd_filter_death(dyd_death_d *out, double box[4], double *radius2, const dyd_points_d *p, const dyd_lines_d *l);
+bool dyd_filter_death(dyd_death_d *out, double box[4], double *radius2, const dyd_points_d *p, dyd_lines_d *l);
+
+/* Many pairs at once, their points without low parts, by columns: i, j, and what may rise and fall. Then the place, the
+ * centre from p_i, what is D there and r^2, with bounds of their relative errors, and top: all that is not nearer to
+ * the centre than that squared does not bind, but what may; or -1. */
+#ifdef DYD_ARMED
+enum { DYD_BATCH = 3 }; /* few pairs fill it, and all of it may have to be tried again */
+#else
+enum { DYD_BATCH = 64 };
+#endif
+typedef struct dyd_batch_d {
+  uint32_t count, of[4][DYD_BATCH];
+  uint8_t round[DYD_BATCH];
+  double x[4][DYD_BATCH], y[4][DYD_BATCH];
+  double s[DYD_BATCH], es[DYD_BATCH], cx[DYD_BATCH], cy[DYD_BATCH], top[DYD_BATCH];
+  double D[DYD_BATCH], rD[DYD_BATCH], B[DYD_BATCH], rB[DYD_BATCH];
+} dyd_batch_d;
+void dyd_filter_batch(dyd_batch_d *c, const dyd_points_d *p);
+/* The death of pair k, if those two bind. *again: others may, and are put instead of them. l: the pair's points. */
+bool dyd_filter_batched(dyd_death_d *out, bool *again, dyd_batch_d *c, uint32_t k, const dyd_points_d *p,
+                        dyd_lines_d *l);
 
 /* along: P.J; m, n as above. All in integers: coordinates multiplied by a common factor. */
 typedef struct dyd_line_over {

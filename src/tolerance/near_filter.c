@@ -50,6 +50,7 @@ static dyd_status find_low_parts(dyd_tolerance *t) {
 /* Counter-clockwise, in the order of the vertices. */
 static void fill_near(dyd_tolerance *t) {
   const dyd_mesh *m = &t->sk->mesh;
+  const uint32_t *site = t->sk->reps.site;
   uint32_t count = 0;
   for (uint32_t v = 0; v < m->n; v++) {
     dyd_half_edge first = t->sk->leaving[v];
@@ -58,7 +59,7 @@ static void fill_near(dyd_tolerance *t) {
       __builtin_prefetch(&m->tri[dyd_edge_triangle(t->sk->leaving[v + AHEAD])]);
     for (dyd_half_edge h = first; h != DYD_NONE; h = dyd_edge_around(m, h, first)) {
       uint32_t w = t->near[count] = dyd_edge_target(m, h);
-      t->legal[count++] = w != m->n && dyd_edge_is_certain(t->sk, h);
+      t->own[count++] = w != m->n && dyd_edge_is_certain(t->sk, h) && site[v] < site[w];
     }
   }
   t->start[m->n] = count;
@@ -69,16 +70,16 @@ static dyd_status list_near(dyd_tolerance *t) {
   if (dyd_is_line(t->pd)) return DYD_OK;
   t->start = dyd_alloc((size_t)m->n + 1, sizeof *t->start);
   t->near = dyd_alloc(3 * (size_t)m->count, sizeof *t->near); /* a corner of a triangle has one neighbour more */
-  t->legal = dyd_alloc(3 * (size_t)m->count, sizeof *t->legal);
-  if (!t->start || !t->near || !t->legal) return DYD_E_NOMEM;
+  t->own = dyd_alloc(3 * (size_t)m->count, sizeof *t->own);
+  if (!t->start || !t->near || !t->own) return DYD_E_NOMEM;
   fill_near(t);
   return DYD_OK;
 }
 
 /* Of each site: the low parts, its neighbours twice over, where its rows begin, its radius and its weight. */
 static bool near_has_room(dyd_tolerance *t) {
-  uint64_t each = sizeof *t->low + sizeof *t->start + 6 * (sizeof *t->near + sizeof *t->legal) + sizeof(size_t) +
-                  3 * sizeof(double);
+  uint64_t each =
+      sizeof *t->low + sizeof *t->start + 6 * (sizeof *t->near + sizeof *t->own) + sizeof(size_t) + 3 * sizeof(double);
   uint64_t bytes = dyd_bytes_times(t->sk->n, each);
   if (!dyd_room_has(&t->room, bytes, "the neighbours of the points")) return false;
   t->room.held += bytes;
@@ -94,7 +95,7 @@ dyd_status dyd_near_prepare(dyd_tolerance *t) {
 
 void dyd_near_clear(dyd_tolerance *t) {
   if (t->has_tree) dyd_tree_clear(&t->tree);
-  dyd_free_all(t->box, t->start, t->near, t->legal, t->low, t->others.vertex);
+  dyd_free_all(t->box, t->start, t->near, t->own, t->low, t->others.vertex);
 }
 
 dyd_status dyd_near_index(dyd_tolerance *t) {
@@ -114,16 +115,6 @@ dyd_status dyd_near_index(dyd_tolerance *t) {
   t->has_tree = st == DYD_OK;
   if (st != DYD_OK) dyd_tree_clear(&t->tree);
   return st;
-}
-
-/* ---- rows ---- */
-
-dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event, uint32_t k,
-                             uint32_t l, double lo, double hi) {
-  const uint32_t *site = t->sk->reps.site;
-  uint32_t i = site[v], j = site[w], a = k == DYD_NONE ? DYD_NO_SITE : site[k],
-           b = l == DYD_NONE || l == k ? DYD_NO_SITE : site[l];
-  return (dyd_tolerance_row){i < j ? i : j, i < j ? j : i, event, a < b ? a : b, a < b ? b : a, lo, hi};
 }
 
 /* ---- others ---- */

@@ -10,8 +10,8 @@
 #include "tolerance/lines.h"
 #include "tolerance/state.h"
 
-/* Rows that are worked on together. */
-enum { SHARE = 64 };
+/* Rows that are worked on together; that are sorted by hand. */
+enum { SHARE = 64, FEW = 32 };
 
 /* ---- rows ---- */
 
@@ -115,7 +115,7 @@ static void sort_few_rows(dyd_tolerance_row *row, size_t count) {
 
 /* Rows of one i, by j. */
 static void rows_sort_site(dyd_tolerance_row *row, size_t count) {
-  if (count > 32)
+  if (count > FEW)
     qsort(row, count, sizeof *row, dyd_compare_two);
   else
     sort_few_rows(row, count);
@@ -173,6 +173,9 @@ typedef struct death_edge {
 
 typedef struct death_part {
   dyd_lines_d lines;
+  dyd_batch_d batch;
+  death_edge edge[DYD_BATCH];
+  dyd_tolerance_row *row[DYD_BATCH];
   death_edge *later;
   size_t count, cap, rings, filter;
   dyd_status status;
@@ -220,27 +223,24 @@ static dyd_status death_by_integers(dyd_tolerance_row *row, dyd_ring_d *ring, dy
   return DYD_OK;
 }
 
-/* The neighbours of v except w, or except w and the apexes of the edge. */
-static bool add_ring_d(dyd_lines_d *l, const dyd_tolerance *t, uint32_t v, uint32_t w, bool apexes) {
-  const uint32_t *near = t->near + t->start[v];
-  uint32_t size = dyd_degree(t, v), at = 0;
-  for (uint32_t k = 1; k < size; k++) at = near[k] == w ? k : at;
-  return apexes ? dyd_filter_add(l, &t->points, near, size, at + 1, size - 1)
-                : dyd_filter_add(l, &t->points, near, size, at + 2, size - 3);
-}
-
-/* The points that may bind, each once except corners of three edges without a triangle: the neighbours of both ends;
- * with a hub, those of an end that is none, or the apexes alone. false: doubles cannot hold the pair well. */
+/* The points that may bind: the neighbours of both ends; with a hub, those of an end that is none, or the apexes alone.
+ * false: there are none. */
 static bool load_edge(dyd_lines_d *l, const dyd_tolerance *t, const death_edge *e) {
-  uint32_t ghost = t->sk->mesh.n, few = dyd_degree(t, e->v) <= DYD_HUB ? e->v : e->w, many = e->v + e->w - few;
+  uint32_t ghost = t->sk->mesh.n;
+  bool hub = has_hub(t, e->v, e->w);
   int first = e->apex[0] == ghost;
-  if (!dyd_filter_pair(l, &t->points, e->v, e->w)) return false;
+  l->i = e->v;
+  l->j = e->w;
   l->apex[0] = e->apex[first];
   l->apex[1] = e->apex[!first] == ghost ? DYD_NONE : e->apex[!first];
-  if (!has_hub(t, e->v, e->w)) return add_ring_d(l, t, few, many, true) && add_ring_d(l, t, many, few, false);
-  if (l->apex[1] == DYD_NONE) return false;
-  return dyd_degree(t, few) <= DYD_HUB ? add_ring_d(l, t, few, many, true)
-                                       : dyd_filter_add(l, &t->points, l->apex, 2, 0, 2);
+  for (int n = 0; n < 2; n++) {
+    uint32_t v = n ? e->w : e->v, degree = dyd_degree(t, v);
+    l->ring[n] = t->near + t->start[v];
+    l->rings[n] = hub && degree > DYD_HUB ? 0 : degree;
+  }
+  if (!hub || l->apex[1] == DYD_NONE) return !hub;
+  if (l->rings[0] + l->rings[1] == 0) l->ring[0] = l->apex, l->rings[0] = 2;
+  return true;
 }
 
 /* For the tree: has it a point without a line? */
@@ -251,10 +251,12 @@ typedef struct stranger {
 
 static bool meet_stranger(void *context, uint32_t v) {
   stranger *s = context;
-  uint32_t k = 0;
-  while (k < s->lines->count && s->lines->vertex[k] != v) k++;
-  s->found = k == s->lines->count && v != s->lines->i && v != s->lines->j;
-  return !s->found;
+  const dyd_lines_d *l = s->lines;
+  bool known = v == l->i || v == l->j;
+  for (int n = 0; n < 2; n++)
+    for (uint32_t k = 0; k < l->rings[n] && !known; k++) known = l->ring[n][k] == v;
+  s->found = !known;
+  return known;
 }
 
 /* An end that is a hub: lines of the other end's neighbours, and no other point within the disc. */
@@ -282,22 +284,44 @@ static dyd_ring_d *ring_of_edge(const dyd_tolerance *t, const death_edge *e) {
   return t->ring ? &t->ring[e->ring] : NULL;
 }
 
-/* false: memory is exhausted. Rows put off or cancelled are marked as not reached. */
-static bool death_of_edge(dyd_tolerance_row *row, death_part *p, const dyd_tolerance *t, const death_edge *e) {
+/* false: memory is exhausted. Rows put off or cancelled are marked as not reached. *again: not yet. */
+static bool death_of_edge(bool *again, death_part *p, const dyd_tolerance *t, uint32_t k) {
+  const death_edge *e = &p->edge[k];
   dyd_lines_d *l = &p->lines;
   dyd_death_d d;
   double radius2;
-  *row = dyd_row_of(t, e->v, e->w, DYD_EVENT_DEATH, DYD_NONE, DYD_NONE, 0, DYD_UNREACHED);
-  if (p->status == DYD_CANCELLED) return true;
-  if (!t->options.no_filter && !has_hub(t, e->v, e->w) && load_edge(l, t, e) &&
-      dyd_filter_death(&d, NULL, &radius2, &t->points, l)) {
-    p->filter++;
-    write_death(row, ring_of_edge(t, e), t, e, &d);
-    return true;
+  *again = false;
+  if (p->status != DYD_CANCELLED && !t->options.no_filter && !has_hub(t, e->v, e->w) && load_edge(l, t, e)) {
+    bool sure = dyd_filter_batched(&d, again, &p->batch, k, &t->points, l);
+    if (*again) return true;
+    if (sure || dyd_filter_death(&d, NULL, &radius2, &t->points, l)) {
+      p->filter++;
+      write_death(p->row[k], ring_of_edge(t, e), t, e, &d);
+      return true;
+    }
   }
+  *p->row[k] = dyd_row_of(t, e->v, e->w, DYD_EVENT_DEATH, DYD_NONE, DYD_NONE, 0, DYD_UNREACHED);
+  if (p->status == DYD_CANCELLED) return true;
   if (!DYD_GROW(p->later, p->cap, p->count + 1)) return false;
   p->later[p->count++] = *e;
   return true;
+}
+
+/* Those that are to be tried again remain. */
+static void deaths_of_edges(death_part *p, const dyd_tolerance *t) {
+  dyd_batch_d *c = &p->batch;
+  uint32_t kept = 0;
+  if (!t->low && t->points.usable) dyd_filter_batch(c, &t->points);
+  for (uint32_t k = 0; k < c->count; k++) {
+    bool again;
+    if (!death_of_edge(&again, p, t, k)) p->status = DYD_E_NOMEM;
+    if (!again) continue;
+    for (int n = 0; n < 4; n++) c->of[n][kept] = c->of[n][k];
+    c->round[kept] = c->round[k];
+    p->edge[kept] = p->edge[k];
+    p->row[kept++] = p->row[k];
+  }
+  c->count = kept;
 }
 
 static dyd_status death_later(dyd_tolerance *t, const death_edge *e) {
@@ -312,19 +336,13 @@ static dyd_status death_later(dyd_tolerance *t, const death_edge *e) {
   return DYD_OK;
 }
 
-/* Returns true if the row of v and its neighbour number q is one of v's site. The ghost is no legal one, and has no
- * site. */
-static bool is_row_of(const dyd_tolerance *t, uint32_t v, uint32_t q) {
-  return t->legal[q] && t->sk->reps.site[t->near[q]] > t->sk->reps.site[v];
-}
-
 static void count_rows_of_range(void *context, size_t number) {
   const death_pass *p = context;
   const dyd_tolerance *t = p->t;
   size_t end = dyd_range_begin(t->sk->n, number + 1), all = 0;
   for (uint32_t v = (uint32_t)dyd_range_begin(t->sk->n, number); v < end; v++) {
     size_t count = 0;
-    for (uint32_t q = t->start[v]; q < t->start[v + 1]; q++) count += is_row_of(t, v, q);
+    for (uint32_t q = t->start[v]; q < t->start[v + 1]; q++) count += t->own[q];
     p->first[t->sk->reps.site[v] + 1] = count;
     all += count;
   }
@@ -336,25 +354,47 @@ static void count_rows_of_range(void *context, size_t number) {
 static death_edge edge_around(const dyd_tolerance *t, uint32_t v, uint32_t q, size_t ring) {
   uint32_t begin = t->start[v], end = t->start[v + 1], w = t->near[q];
   uint32_t after = t->near[q + 1 == end ? begin : q + 1], before = t->near[(q == begin ? end : q) - 1];
-  return v < w ? (death_edge){v, w, {after, before}, ring} : (death_edge){w, v, {before, after}, ring};
+  bool back = w < v;
+  return (death_edge){back ? w : v, back ? v : w, {back ? before : after, back ? after : before}, ring};
 }
 
-static bool deaths_at(death_part *part, dyd_tolerance_row *row, const dyd_tolerance *t, uint32_t v) {
-  uint32_t q = t->start[v], end = t->start[v + 1];
-  size_t count = 0;
-  while (q < end) {
-    uint32_t of[8], some = 0;
-    for (; q < end && some < 8; q++) {
-      of[some] = q;
-      some += is_row_of(t, v, q);
-    }
-    for (uint32_t k = 0; k < some; k++) {
-      death_edge e = edge_around(t, v, of[k], part->rings++);
-      if (!death_of_edge(&row[count++], part, t, &e)) return false;
-    }
+static void put_edge(death_part *p, const dyd_tolerance *t, uint32_t v, uint32_t q, dyd_tolerance_row *row) {
+  dyd_batch_d *c = &p->batch;
+  uint32_t k = c->count++;
+  death_edge e = p->edge[k] = edge_around(t, v, q, p->rings++);
+  c->of[0][k] = e.v;
+  c->of[1][k] = e.w;
+  c->of[2][k] = e.apex[1];
+  c->of[3][k] = e.apex[0];
+  c->round[k] = 0;
+  p->row[k] = row;
+  __builtin_prefetch(row);
+  __builtin_prefetch(&t->near[t->start[e.v == v ? e.w : e.v]]);
+  while (c->count == DYD_BATCH) deaths_of_edges(p, t);
+}
+
+/* The rows of v, by the sites of the other ends. Few are sorted without branches, which would be taken at random. */
+static void deaths_at(death_part *part, dyd_tolerance_row *row, const dyd_tolerance *t, uint32_t v) {
+  const uint32_t *site = t->sk->reps.site, *near = t->near, begin = t->start[v], end = t->start[v + 1];
+  uint64_t few[FEW + 1];
+  uint32_t some = 0;
+  for (uint32_t q = begin; q < end; q++) {
+    few[some < FEW ? some : FEW] = (uint64_t)site[t->own[q] ? near[q] : v] << 32 | q;
+    some += t->own[q];
   }
-  rows_sort_site(row, count);
-  return true;
+  for (uint32_t k = 1; k < some && some <= FEW; k++)
+    for (uint32_t at = 0; at < k; at++) {
+      uint64_t a = few[at], b = few[k];
+      few[at] = a < b ? a : b;
+      few[k] = a < b ? b : a;
+    }
+  for (uint32_t k = 0, q = begin; k < some; k++, q++) {
+    while (some > FEW && !t->own[q]) q++;
+    put_edge(part, t, v, some > FEW ? q : (uint32_t)few[k], row + k);
+  }
+  if (some <= FEW) return;
+  while (part->batch.count) deaths_of_edges(part, t);
+  rows_sort_site(row, some);
 }
 
 static void deaths_of_range(void *context, size_t number) {
@@ -364,14 +404,11 @@ static void deaths_of_range(void *context, size_t number) {
   death_part *part = &p->part[number];
   size_t end = dyd_range_begin(t->sk->n, number + 1);
   for (uint32_t v = (uint32_t)dyd_range_begin(t->sk->n, number); v < end && part->status != DYD_E_NOMEM; v++) {
-    if (v + 2 * AHEAD < end) {
-      __builtin_prefetch(&p->first[site[v + 2 * AHEAD]]);
-      __builtin_prefetch(&t->row[p->first[site[v + AHEAD]]]);
-      __builtin_prefetch(&t->row[p->first[site[v + AHEAD]] + 2]);
-    }
+    if (v + AHEAD < end) __builtin_prefetch(&p->first[site[v + AHEAD]]);
     if (dyd_flag_is_set(t->options.cancel)) part->status = DYD_CANCELLED; /* from here on rows get their pairs alone */
-    if (!deaths_at(part, t->row + p->first[site[v]], t, v)) part->status = DYD_E_NOMEM;
+    deaths_at(part, t->row + p->first[site[v]], t, v);
   }
+  while (part->batch.count) deaths_of_edges(part, t);
 }
 
 static dyd_status deaths_on_line(dyd_tolerance *t) {

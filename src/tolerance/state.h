@@ -53,7 +53,7 @@ struct dyd_tolerance {
   dyd_points_d points;
   dyd_xy *low;
   uint32_t *start, *near; /* neighbours of v: near[start[v] .. start[v + 1] - 1], the ghost included; NULL: a line */
-  uint8_t *legal;         /* of each of them: is the pair legal? */
+  uint8_t *own;           /* of each of them: is the pair legal, and the row of v's site, which is the smaller one? */
   bool has_tree;
   dyd_bbox *box;
   dyd_tree tree;
@@ -69,9 +69,7 @@ struct dyd_tolerance {
 dyd_status dyd_tolerance_enclosing(dyd_tolerance **out, double *off, double *least, const dyd_delaunay *pd,
                                    const dyd_tolerance_options *options, dyd_error *err);
 
-/* near_filter.c. Pairs whose ends have more neighbours in all have one end that is a hub. */
-enum { DYD_HUB = 40 };
-/* The doubles, neighbours. */
+/* near_filter.c. The doubles, neighbours. */
 dyd_status dyd_near_prepare(dyd_tolerance *t);
 static inline uint32_t dyd_degree(const dyd_tolerance *t, uint32_t v) {
   return t->start[v + 1] - t->start[v];
@@ -106,9 +104,14 @@ dyd_status dyd_points_radius(dyd_tolerance *t);
 /* After dyd_rows_sort. */
 dyd_status dyd_chances(dyd_tolerance *t);
 
-/* near_filter.c: the row of vertices v, w, bound by the vertices k and l, or DYD_NONE. */
-dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event, uint32_t k,
-                             uint32_t l, double lo, double hi);
+/* The row of vertices v, w, bound by the vertices k and l, or DYD_NONE. */
+static inline dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event,
+                                           uint32_t k, uint32_t l, double lo, double hi) {
+  const uint32_t *site = t->sk->reps.site;
+  uint32_t i = site[v], j = site[w], a = k == DYD_NONE ? DYD_NO_SITE : site[k],
+           b = l == DYD_NONE || l == k ? DYD_NO_SITE : site[l];
+  return (dyd_tolerance_row){i < j ? i : j, i < j ? j : i, event, a < b ? a : b, a < b ? b : a, lo, hi};
+}
 /* The upper end of a row that work did not reach before it was cancelled. */
 #define DYD_UNREACHED (-1.0)
 /* Rows from number `first` on, but ties, become what dyd_filter_moved_death makes of them, on the threads of the

@@ -19,8 +19,10 @@ static dyd_status fail_at(dyd_error *err, uint32_t i, const char *why) {
 }
 
 static dyd_status check_points(const dyd_tolerance *t, dyd_error *err) {
-  for (uint32_t i = 0; i < t->sk->n; i++)
-    if (!dyd_sites_is_point(t->sk->reps.sites, i))
+  const dyd_sites *sites = t->sk->reps.sites;
+  bool known = dyd_sites_are_double_points(sites) && dyd_sites_all_in_doubles(sites);
+  for (uint32_t i = 0; i < t->sk->n && !known; i++)
+    if (!dyd_sites_is_point(sites, i))
       return fail_at(err, i, "tolerances are those of exact points; give this one by plain numbers");
   if (dyd_delaunay_is_capped(t->pd))
     return dyd_fail(err, DYD_CAPPED, "there are more ties than can be stored; raise `max_pairs`");
