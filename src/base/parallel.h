@@ -21,7 +21,7 @@ void dyd_parallel(unsigned threads, size_t tasks, dyd_task *task, void *context)
 /* Starts up to `want` threads, all signals blocked, since handlers stay with the threads of the program; how many. */
 unsigned dyd_start_helpers(pthread_t *helper, unsigned want, void *(*work)(void *), void *context);
 
-/* A long loop over 0 .. count - 1 is cut into at most so many ranges, which depend on count alone. The armed build cuts
+/* A long loop over 0 .. count - 1 is cut into DYD_RANGES_MOST ranges or fewer, by count alone. The armed build cuts
  * short ones, too. */
 enum { DYD_RANGES_MOST = 64 };
 

@@ -288,7 +288,7 @@ const char *cli_outcome_advice(const dyd_engine *e);
 /* The line that sums up a result with undecided pairs (dyd_pair_status counts) and names the next step; advice NULL:
  * that of the outcome. */
 void cli_note_pairs(const cli_session *s, dyd_outcome outcome, const size_t count[4], const char *advice);
-/* A line where the run ended before all pairs were found: readers take those that have no row for illegal. */
+/* A line where the run ended before all pairs were found: readers take pairs without a row for illegal. */
 void cli_note_unlisted(const cli_session *s);
 /* Writes anything to the file `name` (NULL: standard output), whole or not at all. 0, or an exit status after a
  * message. */

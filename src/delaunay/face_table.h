@@ -9,8 +9,8 @@
 void dyd_table_clear(dyd_undecided *f);
 /* Marks all triangles as decided, unless there are marks. */
 dyd_status dyd_table_mark(dyd_delaunay *pd);
-/* Adds the faces, without pairs, among the triangles tri[0..all-1], or of all that there are (NULL). Exact points that
- * are no tie make edges certain on the way. */
+/* Adds the faces, without pairs, among the triangles tri[0..all-1], or of all triangles (NULL). Exact points that are
+ * not tied make edges certain on the way. */
 dyd_status dyd_table_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t all);
 /* Gives face g its pairs, copied, and what `as` says of them. */
 dyd_status dyd_table_store(dyd_delaunay *pd, size_t g, dyd_face as, const dyd_vertex_pair *pair);

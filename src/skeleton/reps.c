@@ -37,7 +37,7 @@ typedef struct hilbert_table {
   uint16_t step[4][256];
 } hilbert_table;
 
-/* Goes along the curve by so many bits of both coordinates; returns those of the curve. */
+/* Walks along the curve by the lowest `bits` bits of both coordinates, highest first; returns the bits of the curve. */
 static uint32_t hilbert_walk(unsigned *state, uint32_t x, uint32_t y, int bits) {
   static const uint8_t order[4][4] = {{0, 1, 3, 2}, {0, 3, 1, 2}, {2, 1, 3, 0}, {2, 3, 1, 0}};
   static const uint8_t next[4][4] = {{1, 0, 3, 0}, {0, 2, 1, 1}, {2, 1, 2, 3}, {3, 3, 0, 2}};

@@ -47,7 +47,7 @@ void dyd_work_clear(dyd_work *w);
 /* For the items begin .. end - 1, which are range `number`. */
 typedef dyd_status dyd_work_task(void *context, dyd_work *w, size_t number, size_t begin, size_t end);
 /* Runs the task for each range of 0 .. count - 1 in the threads of the run: of several, each with a work of its own and
- * its share of the room. What they counted is added to w. The first failure of a range. */
+ * its share of the room. Their counters are added to w. Returns the first failure of a range. */
 dyd_status dyd_work_ranges(dyd_work *w, const dyd_skeleton *sk, size_t count, dyd_work_task *task, void *context);
 /* Adds what w has counted to the public counters: tests that were not passed on were answered by a filter. */
 void dyd_work_count(dyd_delaunay_counters *sum, const dyd_work *w, const dyd_skeleton *sk);

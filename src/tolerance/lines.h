@@ -73,9 +73,9 @@ void dyd_filter_line(dyd_line_d *o, const dyd_lines_d *l, const dyd_points_d *p,
  * the centre, *radius2 an upper bound of its squared distance to the sites that bind; infinite for a half-plane. */
 bool dyd_filter_death(dyd_death_d *out, double box[4], double *radius2, const dyd_points_d *p, dyd_lines_d *l);
 
-/* Many pairs at once, their points without low parts, by columns: i, j, and what may rise and fall. Then the place, the
- * centre from p_i, what is D there and r^2, with bounds of their relative errors, and top: all that is not nearer to
- * the centre than that squared does not bind, but what may; or -1. */
+/* Many pairs at once, their points without low parts, by columns: i, j, and the vertices that may rise and fall. Then
+ * the place, the centre from p_i, D there and r^2, with bounds of their relative errors, and top: other vertices whose
+ * squared distance from the centre is top or more do not bind; -1: not known. */
 #ifdef DYD_ARMED
 enum { DYD_BATCH = 3 }; /* few pairs fill it, and all of it may have to be tried again */
 #else

@@ -307,7 +307,7 @@ static bool death_of_edge(bool *again, death_part *p, const dyd_tolerance *t, ui
   return true;
 }
 
-/* Those that are to be tried again remain. */
+/* Edges that are to be tried again remain. */
 static void deaths_of_edges(death_part *p, const dyd_tolerance *t) {
   dyd_batch_d *c = &p->batch;
   uint32_t kept = 0;

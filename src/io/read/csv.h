@@ -16,7 +16,7 @@ typedef struct dyd_wkt {
   dyd_span text, first[2]; /* of the ring */
   dyd_span srid;           /* 4326 in "SRID=4326;" or "EPSG:4326;" in front; length 0: there is none */
   const char *at, *end;
-  const char *wrong;         /* what is wrong at `at`; NULL: nothing */
+  const char *wrong;         /* the fault at `at`; NULL: none */
   int depth;                 /* parentheses that are open */
   bool point, rings, inside; /* it is a point; it has rings; it has been entered */
 } dyd_wkt;

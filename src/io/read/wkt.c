@@ -90,7 +90,7 @@ static bool wkt_enter(dyd_wkt *w) {
   return behind != NULL;
 }
 
-/* What stands at w->at, between a parenthesis or comma and the next. false: it is a word, or wrong. */
+/* The place at w->at, between a parenthesis or comma and the next. false: it is a word, or wrong. */
 static bool wkt_place(dyd_span place[2], dyd_wkt *w) {
   place[0] = wkt_number(w);
   place[1] = wkt_number(w);
