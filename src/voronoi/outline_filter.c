@@ -101,30 +101,6 @@ typedef struct ruler {
   dyd_marks marks;
 } ruler;
 
-/* The rectangle of a site; false, and in doubt: memory. */
-static bool outline_rect(dyd_rect *r, dyd_outline *o, size_t k) {
-  if (dyd_sites_get(r, o->sites, o->site[k]) == DYD_OK) return true;
-  o->unsure = true;
-  return false;
-}
-
-/* Marks that doubles do not tell apart may be one number: DYD_MARKS and the next are the ends of the far rectangle. */
-static void ruler_number(mpq_ptr out, mpq_ptr spare, const ruler *r, int mark) {
-  bool window = mark == DYD_WINDOW_LO || mark == DYD_WINDOW_HI, near = mark == DYD_NEAR_LO || mark == DYD_NEAR_HI;
-  bool high = mark == DYD_WINDOW_HI || mark == DYD_NEAR_HI || mark == DYD_MARKS + 1;
-  DYD_LOCAL(dyd_rect, rect);
-  if (window && !r->of_window[high])
-    mpq_set_d(out, r->at[mark].lo);
-  else if (window)
-    dyd_interval_get_q(high ? spare : out, high ? out : spare, r->axis ? &r->o->rect->y : &r->o->rect->x);
-  else if (outline_rect(&rect, r->o, near ? r->near : r->far))
-    dyd_interval_get_q(high ? spare : out, high ? out : spare, r->axis ? &rect.y : &rect.x);
-  if (mark == DYD_MIDDLE) {
-    mpq_add(out, out, spare);
-    mpq_div_2exp(out, out, 1);
-  }
-}
-
 static dyd_iv ruler_at(const ruler *r, int mark) {
   return mark < DYD_MARKS ? r->at[mark] : r->far_at[mark - DYD_MARKS];
 }
@@ -134,9 +110,9 @@ static int ruler_order(const void *axis, int a, int b) {
   bool doubt = false;
   int order = a == b ? 0 : dyd_outline_order(&doubt, ruler_at(r, a), ruler_at(r, b));
   if (!doubt) return order;
-  DYD_LOCAL_NUMBERS(mpq, x, y, spare);
-  ruler_number(x, spare, r, a);
-  ruler_number(y, spare, r, b);
+  DYD_LOCAL_NUMBERS(mpq, x, y); /* marks that doubles do not tell apart may be one number */
+  dyd_outline_number(x, r->o, r->far, r->near, r->axis, a);
+  dyd_outline_number(y, r->o, r->far, r->near, r->axis, b);
   return mpq_cmp(x, y);
 }
 
@@ -276,8 +252,7 @@ static bool outline_set_arc(dyd_outline_arc *a, pane_sides *m, const ruler r[2],
     a->hi[k] = r[k].to[s[k].hi];
     a->tilt[k] = s[k].fixed ? ruler_order(&r[k], s[k].q, DYD_MARKS + s[k].far_end) : 0;
     a->near_side[k] = s[k].over ? 1 : -1;
-    m->end[k][0] = window_side(&r[k], s[k].lo);
-    m->end[k][1] = window_side(&r[k], s[k].hi);
+    for (int e = 0; e < 2; e++) m->end[k][e] = window_side(&r[k], a->mark[k][e] = e ? s[k].hi : s[k].lo);
   }
   a->corner = s[0].far_end + 2 * s[1].far_end;
   a->feature = (int)dyd_strips_feature(s);
@@ -521,6 +496,7 @@ static void add_meet(dyd_outline *o, uint32_t a, uint32_t b, dyd_iv u) {
   if (dyd_outline_order(&unsure, t, p->end[1].at[p->axis]) > 0) return;
   dyd_outline_spot spot = outline_arc_at(p, t);
   if (!pane_holds(&unsure, q, &spot) || outline_taken(o, spot.at)) return;
+  if (unsure && dyd_outline_needs_no_cut(o, a, b)) return;
   if (unsure || o->meets == DYD_OUTLINE_MEETS)
     o->unsure = true;
   else
@@ -624,7 +600,7 @@ static bool outline_rects_meet(dyd_outline *o, size_t a, size_t b) {
     if (dyd_outline_order(&doubt, p[k], q[k + 1]) > 0 || dyd_outline_order(&doubt, q[k], p[k + 1]) > 0) return false;
   if (!doubt) return true;
   DYD_LOCAL_ARRAY(dyd_rect, r, [2]);
-  return outline_rect(&r[0], o, a) && outline_rect(&r[1], o, b) && dyd_rect_meets(&r[0], &r[1]);
+  return dyd_outline_rect(&r[0], o, a) && dyd_outline_rect(&r[1], o, b) && dyd_rect_meets(&r[0], &r[1]);
 }
 
 /* Relative to the origin; false: some other meets the site. */

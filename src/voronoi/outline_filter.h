@@ -24,9 +24,9 @@ typedef struct dyd_outline_arc {
   dyd_filter_arc shape;
   uint32_t curve;
   int axis, branch, corner, feature;
-  bool either; /* the exact work may go along the other axis */
-  int tilt[2], near_side[2];
-  dyd_iv lo[2], hi[2], span[2]; /* span: encloses the coordinates of all its points */
+  bool either;                           /* the exact work may go along the other axis */
+  int tilt[2], near_side[2], mark[2][2]; /* mark: of the lower and the upper end of the pane along each axis */
+  dyd_iv lo[2], hi[2], span[2];          /* span: encloses the coordinates of all its points */
   dyd_outline_spot end[2];
 } dyd_outline_arc;
 
@@ -91,6 +91,14 @@ dyd_status dyd_outline_load(bool *done, dyd_outline *o, const dyd_delaunay *pd, 
 bool dyd_filter_outline(dyd_outline *o, const dyd_rect *window, bool outer);
 /* Coordinate a of a point, not relative to the origin. */
 dyd_iv dyd_outline_coordinate(const dyd_outline *o, const dyd_outline_spot *p, int a);
+
+/* outline.c. The rectangle of a site; false, and in doubt: memory. */
+bool dyd_outline_rect(dyd_rect *r, dyd_outline *o, size_t k);
+/* A mark of the rectangles `far` and `near`, exactly; DYD_MARKS and the next are the ends of `far`. */
+void dyd_outline_number(mpq_ptr out, dyd_outline *o, size_t far, size_t near, int axis, int mark);
+/* Returns true if the lines of arcs a and b cross beyond the pane of one, or at an end of both. Exact; false: they do
+ * not, or are not straight. */
+bool dyd_outline_needs_no_cut(dyd_outline *o, uint32_t a, uint32_t b);
 
 /* Order of a and b; equal only as numbers that are known. Sets *unsure where it is not known.
  */

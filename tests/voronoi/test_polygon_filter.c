@@ -2,7 +2,8 @@
 /* [OUTLINE-1] The polygons found from boundaries in doubles are those of the exact rung, number by number: vertices in
  * the same order, areas; where a rounding was in doubt they are as near to those as two moves of a vertex, inner
  * corners are in the cell, and edges of outer ones certainly nearer to another site. Rectangles of doubles and of
- * decimals that no double holds, points among them, on a lattice with ties, apart, touching and overlapping; windows
+ * decimals that no double holds, points among them, on a lattice with ties, apart, touching and overlapping; equal
+ * squares on a grid, where curves cross on the borders of panes, every other row shifted by half in some; windows
  * anywhere, some of no doubles. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,7 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LATTICE, DOUBLES, DECIMALS, MIXED, KINDS, MOST = 60 };
+enum { LATTICE, GRID, DOUBLES, DECIMALS, MIXED, KINDS, MOST = 60 };
 
 static size_t cells[KINDS], done[KINDS], loose[KINDS], corners;
 
@@ -42,11 +43,17 @@ static void set_side(dyd_interval *out, int64_t x, int64_t w, bool decimal) {
 }
 
 /* Half-widths of a share of the spacing: 0, small, touching now and then, overlapping. */
-static void make_rect(dyd_rect *out, test_random *r, size_t kind, int64_t size) {
+static void make_rect(dyd_rect *out, test_random *r, size_t kind, int64_t size, unsigned number) {
   static const double share[] = {0, 0x1p-20, 0.05, 0.1, 0.3, 0.6};
   int64_t most = kind == LATTICE ? 24 : 1000000007, spacing = most / 6;
   bool decimal = kind == DECIMALS || kind == MIXED;
   int64_t w[2];
+  if (kind == GRID) {
+    int64_t row = number / 7, column = number % 7, shift = size < 3 ? 0 : 2 * (row & 1);
+    set_side(&out->x, 4 * column + shift, size % 3, false);
+    set_side(&out->y, 4 * row, size % 3, false);
+    return;
+  }
   for (int k = 0; k < 2; k++) {
     int64_t one = kind == MIXED ? (int64_t)test_below(r, 6) : size;
     w[k] = kind == LATTICE ? (int64_t)test_below(r, (uint64_t)size + 1) : (int64_t)(share[one] * (double)spacing);
@@ -57,7 +64,7 @@ static void make_rect(dyd_rect *out, test_random *r, size_t kind, int64_t size) 
 }
 
 static void make_window(dyd_rect *out, test_random *r, size_t kind) {
-  double size = kind == LATTICE ? 24 * 0x1p-20 : kind == DOUBLES ? 954 : 1000, x = size / 2, y = size / 2;
+  double size = kind <= GRID ? 24 * 0x1p-20 : kind == DOUBLES ? 954 : 1000, x = size / 2, y = size / 2;
   double half = size * ldexp(1, 1 - (int)test_below(r, 4));
   if (test_chance(r, 2)) x += size * (test_unit(r) - 0.5), y += size * (test_unit(r) - 0.5);
   if (test_chance(r, 3)) x = floor(x), y = floor(y), half = ceil(half);
@@ -210,19 +217,21 @@ static void check_cell(size_t kind, dyd_shape *s, const dyd_delaunay *pd, uint32
   assert_int_equal(dyd_shape_inner(&copy, s), DYD_OK);
   assert_int_equal(dyd_shape_outer(&copies, s), DYD_OK);
   loose[kind] += s->loose;
-  assert_int_equal(outer.count, copies.count);
+  bool paired =
+      outer.count == copies.count; /* rounding may leave a sliver of a cell that touches the window, or none */
+  assert_true(paired || s->loose);
   if (s->loose) {
     check_loose(&copy, &whole, pd, i, w);
     near_polygon(&copy, &inner, bits - 1);
     near_polygon(&inner, &copy, bits - 1);
-    for (size_t k = 0; k < outer.count; k++) near_polygon(&copies.item[k], &outer.item[k], bits - 1);
-    for (size_t k = 0; k < outer.count; k++) near_polygon(&outer.item[k], &copies.item[k], bits - 1);
+    for (size_t k = 0; paired && k < outer.count; k++) near_polygon(&copies.item[k], &outer.item[k], bits - 1);
+    for (size_t k = 0; paired && k < outer.count; k++) near_polygon(&outer.item[k], &copies.item[k], bits - 1);
   } else {
     same_polygon(&inner, &copy);
     for (size_t k = 0; k < outer.count; k++) same_polygon(&outer.item[k], &copies.item[k]);
   }
   same_area(s, false, &copy);
-  if (outer.count < 2) same_area(s, true, outer.count ? &copies.item[0] : NULL);
+  if (copies.count < 2) same_area(s, true, copies.count ? &copies.item[0] : NULL);
   dyd_polygon_list_clear(&whole);
   dyd_polygon_list_clear(&copies);
   dyd_polygon_list_clear(&outer);
@@ -243,7 +252,7 @@ static void check_case(test_random *r, size_t kind) {
   dyd_rect_init(&rect);
   assert_int_equal(dyd_sites_new(&sites), DYD_OK);
   for (unsigned k = 0; k < n; k++) {
-    make_rect(&rect, r, kind, size);
+    make_rect(&rect, r, kind, size, k);
     assert_int_equal(dyd_sites_add_rect(sites, &rect), DYD_OK);
   }
   assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, NULL), DYD_OK);
@@ -251,7 +260,7 @@ static void check_case(test_random *r, size_t kind) {
     uint32_t i = (uint32_t)test_below(r, n);
     make_window(&rect, r, kind);
     assert_int_equal(dyd_window_init(&w, &rect), DYD_OK);
-    long coarse = kind == LATTICE ? 16 : -8;
+    long coarse = kind <= GRID ? 16 : -8;
     if (dyd_delaunay_alias(pd, i) == i) check_cell(kind, &shape, pd, i, &w, coarse + (long)test_below(r, 10));
   }
   dyd_shape_clear(&shape);
@@ -268,7 +277,7 @@ static void same_as_exact(void **state) {
     fprintf(stderr, "# kind %zu: %zu of %zu cells, %zu loose\n", k, done[k], cells[k], loose[k]);
   fprintf(stderr, "# %zu corners\n", corners);
   assert_true(10 * done[DOUBLES] > 7 * cells[DOUBLES] && 10 * done[DECIMALS] > 7 * cells[DECIMALS] &&
-              10 * done[MIXED] > 7 * cells[MIXED] && done[LATTICE] > 0);
+              10 * done[MIXED] > 7 * cells[MIXED] && 3 * done[GRID] > cells[GRID] && done[LATTICE] > 0);
 }
 
 /* ---- simple or not: small lattices, where much touches ---- */
