@@ -253,7 +253,7 @@ int main(int argc, char **argv) {
     row_cells(&o, "cells-apart", 1000, 0.1, 60);
     row_cells(&o, "cells-touch", 1000, 0.3, 120);
     row_cells(&o, "cells-gps", 10000, 0, 100);
-    row_cells(&o, "cells-grid", 10000, -1, 300);
+    row_cells(&o, "cells-grid", 10000, -1, 100);
     row_discs(&o, "discs", 10000);
     row_tiles(&o, "tiles", 1000000, false);
     row_tiles(&o, "tiles-grid", 1000000, true);
