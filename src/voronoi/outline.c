@@ -43,6 +43,8 @@ static void straight_arc_clear(straight_arc *a) {
   for (int k = 0; k < 2; k++) mpq_clears(a->s[k], a->q[k], a->lo[k], a->hi[k], NULL);
 }
 
+DYD_ARRAYS(straight_arc)
+
 static void straight_arc_set(straight_arc *out, dyd_outline *o, const dyd_outline_arc *a) {
   size_t far = o->outer ? a->curve : o->count, near = o->outer ? o->count : a->curve;
   for (int k = 0; k < 2; k++) {
@@ -102,13 +104,10 @@ static int straight_arc_side(const straight_arc *a, const mpq_t at[2]) {
 
 bool dyd_outline_needs_no_cut(dyd_outline *o, uint32_t a, uint32_t b) {
   if (o->arc[a].shape.parabola || o->arc[b].shape.parabola) return false;
-  straight_arc arc[2];
-  for (int k = 0; k < 2; k++) straight_arc_init(&arc[k]);
+  DYD_LOCAL_ARRAY(straight_arc, arc, [2]);
   DYD_LOCAL_ARRAY(mpq_t, at, [2]);
   for (int k = 0; k < 2; k++) straight_arc_set(&arc[k], o, &o->arc[k ? b : a]);
-  int side[2] = {1, 1};
-  bool cross = straight_lines_cross(at, &arc[0], &arc[1]);
-  for (int k = 0; k < 2 && cross; k++) side[k] = straight_arc_side(&arc[k], (const mpq_t *)at);
-  for (int k = 0; k < 2; k++) straight_arc_clear(&arc[k]);
-  return !o->unsure && (side[0] < 0 || side[1] < 0 || (side[0] == 0 && side[1] == 0));
+  if (o->unsure || !straight_lines_cross(at, &arc[0], &arc[1])) return false;
+  int first = straight_arc_side(&arc[0], (const mpq_t *)at), second = straight_arc_side(&arc[1], (const mpq_t *)at);
+  return first < 0 || second < 0 || (first == 0 && second == 0);
 }

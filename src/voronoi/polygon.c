@@ -661,6 +661,7 @@ dyd_status dyd_exact_polygons(dyd_polygon *inner, dyd_polygon_list *outer, const
   dyd_point_init(&w.goal);
   mpq_inits(w.d[0], w.d[1], w.s, w.t, NULL);
   dyd_status st = dyd_cell_sites_init(&w.sites, pd, i, dyd_least_at(pd, i, window->proved));
+  if (st == DYD_OK) st = dyd_cell_sites_enclose(&w.sites);
   if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, false, window->proved, w.window, w.room, w.cancel);
   if (st == DYD_OK && w.boundary.count) st = exact_inner(inner, &w);
   if (st == DYD_OK) st = dyd_window_enlarge(&wide, window->rect, bits);

@@ -19,16 +19,19 @@ dyd_status dyd_cell_sites_init(dyd_cell_sites *s, const dyd_delaunay *pd, uint32
   if (st != DYD_OK) return st;
   s->site = list.item;
   s->other = dyd_alloc(list.count, sizeof *s->other);
-  s->box = dyd_alloc(list.count + 1, sizeof *s->box);
-  if (!s->other || !s->box) return DYD_E_NOMEM;
+  if (!s->other) return DYD_E_NOMEM;
   for (; s->count < list.count && st == DYD_OK; s->count++) {
-    dyd_rect *other = &s->other[s->count];
-    dyd_rect_init(other);
-    st = dyd_sites_get(other, dyd_delaunay_sites(pd), list.item[s->count]);
-    dyd_filter_box(&s->box[s->count], other);
+    dyd_rect_init(&s->other[s->count]);
+    st = dyd_sites_get(&s->other[s->count], dyd_delaunay_sites(pd), list.item[s->count]);
   }
-  dyd_filter_box(&s->box[s->count], &s->own);
   return st;
+}
+
+dyd_status dyd_cell_sites_enclose(dyd_cell_sites *s) {
+  if (!DYD_NEW(s->box, s->count + 1)) return DYD_E_NOMEM;
+  for (size_t k = 0; k < s->count; k++) dyd_filter_box(&s->box[k], &s->other[k]);
+  dyd_filter_box(&s->box[s->count], &s->own);
+  return DYD_OK;
 }
 
 void dyd_cell_sites_clear(dyd_cell_sites *s) {

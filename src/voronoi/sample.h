@@ -16,14 +16,16 @@ typedef struct dyd_cell_sites {
   size_t count;
   uint32_t *site; /* ascending */
   dyd_rect *other;
-  dyd_box *box; /* those of `other`, then own, in doubles */
+  dyd_box *box; /* those of `other`, then own, in doubles; dyd_cell_sites_enclose makes it */
 } dyd_cell_sites;
 /* The neighbours with at least the status `least`. */
 dyd_status dyd_cell_sites_init(dyd_cell_sites *s, const dyd_delaunay *pd, uint32_t i, dyd_pair_status least);
+/* For dyd_cell_holds. */
+dyd_status dyd_cell_sites_enclose(dyd_cell_sites *s);
 void dyd_cell_sites_clear(dyd_cell_sites *s);
 /* The rectangle of a possible neighbour. */
 const dyd_rect *dyd_cell_site(const dyd_cell_sites *s, uint32_t site);
-/* Returns true if c is in Int_i. Exact. */
+/* Returns true if c is in Int_i; after dyd_cell_sites_enclose. Exact. */
 bool dyd_cell_holds(const dyd_cell_sites *s, const dyd_point *c);
 
 /* A point of an arc: its beginning (step = 0), or the point number step of `steps` equal parts along the directrix. */

@@ -188,6 +188,7 @@ static void check_loose(const dyd_polygon *inner, const dyd_polygon_list *outer,
                         const dyd_window *w) {
   dyd_cell_sites s;
   assert_int_equal(dyd_cell_sites_init(&s, pd, i, DYD_TIE), DYD_OK);
+  assert_int_equal(dyd_cell_sites_enclose(&s), DYD_OK);
   for (size_t k = 0; k < inner->count; k++) {
     assert_true(dyd_rect_holds(w->rect, &inner->vertex[k]));
     assert_true(dyd_cell_holds(&s, &inner->vertex[k]));
