@@ -260,9 +260,9 @@ DYD_API const dyd_format_facts *dyd_format_get(dyd_format format);
 DYD_API const char *dyd_layer_name(dyd_content *layer, bool *large, dyd_content of, size_t k);
 /* Finds the content of a layer by its name ("points"); false when there is none. */
 DYD_API bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *name);
-/* Returns true if the format can hold the content. Otherwise dyd_write returns DYD_E_ARG with a message that names the
- * formats that can. */
-DYD_API bool dyd_format_holds(dyd_format format, dyd_content content);
+/* Returns true if the format can hold the content; discs: of statuses of discs, which decide less than some layers and
+ * formats state. Otherwise dyd_write returns DYD_E_ARG with a message that names what can. */
+DYD_API bool dyd_format_holds(dyd_format format, dyd_content content, bool discs);
 
 /* The result of dyd_engine_nearest or dyd_sphere_nearest; all borrowed. Begun with DYD_SIZED. */
 typedef struct dyd_nearest_answer {

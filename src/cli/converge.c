@@ -19,7 +19,7 @@ typedef struct converge_run {
 
 /* By the name of the plot's file; false when no format of that ending holds a plot. */
 static bool plot_format(dyd_format *out, const char *name) {
-  return dyd_format_from_file(out, name) && dyd_format_holds(*out, DYD_CONTENT_PLOT);
+  return dyd_format_from_file(out, name) && dyd_format_holds(*out, DYD_CONTENT_PLOT, false);
 }
 
 static const cli_work work_replay;

@@ -512,7 +512,7 @@ static dyd_status layers_write(GDALDatasetH set, OGRSpatialReferenceH crs, cli_s
     snprintf(plain, sizeof plain, "%s", name);
     for (char *c = plain; (c = strchr(c, ':'));) *c = '_';
     if (large) continue;
-    s->o.format = dyd_format_holds(DYD_FORMAT_WKT, s->o.content) ? DYD_FORMAT_WKT : DYD_FORMAT_CSV;
+    s->o.format = dyd_format_holds(DYD_FORMAT_WKT, s->o.content, false) ? DYD_FORMAT_WKT : DYD_FORMAT_CSV;
     st = layer_write(set, crs, s, print, plain, err);
     if (st == DYD_E_ARG && k) st = DYD_OK;
   }

@@ -469,12 +469,10 @@ static int layer_fits(cli_options *o, const cli_command *c) {
   return CLI_USAGE;
 }
 
-/* Json, obj and vtk hold all layers, and these three layers state more than discs decide. */
+/* What the layer states, or the format beside it, may be more than discs decide. */
 static int discs_fit(const cli_options *o, const cli_command *c) {
-  const dyd_content l = o->content;
-  const bool layer = l == DYD_CONTENT_TIES || l == DYD_CONTENT_HULLS || l == DYD_CONTENT_EXTERIOR;
-  const bool format = o->format == DYD_FORMAT_JSON || o->format == DYD_FORMAT_OBJ || o->format == DYD_FORMAT_VTK;
-  if (!o->discs || c != &cli_commands[CLI_DELAUNAY] || (!layer && !format)) return 0;
+  const bool layer = !dyd_format_holds(DYD_FORMAT_CSV, o->content, true);
+  if (!o->discs || c != &cli_commands[CLI_DELAUNAY] || dyd_format_holds(o->format, o->content, true)) return 0;
   return cli_usage("delaunay --discs does not write %s%s; give a layer of pairs, points, triangles, aliases or graphs, "
                    "as csv, wkt or geojson, or pairs or graphs as svg, pdf, png, html or tikz",
                    layer ? "--layer " : "", layer ? o->layer : dyd_format_get(o->format)->name);
@@ -482,8 +480,8 @@ static int discs_fit(const cli_options *o, const cli_command *c) {
 
 /* The format has to hold the content; without --format, the first that does is taken. */
 static int format_fits(cli_options *o, const cli_command *c) {
-  while (!o->format_set && dyd_format_get(o->format) && !dyd_format_holds(o->format, o->content)) o->format++;
-  if (!o->format_set || dyd_format_holds(o->format, o->content)) return 0;
+  while (!o->format_set && dyd_format_get(o->format) && !dyd_format_holds(o->format, o->content, false)) o->format++;
+  if (!o->format_set || dyd_format_holds(o->format, o->content, false)) return 0;
   fprintf(stderr, "dyadel: %s%s%s%s does not write %s; give", c->name, o->sphere ? " --sphere" : "",
           o->layer ? " --layer " : "",
           o->layer      ? o->layer
@@ -493,7 +491,7 @@ static int format_fits(cli_options *o, const cli_command *c) {
           dyd_format_get(o->format)->name);
   const char *before = " ";
   for (unsigned f = 0; dyd_format_get((dyd_format)f); f++) {
-    if (!dyd_format_holds((dyd_format)f, o->content)) continue;
+    if (!dyd_format_holds((dyd_format)f, o->content, false)) continue;
     fprintf(stderr, "%s%s", before, dyd_format_get((dyd_format)f)->name);
     before = ", ";
   }
@@ -524,7 +522,7 @@ static int format_of_driver(cli_options *o, bool several) {
     return cli_usage("-o %s says the format; remove --format %s", o->output, dyd_format_get(o->format)->name);
   if (cli_name_is_packed(&(size_t){0}, o->output)) return cli_usage("-o %s: GDAL packs no such file", o->output);
   o->all_layers = several && !o->layer;
-  o->format = dyd_format_holds(DYD_FORMAT_WKT, o->content) ? DYD_FORMAT_WKT : DYD_FORMAT_CSV;
+  o->format = dyd_format_holds(DYD_FORMAT_WKT, o->content, false) ? DYD_FORMAT_WKT : DYD_FORMAT_CSV;
   o->format_set = true;
   return 0;
 }

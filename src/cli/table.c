@@ -44,7 +44,7 @@ const size_t cli_option_count = sizeof cli_option_table / sizeof *cli_option_tab
 /* Returns true if one of the commands writes the format. */
 static bool is_format_of(dyd_format format, unsigned commands) {
   for (unsigned c = 0; c < CLI_COMMANDS; c++)
-    if (commands & BIT(c) && dyd_format_holds(format, cli_commands[c].content)) return true;
+    if (commands & BIT(c) && dyd_format_holds(format, cli_commands[c].content, false)) return true;
   return false;
 }
 

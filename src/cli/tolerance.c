@@ -272,7 +272,7 @@ static dyd_status plan_or_trials(cli_session *s, dyd_error *err) {
     st = s->sphere ? dyd_sphere_survey(&r->survey, s->sphere, s->o.accuracy, &how, err)
                    : dyd_survey_new(&r->survey, pd, &how, err);
   r->cut = st == DYD_CANCELLED;
-  const bool drawn = s->o.format != DYD_FORMAT_JSON && !dyd_format_holds(s->o.format, DYD_CONTENT_PLAN_PAIRS);
+  const bool drawn = s->o.format != DYD_FORMAT_JSON && !dyd_format_holds(s->o.format, DYD_CONTENT_PLAN_PAIRS, false);
   if (st == DYD_OK && s->o.discs && drawn) st = dyd_disc_pairs(&r->discs, pd, cli_signals_flag(), err);
   return cli_session_cut(st, err);
 }

@@ -130,8 +130,15 @@ static dyd_writer *writer_of(dyd_format format, dyd_content content) {
   return formats[format].write ? formats[format].write[content] : NULL;
 }
 
-bool dyd_format_holds(dyd_format format, dyd_content content) {
-  return writer_of(format, content);
+/* Other layers and formats state more than discs decide. */
+static bool states_discs(dyd_format format, dyd_content layer) {
+  bool known = layer == DYD_CONTENT_DELAUNAY || layer == DYD_CONTENT_POINTS || layer == DYD_CONTENT_TRIANGLES ||
+               layer == DYD_CONTENT_ALIASES || (layer >= DYD_CONTENT_GRAPH_NEAREST && layer <= DYD_CONTENT_GRAPH_MST);
+  return known && format != DYD_FORMAT_JSON && format != DYD_FORMAT_OBJ && format != DYD_FORMAT_VTK;
+}
+
+bool dyd_format_holds(dyd_format format, dyd_content content, bool discs) {
+  return writer_of(format, content) && (!discs || states_discs(format, content));
 }
 
 uint64_t dyd_format_bytes(const dyd_output *o, bool diagram, uint64_t sites, uint64_t pairs) {
@@ -148,9 +155,9 @@ uint64_t dyd_format_bytes(const dyd_output *o, bool diagram, uint64_t sites, uin
 static dyd_status refuse_format(dyd_format format, dyd_content content, dyd_error *err) {
   char names[100] = "";
   size_t used = 0, left = 0;
-  for (size_t k = 0; k < FORMATS; k++) left += dyd_format_holds((dyd_format)k, content);
+  for (size_t k = 0; k < FORMATS; k++) left += dyd_format_holds((dyd_format)k, content, false);
   for (size_t k = 0; k < FORMATS && used < sizeof names; k++) {
-    if (!dyd_format_holds((dyd_format)k, content)) continue;
+    if (!dyd_format_holds((dyd_format)k, content, false)) continue;
     const char *before = !used ? "" : left > 1 ? ", " : " or ";
     used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", before, formats[k].facts.name);
     left--;

@@ -89,13 +89,6 @@ static dyd_status grant_output(const dyd_delaunay *pd, const dyd_output *to, boo
   return dyd_delaunay_grant(pd, bytes, "this output", err);
 }
 
-/* Other layers and formats state more than discs decide. */
-static bool holds_discs(dyd_content layer, dyd_format format) {
-  bool known = layer == DYD_CONTENT_DELAUNAY || layer == DYD_CONTENT_POINTS || layer == DYD_CONTENT_TRIANGLES ||
-               layer == DYD_CONTENT_ALIASES || (layer >= DYD_CONTENT_GRAPH_NEAREST && layer <= DYD_CONTENT_GRAPH_MST);
-  return known && format != DYD_FORMAT_JSON && format != DYD_FORMAT_OBJ && format != DYD_FORMAT_VTK;
-}
-
 /* Returns true if ties are found while rows of pairs are written, so that no list of them is made. */
 static bool rows_hold_ties(const dyd_result *r, const dyd_output *to, const dyd_write_options *o) {
   size_t count[4];
@@ -118,7 +111,7 @@ static dyd_status write_delaunay(dyd_output *to, dyd_write_options *o, dyd_error
   bool graph;
   dyd_status st = result_init(&r, to, o, err);
   if (st != DYD_OK) return st;
-  if (o->pairs && !holds_discs(to->content, to->format))
+  if (o->pairs && !dyd_format_holds(to->format, to->content, true))
     return dyd_fail(err, DYD_E_ARG,
                     "statuses of discs are written as pairs, points, triangles or graphs: in csv, wkt, geojson, or "
                     "pairs and graphs "

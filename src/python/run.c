@@ -142,7 +142,7 @@ static PyObject *table_text(const dyd_convergence *table, const char *name, bool
                                .modulus = modulus != NULL,
                                .modulus_from = modulus ? modulus[0] : 0,
                                .modulus_to = modulus ? modulus[1] : 0};
-  bool rows = dyd_format_holds(format, DYD_CONTENT_CONVERGENCE);
+  bool rows = dyd_format_holds(format, DYD_CONTENT_CONVERGENCE, false);
   dyd_status st = dyd_write(text.file, NULL, rows ? DYD_CONTENT_CONVERGENCE : DYD_CONTENT_PLOT, format, &o, &err);
   if (st < 0) dydpy_raise(&err, st);
   return dydpy_text_close(&text, st >= 0);

@@ -50,7 +50,7 @@ static void test_refused(void **state) {
   (void)state;
   for (int k = 0; k < 2; k++) {
     for (int content = 0; content <= DYD_CONTENT_CON; content++)
-      assert_false(dyd_format_holds(gone[k], (dyd_content)content));
+      assert_false(dyd_format_holds(gone[k], (dyd_content)content, false));
     char *text = written(DYD_E_ARG, gone[k], &err);
     assert_string_equal(text, "");
     assert_non_null(strstr(err.message, "takes cairo, which this library was built without; give csv"));

@@ -23,16 +23,16 @@ static void test_names(void **state) {
     assert_true(dyd_format_from_name(&found, name) && (size_t)found == count);
     assert_true(dyd_format_from_file(&found, file) && (size_t)found == count);
     assert_non_null(dyd_format_get((dyd_format)count)->about);
-    assert_false(dyd_format_holds((dyd_format)count, DYD_CONTENT_NONE));
-    assert_false(dyd_format_holds((dyd_format)count, (dyd_content)CONTENTS));
+    assert_false(dyd_format_holds((dyd_format)count, DYD_CONTENT_NONE, false));
+    assert_false(dyd_format_holds((dyd_format)count, (dyd_content)CONTENTS, false));
     bool some = false;
-    for (int k = 0; k < CONTENTS; k++) some |= dyd_format_holds((dyd_format)count, (dyd_content)k);
+    for (int k = 0; k < CONTENTS; k++) some |= dyd_format_holds((dyd_format)count, (dyd_content)k, false);
     bool cairo = count == DYD_FORMAT_PDF || count == DYD_FORMAT_PNG;
     assert_true(some == (!cairo || dyd_cairo_is_there()));
   }
   assert_true(count > DYD_FORMAT_PNG);
   assert_null(dyd_format_get((dyd_format)count));
-  assert_false(dyd_format_holds((dyd_format)count, DYD_CONTENT_DELAUNAY));
+  assert_false(dyd_format_holds((dyd_format)count, DYD_CONTENT_DELAUNAY, false));
   found = DYD_FORMAT_OBJ;
   assert_false(dyd_format_from_name(&found, "CSV") || dyd_format_from_name(&found, ""));
   assert_false(dyd_format_from_file(&found, "csv") || dyd_format_from_file(&found, "a.csv/b") ||
@@ -166,8 +166,8 @@ static void test_layers(void **state) {
       dyd_content found = DYD_CONTENT_NONE;
       assert_true(dyd_layer_from_name(&found, of[k], dyd_layer_name(NULL, NULL, of[k], l)));
       assert_true(l == 0 ? found == of[k] : found != of[k]);
-      assert_true(dyd_format_holds(DYD_FORMAT_CSV, found));
-      assert_int_equal(dyd_format_holds(DYD_FORMAT_GEOJSON, found),
+      assert_true(dyd_format_holds(DYD_FORMAT_CSV, found, false));
+      assert_int_equal(dyd_format_holds(DYD_FORMAT_GEOJSON, found, false),
                        found != DYD_CONTENT_SPHERE_REGIONS && found != DYD_CONTENT_TIES);
       bool shared = strcmp(dyd_layer_name(NULL, NULL, of[k], l), "aliases") == 0;
       assert_int_equal(dyd_layer_from_name(&found, of[k ^ 1], dyd_layer_name(NULL, NULL, of[k], l)), shared);
@@ -202,7 +202,7 @@ static void assert_refused(const char *message, dyd_content content) {
     size_t length = strlen(dyd_format_get((dyd_format)f)->name);
     for (const char *at = list + 5; *at; at += strcspn(at, " ,"), at += strspn(at, " ,"))
       named |= strcspn(at, " ,") == length && strncmp(at, dyd_format_get((dyd_format)f)->name, length) == 0;
-    assert_int_equal(named, dyd_format_holds((dyd_format)f, content));
+    assert_int_equal(named, dyd_format_holds((dyd_format)f, content, false));
   }
 }
 
@@ -217,7 +217,7 @@ static void test_writers(void **state) {
       dyd_error err;
       FILE *out = open_memstream(&text, &size);
       assert_non_null(out);
-      bool holds = dyd_format_holds((dyd_format)f, (dyd_content)k);
+      bool holds = dyd_format_holds((dyd_format)f, (dyd_content)k, false);
       dyd_status st = write_content(out, &x, (dyd_content)k, (dyd_format)f, &err);
       assert_int_equal(fclose(out), 0);
       if (st != (holds ? DYD_OK : DYD_E_ARG)) fail_msg("content %d as format %zu: %d, %s", k, f, (int)st, err.message);
@@ -235,7 +235,7 @@ static void test_full_device(void **state) {
   example_init(&x);
   for (int k = DYD_CONTENT_DELAUNAY; k < CONTENTS; k++)
     for (size_t f = 0; dyd_format_get((dyd_format)f); f++)
-      for (int told = 0; told < 2 && dyd_format_holds((dyd_format)f, (dyd_content)k); told++) {
+      for (int told = 0; told < 2 && dyd_format_holds((dyd_format)f, (dyd_content)k, false); told++) {
         dyd_error err = {.message = ""};
         FILE *out = fopen("/dev/full", "w");
         if (!out) skip();
