@@ -248,9 +248,8 @@ int cli_places_read(dyd_engine *e, const cli_options *o);
 void cli_options_degrees(cli_options *o);
 /* Returns true if the number of EPSG is known as that of a system in degrees. */
 bool cli_crs_is_degrees(unsigned epsg);
-/* delaunay.c: what a command with --sphere begins with: points are read as degrees. 0, or CLI_USAGE after a message
- * that --discs is about the plane. */
-int cli_sphere_begin(cli_session *s);
+/* delaunay.c: what a command with --sphere begins with: points are read as degrees. */
+void cli_sphere_begin(cli_session *s);
 /* Makes s->sphere of the points read, and restores the options --radius and --resume. 0, or an exit status after a
  * message. */
 int cli_sphere_make(cli_session *s, bool no_images);

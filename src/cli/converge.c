@@ -110,8 +110,10 @@ static int converge_begin(cli_session *s) {
     cli_complain("--of %s is about rectangles; remove --discs", dyd_converge_of_text(o->of));
   else if (o->discs && o->format == DYD_FORMAT_HTML)
     cli_complain("html shows rectangles at every stage; remove --discs, or give csv or json");
-  else
-    return o->sphere ? cli_sphere_begin(s) : 0;
+  else {
+    if (o->sphere) cli_sphere_begin(s);
+    return 0;
+  }
   return CLI_USAGE;
 }
 

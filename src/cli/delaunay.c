@@ -319,12 +319,11 @@ const cli_work cli_voronoi = {.size = sizeof(voronoi_result),
 
 /* ---- --sphere: the points of the file are places, their images are run ---- */
 
-int cli_sphere_begin(cli_session *s) {
+void cli_sphere_begin(cli_session *s) {
   s->radius = s->o.read.radius;
   s->resume = s->o.resume;
   s->o.resume = NULL;
   cli_options_degrees(&s->o);
-  return s->o.discs ? cli_usage("--discs is about the plane; remove --discs or --sphere") : 0;
 }
 
 int cli_sphere_make(cli_session *s, bool no_images) {
@@ -357,8 +356,10 @@ static int places_on_sphere_begin(cli_session *s) {
     cli_complain("%s is about the plane; remove %s or --sphere", what, what);
   else if (o->window && !picture)
     cli_complain("on a sphere --window is the part that a picture shows; give svg, pdf or png, or remove it");
-  else
-    return cli_sphere_begin(s);
+  else {
+    cli_sphere_begin(s);
+    return 0;
+  }
   return CLI_USAGE;
 }
 

@@ -426,6 +426,7 @@ static int meanings_fit(const cli_options *o, const cli_command *c) {
   if (o->clip_to && (o->sphere || !(o->all_layers || (o->layer && strcmp(o->layer, "tiles") == 0))))
     return cli_usage("--clip-to cuts tiles in the plane; give --layer tiles, or remove it");
   if (o->sphere && o->lengths) return cli_usage("--length is about the plane; remove it or --sphere");
+  if (o->sphere && o->discs) return cli_usage("--discs is about the plane; remove --discs or --sphere");
   const dyd_write_style *style = &o->style;
   const bool styled = style->bare || style->width > 0 || style->font_size > 0 || style->font;
   if (styled && !o->plot && !o->pgf && !cli_is_picture(o->format))

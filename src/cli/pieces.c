@@ -255,8 +255,7 @@ static int places_read(cli_session *s) {
   if (o->sphere && o->format != DYD_FORMAT_CSV && o->format != DYD_FORMAT_JSON)
     return cli_usage("on a sphere nearest writes csv and json; remove --format %s or --sphere",
                      dyd_format_get(o->format)->name);
-  int begun = o->sphere ? cli_sphere_begin(s) : 0;
-  if (begun) return begun;
+  if (o->sphere) cli_sphere_begin(s);
   query *q = s->state;
   dyd_engine *from = NULL;
   if (!o->queries && (o->query_columns || o->query_id))

@@ -202,8 +202,9 @@ static int plan_begin(cli_session *s) {
   if (o->simulate && (o->layer || o->next))
     return cli_usage("--simulate writes trials instead of a plan; remove it or %s", o->layer ? "--layer" : "--next");
   if (o->sphere && o->window) return cli_usage("--window of plan is about the plane; remove it or --sphere");
-  int status = o->sphere ? cli_sphere_begin(s) : 0;
-  if (!status && o->accuracy && !o->sphere) status = cli_number_read(r->accuracy, "accuracy", o->accuracy);
+  int status = 0;
+  if (o->sphere) cli_sphere_begin(s);
+  if (o->accuracy && !o->sphere) status = cli_number_read(r->accuracy, "accuracy", o->accuracy);
   if (!status && o->accuracy && !o->sphere && mpq_sgn(r->accuracy) == 0)
     return cli_usage("--accuracy \"%s\" is not understood; nothing is measured exactly: give a number above 0",
                      o->accuracy);
