@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Rows over boxes: boxes (thin, every edge certified), boxes2 (two threads, by the clock), thick (a few per cent of the
- * spacing), overlap. */
+ * spacing), overlap, line (on one line: nearly all pairs are possible). */
 #include "answers.h"
 #include "cloud.h"
 #include "ours.h"
@@ -58,15 +58,17 @@ static void row_boxes(const bench_options *o, const char *name, unsigned threads
   cloud_clear(&boxes);
 }
 
-/* Boxes of half-width share / sqrt(n): time per possible pair, with a goal (0: none); nobody else computes these
- * statuses. Returns the CPU seconds of one run. */
+/* Boxes of half-width share / sqrt(n), or, on a line, share / n: time per possible pair, with a goal (0: none); nobody
+ * else computes these statuses. Returns the CPU seconds of one run. */
 static double wide(const bench_options *o, const char *name, size_t n, double share, double goal, size_t runs) {
   cloud boxes;
   bench_series ours = {0};
   ours_answer a = {0};
   char remark[200];
+  const bool line = strcmp(name, "line") == 0;
   cloud_uniform(&boxes, n);
-  cloud_widen(&boxes, share / sqrt((double)n));
+  for (size_t k = 0; line && k < n; k++) boxes.x[k] = (double)k / (double)n, boxes.y[k] = 0;
+  cloud_widen(&boxes, share / (line ? (double)n : sqrt((double)n)));
   for (size_t r = 0; r < runs; r++) bench_series_add(&ours, ours_run(&a, name, &boxes, OURS_STATUSES, 1));
   bench_check(o, name, n, a.count);
   double seconds = bench_series_median(&ours).seconds;
@@ -113,6 +115,8 @@ int main(int argc, char **argv) {
     if (bench_wants(&o, "boxes2")) row_boxes(&o, "boxes2", 2, 0.4);
     if (bench_wants(&o, "thick")) row_wide(&o, "thick", 100000, 0.03, 5);
     if (bench_wants(&o, "overlap")) row_wide(&o, "overlap", 10000, 0.5, 10);
+    if (bench_wants(&o, "line") && !o.n) wide(&o, "line", 500, 0.1, 0, bench_runs(&o, 3));
+    if (bench_wants(&o, "line")) wide(&o, "line", bench_size(&o, 2000), 0.1, 5, bench_runs(&o, 3));
   }
   bench_options_close(&o);
   return 0;

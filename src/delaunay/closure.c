@@ -97,12 +97,13 @@ static dyd_status dyd_centre_shows(uint32_t **vertex, size_t *count, const dyd_s
 }
 
 /* CROWD: least number of triangles of a face for which a search of the plane pays. PATIENCE: walks before the first
- * centre is tried. MOST_BITS: members of a face that has its pairs as bits, too. In the armed build small faces take
+ * centre is tried. MOST_BITS: members of a face that has its pairs as bits, too, from the first; FEW_PAIRS: others have
+ * them when of so many pairs one is known. In the armed build small faces take
  * part, too. */
 #ifdef DYD_ARMED
-enum { CROWD = 5, PATIENCE = 1, MOST_BITS = 16 };
+enum { CROWD = 5, PATIENCE = 1, MOST_BITS = 16, FEW_PAIRS = 4 };
 #else
-enum { CROWD = 64, PATIENCE = 4, MOST_BITS = 1024 };
+enum { CROWD = 64, PATIENCE = 4, MOST_BITS = 1024, FEW_PAIRS = 64 };
 #endif
 
 /* Members 0 .. vertices-1 are the face's vertices, member `vertices` is the ghost (if outer). */
@@ -118,6 +119,7 @@ typedef struct closing {
   size_t open, room;
   uint64_t known, all;           /* pairs of sites that have a state, of how many */
   size_t walks, patience, tries; /* walks to a possible pair since a centre was tried; after how many the next one is */
+  size_t shown, hope, reached;   /* the same for pairs that doubles showed and pairs far apart */
   bool full;
 } closing;
 
@@ -141,6 +143,7 @@ static dyd_status closing_gather(closing *c) {
     out->vertex[out->vertices++] = out->vertex[q];
     out->all_points = out->all_points && dyd_vertex_is_point(c->sk, out->vertex[q]);
   }
+  c->all = out->vertices * (out->vertices - UINT64_C(1)) / 2;
   return DYD_OK;
 }
 
@@ -156,14 +159,40 @@ static dyd_status keep_pair(dyd_closure *out, uint32_t a, uint32_t b) {
   return DYD_OK;
 }
 
-/* Bits in addition to the map while they take little memory: sets of common neighbours are found by words. */
+static void set_bit(uint64_t *rows, const closing *c, uint32_t a, uint32_t b) {
+  rows[a * c->words + b / 64] |= UINT64_C(1) << b % 64;
+  rows[b * c->words + a / 64] |= UINT64_C(1) << a % 64;
+}
+
+static void set_bits(closing *c, uint32_t a, uint32_t b, dyd_pair_state state) {
+  set_bit(c->known_with, c, a, b);
+  if (dyd_pair_is_possible(state)) set_bit(c->possible, c, a, b);
+}
+
+static bool closing_knows(const closing *c, uint32_t a, uint32_t b) {
+  if (c->known_with) return c->known_with[a * c->words + b / 64] >> b % 64 & 1;
+  return dyd_pair_map_get(&c->map, a, b) != DYD_PAIR_UNKNOWN;
+}
+
+static uint64_t bits_bytes(const closing *c) {
+  uint64_t members = (uint64_t)c->out->vertices + 1;
+  return members > MOST_BITS && c->known < c->all / FEW_PAIRS ? 0 : 2 * members * ((members + 63) / 64) * 8;
+}
+
+/* Bits in addition to the map while they take little memory, or less than the map: sets of common neighbours are found
+ * by words. */
 static dyd_status start_bits(closing *c) {
-  size_t members = (size_t)c->out->vertices + 1;
-  if (members > MOST_BITS) return DYD_OK;
-  c->words = (members + 63) / 64;
-  c->possible = calloc(members * c->words, sizeof *c->possible);
-  c->known_with = calloc(members * c->words, sizeof *c->known_with);
-  return c->possible && c->known_with ? DYD_OK : DYD_E_NOMEM;
+  size_t words = ((size_t)c->out->vertices + 64) / 64, size = (c->out->vertices + (size_t)1) * words;
+  if (c->possible || !bits_bytes(c)) return DYD_OK;
+  c->possible = calloc(size, sizeof *c->possible);
+  c->known_with = calloc(size, sizeof *c->known_with);
+  if (!c->possible || !c->known_with) return DYD_E_NOMEM;
+  c->words = words;
+  for (size_t q = 0; q <= c->map.mask; q++) {
+    uint64_t key = c->map.key[q] - 1;
+    if (c->map.key[q]) set_bits(c, (uint32_t)(key >> 32), (uint32_t)key, (dyd_pair_state)c->map.state[q]);
+  }
+  return DYD_OK;
 }
 
 /* ---- exact ties ---- */
@@ -181,23 +210,19 @@ static bool is_polygon(const closing *c) {
   return ghosts == 0 || ghosts == c->tris;
 }
 
-static void set_bit(uint64_t *rows, const closing *c, uint32_t a, uint32_t b) {
-  rows[a * c->words + b / 64] |= UINT64_C(1) << b % 64;
-  rows[b * c->words + a / 64] |= UINT64_C(1) << a % 64;
-}
-
 /* One more pair: the map grows in steps, and the open pairs are copied from it at the end. */
-static bool closing_has_room(closing *c) {
+static dyd_status closing_reserve(closing *c) {
   uint64_t pairs = dyd_bytes_times(c->open + c->open / 2, sizeof *c->out->pair);
-  return !dyd_pair_map_is_full(&c->map) ||
-         dyd_room_has(&c->w->room, dyd_bytes_add(dyd_pair_map_bytes(&c->map), pairs), "the possible pairs of a face");
+  if (!dyd_pair_map_is_full(&c->map)) return DYD_OK;
+  uint64_t bytes = dyd_bytes_add(dyd_pair_map_bytes(&c->map), dyd_bytes_add(pairs, bits_bytes(c)));
+  return dyd_room_has(&c->w->room, bytes, "the possible pairs of a face") ? start_bits(c) : DYD_E_NOMEM;
 }
 
 static dyd_status closing_add(closing *c, uint32_t a, uint32_t b, dyd_pair_state state) {
   uint32_t ghost = c->out->vertices;
-  if (!closing_has_room(c)) return DYD_E_NOMEM;
-  if (c->possible) set_bit(c->known_with, c, a, b);
-  if (c->possible && dyd_pair_is_possible(state)) set_bit(c->possible, c, a, b);
+  dyd_status st = closing_reserve(c);
+  if (st != DYD_OK) return st;
+  if (c->possible) set_bits(c, a, b, state);
   c->known += a != ghost && b != ghost;
   if (state == DYD_PAIR_OPEN && a != ghost && b != ghost && c->open++ >= c->room) c->full = true;
   return dyd_pair_map_add(&c->map, a, b, state);
@@ -319,14 +344,22 @@ static bool closing_is_told(bool *possible, const closing *c, uint32_t a, uint32
   return d && d->tell(possible, d->context, site[v[a]], site[v[b]]);
 }
 
-static dyd_status closing_decide(void *context, bool *enough, uint32_t a, uint32_t b) {
-  static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
-  closing *c = context;
+/* Decides a pair of members that has no state. */
+static dyd_status closing_cover(dyd_cover *found, closing *c, uint32_t a, uint32_t b, const uint32_t hint[2]) {
   const uint32_t *v = c->out->vertex;
-  dyd_cover found = {0};
-  bool told = closing_is_told(&found.possible, c, a, b);
-  dyd_status st = told ? DYD_OK : dyd_cover_possible(&found, c->w, c->sk, v[a], v[b], no_hint);
-  if (st == DYD_OK) st = found.possible ? add_possible(c, a, b) : closing_add(c, a, b, DYD_PAIR_IMPOSSIBLE);
+  *found = (dyd_cover){0};
+  bool told = closing_is_told(&found->possible, c, a, b);
+  dyd_status st = told ? DYD_OK : dyd_cover_possible(found, c->w, c->sk, v[a], v[b], hint);
+  if (st != DYD_OK) return st;
+  return found->possible ? add_possible(c, a, b) : closing_add(c, a, b, DYD_PAIR_IMPOSSIBLE);
+}
+
+static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
+
+static dyd_status closing_decide(void *context, bool *enough, uint32_t a, uint32_t b) {
+  closing *c = context;
+  dyd_cover found;
+  dyd_status st = closing_cover(&found, c, a, b, no_hint);
   *enough = c->full || c->known == c->all;
   return st;
 }
@@ -346,17 +379,18 @@ static dyd_status close_by_patches(bool *done, closing *c) {
 
 /* ---- few: closure under flips ---- */
 
-/* All pairs of the vertices given that have no state are possible; not all of them are members. */
-static dyd_status add_all(closing *c, const uint32_t *vertex, size_t count) {
+/* All pairs of the vertices given that have no state are possible; those that are no members are passed over. */
+static dyd_status add_all(closing *c, uint32_t *vertex, size_t count) {
   const dyd_closure *out = c->out;
   dyd_status st = DYD_OK;
-  for (size_t a = 0; a < count && !c->full; a++)
-    for (size_t b = a + 1; b < count && !c->full && st == DYD_OK; b++) {
-      const uint32_t *p = bsearch(&vertex[a], out->vertex, out->vertices, sizeof *p, dyd_compare_index);
-      const uint32_t *q = bsearch(&vertex[b], out->vertex, out->vertices, sizeof *q, dyd_compare_index);
-      uint32_t i = p ? (uint32_t)(p - out->vertex) : 0, j = q ? (uint32_t)(q - out->vertex) : 0;
-      if (p && q && dyd_pair_map_get(&c->map, i, j) == DYD_PAIR_UNKNOWN) st = add_possible(c, i, j);
-    }
+  size_t members = 0;
+  for (size_t a = 0; a < count; a++) {
+    const uint32_t *p = dyd_find_index(&vertex[a], out->vertex, out->vertices, sizeof *p);
+    if (p) vertex[members++] = (uint32_t)(p - out->vertex);
+  }
+  for (size_t a = 0; a < members && !c->full; a++)
+    for (size_t b = a + 1; b < members && !c->full && st == DYD_OK; b++)
+      if (!closing_knows(c, vertex[a], vertex[b])) st = add_possible(c, vertex[a], vertex[b]);
   return st;
 }
 
@@ -376,20 +410,59 @@ static dyd_status closing_try_centre(closing *c, uint32_t k, uint32_t l, uint32_
   return st;
 }
 
+/* Member a, and the one farthest from it in order of which nothing is known; a itself: there is none. */
+static uint32_t farthest_unknown(const closing *c, uint32_t a) {
+  uint32_t n = c->out->vertices;
+  for (uint32_t most = a > n - 1 - a ? a : n - 1 - a; most > 0; most--) {
+    if (most <= a && !closing_knows(c, a, a - most)) return a - most;
+    if (most < n - a && !closing_knows(c, a, a + most)) return a + most;
+  }
+  return a;
+}
+
+/* All pairs of members that are near the centre, certainly. */
+static dyd_status add_clique(closing *c, dyd_xy centre) {
+  uint32_t n = c->out->vertices, count = 0;
+  uint32_t *vertex = dyd_alloc(n, sizeof *vertex);
+  bool *near = dyd_alloc(n, sizeof *near);
+  dyd_status st = vertex && near ? DYD_OK : DYD_E_NOMEM;
+  if (st == DYD_OK) dyd_filter_clique(near, &c->sk->rects, centre, c->out->vertex, n);
+  for (uint32_t a = 0; a < n && st == DYD_OK; a++)
+    if (near[a]) vertex[count++] = c->out->vertex[a];
+  if (st == DYD_OK) st = add_all(c, vertex, count);
+  dyd_free_all(near, vertex);
+  return st;
+}
+
+/* Doubles have shown many possible pairs, near ones first: perhaps the sites are about on a line, and the centre of two
+ * far apart shows many more. */
+static dyd_status closing_try_far(closing *c) {
+  size_t before = c->known;
+  if (++c->shown < c->hope || c->sk->mesh.no_filter) return DYD_OK;
+  uint32_t n = c->out->vertices, a = 0, b = 0;
+  for (int tries = 0; tries < 8 && a == b; tries++) {
+    a = (uint32_t)((uint64_t)(uint32_t)(c->reached++ * UINT32_C(2654435769)) * n >> 32);
+    b = farthest_unknown(c, a);
+  }
+  dyd_cover found = {0};
+  dyd_status st = a == b ? DYD_OK : closing_cover(&found, c, a, b, no_hint);
+  if (st == DYD_OK && found.possible && !found.walked) st = add_clique(c, (dyd_xy){found.place.e[0], found.place.e[2]});
+  c->hope = c->known < before + c->shown ? 2 * c->hope : PATIENCE;
+  c->shown = 0;
+  return st;
+}
+
 /* The pair kl may take the place of ij: decide it, once. */
 static dyd_status closing_flip(closing *c, uint32_t i, uint32_t j, uint32_t k, uint32_t l) {
   uint32_t ghost = c->out->vertices;
   const uint32_t *v = c->out->vertex;
   const uint32_t hint[2] = {i == ghost ? DYD_NONE : v[i], j == ghost ? DYD_NONE : v[j]};
-  dyd_cover found = {0};
-  if (k == ghost || l == ghost || dyd_pair_map_get(&c->map, k, l) != DYD_PAIR_UNKNOWN) return DYD_OK;
+  dyd_cover found;
+  if (k == ghost || l == ghost || closing_knows(c, k, l)) return DYD_OK;
   if (i != ghost && j != ghost && dyd_surely_not_displaced(c->sk, v[i], v[j], v[k], v[l])) return DYD_OK;
-  bool told = closing_is_told(&found.possible, c, k, l);
-  dyd_status st = told ? DYD_OK : dyd_cover_possible(&found, c->w, c->sk, v[k], v[l], hint);
-  if (st != DYD_OK) return st;
-  st = found.possible ? add_possible(c, k, l) : closing_add(c, k, l, DYD_PAIR_IMPOSSIBLE);
-  if (st == DYD_OK && found.possible && found.walked) st = closing_try_centre(c, v[k], v[l], hint[0]);
-  return st;
+  dyd_status st = closing_cover(&found, c, k, l, hint);
+  if (st != DYD_OK || !found.possible) return st;
+  return found.walked ? closing_try_centre(c, v[k], v[l], hint[0]) : closing_try_far(c);
 }
 
 /* Search for common possible neighbours of i and j, one after another; with k, for those whose pair with k has no
@@ -448,8 +521,6 @@ static dyd_status closing_settle(closing *c, uint32_t a, uint32_t b) {
 
 static dyd_status closing_run(closing *c) {
   bool done = false;
-  uint64_t m = c->out->vertices;
-  c->all = m * (m - 1) / 2;
   bool crowded = is_crowded(c);
   dyd_status st = start_bits(c);
   if (st == DYD_OK) st = add_edges(c, true);
@@ -492,7 +563,8 @@ static dyd_status skeleton_pairs(closing *c) {
 
 dyd_status dyd_closure_run(dyd_closure *out, dyd_work *w, const dyd_skeleton *sk, const uint32_t *tri, uint32_t tris,
                            size_t room, bool postponed) {
-  closing c = {.sk = sk, .w = w, .out = out, .tri = tri, .tris = tris, .room = room, .patience = PATIENCE};
+  closing c = {
+      .sk = sk, .w = w, .out = out, .tri = tri, .tris = tris, .room = room, .patience = PATIENCE, .hope = PATIENCE};
   *out = (dyd_closure){0};
   dyd_status st = closing_gather(&c);
   if (st == DYD_OK) st = dyd_pair_map_init(&c.map, out->vertices + 1);

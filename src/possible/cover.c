@@ -27,6 +27,7 @@ typedef struct walk {
   uint32_t blocker; /* of the current place, DYD_NONE: none found */
   uint32_t last;    /* whose interval ends at w->here: does not block there */
   double bound;     /* squared radius from above, or height from below */
+  double u[2];      /* about the direction at that end */
   dyd_bbox centre;
   dyd_status status;
 } walk;
@@ -92,7 +93,7 @@ static bool cover_beyond(dyd_work *w, const dyd_irect *r) {
 static bool cover_blocks_end(void *context, uint32_t v) {
   walk *k = context;
   size_t q;
-  if (v == k->i || v == k->j) return true;
+  if (v == k->i || v == k->j || dyd_surely_not_beyond(&k->sk->rects, k->u[0], k->u[1], v, k->bound)) return true;
   if (!cover_member(&q, k, v)) return false;
   cover_tangent(k);
   if (!cover_beyond(k->w, &k->w->set.rect[q])) return true;
@@ -108,16 +109,17 @@ static bool cover_ask_hints(walk *k, dyd_visit blocks) {
 }
 
 static void cover_ask_end(walk *k, int end) {
-  double u[2];
+  double *u = k->u;
   k->end = end;
   k->blocker = DYD_NONE;
+  k->bound = -INFINITY;
   cover_tangent(k);
   if (cover_ask_hints(k, cover_blocks_end)) return;
   cover_tangent(k);
   dyd_direction_d(u, k->w->u[0], k->w->u[1]);
   double a = dyd_height_lower(&k->sk->rects, u[0], u[1], &k->sk->rects.box[k->i]);
   double b = dyd_height_lower(&k->sk->rects, u[0], u[1], &k->sk->rects.box[k->j]);
-  k->bound = k->sk->mesh.no_filter ? -INFINITY : dyd_max(a, b);
+  if (!k->sk->mesh.no_filter) k->bound = dyd_max(a, b);
   dyd_tree_beyond(&k->sk->rects.tree, u[0], u[1], &k->bound, cover_blocks_end, k);
 }
 

@@ -36,6 +36,7 @@ typedef struct arcs {
   uint32_t own[2], found; /* the vertices compared with all others; equal when it is one */
   vec u, from, to, d[4];  /* from, to: ends of the arc of the site found; d: scratch */
   bool outward;           /* arcs where the other site is farther out, else where v is */
+  double height, u_d[2];  /* what the other site has to reach in the direction u, about */
   bool empty;             /* the arc found is empty */
   dyd_status status;
 } arcs;
@@ -118,6 +119,7 @@ static bool arc_examine_one(arcs *t, uint32_t k, int q) {
 static bool arc_examine(void *context, uint32_t k) {
   arcs *t = context;
   if (k == t->own[0] || k == t->own[1]) return true;
+  if (t->outward && dyd_surely_not_beyond(t->w->rects, t->u_d[0], t->u_d[1], k, t->height)) return true;
   if (arc_examine_one(t, k, 0)) return false;
   return t->own[1] == t->own[0] || !arc_examine_one(t, k, 1);
 }
@@ -134,12 +136,12 @@ static double arc_own_height(const arcs *t, int q, const double u[2]) {
 /* Looks for a site in whose arc u is (outward), or is not; t->found, and its arc. DYD_NONE: there is none. Looks for a
  * site that blocks v in the direction u (possible), or that reaches as far as v there (sure). */
 static void arcs_ask(arcs *t) {
-  double u[2];
+  double *u = t->u_d;
   t->found = DYD_NONE;
   dyd_direction_d(u, t->u.x, t->u.y);
-  double height = dyd_min(arc_own_height(t, 0, u), arc_own_height(t, 1, u));
-  if (t->sk->mesh.no_filter) height = -INFINITY;
-  dyd_tree_beyond(&t->w->rects->tree, u[0], u[1], &height, arc_examine, t);
+  t->height = dyd_min(arc_own_height(t, 0, u), arc_own_height(t, 1, u));
+  if (t->sk->mesh.no_filter) t->height = -INFINITY;
+  dyd_tree_beyond(&t->w->rects->tree, u[0], u[1], &t->height, arc_examine, t);
 }
 
 /* ---- possibly on the hull ---- */

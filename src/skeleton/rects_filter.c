@@ -243,3 +243,11 @@ double dyd_height_lower(const dyd_rects *r, double ux, double uy, const dyd_bbox
   double h = ux * x + uy * y - slack;
   return isnan(h) ? -INFINITY : h;
 }
+
+/* The least u.x of the box is off by the slack of both sides and the rounding of `reach` [FLT-DIR]; the error of u is
+ * in the height. */
+bool dyd_surely_not_beyond(const dyd_rects *r, double ux, double uy, uint32_t k, double height) {
+  const double *e = r->box[k].e, x = ux > 0 ? e[0] : e[1], y = uy > 0 ? e[2] : e[3];
+  const dyd_bbox least = {{x, x, y, y}};
+  return reach(&least, ux, uy) + (fabs(ux) + fabs(uy)) * dyd_box_slack(r, k) * 2 <= height;
+}

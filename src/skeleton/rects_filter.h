@@ -117,5 +117,8 @@ void dyd_direction_d(double u[2], const mpz_t x, const mpz_t y);
 /* A lower bound of max u.x over the rectangle in the box p, for u as dyd_direction_d gives it, minus what
  * dyd_tree_beyond may lose by the error of u: a height for it. */
 double dyd_height_lower(const dyd_rects *r, double ux, double uy, const dyd_bbox *p);
+/* Returns true if min u.x over the rectangle of k is at most the maximum for which dyd_height_lower gave `height`,
+ * certainly: it reaches not altogether beyond it. */
+bool dyd_surely_not_beyond(const dyd_rects *r, double ux, double uy, uint32_t k, double height);
 
 #endif
