@@ -9,7 +9,7 @@
 #include "delaunay/state.h"
 #include "voronoi/exact_cell_filter.h"
 
-enum { DYD_OUTLINE_OTHERS = 1024, DYD_OUTLINE_ARCS = 2048, DYD_OUTLINE_MEETS = 512, DYD_OUTLINE_PIECES = 512 };
+enum { DYD_OUTLINE_OTHERS = 4096, DYD_OUTLINE_ARCS = 2048, DYD_OUTLINE_MEETS = 512, DYD_OUTLINE_PIECES = 512 };
 
 /* A point, relative to the origin of the outline. at[a] encloses coordinate a. side[a]: which end of the window (0, 1)
  * coordinate a is, exactly; else -1. */
