@@ -6,7 +6,6 @@
 #include "base/float_filter.h"
 #include "base/invariant.h"
 #include "delaunay/extend.h"
-#include "delaunay/face_table.h"
 #include "delaunay/faces.h"
 #include "delaunay/local_filter.h"
 #include "delaunay/memory.h"

@@ -11,7 +11,6 @@
 
 #include "base/alloc.h"
 #include "base/invariant.h"
-#include "delaunay/face_table.h"
 #include "delaunay/faces.h"
 #include "delaunay/ties.h"
 #include "legal/certify.h"

@@ -6,6 +6,24 @@
 #include "delaunay/state.h"
 #include "skeleton/work.h"
 
+/* The table of undecided faces: entries come and go, and a pair that several list is shown by one. */
+
+/* Takes face g out; the last one gets its number. */
+void dyd_table_take_out(dyd_delaunay *pd, uint32_t g);
+/* Drops leftovers of replaced faces once they outnumber the entries in use. Does nothing if memory is exhausted. */
+void dyd_table_compact(dyd_undecided *f);
+
+/* Where listed face f has the pair, shown or hidden; NULL: nowhere. */
+dyd_vertex_pair *dyd_listed_pair(const dyd_delaunay *pd, size_t f, uint32_t v, uint32_t w);
+
+/* The pairs of faces with more are found by both vertices in O(log pairs), so that going through the neighbours of each
+ * vertex stays linear in the number of pairs. In the armed build small faces are, too. */
+#ifdef DYD_ARMED
+enum { DYD_FEW_PAIRS = 4 };
+#else
+enum { DYD_FEW_PAIRS = 64 };
+#endif
+
 /* A large face few of whose vertices were narrowed: what of it can change, and its pairs after that [LOC-4].
  *
  * A pair of others becomes impossible only when a narrowed vertex was a possible neighbour of both and now blocks them;

@@ -55,7 +55,7 @@ typedef struct dyd_undecided {
   size_t tri_count, tri_cap;
   dyd_vertex_pair *pair;
   size_t pair_count, pair_cap;
-  uint32_t *turned; /* beside pair: the numbers of a face's pairs by j, then i, where it has many (face_table.h) */
+  uint32_t *turned; /* beside pair: the numbers of a face's pairs by j, then i, where it has many (faces.h) */
   size_t turned_cap;
   size_t others;     /* faces that are not polygons */
   size_t live_pairs; /* pairs of the faces there are; the rest of pair[] is left over from faces replaced */

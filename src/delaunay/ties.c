@@ -9,8 +9,9 @@
 #include "delaunay/ties.h"
 
 #include "base/alloc.h"
-#include "delaunay/face_table.h"
-#include "delaunay/undecided.h"
+#include "base/local.h"
+
+#include <string.h>
 
 /* vertex[0..count-1]: the rim, counter-clockwise; a chain begins behind the ghost, which is omitted. */
 typedef struct rim {
@@ -84,43 +85,27 @@ static bool is_on_rim(const rim *r, uint32_t p, uint32_t q) {
   return q == p + 1 || (!r->chain && p == 0 && q + 1 == r->count);
 }
 
-/* All pairs but those of the rim; *good: none of them is legal. */
-static dyd_status rim_pairs(bool *good, dyd_vertex_pair **pair, size_t *count, const dyd_delaunay *pd, const rim *r) {
-  uint64_t m = r->count;
-  dyd_vertex_pair *list = dyd_alloc(m * (m - 1) / 2, sizeof *list);
-  size_t n = 0;
-  *good = true;
-  if (!list) return DYD_E_NOMEM;
-  for (uint32_t p = 0; p < r->count && *good; p++)
-    for (uint32_t q = p + 1; q < r->count && *good; q++) {
-      uint32_t v = r->vertex[p], w = r->vertex[q];
-      if (is_on_rim(r, p, q)) continue;
-      *good = !dyd_is_legal(&pd->sk, v, w);
-      list[n++] = v < w ? (dyd_vertex_pair){v, w, 0} : (dyd_vertex_pair){w, v, 0};
-    }
-  qsort(list, n, sizeof *list, dyd_compare_vertex_pair);
-  *pair = list;
-  *count = n;
-  return DYD_OK;
-}
-
 /* Returns true if all sites but aliases lie on the chain. Then another face has it from its other side. */
 static bool is_everything(const dyd_delaunay *pd, const rim *r) {
   return r->chain && 2 * (uint64_t)r->count == (uint64_t)pd->sk.mesh.count + 2;
 }
 
-static dyd_status store_tie(dyd_delaunay *pd, size_t g, const rim *r) {
-  dyd_vertex_pair *pair = NULL;
-  size_t count = 0;
-  bool good;
-  dyd_status st = rim_pairs(&good, &pair, &count, pd, r);
-  if (st == DYD_OK && good) {
-    dyd_face as = {.pairs = (uint32_t)count, .outer = r->chain, .tie = true, .proved = true};
-    as.polygon = !is_everything(pd, r);
-    st = dyd_table_store(pd, g, as, pair);
-  }
-  free(pair);
-  return st;
+/* All pairs but those of the rim, unless one of them is legal. */
+static dyd_status rim_tie(dyd_face *as, dyd_vertex_pair **pair, const dyd_delaunay *pd, const rim *r) {
+  uint64_t m = r->count;
+  dyd_vertex_pair *list = dyd_alloc(m * (m - 1) / 2, sizeof *list);
+  uint32_t n = 0;
+  if (!(*pair = list)) return DYD_E_NOMEM;
+  for (uint32_t p = 0; p < r->count; p++)
+    for (uint32_t q = p + 1; q < r->count; q++) {
+      uint32_t v = r->vertex[p], w = r->vertex[q];
+      if (is_on_rim(r, p, q)) continue;
+      if (dyd_is_legal(&pd->sk, v, w)) return DYD_OK;
+      list[n++] = v < w ? (dyd_vertex_pair){v, w, 0} : (dyd_vertex_pair){w, v, 0};
+    }
+  qsort(list, n, sizeof *list, dyd_compare_vertex_pair);
+  *as = (dyd_face){.pairs = n, .outer = r->chain, .tie = true, .polygon = !is_everything(pd, r), .proved = true};
+  return DYD_OK;
 }
 
 /* ---- asking ---- */
@@ -134,15 +119,15 @@ static dyd_status ask_rim(bool *proved, const dyd_delaunay *pd, dyd_work *w, con
   return pd->options.prove(proved, pd->options.prove_user, relation, r->site, r->count, w->run->err);
 }
 
-dyd_status dyd_prove_face(dyd_delaunay *pd, dyd_work *w, size_t g) {
-  rim r = {0};
+dyd_status dyd_prove_face(dyd_face *as, dyd_vertex_pair **pair, const dyd_delaunay *pd, dyd_work *w,
+                          const dyd_face *face) {
+  DYD_SCOPED(rim) r = {0};
   bool found = false, proved = false;
   if (!pd->options.prove) return DYD_OK;
-  dyd_status st = rim_find(&found, &r, pd, &pd->open.face[g]);
+  dyd_status st = rim_find(&found, &r, pd, face);
   if (st == DYD_OK && found) st = ask_rim(&proved, pd, w, &r);
-  if (st == DYD_OK && proved) st = store_tie(pd, g, &r);
+  if (st == DYD_OK && proved) st = rim_tie(as, pair, pd, &r);
   w->counters.faces += st == DYD_OK && proved;
-  rim_clear(&r);
   return st;
 }
 
@@ -159,6 +144,21 @@ dyd_status dyd_prove_line(dyd_delaunay *pd, dyd_work *w) {
   st = pd->options.prove(&pd->line_tie, pd->options.prove_user, DYD_COLLINEAR, site, l->count, w->run->err);
   free(site);
   return st;
+}
+
+/* ---- the table ---- */
+
+void dyd_table_clear(dyd_undecided *f) {
+  dyd_free_all(f->face, f->seed, f->tri, f->pair, f->turned, f->of);
+  *f = (dyd_undecided){.kind = f->kind};
+}
+
+dyd_status dyd_table_mark(dyd_undecided *f, uint32_t n) {
+  size_t count = 2 * (size_t)n + 2; /* vertices may still come into the mesh */
+  if (f->of) return DYD_OK;
+  if (!DYD_NEW(f->of, count)) return DYD_E_NOMEM;
+  memset(f->of, 0xff, count * sizeof *f->of);
+  return DYD_OK;
 }
 
 /* Invariant: list[0..count-1] are triangles of the face in work. */
@@ -241,7 +241,7 @@ dyd_status dyd_ties_drop(dyd_delaunay *pd, uint32_t t) {
 dyd_status dyd_ties_add(dyd_delaunay *pd, dyd_work *w, uint32_t t) {
   tie_flood f = {0};
   if (dyd_triangle_is_certain(&pd->sk, t)) return DYD_OK;
-  dyd_status st = dyd_table_mark(pd);
+  dyd_status st = dyd_table_mark(&pd->open, pd->sk.n);
   if (st == DYD_OK && pd->open.of[t] == DYD_NONE) st = tie_find_face(&f, pd, w, t);
   free(f.list);
   return st;
@@ -253,7 +253,7 @@ dyd_status dyd_ties_find(dyd_delaunay *pd, dyd_work *w) {
   if (pd->sk.mesh.tally.ties == 0) return DYD_OK; /* [TIE-1] */
   for (uint32_t t = 0; t < pd->sk.mesh.count && st == DYD_OK; t++) {
     if (dyd_triangle_is_certain(&pd->sk, t)) continue;
-    st = dyd_table_mark(pd);
+    st = dyd_table_mark(&pd->open, pd->sk.n);
     if (st == DYD_OK && pd->open.of[t] == DYD_NONE) st = tie_find_face(&f, pd, w, t);
   }
   free(f.list);

@@ -11,6 +11,10 @@
 #include "delaunay/state.h"
 #include "skeleton/work.h"
 
+void dyd_table_clear(dyd_undecided *f);
+/* Marks all triangles as decided, unless there are marks. n: sites. */
+dyd_status dyd_table_mark(dyd_undecided *f, uint32_t n);
+
 /* Finds all faces and fills the table; the marks of the table are made when there is a face. On failure the table is
  * empty. */
 dyd_status dyd_ties_find(dyd_delaunay *pd, dyd_work *w);
@@ -53,10 +57,11 @@ dyd_status dyd_tie_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay
 
 /* ---- ties because the true points are proved to be on one circle or line ---- */
 
-/* Examines listed face g, which has not been closed, by the callback for proofs. Where it is a tie, its pairs are
- * stored, and it is marked as proved. Does nothing without a callback that proves. DYD_OK or a failure, also of the
- * callback that was asked. */
-dyd_status dyd_prove_face(dyd_delaunay *pd, dyd_work *w, size_t g);
+/* Examines a listed face, which has not been closed, by the callback for proofs. Where it is a tie, *as says so
+ * (proved), and *pair, owned by the caller, has its pairs. Does nothing without a callback that proves. DYD_OK or a
+ * failure, also of the callback that was asked. */
+dyd_status dyd_prove_face(dyd_face *as, dyd_vertex_pair **pair, const dyd_delaunay *pd, dyd_work *w,
+                          const dyd_face *face);
 /* A half-edge of the rim of listed face `face`, that of the ghost for a chain; DYD_NONE unless the rim is one cycle. */
 dyd_half_edge dyd_rim_start(bool *chain, const dyd_delaunay *pd, const dyd_face *face);
 /* The same for the sites of a line: pd->line_tie. */

@@ -3,7 +3,7 @@
 #include "delaunay/undecided.h"
 
 #include "base/alloc.h"
-#include "delaunay/face_table.h"
+#include "delaunay/faces.h"
 
 dyd_pair_status dyd_open_status_of(const dyd_delaunay *pd, size_t f) {
   switch (pd->open.kind) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Invariants of the table of undecided faces: faces.h, face_table.h, state.h. */
+/* Invariants of the table of undecided faces: faces.h, state.h. */
 #include "delaunay/table.h"
 
-#include "delaunay/face_table.h"
+#include "delaunay/faces.h"
 #include "delaunay/harness.h"
 
 #include <stdlib.h>

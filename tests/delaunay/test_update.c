@@ -6,7 +6,6 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
-#include "delaunay/face_table.h"
 #include "delaunay/faces.h"
 #include "delaunay/harness.h"
 #include "delaunay/local_filter.h"
