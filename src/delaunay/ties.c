@@ -260,22 +260,3 @@ dyd_status dyd_ties_find(dyd_delaunay *pd, dyd_work *w) {
   if (st != DYD_OK) dyd_table_clear(&pd->open);
   return st;
 }
-
-/* ---- reading ---- */
-
-dyd_status dyd_tie_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, size_t f) {
-  const dyd_mesh *m = &pd->sk.mesh;
-  dyd_half_edge first = dyd_tie_start(pd, f), h = first;
-  uint32_t *v = NULL;
-  size_t kept = 0, cap = 0;
-  do {
-    uint32_t w = dyd_edge_origin(m, h);
-    if (!DYD_GROW(v, cap, kept + 1)) return free(v), DYD_E_NOMEM;
-    if (w != m->n) v[kept++] = w;
-    h = dyd_tie_next(&pd->sk, h);
-  } while (h != first);
-  qsort(v, kept, sizeof *v, dyd_compare_index);
-  *vertex = v;
-  *count = kept;
-  return DYD_OK;
-}

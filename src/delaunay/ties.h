@@ -44,16 +44,6 @@ static inline dyd_half_edge dyd_tie_next(const dyd_skeleton *sk, dyd_half_edge h
 static inline dyd_half_edge dyd_tie_start(const dyd_delaunay *pd, size_t f) {
   return dyd_tie_rim(&pd->sk, dyd_edge_of(dyd_tie_seed(pd, f), 2));
 }
-/* Vertices on the rim, the ghost counted too. */
-static inline uint32_t dyd_tie_size(const dyd_skeleton *sk, dyd_half_edge first) {
-  dyd_half_edge h = first;
-  uint32_t size = 0;
-  do size++;
-  while ((h = dyd_tie_next(sk, h)) != first);
-  return size;
-}
-/* The vertices of face f, ascending, without the ghost; *vertex is owned by the caller. */
-dyd_status dyd_tie_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, size_t f);
 
 /* ---- ties because the true points are proved to be on one circle or line ---- */
 

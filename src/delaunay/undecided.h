@@ -10,8 +10,6 @@
 /* v and w in any order. */
 typedef void (*dyd_pair_visit)(void *context, uint32_t v, uint32_t w, dyd_pair_status status);
 
-/* How pairs of face f that are not legal are called. */
-dyd_pair_status dyd_open_status_of(const dyd_delaunay *pd, size_t f);
 /* Vertices of face f, ascending; *vertex is owned by the caller. */
 dyd_status dyd_open_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, size_t f);
 /* Returns true if it has triangles at the ghost. */
@@ -19,17 +17,9 @@ bool dyd_open_is_outer(const dyd_delaunay *pd, size_t f);
 /* Returns true if pairs of face f beyond the skeleton are missing, and if that is so since the face was postponed. */
 bool dyd_open_is_capped(const dyd_delaunay *pd, size_t f);
 bool dyd_open_is_postponed(const dyd_delaunay *pd, size_t f);
-/* The status of a pair that is not legal: not yet decided, or illegal. */
-dyd_pair_status dyd_open_status(const dyd_delaunay *pd, uint32_t v, uint32_t w);
-/* How many pairs of each status, that are not legal, are added to count[]. */
-void dyd_open_count(size_t count[4], const dyd_delaunay *pd);
 /* The pairs of vertex v that are not legal, each once; ties of exact points only if `least` is at most DYD_TIE. */
 void dyd_open_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_status least, dyd_pair_visit visit, void *context);
-/* The pairs of face f that are not legal, each once. */
-void dyd_open_each_in(const dyd_delaunay *pd, size_t f, dyd_pair_visit visit, void *context);
 
-/* How many pairs are legal; is this one? */
-uint64_t dyd_legal_count(const dyd_delaunay *pd);
 bool dyd_pair_is_legal(const dyd_delaunay *pd, uint32_t v, uint32_t w);
 /* Returns true if v is a corner of the hull for every choice. Is vw an edge of the hull of the representatives (of two
  * sites, too)? */
@@ -40,6 +30,17 @@ void dyd_legal_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_visit visit,
 
 static inline dyd_pair_status dyd_listed_status(const dyd_face *face) {
   return face->tie && !face->capped ? DYD_TIE : DYD_INDETERMINATE;
+}
+/* How pairs of face f that are not legal are called. */
+static inline dyd_pair_status dyd_open_status_of(const dyd_delaunay *pd, size_t f) {
+  switch (pd->open.kind) {
+  case DYD_LINE:
+    return pd->line_tie ? DYD_TIE : DYD_INDETERMINATE;
+  case DYD_TIED:
+    return DYD_TIE;
+  default:
+    return dyd_listed_status(&pd->open.face[f]);
+  }
 }
 
 static inline void dyd_each_listed(const dyd_delaunay *pd, size_t f, dyd_pair_visit visit, void *context) {
@@ -57,6 +58,15 @@ enum { DYD_RIM_PART = 3 };
 #else
 enum { DYD_RIM_PART = 64 };
 #endif
+
+/* Vertices on the rim, the ghost counted too. */
+static inline uint32_t dyd_tie_size(const dyd_skeleton *sk, dyd_half_edge first) {
+  dyd_half_edge h = first;
+  uint32_t size = 0;
+  do size++;
+  while ((h = dyd_tie_next(sk, h)) != first);
+  return size;
+}
 
 static inline void dyd_each_tied(const dyd_delaunay *pd, size_t f, dyd_pair_visit visit, void *context) {
   const dyd_skeleton *sk = &pd->sk;
