@@ -17,7 +17,7 @@
 #include "possible/patches_filter.h"
 #include "predicate/circle.h"
 #include "rect/rect.h"
-#include "skeleton/circumcentre.h"
+#include "legal/witness.h"
 #include "skeleton/hull.h"
 #include "skeleton/rects_filter.h"
 #include "skeleton/skeleton.h"

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "legal/planes.h"
+#include "legal/witness.h"
 #include "support/random.h"
 
 enum { MOST = 12 };
