@@ -13,9 +13,9 @@ Definition c_orient_delta : const := (10, 0)%Z.
 Definition c_orient_delta2 : const := (4, 0)%Z.
 (* [FLT-ORI] src/skeleton/mesh_filter.h: * (e + 4 * delta) + {}; *)
 Definition c_orient_tiny : const := (1, -1000)%Z.
-(* [FLT-ORI] src/skeleton/mesh_filter.h: double e = {} * (fabs(left) + fabs(right)) *)
+(* [FLT-ORI] src/skeleton/mesh_filter.c: double e = {} * (fabs(left) + fabs(right)) *)
 Definition c_orient_near : const := (2257429313219461, -102)%Z.
-(* [FLT-ORI] src/skeleton/mesh_filter.h: (fabs(left) + fabs(right)) + {}; *)
+(* [FLT-ORI] src/skeleton/mesh_filter.c: (fabs(left) + fabs(right)) + {}; *)
 Definition c_orient_near_tiny : const := (1, -1000)%Z.
 
 (* [FLT-INC] src/skeleton/mesh_filter.h: if (m->incircle_delta > {}) { *)
@@ -29,11 +29,11 @@ Definition c_incircle_tiny : const := (1, -790)%Z.
 Definition c_incircle_far : const := (8, 0)%Z.
 (* [FLT-INC] src/skeleton/mesh_filter.h: e += {} * m->incircle_delta * t * t * t; *)
 Definition c_incircle_delta : const := (60, 0)%Z.
-(* [FLT-INC] src/skeleton/mesh_filter.h: e = {} * e + *)
+(* [FLT-INC] src/skeleton/mesh_filter.c: e = {} * e + *)
 Definition c_incircle_near : const := (3110298492652749, -101)%Z.
-(* [FLT-INC] src/skeleton/mesh_filter.h: * e + {} * (la + lb + lc + 1); *)
+(* [FLT-INC] src/skeleton/mesh_filter.c: * e + {} * (la + lb + lc + 1); *)
 Definition c_incircle_near_tiny : const := (1, -1060)%Z.
-(* [FLT-INC] src/skeleton/mesh_filter.h: * (la + lb + lc + {}); *)
+(* [FLT-INC] src/skeleton/mesh_filter.c: * (la + lb + lc + {}); *)
 Definition c_one : const := (1, 0)%Z.
 
 (* [FLT-DST] src/skeleton/distance_filter.h: #define DYD_DOWN_FACTOR {} *)

@@ -5,7 +5,7 @@ From Flocq Require Import Core Binary.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient FiltersIncircle FiltersIncircleAt.
 Open Scope R_scope.
 
-(* C src/skeleton/mesh_filter.h dyd_filter_incircle_near
+(* C src/skeleton/mesh_filter.c dyd_filter_incircle_near
   double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y, cx = c.x - p.x, cy = c.y - p.y;
   double la = ax * ax + ay * ay, lb = bx * bx + by * by, lc = cx * cx + cy * cy;
   double a1 = bx * cy, a2 = by * cx, b1 = cx * ay, b2 = cy * ax, c1 = ax * by, c2 = ay * bx;

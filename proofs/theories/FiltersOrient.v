@@ -290,7 +290,7 @@ End Mesh.
 
 (** ** The bound for three points alone *)
 
-(* C src/skeleton/mesh_filter.h dyd_filter_orient_near
+(* C src/skeleton/mesh_filter.c dyd_filter_orient_near
   double left = (a.x - p.x) * (b.y - p.y), right = (a.y - p.y) * (b.x - p.x), d = left - right;
   double e = 4.01 * 0x1p-53 * (fabs(left) + fabs(right)) + 0x1p-1000;
   if (m->incircle_delta > 0) return 0;

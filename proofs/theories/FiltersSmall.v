@@ -19,7 +19,7 @@ Definition filter_incircle_small (exact_s ax ay bx by_ cx cy px py : double) : o
   let cx := (cx - px)%D in let cy := (cy - py)%D in
   if le (incircle_s ax ay bx by_ cx cy) exact_s then Some (sign_of (incircle_d ax ay bx by_ cx cy)) else None.
 
-(* C src/skeleton/mesh_filter.h dyd_filter_orient_small
+(* C src/skeleton/mesh_filter.c dyd_filter_orient_small
   double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y;
   if (!(ax * ax + ay * ay + bx * bx + by * by <= m->exact_s)) return false;
   double d = ax * by - ay * bx;

@@ -12,12 +12,12 @@
 
 #include "base/alloc.h"
 #include "legal/certify.h"
+#include "legal/witness.h"
 #include "possible/cover.h"
 #include "possible/pair_map.h"
 #include "possible/patches_filter.h"
 #include "predicate/circle.h"
 #include "rect/rect.h"
-#include "legal/witness.h"
 #include "skeleton/hull.h"
 #include "skeleton/rects_filter.h"
 #include "skeleton/skeleton.h"

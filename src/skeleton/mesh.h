@@ -145,8 +145,7 @@ static inline dyd_half_edge dyd_edge_turn_back(const dyd_mesh *m, dyd_half_edge 
 }
 /* The next one of a round that began at `first`; DYD_NONE: it is over. */
 static inline dyd_half_edge dyd_edge_around(const dyd_mesh *m, dyd_half_edge h, dyd_half_edge first) {
-  h = dyd_edge_turn(m, h);
-  return h == first ? DYD_NONE : h;
+  return dyd_edge_turn(m, h) == first ? DYD_NONE : dyd_edge_turn(m, h);
 }
 static inline void dyd_edge_join(dyd_mesh *m, dyd_half_edge h, dyd_half_edge twin) {
   m->tri[h >> 2].n[h & 3] = twin;
@@ -154,8 +153,7 @@ static inline void dyd_edge_join(dyd_mesh *m, dyd_half_edge h, dyd_half_edge twi
 }
 
 static inline bool dyd_is_ghost_triangle(const dyd_mesh *m, uint32_t t) {
-  const uint32_t *v = m->tri[t].v;
-  return v[0] == m->n || v[1] == m->n || v[2] == m->n;
+  return m->tri[t].v[0] == m->n || m->tri[t].v[1] == m->n || m->tri[t].v[2] == m->n;
 }
 
 /* The half-edges of t that are first and real, as bits. */
@@ -174,8 +172,7 @@ static inline unsigned dyd_edges_first_named(const dyd_mesh *m, uint32_t t) {
 
 /* The hull edge of the ghost triangle t. */
 static inline dyd_half_edge dyd_hull_edge(const dyd_mesh *m, uint32_t t) {
-  const uint32_t *v = m->tri[t].v;
-  return dyd_edge_of(t, v[0] == m->n ? 0 : v[1] == m->n ? 1 : 2);
+  return dyd_edge_of(t, m->tri[t].v[0] == m->n ? 0 : m->tri[t].v[1] == m->n ? 1 : 2);
 }
 static inline uint32_t dyd_hull_origin(const dyd_mesh *m, dyd_half_edge h) {
   return dyd_edge_target(m, h);

@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/invariant.h"
+#include "base/local.h"
 #include "base/parallel.h"
 #include "rect/rect.h"
 #include "rect/sites_table.h"
@@ -38,12 +39,6 @@ static void set_extent(dyd_mesh *m) {
   }
 }
 
-void dyd_mesh_follow(dyd_mesh *m) {
-  m->incircle_delta = m->no_filter ? INFINITY : m->reps->delta;
-  m->orient_bound = dyd_filter_orient_bound(m->extent[0], m->extent[1], m->reps->delta);
-  if (m->no_filter || isnan(m->orient_bound)) m->orient_bound = INFINITY;
-}
-
 void dyd_mesh_coordinates(dyd_mesh *m) {
   m->xy = m->own_xy ? m->own_xy : m->reps->xy;
   for (uint32_t v = 0; v < m->n && m->own_xy; v++) m->own_xy[v] = m->reps->xy[m->local[v]];
@@ -60,12 +55,18 @@ static dyd_status mesh_move(dyd_mesh *m, uint32_t v, uint32_t k) {
   dyd_status st = dyd_reps_choose(m->reps, r, k);
   if (st != DYD_OK) return st;
   if (m->own_xy) m->own_xy[v] = m->reps->xy[r];
-  dyd_fixed_free(m->fixed);
-  m->fixed = NULL;
   m->no_fixed = ++m->moved > 16; /* the grid costs O(n) each time */
   m->exact_s = m->no_fixed ? -1 : 0;
   dyd_mesh_follow(m);
   return DYD_OK;
+}
+
+bool dyd_mesh_same(const dyd_mesh *m, uint32_t a, uint32_t b) {
+  uint32_t u = dyd_mesh_rep(m, a), v = dyd_mesh_rep(m, b);
+  if (m->xy[a].x != m->xy[b].x || m->xy[a].y != m->xy[b].y) return false;
+  if (dyd_reps_is_double(m->reps, u) && dyd_reps_is_double(m->reps, v)) return true;
+  DYD_LOCAL(dyd_rect, p, q);
+  return dyd_reps_get(&p, m->reps, u) == DYD_OK && dyd_reps_get(&q, m->reps, v) == DYD_OK && dyd_rect_equal(&p, &q);
 }
 
 /* Moves v, or makes it an alias, until it differs from w. *differs: v is a vertex of its own. */
@@ -99,9 +100,7 @@ static bool two_others(uint32_t pair[2], dyd_mesh *m, uint32_t without) {
 static dyd_status always_collinear(bool *always, dyd_mesh *m) {
   bool vertical = true, horizontal = true, points = true;
   uint32_t alive = 0;
-  dyd_rect first, r;
-  dyd_rect_init(&first);
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, first, r);
   dyd_status st = DYD_OK;
   for (uint32_t v = m->begin; v < m->end && st == DYD_OK; v++) {
     if (dyd_mesh_alias(m, v) != DYD_NONE) continue;
@@ -112,8 +111,6 @@ static dyd_status always_collinear(bool *always, dyd_mesh *m) {
     horizontal = horizontal && dyd_interval_is_point(&r.y) && dyd_interval_contains(&first.y, &r.y);
   }
   *always = vertical || horizontal || points || alive <= 2;
-  dyd_rect_clear(&r);
-  dyd_rect_clear(&first);
   return st;
 }
 

@@ -21,8 +21,6 @@ void dyd_mesh_coordinates(dyd_mesh *m);
 /* A point that coincides with a vertex becomes its alias, anything else gives way; so points have to come first. Where
  * the order is another one, as that of several strips is, vertices are taken in two rounds: is it the turn of v? */
 void dyd_mesh_set_rounds(dyd_mesh *m);
-/* Representatives have been chosen anew: the filter constants follow. */
-void dyd_mesh_follow(dyd_mesh *m);
 /* Makes room for vertices up to n, which are points that reps has already; the ghost gets the number n. ghost: a ghost
  * triangle. width: that of all points in x and y. DYD_E_NOMEM: only clearing is allowed. */
 dyd_status dyd_mesh_grow(dyd_mesh *m, uint32_t n, uint32_t ghost, const double width[2]);
@@ -31,6 +29,8 @@ dyd_status dyd_mesh_grow(dyd_mesh *m, uint32_t n, uint32_t ghost, const double w
 void dyd_mesh_find(uint32_t *t, uint32_t *same, dyd_mesh *m, uint32_t v);
 /* Puts v into t, where it was found; the hint becomes a triangle at v. */
 dyd_status dyd_mesh_put(dyd_mesh *m, uint32_t v, uint32_t t);
+/* Returns true if the representatives of a and b are the same exact point. */
+bool dyd_mesh_same(const dyd_mesh *m, uint32_t a, uint32_t b);
 /* Gives back what only building needs. */
 void dyd_mesh_trim(dyd_mesh *m);
 void dyd_mesh_clear(dyd_mesh *m);

@@ -3,12 +3,43 @@
 #include "skeleton/mesh_filter.h"
 
 #include "base/alloc.h"
+#include "base/local.h"
 #include "rect/irect.h"
 #include "rect/rect.h"
 #include "skeleton/mesh.h"
 
 #include <math.h>
 #include <string.h>
+
+/* ---- doubles again, with bounds for these points alone ---- */
+
+int dyd_filter_orient_near(const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy p) {
+  double left = (a.x - p.x) * (b.y - p.y), right = (a.y - p.y) * (b.x - p.x), d = left - right;
+  double e = 4.01 * 0x1p-53 * (fabs(left) + fabs(right)) + 0x1p-1000;
+  if (m->incircle_delta > 0) return 0;
+  if (d > e) return 1;
+  return d < -e ? -1 : 0;
+}
+
+int dyd_filter_incircle_near(const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy c, dyd_xy p) {
+  double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y, cx = c.x - p.x, cy = c.y - p.y;
+  double la = ax * ax + ay * ay, lb = bx * bx + by * by, lc = cx * cx + cy * cy;
+  double a1 = bx * cy, a2 = by * cx, b1 = cx * ay, b2 = cy * ax, c1 = ax * by, c2 = ay * bx;
+  double d = la * (a1 - a2) + lb * (b1 - b2) + lc * (c1 - c2);
+  double e = la * (fabs(a1) + fabs(a2)) + lb * (fabs(b1) + fabs(b2)) + lc * (fabs(c1) + fabs(c2));
+  e = 11.05 * 0x1p-53 * e + 0x1p-1060 * (la + lb + lc + 1);
+  if (m->incircle_delta > 0) return 0;
+  if (d > e) return 1;
+  return d < -e ? -1 : 0;
+}
+
+bool dyd_filter_orient_small(int *sign, const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy p) {
+  double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y;
+  if (!(ax * ax + ay * ay + bx * bx + by * by <= m->exact_s)) return false;
+  double d = ax * by - ay * bx;
+  *sign = (d > 0) - (d < 0);
+  return true;
+}
 
 /* ---- fixed-size integers ----
  *
@@ -103,11 +134,8 @@ static bool scaled(int64_t *out, mpz_t t, const dyd_interval *a, const mpz_t lcm
 }
 
 static bool prepare_rationals(dyd_fixed *f, const dyd_mesh *m) {
-  mpz_t lcm, t;
-  dyd_rect q;
-  mpz_init(lcm);
-  mpz_init(t);
-  dyd_rect_init(&q);
+  DYD_LOCAL_NUMBERS(mpz, lcm, t);
+  DYD_LOCAL(dyd_rect, q);
   bool good = common_scale(lcm, &f->low, &q, m);
   if (good) f->z = dyd_alloc(m->end - m->begin, sizeof *f->z);
   good = good && f->z;
@@ -118,9 +146,6 @@ static bool prepare_rationals(dyd_fixed *f, const dyd_mesh *m) {
     good = dyd_reps_get(&q, m->reps, dyd_mesh_rep(m, v)) == DYD_OK && scaled(&z[0], t, &q.x, lcm, f->low) &&
            scaled(&z[1], t, &q.y, lcm, f->low);
   }
-  dyd_rect_clear(&q);
-  mpz_clear(t);
-  mpz_clear(lcm);
   return good;
 }
 
@@ -138,6 +163,14 @@ void dyd_fixed_prepare(dyd_mesh *m) {
     f = NULL;
   }
   install(m, f);
+}
+
+void dyd_mesh_follow(dyd_mesh *m) {
+  dyd_fixed_free(m->fixed);
+  m->fixed = NULL;
+  m->incircle_delta = m->no_filter ? INFINITY : m->reps->delta;
+  m->orient_bound = dyd_filter_orient_bound(m->extent[0], m->extent[1], m->reps->delta);
+  if (m->no_filter || isnan(m->orient_bound)) m->orient_bound = INFINITY;
 }
 
 /* f, of m, gets the coordinates of its right neighbour. */
@@ -282,20 +315,18 @@ typedef struct scaled_points {
 
 /* Cannot fail: every representative lies in the exponent range, since its rectangle does. */
 static void points_load(scaled_points *s, const dyd_mesh *m, const uint32_t *v, size_t count) {
-  dyd_rect r[4];
+  DYD_LOCAL_ARRAY(dyd_rect, r, [4]);
   const dyd_rect *in[4] = {NULL};
   s->count = count;
   for (size_t k = 0; k < count; k++) {
     dyd_irect_init(&s->p[k]);
-    dyd_rect_init(&r[k]);
     (void)dyd_reps_get(&r[k], m->reps, dyd_mesh_rep(m, v[k]));
     in[k] = &r[k];
   }
   dyd_irects_scale(s->p, in, count, NULL, NULL);
-  for (size_t k = 0; k < count; k++) dyd_rect_clear(&r[k]);
 }
 
-static void points_unload(scaled_points *s) {
+static void scaled_points_clear(scaled_points *s) {
   for (size_t k = 0; k < s->count; k++) dyd_irect_clear(&s->p[k]);
 }
 
@@ -315,24 +346,17 @@ static void points_cross(mpz_t out, mpz_t t, const dyd_irect *a, const dyd_irect
 }
 
 int dyd_mesh_orient_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
-  scaled_points s;
-  mpz_t d, t;
-  mpz_init(d);
-  mpz_init(t);
+  DYD_SCOPED(scaled_points) s;
+  DYD_LOCAL_NUMBERS(mpz, d, t);
   points_load(&s, m, (const uint32_t[]){a, b, c}, 3);
   points_recentre(&s);
   points_cross(d, t, &s.p[0], &s.p[1]);
-  int sign = mpz_sgn(d);
-  points_unload(&s);
-  mpz_clear(t);
-  mpz_clear(d);
-  return sign;
+  return mpz_sgn(d);
 }
 
 int dyd_mesh_incircle_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
-  scaled_points s;
-  mpz_t d, l, x, t;
-  mpz_inits(d, l, x, t, NULL);
+  DYD_SCOPED(scaled_points) s;
+  DYD_LOCAL_NUMBERS(mpz, d, l, x, t);
   points_load(&s, m, (const uint32_t[]){a, b, c, p}, 4);
   points_recentre(&s);
   for (unsigned k = 0; k < 3; k++) {
@@ -342,20 +366,16 @@ int dyd_mesh_incircle_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t 
     points_cross(x, t, &s.p[dyd_next(k)], &s.p[dyd_prev(k)]);
     mpz_addmul(d, l, x);
   }
-  int sign = mpz_sgn(d);
-  points_unload(&s);
-  mpz_clears(d, l, x, t, NULL);
-  return sign;
+  return mpz_sgn(d);
 }
 
 int dyd_mesh_compare(const dyd_mesh *m, uint32_t a, uint32_t b) {
   double x = m->xy[a].x - m->xy[b].x, y = m->xy[a].y - m->xy[b].y;
   if (!m->reps->code || fabs(x) > 4 * m->reps->delta) return x != 0 ? (x > 0) - (x < 0) : (y > 0) - (y < 0);
-  scaled_points s;
+  DYD_SCOPED(scaled_points) s;
   points_load(&s, m, (const uint32_t[]){a, b}, 2);
   int sign = mpz_cmp(s.p[0].x0, s.p[1].x0);
   if (!sign) sign = mpz_cmp(s.p[0].y0, s.p[1].y0);
-  points_unload(&s);
   return (sign > 0) - (sign < 0);
 }
 
@@ -367,31 +387,13 @@ bool dyd_mesh_between(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t p) {
   if (!m->reps->code && !m->no_filter) /* on one line either coordinate decides, unless it is the same for all */
     return is_strictly_between(m->xy[a].x, m->xy[b].x, m->xy[p].x) ||
            is_strictly_between(m->xy[a].y, m->xy[b].y, m->xy[p].y);
-  scaled_points s;
-  mpz_t d;
-  mpz_init(d);
+  DYD_SCOPED(scaled_points) s;
+  DYD_LOCAL_NUMBERS(mpz, d);
   points_load(&s, m, (const uint32_t[]){a, b, p}, 3);
   points_recentre(&s);
   mpz_mul(d, s.p[0].x0, s.p[1].x0);
   mpz_addmul(d, s.p[0].y0, s.p[1].y0);
-  bool between = mpz_sgn(d) < 0;
-  points_unload(&s);
-  mpz_clear(d);
-  return between;
-}
-
-bool dyd_mesh_same(const dyd_mesh *m, uint32_t a, uint32_t b) {
-  uint32_t u = dyd_mesh_rep(m, a), v = dyd_mesh_rep(m, b);
-  if (m->xy[a].x != m->xy[b].x || m->xy[a].y != m->xy[b].y) return false;
-  if (dyd_reps_is_double(m->reps, u) && dyd_reps_is_double(m->reps, v)) return true;
-  dyd_rect p, q;
-  dyd_rect_init(&p);
-  dyd_rect_init(&q);
-  bool same =
-      dyd_reps_get(&p, m->reps, u) == DYD_OK && dyd_reps_get(&q, m->reps, v) == DYD_OK && dyd_rect_equal(&p, &q);
-  dyd_rect_clear(&q);
-  dyd_rect_clear(&p);
-  return same;
+  return mpz_sgn(d) < 0;
 }
 
 static int orient_slow(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
@@ -479,9 +481,11 @@ static bool edge_is_delaunay(const dyd_mesh *m, dyd_half_edge h) {
  * wind twice around overlapping parts. */
 static bool hull_turns_once(const dyd_mesh *m) {
   uint32_t ghosts = 0, met = 0, turns = 0;
-  for (uint32_t t = 0; t < m->count; t++) ghosts += dyd_is_ghost_triangle(m, t);
+  dyd_half_edge first = DYD_NONE;
+  for (uint32_t t = 0; t < m->count; t++)
+    if (dyd_is_ghost_triangle(m, t)) ghosts++, first = dyd_hull_edge(m, t);
   if (!ghosts) return false;
-  dyd_half_edge first = dyd_hull_first(m), h = first;
+  dyd_half_edge h = first;
   bool before = false;
   do {
     bool right = dyd_mesh_compare(m, dyd_hull_origin(m, h), dyd_hull_target(m, h)) < 0;

@@ -99,38 +99,14 @@ static inline bool dyd_filter_incircle_small(int *sign, const dyd_mesh *m, dyd_i
   return true;
 }
 
+/* The same for orientation: then both products and their difference are exact [FLT-SMALL]. */
+bool dyd_filter_orient_small(int *sign, const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy p);
 /* After the mesh-wide orientation bound was unsure: the bound for these three points alone [FLT-ORI]. */
-static inline int dyd_filter_orient_near(const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy p) {
-  double left = (a.x - p.x) * (b.y - p.y), right = (a.y - p.y) * (b.x - p.x), d = left - right;
-  double e = 4.01 * 0x1p-53 * (fabs(left) + fabs(right)) + 0x1p-1000;
-  if (m->incircle_delta > 0) return 0;
-  if (d > e) return 1;
-  return d < -e ? -1 : 0;
-}
-
+int dyd_filter_orient_near(const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy p);
 /* After the in-circle filter was unsure: the permanent instead of its estimate s^2/3 [FLT-INC], for triangles with one
  * far vertex. la, bx cy, ... as before: |error| <= ((1+u)^11 - 1)(sum of la (|bx cy| + |by cx|)), computed with a
  * relative error below 20 u: 11.05 u leaves room. Underflow: <= 20 * 2^-1074 (s + 1). */
-static inline int dyd_filter_incircle_near(const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy c, dyd_xy p) {
-  double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y, cx = c.x - p.x, cy = c.y - p.y;
-  double la = ax * ax + ay * ay, lb = bx * bx + by * by, lc = cx * cx + cy * cy;
-  double a1 = bx * cy, a2 = by * cx, b1 = cx * ay, b2 = cy * ax, c1 = ax * by, c2 = ay * bx;
-  double d = la * (a1 - a2) + lb * (b1 - b2) + lc * (c1 - c2);
-  double e = la * (fabs(a1) + fabs(a2)) + lb * (fabs(b1) + fabs(b2)) + lc * (fabs(c1) + fabs(c2));
-  e = 11.05 * 0x1p-53 * e + 0x1p-1060 * (la + lb + lc + 1);
-  if (m->incircle_delta > 0) return 0;
-  if (d > e) return 1;
-  return d < -e ? -1 : 0;
-}
-
-/* The same for orientation: then both products and their difference are exact [FLT-SMALL]. */
-static inline bool dyd_filter_orient_small(int *sign, const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy p) {
-  double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y;
-  if (!(ax * ax + ay * ay + bx * bx + by * by <= m->exact_s)) return false;
-  double d = ax * by - ay * bx;
-  *sign = (d > 0) - (d < 0);
-  return true;
-}
+int dyd_filter_incircle_near(const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy c, dyd_xy p);
 
 /* Circumcentre in doubles, a guess without a bound; NaN or infinite for collinear points. */
 static inline dyd_xy dyd_circumcentre(dyd_xy a, dyd_xy b, dyd_xy c) {
@@ -187,6 +163,8 @@ void dyd_fixed_prepare(dyd_mesh *m);
 int dyd_fixed_orient(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);
 /* Exact sign on a grid of the four points' own, or on the common one; false when neither exists. */
 bool dyd_fixed_incircle(int *sign, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
+/* Representatives have been chosen anew: the filter constants follow, and the common grid goes. */
+void dyd_mesh_follow(dyd_mesh *m);
 void dyd_fixed_free(dyd_fixed *f);
 /* m, a part that grows by `right`: the grid of both, or none yet. m takes the grid of `whole`, which has none
  * afterwards. Only for meshes whose representatives are doubles. */
@@ -202,8 +180,6 @@ int dyd_mesh_incircle_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t 
 int dyd_mesh_compare(const dyd_mesh *m, uint32_t a, uint32_t b);
 /* Returns true if p, known to be collinear with a and b, lies strictly between them. */
 bool dyd_mesh_between(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t p);
-/* Returns true if the representatives of a and b are the same exact point. */
-bool dyd_mesh_same(const dyd_mesh *m, uint32_t a, uint32_t b);
 
 /* ---- the invariant ---- */
 
