@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Boxes along a direction, the direction in doubles, and back from the common scale. */
 #include "skeleton/rects_filter.c" /* functions are static */
-#include "skeleton/scale_set_filter.c"
 #include "vectors.h"
 
 static dyd_bbox box_at(const double *x) {

@@ -7,10 +7,10 @@ From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersDistance
   FiltersDirection.
 Open Scope R_scope.
 
-(* [FLT-SCALE] src/skeleton/scale_set_filter.c: x += (k & 1 ? 1 : -1) * {} * fabs(x); *)
+(* [FLT-SCALE] src/skeleton/rects_filter.c: x += (k & 1 ? 1 : -1) * {} * fabs(x); *)
 Definition c_scale : const := (1, -50)%Z.
 
-(* C src/skeleton/scale_set_filter.c dyd_scale_to_user
+(* C src/skeleton/rects_filter.c dyd_scale_to_user
   double l = mpz_get_d(s->lcm);
   if (l == 1) return;
   for (int k = 0; k < 4; k++) {

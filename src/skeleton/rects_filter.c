@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/invariant.h"
+#include "skeleton/work.h"
 
 #include <math.h>
 #include <string.h>
@@ -250,4 +251,17 @@ bool dyd_surely_not_beyond(const dyd_rects *r, double ux, double uy, uint32_t k,
   const double *e = r->box[k].e, x = ux > 0 ? e[0] : e[1], y = uy > 0 ? e[2] : e[3];
   const dyd_bbox least = {{x, x, y, y}};
   return reach(&least, ux, uy) + (fabs(ux) + fabs(uy)) * dyd_box_slack(r, k) * 2 <= height;
+}
+
+/* user = scaled / lcm, after the shift. The double nearest to lcm has a relative error of 2^-52, the division one of
+ * 2^-53 (or 2^-1074 absolute): widening by 4 ulp is outward. Denominators too large for doubles leave the plane
+ * [FLT-SCALE]. */
+void dyd_scale_to_user(dyd_bbox *box, const dyd_scale_set *s) {
+  double l = mpz_get_d(s->lcm);
+  if (l == 1) return;
+  for (int k = 0; k < 4; k++) {
+    double x = box->e[k] / l, out = k & 1 ? INFINITY : -INFINITY;
+    x += (k & 1 ? 1 : -1) * 4 * 0x1p-52 * fabs(x);
+    box->e[k] = isnan(x) || !isfinite(l) ? out : nextafter(x, out);
+  }
 }

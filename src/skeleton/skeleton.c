@@ -4,13 +4,167 @@
 
 #include "base/alloc.h"
 #include "base/invariant.h"
+#include "base/local.h"
 #include "base/parallel.h"
+#include "rect/irect.h"
 #include "skeleton/mesh_build.h"
 #include "skeleton/mesh_filter.h"
 #include "skeleton/work.h"
 
 #include <math.h>
 #include <string.h>
+
+/* ---- sites on one line ----
+ *
+ * Every pair is possible: the closed half-plane of the line has all points on its boundary and none in its open
+ * interior. A pair is legal iff a disc holds both rectangles and meets no other, that is iff the segment hull(R_i u
+ * R_j) of the line meets no other rectangle (the disc over that segment does it; any disc meets the line in a segment).
+ * With two sites the pair is legal [LINE-1]. */
+
+/* A site's extent along the line, as scaled integers: the axis along which the sites differ orders them. */
+typedef struct entry {
+  uint32_t vertex;
+  dyd_irect r;
+  int axis;
+} entry;
+
+static void line_clear(dyd_line *l) {
+  dyd_free_all(l->order, l->rank, l->legal);
+  memset(l, 0, sizeof *l);
+}
+
+static mpz_srcptr line_low(const entry *e) {
+  return e->axis == 0 ? e->r.x0 : e->r.y0;
+}
+static mpz_srcptr line_high(const entry *e) {
+  return e->axis == 0 ? e->r.x1 : e->r.y1;
+}
+
+static int line_compare(const void *a, const void *b) {
+  const entry *x = a, *y = b;
+  int c = mpz_cmp(line_low(x), line_low(y));
+  if (!c) c = mpz_cmp(line_high(x), line_high(y));
+  return c ? c : (x->vertex > y->vertex) - (x->vertex < y->vertex);
+}
+
+static dyd_status line_load(entry *e, const dyd_rects *rects, uint32_t count, const uint32_t *vertex) {
+  DYD_FREED dyd_rect *r = dyd_alloc(count, sizeof *r);
+  DYD_FREED const dyd_rect **in = calloc((size_t)count + 1, sizeof *in);
+  DYD_FREED dyd_irect *out = dyd_alloc(count, sizeof *out);
+  if (!r || !in || !out) return DYD_E_NOMEM;
+  for (uint32_t q = 0; q < count; q++) {
+    dyd_rect_init(&r[q]);
+    dyd_irect_init(&out[q]);
+    dyd_rects_get(&r[q], rects, vertex[q]);
+    in[q] = &r[q];
+  }
+  dyd_irects_scale(out, in, count, NULL, NULL);
+  for (uint32_t q = 0; q < count; q++) {
+    e[q] = (entry){.vertex = vertex[q], .r = out[q]};
+    dyd_rect_clear(&r[q]);
+  }
+  return DYD_OK;
+}
+
+/* x, unless the line is vertical. */
+static int line_axis(const entry *e, uint32_t count) {
+  for (uint32_t q = 0; q < count; q++)
+    if (mpz_cmp(e[q].r.x0, e[0].r.x0) != 0 || mpz_cmp(e[q].r.x1, e[q].r.x0) != 0) return 0;
+  return 1;
+}
+
+/* Sorted by lower end. hull(R_q u R_q+1) is free of others iff no site before reaches R_q's lower end and no site after
+ * starts at or before the larger upper end. */
+static void line_find_legal(dyd_line *l, const entry *e) {
+  uint32_t reach = 0; /* the entry with the largest upper end among 0 .. q-1 */
+  for (uint32_t q = 0; q + 1 < l->count; q++) {
+    mpz_srcptr top = mpz_cmp(line_high(&e[q]), line_high(&e[q + 1])) > 0 ? line_high(&e[q]) : line_high(&e[q + 1]);
+    bool before = q == 0 || mpz_cmp(line_high(&e[reach]), line_low(&e[q])) < 0;
+    bool after = q + 2 >= l->count || mpz_cmp(line_low(&e[q + 2]), top) > 0;
+    l->legal[q] = before && after;
+    if (q == 0 || mpz_cmp(line_high(&e[q]), line_high(&e[reach])) > 0) reach = q;
+  }
+}
+
+/* The first is certainly an end iff it lies before the second, which has the lowest end of the others; the last iff no
+ * site reaches it. Two sites need not be on a line: both are ends when they are apart. */
+static void line_find_ends(dyd_line *l, const entry *e) {
+  uint32_t last = l->count - 1, reach = 0;
+  if (l->count == 0) return;
+  for (uint32_t q = 1; q < last; q++)
+    if (mpz_cmp(line_high(&e[q]), line_high(&e[reach])) > 0) reach = q;
+  l->is_end[0] = last == 0 || mpz_cmp(line_high(&e[0]), line_low(&e[1])) < 0;
+  l->is_end[1] = last == 0 || mpz_cmp(line_high(&e[reach]), line_low(&e[last])) < 0;
+  if (l->count == 2) l->is_end[0] = l->is_end[1] = !dyd_irects_meet(&e[0].r, &e[1].r);
+}
+
+static dyd_status line_allocate(dyd_line *l, uint32_t n) {
+  return DYD_NEW(l->order, n) && DYD_NEW(l->rank, n) && DYD_ZEROED(l->legal, n ? n : 1) ? DYD_OK : DYD_E_NOMEM;
+}
+
+/* Equal exact points are neighbours in the order: the later ones become aliases and leave the list. */
+static void line_drop_aliases(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, entry *e) {
+  uint32_t kept = 0;
+  for (uint32_t q = 0; q < l->count; q++) {
+    bool same = kept && dyd_rects_is_point(rects, e[q].vertex) && dyd_rects_is_point(rects, e[kept - 1].vertex) &&
+                mpz_cmp(e[q].r.x0, e[kept - 1].r.x0) == 0 && mpz_cmp(e[q].r.y0, e[kept - 1].r.y0) == 0;
+    if (same) {
+      m->alias[e[q].vertex] = e[kept - 1].vertex;
+      dyd_irect_clear(&e[q].r);
+    } else
+      e[kept++] = e[q];
+  }
+  l->count = kept;
+}
+
+static void line_sort(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, entry *e) {
+  int axis = line_axis(e, l->count);
+  for (uint32_t q = 0; q < l->count; q++) e[q].axis = axis;
+  qsort(e, l->count, sizeof *e, line_compare);
+  line_drop_aliases(l, m, rects, e);
+  for (uint32_t q = 0; q < l->count; q++) {
+    l->order[q] = e[q].vertex;
+    l->rank[e[q].vertex] = q;
+  }
+  line_find_legal(l, e);
+  line_find_ends(l, e);
+  for (uint32_t q = 0; q < l->count; q++) dyd_irect_clear(&e[q].r);
+}
+
+/* From the rectangles of the n vertices. Vertices that turn out to be the same exact point become aliases in m. */
+static dyd_status line_build(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, uint32_t n) {
+  *l = (dyd_line){0};
+  dyd_status st = line_allocate(l, n);
+  if (st != DYD_OK) return st;
+  for (uint32_t v = 0; v < n; v++) {
+    l->rank[v] = DYD_NONE;
+    if (dyd_mesh_alias(m, v) == DYD_NONE) l->order[l->count++] = v;
+  }
+  DYD_FREED entry *e = dyd_alloc(l->count, sizeof *e);
+  if (!e) return DYD_E_NOMEM;
+  st = line_load(e, rects, l->count, l->order);
+  if (st == DYD_OK) line_sort(l, m, rects, e);
+  return st;
+}
+
+bool dyd_line_is_legal(const dyd_line *l, uint32_t v, uint32_t w) {
+  uint32_t a = l->rank[v], b = l->rank[w];
+  return a < b ? b == a + 1 && l->legal[a] : a == b + 1 && l->legal[b];
+}
+
+bool dyd_line_is_end(const dyd_line *l, uint32_t v) {
+  return (l->rank[v] == 0 && l->is_end[0]) || (l->rank[v] == l->count - 1 && l->is_end[1]);
+}
+
+size_t dyd_line_legal_pairs(const dyd_line *l) {
+  size_t count = 0;
+  for (uint32_t q = 0; q + 1 < l->count; q++) count += l->legal[q];
+  return count;
+}
+
+size_t dyd_line_open_pairs(const dyd_line *l) {
+  return l->count ? (size_t)l->count * (l->count - 1) / 2 - dyd_line_legal_pairs(l) : 0;
+}
 
 /* ---- edges ---- */
 
@@ -110,7 +264,7 @@ void dyd_skeleton_clear(dyd_skeleton *sk) {
   dyd_tree_clear(&sk->rects.tree);
   dyd_tree_clear(&sk->blocks);
   dyd_mesh_clear(&sk->mesh);
-  dyd_line_clear(&sk->line);
+  line_clear(&sk->line);
   dyd_reps_clear(&sk->reps);
   dyd_free_all(sk->block, sk->rects.box, sk->certain, sk->leaving, sk->vertex);
   memset(sk, 0, sizeof *sk);
@@ -236,7 +390,7 @@ dyd_status dyd_skeleton_build(dyd_skeleton *sk, const dyd_sites *sites, const dy
   sk->built = sk->n;
   dyd_status st = skeleton_reserve(sk);
   if (st == DYD_OK) st = skeleton_triangulate(sk, o);
-  if (st == DYD_OK && sk->mesh.collinear) st = dyd_line_build(&sk->line, &sk->mesh, &sk->rects, sk->n);
+  if (st == DYD_OK && sk->mesh.collinear) st = line_build(&sk->line, &sk->mesh, &sk->rects, sk->n);
   if (st == DYD_OK) st = build_maps(sk, o->threads);
   if (st == DYD_OK) st = build_boxes(sk);
   if (st == DYD_OK) DYD_INVARIANT(dyd_mesh_is_valid(&sk->mesh));
@@ -301,6 +455,103 @@ uint64_t dyd_skeleton_bytes(const dyd_sites *sites) {
   uint64_t n = dyd_sites_count(sites), each = 3 * sizeof(uint32_t) + 2 * sizeof(dyd_xy) + 2 * sizeof(dyd_tri) + 2;
   if (sites->upper[0] || sites->upper[1] || sites->exact) each += sizeof(uint32_t) + sizeof(dyd_bbox) + TREE;
   return n * each;
+}
+
+/* ---- a common integer scale of a growing set of rectangles ---- */
+
+void dyd_scale_set_init(dyd_scale_set *s, const dyd_rects *rects) {
+  *s = (dyd_scale_set){.rects = rects};
+  mpz_inits(s->lcm, s->growth, s->t, NULL);
+  dyd_rect_init(&s->load);
+  dyd_scale_set_empty(s);
+}
+
+void dyd_scale_set_clear(dyd_scale_set *s) {
+  for (size_t k = 0; k < s->made; k++) dyd_irect_clear(&s->rect[k]);
+  dyd_free_all(s->rect, s->vertex);
+  mpz_clears(s->lcm, s->growth, s->t, NULL);
+  dyd_rect_clear(&s->load);
+}
+
+void dyd_scale_set_empty(dyd_scale_set *s) {
+  s->count = 0;
+  mpz_set_ui(s->lcm, 1);
+  s->low = INT64_MAX;
+}
+
+static void scale_lower(int64_t *low, const dyd_dyadic *x) {
+  if (mpz_sgn(x->man) && x->exp < *low) *low = x->exp;
+}
+
+/* man * 2^exp / den in the scale of the set: exact, since den divides lcm and exp >= low. */
+static void scale_end(mpz_t out, const dyd_scale_set *s, const dyd_dyadic *x, const mpz_t den) {
+  if (mpz_sgn(x->man) == 0) {
+    mpz_set_ui(out, 0);
+    return;
+  }
+  mpz_mul_2exp(out, x->man, (mp_bitcnt_t)(x->exp - s->low));
+  if (mpz_cmp(den, s->lcm) != 0) {
+    mpz_mul(out, out, s->lcm);
+    mpz_divexact(out, out, den);
+  }
+}
+
+/* Refines the scale for the loaded rectangle; true if members there were have to grow. */
+static bool scale_refine(dyd_scale_set *s) {
+  int64_t low = s->low;
+  const dyd_interval *side[2] = {&s->load.x, &s->load.y};
+  mpz_set(s->t, s->lcm);
+  for (int a = 0; a < 2; a++) {
+    scale_lower(&low, &side[a]->lo);
+    scale_lower(&low, &side[a]->hi);
+    mpz_lcm(s->t, s->t, side[a]->den);
+  }
+  bool grows = s->count > 0 && (low < s->low || mpz_cmp(s->t, s->lcm) != 0);
+  if (grows) {
+    mpz_divexact(s->growth, s->t, s->lcm);
+    if (s->low != INT64_MAX) mpz_mul_2exp(s->growth, s->growth, (mp_bitcnt_t)(s->low - low));
+  }
+  mpz_set(s->lcm, s->t);
+  s->low = low;
+  return grows;
+}
+
+static void grow_members(dyd_scale_set *s) {
+  for (size_t k = 0; k < s->count; k++) {
+    mpz_mul(s->rect[k].x0, s->rect[k].x0, s->growth);
+    mpz_mul(s->rect[k].x1, s->rect[k].x1, s->growth);
+    mpz_mul(s->rect[k].y0, s->rect[k].y0, s->growth);
+    mpz_mul(s->rect[k].y1, s->rect[k].y1, s->growth);
+  }
+}
+
+static bool scale_find(size_t *index, const dyd_scale_set *s, uint32_t v) {
+  for (size_t k = 0; k < s->count; k++)
+    if (s->vertex[k] == v) return *index = k, true;
+  return false;
+}
+
+dyd_status dyd_scale_add(size_t *index, bool *grown, dyd_scale_set *s, uint32_t v) {
+  *grown = false;
+  if (scale_find(index, s, v)) return DYD_OK;
+  if (!DYD_GROW(s->vertex, s->vertex_cap, s->count + 1)) return DYD_E_NOMEM;
+  if (!DYD_GROW(s->rect, s->rect_cap, s->count + 1)) return DYD_E_NOMEM;
+  dyd_rects_get(&s->load, s->rects, v);
+  if (s->made == s->count) dyd_irect_init(&s->rect[s->made++]);
+  *grown = scale_refine(s);
+  if (*grown) grow_members(s);
+  dyd_irect *r = &s->rect[s->count];
+  scale_end(r->x0, s, &s->load.x.lo, s->load.x.den);
+  scale_end(r->x1, s, &s->load.x.hi, s->load.x.den);
+  scale_end(r->y0, s, &s->load.y.lo, s->load.y.den);
+  scale_end(r->y1, s, &s->load.y.hi, s->load.y.den);
+  s->vertex[s->count] = v;
+  *index = s->count++;
+  return DYD_OK;
+}
+
+int64_t dyd_scale_shift(const dyd_scale_set *s) {
+  return s->low == INT64_MAX ? 0 : -s->low;
 }
 
 /* ---- the work of one thread ---- */

@@ -19,9 +19,6 @@ typedef struct dyd_line {
   bool *legal, is_end[2];
 } dyd_line;
 
-/* From the rectangles of the n vertices. Vertices that turn out to be the same exact point become aliases in m. */
-dyd_status dyd_line_build(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, uint32_t n);
-void dyd_line_clear(dyd_line *l);
 /* Returns true if these neighbours are on the line, and legal. */
 bool dyd_line_is_legal(const dyd_line *l, uint32_t v, uint32_t w);
 /* Returns true if v is an end of the line, and apart from all others, for every choice. */

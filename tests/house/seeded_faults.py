@@ -31,7 +31,7 @@ FAULTS = [
     (NEAR, 'return 48.6 * reach * sqrt(lu * lw)', 'return 48.6 * (reach * sqrt(lu * lw))', 'constants', 'dyd_filter_hull_edge_near'),
     (INTERVAL, 'if (!(b.lo > 0 || b.hi < 0))', 'if (!(b.lo >= 0 || b.hi < 0))', 'constants', 'dyd_iv_div'),
     ('src/skeleton/rects_filter.c', 'px + py + 8 * 0x1p-53', 'px + py + 2 * 0x1p-53', 'constants', 'c_reach'),
-    ('src/skeleton/scale_set_filter.c', '* 4 * 0x1p-52 * fabs(x)', '* 1 * 0x1p-53 * fabs(x)', 'constants', 'c_scale'),
+    ('src/skeleton/rects_filter.c', '* 4 * 0x1p-52 * fabs(x)', '* 1 * 0x1p-53 * fabs(x)', 'constants', 'c_scale'),
     (STAR, 'double wide = (rho + p->reach) * DYD_UP_FACTOR', 'double wide = rho + p->reach', 'constants', 'certify_edges'),
     (STAR, 'need + 8 * 0x1p-53', 'need + 2 * 0x1p-53', 'constants', 'c_star_hull'),
     (STAR, '2 * (largest + 3 * sk->reps.delta)', '2 * (largest + 2 * sk->reps.delta)', 'constants', 'z_star_three'),
@@ -76,9 +76,9 @@ FAULTS = [
      'map', 'circle of modules: python/dyadel/_arrays'),
     ('src/python/dyadel/_points.py', '    rows = list(points)\n', '    from . import _voronoi, _calls\n    rows = list(points)\n',
      'map', 'circle of modules: python/dyadel/_calls'),
-    ('src/skeleton/line.c', 'static int line_compare(', 'static int tied_compare(', 'sources', 'the name of one in'),
+    ('src/skeleton/skeleton.c', 'static int line_compare(', 'static int tied_compare(', 'sources', 'the name of one in'),
     ('src/packaging/LICENCES.md', '| `gdal` |', '| files |', 'sources', 'gdal has no licence'),
-    ('src/skeleton/line.c', '#include "rect/irect.h"', '#include "engine/plan.h"', 'sources', 'must not include'),
+    ('src/skeleton/skeleton.c', '#include "rect/irect.h"', '#include "engine/plan.h"', 'sources', 'must not include'),
 ]
 # file, text, its replacement (all occurrences), what renew_quotes.py says
 CHANGES = [

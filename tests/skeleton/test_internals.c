@@ -8,8 +8,8 @@
 #include "rect/rect.h"
 #include "skeleton/rects_filter.h"
 #include "skeleton/reps.h"
-#include "skeleton/scale_set.h"
 #include "skeleton/skeleton.h"
+#include "skeleton/work.h"
 #include <cmocka.h>
 #include <math.h>
 #include <string.h>
