@@ -281,7 +281,7 @@ static bool can_extend(const dyd_delaunay *pd, uint32_t count) {
               pd->options.no_filter == sk->mesh.no_filter && sk->n + count <= DYD_MAX_SITES &&
               sk->n + count - sk->built <= sk->built / 16 + 32;
   for (uint32_t k = 0; k < count && fits && pd->open.kind == DYD_TIED; k++)
-    fits = dyd_sites_is_point(sk->rects.sites, sk->n + k) && dyd_sites_in_doubles(sk->rects.sites, sk->n + k);
+    fits = dyd_site_is_point(sk->rects.sites, sk->n + k) && dyd_sites_in_doubles(sk->rects.sites, sk->n + k);
   return fits;
 }
 

@@ -128,13 +128,9 @@ dyd_status dyd_sites_add_word_boxes(dyd_sites *s, size_t n, const dyd_words *cor
   return sites_add_corners(s, n, corner, 2);
 }
 
-static bool is_word_box(const dyd_sites *s, size_t i) {
-  return dyd_sites_in_words(s, i) && s->word[i] & DYD_WORD_BOX;
-}
-
 /* The lower or upper end of a site that is held in words. */
 static dyd_words words_of_end(const dyd_sites *s, size_t i, int axis, bool upper) {
-  const dyd_word_point *p = &s->point[(s->word[i] & ~DYD_WORD_BOX) - 1 + (upper && is_word_box(s, i))];
+  const dyd_word_point *p = &s->point[(s->word[i] & ~DYD_WORD_BOX) - 1 + (upper && dyd_site_is_word_box(s, i))];
   return (dyd_words){p->man[axis], p->den[axis], p->exp[axis]};
 }
 
@@ -220,8 +216,7 @@ bool dyd_sites_get_words(dyd_words end[4], const dyd_sites *s, size_t i) {
 /* Sites that are known to be the same place. */
 
 size_t dyd_sites_joined(const dyd_sites *s, size_t i) {
-  if (!s) return 0;
-  return i < s->joined_count ? s->joined[i] : i;
+  return s ? dyd_site_joined(s, i) : 0;
 }
 
 static dyd_status joined_make_room(dyd_sites *s) {
@@ -503,11 +498,7 @@ void dyd_sites_get_d(double out[4], const dyd_sites *s, size_t i) {
 }
 
 bool dyd_sites_is_point(const dyd_sites *s, size_t i) {
-  if (!s) return false;
-  if (dyd_sites_in_doubles(s, i))
-    return dyd_sites_lo(s, 0, i) == dyd_sites_hi(s, 0, i) && dyd_sites_lo(s, 1, i) == dyd_sites_hi(s, 1, i);
-  if (dyd_sites_in_words(s, i)) return !is_word_box(s, i);
-  return s->exact[i]->size[1] == DYD_SAME_AS_LOWER && s->exact[i]->size[4] == DYD_SAME_AS_LOWER;
+  return s && dyd_site_is_point(s, i);
 }
 
 /* Writes r over entry i, which has room in every array it needs. */
@@ -562,7 +553,7 @@ dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {
   DYD_LOCAL(dyd_rect, now);
   dyd_status st = dyd_sites_get(&now, s, i);
   if (st == DYD_OK && !dyd_rect_contains(&now, r)) st = DYD_E_NESTING;
-  if (st == DYD_OK && (!dyd_sites_in_words(s, i) || is_word_box(s, i))) {
+  if (st == DYD_OK && (!dyd_sites_in_words(s, i) || dyd_site_is_word_box(s, i))) {
     st = sites_put(s, i, r, s->exact ? s->exact[i] : NULL);
     kind_narrow(s, i);
   }

@@ -120,7 +120,24 @@ static inline bool dyd_sites_all_in_doubles(const dyd_sites *s) {
   return !s->exact && !s->word;
 }
 
+/* Of the ends in words of site i: they are those of a rectangle. */
+static inline bool dyd_site_is_word_box(const dyd_sites *s, size_t i) {
+  return dyd_sites_in_words(s, i) && s->word[i] & DYD_WORD_BOX;
+}
+/* dyd_sites_is_point of an existing site, for loops. */
+static inline bool dyd_site_is_point(const dyd_sites *s, size_t i) {
+  return dyd_sites_in_doubles(s, i)
+             ? dyd_sites_lo(s, 0, i) == dyd_sites_hi(s, 0, i) && dyd_sites_lo(s, 1, i) == dyd_sites_hi(s, 1, i)
+         : dyd_sites_in_words(s, i)
+             ? !dyd_site_is_word_box(s, i)
+             : s->exact[i]->size[1] == DYD_SAME_AS_LOWER && s->exact[i]->size[4] == DYD_SAME_AS_LOWER;
+}
+
 /* The lowest site joined with site i: i itself where there is none. */
+static inline size_t dyd_site_joined(const dyd_sites *s, size_t i) {
+  return i < s->joined_count ? s->joined[i] : i;
+}
+/* The same where there may be no table. */
 size_t dyd_sites_joined(const dyd_sites *s, size_t i);
 /* Says that the true points of two sites are the same place: the higher number becomes an alias of the lower one, and
  * both get what their rectangles have in common. Transitive. DYD_E_NESTING (nothing changed) when they have nothing in

@@ -148,8 +148,7 @@ static inline dyd_half_edge dyd_edge_around(const dyd_mesh *m, dyd_half_edge h, 
   return dyd_edge_turn(m, h) == first ? DYD_NONE : dyd_edge_turn(m, h);
 }
 static inline void dyd_edge_join(dyd_mesh *m, dyd_half_edge h, dyd_half_edge twin) {
-  m->tri[h >> 2].n[h & 3] = twin;
-  m->tri[twin >> 2].n[twin & 3] = h;
+  m->tri[h >> 2].n[h & 3] = twin, m->tri[twin >> 2].n[twin & 3] = h;
 }
 
 static inline bool dyd_is_ghost_triangle(const dyd_mesh *m, uint32_t t) {

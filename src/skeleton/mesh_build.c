@@ -18,7 +18,7 @@
 
 /* Returns true if the site of v is an exact point. */
 static bool mesh_is_point(const dyd_mesh *m, uint32_t v) {
-  return dyd_sites_is_point(m->reps->sites, m->reps->site[dyd_mesh_rep(m, v)]);
+  return dyd_site_is_point(m->reps->sites, m->reps->site[dyd_mesh_rep(m, v)]);
 }
 
 static void no_aliases(dyd_mesh *m, uint32_t from, uint32_t end) {
@@ -205,8 +205,7 @@ static void mesh_put_first(dyd_mesh *m, const uint32_t first[3]) {
 }
 
 void dyd_mesh_trim(dyd_mesh *m) {
-  dyd_fixed_free(m->fixed);
-  dyd_free_all(m->rim, m->spare);
+  dyd_free_all(m->fixed, m->rim, m->spare);
   m->fixed = NULL;
   m->exact_s = -1;
   m->no_fixed = true; /* later questions are few, and the grid would cost O(n) */
@@ -686,7 +685,7 @@ static dyd_status mesh_put_joined(dyd_mesh *m) {
   dyd_status st = vertex ? DYD_OK : DYD_E_NOMEM;
   for (uint32_t v = 0; v < m->n && vertex; v++) vertex[m->reps->site[v]] = v;
   for (uint32_t v = 0; v < m->n && vertex; v++) {
-    uint32_t of = vertex[dyd_sites_joined(sites, m->reps->site[v])];
+    uint32_t of = vertex[dyd_site_joined(sites, m->reps->site[v])];
     if (of != v) m->alias[v] = of;
   }
   free(vertex);

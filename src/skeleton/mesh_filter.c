@@ -61,9 +61,9 @@ struct dyd_fixed {
 
 enum { COORDINATE_BITS = 60 };
 
-void dyd_fixed_free(dyd_fixed *f) {
-  if (!f) return;
-  dyd_free_all(f->z, f);
+/* With room for the coordinates of so many vertices behind it. */
+static size_t fixed_size(size_t vertices) {
+  return sizeof(dyd_fixed) + vertices * sizeof(int64_t[2]);
 }
 
 /* x = man * 2^exp, man odd; x finite, not 0 and not subnormal (false otherwise). */
@@ -137,8 +137,7 @@ static bool prepare_rationals(dyd_fixed *f, const dyd_mesh *m) {
   DYD_LOCAL_NUMBERS(mpz, lcm, t);
   DYD_LOCAL(dyd_rect, q);
   bool good = common_scale(lcm, &f->low, &q, m);
-  if (good) f->z = dyd_alloc(m->end - m->begin, sizeof *f->z);
-  good = good && f->z;
+  f->z = (int64_t(*)[2])(f + 1);
   f->first = m->begin;
   f->den = mpz_get_ui(lcm);
   for (uint32_t v = m->begin; v < m->end && good; v++) {
@@ -157,30 +156,31 @@ static void install(dyd_mesh *m, dyd_fixed *f) {
 
 void dyd_fixed_prepare(dyd_mesh *m) {
   if (m->fixed || m->no_fixed || m->no_filter) return;
-  dyd_fixed *f = calloc(1, sizeof *f);
+  dyd_fixed *f = calloc(1, fixed_size(m->reps->code ? m->end - m->begin : 0));
   if (f && !(m->reps->code ? prepare_rationals(f, m) : prepare_doubles(f, m))) {
-    dyd_fixed_free(f);
+    free(f);
     f = NULL;
   }
   install(m, f);
 }
 
 void dyd_mesh_follow(dyd_mesh *m) {
-  dyd_fixed_free(m->fixed);
+  free(m->fixed);
   m->fixed = NULL;
   m->incircle_delta = m->no_filter ? INFINITY : m->reps->delta;
   m->orient_bound = dyd_filter_orient_bound(m->extent[0], m->extent[1], m->reps->delta);
   if (m->no_filter || isnan(m->orient_bound)) m->orient_bound = INFINITY;
 }
 
-/* f, of m, gets the coordinates of its right neighbour. */
-static bool append_rationals(dyd_fixed *f, const dyd_fixed *g, const dyd_mesh *m, const dyd_mesh *right) {
+/* *f, of m, gets the coordinates of its right neighbour. */
+static bool append_rationals(dyd_fixed **f, const dyd_fixed *g, const dyd_mesh *m, const dyd_mesh *right) {
   size_t left = m->end - m->begin, more = right->end - right->begin;
-  if (f->den != g->den || f->low != g->low) return false;
-  int64_t(*z)[2] = realloc(f->z, (left + more) * sizeof *z);
-  if (!z) return false;
-  memcpy(z + left, g->z, more * sizeof *z);
-  f->z = z;
+  if ((*f)->den != g->den || (*f)->low != g->low) return false;
+  dyd_fixed *all = realloc(*f, fixed_size(left + more));
+  if (!all) return false;
+  all->z = (int64_t(*)[2])(all + 1);
+  memcpy(all->z + left, g->z, more * sizeof *g->z);
+  *f = all;
   return true;
 }
 
@@ -193,11 +193,11 @@ void dyd_fixed_join(dyd_mesh *m, const dyd_mesh *right) {
   dyd_fixed *f = m->fixed;
   const dyd_fixed *g = right->fixed;
   bool fractions = m->reps->code;
-  if (f && g && (fractions ? append_rationals(f, g, m, right) : join_ranges(f, g))) {
+  if (f && g && (fractions ? append_rationals(&f, g, m, right) : join_ranges(f, g))) {
     install(m, f);
     return;
   }
-  dyd_fixed_free(f);
+  free(f);
   m->fixed = NULL;
   m->no_fixed = m->no_fixed || right->no_fixed || (f && g) || fractions;
   m->exact_s = m->no_fixed ? -1 : 0;

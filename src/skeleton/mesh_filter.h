@@ -165,7 +165,6 @@ int dyd_fixed_orient(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);
 bool dyd_fixed_incircle(int *sign, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
 /* Representatives have been chosen anew: the filter constants follow, and the common grid goes. */
 void dyd_mesh_follow(dyd_mesh *m);
-void dyd_fixed_free(dyd_fixed *f);
 /* m, a part that grows by `right`: the grid of both, or none yet. m takes the grid of `whole`, which has none
  * afterwards. Only for meshes whose representatives are doubles. */
 void dyd_fixed_join(dyd_mesh *m, const dyd_mesh *right);

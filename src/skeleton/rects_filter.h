@@ -68,7 +68,7 @@ static inline void dyd_rects_get(dyd_rect *out, const dyd_rects *r, uint32_t v) 
   (void)st;
 }
 static inline bool dyd_rects_is_point(const dyd_rects *r, uint32_t v) {
-  return dyd_sites_is_point(r->sites, r->site[v]);
+  return dyd_site_is_point(r->sites, r->site[v]);
 }
 /* Returns true if box[v] is the rectangle itself. */
 static inline bool dyd_rects_in_doubles(const dyd_rects *r, uint32_t v) {

@@ -3,6 +3,7 @@
 #include "skeleton/reps.h"
 
 #include "base/alloc.h"
+#include "base/local.h"
 #include "base/parallel.h"
 #include "rect/rect.h"
 
@@ -71,6 +72,7 @@ static uint32_t hilbert_key(const hilbert_table *h, uint32_t x, uint32_t y) {
   return key >> 4;
 }
 
+/* The nearest finite double. */
 static double clamp(double x) {
   return x > DBL_MAX ? DBL_MAX : x < -DBL_MAX ? -DBL_MAX : x;
 }
@@ -124,7 +126,7 @@ static uint32_t order_place(const keys *k, int axis, size_t i) {
 }
 
 static uint32_t order_key(const keys *k, uint32_t i) {
-  uint32_t x = order_place(k, 0, i), y = order_place(k, 1, i), fat = k->mixed && !dyd_sites_is_point(k->sites, i);
+  uint32_t x = order_place(k, 0, i), y = order_place(k, 1, i), fat = k->mixed && !dyd_site_is_point(k->sites, i);
   uint32_t key = (fat << 30 | (uint32_t)level_of(i) << 28 | hilbert_key(k->h, x, y)) >> k->shift;
   return k->column ? key | k->column[x] << STRIP_BIT : key;
 }
@@ -214,8 +216,9 @@ dyd_status dyd_spatial_order(uint32_t *order, dyd_strips *strips, const dyd_site
   size_t n = s->count;
   hilbert_table h;
   bool few = n <= FEW;
+  keys k = {.sites = s, .h = few ? NULL : &h, .strips = strips_for(n)};
+  k.a = dyd_alloc(n, sizeof *k.a);
   uint64_t *b = few ? NULL : dyd_alloc(n, sizeof *b);
-  keys k = {.sites = s, .h = few ? NULL : &h, .strips = strips_for(n), .a = dyd_alloc(n, sizeof *k.a)};
   if (!few) k.count = calloc(PASSES, sizeof *k.count);
   if (k.strips > 1) k.column = calloc(COLUMNS, sizeof *k.column);
   k.shift = k.strips > 1 ? 31 - STRIP_BIT : 0;
@@ -250,9 +253,7 @@ static fraction fraction_of(uint32_t k, int axis) {
 /* lo + f (hi - lo), exactly; a rational point stays itself. */
 static dyd_status at_fraction(dyd_interval *a, fraction f) {
   if (dyd_interval_is_point(a)) return DYD_OK;
-  dyd_dyadic d, t;
-  dyd_dyadic_init(&d);
-  dyd_dyadic_init(&t);
+  DYD_LOCAL(dyd_dyadic, d, t);
   mpz_set_ui(t.man, 1);
   mpz_set_ui(d.man, (unsigned long)f.num);
   dyd_status st = dyd_dyadic_set_z_2exp(&t, d.man, -(int64_t)f.bits);
@@ -260,8 +261,6 @@ static dyd_status at_fraction(dyd_interval *a, fraction f) {
   if (st == DYD_OK) st = dyd_dyadic_mul(&d, &d, &t);
   if (st == DYD_OK) st = dyd_dyadic_add(&d, &d, &a->lo);
   if (st == DYD_OK) dyd_interval_set_over(a, &d, a->den);
-  dyd_dyadic_clear(&t);
-  dyd_dyadic_clear(&d);
   return st;
 }
 
@@ -283,50 +282,38 @@ static double reps_middle(double lo, double hi) {
   return m < lo ? lo : m > hi ? hi : m;
 }
 
-static double to_finite(double x) {
-  return x > DBL_MAX ? DBL_MAX : x < -DBL_MAX ? -DBL_MAX : x;
-}
-
 /* A bound of the error of the nearest (clamped) double to a point in [lo,hi], adjacent doubles or equal. */
 static double spread(double lo, double hi) {
   return hi > DBL_MAX || lo < -DBL_MAX ? INFINITY : hi - lo;
 }
 
 static dyd_status keep_code(dyd_reps *r, uint32_t v, uint32_t code) {
-  if (!r->code && code) {
-    if (!DYD_ZEROED(r->code, r->n ? r->n : 1)) return DYD_E_NOMEM;
-  }
+  if (!r->code && code && !DYD_ZEROED(r->code, r->n ? r->n : 1)) return DYD_E_NOMEM;
   if (r->code && r->code[v] != code) r->code[v] = code; /* most stay 0: their pages are never there */
   return DYD_OK;
 }
 
 static dyd_status choose_exact(dyd_reps *r, uint32_t v, uint32_t k) {
-  dyd_rect q;
+  DYD_LOCAL(dyd_rect, q);
   double lo[2], hi[2];
-  dyd_rect_init(&q);
   dyd_status st = exact_fraction(&q, r, v, k);
   if (st == DYD_OK) st = keep_code(r, v, k + 1);
   if (st == DYD_OK) {
     dyd_interval_get_d(&lo[0], &hi[0], &q.x);
     dyd_interval_get_d(&lo[1], &hi[1], &q.y);
-    r->xy[v] = (dyd_xy){to_finite(lo[0]), to_finite(lo[1])};
+    r->xy[v] = (dyd_xy){clamp(lo[0]), clamp(lo[1])};
     for (int a = 0; a < 2; a++) r->delta = fmax(r->delta, spread(lo[a], hi[a]));
     if (r->delta == 0 && lo[0] == hi[0] && lo[1] == hi[1]) st = keep_code(r, v, 0);
   }
-  dyd_rect_clear(&q);
   return st;
 }
 
 /* Sets *inside to whether the double point p is inside the exact rectangle of v. */
 static dyd_status holds(bool *inside, const dyd_reps *r, uint32_t v, dyd_xy p) {
-  dyd_rect box, point;
-  dyd_rect_init(&box);
-  dyd_rect_init(&point);
+  DYD_LOCAL(dyd_rect, box, point);
   dyd_status st = dyd_sites_get(&box, r->sites, r->site[v]);
   if (st == DYD_OK) st = dyd_rect_set_d(&point, p.x, p.x, p.y, p.y);
   if (st == DYD_OK) *inside = dyd_rect_contains(&box, &point);
-  dyd_rect_clear(&point);
-  dyd_rect_clear(&box);
   return st;
 }
 
@@ -339,7 +326,7 @@ dyd_status dyd_reps_stay(bool *stays, const dyd_reps *r, uint32_t v) {
 static dyd_status choose_point(dyd_reps *r, uint32_t v, uint32_t k, const double b[4]) {
   dyd_status st = keep_code(r, v, k + 1);
   if (st != DYD_OK) return st;
-  r->xy[v] = (dyd_xy){to_finite(b[0]), to_finite(b[2])};
+  r->xy[v] = (dyd_xy){clamp(b[0]), clamp(b[2])};
   for (int a = 0; a < 4; a += 2) r->delta = fmax(r->delta, spread(b[a], b[a + 1]));
   return DYD_OK;
 }
@@ -348,7 +335,7 @@ static dyd_status choose_point(dyd_reps *r, uint32_t v, uint32_t k, const double
 static dyd_status choose_in(dyd_reps *r, uint32_t v, uint32_t k, const double b[4]) {
   const dyd_sites *s = r->sites;
   bool inside = dyd_sites_in_doubles(s, r->site[v]);
-  if (!inside && (b[0] < b[1] || b[2] < b[3]) && dyd_sites_is_point(s, r->site[v])) return choose_point(r, v, k, b);
+  if (!inside && (b[0] < b[1] || b[2] < b[3]) && dyd_site_is_point(s, r->site[v])) return choose_point(r, v, k, b);
   if (k == 0) {
     dyd_xy p = {reps_middle(b[0], b[1]), reps_middle(b[2], b[3])};
     if (!inside && isfinite(b[0]) && isfinite(b[1]) && isfinite(b[2]) && isfinite(b[3])) {

@@ -47,23 +47,20 @@ static int line_compare(const void *a, const void *b) {
   return c ? c : (x->vertex > y->vertex) - (x->vertex < y->vertex);
 }
 
-static dyd_status line_load(entry *e, const dyd_rects *rects, uint32_t count, const uint32_t *vertex) {
-  DYD_FREED dyd_rect *r = dyd_alloc(count, sizeof *r);
-  DYD_FREED const dyd_rect **in = calloc((size_t)count + 1, sizeof *in);
-  DYD_FREED dyd_irect *out = dyd_alloc(count, sizeof *out);
-  if (!r || !in || !out) return DYD_E_NOMEM;
-  for (uint32_t q = 0; q < count; q++) {
+/* The entries of the line. r, in, out: scratch. */
+static void line_load(entry *e, dyd_rect *r, const dyd_rect **in, dyd_irect *out, const dyd_rects *rects,
+                      const dyd_line *l) {
+  for (uint32_t q = 0; q < l->count; q++) {
     dyd_rect_init(&r[q]);
     dyd_irect_init(&out[q]);
-    dyd_rects_get(&r[q], rects, vertex[q]);
+    dyd_rects_get(&r[q], rects, l->order[q]);
     in[q] = &r[q];
   }
-  dyd_irects_scale(out, in, count, NULL, NULL);
-  for (uint32_t q = 0; q < count; q++) {
-    e[q] = (entry){.vertex = vertex[q], .r = out[q]};
+  dyd_irects_scale(out, in, l->count, NULL, NULL);
+  for (uint32_t q = 0; q < l->count; q++) {
+    e[q] = (entry){.vertex = l->order[q], .r = out[q]};
     dyd_rect_clear(&r[q]);
   }
-  return DYD_OK;
 }
 
 /* x, unless the line is vertical. */
@@ -141,10 +138,13 @@ static dyd_status line_build(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, u
     if (dyd_mesh_alias(m, v) == DYD_NONE) l->order[l->count++] = v;
   }
   DYD_FREED entry *e = dyd_alloc(l->count, sizeof *e);
-  if (!e) return DYD_E_NOMEM;
-  st = line_load(e, rects, l->count, l->order);
-  if (st == DYD_OK) line_sort(l, m, rects, e);
-  return st;
+  DYD_FREED dyd_rect *r = dyd_alloc(l->count, sizeof *r);
+  DYD_FREED dyd_irect *out = dyd_alloc(l->count, sizeof *out);
+  DYD_FREED const dyd_rect **in = calloc((size_t)l->count + 1, sizeof *in);
+  if (!e || !r || !in || !out) return DYD_E_NOMEM;
+  line_load(e, r, in, out, rects, l);
+  line_sort(l, m, rects, e);
+  return DYD_OK;
 }
 
 bool dyd_line_is_legal(const dyd_line *l, uint32_t v, uint32_t w) {
@@ -367,7 +367,7 @@ static dyd_status build_maps(dyd_skeleton *sk, unsigned threads) {
   find_leaving(sk, threads);
   sk->all_points = true;
   if (dyd_sites_are_double_points(sk->rects.sites)) return DYD_OK;
-  for (uint32_t i = 0; i < sk->n && sk->all_points; i++) sk->all_points = dyd_sites_is_point(sk->rects.sites, i);
+  for (uint32_t i = 0; i < sk->n && sk->all_points; i++) sk->all_points = dyd_site_is_point(sk->rects.sites, i);
   return DYD_OK;
 }
 
