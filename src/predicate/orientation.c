@@ -206,7 +206,7 @@ static int compare_distance_exact(const dyd_point *c, const dyd_rect *const in[2
   DYD_LOCAL_ARRAY(dyd_irect, r, [2]);
   DYD_LOCAL_ARRAY(mpz_t, distance, [2]);
   DYD_LOCAL_NUMBERS(mpz, cx, cy);
-  dyd_irects_scale_point(cx, cy, r, c, in, 2);
+  dyd_irects_scale_with(cx, cy, r, c, in, 2, NULL, NULL);
   for (int k = 0; k < 2; k++) {
     if (touch[k] == DYD_FARTHEST) {
       dyd_irect_dl2(distance[k], cx, cy, &r[k]);

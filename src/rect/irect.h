@@ -28,23 +28,13 @@ static inline mpz_srcptr dyd_irect_end(const dyd_irect *r, int axis, int upper) 
 /* Scales in[0..n-1] by one common factor F = scale_man * 2^scale_exp > 0 into out[0..n-1] (initialised by the
  * caller). scale_man, scale_exp may be NULL. Exact, cannot fail. */
 void dyd_irects_scale(dyd_irect *out, const dyd_rect *const *in, size_t n, mpz_ptr scale_man, int64_t *scale_exp);
-/* The same with a dyadic point c and the rectangles: (cx, cy) = F c. */
-void dyd_irects_scale_point(mpz_ptr cx, mpz_ptr cy, dyd_irect *out, const dyd_point *c, const dyd_rect *const *in,
-                            size_t n);
-
-/* Both of these: c may be NULL (then cx, cy are not used), scale_man and scale_exp too. */
+/* The same with a dyadic point c and the rectangles: (cx, cy) = F c. c may be NULL: cx, cy are not used. */
 void dyd_irects_scale_with(mpz_ptr cx, mpz_ptr cy, dyd_irect *out, const dyd_point *c, const dyd_rect *const *in,
                            size_t n, mpz_ptr scale_man, int64_t *scale_exp);
 
 /* ds(c,r)^2 and dl(c,r)^2 [DIST-1]. out must not alias the inputs. */
 void dyd_irect_ds2(mpz_ptr out, mpz_srcptr cx, mpz_srcptr cy, const dyd_irect *r);
 void dyd_irect_dl2(mpz_ptr out, mpz_srcptr cx, mpz_srcptr cy, const dyd_irect *r);
-
-/* Twice the area of the convex hull of a u b. */
-void dyd_irect_partial_edge_area2(mpz_ptr out, const dyd_irect *a, const dyd_irect *b);
-
-/* Returns true if the convex hulls of a u b and of c u d are disjoint. Touching counts as meeting [HULL-1]. */
-bool dyd_irect_partial_edges_disjoint(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c, const dyd_irect *d);
 
 /* Returns true if they have a common point. */
 static inline bool dyd_irects_meet(const dyd_irect *a, const dyd_irect *b) {
