@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 
-MESH, DISTANCE = 'src/skeleton/mesh_filter.h', 'src/skeleton/distance_filter.h'
+MESH, DISTANCE = 'src/skeleton/mesh_filter.h', 'src/skeleton/rects_filter.h'
 NEAR, INTERVAL = 'src/legal/star_filter.h', 'src/predicate/interval_filter.h'
 STAR = 'src/legal/star_filter.c'
 # file, text, its replacement, script that must notice, word in its complaint
@@ -25,7 +25,7 @@ FAULTS = [
     (MESH, '#define DYD_INCIRCLE_BOUND 4.5e-16', '#define DYD_INCIRCLE_BOUND 4.0e-16', 'constants', 'c_incircle_bound'),
     (DISTANCE, '(1 - 10 * 0x1p-53)', '(1 - 4 * 0x1p-53)', 'constants', 'c_down_factor'),
     (MESH, 'extent_x * extent_y * 1.01e-15', '1.01e-15 * extent_x * extent_y', 'constants', 'dyd_filter_orient_bound'),
-    (MESH, 'e = 11.05 * 0x1p-53 * e', 'e = 11.0 * 0x1p-53 * e', 'constants', 'c_incircle_near'),
+    ('src/skeleton/mesh_filter.c', 'e = 11.05 * 0x1p-53 * e', 'e = 11.0 * 0x1p-53 * e', 'constants', 'c_incircle_near'),
     (NEAR, 'k = 24.3 * reach', 'k = 24.2 * reach', 'constants', 'c_near_k'),
     (NEAR, 'k * (lv * lz) * (a1 + ea)', 'k * (lv * lz) * (a1 - ea)', 'constants', 'dyd_filter_edge_near'),
     (NEAR, 'return 48.6 * reach * sqrt(lu * lw)', 'return 48.6 * (reach * sqrt(lu * lw))', 'constants', 'dyd_filter_hull_edge_near'),
