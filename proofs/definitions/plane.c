@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Orientation, in-circle and bounds of distances of skeleton/mesh_filter.h and distance_filter.h. */
-#include "skeleton/distance_filter.h"
+/* Orientation, in-circle and bounds of distances of skeleton/mesh_filter.h and rects_filter.h. */
 #include "skeleton/mesh_filter.h"
+#include "skeleton/rects_filter.h"
 #include "vectors.h"
 
 #include <math.h>

@@ -36,15 +36,15 @@ Definition c_incircle_near_tiny : const := (1, -1060)%Z.
 (* [FLT-INC] src/skeleton/mesh_filter.c: * (la + lb + lc + {}); *)
 Definition c_one : const := (1, 0)%Z.
 
-(* [FLT-DST] src/skeleton/distance_filter.h: #define DYD_DOWN_FACTOR {} *)
+(* [FLT-DST] src/skeleton/rects_filter.h: #define DYD_DOWN_FACTOR {} *)
 Definition c_down_factor : const := (4503599627370491, -52)%Z.
-(* [FLT-DST] src/skeleton/distance_filter.h: #define DYD_UP_FACTOR {} *)
+(* [FLT-DST] src/skeleton/rects_filter.h: #define DYD_UP_FACTOR {} *)
 Definition c_up_factor : const := (4503599627370501, -52)%Z.
-(* [FLT-DST] src/skeleton/distance_filter.h: #define DYD_TINY {} *)
+(* [FLT-DST] src/skeleton/rects_filter.h: #define DYD_TINY {} *)
 Definition c_tiny : const := (1, -1000)%Z.
-(* [FLT-DST] src/skeleton/distance_filter.h: return y > DBL_MAX / 4 ? {} : y; *)
+(* [FLT-DST] src/skeleton/rects_filter.h: return y > DBL_MAX / 4 ? {} : y; *)
 Definition c_cut : const := (9007199254740991, 969)%Z.
-(* [FLT-DST] src/skeleton/distance_filter.h: if (!(dx <= {} && dy *)
+(* [FLT-DST] src/skeleton/rects_filter.h: if (!(dx <= {} && dy *)
 Definition c_dbl_max : const := (9007199254740991, 971)%Z.
 
 (** Constants as numerals that lra can read. *)

@@ -30,11 +30,11 @@ Proof.
      now apply lower_end_less with (ylo R)|now apply upper_end_more with (yhi R)].
 Qed.
 
-(* C src/skeleton/distance_filter.h dyd_min
+(* C src/skeleton/rects_filter.h dyd_min
   return a < b ? a : b;
 *)
 Definition fmin (a b : double) : double := if lt a b then a else b.
-(* C src/skeleton/distance_filter.h dyd_box_widen
+(* C src/skeleton/rects_filter.h dyd_box_widen
   h->e[0] = dyd_min(h->e[0], b->e[0]);
   h->e[1] = dyd_max(h->e[1], b->e[1]);
   h->e[2] = dyd_min(h->e[2], b->e[2]);

@@ -10,21 +10,21 @@ Open Scope R_scope.
 (** xlo, xhi, ylo, yhi. *)
 Record bbox := { e0 : double; e1 : double; e2 : double; e3 : double }.
 
-(* C src/skeleton/distance_filter.h dyd_max
+(* C src/skeleton/rects_filter.h dyd_max
   return a > b ? a : b;
 *)
 Definition fmax (a b : double) : double := if gt a b then a else b.
-(* C src/skeleton/distance_filter.h dyd_lower
+(* C src/skeleton/rects_filter.h dyd_lower
   double y = x * DYD_DOWN_FACTOR - DYD_TINY;
   return y > DBL_MAX / 4 ? DBL_MAX / 4 : y;
 *)
 Definition lower (x : double) : double :=
   let y := (x * lit c_down_factor - lit c_tiny)%D in if gt y (lit c_cut) then lit c_cut else y.
-(* C src/skeleton/distance_filter.h dyd_upper
+(* C src/skeleton/rects_filter.h dyd_upper
   return x * DYD_UP_FACTOR + DYD_TINY;
 *)
 Definition upper (x : double) : double := (x * lit c_up_factor + lit c_tiny)%D.
-(* C src/skeleton/distance_filter.h dyd_ds2_lower
+(* C src/skeleton/rects_filter.h dyd_ds2_lower
   double dx = dyd_max(dyd_max(b->e[0] - c->e[1], c->e[0] - b->e[1]), 0);
   double dy = dyd_max(dyd_max(b->e[2] - c->e[3], c->e[2] - b->e[3]), 0);
   return dyd_lower(dx * dx + dy * dy);
@@ -33,7 +33,7 @@ Definition ds2_lower (c b : bbox) : double :=
   let dx := fmax (fmax (e0 b - e1 c) (e0 c - e1 b)) (lit c_zero) in
   let dy := fmax (fmax (e2 b - e3 c) (e2 c - e3 b)) (lit c_zero) in
   lower (dx * dx + dy * dy).
-(* C src/skeleton/distance_filter.h dyd_dl2_upper
+(* C src/skeleton/rects_filter.h dyd_dl2_upper
   double dx = dyd_max(b->e[1] - c->e[0], c->e[1] - b->e[0]);
   double dy = dyd_max(b->e[3] - c->e[2], c->e[3] - b->e[2]);
   return dyd_upper(dx * dx + dy * dy);

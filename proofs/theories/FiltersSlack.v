@@ -5,7 +5,9 @@ From Flocq Require Import Core Plus_error Sterbenz Binary.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersDistance.
 Open Scope R_scope.
 
-(* C src/skeleton/distance_filter.h dyd_ds2_upper
+(* any src/skeleton/rects_filter.h: return m * {} + 0x1p-1074; *)
+(* any src/skeleton/rects_filter.h: return m * 0x1p-52 + {}; *)
+(* C src/skeleton/rects_filter.h dyd_ds2_upper
   double dx = dyd_max(b->e[0] - c->e[0], c->e[1] - b->e[1]) + slack;
   double dy = dyd_max(b->e[2] - c->e[2], c->e[3] - b->e[3]) + slack;
   if (!(dx <= DBL_MAX && dy <= DBL_MAX)) return HUGE_VAL;
@@ -21,7 +23,7 @@ Definition ds2_upper (c b : bbox) (slack : double) : double :=
     let dy := fmax dy (lit c_zero) in
     upper (dx * dx + dy * dy)
   else inf.
-(* C src/skeleton/distance_filter.h dyd_dl2_lower
+(* C src/skeleton/rects_filter.h dyd_dl2_lower
   double dx = dyd_max(dyd_max(b->e[1] - c->e[1], c->e[0] - b->e[0]) - slack, 0);
   double dy = dyd_max(dyd_max(b->e[3] - c->e[3], c->e[2] - b->e[2]) - slack, 0);
   return dyd_lower(dx * dx + dy * dy);

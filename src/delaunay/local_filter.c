@@ -4,10 +4,10 @@
  * [LOC-3] Let i and j be joined by an edge of the skeleton inside a face of the plane graph of certain edges, and W the
  * vertices of all faces at i and at j (three of a decided triangle, all of an undecided face). If at c all of W but i
  * and j are certainly farther than i and j, so are all sites: c is a witness. So no search among all sites is needed;
- * the bounds are those of distance_filter.h [FLT-DST]. */
+ * the bounds are those of rects_filter.h [FLT-DST]. */
 #include "delaunay/local_filter.h"
 
-#include "skeleton/distance_filter.h"
+#include "skeleton/rects_filter.h"
 
 #include <math.h>
 

@@ -11,7 +11,7 @@
 #include "delaunay/memory.h"
 #include "predicate/interval_filter.h"
 #include "rect/irect.h"
-#include "skeleton/distance_filter.h"
+#include "skeleton/rects_filter.h"
 #include <dyadel/graph.h>
 
 /* Rectangles that are compared exactly. Invariant: rect and grid are initialised up to made; grid[0 .. count-1] are in

@@ -9,7 +9,7 @@
  * fat ones are asked through a tree of their own: c is a witness. The hull in the same way: if v is farther than all
  * its neighbours by 2E in the direction u, then it is farther than all vertices by 2E.
  *
- * Bounds: distances as in skeleton/distance_filter.h; representatives that are not doubles are off by delta, E grows by
+ * Bounds: distances as in skeleton/rects_filter.h; representatives that are not doubles are off by delta, E grows by
  * 3 delta. The centres need no bound: any double will do. Both ends of an edge use the same bits for c and rho. */
 #include "legal/star_filter.h"
 

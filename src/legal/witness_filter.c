@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Cutting planes in doubles, as in witness.c, with distances bounded as in skeleton/distance_filter.h.
+/* Cutting planes in doubles, as in witness.c, with distances bounded as in skeleton/rects_filter.h.
  *
  * A witness is reported only if ds_k^2 from below exceeds dl_i^2 and dl_j^2 from above for every k that the tree names.
  *

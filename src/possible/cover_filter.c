@@ -36,7 +36,7 @@ typedef struct dyd_place {
 
 /* The place of beta needs no bound; its blockers do. That beta passes through a short segment across it is shown by
  * ds_i < ds_j at the one end and ds_j < ds_i at the other [BETA-1]; distances are bounded as in
- * skeleton/distance_filter.h [FLT-DST]. The end of beta at infinity is the normal of the outer common tangent, and k is
+ * skeleton/rects_filter.h [FLT-DST]. The end of beta at infinity is the normal of the outer common tangent, and k is
  * beyond the tangent iff the two points where it touches and every point of k turn the same way [COV-2]; turns are
  * those of predicate/predicate_filter.h. An end of an outward box lies at most a slack outside of its rectangle; twice
  * that covers the rounding of the corner, too. */

@@ -8,13 +8,12 @@
  * plane with its directions, since neighbours share lines or rays bit by bit. The site with the least dl at a point of
  * a patch is possibly nearest there and never leaves its list, so the list alone bounds M(c) from below: sites of the
  * list with ds(c) <= M(c) are possible neighbours of one another. Distances are bounded as in
- * skeleton/distance_filter.h [FLT-DST], heights as in skeleton/rects_filter.c [FLT-DIR]; NaN and infinities compare
+ * skeleton/rects_filter.h [FLT-DST], heights as in skeleton/rects_filter.c [FLT-DIR]; NaN and infinities compare
  * false and prove nothing. */
 #include "possible/patches_filter.h"
 
 #include "base/alloc.h"
 #include "predicate/predicate_filter.h"
-#include "skeleton/distance_filter.h"
 #include "skeleton/rects_filter.h"
 
 #include <math.h>
@@ -67,7 +66,7 @@ static inline double dyd_closest_upper(const dyd_plane_corner *v, const dyd_bbox
 }
 
 /* If ds_i(c), ds_j(c) <= M(c), the least dl_k(c) of all k, then c is a centre of ij [POS-1]. Any c will do; the bounds
- * are those of skeleton/distance_filter.h [FLT-DST]. NaN proves nothing. */
+ * are those of skeleton/rects_filter.h [FLT-DST]. NaN proves nothing. */
 
 /* least: a lower bound of the least dl^2 of those visited; bound: an upper one, of all. */
 typedef struct search {

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- the packed box tree; its pruning tests are the bounds of distance_filter.h and [FLT-DIR] below ---- */
+/* ---- the packed box tree; its pruning tests are the bounds of the header and [FLT-DIR] below ---- */
 
 /* Children of node q on level k: entries [first, end) of the level below (items for k = 0). */
 static void children(size_t *first, size_t *end, const dyd_tree *t, int k, size_t q) {

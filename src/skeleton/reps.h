@@ -9,7 +9,7 @@
 
 #include "base/index.h"
 #include "rect/sites_table.h"
-#include "skeleton/distance_filter.h"
+#include "skeleton/rects_filter.h"
 
 typedef struct dyd_xy {
   double x, y;

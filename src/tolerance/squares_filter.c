@@ -11,7 +11,7 @@
  *
  * Doubles decide which other sites may come to a disc; all uncertain ones are added. A square about a point in the box
  * b, of half-width h, is in b widened by h and SPARE of all sizes, and holds what b less all that leaves; distances to
- * these are bounded as in skeleton/distance_filter.h. */
+ * these are bounded as in skeleton/rects_filter.h. */
 #include "legal/witness.h"
 #include "possible/cover.h"
 #include "predicate/circle.h"

@@ -4,7 +4,7 @@
 #include <stdarg.h>
 
 #include "delaunay/read_case.h"
-#include "skeleton/distance_filter.h"
+#include "skeleton/rects_filter.h"
 #include <cmocka.h>
 #include <math.h>
 
