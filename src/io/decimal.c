@@ -9,6 +9,7 @@
 #include "io/decimal.h"
 
 #include "base/alloc.h"
+#include "base/local.h"
 #include "dyadic/raw.h"
 #include "io/read/coordinate.h"
 #include "voronoi/surd_point.h"
@@ -225,14 +226,12 @@ static char *rational_text(const dyd_interval *a, bool upper) {
     free(whole);
     return text;
   }
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   dyd_interval_get_q(lo, hi, a);
   mpq_srcptr q = upper ? hi : lo;
   size_t size = mpz_sizeinbase(mpq_numref(q), 10) + mpz_sizeinbase(mpq_denref(q), 10) + 3;
   text = dyd_alloc(size, 1);
   if (text) mpq_get_str(text, 10, q);
-  mpq_clears(lo, hi, NULL);
   return text;
 }
 
@@ -241,12 +240,10 @@ char *dyd_end_text(const dyd_interval *a, bool upper) {
   const dyd_dyadic *end = upper ? &a->hi : &a->lo;
   if (mpz_cmp_ui(a->den, 1) == 0) return dyd_dyadic_get_str(end);
   if (!mpz_divisible_p(end->man, a->den)) return rational_text(a, upper);
-  dyd_dyadic whole;
-  dyd_dyadic_init(&whole);
+  DYD_LOCAL(dyd_dyadic, whole);
   dyd_dyadic_set(&whole, end);
   mpz_divexact(whole.man, whole.man, a->den);
   char *text = dyd_dyadic_get_str(&whole);
-  dyd_dyadic_clear(&whole);
   return text;
 }
 
@@ -280,8 +277,7 @@ char *dyd_words_put(char to[DYD_WORDS_SIZE], const dyd_words *w) {
 /* ---- numbers (a + b sqrt(c)) / d ---- */
 
 void dyd_exact_text(FILE *out, mpz_srcptr a, mpz_srcptr b, mpz_srcptr c, mpz_srcptr d) {
-  mpz_t gcd, p, q, r;
-  mpz_inits(gcd, p, q, r, NULL);
+  DYD_LOCAL_NUMBERS(mpz, gcd, p, q, r);
   bool root = mpz_sgn(b) && mpz_sgn(c);
   mpz_gcd(gcd, a, d);
   if (root) mpz_gcd(gcd, gcd, b);
@@ -299,7 +295,6 @@ void dyd_exact_text(FILE *out, mpz_srcptr a, mpz_srcptr b, mpz_srcptr c, mpz_src
     gmp_fprintf(out, "%Zd", p);
   }
   if (!whole) gmp_fprintf(out, "/%Zd", r);
-  mpz_clears(gcd, p, q, r, NULL);
 }
 
 /* Fine enough for 17 digits of 1 / d. */
@@ -309,27 +304,23 @@ static int64_t enclosure_bits(const dyd_surd_point *p) {
 
 void dyd_exact_enclose(double box[4], const dyd_surd_point *p) {
   int64_t bits = enclosure_bits(p);
-  mpz_t floor, ceiling;
-  mpz_inits(floor, ceiling, NULL);
+  DYD_LOCAL_NUMBERS(mpz, floor, ceiling);
   for (int axis = 0; axis < 2; axis++) {
     dyd_surd_point_floor(floor, ceiling, p, axis, bits);
     box[2 * axis] = dyd_raw_get_d(floor, -bits, DYD_DOWN);
     box[2 * axis + 1] = dyd_raw_get_d(ceiling, -bits, DYD_UP);
   }
-  mpz_clears(floor, ceiling, NULL);
 }
 
 void dyd_exact_enclose_root(double *lo, double *hi, const dyd_surd_point *p) {
   int64_t bits = enclosure_bits(p);
-  mpz_t floor, ceiling, rest;
-  mpz_inits(floor, ceiling, rest, NULL);
+  DYD_LOCAL_NUMBERS(mpz, floor, ceiling, rest);
   dyd_surd_point_floor(floor, ceiling, p, 0, 2 * bits);
   mpz_sqrt(floor, floor);
   mpz_sqrtrem(ceiling, rest, ceiling);
   if (mpz_sgn(rest)) mpz_add_ui(ceiling, ceiling, 1);
   *lo = dyd_raw_get_d(floor, -bits, DYD_DOWN);
   *hi = dyd_raw_get_d(ceiling, -bits, DYD_UP);
-  mpz_clears(floor, ceiling, rest, NULL);
 }
 
 void dyd_exact_decimals(FILE *out, double lo, double hi, const char *between) {

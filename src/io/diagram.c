@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "delaunay/memory.h"
 #include "delaunay/undecided.h"
 #include "metric/bounds.h"
@@ -190,9 +191,8 @@ double dyd_diagram_tile(size_t *end, const dyd_diagram *d, const dyd_tiles *tile
 }
 
 dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, void *context) {
-  dyd_rect r;
   dyd_status st = DYD_OK;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   for (size_t f = 0; f < dyd_delaunay_undecided_faces(d->pd) && st == DYD_OK; f++) {
     bool any = true;
     double b[4];
@@ -205,7 +205,6 @@ dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, voi
     dyd_rect_get_d(b, &r);
     if (st == DYD_OK) st = visit(context, f, any ? b : NULL);
   }
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -220,26 +219,22 @@ static dyd_status find_vertex(double out[4], const dyd_diagram *d, const dyd_tri
     for (int k = 0; k < 4; k++) out[k] = b.e[k];
     return DYD_OK;
   }
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_flag_is_set(d->cancel) ? DYD_E_RANGE : dyd_voronoi_vertex(&r, d->pd, t, bits);
   dyd_rect_get_d(out, &r);
   if (st != DYD_OK) {
     out[0] = out[2] = -INFINITY;
     out[1] = out[3] = INFINITY;
   }
-  dyd_rect_clear(&r);
   return st == DYD_E_RANGE ? DYD_OK : st;
 }
 
 /* Where rectangles give no bound, the enclosure has infinite ends. */
 static dyd_status find_tied_vertex(bool *tied, double out[4], const dyd_diagram *d, size_t f) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_voronoi_tied_vertex(&r, tied, d->pd, f, d->vertex_bits);
   dyd_rect_get_d(out, &r);
   for (int k = 0; k < 4 && st == DYD_E_RANGE; k++) out[k] = k & 1 ? INFINITY : -INFINITY;
-  dyd_rect_clear(&r);
   return st == DYD_E_RANGE ? DYD_OK : st;
 }
 
@@ -285,8 +280,7 @@ bool dyd_diagram_vertex_in_window(const dyd_diagram *d, size_t k) {
 }
 
 dyd_status dyd_diagram_vertex(char *text[4], const dyd_diagram *d, size_t k) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   for (int m = 0; m < 4; m++) text[m] = NULL;
   size_t triangles = d->triangles.count;
   bool tied;
@@ -296,7 +290,6 @@ dyd_status dyd_diagram_vertex(char *text[4], const dyd_diagram *d, size_t k) {
     text[m] = dyd_end_text(m < 2 ? &r.x : &r.y, m & 1);
     if (!text[m]) st = DYD_E_NOMEM;
   }
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -387,7 +380,7 @@ static void dual_join_ties(dyd_dual_edge *e, const dyd_delaunay *pd, const dual_
 
 /* A certain hull edge with a vertex on one side has its ray on the other. Both sides open: the ray is unknown. */
 static dyd_status dual_join_rays(dyd_dual_edge *edge, size_t count, const dyd_delaunay *pd) {
-  dyd_hull hull = {0};
+  DYD_SCOPED(dyd_hull) hull = {0};
   dyd_status st = dyd_delaunay_partial_hull(&hull, pd, true);
   if (st == DYD_CAPPED) st = DYD_OK; /* then it lists no pairs */
   for (size_t k = 0; st == DYD_OK && k < hull.pairs.count; k++) {
@@ -396,7 +389,6 @@ static dyd_status dual_join_rays(dyd_dual_edge *edge, size_t count, const dyd_de
     if (e && (e->end[0].kind == DYD_DUAL_VERTEX) != (e->end[1].kind == DYD_DUAL_VERTEX))
       dual_set_ray(e, pd, e->end[0].kind == DYD_DUAL_VERTEX);
   }
-  dyd_hull_clear(&hull);
   return st;
 }
 
@@ -410,7 +402,7 @@ static dyd_status legal_pairs(dyd_dual_edge **out, size_t *count, const dyd_pair
 }
 
 dyd_status dyd_diagram_edges(dyd_dual_edge **out, size_t *count, const dyd_diagram *d) {
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_dual_edge *edge = NULL;
   uint64_t bytes = d->discs ? 0 : dyd_pairs_bytes(d->pd, DYD_LEGAL),
            most = d->discs ? d->discs->count : bytes / sizeof(dyd_pair);
@@ -418,7 +410,6 @@ dyd_status dyd_diagram_edges(dyd_dual_edge **out, size_t *count, const dyd_diagr
     return DYD_E_NOMEM;
   dyd_status st = d->discs ? DYD_OK : dyd_pairs_take(&pairs, d->pd, DYD_LEGAL);
   if (st == DYD_OK) st = legal_pairs(&edge, count, d->discs ? d->discs : &pairs);
-  dyd_pair_list_clear(&pairs);
   if (st == DYD_OK) {
     dual_join_triangles(edge, *count, &d->triangles);
     const dual_ties all = {.tied = d->tied, .count = d->ties, .first = d->triangles.count};
@@ -528,13 +519,12 @@ static dyd_status frame_add_ends(frame_maker *m, const dyd_dual_edge *e) {
 
 dyd_status dyd_diagram_frame(dyd_frame *out, const dyd_diagram *d) {
   frame_maker m = {.out = out, .d = d};
-  dyd_dual_edge *edge = NULL;
+  DYD_FREED dyd_dual_edge *edge = NULL;
   size_t count = 0;
   dyd_status st = dyd_diagram_edges(&edge, &count, d);
   if (st == DYD_OK) out->edge = dyd_alloc(count, sizeof *out->edge);
   if (st == DYD_OK && !out->edge) st = DYD_E_NOMEM;
   for (size_t k = 0; k < count && st == DYD_OK; k++) st = frame_add_ends(&m, &edge[k]);
-  free(edge);
   for (size_t k = 0; k < dyd_diagram_vertices(d) && st == DYD_OK; k++) {
     dyd_index_list sites = {0};
     st = dyd_diagram_vertex_sites(&sites, d, k);
@@ -578,10 +568,8 @@ static dyd_status coarsen_flattening(dyd_diagram *d) {
   int64_t least = COMMON + 3 - dyd_metric_flattening(d->pd, &d->window, 0);
   dyd_status st = DYD_E_RANGE;
   while (st == DYD_E_RANGE && d->bits > least) {
-    dyd_voronoi_bounds b;
-    dyd_voronoi_bounds_init(&b);
+    DYD_LOCAL(dyd_voronoi_bounds, b);
     st = dyd_voronoi_bounds_within(&b, d->pd, &d->window, d->bits, 0, d->discs, d->cancel);
-    dyd_voronoi_bounds_clear(&b);
     if (st == DYD_E_RANGE) d->bits -= COARSER;
   }
   return st == DYD_E_NOMEM ? st : DYD_OK;

@@ -9,6 +9,7 @@
 #include "io/geodesic.h"
 
 #include "base/alloc.h"
+#include "base/local.h"
 #include <math.h>
 #include <string.h>
 
@@ -243,7 +244,7 @@ static void arc_put(dyd_table *t, const dyd_lon_lat *p, size_t k, size_t n, doub
 dyd_status dyd_row_arc(dyd_table *t, const double a[4], const double b[4]) {
   const dyd_side side = {.from = dyd_lon_lat_of(a), .to = dyd_lon_lat_of(b)};
   const double *const end[2] = {a, b};
-  dyd_lon_lat *p = NULL;
+  DYD_FREED dyd_lon_lat *p = NULL;
   size_t n = 0;
   int strip[2];
   dyd_status st = dyd_side_places(&p, &n, &side, false);
@@ -262,7 +263,6 @@ dyd_status dyd_row_arc(dyd_table *t, const double a[4], const double b[4]) {
       if (inside) arc_put(t, p, l, n, turn, end);
     }
   }
-  free(p);
   return DYD_OK;
 }
 
@@ -481,20 +481,18 @@ static dyd_status face_put(void *user, dyd_group_kind kind, const dyd_index_list
 }
 
 static dyd_status faces_find(face_list *f, const dyd_sphere *s) {
-  dyd_triangle_list t = {0};
+  DYD_SCOPED(dyd_triangle_list) t = {0};
   dyd_status st = dyd_sphere_triangles(&t, s);
   for (size_t k = 0; k < t.count && st == DYD_OK; k++)
     st = face_put(f, DYD_GROUP_CIRCLE, &(dyd_index_list){3, t.item[k].v});
-  dyd_triangle_list_clear(&t);
   return st == DYD_OK ? dyd_sphere_each_circle(s, face_put, f) : st;
 }
 
 /* Of one place it is the globe, wherever the place is; of two, its halves, which are known if both places are. */
 static dyd_status cells_close(dyd_sphere_cells *c, const dyd_sphere *s) {
-  dyd_rect r;
   dyd_status st = DYD_OK;
   size_t sites = 0, exact = 0;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   for (uint32_t i = 0; i < c->places && sites < 3 && st == DYD_OK; i++) {
     if (dyd_sphere_alias(s, i) != i) continue;
     st = dyd_sphere_rect(&r, s, i);
@@ -502,16 +500,14 @@ static dyd_status cells_close(dyd_sphere_cells *c, const dyd_sphere *s) {
     sites++;
   }
   for (size_t i = 0; i < c->places && (sites == 1 || (sites == 2 && exact == 2)); i++) c->closed[i] = true;
-  dyd_rect_clear(&r);
   return st;
 }
 
 static dyd_status middles_find(dyd_sphere_cells *c, const dyd_sphere *s) {
-  double(*box)[4] = NULL;
+  DYD_FREED double(*box)[4] = NULL;
   dyd_status st = dyd_sphere_boxes(&box, s);
   c->middle = st == DYD_OK ? dyd_alloc(c->places, sizeof *c->middle) : NULL;
   for (size_t i = 0; i < c->places && c->middle; i++) c->middle[i] = dyd_lon_lat_of(box[i]);
-  free(box);
   return st == DYD_OK && !c->middle ? DYD_E_NOMEM : st;
 }
 

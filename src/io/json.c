@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "io/json.h"
 
+#include "base/local.h"
 #include "io/decimal.h"
 #include "io/label_text.h"
 #include "io/result.h"
@@ -307,7 +308,6 @@ const char *const dyd_end_names[5] = {"infinite", "sites", "axis", "feature", "w
 static dyd_status surd_point_json(FILE *out, const dyd_surd_point *p) {
   dyd_json j;
   double box[4];
-  dyd_rect r;
   dyd_json_begin(&j, out);
   dyd_json_object(&j, NULL, DYD_JSON_FLAT);
   for (int axis = 0; axis < 2; axis++) {
@@ -318,12 +318,11 @@ static dyd_status surd_point_json(FILE *out, const dyd_surd_point *p) {
   }
   json_integer(&j, "c", p->c);
   json_integer(&j, "d", p->d);
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   if (dyd_json_good(&j, dyd_surd_point_enclose(&r, p, 64))) {
     dyd_rect_get_d(box, &r);
     dyd_json_box(&j, true, box);
   }
-  dyd_rect_clear(&r);
   return dyd_json_end(&j, "}");
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/alloc.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "io/diagram.h"
 #include "io/geodesic.h"
 #include "rect/rect.h"
@@ -23,7 +24,7 @@ static dyd_status alias_comments(dyd_table *t, const dyd_output *o) {
 }
 
 static dyd_status capped_faces(const dyd_result *r, FILE *out) {
-  dyd_index_list face = {0};
+  DYD_SCOPED(dyd_index_list) face = {0};
   dyd_status st = DYD_OK;
   for (size_t f = 0; f < dyd_delaunay_undecided_faces(r->pd) && st == DYD_OK; f++) {
     bool outer;
@@ -33,7 +34,6 @@ static dyd_status capped_faces(const dyd_result *r, FILE *out) {
     dyd_put_rows(out, r->engine, &face, " ");
     fputs("\n", out);
   }
-  dyd_index_list_clear(&face);
   return st;
 }
 
@@ -58,17 +58,13 @@ static dyd_status point_comments(dyd_table *t, const dyd_output *o) {
 
 /* Bounds of the distance of two sites, where they are wanted. */
 static dyd_status row_lengths(dyd_table *t, uint32_t i, uint32_t j) {
-  dyd_rect a, b;
   double lo, hi;
   if (!t->lengths || t->box) return DYD_OK;
-  dyd_rect_init(&a);
-  dyd_rect_init(&b);
+  DYD_LOCAL(dyd_rect, a, b);
   dyd_status st = dyd_sites_get(&a, dyd_engine_sites(t->engine), i);
   if (st == DYD_OK) st = dyd_sites_get(&b, dyd_engine_sites(t->engine), j);
   if (st == DYD_OK) dyd_rect_distance(&lo, &hi, &a, &b);
   if (st == DYD_OK) dyd_row_decimal(t, lo, DYD_DOWN), dyd_row_decimal(t, hi, DYD_UP);
-  dyd_rect_clear(&b);
-  dyd_rect_clear(&a);
   return st;
 }
 
@@ -96,7 +92,7 @@ static dyd_status row_pair(dyd_table *t, uint32_t i, uint32_t j, const char *sta
 
 /* The pairs of i and later sites; pairs that the list does not have from *next on are ties. */
 static dyd_status pairs_of_site(dyd_table *t, const dyd_result *r, uint32_t i, size_t *next) {
-  dyd_index_list near = {0};
+  DYD_SCOPED(dyd_index_list) near = {0};
   dyd_status st = dyd_delaunay_neighbours(&near, r->pd, i, DYD_TIE);
   for (size_t q = 0; q < near.count && st == DYD_OK; q++) {
     const dyd_pair *p = *next < r->pairs.count ? &r->pairs.item[*next] : NULL;
@@ -105,7 +101,6 @@ static dyd_status pairs_of_site(dyd_table *t, const dyd_result *r, uint32_t i, s
     *next += listed;
     st = row_pair(t, i, near.item[q], dyd_pair_status_text(listed ? p->status : DYD_TIE));
   }
-  dyd_index_list_clear(&near);
   return st;
 }
 
@@ -139,22 +134,20 @@ static dyd_status rows_of_graph(dyd_table *t, const dyd_output *o) {
 
 /* Where site i may be. */
 static dyd_status site_box(double box[4], const dyd_result *r, uint32_t i) {
-  dyd_rect place;
   dyd_status st = DYD_OK;
   if (!r->sphere) {
     dyd_sites_get_d(box, r->sites, i);
     return DYD_OK;
   }
-  dyd_rect_init(&place);
+  DYD_LOCAL(dyd_rect, place);
   st = dyd_sphere_rect(&place, r->sphere, i);
   dyd_rect_get_d(box, &place);
-  dyd_rect_clear(&place);
   return st;
 }
 
 static dyd_status rows_of_points(dyd_table *t, const dyd_output *o) {
   const dyd_result *r = o->what;
-  dyd_site_row *rows = NULL;
+  DYD_FREED dyd_site_row *rows = NULL;
   dyd_status st = dyd_result_sites(&rows, r);
   for (uint32_t i = 0; i < r->count && st == DYD_OK; i++) {
     double box[4];
@@ -169,7 +162,6 @@ static dyd_status rows_of_points(dyd_table *t, const dyd_output *o) {
     dyd_row_word(t, rows[i].hull);
     dyd_row_end(t);
   }
-  free(rows);
   return st;
 }
 
@@ -218,7 +210,7 @@ static dyd_status triangle_outline(dyd_table *t, const uint32_t v[3]) {
 }
 
 static dyd_status rows_of_triangles(dyd_table *t, const dyd_output *o) {
-  dyd_triangle_list list = {0};
+  DYD_SCOPED(dyd_triangle_list) list = {0};
   dyd_status st = dyd_result_triangles(&list, o->what);
   for (size_t k = 0; k < list.count && st == DYD_OK; k++) {
     dyd_row_begin(t);
@@ -227,7 +219,6 @@ static dyd_status rows_of_triangles(dyd_table *t, const dyd_output *o) {
     dyd_row_three(t, list.item[k].v, true);
     dyd_row_end(t);
   }
-  dyd_triangle_list_clear(&list);
   return st;
 }
 
@@ -235,13 +226,12 @@ static dyd_status rows_of_triangles(dyd_table *t, const dyd_output *o) {
 
 /* Vertices in turn, exactly: "0 0;1 0;1/2 2"; and a polygon, which is empty where they are a segment. */
 static dyd_status row_corners(dyd_table *t, mpq_t *xy, size_t n) {
-  char *text = NULL;
+  DYD_FREED char *text = NULL;
   size_t size;
-  dyd_rect r;
   dyd_status st = DYD_OK;
   FILE *out = open_memstream(&text, &size);
   if (!out) return DYD_E_NOMEM;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   if (n > 2 && t->drawn) dyd_row_part(t);
   for (size_t k = 0; k <= n && st == DYD_OK; k++) {
     mpq_t *z = &xy[2 * (k % n)];
@@ -252,10 +242,8 @@ static dyd_status row_corners(dyd_table *t, mpq_t *xy, size_t n) {
     if (st == DYD_OK && n > 2 && t->drawn) dyd_row_at(t, box);
     if (k < n) gmp_fprintf(out, "%s%Qd %Qd", k ? ";" : "", z[0], z[1]);
   }
-  dyd_rect_clear(&r);
   bool whole = fclose(out) == 0;
   if (st == DYD_OK && whole) dyd_row_word(t, text);
-  free(text);
   return whole ? st : DYD_E_NOMEM;
 }
 
@@ -281,13 +269,12 @@ static dyd_status row_hull(dyd_table *t, const uint32_t *site, int n, const char
 
 static dyd_status rows_of_hulls(dyd_table *t, const dyd_output *o) {
   const dyd_result *r = o->what;
-  dyd_triangle_list list = {0};
+  DYD_SCOPED(dyd_triangle_list) list = {0};
   dyd_status st = dyd_result_triangles(&list, r);
   for (size_t k = 0; k < r->pairs.count && st == DYD_OK; k++)
     st = row_hull(t, (const uint32_t[]){r->pairs.item[k].i, r->pairs.item[k].j}, 2,
                   dyd_pair_status_text(r->pairs.item[k].status));
   for (size_t k = 0; k < list.count && st == DYD_OK; k++) st = row_hull(t, list.item[k].v, 3, "certain");
-  dyd_triangle_list_clear(&list);
   return st;
 }
 
@@ -408,7 +395,7 @@ static dyd_status rows_of_barcode(dyd_table *t, const dyd_output *o) {
   const dyd_tolerance_row *row;
   size_t rows = dyd_tolerance_rows(&row, tolerance), count = 0, edges, births;
   if (dyd_tolerance_is_cut(&edges, &births, tolerance)) return DYD_CANCELLED;
-  double *death = malloc((rows + 1) * sizeof *death);
+  DYD_FREED double *death = malloc((rows + 1) * sizeof *death);
   if (!death) return DYD_E_NOMEM;
   for (size_t k = 0; k < rows; k++) {
     edges += row[k].event == DYD_EVENT_DEATH;
@@ -416,7 +403,6 @@ static dyd_status rows_of_barcode(dyd_table *t, const dyd_output *o) {
   }
   qsort(death, count, sizeof *death, dyd_compare_double);
   rows_of_deaths(t, death, count, edges);
-  free(death);
   return DYD_OK;
 }
 
@@ -636,13 +622,12 @@ static bool is_whole(const dyd_table *t, const dyd_output *o) {
 /* Comments find what rows need, also where they are not wanted. */
 static dyd_status layer_comments(dyd_table *t, const dyd_output *o) {
   dyd_output to = *o;
-  char *text = NULL;
+  DYD_FREED char *text = NULL;
   size_t size;
   if (t->drawn || !t->layer->comments) return DYD_OK;
   to.out = o->comments ? o->comments : open_memstream(&text, &size);
   dyd_status st = to.out ? t->layer->comments(t, &to) : DYD_E_NOMEM;
   if (to.out && !o->comments) fclose(to.out);
-  free(text);
   return st;
 }
 

@@ -3,6 +3,7 @@
  * vertices in boxes of degrees, and undecided regions by their sites, of a sphere. */
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "base/alloc.h"
+#include "base/local.h"
 #include "io/diagram.h"
 #include "io/geodesic.h"
 #include "io/table.h"
@@ -91,14 +92,12 @@ static void cell_polygon(dyd_table *t, const char *kind, uint32_t i, const dyd_p
 
 static dyd_status cell_polygons(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
   dyd_table *t = context;
-  dyd_polygon inner = {0};
-  dyd_polygon_list outer = {0};
+  DYD_SCOPED(dyd_polygon) inner = {0};
+  DYD_SCOPED(dyd_polygon_list) outer = {0};
   dyd_status st = dyd_shape_inner(&inner, shape);
   if (st == DYD_OK && !row->exact) st = dyd_shape_outer(&outer, shape);
   if (st == DYD_OK) cell_polygon(t, row->exact ? "exact" : "certain", i, &inner, row);
   for (size_t k = 0; st == DYD_OK && k < outer.count; k++) cell_polygon(t, "possible", i, &outer.item[k], row);
-  dyd_polygon_list_clear(&outer);
-  dyd_polygon_clear(&inner);
   return st;
 }
 
@@ -151,13 +150,12 @@ static void row_tile(dyd_table *t, const dyd_tiles *tiles, size_t r, size_t end,
 
 dyd_status dyd_tile_rows(dyd_table *t, const dyd_output *o) {
   const dyd_diagram *d = o->what;
-  dyd_tiles tiles = {0};
+  DYD_SCOPED(dyd_tiles) tiles = {0};
   dyd_status st = dyd_diagram_tiles(&tiles, d, !t->drawn, o->err);
   for (size_t r = 0, end = 0; r < tiles.count && st == DYD_OK; r = end) {
     double area = dyd_diagram_tile(&end, d, &tiles);
     row_tile(t, &tiles, r, end, area);
   }
-  dyd_tiles_clear(&tiles);
   return st;
 }
 
@@ -178,20 +176,19 @@ dyd_status dyd_vertex_comments(dyd_table *t, const dyd_output *o) {
   const dyd_diagram *d = o->what;
   dyd_status st = dyd_diagram_comments(t, o);
   for (size_t k = d->triangles.count; k < dyd_diagram_vertices(d) && st == DYD_OK; k++) {
-    dyd_index_list sites = {0};
+    DYD_SCOPED(dyd_index_list) sites = {0};
     st = dyd_diagram_vertex_sites(&sites, d, k);
     if (st != DYD_OK) break;
     fputs("# tie ", o->out);
     dyd_put_rows(o->out, d->engine, &sites, " ");
     fputs("\n", o->out);
-    dyd_index_list_clear(&sites);
   }
   return st;
 }
 
 /* The row of vertex k; of a tied one with its first three sites. */
 static dyd_status row_vertex(dyd_table *t, const dyd_diagram *d, size_t k, bool exact) {
-  dyd_index_list sites = {0};
+  DYD_SCOPED(dyd_index_list) sites = {0};
   dyd_status st = dyd_diagram_vertex_sites(&sites, d, k);
   if (st != DYD_OK) return st;
   dyd_row_begin(t);
@@ -203,7 +200,6 @@ static dyd_status row_vertex(dyd_table *t, const dyd_diagram *d, size_t k, bool 
     dyd_row_box(t, d->vertex[k]);
   dyd_row_three(t, sites.item, true);
   dyd_row_end(t);
-  dyd_index_list_clear(&sites);
   return st;
 }
 
@@ -224,7 +220,7 @@ dyd_status dyd_vertex_rows(dyd_table *t, const dyd_output *o) {
 
 static dyd_status row_region(void *context, size_t face, const double box[4]) {
   dyd_table *t = context;
-  dyd_index_list sites = {0};
+  DYD_SCOPED(dyd_index_list) sites = {0};
   bool outer;
   if (!box) return DYD_OK;
   dyd_status st = dyd_delaunay_face(&sites, &outer, dyd_engine_delaunay(t->engine), face);
@@ -236,7 +232,6 @@ static dyd_status row_region(void *context, size_t face, const double box[4]) {
     st = dyd_row_sites(t, &sites);
     dyd_row_end(t);
   }
-  dyd_index_list_clear(&sites);
   return st;
 }
 
@@ -256,11 +251,10 @@ static uint32_t third_corner(const dyd_triangle *t, uint32_t i, uint32_t j) {
 
 /* The three sites that name the tied vertex in the layer of vertices. */
 static dyd_status tied_value(dyd_table *t, const dyd_diagram *d, size_t vertex) {
-  dyd_index_list sites = {0};
+  DYD_SCOPED(dyd_index_list) sites = {0};
   dyd_status st = dyd_diagram_vertex_sites(&sites, d, vertex);
   if (st == DYD_OK && sites.count > 3) sites.count = 3;
   if (st == DYD_OK) st = dyd_row_sites(t, &sites);
-  dyd_index_list_clear(&sites);
   return st;
 }
 
@@ -313,7 +307,7 @@ static bool edge_clip(double box[2][4], const double window[4]) {
 /* csv lists all; wkt and geojson those with two ends that can be drawn. */
 dyd_status dyd_edge_rows(dyd_table *t, const dyd_output *o) {
   const dyd_diagram *d = o->what;
-  dyd_dual_edge *edge = NULL;
+  DYD_FREED dyd_dual_edge *edge = NULL;
   size_t count = 0;
   double window[4];
   dyd_rect_get_d(window, &d->window);
@@ -332,7 +326,6 @@ dyd_status dyd_edge_rows(dyd_table *t, const dyd_output *o) {
     dyd_row_id(t, edge[k].j);
     dyd_row_end(t);
   }
-  free(edge);
   return st;
 }
 
@@ -362,19 +355,18 @@ static dyd_status cell_outline(dyd_table *t, const dyd_sphere_cells *c, double m
   size_t n = c->first[i + 1] - c->first[i];
   double error = 0;
   if (!t->drawn || !c->closed[i]) return DYD_OK;
-  dyd_side *side = dyd_alloc(n + 1, sizeof *side);
+  DYD_FREED dyd_side *side = dyd_alloc(n + 1, sizeof *side);
   if (!side) return DYD_E_NOMEM;
   for (size_t k = 0; k < n; k++) side[k] = dyd_sphere_cell_side(c, i, k);
   n += dyd_sphere_cell_is_half(&side[n], c, t->sphere, i);
   dyd_status st = dyd_row_around(t, side, n, most);
   for (size_t k = c->first[i]; k < c->first[i + 1]; k++) error = fmax(error, node_error(&c->node[c->of[k]]));
   t->error += error;
-  free(side);
   return st;
 }
 
 static dyd_status row_cell(dyd_table *t, const dyd_sphere_cells *c, double most, uint32_t i) {
-  char *nodes = cell_nodes(c, i);
+  DYD_FREED char *nodes = cell_nodes(c, i);
   if (!nodes) return DYD_E_NOMEM;
   dyd_row_begin(t);
   dyd_status st = cell_outline(t, c, most, i);
@@ -384,17 +376,15 @@ static dyd_status row_cell(dyd_table *t, const dyd_sphere_cells *c, double most,
   dyd_row_word(t, c->closed[i] ? "yes" : "no");
   dyd_row_word(t, nodes);
   dyd_row_end(t);
-  free(nodes);
   return st;
 }
 
 dyd_status dyd_globe_cell_rows(dyd_table *t, const dyd_output *o) {
   const dyd_result *r = o->what;
-  dyd_sphere_cells c = {0};
+  DYD_SCOPED(dyd_sphere_cells) c = {0};
   dyd_status st = dyd_sphere_cells_find(&c, r->sphere, o->err);
   for (uint32_t i = 0; i < r->count && st == DYD_OK; i++)
     if (dyd_sphere_alias(r->sphere, i) == i) st = row_cell(t, &c, r->max_arc, i);
-  dyd_sphere_cells_clear(&c);
   return st;
 }
 
@@ -405,7 +395,7 @@ dyd_status dyd_globe_vertex_comments(dyd_table *t, const dyd_output *o) {
 }
 
 dyd_status dyd_globe_vertex_rows(dyd_table *t, const dyd_output *o) {
-  dyd_sphere_cells c = {0};
+  DYD_SCOPED(dyd_sphere_cells) c = {0};
   dyd_status st = dyd_sphere_cells_find(&c, t->sphere, o->err);
   for (size_t k = 0; k < c.nodes && st == DYD_OK; k++) {
     dyd_row_begin(t);
@@ -415,13 +405,12 @@ dyd_status dyd_globe_vertex_rows(dyd_table *t, const dyd_output *o) {
     dyd_row_box(t, c.node[k].box);
     dyd_row_end(t);
   }
-  dyd_sphere_cells_clear(&c);
   return st;
 }
 
 dyd_status dyd_globe_region_rows(dyd_table *t, const dyd_output *o) {
   (void)o;
-  dyd_index_list sites = {0};
+  DYD_SCOPED(dyd_index_list) sites = {0};
   dyd_status st = DYD_OK;
   for (size_t f = 0; f < dyd_sphere_faces(t->sphere) && st == DYD_OK; f++) {
     bool tie;
@@ -433,6 +422,5 @@ dyd_status dyd_globe_region_rows(dyd_table *t, const dyd_output *o) {
     st = dyd_row_sites(t, &sites);
     dyd_row_end(t);
   }
-  dyd_index_list_clear(&sites);
   return st;
 }

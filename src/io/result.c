@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include <errno.h>
 #include <math.h>
 #include <string.h>
@@ -33,14 +34,12 @@ void dyd_result_count(size_t count[4], const dyd_result *r) {
 dyd_status dyd_sphere_boxes(double (**out)[4], const dyd_sphere *s) {
   size_t n = dyd_engine_count(dyd_sphere_places(s));
   double(*box)[4] = dyd_alloc(n, sizeof *box);
-  dyd_rect r;
   dyd_status st = box ? DYD_OK : DYD_E_NOMEM;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   for (uint32_t i = 0; i < n && st == DYD_OK; i++) {
     st = dyd_sphere_rect(&r, s, i);
     if (st == DYD_OK) dyd_rect_get_d(box[i], &r);
   }
-  dyd_rect_clear(&r);
   if (st == DYD_OK)
     *out = box;
   else
@@ -53,12 +52,11 @@ static void mark_hull(dyd_site_row *rows, const dyd_index_list *list, const char
 }
 
 static dyd_status find_hull(dyd_site_row *rows, const dyd_result *r) {
-  dyd_hull hull = {0};
+  DYD_SCOPED(dyd_hull) hull = {0};
   dyd_status st = r->sphere ? DYD_OK : dyd_delaunay_partial_hull(&hull, r->pd, false);
   for (size_t i = 0; i < r->count; i++) rows[i].hull = "no";
   mark_hull(rows, &hull.possible_vertices, "possible");
   mark_hull(rows, &hull.sure_vertices, "certain");
-  dyd_hull_clear(&hull);
   return st;
 }
 
@@ -125,10 +123,9 @@ void dyd_put_rows(FILE *out, const dyd_engine *e, const dyd_index_list *list, co
 dyd_status dyd_put_window(FILE *out, const dyd_rect *w, const char *quote, const char *between) {
   const dyd_dyadic *end[] = {&w->x.lo, &w->x.hi, &w->y.lo, &w->y.hi};
   for (int k = 0; k < 4; k++) {
-    char *text = dyd_dyadic_get_str(end[k]);
+    DYD_FREED char *text = dyd_dyadic_get_str(end[k]);
     if (!text) return DYD_E_NOMEM;
     fprintf(out, "%s%s%s%s", k ? between : "", quote, text, quote);
-    free(text);
   }
   return DYD_OK;
 }

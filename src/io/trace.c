@@ -13,6 +13,7 @@
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/flag.h"
+#include "base/local.h"
 #include "engine/record.h"
 #include "engine/ties.h"
 #include "io/decimal.h"
@@ -171,15 +172,13 @@ void dyd_trace_step(void *trace, const dyd_step *step) {
 /* Lines of the points that were not asked: they are fixed. */
 static dyd_status trace_fixed(dyd_trace *t, const dyd_delaunay *pd) {
   dyd_status st = DYD_OK;
-  dyd_rect rect;
-  dyd_rect_init(&rect);
+  DYD_LOCAL(dyd_rect, rect);
   for (size_t i = 0; st == DYD_OK && i < t->points; i++) {
     if (t->seen[i]) continue;
     st = dyd_sites_get(&rect, dyd_delaunay_sites(pd), i);
     fprintf(t->line, "{\"stage\":1,\"point\":%zu,\"why\":\"fixed\"", i);
     if (st == DYD_OK) st = trace_rect(t, &rect);
   }
-  dyd_rect_clear(&rect);
   free(t->seen);
   t->seen = NULL;
   return st;
@@ -255,11 +254,9 @@ static bool trace_has_text(const json_t *line, const char *name, const char *wan
 
 /* The rational ends of an interval, as texts. */
 static bool trace_rationals(dyd_interval *out, const char *lo, const char *hi) {
-  mpq_t a, b;
-  mpq_inits(a, b, NULL);
+  DYD_LOCAL_NUMBERS(mpq, a, b);
   bool good = dyd_real_parse_exact(a, lo, strlen(lo)) == DYD_OK && dyd_real_parse_exact(b, hi, strlen(hi)) == DYD_OK &&
               dyd_interval_set_ends_q(out, a, b) == DYD_OK;
-  mpq_clears(a, b, NULL);
   return good;
 }
 
@@ -269,13 +266,9 @@ static bool trace_ends(dyd_interval *out, const json_t *list, size_t from) {
              *hi = json_string_value(json_array_get(list, from + 1));
   if (!lo || !hi) return false;
   if (strchr(lo, '/') || strchr(hi, '/')) return trace_rationals(out, lo, hi);
-  dyd_dyadic a, b;
-  dyd_dyadic_init(&a);
-  dyd_dyadic_init(&b);
+  DYD_LOCAL(dyd_dyadic, a, b);
   bool good = dyd_dyadic_set_str(&a, lo, NULL) == DYD_OK && dyd_dyadic_set_str(&b, hi, NULL) == DYD_OK &&
               dyd_interval_set_ends(out, &a, &b) == DYD_OK;
-  dyd_dyadic_clear(&b);
-  dyd_dyadic_clear(&a);
   return good;
 }
 
@@ -422,12 +415,10 @@ static dyd_status recall_step(recall *r, const json_t *line) {
   if (!trace_integer(&bits, line, "bits", INT64_MIN, INT64_MAX)) return recall_fail(r, "the bits asked are missing");
   if (!kept && bits <= r->kept[point]) return DYD_OK; /* this answer was one of those kept */
   if (kept) r->kept[point] = bits;
-  dyd_rect rect;
-  dyd_rect_init(&rect);
+  DYD_LOCAL(dyd_rect, rect);
   dyd_status st = read_side(&rect.x, line, "x") && read_side(&rect.y, line, "y")
                       ? recall_answer(r, (size_t)point, bits, &rect, json_is_true(json_object_get(line, "final")))
                       : recall_fail(r, "this is no rectangle");
-  dyd_rect_clear(&rect);
   return st;
 }
 
@@ -589,12 +580,10 @@ static dyd_status replay_step(replay *r, const json_t *line) {
     return replay_fail(r, "the bits asked are missing");
   if (!fixed) p->asked = true;
   if (called) r->calls++;
-  dyd_rect rect;
-  dyd_rect_init(&rect);
+  DYD_LOCAL(dyd_rect, rect);
   dyd_status st = read_side(&rect.x, line, "x") && read_side(&rect.y, line, "y")
                       ? replay_rect(r, (size_t)point, &rect, called)
                       : replay_fail(r, "this is no rectangle");
-  dyd_rect_clear(&rect);
   return st;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Answers to single questions as csv and json: a partial disc, a bisector, nearest sites, what the harness found, the
  * table of convergence. */
+#include "base/local.h"
 #include "io/decimal.h"
 #include "io/json.h"
 #include "io/table.h"
@@ -27,15 +28,11 @@ static const char *orientation_text(dyd_sure s) {
 typedef void circle_visit(void *context, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2);
 
 static void disc_each_circle(const dyd_partial_disc *d, circle_visit visit, void *context) {
-  dyd_surd_point centre, radius2;
-  dyd_surd_point_init(&centre);
-  dyd_surd_point_init(&radius2);
+  DYD_LOCAL(dyd_surd_point, centre, radius2);
   for (int k = 0; k < CIRCLES && d->known; k++) {
     dyd_exact_circle(&centre, &radius2, &d->circle[k]);
     visit(context, k, &centre, &radius2);
   }
-  dyd_surd_point_clear(&radius2);
-  dyd_surd_point_clear(&centre);
 }
 
 /* The smallest box in doubles around the six centres: it holds the partial centre [CEN-1]. */
@@ -276,9 +273,8 @@ dyd_status dyd_nearest_comments(dyd_table *t, const dyd_output *o) {
 /* They begin with the number of the place where there are many. */
 dyd_status dyd_nearest_rows(dyd_table *t, const dyd_output *o) {
   const dyd_nearest_output *n = o->what;
-  dyd_rect scratch;
   dyd_status st = DYD_OK;
-  dyd_rect_init(&scratch);
+  DYD_LOCAL(dyd_rect, scratch);
   for (size_t q = 0; q < n->count; q++) {
     const dyd_nearest_answer *a = n->answer[q];
     for (size_t k = 0; k < a->found->count && st == DYD_OK; k++) {
@@ -297,7 +293,6 @@ dyd_status dyd_nearest_rows(dyd_table *t, const dyd_output *o) {
       dyd_row_end(t);
     }
   }
-  dyd_rect_clear(&scratch);
   return st;
 }
 
@@ -323,9 +318,8 @@ static void nearest_json_list(dyd_json *j, const dyd_nearest_output *n, const dy
 dyd_status dyd_nearest_json(const dyd_output *o) {
   const dyd_nearest_output *n = o->what;
   bool many = o->content == DYD_CONTENT_PLACES;
-  dyd_rect scratch;
   dyd_json j;
-  dyd_rect_init(&scratch);
+  DYD_LOCAL(dyd_rect, scratch);
   dyd_json_begin(&j, o->out);
   dyd_json_head_outward(&j, many ? "dyadel nearest places 1" : "dyadel nearest 1", o, n->engine,
                         many ? n->outcome : n->answer[0]->outcome);
@@ -347,7 +341,6 @@ dyd_status dyd_nearest_json(const dyd_output *o) {
   }
   if (many) dyd_json_close(&j, 1);
   dyd_json_aliases(&j, n->engine, n->sphere);
-  dyd_rect_clear(&scratch);
   return dyd_json_end(&j, "}\n");
 }
 
@@ -642,9 +635,8 @@ static const dyd_dyadic *modulus_bound(const dyd_convergence *c, const dyd_stage
 }
 
 static dyd_status modulus_find(modulus_row *out, const dyd_convergence *c, int64_t m) {
-  dyd_dyadic goal;
   *out = (modulus_row){NULL, NULL, 0};
-  dyd_dyadic_init(&goal);
+  DYD_LOCAL(dyd_dyadic, goal);
   dyd_status st = dyd_dyadic_set_si_2exp(&goal, 1, -m);
   for (size_t k = c->count; st == DYD_OK && k-- > 0;) {
     const dyd_dyadic *bound = modulus_bound(c, c->row[k]);
@@ -657,7 +649,6 @@ static dyd_status modulus_find(modulus_row *out, const dyd_convergence *c, int64
     out->apriori = (m > out->rated->rate_from ? m : out->rated->rate_from) + out->rated->rate;
     if (out->apriori < out->rated->bits_most) out->apriori = out->rated->bits_most;
   }
-  dyd_dyadic_clear(&goal);
   return st;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The json format: everything that is stated of a triangulation, a Voronoi diagram, tolerances; of a plane or a sphere.
  * It is written piece by piece, so that memory stays small. */
+#include "base/local.h"
 #include "delaunay/memory.h"
 #include "io/diagram.h"
 #include "io/geodesic.h"
@@ -69,15 +70,12 @@ static void json_site(dyd_json *j, const dyd_result *r, uint32_t i, const dyd_si
 }
 
 static void json_sites(dyd_json *j, const dyd_result *r) {
-  dyd_rect rect;
-  dyd_site_row *rows = NULL;
-  dyd_rect_init(&rect);
+  DYD_FREED dyd_site_row *rows = NULL;
+  DYD_LOCAL(dyd_rect, rect);
   if (!r->sphere) dyd_json_good(j, dyd_result_sites(&rows, r));
   dyd_json_array(j, "sites", DYD_JSON_LIST);
   for (uint32_t i = 0; i < r->count && j->st == DYD_OK; i++) json_site(j, r, i, rows ? &rows[i] : NULL, &rect);
   dyd_json_close(j, 1);
-  free(rows);
-  dyd_rect_clear(&rect);
 }
 
 /* ---- the triangulation ---- */
@@ -106,7 +104,7 @@ static void json_ties(dyd_json *j, const dyd_result *r) {
 
 /* Only for a capped result: pairs within one of these faces may be possible without being listed. */
 static void json_faces(dyd_json *j, const dyd_result *r) {
-  dyd_index_list face = {0};
+  DYD_SCOPED(dyd_index_list) face = {0};
   bool outer;
   if (!dyd_delaunay_is_capped(r->pd)) return;
   dyd_json_array(j, "faces", DYD_JSON_ROWS);
@@ -115,12 +113,11 @@ static void json_faces(dyd_json *j, const dyd_result *r) {
     dyd_json_sites(j, NULL, r->engine, &face);
   }
   dyd_json_close(j, 1);
-  dyd_index_list_clear(&face);
 }
 
 /* The hull: possible pairs as hull edges; "capped" when they are too many to be listed. */
 static void json_hull(dyd_json *j, const dyd_result *r) {
-  dyd_hull hull = {0};
+  DYD_SCOPED(dyd_hull) hull = {0};
   dyd_status st = dyd_delaunay_partial_hull(&hull, r->pd, true);
   dyd_json_good(j, st == DYD_CAPPED ? DYD_OK : st);
   dyd_json_object(j, "hull", DYD_JSON_LINES);
@@ -129,14 +126,11 @@ static void json_hull(dyd_json *j, const dyd_result *r) {
   dyd_json_sites(j, "possible_vertices", r->engine, &hull.possible_vertices);
   dyd_json_pairs(j, "edges", r->engine, &hull.pairs);
   dyd_json_close(j, 1);
-  dyd_hull_clear(&hull);
 }
 
 /* No bounds exist for a capped result: its pairs are not all known. */
 static void json_bounds(dyd_json *j, const dyd_result *r) {
-  dyd_dyadic area, hausdorff;
-  dyd_dyadic_init(&area);
-  dyd_dyadic_init(&hausdorff);
+  DYD_LOCAL(dyd_dyadic, area, hausdorff);
   dyd_status st = dyd_engine_bounds(&area, &hausdorff, r->engine);
   if (st == DYD_OK) {
     dyd_json_object(j, "bounds", DYD_JSON_FLAT);
@@ -146,8 +140,6 @@ static void json_bounds(dyd_json *j, const dyd_result *r) {
   } else if (dyd_json_good(j, st == DYD_E_NOMEM ? st : DYD_OK)) {
     dyd_json_raw(j, "bounds", "null");
   }
-  dyd_dyadic_clear(&area);
-  dyd_dyadic_clear(&hausdorff);
 }
 
 static void json_head(dyd_json *j, const dyd_output *o, const dyd_result *r) {
@@ -174,7 +166,7 @@ static void json_head(dyd_json *j, const dyd_output *o, const dyd_result *r) {
 
 static dyd_status delaunay_json(const dyd_output *o) {
   const dyd_result *r = o->what;
-  dyd_triangle_list triangles = {0};
+  DYD_SCOPED(dyd_triangle_list) triangles = {0};
   dyd_json j;
   dyd_json_begin(&j, o->out);
   json_head(&j, o, r);
@@ -188,7 +180,6 @@ static dyd_status delaunay_json(const dyd_output *o) {
   dyd_json_triangles(&j, r->engine, &triangles);
   if (!r->sphere && j.st == DYD_OK) json_hull(&j, r);
   dyd_json_counters(&j, r->sphere ? dyd_sphere_images(r->sphere) : r->engine);
-  dyd_triangle_list_clear(&triangles);
   return dyd_json_end(&j, "\n}\n");
 }
 
@@ -207,28 +198,24 @@ static void polygon_json(dyd_json *j, const char *name, const dyd_polygon *p) {
 
 /* Area and rounding of an exact cell. */
 static void exact_json(dyd_json *j, const dyd_diagram *d, uint32_t i, const dyd_cell_row *row) {
-  mpq_t area;
   bool exact = false;
   if (!row->exact) return;
-  mpq_init(area);
+  DYD_LOCAL_NUMBERS(mpq, area);
   if (dyd_json_good(j, dyd_voronoi_exact_area(area, &exact, d->pd, i, &d->window)) && exact) {
     dyd_json_rational(j, "exact_area", area);
     dyd_json_decimal(j, "vertex_error", row->rounding, DYD_UP);
   }
-  mpq_clear(area);
 }
 
 static void polygons_json(dyd_json *j, const dyd_shape *shape) {
-  dyd_polygon inner = {0};
-  dyd_polygon_list outer = {0};
+  DYD_SCOPED(dyd_polygon) inner = {0};
+  DYD_SCOPED(dyd_polygon_list) outer = {0};
   if (dyd_json_good(j, dyd_shape_inner(&inner, shape))) dyd_json_good(j, dyd_shape_outer(&outer, shape));
   polygon_json(j, "inner", &inner);
   dyd_json_break(j, ",\n");
   dyd_json_array(j, "outer", DYD_JSON_LINES);
   for (size_t k = 0; k < outer.count; k++) polygon_json(j, NULL, &outer.item[k]);
   dyd_json_close(j, 1);
-  dyd_polygon_list_clear(&outer);
-  dyd_polygon_clear(&inner);
 }
 
 typedef struct diagram_json {
@@ -238,7 +225,7 @@ typedef struct diagram_json {
 } diagram_json;
 
 static void region_boundary_json(diagram_json *c, uint32_t i, bool outer) {
-  dyd_boundary boundary = {0};
+  DYD_SCOPED(dyd_boundary) boundary = {0};
   const char *name = outer ? "pos" : "int";
   dyd_status st = dyd_cell_region(&boundary, c->d->pd, i, outer, true, NULL, c->d->room, c->d->cancel);
   dyd_json_break(&c->j, ",\n");
@@ -246,7 +233,6 @@ static void region_boundary_json(diagram_json *c, uint32_t i, bool outer) {
     dyd_json_raw(&c->j, name, "null");
   else if (dyd_json_good(&c->j, st))
     dyd_json_boundary(&c->j, name, &boundary, &c->texts);
-  dyd_boundary_clear(&boundary);
 }
 
 static dyd_status cell_json(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
@@ -283,11 +269,10 @@ static void exact_box_json(dyd_json *j, const dyd_diagram *d, size_t k) {
 static void vertices_json(dyd_json *j, const dyd_diagram *d) {
   dyd_json_array(j, "vertices", DYD_JSON_LIST);
   for (size_t k = 0; k < dyd_diagram_vertices(d) && j->st == DYD_OK; k++) {
-    dyd_index_list sites = {0};
+    DYD_SCOPED(dyd_index_list) sites = {0};
     dyd_json_good(j, dyd_diagram_vertex_sites(&sites, d, k));
     dyd_json_object(j, NULL, DYD_JSON_FLAT);
     dyd_json_sites(j, "sites", d->engine, &sites);
-    dyd_index_list_clear(&sites);
     dyd_json_box(j, false, d->vertex[k]);
     if (j->st == DYD_OK) exact_box_json(j, d, k);
     dyd_json_close(j, 1);
@@ -309,7 +294,7 @@ static void dual_end_json(dyd_json *j, const char *name, const dyd_dual_end *end
 }
 
 static void dual_edges_json(dyd_json *j, const dyd_diagram *d) {
-  dyd_dual_edge *edge = NULL;
+  DYD_FREED dyd_dual_edge *edge = NULL;
   size_t count = 0;
   dyd_json_good(j, dyd_diagram_edges(&edge, &count, d));
   dyd_json_array(j, "edges", DYD_JSON_LIST);
@@ -322,19 +307,17 @@ static void dual_edges_json(dyd_json *j, const dyd_diagram *d) {
     dyd_json_close(j, 1);
   }
   dyd_json_close(j, 1);
-  free(edge);
 }
 
 static dyd_status region_json(void *context, size_t face, const double box[4]) {
   diagram_json *c = context;
-  dyd_index_list sites = {0};
+  DYD_SCOPED(dyd_index_list) sites = {0};
   bool outer;
   dyd_status st = dyd_delaunay_face(&sites, &outer, c->d->pd, face);
   dyd_json_object(&c->j, NULL, DYD_JSON_FLAT);
   dyd_json_sites(&c->j, "sites", c->d->engine, &sites);
   dyd_json_box(&c->j, false, box);
   dyd_json_close(&c->j, 1);
-  dyd_index_list_clear(&sites);
   return st;
 }
 
@@ -405,7 +388,7 @@ static void rings_json(dyd_json *j, const dyd_tiles *t, size_t r, size_t end) {
 
 static dyd_status tiles_json(const dyd_output *o) {
   const dyd_diagram *d = o->what;
-  dyd_tiles t = {0};
+  DYD_SCOPED(dyd_tiles) t = {0};
   dyd_json j;
   dyd_status st = dyd_diagram_tiles(&t, d, false, o->err);
   dyd_json_begin(&j, o->out);
@@ -426,7 +409,6 @@ static dyd_status tiles_json(const dyd_output *o) {
     dyd_json_close(&j, 1);
   }
   dyd_json_close(&j, 1);
-  dyd_tiles_clear(&t);
   dyd_status written = dyd_json_end(&j, "\n}\n");
   return st == DYD_OK ? written : st;
 }
@@ -453,7 +435,7 @@ static void globe_cells_json(dyd_json *j, const dyd_result *r, const dyd_sphere_
 }
 
 static void globe_regions_json(dyd_json *j, const dyd_result *r) {
-  dyd_index_list sites = {0};
+  DYD_SCOPED(dyd_index_list) sites = {0};
   bool tie;
   dyd_json_array(j, "regions", DYD_JSON_LIST);
   for (size_t f = 0; f < dyd_sphere_faces(r->sphere); f++) {
@@ -465,7 +447,6 @@ static void globe_regions_json(dyd_json *j, const dyd_result *r) {
     dyd_json_close(j, 1);
   }
   dyd_json_close(j, 1);
-  dyd_index_list_clear(&sites);
 }
 
 static void globe_diagram_json(dyd_json *j, const dyd_output *o, const dyd_sphere_cells *c) {
@@ -494,7 +475,7 @@ static void globe_diagram_json(dyd_json *j, const dyd_output *o, const dyd_spher
 
 static dyd_status globe_voronoi_json(const dyd_output *o) {
   const dyd_result *r = o->what;
-  dyd_sphere_cells c = {0};
+  DYD_SCOPED(dyd_sphere_cells) c = {0};
   dyd_json j;
   dyd_status st = dyd_sphere_cells_find(&c, r->sphere, o->err);
   if (st == DYD_OK) {
@@ -502,7 +483,6 @@ static dyd_status globe_voronoi_json(const dyd_output *o) {
     globe_diagram_json(&j, o, &c);
     st = dyd_json_end(&j, "\n}\n");
   }
-  dyd_sphere_cells_clear(&c);
   return st;
 }
 

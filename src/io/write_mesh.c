@@ -3,6 +3,7 @@
  * sphere a vector of length 1; the head states the largest distance in the rectangle from it. Of a Voronoi diagram vtk
  * holds lines and polygons with their sites and kinds. */
 #include "base/alloc.h"
+#include "base/local.h"
 #include "io/diagram.h"
 #include "io/json.h"
 #include "io/result.h"
@@ -179,12 +180,11 @@ static void vtk_write(FILE *out, const mesh *m, const dyd_site_row *rows) {
 }
 
 static dyd_status delaunay_vtk(const dyd_output *o) {
-  dyd_site_row *rows = NULL;
+  DYD_FREED dyd_site_row *rows = NULL;
   mesh m;
   dyd_status st = mesh_make(&m, o);
   if (st == DYD_OK) st = dyd_result_sites(&rows, o->what);
   if (st == DYD_OK) vtk_write(o->out, &m, rows);
-  free(rows);
   mesh_release(&m);
   return st;
 }
@@ -246,14 +246,12 @@ static dyd_status gather_polygon(gathered *g, const dyd_polygon *p, uint32_t sit
 static dyd_status gather_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
   (void)row;
   gathered *g = context;
-  dyd_polygon inner = {0};
-  dyd_polygon_list outer = {0};
+  DYD_SCOPED(dyd_polygon) inner = {0};
+  DYD_SCOPED(dyd_polygon_list) outer = {0};
   dyd_status st = dyd_shape_inner(&inner, shape);
   if (st == DYD_OK) st = gather_polygon(g, &inner, i, FIGURE_INNER);
   if (st == DYD_OK) st = dyd_shape_outer(&outer, shape);
   for (size_t k = 0; k < outer.count && st == DYD_OK; k++) st = gather_polygon(g, &outer.item[k], i, FIGURE_OUTER);
-  dyd_polygon_list_clear(&outer);
-  dyd_polygon_clear(&inner);
   return st;
 }
 
@@ -270,17 +268,16 @@ static dyd_status gather_box(gathered *g, figure_kind kind, uint32_t site, const
 
 static dyd_status gather_region(void *context, size_t face, const double box[4]) {
   gathered *g = context;
-  dyd_index_list sites = {0};
+  DYD_SCOPED(dyd_index_list) sites = {0};
   bool outer;
   if (!box) return DYD_OK;
   dyd_status st = dyd_delaunay_face(&sites, &outer, g->d->pd, face);
   if (st == DYD_OK) st = gather_box(g, FIGURE_REGION, sites.count ? sites.item[0] : 0, box);
-  dyd_index_list_clear(&sites);
   return st;
 }
 
 static dyd_status gather_edges(gathered *g) {
-  dyd_dual_edge *edge = NULL;
+  DYD_FREED dyd_dual_edge *edge = NULL;
   size_t count = 0;
   dyd_status st = dyd_diagram_edges(&edge, &count, g->d);
   for (size_t k = 0; k < count && st == DYD_OK; k++) {
@@ -290,21 +287,19 @@ static dyd_status gather_edges(gathered *g) {
     for (int c = 0; st == DYD_OK && c < 4; c++)
       g->at[g->points - 2 + (size_t)(c >> 1)][c & 1] = box[c >> 1][2 * (c & 1)] / 2 + box[c >> 1][2 * (c & 1) + 1] / 2;
   }
-  free(edge);
   return st;
 }
 
 /* Tiles, kind 5. */
 static dyd_status gather_tiles(gathered *g, dyd_error *err) {
   const dyd_diagram *d = g->d;
-  dyd_tiles tiles = {0};
+  DYD_SCOPED(dyd_tiles) tiles = {0};
   dyd_status st = dyd_diagram_tiles(&tiles, d, false, err);
   for (size_t r = 0; r < tiles.count && st == DYD_OK; r++) {
     size_t first = tiles.offset[r], n = tiles.offset[r + 1] - first;
     st = gather_figure(g, FIGURE_TILE, tiles.site[r], n);
     if (st == DYD_OK) memcpy(g->at[g->points - n], &tiles.xy[2 * first], n * sizeof *g->at);
   }
-  dyd_tiles_clear(&tiles);
   return st;
 }
 
@@ -312,10 +307,9 @@ static dyd_status gather_all(gathered *g) {
   const dyd_diagram *d = g->d;
   dyd_status st = dyd_diagram_visit(d, gather_cell, g);
   for (size_t k = 0; k < dyd_diagram_vertices(d) && st == DYD_OK; k++) {
-    dyd_index_list sites = {0};
+    DYD_SCOPED(dyd_index_list) sites = {0};
     st = dyd_diagram_vertex_sites(&sites, d, k);
     if (st == DYD_OK) st = gather_box(g, FIGURE_VERTEX, sites.item[0], d->vertex[k]);
-    dyd_index_list_clear(&sites);
   }
   if (st == DYD_OK) st = dyd_diagram_regions(d, gather_region, g);
   return st == DYD_OK ? gather_edges(g) : st;

@@ -6,6 +6,7 @@
  * half-planes; cutting by one after the other keeps segments segments and convex polygons convex. */
 #include "base/error.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "io/diagram.h"
 #include "picture/picture.h"
 
@@ -131,11 +132,10 @@ static double spacing_of(const dyd_delaunay *pd, const dyd_pair_list *pairs, con
 }
 
 double dyd_view_spacing(const dyd_delaunay *pd, const dyd_pair_list *pairs, const double box[4]) {
-  dyd_pair_list own = {0};
+  DYD_SCOPED(dyd_pair_list) own = {0};
   if (pairs) return spacing_of(pd, pairs, box);
   if (dyd_delaunay_pairs(&own, pd) != DYD_OK) return 0;
   double spacing = spacing_of(pd, &own, box);
-  dyd_pair_list_clear(&own);
   return spacing;
 }
 

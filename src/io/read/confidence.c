@@ -7,6 +7,7 @@
 
 #include "base/abi.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "engine/labels.h"
 #include "io/read/coordinate.h"
 
@@ -38,9 +39,8 @@ double dyd_root_above(mpq_srcptr q) {
 
 double dyd_sigma_round(mpq_t sigma[2], mpq_srcptr rho) {
   if (!mpq_sgn(rho)) return dyd_double_above(sigma[mpq_cmp(sigma[0], sigma[1]) < 0]);
-  mpq_t a, b, c;
   mpfr_t x;
-  mpq_inits(a, b, c, NULL);
+  DYD_LOCAL_NUMBERS(mpq, a, b, c);
   mpfr_init2(x, PRECISION);
   mpq_mul(a, sigma[0], sigma[0]);
   mpq_mul(b, sigma[1], sigma[1]);
@@ -58,7 +58,6 @@ double dyd_sigma_round(mpq_t sigma[2], mpq_srcptr rho) {
   mpfr_sqrt(x, x, MPFR_RNDU);
   double d = mpfr_get_d(x, MPFR_RNDU);
   mpfr_clear(x);
-  mpq_clears(a, b, c, NULL);
   return d;
 }
 
@@ -80,10 +79,9 @@ static bool probability_parse(int64_t *man, int *places, const char *text) {
 
 /* n 10^places / (10^places - man) = n / (1 - probability), rounded up, then k. */
 static double k_above(int64_t man, int places, size_t n) {
-  mpq_t q;
   mpfr_t x;
   if (!n) return 0;
-  mpq_init(q);
+  DYD_LOCAL_NUMBERS(mpq, q);
   mpfr_init2(x, PRECISION);
   mpz_ui_pow_ui(mpq_numref(q), 10, (unsigned long)places);
   mpz_sub_ui(mpq_denref(q), mpq_numref(q), (unsigned long)man);
@@ -95,7 +93,6 @@ static double k_above(int64_t man, int places, size_t n) {
   mpfr_sqrt(x, x, MPFR_RNDU);
   double k = mpfr_get_d(x, MPFR_RNDU);
   mpfr_clear(x);
-  mpq_clear(q);
   return k;
 }
 

@@ -16,6 +16,7 @@
 #include "io/read/coordinate.h"
 
 #include "base/error.h"
+#include "base/local.h"
 #include "io/decimal.h"
 #include "stream/degrees.h"
 #include "stream/number.h"
@@ -291,15 +292,13 @@ static dyd_status measured_ends(mpq_t lo, mpq_t hi, const dyd_span *span, dyd_er
 }
 
 static dyd_status coordinate_parse(dyd_real **out, const dyd_span *span, const dyd_manner *manner, dyd_error *err) {
-  mpq_t lo, hi;
   if (!manner->measured) return dyd_real_parse(out, span->text, span->length, err);
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   dyd_status st = measured_ends(lo, hi, span, err);
   if (st == DYD_E_ARG)
     st = dyd_real_parse(out, span->text, span->length, err);
   else if (st == DYD_OK)
     st = dyd_real_from_interval(out, lo, hi);
-  mpq_clears(lo, hi, NULL);
   return st;
 }
 
@@ -327,13 +326,11 @@ static dyd_status interval_ends(mpq_t lo, mpq_t hi, const dyd_span *s) {
 /* Of a number, or one with a radius. */
 static dyd_status value_ends(mpq_t lo, mpq_t hi, const dyd_span *s) {
   size_t length = dyd_nominal_length(s), behind = length + 2;
-  mpq_t radius;
-  mpq_init(radius);
+  DYD_LOCAL_NUMBERS(mpq, radius);
   dyd_status st = dyd_real_parse_exact(lo, s->text, length);
   if (st == DYD_OK && length < s->length) st = dyd_real_parse_exact(radius, s->text + behind, s->length - behind);
   mpq_add(hi, lo, radius);
   mpq_sub(lo, lo, radius);
-  mpq_clear(radius);
   return st;
 }
 
@@ -397,8 +394,7 @@ static dyd_plain upper_of(const dyd_coordinate *c) {
 dyd_status dyd_coordinate_make_real(dyd_coordinate *c) {
   if (c->kind == DYD_COORDINATE_REAL) return DYD_OK;
   dyd_real *real = NULL;
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   if (c->kind == DYD_COORDINATE_PLAIN || c->kind == DYD_COORDINATE_SPAN) {
     dyd_plain_get_q(lo, c->plain);
     dyd_plain_get_q(hi, upper_of(c));
@@ -407,7 +403,6 @@ dyd_status dyd_coordinate_make_real(dyd_coordinate *c) {
     mpq_set_d(hi, c->hi);
   }
   dyd_status st = dyd_real_from_interval(&real, lo, hi);
-  mpq_clears(lo, hi, NULL);
   if (st != DYD_OK) return st;
   *c = (dyd_coordinate){.kind = DYD_COORDINATE_REAL, .real = real};
   return DYD_OK;
@@ -422,12 +417,10 @@ dyd_status dyd_coordinate_widen(dyd_coordinate *c, double by) {
   if (quick && box_wide(c, lo, hi, by)) return DYD_OK;
   dyd_status st = dyd_coordinate_make_real(c);
   if (st != DYD_OK) return st;
-  mpq_t radius;
-  mpq_init(radius);
+  DYD_LOCAL_NUMBERS(mpq, radius);
   mpq_set_d(radius, by);
   c->kind = DYD_COORDINATE_DOUBLE; /* the real is taken over */
   st = dyd_real_widen(&c->real, c->real, radius);
-  mpq_clear(radius);
   if (st == DYD_OK) c->kind = DYD_COORDINATE_REAL;
   return st;
 }

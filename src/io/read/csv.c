@@ -7,6 +7,7 @@
 #include "io/read/csv.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "io/read/coordinate.h"
 
 #include <string.h>
@@ -279,13 +280,12 @@ static dyd_status carry_named(dyd_csv *csv, dyd_error *err) {
     dyd_span *f = &list.field[k];
     size_t at;
     span_trim(f);
-    char *name = dyd_alloc(f->length + 1, 1);
+    DYD_FREED char *name = dyd_alloc(f->length + 1, 1);
     if (!name) st = dyd_fail_nomem(err);
     if (name) memcpy(name, f->text, f->length), name[f->length] = 0;
     const dyd_csv_want want = {name, f->text != f->at, "carry"};
     if (st == DYD_OK) st = find_column(&at, csv, &want, err);
     if (st == DYD_OK) st = carry_put(csv, at, err);
-    free(name);
   }
   dyd_csv_clear(&list);
   return st;
@@ -459,14 +459,13 @@ void dyd_csv_hint(dyd_error *err, const dyd_line *line, dyd_text *text) {
   if (delimiter_line(line) && dyd_text_next(&next, text, &own) != DYD_OK) next.text = NULL;
   const size_t first = next.number;
   for (int k = 0; k < LOOKED_AT && next.text && !found; k++) {
-    char *copy = dyd_alloc(next.length + 1, 1);
+    DYD_FREED char *copy = dyd_alloc(next.length + 1, 1);
     if (!copy) break;
     memcpy(copy, next.text, next.length);
     const dyd_line here = {copy, next.length, next.number};
     if (dyd_text_next(&next, text, &own) != DYD_OK) next.text = NULL;
     for (const char *d = delimiters; *d && !found && (here.number > first || strlen(err->message) == used); d++)
       found = hint_with(&csv, &row, *d, &here, &next, here.number == first ? 0 : here.number - 1, text, err);
-    free(copy);
   }
   dyd_csv_clear(&row);
   dyd_csv_clear(&csv);

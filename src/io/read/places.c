@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/digest.h"
+#include "base/local.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -51,15 +52,13 @@ static mp_bitcnt_t take_out(mpz_ptr z, unsigned long p) {
 /* Destroys q, which is man / den * 10^ten with den coprime to 10 and man not divisible by 10: "mek" or "p/qek". */
 static dyd_status key_put_rational(dyd_places *n, mpq_t q) {
   mpz_ptr man = mpq_numref(q), den = mpq_denref(q);
-  mpz_t factor;
-  mpz_init(factor);
+  DYD_LOCAL_NUMBERS(mpz, factor);
   mp_bitcnt_t twos = mpz_scan1(den, 0);
   mpz_tdiv_q_2exp(den, den, twos);
   mp_bitcnt_t fives = take_out(den, 5);
   int64_t ten = -(int64_t)(twos > fives ? twos : fives);
   mpz_ui_pow_ui(factor, twos > fives ? 5 : 2, twos > fives ? twos - fives : fives - twos);
   mpz_mul(man, man, factor);
-  mpz_clear(factor);
   ten = mpz_sgn(man) ? ten + (int64_t)take_out(man, 10) : 0;
   size_t most = mpz_sizeinbase(man, 10) + mpz_sizeinbase(den, 10) + 32;
   if (!dyd_reserve((void **)&n->text, &n->text_cap, n->used + most, 1)) return DYD_E_NOMEM;
@@ -73,8 +72,7 @@ static dyd_status key_put_coordinate(dyd_places *n, const dyd_span *s) {
   size_t length = dyd_nominal_length(s);
   dyd_plain plain;
   if (dyd_plain_scan(&plain, s->text, length)) return key_put_plain(n, plain) ? DYD_OK : DYD_E_NOMEM;
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   dyd_status st = dyd_coordinate_ends(lo, hi, s, NULL);
   mpq_add(lo, lo, hi);
   mpq_div_2exp(lo, lo, 1);
@@ -82,7 +80,6 @@ static dyd_status key_put_coordinate(dyd_places *n, const dyd_span *s) {
     st = key_put_rational(n, lo);
   else if (st != DYD_E_NOMEM)
     st = key_put(n, s->text, length) && key_put(n, " ", 1) ? DYD_OK : DYD_E_NOMEM;
-  mpq_clears(lo, hi, NULL);
   return st;
 }
 

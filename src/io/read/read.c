@@ -8,6 +8,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "engine/add.h"
 #include "engine/labels.h"
 #include "io/read/cell.h"
@@ -116,9 +117,8 @@ static double radius_of_both(double a, double b) {
 
 /* Each row with columns of radii has its own: its value is added to the radius of all points, or kept. */
 static dyd_status intake_radius(intake *in, int axis, const dyd_span *span, dyd_error *err) {
-  mpq_t own;
   bool ground = false;
-  mpq_init(own);
+  DYD_LOCAL_NUMBERS(mpq, own);
   dyd_status st = intake_read_radius(own, &ground, in, span, DYD_CSV_RADIUS_X + axis, err);
   if (st == DYD_OK) {
     bool keep = ground || in->o->keep_radii;
@@ -127,7 +127,6 @@ static dyd_status intake_radius(intake *in, int axis, const dyd_span *span, dyd_
     mpq_add(own, own, in->radius);
     dyd_manner_set_radius(&in->manner[axis], own);
   }
-  mpq_clear(own);
   if (st == DYD_OK && !isfinite(in->kept[axis]))
     st = dyd_span_fail(err, span, 0, "the radius is above the range of doubles, about 1.8e308; give a smaller one");
   const bool apart = axis && span->at != in->radius_at;
@@ -229,11 +228,9 @@ static dyd_status intake_confide(intake *in, double k, dyd_error *err) {
 
 static dyd_status intake_number(double *out, const dyd_span *span, int role, dyd_error *err) {
   char message[160];
-  mpq_t own;
-  mpq_init(own);
+  DYD_LOCAL_NUMBERS(mpq, own);
   dyd_status st = dyd_real_parse_exact(own, span->text, span->length);
   *out = st == DYD_OK ? mpq_get_d(own) : 0;
-  mpq_clear(own);
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (*out > 0 && isfinite(*out)) return DYD_OK;
   snprintf(message, sizeof message, "the %s is not an exact number above 0; give one such as 2 or 0.5",
@@ -495,11 +492,9 @@ static dyd_status intake_coordinate(dyd_coordinate *out, intake *in, int axis, c
 /* Letters of degrees say which coordinate it is. */
 static dyd_status intake_letter(intake *in, int axis, const dyd_coordinate *c, const dyd_span *span, dyd_error *err) {
   if (c->kind != DYD_COORDINATE_REAL || !dyd_real_is_final(c->real)) return DYD_OK;
-  mpq_t lo, hi;
   char letter = 0;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   bool degrees = dyd_degrees_read(lo, hi, &letter, span->text, span->length, false, NULL) == DYD_OK && letter;
-  mpq_clears(lo, hi, NULL);
   if (!degrees) return DYD_OK;
   in->report.degrees = true;
   if ((letter == 'N' || letter == 'S') == (axis == 1)) return DYD_OK;
@@ -618,12 +613,11 @@ static dyd_status intake_join(intake *in, dyd_error *err) {
     const dyd_place *id = &in->ids.item[k];
     if (id->count < 2) continue;
     if (!intake_has_room(in, err)) return DYD_E_NOMEM;
-    dyd_twin *row = dyd_alloc(id->count + 1, sizeof *row);
+    DYD_FREED dyd_twin *row = dyd_alloc(id->count + 1, sizeof *row);
     if (!row) return dyd_fail_nomem(err);
     for (size_t j = 0; j <= id->count; j++) dyd_twin_init(&row[j]);
     st = twins_join(in, id, row, err);
     for (size_t j = 0; j <= id->count; j++) dyd_twin_clear(&row[j]);
-    free(row);
   }
   in->uncertain = 0;
   for (size_t p = 0; in->o->confidence && p < in->stage.count; p++)
@@ -878,16 +872,14 @@ static dyd_status rect_set_side(dyd_interval *out, const dyd_span *span, dyd_err
 dyd_status dyd_rect_set_text(dyd_rect *out, const char *text, size_t length, dyd_error *err) {
   const dyd_line line = {text, length, 1};
   dyd_span span[2];
-  dyd_rect r;
   size_t count;
   if (err) dyd_error_clear(err);
   dyd_status st = dyd_points_split(span, &count, &line, ',', err);
   if (st == DYD_OK && !count) st = dyd_fail(err, DYD_E_PARSE, "the text holds no point; give two coordinates");
   if (st != DYD_OK) return st;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   st = rect_set_side(&r.x, &span[0], err);
   if (st == DYD_OK) st = rect_set_side(&r.y, &span[1], err);
   if (st == DYD_OK) dyd_rect_swap(out, &r);
-  dyd_rect_clear(&r);
   return st;
 }

@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "engine/add.h"
 #include "stream/stream.h"
 
@@ -241,20 +242,16 @@ static dyd_plain plain_of(const dyd_staged *p, int k) {
 
 /* One point or rectangle of decimals of any size. */
 static dyd_status commit_wide(dyd_engine *e, const dyd_staged *p, dyd_error *err) {
-  dyd_rect r;
-  mpq_t lo, hi;
   const int step = p->kind == DYD_COORDINATE_SPAN ? 2 : 1;
   dyd_status st = DYD_OK;
-  dyd_rect_init(&r);
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL(dyd_rect, r);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   for (int a = 0; a < 2 && st == DYD_OK; a++) {
     dyd_plain_get_q(lo, plain_of(p, step * a));
     dyd_plain_get_q(hi, plain_of(p, step * a + step - 1));
     st = dyd_interval_set_ends_q(a ? &r.y : &r.x, lo, hi);
   }
   if (st == DYD_OK) st = dyd_engine_add_rect(e, &r, err);
-  mpq_clears(lo, hi, NULL);
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -284,13 +281,10 @@ static dyd_status commit_decimals(size_t *count, dyd_engine *e, const dyd_stage 
 }
 
 static dyd_status commit_fixed(dyd_engine *e, const dyd_staged *p, dyd_error *err) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_interval_set(&r.x, dyd_real_interval(p->u.real[0]));
   dyd_interval_set(&r.y, dyd_real_interval(p->u.real[1]));
-  dyd_status st = dyd_engine_add_rect(e, &r, err);
-  dyd_rect_clear(&r);
-  return st;
+  return dyd_engine_add_rect(e, &r, err);
 }
 
 static dyd_status commit_reals(dyd_engine *e, dyd_staged *p, dyd_error *err) {

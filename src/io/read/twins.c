@@ -6,6 +6,7 @@
  * be rounded, and s rounded up; and one w for x and y does for ellipses that lie in discs. */
 #include "io/read/twins.h"
 
+#include "base/local.h"
 #include "io/read/confidence.h"
 #include "stream/arb.h"
 #include "stream/ball.h"
@@ -54,15 +55,13 @@ static bool twins_meet(dyd_twin *out, size_t apart[2], const dyd_twin *row, size
 
 static int twin_compare(const dyd_twin *a, const dyd_twin *b) {
   if (a->kept != b->kept) return a->kept < b->kept ? -1 : 1;
-  mpq_t u, v;
-  mpq_inits(u, v, NULL);
+  DYD_LOCAL_NUMBERS(mpq, u, v);
   int order = 0;
   for (int axis = 1; axis >= 0 && !order; axis--) {
     twin_width(u, a, axis);
     twin_width(v, b, axis);
     order = mpq_cmp(u, v);
   }
-  mpq_clears(u, v, NULL);
   return order;
 }
 
@@ -76,8 +75,7 @@ static size_t twins_least(const dyd_twin *row, size_t n) {
 
 /* Returns true if the discs in two squares are apart. Of other boxes that is not asked. */
 static bool discs_apart(const dyd_twin *s, const dyd_twin *t) {
-  mpq_t u, v, reach, square;
-  mpq_inits(u, v, reach, square, NULL);
+  DYD_LOCAL_NUMBERS(mpq, u, v, reach, square);
   bool round = true;
   for (int k = 0; k < 2; k++) {
     const dyd_twin *of = k ? t : s;
@@ -95,7 +93,6 @@ static bool discs_apart(const dyd_twin *s, const dyd_twin *t) {
   }
   mpq_mul(reach, reach, reach);
   bool apart = round && mpq_cmp(square, reach) > 0;
-  mpq_clears(u, v, reach, square, NULL);
   return apart;
 }
 
@@ -103,22 +100,19 @@ enum { BITS = 128 };
 
 /* out = sin^2((a - b) / 2), of degrees. */
 static void half_sine(arb_t out, mpq_srcptr a, mpq_srcptr b) {
-  mpq_t d;
-  mpq_init(d);
+  DYD_LOCAL_NUMBERS(mpq, d);
   mpq_sub(d, a, b);
   dyd_ball_set_q(out, d, BITS);
   arb_div_ui(out, out, 360, BITS);
   arb_sin_pi(out, out, BITS);
   arb_sqr(out, out, BITS);
-  mpq_clear(d);
 }
 
 /* Returns true if the way on the globe between two places is certainly longer than both radii. Half of its angle has
  * the squared sine sin^2(lat) + cos(lat of s) cos(lat of t) sin^2(lon), of halves of the differences. */
 static bool grounds_apart(const dyd_twin *s, const dyd_twin *t) {
   arb_t way, f, reach;
-  mpq_t zero;
-  mpq_init(zero);
+  DYD_LOCAL_NUMBERS(mpq, zero);
   arb_init(way);
   arb_init(f);
   arb_init(reach);
@@ -145,7 +139,6 @@ static bool grounds_apart(const dyd_twin *s, const dyd_twin *t) {
   arb_clear(way);
   arb_clear(f);
   arb_clear(reach);
-  mpq_clear(zero);
   return apart;
 }
 
@@ -166,18 +159,15 @@ static dyd_status twins_choose(dyd_twin *out, size_t apart[2], const dyd_twin *r
 
 /* Returns true if the box of degrees is narrower than half a turn, and off the poles, where longitudes mean nothing. */
 static bool twin_is_plain(const dyd_twin *t) {
-  mpq_t width;
-  mpq_init(width);
+  DYD_LOCAL_NUMBERS(mpq, width);
   twin_width(width, t, 0);
   bool plain = mpq_cmp_si(width, 180, 1) < 0 && mpq_cmp_si(t->lo[1], -90, 1) > 0 && mpq_cmp_si(t->hi[1], 90, 1) < 0;
-  mpq_clear(width);
   return plain;
 }
 
 /* Moves the longitudes of t by whole turns next to those of `to`. */
 static void twin_turn(dyd_twin *t, const dyd_twin *to) {
-  mpq_t turns;
-  mpq_init(turns);
+  DYD_LOCAL_NUMBERS(mpq, turns);
   mpq_add(turns, to->lo[0], to->hi[0]);
   mpq_sub(turns, turns, t->lo[0]);
   mpq_sub(turns, turns, t->hi[0]);
@@ -190,7 +180,6 @@ static void twin_turn(dyd_twin *t, const dyd_twin *to) {
   mpz_set_ui(mpq_denref(turns), 1);
   mpq_add(t->lo[0], t->lo[0], turns);
   mpq_add(t->hi[0], t->hi[0], turns);
-  mpq_clear(turns);
 }
 
 /* Boxes about a pole or half of the globe take no part; where all are such, one of them is taken. */
@@ -234,8 +223,7 @@ static double twins_least_sigma(const dyd_twin *row, size_t n, int axis) {
 }
 
 static void twins_mean(dyd_twin *out, const dyd_twin *row, size_t n, int axis, double least) {
-  mpq_t w, s, sum, variance;
-  mpq_inits(w, s, sum, variance, NULL);
+  DYD_LOCAL_NUMBERS(mpq, w, s, sum, variance);
   mpq_set_ui(out->lo[axis], 0, 1);
   mpq_set_ui(out->hi[axis], 0, 1);
   for (size_t k = 0; k < n; k++) {
@@ -255,7 +243,6 @@ static void twins_mean(dyd_twin *out, const dyd_twin *row, size_t n, int axis, d
   mpq_mul(sum, sum, sum);
   mpq_div(variance, variance, sum);
   out->sigma[axis] = dyd_root_above(variance);
-  mpq_clears(w, s, sum, variance, NULL);
 }
 
 dyd_status dyd_twins_merge(dyd_twin *out, size_t apart[2], dyd_twin *row, size_t n, const dyd_read_options *o) {

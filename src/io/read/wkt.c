@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Lines of a points file without a header: a geometry as well-known text, whose places are points, or two coordinates.
  */
+#include "base/local.h"
 #include "io/read/csv.h"
 #include "stream/degrees.h"
 #include <string.h>
@@ -181,11 +182,9 @@ static dyd_span points_coordinate(cursor *c) {
 }
 
 static bool is_degrees(const char *begin, const char *end) {
-  mpq_t lo, hi;
   char letter;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   bool is = dyd_degrees_read(lo, hi, &letter, begin, (size_t)(end - begin), false, NULL) != DYD_E_ARG;
-  mpq_clears(lo, hi, NULL);
   return is;
 }
 

@@ -79,7 +79,7 @@ typedef dyd_status (*html_data_fn)(FILE *to, const dyd_output *o);
 
 /* A page with the data that `data` writes. */
 static dyd_status html_write(const dyd_output *o, html_data_fn data) {
-  char *text = NULL;
+  DYD_FREED char *text = NULL;
   size_t size = 0;
   FILE *to = open_memstream(&text, &size);
   if (!to) return DYD_E_NOMEM;
@@ -90,7 +90,6 @@ static dyd_status html_write(const dyd_output *o, html_data_fn data) {
     st = put_packed(o->out, text, size);
     fwrite(dyd_html_after, 1, dyd_html_after_size, o->out);
   }
-  free(text);
   return st;
 }
 
