@@ -68,13 +68,10 @@ static struct sigaction python_action;
 static unsigned long main_thread;
 
 int dydpy_guard_prepare(void) {
-  PyObject *function = dydpy_import("threading", "main_thread");
-  PyObject *thread = function ? PyObject_CallNoArgs(function) : NULL;
-  PyObject *ident = thread ? PyObject_GetAttrString(thread, "ident") : NULL;
+  OWNED *function = dydpy_import("threading", "main_thread");
+  OWNED *thread = function ? PyObject_CallNoArgs(function) : NULL;
+  OWNED *ident = thread ? PyObject_GetAttrString(thread, "ident") : NULL;
   if (ident) main_thread = PyLong_AsUnsignedLong(ident);
-  Py_XDECREF(ident);
-  Py_XDECREF(thread);
-  Py_XDECREF(function);
   return PyErr_Occurred() ? -1 : 0;
 }
 
@@ -120,9 +117,8 @@ int dydpy_guard_end(dydpy_guard *g) {
  * One at a time: a second one, from another thread or from a callback, is refused. */
 
 PyObject *dydpy_import(const char *package, const char *name) {
-  PyObject *module = PyImport_ImportModule(package);
+  OWNED *module = PyImport_ImportModule(package);
   PyObject *found = module ? PyObject_GetAttrString(module, name) : NULL;
-  Py_XDECREF(module);
   return found;
 }
 
@@ -141,14 +137,13 @@ static PyObject *number_or_none(bool known, unsigned long long number) {
 /* dyadel.Error(message, code, point, stage, line, column) */
 static PyObject *error_new(const dyd_error *err, dyd_status status) {
   bool told = err && err->message[0], point = told && err->point != DYD_NO_POINT;
-  PyObject *type = dydpy_import("dyadel._errors", "Error");
+  OWNED *type = dydpy_import("dyadel._errors", "Error");
   if (!type) return NULL;
   PyObject *error = PyObject_CallFunction(type, "ssNNNN", told ? err->message : dyd_status_text(status),
                                           code_name(status), number_or_none(point, point ? err->point : 0),
                                           number_or_none(point, point ? err->stage : 0),
                                           number_or_none(told && err->line, told ? err->line : 0),
                                           number_or_none(told && err->column, told ? err->column : 0));
-  Py_DECREF(type);
   return error;
 }
 
@@ -156,9 +151,8 @@ PyObject *dydpy_raise(const dyd_error *err, dyd_status status) {
   if (PyErr_Occurred()) return NULL;
   if (status == DYD_E_NOMEM && !(err && err->message[0])) return PyErr_NoMemory();
   if (status == DYD_E_NOMEM) return PyErr_Format(PyExc_MemoryError, "%s", err->message);
-  PyObject *error = error_new(err, status);
+  OWNED *error = error_new(err, status);
   if (error) PyErr_SetObject((PyObject *)Py_TYPE(error), error);
-  Py_XDECREF(error);
   return NULL;
 }
 

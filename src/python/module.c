@@ -149,10 +149,9 @@ static PyModuleDef module_definition = {
 
 static int add_types(PyObject *module) {
   PyTypeObject *engine = dydpy_engine_type();
-  PyObject *sphere = engine ? PyType_FromSpec(&globe_spec) : NULL;
+  OWNED *sphere = engine ? PyType_FromSpec(&globe_spec) : NULL;
   int status = sphere ? PyModule_AddObjectRef(module, "Engine", (PyObject *)engine) : -1;
   if (status == 0) status = PyModule_AddObjectRef(module, "Sphere", sphere);
-  Py_XDECREF(sphere);
   return status;
 }
 

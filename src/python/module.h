@@ -12,6 +12,30 @@
 #include <Python.h>
 #include <dyadel/dyadel.h>
 #include <signal.h>
+#include <stdlib.h>
+
+/* ---- objects that are given back at the end of their block ---- */
+
+/* OWNED *x = ..; a reference, or NULL. FREED char *t = ..; memory. SCOPED(dyd_pair_list) l = {0}; LOCAL(dyd_rect, r)
+ * and LOCAL_Q(q), of type mpq_t, initialise, too. Not where the GIL is released before the block ends. */
+#define OWNED __attribute__((cleanup(dydpy_drop))) PyObject
+#define FREED __attribute__((cleanup(dydpy_drop_memory)))
+#define SCOPED(type) __attribute__((cleanup(type##_clear))) type
+#define LOCAL(type, x)                                                                                                 \
+  SCOPED(type) x;                                                                                                      \
+  type##_init(&x)
+#define LOCAL_Q(x)                                                                                                     \
+  __attribute__((cleanup(dydpy_drop_q))) mpq_t x;                                                                      \
+  mpq_init(x)
+static inline void dydpy_drop(PyObject **x) {
+  Py_XDECREF(*x);
+}
+static inline void dydpy_drop_memory(void *place) {
+  free(*(void **)place);
+}
+static inline void dydpy_drop_q(mpq_t *q) {
+  mpq_clear(*q);
+}
 
 /* ---- call.c: exceptions ---- */
 

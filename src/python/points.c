@@ -76,27 +76,21 @@ static PyObject *attribute_of(PyObject *value, const char *name) {
 
 /* 1: done, 0: it has no such parts, -1: an exception is set. */
 static int parts_of(mpq_t out, PyObject *value) {
-  PyObject *numerator = attribute_of(value, "numerator");
-  PyObject *denominator = numerator ? attribute_of(value, "denominator") : NULL;
+  OWNED *numerator = attribute_of(value, "numerator");
+  OWNED *denominator = numerator ? attribute_of(value, "denominator") : NULL;
   int found = PyErr_Occurred() ? -1 : 0;
   if (denominator && !PyCallable_Check(denominator)) found = quotient_of(out, numerator, denominator) < 0 ? -1 : 1;
-  Py_XDECREF(denominator);
-  Py_XDECREF(numerator);
   return found;
 }
 
 static int ratio_of(mpq_t out, PyObject *value) {
-  PyObject *method = attribute_of(value, "as_integer_ratio");
+  OWNED *method = attribute_of(value, "as_integer_ratio");
   if (!method) return PyErr_Occurred() ? -1 : 0;
-  PyObject *ratio = PyObject_CallNoArgs(method), *numerator = NULL, *denominator = NULL;
-  Py_DECREF(method);
+  OWNED *ratio = PyObject_CallNoArgs(method), *numerator = NULL, *denominator = NULL;
   if (!ratio) return -1;
   numerator = PySequence_GetItem(ratio, 0);
   denominator = numerator ? PySequence_GetItem(ratio, 1) : NULL;
   int found = denominator && quotient_of(out, numerator, denominator) == 0 ? 1 : -1;
-  Py_XDECREF(denominator);
-  Py_XDECREF(numerator);
-  Py_DECREF(ratio);
   return found;
 }
 
@@ -114,16 +108,15 @@ static int plain_rational(mpq_t out, PyObject *value) {
 
 /* The int, text or pair that dyadel._values makes of it. */
 static PyObject *simplified(PyObject *value) {
-  PyObject *function = dydpy_import("dyadel._values", "simplify");
+  OWNED *function = dydpy_import("dyadel._values", "simplify");
   PyObject *simple = function ? PyObject_CallFunctionObjArgs(function, value, NULL) : NULL;
-  Py_XDECREF(function);
   return simple;
 }
 
 int dydpy_rational(mpq_t out, PyObject *value) {
   int found = plain_rational(out, value);
   if (found) return found < 0 ? -1 : 0;
-  PyObject *simple = PyUnicode_Check(value) ? Py_NewRef(value) : simplified(value);
+  OWNED *simple = PyUnicode_Check(value) ? Py_NewRef(value) : simplified(value);
   if (!simple) return -1;
   if (PyUnicode_Check(simple)) {
     found = exact_text_of(out, simple) < 0 ? -1 : 1;
@@ -131,7 +124,6 @@ int dydpy_rational(mpq_t out, PyObject *value) {
     found = plain_rational(out, simple);
     if (!found) PyErr_Format(PyExc_TypeError, "expected one exact number, not the interval %R", value);
   }
-  Py_DECREF(simple);
   return found > 0 ? 0 : -1;
 }
 
@@ -139,14 +131,12 @@ int dydpy_rational(mpq_t out, PyObject *value) {
 
 static int ends_of(mpq_t lo, mpq_t hi, PyObject *pair) {
   int found = -1;
-  PyObject *low = PySequence_GetItem(pair, 0), *high = low ? PySequence_GetItem(pair, 1) : NULL;
+  OWNED *low = PySequence_GetItem(pair, 0), *high = low ? PySequence_GetItem(pair, 1) : NULL;
   if (high) found = dydpy_rational(lo, low) < 0 || dydpy_rational(hi, high) < 0 ? -1 : 0;
   if (!found && mpq_cmp(lo, hi) > 0) {
     PyErr_Format(PyExc_ValueError, "the lower end of %R is above the upper end (exchange them)", pair);
     found = -1;
   }
-  Py_XDECREF(high);
-  Py_XDECREF(low);
   return found;
 }
 
@@ -160,30 +150,28 @@ static int interval_of(mpq_t lo, mpq_t hi, PyObject *value) {
   if (found > 0) mpq_set(hi, lo);
   if (found || PyUnicode_Check(value)) return found;
   if (is_pair(value)) return ends_of(lo, hi, value) < 0 ? -1 : 1;
-  PyObject *simple = simplified(value);
+  OWNED *simple = simplified(value);
   if (!simple) return -1;
   found = is_pair(simple) ? (ends_of(lo, hi, simple) < 0 ? -1 : 1) : plain_rational(lo, simple);
   if (found > 0 && !is_pair(simple)) mpq_set(hi, lo);
-  Py_DECREF(simple);
   return found;
 }
 
 static int real_of_text(dyd_real **out, PyObject *value) {
   Py_ssize_t length;
   dyd_error err;
-  PyObject *simple = PyUnicode_Check(value) ? Py_NewRef(value) : simplified(value);
+  OWNED *simple = PyUnicode_Check(value) ? Py_NewRef(value) : simplified(value);
   const char *text = simple ? PyUnicode_AsUTF8AndSize(simple, &length) : NULL;
   dyd_error_clear(&err);
   dyd_status st = text ? dyd_real_parse(out, text, (size_t)length, &err) : DYD_OK;
   if (st != DYD_OK) dydpy_raise(&err, st);
-  Py_XDECREF(simple);
   return text && st == DYD_OK ? 0 : -1;
 }
 
 /* Any coordinate, intervals and expressions included; the caller's. */
 static int real_of(dyd_real **out, PyObject *value) {
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  LOCAL_Q(lo);
+  LOCAL_Q(hi);
   int found = interval_of(lo, hi, value);
   if (found > 0) {
     dyd_status st = dyd_real_from_interval(out, lo, hi);
@@ -192,7 +180,6 @@ static int real_of(dyd_real **out, PyObject *value) {
       found = -1;
     }
   }
-  mpq_clears(lo, hi, NULL);
   return found == 0 ? real_of_text(out, value) : found < 0 ? -1 : 0;
 }
 
@@ -203,17 +190,13 @@ static void blame(size_t point, PyObject *place) {
   PyObject *type, *value, *trace;
   PyErr_Fetch(&type, &value, &trace);
   PyErr_NormalizeException(&type, &value, &trace);
-  PyObject *number = PyLong_FromSize_t(point), *old = PyObject_GetAttrString(value, "args");
+  OWNED *number = PyLong_FromSize_t(point), *old = PyObject_GetAttrString(value, "args");
   PyObject *text = old && PyTuple_Size(old) == 1 ? PyTuple_GetItem(old, 0) : NULL;
-  PyObject *whole = place && text && PyUnicode_Check(text) ? PyUnicode_FromFormat("%U: %U", place, text) : NULL;
-  PyObject *made = whole ? PyTuple_Pack(1, whole) : NULL;
+  OWNED *whole = place && text && PyUnicode_Check(text) ? PyUnicode_FromFormat("%U: %U", place, text) : NULL;
+  OWNED *made = whole ? PyTuple_Pack(1, whole) : NULL;
   if (made) PyObject_SetAttrString(value, "args", made);
   if (number) PyObject_SetAttrString(value, "point", number);
   PyErr_Clear();
-  Py_XDECREF(made);
-  Py_XDECREF(whole);
-  Py_XDECREF(old);
-  Py_XDECREF(number);
   Py_XDECREF(place);
   PyErr_Restore(type, value, trace);
 }
@@ -223,9 +206,8 @@ static void add_note(PyObject *text) {
   PyObject *type, *value, *trace;
   PyErr_Fetch(&type, &value, &trace);
   PyErr_NormalizeException(&type, &value, &trace);
-  PyObject *done = text ? PyObject_CallMethod(value, "add_note", "O", text) : NULL;
+  OWNED *done = text ? PyObject_CallMethod(value, "add_note", "O", text) : NULL;
   PyErr_Clear();
-  Py_XDECREF(done);
   Py_XDECREF(text);
   PyErr_Restore(type, value, trace);
 }
@@ -236,13 +218,12 @@ static void add_note(PyObject *text) {
 static int sides_of(mpq_t end[4], PyObject *answer) {
   int found = 0;
   for (int k = 0; found >= 0 && k < 2; k++) {
-    PyObject *side = PySequence_GetItem(answer, k);
+    OWNED *side = PySequence_GetItem(answer, k);
     found = side ? interval_of(end[2 * k], end[2 * k + 1], side) : -1;
     if (side && found == 0) {
       found = dydpy_rational(end[2 * k], side);
       mpq_set(end[2 * k + 1], end[2 * k]);
     }
-    Py_XDECREF(side);
   }
   return found < 0 ? -1 : 0;
 }
@@ -250,18 +231,16 @@ static int sides_of(mpq_t end[4], PyObject *answer) {
 static int numbers_of(mpq_t end[4], PyObject *answer) {
   int found = 0;
   for (int k = 0; found >= 0 && k < 4; k++) {
-    PyObject *number = PySequence_GetItem(answer, k);
+    OWNED *number = PySequence_GetItem(answer, k);
     found = number ? dydpy_rational(end[k], number) : -1;
-    Py_XDECREF(number);
   }
   return found;
 }
 
 /* Returns 1 if there is a fifth element that is true, 0 if not, -1 with an exception set. */
 static int answer_is_fixed(PyObject *answer) {
-  PyObject *fixed = PySequence_GetItem(answer, 4);
+  OWNED *fixed = PySequence_GetItem(answer, 4);
   int truth = fixed ? PyObject_IsTrue(fixed) : -1;
-  Py_XDECREF(fixed);
   return truth;
 }
 
@@ -324,10 +303,8 @@ static PyObject *integer_new(const mpz_t z) {
 }
 
 PyObject *dydpy_ratio(const mpq_t q) {
-  PyObject *numerator = integer_new(mpq_numref(q)), *denominator = integer_new(mpq_denref(q));
+  OWNED *numerator = integer_new(mpq_numref(q)), *denominator = integer_new(mpq_denref(q));
   PyObject *pair = numerator && denominator ? PyTuple_Pack(2, numerator, denominator) : NULL;
-  Py_XDECREF(numerator);
-  Py_XDECREF(denominator);
   return pair;
 }
 
@@ -347,11 +324,9 @@ PyObject *dydpy_rect_ends(const dyd_rect *r) {
 
 PyObject *dydpy_dyadic(const dyd_dyadic *x) {
   if (!x) Py_RETURN_NONE;
-  mpq_t q;
-  mpq_init(q);
+  LOCAL_Q(q);
   dyd_dyadic_get_q(q, x);
   PyObject *value = dydpy_ratio(q);
-  mpq_clear(q);
   return value;
 }
 
@@ -360,14 +335,13 @@ PyObject *dydpy_dyadic(const dyd_dyadic *x) {
 static dyd_status call_narrow(dyd_rect *out, PyObject *narrow, const dyd_request *request, dyd_error *err) {
   const Py_ssize_t point = (Py_ssize_t)request->point;
   const char *place = "point %zd, asked for %lld bits";
-  PyObject *answer = PyObject_CallFunction(narrow, "nL", point, (long long)request->bits);
+  OWNED *answer = PyObject_CallFunction(narrow, "nL", point, (long long)request->bits);
   if (!answer) {
     add_note(PyUnicode_FromFormat(place, point, (long long)request->bits));
     return DYD_E_STREAM;
   }
   dyd_status st = dydpy_answer(out, answer, err);
   if (PyErr_Occurred()) blame(request->point, PyUnicode_FromFormat(place, point, (long long)request->bits));
-  Py_DECREF(answer);
   return st;
 }
 
@@ -436,10 +410,9 @@ PyObject *dydpy_append_boxes(PyObject *self, PyObject *args) {
 
 /* One coordinate, widened by a radius (NULL: none). */
 static int widened_real(dyd_real **out, PyObject *value, PyObject *radius) {
-  mpq_t by;
   if (real_of(out, value) < 0) return -1;
   if (!radius) return 0;
-  mpq_init(by);
+  LOCAL_Q(by);
   int status = dydpy_rational(by, radius);
   if (status < 0 && (PyErr_ExceptionMatches(PyExc_ValueError) || PyErr_ExceptionMatches(PyExc_TypeError)))
     PyErr_Format(PyExc_ValueError, "the radius %R is not a finite number", radius);
@@ -451,7 +424,6 @@ static int widened_real(dyd_real **out, PyObject *value, PyObject *radius) {
   if (status < 0) dyd_real_free(*out);
   if (status < 0 || st != DYD_OK) *out = NULL;
   if (st != DYD_OK) dydpy_raise(NULL, st);
-  mpq_clear(by);
   return status == 0 && st == DYD_OK ? 0 : -1;
 }
 
@@ -562,44 +534,39 @@ PyObject *dydpy_name(PyObject *self, PyObject *args) {
 }
 
 /* names() -> (rows, ids or None): of all points */
-PyObject *dydpy_names(PyObject *self, PyObject *none) {
+PyObject *dydpy_names(PyObject *self, PyObject *Py_UNUSED(none)) {
   dydpy_call c;
-  (void)none;
   if (!dydpy_begin(&c, self, DYDPY_HOLDS)) return NULL;
   const dyd_engine *e = c.self->engine;
   const size_t count = dyd_engine_count(e);
   int64_t *row = malloc((count + 1) * sizeof *row);
-  PyObject *ids = dyd_engine_id(e, 0) ? PyList_New((Py_ssize_t)count) : Py_NewRef(Py_None);
+  OWNED *ids = dyd_engine_id(e, 0) ? PyList_New((Py_ssize_t)count) : Py_NewRef(Py_None);
   for (size_t i = 0; row && i < count; i++) {
     const char *id = dyd_engine_id(e, i);
     row[i] = (int64_t)dyd_engine_row(e, i);
     if (id && ids) PyList_SetItem(ids, (Py_ssize_t)i, PyUnicode_DecodeUTF8(id, (Py_ssize_t)strlen(id), "replace"));
   }
-  PyObject *rows = row ? dydpy_buffer_new(row, count * sizeof *row) : PyErr_NoMemory();
+  OWNED *rows = row ? dydpy_buffer_new(row, count * sizeof *row) : PyErr_NoMemory();
   if (!dydpy_end(&c, DYD_OK)) Py_CLEAR(rows);
   PyObject *both = rows && ids ? PyTuple_Pack(2, rows, ids) : NULL;
-  Py_XDECREF(rows);
-  Py_XDECREF(ids);
   return both;
 }
 
 /* carried() -> {name: [text, ...]}: the columns that points carry */
-PyObject *dydpy_carried(PyObject *self, PyObject *none) {
+PyObject *dydpy_carried(PyObject *self, PyObject *Py_UNUSED(none)) {
   dydpy_call c;
   const char *name;
-  (void)none;
   if (!dydpy_begin(&c, self, DYDPY_HOLDS)) return NULL;
   const dyd_engine *e = c.self->engine;
   const size_t count = dyd_engine_count(e);
   PyObject *all = PyDict_New();
   for (size_t k = 0; all && dyd_engine_carried(&name, e, 0, k); k++) {
-    PyObject *column = PyList_New((Py_ssize_t)count);
+    OWNED *column = PyList_New((Py_ssize_t)count);
     for (size_t i = 0; column && i < count; i++) {
       const char *text = dyd_engine_carried(NULL, e, i, k);
       PyList_SetItem(column, (Py_ssize_t)i, PyUnicode_DecodeUTF8(text, (Py_ssize_t)strlen(text), "replace"));
     }
     if (!column || PyErr_Occurred() || PyDict_SetItemString(all, name, column) < 0) Py_CLEAR(all);
-    Py_XDECREF(column);
   }
   if (!dydpy_end(&c, DYD_OK)) Py_CLEAR(all);
   return all;
@@ -664,12 +631,10 @@ PyObject *dydpy_remeasure(PyObject *self, PyObject *args) {
   Py_ssize_t number;
   uint32_t site;
   PyObject *ends, *done = NULL;
-  dyd_rect r;
   dydpy_call c;
   if (!PyArg_ParseTuple(args, "nO", &number, &ends) || !dydpy_site(&site, (dydpy_engine *)self, number)) return NULL;
-  dyd_rect_init(&r);
+  LOCAL(dyd_rect, r);
   if (rect_of(&r, ends) == 0 && dydpy_begin(&c, self, 0))
     done = dydpy_end_none(&c, dyd_engine_remeasure(c.self->engine, site, &r, &c.err));
-  dyd_rect_clear(&r);
   return done;
 }

@@ -8,14 +8,12 @@
 
 /* ---- single answers ---- */
 
-PyObject *dydpy_count(PyObject *self, PyObject *none) {
-  (void)none;
+PyObject *dydpy_count(PyObject *self, PyObject *Py_UNUSED(none)) {
   return PyLong_FromSize_t(dydpy_points((dydpy_engine *)self));
 }
 
-PyObject *dydpy_outcome(PyObject *self, PyObject *none) {
+PyObject *dydpy_outcome(PyObject *self, PyObject *Py_UNUSED(none)) {
   dydpy_call c;
-  (void)none;
   if (!dydpy_begin(&c, self, DYDPY_HOLDS)) return NULL;
   dyd_outcome outcome = c.self->sphere ? dyd_sphere_outcome(c.self->sphere) : dyd_engine_outcome(c.self->engine);
   return dydpy_end(&c, DYD_OK) ? PyUnicode_FromString(dyd_outcome_text(outcome)) : NULL;
@@ -28,10 +26,9 @@ static PyObject *spent_name(dyd_budget spent) {
   return PyUnicode_FromString(name[k]);
 }
 
-PyObject *dydpy_counters(PyObject *object, PyObject *none) {
+PyObject *dydpy_counters(PyObject *object, PyObject *Py_UNUSED(none)) {
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
   dydpy_call call;
-  (void)none;
   if (!dydpy_begin(&call, object, 0) || !dydpy_end(&call, dyd_engine_get_counters(&c, call.self->engine, &call.err)))
     return NULL;
   const dydpy_entry entry[] = {
@@ -51,10 +48,9 @@ PyObject *dydpy_counters(PyObject *object, PyObject *none) {
   return dydpy_dict(entry, sizeof entry / sizeof *entry);
 }
 
-PyObject *dydpy_counts(PyObject *self, PyObject *none) {
+PyObject *dydpy_counts(PyObject *self, PyObject *Py_UNUSED(none)) {
   size_t count[4];
   dydpy_call c;
-  (void)none;
   if (!dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_HOLDS)) return NULL;
   dyd_delaunay_count(count, c.pd);
   if (!dydpy_end(&c, DYD_OK)) return NULL;
@@ -73,66 +69,53 @@ PyObject *dydpy_pair_status(PyObject *self, PyObject *args) {
   return dydpy_end(&c, DYD_OK) ? PyLong_FromLong(status) : NULL;
 }
 
-PyObject *dydpy_bounds(PyObject *object, PyObject *none) {
-  dyd_dyadic area, hausdorff;
-  PyObject *both = NULL;
+PyObject *dydpy_bounds(PyObject *object, PyObject *Py_UNUSED(none)) {
   dydpy_call c;
-  (void)none;
-  if (!dydpy_begin(&c, object, DYDPY_RESULT)) return NULL;
-  dyd_dyadic_init(&area);
-  dyd_dyadic_init(&hausdorff);
-  if (dydpy_end(&c, dyd_engine_bounds(&area, &hausdorff, c.self->engine)))
-    both = Py_BuildValue("NN", dydpy_dyadic(&area), dydpy_dyadic(&hausdorff));
-  dyd_dyadic_clear(&hausdorff);
-  dyd_dyadic_clear(&area);
-  return both;
+  LOCAL(dyd_dyadic, area);
+  LOCAL(dyd_dyadic, hausdorff);
+  if (!dydpy_begin(&c, object, DYDPY_RESULT) || !dydpy_end(&c, dyd_engine_bounds(&area, &hausdorff, c.self->engine)))
+    return NULL;
+  return Py_BuildValue("NN", dydpy_dyadic(&area), dydpy_dyadic(&hausdorff));
 }
 
 PyObject *dydpy_rect(PyObject *object, PyObject *site) {
-  PyObject *ends = NULL;
   Py_ssize_t number = PyLong_AsSsize_t(site);
   uint32_t i;
-  dyd_rect r;
   dydpy_call c;
   if (PyErr_Occurred() || !dydpy_site(&i, (dydpy_engine *)object, number) || !dydpy_begin(&c, object, 0)) return NULL;
-  dyd_rect_init(&r);
+  LOCAL(dyd_rect, r);
   bool known = c.self->sphere || dyd_engine_knows(c.self->engine, i);
   dyd_status st = !known           ? DYD_OK
                   : c.self->sphere ? dyd_sphere_rect(&r, c.self->sphere, i)
                                    : dyd_sites_get(&r, dyd_engine_sites(c.self->engine), i);
-  if (dydpy_end(&c, st) && known) ends = dydpy_rect_ends(&r);
+  if (dydpy_end(&c, st) && known) return dydpy_rect_ends(&r);
   if (!known) PyErr_Format(PyExc_RuntimeError, "point %zd has not been asked yet; call refine()", number);
-  dyd_rect_clear(&r);
-  return ends;
+  return NULL;
 }
 
-PyObject *dydpy_window(PyObject *object, PyObject *none) {
-  PyObject *ends = NULL;
-  dyd_rect r;
+PyObject *dydpy_window(PyObject *object, PyObject *Py_UNUSED(none)) {
   dydpy_call c;
-  (void)none;
+  LOCAL(dyd_rect, r);
   if (!dydpy_begin(&c, object, DYDPY_RESULT)) return NULL;
-  dyd_rect_init(&r);
-  if (dydpy_end(&c, dyd_voronoi_window(&r, dyd_delaunay_sites(c.pd)))) ends = dydpy_rect_ends(&r);
-  dyd_rect_clear(&r);
-  return ends;
+  return dydpy_end(&c, dyd_voronoi_window(&r, dyd_delaunay_sites(c.pd))) ? dydpy_rect_ends(&r) : NULL;
 }
 
-PyObject *dydpy_centre(PyObject *self, PyObject *none) {
+PyObject *dydpy_centre(PyObject *self, PyObject *Py_UNUSED(none)) {
   uint32_t centre = dyd_sphere_centre(((dydpy_engine *)self)->sphere);
-  (void)none;
   if (centre == DYD_NO_PLACE) Py_RETURN_NONE;
   return PyLong_FromUnsignedLong(centre);
 }
 
 /* ---- arrays ---- */
 
-/* An array that a call which ended well or not has made: takes it over. */
-static PyObject *array_new(bool good, void *item, size_t count, size_t size) {
-  if (good) return dydpy_buffer_new(item, count * size);
-  free(item);
-  return NULL;
+/* An array of the library, which is taken out of its place. */
+static PyObject *array_taken(void *place, size_t size) {
+  void *bytes;
+  memcpy(&bytes, place, sizeof bytes);
+  memset(place, 0, sizeof bytes);
+  return dydpy_buffer_new(bytes, size);
 }
+#define TAKEN(array, count) array_taken((void *)&(array), (count) * sizeof *(array))
 
 static PyObject *copied(const void *from, size_t size) {
   void *to = malloc(size + 1);
@@ -141,110 +124,83 @@ static PyObject *copied(const void *from, size_t size) {
   return dydpy_buffer_new(to, size);
 }
 
-PyObject *dydpy_pairs(PyObject *self, PyObject *none) {
-  dyd_pair_list list = {0};
+PyObject *dydpy_pairs(PyObject *self, PyObject *Py_UNUSED(none)) {
+  SCOPED(dyd_pair_list) list = {0};
   dydpy_call c;
-  (void)none;
   if (!dydpy_begin(&c, self, DYDPY_RESULT)) return NULL;
-  bool good = dydpy_end(&c, c.self->sphere ? dyd_sphere_pairs(&list, c.self->sphere) : dyd_delaunay_pairs(&list, c.pd));
-  return array_new(good, list.item, list.count, sizeof *list.item);
+  dyd_status st = c.self->sphere ? dyd_sphere_pairs(&list, c.self->sphere) : dyd_delaunay_pairs(&list, c.pd);
+  return dydpy_end(&c, st) ? TAKEN(list.item, list.count) : NULL;
 }
 
-PyObject *dydpy_discs(PyObject *self, PyObject *none) {
-  dyd_pair_list list = {0};
+PyObject *dydpy_discs(PyObject *self, PyObject *Py_UNUSED(none)) {
+  SCOPED(dyd_pair_list) list = {0};
   dydpy_call c;
-  (void)none;
   if (!dydpy_begin(&c, self, DYDPY_RESULT)) return NULL;
-  bool good = dydpy_end(&c, dyd_disc_pairs(&list, c.pd, NULL, &c.err));
-  return array_new(good, list.item, list.count, sizeof *list.item);
+  return dydpy_end(&c, dyd_disc_pairs(&list, c.pd, NULL, &c.err)) ? TAKEN(list.item, list.count) : NULL;
 }
 
 /* On a sphere corners only; neighbours are found in Python. */
-PyObject *dydpy_triangles(PyObject *self, PyObject *none) {
-  dyd_triangle_list list = {0}, beyond = {0};
+PyObject *dydpy_triangles(PyObject *self, PyObject *Py_UNUSED(none)) {
+  SCOPED(dyd_triangle_list) list = {0}, beyond = {0};
   dydpy_call c;
-  (void)none;
   if (!dydpy_begin(&c, self, DYDPY_RESULT)) return NULL;
-  if (!dydpy_end(&c, c.self->sphere ? dyd_sphere_triangles(&list, c.self->sphere)
-                                    : dyd_delaunay_triangles(&list, &beyond, c.pd, DYD_TRIANGLES_AS_FOUND)))
-    return NULL;
-  return Py_BuildValue("NN", array_new(true, list.item, list.count, sizeof *list.item),
-                       array_new(true, beyond.item, beyond.count, sizeof *beyond.item));
+  dyd_status st = c.self->sphere ? dyd_sphere_triangles(&list, c.self->sphere)
+                                 : dyd_delaunay_triangles(&list, &beyond, c.pd, DYD_TRIANGLES_AS_FOUND);
+  if (!dydpy_end(&c, st)) return NULL;
+  return Py_BuildValue("NN", TAKEN(list.item, list.count), TAKEN(beyond.item, beyond.count));
 }
 
-PyObject *dydpy_aliases(PyObject *self, PyObject *none) {
+PyObject *dydpy_aliases(PyObject *self, PyObject *Py_UNUSED(none)) {
   dydpy_call c;
-  (void)none;
   const dyd_sphere *sphere = ((dydpy_engine *)self)->sphere;
   if (!dydpy_begin(&c, self, sphere ? 0 : DYDPY_RESULT)) return NULL;
   size_t n = dydpy_points(c.self);
-  uint32_t *alias = malloc((n + 1) * sizeof *alias);
+  FREED uint32_t *alias = malloc((n + 1) * sizeof *alias);
   for (uint32_t i = 0; alias && i < n; i++)
     alias[i] = sphere ? dyd_sphere_alias(sphere, i) : dyd_delaunay_alias(c.pd, i);
-  bool good = dydpy_end(&c, alias ? DYD_OK : DYD_E_NOMEM);
-  return array_new(good, alias, n, sizeof *alias);
+  return dydpy_end(&c, alias ? DYD_OK : DYD_E_NOMEM) ? TAKEN(alias, n) : NULL;
 }
 
-PyObject *dydpy_hull(PyObject *self, PyObject *none) {
-  dyd_hull hull = {0};
-  const dyd_index_list *sure = &hull.sure_vertices, *possible = &hull.possible_vertices;
+PyObject *dydpy_hull(PyObject *self, PyObject *Py_UNUSED(none)) {
+  SCOPED(dyd_hull) hull = {0};
+  dyd_index_list *sure = &hull.sure_vertices, *possible = &hull.possible_vertices;
   dydpy_call c;
-  (void)none;
   if (!dydpy_begin(&c, self, DYDPY_RESULT) || !dydpy_end(&c, dyd_delaunay_partial_hull(&hull, c.pd, false)))
     return NULL;
-  return Py_BuildValue("NN", array_new(true, sure->item, sure->count, sizeof *sure->item),
-                       array_new(true, possible->item, possible->count, sizeof *possible->item));
+  return Py_BuildValue("NN", TAKEN(sure->item, sure->count), TAKEN(possible->item, possible->count));
 }
 
 /* In degrees, of places. */
 static dyd_status boxes_of_places(double *box, const dyd_sphere *sphere, size_t n) {
   dyd_status st = DYD_OK;
-  dyd_rect r;
-  dyd_rect_init(&r);
+  LOCAL(dyd_rect, r);
   for (uint32_t i = 0; i < n && st == DYD_OK; i++) {
     st = dyd_sphere_rect(&r, sphere, i);
     if (st == DYD_OK) dyd_rect_get_d(box + 4 * (size_t)i, &r);
   }
-  dyd_rect_clear(&r);
   return st;
 }
 
-PyObject *dydpy_boxes(PyObject *self, PyObject *none) {
+PyObject *dydpy_boxes(PyObject *self, PyObject *Py_UNUSED(none)) {
   dydpy_call c;
-  (void)none;
   if (!dydpy_begin(&c, self, 0)) return NULL;
   size_t n = dydpy_points(c.self);
-  double *box = malloc((4 * n + 1) * sizeof *box);
+  FREED double *box = malloc((4 * n + 1) * sizeof *box);
   dyd_status st = box ? DYD_OK : DYD_E_NOMEM;
   if (box && c.self->sphere) st = boxes_of_places(box, c.self->sphere, n);
   const dyd_sites *sites = c.self->sphere ? NULL : dyd_engine_sites(c.self->engine);
   for (size_t i = 0; box && sites && i < n; i++) dyd_sites_get_d(box + 4 * i, sites, i);
-  bool good = dydpy_end(&c, st);
-  return array_new(good, box, 4 * n, sizeof *box);
+  return dydpy_end(&c, st) ? TAKEN(box, 4 * n) : NULL;
 }
 
 /* ---- cells and tiles ---- */
 
-/* Begins a call about the diagram on a window, None: the default one; false with an exception set, *view cleared. */
+/* Begins a call about the diagram on a window, None: the default one; false with an exception set. */
 static bool diagram_begin(dydpy_call *c, dyd_rect *view, PyObject *self, PyObject *window) {
   bool given = false;
-  dyd_rect_init(view);
-  if (dydpy_window_take(view, &given, window) == 0 && dydpy_begin(c, self, DYDPY_RESULT | DYDPY_CANCELS)) {
-    dyd_status st = given ? DYD_OK : dyd_voronoi_window(view, dyd_delaunay_sites(c->pd));
-    if (st == DYD_OK) return true;
-    dydpy_end(c, st);
-  }
-  dyd_rect_clear(view);
-  return false;
-}
-
-/* Takes over the arrays. */
-static PyObject *cells_found(dyd_cells *c, const dyd_voronoi_bounds *b, const dyd_rect *window) {
-  size_t vertices = c->count ? c->ring[c->count - 1].end : 0;
-  return Py_BuildValue("NNNLNNN", array_new(true, c->ring, c->count, sizeof *c->ring),
-                       array_new(true, c->xy, 2 * vertices, sizeof *c->xy),
-                       array_new(true, c->area, 2 * c->sites, sizeof *c->area), (long long)c->bits,
-                       dydpy_dyadic(&b->area), dydpy_dyadic(b->finite ? &b->hausdorff : NULL), dydpy_rect_ends(window));
+  if (dydpy_window_take(view, &given, window) < 0 || !dydpy_begin(c, self, DYDPY_RESULT | DYDPY_CANCELS)) return false;
+  dyd_status st = given ? DYD_OK : dyd_voronoi_window(view, dyd_delaunay_sites(c->pd));
+  return st == DYD_OK || (dydpy_end(c, st), false);
 }
 
 /* Sets o->pairs to the statuses of discs in `list`, which is empty, if `discs` is set. */
@@ -255,105 +211,80 @@ static dyd_status take_discs(dyd_write_options *o, dyd_pair_list *list, dydpy_ca
 }
 
 PyObject *dydpy_cells(PyObject *self, PyObject *args) {
-  PyObject *window, *bits, *found = NULL;
-  dyd_cells cells = {0};
-  dyd_pair_list pairs = {0};
+  PyObject *window, *bits;
+  SCOPED(dyd_cells) found = {0};
+  SCOPED(dyd_pair_list) pairs = {0};
+  LOCAL(dyd_voronoi_bounds, bounds);
+  LOCAL(dyd_rect, view);
   int discs;
-  dyd_voronoi_bounds bounds;
-  dyd_rect view;
   dydpy_call c;
   if (!PyArg_ParseTuple(args, "OOp", &window, &bits, &discs)) return NULL;
   dyd_write_options o = {DYD_SIZED(dyd_write_options), .bounds = &bounds, .window = &view, .cancel = &c.cancel};
   o.flatten_set = bits != Py_None;
   if (o.flatten_set) o.flatten_bits = PyLong_AsLongLong(bits);
   if (PyErr_Occurred() || !diagram_begin(&c, &view, self, window)) return NULL;
-  dyd_voronoi_bounds_init(&bounds);
   dyd_status st = take_discs(&o, &pairs, &c, discs);
-  if (st == DYD_OK) st = dyd_voronoi_cells(&cells, c.self->engine, &o, &c.err);
-  if (dydpy_end(&c, st == DYD_CAPPED ? DYD_E_ARG : st))
-    found = cells_found(&cells, &bounds, &view);
-  else
-    dyd_cells_clear(&cells);
-  dyd_pair_list_clear(&pairs);
-  dyd_voronoi_bounds_clear(&bounds);
-  dyd_rect_clear(&view);
-  return found;
+  if (st == DYD_OK) st = dyd_voronoi_cells(&found, c.self->engine, &o, &c.err);
+  if (!dydpy_end(&c, st == DYD_CAPPED ? DYD_E_ARG : st)) return NULL;
+  size_t count = found.count, vertices = count ? found.ring[count - 1].end : 0;
+  return Py_BuildValue("NNNLNNN", TAKEN(found.ring, count), TAKEN(found.xy, 2 * vertices),
+                       TAKEN(found.area, 2 * found.sites), (long long)found.bits, dydpy_dyadic(&bounds.area),
+                       dydpy_dyadic(bounds.finite ? &bounds.hausdorff : NULL), dydpy_rect_ends(&view));
 }
 
 /* frame(window or None, flatten_bits, discs) */
 PyObject *dydpy_frame(PyObject *self, PyObject *args) {
-  PyObject *window, *found = NULL;
-  dyd_frame f = {0};
-  dyd_pair_list pairs = {0};
+  PyObject *window;
+  SCOPED(dyd_frame) f = {0};
+  SCOPED(dyd_pair_list) pairs = {0};
+  LOCAL(dyd_rect, view);
   long long bits;
   int discs;
-  dyd_rect view;
   dydpy_call c;
   if (!PyArg_ParseTuple(args, "OLp", &window, &bits, &discs) || !diagram_begin(&c, &view, self, window)) return NULL;
   dyd_write_options o = {DYD_SIZED(dyd_write_options), .window = &view, .cancel = &c.cancel, .flatten_set = true,
                          .flatten_bits = bits};
   dyd_status st = take_discs(&o, &pairs, &c, discs);
   if (st == DYD_OK) st = dyd_voronoi_frame(&f, c.self->engine, &o, &c.err);
-  if (dydpy_end(&c, st == DYD_CAPPED ? DYD_E_ARG : st)) {
-    size_t boxes = f.vertices + f.regions;
-    found =
-        Py_BuildValue("nNNNNNN", (Py_ssize_t)f.vertices, array_new(true, f.box, 4 * boxes, sizeof *f.box),
-                      array_new(true, f.end, boxes, sizeof *f.end),
-                      array_new(true, f.site, boxes ? f.end[boxes - 1] : 0, sizeof *f.site),
-                      array_new(true, f.face, f.regions, sizeof *f.face),
-                      array_new(true, f.edge, f.edges, sizeof *f.edge), array_new(true, f.ray, f.rays, sizeof *f.ray));
-  } else {
-    dyd_frame_clear(&f);
-  }
-  dyd_pair_list_clear(&pairs);
-  dyd_rect_clear(&view);
-  return found;
+  if (!dydpy_end(&c, st == DYD_CAPPED ? DYD_E_ARG : st)) return NULL;
+  size_t boxes = f.vertices + f.regions, sites = boxes ? f.end[boxes - 1] : 0;
+  return Py_BuildValue("nNNNNNN", (Py_ssize_t)f.vertices, TAKEN(f.box, 4 * boxes), TAKEN(f.end, boxes),
+                       TAKEN(f.site, sites), TAKEN(f.face, f.regions), TAKEN(f.edge, f.edges), TAKEN(f.ray, f.rays));
 }
 
 PyObject *dydpy_tiles(PyObject *self, PyObject *args) {
-  PyObject *window, *found = NULL;
-  dyd_tiles t = {0};
+  PyObject *window;
+  SCOPED(dyd_tiles) t = {0};
+  LOCAL(dyd_rect, view);
   long long bits;
-  dyd_rect view;
   dydpy_call c;
-  if (!PyArg_ParseTuple(args, "OL", &window, &bits) || !diagram_begin(&c, &view, self, window)) return NULL;
-  if (dydpy_end(&c, dyd_voronoi_tiles(&t, c.pd, &view, bits, &c.cancel))) {
-    size_t n = t.count, vertices = n ? t.offset[n] : 0;
-    found = Py_BuildValue("NNNNNd", array_new(true, t.site, n, sizeof *t.site),
-                          array_new(true, t.offset, n ? n + 1 : 0, sizeof *t.offset),
-                          array_new(true, t.xy, 2 * vertices, sizeof *t.xy), array_new(true, t.area, n, sizeof *t.area),
-                          array_new(true, t.bound, 2 * n, sizeof *t.bound), t.rounding);
-  } else {
-    dyd_tiles_clear(&t);
-  }
-  dyd_rect_clear(&view);
-  return found;
+  if (!PyArg_ParseTuple(args, "OL", &window, &bits) || !diagram_begin(&c, &view, self, window) ||
+      !dydpy_end(&c, dyd_voronoi_tiles(&t, c.pd, &view, bits, &c.cancel)))
+    return NULL;
+  size_t n = t.count, vertices = n ? t.offset[n] : 0;
+  return Py_BuildValue("NNNNNd", TAKEN(t.site, n), TAKEN(t.offset, n ? n + 1 : 0), TAKEN(t.xy, 2 * vertices),
+                       TAKEN(t.area, n), TAKEN(t.bound, 2 * n), t.rounding);
 }
 
 PyObject *dydpy_exact_area(PyObject *self, PyObject *args) {
-  PyObject *window, *found = NULL;
+  PyObject *window;
   Py_ssize_t number;
   uint32_t i;
   bool exact = false;
-  mpq_t area;
-  dyd_rect view;
+  LOCAL(dyd_rect, view);
+  LOCAL_Q(area);
   dydpy_call c;
   if (!PyArg_ParseTuple(args, "nO", &number, &window) || !dydpy_site(&i, (dydpy_engine *)self, number) ||
-      !diagram_begin(&c, &view, self, window))
+      !diagram_begin(&c, &view, self, window) || !dydpy_end(&c, dyd_voronoi_exact_area(area, &exact, c.pd, i, &view)))
     return NULL;
-  mpq_init(area);
-  if (dydpy_end(&c, dyd_voronoi_exact_area(area, &exact, c.pd, i, &view)))
-    found = exact ? dydpy_ratio(area) : Py_NewRef(Py_None);
-  mpq_clear(area);
-  dyd_rect_clear(&view);
-  return found;
+  return exact ? dydpy_ratio(area) : Py_NewRef(Py_None);
 }
 
 /* ---- nearest ---- */
 
 PyObject *dydpy_nearest(PyObject *self, PyObject *args) {
   PyObject *point, *dict, *answer = NULL;
-  dyd_index_list found = {0};
+  SCOPED(dyd_index_list) found = {0};
   dyd_outcome outcome;
   bool sure = false;
   dydpy_options o;
@@ -368,7 +299,6 @@ PyObject *dydpy_nearest(PyObject *self, PyObject *args) {
                              dydpy_rect_ends(dyd_stream_rect(at)));
     dydpy_options_clear(&o);
   }
-  dyd_index_list_clear(&found);
   dyd_stream_free(at);
   return answer;
 }
@@ -386,16 +316,14 @@ PyObject *dydpy_locate(PyObject *self, PyObject *args) {
   dydpy_call c;
   Py_ssize_t n = places_of(&xy, args);
   if (n < 0) return NULL;
-  dyd_triangle *triangle = malloc((size_t)(n + 1) * sizeof *triangle);
-  dyd_truth *in = malloc((size_t)(n + 1) * sizeof *in);
+  FREED dyd_triangle *triangle = malloc((size_t)(n + 1) * sizeof *triangle);
+  FREED dyd_truth *in = malloc((size_t)(n + 1) * sizeof *in);
   bool good = dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_CANCELS);
   if (good)
     good = dydpy_end(&c, triangle && in ? dyd_delaunay_locate(triangle, in, c.pd, xy.buf, (size_t)n, &c.cancel)
                                         : DYD_E_NOMEM);
   PyBuffer_Release(&xy);
-  PyObject *corners = array_new(good, triangle, (size_t)n, sizeof *triangle);
-  PyObject *truths = array_new(good, in, (size_t)n, sizeof *in);
-  return good ? Py_BuildValue("NN", corners, truths) : NULL;
+  return good ? Py_BuildValue("NN", TAKEN(triangle, (size_t)n), TAKEN(in, (size_t)n)) : NULL;
 }
 
 /* A question about many places. */
@@ -404,7 +332,7 @@ typedef dyd_status places_call(dyd_place_list *out, const dyd_delaunay *pd, cons
 
 static PyObject *places_ask(places_call *ask, PyObject *self, PyObject *args) {
   Py_buffer xy;
-  dyd_place_list l = {0};
+  SCOPED(dyd_place_list) l = {0};
   dydpy_call c;
   Py_ssize_t n = places_of(&xy, args);
   if (n < 0) return NULL;
@@ -412,9 +340,8 @@ static PyObject *places_ask(places_call *ask, PyObject *self, PyObject *args) {
   if (good) good = dydpy_end(&c, ask(&l, c.pd, xy.buf, (size_t)n, &c.cancel));
   PyBuffer_Release(&xy);
   if (!good) return NULL;
-  return Py_BuildValue("NNN", array_new(true, l.site, n ? l.end[n - 1] : 0, sizeof *l.site),
-                       array_new(true, l.end, (size_t)n, sizeof *l.end),
-                       array_new(true, l.sure, (size_t)n, sizeof *l.sure));
+  size_t sites = n ? l.end[n - 1] : 0;
+  return Py_BuildValue("NNN", TAKEN(l.site, sites), TAKEN(l.end, (size_t)n), TAKEN(l.sure, (size_t)n));
 }
 
 PyObject *dydpy_nearest_places(PyObject *self, PyObject *args) {
@@ -503,8 +430,8 @@ PyObject *dydpy_tolerance(PyObject *self, PyObject *args) {
   int points, box;
   Py_ssize_t max_pairs;
   double sigma;
-  mpq_t most;
   dyd_tolerance *t = NULL;
+  LOCAL_Q(most);
   dydpy_call c;
   if (!PyArg_ParseTuple(args, "Opndp", &up_to, &points, &max_pairs, &sigma, &box)) return NULL;
   dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options),
@@ -514,12 +441,10 @@ PyObject *dydpy_tolerance(PyObject *self, PyObject *args) {
                              .metric = box ? DYD_METRIC_BOX : DYD_METRIC_EUCLID,
                              .up_to = up_to == Py_None ? NULL : most,
                              .cancel = &c.cancel};
-  mpq_init(most);
   if ((up_to == Py_None || dydpy_rational(most, up_to) == 0) && dydpy_begin(&c, self, DYDPY_REFINES) &&
       dydpy_end(&c, tolerance_new(&t, &c, &o)))
     found = tolerance_found(t, dyd_engine_count(c.self->engine));
   dyd_tolerance_free(t);
-  mpq_clear(most);
   return found;
 }
 
@@ -538,16 +463,14 @@ static PyObject *plan_asked(PyObject *self, PyObject *accuracy, PyObject *window
                             Py_ssize_t trials, uint64_t seed) {
   PyObject *found = NULL;
   dyd_survey *survey = NULL;
-  dyd_survey_trial *trial = NULL;
-  dyd_rect view;
+  FREED dyd_survey_trial *trial = NULL;
   bool windowed = false;
   uint32_t only = 0;
-  mpq_t exact;
   dydpy_call c;
   if (site != Py_None && !dydpy_site(&only, (dydpy_engine *)self, PyLong_AsSsize_t(site))) return NULL;
   if (trials && !(trial = calloc((size_t)trials, sizeof *trial))) return PyErr_NoMemory();
-  mpq_init(exact);
-  dyd_rect_init(&view);
+  LOCAL_Q(exact);
+  LOCAL(dyd_rect, view);
   if (!PyErr_Occurred() && (accuracy == Py_None || dydpy_rational(exact, accuracy) == 0) &&
       dydpy_window_take(&view, &windowed, window) == 0 && dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_CANCELS)) {
     const dyd_survey_options o = {DYD_SIZED(dyd_survey_options),
@@ -561,9 +484,6 @@ static PyObject *plan_asked(PyObject *self, PyObject *accuracy, PyObject *window
     if (dydpy_end(&c, st)) found = trials ? copied(trial, (size_t)trials * sizeof *trial) : plan_found(survey);
   }
   dyd_survey_free(survey);
-  free(trial);
-  dyd_rect_clear(&view);
-  mpq_clear(exact);
   return found;
 }
 
@@ -586,14 +506,13 @@ PyObject *dydpy_simulate(PyObject *self, PyObject *args) {
 
 /* ---- texts ---- */
 
-PyObject *dydpy_formats(PyObject *module, PyObject *none) {
+PyObject *dydpy_formats(PyObject *module, PyObject *Py_UNUSED(none)) {
   PyObject *list = PyList_New(0);
-  (void)module, (void)none;
+  (void)module;
   const dyd_format_facts *f;
   for (int k = 0; list && (f = dyd_format_get((dyd_format)k)); k++) {
-    PyObject *row = Py_BuildValue("ssN", f->name, f->about, PyBool_FromLong(f->binary));
+    OWNED *row = Py_BuildValue("ssN", f->name, f->about, PyBool_FromLong(f->binary));
     if (!row || PyList_Append(list, row) < 0) Py_CLEAR(list);
-    Py_XDECREF(row);
   }
   return list;
 }
@@ -646,10 +565,9 @@ static PyObject *order_write(text_order *t, dyd_write_options *o) {
   o->window = t->view;
   o->cancel = &t->call.cancel;
   const dyd_engine *e = o->sphere ? NULL : t->call.self->engine;
-  dyd_pair_list pairs = {0};
+  SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = take_discs(o, &pairs, &t->call, t->discs);
   if (st == DYD_OK) st = dyd_write(t->text.file, e, t->layer, t->format, o, &t->call.err);
-  dyd_pair_list_clear(&pairs);
   return order_end(t, st == DYD_CAPPED ? DYD_E_ARG : st);
 }
 
@@ -702,7 +620,7 @@ PyObject *dydpy_piece(PyObject *self, PyObject *args) {
   if (!PyArg_ParseTuple(args, "s", &name) || !order_begin(&t, self, Py_None, 0)) return NULL;
   const dyd_engine *e = t.call.self->engine;
   size_t n = dyd_engine_count(e);
-  dyd_rect *own = malloc((n + 1) * sizeof *own);
+  FREED dyd_rect *own = malloc((n + 1) * sizeof *own);
   const dyd_rect **r = malloc((n + 1) * sizeof(const dyd_rect *));
   dyd_status st = own && r ? DYD_OK : DYD_E_NOMEM;
   for (size_t k = 0; st == DYD_OK && k < n; k++) dyd_rect_init(&own[k]), r[k] = &own[k];
@@ -711,13 +629,11 @@ PyObject *dydpy_piece(PyObject *self, PyObject *args) {
   if (st == DYD_OK) st = write_piece(&t, name, r, n);
   for (size_t k = 0; made && k < n; k++) dyd_rect_clear(&own[k]);
   free(r);
-  free(own);
   return order_end(&t, st);
 }
 
-PyObject *dydpy_rects(PyObject *self, PyObject *none) {
+PyObject *dydpy_rects(PyObject *self, PyObject *Py_UNUSED(none)) {
   text_order t;
-  (void)none;
   if (!order_begin(&t, self, Py_None, 0)) return NULL;
   const dyd_engine *e = t.call.self->engine;
   return order_end(&t, dyd_write_rects(t.text.file, dyd_engine_sites(e), 0, dyd_engine_count(e), &t.call.err));
@@ -728,7 +644,7 @@ PyObject *dydpy_rects(PyObject *self, PyObject *none) {
 PyObject *dydpy_certificate(PyObject *self, PyObject *args) {
   int diagram, discs;
   PyObject *window;
-  dyd_pair_list pairs = {0};
+  SCOPED(dyd_pair_list) pairs = {0};
   text_order t;
   if (!PyArg_ParseTuple(args, "pOp", &diagram, &window, &discs) || !order_begin(&t, self, window, DYDPY_RESULT))
     return NULL;
@@ -737,7 +653,6 @@ PyObject *dydpy_certificate(PyObject *self, PyObject *args) {
                                  .discs = discs ? &pairs : NULL, .sphere = diagram ? NULL : of->sphere};
   dyd_status st = discs ? dyd_disc_pairs(&pairs, t.call.pd, &t.call.cancel, &t.call.err) : DYD_OK;
   if (st == DYD_OK) st = dyd_write_certificate(t.text.file, of->engine, &parts, &t.call.err);
-  dyd_pair_list_clear(&pairs);
   return order_end(&t, st);
 }
 
@@ -776,14 +691,13 @@ static PyObject *verify_with(FILE *in, PyObject *of, const dyd_sphere_options *s
   return dydpy_end(&c, st) ? report_of(&report) : NULL;
 }
 
-PyObject *dydpy_verify(PyObject *module, PyObject *args) {
+PyObject *dydpy_verify(PyObject *Py_UNUSED(module), PyObject *args) {
   char *bytes;
   Py_ssize_t length;
   PyObject *of, *dict, *report = NULL;
   dydpy_options o;
   int sphere;
   dyd_sphere_options on = {DYD_SIZED(dyd_sphere_options)};
-  (void)module;
   if (!PyArg_ParseTuple(args, "s#OpzzzO!", &bytes, &length, &of, &sphere, &on.radius, &on.radius_unit, &on.radius_scale,
                         &PyDict_Type, &dict))
     return NULL;

@@ -33,9 +33,8 @@ static void progress_told(void *user, const dyd_progress *p) {
 /* Raises OSError with the name as the user gave it. */
 static FILE *file_open(const char *path, const char *mode, const char *given) {
   FILE *file = fopen(path, mode);
-  PyObject *name = file ? NULL : PyUnicode_DecodeFSDefault(given);
+  OWNED *name = file ? NULL : PyUnicode_DecodeFSDefault(given);
   if (name) PyErr_SetFromErrnoWithFilenameObject(PyExc_OSError, name);
-  Py_XDECREF(name);
   return file;
 }
 
@@ -64,12 +63,11 @@ static dyd_status trace_place(dydpy_engine *self, const char *path, const char *
 static dyd_status trace_open(dydpy_engine *self, const char *path, const dyd_engine_options *o,
                              const dyd_converge_options *converge, dyd_error *err) {
   const size_t length = strlen(path);
-  char *beside = malloc(length + sizeof ".new");
+  FREED char *beside = malloc(length + sizeof ".new");
   if (!beside) return dyd_error_set(err, DYD_E_NOMEM, dyd_status_text(DYD_E_NOMEM));
   memcpy(beside, path, length);
   memcpy(beside + length, ".new", sizeof ".new");
   dyd_status st = trace_place(self, path, beside, o, converge, err);
-  free(beside);
   return st;
 }
 
@@ -81,18 +79,16 @@ PyObject *dydpy_trace_begin(PyObject *object, PyObject *args) {
   unsigned of = 0;
   bool windowed = false;
   dydpy_options o;
-  dyd_rect view;
   dydpy_call call;
   if (!PyArg_ParseTuple(args, "yO!O", &path, &PyDict_Type, &dict, &converge)) return NULL;
   if (converge != Py_None && !PyArg_ParseTuple(converge, "OI", &window, &of)) return NULL;
   if (dydpy_options_init(&o, self, dict) < 0) return NULL;
-  dyd_rect_init(&view);
+  LOCAL(dyd_rect, view);
   if (dydpy_window_take(&view, &windowed, window) == 0 && dydpy_begin(&call, object, DYDPY_HOLDS)) {
     const dyd_converge_options c = {DYD_SIZED(dyd_converge_options), .window = windowed ? &view : NULL,
                                     .of = (dyd_converge_of)of};
     done = dydpy_end_none(&call, trace_open(self, path, &o.o, converge != Py_None ? &c : NULL, &call.err));
   }
-  dyd_rect_clear(&view);
   dydpy_options_clear(&o);
   return done;
 }
@@ -106,9 +102,8 @@ dyd_status dydpy_trace_close(dydpy_engine *self, dyd_error *err) {
   return st;
 }
 
-PyObject *dydpy_trace_end(PyObject *object, PyObject *none) {
+PyObject *dydpy_trace_end(PyObject *object, PyObject *Py_UNUSED(none)) {
   dydpy_call c;
-  (void)none;
   return dydpy_begin(&c, object, 0) ? dydpy_end_none(&c, dydpy_trace_close(c.self, &c.err)) : NULL;
 }
 
@@ -159,11 +154,10 @@ static PyObject *table_found(bool good, dyd_convergence *table, bool times, cons
 }
 
 /* replay(path) -> (outcome, csv, svg) */
-PyObject *dydpy_replay(PyObject *module, PyObject *args) {
+PyObject *dydpy_replay(PyObject *Py_UNUSED(module), PyObject *args) {
   dyd_convergence table = {DYD_SIZED(dyd_convergence)};
   const char *path;
   dydpy_call c;
-  (void)module;
   if (!PyArg_ParseTuple(args, "y", &path)) return NULL;
   FILE *in = file_open(path, "r", path);
   if (!in) return NULL;
@@ -181,17 +175,15 @@ PyObject *dydpy_converge(PyObject *self, PyObject *args) {
   bool windowed = false;
   dyd_convergence table = {DYD_SIZED(dyd_convergence)};
   dydpy_options o;
-  dyd_rect view;
   dydpy_call c;
   if (!PyArg_ParseTuple(args, "O!OIpKO", &PyDict_Type, &dict, &window, &of, &times, &hindsight, &range)) return NULL;
   if (range != Py_None && !PyArg_ParseTuple(range, "LL", &modulus[0], &modulus[1])) return NULL;
   if (dydpy_options_init(&o, (dydpy_engine *)self, dict) < 0) return NULL;
-  dyd_rect_init(&view);
+  LOCAL(dyd_rect, view);
   bool good = dydpy_window_take(&view, &windowed, window) == 0 && dydpy_begin(&c, self, DYDPY_REFINES);
   const dyd_converge_options how = {DYD_SIZED(dyd_converge_options), .window = windowed ? &view : NULL,
                                     .of = (dyd_converge_of)of, .rates = range != Py_None, .hindsight = hindsight};
   good = good && dydpy_end(&c, dyd_converge_run(&table, c.self->engine, &o.o, &how, &c.err));
-  dyd_rect_clear(&view);
   dydpy_options_clear(&o);
   return table_found(good, &table, times, range != Py_None ? modulus : NULL);
 }
@@ -207,13 +199,12 @@ typedef struct harness_user {
 
 /* Takes the library's engine out of the object that make() returned. */
 static dyd_status harness_take(dyd_engine **out, harness_user *u) {
-  PyObject *made = PyErr_Occurred() ? NULL : PyObject_CallNoArgs(u->make);
+  OWNED *made = PyErr_Occurred() ? NULL : PyObject_CallNoArgs(u->make);
   if (!made) return DYD_E_STREAM;
   dydpy_engine *self = (dydpy_engine *)made;
   *out = self->engine;
   self->engine = NULL;
   int status = PyList_Append(u->kept, made);
-  Py_DECREF(made);
   return status < 0 ? DYD_E_NOMEM : DYD_OK;
 }
 
@@ -263,9 +254,8 @@ static dyd_check_move *moves_of(size_t *count, PyObject *list) {
 static PyObject *moves_new(const dyd_check_report *r) {
   PyObject *list = PyList_New(0);
   for (size_t k = 0; list && k < r->moves; k++) {
-    PyObject *move = Py_BuildValue("IIL", r->move[k].stage, r->move[k].point, (long long)r->move[k].bits);
+    OWNED *move = Py_BuildValue("IIL", r->move[k].stage, r->move[k].point, (long long)r->move[k].bits);
     if (!move || PyList_Append(list, move) < 0) Py_CLEAR(list);
-    Py_XDECREF(move);
   }
   return list;
 }
@@ -300,13 +290,12 @@ static PyObject *harness_run(harness_user *u, dyd_check_options *o) {
   return found;
 }
 
-PyObject *dydpy_check(PyObject *module, PyObject *args) {
+PyObject *dydpy_check(PyObject *Py_UNUSED(module), PyObject *args) {
   harness_user u = {.progress = Py_None};
   dyd_check_options o = {DYD_SIZED(dyd_check_options)};
   unsigned long long seed;
   long long base_bits, max_bits, slack_bits;
   PyObject *list;
-  (void)module;
   if (!PyArg_ParseTuple(args, "OKIILLLdOO", &u.make, &seed, &o.schedules, &o.stages, &base_bits, &max_bits, &slack_bits,
                         &o.seconds, &list, &u.progress))
     return NULL;
@@ -385,37 +374,30 @@ static dyd_status policy_answer(dyd_plan *plan, PyObject *answer) {
 /* Calls policy(pairs, plan): a list of undecided pairs, and a dict of bits by points. */
 static dyd_status python_policy(dyd_plan *plan, PyObject *policy, const dyd_pair_list *pairs,
                                 const dyd_request *request, size_t count) {
-  PyObject *list = PyList_New(0), *dict = PyDict_New(), *answer = NULL;
+  OWNED *list = PyList_New(0), *dict = PyDict_New(), *answer = NULL;
   for (size_t k = 0; list && !PyErr_Occurred() && k < pairs->count; k++) {
     if (pairs->item[k].status != DYD_INDETERMINATE) continue;
-    PyObject *pair = Py_BuildValue("II", pairs->item[k].i, pairs->item[k].j);
+    OWNED *pair = Py_BuildValue("II", pairs->item[k].i, pairs->item[k].j);
     if (pair) PyList_Append(list, pair);
-    Py_XDECREF(pair);
   }
   for (size_t k = 0; dict && !PyErr_Occurred() && k < count; k++) {
     const dyd_request *r = dyd_request_at(request, k);
-    PyObject *point = PyLong_FromSize_t(r->point), *bits = PyLong_FromLongLong(r->bits);
+    OWNED *point = PyLong_FromSize_t(r->point), *bits = PyLong_FromLongLong(r->bits);
     if (point && bits) PyDict_SetItem(dict, point, bits);
-    Py_XDECREF(point);
-    Py_XDECREF(bits);
   }
   if (list && dict && !PyErr_Occurred()) answer = PyObject_CallFunctionObjArgs(policy, list, dict, NULL);
   dyd_status st = answer ? policy_answer(plan, answer) : DYD_E_STREAM;
-  Py_XDECREF(answer);
-  Py_XDECREF(dict);
-  Py_XDECREF(list);
   return st;
 }
 
 static dyd_status policy_asked(dyd_plan *plan, void *user, const dyd_engine *e, const dyd_request *request,
                                size_t count, dyd_error *err) {
-  dyd_pair_list pairs = {0};
+  SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = dyd_engine_delaunay(e) ? dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(e)) : DYD_OK;
   PyGILState_STATE gil = PyGILState_Ensure();
   if (st == DYD_OK) st = PyErr_Occurred() ? DYD_E_STREAM : python_policy(plan, user, &pairs, request, count);
   if (PyErr_Occurred()) st = dyd_error_set(err, DYD_E_STREAM, "the policy raised an exception");
   PyGILState_Release(gil);
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 
@@ -500,8 +482,7 @@ PyObject *dydpy_run(PyObject *object, PyObject *dict) {
   return entered ? dydpy_end_none(&c, st) : NULL;
 }
 
-PyObject *dydpy_cancel(PyObject *self, PyObject *none) {
-  (void)none;
+PyObject *dydpy_cancel(PyObject *self, PyObject *Py_UNUSED(none)) {
   if (((dydpy_engine *)self)->engine) dyd_engine_cancel(((dydpy_engine *)self)->engine);
   Py_RETURN_NONE;
 }
