@@ -119,14 +119,6 @@ struct dyd_canvas {
   char id[80], title[160];
 };
 
-/* To hundredths, with a point in every locale; lengths beyond any page are clamped. Several: with `between` them. */
-void dyd_put_length(dyd_sink *to, double x);
-void dyd_put_lengths(dyd_sink *to, const char *before, const double *x, int count, const char *between);
-/* Ends the group of one paint, if one is open, with `end`; false: it is that of p, and stays. */
-bool dyd_canvas_group(dyd_canvas *c, const dyd_paint *p, const char *end);
-
-extern const dyd_canvas_kind dyd_canvas_tikz;
-
 /* ---- canvas_cairo.c; canvas_plain.c where the library was built without it ---- */
 
 extern const dyd_canvas_kind dyd_canvas_cairo;
