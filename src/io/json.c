@@ -5,8 +5,7 @@
 
 #include "base/local.h"
 #include "io/decimal.h"
-#include "io/label_text.h"
-#include "io/result.h"
+#include "io/output.h"
 #include "voronoi/surd_point.h"
 #include <stdlib.h>
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What the writers share: the result of a plane or of a sphere, words, and the end of every file. */
-#include "io/result.h"
+#include "io/output.h"
 
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/local.h"
+#include "io/read/text.h"
 #include <errno.h>
 #include <math.h>
 #include <string.h>
@@ -163,4 +164,22 @@ void dyd_csv_aliases(FILE *out, const dyd_engine *e, const dyd_sphere *s) {
 dyd_status dyd_output_end(FILE *out, dyd_error *err) {
   if (fflush(out) == 0 && !ferror(out)) return DYD_OK;
   return dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno ? errno : EIO));
+}
+
+/* Returns true if it is worth a place in a picture. */
+static bool label_is_plain(const char *text) {
+  const unsigned char *p = (const unsigned char *)text;
+  if (!*p || strlen(text) >= DYD_LABEL_SIZE) return false;
+  for (size_t n; *p; p += n) {
+    n = dyd_utf8_length((const char *)p, 4);
+    if (!n || *p < 0x20 || *p == 0x7f) return false;
+  }
+  return true;
+}
+
+const char *dyd_label_text(char spare[DYD_LABEL_SIZE], const dyd_engine *e, size_t site) {
+  const char *id = dyd_engine_id(e, site);
+  if (id && label_is_plain(id)) return id;
+  snprintf(spare, DYD_LABEL_SIZE, "%zu", dyd_engine_row(e, site));
+  return spare;
 }

@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Text on its way to a file, and the digits of whole numbers. */
+/* Text on its way to a file: blocks, the digits of whole numbers, and texts of users, which may hold any bytes. */
 #include "io/sink.h"
+
+#include "io/read/text.h"
+
+#include <stdbool.h>
+#include <string.h>
 
 void dyd_sink_flush(dyd_sink *s) {
   fwrite(s->block, 1, (size_t)(s->end - s->block), s->out);
@@ -40,4 +45,32 @@ void dyd_sink_line(dyd_sink *s, const char *word, const uint32_t *n, size_t coun
     dyd_sink_index(s, (uint64_t)n[k] + more);
   }
   dyd_sink_put(s, "\n", 1);
+}
+
+void dyd_sink_csv_text(dyd_sink *s, const char *text) {
+  size_t n = strlen(text);
+  if (!text[strcspn(text, ",;\t|\"\r\n")] && text[0] != ' ' && (!n || text[n - 1] != ' ')) {
+    dyd_sink_put(s, text, n);
+    return;
+  }
+  dyd_sink_text(s, "\"");
+  for (; *text; text++) dyd_sink_put(s, *text == '"' ? "\"\"" : text, *text == '"' ? 2 : 1);
+  dyd_sink_text(s, "\"");
+}
+
+void dyd_sink_json_text(dyd_sink *s, const char *text) {
+  const unsigned char *p = (const unsigned char *)text;
+  dyd_sink_text(s, "\"");
+  for (size_t n; *p; p += n ? n : 1) {
+    n = dyd_utf8_length((const char *)p, 4);
+    if (!n)
+      dyd_sink_text(s, "\\ufffd");
+    else if (*p == '"' || *p == '\\')
+      dyd_sink_put(s, (const char[]){'\\', (char)*p}, 2);
+    else if (*p < 0x20)
+      s->end += sprintf(dyd_sink_room(s, sizeof "\\u001f"), "\\u%04x", *p);
+    else
+      dyd_sink_put(s, (const char *)p, n);
+  }
+  dyd_sink_text(s, "\"");
 }

@@ -51,5 +51,9 @@ static inline void dyd_sink_index(dyd_sink *s, uint64_t n) {
 }
 /* A line of numbers, each more by `more`, behind a word. */
 void dyd_sink_line(dyd_sink *s, const char *word, const uint32_t *n, size_t count, uint32_t more);
+/* A text as csv has it. */
+void dyd_sink_csv_text(dyd_sink *s, const char *text);
+/* A text in JSON syntax; bytes that are not UTF-8 become U+FFFD. */
+void dyd_sink_json_text(dyd_sink *s, const char *text);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "base/alloc.h"
 #include "io/json.h"
-#include "io/label_text.h"
+#include "io/output.h"
 #include "io/read/kind.h"
 #include <math.h>
 #include <string.h>

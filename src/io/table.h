@@ -17,7 +17,7 @@
 #define DYD_IO_TABLE_H
 
 #include "io/decimal.h"
-#include "io/result.h"
+#include "io/output.h"
 
 /* Short decimals that represent a box. Invariant: every point of the box is within `error` of it in x and in y. */
 typedef struct dyd_place {

@@ -19,7 +19,6 @@
 #include "io/decimal.h"
 #include "io/output.h"
 #include "io/read/text.h"
-#include "io/result.h"
 #include "rect/sites_table.h"
 
 #include <dyadel/delaunay.h>

@@ -6,7 +6,7 @@
 #include "io/diagram.h"
 #include "io/geodesic.h"
 #include "io/json.h"
-#include "io/result.h"
+#include "io/output.h"
 #include "voronoi/exact_cell.h"
 #include "voronoi/shape.h"
 #include <stdlib.h>

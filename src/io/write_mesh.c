@@ -6,7 +6,7 @@
 #include "base/local.h"
 #include "io/diagram.h"
 #include "io/json.h"
-#include "io/result.h"
+#include "io/output.h"
 #include <stdlib.h>
 #include <string.h>
 

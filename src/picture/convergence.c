@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The plot of a table of convergence: bounds and counts against stages, logarithmic, as svg, pdf or png. */
 #include "io/decimal.h"
-#include "io/result.h"
+#include "io/output.h"
 #include "picture/canvas.h"
 #include "picture/picture.h"
 

@@ -6,7 +6,7 @@
 #include "base/local.h"
 #include "io/decimal.h"
 #include "io/diagram.h"
-#include "io/label_text.h"
+#include "io/output.h"
 #include "picture/picture.h"
 
 #include <math.h>

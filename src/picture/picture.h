@@ -7,7 +7,6 @@
 #define DYD_PICTURE_PICTURE_H
 
 #include "io/output.h"
-#include "io/result.h"
 #include "picture/canvas.h"
 
 typedef void (*dyd_draw_fn)(dyd_canvas *c, void *context);

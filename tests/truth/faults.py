@@ -60,7 +60,7 @@ FAULTS = [  # where it shows, file, what stands there, what is put there
     (PLANE, 'io/read/coordinate.c', 'lo = sum_towards(lo, -by, DYD_DOWN);', 'lo = sum_towards(lo, -0.9 * by, DYD_DOWN);'),
     (PLANE, 'io/read/coordinate.c', 'if (error * (double)dir < 0) near', 'if (error * (double)dir > 0) near'),
     ('stated=cells ' + PLANE, 'io/layers_voronoi.c', 'dyd_row_decimal(t, row->area[0], DYD_DOWN);', 'dyd_row_decimal(t, row->area[0] * 1.02, DYD_DOWN);'),
-    ('kind=sigma', 'io/read/confidence.c', 'mpz_mul_ui(mpq_numref(q), mpq_numref(q), n);', 'mpz_mul_ui(mpq_numref(q), mpq_numref(q), n ? 1 : n);'),
+    ('kind=sigma', 'io/read/twins.c', 'mpz_mul_ui(mpq_numref(q), mpq_numref(q), n);', 'mpz_mul_ui(mpq_numref(q), mpq_numref(q), n ? 1 : n);'),
 ]
 
 

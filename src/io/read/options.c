@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The table of reading options. */
-#include "io/read/options.h"
+#include "io/read/csv.h"
 
 #include <string.h>
 

@@ -19,7 +19,6 @@
 #include "io/diagram.h"
 #include "io/json.h"
 #include "io/output.h"
-#include "io/result.h"
 #include "picture/picture.h"
 
 #include <inttypes.h>
