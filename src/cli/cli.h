@@ -7,8 +7,7 @@
  *   options.c    arguments to cli_options, values of options
  *   help.c       --help, the manual page, completion scripts
  *   session.c    runs a command: reads points, runs the engine, writes a result and a trace, exit status
- *   output.c     result files, whole or not at all
- *   packed.c     packing them
+ *   output.c     result files, whole or not at all, packed or not
  *   spatial.c    which files take GDAL
  *   gdal.c       reading and writing these, in the program dyadel-gdal
  *   process.c    messages, signals, time limit, memory, progress
@@ -116,6 +115,8 @@ void cli_complain_at(const char *file, const dyd_error *err);
 void cli_complain_of(const dyd_engine *e, const char *file, const dyd_error *err);
 /* Returns CLI_FAILED. */
 int cli_complain_memory(void);
+/* Where the library failed with st: CLI_BUDGET if --max-bytes refused memory, else CLI_FAILED. */
+int cli_exit_refused(const cli_options *o, dyd_status st);
 
 /* options.c: --window XLO,XHI,YLO,YHI. Ends that are no dyadics are rounded outward (dyd_real_from_interval).
  * out is initialised by the caller; 0, or an exit status after a message. */
@@ -166,12 +167,9 @@ typedef struct cli_gdal {
 } cli_gdal;
 extern const cli_gdal *const cli_gdal_here; /* NULL in dyadel */
 
-/* packed.c: a stream that compresses its data by gzip or zstd, as the ending of the name says, and writes it to
- * `to` (borrowed), the last part when it is closed; NULL: the name has no such ending, or memory is exhausted. */
-FILE *cli_pack(FILE *to, const char *name);
-/* Returns true if the name has such an ending. *length: length of the part before it. */
+/* Returns true if the name has the ending of gzip or zstd. *length: length of the part before it. */
 bool cli_name_is_packed(size_t *length, const char *name);
-/* content.c: svg, pdf, png, tikz. */
+/* svg, pdf, png, tikz. */
 bool cli_is_picture(dyd_format format);
 
 /* ---- a command at work: session.c ---- */
@@ -280,8 +278,6 @@ dyd_status cli_session_cut(dyd_status st, const dyd_error *err);
 /* Exit status where work was cut short, by the end of time or on request. */
 int cli_exit_cut(void);
 int cli_exit_status(dyd_outcome outcome);
-/* Where the library failed with st: CLI_BUDGET if --max-bytes refused memory, else CLI_FAILED. */
-int cli_exit_refused(const cli_options *o, dyd_status st);
 /* Returns the reason why statuses are undecided, and the remedy. Static storage. */
 const char *cli_outcome_advice(const dyd_engine *e);
 /* The line that sums up a result with undecided pairs (dyd_pair_status counts) and names the next step; advice NULL:
@@ -292,11 +288,6 @@ void cli_note_unlisted(const cli_session *s);
 /* Writes anything to the file `name` (NULL: standard output), whole or not at all. 0, or an exit status after a
  * message. */
 int cli_write_file(const char *name, const cli_session *s, cli_print_fn print);
-/* content.c: prints to out (opened as `name`), packed where the name says so; a picture in a process of its own, whose
- * failure is DYD_E_STREAM with *err filled. */
-dyd_status cli_write_content(FILE *out, const char *name, const cli_session *s, cli_print_fn print, dyd_error *err);
-/* Returns true if output to this file is compressed. */
-bool cli_is_packed(const char *name, const cli_options *o);
 /* What most results take, from the options and the session: window, discs, sphere, history, names, comments. */
 dyd_write_options cli_write_options(FILE *out, const cli_session *s);
 /* Writes the result of the engine of s in the layer and format of its options. */

@@ -2,7 +2,8 @@
 /* Result files: written without a name where the system has such files, else beside their final place, and named when
  * complete, so that they appear whole or not at all. Of a file without a name nothing is left however the process
  * ends. */
-#define _GNU_SOURCE /* O_TMPFILE */
+#define _GNU_SOURCE /* O_TMPFILE, fopencookie, pipe2 */
+#define ZLIB_CONST
 #include "cli.h"
 
 #include <errno.h>
@@ -11,8 +12,15 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
+#include <zlib.h>
+#include <zstd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 
 bool cli_guard_descriptors(void) {
   /* Opened the wrong way round, so that using one of them is an error. */
@@ -358,4 +366,275 @@ FILE *cli_input_open(const char *name, const char *advice) {
 
 void cli_input_close(FILE *in) {
   if (in != stdin) fclose(in);
+}
+
+/* ---- packing ----
+ *
+ * By gzip or zstd if the name ends in .gz or .zst: a stream that forwards its bytes to another. */
+
+enum { PACKED_BLOCK = 1 << 16, GZIP = 15 + 16, LEVEL = 6 };
+
+/* zstd NULL: gzip is used. */
+typedef struct packer {
+  FILE *to; /* borrowed */
+  z_stream gzip;
+  ZSTD_CStream *zstd;
+  unsigned char block[PACKED_BLOCK];
+} packer;
+
+bool cli_name_is_packed(size_t *length, const char *name) {
+  size_t all = strlen(name), ending = 0;
+  if (all > 3 && strcasecmp(name + all - 3, ".gz") == 0) ending = 3;
+  if (all > 4 && strcasecmp(name + all - 4, ".zst") == 0) ending = 4;
+  *length = all - ending;
+  return ending;
+}
+
+/* Packs the bytes; at the end (last) all that is left. false: errno says why. */
+static bool pack_bytes(packer *p, const void *bytes, size_t count, bool last) {
+  ZSTD_inBuffer in = {bytes, count, 0};
+  p->gzip.next_in = bytes, p->gzip.avail_in = (uInt)count;
+  for (bool more = true; more;) {
+    ZSTD_outBuffer out = {p->block, sizeof p->block, 0};
+    p->gzip.next_out = p->block, p->gzip.avail_out = sizeof p->block;
+    if (p->zstd) {
+      size_t left = ZSTD_compressStream2(p->zstd, &out, &in, last ? ZSTD_e_end : ZSTD_e_continue);
+      if (ZSTD_isError(left)) return errno = ENOMEM, false;
+      more = last ? left > 0 : in.pos < in.size;
+    } else {
+      deflate(&p->gzip, last ? Z_FINISH : Z_NO_FLUSH);
+      out.pos = sizeof p->block - p->gzip.avail_out;
+      more = p->gzip.avail_out == 0;
+    }
+    if (fwrite(p->block, 1, out.pos, p->to) != out.pos) return false;
+  }
+  return true;
+}
+
+static ssize_t packer_write(void *cookie, const char *bytes, size_t count) {
+  enum { MOST = 1 << 30 };
+  if (count > MOST) count = MOST;
+  return pack_bytes(cookie, bytes, count, false) ? (ssize_t)count : 0;
+}
+
+static int packer_close(void *cookie) {
+  packer *p = cookie;
+  bool good = pack_bytes(p, NULL, 0, true);
+  if (!p->zstd) deflateEnd(&p->gzip);
+  ZSTD_freeCStream(p->zstd);
+  free(p);
+  return good ? 0 : EOF;
+}
+
+/* A stream that compresses its data as the ending of the name says, and writes it to `to` (borrowed), the last part
+ * when it is closed; NULL: the name has no such ending, or memory is exhausted. */
+static FILE *pack_stream(FILE *to, const char *name) {
+  size_t length;
+  packer *p = cli_name_is_packed(&length, name) ? calloc(1, sizeof *p) : NULL;
+  if (!p) return NULL;
+  p->to = to;
+  bool gzip = strcasecmp(name + length, ".gz") == 0;
+  if (!gzip) p->zstd = ZSTD_createCStream();
+  bool good = gzip ? deflateInit2(&p->gzip, LEVEL, Z_DEFLATED, GZIP, 8, Z_DEFAULT_STRATEGY) == Z_OK : p->zstd != NULL;
+  FILE *out = good ? fopencookie(p, "w", (cookie_io_functions_t){.write = packer_write, .close = packer_close}) : NULL;
+  if (out) return out;
+  if (good && gzip) deflateEnd(&p->gzip);
+  ZSTD_freeCStream(p->zstd);
+  free(p);
+  errno = ENOMEM;
+  return NULL;
+}
+
+static bool is_packed(const char *name, const cli_options *o) {
+  size_t length;
+  return name && name == o->output && cli_name_is_packed(&length, name);
+}
+
+static dyd_status content_fail(dyd_error *err) {
+  char text[128];
+  snprintf(text, sizeof text, "cannot write: %s", strerror(errno));
+  return dyd_error_set(err, DYD_E_IO, text);
+}
+
+static dyd_status content_print(FILE *out, const char *name, const cli_session *s, cli_print_fn print, dyd_error *err) {
+  if (!is_packed(name, &s->o)) return print(out, s, err);
+  FILE *packed = pack_stream(out, name);
+  if (!packed) return content_fail(err);
+  dyd_status st = print(packed, s, err);
+  return fclose(packed) != 0 && st == DYD_OK ? content_fail(err) : st;
+}
+
+/* ---- pictures ----
+ *
+ * Written by a child process, since cairo and fontconfig follow null pointers when memory is exhausted, or do not end.
+ * What happens to the child is an error here; other results are written. */
+
+/* What the child reports; the numbers of a diagram follow. */
+typedef struct drawing_report {
+  dyd_status st;
+  dyd_error err;
+  size_t cut, coincident;
+  bool finite;
+} drawing_report;
+
+static bool number_send(FILE *out, const dyd_dyadic *x) {
+  return mpz_out_raw(out, x->man) > 0 && fwrite(&x->exp, sizeof x->exp, 1, out) == 1;
+}
+
+static bool number_receive(FILE *in, dyd_dyadic *x) {
+  return mpz_inp_raw(x->man, in) > 0 && fread(&x->exp, sizeof x->exp, 1, in) == 1;
+}
+
+static bool report_send(FILE *out, const cli_diagram *d, dyd_status st, const dyd_error *err) {
+  drawing_report r = {.st = st, .err = *err};
+  if (d) r.cut = d->cut, r.coincident = d->coincident, r.finite = d->bounds.finite;
+  bool good = fwrite(&r, sizeof r, 1, out) == 1;
+  if (d) good = good && number_send(out, &d->bounds.area) && number_send(out, &d->bounds.hausdorff);
+  return fclose(out) == 0 && good;
+}
+
+static bool report_receive(FILE *in, cli_diagram *d, dyd_status *st, dyd_error *err) {
+  drawing_report r;
+  bool good = fread(&r, sizeof r, 1, in) == 1;
+  if (good && d) good = number_receive(in, &d->bounds.area) && number_receive(in, &d->bounds.hausdorff);
+  if (!good) return false;
+  if (d) d->cut = r.cut, d->coincident = r.coincident, d->bounds.finite = r.finite;
+  *st = r.st;
+  *err = r.err;
+  return true;
+}
+
+/* The child: writes, reports, and ends. */
+static _Noreturn void drawing_child(int report, FILE *out, const char *name, const cli_session *s, cli_print_fn print) {
+  dyd_error err;
+  dyd_error_clear(&err);
+  cli_deadline_again();
+  dyd_status st = content_print(out, name, s, print, &err);
+  if (st == DYD_OK && fflush(out) != 0) st = content_fail(&err);
+  FILE *to = fdopen(report, "w");
+  _exit(to && report_send(to, s->diagram, st, &err) ? CLI_OK : CLI_FAILED);
+}
+
+/* Makes the child end with its parent; returns true if the parent still runs. */
+static bool drawing_ties(pid_t parent) {
+#ifdef __linux__
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+  return getppid() == parent;
+}
+
+/* Returns false if the child has neither reported nor ended within these seconds. */
+static bool drawing_wait(int report, double seconds) {
+  struct pollfd end = {.fd = report, .events = POLLIN};
+  const double until = cli_clock() + seconds;
+  for (double left = seconds; left > 0; left = until - cli_clock()) {
+    int ready = poll(&end, 1, left < 1e6 ? (int)(1e3 * left) + 1 : 1000000000);
+    if (ready > 0 || (ready < 0 && errno != EINTR)) return true;
+  }
+  return false;
+}
+
+/* Seconds for a picture: the rest of --timeout, whose watch ends this process. Without it, by far enough time to find
+ * fonts and draw the points. */
+static double drawing_patience(const cli_session *s) {
+  const double of_points = s->engine ? 1e-3 * (double)dyd_engine_count(s->engine) : 0;
+  return cli_deadline_left(1) > 0 ? 1e9 : 60 + of_points;
+}
+
+static dyd_status drawing_failed(dyd_error *err, const char *why) {
+  char text[DYD_MESSAGE_SIZE];
+  snprintf(text, sizeof text,
+           "no picture was written, since %s; that happens when memory is exhausted: close other programs, or give "
+           "another format",
+           why);
+  return dyd_error_set(err, DYD_E_STREAM, text);
+}
+
+static dyd_status drawing_end(int report, pid_t child, const cli_session *s, dyd_error *err) {
+  char why[80] = "it takes too long";
+  dyd_status st = DYD_E_STREAM;
+  int how = 0;
+  if (!drawing_wait(report, drawing_patience(s))) kill(child, SIGKILL);
+  FILE *in = fdopen(report, "r");
+  bool told = in && report_receive(in, s->diagram, &st, err);
+  if (in)
+    fclose(in);
+  else
+    close(report);
+  while (waitpid(child, &how, 0) < 0 && errno == EINTR) continue;
+  if (told) return st;
+  if (WIFEXITED(how)) snprintf(why, sizeof why, "drawing it ended with status %d", WEXITSTATUS(how));
+  if (WIFSIGNALED(how) && WTERMSIG(how) != SIGKILL)
+    snprintf(why, sizeof why, "drawing it ended with signal %d", WTERMSIG(how));
+  return drawing_failed(err, why);
+}
+
+static dyd_status draw_apart(FILE *out, const char *name, const cli_session *s, cli_print_fn print, dyd_error *err) {
+  int report[2];
+  if (pipe2(report, O_CLOEXEC) != 0) return drawing_failed(err, "a process for it cannot be started");
+  fflush(NULL); /* buffered data is written by one process only */
+  const pid_t parent = getpid(), child = fork();
+  if (child == 0) {
+    close(report[0]);
+    if (drawing_ties(parent)) drawing_child(report[1], out, name, s, print);
+    _exit(CLI_FAILED);
+  }
+  close(report[1]);
+  if (child > 0) return drawing_end(report[0], child, s, err);
+  close(report[0]);
+  return drawing_failed(err, "a process for it cannot be started");
+}
+
+bool cli_is_picture(dyd_format format) {
+  return format == DYD_FORMAT_SVG || format == DYD_FORMAT_PDF || format == DYD_FORMAT_PNG || format == DYD_FORMAT_TIKZ;
+}
+
+/* A plot is always one. */
+static bool is_picture(const char *name, const cli_options *o) {
+  if (name && (name == o->certificate || name == o->trace || name == o->plot || name == o->pgf)) return name == o->plot;
+  return cli_is_picture(o->format);
+}
+
+static dyd_status write_content(FILE *out, const char *name, const cli_session *s, cli_print_fn print, dyd_error *err) {
+  return is_picture(name, &s->o) ? draw_apart(out, name, s, print, err) : content_print(out, name, s, print, err);
+}
+
+/* ---- a result ---- */
+
+/* Nothing is written since work was cut: says why. Exit status. */
+static int write_was_cut(dyd_status st, const cli_options *o, const dyd_error *err) {
+  if (cli_deadline_passed()) {
+    cli_complain("budget: time limit reached before the result was known: nothing is written (raise --timeout)");
+    return CLI_BUDGET;
+  }
+  if (st == DYD_CAPPED)
+    cli_complain_at(o->file, err);
+  else
+    cli_complain("cancelled before the result was known: nothing is written");
+  return st == DYD_CAPPED ? CLI_BUDGET : CLI_CANCELLED;
+}
+
+int cli_write_file(const char *name, const cli_session *s, cli_print_fn print) {
+  const cli_options *o = &s->o;
+  cli_output out;
+  if (!cli_output_open(&out, name)) return CLI_FAILED;
+  dyd_error err;
+  dyd_error_clear(&err);
+  dyd_status st = write_content(out.stream, name, s, print, &err);
+  bool done = st == DYD_OK;
+  if (st > 0) {
+    cli_output_drop(&out);
+    return write_was_cut(st, o, &err);
+  }
+  if (st == DYD_E_IO && !cli_output_note_reader(out.stream, name, o))
+    cli_complain("%s: %s; choose another place with -o", name ? name : "standard output", err.message);
+  else if (!done && st != DYD_E_IO)
+    cli_complain_at(o->file, &err);
+  if (done)
+    done = cli_output_finish(&out, o);
+  else
+    cli_output_drop(&out);
+  const dyd_format_facts *f = dyd_format_get(o->format);
+  if (done && f && is_packed(name, o)) cli_note(o, "%s holds %s, packed", name, f->name);
+  return done ? 0 : cli_exit_refused(&s->o, st);
 }

@@ -115,6 +115,10 @@ void cli_complain_at(const char *file, const dyd_error *err) {
     cli_complain("%s: %s%s", file, point, err->message);
 }
 
+int cli_exit_refused(const cli_options *o, dyd_status st) {
+  return st == DYD_E_NOMEM && o->engine.max_bytes ? CLI_BUDGET : CLI_FAILED;
+}
+
 /* ---- signals ----
  *
  * Ctrl-C, a connection that is lost, a request to end: the first one cancels the run, so that results are written; the

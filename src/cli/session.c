@@ -339,10 +339,6 @@ dyd_status cli_run_engine(cli_session *s, const dyd_engine_options *options, dyd
   return dyd_engine_run(&outcome, s->engine, options, err);
 }
 
-int cli_exit_refused(const cli_options *o, dyd_status st) {
-  return st == DYD_E_NOMEM && o->engine.max_bytes ? CLI_BUDGET : CLI_FAILED;
-}
-
 int cli_exit_status(dyd_outcome outcome) {
   static const int status[] = {
       [DYD_OUTCOME_NONE] = CLI_FAILED,       [DYD_OUTCOME_DECIDED] = CLI_OK,    [DYD_OUTCOME_CERTIFIED] = CLI_OK,
@@ -445,44 +441,6 @@ int cli_session_stopped(cli_session *s, const char *what) {
 }
 
 /* ---- writing ---- */
-
-/* Nothing is written since work was cut: says why. Exit status. */
-static int write_was_cut(dyd_status st, const cli_options *o, const dyd_error *err) {
-  if (cli_deadline_passed()) {
-    cli_complain("budget: time limit reached before the result was known: nothing is written (raise --timeout)");
-    return CLI_BUDGET;
-  }
-  if (st == DYD_CAPPED)
-    cli_complain_at(o->file, err);
-  else
-    cli_complain("cancelled before the result was known: nothing is written");
-  return st == DYD_CAPPED ? CLI_BUDGET : CLI_CANCELLED;
-}
-
-int cli_write_file(const char *name, const cli_session *s, cli_print_fn print) {
-  const cli_options *o = &s->o;
-  cli_output out;
-  if (!cli_output_open(&out, name)) return CLI_FAILED;
-  dyd_error err;
-  dyd_error_clear(&err);
-  dyd_status st = cli_write_content(out.stream, name, s, print, &err);
-  bool done = st == DYD_OK;
-  if (st > 0) {
-    cli_output_drop(&out);
-    return write_was_cut(st, o, &err);
-  }
-  if (st == DYD_E_IO && !cli_output_note_reader(out.stream, name, o))
-    cli_complain("%s: %s; choose another place with -o", name ? name : "standard output", err.message);
-  else if (!done && st != DYD_E_IO)
-    cli_complain_at(o->file, &err);
-  if (done)
-    done = cli_output_finish(&out, o);
-  else
-    cli_output_drop(&out);
-  const dyd_format_facts *f = dyd_format_get(o->format);
-  if (done && f && cli_is_packed(name, o)) cli_note(o, "%s holds %s, packed", name, f->name);
-  return done ? 0 : cli_exit_refused(&s->o, st);
-}
 
 /* The certificate that the options ask for, after results were written with this status. Returns the status of all. */
 static int session_prove(cli_session *s, int status) {
