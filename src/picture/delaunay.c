@@ -257,18 +257,6 @@ static void delaunay_inside(dyd_canvas *c, void *context) {
 
 /* ---- the part shown ---- */
 
-/* The possible pairs, unless others are shown. */
-static const dyd_pair_list *picture_pairs(const dyd_result *r) {
-  return r->graph_name || r->discs ? NULL : &r->pairs;
-}
-
-static dyd_status see_all(delaunay_drawing *d, dyd_error *err) {
-  dyd_status st = dyd_view_all(&d->view, d->r, picture_pairs(d->r), err);
-  for (size_t p = 0; p < d->r->pairs.count; p++) d->shown[d->r->pairs.item[p].status]++;
-  for (int k = 0; k < 4; k++) d->wide[k] = d->view.frame[k] + (k & 1 ? WIDE : -WIDE);
-  return st == DYD_OK && !find_middles(d) ? DYD_E_NOMEM : st;
-}
-
 /* A box on the page; false when it is too far outside. */
 static bool place_box(double out[4], const dyd_view *v, const double box[4]) {
   out[0] = dyd_view_x(v, box[0]);
@@ -284,30 +272,23 @@ static dyd_status too_near(dyd_error *err) {
   return dyd_fail(err, DYD_E_RANGE, "the window is too small for a picture of these points; give a larger one");
 }
 
-static void count_shown(delaunay_drawing *d) {
-  for (size_t p = 0; p < d->r->pairs.count; p++) {
-    double z[2][2];
-    d->shown[d->r->pairs.item[p].status] += line_of(z, d, &d->r->pairs.item[p], d->view.frame);
-  }
-}
-
-static dyd_status see_window(delaunay_drawing *d, dyd_error *err) {
-  double box[4];
-  dyd_status st = dyd_view_window(box, d->r->window, err);
-  if (st == DYD_OK) st = dyd_view_fit(&d->view, box, dyd_view_spacing(d->r->pd, picture_pairs(d->r), box), err);
+static dyd_status delaunay_see(delaunay_drawing *d, const dyd_output *o) {
+  const dyd_result *r = d->r;
+  double *f = d->view.frame, b[4], z[4], line[2][2];
+  dyd_status st = dyd_view_of(&d->view, o, r->graph_name || r->discs ? NULL : &r->pairs);
   if (st != DYD_OK) return st;
-  double *f = d->view.frame;
-  if (!place_box(f, &d->view, box)) return too_near(err);
+  if (r->window) dyd_rect_get_d(b, r->window);
+  if (r->window && !place_box(f, &d->view, b)) return too_near(o->err);
   for (int k = 0; k < 4; k++) d->wide[k] = f[k] + (k & 1 ? WIDE : -WIDE);
-  for (size_t i = 0; i < d->r->count; i++) {
-    double b[4], z[4];
-    st = dyd_result_box(b, d->r, i, err);
+  for (size_t i = 0; r->window && i < r->count; i++) {
+    st = dyd_result_box(b, r, i, o->err);
     if (st != DYD_OK) return st;
-    if (!place_box(z, &d->view, b)) return too_near(err);
+    if (!place_box(z, &d->view, b)) return too_near(o->err);
     d->sites += z[0] <= f[1] && f[0] <= z[1] && z[2] <= f[3] && f[2] <= z[3];
   }
   if (!find_middles(d)) return DYD_E_NOMEM;
-  count_shown(d);
+  for (size_t p = 0; p < r->pairs.count; p++)
+    d->shown[r->pairs.item[p].status] += !r->window || line_of(line, d, &r->pairs.item[p], f);
   return DYD_OK;
 }
 
@@ -347,12 +328,10 @@ static dyd_status find_density(delaunay_drawing *d) {
 dyd_status dyd_delaunay_picture(const dyd_output *o) {
   const dyd_result *r = o->what;
   delaunay_drawing d = {.r = r, .marks = dyd_site_marks_of(r->pd, r->engine, DYD_PICTURE_BAND)};
-  dyd_status st = d.r->window ? see_window(&d, o->err) : see_all(&d, o->err);
-  d.view.discs = r->discs;
+  dyd_status st = delaunay_see(&d, o);
   const char *title = d.r->graph_name ? d.r->graph_name : "partial Delaunay triangulation";
   if (st == DYD_OK && !d.r->graph_name) st = dyd_delaunay_triangles(&d.triangles, NULL, d.r->pd, 0);
   if (st == DYD_OK) st = find_density(&d);
-  d.view.epsg = o->epsg;
   if (st == DYD_OK) st = dyd_view_write(o, &d.view, title, delaunay_inside, delaunay_legend, &d);
   dyd_triangle_list_clear(&d.triangles);
   for (int k = 0; k < 3; k++) dyd_density_clear(&d.dense[k]);
@@ -433,13 +412,8 @@ static void tolerance_name(dyd_canvas *c, const tolerance_drawing *g, const dyd_
 
 static void tolerance_edges(dyd_canvas *c, tolerance_drawing *g, int class) {
   for (size_t k = 0; k < g->rows; k++) {
-    double b[4], z[2][2];
-    if (class_of(g, &g->row[k]) != class) continue;
-    for (int e = 0; e < 2; e++) {
-      dyd_sites_get_d(b, g->r->sites, e ? g->row[k].j : g->row[k].i);
-      dyd_view_middle(z[e], &g->view, b);
-    }
-    if (!dyd_clip_segment(z, g->view.frame)) continue;
+    double z[2][2];
+    if (class_of(g, &g->row[k]) != class || !dyd_view_line(z, &g->view, g->r, g->row[k].i, g->row[k].j)) continue;
     g->seen[class] = true;
     dyd_canvas_move(c, z[0][0], z[0][1]);
     dyd_canvas_line(c, z[1][0], z[1][1]);
@@ -487,20 +461,12 @@ static void tolerance_legend(dyd_canvas *c, void *context) {
   dyd_legend_crowd(&l, &g->marks);
 }
 
-static dyd_status tolerance_see(tolerance_drawing *g, dyd_error *err) {
-  double box[4];
-  if (!g->r->window) return dyd_view_all(&g->view, g->r, NULL, err);
-  dyd_status st = dyd_view_window(box, g->r->window, err);
-  return st == DYD_OK ? dyd_view_fit(&g->view, box, dyd_view_spacing(g->r->pd, NULL, box), err) : st;
-}
-
 dyd_status dyd_tolerance_picture(const dyd_output *o) {
   const dyd_result *r = o->what;
   tolerance_drawing g = {.r = r, .t = r->tolerance, .marks = dyd_site_marks_of(r->pd, r->engine, DYD_PICTURE_BAND)};
   g.rows = dyd_tolerance_rows(&g.row, g.t);
   dyd_status st = find_classes(&g);
-  if (st == DYD_OK) st = tolerance_see(&g, o->err);
-  g.view.epsg = o->epsg;
+  if (st == DYD_OK) st = dyd_view_of(&g.view, o, NULL);
   return st == DYD_OK ? dyd_view_write(o, &g.view, "tolerance of the Delaunay triangulation", tolerance_inside,
                                        tolerance_legend, &g)
                       : st;

@@ -52,8 +52,10 @@ double dyd_view_x(const dyd_view *v, double x);
 double dyd_view_y(const dyd_view *v, double y);
 /* The middle of a box, on the page. */
 void dyd_view_middle(double z[2], const dyd_view *v, const double box[4]);
-/* A view of all rectangles of the result, with a rim; pairs as above. */
-dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, const dyd_pair_list *pairs, dyd_error *err);
+/* The view of a dyd_result: its window, or all its rectangles with a rim; pairs as above. */
+dyd_status dyd_view_of(dyd_view *v, const dyd_output *o, const dyd_pair_list *pairs);
+/* The line between the middles of two sites on the page, cut to the frame; false: nothing is left. */
+bool dyd_view_line(double z[2][2], const dyd_view *v, const dyd_result *r, uint32_t i, uint32_t j);
 /* Returns true if a box meets the frame. */
 bool dyd_view_sees(const dyd_view *v, const double box[4]);
 /* *box (xlo, xhi, ylo, yhi) grows to hold b. */

@@ -97,22 +97,13 @@ typedef struct plan_drawing {
   dyd_site_marks marks;
 } plan_drawing;
 
-static bool plan_line(double z[2][2], const plan_drawing *g, const dyd_pair *p) {
-  double b[4];
-  for (int e = 0; e < 2; e++) {
-    dyd_sites_get_d(b, g->r->sites, e ? p->j : p->i);
-    dyd_view_middle(z[e], &g->view, b);
-  }
-  return dyd_clip_segment(z, g->view.frame);
-}
-
 static void plan_inside(dyd_canvas *c, void *context) {
   plan_drawing *g = context;
   for (int class = DYD_PLAN_CLASSES; class --;)
     for (size_t k = 0; k < g->r->pairs.count; k++) {
       const dyd_pair *p = &g->r->pairs.item[k];
       double z[2][2];
-      if (dyd_plan_class(&g->dress, p) != class || !plan_line(z, g, p)) continue;
+      if (dyd_plan_class(&g->dress, p) != class || !dyd_view_line(z, &g->view, g->r, p->i, p->j)) continue;
       g->dress.shown[class]++;
       dyd_canvas_move(c, z[0][0], z[0][1]);
       dyd_canvas_line(c, z[1][0], z[1][1]);
@@ -129,21 +120,12 @@ static void plan_legend(dyd_canvas *c, void *context) {
   dyd_legend_crowd(&l, &g->marks);
 }
 
-static dyd_status plan_see(plan_drawing *g, dyd_error *err) {
-  double box[4];
-  if (!g->r->window) return dyd_view_all(&g->view, g->r, &g->r->pairs, err);
-  dyd_status st = dyd_view_window(box, g->r->window, err);
-  return st == DYD_OK ? dyd_view_fit(&g->view, box, dyd_view_spacing(g->r->pd, &g->r->pairs, box), err) : st;
-}
-
 dyd_status dyd_plan_picture(const dyd_output *o) {
   const dyd_result *r = o->what;
   plan_drawing g = {.r = r, .marks = dyd_site_marks_of(r->pd, r->engine, DYD_PICTURE_BAND)};
   g.marks.plan = &g.dress;
   dyd_status st = dyd_plan_dress_init(&g.dress, r->survey, r->count);
-  if (st == DYD_OK) st = plan_see(&g, o->err);
-  g.view.epsg = o->epsg;
-  g.view.discs = r->discs;
+  if (st == DYD_OK) st = dyd_view_of(&g.view, o, &r->pairs);
   if (st == DYD_OK) st = dyd_view_write(o, &g.view, "plan of measurements", plan_inside, plan_legend, &g);
   dyd_plan_dress_clear(&g.dress);
   return st;

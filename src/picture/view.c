@@ -84,7 +84,7 @@ dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_er
   return DYD_OK;
 }
 
-dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, const dyd_pair_list *pairs, dyd_error *err) {
+static dyd_status view_all(dyd_view *v, const dyd_result *r, const dyd_pair_list *pairs, dyd_error *err) {
   double all[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
   for (size_t i = 0; i < r->count; i++) {
     double b[4];
@@ -137,6 +137,25 @@ double dyd_view_spacing(const dyd_delaunay *pd, const dyd_pair_list *pairs, cons
   if (dyd_delaunay_pairs(&own, pd) != DYD_OK) return 0;
   double spacing = spacing_of(pd, &own, box);
   return spacing;
+}
+
+dyd_status dyd_view_of(dyd_view *v, const dyd_output *o, const dyd_pair_list *pairs) {
+  const dyd_result *r = o->what;
+  double box[4];
+  dyd_status st = r->window ? dyd_view_window(box, r->window, o->err) : view_all(v, r, pairs, o->err);
+  if (st == DYD_OK && r->window) st = dyd_view_fit(v, box, dyd_view_spacing(r->pd, pairs, box), o->err);
+  v->epsg = o->epsg;
+  v->discs = r->discs;
+  return st;
+}
+
+bool dyd_view_line(double z[2][2], const dyd_view *v, const dyd_result *r, uint32_t i, uint32_t j) {
+  double b[4];
+  for (int e = 0; e < 2; e++) {
+    dyd_sites_get_d(b, r->sites, e ? j : i);
+    dyd_view_middle(z[e], v, b);
+  }
+  return dyd_clip_segment(z, v->frame);
 }
 
 double dyd_view_x(const dyd_view *v, double x) {

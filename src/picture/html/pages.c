@@ -73,25 +73,6 @@ static dyd_status put_packed(FILE *out, const char *text, size_t size) {
   return DYD_OK;
 }
 
-/* Writes JSON to `to`. */
-typedef dyd_status (*html_data_fn)(FILE *to, const dyd_output *o);
-
-/* A page with the data that `data` writes. */
-static dyd_status html_write(const dyd_output *o, html_data_fn data) {
-  DYD_FREED char *text = NULL;
-  size_t size = 0;
-  FILE *to = open_memstream(&text, &size);
-  if (!to) return DYD_E_NOMEM;
-  dyd_status st = data(to, o);
-  if ((fclose(to) != 0 || !text) && st == DYD_OK) st = DYD_E_NOMEM;
-  if (st == DYD_OK) {
-    fwrite(dyd_html_before, 1, dyd_html_before_size, o->out);
-    st = put_packed(o->out, text, size);
-    fwrite(dyd_html_after, 1, dyd_html_after_size, o->out);
-  }
-  return st;
-}
-
 /* ---- lists ---- */
 
 /* A list of points by their numbers on the page, as differences, which pack well: of pairs (i, j), sorted, i less that
@@ -126,7 +107,7 @@ enum { MOST_PAIRS = 300000, MOST_CHANGES = 4 * MOST_PAIRS };
 #define NOT_SHOWN UINT32_MAX
 
 /* Writes members of a page of its own, each with a comma behind. */
-typedef dyd_status (*html_own_fn)(FILE *out, const void *user);
+typedef dyd_status (*html_own_fn)(FILE *out, const dyd_output *o);
 
 /* All borrowed but number and made. Set r and kind, and what differs from the triangulation of a plane. */
 typedef struct html_scene {
@@ -134,7 +115,6 @@ typedef struct html_scene {
   const dyd_result *r;
   const char *kind; /* "delaunay", "voronoi", "converge", "plan" */
   html_own_fn own;
-  const void *user;
   const dyd_history *history; /* NULL: of a globe, whose pairs are those of r */
   dyd_history *made;          /* one stage, where none was given */
   const dyd_rect *shown;      /* the window; NULL: everything, as of a globe */
@@ -409,7 +389,7 @@ static dyd_status html_body(const html_scene *s) {
 static dyd_status html_scene_write(html_scene *s, const dyd_output *o) {
   dyd_status st = html_scene_init(s, o->err);
   if (st == DYD_OK) st = html_head(s, o);
-  if (st == DYD_OK) st = s->own(s->out, s->user);
+  if (st == DYD_OK) st = s->own(s->out, o);
   if (st == DYD_OK) st = html_body(s);
   fputs("}\n", s->out);
   dyd_history_free(s->made);
@@ -417,11 +397,26 @@ static dyd_status html_scene_write(html_scene *s, const dyd_output *o) {
   return st;
 }
 
+/* A page of r, with what `own` writes. */
+static dyd_status html_write(const dyd_output *o, const dyd_result *r, const char *kind, html_own_fn own) {
+  DYD_FREED char *text = NULL;
+  size_t size = 0;
+  FILE *to = open_memstream(&text, &size);
+  if (!to) return DYD_E_NOMEM;
+  dyd_status st = html_scene_write(&(html_scene){.out = to, .r = r, .kind = kind, .own = own}, o);
+  if ((fclose(to) != 0 || !text) && st == DYD_OK) st = DYD_E_NOMEM;
+  if (st != DYD_OK) return st;
+  fwrite(dyd_html_before, 1, dyd_html_before_size, o->out);
+  st = put_packed(o->out, text, size);
+  fwrite(dyd_html_after, 1, dyd_html_after_size, o->out);
+  return st;
+}
+
 /* ---- runs, triangulations, graphs ---- */
 
 /* The table of convergence, as json has it; the page shows its row next to the triangulation. */
-static dyd_status html_table(FILE *out, const void *output) {
-  dyd_output table = *(const dyd_output *)output;
+static dyd_status html_table(FILE *out, const dyd_output *o) {
+  dyd_output table = *o;
   table.out = out;
   table.format = DYD_FORMAT_JSON;
   fputs("\"convergence\": ", out);
@@ -430,21 +425,16 @@ static dyd_status html_table(FILE *out, const void *output) {
   return st;
 }
 
-static dyd_status html_run(FILE *to, const dyd_output *o) {
+static dyd_status html_convergence(const dyd_output *o) {
   const dyd_stage_table *t = o->what;
   if (t->result->history->stages != t->stages->count)
     return dyd_fail(o->err, DYD_E_ARG, "the history has other stages than the table has rows");
-  return html_scene_write(&(html_scene){.out = to, .r = t->result, .kind = "converge", .own = html_table, .user = o},
-                          o);
-}
-
-static dyd_status html_convergence(const dyd_output *o) {
-  return html_write(o, html_run);
+  return html_write(o, t->result, "converge", html_table);
 }
 
 /* Which surface; up to which motion of all points nothing changes at all. */
-static dyd_status html_whole(FILE *out, const void *result) {
-  const dyd_result *r = result;
+static dyd_status html_whole(FILE *out, const dyd_output *o) {
+  const dyd_result *r = o->what;
   double lo, hi;
   if (r->sphere) fputs("\"surface\": \"sphere\",\n", out);
   dyd_json j;
@@ -456,8 +446,8 @@ static dyd_status html_whole(FILE *out, const void *result) {
 }
 
 /* Its points, in order: row, half-widths now and needed, pairs decided and left; and which rank decides each pair. */
-static dyd_status html_plan(FILE *out, const void *result) {
-  const dyd_result *r = result;
+static dyd_status html_plan(FILE *out, const dyd_output *o) {
+  const dyd_result *r = o->what;
   const dyd_survey_row *row;
   const dyd_survey_pair *pair;
   const size_t rows = dyd_survey_rows(&row, r->survey), pairs = dyd_survey_pairs(&pair, r->survey);
@@ -475,24 +465,15 @@ static dyd_status html_plan(FILE *out, const void *result) {
     fprintf(out, "%s[%zu,%zu,%zu]", k ? "," : "", dyd_engine_row(r->engine, pair[k].i),
             dyd_engine_row(r->engine, pair[k].j), pair[k].row == SIZE_MAX ? 0 : pair[k].row + 1);
   fprintf(out, "], \"finished\": %s},\n", dyd_survey_get(r->survey)->cut ? "false" : "true");
-  return html_whole(out, result);
-}
-
-static dyd_status html_plan_page(FILE *to, const dyd_output *o) {
-  return html_scene_write(&(html_scene){.out = to, .r = o->what, .kind = "plan", .own = html_plan, .user = o->what}, o);
+  return html_whole(out, o);
 }
 
 static dyd_status html_plan_of(const dyd_output *o) {
-  return html_write(o, html_plan_page);
-}
-
-static dyd_status html_pairs_page(FILE *to, const dyd_output *o) {
-  return html_scene_write(
-      &(html_scene){.out = to, .r = o->what, .kind = "delaunay", .own = html_whole, .user = o->what}, o);
+  return html_write(o, o->what, "plan", html_plan);
 }
 
 static dyd_status html_triangulation(const dyd_output *o) {
-  return html_write(o, html_pairs_page);
+  return html_write(o, o->what, "delaunay", html_whole);
 }
 
 /* ---- diagrams ---- */
@@ -646,8 +627,7 @@ static dyd_status html_edges(html_diagram *g) {
 }
 
 /* Cells come first, as they give the bounds. */
-static dyd_status html_diagram_parts(FILE *to, const void *output) {
-  const dyd_output *page = output;
+static dyd_status html_diagram_parts(FILE *to, const dyd_output *page) {
   const dyd_diagram *d = page->what;
   html_diagram g = {.out = to, .d = d, .err = page->err};
   int unit = diagram_unit(&g);
@@ -672,28 +652,20 @@ static dyd_status html_diagram_parts(FILE *to, const void *output) {
   return st == DYD_OK ? html_edges(&g) : st;
 }
 
-static dyd_status html_cells_page(FILE *to, const dyd_output *o) {
-  const dyd_diagram *d = o->what;
-  dyd_result r = {.out = to,
-                  .engine = d->engine,
-                  .pd = d->pd,
-                  .sites = d->sites,
-                  .count = d->count,
-                  .window = &d->window,
-                  .epsg = d->epsg,
-                  .discs = d->discs,
-                  .history = d->discs ? NULL : d->history};
-  dyd_status st = d->discs ? DYD_OK : dyd_delaunay_pairs(&r.pairs, d->pd);
-  if (d->discs) r.pairs = *d->discs;
-  if (st == DYD_OK)
-    st =
-        html_scene_write(&(html_scene){.out = to, .r = &r, .kind = "voronoi", .own = html_diagram_parts, .user = o}, o);
-  if (!d->discs) dyd_pair_list_clear(&r.pairs);
-  return st;
-}
-
 static dyd_status html_diagram_page(const dyd_output *o) {
-  return html_write(o, html_cells_page);
+  const dyd_diagram *d = o->what;
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
+  dyd_status st = d->discs ? DYD_OK : dyd_delaunay_pairs(&pairs, d->pd);
+  const dyd_result r = {.engine = d->engine,
+                        .pd = d->pd,
+                        .sites = d->sites,
+                        .count = d->count,
+                        .window = &d->window,
+                        .epsg = d->epsg,
+                        .discs = d->discs,
+                        .history = d->discs ? NULL : d->history,
+                        .pairs = d->discs ? *d->discs : pairs};
+  return st == DYD_OK ? html_write(o, &r, "voronoi", html_diagram_parts) : st;
 }
 
 dyd_writer *const dyd_html_writers[DYD_CONTENTS] = {
