@@ -116,6 +116,13 @@ void dyd_numbers_keep_off(dyd_numbers *l, const double box[4]);
 /* Writes what a site of e is called beside its box, if there is room. */
 void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double size, const dyd_engine *e, size_t site);
 
+/* The points of a plan. rank: of each site in it, else 0; rgb: of each site; both owned. */
+typedef struct dyd_plan_marks {
+  const dyd_survey_row *row;
+  size_t rows, *rank;
+  unsigned *rgb;
+} dyd_plan_marks;
+
 /* Sites that are drawn; `box` returns false for sites that are not. */
 typedef struct dyd_site_marks {
   const dyd_engine *engine; /* names them */
@@ -124,7 +131,7 @@ typedef struct dyd_site_marks {
   const void *context;
   unsigned rgb;                       /* of rectangles */
   const struct dyd_density *under;    /* marks that its squares cover are omitted; NULL: none are */
-  const struct dyd_plan_dress *plan;  /* its points are marked by their ranks, and no others are numbered; NULL: none */
+  const dyd_plan_marks *plan;         /* its points are marked by their ranks, and no others are numbered; NULL: none */
   bool drawn[DYD_MARK_RECTANGLE + 1]; /* which marks were */
 } dyd_site_marks;
 
@@ -132,27 +139,6 @@ typedef struct dyd_site_marks {
 dyd_site_marks dyd_site_marks_of(const dyd_delaunay *pd, const dyd_engine *e, unsigned rgb);
 /* All of them, with their numbers where neighbours are far enough apart. */
 void dyd_site_marks_draw(dyd_site_marks *m, dyd_canvas *c, const dyd_view *v);
-
-/* ---- plan.c ---- */
-
-/* Classes of pairs: decided by the first quarter of the rows of a plan, and so on; not by it; legal already. */
-enum { DYD_PLAN_QUARTERS = 4, DYD_PLAN_LEFT = DYD_PLAN_QUARTERS, DYD_PLAN_LEGAL, DYD_PLAN_CLASSES };
-
-/* A plan in a picture. rank: of each site in it, else 0; rgb: of each site; both owned. shown: pairs drawn of each
- * class. */
-typedef struct dyd_plan_dress {
-  const dyd_survey *plan;
-  const dyd_survey_row *row;
-  const dyd_survey_pair *pair;
-  size_t rows, pairs, *rank, shown[DYD_PLAN_CLASSES];
-  unsigned *rgb;
-} dyd_plan_dress;
-
-dyd_status dyd_plan_dress_init(dyd_plan_dress *d, const dyd_survey *plan, size_t sites);
-void dyd_plan_dress_clear(dyd_plan_dress *d);
-int dyd_plan_class(const dyd_plan_dress *d, const dyd_pair *p);
-/* Names and strokes the line of a pair of sites of e, which is the path. */
-void dyd_plan_stroke(dyd_canvas *c, const dyd_plan_dress *d, const dyd_view *v, const dyd_engine *e, const dyd_pair *p);
 
 /* ---- legend.c ---- */
 
@@ -172,8 +158,6 @@ void dyd_legend_dot(dyd_legend *l, unsigned fill, unsigned edge, const char *tex
 void dyd_legend_marks(dyd_legend *l, const dyd_site_marks *m, unsigned rgb);
 /* "N points"; where a window is given, how many of them are in it. */
 void dyd_points_text(char *out, size_t size, size_t inside, size_t count, bool window);
-/* plan.c: of the classes. */
-void dyd_plan_legend(dyd_legend *l, const dyd_plan_dress *d);
 /* A sentence, on lines of its own. */
 void dyd_legend_text(dyd_legend *l, const char *text);
 /* Where most sites are, when they are in a small part of the view. */

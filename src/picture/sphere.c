@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Pictures of a sphere: longitude to the right, latitude upwards, a degree of both alike, with a graticule; sides are
- * great circles. What spans more than half of the globe is shown on all of it. */
+/* Pictures of plans, with the points to measure by their ranks, and pairs by the points that decide them; and of a
+ * sphere: longitude to the right, latitude upwards, a degree of both alike, with a graticule; sides are great circles.
+ * What spans more than half of the globe is shown on all of it. */
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
@@ -8,6 +9,104 @@
 #include "io/geodesic.h"
 #include "picture/picture.h"
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- plans ---- */
+
+/* Classes of pairs: decided by the first quarter of the rows of a plan, and so on; not by it; legal already. */
+enum { QUARTERS = 4, LEFT = QUARTERS, LEGAL, CLASSES };
+
+/* A plan in a picture. shown: pairs drawn of each class. */
+typedef struct plan_dress {
+  const dyd_survey *plan;
+  const dyd_survey_pair *pair;
+  size_t pairs, shown[CLASSES];
+  dyd_plan_marks marks;
+} plan_dress;
+
+/* By quarters of the ranks, then pairs that stay undecided, then decided ones; distinct for all kinds of sight, and in
+ * grey. */
+static const struct {
+  unsigned rgb;
+  double on, off, width;
+} dress[CLASSES] = {{0xd55e00, 0, 0, 1.8}, {0xe69f00, 7, 2, 1.6},   {0x56b4e9, 3, 2, 1.6},
+                    {0x004c80, 1, 2, 1.6}, {0x333333, 0.2, 2.2, 1}, {0xc8c8c8, 0, 0, 0.7}};
+
+/* The quarter of row k, from 0. */
+static int quarter_of(const plan_dress *d, size_t k) {
+  return (int)(QUARTERS * k / d->marks.rows);
+}
+
+static dyd_status plan_dress_init(plan_dress *d, const dyd_survey *plan, size_t sites) {
+  *d = (plan_dress){.plan = plan};
+  if (!DYD_ZEROED(d->marks.rank, sites + 1) || !DYD_NEW(d->marks.rgb, sites)) return DYD_E_NOMEM;
+  d->marks.rows = dyd_survey_rows(&d->marks.row, plan);
+  d->pairs = dyd_survey_pairs(&d->pair, plan);
+  for (size_t i = 0; i < sites; i++) d->marks.rgb[i] = 0xd8d8d8;
+  for (size_t k = 0; k < d->marks.rows; k++) {
+    d->marks.rank[d->marks.row[k].site] = k + 1;
+    d->marks.rgb[d->marks.row[k].site] = dress[quarter_of(d, k)].rgb;
+  }
+  return DYD_OK;
+}
+
+static void plan_dress_clear(plan_dress *d) {
+  dyd_free_all(d->marks.rank, d->marks.rgb);
+}
+
+static const dyd_survey_pair *plan_pair(const plan_dress *d, const dyd_pair *p) {
+  return dyd_find_two(p, d->pair, d->pairs, sizeof *d->pair);
+}
+
+static int plan_class(const plan_dress *d, const dyd_pair *p) {
+  if (p->status == DYD_LEGAL) return LEGAL;
+  const dyd_survey_pair *found = plan_pair(d, p);
+  return found && found->row < d->marks.rows ? quarter_of(d, found->row) : LEFT;
+}
+
+/* Names and strokes the line of a pair of sites of e, which is the path. */
+static void plan_stroke(dyd_canvas *c, const plan_dress *d, const dyd_view *v, const dyd_engine *e, const dyd_pair *p) {
+  char text[80] = "legal";
+  const int class = plan_class(d, p);
+  if (class < QUARTERS)
+    snprintf(text, sizeof text, "decided by point %zu of the plan", plan_pair(d, p)->row + 1);
+  else if (class == LEFT)
+    snprintf(text, sizeof text, "not decided by the plan");
+  dyd_picture_name_pair(c, e, p->i, p->j, text);
+  dyd_picture_stroke(c, dress[class].rgb, v->line * dress[class].width, dress[class].on, dress[class].off);
+}
+
+/* The ranks of a quarter: first to last; false: none. */
+static bool quarter_ranks(size_t *first, size_t *last, const plan_dress *d, int quarter) {
+  *first = *last = 0;
+  for (size_t k = 0; k < d->marks.rows; k++)
+    if (quarter_of(d, k) == quarter) *first = *first ? *first : k + 1, *last = k + 1;
+  return *first;
+}
+
+static void plan_legend(dyd_legend *l, const plan_dress *d) {
+  const dyd_survey_result *of = dyd_survey_get(d->plan);
+  char text[160];
+  for (int k = 0; k < CLASSES; k++) {
+    size_t first = 0, last = 0;
+    if (k < QUARTERS ? !quarter_ranks(&first, &last, d, k) : !d->shown[k]) continue;
+    if (k == LEGAL)
+      snprintf(text, sizeof text, "legal already: %zu", d->shown[k]);
+    else if (k == LEFT)
+      snprintf(text, sizeof text, "not decided by the plan: %zu", d->shown[k]);
+    else if (first == last)
+      snprintf(text, sizeof text, "point %zu, decides %zu", first, d->shown[k]);
+    else
+      snprintf(text, sizeof text, "points %zu to %zu, decide %zu", first, last, d->shown[k]);
+    dyd_legend_line(l, dress[k].rgb, dress[k].on, dress[k].off, text);
+  }
+  snprintf(text, sizeof text, "labels: rank: point; %zu points to measure, %zu of %zu undecided pairs stay so%s",
+           d->marks.rows, of->left, of->open, of->cut ? "; the plan is not finished" : "");
+  dyd_legend_text(l, text);
+}
+
+/* ---- spheres ---- */
 
 #define GRATICULE 0xd0d0d0
 #define RECTANGLE 0xf2c766
@@ -31,9 +130,9 @@ typedef struct sphere_drawing {
   double seam;                   /* the longitude of the left end of the map, of 360 degrees */
   dyd_view view;
   dyd_site_marks marks;
-  dyd_plan_dress plan; /* where r holds one */
-  dyd_density open;    /* of indeterminate edges */
-  bool crowded;        /* it is drawn instead of them */
+  plan_dress plan;  /* where r holds one */
+  dyd_density open; /* of indeterminate edges */
+  bool crowded;     /* it is drawn instead of them */
   dyd_canvas *canvas;
   /* The line at hand: where it is on the page; is it in the frame, and of an indeterminate edge? */
   double at[2];
@@ -113,13 +212,13 @@ static void draw_graticule(sphere_drawing *d) {
 }
 
 static void draw_plan(sphere_drawing *d) {
-  for (int class = DYD_PLAN_CLASSES; class --;)
+  for (int class = CLASSES; class --;)
     for (size_t k = 0; k < d->r->pairs.count; k++) {
       const dyd_pair *p = &d->r->pairs.item[k];
-      if (dyd_plan_class(&d->plan, p) != class) continue;
+      if (plan_class(&d->plan, p) != class) continue;
       d->plan.shown[class]++;
       arc_follow(d, d->box[p->i], d->box[p->j], arc_draw);
-      dyd_plan_stroke(d->canvas, &d->plan, &d->view, d->r->engine, p);
+      plan_stroke(d->canvas, &d->plan, &d->view, d->r->engine, p);
     }
 }
 
@@ -179,7 +278,7 @@ static void sphere_legend(dyd_canvas *c, void *context) {
   dyd_legend l;
   dyd_legend_begin(&l, c, &d->view);
   if (d->r->survey) {
-    dyd_plan_legend(&l, &d->plan);
+    plan_legend(&l, &d->plan);
     return;
   }
   for (int k = 2; k >= 0 && !d->cells; k--) {
@@ -294,10 +393,10 @@ static dyd_status sphere_draw(const dyd_output *o, const dyd_sphere_cells *cells
   d.marks =
       (dyd_site_marks){.engine = places, .count = d.count, .box = sphere_site_box, .context = &d, .rgb = RECTANGLE};
   dyd_status st = sphere_see(&d, o->err);
-  if (d.r->survey && st == DYD_OK) st = dyd_plan_dress_init(&d.plan, d.r->survey, d.count);
-  if (d.r->survey) d.marks.plan = &d.plan;
+  if (d.r->survey && st == DYD_OK) st = plan_dress_init(&d.plan, d.r->survey, d.count);
+  if (d.r->survey) d.marks.plan = &d.plan.marks;
   if (st == DYD_OK) st = dyd_view_write(o, &d.view, title, sphere_inside, sphere_legend, &d);
-  dyd_plan_dress_clear(&d.plan);
+  plan_dress_clear(&d.plan);
   dyd_density_clear(&d.open);
   free(d.box);
   return st == DYD_OK ? d.failed : st;
@@ -313,4 +412,48 @@ dyd_status dyd_sphere_voronoi_picture(const dyd_output *o) {
   DYD_SCOPED(dyd_sphere_cells) cells = {0};
   dyd_status st = dyd_sphere_cells_find(&cells, r->sphere, o->err);
   return st == DYD_OK ? sphere_draw(o, &cells, "Voronoi diagram of a sphere") : st;
+}
+
+/* ---- plans of the plane ---- */
+
+typedef struct plane_drawing {
+  const dyd_result *r;
+  dyd_view view;
+  plan_dress dress;
+  dyd_site_marks marks;
+} plane_drawing;
+
+static void plan_inside(dyd_canvas *c, void *context) {
+  plane_drawing *g = context;
+  for (int class = CLASSES; class --;)
+    for (size_t k = 0; k < g->r->pairs.count; k++) {
+      const dyd_pair *p = &g->r->pairs.item[k];
+      double z[2][2];
+      if (plan_class(&g->dress, p) != class || !dyd_view_line(z, &g->view, g->r, p->i, p->j)) continue;
+      g->dress.shown[class]++;
+      dyd_canvas_move(c, z[0][0], z[0][1]);
+      dyd_canvas_line(c, z[1][0], z[1][1]);
+      plan_stroke(c, &g->dress, &g->view, g->r->engine, p);
+    }
+  dyd_site_marks_draw(&g->marks, c, &g->view);
+}
+
+static void plane_plan_legend(dyd_canvas *c, void *context) {
+  const plane_drawing *g = context;
+  dyd_legend l;
+  dyd_legend_begin(&l, c, &g->view);
+  plan_legend(&l, &g->dress);
+  dyd_legend_crowd(&l, &g->marks);
+}
+
+dyd_status dyd_plan_picture(const dyd_output *o) {
+  const dyd_result *r = o->what;
+  if (r->sphere) return dyd_sphere_picture(o);
+  plane_drawing g = {.r = r, .marks = dyd_site_marks_of(r->pd, r->engine, DYD_PICTURE_BAND)};
+  g.marks.plan = &g.dress.marks;
+  dyd_status st = plan_dress_init(&g.dress, r->survey, r->count);
+  if (st == DYD_OK) st = dyd_view_of(&g.view, o, &r->pairs);
+  if (st == DYD_OK) st = dyd_view_write(o, &g.view, "plan of measurements", plan_inside, plane_plan_legend, &g);
+  plan_dress_clear(&g.dress);
+  return st;
 }
