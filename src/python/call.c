@@ -118,8 +118,7 @@ int dydpy_guard_end(dydpy_guard *g) {
 
 PyObject *dydpy_import(const char *package, const char *name) {
   OWNED *module = PyImport_ImportModule(package);
-  PyObject *found = module ? PyObject_GetAttrString(module, name) : NULL;
-  return found;
+  return module ? PyObject_GetAttrString(module, name) : NULL;
 }
 
 static const char *code_name(dyd_status status) {
@@ -139,12 +138,11 @@ static PyObject *error_new(const dyd_error *err, dyd_status status) {
   bool told = err && err->message[0], point = told && err->point != DYD_NO_POINT;
   OWNED *type = dydpy_import("dyadel._errors", "Error");
   if (!type) return NULL;
-  PyObject *error = PyObject_CallFunction(type, "ssNNNN", told ? err->message : dyd_status_text(status),
-                                          code_name(status), number_or_none(point, point ? err->point : 0),
-                                          number_or_none(point, point ? err->stage : 0),
-                                          number_or_none(told && err->line, told ? err->line : 0),
-                                          number_or_none(told && err->column, told ? err->column : 0));
-  return error;
+  return PyObject_CallFunction(type, "ssNNNN", told ? err->message : dyd_status_text(status), code_name(status),
+                               number_or_none(point, point ? err->point : 0),
+                               number_or_none(point, point ? err->stage : 0),
+                               number_or_none(told && err->line, told ? err->line : 0),
+                               number_or_none(told && err->column, told ? err->column : 0));
 }
 
 PyObject *dydpy_raise(const dyd_error *err, dyd_status status) {

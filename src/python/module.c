@@ -46,6 +46,24 @@ static PyObject *engine_new(PyTypeObject *type, PyObject *args, PyObject *kwargs
   return (PyObject *)self;
 }
 
+/* The slots and the specification of a type over a dydpy_engine. */
+#define TYPE(type, title, doc)                                                                                         \
+  static PyType_Slot type##_slots[] = {                                                                                \
+      {Py_tp_new, type##_new},                                                                                         \
+      {Py_tp_dealloc, object_dealloc},                                                                                 \
+      {Py_tp_traverse, object_traverse},                                                                               \
+      {Py_tp_clear, object_clear},                                                                                     \
+      {Py_tp_methods, type##_methods},                                                                                 \
+      {Py_tp_doc, doc},                                                                                                \
+      {0, NULL},                                                                                                       \
+  };                                                                                                                   \
+  static PyType_Spec type##_spec = {                                                                                   \
+      .name = "dyadel._dyadel." title,                                                                                 \
+      .basicsize = sizeof(dydpy_engine),                                                                               \
+      .flags = Py_TPFLAGS_DEFAULT | Py_TPFLAGS_HAVE_GC | Py_TPFLAGS_IMMUTABLETYPE,                                     \
+      .slots = type##_slots,                                                                                           \
+  }
+
 #define ROW(name, how, doc) {#name, dydpy_##name, METH_##how, doc},
 #define NO_ROW(name, how, doc)
 
@@ -58,24 +76,10 @@ static PyMethodDef engine_methods[] = {
     {NULL, NULL, 0, NULL},
 };
 
-static PyType_Slot engine_slots[] = {
-    {Py_tp_new, engine_new},
-    {Py_tp_dealloc, object_dealloc},
-    {Py_tp_traverse, object_traverse},
-    {Py_tp_clear, object_clear},
-    {Py_tp_methods, engine_methods},
-    {Py_tp_doc, "An engine of the library. Use dyadel.delaunay."},
-    {0, NULL},
-};
+TYPE(engine, "Engine", "An engine of the library. Use dyadel.delaunay.");
 
-static PyType_Spec engine_spec = {
-    .name = "dyadel._dyadel.Engine",
-    .basicsize = sizeof(dydpy_engine),
-    .flags = Py_TPFLAGS_DEFAULT | Py_TPFLAGS_HAVE_GC | Py_TPFLAGS_IMMUTABLETYPE,
-    .slots = engine_slots,
-};
-
-PyTypeObject *dydpy_engine_type(void) {
+/* Borrowed; NULL with an exception set. */
+static PyTypeObject *engine_type(void) {
   static PyTypeObject *type; /* one for the life of the process, as the module */
   if (!type) type = (PyTypeObject *)PyType_FromSpec(&engine_spec);
   return type;
@@ -90,8 +94,7 @@ static PyObject *globe_new(PyTypeObject *type, PyObject *args, PyObject *kwargs)
   dydpy_call c;
   (void)kwargs;
   if (!PyArg_ParseTuple(args, "Ozzz", &places, &o.radius, &o.radius_unit, &o.radius_scale)) return NULL;
-  if (!PyType_IsSubtype(Py_TYPE(places), dydpy_engine_type()))
-    return PyErr_Format(PyExc_TypeError, "places are an Engine");
+  if (!PyType_IsSubtype(Py_TYPE(places), engine_type())) return PyErr_Format(PyExc_TypeError, "places are an Engine");
   dydpy_engine *self = (dydpy_engine *)PyType_GenericAlloc(type, 0);
   if (!self) return NULL;
   if (!dydpy_begin(&c, places, 0) || !dydpy_end(&c, dyd_sphere_new(&self->sphere, c.self->engine, &o, &c.err))) {
@@ -112,22 +115,7 @@ static PyMethodDef globe_methods[] = {
     {NULL, NULL, 0, NULL},
 };
 
-static PyType_Slot globe_slots[] = {
-    {Py_tp_new, globe_new},
-    {Py_tp_dealloc, object_dealloc},
-    {Py_tp_traverse, object_traverse},
-    {Py_tp_clear, object_clear},
-    {Py_tp_methods, globe_methods},
-    {Py_tp_doc, "A sphere of the library. Use dyadel.delaunay(..., sphere=True)."},
-    {0, NULL},
-};
-
-static PyType_Spec globe_spec = {
-    .name = "dyadel._dyadel.Sphere",
-    .basicsize = sizeof(dydpy_engine),
-    .flags = Py_TPFLAGS_DEFAULT | Py_TPFLAGS_HAVE_GC | Py_TPFLAGS_IMMUTABLETYPE,
-    .slots = globe_slots,
-};
+TYPE(globe, "Sphere", "A sphere of the library. Use dyadel.delaunay(..., sphere=True).");
 
 /* ---- the module ---- */
 
@@ -148,11 +136,10 @@ static PyModuleDef module_definition = {
 };
 
 static int add_types(PyObject *module) {
-  PyTypeObject *engine = dydpy_engine_type();
+  PyTypeObject *engine = engine_type();
   OWNED *sphere = engine ? PyType_FromSpec(&globe_spec) : NULL;
   int status = sphere ? PyModule_AddObjectRef(module, "Engine", (PyObject *)engine) : -1;
-  if (status == 0) status = PyModule_AddObjectRef(module, "Sphere", sphere);
-  return status;
+  return status == 0 ? PyModule_AddObjectRef(module, "Sphere", sphere) : status;
 }
 
 PyMODINIT_FUNC PyInit__dyadel(void); /* for the import of Python alone */

@@ -114,8 +114,6 @@ typedef struct dydpy_engine {
   dyd_sphere *sphere; /* whose images the engine holds, and owns it; NULL: a plane */
   PyObject *places;   /* the Engine of its places */
 } dydpy_engine;
-/* Borrowed; NULL with an exception set. */
-PyTypeObject *dydpy_engine_type(void);
 
 /* A call of the library: begin enters the engine, or raises RuntimeError when another call is at work, and releases the
  * GIL; end takes it again and raises the error. */

@@ -90,8 +90,7 @@ static int ratio_of(mpq_t out, PyObject *value) {
   if (!ratio) return -1;
   numerator = PySequence_GetItem(ratio, 0);
   denominator = numerator ? PySequence_GetItem(ratio, 1) : NULL;
-  int found = denominator && quotient_of(out, numerator, denominator) == 0 ? 1 : -1;
-  return found;
+  return denominator && quotient_of(out, numerator, denominator) == 0 ? 1 : -1;
 }
 
 /* What needs no other module: 1, 0 or -1 as above. */
@@ -109,8 +108,7 @@ static int plain_rational(mpq_t out, PyObject *value) {
 /* The int, text or pair that dyadel._values makes of it. */
 static PyObject *simplified(PyObject *value) {
   OWNED *function = dydpy_import("dyadel._values", "simplify");
-  PyObject *simple = function ? PyObject_CallFunctionObjArgs(function, value, NULL) : NULL;
-  return simple;
+  return function ? PyObject_CallFunctionObjArgs(function, value, NULL) : NULL;
 }
 
 int dydpy_rational(mpq_t out, PyObject *value) {
@@ -240,8 +238,7 @@ static int numbers_of(mpq_t end[4], PyObject *answer) {
 /* Returns 1 if there is a fifth element that is true, 0 if not, -1 with an exception set. */
 static int answer_is_fixed(PyObject *answer) {
   OWNED *fixed = PySequence_GetItem(answer, 4);
-  int truth = fixed ? PyObject_IsTrue(fixed) : -1;
-  return truth;
+  return fixed ? PyObject_IsTrue(fixed) : -1;
 }
 
 dyd_status dydpy_answer(dyd_rect *r, PyObject *answer, dyd_error *err) {
@@ -304,8 +301,7 @@ static PyObject *integer_new(const mpz_t z) {
 
 PyObject *dydpy_ratio(const mpq_t q) {
   OWNED *numerator = integer_new(mpq_numref(q)), *denominator = integer_new(mpq_denref(q));
-  PyObject *pair = numerator && denominator ? PyTuple_Pack(2, numerator, denominator) : NULL;
-  return pair;
+  return numerator && denominator ? PyTuple_Pack(2, numerator, denominator) : NULL;
 }
 
 PyObject *dydpy_rect_ends(const dyd_rect *r) {
@@ -326,8 +322,7 @@ PyObject *dydpy_dyadic(const dyd_dyadic *x) {
   if (!x) Py_RETURN_NONE;
   LOCAL_Q(q);
   dyd_dyadic_get_q(q, x);
-  PyObject *value = dydpy_ratio(q);
-  return value;
+  return dydpy_ratio(q);
 }
 
 /* ---- functions of Python that narrow points ---- */
@@ -548,8 +543,7 @@ PyObject *dydpy_names(PyObject *self, PyObject *Py_UNUSED(none)) {
   }
   OWNED *rows = row ? dydpy_buffer_new(row, count * sizeof *row) : PyErr_NoMemory();
   if (!dydpy_end(&c, DYD_OK)) Py_CLEAR(rows);
-  PyObject *both = rows && ids ? PyTuple_Pack(2, rows, ids) : NULL;
-  return both;
+  return rows && ids ? PyTuple_Pack(2, rows, ids) : NULL;
 }
 
 /* carried() -> {name: [text, ...]}: the columns that points carry */

@@ -67,8 +67,7 @@ static dyd_status trace_open(dydpy_engine *self, const char *path, const dyd_eng
   if (!beside) return dyd_error_set(err, DYD_E_NOMEM, dyd_status_text(DYD_E_NOMEM));
   memcpy(beside, path, length);
   memcpy(beside + length, ".new", sizeof ".new");
-  dyd_status st = trace_place(self, path, beside, o, converge, err);
-  return st;
+  return trace_place(self, path, beside, o, converge, err);
 }
 
 /* trace_begin(path, options, (window, of) or None) */
@@ -386,8 +385,7 @@ static dyd_status python_policy(dyd_plan *plan, PyObject *policy, const dyd_pair
     if (point && bits) PyDict_SetItem(dict, point, bits);
   }
   if (list && dict && !PyErr_Occurred()) answer = PyObject_CallFunctionObjArgs(policy, list, dict, NULL);
-  dyd_status st = answer ? policy_answer(plan, answer) : DYD_E_STREAM;
-  return st;
+  return answer ? policy_answer(plan, answer) : DYD_E_STREAM;
 }
 
 static dyd_status policy_asked(dyd_plan *plan, void *user, const dyd_engine *e, const dyd_request *request,
