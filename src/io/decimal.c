@@ -243,8 +243,7 @@ char *dyd_end_text(const dyd_interval *a, bool upper) {
   DYD_LOCAL(dyd_dyadic, whole);
   dyd_dyadic_set(&whole, end);
   mpz_divexact(whole.man, whole.man, a->den);
-  char *text = dyd_dyadic_get_str(&whole);
-  return text;
+  return dyd_dyadic_get_str(&whole);
 }
 
 static char *put_wide_digits(char *to, wide n) {

@@ -254,8 +254,7 @@ static dyd_status tied_value(dyd_table *t, const dyd_diagram *d, size_t vertex) 
   DYD_SCOPED(dyd_index_list) sites = {0};
   dyd_status st = dyd_diagram_vertex_sites(&sites, d, vertex);
   if (st == DYD_OK && sites.count > 3) sites.count = 3;
-  if (st == DYD_OK) st = dyd_row_sites(t, &sites);
-  return st;
+  return st == DYD_OK ? dyd_row_sites(t, &sites) : st;
 }
 
 /* The third corner of the certain triangle whose vertex the edge ends at, or what names a tied one; "ray", or "open":

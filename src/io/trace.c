@@ -254,9 +254,8 @@ static bool trace_has_text(const json_t *line, const char *name, const char *wan
 /* The rational ends of an interval, as texts. */
 static bool trace_rationals(dyd_interval *out, const char *lo, const char *hi) {
   DYD_LOCAL_NUMBERS(mpq, a, b);
-  bool good = dyd_real_parse_exact(a, lo, strlen(lo)) == DYD_OK && dyd_real_parse_exact(b, hi, strlen(hi)) == DYD_OK &&
-              dyd_interval_set_ends_q(out, a, b) == DYD_OK;
-  return good;
+  return dyd_real_parse_exact(a, lo, strlen(lo)) == DYD_OK && dyd_real_parse_exact(b, hi, strlen(hi)) == DYD_OK &&
+         dyd_interval_set_ends_q(out, a, b) == DYD_OK;
 }
 
 /* Texts at `from` and behind it; dyadics of any size. */
@@ -266,9 +265,8 @@ static bool trace_ends(dyd_interval *out, const json_t *list, size_t from) {
   if (!lo || !hi) return false;
   if (strchr(lo, '/') || strchr(hi, '/')) return trace_rationals(out, lo, hi);
   DYD_LOCAL(dyd_dyadic, a, b);
-  bool good = dyd_dyadic_set_str(&a, lo, NULL) == DYD_OK && dyd_dyadic_set_str(&b, hi, NULL) == DYD_OK &&
-              dyd_interval_set_ends(out, &a, &b) == DYD_OK;
-  return good;
+  return dyd_dyadic_set_str(&a, lo, NULL) == DYD_OK && dyd_dyadic_set_str(&b, hi, NULL) == DYD_OK &&
+         dyd_interval_set_ends(out, &a, &b) == DYD_OK;
 }
 
 /* The side "x" or "y" of a rectangle. */
@@ -415,10 +413,9 @@ static dyd_status recall_step(recall *r, const json_t *line) {
   if (!kept && bits <= r->kept[point]) return DYD_OK; /* this answer was one of those kept */
   if (kept) r->kept[point] = bits;
   DYD_LOCAL(dyd_rect, rect);
-  dyd_status st = read_side(&rect.x, line, "x") && read_side(&rect.y, line, "y")
-                      ? recall_answer(r, (size_t)point, bits, &rect, json_is_true(json_object_get(line, "final")))
-                      : recall_fail(r, "this is no rectangle");
-  return st;
+  return read_side(&rect.x, line, "x") && read_side(&rect.y, line, "y")
+             ? recall_answer(r, (size_t)point, bits, &rect, json_is_true(json_object_get(line, "final")))
+             : recall_fail(r, "this is no rectangle");
 }
 
 static dyd_status recall_line(recall *r, const json_t *line) {
@@ -580,10 +577,8 @@ static dyd_status replay_step(replay *r, const json_t *line) {
   if (!fixed) p->asked = true;
   if (called) r->calls++;
   DYD_LOCAL(dyd_rect, rect);
-  dyd_status st = read_side(&rect.x, line, "x") && read_side(&rect.y, line, "y")
-                      ? replay_rect(r, (size_t)point, &rect, called)
-                      : replay_fail(r, "this is no rectangle");
-  return st;
+  return read_side(&rect.x, line, "x") && read_side(&rect.y, line, "y") ? replay_rect(r, (size_t)point, &rect, called)
+                                                                        : replay_fail(r, "this is no rectangle");
 }
 
 static dyd_status replay_first_result(replay *r, const dyd_delaunay_options *o) {

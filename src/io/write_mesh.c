@@ -272,8 +272,7 @@ static dyd_status gather_region(void *context, size_t face, const double box[4])
   bool outer;
   if (!box) return DYD_OK;
   dyd_status st = dyd_delaunay_face(&sites, &outer, g->d->pd, face);
-  if (st == DYD_OK) st = gather_box(g, FIGURE_REGION, sites.count ? sites.item[0] : 0, box);
-  return st;
+  return st == DYD_OK ? gather_box(g, FIGURE_REGION, sites.count ? sites.item[0] : 0, box) : st;
 }
 
 static dyd_status gather_edges(gathered *g) {

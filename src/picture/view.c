@@ -135,8 +135,7 @@ double dyd_view_spacing(const dyd_delaunay *pd, const dyd_pair_list *pairs, cons
   DYD_SCOPED(dyd_pair_list) own = {0};
   if (pairs) return spacing_of(pd, pairs, box);
   if (dyd_delaunay_pairs(&own, pd) != DYD_OK) return 0;
-  double spacing = spacing_of(pd, &own, box);
-  return spacing;
+  return spacing_of(pd, &own, box);
 }
 
 dyd_status dyd_view_of(dyd_view *v, const dyd_output *o, const dyd_pair_list *pairs) {

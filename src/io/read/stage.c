@@ -253,8 +253,7 @@ static dyd_status commit_wide(dyd_engine *e, const dyd_staged *p, dyd_error *err
     dyd_plain_get_q(hi, plain_of(p, step * a + step - 1));
     st = dyd_interval_set_ends_q(a ? &r.y : &r.x, lo, hi);
   }
-  if (st == DYD_OK) st = dyd_engine_add_rect(e, &r, err);
-  return st;
+  return st == DYD_OK ? dyd_engine_add_rect(e, &r, err) : st;
 }
 
 /* The decimals from `first` on that fit single words, at most BULK, all PLAIN or all SPAN. */

@@ -209,8 +209,7 @@ static bool discs_apart(const dyd_twin *s, const dyd_twin *t) {
     mpq_add(square, square, u);
   }
   mpq_mul(reach, reach, reach);
-  bool apart = round && mpq_cmp(square, reach) > 0;
-  return apart;
+  return round && mpq_cmp(square, reach) > 0;
 }
 
 enum { BITS = 128 };
@@ -278,8 +277,7 @@ static dyd_status twins_choose(dyd_twin *out, size_t apart[2], const dyd_twin *r
 static bool twin_is_plain(const dyd_twin *t) {
   DYD_LOCAL_NUMBERS(mpq, width);
   twin_width(width, t, 0);
-  bool plain = mpq_cmp_si(width, 180, 1) < 0 && mpq_cmp_si(t->lo[1], -90, 1) > 0 && mpq_cmp_si(t->hi[1], 90, 1) < 0;
-  return plain;
+  return mpq_cmp_si(width, 180, 1) < 0 && mpq_cmp_si(t->lo[1], -90, 1) > 0 && mpq_cmp_si(t->hi[1], 90, 1) < 0;
 }
 
 /* Moves the longitudes of t by whole turns next to those of `to`. */

@@ -184,8 +184,7 @@ static dyd_span points_coordinate(cursor *c) {
 static bool is_degrees(const char *begin, const char *end) {
   char letter;
   DYD_LOCAL_NUMBERS(mpq, lo, hi);
-  bool is = dyd_degrees_read(lo, hi, &letter, begin, (size_t)(end - begin), false, NULL) != DYD_E_ARG;
-  return is;
+  return dyd_degrees_read(lo, hi, &letter, begin, (size_t)(end - begin), false, NULL) != DYD_E_ARG;
 }
 
 /* Degrees with blanks between minutes and seconds: the one place where both sides are such numbers. false: there is
