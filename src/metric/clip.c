@@ -9,13 +9,132 @@
 #include "base/flag.h"
 #include "base/local.h"
 #include "metric/bounds.h"
-#include "metric/edge_tree.h"
 #include "metric/tiles_filter.h"
+
+#include <dyadel/metric.h>
+
 #include <gmp.h>
 #include <math.h>
 #include <mpfr.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- the edges of an area in a tree of boxes, filled once, from its leaves up; parts without edges have a box that
+ * meets none ---- */
+
+typedef struct area_edge {
+  double p[2], q[2];
+  size_t ring;
+} area_edge;
+
+/* Edges follow each other along rings. box[k]: xlo, xhi, ylo, yhi of the edges of leaf k - leaves, or of the boxes 2 k
+ * and 2 k + 1. */
+typedef struct edge_tree {
+  area_edge *edge;
+  size_t count, leaves;
+  double (*box)[4];
+} edge_tree;
+
+static const double no_box[4] = {HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL};
+
+static void box_join(double box[4], const double other[4]) {
+  for (int k = 0; k < 4; k++)
+    if (k & 1 ? other[k] > box[k] : other[k] < box[k]) box[k] = other[k];
+}
+static void box_take(double box[4], const double p[2]) {
+  box_join(box, (const double[]){p[0], p[0], p[1], p[1]});
+}
+static bool boxes_touch(const double a[4], const double b[4]) {
+  return a[0] <= b[1] && b[0] <= a[1] && a[2] <= b[3] && b[2] <= a[3];
+}
+static void area_edge_box(double box[4], const area_edge *e) {
+  memcpy(box, no_box, sizeof no_box);
+  box_take(box, e->p);
+  box_take(box, e->q);
+}
+
+/* A walk over the edges whose boxes meet `box`. */
+typedef struct tree_walk {
+  const edge_tree *tree;
+  double box[4];
+  size_t stack[64], depth, edge, end;
+} tree_walk;
+
+static tree_walk tree_walk_begin(const edge_tree *t, const double box[4]) {
+  return (tree_walk){.tree = t, .box = {box[0], box[1], box[2], box[3]}, .stack = {1}, .depth = 1};
+}
+
+enum { LEAF = 4 };
+
+static void edge_tree_clear(edge_tree *t) {
+  dyd_free_all(t->edge, t->box);
+}
+
+static void edge_tree_fill(edge_tree *t) {
+  for (size_t k = 2 * t->leaves; k-- > 1;) {
+    memcpy(t->box[k], no_box, sizeof no_box);
+    if (k < t->leaves) {
+      box_join(t->box[k], t->box[2 * k]);
+      box_join(t->box[k], t->box[2 * k + 1]);
+      continue;
+    }
+    for (size_t e = LEAF * (k - t->leaves); e < t->count && e < LEAF * (k - t->leaves + 1); e++) {
+      box_take(t->box[k], t->edge[e].p);
+      box_take(t->box[k], t->edge[e].q);
+    }
+  }
+}
+
+/* DYD_OK or DYD_E_NOMEM; release with edge_tree_clear in either case. O(edges). */
+static dyd_status edge_tree_init(edge_tree *t, const dyd_area *a) {
+  size_t n = a->rings ? a->offset[a->rings] : 0;
+  *t = (edge_tree){.leaves = 1};
+  while (LEAF * t->leaves < n) t->leaves *= 2;
+  t->edge = dyd_alloc(n, sizeof *t->edge);
+  t->box = dyd_alloc(2 * t->leaves, sizeof *t->box);
+  if (!t->edge || !t->box) return DYD_E_NOMEM;
+  for (size_t r = 0; r < a->rings; r++)
+    for (size_t k = a->offset[r]; k < a->offset[r + 1]; k++) {
+      const double *p = &a->xy[2 * k], *q = &a->xy[2 * (k + 1 < a->offset[r + 1] ? k + 1 : a->offset[r])];
+      t->edge[t->count++] = (area_edge){{p[0], p[1]}, {q[0], q[1]}, r};
+    }
+  edge_tree_fill(t);
+  return DYD_OK;
+}
+
+/* The edges of node k, from edge[*first] to edge[*last]; it has some. */
+static void edge_tree_range(size_t *first, size_t *last, const edge_tree *t, size_t k) {
+  size_t end = k;
+  while (k < t->leaves) k = 2 * k, end = 2 * end + 1;
+  *first = LEAF * (k - t->leaves);
+  *last = LEAF * (end - t->leaves + 1) - 1;
+  if (*last >= t->count) *last = t->count - 1;
+}
+
+/* The next one; NULL: that was all. */
+static const area_edge *tree_walk_next(tree_walk *w) {
+  const edge_tree *t = w->tree;
+  double box[4];
+  for (;;) {
+    while (w->edge < w->end) {
+      const area_edge *e = &t->edge[w->edge++];
+      area_edge_box(box, e);
+      if (boxes_touch(box, w->box)) return e;
+    }
+    if (!w->depth) return NULL;
+    size_t k = w->stack[--w->depth];
+    if (!boxes_touch(t->box[k], w->box)) continue;
+    if (k < t->leaves) {
+      w->stack[w->depth++] = 2 * k;
+      w->stack[w->depth++] = 2 * k + 1;
+    } else {
+      w->edge = LEAF * (k - t->leaves);
+      w->end = w->edge + LEAF < t->count ? w->edge + LEAF : t->count;
+    }
+  }
+}
+
+/* ---- areas and tiles ---- */
 
 void dyd_area_clear(dyd_area *a) {
   dyd_free_all(a->offset, a->xy);
@@ -107,7 +226,7 @@ static bool place_is_above(const q_place *z, const double end[2]) {
 }
 
 /* Does the ray to the left from z, which is not on the edge, pass it? Its lower end counts, its upper one does not. */
-static bool ray_passes(const q_place *z, const dyd_area_edge *e) {
+static bool ray_passes(const q_place *z, const area_edge *e) {
   bool up = place_is_above(z, e->p), left[2] = {e->p[0] <= z->low[0], e->q[0] <= z->low[0]};
   if (up == place_is_above(z, e->q) || !(left[0] || left[1])) return false;
   if (left[0] && left[1]) return true;
@@ -120,14 +239,14 @@ static bool ray_passes(const q_place *z, const dyd_area_edge *e) {
 
 /* Is z, on none of the edges, inside of an odd number of rings but `but`? Of edges that follow each other to the left
  * of z the ray passes an odd number if their first end and the last are on both sides of it. */
-static bool place_is_inside(const dyd_edge_tree *t, const q_place *z, size_t but) {
+static bool place_is_inside(const edge_tree *t, const q_place *z, size_t but) {
   size_t stack[64] = {1}, depth = 1, first, last;
   bool odd = false;
   while (depth) {
     size_t k = stack[--depth];
     const double *box = t->box[k];
     if (box[0] > z->low[0] || box[2] > z->low[1] || box[3] <= z->low[1]) continue;
-    dyd_edge_tree_range(&first, &last, t, k);
+    edge_tree_range(&first, &last, t, k);
     if (box[1] <= z->low[0] && t->edge[first].ring == t->edge[last].ring) {
       bool passes = place_is_above(z, t->edge[first].p) != place_is_above(z, t->edge[last].q);
       odd ^= passes && t->edge[first].ring != but;
@@ -181,11 +300,11 @@ static enum segment_meeting area_segments_meet(q_place *at, const q_place *a, co
 }
 
 /* Returns true if both ends of one edge are certainly on one side of the other. */
-static bool edges_are_apart(const dyd_area_edge *e, const dyd_area_edge *f) {
+static bool edges_are_apart(const area_edge *e, const area_edge *f) {
   for (int k = 0; k < 2; k++) {
     int side = dyd_filter_low_turn(e->p, e->q, f->p);
     if (side && side == dyd_filter_low_turn(e->p, e->q, f->q)) return true;
-    const dyd_area_edge *other = e;
+    const area_edge *other = e;
     e = f, f = other;
   }
   return false;
@@ -193,18 +312,18 @@ static bool edges_are_apart(const dyd_area_edge *e, const dyd_area_edge *f) {
 
 /* *bad: an edge that meets another one of its ring but in a vertex of both, or that crosses one; t->count: none does.
  */
-static void find_bad_edges(size_t bad[2], const dyd_edge_tree *t) {
+static void find_bad_edges(size_t bad[2], const edge_tree *t) {
   q_place p[5];
   bad[0] = bad[1] = t->count;
   for (int k = 0; k < 5; k++) q_place_init(&p[k]);
   for (size_t k = 0; k < t->count && bad[0] == t->count; k++) {
-    const dyd_area_edge *e = &t->edge[k], *f;
+    const area_edge *e = &t->edge[k], *f;
     double box[4];
-    dyd_area_edge_box(box, e);
+    area_edge_box(box, e);
     q_place_set(&p[0], e->p);
     q_place_set(&p[1], e->q);
-    dyd_tree_walk w = dyd_tree_walk_begin(t, box);
-    while ((f = dyd_tree_walk_next(&w)) && bad[0] == t->count) {
+    tree_walk w = tree_walk_begin(t, box);
+    while ((f = tree_walk_next(&w)) && bad[0] == t->count) {
       if (f <= e || edges_are_apart(e, f)) continue;
       q_place_set(&p[2], f->p);
       q_place_set(&p[3], f->q);
@@ -233,12 +352,12 @@ static void ring_area2_q(mpq_t out, const double *xy, size_t n) {
 }
 
 /* Is z on an edge of another ring? */
-static bool place_is_on_edge(const dyd_edge_tree *t, const q_place *z, size_t but) {
+static bool place_is_on_edge(const edge_tree *t, const q_place *z, size_t but) {
   bool on = false;
   double up[2] = {q_rounded(z->at[0], MPFR_RNDU), q_rounded(z->at[1], MPFR_RNDU)};
   DYD_LOCAL(q_place, a, b);
-  dyd_tree_walk w = dyd_tree_walk_begin(t, (const double[]){z->low[0], up[0], z->low[1], up[1]});
-  for (const dyd_area_edge *e; !on && (e = dyd_tree_walk_next(&w));) {
+  tree_walk w = tree_walk_begin(t, (const double[]){z->low[0], up[0], z->low[1], up[1]});
+  for (const area_edge *e; !on && (e = tree_walk_next(&w));) {
     q_place_set(&a, e->p);
     q_place_set(&b, e->q);
     on = e->ring != but && !q_turn(&a, &b, z);
@@ -247,7 +366,7 @@ static bool place_is_on_edge(const dyd_edge_tree *t, const q_place *z, size_t bu
 }
 
 /* A place of the first edge of a ring that is on no other ring: these touch it here and there only. */
-static void ring_free_place(q_place *out, const dyd_edge_tree *t, size_t first) {
+static void ring_free_place(q_place *out, const edge_tree *t, size_t first) {
   DYD_LOCAL(q_place, a);
   q_place_set(&a, t->edge[first].p);
   q_place_set(out, t->edge[first].q);
@@ -275,8 +394,8 @@ dyd_status dyd_area_orient(dyd_area *a, size_t bad[2]) {
   if (!a || !bad) return DYD_E_ARG;
   bad[0] = bad[1] = area_lost_vertex(a);
   if (bad[0] != SIZE_MAX) return DYD_E_ARG;
-  DYD_SCOPED(dyd_edge_tree) t;
-  dyd_status st = dyd_edge_tree_init(&t, a);
+  DYD_SCOPED(edge_tree) t;
+  dyd_status st = edge_tree_init(&t, a);
   if (st == DYD_OK) find_bad_edges(bad, &t);
   if (st == DYD_OK && bad[0] < t.count) st = DYD_E_ARG;
   DYD_LOCAL(q_place, z);
@@ -301,7 +420,7 @@ typedef struct edge_piece {
 /* Work on one tile. place[]: ends of pieces, the first of equal ones naming all. inside: the area of the site's part in
  * the area so far. */
 typedef struct clip_work {
-  const dyd_edge_tree *area;
+  const edge_tree *area;
   q_place *place;
   size_t places, place_cap;
   edge_piece *piece;
@@ -323,7 +442,7 @@ static bool clip_add_cut(clip_work *w, const q_place *z) {
 }
 
 /* Cuts the edge where it meets f. */
-static bool clip_cut_at(clip_work *w, const q_place end[2], const dyd_area_edge *f, q_place *scratch) {
+static bool clip_cut_at(clip_work *w, const q_place end[2], const area_edge *f, q_place *scratch) {
   q_place *c = scratch, *at = scratch + 2;
   q_place_set(&c[0], f->p);
   q_place_set(&c[1], f->q);
@@ -350,18 +469,18 @@ static void clip_sort_cuts(clip_work *w, bool up) {
 }
 
 /* The pieces of an edge, cut at all `others` in the box of the tile: those of the area, or the tile's own. */
-static bool clip_edge(clip_work *w, const dyd_area_edge *e, bool tile, const dyd_edge_tree *others) {
+static bool clip_edge(clip_work *w, const area_edge *e, bool tile, const edge_tree *others) {
   q_place p[5];
   double box[4];
-  const dyd_area_edge *f;
-  dyd_area_edge_box(box, e);
+  const area_edge *f;
+  area_edge_box(box, e);
   for (int k = 0; k < 5; k++) q_place_init(&p[k]);
   q_place_set(&p[0], e->p);
   q_place_set(&p[1], e->q);
   w->cuts = 0;
   bool good = clip_add_cut(w, &p[0]) && clip_add_cut(w, &p[1]);
-  dyd_tree_walk walk = dyd_tree_walk_begin(others, box);
-  while (good && (f = dyd_tree_walk_next(&walk)))
+  tree_walk walk = tree_walk_begin(others, box);
+  while (good && (f = tree_walk_next(&walk)))
     if (!edges_are_apart(e, f)) good = clip_cut_at(w, p, f, &p[2]);
   if (good) clip_sort_cuts(w, q_place_compare(&p[0], &p[1]) < 0);
   for (size_t k = 0; k + 1 < w->cuts && good; k++) {
@@ -406,7 +525,7 @@ static int compare_ends(const void *a, const void *b) {
 }
 
 /* Which pieces bound the intersection. One of the tile and one of the area at most have the same ends. */
-static void clip_choose(clip_work *w, const dyd_edge_tree *tile) {
+static void clip_choose(clip_work *w, const edge_tree *tile) {
   size_t kept = 0;
   DYD_LOCAL(q_place, z);
   if (w->pieces) qsort(w->piece, w->pieces, sizeof *w->piece, compare_ends);
@@ -474,11 +593,11 @@ static bool loops_add(clip_loops *l, const clip_work *w, const size_t *at, size_
     return false;
   DYD_LOCAL_NUMBERS(mpq, t);
   mpq_init(l->area2[l->count]);
-  memcpy(l->box[l->count], dyd_no_box, sizeof dyd_no_box);
+  memcpy(l->box[l->count], no_box, sizeof no_box);
   for (size_t k = 0; k < n; k++) {
     const q_place *a = &w->place[at[k]], *b = &w->place[at[(k + 1) % n]];
     l->place[l->places + k] = at[k];
-    dyd_box_take(l->box[l->count], a->low);
+    box_take(l->box[l->count], a->low);
     for (int way = 0; way < 2; way++) {
       mpq_mul(t, a->at[way], b->at[!way]);
       (way ? mpq_sub : mpq_add)(l->area2[l->count], l->area2[l->count], t);
@@ -586,7 +705,7 @@ static bool loop_holds(const clip_work *w, const clip_loops *l, size_t outer, si
 static size_t loop_around(const clip_work *w, const clip_loops *l, size_t h) {
   size_t found = l->count;
   for (size_t k = 0; k < l->count; k++)
-    if (dyd_boxes_touch(l->box[k], l->box[h]) && mpq_sgn(l->area2[k]) > 0 &&
+    if (boxes_touch(l->box[k], l->box[h]) && mpq_sgn(l->area2[k]) > 0 &&
         (found == l->count || mpq_cmp(l->area2[k], l->area2[found]) < 0) && loop_holds(w, l, k, h))
       found = k;
   return found;
@@ -600,8 +719,8 @@ static dyd_status clip_check(const dyd_tiles *o, size_t first) {
   a.offset = dyd_alloc(a.rings + 1, sizeof *a.offset);
   if (!a.offset) return DYD_E_NOMEM;
   for (size_t k = 0; k <= a.rings; k++) a.offset[k] = o->offset[first + k] - o->offset[first];
-  DYD_SCOPED(dyd_edge_tree) t;
-  dyd_status st = dyd_edge_tree_init(&t, &a);
+  DYD_SCOPED(edge_tree) t;
+  dyd_status st = edge_tree_init(&t, &a);
   if (st == DYD_OK) find_bad_edges(bad, &t);
   if (st == DYD_OK && bad[0] < t.count) st = DYD_E_RANGE;
   free(a.offset);
@@ -644,14 +763,14 @@ static dyd_status clip_copy(clip_work *w, const dyd_tiles *t, size_t r) {
   return DYD_OK;
 }
 
-static dyd_status clip_cut_tile(clip_work *w, uint32_t site, const dyd_edge_tree *tile) {
+static dyd_status clip_cut_tile(clip_work *w, uint32_t site, const edge_tree *tile) {
   DYD_SCOPED(clip_loops) loops = {0};
-  const dyd_area_edge *e;
+  const area_edge *e;
   bool good = true;
   w->pieces = w->places = 0;
   for (size_t k = 0; k < tile->count && good; k++) good = clip_edge(w, &tile->edge[k], true, w->area);
-  dyd_tree_walk walk = dyd_tree_walk_begin(w->area, tile->box[1]);
-  while (good && (e = dyd_tree_walk_next(&walk))) good = clip_edge(w, e, false, tile);
+  tree_walk walk = tree_walk_begin(w->area, tile->box[1]);
+  while (good && (e = tree_walk_next(&walk))) good = clip_edge(w, e, false, tile);
   dyd_status st = good ? clip_number(w) : DYD_E_NOMEM;
   if (st == DYD_OK) clip_choose(w, tile);
   if (st == DYD_OK) st = clip_loops_find(&loops, w);
@@ -665,16 +784,16 @@ static dyd_status clip_ring(bool *cut, clip_work *w, const dyd_tiles *t, size_t 
   size_t n = t->offset[r + 1] - t->offset[r], offset[2] = {0, n};
   const dyd_area one = {1, offset, t->xy + 2 * t->offset[r]};
   double box[4];
-  memcpy(box, dyd_no_box, sizeof box);
-  for (size_t k = 0; k < n; k++) dyd_box_take(box, &one.xy[2 * k]);
-  dyd_tree_walk walk = dyd_tree_walk_begin(w->area, box);
-  *cut = dyd_tree_walk_next(&walk) != NULL;
+  memcpy(box, no_box, sizeof box);
+  for (size_t k = 0; k < n; k++) box_take(box, &one.xy[2 * k]);
+  tree_walk walk = tree_walk_begin(w->area, box);
+  *cut = tree_walk_next(&walk) != NULL;
   if (!*cut) {
     q_place_set(&w->corner, one.xy);
     return place_is_inside(w->area, &w->corner, SIZE_MAX) ? clip_copy(w, t, r) : DYD_OK;
   }
-  DYD_SCOPED(dyd_edge_tree) tile;
-  dyd_status st = dyd_edge_tree_init(&tile, &one);
+  DYD_SCOPED(edge_tree) tile;
+  dyd_status st = edge_tree_init(&tile, &one);
   return st == DYD_OK ? clip_cut_tile(w, t->site[r], &tile) : st;
 }
 
@@ -747,11 +866,11 @@ static dyd_status clip_site(clip_work *w, const dyd_tiles *t, size_t *r) {
 dyd_status dyd_tiles_clip(dyd_tiles *t, const dyd_area *area, const volatile int *cancel) {
   if (!t || !area || area_lost_vertex(area) != SIZE_MAX) return DYD_E_ARG;
   dyd_tiles made = {.coincident = t->coincident, .rounding = t->rounding};
-  DYD_SCOPED(dyd_edge_tree) tree;
+  DYD_SCOPED(edge_tree) tree;
   clip_work w = {.area = &tree, .out = &made};
   mpq_inits(w.inside, w.error, NULL);
   q_place_init(&w.corner);
-  dyd_status st = dyd_edge_tree_init(&tree, area);
+  dyd_status st = edge_tree_init(&tree, area);
   if (st == DYD_OK && !clip_reserve(&w, 0)) st = DYD_E_NOMEM;
   if (st == DYD_OK) made.offset[0] = 0;
   for (size_t r = 0; r < t->count && st == DYD_OK;) st = dyd_flag_is_set(cancel) ? DYD_CANCELLED : clip_site(&w, t, &r);
