@@ -4,6 +4,9 @@
 #define DYD_ENGINE_ASK_H
 
 #include "engine/plan.h"
+#include "engine/state.h"
+#include "metric/bounds.h"
+
 #include <pthread.h>
 #include <stdbool.h>
 #include <time.h>
@@ -37,5 +40,11 @@ dyd_status dyd_ask_may_begin(const dyd_engine *e, dyd_error *err);
  * budget of pairs was met. */
 dyd_status dyd_ask(dyd_outcome *outcome, dyd_budget *spent, dyd_engine *e, const dyd_question *question,
                    const dyd_engine_options *options, dyd_error *err);
+
+static inline bool dyd_goal_is_voronoi(dyd_goal goal) {
+  return goal == DYD_GOAL_VORONOI_AREA || goal == DYD_GOAL_VORONOI_HAUSDORFF;
+}
+/* Sets *out to whether the other goals hold for pd; m: of its sites. */
+dyd_status dyd_goal_of_pairs_holds(bool *out, dyd_measure *m, const dyd_delaunay *pd, const dyd_engine_options *o);
 
 #endif

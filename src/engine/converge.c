@@ -12,7 +12,7 @@
 #include "base/local.h"
 #include "delaunay/memory.h"
 #include "delaunay/state.h"
-#include "engine/goal_voronoi.h"
+#include "engine/ask.h"
 #include "engine/record.h"
 #include "metric/bounds.h"
 #include "rect/rect.h"

@@ -1,19 +1,27 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Life, counters and results of an engine. */
-#include "base/error.h"
-#include "base/local.h"
-#include "delaunay/extend.h"
-#include "engine/points.h"
-#include "engine/record.h"
-#include "engine/ties.h"
-
-#include <dyadel/io.h>
-
 #include "base/abi.h"
 #include "base/alloc.h"
+#include "base/error.h"
 #include "base/invariant.h"
+#include "base/local.h"
+#include "delaunay/extend.h"
+#include "engine/labels.h"
+#include "engine/points.h"
+#include "engine/record.h"
+#include "engine/state.h"
+#include "engine/ties.h"
 #include "metric/bounds.h"
+#include "rect/columns_filter.h"
+#include "rect/rect.h"
+#include "rect/sites_table.h"
+#include "stream/stream.h"
+
+#include <dyadel/compose.h>
+#include <dyadel/io.h>
 #include <dyadel/metric.h>
+
+#include <math.h>
 
 const char *dyd_outcome_text(dyd_outcome outcome) {
   static const char *const text[] = {"none", "decided", "certified", "fixpoint", "budget", "cancelled", "error"};
@@ -116,7 +124,8 @@ static void counters_add_past(dyd_delaunay_counters *out, const dyd_delaunay_cou
   if (past->bytes_most > out->bytes_most) out->bytes_most = past->bytes_most;
 }
 
-void dyd_engine_end_result(dyd_engine *e) {
+/* Called after points were added: drops the result and keeps its counters (engine.c). */
+static void engine_end_result(dyd_engine *e) {
   dyd_delaunay_counters c = {DYD_SIZED(dyd_delaunay_counters)};
   if (e->pd && dyd_delaunay_get_counters(&c, e->pd, NULL) == DYD_OK) counters_add_past(&e->past, &c);
   if (e->pd && !e->changes && dyd_delaunay_is_extensible(e->pd)) {
@@ -246,7 +255,8 @@ dyd_status dyd_labels_join(dyd_labels *out, const dyd_engine *e, const dyd_label
   return good ? DYD_OK : DYD_E_NOMEM;
 }
 
-dyd_status dyd_labels_cost(dyd_labels *out, const dyd_engine *e, size_t n, const double *cost) {
+/* *out becomes the labels of e with n points behind that cost so much. DYD_E_NOMEM. */
+static dyd_status labels_cost(dyd_labels *out, const dyd_engine *e, size_t n, const double *cost) {
   DYD_SCOPED(dyd_labels) more = {0};
   dyd_row_numbers own = dyd_no_row_numbers;
   bool good = true;
@@ -323,4 +333,295 @@ bool dyd_engine_merged(size_t *row, size_t *point, const dyd_engine *e, size_t k
   *row = e->labels.merged[k].row;
   *point = e->labels.merged[k].point;
   return true;
+}
+
+/* ---- adding points ----
+ *
+ * Statements are about all points, so later points end the result: the next run triangulates anew, from the rectangles
+ * reached, or puts exact points into the result that there was. Statements are monotone for the points at hand, not for
+ * more of them. */
+
+/* ---- when points may come ---- */
+
+dyd_status dyd_engine_may_add(const dyd_engine *e, dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  if (!dyd_engine_is_busy(e)) return DYD_OK;
+  return dyd_fail(err, DYD_E_ARG, "the engine is at work: no callback of it, and no other thread, may add points");
+}
+
+/* Ends a call that found `before` points; told: *err has the reason of a failure. */
+static dyd_status added(dyd_engine *e, size_t before, dyd_status st, bool told, dyd_error *err) {
+  if (st == DYD_OK && dyd_sites_count(e->sites) > before) engine_end_result(e);
+  return st == DYD_OK || told ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
+}
+
+/* The message about one side of a new point. */
+static dyd_status side_fail(dyd_error *err, size_t point, const char *axis, double at) {
+  if (err) err->point = point;
+  return dyd_fail(err, DYD_E_ARG, "point %zu: %s is %g; coordinates are finite numbers", point, axis, at);
+}
+
+/* One side of n boxes (of points, where lo = hi), the first of which would be point `first`. */
+static dyd_status side_check(size_t first, size_t n, const double *lo, const double *hi, const char *axis,
+                             dyd_error *err) {
+  for (size_t k = 0; k < n; k++) {
+    if (!isfinite(lo[k]) || !isfinite(hi[k])) return side_fail(err, first + k, axis, isfinite(lo[k]) ? hi[k] : lo[k]);
+    if (lo[k] <= hi[k]) continue;
+    if (err) err->point = first + k;
+    return dyd_fail(err, DYD_E_ARG,
+                    "point %zu: the lower end of %s, %.17g, is above the upper one, %.17g; exchange them", first + k,
+                    axis, lo[k], hi[k]);
+  }
+  return DYD_OK;
+}
+
+/* ---- doubles ---- */
+
+dyd_status dyd_engine_add_boxes(dyd_engine *e, size_t n, const double *x0, const double *x1, const double *y0,
+                                const double *y1, dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
+  size_t before = dyd_sites_count(e->sites);
+  dyd_status st = dyd_engine_may_add(e, err);
+  if (st != DYD_OK) return st;
+  st = x0 == x1 && y0 == y1 ? dyd_sites_add_points(e->sites, n, x0, y0)
+                            : dyd_sites_add_boxes(e->sites, n, x0, x1, y0, y1);
+  bool told = st == DYD_E_ARG &&
+              (side_check(before, n, x0, x1, "x", err) != DYD_OK || side_check(before, n, y0, y1, "y", err) != DYD_OK);
+  return added(e, before, st, told, err);
+}
+
+dyd_status dyd_engine_add_points(dyd_engine *e, size_t n, const double *x, const double *y, dyd_error *err) {
+  return dyd_engine_add_boxes(e, n, x, x, y, y, err);
+}
+
+/* Why column a gives no sides, the first of point `first`. */
+static dyd_status column_check(size_t first, size_t n, const dyd_column *x, const dyd_column *radius, const char *axis,
+                               dyd_error *err) {
+  for (size_t k = 0; k < n; k++) {
+    double lo, hi, at = dyd_column_at(x, k), r = radius ? dyd_column_at(radius, k) : 0;
+    if (dyd_widen_d(&lo, &hi, at, r)) continue;
+    if (!isfinite(at)) return side_fail(err, first + k, axis, at);
+    if (err) err->point = first + k;
+    return dyd_fail(err, DYD_E_ARG,
+                    "point %zu: the radius in %s is %.17g; radii are finite, not negative, and small enough for "
+                    "doubles",
+                    first + k, axis, r);
+  }
+  return DYD_OK;
+}
+
+dyd_status dyd_engine_add_columns(dyd_engine *e, size_t n, const dyd_column xy[2], const dyd_column *radius,
+                                  dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
+  size_t before = dyd_sites_count(e->sites);
+  dyd_status st = dyd_engine_may_add(e, err);
+  if (st != DYD_OK) return st;
+  st = dyd_sites_add_columns(e->sites, n, xy, radius);
+  bool told = st == DYD_E_ARG && (column_check(before, n, &xy[0], radius, "x", err) != DYD_OK ||
+                                  column_check(before, n, &xy[1], radius ? radius + 1 : NULL, "y", err) != DYD_OK);
+  return added(e, before, st, told, err);
+}
+
+/* ---- exact ones ---- */
+
+dyd_status dyd_engine_add_rect(dyd_engine *e, const dyd_rect *r, dyd_error *err) {
+  if (!e) return dyd_fail_null(err);
+  size_t before = dyd_sites_count(e->sites);
+  dyd_status st = dyd_engine_may_add(e, err);
+  return st == DYD_OK ? added(e, before, dyd_sites_add_rect(e->sites, r), false, err) : st;
+}
+
+dyd_status dyd_engine_reserve(dyd_engine *e, size_t n) {
+  return dyd_sites_reserve(e->sites, n);
+}
+
+void dyd_engine_take_back(dyd_engine *e, size_t before) {
+  while (e->points && e->point[e->points - 1].site >= before) dyd_stream_free(e->point[--e->points].stream);
+  dyd_sites_cut(e->sites, before);
+}
+
+dyd_status dyd_engine_add_words(dyd_engine *e, size_t n, const dyd_words *xy, bool boxes, dyd_error *err) {
+  size_t before = dyd_sites_count(e->sites);
+  dyd_status st = dyd_engine_may_add(e, err);
+  if (st != DYD_OK) return st;
+  st = boxes ? dyd_sites_add_word_boxes(e->sites, n, xy) : dyd_sites_add_words(e->sites, n, xy);
+  return added(e, before, st, false, err);
+}
+
+/* ---- streams and sources ---- */
+
+/* Appends n sites with records like p; the site number is filled in. Nothing on failure. Answers of sources are known
+ * to enclose places. */
+static dyd_status points_add_refinable(dyd_engine *e, size_t n, dyd_refinable p) {
+  size_t first = dyd_sites_count(e->sites);
+  if (n > DYD_MAX_SITES) return DYD_E_RANGE;
+  if (!DYD_GROW(e->point, e->point_cap, e->points + n)) return DYD_E_NOMEM;
+  dyd_site_kind kind = p.stream ? dyd_stream_site_kind(p.stream) : DYD_SITE_BARE;
+  dyd_status st = dyd_sites_add_planes(e->sites, n, kind);
+  if (st != DYD_OK) return st;
+  for (size_t k = 0; k < n; k++) {
+    p.site = (uint32_t)(first + k);
+    e->point[e->points++] = p;
+  }
+  return DYD_OK;
+}
+
+dyd_status dyd_engine_add_stream(dyd_engine *e, dyd_stream *s, dyd_error *err) {
+  if (!e || !s) return dyd_stream_free(s), dyd_fail_null(err);
+  size_t before = dyd_sites_count(e->sites);
+  dyd_status st = dyd_engine_may_add(e, err);
+  const dyd_rect *fixed = dyd_stream_is_final(s) ? dyd_stream_rect(s) : NULL;
+  if (st == DYD_OK) {
+    st = fixed ? dyd_sites_add_rect(e->sites, fixed) : points_add_refinable(e, 1, (dyd_refinable){.stream = s});
+    added(e, before, st, false, err);
+  }
+  if (fixed || st != DYD_OK) dyd_stream_free(s);
+  return st;
+}
+
+static dyd_status points_add_source(dyd_engine *e, size_t n, const dyd_source *source) {
+  if (!DYD_GROW(e->source, e->source_cap, e->sources + 1)) return DYD_E_NOMEM;
+  size_t first = dyd_sites_count(e->sites);
+  dyd_status st = points_add_refinable(e, n, (dyd_refinable){.source = (uint32_t)e->sources});
+  if (st == DYD_OK) e->source[e->sources++] = (dyd_source_use){.source = *source, .first = (uint32_t)first};
+  return st;
+}
+
+static dyd_status source_check(const dyd_engine *e, size_t n, const dyd_source *source, dyd_error *err) {
+  size_t first = dyd_sites_count(e->sites);
+  if (!source->narrow) return dyd_fail(err, DYD_E_ARG, "the source has no function `narrow`");
+  for (size_t k = 0; source->cost && k < n; k++) {
+    if (source->cost[k] > 0 && isfinite(source->cost[k])) continue;
+    if (err) err->point = first + k;
+    return dyd_fail(err, DYD_E_ARG, "point %zu: its cost is %g; costs are finite numbers above 0", first + k,
+                    source->cost[k]);
+  }
+  return DYD_OK;
+}
+
+static dyd_status points_add_source_at_cost(dyd_engine *e, size_t n, const dyd_source *source) {
+  dyd_labels labels;
+  if (!source->cost) return points_add_source(e, n, source);
+  dyd_status st = labels_cost(&labels, e, n, source->cost);
+  if (st != DYD_OK) return st;
+  st = points_add_source(e, n, source);
+  if (st == DYD_OK) dyd_labels_give(e, &labels);
+  dyd_labels_clear(&labels);
+  return st;
+}
+
+dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_source *source, dyd_error *err) {
+  dyd_source s;
+  const size_t before = e ? dyd_sites_count(e->sites) : 0;
+  dyd_status st = dyd_abi_take(&s, sizeof s, source, "dyd_source", err);
+  if (st != DYD_OK) return st;
+  st = e ? dyd_engine_may_add(e, err) : dyd_fail_null(err);
+  if (st == DYD_OK) st = source_check(e, n, &s, err);
+  if (st == DYD_OK) st = added(e, before, points_add_source_at_cost(e, n, &s), false, err);
+  if (st != DYD_OK && s.release) s.release(s.user);
+  return st;
+}
+
+/* ---- points of an engine as streams that outlive it ----
+ *
+ * A fixed site is copied. The stream of a site is shared: one more reference. A point of a source becomes a stream of
+ * its own, which begins with the rectangle that the engine knows and asks the same callback; the source is counted from
+ * then on, and released by the last of its users. So does the stream of a point that was measured again: its answers
+ * are intersected with the known rectangle. */
+
+/* One point of a shared source, or (shared = NULL) of a stream. begins: `known` is the rectangle to begin with, not
+ * handed on yet; measured: answers are intersected with it. */
+typedef struct taken {
+  dyd_shared_source *shared;
+  dyd_stream *stream;
+  size_t point;
+  bool begins, measured;
+  dyd_rect known;
+} taken;
+
+static void taken_release(void *user) {
+  taken *t = user;
+  dyd_shared_source_free(t->shared);
+  dyd_stream_free(t->stream);
+  dyd_rect_clear(&t->known);
+  free(t);
+}
+
+static dyd_status taken_ask(dyd_rect *out, const taken *t, const dyd_request *request, dyd_error *err) {
+  dyd_request own = *request;
+  own.point = t->point;
+  if (t->shared) return t->shared->source.narrow(out, t->shared->source.user, &own, err);
+  dyd_status st = dyd_stream_narrow(t->stream, request->bits, request->max_bits, err);
+  if (dyd_failed(st)) return st;
+  dyd_rect_set(out, dyd_stream_rect(t->stream));
+  return dyd_stream_is_final(t->stream) ? DYD_FIXED : DYD_OK;
+}
+
+/* Cuts *out, an answer, to the known rectangle. */
+static dyd_status taken_keep(dyd_rect *out, const taken *t) {
+  if (t->begins && !t->measured && !dyd_rect_contains(&t->known, out)) return DYD_E_NESTING;
+  if (!t->measured) return DYD_OK;
+  dyd_status st = dyd_interval_intersect(&out->x, &out->x, &t->known.x);
+  if (st == DYD_OK) st = dyd_interval_intersect(&out->y, &out->y, &t->known.y);
+  return st == DYD_E_ARG ? DYD_E_CONTRADICTION : st;
+}
+
+static dyd_status taken_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
+  taken *t = user;
+  if (t->begins) dyd_rect_set(out, &t->known);
+  bool enough = t->begins && dyd_rect_bits(&t->known) >= request->bits;
+  dyd_status st = enough ? DYD_OK : taken_ask(out, t, request, err);
+  if (st == DYD_OK || st == DYD_FIXED) {
+    dyd_status kept = taken_keep(out, t);
+    if (kept != DYD_OK) return kept;
+    t->begins = false;
+  }
+  return st;
+}
+
+static dyd_status source_share(dyd_source_use *use) {
+  if (use->shared) return DYD_OK;
+  use->shared = dyd_alloc(1, sizeof *use->shared);
+  if (!use->shared) return DYD_E_NOMEM;
+  *use->shared = (dyd_shared_source){1, use->source};
+  return DYD_OK;
+}
+
+static dyd_status taken_new(dyd_stream **out, dyd_engine *e, const dyd_refinable *p) {
+  dyd_source_use *use = p->stream ? NULL : &e->source[p->source];
+  dyd_status st = use ? source_share(use) : DYD_OK;
+  taken *t = st != DYD_OK ? NULL : dyd_alloc(1, sizeof *t);
+  if (!t) return DYD_E_NOMEM;
+  *t = (taken){.begins = p->asked || p->measured, .measured = p->measured};
+  if (use) {
+    t->shared = use->shared;
+    t->point = p->site - use->first;
+    use->shared->refs++;
+  } else {
+    t->stream = dyd_stream_ref(p->stream);
+  }
+  dyd_rect_init(&t->known);
+  if (t->begins) st = dyd_sites_get(&t->known, e->sites, p->site);
+  if (st != DYD_OK) {
+    taken_release(t);
+    return st;
+  }
+  const dyd_source source = {DYD_SIZED(dyd_source), .narrow = taken_narrow, .release = taken_release, .user = t};
+  return dyd_stream_new(out, &source, p->site, NULL);
+}
+
+static dyd_status fixed_copy(dyd_stream **out, const dyd_engine *e, uint32_t i) {
+  DYD_LOCAL(dyd_rect, r);
+  dyd_status st = dyd_sites_get(&r, e->sites, i);
+  return st == DYD_OK ? dyd_stream_from_rect(out, &r) : st;
+}
+
+dyd_status dyd_engine_stream(dyd_stream **out, dyd_engine *e, uint32_t i) {
+  if (!e) return DYD_E_ARG;
+  if (i >= dyd_sites_count(e->sites)) return DYD_E_ARG;
+  const dyd_refinable *p = dyd_engine_find(e, i);
+  if (!p || p->final) return fixed_copy(out, e, i);
+  if (!p->stream || p->measured) return taken_new(out, e, p);
+  *out = dyd_stream_ref(p->stream);
+  return DYD_OK;
 }

@@ -47,8 +47,6 @@ bool dyd_labels_add(dyd_labels *l, const char *id, size_t length, const dyd_row_
 bool dyd_labels_merge(dyd_labels *l, size_t point);
 /* *out becomes the labels of e with those of `more` behind, for the points that come next. DYD_E_NOMEM. */
 dyd_status dyd_labels_join(dyd_labels *out, const dyd_engine *e, const dyd_labels *more);
-/* *out becomes the labels of e with n points behind that cost so much. DYD_E_NOMEM. */
-dyd_status dyd_labels_cost(dyd_labels *out, const dyd_engine *e, size_t n, const double *cost);
 /* Hands *l over to e, to be called when the points were added; l is empty afterwards. */
 void dyd_labels_give(dyd_engine *e, dyd_labels *l);
 /* The confidence that points are added with; *e has none before. */

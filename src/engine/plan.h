@@ -63,4 +63,12 @@ int64_t dyd_bits_grown(int64_t b, const dyd_engine_options *o);
 /* First precision requested of guests, and of points never asked. */
 int64_t dyd_bits_first(const dyd_engine_options *o);
 
+/* Returns true if a policy chooses the points to narrow. */
+static inline bool dyd_has_policy(const dyd_engine_options *o) {
+  return o->policy || o->policy_program;
+}
+
+/* A program that is asked. */
+typedef struct dyd_policy dyd_policy;
+
 #endif

@@ -11,19 +11,175 @@
 #include "dyadic/raw.h"
 #include "engine/ask.h"
 #include "engine/coarse.h"
-#include "engine/goal_voronoi.h"
+#include "engine/labels.h"
 #include "engine/plan.h"
 #include "engine/points.h"
-#include "engine/policy.h"
+#include "engine/record.h"
 #include "engine/scout.h"
 #include "engine/settle.h"
+#include "engine/state.h"
 #include "engine/ties.h"
 #include "metric/bounds.h"
+#include "rect/rect.h"
 
+#include <dyadel/compose.h>
 #include <dyadel/io.h>
+#include <dyadel/metric.h>
 
 #include <math.h>
 #include <stdlib.h>
+
+/* ---- goals on the Voronoi diagram: whether they hold, and the contribution of each pair ----
+ *
+ * The bounds themselves are certified (metric/bounds.c). The numbers of pairs that steer the refinement need no
+ * proof: for the Hausdorff bound they are widths of strips, or, below the goal, the very terms it is the maximum of;
+ * for the area, four times that term (the width of the strip in which the pair is undecided, twice over) times the
+ * smaller reach of the two cells (half its length). Where all numbers together stay below the goal and the area does
+ * not, it is the flattening of the polygons that costs, and they are made finer. */
+
+enum { FINER = 8, MOST_FINER = 64 };
+
+static void goal_sums_free(dyd_voronoi_sums **sums) {
+  if (!*sums) return;
+  dyd_voronoi_sums_clear(*sums);
+  free(*sums);
+  *sums = NULL;
+}
+
+/* Returns true if a window is given, with positive area and dyadic ends. */
+static bool goal_window_is_good(const dyd_rect *window) {
+  dyd_window w;
+  return window && dyd_window_init(&w, window) >= 0;
+}
+
+/* At most 2^-M; a second point farther away than the goal is as good as none. */
+static double goal_most(const dyd_engine_options *o) {
+  return o->goal_bits > 1000 ? 0 : o->goal_bits < -1000 ? HUGE_VAL : ldexp(1, (int)-o->goal_bits);
+}
+
+/* Makes *sums with polygons within 2^-bits. Stopped when e->stop is raised: DYD_CANCELLED. */
+static dyd_status goal_try_sums(dyd_voronoi_sums **sums, const dyd_engine *e, const dyd_engine_options *o,
+                                int64_t bits) {
+  goal_sums_free(sums);
+  *sums = malloc(sizeof **sums);
+  if (!*sums) return DYD_E_NOMEM;
+  dyd_status st = dyd_voronoi_sums_init(*sums, e->pd, o->window, bits);
+  (*sums)->most = goal_most(o);
+  (*sums)->discs = o->discs;
+  (*sums)->cancel = &e->stop;
+  if (st == DYD_OK) st = dyd_voronoi_sums_all(*sums, NULL, NULL);
+  if (e->room && (*sums)->room.refused) {
+    dyd_room_join(e->room, &(*sums)->room);
+    e->room->wanted += e->room->beside;
+  }
+  return st;
+}
+
+/* The same; finer where polygons as coarse as that cross themselves and are not mended by adding corners. */
+static dyd_status goal_find_sums(dyd_voronoi_sums **sums, const dyd_engine *e, const dyd_engine_options *o,
+                                 int64_t bits) {
+  enum { STEP = 12, TRIES = 4 };
+  dyd_status st = goal_try_sums(sums, e, o, bits);
+  for (int k = 1; st == DYD_E_RANGE && k < TRIES; k++) st = goal_try_sums(sums, e, o, bits + k * STEP);
+  return st;
+}
+
+/* What a pair contributes to the bound; infinite when its rectangles meet, unless that does no harm to the goal. */
+static dyd_status goal_voronoi_number(mpfr_ptr out, dyd_voronoi_sums *sums, dyd_measure *m, const dyd_pair *pair,
+                                      const dyd_engine_options *o) {
+  bool finite;
+  double second;
+  dyd_status st = dyd_voronoi_pair_width(out, &finite, sums, m, pair);
+  if (st != DYD_OK) return st;
+  if (!finite) mpfr_set_inf(out, 1);
+  if (o->goal == DYD_GOAL_VORONOI_HAUSDORFF) {
+    if (mpfr_cmp_ui_2exp(out, 1, (mpfr_exp_t)-o->goal_bits) <= 0) return DYD_OK;
+    st = dyd_voronoi_pair_second(&second, sums, pair);
+    if (st == DYD_OK && second <= sums->most) mpfr_set_d(out, second, MPFR_RNDU);
+  } else if (finite) {
+    double reach[2];
+    dyd_voronoi_pair_reach(reach, sums, pair);
+    mpfr_mul_d(out, out, reach[reach[1] < reach[0]], MPFR_RNDU);
+    mpfr_mul_2ui(out, out, 2, MPFR_RNDU);
+  }
+  return st;
+}
+
+/* Sets *out to whether the numbers of all pairs stay below the goal. */
+static dyd_status goal_numbers_are_small(bool *out, dyd_voronoi_sums *sums, const dyd_engine *e,
+                                         const dyd_engine_options *o, const dyd_pair_list *pairs) {
+  DYD_SCOPED(dyd_measure) m;
+  dyd_status st = DYD_OK;
+  dyd_measure_init(&m, e->sites);
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, sum, one);
+  mpfr_set_zero(sum, 1);
+  for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
+    st = goal_voronoi_number(one, sums, &m, &pairs->item[k], o);
+    mpfr_add(sum, sum, one, MPFR_RNDU);
+  }
+  *out = st == DYD_OK && mpfr_cmp_ui_2exp(sum, 1, (mpfr_exp_t)-o->goal_bits) < 0;
+  return st;
+}
+
+/* Returns true if the bound, found with polygons within 2^-bits, is above the goal even less what flattening adds to it
+ * (about 2^-(bits - flattening of goal 0)). Then finer polygons do not help. */
+static bool goal_is_hopeless(mpfr_srcptr bound, int64_t bits, const dyd_engine *e, const dyd_engine_options *o) {
+  int64_t flat = bits - dyd_metric_flattening(e->pd, o->window, 0);
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, rest);
+  mpfr_set_ui_2exp(rest, 1, (mpfr_exp_t)-flat, MPFR_RNDU);
+  mpfr_sub(rest, bound, rest, MPFR_RNDD);
+  return mpfr_cmp_ui_2exp(rest, 1, (mpfr_exp_t)-o->goal_bits) > 0;
+}
+
+/* Polygons start coarse and become as fine as the goal asks, or only so fine that they show that it does not hold:
+ * parabolas take 2^(bits/2) points. */
+static dyd_status goal_area_holds(bool *out, mpfr_ptr bound, dyd_voronoi_sums **sums, const dyd_engine *e,
+                                  const dyd_engine_options *o, const dyd_pair_list *pairs) {
+  dyd_status st = DYD_OK;
+  int64_t fine = dyd_metric_flattening(e->pd, o->window, o->goal_bits), bits = dyd_metric_coarseness(e->pd, o->window);
+  if (bits > fine) bits = fine;
+  while (st == DYD_OK && !*out && bits <= fine + MOST_FINER) {
+    bool small = false;
+    st = goal_find_sums(sums, e, o, bits);
+    if (st != DYD_OK) break;
+    dyd_voronoi_area(bound, *sums);
+    *out = mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
+    if (!*out) st = goal_numbers_are_small(&small, *sums, e, o, pairs);
+    if (!small && (bits >= fine || goal_is_hopeless(bound, bits, e, o))) break;
+    bits = bits < fine && (small || bits + FINER > fine) ? fine : bits + FINER;
+  }
+  return st;
+}
+
+/* Sets *out to whether the goal, one of these two, holds. If it does not, *sums, NULL before, keeps the sums found, for
+ * the plan; freed by goal_sums_free, whatever is returned. */
+static dyd_status goal_voronoi_holds(bool *out, dyd_voronoi_sums **sums, const dyd_engine *e,
+                                     const dyd_engine_options *o) {
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
+  bool finite = false;
+  DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, bound);
+  dyd_status st = dyd_pairs_list(&pairs, e->pd, dyd_least_bounding_true(e->pd));
+  if (st == DYD_OK && o->goal == DYD_GOAL_VORONOI_AREA) {
+    st = goal_area_holds(out, bound, sums, e, o, &pairs);
+  } else if (st == DYD_OK) {
+    st = goal_find_sums(sums, e, o, dyd_metric_coarseness(e->pd, o->window));
+    if (st == DYD_OK) st = dyd_voronoi_hausdorff(bound, &finite, *sums, &pairs);
+    *out = st == DYD_OK && finite && mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
+  }
+  if (*out || st != DYD_OK) goal_sums_free(sums);
+  return st;
+}
+
+/* ---- vertices ---- */
+
+static dyd_status goal_vertex_excess(int64_t *out, const dyd_engine *e, const dyd_triangle *t,
+                                     const dyd_engine_options *o) {
+  DYD_LOCAL(dyd_rect, r);
+  dyd_status st = dyd_voronoi_vertex(&r, e->pd, t, o->goal_bits + 2);
+  int64_t bits = dyd_rect_bits(&r);
+  *out = st != DYD_OK || bits >= o->goal_bits || !dyd_rect_meets(&r, o->window) ? 0 : o->goal_bits - bits;
+  return st;
+}
 
 /* How coarse the sites of a face are, compared with the distances to their neighbours.
  *
@@ -264,7 +420,7 @@ static void waiting_choose(dyd_plan *plan, dyd_waiting *t, const dyd_index_list 
  * / P; the ends of all these are narrowed. Where none of them can be, the points in pairs of at least half the area of
  * the largest pair with a point that can.
  *
- * Towards bounds on the Voronoi diagram the same is done with other numbers of the pairs (goal_voronoi.c).
+ * Towards bounds on the Voronoi diagram the same is done with other numbers of the pairs (above).
  *
  * Where a tie was tried and is none, it is known at which bit that showed (ties.c): all its points in the face go there
  * at once. In faces of many points a few go ahead of the others, to find how far these must go (scout.c). Where points
@@ -477,8 +633,7 @@ static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_measure *m, d
   for (size_t k = 0; st == DYD_OK && k < pairs->count; k++) {
     const uint32_t end[2] = {pairs->item[k].i, pairs->item[k].j};
     /* infinite: it has to be refined before anything is known */
-    st =
-        sums ? dyd_goal_voronoi_number(value, sums, m, &pairs->item[k], o) : dyd_measure_area(value, m, end[0], end[1]);
+    st = sums ? goal_voronoi_number(value, sums, m, &pairs->item[k], o) : dyd_measure_area(value, m, end[0], end[1]);
     if (st != DYD_OK || mpfr_zero_p(value)) continue;
     int64_t excess = mpfr_inf_p(value) ? 0 : (int64_t)mpfr_get_exp(value) - (int64_t)mpfr_get_exp(share) + 2;
     for (int a = 0; a < 2; a++) {
@@ -518,7 +673,7 @@ static dyd_status plan_vertices(dyd_plan *plan) {
   for (size_t k = 0; k < list.count && st == DYD_OK; k++) {
     const uint32_t *v = list.item[k].v;
     int64_t excess;
-    st = dyd_goal_vertex_excess(&excess, plan->e, &list.item[k], o);
+    st = goal_vertex_excess(&excess, plan->e, &list.item[k], o);
     for (int m = 0; m < 3 && st == DYD_OK && excess > 0; m++) {
       const dyd_refinable *p = dyd_engine_find(plan->e, v[m]);
       if (dyd_plan_can_narrow(plan, p))
@@ -581,7 +736,7 @@ dyd_status dyd_goal_of_pairs_holds(bool *out, dyd_measure *m, const dyd_delaunay
 /* The bound holds, and no vertex is left that is too wide and could be narrowed. */
 static dyd_status goal_voronoi_and_vertices_hold(bool *out, dyd_voronoi_sums **sums, const dyd_engine *e,
                                                  const dyd_engine_options *o) {
-  dyd_status st = dyd_goal_voronoi_holds(out, sums, e, o);
+  dyd_status st = goal_voronoi_holds(out, sums, e, o);
   if (st != DYD_OK || !*out || o->goal != DYD_GOAL_VORONOI_HAUSDORFF) return st;
   DYD_SCOPED(dyd_plan) plan;
   dyd_plan_init(&plan, e, o, NULL, 0);
@@ -620,7 +775,7 @@ static dyd_status schedule_judge(bool *holds, dyd_plan *plan, dyd_scouts *scouts
   if (st == DYD_OK && !*holds && any_point_is_left(plan->e)) st = plan_all(plan, &h, settled, &m, sums);
   if (st == DYD_OK) st = plan->failed;
   if (st == DYD_OK && plan->count && plan->o->schedule == DYD_SCHEDULE_UNIFORM) plan_uniform(plan);
-  dyd_goal_sums_free(&sums);
+  goal_sums_free(&sums);
   return st;
 }
 
@@ -665,7 +820,7 @@ static const char *goal_options_fault(const dyd_engine_options *o) {
   if (o->goal_bits > MOST_GOAL_BITS || o->goal_bits < -MOST_GOAL_BITS)
     return "`goal_bits` is not between -2^40 and 2^40; give a number between them";
   if (o->goal < DYD_GOAL_DECIDED || o->goal > DYD_GOAL_VORONOI_HAUSDORFF) return "`goal` is not a dyd_goal; give one";
-  if (dyd_goal_is_voronoi(o->goal) && !dyd_goal_window_is_good(o->window))
+  if (dyd_goal_is_voronoi(o->goal) && !goal_window_is_good(o->window))
     return "the goal is about a diagram, and `window` has no area; give a rectangle with lower ends below upper ones";
   return o->schedule == DYD_SCHEDULE_ADAPTIVE || o->schedule == DYD_SCHEDULE_UNIFORM
              ? NULL
@@ -710,5 +865,28 @@ dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_
     st = wrong ? dyd_fail(err, DYD_E_ARG, "%s", wrong) : goal_run(outcome, e, &o, err);
   }
   e->outcome = *outcome;
+  return st;
+}
+
+/* ---- in one call ---- */
+
+dyd_status dyd_delaunay_of(dyd_pair_list *out, size_t n, const double *xy, double radius,
+                           const dyd_engine_options *options, dyd_error *err) {
+  const dyd_column xys[2] = {{xy, 2 * sizeof *xy}, {xy ? xy + 1 : NULL, 2 * sizeof *xy}},
+                   radii[2] = {{&radius, 0}, {&radius, 0}};
+  dyd_engine *e = NULL;
+  dyd_outcome outcome;
+  if (!out || (n && !xy)) return dyd_fail_null(err);
+  dyd_status st = dyd_engine_new(&e);
+  if (st != DYD_OK) return dyd_fail_nomem(err);
+  st = dyd_engine_add_columns(e, n, xys, radius == 0 ? NULL : radii, err);
+  if (st == DYD_OK) st = dyd_engine_run(&outcome, e, options, err);
+  if (st == DYD_OK) {
+    st = dyd_delaunay_pairs(out, dyd_engine_delaunay(e));
+    if (st != DYD_OK)
+      dyd_fail(err, st,
+               "no pair is known: the budget was spent before the first stage was complete, or memory is exhausted");
+  }
+  dyd_engine_free(e);
   return st;
 }

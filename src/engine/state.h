@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What an engine holds, for the files of this folder:
  *
- *   engine.c        life, counters, results, and what points are called where they were read
- *   add.c           adding points
+ *   engine.c        life, counters, results, and what points are called where they were read; adding points;
+ *                   points of the engine as streams
  *   points.c        asking one point to narrow, measuring one again
  *   record.c        answers of an earlier run; the statuses of each stage
- *   compose.c       points of the engine as streams
  *   plan.c          which points to narrow, and how far: a value
  *   ask.c           the loop: a question, its plan, narrowing, triangulating, until it is answered;
  *                   plans changed by a callback or a program
- *   run.c           the question of a run: does the goal hold, and what to narrow where it does not
+ *   run.c           the question of a run: does the goal hold, also one on the Voronoi diagram, and what to narrow
+ *                   where it does not
  *   scout.c         a few points that go ahead of the others
  *   settle.c        pairs that no refinement decides
- *   goal_voronoi.c  goals on the Voronoi diagram
  *   nearest.c       the question after the nearest sites of a computable point
  *   ties.c          proofs about true points: ties, and points that are the same place
  *   converge.c      tables of runs, stage by stage, and the best plan, once all is known
@@ -85,7 +84,7 @@ typedef struct dyd_recalled dyd_recalled;
 
 /* Invariant: point is sorted by site; changed lists (with repeats) the sites narrowed since pd was last brought up
  * to date; pd = NULL before the first complete stage. Sites of points never asked hold the whole plane.
- * Only add.c, points.c and ask.c write here once the engine has been started: functions that plan or judge take it
+ * Only engine.c, points.c and ask.c write here once the engine has been started: functions that plan or judge take it
  * const. */
 struct dyd_engine {
   dyd_sites *sites;

@@ -6,7 +6,7 @@
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/local.h"
-#include "engine/add.h"
+#include "engine/points.h"
 #include "stream/stream.h"
 
 #include <inttypes.h>
