@@ -11,7 +11,9 @@
 #include "checker/ties.h"
 #include "checker/witness.h"
 #include "tolerance/discs.h"
+
 #include <dyadel/engine.h>
+
 #include <stdio.h>
 
 /* Centres, two numbers each. */
@@ -95,18 +97,7 @@ dyd_status dyd_proof_put_discs(FILE *out, const dyd_proof *p, const dyd_pair_lis
 dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window, bool discs);
 
 struct dyd_sphere;
-/* Writes the section on a sphere, of whose images the sites are. again: the places are those of a section before. */
-dyd_status dyd_proof_put_globe(FILE *out, const dyd_proof *p, const struct dyd_sphere *s, bool again);
-/* Sets the region where the certificate says that place i is. */
-dyd_status dyd_proof_set_region(dyd_cert_region *out, const struct dyd_sphere *s, uint32_t i);
-/* Writes the lines on radii and places. */
-dyd_status dyd_proof_put_compass(FILE *out, const struct dyd_sphere *s);
 struct dyd_certificate_parts;
-/* Writes a certificate of answers, as dyd_write_certificate; e: NULL: on a sphere. */
-dyd_status dyd_proof_put_nearest(FILE *out, const dyd_engine *e, const struct dyd_certificate_parts *parts,
-                                 dyd_error *err);
-/* The same places from a second eye; NULL: it has no result. */
-const struct dyd_sphere *dyd_proof_second(const struct dyd_sphere *s);
 
 /* Copies an interval into a side without a denominator yet. */
 dyd_status dyd_proof_set_side(dyd_cert_side *out, const dyd_interval *a);
