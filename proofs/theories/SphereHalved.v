@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* The image of a place in the terms of src/sphere/image_filter.c: halved above and below, and turns of angles [FLT-SPH]. *)
+(* The image of a place in the terms of src/sphere/nearest_filter.c: halved above and below, and turns of angles [FLT-SPH]. *)
 From Coq Require Import Reals Lra Lia Psatz.
 From Dyadel Require Import Plane Sphere.
 Open Scope R_scope.

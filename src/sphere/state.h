@@ -5,7 +5,7 @@
  *   places.c         where the places are, and which are the same
  *   units.c          radii as text
  *   choose_filter.c  from which place is projected
- *   project.c        images of places; image_filter.c: in doubles
+ *   project.c        images of places; nearest_filter.c: in doubles
  *   ties.c           which places are on one circle
  *   vertex.c         Voronoi vertices
  *   plan.c           what to measure next
@@ -18,6 +18,7 @@
 #include "stream/arb.h"
 
 #include <dyadel/sphere.h>
+
 #include <math.h>
 
 /* ---- places.c: regions ---- */
@@ -81,13 +82,10 @@ typedef struct dyd_eye_d {
 } dyd_eye_d;
 void dyd_eye_enclose(dyd_eye_d *out, dyd_eye *e);
 
-/* image_filter.c: box: x lower and upper, y lower and upper end of the image, for all of a narrow region and all that
+/* nearest_filter.c: box: x lower and upper, y lower and upper end of the image, for all of a narrow region and all that
  * the eye encloses [FLT-SPH]; at most about 2^-(bits + 1) (1 + x^2 + y^2) wide, so 2^-bits radians on the sphere.
  * Returns false where that is not known, as for a region with an angle. */
 bool dyd_filter_image(double box[4], const dyd_spot_d *place, const dyd_eye_d *eye, int64_t bits);
-
-/* Encloses sine and cosine of x degrees [FLT-SPH]. Returns false for angles beyond 720 degrees. */
-bool dyd_filter_sin_cos(dyd_iv *s, dyd_iv *c, dyd_iv x);
 
 /* ---- the sphere ---- */
 
