@@ -30,7 +30,7 @@
 #include "engine/points.h"
 #include "engine/settle.h"
 #include "engine/ties.h"
-#include "stream/oracle_worker.h"
+#include "stream/process.h"
 #include "stream/stream.h"
 
 #include <dyadel/oracle.h>

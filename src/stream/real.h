@@ -14,10 +14,6 @@ dyd_status dyd_real_new_enclosing(dyd_real **out, dyd_narrow_real_fn narrow, dyd
  * not free it. Only a success calls it, when the real goes. */
 dyd_status dyd_real_new_inside(dyd_real **out, void **user, size_t size, dyd_narrow_real_fn narrow,
                                dyd_release_fn release);
-/* Reals for experiments: the number in [0,1] whose binary digits `seed` draws; x, taken over also on failure, known to
- * about 1/n by answer number n, whatever the request. */
-dyd_status dyd_real_random(dyd_real **out, uint64_t seed);
-dyd_status dyd_real_slow(dyd_real **out, dyd_real *x);
 /* From now on x is known to lie in `span`, from which coarse intervals are made without a call of the source. For a
  * source that encloses one and the same value, before it is narrowed. */
 void dyd_real_set_span(dyd_real *x, dyd_double_span span);

@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/local.h"
+#include "base/random.h"
 #include "stream/arb.h"
 #include "stream/degrees.h"
 #include "stream/expr.h"
@@ -19,6 +20,82 @@
 #include <flint/fmpq_poly.h>
 #include <flint/fmpz_vec.h>
 #include <string.h>
+
+/* ---- random, for experiments: binary digits of a number in [0,1], a function of seed and place, so that they are
+ * drawn once ---- */
+
+/* The interval of all numbers with these first digits: 2^-bits wide. */
+static dyd_status random_narrow(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
+  const uint64_t seed = *(const uint64_t *)user;
+  const size_t bits = request->bits > 0 ? (size_t)request->bits : 0, words = bits / 64 + 1;
+  DYD_FREED uint64_t *digits = dyd_alloc(words, sizeof *digits);
+  if (!digits) return dyd_fail_nomem(err);
+  for (size_t k = 0; k < words; k++) digits[k] = dyd_random(seed, k + 1);
+  DYD_LOCAL_NUMBERS(mpz, first);
+  DYD_LOCAL(dyd_dyadic, lo, hi);
+  mpz_import(first, words, 1, sizeof *digits, 0, 0, digits);
+  mpz_tdiv_q_2exp(first, first, 64 * words - bits);
+  dyd_status st = dyd_dyadic_set_z_2exp(&lo, first, -(int64_t)bits);
+  mpz_add_ui(first, first, 1);
+  if (st == DYD_OK) st = dyd_dyadic_set_z_2exp(&hi, first, -(int64_t)bits);
+  if (st == DYD_OK) st = dyd_interval_set_ends(out, &lo, &hi);
+  return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
+}
+
+/* Reals for experiments: the number in [0,1] whose binary digits `seed` draws; x, taken over also on failure, known to
+ * about 1/n by answer number n, whatever the request. */
+static dyd_status real_random(dyd_real **out, uint64_t seed) {
+  void *user;
+  dyd_status st = dyd_real_new_inside(out, &user, sizeof seed, random_narrow, NULL);
+  if (st == DYD_OK) *(uint64_t *)user = dyd_random(seed, 0); /* neighbouring seeds begin far apart */
+  return st;
+}
+
+/* ---- slow, for experiments: answer number n is about 1/n wide, whatever number of bits a request has ---- */
+
+typedef struct slow_real {
+  dyd_real *x;
+  uint64_t answers;
+} slow_real;
+
+static void slow_release(void *user) {
+  dyd_real_free(((slow_real *)user)->x);
+}
+
+/* Of x in [lo,hi], at most 1/(4 n) wide, [hi - r, lo + r] with r a little below 1/(2 n): it holds x, and is at most 1/n
+ * wide. */
+static dyd_status slow_narrow(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
+  slow_real *s = user;
+  const uint64_t n = s->answers + 1;
+  int64_t log2 = 0;
+  while (log2 < 63 && (uint64_t)1 << log2 < n) log2++;
+  dyd_status st = dyd_real_narrow_until(s->x, log2 + 2, request->max_bits, request->stop, err);
+  if (dyd_narrow_ended(st)) return st;
+  DYD_LOCAL_NUMBERS(mpq, lo, hi, r);
+  dyd_interval_get_q(lo, hi, dyd_real_interval(s->x));
+  mpz_setbit(mpq_numref(r), (mp_bitcnt_t)log2 + 7);
+  mpz_sub_ui(mpq_numref(r), mpq_numref(r), 1);
+  mpz_fdiv_q_ui(mpq_numref(r), mpq_numref(r), n);
+  mpq_div_2exp(r, r, (mp_bitcnt_t)log2 + 8);
+  mpq_sub(hi, hi, r);
+  mpq_add(lo, lo, r);
+  st = dyd_interval_set_outward(out, hi, lo, -log2 - 70);
+  if (st != DYD_OK) return dyd_fail(err, st, "a slow value: %s", dyd_status_text(st));
+  s->answers = n;
+  return DYD_OK;
+}
+
+/* Reals for experiments: the number in [0,1] whose binary digits `seed` draws; x, taken over also on failure, known to
+ * about 1/n by answer number n, whatever the request. */
+static dyd_status real_slow(dyd_real **out, dyd_real *x) {
+  void *user;
+  dyd_status st = dyd_real_new_inside(out, &user, sizeof(slow_real), slow_narrow, slow_release);
+  if (st == DYD_OK)
+    *(slow_real *)user = (slow_real){x, 0};
+  else
+    dyd_real_free(x);
+  return st;
+}
 
 /* Polynomials in x, from expressions. */
 
@@ -290,7 +367,7 @@ static dyd_status read_random(dyd_real **out, reader *r) {
   if (st == DYD_OK && (mpz_cmp_ui(mpq_denref(seed), 1) != 0 || !mpz_fits_ulong_p(mpq_numref(seed))))
     st = FAIL(r, at, DYD_E_PARSE, "the seed is a whole number from 0 on, below 2^64");
   if (st == DYD_OK && !take_word(r, ")")) st = FAIL(r, r->pos, DYD_E_PARSE, "a ')' is missing here");
-  return st == DYD_OK ? plain_fail(r, at, dyd_real_random(out, mpz_get_ui(mpq_numref(seed)))) : st;
+  return st == DYD_OK ? plain_fail(r, at, real_random(out, mpz_get_ui(mpq_numref(seed)))) : st;
 }
 
 /* A sum that may have parts which `within` reads. */
@@ -319,7 +396,7 @@ static dyd_status read_slow(dyd_real **out, reader *r) {
     dyd_real_free(x);
     return FAIL(r, r->pos, DYD_E_PARSE, "a ')' is missing here");
   }
-  return st == DYD_OK ? plain_fail(r, at, dyd_real_slow(out, x)) : st;
+  return st == DYD_OK ? plain_fail(r, at, real_slow(out, x)) : st;
 }
 
 static dyd_status read_root_of(dyd_real **out, dyd_real_word word, reader *r) {
