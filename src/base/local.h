@@ -63,6 +63,13 @@ static inline void dyd_drop(void *place) {
   free(*(void **)place);
 }
 
+/* DYD_OWNED(dyd_delaunay) *pd = NULL; calls dyd_delaunay_free. DYD_OWNERS(dyd_delaunay) once, before that. */
+#define DYD_OWNERS(type)                                                                                               \
+  static inline void type##_drop(type **place) {                                                                       \
+    type##_free(*place);                                                                                               \
+  }
+#define DYD_OWNED(type) __attribute__((cleanup(type##_drop))) type
+
 /* Of this precision. */
 #define DYD_LOCAL_FLOATS(bits, ...)                                                                                    \
   __attribute__((cleanup(dyd_drop_mpfr))) mpfr_t __VA_ARGS__;                                                          \

@@ -3,8 +3,11 @@
 #ifndef DYD_DELAUNAY_MEMORY_H
 #define DYD_DELAUNAY_MEMORY_H
 
+#include "base/local.h"
 #include "base/room.h"
 #include <dyadel/delaunay.h>
+
+DYD_OWNERS(dyd_delaunay)
 
 /* For what a call makes of a result: the room that it leaves of what its last call was allowed. */
 dyd_room dyd_delaunay_room(const dyd_delaunay *pd);

@@ -146,13 +146,12 @@ static dyd_delaunay_options check_options(const check_state *s) {
 }
 
 static dyd_status check_path(check_state *s) {
-  dyd_delaunay *fresh = NULL;
+  DYD_OWNED(dyd_delaunay) *fresh = NULL;
   DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_delaunay_options options = check_options(s);
   dyd_status st = dyd_delaunay_new(&fresh, s->e->sites, &options, NULL);
   if (st == DYD_OK) st = dyd_delaunay_pairs(&pairs, fresh);
   if (st == DYD_OK) pairs_compare_lists(s, &s->before, &pairs, same_or_floor);
-  dyd_delaunay_free(fresh);
   return st == DYD_CAPPED ? DYD_OK : st;
 }
 
@@ -204,8 +203,8 @@ static void compare_choice(check_state *s, const dyd_delaunay *exact, const dyd_
 }
 
 static dyd_status check_choice(check_state *s) {
-  dyd_sites *sites = NULL;
-  dyd_delaunay *exact = NULL;
+  DYD_OWNED(dyd_sites) *sites = NULL;
+  DYD_OWNED(dyd_delaunay) *exact = NULL;
   DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = check_flag(s)};
   dyd_status st = dyd_sites_new(&sites);
@@ -213,8 +212,6 @@ static dyd_status check_choice(check_state *s) {
   if (st == DYD_OK) st = dyd_delaunay_new(&exact, sites, &options, NULL);
   if (st == DYD_OK) st = dyd_delaunay_pairs(&pairs, exact);
   if (st == DYD_OK) compare_choice(s, exact, &pairs);
-  dyd_delaunay_free(exact);
-  dyd_sites_free(sites);
   return st == DYD_CAPPED ? DYD_OK : st;
 }
 
@@ -507,13 +504,12 @@ static dyd_status schedule_add_stage(moves *m, uint32_t stage, uint64_t *random,
 }
 
 static dyd_status schedule_list_points(askable *out, dyd_check_open_fn open, void *user, dyd_error *err) {
-  dyd_engine *e = NULL;
+  DYD_OWNED(dyd_engine) *e = NULL;
   dyd_status st = open(&e, user, err);
   if (st != DYD_OK) return st;
   *out = (askable){dyd_alloc(e->points, sizeof *out->point), dyd_alloc(e->points, sizeof *out->asked), e->points};
   if (!out->point || !out->asked) st = dyd_fail_nomem(err);
   for (size_t k = 0; k < e->points && st == DYD_OK; k++) out->point[k] = e->point[k].site;
-  dyd_engine_free(e);
   return st;
 }
 

@@ -16,6 +16,7 @@
 #include "engine/record.h"
 #include "metric/bounds.h"
 #include "rect/rect.h"
+#include "stream/stream.h"
 
 #include <dyadel/converge.h>
 #include <dyadel/metric.h>
@@ -66,7 +67,7 @@ static dyd_status hindsight_rect(dyd_rect *out, const void *user, size_t i) {
 
 /* Does the goal hold at h->bits? */
 static dyd_status hindsight_holds(bool *out, hindsight *h) {
-  dyd_delaunay *pd = NULL;
+  DYD_OWNED(dyd_delaunay) *pd = NULL;
   *out = false;
   if (!h->left || dyd_flag_get(&h->e->cancelled)) {
     h->known = false;
@@ -80,7 +81,6 @@ static dyd_status hindsight_holds(bool *out, hindsight *h) {
     dyd_measure_init(&m, dyd_delaunay_sites(pd));
     st = dyd_goal_of_pairs_holds(out, &m, pd, h->o);
   }
-  dyd_delaunay_free(pd);
   return st == DYD_CAPPED ? DYD_OK : st;
 }
 
@@ -133,7 +133,7 @@ static dyd_status hindsight_fetch(hindsight *h, dyd_engine *e, dyd_error *err) {
   for (size_t i = 0; st == DYD_OK && i < dyd_sites_count(e->sites); i++) st = dyd_sites_get(&h->rect[i], e->sites, i);
   for (size_t k = 0; st == DYD_OK && k < e->points; k++) {
     const dyd_refinable *p = &e->point[k];
-    dyd_stream *s = NULL;
+    DYD_OWNED(dyd_stream) *s = NULL;
     if (p->final) continue;
     h->site[h->points] = p->site;
     h->bits[h->points++] = h->top;
@@ -141,7 +141,6 @@ static dyd_status hindsight_fetch(hindsight *h, dyd_engine *e, dyd_error *err) {
     if (st == DYD_OK) st = dyd_stream_narrow(s, h->top + FINER, h->top + FINER, err);
     if (st >= 0) dyd_rect_set(&h->rect[p->site], dyd_stream_rect(s));
     if (st > 0) st = DYD_OK;
-    dyd_stream_free(s);
   }
   return st;
 }
@@ -539,8 +538,8 @@ static uint64_t piece_bits(dyd_stage_row *row, const piece_run *p) {
 /* The bisector is the diagram of two sites. */
 static dyd_status piece_bisector(dyd_stage_row *row, const piece_run *p) {
   dyd_convergence *out = p->r->out;
-  dyd_sites *two = NULL;
-  dyd_delaunay *pd = NULL;
+  DYD_OWNED(dyd_sites) *two = NULL;
+  DYD_OWNED(dyd_delaunay) *pd = NULL;
   row->orientation = dyd_rect_meets(&p->rect[0], &p->rect[1]) ? DYD_UNSURE : DYD_SURE_PLUS;
   dyd_status st = dyd_sites_new(&two);
   for (size_t k = 0; k < 2 && st == DYD_OK; k++) st = dyd_sites_add_rect(two, &p->rect[k]);
@@ -552,8 +551,6 @@ static dyd_status piece_bisector(dyd_stage_row *row, const piece_run *p) {
   row->voronoi = false;
   dyd_dyadic_swap(&row->area, &row->v_area);
   dyd_dyadic_swap(&row->hausdorff, &row->v_hausdorff);
-  dyd_delaunay_free(pd);
-  dyd_sites_free(two);
   return st;
 }
 

@@ -191,13 +191,12 @@ static dyd_status graph_may_hold(bool *may, const dyd_engine *e, const dyd_graph
   const uint32_t site[3] = {edge->i, edge->j, k};
   const some_sites of = {e, site};
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options)};
-  dyd_delaunay *pd = NULL;
+  DYD_OWNED(dyd_delaunay) *pd = NULL;
   DYD_SCOPED(dyd_graph_list) three = {0};
   dyd_status st = dyd_delaunay_made(&pd, 3, some_rect, &of, &o, NULL);
   if (st == DYD_OK) st = dyd_graph_edges(&three, pd, NULL, DYD_GRAPH_GABRIEL, NULL, NULL);
   const dyd_graph_edge *first = st == DYD_OK && three.count ? three.item : NULL;
   *may = !first || first->i != 0 || first->j != 1 || !first->sure;
-  dyd_delaunay_free(pd);
   return st;
 }
 

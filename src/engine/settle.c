@@ -15,6 +15,7 @@
 #include "base/local.h"
 #include "delaunay/disc_filter.h"
 #include "delaunay/index_list.h"
+#include "delaunay/memory.h"
 #include "delaunay/state.h"
 #include "dyadic/raw.h"
 #include "engine/points.h"
@@ -719,7 +720,7 @@ static dyd_status settle_firm(dyd_settled_pair *pair, size_t pairs, const dyd_pl
   const dyd_engine *e = plan->e;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = plan->o->max_pairs, .cancel = &e->stop,
                                   .threads = plan->o->threads, .no_filter = plan->o->no_filter};
-  dyd_delaunay *pd = NULL;
+  DYD_OWNED(dyd_delaunay) *pd = NULL;
   size_t sites = dyd_sites_count(e->sites);
   dyd_firm_sites cores = {e, eps, dyd_alloc(sites, sizeof *cores.firm), NULL};
   dyd_status st = cores.firm ? dyd_delaunay_made(&pd, sites, dyd_firm_rect, &cores, &o, NULL) : DYD_E_NOMEM;
@@ -728,7 +729,6 @@ static dyd_status settle_firm(dyd_settled_pair *pair, size_t pairs, const dyd_pl
     pair[k].possible = pair[k].possible || status != DYD_ILLEGAL;
     pair[k].unsure = pair[k].unsure || status != DYD_LEGAL;
   }
-  dyd_delaunay_free(pd);
   free(cores.firm);
   return st == DYD_CAPPED ? DYD_OK : st;
 }

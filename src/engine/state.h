@@ -23,6 +23,8 @@
 #include "engine/labels.h"
 #include "rect/rect.h"
 
+DYD_OWNERS(dyd_engine)
+
 /* Bits for a proof that true points are the same, on one line or circle, unless others are given. */
 #define DYD_TIE_BITS ((int64_t)1 << 17)
 

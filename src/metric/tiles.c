@@ -80,7 +80,7 @@ static dyd_status tiling_of_centres(dyd_sites **sites, dyd_delaunay **pd, const 
 
 /* Twice the area of a ring, exactly. */
 static dyd_status ring_area2(dyd_dyadic *out, bool *simple, const dyd_xy *z, size_t n, const volatile int *cancel) {
-  dyd_polygon p = {.vertex = dyd_alloc(n, sizeof *p.vertex)};
+  DYD_SCOPED(dyd_polygon) p = {.vertex = dyd_alloc(n, sizeof *p.vertex)};
   if (!p.vertex) return DYD_E_NOMEM;
   dyd_status st = DYD_OK;
   for (; p.count < n; p.count++) {
@@ -91,7 +91,6 @@ static dyd_status ring_area2(dyd_dyadic *out, bool *simple, const dyd_xy *z, siz
   }
   if (st == DYD_OK) st = dyd_polygon_area2(out, &p);
   if (st == DYD_OK && simple) st = dyd_polygon_is_simple(simple, &p, cancel);
-  dyd_polygon_clear(&p);
   return st;
 }
 

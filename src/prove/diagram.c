@@ -367,7 +367,7 @@ static dyd_status add_bridges(dyd_proof *p, uint32_t *parent, const dyd_delaunay
 static dyd_status try_bridges(bool *apart, dyd_proof *p, uint32_t *parent, uint32_t *site, unsigned round) {
   const proof_places of = {p, site};
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options)};
-  dyd_delaunay *pd = NULL;
+  DYD_OWNED(dyd_delaunay) *pd = NULL;
   size_t count = 0;
   for (size_t i = 0; i < p->sites.count; i++)
     if (p->sites.site[i].alias == i) site[count++] = (uint32_t)i;
@@ -382,7 +382,6 @@ static dyd_status try_bridges(bool *apart, dyd_proof *p, uint32_t *parent, uint3
     if (st == DYD_OK) st = move_place(&p->sites.site[site[other]], site[other], round);
   }
   if (st == DYD_OK && *apart) st = add_bridges(p, parent, pd, site);
-  dyd_delaunay_free(pd);
   return st;
 }
 

@@ -3,8 +3,11 @@
 #ifndef DYD_RECT_SITES_TABLE_H
 #define DYD_RECT_SITES_TABLE_H
 
+#include "base/local.h"
 #include "rect/irect.h"
 #include <dyadel/sites.h>
+
+DYD_OWNERS(dyd_sites)
 
 /* An exact rectangle packed into one block: the limbs of xlo, xhi, xden, ylo, yhi, yden one after the other.
  * A size of DYD_SAME_AS_LOWER for an upper end says "the same as the lower end". */

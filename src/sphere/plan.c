@@ -281,7 +281,7 @@ static dyd_status eye_targets(dyd_pair_list *out, sphere_plan *p, const dyd_dela
 
 static dyd_status eye_plan(sphere_plan *p, const dyd_delaunay *pd, const double *accuracy, const double *cost) {
   DYD_SCOPED(dyd_pair_list) pairs = {0};
-  dyd_survey *survey = NULL;
+  DYD_OWNED(dyd_survey) *survey = NULL;
   dyd_status st = eye_targets(&pairs, p, pd);
   const dyd_survey_options how = {DYD_SIZED(dyd_survey_options), .pairs = &pairs,
                                   .accuracies = mpq_sgn(p->accuracy) ? accuracy : NULL,
@@ -289,7 +289,6 @@ static dyd_status eye_plan(sphere_plan *p, const dyd_delaunay *pd, const double 
   if (st == DYD_OK && pairs.count) st = dyd_survey_new(&survey, pd, &how, p->err);
   dyd_status taken = survey ? rows_take(p, survey) : DYD_OK;
   if (survey && taken == DYD_OK) taken = pairs_take(p, survey);
-  dyd_survey_free(survey);
   return taken == DYD_OK ? st : taken;
 }
 
@@ -303,8 +302,8 @@ static void views_clear(sphere_plan *p) {
 
 /* Plans for the targets that are seen from this eye. */
 static dyd_status eye_look(sphere_plan *p, dyd_sphere *eye) {
-  dyd_sites *sites = NULL;
-  dyd_delaunay *pd = NULL;
+  DYD_OWNED(dyd_sites) *sites = NULL;
+  DYD_OWNED(dyd_delaunay) *pd = NULL;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = p->options.cancel};
   double *number = dyd_alloc(2 * p->s->count, sizeof *number), *cost = number + p->s->count;
   dyd_status st = number ? dyd_sites_new(&sites) : DYD_E_NOMEM;
@@ -317,8 +316,6 @@ static dyd_status eye_look(sphere_plan *p, dyd_sphere *eye) {
   }
   if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, p->err);
   if (st == DYD_OK) st = eye_plan(p, pd, number, cost);
-  dyd_delaunay_free(pd);
-  dyd_sites_free(sites);
   views_clear(p);
   free(number);
   return st;
@@ -329,7 +326,7 @@ static dyd_status eye_look(sphere_plan *p, dyd_sphere *eye) {
 /* Which targets stay open with the plan: on the sphere, by a run of its own. Those decided that no eye saw are the last
  * row's. */
 static dyd_status plan_verify(sphere_plan *p) {
-  dyd_sphere *then = NULL;
+  DYD_OWNED(dyd_sphere) *then = NULL;
   DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = dyd_sphere_new_within(&then, p->s, p->within, p->err);
   if (st == DYD_OK) st = plan_run(p, then);
@@ -341,7 +338,6 @@ static dyd_status plan_verify(sphere_plan *p) {
     else if (p->pair[k].row == SIZE_MAX && p->rows)
       p->pair[k].row = p->rows - 1;
   }
-  dyd_sphere_free(then);
   return st;
 }
 

@@ -641,7 +641,7 @@ static dyd_status circle_tell(void *user, dyd_group_kind kind, const dyd_index_l
   const circle_walk *w = user;
   bool chain = kind == DYD_GROUP_CHAIN;
   if (kind == DYD_GROUP_PAIR || (chain && w->s->free)) return DYD_OK;
-  dyd_index_list circle = {images->count + chain, NULL};
+  DYD_SCOPED(dyd_index_list) circle = {images->count + chain, NULL};
   circle.item = dyd_alloc(circle.count, sizeof *circle.item);
   if (!circle.item) return DYD_E_NOMEM;
   circle.item[0] = w->s->centre;
@@ -649,7 +649,6 @@ static dyd_status circle_tell(void *user, dyd_group_kind kind, const dyd_index_l
   dyd_status st = w->visit(w->user, DYD_GROUP_CIRCLE, &circle);
   for (size_t k = 0; k < images->count; k++) circle.item[circle.count - images->count + k] = w->s->of[images->item[k]];
   if (st == DYD_OK && chain && images->count == w->s->with_image) st = w->visit(w->user, DYD_GROUP_CIRCLE, &circle);
-  dyd_index_list_clear(&circle);
   return st;
 }
 

@@ -21,6 +21,8 @@
 
 #include <math.h>
 
+DYD_OWNERS(dyd_sphere)
+
 /* ---- places.c: regions ---- */
 
 /* The region of a place: all points within `angle` radians of a point of a box of degrees, longitude and latitude each

@@ -3,9 +3,12 @@
 #ifndef DYD_STREAM_REAL_H
 #define DYD_STREAM_REAL_H
 
+#include "base/local.h"
 #include "rect/rect.h"
 #include "stream/span_filter.h"
 #include <dyadel/stream.h>
+
+DYD_OWNERS(dyd_real)
 
 /* As dyd_real_new for a source that encloses one and the same value every time: its intervals are intersected with
  * the former ones, so that they are nested by construction [NEST-2]. Takes over user, also on failure. */

@@ -495,14 +495,13 @@ dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_e
 }
 
 dyd_status dyd_interval_set_text(dyd_interval *out, const char *text, size_t length, dyd_error *err) {
-  dyd_real *x = NULL;
+  DYD_OWNED(dyd_real) *x = NULL;
   dyd_status st = dyd_real_parse(&x, text, length, err);
   if (st != DYD_OK) return st;
   if (dyd_real_is_final(x))
     dyd_interval_set(out, dyd_real_interval(x));
   else
     st = dyd_text_fail(err, DYD_E_PARSE, text, 0, "this has to be refined to be known; give a number or an interval");
-  dyd_real_free(x);
   return st;
 }
 

@@ -3,9 +3,12 @@
 #ifndef DYD_STREAM_STREAM_H
 #define DYD_STREAM_STREAM_H
 
+#include "base/local.h"
 #include "rect/sites_table.h"
 #include "stream/expr_filter.h"
 #include <dyadel/stream.h>
+
+DYD_OWNERS(dyd_stream)
 
 /* What a stream is made of: object is a dyd_stream_pair, a dyd_stream_image, an array of three streams whose circle has
  * the point as its centre; nothing for those of which no more is known (OPAQUE). */

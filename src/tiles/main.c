@@ -206,7 +206,7 @@ static int delaunay_main(main_options *o, size_t rank, const tiles_carrier *by, 
   if (status == 0) status = prepare_folder(&o->job, rank);
   if (by->any(status != 0)) return EXIT_FAILED;
   size_t count = alone ? o->job.ranks : 1;
-  tile *member = calloc(count, sizeof *member);
+  DYD_FREED tile *member = calloc(count, sizeof *member);
   for (size_t k = 0; member && k < count; k++) member[k].job = &o->job;
   status = EXIT_FAILED;
   if (by->any(!member))
@@ -214,7 +214,6 @@ static int delaunay_main(main_options *o, size_t rank, const tiles_carrier *by, 
   else
     status = run_members(o, member, count, rank, by);
   for (size_t k = 0; member && k < count; k++) tile_free(&member[k]);
-  free(member);
   return status;
 }
 

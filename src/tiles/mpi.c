@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Mail by MPI: lengths first, then pieces that MPI can count. */
+#include "base/local.h"
 #include "tiles/tiles.h"
 
 #include <mpi.h>
@@ -46,7 +47,7 @@ static size_t post_pieces(MPI_Request *request, const tiles_mail *m, size_t othe
 /* Exchanges lengths and reserves memory; *pieces is the number of pieces both ways. */
 static dyd_status expect_mail(size_t *pieces, tile *t, dyd_error *err) {
   const size_t ranks = t->job->ranks;
-  uint64_t *length = calloc(2 * ranks, sizeof *length);
+  DYD_FREED uint64_t *length = calloc(2 * ranks, sizeof *length);
   bool fits = length;
   for (size_t r = 0; fits && r < ranks; r++) length[r] = t->out[r].count;
   if (any_by_mpi(!fits)) {
@@ -62,7 +63,6 @@ static dyd_status expect_mail(size_t *pieces, tile *t, dyd_error *err) {
     *pieces += pieces_of(t->in[r].count) + pieces_of(t->out[r].count);
     if (r != t->rank) t->counters.sent += t->out[r].count;
   }
-  free(length);
   return any_by_mpi(!fits) ? tiles_no_memory(err) : DYD_OK;
 }
 
@@ -71,7 +71,7 @@ static dyd_status carry_by_mpi(tile *t, size_t count, dyd_error *err) {
   (void)count;
   dyd_status st = expect_mail(&pieces, t, err);
   if (st != DYD_OK) return st;
-  MPI_Request *request = malloc((pieces + 1) * sizeof *request);
+  DYD_FREED MPI_Request *request = malloc((pieces + 1) * sizeof *request);
   if (any_by_mpi(!request)) {
     free(request);
     return tiles_no_memory(err);
@@ -80,7 +80,6 @@ static dyd_status carry_by_mpi(tile *t, size_t count, dyd_error *err) {
   for (size_t r = 0; r < t->job->ranks; r++) posted += post_pieces(request + posted, &t->out[r], r, true);
   for (size_t k = 0; k < posted; k++) MPI_Wait(&request[k], MPI_STATUS_IGNORE);
   for (size_t r = 0; r < t->job->ranks; r++) tiles_mail_clear(&t->out[r]);
-  free(request);
   return DYD_OK;
 }
 

@@ -3,6 +3,7 @@
 #include "tolerance/discs.h"
 
 #include "base/alloc.h"
+#include "base/local.h"
 
 #include <mpfr.h>
 #include <string.h>
@@ -43,14 +44,11 @@ static void squared_distance(mpq_ptr out, mpq_ptr spare, const dyd_disc *a, cons
 
 /* Returns true if the centres are as near as the sum (sign = 1) or the difference of the radii. */
 static bool centres_are_near(const dyd_disc *a, const dyd_disc *b, int sign) {
-  mpq_t d, s;
-  mpq_inits(d, s, NULL);
+  DYD_LOCAL_NUMBERS(mpq, d, s);
   squared_distance(d, s, a, b);
   (sign < 0 ? mpq_sub : mpq_add)(s, a->r, b->r);
   mpq_mul(s, s, s);
-  bool near = mpq_cmp(d, s) <= 0;
-  mpq_clears(d, s, NULL);
-  return near;
+  return mpq_cmp(d, s) <= 0;
 }
 
 bool dyd_discs_meet(const dyd_disc *a, const dyd_disc *b) {
@@ -279,8 +277,7 @@ bool dyd_caps_common(dyd_direction *u, dyd_caps *c) {
 
 /* Adds the end of cap e on the side `turn` to u. */
 static void add_end(mpfr_t u[2], const dyd_cap *e, int turn) {
-  mpfr_t s, t, ww;
-  mpfr_inits2(mpfr_get_prec(u[0]), s, t, ww, (mpfr_ptr)0);
+  DYD_LOCAL_FLOATS(mpfr_get_prec(u[0]), s, t, ww);
   mpfr_set_q(ww, e->ww, MPFR_RNDN);
   mpfr_set_q(s, e->c, MPFR_RNDN);
   mpfr_sqrt(s, s, MPFR_RNDN);
@@ -294,14 +291,12 @@ static void add_end(mpfr_t u[2], const dyd_cap *e, int turn) {
     mpfr_div(t, t, ww, MPFR_RNDN);
     (a ? mpfr_add : mpfr_sub)(u[a], u[a], t, MPFR_RNDN);
   }
-  mpfr_clears(s, t, ww, (mpfr_ptr)0);
 }
 
 /* u: about the direction found last: the middle between two ends; the middle of a cap where these are its own. */
 static void circle_set_direction(mpfr_t u[2], const dyd_caps *c) {
   const dyd_cap *a = &c->item[c->by[0]], *b = &c->item[c->by[1]];
-  mpfr_t length;
-  mpfr_init2(length, mpfr_get_prec(u[0]));
+  DYD_LOCAL_FLOATS(mpfr_get_prec(u[0]), length);
   mpfr_set_zero(u[0], 1);
   mpfr_set_zero(u[1], 1);
   if (a == b) {
@@ -313,13 +308,11 @@ static void circle_set_direction(mpfr_t u[2], const dyd_caps *c) {
   }
   mpfr_hypot(length, u[0], u[1], MPFR_RNDN);
   for (int k = 0; k < 2; k++) mpfr_div(u[k], u[k], length, MPFR_RNDN);
-  mpfr_clear(length);
 }
 
 /* d = 1 / (2 h), h = u.q_j - rho_j. false: h is not above 0. */
 static bool set_distance(mpfr_t d, mpfr_t u[2], const dyd_caps *c) {
-  mpfr_t t;
-  mpfr_init2(t, mpfr_get_prec(d));
+  DYD_LOCAL_FLOATS(mpfr_get_prec(d), t);
   mpfr_mul_q(d, u[0], c->qx, MPFR_RNDN);
   mpfr_mul_q(t, u[1], c->qy, MPFR_RNDN);
   mpfr_add(d, d, t, MPFR_RNDN);
@@ -328,24 +321,19 @@ static bool set_distance(mpfr_t d, mpfr_t u[2], const dyd_caps *c) {
   bool above = mpfr_sgn(d) > 0;
   mpfr_div(d, t, d, MPFR_RNDN);
   mpfr_div_2ui(d, d, 1, MPFR_RNDN);
-  mpfr_clear(t);
   return above && mpfr_number_p(d);
 }
 
 /* r becomes at least |c - k| + k.r, if it is less. */
 static void reach_to(dyd_disc *c, const dyd_disc *k, mpfr_prec_t bits) {
-  mpq_t x, y;
-  mpfr_t d;
-  mpq_inits(x, y, (mpq_ptr)0);
-  mpfr_init2(d, bits);
+  DYD_LOCAL_NUMBERS(mpq, x, y);
+  DYD_LOCAL_FLOATS(bits, d);
   squared_distance(x, y, c, k);
   mpfr_set_q(d, x, MPFR_RNDU);
   mpfr_sqrt(d, d, MPFR_RNDU);
   mpfr_get_q(x, d);
   mpq_add(x, x, k->r);
   if (mpq_cmp(x, c->r) > 0) mpq_set(c->r, x);
-  mpfr_clear(d);
-  mpq_clears(x, y, (mpq_ptr)0);
 }
 
 bool dyd_caps_circle(dyd_disc *out, dyd_caps *c, unsigned bits) {

@@ -29,8 +29,7 @@ static void disc_view_clear(disc_view *v) {
 
 /* Adds the squares of the least and the largest distance of c from the interval. */
 static void disc_view_side(disc_view *v, mpq_srcptr c, const dyd_interval *side) {
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, hi);
   dyd_interval_get_q(lo, hi, side);
   mpq_sub(lo, lo, c);
   mpq_sub(hi, hi, c);
@@ -40,7 +39,6 @@ static void disc_view_side(disc_view *v, mpq_srcptr c, const dyd_interval *side)
   bool low = mpq_cmp(lo, hi) < 0;
   if (!inside) mpq_add(v->least, v->least, low ? lo : hi);
   mpq_add(v->largest, v->largest, low ? hi : lo);
-  mpq_clears(lo, hi, NULL);
 }
 
 static dyd_status disc_view_set(disc_view *v, const dyd_sites *sites, uint32_t i, const dyd_rect *at, dyd_error *err) {
@@ -55,33 +53,25 @@ static dyd_status disc_view_set(disc_view *v, const dyd_sites *sites, uint32_t i
 
 /* Sign of dl_a - dl_b. */
 static int compare_largest(const disc_view *a, const disc_view *b) {
-  mpq_t s;
-  mpq_init(s);
+  DYD_LOCAL_NUMBERS(mpq, s);
   mpq_sub(s, a->disc.r, b->disc.r);
-  int sign = dyd_roots_sign(s, a->largest, b->largest);
-  mpq_clear(s);
-  return sign;
+  return dyd_roots_sign(s, a->largest, b->largest);
 }
 
 /* Returns true if ds_i <= dl_k. */
 static bool may_be_as_near(const disc_view *i, const disc_view *k) {
-  mpq_t s;
-  mpq_init(s);
+  DYD_LOCAL_NUMBERS(mpq, s);
   mpq_add(s, i->disc.r, k->disc.r);
   mpq_neg(s, s);
-  int sign = dyd_roots_sign(s, i->least, k->largest);
-  mpq_clear(s);
-  return sign <= 0;
+  return dyd_roots_sign(s, i->least, k->largest) <= 0;
 }
 
 dyd_status dyd_disc_nearest(dyd_index_list *found, bool *sure, const dyd_sites *sites, const dyd_rect *at,
                             dyd_error *err) {
   if (!found || !sure || !sites || !at) return dyd_fail_null(err);
-  disc_view best, own;
+  DYD_LOCAL(disc_view, best, own);
   dyd_status st = DYD_OK;
   size_t kept = 0;
-  disc_view_init(&best);
-  disc_view_init(&own);
   for (size_t k = 0; k < found->count && st == DYD_OK; k++) {
     st = disc_view_set(&own, sites, found->item[k], at, err);
     if (st != DYD_OK || (k && compare_largest(&own, &best) >= 0)) continue;
@@ -93,8 +83,6 @@ dyd_status dyd_disc_nearest(dyd_index_list *found, bool *sure, const dyd_sites *
     st = disc_view_set(&own, sites, found->item[k], at, err);
     if (st == DYD_OK && may_be_as_near(&own, &best)) found->item[kept++] = found->item[k];
   }
-  disc_view_clear(&own);
-  disc_view_clear(&best);
   if (st != DYD_OK) return st;
   found->count = kept;
   *sure = kept == 1;
@@ -103,24 +91,19 @@ dyd_status dyd_disc_nearest(dyd_index_list *found, bool *sure, const dyd_sites *
 
 /* max(0, sqrt(square) + s), rounded. */
 static double root_plus(mpq_srcptr square, mpq_srcptr s, mpfr_rnd_t rnd) {
-  mpfr_t x;
-  mpfr_init2(x, 128);
+  DYD_LOCAL_FLOATS(128, x);
   mpfr_set_q(x, square, rnd);
   mpfr_sqrt(x, x, rnd);
   mpfr_add_q(x, x, s, rnd);
-  double d = mpfr_sgn(x) > 0 ? mpfr_get_d(x, rnd) : 0;
-  mpfr_clear(x);
-  return d;
+  return mpfr_sgn(x) > 0 ? mpfr_get_d(x, rnd) : 0;
 }
 
 dyd_status dyd_disc_distance(double *lo, double *hi, const dyd_sites *sites, size_t i, const dyd_rect *at) {
   if (!lo || !hi || !sites || !at) return DYD_E_ARG;
-  disc_view v;
-  disc_view_init(&v);
+  DYD_LOCAL(disc_view, v);
   dyd_status st = disc_view_set(&v, sites, (uint32_t)i, at, NULL);
   *hi = root_plus(v.largest, v.disc.r, MPFR_RNDU);
   mpq_neg(v.disc.r, v.disc.r);
   *lo = root_plus(v.least, v.disc.r, MPFR_RNDD);
-  disc_view_clear(&v);
   return st;
 }

@@ -12,6 +12,7 @@
 #include "base/flag.h"
 #include "base/index.h"
 #include "base/invariant.h"
+#include "delaunay/memory.h"
 #include "delaunay/state.h"
 #include "delaunay/undecided.h"
 #include "dyadic/raw.h"
@@ -44,8 +45,7 @@ enum {
  * more. Of a bare site, a disc that holds the rectangle [DISC-5]. false: the rectangle should be a square, and is not.
  */
 static bool disc_of_square(dyd_disc *d, const dyd_rect *r, dyd_site_kind kind) {
-  mpq_t lo, h, room;
-  mpq_inits(lo, h, room, NULL);
+  DYD_LOCAL_NUMBERS(mpq, lo, h, room);
   dyd_side_sum(d->x, h, &r->x);
   dyd_side_sum(d->y, d->r, &r->y);
   mpq_abs(lo, d->x);
@@ -69,16 +69,13 @@ static bool disc_of_square(dyd_disc *d, const dyd_rect *r, dyd_site_kind kind) {
   mpq_div_2exp(d->x, d->x, 1);
   mpq_div_2exp(d->y, d->y, 1);
   mpq_div_2exp(d->r, d->r, 1);
-  mpq_clears(lo, h, room, NULL);
   return square;
 }
 
 dyd_status dyd_disc_of_site(dyd_disc *d, const dyd_sites *s, size_t i) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_sites_get(&r, s, i);
   if (st == DYD_OK && !disc_of_square(d, &r, dyd_sites_kind(s, i))) st = DYD_E_ARG;
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -372,8 +369,7 @@ static dyd_status inner_square(dyd_rect *out, const void *discs, size_t v) {
   const dyd_disc_work *w = discs;
   const double *d = w->about[v];
   double half = mpq_sgn(w->disc[v].r) ? (d[2] - INSIDE * size_d(w, (uint32_t)v)) * ROOT_HALF : 0;
-  mpq_t x;
-  mpq_init(x);
+  DYD_LOCAL_NUMBERS(mpq, x);
   bool inside = half > 0;
   if (!inside && half == 0 && isfinite(d[0]) && isfinite(d[1])) { /* points, where doubles hold them */
     mpq_set_d(x, d[0]);
@@ -381,7 +377,6 @@ static dyd_status inner_square(dyd_rect *out, const void *discs, size_t v) {
     mpq_set_d(x, d[1]);
     inside = inside && mpq_equal(x, w->disc[v].y);
   }
-  mpq_clear(x);
   return inside ? dyd_rect_set_d(out, d[0] - half, d[0] + half, d[1] - half, d[1] + half) : DYD_E_DOMAIN;
 }
 
@@ -421,7 +416,7 @@ static dyd_pair_status discs_status(dyd_disc_work *w, uint32_t i, uint32_t j, co
 static dyd_status decide_discs(dyd_disc_work *w, size_t *left, dyd_pair_list *list) {
   const uint32_t *vertex = w->pd->sk.vertex;
   size_t kept = 0;
-  dyd_delaunay *inside = NULL;
+  DYD_OWNED(dyd_delaunay) *inside = NULL;
   dyd_status st = triangulate_inside(&inside, w);
   for (size_t k = 0; (st == DYD_OK || st == DYD_CANCELLED) && k < list->count && !w->failed; k++) {
     dyd_pair p = list->item[k];
@@ -433,7 +428,6 @@ static dyd_status decide_discs(dyd_disc_work *w, size_t *left, dyd_pair_list *li
     if (p.status != DYD_ILLEGAL) list->item[kept++] = p;
   }
   list->count = kept;
-  dyd_delaunay_free(inside);
   return w->failed ? DYD_E_NOMEM : st;
 }
 
@@ -443,8 +437,7 @@ static int64_t exponent_of_site(const dyd_sites *s, size_t i) {
   dyd_sites_get_d(d, s, i);
   for (int k = 0; k < 4; k++) most = fmax(most, fabs(d[k]));
   if (isfinite(most)) return most > 0 ? ilogb(most) : INT64_MIN;
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   int64_t exp = INT64_MAX;
   if (dyd_sites_get(&r, s, i) == DYD_OK) {
     const dyd_dyadic *end[4] = {&r.x.lo, &r.x.hi, &r.y.lo, &r.y.hi};
@@ -454,7 +447,6 @@ static int64_t exponent_of_site(const dyd_sites *s, size_t i) {
       exp = top > exp ? top : exp;
     }
   }
-  dyd_rect_clear(&r);
   return exp;
 }
 
@@ -544,12 +536,9 @@ dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, const vola
 
 /* The centre of a square; all of them are one choice. */
 static dyd_status disc_centre(dyd_rect *out, const void *squares, size_t i) {
-  dyd_disc d;
-  dyd_disc_init(&d);
+  DYD_LOCAL(dyd_disc, d);
   dyd_status st = dyd_disc_of_site(&d, squares, i);
-  if (st == DYD_OK) st = dyd_rect_set_q(out, d.x, d.y);
-  dyd_disc_clear(&d);
-  return st;
+  return st == DYD_OK ? dyd_rect_set_q(out, d.x, d.y) : st;
 }
 
 static bool is_legal_in(const dyd_pair_list *pairs, uint32_t i, uint32_t j) {
@@ -561,7 +550,7 @@ static bool is_legal_in(const dyd_pair_list *pairs, uint32_t i, uint32_t j) {
 dyd_status dyd_disc_triangles(dyd_triangle_list *out, const dyd_pair_list *pairs, const dyd_delaunay *pd) {
   if (!pd || !pairs || !out) return DYD_E_ARG;
   dyd_triangle_list list = {0};
-  dyd_delaunay *centres = NULL;
+  DYD_OWNED(dyd_delaunay) *centres = NULL;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options)};
   const dyd_sites *squares = dyd_delaunay_sites(pd);
   size_t kept = 0;
@@ -575,7 +564,6 @@ dyd_status dyd_disc_triangles(dyd_triangle_list *out, const dyd_pair_list *pairs
     list.item[kept++] = (dyd_triangle){{a, b, c}}; /* [DISC-3] */
   }
   list.count = kept;
-  dyd_delaunay_free(centres);
   if (st != DYD_OK) return st;
   dyd_triangle_list_clear(out);
   *out = list;
@@ -583,14 +571,12 @@ dyd_status dyd_disc_triangles(dyd_triangle_list *out, const dyd_pair_list *pairs
 }
 
 dyd_status dyd_filter_ball(dyd_iv ball[3], const dyd_sites *sites, size_t i) {
-  dyd_disc d;
-  dyd_disc_init(&d);
+  DYD_LOCAL(dyd_disc, d);
   dyd_status st = dyd_disc_of_site(&d, sites, i);
   mpq_srcptr number[3] = {d.x, d.y, d.r};
   for (int k = 0; k < 3 && st == DYD_OK; k++) {
     ball[k].lo = dyd_raw_quotient_get_d(mpq_numref(number[k]), 0, mpq_denref(number[k]), DYD_DOWN);
     ball[k].hi = dyd_raw_quotient_get_d(mpq_numref(number[k]), 0, mpq_denref(number[k]), DYD_UP);
   }
-  dyd_disc_clear(&d);
   return st;
 }

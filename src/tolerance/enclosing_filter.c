@@ -7,7 +7,6 @@
  * the true points has the event at 0. */
 #include "tolerance/state.h"
 
-#include "base/alloc.h"
 #include "base/error.h"
 #include "dyadic/raw.h"
 #include "rect/rect.h"
@@ -17,12 +16,10 @@
 
 /* At least half of the length of a side. */
 static dyd_status side_half(double *half, const dyd_interval *side) {
-  dyd_dyadic x;
-  dyd_dyadic_init(&x);
+  DYD_LOCAL(dyd_dyadic, x);
   dyd_status st = dyd_dyadic_sub(&x, &side->hi, &side->lo);
   if (st == DYD_OK) st = dyd_dyadic_mul_2exp(&x, &x, -1);
   if (st == DYD_OK) *half = dyd_raw_quotient_get_d(x.man, x.exp, side->den, DYD_UP);
-  dyd_dyadic_clear(&x);
   return st;
 }
 
@@ -81,14 +78,13 @@ static void rows_widen(double *least, dyd_tolerance *t, double off, const dyd_de
 }
 
 static dyd_status rows_add_ties(dyd_tolerance *t, const dyd_delaunay *pd) {
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = dyd_delaunay_pairs(&pairs, pd);
   for (size_t k = 0; k < pairs.count && st == DYD_OK; k++) {
     const dyd_pair *p = &pairs.item[k];
     if (p->status == DYD_TIE)
       st = dyd_row_add(t, (dyd_tolerance_row){p->i, p->j, DYD_EVENT_TIE, DYD_NO_SITE, DYD_NO_SITE, 0, 0});
   }
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 
@@ -116,13 +112,12 @@ static dyd_status tolerance_widen(double *least, dyd_tolerance *t, double off, c
 
 dyd_status dyd_tolerance_enclosing(dyd_tolerance **out, double *off, double *least, const dyd_delaunay *pd,
                                    const dyd_tolerance_options *options, dyd_error *err) {
-  dyd_delaunay *centres = NULL;
+  DYD_OWNED(dyd_delaunay) *centres = NULL;
   dyd_tolerance_options o = *options;
   const centred of = {dyd_delaunay_sites(pd), o.metric, off};
   const dyd_delaunay_options how = {DYD_SIZED(dyd_delaunay_options), .max_pairs = o.max_pairs, .cancel = o.cancel};
   double up_to = HUGE_VAL;
-  mpq_t beyond;
-  mpq_init(beyond);
+  DYD_LOCAL_NUMBERS(mpq, beyond);
   *off = 0;
   *least = HUGE_VAL;
   *out = NULL;
@@ -136,17 +131,12 @@ dyd_status dyd_tolerance_enclosing(dyd_tolerance **out, double *off, double *lea
   if (st == DYD_OK) st = dyd_tolerance_new(out, centres, &o, err);
   if (*out) {
     (*out)->centres = centres;
+    centres = NULL;
     dyd_status widened = tolerance_widen(least, *out, *off, pd, up_to);
-    if (widened == DYD_OK) {
-      mpq_clear(beyond);
-      return st;
-    }
+    if (widened == DYD_OK) return st;
     dyd_tolerance_free(*out);
     *out = NULL;
     st = dyd_fail(err, widened, "%s", dyd_status_text(widened));
-  } else {
-    dyd_delaunay_free(centres);
   }
-  mpq_clear(beyond);
   return st;
 }

@@ -57,12 +57,11 @@ static void line_set(dyd_line_over *o, dyd_lines *l, const dyd_irect *p) {
 }
 
 static dyd_status lines_scale(dyd_lines *l, size_t count) {
-  const dyd_rect **in = dyd_alloc(count, sizeof *in);
+  DYD_FREED const dyd_rect **in = dyd_alloc(count, sizeof *in);
   int64_t exp;
   if (!in) return DYD_E_NOMEM;
   for (size_t k = 0; k < count; k++) in[k] = &l->rect[k];
   dyd_irects_scale(l->grid, in, count, l->u, &exp);
-  free(in);
   mpq_set_z(l->factor, l->u);
   if (exp >= 0)
     mpq_mul_2exp(l->factor, l->factor, (mp_bitcnt_t)exp);
@@ -182,10 +181,9 @@ enum { ROOT_BITS = 128 };
 
 /* All over one denominator d: e + sqrt(f d^2) / d ... */
 int dyd_roots_sign(mpq_srcptr e, mpq_srcptr f, mpq_srcptr g) {
-  mpz_t d, a, c, h, one, minus;
-  mpz_inits(d, a, c, h, NULL);
-  mpz_init_set_si(one, 1);
-  mpz_init_set_si(minus, -1);
+  DYD_LOCAL_NUMBERS(mpz, d, a, c, h, one, minus);
+  mpz_set_si(one, 1);
+  mpz_set_si(minus, -1);
   mpz_lcm(d, mpq_denref(e), mpq_denref(f));
   mpz_lcm(d, d, mpq_denref(g));
   mpz_divexact(a, d, mpq_denref(e));
@@ -196,15 +194,12 @@ int dyd_roots_sign(mpq_srcptr e, mpq_srcptr f, mpq_srcptr g) {
   mpz_divexact(h, d, mpq_denref(g));
   mpz_mul(h, h, mpq_numref(g));
   mpz_mul(h, h, d);
-  int sign = dyd_sqrt2_sign(a, one, c, minus, h);
-  mpz_clears(d, a, c, h, one, minus, NULL);
-  return sign;
+  return dyd_sqrt2_sign(a, one, c, minus, h);
 }
 
 /* sqrt(p) + sqrt(n) against sqrt(q) + sqrt(m): both are squared. */
 int dyd_roots_compare(mpq_srcptr p, mpq_srcptr m, mpq_srcptr q, mpq_srcptr n) {
-  mpq_t e, f, g;
-  mpq_inits(e, f, g, NULL);
+  DYD_LOCAL_NUMBERS(mpq, e, f, g);
   mpq_add(e, p, n);
   mpq_sub(e, e, q);
   mpq_sub(e, e, m);
@@ -212,16 +207,13 @@ int dyd_roots_compare(mpq_srcptr p, mpq_srcptr m, mpq_srcptr q, mpq_srcptr n) {
   mpq_mul(g, q, m);
   mpq_mul_2exp(f, f, 2);
   mpq_mul_2exp(g, g, 2);
-  int sign = dyd_roots_sign(e, f, g);
-  mpq_clears(e, f, g, NULL);
-  return sign;
+  return dyd_roots_sign(e, f, g);
 }
 
 /* out = |p - m| / (sqrt(p) + sqrt(m)) / 2, every step rounded so that the whole is: no digits cancel. */
 static double half_rounded(mpq_srcptr difference, mpq_srcptr p, mpq_srcptr m, mpfr_rnd_t way) {
   mpfr_rnd_t against = way == MPFR_RNDD ? MPFR_RNDU : MPFR_RNDD;
-  mpfr_t x, y;
-  mpfr_inits2(ROOT_BITS, x, y, (mpfr_ptr)0);
+  DYD_LOCAL_FLOATS(ROOT_BITS, x, y);
   mpfr_set_q(x, p, against);
   mpfr_sqrt(x, x, against);
   mpfr_set_q(y, m, against);
@@ -230,35 +222,28 @@ static double half_rounded(mpq_srcptr difference, mpq_srcptr p, mpq_srcptr m, mp
   mpfr_set_q(x, difference, way);
   mpfr_div(x, x, y, way);
   mpfr_div_2ui(x, x, 1, way);
-  double out = mpfr_get_d(x, way);
-  mpfr_clears(x, y, (mpfr_ptr)0);
-  return out;
+  return mpfr_get_d(x, way);
 }
 
 void dyd_roots_half(double *lo, double *hi, mpq_srcptr p, mpq_srcptr m) {
-  mpq_t difference;
-  mpq_init(difference);
+  DYD_LOCAL_NUMBERS(mpq, difference);
   mpq_sub(difference, p, m);
   mpq_abs(difference, difference);
   bool zero = mpq_sgn(difference) == 0;
   *lo = zero ? 0 : half_rounded(difference, p, m, MPFR_RNDD);
   *hi = zero ? 0 : half_rounded(difference, p, m, MPFR_RNDU);
-  mpq_clear(difference);
 }
 
 void dyd_side_sum(mpq_ptr sum, mpq_ptr width, const dyd_interval *side) {
-  mpq_t lo;
-  mpq_init(lo);
+  DYD_LOCAL_NUMBERS(mpq, lo);
   dyd_interval_get_q(lo, width, side);
   mpq_add(sum, lo, width);
   mpq_sub(width, width, lo);
-  mpq_clear(lo);
 }
 
 dyd_status dyd_rect_widen(dyd_rect *r, mpq_srcptr half, int64_t exp) {
   dyd_status st = DYD_OK;
-  mpq_t end[2];
-  mpq_inits(end[0], end[1], NULL);
+  DYD_LOCAL_ARRAY(mpq_t, end, [2]);
   for (int axis = 0; axis < 2 && st == DYD_OK; axis++) {
     dyd_interval *side = axis ? &r->y : &r->x;
     dyd_interval_get_q(end[0], end[1], side);
@@ -266,27 +251,21 @@ dyd_status dyd_rect_widen(dyd_rect *r, mpq_srcptr half, int64_t exp) {
     mpq_add(end[1], end[1], half);
     st = dyd_interval_set_outward(side, end[0], end[1], exp);
   }
-  mpq_clears(end[0], end[1], NULL);
   return st;
 }
 
 double dyd_q_double(mpq_srcptr q, int up) {
-  mpfr_t x;
-  mpfr_init2(x, 53);
+  DYD_LOCAL_FLOATS(53, x);
   mpfr_rnd_t way = up ? MPFR_RNDU : MPFR_RNDD;
   mpfr_set_q(x, q, way);
-  double out = mpfr_get_d(x, way);
-  mpfr_clear(x);
-  return out;
+  return mpfr_get_d(x, way);
 }
 
 double dyd_q_brief(mpq_srcptr q) {
-  mpfr_t x;
   mpfr_exp_t e;
-  mpq_t unit, t;
   char digits[8];
-  mpfr_init2(x, 53);
-  mpq_inits(unit, t, NULL);
+  DYD_LOCAL_FLOATS(53, x);
+  DYD_LOCAL_NUMBERS(mpq, unit, t);
   mpfr_set_q(x, q, MPFR_RNDD);
   if (mpfr_regular_p(x) && mpfr_get_exp(x) > -1000 && mpfr_get_exp(x) < 1000) {
     mpfr_get_str(digits, &e, 10, 2, x, MPFR_RNDD); /* 0.digits * 10^e */
@@ -299,10 +278,7 @@ double dyd_q_brief(mpq_srcptr q) {
     mpq_mul(t, t, unit);
     mpfr_set_q(x, t, MPFR_RNDN);
   }
-  double out = mpfr_get_d(x, MPFR_RNDN);
-  mpq_clears(unit, t, NULL);
-  mpfr_clear(x);
-  return out;
+  return mpfr_get_d(x, MPFR_RNDN);
 }
 
 /* Where f is largest: deaths, where the way up is clear, and births, where all corners are tried [TOL-2] [TOL-3]. */
@@ -479,17 +455,14 @@ static void keep_better(dyd_summit *best, dyd_summit *now) {
 }
 
 void dyd_lines_birth(dyd_summit *out, dyd_lines *l) {
-  dyd_summit now;
-  dyd_bisector_place spare;
   out->binding = DYD_BINDING_NONE;
   if (!l->count) return;
-  dyd_summit_init(&now);
-  mpz_inits(spare.p, spare.q, NULL);
+  DYD_LOCAL(dyd_summit, now, spare);
   mpz_set_si(now.at.p, -1);
   size_t a = line_lowest(l, &now.at), b = a;
   set_value(&now, l, DYD_BINDING_END, a, a);
   keep_better(out, &now);
-  for (; next_corner(&now.at, &spare, &b, l, a); a = b) {
+  for (; next_corner(&now.at, &spare.at, &b, l, a); a = b) {
     set_value(&now, l, DYD_BINDING_TWO, a, b);
     keep_better(out, &now);
   }
@@ -497,8 +470,6 @@ void dyd_lines_birth(dyd_summit *out, dyd_lines *l) {
   mpz_set_ui(now.at.q, 0);
   set_value(&now, l, DYD_BINDING_END, a, a);
   keep_better(out, &now);
-  mpz_clears(spare.p, spare.q, NULL);
-  dyd_summit_clear(&now);
 }
 
 void dyd_lines_birth_by(dyd_summit *out, dyd_lines *l) {
@@ -516,8 +487,7 @@ void dyd_lines_birth_by(dyd_summit *out, dyd_lines *l) {
 /* (i + J/2 + s J') / factor along one axis, with s J' = p turn / (2 q). */
 static void centre_axis(double *lo, double *hi, const dyd_summit *s, dyd_lines *l, mpz_srcptr origin, mpz_srcptr along,
                         mpz_srcptr turn, int sign) {
-  mpq_t c;
-  mpq_init(c);
+  DYD_LOCAL_NUMBERS(mpq, c);
   mpz_mul(l->u, s->at.p, turn);
   if (sign < 0) mpz_neg(l->u, l->u);
   mpz_mul_2exp(l->v, origin, 1);
@@ -529,19 +499,15 @@ static void centre_axis(double *lo, double *hi, const dyd_summit *s, dyd_lines *
   mpq_div(c, c, l->factor);
   *lo = dyd_q_double(c, 0);
   *hi = dyd_q_double(c, 1);
-  mpq_clear(c);
 }
 
 double dyd_summit_place(const dyd_summit *s) {
   if (!mpz_sgn(s->at.q)) return 0;
-  mpq_t at;
-  mpq_init(at);
+  DYD_LOCAL_NUMBERS(mpq, at);
   mpz_set(mpq_numref(at), s->at.p);
   mpz_mul_2exp(mpq_denref(at), s->at.q, 1);
   mpq_canonicalize(at);
-  double out = mpq_get_d(at);
-  mpq_clear(at);
-  return out;
+  return mpq_get_d(at);
 }
 
 bool dyd_summit_disc(double box[4], double *radius2, const dyd_summit *s, dyd_lines *l) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The sites that a pair needs, and the others near a place. */
 #include "base/alloc.h"
+#include "rect/rect.h"
 #include "tolerance/state.h"
 
 #include <fenv.h>
@@ -26,11 +27,9 @@ static dyd_status find_low_parts(dyd_tolerance *t) {
   if (dyd_sites_all_in_doubles(sk->reps.sites)) return DYD_OK;
   t->low = dyd_alloc(sk->n + 1, sizeof *t->low);
   if (!t->low) return DYD_E_NOMEM;
-  dyd_rect r;
   dyd_status st = DYD_OK;
-  mpq_t q, d;
-  dyd_rect_init(&r);
-  mpq_inits(q, d, NULL);
+  DYD_LOCAL(dyd_rect, r);
+  DYD_LOCAL_NUMBERS(mpq, q, d);
   for (uint32_t v = 0; v < sk->n && st == DYD_OK; v++) {
     dyd_xy at = sk->reps.xy[v];
     t->low[v] = (dyd_xy){0, 0};
@@ -40,8 +39,6 @@ static dyd_status find_low_parts(dyd_tolerance *t) {
     if (st == DYD_OK) t->low[v] = (dyd_xy){low_part(&r.x, at.x, q, d), low_part(&r.y, at.y, q, d)};
   }
   t->low[sk->n] = (dyd_xy){0, 0};
-  mpq_clears(q, d, NULL);
-  dyd_rect_clear(&r);
   t->points.low = t->low;
   t->points.slack = most * 0x1p-100 + 0x1p-1000;
   return st;

@@ -18,6 +18,7 @@
  * sqrt(2), and a - m is never more than h. a, b, m are off by less than 2^-48 of a + m. */
 #include "base/alloc.h"
 #include "base/invariant.h"
+#include "base/local.h"
 #include "base/parallel.h"
 #include "tolerance/state.h"
 
@@ -56,17 +57,14 @@ enum { PER_UNIT = 512, REACH = 9, ENTRIES = PER_UNIT * REACH + 2, SLABS = 48 };
 
 /* 1 - erfc(x / sqrt 2) / 2, rounded down. */
 static double phi_rounded(double x) {
-  mpfr_t y, root;
-  mpfr_inits2(80, y, root, (mpfr_ptr)0);
+  DYD_LOCAL_FLOATS(80, y, root);
   mpfr_sqrt_ui(root, 2, MPFR_RNDU);
   mpfr_set_d(y, x, MPFR_RNDD);
   mpfr_div(y, y, root, MPFR_RNDD);
   mpfr_erfc(y, y, MPFR_RNDU);
   mpfr_div_2ui(y, y, 1, MPFR_RNDU);
   mpfr_ui_sub(y, 1, y, MPFR_RNDD);
-  double out = mpfr_get_d(y, MPFR_RNDD);
-  mpfr_clears(y, root, (mpfr_ptr)0);
-  return out;
+  return mpfr_get_d(y, MPFR_RNDD);
 }
 
 /* Below Phi(x), x >= 0. */
@@ -150,7 +148,7 @@ static double chance_of_ring(chance_pass *p) {
 
 dyd_status dyd_chances(dyd_tolerance *t) {
   dyd_status st = dyd_near_index(t);
-  double *phi = dyd_alloc(ENTRIES, sizeof *phi);
+  DYD_FREED double *phi = dyd_alloc(ENTRIES, sizeof *phi);
   t->chance = dyd_alloc(t->rows, sizeof *t->chance);
   if (!phi || !t->chance) st = DYD_E_NOMEM;
   for (int k = 0; k < ENTRIES && st == DYD_OK; k++) phi[k] = phi_rounded((double)k / PER_UNIT) - 1e-13;
@@ -164,7 +162,6 @@ dyd_status dyd_chances(dyd_tolerance *t) {
     if (dyd_flag_is_set(t->options.cancel)) st = DYD_CANCELLED;
     if (st == DYD_OK) t->chance[dyd_row_find(t, p.ring->i, p.ring->j)] = chance_of_ring(&p);
   }
-  free(phi);
   return st;
 }
 
@@ -409,12 +406,10 @@ static dyd_status clear_tied(radius_pass *p) {
   const dyd_delaunay *pd = p->t->pd;
   dyd_status st = DYD_OK;
   for (size_t f = 0; f < pd->open.count && st == DYD_OK; f++) {
-    uint32_t *v;
-    size_t count;
+    DYD_FREED uint32_t *v = NULL;
+    size_t count = 0;
     st = dyd_open_vertices(&v, &count, pd, f);
-    if (st != DYD_OK) return st;
-    for (size_t q = 0; q < count; q++) p->radius[v[q]] = 0;
-    free(v);
+    for (size_t q = 0; q < count && st == DYD_OK; q++) p->radius[v[q]] = 0;
   }
   return st;
 }

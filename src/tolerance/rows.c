@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "delaunay/state.h"
 #include "dyadic/raw.h"
+#include "rect/rect.h"
 #include "tolerance/lines.h"
 #include "tolerance/state.h"
 
@@ -79,13 +80,11 @@ static dyd_status rework_slowly(dyd_tolerance *t, size_t first, const bool *done
 }
 
 dyd_status dyd_rows_rework(dyd_tolerance *t, size_t first, dyd_row_work *work, void *user) {
-  bool *done = calloc(t->rows + 1, sizeof *done);
+  DYD_FREED bool *done = calloc(t->rows + 1, sizeof *done);
   quick_rows q = {t, first, done};
   if (!done) return DYD_E_NOMEM;
   if (!t->options.no_filter) dyd_parallel(t->pd->options.threads, (t->rows - first) / SHARE + 1, rework_quickly, &q);
-  dyd_status st = rework_slowly(t, first, done, work, user);
-  free(done);
-  return st;
+  return rework_slowly(t, first, done, work, user);
 }
 
 void dyd_rows_reached(dyd_tolerance *t) {
@@ -486,13 +485,10 @@ enum { FIRST_OTHERS = 24 };
 
 /* w / 2 against -up_to: sqrt(minus) - sqrt(plus) against sqrt(4 up_to^2). */
 static bool is_late(const dyd_summit *s, mpq_srcptr up_to) {
-  mpq_t cap, zero;
-  mpq_inits(cap, zero, NULL);
+  DYD_LOCAL_NUMBERS(mpq, cap, zero);
   mpq_mul(cap, up_to, up_to);
   mpq_mul_2exp(cap, cap, 2);
-  bool late = dyd_roots_compare(s->minus, s->plus, cap, zero) > 0;
-  mpq_clears(cap, zero, NULL);
-  return late;
+  return dyd_roots_compare(s->minus, s->plus, cap, zero) > 0;
 }
 
 /* Sets t->summit to that of a pair without an edge. *late: it is certainly above t->options.up_to. */
@@ -518,15 +514,12 @@ static dyd_status birth_exact(bool *late, dyd_tolerance *t, uint32_t v, uint32_t
 /* A square that holds the disc of radius up_to around the point, its ends rounded outward finely against up_to. */
 static dyd_status square_of_birth(dyd_rect *out, const void *tolerance, size_t i) {
   const dyd_tolerance *t = tolerance;
-  mpq_t half;
-  mpq_init(half);
+  DYD_LOCAL_NUMBERS(mpq, half);
   dyd_status st = dyd_sites_get(out, t->sk->reps.sites, i);
   mpq_set(half, t->options.up_to);
   if (t->weight) mpq_set_d(half, t->weight[t->sk->vertex[i]]);
   if (t->weight) mpq_mul(half, half, t->options.up_to);
-  if (st == DYD_OK) st = dyd_rect_widen(out, half, dyd_q_log2_above(t->options.up_to) - 20);
-  mpq_clear(half);
-  return st;
+  return st == DYD_OK ? dyd_rect_widen(out, half, dyd_q_log2_above(t->options.up_to) - 20) : st;
 }
 
 /* Of each pair listed: what doubles find. */
@@ -647,8 +640,8 @@ static dyd_status births_have_room(dyd_tolerance *t, const dyd_delaunay *wide) {
 }
 
 dyd_status dyd_births(dyd_tolerance *t, dyd_error *err) {
-  dyd_delaunay *wide = NULL;
-  dyd_pair_list pairs = {0};
+  DYD_OWNED(dyd_delaunay) *wide = NULL;
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = t->options.cancel,
                                   .max_pairs = t->options.max_pairs, .max_bytes = dyd_room_left(&t->room)};
   births_told told = {.t = t, .filter = filter_of(t), .up_to = dyd_q_double(t->options.up_to, 1)};
@@ -667,8 +660,6 @@ dyd_status dyd_births(dyd_tolerance *t, dyd_error *err) {
     st = births_so_far(t, &told);
   t->room.beside = 0;
   dyd_free_all(told.row, told.spare.vertex);
-  dyd_pair_list_clear(&pairs);
-  dyd_delaunay_free(wide);
   return st;
 }
 
@@ -678,14 +669,10 @@ dyd_status dyd_births(dyd_tolerance *t, dyd_error *err) {
 
 /* The vectors a = u - v, b = w - u of three corners u, v, w. */
 static dyd_status corner_vectors(mpq_t a[2], mpq_t b[2], const dyd_tolerance *t, const uint32_t v[3]) {
-  dyd_rect r[3];
-  mpq_t other, p;
   dyd_status st = DYD_OK;
-  mpq_inits(other, p, NULL);
-  for (int k = 0; k < 3; k++) {
-    dyd_rect_init(&r[k]);
-    if (st == DYD_OK) st = dyd_sites_get(&r[k], t->sk->reps.sites, t->sk->reps.site[v[k]]);
-  }
+  DYD_LOCAL_NUMBERS(mpq, other, p);
+  DYD_LOCAL_ARRAY(dyd_rect, r, [3]);
+  for (int k = 0; k < 3 && st == DYD_OK; k++) st = dyd_sites_get(&r[k], t->sk->reps.sites, t->sk->reps.site[v[k]]);
   for (int axis = 0; axis < 2; axis++) {
     dyd_interval_get_q(a[axis], other, axis ? &r[0].y : &r[0].x);
     dyd_interval_get_q(p, other, axis ? &r[2].y : &r[2].x);
@@ -693,24 +680,19 @@ static dyd_status corner_vectors(mpq_t a[2], mpq_t b[2], const dyd_tolerance *t,
     dyd_interval_get_q(p, other, axis ? &r[1].y : &r[1].x);
     mpq_sub(a[axis], a[axis], p);
   }
-  for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);
-  mpq_clears(other, p, NULL);
   return st;
 }
 
 static void inner_product(mpq_ptr out, mpq_t a[2], mpq_t b[2]) {
-  mpq_t x;
-  mpq_init(x);
+  DYD_LOCAL_NUMBERS(mpq, x);
   mpq_mul(out, a[0], b[0]);
   mpq_mul(x, a[1], b[1]);
   mpq_add(out, out, x);
-  mpq_clear(x);
 }
 
 /* Squared distance of v to the line uw: |a x b|^2 / |b|^2; where points move in squares, |b| is the sum norm. */
 static void distance2(mpq_ptr out, mpq_t a[2], mpq_t b[2], dyd_metric metric) {
-  mpq_t x, y;
-  mpq_inits(x, y, NULL);
+  DYD_LOCAL_NUMBERS(mpq, x, y);
   mpq_mul(out, a[0], b[1]);
   mpq_mul(x, a[1], b[0]);
   mpq_sub(out, out, x);
@@ -724,7 +706,6 @@ static void distance2(mpq_ptr out, mpq_t a[2], mpq_t b[2], dyd_metric metric) {
     inner_product(x, b, b);
   }
   mpq_div(out, out, x);
-  mpq_clears(x, y, NULL);
 }
 
 static void lower_whole(dyd_tolerance *t, double lo, double hi) {
@@ -738,8 +719,7 @@ static void lower_whole(dyd_tolerance *t, double lo, double hi) {
  * an edge. */
 static void weighted_corner(double *lo, double *hi, const dyd_tolerance *t, const uint32_t v[3], mpq_t a[2],
                             mpq_t b[2]) {
-  mpq_t p, q, s, x, y, zero;
-  mpq_inits(p, q, s, x, y, zero, NULL);
+  DYD_LOCAL_NUMBERS(mpq, p, q, s, x, y, zero);
   mpq_set_d(p, t->weight[v[0]]);
   mpq_set_d(q, t->weight[v[2]]);
   mpq_sub(q, q, p);
@@ -773,17 +753,17 @@ static void weighted_corner(double *lo, double *hi, const dyd_tolerance *t, cons
       *hi *= 1 + 0x1p-50;
     }
   }
-  mpq_clears(p, q, s, x, y, zero, NULL);
 }
 
 dyd_status dyd_hull_corner(double *lo, double *hi, const dyd_tolerance *t, dyd_half_edge h, bool weighted) {
   const dyd_mesh *m = &t->sk->mesh;
   uint32_t v[3] = {dyd_hull_origin(m, h), dyd_hull_target(m, h), dyd_hull_target(m, dyd_hull_following(m, h))};
-  mpq_t a[2], b[2], d, zero;
   *lo = *hi = HUGE_VAL;
   /* uw is an edge exactly when v has no other neighbours */
   if (dyd_degree(t, v[1]) == 3) return DYD_OK;
-  mpq_inits(a[0], a[1], b[0], b[1], d, zero, NULL);
+  DYD_LOCAL_ARRAY(mpq_t, a, [2]);
+  DYD_LOCAL_ARRAY(mpq_t, b, [2]);
+  DYD_LOCAL_NUMBERS(mpq, d, zero);
   dyd_status st = corner_vectors(a, b, t, v);
   if (st == DYD_OK && weighted)
     weighted_corner(lo, hi, t, v, a, b);
@@ -791,7 +771,6 @@ dyd_status dyd_hull_corner(double *lo, double *hi, const dyd_tolerance *t, dyd_h
     distance2(d, a, b, t->options.metric);
     dyd_roots_half(lo, hi, d, zero);
   }
-  mpq_clears(a[0], a[1], b[0], b[1], d, zero, NULL);
   return st;
 }
 

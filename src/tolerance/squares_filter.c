@@ -15,6 +15,7 @@
 #include "legal/witness.h"
 #include "possible/cover.h"
 #include "predicate/circle.h"
+#include "rect/rect.h"
 #include "skeleton/rects_filter.h"
 #include "skeleton/work.h"
 #include "tolerance/lines.h"
@@ -70,24 +71,20 @@ static void squares_unbuild(squares *q) {
 /* i, j and seen at half-width t. A failure leaves nothing built. */
 static dyd_status squares_build(squares *q, double t) {
   const dyd_skeleton_options o = {.no_filter = q->t->options.no_filter, .threads = 1};
-  dyd_sites *sites = NULL;
-  dyd_rect r;
+  DYD_OWNED(dyd_sites) *sites = NULL;
+  DYD_LOCAL(dyd_rect, r);
   q->now = t;
   q->exp = ilogb(t) - SQUARE_BITS;
   mpq_set_d(q->half, t);
-  dyd_rect_init(&r);
   dyd_status st = dyd_sites_new(&sites);
   for (size_t k = 0; k < q->seen.count + 2 && st == DYD_OK; k++) {
     st = square_of_vertex(&r, q, k == 0 ? q->i : k == 1 ? q->j : q->seen.vertex[k - 2]);
     if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
   }
-  dyd_rect_clear(&r);
   if (st == DYD_OK) st = dyd_skeleton_build(&q->sk, sites, &o);
-  if (st != DYD_OK) {
-    dyd_sites_free(sites);
-    return st;
-  }
+  if (st != DYD_OK) return st;
   q->sites = sites;
+  sites = NULL;
   dyd_work_init(&q->work, &q->sk, NULL);
   return DYD_OK;
 }
@@ -143,15 +140,13 @@ static bool surely_keeps_out(const square_search *s, uint32_t v) {
 
 /* Near the circle integers decide. */
 static bool keeps_out_exactly(square_search *s, uint32_t v) {
-  dyd_rect r[3];
   bool out = true;
-  for (int k = 0; k < 3; k++) dyd_rect_init(&r[k]);
+  DYD_LOCAL_ARRAY(dyd_rect, r, [3]);
   s->status = square_of_vertex(&r[0], s->q, v);
   for (int k = 1; k < 3 && s->status == DYD_OK && out; k++) {
     s->status = dyd_sites_get(&r[k], s->q->sites, (size_t)k - 1);
     out = s->status == DYD_OK && dyd_compare_distance(&s->q->c, &r[k], DYD_FARTHEST, &r[0], DYD_CLOSEST) < 0;
   }
-  for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);
   return out;
 }
 
@@ -275,12 +270,10 @@ static dyd_status squares_are_legal(dyd_truth *answer, squares *q, double t) {
 
 /* A common point is possible whatever other sites there are. */
 static dyd_status squares_meet(bool *meet, squares *q) {
-  dyd_rect r[2];
-  for (int k = 0; k < 2; k++) dyd_rect_init(&r[k]);
+  DYD_LOCAL_ARRAY(dyd_rect, r, [2]);
   dyd_status st = dyd_sites_get(&r[0], q->sites, 0);
   if (st == DYD_OK) st = dyd_sites_get(&r[1], q->sites, 1);
   *meet = st == DYD_OK && dyd_rect_meets(&r[0], &r[1]);
-  for (int k = 0; k < 2; k++) dyd_rect_clear(&r[k]);
   return st;
 }
 

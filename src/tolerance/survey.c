@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/flag.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "delaunay/memory.h"
 
 #include <dyadel/tolerance.h>
@@ -53,7 +54,7 @@ static bool is_open_in_discs(const dyd_pair_list *discs, const dyd_pair *p) {
 
 /* Of the pairs asked for: those open. Cancelled: perhaps more of them. */
 static dyd_status list_open(dyd_survey *s, const dyd_delaunay *pd) {
-  dyd_pair_list all = {0}, discs = {0};
+  DYD_SCOPED(dyd_pair_list) all = {0}, discs = {0};
   const dyd_survey_options *o = &s->options;
   dyd_status st = o->pairs ? DYD_OK : dyd_pairs_take(&all, pd, dyd_least_bounding(pd)), found = st;
   const dyd_pair_list *asked = o->pairs ? o->pairs : &all;
@@ -69,8 +70,6 @@ static dyd_status list_open(dyd_survey *s, const dyd_delaunay *pd) {
     if ((p.status != DYD_INDETERMINATE && p.status != DYD_TIE) || !is_asked(o, s, &p)) continue;
     if (!o->discs || is_open_in_discs(&discs, &p)) s->target.item[s->target.count++] = p;
   }
-  dyd_pair_list_clear(&discs);
-  dyd_pair_list_clear(&all);
   return st == DYD_OK ? found : st;
 }
 
@@ -92,11 +91,10 @@ static void leave_out_ties(dyd_survey *s, const dyd_delaunay *nominal) {
 }
 
 static dyd_status find_targets(dyd_survey *s, const dyd_delaunay *pd) {
-  dyd_delaunay *nominal = NULL;
+  DYD_OWNED(dyd_delaunay) *nominal = NULL;
   dyd_status st = list_open(s, pd);
   if (st == DYD_OK && s->target.count) st = dyd_survey_triangulate(&nominal, s, true);
   if (nominal) leave_out_ties(s, nominal);
-  dyd_delaunay_free(nominal);
   dyd_status indexed = st == DYD_OK || st == DYD_CANCELLED ? dyd_survey_index_targets(s) : st;
   return indexed == DYD_OK ? st : indexed;
 }
@@ -104,26 +102,24 @@ static dyd_status find_targets(dyd_survey *s, const dyd_delaunay *pd) {
 /* ---- choosing ---- */
 
 static bool has_large_face(const dyd_delaunay *pd) {
-  dyd_index_list face = {0};
+  DYD_SCOPED(dyd_index_list) face = {0};
   bool outer, large = false;
   for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd) && !large; f++)
     large = dyd_delaunay_face(&face, &outer, pd, f) == DYD_OK && face.count > DYD_SURVEY_LARGE;
-  dyd_index_list_clear(&face);
   return large;
 }
 
 static dyd_status mark_near(bool *near, const dyd_delaunay *pd, uint32_t i) {
-  dyd_index_list l = {0};
+  DYD_SCOPED(dyd_index_list) l = {0};
   dyd_status st = dyd_delaunay_neighbours(&l, pd, i, DYD_TIE);
   near[i] = true;
   for (size_t k = 0; k < l.count && st == DYD_OK; k++) near[l.item[k]] = true;
-  dyd_index_list_clear(&l);
   return st;
 }
 
 /* near[i] (may be NULL) is set where an open target, or a possible neighbour of one of its ends, is. */
 static dyd_status recount_left(dyd_survey *s, bool *near) {
-  dyd_delaunay *now = NULL;
+  DYD_OWNED(dyd_delaunay) *now = NULL;
   dyd_status st = dyd_survey_triangulate(&now, s, false);
   if (st == DYD_OK) s->result.left = dyd_survey_open(s, now);
   for (size_t k = 0; k < s->target.count && st == DYD_OK && near; k++) {
@@ -132,7 +128,6 @@ static dyd_status recount_left(dyd_survey *s, bool *near) {
     st = mark_near(near, now, p->i);
     if (st == DYD_OK) st = mark_near(near, now, p->j);
   }
-  dyd_delaunay_free(now);
   return st;
 }
 
@@ -154,11 +149,10 @@ static dyd_status measure_rounds(dyd_measuring *m, const dyd_delaunay *pd) {
   dyd_survey *s = m->s;
   dyd_status st = has_large_face(pd) ? dyd_survey_crowds(m) : DYD_OK;
   for (int round = 0; round < ROUNDS && m->left && st == DYD_OK; round++) {
-    dyd_delaunay *now = NULL;
+    DYD_OWNED(dyd_delaunay) *now = NULL;
     size_t before = s->chosens;
     if (before) st = dyd_survey_triangulate(&now, s, false);
     if (st == DYD_OK) st = choose_in_faces(m, before ? now : pd);
-    dyd_delaunay_free(now);
     if (s->chosens == before) break;
   }
   return st;
@@ -194,7 +188,7 @@ static void restore_rows(dyd_survey *s, const bool *near) {
 
 /* Where more is open than the `before` that were, those near are taken back, as often as that may help; then all. */
 static dyd_status restore_open(dyd_survey *s, size_t before) {
-  bool *near = calloc(s->sites + 1, sizeof *near);
+  DYD_FREED bool *near = calloc(s->sites + 1, sizeof *near);
   dyd_status st = near ? recount_left(s, near) : DYD_E_NOMEM;
   for (int round = 0; round < ROUNDS && st == DYD_OK && s->result.left > before; round++) {
     restore_rows(s, near);
@@ -202,7 +196,6 @@ static dyd_status restore_open(dyd_survey *s, size_t before) {
   }
   if (s->result.left > before) restore_rows(s, NULL);
   s->result.left = before;
-  free(near);
   return st;
 }
 
@@ -243,15 +236,13 @@ static dyd_status choose_finely_enough(dyd_survey *s, const dyd_delaunay *pd) {
 /* *holds: no more is left open at this scale than before; s keeps it. */
 static dyd_status holds_at(bool *holds, dyd_survey *s, mpq_srcptr scale) {
   size_t before = s->result.left;
-  mpq_t old;
-  mpq_init(old);
+  DYD_LOCAL_NUMBERS(mpq, old);
   mpq_set(old, s->scale);
   mpq_set(s->scale, scale);
   dyd_status st = recount_left(s, NULL);
   *holds = st == DYD_OK && s->result.left <= before;
   if (!*holds) mpq_set(s->scale, old);
   s->result.left = before;
-  mpq_clear(old);
   return st;
 }
 
@@ -276,8 +267,7 @@ static dyd_status double_scale(dyd_survey *s, mpq_t next) {
 
 /* Then halving the step. */
 static dyd_status loosen(dyd_survey *s) {
-  mpq_t next, step;
-  mpq_inits(next, step, NULL);
+  DYD_LOCAL_NUMBERS(mpq, next, step);
   dyd_status st = s->chosens ? double_scale(s, next) : DYD_OK;
   mpq_div_2exp(step, s->scale, 1);
   for (int k = 0; k < STEPS && s->chosens && st == DYD_OK; k++) {
@@ -286,7 +276,6 @@ static dyd_status loosen(dyd_survey *s) {
     if (dyd_survey_is_limited(s) || mpq_cmp_ui(next, 1, 1) < 0) st = holds_at(&holds, s, next);
     mpq_div_2exp(step, step, 1);
   }
-  mpq_clears(next, step, NULL);
   return st;
 }
 
@@ -338,7 +327,7 @@ static int compare_ranks(const void *a, const void *b) {
  * states more than one before it comes right after that one: so they are sorted by the least so far. */
 static dyd_status merge_rows(dyd_survey *s) {
   size_t total = s->chosens, least = SIZE_MAX;
-  row_rank *rank = dyd_alloc(total, sizeof *rank);
+  DYD_FREED row_rank *rank = dyd_alloc(total, sizeof *rank);
   s->row = dyd_alloc(total, sizeof *s->row);
   dyd_status st = rank && s->row ? DYD_OK : DYD_E_NOMEM;
   for (size_t k = 0; k < total && st == DYD_OK; k++) {
@@ -353,7 +342,6 @@ static dyd_status merge_rows(dyd_survey *s) {
     row.needed = dyd_survey_needed(s, row.site);
     s->row[s->rows] = row;
   }
-  free(rank);
   return st;
 }
 

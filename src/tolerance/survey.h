@@ -7,6 +7,8 @@
 #include "delaunay/steps.h"
 #include <dyadel/survey.h>
 
+DYD_OWNERS(dyd_survey)
+
 /* A site as it is, and how small it can be measured. rect: now; centre, half: of it, exactly (half of the larger
  * side). chosen: is in the plan. */
 typedef struct dyd_survey_site {

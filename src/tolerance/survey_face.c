@@ -6,7 +6,6 @@
 #include "base/flag.h"
 #include "base/index.h"
 #include "base/invariant.h"
-#include "delaunay/index_list.h"
 #include "delaunay/state.h"
 #include "rect/rect.h"
 #include "tolerance/lines.h"
@@ -18,15 +17,13 @@
 /* Rectangles as they are, and as they would be after measuring. */
 
 static void load_site(dyd_survey_site *p) {
-  mpq_t height;
-  mpq_init(height);
+  DYD_LOCAL_NUMBERS(mpq, height);
   dyd_side_sum(p->x, p->half, &p->rect.x);
   dyd_side_sum(p->y, height, &p->rect.y);
   if (mpq_cmp(height, p->half) > 0) mpq_set(p->half, height);
   mpq_div_2exp(p->x, p->x, 1);
   mpq_div_2exp(p->y, p->y, 1);
   mpq_div_2exp(p->half, p->half, 1);
-  mpq_clear(height);
 }
 
 /* Of each site its rectangle, centre and half-width, twelve numbers: with their digits, and what allocators add. */
@@ -69,16 +66,13 @@ static void accuracy_of(mpq_ptr out, const dyd_survey *s, uint32_t i) {
 
 /* Outward, so that the plan never says less than is needed. */
 dyd_status dyd_survey_cut(dyd_interval *side, mpq_srcptr centre, mpq_srcptr a, mpq_t end[2]) {
-  dyd_interval near;
   if (dyd_interval_is_point(side)) return DYD_OK;
-  dyd_interval_init(&near);
+  DYD_LOCAL(dyd_interval, near);
   mpq_sub(end[0], centre, a);
   mpq_add(end[1], centre, a);
   int64_t bits = dyd_interval_bits(side);
   dyd_status st = dyd_interval_set_outward(&near, end[0], end[1], -bits - 120);
-  if (st == DYD_OK) st = dyd_interval_intersect(side, side, &near);
-  dyd_interval_clear(&near);
-  return st;
+  return st == DYD_OK ? dyd_interval_intersect(side, side, &near) : st;
 }
 
 /* The rectangle of site i once measured, if `measured`, else as it is. Proved by 2^-52 of the accuracy more, which
@@ -87,15 +81,13 @@ static dyd_status survey_rect(dyd_rect *out, const dyd_survey *s, uint32_t i, bo
   const dyd_survey_site *p = &s->site[i];
   dyd_rect_set(out, &p->rect);
   if (!measured) return DYD_OK;
-  mpq_t a, end[2];
-  mpq_inits(a, end[0], end[1], NULL);
+  DYD_LOCAL_NUMBERS(mpq, a);
+  DYD_LOCAL_ARRAY(mpq_t, end, [2]);
   accuracy_of(a, s, i);
   mpq_div_2exp(end[0], a, 52);
   mpq_add(a, a, end[0]);
   dyd_status st = dyd_survey_cut(&out->x, p->x, a, end);
-  if (st == DYD_OK) st = dyd_survey_cut(&out->y, p->y, a, end);
-  mpq_clears(a, end[0], end[1], NULL);
-  return st;
+  return st == DYD_OK ? dyd_survey_cut(&out->y, p->y, a, end) : st;
 }
 
 static dyd_status planned_rect(dyd_rect *out, const void *survey, size_t i) {
@@ -134,18 +126,14 @@ size_t dyd_survey_open(const dyd_survey *s, const dyd_delaunay *pd) {
 }
 
 double dyd_survey_needed(const dyd_survey *s, uint32_t i) {
-  mpq_t a;
-  mpq_init(a);
+  DYD_LOCAL_NUMBERS(mpq, a);
   accuracy_of(a, s, i);
-  double out = dyd_q_brief(a);
-  mpq_clear(a);
-  return out;
+  return dyd_q_brief(a);
 }
 
 unsigned dyd_survey_doublings(const dyd_survey *s, uint32_t i) {
   long most = 0;
-  mpq_t a;
-  mpq_init(a);
+  DYD_LOCAL_NUMBERS(mpq, a);
   accuracy_of(a, s, i);
   if (mpq_sgn(a) > 0) {
     mpq_div(a, s->site[i].half, a);
@@ -153,7 +141,6 @@ unsigned dyd_survey_doublings(const dyd_survey *s, uint32_t i) {
     if (most > 0) mpq_div_2exp(a, a, (mp_bitcnt_t)most);
     if (mpq_cmp_ui(a, 1, 1) < 0) most--;
   }
-  mpq_clear(a);
   return most > 1 ? (unsigned)most - 1 : 0;
 }
 
@@ -273,15 +260,13 @@ static void measuring_note_ended(dyd_measuring *m) {
 static dyd_status measuring_site(size_t *decided, dyd_measuring *m, uint32_t i) {
   size_t before = m->left;
   bool holds = false;
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = survey_rect(&r, m->s, i, true);
   if (st == DYD_OK) st = dyd_sites_narrow(m->now->own, i, &r);
   if (st == DYD_OK && m->steps.pd) st = dyd_steps_narrow(&holds, &m->steps, i);
   if (st == DYD_OK && holds) measuring_note_ended(m);
   if (st == DYD_OK && !holds) st = measuring_renew(m);
   *decided = before - m->left;
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -377,8 +362,8 @@ static dyd_status measure_first(dyd_measuring *m, const crowd_site *crowd, size_
 
 dyd_status dyd_survey_crowds(dyd_measuring *m) {
   dyd_survey *s = m->s;
-  bool *mark = calloc(s->sites + 1, sizeof *mark);
-  crowd_site *crowd = dyd_alloc(s->sites, sizeof *crowd);
+  DYD_FREED bool *mark = calloc(s->sites + 1, sizeof *mark);
+  DYD_FREED crowd_site *crowd = dyd_alloc(s->sites, sizeof *crowd);
   dyd_status st = mark && crowd ? DYD_OK : DYD_E_NOMEM;
   for (size_t count = 1; count && st == DYD_OK;) {
     st = mark_crowd(mark, m);
@@ -386,7 +371,6 @@ dyd_status dyd_survey_crowds(dyd_measuring *m) {
     if (st == DYD_OK) st = measure_first(m, crowd, count);
   }
   s->faces++;
-  dyd_free_all(mark, crowd);
   return st;
 }
 
@@ -455,13 +439,12 @@ static dyd_status face_remember(face_try *f) {
 }
 
 static dyd_status face_triangulate(face_try *f) {
-  dyd_delaunay *pd = NULL;
+  DYD_OWNED(dyd_delaunay) *pd = NULL;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = f->s->options.cancel};
   if (dyd_flag_is_set(o.cancel)) return DYD_CANCELLED;
   dyd_status st = dyd_delaunay_made(&pd, f->sites.count, tried_rect, f, &o, NULL);
   if (st == DYD_CAPPED) st = DYD_OK;
   for (size_t k = 0; k < f->targets && st == DYD_OK; k++) f->open[k] = dyd_survey_is_open(pd, &f->target[k]);
-  dyd_delaunay_free(pd);
   return st;
 }
 
@@ -563,7 +546,7 @@ static dyd_status drop_sites(bool *dropped, face_try *f) {
   size_t wanted = f->left[f->chosen], open_pairs, kept = 0;
   *dropped = false;
   if (f->chosen == 1 && wanted < f->left[0]) return DYD_OK;
-  uint32_t *dear = dyd_alloc(f->chosen, sizeof *dear);
+  DYD_FREED uint32_t *dear = dyd_alloc(f->chosen, sizeof *dear);
   dyd_status st = dear ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK) order_to_drop(dear, f);
   for (size_t q = 0; q < f->chosen && st == DYD_OK; q++) {
@@ -575,7 +558,6 @@ static dyd_status drop_sites(bool *dropped, face_try *f) {
     if (f->measured[f->order[q]]) f->order[kept++] = f->order[q];
   *dropped = kept < f->chosen;
   f->chosen = kept;
-  free(dear);
   return st;
 }
 
@@ -680,18 +662,15 @@ static dyd_status part_holds(bool *holds, dyd_measuring *m, uint32_t i, const dy
 
 /* Without steps: in a triangulation of all. */
 static dyd_status all_holds(bool *holds, dyd_survey *s, size_t before) {
-  dyd_delaunay *pd = NULL;
+  DYD_OWNED(dyd_delaunay) *pd = NULL;
   dyd_status st = dyd_survey_triangulate(&pd, s, false);
   *holds = st == DYD_OK && dyd_survey_open(s, pd) <= before;
-  dyd_delaunay_free(pd);
   return st;
 }
 
 dyd_status dyd_measuring_loosens(bool *holds, dyd_measuring *m, uint32_t i) {
-  dyd_rect old, now;
   if (!m->steps.pd) return all_holds(holds, m->s, m->left);
-  dyd_rect_init(&old);
-  dyd_rect_init(&now);
+  DYD_LOCAL(dyd_rect, old, now);
   *holds = false;
   dyd_status st = dyd_sites_get(&old, m->now->own, i);
   if (st == DYD_OK) st = survey_rect(&now, m->s, i, m->s->site[i].chosen);
@@ -702,7 +681,5 @@ dyd_status dyd_measuring_loosens(bool *holds, dyd_measuring *m, uint32_t i) {
     st = dyd_sites_replace(m->now->own, i, &old);
     dyd_steps_back(&m->steps, i);
   }
-  dyd_rect_clear(&now);
-  dyd_rect_clear(&old);
   return st;
 }

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/float_filter.h"
+#include "base/local.h"
 #include "tolerance/state.h"
 
 const char *dyd_tolerance_event_text(dyd_tolerance_event event) {
@@ -196,10 +197,8 @@ dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_tolerance 
   mpq_set_ui(plus, 0, 1);
   mpq_set_ui(minus, 0, 1);
   if (r->event == DYD_EVENT_TIE) return DYD_OK;
-  dyd_lines l;
-  dyd_summit s;
-  dyd_lines_init(&l);
-  dyd_summit_init(&s);
+  DYD_LOCAL(dyd_lines, l);
+  DYD_LOCAL(dyd_summit, s);
   uint32_t others[2] = {vertex[r->k], r->l == DYD_NO_SITE ? DYD_NONE : vertex[r->l]};
   dyd_status st = dyd_lines_load(&l, t->sk, vertex[r->i], vertex[r->j], others, r->l == DYD_NO_SITE ? 1 : 2);
   if (st == DYD_OK && r->event == DYD_EVENT_DEATH) dyd_lines_death(&s, &l);
@@ -208,7 +207,5 @@ dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_tolerance 
     mpq_swap(plus, s.plus);
     mpq_swap(minus, s.minus);
   }
-  dyd_summit_clear(&s);
-  dyd_lines_clear(&l);
   return st;
 }

@@ -43,7 +43,7 @@ static size_t trial_measure(dyd_survey_trial *out, bool *measured, const dyd_sur
 
 static dyd_status trial_follow(dyd_survey_trial *out, void *draw, const dyd_trials *t, bool *measured) {
   const dyd_survey *plan = t->first;
-  dyd_survey *own = NULL;
+  DYD_OWNED(dyd_survey) *own = NULL;
   dyd_status st = DYD_OK;
   size_t fewest = plan->result.open, idle = 0;
   while (st == DYD_OK && idle < ROUNDS_IDLE && trial_measure(out, measured, plan) && out->rounds < ROUNDS_MOST) {
@@ -58,7 +58,6 @@ static dyd_status trial_follow(dyd_survey_trial *out, void *draw, const dyd_tria
   }
   if (st == DYD_OK) out->left = plan->result.left + plan->result.ties;
   out->done = st == DYD_OK;
-  dyd_survey_free(own);
   return st;
 }
 
@@ -69,12 +68,11 @@ static void trial_task(void *context, size_t number) {
   w->status[number] = DYD_CANCELLED;
   t->out[number] = (dyd_survey_trial){0};
   if (dyd_flag_is_set(t->cancel)) return;
-  bool *measured = calloc(t->sites + 1, sizeof *measured);
+  DYD_FREED bool *measured = calloc(t->sites + 1, sizeof *measured);
   dyd_status st = measured ? t->begin(&draw, t, dyd_random(t->seed, number)) : DYD_E_NOMEM;
   if (st == DYD_OK) st = trial_follow(&t->out[number], draw, t, measured);
   w->status[number] = st;
   if (draw) t->end(draw);
-  free(measured);
 }
 
 dyd_status dyd_trials_run(dyd_trials *t, unsigned threads, dyd_error *err) {
@@ -135,23 +133,20 @@ static void side_place(mpq_ptr at, const dyd_interval *side, mpq_srcptr u, mpq_t
 
 /* Is (u, v) in the disc in the unit square? u^2 - u + v^2 - v < -1/4. */
 static bool is_in_unit_disc(mpq_srcptr u, mpq_srcptr v) {
-  mpq_t sum, part;
-  mpq_inits(sum, part, NULL);
+  DYD_LOCAL_NUMBERS(mpq, sum, part);
   mpq_mul(sum, u, u);
   mpq_sub(sum, sum, u);
   mpq_mul(part, v, v);
   mpq_add(sum, sum, part);
   mpq_sub(sum, sum, v);
   const bool inside = mpq_cmp_si(sum, -1, 4) < 0;
-  mpq_clears(sum, part, NULL);
   return inside;
 }
 
 /* at: the true place of site i; spare: scratch. */
 static dyd_status plane_truth(mpq_t at[2], const plane_draw *d, size_t i, mpq_t spare[3]) {
   const uint64_t own = dyd_random(d->seed, i);
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_sites_get(&r, dyd_delaunay_sites(d->of->pd), i);
   uint64_t k = 0;
   do {
@@ -160,7 +155,6 @@ static dyd_status plane_truth(mpq_t at[2], const plane_draw *d, size_t i, mpq_t 
   } while (d->of->options.discs && !is_in_unit_disc(spare[0], spare[1]));
   if (st == DYD_OK) side_place(at[0], &r.x, spare[0], spare[2]);
   if (st == DYD_OK) side_place(at[1], &r.y, spare[1], spare[2]);
-  dyd_rect_clear(&r);
   return st;
 }
 
@@ -180,8 +174,9 @@ static dyd_status plane_rect(dyd_rect *out, const void *draw, size_t i) {
   const plane_draw *d = draw;
   dyd_status st = dyd_sites_get(out, dyd_delaunay_sites(d->now ? d->now : d->of->pd), i);
   if (st != DYD_OK || !(d->needed[i] > 0)) return st;
-  mpq_t at[2], a, spare[3];
-  mpq_inits(at[0], at[1], a, spare[0], spare[1], spare[2], NULL);
+  DYD_LOCAL_NUMBERS(mpq, a);
+  DYD_LOCAL_ARRAY(mpq_t, at, [2]);
+  DYD_LOCAL_ARRAY(mpq_t, spare, [3]);
   st = plane_truth(at, d, i, spare);
   mpq_set_d(a, d->needed[i]);
   if (st == DYD_OK && d->of->options.discs) {
@@ -190,7 +185,6 @@ static dyd_status plane_rect(dyd_rect *out, const void *draw, size_t i) {
     if (st == DYD_OK) st = dyd_survey_cut(&out->x, at[0], a, spare);
     if (st == DYD_OK) st = dyd_survey_cut(&out->y, at[1], a, spare);
   }
-  mpq_clears(at[0], at[1], a, spare[0], spare[1], spare[2], NULL);
   return st;
 }
 
@@ -217,7 +211,7 @@ dyd_status dyd_survey_simulate(dyd_survey_trial *out, size_t count, uint64_t see
                                const dyd_survey_options *options, dyd_error *err) {
   if (!pd || (count && !out)) return dyd_fail_null(err);
   plane_trials p = {.pd = pd};
-  dyd_survey *first = NULL;
+  DYD_OWNED(dyd_survey) *first = NULL;
   for (size_t k = 0; k < count; k++) out[k] = (dyd_survey_trial){0};
   dyd_status st = dyd_abi_take(&p.options, sizeof p.options, options, "dyd_survey_options", err);
   if (st == DYD_OK) st = dyd_survey_new(&first, pd, &p.options, err);
@@ -233,7 +227,5 @@ dyd_status dyd_survey_simulate(dyd_survey_trial *out, size_t count, uint64_t see
                   .step = plane_step,
                   .end = plane_end,
                   .user = &p};
-  if (st == DYD_OK) st = dyd_trials_run(&t, pd->options.threads, err);
-  dyd_survey_free(first);
-  return st;
+  return st == DYD_OK ? dyd_trials_run(&t, pd->options.threads, err) : st;
 }

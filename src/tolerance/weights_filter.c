@@ -421,16 +421,14 @@ static dyd_status weigh_birth(bool *late, weight_work *g, dyd_tolerance_row *row
 
 static dyd_status weights_begin(weight_work *g) {
   const dyd_skeleton *sk = g->t->sk;
-  mpq_t other;
-  dyd_rect r;
   dyd_status st = DYD_OK;
   g->discs.weight = g->t->weight;
   g->discs.about = dyd_alloc(sk->n, sizeof *g->discs.about);
   g->discs.disc = g->discs.about ? dyd_alloc(sk->n, sizeof *g->discs.disc) : NULL;
   if (!g->discs.disc) return DYD_E_NOMEM;
   for (uint32_t v = 0; v < sk->n; v++) dyd_disc_init(&g->discs.disc[v]);
-  dyd_rect_init(&r);
-  mpq_init(other);
+  DYD_LOCAL(dyd_rect, r);
+  DYD_LOCAL_NUMBERS(mpq, other);
   for (uint32_t v = 0; v < sk->n && st == DYD_OK; v++) {
     st = dyd_sites_get(&r, sk->reps.sites, sk->reps.site[v]);
     dyd_interval_get_q(g->discs.disc[v].x, other, &r.x);
@@ -438,8 +436,6 @@ static dyd_status weights_begin(weight_work *g) {
     g->discs.about[v][0] = mpq_get_d(g->discs.disc[v].x);
     g->discs.about[v][1] = mpq_get_d(g->discs.disc[v].y);
   }
-  mpq_clear(other);
-  dyd_rect_clear(&r);
   return st;
 }
 

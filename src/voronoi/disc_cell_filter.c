@@ -362,7 +362,7 @@ static void hold_in_window(dyd_polygon_list *l, const dyd_rect *w) {
 
 /* Cuts a polygon inside Int_i to W; *good: the result is proved to be inside Int_i, too. */
 static dyd_status cut_inner(bool *good, dyd_polygon *p, disc_cell *c) {
-  dyd_polygon_list l = {1, p};
+  DYD_SCOPED(dyd_polygon_list) l = {1, p};
   dyd_polygon one = *p;
   *p = (dyd_polygon){0};
   l.item = dyd_alloc(1, sizeof *l.item);
@@ -377,7 +377,6 @@ static dyd_status cut_inner(bool *good, dyd_polygon *p, disc_cell *c) {
     *p = l.item[0];
     l.item[0] = (dyd_polygon){0};
   }
-  dyd_polygon_list_clear(&l);
   return st == DYD_OK && *good && p->count ? dyd_polygon_make_convex(p) : st;
 }
 
