@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Plans on the sphere tried on drawn places. */
-#include "tolerance/trials.h"
 #include "base/local.h"
+#include "tolerance/survey.h"
 
 #include "base/abi.h"
 #include "base/alloc.h"

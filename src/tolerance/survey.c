@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Plans: targets, site by site, proof by a triangulation of all, accuracies as coarse as can be [SUR-1]. */
+/* Plans [SUR-1]: targets, and the public calls. */
 #include "tolerance/survey.h"
 
 #include "base/abi.h"
@@ -8,17 +8,17 @@
 #include "base/flag.h"
 #include "base/index.h"
 #include "base/local.h"
+#include "base/parallel.h"
+#include "base/random.h"
 #include "delaunay/memory.h"
+#include "delaunay/state.h"
+#include "rect/rect.h"
+#include "tolerance/lines.h"
 
 #include <dyadel/tolerance.h>
 
 #include <stdlib.h>
 #include <string.h>
-
-/* Where no accuracy is given, these shares of each half-width are tried until one decides; and rounds of the work on
- * faces, of which more than one is needed where the needs of a face show only together with the others. */
-static const int finer[] = {10, 20, 40};
-enum { FINER = sizeof finer / sizeof *finer, ROUNDS = 8, STEPS = 4 };
 
 /* ---- targets ---- */
 
@@ -90,268 +90,78 @@ static void leave_out_ties(dyd_survey *s, const dyd_delaunay *nominal) {
   s->result.ties += s->tied;
 }
 
+/* Rectangles as they are, and as they would be after measuring. */
+
+static void load_site(dyd_survey_site *p) {
+  DYD_LOCAL_NUMBERS(mpq, height);
+  dyd_side_sum(p->x, p->half, &p->rect.x);
+  dyd_side_sum(p->y, height, &p->rect.y);
+  if (mpq_cmp(height, p->half) > 0) mpq_set(p->half, height);
+  mpq_div_2exp(p->x, p->x, 1);
+  mpq_div_2exp(p->y, p->y, 1);
+  mpq_div_2exp(p->half, p->half, 1);
+}
+
+/* Of each site its rectangle, centre and half-width, twelve numbers: with their digits, and what allocators add. */
+static bool survey_has_room(dyd_survey *s, size_t sites) {
+  enum { NUMBERS = 12, BLOCK = 32 };
+  uint64_t bytes = dyd_bytes_times(sites, sizeof *s->site + NUMBERS * BLOCK);
+  if (!dyd_room_has(&s->room, bytes, "the plan")) return false;
+  s->room.held += bytes;
+  return true;
+}
+
+static dyd_status survey_load(dyd_survey *s, const dyd_sites *sites) {
+  if (!survey_has_room(s, dyd_sites_count(sites))) return DYD_E_NOMEM;
+  s->site = dyd_alloc(dyd_sites_count(sites), sizeof *s->site);
+  if (!s->site) return DYD_E_NOMEM;
+  dyd_status st = DYD_OK;
+  for (size_t i = 0; i < dyd_sites_count(sites) && st == DYD_OK; i++) {
+    dyd_survey_site *p = &s->site[s->sites++];
+    dyd_rect_init(&p->rect);
+    mpq_inits(p->x, p->y, p->half, NULL);
+    p->chosen = false;
+    p->coarser = 0;
+    st = dyd_sites_get(&p->rect, sites, i);
+    if (st == DYD_OK) load_site(p);
+  }
+  return st;
+}
+
+/* The targets of each site, to avoid searching all of them. */
+
+/* s->at: each target at its lower end and at its upper one. */
+static dyd_status index_ends(dyd_survey *s) {
+  const dyd_pair_list *t = &s->target;
+  if (!DYD_ZEROED(s->first, s->sites + 2) || !DYD_NEW(s->at, 2 * t->count) || !DYD_NEW(s->pair, t->count))
+    return DYD_E_NOMEM;
+  for (size_t k = 0; k < t->count; k++) s->pair[k] = (dyd_survey_pair){t->item[k].i, t->item[k].j, SIZE_MAX};
+  size_t *next =
+      s->first + 1; /* where the next target of each site goes: when all are there, where those after begin */
+  for (size_t k = 0; k < t->count; k++) next[t->item[k].i + 1]++, next[t->item[k].j + 1]++;
+  for (size_t i = 0; i < s->sites; i++) next[i + 1] += next[i];
+  for (size_t k = 0; k < t->count; k++) s->at[next[t->item[k].i]++] = k, s->at[next[t->item[k].j]++] = k;
+  return DYD_OK;
+}
+
+/* Sorts the targets, finds s->first and s->at. */
+static dyd_status survey_index_targets(dyd_survey *s) {
+  dyd_pair_list *t = &s->target;
+  for (size_t k = 0; k < t->count; k++) {
+    dyd_pair p = t->item[k];
+    if (p.i > p.j) t->item[k] = (dyd_pair){p.j, p.i, p.status};
+  }
+  if (t->count) qsort(t->item, t->count, sizeof *t->item, dyd_compare_two);
+  return index_ends(s);
+}
+
 static dyd_status find_targets(dyd_survey *s, const dyd_delaunay *pd) {
   DYD_OWNED(dyd_delaunay) *nominal = NULL;
   dyd_status st = list_open(s, pd);
   if (st == DYD_OK && s->target.count) st = dyd_survey_triangulate(&nominal, s, true);
   if (nominal) leave_out_ties(s, nominal);
-  dyd_status indexed = st == DYD_OK || st == DYD_CANCELLED ? dyd_survey_index_targets(s) : st;
+  dyd_status indexed = st == DYD_OK || st == DYD_CANCELLED ? survey_index_targets(s) : st;
   return indexed == DYD_OK ? st : indexed;
-}
-
-/* ---- choosing ---- */
-
-static bool has_large_face(const dyd_delaunay *pd) {
-  DYD_SCOPED(dyd_index_list) face = {0};
-  bool outer, large = false;
-  for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd) && !large; f++)
-    large = dyd_delaunay_face(&face, &outer, pd, f) == DYD_OK && face.count > DYD_SURVEY_LARGE;
-  return large;
-}
-
-static dyd_status mark_near(bool *near, const dyd_delaunay *pd, uint32_t i) {
-  DYD_SCOPED(dyd_index_list) l = {0};
-  dyd_status st = dyd_delaunay_neighbours(&l, pd, i, DYD_TIE);
-  near[i] = true;
-  for (size_t k = 0; k < l.count && st == DYD_OK; k++) near[l.item[k]] = true;
-  return st;
-}
-
-/* near[i] (may be NULL) is set where an open target, or a possible neighbour of one of its ends, is. */
-static dyd_status recount_left(dyd_survey *s, bool *near) {
-  DYD_OWNED(dyd_delaunay) *now = NULL;
-  dyd_status st = dyd_survey_triangulate(&now, s, false);
-  if (st == DYD_OK) s->result.left = dyd_survey_open(s, now);
-  for (size_t k = 0; k < s->target.count && st == DYD_OK && near; k++) {
-    const dyd_pair *p = &s->target.item[k];
-    if (!dyd_survey_is_open(now, p)) continue;
-    st = mark_near(near, now, p->i);
-    if (st == DYD_OK) st = mark_near(near, now, p->j);
-  }
-  return st;
-}
-
-/* In all faces of pd, one by one; the sites chosen are measured in the triangulation of all. */
-static dyd_status choose_in_faces(dyd_measuring *m, const dyd_delaunay *pd) {
-  dyd_survey *s = m->s;
-  dyd_status st = DYD_OK;
-  for (size_t f = 0; st == DYD_OK && f < dyd_delaunay_undecided_faces(pd); f++) {
-    size_t decided, before = s->chosens;
-    st = dyd_survey_face(s, pd, f);
-    for (size_t k = before; k < s->chosens && st == DYD_OK; k++)
-      st = dyd_measuring_draft(&decided, m, s->chosen[k].row.site);
-  }
-  return st;
-}
-
-/* In large faces; then in all faces of the triangulation with the chosen sites measured, as long as that helps. */
-static dyd_status measure_rounds(dyd_measuring *m, const dyd_delaunay *pd) {
-  dyd_survey *s = m->s;
-  dyd_status st = has_large_face(pd) ? dyd_survey_crowds(m) : DYD_OK;
-  for (int round = 0; round < ROUNDS && m->left && st == DYD_OK; round++) {
-    DYD_OWNED(dyd_delaunay) *now = NULL;
-    size_t before = s->chosens;
-    if (before) st = dyd_survey_triangulate(&now, s, false);
-    if (st == DYD_OK) st = choose_in_faces(m, before ? now : pd);
-    if (s->chosens == before) break;
-  }
-  return st;
-}
-
-static dyd_status choose_rounds(dyd_survey *s, const dyd_delaunay *pd) {
-  dyd_measuring m;
-  s->result.left = s->target.count;
-  dyd_status st = dyd_measuring_begin(&m, s);
-  if (st == DYD_OK) st = measure_rounds(&m, pd);
-  if (st == DYD_OK) s->result.left = m.left;
-  dyd_measuring_end(&m);
-  return st;
-}
-
-/* Takes rows out whose sites are not chosen. */
-static void settle_rows(dyd_survey *s) {
-  size_t kept = 0;
-  for (size_t k = 0; k < s->chosens; k++)
-    if (s->site[s->chosen[k].row.site].chosen) s->chosen[kept++] = s->chosen[k];
-  s->chosens = kept;
-}
-
-/* Sites near (NULL: all) that have a row are measured, and no coarser than the common factor says. */
-static void restore_rows(dyd_survey *s, const bool *near) {
-  for (size_t k = 0; k < s->chosens; k++) {
-    uint32_t site = s->chosen[k].row.site;
-    if (near && !near[site]) continue;
-    s->site[site].chosen = true;
-    s->site[site].coarser = 0;
-  }
-}
-
-/* Where more is open than the `before` that were, those near are taken back, as often as that may help; then all. */
-static dyd_status restore_open(dyd_survey *s, size_t before) {
-  DYD_FREED bool *near = calloc(s->sites + 1, sizeof *near);
-  dyd_status st = near ? recount_left(s, near) : DYD_E_NOMEM;
-  for (int round = 0; round < ROUNDS && st == DYD_OK && s->result.left > before; round++) {
-    restore_rows(s, near);
-    st = recount_left(s, near);
-  }
-  if (s->result.left > before) restore_rows(s, NULL);
-  s->result.left = before;
-  return st;
-}
-
-/* Sites that are not needed after all, seen one by one. All together are checked, as everywhere. */
-static dyd_status unchoose(dyd_survey *s) {
-  dyd_measuring m;
-  size_t before = s->result.left;
-  dyd_status st = dyd_measuring_begin(&m, s);
-  for (size_t k = 0; k < s->chosens && st == DYD_OK; k++) {
-    uint32_t site = s->chosen[k].row.site;
-    bool holds = false;
-    s->site[site].chosen = false;
-    st = dyd_measuring_loosens(&holds, &m, site);
-    s->site[site].chosen = !holds;
-  }
-  dyd_measuring_end(&m);
-  if (st == DYD_OK) st = restore_open(s, before);
-  settle_rows(s);
-  return st;
-}
-
-/* Where this was not enough, sites are measured more finely, and others with them. The draft stays as it is. */
-static dyd_status choose_finely_enough(dyd_survey *s, const dyd_delaunay *pd) {
-  dyd_status st = DYD_OK;
-  mpq_set_ui(s->scale, 1, 1);
-  if (dyd_survey_is_limited(s)) return choose_rounds(s, pd);
-  for (int k = 0; k < FINER && st == DYD_OK && (k == 0 || s->result.left); k++) {
-    mpq_set_ui(s->scale, 1, 1);
-    mpq_div_2exp(s->scale, s->scale, (mp_bitcnt_t)finer[k]);
-    st = choose_rounds(s, pd);
-    s->drafted = true;
-  }
-  return st;
-}
-
-/* ---- the common factor ---- */
-
-/* *holds: no more is left open at this scale than before; s keeps it. */
-static dyd_status holds_at(bool *holds, dyd_survey *s, mpq_srcptr scale) {
-  size_t before = s->result.left;
-  DYD_LOCAL_NUMBERS(mpq, old);
-  mpq_set(old, s->scale);
-  mpq_set(s->scale, scale);
-  dyd_status st = recount_left(s, NULL);
-  *holds = st == DYD_OK && s->result.left <= before;
-  if (!*holds) mpq_set(s->scale, old);
-  s->result.left = before;
-  return st;
-}
-
-/* Doubled as often as that holds: the less exactly, the more is open. By halves, where it starts below 1 and ends
- * there; where the accuracy is given, one by one. */
-static dyd_status double_scale(dyd_survey *s, mpq_t next) {
-  bool limited = dyd_survey_is_limited(s);
-  size_t least = 0, most = limited ? 64 : mpz_sizeinbase(mpq_denref(s->scale), 2) - 1;
-  dyd_status st = DYD_OK;
-  while (least < most && st == DYD_OK) {
-    bool holds;
-    size_t middle = limited ? least + 1 : least + (most - least + 1) / 2;
-    mpq_mul_2exp(next, s->scale, middle - least);
-    st = holds_at(&holds, s, next);
-    if (holds)
-      least = middle;
-    else
-      most = middle - 1;
-  }
-  return st;
-}
-
-/* Then halving the step. */
-static dyd_status loosen(dyd_survey *s) {
-  DYD_LOCAL_NUMBERS(mpq, next, step);
-  dyd_status st = s->chosens ? double_scale(s, next) : DYD_OK;
-  mpq_div_2exp(step, s->scale, 1);
-  for (int k = 0; k < STEPS && s->chosens && st == DYD_OK; k++) {
-    bool holds;
-    mpq_add(next, s->scale, step);
-    if (dyd_survey_is_limited(s) || mpq_cmp_ui(next, 1, 1) < 0) st = holds_at(&holds, s, next);
-    mpq_div_2exp(step, step, 1);
-  }
-  return st;
-}
-
-/* ---- each site alone ---- */
-
-/* By the greatest power of two, at most 2^most, with which no more is open. */
-static dyd_status loosen_site(dyd_measuring *m, uint32_t site, unsigned most) {
-  unsigned least = 0;
-  dyd_status st = DYD_OK;
-  while (least < most && st == DYD_OK) {
-    bool holds;
-    unsigned middle = least + (most - least + 1) / 2;
-    m->s->site[site].coarser = middle;
-    st = dyd_measuring_loosens(&holds, m, site);
-    if (holds)
-      least = middle;
-    else
-      most = middle - 1;
-  }
-  m->s->site[site].coarser = least;
-  return st;
-}
-
-/* One after the other; all together are checked in the end, and where they fail, the common factor alone counts. */
-static dyd_status loosen_each(dyd_survey *s) {
-  dyd_measuring m;
-  size_t before = s->result.left;
-  dyd_status st = dyd_measuring_begin(&m, s);
-  for (size_t k = 0; k < s->chosens && st == DYD_OK; k++)
-    st = loosen_site(&m, s->chosen[k].row.site, dyd_survey_doublings(s, s->chosen[k].row.site));
-  dyd_measuring_end(&m);
-  return st == DYD_OK ? restore_open(s, before) : st;
-}
-
-/* ---- the plan ---- */
-
-/* A row and the least that it or one before it in its face decides. */
-typedef struct row_rank {
-  size_t least, k;
-} row_rank;
-
-static int compare_ranks(const void *a, const void *b) {
-  const row_rank *x = a, *y = b;
-  if (x->least != y->least) return x->least > y->least ? -1 : 1;
-  return (x->k > y->k) - (x->k < y->k);
-}
-
-/* The rows of all faces, always the one that decides most of those next; each face keeps its own order. A row that
- * states more than one before it comes right after that one: so they are sorted by the least so far. */
-static dyd_status merge_rows(dyd_survey *s) {
-  size_t total = s->chosens, least = SIZE_MAX;
-  DYD_FREED row_rank *rank = dyd_alloc(total, sizeof *rank);
-  s->row = dyd_alloc(total, sizeof *s->row);
-  dyd_status st = rank && s->row ? DYD_OK : DYD_E_NOMEM;
-  for (size_t k = 0; k < total && st == DYD_OK; k++) {
-    const dyd_face_row *c = &s->chosen[k];
-    if (k == 0 || c->face != c[-1].face || c->row.decided < least) least = c->row.decided;
-    rank[k] = (row_rank){least, k};
-  }
-  if (total && st == DYD_OK) qsort(rank, total, sizeof *rank, compare_ranks);
-  for (; s->rows < total && st == DYD_OK; s->rows++) {
-    dyd_survey_row row = s->chosen[rank[s->rows].k].row;
-    row.now = dyd_survey_now(s, row.site);
-    row.needed = dyd_survey_needed(s, row.site);
-    s->row[s->rows] = row;
-  }
-  return st;
-}
-
-/* The plan made small, and its accuracies coarse; then its rows. */
-static dyd_status simplify(dyd_survey *s) {
-  dyd_status st = unchoose(s);
-  if (st == DYD_OK) st = loosen(s);
-  if (st == DYD_OK) st = loosen_each(s);
-  if (st == DYD_OK) st = merge_rows(s);
-  return st == DYD_OK ? dyd_survey_count_left(s) : st;
 }
 
 static dyd_status survey_check(const dyd_survey *s, const dyd_delaunay *pd, dyd_error *err) {
@@ -413,11 +223,10 @@ dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_su
   s->err = err;
   dyd_status st = dyd_abi_take(&s->options, sizeof s->options, options, "dyd_survey_options", err);
   if (st == DYD_OK && dyd_flag_is_set(s->options.cancel)) return survey_not_begun(out, s, pd, err);
-  if (st == DYD_OK) st = dyd_survey_load(s, dyd_delaunay_sites(pd));
+  if (st == DYD_OK) st = survey_load(s, dyd_delaunay_sites(pd));
   if (st == DYD_OK) st = survey_check(s, pd, err);
   if (st == DYD_OK) st = find_targets(s, pd);
-  if (st == DYD_OK) st = choose_finely_enough(s, pd);
-  if (st == DYD_OK) st = simplify(s);
+  if (st == DYD_OK) st = dyd_survey_choose(s, pd);
   s->err = NULL;
   if (st == DYD_OK || (st == DYD_CANCELLED && s->first)) {
     *out = s;
@@ -458,4 +267,224 @@ size_t dyd_survey_pairs(const dyd_survey_pair **pair, const dyd_survey *s) {
 
 const dyd_survey_result *dyd_survey_get(const dyd_survey *s) {
   return s ? &s->result : NULL;
+}
+
+/* ---- plans tried on drawn places; nothing of this is a statement about the points ---- */
+
+/* Of rounds: in all, and in a row that decide nothing. */
+enum { ROUNDS_MOST = 64, ROUNDS_IDLE = 4 };
+
+void dyd_trial_draw(mpq_ptr u, uint64_t seed, uint64_t k) {
+  mpq_set_ui(u, (unsigned long)(dyd_random(seed, k) >> 11), 1);
+  mpq_mul_2exp(u, u, 1);
+  mpz_add_ui(mpq_numref(u), mpq_numref(u), 1);
+  mpq_div_2exp(u, u, 54);
+}
+
+/* ---- all trials ---- */
+
+typedef struct trials_work {
+  dyd_trials *t;
+  dyd_status *status; /* of each */
+} trials_work;
+
+static size_t trial_measure(dyd_survey_trial *out, bool *measured, const dyd_survey *plan) {
+  const dyd_survey_row *row;
+  const size_t rows = dyd_survey_rows(&row, plan);
+  for (size_t k = 0; k < rows; k++) {
+    out->points += !measured[row[k].site];
+    measured[row[k].site] = true;
+  }
+  out->measurements += rows;
+  out->rounds += rows > 0;
+  return rows;
+}
+
+static dyd_status trial_follow(dyd_survey_trial *out, void *draw, const dyd_trials *t, bool *measured) {
+  const dyd_survey *plan = t->first;
+  DYD_OWNED(dyd_survey) *own = NULL;
+  dyd_status st = DYD_OK;
+  size_t fewest = plan->result.open, idle = 0;
+  while (st == DYD_OK && idle < ROUNDS_IDLE && trial_measure(out, measured, plan) && out->rounds < ROUNDS_MOST) {
+    dyd_survey *next = NULL;
+    dyd_error err;
+    dyd_error_clear(&err);
+    st = t->step(&next, draw, t, plan, &err);
+    dyd_survey_free(own);
+    plan = own = next;
+    idle = st == DYD_OK && plan->result.open >= fewest ? idle + 1 : 0;
+    if (!idle && st == DYD_OK) fewest = plan->result.open;
+  }
+  if (st == DYD_OK) out->left = plan->result.left + plan->result.ties;
+  out->done = st == DYD_OK;
+  return st;
+}
+
+static void trial_task(void *context, size_t number) {
+  const trials_work *w = context;
+  const dyd_trials *t = w->t;
+  void *draw = NULL;
+  w->status[number] = DYD_CANCELLED;
+  t->out[number] = (dyd_survey_trial){0};
+  if (dyd_flag_is_set(t->cancel)) return;
+  DYD_FREED bool *measured = calloc(t->sites + 1, sizeof *measured);
+  dyd_status st = measured ? t->begin(&draw, t, dyd_random(t->seed, number)) : DYD_E_NOMEM;
+  if (st == DYD_OK) st = trial_follow(&t->out[number], draw, t, measured);
+  w->status[number] = st;
+  if (draw) t->end(draw);
+}
+
+dyd_status dyd_trials_run(dyd_trials *t, unsigned threads, dyd_error *err) {
+  trials_work w = {t, dyd_alloc(t->count, sizeof *w.status)};
+  size_t cut = 0;
+  dyd_status st = DYD_OK;
+  if (!w.status) return dyd_fail_nomem(err);
+  t->asked = (dyd_pair_list){t->first->target.count + t->first->tied, t->first->target.item};
+  dyd_parallel(threads, t->count, trial_task, &w);
+  for (size_t k = 0; k < t->count; k++) {
+    cut += w.status[k] == DYD_CANCELLED;
+    if (w.status[k] != DYD_OK && st >= 0) st = w.status[k];
+  }
+  free(w.status);
+  if (st == DYD_CANCELLED) return dyd_fail(err, st, "%zu of %zu trials of the plan are not done", cut, t->count);
+  return st == DYD_OK ? st : dyd_fail(err, st, "a trial of the plan failed: %s", dyd_status_text(st));
+}
+
+/* ---- the plane ---- */
+
+typedef struct plane_trials {
+  const dyd_delaunay *pd;
+  dyd_survey_options options; /* of the plans after the first one */
+} plane_trials;
+
+/* now: the triangulation of the rectangles so far (NULL: that of `of`); needed: of each site in the plan followed, else
+ * 0. */
+typedef struct plane_draw {
+  const plane_trials *of;
+  uint64_t seed;
+  dyd_delaunay *now;
+  double *needed;
+} plane_draw;
+
+static dyd_status plane_begin(void **draw, const dyd_trials *t, uint64_t seed) {
+  plane_draw *d = calloc(1, sizeof *d);
+  if (!d) return DYD_E_NOMEM;
+  *draw = d;
+  d->of = t->user;
+  d->seed = seed;
+  d->needed = calloc(t->sites + 1, sizeof *d->needed);
+  return d->needed ? DYD_OK : DYD_E_NOMEM;
+}
+
+static void plane_end(void *draw) {
+  plane_draw *d = draw;
+  dyd_delaunay_free(d->now);
+  dyd_free_all(d->needed, d);
+}
+
+/* The place at the share u of the side. */
+static void side_place(mpq_ptr at, const dyd_interval *side, mpq_srcptr u, mpq_t lo) {
+  dyd_interval_get_q(lo, at, side);
+  mpq_sub(at, at, lo);
+  mpq_mul(at, at, u);
+  mpq_add(at, at, lo);
+}
+
+/* Is (u, v) in the disc in the unit square? u^2 - u + v^2 - v < -1/4. */
+static bool is_in_unit_disc(mpq_srcptr u, mpq_srcptr v) {
+  DYD_LOCAL_NUMBERS(mpq, sum, part);
+  mpq_mul(sum, u, u);
+  mpq_sub(sum, sum, u);
+  mpq_mul(part, v, v);
+  mpq_add(sum, sum, part);
+  mpq_sub(sum, sum, v);
+  const bool inside = mpq_cmp_si(sum, -1, 4) < 0;
+  return inside;
+}
+
+/* at: the true place of site i; spare: scratch. */
+static dyd_status plane_truth(mpq_t at[2], const plane_draw *d, size_t i, mpq_t spare[3]) {
+  const uint64_t own = dyd_random(d->seed, i);
+  DYD_LOCAL(dyd_rect, r);
+  dyd_status st = dyd_sites_get(&r, dyd_delaunay_sites(d->of->pd), i);
+  uint64_t k = 0;
+  do {
+    dyd_trial_draw(spare[0], own, k++);
+    dyd_trial_draw(spare[1], own, k++);
+  } while (d->of->options.discs && !is_in_unit_disc(spare[0], spare[1]));
+  if (st == DYD_OK) side_place(at[0], &r.x, spare[0], spare[2]);
+  if (st == DYD_OK) side_place(at[1], &r.y, spare[1], spare[2]);
+  return st;
+}
+
+/* All within a of the place: a disc that was measured replaces the old one. */
+static dyd_status rect_replace(dyd_rect *out, mpq_t at[2], mpq_srcptr a, mpq_t end[2]) {
+  dyd_status st = DYD_OK;
+  for (int axis = 0; axis < 2 && st == DYD_OK; axis++) {
+    mpq_sub(end[0], at[axis], a);
+    mpq_add(end[1], at[axis], a);
+    const int64_t bits = dyd_interval_bits(axis ? &out->y : &out->x);
+    st = dyd_interval_set_outward(axis ? &out->y : &out->x, end[0], end[1], -bits - 120);
+  }
+  return st;
+}
+
+static dyd_status plane_rect(dyd_rect *out, const void *draw, size_t i) {
+  const plane_draw *d = draw;
+  dyd_status st = dyd_sites_get(out, dyd_delaunay_sites(d->now ? d->now : d->of->pd), i);
+  if (st != DYD_OK || !(d->needed[i] > 0)) return st;
+  DYD_LOCAL_NUMBERS(mpq, a);
+  DYD_LOCAL_ARRAY(mpq_t, at, [2]);
+  DYD_LOCAL_ARRAY(mpq_t, spare, [3]);
+  st = plane_truth(at, d, i, spare);
+  mpq_set_d(a, d->needed[i]);
+  if (st == DYD_OK && d->of->options.discs) {
+    st = rect_replace(out, at, a, spare);
+  } else {
+    if (st == DYD_OK) st = dyd_survey_cut(&out->x, at[0], a, spare);
+    if (st == DYD_OK) st = dyd_survey_cut(&out->y, at[1], a, spare);
+  }
+  return st;
+}
+
+static dyd_status plane_step(dyd_survey **next, void *draw, const dyd_trials *t, const dyd_survey *plan,
+                             dyd_error *err) {
+  plane_draw *d = draw;
+  const dyd_survey_row *row;
+  const size_t rows = dyd_survey_rows(&row, plan);
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = t->cancel, .threads = 1,
+                                  .max_pairs = d->of->pd->options.max_pairs};
+  dyd_delaunay *then = NULL;
+  dyd_survey_options how = d->of->options;
+  for (size_t k = 0; k < rows; k++) d->needed[row[k].site] = row[k].needed;
+  dyd_status st = dyd_delaunay_made(&then, t->sites, plane_rect, d, &o, err);
+  for (size_t k = 0; k < rows; k++) d->needed[row[k].site] = 0;
+  if (st != DYD_OK) return st;
+  dyd_delaunay_free(d->now);
+  d->now = then;
+  how.pairs = &t->asked;
+  return dyd_survey_new(next, then, &how, err);
+}
+
+dyd_status dyd_survey_simulate(dyd_survey_trial *out, size_t count, uint64_t seed, const dyd_delaunay *pd,
+                               const dyd_survey_options *options, dyd_error *err) {
+  if (!pd || (count && !out)) return dyd_fail_null(err);
+  plane_trials p = {.pd = pd};
+  DYD_OWNED(dyd_survey) *first = NULL;
+  for (size_t k = 0; k < count; k++) out[k] = (dyd_survey_trial){0};
+  dyd_status st = dyd_abi_take(&p.options, sizeof p.options, options, "dyd_survey_options", err);
+  if (st == DYD_OK) st = dyd_survey_new(&first, pd, &p.options, err);
+  p.options.window = NULL;
+  p.options.site = NULL;
+  dyd_trials t = {.out = out,
+                  .count = count,
+                  .seed = seed,
+                  .first = first,
+                  .sites = dyd_sites_count(dyd_delaunay_sites(pd)),
+                  .cancel = p.options.cancel,
+                  .begin = plane_begin,
+                  .step = plane_step,
+                  .end = plane_end,
+                  .user = &p};
+  return st == DYD_OK ? dyd_trials_run(&t, pd->options.threads, err) : st;
 }

@@ -4,7 +4,6 @@
 #define DYD_TOLERANCE_SURVEY_H
 
 #include "delaunay/memory.h"
-#include "delaunay/steps.h"
 #include <dyadel/survey.h>
 
 DYD_OWNERS(dyd_survey)
@@ -53,57 +52,35 @@ static inline bool dyd_survey_is_limited(const dyd_survey *s) {
   return s->options.accuracy || s->options.accuracies;
 }
 
-/* survey_face.c: sets side to its part within a of the centre, rounded outward; end: scratch. */
+/* survey_choose.c: sets side to its part within a of the centre, rounded outward; end: scratch. */
 dyd_status dyd_survey_cut(dyd_interval *side, mpq_srcptr centre, mpq_srcptr a, mpq_t end[2]);
-dyd_status dyd_survey_load(dyd_survey *s, const dyd_sites *sites);
+/* Chooses the plan, makes it small, and its accuracies coarse; then its rows. */
+dyd_status dyd_survey_choose(dyd_survey *s, const dyd_delaunay *pd);
 /* A new triangulation of all sites, the chosen ones measured; of the centres of all. */
 dyd_status dyd_survey_triangulate(dyd_delaunay **pd, const dyd_survey *s, bool centres);
-bool dyd_survey_is_open(const dyd_delaunay *pd, const dyd_pair *p);
-/* How many of the targets are open in it. */
-size_t dyd_survey_open(const dyd_survey *s, const dyd_delaunay *pd);
-/* The accuracy of site i, rounded down. */
-double dyd_survey_needed(const dyd_survey *s, uint32_t i);
-double dyd_survey_now(const dyd_survey *s, uint32_t i);
-/* How often its accuracy can be doubled and still asks for a measurement. */
-unsigned dyd_survey_doublings(const dyd_survey *s, uint32_t i);
-
-/* survey_face.c: sorts the targets, finds s->first and s->at. */
-dyd_status dyd_survey_index_targets(dyd_survey *s);
-
-/* A face of more sites than these is large. */
-enum { DYD_SURVEY_LARGE = 8 };
-
-/* survey_face.c: sites are measured one by one in a triangulation of all. open[k]: is target k; degree[i]: how many
- * open ones end at site i. Without steps it is made anew each time. */
-typedef struct dyd_measuring {
-  dyd_survey *s;
-  dyd_survey_pair *pair; /* where the targets that `row` decides are noted; NULL: nowhere */
-  size_t row;
-  dyd_delaunay *now;
-  dyd_steps steps;
-  bool *open;
-  size_t *degree, left;
-} dyd_measuring;
-
-/* Sites as they are chosen now. To be ended, whatever it returns. */
-dyd_status dyd_measuring_begin(dyd_measuring *m, dyd_survey *s);
-void dyd_measuring_end(dyd_measuring *m);
-/* The same; it is the next site of the draft. */
-dyd_status dyd_measuring_draft(size_t *decided, dyd_measuring *m, uint32_t i);
-
-/* survey_face.c: chooses in large faces of the triangulation, as sites are chosen now, until they are small or nothing
- * in them is open or can be measured; appends to s->chosen, and to the draft. */
-dyd_status dyd_survey_crowds(dyd_measuring *m);
-/* Chooses among the sites of face f of pd so that its targets are decided; appends to s->chosen. */
-dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t f);
-/* Site i is wider in the survey than where it is measured one by one: *holds if no more targets are open so; then it is
- * as wide there, else nothing has changed. */
-dyd_status dyd_measuring_loosens(bool *holds, dyd_measuring *m, uint32_t i);
 
 /* DYD_CANCELLED, with a message about what is there, if the plan is not finished. */
 dyd_status dyd_survey_tell_cut(const dyd_survey *s, dyd_error *err);
 
-/* survey_face.c: sets how many pairs each row decides after the rows before it. */
-dyd_status dyd_survey_count_left(dyd_survey *s);
+/* Shared by all trials of a plan. begin makes the state of a trial, whose places the seed draws; step
+ * measures the points of a plan in it, and plans again for `asked`; end frees it. */
+typedef struct dyd_trials {
+  dyd_survey_trial *out;
+  size_t count;
+  uint64_t seed;
+  const dyd_survey *first; /* the plan that all begin with */
+  size_t sites;
+  dyd_pair_list asked; /* all pairs of the first plan that are open; borrowed from it */
+  const volatile int *cancel;
+  dyd_status (*begin)(void **draw, const struct dyd_trials *t, uint64_t seed);
+  dyd_status (*step)(dyd_survey **next, void *draw, const struct dyd_trials *t, const dyd_survey *plan, dyd_error *err);
+  void (*end)(void *draw);
+  const void *user;
+} dyd_trials;
+
+/* Runs all; the rest as dyd_survey_simulate. */
+dyd_status dyd_trials_run(dyd_trials *t, unsigned threads, dyd_error *err);
+/* Sets u to a number in (0, 1) that seed and k draw, a multiple of 2^-54. */
+void dyd_trial_draw(mpq_ptr u, uint64_t seed, uint64_t k);
 
 #endif
