@@ -67,6 +67,118 @@ static int length_order(const void *a, const void *b) {
   return length_compare(a, b);
 }
 
+/* ---- a few rectangles, compared exactly ---- */
+
+static void reach_init(dyd_reach *r) {
+  *r = (dyd_reach){0};
+  mpz_inits(r->rho, r->d, r->e, NULL);
+}
+
+static void reach_clear(dyd_reach *r) {
+  for (size_t k = 0; k < r->made; k++) {
+    dyd_rect_clear(&r->rect[k]);
+    dyd_irect_clear(&r->grid[k]);
+  }
+  dyd_free_all(r->rect, r->in, r->grid, r->mark);
+  mpz_clears(r->rho, r->d, r->e, NULL);
+}
+
+static bool reach_room(dyd_reach *r, size_t count) {
+  size_t cap[4] = {r->made, r->made, r->made, r->made};
+  if (count <= r->made) return true;
+  if (!DYD_GROW(r->rect, cap[0], count) || !DYD_GROW(r->in, cap[1], count) || !DYD_GROW(r->grid, cap[2], count) ||
+      !DYD_GROW(r->mark, cap[3], count))
+    return false;
+  for (; r->made < cap[0]; r->made++) {
+    dyd_rect_init(&r->rect[r->made]);
+    dyd_irect_init(&r->grid[r->made]);
+  }
+  for (size_t k = 0; k < r->made; k++) r->in[k] = &r->rect[k];
+  return true;
+}
+
+/* grid[0] becomes site i, grid[1 ..] the others. DYD_E_NOMEM, DYD_E_RANGE as dyd_sites_get. */
+static dyd_status reach_load(dyd_reach *r, const dyd_sites *sites, uint32_t i, const uint32_t *other, size_t count) {
+  if (!reach_room(r, count + 1)) return DYD_E_NOMEM;
+  dyd_status st = dyd_sites_get(&r->rect[0], sites, i);
+  for (size_t k = 0; k < count && st == DYD_OK; k++) st = dyd_sites_get(&r->rect[k + 1], sites, other[k]);
+  if (st != DYD_OK) return st;
+  r->count = count + 1;
+  dyd_irects_scale(r->grid, r->in, r->count, NULL, NULL);
+  for (size_t k = 0; k < r->count; k++) {
+    mpz_ptr end[4] = {r->grid[k].x0, r->grid[k].x1, r->grid[k].y0, r->grid[k].y1};
+    for (int e = 0; e < 4; e++) mpz_mul_2exp(end[e], end[e], 2);
+  }
+  return DYD_OK;
+}
+
+/* ---- for every choice ---- */
+
+/* dl_j^2 - ds_k^2 is a maximum of functions that are affine in x: largest at a corner of R_0. */
+static bool reach_is_nearest(dyd_reach *r, size_t j) {
+  for (int c = 0; c < 4; c++) {
+    mpz_srcptr x = dyd_irect_end(&r->grid[0], 0, c & 1), y = dyd_irect_end(&r->grid[0], 1, c >> 1);
+    dyd_irect_dl2(r->d, x, y, &r->grid[j]);
+    for (size_t k = 1; k < r->count; k++) {
+      if (k == j) continue;
+      dyd_irect_ds2(r->e, x, y, &r->grid[k]);
+      if (mpz_cmp(r->d, r->e) >= 0) return false;
+    }
+  }
+  return true;
+}
+
+/* *least = min (z - x)(z - y) over the sides of a, b, k along an axis: x and y at ends, since it is affine in each; z
+ * as near as can be to their middle. */
+static void least_product(mpz_ptr least, mpz_ptr z, mpz_ptr t, const dyd_irect *a, const dyd_irect *b,
+                          const dyd_irect *k, int axis) {
+  for (int c = 0; c < 4; c++) {
+    mpz_srcptr x = dyd_irect_end(a, axis, c & 1), y = dyd_irect_end(b, axis, c >> 1);
+    mpz_add(z, x, y);
+    mpz_fdiv_q_2exp(z, z, 1);
+    if (mpz_cmp(z, dyd_irect_end(k, axis, 0)) < 0) mpz_set(z, dyd_irect_end(k, axis, 0));
+    if (mpz_cmp(z, dyd_irect_end(k, axis, 1)) > 0) mpz_set(z, dyd_irect_end(k, axis, 1));
+    mpz_sub(t, z, x);
+    mpz_sub(z, z, y);
+    mpz_mul(t, t, z);
+    if (c == 0 || mpz_cmp(t, least) < 0) mpz_set(least, t);
+  }
+}
+
+/* p_k is outside of the disc with diameter p_i p_j iff (p_k - p_i).(p_k - p_j) > 0: a sum over both coordinates, each
+ * with its own variables. */
+static bool reach_is_gabriel(dyd_reach *r, size_t j) {
+  bool free_of_all = true;
+  DYD_LOCAL_NUMBERS(mpz, z);
+  for (size_t k = 1; k < r->count && free_of_all; k++) {
+    if (k == j) continue;
+    least_product(r->d, z, r->rho, &r->grid[0], &r->grid[j], &r->grid[k], 0);
+    least_product(r->e, z, r->rho, &r->grid[0], &r->grid[j], &r->grid[k], 1);
+    mpz_add(r->d, r->d, r->e);
+    free_of_all = mpz_sgn(r->d) > 0;
+  }
+  return free_of_all;
+}
+
+/* Returns true if number j (from 1) is nearest to number 0 for some choice (ties included), for every choice (alone).
+ */
+static bool reach_may_be_nearest(dyd_reach *r, size_t j) {
+  return dyd_reach_has_place(r, j, false, &r->grid[0]);
+}
+
+/* Returns true if the open disc with diameter 0 j is free of the others for some choice, the closed one for every
+ * choice. */
+static bool reach_may_be_gabriel(dyd_reach *r, size_t j) {
+  const dyd_irect *a = &r->grid[0], *b = &r->grid[j];
+  DYD_LOCAL(dyd_irect, middle);
+  mpz_ptr end[4] = {middle.x0, middle.x1, middle.y0, middle.y1};
+  for (int k = 0; k < 4; k++) {
+    mpz_add(end[k], dyd_irect_end(a, k / 2, k % 2), dyd_irect_end(b, k / 2, k % 2));
+    mpz_fdiv_q_2exp(end[k], end[k], 1);
+  }
+  return dyd_reach_has_place(r, j, true, &middle);
+}
+
 /* ---- nearest neighbours ---- */
 
 /* Only for exact points i, which have one distance to each: the least of the largest distances of all but one decides
@@ -87,7 +199,7 @@ static dyd_status nearest_of_point(dyd_graph_work *w, uint32_t i) {
   for (size_t k = 1; k < r->count && st == DYD_OK; k++) {
     dyd_irect_ds2(own, r->grid[0].x0, r->grid[0].y0, &r->grid[k]);
     if (r->count > 2 && mpz_cmp(own, least[who == k]) > 0) continue;
-    bool sure = who == k && dyd_reach_is_nearest(r, k);
+    bool sure = who == k && reach_is_nearest(r, k);
     st = graph_add(w, i, w->other[k - 1], sure);
   }
   return st;
@@ -100,14 +212,14 @@ static dyd_status status_as_nearest(dyd_graph_status *out, dyd_graph_work *w, bo
   *out = v.status;
   if (v.known || v.status != DYD_GRAPH_POSSIBLE) return DYD_OK;
   if (!*loaded) {
-    dyd_status st = dyd_reach_load(&w->reach, w->sites, i, w->other, w->others);
+    dyd_status st = reach_load(&w->reach, w->sites, i, w->other, w->others);
     if (st != DYD_OK) return st;
     *loaded = true;
   }
-  if (dyd_reach_is_nearest(&w->reach, number + 1))
+  if (reach_is_nearest(&w->reach, number + 1))
     *out = DYD_GRAPH_SURE;
   else
-    *out = dyd_reach_may_be_nearest(&w->reach, number + 1) ? DYD_GRAPH_POSSIBLE : DYD_GRAPH_NEVER;
+    *out = reach_may_be_nearest(&w->reach, number + 1) ? DYD_GRAPH_POSSIBLE : DYD_GRAPH_NEVER;
   return DYD_OK;
 }
 
@@ -119,7 +231,7 @@ static dyd_status nearest_of(dyd_graph_work *w, uint32_t i) {
   dyd_status st = DYD_OK;
   dyd_filter_nearest_few(w, i);
   if (w->others > NEAREST_MANY && dyd_sites_is_point(w->sites, i)) {
-    st = dyd_reach_load(&w->reach, w->sites, i, w->other, w->others);
+    st = reach_load(&w->reach, w->sites, i, w->other, w->others);
     return st == DYD_OK ? nearest_of_point(w, i) : st;
   }
   for (size_t k = 0; k < w->others && st == DYD_OK; k++) {
@@ -158,13 +270,13 @@ static dyd_status gabriel_status(dyd_graph_status *out, dyd_graph_work *w, uint3
   if (w->discs && v.status == DYD_GRAPH_POSSIBLE) v.status = dyd_filter_ball_gabriel(w, i, j);
   *out = v.status;
   if (v.known || v.status != DYD_GRAPH_POSSIBLE) return DYD_OK;
-  dyd_status st = dyd_reach_load(&w->reach, w->sites, i, &w->partner[w->start[i]], degree_of(w, i));
+  dyd_status st = reach_load(&w->reach, w->sites, i, &w->partner[w->start[i]], degree_of(w, i));
   if (st != DYD_OK) return st;
   size_t number = partner_number(w, i, j) + 1;
-  if (dyd_reach_is_gabriel(&w->reach, number))
+  if (reach_is_gabriel(&w->reach, number))
     *out = DYD_GRAPH_SURE;
   else
-    *out = dyd_reach_may_be_gabriel(&w->reach, number) ? DYD_GRAPH_POSSIBLE : DYD_GRAPH_NEVER;
+    *out = reach_may_be_gabriel(&w->reach, number) ? DYD_GRAPH_POSSIBLE : DYD_GRAPH_NEVER;
   return DYD_OK;
 }
 
@@ -432,7 +544,7 @@ static dyd_status graph_prepare(dyd_graph_work *w) {
 }
 
 static void graph_work_clear(dyd_graph_work *w) {
-  dyd_reach_clear(&w->reach);
+  reach_clear(&w->reach);
   dyd_pair_list_clear(&w->pairs);
   dyd_free_all(w->start, w->partner, w->box, w->other);
 }
@@ -456,7 +568,7 @@ dyd_status dyd_graph_of_discs(dyd_graph_list *out, const dyd_delaunay *pd, const
   w.n = dyd_sites_count(w.sites);
   /* A tied pair is longer than those between on the rim [GRP-1] [GRP-2]; it may be a diameter of its circle. */
   w.least = graph == DYD_GRAPH_GABRIEL && !dyd_is_line(pd) ? DYD_TIE : dyd_least_bounding_true(pd);
-  dyd_reach_init(&w.reach);
+  reach_init(&w.reach);
   dyd_status st = graph_prepare(&w);
   if (st == DYD_OK) st = make[graph](&w);
   graph_work_clear(&w);

@@ -3,7 +3,7 @@
  * decide a pair of i [NNG-1] [GAB-1].
  *
  *   graph_filter.c   one pair in doubles
- *   reach.c          one pair exactly
+ *   reach.c          whether one pair is possible, exactly
  *   graph.c          the graphs */
 #ifndef DYD_GRAPH_GRAPH_H
 #define DYD_GRAPH_GRAPH_H
@@ -25,18 +25,9 @@ typedef struct dyd_reach {
   mpz_t rho, d, e; /* scratch */
 } dyd_reach;
 
-void dyd_reach_init(dyd_reach *r);
-void dyd_reach_clear(dyd_reach *r);
-/* grid[0] becomes site i, grid[1 ..] the others. DYD_E_NOMEM, DYD_E_RANGE as dyd_sites_get. */
-dyd_status dyd_reach_load(dyd_reach *r, const dyd_sites *sites, uint32_t i, const uint32_t *other, size_t count);
-/* Returns true if number j (from 1) is nearest to number 0 for some choice (ties included), for every choice (alone).
- */
-bool dyd_reach_may_be_nearest(dyd_reach *r, size_t j);
-bool dyd_reach_is_nearest(dyd_reach *r, size_t j);
-/* Returns true if the open disc with diameter 0 j is free of the others for some choice, the closed one for every
- * choice. */
-bool dyd_reach_may_be_gabriel(dyd_reach *r, size_t j);
-bool dyd_reach_is_gabriel(dyd_reach *r, size_t j);
+/* Is there a place x in the box with dl_k(x)^2 >= rho(x) for all k? rho: of the sides of number j, and of those of
+ * number 0 where `both`. true as well when memory is exhausted. */
+bool dyd_reach_has_place(dyd_reach *r, size_t j, bool both, const dyd_irect *box);
 
 /* pairs: the possible ones, of at least the status `least`. partner[start[i] .. start[i + 1] - 1]: those of site i,
  * ascending. */

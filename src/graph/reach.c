@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What a few rectangles decide exactly about neighbours of the first of them, in integers [NNG-1] [GAB-1].
+/* Pairs that are neighbours for some choice, exactly, in integers [NNG-1] [GAB-1].
  *
- * "For some choice" is a place in a box where no third rectangle is too near for all choices. For the nearest neighbour
+ * They are where a box has a place at which no third rectangle is too near for all choices. For the nearest neighbour
  * that is a place x in R_i with ds_j(x) <= dl_k(x) for all k; for the Gabriel graph, whose edges are diameters of empty
  * discs, a middle m of points of R_i and R_j with r(m) <= dl_k(m), r(m) half the least distance of two points with that
  * middle: by each coordinate the larger of the distances of m to both sides. So both ask whether
@@ -12,10 +12,9 @@
  * or (x_a - e)^2. There dl_k^2 - rho is convex: a k that is too near at four corners is so in between. Cut through the
  * middles of the k as well, each dl_k is the distance of one corner; where that of k is the least of all, a convex
  * polygon, the convex function dl_k^2 - rho is largest at one of its corners, which are rational. */
-#include "graph/graph.h"
-
 #include "base/alloc.h"
 #include "base/local.h"
+#include "graph/graph.h"
 
 /* ---- polygons in a box ---- */
 
@@ -189,98 +188,6 @@ static bool clip_has_room(bool *room, const dyd_clip *c) {
   polygon_clear(&p[0]);
   polygon_clear(&p[1]);
   return good;
-}
-
-/* ---- loading ---- */
-
-void dyd_reach_init(dyd_reach *r) {
-  *r = (dyd_reach){0};
-  mpz_inits(r->rho, r->d, r->e, NULL);
-}
-
-void dyd_reach_clear(dyd_reach *r) {
-  for (size_t k = 0; k < r->made; k++) {
-    dyd_rect_clear(&r->rect[k]);
-    dyd_irect_clear(&r->grid[k]);
-  }
-  dyd_free_all(r->rect, r->in, r->grid, r->mark);
-  mpz_clears(r->rho, r->d, r->e, NULL);
-}
-
-static bool reach_room(dyd_reach *r, size_t count) {
-  size_t cap[4] = {r->made, r->made, r->made, r->made};
-  if (count <= r->made) return true;
-  if (!DYD_GROW(r->rect, cap[0], count) || !DYD_GROW(r->in, cap[1], count) || !DYD_GROW(r->grid, cap[2], count) ||
-      !DYD_GROW(r->mark, cap[3], count))
-    return false;
-  for (; r->made < cap[0]; r->made++) {
-    dyd_rect_init(&r->rect[r->made]);
-    dyd_irect_init(&r->grid[r->made]);
-  }
-  for (size_t k = 0; k < r->made; k++) r->in[k] = &r->rect[k];
-  return true;
-}
-
-dyd_status dyd_reach_load(dyd_reach *r, const dyd_sites *sites, uint32_t i, const uint32_t *other, size_t count) {
-  if (!reach_room(r, count + 1)) return DYD_E_NOMEM;
-  dyd_status st = dyd_sites_get(&r->rect[0], sites, i);
-  for (size_t k = 0; k < count && st == DYD_OK; k++) st = dyd_sites_get(&r->rect[k + 1], sites, other[k]);
-  if (st != DYD_OK) return st;
-  r->count = count + 1;
-  dyd_irects_scale(r->grid, r->in, r->count, NULL, NULL);
-  for (size_t k = 0; k < r->count; k++) {
-    mpz_ptr end[4] = {r->grid[k].x0, r->grid[k].x1, r->grid[k].y0, r->grid[k].y1};
-    for (int e = 0; e < 4; e++) mpz_mul_2exp(end[e], end[e], 2);
-  }
-  return DYD_OK;
-}
-
-/* ---- for every choice ---- */
-
-/* dl_j^2 - ds_k^2 is a maximum of functions that are affine in x: largest at a corner of R_0. */
-bool dyd_reach_is_nearest(dyd_reach *r, size_t j) {
-  for (int c = 0; c < 4; c++) {
-    mpz_srcptr x = dyd_irect_end(&r->grid[0], 0, c & 1), y = dyd_irect_end(&r->grid[0], 1, c >> 1);
-    dyd_irect_dl2(r->d, x, y, &r->grid[j]);
-    for (size_t k = 1; k < r->count; k++) {
-      if (k == j) continue;
-      dyd_irect_ds2(r->e, x, y, &r->grid[k]);
-      if (mpz_cmp(r->d, r->e) >= 0) return false;
-    }
-  }
-  return true;
-}
-
-/* *least = min (z - x)(z - y) over the sides of a, b, k along an axis: x and y at ends, since it is affine in each; z
- * as near as can be to their middle. */
-static void least_product(mpz_ptr least, mpz_ptr z, mpz_ptr t, const dyd_irect *a, const dyd_irect *b,
-                          const dyd_irect *k, int axis) {
-  for (int c = 0; c < 4; c++) {
-    mpz_srcptr x = dyd_irect_end(a, axis, c & 1), y = dyd_irect_end(b, axis, c >> 1);
-    mpz_add(z, x, y);
-    mpz_fdiv_q_2exp(z, z, 1);
-    if (mpz_cmp(z, dyd_irect_end(k, axis, 0)) < 0) mpz_set(z, dyd_irect_end(k, axis, 0));
-    if (mpz_cmp(z, dyd_irect_end(k, axis, 1)) > 0) mpz_set(z, dyd_irect_end(k, axis, 1));
-    mpz_sub(t, z, x);
-    mpz_sub(z, z, y);
-    mpz_mul(t, t, z);
-    if (c == 0 || mpz_cmp(t, least) < 0) mpz_set(least, t);
-  }
-}
-
-/* p_k is outside of the disc with diameter p_i p_j iff (p_k - p_i).(p_k - p_j) > 0: a sum over both coordinates, each
- * with its own variables. */
-bool dyd_reach_is_gabriel(dyd_reach *r, size_t j) {
-  bool free_of_all = true;
-  DYD_LOCAL_NUMBERS(mpz, z);
-  for (size_t k = 1; k < r->count && free_of_all; k++) {
-    if (k == j) continue;
-    least_product(r->d, z, r->rho, &r->grid[0], &r->grid[j], &r->grid[k], 0);
-    least_product(r->e, z, r->rho, &r->grid[0], &r->grid[j], &r->grid[k], 1);
-    mpz_add(r->d, r->d, r->e);
-    free_of_all = mpz_sgn(r->d) > 0;
-  }
-  return free_of_all;
 }
 
 /* ---- for some choice ---- */
@@ -457,27 +364,11 @@ static void set_cuts(reach_quest *q) {
     }
 }
 
-static bool quest_has_room(reach_quest *q, const dyd_irect *box) {
-  set_cuts(q);
-  bool room = box_has_room(q, box);
+bool dyd_reach_has_place(dyd_reach *r, size_t j, bool both, const dyd_irect *box) {
+  reach_quest q = {.r = r, .j = j, .both = both};
+  set_cuts(&q);
+  bool room = box_has_room(&q, box);
   for (int axis = 0; axis < 2; axis++)
-    for (int c = 0; c < q->cuts; c++) mpz_clear(q->cut[axis][c]);
-  return room || q->failed; /* without memory nothing is denied */
-}
-
-bool dyd_reach_may_be_nearest(dyd_reach *r, size_t j) {
-  reach_quest q = {.r = r, .j = j};
-  return quest_has_room(&q, &r->grid[0]);
-}
-
-bool dyd_reach_may_be_gabriel(dyd_reach *r, size_t j) {
-  reach_quest q = {.r = r, .j = j, .both = true};
-  const dyd_irect *a = &r->grid[0], *b = &r->grid[j];
-  DYD_LOCAL(dyd_irect, middle);
-  mpz_ptr end[4] = {middle.x0, middle.x1, middle.y0, middle.y1};
-  for (int k = 0; k < 4; k++) {
-    mpz_add(end[k], dyd_irect_end(a, k / 2, k % 2), dyd_irect_end(b, k / 2, k % 2));
-    mpz_fdiv_q_2exp(end[k], end[k], 1);
-  }
-  return quest_has_room(&q, &middle);
+    for (int c = 0; c < q.cuts; c++) mpz_clear(q.cut[axis][c]);
+  return room || q.failed; /* without memory nothing is denied */
 }

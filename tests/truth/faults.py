@@ -53,7 +53,7 @@ FAULTS = [  # where it shows, file, what stands there, what is put there
     ('stated=graph nearest', 'graph/graph_filter.c', 'dyd_dl2_upper(a, &w->box[w->other[q]]) < dyd_ds2_lower(a, b))', 'dyd_ds2_upper(a, &w->box[w->other[q]], 0) < dyd_ds2_lower(a, b))'),
     ('stated=graph gabriel', 'graph/graph_filter.c', 'double least = 0.25 * dyd_ds2_lower(a, b), most', 'double least = 0.5 * dyd_ds2_lower(a, b), most'),
     ('stated=graph mst', 'graph/graph.c', 'length_compare(&s->largest[next], &s->least[q]) < 0', 'length_compare(&s->least[next], &s->least[q]) < 0'),
-    ('stated=graph nearest', 'graph/reach.c', 'c < 4; c++) {\n    mpz_srcptr x = dyd_irect_end(&r->grid[0]', 'c < 1; c++) {\n    mpz_srcptr x = dyd_irect_end(&r->grid[0]'),
+    ('stated=graph nearest', 'graph/graph.c', 'c < 4; c++) {\n    mpz_srcptr x = dyd_irect_end(&r->grid[0]', 'c < 1; c++) {\n    mpz_srcptr x = dyd_irect_end(&r->grid[0]'),
     ('stated=nearest', 'voronoi/nearest.c', 'if (mpq_cmp(d, least) <= 0) q->vertex', 'if (mpq_cmp(d, least) < 0 || k == 0) q->vertex'),
     ('stated=vertices ' + PLANE, 'voronoi/vertex.c', 'dyd_sites_get(&r[k], sites, corner[k])', 'dyd_sites_get(&r[k], sites, corner[k ? k : 1])'),
     (PLANE, 'io/read/coordinate.c', '.plain = {middle - by[0] - by[1], exp}', '.plain = {middle - by[0], exp}'),
