@@ -2,6 +2,7 @@
 /* Tables of sites, mail, and the triangulation of sites: partners and rows. */
 #include "tiles/tiles.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -76,127 +77,6 @@ void tiles_sites_end(tiles_sites *s) {
   s->cap_end = 0;
 }
 
-tiles_box tiles_view_box(const tiles_view *v, size_t k) {
-  double end[4];
-  dyd_sites_get_d(end, v->place, k);
-  return (tiles_box){end[0], end[1], end[2], end[3]};
-}
-
-uint64_t tiles_view_number(const tiles_view *v, size_t k) {
-  return k < v->first->count ? v->first->number[k] : v->second->number[k - v->first->count];
-}
-
-bool tiles_sites_copy(tiles_sites *s, const tiles_view *v, size_t k) {
-  tiles_box b = tiles_view_box(v, k);
-  const double end[4] = {b.x0, s->dim == 2 ? b.y0 : b.x1, b.y0, b.y1};
-  return tiles_sites_add(s, tiles_view_number(v, k), end);
-}
-
-/* ---- sets ---- */
-
-static size_t set_place(const tiles_set *s, uint32_t site) {
-  size_t at = (site * 2654435769u) & (s->cap - 1);
-  while (s->slot[at] && s->slot[at] != site + 1) at = (at + 1) & (s->cap - 1);
-  return at;
-}
-
-bool tiles_set_has(const tiles_set *s, uint32_t site) {
-  return s->cap && s->slot[set_place(s, site)];
-}
-
-static bool set_grow(tiles_set *s) {
-  tiles_set wider = {.cap = s->cap ? 2 * s->cap : 64};
-  wider.slot = calloc(wider.cap, sizeof *wider.slot);
-  if (!wider.slot) return false;
-  for (size_t k = 0; k < s->cap; k++)
-    if (s->slot[k]) wider.slot[set_place(&wider, s->slot[k] - 1)] = s->slot[k];
-  free(s->slot);
-  wider.count = s->count;
-  *s = wider;
-  return true;
-}
-
-bool tiles_set_add(tiles_set *s, uint32_t site) {
-  if (2 * (s->count + 1) > s->cap && !set_grow(s)) return false;
-  size_t at = set_place(s, site);
-  if (!s->slot[at]) s->count++;
-  s->slot[at] = site + 1;
-  return true;
-}
-
-void tiles_set_clear(tiles_set *s) {
-  free(s->slot);
-  *s = (tiles_set){0};
-}
-
-/* ---- the triangulation of a view ---- */
-
-static dyd_status append_tile_boxes(dyd_engine *e, const tiles_sites *s, dyd_error *err) {
-  enum { AT_ONCE = 1024 };
-  double end[4][AT_ONCE];
-  dyd_status st = DYD_OK;
-  for (size_t k = 0; k < s->count && st == DYD_OK;) {
-    size_t n = 0;
-    for (; n < AT_ONCE && k < s->count; n++, k++) {
-      tiles_box b = tiles_sites_box(s, k);
-      end[0][n] = b.x0;
-      end[1][n] = b.x1;
-      end[2][n] = b.y0;
-      end[3][n] = b.y1;
-    }
-    st = dyd_engine_add_boxes(e, n, end[0], end[1], end[2], end[3], err);
-  }
-  return st;
-}
-
-static dyd_status append_sites(dyd_engine *e, const tiles_sites *s, dyd_error *err) {
-  if (s->count == 0) return DYD_OK;
-  if (s->dim == 4) return append_tile_boxes(e, s, err);
-  const dyd_column xy[2] = {{s->end, 2 * sizeof *s->end}, {s->end + 1, 2 * sizeof *s->end}};
-  return dyd_engine_add_columns(e, s->count, xy, NULL, err);
-}
-
-static double cpu_seconds(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return difftime(t.tv_sec, 0) + 1e-9 * (double)t.tv_nsec;
-}
-
-dyd_status tile_load(tiles_view *v, tile *t, const tiles_sites *first, const tiles_sites *second, dyd_error *err) {
-  tile_end_engine(t);
-  const double from = cpu_seconds();
-  dyd_status st = dyd_engine_new(&t->engine);
-  if (st == DYD_OK) st = append_sites(t->engine, first, err);
-  if (st == DYD_OK) st = append_sites(t->engine, second, err);
-  t->counters.seconds += cpu_seconds() - from;
-  if (st == DYD_E_NOMEM) return tiles_no_memory(err);
-  if (st == DYD_OK) *v = (tiles_view){first, second, dyd_engine_sites(t->engine)};
-  return st;
-}
-
-void tiles_graph_clear(tiles_graph *g) {
-  dyd_free_all(g->start, g->partner);
-  *g = (tiles_graph){0};
-}
-
-void tile_end_engine(tile *t) {
-  tiles_graph_clear(&t->graph);
-  dyd_engine_free(t->engine);
-  t->engine = NULL;
-}
-
-dyd_status tile_triangulate(tile *t, dyd_error *err) {
-  dyd_engine_options o;
-  dyd_outcome outcome = DYD_OUTCOME_NONE;
-  const double from = cpu_seconds();
-  dyd_engine_options_init(&o);
-  o.max_pairs = t->job->max_pairs;
-  dyd_status st = dyd_engine_run(&outcome, t->engine, &o, err);
-  t->counters.capped |= outcome == DYD_OUTCOME_BUDGET;
-  t->counters.seconds += cpu_seconds() - from;
-  return st == DYD_E_NOMEM ? tiles_no_memory(err) : st;
-}
-
 /* ---- partners ---- */
 
 static void count_at(tiles_graph *g, uint32_t i) {
@@ -262,21 +142,8 @@ dyd_status tiles_rows_add(tiles_rows *rows, tiles_row row, dyd_error *err) {
   return DYD_OK;
 }
 
-dyd_status tile_rows_of(tiles_rows *rows, tile *t, const tiles_view *v, uint32_t i, dyd_error *err) {
-  tiles_partners p = {0};
-  const uint64_t own = tiles_view_number(v, i);
-  const size_t from = rows->count;
-  dyd_status st = tile_partners(&p, t, i, err);
-  for (size_t k = 0; st == DYD_OK && k < p.count; k++) {
-    uint64_t number = tiles_view_number(v, TILES_SITE(p.item[k]));
-    if (number > own) st = tiles_rows_add(rows, (tiles_row){own, number, TILES_STATUS(p.item[k])}, err);
-  }
-  tiles_rows_sort(rows, from);
-  return st;
-}
-
-bool tile_has_wide(const tile *t) {
-  uint64_t wide = 0;
-  for (size_t r = 0; r < t->job->ranks; r++) wide += t->info[r].wide;
-  return wide > 0;
+tiles_box tiles_view_box(const tiles_view *v, size_t k) {
+  double end[4];
+  dyd_sites_get_d(end, v->place, k);
+  return (tiles_box){end[0], end[1], end[2], end[3]};
 }

@@ -68,18 +68,12 @@ static inline size_t tiles_view_count(const tiles_view *v) {
   return v->first->count + v->second->count;
 }
 tiles_box tiles_view_box(const tiles_view *v, size_t k);
-uint64_t tiles_view_number(const tiles_view *v, size_t k);
-/* Adds site k of the view to a table. */
-bool tiles_sites_copy(tiles_sites *s, const tiles_view *v, size_t k);
 
 /* A set of own sites, those of another rank. */
 typedef struct tiles_set {
   size_t count, cap; /* cap: 0 or a power of two, more than count */
   uint32_t *slot;    /* site + 1; 0: free */
 } tiles_set;
-bool tiles_set_has(const tiles_set *s, uint32_t site);
-bool tiles_set_add(tiles_set *s, uint32_t site);
-void tiles_set_clear(tiles_set *s);
 
 /* ---- what the pairs of a site may depend on: discs and half-planes [REACH-1] ---- */
 
@@ -208,7 +202,6 @@ typedef struct tiles_graph {
   uint32_t *partner;
   size_t cap_start, cap_partner;
 } tiles_graph;
-void tiles_graph_clear(tiles_graph *g);
 
 typedef struct tiles_row {
   uint64_t i, j;
@@ -249,18 +242,8 @@ typedef struct tile {
 dyd_status tile_new(tile *t, const tiles_job *job, size_t rank, dyd_error *err);
 void tile_free(tile *t);
 
-/* The steps, in this order; tile_answer and tile_extend again while any rank asks. Each takes the mail in t->in and
- * writes t->out. *err names the remedy. */
-dyd_status tile_survey(tile *t, dyd_error *err); /* counts in its slice of a text; out: the counts */
-dyd_status tile_read(tile *t, dyd_error *err);   /* its slice of the input; out: a sample of it */
-dyd_status tile_split(tile *t, dyd_error *err);  /* boxes of the plane; out: points to their owners */
-dyd_status tile_own(tile *t, dyd_error *err);    /* its own sites; out: where they are, and corners of their hull */
-dyd_status tile_halo(tile *t, dyd_error *err);   /* out: sites near the boxes of others */
-dyd_status tile_first(tile *t, dyd_error *err);  /* triangulates; out: discs */
-dyd_status tile_answer(tile *t, dyd_error *err); /* out: the nearest sites in the discs asked for */
-dyd_status tile_extend(tile *t, dyd_error *err); /* triangulates the fringe; out: discs */
-dyd_status tile_report(tile *t, dyd_error *err); /* at the end; out: counters, to rank 0 */
-
+/* The first step: counts in its slice of a text; out: the counts. */
+dyd_status tile_survey(tile *t, dyd_error *err);
 /* For the steps themselves. */
 dyd_status tile_read_text(tile *t, dyd_error *err);
 /* A new engine gets the sites of both tables, which may forget the places then. */
@@ -269,10 +252,6 @@ dyd_status tile_load(tiles_view *v, tile *t, const tiles_sites *first, const til
 dyd_status tile_triangulate(tile *t, dyd_error *err);
 /* The possible pairs of site i of the view; they last until the next call. Quick when i ascends. */
 dyd_status tile_partners(tiles_partners *p, tile *t, uint32_t i, dyd_error *err);
-void tile_end_engine(tile *t);
-/* Adds the rows of site i of the view: pairs with higher numbers. */
-dyd_status tile_rows_of(tiles_rows *rows, tile *t, const tiles_view *v, uint32_t i, dyd_error *err);
-bool tile_has_wide(const tile *t);
 
 /* ---- parts ---- */
 
