@@ -262,6 +262,7 @@ static dyd_status start_ghost(closing *c) {
   dyd_status st = DYD_OK;
   for (uint32_t a = 0; a < ghost && c->out->outer && st == DYD_OK; a++) {
     if (dyd_pair_map_get(&c->map, a, ghost) != DYD_PAIR_UNKNOWN) continue;
+    if (dyd_work_cancelled(c->w)) return DYD_CANCELLED;
     bool possible;
     st = dyd_hull_possible(&possible, c->w, c->sk, c->out->vertex[a]);
     if (st == DYD_OK) st = closing_add(c, a, ghost, possible ? DYD_PAIR_OPEN : DYD_PAIR_IMPOSSIBLE);

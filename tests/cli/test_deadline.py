@@ -107,6 +107,12 @@ def test_certificate_that_is_cut():
     assert files == ['out'], files
 
 
+def test_hull_that_is_cut():
+    """Rectangles in a row: each is asked whether it can be on the hull, which takes longest. What is known is written."""
+    result = timed(3, 'delaunay', '--radius', '0.01', '-', stdin=''.join(f'{i} 0\n' for i in range(4000)))
+    expect(result, 4, '^0,1,legal$', '^dyadel: budget: 3999 legal, .*time limit reached')
+
+
 def test_huge_roots():
     for command in ('delaunay', 'voronoi', 'converge'):
         with tempfile.TemporaryDirectory() as folder:
