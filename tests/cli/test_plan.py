@@ -216,6 +216,28 @@ def test_sphere():
         assert got.code in (1, 2) and message in got.err, got
 
 
+def test_first_rows_on_the_sphere():
+    """The pairs that a plan says are decided by its first rows are decided then, whatever the others are [SPH-7]."""
+    chance, some = random.Random(8), [((54.5, 63.4), (-16.2, 49.8), (62.7, 27), (-151.4, 54.3), (-151.4, 59.7), (11.9, 14.9))]
+    some += [tuple((round(chance.uniform(-180, 180), 1), round(chance.uniform(-80, 80), 1)) for _ in range(chance.randint(6, 14))) for _ in range(7)]
+    early = 0
+    for points in some:
+        radius = chance.choice((300, 700)) if points is not some[0] else 1112
+        ask = ('plan', '--sphere', '--radius', f'{radius}km', '-')
+        text = ''.join(f'{x} {y}\n' for x, y in points)
+        plan, pairs = (rows(run(*ask, *layer, stdin=text).out) for layer in ((), ('--layer', 'pairs')))
+        half = {}
+        for n, row in enumerate(plan, 1):
+            half[int(row['i'])] = row['half_width_needed']
+            table = 'lon,lat,r\n' + ''.join(f'{x},{y},{half.get(k, radius * 1000)}m\n' for k, (x, y) in enumerate(points))
+            found = run('delaunay', '--sphere', '--columns', 'lon,lat', '--radius-column', 'r', '--accept-fixpoint', '-', stdin=table)
+            still = {(p['i'], p['j']) for p in rows(found.out) if p['status'] != 'legal'}
+            said = {(p['i'], p['j']) for p in pairs if p['rank'] and int(p['rank']) <= n}
+            assert not said & still, (points, radius, n, said & still)
+            early += len(said) if n < len(plan) else 0
+    assert early > 20, early
+
+
 def test_discs():
     """Plans cover the pairs that are indeterminate for the discs: all of them, or the ones given by --pairs."""
     gps = '--columns', 'east,north', '--radius-column', 'accuracy', os.path.join(DATA, 'gps.csv')
