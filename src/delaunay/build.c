@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/float_filter.h"
 #include "base/invariant.h"
+#include "base/local.h"
 #include "delaunay/extend.h"
 #include "delaunay/faces.h"
 #include "delaunay/local_filter.h"
@@ -313,7 +314,7 @@ static bool splice_is_needless(dyd_work *w, const dyd_skeleton *sk, const uint32
  * alone (two sites have become the same exact point, or more has to change); nothing is changed then, nor on failure.
  */
 static dyd_status splice(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris, bool moved) {
-  part p = {.pd = pd, .w = w, .tri = tri, .tris = tris};
+  DYD_SCOPED(part) p = {.pd = pd, .w = w, .tri = tri, .tris = tris};
   dyd_status st = gather_rims(&p);
   if (st == DYD_OK) st = gather_vertices(&p);
   if (st == DYD_OK) st = part_triangulate(&p);
@@ -322,7 +323,6 @@ static dyd_status splice(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32
     for (uint32_t q = 0; q < p.taken; q++) put_triangle(&p, p.queue[q]);
     link_rims(&p);
   }
-  part_clear(&p);
   return st;
 }
 
@@ -347,14 +347,14 @@ static void mark_upset(dyd_delaunay *pd, const uint32_t *tri, uint32_t tris, uin
  * changed then. */
 static dyd_status splice_near(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris,
                               const uint32_t *vertex, uint32_t count) {
-  uint32_t face = dyd_face_of(pd, tri[0]), upset = 0, *list = dyd_alloc(tris, sizeof *list);
+  uint32_t face = dyd_face_of(pd, tri[0]), upset = 0;
+  DYD_FREED uint32_t *list = dyd_alloc(tris, sizeof *list);
   if (!list) return DYD_E_NOMEM;
   for (uint32_t q = 0; q < tris; q++)
     if (is_upset(w, &pd->sk.mesh, tri[q], vertex, count)) list[upset++] = tri[q];
   mark_upset(pd, list, upset, SPLICED);
   dyd_status st = splice(fits, pd, w, list, upset, false);
   mark_upset(pd, list, upset, face);
-  free(list);
   return st;
 }
 
@@ -371,7 +371,7 @@ static uint64_t rebuild_bytes(const dyd_delaunay *pd) {
 }
 
 static dyd_status rebuild(dyd_delaunay *pd, dyd_error *err) {
-  dyd_pair_list all = {0};
+  DYD_SCOPED(dyd_pair_list) all = {0};
   if (pd->room.most) pd->room.beside = rebuild_bytes(pd);
   if (!dyd_room_has(&pd->room, dyd_skeleton_bytes(pd->sk.rects.sites), "the triangulation made anew"))
     return DYD_E_NOMEM;
@@ -386,7 +386,6 @@ static dyd_status rebuild(dyd_delaunay *pd, dyd_error *err) {
     *pd = next;
     dyd_skeleton_moved(&pd->sk);
   }
-  dyd_pair_list_clear(&all);
   return st;
 }
 
@@ -427,7 +426,7 @@ static void fetch_ahead(const dyd_delaunay *pd, const uint32_t *changed, size_t 
 
 static dyd_status affected(uint32_t **seed, size_t *seeds, dyd_delaunay *pd, const uint32_t *changed, size_t count) {
   size_t cap = 0;
-  bool *noted = calloc(pd->open.count, sizeof *noted);
+  DYD_FREED bool *noted = calloc(pd->open.count, sizeof *noted);
   dyd_status st = noted ? DYD_OK : DYD_E_NOMEM;
   for (size_t q = 0; q < count && st == DYD_OK; q++) {
     uint32_t v = pd->sk.vertex[changed[q]];
@@ -435,7 +434,6 @@ static dyd_status affected(uint32_t **seed, size_t *seeds, dyd_delaunay *pd, con
     st = dyd_skeleton_refresh(&pd->sk, v);
     if (st == DYD_OK) st = note_faces(seed, seeds, &cap, noted, pd, v);
   }
-  free(noted);
   return st;
 }
 
@@ -474,14 +472,13 @@ static void restore_certain(dyd_delaunay *pd, const uint8_t *certain, const uint
 }
 
 static dyd_status redo_face(dyd_delaunay *pd, dyd_work *w, dyd_narrowed *narrowed, const uint32_t *tri, uint32_t tris) {
-  uint8_t *before = dyd_alloc(tris, 1);
+  DYD_FREED uint8_t *before = dyd_alloc(tris, 1);
   if (!before) return DYD_E_NOMEM;
   for (uint32_t q = 0; q < tris; q++) before[q] = pd->sk.certain[tri[q]];
   dyd_status st = recertify_inside(narrowed, pd, w, tri, tris);
   bool replaced = false;
   if (st == DYD_OK) st = dyd_faces_replace(&replaced, pd, w, tri, tris, narrowed);
   if (!replaced) restore_certain(pd, before, tri, tris);
-  free(before);
   return st;
 }
 
@@ -499,27 +496,25 @@ static dyd_status retriangulate(bool *fits, dyd_delaunay *pd, dyd_work *w, const
 /* *fits as for splice. */
 static dyd_status work_on(bool *fits, dyd_delaunay *pd, dyd_work *w, uint32_t seed, const uint32_t *changed,
                           size_t count) {
-  dyd_narrowed narrowed;
+  DYD_SCOPED(dyd_narrowed) narrowed = {0};
   const dyd_face *face = &pd->open.face[pd->open.of[seed]];
-  uint32_t tris = face->tris, *tri = dyd_alloc(tris, sizeof *tri);
+  const uint32_t tris = face->tris;
+  DYD_FREED uint32_t *tri = dyd_alloc(tris, sizeof *tri);
   if (!tri) return DYD_E_NOMEM;
   memcpy(tri, pd->open.tri + face->first_tri, tris * sizeof *tri);
   dyd_status st = dyd_narrowed_init(&narrowed, pd, pd->open.of[seed], changed, count);
   if (st == DYD_OK) st = retriangulate(fits, pd, w, &narrowed, tri, tris);
   if (st == DYD_OK && *fits) st = redo_face(pd, w, &narrowed, tri, tris);
-  dyd_narrowed_clear(&narrowed);
-  free(tri);
   return st;
 }
 
 static dyd_status update_faces(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32_t *changed, size_t count) {
-  uint32_t *seed = NULL;
+  DYD_FREED uint32_t *seed = NULL;
   size_t seeds = 0;
   dyd_status st = affected(&seed, &seeds, pd, changed, count);
   dyd_mesh_follow(&pd->sk.mesh);
   for (size_t q = 0; q < seeds && st == DYD_OK && *fits; q++)
     st = dyd_work_cancelled(w) ? DYD_CANCELLED : work_on(fits, pd, w, seed[q], changed, count);
-  free(seed);
   return st;
 }
 
@@ -599,15 +594,13 @@ dyd_status dyd_delaunay_decided(dyd_delaunay **out, size_t n, dyd_rect_fn *rect,
                                 const dyd_decider *decider, const dyd_delaunay_options *options, dyd_error *err) {
   dyd_delaunay_options o = *options;
   dyd_sites *sites = NULL;
-  dyd_rect r;
+  DYD_LOCAL(dyd_rect, r);
   *out = NULL;
-  dyd_rect_init(&r);
   dyd_status st = dyd_sites_new(&sites);
   for (size_t i = 0; i < n && st == DYD_OK; i++) {
     st = rect(&r, user, i);
     if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
   }
-  dyd_rect_clear(&r);
   dyd_room room = {.most = o.max_bytes, .beside = o.max_bytes && sites ? dyd_sites_memory(sites) : 0};
   o.max_bytes = dyd_room_left(&room);
   st = st == DYD_OK ? build_new(out, sites, decider, &o, err) : dyd_fail(err, st, "%s", dyd_status_text(st));

@@ -11,6 +11,7 @@
 #include "delaunay/closure.h"
 
 #include "base/alloc.h"
+#include "base/local.h"
 #include "legal/certify.h"
 #include "legal/witness.h"
 #include "possible/cover.h"
@@ -58,10 +59,8 @@ static dyd_status centre_gather(meeting *m, const dyd_skeleton *sk, const dyd_po
 
 /* Leaves those with ds <= least dl. */
 static void centre_choose(meeting *m, const dyd_skeleton *sk, const dyd_point *c) {
-  dyd_rect best, r;
+  DYD_LOCAL(dyd_rect, best, r);
   size_t kept = 0;
-  dyd_rect_init(&best);
-  dyd_rect_init(&r);
   for (size_t k = 0; k < m->count; k++) {
     dyd_rects_get(&r, &sk->rects, m->vertex[k]);
     if (k == 0 || dyd_compare_distance(c, &r, DYD_FARTHEST, &best, DYD_FARTHEST) < 0) dyd_rect_swap(&best, &r);
@@ -71,8 +70,6 @@ static void centre_choose(meeting *m, const dyd_skeleton *sk, const dyd_point *c
     if (dyd_compare_distance(c, &r, DYD_CLOSEST, &best, DYD_FARTHEST) <= 0) m->vertex[kept++] = m->vertex[k];
   }
   m->count = kept;
-  dyd_rect_clear(&r);
-  dyd_rect_clear(&best);
 }
 
 /* Vertices that are possibly nearest at one point, so that all pairs of them are possible [POS-1]: those with ds <= M
@@ -82,11 +79,9 @@ static void centre_choose(meeting *m, const dyd_skeleton *sk, const dyd_point *c
 static dyd_status dyd_centre_shows(uint32_t **vertex, size_t *count, const dyd_skeleton *sk, const uint32_t v[3],
                                    size_t most) {
   meeting m = {.most = most};
-  dyd_point c;
-  dyd_point_init(&c);
+  DYD_LOCAL(dyd_point, c);
   dyd_status st = dyd_circumcentre_round(&c, sk, v) ? centre_gather(&m, sk, &c, v[0]) : DYD_OK;
   if (st == DYD_OK) centre_choose(&m, sk, &c);
-  dyd_point_clear(&c);
   if (st != DYD_OK || m.count == 0) {
     free(m.vertex);
     m = (meeting){0};
@@ -322,7 +317,7 @@ static sweep_entry *sweep_order(const closing *c) {
 static dyd_status add_meeting(closing *c) {
   const dyd_rects *rects = &c->sk->rects;
   const uint32_t *v = c->out->vertex, count = c->out->vertices;
-  sweep_entry *e = sweep_order(c);
+  DYD_FREED sweep_entry *e = sweep_order(c);
   dyd_status st = e ? DYD_OK : DYD_E_NOMEM;
   for (uint32_t q = 0; q < count && st == DYD_OK && !c->full; q++) {
     uint32_t a = e[q].member;
@@ -334,7 +329,6 @@ static dyd_status add_meeting(closing *c) {
         st = closing_add(c, a, b, DYD_PAIR_OPEN);
     }
   }
-  free(e);
   return st;
 }
 
@@ -400,12 +394,11 @@ static dyd_status add_all(closing *c, uint32_t *vertex, size_t count) {
 static dyd_status closing_try_centre(closing *c, uint32_t k, uint32_t l, uint32_t other) {
   const uint32_t *v = c->out->vertex, n = c->out->vertices;
   const uint32_t three[2][3] = {{v[0], v[n / 3], v[2 * n / 3]}, {k, l, other}};
-  uint32_t *vertex = NULL;
+  DYD_FREED uint32_t *vertex = NULL;
   size_t count = 0, before = c->known;
   if (other == DYD_NONE || ++c->walks < c->patience || c->sk->mesh.no_filter) return DYD_OK;
   dyd_status st = dyd_centre_shows(&vertex, &count, c->sk, three[c->tries++ > 0], 2 * (size_t)n);
   if (st == DYD_OK) st = add_all(c, vertex, count);
-  free(vertex);
   if (c->known < before + c->walks) c->patience *= 2;
   c->walks = 0;
   return st;

@@ -11,6 +11,7 @@
 
 #include "base/alloc.h"
 #include "base/invariant.h"
+#include "base/local.h"
 #include "delaunay/faces.h"
 #include "delaunay/ties.h"
 #include "legal/certify.h"
@@ -252,7 +253,7 @@ static int newcomer_back(const void *a, const void *b) {
 
 /* The new sites in an order in which each is near to the one before: columns of about sqrt(count), up and down. */
 static dyd_status newcomers_order(uint32_t *order, const dyd_delaunay *pd, uint32_t count) {
-  newcomer *all = dyd_alloc(count, sizeof *all);
+  DYD_FREED newcomer *all = dyd_alloc(count, sizeof *all);
   uint32_t size = 1;
   if (!all) return DYD_E_NOMEM;
   while ((uint64_t)size * size < count) size++;
@@ -265,7 +266,6 @@ static dyd_status newcomers_order(uint32_t *order, const dyd_delaunay *pd, uint3
   for (uint32_t k = 0; k < count; k += size)
     qsort(all + k, count - k < size ? count - k : size, sizeof *all, k / size & 1 ? newcomer_back : newcomer_by_y);
   for (uint32_t k = 0; k < count; k++) order[k] = all[k].site;
-  free(all);
   return DYD_OK;
 }
 

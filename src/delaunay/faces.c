@@ -88,7 +88,7 @@ static void settle_points(bool *any, dyd_skeleton *sk, dyd_work *w, const uint32
 static dyd_status find_parts(dyd_delaunay *pd, size_t first) {
   dyd_undecided *f = &pd->open;
   size_t tris = f->tri_count - first;
-  uint32_t *tri = dyd_alloc(tris, sizeof *tri);
+  DYD_FREED uint32_t *tri = dyd_alloc(tris, sizeof *tri);
   if (!tri) return DYD_E_NOMEM;
   memcpy(tri, f->tri + first, tris * sizeof *tri);
   table_take_back(pd, first);
@@ -99,7 +99,6 @@ static dyd_status find_parts(dyd_delaunay *pd, size_t first) {
     st = table_flood(pd, tri[q], (uint32_t)f->count);
     if (st == DYD_OK) st = table_add(pd, start);
   }
-  free(tri);
   return st;
 }
 
@@ -145,12 +144,11 @@ static int compare_turned(const void *a, const void *b) {
 /* The numbers of the pairs by j, then i: they are sorted by i. */
 static dyd_status turn_pairs(uint32_t *turned, const dyd_vertex_pair *pair, uint32_t pairs) {
   if (pairs <= DYD_FEW_PAIRS) return DYD_OK;
-  uint64_t *key = dyd_alloc(pairs, sizeof *key);
+  DYD_FREED uint64_t *key = dyd_alloc(pairs, sizeof *key);
   if (!key) return DYD_E_NOMEM;
   for (uint32_t q = 0; q < pairs; q++) key[q] = (uint64_t)pair[q].j << 32 | q;
   qsort(key, pairs, sizeof *key, compare_turned);
   for (uint32_t q = 0; q < pairs; q++) turned[q] = (uint32_t)key[q];
-  free(key);
   return DYD_OK;
 }
 
@@ -565,21 +563,19 @@ static void mark_members(dyd_face *as, const dyd_narrowed *n, const dyd_delaunay
 /* The pairs of members that are not gone, in their order, become those of face g. */
 static dyd_status store_rest(dyd_face as, const doubt *d, const dyd_narrowed *n, dyd_delaunay *pd, size_t g) {
   const dyd_vertex_pair *old = pd->open.pair + n->old.first_pair;
-  dyd_vertex_pair *pair = dyd_alloc(d->all, sizeof *pair);
+  DYD_FREED dyd_vertex_pair *pair = dyd_alloc(d->all, sizeof *pair);
   if (!pair) return DYD_E_NOMEM;
   for (uint32_t q = 0; q < n->old.pairs; q++)
     if (!d->gone[q] && (n->mark[old[q].i] & n->mark[old[q].j] & MEMBER))
       pair[as.pairs++] = (dyd_vertex_pair){old[q].i, old[q].j, 0};
-  dyd_status st = table_store(pd, g, as, pair);
-  free(pair);
-  return st;
+  return table_store(pd, g, as, pair);
 }
 
 /* Gives face g, which was a part of the old one or all of it, those of the old pairs that are open still. *closed:
  * done; false where it is as well to find its pairs anew, and nothing is changed. The old face is not in the table. */
 static dyd_status narrowed_close(bool *closed, dyd_delaunay *pd, dyd_work *w, const dyd_narrowed *n, size_t g) {
   dyd_face as = {0};
-  doubt d = {0};
+  DYD_SCOPED(doubt) d = {0};
   size_t stored = pd->open.live_pairs;
   dyd_status st = DYD_OK;
   *closed = false;
@@ -593,7 +589,6 @@ static dyd_status narrowed_close(bool *closed, dyd_delaunay *pd, dyd_work *w, co
   for (size_t k = 0; k < d.vertices; k++) n->mark[d.vertex[k]] &= (uint8_t)~DOUBT;
   mark_members(&as, n, pd, g, false);
   if (*closed) w->counters.faces++;
-  doubt_clear(&d);
   return st;
 }
 
@@ -704,11 +699,10 @@ enum { BATCH = 4096 };
 
 static dyd_status close_faces(dyd_delaunay *pd, dyd_work *w, size_t from) {
   size_t end = pd->open.count, most = end - from < BATCH ? end - from : BATCH;
-  dyd_closure *c = dyd_alloc(most, sizeof *c);
+  DYD_FREED dyd_closure *c = dyd_alloc(most, sizeof *c);
   dyd_status st = c ? DYD_OK : DYD_E_NOMEM;
   for (size_t g = from; g < end && st == DYD_OK; g += most)
     st = close_batch(c, pd, w, g, end - g < most ? end - g : most);
-  free(c);
   return st;
 }
 
@@ -792,11 +786,10 @@ static void delete_ended(dyd_delaunay *pd, const dyd_vertex_pair *ended, size_t 
 dyd_status dyd_faces_end_pairs(dyd_delaunay *pd, dyd_work *w, const dyd_face *old, size_t olds, size_t fresh) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < olds && st == DYD_OK; k++) {
-    dyd_vertex_pair *ended = NULL;
+    DYD_FREED dyd_vertex_pair *ended = NULL;
     size_t count = 0;
     st = find_ended(&ended, &count, pd, w, &old[k], fresh);
     if (st == DYD_OK) delete_ended(pd, ended, count, fresh);
-    free(ended);
   }
   return st;
 }
@@ -809,7 +802,7 @@ dyd_status dyd_faces_replace(bool *replaced, dyd_delaunay *pd, dyd_work *w, cons
   dyd_face old = f->face[g];
   dyd_table_take_out(pd, g);
   dyd_undecided before = *f;
-  dyd_vertex_pair *ended = NULL;
+  DYD_FREED dyd_vertex_pair *ended = NULL;
   size_t ended_count = 0;
   dyd_status st = find_and_prove(pd, w, tri, count);
   if (st == DYD_OK) st = close_parts(pd, w, before.count, narrowed);
@@ -823,6 +816,5 @@ dyd_status dyd_faces_replace(bool *replaced, dyd_delaunay *pd, dyd_work *w, cons
     table_roll_back(pd, &before);
     table_put_back(pd, &old);
   }
-  free(ended);
   return st;
 }

@@ -6,6 +6,7 @@
  * place is on its sides those around its corners. Beyond the hull of the representatives, the place is outside for
  * every choice if it is not in the hull of all rectangles, which is the union of the hulls of all choices. */
 #include "base/alloc.h"
+#include "base/local.h"
 #include "delaunay/state.h"
 #include "skeleton/mesh_filter.h"
 #include <dyadel/predicate.h>
@@ -62,7 +63,7 @@ static dyd_status hull_of_corners(locator *l) {
 
 /* Makes the hull of all sites that may be on the hull of some choice; no corners where doubles do not hold them. */
 static dyd_status make_hull(locator *l) {
-  dyd_hull hull = {0};
+  DYD_SCOPED(dyd_hull) hull = {0};
   const dyd_index_list *possible = &hull.possible_vertices;
   dyd_status st = dyd_delaunay_partial_hull(&hull, l->pd, false);
   if (st == DYD_OK) l->corner = dyd_alloc(4 * possible->count, sizeof *l->corner);
@@ -75,7 +76,6 @@ static dyd_status make_hull(locator *l) {
     for (int q = 0; q < 4; q++) l->corner[l->count++] = (dyd_xy){b[q & 1], b[2 + (q >> 1)]};
   }
   if (!finite) l->count = 0;
-  dyd_hull_clear(&hull);
   l->made = true;
   return st == DYD_OK && l->count ? hull_of_corners(l) : st;
 }

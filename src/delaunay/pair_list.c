@@ -5,6 +5,7 @@
  * be written side by side; a block is small enough for the nearer caches, and is sorted there: dealt to its sites, and
  * each site's pairs by j. Blocks are sorted side by side. */
 #include "base/alloc.h"
+#include "base/local.h"
 #include "base/parallel.h"
 #include "delaunay/memory.h"
 #include "delaunay/state.h"
@@ -78,24 +79,22 @@ static void deal_all(dealt *to, uint32_t *start, const dyd_delaunay *pd) {
 
 /* All of them, sorted; owned by the caller. */
 static dyd_status deal_triangles(dealt **out, size_t *count, const dyd_delaunay *pd) {
-  uint32_t *start = dyd_alloc((size_t)pd->sk.n + 1, sizeof *start);
+  DYD_FREED uint32_t *start = dyd_alloc((size_t)pd->sk.n + 1, sizeof *start);
   if (!start) return DYD_E_NOMEM;
   count_starts(start, pd);
   *count = start[pd->sk.n];
   *out = dyd_alloc(*count, sizeof **out);
   if (*out) deal_all(*out, start, pd);
-  free(start);
   return *out ? DYD_OK : DYD_E_NOMEM;
 }
 
 /* The number of every triangle of the mesh among the certain ones, sorted; DYD_NO_TRIANGLE: it is none. */
 static dyd_status number_sorted(uint32_t *place, size_t *count, const dyd_delaunay *pd) {
-  dealt *all;
+  DYD_FREED dealt *all = NULL;
   dyd_status st = deal_triangles(&all, count, pd);
   if (st != DYD_OK) return st;
   if (pd->sk.mesh.count) memset(place, 0xff, pd->sk.mesh.count * sizeof *place);
   for (size_t k = 0; k < *count; k++) place[all[k].mesh] = (uint32_t)k;
-  free(all);
   return DYD_OK;
 }
 
@@ -126,7 +125,7 @@ static uint64_t triangles_bytes(const dyd_delaunay *pd, bool neighbours) {
 
 dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, dyd_triangle_list *neighbours, const dyd_delaunay *pd,
                                   unsigned flags) {
-  uint32_t *place;
+  DYD_FREED uint32_t *place = NULL;
   dyd_triangle_list found = {0}, beyond = {0};
   if (!pd || flags > DYD_TRIANGLES_AS_FOUND) return DYD_E_ARG;
   dyd_status st = DYD_OK;
@@ -147,7 +146,6 @@ dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, dyd_triangle_list *nei
     dyd_triangle_list_clear(neighbours);
     *neighbours = beyond;
   }
-  free(place);
   return st;
 }
 

@@ -13,10 +13,12 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "delaunay/index_list.h"
 #include "delaunay/memory.h"
 #include "delaunay/state.h"
 #include "delaunay/undecided.h"
+#include "rect/rect.h"
 
 /* Sites that can be extreme in a direction u >= 0 (mathematics: section 6, step 3).
  *
@@ -222,7 +224,7 @@ static void hull_clear(hull *h) {
 
 /* Vertices on the skeleton's hull and in unbounded faces, ascending. */
 static dyd_status gather(dyd_index_list *out, const dyd_delaunay *pd) {
-  dyd_index_list some = {0};
+  DYD_SCOPED(dyd_index_list) some = {0};
   size_t cap = 0;
   dyd_status st = dyd_delaunay_hull(&some, pd);
   if (st == DYD_OK) st = dyd_index_list_add(out, &cap, some.item, some.count);
@@ -234,14 +236,12 @@ static dyd_status gather(dyd_index_list *out, const dyd_delaunay *pd) {
     if (st == DYD_OK) st = dyd_index_list_add(out, &cap, some.item, some.count);
     if (st == DYD_OK) dyd_index_list_clear(&some);
   }
-  dyd_index_list_clear(&some);
   dyd_index_list_sort(out);
   return st;
 }
 
 static void load(hull *h) {
-  dyd_rect r;
-  dyd_rect_init(&r);
+  DYD_LOCAL(dyd_rect, r);
   h->exact = true;
   for (size_t k = 0; k < h->count; k++) {
     dyd_extreme *x = &h->x[h->made++];
@@ -252,16 +252,14 @@ static void load(hull *h) {
     dyd_interval_get_q(x->e[2], x->e[3], &r.y);
     dyd_extreme_enclose(x);
   }
-  dyd_rect_clear(&r);
 }
 
 static dyd_status find_candidates(hull *h) {
-  dyd_index_list list = {0};
+  DYD_SCOPED(dyd_index_list) list = {0};
   dyd_status st = gather(&list, h->pd);
   h->x = st == DYD_OK ? dyd_alloc(list.count, sizeof *h->x) : NULL;
   for (; h->x && h->count < list.count; h->count++)
     h->x[h->count] = (dyd_extreme){.vertex = list.item[h->count], .chain = {DYD_NONE, DYD_NONE}};
-  dyd_index_list_clear(&list);
   if (st == DYD_OK && !h->x) st = DYD_E_NOMEM;
   if (st == DYD_OK) load(h);
   return st;
@@ -275,7 +273,7 @@ static bool is_proved_chain(const dyd_delaunay *pd, size_t f) {
 
 static dyd_status find_chains(hull *h) {
   for (size_t f = 0; f < h->pd->open.count && !h->exact; f++) {
-    uint32_t *vertex = NULL;
+    DYD_FREED uint32_t *vertex = NULL;
     size_t count = 0;
     if (!is_proved_chain(h->pd, f)) continue;
     dyd_status st = dyd_open_vertices(&vertex, &count, h->pd, f);
@@ -284,7 +282,6 @@ static dyd_status find_chains(hull *h) {
       dyd_extreme *x = dyd_find_index(&vertex[k], h->x, h->count, sizeof *h->x);
       if (x) x->chain[x->chain[0] != DYD_NONE] = (uint32_t)f;
     }
-    free(vertex);
   }
   return DYD_OK;
 }
@@ -376,8 +373,7 @@ static dyd_pair_status decide(const hull *h, dyd_pair p, bool edge, dyd_rect r[3
 /* The pairs become those of sites, with their statuses. */
 static void decide_pairs(hull *h) {
   const dyd_delaunay *pd = h->pd;
-  dyd_rect r[3];
-  for (int n = 0; n < 3; n++) dyd_rect_init(&r[n]);
+  DYD_LOCAL_ARRAY(dyd_rect, r, [3]);
   for (size_t k = 0; k < h->pairs.count; k++) {
     dyd_pair p = h->pairs.item[k];
     uint32_t v = h->x[p.i].vertex, w = h->x[p.j].vertex, i = pd->sk.reps.site[v], j = pd->sk.reps.site[w];
@@ -385,7 +381,6 @@ static void decide_pairs(hull *h) {
     bool tied = share_chain(&h->x[p.i], &h->x[p.j]);
     h->pairs.item[k] = (dyd_pair){i < j ? i : j, i < j ? j : i, tied ? DYD_TIE : decide(h, p, edge, r)};
   }
-  for (int n = 3; n-- > 0;) dyd_rect_clear(&r[n]);
 }
 
 /* ---- the result ---- */
@@ -423,11 +418,10 @@ static dyd_status fill_pairs(dyd_hull *out, hull *h) {
 
 dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd, bool pairs) {
   if (!pd) return DYD_E_ARG;
-  hull h = {.pd = pd, .pairs = {.most = pd->max_pairs}};
+  DYD_SCOPED(hull) h = {.pd = pd, .pairs = {.most = pd->max_pairs}};
   dyd_hull found = {0};
   dyd_status st = fill_vertices(&found, &h, pairs ? &h.pairs : NULL);
   if (st == DYD_OK && pairs) st = fill_pairs(&found, &h);
-  hull_clear(&h);
   dyd_hull_clear(dyd_failed(st) ? &found : out);
   if (!dyd_failed(st)) *out = found;
   return st;

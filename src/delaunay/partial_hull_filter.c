@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Signs for the partial hull: intervals in doubles first (predicate/interval_filter.h), rationals where they are
  * unsure. */
+#include "base/local.h"
 #include "delaunay/partial_hull.h"
 #include "dyadic/raw.h"
 
@@ -28,8 +29,7 @@ int dyd_hull_compare(int axis, dyd_hull_corner a, dyd_hull_corner b) {
 }
 
 static int cross_exact(dyd_hull_corner a, dyd_hull_corner b, dyd_hull_corner c, dyd_hull_corner d) {
-  mpq_t s, t, p;
-  mpq_inits(s, t, p, NULL);
+  DYD_LOCAL_NUMBERS(mpq, s, t, p);
   mpq_sub(s, exact(b, 0), exact(a, 0));
   mpq_sub(t, exact(d, 1), exact(c, 1));
   mpq_mul(p, s, t);
@@ -37,7 +37,6 @@ static int cross_exact(dyd_hull_corner a, dyd_hull_corner b, dyd_hull_corner c, 
   mpq_sub(t, exact(d, 0), exact(c, 0));
   mpq_mul(s, s, t);
   int order = mpq_cmp(p, s);
-  mpq_clears(s, t, p, NULL);
   return (order > 0) - (order < 0);
 }
 

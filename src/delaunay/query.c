@@ -4,6 +4,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/local.h"
 #include "delaunay/faces.h"
 #include "delaunay/index_list.h"
 #include "delaunay/memory.h"
@@ -370,12 +371,11 @@ dyd_status dyd_delaunay_witness(dyd_point *out, const dyd_delaunay *pd, uint32_t
   const dyd_skeleton *sk = &pd->sk;
   uint32_t v = sk->vertex[i], w = sk->vertex[j];
   dyd_rects few = {0};
-  dyd_work work;
+  DYD_SCOPED(dyd_work) work;
   dyd_status st = sk->rects.box ? DYD_OK : few_rects(&few, sk, v, w);
   dyd_work_init(&work, sk, NULL);
   if (few.box) work.rects = &few;
   if (st == DYD_OK) st = find_witness(out, &work, sk, v, w);
-  dyd_work_clear(&work);
   dyd_tree_clear(&few.tree);
   free(few.box);
   return st;
@@ -556,13 +556,12 @@ dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaunay *pd, 
 dyd_status dyd_delaunay_face(dyd_index_list *out, bool *outer, const dyd_delaunay *pd, size_t f) {
   if (!pd) return DYD_E_ARG;
   collector c = {0};
-  uint32_t *v;
+  DYD_FREED uint32_t *v = NULL;
   size_t count;
   if (f >= pd->open.count) return DYD_E_ARG;
   dyd_status st = dyd_open_vertices(&v, &count, pd, f);
   if (st != DYD_OK) return st;
   for (size_t q = 0; q < count; q++) collect(&c, pd->sk.reps.site[v[q]]);
-  free(v);
   *outer = dyd_open_is_outer(pd, f);
   return deliver(out, &c);
 }
@@ -638,11 +637,10 @@ static dyd_half_edge group_start(const dyd_delaunay *pd, size_t f) {
 
 /* Visits the pairs of a face whose rim is not one cycle, one by one. */
 static dyd_status visit_pairs_of_face(const dyd_delaunay *pd, size_t f, dyd_group_fn visit, void *user) {
-  dyd_pair_list pairs = {0};
+  DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = dyd_delaunay_face_pairs(&pairs, pd, f);
   for (size_t k = 0; k < pairs.count && st == DYD_OK; k++)
     st = visit(user, DYD_GROUP_PAIR, &(dyd_index_list){2, (uint32_t[]){pairs.item[k].i, pairs.item[k].j}});
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/index.h"
+#include "base/local.h"
 #include "delaunay/index_list.h"
 #include "delaunay/memory.h"
 #include "legal/certify.h"
@@ -55,13 +56,12 @@ static dyd_status steps_deal(dyd_steps *s) {
 }
 
 dyd_status dyd_steps_begin(dyd_steps *s, dyd_delaunay *pd, const volatile int *cancel) {
-  dyd_pair_list all = {0};
+  DYD_SCOPED(dyd_pair_list) all = {0};
   s->pd = pd;
   s->run = (dyd_run){.cancel = cancel, .threads = 1};
   dyd_work_init(&s->w, &pd->sk, &s->run);
   dyd_status st = dyd_pairs_list(&all, pd, DYD_TIE);
   if (st == DYD_OK) st = steps_list(s, &all);
-  dyd_pair_list_clear(&all);
   return st == DYD_OK ? steps_deal(s) : st;
 }
 
@@ -284,19 +284,16 @@ static dyd_status face_flood(dyd_index_list *out, size_t *cap, uint8_t *seen, co
 
 dyd_status dyd_steps_large(bool *large, const dyd_steps *s, size_t most) {
   const dyd_skeleton *sk = &s->pd->sk;
-  dyd_index_list face = {0};
+  DYD_SCOPED(dyd_index_list) face = {0};
   size_t cap = 0;
-  uint8_t *seen = calloc((size_t)sk->mesh.count + 1, 1);
+  DYD_FREED uint8_t *seen = calloc((size_t)sk->mesh.count + 1, 1);
   dyd_status st = seen ? DYD_OK : DYD_E_NOMEM;
   for (uint32_t t = 0; t < sk->mesh.count && st == DYD_OK; t++) {
-    dyd_index_list sites = {0};
+    DYD_SCOPED(dyd_index_list) sites = {0};
     if (seen[t] || dyd_triangle_is_certain(sk, t)) continue;
     st = face_flood(&face, &cap, seen, sk, t);
     if (st == DYD_OK && face.count > most / 3) st = corner_sites(&sites, sk, &face);
     for (size_t k = 0; k < sites.count && sites.count > most; k++) large[sites.item[k]] = true;
-    dyd_index_list_clear(&sites);
   }
-  free(seen);
-  dyd_index_list_clear(&face);
   return st;
 }

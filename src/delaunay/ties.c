@@ -51,13 +51,12 @@ dyd_half_edge dyd_rim_start(bool *chain, const dyd_delaunay *pd, const dyd_face 
 }
 
 static dyd_status are_distinct(bool *distinct, const uint32_t *v, uint32_t count) {
-  uint32_t *sorted = dyd_alloc(count, sizeof *sorted);
+  DYD_FREED uint32_t *sorted = dyd_alloc(count, sizeof *sorted);
   if (!sorted) return DYD_E_NOMEM;
   *distinct = true;
   for (uint32_t q = 0; q < count; q++) sorted[q] = v[q];
   qsort(sorted, count, sizeof *sorted, dyd_compare_index);
   for (uint32_t q = 1; q < count && *distinct; q++) *distinct = sorted[q] != sorted[q - 1];
-  free(sorted);
   return DYD_OK;
 }
 
@@ -138,12 +137,10 @@ dyd_status dyd_prove_line(dyd_delaunay *pd, dyd_work *w) {
   if (pd->line_tie || !pd->options.prove || l->count < 3) return st;
   for (uint32_t q = 0; q + 1 < l->count; q++)
     if (!l->legal[q]) return st;
-  uint32_t *site = dyd_alloc(l->count, sizeof *site);
+  DYD_FREED uint32_t *site = dyd_alloc(l->count, sizeof *site);
   if (!site) return DYD_E_NOMEM;
   for (uint32_t q = 0; q < l->count; q++) site[q] = pd->sk.reps.site[l->order[q]];
-  st = pd->options.prove(&pd->line_tie, pd->options.prove_user, DYD_COLLINEAR, site, l->count, w->run->err);
-  free(site);
-  return st;
+  return pd->options.prove(&pd->line_tie, pd->options.prove_user, DYD_COLLINEAR, site, l->count, w->run->err);
 }
 
 /* ---- the table ---- */

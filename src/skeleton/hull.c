@@ -9,6 +9,7 @@
  * until the start is passed. */
 #include "skeleton/hull.h"
 
+#include "base/local.h"
 #include "skeleton/rects_filter.h"
 #include "skeleton/work.h"
 
@@ -153,10 +154,9 @@ static bool hull_passes(arcs *t, const vec *mark) {
 }
 
 dyd_status dyd_hull_possible(bool *possible, dyd_work *w, const dyd_skeleton *sk, uint32_t v) {
-  arcs t;
-  vec start;
+  DYD_SCOPED(arcs) t;
+  DYD_LOCAL(vec, start);
   arcs_init(&t, w, sk, v, v, true);
-  vec_init(&start);
   dyd_scale_set_empty(&w->set);
   mpz_set_si(start.x, 1);
   vec_set(&t.u, &start);
@@ -165,8 +165,6 @@ dyd_status dyd_hull_possible(bool *possible, dyd_work *w, const dyd_skeleton *sk
     vec_set(&t.u, &t.to);
   }
   *possible = t.found == DYD_NONE;
-  vec_clear(&start);
-  arcs_clear(&t);
   return t.status;
 }
 
@@ -198,23 +196,19 @@ static void hull_between(vec *u, const vec *a, const vec *b) {
   sa = sa > ta ? sa : ta;
   sb = sb > tb ? sb : tb;
   mp_bitcnt_t up_a = sb > sa ? sb - sa : 0, up_b = sa > sb ? sa - sb : 0;
-  vec t;
-  vec_init(&t);
+  DYD_LOCAL(vec, t);
   mpz_mul_2exp(t.x, b->x, up_b);
   mpz_mul_2exp(t.y, b->y, up_b);
   mpz_mul_2exp(u->x, a->x, up_a);
   mpz_mul_2exp(u->y, a->y, up_a);
   mpz_add(u->x, u->x, t.x);
   mpz_add(u->y, u->y, t.y);
-  vec_clear(&t);
 }
 
 /* Intersects arcs of violators until none is left at t->u, or nothing of the arc. */
 static bool hull_common_direction(arcs *t) {
-  vec lo, hi;
+  DYD_LOCAL(vec, lo, hi);
   bool any = false, left = true;
-  vec_init(&lo);
-  vec_init(&hi);
   dyd_scale_set_empty(&t->w->set);
   mpz_set_si(t->u.x, 1);
   for (arcs_ask(t); t->status == DYD_OK && t->found != DYD_NONE; arcs_ask(t)) {
@@ -232,26 +226,22 @@ static bool hull_common_direction(arcs *t) {
       mpz_set(t->u.y, lo.x);
     }
   }
-  vec_clear(&hi);
-  vec_clear(&lo);
   return left && t->status == DYD_OK;
 }
 
 dyd_status dyd_hull_sure(bool *sure, dyd_work *w, const dyd_skeleton *sk, uint32_t v) {
-  arcs t;
+  DYD_SCOPED(arcs) t;
   arcs_init(&t, w, sk, v, v, false);
   *sure = hull_common_direction(&t);
-  arcs_clear(&t);
   return t.status;
 }
 
 dyd_status dyd_hull_direction(bool *found, mpz_t ux, mpz_t uy, dyd_work *w, const dyd_skeleton *sk, uint32_t i,
                               uint32_t j) {
-  arcs t;
+  DYD_SCOPED(arcs) t;
   arcs_init(&t, w, sk, i, j, false);
   *found = hull_common_direction(&t);
   mpz_set(ux, t.u.x);
   mpz_set(uy, t.u.y);
-  arcs_clear(&t);
   return t.status;
 }

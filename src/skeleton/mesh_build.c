@@ -681,15 +681,14 @@ static dyd_status mesh_finish(dyd_mesh *m, dyd_status st) {
 /* Sites joined with a lower one are aliases from the start. */
 static dyd_status mesh_put_joined(dyd_mesh *m) {
   const dyd_sites *sites = m->reps->sites;
-  uint32_t *vertex = dyd_alloc(m->n, sizeof *vertex);
-  dyd_status st = vertex ? DYD_OK : DYD_E_NOMEM;
-  for (uint32_t v = 0; v < m->n && vertex; v++) vertex[m->reps->site[v]] = v;
-  for (uint32_t v = 0; v < m->n && vertex; v++) {
+  DYD_FREED uint32_t *vertex = dyd_alloc(m->n, sizeof *vertex);
+  if (!vertex) return DYD_E_NOMEM;
+  for (uint32_t v = 0; v < m->n; v++) vertex[m->reps->site[v]] = v;
+  for (uint32_t v = 0; v < m->n; v++) {
     uint32_t of = vertex[dyd_site_joined(sites, m->reps->site[v])];
     if (of != v) m->alias[v] = of;
   }
-  free(vertex);
-  return st;
+  return DYD_OK;
 }
 
 dyd_status dyd_mesh_build(dyd_mesh *m, dyd_reps *reps, const uint32_t *local, uint32_t n, bool no_filter,
