@@ -5,7 +5,6 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/error.h"
-#include "base/index.h"
 #include "base/local.h"
 #include "base/random.h"
 #include "engine/ask.h"

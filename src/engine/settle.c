@@ -21,7 +21,6 @@
 #include "engine/points.h"
 #include "engine/settle_filter.h"
 #include "rect/rect.h"
-#include "stream/stream.h"
 
 #include <dyadel/predicate.h>
 #include <stdlib.h>

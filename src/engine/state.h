@@ -3,8 +3,8 @@
  *
  *   engine.c        life, counters, results, and what points are called where they were read; adding points;
  *                   points of the engine as streams
- *   points.c        asking one point to narrow, measuring one again
- *   record.c        answers of an earlier run; the statuses of each stage
+ *   points.c        asking one point to narrow, measuring one again; answers of an earlier run; the statuses of
+ *                   each stage
  *   plan.c          which points to narrow, and how far: a value
  *   ask.c           the loop: a question, its plan, narrowing, triangulating, until it is answered;
  *                   plans changed by a callback or a program

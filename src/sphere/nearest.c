@@ -8,7 +8,6 @@
  * box. Place i is listed unless its least distance is above the largest of some other one, for all of `at`. */
 #include "base/alloc.h"
 #include "base/error.h"
-#include "base/index.h"
 #include "base/local.h"
 #include "engine/plan.h"
 #include "sphere/state.h"

@@ -42,8 +42,7 @@ static dyd_status random_narrow(dyd_interval *out, void *user, const dyd_request
   return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
 }
 
-/* Reals for experiments: the number in [0,1] whose binary digits `seed` draws; x, taken over also on failure, known to
- * about 1/n by answer number n, whatever the request. */
+/* The number in [0,1] whose binary digits `seed` draws. */
 static dyd_status real_random(dyd_real **out, uint64_t seed) {
   void *user;
   dyd_status st = dyd_real_new_inside(out, &user, sizeof seed, random_narrow, NULL);
@@ -85,8 +84,7 @@ static dyd_status slow_narrow(dyd_interval *out, void *user, const dyd_request *
   return DYD_OK;
 }
 
-/* Reals for experiments: the number in [0,1] whose binary digits `seed` draws; x, taken over also on failure, known to
- * about 1/n by answer number n, whatever the request. */
+/* x, taken over also on failure, known to about 1/n by answer number n, whatever the request. */
 static dyd_status real_slow(dyd_real **out, dyd_real *x) {
   void *user;
   dyd_status st = dyd_real_new_inside(out, &user, sizeof(slow_real), slow_narrow, slow_release);

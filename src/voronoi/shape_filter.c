@@ -12,7 +12,6 @@
  * Int_i, Pos_i lie in the hull of the outer vertices, so they are within max |inner_t - outer_t| of the inner polygon:
  * that is required to be at most 2^-bits. Where anything is not certain the exact rung does the cell. [SHAPE-1] */
 #include "base/alloc.h"
-#include "predicate/interval_filter.h"
 #include "voronoi/shape.h"
 
 #include <math.h>
