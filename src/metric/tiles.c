@@ -19,9 +19,11 @@
 /* A window takes at least 2^COARSEST steps of the grid. */
 enum { COARSEST = 3 };
 
-/* The ring of a cell that is worked on; the edge from z[k] on is shared with site across[k], or on the window's rim. */
+/* The ring of a cell that is worked on; the edge from z[k] on is shared with site across[k], or on the window's rim.
+ * changed: since its edges were last compared with its vertices. */
 typedef struct loose_ring {
   uint32_t site;
+  bool changed;
   size_t count, cap, across_cap;
   dyd_xy *z;
   uint32_t *across;
@@ -156,7 +158,7 @@ static dyd_status loosen_ring(loose_ring **out, tiling *t, uint32_t site) {
     if (!DYD_GROW(t->loose, t->loose_cap, t->loose_count + 1)) return DYD_E_NOMEM;
     dyd_status st = dyd_shape_edges(&t->shape, t->pd, site, &t->w);
     if (st != DYD_OK) return st;
-    loose_ring r = {.site = site};
+    loose_ring r = {.site = site, .changed = true};
     uint32_t n = t->shape.inner_count;
     if (!DYD_GROW(r.z, r.cap, n + 1) || !DYD_GROW(r.across, r.across_cap, n + 1)) {
       free(r.z);
@@ -181,6 +183,7 @@ static dyd_status ring_insert(loose_ring *r, size_t k, dyd_xy v) {
   r->z[k + 1] = v;
   r->across[k + 1] = r->across[k];
   r->count++;
+  r->changed = true;
   return DYD_OK;
 }
 
@@ -284,6 +287,7 @@ static dyd_status split_edge(tiling *t, size_t place, size_t k, dyd_xy v) {
 /* Leads edges of the ring through its own vertices until none is left; *any: some were. */
 static dyd_status settle_ring(bool *any, tiling *t, size_t place, edge_test *e) {
   dyd_status st = DYD_OK;
+  t->loose[place].changed = false;
   for (size_t k = 0; k < t->loose[place].count && st == DYD_OK; k++)
     for (size_t v = 0; v < t->loose[place].count && st == DYD_OK; v++) {
       bool takes;
@@ -304,8 +308,10 @@ static dyd_status settle_all(tiling *t) {
   edge_test_each(&e, mpq_init);
   while (any && st == DYD_OK) {
     any = false;
-    for (size_t k = 0; k < t->loose_count && st == DYD_OK; k++)
-      st = dyd_flag_is_set(t->w.cancel) ? DYD_CANCELLED : settle_ring(&any, t, k, &e);
+    for (size_t k = 0; k < t->loose_count && st == DYD_OK; k++) {
+      if (dyd_flag_is_set(t->w.cancel)) st = DYD_CANCELLED;
+      if (st == DYD_OK && t->loose[k].changed) st = settle_ring(&any, t, k, &e);
+    }
   }
   edge_test_each(&e, mpq_clear);
   return st;

@@ -7,6 +7,7 @@ Usage: test_tiles.py COMMAND DATA
 import csv
 import io
 import json
+import math
 import os
 import random
 import re
@@ -397,6 +398,15 @@ def test_formats():
     assert corners == [tuple(map(float, z)) for _, ring in rings_of(wkt) for z in ring]
     picture = run('voronoi', '-', '--layer', 'tiles', '--format', 'svg', stdin=points).out
     assert sorted(re.findall(r'id="tile-(\d+)"', picture)) == sorted(row['i'] for row, _ in rings_of(wkt))
+
+
+def test_ring():
+    """All vertices of the diagram are within a few steps of the grid, so that tiles lead edges of others through theirs."""
+    places = [(math.cos(2 * math.pi * i / 600), math.sin(2 * math.pi * i / 600)) for i in range(600)]
+    result = run('voronoi', '-', '--layer', 'tiles', '--format', 'wkt', '--window=-2,2,-2,2',
+                 stdin=''.join(f'{x!r} {y!r}\n' for x, y in places))
+    assert result.code == 0, result
+    check_partition(rings_of(result.out), (-2, 2, -2, 2), 'ring')
 
 
 def test_formats_of_areas():
