@@ -151,6 +151,24 @@ static void note_nowhere(const dyd_engine *e, const cli_options *o, bool degrees
              o->file, none[at], found, none[at]);
 }
 
+/* Receivers and phones state 0 where they do not know their accuracy; here it makes a point exact. */
+static void note_zero_radii(const dyd_engine *e, const cli_options *o) {
+  double b[4];
+  size_t zeros = 0;
+  bool any = (o->read.radius_columns || (o->read.sigma_column && o->read.confidence)) && !o->read.radius &&
+             !o->read.missing && !o->read.keep_radii;
+  for (size_t i = 0; any && i < dyd_engine_count(e); i++) {
+    if (!dyd_engine_knows(e, (uint32_t)i) || dyd_engine_number(e, i, DYD_ROW_RADIUS) > 0) continue;
+    dyd_sites_get_d(b, dyd_engine_sites(e), i);
+    zeros += b[1] <= nextafter(b[0], INFINITY) && b[3] <= nextafter(b[2], INFINITY);
+  }
+  if (zeros)
+    cli_note(o,
+             "%s: radii that are 0: %zu; these points are taken as exact; if 0 means that the accuracy is unknown, "
+             "leave such rows out: --missing 0 --skip-missing",
+             o->file, zeros);
+}
+
 /* Columns called longitude and latitude in the plane that hold ddmm.mmmm, as sentences of receivers do. */
 static void note_minutes(const dyd_engine *e, const cli_options *o, const dyd_read_report *r) {
   double b[4], most = 0;
@@ -204,6 +222,7 @@ void cli_note_points(const dyd_engine *e, const cli_options *o, const dyd_read_r
   if (r->vertices) cli_note(o, "%s: the vertices of lines and polygons are the points: %zu", o->file, r->vertices);
   note_radii(o);
   if (o->read.columns) note_nowhere(e, o, o->sphere || r->degrees);
+  note_zero_radii(e, o);
   note_system(e, o, r);
   note_minutes(e, o, r);
   note_eastings(e, o);
