@@ -71,23 +71,18 @@ typedef struct intake {
 
 /* ---- radii ---- */
 
-static dyd_status radius_fail_negative(const dyd_span *span, int role, dyd_error *err) {
-  char message[180];
-  int length = (int)(span->length < 20 ? span->length : 20);
-  snprintf(message, sizeof message,
-           "the %s is negative; if %.*s means that it is unknown, leave such rows out: `missing` '%.*s' `skip_missing`",
-           dyd_role_holds(role), length, span->text, length, span->text);
-  return dyd_span_fail(err, span, 0, message);
-}
-
 static dyd_status radius_fail(const intake *in, const dyd_span *span, int role, dyd_error *err) {
-  if (span->length > 1 && span->text[0] == '-' && strchr(".0123456789", span->text[1]))
-    return radius_fail_negative(span, role, err);
+  char message[DYD_MESSAGE_SIZE];
+  if (span->length > 1 && span->text[0] == '-' && strchr(".0123456789", span->text[1])) {
+    snprintf(message, sizeof message,
+             "the %s is negative; if this means unknown, leave such rows out: `missing` '%.*s' `skip_missing`",
+             dyd_role_holds(role), (int)(span->length < 20 ? span->length : 20), span->text);
+    return dyd_span_fail(err, span, 0, message);
+  }
   if (!in->o->degrees && dyd_cell_number(span))
     return dyd_span_fail(err, span, dyd_cell_number(span),
                          "radii in the plane are in the unit of the coordinates: write the number without a unit, or "
                          "convert all by `radius_scale`");
-  char message[DYD_MESSAGE_SIZE];
   const char *remedy = dyd_cell_remedy(span);
   snprintf(message, sizeof message, "the %s is not an exact number >= 0%s", dyd_role_holds(role),
            remedy           ? remedy
