@@ -352,6 +352,8 @@ def test_areas_that_are_none():
                        ('POLYGON ((0 0, 2 0, 2 2', 'the polygon has no end here; a bracket is missing'),
                        ('LINESTRING (0 0, 2 0)', 'a polygon has to be here, not a point or line'),
                        ('{"type": "Point",\n"coordinates": [0, 0]}', 'a polygon has to be here, not a point or line'),
+                       ('<kml><Polygon></Polygon></kml>', 'make GeoJSON of it: ogr2ogr -f GeoJSON area.geojson FILE'),
+                       ('SQLite format 3\0 ... POLYGON', 'neither well-known text nor GeoJSON'),
                        ('1,2\n', 'the file holds no polygon; give well-known text')):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, 'area')
@@ -361,6 +363,16 @@ def test_areas_that_are_none():
             assert result.code == 1 and result.out == '' and line in result.err, (area, result)
     expect(run('voronoi', '--clip-to', 'x', '-', stdin=three), 2, '', '--clip-to cuts tiles in the plane; give --layer tiles')
     expect(run('voronoi', '--layer', 'tiles', '--clip-to', 'x', '-', stdin=three), 1, '', 'x')
+
+
+def test_areas_elsewhere():
+    """Degrees for the one and metres for the other are valid, but hardly meant; a tile of one point still covers all."""
+    for corner, note in ((7, 'no point is within the bounds of the polygons; do both have the same reference system'), (1, r'\Adyadel: window')):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, 'area')
+            with open(path, 'w', encoding='utf-8') as out:
+                out.write(f'POLYGON (({corner} {corner}, 9 {corner}, 9 9, {corner} {corner}))')
+            expect(run('voronoi', '--layer', 'tiles', '--clip-to', path, '-', stdin='0 0\n1 1\n2 0\n'), 0, '^1,', note)
 
 
 def test_areas_beyond_doubles():

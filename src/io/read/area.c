@@ -170,7 +170,12 @@ dyd_status dyd_area_read(dyd_area *out, FILE *in, dyd_error *err) {
   if (st == DYD_OK) {
     made.offset[0] = 0;
     skip_any_of(&t, "\xEF\xBB\xBF \t\r\n");
-    st = area_geometries(&t, t.at == t.end || *t.at != '{');
+    if ((t.at < t.end && *t.at == '<') || memchr(text, 0, count))
+      st = dyd_fail(err, DYD_E_PARSE,
+                    "the file is neither well-known text nor GeoJSON; make GeoJSON of it: ogr2ogr -f GeoJSON "
+                    "area.geojson FILE");
+    else
+      st = area_geometries(&t, t.at == t.end || *t.at != '{');
   }
   if (st == DYD_OK && !made.rings)
     st = dyd_fail(err, DYD_E_PARSE, "the file holds no polygon; give well-known text (POLYGON ((...))) or GeoJSON");
