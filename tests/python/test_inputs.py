@@ -42,6 +42,20 @@ def test_masked():
     assert dyadel.delaunay(whole, skip_missing=True).rect(1)[0] == 2**60 + 1
 
 
+def test_one_dimension():
+    """Arrays of objects and Series of pairs are lists of pairs; x and y apart, or complex numbers, are refused with a remedy."""
+    pairs = np.empty(len(PLACES), object)
+    pairs[:] = PLACES
+    assert dyadel.delaunay(pairs).legal.tolist() == LEGAL
+    words_in(harness.raised(ValueError, dyadel.delaunay, np.array([0., 1, 2])), '(3,)', 'numpy.column_stack((x, y))')
+    words_in(harness.raised(ValueError, dyadel.delaunay, np.array([0, 1j, 2])), '(3,)', 'z.real, z.imag')
+    words_in(harness.raised(ValueError, dyadel.delaunay, np.zeros((2, 2, 2))), '(2, 2, 2)')
+    if there('pandas'):
+        import pandas
+        assert dyadel.delaunay(pandas.Series(PLACES)).legal.tolist() == LEGAL
+        words_in(harness.raised(ValueError, dyadel.delaunay, pandas.Series([0., 1])), 'numpy.column_stack((x, y))')
+
+
 def test_missing_rows():
     xy = np.array([*PLACES, (np.nan, 1), (2, np.nan), (np.nan, np.nan), (np.nan, 0)])
     error = harness.raised(dyadel.Error, dyadel.delaunay, xy)

@@ -147,7 +147,7 @@ def take(points: Any, radius: Any = None, *, order: str | None = None, skip_miss
     elif hasattr(points, 'geom_type') or _are_geometries(points):
         points = _places(points)
     elif hasattr(points, 'iloc') or hasattr(points, '__array__') and np.ndim(points) != 2:
-        raise ValueError(f'points must have shape (N, 2) or (N, 4), not {np.shape(points)}')
+        points = _pairs(np.asarray(points))
     if masked.isMaskedArray(points):
         missing = masked.getmaskarray(points).any(axis=1)
         points = masked.getdata(points)
@@ -233,6 +233,14 @@ def _is_nan(value: Any) -> bool:
     """For numbers that are not themselves: nan of floats, numpy, Decimal, mpmath."""
     different = value != value  # noqa: PLR0124
     return isinstance(different, (bool, np.bool_)) and bool(different)
+
+
+def _pairs(array: NDArray[Any]) -> list[Any]:
+    """The elements of a Series or an array of objects, such as pairs; numbers in one dimension have to be paired first."""
+    if array.ndim == 1 and array.dtype.kind == 'O':
+        return list(array)
+    hint = ' z pass numpy.column_stack((z.real, z.imag))' if array.dtype.kind == 'c' else ' x and y pass numpy.column_stack((x, y))'
+    raise ValueError(f'points must have shape (N, 2) or (N, 4), not {array.shape}{("; of" + hint) * (array.ndim == 1)}')
 
 
 def _matrix(points: Any) -> Any:
