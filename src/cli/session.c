@@ -517,7 +517,9 @@ static void note_comments(cli_session *s) {
       length = strcspn(line, "\n");
       aliases += strncmp(line, "# alias", 7) == 0;
       if (length < 2 || !comment_is_summary(line + 2) || used + length >= sizeof text) continue;
-      used += (size_t)snprintf(text + used, sizeof text - used, "%s%.*s", used ? "; " : "", (int)length - 2, line + 2);
+      used += (size_t)snprintf(text + used, sizeof text - used, "%s%.*s%s", used ? "; " : "", (int)length - 2, line + 2,
+                               line[length - 1] == ',' ? "unbounded or beyond doubles" : "");
+      if (used >= sizeof text) used = sizeof text - 1;
     }
     for (char *comma = text + window; (comma = strchr(comma, ',')) && comma[1] != ' ';) *comma = ' ';
     if (used) cli_note(&s->o, "%s", text);

@@ -103,7 +103,7 @@ dyd_status dyd_result_box(double box[4], const dyd_result *r, size_t i, dyd_erro
   if (isfinite(box[0]) && isfinite(box[1]) && isfinite(box[2]) && isfinite(box[3])) return DYD_OK;
   if (err) err->point = i;
   return dyd_fail(err, DYD_E_RANGE,
-                  "point %zu lies beyond the largest double, which this format cannot show; use csv or json", i);
+                  "the point lies beyond the largest double, which this format cannot show; use csv or json");
 }
 
 /* ---- words and texts ---- */

@@ -50,6 +50,7 @@ def test_summary_says_what_comments_do():
         assert said in ask(command).err and said not in ask(command, '--comments').err, command
         assert said not in ask(command, '--quiet').err
     expect(ask('voronoi'), 0, '', r'^dyadel: window (about )?-?[0-9.e+-]+(,-?[0-9.e+-]+){3}; undetermined_area [0-9.e-]+; distance_to_true_diagram ')
+    expect(run('voronoi', '-', stdin='1e308 1e308\n-1e308 1e308\n0 -1e308\n0 1\n', comments=False), 0, '', '; undetermined_area unbounded or beyond doubles; distance_to_true_diagram 0$')
     expect(ask('tolerance'), 0, '', r'^dyadel: tolerance 0\.\d+ 0\.\d+$')
     expect(ask('plan'), 0, '', r'^dyadel: plan \d+ points: sufficient')
     expect(ask('disc'), 0, '', r'^dyadel: orientation of 0 1 2: counter-clockwise; partial centre within .*; con of the others: inside \d, outside \d, unknown 0')
