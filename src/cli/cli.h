@@ -96,11 +96,9 @@ typedef struct cli_options {
  * a NULL: json repeats them with --comments, so that equal results are equal files. Borrowed by *out. */
 int cli_options_read(cli_options *out, int argc, char **argv, char **call);
 
-/* process.c: prints "dyadel: ..." to standard error. */
-void cli_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
-/* The same; return CLI_USAGE and CLI_FAILED. */
+/* process.c: print "dyadel: ..." to standard error. All that complain return CLI_FAILED, this one CLI_USAGE. */
+int cli_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 int cli_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
-int cli_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* Prints a note, unless --quiet was given. */
 void cli_note(const cli_options *o, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Prints notes on the rows of a file: rows skipped, and values read in another way than written. */
@@ -110,10 +108,9 @@ void cli_shell_name(char *out, size_t size, const char *name);
 /* Prints these and notes on the points, which e holds: merged points, and points with another possible meaning. */
 void cli_note_points(const dyd_engine *e, const cli_options *o, const dyd_read_report *r);
 /* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: without FILE. */
-void cli_complain_at(const char *file, const dyd_error *err);
+int cli_complain_at(const char *file, const dyd_error *err);
 /* The same of a point of e, which is named by its row. */
-void cli_complain_of(const dyd_engine *e, const char *file, const dyd_error *err);
-/* Returns CLI_FAILED. */
+int cli_complain_of(const dyd_engine *e, const char *file, const dyd_error *err);
 int cli_complain_memory(void);
 /* Where the library failed with st: CLI_BUDGET if --max-bytes refused memory, else CLI_FAILED. */
 int cli_exit_refused(const cli_options *o, dyd_status st);

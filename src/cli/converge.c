@@ -348,11 +348,10 @@ static int read_schedule_file(check_run *s, const char *name) {
   if (!in) return CLI_FAILED;
   dyd_status st = dyd_read_records(in, ' ', read_given_move, s, &err);
   cli_input_close(in);
-  if (st != DYD_OK) cli_complain_at(name, &err);
   static const dyd_check_move none;
   s->options.move = s->move ? s->move : &none;
   s->options.moves = s->count;
-  return st == DYD_OK ? 0 : CLI_FAILED;
+  return st == DYD_OK ? 0 : cli_complain_at(name, &err);
 }
 
 static int schedules_begin(cli_session *s) {
@@ -393,8 +392,7 @@ static int complain_check(const check_run *r, dyd_status st, dyd_error *err) {
   if (!err->message[0]) dyd_error_set(err, st, dyd_status_text(st));
   const given_place *place = err->line ? &r->place[err->line - 1] : &(given_place){0};
   err->line = place->line, err->column = place->column;
-  cli_complain_at(place->line ? r->o->replay : NULL, err);
-  return CLI_FAILED;
+  return cli_complain_at(place->line ? r->o->replay : NULL, err);
 }
 
 static int schedules_find(cli_session *s) {

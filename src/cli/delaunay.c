@@ -233,7 +233,7 @@ static int voronoi_read_area(cli_session *s) {
   if (!in) return CLI_FAILED;
   dyd_status st = dyd_area_read(a, in, &err);
   cli_input_close(in);
-  if (st != DYD_OK) return cli_complain_at(s->o.clip_to, &err), CLI_FAILED;
+  if (st != DYD_OK) return cli_complain_at(s->o.clip_to, &err);
   double box[4] = {a->xy[0], a->xy[0], a->xy[1], a->xy[1]};
   for (size_t k = 0; k < 2 * a->offset[a->rings]; k++) {
     double *side = &box[2 * (k & 1)];

@@ -290,8 +290,8 @@ static int source_begin(feature_source *s, const char *name, cli_options *o) {
   s->set = GDALOpenEx(name, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
   if (!s->set) {
     const char *kind = cli_spatial_kind(name), *why = CPLGetLastErrorMsg();
-    return cli_fail("%s: this is no %s that GDAL reads%s%s; check the file with ogrinfo", name, kind ? kind : "file",
-                    *why ? ": " : "", why);
+    return cli_complain("%s: this is no %s that GDAL reads%s%s; check the file with ogrinfo", name,
+                        kind ? kind : "file", *why ? ": " : "", why);
   }
   s->layer = choose_layer(s->set, name, o);
   if (!s->layer) return CLI_FAILED;
@@ -570,7 +570,7 @@ static void remove_folder(const char *folder) {
 static int complain_writing(const cli_options *o, dyd_status st, const dyd_error *err) {
   const char *why = CPLGetLastErrorMsg();
   if (st == DYD_E_IO || !err->message[0])
-    return cli_fail("%s: cannot write: %s; choose another place with -o", o->output, *why ? why : strerror(errno));
+    return cli_complain("%s: cannot write: %s; choose another place with -o", o->output, *why ? why : strerror(errno));
   cli_complain_at(o->file, err);
   return st == DYD_CAPPED ? CLI_BUDGET : st == DYD_CANCELLED ? cli_exit_cut() : CLI_FAILED;
 }
@@ -627,7 +627,7 @@ static int features_write(cli_session *s, cli_print_fn print) {
   snprintf(folder, sizeof folder, "%.*s.dyadel-XXXXXX", slash ? (int)(slash + 1 - target) : 0, target);
   int status = mkdtemp(folder)
                    ? write_in(folder, target, s, print)
-                   : cli_fail("%s: cannot write: %s; choose another place with -o", s->o.output, strerror(errno));
+                   : cli_complain("%s: cannot write: %s; choose another place with -o", s->o.output, strerror(errno));
   remove_folder(folder);
   free(target);
   return status;

@@ -91,7 +91,8 @@ static bool pieces_reserve(cli_pieces *p, size_t count) {
 bool cli_has_points(const cli_session *s, size_t least) {
   size_t count = dyd_engine_count(s->engine);
   if (count >= least) return true;
-  cli_fail("%s: %zu points are needed, here are %zu; give more", s->o.file ? s->o.file : "the oracle", least, count);
+  cli_complain("%s: %zu points are needed, here are %zu; give more", s->o.file ? s->o.file : "the oracle", least,
+               count);
   return false;
 }
 

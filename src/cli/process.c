@@ -64,13 +64,6 @@ static void complain_list(const char *format, va_list args) {
   fputs("\n", stderr);
 }
 
-void cli_complain(const char *format, ...) {
-  va_list args;
-  va_start(args, format);
-  complain_list(format, args);
-  va_end(args);
-}
-
 int cli_usage(const char *format, ...) {
   va_list args;
   va_start(args, format);
@@ -79,7 +72,7 @@ int cli_usage(const char *format, ...) {
   return CLI_USAGE;
 }
 
-int cli_fail(const char *format, ...) {
+int cli_complain(const char *format, ...) {
   va_list args;
   va_start(args, format);
   complain_list(format, args);
@@ -95,24 +88,21 @@ void cli_note(const cli_options *o, const char *format, ...) {
 }
 
 int cli_complain_memory(void) {
-  return cli_fail("memory is exhausted; close other programs");
+  return cli_complain("memory is exhausted; close other programs");
 }
 
-void cli_complain_of(const dyd_engine *e, const char *file, const dyd_error *err) {
+int cli_complain_of(const dyd_engine *e, const char *file, const dyd_error *err) {
   dyd_error own = *err;
   if (own.point != DYD_NO_POINT) own.point = dyd_engine_row(e, own.point);
-  cli_complain_at(file, &own);
+  return cli_complain_at(file, &own);
 }
 
-void cli_complain_at(const char *file, const dyd_error *err) {
+int cli_complain_at(const char *file, const dyd_error *err) {
   char point[40] = "";
   if (err->point != DYD_NO_POINT) snprintf(point, sizeof point, "point %zu: ", err->point);
-  if (!file)
-    cli_complain("%s%s", point, err->message);
-  else if (err->line)
-    cli_complain("%s:%zu:%zu: %s%s", file, err->line, err->column, point, err->message);
-  else
-    cli_complain("%s: %s%s", file, point, err->message);
+  if (!file) return cli_complain("%s%s", point, err->message);
+  if (!err->line) return cli_complain("%s: %s%s", file, point, err->message);
+  return cli_complain("%s:%zu:%zu: %s%s", file, err->line, err->column, point, err->message);
 }
 
 int cli_exit_refused(const cli_options *o, dyd_status st) {

@@ -39,9 +39,9 @@ static int session_read_oracle(dyd_engine *e, const cli_options *o) {
   const dyd_oracle_options options = {DYD_SIZED(dyd_oracle_options), .jobs = o->oracle_jobs, .batch = o->oracle_batch,
                                       .retries = o->oracle_retries, .seconds = o->oracle_timeout};
   dyd_status st = dyd_oracle_source(&source, &points, o->oracle, &options, &err);
-  if (st != DYD_OK) return cli_fail("%s", err.message);
+  if (st != DYD_OK) return cli_complain("%s", err.message);
   st = dyd_engine_add_source(e, points, &source, NULL);
-  return st == DYD_OK ? 0 : cli_fail("the points of the oracle cannot be added: %s", dyd_status_text(st));
+  return st == DYD_OK ? 0 : cli_complain("the points of the oracle cannot be added: %s", dyd_status_text(st));
 }
 
 /* The file has another format: names it, and the command to type. */
@@ -101,10 +101,7 @@ static int session_read_file(dyd_engine *e, cli_options *o, dyd_read_report *rep
     cli_input_close(in);
   else if (!cli_gdal_here->close(in, o->file))
     return CLI_FAILED;
-  if (features && err.line > 1) {
-    cli_complain("%s: feature %zu: %s", o->file, err.line - 2, err.message);
-    return CLI_FAILED;
-  }
+  if (features && err.line > 1) return cli_complain("%s: feature %zu: %s", o->file, err.line - 2, err.message);
   return session_complain_read(o, st, report, &err);
 }
 
@@ -246,10 +243,7 @@ int cli_trace_resume(const cli_session *s) {
   if (!in) return CLI_FAILED;
   dyd_status st = dyd_trace_recall(&r, s->engine, in, digest_input(input, o) ? input : NULL, &err);
   cli_input_close(in);
-  if (st != DYD_OK) {
-    cli_complain_at(o->resume, &err);
-    return CLI_FAILED;
-  }
+  if (st != DYD_OK) return cli_complain_at(o->resume, &err);
   cli_note(o, "%s: %zu answers are taken from this trace%s", o->resume, r.answers,
            r.cut ? "; its last line is cut short, and skipped" : "");
   return 0;
@@ -308,8 +302,8 @@ static int trace_end(cli_session *s) {
   s->trace_file.stream = NULL;
   cli_output_drop(&s->trace_file);
   if (st == DYD_OK && good) return 0;
-  return cli_fail("%s: %s; choose another place with --trace", s->o.trace,
-                  st == DYD_OK ? strerror(errno) : err.message);
+  return cli_complain("%s: %s; choose another place with --trace", s->o.trace,
+                      st == DYD_OK ? strerror(errno) : err.message);
 }
 
 /* ---- running ---- */

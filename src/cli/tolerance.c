@@ -190,8 +190,7 @@ static int pairs_read(plan_run *r, const char *file) {
   if (!in) return CLI_FAILED;
   dyd_status st = dyd_read_records(in, 0, pairs_row, &columns, &err);
   cli_input_close(in);
-  if (st != DYD_OK) cli_complain_at(file, &err);
-  return st == DYD_OK ? 0 : CLI_FAILED;
+  return st == DYD_OK ? 0 : cli_complain_at(file, &err);
 }
 
 static int plan_begin(cli_session *s) {
@@ -233,14 +232,14 @@ static int plan_find_points(cli_session *s) {
   plan_run *r = s->state;
   const cli_options *o = &s->o;
   if (o->site_set && (r->site = point_of_row(s->engine, r->site)) == UINT32_MAX)
-    return cli_fail("there is no point %lu; give --site the number of one, from 0", (unsigned long)o->site);
+    return cli_complain("there is no point %lu; give --site the number of one, from 0", (unsigned long)o->site);
   for (size_t k = 0; k < r->pairs.count; k++) {
     uint32_t *end[2] = {&r->pairs.item[k].i, &r->pairs.item[k].j};
     for (int x = 0; x < 2; x++) {
       unsigned long row = *end[x];
       if ((*end[x] = point_of_row(s->engine, *end[x])) != UINT32_MAX) continue;
-      return cli_fail("%s:%zu: there is no point %lu; give pairs of points that are there, numbered from 0", o->pairs,
-                      r->line[k], row);
+      return cli_complain("%s:%zu: there is no point %lu; give pairs of points that are there, numbered from 0",
+                          o->pairs, r->line[k], row);
     }
   }
   return 0;

@@ -80,7 +80,7 @@ static int proved_run(int out, int still, const char *file) {
   if (child == 0) proved_become(out, still, path, file);
   while (child > 0 && waitpid(child, &how, 0) < 0)
     if (errno != EINTR) child = -1;
-  if (child < 0) return cli_fail("cannot run " PROGRAM ": %s", strerror(errno));
+  if (child < 0) return cli_complain("cannot run " PROGRAM ": %s", strerror(errno));
   if (WIFEXITED(how) && WEXITSTATUS(how) != CANNOT_RUN) return WEXITSTATUS(how);
   if (WIFEXITED(how))
     complain_missing(folder);
@@ -297,7 +297,7 @@ static int verify_proved_of(cli_session *s) {
   const dyd_certificate_report *r = s->state;
   char more[200];
   FILE *still = tmpfile();
-  if (!still) return cli_fail("cannot make a temporary file: %s", strerror(errno));
+  if (!still) return cli_complain("cannot make a temporary file: %s", strerror(errno));
   int status = verify_here(s->state, still, o);
   size_t others = r->undescribed + r->unlocated;
   if (others)
