@@ -68,25 +68,21 @@ static dyd_status row_lengths(dyd_table *t, uint32_t i, uint32_t j) {
   return st;
 }
 
-/* A line between two sites. */
+/* The row of two sites begins: the line between them, and their columns. */
 static dyd_status row_line(dyd_table *t, size_t i, size_t j) {
   dyd_row_begin(t);
-  if (t->box) return dyd_row_arc(t, t->box[i], t->box[j]);
-  if (!t->place) return DYD_OK;
-  dyd_row_place(t, &t->place[i]);
-  dyd_row_place(t, &t->place[j]);
-  return DYD_OK;
+  dyd_status st = t->box ? dyd_row_arc(t, t->box[i], t->box[j]) : DYD_OK;
+  if (t->place) dyd_row_place(t, &t->place[i]), dyd_row_place(t, &t->place[j]);
+  dyd_row_site(t, i);
+  dyd_row_site(t, j);
+  return st;
 }
 
 static dyd_status row_pair(dyd_table *t, uint32_t i, uint32_t j, const char *status) {
   dyd_status st = row_line(t, i, j);
-  dyd_row_site(t, i);
-  dyd_row_site(t, j);
   dyd_row_word(t, status);
   if (st == DYD_OK) st = row_lengths(t, i, j);
-  dyd_row_id(t, i);
-  dyd_row_id(t, j);
-  dyd_row_end(t);
+  dyd_row_end_two(t, i, j);
   return st;
 }
 
@@ -154,9 +150,7 @@ static dyd_status rows_of_points(dyd_table *t, const dyd_output *o) {
     st = site_box(box, r, i);
     dyd_row_begin(t);
     dyd_row_spot(t, i);
-    dyd_row_site(t, i);
-    dyd_row_id(t, i);
-    dyd_row_carried(t, i);
+    dyd_row_own(t, i);
     dyd_row_box(t, box);
     for (int status = DYD_LEGAL; status >= DYD_TIE; status--) dyd_row_index(t, rows[i].partners[status]);
     dyd_row_word(t, rows[i].hull);
@@ -249,12 +243,10 @@ static dyd_status row_corners(dyd_table *t, mpq_t *xy, size_t n) {
 
 /* The hull of n sites. */
 static dyd_status row_hull(dyd_table *t, const uint32_t *site, int n, const char *status) {
-  dyd_rect own[3];
+  DYD_LOCAL_ARRAY(dyd_rect, own, [3]);
+  DYD_LOCAL_ARRAY(mpq_t, xy, [24]);
   const dyd_rect *r[3] = {&own[0], &own[1], &own[2]};
-  mpq_t xy[24];
   dyd_status st = DYD_OK;
-  for (int k = 0; k < 24; k++) mpq_init(xy[k]);
-  for (int k = 0; k < 3; k++) dyd_rect_init(&own[k]);
   for (int k = 0; k < n && st == DYD_OK; k++) st = dyd_sites_get(&own[k], dyd_engine_sites(t->engine), site[k]);
   dyd_row_begin(t);
   if (st == DYD_OK) st = row_corners(t, xy, dyd_rect_hull(xy, r, (size_t)n));
@@ -262,8 +254,6 @@ static dyd_status row_hull(dyd_table *t, const uint32_t *site, int n, const char
   dyd_row_word(t, status);
   for (int k = 0; k < 3 && dyd_engine_id(t->engine, site[0]); k++) k < n ? dyd_row_id(t, site[k]) : dyd_row_word(t, "");
   dyd_row_end(t);
-  for (int k = 0; k < 3; k++) dyd_rect_clear(&own[k]);
-  for (int k = 0; k < 24; k++) mpq_clear(xy[k]);
   return st;
 }
 
@@ -327,17 +317,13 @@ static dyd_status rows_of_events(dyd_table *t, const dyd_output *o) {
   const dyd_tolerance_row *row;
   for (size_t n = dyd_tolerance_rows(&row, tolerance); n--; row++) {
     row_line(t, row->i, row->j);
-    dyd_row_site(t, row->i);
-    dyd_row_site(t, row->j);
     dyd_row_word(t, dyd_tolerance_event_text(row->event));
     dyd_row_decimal(t, row->lo, DYD_DOWN);
     dyd_row_decimal(t, row->hi, DYD_UP);
     row_binding(t, row->k);
     row_binding(t, row->l);
     if (chance) dyd_row_decimal(t, *chance++, DYD_DOWN);
-    dyd_row_id(t, row->i);
-    dyd_row_id(t, row->j);
-    dyd_row_end(t);
+    dyd_row_end_two(t, row->i, row->j);
   }
   return DYD_OK;
 }
@@ -348,9 +334,7 @@ static dyd_status rows_of_radii(dyd_table *t, const dyd_output *o) {
   for (size_t i = 0; i < r->count; i++) {
     dyd_row_begin(t);
     dyd_row_spot(t, i);
-    dyd_row_site(t, i);
-    dyd_row_id(t, i);
-    dyd_row_carried(t, i);
+    dyd_row_own(t, i);
     dyd_row_decimal(t, radius[i], DYD_DOWN);
     dyd_row_end(t);
   }
@@ -457,15 +441,11 @@ static dyd_status rows_of_plan_pairs(dyd_table *t, const dyd_output *o) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < pairs && st == DYD_OK; k++) {
     st = row_line(t, pair[k].i, pair[k].j);
-    dyd_row_site(t, pair[k].i);
-    dyd_row_site(t, pair[k].j);
     if (pair[k].row == SIZE_MAX)
       dyd_row_decimal(t, NAN, DYD_DOWN);
     else
       dyd_row_index(t, pair[k].row + 1);
-    dyd_row_id(t, pair[k].i);
-    dyd_row_id(t, pair[k].j);
-    dyd_row_end(t);
+    dyd_row_end_two(t, pair[k].i, pair[k].j);
   }
   return st;
 }

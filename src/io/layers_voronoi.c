@@ -54,9 +54,7 @@ static dyd_status find_bounds(const dyd_table *t, const dyd_diagram *d) {
 /* ---- cells ---- */
 
 static void cell_values(dyd_table *t, size_t i, const dyd_cell_row *row) {
-  dyd_row_site(t, i);
-  dyd_row_id(t, i);
-  dyd_row_carried(t, i);
+  dyd_row_own(t, i);
   dyd_row_box(t, row->box);
   dyd_row_decimal(t, row->area[0], DYD_DOWN);
   dyd_row_decimal(t, row->area[1], DYD_UP);
@@ -138,9 +136,7 @@ static void row_tile(dyd_table *t, const dyd_tiles *tiles, size_t r, size_t end,
     }
   }
   t->error = nextafter(t->error + tiles->rounding, INFINITY);
-  dyd_row_site(t, tiles->site[r]);
-  dyd_row_id(t, tiles->site[r]);
-  dyd_row_carried(t, tiles->site[r]);
+  dyd_row_own(t, tiles->site[r]);
   dyd_row_decimal(t, area, DYD_UP);
   dyd_row_decimal(t, tiles->bound[2 * r], DYD_DOWN);
   dyd_row_decimal(t, tiles->bound[2 * r], DYD_DOWN);
@@ -321,9 +317,7 @@ dyd_status dyd_edge_rows(dyd_table *t, const dyd_output *o) {
     dyd_row_site(t, edge[k].i);
     dyd_row_site(t, edge[k].j);
     for (int end = 0; end < 2 && st == DYD_OK; end++) st = edge_value(t, d, &edge[k], end);
-    dyd_row_id(t, edge[k].i);
-    dyd_row_id(t, edge[k].j);
-    dyd_row_end(t);
+    dyd_row_end_two(t, edge[k].i, edge[k].j);
   }
   return st;
 }
@@ -369,9 +363,7 @@ static dyd_status row_cell(dyd_table *t, const dyd_sphere_cells *c, double most,
   if (!nodes) return DYD_E_NOMEM;
   dyd_row_begin(t);
   dyd_status st = cell_outline(t, c, most, i);
-  dyd_row_site(t, i);
-  dyd_row_id(t, i);
-  dyd_row_carried(t, i);
+  dyd_row_own(t, i);
   dyd_row_word(t, c->closed[i] ? "yes" : "no");
   dyd_row_word(t, nodes);
   dyd_row_end(t);

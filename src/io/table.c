@@ -303,6 +303,18 @@ void dyd_row_carried(dyd_table *t, size_t i) {
   }
 }
 
+void dyd_row_own(dyd_table *t, size_t i) {
+  dyd_row_site(t, i);
+  dyd_row_id(t, i);
+  dyd_row_carried(t, i);
+}
+
+void dyd_row_end_two(dyd_table *t, size_t i, size_t j) {
+  dyd_row_id(t, i);
+  dyd_row_id(t, j);
+  dyd_row_end(t);
+}
+
 void dyd_row_three(dyd_table *t, const uint32_t site[3], bool ids) {
   for (int c = 0; c < 3; c++) (ids ? dyd_row_id : dyd_row_site)(t, site[c]);
 }

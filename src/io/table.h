@@ -125,6 +125,10 @@ void dyd_row_text(dyd_table *t, const char *text);
 void dyd_row_id(dyd_table *t, size_t i);
 /* Writes the columns that point i carries, if any. */
 void dyd_row_carried(dyd_table *t, size_t i);
+/* All three: the columns i, id, *. */
+void dyd_row_own(dyd_table *t, size_t i);
+/* Ends a row by the columns id_i, id_j. */
+void dyd_row_end_two(dyd_table *t, size_t i, size_t j);
 /* Those of three sites. */
 void dyd_row_three(dyd_table *t, const uint32_t site[3], bool ids);
 /* The numbers of the sites in their file, separated by blanks. */

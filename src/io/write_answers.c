@@ -199,9 +199,7 @@ dyd_status dyd_bisector_rows(dyd_table *t, const dyd_output *o) {
         dyd_row_word(t, dyd_feature_names[a->feature]);
         row_arc_end(t, &a->begin);
         row_arc_end(t, &a->end);
-        dyd_row_id(t, a->far_site);
-        dyd_row_id(t, a->near_site);
-        dyd_row_end(t);
+        dyd_row_end_two(t, a->far_site, a->near_site);
       }
   return DYD_OK;
 }
