@@ -99,12 +99,10 @@ size_t dyd_decimal_directed(char out[DYD_DECIMAL_SIZE], double x, int digits, dy
   if (isinf(x)) return (size_t)snprintf(out, DYD_DECIMAL_SIZE, "%s", x > 0 ? "inf" : "-inf");
   char text[40];
   mpfr_exp_t exp;
-  mpfr_t value;
   if (decimal_cut_off(&cut, x, digits)) return cut_layout(out, &cut, x < 0, cut.rest && (dir == DYD_UP) == (x > 0));
-  mpfr_init2(value, 53);
+  DYD_LOCAL_FLOATS(53, value);
   mpfr_set_d(value, x, MPFR_RNDN); /* exact */
   mpfr_get_str(text, &exp, 10, (size_t)digits, value, dir == DYD_UP ? MPFR_RNDU : MPFR_RNDD);
-  mpfr_clear(value);
   bool negative = text[0] == '-';
   return decimal_layout(out, negative, text + negative, digits, (int)exp);
 }
@@ -183,13 +181,11 @@ void dyd_decimal_dyadic(char out[DYD_DECIMAL_SIZE], const dyd_dyadic *x, int dig
   strcpy(out, "0");
   if (dyd_dyadic_sgn(x) == 0) return;
   char text[DYD_DECIMAL_SIZE];
-  mpfr_t exact;
   mpfr_exp_t point;
   size_t bits = mpz_sizeinbase(x->man, 2);
-  mpfr_init2(exact, bits < 2 ? 2 : (mpfr_prec_t)bits);
+  DYD_LOCAL_FLOATS(bits < 2 ? 2 : (mpfr_prec_t)bits, exact);
   mpfr_set_z_2exp(exact, x->man, (mpfr_exp_t)x->exp, MPFR_RNDN);
   mpfr_get_str(text, &point, 10, (size_t)digits, exact, dir == DYD_UP ? MPFR_RNDU : MPFR_RNDD);
-  mpfr_clear(exact);
   const char *digit = text + (*text == '-');
   snprintf(out, DYD_DECIMAL_SIZE, "%s%c.%se%" PRIdMAX, *text == '-' ? "-" : "", *digit, digit + 1, (intmax_t)point - 1);
 }

@@ -323,7 +323,8 @@ static bool sphere_site_box(double out[4], const void *context, size_t i) {
 
 /* In the middle of the widest range of longitudes without a place, where that is more than half of all; else -180. */
 static dyd_status find_seam(sphere_drawing *d) {
-  double *lon = dyd_alloc(d->count + 1, sizeof *lon), widest = 180;
+  DYD_FREED double *lon = dyd_alloc(d->count + 1, sizeof *lon);
+  double widest = 180;
   if (!lon) return DYD_E_NOMEM;
   d->seam = -180;
   for (size_t i = 0; i < d->count; i++) lon[i] = map_longitude(d, dyd_lon_lat_of(d->box[i]).lon);
@@ -332,7 +333,6 @@ static dyd_status find_seam(sphere_drawing *d) {
   for (size_t k = 0; k < d->count; k++)
     if (lon[k + 1] - lon[k] > widest) widest = lon[k + 1] - lon[k], d->seam = lon[k] + widest / 2;
   if (d->seam > 0) d->seam -= 360;
-  free(lon);
   return DYD_OK;
 }
 

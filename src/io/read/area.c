@@ -47,18 +47,16 @@ static void skip_any_of(area_text *t, const char *set) {
 
 /* The nearest double. */
 static dyd_status area_number(double *out, area_text *t) {
-  mpfr_t r;
   size_t length = 0;
   dyd_error why = {0};
   skip_any_of(t, " \t\r\n");
   while (t->at + length < t->end && !is_any_of(t->at[length], " \t\r\n,()[]\"")) length++;
   DYD_LOCAL_NUMBERS(mpq, q);
-  mpfr_init2(r, 53);
+  DYD_LOCAL_FLOATS(53, r);
   dyd_status st = length ? dyd_parse_number(q, t->at, length, &why) : DYD_E_PARSE;
   mpfr_set_q(r, q, MPFR_RNDN);
   *out = mpfr_get_d(r, MPFR_RNDN);
   if (st == DYD_OK && !isfinite(*out)) st = DYD_E_PARSE;
-  mpfr_clear(r);
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(t->err);
   if (st != DYD_OK) return area_refuse(t, "a coordinate has to be here, a number");
   t->at += length;

@@ -273,7 +273,7 @@ static dyd_status carry_put(dyd_csv *csv, size_t k, dyd_error *err) {
 
 /* The columns named. */
 static dyd_status carry_named(dyd_csv *csv, dyd_error *err) {
-  dyd_csv list = {.delimiter = ','};
+  DYD_SCOPED(dyd_csv) list = {.delimiter = ','};
   const dyd_line line = {csv->carry, strlen(csv->carry), 0};
   dyd_status st = csv_split(&list, &line, err);
   for (size_t k = 0; k < list.fields && st == DYD_OK; k++) {
@@ -287,7 +287,6 @@ static dyd_status carry_named(dyd_csv *csv, dyd_error *err) {
     if (st == DYD_OK) st = find_column(&at, csv, &want, err);
     if (st == DYD_OK) st = carry_put(csv, at, err);
   }
-  dyd_csv_clear(&list);
   return st;
 }
 
@@ -451,7 +450,7 @@ static bool hint_with(dyd_csv *csv, dyd_csv *row, char d, const dyd_line *line, 
 }
 
 void dyd_csv_hint(dyd_error *err, const dyd_line *line, dyd_text *text) {
-  dyd_csv csv = {0}, row = {0};
+  DYD_SCOPED(dyd_csv) csv = {0}, row = {0};
   dyd_line next = *line;
   dyd_error own;
   const size_t used = strlen(err->message);
@@ -467,8 +466,6 @@ void dyd_csv_hint(dyd_error *err, const dyd_line *line, dyd_text *text) {
     for (const char *d = delimiters; *d && !found && (here.number > first || strlen(err->message) == used); d++)
       found = hint_with(&csv, &row, *d, &here, &next, here.number == first ? 0 : here.number - 1, text, err);
   }
-  dyd_csv_clear(&row);
-  dyd_csv_clear(&csv);
 }
 
 /* Rows of fields: small tables that accompany the points, by the readers of lines and of separated text. */
@@ -509,8 +506,8 @@ static dyd_status rows_next(dyd_csv *csv, dyd_error *err) {
 }
 
 dyd_status dyd_read_records(FILE *in, char delimiter, dyd_record_fn row, void *user, dyd_error *err) {
-  dyd_text text;
-  dyd_csv csv = {.text = &text, .delimiter = delimiter, .comments = true};
+  DYD_SCOPED(dyd_text) text;
+  DYD_SCOPED(dyd_csv) csv = {.text = &text, .delimiter = delimiter, .comments = true};
   dyd_error own;
   dyd_status st;
   if (!err) err = &own;
@@ -521,8 +518,6 @@ dyd_status dyd_read_records(FILE *in, char delimiter, dyd_record_fn row, void *u
     const dyd_record now = {DYD_SIZED(dyd_record), .fields = csv.fields, .field = csv.field};
     if (st == DYD_OK && csv.fields) st = row(user, &now, err);
   } while (st == DYD_OK && csv.fields);
-  dyd_csv_clear(&csv);
-  dyd_text_clear(&text);
   return st;
 }
 

@@ -632,7 +632,7 @@ static dyd_status intake_join(intake *in, dyd_error *err) {
 /* Adds all points to e, with their labels; the stage is empty afterwards. */
 static dyd_status intake_commit(dyd_engine *e, intake *in, dyd_error *err) {
   const dyd_labels *own = &in->labels;
-  dyd_labels all = {0};
+  DYD_SCOPED(dyd_labels) all = {0};
   bool labelled = own->has_ids || in->numbers || in->report.missing || in->report.merged;
   dyd_confidence c;
   dyd_status st = in->o->merge_by ? intake_join(in, err) : DYD_OK;
@@ -642,10 +642,7 @@ static dyd_status intake_commit(dyd_engine *e, intake *in, dyd_error *err) {
   if (st == DYD_OK && labelled && dyd_labels_join(&all, e, own) != DYD_OK) st = dyd_fail_nomem(err);
   if (st == DYD_OK) st = dyd_stage_commit(e, &in->stage, err);
   if (st == DYD_OK && in->o->confidence) dyd_engine_give_confidence(e, &c);
-  if (st == DYD_OK && labelled)
-    dyd_labels_give(e, &all);
-  else
-    dyd_labels_clear(&all);
+  if (st == DYD_OK && labelled) dyd_labels_give(e, &all);
   return st;
 }
 
@@ -766,11 +763,12 @@ static dyd_status units_join(intake *in, const dyd_csv *csv, dyd_error *err) {
 }
 
 static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
-  dyd_csv csv = {.text = text,
-                 .headless = in->o->no_header,
-                 .units_row = in->o->units_row,
-                 .decimal_comma = in->o->decimal_comma,
-                 .carry = in->o->carry};
+  DYD_SCOPED(dyd_csv)
+  csv = {.text = text,
+         .headless = in->o->no_header,
+         .units_row = in->o->units_row,
+         .decimal_comma = in->o->decimal_comma,
+         .carry = in->o->carry};
   dyd_span span[DYD_CSV_MOST] = {{0}}, more[2];
   size_t count = 1;
   dyd_status st = csv_begin(&csv, in->o, err);
@@ -799,9 +797,7 @@ static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
     if (st == DYD_OK && count) st = intake_row(in, span, err);
   }
   in->report.commented = csv.commented;
-  if (st == DYD_OK && csv.delimiter == ',') st = dyd_style_settle(&in->style, err);
-  dyd_csv_clear(&csv);
-  return st;
+  return st == DYD_OK && csv.delimiter == ',' ? dyd_style_settle(&in->style, err) : st;
 }
 
 /* Passes over the first lines. */
@@ -821,7 +817,7 @@ static dyd_status skip_lines(dyd_text *text, const char *many, dyd_error *err) {
 
 /* Adds the points of text, which is ready to be read; err is not NULL. */
 static dyd_status points_read_text(dyd_engine *e, dyd_text *text, const dyd_read_options *o, dyd_error *err) {
-  intake in;
+  DYD_SCOPED(intake) in;
   text->data = true;
   dyd_status st = intake_init(&in, o, err);
   if (st == DYD_OK && o->report) st = dyd_abi_check(o->report, sizeof o->report->struct_size, "dyd_read_report", err);
@@ -833,7 +829,6 @@ static dyd_status points_read_text(dyd_engine *e, dyd_text *text, const dyd_read
   in.report.recoded = text->recoded;
   if (kind) in.report.kind = kind->name, in.report.make = kind->make, in.report.make_columns = kind->columns;
   if (known) dyd_abi_give(o->report, &in.report, sizeof in.report);
-  intake_clear(&in);
   return st;
 }
 

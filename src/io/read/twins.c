@@ -227,11 +227,8 @@ static void half_sine(arb_t out, mpq_srcptr a, mpq_srcptr b) {
 /* Returns true if the way on the globe between two places is certainly longer than both radii. Half of its angle has
  * the squared sine sin^2(lat) + cos(lat of s) cos(lat of t) sin^2(lon), of halves of the differences. */
 static bool grounds_apart(const dyd_twin *s, const dyd_twin *t) {
-  arb_t way, f, reach;
   DYD_LOCAL_NUMBERS(mpq, zero);
-  arb_init(way);
-  arb_init(f);
-  arb_init(reach);
+  DYD_LOCAL_NUMBERS(arb, way, f, reach);
   half_sine(way, s->lo[0], t->lo[0]);
   for (int k = 0; k < 2; k++) { /* cos(lat) = 1 - 2 sin^2(lat / 2); both signs change */
     half_sine(f, (k ? t : s)->lo[1], zero);
@@ -251,11 +248,7 @@ static bool grounds_apart(const dyd_twin *s, const dyd_twin *t) {
   bool apart = arb_lt(reach, f);
   arb_sin(reach, reach, BITS);
   arb_sqr(reach, reach, BITS);
-  apart = apart && arb_gt(way, reach);
-  arb_clear(way);
-  arb_clear(f);
-  arb_clear(reach);
-  return apart;
+  return apart && arb_gt(way, reach);
 }
 
 /* DYD_E_DOMAIN where another one has nothing in common with it. */
