@@ -136,7 +136,8 @@ bool dydpy_end(dydpy_call *c, dyd_status st);
 /* The same: None, or NULL with an exception set. */
 PyObject *dydpy_end_none(dydpy_call *c, dyd_status st);
 
-/* Fills in options from a dict of numbers, a window and costs, which are borrowed until dydpy_options_clear. */
+/* Fills in options from a dict of numbers, a window and costs, which are borrowed until dydpy_options_clear, which
+ * follows also where this fails. */
 typedef struct dydpy_options {
   dyd_engine_options o;
   dyd_rect window;

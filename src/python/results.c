@@ -287,18 +287,15 @@ PyObject *dydpy_nearest(PyObject *self, PyObject *args) {
   SCOPED(dyd_index_list) found = {0};
   dyd_outcome outcome;
   bool sure = false;
-  dydpy_options o;
   dyd_stream *at = NULL;
   dydpy_call c;
   if (!PyArg_ParseTuple(args, "OO!", &point, &PyDict_Type, &dict) || dydpy_stream(&at, point, NULL) < 0) return NULL;
-  if (dydpy_options_init(&o, (dydpy_engine *)self, dict) == 0) {
-    if (dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_REFINES) &&
-        dydpy_end(&c, dyd_engine_nearest(&found, &sure, &outcome, c.self->engine, at, &o.o, &c.err)))
-      answer = Py_BuildValue("NNNsN", copied(found.item, found.count * sizeof *found.item), PyBool_FromLong(sure),
-                             PyBool_FromLong(dyd_engine_nearest_tied(c.self->engine)), dyd_outcome_text(outcome),
-                             dydpy_rect_ends(dyd_stream_rect(at)));
-    dydpy_options_clear(&o);
-  }
+  SCOPED(dydpy_options) o;
+  if (dydpy_options_init(&o, (dydpy_engine *)self, dict) == 0 && dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_REFINES) &&
+      dydpy_end(&c, dyd_engine_nearest(&found, &sure, &outcome, c.self->engine, at, &o.o, &c.err)))
+    answer = Py_BuildValue("NNNsN", copied(found.item, found.count * sizeof *found.item), PyBool_FromLong(sure),
+                           PyBool_FromLong(dyd_engine_nearest_tied(c.self->engine)), dyd_outcome_text(outcome),
+                           dydpy_rect_ends(dyd_stream_rect(at)));
   dyd_stream_free(at);
   return answer;
 }
@@ -354,8 +351,8 @@ PyObject *dydpy_corners(PyObject *self, PyObject *args) {
 
 /* ---- graphs ---- */
 
-/* As three numbers, which numpy reads as it reads pairs. Takes over the list. */
-static PyObject *graph_found(dyd_graph_list *list) {
+/* As three numbers, which numpy reads as it reads pairs. */
+static PyObject *graph_found(const dyd_graph_list *list) {
   int32_t *row = malloc((3 * list->count + 1) * sizeof *row);
   for (size_t k = 0; row && k < list->count; k++) {
     const dyd_graph_edge *edge = &list->item[k];
@@ -363,27 +360,23 @@ static PyObject *graph_found(dyd_graph_list *list) {
     row[3 * k + 1] = (int32_t)edge->j;
     row[3 * k + 2] = edge->sure;
   }
-  size_t size = 3 * list->count * sizeof *row;
-  dyd_graph_list_clear(list);
-  return row ? dydpy_buffer_new(row, size) : PyErr_NoMemory();
+  return row ? dydpy_buffer_new(row, 3 * list->count * sizeof *row) : PyErr_NoMemory();
 }
 
 PyObject *dydpy_graph(PyObject *self, PyObject *args) {
-  dyd_graph_list list = {0};
+  SCOPED(dyd_graph_list) list = {0};
   dyd_outcome outcome;
-  PyObject *dict, *found = NULL;
-  dydpy_options o;
+  PyObject *dict;
   int graph, discs;
   dydpy_call c;
-  if (!PyArg_ParseTuple(args, "iO!p", &graph, &PyDict_Type, &dict, &discs) ||
-      dydpy_options_init(&o, (dydpy_engine *)self, dict) < 0)
-    return NULL;
+  if (!PyArg_ParseTuple(args, "iO!p", &graph, &PyDict_Type, &dict, &discs)) return NULL;
+  SCOPED(dydpy_options) o;
+  if (dydpy_options_init(&o, (dydpy_engine *)self, dict) < 0) return NULL;
   o.o.discs = discs;
-  if (dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_REFINES) &&
-      dydpy_end(&c, dyd_engine_graph(&list, &outcome, c.self->engine, (dyd_graph)graph, &o.o, &c.err)))
-    found = Py_BuildValue("Ns", graph_found(&list), dyd_outcome_text(outcome));
-  dydpy_options_clear(&o);
-  return found;
+  if (!dydpy_begin(&c, self, DYDPY_RESULT | DYDPY_REFINES) ||
+      !dydpy_end(&c, dyd_engine_graph(&list, &outcome, c.self->engine, (dyd_graph)graph, &o.o, &c.err)))
+    return NULL;
+  return Py_BuildValue("Ns", graph_found(&list), dyd_outcome_text(outcome));
 }
 
 /* ---- tolerance ---- */
@@ -413,16 +406,13 @@ static dyd_status row_numbers(double **out, const dyd_engine *e, dyd_row_number 
 
 /* With the weights and the standard deviations that a text gave. */
 static dyd_status tolerance_new(dyd_tolerance **out, dydpy_call *c, dyd_tolerance_options *o) {
-  double *weight = NULL, *sigmas = NULL;
+  FREED double *weight = NULL, *sigmas = NULL;
   dyd_status st = c->self->weights ? row_numbers(&weight, c->self->engine, DYD_ROW_RADIUS) : DYD_OK;
   if (st == DYD_OK && c->self->sigmas && o->sigma == 0) st = row_numbers(&sigmas, c->self->engine, DYD_ROW_SIGMA);
   o->weight = weight;
   o->sigmas = sigmas;
   dyd_outcome outcome;
-  if (st == DYD_OK) st = dyd_engine_tolerance(out, &outcome, c->self->engine, o, 0, NULL, &c->err);
-  free(weight);
-  free(sigmas);
-  return st;
+  return st == DYD_OK ? dyd_engine_tolerance(out, &outcome, c->self->engine, o, 0, NULL, &c->err) : st;
 }
 
 PyObject *dydpy_tolerance(PyObject *self, PyObject *args) {
@@ -694,21 +684,18 @@ static PyObject *verify_with(FILE *in, PyObject *of, const dyd_sphere_options *s
 PyObject *dydpy_verify(PyObject *Py_UNUSED(module), PyObject *args) {
   char *bytes;
   Py_ssize_t length;
-  PyObject *of, *dict, *report = NULL;
-  dydpy_options o;
+  PyObject *of, *dict, *report;
   int sphere;
   dyd_sphere_options on = {DYD_SIZED(dyd_sphere_options)};
   if (!PyArg_ParseTuple(args, "s#OpzzzO!", &bytes, &length, &of, &sphere, &on.radius, &on.radius_unit, &on.radius_scale,
                         &PyDict_Type, &dict))
     return NULL;
   if (of == Py_None) of = NULL;
+  SCOPED(dydpy_options) o;
   if (dydpy_options_init(&o, (dydpy_engine *)of, dict) < 0) return NULL;
   FILE *in = fmemopen(bytes, length ? (size_t)length : 1, "r");
-  if (in)
-    report = verify_with(in, of, sphere ? &on : NULL, &o.o);
-  else
-    PyErr_NoMemory();
-  if (in) fclose(in);
-  dydpy_options_clear(&o);
+  if (!in) return PyErr_NoMemory();
+  report = verify_with(in, of, sphere ? &on : NULL, &o.o);
+  fclose(in);
   return report;
 }

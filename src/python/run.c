@@ -74,22 +74,20 @@ static dyd_status trace_open(dydpy_engine *self, const char *path, const dyd_eng
 PyObject *dydpy_trace_begin(PyObject *object, PyObject *args) {
   dydpy_engine *self = (dydpy_engine *)object;
   const char *path;
-  PyObject *dict, *converge, *window = Py_None, *done = NULL;
+  PyObject *dict, *converge, *window = Py_None;
   unsigned of = 0;
   bool windowed = false;
-  dydpy_options o;
   dydpy_call call;
   if (!PyArg_ParseTuple(args, "yO!O", &path, &PyDict_Type, &dict, &converge)) return NULL;
   if (converge != Py_None && !PyArg_ParseTuple(converge, "OI", &window, &of)) return NULL;
-  if (dydpy_options_init(&o, self, dict) < 0) return NULL;
+  SCOPED(dydpy_options) o;
   LOCAL(dyd_rect, view);
-  if (dydpy_window_take(&view, &windowed, window) == 0 && dydpy_begin(&call, object, DYDPY_HOLDS)) {
-    const dyd_converge_options c = {DYD_SIZED(dyd_converge_options), .window = windowed ? &view : NULL,
-                                    .of = (dyd_converge_of)of};
-    done = dydpy_end_none(&call, trace_open(self, path, &o.o, converge != Py_None ? &c : NULL, &call.err));
-  }
-  dydpy_options_clear(&o);
-  return done;
+  if (dydpy_options_init(&o, self, dict) < 0 || dydpy_window_take(&view, &windowed, window) < 0 ||
+      !dydpy_begin(&call, object, DYDPY_HOLDS))
+    return NULL;
+  const dyd_converge_options c = {DYD_SIZED(dyd_converge_options), .window = windowed ? &view : NULL,
+                                  .of = (dyd_converge_of)of};
+  return dydpy_end_none(&call, trace_open(self, path, &o.o, converge != Py_None ? &c : NULL, &call.err));
 }
 
 dyd_status dydpy_trace_close(dydpy_engine *self, dyd_error *err) {
@@ -173,17 +171,16 @@ PyObject *dydpy_converge(PyObject *self, PyObject *args) {
   long long modulus[2];
   bool windowed = false;
   dyd_convergence table = {DYD_SIZED(dyd_convergence)};
-  dydpy_options o;
   dydpy_call c;
   if (!PyArg_ParseTuple(args, "O!OIpKO", &PyDict_Type, &dict, &window, &of, &times, &hindsight, &range)) return NULL;
   if (range != Py_None && !PyArg_ParseTuple(range, "LL", &modulus[0], &modulus[1])) return NULL;
+  SCOPED(dydpy_options) o;
   if (dydpy_options_init(&o, (dydpy_engine *)self, dict) < 0) return NULL;
   LOCAL(dyd_rect, view);
   bool good = dydpy_window_take(&view, &windowed, window) == 0 && dydpy_begin(&c, self, DYDPY_REFINES);
   const dyd_converge_options how = {DYD_SIZED(dyd_converge_options), .window = windowed ? &view : NULL,
                                     .of = (dyd_converge_of)of, .rates = range != Py_None, .hindsight = hindsight};
   good = good && dydpy_end(&c, dyd_converge_run(&table, c.self->engine, &o.o, &how, &c.err));
-  dydpy_options_clear(&o);
   return table_found(good, &table, times, range != Py_None ? modulus : NULL);
 }
 
@@ -440,9 +437,7 @@ int dydpy_options_init(dydpy_options *out, dydpy_engine *self, PyObject *dict) {
     out->o.trace = self->trace ? dyd_trace_step : NULL;
     out->o.trace_user = self->trace;
   }
-  if (!PyErr_Occurred()) return 0;
-  dydpy_options_clear(out);
-  return -1;
+  return PyErr_Occurred() ? -1 : 0;
 }
 
 void dydpy_options_clear(dydpy_options *o) {
@@ -469,14 +464,13 @@ static dyd_status run_once(bool *again, dydpy_engine *self, const dyd_engine_opt
 /* run(options) */
 PyObject *dydpy_run(PyObject *object, PyObject *dict) {
   dydpy_engine *self = (dydpy_engine *)object;
-  dydpy_options o;
   dyd_status st = DYD_OK;
   dydpy_call c;
   if (!PyDict_Check(dict)) return PyErr_Format(PyExc_TypeError, "options are a dict");
+  SCOPED(dydpy_options) o;
   if (dydpy_options_init(&o, self, dict) < 0) return NULL;
   bool entered = dydpy_begin(&c, object, DYDPY_HOLDS), again = entered;
   while (again) st = run_once(&again, self, &o.o, &c.err);
-  dydpy_options_clear(&o);
   return entered ? dydpy_end_none(&c, st) : NULL;
 }
 
