@@ -9,16 +9,13 @@
 #include "base/error.h"
 #include "base/local.h"
 #include "io/read/coordinate.h"
+#include "stream/number.h"
 
 #include <string.h>
 
 static dyd_status csv_record(dyd_line *out, dyd_csv *csv, dyd_error *err);
 static dyd_status csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err);
 static void span_trim(dyd_span *s);
-static bool is_blank(char c) {
-  return c == ' ' || c == '\t';
-}
-
 /* The header of separated text: which delimiter it uses, and where the wanted columns are.
  *
  * A column is wanted by its name or, in digits without quotes, by its number from 1. */
@@ -73,17 +70,13 @@ static char lower_letter(char c) {
   return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
 }
 
-static bool is_space(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-
 /* Blanks and ends of lines, any number of them, are equal. */
 static bool is_named(const dyd_span *field, const char *name, bool fold) {
   const char *p = field->text, *end = p + field->length;
   for (; p < end && *name; p++, name++) {
-    const bool space = is_space(*p) && is_space(*name);
-    while (space && p + 1 < end && is_space(p[1])) p++;
-    while (space && is_space(name[1])) name++;
+    const bool space = dyd_is_blank(*p) && dyd_is_blank(*name);
+    while (space && p + 1 < end && dyd_is_blank(p[1])) p++;
+    while (space && dyd_is_blank(name[1])) name++;
     if (!space && *p != *name && (!fold || lower_letter(*p) != lower_letter(*name))) return false;
   }
   return p == end && !*name;
@@ -557,13 +550,13 @@ void dyd_csv_clear(dyd_csv *csv) {
 
 static bool is_blank_line(const dyd_line *line) {
   for (size_t k = 0; k < line->length; k++)
-    if (!is_blank(line->text[k])) return false;
+    if (!dyd_is_gap(line->text[k])) return false;
   return true;
 }
 
 bool dyd_line_is_comment(const dyd_line *line) {
   const char *at = line->text, *end = at + line->length;
-  while (at < end && is_blank(*at)) at++;
+  while (at < end && dyd_is_gap(*at)) at++;
   return at < end && (*at == '%' || (*at == '#' && !dyd_is_sheet_error(at, (size_t)(end - at))));
 }
 
@@ -709,7 +702,7 @@ static dyd_status csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err) 
   csv->used = csv->fields = 0;
   if (!dyd_reserve((void **)&csv->plain, &csv->plain_cap, line->length, 1)) return dyd_fail_nomem(err);
   for (;;) {
-    while (csv->delimiter == ' ' && at < end && is_blank(*at)) at++;
+    while (csv->delimiter == ' ' && at < end && dyd_is_gap(*at)) at++;
     if (csv->delimiter == ' ' && at == end) return DYD_OK;
     if (!DYD_GROW(csv->field, csv->field_cap, csv->fields + 1)) return dyd_fail_nomem(err);
     dyd_span *field = &csv->field[csv->fields++];
@@ -722,8 +715,8 @@ static dyd_status csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err) 
 
 /* Takes off blanks at both ends, and what a spreadsheet puts around a text, as in ="007". */
 static void span_trim(dyd_span *s) {
-  while (s->length && (*s->text == ' ' || *s->text == '\t')) s->text++, s->at++, s->length--;
-  while (s->length && (s->text[s->length - 1] == ' ' || s->text[s->length - 1] == '\t')) s->length--;
+  while (s->length && dyd_is_gap(*s->text)) s->text++, s->at++, s->length--;
+  while (s->length && dyd_is_gap(s->text[s->length - 1])) s->length--;
   if (s->length > 2 && s->text[0] == '=' && s->text[1] == '"' && s->text[s->length - 1] == '"')
     s->text += 2, s->at += 2, s->length -= 3;
 }
@@ -761,7 +754,7 @@ static dyd_status fail_fields(const dyd_csv *csv, bool first, dyd_error *err) {
   char remedy[160];
   if (memchr(line.text, '\r', line.length))
     snprintf(remedy, sizeof remedy, "a CR alone ends a line in it: tr '\\r' '\\n' < FILE ends all lines alike");
-  else if (more && first && csv->fields == csv->columns + 1 && named && is_blank(csv->delimiter))
+  else if (more && first && csv->fields == csv->columns + 1 && named && dyd_is_gap(csv->delimiter))
     snprintf(remedy, sizeof remedy,
              "if the first column has no name, as R writes tables, give `skip_lines` %zu `no_header` and numbers to "
              "`columns`",

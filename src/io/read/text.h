@@ -47,6 +47,11 @@ typedef struct dyd_span {
   size_t line;        /* line of the record's first character */
 } dyd_span;
 
+/* Between the fields of a line. */
+static inline bool dyd_is_gap(char c) {
+  return c == ' ' || c == '\t';
+}
+
 void dyd_text_init(dyd_text *t, FILE *in);
 /* Lines of a copy of `text`. */
 dyd_status dyd_text_init_copy(dyd_text *t, const char *text, size_t length);

@@ -4,6 +4,7 @@
 #include "base/local.h"
 #include "io/read/csv.h"
 #include "stream/degrees.h"
+#include "stream/number.h"
 #include <string.h>
 
 static const char *const words[] = {"POINT",           "LINESTRING",   "POLYGON",           "MULTIPOINT",
@@ -38,13 +39,9 @@ static size_t wkt_word(const char *at, const char *end) {
   return k;
 }
 
-static bool wkt_is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-
 bool dyd_wkt_begin(dyd_wkt *w, const dyd_span *text) {
   *w = (dyd_wkt){.text = *text, .at = text->text, .end = text->text + text->length};
-  while (w->at < w->end && wkt_is_blank(*w->at)) w->at++;
+  while (w->at < w->end && dyd_is_blank(*w->at)) w->at++;
   if (w->at == w->end || *w->at < 'A') return false;
   if (wkt_has_word(w->at, w->end, "SRID=") || wkt_has_word(w->at, w->end, "EPSG:")) {
     w->srid = (dyd_span){.text = w->at + 5};
@@ -60,9 +57,9 @@ bool dyd_wkt_begin(dyd_wkt *w, const dyd_span *text) {
 }
 
 static dyd_span wkt_number(dyd_wkt *w) {
-  while (w->at < w->end && wkt_is_blank(*w->at)) w->at++;
+  while (w->at < w->end && dyd_is_blank(*w->at)) w->at++;
   const char *begin = w->at;
-  while (w->at < w->end && !wkt_is_blank(*w->at) && !strchr(",()", *w->at)) w->at++;
+  while (w->at < w->end && !dyd_is_blank(*w->at) && !strchr(",()", *w->at)) w->at++;
   dyd_span s = w->text;
   s.text = begin;
   s.at = w->text.at + (begin - w->text.text);
@@ -78,7 +75,7 @@ static bool wkt_same(const dyd_span *a, const dyd_span *b) {
 
 /* Enters the next geometry of the text; several have commas between. false: there is none. */
 static bool wkt_enter(dyd_wkt *w) {
-  while (w->at < w->end && (wkt_is_blank(*w->at) || (w->inside && strchr(",;", *w->at)))) w->at++;
+  while (w->at < w->end && (dyd_is_blank(*w->at) || (w->inside && strchr(",;", *w->at)))) w->at++;
   w->inside = true;
   if (w->at == w->end || *w->at == '#') return false;
   const bool word = wkt_word(w->at, w->end) < sizeof words / sizeof *words;
@@ -125,7 +122,7 @@ bool dyd_wkt_next(dyd_span place[2], dyd_wkt *w) {
       w->at++;
       w->depth += (c == '(') - (c == ')');
       if (opened && c == ')') return wkt_missing(place, w);
-      if (!wkt_is_blank(c)) opened = c == '(';
+      if (!dyd_is_blank(c)) opened = c == '(';
       continue;
     }
     if (!wkt_place(place, w)) continue;
@@ -141,10 +138,6 @@ bool dyd_wkt_next(dyd_span place[2], dyd_wkt *w) {
  *
  * Blanks and commas within parentheses or brackets belong to the coordinate. */
 
-static bool points_is_blank(char c) {
-  return c == ' ' || c == '\t';
-}
-
 typedef struct cursor {
   const char *at, *end;
   const dyd_line *line;
@@ -159,7 +152,7 @@ static dyd_status points_fail(dyd_error *err, const cursor *c, const char *messa
 /* Skips blanks; how many commas stood among them (0, 1, or 2 for "too many"). */
 static int points_separator(cursor *c, int allowed) {
   int commas = 0;
-  for (; c->at < c->end && (points_is_blank(*c->at) || *c->at == c->comma); c->at++)
+  for (; c->at < c->end && (dyd_is_gap(*c->at) || *c->at == c->comma); c->at++)
     if (*c->at == c->comma && ++commas > allowed) return commas;
   return commas;
 }
@@ -176,7 +169,7 @@ static dyd_span points_coordinate(cursor *c) {
     if (!special[(unsigned char)*c->at]) continue;
     if (*c->at == '(' || *c->at == '[') depth++;
     if ((*c->at == ')' || *c->at == ']') && depth > 0) depth--;
-    if (depth == 0 && (points_is_blank(*c->at) || *c->at == c->comma)) break;
+    if (depth == 0 && (dyd_is_gap(*c->at) || *c->at == c->comma)) break;
   }
   return (dyd_span){begin, (size_t)(c->at - begin), begin, c->line->text, c->line->number};
 }
@@ -191,19 +184,19 @@ static bool is_degrees(const char *begin, const char *end) {
  * none, or there are several. */
 static bool degrees_split(dyd_span coordinate[2], const dyd_line *line, const char *end, char comma) {
   const char *begin = line->text, *found = NULL, *next = NULL;
-  while (begin < end && points_is_blank(*begin)) begin++;
+  while (begin < end && dyd_is_gap(*begin)) begin++;
   for (const char *at = begin; at < end && end - begin < 200; at++) {
-    if (!points_is_blank(*at) && *at != comma) continue;
+    if (!dyd_is_gap(*at) && *at != comma) continue;
     const char *left = at;
     int commas = 0;
-    for (; at < end && (points_is_blank(*at) || *at == comma); at++) commas += *at == comma;
+    for (; at < end && (dyd_is_gap(*at) || *at == comma); at++) commas += *at == comma;
     if (commas > 1 || !is_degrees(begin, left) || !is_degrees(at, end)) continue;
     if (found) return false;
     found = left;
     next = at;
   }
   if (!found) return false;
-  while (end > next && points_is_blank(end[-1])) end--;
+  while (end > next && dyd_is_gap(end[-1])) end--;
   coordinate[0] = (dyd_span){begin, (size_t)(found - begin), begin, line->text, line->number};
   coordinate[1] = (dyd_span){next, (size_t)(end - next), next, line->text, line->number};
   return true;
