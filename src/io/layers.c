@@ -181,9 +181,9 @@ static dyd_status row_group(void *context, dyd_group_kind kind, const dyd_index_
   dyd_table *t = context;
   dyd_row_begin(t);
   dyd_row_word(t, dyd_group_text(kind));
-  dyd_status st = dyd_row_sites(t, sites);
+  dyd_row_sites(t, sites);
   dyd_row_end(t);
-  return st;
+  return DYD_OK;
 }
 
 static dyd_status rows_of_ties(dyd_table *t, const dyd_output *o) {
@@ -220,11 +220,7 @@ static dyd_status rows_of_triangles(dyd_table *t, const dyd_output *o) {
 
 /* Vertices in turn, exactly: "0 0;1 0;1/2 2"; and a polygon, which is empty where they are a segment. */
 static dyd_status row_corners(dyd_table *t, mpq_t *xy, size_t n) {
-  DYD_FREED char *text = NULL;
-  size_t size;
   dyd_status st = DYD_OK;
-  FILE *out = open_memstream(&text, &size);
-  if (!out) return DYD_E_NOMEM;
   DYD_LOCAL(dyd_rect, r);
   if (n > 2 && t->drawn) dyd_row_part(t);
   for (size_t k = 0; k <= n && st == DYD_OK; k++) {
@@ -234,11 +230,11 @@ static dyd_status row_corners(dyd_table *t, mpq_t *xy, size_t n) {
     if (st == DYD_OK) st = dyd_interval_set_q(&r.y, z[1]);
     dyd_rect_get_d(box, &r);
     if (st == DYD_OK && n > 2 && t->drawn) dyd_row_at(t, box);
-    if (k < n) gmp_fprintf(out, "%s%Qd %Qd", k ? ";" : "", z[0], z[1]);
   }
-  bool whole = fclose(out) == 0;
-  if (st == DYD_OK && whole) dyd_row_word(t, text);
-  return whole ? st : DYD_E_NOMEM;
+  FILE *out = dyd_row_open(t);
+  for (size_t k = 0; k < n; k++) gmp_fprintf(out, "%s%Qd %Qd", k ? ";" : "", xy[2 * k], xy[2 * k + 1]);
+  dyd_row_close(t);
+  return st;
 }
 
 /* The hull of n sites. */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The layers of Voronoi diagrams: cells, vertices, regions, edges of the plane; cells as cyclic lists of vertices,
  * vertices in boxes of degrees, and undecided regions by their sites, of a sphere. */
-#define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "base/alloc.h"
 #include "base/local.h"
 #include "io/diagram.h"
@@ -225,7 +224,7 @@ static dyd_status row_region(void *context, size_t face, const double box[4]) {
     dyd_row_outline(t, box);
     dyd_row_index(t, face);
     dyd_row_box(t, box);
-    st = dyd_row_sites(t, &sites);
+    dyd_row_sites(t, &sites);
     dyd_row_end(t);
   }
   return st;
@@ -250,7 +249,8 @@ static dyd_status tied_value(dyd_table *t, const dyd_diagram *d, size_t vertex) 
   DYD_SCOPED(dyd_index_list) sites = {0};
   dyd_status st = dyd_diagram_vertex_sites(&sites, d, vertex);
   if (st == DYD_OK && sites.count > 3) sites.count = 3;
-  return st == DYD_OK ? dyd_row_sites(t, &sites) : st;
+  if (st == DYD_OK) dyd_row_sites(t, &sites);
+  return st;
 }
 
 /* The third corner of the certain triangle whose vertex the edge ends at, or what names a tied one; "ray", or "open":
@@ -324,16 +324,12 @@ dyd_status dyd_edge_rows(dyd_table *t, const dyd_output *o) {
 
 /* ---- cells of a sphere ---- */
 
-/* The vertices of a cell, "3 7 9", with a star where an undecided region comes first; owned by the caller. */
-static char *cell_nodes(const dyd_sphere_cells *c, size_t i) {
-  char *text = NULL;
-  size_t length = 0;
-  FILE *list = open_memstream(&text, &length);
-  for (size_t k = c->first[i]; list && k < c->first[i + 1]; k++)
-    fprintf(list, "%s%s%" PRIu32, k > c->first[i] ? " " : "", c->gap[k] ? "* " : "", c->of[k]);
-  if (list && fclose(list) == 0) return text;
-  free(text);
-  return NULL;
+/* The vertices of a cell, "3 7 9", with a star where an undecided region comes first. */
+static void row_nodes(dyd_table *t, const dyd_sphere_cells *c, size_t i) {
+  FILE *out = dyd_row_open(t);
+  for (size_t k = c->first[i]; k < c->first[i + 1]; k++)
+    fprintf(out, "%s%s%" PRIu32, k > c->first[i] ? " " : "", c->gap[k] ? "* " : "", c->of[k]);
+  dyd_row_close(t);
 }
 
 /* How far a vertex may be from where it is shown; at a pole longitudes are one. */
@@ -359,13 +355,11 @@ static dyd_status cell_outline(dyd_table *t, const dyd_sphere_cells *c, double m
 }
 
 static dyd_status row_cell(dyd_table *t, const dyd_sphere_cells *c, double most, uint32_t i) {
-  DYD_FREED char *nodes = cell_nodes(c, i);
-  if (!nodes) return DYD_E_NOMEM;
   dyd_row_begin(t);
   dyd_status st = cell_outline(t, c, most, i);
   dyd_row_own(t, i);
   dyd_row_word(t, c->closed[i] ? "yes" : "no");
-  dyd_row_word(t, nodes);
+  row_nodes(t, c, i);
   dyd_row_end(t);
   return st;
 }
@@ -410,7 +404,7 @@ dyd_status dyd_globe_region_rows(dyd_table *t, const dyd_output *o) {
     dyd_row_begin(t);
     dyd_row_index(t, f);
     dyd_row_word(t, tie ? "tie" : "indeterminate");
-    st = dyd_row_sites(t, &sites);
+    dyd_row_sites(t, &sites);
     dyd_row_end(t);
   }
   return st;

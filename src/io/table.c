@@ -2,7 +2,6 @@
 /* Layers: tables with a row for each feature, as csv, as wkt or as geojson. */
 #include "io/table.h"
 
-#include "base/alloc.h"
 #include "io/json.h"
 #include "io/output.h"
 #include "io/read/kind.h"
@@ -353,16 +352,25 @@ void dyd_row_box(dyd_table *t, const double box[4]) {
   for (int k = 0; k < 4; k++) dyd_row_decimal(t, box[k], k & 1 ? DYD_UP : DYD_DOWN);
 }
 
-dyd_status dyd_row_sites(dyd_table *t, const dyd_index_list *list) {
-  enum { DIGITS = 21 };
-  char *text = dyd_alloc(list->count * DIGITS + 1, 1), *end = text;
-  if (!text) return DYD_E_NOMEM;
-  *end = 0;
-  for (size_t k = 0; k < list->count; k++)
-    end += snprintf(end, DIGITS + 1, "%s%zu", k ? " " : "", dyd_engine_row(t->engine, list->item[k]));
-  dyd_row_word(t, text);
-  free(text);
-  return DYD_OK;
+void dyd_row_sites(dyd_table *t, const dyd_index_list *list) {
+  value_begin(t);
+  table_put_short(t, t->encode->quote);
+  for (size_t k = 0; k < list->count; k++) {
+    if (k) table_put_short(t, " ");
+    dyd_sink_index(&t->to, dyd_engine_row(t->engine, list->item[k]));
+  }
+  table_put_short(t, t->encode->quote);
+}
+
+FILE *dyd_row_open(dyd_table *t) {
+  value_begin(t);
+  table_put_short(t, t->encode->quote);
+  dyd_sink_flush(&t->to);
+  return t->to.out;
+}
+
+void dyd_row_close(dyd_table *t) {
+  table_put_short(t, t->encode->quote);
 }
 
 FILE *dyd_row_file(dyd_table *t) {

@@ -132,7 +132,7 @@ void dyd_row_end_two(dyd_table *t, size_t i, size_t j);
 /* Those of three sites. */
 void dyd_row_three(dyd_table *t, const uint32_t site[3], bool ids);
 /* The numbers of the sites in their file, separated by blanks. */
-dyd_status dyd_row_sites(dyd_table *t, const dyd_index_list *list);
+void dyd_row_sites(dyd_table *t, const dyd_index_list *list);
 void dyd_row_index(dyd_table *t, size_t i);
 /* Our own words and numbers: nothing needs quoting in csv. */
 void dyd_row_word(dyd_table *t, const char *text);
@@ -142,6 +142,9 @@ void dyd_row_decimal(dyd_table *t, double x, dyd_round dir);
 void dyd_row_brief(dyd_table *t, double x, bool decimal);
 /* Four of them: the ends of a box, rounded outward. */
 void dyd_row_box(dyd_table *t, const double box[4]);
+/* A word that is written to the file, until dyd_row_close. */
+FILE *dyd_row_open(dyd_table *t);
+void dyd_row_close(dyd_table *t);
 /* In csv, a value, or several with commas, that is written to the file. */
 FILE *dyd_row_file(dyd_table *t);
 
