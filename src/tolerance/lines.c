@@ -70,8 +70,8 @@ static dyd_status lines_scale(dyd_lines *l, size_t count) {
   return DYD_OK;
 }
 
-dyd_status dyd_lines_load(dyd_lines *l, const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t *k,
-                          size_t count) {
+dyd_status dyd_lines_load(dyd_lines *l, const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t *k, size_t count,
+                          bool distinct) {
   l->count = 0;
   dyd_status st = lines_reserve(l, count + 2);
   if (st == DYD_OK) st = dyd_sites_get(&l->rect[count], sk->reps.sites, sk->reps.site[i]);
@@ -87,7 +87,7 @@ dyd_status dyd_lines_load(dyd_lines *l, const dyd_skeleton *sk, uint32_t i, uint
   mpz_mul(l->jj, l->jx, l->jx);
   mpz_addmul(l->jj, l->jy, l->jy);
   for (size_t q = 0; q < count; q++) {
-    size_t before = 0;
+    size_t before = distinct ? l->count : 0;
     while (before < l->count && l->item[before].vertex != k[q]) before++;
     if (before < l->count) continue;
     l->item[l->count].vertex = k[q];

@@ -133,9 +133,9 @@ void dyd_summit_init(dyd_summit *s);
 void dyd_summit_clear(dyd_summit *s);
 
 /* The lines of the vertices k[0 .. count-1], others than i and j, over the bisector of the vertices i and j, which are
- * different exact points. A vertex that is named twice counts once. */
-dyd_status dyd_lines_load(dyd_lines *l, const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t *k,
-                          size_t count);
+ * different exact points. A vertex that is named twice counts once; `distinct`: none is. */
+dyd_status dyd_lines_load(dyd_lines *l, const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t *k, size_t count,
+                          bool distinct);
 
 /* The supremum of f where it is positive somewhere (a pair that is strictly Delaunay for these sites): O(count) for
  * each line that comes to bind. NONE without lines: f has no bound. */

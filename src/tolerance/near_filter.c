@@ -92,7 +92,7 @@ dyd_status dyd_near_prepare(dyd_tolerance *t) {
 
 void dyd_near_clear(dyd_tolerance *t) {
   if (t->has_tree) dyd_tree_clear(&t->tree);
-  dyd_free_all(t->box, t->start, t->near, t->own, t->low, t->others.vertex);
+  dyd_free_all(t->listed, t->box, t->start, t->near, t->own, t->low, t->others.vertex);
 }
 
 dyd_status dyd_near_index(dyd_tolerance *t) {
@@ -100,7 +100,8 @@ dyd_status dyd_near_index(dyd_tolerance *t) {
   if (t->has_tree) return DYD_OK;
   uint32_t *item = dyd_alloc(sk->n, sizeof *item), count = 0;
   if (!t->box) t->box = dyd_alloc(sk->n, sizeof *t->box);
-  if (!item || !t->box) {
+  if (!t->listed) t->listed = calloc((size_t)sk->n + 1, sizeof *t->listed);
+  if (!item || !t->box || !t->listed) {
     free(item);
     return DYD_E_NOMEM;
   }
@@ -151,7 +152,7 @@ dyd_status dyd_others_around(dyd_others *o, const dyd_tolerance *t, uint32_t v, 
 
 typedef struct gather {
   dyd_others *others;
-  const dyd_lines *lines;
+  const bool *listed; /* by vertex */
   uint32_t i, j;
   size_t most, added;
   bool failed;
@@ -160,8 +161,7 @@ typedef struct gather {
 static bool gather_new(void *context, uint32_t v) {
   gather *g = context;
   if (v == g->i || v == g->j) return true;
-  for (size_t k = 0; k < g->lines->count; k++)
-    if (g->lines->item[k].vertex == v) return true;
+  if (g->listed[v]) return true;
   g->failed = !dyd_others_add(g->others, v);
   return !g->failed && ++g->added < g->most;
 }
@@ -181,18 +181,22 @@ static void gather_beyond(gather *g, const dyd_tolerance *t) {
 }
 
 dyd_status dyd_others_nearer(bool *more, dyd_others *o, dyd_tolerance *t, uint32_t i, uint32_t j, size_t most) {
-  gather g = {o, &t->lines, i, j, most, 0, false};
+  const dyd_lines *l = &t->lines;
+  gather g = {.others = o, .i = i, .j = j, .most = most < l->count ? l->count : most};
   dyd_bbox c;
   double radius2;
   dyd_status st = dyd_near_index(t);
   if (st != DYD_OK) return st;
+  g.listed = t->listed;
   o->count = 0;
-  for (size_t k = 0; k < t->lines.count; k++)
-    if (!dyd_others_add(o, t->lines.item[k].vertex)) return DYD_E_NOMEM;
+  for (size_t k = 0; k < l->count; k++)
+    if (!dyd_others_add(o, l->item[k].vertex)) return DYD_E_NOMEM;
+  for (size_t k = 0; k < l->count; k++) t->listed[l->item[k].vertex] = true;
   if (dyd_summit_disc(c.e, &radius2, &t->summit, &t->lines))
     dyd_tree_near(&t->tree, &c, &radius2, gather_new, &g);
   else
     gather_beyond(&g, t);
+  for (size_t k = 0; k < l->count; k++) t->listed[l->item[k].vertex] = false;
   *more = g.added > 0;
   return g.failed ? DYD_E_NOMEM : DYD_OK;
 }

@@ -201,8 +201,8 @@ static bool wants_rings(const dyd_tolerance *t) {
 static dyd_status death_exact(dyd_tolerance *t, uint32_t v, uint32_t w) {
   uint32_t hub = t->start && has_hub(t, v, w) ? DYD_HUB : UINT32_MAX;
   dyd_status st = dyd_others_around(&t->others, t, v, w, hub);
-  for (bool more = true; st == DYD_OK && more;) {
-    st = dyd_lines_load(&t->lines, t->sk, v, w, t->others.vertex, t->others.count);
+  for (bool more = true, again = false; st == DYD_OK && more; again = true) {
+    st = dyd_lines_load(&t->lines, t->sk, v, w, t->others.vertex, t->others.count, again);
     if (st != DYD_OK) return st;
     dyd_lines_death(&t->summit, &t->lines);
     more = hub != UINT32_MAX;
@@ -500,8 +500,8 @@ static dyd_status birth_exact(bool *late, dyd_tolerance *t, uint32_t v, uint32_t
     while (any == v || any == w || t->sk->leaving[any] == DYD_NONE) any++;
     if (!dyd_others_add(&t->others, any)) st = DYD_E_NOMEM;
   }
-  for (bool more = true; st == DYD_OK && more;) {
-    st = dyd_lines_load(&t->lines, t->sk, v, w, t->others.vertex, t->others.count);
+  for (bool more = true, again = false; st == DYD_OK && more; again = true) {
+    st = dyd_lines_load(&t->lines, t->sk, v, w, t->others.vertex, t->others.count, again);
     if (st != DYD_OK) return st;
     dyd_lines_birth(&t->summit, &t->lines);
     *late = is_late(&t->summit, t->options.up_to);

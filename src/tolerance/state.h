@@ -54,7 +54,7 @@ struct dyd_tolerance {
   dyd_xy *low;
   uint32_t *start, *near; /* neighbours of v: near[start[v] .. start[v + 1] - 1], the ghost included; NULL: a line */
   uint8_t *own;           /* of each of them: is the pair legal, and the row of v's site, which is the smaller one? */
-  bool has_tree;
+  bool has_tree, *listed; /* of a vertex: is it in `lines`? Set while others are looked for */
   dyd_bbox *box;
   dyd_tree tree;
   dyd_lines lines;
@@ -84,7 +84,8 @@ bool dyd_others_add(dyd_others *o, uint32_t v);
 /* *o becomes the neighbours of v and w in the skeleton, but v, w and the ghost; of an end of more than `most`
  * neighbours only the ones next to the other end. Repeats are possible. */
 dyd_status dyd_others_around(dyd_others *o, const dyd_tolerance *t, uint32_t v, uint32_t w, uint32_t most);
-/* Adds to *o at most `most` vertices, other than i, j and those of the lines, that may lie as near to the place of
+/* *o becomes the vertices of the lines and at most `most`, or as many again, other than these, i and j, that may lie as
+ * near to the place of
  * t->summit as the binding ones there (at an end: as far out). *more: some were added. */
 dyd_status dyd_others_nearer(bool *more, dyd_others *o, dyd_tolerance *t, uint32_t i, uint32_t j, size_t most);
 

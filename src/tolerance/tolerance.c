@@ -200,7 +200,7 @@ dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_tolerance 
   DYD_LOCAL(dyd_lines, l);
   DYD_LOCAL(dyd_summit, s);
   uint32_t others[2] = {vertex[r->k], r->l == DYD_NO_SITE ? DYD_NONE : vertex[r->l]};
-  dyd_status st = dyd_lines_load(&l, t->sk, vertex[r->i], vertex[r->j], others, r->l == DYD_NO_SITE ? 1 : 2);
+  dyd_status st = dyd_lines_load(&l, t->sk, vertex[r->i], vertex[r->j], others, r->l == DYD_NO_SITE ? 1 : 2, false);
   if (st == DYD_OK && r->event == DYD_EVENT_DEATH) dyd_lines_death(&s, &l);
   if (st == DYD_OK && r->event == DYD_EVENT_BIRTH) dyd_lines_birth_by(&s, &l);
   if (st == DYD_OK) {
