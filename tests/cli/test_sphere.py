@@ -348,7 +348,7 @@ def test_radius_column():
     for (x0, x1, y0, y1), metres, degrees in zip(rows, (2000, 2000, 500, 500, 500), (0, 0, 0, 1, 0.1)):
         assert math.isclose(y1 - y0, 2 * (metres * metre + degrees), rel_tol=1e-9) and x1 - x0 > y1 - y0 - 1e-9, (metres, degrees)
     for wrong in ('30 miles', 'm', '-1m', '30kmm', '-0.1', '1e400km'):
-        expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=table(square, ['1m', wrong, '1m', '1m', '1m'])), 1, r'\A\Z', r'-:3:\d+: the radius .*; give (one such as|a smaller one)')
+        expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=table(square, ['1m', wrong, '1m', '1m', '1m'])), 1, r'\A\Z', r'-:3:\d+: the radius .*; give (one such as|a smaller one)|-:3:6: the radius is negative; if ')
     expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=table(square, ['1m', '7000km', '1m', '1m', '1m'])), 1, r'\A\Z', 'point 1: the radius is larger than that of the earth')
     expect(run('delaunay', *COLUMN, '-', stdin=table(square, ['30m'] * 5)), 1, r'\A\Z', r'2:8: radii in the plane are in the unit of the coordinates')
     apart = ('--columns', 'lon,lat', '--radius-column', 'lon,acc')
