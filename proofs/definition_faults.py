@@ -9,6 +9,7 @@ The faults are in definitions/faults.txt, in the format of faults.py.
 The vectors of that function are written by a program with the fault, and given to the definitions. Each function that is
 run must have a fault. A fault that is not seen, or is in spite of its reason, is a failure.
 """
+import os
 import pathlib
 import subprocess
 import sys
@@ -33,7 +34,8 @@ class Programs:
     def compile(self, unit, target, first):
         include = [*first, self.root / 'src', self.root / 'include', self.root / 'tests', self.root / 'proofs/definitions']
         subprocess.run([*self.cc, *FLAGS, *(f'-I{folder}' for folder in include), '-c',
-                        self.root / f'proofs/definitions/{unit}.c', '-o', target], check=True)
+                        self.root / f'proofs/definitions/{unit}.c', '-o', target], check=True,
+                       env={**os.environ, 'CCACHE_NODIRECT': '1'})  # its direct mode does not notice new files in front of others
 
     def unit(self, function):
         """Where the vectors of a function come from."""

@@ -1,7 +1,83 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* In-circle determinants in 256 bits, of skeleton/mesh_filter.c. */
+/* Signs of orientation and in-circle of skeleton/mesh_filter.c, in doubles and in 256 bits. */
 #include "skeleton/mesh_filter.c" /* functions are static */
 #include "vectors.h"
+
+/* ---- in doubles ---- */
+
+/* x[0]: the bound, or what belongs in its place; then x and y of points, the last one seen from. */
+static dyd_xy point_of(const double *x, int k) {
+  return (dyd_xy){x[2 * k + 1], x[2 * k + 2]};
+}
+static dyd_incircle incircle_of(const double *x) {
+  return dyd_incircle_of(point_of(x, 0), point_of(x, 1), point_of(x, 2), point_of(x, 3));
+}
+
+static void ask_orient(answer *a, const double *x) {
+  dyd_mesh m = {.orient_bound = x[0]};
+  say_integer(a, dyd_filter_orient(&m, point_of(x, 0), point_of(x, 1), point_of(x, 2)));
+}
+static void ask_turn(answer *a, const double *x) {
+  dyd_mesh m = {.orient_bound = x[0]};
+  say_integer(a, dyd_filter_turn(&m, x[1]));
+}
+static void ask_orient_near(answer *a, const double *x) {
+  dyd_mesh m = {.incircle_delta = x[0]};
+  say_integer(a, dyd_filter_orient_near(&m, point_of(x, 0), point_of(x, 1), point_of(x, 2)));
+}
+static void ask_orient_small(answer *a, const double *x) {
+  int sign;
+  dyd_mesh m = {.exact_s = x[0]};
+  if (dyd_filter_orient_small(&sign, &m, point_of(x, 0), point_of(x, 1), point_of(x, 2)))
+    say_integer(a, sign);
+  else
+    say_none(a);
+}
+static void ask_incircle_at(answer *a, const double *x) {
+  dyd_mesh m = {.incircle_delta = x[0]};
+  say_integer(a, dyd_filter_incircle_at(&m, incircle_of(x)));
+}
+static void ask_incircle_near(answer *a, const double *x) {
+  dyd_mesh m = {.incircle_delta = x[0]};
+  say_integer(a, dyd_filter_incircle_near(&m, point_of(x, 0), point_of(x, 1), point_of(x, 2), point_of(x, 3)));
+}
+static void ask_incircle_small(answer *a, const double *x) {
+  int sign;
+  dyd_mesh m = {.exact_s = x[0]};
+  if (dyd_filter_incircle_small(&sign, &m, incircle_of(x)))
+    say_integer(a, sign);
+  else
+    say_none(a);
+}
+
+static void choose_bounded(double *x, unsigned inputs, const kind *k) {
+  static const double deltas[] = {0, 0, 0x1p-60, 0x1p40, INFINITY};
+  (void)inputs;
+  (void)k;
+  if (test_chance(&shared, 2))
+    x[0] = deltas[test_below(&shared, 5)];
+  else if (test_chance(&shared, 2))
+    x[0] = ldexp(fabs(x[1]), -(int)test_below(&shared, 30));
+}
+
+static const function signs[] = {{"dyd_filter_orient", 7, ask_orient, choose_bounded, 12, 0},
+                                 {"dyd_filter_turn", 2, ask_turn, choose_bounded, 2, 0},
+                                 {"dyd_filter_orient_near", 7, ask_orient_near, choose_bounded, 12, 0},
+                                 {"dyd_filter_orient_small", 7, ask_orient_small, choose_bounded, 12, 0},
+                                 {"dyd_filter_incircle_at", 9, ask_incircle_at, choose_bounded, 12, 0},
+                                 {"dyd_filter_incircle_near", 9, ask_incircle_near, choose_bounded, 12, 0},
+                                 {"dyd_filter_incircle_small", 9, ask_incircle_small, choose_bounded, 12, 0}};
+
+/* Two points whose products differ by so few last bits that the bound for three points alone has to tell. */
+static void put_near_turn(void) {
+  double bits = 5 + (double)test_below(&shared, 3),
+         off = ldexp(test_unit(&shared) - 0.5, -(int)test_below(&shared, 30));
+  double left = bits / 4.01 * (1 + off), side = test_chance(&shared, 2) ? 1 : -1;
+  const double x[INPUTS] = {0, left, 1, left - side * bits * 0x1p-52, 1, 0, 0};
+  put_vector(&signs[2], x);
+}
+
+/* ---- in 256 bits ---- */
 
 static u128 wide_of(mpz_srcptr z) {
   u128 y = 0;
@@ -77,6 +153,7 @@ static const whole fixed[] = {{"product", 2, ask_product, choose_product},
                               {"dyd_fixed_incircle", 8, ask_fixed_incircle, choose_circle}};
 
 void vectors_of_fixed(const kind *k) {
-  (void)k;
+  put_near_turn();
+  put_vectors(signs, sizeof signs / sizeof *signs, k);
   put_wholes(fixed, sizeof fixed / sizeof *fixed);
 }
