@@ -93,8 +93,7 @@ static dyd_status dyd_centre_shows(uint32_t **vertex, size_t *count, const dyd_s
 
 /* CROWD: least number of triangles of a face for which a search of the plane pays. PATIENCE: walks before the first
  * centre is tried. MOST_BITS: members of a face that has its pairs as bits, too, from the first; FEW_PAIRS: others have
- * them when of so many pairs one is known. In the armed build small faces take
- * part, too. */
+ * them when of so many pairs one is known. In the armed build small faces take part, too. */
 #ifdef DYD_ARMED
 enum { CROWD = 5, PATIENCE = 1, MOST_BITS = 16, FEW_PAIRS = 4 };
 #else
@@ -107,7 +106,7 @@ typedef struct closing {
   dyd_work *w;
   dyd_closure *out;
   dyd_pair_map map;
-  uint64_t *possible, *known_with; /* a row of words bits for each member; NULL: too many members */
+  uint64_t *possible, *known_with; /* a row of `words` for each member; NULL: not yet made */
   size_t words;
   const uint32_t *tri;
   uint32_t tris;
@@ -139,6 +138,7 @@ static dyd_status closing_gather(closing *c) {
     out->all_points = out->all_points && dyd_vertex_is_point(c->sk, out->vertex[q]);
   }
   c->all = out->vertices * (out->vertices - UINT64_C(1)) / 2;
+  c->words = out->vertices / 64 + (size_t)1;
   return DYD_OK;
 }
 
@@ -171,18 +171,17 @@ static bool closing_knows(const closing *c, uint32_t a, uint32_t b) {
 
 static uint64_t bits_bytes(const closing *c) {
   uint64_t members = (uint64_t)c->out->vertices + 1;
-  return members > MOST_BITS && c->known < c->all / FEW_PAIRS ? 0 : 2 * members * ((members + 63) / 64) * 8;
+  return members > MOST_BITS && c->known < c->all / FEW_PAIRS ? 0 : 2 * members * c->words * sizeof *c->possible;
 }
 
 /* Bits in addition to the map while they take little memory, or less than the map: sets of common neighbours are found
  * by words. */
 static dyd_status start_bits(closing *c) {
-  size_t words = ((size_t)c->out->vertices + 64) / 64, size = (c->out->vertices + (size_t)1) * words;
+  size_t size = (c->out->vertices + (size_t)1) * c->words;
   if (c->possible || !bits_bytes(c)) return DYD_OK;
   c->possible = calloc(size, sizeof *c->possible);
   c->known_with = calloc(size, sizeof *c->known_with);
   if (!c->possible || !c->known_with) return DYD_E_NOMEM;
-  c->words = words;
   for (size_t q = 0; q <= c->map.mask; q++) {
     uint64_t key = c->map.key[q] - 1;
     if (c->map.key[q]) set_bits(c, (uint32_t)(key >> 32), (uint32_t)key, (dyd_pair_state)c->map.state[q]);
@@ -374,19 +373,23 @@ static dyd_status close_by_patches(bool *done, closing *c) {
 
 /* ---- few: closure under flips ---- */
 
-/* All pairs of the vertices given that have no state are possible; those that are no members are passed over. */
-static dyd_status add_all(closing *c, uint32_t *vertex, size_t count) {
-  const dyd_closure *out = c->out;
+/* All pairs of these members that have no state are possible. */
+static dyd_status add_all(closing *c, const uint32_t *member, size_t count) {
   dyd_status st = DYD_OK;
+  for (size_t a = 0; a < count && !c->full; a++)
+    for (size_t b = a + 1; b < count && !c->full && st == DYD_OK; b++)
+      if (!closing_knows(c, member[a], member[b])) st = add_possible(c, member[a], member[b]);
+  return st;
+}
+
+/* Vertices become members; those that are none are left out. Returns how many are left. */
+static size_t to_members(uint32_t *vertex, size_t count, const dyd_closure *out) {
   size_t members = 0;
-  for (size_t a = 0; a < count; a++) {
-    const uint32_t *p = dyd_find_index(&vertex[a], out->vertex, out->vertices, sizeof *p);
+  for (size_t k = 0; k < count; k++) {
+    const uint32_t *p = dyd_find_index(&vertex[k], out->vertex, out->vertices, sizeof *p);
     if (p) vertex[members++] = (uint32_t)(p - out->vertex);
   }
-  for (size_t a = 0; a < members && !c->full; a++)
-    for (size_t b = a + 1; b < members && !c->full && st == DYD_OK; b++)
-      if (!closing_knows(c, vertex[a], vertex[b])) st = add_possible(c, vertex[a], vertex[b]);
-  return st;
+  return members;
 }
 
 /* Exact walks have found several possible pairs: perhaps the sites are nearly on one circle, whose centre shows many
@@ -398,7 +401,7 @@ static dyd_status closing_try_centre(closing *c, uint32_t k, uint32_t l, uint32_
   size_t count = 0, before = c->known;
   if (other == DYD_NONE || ++c->walks < c->patience || c->sk->mesh.no_filter) return DYD_OK;
   dyd_status st = dyd_centre_shows(&vertex, &count, c->sk, three[c->tries++ > 0], 2 * (size_t)n);
-  if (st == DYD_OK) st = add_all(c, vertex, count);
+  if (st == DYD_OK) st = add_all(c, vertex, to_members(vertex, count, c->out));
   if (c->known < before + c->walks) c->patience *= 2;
   c->walks = 0;
   return st;
@@ -417,15 +420,13 @@ static uint32_t farthest_unknown(const closing *c, uint32_t a) {
 /* All pairs of members that are near the centre, certainly. */
 static dyd_status add_clique(closing *c, dyd_xy centre) {
   uint32_t n = c->out->vertices, count = 0;
-  uint32_t *vertex = dyd_alloc(n, sizeof *vertex);
-  bool *near = dyd_alloc(n, sizeof *near);
-  dyd_status st = vertex && near ? DYD_OK : DYD_E_NOMEM;
-  if (st == DYD_OK) dyd_filter_clique(near, &c->sk->rects, centre, c->out->vertex, n);
-  for (uint32_t a = 0; a < n && st == DYD_OK; a++)
-    if (near[a]) vertex[count++] = c->out->vertex[a];
-  if (st == DYD_OK) st = add_all(c, vertex, count);
-  dyd_free_all(near, vertex);
-  return st;
+  DYD_FREED uint32_t *member = dyd_alloc(n, sizeof *member);
+  DYD_FREED bool *near = dyd_alloc(n, sizeof *near);
+  if (!member || !near) return DYD_E_NOMEM;
+  dyd_filter_clique(near, &c->sk->rects, centre, c->out->vertex, n);
+  for (uint32_t a = 0; a < n; a++)
+    if (near[a]) member[count++] = a;
+  return add_all(c, member, count);
 }
 
 /* Doubles have shown many possible pairs, near ones first: perhaps the sites are about on a line, and the centre of two
