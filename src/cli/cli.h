@@ -107,6 +107,8 @@ void cli_note_lines(const cli_options *o, const dyd_read_report *r);
 void cli_shell_name(char *out, size_t size, const char *name);
 /* Prints these and notes on the points, which e holds: merged points, and points with another possible meaning. */
 void cli_note_points(const dyd_engine *e, const cli_options *o, const dyd_read_report *r);
+/* An area to clip to in whose bounds no point is: degrees and metres are the usual reason. */
+void cli_note_area(const dyd_engine *e, const cli_options *o, const dyd_rect *window);
 /* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: without FILE. */
 int cli_complain_at(const char *file, const dyd_error *err);
 /* The same of a point of e, which is named by its row. */

@@ -208,22 +208,6 @@ static const cli_work *voronoi_instead(const cli_options *o) {
   return o->sphere ? &cli_sphere : NULL;
 }
 
-/* Degrees and metres are the usual reason. */
-static void voronoi_note_area(const cli_session *s) {
-  const dyd_engine *e = s->engine;
-  double b[4], w[4];
-  size_t n = dyd_engine_count(e);
-  dyd_rect_get_d(w, &s->window);
-  for (size_t i = 0; i < n; i++) {
-    if (!dyd_engine_knows(e, (uint32_t)i)) return;
-    dyd_sites_get_d(b, dyd_engine_sites(e), i);
-    if (b[1] >= w[0] && b[0] <= w[1] && b[3] >= w[2] && b[2] <= w[3]) return;
-  }
-  if (n)
-    cli_note(&s->o, "%s: no point is within the bounds of the polygons; do both have the same reference system?",
-             s->o.clip_to);
-}
-
 /* Reads the area that tiles are cut to; the window is the box around it, unless one is given. */
 static int voronoi_read_area(cli_session *s) {
   dyd_area *a = &s->diagram->clip_to;
@@ -302,7 +286,7 @@ static int voronoi_summary(cli_session *s, int status) {
   const cli_diagram *r = s->diagram;
   if (s->known && (!s->written || s->written == CLI_BUDGET)) {
     s->bounds = &r->bounds;
-    if (s->o.clip_to) voronoi_note_area(s);
+    if (s->o.clip_to) cli_note_area(s->engine, &s->o, &s->window);
     if (r->cut)
       cli_note(&s->o,
                "budget: time limit reached: %zu cells or regions are not worked out, and the whole window takes their "

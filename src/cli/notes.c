@@ -6,13 +6,19 @@
 #include <string.h>
 #include <strings.h>
 
+/* The box of point i in doubles; false: it is not known yet. */
+static bool known_box(double b[4], const dyd_engine *e, size_t i) {
+  bool known = dyd_engine_knows(e, (uint32_t)i);
+  if (known) dyd_sites_get_d(b, dyd_engine_sites(e), i);
+  return known;
+}
+
 /* Returns true if all points can be places on the globe. */
 static bool points_are_degrees(const dyd_engine *e) {
   double b[4];
   bool good = dyd_engine_count(e) > 0;
   for (size_t i = 0; good && i < dyd_engine_count(e); i++) {
-    if (!dyd_engine_knows(e, (uint32_t)i)) continue;
-    dyd_sites_get_d(b, dyd_engine_sites(e), i);
+    if (!known_box(b, e, i)) continue;
     good = b[0] >= -180 && b[1] <= 180 && b[2] >= -90 && b[3] <= 90;
   }
   return good;
@@ -137,8 +143,7 @@ static void note_nowhere(const dyd_engine *e, const cli_options *o, bool degrees
   double b[4];
   size_t found = 0, k = 0, at = 0, zeros = 0;
   for (size_t i = 0; i < dyd_engine_count(e) && !o->read.missing; i++) {
-    if (!dyd_engine_knows(e, (uint32_t)i)) continue;
-    dyd_sites_get_d(b, dyd_engine_sites(e), i);
+    if (!known_box(b, e, i)) continue;
     zeros += (b[0] <= 0 && b[1] >= 0) != (b[2] <= 0 && b[3] >= 0);
     if (b[0] != b[2] || b[0] != b[1] || b[0] != b[3]) continue;
     for (k = !degrees; k < sizeof none / sizeof *none && none[k] != b[0];) k++;
@@ -158,8 +163,7 @@ static void note_zero_radii(const dyd_engine *e, const cli_options *o) {
   bool any = (o->read.radius_columns || (o->read.sigma_column && o->read.confidence)) && !o->read.radius &&
              !o->read.missing && !o->read.keep_radii;
   for (size_t i = 0; any && i < dyd_engine_count(e); i++) {
-    if (!dyd_engine_knows(e, (uint32_t)i) || dyd_engine_number(e, i, DYD_ROW_RADIUS) > 0) continue;
-    dyd_sites_get_d(b, dyd_engine_sites(e), i);
+    if (dyd_engine_number(e, i, DYD_ROW_RADIUS) > 0 || !known_box(b, e, i)) continue;
     zeros += b[1] <= nextafter(b[0], INFINITY) && b[3] <= nextafter(b[2], INFINITY);
   }
   if (zeros)
@@ -174,8 +178,7 @@ static void note_minutes(const dyd_engine *e, const cli_options *o, const dyd_re
   double b[4], most = 0;
   bool all = r->degrees && !o->sphere && !o->plane;
   for (size_t i = 0; all && i < dyd_engine_count(e); i++) {
-    if (!dyd_engine_knows(e, (uint32_t)i)) continue;
-    dyd_sites_get_d(b, dyd_engine_sites(e), i);
+    if (!known_box(b, e, i)) continue;
     most = fmax(most, fabs(b[2]));
     all = fabs(b[0]) < 18100 && fabs(b[2]) < 9100 && fmod(fabs(b[0]), 100) < 60 && fmod(fabs(b[2]), 100) < 60;
   }
@@ -192,8 +195,7 @@ static void note_eastings(const dyd_engine *e, const cli_options *o) {
   double b[4], zone[2] = {0, 0};
   bool all = o->read.columns && !o->sphere && dyd_engine_count(e) > 2;
   for (size_t i = 0; all && i < dyd_engine_count(e); i++) {
-    if (!dyd_engine_knows(e, (uint32_t)i)) continue;
-    dyd_sites_get_d(b, dyd_engine_sites(e), i);
+    if (!known_box(b, e, i)) continue;
     const double own = floor(b[0] / 1e6);
     all = own >= 1 && own <= 60 && b[2] >= 0 && b[2] < 1e7 && fabs(b[0] - own * 1e6 - 5e5) < 3e5;
     if (!zone[0]) zone[0] = own;
@@ -254,4 +256,14 @@ void cli_note_points(const dyd_engine *e, const cli_options *o, const dyd_read_r
              "plane; for "
              "neighbours on the globe give delaunay or voronoi --sphere; --plane says that the plane is meant",
              o->file);
+}
+
+void cli_note_area(const dyd_engine *e, const cli_options *o, const dyd_rect *window) {
+  double b[4], w[4];
+  dyd_rect_get_d(w, window);
+  for (size_t i = 0; i < dyd_engine_count(e); i++)
+    if (!known_box(b, e, i) || (b[1] >= w[0] && b[0] <= w[1] && b[3] >= w[2] && b[2] <= w[3])) return;
+  if (dyd_engine_count(e))
+    cli_note(o, "%s: no point is within the bounds of the polygons; do both have the same reference system?",
+             o->clip_to);
 }
