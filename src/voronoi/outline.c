@@ -1,113 +1,462 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The boundary of a region in doubles: parts that are worked out exactly where these leave a doubt [OUTLINE-1]. */
+/* The boundary of a region: what intervals leave in doubt, from exact numbers [OUTLINE-1].
+ *
+ * All rectangles of a cell are brought to one integer scale when the first doubt arises. Points have the form A + B
+ * sqrt(C) there (surd_point.h): the ends of an arc come from its line or parabola and its pane (elementary.c), the
+ * points in which two curves meet from the critical circles of three rectangles [CRIT-1]. */
 #include "voronoi/outline_filter.h"
 
+#include "base/alloc.h"
+#include "base/flag.h"
+#include "base/invariant.h"
 #include "base/local.h"
+#include "dyadic/raw.h"
+#include "predicate/circle.h"
 #include "rect/rect.h"
+#include "voronoi/elementary.h"
 
-bool dyd_outline_rect(dyd_rect *r, dyd_outline *o, size_t k) {
-  if (dyd_sites_get(r, o->sites, o->site[k]) == DYD_OK) return true;
-  o->unsure = true;
-  return false;
+#include <dyadel/arc.h>
+
+typedef struct exact_point {
+  dyd_surd_point at;
+  struct exact_point *next;
+} exact_point;
+
+/* Coordinates are F (x - o) for the caller's x: F = man * 2^exp, even on rectangles, so that middles are integers; o is
+ * the lower corner of the own rectangle. Doubles are taken of 2^-shift times them. rect: of the others, the own one,
+ * the bounds and the window; middle: of each. circle[0 .. circles): of curves pair[0] and pair[1], the last that were
+ * asked for. */
+typedef struct dyd_outline_exact {
+  size_t count;
+  dyd_irect *rect;
+  mpz_t *middle;
+  mpz_t man, ox, oy;
+  int64_t exp, shift;
+  exact_point *points;
+  uint64_t bytes;
+  dyd_icircle circle[DYD_OUTLINE_CIRCLES];
+  size_t circles;
+  uint32_t pair[2];
+} exact_cell;
+
+/* ---- scale ---- */
+
+void dyd_outline_exact_clear(dyd_outline *o) {
+  exact_cell *x = o->exact;
+  if (!x) return;
+  for (exact_point *p = x->points, *next; p; p = next) {
+    next = p->next;
+    dyd_surd_point_clear(&p->at);
+    free(p);
+  }
+  for (size_t k = 0; k < x->count; k++) {
+    dyd_irect_clear(&x->rect[k]);
+    mpz_clears(x->middle[2 * k], x->middle[2 * k + 1], NULL);
+  }
+  for (size_t k = DYD_OUTLINE_CIRCLES; k-- > 0;) dyd_icircle_clear(&x->circle[k]);
+  mpz_clears(x->man, x->ox, x->oy, NULL);
+  dyd_free_all(x->rect, x->middle, x);
+  o->exact = NULL;
 }
 
-void dyd_outline_number(mpq_ptr out, dyd_outline *o, size_t far, size_t near, int axis, int mark) {
+static bool exact_new(dyd_outline *o, size_t count) {
+  exact_cell *x = calloc(1, sizeof *x);
+  if (!x) return false;
+  o->exact = x;
+  mpz_inits(x->man, x->ox, x->oy, NULL);
+  for (size_t k = 0; k < DYD_OUTLINE_CIRCLES; k++) dyd_icircle_init(&x->circle[k]);
+  x->pair[0] = x->pair[1] = DYD_NONE;
+  if (!DYD_NEW(x->rect, count) || !DYD_NEW(x->middle, 2 * count)) return false;
+  for (; x->count < count; x->count++) {
+    dyd_irect_init(&x->rect[x->count]);
+    mpz_inits(x->middle[2 * x->count], x->middle[2 * x->count + 1], NULL);
+  }
+  return true;
+}
+
+/* The window cut down to the bounds; where there is no bound, the end of the own rectangle, which is not used. */
+static dyd_status bounds_rect(dyd_rect *out, const dyd_outline *o, const dyd_rect *own) {
+  dyd_status st = DYD_OK;
+  DYD_LOCAL_NUMBERS(mpq, lo, hi, spare);
+  for (int a = 0; a < 2 && st == DYD_OK; a++) {
+    mpq_ptr end[2] = {lo, hi};
+    for (int e = 0; e < 2; e++) {
+      const dyd_rect *from = o->bounded[2 * a + e] && o->of_window[2 * a + e] ? o->rect : own;
+      dyd_interval_get_q(e ? spare : lo, e ? hi : spare, a ? &from->y : &from->x);
+      if (o->bounded[2 * a + e] && !o->of_window[2 * a + e]) mpq_set_d(end[e], o->bound[2 * a + e].lo);
+    }
+    if (mpq_cmp(lo, hi) > 0) mpq_set(o->bounded[2 * a] ? hi : lo, o->bounded[2 * a] ? lo : hi);
+    st = dyd_interval_set_ends_q(a ? &out->y : &out->x, lo, hi);
+  }
+  return st;
+}
+
+/* Moves the origin to the own rectangle and doubles. */
+static void rects_place(exact_cell *x, size_t own) {
+  mpz_set(x->ox, x->rect[own].x0);
+  mpz_set(x->oy, x->rect[own].y0);
+  size_t bits = 0;
+  for (size_t k = 0; k < x->count; k++) {
+    dyd_irect *r = &x->rect[k];
+    mpz_ptr end[4] = {r->x0, r->x1, r->y0, r->y1};
+    for (int e = 0; e < 4; e++) {
+      mpz_sub(end[e], end[e], e < 2 ? x->ox : x->oy);
+      mpz_mul_2exp(end[e], end[e], 1);
+      if (mpz_sizeinbase(end[e], 2) > bits) bits = mpz_sizeinbase(end[e], 2);
+    }
+    for (int a = 0; a < 2; a++) {
+      mpz_add(x->middle[2 * k + (size_t)a], end[2 * a], end[2 * a + 1]);
+      mpz_tdiv_q_2exp(x->middle[2 * k + (size_t)a], x->middle[2 * k + (size_t)a], 1);
+    }
+  }
+  mpz_mul_2exp(x->ox, x->ox, 1);
+  mpz_mul_2exp(x->oy, x->oy, 1);
+  x->exp++;
+  x->shift = bits > 200 ? (int64_t)bits - 200 : 0; /* products of four doubles stay below 2^1000 */
+}
+
+/* The rectangle of a site; fetched: if it has to come from the table. */
+static const dyd_rect *outline_site_rect(dyd_outline *o, dyd_rect *fetched, size_t k) {
+  if (o->item[k].rect) return o->item[k].rect;
+  dyd_status st = dyd_sites_get(fetched, o->sites, o->item[k].site);
+  if (st != DYD_OK && o->status == DYD_OK) o->status = st;
+  return fetched;
+}
+
+static dyd_status rects_scale(dyd_outline *o, dyd_rect *fetched, const dyd_rect **in) {
+  const size_t bounds = o->count + 1;
+  for (size_t k = 0; k <= o->count && o->status == DYD_OK; k++) in[k] = outline_site_rect(o, &fetched[k], k);
+  dyd_status st = o->status;
+  if (st == DYD_OK) st = bounds_rect(&fetched[bounds], o, in[o->count]);
+  in[bounds] = &fetched[bounds];
+  in[bounds + 1] = o->rect ? o->rect : in[o->count];
+  if (st == DYD_OK) dyd_irects_scale(o->exact->rect, in, o->exact->count, o->exact->man, &o->exact->exp);
+  return st;
+}
+
+/* The cell in exact numbers; NULL, and o->status: without memory. */
+static exact_cell *exact_of(dyd_outline *o) {
+  if (o->exact || o->status != DYD_OK) return o->status == DYD_OK ? o->exact : NULL;
+  size_t n = o->count + 3;
+  dyd_rect *fetched = dyd_alloc(n, sizeof *fetched);
+  DYD_FREED const dyd_rect **in = dyd_alloc(n, sizeof *in);
+  o->status = fetched && in && exact_new(o, n) ? DYD_OK : DYD_E_NOMEM;
+  for (size_t k = 0; fetched && k < n; k++) dyd_rect_init(&fetched[k]);
+  if (o->status == DYD_OK) o->status = rects_scale(o, fetched, in);
+  for (size_t k = 0; fetched && k < n; k++) dyd_rect_clear(&fetched[k]);
+  free(fetched);
+  if (o->status != DYD_OK) return NULL;
+  rects_place(o->exact, o->count);
+  return o->exact;
+}
+
+void dyd_outline_unscale(dyd_surd_point *p, const dyd_outline *o) {
+  const exact_cell *x = o->exact;
+  dyd_surd_point_unscale(p, x->ox, x->oy, x->man, x->exp);
+}
+
+/* ---- arcs ---- */
+
+/* NULL: no bound. */
+static mpz_srcptr mark_of(const dyd_outline *o, size_t far, size_t near, int axis, int mark) {
+  const exact_cell *x = o->exact;
+  int high = mark == DYD_WINDOW_HI || mark == DYD_NEAR_HI || mark == DYD_MARKS + 1;
+  if (mark == DYD_MIDDLE) return x->middle[2 * far + (size_t)axis];
+  if (mark == DYD_WINDOW_LO || mark == DYD_WINDOW_HI)
+    return o->bounded[2 * axis + high] ? dyd_irect_end(&x->rect[o->count + 1], axis, high) : NULL;
+  return dyd_irect_end(&x->rect[mark < DYD_MARKS ? near : far], axis, high);
+}
+
+/* A mark that is bounded, in the caller's coordinates: cheaper than the whole scale, where two marks are all. */
+static void mark_number(mpq_ptr out, dyd_outline *o, size_t far, size_t near, int axis, int mark) {
   bool window = mark == DYD_WINDOW_LO || mark == DYD_WINDOW_HI, of_near = mark == DYD_NEAR_LO || mark == DYD_NEAR_HI;
   bool high = mark == DYD_WINDOW_HI || mark == DYD_NEAR_HI || mark == DYD_MARKS + 1;
-  DYD_LOCAL(dyd_rect, rect);
-  DYD_LOCAL_NUMBERS(mpq, other);
-  mpq_ptr lo = high ? other : out, hi = high ? out : other;
-  if (window && !o->of_window[2 * axis + high])
+  if (window && !o->of_window[2 * axis + high]) {
     mpq_set_d(out, o->bound[2 * axis + high].lo);
-  else if (window)
-    dyd_interval_get_q(lo, hi, axis ? &o->rect->y : &o->rect->x);
-  else if (dyd_outline_rect(&rect, o, of_near ? near : far))
-    dyd_interval_get_q(lo, hi, axis ? &rect.y : &rect.x);
+    return;
+  }
+  DYD_LOCAL(dyd_rect, fetched);
+  DYD_LOCAL_NUMBERS(mpq, other);
+  const dyd_rect *r = window ? o->rect : outline_site_rect(o, &fetched, of_near ? near : far);
+  dyd_interval_get_q(high ? other : out, high ? out : other, axis ? &r->y : &r->x);
   if (mark != DYD_MIDDLE) return;
   mpq_add(out, out, other);
   mpq_div_2exp(out, out, 1);
 }
 
-/* ---- where the curves of two others cross, on straight arcs ---- */
-
-/* An arc of points of the same distance from corners s and q. */
-typedef struct straight_arc {
-  mpq_t s[2], q[2], lo[2], hi[2];
-} straight_arc;
-
-static void straight_arc_init(straight_arc *a) {
-  for (int k = 0; k < 2; k++) mpq_inits(a->s[k], a->q[k], a->lo[k], a->hi[k], NULL);
+int dyd_outline_exact_marks(dyd_outline *o, size_t far, size_t near, int axis, int a, int b) {
+  DYD_LOCAL_NUMBERS(mpq, p, q);
+  for (int e = 0; e < 2; e++) { /* no bound */
+    int window = e ? DYD_WINDOW_HI : DYD_WINDOW_LO, sign = e ? 1 : -1;
+    if (!o->bounded[2 * axis + e] && (a == window || b == window)) return a == window ? sign : -sign;
+  }
+  mark_number(p, o, far, near, axis, a);
+  mark_number(q, o, far, near, axis, b);
+  return mpq_cmp(p, q);
 }
 
-static void straight_arc_clear(straight_arc *a) {
-  for (int k = 0; k < 2; k++) mpq_clears(a->s[k], a->q[k], a->lo[k], a->hi[k], NULL);
-}
-
-DYD_ARRAYS(straight_arc)
-
-static void straight_arc_set(straight_arc *out, dyd_outline *o, const dyd_outline_arc *a) {
+static void arc_exactly(dyd_elementary *out, const dyd_outline *o, const dyd_outline_arc *a) {
   size_t far = o->outer ? a->curve : o->count, near = o->outer ? o->count : a->curve;
+  const exact_cell *x = o->exact;
+  out->parabola = a->shape.parabola;
+  out->axis = a->axis;
+  out->branch = a->branch;
   for (int k = 0; k < 2; k++) {
-    dyd_outline_number(out->s[k], o, far, near, k, DYD_MARKS + (a->corner >> k & 1));
-    dyd_outline_number(out->q[k], o, far, near, k, a->feature >> k & 1 ? DYD_NEAR_HI : DYD_NEAR_LO);
-    dyd_outline_number(out->lo[k], o, far, near, k, a->mark[k][0]);
-    dyd_outline_number(out->hi[k], o, far, near, k, a->mark[k][1]);
+    bool fixed = a->feature < DYD_SIDE_X0 || k == (a->feature >= DYD_SIDE_Y0);
+    int end = a->feature < DYD_SIDE_X0 ? a->feature >> k & 1 : a->feature & 1;
+    out->s[k] = dyd_irect_end(&x->rect[far], k, a->corner >> k & 1);
+    out->q[k] = fixed ? dyd_irect_end(&x->rect[near], k, end) : NULL;
+    out->lo[k] = mark_of(o, far, near, k, a->mark[k][0]);
+    out->hi[k] = mark_of(o, far, near, k, a->mark[k][1]);
   }
 }
 
-/* Its line: normal . c = rest. */
-static void straight_line(mpq_t normal[2], mpq_ptr rest, const straight_arc *a) {
-  DYD_LOCAL_NUMBERS(mpq, sum);
-  mpq_set_ui(rest, 0, 1);
-  for (int k = 0; k < 2; k++) {
-    mpq_sub(normal[k], a->q[k], a->s[k]);
-    mpq_add(sum, a->q[k], a->s[k]);
-    mpq_mul(sum, sum, normal[k]);
-    mpq_add(rest, rest, sum);
+int dyd_outline_exact_axis(dyd_outline *o, const dyd_outline_arc *a) {
+  DYD_LOCAL(dyd_elementary, e);
+  if (!exact_of(o)) return 0;
+  arc_exactly(&e, o, a);
+  return dyd_elementary_axis(&e);
+}
+
+/* ---- points ---- */
+
+/* A point of the cell that has the value of p, which is taken; NULL, and o->status: no memory. */
+static const dyd_surd_point *keep_point(dyd_outline *o, dyd_surd_point *p) {
+  enum { NUMBERS = 6, BLOCK = 16 };
+  mpz_srcptr widest = mpz_size(p->ax) > mpz_size(p->ay) ? p->ax : p->ay;
+  exact_cell *x = o->exact;
+  x->bytes += sizeof(exact_point) + NUMBERS * (BLOCK + sizeof(mp_limb_t) * mpz_size(widest));
+  bool room = !o->room || dyd_room_has(o->room, x->bytes, "the boundary of a cell");
+  exact_point *to = room ? malloc(sizeof *to) : NULL;
+  if (!to) return o->status = DYD_E_NOMEM, NULL;
+  to->at = *p;
+  to->next = x->points;
+  x->points = to;
+  dyd_surd_point_init(p);
+  return &to->at;
+}
+
+/* p->at from p->exact. */
+static void spot_enclose(const dyd_outline *o, dyd_outline_spot *p) {
+  const exact_cell *x = o->exact;
+  const dyd_surd_point *s = p->exact;
+  const dyd_icircle view = {.ax = {s->ax[0]},
+                            .bx = {s->bx[0]},
+                            .ay = {s->ay[0]},
+                            .by = {s->by[0]},
+                            .c = {s->c[0]},
+                            .d = {s->d[0]}}; /* borrowed limbs */
+  size_t man = mpz_sizeinbase(x->man, 2);
+  double box[4];
+  dyd_icircle_centre_d(box, &view, x->shift);
+  const double unit[2] = {dyd_raw_get_d(x->man, -(int64_t)man, DYD_DOWN), dyd_raw_get_d(x->man, -(int64_t)man, DYD_UP)};
+  dyd_outline_place_spot(p, o, box, unit, x->shift - x->exp - (int64_t)man);
+}
+
+/* Which ends of the window the coordinates of p->exact are. */
+static void spot_set_sides(const dyd_outline *o, dyd_outline_spot *p) {
+  for (int a = 0; a < 2; a++) {
+    p->side[a] = -1;
+    for (int e = 0; e < 2; e++) {
+      if (!o->bounded[2 * a + e] || !o->of_window[2 * a + e]) continue;
+      if (!dyd_surd_point_cmp_z(p->exact, a, dyd_irect_end(&o->exact->rect[o->count + 1], a, e))) p->side[a] = e;
+    }
   }
-  mpq_div_2exp(rest, rest, 1);
 }
 
-/* out = x y - z t */
-static void cross_products(mpq_ptr out, mpq_srcptr x, mpq_srcptr y, mpq_srcptr z, mpq_srcptr t) {
-  DYD_LOCAL_NUMBERS(mpq, product);
-  mpq_mul(product, z, t);
-  mpq_mul(out, x, y);
-  mpq_sub(out, out, product);
-}
-
-/* The point of both lines; false: they are parallel. */
-static bool straight_lines_cross(mpq_t at[2], const straight_arc *a, const straight_arc *b) {
-  DYD_LOCAL_ARRAY(mpq_t, normal, [2][2]);
-  DYD_LOCAL_ARRAY(mpq_t, rest, [2]);
-  DYD_LOCAL_NUMBERS(mpq, turn);
-  straight_line(normal[0], rest[0], a);
-  straight_line(normal[1], rest[1], b);
-  cross_products(turn, normal[0][0], normal[1][1], normal[0][1], normal[1][0]);
-  cross_products(at[0], rest[0], normal[1][1], rest[1], normal[0][1]);
-  cross_products(at[1], normal[0][0], rest[1], normal[1][0], rest[0]);
-  for (int k = 0; k < 2 && mpq_sgn(turn); k++) mpq_div(at[k], at[k], turn);
-  return mpq_sgn(turn) != 0;
-}
-
-/* Where a point of its line is: beyond the closed pane (-1), at an end of the arc (0), or elsewhere (1). A border of
- * the pane along the line has no end. */
-static int straight_arc_side(const straight_arc *a, const mpq_t at[2]) {
-  int side = 1;
+bool dyd_outline_exact_clip(dyd_outline *o, dyd_outline_arc *a, uint32_t number) {
+  DYD_LOCAL(dyd_elementary, e);
+  if (!exact_of(o)) return false;
+  arc_exactly(&e, o, a);
+  if (!dyd_elementary_clip(&e, o->outer ? -1 : 1)) return false;
+  a->point = e.point;
   for (int k = 0; k < 2; k++) {
-    int low = mpq_cmp(at[k], a->lo[k]), high = mpq_cmp(at[k], a->hi[k]);
-    if (low < 0 || high > 0) return -1;
-    if ((!low || !high) && !mpq_equal(a->s[1 - k], a->q[1 - k])) side = 0;
+    a->end[k] = (dyd_outline_spot){{DYD_IV_UNKNOWN, DYD_IV_UNKNOWN}, {-1, -1}, e.infinite[k], DYD_OUTLINE_END,
+                                   2 * number + (uint32_t)k,         NULL};
+    if (e.infinite[k]) continue;
+    if (!(a->end[k].exact = keep_point(o, &e.end[k]))) return false;
+    spot_set_sides(o, &a->end[k]);
+    spot_enclose(o, &a->end[k]);
   }
-  return side;
+  return true;
 }
 
-bool dyd_outline_needs_no_cut(dyd_outline *o, uint32_t a, uint32_t b) {
-  if (o->arc[a].shape.parabola || o->arc[b].shape.parabola) return false;
-  DYD_LOCAL_ARRAY(straight_arc, arc, [2]);
-  DYD_LOCAL_ARRAY(mpq_t, at, [2]);
-  for (int k = 0; k < 2; k++) straight_arc_set(&arc[k], o, &o->arc[k ? b : a]);
-  if (o->unsure || !straight_lines_cross(at, &arc[0], &arc[1])) return false;
-  int first = straight_arc_side(&arc[0], (const mpq_t *)at), second = straight_arc_side(&arc[1], (const mpq_t *)at);
-  return first < 0 || second < 0 || (first == 0 && second == 0);
+/* ---- meets ---- */
+
+/* The circles of the curves of j and k. */
+static void find_circles(dyd_outline *o, uint32_t j, uint32_t k) {
+  exact_cell *x = o->exact;
+  dyd_touch fixed = o->outer ? DYD_CLOSEST : DYD_FARTHEST, others = o->outer ? DYD_FARTHEST : DYD_CLOSEST;
+  const dyd_touch touch[3] = {fixed, others, others};
+  if (j > k) {
+    uint32_t t = j;
+    j = k;
+    k = t;
+  }
+  if (x->pair[0] == j && x->pair[1] == k) return;
+  const dyd_irect *r[3] = {&x->rect[o->count], &x->rect[j], &x->rect[k]};
+  x->circles = dyd_icircles(x->circle, DYD_OUTLINE_CIRCLES, r, touch);
+  DYD_INVARIANT(x->circles < DYD_OUTLINE_CIRCLES);
+  x->pair[0] = j;
+  x->pair[1] = k;
+}
+
+static void point_of_circle(dyd_surd_point *out, const dyd_icircle *k) {
+  mpz_set(out->ax, k->ax);
+  mpz_set(out->bx, k->bx);
+  mpz_set(out->ay, k->ay);
+  mpz_set(out->by, k->by);
+  mpz_set(out->c, k->c);
+  mpz_set(out->d, k->d);
+}
+
+/* The points that arcs a and b have in common, in order along a; returns how many. */
+static size_t common_points(dyd_surd_point out[DYD_OUTLINE_CIRCLES], dyd_outline *o, uint32_t a, uint32_t b) {
+  DYD_LOCAL(dyd_elementary, e, f);
+  size_t count = 0;
+  find_circles(o, o->arc[a].curve, o->arc[b].curve);
+  arc_exactly(&e, o, &o->arc[a]);
+  arc_exactly(&f, o, &o->arc[b]);
+  for (size_t k = 0; k < o->exact->circles; k++) {
+    dyd_surd_point *p = &out[count];
+    point_of_circle(p, &o->exact->circle[k]);
+    if (!dyd_elementary_holds(&e, p) || !dyd_elementary_holds(&f, p)) continue;
+    for (size_t m = count++; m > 0 && dyd_surd_point_cmp(&out[m], &out[m - 1], e.axis) < 0; m--) {
+      dyd_surd_point t = out[m];
+      out[m] = out[m - 1];
+      out[m - 1] = t;
+    }
+  }
+  return count;
+}
+
+size_t dyd_outline_exact_meets(dyd_outline_spot out[DYD_OUTLINE_CIRCLES], dyd_outline *o, uint32_t a, uint32_t b) {
+  uint32_t j = o->item[o->arc[a].curve].site, k = o->item[o->arc[b].curve].site;
+  if ((o->pd && dyd_delaunay_status(o->pd, j, k) == DYD_ILLEGAL) || !exact_of(o)) return 0;
+  DYD_LOCAL_ARRAY(dyd_surd_point, at, [DYD_OUTLINE_CIRCLES]);
+  size_t count = common_points(at, o, a, b);
+  for (size_t n = 0; n < count; n++) {
+    out[n] = (dyd_outline_spot){.side = {-1, -1}, .kind = DYD_OUTLINE_MEET, .exact = keep_point(o, &at[n])};
+    if (!out[n].exact) return 0;
+    spot_enclose(o, &out[n]);
+  }
+  return count;
+}
+
+static void meet_exactly(dyd_outline *o, dyd_outline_meet *m) {
+  DYD_LOCAL_ARRAY(dyd_surd_point, at, [DYD_OUTLINE_CIRCLES]);
+  size_t count = common_points(at, o, m->arc[0], m->arc[1]);
+  DYD_INVARIANT(count > 0 && count <= (size_t)m->roots);
+  m->spot.exact = keep_point(o, &at[count > (size_t)m->root ? m->root : 0]);
+}
+
+/* ---- points on demand ---- */
+
+static void corner_exactly(dyd_outline *o, dyd_outline_spot *p) {
+  const dyd_irect *w = &o->exact->rect[o->count + 2];
+  DYD_LOCAL(dyd_surd_point, at);
+  mpz_set(at.ax, p->number == 1 || p->number == 2 ? w->x1 : w->x0);
+  mpz_set(at.ay, p->number >= 2 ? w->y1 : w->y0);
+  p->exact = keep_point(o, &at);
+}
+
+static void end_exactly(dyd_outline *o, dyd_outline_spot *p) {
+  DYD_LOCAL(dyd_elementary, e);
+  arc_exactly(&e, o, &o->arc[p->number / 2]);
+  bool some = dyd_elementary_clip(&e, o->outer ? -1 : 1);
+  DYD_INVARIANT(some);
+  (void)some;
+  p->exact = keep_point(o, &e.end[p->number & 1]);
+}
+
+const dyd_surd_point *dyd_outline_exact(dyd_outline *o, dyd_outline_spot *p) {
+  if (p->exact || !exact_of(o)) return p->exact;
+  switch (p->kind) {
+  case DYD_OUTLINE_END:
+    end_exactly(o, p);
+    break;
+  case DYD_OUTLINE_MEET:
+    meet_exactly(o, &o->meet[p->number]);
+    break;
+  default:
+    corner_exactly(o, p);
+  }
+  return p->exact;
+}
+
+int dyd_outline_exact_order(dyd_outline *o, dyd_outline_spot *p, dyd_outline_spot *q, int axis) {
+  const dyd_surd_point *a = dyd_outline_exact(o, p), *b = dyd_outline_exact(o, q);
+  return a && b ? dyd_surd_point_cmp(a, b, axis) : 0;
+}
+
+/* ---- samples and sides ---- */
+
+static int side_of(const dyd_outline *o, const dyd_surd_point *p, size_t k) {
+  const exact_cell *x = o->exact;
+  return dyd_surd_point_side(p, &x->rect[k], o->outer ? DYD_FARTHEST : DYD_CLOSEST, &x->rect[o->count],
+                             o->outer ? DYD_CLOSEST : DYD_FARTHEST);
+}
+
+/* num / 2^bits strictly between two points (NULL: infinite), by enclosures of growing precision; some number when both
+ * are infinite. */
+static int64_t number_between(mpz_ptr num, const dyd_surd_point *low, const dyd_surd_point *high, int axis) {
+  int64_t bits = 4;
+  DYD_LOCAL_NUMBERS(mpz, up, down, t);
+  for (;; bits *= 2) {
+    if (low) dyd_surd_point_floor(t, up, low, axis, bits);
+    if (high) dyd_surd_point_floor(down, t, high, axis, bits);
+    if (!low && high) mpz_sub_ui(up, down, 2);
+    if (!high) mpz_add_ui(down, up, 2);
+    if (mpz_cmp(up, down) < 0) break;
+  }
+  mpz_add(num, up, down);
+  return bits + 1;
+}
+
+/* Side of the window: bottom, right, top, left. The point of it with coordinate num / 2^bits. */
+static void point_of_side(dyd_surd_point *out, const dyd_outline *o, int side, mpz_srcptr num, int64_t bits) {
+  int axis = side & 1;
+  mpz_ptr to[2] = {out->ax, out->ay};
+  mpz_set(to[axis], num);
+  mpz_mul_2exp(to[1 - axis], dyd_irect_end(&o->exact->rect[o->count + 2], 1 - axis, side == 1 || side == 2),
+               (mp_bitcnt_t)bits);
+  mpz_mul_2exp(out->d, out->d, (mp_bitcnt_t)bits);
+}
+
+bool dyd_outline_exact_sample(dyd_outline_spot *out, dyd_outline *o, const dyd_outline_arc *a, int side,
+                              dyd_outline_spot *low, dyd_outline_spot *high) {
+  const dyd_surd_point *from = low->infinite ? NULL : dyd_outline_exact(o, low),
+                       *to = high->infinite ? NULL : dyd_outline_exact(o, high);
+  if (o->status != DYD_OK || !exact_of(o)) return false;
+  DYD_LOCAL_NUMBERS(mpz, num);
+  DYD_LOCAL(dyd_surd_point, at);
+  DYD_LOCAL(dyd_elementary, e);
+  int64_t bits = number_between(num, from, to, a ? a->axis : side & 1);
+  if (a) {
+    arc_exactly(&e, o, a);
+    dyd_elementary_at(&at, &e, num, bits);
+  } else {
+    point_of_side(&at, o, side, num, bits);
+  }
+  *out = (dyd_outline_spot){.side = {-1, -1}, .exact = keep_point(o, &at)};
+  if (out->exact) spot_enclose(o, out);
+  return out->exact != NULL;
+}
+
+int dyd_outline_exact_side(const dyd_outline *o, const dyd_outline_spot *p, size_t k) {
+  return side_of(o, p->exact, k);
+}
+
+size_t dyd_outline_exact_third(dyd_outline *o, dyd_outline_spot *p, size_t curve, size_t other) {
+  const dyd_surd_point *at = dyd_outline_exact(o, p);
+  size_t k = 0;
+  while (at && k < o->count && (k == curve || o->item[k].drop || side_of(o, at, k))) k++;
+  DYD_INVARIANT(k < o->count);
+  return k < o->count ? k : other;
+}
+
+bool dyd_outline_exact_rects_meet(dyd_outline *o, size_t a, size_t b) {
+  DYD_LOCAL_ARRAY(dyd_rect, fetched, [2]);
+  const dyd_rect *p = outline_site_rect(o, &fetched[0], a), *q = outline_site_rect(o, &fetched[1], b);
+  return o->status == DYD_OK && dyd_rect_meets(p, q);
 }

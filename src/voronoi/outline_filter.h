@@ -1,45 +1,65 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The boundary of a region in a window in doubles: what dyd_cell_boundary finds exactly, with boxes instead of points.
+/* The boundary of Int_i or Pos_i: doubles first, exact numbers where these leave a doubt [OUTLINE-1].
  *
- * Each step of the exact work is done in intervals that hold, and each decision is taken only where these leave no
- * doubt; else the filter declines and the exact rung does the cell [OUTLINE-1]. */
+ * Each number is enclosed by an interval, and each decision is taken from intervals that leave no doubt, or else from
+ * the exact numbers (outline.c), which are made only then. */
 #ifndef DYD_VORONOI_OUTLINE_FILTER_H
 #define DYD_VORONOI_OUTLINE_FILTER_H
 
+#include "base/room.h"
 #include "delaunay/state.h"
-#include "voronoi/exact_cell_filter.h"
+#include "predicate/predicate_filter.h"
+#include "voronoi/surd_point.h"
 
-enum { DYD_OUTLINE_OTHERS = 4096, DYD_OUTLINE_ARCS = 2048, DYD_OUTLINE_MEETS = 512, DYD_OUTLINE_PIECES = 512 };
+/* Marks on one axis: ends of the window, the middle of the far rectangle, ends of the near one. */
+enum { DYD_WINDOW_LO, DYD_WINDOW_HI, DYD_MIDDLE, DYD_NEAR_LO, DYD_NEAR_HI, DYD_MARKS };
 
-/* A point, relative to the origin of the outline. at[a] encloses coordinate a. side[a]: which end of the window (0, 1)
- * coordinate a is, exactly; else -1. */
+/* The line or parabola of an arc: |c - s| = |c - q|, or distance to the line of coordinate q[1 - axis]. */
+typedef struct dyd_filter_arc {
+  dyd_iv s[2], q[2];
+  bool parabola;
+} dyd_filter_arc;
+
+/* What a point is: end number & 1 of arc number / 2; meet number; corner number of the window. */
+typedef enum dyd_outline_kind { DYD_OUTLINE_END, DYD_OUTLINE_MEET, DYD_OUTLINE_CORNER } dyd_outline_kind;
+
+/* A point, relative to the origin, or an end at infinity. at[a] encloses coordinate a. side[a]: which end of the window
+ * (0, 1) coordinate a is, exactly; else -1. exact: NULL until it is asked for; in the scale of outline.c. */
 typedef struct dyd_outline_spot {
   dyd_iv at[2];
   int side[2];
+  bool infinite;
+  dyd_outline_kind kind;
+  uint32_t number;
+  const dyd_surd_point *exact;
 } dyd_outline_spot;
 
-/* As dyd_elementary, whose words it uses. tilt[a]: sign of q[a] - s[a]. near_side[a]: 1 beyond the upper side of the
- * near rectangle, else -1. */
+/* { c in the pane lo .. hi : |c - s| = distance to q }, q a corner or the line of a side (shape). The coordinate `axis`
+ * is strictly monotone along the arc; end[0] is its lower end. point: the arc is one point, at which the curve touches
+ * the border of the pane. either: the axis may be the other one. tilt[a]: sign of q[a] - s[a]. mark: of the lower and
+ * the upper end of the pane along each axis. span encloses the coordinates of all its points. */
 typedef struct dyd_outline_arc {
   dyd_filter_arc shape;
   uint32_t curve;
+  bool point, either;
   int axis, branch, corner, feature;
-  bool either;                           /* the exact work may go along the other axis */
-  int tilt[2], near_side[2], mark[2][2]; /* mark: of the lower and the upper end of the pane along each axis */
-  dyd_iv lo[2], hi[2], span[2];          /* span: encloses the coordinates of all its points */
+  int tilt[2], mark[2][2];
+  dyd_iv lo[2], hi[2], span[2];
   dyd_outline_spot end[2];
 } dyd_outline_arc;
 
-/* As dyd_piece. */
+/* Part of an arc of curve `curve` (or of side curve - count of the window, arc = NULL), with the region on the left. */
 typedef struct dyd_outline_piece {
   uint32_t curve;
   const dyd_outline_arc *arc;
-  const dyd_outline_spot *begin, *end;
+  dyd_outline_spot *begin, *end;
 } dyd_outline_piece;
 
-/* A point in which two curves meet: of arcs a and b. */
+/* A point in which two curves meet, on arcs a and b: root number `root` of the `roots` that their lines have in common,
+ * ascending along the axis of a. */
 typedef struct dyd_outline_meet {
   uint32_t arc[2];
+  int root, roots;
   dyd_outline_spot spot;
 } dyd_outline_meet;
 
@@ -49,59 +69,149 @@ typedef struct dyd_outline_rival {
   double slack;
 } dyd_outline_rival;
 
-/* Rivals that may take points, the first `count` of `all`, in any order, a row for each part of a rival: xlo, xhi, ylo,
- * yhi, slack and number. */
+/* Rivals that may take points, the first `count` of `all`, in any order, with parts xlo, xhi, ylo, yhi, slack and
+ * number; in groups of DYD_OUTLINE_LANES, part by part. */
 enum { DYD_OUTLINE_LANES = 4, DYD_RIVAL_SLACK = 4, DYD_RIVAL_NUMBER, DYD_RIVAL_PARTS };
 typedef struct dyd_outline_rivals {
-  double part[DYD_RIVAL_PARTS][DYD_OUTLINE_OTHERS];
+  double *part;
   size_t count, all;
 } dyd_outline_rivals;
+static inline double *dyd_rival_part(const dyd_outline_rivals *r, int part, size_t k) {
+  return &r->part[(k / DYD_OUTLINE_LANES * DYD_RIVAL_PARTS + (size_t)part) * DYD_OUTLINE_LANES + k % DYD_OUTLINE_LANES];
+}
 
-/* Loaded once for a site: site, count, sites, box and thin (its own last). The rest is found by dyd_filter_outline:
- * part[0 .. parts) is the closed boundary, with the region on the left; parts = 0: there is none. curve = count + side:
- * of the window. */
+/* A site of the cell: the others in ascending order, its own last. thin: equal ends, though doubles may not hold them.
+ * near: its ends relative to the origin. drop: it meets the own one, so does not matter to Pos;
+ * else place: its number among the rivals. */
+typedef struct dyd_outline_site {
+  uint32_t site;
+  const dyd_rect *rect; /* NULL: that of the table; borrowed */
+  dyd_box box;
+  bool thin[2], drop;
+  size_t place;
+  dyd_iv near[4];
+  dyd_outline_rival reach;
+} dyd_outline_site;
+
+struct dyd_outline_exact;
+
+/* Loaded once for a site: sites, item, count. The rest is found by dyd_outline_find: piece[0 .. pieces), next[p] and
+ * last[p] are the pieces behind and before it, SIZE_MAX at infinity. curve = count + side: of the window. status:
+ * DYD_OK until memory or the budget is exhausted, or the work is cancelled. blind: ends beyond doubles, so that only
+ * exact numbers decide. Init with {0}, release with dyd_outline_clear. */
 typedef struct dyd_outline {
-  uint32_t site[DYD_OUTLINE_OTHERS + 1];
-  const dyd_sites *sites; /* borrowed, as rect is: the window */
-  const dyd_rect *rect;
-  size_t count;
-  dyd_box box[DYD_OUTLINE_OTHERS + 1], window;
-  bool thin[DYD_OUTLINE_OTHERS + 1][2]; /* equal ends, though doubles may not hold them */
+  const dyd_sites *sites;     /* borrowed, as all that follow */
+  const dyd_rect *rect;       /* the window, NULL: the plane */
+  const dyd_delaunay *pd;     /* only pairs of others that it calls possible share a vertex; NULL: all may */
+  const volatile int *cancel; /* may be NULL, as the next */
+  dyd_room *room;
+  dyd_outline_site *item;
+  size_t count, item_cap, rival_cap;
+  dyd_box window;
   double origin[2];
-  bool outer, unsure;
-  dyd_iv near[DYD_OUTLINE_OTHERS + 1][4], frame[4]; /* relative to the origin; frame: the window */
-  bool drop[DYD_OUTLINE_OTHERS];                    /* meets the site: does not matter to Pos */
-  dyd_outline_rival reach[DYD_OUTLINE_OTHERS + 1];
-  dyd_outline_rivals rivals; /* those not dropped */
-  double limit[4];           /* lower and upper bounds of all points of Pos, hence of Int */
-  dyd_iv bound[4];           /* the window cut down to them, */
-  bool of_window[4];         /* where that is an end of the window */
-  dyd_outline_arc arc[DYD_OUTLINE_ARCS];
-  dyd_outline_meet meet[DYD_OUTLINE_MEETS];
+  bool outer, blind, keep_all; /* keep_all: without [PRUNE-1], for comparison */
+  dyd_status status;
+  dyd_iv frame[4];               /* the window */
+  dyd_outline_rivals rivals;     /* those not dropped */
+  double limit[4];               /* lower and upper bounds of all points of Pos, hence of Int */
+  dyd_iv bound[4];               /* the window cut down to them, */
+  bool bounded[4], of_window[4]; /* where there is one, and where that is an end of the window */
+  dyd_outline_arc *arc;
+  dyd_outline_meet *meet;
   dyd_outline_spot corner[4];
-  dyd_outline_piece piece[DYD_OUTLINE_PIECES], part[DYD_OUTLINE_PIECES];
-  size_t arcs, meets, pieces, parts;
-  const dyd_outline_spot *cut[DYD_OUTLINE_MEETS + 2];
+  dyd_outline_piece *piece;
+  size_t *next, *last;
+  dyd_outline_spot **cut;
+  size_t arcs, arc_cap, meets, meet_cap, pieces, piece_cap, link_cap, cut_cap;
+  struct dyd_outline_exact *exact; /* NULL until it is needed */
 } dyd_outline;
 
-/* The site and its neighbours with at least the status `least`. *done = false: too many of them, or ends beyond
- * doubles. */
-dyd_status dyd_outline_load(bool *done, dyd_outline *o, const dyd_delaunay *pd, uint32_t i, dyd_pair_status least);
-/* false: something is in doubt. Pos first: its outline limits that of Int. */
-bool dyd_filter_outline(dyd_outline *o, const dyd_rect *window, bool outer);
+/* The site and its neighbours with at least the status `least`. DYD_OK or DYD_E_NOMEM. */
+dyd_status dyd_outline_load(dyd_outline *o, const dyd_delaunay *pd, uint32_t i, dyd_pair_status least);
+/* The same of a site and others that are given: rect[0] the own one, rect[1 ..] the others; borrowed. */
+dyd_status dyd_outline_load_rects(dyd_outline *o, uint32_t own, const dyd_rect *const *rect, const uint32_t *other,
+                                  size_t count);
+void dyd_outline_clear(dyd_outline *o);
+/* Finds the pieces, joined, of Int or (outer) Pos, in a window or (NULL) in the plane. Pos first: its outline limits
+ * that of Int. DYD_OK, DYD_E_NOMEM, DYD_CANCELLED. */
+dyd_status dyd_outline_find(dyd_outline *o, const dyd_rect *window, bool outer);
 /* Coordinate a of a point, not relative to the origin. */
 dyd_iv dyd_outline_coordinate(const dyd_outline *o, const dyd_outline_spot *p, int a);
+/* Returns true if piece p and the next one are parts of one arc, or of one side. */
+bool dyd_outline_smooth(const dyd_outline *o, size_t p);
+/* Where the chain through piece p starts: at infinity, or after a break. */
+size_t dyd_outline_start(const dyd_outline *o, size_t p);
 
-/* outline.c. The rectangle of a site; false, and in doubt: memory. */
-bool dyd_outline_rect(dyd_rect *r, dyd_outline *o, size_t k);
-/* A mark of the rectangles `far` and `near`, exactly; DYD_MARKS and the next are the ends of `far`. */
-void dyd_outline_number(mpq_ptr out, dyd_outline *o, size_t far, size_t near, int axis, int mark);
-/* Returns true if the lines of arcs a and b cross beyond the pane of one, or at an end of both. Exact; false: they do
- * not, or are not straight. */
-bool dyd_outline_needs_no_cut(dyd_outline *o, uint32_t a, uint32_t b);
+/* The other coordinate where coordinate k is t. */
+dyd_iv dyd_outline_arc_other(const dyd_filter_arc *arc, int k, dyd_iv t);
+/* Order of a and b; equal only as numbers that are known. Sets *unsure where it is not known. */
+static inline int dyd_outline_order(bool *unsure, dyd_iv a, dyd_iv b) {
+  if (a.lo > b.hi) return 1;
+  if (a.hi < b.lo) return -1;
+  if (!(a.lo == a.hi && b.lo == b.hi)) *unsure = true;
+  return 0;
+}
 
-/* Order of a and b; equal only as numbers that are known. Sets *unsure where it is not known.
+/* ---- outline_sites_filter.c ---- */
+
+/* Only sites other than `own` take points from now on; o->count: all others. */
+void dyd_outline_exclude(dyd_outline *o, size_t own);
+/* Returns true if a rival certainly takes all points of the box. */
+bool dyd_outline_taken(dyd_outline *o, const dyd_iv at[2]);
+/* May a rival, or other k, take a point of the box? */
+bool dyd_outline_may_be_taken(const dyd_outline *o, const dyd_iv at[2]);
+bool dyd_outline_may_take(const dyd_outline *o, size_t k, const dyd_iv at[2]);
+enum { DYD_OUTLINE_STRETCHES = 3 }; /* how often an arc is halved, to find that it is taken */
+
+/* Sets what is relative to the origin, for a window; false: some other meets the site. */
+bool dyd_outline_place(dyd_outline *o, const dyd_rect *window);
+/* Bounds of Pos: from what is taken away around the site, and from its pieces. */
+void dyd_outline_limit_by_box(dyd_outline *o);
+void dyd_outline_limit_by_parts(dyd_outline *o);
+/* The window cut down to the limits. */
+void dyd_outline_set_bounds(dyd_outline *o);
+/* Encloses the point box * 2^exp / unit, relative to the lower corner of the own rectangle; unit encloses the divisor.
  */
-int dyd_outline_order(bool *unsure, dyd_iv a, dyd_iv b);
+static inline void dyd_outline_place_spot(dyd_outline_spot *p, const dyd_outline *o, const double box[4],
+                                          const double unit[2], int64_t exp) {
+  int e = exp > 4000 ? 4000 : exp < -4000 ? -4000 : (int)exp;
+  for (int a = 0; a < 2; a++) {
+    dyd_iv x = dyd_iv_div((dyd_iv){box[2 * a], box[2 * a + 1]}, (dyd_iv){unit[0], unit[1]});
+    x = (dyd_iv){dyd_down(ldexp(x.lo, e)), dyd_up(ldexp(x.hi, e))};
+    p->at[a] = dyd_iv_add(x, o->item[o->count].near[2 * a]);
+  }
+}
+
+/* How many circles two curves of one rectangle can share, a circle too many included: a convex curve crosses each of
+ * the at most ten lines that bound panes of the three rectangles at most twice, so it runs through at most 21 panes,
+ * and each holds at most two. */
+enum { DYD_OUTLINE_CIRCLES = 43 };
+
+/* ---- outline.c: exact numbers. Where o->status is not DYD_OK behind a call, its result means nothing ---- */
+
+/* The point in the scale of the cell, borrowed from the outline until the next dyd_outline_find. */
+const dyd_surd_point *dyd_outline_exact(dyd_outline *o, dyd_outline_spot *p);
+/* Moves a copy of such a point to the caller's coordinates. */
+void dyd_outline_unscale(dyd_surd_point *p, const dyd_outline *o);
+/* Order of two points along an axis. */
+int dyd_outline_exact_order(dyd_outline *o, dyd_outline_spot *p, dyd_outline_spot *q, int axis);
+/* Order of two marks of rectangles far and near; DYD_MARKS and the next are the ends of `far`. */
+int dyd_outline_exact_marks(dyd_outline *o, size_t far, size_t near, int axis, int a, int b);
+/* Which coordinate to go along. */
+int dyd_outline_exact_axis(dyd_outline *o, const dyd_outline_arc *a);
+/* Sets ends and `point`; false: nothing in the pane. number: of the arc. */
+bool dyd_outline_exact_clip(dyd_outline *o, dyd_outline_arc *a, uint32_t number);
+/* The points in which arcs a and b meet, but where their curves coincide, in order along a; returns how many. */
+size_t dyd_outline_exact_meets(dyd_outline_spot out[DYD_OUTLINE_CIRCLES], dyd_outline *o, uint32_t a, uint32_t b);
+/* A point strictly between low and high of an arc, or (NULL) of a side of the window. false: no memory. */
+bool dyd_outline_exact_sample(dyd_outline_spot *out, dyd_outline *o, const dyd_outline_arc *a, int side,
+                              dyd_outline_spot *low, dyd_outline_spot *high);
+/* Sign of (distance of a point that is exact to other k) - radius. */
+int dyd_outline_exact_side(const dyd_outline *o, const dyd_outline_spot *p, size_t k);
+/* The lowest other site but `curve` that a point is as far from as the radius; o->count: none. */
+size_t dyd_outline_exact_third(dyd_outline *o, dyd_outline_spot *p, size_t curve, size_t other);
+void dyd_outline_exact_clear(dyd_outline *o);
+/* Returns true if the closed rectangles of sites a and b meet. */
+bool dyd_outline_exact_rects_meet(dyd_outline *o, size_t a, size_t b);
 
 #endif

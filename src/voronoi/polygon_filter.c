@@ -154,6 +154,8 @@ typedef struct grid_work {
   const dyd_delaunay *pd;
   uint32_t own;
   int bits;
+  dyd_outline_piece *part; /* of the one closed chain */
+  size_t parts, part_cap;
   grid_sample *sample;
   grid_polygon polygon;
   size_t samples, sample_cap;
@@ -205,6 +207,23 @@ static int grid_bits(uint64_t n) {
 
 /* ---- samples ---- */
 
+/* The pieces that are one arc become one part. w->known = false: there are several chains, or open ones. */
+static dyd_status grid_chain(grid_work *w) {
+  const dyd_outline *o = w->o;
+  w->parts = 0;
+  if (!o->pieces) return DYD_OK;
+  if (!DYD_GROW(w->part, w->part_cap, o->pieces)) return DYD_E_NOMEM;
+  size_t start = dyd_outline_start(o, 0), p = start, seen = 0;
+  do {
+    if (!w->parts || !dyd_outline_smooth(o, o->last[p])) w->part[w->parts++] = o->piece[p];
+    w->part[w->parts - 1].end = o->piece[p].end;
+    p = o->next[p];
+    seen++;
+  } while (p != SIZE_MAX && p != start);
+  w->known = p == start && seen == o->pieces && !dyd_outline_smooth(o, o->last[start]);
+  return DYD_OK;
+}
+
 /* As arc_count_steps: n^2 >= (length^2 / q) 2^bits / 8. */
 static dyd_status grid_steps(uint32_t *out, grid_work *w, const dyd_outline_piece *p, int bits) {
   *out = 1;
@@ -224,15 +243,16 @@ static dyd_status grid_steps(uint32_t *out, grid_work *w, const dyd_outline_piec
   w->known = twice < 26;
   if (exp[0] == exp[1] && w->known && twice > 0) *out = (uint32_t)1 << ((twice + 1) / 2);
   if (exp[0] == exp[1] || !w->known) return DYD_OK;
-  const uint32_t other = w->o->site[p->curve], site[2] = {w->o->outer ? other : w->own, w->o->outer ? w->own : other};
+  const uint32_t other = w->o->item[p->curve].site,
+                 site[2] = {w->o->outer ? other : w->own, w->o->outer ? w->own : other};
   const int end[2] = {p->arc->corner >> o & 1, p->arc->feature & 1};
   return dyd_parabola_steps(out, dyd_delaunay_sites(w->pd), site, end, o, length, bits);
 }
 
 static dyd_status grid_samples(grid_work *w) {
   w->samples = 0;
-  for (size_t k = 0; k < w->o->parts && w->known; k++) {
-    const dyd_outline_piece *part = &w->o->part[k], *before = &w->o->part[k ? k - 1 : w->o->parts - 1];
+  for (size_t k = 0; k < w->parts && w->known; k++) {
+    const dyd_outline_piece *part = &w->part[k], *before = &w->part[k ? k - 1 : w->parts - 1];
     uint32_t steps;
     dyd_status st = grid_steps(&steps, w, part, w->bits + 1);
     if (st != DYD_OK) return st;
@@ -258,7 +278,7 @@ static grid_point sample_on_grid(grid_work *w, const grid_sample *s, int bits) {
   int64_t t = from * s->steps + (to - from) * s->step; /* times 2^(bits+1+more) */
   if (llabs(from) >> (GRID - more) || llabs(to) >> (GRID - more)) return w->known = false, z;
   dyd_iv at = dyd_iv_sub(dyd_iv_point(grid_double(t, bits + 1 + more)), dyd_iv_point(w->o->origin[k]));
-  dyd_iv other = dyd_iv_add(dyd_filter_arc_other(&p->arc->shape, k, at), dyd_iv_point(w->o->origin[1 - k]));
+  dyd_iv other = dyd_iv_add(dyd_outline_arc_other(&p->arc->shape, k, at), dyd_iv_point(w->o->origin[1 - k]));
   z.at[k] = t >> more;
   z.at[1 - k] = grid_floor(&whole, w, other, bits + 1);
   return z;
@@ -290,7 +310,7 @@ static bool grid_inside(grid_work *w, const grid_point *z) {
   if (!(w->window[0] <= c.e[0] && c.e[1] <= w->window[1] && w->window[2] <= c.e[2] && c.e[3] <= w->window[3]))
     return false;
   for (size_t k = 0; k < o->count; k++)
-    if (!grid_nearer(w, &c, &o->box[o->count], &o->box[k])) return false;
+    if (!grid_nearer(w, &c, &o->item[o->count].box, &o->item[k].box)) return false;
   return true;
 }
 
@@ -375,14 +395,14 @@ static int64_t grid_log2(bool *known, const dyd_iv away[2]) {
 }
 
 static bool grid_beyond(grid_work *w, const dyd_outline_piece *p, const dyd_bbox *c) {
-  return !p->arc || grid_nearer(w, c, &w->o->box[p->curve], &w->o->box[w->o->count]);
+  return !p->arc || grid_nearer(w, c, &w->o->item[p->curve].box, &w->o->item[w->o->count].box);
 }
 
 /* As place_outer. */
 static bool grid_place_outer(grid_point *z, grid_work *w, const grid_sample *s, int fine) {
   *z = sample_on_grid(w, s, fine);
   if (!w->known || (!s->part->arc && !s->before->arc)) return w->known;
-  const dyd_box *own = &w->o->box[w->o->count];
+  const dyd_box *own = &w->o->item[w->o->count].box;
   dyd_iv away[2];
   int end[2];
   for (int a = 0; a < 2; a++)
@@ -434,7 +454,7 @@ static dyd_status grid_deliver(dyd_grid_area *area, dyd_xy **out, size_t *cap, u
 
 static dyd_status grid_inner(grid_work *w) {
   w->polygon.count = 0;
-  if (!w->o->parts) return DYD_OK;
+  if (!w->parts) return DYD_OK;
   dyd_status st = grid_samples(w);
   int extra = FIRST_EXTRA;
   while (st == DYD_OK && w->known && !grid_goal(w, w->bits + extra)) extra *= 2;
@@ -449,7 +469,7 @@ static dyd_status grid_outer(grid_work *w) {
   bool simple = false;
   dyd_status st = DYD_OK;
   w->polygon.count = 0;
-  for (int extra = 0; w->o->parts && !simple && w->known && st == DYD_OK; extra += FINER) {
+  for (int extra = 0; w->parts && !simple && w->known && st == DYD_OK; extra += FINER) {
     w->bits = bits + extra;
     st = grid_samples(w);
     if (st == DYD_OK && w->known) st = grid_place_all(w, grid_place_outer);
@@ -469,14 +489,15 @@ static dyd_status grid_shape(bool *done, dyd_shape *s, grid_work *w, const dyd_w
   for (int k = 0; k < 4; k++) w->window[k] = window->d[k];
   DYD_LOCAL(dyd_rect, wide);
   st = dyd_window_enlarge(&wide, window->rect, w->bits);
-  w->known = st == DYD_OK && dyd_filter_outline(w->o, &wide, true);
+  if (st == DYD_OK) st = dyd_outline_find(w->o, &wide, true);
+  if (st == DYD_OK) st = grid_chain(w);
   if (st == DYD_OK && w->known) st = grid_outer(w);
   if (st == DYD_OK && w->known) st = grid_deliver(&s->grid_area[1], &s->outer, &s->outer_cap, &s->outer_count, w);
+  if (st == DYD_OK && w->known) st = dyd_outline_find(w->o, window->rect, false);
+  if (st == DYD_OK && w->known) st = grid_chain(w);
   if (st != DYD_OK || !w->known) return st;
-  w->known = dyd_filter_outline(w->o, window->rect, false);
   for (int k = 0; k < 4; k++) w->known = w->known && w->o->window.end[k].lo == w->o->window.end[k].hi;
-  if (!w->known) return DYD_OK;
-  st = grid_inner(w);
+  if (w->known) st = grid_inner(w);
   if (st == DYD_OK && w->known) st = grid_deliver(&s->grid_area[0], &s->inner, &s->inner_cap, &s->inner_count, w);
   *done = st == DYD_OK && w->known;
   return st;
@@ -486,15 +507,20 @@ dyd_status dyd_filter_polygons(bool *done, dyd_shape *s, const dyd_delaunay *pd,
                                int64_t bits) {
   *done = false;
   if (bits > 900 || bits < -900) return DYD_OK;
-  if (!s->outline) s->outline = malloc(sizeof *s->outline);
+  if (!s->outline) s->outline = calloc(1, sizeof *s->outline);
   if (!s->outline) return DYD_E_NOMEM;
+  s->outline->cancel = window->cancel;
+  s->outline->room = window->room;
   grid_work w = {.o = s->outline, .pd = pd, .own = i, .bits = (int)bits, .known = true};
   dyd_rect_init(&w.rect);
   mpq_inits(w.end[0][0], w.end[0][1], w.end[1][0], w.end[1][1], w.away[0], w.away[1], NULL);
-  bool loaded;
-  dyd_status st = dyd_outline_load(&loaded, w.o, pd, i, dyd_least_at(pd, i, window->proved));
-  if (st == DYD_OK && loaded) st = grid_shape(done, s, &w, window);
-  dyd_free_all(w.sample, w.polygon.vertex);
+  dyd_pair_status least = dyd_least_at(pd, i, window->proved);
+  s->outline->pd = least == dyd_least_bounding(pd) ? pd : NULL; /* of some sites only: all may share a vertex */
+  dyd_status st = dyd_outline_load(w.o, pd, i, least);
+  w.known = !w.o->blind;
+  if (st == DYD_OK && w.known) st = grid_shape(done, s, &w, window);
+  dyd_free_all(w.part, w.sample, w.polygon.vertex);
+  dyd_outline_exact_clear(w.o);
   mpq_clears(w.end[0][0], w.end[0][1], w.end[1][0], w.end[1][1], w.away[0], w.away[1], NULL);
   dyd_rect_clear(&w.rect);
   s->in_doubles = s->on_grid = *done;

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The polygons of a cell: in doubles, else in dyadics. */
 #include "voronoi/shape.h"
+
 #include "dyadic/raw.h"
+#include "voronoi/outline_filter.h"
 
 #include "base/alloc.h"
 #include "base/flag.h"
@@ -507,6 +509,7 @@ dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect) {
 void dyd_shape_clear(dyd_shape *s) {
   dyd_polygon_list_clear(&s->outer_exact);
   dyd_polygon_clear(&s->inner_exact);
+  if (s->outline) dyd_outline_clear(s->outline);
   dyd_free_all(s->inner, s->outer, s->fan, s->fan_box, s->key, s->across, s->outline);
   *s = (dyd_shape){0};
 }

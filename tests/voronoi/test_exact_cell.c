@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Int_i and Pos_i against their definitions: [CELL-1] [CELL-2] [CELL-3] [ARC-1].
+/* Int_i and Pos_i against their definitions: [CELL-1] [CELL-2] [CELL-3] [ARC-1] [OUTLINE-1].
  *
  * Every arc, end and chain is checked literally; points anywhere and within tiny distances of the boundary are on the
  * side that ds and dl say, against all sites. DYADEL_TEST_SCALE=60 makes more than 10^6 membership checks. */

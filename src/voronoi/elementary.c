@@ -8,42 +8,17 @@
  * sign in the pane: the arc is one branch, monotone in both coordinates, and its part in the pane is connected. It
  * cannot run along the border of a pane, since s, the corner q or the corner opposite s would then lie in both
  * rectangles; along a side of the window it can. For singletons a and b no cut is needed. */
-#include "voronoi/exact_cell.h"
+#include "voronoi/elementary.h"
 
-#include "base/invariant.h"
 #include "base/local.h"
 
-/* ---- marks ---- */
-
-/* The marks of one axis; those of the window are NULL when there is none. _d: the same in doubles. */
-typedef struct side_set {
-  mpz_srcptr at[DYD_MARKS], far[2];
-  dyd_iv at_d[DYD_MARKS], far_d[2];
-  dyd_marks marks;
-} side_set;
-
-static int side_set_order(const void *axis, int a, int b) {
-  const side_set *s = axis;
-  if (a == b) return 0;
-  if (!s->at[a]) return a == DYD_WINDOW_LO ? -1 : 1;
-  if (!s->at[b]) return b == DYD_WINDOW_LO ? 1 : -1;
-  return mpz_cmp(s->at[a], s->at[b]);
+void dyd_elementary_init(dyd_elementary *a) {
+  *a = (dyd_elementary){.branch = 0};
+  for (int e = 0; e < 2; e++) dyd_surd_point_init(&a->end[e]);
 }
 
-static void side_set_init(side_set *s, const dyd_scaled *far, const dyd_scaled *near, const dyd_scaled *window,
-                          int axis, mpz_srcptr middle) {
-  for (int e = 0; e < 2; e++) {
-    s->far[e] = dyd_irect_end(&far->r, axis, e);
-    s->far_d[e] = far->box.end[2 * axis + e];
-    s->at[DYD_NEAR_LO + e] = dyd_irect_end(&near->r, axis, e);
-    s->at_d[DYD_NEAR_LO + e] = near->box.end[2 * axis + e];
-    s->at[DYD_WINDOW_LO + e] = window ? dyd_irect_end(&window->r, axis, e) : NULL;
-    s->at_d[DYD_WINDOW_LO + e] = window ? window->box.end[2 * axis + e] : DYD_IV_UNKNOWN;
-  }
-  s->at[DYD_MIDDLE] = middle;
-  s->at_d[DYD_MIDDLE] = dyd_iv_scale(dyd_iv_add(s->far_d[0], s->far_d[1]), 0.5);
-  s->marks =
-      (dyd_marks){side_set_order, s, !mpz_cmp(s->far[0], s->far[1]), !mpz_cmp(s->at[DYD_NEAR_LO], s->at[DYD_NEAR_HI])};
+void dyd_elementary_clear(dyd_elementary *a) {
+  for (int e = 2; e-- > 0;) dyd_surd_point_clear(&a->end[e]);
 }
 
 /* ---- points of an arc ---- */
@@ -135,14 +110,14 @@ static int arc_slope(const dyd_elementary *a) {
   return n > 0 ? -across : n < 0 ? across : 0;
 }
 
-/* end[e] = the tighter of itself and p (swapped in); e = 0: lower end. */
-static void tighten_end(dyd_spot *end, dyd_surd_point *p, int axis, int e) {
-  int sign = end->infinite ? 0 : dyd_surd_point_cmp(p, &end->at, axis);
-  if (!end->infinite && (e ? sign >= 0 : sign <= 0)) return;
-  dyd_surd_point t = end->at;
-  end->at = *p;
+/* End e = the tighter of itself and p (swapped in); e = 0: lower end. */
+static void tighten_end(dyd_elementary *a, dyd_surd_point *p, int e) {
+  int sign = a->infinite[e] ? 0 : dyd_surd_point_cmp(p, &a->end[e], a->axis);
+  if (!a->infinite[e] && (e ? sign >= 0 : sign <= 0)) return;
+  dyd_surd_point t = a->end[e];
+  a->end[e] = *p;
   *p = t;
-  end->infinite = false;
+  a->infinite[e] = false;
 }
 
 /* A line along `axis`, v = m/2 everywhere: is it in the pane, and on its border only with the region inside? */
@@ -170,32 +145,29 @@ static bool clip_arc_across(dyd_elementary *a, dyd_surd_point *p, int side) {
     if (!bound) continue;
     int missed = point_across(p, a, bound);
     if (missed && (missed > 0) == (e == 1)) return false;
-    if (!missed) tighten_end(&a->end[grows > 0 ? e : 1 - e], p, a->axis, grows > 0 ? e : 1 - e);
+    if (!missed) tighten_end(a, p, grows > 0 ? e : 1 - e);
   }
   return true;
 }
 
-/* Sets the ends and `point`; false: nothing in the pane. */
-static bool clip_arc(dyd_elementary *a, dyd_surd_point *p, int side) {
-  a->end[0].infinite = a->end[1].infinite = true;
+bool dyd_elementary_clip(dyd_elementary *a, int side) {
+  a->infinite[0] = a->infinite[1] = true;
   a->point = false;
   for (int e = 0; e < 2; e++) {
     mpz_srcptr bound = e ? a->hi[a->axis] : a->lo[a->axis];
     if (!bound) continue;
-    dyd_elementary_at(&a->end[e].at, a, bound, 0);
-    a->end[e].infinite = false;
+    dyd_elementary_at(&a->end[e], a, bound, 0);
+    a->infinite[e] = false;
   }
-  if (!clip_arc_across(a, p, side)) return false;
-  if (a->end[0].infinite || a->end[1].infinite) return true;
-  int order = dyd_surd_point_cmp(&a->end[0].at, &a->end[1].at, a->axis);
+  DYD_LOCAL(dyd_surd_point, p);
+  if (!clip_arc_across(a, &p, side)) return false;
+  if (a->infinite[0] || a->infinite[1]) return true;
+  int order = dyd_surd_point_cmp(&a->end[0], &a->end[1], a->axis);
   a->point = order == 0;
   return order <= 0;
 }
 
-/* ---- arcs ---- */
-
-/* Which coordinate to go along: across n where n is longer, or along the directrix. */
-static int arc_choose_axis(const dyd_elementary *a) {
+int dyd_elementary_axis(const dyd_elementary *a) {
   if (a->parabola) return a->q[0] ? 1 : 0;
   DYD_LOCAL_NUMBERS(mpz, x, y);
   mpz_sub(x, a->q[0], a->s[0]);
@@ -203,63 +175,10 @@ static int arc_choose_axis(const dyd_elementary *a) {
   return mpz_cmpabs(x, y) <= 0 ? 0 : 1;
 }
 
-/* The arc of the pane of two strips; false: the pane is the near rectangle, or certainly without an arc. The branch is
- * the sign of t - s_k in the pane, which the middle separates from s. */
-static bool curve_set_arc(dyd_elementary *a, const side_set s[2], const dyd_strip t[2]) {
-  dyd_iv lo[2], hi[2];
-  if (!t[0].fixed && !t[1].fixed) return false;
+bool dyd_elementary_holds(const dyd_elementary *a, const dyd_surd_point *p) {
   for (int k = 0; k < 2; k++) {
-    a->s[k] = s[k].far[t[k].far_end];
-    a->q[k] = t[k].fixed ? s[k].at[t[k].q] : NULL;
-    a->lo[k] = s[k].at[t[k].lo];
-    a->hi[k] = s[k].at[t[k].hi];
-    a->shape.s[k] = s[k].far_d[t[k].far_end];
-    a->shape.q[k] = t[k].fixed ? s[k].at_d[t[k].q] : DYD_IV_UNKNOWN;
-    lo[k] = s[k].at_d[t[k].lo];
-    hi[k] = s[k].at_d[t[k].hi];
-  }
-  a->corner = (dyd_feature_kind)(t[0].far_end + 2 * t[1].far_end);
-  a->feature = dyd_strips_feature(t);
-  a->parabola = a->shape.parabola = !t[0].fixed || !t[1].fixed;
-  a->axis = arc_choose_axis(a);
-  a->branch = !a->parabola ? 0 : t[a->axis].above ? 1 : -1;
-  DYD_INVARIANT(a->branch != 1 || mpz_cmp(a->lo[a->axis], a->s[a->axis]) >= 0);
-  DYD_INVARIANT(a->branch != -1 || mpz_cmp(a->hi[a->axis], a->s[a->axis]) <= 0);
-  int o = 1 - a->axis, across = mpz_cmp(a->s[o], a->q[o]);
-  if (!across) return false; /* a focus on the directrix, outside of the pane: the rectangles are disjoint */
-  a->direction = (across > 0) == (a->axis == 0) ? 1 : -1;
-  return !dyd_filter_no_arc(&a->shape, a->axis, a->branch, lo, hi);
-}
-
-size_t dyd_curve_set(dyd_elementary *out, mpz_t middle[2], const dyd_scaled *far, const dyd_scaled *near,
-                     const dyd_scaled *window, int side, int64_t shift) {
-  dyd_strip x[4], y[4];
-  side_set s[2];
-  DYD_LOCAL(dyd_surd_point, p);
-  for (int k = 0; k < 2; k++) {
-    mpz_add(middle[k], dyd_irect_end(&far->r, k, 0), dyd_irect_end(&far->r, k, 1));
-    mpz_tdiv_q_2exp(middle[k], middle[k], 1);
-    side_set_init(&s[k], far, near, window, k, middle[k]);
-  }
-  bool near_point = s[0].marks.near_thin && s[1].marks.near_thin;
-  size_t columns = dyd_marks_strips(x, &s[0].marks, near_point), rows = dyd_marks_strips(y, &s[1].marks, near_point);
-  size_t count = 0;
-  for (size_t k = 0; k < columns * rows; k++) {
-    dyd_elementary *a = &out[count];
-    const dyd_strip t[2] = {x[k / rows], y[k % rows]};
-    if (!curve_set_arc(a, s, t) || !clip_arc(a, &p, side)) continue;
-    for (int e = 0; e < 2; e++)
-      if (!a->end[e].infinite) dyd_filter_spot_box(&a->end[e], shift);
-    count++;
-  }
-  return count;
-}
-
-bool dyd_elementary_holds(const dyd_elementary *a, const dyd_spot *p) {
-  if (dyd_filter_spot_beside(p, &a->end[0], &a->end[1])) return false;
-  for (int k = 0; k < 2; k++) {
-    if (a->lo[k] && dyd_surd_point_cmp_z(&p->at, k, a->lo[k]) < 0) return false;
-    if (a->hi[k] && dyd_surd_point_cmp_z(&p->at, k, a->hi[k]) > 0) return false;
+    if (a->lo[k] && dyd_surd_point_cmp_z(p, k, a->lo[k]) < 0) return false;
+    if (a->hi[k] && dyd_surd_point_cmp_z(p, k, a->hi[k]) > 0) return false;
   }
   return true;
 }
