@@ -131,27 +131,6 @@ distances(double value[DYD_TREE_FANOUT], const dyd_tree *t, int level, size_t fi
   for (size_t e = 0; e < count; e++) DYD_INVARIANT(value[e] == dyd_ds2_lower(c, child_box(t, level, first + e)));
 }
 
-void dyd_tree_near(const dyd_tree *t, const dyd_bbox *c, const double *radius2, dyd_visit visit, void *context) {
-  frame stack[STACK];
-  double value[DYD_TREE_FANOUT];
-  int depth = 0;
-  if (t->levels) stack[depth++] = (frame){t->levels - 1, 0, 0};
-  while (depth) {
-    frame f = stack[--depth];
-    size_t first, end;
-    if (f.value > *radius2) continue;
-    children(&first, &end, t, f.level, f.node);
-    distances(value, t, f.level, first, end, c);
-    for (size_t e = first; e < end; e++) {
-      if (value[e - first] > *radius2) continue;
-      if (f.level > 0)
-        stack[depth++] = (frame){f.level - 1, e, value[e - first]};
-      else if (!visit(context, t->item[e]))
-        return;
-    }
-  }
-}
-
 /* Upper bound of max u.x over a box [FLT-DIR]: two products and a sum of relative error u, and the bound's own
  * rounding: below 8u(|ux x| + |uy y|). */
 static double reach(const dyd_bbox *b, double ux, double uy) {
@@ -160,24 +139,44 @@ static double reach(const dyd_bbox *b, double ux, double uy) {
   return isnan(r) ? INFINITY : r;
 }
 
-void dyd_tree_beyond(const dyd_tree *t, double ux, double uy, const double *height, dyd_visit visit, void *context) {
+/* Minus reach for the children of a node. */
+static void depths(double value[DYD_TREE_FANOUT], const dyd_tree *t, int level, size_t first, size_t end, double ux,
+                   double uy) {
+  for (size_t e = first; e < end; e++) value[e - first] = -reach(child_box(t, level, e), ux, uy);
+}
+
+/* Both walks over the tree: near c, or beyond a line across (ux, uy). A copy is compiled for each value of `near`. */
+static inline void tree_walk(const dyd_tree *t, bool near, const dyd_bbox *c, double ux, double uy, const double *limit,
+                             dyd_visit visit, void *context) {
   frame stack[STACK];
+  double value[DYD_TREE_FANOUT];
   int depth = 0;
-  if (t->levels) stack[depth++] = (frame){t->levels - 1, 0, INFINITY};
+  if (t->levels) stack[depth++] = (frame){t->levels - 1, 0, -INFINITY};
   while (depth) {
     frame f = stack[--depth];
     size_t first, end;
-    if (f.value < *height) continue;
+    if (f.value > (near ? *limit : -*limit)) continue;
     children(&first, &end, t, f.level, f.node);
+    if (near)
+      distances(value, t, f.level, first, end, c);
+    else
+      depths(value, t, f.level, first, end, ux, uy);
     for (size_t e = first; e < end; e++) {
-      double value = reach(child_box(t, f.level, e), ux, uy);
-      if (value < *height) continue;
+      if (value[e - first] > (near ? *limit : -*limit)) continue;
       if (f.level > 0)
-        stack[depth++] = (frame){f.level - 1, e, value};
+        stack[depth++] = (frame){f.level - 1, e, value[e - first]};
       else if (!visit(context, t->item[e]))
         return;
     }
   }
+}
+
+void dyd_tree_near(const dyd_tree *t, const dyd_bbox *c, const double *radius2, dyd_visit visit, void *context) {
+  tree_walk(t, true, c, 0, 0, radius2, visit, context);
+}
+
+void dyd_tree_beyond(const dyd_tree *t, double ux, double uy, const double *height, dyd_visit visit, void *context) {
+  tree_walk(t, false, NULL, ux, uy, height, visit, context);
 }
 
 dyd_bbox dyd_point_box(const dyd_point *c) {
