@@ -38,23 +38,14 @@ typedef struct second_search {
   const volatile int *cancel;
 } second_search;
 
-static bool second_is_blocked_by(const dyd_bbox corner[4], const double near[4], const dyd_bbox *k) {
-  for (int q = 0; q < 4; q++)
-    if (!(dyd_dl2_upper(&corner[q], k) < near[q])) return false;
-  return true;
-}
-
 /* Returns true if some other site is certainly nearer in all of c: c is outside of Pos_i. */
 static bool second_is_outside(const second_search *s, const dyd_bbox *c) {
-  dyd_bbox corner[4];
-  double near[4];
-  for (int q = 0; q < 4; q++) {
-    double x = c->e[q & 1], y = c->e[2 + (q >> 1)];
-    corner[q] = (dyd_bbox){{x, x, y, y}};
-    near[q] = dyd_ds2_lower(&corner[q], &s->box[s->own]);
+  double near[4], far[4];
+  dyd_corners_near(near, c, &s->box[s->own]);
+  for (size_t k = 0; k < s->count; k++) {
+    dyd_corners_far(far, c, &s->box[k]);
+    if (dyd_corners_block(far, near)) return true;
   }
-  for (size_t k = 0; k < s->count; k++)
-    if (second_is_blocked_by(corner, near, &s->box[k])) return true;
   return false;
 }
 

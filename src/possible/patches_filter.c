@@ -44,27 +44,27 @@ static inline double dyd_depth_upper(double ux, double uy, double x, double y, d
 }
 
 /* Upper bound of the farthest of a rectangle. */
-static inline double dyd_farthest_upper(const dyd_plane_corner *v, const dyd_bbox *b) {
-  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
-  if (!v->far) return dyd_dl2_upper(&c, b);
-  return dyd_depth_upper(v->x, v->y, v->x > 0 ? b->e[0] : b->e[1], v->y > 0 ? b->e[2] : b->e[3], 0);
+static inline double dyd_farthest_upper(dyd_plane_corner v, const dyd_bbox *b) {
+  dyd_bbox c = {{v.x, v.x, v.y, v.y}};
+  if (!v.far) return dyd_dl2_upper(&c, b);
+  return dyd_depth_upper(v.x, v.y, v.x > 0 ? b->e[0] : b->e[1], v.y > 0 ? b->e[2] : b->e[3], 0);
 }
 /* Lower bound of the closest. */
-static inline double dyd_closest_lower(const dyd_plane_corner *v, const dyd_bbox *b) {
-  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
-  if (!v->far) return dyd_ds2_lower(&c, b);
-  return dyd_depth_lower(v->x, v->y, v->x > 0 ? b->e[1] : b->e[0], v->y > 0 ? b->e[3] : b->e[2], 0);
+static inline double dyd_closest_lower(dyd_plane_corner v, const dyd_bbox *b) {
+  dyd_bbox c = {{v.x, v.x, v.y, v.y}};
+  if (!v.far) return dyd_ds2_lower(&c, b);
+  return dyd_depth_lower(v.x, v.y, v.x > 0 ? b->e[1] : b->e[0], v.y > 0 ? b->e[3] : b->e[2], 0);
 }
 /* The bounds from the other side; slack: by how much the box may be wider than the rectangle. */
-static inline double dyd_farthest_lower(const dyd_plane_corner *v, const dyd_bbox *b, double slack) {
-  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
-  if (!v->far) return dyd_dl2_lower(&c, b, slack);
-  return dyd_depth_lower(v->x, v->y, v->x > 0 ? b->e[0] : b->e[1], v->y > 0 ? b->e[2] : b->e[3], slack);
+static inline double dyd_farthest_lower(dyd_plane_corner v, const dyd_bbox *b, double slack) {
+  dyd_bbox c = {{v.x, v.x, v.y, v.y}};
+  if (!v.far) return dyd_dl2_lower(&c, b, slack);
+  return dyd_depth_lower(v.x, v.y, v.x > 0 ? b->e[0] : b->e[1], v.y > 0 ? b->e[2] : b->e[3], slack);
 }
-static inline double dyd_closest_upper(const dyd_plane_corner *v, const dyd_bbox *b, double slack) {
-  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
-  if (!v->far) return dyd_ds2_upper(&c, b, slack);
-  return dyd_depth_upper(v->x, v->y, v->x > 0 ? b->e[1] : b->e[0], v->y > 0 ? b->e[3] : b->e[2], slack);
+static inline double dyd_closest_upper(dyd_plane_corner v, const dyd_bbox *b, double slack) {
+  dyd_bbox c = {{v.x, v.x, v.y, v.y}};
+  if (!v.far) return dyd_ds2_upper(&c, b, slack);
+  return dyd_depth_upper(v.x, v.y, v.x > 0 ? b->e[1] : b->e[0], v.y > 0 ? b->e[3] : b->e[2], slack);
 }
 
 /* If ds_i(c), ds_j(c) <= M(c), the least dl_k(c) of all k, then c is a centre of ij [POS-1]. Any c will do; the bounds
@@ -137,11 +137,12 @@ typedef struct wish {
   uint16_t a, b;
 } wish;
 
-/* side < 0: the square [x0,x1] x [y0,y1]. Else the strip at that side of the root square between the rays x0, x1.
- * listed: the open pairs are wish[first_wish .. + wishes) of the plane, else all pairs of the list. levels: how often
- * it was cut since it was listed and not coarse. */
+/* side < 0: the square `at`. Else the strip at that side of the root square between the rays at.e[0] and at.e[1]. Its
+ * list is entry[first .. first + count); listed: the open pairs are wish[first_wish .. + wishes), else all pairs of the
+ * list. Both lie behind those of the patch around it. levels: how often it was cut since it was listed and not coarse.
+ */
 typedef struct patch {
-  double x0, x1, y0, y1;
+  dyd_bbox at;
   int side, depth, levels;
   size_t first, count, first_wish, wishes;
   bool listed, coarse;
@@ -149,11 +150,12 @@ typedef struct patch {
 
 typedef struct plane {
   const dyd_patches *c;
-  double x0, x1, y0, y1, cx, cy, radius; /* the root square */
+  dyd_bbox root;
+  double cx, cy, radius;      /* of the root */
+  dyd_plane_corner corner[4]; /* of the strip at hand; numbered as those of a box */
   entry *entry;
-  size_t entries, entry_cap;
   wish *wish;
-  size_t wishes, wish_cap;
+  size_t entry_cap, wish_cap;
   uint16_t *place; /* by place in the parent's list of a listed patch: place in the patch's list */
   bool *rival, *wanted;
   double *value;
@@ -167,14 +169,8 @@ typedef struct plane {
 static dyd_plane_corner ray(const plane *p, int side, double w, bool far) {
   double one = side & 1 ? -1 : 1;
   if (far) return side < 2 ? (dyd_plane_corner){w, one, true} : (dyd_plane_corner){one, w, true};
-  if (side < 2) return (dyd_plane_corner){p->cx + p->radius * w, side & 1 ? p->y0 : p->y1, false};
-  return (dyd_plane_corner){side & 1 ? p->x0 : p->x1, p->cy + p->radius * w, false};
-}
-
-static void corners(dyd_plane_corner v[4], const plane *p, const patch *q) {
-  for (int k = 0; k < 4; k++)
-    v[k] = q->side < 0 ? (dyd_plane_corner){k & 1 ? q->x1 : q->x0, k & 2 ? q->y1 : q->y0, false}
-                       : ray(p, q->side, k & 1 ? q->x1 : q->x0, k & 2);
+  if (side < 2) return (dyd_plane_corner){p->cx + p->radius * w, p->root.e[side & 1 ? 2 : 3], false};
+  return (dyd_plane_corner){p->root.e[side & 1 ? 0 : 1], p->cy + p->radius * w, false};
 }
 
 /* ---- the list of a patch ---- */
@@ -184,43 +180,34 @@ typedef struct dominator {
   double at[4]; /* farthest_upper at the corners */
 } dominator;
 
-/* farthest_upper at the corners. Those of a square have two x and two y only: the same steps, but half of them. */
-static void measure(dominator *d, const plane *p, const dyd_plane_corner v[4]) {
+/* farthest_upper at the corners. */
+static void measure(dominator *d, const plane *p, const patch *q) {
   const dyd_bbox *b = &p->c->rects->box[d->vertex];
-  const double c[4] = {v[0].x, v[3].x, v[0].y, v[3].y};
-  double s[4];
-  if (v[3].far) {
-    for (int k = 0; k < 4; k++) d->at[k] = dyd_farthest_upper(&v[k], b);
+  if (q->side < 0) {
+    dyd_corners_far(d->at, &q->at, b);
     return;
   }
-  for (int k = 0; k < 4; k++) s[k] = dyd_max(b->e[k | 1] - c[k], c[k] - b->e[k & 2]);
-  for (int k = 0; k < 4; k++) s[k] *= s[k];
-  for (int k = 0; k < 4; k++) d->at[k] = dyd_upper(s[k & 1] + s[2 + (k >> 1)]);
+  for (int k = 0; k < 4; k++) d->at[k] = dyd_farthest_upper(p->corner[k], b);
 }
 
-/* closest_lower at the corners, likewise. */
-static void measure_closest(double at[4], const plane *p, uint32_t vertex, const dyd_plane_corner v[4]) {
+/* closest_lower at the corners. */
+static void measure_closest(double at[4], const plane *p, uint32_t vertex, const patch *q) {
   const dyd_bbox *b = &p->c->rects->box[vertex];
-  const double c[4] = {v[0].x, v[3].x, v[0].y, v[3].y};
-  double s[4];
-  if (v[3].far) {
-    for (int k = 0; k < 4; k++) at[k] = dyd_closest_lower(&v[k], b);
+  if (q->side < 0) {
+    dyd_corners_near(at, &q->at, b);
     return;
   }
-  for (int k = 0; k < 4; k++) s[k] = dyd_max(b->e[k & 2] - c[k], c[k] - b->e[k | 1]);
-  for (int k = 0; k < 4; k++) s[k] = dyd_max(s[k], 0);
-  for (int k = 0; k < 4; k++) s[k] *= s[k];
-  for (int k = 0; k < 4; k++) at[k] = dyd_lower(s[k & 1] + s[2 + (k >> 1)]);
+  for (int k = 0; k < 4; k++) at[k] = dyd_closest_lower(p->corner[k], b);
 }
 
 /* Finds the nearest vertices at the worst corner and at each corner. Returns their number. */
-static int choose_dominators(dominator best[DOMINATORS], const plane *p, const patch *q, const dyd_plane_corner v[4]) {
+static int choose_dominators(dominator best[DOMINATORS], const plane *p, const patch *q) {
   double least[DOMINATORS] = {INFINITY, INFINITY, INFINITY, INFINITY, INFINITY};
   dominator all[DOMINATORS] = {{DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}};
   for (size_t e = 0; e < q->count; e++) {
     if (!p->rival[e]) continue;
     dominator d = {.vertex = p->entry[q->first + e].vertex};
-    measure(&d, p, v);
+    measure(&d, p, q);
     double worst = dyd_max(dyd_max(d.at[0], d.at[1]), dyd_max(d.at[2], d.at[3]));
     for (int k = 0; k < DOMINATORS; k++) {
       double value = k == 0 ? worst : d.at[k - 1];
@@ -238,27 +225,25 @@ static int choose_dominators(dominator best[DOMINATORS], const plane *p, const p
   return count;
 }
 
-static bool is_dominated(const plane *p, uint32_t vertex, const dyd_plane_corner v[4], const dominator *best,
-                         int count) {
+static bool is_dominated(const plane *p, uint32_t vertex, const patch *q, const dominator *best, int count) {
   double at[4];
-  measure_closest(at, p, vertex, v);
+  measure_closest(at, p, vertex, q);
   for (int m = 0; m < count; m++)
-    if (best[m].at[0] < at[0] && best[m].at[1] < at[1] && best[m].at[2] < at[2] && best[m].at[3] < at[3] &&
-        best[m].vertex != vertex)
-      return true;
+    if (dyd_corners_block(best[m].at, at) && best[m].vertex != vertex) return true;
   return false;
 }
 
 static dyd_plane_corner centre_of(const plane *p, const patch *q) {
-  double x = q->x0 + (q->x1 - q->x0) / 2, y = q->y0 + (q->y1 - q->y0) / 2;
-  return q->side < 0 ? (dyd_plane_corner){x, y, false} : ray(p, q->side, x, true);
+  const dyd_bbox lower = dyd_box_part(&q->at, 0);
+  return q->side < 0 ? (dyd_plane_corner){lower.e[1], lower.e[3], false} : ray(p, q->side, lower.e[1], true);
 }
 
 /* An upper bound of dl at the centre for the vertex with the least dl anywhere in a square: dl changes by at most the
  * way, so it is at most the least one at the centre, and twice the way to the farthest corner. Infinite for strips. */
 static double rival_limit(const patch *q, const dyd_plane_corner *centre, double least2) {
   if (q->side >= 0) return INFINITY;
-  double dx = dyd_max(q->x1 - centre->x, centre->x - q->x0), dy = dyd_max(q->y1 - centre->y, centre->y - q->y0);
+  const double *e = q->at.e;
+  double dx = dyd_max(e[1] - centre->x, centre->x - e[0]), dy = dyd_max(e[3] - centre->y, centre->y - e[2]);
   double limit = sqrt(least2) + 2 * sqrt(dyd_upper(dx * dx + dy * dy));
   limit = dyd_upper(limit * limit);
   return isnan(limit) ? INFINITY : limit;
@@ -275,10 +260,10 @@ static void find_rivals(plane *p, const patch *q) {
   p->least = INFINITY;
   for (size_t k = 0; k < q->count; k++) {
     if (!e[k].rival) continue;
-    p->value[k] = dyd_farthest_lower(&centre, &box[e[k].vertex], dyd_box_slack(p->c->rects, e[k].vertex));
+    p->value[k] = dyd_farthest_lower(centre, &box[e[k].vertex], dyd_box_slack(p->c->rects, e[k].vertex));
     good = good && !isnan(p->value[k]);
     p->least = dyd_min(p->value[k], p->least);
-    upper = dyd_min(dyd_farthest_upper(&centre, &box[e[k].vertex]), upper);
+    upper = dyd_min(dyd_farthest_upper(centre, &box[e[k].vertex]), upper);
   }
   if (!good) p->least = -INFINITY;
   double limit = rival_limit(q, &centre, upper);
@@ -297,24 +282,23 @@ static void find_wanted(plane *p, const patch *q) {
 /* Writes the rivals of the parent's list, and its members with open pairs that are not dominated, behind all lists, and
  * makes that q's list. place[]: the new places of the latter. Returns how many they are. */
 static size_t make_list(plane *p, patch *q) {
-  dyd_plane_corner v[4];
   dominator best[DOMINATORS];
+  for (int k = 0; k < 4 && q->side >= 0; k++) p->corner[k] = ray(p, q->side, q->at.e[k & 1], k & 2);
   find_rivals(p, q);
   find_wanted(p, q);
-  corners(v, p, q);
-  int dominators = choose_dominators(best, p, q, v);
-  size_t members = 0, first = p->entries;
+  int dominators = choose_dominators(best, p, q);
+  size_t members = 0, first = q->first + q->count, end = first;
   for (size_t k = 0; k < q->count; k++) {
     entry e = p->entry[q->first + k];
-    bool out = (!p->wanted[k] && !p->rival[k]) || is_dominated(p, e.vertex, v, best, dominators);
+    bool out = (!p->wanted[k] && !p->rival[k]) || is_dominated(p, e.vertex, q, best, dominators);
     bool in = !out && p->wanted[k];
-    if (q->listed) p->place[k] = in ? (uint16_t)(p->entries - first) : UINT16_MAX;
+    if (q->listed) p->place[k] = in ? (uint16_t)(end - first) : UINT16_MAX;
     if (out) continue;
-    p->entry[p->entries++] = (entry){e.vertex, in ? e.member : DYD_NONE, p->rival[k]};
+    p->entry[end++] = (entry){e.vertex, in ? e.member : DYD_NONE, p->rival[k]};
     members += in;
   }
   q->first = first;
-  q->count = p->entries - first;
+  q->count = end - first;
   return members;
 }
 
@@ -333,7 +317,7 @@ static void patches_try_centre(plane *p, patch *q) {
   dyd_plane_corner v = centre_of(p, q);
   size_t near = 0;
   for (size_t k = 0; k < q->count; k++) {
-    p->near[k] = dyd_closest_upper(&v, &r->box[e[k].vertex], dyd_box_slack(r, e[k].vertex)) <= p->least;
+    p->near[k] = dyd_closest_upper(v, &r->box[e[k].vertex], dyd_box_slack(r, e[k].vertex)) <= p->least;
     near += p->near[k];
   }
   q->coarse = q->depth < FINE && q->count > COARSE * (near ? near : 1);
@@ -348,9 +332,8 @@ static dyd_status consider(plane *p, patch *q, size_t a, size_t b) {
     return p->c->found(p->c->context, &p->enough, i->member, j->member);
   }
   if (!q->listed) return DYD_OK;
-  if (!DYD_GROW(p->wish, p->wish_cap, p->wishes + 1)) return DYD_E_NOMEM;
-  p->wish[p->wishes++] = (wish){(uint16_t)a, (uint16_t)b};
-  q->wishes++;
+  if (!DYD_GROW(p->wish, p->wish_cap, q->first_wish + q->wishes + 1)) return DYD_E_NOMEM;
+  p->wish[q->first_wish + q->wishes++] = (wish){(uint16_t)a, (uint16_t)b};
   return DYD_OK;
 }
 
@@ -358,7 +341,7 @@ static dyd_status consider(plane *p, patch *q, size_t a, size_t b) {
 static dyd_status consider_wishes(plane *p, patch *q) {
   size_t from = q->first_wish, count = q->wishes;
   dyd_status st = DYD_OK;
-  q->first_wish = p->wishes;
+  q->first_wish = from + count;
   q->wishes = 0;
   q->levels++;
   for (size_t k = 0; k < count && st == DYD_OK && !p->enough; k++) {
@@ -372,7 +355,6 @@ static dyd_status consider_wishes(plane *p, patch *q) {
 static dyd_status consider_all(plane *p, patch *q) {
   dyd_status st = DYD_OK;
   q->listed = q->count <= LONG;
-  q->first_wish = p->wishes;
   for (size_t a = 0; a < q->count; a++)
     for (size_t b = a + 1; b < q->count && st == DYD_OK && !p->enough; b++) st = consider(p, q, a, b);
   return st;
@@ -405,13 +387,11 @@ static dyd_status leave(plane *p, const patch *q) {
 static dyd_status look(plane *p, patch q);
 
 static dyd_status cut(plane *p, const patch *q) {
-  double x = q->x0 + (q->x1 - q->x0) / 2, y = q->y0 + (q->y1 - q->y0) / 2;
   dyd_status st = DYD_OK;
   for (int k = 0; k < (q->side < 0 ? 4 : 2) && st == DYD_OK; k++) {
     patch part = *q;
     part.depth++;
-    *(k & 1 ? &part.x0 : &part.x1) = x;
-    if (q->side < 0) *(k & 2 ? &part.y0 : &part.y1) = y;
+    part.at = dyd_box_part(&q->at, k);
     st = look(p, part);
   }
   return st;
@@ -434,16 +414,13 @@ static dyd_status go_on(plane *p, patch *q, size_t before, size_t open) {
 }
 
 static dyd_status look(plane *p, patch q) {
-  size_t entries = p->entries, wishes = p->wishes, before = q.count, open = q.wishes;
+  size_t before = q.count, open = q.wishes;
   p->work += before;
   p->lost = p->lost || q.depth > MAX_DEPTH;
   if (p->enough || is_lost(p)) return DYD_OK;
   if (dyd_flag_is_set(p->c->cancel)) return DYD_CANCELLED;
-  if (!DYD_GROW(p->entry, p->entry_cap, p->entries + 2 * before)) return DYD_E_NOMEM;
-  dyd_status st = make_list(p, &q) < 2 ? DYD_OK : go_on(p, &q, before, open);
-  p->entries = entries;
-  p->wishes = wishes;
-  return st;
+  if (!DYD_GROW(p->entry, p->entry_cap, q.first + 2 * before)) return DYD_E_NOMEM;
+  return make_list(p, &q) < 2 ? DYD_OK : go_on(p, &q, before, open);
 }
 
 /* ---- the whole plane ---- */
@@ -460,10 +437,7 @@ static void set_root(plane *p) {
   p->cx = e[0] + (e[1] - e[0]) / 2;
   p->cy = e[2] + (e[3] - e[2]) / 2;
   p->radius = 8 * dyd_max(e[1] - e[0], e[3] - e[2]);
-  p->x0 = p->cx - p->radius;
-  p->x1 = p->cx + p->radius;
-  p->y0 = p->cy - p->radius;
-  p->y1 = p->cy + p->radius;
+  p->root = (dyd_bbox){{p->cx - p->radius, p->cx + p->radius, p->cy - p->radius, p->cy + p->radius}};
 }
 
 static dyd_status everybody(plane *p) {
@@ -472,26 +446,24 @@ static dyd_status everybody(plane *p) {
       !DYD_NEW(p->wanted, t->count) || !DYD_NEW(p->value, t->count) || !DYD_GROW(p->entry, p->entry_cap, t->count))
     return DYD_E_NOMEM;
   for (uint32_t q = 0; q < t->count; q++) p->entry[q] = (entry){t->item[q], patches_member(p->c, t->item[q]), true};
-  p->entries = t->count;
   return DYD_OK;
 }
 
 /* Examines everything. The first pass finds most pairs that are possible at centres, wherever these are met; the last
  * one decides all. */
 static dyd_status pass(plane *p) {
-  patch root = {.x0 = p->x0, .x1 = p->x1, .y0 = p->y0, .y1 = p->y1, .side = -1, .count = p->entries};
-  dyd_status st = look(p, root);
-  for (int side = 0; side < 4 && st == DYD_OK; side++) {
-    patch strip = {.x0 = -1, .x1 = 1, .side = side, .count = p->entries};
-    st = look(p, strip);
-  }
+  const uint32_t count = p->c->rects->tree.count;
+  dyd_status st = look(p, (patch){.at = p->root, .side = -1, .count = count});
+  for (int side = 0; side < 4 && st == DYD_OK; side++)
+    st = look(p, (patch){.at = {{-1, 1, 0, 0}}, .side = side, .count = count});
   return st;
 }
 
 dyd_status dyd_patches_run(bool *complete, const dyd_patches *c) {
   plane p = {.c = c};
   set_root(&p);
-  bool finite = isfinite(p.x0) && isfinite(p.x1) && isfinite(p.y0) && isfinite(p.y1);
+  const double *e = p.root.e;
+  bool finite = isfinite(e[0]) && isfinite(e[1]) && isfinite(e[2]) && isfinite(e[3]);
   dyd_status st = finite ? everybody(&p) : DYD_OK;
   if (finite && st == DYD_OK) st = pass(&p);
   p.last = true;

@@ -223,15 +223,6 @@ static bool box_is_within(const dyd_bbox *a, const dyd_bbox *b) {
   return b->e[0] <= a->e[0] && a->e[1] <= b->e[1] && b->e[2] <= a->e[2] && a->e[3] <= b->e[3];
 }
 
-static void grow_found(search *s, const dyd_bbox *c) {
-  if (!s->any) s->found = *c;
-  s->any = true;
-  for (int k = 0; k < 4; k += 2) {
-    s->found.e[k] = dyd_min(s->found.e[k], c->e[k]);
-    s->found.e[k + 1] = dyd_max(s->found.e[k + 1], c->e[k + 1]);
-  }
-}
-
 /* ---- sites possible in a box ---- */
 
 /* Keeps the sites of list[from .. from+count) that ranges do not exclude; returns how many. */
@@ -244,25 +235,16 @@ static size_t region_keep_near(search *s, const dyd_bbox *c, size_t from, size_t
   return kept - from;
 }
 
-static bool is_blocked(double far[BLOCKERS][4], size_t blockers, const double near[4]) {
-  for (size_t k = 0; k < blockers; k++)
-    if (far[k][0] < near[0] && far[k][1] < near[1] && far[k][2] < near[2] && far[k][3] < near[3]) return true;
-  return false;
-}
-
 /* Keeps the sites that no other blocks at the corners. No site blocks itself, as far >= near. */
 static size_t region_keep_open(search *s, const dyd_bbox *c, size_t from, size_t count) {
   double far[BLOCKERS][4], near[4];
-  dyd_bbox corner[4];
   size_t kept = from, blockers = count < BLOCKERS ? count : BLOCKERS;
-  for (int q = 0; q < 4; q++) {
-    double x = c->e[q & 1], y = c->e[2 + (q >> 1)];
-    corner[q] = (dyd_bbox){{x, x, y, y}};
-    for (size_t k = 0; k < blockers; k++) far[k][q] = dyd_dl2_upper(&corner[q], &s->site[s->list[from + k]]);
-  }
+  for (size_t k = 0; k < blockers; k++) dyd_corners_far(far[k], c, &s->site[s->list[from + k]]);
   for (size_t k = from; k < from + count; k++) {
-    for (int q = 0; q < 4; q++) near[q] = dyd_ds2_lower(&corner[q], &s->site[s->list[k]]);
-    if (!is_blocked(far, blockers, near)) s->list[kept++] = s->list[k];
+    size_t m = 0;
+    dyd_corners_near(near, c, &s->site[s->list[k]]);
+    while (m < blockers && !dyd_corners_block(far[m], near)) m++;
+    if (m == blockers) s->list[kept++] = s->list[k];
   }
   return kept - from;
 }
@@ -306,12 +288,13 @@ static void region_bisect(search *s, const dyd_bbox *c, const region_lists *arou
   if (s->st == DYD_OK) region_cut(&own, s, c);
   if (s->st != DYD_OK || !own.pair_count) return;
   if (depth == 0) {
-    grow_found(s, c);
+    if (!s->any) s->found = *c;
+    s->any = true;
+    dyd_box_widen(&s->found, c);
     return;
   }
-  double x = c->e[0] / 2 + c->e[1] / 2, y = c->e[2] / 2 + c->e[3] / 2;
   for (int q = 0; q < 4; q++) {
-    dyd_bbox part = {{q & 1 ? x : c->e[0], q & 1 ? c->e[1] : x, q & 2 ? y : c->e[2], q & 2 ? c->e[3] : y}};
+    const dyd_bbox part = dyd_box_part(c, q);
     region_bisect(s, &part, &own, depth - 1);
   }
 }
