@@ -137,20 +137,14 @@ typedef struct wish {
   uint16_t a, b;
 } wish;
 
-/* side < 0: the square `at`. Else the strip at that side of the root square between the rays at.e[0] and at.e[1]. Its
- * list is entry[first .. first + count); listed: the open pairs are wish[first_wish .. + wishes), else all pairs of the
- * list. Both lie behind those of the patch around it. levels: how often it was cut since it was listed and not coarse.
- */
-typedef struct patch {
-  dyd_bbox at;
-  int side, depth, levels;
-  size_t first, count, first_wish, wishes;
-  bool listed, coarse;
-} patch;
-
+/* The plane and its patches: parts of a square, or of a strip between the rays e[0] and e[1]. The list of a patch is
+ * entry[first .. first + count). level > 0: it is listed, and its open pairs are wish[first_pair .. + pairs); 0: they
+ * are all pairs of the list. A listed patch was cut level - 1 times since it was listed and not coarse. */
 typedef struct plane {
   const dyd_patches *c;
   dyd_bbox root;
+  int side;                   /* < 0: squares are examined; else the strip at that side of the root */
+  bool coarse;                /* the patch at hand */
   double cx, cy, radius;      /* of the root */
   dyd_plane_corner corner[4]; /* of the strip at hand; numbered as those of a box */
   entry *entry;
@@ -166,7 +160,8 @@ typedef struct plane {
   bool enough, lost;
 } plane;
 
-static dyd_plane_corner ray(const plane *p, int side, double w, bool far) {
+static dyd_plane_corner ray(const plane *p, double w, bool far) {
+  int side = p->side;
   double one = side & 1 ? -1 : 1;
   if (far) return side < 2 ? (dyd_plane_corner){w, one, true} : (dyd_plane_corner){one, w, true};
   if (side < 2) return (dyd_plane_corner){p->cx + p->radius * w, p->root.e[side & 1 ? 2 : 3], false};
@@ -181,9 +176,9 @@ typedef struct dominator {
 } dominator;
 
 /* farthest_upper at the corners. */
-static void measure(dominator *d, const plane *p, const patch *q) {
+static void measure(dominator *d, const plane *p, const dyd_part *q) {
   const dyd_bbox *b = &p->c->rects->box[d->vertex];
-  if (q->side < 0) {
+  if (p->side < 0) {
     dyd_corners_far(d->at, &q->at, b);
     return;
   }
@@ -191,9 +186,9 @@ static void measure(dominator *d, const plane *p, const patch *q) {
 }
 
 /* closest_lower at the corners. */
-static void measure_closest(double at[4], const plane *p, uint32_t vertex, const patch *q) {
+static void measure_closest(double at[4], const plane *p, uint32_t vertex, const dyd_part *q) {
   const dyd_bbox *b = &p->c->rects->box[vertex];
-  if (q->side < 0) {
+  if (p->side < 0) {
     dyd_corners_near(at, &q->at, b);
     return;
   }
@@ -201,7 +196,7 @@ static void measure_closest(double at[4], const plane *p, uint32_t vertex, const
 }
 
 /* Finds the nearest vertices at the worst corner and at each corner. Returns their number. */
-static int choose_dominators(dominator best[DOMINATORS], const plane *p, const patch *q) {
+static int choose_dominators(dominator best[DOMINATORS], const plane *p, const dyd_part *q) {
   double least[DOMINATORS] = {INFINITY, INFINITY, INFINITY, INFINITY, INFINITY};
   dominator all[DOMINATORS] = {{DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}};
   for (size_t e = 0; e < q->count; e++) {
@@ -225,7 +220,7 @@ static int choose_dominators(dominator best[DOMINATORS], const plane *p, const p
   return count;
 }
 
-static bool is_dominated(const plane *p, uint32_t vertex, const patch *q, const dominator *best, int count) {
+static bool is_dominated(const plane *p, uint32_t vertex, const dyd_part *q, const dominator *best, int count) {
   double at[4];
   measure_closest(at, p, vertex, q);
   for (int m = 0; m < count; m++)
@@ -233,15 +228,15 @@ static bool is_dominated(const plane *p, uint32_t vertex, const patch *q, const 
   return false;
 }
 
-static dyd_plane_corner centre_of(const plane *p, const patch *q) {
+static dyd_plane_corner centre_of(const plane *p, const dyd_part *q) {
   const dyd_bbox lower = dyd_box_part(&q->at, 0);
-  return q->side < 0 ? (dyd_plane_corner){lower.e[1], lower.e[3], false} : ray(p, q->side, lower.e[1], true);
+  return p->side < 0 ? (dyd_plane_corner){lower.e[1], lower.e[3], false} : ray(p, lower.e[1], true);
 }
 
 /* An upper bound of dl at the centre for the vertex with the least dl anywhere in a square: dl changes by at most the
  * way, so it is at most the least one at the centre, and twice the way to the farthest corner. Infinite for strips. */
-static double rival_limit(const patch *q, const dyd_plane_corner *centre, double least2) {
-  if (q->side >= 0) return INFINITY;
+static double rival_limit(const plane *p, const dyd_part *q, const dyd_plane_corner *centre, double least2) {
+  if (p->side >= 0) return INFINITY;
   const double *e = q->at.e;
   double dx = dyd_max(e[1] - centre->x, centre->x - e[0]), dy = dyd_max(e[3] - centre->y, centre->y - e[2]);
   double limit = sqrt(least2) + 2 * sqrt(dyd_upper(dx * dx + dy * dy));
@@ -251,7 +246,7 @@ static double rival_limit(const patch *q, const dyd_plane_corner *centre, double
 
 /* rival[k]: whether the k-th of the parent's list may have the least dl somewhere in q. p->least: M at the centre from
  * below. */
-static void find_rivals(plane *p, const patch *q) {
+static void find_rivals(plane *p, const dyd_part *q) {
   const entry *e = p->entry + q->first;
   const dyd_bbox *box = p->c->rects->box;
   dyd_plane_corner centre = centre_of(p, q);
@@ -266,24 +261,24 @@ static void find_rivals(plane *p, const patch *q) {
     upper = dyd_min(dyd_farthest_upper(centre, &box[e[k].vertex]), upper);
   }
   if (!good) p->least = -INFINITY;
-  double limit = rival_limit(q, &centre, upper);
+  double limit = rival_limit(p, q, &centre, upper);
   for (size_t k = 0; k < q->count; k++) p->rival[k] = e[k].rival && !(p->value[k] > limit);
 }
 
 /* wanted[k]: whether the k-th of the parent's list is a member with open pairs. */
-static void find_wanted(plane *p, const patch *q) {
-  for (size_t k = 0; k < q->count; k++) p->wanted[k] = !q->listed && p->entry[q->first + k].member != DYD_NONE;
-  for (size_t k = 0; k < q->wishes && q->listed; k++) {
-    p->wanted[p->wish[q->first_wish + k].a] = true;
-    p->wanted[p->wish[q->first_wish + k].b] = true;
+static void find_wanted(plane *p, const dyd_part *q) {
+  for (size_t k = 0; k < q->count; k++) p->wanted[k] = q->level == 0 && p->entry[q->first + k].member != DYD_NONE;
+  for (size_t k = 0; k < q->pairs && q->level > 0; k++) {
+    p->wanted[p->wish[q->first_pair + k].a] = true;
+    p->wanted[p->wish[q->first_pair + k].b] = true;
   }
 }
 
 /* Writes the rivals of the parent's list, and its members with open pairs that are not dominated, behind all lists, and
  * makes that q's list. place[]: the new places of the latter. Returns how many they are. */
-static size_t make_list(plane *p, patch *q) {
+static size_t make_list(plane *p, dyd_part *q) {
   dominator best[DOMINATORS];
-  for (int k = 0; k < 4 && q->side >= 0; k++) p->corner[k] = ray(p, q->side, q->at.e[k & 1], k & 2);
+  for (int k = 0; k < 4 && p->side >= 0; k++) p->corner[k] = ray(p, q->at.e[k & 1], k & 2);
   find_rivals(p, q);
   find_wanted(p, q);
   int dominators = choose_dominators(best, p, q);
@@ -292,7 +287,7 @@ static size_t make_list(plane *p, patch *q) {
     entry e = p->entry[q->first + k];
     bool out = (!p->wanted[k] && !p->rival[k]) || is_dominated(p, e.vertex, q, best, dominators);
     bool in = !out && p->wanted[k];
-    if (q->listed) p->place[k] = in ? (uint16_t)(end - first) : UINT16_MAX;
+    if (q->level > 0) p->place[k] = in ? (uint16_t)(end - first) : UINT16_MAX;
     if (out) continue;
     p->entry[end++] = (entry){e.vertex, in ? e.member : DYD_NONE, p->rival[k]};
     members += in;
@@ -311,7 +306,7 @@ static bool is_open(const plane *p, const entry *a, const entry *b) {
 /* near[k]: the k-th of the list is proved possibly nearest at the centre of the patch. All of them are possible
  * neighbours of one another. Much longer lists mean that the patch is coarse for its open pairs, be that by far
  * outliers, by distance or by density. */
-static void patches_try_centre(plane *p, patch *q) {
+static void patches_try_centre(plane *p, dyd_part *q) {
   const dyd_rects *r = p->c->rects;
   const entry *e = p->entry + q->first;
   dyd_plane_corner v = centre_of(p, q);
@@ -320,30 +315,30 @@ static void patches_try_centre(plane *p, patch *q) {
     p->near[k] = dyd_closest_upper(v, &r->box[e[k].vertex], dyd_box_slack(r, e[k].vertex)) <= p->least;
     near += p->near[k];
   }
-  q->coarse = q->depth < FINE && q->count > COARSE * (near ? near : 1);
+  p->coarse = q->depth < FINE && q->count > COARSE * (near ? near : 1);
 }
 
 /* Reports the pair of the list if it is open and shown, else keeps it if it is open and the patch is listed. */
-static dyd_status consider(plane *p, patch *q, size_t a, size_t b) {
+static dyd_status consider(plane *p, dyd_part *q, size_t a, size_t b) {
   const entry *i = &p->entry[q->first + a], *j = &p->entry[q->first + b];
   if (i->member == DYD_NONE || j->member == DYD_NONE || !is_open(p, i, j)) return DYD_OK;
   if (p->near[a] && p->near[b]) {
     p->found++;
     return p->c->found(p->c->context, &p->enough, i->member, j->member);
   }
-  if (!q->listed) return DYD_OK;
-  if (!DYD_GROW(p->wish, p->wish_cap, q->first_wish + q->wishes + 1)) return DYD_E_NOMEM;
-  p->wish[q->first_wish + q->wishes++] = (wish){(uint16_t)a, (uint16_t)b};
+  if (q->level == 0) return DYD_OK;
+  if (!DYD_GROW(p->wish, p->wish_cap, q->first_pair + q->pairs + 1)) return DYD_E_NOMEM;
+  p->wish[q->first_pair + q->pairs++] = (wish){(uint16_t)a, (uint16_t)b};
   return DYD_OK;
 }
 
 /* The parent's open pairs. */
-static dyd_status consider_wishes(plane *p, patch *q) {
-  size_t from = q->first_wish, count = q->wishes;
+static dyd_status consider_wishes(plane *p, dyd_part *q) {
+  size_t from = q->first_pair, count = q->pairs;
   dyd_status st = DYD_OK;
-  q->first_wish = from + count;
-  q->wishes = 0;
-  q->levels++;
+  q->first_pair = from + count;
+  q->pairs = 0;
+  q->level++;
   for (size_t k = 0; k < count && st == DYD_OK && !p->enough; k++) {
     uint16_t a = p->place[p->wish[from + k].a], b = p->place[p->wish[from + k].b];
     if (a != UINT16_MAX && b != UINT16_MAX) st = consider(p, q, a, b);
@@ -352,9 +347,9 @@ static dyd_status consider_wishes(plane *p, patch *q) {
 }
 
 /* All pairs of the list; if it is not too long, the pairs that stay open are noted. */
-static dyd_status consider_all(plane *p, patch *q) {
+static dyd_status consider_all(plane *p, dyd_part *q) {
   dyd_status st = DYD_OK;
-  q->listed = q->count <= LONG;
+  q->level = q->count <= LONG ? 1 : 0;
   for (size_t a = 0; a < q->count; a++)
     for (size_t b = a + 1; b < q->count && st == DYD_OK && !p->enough; b++) st = consider(p, q, a, b);
   return st;
@@ -367,10 +362,10 @@ static bool is_lost(plane *p) {
 }
 
 /* Cutting shows no more: in the last pass, each pair that is still open is decided alone. */
-static dyd_status leave(plane *p, const patch *q) {
+static dyd_status leave(plane *p, const dyd_part *q) {
   dyd_status st = DYD_OK;
-  for (size_t k = 0; k < q->wishes && p->last && st == DYD_OK && !p->enough && !is_lost(p); k++) {
-    wish w = p->wish[q->first_wish + k];
+  for (size_t k = 0; k < q->pairs && p->last && st == DYD_OK && !p->enough && !is_lost(p); k++) {
+    wish w = p->wish[q->first_pair + k];
     const entry *i = &p->entry[q->first + w.a], *j = &p->entry[q->first + w.b];
     if (!is_open(p, i, j)) continue;
     st = p->c->decide(p->c->context, &p->enough, i->member, j->member);
@@ -382,45 +377,31 @@ static dyd_status leave(plane *p, const patch *q) {
   return st;
 }
 
-/* ---- the recursion ---- */
-
-static dyd_status look(plane *p, patch q);
-
-static dyd_status cut(plane *p, const patch *q) {
-  dyd_status st = DYD_OK;
-  for (int k = 0; k < (q->side < 0 ? 4 : 2) && st == DYD_OK; k++) {
-    patch part = *q;
-    part.depth++;
-    part.at = dyd_box_part(&q->at, k);
-    st = look(p, part);
-  }
-  return st;
-}
-
 /* Examines the pairs of q, which was one of `before` sites with `open` pairs, and cuts it where that is of use. */
-static dyd_status go_on(plane *p, patch *q, size_t before, size_t open) {
+static dyd_status go_on(int *parts, plane *p, dyd_part *q, size_t before, size_t open) {
   patches_try_centre(p, q);
-  bool square = q->side < 0, may_shrink = q->coarse && (square || q->depth < NARROW);
+  bool square = p->side < 0, may_shrink = p->coarse && (square || q->depth < NARROW);
   bool stuck = q->count <= SHORT || (q->count > before / 4 * 3 && !may_shrink);
   dyd_status st = DYD_OK;
-  if (q->listed)
+  if (q->level > 0)
     st = consider_wishes(p, q);
   else if (stuck)
     st = consider_all(p, q);
-  if (st != DYD_OK || p->enough || (q->listed && q->wishes == 0)) return st;
-  if (square && q->coarse && q->wishes > q->count) q->levels = 0;
-  bool pays = q->wishes <= open / 4 * 3;
-  return q->listed && !pays && q->levels >= (p->last ? DEEP : 0) ? leave(p, q) : cut(p, q);
+  if (st != DYD_OK || p->enough || (q->level > 0 && q->pairs == 0)) return st;
+  if (square && p->coarse && q->pairs > q->count) q->level = 1;
+  if (q->level > (p->last ? DEEP : 0) && q->pairs > open / 4 * 3) return leave(p, q);
+  *parts = square ? 4 : 2;
+  return DYD_OK;
 }
 
-static dyd_status look(plane *p, patch q) {
-  size_t before = q.count, open = q.wishes;
+static dyd_status look(void *context, int *parts, dyd_part *q) {
+  plane *p = context;
+  size_t before = q->count, open = q->pairs;
   p->work += before;
-  p->lost = p->lost || q.depth > MAX_DEPTH;
+  p->lost = p->lost || q->depth > MAX_DEPTH;
   if (p->enough || is_lost(p)) return DYD_OK;
-  if (dyd_flag_is_set(p->c->cancel)) return DYD_CANCELLED;
-  if (!DYD_GROW(p->entry, p->entry_cap, q.first + 2 * before)) return DYD_E_NOMEM;
-  return make_list(p, &q) < 2 ? DYD_OK : go_on(p, &q, before, open);
+  if (!DYD_GROW(p->entry, p->entry_cap, q->first + 2 * before)) return DYD_E_NOMEM;
+  return make_list(p, q) < 2 ? DYD_OK : go_on(parts, p, q, before, open);
 }
 
 /* ---- the whole plane ---- */
@@ -452,10 +433,12 @@ static dyd_status everybody(plane *p) {
 /* Examines everything. The first pass finds most pairs that are possible at centres, wherever these are met; the last
  * one decides all. */
 static dyd_status pass(plane *p) {
-  const uint32_t count = p->c->rects->tree.count;
-  dyd_status st = look(p, (patch){.at = p->root, .side = -1, .count = count});
-  for (int side = 0; side < 4 && st == DYD_OK; side++)
-    st = look(p, (patch){.at = {{-1, 1, 0, 0}}, .side = side, .count = count});
+  dyd_status st = DYD_OK;
+  for (p->side = -1; p->side < 4 && st == DYD_OK; p->side++) {
+    dyd_part all = {.at = {{-1, 1}}, .count = p->c->rects->tree.count};
+    if (p->side < 0) all.at = p->root;
+    st = dyd_walk_parts(look, p, p->c->cancel, all);
+  }
   return st;
 }
 

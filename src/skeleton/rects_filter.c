@@ -3,11 +3,24 @@
 #include "skeleton/rects_filter.h"
 
 #include "base/alloc.h"
+#include "base/flag.h"
 #include "base/invariant.h"
 #include "skeleton/work.h"
 
 #include <math.h>
 #include <string.h>
+
+dyd_status dyd_walk_parts(dyd_look look, void *context, const volatile int *cancel, dyd_part p) {
+  int parts = 0;
+  dyd_status st = dyd_flag_is_set(cancel) ? DYD_CANCELLED : look(context, &parts, &p);
+  const dyd_bbox at = p.at;
+  p.depth++;
+  for (int k = 0; k < parts && st == DYD_OK; k++) {
+    p.at = dyd_box_part(&at, k);
+    st = dyd_walk_parts(look, context, cancel, p);
+  }
+  return st;
+}
 
 /* ---- the packed box tree; its pruning tests are the bounds of the header and [FLT-DIR] below ---- */
 

@@ -201,8 +201,8 @@ typedef struct region_pair {
   uint32_t i, j;
 } region_pair;
 
-/* The lists of sites and pairs of nested boxes lie one behind the other in list[] and pair[]. in[]: is a site in the
- * list at hand? All false between uses. */
+/* The sites of a part are in list[], its pairs in pair[]. in[]: is a site in the list at hand? All false between uses.
+ * depth: how often boxes are cut. */
 typedef struct search {
   dyd_bbox *site;
   uint32_t *list;
@@ -211,13 +211,8 @@ typedef struct search {
   size_t list_cap, pair_cap;
   dyd_bbox found;
   bool any;
-  dyd_status st;
+  int depth;
 } search;
-
-/* Where the lists of a box begin, and how long they are. */
-typedef struct region_lists {
-  size_t sites, site_count, pairs, pair_count;
-} region_lists;
 
 static bool box_is_within(const dyd_bbox *a, const dyd_bbox *b) {
   return b->e[0] <= a->e[0] && a->e[1] <= b->e[1] && b->e[2] <= a->e[2] && a->e[3] <= b->e[3];
@@ -250,53 +245,50 @@ static size_t region_keep_open(search *s, const dyd_bbox *c, size_t from, size_t
 }
 
 /* Keeps the pairs of pair[from .. from+count) whose ends are in the list. */
-static size_t region_keep_pairs(search *s, const region_lists *at) {
-  size_t kept = at->pairs;
-  for (size_t k = 0; k < at->site_count; k++) s->in[s->list[at->sites + k]] = true;
-  for (size_t k = at->pairs; k < at->pairs + at->pair_count; k++)
+static size_t region_keep_pairs(search *s, const dyd_part *p) {
+  size_t kept = p->first_pair;
+  for (size_t k = 0; k < p->count; k++) s->in[s->list[p->first + k]] = true;
+  for (size_t k = p->first_pair; k < p->first_pair + p->pairs; k++)
     if (s->in[s->pair[k].i] && s->in[s->pair[k].j]) s->pair[kept++] = s->pair[k];
-  for (size_t k = 0; k < at->site_count; k++) s->in[s->list[at->sites + k]] = false;
-  return kept - at->pairs;
+  for (size_t k = 0; k < p->count; k++) s->in[s->list[p->first + k]] = false;
+  return kept - p->first_pair;
 }
 
 /* Cuts the lists down to the sites and pairs possible in the box. */
-static void region_cut(region_lists *at, search *s, const dyd_bbox *c) {
-  at->site_count = region_keep_near(s, c, at->sites, at->site_count);
-  at->site_count = region_keep_open(s, c, at->sites, at->site_count);
-  at->pair_count = at->site_count < 3 ? 0 : region_keep_pairs(s, at);
+static void region_cut(search *s, dyd_part *p) {
+  p->count = region_keep_near(s, &p->at, p->first, p->count);
+  p->count = region_keep_open(s, &p->at, p->first, p->count);
+  p->pairs = p->count < 3 ? 0 : region_keep_pairs(s, p);
 }
 
 /* ---- bisection ---- */
 
-/* *out = a copy of the lists, behind them. */
-static void region_copy_lists(region_lists *out, search *s, const region_lists *at) {
-  *out = (region_lists){at->sites + at->site_count, at->site_count, at->pairs + at->pair_count, at->pair_count};
-  if (!DYD_GROW(s->list, s->list_cap, out->sites + out->site_count) ||
-      !DYD_GROW(s->pair, s->pair_cap, out->pairs + out->pair_count)) {
-    s->st = DYD_E_NOMEM;
-    return;
-  }
-  if (at->site_count) memcpy(s->list + out->sites, s->list + at->sites, at->site_count * sizeof *s->list);
-  if (at->pair_count) memcpy(s->pair + out->pairs, s->pair + at->pairs, at->pair_count * sizeof *s->pair);
+/* Copies the lists of the box around p behind them. */
+static bool region_copy_lists(search *s, dyd_part *p) {
+  const size_t first = p->first + p->count, first_pair = p->first_pair + p->pairs;
+  if (!DYD_GROW(s->list, s->list_cap, first + p->count) || !DYD_GROW(s->pair, s->pair_cap, first_pair + p->pairs))
+    return false;
+  if (p->count) memcpy(s->list + first, s->list + p->first, p->count * sizeof *s->list);
+  if (p->pairs) memcpy(s->pair + first_pair, s->pair + p->first_pair, p->pairs * sizeof *s->pair);
+  p->first = first;
+  p->first_pair = first_pair;
+  return true;
 }
 
-/* Bisects both sides, depth first; boxes inside the enclosure found so far add nothing. */
-static void region_bisect(search *s, const dyd_bbox *c, const region_lists *around, int depth) {
-  region_lists own;
-  if (s->st != DYD_OK || (s->any && box_is_within(c, &s->found))) return;
-  region_copy_lists(&own, s, around);
-  if (s->st == DYD_OK) region_cut(&own, s, c);
-  if (s->st != DYD_OK || !own.pair_count) return;
-  if (depth == 0) {
-    if (!s->any) s->found = *c;
+/* Boxes inside the enclosure found so far add nothing. */
+static dyd_status region_look(void *context, int *parts, dyd_part *p) {
+  search *s = context;
+  if (s->any && box_is_within(&p->at, &s->found)) return DYD_OK;
+  if (!region_copy_lists(s, p)) return DYD_E_NOMEM;
+  region_cut(s, p);
+  if (p->pairs && p->depth < s->depth) {
+    *parts = 4;
+  } else if (p->pairs) {
+    if (!s->any) s->found = p->at;
     s->any = true;
-    dyd_box_widen(&s->found, c);
-    return;
+    dyd_box_widen(&s->found, &p->at);
   }
-  for (int q = 0; q < 4; q++) {
-    const dyd_bbox part = dyd_box_part(c, q);
-    region_bisect(s, &part, &own, depth - 1);
-  }
+  return DYD_OK;
 }
 
 /* Returns true if one side becomes a good deal shorter. */
@@ -305,18 +297,19 @@ static bool box_shrinks(const dyd_bbox *from, const dyd_bbox *to) {
          to->e[3] - to->e[2] < 0.75 * (from->e[3] - from->e[2]);
 }
 
-/* Coarse rounds as long as they pay, then fine ones; *any = false: nothing is possible in *c. */
-static void region_shrink(dyd_bbox *c, search *s, region_lists *all) {
+/* Coarse rounds as long as they pay, then fine ones; s->any = false: nothing is possible in all->at. */
+static dyd_status region_shrink(dyd_part *all, search *s) {
   bool pays = true;
-  for (int depth = COARSE; pays || depth == COARSE;) {
-    if (!pays) depth = FINE;
-    region_cut(all, s, c);
+  for (s->depth = COARSE; pays || s->depth == COARSE;) {
+    if (!pays) s->depth = FINE;
+    region_cut(s, all);
     s->any = false;
-    region_bisect(s, c, all, depth);
-    if (!s->any || s->st != DYD_OK) break;
-    pays = box_shrinks(c, &s->found);
-    *c = s->found;
+    dyd_status st = dyd_walk_parts(region_look, s, NULL, *all);
+    if (st != DYD_OK || !s->any) return st;
+    pays = box_shrinks(&all->at, &s->found);
+    all->at = s->found;
   }
+  return DYD_OK;
 }
 
 /* ---- the lists of a face ---- */
@@ -338,21 +331,17 @@ static void region_load(search *s, const dyd_delaunay *pd, const dyd_pair_list *
 
 dyd_status dyd_filter_region(dyd_bbox *box, bool *any, const dyd_delaunay *pd, const dyd_pair_list *pairs,
                              const dyd_index_list *sites) {
-  search s = {.st = DYD_OK};
-  region_lists all = {0, sites->count, 0, pairs->count};
-  dyd_bbox c = *box;
+  search s = {0};
+  dyd_part all = {.at = *box, .count = sites->count, .pairs = pairs->count};
+  dyd_status st = DYD_E_NOMEM;
   s.site = dyd_alloc(sites->count, sizeof *s.site);
   s.in = dyd_alloc(sites->count, sizeof *s.in);
-  if (!s.site || !s.in || !DYD_GROW(s.list, s.list_cap, sites->count) || !DYD_GROW(s.pair, s.pair_cap, pairs->count))
-    s.st = DYD_E_NOMEM;
-  if (s.st == DYD_OK) {
+  if (s.site && s.in && DYD_GROW(s.list, s.list_cap, sites->count) && DYD_GROW(s.pair, s.pair_cap, pairs->count)) {
     region_load(&s, pd, pairs, sites);
-    region_shrink(&c, &s, &all);
+    st = region_shrink(&all, &s);
   }
-  if (s.st == DYD_OK) {
-    *any = s.any;
-    if (s.any) *box = c;
-  }
+  if (st == DYD_OK) *any = s.any;
+  if (st == DYD_OK && s.any) *box = all.at;
   dyd_free_all(s.pair, s.list, s.in, s.site);
-  return s.st;
+  return st;
 }
