@@ -11,7 +11,6 @@
  * beta is covered, the pair is illegal [COV-1]. */
 #include "possible/cover.h"
 
-#include "possible/patches_filter.h"
 #include "skeleton/rects_filter.h"
 
 #include <math.h>

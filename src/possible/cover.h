@@ -18,4 +18,7 @@ typedef struct dyd_cover {
 dyd_status dyd_cover_possible(dyd_cover *out, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
                               const uint32_t hint[2]);
 
+/* The same in doubles. TRUE: *centre shows it; FALSE: others block all of its curve [COV-2]; UNKNOWN: not decided. */
+dyd_truth dyd_filter_cover(dyd_xy *centre, const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t hint[2]);
+
 #endif

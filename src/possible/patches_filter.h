@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Which pairs can be possible, in doubles: the quick rung of the cover walk for one of them, and for those of a face
- * the plane cut into patches until few sites are possibly nearest in each: a quick way for faces in which many
- * rectangles overlap, where closure under flips would examine many quads for every pair. */
+/* Which pairs of a face can be possible, in doubles: the plane is cut into patches until few sites are possibly nearest
+ * in each: a quick way for faces in which many rectangles overlap, where closure under flips would examine many quads
+ * for every pair. */
 #ifndef DYD_POSSIBLE_PATCHES_FILTER_H
 #define DYD_POSSIBLE_PATCHES_FILTER_H
 
@@ -35,9 +35,5 @@ bool dyd_surely_not_displaced(const dyd_skeleton *sk, uint32_t i, uint32_t j, ui
 
 /* near[k]: vertex[k] is proved possibly nearest at c; all such vertices make possible pairs [POS-1]. */
 void dyd_filter_clique(bool *near, const dyd_rects *r, dyd_xy c, const uint32_t *vertex, size_t count);
-
-/* Decides if the pair of vertices i, j is possible [POS-1]. TRUE: *centre shows it; FALSE: others block all of its
- * curve [COV-2]; UNKNOWN: doubles do not decide. hint: two vertices that are likely to block it (DYD_NONE: no idea). */
-dyd_truth dyd_filter_cover(dyd_xy *centre, const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t hint[2]);
 
 #endif

@@ -7,7 +7,6 @@
 #include "delaunay/read_case.h"
 #include "delaunay/state.h"
 #include "possible/cover.h"
-#include "possible/patches_filter.h"
 #include "skeleton/hull.h"
 #include <cmocka.h>
 #include <string.h>
