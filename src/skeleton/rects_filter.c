@@ -24,22 +24,11 @@ dyd_status dyd_walk_parts(dyd_look look, void *context, const volatile int *canc
 
 /* ---- the packed box tree; its pruning tests are the bounds of the header and [FLT-DIR] below ---- */
 
-/* Children of node q on level k: entries [first, end) of the level below (items for k = 0). */
-static void children(size_t *first, size_t *end, const dyd_tree *t, int k, size_t q) {
-  size_t below = k == 0 ? t->count : t->level[k] - t->level[k - 1];
-  *first = q * DYD_TREE_FANOUT;
-  *end = *first + DYD_TREE_FANOUT < below ? *first + DYD_TREE_FANOUT : below;
-}
-
-static const dyd_bbox *child_box(const dyd_tree *t, int k, size_t entry) {
-  return k == 0 ? &t->box[t->item[entry]] : &t->node[t->level[k - 1] + entry];
-}
-
 static void fill_node(dyd_tree *t, int k, size_t q) {
   size_t first, end;
-  children(&first, &end, t, k, q);
-  dyd_bbox h = *child_box(t, k, first);
-  for (size_t e = first + 1; e < end; e++) dyd_box_widen(&h, child_box(t, k, e));
+  dyd_tree_children(&first, &end, t, k, q);
+  dyd_bbox h = *dyd_tree_child_box(t, k, first);
+  for (size_t e = first + 1; e < end; e++) dyd_box_widen(&h, dyd_tree_child_box(t, k, e));
   t->node[t->level[k] + q] = h;
 }
 
@@ -135,13 +124,14 @@ distances(double value[DYD_TREE_FANOUT], const dyd_tree *t, int level, size_t fi
   bool side_by_side = level > 0 || (t->ascending && t->item[end - 1] - t->item[first] == count - 1);
   if (count == DYD_TREE_FANOUT && side_by_side) {
     double dx[DYD_TREE_FANOUT], dy[DYD_TREE_FANOUT];
-    gaps(dx, child_box(t, level, first), c, 0);
-    gaps(dy, child_box(t, level, first), c, 2);
+    gaps(dx, dyd_tree_child_box(t, level, first), c, 0);
+    gaps(dy, dyd_tree_child_box(t, level, first), c, 2);
     for (size_t e = 0; e < DYD_TREE_FANOUT; e++) value[e] = dyd_lower(dx[e] * dx[e] + dy[e] * dy[e]);
   } else {
-    for (size_t e = 0; e < count; e++) value[e] = dyd_ds2_lower(c, child_box(t, level, first + e));
+    for (size_t e = 0; e < count; e++) value[e] = dyd_ds2_lower(c, dyd_tree_child_box(t, level, first + e));
   }
-  for (size_t e = 0; e < count; e++) DYD_INVARIANT(value[e] == dyd_ds2_lower(c, child_box(t, level, first + e)));
+  for (size_t e = 0; e < count; e++)
+    DYD_INVARIANT(value[e] == dyd_ds2_lower(c, dyd_tree_child_box(t, level, first + e)));
 }
 
 /* Upper bound of max u.x over a box [FLT-DIR]: two products and a sum of relative error u, and the bound's own
@@ -155,7 +145,7 @@ static double reach(const dyd_bbox *b, double ux, double uy) {
 /* Minus reach for the children of a node. */
 static void depths(double value[DYD_TREE_FANOUT], const dyd_tree *t, int level, size_t first, size_t end, double ux,
                    double uy) {
-  for (size_t e = first; e < end; e++) value[e - first] = -reach(child_box(t, level, e), ux, uy);
+  for (size_t e = first; e < end; e++) value[e - first] = -reach(dyd_tree_child_box(t, level, e), ux, uy);
 }
 
 /* Both walks over the tree: near c, or beyond a line across (ux, uy). A copy is compiled for each value of `near`. */
@@ -169,7 +159,7 @@ static inline void tree_walk(const dyd_tree *t, bool near, const dyd_bbox *c, do
     frame f = stack[--depth];
     size_t first, end;
     if (f.value > (near ? *limit : -*limit)) continue;
-    children(&first, &end, t, f.level, f.node);
+    dyd_tree_children(&first, &end, t, f.level, f.node);
     if (near)
       distances(value, t, f.level, first, end, c);
     else

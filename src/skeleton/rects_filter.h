@@ -151,6 +151,17 @@ typedef struct dyd_tree {
   bool ascending;
 } dyd_tree;
 
+/* Children of node q on level k: entries first .. end - 1 of the level below (items for k = 0). */
+static inline void dyd_tree_children(size_t *first, size_t *end, const dyd_tree *t, int k, size_t q) {
+  size_t below = k == 0 ? t->count : t->level[k] - t->level[k - 1];
+  *first = q * DYD_TREE_FANOUT;
+  *end = *first + DYD_TREE_FANOUT < below ? *first + DYD_TREE_FANOUT : below;
+}
+
+static inline const dyd_bbox *dyd_tree_child_box(const dyd_tree *t, int k, size_t entry) {
+  return k == 0 ? &t->box[t->item[entry]] : &t->node[t->level[k - 1] + entry];
+}
+
 /* Over the vertices item[0..count-1]; takes over the array. */
 dyd_status dyd_tree_init(dyd_tree *t, uint32_t *item, uint32_t count, const dyd_bbox *box);
 /* Appends entries for the vertices first .. first + count - 1, above all others. O(count), and an eighth of the nodes

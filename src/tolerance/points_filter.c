@@ -300,10 +300,10 @@ typedef bool clear_test(const radius_pass *p, const dyd_bbox *b, double radius);
 static bool visit_branch(radius_pass *p, clear_test *clear, bool (*visit)(radius_pass *p, uint32_t k), int level,
                          size_t node) {
   const dyd_tree *t = &p->t->tree;
-  size_t at = t->level[level] + node;
+  size_t at = t->level[level] + node, first, end;
   if (clear(p, &t->node[at], p->most[at])) return true;
-  size_t below = level ? t->level[level] - t->level[level - 1] : t->count, first = node * DYD_TREE_FANOUT;
-  for (size_t q = first; q < first + DYD_TREE_FANOUT && q < below; q++) {
+  dyd_tree_children(&first, &end, t, level, node);
+  for (size_t q = first; q < end; q++) {
     uint32_t k = level ? 0 : t->item[q];
     if (level ? !visit_branch(p, clear, visit, level - 1, q)
               : !clear(p, &t->box[k], radius_now(&p->radius[k])) && !visit(p, k))
@@ -361,9 +361,10 @@ static bool make_most(radius_pass *p) {
   if (!p->most) return false;
   for (int k = 0; k < t->levels; k++)
     for (size_t q = 0; q < t->level[k + 1] - t->level[k]; q++) {
-      size_t below = k ? t->level[k] - t->level[k - 1] : t->count, first = q * DYD_TREE_FANOUT;
+      size_t first, end;
       double most = 0;
-      for (size_t e = first; e < first + DYD_TREE_FANOUT && e < below; e++)
+      dyd_tree_children(&first, &end, t, k, q);
+      for (size_t e = first; e < end; e++)
         most = dyd_max(most, k ? p->most[t->level[k - 1] + e] : p->radius[t->item[e]]);
       p->most[t->level[k] + q] = most;
     }

@@ -31,13 +31,12 @@ static void search_descend(search *s) {
   const dyd_tree *t = s->tree;
   size_t node = 0;
   for (int level = t->levels - 1; level >= 0; level--) {
-    size_t below = level == 0 ? t->count : t->level[level] - t->level[level - 1];
-    size_t first = node * DYD_TREE_FANOUT, end = first + DYD_TREE_FANOUT < below ? first + DYD_TREE_FANOUT : below;
+    size_t first, end;
     double best = HUGE_VAL;
+    dyd_tree_children(&first, &end, t, level, node);
     node = first;
     for (size_t e = first; e < end; e++) {
-      const dyd_bbox *b = level == 0 ? &t->box[t->item[e]] : &t->node[t->level[level - 1] + e];
-      double upper = dyd_dl2_upper(&s->q, b);
+      double upper = dyd_dl2_upper(&s->q, dyd_tree_child_box(t, level, e));
       if (!(upper < best)) continue;
       best = upper;
       node = e;
