@@ -9,6 +9,7 @@
  * sum l_k a_k.(p_k + q_k) < 0. The l_k are the cross products of the other two a_k. */
 #include "legal/witness_filter.h"
 
+#include "base/float_filter.h"
 #include "legal/lp_filter.h"
 #include "predicate/interval_filter.h"
 #include "skeleton/rects_filter.h"
@@ -69,14 +70,6 @@ static void witness_evaluate_d(quick *q, dyd_xy c) {
   dyd_tree_near(&q->rects->tree, &q->c, &q->reach, witness_keep_rival, q);
 }
 
-static double witness_farther_end(double c, double lo, double hi) {
-  return c - lo > hi - c ? lo : hi;
-}
-
-static double witness_nearest_d(double c, double lo, double hi) {
-  return c < lo ? lo : c > hi ? hi : c;
-}
-
 /* The lower or upper end of a rectangle on one axis, at most `slack` inside of its box. */
 static dyd_iv witness_end(double lo, double hi, bool upper, double slack) {
   if (slack == 0) return dyd_iv_point(upper ? hi : lo);
@@ -98,7 +91,7 @@ static bool witness_add_cut(quick *q, dyd_xy c, uint32_t own, uint32_t other) {
   cut_points *from = &q->from[q->cuts];
   for (int k = 0; k < 2; k++) {
     double lo = a[2 * k], hi = a[2 * k + 1];
-    double s = witness_farther_end(at[k], lo, hi), t = witness_nearest_d(at[k], b[2 * k], b[2 * k + 1]);
+    double s = dyd_farther_end(at[k], lo, hi), t = dyd_nearest_in(at[k], b[2 * k], b[2 * k + 1]);
     from->p[k] = witness_end(lo, hi, s == hi, slack[0]);
     from->q[k] = witness_nearest_point(at[k], b[2 * k], b[2 * k + 1], slack[1]);
     n[k] = s - t;

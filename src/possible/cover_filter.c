@@ -10,6 +10,7 @@
  * another vertex blocks, or none does, which the tree confirms. */
 #include "possible/cover.h"
 
+#include "base/float_filter.h"
 #include "predicate/predicate_filter.h"
 #include "skeleton/mesh_filter.h"
 #include "skeleton/rects_filter.h"
@@ -51,14 +52,6 @@ static double low(const dyd_bbox *b, int axis) {
 
 static double high(const dyd_bbox *b, int axis) {
   return b->e[2 * axis + 1];
-}
-
-static double nearest(double c, double lo, double hi) {
-  return c < lo ? lo : c > hi ? hi : c;
-}
-
-static double farthest(double c, double lo, double hi) {
-  return c - lo > hi - c ? lo : hi;
 }
 
 /* ---- the tangents at its ends ---- */
@@ -123,7 +116,8 @@ static dyd_sure beta_blocks_end(const dyd_beta *q, uint32_t k, int up) {
  * function of the coordinate across. */
 static dyd_place beta_at(const dyd_beta *q, double t) {
   double a0 = low(q->a, q->across), a1 = high(q->a, q->across), b0 = low(q->b, q->across), b1 = high(q->b, q->across);
-  double ta = t - nearest(t, low(q->a, q->t), high(q->a, q->t)), tb = t - nearest(t, low(q->b, q->t), high(q->b, q->t));
+  double ta = t - dyd_nearest_in(t, low(q->a, q->t), high(q->a, q->t)),
+         tb = t - dyd_nearest_in(t, low(q->b, q->t), high(q->b, q->t));
   double k = tb * tb - ta * ta, gap = b0 - a1, x;
   if (fabs(k) <= gap * gap) {
     x = a1 + gap / 2 + k / (2 * gap);
@@ -134,7 +128,7 @@ static dyd_place beta_at(const dyd_beta *q, double t) {
     x = b0 - sqrt(-k);
     if (x < a0) x = (k / (b0 - a0) + a0 + b0) / 2;
   }
-  double dx = x - nearest(x, a0, a1);
+  double dx = x - dyd_nearest_in(x, a0, a1);
   dyd_place p = {.ds2 = dx * dx + ta * ta};
   p.at[q->across] = x;
   p.at[q->t] = t;
@@ -143,12 +137,13 @@ static dyd_place beta_at(const dyd_beta *q, double t) {
 
 /* About dl^2 of the box at the place. */
 static double place_far2(const dyd_place *p, const dyd_bbox *b) {
-  double dx = p->at[0] - farthest(p->at[0], b->e[0], b->e[1]), dy = p->at[1] - farthest(p->at[1], b->e[2], b->e[3]);
+  double dx = p->at[0] - dyd_farther_end(p->at[0], b->e[0], b->e[1]),
+         dy = p->at[1] - dyd_farther_end(p->at[1], b->e[2], b->e[3]);
   return dx * dx + dy * dy;
 }
 
 static dyd_xy nearest_point(const dyd_place *p, const dyd_bbox *b) {
-  return (dyd_xy){nearest(p->at[0], b->e[0], b->e[1]), nearest(p->at[1], b->e[2], b->e[3])};
+  return (dyd_xy){dyd_nearest_in(p->at[0], b->e[0], b->e[1]), dyd_nearest_in(p->at[1], b->e[2], b->e[3])};
 }
 
 /* About where the part of beta that k blocks ends, seen from a place in it or nearby. The circle through the features
@@ -156,7 +151,7 @@ static dyd_xy nearest_point(const dyd_place *p, const dyd_bbox *b) {
 static double beta_guess_end(const dyd_beta *q, uint32_t k, dyd_place p) {
   const dyd_bbox *b = &q->rects->box[k];
   for (int round = 0; round < ROUNDS; round++) {
-    dyd_xy far = {farthest(p.at[0], b->e[0], b->e[1]), farthest(p.at[1], b->e[2], b->e[3])};
+    dyd_xy far = {dyd_farther_end(p.at[0], b->e[0], b->e[1]), dyd_farther_end(p.at[1], b->e[2], b->e[3])};
     dyd_xy o = dyd_circumcentre(nearest_point(&p, q->a), nearest_point(&p, q->b), far);
     p = beta_at(q, q->t ? o.y : o.x);
   }

@@ -6,6 +6,7 @@
  * shortened and kept if the exact checker takes it. */
 #include "prove/proof.h"
 
+#include "base/float_filter.h"
 #include "base/local.h"
 #include <math.h>
 
@@ -46,12 +47,8 @@ static double larger_double(double a, double b) {
   return a > b ? a : b;
 }
 
-static double clamp_to(double v, double lo, double hi) {
-  return v < lo ? lo : v > hi ? hi : v;
-}
-
 static double near_to(const double e[4], xy c) {
-  double x = c.x - clamp_to(c.x, e[0], e[1]), y = c.y - clamp_to(c.y, e[2], e[3]);
+  double x = c.x - dyd_nearest_in(c.x, e[0], e[1]), y = c.y - dyd_nearest_in(c.y, e[2], e[3]);
   return x * x + y * y;
 }
 
@@ -81,8 +78,8 @@ static xy point_at(const curve *c, double t) {
   xy at = {0, 0};
   for (int k = 0; k < ACROSS; k++) {
     at = (xy){along * c->n.x + s * c->d.x, along * c->n.y + s * c->d.y};
-    double px = clamp_to(at.x, a[0], a[1]), py = clamp_to(at.y, a[2], a[3]);
-    double qx = clamp_to(at.x, b[0], b[1]), qy = clamp_to(at.y, b[2], b[3]);
+    double px = dyd_nearest_in(at.x, a[0], a[1]), py = dyd_nearest_in(at.y, a[2], a[3]);
+    double qx = dyd_nearest_in(at.x, b[0], b[1]), qy = dyd_nearest_in(at.y, b[2], b[3]);
     double own = (at.x - px) * (at.x - px) + (at.y - py) * (at.y - py);
     double excess = own - (at.x - qx) * (at.x - qx) - (at.y - qy) * (at.y - qy);
     if (fabs(excess) <= 0x1p-40 * own) break;
