@@ -475,30 +475,15 @@ typedef struct globe_trials {
   dyd_survey_options options; /* of the plans after the first one */
 } globe_trials;
 
-/* now, places: the regions so far (NULL: those of `of`); needed: metres of each place in the plan followed, else 0. */
-typedef struct globe_draw {
-  const globe_trials *of;
-  uint64_t seed;
-  dyd_engine *places;
-  dyd_sphere *now;
-  double *needed;
-} globe_draw;
-
-static dyd_status globe_begin(void **draw, const dyd_trials *t, uint64_t seed) {
-  globe_draw *d = calloc(1, sizeof *d);
-  if (!d) return DYD_E_NOMEM;
-  *draw = d;
-  d->of = t->user;
-  d->seed = seed;
-  d->needed = calloc(t->sites + 1, sizeof *d->needed);
-  return d->needed ? DYD_OK : DYD_E_NOMEM;
+static const globe_trials *globe_of(const dyd_trial *d) {
+  return d->of->user;
 }
 
-static void globe_end(void *draw) {
-  globe_draw *d = draw;
-  dyd_sphere_free(d->now);
-  dyd_engine_free(d->places);
-  dyd_free_all(d->needed, d);
+static void globe_end(void *now) {
+  dyd_sphere *s = now;
+  dyd_engine *places = s ? s->places : NULL;
+  dyd_sphere_free(s);
+  dyd_engine_free(places);
 }
 
 /* Sets u, v to a place in the unit disc about 0. */
@@ -552,11 +537,11 @@ static void place_move(double at[2], mpq_srcptr angle, mpq_srcptr u, mpq_srcptr 
 }
 
 /* at: the true place of i, in degrees. */
-static dyd_status globe_truth(double at[2], const globe_draw *d, uint32_t i) {
+static dyd_status globe_truth(double at[2], const dyd_trial *d, uint32_t i) {
   const uint64_t own = dyd_random(d->seed, i);
   DYD_LOCAL(dyd_spot, spot);
   DYD_LOCAL_ARRAY(mpq_t, u, [2]);
-  dyd_status st = dyd_sphere_spot(&spot, d->of->s, i, NULL);
+  dyd_status st = dyd_sphere_spot(&spot, globe_of(d)->s, i, NULL);
   for (int a = 0; a < 2; a++) {
     dyd_trial_draw(u[a], dyd_random(own, 1), (uint64_t)a);
     mpq_mul_2exp(u[a], u[a], 1);
@@ -571,8 +556,8 @@ static dyd_status globe_truth(double at[2], const globe_draw *d, uint32_t i) {
 }
 
 /* The region of place i as it is, or as it was measured, as a rectangle and metres about it. */
-static dyd_status globe_region(dyd_rect *out, double *metres, const globe_draw *d, uint32_t i) {
-  const dyd_sphere *s = d->now ? d->now : d->of->s;
+static dyd_status globe_region(dyd_rect *out, double *metres, const dyd_trial *d, uint32_t i) {
+  const dyd_sphere *s = d->now ? d->now : globe_of(d)->s;
   double at[2];
   *metres = d->needed[i];
   if (*metres > 0) {
@@ -593,7 +578,7 @@ static dyd_status globe_region(dyd_rect *out, double *metres, const globe_draw *
   return st;
 }
 
-static dyd_status globe_add(dyd_engine *e, const globe_draw *d, size_t sites, dyd_error *err) {
+static dyd_status globe_add(dyd_engine *e, const dyd_trial *d, size_t sites, dyd_error *err) {
   DYD_SCOPED(dyd_labels) labels = {0};
   dyd_row_numbers own = dyd_no_row_numbers;
   DYD_LOCAL(dyd_rect, r);
@@ -607,34 +592,26 @@ static dyd_status globe_add(dyd_engine *e, const globe_draw *d, size_t sites, dy
   return st;
 }
 
-static dyd_status globe_step(dyd_survey **next, void *draw, const dyd_trials *t, const dyd_survey *plan,
-                             dyd_error *err) {
-  globe_draw *d = draw;
-  const dyd_survey_row *row;
-  const size_t rows = dyd_survey_rows(&row, plan);
+static dyd_status globe_step(dyd_survey **next, dyd_trial *d, dyd_error *err) {
   dyd_engine *places = NULL;
   dyd_sphere *then = NULL;
   dyd_outcome outcome;
   dyd_engine_options o;
-  dyd_survey_options how = d->of->options;
+  dyd_survey_options how = globe_of(d)->options;
   dyd_engine_options_init(&o);
   o.start_bits = 0;
-  for (size_t k = 0; k < rows; k++) d->needed[row[k].site] = row[k].needed;
   dyd_status st = dyd_engine_new(&places);
-  if (st == DYD_OK) st = globe_add(places, d, t->sites, err);
-  for (size_t k = 0; k < rows; k++) d->needed[row[k].site] = 0;
+  if (st == DYD_OK) st = globe_add(places, d, d->of->sites, err);
   if (st == DYD_OK) st = dyd_sphere_new(&then, places, NULL, err);
   if (st != DYD_OK) {
     dyd_engine_free(places);
     return st;
   }
-  dyd_sphere_free(d->now);
-  dyd_engine_free(d->places);
+  globe_end(d->now);
   d->now = then;
-  d->places = places;
-  how.pairs = &t->asked;
+  how.pairs = &d->of->asked;
   st = dyd_sphere_run(&outcome, then, &o, err);
-  return st == DYD_OK ? dyd_sphere_survey(next, then, d->of->accuracy, &how, err) : st;
+  return st == DYD_OK ? dyd_sphere_survey(next, then, globe_of(d)->accuracy, &how, err) : st;
 }
 
 dyd_status dyd_sphere_simulate(dyd_survey_trial *out, dyd_sphere *s, size_t count, uint64_t seed, const char *accuracy,
@@ -652,7 +629,6 @@ dyd_status dyd_sphere_simulate(dyd_survey_trial *out, dyd_sphere *s, size_t coun
                   .first = first,
                   .sites = s->count,
                   .cancel = p.options.cancel,
-                  .begin = globe_begin,
                   .step = globe_step,
                   .end = globe_end,
                   .user = &p};

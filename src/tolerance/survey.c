@@ -300,16 +300,26 @@ static size_t trial_measure(dyd_survey_trial *out, bool *measured, const dyd_sur
   return rows;
 }
 
-static dyd_status trial_follow(dyd_survey_trial *out, void *draw, const dyd_trials *t, bool *measured) {
-  const dyd_survey *plan = t->first;
+/* Measures the points of a plan, and plans again. */
+static dyd_status trial_step(dyd_survey **next, dyd_trial *d, const dyd_survey *plan) {
+  const dyd_survey_row *row;
+  const size_t rows = dyd_survey_rows(&row, plan);
+  dyd_error err;
+  dyd_error_clear(&err);
+  for (size_t k = 0; k < rows; k++) d->needed[row[k].site] = row[k].needed;
+  dyd_status st = d->of->step(next, d, &err);
+  for (size_t k = 0; k < rows; k++) d->needed[row[k].site] = 0;
+  return st;
+}
+
+static dyd_status trial_follow(dyd_survey_trial *out, dyd_trial *d, bool *measured) {
+  const dyd_survey *plan = d->of->first;
   DYD_OWNED(dyd_survey) *own = NULL;
   dyd_status st = DYD_OK;
   size_t fewest = plan->result.open, idle = 0;
   while (st == DYD_OK && idle < ROUNDS_IDLE && trial_measure(out, measured, plan) && out->rounds < ROUNDS_MOST) {
     dyd_survey *next = NULL;
-    dyd_error err;
-    dyd_error_clear(&err);
-    st = t->step(&next, draw, t, plan, &err);
+    st = trial_step(&next, d, plan);
     dyd_survey_free(own);
     plan = own = next;
     idle = st == DYD_OK && plan->result.open >= fewest ? idle + 1 : 0;
@@ -323,15 +333,13 @@ static dyd_status trial_follow(dyd_survey_trial *out, void *draw, const dyd_tria
 static void trial_task(void *context, size_t number) {
   const trials_work *w = context;
   const dyd_trials *t = w->t;
-  void *draw = NULL;
   w->status[number] = DYD_CANCELLED;
-  t->out[number] = (dyd_survey_trial){0};
   if (dyd_flag_is_set(t->cancel)) return;
   DYD_FREED bool *measured = calloc(t->sites + 1, sizeof *measured);
-  dyd_status st = measured ? t->begin(&draw, t, dyd_random(t->seed, number)) : DYD_E_NOMEM;
-  if (st == DYD_OK) st = trial_follow(&t->out[number], draw, t, measured);
-  w->status[number] = st;
-  if (draw) t->end(draw);
+  DYD_FREED double *needed = calloc(t->sites + 1, sizeof *needed);
+  dyd_trial d = {.of = t, .seed = dyd_random(t->seed, number), .needed = needed};
+  w->status[number] = measured && needed ? trial_follow(&t->out[number], &d, measured) : DYD_E_NOMEM;
+  t->end(d.now);
 }
 
 dyd_status dyd_trials_run(dyd_trials *t, unsigned threads, dyd_error *err) {
@@ -357,29 +365,8 @@ typedef struct plane_trials {
   dyd_survey_options options; /* of the plans after the first one */
 } plane_trials;
 
-/* now: the triangulation of the rectangles so far (NULL: that of `of`); needed: of each site in the plan followed, else
- * 0. */
-typedef struct plane_draw {
-  const plane_trials *of;
-  uint64_t seed;
-  dyd_delaunay *now;
-  double *needed;
-} plane_draw;
-
-static dyd_status plane_begin(void **draw, const dyd_trials *t, uint64_t seed) {
-  plane_draw *d = calloc(1, sizeof *d);
-  if (!d) return DYD_E_NOMEM;
-  *draw = d;
-  d->of = t->user;
-  d->seed = seed;
-  d->needed = calloc(t->sites + 1, sizeof *d->needed);
-  return d->needed ? DYD_OK : DYD_E_NOMEM;
-}
-
-static void plane_end(void *draw) {
-  plane_draw *d = draw;
-  dyd_delaunay_free(d->now);
-  dyd_free_all(d->needed, d);
+static const plane_trials *plane_of(const dyd_trial *d) {
+  return d->of->user;
 }
 
 /* The place at the share u of the side. */
@@ -403,15 +390,15 @@ static bool is_in_unit_disc(mpq_srcptr u, mpq_srcptr v) {
 }
 
 /* at: the true place of site i; spare: scratch. */
-static dyd_status plane_truth(mpq_t at[2], const plane_draw *d, size_t i, mpq_t spare[3]) {
+static dyd_status plane_truth(mpq_t at[2], const dyd_trial *d, size_t i, mpq_t spare[3]) {
   const uint64_t own = dyd_random(d->seed, i);
   DYD_LOCAL(dyd_rect, r);
-  dyd_status st = dyd_sites_get(&r, dyd_delaunay_sites(d->of->pd), i);
+  dyd_status st = dyd_sites_get(&r, dyd_delaunay_sites(plane_of(d)->pd), i);
   uint64_t k = 0;
   do {
     dyd_trial_draw(spare[0], own, k++);
     dyd_trial_draw(spare[1], own, k++);
-  } while (d->of->options.discs && !is_in_unit_disc(spare[0], spare[1]));
+  } while (plane_of(d)->options.discs && !is_in_unit_disc(spare[0], spare[1]));
   if (st == DYD_OK) side_place(at[0], &r.x, spare[0], spare[2]);
   if (st == DYD_OK) side_place(at[1], &r.y, spare[1], spare[2]);
   return st;
@@ -429,16 +416,16 @@ static dyd_status rect_replace(dyd_rect *out, mpq_t at[2], mpq_srcptr a, mpq_t e
   return st;
 }
 
-static dyd_status plane_rect(dyd_rect *out, const void *draw, size_t i) {
-  const plane_draw *d = draw;
-  dyd_status st = dyd_sites_get(out, dyd_delaunay_sites(d->now ? d->now : d->of->pd), i);
+static dyd_status plane_rect(dyd_rect *out, const void *trial, size_t i) {
+  const dyd_trial *d = trial;
+  dyd_status st = dyd_sites_get(out, dyd_delaunay_sites(d->now ? d->now : plane_of(d)->pd), i);
   if (st != DYD_OK || !(d->needed[i] > 0)) return st;
   DYD_LOCAL_NUMBERS(mpq, a);
   DYD_LOCAL_ARRAY(mpq_t, at, [2]);
   DYD_LOCAL_ARRAY(mpq_t, spare, [3]);
   st = plane_truth(at, d, i, spare);
   mpq_set_d(a, d->needed[i]);
-  if (st == DYD_OK && d->of->options.discs) {
+  if (st == DYD_OK && plane_of(d)->options.discs) {
     st = rect_replace(out, at, a, spare);
   } else {
     if (st == DYD_OK) st = dyd_survey_cut(&out->x, at[0], a, spare);
@@ -447,23 +434,22 @@ static dyd_status plane_rect(dyd_rect *out, const void *draw, size_t i) {
   return st;
 }
 
-static dyd_status plane_step(dyd_survey **next, void *draw, const dyd_trials *t, const dyd_survey *plan,
-                             dyd_error *err) {
-  plane_draw *d = draw;
-  const dyd_survey_row *row;
-  const size_t rows = dyd_survey_rows(&row, plan);
+static dyd_status plane_step(dyd_survey **next, dyd_trial *d, dyd_error *err) {
+  const dyd_trials *t = d->of;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = t->cancel, .threads = 1,
-                                  .max_pairs = d->of->pd->options.max_pairs};
+                                  .max_pairs = plane_of(d)->pd->options.max_pairs};
   dyd_delaunay *then = NULL;
-  dyd_survey_options how = d->of->options;
-  for (size_t k = 0; k < rows; k++) d->needed[row[k].site] = row[k].needed;
+  dyd_survey_options how = plane_of(d)->options;
   dyd_status st = dyd_delaunay_made(&then, t->sites, plane_rect, d, &o, err);
-  for (size_t k = 0; k < rows; k++) d->needed[row[k].site] = 0;
   if (st != DYD_OK) return st;
   dyd_delaunay_free(d->now);
   d->now = then;
   how.pairs = &t->asked;
   return dyd_survey_new(next, then, &how, err);
+}
+
+static void plane_end(void *now) {
+  dyd_delaunay_free(now);
 }
 
 dyd_status dyd_survey_simulate(dyd_survey_trial *out, size_t count, uint64_t seed, const dyd_delaunay *pd,
@@ -482,7 +468,6 @@ dyd_status dyd_survey_simulate(dyd_survey_trial *out, size_t count, uint64_t see
                   .first = first,
                   .sites = dyd_sites_count(dyd_delaunay_sites(pd)),
                   .cancel = p.options.cancel,
-                  .begin = plane_begin,
                   .step = plane_step,
                   .end = plane_end,
                   .user = &p};

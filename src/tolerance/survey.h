@@ -62,8 +62,17 @@ dyd_status dyd_survey_triangulate(dyd_delaunay **pd, const dyd_survey *s, bool c
 /* DYD_CANCELLED, with a message about what is there, if the plan is not finished. */
 dyd_status dyd_survey_tell_cut(const dyd_survey *s, dyd_error *err);
 
-/* Shared by all trials of a plan. begin makes the state of a trial, whose places the seed draws; step
- * measures the points of a plan in it, and plans again for `asked`; end frees it. */
+/* A trial of a plan. seed: draws its places; now: the regions so far, NULL: as they were; needed: how exactly each site
+ * of the plan followed is measured, else 0. */
+typedef struct dyd_trial {
+  const struct dyd_trials *of;
+  uint64_t seed;
+  void *now;
+  double *needed;
+} dyd_trial;
+
+/* Shared by all trials of a plan. step: replaces the regions by what is measured, and plans again for `asked`; end:
+ * frees them. */
 typedef struct dyd_trials {
   dyd_survey_trial *out;
   size_t count;
@@ -72,9 +81,8 @@ typedef struct dyd_trials {
   size_t sites;
   dyd_pair_list asked; /* all pairs of the first plan that are open; borrowed from it */
   const volatile int *cancel;
-  dyd_status (*begin)(void **draw, const struct dyd_trials *t, uint64_t seed);
-  dyd_status (*step)(dyd_survey **next, void *draw, const struct dyd_trials *t, const dyd_survey *plan, dyd_error *err);
-  void (*end)(void *draw);
+  dyd_status (*step)(dyd_survey **next, dyd_trial *d, dyd_error *err);
+  void (*end)(void *now);
   const void *user;
 } dyd_trials;
 
