@@ -248,38 +248,15 @@ static dyd_status rows_take(sphere_plan *p, const dyd_survey *survey) {
   return DYD_OK;
 }
 
-/* What the plane tells of images where a plan decides them: the vertices that may be on the hull before, and the pairs
- * of the middles. */
-typedef struct eye_view {
-  dyd_hull hull;
-  dyd_delaunay *middle;
-} eye_view;
-
-static void eye_view_clear(eye_view *v) {
-  dyd_hull_clear(&v->hull);
-  dyd_delaunay_free(v->middle);
-}
-
-static dyd_status eye_view_make(eye_view *v, const sphere_plan *p, const dyd_delaunay *pd) {
-  DYD_OWNED(dyd_sites) *sites = NULL;
-  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = p->options.cancel};
-  dyd_status st = dyd_sites_new(&sites);
-  for (size_t k = 0; k < p->views && st == DYD_OK; k++) st = square_add(sites, &p->view[k], 0);
-  if (st == DYD_OK) st = dyd_delaunay_new(&v->middle, sites, &o, p->err);
-  return st == DYD_OK ? dyd_delaunay_partial_hull(&v->hull, pd, false) : st;
-}
-
 /* A cap with the eye in it may show a pair that the plane has for illegal. */
-static bool is_of_plane_only(const eye_view *v, uint32_t i, uint32_t j) {
-  const dyd_index_list *outer = &v->hull.possible_vertices;
-  return dyd_delaunay_status(v->middle, i, j) != DYD_LEGAL &&
-         dyd_find_index(&i, outer->item, outer->count, sizeof *outer->item) &&
-         dyd_find_index(&j, outer->item, outer->count, sizeof *outer->item);
+static bool is_of_plane_only(const dyd_index_list *outer, const dyd_pair *nominal) {
+  return nominal->status != DYD_LEGAL && dyd_find_index(&nominal->i, outer->item, outer->count, sizeof *outer->item) &&
+         dyd_find_index(&nominal->j, outer->item, outer->count, sizeof *outer->item);
 }
 
 /* Pairs of images that the first rows of their plan decide are decided by the rows of the same places, but for those
- * illegal of two images that may be on the hull [SPH-7]. */
-static dyd_status pairs_take(sphere_plan *p, const dyd_survey *survey, const eye_view *view) {
+ * illegal of two images that may be on the hull [SPH-7]; outer: all that may be. */
+static dyd_status pairs_take(sphere_plan *p, const dyd_survey *survey, const dyd_index_list *outer) {
   const dyd_survey_row *row;
   const dyd_survey_pair *pair;
   const size_t rows = dyd_survey_rows(&row, survey), pairs = dyd_survey_pairs(&pair, survey);
@@ -292,7 +269,7 @@ static dyd_status pairs_take(sphere_plan *p, const dyd_survey *survey, const eye
   for (size_t k = 0; k < pairs; k++) {
     const uint32_t a = p->view[pair[k].i].place, b = p->view[pair[k].j].place, key[2] = {a < b ? a : b, a < b ? b : a};
     const dyd_pair *at = dyd_find_two(key, p->target.item, p->target.count, sizeof *at);
-    if (!at || pair[k].row >= rows || is_of_plane_only(view, pair[k].i, pair[k].j)) continue;
+    if (!at || pair[k].row >= rows || is_of_plane_only(outer, &survey->target.item[k])) continue;
     p->pair[at - p->target.item].row = last[pair[k].row];
   }
   return DYD_OK;
@@ -314,7 +291,7 @@ static dyd_status eye_targets(dyd_pair_list *out, sphere_plan *p, const dyd_dela
 
 static dyd_status eye_plan(sphere_plan *p, const dyd_delaunay *pd, const double *accuracy, const double *cost) {
   DYD_SCOPED(dyd_pair_list) pairs = {0};
-  DYD_SCOPED(eye_view) view = {0};
+  DYD_SCOPED(dyd_hull) hull = {0};
   DYD_OWNED(dyd_survey) *survey = NULL;
   dyd_status st = eye_targets(&pairs, p, pd);
   const dyd_survey_options how = {DYD_SIZED(dyd_survey_options), .pairs = &pairs,
@@ -322,8 +299,8 @@ static dyd_status eye_plan(sphere_plan *p, const dyd_delaunay *pd, const double 
                                   .cost = p->options.cost ? cost : NULL, .cancel = p->options.cancel};
   if (st == DYD_OK && pairs.count) st = dyd_survey_new(&survey, pd, &how, p->err);
   dyd_status taken = survey ? rows_take(p, survey) : DYD_OK;
-  if (survey && taken == DYD_OK) taken = eye_view_make(&view, p, pd);
-  if (survey && taken == DYD_OK) taken = pairs_take(p, survey, &view);
+  if (survey && taken == DYD_OK) taken = dyd_delaunay_partial_hull(&hull, pd, false);
+  if (survey && taken == DYD_OK) taken = pairs_take(p, survey, &hull.possible_vertices);
   return taken == DYD_OK ? st : taken;
 }
 

@@ -73,16 +73,18 @@ static dyd_status list_open(dyd_survey *s, const dyd_delaunay *pd) {
   return st == DYD_OK ? found : st;
 }
 
-/* Moves the ties of the nominal places behind the others. */
+/* Moves the ties of the nominal places behind the others, which get their statuses there. */
 static void leave_out_ties(dyd_survey *s, const dyd_delaunay *nominal) {
   dyd_pair_list *t = &s->target;
   for (size_t k = 0; k < t->count; k++) note_nominal(&s->result, nominal, &t->item[k]);
   for (size_t k = 0; k < t->count;) {
     const dyd_pair p = t->item[k];
-    bool tied = dyd_delaunay_status(nominal, p.i, p.j) == DYD_TIE ||
-                dyd_delaunay_alias(nominal, p.i) == dyd_delaunay_alias(nominal, p.j);
-    k += !tied;
-    if (!tied) continue;
+    const dyd_pair_status there = dyd_delaunay_status(nominal, p.i, p.j);
+    bool tied = there == DYD_TIE || dyd_delaunay_alias(nominal, p.i) == dyd_delaunay_alias(nominal, p.j);
+    if (!tied) {
+      t->item[k++].status = there;
+      continue;
+    }
     t->item[k] = t->item[--t->count];
     t->item[t->count] = p;
     s->tied++;

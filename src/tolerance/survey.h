@@ -33,7 +33,8 @@ struct dyd_survey {
   unsigned threads;
   size_t sites;
   dyd_survey_site *site;
-  dyd_pair_list target; /* asked for, open, and no tie; sorted; behind them `tied` more that tie at the centres */
+  /* Asked for, open, and no tie; sorted; behind them `tied` more that tie at the centres. Statuses: at the centres. */
+  dyd_pair_list target;
   size_t tied;
   dyd_survey_pair *pair; /* the same, with the rows that decide them */
   size_t *first, *at;    /* those with an end i: target.item[at[first[i]]] to target.item[at[first[i + 1] - 1]] */
