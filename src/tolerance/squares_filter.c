@@ -334,15 +334,9 @@ static dyd_status squares_begin(squares *q, const dyd_tolerance_row *row) {
 }
 
 static void row_bind(dyd_tolerance_row *row, squares *q, bool far) {
-  const uint32_t *site = q->t->sk->reps.site;
   uint32_t k, l;
   squares_bind(&k, &l, q, far);
-  if (k == DYD_NONE) return;
-  row->k = site[k];
-  row->l = l == DYD_NONE ? DYD_NO_SITE : site[l];
-  if (row->l >= row->k) return;
-  row->k = site[l];
-  row->l = site[k];
+  if (k != DYD_NONE) *row = dyd_row_of(q->t, q->i, q->j, row->event, k, l, row->lo, row->hi);
 }
 
 /* The death for discs is at most sqrt(2) times that for squares. */

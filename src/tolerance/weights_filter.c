@@ -352,28 +352,17 @@ static size_t next_cap_to(const dyd_caps *c, size_t one) {
   return best;
 }
 
-static uint32_t site_of_cap(const weight_work *g, size_t k) {
-  uint32_t v = g->discs.caps.item[k].vertex;
-  return v == UINT32_MAX ? DYD_NO_SITE : g->t->sk->reps.site[v];
-}
-
-/* The sites that bind: the caps about the direction that is still allowed at t. */
-static void find_binding(dyd_tolerance_row *row, weight_work *g, double t, bool legal) {
-  dyd_caps *c = &g->discs.caps;
-  c->count = 0;
-  weights_hold_at(g, t, legal);
-  row->k = row->l = DYD_NO_SITE;
-  if (!c->count) return;
-  size_t a = c->by[0], b = c->by[0] == c->by[1] ? next_cap_to(c, a) : c->by[1];
-  uint32_t k = site_of_cap(g, a), l = site_of_cap(g, b);
-  row->k = k < l ? k : l;
-  row->l = k == l ? DYD_NO_SITE : k < l ? l : k;
-}
-
+/* From lo to hi; the sites that bind: the caps about the direction that is still allowed at one of them. */
 static void row_weigh(weight_work *g, dyd_tolerance_row *row, double lo, double hi, bool legal) {
-  find_binding(row, g, legal ? lo : hi, legal);
-  row->lo = lo * (1 - SPARE);
-  row->hi = hi * (1 + 2 * SPARE);
+  const dyd_caps *c = &g->discs.caps;
+  uint32_t k = DYD_NONE, l = DYD_NONE;
+  g->discs.caps.count = 0;
+  weights_hold_at(g, legal ? lo : hi, legal);
+  if (c->count) {
+    k = c->item[c->by[0]].vertex;
+    l = c->item[c->by[0] == c->by[1] ? next_cap_to(c, c->by[0]) : c->by[1]].vertex;
+  }
+  *row = dyd_row_of(g->t, g->discs.i, g->discs.j, row->event, k, l, lo * (1 - SPARE), hi * (1 + 2 * SPARE));
 }
 
 static dyd_status see_around(weight_work *g, uint32_t v, uint32_t w) {
