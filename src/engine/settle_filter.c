@@ -230,7 +230,7 @@ static const double offset[] = {0, 0.125, 0.25, 0.5, 1, 2, 4, 16, 64, 4096};
 /* Centres of circles that nearly are lines, in distances of i and j: farther ones do not help in doubles. */
 static const double FARTHEST = 1e12;
 
-enum { BEST = 20, GAPS = 32, ALONG = 64, STEPS = 40, MORE_STEPS = 150 };
+enum { BEST = 20, GAPS = 32, STEPS = 40, MORE_STEPS = 150 };
 
 /* A question: sites i and j among `count`. last: the site that left least space before, examined first. */
 typedef struct joining {
@@ -344,25 +344,13 @@ static bool site_is_wide(const dyd_settle_site *s) {
   return s->disc[2] > 0 || (s->core[0] && s->box[0] < s->box[1]) || (s->core[1] && s->box[2] < s->box[3]);
 }
 
-/* Number n of a row of points around the box; false: there is none. */
+/* Number n of the corners and middles of the box; false: there is none. */
 static bool site_spot(double out[2], const dyd_settle_site *s, int n) {
-  double b[4];
-  for (int k = 0; k < 4; k++) b[k] = s->core[k / 2] ? s->box[k] : site_middle(s, k / 2);
-  const double t = (double)(n % ALONG) / ALONG, w = b[1] - b[0], h = b[3] - b[2];
-  switch (n / ALONG) {
-  case 0:
-    out[0] = b[0] + t * w, out[1] = b[2];
-    break;
-  case 1:
-    out[0] = b[1], out[1] = b[2] + t * h;
-    break;
-  case 2:
-    out[0] = b[1] - t * w, out[1] = b[3];
-    break;
-  default:
-    out[0] = b[0], out[1] = b[3] - t * h;
+  for (int a = 0; a < 2; a++) {
+    const int at = a ? n / 3 : n % 3;
+    out[a] = s->core[a] && at != 1 ? s->box[2 * a + at / 2] : site_middle(s, a);
   }
-  return n < (site_is_wide(s) ? 4 * ALONG : 1);
+  return n < (site_is_wide(s) ? 9 : 1);
 }
 
 /* Centres a + u / 2 + t n of circles through a and a + u, n being u turned to the left. */
@@ -421,10 +409,9 @@ static centre centre_find(joining *q, bool thorough) {
   centre_list l;
   centre_list_start(&l, q);
   const dyd_settle_site *i = &q->site[q->i], *j = &q->site[q->j];
-  int step = site_is_wide(i) && site_is_wide(j) ? 8 : 1;
   double a[2], b[2];
-  for (int n = 0; thorough && site_spot(a, i, n); n += step)
-    for (int m = 0; site_spot(b, j, m); m += step) centre_offer_gaps(&l, q, a, b);
+  for (int n = 0; thorough && site_spot(a, i, n); n++)
+    for (int m = 0; site_spot(b, j, m); m++) centre_offer_gaps(&l, q, a, b);
   centre best = l.best[0];
   for (size_t n = 0; n < (thorough ? BEST : 3); n++) {
     centre_climb(&l.best[n], q, thorough ? MORE_STEPS : STEPS);
