@@ -463,21 +463,13 @@ static void globe_end(void *now) {
   dyd_engine_free(places);
 }
 
-/* Sets u, v to a place in the unit disc about 0. */
-static void disc_draw(mpq_ptr u, mpq_ptr v, uint64_t seed) {
-  uint64_t k = 0;
-  DYD_LOCAL_NUMBERS(mpq, sum, part);
-  do {
-    for (int a = 0; a < 2; a++) {
-      mpq_ptr at = a ? v : u;
-      dyd_trial_draw(at, seed, k++);
-      mpq_mul_2exp(at, at, 1);
-      mpz_sub(mpq_numref(at), mpq_numref(at), mpq_denref(at));
-    }
-    mpq_mul(sum, u, u);
-    mpq_mul(part, v, v);
-    mpq_add(sum, sum, part);
-  } while (mpq_cmp_ui(sum, 1, 1) >= 0);
+/* Sets u to two numbers in (-1, 1), those of the unit disc about 0 where `disc`. */
+static void globe_draw(mpq_t u[2], uint64_t seed, bool disc) {
+  dyd_trial_draw(u, seed, disc);
+  for (int a = 0; a < 2; a++) {
+    mpq_mul_2exp(u[a], u[a], 1);
+    mpz_sub(mpq_numref(u[a]), mpq_numref(u[a]), mpq_denref(u[a]));
+  }
 }
 
 /* Moves the place (at[0], at[1]), degrees, to (u, v) of the disc of this angle about it: eastward, northward. */
@@ -519,15 +511,13 @@ static dyd_status globe_truth(double at[2], const dyd_trial *d, uint32_t i) {
   DYD_LOCAL(dyd_spot, spot);
   DYD_LOCAL_ARRAY(mpq_t, u, [2]);
   dyd_status st = dyd_sphere_spot(&spot, globe_of(d)->s, i, NULL);
+  globe_draw(u, dyd_random(own, 1), false);
   for (int a = 0; a < 2; a++) {
-    dyd_trial_draw(u[a], dyd_random(own, 1), (uint64_t)a);
-    mpq_mul_2exp(u[a], u[a], 1);
-    mpz_sub(mpq_numref(u[a]), mpq_numref(u[a]), mpq_denref(u[a]));
     mpq_mul(u[a], u[a], spot.half[a]);
     mpq_add(u[a], u[a], spot.mid[a]);
     at[a] = mpq_get_d(u[a]);
   }
-  disc_draw(u[0], u[1], dyd_random(own, 2));
+  globe_draw(u, dyd_random(own, 2), true);
   if (mpq_sgn(spot.angle)) place_move(at, spot.angle, u[0], u[1]);
   return st;
 }

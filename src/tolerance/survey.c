@@ -276,11 +276,28 @@ const dyd_survey_result *dyd_survey_get(const dyd_survey *s) {
 /* Of rounds: in all, and in a row that decide nothing. */
 enum { ROUNDS_MOST = 64, ROUNDS_IDLE = 4 };
 
-void dyd_trial_draw(mpq_ptr u, uint64_t seed, uint64_t k) {
-  mpq_set_ui(u, (unsigned long)(dyd_random(seed, k) >> 11), 1);
-  mpq_mul_2exp(u, u, 1);
-  mpz_add_ui(mpq_numref(u), mpq_numref(u), 1);
-  mpq_div_2exp(u, u, 54);
+/* Is (u, v) in the disc in the unit square? u^2 - u + v^2 - v < -1/4. */
+static bool is_in_unit_disc(mpq_srcptr u, mpq_srcptr v) {
+  DYD_LOCAL_NUMBERS(mpq, sum, part);
+  mpq_mul(sum, u, u);
+  mpq_sub(sum, sum, u);
+  mpq_mul(part, v, v);
+  mpq_add(sum, sum, part);
+  mpq_sub(sum, sum, v);
+  const bool inside = mpq_cmp_si(sum, -1, 4) < 0;
+  return inside;
+}
+
+void dyd_trial_draw(mpq_t u[2], uint64_t seed, bool disc) {
+  uint64_t k = 0;
+  do {
+    for (int a = 0; a < 2; a++) {
+      mpq_set_ui(u[a], (unsigned long)(dyd_random(seed, k++) >> 11), 1);
+      mpq_mul_2exp(u[a], u[a], 1);
+      mpz_add_ui(mpq_numref(u[a]), mpq_numref(u[a]), 1);
+      mpq_div_2exp(u[a], u[a], 54);
+    }
+  } while (disc && !is_in_unit_disc(u[0], u[1]));
 }
 
 /* ---- all trials ---- */
@@ -379,28 +396,12 @@ static void side_place(mpq_ptr at, const dyd_interval *side, mpq_srcptr u, mpq_t
   mpq_add(at, at, lo);
 }
 
-/* Is (u, v) in the disc in the unit square? u^2 - u + v^2 - v < -1/4. */
-static bool is_in_unit_disc(mpq_srcptr u, mpq_srcptr v) {
-  DYD_LOCAL_NUMBERS(mpq, sum, part);
-  mpq_mul(sum, u, u);
-  mpq_sub(sum, sum, u);
-  mpq_mul(part, v, v);
-  mpq_add(sum, sum, part);
-  mpq_sub(sum, sum, v);
-  const bool inside = mpq_cmp_si(sum, -1, 4) < 0;
-  return inside;
-}
-
 /* at: the true place of site i; spare: scratch. */
 static dyd_status plane_truth(mpq_t at[2], const dyd_trial *d, size_t i, mpq_t spare[3]) {
   const uint64_t own = dyd_random(d->seed, i);
   DYD_LOCAL(dyd_rect, r);
   dyd_status st = dyd_sites_get(&r, dyd_delaunay_sites(plane_of(d)->pd), i);
-  uint64_t k = 0;
-  do {
-    dyd_trial_draw(spare[0], own, k++);
-    dyd_trial_draw(spare[1], own, k++);
-  } while (plane_of(d)->options.discs && !is_in_unit_disc(spare[0], spare[1]));
+  dyd_trial_draw(spare, own, plane_of(d)->options.discs);
   if (st == DYD_OK) side_place(at[0], &r.x, spare[0], spare[2]);
   if (st == DYD_OK) side_place(at[1], &r.y, spare[1], spare[2]);
   return st;

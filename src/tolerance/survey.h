@@ -89,7 +89,7 @@ typedef struct dyd_trials {
 
 /* Runs all; the rest as dyd_survey_simulate. */
 dyd_status dyd_trials_run(dyd_trials *t, unsigned threads, dyd_error *err);
-/* Sets u to a number in (0, 1) that seed and k draw, a multiple of 2^-54. */
-void dyd_trial_draw(mpq_ptr u, uint64_t seed, uint64_t k);
+/* Sets u to two numbers in (0, 1) that the seed draws, multiples of 2^-54; disc: of the disc in the unit square. */
+void dyd_trial_draw(mpq_t u[2], uint64_t seed, bool disc);
 
 #endif
