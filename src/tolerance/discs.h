@@ -123,6 +123,10 @@ typedef struct dyd_disc_work {
 dyd_status dyd_disc_of_site(dyd_disc *d, const dyd_sites *s, size_t i);
 /* discs_filter.c: encloses its centre and radius in doubles. */
 dyd_status dyd_filter_ball(dyd_iv ball[3], const dyd_sites *s, size_t i);
+/* The discs of all vertices of pd, from sites; a disc of radius 0 for a point. */
+dyd_status dyd_discs_make(dyd_disc_work *w, dyd_error *err);
+/* Whatever dyd_discs_make returned. */
+void dyd_discs_clear(dyd_disc_work *w);
 /* Includes v from now on; false: it is i, j or seen already, or memory is exhausted. */
 bool dyd_discs_see(dyd_disc_work *w, uint32_t v);
 /* The caps of all discs seen. false: legal, and one of them meets i or j, so that none is a witness. A disc that meets

@@ -84,9 +84,13 @@ static void scale_disc(dyd_disc *d, int by) {
   for (int k = 0; k < 3; k++) (by < 0 ? mpq_div_2exp : mpq_mul_2exp)(all[k], all[k], (mp_bitcnt_t)abs(by));
 }
 
-static dyd_status make_discs(dyd_disc_work *w, dyd_error *err) {
+dyd_status dyd_discs_make(dyd_disc_work *w, dyd_error *err) {
   const dyd_skeleton *sk = &w->pd->sk;
   dyd_status st = DYD_OK;
+  w->about = dyd_alloc(sk->n, sizeof *w->about);
+  w->disc = w->about ? dyd_alloc(sk->n, sizeof *w->disc) : NULL;
+  if (!w->disc) return dyd_fail_nomem(err);
+  for (uint32_t v = 0; v < sk->n; v++) dyd_disc_init(&w->disc[v]);
   for (uint32_t v = 0; v < sk->n && st == DYD_OK; v++) {
     uint32_t site = sk->reps.site[v];
     st = dyd_disc_of_site(&w->disc[v], w->sites, site);
@@ -99,6 +103,13 @@ static dyd_status make_discs(dyd_disc_work *w, dyd_error *err) {
     st = dyd_fail(err, DYD_E_ARG, "a disc needs one radius, the same in x and y");
   }
   return st;
+}
+
+void dyd_discs_clear(dyd_disc_work *w) {
+  dyd_caps_clear(&w->caps);
+  for (uint32_t v = 0; w->disc && v < w->pd->sk.n; v++) dyd_disc_clear(&w->disc[v]);
+  dyd_free_all(w->disc, w->about, w->seen);
+  dyd_delaunay_free(w->scaled);
 }
 
 /* ---- the discs considered ---- */
@@ -481,24 +492,11 @@ static dyd_status triangulate_scaled(dyd_disc_work *w) {
   return st == DYD_CAPPED || st == DYD_CANCELLED ? DYD_OK : st;
 }
 
-static void discs_clear(dyd_disc_work *w) {
-  dyd_caps_clear(&w->caps);
-  for (uint32_t v = 0; w->disc && v < w->pd->sk.n; v++) dyd_disc_clear(&w->disc[v]);
-  dyd_free_all(w->disc, w->about, w->seen);
-  dyd_delaunay_free(w->scaled);
-}
-
 static dyd_status discs_begin(dyd_disc_work *w, dyd_error *err) {
   dyd_caps_init(&w->caps);
   w->scale = scale_of_sites(w->sites);
   dyd_status st = w->scale ? triangulate_scaled(w) : DYD_OK;
-  if (st != DYD_OK) return st;
-  uint32_t n = w->pd->sk.n;
-  w->about = dyd_alloc(n, sizeof *w->about);
-  w->disc = w->about ? dyd_alloc(n, sizeof *w->disc) : NULL;
-  if (!w->disc) return dyd_fail_nomem(err);
-  for (uint32_t v = 0; v < n; v++) dyd_disc_init(&w->disc[v]);
-  return make_discs(w, err);
+  return st == DYD_OK ? dyd_discs_make(w, err) : st;
 }
 
 /* The status and message where pairs are listed, and not all of them are decided. */
@@ -520,7 +518,7 @@ dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, const vola
   dyd_status st = discs_begin(&w, err);
   if (st == DYD_OK) st = dyd_delaunay_pairs(&list, pd);
   if (st == DYD_OK && pd->sk.rects.tree.count) st = decide_discs(&w, &left, &list);
-  discs_clear(&w);
+  dyd_discs_clear(&w);
   w.pd = pd;
   st = discs_end(&w, st, left, list.count, err);
   if (st == DYD_OK || st == DYD_CAPPED || st == DYD_CANCELLED) {

@@ -408,47 +408,21 @@ static dyd_status weigh_birth(bool *late, weight_work *g, dyd_tolerance_row *row
 
 /* ---- all ---- */
 
-static dyd_status weights_begin(weight_work *g) {
-  const dyd_skeleton *sk = g->t->sk;
-  dyd_status st = DYD_OK;
-  g->discs.weight = g->t->weight;
-  g->discs.about = dyd_alloc(sk->n, sizeof *g->discs.about);
-  g->discs.disc = g->discs.about ? dyd_alloc(sk->n, sizeof *g->discs.disc) : NULL;
-  if (!g->discs.disc) return DYD_E_NOMEM;
-  for (uint32_t v = 0; v < sk->n; v++) dyd_disc_init(&g->discs.disc[v]);
-  DYD_LOCAL(dyd_rect, r);
-  DYD_LOCAL_NUMBERS(mpq, other);
-  for (uint32_t v = 0; v < sk->n && st == DYD_OK; v++) {
-    st = dyd_sites_get(&r, sk->reps.sites, sk->reps.site[v]);
-    dyd_interval_get_q(g->discs.disc[v].x, other, &r.x);
-    dyd_interval_get_q(g->discs.disc[v].y, other, &r.y);
-    g->discs.about[v][0] = mpq_get_d(g->discs.disc[v].x);
-    g->discs.about[v][1] = mpq_get_d(g->discs.disc[v].y);
-  }
-  return st;
-}
-
-static void weights_end(weight_work *g) {
-  for (uint32_t v = 0; g->discs.disc && v < g->t->sk->n; v++) dyd_disc_clear(&g->discs.disc[v]);
-  dyd_free_all(g->discs.disc, g->discs.about, g->discs.seen);
-  dyd_caps_clear(&g->discs.caps);
-  mpq_clear(g->now);
-}
-
 /* Exact discs are made when the first row needs them. */
 static dyd_status weigh_row(bool *late, dyd_tolerance_row *row, void *work) {
   weight_work *g = work;
-  dyd_status st = g->discs.disc ? DYD_OK : weights_begin(g);
+  dyd_status st = g->discs.disc ? DYD_OK : dyd_discs_make(&g->discs, NULL);
   if (st != DYD_OK) return st;
   return row->event == DYD_EVENT_DEATH ? weigh_death(work, row) : weigh_birth(late, work, row);
 }
 
 dyd_status dyd_weigh(dyd_tolerance *t, size_t first) {
-  weight_work g = {.t = t};
+  weight_work g = {.t = t, .discs = {.pd = t->pd, .sites = t->sk->reps.sites, .weight = t->weight}};
   dyd_caps_init(&g.discs.caps);
   mpq_init(g.now);
   dyd_status st = dyd_near_index(t);
   if (st == DYD_OK) st = dyd_rows_rework(t, first, weigh_row, &g);
-  weights_end(&g);
+  dyd_discs_clear(&g.discs);
+  mpq_clear(g.now);
   return st;
 }
