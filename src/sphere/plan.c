@@ -449,7 +449,6 @@ enum { TRIAL_BITS = 96 };
 typedef struct globe_trials {
   dyd_sphere *s;
   const char *accuracy;
-  dyd_survey_options options; /* of the plans after the first one */
 } globe_trials;
 
 static const globe_trials *globe_of(const dyd_trial *d) {
@@ -564,7 +563,6 @@ static dyd_status globe_step(dyd_survey **next, dyd_trial *d, dyd_error *err) {
   dyd_sphere *then = NULL;
   dyd_outcome outcome;
   dyd_engine_options o;
-  dyd_survey_options how = globe_of(d)->options;
   dyd_engine_options_init(&o);
   o.start_bits = 0;
   dyd_status st = dyd_engine_new(&places);
@@ -576,30 +574,20 @@ static dyd_status globe_step(dyd_survey **next, dyd_trial *d, dyd_error *err) {
   }
   globe_end(d->now);
   d->now = then;
-  how.pairs = &d->of->asked;
   st = dyd_sphere_run(&outcome, then, &o, err);
-  return st == DYD_OK ? dyd_sphere_survey(next, then, globe_of(d)->accuracy, &how, err) : st;
+  return st == DYD_OK ? dyd_sphere_survey(next, then, globe_of(d)->accuracy, &d->of->options, err) : st;
 }
 
 dyd_status dyd_sphere_simulate(dyd_survey_trial *out, dyd_sphere *s, size_t count, uint64_t seed, const char *accuracy,
                                const dyd_survey_options *options, dyd_error *err) {
   if (!s || (count && !out)) return dyd_fail_null(err);
-  globe_trials p = {.s = s, .accuracy = accuracy};
-  dyd_survey *first = NULL;
+  const globe_trials how = {s, accuracy};
+  DYD_OWNED(dyd_survey) *first = NULL;
+  dyd_trials t = {
+      .out = out, .count = count, .seed = seed, .sites = s->count, .step = globe_step, .end = globe_end, .user = &how};
   for (size_t k = 0; k < count; k++) out[k] = (dyd_survey_trial){0};
-  dyd_status st = dyd_abi_take(&p.options, sizeof p.options, options, "dyd_survey_options", err);
-  if (st == DYD_OK) st = dyd_sphere_survey(&first, s, accuracy, &p.options, err);
-  p.options.site = NULL;
-  dyd_trials t = {.out = out,
-                  .count = count,
-                  .seed = seed,
-                  .first = first,
-                  .sites = s->count,
-                  .cancel = p.options.cancel,
-                  .step = globe_step,
-                  .end = globe_end,
-                  .user = &p};
-  if (st == DYD_OK) st = dyd_trials_run(&t, 1, err); /* FLINT keeps memory of each thread */
-  dyd_survey_free(first);
-  return st;
+  dyd_status st = dyd_abi_take(&t.options, sizeof t.options, options, "dyd_survey_options", err);
+  if (st == DYD_OK) st = dyd_sphere_survey(&first, s, accuracy, &t.options, err);
+  t.first = first;
+  return st == DYD_OK ? dyd_trials_run(&t, 1, err) : st; /* FLINT keeps memory of each thread */
 }

@@ -353,7 +353,7 @@ static void trial_task(void *context, size_t number) {
   const trials_work *w = context;
   const dyd_trials *t = w->t;
   w->status[number] = DYD_CANCELLED;
-  if (dyd_flag_is_set(t->cancel)) return;
+  if (dyd_flag_is_set(t->options.cancel)) return;
   DYD_FREED bool *measured = calloc(t->sites + 1, sizeof *measured);
   DYD_FREED double *needed = calloc(t->sites + 1, sizeof *needed);
   dyd_trial d = {.of = t, .seed = dyd_random(t->seed, number), .needed = needed};
@@ -367,6 +367,9 @@ dyd_status dyd_trials_run(dyd_trials *t, unsigned threads, dyd_error *err) {
   dyd_status st = DYD_OK;
   if (!w.status) return dyd_fail_nomem(err);
   t->asked = (dyd_pair_list){t->first->target.count + t->first->tied, t->first->target.item};
+  t->options.pairs = &t->asked;
+  t->options.window = NULL;
+  t->options.site = NULL;
   dyd_parallel(threads, t->count, trial_task, &w);
   for (size_t k = 0; k < t->count; k++) {
     cut += w.status[k] == DYD_CANCELLED;
@@ -378,15 +381,6 @@ dyd_status dyd_trials_run(dyd_trials *t, unsigned threads, dyd_error *err) {
 }
 
 /* ---- the plane ---- */
-
-typedef struct plane_trials {
-  const dyd_delaunay *pd;
-  dyd_survey_options options; /* of the plans after the first one */
-} plane_trials;
-
-static const plane_trials *plane_of(const dyd_trial *d) {
-  return d->of->user;
-}
 
 /* The place at the share u of the side. */
 static void side_place(mpq_ptr at, const dyd_interval *side, mpq_srcptr u, mpq_t lo) {
@@ -400,8 +394,8 @@ static void side_place(mpq_ptr at, const dyd_interval *side, mpq_srcptr u, mpq_t
 static dyd_status plane_truth(mpq_t at[2], const dyd_trial *d, size_t i, mpq_t spare[3]) {
   const uint64_t own = dyd_random(d->seed, i);
   DYD_LOCAL(dyd_rect, r);
-  dyd_status st = dyd_sites_get(&r, dyd_delaunay_sites(plane_of(d)->pd), i);
-  dyd_trial_draw(spare, own, plane_of(d)->options.discs);
+  dyd_status st = dyd_sites_get(&r, dyd_delaunay_sites(d->of->user), i);
+  dyd_trial_draw(spare, own, d->of->options.discs);
   if (st == DYD_OK) side_place(at[0], &r.x, spare[0], spare[2]);
   if (st == DYD_OK) side_place(at[1], &r.y, spare[1], spare[2]);
   return st;
@@ -421,14 +415,14 @@ static dyd_status rect_replace(dyd_rect *out, mpq_t at[2], mpq_srcptr a, mpq_t e
 
 static dyd_status plane_rect(dyd_rect *out, const void *trial, size_t i) {
   const dyd_trial *d = trial;
-  dyd_status st = dyd_sites_get(out, dyd_delaunay_sites(d->now ? d->now : plane_of(d)->pd), i);
+  dyd_status st = dyd_sites_get(out, dyd_delaunay_sites(d->now ? d->now : d->of->user), i);
   if (st != DYD_OK || !(d->needed[i] > 0)) return st;
   DYD_LOCAL_NUMBERS(mpq, a);
   DYD_LOCAL_ARRAY(mpq_t, at, [2]);
   DYD_LOCAL_ARRAY(mpq_t, spare, [3]);
   st = plane_truth(at, d, i, spare);
   mpq_set_d(a, d->needed[i]);
-  if (st == DYD_OK && plane_of(d)->options.discs) {
+  if (st == DYD_OK && d->of->options.discs) {
     st = rect_replace(out, at, a, spare);
   } else {
     if (st == DYD_OK) st = dyd_survey_cut(&out->x, at[0], a, spare);
@@ -439,16 +433,15 @@ static dyd_status plane_rect(dyd_rect *out, const void *trial, size_t i) {
 
 static dyd_status plane_step(dyd_survey **next, dyd_trial *d, dyd_error *err) {
   const dyd_trials *t = d->of;
-  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = t->cancel, .threads = 1,
-                                  .max_pairs = plane_of(d)->pd->options.max_pairs};
+  const dyd_delaunay *pd = t->user;
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = t->options.cancel, .threads = 1,
+                                  .max_pairs = pd->options.max_pairs};
   dyd_delaunay *then = NULL;
-  dyd_survey_options how = plane_of(d)->options;
   dyd_status st = dyd_delaunay_made(&then, t->sites, plane_rect, d, &o, err);
   if (st != DYD_OK) return st;
   dyd_delaunay_free(d->now);
   d->now = then;
-  how.pairs = &t->asked;
-  return dyd_survey_new(next, then, &how, err);
+  return dyd_survey_new(next, then, &t->options, err);
 }
 
 static void plane_end(void *now) {
@@ -458,21 +451,17 @@ static void plane_end(void *now) {
 dyd_status dyd_survey_simulate(dyd_survey_trial *out, size_t count, uint64_t seed, const dyd_delaunay *pd,
                                const dyd_survey_options *options, dyd_error *err) {
   if (!pd || (count && !out)) return dyd_fail_null(err);
-  plane_trials p = {.pd = pd};
   DYD_OWNED(dyd_survey) *first = NULL;
-  for (size_t k = 0; k < count; k++) out[k] = (dyd_survey_trial){0};
-  dyd_status st = dyd_abi_take(&p.options, sizeof p.options, options, "dyd_survey_options", err);
-  if (st == DYD_OK) st = dyd_survey_new(&first, pd, &p.options, err);
-  p.options.window = NULL;
-  p.options.site = NULL;
   dyd_trials t = {.out = out,
                   .count = count,
                   .seed = seed,
-                  .first = first,
                   .sites = dyd_sites_count(dyd_delaunay_sites(pd)),
-                  .cancel = p.options.cancel,
                   .step = plane_step,
                   .end = plane_end,
-                  .user = &p};
+                  .user = pd};
+  for (size_t k = 0; k < count; k++) out[k] = (dyd_survey_trial){0};
+  dyd_status st = dyd_abi_take(&t.options, sizeof t.options, options, "dyd_survey_options", err);
+  if (st == DYD_OK) st = dyd_survey_new(&first, pd, &t.options, err);
+  t.first = first;
   return st == DYD_OK ? dyd_trials_run(&t, pd->options.threads, err) : st;
 }

@@ -72,16 +72,15 @@ typedef struct dyd_trial {
   double *needed;
 } dyd_trial;
 
-/* Shared by all trials of a plan. step: replaces the regions by what is measured, and plans again for `asked`; end:
- * frees them. */
+/* Shared by all trials of a plan. step: replaces the regions by what is measured, and plans again; end: frees them. */
 typedef struct dyd_trials {
   dyd_survey_trial *out;
   size_t count;
   uint64_t seed;
   const dyd_survey *first; /* the plan that all begin with */
   size_t sites;
-  dyd_pair_list asked; /* all pairs of the first plan that are open; borrowed from it */
-  const volatile int *cancel;
+  dyd_pair_list asked;        /* all pairs of the first plan that are open; borrowed from it */
+  dyd_survey_options options; /* of the first plan; while trials run, of those after it, which ask for `asked` */
   dyd_status (*step)(dyd_survey **next, dyd_trial *d, dyd_error *err);
   void (*end)(void *now);
   const void *user;
