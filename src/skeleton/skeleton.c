@@ -28,11 +28,6 @@ typedef struct entry {
   int axis;
 } entry;
 
-static void line_clear(dyd_line *l) {
-  dyd_free_all(l->order, l->rank, l->legal);
-  memset(l, 0, sizeof *l);
-}
-
 static mpz_srcptr line_low(const entry *e) {
   return e->axis == 0 ? e->r.x0 : e->r.y0;
 }
@@ -99,13 +94,17 @@ static dyd_status line_allocate(dyd_line *l, uint32_t n) {
   return DYD_NEW(l->order, n) && DYD_NEW(l->rank, n) && DYD_ZEROED(l->legal, n ? n : 1) ? DYD_OK : DYD_E_NOMEM;
 }
 
+/* Returns true if r is a point, and `before` the same one. */
+static bool is_point_again(const dyd_irect *r, const dyd_irect *before) {
+  return mpz_cmp(r->x0, r->x1) == 0 && mpz_cmp(r->y0, r->y1) == 0 && mpz_cmp(before->x0, r->x0) == 0 &&
+         mpz_cmp(before->x1, r->x0) == 0 && mpz_cmp(before->y0, r->y0) == 0 && mpz_cmp(before->y1, r->y0) == 0;
+}
+
 /* Equal exact points are neighbours in the order: the later ones become aliases and leave the list. */
-static void line_drop_aliases(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, entry *e) {
+static void line_drop_aliases(dyd_line *l, dyd_mesh *m, entry *e) {
   uint32_t kept = 0;
   for (uint32_t q = 0; q < l->count; q++) {
-    bool same = kept && dyd_rects_is_point(rects, e[q].vertex) && dyd_rects_is_point(rects, e[kept - 1].vertex) &&
-                mpz_cmp(e[q].r.x0, e[kept - 1].r.x0) == 0 && mpz_cmp(e[q].r.y0, e[kept - 1].r.y0) == 0;
-    if (same) {
+    if (kept && is_point_again(&e[q].r, &e[kept - 1].r)) {
       m->alias[e[q].vertex] = e[kept - 1].vertex;
       dyd_irect_clear(&e[q].r);
     } else
@@ -114,11 +113,11 @@ static void line_drop_aliases(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, 
   l->count = kept;
 }
 
-static void line_sort(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, entry *e) {
+static void line_sort(dyd_line *l, dyd_mesh *m, entry *e) {
   int axis = line_axis(e, l->count);
   for (uint32_t q = 0; q < l->count; q++) e[q].axis = axis;
   qsort(e, l->count, sizeof *e, line_compare);
-  line_drop_aliases(l, m, rects, e);
+  line_drop_aliases(l, m, e);
   for (uint32_t q = 0; q < l->count; q++) {
     l->order[q] = e[q].vertex;
     l->rank[e[q].vertex] = q;
@@ -143,7 +142,7 @@ static dyd_status line_build(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, u
   DYD_FREED const dyd_rect **in = calloc((size_t)l->count + 1, sizeof *in);
   if (!e || !r || !in || !out) return DYD_E_NOMEM;
   line_load(e, r, in, out, rects, l);
-  line_sort(l, m, rects, e);
+  line_sort(l, m, e);
   return DYD_OK;
 }
 
@@ -264,8 +263,8 @@ void dyd_skeleton_clear(dyd_skeleton *sk) {
   dyd_tree_clear(&sk->rects.tree);
   dyd_tree_clear(&sk->blocks);
   dyd_mesh_clear(&sk->mesh);
-  line_clear(&sk->line);
   dyd_reps_clear(&sk->reps);
+  dyd_free_all(sk->line.order, sk->line.rank, sk->line.legal);
   dyd_free_all(sk->block, sk->rects.box, sk->certain, sk->leaving, sk->vertex);
   memset(sk, 0, sizeof *sk);
 }
@@ -462,8 +461,8 @@ uint64_t dyd_skeleton_bytes(const dyd_sites *sites) {
 void dyd_scale_set_init(dyd_scale_set *s, const dyd_rects *rects) {
   *s = (dyd_scale_set){.rects = rects};
   mpz_inits(s->lcm, s->growth, s->t, NULL);
-  dyd_rect_init(&s->load);
   dyd_scale_set_empty(s);
+  dyd_rect_init(&s->load);
 }
 
 void dyd_scale_set_clear(dyd_scale_set *s) {
@@ -595,8 +594,8 @@ static void task_of_range(void *context, size_t number, size_t begin, size_t end
 }
 
 static void work_join(dyd_work *w, dyd_work *task) {
-  dyd_tally_join(&w->tally, &task->tally);
   add_counters(&w->counters, &task->counters);
+  dyd_tally_join(&w->tally, &task->tally);
   dyd_room_join(&w->room, &task->room);
   dyd_work_clear(task);
 }
