@@ -196,13 +196,6 @@ static inline void dyd_rects_get(dyd_rect *out, const dyd_rects *r, uint32_t v) 
   DYD_INVARIANT(st == DYD_OK);
   (void)st;
 }
-static inline bool dyd_rects_is_point(const dyd_rects *r, uint32_t v) {
-  return dyd_site_is_point(r->sites, r->site[v]);
-}
-/* Returns true if box[v] is the rectangle itself. */
-static inline bool dyd_rects_in_doubles(const dyd_rects *r, uint32_t v) {
-  return dyd_sites_in_doubles(r->sites, r->site[v]);
-}
 /* Brings the box of v up to date. */
 static inline void dyd_rects_set_box(dyd_rects *r, uint32_t v) {
   dyd_sites_get_d(r->box[v].e, r->sites, r->site[v]);
@@ -213,7 +206,7 @@ static inline void dyd_rects_set_box(dyd_rects *r, uint32_t v) {
 /* By how much an end of v's outward box can lie outside its rectangle: 0 when doubles hold it, else one unit in the
  * last place of the largest end, at most 2^-52 of it (or 2^-1074). */
 static inline double dyd_box_slack(const dyd_rects *r, uint32_t v) {
-  if (dyd_rects_in_doubles(r, v)) return 0;
+  if (dyd_sites_in_doubles(r->sites, r->site[v])) return 0;
   const double *e = r->box[v].e;
   double m = dyd_max(dyd_max(fabs(e[0]), fabs(e[1])), dyd_max(fabs(e[2]), fabs(e[3])));
   return m * 0x1p-52 + 0x1p-1074;

@@ -65,7 +65,7 @@ size_t dyd_skeleton_memory(const dyd_skeleton *sk);
 uint64_t dyd_skeleton_bytes(const dyd_sites *sites);
 
 static inline bool dyd_vertex_is_point(const dyd_skeleton *sk, uint32_t v) {
-  return sk->all_points || dyd_rects_is_point(&sk->rects, v);
+  return sk->all_points || dyd_site_is_point(sk->rects.sites, sk->rects.site[v]);
 }
 static inline bool dyd_edge_is_certain(const dyd_skeleton *sk, dyd_half_edge h) {
   return sk->certain[dyd_edge_triangle(h)] >> dyd_edge_corner(h) & 1;
