@@ -266,8 +266,7 @@ static dyd_status at_fraction(dyd_interval *a, fraction f) {
 
 static dyd_status exact_fraction(dyd_rect *out, const dyd_reps *r, uint32_t v, uint32_t k) {
   dyd_status st = dyd_sites_get(out, r->sites, r->site[v]);
-  if (st == DYD_OK) st = at_fraction(&out->x, fraction_of(k, 0));
-  if (st == DYD_OK) st = at_fraction(&out->y, fraction_of(k, 1));
+  for (int axis = 0; axis < 2 && st == DYD_OK; axis++) st = at_fraction(axis ? &out->y : &out->x, fraction_of(k, axis));
   return st;
 }
 
@@ -360,10 +359,10 @@ dyd_status dyd_reps_choose(dyd_reps *r, uint32_t v, uint32_t k) {
 
 enum { FETCH_AHEAD = 24 };
 
-/* box: NULL, or of each vertex. Of each range: delta, status. */
+/* box: NULL, or of each vertex: the table of sites is read once for both. Of each range: delta, status. */
 typedef struct choice {
   dyd_reps *r;
-  const dyd_bbox *box;
+  dyd_bbox *box;
   double delta[DYD_RANGES_MOST];
   dyd_status status[DYD_RANGES_MOST];
 } choice;
@@ -373,6 +372,13 @@ static void choose_points(dyd_reps *r, size_t begin, size_t end) {
   for (size_t v = begin; v < end; v++) {
     if (v + FETCH_AHEAD < end) dyd_sites_fetch(s, r->site[v + FETCH_AHEAD]);
     r->xy[v] = (dyd_xy){s->lower[0][r->site[v]], s->lower[1][r->site[v]]};
+  }
+}
+
+static void look_up_boxes(dyd_bbox *box, const dyd_reps *r, size_t begin, size_t end) {
+  for (size_t v = begin; v < end; v++) {
+    if (v + FETCH_AHEAD < end) dyd_sites_fetch(r->sites, r->site[v + FETCH_AHEAD]);
+    dyd_sites_get_d(box[v].e, r->sites, r->site[v]);
   }
 }
 
@@ -394,6 +400,7 @@ static dyd_status choose_any(dyd_reps *r, const dyd_bbox *box, size_t begin, siz
 static void choose_part_of_reps(void *context, size_t number, size_t begin, size_t end) {
   choice *c = context;
   dyd_reps part = *c->r; /* the same arrays */
+  if (c->box) look_up_boxes(c->box, &part, begin, end);
   if (dyd_sites_are_double_points(part.sites))
     choose_points(&part, begin, end);
   else if (c->box && dyd_sites_all_in_doubles(part.sites))
@@ -403,33 +410,24 @@ static void choose_part_of_reps(void *context, size_t number, size_t begin, size
   c->delta[number] = part.delta;
 }
 
-/* Without codes, every representative is its double point. */
-static void drop_codes(dyd_reps *r) {
-  for (uint32_t v = 0; v < r->n; v++)
-    if (r->code[v]) return;
-  free(r->code);
-  r->code = NULL;
-}
-
-static dyd_status choose_reps(dyd_reps *r, const dyd_bbox *box, unsigned threads) {
+dyd_status dyd_reps_init(dyd_reps *r, dyd_bbox *box, const dyd_sites *sites, uint32_t *site, uint32_t n,
+                         unsigned threads) {
   choice c = {.r = r, .box = box};
   dyd_status st = DYD_OK;
-  if (!dyd_sites_all_in_doubles(r->sites) && !(r->code = calloc((size_t)r->n + 1, sizeof *r->code))) return DYD_E_NOMEM;
+  *r = (dyd_reps){.sites = sites, .n = n, .site = site};
+  if (!DYD_NEW(r->xy, (size_t)n + 1)) return DYD_E_NOMEM;
+  r->xy[n] = (dyd_xy){NAN, NAN};
+  if (!dyd_sites_all_in_doubles(sites) && !DYD_ZEROED(r->code, (size_t)n + 1)) return DYD_E_NOMEM;
   size_t ranges = dyd_parallel_ranges(threads, r->n, choose_part_of_reps, &c);
   for (size_t k = 0; k < ranges; k++) {
     r->delta = fmax(r->delta, c.delta[k]);
     if (st == DYD_OK) st = c.status[k];
   }
-  if (r->code) drop_codes(r);
+  if (r->delta == 0) { /* every representative is its double point */
+    free(r->code);
+    r->code = NULL;
+  }
   return st;
-}
-
-dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, const dyd_bbox *box, uint32_t n,
-                         unsigned threads) {
-  *r = (dyd_reps){.sites = sites, .n = n, .site = site};
-  if (!DYD_NEW(r->xy, (size_t)n + 1)) return DYD_E_NOMEM;
-  r->xy[n] = (dyd_xy){NAN, NAN};
-  return choose_reps(r, box, threads);
 }
 
 void dyd_reps_clear(dyd_reps *r) {

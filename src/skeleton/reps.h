@@ -27,9 +27,9 @@ typedef struct dyd_reps {
   double delta;
 } dyd_reps;
 
-/* Takes over the array site[n]; chooses fraction 0 (the middle) everywhere. box: the sites' boxes in this order; NULL
- * where all sites are points of doubles, or to look them up. */
-dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, const dyd_bbox *box, uint32_t n,
+/* Takes over the array site[n]; chooses fraction 0 (the middle) everywhere. box: becomes the sites' boxes in this
+ * order; may be NULL. */
+dyd_status dyd_reps_init(dyd_reps *r, dyd_bbox *box, const dyd_sites *sites, uint32_t *site, uint32_t n,
                          unsigned threads);
 void dyd_reps_clear(dyd_reps *r);
 /* Chooses the representative of v anew: the double nearest to fraction k if it lies in the rectangle (k = 0 only),

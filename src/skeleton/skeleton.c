@@ -274,17 +274,6 @@ void dyd_skeleton_moved(dyd_skeleton *sk) {
   sk->rects.tree.box = sk->rects.box;
 }
 
-enum { FETCH_AHEAD = 24 };
-
-static void boxes_of_range(void *context, size_t number, size_t begin, size_t end) {
-  dyd_skeleton *sk = context;
-  (void)number;
-  for (size_t v = begin; v < end; v++) {
-    if (v + FETCH_AHEAD < end) dyd_sites_fetch(sk->rects.sites, sk->rects.site[v + FETCH_AHEAD]);
-    dyd_rects_set_box(&sk->rects, (uint32_t)v);
-  }
-}
-
 static dyd_status skeleton_reserve(dyd_skeleton *sk) {
   const bool boxed = !dyd_sites_are_double_points(sk->rects.sites);
   if (!DYD_NEW(sk->reps.site, sk->n) || !DYD_NEW(sk->vertex, sk->n) || !DYD_NEW(sk->leaving, sk->n) ||
@@ -294,15 +283,13 @@ static dyd_status skeleton_reserve(dyd_skeleton *sk) {
   return DYD_OK;
 }
 
-/* Boxes: the table of sites in the order of the vertices, read once for whatever is made of it. */
+/* Representatives and boxes in the order of the vertices, triangles. */
 static dyd_status skeleton_triangulate(dyd_skeleton *sk, const dyd_skeleton_options *o) {
   const dyd_sites *sites = sk->rects.sites;
   dyd_strips strips;
   dyd_status st = dyd_spatial_order(sk->reps.site, &strips, sites, o->threads);
   if (st == DYD_OK && dyd_flag_is_set(o->cancel)) st = DYD_CANCELLED;
-  if (st != DYD_OK) return st;
-  if (sk->rects.box) dyd_parallel_ranges(o->threads, sk->n, boxes_of_range, sk);
-  st = dyd_reps_init(&sk->reps, sites, sk->reps.site, sk->rects.box, sk->n, o->threads);
+  if (st == DYD_OK) st = dyd_reps_init(&sk->reps, sk->rects.box, sites, sk->reps.site, sk->n, o->threads);
   if (st == DYD_OK) st = dyd_mesh_build_strips(&sk->mesh, &sk->reps, &strips, o->no_filter, o->cancel, o->threads);
   return st;
 }

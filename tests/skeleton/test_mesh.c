@@ -45,7 +45,7 @@ static void bed_make(bed *b) {
     site[k] = k;
   }
   dyd_rect_clear(&r);
-  assert_int_equal(dyd_reps_init(&b->reps, b->s, site, NULL, POINTS, 1), DYD_OK);
+  assert_int_equal(dyd_reps_init(&b->reps, NULL, b->s, site, POINTS, 1), DYD_OK);
   b->m = (dyd_mesh){.reps = &b->reps, .n = POINTS, .end = POINTS};
   dyd_mesh_coordinates(&b->m);
 }
