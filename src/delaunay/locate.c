@@ -99,8 +99,7 @@ static int reps_turn(locator *l, uint32_t a, uint32_t b, dyd_xy z) {
   const dyd_mesh *m = &l->pd->sk.mesh;
   int sign = m->no_filter ? 0 : dyd_filter_orient_near(m, m->xy[a], m->xy[b], z);
   if (sign) return sign;
-  for (int k = 0; k < 2 && l->failed == DYD_OK; k++)
-    l->failed = dyd_reps_get(&l->r[k], m->reps, dyd_mesh_rep(m, k ? b : a));
+  for (int k = 0; k < 2 && l->failed == DYD_OK; k++) l->failed = dyd_mesh_get(&l->r[k], m, k ? b : a);
   if (l->failed != DYD_OK) return 0;
   (void)dyd_rect_set_d(&l->r[2], z.x, z.x, z.y, z.y);
   return (int)dyd_orientation(&l->r[0], &l->r[1], &l->r[2]);

@@ -62,11 +62,10 @@ static dyd_status mesh_move(dyd_mesh *m, uint32_t v, uint32_t k) {
 }
 
 bool dyd_mesh_same(const dyd_mesh *m, uint32_t a, uint32_t b) {
-  uint32_t u = dyd_mesh_rep(m, a), v = dyd_mesh_rep(m, b);
   if (m->xy[a].x != m->xy[b].x || m->xy[a].y != m->xy[b].y) return false;
-  if (dyd_reps_is_double(m->reps, u) && dyd_reps_is_double(m->reps, v)) return true;
+  if (dyd_reps_is_double(m->reps, dyd_mesh_rep(m, a)) && dyd_reps_is_double(m->reps, dyd_mesh_rep(m, b))) return true;
   DYD_LOCAL(dyd_rect, p, q);
-  return dyd_reps_get(&p, m->reps, u) == DYD_OK && dyd_reps_get(&q, m->reps, v) == DYD_OK && dyd_rect_equal(&p, &q);
+  return dyd_mesh_get(&p, m, a) == DYD_OK && dyd_mesh_get(&q, m, b) == DYD_OK && dyd_rect_equal(&p, &q);
 }
 
 /* Moves v, or makes it an alias, until it differs from w. *differs: v is a vertex of its own. */

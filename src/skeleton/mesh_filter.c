@@ -106,12 +106,16 @@ static bool prepare_doubles(dyd_fixed *f, const dyd_mesh *m) {
   return set_range(f, low, high);
 }
 
+dyd_status dyd_mesh_get(dyd_rect *out, const dyd_mesh *m, uint32_t v) {
+  return dyd_reps_get(out, m->reps, dyd_mesh_rep(m, v));
+}
+
 /* The common denominator and the least binary exponent of all representatives; false when they are too big. */
 static bool common_scale(mpz_t lcm, int64_t *low, dyd_rect *q, const dyd_mesh *m) {
   mpz_set_ui(lcm, 1);
   *low = INT64_MAX;
   for (uint32_t v = m->begin; v < m->end; v++) {
-    if (dyd_reps_get(q, m->reps, dyd_mesh_rep(m, v)) != DYD_OK) return false;
+    if (dyd_mesh_get(q, m, v) != DYD_OK) return false;
     const dyd_interval *side[2] = {&q->x, &q->y};
     for (int a = 0; a < 2; a++) {
       mpz_lcm(lcm, lcm, side[a]->den);
@@ -142,8 +146,8 @@ static bool prepare_rationals(dyd_fixed *f, const dyd_mesh *m) {
   f->den = mpz_get_ui(lcm);
   for (uint32_t v = m->begin; v < m->end && good; v++) {
     int64_t *z = f->z[v - f->first];
-    good = dyd_reps_get(&q, m->reps, dyd_mesh_rep(m, v)) == DYD_OK && scaled(&z[0], t, &q.x, lcm, f->low) &&
-           scaled(&z[1], t, &q.y, lcm, f->low);
+    good =
+        dyd_mesh_get(&q, m, v) == DYD_OK && scaled(&z[0], t, &q.x, lcm, f->low) && scaled(&z[1], t, &q.y, lcm, f->low);
   }
   return good;
 }
@@ -320,7 +324,7 @@ static void points_load(scaled_points *s, const dyd_mesh *m, const uint32_t *v, 
   s->count = count;
   for (size_t k = 0; k < count; k++) {
     dyd_irect_init(&s->p[k]);
-    (void)dyd_reps_get(&r[k], m->reps, dyd_mesh_rep(m, v[k]));
+    (void)dyd_mesh_get(&r[k], m, v[k]);
     in[k] = &r[k];
   }
   dyd_irects_scale(s->p, in, count, NULL, NULL);

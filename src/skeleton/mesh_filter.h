@@ -172,6 +172,8 @@ void dyd_fixed_take(dyd_mesh *m, dyd_mesh *whole);
 
 /* ---- the last rung: GMP ---- */
 
+/* The exact representative of vertex v as a singleton rectangle. */
+dyd_status dyd_mesh_get(dyd_rect *out, const dyd_mesh *m, uint32_t v);
 /* Exact signs for real vertices, by integers. */
 int dyd_mesh_orient_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);
 int dyd_mesh_incircle_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
