@@ -419,7 +419,6 @@ int dyd_mesh_orient(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b,
 static int incircle_real(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
   int sign;
   if (!m->no_filter) {
-    if (dyd_filter_incircle_small(&sign, m, dyd_incircle_of(m->xy[a], m->xy[b], m->xy[c], m->xy[p]))) return sign;
     if ((sign = dyd_filter_incircle_near(m, m->xy[a], m->xy[b], m->xy[c], m->xy[p]))) return sign;
     if (dyd_fixed_incircle(&sign, m, a, b, c, p)) return tally->integer++, sign;
   }
@@ -450,7 +449,8 @@ int dyd_mesh_incircle(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t 
   return dyd_incircle_quick(&sign, tally, m, a, b, c, p) ? sign : incircle_slow(tally, m, a, b, c, p);
 }
 
-/* The grid costs O(n), so it is made when the filters have said that they do not know. */
+/* The grid costs O(n), so it is made when the filters have said that they do not know. It may tell that integers are
+ * small. */
 int dyd_build_orient_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
   bool tried = m->fixed || m->no_fixed;
   if (!tried && !dyd_filter_orient_near(m, m->xy[a], m->xy[b], m->xy[c])) dyd_fixed_prepare(m);
@@ -460,7 +460,11 @@ int dyd_build_orient_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
 int dyd_build_incircle_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
   uint32_t g = m->n, u = a == g ? b : b == g ? c : a, v = a == g ? c : b == g ? a : b;
   bool real = a != g && b != g && c != g, tried = m->fixed || m->no_fixed;
+  int sign;
   if (!tried && (real || !dyd_filter_orient(m, m->xy[u], m->xy[v], m->xy[p]))) dyd_fixed_prepare(m);
+  if (!tried && m->exact_s > 0 &&
+      dyd_filter_incircle_small(&sign, m, dyd_incircle_of(m->xy[a], m->xy[b], m->xy[c], m->xy[p])))
+    return m->tally.ties += !sign, sign;
   return incircle_slow(&m->tally, m, a, b, c, p);
 }
 
