@@ -151,9 +151,9 @@ void dyd_mesh_set_rounds(dyd_mesh *m) {
   m->rounds = 1;
   if (m->part || dyd_sites_are_double_points(m->reps->sites)) return; /* one strip: points come first */
   for (uint32_t v = m->begin; v < m->end && m->rounds == 1; v++) {
+    bool point = mesh_is_point(m, v);
     if (m->end - v > FETCH_AHEAD) dyd_sites_fetch(s, m->reps->site[dyd_mesh_rep(m, v + FETCH_AHEAD)]);
     if (m->end - v > FETCH_AHEAD / 2) dyd_sites_fetch_exact(s, m->reps->site[dyd_mesh_rep(m, v + FETCH_AHEAD / 2)]);
-    bool point = mesh_is_point(m, v);
     if (point && fat) m->rounds = 2;
     fat = fat || !point;
   }
@@ -588,7 +588,8 @@ static void make_parts(seams *s, const dyd_mesh *m, const dyd_strips *strips) {
   }
 }
 
-static dyd_status fill_parts(bool *stuck, seams *s, unsigned threads) {
+/* Fills the parts and joins them to the first one; *stuck: one of them was, none are joined. */
+static dyd_status fill_and_join(bool *stuck, seams *s, unsigned threads) {
   dyd_status st = DYD_OK;
   dyd_parallel(threads, s->parts, fill_part, s);
   *stuck = false;
@@ -596,6 +597,8 @@ static dyd_status fill_parts(bool *stuck, seams *s, unsigned threads) {
     *stuck = *stuck || s->part[k].stuck;
     if (st == DYD_OK && !s->part[k].stuck) st = s->status[k];
   }
+  for (s->stride = 1; st == DYD_OK && !*stuck && s->stride < s->parts; s->stride *= 2)
+    dyd_parallel(threads, (s->parts + 2 * s->stride - 1) / (2 * s->stride), join_pair, s);
   return st;
 }
 
@@ -618,11 +621,6 @@ static void close_gaps(dyd_mesh *m, gap *gaps, unsigned count) {
   }
 }
 
-static void join_parts(seams *s, unsigned threads) {
-  for (s->stride = 1; s->stride < s->parts; s->stride *= 2)
-    dyd_parallel(threads, (s->parts + 2 * s->stride - 1) / (2 * s->stride), join_pair, s);
-}
-
 /* Triangulates m, which has its coordinates and no triangles. *joined = false: some part was stuck, m is as it was. */
 static dyd_status mesh_join_strips(bool *joined, dyd_mesh *m, const dyd_strips *strips, const volatile int *cancel,
                                    unsigned threads) {
@@ -632,14 +630,13 @@ static dyd_status mesh_join_strips(bool *joined, dyd_mesh *m, const dyd_strips *
   if (!s) return DYD_E_NOMEM;
   s->cancel = cancel;
   make_parts(s, m, strips);
-  dyd_status st = fill_parts(&stuck, s, threads);
+  dyd_status st = fill_and_join(&stuck, s, threads);
   if (st == DYD_OK && !stuck) {
-    join_parts(s, threads);
     dyd_fixed_take(m, &s->part[0]);
+    for (unsigned k = 0; k < s->parts; k++) dyd_tally_join(&m->tally, &s->part[k].tally);
     m->count = s->part[0].count;
     m->hint = s->part[0].hint;
     close_gaps(m, s->gap + 1, s->parts - 1);
-    for (unsigned k = 0; k < s->parts; k++) dyd_tally_join(&m->tally, &s->part[k].tally);
     *joined = true;
     m->strips = *strips;
   } else
