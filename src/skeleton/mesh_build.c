@@ -675,16 +675,11 @@ static dyd_status mesh_finish(dyd_mesh *m, dyd_status st) {
 }
 
 /* Sites joined with a lower one are aliases from the start. */
-static dyd_status mesh_put_joined(dyd_mesh *m) {
-  const dyd_sites *sites = m->reps->sites;
-  DYD_FREED uint32_t *vertex = dyd_alloc(m->n, sizeof *vertex);
-  if (!vertex) return DYD_E_NOMEM;
-  for (uint32_t v = 0; v < m->n; v++) vertex[m->reps->site[v]] = v;
+static void mesh_put_joined(dyd_mesh *m, const uint32_t *vertex) {
   for (uint32_t v = 0; v < m->n; v++) {
-    uint32_t of = vertex[dyd_site_joined(sites, m->reps->site[v])];
+    uint32_t of = vertex[dyd_site_joined(m->reps->sites, m->reps->site[v])];
     if (of != v) m->alias[v] = of;
   }
-  return DYD_OK;
 }
 
 dyd_status dyd_mesh_build(dyd_mesh *m, dyd_reps *reps, const uint32_t *local, uint32_t n, bool no_filter,
@@ -694,12 +689,12 @@ dyd_status dyd_mesh_build(dyd_mesh *m, dyd_reps *reps, const uint32_t *local, ui
   return mesh_finish(m, st);
 }
 
-dyd_status dyd_mesh_build_strips(dyd_mesh *m, dyd_reps *reps, const dyd_strips *strips, bool no_filter,
-                                 const volatile int *cancel, unsigned threads) {
+dyd_status dyd_mesh_build_strips(dyd_mesh *m, dyd_reps *reps, const dyd_strips *strips, const uint32_t *vertex,
+                                 bool no_filter, const volatile int *cancel, unsigned threads) {
   bool joined = false;
   dyd_status st = mesh_init(m, reps, NULL, reps->n, no_filter);
-  if (st == DYD_OK && reps->sites->joins)
-    st = mesh_put_joined(m);
+  if (st == DYD_OK && vertex)
+    mesh_put_joined(m, vertex);
   else if (st == DYD_OK && dyd_strips_are_apart(reps, strips))
     st = mesh_join_strips(&joined, m, strips, cancel, threads);
   if (st == DYD_OK && !joined) st = mesh_fill(m, cancel);

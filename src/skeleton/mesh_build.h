@@ -12,9 +12,10 @@ dyd_status dyd_mesh_build(dyd_mesh *m, dyd_reps *reps, const uint32_t *local, ui
                           const volatile int *cancel);
 /* From strips, if there are several and that is possible: no representative has to be moved, strips are divided by
  * vertical lines and none is collinear; else as dyd_mesh_build. Which of several skeletons comes out at exact ties
- * depends on the strips, not on the number of threads. */
-dyd_status dyd_mesh_build_strips(dyd_mesh *m, dyd_reps *reps, const dyd_strips *strips, bool no_filter,
-                                 const volatile int *cancel, unsigned threads);
+ * depends on the strips, not on the number of threads. vertex: the vertex of each site, where some sites are joined:
+ * these are aliases from the start, and strips are not used; else NULL. */
+dyd_status dyd_mesh_build_strips(dyd_mesh *m, dyd_reps *reps, const dyd_strips *strips, const uint32_t *vertex,
+                                 bool no_filter, const volatile int *cancel, unsigned threads);
 
 /* Sets xy (own_xy, a copy, for a part of the vertices) and the filter constants. */
 void dyd_mesh_coordinates(dyd_mesh *m);

@@ -277,21 +277,10 @@ void dyd_skeleton_moved(dyd_skeleton *sk) {
 static dyd_status skeleton_reserve(dyd_skeleton *sk) {
   const bool boxed = !dyd_sites_are_double_points(sk->rects.sites);
   if (!DYD_NEW(sk->reps.site, sk->n) || !DYD_NEW(sk->vertex, sk->n) || !DYD_NEW(sk->leaving, sk->n) ||
-      (boxed && !DYD_NEW(sk->rects.box, sk->n)))
+      (boxed && (!DYD_NEW(sk->rects.box, sk->n) || !DYD_NEW(sk->rects.tree.item, sk->n))))
     return DYD_E_NOMEM;
   sk->rects.site = sk->reps.site;
   return DYD_OK;
-}
-
-/* Representatives and boxes in the order of the vertices, triangles. */
-static dyd_status skeleton_triangulate(dyd_skeleton *sk, const dyd_skeleton_options *o) {
-  const dyd_sites *sites = sk->rects.sites;
-  dyd_strips strips;
-  dyd_status st = dyd_spatial_order(sk->reps.site, &strips, sites, o->threads);
-  if (st == DYD_OK && dyd_flag_is_set(o->cancel)) st = DYD_CANCELLED;
-  if (st == DYD_OK) st = dyd_reps_init(&sk->reps, sk->rects.box, sites, sk->reps.site, sk->n, o->threads);
-  if (st == DYD_OK) st = dyd_mesh_build_strips(&sk->mesh, &sk->reps, &strips, o->no_filter, o->cancel, o->threads);
-  return st;
 }
 
 /* A vertex represents the lowest of its equal sites: site numbers of a vertex and its aliases are exchanged. */
@@ -329,18 +318,14 @@ static void leaving_of_strip(void *context, size_t number) {
     }
 }
 
-/* A vertex at a seam may have triangles of the other strip only. */
-static bool has_lost_vertex(const dyd_skeleton *sk) {
-  for (uint32_t v = 0; v < sk->n; v++)
-    if (sk->leaving[v] == DYD_NONE && dyd_mesh_alias(&sk->mesh, v) == DYD_NONE) return sk->mesh.count > 0;
-  return false;
-}
-
+/* A vertex at a seam may have triangles of the other strip only: it is lost at first. */
 static void find_leaving(dyd_skeleton *sk, unsigned threads) {
+  bool lost = false;
   memset(sk->leaving, 0xff, sk->n * sizeof *sk->leaving);
   dyd_parallel(threads, sk->mesh.strips.count, leaving_of_strip, sk);
-  if (!has_lost_vertex(sk)) return;
-  for (uint32_t t = 0; t < sk->mesh.count; t++)
+  for (uint32_t v = 0; v < sk->n && !lost; v++)
+    lost = sk->leaving[v] == DYD_NONE && dyd_mesh_alias(&sk->mesh, v) == DYD_NONE;
+  for (uint32_t t = 0; t < sk->mesh.count && lost; t++)
     for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++) {
       uint32_t v = dyd_edge_origin(&sk->mesh, h);
       if (v != sk->mesh.n && sk->leaving[v] == DYD_NONE) sk->leaving[v] = h;
@@ -360,12 +345,12 @@ static dyd_status build_maps(dyd_skeleton *sk, unsigned threads) {
 static dyd_status build_boxes(dyd_skeleton *sk) {
   if (sk->all_points || sk->mesh.collinear) {
     dyd_status st = blocks_make(sk, 0); /* while the boxes are at hand in this order */
+    dyd_tree_clear(&sk->rects.tree);
     free(sk->rects.box);
     sk->rects.box = NULL;
     return st;
   }
-  uint32_t *item = dyd_alloc(sk->n, sizeof *item), count = 0;
-  if (!item) return DYD_E_NOMEM;
+  uint32_t *item = sk->rects.tree.item, count = 0;
   for (uint32_t v = 0; v < sk->n; v++)
     if (sk->leaving[v] != DYD_NONE) item[count++] = v;
   return dyd_tree_init(&sk->rects.tree, item, count, sk->rects.box);
@@ -374,8 +359,15 @@ static dyd_status build_boxes(dyd_skeleton *sk) {
 dyd_status dyd_skeleton_build(dyd_skeleton *sk, const dyd_sites *sites, const dyd_skeleton_options *o) {
   *sk = (dyd_skeleton){.n = (uint32_t)dyd_sites_count(sites), .rects = {.sites = sites}};
   sk->built = sk->n;
+  dyd_strips strips;
   dyd_status st = skeleton_reserve(sk);
-  if (st == DYD_OK) st = skeleton_triangulate(sk, o);
+  if (st == DYD_OK) st = dyd_spatial_order(sk->reps.site, &strips, sites, o->threads);
+  if (st == DYD_OK && dyd_flag_is_set(o->cancel)) st = DYD_CANCELLED;
+  if (st == DYD_OK) st = dyd_reps_init(&sk->reps, sk->rects.box, sites, sk->reps.site, sk->n, o->threads);
+  for (uint32_t v = 0; st == DYD_OK && sites->joins && v < sk->n; v++) sk->vertex[sk->reps.site[v]] = v;
+  if (st == DYD_OK)
+    st = dyd_mesh_build_strips(&sk->mesh, &sk->reps, &strips, sites->joins ? sk->vertex : NULL, o->no_filter, o->cancel,
+                               o->threads);
   if (st == DYD_OK && sk->mesh.collinear) st = line_build(&sk->line, &sk->mesh, &sk->rects, sk->n);
   if (st == DYD_OK) st = build_maps(sk, o->threads);
   if (st == DYD_OK) st = build_boxes(sk);

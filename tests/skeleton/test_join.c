@@ -79,7 +79,8 @@ static void bed_make(bed *b, const double *x, const double *y, size_t n, const d
   for (uint32_t v = 0; v < n; v++) site[v] = v;
   assert_int_equal(dyd_reps_init(&b->reps, NULL, b->sites, site, (uint32_t)n, 1), DYD_OK);
   dyd_strips one = {1, {0, (uint32_t)n}};
-  assert_int_equal(dyd_mesh_build_strips(&b->m, &b->reps, apart ? strips : &one, no_filter, NULL, threads), DYD_OK);
+  assert_int_equal(dyd_mesh_build_strips(&b->m, &b->reps, apart ? strips : &one, NULL, no_filter, NULL, threads),
+                   DYD_OK);
 }
 
 static uint32_t alive(const dyd_mesh *m) {
