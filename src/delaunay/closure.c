@@ -12,7 +12,6 @@
 
 #include "base/alloc.h"
 #include "base/local.h"
-#include "legal/certify.h"
 #include "legal/witness.h"
 #include "possible/cover.h"
 #include "possible/pair_map.h"
@@ -20,6 +19,7 @@
 #include "predicate/circle.h"
 #include "rect/rect.h"
 #include "skeleton/hull.h"
+#include "skeleton/mesh_filter.h"
 #include "skeleton/rects_filter.h"
 #include "skeleton/skeleton.h"
 #include "skeleton/work.h"
@@ -199,7 +199,7 @@ static bool is_polygon(const closing *c) {
     uint32_t t = c->tri[q];
     ghosts += dyd_is_ghost_triangle(&c->sk->mesh, t);
     for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++)
-      if (!dyd_edge_is_certain(c->sk, h) && !dyd_edge_is_tie(&c->w->tally, &c->sk->mesh, h)) return false;
+      if (!dyd_edge_is_certain(c->sk, h) && dyd_mesh_beyond(&c->w->tally, &c->sk->mesh, h) != 0) return false;
   }
   return ghosts == 0 || ghosts == c->tris;
 }

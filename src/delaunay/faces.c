@@ -7,9 +7,9 @@
 #include "base/local.h"
 #include "delaunay/closure.h"
 #include "delaunay/ties.h"
-#include "legal/certify.h"
 #include "possible/cover.h"
 #include "possible/patches_filter.h"
+#include "skeleton/mesh_filter.h"
 #include "skeleton/rects_filter.h"
 
 #include <string.h>

@@ -17,21 +17,6 @@
 
 #include <string.h>
 
-/* Sign of the vertex beyond an edge against the circle of its triangle: < 0 strictly outside. */
-static int beyond_sign(dyd_tally *tally, const dyd_mesh *m, dyd_half_edge h) {
-  const uint32_t *v = m->tri[dyd_edge_triangle(h)].v;
-  return dyd_mesh_incircle(tally, m, v[0], v[1], v[2], dyd_edge_across(m, h));
-}
-
-bool dyd_edge_is_tie(dyd_tally *tally, const dyd_mesh *m, dyd_half_edge h) {
-  return beyond_sign(tally, m, h) == 0;
-}
-
-bool dyd_point_edge_is_certain(dyd_tally *tally, const dyd_mesh *m, dyd_half_edge h) {
-  bool hull = dyd_edge_apex(m, h) == m->n || dyd_edge_across(m, h) == m->n;
-  return hull || beyond_sign(tally, m, h) < 0;
-}
-
 /* ---- exact points ---- */
 
 typedef struct edge_pass {
@@ -57,7 +42,7 @@ static bool is_exact_tie(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
   const uint32_t four[4] = {v[0], v[1], v[2], dyd_edge_across(&sk->mesh, h)};
   for (unsigned q = 0; q < 4; q++)
     if (four[q] == sk->mesh.n || !dyd_vertex_is_point(sk, four[q])) return false;
-  return dyd_edge_is_tie(&w->tally, &sk->mesh, h);
+  return dyd_mesh_beyond(&w->tally, &sk->mesh, h) == 0;
 }
 
 /* A rectangle that meets R_i or R_j is never outside of a disc that holds both: in a crowd that of a vertex across. */

@@ -11,10 +11,5 @@ dyd_status dyd_certify_all(dyd_skeleton *sk, dyd_work *w);
 dyd_status dyd_certify_points(dyd_skeleton *sk, dyd_work *w);
 /* Decides an edge, by witness or hull test, and marks it. */
 dyd_status dyd_certify_edge(dyd_skeleton *sk, dyd_work *w, dyd_half_edge h);
-/* An edge in a face (or a whole) of exact points bounded by certain edges: legal iff not cocircular, a hull edge
- * always, a ghost edge iff its vertex is not on the line of its neighbours [TIE-2]. Exact. */
-bool dyd_point_edge_is_certain(dyd_tally *tally, const dyd_mesh *m, dyd_half_edge h);
-/* Returns true if the two triangles at an edge are cocircular, or on one line with the ghost. Exact. */
-bool dyd_edge_is_tie(dyd_tally *tally, const dyd_mesh *m, dyd_half_edge h);
 
 #endif

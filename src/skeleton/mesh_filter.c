@@ -449,6 +449,16 @@ int dyd_mesh_incircle(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t 
   return dyd_incircle_quick(&sign, tally, m, a, b, c, p) ? sign : incircle_slow(tally, m, a, b, c, p);
 }
 
+int dyd_mesh_beyond(dyd_tally *tally, const dyd_mesh *m, dyd_half_edge h) {
+  const uint32_t *v = m->tri[dyd_edge_triangle(h)].v;
+  return dyd_mesh_incircle(tally, m, v[0], v[1], v[2], dyd_edge_across(m, h));
+}
+
+bool dyd_point_edge_is_certain(dyd_tally *tally, const dyd_mesh *m, dyd_half_edge h) {
+  bool hull = dyd_edge_apex(m, h) == m->n || dyd_edge_across(m, h) == m->n;
+  return hull || dyd_mesh_beyond(tally, m, h) < 0;
+}
+
 /* The grid costs O(n), so it is made when the filters have said that they do not know. It may tell that integers are
  * small. */
 int dyd_build_orient_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {

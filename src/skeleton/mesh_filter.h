@@ -122,6 +122,12 @@ int dyd_mesh_orient(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b,
 /* Exact sign: > 0 iff p lies strictly inside the circle of the counter-clockwise triangle abc; for a ghost triangle:
  * strictly beyond the hull edge or on it between its ends. p is real; 0 also at ties. */
 int dyd_mesh_incircle(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
+/* The same for the triangle left of h and the vertex beyond h: 0 where the two triangles are cocircular, or on one line
+ * with the ghost. */
+int dyd_mesh_beyond(dyd_tally *tally, const dyd_mesh *m, dyd_half_edge h);
+/* An edge in a face (or a whole) of exact points bounded by certain edges: legal iff not cocircular, a hull edge
+ * always, a ghost edge iff its vertex is not on the line of its neighbours [TIE-2]. Exact. */
+bool dyd_point_edge_is_certain(dyd_tally *tally, const dyd_mesh *m, dyd_half_edge h);
 
 /* In doubles alone: true and the sign where they know it; never without filters. Exact ties of small integers are known
  * here [FLT-SMALL]: on a grid every other test is one. */
