@@ -35,36 +35,16 @@ static void build_clear(dyd_delaunay *pd) {
   dyd_skeleton_clear(&pd->sk);
 }
 
-static void mark_known(dyd_skeleton *sk, dyd_known known) {
+static dyd_status build_statuses(dyd_delaunay *pd, dyd_work *w, dyd_known known) {
+  if (pd->open.kind == DYD_LINE) return dyd_line_find(pd, w);
+  bool tied = pd->open.kind == DYD_TIED;
+  dyd_skeleton *sk = &pd->sk;
+  dyd_status st = tied ? dyd_certify_points(sk, w) : dyd_certify_all(sk, w);
   for (size_t q = 0; q < known.count; q++) {
-    uint32_t v = sk->vertex[known.pair[q].i], w = sk->vertex[known.pair[q].j];
-    dyd_half_edge h = v == w ? DYD_NONE : dyd_find_edge(sk, v, w);
+    uint32_t i = sk->vertex[known.pair[q].i], j = sk->vertex[known.pair[q].j];
+    dyd_half_edge h = i == j ? DYD_NONE : dyd_find_edge(sk, i, j);
     if (h != DYD_NONE) dyd_set_certain(sk, h, true);
   }
-}
-
-/* All pairs of a line are possible: they count as one face. Ties are one group, which the cap does not count. */
-static void line_find(dyd_delaunay *pd, dyd_error *err) {
-  const dyd_line *l = &pd->sk.line;
-  size_t open = dyd_line_open_pairs(l);
-  pd->open.count = open > 0;
-  pd->open.capped = !pd->line_tie && open > pd->max_pairs;
-  if (pd->open.capped)
-    dyd_fail(err, DYD_CAPPED,
-             "%zu collinear sites (%u, %u, ...) have %zu possible pairs, more than the cap of %zu; raise the cap on "
-             "pairs",
-             (size_t)l->count, pd->sk.reps.site[l->order[0]], pd->sk.reps.site[l->order[1]], open, pd->max_pairs);
-}
-
-static dyd_status build_statuses(dyd_delaunay *pd, dyd_work *w, dyd_known known) {
-  if (pd->open.kind == DYD_LINE) {
-    dyd_status proved = dyd_prove_line(pd, w);
-    if (proved == DYD_OK) line_find(pd, w->run->err);
-    return proved;
-  }
-  bool tied = pd->open.kind == DYD_TIED;
-  dyd_status st = tied ? dyd_certify_points(&pd->sk, w) : dyd_certify_all(&pd->sk, w);
-  mark_known(&pd->sk, known);
   if (st != DYD_OK) return st;
   return tied ? dyd_ties_find(pd, w) : dyd_faces_find(pd, w, NULL, 0);
 }

@@ -208,7 +208,7 @@ static bool is_polygon(const closing *c) {
 static dyd_status closing_reserve(closing *c) {
   uint64_t pairs = dyd_bytes_times(c->open + c->open / 2, sizeof *c->out->pair);
   if (!dyd_pair_map_is_full(&c->map)) return DYD_OK;
-  uint64_t bytes = dyd_bytes_add(dyd_pair_map_bytes(&c->map), dyd_bytes_add(pairs, bits_bytes(c)));
+  uint64_t bytes = dyd_bytes_add(dyd_bytes_add(pairs, bits_bytes(c)), dyd_pair_map_bytes(&c->map));
   return dyd_room_has(&c->w->room, bytes, "the possible pairs of a face") ? start_bits(c) : DYD_E_NOMEM;
 }
 

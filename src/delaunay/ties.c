@@ -9,6 +9,7 @@
 #include "delaunay/ties.h"
 
 #include "base/alloc.h"
+#include "base/error.h"
 #include "base/local.h"
 
 #include <string.h>
@@ -130,7 +131,7 @@ dyd_status dyd_prove_face(dyd_face *as, dyd_vertex_pair **pair, const dyd_delaun
   return st;
 }
 
-dyd_status dyd_prove_line(dyd_delaunay *pd, dyd_work *w) {
+static dyd_status prove_line(dyd_delaunay *pd, dyd_work *w) {
   const dyd_line *l = &pd->sk.line;
   dyd_status st = DYD_OK;
   pd->line_tie = pd->sk.all_points;
@@ -141,6 +142,21 @@ dyd_status dyd_prove_line(dyd_delaunay *pd, dyd_work *w) {
   if (!site) return DYD_E_NOMEM;
   for (uint32_t q = 0; q < l->count; q++) site[q] = pd->sk.reps.site[l->order[q]];
   return pd->options.prove(&pd->line_tie, pd->options.prove_user, DYD_COLLINEAR, site, l->count, w->run->err);
+}
+
+dyd_status dyd_line_find(dyd_delaunay *pd, dyd_work *w) {
+  const dyd_line *l = &pd->sk.line;
+  dyd_status st = prove_line(pd, w);
+  if (st != DYD_OK) return st;
+  size_t open = dyd_line_open_pairs(l);
+  pd->open.count = open > 0;
+  pd->open.capped = !pd->line_tie && open > pd->max_pairs;
+  if (pd->open.capped)
+    dyd_fail(w->run->err, DYD_CAPPED,
+             "%zu collinear sites (%u, %u, ...) have %zu possible pairs, more than the cap of %zu; raise the cap on "
+             "pairs",
+             (size_t)l->count, pd->sk.reps.site[l->order[0]], pd->sk.reps.site[l->order[1]], open, pd->max_pairs);
+  return DYD_OK;
 }
 
 /* ---- the table ---- */

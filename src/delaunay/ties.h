@@ -54,7 +54,8 @@ dyd_status dyd_prove_face(dyd_face *as, dyd_vertex_pair **pair, const dyd_delaun
                           const dyd_face *face);
 /* A half-edge of the rim of listed face `face`, that of the ghost for a chain; DYD_NONE unless the rim is one cycle. */
 dyd_half_edge dyd_rim_start(bool *chain, const dyd_delaunay *pd, const dyd_face *face);
-/* The same for the sites of a line: pd->line_tie. */
-dyd_status dyd_prove_line(dyd_delaunay *pd, dyd_work *w);
+/* The same for the sites of a line, pd->line_tie, and their pairs: all are possible, and count as one face. Ties are
+ * one group, which the cap does not count. */
+dyd_status dyd_line_find(dyd_delaunay *pd, dyd_work *w);
 
 #endif
