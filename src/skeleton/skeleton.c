@@ -560,42 +560,41 @@ static void add_counters(dyd_delaunay_counters *sum, const dyd_delaunay_counters
   sum->faces += c->faces;
 }
 
+/* done: of each range, the work without its scratch. */
 typedef struct work_pass {
   dyd_work_task *task;
   void *context;
-  dyd_work *work;
+  const dyd_skeleton *sk;
+  const dyd_work *work;
+  dyd_work *done;
   dyd_status status[DYD_RANGES_MOST];
 } work_pass;
 
+/* Scratch is there while the range is worked on, made by the thread that needs it. */
 static void task_of_range(void *context, size_t number, size_t begin, size_t end) {
   work_pass *p = context;
-  p->status[number] = p->task(p->context, &p->work[number], number, begin, end);
-}
-
-static void work_join(dyd_work *w, dyd_work *task) {
-  add_counters(&w->counters, &task->counters);
-  dyd_tally_join(&w->tally, &task->tally);
-  dyd_room_join(&w->room, &task->room);
-  dyd_work_clear(task);
+  dyd_work *w = &p->done[number];
+  dyd_work_init(w, p->sk, p->work->run);
+  w->room = p->work->room;
+  dyd_room_share(&w->room, w->run->threads);
+  p->status[number] = p->task(p->context, w, number, begin, end);
+  dyd_work_clear(w);
 }
 
 dyd_status dyd_work_ranges(dyd_work *w, const dyd_skeleton *sk, size_t count, dyd_work_task *task, void *context) {
   size_t ranges = dyd_ranges(count);
-  work_pass p = {.task = task, .context = context};
+  work_pass p = {.task = task, .context = context, .sk = sk, .work = w};
   dyd_status st = DYD_OK;
   if (ranges == 1) return task(context, w, 0, 0, count); /* with the scratch that is there */
-  if (!DYD_NEW(p.work, ranges)) return DYD_E_NOMEM;
-  for (size_t r = 0; r < ranges; r++) {
-    dyd_work_init(&p.work[r], sk, w->run);
-    p.work[r].room = w->room;
-    dyd_room_share(&p.work[r].room, w->run->threads);
-  }
+  if (!DYD_NEW(p.done, ranges)) return DYD_E_NOMEM;
   dyd_parallel_ranges(w->run->threads, count, task_of_range, &p);
   for (size_t r = 0; r < ranges; r++) {
     if (st == DYD_OK) st = p.status[r];
-    work_join(w, &p.work[r]);
+    add_counters(&w->counters, &p.done[r].counters);
+    dyd_tally_join(&w->tally, &p.done[r].tally);
+    dyd_room_join(&w->room, &p.done[r].room);
   }
-  free(p.work);
+  free(p.done);
   return st;
 }
 
