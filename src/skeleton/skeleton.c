@@ -42,22 +42,6 @@ static int line_compare(const void *a, const void *b) {
   return c ? c : (x->vertex > y->vertex) - (x->vertex < y->vertex);
 }
 
-/* The entries of the line. r, in, out: scratch. */
-static void line_load(entry *e, dyd_rect *r, const dyd_rect **in, dyd_irect *out, const dyd_rects *rects,
-                      const dyd_line *l) {
-  for (uint32_t q = 0; q < l->count; q++) {
-    dyd_rect_init(&r[q]);
-    dyd_irect_init(&out[q]);
-    dyd_rects_get(&r[q], rects, l->order[q]);
-    in[q] = &r[q];
-  }
-  dyd_irects_scale(out, in, l->count, NULL, NULL);
-  for (uint32_t q = 0; q < l->count; q++) {
-    e[q] = (entry){.vertex = l->order[q], .r = out[q]};
-    dyd_rect_clear(&r[q]);
-  }
-}
-
 /* x, unless the line is vertical. */
 static int line_axis(const entry *e, uint32_t count) {
   for (uint32_t q = 0; q < count; q++)
@@ -141,7 +125,17 @@ static dyd_status line_build(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, u
   DYD_FREED dyd_irect *out = dyd_alloc(l->count, sizeof *out);
   DYD_FREED const dyd_rect **in = calloc((size_t)l->count + 1, sizeof *in);
   if (!e || !r || !in || !out) return DYD_E_NOMEM;
-  line_load(e, r, in, out, rects, l);
+  for (uint32_t q = 0; q < l->count; q++) {
+    dyd_rect_init(&r[q]);
+    dyd_irect_init(&out[q]);
+    dyd_rects_get(&r[q], rects, l->order[q]);
+    in[q] = &r[q];
+  }
+  dyd_irects_scale(out, in, l->count, NULL, NULL);
+  for (uint32_t q = 0; q < l->count; q++) {
+    e[q] = (entry){.vertex = l->order[q], .r = out[q]};
+    dyd_rect_clear(&r[q]);
+  }
   line_sort(l, m, e);
   return DYD_OK;
 }
