@@ -562,10 +562,10 @@ dyd_status dyd_closure_run(dyd_closure *out, dyd_work *w, const dyd_skeleton *sk
       .sk = sk, .w = w, .out = out, .tri = tri, .tris = tris, .room = room, .patience = PATIENCE, .hope = PATIENCE};
   *out = (dyd_closure){0};
   dyd_status st = closing_gather(&c);
-  if (st == DYD_OK) st = dyd_pair_map_init(&c.map, out->vertices + 1);
   out->polygon = st == DYD_OK && !postponed && is_polygon(&c);
   out->postponed = c.full = postponed;
-  if (out->polygon) {
+  if (st == DYD_OK) st = dyd_pair_map_init(&c.map, out->vertices + 1);
+  if (st == DYD_OK && out->polygon) {
     uint64_t m = out->vertices;
     if (m * (m - 1) / 2 > room + 3 * (uint64_t)tris)
       c.full = true;
