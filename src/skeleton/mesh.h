@@ -49,7 +49,7 @@ typedef struct dyd_mesh {
   const uint32_t *local; /* mesh vertex -> vertex of reps; NULL: the same. Borrowed. */
   uint32_t n;            /* vertices; also the number of the ghost */
   uint32_t begin, end;   /* those it works on; 0 and n, but for a part */
-  unsigned rounds;       /* of insertion: see dyd_mesh_set_rounds */
+  unsigned rounds;       /* of insertion: 1, or 2 with points first */
   dyd_strips strips;     /* its strips: most triangles from 2 begin to 2 end of a strip are its own; or one */
   const dyd_xy *xy;      /* n + 1 points, NaN last: of reps, or own_xy for a part */
   dyd_xy *own_xy;

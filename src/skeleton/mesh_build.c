@@ -144,7 +144,9 @@ static dyd_status leave_line(uint32_t first[3], dyd_mesh *m) {
   return st;
 }
 
-void dyd_mesh_set_rounds(dyd_mesh *m) {
+/* A point that coincides with a vertex becomes its alias, anything else gives way; so points have to come first. Where
+ * the order is another one, as that of several strips is, vertices are taken in two rounds. */
+static void set_rounds(dyd_mesh *m) {
   enum { FETCH_AHEAD = 24 };
   const dyd_sites *s = m->reps->sites;
   bool fat = false;
@@ -399,7 +401,7 @@ static dyd_status insert_all(dyd_mesh *m, const uint32_t first[3], const volatil
 /* Triangulates the vertices from begin to end; used on parts. DYD_CANCELLED also when a part is stuck. */
 static dyd_status mesh_fill(dyd_mesh *m, const volatile int *cancel) {
   uint32_t first[3];
-  dyd_mesh_set_rounds(m);
+  set_rounds(m);
   dyd_status st = mesh_first_triangle(first, m);
   if (st != DYD_OK || m->collinear) return st;
   if (!insert_has_room(m, 61, 63)) return DYD_E_NOMEM;

@@ -19,9 +19,6 @@ dyd_status dyd_mesh_build_strips(dyd_mesh *m, dyd_reps *reps, const dyd_strips *
 
 /* Sets xy (own_xy, a copy, for a part of the vertices) and the filter constants. */
 void dyd_mesh_coordinates(dyd_mesh *m);
-/* A point that coincides with a vertex becomes its alias, anything else gives way; so points have to come first. Where
- * the order is another one, as that of several strips is, vertices are taken in two rounds: is it the turn of v? */
-void dyd_mesh_set_rounds(dyd_mesh *m);
 /* Makes room for vertices up to n, which are points that reps has already; the ghost gets the number n. ghost: a ghost
  * triangle. width: that of all points in x and y. DYD_E_NOMEM: only clearing is allowed. */
 dyd_status dyd_mesh_grow(dyd_mesh *m, uint32_t n, uint32_t ghost, const double width[2]);
