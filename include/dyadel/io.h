@@ -229,7 +229,8 @@ typedef enum dyd_content {
   DYD_CONTENT_HULLS,           /* partial edges and certain partial triangles (dyd_rect_hull), */
   DYD_CONTENT_EXTERIOR,        /* and where certainly no edge is (dyd_delaunay_exterior): layers of the triangulation */
   DYD_CONTENT_PLAN_PAIRS,      /* which pairs each point of a plan decides: a layer of DYD_CONTENT_PLAN */
-  DYD_CONTENT_TRIALS           /* a plan tried on drawn places (dyd_survey_simulate) */
+  DYD_CONTENT_TRIALS,          /* a plan tried on drawn places (dyd_survey_simulate) */
+  DYD_CONTENTS                 /* how many there are */
 } dyd_content;
 
 /* How ties are listed beside other pairs. */

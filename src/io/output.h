@@ -29,7 +29,6 @@ typedef struct dyd_output {
 typedef dyd_status dyd_writer(const dyd_output *o);
 /* The writers of a format are an array by content, NULL where it cannot hold that: dyd_NAME_writers, in the file that
  * writes it. Layers have none, they are rows (table.h). */
-enum { DYD_CONTENTS = DYD_CONTENT_TRIALS + 1 };
 
 /* `what` by content: dyd_diagram (diagram.h) of a Voronoi diagram of the plane and its layers; dyd_stage_table,
  * dyd_convergence, dyd_check_report, dyd_trials_output, dyd_disc_output, dyd_bisector_output, dyd_nearest_output; of
