@@ -113,13 +113,11 @@ bool dyd_line_is_comment(const dyd_line *line);
 /* What a column holds besides those above: numbers (a dyd_row_number more), then texts, which may be empty. */
 enum {
   DYD_ROLE_NUMBER = DYD_CSV_OTHER,
-  DYD_ROLE_SIGMA =
-      DYD_ROLE_NUMBER + DYD_ROW_SIGMA, /* in x; then in y, and the correlation, which are no dyd_row_number */
+  DYD_ROLE_SIGMA = DYD_ROLE_NUMBER + DYD_ROW_NUMBERS, /* in x; then in y, and the correlation */
   DYD_ROLE_RHO = DYD_ROLE_SIGMA + 2,
   DYD_ROLE_ID,
   DYD_ROLES
 };
-_Static_assert(DYD_ROW_SIGMA + 1 == DYD_ROW_NUMBERS, "sigmas are behind the other numbers");
 _Static_assert((int)DYD_ROLES <= (int)DYD_CSV_MOST, "each role has a column");
 
 /* A field; the roles of the columns that it names, from `role` on, at least `least` and at most `most` of them (0: it

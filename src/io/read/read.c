@@ -456,8 +456,10 @@ static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_MOST], dy
   if (st == DYD_OK && in->o->id && !in->o->merge_by) st = intake_note_id(in, id, err);
   if (st != DYD_OK || !intake_labels(in)) return st;
   own.of[DYD_ROW_RADIUS] = in->kept[0];
-  for (int k = DYD_ROLE_NUMBER; k < DYD_ROLE_SIGMA + !in->o->confidence && st == DYD_OK; k++)
-    if (span[k].text) st = intake_number(&own.of[k - DYD_ROLE_NUMBER], &span[k], k, err);
+  for (int k = 0; k < DYD_ROW_NUMBERS && st == DYD_OK; k++) {
+    int role = k == DYD_ROW_SIGMA && !in->o->confidence ? DYD_ROLE_SIGMA : DYD_ROLE_NUMBER + k;
+    if (span[role].text) st = intake_number(&own.of[k], &span[role], role, err);
+  }
   if (st != DYD_OK) return st;
   const char *text = in->labels.names ? in->label : id->text;
   size_t length = in->labels.names ? in->label_length : id->length;
