@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The table of formats, and dyd_write, which prepares the content; the table does the rest.
  *
- * A new format: its constant in dyadel/io.h; a file of writers, in that folder's meson.build; its row here. The
- * command's options, help, manual page and completion follow. A format holds the contents that it has writers for. */
+ * A new format: its constant in dyadel/io.h; its row here; its encoder in io/table.c where it holds layers, or a file
+ * of writers for the contents that it holds. The command's options, help, manual page and completion follow. */
 #include "io/table.h"
 #include "base/abi.h"
 #include "base/alloc.h"
