@@ -21,8 +21,8 @@ prove, or only where it has the machine for itself, with the reason:
 What NAME.acsl says of a function that is left out is what was tried.
 
 All of it takes 25 minutes of a core. overflow/proved.txt has a digest for each file that was proved, of all texts that
-its proof rests on; with PART alone, files whose digest is this one are not proved again, but for some which change with
-the digests. With FILE, or without PART, everything named is proved, and the digests are written.
+its proof rests on; with PART alone, files whose digest is this one are not proved again, but for some functions of some,
+which change with the digests. With FILE, or without PART, everything named is proved, and the digests are written.
 
 Then faults of overflow/faults.txt are put in, one at a time in a function (faults.py): another goal of it has to fail,
 and none that takes CVC4 long without the fault. All of them take as long as the proofs: of a part, only the first ones
@@ -68,7 +68,7 @@ OPTIONS = ['-wp', '-wp-rte', '-warn-special-float', 'none',  # doubles are anoth
            '-rte-no-pointer-call',  # that one of the functions after `calls` is called is proved; without it, other goals fail
            '-wp-no-pruning', '-wp-no-ground',  # a sixth of the time, and nothing more proved
            '-wp-par', '2']  # one after another, half of the time is waited
-AGAIN = 16  # of so many files whose proofs are known, one is proved again
+AGAIN, SHARE = 16, 4  # of so many files whose proofs are known, one is proved again: one of so many of its functions
 SOON, MOST, FEW, SLOW = 20, 150, 4, 2  # seconds for a goal, for one left over, for one with a fault; of one that is slow
 FUNCTION = re.compile(r'^(?!typedef|struct|[#/\s])[\w *]*?\b(\w+)\((?:[^;{}()]|\([^()]*\))*\)\s*\{', re.M)
 
@@ -98,9 +98,9 @@ def goals(root, name, work, options, until=lambda name: False):
 
 
 class Source:
-    """A file of src, and what is said of it in overflow."""
+    """A file of src, and what is said of it in overflow; `again`, where its proof is known, a share of its functions."""
 
-    def __init__(self, root, name):
+    def __init__(self, root, name, again=False):
         self.root, self.name = root, name
         self.path = next(path for path in (root / 'src' / folder / (name + end) for folder, end in
                                            (('checker', '.c'), ('dyadic', '.c'), ('base', '.h'))) if path.exists())
@@ -111,6 +111,9 @@ class Source:
         for name in set(left_out) - set(self.functions):
             sys.exit(f'overflow/{self.name}.c: there is no function {name}')
         self.proved = sorted(set(self.functions) - set(left_out))
+        if again:
+            turn, faulty = int(digest(root, self.name), 16) // AGAIN, [f for f, _, _ in faults_of(root, self.name) if f in self.proved]
+            self.proved = sorted({*self.proved[turn % SHARE::SHARE], *faulty[turn % max(1, len(faulty)):][:1]})
 
     def named(self, what):
         """{name: reason} of the comments of contracts."""
@@ -196,20 +199,20 @@ def record(root, names):
 
 
 def to_prove(root, names):
-    """Those that are not as they were when they were proved, and one in AGAIN of the others."""
+    """Those that are not as they were when they were proved, and one in AGAIN of the others; which these are."""
     before, now = proved_before(root), {name: digest(root, name) for name in names}
-    again = {name for name in names if int(now[name], 16) % AGAIN == 0}
+    again = {name for name in names if before.get(name) == now[name] and int(now[name], 16) % AGAIN == 0}
     old = sorted(set(names) & OUTDATED)
     some = [name for name in names if (before.get(name) != now[name] or name in again) and name not in old]
     print('as when they were proved:', *sorted(set(names) - set(some) - set(old)), flush=True)
     if old:
         print('not proved again since they were changed:', *old, flush=True)
-    return some
+    return some, again
 
 
-def try_file(root, work, name):
+def try_file(root, work, name, again):
     """The names of goals that are slow or unproved for a reason; None when another is not proved."""
-    source = Source(root, name)
+    source = Source(root, name, again)
     copy = source.copy(work)
     unproved, slow = set(source.named('Unproved')), set()
     for limit in SOON, MOST:  # the second time, what was not proved is tried again, and what it stands with is known
@@ -233,9 +236,9 @@ def faults_of(root, name):
             if pathlib.Path(path).stem == name]
 
 
-def rounds(root, name):
+def rounds(root, name, again):
     """The faults of a file, those of different functions together: each function is proved by itself."""
-    left = faults_of(root, name)
+    left = [fault for fault in faults_of(root, name) if fault[0] in Source(root, name, again).proved or not again]
     while left:
         first = {function: (function, old, new) for function, old, new in reversed(left)}
         yield list(first.values())
@@ -278,15 +281,15 @@ def main():
     there = {path.stem for folder in ('checker', 'dyadic') for path in (root / 'src' / folder).glob('*.c')}
     if there - set(every) - UNWRITTEN - LEFT_OUT:
         sys.exit(f'in no part: {sorted(there - set(every) - UNWRITTEN - LEFT_OUT)}')
-    names = sys.argv[3:] or PARTS[sys.argv[2]] if len(sys.argv) > 2 else every
+    names, again = sys.argv[3:] or PARTS[sys.argv[2]] if len(sys.argv) > 2 else every, set()
     if len(sys.argv) == 3:
-        names = to_prove(root, names)
+        names, again = to_prove(root, names)
     with tempfile.TemporaryDirectory() as work:
         os.environ['WHY3CONFIG'] = os.path.join(work, 'why3.conf')
         os.mkdir(os.path.join(work, 'proved'))
         subprocess.run(['why3', 'config', 'detect'], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
-        slow = {name: try_file(root, pathlib.Path(work), name) for name in names}
-        some = [(name, together) for name in names for together in rounds(root, name)]
+        slow = {name: try_file(root, pathlib.Path(work), name, name in again) for name in names}
+        some = [(name, together) for name in names for together in rounds(root, name, name in again)]
         good = [try_faults(root, pathlib.Path(work), slow[name] or set(), name, together)
                 for name, together in (some[:1] if len(sys.argv) == 3 else some)]
     if len(sys.argv) != 3:
