@@ -399,21 +399,24 @@ SURVIVORS = [
 
 
 def notices(program, certificates):
-    """A crash, or no end, is a verdict of its own."""
-    try:
-        return any(subprocess.run([program, path], stdout=subprocess.DEVNULL, timeout=300, check=False).returncode
-                   for path in certificates)
-    except subprocess.TimeoutExpired:
-        return True
+    """The first file with another verdict; None: there is none. A crash, or no end, is a verdict of its own."""
+    for path in certificates:
+        try:
+            if subprocess.run([program, path], stdout=subprocess.DEVNULL, timeout=300, check=False).returncode:
+                return path
+        except subprocess.TimeoutExpired:
+            return path
+    return None
 
 
 class Seeds:
     """Builds the judge with one source of the checker replaced."""
 
     def __init__(self, cc, root, library, folder):
-        self.flags = ['-std=c11', '-O1', '-w', '-D_POSIX_C_SOURCE=200809L', '-fvisibility=hidden', '-DDYD_ARMED',
+        self.flags = ['-std=c11', '-O0', '-w', '-D_POSIX_C_SOURCE=200809L', '-fvisibility=hidden', '-DDYD_ARMED',
                       f'-I{root}/include', f'-I{root}/src']
         self.cc, self.root, self.library, self.folder = cc.split(), root, library, folder
+        self.last = {}  # the file that noticed the last fault of a source: most likely it notices the next one
         self.compile(root / 'tests/checker/judge.c', folder / 'judge.o')
 
     def compile(self, source, target):
@@ -433,10 +436,11 @@ class Seeds:
         if not self.compile(changed, target):
             return None
         program = self.link(f'judge{number}', [target])
-        found = notices(program, certificates)
+        found = notices(program, sorted(certificates, key=lambda path: path != self.last.get(source)))
+        self.last[source] = found or self.last.get(source)
         for path in (changed, target, program):
             path.unlink()
-        return found
+        return found is not None
 
 
 def try_faults(seeds, sources, certificates):
