@@ -5,6 +5,7 @@
 #define DYD_TESTS_CHECKER_EXHAUST_H
 
 #include "support/failing_memory.h"
+#include "support/random.h"
 
 #include <dyadel/certificate.h>
 #include <stdio.h>
@@ -38,8 +39,8 @@ static bool every_allocation_fails_well(char *message, size_t size, size_t *faul
   snprintf(exhausted, sizeof exhausted, "%d, line 0: %s; gaps 0, unproved 0, boxes 0, triangles 0, facts 0 and 0",
            DYD_E_NOMEM, dyd_status_text(DYD_E_NOMEM));
   verdict_of(with, sizeof with, &over, text, length, 0);
-  size_t phase = *faults % 32;
-  for (size_t k = 1;; k += 1 + (k + phase) / 32) {
+  size_t dense = test_stride() == 1 ? 32 : 8, phase = *faults % dense;
+  for (size_t k = 1;; k += 1 + (k + phase) / dense) {
     dyd_status status = verdict_of(without, sizeof without, &over, text, length, k);
     if (over) return true;
     ++*faults;

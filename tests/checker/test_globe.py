@@ -23,7 +23,7 @@ import mpmath
 
 DYADEL, AIRPORTS = sys.argv[1], sys.argv[2]
 SEED = int(os.environ.get('DYADEL_TEST_SEED', '1'))
-COUNT = int(sys.argv[3]) if len(sys.argv) > 3 else 40 if os.environ.get('DYADEL_TEST_SANITIZED') else 60
+COUNT = int(sys.argv[3]) if len(sys.argv) > 3 else 16 if os.environ.get('DYADEL_TEST_SANITIZED') else 60
 EARTH = Q('6371008.8')
 UNPROVED = 'not proved: that \\d+ rectangles hold the images'
 mpmath.mp.dps = 60
@@ -390,7 +390,7 @@ def check_forged(folder, r, lines, about, met):
 
 def check_airports(folder):
     """Exact, and within two kilometres: all of it is proved."""
-    for options in ([], ['--radius', '2km'], ['--radius', '0.5km'], ['--measured']):
+    for options in ([], ['--radius', '2km'], ['--radius', '0.5km'], ['--measured'])[::3 if os.environ.get('DYADEL_TEST_SANITIZED') else 1]:
         path = folder / 'airports'
         read = ['--columns', 'longitude,latitude', *options]
         assert run('delaunay', '-q', '--sphere', *read, AIRPORTS, '-o', folder / 'pairs', '--certificate', path).returncode in (0, 3)

@@ -24,6 +24,7 @@ from fractions import Fraction
 DYADEL = sys.argv[1]
 SEED = int(os.environ.get('DYADEL_TEST_SEED', '1'))
 SCALE = int(os.environ.get('DYADEL_TEST_SCALE', '1'))
+MUTANTS = 6 if os.environ.get('DYADEL_TEST_SANITIZED') else 25
 
 
 def run(*args):
@@ -429,7 +430,7 @@ def main():
     print(f'seed {SEED}')
     with tempfile.TemporaryDirectory() as name:
         for k in range(12 * SCALE):
-            check_case(pathlib.Path(name), random.Random(SEED * 1000003 + k), 25)
+            check_case(pathlib.Path(name), random.Random(SEED * 1000003 + k), MUTANTS)
     print(TALLY)
 
 

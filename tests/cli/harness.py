@@ -47,6 +47,11 @@ def cases(count):
     return count // 8 if os.environ.get('DYADEL_TEST_SANITIZED') else count
 
 
+def share(values, turn=0):
+    """All of them, which take much the same way through the program; with sanitizers, one in four, others at each turn."""
+    return list(values)[turn % 4::4] if os.environ.get('DYADEL_TEST_SANITIZED') else values
+
+
 def few(values):
     """All of them; with sanitizers, two."""
     return values[:2] if os.environ.get('DYADEL_TEST_SANITIZED') else values

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-from harness import COMMAND, DATA, expect, few, main, run
+from harness import COMMAND, DATA, expect, few, main, run, share
 
 WHOLE = ('0', '-1', 'x', '1.5', '', '1e3', '99999999999999999999', '3 4')
 SECONDS = ('0', '-1', 'nan', 'inf', 'x', '', '1s')
@@ -76,15 +76,15 @@ def test_every_option_has_wrong_values():
 
 
 def test_wrong_values():
-    for name, operands in commands():
+    for k, (name, operands) in enumerate(commands()):
         taken = options(help_of(name))
         rest = operands.replace('FILE', 'nowhere').replace('CERT', 'nowhere').replace('X Y', '1 2').split()
-        for option, values in WRONG.items():
+        for option, values in share(WRONG.items(), k):
             for value in few(values) if option in taken else ():
                 expect(run(name, *rest, f'{option}={value}'), 2, r'\A\Z', r'\Adyadel: .*give |\Adyadel: .*end it in')
-        for option in TEXTS & set(taken):
+        for option in share(sorted(TEXTS & set(taken)), k):
             expect(run(name, *rest, f'{option}='), 2, r'\A\Z', rf'{option} "" is not understood; give')
-        for option, placeholder in taken.items():
+        for option, placeholder in share(taken.items(), k):
             if placeholder and option != '--help':
                 expect(run(name, *rest, option), 2, r'\A\Z', f'{option} needs a value')
             if not placeholder:
@@ -107,7 +107,7 @@ def test_formats_of_commands():
     known = {name: re.findall(r'\w+(?= \(default\)|,|$)', match[1]) for name, match in lists.items() if match}
     everything = set().union(*known.values())
     for name, formats in known.items():
-        for other in everything - set(formats):
+        for other in share(sorted(everything - set(formats)), len(name)):
             expect(run(name, 'a', '--format', other), 2, r'\A\Z', f'{name} does not write {other}; give {", ".join(formats)}$')
 
 

@@ -16,7 +16,7 @@ import subprocess
 import tempfile
 from fractions import Fraction
 
-from harness import COMMAND, expect, main, run
+from harness import COMMAND, cases, expect, main, run, share
 
 HEAD = 'i,j,status\n'
 THREE = HEAD + '0,1,legal\n0,2,legal\n1,2,legal\n'
@@ -69,8 +69,8 @@ SAME = [
 
 
 def test_same_points():
-    for options, text in SAME:
-        for data in (text, text.replace('\n', '\r\n'), text.replace('\n', '\r')):
+    for k, (options, text) in enumerate(SAME):
+        for data in share((text, text.replace('\n', '\r\n'), text.replace('\n', '\r')), k):
             result = run('delaunay', *options.split(), '-', stdin=data)
             assert (result.code, result.out, result.err) == (0, THREE, ''), (options, data, result)
 
@@ -213,7 +213,7 @@ TOLD = [
 
 
 def test_told():
-    for options, text, code, message in TOLD:
+    for options, text, code, message in share(TOLD):
         data = text if '\x9b' not in text else text.encode('latin-1')
         expect(run('delaunay', *options.split(), '-', stdin=data), code, r'\A\Z' if code else '', r'\Adyadel: .*' + message if message else r'\A\Z')
 
@@ -223,7 +223,7 @@ def test_missing_words():
     words = ['', 'NA', 'N/A', '#N/A', 'NaN', 'nan', '-nan', 'null', 'NULL', 'None', 'none', '-', '\\N', '#VALUE!', '#DIV/0!', '-9999', '-9999.00', 'void']
     for word in words:
         extra = ['--missing', '-9999'] if '9999' in word else ['--missing', 'void'] if word == 'void' else []
-        for row in (f'{word},5,1', f'5,{word},1', f'5,1,{word}'):
+        for row in share((f'{word},5,1', f'5,{word},1', f'5,1,{word}'), len(word)):
             text = f'x,y,r\n0,0,0.1\n{row}\n4,1,0.1\n2,6,0.1\n'
             options = ['--columns', 'x,y', '--radius-column', 'r', *extra, '-']
             expect(run('delaunay', *options, stdin=text), 1, r'\A\Z', r'-:3:\d: the .* is (missing|empty).*: --skip-missing$')
@@ -249,7 +249,7 @@ def read_exact(lines, *options):
 def degrees_forms():
     """Texts and their values, at random."""
     rand = random.Random(7)
-    for _ in range(400):
+    for _ in range(cases(400)):
         d, m, s = rand.randint(0, 89), rand.randint(0, 59), rand.randint(0, 59999)
         seconds, minutes = f'{s // 1000}.{s % 1000:03}', f'{m}.{s:05}'
         value, rough = d + Fraction(m, 60) + Fraction(s, 3600000), d + Fraction(minutes) / 60
@@ -359,10 +359,10 @@ KINDS = [(b'{"type":"FeatureCollection","features":[]}', 'GeoJSON', 'ogr2ogr'), 
 
 def test_other_formats():
     """What a file is comes from its first bytes, packed or not; the command to type is one."""
-    for data, name, make in KINDS:
+    for data, name, make in share(KINDS):
         expect(run('delaunay', '-', stdin=data), 1, r'\A\Z', rf'\Adyadel: -: the file is {name}.*; give .*{make}.* \| dyadel delaunay (--columns (X,Y|Longitude,Latitude|lonE7,latE7) )?-$')
         expect(run('delaunay', '--columns', 'x,y', '-', stdin=data), 1, r'\A\Z', f'the file is {name}')
-    for data, name in ((b'{"a":1}', 'JSON; make a table of it, for instance jq'), (b'[{"x":1}]', 'JSON; make a table'), (b'<?xml?><LandXML>', 'LandXML; export'),
+    for data, name in share(((b'{"a":1}', 'JSON; make a table of it, for instance jq'), (b'[{"x":1}]', 'JSON; make a table'), (b'<?xml?><LandXML>', 'LandXML; export'),
                        (b'<?xml?><JOBFile>', 'JobXML'), (b'\x89PNG\r\n', r'a picture \(PNG\)'), (b'\xff\xd8\xff\xe0', 'a picture'), (b'\x89HDF\r\n', 'HDF5'),
                        (b'CDF\1\0', 'NetCDF'), (b'MATLAB 5.0 MAT-file', 'a MAT-file'), (b'\x80\4\x95\0', 'binary'), (b'*110001+01 81..00+01\n', 'GSI'),
                        (b'110001+01 81..00+01\n', 'GSI'), (b'MATLAB 7.3 MAT-file, a', 'a MAT-file'), (b'AutoCAD Binary DXF\r\n', 'binary DXF'), (b'AC1027\0\1', 'DWG'),
@@ -371,7 +371,7 @@ def test_other_formats():
                        (b'$FL2@(#) SPSS', 'data of SPSS'), (b'<stata_dta>', 'data of Stata'), (b'HEADER RECORD*******LIB', 'data of SAS'), (b'%=SNX 2.02', 'SINEX'),
                        (b'JB,NMX,DT\n', 'a raw file of Carlson'), (b'00NMSC V10\n', 'a DC file of Trimble'), (b'PK\3\4 a.npy', 'an archive of NumPy'),
                        (b'7z\xbc\xaf\x27', 'packed by 7-Zip'), (b'Rar!\x1a', 'packed by RAR'), (b'\x04"M\x18', 'packed by LZ4'), (b'\xff\xfe\0\0x\0\0\0', 'text in UTF-32'),
-                       (b'     3.04           OBSERVATION DATA    M    RINEX VERSION / TYPE\n', 'RINEX')):
+                       (b'     3.04           OBSERVATION DATA    M    RINEX VERSION / TYPE\n', 'RINEX'))):
         expect(run('delaunay', '-', stdin=data), 1, r'\A\Z', r'\Adyadel: -: the file is ' + name)
         with tempfile.TemporaryDirectory() as folder:
             (pathlib.Path(folder) / 'f').write_bytes(data)
@@ -419,7 +419,7 @@ def test_remedies():
     for text, remedy in (('P1,2.5,3.5,a\n', '--no-header --columns 1,2'), ('2023 1.5 2.5 3\n', '--delimiter blank'),
                          ('$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\n', 'NMEA .*gpsbabel -i nmea')):
         expect(run('delaunay', '-', stdin=text), 1, r'\A\Z', remedy)
-    for cell, remedy in (('?', "--missing '\\?' --skip-missing"), ('n.d.', "--missing 'n.d.'"), ('8 9 30', '47 36 18.3 N'), ('8.1O', 'O is east in German'),
+    for cell, remedy in share((('?', "--missing '\\?' --skip-missing"), ('n.d.', "--missing 'n.d.'"), ('8 9 30', '47 36 18.3 N'), ('8.1O', 'O is east in German'),
                          ('8.3w', 'N, S, E, W'), ('8d06m10sE', 'N, S, E, W'), ('\u22121.5', "sed 's/\u2212/-/g' FILE"), ('\u20131.5', "sed 's/\u2013/-/g' FILE"),
                          ('1 +/- 0.1', r"sed 's\|\+/-\|\+-\|g' FILE"), ('"(48.1, 11.5)"', 'two coordinates'), ('48.1 11.5', 'two coordinates'), ('1.234(5)', r'1\.234\+-0\.005'),
                          ('0.1D+01', r'sed -E .*\[Dd\]'), ('32UPU9100034289', 'GeoConvert'), ("'5'", r"""tr "'" '"' < FILE"""), ('5%', "tr -d '%\\$'"), ('$5', 'no such sign'), ('\u20ac5', 'no such sign'), ('~5', 'all its values'),
@@ -427,7 +427,7 @@ def test_remedies():
                          ('5f', 'end with a digit'), ('7L', 'end with a digit'), ('1+2i', 'complex'), ('(1-2j)', 'complex'), ('\uff11', 'not 0 to 9'), ('\u0661\u066b\u0665', 'not 0 to 9'), ('\u0967', 'not 0 to 9'),
                          ('\xa05', 'not seen'), ('5\u200b', 'not seen'), ('\x0b5', 'not seen'), ('1\xb75', 'a plain one'), ('1\u22c55', 'a plain one'), ('1.5\xd710', 'as in 1.5e3'), ('1.5x10^3', 'as in 1.5e3'),
                          ('1.5*^3', 'as in 1.5e3'), ('1.5`', 'Mathematica'), ('****', 'did not fit'), ('=A1', 'formula'), ('<Point>', 'XML'), ('{5}', "tr -d '{}'"), ("'5", 'apostrophe'), ('10T 550200 5272748', 'code of a place'),
-                         ('TQ 300 775', 'code of a place'), ('849VCWC8+R9', 'code of a place'), ('c23nb62w', 'code of a place'), ('8928308280fffff', 'code of a place'), ('CN87uo', 'code of a place')):
+                         ('TQ 300 775', 'code of a place'), ('849VCWC8+R9', 'code of a place'), ('c23nb62w', 'code of a place'), ('8928308280fffff', 'code of a place'), ('CN87uo', 'code of a place'))):
         expect(run('delaunay', '--columns', 'x,y', '-', stdin=f'x,y\n1,2\n{cell},7\n'), 1, r'\A\Z', f'-:3:.*{remedy}')
     for cell, remedy in (('<0.5', 'as the largest value'), ('5%', 'no such sign'), ('\xb10.5', 'as the largest value'), ('5"', 'feet and inches'), ('low', 'give one such as')):
         expect(run('delaunay', '--columns', 'x,y', '--radius-column', 'r', '-', stdin=f'x,y,r\n1,2,{cell}\n'), 1, r'\A\Z', f'-:2:5: the radius is not .*{remedy}')
@@ -474,7 +474,7 @@ REWRITTEN = [
 
 
 def test_rewritten():
-    for options, text in REWRITTEN:
+    for options, text in share(REWRITTEN):
         options = ['--columns', 'x,y'] if options else []
         told = run('delaunay', *options, '-', stdin=text)
         command = re.search(r"((LC_ALL=C )?(sed|tr|grep|python3) .*?) (< )?FILE", told.err)

@@ -5,7 +5,7 @@
 Usage: machines.py [--only NAME...] [--suites SUITE...] [--jobs N] [--keep FOLDER]
 
 Needs clang; for s390x gcc-s390x-linux-gnu and qemu-user: the libraries of that machine come by apt-get, on Debian, into
-FOLDER, and leave the system as it is; so does what -m32 takes. DYADEL_TEST_SANITIZED=1 asks for a third of the random
+FOLDER, and leave the system as it is; so does what -m32 takes. DYADEL_TEST_SANITIZED=1 asks for a sixth of the random
 cases. Takes many minutes for each: no test of a suite.
 """
 import argparse

@@ -2,7 +2,7 @@
 /* Deterministic random numbers for tests: the seed and the scale come from the environment and are printed.
  *
  * DYADEL_TEST_SEED (default 1) chooses the cases, DYADEL_TEST_SCALE (default 1) multiplies their number; with
- * sanitizers, which make each many times as slow, DYADEL_TEST_SANITIZED asks for a third. */
+ * sanitizers, which make each many times as slow, DYADEL_TEST_SANITIZED asks for a sixth. */
 #ifndef DYD_TESTS_RANDOM_H
 #define DYD_TESTS_RANDOM_H
 
@@ -29,12 +29,17 @@ static inline size_t test_cases_all(size_t base) {
 /* The same, with sanitizers fewer. */
 static inline size_t test_cases(size_t base) {
   size_t cases = test_cases_all(base);
-  return test_environment("DYADEL_TEST_SANITIZED", 0) ? (cases + 2) / 3 : cases;
+  return test_environment("DYADEL_TEST_SANITIZED", 0) ? (cases + 5) / 6 : cases;
 }
 
-/* Step of tests that try place by place: every place, with sanitizers every fifth. */
+/* Of the cases so many are of a kind that a test is about; with sanitizers, a third as many. */
+static inline size_t test_least(size_t base) {
+  return test_environment("DYADEL_TEST_SANITIZED", 0) ? base / 3 : base;
+}
+
+/* Step of tests that try place by place: every place, with sanitizers every eleventh. */
 static inline size_t test_stride(void) {
-  return test_environment("DYADEL_TEST_SANITIZED", 0) ? 5 : 1;
+  return test_environment("DYADEL_TEST_SANITIZED", 0) ? 11 : 1;
 }
 
 /* splitmix64 */
