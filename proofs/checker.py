@@ -4,7 +4,7 @@
 
 Usage: checker.py ROOT DYADEL_PROVED DYADEL [COUNT]
 
-On certificates of the airports and of COUNT random inputs (default 100), on mutants of these, on forgeries, chains and
+On certificates of the airports and of COUNT random inputs (default 70), on mutants of these, on forgeries, chains and
 diagrams among them, and on texts in another spelling: what verify accepts is accepted, and of what is all proved verify
 says so too; what is accepted and rejected as it has to be; of ties at least as much as verify proves; parts that it does not know are named. The time grows little
 faster than the number of sites, so do the triangles that cover the plane.
@@ -543,7 +543,7 @@ def main():
     root, proved, dyadel = (pathlib.Path(arg).resolve() for arg in sys.argv[1:4])
     with tempfile.TemporaryDirectory() as folder:
         both = Checkers(proved, dyadel, pathlib.Path(folder))
-        found = list(try_random(both, int(sys.argv[4]) if len(sys.argv) > 4 else 100))
+        found = list(try_random(both, int(sys.argv[4]) if len(sys.argv) > 4 else 70))
         found += try_chains(both, root / 'tests/checker/forgeries.txt')
         found += try_parts(both, root / 'tests/checker/forgeries_parts.txt')
         found += try_ties(both, 60)
@@ -551,7 +551,7 @@ def main():
         found += try_fixpoint(both)
         found += try_certified(both)
         found += try_reach(both)
-        found += try_diagrams(both, 24)
+        found += try_diagrams(both, 16)
         found += try_cases(both, root)
         found += try_command(both)
         found += try_growth(both)
