@@ -2,8 +2,16 @@
 /* The boundary of a region: what intervals leave in doubt, from exact numbers [OUTLINE-1].
  *
  * All rectangles of a cell are brought to one integer scale when the first doubt arises. Points have the form A + B
- * sqrt(C) there (surd_point.h): the ends of an arc come from its line or parabola and its pane (elementary.c), the
- * points in which two curves meet from the critical circles of three rectangles [CRIT-1]. */
+ * sqrt(C) there (surd_point.h): the ends of an arc come from its line or parabola and its pane, the
+ * points in which two curves meet from the critical circles of three rectangles [CRIT-1].
+ *
+ * [ARC-1] Let s be the far corner of a and q the closest feature of b in a pane. With n = q - s and m = q + s, corners
+ * q give the line n_x (2x - m_x) + n_y (2y - m_y) = 0; a side on the line of coordinate L along axis k (o the other
+ * one) gives the parabola (t - s_k)^2 = h (2v - L - s_o), h = s_o - L, for the point with coordinates t along k, v
+ * along o. The middle line of a through the far corner's axis bounds the pane, and s lies beyond it, so t - s_k has one
+ * sign in the pane: the arc is one branch, monotone in both coordinates, and its part in the pane is connected. It
+ * cannot run along the border of a pane, since s, the corner q or the corner opposite s would then lie in both
+ * rectangles; along a side of the window it can. For singletons a and b no cut is needed. */
 #include "voronoi/outline_filter.h"
 
 #include "base/alloc.h"
@@ -13,7 +21,6 @@
 #include "dyadic/raw.h"
 #include "predicate/circle.h"
 #include "rect/rect.h"
-#include "voronoi/elementary.h"
 
 #include <dyadel/arc.h>
 
@@ -38,6 +45,194 @@ typedef struct dyd_outline_exact {
   size_t circles;
   uint32_t pair[2];
 } exact_cell;
+
+/* ---- elementary arcs: one for each pane of the plane in which far corner and closest feature stay the same ---- */
+
+/* { c in the pane lo .. hi (NULL: no bound) : |c - s| = distance to q }, q a corner, or the line of coordinate
+ * q[1 - axis] (q[axis] = NULL); all borrowed. The coordinate `axis` is strictly monotone along the arc; end[0] is its
+ * lower end, if it is not infinite. point: the arc is one point, at which the curve touches the border of the pane. */
+typedef struct elementary {
+  bool parabola, point, infinite[2];
+  int axis, branch;
+  mpz_srcptr s[2], q[2], lo[2], hi[2];
+  dyd_surd_point end[2];
+} elementary;
+
+static void elementary_init(elementary *a) {
+  *a = (elementary){.branch = 0};
+  for (int e = 0; e < 2; e++) dyd_surd_point_init(&a->end[e]);
+}
+
+static void elementary_clear(elementary *a) {
+  for (int e = 2; e-- > 0;) dyd_surd_point_clear(&a->end[e]);
+}
+
+/* ---- points of an arc ---- */
+
+/* The coordinate n_k (2 t - m_k) + n_o (2 v - m_o) = 0 of a line: given t = num / 2^bits along k, v along o. */
+static void point_of_line(dyd_surd_point *out, const elementary *a, int k, mpz_srcptr num, int64_t bits) {
+  int o = 1 - k;
+  mpz_ptr to[2] = {out->ax, out->ay};
+  DYD_LOCAL_NUMBERS(mpz, n, m);
+  mpz_sub(n, a->q[k], a->s[k]);
+  mpz_add(m, a->q[k], a->s[k]);
+  mpz_mul(to[o], n, m);
+  mpz_sub(out->d, a->q[o], a->s[o]);
+  mpz_add(m, a->q[o], a->s[o]);
+  mpz_addmul(to[o], out->d, m);
+  mpz_mul_2exp(to[o], to[o], (mp_bitcnt_t)bits);
+  mpz_mul_2exp(n, n, 1);
+  mpz_submul(to[o], n, num); /* 2^bits n.m - 2 n_k num */
+  mpz_mul_2exp(out->d, out->d, 1);
+  mpz_mul(to[k], num, out->d);
+  mpz_mul_2exp(out->d, out->d, (mp_bitcnt_t)bits);
+}
+
+/* v = ((t - s_k)^2 + h (L + s_o)) / 2h */
+static void point_of_parabola(dyd_surd_point *out, const elementary *a, mpz_srcptr num, int64_t bits) {
+  int k = a->axis, o = 1 - k;
+  mpz_ptr to[2] = {out->ax, out->ay};
+  mpz_mul_2exp(to[k], a->s[k], (mp_bitcnt_t)bits);
+  mpz_sub(to[k], num, to[k]);
+  mpz_sub(out->d, a->s[o], a->q[o]);
+  mpz_add(to[o], a->s[o], a->q[o]);
+  mpz_mul(to[o], to[o], out->d);
+  mpz_mul_2exp(to[o], to[o], (mp_bitcnt_t)(2 * bits));
+  mpz_addmul(to[o], to[k], to[k]);
+  mpz_mul_2exp(out->d, out->d, (mp_bitcnt_t)bits + 1);
+  mpz_mul(to[k], num, out->d);
+  mpz_mul_2exp(out->d, out->d, (mp_bitcnt_t)bits);
+}
+
+static void point_make_positive(dyd_surd_point *p) {
+  if (mpz_sgn(p->d) > 0) return;
+  mpz_neg(p->d, p->d);
+  mpz_neg(p->ax, p->ax);
+  mpz_neg(p->ay, p->ay);
+}
+
+/* out = the point of the line or branch of parabola whose coordinate a->axis is num / 2^bits. */
+static void elementary_at(dyd_surd_point *out, const elementary *a, mpz_srcptr num, int64_t bits) {
+  dyd_surd_point_drop_root(out);
+  if (a->parabola) {
+    point_of_parabola(out, a, num, bits);
+  } else {
+    point_of_line(out, a, a->axis, num, bits);
+  }
+  point_make_positive(out);
+}
+
+/* The point where coordinate o = 1 - axis is z. -1, 1: there is none, all of the parabola is below, above z. */
+static int point_across(dyd_surd_point *out, const elementary *a, mpz_srcptr z) {
+  int k = a->axis, o = 1 - k;
+  dyd_surd_point_drop_root(out);
+  if (!a->parabola) {
+    point_of_line(out, a, o, z, 0);
+    point_make_positive(out);
+    return 0;
+  }
+  mpz_ptr to[2] = {out->ax, out->ay}, root[2] = {out->bx, out->by};
+  mpz_mul_2exp(out->c, z, 1);
+  mpz_sub(out->c, out->c, a->q[o]);
+  mpz_sub(out->c, out->c, a->s[o]);
+  mpz_sub(out->d, a->s[o], a->q[o]);
+  int opens = mpz_sgn(out->d);
+  mpz_mul(out->c, out->c, out->d);
+  mpz_set_ui(out->d, 1);
+  if (mpz_sgn(out->c) < 0) return mpz_set_ui(out->c, 0), opens;
+  mpz_set(to[k], a->s[k]);
+  mpz_set(to[o], z);
+  mpz_set_si(root[k], a->branch);
+  return 0;
+}
+
+/* ---- clipping ---- */
+
+/* Sign of dv/dt. */
+static int arc_slope(const elementary *a) {
+  int k = a->axis, o = 1 - k;
+  int across = mpz_cmp(a->q[o], a->s[o]) > 0 ? 1 : -1;
+  if (a->parabola) return -across * a->branch;
+  int n = mpz_cmp(a->q[k], a->s[k]);
+  return n > 0 ? -across : n < 0 ? across : 0;
+}
+
+/* End e = the tighter of itself and p (swapped in); e = 0: lower end. */
+static void tighten_end(elementary *a, dyd_surd_point *p, int e) {
+  int sign = a->infinite[e] ? 0 : dyd_surd_point_cmp(p, &a->end[e], a->axis);
+  if (!a->infinite[e] && (e ? sign >= 0 : sign <= 0)) return;
+  dyd_surd_point t = a->end[e];
+  a->end[e] = *p;
+  *p = t;
+  a->infinite[e] = false;
+}
+
+/* A line along `axis`, v = m/2 everywhere: is it in the pane, and on its border only with the region inside? */
+static bool level_is_inside(const elementary *a, int side) {
+  int o = 1 - a->axis;
+  DYD_LOCAL_NUMBERS(mpz, m, t);
+  mpz_add(m, a->q[o], a->s[o]);
+  bool inside = true;
+  for (int e = 0; e < 2 && inside; e++) {
+    mpz_srcptr bound = e ? a->hi[o] : a->lo[o];
+    if (!bound) continue;
+    mpz_mul_2exp(t, bound, 1);
+    int beyond = mpz_cmp(m, t) * (e ? 1 : -1), region = side * (mpz_cmp(a->s[o], a->q[o]) > 0 ? 1 : -1);
+    inside = beyond < 0 || (beyond == 0 && region == (e ? -1 : 1));
+  }
+  return inside;
+}
+
+/* Cuts by the bounds of coordinate o; false: nothing left. */
+static bool clip_arc_across(elementary *a, dyd_surd_point *p, int side) {
+  int o = 1 - a->axis, grows = arc_slope(a);
+  if (!a->parabola && !grows) return level_is_inside(a, side);
+  for (int e = 0; e < 2; e++) {
+    mpz_srcptr bound = e ? a->hi[o] : a->lo[o];
+    if (!bound) continue;
+    int missed = point_across(p, a, bound);
+    if (missed && (missed > 0) == (e == 1)) return false;
+    if (!missed) tighten_end(a, p, grows > 0 ? e : 1 - e);
+  }
+  return true;
+}
+
+/* Sets the ends and `point`; false: nothing in the pane. Of arcs along a side of the pane, the ones with the region
+ * inside: C_ab (side = 1), or its complement (-1). */
+static bool elementary_clip(elementary *a, int side) {
+  a->infinite[0] = a->infinite[1] = true;
+  a->point = false;
+  for (int e = 0; e < 2; e++) {
+    mpz_srcptr bound = e ? a->hi[a->axis] : a->lo[a->axis];
+    if (!bound) continue;
+    elementary_at(&a->end[e], a, bound, 0);
+    a->infinite[e] = false;
+  }
+  DYD_LOCAL(dyd_surd_point, p);
+  if (!clip_arc_across(a, &p, side)) return false;
+  if (a->infinite[0] || a->infinite[1]) return true;
+  int order = dyd_surd_point_cmp(&a->end[0], &a->end[1], a->axis);
+  a->point = order == 0;
+  return order <= 0;
+}
+
+/* Which coordinate to go along: across q - s where it is longer, or along the directrix. */
+static int elementary_axis(const elementary *a) {
+  if (a->parabola) return a->q[0] ? 1 : 0;
+  DYD_LOCAL_NUMBERS(mpz, x, y);
+  mpz_sub(x, a->q[0], a->s[0]);
+  mpz_sub(y, a->q[1], a->s[1]);
+  return mpz_cmpabs(x, y) <= 0 ? 0 : 1;
+}
+
+/* Returns true if a point of the curve is in the closed pane. */
+static bool elementary_holds(const elementary *a, const dyd_surd_point *p) {
+  for (int k = 0; k < 2; k++) {
+    if (a->lo[k] && dyd_surd_point_cmp_z(p, k, a->lo[k]) < 0) return false;
+    if (a->hi[k] && dyd_surd_point_cmp_z(p, k, a->hi[k]) > 0) return false;
+  }
+  return true;
+}
 
 /* ---- scale ---- */
 
@@ -195,7 +390,7 @@ int dyd_outline_exact_marks(dyd_outline *o, size_t far, size_t near, int axis, i
   return mpq_cmp(p, q);
 }
 
-static void arc_exactly(dyd_elementary *out, const dyd_outline *o, const dyd_outline_arc *a) {
+static void arc_exactly(elementary *out, const dyd_outline *o, const dyd_outline_arc *a) {
   size_t far = o->outer ? a->curve : o->count, near = o->outer ? o->count : a->curve;
   const exact_cell *x = o->exact;
   out->parabola = a->shape.parabola;
@@ -212,10 +407,10 @@ static void arc_exactly(dyd_elementary *out, const dyd_outline *o, const dyd_out
 }
 
 int dyd_outline_exact_axis(dyd_outline *o, const dyd_outline_arc *a) {
-  DYD_LOCAL(dyd_elementary, e);
+  DYD_LOCAL(elementary, e);
   if (!exact_of(o)) return 0;
   arc_exactly(&e, o, a);
-  return dyd_elementary_axis(&e);
+  return elementary_axis(&e);
 }
 
 /* ---- points ---- */
@@ -265,10 +460,10 @@ static void spot_set_sides(const dyd_outline *o, dyd_outline_spot *p) {
 }
 
 bool dyd_outline_exact_clip(dyd_outline *o, dyd_outline_arc *a, uint32_t number) {
-  DYD_LOCAL(dyd_elementary, e);
+  DYD_LOCAL(elementary, e);
   if (!exact_of(o)) return false;
   arc_exactly(&e, o, a);
-  if (!dyd_elementary_clip(&e, o->outer ? -1 : 1)) return false;
+  if (!elementary_clip(&e, o->outer ? -1 : 1)) return false;
   a->point = e.point;
   for (int k = 0; k < 2; k++) {
     a->end[k] = (dyd_outline_spot){{DYD_IV_UNKNOWN, DYD_IV_UNKNOWN}, {-1, -1}, e.infinite[k], DYD_OUTLINE_END,
@@ -312,7 +507,7 @@ static void point_of_circle(dyd_surd_point *out, const dyd_icircle *k) {
 
 /* The points that arcs a and b have in common, in order along a; returns how many. */
 static size_t common_points(dyd_surd_point out[DYD_OUTLINE_CIRCLES], dyd_outline *o, uint32_t a, uint32_t b) {
-  DYD_LOCAL(dyd_elementary, e, f);
+  DYD_LOCAL(elementary, e, f);
   size_t count = 0;
   find_circles(o, o->arc[a].curve, o->arc[b].curve);
   arc_exactly(&e, o, &o->arc[a]);
@@ -320,7 +515,7 @@ static size_t common_points(dyd_surd_point out[DYD_OUTLINE_CIRCLES], dyd_outline
   for (size_t k = 0; k < o->exact->circles; k++) {
     dyd_surd_point *p = &out[count];
     point_of_circle(p, &o->exact->circle[k]);
-    if (!dyd_elementary_holds(&e, p) || !dyd_elementary_holds(&f, p)) continue;
+    if (!elementary_holds(&e, p) || !elementary_holds(&f, p)) continue;
     for (size_t m = count++; m > 0 && dyd_surd_point_cmp(&out[m], &out[m - 1], e.axis) < 0; m--) {
       dyd_surd_point t = out[m];
       out[m] = out[m - 1];
@@ -361,9 +556,9 @@ static void corner_exactly(dyd_outline *o, dyd_outline_spot *p) {
 }
 
 static void end_exactly(dyd_outline *o, dyd_outline_spot *p) {
-  DYD_LOCAL(dyd_elementary, e);
+  DYD_LOCAL(elementary, e);
   arc_exactly(&e, o, &o->arc[p->number / 2]);
-  bool some = dyd_elementary_clip(&e, o->outer ? -1 : 1);
+  bool some = elementary_clip(&e, o->outer ? -1 : 1);
   DYD_INVARIANT(some);
   (void)some;
   p->exact = keep_point(o, &e.end[p->number & 1]);
@@ -430,11 +625,11 @@ bool dyd_outline_exact_sample(dyd_outline_spot *out, dyd_outline *o, const dyd_o
   if (o->status != DYD_OK || !exact_of(o)) return false;
   DYD_LOCAL_NUMBERS(mpz, num);
   DYD_LOCAL(dyd_surd_point, at);
-  DYD_LOCAL(dyd_elementary, e);
+  DYD_LOCAL(elementary, e);
   int64_t bits = number_between(num, from, to, a ? a->axis : side & 1);
   if (a) {
     arc_exactly(&e, o, a);
-    dyd_elementary_at(&at, &e, num, bits);
+    elementary_at(&at, &e, num, bits);
   } else {
     point_of_side(&at, o, side, num, bits);
   }

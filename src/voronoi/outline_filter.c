@@ -45,7 +45,7 @@ static bool outline_has_room(dyd_outline *o, size_t items, size_t size) {
 
 /* ---- points ---- */
 
-/* ---- the elementary arcs of elementary.c in intervals ---- */
+/* ---- the elementary arcs of outline.c in intervals ---- */
 
 /* at: as given; to: relative to the origin. of: rectangles far and near, along an axis. */
 typedef struct ruler {
