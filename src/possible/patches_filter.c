@@ -228,8 +228,8 @@ static bool is_dominated(const plane *p, uint32_t vertex, const dyd_part *q, con
 }
 
 static dyd_plane_corner centre_of(const plane *p, const dyd_part *q) {
-  const dyd_bbox lower = dyd_box_part(&q->at, 0);
-  return p->side < 0 ? (dyd_plane_corner){lower.e[1], lower.e[3], false} : ray(p, lower.e[1], true);
+  const double *e = q->at.e, x = e[0] / 2 + e[1] / 2, y = e[2] / 2 + e[3] / 2;
+  return p->side < 0 ? (dyd_plane_corner){x, y, false} : ray(p, x, true);
 }
 
 /* An upper bound of dl at the centre for the vertex with the least dl anywhere in a square: dl changes by at most the

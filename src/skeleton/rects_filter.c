@@ -10,13 +10,19 @@
 #include <math.h>
 #include <string.h>
 
+/* Part k of a box cut both ways, as its corners are numbered. */
+static dyd_bbox part_of_box(const dyd_bbox *c, int k) {
+  double x = c->e[0] / 2 + c->e[1] / 2, y = c->e[2] / 2 + c->e[3] / 2;
+  return (dyd_bbox){{k & 1 ? x : c->e[0], k & 1 ? c->e[1] : x, k & 2 ? y : c->e[2], k & 2 ? c->e[3] : y}};
+}
+
 dyd_status dyd_walk_parts(dyd_look look, void *context, const volatile int *cancel, dyd_part p) {
   int parts = 0;
   dyd_status st = dyd_flag_is_set(cancel) ? DYD_CANCELLED : look(context, &parts, &p);
   const dyd_bbox at = p.at;
   p.depth++;
   for (int k = 0; k < parts && st == DYD_OK; k++) {
-    p.at = dyd_box_part(&at, k);
+    p.at = part_of_box(&at, k);
     st = dyd_walk_parts(look, context, cancel, p);
   }
   return st;

@@ -106,12 +106,6 @@ static inline void dyd_corners_near(double at[4], const dyd_bbox *c, const dyd_b
   for (int k = 0; k < 4; k++) at[k] = dyd_lower(s[k & 1] + s[2 + (k >> 1)]);
 }
 
-/* Part k of a box cut both ways, as its corners are numbered. */
-static inline dyd_bbox dyd_box_part(const dyd_bbox *c, int k) {
-  double x = c->e[0] / 2 + c->e[1] / 2, y = c->e[2] / 2 + c->e[3] / 2;
-  return (dyd_bbox){{k & 1 ? x : c->e[0], k & 1 ? c->e[1] : x, k & 2 ? y : c->e[2], k & 2 ? c->e[3] : y}};
-}
-
 /* Returns true if what is so far is certainly nearer everywhere than what is so near. */
 static inline bool dyd_corners_block(const double far[4], const double near[4]) {
   return far[0] < near[0] && far[1] < near[1] && far[2] < near[2] && far[3] < near[3];
