@@ -470,7 +470,7 @@ static int layer_fits(cli_options *o, const cli_command *c) {
   return CLI_USAGE;
 }
 
-/* What the layer states, or the format beside it, may be more than discs decide. */
+/* The layer or the format may state more than discs decide. */
 static int discs_fit(const cli_options *o, const cli_command *c) {
   const bool layer = !dyd_format_holds(DYD_FORMAT_CSV, o->content, true);
   if (!o->discs || c != &cli_commands[CLI_DELAUNAY] || dyd_format_holds(o->format, o->content, true)) return 0;

@@ -93,7 +93,7 @@ static dyd_status dyd_centre_shows(uint32_t **vertex, size_t *count, const dyd_s
 
 /* CROWD: least number of triangles of a face for which a search of the plane pays. PATIENCE: walks before the first
  * centre is tried. MOST_BITS: members of a face that has its pairs as bits, too, from the first; FEW_PAIRS: others have
- * them when of so many pairs one is known. In the armed build small faces take part, too. */
+ * them when one pair in that number is known. In the armed build small faces take part, too. */
 #ifdef DYD_ARMED
 enum { CROWD = 5, PATIENCE = 1, MOST_BITS = 16, FEW_PAIRS = 4 };
 #else
@@ -382,7 +382,7 @@ static dyd_status add_all(closing *c, const uint32_t *member, size_t count) {
   return st;
 }
 
-/* Vertices become members; those that are none are left out. Returns how many are left. */
+/* Vertices become members; the others are dropped. Returns how many remain. */
 static size_t to_members(uint32_t *vertex, size_t count, const dyd_closure *out) {
   size_t members = 0;
   for (size_t k = 0; k < count; k++) {
@@ -407,7 +407,7 @@ static dyd_status closing_try_centre(closing *c, uint32_t k, uint32_t l, uint32_
   return st;
 }
 
-/* Member a, and the one farthest from it in order of which nothing is known; a itself: there is none. */
+/* Member a, and the one farthest from it in order whose pair with it is open; a itself: there is none. */
 static uint32_t farthest_unknown(const closing *c, uint32_t a) {
   uint32_t n = c->out->vertices;
   for (uint32_t most = a > n - 1 - a ? a : n - 1 - a; most > 0; most--) {

@@ -61,7 +61,7 @@ struct dyd_fixed {
 
 enum { COORDINATE_BITS = 60 };
 
-/* With room for the coordinates of so many vertices behind it. */
+/* With room for the coordinates of that number of vertices behind it. */
 static size_t fixed_size(size_t vertices) {
   return sizeof(dyd_fixed) + vertices * sizeof(int64_t[2]);
 }

@@ -106,7 +106,7 @@ static inline void dyd_corners_near(double at[4], const dyd_bbox *c, const dyd_b
   for (int k = 0; k < 4; k++) at[k] = dyd_lower(s[k & 1] + s[2 + (k >> 1)]);
 }
 
-/* Returns true if what is so far is certainly nearer everywhere than what is so near. */
+/* Returns true if the rectangle with bounds `far` is certainly nearer everywhere than the one with bounds `near`. */
 static inline bool dyd_corners_block(const double far[4], const double near[4]) {
   return far[0] < near[0] && far[1] < near[1] && far[2] < near[2] && far[3] < near[3];
 }

@@ -52,7 +52,7 @@ typedef struct dyd_run {
   unsigned threads;           /* for passes over everything */
   bool keep_cut;              /* faces that cancelling leaves open count as met by the cap */
   dyd_error *err;             /* may be NULL */
-  const dyd_decider *decider; /* asked before pairs that are no edges of the skeleton are decided; may be NULL */
+  const dyd_decider *decider; /* asked before pairs beside the edges of the skeleton are decided; may be NULL */
 } dyd_run;
 
 /* Of one thread. */

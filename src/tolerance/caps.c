@@ -209,7 +209,7 @@ static bool is_empty(dyd_caps *c, dyd_cap *k) {
   return sure ? sure < 0 : mpq_sgn(k->c) <= 0;
 }
 
-/* An end, as near as it takes to go on with. */
+/* An end, as near as the next step needs it. */
 static dyd_direction cap_end(dyd_caps *c, dyd_cap *e, int turn) {
   dyd_direction u = dyd_filter_cap_end(e, turn);
   if (u.off < NEAR) return u;

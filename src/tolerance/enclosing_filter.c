@@ -60,7 +60,7 @@ static double widened_up(double t, double off) {
 }
 
 /* Rows of the true points; those that a status leaves open, and births surely above up_to, go. *least: the least lo of
- * the centres among rows that are no ties. */
+ * the centres among rows other than ties. */
 static void rows_widen(double *least, dyd_tolerance *t, double off, const dyd_delaunay *pd, double up_to) {
   size_t kept = 0;
   for (size_t k = 0; k < t->rows; k++) {

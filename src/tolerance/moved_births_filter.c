@@ -274,7 +274,7 @@ static void move_links(dyd_moves *m, uint32_t from, uint32_t to) {
   m->links = m->links - from + to;
 }
 
-/* Puts site q between links n and n + 1; or, where q is a link, leaves out what is between. false: there is no room. */
+/* Puts site q between links n and n + 1; or, where q is a link, drops the links between. false: they are full. */
 static bool birth_insert(dyd_moves *m, uint32_t n, uint32_t q) {
   uint32_t known = 0, place = n;
   double x = m->link[n].x, y = m->link[n].y;
@@ -317,7 +317,7 @@ static bool birth_split(dyd_moves *m, uint32_t n) {
   return q && birth_insert(m, n, q);
 }
 
-/* Takes link d out; between those beside it is the better one of its places. */
+/* Takes link d out; its better place is between its two neighbours. */
 static void birth_unlink(dyd_moves *m, uint32_t d) {
   dyd_move_link old = m->link[d], *a = &m->link[d - (d > 0)];
   move_links(m, d + 1, d);

@@ -175,7 +175,7 @@ static void moves_contact(dyd_moves *m) {
     }
 }
 
-/* The point of the ray from the centre of the touching end, away from what it touches, next to (x, y). */
+/* The point of the ray from the centre of the touching end, away from the place that it touches, next to (x, y). */
 static void move_to_ray(double *x, double *y, const dyd_moves *m) {
   const dyd_move_site *e = &m->site[m->touch[0]], *k = &m->site[m->touch[1]];
   double ux = e->x.h - k->x.h, uy = e->y.h - k->y.h, size = hypot(ux, uy);
@@ -317,7 +317,7 @@ static bool move_meet(void *context, uint32_t v) {
   uint32_t had = m->count;
   if (move_is_far(l, v) || v == m->site[0].vertex || v == m->site[1].vertex) return true;
   if (!dyd_moves_see(m, v)) {
-    l->added += had == 2 + DYD_MOVES_MOST_SEEN ? DYD_MOVES_MOST_ADDED : 0; /* seen before: looked at already */
+    l->added += had == 2 + DYD_MOVES_MOST_SEEN ? DYD_MOVES_MOST_ADDED : 0; /* seen before */
     return l->added < DYD_MOVES_MOST_ADDED;
   }
   if (move_keeps_clear(l, &m->site[had])) {

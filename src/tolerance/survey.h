@@ -60,7 +60,7 @@ dyd_status dyd_survey_choose(dyd_survey *s, const dyd_delaunay *pd);
 /* A new triangulation of all sites, the chosen ones measured; of the centres of all. */
 dyd_status dyd_survey_triangulate(dyd_delaunay **pd, const dyd_survey *s, bool centres);
 
-/* DYD_CANCELLED, with a message about what is there, if the plan is not finished. */
+/* DYD_CANCELLED, with a message about the part there is, if the plan is not finished. */
 dyd_status dyd_survey_tell_cut(const dyd_survey *s, dyd_error *err);
 
 /* A trial of a plan. seed: draws its places; now: the regions so far, NULL: as they were; needed: how exactly each site
@@ -72,7 +72,7 @@ typedef struct dyd_trial {
   double *needed;
 } dyd_trial;
 
-/* Shared by all trials of a plan. step: replaces the regions by what is measured, and plans again; end: frees them. */
+/* Shared by all trials of a plan. step: replaces the regions by the measured ones, and plans again; end: frees them. */
 typedef struct dyd_trials {
   dyd_survey_trial *out;
   size_t count;

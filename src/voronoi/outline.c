@@ -269,7 +269,7 @@ static bool exact_new(dyd_outline *o, size_t count) {
   return true;
 }
 
-/* The window cut down to the bounds; where there is no bound, the end of the own rectangle, which is not used. */
+/* The window cut down to the bounds; elsewhere the ends of the own rectangle, which are not used. */
 static dyd_status bounds_rect(dyd_rect *out, const dyd_outline *o, const dyd_rect *own) {
   dyd_status st = DYD_OK;
   DYD_LOCAL_NUMBERS(mpq, lo, hi, spare);

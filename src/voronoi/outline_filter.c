@@ -620,7 +620,7 @@ static int spot_order(dyd_outline *o, dyd_outline_spot *p, dyd_outline_spot *q, 
   return unsure ? dyd_outline_exact_order(o, p, q, axis) : order;
 }
 
-/* Sorts the cuts between the first and the last along an axis, drops repeats and those that are not between them;
+/* Sorts the cuts between the first and the last along an axis, drops repeats and cuts that are not between them;
  * returns how many are left with both. Few. */
 static size_t sort_spots(dyd_outline *o, size_t count, int axis) {
   dyd_outline_spot **cut = o->cut, *last = cut[count - 1];

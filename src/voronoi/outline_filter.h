@@ -24,7 +24,7 @@ typedef struct dyd_filter_arc {
 typedef enum dyd_outline_kind { DYD_OUTLINE_END, DYD_OUTLINE_MEET, DYD_OUTLINE_CORNER } dyd_outline_kind;
 
 /* A point, relative to the origin, or an end at infinity. at[a] encloses coordinate a. side[a]: which end of the window
- * (0, 1) coordinate a is, exactly; else -1. exact: NULL until it is asked for; in the scale of outline.c. */
+ * (0, 1) coordinate a is, exactly; else -1. exact: NULL until it is needed; in the scale of outline.c. */
 typedef struct dyd_outline_spot {
   dyd_iv at[2];
   int side[2];
@@ -163,9 +163,9 @@ bool dyd_outline_may_be_taken(const dyd_outline *o, const dyd_iv at[2]);
 bool dyd_outline_may_take(const dyd_outline *o, size_t k, const dyd_iv at[2]);
 enum { DYD_OUTLINE_STRETCHES = 3 }; /* how often an arc is halved, to find that it is taken */
 
-/* Sets what is relative to the origin, for a window; false: some other meets the site. */
+/* Sets the numbers that are relative to the origin, for a window; false: some other meets the site. */
 bool dyd_outline_place(dyd_outline *o, const dyd_rect *window);
-/* Bounds of Pos: from what is taken away around the site, and from its pieces. */
+/* Bounds of Pos: from a box round the site whose sides are taken, and from its pieces. */
 void dyd_outline_limit_by_box(dyd_outline *o);
 void dyd_outline_limit_by_parts(dyd_outline *o);
 /* The window cut down to the limits. */

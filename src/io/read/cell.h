@@ -33,10 +33,11 @@ dyd_status dyd_cell_hint(dyd_status st, const dyd_style *style, const dyd_span *
 /* Returns what a cell that is an expression may mean besides, and what to write instead, where people write such for
  * something else: 2024-01-02, 1.2-1.4, 1/2/2024, 5-1/2, (1.5), 1.5+103; NULL for others. Static storage. */
 const char *dyd_cell_doubt(const dyd_span *cell);
-/* Returns what to do about a cell that is no number: "; " and a sentence; NULL where that is not known. Static storage.
+/* Returns a remedy for a cell that does not hold a number: "; " and a sentence; NULL where that is not known. Static
+ * storage.
  */
 const char *dyd_cell_remedy(const dyd_span *cell);
-/* Returns the same about a first line that is no point, of which the message is; "" where that is not known. */
+/* Returns the same about a first line without a point, which the message is about; "" where it is not known. */
 const char *dyd_line_remedy(const dyd_line *line, const char *message);
 /* Returns the length of the number in "0.02 m", and 0 if the cell is not a number and a unit. */
 size_t dyd_cell_number(const dyd_span *cell);
