@@ -3,10 +3,8 @@
 #include "voronoi/exact_cell.h"
 
 #include "base/alloc.h"
-#include "base/invariant.h"
 #include "base/local.h"
 #include "delaunay/memory.h"
-#include "predicate/circle.h"
 #include "voronoi/outline_filter.h"
 #include "voronoi/sample.h"
 #include "voronoi/surd_point.h"

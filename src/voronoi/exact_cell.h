@@ -3,7 +3,6 @@
 #ifndef DYD_VORONOI_EXACT_CELL_H
 #define DYD_VORONOI_EXACT_CELL_H
 
-#include "base/flag.h"
 #include "base/room.h"
 #include <dyadel/arc.h>
 #include <dyadel/delaunay.h>

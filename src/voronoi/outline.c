@@ -12,10 +12,9 @@
  * sign in the pane: the arc is one branch, monotone in both coordinates, and its part in the pane is connected. It
  * cannot run along the border of a pane, since s, the corner q or the corner opposite s would then lie in both
  * rectangles; along a side of the window it can. For singletons a and b no cut is needed. */
-#include "voronoi/outline_filter.h"
+#include "voronoi/outline.h"
 
 #include "base/alloc.h"
-#include "base/flag.h"
 #include "base/invariant.h"
 #include "base/local.h"
 #include "dyadic/raw.h"
@@ -310,8 +309,7 @@ static void rects_place(exact_cell *x, size_t own) {
   x->shift = bits > 200 ? (int64_t)bits - 200 : 0; /* products of four doubles stay below 2^1000 */
 }
 
-/* The rectangle of a site; fetched: if it has to come from the table. */
-static const dyd_rect *outline_site_rect(dyd_outline *o, dyd_rect *fetched, size_t k) {
+const dyd_rect *dyd_outline_rect(dyd_outline *o, dyd_rect *fetched, size_t k) {
   if (o->item[k].rect) return o->item[k].rect;
   dyd_status st = dyd_sites_get(fetched, o->sites, o->item[k].site);
   if (st != DYD_OK && o->status == DYD_OK) o->status = st;
@@ -320,7 +318,7 @@ static const dyd_rect *outline_site_rect(dyd_outline *o, dyd_rect *fetched, size
 
 static dyd_status rects_scale(dyd_outline *o, dyd_rect *fetched, const dyd_rect **in) {
   const size_t bounds = o->count + 1;
-  for (size_t k = 0; k <= o->count && o->status == DYD_OK; k++) in[k] = outline_site_rect(o, &fetched[k], k);
+  for (size_t k = 0; k <= o->count && o->status == DYD_OK; k++) in[k] = dyd_outline_rect(o, &fetched[k], k);
   dyd_status st = o->status;
   if (st == DYD_OK) st = bounds_rect(&fetched[bounds], o, in[o->count]);
   in[bounds] = &fetched[bounds];
@@ -372,7 +370,7 @@ static void mark_number(mpq_ptr out, dyd_outline *o, size_t far, size_t near, in
   }
   DYD_LOCAL(dyd_rect, fetched);
   DYD_LOCAL_NUMBERS(mpq, other);
-  const dyd_rect *r = window ? o->rect : outline_site_rect(o, &fetched, of_near ? near : far);
+  const dyd_rect *r = window ? o->rect : dyd_outline_rect(o, &fetched, of_near ? near : far);
   dyd_interval_get_q(high ? other : out, high ? out : other, axis ? &r->y : &r->x);
   if (mark != DYD_MIDDLE) return;
   mpq_add(out, out, other);
@@ -586,7 +584,7 @@ int dyd_outline_exact_order(dyd_outline *o, dyd_outline_spot *p, dyd_outline_spo
 
 /* ---- samples and sides ---- */
 
-static int side_of(const dyd_outline *o, const dyd_surd_point *p, size_t k) {
+int dyd_outline_exact_side(const dyd_outline *o, const dyd_surd_point *p, size_t k) {
   const exact_cell *x = o->exact;
   return dyd_surd_point_side(p, &x->rect[k], o->outer ? DYD_FARTHEST : DYD_CLOSEST, &x->rect[o->count],
                              o->outer ? DYD_CLOSEST : DYD_FARTHEST);
@@ -638,20 +636,10 @@ bool dyd_outline_exact_sample(dyd_outline_spot *out, dyd_outline *o, const dyd_o
   return out->exact != NULL;
 }
 
-int dyd_outline_exact_side(const dyd_outline *o, const dyd_outline_spot *p, size_t k) {
-  return side_of(o, p->exact, k);
-}
-
 size_t dyd_outline_exact_third(dyd_outline *o, dyd_outline_spot *p, size_t curve, size_t other) {
   const dyd_surd_point *at = dyd_outline_exact(o, p);
   size_t k = 0;
-  while (at && k < o->count && (k == curve || o->item[k].drop || side_of(o, at, k))) k++;
+  while (at && k < o->count && (k == curve || o->item[k].drop || dyd_outline_exact_side(o, at, k))) k++;
   DYD_INVARIANT(k < o->count);
   return k < o->count ? k : other;
-}
-
-bool dyd_outline_exact_rects_meet(dyd_outline *o, size_t a, size_t b) {
-  DYD_LOCAL_ARRAY(dyd_rect, fetched, [2]);
-  const dyd_rect *p = outline_site_rect(o, &fetched[0], a), *q = outline_site_rect(o, &fetched[1], b);
-  return o->status == DYD_OK && dyd_rect_meets(p, q);
 }

@@ -20,13 +20,8 @@
 #include "base/alloc.h"
 #include "base/flag.h"
 #include "base/invariant.h"
-#include "base/local.h"
-#include "rect/rect.h"
-#include "rect/sites_table.h"
 
-#include <stdlib.h>
-
-/* Returns false, with the status, once the work is cancelled, or room for `need` items is refused. */
+/* Returns false, with the status, once the work is cancelled. */
 static bool outline_goes_on(dyd_outline *o) {
   if (o->status == DYD_OK && dyd_flag_is_set(o->cancel)) o->status = DYD_CANCELLED;
   return o->status == DYD_OK;
@@ -42,8 +37,6 @@ static bool outline_has_room(dyd_outline *o, size_t items, size_t size) {
 #define OUTLINE_GROW(o, array, cap, need)                                                                              \
   ((need) <= (cap) || (outline_has_room((o), (need) + (need) / 2 + 16, sizeof *(array)) &&                             \
                        (DYD_GROW(array, cap, need) || ((o)->status = DYD_E_NOMEM, false))))
-
-/* ---- points ---- */
 
 /* ---- the elementary arcs of outline.c in intervals ---- */
 
@@ -138,38 +131,6 @@ static dyd_feature_kind strips_feature(const strip s[2]) {
 
 /* ---- points of an arc ---- */
 
-/* Lines: with n = q - s, m = q + s the other coordinate is m_o/2 + (n_k/n_o) (m_k/2 - t). Parabolas: with h = s_o - q_o
- * it is ((t - s_k)^2 / h + q_o + s_o) / 2. */
-dyd_iv dyd_outline_arc_other(const dyd_filter_arc *arc, int k, dyd_iv at) {
-  int o = 1 - k;
-  dyd_iv mo = dyd_iv_scale(dyd_iv_add(arc->q[o], arc->s[o]), 0.5);
-  if (arc->parabola) {
-    dyd_iv h = dyd_iv_sub(arc->s[o], arc->q[o]);
-    return dyd_iv_add(dyd_iv_scale(dyd_iv_div(dyd_iv_sqr(dyd_iv_sub(at, arc->s[k])), h), 0.5), mo);
-  }
-  dyd_iv mk = dyd_iv_scale(dyd_iv_add(arc->q[k], arc->s[k]), 0.5);
-  dyd_iv slope = dyd_iv_div(dyd_iv_sub(arc->q[k], arc->s[k]), dyd_iv_sub(arc->q[o], arc->s[o]));
-  return dyd_iv_add(mo, dyd_iv_mul(slope, dyd_iv_sub(mk, at)));
-}
-
-/* Around both; unknown where an end is not a number. */
-static dyd_iv outline_hull(dyd_iv p, dyd_iv q) {
-  if (!isfinite(p.lo + p.hi + q.lo + q.hi)) return DYD_IV_UNKNOWN;
-  return (dyd_iv){p.lo < q.lo ? p.lo : q.lo, p.hi > q.hi ? p.hi : q.hi};
-}
-
-/* The point of an arc at t along its axis. */
-static dyd_outline_spot outline_arc_at(const dyd_outline_arc *a, dyd_iv t) {
-  dyd_outline_spot p = {.side = {-1, -1}};
-  p.at[a->axis] = t;
-  p.at[1 - a->axis] = dyd_outline_arc_other(&a->shape, a->axis, t);
-  return p;
-}
-
-static void outline_set_span(dyd_outline_arc *a) {
-  for (int k = 0; k < 2; k++) a->span[k] = outline_hull(a->end[0].at[k], a->end[1].at[k]); /* monotone [ARC-1] */
-}
-
 /* Where the other coordinate is `level`; 0: there, else which side of the level the parabola stays on. */
 static int arc_across(dyd_iv *t, bool *unsure, const dyd_outline_arc *a, dyd_iv level) {
   int k = a->axis, o = 1 - k;
@@ -235,7 +196,7 @@ static bool outline_clip_across(dyd_outline_arc *a, bool *unsure, const pane_sid
 static bool outline_clip_filtered(dyd_outline_arc *a, uint32_t number, bool *unsure, const pane_sides *m) {
   int k = a->axis;
   for (int e = 0; e < 2; e++) {
-    a->end[e] = outline_arc_at(a, e ? a->hi[k] : a->lo[k]);
+    a->end[e] = dyd_outline_arc_at(a, e ? a->hi[k] : a->lo[k]);
     a->end[e].side[k] = m->end[k][e];
     a->end[e].number = 2 * number + (uint32_t)e;
   }
@@ -324,28 +285,6 @@ static bool pane_is_clear(const strip_reach *x, const strip_reach *y) {
          dyd_upper(x->far_most + y->far_most) < dyd_lower(x->near_most + y->near_most);
 }
 
-/* Is all of the arc between p and q taken, whole or in parts? A middle that is not ends it. */
-static bool outline_stretch_taken(dyd_outline *o, const dyd_outline_arc *a, const dyd_outline_spot *p,
-                                  const dyd_outline_spot *q, int depth) {
-  int k = a->axis;
-  double t = p->at[k].hi / 2 + q->at[k].lo / 2;
-  if (!depth || !(p->at[k].hi < t && t < q->at[k].lo)) return false;
-  dyd_outline_spot m = outline_arc_at(a, dyd_iv_point(t));
-  if (!dyd_outline_taken(o, m.at)) return false;
-  for (int part = 0; part < 2; part++) {
-    const dyd_outline_spot *from = part ? &m : p, *to = part ? q : &m;
-    dyd_iv span[2];
-    for (int c = 0; c < 2; c++) span[c] = outline_hull(from->at[c], to->at[c]); /* monotone between them [ARC-1] */
-    if (!dyd_outline_taken(o, span) && !outline_stretch_taken(o, a, from, to, depth - 1)) return false;
-  }
-  return true;
-}
-
-/* All of it? Its boundary points are boundary of nothing then, and cuts there decide nothing. */
-static bool arc_is_taken(dyd_outline *o, const dyd_outline_arc *a) {
-  return dyd_outline_taken(o, a->span) || outline_stretch_taken(o, a, &a->end[0], &a->end[1], DYD_OUTLINE_STRETCHES);
-}
-
 static void outline_add_curve(dyd_outline *o, uint32_t other) {
   size_t far = o->outer ? other : o->count, near = o->outer ? o->count : other;
   ruler r[2];
@@ -363,8 +302,7 @@ static void outline_add_curve(dyd_outline *o, uint32_t other) {
     dyd_outline_arc *a = &o->arc[o->arcs];
     a->curve = other;
     if (!outline_set_arc(a, &m, r, s) || !outline_clip(o, a, (uint32_t)o->arcs, &m)) continue;
-    outline_set_span(a);
-    o->arcs += !arc_is_taken(o, a);
+    o->arcs += !dyd_outline_arc_taken(o, a);
   }
 }
 
@@ -528,7 +466,7 @@ static bool add_root(dyd_outline *o, dyd_outline_meet *m, dyd_iv u) {
   bool unsure = false;
   for (int e = 0; e < 2; e++)
     if (!p->end[e].infinite && dyd_outline_order(&unsure, t, p->end[e].at[p->axis]) == (e ? 1 : -1)) return true;
-  m->spot = outline_arc_at(p, t);
+  m->spot = dyd_outline_arc_at(p, t);
   m->spot.kind = DYD_OUTLINE_MEET;
   if (!pane_holds(&unsure, q, &m->spot) || dyd_outline_taken(o, m->spot.at)) return true;
   if (!unsure) outline_add_meet(o, m);
@@ -590,7 +528,7 @@ static bool coordinate_between(dyd_iv *out, dyd_iv a, dyd_iv b) {
 static bool sample_is_kept(const dyd_outline *o, const dyd_outline_spot *p, size_t curve) {
   for (size_t k = 0; k < o->count; k++) {
     if (k == curve || o->item[k].drop || !dyd_outline_may_take(o, k, p->at)) continue;
-    int sign = dyd_outline_exact_side(o, p, k);
+    int sign = dyd_outline_exact_side(o, p->exact, k);
     if (sign < 0 || (!sign && k < curve)) return false;
   }
   return true;
@@ -602,7 +540,7 @@ static bool stretch_is_kept(dyd_outline *o, const dyd_outline_arc *a, int side, 
   int axis = a ? a->axis : side & 1;
   dyd_iv t;
   if (!low->infinite && !high->infinite && coordinate_between(&t, low->at[axis], high->at[axis])) {
-    dyd_outline_spot sample = a ? outline_arc_at(a, t) : o->corner[side];
+    dyd_outline_spot sample = a ? dyd_outline_arc_at(a, t) : o->corner[side];
     sample.at[axis] = t;
     if (dyd_outline_taken(o, sample.at)) return false;
     if (!dyd_outline_may_be_taken(o, sample.at)) return true;
@@ -613,9 +551,9 @@ static bool stretch_is_kept(dyd_outline *o, const dyd_outline_arc *a, int side, 
 
 /* ---- cuts and pieces ---- */
 
+/* Of finite ones. */
 static int spot_order(dyd_outline *o, dyd_outline_spot *p, dyd_outline_spot *q, int axis) {
-  bool unsure = p->infinite || q->infinite;
-  if (unsure) return 0; /* the ends of an arc come first */
+  bool unsure = false;
   int order = dyd_outline_order(&unsure, p->at[axis], q->at[axis]);
   return unsure ? dyd_outline_exact_order(o, p, q, axis) : order;
 }

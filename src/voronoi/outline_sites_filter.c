@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The sites of a cell in doubles: which of them take points from the others, and a box that holds the region. */
-#include "voronoi/outline_filter.h"
+#include "voronoi/outline_sites_filter.h"
 
 #include "base/alloc.h"
 #include "base/local.h"
@@ -11,6 +11,13 @@
 
 /* ---- what rivals take ---- */
 
+/* Parts of a rival: xlo, xhi, ylo, yhi, slack and number; in groups of LANES rivals, part by part. */
+enum { LANES = 4, RIVAL_SLACK = 4, RIVAL_NUMBER, RIVAL_PARTS };
+
+static inline double *rival_part(const dyd_outline_rivals *r, int part, size_t k) {
+  return &r->part[(k / LANES * RIVAL_PARTS + (size_t)part) * LANES + k % LANES];
+}
+
 /* A lower or upper bound of the squared distance to a box of all points in c. */
 static inline double outline_distance2(const dyd_bbox *c, const dyd_outline_rival *r, bool farthest, bool upper) {
   if (farthest) return upper ? dyd_dl2_upper(c, &r->box) : dyd_dl2_lower(c, &r->box, r->slack);
@@ -20,12 +27,12 @@ static inline double outline_distance2(const dyd_bbox *c, const dyd_outline_riva
 /* Exchanges rivals a and b. */
 static void rivals_swap(dyd_outline *o, size_t a, size_t b) {
   const size_t to[2] = {b, a};
-  for (int e = 0; e < DYD_RIVAL_PARTS; e++) {
-    double *p = dyd_rival_part(&o->rivals, e, a), *q = dyd_rival_part(&o->rivals, e, b), part = *p;
+  for (int e = 0; e < RIVAL_PARTS; e++) {
+    double *p = rival_part(&o->rivals, e, a), *q = rival_part(&o->rivals, e, b), part = *p;
     *p = *q;
     *q = part;
   }
-  for (int k = 0; k < 2; k++) o->item[(size_t)*dyd_rival_part(&o->rivals, DYD_RIVAL_NUMBER, to[k])].place = to[k];
+  for (int k = 0; k < 2; k++) o->item[(size_t)*rival_part(&o->rivals, RIVAL_NUMBER, to[k])].place = to[k];
 }
 
 /* Only sites other than `own` take points from now on; o->count: all others. */
@@ -36,19 +43,18 @@ void dyd_outline_exclude(dyd_outline *o, size_t own) {
   if (o->item[own].place != o->rivals.count) rivals_swap(o, o->item[own].place, o->rivals.count);
 }
 
-/* The first rival, of DYD_OUTLINE_LANES from m on, whose distance is certainly below `least`; r->all: none. */
+/* The first rival, of LANES from m on, whose distance is certainly below `least`; r->all: none. */
 static inline size_t rivals_nearer(const dyd_outline_rivals *r, size_t m, const dyd_bbox *c, bool farthest,
                                    double least) {
-  double upper[DYD_OUTLINE_LANES], below = HUGE_VAL;
-  const double *p = dyd_rival_part(r, 0, m);
-  enum { L = DYD_OUTLINE_LANES };
-  for (int k = 0; k < L; k++) {
-    const dyd_bbox b = {{p[k], p[L + k], p[2 * L + k], p[3 * L + k]}};
-    upper[k] = farthest ? dyd_dl2_upper(c, &b) : dyd_ds2_upper(c, &b, p[DYD_RIVAL_SLACK * L + k]);
+  double upper[LANES], below = HUGE_VAL;
+  const double *p = rival_part(r, 0, m);
+  for (int k = 0; k < LANES; k++) {
+    const dyd_bbox b = {{p[k], p[LANES + k], p[2 * LANES + k], p[3 * LANES + k]}};
+    upper[k] = farthest ? dyd_dl2_upper(c, &b) : dyd_ds2_upper(c, &b, p[RIVAL_SLACK * LANES + k]);
   }
-  for (int k = 0; k < DYD_OUTLINE_LANES; k++) below = dyd_min(below, upper[k]);
+  for (int k = 0; k < LANES; k++) below = dyd_min(below, upper[k]);
   if (!(below < least)) return r->all;
-  for (int k = 0; k < DYD_OUTLINE_LANES; k++)
+  for (int k = 0; k < LANES; k++)
     if (upper[k] < least && m + k < r->count) return m + k;
   return r->all;
 }
@@ -60,7 +66,7 @@ bool dyd_outline_taken(dyd_outline *o, const dyd_iv at[2]) {
   dyd_outline_rivals *r = &o->rivals;
   double least = outline_distance2(&c, &o->item[o->count].reach, !o->outer, false);
   if (o->blind || o->keep_all || !isfinite(c.e[0] + c.e[1] + c.e[2] + c.e[3])) return false;
-  for (size_t m = 0; m < r->count; m += DYD_OUTLINE_LANES) {
+  for (size_t m = 0; m < r->count; m += LANES) {
     size_t k = o->outer ? rivals_nearer(r, m, &c, true, least) : rivals_nearer(r, m, &c, false, least);
     if (k == r->all) continue;
     if (k) rivals_swap(o, k, 0);
@@ -69,48 +75,103 @@ bool dyd_outline_taken(dyd_outline *o, const dyd_iv at[2]) {
   return false;
 }
 
+/* May other k be within `most` of a point of c, squared? */
+static inline bool is_within(const dyd_outline *o, size_t k, const dyd_bbox *c, double most) {
+  return !(outline_distance2(c, &o->item[k].reach, o->outer, false) > most);
+}
+
 /* Bounds the square of the radius at all points of the box from above; infinite: not known. */
 static double radius2_upper(const dyd_outline *o, const dyd_bbox *c) {
   bool known = !o->blind && isfinite(c->e[0] + c->e[1] + c->e[2] + c->e[3]);
   return known ? outline_distance2(c, &o->item[o->count].reach, !o->outer, true) : HUGE_VAL;
 }
 
-/* May other k take a point of the box? */
 bool dyd_outline_may_take(const dyd_outline *o, size_t k, const dyd_iv at[2]) {
   const dyd_bbox c = {{at[0].lo, at[0].hi, at[1].lo, at[1].hi}};
-  return !(outline_distance2(&c, &o->item[k].reach, o->outer, false) > radius2_upper(o, &c));
+  return is_within(o, k, &c, radius2_upper(o, &c));
 }
 
-/* May a rival take a point of the box? */
 bool dyd_outline_may_be_taken(const dyd_outline *o, const dyd_iv at[2]) {
   const dyd_bbox c = {{at[0].lo, at[0].hi, at[1].lo, at[1].hi}};
   double most = radius2_upper(o, &c);
-  for (size_t m = 0; m < o->rivals.count; m++) {
-    size_t k = (size_t)*dyd_rival_part(&o->rivals, DYD_RIVAL_NUMBER, m);
-    if (!(outline_distance2(&c, &o->item[k].reach, o->outer, false) > most)) return true;
-  }
+  for (size_t m = 0; m < o->rivals.count; m++)
+    if (is_within(o, (size_t)*rival_part(&o->rivals, RIVAL_NUMBER, m), &c, most)) return true;
   return false;
+}
+
+/* ---- points of an arc ---- */
+
+/* Lines: with n = q - s, m = q + s the other coordinate is m_o/2 + (n_k/n_o) (m_k/2 - t). Parabolas: with h = s_o - q_o
+ * it is ((t - s_k)^2 / h + q_o + s_o) / 2. */
+dyd_iv dyd_outline_arc_other(const dyd_filter_arc *arc, int k, dyd_iv at) {
+  int o = 1 - k;
+  dyd_iv mo = dyd_iv_scale(dyd_iv_add(arc->q[o], arc->s[o]), 0.5);
+  if (arc->parabola) {
+    dyd_iv h = dyd_iv_sub(arc->s[o], arc->q[o]);
+    return dyd_iv_add(dyd_iv_scale(dyd_iv_div(dyd_iv_sqr(dyd_iv_sub(at, arc->s[k])), h), 0.5), mo);
+  }
+  dyd_iv mk = dyd_iv_scale(dyd_iv_add(arc->q[k], arc->s[k]), 0.5);
+  dyd_iv slope = dyd_iv_div(dyd_iv_sub(arc->q[k], arc->s[k]), dyd_iv_sub(arc->q[o], arc->s[o]));
+  return dyd_iv_add(mo, dyd_iv_mul(slope, dyd_iv_sub(mk, at)));
+}
+
+/* Around both; unknown where an end is not a number. */
+static dyd_iv outline_hull(dyd_iv p, dyd_iv q) {
+  if (!isfinite(p.lo + p.hi + q.lo + q.hi)) return DYD_IV_UNKNOWN;
+  return (dyd_iv){p.lo < q.lo ? p.lo : q.lo, p.hi > q.hi ? p.hi : q.hi};
+}
+
+dyd_outline_spot dyd_outline_arc_at(const dyd_outline_arc *a, dyd_iv t) {
+  dyd_outline_spot p = {.side = {-1, -1}};
+  p.at[a->axis] = t;
+  p.at[1 - a->axis] = dyd_outline_arc_other(&a->shape, a->axis, t);
+  return p;
+}
+
+/* Are all parts of the arc between p and q, or (a = NULL) of the segment along axis k, taken? A middle that is not ends
+ * it. */
+static bool parts_are_taken(dyd_outline *o, const dyd_outline_arc *a, int k, const dyd_outline_spot *p,
+                            const dyd_outline_spot *q, int depth) {
+  double t = p->at[k].hi / 2 + q->at[k].lo / 2;
+  if (!depth || !(p->at[k].hi < t && t < q->at[k].lo)) return false;
+  dyd_outline_spot m = *p;
+  m.at[k] = dyd_iv_point(t);
+  if (a) m = dyd_outline_arc_at(a, m.at[k]);
+  if (!dyd_outline_taken(o, m.at)) return false;
+  for (int part = 0; part < 2; part++) {
+    const dyd_outline_spot *from = part ? &m : p, *to = part ? q : &m;
+    dyd_iv span[2];
+    for (int c = 0; c < 2; c++) span[c] = outline_hull(from->at[c], to->at[c]); /* monotone between them [ARC-1] */
+    if (!dyd_outline_taken(o, span) && !parts_are_taken(o, a, k, from, to, depth - 1)) return false;
+  }
+  return true;
+}
+
+enum { STRETCHES = 3 }; /* how often an arc is halved, to find that it is taken */
+
+bool dyd_outline_arc_taken(dyd_outline *o, dyd_outline_arc *a) {
+  for (int k = 0; k < 2; k++) a->span[k] = outline_hull(a->end[0].at[k], a->end[1].at[k]); /* monotone [ARC-1] */
+  return dyd_outline_taken(o, a->span) || parts_are_taken(o, a, a->axis, &a->end[0], &a->end[1], STRETCHES);
 }
 
 /* ---- the site and the others ---- */
 
 /* Sides of the rectangle that are one number, where outward doubles leave it open. */
-static dyd_status site_find_thin(dyd_outline_site *t, const dyd_sites *s) {
+static void site_find_thin(dyd_outline *o, size_t i) {
+  dyd_outline_site *t = &o->item[i];
   const dyd_box *b = &t->box;
   bool open[2];
   for (int a = 0; a < 2; a++) {
     t->thin[a] = b->outer[2 * a] == b->outer[2 * a + 1];
     open[a] = !t->thin[a] && b->end[2 * a].hi >= b->end[2 * a + 1].lo;
   }
-  if (!open[0] && !open[1]) return DYD_OK;
+  if (!open[0] && !open[1]) return;
   DYD_LOCAL(dyd_rect, fetched);
-  dyd_status st = t->rect ? DYD_OK : dyd_sites_get(&fetched, s, t->site);
-  const dyd_rect *r = t->rect ? t->rect : &fetched;
+  const dyd_rect *r = dyd_outline_rect(o, &fetched, i);
   for (int a = 0; a < 2; a++) {
     const dyd_interval *side = a ? &r->y : &r->x;
     if (open[a]) t->thin[a] = !dyd_dyadic_cmp(&side->lo, &side->hi);
   }
-  return st;
 }
 
 /* The ends of the box, each within the last place of an outward double if doubles do not hold it. */
@@ -125,27 +186,27 @@ static void box_load(dyd_box *out, const dyd_sites *s, uint32_t i) {
 
 static dyd_status outline_reserve(dyd_outline *o, size_t count) {
   if (!DYD_GROW(o->item, o->item_cap, count + 1)) return DYD_E_NOMEM;
-  if (!DYD_GROW(o->rivals.part, o->rival_cap, (count + DYD_OUTLINE_LANES) * DYD_RIVAL_PARTS)) return DYD_E_NOMEM;
+  if (!DYD_GROW(o->rivals.part, o->rival_cap, (count + LANES) * RIVAL_PARTS)) return DYD_E_NOMEM;
   o->count = count;
   return DYD_OK;
 }
 
 /* item[0 .. count] have their site and rect. */
 static dyd_status outline_load_boxes(dyd_outline *o) {
-  dyd_status st = DYD_OK;
   o->blind = false;
-  for (size_t k = 0; k <= o->count && st == DYD_OK; k++) {
+  o->status = DYD_OK;
+  for (size_t k = 0; k <= o->count && o->status == DYD_OK; k++) {
     dyd_outline_site *t = &o->item[k];
     if (t->rect)
       dyd_filter_box(&t->box, t->rect);
     else
       box_load(&t->box, o->sites, t->site);
     for (int e = 0; e < 4; e++) o->blind = o->blind || !isfinite(t->box.outer[e]);
-    st = site_find_thin(t, o->sites);
+    site_find_thin(o, k);
   }
-  for (int a = 0; a < 2 && st == DYD_OK; a++) o->origin[a] = o->blind ? 0 : o->item[o->count].box.outer[2 * a];
+  for (int a = 0; a < 2; a++) o->origin[a] = o->blind ? 0 : o->item[o->count].box.outer[2 * a];
   for (int k = 0; k < 4; k++) o->limit[k] = k & 1 ? INFINITY : -INFINITY;
-  return st;
+  return o->status;
 }
 
 dyd_status dyd_outline_load(dyd_outline *o, const dyd_delaunay *pd, uint32_t i, dyd_pair_status least) {
@@ -191,7 +252,10 @@ static bool outline_rects_meet(dyd_outline *o, size_t a, size_t b) {
   const dyd_iv *p = o->item[a].box.end, *q = o->item[b].box.end;
   for (int k = 0; k < 4; k += 2)
     if (dyd_outline_order(&doubt, p[k], q[k + 1]) > 0 || dyd_outline_order(&doubt, q[k], p[k + 1]) > 0) return false;
-  return doubt ? dyd_outline_exact_rects_meet(o, a, b) : true;
+  if (!doubt) return true;
+  DYD_LOCAL(dyd_rect, r, t);
+  const dyd_rect *one = dyd_outline_rect(o, &r, a), *other = dyd_outline_rect(o, &t, b);
+  return o->status == DYD_OK && dyd_rect_meets(one, other);
 }
 
 static void corner_place(dyd_outline *o, uint32_t k) {
@@ -200,7 +264,6 @@ static void corner_place(dyd_outline *o, uint32_t k) {
       {o->frame[side[0]], o->frame[2 + side[1]]}, {side[0], side[1]}, false, DYD_OUTLINE_CORNER, k, NULL};
 }
 
-/* Relative to the origin; false: some other meets the site. */
 bool dyd_outline_place(dyd_outline *o, const dyd_rect *window) {
   bool free = true;
   o->rect = window;
@@ -214,13 +277,13 @@ bool dyd_outline_place(dyd_outline *o, const dyd_rect *window) {
     t->drop = outline_rects_meet(o, k, o->count);
     free = free && !t->drop;
     if (t->drop) continue;
-    for (int e = 0; e < 4; e++) *dyd_rival_part(v, e, v->all) = t->reach.box.e[e];
-    *dyd_rival_part(v, DYD_RIVAL_SLACK, v->all) = t->reach.slack;
-    *dyd_rival_part(v, DYD_RIVAL_NUMBER, v->all) = (double)k;
+    for (int e = 0; e < 4; e++) *rival_part(v, e, v->all) = t->reach.box.e[e];
+    *rival_part(v, RIVAL_SLACK, v->all) = t->reach.slack;
+    *rival_part(v, RIVAL_NUMBER, v->all) = (double)k;
     t->place = v->all++;
   }
-  for (size_t k = v->all; k % DYD_OUTLINE_LANES; k++) /* never nearer */
-    for (int e = 0; e <= DYD_RIVAL_SLACK; e++) *dyd_rival_part(v, e, k) = HUGE_VAL;
+  for (size_t k = v->all; k % LANES; k++) /* never nearer */
+    for (int e = 0; e <= RIVAL_SLACK; e++) *rival_part(v, e, k) = HUGE_VAL;
   v->count = v->all;
   for (uint32_t k = 0; k < 4 && window; k++) corner_place(o, k);
   return free;
@@ -236,27 +299,17 @@ static double outline_reach(const dyd_outline *o) {
   return most;
 }
 
-/* Is all of side k of the box taken away, whole or in parts, from `from` to `to` along it? A middle that is not ends
- * it.
- */
-static bool side_is_taken(dyd_outline *o, const double box[4], int k, double from, double to, int depth) {
-  int across = k >> 1;
-  double middle = from / 2 + to / 2;
-  dyd_iv at[2];
-  at[across] = dyd_iv_point(box[k]);
-  at[1 - across] = (dyd_iv){from, to};
-  if (dyd_outline_taken(o, at)) return true;
-  at[1 - across] = dyd_iv_point(middle);
-  return depth > 0 && dyd_outline_taken(o, at) && side_is_taken(o, box, k, from, middle, depth - 1) &&
-         side_is_taken(o, box, k, middle, to, depth - 1);
-}
-
-/* Is the site inside of the box, and is that side of it taken away? */
+/* Is the site inside of the box, and is all of side k of it taken away, whole or in parts? */
 static bool box_has_side(dyd_outline *o, const double box[4], int k) {
   const double *own = o->item[o->count].reach.box.e, *along = box + (k < 2 ? 2 : 0);
+  const int axis = k < 2;
   for (int e = 0; e < 4; e++)
     if (e & 1 ? !(own[e] < box[e]) : !(box[e] < own[e])) return false;
-  return side_is_taken(o, box, k, along[0], along[1], DYD_OUTLINE_STRETCHES + 1);
+  dyd_outline_spot end[2] = {0}, all = {0};
+  all.at[1 - axis] = end[0].at[1 - axis] = end[1].at[1 - axis] = dyd_iv_point(box[k]);
+  for (int e = 0; e < 2; e++) end[e].at[axis] = dyd_iv_point(along[e]);
+  all.at[axis] = (dyd_iv){along[0], along[1]};
+  return dyd_outline_taken(o, all.at) || parts_are_taken(o, NULL, axis, &end[0], &end[1], STRETCHES + 1);
 }
 
 /* Draws side k nearer to the site as long as it is taken away. Other sides become shorter, so they stay so. */

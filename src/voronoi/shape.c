@@ -2,13 +2,12 @@
 /* The polygons of a cell: in doubles, else in dyadics. */
 #include "voronoi/shape.h"
 
-#include "dyadic/raw.h"
-#include "voronoi/outline_filter.h"
-
 #include "base/alloc.h"
 #include "base/flag.h"
 #include "base/local.h"
 #include "delaunay/ties.h"
+#include "dyadic/raw.h"
+#include "voronoi/outline_sites_filter.h"
 
 #include <math.h>
 #include <mpfr.h>
