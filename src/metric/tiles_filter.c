@@ -2,6 +2,8 @@
 /* Coordinates of rings are multiples of 2^-grid below 2^52 of them, but on the sides of a window. */
 #include "metric/tiles_filter.h"
 
+#include "base/float_filter.h"
+
 #include <math.h>
 
 /* x scale, a power of two; that is exact, and so is the test. */
@@ -46,8 +48,7 @@ static double tile_coordinate(double x, double scale, const double side[2]) {
   double a = x * scale + 0.5;
   int64_t n = (int64_t)a;
   n -= (double)n > a;
-  x = (double)n / scale;
-  return x < side[0] ? side[0] : x > side[1] ? side[1] : x;
+  return dyd_nearest_in((double)n / scale, side[0], side[1]);
 }
 
 /* Vertices that are off by at most e_k in each coordinate change twice the area by at most the sum of

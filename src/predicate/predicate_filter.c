@@ -7,6 +7,7 @@
  * of a, each a determinant of points. */
 #include "predicate/predicate_filter.h"
 
+#include "base/float_filter.h"
 #include "base/local.h"
 #include "dyadic/raw.h"
 #include "predicate/circle.h"
@@ -364,8 +365,7 @@ dyd_sure dyd_filter_incircle(const double a[4], const double b[4], const double 
 /* A point of box a: closest to t (far = false) or farthest from it. Any double between the ends is a choice, so t
  * need not be accurate. */
 static double choose_end(double t, double lo, double hi, bool far) {
-  if (far) return t - lo > hi - t ? lo : hi;
-  return t < lo ? lo : t > hi ? hi : t;
+  return far ? dyd_farther_end(t, lo, hi) : dyd_nearest_in(t, lo, hi);
 }
 
 static void choose_box_point(double out[4], const double t[2], const double a[4], bool far) {

@@ -3,6 +3,7 @@
 #include "skeleton/reps.h"
 
 #include "base/alloc.h"
+#include "base/float_filter.h"
 #include "base/local.h"
 #include "base/parallel.h"
 #include "rect/rect.h"
@@ -277,8 +278,7 @@ dyd_status dyd_reps_get(dyd_rect *out, const dyd_reps *r, uint32_t v) {
 
 /* Middle of two doubles without overflow; lies between them. */
 static double reps_middle(double lo, double hi) {
-  double m = lo / 2 + hi / 2;
-  return m < lo ? lo : m > hi ? hi : m;
+  return dyd_nearest_in(lo / 2 + hi / 2, lo, hi);
 }
 
 /* A bound of the error of the nearest (clamped) double to a point in [lo,hi], adjacent doubles or equal. */

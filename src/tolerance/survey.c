@@ -284,8 +284,7 @@ static bool is_in_unit_disc(mpq_srcptr u, mpq_srcptr v) {
   mpq_mul(part, v, v);
   mpq_add(sum, sum, part);
   mpq_sub(sum, sum, v);
-  const bool inside = mpq_cmp_si(sum, -1, 4) < 0;
-  return inside;
+  return mpq_cmp_si(sum, -1, 4) < 0;
 }
 
 void dyd_trial_draw(mpq_t u[2], uint64_t seed, bool disc) {
