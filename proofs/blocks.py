@@ -8,9 +8,8 @@ Certificates of points that are told apart, or seen to be the same, by what they
 (default 16); each line of a block changed, and the rectangles. What verify accepts is proved; what it refuses is
 refused, or not proved. Facts by bound, and numbers that are nearly what they should be: proved by both or by none.
 Regular polygons of 3 to 24 corners, all proved; each of them with its cycle, an index, a cosine, a sine, the sign of
-one changed, all refused (of more than 12 corners, a third of these).
+one changed, all refused.
 """
-import itertools
 import pathlib
 import random
 import re
@@ -415,15 +414,14 @@ def try_gons(both):
             yield f'{n} corners: {answer}'
         if answer.returncode != ALL:
             yield f'{n} corners: {answer}'
-        # Lines of large ones are like those of small ones: a third of them, others in each.
-        for false in itertools.islice(forged_gons(text), *((0, None) if n <= 12 else (n % 3, None, 3))) if '\ncycle ' in text else ():
+        for false in forged_gons(text) if '\ncycle ' in text else ():
             forged += 1
             answers = [both.ask(both.proved, text=false), both.ask(both.dyadel, 'verify', text=false)]
             alike += [answer.returncode for answer in answers] == [ALL, ALL]  # cos(pi/4) is sin(pi/4)
             if answers[0].returncode != answers[1].returncode:
                 yield f'forged from {n} corners: {answers}\n{false}'
     print(f'{forged} forged polygons, {alike} of them true')
-    if forged < 900 or alike * 50 > forged:
+    if forged < 1500 or alike * 50 > forged:
         yield 'few polygons were forged, or many of them are true'
 
 
