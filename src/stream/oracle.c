@@ -13,9 +13,9 @@
 #include "base/local.h"
 #include "rect/rect.h"
 #include "stream/number.h"
-#include "stream/oracle_answer.h"
 #include "stream/process.h"
 #include "stream/real.h"
+#include "stream/stream.h"
 
 #include <dyadel/oracle.h>
 #include <dyadel/sites.h>

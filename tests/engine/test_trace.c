@@ -4,7 +4,7 @@
 #include "engine/help.h"
 
 #include "delaunay/state.h"
-#include "engine/coarse.h"
+#include "engine/plan.h"
 #include "rect/rect.h"
 #include <math.h>
 #include <string.h>

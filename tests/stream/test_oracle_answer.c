@@ -2,7 +2,7 @@
 /* [ORA-1] What the answers of oracle programs become: a table of lines, and random intervals inside and outside. */
 #include "rect/rect.h"
 #include "stream/harness.h"
-#include "stream/oracle_answer.h"
+#include "stream/stream.h"
 
 #include <dyadel/oracle.h>
 #include <stdio.h>
