@@ -128,16 +128,16 @@ typedef struct dyd_step {
 
 /* Which sites a question needs narrower, and how far. Made by the engine, filled in by the question, carried out by the
  * engine when the question returns: asking changes nothing. */
-typedef struct dyd_plan dyd_plan;
+typedef struct dyd_wants dyd_wants;
 typedef struct dyd_engine dyd_engine;
 
 /* Changes what a stage narrows. `request`, count (dyd_request_at): points, by their numbers as sites, and bits that the
- * schedule has planned. Entries added to *plan (dyd_plan_add), empty when called, replace that; if none is added,
+ * schedule has planned. Entries added to *plan (dyd_wants_add), empty when called, replace that; if none is added,
  * it stays. Before the first stage every point is in the plan, and one that is not added keeps its bits. e as for
  * dyd_ask_fn: dyd_engine_delaunay has the undecided pairs, NULL before the first stage. Returns DYD_OK; DYD_CANCELLED
  * to give up; an error < 0 with *err (clear when called) filled. Statements do not depend on it, nor does the end of a
  * run: each point added gets a request for more bits than before, up to max_bits. */
-typedef dyd_status (*dyd_policy_fn)(dyd_plan *plan, void *user, const dyd_engine *e, const dyd_request *request,
+typedef dyd_status (*dyd_policy_fn)(dyd_wants *plan, void *user, const dyd_engine *e, const dyd_request *request,
                                     size_t count, dyd_error *err);
 
 typedef struct dyd_engine_options {
@@ -189,7 +189,7 @@ typedef struct dyd_engine_options {
   void *policy_user;
   /* Instead of policy: a command (sh -c) that a run or question starts, and that answers until its input ends;
    * borrowed. For each stage it reads lines "stage S points N", "pair I J" for each indeterminate pair, "plan I B" for
-   * each point of the plan, and "choose". It answers by lines "refine I B", as dyd_plan_add, and "go". A program that
+   * each point of the plan, and "choose". It answers by lines "refine I B", as dyd_wants_add, and "go". A program that
    * ends, writes something else, or is silent for policy_seconds (0: DYD_ORACLE_SECONDS) ends the run with
    * DYD_E_STREAM. */
   const char *policy_program;
@@ -315,14 +315,14 @@ DYD_API dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, co
  * final, or was requested at max_bits before stays out of the plan without an error. Returns DYD_OK; DYD_E_ARG when
  * there is no site i, DYD_E_NOMEM: then dyd_engine_ask ends with this error, whatever the question returns. O(log
  * points). */
-DYD_API dyd_status dyd_plan_add(dyd_plan *plan, uint32_t i, int64_t bits);
+DYD_API dyd_status dyd_wants_add(dyd_wants *plan, uint32_t i, int64_t bits);
 /* Returns the number of points in the plan. */
-DYD_API size_t dyd_plan_count(const dyd_plan *plan);
+DYD_API size_t dyd_wants_count(const dyd_wants *plan);
 
 /* Looks whether the answer is known. Either sets *answered = true (false when called), or adds to *plan, empty when
  * called, which have to be narrower. e is borrowed for the call: see dyd_engine_sites, dyd_engine_knows,
  * dyd_engine_delaunay. Returns DYD_OK; DYD_CANCELLED to give up; an error < 0 with *err (clear when called) filled. */
-typedef dyd_status (*dyd_ask_fn)(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err);
+typedef dyd_status (*dyd_ask_fn)(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err);
 
 /* A question, borrowed during the ask. */
 typedef struct dyd_question {
@@ -355,12 +355,12 @@ typedef struct dyd_question {
  *
  * Example: decides whether points 0 and 1 are certainly different. (r: two rectangles, initialised.)
  *
- *     static dyd_status differ(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
+ *     static dyd_status differ(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
  *       dyd_rect *r = user;
  *       dyd_status st = DYD_OK;
  *       for (uint32_t i = 0; st == DYD_OK && i < 2; i++) st = dyd_sites_get(&r[i], dyd_engine_sites(e), i);
  *       *answered = st == DYD_OK && !dyd_rect_meets(&r[0], &r[1]);
- *       for (uint32_t i = 0; st == DYD_OK && i < 2; i++) st = dyd_plan_add(plan, i, DYD_BITS_NEXT);
+ *       for (uint32_t i = 0; st == DYD_OK && i < 2; i++) st = dyd_wants_add(plan, i, DYD_BITS_NEXT);
  *       return st;
  *     }
  *     const dyd_question question = {DYD_SIZED(dyd_question), .ask = differ, .user = r};

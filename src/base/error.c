@@ -112,10 +112,10 @@ const char *dyd_version(void) {
   return DYD_VERSION;
 }
 
-dyd_status dyd_fail_room(dyd_error *err, const dyd_room *room) {
+dyd_status dyd_fail_room(dyd_error *err, const dyd_memory *memory) {
   return dyd_fail(
       err, DYD_E_NOMEM,
       "%s would bring memory to about %llu bytes, and `max_bytes` leaves %llu; raise it, or ask for less: fewer "
       "points, narrower rectangles, fewer bits",
-      room->refused, (unsigned long long)room->wanted, (unsigned long long)room->most);
+      memory->refused, (unsigned long long)memory->wanted, (unsigned long long)memory->most);
 }

@@ -3,7 +3,7 @@
 #ifndef DYD_BASE_ERROR_H
 #define DYD_BASE_ERROR_H
 
-#include "base/room.h"
+#include "base/memory.h"
 #include <dyadel/status.h>
 #include <stdbool.h>
 
@@ -25,6 +25,6 @@ dyd_status dyd_fail_null(dyd_error *err);
 /* DYD_E_NOMEM with its standard sentence. */
 dyd_status dyd_fail_nomem(dyd_error *err);
 /* DYD_E_NOMEM with what the room, which has refused something, was asked for. */
-dyd_status dyd_fail_room(dyd_error *err, const dyd_room *room);
+dyd_status dyd_fail_room(dyd_error *err, const dyd_memory *memory);
 
 #endif

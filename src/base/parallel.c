@@ -38,7 +38,7 @@ static void errand_wait(const errand *e, const volatile int *stop) {
   }
 }
 
-bool dyd_apart(void (*work)(void *job), void (*drop)(void *job), void *job, const volatile int *stop) {
+bool dyd_run_detached(void (*work)(void *job), void (*drop)(void *job), void *job, const volatile int *stop) {
   pthread_t thread;
   errand *e = stop ? malloc(sizeof *e) : NULL;
   if (e) *e = (errand){work, drop, job, AT_WORK};

@@ -42,6 +42,6 @@ size_t dyd_parallel_ranges(unsigned threads, size_t count, dyd_range_task *task,
 /* Does work(job) in another thread. true: it is done. false: *stop was set before; the thread continues without a
  * waiting caller, and calls drop(job) at its end: until then all that job points to is its own. stop NULL, and where no
  * thread can be had: the calling thread does it. */
-bool dyd_apart(void (*work)(void *job), void (*drop)(void *job), void *job, const volatile int *stop);
+bool dyd_run_detached(void (*work)(void *job), void (*drop)(void *job), void *job, const volatile int *stop);
 
 #endif

@@ -35,7 +35,7 @@ typedef struct region {
 } region;
 
 /* Sites and pairs of nested regions lie one behind the other in site[] and pair[]. */
-typedef struct search {
+typedef struct pair_search {
   const dyd_cert_sites *sites;
   const dyd_cert_faces *faces;
   size_t *first; /* known partners, of greater number: partner[first[i] .. first[i+1]), ascending */
@@ -47,7 +47,7 @@ typedef struct search {
   uint64_t effort, effort_most;
   dyd_cert_edges *left;
   bool given_up;
-} search;
+} pair_search;
 
 /* ---- one site in one region ---- */
 
@@ -86,14 +86,14 @@ typedef struct blocker {
   height bottom[2];
 } blocker;
 
-static void make_blocker(blocker *b, const search *s, const region *r, uint32_t v) {
+static void make_blocker(blocker *b, const pair_search *s, const region *r, uint32_t v) {
   b->site = v;
   for (int k = 0; k < r->corners; k++) b->far[k] = far_from_corner(r->corner[k], &s->sites->box[v]);
   for (int k = 0; r->cone && k < 2; k++) b->bottom[k] = box_height(r->corner[k], &s->sites->box[v], false);
 }
 
 /* The nearest at each corner, and in a cone the farthest out. */
-static int choose_blockers(blocker *b, const search *s, const region *r, const uint32_t *site, size_t count) {
+static int choose_blockers(blocker *b, const pair_search *s, const region *r, const uint32_t *site, size_t count) {
   int kinds = !count ? 0 : r->corners + (r->cone ? 2 : 0);
   for (int k = 0; k < kinds; k++) {
     const int64_t *corner = r->corner[k % r->corners];
@@ -118,7 +118,7 @@ static int choose_blockers(blocker *b, const search *s, const region *r, const u
   return kinds;
 }
 
-static bool is_region_blocked(const search *s, const region *r, uint32_t v, const blocker *b, int blockers) {
+static bool is_region_blocked(const pair_search *s, const region *r, uint32_t v, const blocker *b, int blockers) {
   dyd_cert_area near[4];
   height top[2] = {0, 0};
   for (int k = 0; k < r->corners; k++) near[k] = near_from_corner(r->corner[k], &s->sites->box[v]);
@@ -135,7 +135,7 @@ static bool is_region_blocked(const search *s, const region *r, uint32_t v, cons
 /* ---- sites and pairs of a region ---- */
 
 /* Puts those of site[from .. from+count) that are possible in r behind them; returns how many. */
-static dyd_status keep_region_sites(size_t *kept, search *s, const region *r, size_t from, size_t count) {
+static dyd_status keep_region_sites(size_t *kept, pair_search *s, const region *r, size_t from, size_t count) {
   blocker b[6];
   *kept = 0;
   if (!dyd_reserve((void **)&s->site, &s->site_cap, from + 2 * count, sizeof *s->site)) return DYD_E_NOMEM;
@@ -152,7 +152,7 @@ static dyd_status keep_region_sites(size_t *kept, search *s, const region *r, si
 }
 
 /* The pairs of site[from .. from+count), ascending, that are in no list and share an open set, put at pair[at]. */
-static dyd_status list_region_pairs(size_t *pairs, search *s, size_t at, size_t from, size_t count) {
+static dyd_status list_region_pairs(size_t *pairs, pair_search *s, size_t at, size_t from, size_t count) {
   *pairs = 0;
   for (size_t a = 0; a < count; a++) {
     uint32_t i = s->site[from + a];
@@ -170,7 +170,7 @@ static dyd_status list_region_pairs(size_t *pairs, search *s, size_t at, size_t 
 }
 
 /* Those of pair[at .. at+count) with both sites possible in the region looked at, put behind them. */
-static dyd_status keep_region_pairs(size_t *kept, search *s, size_t at, size_t count) {
+static dyd_status keep_region_pairs(size_t *kept, pair_search *s, size_t at, size_t count) {
   *kept = 0;
   if (!dyd_reserve((void **)&s->pair, &s->pair_cap, at + 2 * count, sizeof *s->pair)) return DYD_E_NOMEM;
   for (size_t q = at; q < at + count; q++)
@@ -202,14 +202,14 @@ static bool region_part(region *out, const region *r, int k) {
   return r->cone ? r->depth < MOST_CONE_CUTS : r->depth < MOST_CUTS && r->corner[3][0] - r->corner[0][0] > 1;
 }
 
-static dyd_status add_left(search *s, size_t at, size_t count) {
+static dyd_status add_left(pair_search *s, size_t at, size_t count) {
   dyd_status st = DYD_OK;
   for (size_t q = at; q < at + count && st == DYD_OK; q++) st = dyd_cert_edges_add(s->left, s->pair[q].i, s->pair[q].j);
   return st;
 }
 
 /* site[from .. from+count): the sites of the region around r; pair[at .. at+pairs) its pairs, when `listed`. */
-static dyd_status look_at_region(search *s, const region *r, size_t from, size_t count, size_t at, size_t pairs,
+static dyd_status look_at_region(pair_search *s, const region *r, size_t from, size_t count, size_t at, size_t pairs,
                                  bool listed) {
   region part;
   size_t sites = 0, kept = 0;
@@ -262,7 +262,7 @@ static void cone_region(region *out, int side, int64_t h) {
 }
 
 /* Marks those of site[from .. from+count) that are possible in the cone r, cut a few times. */
-static dyd_status mark_outer_sites(bool *is_outer, search *s, const region *r, size_t from, size_t count) {
+static dyd_status mark_outer_sites(bool *is_outer, pair_search *s, const region *r, size_t from, size_t count) {
   region part;
   size_t kept;
   dyd_status st = keep_region_sites(&kept, s, r, from, count);
@@ -276,7 +276,7 @@ static dyd_status mark_outer_sites(bool *is_outer, search *s, const region *r, s
 }
 
 /* Keeps of site[0 .. *count) those that are possible outside of the first square. */
-static dyd_status keep_outer_sites(search *s, size_t *count) {
+static dyd_status keep_outer_sites(pair_search *s, size_t *count) {
   size_t outer = 0;
   region r;
   bool *is_outer = calloc(s->sites->count, sizeof *is_outer);
@@ -293,7 +293,7 @@ static dyd_status keep_outer_sites(search *s, size_t *count) {
 }
 
 /* The twelve squares around the one of half side h. */
-static dyd_status look_around(search *s, size_t count, int64_t h) {
+static dyd_status look_around(pair_search *s, size_t count, int64_t h) {
   const int64_t low = MIDDLE - 2 * h;
   region r;
   dyd_status st = DYD_OK;
@@ -306,7 +306,7 @@ static dyd_status look_around(search *s, size_t count, int64_t h) {
   return st;
 }
 
-static dyd_status look_everywhere(search *s, size_t count) {
+static dyd_status look_everywhere(pair_search *s, size_t count) {
   region r;
   square_region(&r, MIDDLE - HALF, MIDDLE - HALF, 2 * HALF);
   dyd_status st = look_at_region(s, &r, 0, count, 0, 0, false);
@@ -321,7 +321,7 @@ static dyd_status look_everywhere(search *s, size_t count) {
 
 /* ---- all ---- */
 
-static dyd_status index_known(search *s, const dyd_cert_known *known) {
+static dyd_status index_known(pair_search *s, const dyd_cert_known *known) {
   size_t n = s->sites->count, all = 0, count = 0;
   for (int k = 0; k < 3; k++) all += known->list[k]->count;
   dyd_cert_entry *entry = dyd_alloc(all, sizeof *entry);
@@ -361,7 +361,7 @@ static size_t list_sites(uint32_t *site, const dyd_cert_sites *sites) {
 
 dyd_status dyd_cert_boxes_left(dyd_cert_edges *left, bool *given_up, const dyd_cert_sites *sites,
                                const dyd_cert_faces *f, const dyd_cert_known *known) {
-  search s = {.sites = sites, .faces = f, .left = left};
+  pair_search s = {.sites = sites, .faces = f, .left = left};
   *left = (dyd_cert_edges){0};
   dyd_status st = index_known(&s, known);
   s.stamp = calloc(sites->count ? sites->count : 1, sizeof *s.stamp);

@@ -54,7 +54,7 @@ dyd_status dyd_checker_run(dyd_checker *c);
 /* Fills in report.gaps. still[i]: point i, which is site i, or place i on a sphere, is known never to be narrowed;
  * NULL: the exact points. The gap of points is the caller's, and stays. */
 dyd_status dyd_checker_settle(dyd_checker *c, const bool *still);
-/* still.c, with `still` as above: can nothing that is narrowed change what the goal is about? Of the triangulation,
+/* fixpoint.c, with `still` as above: can nothing that is narrowed change what the goal is about? Of the triangulation,
  * what a pair is; of a bound, anything. DYD_E_NOMEM. */
 dyd_status dyd_checker_stays(bool *out, const dyd_checker *c, const bool *still);
 

@@ -86,32 +86,32 @@ static void cosine_between(dyd_cert_enclosure *out, const ball *a, const ball *b
 /* ---- two regions from a third ---- */
 
 /* Three regions, at, the nearer and the farther one, their balls, and scratch numbers. */
-typedef struct view {
+typedef struct three_regions {
   const dyd_cert_region *of[3];
   ball ball[3];
   dyd_cert_enclosure pi, near, far, s, t;
   long p;
-} view;
+} three_regions;
 
-static void near_view_init(view *v) {
+static void near_view_init(three_regions *v) {
   dyd_cert_enclosure *all[] = {&v->pi, &v->near, &v->far, &v->s, &v->t};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) dyd_cert_enclosure_init(all[k]);
   for (int k = 0; k < 3; k++) place_ball_init(&v->ball[k]);
 }
 
-static void near_view_clear(view *v) {
+static void near_view_clear(three_regions *v) {
   dyd_cert_enclosure *all[] = {&v->pi, &v->near, &v->far, &v->s, &v->t};
   for (size_t k = 0; k < sizeof all / sizeof *all; k++) dyd_cert_enclosure_clear(all[k]);
   for (int k = 0; k < 3; k++) place_ball_clear(&v->ball[k]);
 }
 
-static void view_focus(view *v, long p, int regions) {
+static void view_focus(three_regions *v, long p, int regions) {
   v->p = p;
   dyd_cert_enclosure_pi(&v->pi, p);
   for (int k = 0; k < regions; k++) ball_set(&v->ball[k], v->of[k], &v->pi, p);
 }
 
-static bool sum_is_large(const view *v) {
+static bool sum_is_large(const three_regions *v) {
   DYD_LOCAL_NUMBERS(mpz, halves);
   mpz_fdiv_q_2exp(halves, v->s.hi, (mp_bitcnt_t)(v->p - 1));
   return mpz_cmp_ui(halves, 3) >= 0;
@@ -119,7 +119,7 @@ static bool sum_is_large(const view *v) {
 
 /* t = cos(A + s), A having the cosine `near`; returns true if A + s is below half a turn for certain: as A is below a
  * quarter and s below 3/2, or by the sine of the sum. */
-static bool cosine_of_sum(view *v) {
+static bool cosine_of_sum(three_regions *v) {
   dyd_cert_enclosure root, sine, cosine, x;
   dyd_cert_enclosure *all[] = {&root, &sine, &cosine, &x};
   if (sum_is_large(v)) return false;
@@ -144,7 +144,7 @@ static bool cosine_of_sum(view *v) {
 }
 
 /* s = how far both choices may be apart from their middles, of `at` too: boxes count, or only caps. */
-static void view_set_sum(view *v, bool boxes) {
+static void view_set_sum(three_regions *v, bool boxes) {
   dyd_cert_enclosure_set(&v->s, &v->ball[1].cap);
   dyd_cert_enclosure_add(&v->s, &v->ball[2].cap);
   for (int k = 0; boxes && k < 4; k++) { /* that of `at` twice */
@@ -154,7 +154,7 @@ static void view_set_sum(view *v, bool boxes) {
 }
 
 /* 1: A + s < B for certain, -1: >, 0: not known. */
-static int view_compare(view *v, bool boxes) {
+static int view_compare(three_regions *v, bool boxes) {
   cosine_between(&v->near, &v->ball[0], &v->ball[1], v->p);
   cosine_between(&v->far, &v->ball[0], &v->ball[2], v->p);
   view_set_sum(v, boxes);
@@ -184,7 +184,7 @@ static void region_halve(dyd_cert_region *out, const dyd_cert_region *r, const b
 }
 
 /* Of the first `regions` that one whose box adds most to the sum. */
-static int view_widest(const view *v, int regions) {
+static int view_widest(const three_regions *v, int regions) {
   int widest = 0;
   for (int k = 1; k < regions; k++)
     if (mpz_cmp(v->ball[k].box, v->ball[widest].box) > 0) widest = k;
@@ -201,9 +201,9 @@ static bool may_look(uint64_t *effort, long p) {
 
 /* Does the test hold for the regions, or for the parts of their boxes? It returns 1, -1, where it does not hold for
  * their middles, or 0. */
-typedef int view_test(view *v, void *user);
+typedef int view_test(three_regions *v, void *user);
 
-static bool view_holds(view *v, int regions, view_test *test, void *user, uint64_t *effort, int cuts) {
+static bool view_holds(three_regions *v, int regions, view_test *test, void *user, uint64_t *effort, int cuts) {
   bool boxed = false;
   for (int k = 0; k < regions; k++) boxed = boxed || region_is_boxed(v->of[k]);
   int holds = 0;
@@ -228,7 +228,7 @@ static bool view_holds(view *v, int regions, view_test *test, void *user, uint64
   return good;
 }
 
-static int test_nearer(view *v, void *user) {
+static int test_nearer(three_regions *v, void *user) {
   (void)user;
   if (view_compare(v, true) > 0) return 1;
   return view_compare(v, false) < 0 ? -1 : 0;
@@ -237,7 +237,7 @@ static int test_nearer(view *v, void *user) {
 /* Is i nearer than k to each place of `at`, for every choice? */
 static bool region_is_nearer(const dyd_cert_region *at, const dyd_cert_region *i, const dyd_cert_region *k,
                              uint64_t *effort) {
-  view v = {.of = {at, i, k}};
+  three_regions v = {.of = {at, i, k}};
   near_view_init(&v);
   bool nearer = view_holds(&v, 3, test_nearer, NULL, effort, 0);
   near_view_clear(&v);
@@ -350,7 +350,7 @@ typedef struct ground_bound {
   bool upper;
 } ground_bound;
 
-static int test_ground(view *v, void *user) {
+static int test_ground(three_regions *v, void *user) {
   const ground_bound *b = user;
   dyd_cert_enclosure_set_q(&v->t, mpq_numref(b->angle), mpq_denref(b->angle), v->p);
   if (b->upper && mpz_cmp(v->t.lo, v->pi.hi) >= 0) return 1;
@@ -397,7 +397,7 @@ static bool ground_bound_holds(const dyd_cert_region *a, const dyd_cert_region *
   ground_bound bound = {.upper = upper};
   uint64_t effort = EFFORT / 4;
   dyd_cert_region end[2];
-  view v = {.of = {&end[0], &end[1]}};
+  three_regions v = {.of = {&end[0], &end[1]}};
   DYD_LOCAL_NUMBERS(mpq, metre);
   mpq_init(bound.angle);
   mpq_set_ui(metre, 5, 31855044); /* globe_places.c */

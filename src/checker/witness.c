@@ -2,16 +2,16 @@
 /* Is a centre a witness? The grid excludes who is surely farther; the others are compared exactly. */
 #include "checker/witness.h"
 
-typedef struct search {
+typedef struct site_search {
   const dyd_cert_sites *sites;
   const dyd_exact *c;
   uint32_t i, j, other;
   dyd_cert_measure measure;
   dyd_cert_fraction radius2, here;
-} search;
+} site_search;
 
 static bool is_outside_disc(void *context, uint32_t k) {
-  search *s = context;
+  site_search *s = context;
   if (k == s->i || k == s->j) return true;
   dyd_cert_distance2(&s->here, s->c, &s->sites->site[k], s->measure);
   if (dyd_cert_fraction_cmp(&s->radius2, &s->here) < 0) return true;
@@ -23,7 +23,7 @@ bool dyd_cert_is_witness(uint32_t *other, const dyd_cert_sites *s, const dyd_cer
                          const dyd_exact c[2], bool places) {
   dyd_cert_centre centre;
   dyd_cert_centre_set(&centre, s, c);
-  search q = {.sites = s, .c = c, .i = i, .j = j, .measure = places ? DYD_CERT_PLACE : DYD_CERT_NEAR};
+  site_search q = {.sites = s, .c = c, .i = i, .j = j, .measure = places ? DYD_CERT_PLACE : DYD_CERT_NEAR};
   dyd_cert_fraction_init(&q.radius2);
   dyd_cert_fraction_init(&q.here);
   dyd_cert_measure own = places ? DYD_CERT_PLACE : DYD_CERT_FAR;

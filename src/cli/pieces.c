@@ -28,25 +28,25 @@ static bool pieces_are_known(const cli_pieces *p, const dyd_engine *e) {
 
 /* At each precision the points that make the piece come first, then, as far as they are known, the others that are
  * wanted. If one group wants nothing, the other one has its turn. */
-static dyd_status pieces_plan(dyd_plan *plan, cli_pieces *p) {
+static dyd_status pieces_plan(dyd_wants *plan, cli_pieces *p) {
   dyd_status st = DYD_OK;
-  for (int turn = 0; turn < 2 && st == DYD_OK && !dyd_plan_count(plan); turn++) {
+  for (int turn = 0; turn < 2 && st == DYD_OK && !dyd_wants_count(plan); turn++) {
     size_t end = p->rest ? p->count : p->first;
     if (!p->rest) p->bits *= 2;
     for (size_t i = p->rest ? p->first : 0; st == DYD_OK && i < end; i++)
-      if (!p->wanted || p->wanted(p, i)) st = dyd_plan_add(plan, (uint32_t)i, p->bits);
+      if (!p->wanted || p->wanted(p, i)) st = dyd_wants_add(plan, (uint32_t)i, p->bits);
     p->rest = !p->rest;
   }
   return st;
 }
 
 /* Before all points have a rectangle nothing can be said. */
-static dyd_status pieces_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status pieces_ask(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
   cli_pieces *p = user;
   dyd_status st = DYD_OK;
   (void)err;
   if (!pieces_are_known(p, e)) {
-    for (size_t i = 0; st == DYD_OK && i < p->count; i++) st = dyd_plan_add(plan, (uint32_t)i, p->bits);
+    for (size_t i = 0; st == DYD_OK && i < p->count; i++) st = dyd_wants_add(plan, (uint32_t)i, p->bits);
     return st;
   }
   for (size_t i = 0; st == DYD_OK && i < p->count; i++) st = dyd_sites_get(&p->own[i], dyd_engine_sites(e), i);
@@ -197,19 +197,19 @@ const cli_work cli_disc = {
  * place, or to each of many ---- */
 
 /* A place and its answer. */
-typedef struct place {
+typedef struct queried_place {
   dyd_stream *at;
   dyd_nearest_answer answer;
   dyd_index_list found;
   size_t row; /* of its file */
   char *id;   /* NULL: it has none */
-} place;
+} queried_place;
 
-typedef struct query {
-  place *place;
+typedef struct place_query {
+  queried_place *place;
   size_t count, answered; /* places; those of the first that are answered */
   dyd_outcome outcome;    /* of all */
-} query;
+} place_query;
 
 static int read_real(dyd_real **out, const char *name, const char *text) {
   dyd_error err;
@@ -229,7 +229,7 @@ static int read_place(dyd_stream **out, const cli_options *o) {
   return status;
 }
 
-static int places_reserve(query *q, size_t count) {
+static int places_reserve(place_query *q, size_t count) {
   q->place = calloc(count ? count : 1, sizeof *q->place);
   if (!q->place) return cli_complain_memory();
   q->count = count;
@@ -237,7 +237,7 @@ static int places_reserve(query *q, size_t count) {
 }
 
 /* The points of the file become places: streams that stay when their engine goes. */
-static int places_read_file(query *q, dyd_engine *from, const cli_options *o) {
+static int places_read_file(place_query *q, dyd_engine *from, const cli_options *o) {
   int status = cli_places_read(from, o);
   if (!status) status = places_reserve(q, dyd_engine_count(from));
   for (size_t k = 0; k < q->count && !status; k++)
@@ -257,7 +257,7 @@ static int places_read(cli_session *s) {
     return cli_usage("on a sphere nearest writes csv and json; remove --format %s or --sphere",
                      dyd_format_get(o->format)->name);
   if (o->sphere) cli_sphere_begin(s);
-  query *q = s->state;
+  place_query *q = s->state;
   dyd_engine *from = NULL;
   if (!o->queries && (o->query_columns || o->query_id))
     return cli_usage("--%s is about a file of places; give --queries FILE", o->query_id ? "query-id" : "query-columns");
@@ -273,7 +273,7 @@ static int places_read(cli_session *s) {
 }
 
 static void places_end(cli_session *s) {
-  query *q = s->state;
+  place_query *q = s->state;
   for (size_t k = 0; k < q->count; k++) {
     dyd_index_list_clear(&q->place[k].found);
     dyd_stream_free(q->place[k].at);
@@ -293,14 +293,14 @@ static dyd_status name_place(dyd_status st, size_t k, const cli_session *s, dyd_
   if (st == DYD_OK || !s->o.queries || err->point < dyd_engine_count(s->engine)) return st;
   snprintf(message, sizeof message, "%s", err->message);
   err->point = DYD_NO_POINT;
-  snprintf(err->message, sizeof err->message, "place %zu of %s: %.180s", ((query *)s->state)->place[k].row,
+  snprintf(err->message, sizeof err->message, "place %zu of %s: %.180s", ((place_query *)s->state)->place[k].row,
            s->o.queries, message);
   return st;
 }
 
 static dyd_status answer_place(cli_session *s, size_t k, const dyd_engine_options *o, dyd_error *err) {
-  query *q = s->state;
-  place *p = &q->place[k];
+  place_query *q = s->state;
+  queried_place *p = &q->place[k];
   dyd_outcome outcome;
   bool sure, tied = false;
   dyd_status st = s->sphere ? dyd_sphere_nearest(&p->found, &sure, &tied, &outcome, s->sphere, p->at, o, err)
@@ -329,7 +329,7 @@ static dyd_status answer_place(cli_session *s, size_t k, const dyd_engine_option
 /* In the plane the first triangulation serves as an index; the queries refine the points that they need. The first
  * place is always looked up, also when no time is left or a signal asked to stop. */
 static dyd_status answer_places(cli_session *s, const dyd_engine_options *options, dyd_error *err) {
-  query *q = s->state;
+  place_query *q = s->state;
   dyd_engine_options o = *options;
   const double end = cli_clock() + s->o.engine.seconds;
   o.max_stages = 1;
@@ -354,7 +354,7 @@ static dyd_status answer_places(cli_session *s, const dyd_engine_options *option
 }
 
 static int nearest_find(cli_session *s) {
-  query *q = s->state;
+  place_query *q = s->state;
   int status = s->o.sphere ? cli_sphere_make(s, true) : 0;
   if (!status && s->sphere && s->o.resume) status = cli_trace_resume(s);
   if (!status) status = cli_session_run(s, &s->o.engine, answer_places);
@@ -366,14 +366,14 @@ static int nearest_find(cli_session *s) {
 
 /* ---- output ---- */
 
-static const dyd_nearest_answer **list_answers(const query *q) {
+static const dyd_nearest_answer **list_answers(const place_query *q) {
   const dyd_nearest_answer **list = malloc((q->answered + 1) * sizeof(const dyd_nearest_answer *));
   for (size_t k = 0; list && k < q->answered; k++) list[k] = &q->place[k].answer;
   return list;
 }
 
 static dyd_status places_write(FILE *out, const cli_session *s, dyd_error *err) {
-  const query *q = s->state;
+  const place_query *q = s->state;
   const dyd_nearest_answer **list = list_answers(q);
   if (!list) return DYD_E_NOMEM;
   dyd_write_options how = cli_write_options(out, s);
@@ -386,7 +386,7 @@ static dyd_status places_write(FILE *out, const cli_session *s, dyd_error *err) 
 }
 
 static dyd_status places_prove(FILE *out, const cli_session *s, dyd_error *err) {
-  const query *q = s->state;
+  const place_query *q = s->state;
   const dyd_nearest_answer **list = list_answers(q);
   if (!list) return DYD_E_NOMEM;
   const dyd_certificate_parts parts = {DYD_SIZED(dyd_certificate_parts), .answer = list, .answers = q->answered,
@@ -404,7 +404,7 @@ static const char *nearest_reason(dyd_outcome outcome) {
 }
 
 static void note_places(const cli_session *s) {
-  const query *q = s->state;
+  const place_query *q = s->state;
   size_t open = 0;
   const char *outcome = dyd_outcome_text(q->outcome), *why = nearest_reason(q->outcome);
   if (!s->o.queries && q->place[0].answer.tied) why = "no refinement can decide: they are equally far, a tie";
@@ -420,13 +420,13 @@ static void note_places(const cli_session *s) {
 }
 
 static int nearest_summary(cli_session *s, int status) {
-  const query *q = s->state;
+  const place_query *q = s->state;
   if (status) return status;
   if (q->answered && q->outcome != DYD_OUTCOME_DECIDED) note_places(s);
   return cli_exit_status(q->outcome);
 }
 
-const cli_work cli_nearest = {.size = sizeof(query),
+const cli_work cli_nearest = {.size = sizeof(place_query),
                               .begin = places_read,
                               .find = nearest_find,
                               .write = places_write,

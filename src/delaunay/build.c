@@ -52,7 +52,7 @@ static dyd_status build_statuses(dyd_delaunay *pd, dyd_work *w, dyd_known known)
 /* Fills an object that has only options and counters. err may be NULL. On failure it is cleared back to that. */
 static dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known known, dyd_error *err) {
   const dyd_skeleton_options o = {pd->options.no_filter, pd->options.threads, pd->options.cancel};
-  if (!dyd_room_has(&pd->room, dyd_skeleton_bytes(sites), "the triangulation")) return DYD_E_NOMEM;
+  if (!dyd_memory_has(&pd->memory, dyd_skeleton_bytes(sites), "the triangulation")) return DYD_E_NOMEM;
   dyd_status st = dyd_skeleton_build(&pd->sk, sites, &o);
   if (st != DYD_OK) return st;
   pd->joins = sites->joins;
@@ -60,12 +60,12 @@ static dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known 
       .cancel = o.cancel, .threads = o.threads, .keep_cut = pd->options.keep_cut, .err = err, .decider = pd->decider};
   dyd_work w;
   dyd_work_init(&w, &pd->sk, &run);
-  w.room = pd->room;
+  w.memory = pd->memory;
   w.tally = pd->sk.mesh.tally;
   pd->open.kind = pd->sk.mesh.collinear ? DYD_LINE : pd->sk.all_points ? DYD_TIED : DYD_LISTED;
   st = build_statuses(pd, &w, known);
   dyd_work_count(&pd->counters, &w, &pd->sk);
-  dyd_room_join(&pd->room, &w.room);
+  dyd_memory_join(&pd->memory, &w.memory);
   dyd_work_clear(&w);
   if (st != DYD_OK)
     build_clear(pd);
@@ -83,25 +83,25 @@ static dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known 
 
 /* An edge around the spliced triangles, seen from inside, from a to b with the inside on its left: a certain edge, or
  * one of a triangle that stays. Vertices of the whole mesh. */
-typedef struct rim {
+typedef struct rim_edge {
   uint32_t a, b;
   bool certain;
   dyd_half_edge beyond; /* on the other side; DYD_NONE if that is inside, too */
   dyd_half_edge inside; /* the same in the part's mesh */
   dyd_half_edge placed; /* the same in the whole mesh afterwards */
-} rim;
+} rim_edge;
 
 /* Instead of their face, at triangles that are spliced. */
 #define SPLICED (DYD_NONE - 1)
 
 /* place[t]: slot of the part's triangle t in tri[], DYD_NONE if outside the face. taken: triangles of the face found so
  * far. */
-typedef struct part {
+typedef struct spliced_part {
   dyd_delaunay *pd;
   dyd_work *w;
   const uint32_t *tri;
   uint32_t tris;
-  rim *rims;
+  rim_edge *rims;
   size_t rim_count, rim_cap;
   uint32_t *vertex; /* of the part, ascending among points and among the rest */
   uint32_t vertices;
@@ -110,22 +110,22 @@ typedef struct part {
   uint32_t *place, *queue;
   uint32_t taken;
   uint32_t *sorted, *local; /* vertices ascending, and their numbers in the part */
-} part;
+} spliced_part;
 
 static int compare_rim(const void *a, const void *b) {
-  const rim *x = a, *y = b;
+  const rim_edge *x = a, *y = b;
   if (x->a != y->a) return x->a < y->a ? -1 : 1;
   return (x->b > y->b) - (x->b < y->b);
 }
 
-static rim *find_rim(const part *p, uint32_t a, uint32_t b) {
-  rim key = {.a = a, .b = b};
+static rim_edge *find_rim(const spliced_part *p, uint32_t a, uint32_t b) {
+  rim_edge key = {.a = a, .b = b};
   return p->rim_count ? bsearch(&key, p->rims, p->rim_count, sizeof key, compare_rim) : NULL;
 }
 
 /* ---- what the face looks like ---- */
 
-static dyd_status gather_rims(part *p) {
+static dyd_status gather_rims(spliced_part *p) {
   const dyd_skeleton *sk = &p->pd->sk;
   uint32_t face = dyd_face_of(p->pd, p->tri[0]);
   for (uint32_t q = 0; q < p->tris; q++)
@@ -134,19 +134,19 @@ static dyd_status gather_rims(part *p) {
       bool certain = dyd_edge_is_certain(sk, h), same = dyd_face_of(p->pd, dyd_edge_triangle(beyond)) == face;
       if (same && !certain) continue;
       if (!DYD_GROW(p->rims, p->rim_cap, p->rim_count + 1)) return DYD_E_NOMEM;
-      p->rims[p->rim_count++] = (rim){dyd_edge_origin(&sk->mesh, h),
-                                      dyd_edge_target(&sk->mesh, h),
-                                      certain,
-                                      same ? DYD_NONE : beyond,
-                                      DYD_NONE,
-                                      DYD_NONE};
+      p->rims[p->rim_count++] = (rim_edge){dyd_edge_origin(&sk->mesh, h),
+                                           dyd_edge_target(&sk->mesh, h),
+                                           certain,
+                                           same ? DYD_NONE : beyond,
+                                           DYD_NONE,
+                                           DYD_NONE};
     }
   if (p->rim_count) qsort(p->rims, p->rim_count, sizeof *p->rims, compare_rim);
   return DYD_OK;
 }
 
 /* The face's vertices, and those just beyond its rim, so that the part is never collinear. */
-static dyd_status gather_vertices(part *p) {
+static dyd_status gather_vertices(spliced_part *p) {
   const dyd_mesh *m = &p->pd->sk.mesh;
   size_t room = 3 * (size_t)p->tris + p->rim_count;
   uint32_t count = 0;
@@ -170,19 +170,19 @@ static dyd_status gather_vertices(part *p) {
   return DYD_OK;
 }
 
-static uint32_t to_local(const part *p, uint32_t v) {
+static uint32_t to_local(const spliced_part *p, uint32_t v) {
   if (v == p->pd->sk.mesh.n) return p->mesh.n;
   const uint32_t *at = bsearch(&v, p->sorted, p->vertices, sizeof v, dyd_compare_index);
   return p->local[at - p->sorted];
 }
 
-static uint32_t to_whole(const part *p, uint32_t v) {
+static uint32_t to_whole(const spliced_part *p, uint32_t v) {
   return v == p->mesh.n ? p->pd->sk.mesh.n : p->vertex[v];
 }
 
 /* ---- the part's own skeleton ---- */
 
-static dyd_status part_triangulate(part *p) {
+static dyd_status part_triangulate(spliced_part *p) {
   dyd_skeleton *sk = &p->pd->sk;
   dyd_status st = dyd_mesh_build(&p->mesh, &sk->reps, p->vertex, p->vertices, sk->mesh.no_filter, p->w->run->cancel);
   if (st != DYD_OK) return st;
@@ -197,7 +197,7 @@ static dyd_status part_triangulate(part *p) {
 }
 
 /* The half-edge from a to b of the part, or DYD_NONE. */
-static dyd_half_edge part_find_edge(const part *p, uint32_t a, uint32_t b) {
+static dyd_half_edge part_find_edge(const spliced_part *p, uint32_t a, uint32_t b) {
   dyd_half_edge first = p->leaving[a], h = first;
   while (dyd_edge_target(&p->mesh, h) != b) {
     h = dyd_edge_turn(&p->mesh, h);
@@ -207,7 +207,7 @@ static dyd_half_edge part_find_edge(const part *p, uint32_t a, uint32_t b) {
 }
 
 /* Gives the part's triangle t the next slot; false when the face is full. */
-static bool part_take(part *p, uint32_t t) {
+static bool part_take(spliced_part *p, uint32_t t) {
   if (p->place[t] != DYD_NONE) return true;
   if (p->taken == p->tris) return false;
   p->queue[p->taken] = t;
@@ -215,14 +215,14 @@ static bool part_take(part *p, uint32_t t) {
   return true;
 }
 
-static rim *rim_of(const part *p, dyd_half_edge h) {
+static rim_edge *rim_of(const spliced_part *p, dyd_half_edge h) {
   return find_rim(p, to_whole(p, dyd_edge_origin(&p->mesh, h)), to_whole(p, dyd_edge_target(&p->mesh, h)));
 }
 
 /* Finds the triangles inside the rim; false if they do not fill the face. */
-static bool part_flood(part *p) {
+static bool part_flood(spliced_part *p) {
   for (size_t q = 0; q < p->rim_count; q++) {
-    rim *r = &p->rims[q];
+    rim_edge *r = &p->rims[q];
     r->inside = part_find_edge(p, to_local(p, r->a), to_local(p, r->b));
     if (r->inside == DYD_NONE || !part_take(p, dyd_edge_triangle(r->inside))) return false;
   }
@@ -237,14 +237,14 @@ static bool part_flood(part *p) {
 
 /* ---- back into the whole ---- */
 
-static void put_triangle(part *p, uint32_t t) {
+static void put_triangle(spliced_part *p, uint32_t t) {
   dyd_skeleton *sk = &p->pd->sk;
   uint32_t slot = p->place[t];
   dyd_tri *to = &sk->mesh.tri[slot];
   const dyd_tri *from = &p->mesh.tri[t];
   sk->certain[slot] = 0;
   for (unsigned k = 0; k < 3; k++) {
-    rim *r = rim_of(p, dyd_edge_of(t, k));
+    rim_edge *r = rim_of(p, dyd_edge_of(t, k));
     to->v[k] = to_whole(p, from->v[k]);
     if (to->v[k] != sk->mesh.n) sk->leaving[to->v[k]] = dyd_edge_of(slot, dyd_prev(k));
     if (r) {
@@ -256,14 +256,14 @@ static void put_triangle(part *p, uint32_t t) {
   }
 }
 
-static void link_rims(part *p) {
+static void link_rims(spliced_part *p) {
   for (size_t q = 0; q < p->rim_count; q++) {
-    const rim *r = &p->rims[q];
+    const rim_edge *r = &p->rims[q];
     dyd_edge_join(&p->pd->sk.mesh, r->placed, r->beyond != DYD_NONE ? r->beyond : find_rim(p, r->b, r->a)->placed);
   }
 }
 
-static void part_clear(part *p) {
+static void spliced_part_clear(spliced_part *p) {
   dyd_mesh_clear(&p->mesh);
   dyd_free_all(p->rims, p->vertex, p->sorted, p->local, p->leaving, p->place, p->queue);
 }
@@ -294,7 +294,7 @@ static bool splice_is_needless(dyd_work *w, const dyd_skeleton *sk, const uint32
  * alone (two sites have become the same exact point, or more has to change); nothing is changed then, nor on failure.
  */
 static dyd_status splice(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris, bool moved) {
-  DYD_SCOPED(part) p = {.pd = pd, .w = w, .tri = tri, .tris = tris};
+  DYD_SCOPED(spliced_part) p = {.pd = pd, .w = w, .tri = tri, .tris = tris};
   dyd_status st = gather_rims(&p);
   if (st == DYD_OK) st = gather_vertices(&p);
   if (st == DYD_OK) st = part_triangulate(&p);
@@ -352,15 +352,16 @@ static uint64_t rebuild_bytes(const dyd_delaunay *pd) {
 
 static dyd_status rebuild(dyd_delaunay *pd, dyd_error *err) {
   DYD_SCOPED(dyd_pair_list) all = {0};
-  if (pd->room.most) pd->room.beside = rebuild_bytes(pd);
-  if (!dyd_room_has(&pd->room, dyd_skeleton_bytes(pd->sk.rects.sites), "the triangulation made anew"))
+  if (pd->memory.most) pd->memory.beside = rebuild_bytes(pd);
+  if (!dyd_memory_has(&pd->memory, dyd_skeleton_bytes(pd->sk.rects.sites), "the triangulation made anew"))
     return DYD_E_NOMEM;
   dyd_status st = dyd_pairs_list(&all, pd, DYD_LEGAL);
   if (st != DYD_OK) return st;
-  dyd_delaunay next = {.counters = pd->counters, .options = pd->options, .max_pairs = pd->max_pairs, .room = pd->room};
-  next.room.held = 0;
+  dyd_delaunay next = {
+      .counters = pd->counters, .options = pd->options, .max_pairs = pd->max_pairs, .memory = pd->memory};
+  next.memory.held = 0;
   st = dyd_build(&next, pd->sk.rects.sites, (dyd_known){all.item, all.count}, err);
-  pd->room = next.room;
+  pd->memory = next.memory;
   if (st == DYD_OK) {
     build_clear(pd);
     *pd = next;
@@ -507,10 +508,10 @@ static dyd_status dyd_update(dyd_delaunay *pd, const uint32_t *changed, size_t c
   const dyd_run run = {.cancel = pd->options.cancel, .threads = pd->options.threads, .err = err};
   dyd_work w;
   dyd_work_init(&w, &pd->sk, &run);
-  w.room = pd->room;
-  w.room.held = dyd_delaunay_memory(pd);
+  w.memory = pd->memory;
+  w.memory.held = dyd_delaunay_memory(pd);
   dyd_status st = update_faces(&fits, pd, &w, changed, count);
-  dyd_room_join(&pd->room, &w.room);
+  dyd_memory_join(&pd->memory, &w.memory);
   dyd_work_count(&pd->counters, &w, &pd->sk);
   dyd_work_clear(&w);
   if (st == DYD_OK && !fits) return rebuild(pd, err);
@@ -525,7 +526,7 @@ static dyd_status dyd_update(dyd_delaunay *pd, const uint32_t *changed, size_t c
 
 static void set_options(dyd_delaunay *pd, const dyd_delaunay_options *options, size_t n) {
   pd->options = *options;
-  pd->room = (dyd_room){.most = options->max_bytes, .held = sizeof *pd};
+  pd->memory = (dyd_memory){.most = options->max_bytes, .held = sizeof *pd};
   pd->max_pairs = pd->options.max_pairs ? pd->options.max_pairs : 4000000 + 16 * n;
   if (pd->max_pairs > MOST_PAIRS) pd->max_pairs = MOST_PAIRS;
 }
@@ -535,8 +536,8 @@ static dyd_status finish(dyd_delaunay *pd, dyd_status st, dyd_error *err) {
   pd->options.prove = NULL;
   pd->options.narrows = NULL;
   pd->decider = NULL;
-  if (pd->room.peak > pd->counters.bytes_most) pd->counters.bytes_most = pd->room.peak;
-  if (st == DYD_E_NOMEM && pd->room.refused) return dyd_fail_room(err, &pd->room);
+  if (pd->memory.peak > pd->counters.bytes_most) pd->counters.bytes_most = pd->memory.peak;
+  if (st == DYD_E_NOMEM && pd->memory.refused) return dyd_fail_room(err, &pd->memory);
   if (st == DYD_OK) return dyd_delaunay_is_capped(pd) ? DYD_CAPPED : DYD_OK;
   return dyd_fail(err, st, "%s", dyd_status_text(st));
 }
@@ -581,8 +582,8 @@ dyd_status dyd_delaunay_decided(dyd_delaunay **out, size_t n, dyd_rect_fn *rect,
     st = rect(&r, user, i);
     if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
   }
-  dyd_room room = {.most = o.max_bytes, .beside = o.max_bytes && sites ? dyd_sites_memory(sites) : 0};
-  o.max_bytes = dyd_room_left(&room);
+  dyd_memory memory = {.most = o.max_bytes, .beside = o.max_bytes && sites ? dyd_sites_memory(sites) : 0};
+  o.max_bytes = dyd_memory_left(&memory);
   st = st == DYD_OK ? build_new(out, sites, decider, &o, err) : dyd_fail(err, st, "%s", dyd_status_text(st));
   if (*out)
     (*out)->own = sites;

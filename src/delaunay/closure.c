@@ -209,7 +209,7 @@ static dyd_status closing_reserve(closing *c) {
   uint64_t pairs = dyd_bytes_times(c->open + c->open / 2, sizeof *c->out->pair);
   if (!dyd_pair_map_is_full(&c->map)) return DYD_OK;
   uint64_t bytes = dyd_bytes_add(dyd_bytes_add(pairs, bits_bytes(c)), dyd_pair_map_bytes(&c->map));
-  return dyd_room_has(&c->w->room, bytes, "the possible pairs of a face") ? start_bits(c) : DYD_E_NOMEM;
+  return dyd_memory_has(&c->w->memory, bytes, "the possible pairs of a face") ? start_bits(c) : DYD_E_NOMEM;
 }
 
 static dyd_status closing_add(closing *c, uint32_t a, uint32_t b, dyd_pair_state state) {
@@ -239,7 +239,7 @@ static dyd_status add_edges(closing *c, bool certain) {
 static dyd_status all_pairs(closing *c) {
   uint64_t m = c->out->vertices;
   uint64_t bytes = dyd_bytes_times(m * (m - 1) / 2, sizeof *c->out->pair);
-  if (!dyd_room_has(&c->w->room, dyd_bytes_add(bytes, bytes / 2), "the pairs of a tie")) return DYD_E_NOMEM;
+  if (!dyd_memory_has(&c->w->memory, dyd_bytes_add(bytes, bytes / 2), "the pairs of a tie")) return DYD_E_NOMEM;
   dyd_status st = add_edges(c, true);
   for (uint32_t a = 0; a < m && st == DYD_OK; a++)
     for (uint32_t b = a + 1; b < m && st == DYD_OK; b++)

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-typedef struct disc {
+typedef struct disc_query {
   const dyd_delaunay *pd;
   const dyd_point *c;
   mpq_srcptr radius2;
@@ -19,10 +19,10 @@ typedef struct disc {
   dyd_index_list met;
   size_t cap;
   dyd_status status;
-} disc;
+} disc_query;
 
 static bool disc_visit(void *context, uint32_t v) {
-  disc *d = context;
+  disc_query *d = context;
   dyd_rects_get(&d->rect, &d->pd->sk.rects, v);
   dyd_rect_ds2(d->ds2, d->c, &d->rect);
   if (mpq_cmp(d->ds2, d->radius2) > 0) return true;
@@ -30,7 +30,7 @@ static bool disc_visit(void *context, uint32_t v) {
   return d->status == DYD_OK;
 }
 
-static void disc_visit_all(disc *d) {
+static void disc_visit_all(disc_query *d) {
   const dyd_skeleton *sk = &d->pd->sk;
   for (uint32_t i = 0; i < sk->n; i++)
     if (sk->reps.site[sk->vertex[i]] == i && !disc_visit(d, sk->vertex[i])) return;
@@ -38,7 +38,7 @@ static void disc_visit_all(disc *d) {
 
 dyd_status dyd_delaunay_meet_disc(dyd_index_list *out, const dyd_delaunay *pd, const dyd_point *c,
                                   const mpq_t radius2) {
-  disc d = {.pd = pd, .c = c, .radius2 = radius2};
+  disc_query d = {.pd = pd, .c = c, .radius2 = radius2};
   mpq_init(d.ds2);
   dyd_rect_init(&d.rect);
   if (pd->sk.rects.box) {

@@ -271,7 +271,7 @@ static dyd_status newcomers_order(uint32_t *order, const dyd_delaunay *pd, uint3
 
 bool dyd_delaunay_is_extensible(const dyd_delaunay *pd) {
   const bool points = pd->open.kind == DYD_TIED && !pd->sk.reps.code;
-  return (points || pd->open.kind == DYD_LISTED) && !pd->room.most && !pd->open.capped;
+  return (points || pd->open.kind == DYD_LISTED) && !pd->memory.most && !pd->open.capped;
 }
 
 /* New vertices are the last ones, whatever place they have: all is made anew when they are a sixteenth. */

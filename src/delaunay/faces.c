@@ -116,8 +116,8 @@ static dyd_status find_face(dyd_delaunay *pd, dyd_work *w, uint32_t t) {
 static bool table_has_room(const dyd_delaunay *pd, dyd_work *w) {
   enum { A_FACE = 4 };
   uint64_t each = sizeof *pd->open.of + sizeof *pd->open.tri + sizeof *pd->open.face / A_FACE;
-  w->room.held = dyd_delaunay_memory(pd);
-  return dyd_room_has(&w->room, pd->sk.mesh.count * each, "the undecided faces");
+  w->memory.held = dyd_delaunay_memory(pd);
+  return dyd_memory_has(&w->memory, pd->sk.mesh.count * each, "the undecided faces");
 }
 
 /* Adds the faces, without pairs, among the triangles tri[0..all-1], or of all triangles (NULL). Exact points that are
@@ -665,7 +665,7 @@ static dyd_status store(dyd_delaunay *pd, dyd_work *w, const dyd_closure *c, siz
                  .postponed = c->postponed,
                  .polygon = c->polygon};
   uint64_t pairs = dyd_bytes_times(pd->open.pair_count + as.pairs, sizeof *c->pair);
-  if (!dyd_room_has(&w->room, pairs / 2 * 3, "the possible pairs")) return DYD_E_NOMEM;
+  if (!dyd_memory_has(&w->memory, pairs / 2 * 3, "the possible pairs")) return DYD_E_NOMEM;
   dyd_status st = table_store(pd, g, as, c->pair);
   if (st == DYD_OK && c->capped) report_cap(w, pd, c->vertex, c->vertices);
   return st;
@@ -680,7 +680,7 @@ static size_t room_left(const dyd_delaunay *pd) {
  * again, with that room. */
 static dyd_status close_batch(dyd_closure *c, dyd_delaunay *pd, dyd_work *w, size_t g, size_t count) {
   size_t room = room_left(pd);
-  w->room.held = dyd_delaunay_memory(pd);
+  w->memory.held = dyd_delaunay_memory(pd);
   dyd_status st = closures_run(c, pd, w, g, count, room);
   if (st != DYD_OK) return st;
   for (size_t k = 0; k < count; k++) {

@@ -33,18 +33,18 @@
  * A direction u is kept as the vector that it is normal to, turned to the right of it: a tangent from a corner to a
  * corner, to the right and down; (0,1) and (1,0) are kept as such. Directions are ordered clockwise. */
 
-typedef struct direction {
+typedef struct hull_direction {
   int axis; /* -1: (0,1); 1: (1,0); 0: normal to from -> to */
   dyd_hull_corner from, to;
-} direction;
+} hull_direction;
 
 /* A normal against (0,1) or (1,0). */
-static int compare_with_axis(const direction *a, int axis) {
+static int compare_with_axis(const hull_direction *a, int axis) {
   bool same = dyd_hull_compare(axis < 0, a->from, a->to) == 0; /* horizontal or vertical */
   return same ? 0 : -axis;
 }
 
-static int compare_directions(const direction *a, const direction *b) {
+static int compare_directions(const hull_direction *a, const hull_direction *b) {
   if (a->axis && b->axis) return a->axis - b->axis;
   if (b->axis) return compare_with_axis(a, b->axis);
   if (a->axis) return -compare_with_axis(b, a->axis);
@@ -52,13 +52,13 @@ static int compare_directions(const direction *a, const direction *b) {
 }
 
 /* The directions of one extreme. */
-typedef struct fan {
+typedef struct direction_fan {
   uint32_t of;
-  direction first, last;
-} fan;
+  hull_direction first, last;
+} direction_fan;
 
 static int compare_fans(const void *a, const void *b) {
-  return compare_directions(&((const fan *)a)->first, &((const fan *)b)->first);
+  return compare_directions(&((const direction_fan *)a)->first, &((const direction_fan *)b)->first);
 }
 
 static dyd_hull_corner chain_low(const dyd_extreme *x) {
@@ -71,10 +71,10 @@ static dyd_hull_corner chain_high(const dyd_extreme *x) {
 
 /* ---- the chain ---- */
 
-typedef struct chain {
+typedef struct extreme_chain {
   const dyd_extreme **at;
   size_t count;
-} chain;
+} extreme_chain;
 
 static int compare_low(const void *a, const void *b) {
   const dyd_extreme *x = *(const dyd_extreme *const *)a, *y = *(const dyd_extreme *const *)b;
@@ -83,7 +83,7 @@ static int compare_low(const void *a, const void *b) {
 }
 
 /* The upper hull of the lower left corners, from left to right, cut to the part right of the topmost. */
-static dyd_status build_chain(chain *c, const dyd_extreme *x, size_t count) {
+static dyd_status build_chain(extreme_chain *c, const dyd_extreme *x, size_t count) {
   c->at = dyd_alloc(count, sizeof(const dyd_extreme *));
   if (!c->at) return DYD_E_NOMEM;
   for (size_t k = 0; k < count; k++) c->at[k] = &x[k];
@@ -107,14 +107,14 @@ static dyd_status build_chain(chain *c, const dyd_extreme *x, size_t count) {
 /* ---- the fan of one ---- */
 
 /* Returns true if u.b >= g(u) for sample s: (0,1) for s = 0, the normal of edge s - 1, (1,0) for the last, s = count */
-static bool reaches(const chain *c, dyd_hull_corner b, size_t s) {
+static bool reaches(const extreme_chain *c, dyd_hull_corner b, size_t s) {
   if (s == 0) return dyd_hull_compare(1, b, chain_low(c->at[0])) >= 0;
   if (s == c->count) return dyd_hull_compare(0, b, chain_low(c->at[s - 1])) >= 0;
   return dyd_hull_cross(chain_low(c->at[s - 1]), chain_low(c->at[s]), chain_low(c->at[s - 1]), b) >= 0;
 }
 
 /* The sample of the edge or ray of D above b. */
-static size_t above(const chain *c, dyd_hull_corner b) {
+static size_t above(const extreme_chain *c, dyd_hull_corner b) {
   size_t lo = 0, hi = c->count; /* m_lo-1 is not right of b, m_hi is */
   while (lo < hi) {
     size_t mid = lo + (hi - lo) / 2;
@@ -127,7 +127,7 @@ static size_t above(const chain *c, dyd_hull_corner b) {
 }
 
 /* The last sample from `s` on towards `end` that b reaches; it reaches s. */
-static size_t last_reached(const chain *c, dyd_hull_corner b, size_t s, size_t end) {
+static size_t last_reached(const extreme_chain *c, dyd_hull_corner b, size_t s, size_t end) {
   size_t good = s, bad = end;
   if (reaches(c, b, end)) return end;
   while (good + 1 < bad || bad + 1 < good) {
@@ -140,15 +140,15 @@ static size_t last_reached(const chain *c, dyd_hull_corner b, size_t s, size_t e
   return good;
 }
 
-static bool find_fan(fan *f, const chain *c, const dyd_extreme *x) {
+static bool find_fan(direction_fan *f, const extreme_chain *c, const dyd_extreme *x) {
   dyd_hull_corner b = chain_high(x);
   size_t s = above(c, b);
   if (!reaches(c, b, s)) return false;
   size_t first = last_reached(c, b, s, 0), last = last_reached(c, b, s, c->count);
-  f->first = (direction){-1, b, b};
-  f->last = (direction){1, b, b};
-  if (first > 0) f->first = (direction){0, chain_low(c->at[first - 1]), b};
-  if (last < c->count) f->last = (direction){0, b, chain_low(c->at[last])};
+  f->first = (hull_direction){-1, b, b};
+  f->last = (hull_direction){1, b, b};
+  if (first > 0) f->first = (hull_direction){0, chain_low(c->at[first - 1]), b};
+  if (last < c->count) f->last = (hull_direction){0, b, chain_low(c->at[last])};
   return true;
 }
 
@@ -163,7 +163,7 @@ static dyd_status add_pair(dyd_hull_pairs *p, uint32_t i, uint32_t j) {
 }
 
 /* Sweeps over the directions: pairs of fans with a common one. `active` has room for all. */
-static dyd_status sweep(dyd_hull_pairs *pairs, const fan *f, size_t count, uint32_t *active) {
+static dyd_status sweep(dyd_hull_pairs *pairs, const direction_fan *f, size_t count, uint32_t *active) {
   size_t alive = 0;
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < count && st == DYD_OK && !pairs->capped; k++) {
@@ -180,9 +180,9 @@ static dyd_status sweep(dyd_hull_pairs *pairs, const fan *f, size_t count, uint3
 /* For the directions u >= 0: marks the extremes that are possible on the hull, and appends the pairs that are possible
  * edges, some of them possibly twice [HST-1]. pairs NULL: only marks. */
 static dyd_status hull_quadrant(dyd_hull_pairs *pairs, dyd_extreme *x, size_t count) {
-  chain c = {0};
+  extreme_chain c = {0};
   size_t fans = 0;
-  fan *f = dyd_alloc(count, sizeof *f);
+  direction_fan *f = dyd_alloc(count, sizeof *f);
   uint32_t *active = dyd_alloc(count, sizeof *active);
   dyd_status st = f && active ? build_chain(&c, x, count) : DYD_E_NOMEM;
   for (size_t k = 0; k < count && st == DYD_OK; k++) {
@@ -198,7 +198,7 @@ static dyd_status hull_quadrant(dyd_hull_pairs *pairs, dyd_extreme *x, size_t co
   return st;
 }
 
-typedef struct hull {
+typedef struct hull_work {
   const dyd_delaunay *pd;
   dyd_extreme *x; /* by vertex, ascending */
   size_t count, made;
@@ -206,7 +206,7 @@ typedef struct hull {
   dyd_hull_pairs pairs; /* of indices of x, sorted */
   size_t *start;        /* neighbours of k: next[start[k] .. start[k + 1]), ascending */
   uint32_t *next;
-} hull;
+} hull_work;
 
 void dyd_hull_clear(dyd_hull *h) {
   dyd_index_list_clear(&h->sure_vertices);
@@ -214,7 +214,7 @@ void dyd_hull_clear(dyd_hull *h) {
   dyd_pair_list_clear(&h->pairs);
 }
 
-static void hull_clear(hull *h) {
+static void hull_work_clear(hull_work *h) {
   for (size_t k = 0; k < h->made; k++)
     for (int n = 0; n < 4; n++) mpq_clear(h->x[k].e[n]);
   dyd_free_all(h->x, h->pairs.item, h->start, h->next);
@@ -240,7 +240,7 @@ static dyd_status gather(dyd_index_list *out, const dyd_delaunay *pd) {
   return st;
 }
 
-static void load(hull *h) {
+static void load(hull_work *h) {
   DYD_LOCAL(dyd_rect, r);
   h->exact = true;
   for (size_t k = 0; k < h->count; k++) {
@@ -254,7 +254,7 @@ static void load(hull *h) {
   }
 }
 
-static dyd_status find_candidates(hull *h) {
+static dyd_status find_candidates(hull_work *h) {
   DYD_SCOPED(dyd_index_list) list = {0};
   dyd_status st = gather(&list, h->pd);
   h->x = st == DYD_OK ? dyd_alloc(list.count, sizeof *h->x) : NULL;
@@ -271,7 +271,7 @@ static bool is_proved_chain(const dyd_delaunay *pd, size_t f) {
   return dyd_open_status_of(pd, f) == DYD_TIE; /* a line */
 }
 
-static dyd_status find_chains(hull *h) {
+static dyd_status find_chains(hull_work *h) {
   for (size_t f = 0; f < h->pd->open.count && !h->exact; f++) {
     DYD_FREED uint32_t *vertex = NULL;
     size_t count = 0;
@@ -295,7 +295,7 @@ static bool share_chain(const dyd_extreme *a, const dyd_extreme *b) {
 /* ---- possible ---- */
 
 /* Mirrors all in the axis. */
-static void mirror(hull *h, int axis) {
+static void mirror(hull_work *h, int axis) {
   for (size_t k = 0; k < h->count; k++) {
     dyd_extreme *x = &h->x[k];
     mpq_swap(x->e[2 * axis], x->e[2 * axis + 1]);
@@ -315,7 +315,7 @@ static void sort_pairs(dyd_hull_pairs *p) {
 }
 
 /* The four quadrants of directions; the last mirror image is the original. pairs: &h->pairs, or NULL. */
-static dyd_status find_possible(hull *h, dyd_hull_pairs *pairs) {
+static dyd_status find_possible(hull_work *h, dyd_hull_pairs *pairs) {
   dyd_status st = DYD_OK;
   for (int quadrant = 0; quadrant < 4 && st == DYD_OK; quadrant++) {
     st = hull_quadrant(pairs, h->x, h->count);
@@ -333,11 +333,11 @@ static bool rects_meet(const dyd_extreme *a, const dyd_extreme *b) {
   return true;
 }
 
-static void find_sure(hull *h) {
+static void find_sure(hull_work *h) {
   for (size_t k = 0; k < h->count; k++) h->x[k].sure = dyd_corner_is_sure(h->pd, h->x[k].vertex);
 }
 
-static dyd_sure orientation(const hull *h, size_t i, size_t j, size_t k, dyd_rect r[3]) {
+static dyd_sure orientation(const hull_work *h, size_t i, size_t j, size_t k, dyd_rect r[3]) {
   const size_t at[3] = {i, j, k};
   for (int n = 0; n < 3; n++) dyd_rects_get(&r[n], &h->pd->sk.rects, h->x[at[n]].vertex);
   return dyd_orientation(&r[0], &r[1], &r[2]);
@@ -345,7 +345,7 @@ static dyd_sure orientation(const hull *h, size_t i, size_t j, size_t k, dyd_rec
 
 /* The status of pair p: legal when `edge` and no common neighbour is unsure; a tie when i, j and all unsure ones are
  * exact points. r: scratch. */
-static dyd_pair_status decide(const hull *h, dyd_pair p, bool edge, dyd_rect r[3]) {
+static dyd_pair_status decide(const hull_work *h, dyd_pair p, bool edge, dyd_rect r[3]) {
   const dyd_delaunay *pd = h->pd;
   bool legal = edge,
        tie = dyd_vertex_is_point(&pd->sk, h->x[p.i].vertex) && dyd_vertex_is_point(&pd->sk, h->x[p.j].vertex);
@@ -371,7 +371,7 @@ static dyd_pair_status decide(const hull *h, dyd_pair p, bool edge, dyd_rect r[3
 }
 
 /* The pairs become those of sites, with their statuses. */
-static void decide_pairs(hull *h) {
+static void decide_pairs(hull_work *h) {
   const dyd_delaunay *pd = h->pd;
   DYD_LOCAL_ARRAY(dyd_rect, r, [3]);
   for (size_t k = 0; k < h->pairs.count; k++) {
@@ -385,7 +385,7 @@ static void decide_pairs(hull *h) {
 
 /* ---- the result ---- */
 
-static dyd_status list_vertices(dyd_index_list *out, const hull *h, bool sure) {
+static dyd_status list_vertices(dyd_index_list *out, const hull_work *h, bool sure) {
   if (!DYD_NEW(out->item, h->count)) return DYD_E_NOMEM;
   for (size_t k = 0; k < h->count; k++)
     if (sure ? h->x[k].sure : h->x[k].possible) out->item[out->count++] = h->pd->sk.reps.site[h->x[k].vertex];
@@ -394,7 +394,7 @@ static dyd_status list_vertices(dyd_index_list *out, const hull *h, bool sure) {
 }
 
 /* The vertices; the possible pairs are found with them, unless NULL. */
-static dyd_status fill_vertices(dyd_hull *out, hull *h, dyd_hull_pairs *pairs) {
+static dyd_status fill_vertices(dyd_hull *out, hull_work *h, dyd_hull_pairs *pairs) {
   dyd_status st = find_candidates(h);
   if (st == DYD_OK) st = find_possible(h, pairs);
   if (st != DYD_OK) return st;
@@ -404,7 +404,7 @@ static dyd_status fill_vertices(dyd_hull *out, hull *h, dyd_hull_pairs *pairs) {
 }
 
 /* The statuses of the pairs found, which are sorted. */
-static dyd_status fill_pairs(dyd_hull *out, hull *h) {
+static dyd_status fill_pairs(dyd_hull *out, hull_work *h) {
   if (h->pairs.capped) return DYD_CAPPED;
   dyd_status st = dyd_pairs_deal(&h->start, &h->next, &(dyd_pair_list){h->pairs.count, h->pairs.item}, h->count);
   if (st == DYD_OK) st = find_chains(h);
@@ -418,7 +418,7 @@ static dyd_status fill_pairs(dyd_hull *out, hull *h) {
 
 dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd, bool pairs) {
   if (!pd) return DYD_E_ARG;
-  DYD_SCOPED(hull) h = {.pd = pd, .pairs = {.most = pd->max_pairs}};
+  DYD_SCOPED(hull_work) h = {.pd = pd, .pairs = {.most = pd->max_pairs}};
   dyd_hull found = {0};
   dyd_status st = fill_vertices(&found, &h, pairs ? &h.pairs : NULL);
   if (st == DYD_OK && pairs) st = fill_pairs(&found, &h);

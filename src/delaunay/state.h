@@ -4,7 +4,7 @@
 #ifndef DYD_DELAUNAY_STATE_H
 #define DYD_DELAUNAY_STATE_H
 
-#include "base/room.h"
+#include "base/memory.h"
 #include "skeleton/skeleton.h"
 #include "skeleton/work.h"
 
@@ -70,7 +70,7 @@ struct dyd_delaunay {
   dyd_delaunay_counters counters;
   dyd_delaunay_options options;
   size_t max_pairs;
-  dyd_room room;              /* of the call at work */
+  dyd_memory memory;          /* of the call at work */
   size_t joins;               /* of sites, when it was built */
   dyd_sites *own;             /* NULL: the sites are the caller's */
   const dyd_decider *decider; /* while it is built; may be NULL */

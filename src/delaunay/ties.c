@@ -15,17 +15,17 @@
 #include <string.h>
 
 /* vertex[0..count-1]: the rim, counter-clockwise; a chain begins behind the ghost, which is omitted. */
-typedef struct rim {
+typedef struct face_rim {
   uint32_t *vertex, *site;
   uint32_t count;
   bool chain;
-} rim;
+} face_rim;
 
-static void rim_clear(rim *r) {
+static void face_rim_clear(face_rim *r) {
   dyd_free_all(r->vertex, r->site);
 }
 
-static bool has_inexact_vertex(const dyd_delaunay *pd, const rim *r) {
+static bool has_inexact_vertex(const dyd_delaunay *pd, const face_rim *r) {
   for (uint32_t q = 0; q < r->count; q++)
     if (!dyd_vertex_is_point(&pd->sk, r->vertex[q])) return true;
   return false;
@@ -62,7 +62,7 @@ static dyd_status are_distinct(bool *distinct, const uint32_t *v, uint32_t count
 }
 
 /* Walks around the face. *found: it is a polygon, or a chain, in which something is open. */
-static dyd_status rim_find(bool *found, rim *r, const dyd_delaunay *pd, const dyd_face *face) {
+static dyd_status rim_find(bool *found, face_rim *r, const dyd_delaunay *pd, const dyd_face *face) {
   const dyd_skeleton *sk = &pd->sk;
   dyd_half_edge h = dyd_rim_start(&r->chain, pd, face);
   *found = false;
@@ -81,17 +81,17 @@ static dyd_status rim_find(bool *found, rim *r, const dyd_delaunay *pd, const dy
 
 /* ---- pairs ---- */
 
-static bool is_on_rim(const rim *r, uint32_t p, uint32_t q) {
+static bool is_on_rim(const face_rim *r, uint32_t p, uint32_t q) {
   return q == p + 1 || (!r->chain && p == 0 && q + 1 == r->count);
 }
 
 /* Returns true if all sites but aliases lie on the chain. Then another face has it from its other side. */
-static bool is_everything(const dyd_delaunay *pd, const rim *r) {
+static bool is_everything(const dyd_delaunay *pd, const face_rim *r) {
   return r->chain && 2 * (uint64_t)r->count == (uint64_t)pd->sk.mesh.count + 2;
 }
 
 /* All pairs but those of the rim, unless one of them is legal. */
-static dyd_status rim_tie(dyd_face *as, dyd_vertex_pair **pair, const dyd_delaunay *pd, const rim *r) {
+static dyd_status rim_tie(dyd_face *as, dyd_vertex_pair **pair, const dyd_delaunay *pd, const face_rim *r) {
   uint64_t m = r->count;
   dyd_vertex_pair *list = dyd_alloc(m * (m - 1) / 2, sizeof *list);
   uint32_t n = 0;
@@ -110,7 +110,7 @@ static dyd_status rim_tie(dyd_face *as, dyd_vertex_pair **pair, const dyd_delaun
 
 /* ---- asking ---- */
 
-static dyd_status ask_rim(bool *proved, const dyd_delaunay *pd, dyd_work *w, const rim *r) {
+static dyd_status ask_rim(bool *proved, const dyd_delaunay *pd, dyd_work *w, const face_rim *r) {
   uint64_t m = r->count, pairs = m * (m - 1) / 2;
   *proved = false;
   if (m < (r->chain ? 3 : 4) || !has_inexact_vertex(pd, r)) return DYD_OK;
@@ -121,7 +121,7 @@ static dyd_status ask_rim(bool *proved, const dyd_delaunay *pd, dyd_work *w, con
 
 dyd_status dyd_prove_face(dyd_face *as, dyd_vertex_pair **pair, const dyd_delaunay *pd, dyd_work *w,
                           const dyd_face *face) {
-  DYD_SCOPED(rim) r = {0};
+  DYD_SCOPED(face_rim) r = {0};
   bool found = false, proved = false;
   if (!pd->options.prove) return DYD_OK;
   dyd_status st = rim_find(&found, &r, pd, face);

@@ -26,12 +26,12 @@ char *dyd_dyadic_get_str(const dyd_dyadic *x) {
 }
 
 /* A number read so far: mantissa * 2^exp2 * 10^exp10. */
-typedef struct reader {
+typedef struct number_reader {
   const char *text, *at; /* at: the next character */
   char *digits;          /* room for every digit of the text */
   size_t count;          /* digits stored */
   int64_t exp2, exp10;
-} reader;
+} number_reader;
 
 static bool text_is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
@@ -41,12 +41,12 @@ static bool text_is_digit(char c, int base) {
   return decimal || (base == 16 && ((c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F')));
 }
 
-static void text_read_digits(reader *r, int base) {
+static void text_read_digits(number_reader *r, int base) {
   while (text_is_digit(*r->at, base)) r->digits[r->count++] = *r->at++;
 }
 
 /* A decimal exponent with sign; false when there is no digit. */
-static bool text_read_exponent(reader *r, int64_t *out) {
+static bool text_read_exponent(number_reader *r, int64_t *out) {
   bool negative = *r->at == '-';
   if (negative || *r->at == '+') r->at++;
   if (!text_is_digit(*r->at, 10)) return false;
@@ -59,7 +59,7 @@ static bool text_read_exponent(reader *r, int64_t *out) {
 }
 
 /* Digits with at most one point; the number of digits behind it goes to *fraction. */
-static bool text_read_mantissa(reader *r, int base, int64_t *fraction) {
+static bool text_read_mantissa(number_reader *r, int base, int64_t *fraction) {
   text_read_digits(r, base);
   size_t whole = r->count;
   if (*r->at == '.') {
@@ -71,7 +71,7 @@ static bool text_read_mantissa(reader *r, int base, int64_t *fraction) {
 }
 
 /* What may follow the mantissa: "p5" for base 16, "*2^5" for an integer, "e5" for a decimal. */
-static bool text_read_suffix(reader *r, int base, int64_t fraction, bool pointed) {
+static bool text_read_suffix(number_reader *r, int base, int64_t fraction, bool pointed) {
   char c = *r->at;
   if (base == 16 && (c == 'p' || c == 'P')) {
     r->at++;
@@ -91,7 +91,7 @@ static bool text_read_suffix(reader *r, int base, int64_t fraction, bool pointed
 }
 
 /* The whole number with surrounding blanks; false with r->at on the first bad character. */
-static bool text_read(reader *r, int *base, bool *negative) {
+static bool text_read(number_reader *r, int *base, bool *negative) {
   while (text_is_blank(*r->at)) r->at++;
   *negative = *r->at == '-';
   if (*r->at == '-' || *r->at == '+') r->at++;
@@ -134,7 +134,7 @@ static dyd_status text_refuse(dyd_error *err, dyd_status st, size_t column, cons
 }
 
 dyd_status dyd_dyadic_set_str(dyd_dyadic *out, const char *text, dyd_error *err) {
-  reader r = {text, text, malloc(strlen(text) + 1), 0, 0, 0};
+  number_reader r = {text, text, malloc(strlen(text) + 1), 0, 0, 0};
   if (!r.digits) return dyd_fail_nomem(err);
   int base;
   bool negative;

@@ -26,10 +26,10 @@
 #include "base/parallel.h"
 #include "delaunay/extend.h"
 #include "delaunay/memory.h"
-#include "engine/plan.h"
 #include "engine/points.h"
 #include "engine/settle.h"
 #include "engine/ties.h"
+#include "engine/wants.h"
 #include "stream/process.h"
 #include "stream/stream.h"
 
@@ -47,16 +47,16 @@
 
 /* ---- any policy ---- */
 
-static dyd_request *policy_requests(const dyd_plan *plan) {
+static dyd_request *policy_requests(const dyd_wants *plan) {
   dyd_request *list = dyd_alloc(plan->count, sizeof *list);
   for (size_t k = 0; list && k < plan->count; k++)
-    list[k] = (dyd_request){DYD_SIZED(dyd_request), .point = dyd_plan_point(plan, &plan->item[k])->site,
+    list[k] = (dyd_request){DYD_SIZED(dyd_request), .point = dyd_wants_point(plan, &plan->item[k])->site,
                             .bits = plan->item[k].bits, .max_bits = plan->o->max_bits, .stop = &plan->e->stop};
   return list;
 }
 
 /* Calls the policy with the plan `was`, of which *plan, empty, takes the answer. */
-static dyd_status policy_call(dyd_plan *plan, const dyd_request *was, size_t count, dyd_error *err) {
+static dyd_status policy_call(dyd_wants *plan, const dyd_request *was, size_t count, dyd_error *err) {
   const dyd_engine_options *o = plan->o;
   dyd_status st = o->policy(plan, o->policy_user, plan->e, was, count, err);
   if (plan->failed == DYD_E_ARG)
@@ -70,16 +70,16 @@ static dyd_status policy_call(dyd_plan *plan, const dyd_request *was, size_t cou
 /* Puts *plan, not empty, to the policy of plan->o; stage: the one that it is for. What the policy adds replaces the
  * plan. If it adds nothing, the plan stays. first: points that it does not name stay in the plan. DYD_CANCELLED when
  * e->stop was seen. */
-static dyd_status dyd_policy_apply(dyd_plan *plan, bool first, dyd_error *err) {
+static dyd_status dyd_policy_apply(dyd_wants *plan, bool first, dyd_error *err) {
   const size_t count = plan->count;
   const bool blocked = plan->blocked;
-  dyd_plan_sort(plan);
+  dyd_wants_sort(plan);
   DYD_FREED dyd_request *was = policy_requests(plan);
   DYD_FREED dyd_want *kept = dyd_alloc(count, sizeof *kept);
   dyd_status st = was && kept ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK) {
     memcpy(kept, plan->item, count * sizeof *kept);
-    dyd_plan_empty(plan);
+    dyd_wants_empty(plan);
     plan->blocked = blocked;
     st = policy_call(plan, was, count, err);
   }
@@ -87,8 +87,8 @@ static dyd_status dyd_policy_apply(dyd_plan *plan, bool first, dyd_error *err) {
   const bool stays = plan->count == 0;
   for (size_t k = 0; st == DYD_OK && (stays || first) && k < count; k++) {
     const dyd_want *w = &kept[k];
-    const dyd_refinable *point = dyd_plan_point(plan, w);
-    if (!dyd_plan_find(plan, point)) dyd_plan_mark(plan, point, w->bits, w->reason, w->i, w->j);
+    const dyd_refinable *point = dyd_wants_point(plan, w);
+    if (!dyd_wants_find(plan, point)) dyd_wants_mark(plan, point, w->bits, w->reason, w->i, w->j);
   }
   return st == DYD_OK ? plan->failed : st;
 }
@@ -181,7 +181,7 @@ static dyd_status policy_describe(FILE *out, const dyd_engine *e, const dyd_requ
 }
 
 /* Takes one line of an answer; *done: it was the last. */
-static dyd_status policy_take(bool *done, dyd_plan *plan, const char *line, dyd_error *err) {
+static dyd_status policy_take(bool *done, dyd_wants *plan, const char *line, dyd_error *err) {
   char shown[80], site[11], bits[20], *left = bits;
   int end = 0;
   *done = strcmp(line, "go") == 0;
@@ -189,13 +189,13 @@ static dyd_status policy_take(bool *done, dyd_plan *plan, const char *line, dyd_
   if (sscanf(line, "refine %10[0-9] %19[-0-9]%n", site, bits, &end) == 2 && !line[end]) {
     unsigned long long i = strtoull(site, NULL, 10);
     long long b = strtoll(bits, &left, 10);
-    if (!*left) return dyd_plan_add(plan, i < UINT32_MAX ? (uint32_t)i : UINT32_MAX, b);
+    if (!*left) return dyd_wants_add(plan, i < UINT32_MAX ? (uint32_t)i : UINT32_MAX, b);
   }
   return dyd_fail(err, DYD_E_STREAM, "the policy program wrote %s; a line of its answer is \"refine I B\" or \"go\"",
                   dyd_quoted(shown, sizeof shown, line, strlen(line)));
 }
 
-static dyd_status policy_ask(dyd_plan *plan, void *user, const dyd_engine *e, const dyd_request *request, size_t count,
+static dyd_status policy_ask(dyd_wants *plan, void *user, const dyd_engine *e, const dyd_request *request, size_t count,
                              dyd_error *err) {
   dyd_policy *p = user;
   char *text = NULL, *line = NULL;
@@ -267,15 +267,15 @@ static uint64_t engine_point_bytes(const dyd_engine *e) {
 
 /* Sets the budget of everything made of the result later: `most` bytes less the memory of the points; 0: no bound. */
 static void engine_allow(dyd_engine *e, uint64_t most) {
-  const dyd_room room = {.most = most, .beside = most ? engine_point_bytes(e) : 0};
-  if (e->pd) dyd_delaunay_allow(e->pd, dyd_room_left(&room));
+  const dyd_memory memory = {.most = most, .beside = most ? engine_point_bytes(e) : 0};
+  if (e->pd) dyd_delaunay_allow(e->pd, dyd_memory_left(&memory));
 }
 
 /* What carrying out a plan will take beside that: longer ends, and the digits computed with. O(plan). */
-static uint64_t plan_bytes(const dyd_plan *p) {
+static uint64_t plan_bytes(const dyd_wants *p) {
   uint64_t stays = dyd_bytes_times(p->count, sizeof *p->item), most = 0;
   for (size_t k = 0; k < p->count; k++) {
-    const dyd_refinable *point = dyd_plan_point(p, &p->item[k]);
+    const dyd_refinable *point = dyd_wants_point(p, &p->item[k]);
     uint64_t work = dyd_stream_work_bytes(point->stream, p->item[k].bits);
     stays = dyd_bytes_add(stays, bytes_of_ends(p->item[k].bits) - (point->asked ? bytes_of_ends(point->bits) : 0));
     if (work > most) most = work;
@@ -366,9 +366,9 @@ typedef struct ask {
   const dyd_question *q;
   dyd_engine_options o; /* defaults filled in */
   dyd_refinable *guest;
-  dyd_plan plan;
+  dyd_wants plan;
   dyd_watch watch;
-  dyd_room room;
+  dyd_memory memory;
   uint64_t stages, calls;
   int64_t bits;
   bool again;
@@ -440,32 +440,32 @@ static void ask_end_exhausted(ask *a) {
 
 /* Checks the budget for carrying out the plan. */
 static dyd_status ask_room_to_narrow(ask *a) {
-  if (!a->room.most) return DYD_OK;
-  a->room.beside = engine_point_bytes(a->e);
-  a->room.held = a->e->pd ? dyd_delaunay_memory(a->e->pd) : 0;
-  return dyd_room_has(&a->room, plan_bytes(&a->plan), "narrowing the points") ? DYD_OK : DYD_E_NOMEM;
+  if (!a->memory.most) return DYD_OK;
+  a->memory.beside = engine_point_bytes(a->e);
+  a->memory.held = a->e->pd ? dyd_delaunay_memory(a->e->pd) : 0;
+  return dyd_memory_has(&a->memory, plan_bytes(&a->plan), "narrowing the points") ? DYD_OK : DYD_E_NOMEM;
 }
 
 /* What the points leave for the triangulation; 0: no bound. */
 static dyd_status ask_room_to_triangulate(uint64_t *left, ask *a) {
   *left = 0;
-  if (!a->room.most) return DYD_OK;
-  a->room.beside = engine_point_bytes(a->e);
-  a->room.held = a->e->pd ? dyd_delaunay_memory(a->e->pd) : 0;
-  *left = a->room.most > a->room.beside ? a->room.most - a->room.beside : 1;
-  return dyd_room_has(&a->room, 1, "the points") ? DYD_OK : DYD_E_NOMEM;
+  if (!a->memory.most) return DYD_OK;
+  a->memory.beside = engine_point_bytes(a->e);
+  a->memory.held = a->e->pd ? dyd_delaunay_memory(a->e->pd) : 0;
+  *left = a->memory.most > a->memory.beside ? a->memory.most - a->memory.beside : 1;
+  return dyd_memory_has(&a->memory, 1, "the points") ? DYD_OK : DYD_E_NOMEM;
 }
 
 /* The result exists, and its peak is known; checks the budget for judging it. */
 static dyd_status ask_room_to_judge(ask *a) {
   dyd_delaunay_counters c = {DYD_SIZED(dyd_delaunay_counters)};
-  if (!a->room.most) return DYD_OK;
+  if (!a->memory.most) return DYD_OK;
   dyd_status st = dyd_delaunay_get_counters(&c, a->e->pd, &a->err);
   if (st != DYD_OK) return st;
-  uint64_t peak = a->room.beside + c.bytes_most;
-  if (peak > a->room.peak) a->room.peak = peak;
-  a->room.held = dyd_delaunay_memory(a->e->pd);
-  return dyd_room_has(&a->room, goal_bytes(a->e, &a->o), "the bound") ? DYD_OK : DYD_E_NOMEM;
+  uint64_t peak = a->memory.beside + c.bytes_most;
+  if (peak > a->memory.peak) a->memory.peak = peak;
+  a->memory.held = dyd_delaunay_memory(a->e->pd);
+  return dyd_memory_has(&a->memory, goal_bytes(a->e, &a->o), "the bound") ? DYD_OK : DYD_E_NOMEM;
 }
 
 /* ---- narrowing ---- */
@@ -505,10 +505,10 @@ static dyd_status ask_narrow_all(bool *cut, ask *a) {
   dyd_engine *e = a->e;
   size_t need = e->pd ? e->changes + a->plan.count : 0;
   if (!DYD_GROW(e->changed, e->change_cap, need)) return DYD_E_NOMEM;
-  dyd_plan_sort(&a->plan);
+  dyd_wants_sort(&a->plan);
   dyd_status st = ask_room_to_narrow(a);
   if (st != DYD_OK) return st;
-  dyd_plan_announce(&a->plan, a->o.max_calls ? a->o.max_calls - a->calls : UINT64_MAX);
+  dyd_wants_announce(&a->plan, a->o.max_calls ? a->o.max_calls - a->calls : UINT64_MAX);
   for (size_t k = 0; k < a->plan.count; k++) {
     if (ask_is_stopped(a)) return DYD_OK;
     *cut = ask_calls_are_spent(a);
@@ -637,7 +637,7 @@ static bool ask_is_stale(const ask *a) {
 /* Calls the question. */
 static dyd_status ask_question(bool *answered, ask *a) {
   *answered = false;
-  dyd_plan_empty(&a->plan);
+  dyd_wants_empty(&a->plan);
   dyd_status st = a->q->ask(answered, &a->plan, a->q->user, a->e, &a->err);
   if (a->plan.failed == DYD_E_ARG)
     return dyd_fail(&a->err, DYD_E_ARG, "the question asks for site %lu, and there are %zu: they are numbered from 0",
@@ -666,7 +666,7 @@ static dyd_status ask_prepare(ask *a) {
   if (dyd_flag_get(&e->cancelled))
     a->end = DYD_OUTCOME_CANCELLED;
   else if (a->q->triangulate && !e->pd)
-    dyd_plan_first(&a->plan);
+    dyd_wants_first(&a->plan);
   else if (!ask_is_stale(a))
     st = ask_judge(a);
   if (st == DYD_OK) st = a->plan.failed;
@@ -688,7 +688,7 @@ static dyd_status ask_stage(ask *a) {
   dyd_status failed = ask_narrow_all(&cut, a);
   if (a->end != DYD_OUTCOME_NONE) return DYD_OK;
   a->again = a->plan.again && !cut && failed == DYD_OK;
-  dyd_plan_empty(&a->plan);
+  dyd_wants_empty(&a->plan);
   if (!a->q->triangulate || a->again) return failed;
   if (cut && !e->pd) ask_end_budget(a, DYD_BUDGET_CALLS);
   if ((cut || failed != DYD_OK) && (!e->pd || e->changes == 0)) return failed;
@@ -743,15 +743,15 @@ static dyd_status ask_timed(ask *a) {
   dyd_flag_set(&e->stop, 0); /* where that undoes a cancel, `cancelled` is seen before any work */
   e->started = true;
   e->tie_bits = a->o.tie_bits;
-  a->room = (dyd_room){.most = a->o.max_bytes};
-  e->room = &a->room;
+  a->memory = (dyd_memory){.most = a->o.max_bytes};
+  e->memory = &a->memory;
   if (a->q->triangulate) engine_allow(e, a->o.max_bytes);
   dyd_watch_start(&a->watch, a->o.seconds, &e->stop);
   dyd_status st = ask_loop(a);
   dyd_watch_stop(&a->watch);
-  e->room = NULL;
+  e->memory = NULL;
   if (a->q->triangulate) engine_allow(e, a->o.max_bytes);
-  if (a->room.peak > e->bytes_most) e->bytes_most = a->room.peak;
+  if (a->memory.peak > e->bytes_most) e->bytes_most = a->memory.peak;
   e->seconds += watch_seconds(&a->watch);
   dyd_flag_set(&e->busy, 0);
   if (st == DYD_OK && a->end == DYD_OUTCOME_CANCELLED) dyd_flag_set(&e->cancelled, 0);
@@ -760,9 +760,9 @@ static dyd_status ask_timed(ask *a) {
 
 static dyd_status ask_run(ask *a) {
   a->guest = calloc(a->q->guests + 1, sizeof *a->guest);
-  dyd_plan_init(&a->plan, a->e, &a->o, a->guest, a->q->guests);
+  dyd_wants_init(&a->plan, a->e, &a->o, a->guest, a->q->guests);
   dyd_status st = a->guest ? ask_timed(a) : DYD_E_NOMEM;
-  dyd_plan_clear(&a->plan);
+  dyd_wants_clear(&a->plan);
   free(a->guest);
   return st;
 }
@@ -788,7 +788,7 @@ dyd_status dyd_ask(dyd_outcome *outcome, dyd_budget *spent, dyd_engine *e, const
   if (st == DYD_OK) st = dyd_policy_start(&policy, &a.o, &a.err);
   if (st == DYD_OK) st = ask_run(&a);
   dyd_policy_free(policy);
-  if (st == DYD_E_NOMEM && a.room.refused) dyd_fail_room(&a.err, &a.room);
+  if (st == DYD_E_NOMEM && a.memory.refused) dyd_fail_room(&a.err, &a.memory);
   if (st != DYD_OK && !a.err.message[0]) dyd_fail(&a.err, st, "%s", dyd_status_text(st));
   if (st != DYD_OK) a.err.code = st;
   if (st == DYD_OK && a.spent != DYD_BUDGET_PAIRS) dyd_error_clear(&a.err);

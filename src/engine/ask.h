@@ -3,8 +3,8 @@
 #ifndef DYD_ENGINE_ASK_H
 #define DYD_ENGINE_ASK_H
 
-#include "engine/plan.h"
 #include "engine/state.h"
+#include "engine/wants.h"
 #include "metric/bounds.h"
 
 #include <pthread.h>

@@ -381,15 +381,15 @@ static dyd_status check_begin(dyd_check_options *o, dyd_check_report *out, const
   return DYD_OK;
 }
 
-typedef struct moves {
+typedef struct move_list {
   dyd_check_move *item;
   size_t count, cap;
-} moves;
+} move_list;
 
 /* ---- one schedule ---- */
 
 /* DYD_E_ARG with the number of the first move that cannot be made. */
-static dyd_status schedule_fits(const moves *m, const dyd_engine *e, dyd_error *err) {
+static dyd_status schedule_fits(const move_list *m, const dyd_engine *e, dyd_error *err) {
   const size_t points = dyd_sites_count(e->sites);
   for (size_t k = 0; k < m->count; k++) {
     const dyd_check_move *move = &m->item[k];
@@ -404,7 +404,8 @@ static dyd_status schedule_fits(const moves *m, const dyd_engine *e, dyd_error *
 }
 
 /* Opens the points, starts the clock and asks all points for base_bits. */
-static dyd_status schedule_start(check_state *s, dyd_check_open_fn open, void *user, const moves *m, dyd_error *err) {
+static dyd_status schedule_start(check_state *s, dyd_check_open_fn open, void *user, const move_list *m,
+                                 dyd_error *err) {
   dyd_status st = open(&s->e, user, err);
   if (st == DYD_OK) st = schedule_fits(m, s->e, err);
   if (st == DYD_OK) s->e->tie_bits = s->o->tie_bits;
@@ -417,7 +418,7 @@ static dyd_status schedule_start(check_state *s, dyd_check_open_fn open, void *u
 }
 
 /* Runs a schedule; counters and the fault go to *report. */
-static dyd_status schedule_play(dyd_check_report *report, dyd_check_open_fn open, void *user, const moves *m,
+static dyd_status schedule_play(dyd_check_report *report, dyd_check_open_fn open, void *user, const move_list *m,
                                 uint64_t seed, const dyd_check_options *o, dyd_error *err) {
   DYD_SCOPED(check_state) s = {.o = o, .report = report, .random = seed};
   dyd_rect_init(&s.window);
@@ -437,7 +438,7 @@ static dyd_status schedule_play(dyd_check_report *report, dyd_check_open_fn open
 
 /* ---- random schedules ---- */
 
-static dyd_status moves_add(moves *m, uint32_t stage, uint32_t point, int64_t bits) {
+static dyd_status moves_add(move_list *m, uint32_t stage, uint32_t point, int64_t bits) {
   if (!DYD_GROW(m->item, m->cap, m->count + 1)) return DYD_E_NOMEM;
   m->item[m->count++] = (dyd_check_move){stage, point, bits};
   return DYD_OK;
@@ -450,13 +451,14 @@ typedef struct askable {
   size_t count;
 } askable;
 
-static dyd_status add_step(moves *m, uint32_t stage, const askable *p, size_t at, int64_t bits) {
+static dyd_status add_step(move_list *m, uint32_t stage, const askable *p, size_t at, int64_t bits) {
   p->asked[at] = bits;
   return moves_add(m, stage, p->point[at], bits);
 }
 
 /* A few points, each by one bit or two more again and again: what drifts is seen where steps are small. */
-static dyd_status schedule_add_small_steps(moves *m, uint32_t stage, uint64_t *random, const askable *p, int64_t top) {
+static dyd_status schedule_add_small_steps(move_list *m, uint32_t stage, uint64_t *random, const askable *p,
+                                           int64_t top) {
   dyd_status st = DYD_OK;
   size_t count = 1 + (size_t)check_below(random, 4);
   for (size_t k = 0; k < count; k++) {
@@ -469,7 +471,7 @@ static dyd_status schedule_add_small_steps(moves *m, uint32_t stage, uint64_t *r
 
 /* Walks each point from its last precision to `top`: a source that fails at one precision is found. At the default
  * precision steps are of one bit or two; where there are more than MOST_STEPS of them, wider. */
-static dyd_status schedule_add_walk(moves *m, uint32_t stage, uint64_t *random, const askable *p, int64_t top,
+static dyd_status schedule_add_walk(move_list *m, uint32_t stage, uint64_t *random, const askable *p, int64_t top,
                                     int64_t span) {
   enum { MOST_STEPS = 256 };
   const uint64_t step = 2 * (uint64_t)((span + MOST_STEPS - 1) / MOST_STEPS);
@@ -483,7 +485,7 @@ static dyd_status schedule_add_walk(moves *m, uint32_t stage, uint64_t *random, 
 }
 
 /* One stage: one point; a few; about a tenth; all at one precision; all unevenly; small steps. Repeats happen. */
-static dyd_status schedule_add_stage(moves *m, uint32_t stage, uint64_t *random, const askable *p,
+static dyd_status schedule_add_stage(move_list *m, uint32_t stage, uint64_t *random, const askable *p,
                                      const dyd_check_options *o) {
   dyd_status st = DYD_OK;
   size_t n = p->count;
@@ -513,7 +515,7 @@ static dyd_status schedule_list_points(askable *out, dyd_check_open_fn open, voi
 }
 
 /* The first one walks all points up to the cap. */
-static dyd_status schedule_make(moves *m, uint64_t seed, const askable *p, bool first, const dyd_check_options *o) {
+static dyd_status schedule_make(move_list *m, uint64_t seed, const askable *p, bool first, const dyd_check_options *o) {
   const int64_t span = o->max_bits - o->base_bits;
   uint64_t random = seed;
   dyd_status st = DYD_OK;
@@ -528,9 +530,9 @@ static dyd_status schedule_make(moves *m, uint64_t seed, const askable *p, bool 
 /* ---- cutting down ---- */
 
 /* Cuts [from, to) out of m if m still shows the fault without it; sets *cut then. */
-static dyd_status schedule_try_without(bool *cut, moves *m, size_t from, size_t to, dyd_check_fault fault,
+static dyd_status schedule_try_without(bool *cut, move_list *m, size_t from, size_t to, dyd_check_fault fault,
                                        dyd_check_open_fn open, void *user, uint64_t seed, const dyd_check_options *o) {
-  moves less = {0};
+  move_list less = {0};
   DYD_SCOPED(dyd_check_report) report = {0};
   *cut = false;
   less.item = dyd_alloc(m->count, sizeof *less.item);
@@ -549,8 +551,8 @@ static dyd_status schedule_try_without(bool *cut, moves *m, size_t from, size_t 
 }
 
 /* Omits ever smaller parts while the fault stays, until no single move can be omitted. */
-static dyd_status schedule_cut_down(moves *m, dyd_check_fault fault, dyd_check_open_fn open, void *user, uint64_t seed,
-                                    const dyd_check_options *o) {
+static dyd_status schedule_cut_down(move_list *m, dyd_check_fault fault, dyd_check_open_fn open, void *user,
+                                    uint64_t seed, const dyd_check_options *o) {
   dyd_status st = DYD_OK;
   for (size_t size = m->count; size > 0 && st == DYD_OK;) {
     bool any = false;
@@ -572,8 +574,8 @@ static dyd_status schedule_cut_down(moves *m, dyd_check_fault fault, dyd_check_o
 /* ---- public ---- */
 
 /* Keeps the shortest schedule that shows the fault found by m. */
-static dyd_status report_keep_fault(dyd_check_report *out, moves *m, uint64_t seed, dyd_check_open_fn open, void *user,
-                                    const dyd_check_options *o) {
+static dyd_status report_keep_fault(dyd_check_report *out, move_list *m, uint64_t seed, dyd_check_open_fn open,
+                                    void *user, const dyd_check_options *o) {
   DYD_SCOPED(dyd_check_report) again = {0};
   out->seed = seed;
   out->base_bits = o->base_bits;
@@ -582,14 +584,14 @@ static dyd_status report_keep_fault(dyd_check_report *out, moves *m, uint64_t se
   if (st == DYD_OK && again.fault == out->fault) memcpy(out->message, again.message, sizeof out->message);
   out->move = m->item;
   out->moves = m->count;
-  *m = (moves){0};
+  *m = (move_list){0};
   return st;
 }
 
 /* Runs the schedule of the options. */
 static dyd_status schedule_replay(dyd_check_report *out, dyd_check_open_fn open, void *user, const dyd_check_options *o,
                                   dyd_error *err) {
-  moves m = {.item = dyd_alloc(o->moves, sizeof *m.item), .count = o->moves};
+  move_list m = {.item = dyd_alloc(o->moves, sizeof *m.item), .count = o->moves};
   if (!m.item) return dyd_fail_nomem(err);
   memcpy(m.item, o->move, o->moves * sizeof *m.item);
   dyd_status st = schedule_play(out, open, user, &m, o->seed, o, err);
@@ -608,7 +610,7 @@ static dyd_status schedule_replay(dyd_check_report *out, dyd_check_open_fn open,
 dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *user, const dyd_check_options *given,
                          dyd_error *err) {
   dyd_check_options o;
-  moves m = {0};
+  move_list m = {0};
   askable points = {0};
   dyd_error unused;
   if (!err) err = &unused;

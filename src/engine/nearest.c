@@ -15,10 +15,10 @@
 #include "base/index.h"
 #include "base/local.h"
 #include "delaunay/state.h"
-#include "engine/plan.h"
 #include "engine/points.h"
 #include "engine/settle.h"
 #include "engine/ties.h"
+#include "engine/wants.h"
 #include "graph/graph.h"
 #include "rect/rect.h"
 #include "tolerance/discs.h"
@@ -40,14 +40,14 @@ typedef struct nearest_question {
 } nearest_question;
 
 /* Adds a want for p if its precision is below the level. *open: p can be narrowed still. */
-static void nearest_mark(bool *open, dyd_plan *plan, const dyd_refinable *p, int64_t level) {
+static void nearest_mark(bool *open, dyd_wants *plan, const dyd_refinable *p, int64_t level) {
   if (!p || p->final) return;
   *open = true;
-  if (!p->asked || p->bits < level) dyd_plan_mark_alone(plan, p, level, DYD_REASON_QUESTION);
+  if (!p->asked || p->bits < level) dyd_wants_mark_alone(plan, p, level, DYD_REASON_QUESTION);
 }
 
 /* Raises the level until the guest or some site of the list is below it. */
-static void nearest_plan(int64_t *level, dyd_plan *plan, const dyd_index_list *site) {
+static void nearest_plan(int64_t *level, dyd_wants *plan, const dyd_index_list *site) {
   if (*level == INT64_MIN) *level = dyd_bits_first(plan->o);
   for (bool open = false;; *level = dyd_bits_grown(*level, plan->o)) {
     if (*level > plan->o->max_bits) *level = plan->o->max_bits;
@@ -108,7 +108,7 @@ static dyd_status nearest_is_settled(bool *out, const nearest_question *q) {
   return st;
 }
 
-static dyd_status nearest_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status nearest_ask(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
   nearest_question *q = user;
   dyd_status st = dyd_nearest(&q->near, &q->sure, e->pd, dyd_stream_rect(q->at));
   *answered = st == DYD_OK && q->sure;
@@ -256,7 +256,7 @@ static void problem_clear(graph_problem *p) {
 }
 
 /* Triangulates the sites, and finds the graph, unless sites join. */
-static dyd_status problem_solve(bool *good, graph_problem *p, const graph_question *q, const dyd_plan *plan,
+static dyd_status problem_solve(bool *good, graph_problem *p, const graph_question *q, const dyd_wants *plan,
                                 dyd_rect_fn *rect, const void *user, dyd_error *err) {
   const dyd_engine *e = plan->e;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = plan->o->max_pairs, .cancel = &e->stop,
@@ -273,7 +273,7 @@ static const dyd_graph_edge *problem_edge(const graph_problem *p, const dyd_grap
 
 /* Draws one choice in the cores, and looks which edges are certain, and which none, whatever the other points are.
  * *found: one of them was not known to be so. */
-static dyd_status graph_draw(bool *found, graph_question *q, const dyd_plan *plan, uint32_t choice, dyd_error *err) {
+static dyd_status graph_draw(bool *found, graph_question *q, const dyd_wants *plan, uint32_t choice, dyd_error *err) {
   graph_problem p = {0};
   bool good = false;
   const core_choice drawn = {plan->e, choice};
@@ -290,7 +290,7 @@ static dyd_status graph_draw(bool *found, graph_question *q, const dyd_plan *pla
 
 /* Examines all choices in the cores, less 4 eps where a site is firm: one point represents the places of other sites.
  */
-static dyd_status graph_shrink(graph_question *q, const dyd_plan *plan, dyd_error *err) {
+static dyd_status graph_shrink(graph_question *q, const dyd_wants *plan, dyd_error *err) {
   size_t sites = dyd_sites_count(plan->e->sites);
   graph_problem p = {.firm = dyd_alloc(sites, sizeof *p.firm)};
   bool good = false;
@@ -391,10 +391,10 @@ dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, const dy
   return st;
 }
 
-static dyd_status disc_mark_near(dyd_plan *plan, uint32_t end);
+static dyd_status disc_mark_near(dyd_wants *plan, uint32_t end);
 
 /* Asks for the centres that edges that are not certain depend on, up to the accuracy of discs. */
-static dyd_status graph_mark_discs(dyd_plan *plan, const dyd_graph_list *edges) {
+static dyd_status graph_mark_discs(dyd_wants *plan, const dyd_graph_list *edges) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; st == DYD_OK && k < edges->count; k++) {
     if (edges->item[k].sure) continue;
@@ -404,7 +404,7 @@ static dyd_status graph_mark_discs(dyd_plan *plan, const dyd_graph_list *edges) 
   return st;
 }
 
-static dyd_status graph_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status graph_ask(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
   graph_question *q = user;
   size_t sites = dyd_sites_count(e->sites);
   dyd_status st = q->discs ? dyd_disc_pairs(&q->pairs, e->pd, &e->stop, err) : DYD_OK;
@@ -464,7 +464,7 @@ typedef struct disc_question {
 } disc_question;
 
 /* Adds a want for the site up to the accuracy of discs. */
-static dyd_status disc_mark(dyd_plan *plan, uint32_t site) {
+static dyd_status disc_mark(dyd_wants *plan, uint32_t site) {
   const dyd_refinable *p = dyd_engine_find(plan->e, site);
   if (!p || p->final) return DYD_OK;
   DYD_LOCAL(dyd_rect, r);
@@ -472,12 +472,12 @@ static dyd_status disc_mark(dyd_plan *plan, uint32_t site) {
   int64_t bits = st == DYD_OK ? dyd_rect_bits(&r) + DISC_SPARE : INT64_MIN;
   plan->blocked = plan->blocked || (p->bits < bits && bits > plan->o->max_bits);
   if (bits > plan->o->max_bits) bits = plan->o->max_bits;
-  if (st == DYD_OK && p->bits < bits) dyd_plan_mark_alone(plan, p, bits, DYD_REASON_QUESTION);
+  if (st == DYD_OK && p->bits < bits) dyd_wants_mark_alone(plan, p, bits, DYD_REASON_QUESTION);
   return st;
 }
 
 /* Of the end of an open pair, and of all that may be next to it. */
-static dyd_status disc_mark_near(dyd_plan *plan, uint32_t end) {
+static dyd_status disc_mark_near(dyd_wants *plan, uint32_t end) {
   DYD_SCOPED(dyd_index_list) near = {0};
   dyd_status st = dyd_delaunay_neighbours(&near, plan->e->pd, end, DYD_INDETERMINATE);
   if (st == DYD_OK) st = disc_mark(plan, end);
@@ -485,7 +485,7 @@ static dyd_status disc_mark_near(dyd_plan *plan, uint32_t end) {
   return st;
 }
 
-static dyd_status disc_mark_pairs(dyd_plan *plan, const disc_question *q) {
+static dyd_status disc_mark_pairs(dyd_wants *plan, const disc_question *q) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; st == DYD_OK && k < q->pairs.count; k++) {
     const dyd_pair *pair = &q->pairs.item[k];
@@ -496,7 +496,7 @@ static dyd_status disc_mark_pairs(dyd_plan *plan, const disc_question *q) {
   return st;
 }
 
-static dyd_status disc_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status disc_ask(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
   disc_question *q = user;
   q->st = dyd_disc_pairs(&q->pairs, e->pd, &e->stop, err);
   if (q->st == DYD_CANCELLED && err) q->why = *err;
@@ -510,7 +510,7 @@ static dyd_status disc_ask(bool *answered, dyd_plan *plan, void *user, const dyd
   dyd_status st = disc_mark_pairs(plan, q);
   if (st == DYD_OK && plan->count + plan->blocked) {
     st = dyd_settle(&q->settled, plan);
-    dyd_plan_empty(plan);
+    dyd_wants_empty(plan);
     if (st == DYD_OK) st = disc_mark_pairs(plan, q);
   }
   return st;

@@ -9,13 +9,13 @@
 #include "delaunay/undecided.h"
 #include "engine/ask.h"
 #include "engine/labels.h"
-#include "engine/plan.h"
 #include "engine/points.h"
+#include "engine/probe.h"
 #include "engine/record.h"
-#include "engine/scout.h"
 #include "engine/settle.h"
 #include "engine/state.h"
 #include "engine/ties.h"
+#include "engine/wants.h"
 #include "metric/bounds.h"
 #include "rect/rect.h"
 
@@ -65,9 +65,9 @@ static dyd_status goal_try_sums(dyd_voronoi_sums **sums, const dyd_engine *e, co
   (*sums)->discs = o->discs;
   (*sums)->cancel = &e->stop;
   if (st == DYD_OK) st = dyd_voronoi_sums_all(*sums, NULL, NULL);
-  if (e->room && (*sums)->room.refused) {
-    dyd_room_join(e->room, &(*sums)->room);
-    e->room->wanted += e->room->beside;
+  if (e->memory && (*sums)->memory.refused) {
+    dyd_memory_join(e->memory, &(*sums)->memory);
+    e->memory->wanted += e->memory->beside;
   }
   return st;
 }
@@ -193,10 +193,10 @@ enum { EXPENSIVE = 2 };
  */
 typedef struct dyd_waiting {
   double *waited;
-  dyd_plan face; /* the wants of one face */
+  dyd_wants face; /* the wants of one face */
 } dyd_waiting;
 
-static double waiting_cost(const dyd_plan *p, uint32_t site) {
+static double waiting_cost(const dyd_wants *p, uint32_t site) {
   return p->o->cost ? p->o->cost[site] : dyd_engine_number(p->e, site, DYD_ROW_COST);
 }
 
@@ -210,7 +210,7 @@ static bool waiting_costs_are_good(const dyd_engine *e, const dyd_engine_options
 /* Borrows e and o, which has costs that are above 0, or none. DYD_E_NOMEM. */
 static dyd_status waiting_init(dyd_waiting *t, const dyd_engine *e, const dyd_engine_options *o) {
   *t = (dyd_waiting){.waited = NULL};
-  dyd_plan_init(&t->face, e, o, NULL, 0);
+  dyd_wants_init(&t->face, e, o, NULL, 0);
   bool differ = false;
   for (size_t k = 1; k < e->points && !differ; k++)
     differ = waiting_cost(&t->face, e->point[k].site) != waiting_cost(&t->face, e->point[0].site);
@@ -219,7 +219,7 @@ static dyd_status waiting_init(dyd_waiting *t, const dyd_engine *e, const dyd_en
 }
 
 static void waiting_clear(dyd_waiting *t) {
-  dyd_plan_clear(&t->face);
+  dyd_wants_clear(&t->face);
   free(t->waited);
   *t = (dyd_waiting){.waited = NULL};
 }
@@ -235,47 +235,47 @@ static int64_t waiting_finest(const dyd_engine *e, const dyd_index_list *sites) 
 }
 
 /* Returns the least cost of a want of the face. *spent: the total cost of the wants that are not expensive. */
-static double waiting_least(double *spent, const dyd_plan *face) {
+static double waiting_least(double *spent, const dyd_wants *face) {
   double least = HUGE_VAL;
   for (size_t k = 0; k < face->count; k++)
-    least = fmin(least, waiting_cost(face, dyd_plan_point(face, &face->item[k])->site));
+    least = fmin(least, waiting_cost(face, dyd_wants_point(face, &face->item[k])->site));
   *spent = 0;
   for (size_t k = 0; k < face->count; k++) {
-    double cost = waiting_cost(face, dyd_plan_point(face, &face->item[k])->site);
+    double cost = waiting_cost(face, dyd_wants_point(face, &face->item[k])->site);
     if (cost <= EXPENSIVE * least) *spent += cost;
   }
   return least;
 }
 
 /* The wants of the face with these sites go to the plan, but for wants that wait. */
-static void waiting_choose(dyd_plan *plan, dyd_waiting *t, const dyd_index_list *sites) {
-  dyd_plan *face = &t->face;
+static void waiting_choose(dyd_wants *plan, dyd_waiting *t, const dyd_index_list *sites) {
+  dyd_wants *face = &t->face;
   double spent, least = waiting_least(&spent, face);
   if (!t->waited) return;
   for (size_t k = 0; k < face->count; k++) {
     const dyd_want *w = &face->item[k];
-    const dyd_refinable *p = dyd_plan_point(face, w);
+    const dyd_refinable *p = dyd_wants_point(face, w);
     double cost = waiting_cost(face, p->site), *waited = &t->waited[p - plan->e->point];
     if (cost > EXPENSIVE * least && *waited < cost) {
       *waited += spent;
       continue;
     }
     int64_t finest = *waited > 0 && !plan->o->step_bits ? waiting_finest(plan->e, sites) : w->bits;
-    dyd_plan_mark(plan, p, finest > w->bits ? finest : w->bits, w->reason, w->i, w->j);
+    dyd_wants_mark(plan, p, finest > w->bits ? finest : w->bits, w->reason, w->i, w->j);
     *waited = 0;
   }
   if (face->failed) plan->failed = face->failed;
   plan->blocked = plan->blocked || face->blocked;
-  dyd_plan_empty(face);
+  dyd_wants_empty(face);
 }
 
 /* Which points to narrow next, and how far (mathematics: section 7).
  *
  * Towards "decided": in each undecided face, those ends of indeterminate pairs that are coarsest for their surroundings
- * (dyd_coarse); where no end can be narrowed further, the coarsest sites of the face, since a blocker may be what keeps
- * a pair open. Sites of the face that are no ends follow one step behind, so that a wide blocker is not left alone
- * while the ends are refined for nothing. Where pairs of a face are missing, since it met the cap or was postponed, all
- * its sites are refined.
+ * (dyd_face_precision); where no end can be narrowed further, the coarsest sites of the face, since a blocker may be
+ * what keeps a pair open. Sites of the face that are no ends follow one step behind, so that a wide blocker is not left
+ * alone while the ends are refined for nothing. Where pairs of a face are missing, since it met the cap or was
+ * postponed, all its sites are refined.
  *
  * Pairs of which it is known that no refinement decides them (settle.c) count for nothing here.
  *
@@ -290,15 +290,15 @@ static void waiting_choose(dyd_plan *plan, dyd_waiting *t, const dyd_index_list 
  * Towards bounds on the Voronoi diagram the same is done with other numbers of the pairs (above).
  *
  * Where a tie was tried and is none, it is known at which bit that showed (ties.c): all its points in the face go there
- * at once. In faces of many points a few go ahead of the others, to find how far these must go (scout.c). Where points
+ * at once. In faces of many points a few go ahead of the others, to find how far these must go (probe.c). Where points
  * have costs, expensive ones wait for cheap ones (dyd_waiting).
  *
  * Every rule marks a point whenever one that matters can be narrowed, and every mark asks for more than before
- * (plan.c): the loop ends. */
+ * (wants.c): the loop ends. */
 
-/* Sites that go ahead, and sites that wait. scouts NULL: none goes ahead. */
+/* Sites that go ahead, and sites that wait. probes NULL: none goes ahead. */
 typedef struct dyd_helpers {
-  dyd_scouts *scouts;
+  dyd_probes *probes;
   dyd_waiting *waiting;
 } dyd_helpers;
 
@@ -358,8 +358,8 @@ static bool lacks_needed(const dyd_refinable *p, const dyd_engine_options *o) {
   return lesser_bits(p->needed, o->max_bits) > p->bits && !o->step_bits && o->goal == DYD_GOAL_DECIDED;
 }
 
-/* Returns true if that is known of a site of the face. Then no scout has to be sent to learn it. */
-static bool any_lacks_needed(const dyd_coarse *c, const dyd_plan *plan) {
+/* Returns true if that is known of a site of the face. Then no probe has to be sent to learn it. */
+static bool any_lacks_needed(const dyd_face_precision *c, const dyd_wants *plan) {
   for (size_t k = 0; k < c->sites.count; k++) {
     const dyd_refinable *p = dyd_engine_find(plan->e, c->sites.item[k]);
     if (p && !p->final && lacks_needed(p, plan->o)) return true;
@@ -374,55 +374,56 @@ static int64_t face_step(const dyd_refinable *p, int64_t relative, const dyd_eng
 
 /* The relative precision up to which ends are refined: beyond it they wait for the coarsest site of the face, which may
  * be what keeps their pairs open. */
-static int64_t bits_worth(dyd_plan *plan, const dyd_coarse *c) {
+static int64_t bits_worth(dyd_wants *plan, const dyd_face_precision *c) {
   int64_t least = INT64_MAX;
   for (size_t k = 0; k < c->sites.count; k++)
-    if (dyd_plan_can_narrow(plan, dyd_engine_find(plan->e, c->sites.item[k])))
-      least = lesser_bits(least, dyd_coarse_bits(c, c->sites.item[k]));
+    if (dyd_wants_can_narrow(plan, dyd_engine_find(plan->e, c->sites.item[k])))
+      least = lesser_bits(least, dyd_face_precision_bits(c, c->sites.item[k]));
   return least > INT64_MAX / 4 ? INT64_MAX : least + least / 2;
 }
 
 /* Marks the coarsest of the ends of pairs that can be narrowed, up to the precision `worth`; *least becomes their
  * relative precision. Returns false if no end can be narrowed. */
-static bool mark_ends(int64_t *least, dyd_plan *plan, const dyd_coarse *c, const dyd_pair_list *pairs, int64_t worth) {
+static bool mark_ends(int64_t *least, dyd_wants *plan, const dyd_face_precision *c, const dyd_pair_list *pairs,
+                      int64_t worth) {
   bool any = false;
   *least = INT64_MAX;
   for (int pass = 0; pass < 2; pass++) {
     for (size_t k = 0; k < 2 * pairs->count; k++) {
       const dyd_pair *pair = &pairs->item[k / 2];
       const dyd_refinable *p = dyd_engine_find(plan->e, k % 2 ? pair->j : pair->i);
-      if (!dyd_plan_can_narrow(plan, p)) continue;
-      int64_t relative = dyd_coarse_bits(c, p->site);
+      if (!dyd_wants_can_narrow(plan, p)) continue;
+      int64_t relative = dyd_face_precision_bits(c, p->site);
       any = true;
       if (pass == 0)
         *least = lesser_bits(*least, relative);
       else if ((relative <= companion_bits(*least) && relative <= worth) || lacks_needed(p, plan->o))
-        dyd_plan_mark(plan, p, face_step(p, relative, plan->o), DYD_REASON_END, pair->i, pair->j);
+        dyd_wants_mark(plan, p, face_step(p, relative, plan->o), DYD_REASON_END, pair->i, pair->j);
     }
   }
   return any;
 }
 
 /* Marks the sites of the face that are coarser than the ends; where no end can be narrowed, the coarsest of all. */
-static void mark_blockers(dyd_plan *plan, const dyd_coarse *c, bool ends, int64_t least) {
+static void mark_blockers(dyd_wants *plan, const dyd_face_precision *c, bool ends, int64_t least) {
   int64_t limit = ends ? least - 1 : INT64_MAX;
   for (int pass = ends ? 1 : 0; pass < 2; pass++) {
     for (size_t k = 0; k < c->sites.count; k++) {
       const dyd_refinable *p = dyd_engine_find(plan->e, c->sites.item[k]);
-      if (!dyd_plan_can_narrow(plan, p)) continue;
-      int64_t relative = dyd_coarse_bits(c, p->site);
+      if (!dyd_wants_can_narrow(plan, p)) continue;
+      int64_t relative = dyd_face_precision_bits(c, p->site);
       if (pass == 0)
         limit = lesser_bits(limit, relative);
       else if (relative <= limit || lacks_needed(p, plan->o))
-        dyd_plan_mark_alone(plan, p, face_step(p, relative, plan->o), DYD_REASON_BLOCKER);
+        dyd_wants_mark_alone(plan, p, face_step(p, relative, plan->o), DYD_REASON_BLOCKER);
     }
     if (pass == 0) limit = companion_bits(limit);
   }
 }
 
 /* Marks all sites of a face whose pairs are not all known: to twice their bits, or to where a tie was seen to be none.
- * Which of them suffice is not known yet. Scouts need pairs that cross: each site with one half of the face on. */
-static dyd_status plan_capped(dyd_plan *plan, dyd_helpers *h, size_t f) {
+ * Which of them suffice is not known yet. Probes need pairs that cross: each site with one half of the face on. */
+static dyd_status plan_capped(dyd_wants *plan, dyd_helpers *h, size_t f) {
   DYD_SCOPED(dyd_index_list) sites = {0};
   bool outer, lacks = false;
   dyd_status st = dyd_delaunay_face(&sites, &outer, plan->e->pd, f);
@@ -431,37 +432,37 @@ static dyd_status plan_capped(dyd_plan *plan, dyd_helpers *h, size_t f) {
   for (size_t k = 0; st == DYD_OK && k < sites.count; k++) {
     const dyd_refinable *p = dyd_engine_find(plan->e, sites.item[k]);
     across.item[k] = (dyd_pair){sites.item[k], sites.item[(k + sites.count / 2) % sites.count], DYD_INDETERMINATE};
-    if (!dyd_plan_can_narrow(plan, p)) continue;
+    if (!dyd_wants_can_narrow(plan, p)) continue;
     int64_t bits = dyd_bits_grown(p->bits, plan->o);
     lacks = lacks || lacks_needed(p, plan->o);
-    dyd_plan_mark_alone(plan, p, lacks_needed(p, plan->o) && p->needed > bits ? p->needed : bits, DYD_REASON_BLOCKER);
+    dyd_wants_mark_alone(plan, p, lacks_needed(p, plan->o) && p->needed > bits ? p->needed : bits, DYD_REASON_BLOCKER);
   }
-  bool scouts = h->scouts && !lacks && dyd_open_is_postponed(plan->e->pd, f);
-  if (st == DYD_OK && scouts) st = dyd_scouts_add(h->scouts, plan, &across);
+  bool probes = h->probes && !lacks && dyd_open_is_postponed(plan->e->pd, f);
+  if (st == DYD_OK && probes) st = dyd_probes_add(h->probes, plan, &across);
   return st;
 }
 
-static dyd_status plan_face(dyd_plan *plan, dyd_helpers *h, size_t f, dyd_measure *m, const dyd_settled *settled) {
+static dyd_status plan_face(dyd_wants *plan, dyd_helpers *h, size_t f, dyd_measure *m, const dyd_settled *settled) {
   const dyd_delaunay *pd = plan->e->pd;
   if (dyd_open_is_capped(pd, f)) return plan_capped(plan, h, f);
-  DYD_SCOPED(dyd_coarse) c = {0};
+  DYD_SCOPED(dyd_face_precision) c = {0};
   DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = dyd_delaunay_face_pairs(&pairs, pd, f);
   if (st == DYD_OK) st = keep_pairs(&pairs, m, settled, plan->o);
-  if (st == DYD_OK && pairs.count) st = dyd_coarse_set(&c, pd, f, &pairs);
+  if (st == DYD_OK && pairs.count) st = dyd_face_precision_set(&c, pd, f, &pairs);
   if (st == DYD_OK && pairs.count) {
     int64_t least;
-    dyd_plan *wants = h->waiting->waited ? &h->waiting->face : plan; /* where none waits they go to the plan itself */
+    dyd_wants *wants = h->waiting->waited ? &h->waiting->face : plan; /* where none waits they go to the plan itself */
     /* Where points have costs the coarsest may be expensive, and wait themselves. */
     bool ends = mark_ends(&least, wants, &c, &pairs, h->waiting->waited ? INT64_MAX : bits_worth(plan, &c));
     mark_blockers(wants, &c, ends, least);
     waiting_choose(plan, h->waiting, &c.sites);
-    if (ends && h->scouts && !any_lacks_needed(&c, plan)) st = dyd_scouts_add(h->scouts, plan, &pairs);
+    if (ends && h->probes && !any_lacks_needed(&c, plan)) st = dyd_probes_add(h->probes, plan, &pairs);
   }
   return st;
 }
 
-static dyd_status plan_faces(dyd_plan *plan, dyd_helpers *h, dyd_measure *m, const dyd_settled *settled) {
+static dyd_status plan_faces(dyd_wants *plan, dyd_helpers *h, dyd_measure *m, const dyd_settled *settled) {
   dyd_status st = DYD_OK;
   size_t faces = dyd_delaunay_undecided_faces(plan->e->pd);
   for (size_t f = 0; st == DYD_OK && f < faces; f++) st = plan_face(plan, h, f, m, settled);
@@ -470,7 +471,7 @@ static dyd_status plan_faces(dyd_plan *plan, dyd_helpers *h, dyd_measure *m, con
 
 /* ---- bounds ---- */
 
-static dyd_status plan_hausdorff(dyd_plan *plan, dyd_helpers *h, dyd_measure *m) {
+static dyd_status plan_hausdorff(dyd_wants *plan, dyd_helpers *h, dyd_measure *m) {
   const dyd_settled none = {0}; /* a pair that stays indeterminate may still come below the bound */
   const dyd_engine *e = plan->e;
   const dyd_engine_options *o = plan->o;
@@ -480,18 +481,18 @@ static dyd_status plan_hausdorff(dyd_plan *plan, dyd_helpers *h, dyd_measure *m)
     const dyd_refinable *p = &e->point[k];
     if (p->final) continue;
     st = dyd_measure_diameter(diameter, m, p->site);
-    if (mpfr_cmp_ui_2exp(diameter, 1, (mpfr_exp_t)-o->goal_bits) <= 0 || !dyd_plan_can_narrow(plan, p)) continue;
+    if (mpfr_cmp_ui_2exp(diameter, 1, (mpfr_exp_t)-o->goal_bits) <= 0 || !dyd_wants_can_narrow(plan, p)) continue;
     /* Widths of 2^-b give a diameter of at most sqrt(2) 2^-b. */
-    dyd_plan_mark_alone(plan, p,
-                        p->bits <= o->goal_bits && !o->step_bits ? o->goal_bits + 1 : dyd_bits_grown(p->bits, plan->o),
-                        DYD_REASON_BOUND);
+    dyd_wants_mark_alone(plan, p,
+                         p->bits <= o->goal_bits && !o->step_bits ? o->goal_bits + 1 : dyd_bits_grown(p->bits, plan->o),
+                         DYD_REASON_BOUND);
   }
   return st;
 }
 
 /* Marks the ends of pairs with a number above `least`, so that the numbers shrink below `share`;
  * *largest becomes the largest number of a pair with an end that can be narrowed. */
-static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_measure *m, dyd_voronoi_sums *sums,
+static dyd_status mark_bound(dyd_wants *plan, mpfr_ptr largest, dyd_measure *m, dyd_voronoi_sums *sums,
                              const dyd_pair_list *pairs, mpfr_srcptr least, mpfr_srcptr share) {
   const dyd_engine_options *o = plan->o;
   dyd_status st = DYD_OK;
@@ -505,10 +506,10 @@ static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_measure *m, d
     int64_t excess = mpfr_inf_p(value) ? 0 : (int64_t)mpfr_get_exp(value) - (int64_t)mpfr_get_exp(share) + 2;
     for (int a = 0; a < 2; a++) {
       const dyd_refinable *p = dyd_engine_find(plan->e, end[a]);
-      if (!dyd_plan_can_narrow(plan, p)) continue;
+      if (!dyd_wants_can_narrow(plan, p)) continue;
       mpfr_max(largest, largest, value, MPFR_RNDU);
       if (mpfr_cmp(value, least) > 0)
-        dyd_plan_mark(plan, p, excess_step(p, excess, o), DYD_REASON_BOUND, end[0], end[1]);
+        dyd_wants_mark(plan, p, excess_step(p, excess, o), DYD_REASON_BOUND, end[0], end[1]);
     }
   }
   return st;
@@ -516,7 +517,7 @@ static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_measure *m, d
 
 /* The ends of the pairs whose numbers are above 2^-M, or above the share 2^-M / P of P pairs; where none of them can be
  * narrowed, those of at least half the largest number with an end that can. */
-static dyd_status plan_bound(dyd_plan *plan, dyd_measure *m, dyd_voronoi_sums *sums, bool shared) {
+static dyd_status plan_bound(dyd_wants *plan, dyd_measure *m, dyd_voronoi_sums *sums, bool shared) {
   DYD_SCOPED(dyd_pair_list) pairs = {0};
   DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, share, largest, unused);
   dyd_status st = dyd_pairs_list(&pairs, plan->e->pd, sums ? dyd_least_bounding_true(plan->e->pd) : DYD_TIE);
@@ -533,7 +534,7 @@ static dyd_status plan_bound(dyd_plan *plan, dyd_measure *m, dyd_voronoi_sums *s
 }
 
 /* Marks the ends of certain triangles whose Voronoi vertex may be in the window and is enclosed in more than 2^-M. */
-static dyd_status plan_vertices(dyd_plan *plan) {
+static dyd_status plan_vertices(dyd_wants *plan) {
   const dyd_engine_options *o = plan->o;
   DYD_SCOPED(dyd_triangle_list) list = {0};
   dyd_status st = dyd_delaunay_triangles(&list, NULL, plan->e->pd, 0);
@@ -543,30 +544,30 @@ static dyd_status plan_vertices(dyd_plan *plan) {
     st = goal_vertex_excess(&excess, plan->e, &list.item[k], o);
     for (int m = 0; m < 3 && st == DYD_OK && excess > 0; m++) {
       const dyd_refinable *p = dyd_engine_find(plan->e, v[m]);
-      if (dyd_plan_can_narrow(plan, p))
-        dyd_plan_mark(plan, p, excess_step(p, excess, o), DYD_REASON_BOUND, v[m], v[(m + 1) % 3]);
+      if (dyd_wants_can_narrow(plan, p))
+        dyd_wants_mark(plan, p, excess_step(p, excess, o), DYD_REASON_BOUND, v[m], v[(m + 1) % 3]);
     }
   }
   return st;
 }
 
 /* Replaces the marks by: every point to one precision, a step above the least so far. */
-static void plan_uniform(dyd_plan *plan) {
+static void plan_uniform(dyd_wants *plan) {
   const dyd_engine *e = plan->e;
   int64_t least = INT64_MAX;
   for (size_t k = 0; k < e->points; k++)
     if (!e->point[k].final && e->point[k].bits < least) least = e->point[k].bits;
-  dyd_plan_empty(plan);
+  dyd_wants_empty(plan);
   int64_t level = lesser_bits(dyd_bits_grown(least, plan->o), plan->o->max_bits);
   for (size_t k = 0; k < e->points; k++)
     if (!e->point[k].final && e->point[k].bits < level)
-      dyd_plan_mark_alone(plan, &e->point[k], level, DYD_REASON_UNIFORM);
+      dyd_wants_mark_alone(plan, &e->point[k], level, DYD_REASON_UNIFORM);
 }
 
-static dyd_status plan_all(dyd_plan *plan, dyd_helpers *h, dyd_settled *settled, dyd_measure *m,
+static dyd_status plan_all(dyd_wants *plan, dyd_helpers *h, dyd_settled *settled, dyd_measure *m,
                            dyd_voronoi_sums *sums) {
   const dyd_engine_options *o = plan->o;
-  if (o->step_bits || o->schedule != DYD_SCHEDULE_ADAPTIVE || h->waiting->waited || dyd_has_policy(o)) h->scouts = NULL;
+  if (o->step_bits || o->schedule != DYD_SCHEDULE_ADAPTIVE || h->waiting->waited || dyd_has_policy(o)) h->probes = NULL;
   bool capped = dyd_delaunay_is_capped(plan->e->pd);
   if (o->goal == DYD_GOAL_DECIDED || capped) {
     dyd_status settling = capped ? DYD_OK : dyd_settle(settled, plan);
@@ -605,8 +606,8 @@ static dyd_status goal_voronoi_and_vertices_hold(bool *out, dyd_voronoi_sums **s
                                                  const dyd_engine_options *o) {
   dyd_status st = goal_voronoi_holds(out, sums, e, o);
   if (st != DYD_OK || !*out || o->goal != DYD_GOAL_VORONOI_HAUSDORFF) return st;
-  DYD_SCOPED(dyd_plan) plan;
-  dyd_plan_init(&plan, e, o, NULL, 0);
+  DYD_SCOPED(dyd_wants) plan;
+  dyd_wants_init(&plan, e, o, NULL, 0);
   st = plan_vertices(&plan);
   if (st == DYD_OK) st = plan.failed;
   *out = st == DYD_OK && plan.count == 0;
@@ -629,12 +630,12 @@ static bool any_point_is_left(const dyd_engine *e) {
 }
 
 /* Sets *holds if the goal holds for the result, which is up to date. Otherwise *plan, empty, becomes the points to
- * narrow for it; adds to *scouts, just initialised, the points that may go ahead, and to *waiting and *settled, kept
+ * narrow for it; adds to *probes, just initialised, the points that may go ahead, and to *waiting and *settled, kept
  * from judgement to judgement of a run, the points that wait and the pairs that no refinement decides. DYD_CANCELLED
  * when e->stop was seen. */
-static dyd_status schedule_judge(bool *holds, dyd_plan *plan, dyd_scouts *scouts, dyd_waiting *waiting,
+static dyd_status schedule_judge(bool *holds, dyd_wants *plan, dyd_probes *probes, dyd_waiting *waiting,
                                  dyd_settled *settled) {
-  dyd_helpers h = {scouts, waiting};
+  dyd_helpers h = {probes, waiting};
   DYD_SCOPED(dyd_measure) m;
   dyd_voronoi_sums *sums = NULL;
   dyd_measure_init(&m, plan->e->sites);
@@ -648,37 +649,37 @@ static dyd_status schedule_judge(bool *holds, dyd_plan *plan, dyd_scouts *scouts
 
 #define MOST_GOAL_BITS ((int64_t)1 << 40)
 
-/* Invariant: while scouts.count > 0 the races began in the stage after number `stage`, and `held` is the plan that
+/* Invariant: while probes.count > 0 the probes began in the stage after number `stage`, and `held` is the plan that
  * waits for them. */
 typedef struct goal_question {
-  dyd_scouts scouts;
+  dyd_probes probes;
   dyd_waiting waiting;
   dyd_settled settled;
-  dyd_plan held;
+  dyd_wants held;
   uint64_t stage;
 } goal_question;
 
-/* Scouts go ahead within a stage, and the plan follows when their races are over. A stage that was cut short ends the
- * races as well: there is a new result to be judged. */
-static dyd_status goal_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
+/* Probes go ahead within a stage, and the plan follows when their probes are over. A stage that was cut short ends the
+ * probes as well: there is a new result to be judged. */
+static dyd_status goal_ask(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
   goal_question *q = user;
   (void)err;
-  if (q->scouts.count == 0 || q->stage != e->stages) {
-    dyd_scouts_clear(&q->scouts);
-    dyd_plan_empty(&q->held);
-    dyd_status st = schedule_judge(answered, plan, &q->scouts, &q->waiting, &q->settled);
-    if (st != DYD_OK || q->scouts.count == 0) return st;
+  if (q->probes.count == 0 || q->stage != e->stages) {
+    dyd_probes_clear(&q->probes);
+    dyd_wants_empty(&q->held);
+    dyd_status st = schedule_judge(answered, plan, &q->probes, &q->waiting, &q->settled);
+    if (st != DYD_OK || q->probes.count == 0) return st;
     q->stage = e->stages;
-    dyd_plan all = *plan; /* waits */
+    dyd_wants all = *plan; /* waits */
     *plan = q->held;
     q->held = all;
   }
-  dyd_status st = dyd_scouts_next(plan, &q->scouts, &q->held);
+  dyd_status st = dyd_probes_next(plan, &q->probes, &q->held);
   plan->again = plan->count > 0;
   if (st != DYD_OK || plan->again) return st;
-  dyd_scouts_finish(plan, &q->scouts, &q->held);
-  dyd_scouts_clear(&q->scouts);
-  dyd_plan_empty(&q->held);
+  dyd_probes_finish(plan, &q->probes, &q->held);
+  dyd_probes_clear(&q->probes);
+  dyd_wants_empty(&q->held);
   return DYD_OK;
 }
 
@@ -695,7 +696,7 @@ static const char *goal_options_fault(const dyd_engine_options *o) {
 }
 
 static dyd_status goal_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_options *o, dyd_error *err) {
-  goal_question g = {.scouts = {0}};
+  goal_question g = {.probes = {0}};
   const dyd_question question = {DYD_SIZED(dyd_question), .ask = goal_ask, .user = &g, .triangulate = true};
   e->goal = o->goal;
   e->goal_bits = o->goal_bits;
@@ -703,13 +704,13 @@ static dyd_status goal_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine
   /* Where a stage may be the last one, or bounds are wanted, all pairs are needed at once. */
   e->postpones = o->goal == DYD_GOAL_DECIDED && o->schedule == DYD_SCHEDULE_ADAPTIVE && !o->step_bits &&
                  !o->max_stages && !o->max_calls && !dyd_has_policy(o);
-  dyd_plan_init(&g.held, e, o, NULL, 0);
+  dyd_wants_init(&g.held, e, o, NULL, 0);
   dyd_status st = waiting_init(&g.waiting, e, o);
   st = st == DYD_OK ? dyd_ask(outcome, &e->spent, e, &question, o, err) : dyd_fail_nomem(err);
   e->postpones = false;
   waiting_clear(&g.waiting);
-  dyd_plan_clear(&g.held);
-  dyd_scouts_clear(&g.scouts);
+  dyd_wants_clear(&g.held);
+  dyd_probes_clear(&g.probes);
   dyd_settled_clear(&g.settled);
   if (*outcome == DYD_OUTCOME_DECIDED && o->goal != DYD_GOAL_DECIDED) *outcome = DYD_OUTCOME_CERTIFIED;
   return st;

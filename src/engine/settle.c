@@ -715,7 +715,7 @@ static void settled_sort(dyd_settled *s) {
 /* ---- pairs of firm sites ---- */
 
 /* Settles pairs of firm sites, by all sites. */
-static dyd_status settle_firm(dyd_settled_pair *pair, size_t pairs, const dyd_plan *plan, const dyd_dyadic *eps) {
+static dyd_status settle_firm(dyd_settled_pair *pair, size_t pairs, const dyd_wants *plan, const dyd_dyadic *eps) {
   const dyd_engine *e = plan->e;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = plan->o->max_pairs, .cancel = &e->stop,
                                   .threads = plan->o->threads, .no_filter = plan->o->no_filter};
@@ -797,7 +797,7 @@ static dyd_status settled_append(dyd_settled *s, dyd_settled *fresh) {
   return DYD_OK;
 }
 
-static dyd_status settle_pairs(dyd_settled *fresh, dyd_settled *s, const dyd_plan *plan) {
+static dyd_status settle_pairs(dyd_settled *fresh, dyd_settled *s, const dyd_wants *plan) {
   const dyd_engine *e = plan->e;
   dyd_settle_work work = {WORK + WORK_PER_SITE * dyd_sites_count(e->sites), PROOFS};
   size_t faces = dyd_delaunay_undecided_faces(e->pd);
@@ -827,13 +827,13 @@ static dyd_status any_core(bool *out, const dyd_engine *e) {
 }
 
 /* From FIRST_BITS on, and when all pairs are examined for the first time, if radii may be what keeps them open. */
-static dyd_status settle_is_due(bool *out, const dyd_settled *s, const dyd_plan *plan, int64_t bits) {
+static dyd_status settle_is_due(bool *out, const dyd_settled *s, const dyd_wants *plan, int64_t bits) {
   int64_t due = s->next > FIRST_BITS ? s->next : FIRST_BITS;
   *out = bits >= due || bits >= plan->o->max_bits;
   return *out || s->next ? DYD_OK : any_core(out, plan->e);
 }
 
-dyd_status dyd_settle(dyd_settled *s, const dyd_plan *plan) {
+dyd_status dyd_settle(dyd_settled *s, const dyd_wants *plan) {
   int64_t bits = most_bits(plan->e);
   DYD_SCOPED(dyd_settled) fresh = {0};
   bool due;

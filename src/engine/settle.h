@@ -3,8 +3,8 @@
 #ifndef DYD_ENGINE_SETTLE_H
 #define DYD_ENGINE_SETTLE_H
 
-#include "engine/plan.h"
 #include "engine/state.h"
+#include "engine/wants.h"
 
 /* Cores of sites [SET-3] and firm ones [SET-2]. */
 
@@ -75,6 +75,6 @@ bool dyd_is_settled(const dyd_settled *s, const dyd_pair *pair);
 /* Examines pairs in undecided faces with cores and points that can be narrowed, when these are known to more
  * bits than most pairs need, and again each time they are known to four times as many. DYD_CANCELLED when e->stop was
  * seen. Bounded: about as long as a few first stages of the sites. */
-dyd_status dyd_settle(dyd_settled *s, const dyd_plan *plan);
+dyd_status dyd_settle(dyd_settled *s, const dyd_wants *plan);
 
 #endif

@@ -23,10 +23,10 @@
 /* Points of others, and half-planes; corners of both ends, or points on the rims of their discs. */
 enum { AROUND = 8, MOST = 64, ENDS = 2 * AROUND + MOST };
 
-typedef struct spot {
+typedef struct nearby_site {
   double at[2];
   size_t site;
-} spot;
+} nearby_site;
 
 /* Coordinates are relative to `origin`. end: corners of both ends. excess: by how much the best four, three of `inside`
  * or two of which are of ends, keep them apart; 0: nothing found. */
@@ -34,10 +34,10 @@ typedef struct cutting {
   const dyd_settle_site *site;
   size_t count, i, j;
   double origin[2];
-  spot end[ENDS], other[MOST];
+  nearby_site end[ENDS], other[MOST];
   dyd_cut cut[MOST];
   size_t ends, others;
-  spot best[4];
+  nearby_site best[4];
   bool inside;
   double excess;
 } cutting;
@@ -46,12 +46,12 @@ static double square(double x) {
   return x * x;
 }
 
-static double spot_distance2(const spot *a, const double c[2]) {
+static double spot_distance2(const nearby_site *a, const double c[2]) {
   return square(a->at[0] - c[0]) + square(a->at[1] - c[1]);
 }
 
 /* Twice the area of a, b, c. */
-static double spot_turn(const spot *a, const spot *b, const spot *c) {
+static double spot_turn(const nearby_site *a, const nearby_site *b, const nearby_site *c) {
   return (b->at[0] - a->at[0]) * (c->at[1] - a->at[1]) - (b->at[1] - a->at[1]) * (c->at[0] - a->at[0]);
 }
 
@@ -70,7 +70,7 @@ static void cutting_add_disc(cutting *q, size_t k) {
   const double *d = q->site[k].disc;
   for (int n = 0; n < AROUND; n++) {
     const double t = 2 * 3.14159265358979 * n / AROUND, far[2] = {d[0] + 4 * d[2] * cos(t), d[1] + 4 * d[2] * sin(t)};
-    spot *s = &q->end[q->ends++];
+    nearby_site *s = &q->end[q->ends++];
     dyd_filter_disc_point(s->at, d, far, false);
     s->site = k;
     for (int x = 0; x < 2; x++) s->at[x] -= q->origin[x];
@@ -89,12 +89,12 @@ static void cutting_add_end(cutting *q, size_t k) {
     b[n] = q->site[k].core[n / 2] ? side[n & 1] : side[0] / 2 + side[1] / 2;
   }
   for (int x = 0; x < (b[0] < b[1] ? 2 : 1); x++)
-    for (int y = 2; y < (b[2] < b[3] ? 4 : 3); y++) q->end[q->ends++] = (spot){{b[x] - o[0], b[y] - o[1]}, k};
+    for (int y = 2; y < (b[2] < b[3] ? 4 : 3); y++) q->end[q->ends++] = (nearby_site){{b[x] - o[0], b[y] - o[1]}, k};
 }
 
 /* Tests whether b is inside of a, a2 and another point of the ends. */
-static void cutting_look_inside(cutting *q, const spot *a, const spot *a2, const spot *b) {
-  for (const spot *a3 = a2 + 1; a3 < q->end + q->ends; a3++) {
+static void cutting_look_inside(cutting *q, const nearby_site *a, const nearby_site *a2, const nearby_site *b) {
+  for (const nearby_site *a3 = a2 + 1; a3 < q->end + q->ends; a3++) {
     double t = spot_turn(a, a2, a3), least = spot_turn(a, a2, b) / t;
     least = fmin(least, fmin(spot_turn(a2, a3, b) / t, spot_turn(a3, a, b) / t));
     double excess = least * fabs(t);
@@ -105,7 +105,8 @@ static void cutting_look_inside(cutting *q, const spot *a, const spot *a2, const
   }
 }
 
-static void cutting_look_crossed(cutting *q, const spot *a, const spot *a2, const spot *b, const spot *b2) {
+static void cutting_look_crossed(cutting *q, const nearby_site *a, const nearby_site *a2, const nearby_site *b,
+                                 const nearby_site *b2) {
   double s = spot_turn(a, a2, b), s2 = spot_turn(a, a2, b2), t = spot_turn(b, b2, a), t2 = spot_turn(b, b2, a2);
   if (!(s * s2 < 0 && t * t2 < 0)) return;
   double along = t / (t - t2), across = s / (s - s2);
@@ -118,8 +119,8 @@ static void cutting_look_crossed(cutting *q, const spot *a, const spot *a2, cons
 
 /* What number k of the others does with those before it. */
 static void cutting_look(cutting *q, size_t k) {
-  for (const spot *a = q->end; a < q->end + q->ends; a++)
-    for (const spot *a2 = a + 1; a2 < q->end + q->ends; a2++) {
+  for (const nearby_site *a = q->end; a < q->end + q->ends; a++)
+    for (const nearby_site *a2 = a + 1; a2 < q->end + q->ends; a2++) {
       cutting_look_inside(q, a, a2, &q->other[k]);
       for (size_t n = 0; n < k; n++) cutting_look_crossed(q, a, a2, &q->other[n], &q->other[k]);
     }
@@ -127,19 +128,19 @@ static void cutting_look(cutting *q, size_t k) {
 
 /* What the last of the ends does with all others. */
 static void cutting_look_end(cutting *q) {
-  const spot *last = &q->end[q->ends - 1];
-  for (const spot *a = q->end; a < last; a++)
+  const nearby_site *last = &q->end[q->ends - 1];
+  for (const nearby_site *a = q->end; a < last; a++)
     for (size_t k = 0; k < q->others; k++)
       for (size_t n = 0; n < k; n++) cutting_look_crossed(q, a, last, &q->other[n], &q->other[k]);
 }
 
 /* The point of the ends that is farthest from c; a point of a disc is added. */
-static spot farthest_end(cutting *q, const double c[2]) {
+static nearby_site farthest_end(cutting *q, const double c[2]) {
   const double at[2] = {c[0] + q->origin[0], c[1] + q->origin[1]};
   const size_t end[2] = {q->i, q->j}, had = q->ends;
-  spot best = q->end[0];
+  nearby_site best = q->end[0];
   for (int e = 0; e < 2 && q->ends < ENDS; e++) {
-    spot *s = &q->end[q->ends];
+    nearby_site *s = &q->end[q->ends];
     if (!(q->site[end[e]].disc[2] > 0)) continue;
     dyd_filter_disc_point(s->at, q->site[end[e]].disc, at, true);
     s->site = end[e];
@@ -153,10 +154,10 @@ static spot farthest_end(cutting *q, const double c[2]) {
 }
 
 /* The point of the others that is nearest to c; site = count: there is none. */
-static spot nearest_other(const cutting *q, const double c[2]) {
-  spot best = {{0, 0}, q->count};
+static nearby_site nearest_other(const cutting *q, const double c[2]) {
+  nearby_site best = {{0, 0}, q->count};
   for (size_t k = 0; k < q->count; k++) {
-    spot s = {.site = k};
+    nearby_site s = {.site = k};
     if (k == q->i || k == q->j) continue;
     const double *d = q->site[k].disc, at[2] = {c[0] + q->origin[0], c[1] + q->origin[1]};
     if (d[2] > 0) dyd_filter_disc_point(s.at, d, at, false);
@@ -172,7 +173,7 @@ static spot nearest_other(const cutting *q, const double c[2]) {
 /* Adds a half-plane to the search for a disc around c. Returns false if the disc exists, or if no half-plane excludes
  * it. */
 static bool cutting_add(cutting *q, const double c[2]) {
-  spot a = farthest_end(q, c), b = nearest_other(q, c);
+  nearby_site a = farthest_end(q, c), b = nearest_other(q, c);
   double n[2] = {a.at[0] - b.at[0], a.at[1] - b.at[1]}, length = hypot(n[0], n[1]);
   if (b.site == q->count || !(spot_distance2(&a, c) >= spot_distance2(&b, c)) || !(length > 0)) return false;
   double d = -(n[0] * (a.at[0] + b.at[0]) + n[1] * (a.at[1] + b.at[1])) / 2;
@@ -195,7 +196,7 @@ static void cutting_begin(cutting *q, double *size) {
 /* Where the search begins: a little to one side and the other of the middle, as a point between both ends may be on the
  * very segment. */
 static void cutting_start(double c[2], const cutting *q, int side) {
-  const spot *a = &q->end[0], *b = &q->end[q->ends - 1];
+  const nearby_site *a = &q->end[0], *b = &q->end[q->ends - 1];
   c[0] = side * (b->at[1] - a->at[1]) / 16;
   c[1] = side * (a->at[0] - b->at[0]) / 16;
 }
@@ -238,9 +239,9 @@ typedef struct joining {
   size_t count, i, j, last;
 } joining;
 
-typedef struct centre {
+typedef struct trial_centre {
   double at[2], room, step;
-} centre;
+} trial_centre;
 
 static double site_middle(const dyd_settle_site *s, int axis) {
   return s->box[2 * axis] / 2 + s->box[2 * axis + 1] / 2;
@@ -290,14 +291,14 @@ static double centre_room(joining *q, const double c[2], double most) {
 }
 
 /* Moves c where there is more room. Room has ridges: the four ways are turned from step to step. */
-static void centre_climb(centre *c, joining *q, int steps) {
+static void centre_climb(trial_centre *c, joining *q, int steps) {
   double way[2] = {1, 0};
   for (int n = 0; n < steps; n++) {
-    centre best = *c;
+    trial_centre best = *c;
     for (int w = 0; w < 4; w++) {
       const double next[2] = {c->at[0] + c->step * way[0], c->at[1] + c->step * way[1]}, turned = -way[1];
       double room = centre_room(q, next, best.room);
-      if (room > best.room) best = (centre){{next[0], next[1]}, room, c->step * 1.25};
+      if (room > best.room) best = (trial_centre){{next[0], next[1]}, room, c->step * 1.25};
       way[1] = way[0];
       way[0] = turned;
     }
@@ -311,7 +312,7 @@ static void centre_climb(centre *c, joining *q, int steps) {
 
 /* The best centres met, best first; middle and d: where i and j are, and how far apart. */
 typedef struct centre_list {
-  centre best[BEST];
+  trial_centre best[BEST];
   double middle[2], d[2];
 } centre_list;
 
@@ -321,7 +322,7 @@ static void centre_offer(centre_list *l, joining *q, const double at[2]) {
   size_t n = BEST;
   for (; n > 0 && room > l->best[n - 1].room; n--)
     if (n < BEST) l->best[n] = l->best[n - 1];
-  if (n < BEST) l->best[n] = (centre){{at[0], at[1]}, room, step};
+  if (n < BEST) l->best[n] = (trial_centre){{at[0], at[1]}, room, step};
 }
 
 /* Offers centres between i and j. */
@@ -405,14 +406,14 @@ static void centre_offer_gaps(centre_list *l, joining *q, const double a[2], con
   }
 }
 
-static centre centre_find(joining *q, bool thorough) {
+static trial_centre centre_find(joining *q, bool thorough) {
   centre_list l;
   centre_list_start(&l, q);
   const dyd_settle_site *i = &q->site[q->i], *j = &q->site[q->j];
   double a[2], b[2];
   for (int n = 0; thorough && site_spot(a, i, n); n++)
     for (int m = 0; site_spot(b, j, m); m++) centre_offer_gaps(&l, q, a, b);
-  centre best = l.best[0];
+  trial_centre best = l.best[0];
   for (size_t n = 0; n < (thorough ? BEST : 3); n++) {
     centre_climb(&l.best[n], q, thorough ? MORE_STEPS : STEPS);
     if (l.best[n].room > best.room) best = l.best[n];
@@ -422,7 +423,7 @@ static centre centre_find(joining *q, bool thorough) {
 
 bool dyd_filter_find_centre(double c[2], const dyd_settle_site *site, size_t count, size_t i, size_t j, bool thorough) {
   joining q = {site, count, i, j, i};
-  centre best = centre_find(&q, thorough);
+  trial_centre best = centre_find(&q, thorough);
   c[0] = best.at[0];
   c[1] = best.at[1];
   return best.room > 0 && isfinite(c[0]) && isfinite(c[1]);

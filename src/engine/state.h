@@ -5,12 +5,12 @@
  *                   points of the engine as streams
  *   points.c        asking one point to narrow, measuring one again; answers of an earlier run; the statuses of
  *                   each stage
- *   plan.c          which points to narrow, and how far: a value
+ *   wants.c          which points to narrow, and how far: a value
  *   ask.c           the loop: a question, its plan, narrowing, triangulating, until it is answered;
  *                   plans changed by a callback or a program
  *   run.c           the question of a run: does the goal hold, also one on the Voronoi diagram, and what to narrow
  *                   where it does not
- *   scout.c         a few points that go ahead of the others
+ *   probe.c         a few points that go ahead of the others
  *   settle.c        pairs that no refinement decides
  *   nearest.c       the question after the nearest sites of a computable point
  *   ties.c          proofs about true points: ties, and points that are the same place
@@ -19,7 +19,7 @@
 #ifndef DYD_ENGINE_STATE_H
 #define DYD_ENGINE_STATE_H
 
-#include "base/room.h"
+#include "base/memory.h"
 #include "engine/labels.h"
 #include "rect/rect.h"
 
@@ -120,7 +120,7 @@ struct dyd_engine {
   dyd_tie_counters tie_counters;
   bool nearest_tied;      /* what the last question after nearest sites listed is a tie */
   dyd_prover prover;      /* asked instead of ties.c; nothing in it: none is */
-  dyd_room *room;         /* of the question at work; NULL: none is */
+  dyd_memory *memory;     /* of the question at work; NULL: none is */
   uint64_t bytes_most;    /* what rooms have seen */
   volatile int cancelled; /* set by dyd_engine_cancel; atomic access only, as for stop */
   volatile int stop;      /* set together with cancelled, and at a deadline; read by the triangulation */

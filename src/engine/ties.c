@@ -163,7 +163,7 @@ bool dyd_ties_proved(dyd_relation *relation, const uint32_t **site, size_t *coun
 /* place: NULL, or the sites are asked to be equally far from it; chosen: NULL, or given instead of `site`; meet: of two
  * sites, whether their regions have a point in common; a third point is then the sums of half their sides; discs:
  * whether the discs in these have. */
-typedef struct question {
+typedef struct tie_question {
   dyd_engine *e;
   dyd_algebra algebra;
   dyd_relation relation;
@@ -176,7 +176,7 @@ typedef struct question {
   uint32_t *zero;     /* forms that are to be 0 */
   size_t zeros;
   int64_t needed; /* bits of the points at which one is seen not to be; 0: not known */
-} question;
+} tie_question;
 
 dyd_status dyd_ties_describe(dyd_form_point *out, dyd_forms *f, const dyd_engine *e, uint32_t i, bool given) {
   const dyd_refinable *p = dyd_engine_find(e, i);
@@ -192,7 +192,7 @@ dyd_status dyd_ties_describe(dyd_form_point *out, dyd_forms *f, const dyd_engine
   return st;
 }
 
-static size_t described_points(const question *q) {
+static size_t described_points(const tie_question *q) {
   return q->count + (q->place != NULL);
 }
 
@@ -230,7 +230,7 @@ static bool is_described(const dyd_form_point *p) {
   return p->x != DYD_NONE && p->y != DYD_NONE;
 }
 
-static dyd_status describe_site(dyd_form_point *out, question *q, size_t k) {
+static dyd_status describe_site(dyd_form_point *out, tie_question *q, size_t k) {
   uint32_t site = q->chosen ? q->chosen[k].site : q->site[k];
   dyd_status st = dyd_ties_describe(out, &q->algebra.forms, q->e, site, false);
   if (st != DYD_OK || !q->chosen || is_described(out)) return st;
@@ -239,7 +239,7 @@ static dyd_status describe_site(dyd_form_point *out, question *q, size_t k) {
 
 /* The region that the site keeps: its centre, and half its sides are added to `sum`. One that others have cut is not
  * known. */
-static dyd_status describe_region(dyd_form_point *out, mpq_t sum[2], question *q, uint32_t site) {
+static dyd_status describe_region(dyd_form_point *out, mpq_t sum[2], tie_question *q, uint32_t site) {
   const dyd_refinable *p = dyd_engine_find(q->e, site);
   const bool still = !p || p->final;
   dyd_status st = DYD_OK;
@@ -254,7 +254,7 @@ static dyd_status describe_region(dyd_form_point *out, mpq_t sum[2], question *q
   return st;
 }
 
-static dyd_status describe_regions(bool *known, question *q) {
+static dyd_status describe_regions(bool *known, tie_question *q) {
   DYD_LOCAL_ARRAY(mpq_t, sum, [2]);
   dyd_status st = describe_region(&q->at[0], sum, q, q->site[0]);
   if (st == DYD_OK) st = describe_region(&q->at[1], sum, q, q->site[1]);
@@ -265,7 +265,7 @@ static dyd_status describe_regions(bool *known, question *q) {
 }
 
 /* *known: all of them are described. */
-static dyd_status describe_all(bool *known, question *q) {
+static dyd_status describe_all(bool *known, tie_question *q) {
   dyd_status st = DYD_OK;
   const dyd_form_point none = {DYD_NONE, DYD_NONE};
   if (q->meet) return describe_regions(known, q);
@@ -280,21 +280,21 @@ static dyd_status describe_all(bool *known, question *q) {
 
 /* ---- forms that are 0 ---- */
 
-static void put_coincident(question *q) {
+static void put_coincident(tie_question *q) {
   dyd_forms *f = &q->algebra.forms;
   q->zero[q->zeros++] = dyd_forms_binary(f, DYD_OP_SUB, q->at[1].x, q->at[0].x);
   q->zero[q->zeros++] = dyd_forms_binary(f, DYD_OP_SUB, q->at[1].y, q->at[0].y);
 }
 
 /* Returns true if two points are different. */
-static bool are_apart(question *q, dyd_form_point a, dyd_form_point b) {
+static bool are_apart(tie_question *q, dyd_form_point a, dyd_form_point b) {
   dyd_forms *f = &q->algebra.forms;
   return dyd_algebra_is_nonzero(&q->algebra, dyd_forms_binary(f, DYD_OP_SUB, a.x, b.x)) ||
          dyd_algebra_is_nonzero(&q->algebra, dyd_forms_binary(f, DYD_OP_SUB, a.y, b.y));
 }
 
 /* The first and the last point are the line. false: they may be the same. */
-static bool put_collinear(question *q) {
+static bool put_collinear(tie_question *q) {
   size_t last = q->count - 1;
   if (!are_apart(q, q->at[0], q->at[last])) return false;
   for (size_t k = 1; k < last; k++) {
@@ -305,7 +305,7 @@ static bool put_collinear(question *q) {
 }
 
 /* Three points far apart are the circle. false: they may be on one line. */
-static bool put_cocircular(question *q) {
+static bool put_cocircular(tie_question *q) {
   size_t base[3] = {0, q->count / 3, 2 * q->count / 3};
   dyd_form_point four[4] = {q->at[base[0]], q->at[base[1]], q->at[base[2]]};
   if (!dyd_algebra_is_nonzero(&q->algebra, dyd_forms_collinear(&q->algebra.forms, four))) return false;
@@ -318,7 +318,7 @@ static bool put_cocircular(question *q) {
 }
 
 /* The first is as far as the others. */
-static void put_equidistant(question *q) {
+static void put_equidistant(tie_question *q) {
   dyd_forms *f = &q->algebra.forms;
   uint32_t first = dyd_forms_distance2(f, q->at[0], q->at[q->count]);
   for (size_t k = 1; k < q->count; k++)
@@ -326,7 +326,7 @@ static void put_equidistant(question *q) {
 }
 
 /* Returns true if no two of the places are the same: chosen ones may be. */
-static bool all_are_apart(question *q) {
+static bool all_are_apart(tie_question *q) {
   bool apart = true;
   for (size_t k = 1; k < q->count && apart; k++)
     for (size_t l = 0; l < k && apart; l++) apart = are_apart(q, q->at[k], q->at[l]);
@@ -335,7 +335,7 @@ static bool all_are_apart(question *q) {
 
 /* Along one axis: the distance of the centres is at most `sum`. Returns false if it is more; 0 is to be proved where it
  * may be the same. */
-static bool put_near(question *q, uint32_t a, uint32_t b, uint32_t sum) {
+static bool put_near(tie_question *q, uint32_t a, uint32_t b, uint32_t sum) {
   dyd_forms *f = &q->algebra.forms;
   uint32_t d = dyd_forms_binary(f, DYD_OP_SUB, a, b);
   if (arb_is_negative(dyd_forms_value(f, d, DYD_ZERO_FIRST_BITS))) d = dyd_forms_binary(f, DYD_OP_SUB, b, a);
@@ -346,7 +346,7 @@ static bool put_near(question *q, uint32_t a, uint32_t b, uint32_t sum) {
 }
 
 /* The same of the distance of the centres. */
-static bool put_discs_near(question *q) {
+static bool put_discs_near(tie_question *q) {
   dyd_forms *f = &q->algebra.forms;
   uint32_t d = dyd_forms_binary(f, DYD_OP_SUB, dyd_forms_distance2(f, q->at[0], q->at[1]),
                                 dyd_forms_binary(f, DYD_OP_MUL, q->at[2].x, q->at[2].x));
@@ -355,7 +355,7 @@ static bool put_discs_near(question *q) {
   return true;
 }
 
-static bool put_zeros(question *q) {
+static bool put_zeros(tie_question *q) {
   const dyd_form_point *at = q->at;
   if (q->discs) return put_discs_near(q);
   if (q->meet) return put_near(q, at[0].x, at[1].x, at[2].x) && put_near(q, at[0].y, at[1].y, at[2].y);
@@ -378,7 +378,7 @@ static bool put_zeros(question *q) {
 /* ---- ties refuted ---- */
 
 /* Differences of coordinates are below 2^this in absolute value. */
-static int64_t question_scale(question *q) {
+static int64_t question_scale(tie_question *q) {
   dyd_forms *f = &q->algebra.forms;
   int64_t scale = INT64_MIN;
   DYD_LOCAL_NUMBERS(arb, d);
@@ -396,14 +396,14 @@ static int64_t question_scale(question *q) {
 }
 
 /* The degree of the forms in the coordinates. */
-static int question_degree(const question *q) {
+static int question_degree(const tie_question *q) {
   return q->place ? 2 : q->relation == DYD_COINCIDENT ? 1 : q->relation == DYD_COLLINEAR ? 2 : 4;
 }
 
 /* A form is seen not to be 0 from the precision `shown` on. Of all the largest one counts: with it alone the question
  * is answered. Coordinates that are off by 2^-b change a form of degree d, for points within 2^s of one another, by
  * about 2^(s (d - 1) - b). At the first precision nothing is gained. */
-static void question_need(question *q) {
+static void question_need(tie_question *q) {
   enum { MARGIN = 16 };
   slong shown = q->algebra.shown;
   int64_t least = INT64_MAX;
@@ -420,7 +420,7 @@ static void question_need(question *q) {
 /* ---- answers ---- */
 
 /* Leaves are settled when no form is certainly not 0. *out stays unknown on failure. */
-static dyd_status test_zeros(dyd_zero *out, question *q) {
+static dyd_status test_zeros(dyd_zero *out, tie_question *q) {
   dyd_algebra *a = &q->algebra;
   dyd_zero all = DYD_ZERO_PROVED;
   for (size_t k = 0; k < q->zeros; k++)
@@ -437,7 +437,7 @@ static dyd_status test_zeros(dyd_zero *out, question *q) {
   return st;
 }
 
-static dyd_status question_run(dyd_zero *out, question *q) {
+static dyd_status question_run(dyd_zero *out, tie_question *q) {
   bool known;
   *out = DYD_ZERO_UNKNOWN;
   q->at = dyd_alloc(q->count + 1, sizeof *q->at);
@@ -461,14 +461,14 @@ static void count_question(dyd_engine *e, const dyd_zero_counts *c, double secon
 }
 
 /* *final: it would be answered in the same way again. */
-static dyd_status question_answer(dyd_zero *out, bool *final, question *q) {
+static dyd_status question_answer(dyd_zero *out, bool *final, tie_question *q) {
   dyd_engine *e = q->e;
   double begin = dyd_seconds();
   dyd_status st = dyd_algebra_open(&q->algebra, e->tie_bits, &e->stop);
   if (st != DYD_OK) return st;
-  q->algebra.room = e->room;
+  q->algebra.memory = e->memory;
   st = question_run(out, q);
-  if (st == DYD_OK && e->room && e->room->refused) st = DYD_E_NOMEM;
+  if (st == DYD_OK && e->memory && e->memory->refused) st = DYD_E_NOMEM;
   *final = !q->algebra.forms.opaque && !dyd_flag_get(&e->stop);
   dyd_algebra_close(&q->algebra);
   dyd_free_all(q->zero, q->at);
@@ -477,7 +477,7 @@ static dyd_status question_answer(dyd_zero *out, bool *final, question *q) {
 }
 
 /* Notes at the points of a question the bits they need. */
-static void note_need(const question *q) {
+static void note_need(const tie_question *q) {
   for (size_t k = 0; k < q->count && q->needed; k++) {
     dyd_refinable *p = dyd_find_index(&q->site[k], q->e->point, q->e->points, sizeof *q->e->point);
     if (p && p->needed < q->needed) p->needed = q->needed;
@@ -520,7 +520,7 @@ static dyd_status answer_get(answer **out, dyd_engine *e, dyd_relation relation,
   dyd_zero zero = DYD_ZERO_UNKNOWN;
   dyd_ties *t = e->ties;
   if (!dyd_reserve((void **)&t->proved, &t->proved_cap, t->proofs + 1, sizeof(answer *))) return DYD_E_NOMEM;
-  question q = {.e = e, .relation = relation, .site = site, .count = count};
+  tie_question q = {.e = e, .relation = relation, .site = site, .count = count};
   dyd_status st = question_answer(&zero, &final, &q);
   if (st != DYD_OK) return st;
   note_need(&q);
@@ -542,7 +542,7 @@ dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const
 
 static dyd_status ties_prove_places(bool *proved, void *user, dyd_relation relation, const dyd_site_place *at,
                                     size_t count) {
-  question q = {.e = user, .relation = relation, .chosen = at, .count = count};
+  tie_question q = {.e = user, .relation = relation, .chosen = at, .count = count};
   dyd_zero zero = DYD_ZERO_UNKNOWN;
   bool final;
   dyd_status st = question_answer(&zero, &final, &q);
@@ -556,7 +556,7 @@ static dyd_status ties_place(dyd_rect *out, void *user, const dyd_site_place *at
 }
 
 static dyd_status ties_meet(bool *proved, void *user, const uint32_t site[2], bool discs) {
-  question q = {.e = user, .meet = true, .discs = discs, .site = site, .count = 3};
+  tie_question q = {.e = user, .meet = true, .discs = discs, .site = site, .count = 3};
   dyd_zero zero = DYD_ZERO_UNKNOWN;
   bool final;
   dyd_status st = question_answer(&zero, &final, &q);
@@ -571,7 +571,7 @@ dyd_prover dyd_engine_prover(dyd_engine *e, const dyd_engine_options *o) {
 
 dyd_status dyd_ties_equidistant(bool *tied, int64_t *needed, dyd_engine *e, dyd_stream *at, const dyd_index_list *sites,
                                 dyd_error *err) {
-  question q = {.e = e, .place = at, .site = sites->item, .count = sites->count};
+  tie_question q = {.e = e, .place = at, .site = sites->item, .count = sites->count};
   dyd_zero zero = DYD_ZERO_UNKNOWN;
   bool final;
   dyd_status st = question_answer(&zero, &final, &q);

@@ -336,7 +336,7 @@ static bool span_has_room(const span_work *s) {
   uint64_t pair = 3 * sizeof *s->least + sizeof *s->replaced + sizeof *s->tree + sizeof *s->never;
   uint64_t site = 7 * sizeof(uint32_t) + sizeof *s->start;
   uint64_t bytes = dyd_bytes_times(s->w->pairs.count, pair) + dyd_bytes_times(s->w->n, site);
-  return dyd_room_has(&s->w->room, bytes, "the spanning tree");
+  return dyd_memory_has(&s->w->memory, bytes, "the spanning tree");
 }
 
 static bool span_alloc(span_work *s) {
@@ -504,8 +504,8 @@ static bool graph_has_room(dyd_graph_work *w) {
   uint64_t pairs = dyd_pairs_bytes(w->pd, w->least) / sizeof(dyd_pair);
   uint64_t each = sizeof(dyd_pair) + 2 * sizeof *w->partner + 2 * sizeof *w->out.item;
   uint64_t bytes = dyd_bytes_times(pairs, each) + dyd_bytes_times(w->n, sizeof *w->start + sizeof *w->box);
-  if (!dyd_room_has(&w->room, bytes, "the graph")) return false;
-  w->room.held += bytes;
+  if (!dyd_memory_has(&w->memory, bytes, "the graph")) return false;
+  w->memory.held += bytes;
   return true;
 }
 
@@ -513,7 +513,7 @@ static bool graph_has_room(dyd_graph_work *w) {
 static bool partners_have_room(dyd_graph_work *w, size_t most) {
   enum { NUMBERS = 10, BLOCK = 40 };
   uint64_t each = sizeof *w->other + sizeof *w->reach.rect + sizeof *w->reach.grid + NUMBERS * BLOCK;
-  return dyd_room_has(&w->room, dyd_bytes_times(most, each), "the partners of a point");
+  return dyd_memory_has(&w->memory, dyd_bytes_times(most, each), "the partners of a point");
 }
 
 /* Those of the discs that may bound something. */
@@ -564,7 +564,7 @@ dyd_status dyd_graph_of_discs(dyd_graph_list *out, const dyd_delaunay *pd, const
                       .discs = discs,
                       .ball = ball,
                       .cancel = cancel,
-                      .room = dyd_delaunay_room(pd)};
+                      .memory = dyd_delaunay_room(pd)};
   w.n = dyd_sites_count(w.sites);
   /* A tied pair is longer than those between on the rim [GRP-1] [GRP-2]; it may be a diameter of its circle. */
   w.least = graph == DYD_GRAPH_GABRIEL && !dyd_is_line(pd) ? DYD_TIE : dyd_least_bounding_true(pd);
@@ -574,7 +574,7 @@ dyd_status dyd_graph_of_discs(dyd_graph_list *out, const dyd_delaunay *pd, const
   graph_work_clear(&w);
   if (st != DYD_OK) {
     dyd_graph_list_clear(&w.out);
-    if (st == DYD_E_NOMEM && w.room.refused) return dyd_fail_room(err, &w.room);
+    if (st == DYD_E_NOMEM && w.memory.refused) return dyd_fail_room(err, &w.memory);
     return dyd_fail(err, st, "%s", dyd_status_text(st));
   }
   dyd_graph_list_clear(out);

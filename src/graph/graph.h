@@ -44,8 +44,8 @@ typedef struct dyd_graph_work {
   const dyd_pair_list *discs; /* dyd_disc_pairs: edges are about the discs in the squares of sites; NULL: rectangles */
   dyd_iv (*ball)[3];          /* with discs: centre and radius, of each site */
   dyd_reach reach;
-  dyd_room room;   /* what the triangulation leaves of max_bytes */
-  uint32_t *other; /* scratch, as long as the longest list of partners */
+  dyd_memory memory; /* what the triangulation leaves of max_bytes */
+  uint32_t *other;   /* scratch, as long as the longest list of partners */
   size_t others;
   dyd_graph_list out;
   size_t cap;

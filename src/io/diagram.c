@@ -76,10 +76,10 @@ dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *c
   sums.cancel = d->cancel;
   sums.cut = d->cut;
   sums.discs = d->discs;
-  sums.room.beside = d->room->beside;
+  sums.memory.beside = d->memory->beside;
   if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, visit_cell, &v);
   if (st == DYD_OK) st = dyd_voronoi_sums_bounds(d->bounds, &sums);
-  dyd_room_join(d->room, &sums.room);
+  dyd_memory_join(d->memory, &sums.memory);
   dyd_voronoi_sums_clear(&sums);
   return st;
 }
@@ -112,8 +112,8 @@ static dyd_status cells_begin(double **xy, cells_maker *m, uint32_t i, dyd_ring_
   *xy = NULL;
   if (count < 3) return DYD_OK;
   uint64_t bytes = dyd_bytes_times(end, 2 * sizeof *c->xy) + dyd_bytes_times(c->count + 1, sizeof *c->ring);
-  if (!dyd_room_has(m->d->room, bytes, "the polygons of the cells") || !DYD_GROW(c->ring, m->ring_cap, c->count + 1) ||
-      !DYD_GROW(c->xy, m->xy_cap, 2 * end))
+  if (!dyd_memory_has(m->d->memory, bytes, "the polygons of the cells") ||
+      !DYD_GROW(c->ring, m->ring_cap, c->count + 1) || !DYD_GROW(c->xy, m->xy_cap, 2 * end))
     return DYD_E_NOMEM;
   *xy = c->xy + 2 * m->vertices;
   c->ring[c->count++] = (dyd_cell_ring){.site = i, .kind = (uint32_t)kind, .end = m->vertices = end};
@@ -157,9 +157,10 @@ static dyd_status cells_add(void *context, uint32_t i, const dyd_shape *s, const
 dyd_status dyd_diagram_cells(dyd_cells *out, const dyd_diagram *d) {
   cells_maker m = {.out = out, .d = d};
   uint64_t bytes = dyd_bytes_times(d->count, 2 * sizeof *out->area);
-  if (dyd_room_has(d->room, bytes, "the areas of the cells")) out->area = dyd_alloc(2 * d->count, sizeof *out->area);
+  if (dyd_memory_has(d->memory, bytes, "the areas of the cells"))
+    out->area = dyd_alloc(2 * d->count, sizeof *out->area);
   if (!out->area) return DYD_E_NOMEM;
-  d->room->beside += bytes;
+  d->memory->beside += bytes;
   out->sites = d->count;
   out->bits = d->bits;
   dyd_status st = dyd_diagram_visit(d, cells_add, &m);
@@ -251,8 +252,8 @@ static dyd_status find_tied_vertices(dyd_diagram *d, size_t faces) {
 static dyd_status find_vertices(dyd_diagram *d) {
   size_t faces = dyd_delaunay_undecided_faces(d->pd), most = 2 * d->count + faces;
   uint64_t bytes = dyd_bytes_times(most, sizeof *d->triangles.item + sizeof *d->vertex);
-  if (!dyd_room_has(d->room, bytes, "the vertices of the diagram")) return DYD_E_NOMEM;
-  d->room->beside += bytes;
+  if (!dyd_memory_has(d->memory, bytes, "the vertices of the diagram")) return DYD_E_NOMEM;
+  d->memory->beside += bytes;
   dyd_status st = dyd_delaunay_triangles(&d->triangles, NULL, d->pd, 0);
   if (st != DYD_OK) return st;
   d->vertex = dyd_alloc(d->triangles.count + faces, sizeof *d->vertex);
@@ -406,7 +407,7 @@ dyd_status dyd_diagram_edges(dyd_dual_edge **out, size_t *count, const dyd_diagr
   dyd_dual_edge *edge = NULL;
   uint64_t bytes = d->discs ? 0 : dyd_pairs_bytes(d->pd, DYD_LEGAL),
            most = d->discs ? d->discs->count : bytes / sizeof(dyd_pair);
-  if (!dyd_room_has(d->room, dyd_bytes_add(bytes, dyd_bytes_times(most, sizeof *edge)), "the edges of the diagram"))
+  if (!dyd_memory_has(d->memory, dyd_bytes_add(bytes, dyd_bytes_times(most, sizeof *edge)), "the edges of the diagram"))
     return DYD_E_NOMEM;
   dyd_status st = d->discs ? DYD_OK : dyd_pairs_take(&pairs, d->pd, DYD_LEGAL);
   if (st == DYD_OK) st = legal_pairs(&edge, count, d->discs ? d->discs : &pairs);
@@ -595,7 +596,7 @@ static dyd_status choose_flattening(dyd_diagram *d) {
 }
 
 dyd_status dyd_diagram_init(dyd_diagram *d, const dyd_output *to, const dyd_write_options *o, bool vertices,
-                            dyd_room *room, dyd_error *err) {
+                            dyd_memory *memory, dyd_error *err) {
   const dyd_delaunay *pd = dyd_engine_delaunay(to->engine);
   *d = (dyd_diagram){.out = to->out,
                      .engine = to->engine,
@@ -604,7 +605,7 @@ dyd_status dyd_diagram_init(dyd_diagram *d, const dyd_output *to, const dyd_writ
                      .bounds = o->bounds,
                      .discs = o->pairs,
                      .cancel = o->cancel,
-                     .room = room,
+                     .memory = memory,
                      .cut = o->cut,
                      .coincident = o->coincident};
   d->count = dyd_sites_count(d->sites);

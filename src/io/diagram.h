@@ -62,7 +62,7 @@ typedef struct dyd_diagram {
   int64_t vertex_bits;        /* precision of exact enclosures */
   dyd_voronoi_bounds *bounds; /* found when the cells are visited */
   const volatile int *cancel; /* see dyd_write_options; NULL: never */
-  dyd_room *room;             /* memory that max_bytes leaves for the diagram */
+  dyd_memory *memory;         /* memory that max_bytes leaves for the diagram */
   size_t *cut;                /* the cells and regions that it cut, counted when they are visited */
   size_t *coincident;         /* receives how many sites have no tile of their own; NULL: not asked for */
 } dyd_diagram;
@@ -71,7 +71,7 @@ typedef struct dyd_diagram {
  * room is borrowed as long as *d is used. Of to->engine there has to be a result that is not capped. Fills *err on
  * failure; the caller calls dyd_diagram_clear in any case. */
 dyd_status dyd_diagram_init(dyd_diagram *d, const dyd_output *to, const dyd_write_options *o, bool vertices,
-                            dyd_room *room, dyd_error *err);
+                            dyd_memory *memory, dyd_error *err);
 void dyd_diagram_clear(dyd_diagram *d);
 
 /* Called in order for every site but aliases. */

@@ -66,12 +66,12 @@ static dyd_lon_lat circle_centre(const dyd_lon_lat corner[3]) {
 /* ---- sides ---- */
 
 /* The places of a way; `step`: radians between them at most. */
-typedef struct way {
+typedef struct geodesic_way {
   dyd_lon_lat *p;
   size_t count, cap;
   double step;
   dyd_status st;
-} way;
+} geodesic_way;
 
 /* A part of a great circle from u on, towards t. */
 typedef struct great_circle {
@@ -79,7 +79,7 @@ typedef struct great_circle {
   double angle;
 } great_circle;
 
-static void way_put(way *w, dyd_lon_lat p) {
+static void way_put(geodesic_way *w, dyd_lon_lat p) {
   if (!DYD_GROW(w->p, w->cap, w->count + 1))
     w->st = DYD_E_NOMEM;
   else
@@ -129,7 +129,7 @@ static dyd_lon_lat circle_at(const great_circle *g, double angle) {
 }
 
 /* The places between lo and hi, which are a and b. */
-static void way_fill(way *w, const great_circle *g, double lo, double hi, dyd_lon_lat a, dyd_lon_lat b) {
+static void way_fill(geodesic_way *w, const great_circle *g, double lo, double hi, dyd_lon_lat a, dyd_lon_lat b) {
   double turn = is_pole(a) || is_pole(b) ? 0 : fabs(remainder(b.lon - a.lon, 360)), mid = lo + (hi - lo) / 2;
   if (hi - lo < LEAST || (hi - lo <= w->step && turn <= MOST_TURN)) return;
   dyd_lon_lat p = circle_at(g, mid);
@@ -140,7 +140,7 @@ static void way_fill(way *w, const great_circle *g, double lo, double hi, dyd_lo
 
 /* The places of a side but its last. Where it is next to a pole it is divided, so that longitudes turn by less than 180
  * degrees on each piece. */
-static void way_divide(way *w, const great_circle *g, dyd_lon_lat from, dyd_lon_lat to) {
+static void way_divide(geodesic_way *w, const great_circle *g, dyd_lon_lat from, dyd_lon_lat to) {
   double lo = 0, next = atan2(g->t.z, g->u.z) - 2 * PI;
   bool passes = g->angle > PI / 2 || hypot(g->u.z, g->t.z) > 0.9998;
   way_put(w, from);
@@ -159,7 +159,7 @@ static bool is_before(dyd_lon_lat a, dyd_lon_lat b) {
 }
 
 /* From both of its sides a side has the same places: those of the way from the lower end, or the lower place. */
-static void way_side(way *w, const dyd_side *side, bool whole) {
+static void way_side(geodesic_way *w, const dyd_side *side, bool whole) {
   dyd_side d = {at_pole(side->from), at_pole(side->to), side->between, side->left, side->right};
   bool back = whole ? is_before(d.right, d.left) : is_before(d.to, d.from);
   size_t first = w->count;
@@ -178,7 +178,7 @@ static void way_side(way *w, const dyd_side *side, bool whole) {
 }
 
 dyd_status dyd_side_places(dyd_lon_lat **out, size_t *count, const dyd_side *side, bool whole) {
-  way w = {.step = STEP};
+  geodesic_way w = {.step = STEP};
   way_side(&w, side, whole);
   way_put(&w, whole && w.count ? w.p[0] : at_pole(side->to));
   for (size_t k = 0; k < w.count && w.count > 1; k++) /* a pole has the longitude of the place next to it */
@@ -216,13 +216,13 @@ static void strips_of(int strip[2], const dyd_lon_lat *p, size_t n) {
 }
 
 /* A place on the way, in few digits; on the edge of the map, or at a pole, exactly. */
-static void place_near(dyd_place *out, double lon, double lat) {
+static void place_near(dyd_short_place *out, double lon, double lat) {
   double x = fabs(lon) == 180 ? 0 : ROUND, y = fabs(lat) == 90 ? 0 : ROUND;
-  dyd_place_set(out, (const double[]){lon - x, lon + x, lat - y, lat + y});
+  dyd_short_place_set(out, (const double[]){lon - x, lon + x, lat - y, lat + y});
 }
 
 static void row_at_place(dyd_table *t, double lon, double lat) {
-  dyd_place place;
+  dyd_short_place place;
   place_near(&place, lon, lat);
   dyd_row_place(t, &place);
 }
@@ -285,7 +285,7 @@ static bool is_same_place(dyd_lon_lat a, dyd_lon_lat b) {
 }
 
 /* Each place once, poles with the longitudes before and behind; closed. */
-static void way_close(way *out, const way *w) {
+static void way_close(geodesic_way *out, const geodesic_way *w) {
   size_t n = 0, kept = 0;
   for (size_t k = 0; k < w->count; k++)
     if (!kept || !is_same_place(w->p[kept - 1], w->p[k])) w->p[kept++] = w->p[k];
@@ -299,7 +299,7 @@ static void way_close(way *out, const way *w) {
 }
 
 /* Longitudes next to the edge of the map are on it. */
-static void way_settle(way *w) {
+static void way_settle(geodesic_way *w) {
   for (size_t k = 0; k < w->count; k++) {
     double edge = 180 + 360 * nearbyint((w->p[k].lon - 180) / 360);
     if (fabs(w->p[k].lon - edge) < ROUND) w->p[k].lon = edge;
@@ -307,7 +307,7 @@ static void way_settle(way *w) {
 }
 
 /* Followed a second time, and closed over the pole. */
-static void way_close_pole(way *w) {
+static void way_close_pole(geodesic_way *w) {
   size_t n = w->count;
   double from = w->p[0].lon, turn = w->p[n - 1].lon - from, pole = turn > 0 ? 90 : -90;
   for (size_t k = 1; k < n && w->st == DYD_OK; k++) way_put(w, (dyd_lon_lat){w->p[k].lon + turn, w->p[k].lat});
@@ -315,17 +315,17 @@ static void way_close_pole(way *w) {
   way_put(w, (dyd_lon_lat){from, pole});
 }
 
-static bool places_agree(const dyd_place *a, const dyd_place *b, int axis) {
+static bool places_agree(const dyd_short_place *a, const dyd_short_place *b, int axis) {
   return a->length[axis] == b->length[axis] && memcmp(axis ? a->y : a->x, axis ? b->y : b->x, a->length[axis]) == 0;
 }
 
 /* A part, unless it has no area in the digits that it is written with. */
-static void part_put(dyd_table *t, dyd_place *place, const dyd_lon_lat *p, size_t n, double turn) {
+static void part_put(dyd_table *t, dyd_short_place *place, const dyd_lon_lat *p, size_t n, double turn) {
   size_t count = 0;
   bool flat[2] = {true, true};
   for (size_t k = 0; k < n; k++) {
     place_near(&place[count], p[k].lon - turn, p[k].lat);
-    const dyd_place *last = count ? &place[count - 1] : NULL;
+    const dyd_short_place *last = count ? &place[count - 1] : NULL;
     if (!last || !places_agree(last, &place[count], 0) || !places_agree(last, &place[count], 1)) count++;
   }
   while (count > 1 && places_agree(place, &place[count - 1], 0) && places_agree(place, &place[count - 1], 1)) count--;
@@ -337,10 +337,10 @@ static void part_put(dyd_table *t, dyd_place *place, const dyd_lon_lat *p, size_
 }
 
 /* The parts of a closed way: in every strip that it touches, or, closed over a pole, in one. */
-static dyd_status around_put(dyd_table *t, const way *w, bool pole) {
+static dyd_status around_put(dyd_table *t, const geodesic_way *w, bool pole) {
   size_t room = 4 * w->count + 16;
   dyd_lon_lat *work = dyd_alloc(room, 2 * sizeof *work);
-  dyd_place *place = dyd_alloc(room, sizeof *place);
+  dyd_short_place *place = dyd_alloc(room, sizeof *place);
   int strip[2];
   strips_of(strip, w->p, w->count);
   if (pole) { /* the first that begins on it */
@@ -364,7 +364,7 @@ static dyd_status globe_put(dyd_table *t) {
 }
 
 dyd_status dyd_row_around(dyd_table *t, const dyd_side *side, size_t sides, double most) {
-  way w = {.step = most * DEGREE * (1 + 1e-9)}, closed = {0};
+  geodesic_way w = {.step = most * DEGREE * (1 + 1e-9)}, closed = {0};
   if (!sides) return globe_put(t);
   for (size_t k = 0; k < sides; k++) way_side(&w, &side[k], sides == 1);
   dyd_status st = w.st;

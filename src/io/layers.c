@@ -582,7 +582,7 @@ static dyd_status layer_places(dyd_table *t, const dyd_output *o) {
   for (size_t i = 0; i < r->count && st == DYD_OK; i++) {
     double box[4];
     st = dyd_result_box(box, r, i, o->err);
-    if (st == DYD_OK) dyd_place_set(&t->place[i], box);
+    if (st == DYD_OK) dyd_short_place_set(&t->place[i], box);
   }
   return st;
 }

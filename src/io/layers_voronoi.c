@@ -65,9 +65,9 @@ static void cell_values(dyd_table *t, size_t i, const dyd_cell_row *row) {
 dyd_status dyd_cell_comments(dyd_table *t, const dyd_output *o) {
   const dyd_diagram *d = o->what;
   uint64_t bytes = dyd_bytes_times(d->count, sizeof(dyd_cell_row));
-  if (dyd_room_has(d->room, bytes, "the rows of the cells"))
+  if (dyd_memory_has(d->memory, bytes, "the rows of the cells"))
     t->kept = calloc(d->count ? d->count : 1, sizeof(dyd_cell_row));
-  d->room->beside += bytes;
+  d->memory->beside += bytes;
   dyd_status st = t->kept ? dyd_diagram_visit(d, keep_row, t->kept) : DYD_E_NOMEM;
   return st == DYD_OK ? put_bounds(o) : st;
 }
@@ -77,9 +77,9 @@ static void cell_polygon(dyd_table *t, const char *kind, uint32_t i, const dyd_p
   dyd_row_begin(t);
   for (size_t k = 0; k <= p->count; k++) {
     const dyd_point *z = &p->vertex[k % p->count];
-    dyd_place place;
-    dyd_place_set(&place, (const double[]){dyd_dyadic_get_d(&z->x, DYD_DOWN), dyd_dyadic_get_d(&z->x, DYD_UP),
-                                           dyd_dyadic_get_d(&z->y, DYD_DOWN), dyd_dyadic_get_d(&z->y, DYD_UP)});
+    dyd_short_place place;
+    dyd_short_place_set(&place, (const double[]){dyd_dyadic_get_d(&z->x, DYD_DOWN), dyd_dyadic_get_d(&z->x, DYD_UP),
+                                                 dyd_dyadic_get_d(&z->y, DYD_DOWN), dyd_dyadic_get_d(&z->y, DYD_UP)});
     if (row->rounding > 0) place.error = nextafter(place.error + row->rounding, INFINITY);
     dyd_row_place(t, &place);
   }

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-void dyd_place_set(dyd_place *out, const double box[4]) {
+void dyd_short_place_set(dyd_short_place *out, const double box[4]) {
   double error[2];
   out->length[0] = (unsigned char)dyd_decimal_within(out->x, &error[0], box[0], box[1]);
   out->length[1] = (unsigned char)dyd_decimal_within(out->y, &error[1], box[2], box[3]);
@@ -214,7 +214,7 @@ void dyd_row_hole(dyd_table *t) {
   t->places = 0;
 }
 
-void dyd_row_place(dyd_table *t, const dyd_place *place) {
+void dyd_row_place(dyd_table *t, const dyd_short_place *place) {
   const dyd_encoder *e = t->encode;
   if (!e->shape) return;
   char *p = dyd_sink_room(&t->to, 2 * DYD_DECIMAL_SIZE + 8);
@@ -232,9 +232,9 @@ void dyd_row_place(dyd_table *t, const dyd_place *place) {
 }
 
 void dyd_row_at(dyd_table *t, const double box[4]) {
-  dyd_place place;
+  dyd_short_place place;
   if (!t->encode->shape) return;
-  dyd_place_set(&place, box);
+  dyd_short_place_set(&place, box);
   dyd_row_place(t, &place);
 }
 

@@ -20,14 +20,14 @@
 #include "io/output.h"
 
 /* Short decimals that represent a box. Invariant: every point of the box is within `error` of it in x and in y. */
-typedef struct dyd_place {
+typedef struct dyd_short_place {
   char x[DYD_DECIMAL_SIZE], y[DYD_DECIMAL_SIZE];
   double error;
   unsigned char length[2]; /* of x, of y */
-} dyd_place;
+} dyd_short_place;
 
 /* Of a box with finite ends: x lower, x upper, y lower, y upper. */
-void dyd_place_set(dyd_place *out, const double box[4]);
+void dyd_short_place_set(dyd_short_place *out, const double box[4]);
 
 typedef enum dyd_geometry {
   DYD_GEOMETRY_POINT,
@@ -86,7 +86,7 @@ struct dyd_table {
   const dyd_engine *engine;         /* whose rows and identifiers name sites */
   const dyd_sphere *sphere;         /* coordinates are degrees on it; NULL: a plane */
   bool drawn;                       /* rows have a geometry */
-  dyd_place *place;                 /* of the sites of a plane; NULL: nothing is drawn at them; owned, as */
+  dyd_short_place *place;           /* of the sites of a plane; NULL: nothing is drawn at them; owned, as */
   double (*box)[4];                 /* of those of a sphere, */
   bool lengths, clip;               /* pairs have them; edges are cut to the window */
   void *kept;                       /* what comments keep for rows */
@@ -112,7 +112,7 @@ void dyd_row_part(dyd_table *t);
 /* Begins a hole of this part of polygons. */
 void dyd_row_hole(dyd_table *t);
 /* The next place of the geometry; a polygon repeats its first. */
-void dyd_row_place(dyd_table *t, const dyd_place *place);
+void dyd_row_place(dyd_table *t, const dyd_short_place *place);
 /* The same for the place of a box: x lower, x upper, y lower, y upper, finite. */
 void dyd_row_at(dyd_table *t, const double box[4]);
 /* The four corners of a box, as a polygon. */

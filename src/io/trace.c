@@ -350,7 +350,7 @@ static dyd_status trace_join(bool *any, proof_list *p, dyd_sites *sites) {
 
 /* ---- recall ---- */
 
-typedef struct recall {
+typedef struct trace_recall {
   dyd_engine *e;
   const char *input; /* may be NULL */
   dyd_recall_report report;
@@ -361,13 +361,13 @@ typedef struct recall {
   int64_t *kept; /* bits of the last answer kept of an earlier trace, INT64_MIN before that */
   size_t points;
   bool ended;
-} recall;
+} trace_recall;
 
-static dyd_status recall_fail(const recall *r, const char *what) {
+static dyd_status recall_fail(const trace_recall *r, const char *what) {
   return dyd_fail(r->err, DYD_E_PARSE, "%s; give a trace that dyadel wrote of these points", what);
 }
 
-static dyd_status recall_head(recall *r, const json_t *line) {
+static dyd_status recall_head(trace_recall *r, const json_t *line) {
   int64_t points;
   const char *input = json_string_value(json_object_get(line, "input"));
   if (!trace_has_text(line, "format", FORMAT)) return recall_fail(r, "this is no trace of the format \"" FORMAT "\"");
@@ -391,7 +391,7 @@ static dyd_status recall_head(recall *r, const json_t *line) {
 }
 
 /* An answer: of a point that can be narrowed, within its last one. */
-static dyd_status recall_answer(recall *r, size_t point, int64_t bits, const dyd_rect *rect, bool final) {
+static dyd_status recall_answer(trace_recall *r, size_t point, int64_t bits, const dyd_rect *rect, bool final) {
   if (r->had[point] && !dyd_rect_contains(&r->last[point], rect))
     return recall_fail(r, "this rectangle is not inside the one before");
   dyd_error why;
@@ -404,7 +404,7 @@ static dyd_status recall_answer(recall *r, size_t point, int64_t bits, const dyd
   return DYD_OK;
 }
 
-static dyd_status recall_step(recall *r, const json_t *line) {
+static dyd_status recall_step(trace_recall *r, const json_t *line) {
   int64_t point, bits;
   if (!trace_integer(&point, line, "point", 0, (int64_t)r->points - 1)) return recall_fail(r, "there is no such point");
   const bool kept = json_is_true(json_object_get(line, "kept"));
@@ -418,7 +418,7 @@ static dyd_status recall_step(recall *r, const json_t *line) {
              : recall_fail(r, "this is no rectangle");
 }
 
-static dyd_status recall_line(recall *r, const json_t *line) {
+static dyd_status recall_line(trace_recall *r, const json_t *line) {
   if (!json_is_object(line)) return recall_fail(r, "this line is no JSON object");
   if (!r->had) return recall_head(r, line);
   if (r->ended) return recall_fail(r, "the trace has lines after its outcome");
@@ -427,8 +427,8 @@ static dyd_status recall_line(recall *r, const json_t *line) {
 }
 
 /* All lines; the last one is ignored if it was cut short. */
-static dyd_status recall_lines(recall *r, dyd_text *text) {
-  dyd_line line = {0};
+static dyd_status recall_lines(trace_recall *r, dyd_text *text) {
+  dyd_text_line line = {0};
   dyd_status st = dyd_text_next(&line, text, r->err);
   while (st == DYD_OK && line.text) {
     r->err->line = line.number;
@@ -446,11 +446,11 @@ static dyd_status recall_lines(recall *r, dyd_text *text) {
 
 dyd_status dyd_trace_recall(dyd_recall_report *out, dyd_engine *e, FILE *in, const char *input, dyd_error *err) {
   dyd_error local;
-  recall r = {.e = e,
-              .input = input,
-              .sum = DYD_DIGEST_BEGIN,
-              .report = {DYD_SIZED(dyd_recall_report)},
-              .err = err ? err : &local};
+  trace_recall r = {.e = e,
+                    .input = input,
+                    .sum = DYD_DIGEST_BEGIN,
+                    .report = {DYD_SIZED(dyd_recall_report)},
+                    .err = err ? err : &local};
   dyd_text text;
   dyd_error_clear(r.err);
   if (out) {
@@ -660,7 +660,7 @@ static dyd_status replay_outcome(replay *r, const json_t *line) {
   return replay_fail(r, "there is no such outcome");
 }
 
-static dyd_status replay_line(replay *r, const dyd_line *text) {
+static dyd_status replay_line(replay *r, const dyd_text_line *text) {
   json_error_t error;
   json_t *line = json_loadb(text->text, text->length, JSON_REJECT_DUPLICATES, &error);
   dyd_status st;
@@ -706,7 +706,7 @@ dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_o
   r.converge.window = NULL;
   dyd_rect_init(&r.window);
   dyd_text text;
-  dyd_line line = {0};
+  dyd_text_line line = {0};
   dyd_error_clear(r.err);
   dyd_text_init(&text, in);
   do {

@@ -227,7 +227,7 @@ typedef struct diagram_json {
 static void region_boundary_json(diagram_json *c, uint32_t i, bool outer) {
   DYD_SCOPED(dyd_boundary) boundary = {0};
   const char *name = outer ? "pos" : "int";
-  dyd_status st = dyd_cell_region(&boundary, c->d->pd, i, outer, true, NULL, c->d->room, c->d->cancel);
+  dyd_status st = dyd_cell_region(&boundary, c->d->pd, i, outer, true, NULL, c->d->memory, c->d->cancel);
   dyd_json_break(&c->j, ",\n");
   if (st == DYD_CANCELLED)
     dyd_json_raw(&c->j, name, "null");

@@ -16,23 +16,23 @@ typedef struct mesh_place {
   char at[3][DYD_DECIMAL_SIZE];
 } mesh_place;
 
-typedef struct mesh {
+typedef struct mesh_writer {
   const dyd_result *r;
   mesh_place *place;
   char bound[DYD_DECIMAL_SIZE]; /* the largest distance of a place from the exact one, in a coordinate */
   dyd_triangle_list triangles;
-} mesh;
+} mesh_writer;
 
-static void mesh_release(mesh *m) {
+static void mesh_release(mesh_writer *m) {
   dyd_triangle_list_clear(&m->triangles);
   free(m->place);
 }
 
 /* In case of failure, too, mesh_clear comes after it. */
-static dyd_status mesh_make(mesh *m, const dyd_output *o) {
+static dyd_status mesh_make(mesh_writer *m, const dyd_output *o) {
   const dyd_result *r = o->what;
   double box[6] = {0}, error, most = 0;
-  *m = (mesh){.r = r, .place = dyd_alloc(r->count, sizeof *m->place)};
+  *m = (mesh_writer){.r = r, .place = dyd_alloc(r->count, sizeof *m->place)};
   dyd_status st = m->place ? DYD_OK : DYD_E_NOMEM;
   for (uint32_t i = 0; i < r->count && st == DYD_OK; i++) {
     st = r->sphere ? dyd_sphere_vector(box, r->sphere, i, o->err) : dyd_result_box(box, r, i, o->err);
@@ -45,7 +45,7 @@ static dyd_status mesh_make(mesh *m, const dyd_output *o) {
   return st == DYD_OK ? dyd_result_triangles(&m->triangles, r) : st;
 }
 
-static void mesh_put(const mesh *m, FILE *out, uint32_t i, const char *word) {
+static void mesh_put(const mesh_writer *m, FILE *out, uint32_t i, const char *word) {
   fprintf(out, "%s%s %s %s\n", word, m->place[i].at[0], m->place[i].at[1], m->place[i].at[2]);
 }
 
@@ -77,7 +77,7 @@ static void obj_name(FILE *out, const dyd_result *r, uint32_t i) {
   dyd_json_end(&j, "\n");
 }
 
-static void obj_write(FILE *out, const mesh *m) {
+static void obj_write(FILE *out, const mesh_writer *m) {
   size_t count[4];
   dyd_result_count(count, m->r);
   fprintf(out,
@@ -94,7 +94,7 @@ static void obj_write(FILE *out, const mesh *m) {
 }
 
 static dyd_status delaunay_obj(const dyd_output *o) {
-  mesh m;
+  mesh_writer m;
   dyd_status st = mesh_make(&m, o);
   if (st == DYD_OK) obj_write(o->out, &m);
   mesh_release(&m);
@@ -164,7 +164,7 @@ static void vtk_names(FILE *out, const dyd_result *r) {
   for (size_t i = 0; ids && i < r->count; i++) vtk_text(out, dyd_engine_id(r->engine, i));
 }
 
-static void vtk_write(FILE *out, const mesh *m, const dyd_site_row *rows) {
+static void vtk_write(FILE *out, const mesh_writer *m, const dyd_site_row *rows) {
   const char *outcome = dyd_outcome_text(dyd_result_outcome(m->r));
   fputs("# vtk DataFile Version 3.0\ndyadel delaunay, ", out);
   if (m->r->sphere)
@@ -181,7 +181,7 @@ static void vtk_write(FILE *out, const mesh *m, const dyd_site_row *rows) {
 
 static dyd_status delaunay_vtk(const dyd_output *o) {
   DYD_FREED dyd_site_row *rows = NULL;
-  mesh m;
+  mesh_writer m;
   dyd_status st = mesh_make(&m, o);
   if (st == DYD_OK) st = dyd_result_sites(&rows, o->what);
   if (st == DYD_OK) vtk_write(o->out, &m, rows);
@@ -220,7 +220,7 @@ typedef struct gathered {
 static bool figures_have_room(const gathered *g, size_t corners) {
   uint64_t points = dyd_bytes_times(g->points + corners, 5 * sizeof *g->at / 2);
   uint64_t items = dyd_bytes_times(g->count + 1, 5 * sizeof *g->item / 2);
-  return dyd_room_has(g->d->room, dyd_bytes_add(points, items), "the figures of the diagram");
+  return dyd_memory_has(g->d->memory, dyd_bytes_add(points, items), "the figures of the diagram");
 }
 
 static dyd_status gather_figure(gathered *g, figure_kind kind, uint32_t site, size_t corners) {

@@ -24,7 +24,7 @@ typedef struct cut_points {
 } cut_points;
 
 /* Invariant: from[k] has the points of cut[k], for k < cuts. */
-typedef struct quick {
+typedef struct witness_trial {
   const dyd_rects *rects;
   uint32_t i, j;
   dyd_bbox c;
@@ -38,11 +38,11 @@ typedef struct quick {
   cut_points *from;
   size_t cuts;
   double size; /* of the coordinates met */
-} quick;
+} witness_trial;
 
 /* Keeps the nearest ones; a site farther than all of them is not tested any more. */
 static bool witness_keep_rival(void *context, uint32_t k) {
-  quick *q = context;
+  witness_trial *q = context;
   if (k == q->i || k == q->j) return true;
   double d = dyd_ds2_lower(&q->c, &q->rects->box[k]);
   int at = q->rivals < MAX_RIVALS ? q->rivals++ : MAX_RIVALS;
@@ -59,7 +59,7 @@ static bool witness_keep_rival(void *context, uint32_t k) {
   return true;
 }
 
-static void witness_evaluate_d(quick *q, dyd_xy c) {
+static void witness_evaluate_d(witness_trial *q, dyd_xy c) {
   q->c = (dyd_bbox){{c.x, c.x, c.y, c.y}};
   q->bound = dyd_max(dyd_dl2_upper(&q->c, &q->rects->box[q->i]), dyd_dl2_upper(&q->c, &q->rects->box[q->j]));
   q->reach = q->bound;
@@ -84,7 +84,7 @@ static dyd_iv witness_nearest_point(double c, double lo, double hi, double slack
 
 /* The half-plane nearer to the far corner of rectangle `own` than to the nearest point of `other`, relative to c;
  * false: they touch. */
-static bool witness_add_cut(quick *q, dyd_xy c, uint32_t own, uint32_t other) {
+static bool witness_add_cut(witness_trial *q, dyd_xy c, uint32_t own, uint32_t other) {
   const double *a = q->rects->box[own].e, *b = q->rects->box[other].e, at[2] = {c.x, c.y};
   double n[2], middle[2], slack[2] = {dyd_box_slack(q->rects, own), dyd_box_slack(q->rects, other)};
   if (q->cuts == DYD_LP_CUTS) return true;
@@ -106,7 +106,7 @@ static bool witness_add_cut(quick *q, dyd_xy c, uint32_t own, uint32_t other) {
   return true;
 }
 
-static bool witness_add_cuts(quick *q, dyd_xy c) {
+static bool witness_add_cuts(witness_trial *q, dyd_xy c) {
   for (int k = 0; k < q->rivals; k++)
     if (!witness_add_cut(q, c, q->i, q->rival[k]) || !witness_add_cut(q, c, q->j, q->rival[k])) return false;
   return true;
@@ -128,7 +128,7 @@ static dyd_iv witness_offset(dyd_iv a[2], const cut_points *f, const double c[2]
 }
 
 /* Returns true if the three half-planes certainly have no common point [WIT-FLT]. */
-static bool witness_is_excluded_d(const quick *q, dyd_xy c, const int three[3]) {
+static bool witness_is_excluded_d(const witness_trial *q, dyd_xy c, const int three[3]) {
   const double at[2] = {c.x, c.y};
   dyd_iv a[3][2], offset[3], sum = dyd_iv_point(0);
   for (int k = 0; k < 3; k++) offset[k] = witness_offset(a[k], &q->from[three[k]], at);
@@ -144,7 +144,7 @@ static bool witness_is_excluded_d(const quick *q, dyd_xy c, const int three[3]) 
 }
 
 /* Sets the next centre and returns TRUE; FALSE if certainly no witness exists; UNKNOWN if doubles are too coarse. */
-static dyd_truth witness_move(quick *q, dyd_xy *c) {
+static dyd_truth witness_move(witness_trial *q, dyd_xy *c) {
   double scale = 0, noise = q->size * 0x1p-46;
   for (size_t k = 0; k < q->cuts; k++) scale = dyd_max(scale, fabs(q->cut[k].d));
   dyd_lp_result r = {0};
@@ -163,7 +163,7 @@ static dyd_truth witness_move(quick *q, dyd_xy *c) {
 
 dyd_truth dyd_filter_witness(dyd_xy *c, const dyd_rects *rects, const dyd_skeleton *sk, uint32_t i, uint32_t j) {
   cut_points from[DYD_LP_CUTS];
-  quick q = {.rects = rects, .i = i, .j = j, .from = from};
+  witness_trial q = {.rects = rects, .i = i, .j = j, .from = from};
   if (!isfinite(c->x) || !isfinite(c->y)) return DYD_UNKNOWN;
   q.neighbours = dyd_neighbours(q.neighbour, MAX_NEIGHBOURS, sk, i, j);
   for (int step = 0; step < STEPS; step++) {

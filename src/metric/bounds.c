@@ -307,13 +307,13 @@ dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, co
                           .most = HUGE_VAL,
                           .exact = true,
                           .proved = dyd_has_proved_tie(pd),
-                          .room = dyd_delaunay_room(pd)};
+                          .memory = dyd_delaunay_room(pd)};
   mpfr_inits2(sum_precision(window, bits), s->inner, s->term, (mpfr_ptr)0);
   mpfr_set_zero(s->inner, 1);
   dyd_dyadic_init(&s->area2);
   uint64_t bytes = dyd_bytes_times(n, sizeof *s->reach + sizeof *s->second);
-  if (!dyd_room_has(&s->room, bytes, "the diagram")) return DYD_E_NOMEM;
-  s->room.held += bytes;
+  if (!dyd_memory_has(&s->memory, bytes, "the diagram")) return DYD_E_NOMEM;
+  s->memory.held += bytes;
   if (!DYD_NEW(s->reach, n) || !DYD_NEW(s->second, n)) return DYD_E_NOMEM;
   for (size_t i = 0; i < n; i++) s->reach[i] = s->second[i] = -1;
   return DYD_OK;
@@ -372,7 +372,7 @@ dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, vo
   dyd_window w;
   dyd_status st = dyd_window_init(&w, s->window);
   w.cancel = s->cancel;
-  w.room = &s->room;
+  w.memory = &s->memory;
   w.most = s->corners;
   w.proved = s->exact;
   if (s->corners && n > DYD_TIGHT_SITES) w.fan_bits = dyd_metric_coarseness(s->pd, s->window);
@@ -596,8 +596,9 @@ dyd_status dyd_metric_voronoi_rate(int64_t *rate, bool *known, const dyd_delauna
 dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, dyd_voronoi_sums *s) {
   DYD_SCOPED(dyd_pair_list) pairs = {0};
   DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, area, hausdorff);
-  dyd_status st =
-      dyd_room_has(&s->room, dyd_pairs_bytes(s->pd, sums_least(s)), "the bounds of the diagram") ? DYD_OK : DYD_E_NOMEM;
+  dyd_status st = dyd_memory_has(&s->memory, dyd_pairs_bytes(s->pd, sums_least(s)), "the bounds of the diagram")
+                      ? DYD_OK
+                      : DYD_E_NOMEM;
   if (st == DYD_OK) st = dyd_pairs_take(&pairs, s->pd, sums_least(s));
   dyd_voronoi_area(area, s);
   if (st == DYD_OK) st = dyd_voronoi_hausdorff(hausdorff, &out->finite, s, &pairs);

@@ -76,8 +76,8 @@ typedef struct dyd_voronoi_sums {
   dyd_dyadic area2;
   const volatile int *cancel;
   size_t *cut;
-  dyd_room room;  /* the budget that max_bytes leaves after the triangulation */
-  size_t corners; /* that one polygon may have, as in dyd_window */
+  dyd_memory memory; /* the budget that max_bytes leaves after the triangulation */
+  size_t corners;    /* that one polygon may have, as in dyd_window */
   double *reach, *second, most;
   bool discs;  /* cells are those of the discs in the sites' squares; as `cut`, set by the caller */
   bool exact;  /* cells of exact points are not flattened; false: their polygons are proved, vertex by vertex */

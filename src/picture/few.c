@@ -247,10 +247,10 @@ typedef struct locus {
 } locus;
 
 /* An arc as it is drawn: ends at[0], at[2], and, of a parabola, the point where the tangents at the ends meet. */
-typedef struct piece {
+typedef struct drawn_arc {
   double at[3][2];
   bool curved;
-} piece;
+} drawn_arc;
 
 static locus locus_of(const dyd_arc *a, const dyd_rect *const r[2]) {
   double far[4], near[4];
@@ -274,7 +274,7 @@ static double on_parabola(const locus *s, double t) {
   return (u * u / h + s->s[1 - s->k] + s->q[1 - s->k]) / 2;
 }
 
-static void parabola_piece(piece *p, const locus *s, const double begin[2], const double end[2], double reach) {
+static void parabola_piece(drawn_arc *p, const locus *s, const double begin[2], const double end[2], double reach) {
   double h = s->s[1 - s->k] - s->q[1 - s->k], most = sqrt(2 * fabs(h) * reach), t[3] = {begin[s->k], 0, end[s->k]};
   for (int e = 0; e < 3; e += 2) t[e] = fmax(s->s[s->k] - most, fmin(s->s[s->k] + most, t[e]));
   t[1] = t[0] / 2 + t[2] / 2;
@@ -285,7 +285,7 @@ static void parabola_piece(piece *p, const locus *s, const double begin[2], cons
 }
 
 /* The line through the middle of s and q, from `begin` to `end` (NULL: infinite). */
-static void line_piece(piece *p, const locus *s, const double *begin, const double *end, double reach) {
+static void line_piece(drawn_arc *p, const locus *s, const double *begin, const double *end, double reach) {
   double n[2] = {s->q[0] - s->s[0], s->q[1] - s->s[1]}, length = hypot(n[0], n[1]);
   double along[2] = {-n[1] / length, n[0] / length}, middle[2], t[2] = {-reach, reach};
   const double *ends[2] = {begin, end};
@@ -297,9 +297,9 @@ static void line_piece(piece *p, const locus *s, const double *begin, const doub
   }
 }
 
-static piece piece_of(const bisector_drawing *d, const dyd_arc *a) {
+static drawn_arc piece_of(const bisector_drawing *d, const dyd_arc *a) {
   locus s = locus_of(a, d->r);
-  piece p = {.curved = a->kind == DYD_ARC_PARABOLA};
+  drawn_arc p = {.curved = a->kind == DYD_ARC_PARABOLA};
   double begin[2], end[2];
   bool first = a->begin.kind != DYD_END_INFINITE, last = a->end.kind != DYD_END_INFINITE;
   if (first) dyd_exact_middle(begin, &a->begin.at);
@@ -317,7 +317,7 @@ static void line_to(dyd_canvas *c, const dyd_view *v, double x, double y) {
 
 /* Behind the path so far. The cubic curve of a quadratic one has its inner points two thirds of the way to the middle
  * point. */
-static void piece_path(dyd_canvas *c, const dyd_view *v, const piece *p) {
+static void piece_path(dyd_canvas *c, const dyd_view *v, const drawn_arc *p) {
   double inner[2][2];
   line_to(c, v, p->at[0][0], p->at[0][1]);
   if (!p->curved) {
@@ -332,7 +332,7 @@ static void piece_path(dyd_canvas *c, const dyd_view *v, const piece *p) {
 
 /* The part on the left of the chain, closed far outside of the picture. */
 static void fill_left(dyd_canvas *c, const bisector_drawing *d, const dyd_chain *chain, unsigned rgb) {
-  piece p = {0};
+  drawn_arc p = {0};
   double begin[2] = {0}, *end = p.at[2], n[2];
   for (size_t k = 0; k < chain->count; k++) {
     p = piece_of(d, &chain->arc[k]);
@@ -349,7 +349,7 @@ static void fill_left(dyd_canvas *c, const bisector_drawing *d, const dyd_chain 
 }
 
 static void draw_arc(dyd_canvas *c, const bisector_drawing *d, const dyd_arc *a, int curve, size_t number) {
-  piece p = piece_of(d, a);
+  drawn_arc p = piece_of(d, a);
   char id[48], title[120];
   snprintf(id, sizeof id, "arc-%d-%zu", curve, number);
   snprintf(title, sizeof title, "%s: the bound of the region certainly nearer to %d, piece %zu",

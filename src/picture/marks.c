@@ -86,9 +86,9 @@ void dyd_picture_marked(dyd_canvas *c, const dyd_view *v, const double box[4], c
 #define SQUARE 3.0
 #define ROOMY 28.0 /* neighbours so far apart have room for numbers */
 
-typedef struct squares {
+typedef struct square_range {
   size_t x0, x1, y0, y1; /* from, up to */
-} squares;
+} square_range;
 
 bool dyd_numbers_init(dyd_numbers *l, const dyd_view *v) {
   l->view = v;
@@ -103,14 +103,14 @@ void dyd_numbers_clear(dyd_numbers *l) {
 }
 
 /* The squares that a box on the page meets, as far as they are in the frame. */
-static squares squares_of(const dyd_numbers *l, const double z[4]) {
+static square_range squares_of(const dyd_numbers *l, const double z[4]) {
   const double *f = l->view->frame;
-  return (squares){(size_t)(fmax(z[0], f[0]) / SQUARE), (size_t)(fmax(fmin(z[1], f[1]), 0) / SQUARE) + 1,
-                   (size_t)(fmax(z[2], f[2]) / SQUARE), (size_t)(fmax(fmin(z[3], f[3]), 0) / SQUARE) + 1};
+  return (square_range){(size_t)(fmax(z[0], f[0]) / SQUARE), (size_t)(fmax(fmin(z[1], f[1]), 0) / SQUARE) + 1,
+                        (size_t)(fmax(z[2], f[2]) / SQUARE), (size_t)(fmax(fmin(z[3], f[3]), 0) / SQUARE) + 1};
 }
 
 static void take_squares(dyd_numbers *l, const double z[4]) {
-  squares s = squares_of(l, z);
+  square_range s = squares_of(l, z);
   for (size_t y = s.y0; y < s.y1; y++)
     for (size_t x = s.x0; x < s.x1; x++) l->taken[y * l->columns + x] = 1;
 }
@@ -118,7 +118,7 @@ static void take_squares(dyd_numbers *l, const double z[4]) {
 static bool is_free(const dyd_numbers *l, const double z[4]) {
   const double *f = l->view->frame;
   if (!(z[0] > f[0] + 2 && z[1] < f[1] - 2 && z[2] > f[2] + 2 && z[3] < f[3] - 2)) return false;
-  squares s = squares_of(l, z);
+  square_range s = squares_of(l, z);
   for (size_t y = s.y0; y < s.y1; y++)
     for (size_t x = s.x0; x < s.x1; x++)
       if (l->taken[y * l->columns + x]) return false;

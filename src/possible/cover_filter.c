@@ -33,9 +33,9 @@ typedef struct dyd_beta {
 } dyd_beta;
 
 /* About a point of beta: its coordinates and ds^2. */
-typedef struct dyd_place {
+typedef struct beta_point {
   double at[2], ds2;
-} dyd_place;
+} beta_point;
 
 /* The place of beta needs no bound; its blockers do. That beta passes through a short segment across it is shown by
  * ds_i < ds_j at the one end and ds_j < ds_i at the other [BETA-1]; distances are bounded as in
@@ -114,7 +114,7 @@ static dyd_sure beta_blocks_end(const dyd_beta *q, uint32_t k, int up) {
 
 /* About the point of beta at t: dx_i^2 - dx_j^2 = dy_j^2 - dy_i^2, where the left side is a piecewise quadratic
  * function of the coordinate across. */
-static dyd_place beta_at(const dyd_beta *q, double t) {
+static beta_point beta_at(const dyd_beta *q, double t) {
   double a0 = low(q->a, q->across), a1 = high(q->a, q->across), b0 = low(q->b, q->across), b1 = high(q->b, q->across);
   double ta = t - dyd_nearest_in(t, low(q->a, q->t), high(q->a, q->t)),
          tb = t - dyd_nearest_in(t, low(q->b, q->t), high(q->b, q->t));
@@ -129,26 +129,26 @@ static dyd_place beta_at(const dyd_beta *q, double t) {
     if (x < a0) x = (k / (b0 - a0) + a0 + b0) / 2;
   }
   double dx = x - dyd_nearest_in(x, a0, a1);
-  dyd_place p = {.ds2 = dx * dx + ta * ta};
+  beta_point p = {.ds2 = dx * dx + ta * ta};
   p.at[q->across] = x;
   p.at[q->t] = t;
   return p;
 }
 
 /* About dl^2 of the box at the place. */
-static double place_far2(const dyd_place *p, const dyd_bbox *b) {
+static double place_far2(const beta_point *p, const dyd_bbox *b) {
   double dx = p->at[0] - dyd_farther_end(p->at[0], b->e[0], b->e[1]),
          dy = p->at[1] - dyd_farther_end(p->at[1], b->e[2], b->e[3]);
   return dx * dx + dy * dy;
 }
 
-static dyd_xy nearest_point(const dyd_place *p, const dyd_bbox *b) {
+static dyd_xy nearest_point(const beta_point *p, const dyd_bbox *b) {
   return (dyd_xy){dyd_nearest_in(p->at[0], b->e[0], b->e[1]), dyd_nearest_in(p->at[1], b->e[2], b->e[3])};
 }
 
 /* About where the part of beta that k blocks ends, seen from a place in it or nearby. The circle through the features
  * that the three show, some times over. */
-static double beta_guess_end(const dyd_beta *q, uint32_t k, dyd_place p) {
+static double beta_guess_end(const dyd_beta *q, uint32_t k, beta_point p) {
   const dyd_bbox *b = &q->rects->box[k];
   for (int round = 0; round < ROUNDS; round++) {
     dyd_xy far = {dyd_farther_end(p.at[0], b->e[0], b->e[1]), dyd_farther_end(p.at[1], b->e[2], b->e[3])};
@@ -159,7 +159,7 @@ static double beta_guess_end(const dyd_beta *q, uint32_t k, dyd_place p) {
 }
 
 /* Returns true if beta certainly passes between the places x -+ width across, at t. *c: the segment. */
-static bool crosses(dyd_bbox *c, const dyd_beta *q, const dyd_place *p, double width) {
+static bool crosses(dyd_bbox *c, const dyd_beta *q, const beta_point *p, double width) {
   dyd_bbox end[2];
   for (int k = 0; k < 2; k++) {
     double x = p->at[q->across] + (k ? width : -width);
@@ -174,7 +174,7 @@ static bool crosses(dyd_bbox *c, const dyd_beta *q, const dyd_place *p, double w
 
 /* Returns true if all of k[0..count-1] certainly block one and the same point of beta, which is about at t. */
 static bool beta_surely_blocked(const dyd_beta *q, const uint32_t *k, int count, double t) {
-  dyd_place p = beta_at(q, t);
+  beta_point p = beta_at(q, t);
   dyd_bbox c;
   double ds = sqrt(p.ds2), x = fabs(p.at[q->across]), gap = low(q->b, q->across) - high(q->a, q->across);
   if (!crosses(&c, q, &p, 0x1p-40 * ds * (1 + ds / gap) + 0x1p-48 * x)) return false;
@@ -191,24 +191,24 @@ enum { MOST_LINKS = 48, MAX_RIVALS = 48, BISECTIONS = 40, DOUBLINGS = 40, JOINTS
 #define BESIDE 0x1p-22
 
 /* rival: neighbours of i and j in the skeleton, once gathered. */
-typedef struct quick {
+typedef struct cover_trial {
   const dyd_skeleton *sk;
   dyd_beta beta;
   const uint32_t *hint;
   bool gathered;
   int rivals;
   uint32_t rival[MAX_RIVALS];
-} quick;
+} cover_trial;
 
 /* ---- blockers of a place ---- */
 
-static bool seems_blocked(const quick *q, uint32_t k, double t) {
-  dyd_place p = beta_at(&q->beta, t);
+static bool seems_blocked(const cover_trial *q, uint32_t k, double t) {
+  beta_point p = beta_at(&q->beta, t);
   return place_far2(&p, &q->sk->rects.box[k]) < p.ds2;
 }
 
 /* The vertex that is about nearest among hints and neighbours, if nearer than i and j. */
-static uint32_t likely_blocker(quick *q, const dyd_place *p) {
+static uint32_t likely_blocker(cover_trial *q, const beta_point *p) {
   double least = p->ds2;
   uint32_t best = DYD_NONE;
   if (!q->gathered) {
@@ -226,7 +226,7 @@ static uint32_t likely_blocker(quick *q, const dyd_place *p) {
 }
 
 typedef struct cover_search {
-  const quick *q;
+  const cover_trial *q;
   dyd_bbox c;
   double bound;
   uint32_t found;
@@ -241,14 +241,14 @@ static bool perhaps_nearer(void *context, uint32_t k) {
 }
 
 /* A vertex that is perhaps nearer than i or j; DYD_NONE: certainly none, so the pair is possible [POS-1]. */
-static uint32_t any_blocker(const quick *q, const dyd_place *p) {
+static uint32_t any_blocker(const cover_trial *q, const beta_point *p) {
   cover_search s = {q, {{p->at[0], p->at[0], p->at[1], p->at[1]}}, 0, DYD_NONE};
   s.bound = dyd_pair_ds2_upper(&q->sk->rects, &s.c, q->beta.i, q->beta.j);
   dyd_tree_near(&q->sk->rects.tree, &s.c, &s.bound, perhaps_nearer, &s);
   return s.found;
 }
 
-static uint32_t blocker_at(quick *q, const dyd_place *p) {
+static uint32_t blocker_at(cover_trial *q, const beta_point *p) {
   uint32_t k = likely_blocker(q, p);
   return k == DYD_NONE ? any_blocker(q, p) : k;
 }
@@ -256,18 +256,18 @@ static uint32_t blocker_at(quick *q, const dyd_place *p) {
 /* ---- the chain ---- */
 
 /* Returns true if the part that k blocks is certainly connected. */
-static bool is_link(const quick *q, uint32_t k) {
+static bool is_link(const cover_trial *q, uint32_t k) {
   return beta_blocks_end(&q->beta, k, 0) == DYD_SURE_MINUS || beta_blocks_end(&q->beta, k, 1) == DYD_SURE_MINUS;
 }
 
-static bool is_last_link(const quick *q, uint32_t k, int up) {
+static bool is_last_link(const cover_trial *q, uint32_t k, int up) {
   return beta_blocks_end(&q->beta, k, up) == DYD_SURE_PLUS && beta_blocks_end(&q->beta, k, !up) == DYD_SURE_MINUS;
 }
 
 /* About where the part that k blocks ends, from the blocked place t on; beside: how far from it to look. NaN: not
  * found. */
-static double find_end(double *beside, const quick *q, uint32_t k, double t, int up) {
-  dyd_place p = beta_at(&q->beta, t);
+static double find_end(double *beside, const cover_trial *q, uint32_t k, double t, int up) {
+  beta_point p = beta_at(&q->beta, t);
   double way = up ? 1 : -1, guess = beta_guess_end(&q->beta, k, p), step = 0x1p-4 * sqrt(p.ds2), from = 0, to;
   int tries = 0;
   *beside = BESIDE * sqrt(beta_at(&q->beta, guess).ds2);
@@ -287,7 +287,7 @@ static double find_end(double *beside, const quick *q, uint32_t k, double t, int
 }
 
 /* Returns true if k and next certainly block one place of beta, a little before what k blocks ends. */
-static bool are_joined(const quick *q, uint32_t k, uint32_t next, double end, double beside) {
+static bool are_joined(const cover_trial *q, uint32_t k, uint32_t next, double end, double beside) {
   const uint32_t both[2] = {k, next};
   for (int tries = 0; tries < JOINTS; tries++, beside *= 0x1p5)
     if (beta_surely_blocked(&q->beta, both, 2, end - beside)) return true;
@@ -295,7 +295,7 @@ static bool are_joined(const quick *q, uint32_t k, uint32_t next, double end, do
 }
 
 /* From the blocked place t towards an end. FALSE: all is blocked there; TRUE: *centre has been found. */
-static dyd_truth extend(dyd_place *centre, quick *q, uint32_t k, double t, int up) {
+static dyd_truth extend(beta_point *centre, cover_trial *q, uint32_t k, double t, int up) {
   double way = up ? 1 : -1, beside;
   for (int link = 0; link < MOST_LINKS; link++) {
     if (is_last_link(q, k, up)) return DYD_FALSE;
@@ -312,24 +312,24 @@ static dyd_truth extend(dyd_place *centre, quick *q, uint32_t k, double t, int u
 }
 
 /* Between the ends of what the hints block, or about in the middle. */
-static double first_place(const quick *q) {
+static double first_place(const cover_trial *q) {
   const dyd_beta *b = &q->beta;
   double t = b->a->e[2 * b->t] / 4 + b->a->e[2 * b->t + 1] / 4 + b->b->e[2 * b->t] / 4 + b->b->e[2 * b->t + 1] / 4;
-  dyd_place middle = beta_at(b, t);
+  beta_point middle = beta_at(b, t);
   if (q->hint[0] == DYD_NONE || q->hint[1] == DYD_NONE) return t;
   double between = beta_guess_end(b, q->hint[0], middle) / 2 + beta_guess_end(b, q->hint[1], middle) / 2;
   return isfinite(between) ? between : t;
 }
 
 /* Returns true if the two hints block everything. */
-static bool hints_cover(const quick *q, double t) {
+static bool hints_cover(const cover_trial *q, double t) {
   const uint32_t *k = q->hint;
   if (k[0] == DYD_NONE || k[1] == DYD_NONE || !beta_surely_blocked(&q->beta, k, 2, t)) return false;
   return (is_last_link(q, k[0], 0) && is_last_link(q, k[1], 1)) ||
          (is_last_link(q, k[0], 1) && is_last_link(q, k[1], 0));
 }
 
-static dyd_truth walk_both_ways(dyd_place *centre, quick *q) {
+static dyd_truth walk_both_ways(beta_point *centre, cover_trial *q) {
   double t = first_place(q);
   if (hints_cover(q, t)) return DYD_FALSE;
   *centre = beta_at(&q->beta, t);
@@ -352,9 +352,9 @@ static dyd_xy cover_middle(const dyd_bbox *a, const dyd_bbox *b) {
 }
 
 dyd_truth dyd_filter_cover(dyd_xy *centre, const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t hint[2]) {
-  quick q = {.sk = sk, .hint = hint};
+  cover_trial q = {.sk = sk, .hint = hint};
   dyd_truth apart = beta_start(&q.beta, &sk->rects, i, j), truth = apart == DYD_FALSE ? DYD_TRUE : DYD_UNKNOWN;
-  dyd_place p;
+  beta_point p;
   *centre = cover_middle(&sk->rects.box[i], &sk->rects.box[j]);
   if (apart != DYD_TRUE) return truth;
   truth = walk_both_ways(&p, &q);

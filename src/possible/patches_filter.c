@@ -70,14 +70,14 @@ static inline double dyd_closest_upper(dyd_plane_corner v, const dyd_bbox *b, do
  * are those of skeleton/rects_filter.h [FLT-DST]. NaN proves nothing. */
 
 /* least: a lower bound of the least dl^2 of those visited; bound: an upper one, of all. */
-typedef struct search {
+typedef struct nearest_bound {
   const dyd_rects *rects;
   dyd_bbox c;
   double least, bound;
-} search;
+} nearest_bound;
 
 static bool lower_least(void *context, uint32_t k) {
-  search *m = context;
+  nearest_bound *m = context;
   const dyd_bbox *box = &m->rects->box[k];
   double value = dyd_dl2_lower(&m->c, box, dyd_box_slack(m->rects, k));
   m->least = isnan(value) ? -INFINITY : dyd_min(value, m->least);
@@ -86,7 +86,7 @@ static bool lower_least(void *context, uint32_t k) {
 }
 
 void dyd_filter_clique(bool *near, const dyd_rects *r, dyd_xy c, const uint32_t *vertex, size_t count) {
-  search m = {r, {{c.x, c.x, c.y, c.y}}, INFINITY, INFINITY};
+  nearest_bound m = {r, {{c.x, c.x, c.y, c.y}}, INFINITY, INFINITY};
   dyd_tree_near(&r->tree, &m.c, &m.bound, lower_least, &m);
   for (size_t k = 0; k < count; k++)
     near[k] = dyd_ds2_upper(&m.c, &r->box[vertex[k]], dyd_box_slack(r, vertex[k])) <= m.least;
@@ -126,10 +126,10 @@ enum {
 
 /* A vertex in a patch. member: as such possibly nearest there, with open pairs; else DYD_NONE. rival: may have the
  * least dl. */
-typedef struct entry {
+typedef struct patch_entry {
   uint32_t vertex, member;
   bool rival;
-} entry;
+} patch_entry;
 
 /* A pair that is still open, by places in the patch's list. */
 typedef struct wish {
@@ -146,7 +146,7 @@ typedef struct plane {
   bool coarse;                /* the patch at hand */
   double cx, cy, radius;      /* of the root */
   dyd_plane_corner corner[4]; /* of the strip at hand; numbered as those of a box */
-  entry *entry;
+  patch_entry *entry;
   wish *wish;
   size_t entry_cap, wish_cap;
   uint16_t *place; /* by place in the parent's list of a listed patch: place in the patch's list */
@@ -175,7 +175,7 @@ typedef struct dominator {
 } dominator;
 
 /* farthest_upper at the corners. */
-static void measure(dominator *d, const plane *p, const dyd_part *q) {
+static void measure(dominator *d, const plane *p, const dyd_plane_part *q) {
   const dyd_bbox *b = &p->c->rects->box[d->vertex];
   if (p->side < 0) {
     dyd_corners_far(d->at, &q->at, b);
@@ -185,7 +185,7 @@ static void measure(dominator *d, const plane *p, const dyd_part *q) {
 }
 
 /* closest_lower at the corners. */
-static void measure_closest(double at[4], const plane *p, uint32_t vertex, const dyd_part *q) {
+static void measure_closest(double at[4], const plane *p, uint32_t vertex, const dyd_plane_part *q) {
   const dyd_bbox *b = &p->c->rects->box[vertex];
   if (p->side < 0) {
     dyd_corners_near(at, &q->at, b);
@@ -195,7 +195,7 @@ static void measure_closest(double at[4], const plane *p, uint32_t vertex, const
 }
 
 /* Finds the nearest vertices at the worst corner and at each corner. Returns their number. */
-static int choose_dominators(dominator best[DOMINATORS], const plane *p, const dyd_part *q) {
+static int choose_dominators(dominator best[DOMINATORS], const plane *p, const dyd_plane_part *q) {
   double least[DOMINATORS] = {INFINITY, INFINITY, INFINITY, INFINITY, INFINITY};
   dominator all[DOMINATORS] = {{DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}};
   for (size_t e = 0; e < q->count; e++) {
@@ -219,7 +219,7 @@ static int choose_dominators(dominator best[DOMINATORS], const plane *p, const d
   return count;
 }
 
-static bool is_dominated(const plane *p, uint32_t vertex, const dyd_part *q, const dominator *best, int count) {
+static bool is_dominated(const plane *p, uint32_t vertex, const dyd_plane_part *q, const dominator *best, int count) {
   double at[4];
   measure_closest(at, p, vertex, q);
   for (int m = 0; m < count; m++)
@@ -227,14 +227,14 @@ static bool is_dominated(const plane *p, uint32_t vertex, const dyd_part *q, con
   return false;
 }
 
-static dyd_plane_corner centre_of(const plane *p, const dyd_part *q) {
+static dyd_plane_corner centre_of(const plane *p, const dyd_plane_part *q) {
   const double *e = q->at.e, x = e[0] / 2 + e[1] / 2, y = e[2] / 2 + e[3] / 2;
   return p->side < 0 ? (dyd_plane_corner){x, y, false} : ray(p, x, true);
 }
 
 /* An upper bound of dl at the centre for the vertex with the least dl anywhere in a square: dl changes by at most the
  * way, so it is at most the least one at the centre, and twice the way to the farthest corner. Infinite for strips. */
-static double rival_limit(const plane *p, const dyd_part *q, const dyd_plane_corner *centre, double least2) {
+static double rival_limit(const plane *p, const dyd_plane_part *q, const dyd_plane_corner *centre, double least2) {
   if (p->side >= 0) return INFINITY;
   const double *e = q->at.e;
   double dx = dyd_max(e[1] - centre->x, centre->x - e[0]), dy = dyd_max(e[3] - centre->y, centre->y - e[2]);
@@ -245,8 +245,8 @@ static double rival_limit(const plane *p, const dyd_part *q, const dyd_plane_cor
 
 /* rival[k]: whether the k-th of the parent's list may have the least dl somewhere in q. p->least: M at the centre from
  * below. */
-static void find_rivals(plane *p, const dyd_part *q) {
-  const entry *e = p->entry + q->first;
+static void find_rivals(plane *p, const dyd_plane_part *q) {
+  const patch_entry *e = p->entry + q->first;
   const dyd_bbox *box = p->c->rects->box;
   dyd_plane_corner centre = centre_of(p, q);
   double upper = INFINITY;
@@ -265,7 +265,7 @@ static void find_rivals(plane *p, const dyd_part *q) {
 }
 
 /* wanted[k]: whether the k-th of the parent's list is a member with open pairs. */
-static void find_wanted(plane *p, const dyd_part *q) {
+static void find_wanted(plane *p, const dyd_plane_part *q) {
   for (size_t k = 0; k < q->count; k++) p->wanted[k] = q->level == 0 && p->entry[q->first + k].member != DYD_NONE;
   for (size_t k = 0; k < q->pairs && q->level > 0; k++) {
     p->wanted[p->wish[q->first_pair + k].a] = true;
@@ -275,7 +275,7 @@ static void find_wanted(plane *p, const dyd_part *q) {
 
 /* Writes the rivals of the parent's list, and its members with open pairs that are not dominated, behind all lists, and
  * makes that q's list. place[]: the new places of the latter. Returns how many they are. */
-static size_t make_list(plane *p, dyd_part *q) {
+static size_t make_list(plane *p, dyd_plane_part *q) {
   dominator best[DOMINATORS];
   for (int k = 0; k < 4 && p->side >= 0; k++) p->corner[k] = ray(p, q->at.e[k & 1], k & 2);
   find_rivals(p, q);
@@ -283,12 +283,12 @@ static size_t make_list(plane *p, dyd_part *q) {
   int dominators = choose_dominators(best, p, q);
   size_t members = 0, first = q->first + q->count, end = first;
   for (size_t k = 0; k < q->count; k++) {
-    entry e = p->entry[q->first + k];
+    patch_entry e = p->entry[q->first + k];
     bool out = (!p->wanted[k] && !p->rival[k]) || is_dominated(p, e.vertex, q, best, dominators);
     bool in = !out && p->wanted[k];
     if (q->level > 0) p->place[k] = in ? (uint16_t)(end - first) : UINT16_MAX;
     if (out) continue;
-    p->entry[end++] = (entry){e.vertex, in ? e.member : DYD_NONE, p->rival[k]};
+    p->entry[end++] = (patch_entry){e.vertex, in ? e.member : DYD_NONE, p->rival[k]};
     members += in;
   }
   q->first = first;
@@ -298,16 +298,16 @@ static size_t make_list(plane *p, dyd_part *q) {
 
 /* ---- pairs shown to be possible ---- */
 
-static bool is_open(const plane *p, const entry *a, const entry *b) {
+static bool is_open(const plane *p, const patch_entry *a, const patch_entry *b) {
   return dyd_pair_map_get(p->c->map, a->member, b->member) == DYD_PAIR_UNKNOWN;
 }
 
 /* near[k]: the k-th of the list is proved possibly nearest at the centre of the patch. All of them are possible
  * neighbours of one another. Much longer lists mean that the patch is coarse for its open pairs, be that by far
  * outliers, by distance or by density. */
-static void patches_try_centre(plane *p, dyd_part *q) {
+static void patches_try_centre(plane *p, dyd_plane_part *q) {
   const dyd_rects *r = p->c->rects;
-  const entry *e = p->entry + q->first;
+  const patch_entry *e = p->entry + q->first;
   dyd_plane_corner v = centre_of(p, q);
   size_t near = 0;
   for (size_t k = 0; k < q->count; k++) {
@@ -318,8 +318,8 @@ static void patches_try_centre(plane *p, dyd_part *q) {
 }
 
 /* Reports the pair of the list if it is open and shown, else keeps it if it is open and the patch is listed. */
-static dyd_status consider(plane *p, dyd_part *q, size_t a, size_t b) {
-  const entry *i = &p->entry[q->first + a], *j = &p->entry[q->first + b];
+static dyd_status consider(plane *p, dyd_plane_part *q, size_t a, size_t b) {
+  const patch_entry *i = &p->entry[q->first + a], *j = &p->entry[q->first + b];
   if (i->member == DYD_NONE || j->member == DYD_NONE || !is_open(p, i, j)) return DYD_OK;
   if (p->near[a] && p->near[b]) {
     p->found++;
@@ -332,7 +332,7 @@ static dyd_status consider(plane *p, dyd_part *q, size_t a, size_t b) {
 }
 
 /* The parent's open pairs. */
-static dyd_status consider_wishes(plane *p, dyd_part *q) {
+static dyd_status consider_wishes(plane *p, dyd_plane_part *q) {
   size_t from = q->first_pair, count = q->pairs;
   dyd_status st = DYD_OK;
   q->first_pair = from + count;
@@ -346,7 +346,7 @@ static dyd_status consider_wishes(plane *p, dyd_part *q) {
 }
 
 /* All pairs of the list; if it is not too long, the pairs that stay open are noted. */
-static dyd_status consider_all(plane *p, dyd_part *q) {
+static dyd_status consider_all(plane *p, dyd_plane_part *q) {
   dyd_status st = DYD_OK;
   q->level = q->count <= LONG ? 1 : 0;
   for (size_t a = 0; a < q->count; a++)
@@ -361,11 +361,11 @@ static bool is_lost(plane *p) {
 }
 
 /* Cutting shows no more: in the last pass, each pair that is still open is decided alone. */
-static dyd_status leave(plane *p, const dyd_part *q) {
+static dyd_status leave(plane *p, const dyd_plane_part *q) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < q->pairs && p->last && st == DYD_OK && !p->enough && !is_lost(p); k++) {
     wish w = p->wish[q->first_pair + k];
-    const entry *i = &p->entry[q->first + w.a], *j = &p->entry[q->first + w.b];
+    const patch_entry *i = &p->entry[q->first + w.a], *j = &p->entry[q->first + w.b];
     if (!is_open(p, i, j)) continue;
     st = p->c->decide(p->c->context, &p->enough, i->member, j->member);
     if (dyd_pair_is_possible(dyd_pair_map_get(p->c->map, i->member, j->member)))
@@ -377,7 +377,7 @@ static dyd_status leave(plane *p, const dyd_part *q) {
 }
 
 /* Examines the pairs of q, which was one of `before` sites with `open` pairs, and cuts it where that is of use. */
-static dyd_status go_on(int *parts, plane *p, dyd_part *q, size_t before, size_t open) {
+static dyd_status go_on(int *parts, plane *p, dyd_plane_part *q, size_t before, size_t open) {
   patches_try_centre(p, q);
   bool square = p->side < 0, may_shrink = p->coarse && (square || q->depth < NARROW);
   bool stuck = q->count <= SHORT || (q->count > before / 4 * 3 && !may_shrink);
@@ -393,7 +393,7 @@ static dyd_status go_on(int *parts, plane *p, dyd_part *q, size_t before, size_t
   return DYD_OK;
 }
 
-static dyd_status look(void *context, int *parts, dyd_part *q) {
+static dyd_status look(void *context, int *parts, dyd_plane_part *q) {
   plane *p = context;
   size_t before = q->count, open = q->pairs;
   p->work += before;
@@ -425,7 +425,8 @@ static dyd_status everybody(plane *p) {
   if (!DYD_NEW(p->place, LONG) || !DYD_NEW(p->near, t->count) || !DYD_NEW(p->rival, t->count) ||
       !DYD_NEW(p->wanted, t->count) || !DYD_NEW(p->value, t->count) || !DYD_GROW(p->entry, p->entry_cap, t->count))
     return DYD_E_NOMEM;
-  for (uint32_t q = 0; q < t->count; q++) p->entry[q] = (entry){t->item[q], patches_member(p->c, t->item[q]), true};
+  for (uint32_t q = 0; q < t->count; q++)
+    p->entry[q] = (patch_entry){t->item[q], patches_member(p->c, t->item[q]), true};
   return DYD_OK;
 }
 
@@ -434,7 +435,7 @@ static dyd_status everybody(plane *p) {
 static dyd_status pass(plane *p) {
   dyd_status st = DYD_OK;
   for (p->side = -1; p->side < 4 && st == DYD_OK; p->side++) {
-    dyd_part all = {.at = {{-1, 1}}, .count = p->c->rects->tree.count};
+    dyd_plane_part all = {.at = {{-1, 1}}, .count = p->c->rects->tree.count};
     if (p->side < 0) all.at = p->root;
     st = dyd_walk_parts(look, p, p->c->cancel, all);
   }

@@ -88,11 +88,11 @@ void dyd_icircle_swap(dyd_icircle *k, dyd_icircle *l) {
 }
 
 /* Scratch for one comparison: au, av are d times the rational parts of the centre relative to p. */
-typedef struct frame {
+typedef struct centre_frame {
   mpz_t au, av, l, m, s, t;
-} frame;
+} centre_frame;
 
-static void frame_init(frame *f, const dyd_icircle *k) {
+static void centre_frame_init(centre_frame *f, const dyd_icircle *k) {
   mpz_inits(f->au, f->av, f->l, f->m, f->s, f->t, NULL);
   mpz_set(f->au, k->ax);
   mpz_submul(f->au, k->px, k->d);
@@ -100,12 +100,12 @@ static void frame_init(frame *f, const dyd_icircle *k) {
   mpz_submul(f->av, k->py, k->d);
 }
 
-static void frame_clear(frame *f) {
+static void centre_frame_clear(centre_frame *f) {
   mpz_clears(f->au, f->av, f->l, f->m, f->s, f->t, NULL);
 }
 
 /* Sign of |o - q| - radius, q = (l,m) relative to p. */
-static int side_of_point(frame *f, const dyd_icircle *k) {
+static int side_of_point(centre_frame *f, const dyd_icircle *k) {
   mpz_mul(f->s, f->l, f->l);
   mpz_addmul(f->s, f->m, f->m);
   mpz_mul(f->s, f->s, k->d);
@@ -121,7 +121,8 @@ static int side_of_point(frame *f, const dyd_icircle *k) {
 
 /* Sign of |u - l| - radius, with u = (au + bu sqrt c) / d across the line. Times d^2 the square difference is
  * l^2 d^2 - 2 l d au - av^2 - bv^2 c  -  2 (l d bu + av bv) sqrt c. */
-static int side_of_line(frame *f, const dyd_icircle *k, mpz_srcptr au, mpz_srcptr bu, mpz_srcptr av, mpz_srcptr bv) {
+static int side_of_line(centre_frame *f, const dyd_icircle *k, mpz_srcptr au, mpz_srcptr bu, mpz_srcptr av,
+                        mpz_srcptr bv) {
   mpz_mul(f->m, f->l, k->d);
   mpz_mul_2exp(f->t, au, 1);
   mpz_sub(f->t, f->m, f->t);
@@ -137,8 +138,8 @@ static int side_of_line(frame *f, const dyd_icircle *k, mpz_srcptr au, mpz_srcpt
 
 int dyd_icircle_side(const dyd_icircle *k, const dyd_irect *r, dyd_touch touch) {
   DYD_INVARIANT(mpz_sgn(k->d) > 0 && mpz_sgn(k->c) >= 0);
-  DYD_SCOPED(frame) f;
-  frame_init(&f, k);
+  DYD_SCOPED(centre_frame) f;
+  centre_frame_init(&f, k);
   dyd_surd ox = {k->ax, k->bx, k->c, k->d}, oy = {k->ay, k->by, k->c, k->d};
   mpz_srcptr x = surd_end(f.s, f.t, &ox, r, 0, touch), y = surd_end(f.s, f.t, &oy, r, 1, touch);
   int side = -1; /* the centre is within: 0 minus the radius, which is positive */
@@ -392,7 +393,7 @@ static bool solve_circle(dyd_centre *out, const dyd_feature *f, const dyd_featur
  * corner is on the circle. */
 
 /* Everything one call needs, allocated once. */
-typedef struct search {
+typedef struct circle_search {
   const dyd_irect *const *r;
   const dyd_touch *touch;
   int base;
@@ -401,9 +402,9 @@ typedef struct search {
   dyd_centre centre;
   dyd_icircle circle;
   mpz_t s, t;
-} search;
+} circle_search;
 
-static void circle_search_init(search *q) {
+static void circle_search_init(circle_search *q) {
   for (int k = 0; k < 2; k++) axis_init(&q->axis[k]);
   feature_init(&q->f);
   feature_init(&q->g);
@@ -412,7 +413,7 @@ static void circle_search_init(search *q) {
   mpz_inits(q->s, q->t, NULL);
 }
 
-static void circle_search_clear(search *q) {
+static void circle_search_clear(circle_search *q) {
   mpz_clears(q->s, q->t, NULL);
   dyd_icircle_clear(&q->circle);
   centre_clear(&q->centre);
@@ -422,7 +423,7 @@ static void circle_search_clear(search *q) {
 }
 
 /* Coordinates relative to a corner of the base, cut so that products of four stay below 2^1000. */
-static int64_t circles_choose_shift(search *q) {
+static int64_t circles_choose_shift(circle_search *q) {
   const dyd_irect *o = q->r[q->base];
   size_t bits = 0;
   for (int m = 0; m < 3; m++) {
@@ -447,7 +448,7 @@ static bool circles_set_feature(dyd_feature *out, const dyd_slab *const s[2], in
 }
 
 /* circle = centre + corner of the base; false when the radius is 0. */
-static bool circle_place(search *q, const dyd_slab *const s[2]) {
+static bool circle_place(circle_search *q, const dyd_slab *const s[2]) {
   dyd_centre *o = &q->centre;
   dyd_icircle *k = &q->circle;
   if (!dyd_sqrt_sign(o->a[0], o->b[0], o->c) && !dyd_sqrt_sign(o->a[1], o->b[1], o->c)) return false;
@@ -465,7 +466,7 @@ static bool circle_place(search *q, const dyd_slab *const s[2]) {
 }
 
 /* Returns true if the coordinate (a + b sqrt c) / d is within the slab. */
-static bool within_slab(search *q, mpz_srcptr a, mpz_srcptr b, const dyd_slab *s) {
+static bool within_slab(circle_search *q, mpz_srcptr a, mpz_srcptr b, const dyd_slab *s) {
   const dyd_icircle *k = &q->circle;
   mpz_mul_2exp(q->s, b, 1);
   for (int side = 0; side < 2; side++) {
@@ -487,7 +488,7 @@ static bool circle_is_new(const dyd_icircle *out, size_t count, const dyd_icircl
 }
 
 /* Adds the circles of one pane. */
-static size_t search_pane(search *q, dyd_icircle *out, size_t count, size_t room, const dyd_slab *const s[2]) {
+static size_t search_pane(circle_search *q, dyd_icircle *out, size_t count, size_t room, const dyd_slab *const s[2]) {
   if (!circles_set_feature(&q->f, s, (q->base + 1) % 3, q->base)) return count;
   if (!circles_set_feature(&q->g, s, (q->base + 2) % 3, q->base)) return count;
   if (dyd_filter_pane_empty(s[0], s[1], q->base)) return count;
@@ -501,7 +502,7 @@ static size_t search_pane(search *q, dyd_icircle *out, size_t count, size_t room
 }
 
 size_t dyd_icircles(dyd_icircle *out, size_t room, const dyd_irect *const r[3], const dyd_touch touch[3]) {
-  search q = {.r = r, .touch = touch, .base = 0};
+  circle_search q = {.r = r, .touch = touch, .base = 0};
   while (q.base < 3 && touch[q.base] != DYD_FARTHEST) q.base++;
   DYD_INVARIANT(q.base < 3);
   circle_search_init(&q);

@@ -170,13 +170,13 @@ dyd_iv dyd_filter_near(mpz_srcptr z, mpz_srcptr origin, int64_t shift, mpz_ptr s
 }
 
 /* A feature relative to p: a point, or a line across one axis. */
-typedef struct feature {
+typedef struct feature_iv {
   bool has[2];
   dyd_iv at[2];
-} feature;
+} feature_iv;
 
-static feature relative_feature(const dyd_slab *x, const dyd_slab *y, int m, int base) {
-  feature f = {{x->mark[m].at != NULL, y->mark[m].at != NULL}, {DYD_IV_UNKNOWN, DYD_IV_UNKNOWN}};
+static feature_iv relative_feature(const dyd_slab *x, const dyd_slab *y, int m, int base) {
+  feature_iv f = {{x->mark[m].at != NULL, y->mark[m].at != NULL}, {DYD_IV_UNKNOWN, DYD_IV_UNKNOWN}};
   if (f.has[0]) f.at[0] = dyd_iv_sub(x->mark[m].near, x->mark[base].near);
   if (f.has[1]) f.at[1] = dyd_iv_sub(y->mark[m].near, y->mark[base].near);
   return f;
@@ -193,7 +193,7 @@ static const roots unknown_roots = {false, 0, {{{0, 0}, {0, 0}}, {{0, 0}, {0, 0}
 
 static const roots no_roots = {true, 0, {{{0, 0}, {0, 0}}, {{0, 0}, {0, 0}}}};
 
-static roots iv_two_points(const feature *f, const feature *g) {
+static roots iv_two_points(const feature_iv *f, const feature_iv *g) {
   dyd_iv s = dyd_iv_add(dyd_iv_sqr(f->at[0]), dyd_iv_sqr(f->at[1]));
   dyd_iv t = dyd_iv_add(dyd_iv_sqr(g->at[0]), dyd_iv_sqr(g->at[1]));
   dyd_iv det = dyd_iv_sub(dyd_iv_mul(f->at[0], g->at[1]), dyd_iv_mul(g->at[0], f->at[1]));
@@ -203,7 +203,7 @@ static roots iv_two_points(const feature *f, const feature *g) {
   return (roots){true, 1, {{dyd_iv_div(u, det2), dyd_iv_div(v, det2)}, {{0, 0}, {0, 0}}}};
 }
 
-static roots iv_point_and_line(const feature *point, const feature *line) {
+static roots iv_point_and_line(const feature_iv *point, const feature_iv *line) {
   int k = line->has[0] ? 0 : 1;
   dyd_iv a = point->at[k], b = point->at[1 - k], l = line->at[k];
   dyd_iv s = dyd_iv_add(dyd_iv_sqr(a), dyd_iv_sqr(b));
@@ -220,7 +220,7 @@ static roots iv_point_and_line(const feature *point, const feature *line) {
   return found;
 }
 
-static roots iv_parallel_lines(const feature *f, const feature *g, int k) {
+static roots iv_parallel_lines(const feature_iv *f, const feature_iv *g, int k) {
   dyd_iv c = dyd_iv_neg(dyd_iv_mul(f->at[k], g->at[k]));
   if (c.hi < 0) return no_roots;
   dyd_iv u = dyd_iv_scale(dyd_iv_add(f->at[k], g->at[k]), 0.5), v = dyd_iv_sqrt(c);
@@ -247,7 +247,7 @@ static roots iv_crossing_lines(dyd_iv l, dyd_iv m) {
   return (roots){true, 2, {{plus_u, minus_v}, {minus_u, plus_v}}};
 }
 
-static roots iv_solve(const feature *f, const feature *g) {
+static roots iv_solve(const feature_iv *f, const feature_iv *g) {
   bool f_point = f->has[0] && f->has[1], g_point = g->has[0] && g->has[1];
   if (f_point && g_point) return iv_two_points(f, g);
   if (f_point) return iv_point_and_line(f, g);
@@ -264,7 +264,7 @@ static bool outside_slab(dyd_iv t, dyd_iv p, const dyd_slab *s) {
 }
 
 bool dyd_filter_pane_empty(const dyd_slab *x, const dyd_slab *y, int base) {
-  feature f = relative_feature(x, y, (base + 1) % 3, base), g = relative_feature(x, y, (base + 2) % 3, base);
+  feature_iv f = relative_feature(x, y, (base + 1) % 3, base), g = relative_feature(x, y, (base + 2) % 3, base);
   roots found = iv_solve(&f, &g);
   if (!found.known) return false;
   for (int i = 0; i < found.count; i++) {

@@ -8,6 +8,7 @@
 
 #include "base/float_filter.h"
 #include "base/local.h"
+#include "skeleton/reps.h"
 #include <math.h>
 
 #define STEPS 16  /* bisections along the curve */
@@ -16,26 +17,22 @@
 #define CANDIDATES 6
 #define MOST_POINTS 64
 
-typedef struct xy {
-  double x, y;
-} xy;
-
 /* A point of the curve, or an end of it (a direction): what blocks it is nearer (or farther out) than `own`; distances
  * are squared. */
-typedef struct spot {
+typedef struct curve_point {
   bool end;
-  xy at;
+  dyd_xy at;
   double own;
-} spot;
+} curve_point;
 
 /* The curve: the point number t in (-1,1) lies beside m, t / (1 - t^2) along n, and then moved along d. Lengths are in
  * units of a power of two that is about the distance of the rectangles. */
 typedef struct curve {
   const dyd_proof *proof;
   double box[2][4]; /* of i and j, relative to m */
-  xy m, d, n;
+  dyd_xy m, d, n;
   double unit;
-  spot end[2];
+  curve_point end[2];
 } curve;
 
 static void box_at(double out[4], const curve *c, uint32_t v) {
@@ -47,21 +44,21 @@ static double larger_double(double a, double b) {
   return a > b ? a : b;
 }
 
-static double near_to(const double e[4], xy c) {
+static double near_to(const double e[4], dyd_xy c) {
   double x = c.x - dyd_nearest_in(c.x, e[0], e[1]), y = c.y - dyd_nearest_in(c.y, e[2], e[3]);
   return x * x + y * y;
 }
 
-static double far_from(const double e[4], xy c) {
+static double far_from(const double e[4], dyd_xy c) {
   double x = larger_double(c.x - e[0], e[1] - c.x), y = larger_double(c.y - e[2], e[3] - c.y);
   return x * x + y * y;
 }
 
 /* max u.x over the box, or the minimum. */
-static double box_top(const double e[4], xy u) {
+static double box_top(const double e[4], dyd_xy u) {
   return (u.x > 0 ? e[1] : e[0]) * u.x + (u.y > 0 ? e[3] : e[2]) * u.y;
 }
-static double box_bottom(const double e[4], xy u) {
+static double box_bottom(const double e[4], dyd_xy u) {
   return (u.x > 0 ? e[0] : e[1]) * u.x + (u.y > 0 ? e[2] : e[3]) * u.y;
 }
 
@@ -72,12 +69,12 @@ static double gap_between(double a0, double a1, double b0, double b1) {
 
 /* A point of the curve. The square of ds_i less that of ds_j grows along d: at twice the way, along d, from the point
  * of R_i nearest to it to the one of R_j. Newton's steps, halved where they leave the interval known for the place. */
-static xy point_at(const curve *c, double t) {
+static dyd_xy point_at(const curve *c, double t) {
   const double *a = c->box[0], *b = c->box[1];
   double along = t / (1 - t * t), lo = -8 * (1 + fabs(along)), hi = -lo, s = 0;
-  xy at = {0, 0};
+  dyd_xy at = {0, 0};
   for (int k = 0; k < ACROSS; k++) {
-    at = (xy){along * c->n.x + s * c->d.x, along * c->n.y + s * c->d.y};
+    at = (dyd_xy){along * c->n.x + s * c->d.x, along * c->n.y + s * c->d.y};
     double px = dyd_nearest_in(at.x, a[0], a[1]), py = dyd_nearest_in(at.y, a[2], a[3]);
     double qx = dyd_nearest_in(at.x, b[0], b[1]), qy = dyd_nearest_in(at.y, b[2], b[3]);
     double own = (at.x - px) * (at.x - px) + (at.y - py) * (at.y - py);
@@ -91,12 +88,12 @@ static xy point_at(const curve *c, double t) {
 }
 
 /* The direction of the curve's end: i and j equally far out. side = -1 or 1: of n. */
-static xy end_direction(const curve *c, int side) {
+static dyd_xy end_direction(const curve *c, int side) {
   double lo = -1.5707963267948966, hi = -lo; /* angle from n towards d */
-  xy u = {0, 0};
+  dyd_xy u = {0, 0};
   for (int k = 0; k < TURNS; k++) {
     double angle = (lo + hi) / 2, x = side * cos(angle), y = sin(angle);
-    u = (xy){x * c->n.x + y * c->d.x, x * c->n.y + y * c->d.y};
+    u = (dyd_xy){x * c->n.x + y * c->d.x, x * c->n.y + y * c->d.y};
     if (box_top(c->box[1], u) > box_top(c->box[0], u))
       hi = angle;
     else
@@ -105,8 +102,8 @@ static xy end_direction(const curve *c, int side) {
   return u;
 }
 
-static spot end_spot(const curve *c, int side) {
-  spot s = {.end = true, .at = end_direction(c, side)};
+static curve_point end_spot(const curve *c, int side) {
+  curve_point s = {.end = true, .at = end_direction(c, side)};
   s.own = larger_double(box_top(c->box[0], s.at), box_top(c->box[1], s.at));
   return s;
 }
@@ -117,12 +114,12 @@ static bool make_curve(curve *c, const dyd_proof *p, uint32_t i, uint32_t j) {
   *c = (curve){.proof = p, .unit = 1};
   box_at(a, c, i);
   box_at(b, c, j);
-  xy d = {gap_between(a[0], a[1], b[0], b[1]), gap_between(a[2], a[3], b[2], b[3])};
+  dyd_xy d = {gap_between(a[0], a[1], b[0], b[1]), gap_between(a[2], a[3], b[2], b[3])};
   double length = hypot(d.x, d.y);
   if (!(length > 0) || !isfinite(length)) return false;
-  c->m = (xy){(fmin(a[1], b[1]) + fmax(a[0], b[0])) / 2, (fmin(a[3], b[3]) + fmax(a[2], b[2])) / 2};
-  c->d = (xy){d.x / length, d.y / length};
-  c->n = (xy){-c->d.y, c->d.x};
+  c->m = (dyd_xy){(fmin(a[1], b[1]) + fmax(a[0], b[0])) / 2, (fmin(a[3], b[3]) + fmax(a[2], b[2])) / 2};
+  c->d = (dyd_xy){d.x / length, d.y / length};
+  c->n = (dyd_xy){-c->d.y, c->d.x};
   frexp(length, &exp);
   c->unit = ldexp(1, exp);
   if (!(c->unit > 0)) return false;
@@ -133,20 +130,20 @@ static bool make_curve(curve *c, const dyd_proof *p, uint32_t i, uint32_t j) {
   return true;
 }
 
-static spot spot_at(const curve *c, double t) {
+static curve_point spot_at(const curve *c, double t) {
   if (fabs(t) >= 1) return c->end[t > 0];
-  spot s = {.at = point_at(c, t)};
+  curve_point s = {.at = point_at(c, t)};
   double a = near_to(c->box[0], s.at), b = near_to(c->box[1], s.at);
   s.own = a < b ? a : b;
   return s;
 }
 
-static bool blocks_spot(const double e[4], const spot *s) {
+static bool blocks_spot(const double e[4], const curve_point *s) {
   return s->end ? box_bottom(e, s->at) > s->own : far_from(e, s->at) < s->own;
 }
 
 static bool blocks_curve(const curve *c, const double e[4], double t) {
-  spot s = spot_at(c, t);
+  curve_point s = spot_at(c, t);
   return blocks_spot(e, &s);
 }
 
@@ -182,7 +179,7 @@ typedef struct candidates {
   size_t count;
 } candidates;
 
-static double margin_of(const double e[4], const spot *s) {
+static double margin_of(const double e[4], const curve_point *s) {
   return s->end ? box_bottom(e, s->at) - s->own : s->own - far_from(e, s->at);
 }
 
@@ -203,7 +200,7 @@ static void candidate_consider(candidates *c, uint32_t k, double margin) {
 static bool best_blocker(uint32_t *out, double *reach, const curve *c, double t, uint32_t i, uint32_t j,
                          const uint32_t *near, size_t count) {
   double e[4];
-  spot here = spot_at(c, t);
+  curve_point here = spot_at(c, t);
   candidates found = {.count = 0};
   for (size_t q = 0; q < count; q++) {
     if (near[q] == i || near[q] == j) continue;
@@ -234,7 +231,7 @@ static bool exact_from_double(dyd_exact *out, double v) {
 }
 
 static bool chain_point(dyd_cert_chain *out, const curve *c, double t) {
-  xy at = point_at(c, t);
+  dyd_xy at = point_at(c, t);
   if (dyd_cert_chain_resize(out, out->points + 1) != DYD_OK) return false;
   dyd_exact *to = out->point[out->points - 1];
   return exact_from_double(&to[0], at.x * c->unit + c->m.x) && exact_from_double(&to[1], at.y * c->unit + c->m.y);
@@ -296,7 +293,7 @@ dyd_status dyd_proof_find_chain(bool *found, dyd_cert_chain *out, const dyd_proo
   DYD_LOCAL(dyd_cert_chain, chain);
   bool good = true;
   for (int k = 0; k < 2; k++) {
-    xy u = end_direction(&c, k ? 1 : -1);
+    dyd_xy u = end_direction(&c, k ? 1 : -1);
     good = good && exact_from_double(&chain.u[k][0], u.x) && exact_from_double(&chain.u[k][1], u.y);
   }
   dyd_status st = DYD_OK;

@@ -24,13 +24,13 @@ DYD_ARRAYS(dyd_cert_fraction)
  * span a cone, and a direction at an obtuse angle to both of its sides will do. Integers only. */
 
 /* The walk of the unbounded face as sites, and which of them may be corners. */
-typedef struct rim {
+typedef struct outer_walk {
   uint32_t *walk, *site;
   size_t count;
   bool *corner; /* by site */
-} rim;
+} outer_walk;
 
-static dyd_status make_rim(rim *r, const dyd_proof *p) {
+static dyd_status make_rim(outer_walk *r, const dyd_proof *p) {
   dyd_status st = dyd_cert_walk(&r->walk, &r->count, &p->graph, dyd_cert_outer(&p->graph));
   if (st != DYD_OK) return st;
   r->site = dyd_alloc(r->count, sizeof *r->site);
@@ -202,7 +202,7 @@ bool dyd_proof_find_direction(dyd_exact u[2], const dyd_proof *p, uint32_t v, co
 /* ---- all corners ---- */
 
 /* The sites of the two groups at the corner at position q. */
-static crowds groups_beside(const rim *r, const dyd_cert_parts *parts, size_t q) {
+static crowds groups_beside(const outer_walk *r, const dyd_cert_parts *parts, size_t q) {
   crowds out;
   for (int way = 0; way < 2; way++) {
     uint32_t group = parts->group[way ? q : (q + r->count - 1) % r->count];
@@ -221,7 +221,7 @@ static dyd_status keep_corner(dyd_proof *p, uint32_t v, const dyd_exact u[2]) {
   return DYD_OK;
 }
 
-static bool have_corner(const rim *r) {
+static bool have_corner(const outer_walk *r) {
   for (size_t q = 0; q < r->count; q++)
     if (r->corner[r->site[q]]) return true;
   return false;
@@ -233,7 +233,7 @@ void dyd_proof_drop_corners(dyd_proof *p) {
 }
 
 /* Keeps the corners that have a direction; *again: some have none and are corners no more, so parts have grown. */
-static dyd_status try_corners(bool *again, dyd_proof *p, rim *r) {
+static dyd_status try_corners(bool *again, dyd_proof *p, outer_walk *r) {
   dyd_cert_parts parts;
   *again = false;
   dyd_proof_drop_corners(p);
@@ -256,7 +256,7 @@ static dyd_status try_corners(bool *again, dyd_proof *p, rim *r) {
 
 static dyd_status rim_corners(dyd_proof *p) {
   if (!p->graph.connected || p->graph.count == 0) return DYD_OK;
-  rim r = {0};
+  outer_walk r = {0};
   dyd_status st = make_rim(&r, p);
   for (bool again = true; again && st == DYD_OK;) {
     again = false;

@@ -30,23 +30,23 @@
 #define RECENT 40
 
 /* A line of the section: an open pair, or an illegal one of an open set, to be proved. Invariant: i < j. */
-typedef struct line {
+typedef struct pair_line {
   uint32_t i, j;
   char kind;
-} line;
+} pair_line;
 
-typedef struct lines {
-  line *item;
+typedef struct pair_lines {
+  pair_line *item;
   size_t count, cap;
-} lines;
+} pair_lines;
 
-static dyd_status add_line(lines *l, uint32_t i, uint32_t j, char kind) {
+static dyd_status add_line(pair_lines *l, uint32_t i, uint32_t j, char kind) {
   if (!DYD_GROW(l->item, l->cap, l->count + 1)) return DYD_E_NOMEM;
-  l->item[l->count++] = (line){i, j, kind};
+  l->item[l->count++] = (pair_line){i, j, kind};
   return DYD_OK;
 }
 
-static dyd_status open_lines(lines *l, dyd_proof *p) {
+static dyd_status open_lines(pair_lines *l, dyd_proof *p) {
   static const char kind[] = {[DYD_TIE] = 't', [DYD_INDETERMINATE] = 'o', [DYD_LEGAL] = 'l'};
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < p->pairs.count && st == DYD_OK; k++) {
@@ -62,7 +62,7 @@ static bool pair_is_listed(const dyd_proof *p, uint32_t i, uint32_t j) {
   return dyd_cert_edges_have(&p->legal, i, j) || dyd_cert_edges_have(&p->open, i, j);
 }
 
-static dyd_status unlisted_lines(lines *l, const dyd_proof *p) {
+static dyd_status unlisted_lines(pair_lines *l, const dyd_proof *p) {
   uint64_t effort = 0;
   dyd_status st = DYD_OK;
   for (size_t f = 0; f < p->faces.sets; f++) {
@@ -81,7 +81,7 @@ static dyd_status unlisted_lines(lines *l, const dyd_proof *p) {
 
 /* The pairs that boxes leave; all of open sets that are not listed, as far as the effort allows, where boxes give up.
  */
-static dyd_status illegal_lines(lines *l, dyd_proof *p) {
+static dyd_status illegal_lines(pair_lines *l, dyd_proof *p) {
   static const dyd_cert_edges none = {0};
   const dyd_cert_known known = {{&p->legal, &p->open, &none}};
   dyd_cert_edges left;
@@ -156,7 +156,7 @@ static void remember_blockers(blockers *b, const dyd_cert_chain *chain) {
   }
 }
 
-static dyd_status pair_chain(bool *found, dyd_cert_chain *chain, blockers *b, const dyd_proof *p, const line *l) {
+static dyd_status pair_chain(bool *found, dyd_cert_chain *chain, blockers *b, const dyd_proof *p, const pair_line *l) {
   dyd_status st = DYD_OK;
   *found = false;
   for (int wider = 0; wider < 3 && st == DYD_OK && !*found && b->effort < CHAIN_EFFORT; wider++) {
@@ -169,7 +169,7 @@ static dyd_status pair_chain(bool *found, dyd_cert_chain *chain, blockers *b, co
   return st;
 }
 
-static dyd_status pair_put_chain(FILE *out, dyd_cert_chain *chain, blockers *near, dyd_proof *p, const line *l) {
+static dyd_status pair_put_chain(FILE *out, dyd_cert_chain *chain, blockers *near, dyd_proof *p, const pair_line *l) {
   bool found;
   dyd_status st = pair_chain(&found, chain, near, p, l);
   if (st != DYD_OK || !found) return st;
@@ -180,12 +180,12 @@ static dyd_status pair_put_chain(FILE *out, dyd_cert_chain *chain, blockers *nea
   return dyd_cert_edges_add(&p->chained, l->i, l->j);
 }
 
-static dyd_status pair_put_lines(FILE *out, dyd_proof *p, const lines *l) {
+static dyd_status pair_put_lines(FILE *out, dyd_proof *p, const pair_lines *l) {
   blockers near = {0};
   DYD_LOCAL(dyd_cert_chain, chain);
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < l->count && st == DYD_OK; k++) {
-    const line *at = &l->item[k];
+    const pair_line *at = &l->item[k];
     if (k && dyd_compare_two(at, at - 1) == 0) continue; /* a pair of two sets */
     if (at->kind == 'n')
       st = pair_put_chain(out, &chain, &near, p, at);
@@ -208,7 +208,7 @@ static dyd_status pair_put_boxes(FILE *out, dyd_proof *p) {
 }
 
 dyd_status dyd_proof_put_pairs(FILE *out, dyd_proof *p) {
-  lines l = {0};
+  pair_lines l = {0};
   fputs("pairs\n", out);
   dyd_status st = open_lines(&l, p);
   for (size_t k = 0; k < l.count; k++) dyd_cert_faces_cover(&p->faces, l.item[k].i, l.item[k].j);
@@ -222,9 +222,9 @@ dyd_status dyd_proof_put_pairs(FILE *out, dyd_proof *p) {
 
 enum { PRECISION = 256, MOST_ADDED = 64, MOST_MET = 64 };
 
-typedef struct vector {
+typedef struct mpf_vector {
   mpf_t x, y;
-} vector;
+} mpf_vector;
 
 /* near: sites with their caps in `all`: cap k + 1 is that of site near[k]. some: those of a proof. */
 typedef struct disc_proof {
@@ -236,8 +236,8 @@ typedef struct disc_proof {
   uint32_t *near, *chosen;
   size_t near_count, near_cap, chosen_count, chosen_cap;
   dyd_cert_caps all, some;
-  dyd_exact at[2];               /* the witness found last */
-  vector u, from, to, end, axis; /* scratch */
+  dyd_exact at[2];                   /* the witness found last */
+  mpf_vector u, from, to, end, axis; /* scratch */
   mpf_t s, t, best;
 } disc_proof;
 
@@ -295,15 +295,15 @@ static void height_in_cap(mpf_ptr out, disc_proof *w, const dyd_cert_cap *k) {
 }
 
 /* The sign of the cross product. */
-static int turn_of(disc_proof *w, const vector *a, const vector *b) {
+static int turn_of(disc_proof *w, const mpf_vector *a, const mpf_vector *b) {
   mpf_mul(w->s, a->x, b->y);
   mpf_mul(w->t, a->y, b->x);
   return mpf_cmp(w->s, w->t);
 }
 
 /* The end of a cap that is not empty. */
-static void end_of_cap(vector *out, disc_proof *w, const dyd_cert_cap *e, int turn) {
-  const vector *v = &w->axis;
+static void end_of_cap(mpf_vector *out, disc_proof *w, const dyd_cert_cap *e, int turn) {
+  const mpf_vector *v = &w->axis;
   set_float(w->t, &e->c);
   mpf_sqrt(w->t, w->t);
   if (turn < 0) mpf_neg(w->t, w->t);
@@ -322,7 +322,7 @@ static void end_of_cap(vector *out, disc_proof *w, const dyd_cert_cap *e, int tu
 }
 
 /* Makes its length 1; false: it is 0. */
-static bool make_unit(disc_proof *w, vector *v) {
+static bool make_unit(disc_proof *w, mpf_vector *v) {
   mpf_mul(w->s, v->x, v->x);
   mpf_mul(w->t, v->y, v->y);
   mpf_add(w->s, w->s, w->t);
@@ -415,7 +415,7 @@ static dyd_status find_caps(bool *found, disc_proof *w, uint32_t i, uint32_t j) 
 
 /* Cuts the arc from w->from to w->to, at most half a turn, to its part in the cap. */
 static void narrow_arc(disc_proof *w, const dyd_cert_cap *k) {
-  vector *const ends[2] = {&w->from, &w->to};
+  mpf_vector *const ends[2] = {&w->from, &w->to};
   for (int side = 0; side < 2; side++) {
     end_of_cap(&w->end, w, k, side ? 1 : -1);
     if (turn_of(w, &w->from, &w->end) < 0 || turn_of(w, &w->end, &w->to) < 0) continue;
@@ -460,7 +460,7 @@ static void put_rounded(dyd_exact *x, disc_proof *w, const dyd_exact *a, mpf_src
 /* The centre p_i + u / (2 h), h = (u.P_j - delta) / N_j, with as few digits as make it a witness; or *other is one too
  * near. */
 static bool round_centre(dyd_exact at[2], uint32_t *other, disc_proof *w, uint32_t i, uint32_t j) {
-  vector *to = &w->end;
+  mpf_vector *to = &w->end;
   long top;
   const dyd_proof *p = w->p;
   bool good = false;

@@ -351,7 +351,7 @@ static void option_set(void *at, option_kind kind, PyObject *value) {
 }
 
 /* A dict of bits by points, or None. */
-static dyd_status policy_answer(dyd_plan *plan, PyObject *answer) {
+static dyd_status policy_answer(dyd_wants *plan, PyObject *answer) {
   PyObject *point, *bits;
   Py_ssize_t at = 0;
   if (answer == Py_None) return DYD_OK;
@@ -361,14 +361,14 @@ static dyd_status policy_answer(dyd_plan *plan, PyObject *answer) {
     Py_ssize_t i = PyNumber_AsSsize_t(point, PyExc_OverflowError);
     long long b = PyLong_AsLongLong(bits);
     if (PyErr_Occurred()) break;
-    dyd_status st = dyd_plan_add(plan, i < 0 || i > UINT32_MAX ? UINT32_MAX : (uint32_t)i, b);
+    dyd_status st = dyd_wants_add(plan, i < 0 || i > UINT32_MAX ? UINT32_MAX : (uint32_t)i, b);
     if (st != DYD_OK) return st;
   }
   return PyErr_Occurred() ? DYD_E_STREAM : DYD_OK;
 }
 
 /* Calls policy(pairs, plan): a list of undecided pairs, and a dict of bits by points. */
-static dyd_status python_policy(dyd_plan *plan, PyObject *policy, const dyd_pair_list *pairs,
+static dyd_status python_policy(dyd_wants *plan, PyObject *policy, const dyd_pair_list *pairs,
                                 const dyd_request *request, size_t count) {
   OWNED *list = PyList_New(0), *dict = PyDict_New(), *answer = NULL;
   for (size_t k = 0; list && !PyErr_Occurred() && k < pairs->count; k++) {
@@ -385,7 +385,7 @@ static dyd_status python_policy(dyd_plan *plan, PyObject *policy, const dyd_pair
   return answer ? policy_answer(plan, answer) : DYD_E_STREAM;
 }
 
-static dyd_status policy_asked(dyd_plan *plan, void *user, const dyd_engine *e, const dyd_request *request,
+static dyd_status policy_asked(dyd_wants *plan, void *user, const dyd_engine *e, const dyd_request *request,
                                size_t count, dyd_error *err) {
   SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = dyd_engine_delaunay(e) ? dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(e)) : DYD_OK;

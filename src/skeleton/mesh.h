@@ -68,7 +68,7 @@ typedef struct dyd_mesh {
   bool no_fixed;    /* they do not exist */
   uint32_t moved;   /* moves of representatives so far; a coincidence takes the next fraction */
   uint32_t hint;    /* where the next search starts; of a mesh of several strips: a ghost triangle */
-  struct dyd_rim *rim; /* scratch of insertion */
+  struct dyd_cavity_edge *rim; /* scratch of insertion */
   uint32_t *spare;
   size_t rim_cap, spare_cap;
 } dyd_mesh;

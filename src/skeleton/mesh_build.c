@@ -254,7 +254,7 @@ static uint32_t mesh_locate(dyd_mesh *m, uint32_t v) {
 
 /* An edge of the rim of the cavity, from a to b, counter-clockwise. The rim is a chain: a is the b of the edge before.
  */
-struct dyd_rim {
+struct dyd_cavity_edge {
   dyd_half_edge beyond; /* in the triangle beyond */
   uint32_t b;
   dyd_seen seen; /* b from the new vertex */
@@ -274,18 +274,19 @@ static inline dyd_seen rim_of_triangle(dyd_mesh *m, dyd_xy p, uint32_t t) {
   for (unsigned k = 0; k < 3; k++) seen[k] = dyd_see(m->xy[at->v[k]], p);
   for (unsigned k = 0; k < 3; k++) {
     unsigned a = dyd_next(k), b = dyd_prev(k);
-    m->rim[2 - k] = (struct dyd_rim){at->n[k], at->v[b], seen[b], dyd_seen_cross(seen[a], seen[b])};
+    m->rim[2 - k] = (struct dyd_cavity_edge){at->n[k], at->v[b], seen[b], dyd_seen_cross(seen[a], seen[b])};
   }
   return seen[1];
 }
 
 /* Triangles around a new vertex, counter-clockwise. */
-typedef struct fan {
+typedef struct triangle_fan {
   uint32_t first, last;
-} fan;
+} triangle_fan;
 
 /* q becomes the next one: v and the rim's edge from a to b, beyond which is h. */
-static inline void fan_add(fan *f, dyd_mesh *m, uint32_t q, uint32_t v, uint32_t a, uint32_t b, dyd_half_edge h) {
+static inline void fan_add(triangle_fan *f, dyd_mesh *m, uint32_t q, uint32_t v, uint32_t a, uint32_t b,
+                           dyd_half_edge h) {
   uint32_t before = f->first == DYD_NONE ? q : f->last;
   m->tri[q] = (dyd_tri){{v, a, b}, {h, DYD_NONE, dyd_edge_of(before, 1)}};
   m->tri[before].n[1] = dyd_edge_of(q, 2);
@@ -300,12 +301,12 @@ static dyd_status insert_at(dyd_mesh *m, uint32_t v, uint32_t t) {
   dyd_seen sa = rim_of_triangle(m, p, t);
   size_t edges = 3, spares = 3;
   uint32_t a = m->tri[t].v[1];
-  fan f = {DYD_NONE, DYD_NONE};
+  triangle_fan f = {DYD_NONE, DYD_NONE};
   m->spare[0] = m->count + 1;
   m->spare[1] = m->count;
   m->spare[2] = t;
   while (edges) {
-    struct dyd_rim *r = &m->rim[edges - 1];
+    struct dyd_cavity_edge *r = &m->rim[edges - 1];
     dyd_half_edge h = r->beyond;
     const dyd_tri *o = &m->tri[dyd_edge_triangle(h)];
     unsigned k = dyd_edge_corner(h);
@@ -320,7 +321,7 @@ static dyd_status insert_at(dyd_mesh *m, uint32_t v, uint32_t t) {
       r = &m->rim[edges - 1];
       r->beyond = o->n[dyd_prev(k)];
       r->cross = cb;
-      m->rim[edges++] = (struct dyd_rim){o->n[dyd_next(k)], c, sc, ac};
+      m->rim[edges++] = (struct dyd_cavity_edge){o->n[dyd_next(k)], c, sc, ac};
       m->spare[spares++] = dyd_edge_triangle(h);
     } else {
       fan_add(&f, m, m->spare[--spares], v, a, b, h);

@@ -312,13 +312,13 @@ bool dyd_fixed_incircle(int *sign, const dyd_mesh *m, uint32_t a, uint32_t b, ui
 
 /* ---- GMP integers on a common scale ---- */
 
-typedef struct scaled_points {
+typedef struct scaled_corners {
   dyd_irect p[4];
   size_t count;
-} scaled_points;
+} scaled_corners;
 
 /* Cannot fail: every representative lies in the exponent range, since its rectangle does. */
-static void points_load(scaled_points *s, const dyd_mesh *m, const uint32_t *v, size_t count) {
+static void points_load(scaled_corners *s, const dyd_mesh *m, const uint32_t *v, size_t count) {
   DYD_LOCAL_ARRAY(dyd_rect, r, [4]);
   const dyd_rect *in[4] = {NULL};
   s->count = count;
@@ -330,12 +330,12 @@ static void points_load(scaled_points *s, const dyd_mesh *m, const uint32_t *v, 
   dyd_irects_scale(s->p, in, count, NULL, NULL);
 }
 
-static void scaled_points_clear(scaled_points *s) {
+static void scaled_corners_clear(scaled_corners *s) {
   for (size_t k = 0; k < s->count; k++) dyd_irect_clear(&s->p[k]);
 }
 
 /* Moves the origin to the last point. */
-static void points_recentre(scaled_points *s) {
+static void points_recentre(scaled_corners *s) {
   const dyd_irect *o = &s->p[s->count - 1];
   for (size_t k = 0; k + 1 < s->count; k++) {
     mpz_sub(s->p[k].x0, s->p[k].x0, o->x0);
@@ -350,7 +350,7 @@ static void points_cross(mpz_t out, mpz_t t, const dyd_irect *a, const dyd_irect
 }
 
 int dyd_mesh_orient_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
-  DYD_SCOPED(scaled_points) s;
+  DYD_SCOPED(scaled_corners) s;
   DYD_LOCAL_NUMBERS(mpz, d, t);
   points_load(&s, m, (const uint32_t[]){a, b, c}, 3);
   points_recentre(&s);
@@ -359,7 +359,7 @@ int dyd_mesh_orient_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c)
 }
 
 int dyd_mesh_incircle_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
-  DYD_SCOPED(scaled_points) s;
+  DYD_SCOPED(scaled_corners) s;
   DYD_LOCAL_NUMBERS(mpz, d, l, x, t);
   points_load(&s, m, (const uint32_t[]){a, b, c, p}, 4);
   points_recentre(&s);
@@ -376,7 +376,7 @@ int dyd_mesh_incircle_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t 
 int dyd_mesh_compare(const dyd_mesh *m, uint32_t a, uint32_t b) {
   double x = m->xy[a].x - m->xy[b].x, y = m->xy[a].y - m->xy[b].y;
   if (!m->reps->code || fabs(x) > 4 * m->reps->delta) return x != 0 ? (x > 0) - (x < 0) : (y > 0) - (y < 0);
-  DYD_SCOPED(scaled_points) s;
+  DYD_SCOPED(scaled_corners) s;
   points_load(&s, m, (const uint32_t[]){a, b}, 2);
   int sign = mpz_cmp(s.p[0].x0, s.p[1].x0);
   if (!sign) sign = mpz_cmp(s.p[0].y0, s.p[1].y0);
@@ -391,7 +391,7 @@ bool dyd_mesh_between(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t p) {
   if (!m->reps->code && !m->no_filter) /* on one line either coordinate decides, unless it is the same for all */
     return is_strictly_between(m->xy[a].x, m->xy[b].x, m->xy[p].x) ||
            is_strictly_between(m->xy[a].y, m->xy[b].y, m->xy[p].y);
-  DYD_SCOPED(scaled_points) s;
+  DYD_SCOPED(scaled_corners) s;
   DYD_LOCAL_NUMBERS(mpz, d);
   points_load(&s, m, (const uint32_t[]){a, b, p}, 3);
   points_recentre(&s);

@@ -16,7 +16,7 @@ static dyd_bbox part_of_box(const dyd_bbox *c, int k) {
   return (dyd_bbox){{k & 1 ? x : c->e[0], k & 1 ? c->e[1] : x, k & 2 ? y : c->e[2], k & 2 ? c->e[3] : y}};
 }
 
-dyd_status dyd_walk_parts(dyd_look look, void *context, const volatile int *cancel, dyd_part p) {
+dyd_status dyd_walk_parts(dyd_look look, void *context, const volatile int *cancel, dyd_plane_part p) {
   int parts = 0;
   dyd_status st = dyd_flag_is_set(cancel) ? DYD_CANCELLED : look(context, &parts, &p);
   const dyd_bbox at = p.at;
@@ -101,11 +101,11 @@ void dyd_tree_refresh(dyd_tree *t, uint32_t q) {
 
 /* A depth-first search; at most 7 waiting siblings on each level. value: distance or height of the node when it was
  * put aside; the limit may have moved meanwhile. */
-typedef struct frame {
+typedef struct walk_level {
   int level;
   size_t node;
   double value;
-} frame;
+} walk_level;
 
 enum { STACK = DYD_TREE_LEVELS * DYD_TREE_FANOUT };
 
@@ -157,12 +157,12 @@ static void depths(double value[DYD_TREE_FANOUT], const dyd_tree *t, int level, 
 /* Both walks over the tree: near c, or beyond a line across (ux, uy). A copy is compiled for each value of `near`. */
 static inline void tree_walk(const dyd_tree *t, bool near, const dyd_bbox *c, double ux, double uy, const double *limit,
                              dyd_visit visit, void *context) {
-  frame stack[STACK];
+  walk_level stack[STACK];
   double value[DYD_TREE_FANOUT];
   int depth = 0;
-  if (t->levels) stack[depth++] = (frame){t->levels - 1, 0, -INFINITY};
+  if (t->levels) stack[depth++] = (walk_level){t->levels - 1, 0, -INFINITY};
   while (depth) {
-    frame f = stack[--depth];
+    walk_level f = stack[--depth];
     size_t first, end;
     if (f.value > (near ? *limit : -*limit)) continue;
     dyd_tree_children(&first, &end, t, f.level, f.node);
@@ -173,7 +173,7 @@ static inline void tree_walk(const dyd_tree *t, bool near, const dyd_bbox *c, do
     for (size_t e = first; e < end; e++) {
       if (value[e - first] > (near ? *limit : -*limit)) continue;
       if (f.level > 0)
-        stack[depth++] = (frame){f.level - 1, e, value[e - first]};
+        stack[depth++] = (walk_level){f.level - 1, e, value[e - first]};
       else if (!visit(context, t->item[e]))
         return;
     }

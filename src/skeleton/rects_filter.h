@@ -114,17 +114,17 @@ static inline bool dyd_corners_block(const double far[4], const double near[4]) 
 /* A part of the plane, cut `depth` times from the whole, and what is left for it of the caller's lists: candidates
  * first .. first + count, and pairs of them. The lists of a part lie behind those of the part around it. level: the
  * caller's. */
-typedef struct dyd_part {
+typedef struct dyd_plane_part {
   dyd_bbox at;
   int depth, level;
   size_t first, count, first_pair, pairs;
-} dyd_part;
+} dyd_plane_part;
 
 /* Examines a part; *parts: in how many it is cut, 4, 2 across x only, or 0 if it is decided. They begin as copies. */
-typedef dyd_status (*dyd_look)(void *context, int *parts, dyd_part *p);
+typedef dyd_status (*dyd_look)(void *context, int *parts, dyd_plane_part *p);
 
 /* Walks over p and its parts, depth first, until `look` does not return DYD_OK, or *cancel is set (NULL: never). */
-dyd_status dyd_walk_parts(dyd_look look, void *context, const volatile int *cancel, dyd_part p);
+dyd_status dyd_walk_parts(dyd_look look, void *context, const volatile int *cancel, dyd_plane_part p);
 
 /* A packed tree of boxes over the vertices in spatial order: which can be near, which can lie beyond a line.
  *

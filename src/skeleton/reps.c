@@ -83,11 +83,11 @@ static double half_middle(const dyd_sites *s, int axis, size_t i) {
   return clamp(dyd_sites_lo(s, axis, i)) / 4 + clamp(dyd_sites_hi(s, axis, i)) / 4;
 }
 
-typedef struct frame {
+typedef struct unit_frame {
   double origin[2], scale;
-} frame;
+} unit_frame;
 
-static frame frame_of(const dyd_sites *s) {
+static unit_frame frame_of(const dyd_sites *s) {
   double lo[2] = {DBL_MAX, DBL_MAX}, hi[2] = {-DBL_MAX, -DBL_MAX}, extent = 0;
   for (int a = 0; a < 2; a++) {
     for (size_t i = 0; i < s->count; i++) {
@@ -97,7 +97,7 @@ static frame frame_of(const dyd_sites *s) {
     }
     if (hi[a] - lo[a] > extent) extent = hi[a] - lo[a];
   }
-  frame f = {{lo[0], lo[1]}, extent > 0 ? 65535.0 / extent : 0};
+  unit_frame f = {{lo[0], lo[1]}, extent > 0 ? 65535.0 / extent : 0};
   if (!(f.scale <= DBL_MAX)) f.scale = 0;
   return f;
 }
@@ -112,7 +112,7 @@ static unsigned level_of(uint32_t i) {
 /* What the key of a site is made of. shift: 0, or as many low bits of the curve as the strip number takes. */
 typedef struct keys {
   const dyd_sites *sites;
-  frame f;
+  unit_frame f;
   const hilbert_table *h; /* NULL, as count: few sites */
   bool mixed;
   unsigned strips, shift;
@@ -235,24 +235,24 @@ dyd_status dyd_spatial_order(uint32_t *order, dyd_strips *strips, const dyd_site
 
 /* f = num / 2^bits, 0 < f < 1: the van der Corput sequence (bits of m mirrored behind the point), m >= 1.
  * m -> f is injective, so different m give different points. */
-typedef struct fraction {
+typedef struct binary_fraction {
   uint64_t num;
   unsigned bits;
-} fraction;
+} binary_fraction;
 
-static fraction mirrored(uint64_t m) {
-  fraction f = {0, 0};
+static binary_fraction mirrored(uint64_t m) {
+  binary_fraction f = {0, 0};
   for (; m; m >>= 1, f.bits++) f.num = f.num << 1 | (m & 1);
   return f;
 }
 
 /* The fractions of x and y differ for k > 0, so that the points leave the diagonals and the centre lines. */
-static fraction fraction_of(uint32_t k, int axis) {
+static binary_fraction fraction_of(uint32_t k, int axis) {
   return mirrored(axis == 0 ? (uint64_t)k + 1 : 2 * (uint64_t)k + 1);
 }
 
 /* lo + f (hi - lo), exactly; a rational point stays itself. */
-static dyd_status at_fraction(dyd_interval *a, fraction f) {
+static dyd_status at_fraction(dyd_interval *a, binary_fraction f) {
   if (dyd_interval_is_point(a)) return DYD_OK;
   DYD_LOCAL(dyd_dyadic, d, t);
   mpz_set_ui(t.man, 1);

@@ -22,28 +22,28 @@
  * With two sites the pair is legal [LINE-1]. */
 
 /* A site's extent along the line, as scaled integers: the axis along which the sites differ orders them. */
-typedef struct entry {
+typedef struct line_entry {
   uint32_t vertex;
   dyd_irect r;
   int axis;
-} entry;
+} line_entry;
 
-static mpz_srcptr line_low(const entry *e) {
+static mpz_srcptr line_low(const line_entry *e) {
   return e->axis == 0 ? e->r.x0 : e->r.y0;
 }
-static mpz_srcptr line_high(const entry *e) {
+static mpz_srcptr line_high(const line_entry *e) {
   return e->axis == 0 ? e->r.x1 : e->r.y1;
 }
 
 static int line_compare(const void *a, const void *b) {
-  const entry *x = a, *y = b;
+  const line_entry *x = a, *y = b;
   int c = mpz_cmp(line_low(x), line_low(y));
   if (!c) c = mpz_cmp(line_high(x), line_high(y));
   return c ? c : (x->vertex > y->vertex) - (x->vertex < y->vertex);
 }
 
 /* x, unless the line is vertical. */
-static int line_axis(const entry *e, uint32_t count) {
+static int line_axis(const line_entry *e, uint32_t count) {
   for (uint32_t q = 0; q < count; q++)
     if (mpz_cmp(e[q].r.x0, e[0].r.x0) != 0 || mpz_cmp(e[q].r.x1, e[q].r.x0) != 0) return 0;
   return 1;
@@ -51,7 +51,7 @@ static int line_axis(const entry *e, uint32_t count) {
 
 /* Sorted by lower end. hull(R_q u R_q+1) is free of others iff no site before reaches R_q's lower end and no site after
  * starts at or before the larger upper end. */
-static void line_find_legal(dyd_line *l, const entry *e) {
+static void line_find_legal(dyd_line *l, const line_entry *e) {
   uint32_t reach = 0; /* the entry with the largest upper end among 0 .. q-1 */
   for (uint32_t q = 0; q + 1 < l->count; q++) {
     mpz_srcptr top = mpz_cmp(line_high(&e[q]), line_high(&e[q + 1])) > 0 ? line_high(&e[q]) : line_high(&e[q + 1]);
@@ -64,7 +64,7 @@ static void line_find_legal(dyd_line *l, const entry *e) {
 
 /* The first is certainly an end iff it lies before the second, which has the lowest end of the others; the last iff no
  * site reaches it. Two sites need not be on a line: both are ends when they are apart. */
-static void line_find_ends(dyd_line *l, const entry *e) {
+static void line_find_ends(dyd_line *l, const line_entry *e) {
   uint32_t last = l->count - 1, reach = 0;
   if (l->count == 0) return;
   for (uint32_t q = 1; q < last; q++)
@@ -85,7 +85,7 @@ static bool is_point_again(const dyd_irect *r, const dyd_irect *before) {
 }
 
 /* Equal exact points are neighbours in the order: the later ones become aliases and leave the list. */
-static void line_drop_aliases(dyd_line *l, dyd_mesh *m, entry *e) {
+static void line_drop_aliases(dyd_line *l, dyd_mesh *m, line_entry *e) {
   uint32_t kept = 0;
   for (uint32_t q = 0; q < l->count; q++) {
     if (kept && is_point_again(&e[q].r, &e[kept - 1].r)) {
@@ -97,7 +97,7 @@ static void line_drop_aliases(dyd_line *l, dyd_mesh *m, entry *e) {
   l->count = kept;
 }
 
-static void line_sort(dyd_line *l, dyd_mesh *m, entry *e) {
+static void line_sort(dyd_line *l, dyd_mesh *m, line_entry *e) {
   int axis = line_axis(e, l->count);
   for (uint32_t q = 0; q < l->count; q++) e[q].axis = axis;
   qsort(e, l->count, sizeof *e, line_compare);
@@ -120,7 +120,7 @@ static dyd_status line_build(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, u
     l->rank[v] = DYD_NONE;
     if (dyd_mesh_alias(m, v) == DYD_NONE) l->order[l->count++] = v;
   }
-  DYD_FREED entry *e = dyd_alloc(l->count, sizeof *e);
+  DYD_FREED line_entry *e = dyd_alloc(l->count, sizeof *e);
   DYD_FREED dyd_rect *r = dyd_alloc(l->count, sizeof *r);
   DYD_FREED dyd_irect *out = dyd_alloc(l->count, sizeof *out);
   DYD_FREED const dyd_rect **in = calloc((size_t)l->count + 1, sizeof *in);
@@ -133,7 +133,7 @@ static dyd_status line_build(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, u
   }
   dyd_irects_scale(out, in, l->count, NULL, NULL);
   for (uint32_t q = 0; q < l->count; q++) {
-    e[q] = (entry){.vertex = l->order[q], .r = out[q]};
+    e[q] = (line_entry){.vertex = l->order[q], .r = out[q]};
     dyd_rect_clear(&r[q]);
   }
   line_sort(l, m, e);
@@ -569,8 +569,8 @@ static void task_of_range(void *context, size_t number, size_t begin, size_t end
   work_pass *p = context;
   dyd_work *w = &p->done[number];
   dyd_work_init(w, p->sk, p->work->run);
-  w->room = p->work->room;
-  dyd_room_share(&w->room, w->run->threads);
+  w->memory = p->work->memory;
+  dyd_memory_share(&w->memory, w->run->threads);
   p->status[number] = p->task(p->context, w, number, begin, end);
   dyd_work_clear(w);
 }
@@ -586,7 +586,7 @@ dyd_status dyd_work_ranges(dyd_work *w, const dyd_skeleton *sk, size_t count, dy
     if (st == DYD_OK) st = p.status[r];
     add_counters(&w->counters, &p.done[r].counters);
     dyd_tally_join(&w->tally, &p.done[r].tally);
-    dyd_room_join(&w->room, &p.done[r].room);
+    dyd_memory_join(&w->memory, &p.done[r].memory);
   }
   free(p.done);
   return st;

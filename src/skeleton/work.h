@@ -5,7 +5,7 @@
 #ifndef DYD_SKELETON_WORK_H
 #define DYD_SKELETON_WORK_H
 
-#include "base/room.h"
+#include "base/memory.h"
 #include "predicate/circle.h"
 #include "rect/irect.h"
 #include "skeleton/rects_filter.h"
@@ -59,7 +59,7 @@ typedef struct dyd_run {
 typedef struct dyd_work {
   const dyd_run *run;     /* borrowed */
   const dyd_rects *rects; /* of all vertices, or of the few that suffice; borrowed */
-  dyd_room room;          /* for large allocations */
+  dyd_memory memory;      /* for large allocations */
   dyd_tally tally;        /* of the predicates of the mesh */
   dyd_delaunay_counters counters;
   dyd_scale_set set; /* scratch of the exact walks, reused from question to question */

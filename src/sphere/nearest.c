@@ -9,7 +9,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/local.h"
-#include "engine/plan.h"
+#include "engine/wants.h"
 #include "sphere/state.h"
 #include "stream/ball.h"
 
@@ -19,20 +19,20 @@ enum { FIRST_PREC = 128 };
 
 /* Distances of a box from a place: the least and the largest, in radians, for each choice of the place in its box; and
  * the numbers behind them. */
-typedef struct way {
+typedef struct distance_range {
   arb_struct least, largest;
   arb_struct lat0, sin0, cos0, lon, versine, end, value, root, t;
   slong prec;
-} way;
+} distance_range;
 
 enum { WAY_BALLS = 11 };
 
-static void way_init(way *d, slong prec) {
+static void distance_range_init(distance_range *d, slong prec) {
   for (arb_ptr b = &d->least; b < &d->least + WAY_BALLS; b++) arb_init(b);
   d->prec = prec;
 }
 
-static void way_clear(way *d) {
+static void distance_range_clear(distance_range *d) {
   for (arb_ptr b = &d->least; b < &d->least + WAY_BALLS; b++) arb_clear(b);
 }
 
@@ -46,7 +46,7 @@ static void half_turn_ball(arb_t x, mpq_srcptr q, mpq_srcptr half, slong prec) {
 }
 
 /* value = h for the latitude f, an end of the box. */
-static void way_end(way *d, mpq_srcptr f, const dyd_spot *at) {
+static void way_end(distance_range *d, mpq_srcptr f, const dyd_spot *at) {
   DYD_LOCAL_NUMBERS(mpq, u);
   mpq_sub(u, f, at->mid[1]);
   half_turn_ball(&d->t, u, at->half[1], d->prec);
@@ -62,7 +62,7 @@ static void way_end(way *d, mpq_srcptr f, const dyd_spot *at) {
 }
 
 /* value = h at g, or opposite to it; t = that latitude in units of pi. */
-static void way_critical(way *d, bool opposite) {
+static void way_critical(distance_range *d, bool opposite) {
   arb_cos_pi(&d->value, &d->lon, d->prec);
   arb_mul(&d->t, &d->cos0, &d->value, d->prec);
   arb_hypot(&d->root, &d->t, &d->sin0, d->prec);
@@ -86,7 +86,7 @@ static void way_critical(way *d, bool opposite) {
 }
 
 /* The latitude t is outside for certain, -1, inside, 1, or 0. */
-static int way_holds(way *d, mpq_srcptr lo, mpq_srcptr hi) {
+static int way_holds(distance_range *d, mpq_srcptr lo, mpq_srcptr hi) {
   DYD_LOCAL_NUMBERS(mpq, zero);
   int sign[2];
   for (int k = 0; k < 2; k++) {
@@ -97,7 +97,7 @@ static int way_holds(way *d, mpq_srcptr lo, mpq_srcptr hi) {
 }
 
 /* out = the angle of h. */
-static void way_angle(arb_t out, way *d) {
+static void way_angle(arb_t out, distance_range *d) {
   arb_sub_ui(&d->t, out, 1, d->prec);
   arb_neg(&d->t, &d->t);
   arb_sqrtpos(out, out, d->prec);
@@ -107,7 +107,8 @@ static void way_angle(arb_t out, way *d) {
 }
 
 /* out = the least distance of the box, with latitudes from lo to hi, or the largest; d degrees of longitude. */
-static void way_reach(arb_t out, way *d, mpq_srcptr degrees, mpq_srcptr lo, mpq_srcptr hi, const dyd_spot *at) {
+static void way_reach(arb_t out, distance_range *d, mpq_srcptr degrees, mpq_srcptr lo, mpq_srcptr hi,
+                      const dyd_spot *at) {
   const bool largest = out == &d->largest;
   half_turn_ball(&d->lon, degrees, at->half[0], d->prec);
   arb_mul_2exp_si(&d->t, &d->lon, -1);
@@ -129,7 +130,7 @@ static void way_reach(arb_t out, way *d, mpq_srcptr degrees, mpq_srcptr lo, mpq_
 }
 
 /* The box of the spot, without its angle. */
-static void way_set(way *d, const dyd_spot *spot, const dyd_spot *at) {
+static void way_set(distance_range *d, const dyd_spot *spot, const dyd_spot *at) {
   DYD_LOCAL_NUMBERS(mpq, across, side, lo, hi);
   half_turn_ball(&d->lat0, at->mid[1], at->half[1], d->prec);
   arb_sin_cos_pi(&d->sin0, &d->cos0, &d->lat0, d->prec);
@@ -149,15 +150,15 @@ static void way_set(way *d, const dyd_spot *spot, const dyd_spot *at) {
 }
 
 /* Adds the angle `times` times. */
-static void way_widen(arb_t out, const way *d, mpq_srcptr angle, int times) {
+static void way_widen(arb_t out, const distance_range *d, mpq_srcptr angle, int times) {
   DYD_LOCAL_NUMBERS(arb, a);
   dyd_ball_set_q(a, angle, d->prec);
   arb_addmul_si(out, a, times, d->prec);
 }
 
 void dyd_spot_reach(arb_t out, const dyd_spot *spot, slong prec) {
-  DYD_SCOPED(way) d;
-  way_init(&d, prec);
+  DYD_SCOPED(distance_range) d;
+  distance_range_init(&d, prec);
   DYD_LOCAL(dyd_spot, at);
   for (int a = 0; a < 2; a++) mpq_set(at.mid[a], spot->mid[a]);
   way_set(&d, spot, &at);
@@ -230,8 +231,8 @@ static bool near_core(dyd_spot *core, const near_question *q, size_t k) {
 static arf_struct *near_bounds(arf_t most, const near_question *q, bool stays) {
   arf_struct *bound = dyd_alloc(q->near.count, sizeof *bound);
   if (!bound) return NULL;
-  DYD_SCOPED(way) d;
-  way_init(&d, q->prec);
+  DYD_SCOPED(distance_range) d;
+  distance_range_init(&d, q->prec);
   DYD_LOCAL(dyd_spot, core);
   DYD_LOCAL_NUMBERS(arf, end);
   for (size_t k = 0; k < q->near.count; k++) {
@@ -300,7 +301,7 @@ static dyd_status near_look(bool *blocked, near_question *q, slong most, const v
   return st == DYD_OK && q->exact ? near_separate(blocked, q, most, stop) : st;
 }
 
-static dyd_status near_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status near_ask(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
   near_question *q = user;
   bool blocked = false;
   size_t staying = 0;
@@ -310,8 +311,8 @@ static dyd_status near_ask(bool *answered, dyd_plan *plan, void *user, const dyd
   if (st != DYD_OK || *answered || q->exact || !q->near.count) return st;
   st = near_keep(&staying, q, true);
   if (st != DYD_OK || staying > 1) return st;
-  for (size_t k = 0; k < q->near.count; k++) dyd_plan_add(plan, q->near.item[k], DYD_BITS_NEXT);
-  dyd_plan_add(plan, (uint32_t)dyd_engine_count(e), DYD_BITS_NEXT);
+  for (size_t k = 0; k < q->near.count; k++) dyd_wants_add(plan, q->near.item[k], DYD_BITS_NEXT);
+  dyd_wants_add(plan, (uint32_t)dyd_engine_count(e), DYD_BITS_NEXT);
   return DYD_OK;
 }
 
@@ -346,8 +347,8 @@ void dyd_sphere_metres(arb_t x, const dyd_sphere *s, slong prec) {
 }
 
 static void distance_set(double *lo, double *hi, const dyd_sphere *s, const dyd_spot *spot, const dyd_spot *at) {
-  DYD_SCOPED(way) d;
-  way_init(&d, FIRST_PREC);
+  DYD_SCOPED(distance_range) d;
+  distance_range_init(&d, FIRST_PREC);
   way_set(&d, spot, at);
   way_widen(&d.least, &d, spot->angle, -1);
   way_widen(&d.largest, &d, spot->angle, 1);

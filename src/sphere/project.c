@@ -23,22 +23,22 @@ enum { EYE_BITS = 64, VARIABLES = 3, MOST_PIECES = 1 << 13, MOST_DEPTH = VARIABL
 /* ---- one piece ---- */
 
 /* A box of the three variables, in radians: middles, and upper bounds of half-widths. */
-typedef struct piece {
+typedef struct variable_box {
   arb_struct mid[VARIABLES];
   mag_struct half[VARIABLES];
-} piece;
+} variable_box;
 
 /* Values at a middle, or over a box. E instead of D where there is an angle. */
-typedef struct view {
+typedef struct eye_values {
   arb_struct sd, cd, sf, cf, s0, c0, versine, D, E, X, Y, t;
-} view;
+} eye_values;
 
-enum { VIEW_BALLS = sizeof(view) / sizeof(arb_struct) };
+enum { VIEW_BALLS = sizeof(eye_values) / sizeof(arb_struct) };
 
 /* Shared by all pieces. */
 typedef struct sight {
   arb_t size, lost; /* sin a, 2 sin^2(a/2) */
-  view at, over;
+  eye_values at, over;
   arb_t slope, number;
   arb_struct by[3];  /* derivatives of D, X and Y */
   arf_struct end[4]; /* x and y so far: lower and upper ends */
@@ -49,16 +49,16 @@ typedef struct sight {
   const volatile int *stop;
 } sight;
 
-static void view_init(view *v) {
+static void eye_values_init(eye_values *v) {
   for (arb_ptr b = &v->sd; b < &v->sd + VIEW_BALLS; b++) arb_init(b);
 }
 
-static void view_clear(view *v) {
+static void eye_values_clear(eye_values *v) {
   for (arb_ptr b = &v->sd; b < &v->sd + VIEW_BALLS; b++) arb_clear(b);
 }
 
 /* d, f and f0 as balls. */
-static void view_set(view *v, arb_srcptr d, arb_srcptr f, arb_srcptr f0, const sight *g) {
+static void view_set(eye_values *v, arb_srcptr d, arb_srcptr f, arb_srcptr f0, const sight *g) {
   slong prec = g->prec;
   arb_sin_cos(&v->sd, &v->cd, d, prec);
   arb_sin_cos(&v->sf, &v->cf, f, prec);
@@ -82,7 +82,7 @@ static void view_set(view *v, arb_srcptr d, arb_srcptr f, arb_srcptr f0, const s
 }
 
 /* The derivatives of D, X and Y by variable k. */
-static void view_derive(arb_t D_k, arb_t X_k, arb_t Y_k, const view *v, int k, slong prec) {
+static void view_derive(arb_t D_k, arb_t X_k, arb_t Y_k, const eye_values *v, int k, slong prec) {
   if (k == 0) {
     arb_mul(D_k, &v->c0, &v->X, prec);
     arb_mul(X_k, &v->cf, &v->cd, prec);
@@ -104,7 +104,7 @@ static void view_derive(arb_t D_k, arb_t X_k, arb_t Y_k, const view *v, int k, s
 }
 
 /* out = (N + side sin a) / E. */
-static void view_value(arb_t out, const view *v, int axis, int side, sight *g) {
+static void view_value(arb_t out, const eye_values *v, int axis, int side, sight *g) {
   arb_mul_si(g->number, g->size, side, g->prec);
   arb_add(out, axis ? &v->Y : &v->X, g->number, g->prec);
   arb_div(out, out, &v->E, g->prec);
@@ -112,7 +112,7 @@ static void view_value(arb_t out, const view *v, int axis, int side, sight *g) {
 
 /* g->slope = (N_k E - (N + side sin a) D_k) / E^2 over the box. */
 static void slope_set(sight *g, int k, int axis, int side) {
-  const view *v = &g->over;
+  const eye_values *v = &g->over;
   view_derive(&g->by[0], &g->by[1], &g->by[2], v, k, g->prec);
   view_value(g->slope, v, axis, side, g);
   arb_mul(g->slope, g->slope, &g->by[0], g->prec);
@@ -122,7 +122,7 @@ static void slope_set(sight *g, int k, int axis, int side) {
 
 /* Grows the end by the least (side < 0) or greatest value of one image coordinate over the piece [SPH-2]: at an end of
  * each variable where the slope by it has one sign, else at its middle, and the slope times its half-width off. */
-static void piece_bound(sight *g, const piece *p, int axis, int side) {
+static void piece_bound(sight *g, const variable_box *p, int axis, int side) {
   DYD_LOCAL_ARRAY(arb_struct, at, [VARIABLES]);
   arf_struct *end = &g->end[2 * axis + (side > 0)];
   DYD_LOCAL_NUMBERS(mag, off, more);
@@ -147,7 +147,7 @@ static void piece_bound(sight *g, const piece *p, int axis, int side) {
   if (!g->any || arf_cmp(g->limit, end) * side > 0 || arf_is_nan(g->limit)) arf_set(end, g->limit);
 }
 
-static void piece_add(sight *g, const piece *p) {
+static void piece_add(sight *g, const variable_box *p) {
   for (int axis = 0; axis < 2; axis++)
     for (int side = -1; side <= 1; side += 2) piece_bound(g, p, axis, side);
   g->any = true;
@@ -158,7 +158,7 @@ static void piece_add(sight *g, const piece *p) {
 /* Sets *step to how far places move by half the width of variable k, at most: longitudes move them by cos f as much as
  * latitudes do. So that they are narrow for a turn as well, no longitude is taken for shorter than the angle at which
  * places are seen from q, E >= least. */
-static void piece_step(mag_t step, const sight *g, const piece *p, int k, const mag_t least) {
+static void piece_step(mag_t step, const sight *g, const variable_box *p, int k, const mag_t least) {
   mag_set(step, &p->half[k]);
   if (k) return;
   DYD_LOCAL_NUMBERS(mag, across);
@@ -171,7 +171,7 @@ static void piece_step(mag_t step, const sight *g, const piece *p, int k, const 
 
 /* Sets the view over the box. Returns true if the box is narrow for its distance from q, E > 2^8 step^2. *widest: the
  * variable to be cut, that of the longest step. */
-static bool piece_is_narrow(int *widest, sight *g, const piece *p) {
+static bool piece_is_narrow(int *widest, sight *g, const variable_box *p) {
   DYD_LOCAL_ARRAY(arb_struct, box, [VARIABLES]);
   DYD_LOCAL_NUMBERS(mag, least, most, step);
   for (int k = 0; k < VARIABLES; k++) {
@@ -191,14 +191,14 @@ static bool piece_is_narrow(int *widest, sight *g, const piece *p) {
   return arb_is_positive(&g->over.E) && mag_cmp(most, least) <= 0;
 }
 
-static void piece_init(piece *p) {
+static void variable_box_init(variable_box *p) {
   for (int k = 0; k < VARIABLES; k++) {
     arb_init(&p->mid[k]);
     mag_init(&p->half[k]);
   }
 }
 
-static void piece_clear(piece *p) {
+static void variable_box_clear(variable_box *p) {
   for (int k = 0; k < VARIABLES; k++) {
     arb_clear(&p->mid[k]);
     mag_clear(&p->half[k]);
@@ -206,7 +206,7 @@ static void piece_clear(piece *p) {
 }
 
 /* *out is one half of p, across variable k. */
-static void piece_cut(piece *out, const piece *p, int k, int side, slong prec) {
+static void piece_cut(variable_box *out, const variable_box *p, int k, int side, slong prec) {
   DYD_LOCAL_NUMBERS(arb, move);
   for (int j = 0; j < VARIABLES; j++) {
     arb_set(&out->mid[j], &p->mid[j]);
@@ -220,7 +220,7 @@ static void piece_cut(piece *out, const piece *p, int k, int side, slong prec) {
 
 /* Cut across the widest variable, a piece MOST_DEPTH cuts deep is as thin as 2^-64 of the whole: near the centre none
  * is narrow. */
-static bool sight_cover(sight *g, const piece *all, int depth) {
+static bool sight_cover(sight *g, const variable_box *all, int depth) {
   int widest;
   if (!g->wide || piece_is_narrow(&widest, g, all)) {
     view_set(&g->at, &all->mid[0], &all->mid[1], &all->mid[2], g);
@@ -229,7 +229,7 @@ static bool sight_cover(sight *g, const piece *all, int depth) {
     return true;
   }
   if (++g->pieces > MOST_PIECES || depth == MOST_DEPTH || dyd_flag_is_set(g->stop)) return false;
-  DYD_LOCAL(piece, p);
+  DYD_LOCAL(variable_box, p);
   piece_cut(&p, all, widest, -1, g->prec);
   bool good = sight_cover(g, &p, depth + 1);
   if (good) piece_cut(&p, all, widest, 1, g->prec);
@@ -257,8 +257,8 @@ static void sight_init(sight *g, mpq_srcptr angle, slong prec) {
   arb_init(g->slope);
   arb_init(g->number);
   arf_init(g->limit);
-  view_init(&g->at);
-  view_init(&g->over);
+  eye_values_init(&g->at);
+  eye_values_init(&g->over);
   for (int k = 0; k < 3; k++) arb_init(&g->by[k]);
   for (int k = 0; k < 4; k++) arf_init(&g->end[k]);
   g->prec = prec;
@@ -276,8 +276,8 @@ static void sight_init(sight *g, mpq_srcptr angle, slong prec) {
 static void sight_clear(sight *g) {
   for (int k = 0; k < 4; k++) arf_clear(&g->end[k]);
   for (int k = 0; k < 3; k++) arb_clear(&g->by[k]);
-  view_clear(&g->over);
-  view_clear(&g->at);
+  eye_values_clear(&g->over);
+  eye_values_clear(&g->at);
   arf_clear(g->limit);
   arb_clear(g->number);
   arb_clear(g->slope);
@@ -286,7 +286,7 @@ static void sight_clear(sight *g) {
 }
 
 /* The variables: longitudes enter by their difference, which is taken before anything is rounded. */
-static void piece_set(piece *p, const dyd_spot *s, const dyd_spot *q, slong prec) {
+static void piece_set(variable_box *p, const dyd_spot *s, const dyd_spot *q, slong prec) {
   DYD_LOCAL_NUMBERS(mpq, mid, half);
   mpq_sub(mid, s->mid[0], q->mid[0]);
   mpq_add(half, s->half[0], q->half[0]);
@@ -372,7 +372,7 @@ static bool project_exact(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, s
 static bool project_sight(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec) {
   DYD_SCOPED(sight) g;
   sight_init(&g, s->angle, prec);
-  DYD_LOCAL(piece, p);
+  DYD_LOCAL(variable_box, p);
   piece_set(&p, s, &e->spot, prec);
   g.stop = e->stop;
   g.wide = false;

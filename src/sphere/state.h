@@ -8,7 +8,7 @@
  *   project.c        images of places; nearest_filter.c: in doubles
  *   ties.c           which places are on one circle
  *   vertex.c         Voronoi vertices
- *   plan.c           what to measure next
+ *   survey.c           what to measure next
  *   nearest.c        nearest places; nearest_filter.c: in doubles */
 #ifndef DYD_SPHERE_STATE_H
 #define DYD_SPHERE_STATE_H

@@ -279,7 +279,7 @@ static long_step *long_step_new(arb_srcptr x, const dyd_ball_step *s) {
 dyd_defined dyd_ball_apply(arb_ptr x, const dyd_ball_step *s, const volatile int *stop) {
   long_step *l = stop && step_is_long(s) ? long_step_new(x, s) : NULL;
   if (!l) return step_now(x, s);
-  if (!dyd_apart(long_step_run, long_step_drop, l, stop)) return DYD_UNDEFINED_YET;
+  if (!dyd_run_detached(long_step_run, long_step_drop, l, stop)) return DYD_UNDEFINED_YET;
   dyd_defined result = l->result;
   arb_swap(x, l->x);
   arb_clear(l->y);

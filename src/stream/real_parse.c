@@ -113,10 +113,10 @@ static void poly_clear(dyd_poly *p) {
   *p = (dyd_poly){0};
 }
 
-typedef struct ring {
+typedef struct poly_stack {
   fmpq_poly_struct *value; /* a stack */
   size_t top, capacity;
-} ring;
+} poly_stack;
 
 static void poly_set_leaf(fmpq_poly_t out, const dyd_expr *e, const dyd_node *n) {
   if (n->op == DYD_OP_X) {
@@ -192,7 +192,7 @@ static dyd_status poly_combine(fmpq_poly_t x, const dyd_node *n, const fmpq_poly
   }
 }
 
-static dyd_status poly_apply(ring *r, const dyd_expr *e, const dyd_node *n, dyd_error *err) {
+static dyd_status poly_apply(poly_stack *r, const dyd_expr *e, const dyd_node *n, dyd_error *err) {
   if (n->op == DYD_OP_PI || n->op == DYD_OP_E) return no_polynomial(err, n, "");
   if (dyd_op_is_leaf((dyd_op)n->op)) {
     poly_set_leaf(&r->value[r->top++], e, n);
@@ -222,7 +222,7 @@ static dyd_status poly_copy_coefficients(dyd_poly *out, const fmpq_poly_t p, dyd
 }
 
 /* The number of values held at once is at most the number of leaves. */
-static bool ring_init(ring *r, const dyd_expr *e) {
+static bool poly_stack_init(poly_stack *r, const dyd_expr *e) {
   r->top = r->capacity = 0;
   for (size_t i = 0; i < e->count; i++) r->capacity += dyd_op_is_leaf((dyd_op)e->node[i].op);
   r->value = dyd_alloc(r->capacity, sizeof *r->value);
@@ -231,7 +231,7 @@ static bool ring_init(ring *r, const dyd_expr *e) {
   return true;
 }
 
-static void ring_clear(ring *r) {
+static void poly_stack_clear(poly_stack *r) {
   for (size_t i = 0; i < r->capacity; i++) fmpq_poly_clear(&r->value[i]);
   free(r->value);
 }
@@ -239,34 +239,34 @@ static void ring_clear(ring *r) {
 /* Expands an expression in x. *out is empty before. DYD_E_PARSE when it is not a polynomial with rational
  * coefficients, DYD_E_RANGE when it is too large; with column. */
 static dyd_status poly_expand(dyd_poly *out, const dyd_expr *e, dyd_error *err) {
-  ring r;
+  poly_stack r;
   dyd_status st = DYD_OK;
-  if (!ring_init(&r, e)) return dyd_fail_nomem(err);
+  if (!poly_stack_init(&r, e)) return dyd_fail_nomem(err);
   for (size_t i = 0; i < e->count && st == DYD_OK; i++) st = poly_apply(&r, e, &e->node[i], err);
   if (st == DYD_OK) st = poly_copy_coefficients(out, &r.value[0], err);
-  ring_clear(&r);
+  poly_stack_clear(&r);
   return st;
 }
 
-typedef struct reader {
+typedef struct expr_reader {
   const char *text;
   size_t length, pos;
   dyd_error *err;
-} reader;
+} expr_reader;
 
 #define FAIL(r, at, code, ...) dyd_text_fail((r)->err, (code), (r)->text, (at), __VA_ARGS__)
 
 /* A constructor without error record failed. */
-static dyd_status plain_fail(reader *r, size_t at, dyd_status st) {
+static dyd_status plain_fail(expr_reader *r, size_t at, dyd_status st) {
   return st != DYD_OK ? FAIL(r, at, st, "%s", dyd_status_text(st)) : st;
 }
 
-static void skip_blanks(reader *r) {
+static void skip_blanks(expr_reader *r) {
   while (r->pos < r->length && dyd_is_blank(r->text[r->pos])) r->pos++;
 }
 
 /* Returns true if the literal text `word` is next. Moves behind it. */
-static bool take_word(reader *r, const char *word) {
+static bool take_word(expr_reader *r, const char *word) {
   size_t n = strlen(word);
   skip_blanks(r);
   if (r->length - r->pos < n || memcmp(r->text + r->pos, word, n)) return false;
@@ -277,7 +277,7 @@ static bool take_word(reader *r, const char *word) {
 /* ---- expressions as reals ---- */
 
 /* A value finite in doubles is defined; undecided ones are probed. */
-static dyd_status real_from_draft(dyd_real **out, reader *r, size_t at, dyd_draft *d) {
+static dyd_status real_from_draft(dyd_real **out, expr_reader *r, size_t at, dyd_draft *d) {
   const dyd_constant *rational = dyd_expr_rational(&d->e);
   dyd_constant_view view;
   dyd_double_span span;
@@ -294,7 +294,7 @@ static dyd_status real_from_draft(dyd_real **out, reader *r, size_t at, dyd_draf
 /* ---- rational parts ---- */
 
 /* An expression that must be rational; what names it in messages. */
-static dyd_status read_rational(mpq_t out, reader *r, const char *what) {
+static dyd_status read_rational(mpq_t out, expr_reader *r, const char *what) {
   dyd_constant_view view;
   skip_blanks(r);
   size_t at = r->pos;
@@ -307,7 +307,7 @@ static dyd_status read_rational(mpq_t out, reader *r, const char *what) {
 }
 
 /* "lo , hi" up to the closing bracket. */
-static dyd_status read_interval_ends(mpq_t lo, mpq_t hi, reader *r, const char *close) {
+static dyd_status read_interval_ends(mpq_t lo, mpq_t hi, expr_reader *r, const char *close) {
   dyd_status st = read_rational(lo, r, "the lower end");
   if (st == DYD_OK && !take_word(r, ","))
     st = FAIL(r, r->pos, DYD_E_PARSE, "a ',' is missing between the ends of the interval");
@@ -316,7 +316,7 @@ static dyd_status read_interval_ends(mpq_t lo, mpq_t hi, reader *r, const char *
   return st;
 }
 
-static dyd_status read_interval(dyd_real **out, reader *r) {
+static dyd_status read_interval(dyd_real **out, expr_reader *r) {
   size_t at = r->pos;
   DYD_LOCAL_NUMBERS(mpq, lo, hi);
   dyd_status st = read_interval_ends(lo, hi, r, "]");
@@ -328,7 +328,7 @@ static dyd_status read_interval(dyd_real **out, reader *r) {
 
 /* ---- roots ---- */
 
-static dyd_status read_polynomial(dyd_poly *out, reader *r) {
+static dyd_status read_polynomial(dyd_poly *out, expr_reader *r) {
   DYD_LOCAL(dyd_draft, d);
   dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, (dyd_expr_names){.x = true}, r->err);
   if (st == DYD_OK) st = poly_expand(out, &d.e, r->err);
@@ -337,7 +337,7 @@ static dyd_status read_polynomial(dyd_poly *out, reader *r) {
 }
 
 /* Behind "root(". */
-static dyd_status read_root(dyd_real **out, reader *r) {
+static dyd_status read_root(dyd_real **out, expr_reader *r) {
   dyd_poly p = {0};
   size_t at = r->pos;
   DYD_LOCAL_NUMBERS(mpq, lo, hi);
@@ -358,7 +358,7 @@ static dyd_status read_root(dyd_real **out, reader *r) {
 }
 
 /* Behind "random(". */
-static dyd_status read_random(dyd_real **out, reader *r) {
+static dyd_status read_random(dyd_real **out, expr_reader *r) {
   size_t at = r->pos;
   DYD_LOCAL_NUMBERS(mpq, seed);
   dyd_status st = read_rational(seed, r, "the seed");
@@ -369,7 +369,7 @@ static dyd_status read_random(dyd_real **out, reader *r) {
 }
 
 /* A sum that may have parts which `within` reads. */
-static dyd_status read_sum(dyd_real **out, reader *r, dyd_root_reader *within) {
+static dyd_status read_sum(dyd_real **out, expr_reader *r, dyd_root_reader *within) {
   size_t at = r->pos;
   DYD_LOCAL(dyd_draft, d);
   dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, (dyd_expr_names){.root = within}, r->err);
@@ -378,7 +378,7 @@ static dyd_status read_sum(dyd_real **out, reader *r, dyd_root_reader *within) {
 
 static dyd_status read_within_slow(dyd_real **out, dyd_real_word word, size_t *pos, const char *text, size_t length,
                                    dyd_error *err) {
-  reader r = {.text = text, .length = length, .pos = *pos, .err = err};
+  expr_reader r = {.text = text, .length = length, .pos = *pos, .err = err};
   if (word == DYD_WORD_SLOW) return FAIL(&r, *pos, DYD_E_PARSE, "slow cannot stand within slow");
   dyd_status st = word == DYD_WORD_ROOT ? read_root(out, &r) : read_random(out, &r);
   *pos = r.pos;
@@ -386,7 +386,7 @@ static dyd_status read_within_slow(dyd_real **out, dyd_real_word word, size_t *p
 }
 
 /* Behind "slow(". */
-static dyd_status read_slow(dyd_real **out, reader *r) {
+static dyd_status read_slow(dyd_real **out, expr_reader *r) {
   dyd_real *x = NULL;
   size_t at = r->pos;
   dyd_status st = read_sum(&x, r, read_within_slow);
@@ -397,20 +397,20 @@ static dyd_status read_slow(dyd_real **out, reader *r) {
   return st == DYD_OK ? plain_fail(r, at, real_slow(out, x)) : st;
 }
 
-static dyd_status read_root_of(dyd_real **out, dyd_real_word word, reader *r) {
+static dyd_status read_root_of(dyd_real **out, dyd_real_word word, expr_reader *r) {
   return word == DYD_WORD_ROOT ? read_root(out, r) : word == DYD_WORD_RANDOM ? read_random(out, r) : read_slow(out, r);
 }
 
 static dyd_status read_root_within(dyd_real **out, dyd_real_word word, size_t *pos, const char *text, size_t length,
                                    dyd_error *err) {
-  reader r = {.text = text, .length = length, .pos = *pos, .err = err};
+  expr_reader r = {.text = text, .length = length, .pos = *pos, .err = err};
   dyd_status st = read_root_of(out, word, &r);
   *pos = r.pos;
   return st;
 }
 
 /* Returns the word if it is "root(..)" alone, or with a radius, else DYD_WORDS. Moves behind "root(" then. */
-static dyd_real_word starts_root(reader *r) {
+static dyd_real_word starts_root(expr_reader *r) {
   size_t start = r->pos, end;
   unsigned word = 0;
   while (word < DYD_WORDS && !take_word(r, dyd_real_words[word])) word++;
@@ -428,7 +428,7 @@ static dyd_real_word starts_root(reader *r) {
 /* ---- the whole coordinate ---- */
 
 /* Behind "+-". Widens *x, which is released on failure. */
-static dyd_status read_real_radius(dyd_real **x, reader *r) {
+static dyd_status read_real_radius(dyd_real **x, expr_reader *r) {
   size_t at = r->pos;
   DYD_LOCAL_NUMBERS(mpq, radius);
   dyd_status st = read_rational(radius, r, "the radius");
@@ -442,7 +442,7 @@ static dyd_status read_real_radius(dyd_real **x, reader *r) {
   return st;
 }
 
-static dyd_status trailing_fail(reader *r) {
+static dyd_status trailing_fail(expr_reader *r) {
   char c = r->text[r->pos];
   bool operand = c == '(' || c == '.' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
   return dyd_text_unexpected(r->err, r->text, r->length, r->pos,
@@ -450,7 +450,7 @@ static dyd_status trailing_fail(reader *r) {
 }
 
 /* *out is set on success only. */
-static dyd_status read_real_coordinate(dyd_real **out, reader *r) {
+static dyd_status read_real_coordinate(dyd_real **out, expr_reader *r) {
   dyd_real *x = NULL;
   dyd_status st;
   if (take_word(r, "[")) {
@@ -470,14 +470,14 @@ static dyd_status read_real_coordinate(dyd_real **out, reader *r) {
   return DYD_OK;
 }
 
-static dyd_status read_plain_number(dyd_real **out, reader *r) {
+static dyd_status read_plain_number(dyd_real **out, expr_reader *r) {
   DYD_LOCAL_NUMBERS(mpq, q);
   dyd_status st = dyd_parse_number(q, r->text, r->length, r->err);
   return st == DYD_OK ? plain_fail(r, 0, dyd_real_from_q(out, q)) : st;
 }
 
 /* DYD_E_ARG: it is of another form. */
-static dyd_status read_degrees(dyd_real **out, reader *r) {
+static dyd_status read_degrees(dyd_real **out, expr_reader *r) {
   char letter;
   DYD_LOCAL_NUMBERS(mpq, lo, hi);
   dyd_status st = dyd_degrees_read(lo, hi, &letter, r->text, r->length, false, r->err);
@@ -485,7 +485,7 @@ static dyd_status read_degrees(dyd_real **out, reader *r) {
 }
 
 dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_error *err) {
-  reader r = {.text = text, .length = length, .err = err};
+  expr_reader r = {.text = text, .length = length, .err = err};
   if (!text && length) return dyd_fail(err, DYD_E_ARG, "no text was given");
   if (dyd_is_plain_number(text, length)) return read_plain_number(out, &r);
   dyd_status st = read_degrees(out, &r);

@@ -314,7 +314,7 @@ dyd_status dyd_root_step(dyd_root *r, int64_t target, const volatile int *stop, 
   *e = (root_errand){.target = target, .status = DYD_E_NOMEM};
   dyd_error_clear(&e->err);
   if (dyd_root_copy(&e->root, r) != DYD_OK) return free(e), dyd_fail_nomem(err);
-  if (!dyd_apart(root_errand_run, root_errand_drop, e, stop)) return DYD_CANCELLED;
+  if (!dyd_run_detached(root_errand_run, root_errand_drop, e, stop)) return DYD_CANCELLED;
   dyd_root before = *r;
   dyd_status st = e->status;
   if (st != DYD_OK && err) *err = e->err;

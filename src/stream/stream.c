@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/flag.h"
 #include "base/local.h"
-#include "base/room.h"
+#include "base/memory.h"
 #include "dyadic/raw.h"
 #include "rect/rect.h"
 #include "stream/expr.h"

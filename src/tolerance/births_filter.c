@@ -87,36 +87,36 @@ static void birth_envelope(birth_work *b) {
 
 /* ---- the value ---- */
 
-static dyd_dd dd_over(dyd_dd a, dyd_dd b) {
+static dyd_dd_bounded dd_over(dyd_dd_bounded a, dyd_dd_bounded b) {
   double q = a.h / b.h;
-  dyd_dd rest = dyd_dd_plus(a, dyd_dd_times(b, dyd_dd_of(q)), -1);
+  dyd_dd_bounded rest = dyd_dd_plus(a, dyd_dd_times(b, dyd_dd_of(q)), -1);
   double e = (rest.e + DYD_DD_ROUND * fabs(a.h)) / (fabs(b.h) - b.e) * (1 + 0x1p-20);
   return dyd_dd_renormal(q, rest.h / b.h, b.e < 0x1p-30 * fabs(b.h) ? e : HUGE_VAL);
 }
 
 /* Where the birth is by the best corner, its place *s within *es, *radius2 at least the squared distance of its lines
  * there. */
-static dyd_dd birth_at_corner(double *s, double *es, double *radius2, const birth_work *b) {
+static dyd_dd_bounded birth_at_corner(double *s, double *es, double *radius2, const birth_work *b) {
   const dyd_points_d *points = &b->t->points;
-  dyd_dd j[2], k[2], l[2];
+  dyd_dd_bounded j[2], k[2], l[2];
   dyd_dd_vector(j, points, b->pair.j, b->pair.i);
   dyd_dd_line(&k[0], &k[1], points, b->line[b->chain[b->best - 1]].vertex, b->pair.i, b->pair.j, j);
   dyd_dd_line(&l[0], &l[1], points, b->line[b->chain[b->best]].vertex, b->pair.i, b->pair.j, j);
-  dyd_dd e = dyd_dd_plus(l[1], k[1], -1);
-  dyd_dd height = dd_over(dyd_dd_plus(dyd_dd_times(l[1], k[0]), dyd_dd_times(k[1], l[0]), -1), e);
-  dyd_dd place = dd_over(dyd_dd_plus(l[0], k[0], -1), dyd_dd_times(e, dyd_dd_of(2)));
-  dyd_dd jj = dyd_dd_square_sum(j[0], j[1]);
-  dyd_dd r2 = dyd_dd_times(jj, dyd_dd_plus(dyd_dd_of(0.25), dyd_dd_times(place, place), 1));
-  dyd_dd other = dyd_dd_plus(r2, height, 1);
+  dyd_dd_bounded e = dyd_dd_plus(l[1], k[1], -1);
+  dyd_dd_bounded height = dd_over(dyd_dd_plus(dyd_dd_times(l[1], k[0]), dyd_dd_times(k[1], l[0]), -1), e);
+  dyd_dd_bounded place = dd_over(dyd_dd_plus(l[0], k[0], -1), dyd_dd_times(e, dyd_dd_of(2)));
+  dyd_dd_bounded jj = dyd_dd_square_sum(j[0], j[1]);
+  dyd_dd_bounded r2 = dyd_dd_times(jj, dyd_dd_plus(dyd_dd_of(0.25), dyd_dd_times(place, place), 1));
+  dyd_dd_bounded other = dyd_dd_plus(r2, height, 1);
   *s = place.h;
   *es = place.e + ROOM * fabs(place.h);
   *radius2 = (other.h + other.e) * (1 + ROOM);
-  dyd_dd sum = dyd_dd_plus(dyd_dd_root(r2), dyd_dd_root(other), 1);
+  dyd_dd_bounded sum = dyd_dd_plus(dyd_dd_root(r2), dyd_dd_root(other), 1);
   return dd_over(height, dyd_dd_times(sum, dyd_dd_of(-2)));
 }
 
 /* Doubles next to it; false: not certain. */
-static bool birth_round(double *lo, double *hi, dyd_dd v) {
+static bool birth_round(double *lo, double *hi, dyd_dd_bounded v) {
   if (!(v.h > 0x1p-900 && v.h < 0x1p900 && fabs(v.l) > v.e * (1 + 0x1p-20))) return false;
   *lo = v.l > 0 ? v.h : nextafter(v.h, 0);
   *hi = v.l > 0 ? nextafter(v.h, HUGE_VAL) : v.h;
@@ -226,7 +226,7 @@ static bool birth_begin(birth_work *b, dyd_others *o, const dyd_tolerance *t, ui
 /* The row by the best corner, unless there are *more sites to see. false: not certain. */
 static bool birth_settle(bool *more, dyd_tolerance_row *row, birth_work *b, double up_to) {
   double s, es, radius2, lo, hi;
-  dyd_dd v = birth_at_corner(&s, &es, &radius2, b);
+  dyd_dd_bounded v = birth_at_corner(&s, &es, &radius2, b);
   if (!birth_round(&lo, &hi, v) || !birth_nearer(more, b, s, es, radius2)) return false;
   uint32_t k = b->line[b->chain[b->best - 1]].vertex, l = b->line[b->chain[b->best]].vertex;
   *row = dyd_row_of(b->t, b->pair.i, b->pair.j, DYD_EVENT_BIRTH, k, l, lo, hi);

@@ -158,17 +158,17 @@ bool dyd_filter_keeps_clear(const dyd_circle_d *c, uint32_t v) {
 
 /* The circle of direction u, about; reach: squares that come so near are visited. worst: of those in the way that are
  * not seen yet, the highest found so far (height_d), or DYD_NONE. */
-typedef struct circle_d {
+typedef struct circle_trial {
   dyd_circle_d at;
   dyd_direction u;
   double reach, highest;
   bool good;
   uint32_t worst;
-} circle_d;
+} circle_trial;
 
 /* h of the circle of direction u that v just keeps from: discs.h. A disc that meets i rules all circles out, or none.
  */
-static double height_d(const circle_d *c, uint32_t v) {
+static double height_d(const circle_trial *c, uint32_t v) {
   const double *i = c->at.w->about[c->at.w->i], *k = c->at.w->about[v];
   double x = k[0] - i[0], y = k[1] - i[1], r = k[2] + i[2], n = x * x + y * y - r * r, along = c->u.x * x + c->u.y * y;
   if (!(n > 0)) return c->at.legal ? HUGE_VAL : -HUGE_VAL;
@@ -177,7 +177,7 @@ static double height_d(const circle_d *c, uint32_t v) {
 
 /* The visitor of trees: continues unless v is higher than the circle, and than the worst so far. */
 static bool keep_worst(void *context, uint32_t v) {
-  circle_d *c = context;
+  circle_trial *c = context;
   double height = is_seen(c->at.w, v) ? -HUGE_VAL : height_d(c, v);
   if (!(height > c->highest)) return true;
   c->worst = v;
@@ -187,7 +187,7 @@ static bool keep_worst(void *context, uint32_t v) {
 
 /* legal: v must be outside for certain; possible: v blocks when its disc is inside, about. */
 static bool meet_square(void *context, uint32_t v) {
-  circle_d *c = context;
+  circle_trial *c = context;
   if (v == c->at.w->i || v == c->at.w->j || dyd_filter_keeps_clear(&c->at, v)) return true;
   c->good = false;
   return c->highest < HUGE_VAL && keep_worst(c, v);
@@ -240,11 +240,11 @@ static bool circle_is_witness(dyd_disc_work *w) {
 }
 
 /* The circle of direction u: legal, the discs i and j just inside; possible, just meeting it. */
-static bool place_circle_of(circle_d *c, dyd_disc_work *w, dyd_direction u, bool legal) {
+static bool place_circle_of(circle_trial *c, dyd_disc_work *w, dyd_direction u, bool legal) {
   const double *i = w->about[w->i], *j = w->about[w->j];
   double jx = j[0] - i[0], jy = j[1] - i[1], delta = j[2] - i[2], n = jx * jx + jy * jy - delta * delta;
   double h = (u.x * jx + u.y * jy + (legal ? -delta : delta)) / n;
-  *c = (circle_d){.u = u, .worst = DYD_NONE, .highest = h > 0 ? h * (1 - ROOM) : 0};
+  *c = (circle_trial){.u = u, .worst = DYD_NONE, .highest = h > 0 ? h * (1 - ROOM) : 0};
   c->at = (dyd_circle_d){.w = w, .x = i[0] + u.x / (2 * h), .y = i[1] + u.y / (2 * h), .legal = legal};
   double a = dyd_filter_distance(&c->at, w->i), ri = i[2], b = dyd_filter_distance(&c->at, w->j), rj = j[2];
   c->at.radius = legal ? fmax(a + ri, b + rj) : fmax(a - ri, b - rj);
@@ -255,14 +255,14 @@ static bool place_circle_of(circle_d *c, dyd_disc_work *w, dyd_direction u, bool
   return c->good;
 }
 
-static void visit_circle(circle_d *c) {
+static void visit_circle(circle_trial *c) {
   const dyd_bbox at = {{c->at.x, c->at.x, c->at.y, c->at.y}};
   double radius2 = c->reach * c->reach * (1 + ROOM);
   if (c->reach > 0) dyd_tree_near(&c->at.w->pd->sk.rects.tree, &at, &radius2, meet_square, c);
 }
 
 /* The circle of the same direction and height h, through i. */
-static void set_height(circle_d *c, double h) {
+static void set_height(circle_trial *c, double h) {
   const double *i = c->at.w->about[c->at.w->i];
   double distance = 1 / (2 * h), r = i[2];
   c->at.x = i[0] + c->u.x * distance;
@@ -271,7 +271,7 @@ static void set_height(circle_d *c, double h) {
 }
 
 /* A still higher disc is in the smaller circle that the worst allows. */
-static bool see_worst(circle_d *c) {
+static bool see_worst(circle_trial *c) {
   uint32_t last = DYD_NONE;
   while (c->worst != last && c->highest > 0 && isfinite(c->highest)) {
     last = c->worst;
@@ -283,8 +283,8 @@ static bool see_worst(circle_d *c) {
 
 /* Where the circle is much larger than the pair, or a half-plane, many discs are in its way, the highest in smaller
  * circles, which it holds. Returns true if one is there. */
-static bool look_nearby(const circle_d *c) {
-  circle_d small = *c;
+static bool look_nearby(const circle_trial *c) {
+  circle_trial small = *c;
   const double *i = c->at.w->about[c->at.w->i], *j = c->at.w->about[c->at.w->j];
   double h = 1 / (4 * hypot(j[0] - i[0], j[1] - i[1]));
   for (int k = 0; k < MOST_SMALLER && h > 4 * c->highest && small.worst == DYD_NONE; k++, h /= 4) {
@@ -296,7 +296,7 @@ static bool look_nearby(const circle_d *c) {
 }
 
 /* Far circles: all discs beyond the tangent of i, about. */
-static void look_beyond(circle_d *c) {
+static void look_beyond(circle_trial *c) {
   const double *i = c->at.w->about[c->at.w->i];
   double height = c->u.x * i[0] + c->u.y * i[1];
   dyd_tree_beyond(&c->at.w->pd->sk.rects.tree, c->u.x, c->u.y, &height, keep_worst, c);
@@ -331,7 +331,7 @@ bool dyd_discs_load(dyd_disc_work *w, bool legal) {
 
 static bool discs_are_legal(dyd_disc_work *w) {
   for (int round = 0; round < MOST_ROUNDS; round++) {
-    circle_d c;
+    circle_trial c;
     dyd_direction u;
     DYD_INVARIANT(2 * round < MOST_ROUNDS); /* the worst first: a few are enough */
     if (!(round ? load_more : dyd_discs_load)(w, true) || !dyd_caps_common(&u, &w->caps)) return false;
@@ -359,7 +359,7 @@ static bool large_is_legal(dyd_disc_work *w) {
 
 static bool discs_are_possible(dyd_disc_work *w) {
   for (int round = 0; round < MOST_ROUNDS; round++) {
-    circle_d c;
+    circle_trial c;
     dyd_direction u;
     DYD_INVARIANT(2 * round < MOST_ROUNDS); /* the worst first: a few are enough */
     if (!(round ? load_more : dyd_discs_load)(w, false)) return true;

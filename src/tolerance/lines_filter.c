@@ -38,12 +38,12 @@
  * known), and its place s within es. */
 static double filter_crossing(double *s, double *es, double *relative, const dyd_points_d *p, const dyd_lines_d *l,
                               uint32_t a, uint32_t b) {
-  dyd_dd m[2], n[2], j[2];
+  dyd_dd_bounded m[2], n[2], j[2];
   dyd_dd_vector(j, p, l->j, l->i);
   dyd_dd_line(&m[0], &n[0], p, a, l->i, l->j, j);
   dyd_dd_line(&m[1], &n[1], p, b, l->i, l->j, j);
-  dyd_dd num = dyd_dd_plus(dyd_dd_times(n[1], m[0]), dyd_dd_times(n[0], m[1]), -1);
-  dyd_dd d = dyd_dd_plus(m[1], m[0], -1), e = dyd_dd_plus(n[1], n[0], -1);
+  dyd_dd_bounded num = dyd_dd_plus(dyd_dd_times(n[1], m[0]), dyd_dd_times(n[0], m[1]), -1);
+  dyd_dd_bounded d = dyd_dd_plus(m[1], m[0], -1), e = dyd_dd_plus(n[1], n[0], -1);
   double ee = e.e + 2 * U * fabs(e.h), ed = d.e + 2 * U * fabs(d.h);
   *relative = (num.e / fabs(num.h) + 2 * U + ee / (fabs(e.h) - ee) + 4 * U) * (1 + 0x1p-20);
   *s = d.h / (2 * e.h);

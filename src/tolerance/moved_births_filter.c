@@ -151,7 +151,7 @@ static dyd_xy birth_end(bool *kept, const dyd_moves *m, uint32_t n, double t, in
 
 /* Does q keep m->at at t? */
 static bool birth_keeps(const dyd_moves *m, uint32_t q, double t) {
-  dyd_dd far = dyd_move_reach(m, &m->site[q], t, 1);
+  dyd_dd_bounded far = dyd_move_reach(m, &m->site[q], t, 1);
   for (int e = 0; e < 2; e++)
     if (dyd_dd_sign(dyd_dd_plus(dyd_move_reach(m, &m->site[e], t, -1), far, -1)) <= 0) return false;
   return true;
@@ -203,7 +203,7 @@ static bool path_parts(const dyd_moves *m, double t) {
 
 /* Is the pair illegal at t? m->at is place n, more precisely than the chain has it. */
 static bool birth_is_above(dyd_moves *m, uint32_t best, double t) {
-  dyd_dd at[2] = {m->at[0], m->at[1]};
+  dyd_dd_bounded at[2] = {m->at[0], m->at[1]};
   bool kept = path_parts(m, t);
   for (uint32_t n = 0; n + 1 < m->links && kept; n++) {
     if (n != best) m->at[0] = dyd_dd_of(m->link[n].x), m->at[1] = dyd_dd_of(m->link[n].y);

@@ -37,7 +37,7 @@ bool dyd_moves_see(dyd_moves *m, uint32_t v) {
   if (m->count == 2 + DYD_MOVES_MOST_SEEN) return false;
   for (uint32_t k = 0; k < m->count; k++)
     if (m->site[k].vertex == v) return false;
-  dyd_dd p[2];
+  dyd_dd_bounded p[2];
   dyd_dd_vector(p, &m->t->points, v, m->count ? m->site[0].vertex : v);
   m->site[m->count++] = (dyd_move_site){p[0], p[1], move_weight(m, v), v};
   return true;
@@ -228,27 +228,27 @@ bool dyd_moves_climb(dyd_moves *m) {
 
 /* ---- in double-doubles ---- */
 
-static dyd_dd dd_size(dyd_dd a) {
-  return a.h < 0 ? (dyd_dd){-a.h, -a.l, a.e} : a;
+static dyd_dd_bounded dd_size(dyd_dd_bounded a) {
+  return a.h < 0 ? (dyd_dd_bounded){-a.h, -a.l, a.e} : a;
 }
 
-static dyd_dd dd_product(double a, double b) {
+static dyd_dd_bounded dd_product(double a, double b) {
   return dyd_dd_times(dyd_dd_of(a), dyd_dd_of(b));
 }
 
 /* The place of c seen from a site. */
-static void move_from(dyd_dd out[2], const dyd_moves *m, const dyd_move_site *s) {
+static void move_from(dyd_dd_bounded out[2], const dyd_moves *m, const dyd_move_site *s) {
   out[0] = dyd_dd_plus(m->at[0], s->x, -1);
   out[1] = dyd_dd_plus(m->at[1], s->y, -1);
 }
 
-dyd_dd dyd_move_reach(const dyd_moves *m, const dyd_move_site *s, double t, int way) {
-  dyd_dd d[2];
+dyd_dd_bounded dyd_move_reach(const dyd_moves *m, const dyd_move_site *s, double t, int way) {
+  dyd_dd_bounded d[2];
   move_from(d, m, s);
   if (!m->square) return dyd_dd_plus(dyd_dd_root(dyd_dd_square_sum(d[0], d[1])), dd_product(t, s->weight), way);
   for (int a = 0; a < 2; a++) {
     d[a] = dyd_dd_plus(dd_size(d[a]), dyd_dd_of(t), way);
-    if (!(d[a].h > 0)) d[a] = (dyd_dd){0, 0, fmax(d[a].h + d[a].e, 0)};
+    if (!(d[a].h > 0)) d[a] = (dyd_dd_bounded){0, 0, fmax(d[a].h + d[a].e, 0)};
   }
   return dyd_dd_square_sum(d[0], d[1]);
 }
@@ -256,7 +256,7 @@ dyd_dd dyd_move_reach(const dyd_moves *m, const dyd_move_site *s, double t, int 
 /* How far c is too low for a plane at t. */
 static double move_residue(const dyd_moves *m, const dyd_move_plane *p, double t) {
   const dyd_move_site *e = &m->site[p->end], *k = &m->site[p->other];
-  dyd_dd near = dyd_move_reach(m, k, t, -1), d[2];
+  dyd_dd_bounded near = dyd_move_reach(m, k, t, -1), d[2];
   if (!m->square) return dyd_dd_plus(near, dyd_move_reach(m, e, t, 1), -1).h / (e->weight + k->weight);
   move_from(d, m, e);
   for (int a = 0; a < 2; a++) d[a] = dyd_dd_plus(d[a], dyd_dd_of(p->way[a] * t), 1);
@@ -290,13 +290,13 @@ void dyd_moves_refine(dyd_moves *m) {
 typedef struct move_look {
   dyd_moves *m;
   double t, radius, radius2;
-  dyd_dd reach;
+  dyd_dd_bounded reach;
   int added;
 } move_look;
 
 /* Is a site out of the way for certain? */
 static bool move_keeps_clear(const move_look *l, const dyd_move_site *s) {
-  dyd_dd gap = dyd_dd_plus(dyd_move_reach(l->m, s, l->t, -l->m->way), l->reach, -1);
+  dyd_dd_bounded gap = dyd_dd_plus(dyd_move_reach(l->m, s, l->t, -l->m->way), l->reach, -1);
   return dyd_dd_sign(gap) > 0;
 }
 
@@ -332,8 +332,8 @@ static bool move_meet(void *context, uint32_t v) {
 
 /* What is beyond both, and what holds all roundings of where c and the sites are. */
 static bool move_look_begin(move_look *l, dyd_moves *m, double t) {
-  dyd_dd of[2] = {dyd_move_reach(m, &m->site[0], t, m->way), dyd_move_reach(m, &m->site[1], t, m->way)};
-  dyd_dd more = dyd_dd_plus(of[1], of[0], -1);
+  dyd_dd_bounded of[2] = {dyd_move_reach(m, &m->site[0], t, m->way), dyd_move_reach(m, &m->site[1], t, m->way)};
+  dyd_dd_bounded more = dyd_dd_plus(of[1], of[0], -1);
   *l = (move_look){.m = m, .t = t, .reach = of[0]};
   if (more.h > -more.e) l->reach = of[1];
   if (!dyd_dd_sign(more)) l->reach.e += fabs(more.h) + more.e;
@@ -364,17 +364,17 @@ bool dyd_moves_hold(bool *added, dyd_moves *m, double t) {
 
 /* A point of the disc: the farthest from c (way = -1), or the nearest, but for 2^-50 of the radius. d: c seen from the
  * site. */
-static void disc_choice(dyd_dd out[2], const dyd_move_site *s, const dyd_dd d[2], double t, int way) {
+static void disc_choice(dyd_dd_bounded out[2], const dyd_move_site *s, const dyd_dd_bounded d[2], double t, int way) {
   double size = hypot(d[0].h, d[1].h), r = way * s->weight * (1 - 0x1p-50);
   out[0] = dyd_dd_plus(s->x, dd_product(t, r * (d[0].h / size)), 1);
   out[1] = dyd_dd_plus(s->y, dd_product(t, r * (d[1].h / size)), 1);
 }
 
 /* A corner of the square of the end, and the point of another square that is nearest to c. */
-static void square_choice(dyd_dd out[2], const dyd_moves *m, const dyd_move_plane *p, const dyd_dd d[2], double t,
-                          bool end) {
+static void square_choice(dyd_dd_bounded out[2], const dyd_moves *m, const dyd_move_plane *p, const dyd_dd_bounded d[2],
+                          double t, bool end) {
   const dyd_move_site *s = &m->site[end ? p->end : p->other];
-  const dyd_dd *place[2] = {&s->x, &s->y};
+  const dyd_dd_bounded *place[2] = {&s->x, &s->y};
   for (int a = 0; a < 2; a++) {
     bool beside = !end && dyd_dd_sign(dyd_dd_plus(dyd_dd_of(t), dd_size(d[a]), -1)) > 0;
     int way = end ? -p->way[a] : d[a].h < 0 ? -1 : 1;
@@ -384,7 +384,7 @@ static void square_choice(dyd_dd out[2], const dyd_moves *m, const dyd_move_plan
 
 /* The vector between choices, and a bound of its errors: false, unless c is as near to b as to a. */
 static bool move_refutes(double out[3], const dyd_moves *m, const dyd_move_plane *plane, double t) {
-  dyd_dd p[2][2], far[2], d[2];
+  dyd_dd_bounded p[2][2], far[2], d[2];
   for (int n = 0; n < 2; n++) {
     const dyd_move_site *s = &m->site[n ? plane->other : plane->end];
     move_from(d, m, s);
@@ -397,7 +397,7 @@ static bool move_refutes(double out[3], const dyd_moves *m, const dyd_move_plane
   }
   out[2] = 0;
   for (int a = 0; a < 2; a++) {
-    dyd_dd v = dyd_dd_plus(p[1][a], p[0][a], -1);
+    dyd_dd_bounded v = dyd_dd_plus(p[1][a], p[0][a], -1);
     out[a] = v.h;
     out[2] += 2 * v.e + 0x1p-50 * fabs(v.h);
   }
@@ -416,8 +416,8 @@ static bool moves_fail(const dyd_moves *m, double t) {
   double d[3][3];
   if (t >= m->contact) {
     const dyd_move_site *e = &m->site[m->touch[0]], *k = &m->site[m->touch[1]];
-    dyd_dd x = dyd_dd_plus(k->x, e->x, -1), y = dyd_dd_plus(k->y, e->y, -1);
-    dyd_dd r = dyd_dd_plus(dd_product(t, k->weight), dd_product(t, e->weight), 1);
+    dyd_dd_bounded x = dyd_dd_plus(k->x, e->x, -1), y = dyd_dd_plus(k->y, e->y, -1);
+    dyd_dd_bounded r = dyd_dd_plus(dd_product(t, k->weight), dd_product(t, e->weight), 1);
     if (dyd_dd_sign(dyd_dd_plus(dyd_dd_times(r, r), dyd_dd_square_sum(x, y), -1)) > 0) return true;
   }
   for (int n = 0; n < 3; n++)
@@ -457,7 +457,7 @@ bool dyd_moves_begin(dyd_moves *m, dyd_others *o, const dyd_tolerance *t, const 
   for (int k = 0; k < 4; k++)
     if (of[k] != DYD_NONE) dyd_moves_see(m, of[k]);
   for (size_t k = 0; k < o->count; k++) dyd_moves_see(m, o->vertex[k]);
-  const dyd_dd *x = &m->site[1].x, *y = &m->site[1].y;
+  const dyd_dd_bounded *x = &m->site[1].x, *y = &m->site[1].y;
   double jj = x->h * x->h + y->h * y->h;
   return m->count > 2 && jj > 0x1p-400 && jj < 0x1p400 && x->e + y->e < 0x1p-60 * sqrt(jj);
 }

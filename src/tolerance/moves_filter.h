@@ -15,7 +15,7 @@ enum { DYD_MOVES_MOST_SEEN = 64, DYD_MOVES_MOST_PLANES = 259, DYD_MOVES_MOST_ADD
 #define DYD_MOVES_CLOSE 0x1p-48 /* relative heights in doubles that count as equal */
 
 typedef struct dyd_move_site {
-  dyd_dd x, y;
+  dyd_dd_bounded x, y;
   double weight;
   uint32_t vertex;
 } dyd_move_site;
@@ -46,7 +46,7 @@ typedef struct dyd_moves {
   dyd_move_site site[2 + DYD_MOVES_MOST_SEEN];
   dyd_move_plane plane[DYD_MOVES_MOST_PLANES];
   double x, y, now, far, contact, goal;
-  dyd_dd at[2];
+  dyd_dd_bounded at[2];
   uint32_t touch[2], pair[2];
   dyd_move_link link[DYD_MOVES_MOST_SEEN];
 } dyd_moves;
@@ -96,7 +96,7 @@ void dyd_moves_refine(dyd_moves *m);
 double dyd_moves_width(const dyd_moves *m, size_t tries);
 /* How far the region of a site may be from m->at at t (way = 1), or must be (way = -1): of squares the square of that.
  */
-dyd_dd dyd_move_reach(const dyd_moves *m, const dyd_move_site *s, double t, int way);
+dyd_dd_bounded dyd_move_reach(const dyd_moves *m, const dyd_move_site *s, double t, int way);
 /* Does m->at show the pair at t, for all sites? *added: some were in the way that are seen now. */
 bool dyd_moves_hold(bool *added, dyd_moves *m, double t);
 

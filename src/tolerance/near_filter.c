@@ -78,8 +78,8 @@ static bool near_has_room(dyd_tolerance *t) {
   uint64_t each =
       sizeof *t->low + sizeof *t->start + 6 * (sizeof *t->near + sizeof *t->own) + sizeof(size_t) + 3 * sizeof(double);
   uint64_t bytes = dyd_bytes_times(t->sk->n, each);
-  if (!dyd_room_has(&t->room, bytes, "the neighbours of the points")) return false;
-  t->room.held += bytes;
+  if (!dyd_memory_has(&t->memory, bytes, "the neighbours of the points")) return false;
+  t->memory.held += bytes;
   return true;
 }
 

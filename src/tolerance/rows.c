@@ -20,8 +20,8 @@ bool dyd_rows_have_room(dyd_tolerance *t, uint64_t pairs, const char *what) {
   bool rings = t->options.points || t->sigma;
   uint64_t each = 2 * sizeof *t->row + (rings ? sizeof *t->ring + sizeof *t->chance : 0);
   uint64_t bytes = dyd_bytes_times(pairs, each);
-  if (!dyd_room_has(&t->room, bytes, what)) return false;
-  t->room.held = dyd_bytes_add(t->room.held, t->room.most ? bytes : 0);
+  if (!dyd_memory_has(&t->memory, bytes, what)) return false;
+  t->memory.held = dyd_bytes_add(t->memory.held, t->memory.most ? bytes : 0);
   return true;
 }
 
@@ -634,8 +634,8 @@ static dyd_status births_so_far(dyd_tolerance *t, const births_told *told) {
 
 /* For the list of candidates beside their triangulation, and for rows of all of them. */
 static dyd_status births_have_room(dyd_tolerance *t, const dyd_delaunay *wide) {
-  if (!t->room.most) return DYD_OK;
-  t->room.beside = dyd_sites_memory(wide->own) + dyd_delaunay_memory(wide) + dyd_pairs_bytes(wide, DYD_TIE);
+  if (!t->memory.most) return DYD_OK;
+  t->memory.beside = dyd_sites_memory(wide->own) + dyd_delaunay_memory(wide) + dyd_pairs_bytes(wide, DYD_TIE);
   return dyd_rows_have_room(t, dyd_pairs_bytes(wide, DYD_TIE) / sizeof(dyd_pair), "the births") ? DYD_OK : DYD_E_NOMEM;
 }
 
@@ -643,7 +643,7 @@ dyd_status dyd_births(dyd_tolerance *t, dyd_error *err) {
   DYD_OWNED(dyd_delaunay) *wide = NULL;
   DYD_SCOPED(dyd_pair_list) pairs = {0};
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = t->options.cancel,
-                                  .max_pairs = t->options.max_pairs, .max_bytes = dyd_room_left(&t->room)};
+                                  .max_pairs = t->options.max_pairs, .max_bytes = dyd_memory_left(&t->memory)};
   births_told told = {.t = t, .filter = filter_of(t), .up_to = dyd_q_double(t->options.up_to, 1)};
   const dyd_decider decider = {tell_birth, &told};
   dyd_status st = dyd_near_index(t);
@@ -658,7 +658,7 @@ dyd_status dyd_births(dyd_tolerance *t, dyd_error *err) {
     st = births_among(t, &pairs, &told);
   else if (st == DYD_CANCELLED)
     st = births_so_far(t, &told);
-  t->room.beside = 0;
+  t->memory.beside = 0;
   dyd_free_all(told.row, told.spare.vertex);
   return st;
 }

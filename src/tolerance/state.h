@@ -39,7 +39,7 @@ struct dyd_tolerance {
   const dyd_skeleton *sk;
   dyd_delaunay *centres; /* pd, owned: of centres of rectangles; NULL: pd is borrowed */
   dyd_tolerance_options options;
-  dyd_room room; /* what the triangulation leaves of max_bytes */
+  dyd_memory memory; /* what the triangulation leaves of max_bytes */
   dyd_tolerance_row *row;
   size_t rows, cap, sorted; /* sorted: rows of deaths that are */
   double *weight;           /* of a vertex, the largest of those at its place; NULL: all are 1 */

@@ -28,8 +28,8 @@ typedef struct dyd_face_row {
 struct dyd_survey {
   dyd_survey_result result; /* left: with the plan as it is */
   dyd_survey_options options;
-  dyd_room room;  /* what the triangulation leaves of max_bytes */
-  dyd_error *err; /* of the call that makes it; borrowed, may be NULL */
+  dyd_memory memory; /* what the triangulation leaves of max_bytes */
+  dyd_error *err;    /* of the call that makes it; borrowed, may be NULL */
   unsigned threads;
   size_t sites;
   dyd_survey_site *site;

@@ -88,7 +88,7 @@ static dyd_status centre_rect(dyd_rect *out, const void *survey, size_t i) {
 
 static dyd_status survey_made(dyd_delaunay **pd, const dyd_survey *s, dyd_rect_fn *rect, const void *user) {
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = s->options.cancel, .threads = s->threads,
-                                  .max_bytes = dyd_room_left(&s->room)};
+                                  .max_bytes = dyd_memory_left(&s->memory)};
   dyd_error err;
   dyd_error_clear(&err);
   dyd_status st = dyd_delaunay_made(pd, s->sites, rect, user, &o, &err);
@@ -159,7 +159,7 @@ static dyd_status measuring_look(measuring *m) {
   for (size_t k = 0; k < m->s->target.count; k++)
     if (!survey_is_open(m->now, &m->s->target.item[k])) measuring_note(m, k);
   if (!dyd_steps_can(m->now)) return DYD_OK;
-  if (!dyd_room_has(&m->s->room, bytes, "the plan")) return DYD_E_NOMEM;
+  if (!dyd_memory_has(&m->s->memory, bytes, "the plan")) return DYD_E_NOMEM;
   return dyd_steps_begin(&m->steps, m->now, m->s->options.cancel);
 }
 

@@ -135,7 +135,7 @@ static dyd_status write_boundary(dyd_boundary *out, dyd_outline *o) {
 
 dyd_status dyd_cell_boundary(dyd_boundary *out, const dyd_cell_task *task) {
   DYD_SCOPED(dyd_outline)
-  o = {.pd = task->pd, .cancel = task->cancel, .room = task->room, .keep_all = task->keep_all};
+  o = {.pd = task->pd, .cancel = task->cancel, .memory = task->memory, .keep_all = task->keep_all};
   const dyd_rect *window = task->windowed ? task->rect[task->count + 1] : NULL;
   dyd_boundary b = {.whole = !window && (task->outer || !task->count)};
   dyd_status st = dyd_outline_load_rects(&o, task->site, task->rect, task->other, task->count);
@@ -168,18 +168,19 @@ static bool window_has_area(const dyd_rect *w) {
 
 /* The region of `site` among the sites s of its cell; window: NULL for the whole plane. */
 static dyd_status cell_region_among(dyd_boundary *out, const dyd_delaunay *pd, const dyd_cell_sites *s, uint32_t site,
-                                    bool outer, const dyd_rect *window, dyd_room *room, const volatile int *cancel) {
+                                    bool outer, const dyd_rect *window, dyd_memory *memory,
+                                    const volatile int *cancel) {
   DYD_FREED const dyd_rect **in = dyd_alloc(s->count + 2, sizeof *in);
   if (!in) return DYD_E_NOMEM;
   in[0] = &s->own;
   for (size_t k = 0; k < s->count; k++) in[k + 1] = &s->other[k];
   in[s->count + 1] = window;
-  dyd_cell_task task = {site, s->site, s->count, in, outer, window != NULL, pd, false, cancel, room};
+  dyd_cell_task task = {site, s->site, s->count, in, outer, window != NULL, pd, false, cancel, memory};
   return dyd_cell_boundary(out, &task);
 }
 
 dyd_status dyd_cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer, bool proved,
-                           const dyd_rect *window, dyd_room *room, const volatile int *cancel) {
+                           const dyd_rect *window, dyd_memory *memory, const volatile int *cancel) {
   uint32_t site;
   if (window && !window_has_area(window)) return DYD_E_ARG;
   if (dyd_flag_is_set(cancel)) return DYD_CANCELLED;
@@ -190,14 +191,14 @@ dyd_status dyd_cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i
   st = dyd_cell_sites_init(&s, pd, site, least);
   const dyd_delaunay *complete =
       least == dyd_least_bounding(pd) ? pd : NULL; /* of some sites only: all may share one */
-  return st == DYD_OK ? cell_region_among(out, complete, &s, site, outer, window, room, cancel) : st;
+  return st == DYD_OK ? cell_region_among(out, complete, &s, site, outer, window, memory, cancel) : st;
 }
 
 dyd_status dyd_voronoi_cell(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, dyd_cell_bound bound,
                             const dyd_rect *window) {
   if (!pd) return DYD_E_ARG;
-  dyd_room room = dyd_delaunay_room(pd);
-  return dyd_cell_region(out, pd, i, bound == DYD_CELL_POSSIBLE, false, window, &room, NULL);
+  dyd_memory memory = dyd_delaunay_room(pd);
+  return dyd_cell_region(out, pd, i, bound == DYD_CELL_POSSIBLE, false, window, &memory, NULL);
 }
 
 dyd_status dyd_bisector(dyd_boundary *out, const dyd_rect *a, const dyd_rect *b) {

@@ -3,7 +3,7 @@
 #ifndef DYD_VORONOI_EXACT_CELL_H
 #define DYD_VORONOI_EXACT_CELL_H
 
-#include "base/room.h"
+#include "base/memory.h"
 #include <dyadel/arc.h>
 #include <dyadel/delaunay.h>
 
@@ -21,14 +21,14 @@ typedef struct dyd_cell_task {
   const dyd_delaunay *pd;
   bool keep_all;
   const volatile int *cancel;
-  dyd_room *room;
+  dyd_memory *memory;
 } dyd_cell_task;
 
 /* The boundary of Int_i or (outer) Pos_i; window NULL: in the whole plane; proved: as for
  * dyd_least_at. As dyd_voronoi_cell, and
  * DYD_CANCELLED once *cancel, which may be NULL, is set; room may be NULL. */
 dyd_status dyd_cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer, bool proved,
-                           const dyd_rect *window, dyd_room *room, const volatile int *cancel);
+                           const dyd_rect *window, dyd_memory *memory, const volatile int *cancel);
 
 /* *out is replaced. */
 dyd_status dyd_cell_boundary(dyd_boundary *out, const dyd_cell_task *task);

@@ -10,7 +10,7 @@
 #include "rect/rect.h"
 #include "voronoi/nearest.h"
 
-typedef struct search {
+typedef struct nearest_search {
   const dyd_delaunay *pd;
   const dyd_tree *tree;
   dyd_bbox q;
@@ -19,15 +19,15 @@ typedef struct search {
   double *lower; /* of ds^2 */
   size_t count, vertex_cap, lower_cap;
   bool failed;
-} search;
+} nearest_search;
 
-static void search_lower_bound(search *s, const dyd_bbox *b) {
+static void search_lower_bound(nearest_search *s, const dyd_bbox *b) {
   double upper = dyd_dl2_upper(&s->q, b);
   if (upper < s->bound) s->bound = upper;
 }
 
 /* From the root to an item, always into the child with the least upper bound. */
-static void search_descend(search *s) {
+static void search_descend(nearest_search *s) {
   const dyd_tree *t = s->tree;
   size_t node = 0;
   for (int level = t->levels - 1; level >= 0; level--) {
@@ -45,7 +45,7 @@ static void search_descend(search *s) {
   }
 }
 
-static bool search_consider(search *s, uint32_t v) {
+static bool search_consider(nearest_search *s, uint32_t v) {
   dyd_bbox b;
   if (s->pd->sk.vertex[s->pd->sk.reps.site[v]] != v) return true; /* an alias */
   dyd_vertex_box(&b, &s->pd->sk, v);
@@ -64,7 +64,7 @@ static bool search_visit_vertex(void *context, uint32_t v) {
 }
 
 static bool search_visit_block(void *context, uint32_t b) {
-  search *s = context;
+  nearest_search *s = context;
   for (uint32_t v = b * DYD_BLOCK; v < dyd_block_end(&s->pd->sk, b); v++)
     if (!search_consider(s, v)) return false;
   return true;
@@ -72,7 +72,7 @@ static bool search_visit_block(void *context, uint32_t b) {
 
 dyd_status dyd_near_candidates(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, const dyd_rect *q) {
   bool fine = pd->sk.rects.tree.count > 0;
-  search s = {.pd = pd, .tree = fine ? &pd->sk.rects.tree : &pd->sk.blocks, .bound = HUGE_VAL};
+  nearest_search s = {.pd = pd, .tree = fine ? &pd->sk.rects.tree : &pd->sk.blocks, .bound = HUGE_VAL};
   dyd_interval_get_d(&s.q.e[0], &s.q.e[1], &q->x);
   dyd_interval_get_d(&s.q.e[2], &s.q.e[3], &q->y);
   if (!pd->sk.mesh.no_filter) search_descend(&s);

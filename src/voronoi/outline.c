@@ -419,7 +419,7 @@ static const dyd_surd_point *keep_point(dyd_outline *o, dyd_surd_point *p) {
   mpz_srcptr widest = mpz_size(p->ax) > mpz_size(p->ay) ? p->ax : p->ay;
   exact_cell *x = o->exact;
   x->bytes += sizeof(exact_point) + NUMBERS * (BLOCK + sizeof(mp_limb_t) * mpz_size(widest));
-  bool room = !o->room || dyd_room_has(o->room, x->bytes, "the boundary of a cell");
+  bool room = !o->memory || dyd_memory_has(o->memory, x->bytes, "the boundary of a cell");
   exact_point *to = room ? malloc(sizeof *to) : NULL;
   if (!to) return o->status = DYD_E_NOMEM, NULL;
   to->at = *p;

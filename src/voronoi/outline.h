@@ -4,7 +4,7 @@
 #ifndef DYD_VORONOI_OUTLINE_H
 #define DYD_VORONOI_OUTLINE_H
 
-#include "base/room.h"
+#include "base/memory.h"
 #include "delaunay/state.h"
 #include "predicate/predicate_filter.h"
 #include "voronoi/surd_point.h"
@@ -97,7 +97,7 @@ typedef struct dyd_outline {
   const dyd_rect *rect;       /* the window, NULL: the plane */
   const dyd_delaunay *pd;     /* only pairs of others that it calls possible share a vertex; NULL: all may */
   const volatile int *cancel; /* may be NULL, as the next */
-  dyd_room *room;
+  dyd_memory *memory;
   dyd_outline_site *item;
   size_t count, item_cap, rival_cap;
   dyd_box window;

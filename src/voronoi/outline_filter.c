@@ -28,7 +28,7 @@ static bool outline_goes_on(dyd_outline *o) {
 }
 
 static bool outline_has_room(dyd_outline *o, size_t items, size_t size) {
-  if (o->room && !dyd_room_has(o->room, dyd_bytes_times(items, size), "the boundary of a cell"))
+  if (o->memory && !dyd_memory_has(o->memory, dyd_bytes_times(items, size), "the boundary of a cell"))
     o->status = DYD_E_NOMEM;
   return o->status == DYD_OK;
 }

@@ -446,22 +446,22 @@ dyd_status dyd_polygons_clip(bool *simple, dyd_polygon_list *l, const dyd_rect *
  * so coarse attempts cost less than the one that is fine enough. */
 enum { FIRST_EXTRA = 8, MOST_EXTRA = 1 << 15, MOST_ANEW = 1 << 13, FINER = 2 };
 
-typedef struct work {
+typedef struct polygon_work {
   dyd_cell_sites sites;
   uint32_t own;
   const dyd_rect *window; /* W, or one that is wider */
   int64_t bits;
   const volatile int *cancel;
-  dyd_room *room;
+  dyd_memory *memory;
   dyd_boundary boundary;
   dyd_arc_samples samples;
   dyd_point goal; /* of inward moves: a point inside */
   mpq_t d[2], s, t;
-} work;
+} polygon_work;
 
 /* z += d 2^-shift with shift such that the move has between 2^-(bits+5) and 2^-(bits+2), or the whole of d if that is
  * shorter and not `stretch`; rounded to multiples of 2^-fine. */
-static dyd_status move_by_step(dyd_point *z, work *w, bool stretch, int64_t fine) {
+static dyd_status move_by_step(dyd_point *z, polygon_work *w, bool stretch, int64_t fine) {
   int64_t shift = dyd_log2_length(w->d[0], w->d[1]) + w->bits + 2;
   dyd_status st = DYD_OK;
   if (shift < 1 && !stretch) shift = 1;
@@ -481,7 +481,7 @@ static dyd_status move_by_step(dyd_point *z, work *w, bool stretch, int64_t fine
 /* ---- inward ---- */
 
 /* goal = the mean of the samples, rounded: inside when fine is large enough. */
-static dyd_status find_inner_goal(bool *out, work *w, int64_t fine) {
+static dyd_status find_inner_goal(bool *out, polygon_work *w, int64_t fine) {
   dyd_status st = DYD_OK;
   DYD_LOCAL(dyd_point, z);
   for (int a = 0; a < 2; a++) mpq_set_ui(w->d[a], 0, 1);
@@ -502,7 +502,7 @@ static dyd_status find_inner_goal(bool *out, work *w, int64_t fine) {
   return st;
 }
 
-static dyd_status place_inner(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine) {
+static dyd_status place_inner(bool *out, dyd_point *z, polygon_work *w, const dyd_arc_sample *at, int64_t fine) {
   dyd_status st = dyd_sample_point(z, at, &w->sites, w->own, fine);
   if (st != DYD_OK) return st;
   for (int a = 0; a < 2; a++) {
@@ -518,7 +518,7 @@ static dyd_status place_inner(bool *out, dyd_point *z, work *w, const dyd_arc_sa
 /* ---- outward ---- */
 
 /* d = z minus its nearest point in R_i. */
-static void set_away(work *w, const dyd_point *z) {
+static void set_away(polygon_work *w, const dyd_point *z) {
   const dyd_rect *r = &w->sites.own;
   for (int axis = 0; axis < 2; axis++) {
     mpq_ptr d = w->d[axis];
@@ -534,12 +534,12 @@ static void set_away(work *w, const dyd_point *z) {
 }
 
 /* Returns true if z is in C_ki for the far site k of the arc. Window arcs ask nothing. */
-static bool beyond_arc(const work *w, const dyd_arc *arc, const dyd_point *z) {
+static bool beyond_arc(const polygon_work *w, const dyd_arc *arc, const dyd_point *z) {
   return arc->kind == DYD_ARC_WINDOW ||
          dyd_nearer(z, dyd_cell_site(&w->sites, arc->far_site), &w->sites.own) == DYD_TRUE;
 }
 
-static dyd_status place_outer(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine) {
+static dyd_status place_outer(bool *out, dyd_point *z, polygon_work *w, const dyd_arc_sample *at, int64_t fine) {
   dyd_status st = dyd_sample_point(z, at, &w->sites, w->own, fine);
   if (st != DYD_OK) return st;
   if (at->arc->kind == DYD_ARC_WINDOW && at->before->kind == DYD_ARC_WINDOW) {
@@ -554,10 +554,10 @@ static dyd_status place_outer(bool *out, dyd_point *z, work *w, const dyd_arc_sa
 
 /* ---- both ---- */
 
-typedef dyd_status (*place_fn)(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine);
+typedef dyd_status (*place_fn)(bool *out, dyd_point *z, polygon_work *w, const dyd_arc_sample *at, int64_t fine);
 
 /* Proved points for all samples. */
-static dyd_status place_samples(dyd_polygon *out, work *w, place_fn place, int64_t extra) {
+static dyd_status place_samples(dyd_polygon *out, polygon_work *w, place_fn place, int64_t extra) {
   const dyd_arc_samples *all = &w->samples;
   out->vertex = dyd_alloc(all->count, sizeof *out->vertex);
   if (!out->vertex) return DYD_E_NOMEM;
@@ -573,9 +573,9 @@ static dyd_status place_samples(dyd_polygon *out, work *w, place_fn place, int64
   return st;
 }
 
-static dyd_status exact_inner(dyd_polygon *out, work *w) {
+static dyd_status exact_inner(dyd_polygon *out, polygon_work *w) {
   bool found = false;
-  dyd_status st = dyd_chain_samples(&w->samples, &w->boundary.chain[0], &w->sites, w->own, w->bits + 1, w->room);
+  dyd_status st = dyd_chain_samples(&w->samples, &w->boundary.chain[0], &w->sites, w->own, w->bits + 1, w->memory);
   for (int64_t extra = FIRST_EXTRA; !found && st == DYD_OK; extra *= 2)
     st = extra > MOST_EXTRA ? DYD_E_RANGE : find_inner_goal(&found, w, w->bits + extra);
   if (st == DYD_OK) st = place_samples(out, w, place_inner, FIRST_EXTRA);
@@ -584,7 +584,7 @@ static dyd_status exact_inner(dyd_polygon *out, work *w) {
 
 /* One part; taken anew with more bits while it crosses itself. Where arcs come nearer to each other than samples of
  * that number can follow, scales are too far apart for polygons: DYD_E_RANGE. */
-static dyd_status exact_outer_part(dyd_polygon *out, work *w, const dyd_chain *chain) {
+static dyd_status exact_outer_part(dyd_polygon *out, polygon_work *w, const dyd_chain *chain) {
   int64_t bits = w->bits;
   bool simple = false;
   dyd_status st = DYD_OK;
@@ -593,7 +593,7 @@ static dyd_status exact_outer_part(dyd_polygon *out, work *w, const dyd_chain *c
     dyd_polygon_clear(out);
     w->samples.count = 0;
     w->bits = bits + extra;
-    st = dyd_chain_samples(&w->samples, chain, &w->sites, w->own, w->bits + 1, w->room);
+    st = dyd_chain_samples(&w->samples, chain, &w->sites, w->own, w->bits + 1, w->memory);
     if (st == DYD_OK && extra > 0 && w->samples.count > MOST_ANEW) st = DYD_E_RANGE;
     if (st == DYD_OK) st = place_samples(out, w, place_outer, FIRST_EXTRA);
     if (st == DYD_OK) st = dyd_polygon_is_simple(&simple, out, w->cancel);
@@ -610,7 +610,7 @@ static dyd_status drop_if_clockwise(dyd_polygon_list *l) {
   return st;
 }
 
-static dyd_status exact_outer_parts(dyd_polygon_list *out, work *w) {
+static dyd_status exact_outer_parts(dyd_polygon_list *out, polygon_work *w) {
   dyd_polygon_list_clear(out);
   out->item = calloc(w->boundary.count, sizeof *out->item);
   if (!out->item) return DYD_E_NOMEM;
@@ -623,7 +623,7 @@ static dyd_status exact_outer_parts(dyd_polygon_list *out, work *w) {
 }
 
 /* Cut to W; taken anew with more bits while that spoils one. */
-static dyd_status exact_outer(dyd_polygon_list *out, work *w, const dyd_rect *window) {
+static dyd_status exact_outer(dyd_polygon_list *out, polygon_work *w, const dyd_rect *window) {
   int64_t bits = w->bits;
   bool simple = false;
   dyd_status st = DYD_OK;
@@ -651,22 +651,22 @@ dyd_status dyd_window_enlarge(dyd_rect *out, const dyd_rect *window, int64_t bit
 
 dyd_status dyd_exact_polygons(dyd_polygon *inner, dyd_polygon_list *outer, const dyd_delaunay *pd, uint32_t i,
                               const dyd_window *window, int64_t bits) {
-  work w = {.own = i,
-            .window = window->rect,
-            .bits = bits,
-            .cancel = window->cancel,
-            .room = window->room,
-            .samples = {.most = window->most}};
+  polygon_work w = {.own = i,
+                    .window = window->rect,
+                    .bits = bits,
+                    .cancel = window->cancel,
+                    .memory = window->memory,
+                    .samples = {.most = window->most}};
   DYD_LOCAL(dyd_rect, wide);
   dyd_point_init(&w.goal);
   mpq_inits(w.d[0], w.d[1], w.s, w.t, NULL);
   dyd_status st = dyd_cell_sites_init(&w.sites, pd, i, dyd_least_at(pd, i, window->proved));
   if (st == DYD_OK) st = dyd_cell_sites_enclose(&w.sites);
-  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, false, window->proved, w.window, w.room, w.cancel);
+  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, false, window->proved, w.window, w.memory, w.cancel);
   if (st == DYD_OK && w.boundary.count) st = exact_inner(inner, &w);
   if (st == DYD_OK) st = dyd_window_enlarge(&wide, window->rect, bits);
   w.window = &wide;
-  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, true, window->proved, w.window, w.room, w.cancel);
+  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, true, window->proved, w.window, w.memory, w.cancel);
   if (st == DYD_OK && w.boundary.count) st = exact_outer(outer, &w, window->rect);
   mpq_clears(w.d[0], w.d[1], w.s, w.t, NULL);
   dyd_point_clear(&w.goal);

@@ -510,7 +510,7 @@ dyd_status dyd_filter_polygons(bool *done, dyd_shape *s, const dyd_delaunay *pd,
   if (!s->outline) s->outline = calloc(1, sizeof *s->outline);
   if (!s->outline) return DYD_E_NOMEM;
   s->outline->cancel = window->cancel;
-  s->outline->room = window->room;
+  s->outline->memory = window->memory;
   grid_work w = {.o = s->outline, .pd = pd, .own = i, .bits = (int)bits, .known = true};
   dyd_rect_init(&w.rect);
   mpq_inits(w.end[0][0], w.end[0][1], w.end[1][0], w.end[1][1], w.away[0], w.away[1], NULL);

@@ -211,7 +211,7 @@ static uint64_t bytes_of_sample(int64_t bits) {
 }
 
 dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const dyd_cell_sites *s, uint32_t own,
-                             int64_t bits, dyd_room *room) {
+                             int64_t bits, dyd_memory *memory) {
   for (size_t k = 0; k < chain->count; k++) {
     const dyd_arc *arc = &chain->arc[k], *before = &chain->arc[k ? k - 1 : chain->count - 1];
     uint32_t steps;
@@ -219,7 +219,7 @@ dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const
     if (st != DYD_OK) return st;
     if (out->count + steps > (out->most ? out->most : DYD_MOST_SAMPLES)) return DYD_E_RANGE;
     uint64_t bytes = dyd_bytes_times(out->count + steps, bytes_of_sample(bits));
-    if (room && !dyd_room_has(room, bytes, "the corners of a polygon")) return DYD_E_NOMEM;
+    if (memory && !dyd_memory_has(memory, bytes, "the corners of a polygon")) return DYD_E_NOMEM;
     if (!DYD_GROW(out->item, out->cap, out->count + steps)) return DYD_E_NOMEM;
     for (uint32_t step = 0; step < steps; step++)
       out->item[out->count++] = (dyd_arc_sample){arc, step ? arc : before, step, steps};

@@ -6,7 +6,7 @@
 #ifndef DYD_VORONOI_SAMPLE_H
 #define DYD_VORONOI_SAMPLE_H
 
-#include "base/room.h"
+#include "base/memory.h"
 #include "predicate/predicate_filter.h"
 #include <dyadel/voronoi.h>
 
@@ -45,7 +45,7 @@ typedef struct dyd_arc_samples {
  * rectangles of sites. Appended to *out. DYD_E_RANGE when more than `most` would be needed; DYD_E_NOMEM when *room
  * (NULL: no bound) has none for polygons with corners there. */
 dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const dyd_cell_sites *s, uint32_t own,
-                             int64_t bits, dyd_room *room);
+                             int64_t bits, dyd_memory *memory);
 /* The e with 2^(e-1) <= |x| + |y| < 2^e, so that (x, y) is shorter than 2^e; INT64_MIN / 2 where both are 0. */
 int64_t dyd_log2_length(const mpq_t x, const mpq_t y);
 /* The arcs of parabolas whose focus and directrix are at least 2^-(bits + DYD_NARROW) apart are measured with

@@ -53,9 +53,9 @@ static dyd_status grid_round(int64_t *out, const mpz_t x, const mpz_t d, int gri
 
 /* The half-plane a x + b y <= c, or the line that bounds it. Coordinates are integers: those of the caller times one
  * `scale` for all that meet. */
-typedef struct half_plane {
+typedef struct scaled_half_plane {
   mpz_t a, b, c;
-} half_plane;
+} scaled_half_plane;
 
 /* (x / d, y / d), d > 0; the edge from here on is on the line of half-plane `edge`. */
 typedef struct corner {
@@ -115,7 +115,7 @@ static mpz_srcptr scaled_at(const scaled_points *p, size_t k, int axis) {
 }
 
 /* The points nearer to point p than to point q: 2 (q - p).z <= |q|^2 - |p|^2. */
-static void half_plane_between(half_plane *h, scaled_points *s, size_t p, size_t q) {
+static void half_plane_between(scaled_half_plane *h, scaled_points *s, size_t p, size_t q) {
   mpz_sub(h->a, scaled_at(s, q, 0), scaled_at(s, p, 0));
   mpz_sub(h->b, scaled_at(s, q, 1), scaled_at(s, p, 1));
   mpz_add(s->t, scaled_at(s, q, 0), scaled_at(s, p, 0));
@@ -127,7 +127,7 @@ static void half_plane_between(half_plane *h, scaled_points *s, size_t p, size_t
 }
 
 /* Where the lines of g and h cross: not parallel. */
-static void lines_cross(corner *z, const half_plane *g, const half_plane *h) {
+static void lines_cross(corner *z, const scaled_half_plane *g, const scaled_half_plane *h) {
   mpz_mul(z->d, g->a, h->b);
   mpz_submul(z->d, g->b, h->a);
   mpz_mul(z->x, g->c, h->b);
@@ -142,7 +142,7 @@ static void lines_cross(corner *z, const half_plane *g, const half_plane *h) {
 
 static dyd_status centre_on_grid(int64_t n[2], const dyd_delaunay *pd, uint32_t t, const dyd_window *w) {
   scaled_points p;
-  half_plane h[2];
+  scaled_half_plane h[2];
   corner z;
   dyd_status st = scaled_init(&p, 3);
   DYD_LOCAL(dyd_rect, r);
@@ -232,7 +232,7 @@ static dyd_status point_star(bool *known, uint32_t *degree, dyd_shape *s, const 
  * counter-clockwise; there is room for one more than there are half-planes. */
 typedef struct clipping {
   scaled_points point;
-  half_plane *plane;
+  scaled_half_plane *plane;
   corner *now, *next;
   size_t count, room;
   int *sign;
@@ -284,7 +284,7 @@ static void clip_begin(clipping *c) {
   }
 }
 
-static int clip_side(clipping *c, const half_plane *h, const corner *z) {
+static int clip_side(clipping *c, const scaled_half_plane *h, const corner *z) {
   mpz_mul(c->t, h->a, z->x);
   mpz_addmul(c->t, h->b, z->y);
   mpz_submul(c->t, h->c, z->d);
@@ -655,10 +655,10 @@ dyd_status dyd_voronoi_polygons(dyd_polygon_list *out, const dyd_delaunay *pd, u
   dyd_status st = dyd_window_init(&w, window);
   if (st != DYD_OK) return st;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
-  dyd_room room = dyd_delaunay_room(pd);
+  dyd_memory memory = dyd_delaunay_room(pd);
   DYD_SCOPED(dyd_shape) s = {0};
   dyd_polygon_list l = {0};
-  w.room = &room;
+  w.memory = &memory;
   st = dyd_shape_find(&s, pd, dyd_delaunay_alias(pd, i), &w, bits);
   if (st == DYD_OK && bound == DYD_CELL_POSSIBLE) st = dyd_shape_outer(&l, &s);
   if (st == DYD_OK && bound == DYD_CELL_SURE) st = shape_inner_list(&l, &s);

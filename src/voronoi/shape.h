@@ -28,7 +28,7 @@ typedef struct dyd_window {
   bool proved; /* proved ties bound nothing: polygons of the true points [GRP-2]; false, as dyd_window_init leaves it */
   int grid;
   const volatile int *cancel;
-  dyd_room *room;
+  dyd_memory *memory;
   size_t most;      /* corners that one polygon may have; 0: DYD_MOST_SAMPLES */
   int64_t fan_bits; /* a polygon with a vertex for each certain triangle suffices within 2^-fan_bits; INT64_MAX, as
                        dyd_window_init leaves it: it has to be as near as the others */

@@ -134,22 +134,22 @@ dyd_status dyd_partial_centre_enclose(dyd_rect *out, const dyd_rect *a, const dy
 
 /* ---- intervals of integers ---- */
 
-typedef struct span {
+typedef struct mpz_span {
   mpz_t lo, hi;
-} span;
+} mpz_span;
 
-static void span_init(span *a) {
+static void mpz_span_init(mpz_span *a) {
   mpz_inits(a->lo, a->hi, NULL);
 }
 
-static void span_clear(span *a) {
+static void mpz_span_clear(mpz_span *a) {
   mpz_clears(a->lo, a->hi, NULL);
 }
 
-DYD_ARRAYS(span)
+DYD_ARRAYS(mpz_span)
 
 /* out = a b; out is none of them. */
-static void span_mul(span *out, const span *a, const span *b) {
+static void span_mul(mpz_span *out, const mpz_span *a, const mpz_span *b) {
   DYD_LOCAL_NUMBERS(mpz, t);
   mpz_mul(out->lo, a->lo, b->lo);
   mpz_set(out->hi, out->lo);
@@ -161,8 +161,8 @@ static void span_mul(span *out, const span *a, const span *b) {
 }
 
 /* out = a b - c d */
-static void span_cross(span *out, const span *a, const span *b, const span *c, const span *d) {
-  DYD_LOCAL(span, t);
+static void span_cross(mpz_span *out, const mpz_span *a, const mpz_span *b, const mpz_span *c, const mpz_span *d) {
+  DYD_LOCAL(mpz_span, t);
   span_mul(out, a, b);
   span_mul(&t, c, d);
   mpz_sub(out->lo, out->lo, t.hi);
@@ -170,8 +170,8 @@ static void span_cross(span *out, const span *a, const span *b, const span *c, c
 }
 
 /* out = x^2 + y^2 */
-static void span_norm(span *out, const span *x, const span *y) {
-  const span *in[2] = {x, y};
+static void span_norm(mpz_span *out, const mpz_span *x, const mpz_span *y) {
+  const mpz_span *in[2] = {x, y};
   DYD_LOCAL_NUMBERS(mpz, s, t);
   mpz_set_ui(out->lo, 0);
   mpz_set_ui(out->hi, 0);
@@ -187,8 +187,8 @@ static void span_norm(span *out, const span *x, const span *y) {
 /* ---- the formula ---- */
 
 /* [lo,hi] = ([a0,a1] + n/d) / F for d.lo > 0. */
-static void span_shifted_quotient(mpq_t lo, mpq_t hi, mpz_srcptr a0, mpz_srcptr a1, const span *n, const span *d,
-                                  mpz_srcptr man, int64_t exp) {
+static void span_shifted_quotient(mpq_t lo, mpq_t hi, mpz_srcptr a0, mpz_srcptr a1, const mpz_span *n,
+                                  const mpz_span *d, mpz_srcptr man, int64_t exp) {
   mpq_ptr end[2] = {lo, hi};
   for (int k = 0; k < 2; k++) {
     mpz_srcptr top = k ? n->hi : n->lo, below = (mpz_sgn(top) >= 0) == (k == 1) ? d->lo : d->hi;
@@ -201,14 +201,14 @@ static void span_shifted_quotient(mpq_t lo, mpq_t hi, mpz_srcptr a0, mpz_srcptr 
   }
 }
 
-static void span_difference(span *x, span *y, const dyd_irect *to, const dyd_irect *from) {
+static void span_difference(mpz_span *x, mpz_span *y, const dyd_irect *to, const dyd_irect *from) {
   mpz_sub(x->lo, to->x0, from->x1);
   mpz_sub(x->hi, to->x1, from->x0);
   mpz_sub(y->lo, to->y0, from->y1);
   mpz_sub(y->hi, to->y1, from->y0);
 }
 
-static void span_negate(span *a) {
+static void span_negate(mpz_span *a) {
   mpz_swap(a->lo, a->hi);
   mpz_neg(a->lo, a->lo);
   mpz_neg(a->hi, a->hi);
@@ -217,7 +217,7 @@ static void span_negate(span *a) {
 /* The ends end[0..3] = x lower, x upper, y lower, y upper of an enclosure; false if the formula gives none. */
 static bool vertex_enclose_scaled(mpq_t end[4], const dyd_irect r[3], mpz_srcptr man, int64_t exp) {
   enum { PX, PY, QX, QY, PP, QQ, D, NX, NY, SPANS };
-  DYD_LOCAL_ARRAY(span, s, [SPANS]);
+  DYD_LOCAL_ARRAY(mpz_span, s, [SPANS]);
   span_difference(&s[PX], &s[PY], &r[1], &r[0]);
   span_difference(&s[QX], &s[QY], &r[2], &r[0]);
   span_cross(&s[D], &s[PX], &s[QY], &s[PY], &s[QX]);

@@ -203,7 +203,7 @@ typedef struct region_pair {
 
 /* The sites of a part are in list[], its pairs in pair[]. in[]: is a site in the list at hand? All false between uses.
  * depth: how often boxes are cut. */
-typedef struct search {
+typedef struct region_search {
   dyd_bbox *site;
   uint32_t *list;
   region_pair *pair;
@@ -212,7 +212,7 @@ typedef struct search {
   dyd_bbox found;
   bool any;
   int depth;
-} search;
+} region_search;
 
 static bool box_is_within(const dyd_bbox *a, const dyd_bbox *b) {
   return b->e[0] <= a->e[0] && a->e[1] <= b->e[1] && b->e[2] <= a->e[2] && a->e[3] <= b->e[3];
@@ -221,7 +221,7 @@ static bool box_is_within(const dyd_bbox *a, const dyd_bbox *b) {
 /* ---- sites possible in a box ---- */
 
 /* Keeps the sites of list[from .. from+count) that ranges do not exclude; returns how many. */
-static size_t region_keep_near(search *s, const dyd_bbox *c, size_t from, size_t count) {
+static size_t region_keep_near(region_search *s, const dyd_bbox *c, size_t from, size_t count) {
   double least = HUGE_VAL;
   size_t kept = from;
   for (size_t k = from; k < from + count; k++) least = dyd_min(least, dyd_dl2_upper(c, &s->site[s->list[k]]));
@@ -231,7 +231,7 @@ static size_t region_keep_near(search *s, const dyd_bbox *c, size_t from, size_t
 }
 
 /* Keeps the sites that no other blocks at the corners. No site blocks itself, as far >= near. */
-static size_t region_keep_open(search *s, const dyd_bbox *c, size_t from, size_t count) {
+static size_t region_keep_open(region_search *s, const dyd_bbox *c, size_t from, size_t count) {
   double far[BLOCKERS][4], near[4];
   size_t kept = from, blockers = count < BLOCKERS ? count : BLOCKERS;
   for (size_t k = 0; k < blockers; k++) dyd_corners_far(far[k], c, &s->site[s->list[from + k]]);
@@ -245,7 +245,7 @@ static size_t region_keep_open(search *s, const dyd_bbox *c, size_t from, size_t
 }
 
 /* Keeps the pairs of pair[from .. from+count) whose ends are in the list. */
-static size_t region_keep_pairs(search *s, const dyd_part *p) {
+static size_t region_keep_pairs(region_search *s, const dyd_plane_part *p) {
   size_t kept = p->first_pair;
   for (size_t k = 0; k < p->count; k++) s->in[s->list[p->first + k]] = true;
   for (size_t k = p->first_pair; k < p->first_pair + p->pairs; k++)
@@ -255,7 +255,7 @@ static size_t region_keep_pairs(search *s, const dyd_part *p) {
 }
 
 /* Cuts the lists down to the sites and pairs possible in the box. */
-static void region_cut(search *s, dyd_part *p) {
+static void region_cut(region_search *s, dyd_plane_part *p) {
   p->count = region_keep_near(s, &p->at, p->first, p->count);
   p->count = region_keep_open(s, &p->at, p->first, p->count);
   p->pairs = p->count < 3 ? 0 : region_keep_pairs(s, p);
@@ -264,7 +264,7 @@ static void region_cut(search *s, dyd_part *p) {
 /* ---- bisection ---- */
 
 /* Copies the lists of the box around p behind them. */
-static bool region_copy_lists(search *s, dyd_part *p) {
+static bool region_copy_lists(region_search *s, dyd_plane_part *p) {
   const size_t first = p->first + p->count, first_pair = p->first_pair + p->pairs;
   if (!DYD_GROW(s->list, s->list_cap, first + p->count) || !DYD_GROW(s->pair, s->pair_cap, first_pair + p->pairs))
     return false;
@@ -276,8 +276,8 @@ static bool region_copy_lists(search *s, dyd_part *p) {
 }
 
 /* Boxes inside the enclosure found so far add nothing. */
-static dyd_status region_look(void *context, int *parts, dyd_part *p) {
-  search *s = context;
+static dyd_status region_look(void *context, int *parts, dyd_plane_part *p) {
+  region_search *s = context;
   if (s->any && box_is_within(&p->at, &s->found)) return DYD_OK;
   if (!region_copy_lists(s, p)) return DYD_E_NOMEM;
   region_cut(s, p);
@@ -298,7 +298,7 @@ static bool box_shrinks(const dyd_bbox *from, const dyd_bbox *to) {
 }
 
 /* Coarse rounds as long as they pay, then fine ones; s->any = false: nothing is possible in all->at. */
-static dyd_status region_shrink(dyd_part *all, search *s) {
+static dyd_status region_shrink(dyd_plane_part *all, region_search *s) {
   bool pays = true;
   for (s->depth = COARSE; pays || s->depth == COARSE;) {
     if (!pays) s->depth = FINE;
@@ -319,7 +319,8 @@ static uint32_t place_in_list(const dyd_index_list *sites, uint32_t site) {
   return (uint32_t)(found - sites->item);
 }
 
-static void region_load(search *s, const dyd_delaunay *pd, const dyd_pair_list *pairs, const dyd_index_list *sites) {
+static void region_load(region_search *s, const dyd_delaunay *pd, const dyd_pair_list *pairs,
+                        const dyd_index_list *sites) {
   for (size_t k = 0; k < sites->count; k++) {
     dyd_sites_get_d(s->site[k].e, pd->sk.rects.sites, sites->item[k]);
     s->list[k] = (uint32_t)k;
@@ -331,8 +332,8 @@ static void region_load(search *s, const dyd_delaunay *pd, const dyd_pair_list *
 
 dyd_status dyd_filter_region(dyd_bbox *box, bool *any, const dyd_delaunay *pd, const dyd_pair_list *pairs,
                              const dyd_index_list *sites) {
-  search s = {0};
-  dyd_part all = {.at = *box, .count = sites->count, .pairs = pairs->count};
+  region_search s = {0};
+  dyd_plane_part all = {.at = *box, .count = sites->count, .pairs = pairs->count};
   dyd_status st = DYD_E_NOMEM;
   s.site = dyd_alloc(sites->count, sizeof *s.site);
   s.in = dyd_alloc(sites->count, sizeof *s.in);

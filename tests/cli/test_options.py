@@ -232,7 +232,7 @@ def test_check_replays():
         (path / 'schedule').write_text('# moves\nbase 8\nseed 5\n1 0 16\n1 1 16\n2 0 40\n')
         (path / 'points').write_text('sqrt(2) 0\n1 pi\n0 0\n')
         (path / 'table').write_text('x,y\n1,2\n5,pi\nsqrt(3),0\n')
-        oracle = f'{sys.executable} {DATA}/../oracles/polygon.py 7 200'
+        oracle = f'{sys.executable} {DATA}/../programs/polygon.py 7 200'
         for points in (['points'], ['--oracle', oracle], ['--columns', 'y,x', 'table']):
             played = run('check', *points, '--replay', 'schedule', cwd=folder)
             expect(played, 0, r'^fine,1,3,')

@@ -3,7 +3,7 @@
 """--oracle: the example programs agree with points given as text; faults give their message, exit status 1 and the
 results known before; no process is left running, however the command ends.
 
-Usage: test_oracle.py COMMAND DATA FOLDER EXAMPLE   (tests/oracles, and the example in C, compiled)
+Usage: test_oracle.py COMMAND DATA FOLDER EXAMPLE   (tests/programs, and the example in C, compiled)
 """
 import importlib.util
 import os

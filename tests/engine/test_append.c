@@ -251,7 +251,7 @@ static void test_refused(void **state) {
   dyd_engine_free(e);
 }
 
-static dyd_status append_inside(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status append_inside(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
   dyd_engine *same = user;
   const double x = 7;
   dyd_rect r;

@@ -17,18 +17,18 @@ typedef struct left {
   unsigned cancel_at;
   dyd_stream *guest;   /* compared instead of site 1 */
   uint32_t also;       /* wanted besides, when not 0 */
-  bool boast, ignores; /* says that it is answered; ignores what dyd_plan_add returns */
+  bool boast, ignores; /* says that it is answered; ignores what dyd_wants_add returns */
   dyd_status give;     /* returned instead of DYD_OK, with a message unless mute */
   bool mute;
 } left;
 
 static void enter_from_within(dyd_engine *e);
 
-static dyd_status ask_left(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status ask_left(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
   left *q = user;
   double a[4], b[4];
   assert_false(*answered);
-  assert_int_equal(0, dyd_plan_count(plan));
+  assert_int_equal(0, dyd_wants_count(plan));
   assert_int_equal(0, err->message[0]);
   if (q->enter && q->cancel_at == 0) enter_from_within(q->enter);
   if (++q->asked == q->cancel_at) dyd_engine_cancel(q->enter);
@@ -43,10 +43,10 @@ static dyd_status ask_left(bool *answered, dyd_plan *plan, void *user, const dyd
   q->right = b[1] < a[0];
   q->width = a[1] - a[0];
   *answered = q->left || q->right || q->boast;
-  dyd_status st = dyd_plan_add(plan, 0, q->bits);
-  if (st == DYD_OK) st = dyd_plan_add(plan, other, q->bits);
-  if (st == DYD_OK && q->also) st = dyd_plan_add(plan, q->also, q->bits);
-  q->planned = dyd_plan_count(plan);
+  dyd_status st = dyd_wants_add(plan, 0, q->bits);
+  if (st == DYD_OK) st = dyd_wants_add(plan, other, q->bits);
+  if (st == DYD_OK && q->also) st = dyd_wants_add(plan, q->also, q->bits);
+  q->planned = dyd_wants_count(plan);
   if (q->give && !q->mute) snprintf(err->message, sizeof err->message, "the question is foolish");
   return q->give ? q->give : q->ignores ? DYD_OK : st;
 }
@@ -166,12 +166,12 @@ static void test_steps(void **state) {
   dyd_engine_free(e);
 }
 
-static dyd_status ask_twice(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status ask_twice(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
   int64_t *bits = user;
   (void)err;
   *answered = dyd_engine_knows(e, 0);
-  for (int k = 0; k < 3; k++) assert_int_equal(DYD_OK, dyd_plan_add(plan, 0, bits[k]));
-  assert_int_equal(1, dyd_plan_count(plan));
+  for (int k = 0; k < 3; k++) assert_int_equal(DYD_OK, dyd_wants_add(plan, 0, bits[k]));
+  assert_int_equal(1, dyd_wants_count(plan));
   return DYD_OK;
 }
 

@@ -95,7 +95,7 @@ static void test_fixed_rectangles(void **state) {
   dyd_engine_free(e);
 }
 
-/* Growth is by doubling; scouts make adaptive runs shorter. */
+/* Growth is by doubling; probes make adaptive runs shorter. */
 static void check_polygon(dyd_schedule schedule) {
   dyd_engine *e = engine_new();
   dyd_engine_options o;

@@ -209,7 +209,7 @@ static void test_faces(void **state) {
     half_case_new(&c, &r, 160);
     run_coarsely(&c, &o, test_between(&r, 2, 6));
     if (dyd_engine_delaunay(c.e)) {
-      const dyd_plan plan = {.e = c.e, .o = &o};
+      const dyd_wants plan = {.e = c.e, .o = &o};
       assert_int_equal(DYD_OK, dyd_settle(&s, &plan));
     }
     check_all_said(&c, s.item, s.count, &r);

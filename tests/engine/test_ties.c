@@ -128,7 +128,7 @@ static void test_bits_that_show(void **state) {
     dyd_engine_counters now = engine_counters(e), before = engine_counters(plain);
     assert_int_equal(now.stages, 2);
     assert_in_range(now.bits_most, 2900, 3070);
-    if (k != 1) assert_true(before.stages >= 7 && before.bits_most == 4096); /* there scouts learn it, too */
+    if (k != 1) assert_true(before.stages >= 7 && before.bits_most == 4096); /* there probes learn it, too */
     assert_true(now.bits_total < before.bits_total);
     for (uint32_t i = 0; i < dyd_engine_count(e); i++)
       for (uint32_t j = 0; j < i; j++)

@@ -4,7 +4,7 @@
 #include "engine/help.h"
 
 #include "delaunay/state.h"
-#include "engine/plan.h"
+#include "engine/wants.h"
 #include "rect/rect.h"
 #include <math.h>
 #include <string.h>
@@ -375,16 +375,16 @@ static void test_coarse(void **state) {
     assert_int_equal(DYD_OK, dyd_sites_add_boxes(sites, n, x0, x1, y0, y1));
     assert_int_equal(DYD_OK, dyd_delaunay_new(&pd, sites, NULL, NULL));
     for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd); f++) {
-      dyd_coarse c = {0};
+      dyd_face_precision c = {0};
       dyd_pair_list pairs = {0};
       double of_face[5][4];
       assert_int_equal(DYD_OK, dyd_delaunay_face_pairs(&pairs, pd, f));
-      assert_int_equal(DYD_OK, dyd_coarse_set(&c, pd, f, &pairs));
+      assert_int_equal(DYD_OK, dyd_face_precision_set(&c, pd, f, &pairs));
       for (size_t i = 0; i < c.sites.count; i++) memcpy(of_face[i], box[c.sites.item[i]], sizeof of_face[i]);
       for (size_t i = 0; i < c.sites.count; i++)
-        assert_true(dyd_coarse_bits(&c, c.sites.item[i]) == literal_bits(of_face, c.sites.count, i));
-      assert_true(dyd_coarse_bits(&c, 99) == INT64_MAX);
-      dyd_coarse_clear(&c);
+        assert_true(dyd_face_precision_bits(&c, c.sites.item[i]) == literal_bits(of_face, c.sites.count, i));
+      assert_true(dyd_face_precision_bits(&c, 99) == INT64_MAX);
+      dyd_face_precision_clear(&c);
       dyd_pair_list_clear(&pairs);
       faces++;
     }

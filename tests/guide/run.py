@@ -5,7 +5,7 @@
 A block ```console has lines "$ COMMAND", each followed by its output, standard output first; further lines of a command begin
 with "> ", or follow a backslash. A line "..." means any lines, at the end of a line any text; a command "$ echo $?" prints the exit
 status of the one before. A block ```python runs in one session for the guide; ```c is compiled against the library (environment: GUIDE_CC) and has to run. A block ```text after one of these two is what
-it prints. A block of none of these is not run. Commands run in a folder with a copy of tests/data and tests/oracles; a
+it prints. A block of none of these is not run. Commands run in a folder with a copy of tests/data and tests/programs; a
 picture that they write and that stands beside the guide has to be the same (--renew: it is copied there)."""
 import contextlib
 import io
@@ -100,7 +100,7 @@ def main():
     for path in map(pathlib.Path, guides):
         with tempfile.TemporaryDirectory(prefix='guide-') as name:
             folder = pathlib.Path(name)
-            for kind in ('data', 'oracles'):
+            for kind in ('data', 'programs'):
                 for file in (HERE.parent / kind).iterdir():
                     shutil.copy(file, folder)
             guide = Guide(path, command, folder)

@@ -91,6 +91,18 @@ def check_static_names(root):
                 yield f'{path}: the static function {name} has the name of one in {seen[name].relative_to(root)}'
 
 
+TYPE = re.compile(r'^(?:typedef )?(?:struct|enum|union) (?:dyd_)?(\w+) \{', re.M)
+
+
+def check_type_names(root):
+    """One name means one thing: no two types differ in the prefix at most."""
+    seen = {}
+    for path in sorted(p for folder in ('src', 'include') for p in (root / folder).rglob('*.[ch]')):
+        for name in TYPE.findall(path.read_text(encoding='utf-8')):
+            if seen.setdefault(name, path) != path:
+                yield f'{path}: the type {name} has the name of one in {seen[name].relative_to(root)}'
+
+
 OPTION = re.compile(r'"[^"\n]*--[a-z][a-z-]+[^"\n]*"')
 
 
@@ -130,6 +142,7 @@ def files(root):
 def breaches(root):
     yield from check_top(root)
     yield from check_static_names(root)
+    yield from check_type_names(root)
     yield from check_licences(root)
     for path in files(root):
         text = path.read_text(encoding='utf-8')

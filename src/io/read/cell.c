@@ -363,13 +363,13 @@ const char *dyd_cell_remedy(const dyd_span *s) {
   return NULL;
 }
 
-static bool is_count(const dyd_line *line) {
+static bool is_count(const dyd_text_line *line) {
   size_t k = 0;
   while (k < line->length && line->text[k] >= '0' && line->text[k] <= '9') k++;
   return k == line->length;
 }
 
-const char *dyd_line_remedy(const dyd_line *line, const char *message) {
+const char *dyd_line_remedy(const dyd_text_line *line, const char *message) {
   const char first = line->length ? *line->text : ' ';
   const bool one = strncmp(message, "the line has one", 16) == 0;
   const dyd_file_kind *kind = dyd_kind_of_cell(line->text, line->length);

@@ -38,7 +38,7 @@ const char *dyd_cell_doubt(const dyd_span *cell);
  */
 const char *dyd_cell_remedy(const dyd_span *cell);
 /* Returns the same about a first line without a point, which the message is about; "" where it is not known. */
-const char *dyd_line_remedy(const dyd_line *line, const char *message);
+const char *dyd_line_remedy(const dyd_text_line *line, const char *message);
 /* Returns the length of the number in "0.02 m", and 0 if the cell is not a number and a unit. */
 size_t dyd_cell_number(const dyd_span *cell);
 

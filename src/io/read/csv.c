@@ -13,8 +13,8 @@
 
 #include <string.h>
 
-static dyd_status csv_record(dyd_line *out, dyd_csv *csv, dyd_error *err);
-static dyd_status csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err);
+static dyd_status csv_record(dyd_text_line *out, dyd_csv *csv, dyd_error *err);
+static dyd_status csv_split(dyd_csv *csv, const dyd_text_line *line, dyd_error *err);
 static void span_trim(dyd_span *s);
 /* The header of separated text: which delimiter it uses, and where the wanted columns are.
  *
@@ -27,7 +27,7 @@ enum { LOOKED_AT = 20 }; /* lines that may be the header */
 
 dyd_status dyd_csv_ask(dyd_csv *csv, int first, size_t least, size_t most, const char *text, const char *option,
                        dyd_error *err) {
-  dyd_line line = {text, strlen(text), 0};
+  dyd_text_line line = {text, strlen(text), 0};
   csv->delimiter = ',';
   dyd_status split = line.length ? csv_split(csv, &line, NULL) : DYD_E_ARG;
   if (split == DYD_E_NOMEM) return dyd_fail_nomem(err);
@@ -184,7 +184,7 @@ static dyd_status find_columns(dyd_csv *csv, dyd_error *err) {
 /* ---- the delimiter ---- */
 
 /* A comment mark in front does not belong to the first name. */
-static dyd_status header_split(dyd_csv *csv, const dyd_line *line, char delimiter, dyd_error *err) {
+static dyd_status header_split(dyd_csv *csv, const dyd_text_line *line, char delimiter, dyd_error *err) {
   csv->delimiter = delimiter;
   dyd_status st = csv_split(csv, line, err);
   for (size_t k = 0; k < csv->fields && st == DYD_OK; k++) span_trim(&csv->field[k]);
@@ -198,7 +198,7 @@ static dyd_status header_split(dyd_csv *csv, const dyd_line *line, char delimite
 
 /* The delimiter that makes the most columns among those by which all wanted ones are found; when there is none, the one
  * that makes the most. Blanks are tried last, commas that may be decimal before them. */
-static dyd_status find_delimiter(char *best, dyd_csv *csv, const dyd_line *line, dyd_error *err) {
+static dyd_status find_delimiter(char *best, dyd_csv *csv, const dyd_text_line *line, dyd_error *err) {
   size_t most = 0;
   bool found = false;
   *best = delimiters[0];
@@ -234,7 +234,7 @@ static bool all_numbered(const dyd_csv *csv) {
 }
 
 /* Takes the line for the header, or for the first row. delimiter 0: taken from it. commented: comments precede it. */
-static dyd_status header_take(dyd_csv *csv, const dyd_line *line, char delimiter, bool commented, dyd_error *err) {
+static dyd_status header_take(dyd_csv *csv, const dyd_text_line *line, char delimiter, bool commented, dyd_error *err) {
   dyd_status st = delimiter ? DYD_OK : find_delimiter(&delimiter, csv, line, err);
   if (st == DYD_OK) st = header_split(csv, line, delimiter, err);
   if (st == DYD_OK) st = find_columns(csv, err);
@@ -267,7 +267,7 @@ static dyd_status carry_put(dyd_csv *csv, size_t k, dyd_error *err) {
 /* The columns named. */
 static dyd_status carry_named(dyd_csv *csv, dyd_error *err) {
   DYD_SCOPED(dyd_csv) list = {.delimiter = ','};
-  const dyd_line line = {csv->carry, strlen(csv->carry), 0};
+  const dyd_text_line line = {csv->carry, strlen(csv->carry), 0};
   dyd_status st = csv_split(&list, &line, err);
   for (size_t k = 0; k < list.fields && st == DYD_OK; k++) {
     dyd_span *f = &list.field[k];
@@ -295,7 +295,7 @@ static dyd_status carry_find(dyd_csv *csv, dyd_error *err) {
 }
 
 /* The delimiter in a first line such as "sep=;"; 0: it is none. */
-static char delimiter_line(const dyd_line *line) {
+static char delimiter_line(const dyd_text_line *line) {
   const char *at = line->text;
   bool quoted = line->length == 7 && at[0] == '"' && at[6] == '"';
   if (line->number != 1 || (line->length != 5 && !quoted)) return 0;
@@ -304,7 +304,7 @@ static char delimiter_line(const dyd_line *line) {
 
 /* One of the next lines has all columns: the error says which. */
 static void header_seek(dyd_csv *csv, char delimiter, dyd_error *err) {
-  dyd_line line = {"", 0, 0};
+  dyd_text_line line = {"", 0, 0};
   for (int k = 0; k < LOOKED_AT && err; k++) {
     if (csv_record(&line, csv, NULL) != DYD_OK || !line.text) return;
     if (header_take(csv, &line, delimiter, false, NULL) != DYD_OK) continue;
@@ -323,7 +323,7 @@ static dyd_status header_read(dyd_csv *csv, char delimiter, dyd_error *err) {
   size_t fields = 0; /* of the last comment, in which columns are missing, as `before` says */
   dyd_error before;
   for (;;) {
-    dyd_line line;
+    dyd_text_line line;
     dyd_status st = csv_record(&line, csv, err);
     if (st != DYD_OK) return st;
     if (!line.text) break;
@@ -415,8 +415,8 @@ static bool guess_columns(dyd_csv *csv, const dyd_csv *row) {
 }
 
 /* The line, a copy, separated by d. skip: how many lines are before it. */
-static bool hint_with(dyd_csv *csv, dyd_csv *row, char d, const dyd_line *line, const dyd_line *next, size_t skip,
-                      dyd_text *text, dyd_error *err) {
+static bool hint_with(dyd_csv *csv, dyd_csv *row, char d, const dyd_text_line *line, const dyd_text_line *next,
+                      size_t skip, dyd_text *text, dyd_error *err) {
   char names[110], two[160], lines[40] = "", message[DYD_MESSAGE_SIZE];
   size_t used = strlen(err->message);
   if (header_split(csv, line, d, NULL) != DYD_OK || !is_header(csv) || (skip && !guess_columns(csv, NULL)))
@@ -442,9 +442,9 @@ static bool hint_with(dyd_csv *csv, dyd_csv *row, char d, const dyd_line *line, 
   return true;
 }
 
-void dyd_csv_hint(dyd_error *err, const dyd_line *line, dyd_text *text) {
+void dyd_csv_hint(dyd_error *err, const dyd_text_line *line, dyd_text *text) {
   DYD_SCOPED(dyd_csv) csv = {0}, row = {0};
-  dyd_line next = *line;
+  dyd_text_line next = *line;
   dyd_error own;
   const size_t used = strlen(err->message);
   bool found = false;
@@ -454,7 +454,7 @@ void dyd_csv_hint(dyd_error *err, const dyd_line *line, dyd_text *text) {
     DYD_FREED char *copy = dyd_alloc(next.length + 1, 1);
     if (!copy) break;
     memcpy(copy, next.text, next.length);
-    const dyd_line here = {copy, next.length, next.number};
+    const dyd_text_line here = {copy, next.length, next.number};
     if (dyd_text_next(&next, text, &own) != DYD_OK) next.text = NULL;
     for (const char *d = delimiters; *d && !found && (here.number > first || strlen(err->message) == used); d++)
       found = hint_with(&csv, &row, *d, &here, &next, here.number == first ? 0 : here.number - 1, text, err);
@@ -464,7 +464,7 @@ void dyd_csv_hint(dyd_error *err, const dyd_line *line, dyd_text *text) {
 /* Rows of fields: small tables that accompany the points, by the readers of lines and of separated text. */
 
 /* Fields between runs of blanks, commas and semicolons, up to a comment; quotes mean nothing. */
-static dyd_status rows_split_runs(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
+static dyd_status rows_split_runs(dyd_csv *csv, const dyd_text_line *line, dyd_error *err) {
   static const bool between[256] = {[' '] = true, ['\t'] = true, [','] = true, [';'] = true, ['\r'] = true};
   const char *at = line->text, *end = dyd_line_is_comment(line) ? at : at + line->length;
   for (csv->fields = 0;; csv->fields++) {
@@ -478,7 +478,7 @@ static dyd_status rows_split_runs(dyd_csv *csv, const dyd_line *line, dyd_error 
 }
 
 /* Of the line: what separates most formats of tables, the first that it holds. */
-static char rows_delimiter(const dyd_line *line) {
+static char rows_delimiter(const dyd_text_line *line) {
   for (const char *c = ",;\t|"; *c; c++)
     if (memchr(line->text, *c, line->length)) return *c;
   return ' ';
@@ -486,7 +486,7 @@ static char rows_delimiter(const dyd_line *line) {
 
 /* The next row that has fields; csv->fields = 0 at the end. */
 static dyd_status rows_next(dyd_csv *csv, dyd_error *err) {
-  dyd_line line;
+  dyd_text_line line;
   for (csv->fields = 0; csv->fields == 0;) {
     dyd_status st = csv->delimiter == ' ' ? dyd_text_next(&line, csv->text, err) : csv_record(&line, csv, err);
     if (st != DYD_OK || !line.text) return st;
@@ -548,13 +548,13 @@ void dyd_csv_clear(dyd_csv *csv) {
 
 /* ---- records ---- */
 
-static bool is_blank_line(const dyd_line *line) {
+static bool is_blank_line(const dyd_text_line *line) {
   for (size_t k = 0; k < line->length; k++)
     if (!dyd_is_gap(line->text[k])) return false;
   return true;
 }
 
-bool dyd_line_is_comment(const dyd_line *line) {
+bool dyd_line_is_comment(const dyd_text_line *line) {
   const char *at = line->text, *end = at + line->length;
   while (at < end && dyd_is_gap(*at)) at++;
   return at < end && (*at == '%' || (*at == '#' && !dyd_is_sheet_error(at, (size_t)(end - at))));
@@ -583,7 +583,7 @@ static bool leaves_quote_open(bool inside, const char *text, size_t length, char
   return inside;
 }
 
-static dyd_status record_append(dyd_csv *csv, size_t *length, const dyd_line *line, dyd_error *err) {
+static dyd_status record_append(dyd_csv *csv, size_t *length, const dyd_text_line *line, dyd_error *err) {
   if (*length + line->length > DYD_TEXT_LINE_MAX) {
     dyd_span span = {line->text, 0, line->text, line->text, line->number};
     return dyd_span_fail(err, &span, 0, "a quoted field is longer than 1048576 bytes; close its quote");
@@ -596,7 +596,7 @@ static dyd_status record_append(dyd_csv *csv, size_t *length, const dyd_line *li
 }
 
 /* Appends lines until the quoted field is closed. */
-static dyd_status record_join_lines(dyd_line *out, dyd_csv *csv, dyd_error *err) {
+static dyd_status record_join_lines(dyd_text_line *out, dyd_csv *csv, dyd_error *err) {
   size_t length = 0, first = out->number;
   dyd_status st = record_append(csv, &length, out, err);
   for (bool open = true; open && st == DYD_OK;) {
@@ -610,18 +610,18 @@ static dyd_status record_join_lines(dyd_line *out, dyd_csv *csv, dyd_error *err)
     open = leaves_quote_open(true, out->text, out->length, csv->delimiter);
     st = record_append(csv, &length, out, err);
   }
-  *out = (dyd_line){csv->record, length, first};
+  *out = (dyd_text_line){csv->record, length, first};
   return st;
 }
 
 /* ---- for the header ---- */
 
 /* Counts a comment behind the header that would be a point without its mark. */
-static dyd_status note_comment(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
+static dyd_status note_comment(dyd_csv *csv, const dyd_text_line *line, dyd_error *err) {
   dyd_plain p;
   if (!csv->columns || is_blank_line(line)) return DYD_OK;
   size_t mark = strcspn(line->text, "#%") + 1;
-  const dyd_line rest = {line->text + mark, line->length - mark, line->number};
+  const dyd_text_line rest = {line->text + mark, line->length - mark, line->number};
   dyd_status st = csv_split(csv, &rest, NULL);
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   bool point = st == DYD_OK && csv->fields == csv->columns;
@@ -635,7 +635,7 @@ static dyd_status note_comment(dyd_csv *csv, const dyd_line *line, dyd_error *er
 }
 
 /* The next record that is not an empty line or a comment; text = NULL at the end. */
-static dyd_status csv_record(dyd_line *out, dyd_csv *csv, dyd_error *err) {
+static dyd_status csv_record(dyd_text_line *out, dyd_csv *csv, dyd_error *err) {
   dyd_status st;
   for (;;) {
     st = dyd_text_next(out, csv->text, err);
@@ -697,7 +697,7 @@ static dyd_status record_field(dyd_span *field, const char **at, const char *end
 }
 
 /* Splits it into csv->field. */
-static dyd_status csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
+static dyd_status csv_split(dyd_csv *csv, const dyd_text_line *line, dyd_error *err) {
   const char *at = line->text, *end = line->text + line->length;
   csv->used = csv->fields = 0;
   if (!dyd_reserve((void **)&csv->plain, &csv->plain_cap, line->length, 1)) return dyd_fail_nomem(err);
@@ -749,7 +749,7 @@ static bool fields_fit(dyd_csv *csv, bool first) {
 static dyd_status fail_fields(const dyd_csv *csv, bool first, dyd_error *err) {
   const dyd_span *f = csv->field, *last = &f[csv->fields - 1];
   const bool more = csv->fields > csv->columns, named = !csv->headless;
-  const dyd_line line = {f->origin, (size_t)(last->at + last->length - f->origin), f->line};
+  const dyd_text_line line = {f->origin, (size_t)(last->at + last->length - f->origin), f->line};
   const char other = rows_delimiter(&line);
   char remedy[160];
   if (memchr(line.text, '\r', line.length))
@@ -774,7 +774,7 @@ static dyd_status fail_fields(const dyd_csv *csv, bool first, dyd_error *err) {
 }
 
 /* A line below the header as |---|:--:|, ----+---- */
-static bool is_rule(const dyd_line *line) {
+static bool is_rule(const dyd_text_line *line) {
   size_t run = 0, k = 0;
   for (; k < line->length && memchr("-=+|: \t", line->text[k], 7); k++)
     if (run < 3) run = memchr("-=", line->text[k], 2) ? run + 1 : 0;
@@ -788,7 +788,7 @@ static bool is_header_again(const dyd_csv *csv, const dyd_span field[DYD_CSV_MOS
 }
 
 dyd_status dyd_csv_next(dyd_span field[DYD_CSV_MOST], size_t *count, dyd_csv *csv, dyd_error *err) {
-  dyd_line line;
+  dyd_text_line line;
   *count = 0;
   dyd_status st = csv->held ? DYD_OK : csv_record(&line, csv, err);
   if (st == DYD_OK && csv->fresh && !csv->held && line.text && is_rule(&line)) st = csv_record(&line, csv, err);

@@ -9,7 +9,8 @@
 
 /* Splits one line of a points file. *count is 2, or 0 for a line without a point. comma separates besides blanks; a
  * blank: nothing else does. */
-dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_line *line, char comma, dyd_error *err);
+dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_text_line *line, char comma,
+                            dyd_error *err);
 
 /* The places of a geometry in well-known text, one after another; without the place that closes a ring. */
 typedef struct dyd_wkt {
@@ -104,9 +105,9 @@ void dyd_zone_see(char seen[2][4], const dyd_span *cell);
 bool dyd_is_sheet_error(const char *text, size_t length);
 /* Where a first line that is no point looks like a header, the message of *err becomes, or gets, the remedy. text: the
  * lines behind it; the next one is taken. */
-void dyd_csv_hint(dyd_error *err, const dyd_line *line, dyd_text *text);
+void dyd_csv_hint(dyd_error *err, const dyd_text_line *line, dyd_text *text);
 /* Returns true if it begins with # or %. Error values of spreadsheets, such as #N/A, are not comments. */
-bool dyd_line_is_comment(const dyd_line *line);
+bool dyd_line_is_comment(const dyd_text_line *line);
 
 /* ---- options.c: the table of reading options, and the columns that they name ---- */
 

@@ -54,7 +54,7 @@ typedef struct intake {
   spread *sigma, row;          /* row: of the present row */
   size_t sigma_cap, uncertain; /* uncertain: rows with a standard deviation above 0 */
   dyd_labels labels;
-  dyd_places places, ids;
+  dyd_place_keys places, ids;
   sighting *seen; /* by merge_by, rows with an identifier */
   size_t sightings, seen_cap;
   char *cells; /* theirs */
@@ -320,11 +320,11 @@ static bool intake_labels(const intake *in) {
 
 /* false, with *err filled: reading takes more memory than `max_bytes`. The engine gets a copy of the labels. */
 static bool intake_has_room(const intake *in, dyd_error *err) {
-  dyd_room room = {.most = in->o->max_bytes};
+  dyd_memory memory = {.most = in->o->max_bytes};
   uint64_t bytes = in->stage.bytes + 2 * dyd_labels_bytes(&in->labels) + dyd_places_bytes(&in->places) +
                    dyd_places_bytes(&in->ids) + in->cells_used + in->sightings * sizeof *in->seen +
                    (in->sigma ? in->stage.count * sizeof *in->sigma : 0);
-  return dyd_room_has(&room, bytes, "reading the points") || (dyd_fail_room(err, &room), false);
+  return dyd_memory_has(&memory, bytes, "reading the points") || (dyd_fail_room(err, &memory), false);
 }
 
 /* ---- fields ---- */
@@ -357,7 +357,7 @@ static double final_width(const dyd_coordinate *c, const dyd_manner *manner, dou
 /* A rectangle inside both is that of the smaller width in each coordinate, as they have their centre in common. A
  * radius that is kept goes with its rectangle: of rows with different ones, one is taken, inside the other if it can
  * be. */
-static dyd_status intake_merge(intake *in, dyd_place *place, dyd_coordinate c[2], const double width[2],
+static dyd_status intake_merge(intake *in, dyd_place_key *place, dyd_coordinate c[2], const double width[2],
                                dyd_error *err) {
   size_t point = place->point;
   double *kept = &in->labels.number[point].of[DYD_ROW_RADIUS];
@@ -377,7 +377,7 @@ static dyd_status intake_merge(intake *in, dyd_place *place, dyd_coordinate c[2]
 }
 
 /* Remembers the present row, of the identifier. */
-static dyd_status intake_see(intake *in, dyd_place *id, const dyd_span span[DYD_CSV_MOST], dyd_error *err) {
+static dyd_status intake_see(intake *in, dyd_place_key *id, const dyd_span span[DYD_CSV_MOST], dyd_error *err) {
   sighting s = {.cells = in->cells_used, .row = in->report.rows - 1};
   for (int k = 0; k < in->roles; k++) {
     bool same = k && span[k].text && span[k].at == span[k - 1].at;
@@ -400,14 +400,14 @@ static dyd_status intake_see(intake *in, dyd_place *id, const dyd_span span[DYD_
 }
 
 /* Finds the identifier of the present row and raises its count; NULL: it has none. */
-static dyd_status intake_id(dyd_place **out, intake *in, const dyd_span *id, dyd_error *err) {
+static dyd_status intake_id(dyd_place_key **out, intake *in, const dyd_span *id, dyd_error *err) {
   *out = NULL;
   return !id->length || dyd_places_find_id(out, &in->ids, id) == DYD_OK ? DYD_OK : dyd_fail_nomem(err);
 }
 
 /* *again: the present row is that of an earlier point, which takes it. */
 static dyd_status intake_merge_id(bool *again, intake *in, const dyd_span span[DYD_CSV_MOST], dyd_error *err) {
-  dyd_place *id;
+  dyd_place_key *id;
   dyd_status st = intake_id(&id, in, &span[DYD_ROLE_ID], err);
   if (st == DYD_OK && id) st = intake_see(in, id, span, err);
   *again = st == DYD_OK && id && id->count > 1;
@@ -418,7 +418,7 @@ static dyd_status intake_merge_id(bool *again, intake *in, const dyd_span span[D
 
 /* Another point has the identifier of the present row. */
 static dyd_status intake_note_id(intake *in, const dyd_span *span, dyd_error *err) {
-  dyd_place *id;
+  dyd_place_key *id;
   dyd_status st = intake_id(&id, in, span, err);
   if (st != DYD_OK || !id) return st;
   if (id->count == 1)
@@ -432,7 +432,7 @@ static dyd_status intake_note_id(intake *in, const dyd_span *span, dyd_error *er
 static dyd_status intake_point(intake *in, const dyd_span span[DYD_CSV_MOST], dyd_coordinate c[2], dyd_error *err) {
   const double width[2] = {final_width(&c[0], &in->manner[0], in->row.of[0]),
                            final_width(&c[1], &in->manner[1], in->row.of[1])};
-  dyd_place *place = NULL;
+  dyd_place_key *place = NULL;
   const dyd_span *id = &span[DYD_ROLE_ID];
   dyd_row_numbers own = dyd_no_row_numbers;
   bool again = false;
@@ -560,7 +560,7 @@ static dyd_status twin_read(dyd_twin *out, intake *in, const sighting *s, dyd_er
 }
 
 /* st: the reason why these rows, which the place of an identifier begins with, give no point. */
-static dyd_status twins_fail(const intake *in, dyd_status st, const dyd_place *id, const size_t which[2],
+static dyd_status twins_fail(const intake *in, dyd_status st, const dyd_place_key *id, const size_t which[2],
                              dyd_error *err) {
   const sighting *s[2] = {&in->seen[id->row[0]], &in->seen[id->row[0]]};
   for (int k = 0; k < 2; k++)
@@ -582,7 +582,7 @@ static dyd_status twins_fail(const intake *in, dyd_status st, const dyd_place *i
 }
 
 /* Gives the point what its rows say together. */
-static dyd_status twins_join(intake *in, const dyd_place *id, dyd_twin *row, dyd_error *err) {
+static dyd_status twins_join(intake *in, const dyd_place_key *id, dyd_twin *row, dyd_error *err) {
   dyd_coordinate c[2] = {{.kind = DYD_COORDINATE_DOUBLE}, {.kind = DYD_COORDINATE_DOUBLE}};
   const sighting *first = &in->seen[id->row[0]], *s = first;
   dyd_status st = DYD_OK;
@@ -616,7 +616,7 @@ static dyd_status twins_join(intake *in, const dyd_place *id, dyd_twin *row, dyd
 static dyd_status intake_join(intake *in, dyd_error *err) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; st == DYD_OK && k < in->ids.count; k++) {
-    const dyd_place *id = &in->ids.item[k];
+    const dyd_place_key *id = &in->ids.item[k];
     if (id->count < 2) continue;
     if (!intake_has_room(in, err)) return DYD_E_NOMEM;
     DYD_FREED dyd_twin *row = dyd_alloc(id->count + 1, sizeof *row);
@@ -652,7 +652,8 @@ static dyd_status intake_commit(dyd_engine *e, intake *in, dyd_error *err) {
 
 /* Appends a remedy to the error of the first line, where that may be of a table. The line is gone when others have been
  * read. */
-static dyd_status hint_table(dyd_status st, const dyd_line *line, dyd_text *text, const intake *in, dyd_error *err) {
+static dyd_status hint_table(dyd_status st, const dyd_text_line *line, dyd_text *text, const intake *in,
+                             dyd_error *err) {
   const size_t used = strlen(err->message);
   const char first = line->length ? *line->text : ' ';
   if (st != DYD_E_PARSE || in->report.rows > 1 || in->stage.count) return st;
@@ -697,7 +698,7 @@ static dyd_status read_geometry(intake *in, dyd_wkt *w, dyd_error *err) {
 static dyd_status read_points_file(intake *in, dyd_text *text, dyd_error *err) {
   dyd_span span[DYD_CSV_MOST] = {{0}};
   for (;;) {
-    dyd_line line;
+    dyd_text_line line;
     size_t count;
     dyd_status st = dyd_text_next(&line, text, err);
     if (st != DYD_OK || !line.text) return st;
@@ -804,7 +805,7 @@ static dyd_status read_csv_file(intake *in, dyd_text *text, dyd_error *err) {
 
 /* Passes over the first lines. */
 static dyd_status skip_lines(dyd_text *text, const char *many, dyd_error *err) {
-  dyd_line line;
+  dyd_text_line line;
   dyd_status st = DYD_OK;
   if (!many) return DYD_OK;
   if (!*many || many[strspn(many, "0123456789")] || strlen(many) > 9)
@@ -871,7 +872,7 @@ static dyd_status rect_set_side(dyd_interval *out, const dyd_span *span, dyd_err
 }
 
 dyd_status dyd_rect_set_text(dyd_rect *out, const char *text, size_t length, dyd_error *err) {
-  const dyd_line line = {text, length, 1};
+  const dyd_text_line line = {text, length, 1};
   dyd_span span[2];
   size_t count;
   if (err) dyd_error_clear(err);

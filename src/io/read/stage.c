@@ -332,23 +332,23 @@ dyd_status dyd_stage_commit(dyd_engine *e, dyd_stage *s, dyd_error *err) {
 Points are equal by their nominal coordinates. A hash table holds texts that are equal exactly if the numbers are:
  * "mek" for a decimal m * 10^k where 10 does not divide m, "p/q" in lowest terms for another rational. */
 
-void dyd_places_clear(dyd_places *n) {
+void dyd_places_clear(dyd_place_keys *n) {
   dyd_free_all(n->item, n->slot, n->text);
-  *n = (dyd_places){0};
+  *n = (dyd_place_keys){0};
 }
 
-size_t dyd_places_bytes(const dyd_places *n) {
+size_t dyd_places_bytes(const dyd_place_keys *n) {
   return n->count * sizeof *n->item + n->slots * sizeof *n->slot + n->used;
 }
 
-static bool key_put(dyd_places *n, const char *text, size_t length) {
+static bool key_put(dyd_place_keys *n, const char *text, size_t length) {
   if (!dyd_reserve((void **)&n->text, &n->text_cap, n->used + length + 1, 1)) return false;
   memcpy(n->text + n->used, text, length);
   n->used += length;
   return true;
 }
 
-static bool key_put_plain(dyd_places *n, dyd_plain p) {
+static bool key_put_plain(dyd_place_keys *n, dyd_plain p) {
   char text[48];
   for (; p.man && p.man % 10 == 0; p.exp++) p.man /= 10;
   int length = snprintf(text, sizeof text, "%" PRId64 "e%d ", p.man, p.man ? p.exp : 0);
@@ -372,7 +372,7 @@ static mp_bitcnt_t take_out(mpz_ptr z, unsigned long p) {
 }
 
 /* Destroys q, which is man / den * 10^ten with den coprime to 10 and man not divisible by 10: "mek" or "p/qek". */
-static dyd_status key_put_rational(dyd_places *n, mpq_t q) {
+static dyd_status key_put_rational(dyd_place_keys *n, mpq_t q) {
   mpz_ptr man = mpq_numref(q), den = mpq_denref(q);
   DYD_LOCAL_NUMBERS(mpz, factor);
   mp_bitcnt_t twos = mpz_scan1(den, 0);
@@ -390,7 +390,7 @@ static dyd_status key_put_rational(dyd_places *n, mpq_t q) {
   return DYD_OK;
 }
 
-static dyd_status key_put_coordinate(dyd_places *n, const dyd_span *s) {
+static dyd_status key_put_coordinate(dyd_place_keys *n, const dyd_span *s) {
   size_t length = dyd_nominal_length(s);
   dyd_plain plain;
   if (dyd_plain_scan(&plain, s->text, length)) return key_put_plain(n, plain) ? DYD_OK : DYD_E_NOMEM;
@@ -412,17 +412,17 @@ static uint64_t hash_text(const char *text, size_t length) {
 }
 
 /* The slot of the key, or the free one where it belongs; key = NULL: it is new. */
-static dyd_place_slot *slot_find(const dyd_places *n, uint64_t hash, const char *key, size_t length) {
+static dyd_place_slot *slot_find(const dyd_place_keys *n, uint64_t hash, const char *key, size_t length) {
   for (size_t k = (size_t)hash & (n->slots - 1);; k = (k + 1) & (n->slots - 1)) {
     dyd_place_slot *s = &n->slot[k];
     if (!s->item) return s;
     if (!key || s->tag != (uint32_t)(hash >> 32)) continue;
-    const dyd_place *i = &n->item[s->item - 1];
+    const dyd_place_key *i = &n->item[s->item - 1];
     if (i->hash == hash && i->length == length && memcmp(n->text + i->text, key, length) == 0) return s;
   }
 }
 
-static bool slots_grow(dyd_places *n) {
+static bool slots_grow(dyd_place_keys *n) {
   if (n->slots && n->slots / 3 * 2 > n->count) return true;
   size_t slots = n->slots ? 2 * n->slots : 1024;
   dyd_place_slot *slot = n->count < UINT32_MAX ? calloc(slots, sizeof *slot) : NULL;
@@ -438,7 +438,7 @@ static bool slots_grow(dyd_places *n) {
 }
 
 /* The item of the key that ends the text, begun at `begin`, with its count raised by 1. */
-static dyd_status places_count(dyd_place **out, dyd_places *n, size_t begin) {
+static dyd_status places_count(dyd_place_key **out, dyd_place_keys *n, size_t begin) {
   if (!slots_grow(n) || !DYD_GROW(n->item, n->cap, n->count + 1)) return DYD_E_NOMEM;
   size_t length = n->used - begin;
   uint64_t hash = hash_text(n->text + begin, length);
@@ -446,7 +446,7 @@ static dyd_status places_count(dyd_place **out, dyd_places *n, size_t begin) {
   if (slot->item) {
     n->used = begin;
   } else {
-    n->item[n->count++] = (dyd_place){.hash = hash, .text = begin, .length = length};
+    n->item[n->count++] = (dyd_place_key){.hash = hash, .text = begin, .length = length};
     *slot = (dyd_place_slot){(uint32_t)n->count, (uint32_t)(hash >> 32)};
   }
   *out = &n->item[slot->item - 1];
@@ -454,14 +454,14 @@ static dyd_status places_count(dyd_place **out, dyd_places *n, size_t begin) {
   return DYD_OK;
 }
 
-dyd_status dyd_places_find(dyd_place **out, dyd_places *n, const dyd_span span[2]) {
+dyd_status dyd_places_find(dyd_place_key **out, dyd_place_keys *n, const dyd_span span[2]) {
   size_t begin = n->used;
   dyd_status st = key_put_coordinate(n, &span[0]);
   if (st == DYD_OK) st = key_put_coordinate(n, &span[1]);
   return st == DYD_OK ? places_count(out, n, begin) : st;
 }
 
-dyd_status dyd_places_find_id(dyd_place **out, dyd_places *n, const dyd_span *id) {
+dyd_status dyd_places_find_id(dyd_place_key **out, dyd_place_keys *n, const dyd_span *id) {
   size_t begin = n->used;
   return key_put(n, id->text, id->length) ? places_count(out, n, begin) : DYD_E_NOMEM;
 }

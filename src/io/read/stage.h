@@ -33,7 +33,7 @@ dyd_status dyd_stage_commit(dyd_engine *e, dyd_stage *s, dyd_error *err);
 
 /* A place where points are, or an identifier. width: of the rectangle that its first point, or the merged one, has in x
  * and y. */
-typedef struct dyd_place {
+typedef struct dyd_place_key {
   uint64_t hash;
   size_t text, length; /* the key */
   size_t point, count; /* its first point, and how many rows give this place */
@@ -41,7 +41,7 @@ typedef struct dyd_place {
     double width[2];
     size_t row[2]; /* of an identifier: its first and its last row, as the caller counts them */
   };
-} dyd_place;
+} dyd_place_key;
 
 /* Where an item is found: its number plus 1, 0 where free, and the high half of its hash. */
 typedef struct dyd_place_slot {
@@ -49,23 +49,23 @@ typedef struct dyd_place_slot {
 } dyd_place_slot;
 
 /* Invariant: slots is 0 or a power of 2 above 1.5 count. */
-typedef struct dyd_places {
-  dyd_place *item;
+typedef struct dyd_place_keys {
+  dyd_place_key *item;
   size_t count, cap;
   dyd_place_slot *slot;
   size_t slots;
   char *text;
   size_t used, text_cap;
-} dyd_places;
+} dyd_place_keys;
 
-void dyd_places_clear(dyd_places *n);
+void dyd_places_clear(dyd_place_keys *n);
 /* Bytes that it takes. O(1) */
-size_t dyd_places_bytes(const dyd_places *n);
+size_t dyd_places_bytes(const dyd_place_keys *n);
 /* Finds the place of the two coordinates and raises its count; *out is borrowed until the next call. Equal exact
  * numbers (the middle of an interval, a value without its radius) are equal however they are written; other expressions
  * are when their texts are equal. A new place has count 1. DYD_E_NOMEM. */
-dyd_status dyd_places_find(dyd_place **out, dyd_places *n, const dyd_span span[2]);
+dyd_status dyd_places_find(dyd_place_key **out, dyd_place_keys *n, const dyd_span span[2]);
 /* The same of an identifier, in a table of identifiers. */
-dyd_status dyd_places_find_id(dyd_place **out, dyd_places *n, const dyd_span *id);
+dyd_status dyd_places_find_id(dyd_place_key **out, dyd_place_keys *n, const dyd_span *id);
 
 #endif

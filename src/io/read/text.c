@@ -236,7 +236,7 @@ static dyd_status text_find_end(size_t *length, bool *newline, dyd_text *t, dyd_
   }
 }
 
-static dyd_status refuse_line(const dyd_line *line, dyd_error *err) {
+static dyd_status refuse_line(const dyd_text_line *line, dyd_error *err) {
   dyd_span span = {line->text, line->length, line->text, line->text, line->number};
   if (line->length > DYD_TEXT_LINE_MAX)
     return dyd_span_fail(err, &span, 0, "this line is longer than 1048576 bytes; give one point per line");
@@ -260,7 +260,7 @@ size_t dyd_utf8_length(const char *text, size_t length) {
 }
 
 /* Not UTF-8? Whole words of ASCII are passed over. */
-static bool line_is_foreign(const dyd_line *line) {
+static bool line_is_foreign(const dyd_text_line *line) {
   uint64_t all = 0, word;
   size_t k = 0;
   for (; k + sizeof word <= line->length; k += sizeof word) {
@@ -281,7 +281,7 @@ static const uint16_t windows[32] = {0x20AC, 0x81,   0x201A, 0x0192, 0x201E, 0x2
                                      0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x9D,   0x017E, 0x0178};
 
 /* Recodes a line of Windows-1252 to UTF-8; it is borrowed until the next. */
-static dyd_status line_recode(dyd_line *line, dyd_text *t, dyd_error *err) {
+static dyd_status line_recode(dyd_text_line *line, dyd_text *t, dyd_error *err) {
   if (!line_is_foreign(line)) return DYD_OK;
   if (!dyd_reserve((void **)&t->recode, &t->recode_cap, 3 * line->length, 1)) return dyd_fail_nomem(err);
   char *to = t->recode;
@@ -292,20 +292,20 @@ static dyd_status line_recode(dyd_line *line, dyd_text *t, dyd_error *err) {
     if (c >= 0x80) *to++ = (char)(c >= 0x800 ? 0x80 | (c >> 6 & 0x3F) : 0xC0 | c >> 6);
     *to++ = (char)(c >= 0x80 ? 0x80 | (c & 0x3F) : c);
   }
-  *line = (dyd_line){t->recode, (size_t)(to - t->recode), line->number};
+  *line = (dyd_text_line){t->recode, (size_t)(to - t->recode), line->number};
   t->recoded++;
   return DYD_OK;
 }
 
-dyd_status dyd_text_next(dyd_line *out, dyd_text *t, dyd_error *err) {
+dyd_status dyd_text_next(dyd_text_line *out, dyd_text *t, dyd_error *err) {
   size_t length;
   bool newline;
   dyd_status st = t->newline ? DYD_OK : text_begin(t, err);
   if (st == DYD_OK) st = text_find_end(&length, &newline, t, err);
   if (st != DYD_OK) return st;
-  *out = (dyd_line){0};
+  *out = (dyd_text_line){0};
   if (!length && !newline) return DYD_OK;
-  *out = (dyd_line){t->buffer + t->start, length, ++t->line};
+  *out = (dyd_text_line){t->buffer + t->start, length, ++t->line};
   t->start += length + newline;
   if (out->length && out->text[out->length - 1] == '\r') out->length--;
   if (out->length == 1 && out->text[0] == END_OF_DOS) out->length = 0;

@@ -31,11 +31,11 @@ typedef struct dyd_text {
 } dyd_text;
 
 /* text = NULL means the end of the file. Borrowed until the next call of dyd_text_next. */
-typedef struct dyd_line {
+typedef struct dyd_text_line {
   const char *text;
   size_t length; /* without the line end (LF, CRLF or CR) */
   size_t number; /* from 1 */
-} dyd_line;
+} dyd_text_line;
 
 /* A piece of a record, with the data that gives its line and column.
  * Invariant: origin <= at, both in the same buffer. */
@@ -58,7 +58,7 @@ dyd_status dyd_text_init_copy(dyd_text *t, const char *text, size_t length);
 void dyd_text_clear(dyd_text *t);
 /* The next line. A byte order mark at the start of the file is skipped. DYD_E_PARSE for NUL bytes and over-long
  * lines, DYD_E_IO, DYD_E_NOMEM. */
-dyd_status dyd_text_next(dyd_line *out, dyd_text *t, dyd_error *err);
+dyd_status dyd_text_next(dyd_text_line *out, dyd_text *t, dyd_error *err);
 /* The length of the UTF-8 character at `text`, from 1 to 4; 0 if none begins there (RFC 3629: shortest forms, no
  * surrogates). */
 size_t dyd_utf8_length(const char *text, size_t length);

@@ -138,19 +138,19 @@ bool dyd_wkt_next(dyd_span place[2], dyd_wkt *w) {
  *
  * Blanks and commas within parentheses or brackets belong to the coordinate. */
 
-typedef struct cursor {
+typedef struct wkt_cursor {
   const char *at, *end;
-  const dyd_line *line;
+  const dyd_text_line *line;
   char comma; /* possible separators besides blanks */
-} cursor;
+} wkt_cursor;
 
-static dyd_status points_fail(dyd_error *err, const cursor *c, const char *message) {
+static dyd_status points_fail(dyd_error *err, const wkt_cursor *c, const char *message) {
   dyd_span span = {c->at, 0, c->at, c->line->text, c->line->number};
   return dyd_span_fail(err, &span, 0, message);
 }
 
 /* Skips blanks; how many commas stood among them (0, 1, or 2 for "too many"). */
-static int points_separator(cursor *c, int allowed) {
+static int points_separator(wkt_cursor *c, int allowed) {
   int commas = 0;
   for (; c->at < c->end && (dyd_is_gap(*c->at) || *c->at == c->comma); c->at++)
     if (*c->at == c->comma && ++commas > allowed) return commas;
@@ -162,7 +162,7 @@ static const bool special[256] = {
     [' '] = true, ['\t'] = true, [','] = true, ['('] = true, [')'] = true, ['['] = true, [']'] = true};
 
 /* From c->at up to a separator outside all parentheses. */
-static dyd_span points_coordinate(cursor *c) {
+static dyd_span points_coordinate(wkt_cursor *c) {
   const char *begin = c->at;
   int depth = 0;
   for (; c->at < c->end; c->at++) {
@@ -182,7 +182,7 @@ static bool is_degrees(const char *begin, const char *end) {
 
 /* Degrees with blanks between minutes and seconds: the one place where both sides are such numbers. false: there is
  * none, or there are several. */
-static bool degrees_split(dyd_span coordinate[2], const dyd_line *line, const char *end, char comma) {
+static bool degrees_split(dyd_span coordinate[2], const dyd_text_line *line, const char *end, char comma) {
   const char *begin = line->text, *found = NULL, *next = NULL;
   while (begin < end && dyd_is_gap(*begin)) begin++;
   for (const char *at = begin; at < end && end - begin < 200; at++) {
@@ -202,9 +202,10 @@ static bool degrees_split(dyd_span coordinate[2], const dyd_line *line, const ch
   return true;
 }
 
-dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_line *line, char comma, dyd_error *err) {
+dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_text_line *line, char comma,
+                            dyd_error *err) {
   const char *comment = memchr(line->text, '#', line->length);
-  cursor c = {line->text, comment ? comment : line->text + line->length, line, comma};
+  wkt_cursor c = {line->text, comment ? comment : line->text + line->length, line, comma};
   *count = 0;
   if (dyd_line_is_comment(line)) return DYD_OK;
   if (points_separator(&c, 0))

@@ -259,26 +259,26 @@ dyd_status dyd_ring_settle(dyd_ring *r, const uint32_t *node, size_t count) {
 
 /* Facts about a form: its value is P / Q; num and den bound P and Q at all choices; whole: Q as an integer where
  * it is one, else 0; uses: the leaves of P and Q. */
-typedef struct part {
+typedef struct form_bounds {
   mag_t num, den;
   fmpz_t whole;
   bool uses[DYD_RING_LEAVES];
-} part;
+} form_bounds;
 
-static void bound_init(part *p) {
-  *p = (part){.uses = {false}};
+static void bound_init(form_bounds *p) {
+  *p = (form_bounds){.uses = {false}};
   mag_init(p->num);
   mag_init(p->den);
   fmpz_init(p->whole);
 }
 
-static void bound_clear(part *p) {
+static void bound_clear(form_bounds *p) {
   fmpz_clear(p->whole);
   mag_clear(p->den);
   mag_clear(p->num);
 }
 
-static void note_leaves(part *p, const dyd_ring *r, const fmpz_mpoly_t f) {
+static void note_leaves(form_bounds *p, const dyd_ring *r, const fmpz_mpoly_t f) {
   slong degree[DYD_RING_LEAVES];
   if (fmpz_mpoly_is_zero(f, r->ctx)) return;
   fmpz_mpoly_degrees_si(degree, f, r->ctx);
@@ -286,7 +286,7 @@ static void note_leaves(part *p, const dyd_ring *r, const fmpz_mpoly_t f) {
 }
 
 /* From the polynomials themselves. */
-static bool part_of_fraction(part *p, const dyd_ring *r, const dyd_fraction *x) {
+static bool part_of_fraction(form_bounds *p, const dyd_ring *r, const dyd_fraction *x) {
   if (!dyd_ring_is_whole(r, x->num) || !dyd_ring_is_whole(r, x->den)) return false;
   dyd_ring_bound(p->num, r, x->num);
   dyd_ring_bound(p->den, r, x->den);
@@ -296,14 +296,14 @@ static bool part_of_fraction(part *p, const dyd_ring *r, const dyd_fraction *x) 
   return true;
 }
 
-static void part_multiply(part *p, const part *q) {
+static void part_multiply(form_bounds *p, const form_bounds *q) {
   mag_mul(p->num, p->num, q->num);
   mag_mul(p->den, p->den, q->den);
   fmpz_mul(p->whole, p->whole, q->whole);
 }
 
 /* Brings both to one denominator, the least one for integers, and adds. */
-static void part_add(part *p, const part *q) {
+static void part_add(form_bounds *p, const form_bounds *q) {
   DYD_LOCAL_NUMBERS(mag, t);
   if (!fmpz_is_zero(p->whole) && !fmpz_is_zero(q->whole)) {
     DYD_LOCAL_NUMBERS(fmpz, g);
@@ -323,10 +323,10 @@ static void part_add(part *p, const part *q) {
   mag_add(p->num, p->num, t);
 }
 
-static bool part_of_form(part *p, dyd_ring *r, uint32_t n);
+static bool part_of_form(form_bounds *p, dyd_ring *r, uint32_t n);
 
-static bool part_of_operation(part *p, dyd_ring *r, const dyd_form *n) {
-  part q;
+static bool part_of_operation(form_bounds *p, dyd_ring *r, const dyd_form *n) {
+  form_bounds q;
   bound_init(&q);
   bool known = part_of_form(p, r, n->a) && part_of_form(&q, r, n->b);
   if (known && n->op == DYD_OP_MUL)
@@ -339,7 +339,7 @@ static bool part_of_operation(part *p, dyd_ring *r, const dyd_form *n) {
 }
 
 /* From the fraction, where it has been made; sums and products of others are not multiplied out. */
-static bool part_of_form(part *p, dyd_ring *r, uint32_t n) {
+static bool part_of_form(form_bounds *p, dyd_ring *r, uint32_t n) {
   const dyd_form form = r->forms->node[n];
   bool made = n < r->frac_cap && r->frac[n];
   bool open = form.op == DYD_OP_ADD || form.op == DYD_OP_SUB || form.op == DYD_OP_MUL;
@@ -349,7 +349,7 @@ static bool part_of_form(part *p, dyd_ring *r, uint32_t n) {
 }
 
 /* Leaves come after the ones in their relations. */
-static bool degree_of_tower(slong *degree, part *p, const dyd_ring *r) {
+static bool degree_of_tower(slong *degree, form_bounds *p, const dyd_ring *r) {
   *degree = 1;
   for (slong k = r->leaves - 1; k >= 0; k--) {
     const dyd_leaf *l = &r->leaf[k];
@@ -379,7 +379,7 @@ static bool bits_of_bound(slong *out, const mag_t u, slong degree, slong most) {
 
 /* s->den is initialised. false: there is no such bound, or it is beyond `most` bits. */
 static bool separation_find(dyd_separation *s, dyd_ring *r, uint32_t n, slong most) {
-  part p;
+  form_bounds p;
   bound_init(&p);
   bool known = part_of_form(&p, r, n) && degree_of_tower(&s->degree, &p, r);
   known = known && bits_of_bound(&s->bits, p.num, s->degree, most);
@@ -429,7 +429,7 @@ static bool is_below_separation(dyd_algebra *a, uint32_t n, slong prec, const dy
 static bool zero_has_room(const dyd_algebra *a, slong prec) {
   enum { FUNCTION = 32 };
   uint64_t bytes = dyd_bytes_times(a->forms.count + FUNCTION, (uint64_t)prec / 8);
-  return !a->room || dyd_room_has(a->room, bytes, "the proof of a tie");
+  return !a->memory || dyd_memory_has(a->memory, bytes, "the proof of a tie");
 }
 
 /* Doubles the precision until the bound decides. Digits before the point are computed, too: twice the bits will do,

@@ -3,7 +3,7 @@
 #ifndef DYD_STREAM_ALGEBRA_ZERO_H
 #define DYD_STREAM_ALGEBRA_ZERO_H
 
-#include "base/room.h"
+#include "base/memory.h"
 #include "stream/algebra/ring.h"
 
 /* From a form to a fraction of polynomials in the leaves. */
@@ -31,7 +31,7 @@ typedef struct dyd_algebra {
   bool settled;
   slong most;                 /* bits computed with at most */
   const volatile int *cancel; /* NULL: no flag */
-  dyd_room *room;             /* NULL: no bound; forms it refuses stay unknown */
+  dyd_memory *memory;         /* NULL: no bound; forms it refuses stay unknown */
   dyd_zero_counts count;
   slong shown; /* bits at which the last value refuted was seen not to be 0 */
 } dyd_algebra;

@@ -93,7 +93,7 @@ static void test_local(void **state) {
   dyd_engine_free(e);
 }
 
-/* Runs cut short anywhere in a race continue from there to the same end, and never retract anything. */
+/* Runs cut short anywhere in a probe continue from there to the same end, and never retract anything. */
 static void test_cut(void **state) {
   (void)state;
   dyd_engine *whole = near_circle(20, 400);
@@ -172,7 +172,7 @@ static void release_stream(void *user) {
   dyd_stream_free(user);
 }
 
-/* A point that fails in a race is blamed, and the last result stays. */
+/* A point that fails in a probe is blamed, and the last result stays. */
 static void test_failure(void **state) {
   (void)state;
   dyd_engine *e = engine_new();

@@ -5,6 +5,7 @@
  * Seen from an eye at an angle t, a place has its image at the distance cot(t/2) from 0; all within an angle r < t of
  * it have theirs within cot((t - r)/2) - cot(t/2) of that one. So squares about images replace regions, and
  * accuracies of squares are angles. Whether the plan is enough is seen on the sphere in the end. */
+#include "tolerance/survey.h"
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
@@ -18,7 +19,6 @@
 #include "sphere/units.h"
 #include "stream/ball.h"
 #include "tolerance/lines.h"
-#include "tolerance/survey.h"
 
 #include <string.h>
 

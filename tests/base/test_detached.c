@@ -43,7 +43,7 @@ static void test_done(void **state) {
   volatile int stop = 0;
   for (int k = 0; k < 200; k++) {
     job j = {.may_end = 1};
-    assert_true(dyd_apart(job_work, job_drop, &j, &stop));
+    assert_true(dyd_run_detached(job_work, job_drop, &j, &stop));
     assert_int_equal(1, j.done);
     assert_int_equal(0, j.dropped);
     assert_false(pthread_equal(pthread_self(), j.by));
@@ -54,7 +54,7 @@ static void test_done(void **state) {
 static void test_nobody_waits(void **state) {
   (void)state;
   job j = {.may_end = 1};
-  assert_true(dyd_apart(job_work, job_drop, &j, NULL));
+  assert_true(dyd_run_detached(job_work, job_drop, &j, NULL));
   assert_int_equal(1, j.done);
   assert_int_equal(0, j.dropped);
   assert_true(pthread_equal(pthread_self(), j.by));
@@ -79,7 +79,7 @@ static void test_left(void **state) {
   pthread_t thread;
   j = (job){.may_end = 0};
   assert_int_equal(0, pthread_create(&thread, NULL, stop_when_begun, &s));
-  assert_false(dyd_apart(job_work, job_drop, &j, &s.stop));
+  assert_false(dyd_run_detached(job_work, job_drop, &j, &s.stop));
   assert_int_equal(0, pthread_join(thread, NULL));
   assert_int_equal(0, __atomic_load_n(&j.done, __ATOMIC_SEQ_CST));
   assert_int_equal(0, __atomic_load_n(&j.dropped, __ATOMIC_SEQ_CST));
@@ -100,7 +100,7 @@ static void test_at_once(void **state) {
     pthread_t thread;
     j[k] = (job){.may_end = 1};
     assert_int_equal(0, pthread_create(&thread, NULL, stop_when_begun, &s));
-    bool done = dyd_apart(job_work, job_drop, &j[k], &s.stop);
+    bool done = dyd_run_detached(job_work, job_drop, &j[k], &s.stop);
     assert_int_equal(0, pthread_join(thread, NULL));
     double begun = dyd_seconds();
     while (!done && !__atomic_load_n(&j[k].dropped, __ATOMIC_SEQ_CST) && dyd_seconds() - begun < 60) pause_a_little();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Contracts for src/checker/still.c: pairs are of sites that are there. */
+/* Contracts for src/checker/fixpoint.c: pairs are of sites that are there. */
 #include "faces.h"
 #include "by_key.h"
 
@@ -38,4 +38,4 @@ bool dyd_cert_edges_have(const dyd_cert_edges *edges, uint32_t i, uint32_t j);
     exits \false; */
 dyd_status dyd_checker_stays(bool *out, const dyd_checker *c, const bool *still);
 
-#include "checker/still.c"
+#include "checker/fixpoint.c"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Scouts: a few points of a crowded face go ahead, to learn how far the others must go.
+/* Probes: a few points of a crowded face go ahead, to learn how far the others must go.
  *
  * Where many points are nearly on one circle, a stage that does not decide them costs much: all their pairs stay
  * possible. Whether two crossing pairs can displace one another depends on four points only, and is asked again for
@@ -8,11 +8,11 @@
  * and the other ends of the face are narrowed to a little more than that. Where fewer than four quads show it, they are
  * narrowed to sixteen times their bits at most, and where no quad is decided at the limit, for just that: a stage costs
  * as much as the finest rectangles in it. The first, not the last: quads that hold two points very near to one another,
- * or a tie, say nothing about the rest. Scouts that were sent too far belong to quads that are undecided, or were so a
+ * or a tie, say nothing about the rest. Probes that were sent too far belong to quads that are undecided, or were so a
  * step before: the schedule would have come to that precision as well.
  *
  * Like all of the schedule this only chooses what to narrow. */
-#include "engine/scout.h"
+#include "engine/probe.h"
 
 #include "base/alloc.h"
 #include "engine/points.h"
@@ -25,15 +25,15 @@
 #define TRIES 8
 #define STEPS 256
 #define STRIDE ((size_t)2654435761)
-/* Beyond this many bits the steps of scouts are shorter. */
+/* Beyond this many bits the steps of probes are shorter. */
 #define DEAR 1024
 /* Bits requested beyond the number that decides a quad: this, and one in 64. */
 #define MARGIN 8
 #define MOST_LEAP 16
 
-void dyd_scouts_clear(dyd_scouts *s) {
+void dyd_probes_clear(dyd_probes *s) {
   dyd_free_all(s->item, s->of);
-  *s = (dyd_scouts){0};
+  *s = (dyd_probes){0};
 }
 
 /* ---- quads ---- */
@@ -58,21 +58,21 @@ static dyd_status quad_is_decided(bool *out, const dyd_engine *e, const dyd_quad
 
 /* ---- finding them ---- */
 
-static bool is_marked(const dyd_plan *plan, uint32_t site) {
+static bool is_marked(const dyd_wants *plan, uint32_t site) {
   const dyd_refinable *p = dyd_engine_find(plan->e, site);
-  return p && dyd_plan_find(plan, p);
+  return p && dyd_wants_find(plan, p);
 }
 
-static bool race_has(const dyd_race *race, uint32_t site) {
-  for (size_t k = 0; k < 4 * race->quads; k++)
-    if (race->quad[k / 4].v[k % 4] == site) return true;
+static bool probe_has(const dyd_probe *probe, uint32_t site) {
+  for (size_t k = 0; k < 4 * probe->quads; k++)
+    if (probe->quad[k / 4].v[k % 4] == site) return true;
   return false;
 }
 
 /* An indeterminate pair with ends that are marked and free. */
-static bool race_can_take(const dyd_race *race, const dyd_plan *plan, const dyd_pair *p) {
-  return p->status == DYD_INDETERMINATE && !race_has(race, p->i) && !race_has(race, p->j) && is_marked(plan, p->i) &&
-         is_marked(plan, p->j);
+static bool probe_can_take(const dyd_probe *probe, const dyd_wants *plan, const dyd_pair *p) {
+  return p->status == DYD_INDETERMINATE && !probe_has(probe, p->i) && !probe_has(probe, p->j) &&
+         is_marked(plan, p->i) && is_marked(plan, p->j);
 }
 
 static bool share_an_end(const dyd_pair *p, const dyd_pair *q) {
@@ -80,61 +80,62 @@ static bool share_an_end(const dyd_pair *p, const dyd_pair *q) {
 }
 
 /* Adds the quad of p and one of the pairs from number *at on, when one is found within the bounds. */
-static dyd_status race_find_partner(size_t *at, size_t *tries, dyd_race *race, const dyd_plan *plan,
-                                    const dyd_pair_list *pairs, const dyd_pair *p) {
+static dyd_status probe_find_partner(size_t *at, size_t *tries, dyd_probe *probe, const dyd_wants *plan,
+                                     const dyd_pair_list *pairs, const dyd_pair *p) {
   dyd_status st = DYD_OK;
   bool decided = true;
   for (size_t n = 0; st == DYD_OK && decided && n < pairs->count && n < STEPS && *tries % TRIES; n++) {
     const dyd_pair *q = &pairs->item[*at];
     *at = (*at + STRIDE) % pairs->count;
-    if (share_an_end(p, q) || !race_can_take(race, plan, q)) continue;
+    if (share_an_end(p, q) || !probe_can_take(probe, plan, q)) continue;
     const dyd_quad_sites quad = {{p->i, p->j, q->i, q->j}};
     st = quad_is_decided(&decided, plan->e, &quad);
     ++*tries;
-    if (st == DYD_OK && !decided) race->quad[race->quads++] = quad;
+    if (st == DYD_OK && !decided) probe->quad[probe->quads++] = quad;
   }
   return st;
 }
 
 /* Adds a quad, when one is found within the bounds. Pairs are taken in strides, as if at random. */
-static dyd_status race_find_quad(size_t *at, dyd_race *race, const dyd_plan *plan, const dyd_pair_list *pairs) {
+static dyd_status probe_find_quad(size_t *at, dyd_probe *probe, const dyd_wants *plan, const dyd_pair_list *pairs) {
   dyd_status st = DYD_OK;
-  size_t before = race->quads;
-  for (size_t n = 0, tries = 1; st == DYD_OK && race->quads == before && n < STEPS && tries < 4 * TRIES; n++) {
+  size_t before = probe->quads;
+  for (size_t n = 0, tries = 1; st == DYD_OK && probe->quads == before && n < STEPS && tries < 4 * TRIES; n++) {
     const dyd_pair *p = &pairs->item[*at];
     *at = (*at + STRIDE) % pairs->count;
-    if (!race_can_take(race, plan, p)) continue;
-    st = race_find_partner(at, &tries, race, plan, pairs, p);
+    if (!probe_can_take(probe, plan, p)) continue;
+    st = probe_find_partner(at, &tries, probe, plan, pairs, p);
     tries = (tries / TRIES + 1) * TRIES + 1;
   }
   return st;
 }
 
-static dyd_status scouts_append(dyd_scouts *s, const dyd_plan *plan, const dyd_pair_list *pairs, const dyd_race *race) {
+static dyd_status probes_append(dyd_probes *s, const dyd_wants *plan, const dyd_pair_list *pairs,
+                                const dyd_probe *probe) {
   const dyd_engine *e = plan->e;
   if (!s->of) s->of = calloc(e->points, sizeof *s->of);
   if (!s->of || s->count >= UINT32_MAX || !DYD_GROW(s->item, s->cap, s->count + 1)) {
     return DYD_E_NOMEM;
   }
-  s->item[s->count++] = *race;
+  s->item[s->count++] = *probe;
   for (size_t k = 0; k < 2 * pairs->count; k++) {
     const dyd_refinable *p = dyd_engine_find(e, k % 2 ? pairs->item[k / 2].j : pairs->item[k / 2].i);
-    if (p && dyd_plan_find(plan, p)) s->of[p - e->point] = (uint32_t)s->count;
+    if (p && dyd_wants_find(plan, p)) s->of[p - e->point] = (uint32_t)s->count;
   }
   return DYD_OK;
 }
 
-dyd_status dyd_scouts_add(dyd_scouts *s, const dyd_plan *plan, const dyd_pair_list *pairs) {
-  dyd_race race = {.quads = 0};
+dyd_status dyd_probes_add(dyd_probes *s, const dyd_wants *plan, const dyd_pair_list *pairs) {
+  dyd_probe probe = {.quads = 0};
   dyd_status st = DYD_OK;
   /* Eight points have at least eight pairs that are not edges of their hull, if all cross. */
   if (pairs->count < 8) return DYD_OK;
-  for (size_t k = 0, at = 0; st == DYD_OK && k < DYD_SCOUT_QUADS && race.quads == k; k++)
-    st = race_find_quad(&at, &race, plan, pairs);
-  return st != DYD_OK || race.quads < 2 ? st : scouts_append(s, plan, pairs, &race);
+  for (size_t k = 0, at = 0; st == DYD_OK && k < DYD_PROBE_QUADS && probe.quads == k; k++)
+    st = probe_find_quad(&at, &probe, plan, pairs);
+  return st != DYD_OK || probe.quads < 2 ? st : probes_append(s, plan, pairs, &probe);
 }
 
-/* ---- the race ---- */
+/* ---- the probe ---- */
 
 /* Ends rounded outward to multiples of 2^-bits; rational points stay. */
 static dyd_status quad_widen_side(dyd_interval *a, int64_t bits) {
@@ -178,65 +179,65 @@ static dyd_status quad_find_need(int64_t *out, const dyd_engine *e, const dyd_qu
 }
 
 /* From b bits to the next, at most to `most`: twice as many, and half as many again where that begins to cost. */
-static int64_t scout_step(int64_t b, int64_t most) {
+static int64_t probe_step(int64_t b, int64_t most) {
   return dyd_bits_raised(b, b < 16 ? 16 : b < DEAR ? b : b / 2, most);
 }
 
-/* Sends the scouts of a quad that can continue: for what the plan wanted at first, then for more. How many there are.
+/* Sends the probes of a quad that can continue: for what the plan wanted at first, then for more. How many there are.
  */
-static size_t race_send_quad(dyd_plan *out, dyd_plan *held, const dyd_quad_sites *q) {
+static size_t probe_send_quad(dyd_wants *out, dyd_wants *held, const dyd_quad_sites *q) {
   size_t sent = 0;
   for (int k = 0; k < 4; k++) {
     const dyd_refinable *p = dyd_engine_find(out->e, q->v[k]);
     if (p->final || p->bits >= out->o->max_bits) continue;
-    dyd_want *first = dyd_plan_find(held, p), *now = dyd_plan_find(out, p);
-    int64_t bits = first->sent ? scout_step(p->bits, out->o->max_bits) : first->bits;
+    dyd_want *first = dyd_wants_find(held, p), *now = dyd_wants_find(out, p);
+    int64_t bits = first->sent ? probe_step(p->bits, out->o->max_bits) : first->bits;
     if (now)
       now->bits = bits;
     else
-      dyd_plan_mark(out, p, bits, first->reason, first->i, first->j);
+      dyd_wants_mark(out, p, bits, first->reason, first->i, first->j);
     first->sent = true;
     sent++;
   }
   return sent;
 }
 
-/* Judges one race, and sends the scouts on when it continues. */
-static dyd_status race_run(dyd_plan *out, dyd_race *race, dyd_plan *held) {
+/* Judges one probe, and sends the probes on when it continues. */
+static dyd_status probe_run(dyd_wants *out, dyd_probe *probe, dyd_wants *held) {
   dyd_status st = DYD_OK;
   size_t sent = 0;
-  for (size_t k = 0; st == DYD_OK && !race->over && k < race->quads; k++) {
-    st = quad_is_decided(&race->over, out->e, &race->quad[k]);
-    if (st == DYD_OK && race->over) st = quad_find_need(&race->bits, out->e, &race->quad[k]);
+  for (size_t k = 0; st == DYD_OK && !probe->over && k < probe->quads; k++) {
+    st = quad_is_decided(&probe->over, out->e, &probe->quad[k]);
+    if (st == DYD_OK && probe->over) st = quad_find_need(&probe->bits, out->e, &probe->quad[k]);
   }
-  if (st != DYD_OK || race->over) return st;
-  for (size_t k = 0; k < race->quads; k++) sent += race_send_quad(out, held, &race->quad[k]);
-  race->over = sent == 0;
+  if (st != DYD_OK || probe->over) return st;
+  for (size_t k = 0; k < probe->quads; k++) sent += probe_send_quad(out, held, &probe->quad[k]);
+  probe->over = sent == 0;
   return out->failed;
 }
 
-dyd_status dyd_scouts_next(dyd_plan *out, dyd_scouts *s, dyd_plan *held) {
+dyd_status dyd_probes_next(dyd_wants *out, dyd_probes *s, dyd_wants *held) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; st == DYD_OK && k < s->count; k++)
-    if (!s->item[k].over) st = race_run(out, &s->item[k], held);
+    if (!s->item[k].over) st = probe_run(out, &s->item[k], held);
   return st;
 }
 
-/* Least precision requested of an end with b bits in a face with this race: 0 when the race shows nothing. Where no
+/* Least precision requested of an end with b bits in a face with this probe: 0 when the probe shows nothing. Where no
  * quad was decided at the limit, the least that is worth a stage. */
-static int64_t race_leap(const dyd_race *race, int64_t b, int64_t most) {
-  int64_t need = race->bits + MARGIN + race->bits / 64, longest = b > 0 ? MOST_LEAP * b : 0;
-  if (!race->over) return 0;
-  if (race->bits == 0 || (race->quads < DYD_SCOUT_QUADS && need > longest)) need = longest;
+static int64_t probe_leap(const dyd_probe *probe, int64_t b, int64_t most) {
+  int64_t need = probe->bits + MARGIN + probe->bits / 64, longest = b > 0 ? MOST_LEAP * b : 0;
+  if (!probe->over) return 0;
+  if (probe->bits == 0 || (probe->quads < DYD_PROBE_QUADS && need > longest)) need = longest;
   return need < most ? need : most;
 }
 
-void dyd_scouts_finish(dyd_plan *out, const dyd_scouts *s, const dyd_plan *held) {
+void dyd_probes_finish(dyd_wants *out, const dyd_probes *s, const dyd_wants *held) {
   for (size_t k = 0; k < held->count; k++) {
     const dyd_want *w = &held->item[k];
-    const dyd_refinable *p = dyd_plan_point(held, w);
-    uint32_t race = s->of[p - held->e->point];
-    int64_t more = race ? race_leap(&s->item[race - 1], p->bits, out->o->max_bits) : 0;
-    if (!w->sent) dyd_plan_mark(out, p, more > w->bits ? more : w->bits, w->reason, w->i, w->j);
+    const dyd_refinable *p = dyd_wants_point(held, w);
+    uint32_t probe = s->of[p - held->e->point];
+    int64_t more = probe ? probe_leap(&s->item[probe - 1], p->bits, out->o->max_bits) : 0;
+    if (!w->sent) dyd_wants_mark(out, p, more > w->bits ? more : w->bits, w->reason, w->i, w->j);
   }
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* A plan: which points to narrow, and how far. A value: making one changes neither engine nor points. And how coarse
  * the sites of a face are. */
-#ifndef DYD_ENGINE_PLAN_H
-#define DYD_ENGINE_PLAN_H
+#ifndef DYD_ENGINE_WANTS_H
+#define DYD_ENGINE_WANTS_H
 
 #include "engine/state.h"
 
@@ -12,12 +12,12 @@ typedef struct dyd_want {
   int64_t bits;
   dyd_reason reason;
   uint32_t i, j;
-  bool sent; /* this was asked, as a scout, before the rest of the plan (scout.c) */
+  bool sent; /* this was asked, as a probe, before the rest of the plan (probe.c) */
 } dyd_want;
 
 /* Invariant: slot[k] is 1 + the place in item of point k, 0 where there is none; bits are more than the point was asked
  * for, and at most o->max_bits. Once `failed` says DYD_E_NOMEM, or DYD_E_ARG for a site `missing`, nothing counts. */
-struct dyd_plan {
+struct dyd_wants {
   const dyd_engine *e;
   const dyd_engine_options *o; /* defaults filled in */
   const dyd_refinable *guest;  /* of the question */
@@ -32,30 +32,30 @@ struct dyd_plan {
 };
 
 /* Borrows e, o and the guests. Without memory the plan is `failed`. */
-void dyd_plan_init(dyd_plan *p, const dyd_engine *e, const dyd_engine_options *o, const dyd_refinable *guest,
-                   size_t guests);
-void dyd_plan_clear(dyd_plan *p);
+void dyd_wants_init(dyd_wants *p, const dyd_engine *e, const dyd_engine_options *o, const dyd_refinable *guest,
+                    size_t guests);
+void dyd_wants_clear(dyd_wants *p);
 /* Empties the plan and frees its contents. */
-void dyd_plan_empty(dyd_plan *p);
-/* Puts the wants in the order of points; dyd_plan_find may not be used after it. */
-void dyd_plan_sort(dyd_plan *p);
+void dyd_wants_empty(dyd_wants *p);
+/* Puts the wants in the order of points; dyd_wants_find may not be used after it. */
+void dyd_wants_sort(dyd_wants *p);
 
-const dyd_refinable *dyd_plan_point(const dyd_plan *p, const dyd_want *w);
+const dyd_refinable *dyd_wants_point(const dyd_wants *p, const dyd_want *w);
 /* Returns true if the point (NULL: a fixed site) can still be asked, now or under a larger max_bits. The plan remembers
  * the second. */
-bool dyd_plan_can_narrow(dyd_plan *p, const dyd_refinable *point);
+bool dyd_wants_can_narrow(dyd_wants *p, const dyd_refinable *point);
 /* Adds a want; of several for one point the one that asks for most is kept, the first among equals. bits are cut to
  * max_bits. */
-void dyd_plan_mark(dyd_plan *p, const dyd_refinable *point, int64_t bits, dyd_reason reason, uint32_t i, uint32_t j);
+void dyd_wants_mark(dyd_wants *p, const dyd_refinable *point, int64_t bits, dyd_reason reason, uint32_t i, uint32_t j);
 /* The same for a reason that names no pair. */
-void dyd_plan_mark_alone(dyd_plan *p, const dyd_refinable *point, int64_t bits, dyd_reason reason);
+void dyd_wants_mark_alone(dyd_wants *p, const dyd_refinable *point, int64_t bits, dyd_reason reason);
 /* What the plan wants of a point; NULL: nothing. Borrowed until the plan changes. */
-dyd_want *dyd_plan_find(const dyd_plan *p, const dyd_refinable *point);
+dyd_want *dyd_wants_find(const dyd_wants *p, const dyd_refinable *point);
 /* The points never asked, for the first stage. */
-void dyd_plan_first(dyd_plan *p);
+void dyd_wants_first(dyd_wants *p);
 /* Tells the sources that want to know which of their points a plan, sorted, has, in the order in which
  * narrowing will come to them; `most` points of such sources at most. */
-void dyd_plan_announce(const dyd_plan *p, uint64_t most);
+void dyd_wants_announce(const dyd_wants *p, uint64_t most);
 
 /* b + by without overflow, by >= 0; at most max where b is. */
 int64_t dyd_bits_raised(int64_t b, int64_t by, int64_t max);
@@ -76,22 +76,23 @@ typedef struct dyd_policy dyd_policy;
 
 /* A site of the face. width: 2^(width-1) <= longer side < 2^width; scale: the least, over the neighbours examined, of
  * the same exponent of the largest of gap and widths of both. INT64_MIN means zero, INT64_MAX no neighbour. */
-typedef struct dyd_coarse_site {
+typedef struct dyd_site_precision {
   dyd_rect rect;
   int64_t width, scale;
-} dyd_coarse_site;
+} dyd_site_precision;
 
 /* Init with {0}. Invariant: item[k] belongs to sites.item[k]; sites ascend. */
-typedef struct dyd_coarse {
+typedef struct dyd_face_precision {
   dyd_index_list sites;
-  dyd_coarse_site *item;
-} dyd_coarse;
+  dyd_site_precision *item;
+} dyd_face_precision;
 
 /* Examines face f: the pairs given, and sites next to one another in x. O((sites + pairs) log sites). */
-dyd_status dyd_coarse_set(dyd_coarse *out, const dyd_delaunay *pd, size_t f, const dyd_pair_list *pairs);
-void dyd_coarse_clear(dyd_coarse *c);
+dyd_status dyd_face_precision_set(dyd_face_precision *out, const dyd_delaunay *pd, size_t f,
+                                  const dyd_pair_list *pairs);
+void dyd_face_precision_clear(dyd_face_precision *c);
 /* The bits to which the site is known relative to its distances: 0 where it meets a neighbour no wider than itself.
  * INT64_MAX for points, and where the distance is unknown. */
-int64_t dyd_coarse_bits(const dyd_coarse *c, uint32_t site);
+int64_t dyd_face_precision_bits(const dyd_face_precision *c, uint32_t site);
 
 #endif

@@ -4,7 +4,7 @@
  * Every want asks for more than its point was asked for before, and for max_bits at most: a loop that carries out plans
  * until one is empty ends. Growth is geometric, so a run asks for at most about twice the bits it needs; with step_bits
  * it is that step instead, for tables of convergence. */
-#include "engine/plan.h"
+#include "engine/wants.h"
 
 #include "base/alloc.h"
 #include "base/index.h"
@@ -14,18 +14,18 @@
 #include "engine/record.h"
 #include "stream/stream.h"
 
-void dyd_plan_init(dyd_plan *p, const dyd_engine *e, const dyd_engine_options *o, const dyd_refinable *guest,
-                   size_t guests) {
-  *p = (dyd_plan){.e = e, .o = o, .guest = guest, .guests = guests};
+void dyd_wants_init(dyd_wants *p, const dyd_engine *e, const dyd_engine_options *o, const dyd_refinable *guest,
+                    size_t guests) {
+  *p = (dyd_wants){.e = e, .o = o, .guest = guest, .guests = guests};
   p->slot = calloc(e->points + guests + 1, sizeof *p->slot);
   if (!p->slot) p->failed = DYD_E_NOMEM;
 }
 
-void dyd_plan_clear(dyd_plan *p) {
+void dyd_wants_clear(dyd_wants *p) {
   dyd_free_all(p->item, p->slot);
 }
 
-void dyd_plan_empty(dyd_plan *p) {
+void dyd_wants_empty(dyd_wants *p) {
   for (size_t k = 0; k < p->count; k++) p->slot[p->item[k].point] = 0;
   free(p->item);
   p->item = NULL;
@@ -38,7 +38,7 @@ static int plan_compare(const void *a, const void *b) {
   return (v->point > w->point) - (v->point < w->point);
 }
 
-void dyd_plan_sort(dyd_plan *p) {
+void dyd_wants_sort(dyd_wants *p) {
   size_t k = 1;
   while (k < p->count && p->item[k - 1].point < p->item[k].point) k++;
   if (k < p->count) qsort(p->item, p->count, sizeof *p->item, plan_compare);
@@ -76,30 +76,30 @@ static int64_t plan_first_bits(const dyd_refinable *point, const dyd_engine_opti
 
 /* ---- wants ---- */
 
-static size_t plan_number(const dyd_plan *p, const dyd_refinable *point) {
+static size_t plan_number(const dyd_wants *p, const dyd_refinable *point) {
   size_t sites = dyd_sites_count(p->e->sites);
   return point->site < sites ? p->guests + (size_t)(point - p->e->point) : point->site - sites;
 }
 
-const dyd_refinable *dyd_plan_point(const dyd_plan *p, const dyd_want *w) {
+const dyd_refinable *dyd_wants_point(const dyd_wants *p, const dyd_want *w) {
   return w->point < p->guests ? &p->guest[w->point] : &p->e->point[w->point - p->guests];
 }
 
-bool dyd_plan_can_narrow(dyd_plan *p, const dyd_refinable *point) {
+bool dyd_wants_can_narrow(dyd_wants *p, const dyd_refinable *point) {
   if (!point || point->final) return false;
   if (!point->asked || point->bits < p->o->max_bits) return true;
   p->blocked = true;
   return false;
 }
 
-dyd_want *dyd_plan_find(const dyd_plan *p, const dyd_refinable *point) {
+dyd_want *dyd_wants_find(const dyd_wants *p, const dyd_refinable *point) {
   uint32_t at = p->slot ? p->slot[plan_number(p, point)] : 0;
   return at ? &p->item[at - 1] : NULL;
 }
 
-void dyd_plan_mark(dyd_plan *p, const dyd_refinable *point, int64_t bits, dyd_reason reason, uint32_t i, uint32_t j) {
+void dyd_wants_mark(dyd_wants *p, const dyd_refinable *point, int64_t bits, dyd_reason reason, uint32_t i, uint32_t j) {
   if (bits > p->o->max_bits) bits = p->o->max_bits;
-  dyd_want *w = dyd_plan_find(p, point);
+  dyd_want *w = dyd_wants_find(p, point);
   if (p->failed || (w && w->bits >= bits)) return;
   if (!w && !DYD_GROW(p->item, p->cap, p->count + 1)) {
     p->failed = DYD_E_NOMEM;
@@ -113,18 +113,18 @@ void dyd_plan_mark(dyd_plan *p, const dyd_refinable *point, int64_t bits, dyd_re
   *w = (dyd_want){.point = (uint32_t)number, .bits = bits, .reason = reason, .i = i, .j = j};
 }
 
-void dyd_plan_mark_alone(dyd_plan *p, const dyd_refinable *point, int64_t bits, dyd_reason reason) {
-  dyd_plan_mark(p, point, bits, reason, point->site, point->site);
+void dyd_wants_mark_alone(dyd_wants *p, const dyd_refinable *point, int64_t bits, dyd_reason reason) {
+  dyd_wants_mark(p, point, bits, reason, point->site, point->site);
 }
 
-void dyd_plan_first(dyd_plan *p) {
+void dyd_wants_first(dyd_wants *p) {
   for (size_t k = 0; k < p->e->points; k++) {
     const dyd_refinable *point = &p->e->point[k];
-    if (!point->asked) dyd_plan_mark_alone(p, point, plan_first_bits(point, p->o), DYD_REASON_FIRST);
+    if (!point->asked) dyd_wants_mark_alone(p, point, plan_first_bits(point, p->o), DYD_REASON_FIRST);
   }
 }
 
-dyd_status dyd_plan_add(dyd_plan *p, uint32_t site, int64_t bits) {
+dyd_status dyd_wants_add(dyd_wants *p, uint32_t site, int64_t bits) {
   if (!p) return DYD_E_ARG;
   size_t sites = dyd_sites_count(p->e->sites);
   if (p->failed) return p->failed;
@@ -133,14 +133,14 @@ dyd_status dyd_plan_add(dyd_plan *p, uint32_t site, int64_t bits) {
     return p->failed = DYD_E_ARG;
   }
   const dyd_refinable *point = site < sites ? dyd_engine_find(p->e, site) : &p->guest[site - sites];
-  if (!dyd_plan_can_narrow(p, point)) return DYD_OK;
+  if (!dyd_wants_can_narrow(p, point)) return DYD_OK;
   if (point->asked && bits <= point->bits) bits = dyd_bits_grown(point->bits, p->o);
   if (bits == DYD_BITS_NEXT) bits = plan_first_bits(point, p->o);
-  dyd_plan_mark_alone(p, point, bits, DYD_REASON_QUESTION);
+  dyd_wants_mark_alone(p, point, bits, DYD_REASON_QUESTION);
   return p->failed;
 }
 
-size_t dyd_plan_count(const dyd_plan *p) {
+size_t dyd_wants_count(const dyd_wants *p) {
   if (!p) return 0;
   return p->count;
 }
@@ -156,15 +156,15 @@ static bool announce_is_due(dyd_rect *scratch, const dyd_refinable *p, const dyd
 
 /* Announces the wants first .. end-1 to their one source; *left is the number of calls still allowed. Wants that do not
  * fit into memory, or are refused, are not announced. */
-static void announce_source(uint64_t *left, const dyd_plan *plan, size_t first, size_t end) {
+static void announce_source(uint64_t *left, const dyd_wants *plan, size_t first, size_t end) {
   const dyd_engine *e = plan->e;
-  const dyd_source *source = &e->source[dyd_plan_point(plan, &plan->item[first])->source].source;
+  const dyd_source *source = &e->source[dyd_wants_point(plan, &plan->item[first])->source].source;
   DYD_FREED dyd_request *list = dyd_alloc(end - first, sizeof *list);
   size_t count = 0;
   DYD_LOCAL(dyd_rect, scratch);
   for (size_t k = first; list && *left && k < end; k++) {
     const dyd_want *w = &plan->item[k];
-    const dyd_refinable *p = dyd_plan_point(plan, w);
+    const dyd_refinable *p = dyd_wants_point(plan, w);
     if (!announce_is_due(&scratch, p, e, w->bits)) continue;
     --*left;
     if (dyd_engine_request(&list[count], p, e, w->bits, plan->o->max_bits, NULL) == DYD_OK) count++;
@@ -172,11 +172,11 @@ static void announce_source(uint64_t *left, const dyd_plan *plan, size_t first, 
   if (count) source->announce(source->user, list, count);
 }
 
-void dyd_plan_announce(const dyd_plan *plan, uint64_t most) {
+void dyd_wants_announce(const dyd_wants *plan, uint64_t most) {
   for (size_t k = 0, end; k < plan->count; k = end) {
-    const dyd_refinable *p = dyd_plan_point(plan, &plan->item[k]);
+    const dyd_refinable *p = dyd_wants_point(plan, &plan->item[k]);
     for (end = k + 1; end < plan->count && !p->stream; end++) {
-      const dyd_refinable *next = dyd_plan_point(plan, &plan->item[end]);
+      const dyd_refinable *next = dyd_wants_point(plan, &plan->item[end]);
       if (next->stream || next->source != p->source) break;
     }
     if (!p->stream && plan->e->source[p->source].source.announce) announce_source(&most, plan, k, end);
@@ -226,14 +226,14 @@ static dyd_status exponent_raise(int64_t *out, const dyd_interval *low, bool low
   return st;
 }
 
-static dyd_status coarse_find_width(dyd_coarse_site *s) {
+static dyd_status precision_find_width(dyd_site_precision *s) {
   s->width = INT64_MIN;
   dyd_status st = exponent_raise(&s->width, &s->rect.x, false, &s->rect.x, true);
   return st != DYD_OK ? st : exponent_raise(&s->width, &s->rect.y, false, &s->rect.y, true);
 }
 
 /* Lets two sites know of one another. */
-static dyd_status coarse_meet(dyd_coarse_site *a, dyd_coarse_site *b) {
+static dyd_status precision_meet(dyd_site_precision *a, dyd_site_precision *b) {
   int64_t e = a->width > b->width ? a->width : b->width;
   const dyd_interval *side[2][2] = {{&a->rect.x, &b->rect.x}, {&a->rect.y, &b->rect.y}};
   dyd_status st = DYD_OK;
@@ -249,12 +249,12 @@ static dyd_status coarse_meet(dyd_coarse_site *a, dyd_coarse_site *b) {
 
 /* ---- faces ---- */
 
-static dyd_coarse_site *coarse_find(const dyd_coarse *c, uint32_t site) {
+static dyd_site_precision *precision_find(const dyd_face_precision *c, uint32_t site) {
   const uint32_t *at = dyd_find_index(&site, c->sites.item, c->sites.count, sizeof site);
   return at ? &c->item[at - c->sites.item] : NULL;
 }
 
-static dyd_status coarse_fetch(dyd_coarse *c, const dyd_delaunay *pd, size_t f) {
+static dyd_status precision_fetch(dyd_face_precision *c, const dyd_delaunay *pd, size_t f) {
   bool outer;
   dyd_status st = dyd_delaunay_face(&c->sites, &outer, pd, f);
   if (st != DYD_OK) return st;
@@ -266,49 +266,50 @@ static dyd_status coarse_fetch(dyd_coarse *c, const dyd_delaunay *pd, size_t f) 
   }
   for (size_t k = 0; st == DYD_OK && k < c->sites.count; k++) {
     st = dyd_sites_get(&c->item[k].rect, dyd_delaunay_sites(pd), c->sites.item[k]);
-    if (st == DYD_OK) st = coarse_find_width(&c->item[k]);
+    if (st == DYD_OK) st = precision_find_width(&c->item[k]);
   }
   return st;
 }
 
 /* By left ends, then by lower ends; equal ones by their place, so that the order is always the same. */
-static int coarse_compare_place(const void *a, const void *b) {
-  const dyd_coarse_site *s = *(dyd_coarse_site *const *)a, *t = *(dyd_coarse_site *const *)b;
+static int precision_compare_place(const void *a, const void *b) {
+  const dyd_site_precision *s = *(dyd_site_precision *const *)a, *t = *(dyd_site_precision *const *)b;
   int c = dyd_raw_cmp(&s->rect.x.lo, t->rect.x.den, &t->rect.x.lo, s->rect.x.den);
   if (c == 0) c = dyd_raw_cmp(&s->rect.y.lo, t->rect.y.den, &t->rect.y.lo, s->rect.y.den);
   return c ? c : (s > t) - (s < t);
 }
 
-static dyd_status coarse_meet_next(dyd_coarse *c) {
+static dyd_status precision_meet_next(dyd_face_precision *c) {
   dyd_status st = DYD_OK;
-  DYD_FREED dyd_coarse_site **order = dyd_alloc(c->sites.count, sizeof *order);
+  DYD_FREED dyd_site_precision **order = dyd_alloc(c->sites.count, sizeof *order);
   if (!order) return DYD_E_NOMEM;
   for (size_t k = 0; k < c->sites.count; k++) order[k] = &c->item[k];
-  qsort(order, c->sites.count, sizeof *order, coarse_compare_place);
+  qsort(order, c->sites.count, sizeof *order, precision_compare_place);
   for (size_t k = 0; k < c->sites.count; k++)
     for (size_t l = k + 1; st == DYD_OK && l < c->sites.count && l <= k + NEXT; l++)
-      st = coarse_meet(order[k], order[l]);
+      st = precision_meet(order[k], order[l]);
   return st;
 }
 
-dyd_status dyd_coarse_set(dyd_coarse *out, const dyd_delaunay *pd, size_t f, const dyd_pair_list *pairs) {
-  dyd_status st = coarse_fetch(out, pd, f);
+dyd_status dyd_face_precision_set(dyd_face_precision *out, const dyd_delaunay *pd, size_t f,
+                                  const dyd_pair_list *pairs) {
+  dyd_status st = precision_fetch(out, pd, f);
   for (size_t k = 0; st == DYD_OK && k < pairs->count; k++) {
-    dyd_coarse_site *a = coarse_find(out, pairs->item[k].i), *b = coarse_find(out, pairs->item[k].j);
-    if (a && b) st = coarse_meet(a, b);
+    dyd_site_precision *a = precision_find(out, pairs->item[k].i), *b = precision_find(out, pairs->item[k].j);
+    if (a && b) st = precision_meet(a, b);
   }
-  return st != DYD_OK ? st : coarse_meet_next(out);
+  return st != DYD_OK ? st : precision_meet_next(out);
 }
 
-void dyd_coarse_clear(dyd_coarse *c) {
+void dyd_face_precision_clear(dyd_face_precision *c) {
   for (size_t k = 0; c->item && k < c->sites.count; k++) dyd_rect_clear(&c->item[k].rect);
   free(c->item);
   dyd_index_list_clear(&c->sites);
-  *c = (dyd_coarse){0};
+  *c = (dyd_face_precision){0};
 }
 
-int64_t dyd_coarse_bits(const dyd_coarse *c, uint32_t site) {
-  const dyd_coarse_site *s = coarse_find(c, site);
+int64_t dyd_face_precision_bits(const dyd_face_precision *c, uint32_t site) {
+  const dyd_site_precision *s = precision_find(c, site);
   if (!s || s->width == INT64_MIN || s->scale == INT64_MAX) return INT64_MAX;
   return s->scale - s->width;
 }
