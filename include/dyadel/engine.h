@@ -132,12 +132,12 @@ typedef struct dyd_wants dyd_wants;
 typedef struct dyd_engine dyd_engine;
 
 /* Changes what a stage narrows. `request`, count (dyd_request_at): points, by their numbers as sites, and bits that the
- * schedule has planned. Entries added to *plan (dyd_wants_add), empty when called, replace that; if none is added,
- * it stays. Before the first stage every point is in the plan, and one that is not added keeps its bits. e as for
+ * schedule wants. Entries added to *wants (dyd_wants_add), empty when called, replace that; if none is added,
+ * it stays. Before the first stage every point is wanted, and one that is not added keeps its bits. e as for
  * dyd_ask_fn: dyd_engine_delaunay has the undecided pairs, NULL before the first stage. Returns DYD_OK; DYD_CANCELLED
  * to give up; an error < 0 with *err (clear when called) filled. Statements do not depend on it, nor does the end of a
  * run: each point added gets a request for more bits than before, up to max_bits. */
-typedef dyd_status (*dyd_policy_fn)(dyd_wants *plan, void *user, const dyd_engine *e, const dyd_request *request,
+typedef dyd_status (*dyd_policy_fn)(dyd_wants *wants, void *user, const dyd_engine *e, const dyd_request *request,
                                     size_t count, dyd_error *err);
 
 typedef struct dyd_engine_options {
@@ -184,12 +184,12 @@ typedef struct dyd_engine_options {
    * kept, and smaller outputs remain possible. Pictures of diagrams are estimated roughly; the lists of spheres are not
    * counted. */
   uint64_t max_bytes;
-  /* Called with the plan of every stage of a run or question; NULL: the plans of the schedule are carried out. */
+  /* Called with the wants of every stage of a run or question; NULL: those of the schedule are carried out. */
   dyd_policy_fn policy;
   void *policy_user;
   /* Instead of policy: a command (sh -c) that a run or question starts, and that answers until its input ends;
    * borrowed. For each stage it reads lines "stage S points N", "pair I J" for each indeterminate pair, "plan I B" for
-   * each point of the plan, and "choose". It answers by lines "refine I B", as dyd_wants_add, and "go". A program that
+   * each point wanted, and "choose". It answers by lines "refine I B", as dyd_wants_add, and "go". A program that
    * ends, writes something else, or is silent for policy_seconds (0: DYD_ORACLE_SECONDS) ends the run with
    * DYD_E_STREAM. */
   const char *policy_program;
@@ -310,19 +310,18 @@ DYD_API dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, co
 
 #define DYD_BITS_NEXT INT64_MIN
 /* Adds site i, to be brought to 2^-bits. Where that was requested before, and for DYD_BITS_NEXT, it is the next
- * step of the options (start_bits, step_bits): a site in the plan always narrows. bits are cut to max_bits. Of several
- * calls for one site the finest counts. Site dyd_engine_count(e) + k is guest k of the question. A site that is fixed,
- * final, or was requested at max_bits before stays out of the plan without an error. Returns DYD_OK; DYD_E_ARG when
- * there is no site i, DYD_E_NOMEM: then dyd_engine_ask ends with this error, whatever the question returns. O(log
- * points). */
-DYD_API dyd_status dyd_wants_add(dyd_wants *plan, uint32_t i, int64_t bits);
-/* Returns the number of points in the plan. */
-DYD_API size_t dyd_wants_count(const dyd_wants *plan);
+ * step of the options (start_bits, step_bits): a site that is wanted always narrows. bits are cut to max_bits. Of
+ * several calls for one site the finest counts. Site dyd_engine_count(e) + k is guest k of the question. A site that is
+ * fixed, final, or was requested at max_bits before is left out without an error. Returns DYD_OK; DYD_E_ARG when there
+ * is no site i, DYD_E_NOMEM: then dyd_engine_ask ends with this error, whatever the question returns. O(log points). */
+DYD_API dyd_status dyd_wants_add(dyd_wants *wants, uint32_t i, int64_t bits);
+/* Returns the number of points wanted. */
+DYD_API size_t dyd_wants_count(const dyd_wants *wants);
 
-/* Looks whether the answer is known. Either sets *answered = true (false when called), or adds to *plan, empty when
+/* Looks whether the answer is known. Either sets *answered = true (false when called), or adds to *wants, empty when
  * called, which have to be narrower. e is borrowed for the call: see dyd_engine_sites, dyd_engine_knows,
  * dyd_engine_delaunay. Returns DYD_OK; DYD_CANCELLED to give up; an error < 0 with *err (clear when called) filled. */
-typedef dyd_status (*dyd_ask_fn)(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err);
+typedef dyd_status (*dyd_ask_fn)(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err);
 
 /* A question, borrowed during the ask. */
 typedef struct dyd_question {
@@ -337,30 +336,30 @@ typedef struct dyd_question {
   size_t guests;
 } dyd_question;
 
-/* The loop of the engine: asks, narrows the points of the plan, asks again, until exactly one outcome holds:
- * decided (answered), fixpoint (the plan is empty: nothing the question needs can be narrowed), budget (bits: it needs
+/* The loop of the engine: asks, narrows the points wanted, asks again, until exactly one outcome holds:
+ * decided (answered), fixpoint (nothing is wanted: nothing the question needs can be narrowed), budget (bits: it needs
  * more than max_bits; stages, pairs: with triangulate only; calls; seconds), cancelled. dyd_engine_run and
  * dyd_engine_nearest are questions of this kind.
  *
  * A question that does not use the triangulation is called again after a cancel or the time limit, so that it
- * has seen the rectangles reached; its plan is then ignored. The next run updates the result with the points narrowed
+ * has seen the rectangles reached; its wants are then ignored. The next run updates the result with the points narrowed
  * here. options may be NULL; goal and schedule are ignored; progress is called after each triangulation.
  * Guests are narrowed to the precision of the first stage at the start, and do not appear in traces.
  *
  * Returns DYD_OK, or an error with outcome DYD_OUTCOME_ERROR and *err (may be NULL) filled: that of a stream, of the
  * question; DYD_E_ARG for bad options, for a site that does not exist, and from within a callback of e, which is
  * then unchanged. Statements stay valid in every case. dyd_engine_outcome and the counter `spent` describe the last
- * run. Cost: the calls of the question and its plans; O(log points) for each point narrowed, a triangulation update for
+ * run. Cost: the calls of the question and its wants; O(log points) for each point narrowed, a triangulation update for
  * each stage.
  *
  * Example: decides whether points 0 and 1 are certainly different. (r: two rectangles, initialised.)
  *
- *     static dyd_status differ(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
+ *     static dyd_status differ(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
  *       dyd_rect *r = user;
  *       dyd_status st = DYD_OK;
  *       for (uint32_t i = 0; st == DYD_OK && i < 2; i++) st = dyd_sites_get(&r[i], dyd_engine_sites(e), i);
  *       *answered = st == DYD_OK && !dyd_rect_meets(&r[0], &r[1]);
- *       for (uint32_t i = 0; st == DYD_OK && i < 2; i++) st = dyd_wants_add(plan, i, DYD_BITS_NEXT);
+ *       for (uint32_t i = 0; st == DYD_OK && i < 2; i++) st = dyd_wants_add(wants, i, DYD_BITS_NEXT);
  *       return st;
  *     }
  *     const dyd_question question = {DYD_SIZED(dyd_question), .ask = differ, .user = r};

@@ -41,56 +41,56 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Plans changed from outside. A policy only chooses which points are narrowed: rectangles shrink whatever it answers,
- * so that no statement depends on it. Every want asks for more than its point was asked for, and a plan to which a
- * policy adds nothing stays, so that runs end as without one. */
+/* Wants changed from outside. A policy only chooses which points are narrowed: rectangles shrink whatever it answers,
+ * so that no statement depends on it. Every want asks for more than its point was asked for, and wants to which a
+ * policy adds nothing stay, so that runs end as without one. */
 
 /* ---- any policy ---- */
 
-static dyd_request *policy_requests(const dyd_wants *plan) {
-  dyd_request *list = dyd_alloc(plan->count, sizeof *list);
-  for (size_t k = 0; list && k < plan->count; k++)
-    list[k] = (dyd_request){DYD_SIZED(dyd_request), .point = dyd_wants_point(plan, &plan->item[k])->site,
-                            .bits = plan->item[k].bits, .max_bits = plan->o->max_bits, .stop = &plan->e->stop};
+static dyd_request *policy_requests(const dyd_wants *wants) {
+  dyd_request *list = dyd_alloc(wants->count, sizeof *list);
+  for (size_t k = 0; list && k < wants->count; k++)
+    list[k] = (dyd_request){DYD_SIZED(dyd_request), .point = dyd_wants_point(wants, &wants->item[k])->site,
+                            .bits = wants->item[k].bits, .max_bits = wants->o->max_bits, .stop = &wants->e->stop};
   return list;
 }
 
-/* Calls the policy with the plan `was`, of which *plan, empty, takes the answer. */
-static dyd_status policy_call(dyd_wants *plan, const dyd_request *was, size_t count, dyd_error *err) {
-  const dyd_engine_options *o = plan->o;
-  dyd_status st = o->policy(plan, o->policy_user, plan->e, was, count, err);
-  if (plan->failed == DYD_E_ARG)
+/* Calls the policy with the wants `was`, of which *wants, empty, takes the answer. */
+static dyd_status policy_call(dyd_wants *wants, const dyd_request *was, size_t count, dyd_error *err) {
+  const dyd_engine_options *o = wants->o;
+  dyd_status st = o->policy(wants, o->policy_user, wants->e, was, count, err);
+  if (wants->failed == DYD_E_ARG)
     return dyd_fail(err, DYD_E_ARG, "the policy asks for point %lu, and there are %zu: they are numbered from 0",
-                    (unsigned long)plan->missing, dyd_sites_count(plan->e->sites));
+                    (unsigned long)wants->missing, dyd_sites_count(wants->e->sites));
   if (st > 0 && st != DYD_CANCELLED)
     return dyd_fail(err, DYD_E_ARG, "the policy returned %d; it may be DYD_OK, DYD_CANCELLED or an error", (int)st);
-  return st == DYD_OK ? plan->failed : st;
+  return st == DYD_OK ? wants->failed : st;
 }
 
-/* Puts *plan, not empty, to the policy of plan->o; stage: the one that it is for. What the policy adds replaces the
- * plan. If it adds nothing, the plan stays. first: points that it does not name stay in the plan. DYD_CANCELLED when
+/* Puts *wants, not empty, to the policy of wants->o; stage: the one that it is for. What the policy adds replaces
+ * them. If it adds nothing, they stay. first: points that it does not name stay in them. DYD_CANCELLED when
  * e->stop was seen. */
-static dyd_status dyd_policy_apply(dyd_wants *plan, bool first, dyd_error *err) {
-  const size_t count = plan->count;
-  const bool blocked = plan->blocked;
-  dyd_wants_sort(plan);
-  DYD_FREED dyd_request *was = policy_requests(plan);
+static dyd_status dyd_policy_apply(dyd_wants *wants, bool first, dyd_error *err) {
+  const size_t count = wants->count;
+  const bool blocked = wants->blocked;
+  dyd_wants_sort(wants);
+  DYD_FREED dyd_request *was = policy_requests(wants);
   DYD_FREED dyd_want *kept = dyd_alloc(count, sizeof *kept);
   dyd_status st = was && kept ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK) {
-    memcpy(kept, plan->item, count * sizeof *kept);
-    dyd_wants_empty(plan);
-    plan->blocked = blocked;
-    st = policy_call(plan, was, count, err);
+    memcpy(kept, wants->item, count * sizeof *kept);
+    dyd_wants_empty(wants);
+    wants->blocked = blocked;
+    st = policy_call(wants, was, count, err);
   }
-  for (size_t k = 0; st == DYD_OK && k < plan->count; k++) plan->item[k].reason = DYD_REASON_POLICY;
-  const bool stays = plan->count == 0;
+  for (size_t k = 0; st == DYD_OK && k < wants->count; k++) wants->item[k].reason = DYD_REASON_POLICY;
+  const bool stays = wants->count == 0;
   for (size_t k = 0; st == DYD_OK && (stays || first) && k < count; k++) {
     const dyd_want *w = &kept[k];
-    const dyd_refinable *point = dyd_wants_point(plan, w);
-    if (!dyd_wants_find(plan, point)) dyd_wants_mark(plan, point, w->bits, w->reason, w->i, w->j);
+    const dyd_refinable *point = dyd_wants_point(wants, w);
+    if (!dyd_wants_find(wants, point)) dyd_wants_mark(wants, point, w->bits, w->reason, w->i, w->j);
   }
-  return st == DYD_OK ? plan->failed : st;
+  return st == DYD_OK ? wants->failed : st;
 }
 
 /* ---- a program ---- */
@@ -164,7 +164,7 @@ static dyd_status policy_hear(char **line, dyd_policy *p, const volatile int *st
   return DYD_OK;
 }
 
-/* The undecided pairs and the plan. */
+/* The undecided pairs and the wants. */
 static dyd_status policy_describe(FILE *out, const dyd_engine *e, const dyd_request *request, size_t count) {
   DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = e->pd ? dyd_delaunay_pairs(&pairs, e->pd) : DYD_OK;
@@ -181,7 +181,7 @@ static dyd_status policy_describe(FILE *out, const dyd_engine *e, const dyd_requ
 }
 
 /* Takes one line of an answer; *done: it was the last. */
-static dyd_status policy_take(bool *done, dyd_wants *plan, const char *line, dyd_error *err) {
+static dyd_status policy_take(bool *done, dyd_wants *wants, const char *line, dyd_error *err) {
   char shown[80], site[11], bits[20], *left = bits;
   int end = 0;
   *done = strcmp(line, "go") == 0;
@@ -189,14 +189,14 @@ static dyd_status policy_take(bool *done, dyd_wants *plan, const char *line, dyd
   if (sscanf(line, "refine %10[0-9] %19[-0-9]%n", site, bits, &end) == 2 && !line[end]) {
     unsigned long long i = strtoull(site, NULL, 10);
     long long b = strtoll(bits, &left, 10);
-    if (!*left) return dyd_wants_add(plan, i < UINT32_MAX ? (uint32_t)i : UINT32_MAX, b);
+    if (!*left) return dyd_wants_add(wants, i < UINT32_MAX ? (uint32_t)i : UINT32_MAX, b);
   }
   return dyd_fail(err, DYD_E_STREAM, "the policy program wrote %s; a line of its answer is \"refine I B\" or \"go\"",
                   dyd_quoted(shown, sizeof shown, line, strlen(line)));
 }
 
-static dyd_status policy_ask(dyd_wants *plan, void *user, const dyd_engine *e, const dyd_request *request, size_t count,
-                             dyd_error *err) {
+static dyd_status policy_ask(dyd_wants *wants, void *user, const dyd_engine *e, const dyd_request *request,
+                             size_t count, dyd_error *err) {
   dyd_policy *p = user;
   char *text = NULL, *line = NULL;
   size_t length = 0;
@@ -207,7 +207,7 @@ static dyd_status policy_ask(dyd_wants *plan, void *user, const dyd_engine *e, c
   if (st == DYD_OK) st = policy_send(p, text, length, &e->stop, err);
   while (st == DYD_OK && !done) {
     st = policy_hear(&line, p, &e->stop, err);
-    if (st == DYD_OK) st = policy_take(&done, plan, line, err);
+    if (st == DYD_OK) st = policy_take(&done, wants, line, err);
   }
   free(text);
   return st;
@@ -271,8 +271,8 @@ static void engine_allow(dyd_engine *e, uint64_t most) {
   if (e->pd) dyd_delaunay_allow(e->pd, dyd_memory_left(&memory));
 }
 
-/* What carrying out a plan will take beside that: longer ends, and the digits computed with. O(plan). */
-static uint64_t plan_bytes(const dyd_wants *p) {
+/* What carrying out wants will take beside that: longer ends, and the digits computed with. O(wants). */
+static uint64_t wants_bytes(const dyd_wants *p) {
   uint64_t stays = dyd_bytes_times(p->count, sizeof *p->item), most = 0;
   for (size_t k = 0; k < p->count; k++) {
     const dyd_refinable *point = dyd_wants_point(p, &p->item[k]);
@@ -359,14 +359,14 @@ static bool watch_is_late(const dyd_watch *w) {
   return w->limited && watch_seconds(w) >= w->seconds;
 }
 
-/* One ask. end is DYD_OUTCOME_NONE until it is known how it ends; again: the plan just carried out asked for the
+/* One ask. end is DYD_OUTCOME_NONE until it is known how it ends; again: the wants just carried out asked for the
  * question before the triangulation; bits: the greatest precision asked for in this stage. */
 typedef struct ask {
   dyd_engine *e;
   const dyd_question *q;
   dyd_engine_options o; /* defaults filled in */
   dyd_refinable *guest;
-  dyd_wants plan;
+  dyd_wants wants;
   dyd_watch watch;
   dyd_memory memory;
   uint64_t stages, calls;
@@ -429,7 +429,7 @@ static void ask_end_exhausted(ask *a) {
   if (a->q->triangulate && dyd_delaunay_is_capped(a->e->pd)) {
     a->err = a->e->cap_error;
     ask_end_budget(a, DYD_BUDGET_PAIRS);
-  } else if (a->plan.blocked) {
+  } else if (a->wants.blocked) {
     ask_end_budget(a, DYD_BUDGET_BITS);
   } else {
     a->end = DYD_OUTCOME_FIXPOINT;
@@ -438,12 +438,12 @@ static void ask_end_exhausted(ask *a) {
 
 /* ---- memory ---- */
 
-/* Checks the budget for carrying out the plan. */
+/* Checks the budget for carrying out the wants. */
 static dyd_status ask_room_to_narrow(ask *a) {
   if (!a->memory.most) return DYD_OK;
   a->memory.beside = engine_point_bytes(a->e);
   a->memory.held = a->e->pd ? dyd_delaunay_memory(a->e->pd) : 0;
-  return dyd_memory_has(&a->memory, plan_bytes(&a->plan), "narrowing the points") ? DYD_OK : DYD_E_NOMEM;
+  return dyd_memory_has(&a->memory, wants_bytes(&a->wants), "narrowing the points") ? DYD_OK : DYD_E_NOMEM;
 }
 
 /* What the points leave for the triangulation; 0: no bound. */
@@ -500,20 +500,20 @@ static dyd_status ask_narrow(ask *a, const dyd_want *w) {
   return a->o.trace && !guest ? ask_tell_step(a, p, w, calls != 0) : DYD_OK;
 }
 
-/* Carries out the plan; *cut: points are left because calls are used up. */
+/* Carries out the wants; *cut: points are left because calls are used up. */
 static dyd_status ask_narrow_all(bool *cut, ask *a) {
   dyd_engine *e = a->e;
-  size_t need = e->pd ? e->changes + a->plan.count : 0;
+  size_t need = e->pd ? e->changes + a->wants.count : 0;
   if (!DYD_GROW(e->changed, e->change_cap, need)) return DYD_E_NOMEM;
-  dyd_wants_sort(&a->plan);
+  dyd_wants_sort(&a->wants);
   dyd_status st = ask_room_to_narrow(a);
   if (st != DYD_OK) return st;
-  dyd_wants_announce(&a->plan, a->o.max_calls ? a->o.max_calls - a->calls : UINT64_MAX);
-  for (size_t k = 0; k < a->plan.count; k++) {
+  dyd_wants_announce(&a->wants, a->o.max_calls ? a->o.max_calls - a->calls : UINT64_MAX);
+  for (size_t k = 0; k < a->wants.count; k++) {
     if (ask_is_stopped(a)) return DYD_OK;
     *cut = ask_calls_are_spent(a);
     if (*cut) return DYD_OK;
-    st = ask_narrow(a, &a->plan.item[k]);
+    st = ask_narrow(a, &a->wants.item[k]);
     if (st != DYD_OK || a->end != DYD_OUTCOME_NONE) return st;
   }
   return DYD_OK;
@@ -585,7 +585,7 @@ static dyd_status ask_settle(dyd_engine *e, const dyd_delaunay_options *o, dyd_e
   return st;
 }
 
-/* Returns true if a plan may ask for more of the site, and neither side has a core that stays wide. */
+/* Returns true if more may be asked of the site, and neither side has a core that stays wide. */
 static bool ask_narrows(void *user, uint32_t site) {
   const ask *a = user;
   const dyd_refinable *p = dyd_engine_find(a->e, site);
@@ -637,28 +637,28 @@ static bool ask_is_stale(const ask *a) {
 /* Calls the question. */
 static dyd_status ask_question(bool *answered, ask *a) {
   *answered = false;
-  dyd_wants_empty(&a->plan);
-  dyd_status st = a->q->ask(answered, &a->plan, a->q->user, a->e, &a->err);
-  if (a->plan.failed == DYD_E_ARG)
+  dyd_wants_empty(&a->wants);
+  dyd_status st = a->q->ask(answered, &a->wants, a->q->user, a->e, &a->err);
+  if (a->wants.failed == DYD_E_ARG)
     return dyd_fail(&a->err, DYD_E_ARG, "the question asks for site %lu, and there are %zu: they are numbered from 0",
-                    (unsigned long)a->plan.missing, dyd_sites_count(a->e->sites));
+                    (unsigned long)a->wants.missing, dyd_sites_count(a->e->sites));
   if (st > 0 && st != DYD_CANCELLED)
     return dyd_fail(&a->err, DYD_E_ARG, "the question returned %d; it may be DYD_OK, DYD_CANCELLED or an error",
                     (int)st);
-  return st == DYD_OK ? a->plan.failed : st;
+  return st == DYD_OK ? a->wants.failed : st;
 }
 
-/* Asks: ends it, or there is a plan. */
+/* Asks: ends it, or something is wanted. */
 static dyd_status ask_judge(ask *a) {
   bool answered;
   dyd_status st = ask_question(&answered, a);
   if (st == DYD_CANCELLED) return ask_end_interrupted(a);
   if (st == DYD_OK && answered) a->end = DYD_OUTCOME_DECIDED;
-  if (st == DYD_OK && !answered && !a->plan.count && !a->again) ask_end_exhausted(a);
+  if (st == DYD_OK && !answered && !a->wants.count && !a->again) ask_end_exhausted(a);
   return st;
 }
 
-/* Prepares the next stage: its plan, or how it ends. */
+/* Prepares the next stage: its wants, or how it ends. */
 static dyd_status ask_prepare(ask *a) {
   const dyd_engine *e = a->e;
   dyd_status st = DYD_OK;
@@ -666,29 +666,29 @@ static dyd_status ask_prepare(ask *a) {
   if (dyd_flag_get(&e->cancelled))
     a->end = DYD_OUTCOME_CANCELLED;
   else if (a->q->triangulate && !e->pd)
-    dyd_wants_first(&a->plan);
+    dyd_wants_first(&a->wants);
   else if (!ask_is_stale(a))
     st = ask_judge(a);
-  if (st == DYD_OK) st = a->plan.failed;
+  if (st == DYD_OK) st = a->wants.failed;
   if (st != DYD_OK || a->end != DYD_OUTCOME_NONE) return st;
   if (a->o.max_stages && a->stages >= a->o.max_stages)
     ask_end_budget(a, DYD_BUDGET_STAGES);
-  else if (a->plan.count && ask_calls_are_spent(a) && !a->again)
+  else if (a->wants.count && ask_calls_are_spent(a) && !a->again)
     ask_end_budget(a, DYD_BUDGET_CALLS);
-  else if (!ask_is_stopped(a) && a->o.policy && a->plan.count)
-    st = dyd_policy_apply(&a->plan, a->q->triangulate && !e->pd, &a->err);
+  else if (!ask_is_stopped(a) && a->o.policy && a->wants.count)
+    st = dyd_policy_apply(&a->wants, a->q->triangulate && !e->pd, &a->err);
   return st == DYD_CANCELLED ? ask_end_interrupted(a) : st;
 }
 
-/* Carries out the plan, and triangulates if the question uses that. */
+/* Carries out the wants, and triangulates if the question uses that. */
 static dyd_status ask_stage(ask *a) {
   bool cut = false;
   dyd_error ignored;
   const dyd_engine *e = a->e;
   dyd_status failed = ask_narrow_all(&cut, a);
   if (a->end != DYD_OUTCOME_NONE) return DYD_OK;
-  a->again = a->plan.again && !cut && failed == DYD_OK;
-  dyd_wants_empty(&a->plan);
+  a->again = a->wants.again && !cut && failed == DYD_OK;
+  dyd_wants_empty(&a->wants);
   if (!a->q->triangulate || a->again) return failed;
   if (cut && !e->pd) ask_end_budget(a, DYD_BUDGET_CALLS);
   if ((cut || failed != DYD_OK) && (!e->pd || e->changes == 0)) return failed;
@@ -760,9 +760,9 @@ static dyd_status ask_timed(ask *a) {
 
 static dyd_status ask_run(ask *a) {
   a->guest = calloc(a->q->guests + 1, sizeof *a->guest);
-  dyd_wants_init(&a->plan, a->e, &a->o, a->guest, a->q->guests);
+  dyd_wants_init(&a->wants, a->e, &a->o, a->guest, a->q->guests);
   dyd_status st = a->guest ? ask_timed(a) : DYD_E_NOMEM;
-  dyd_wants_clear(&a->plan);
+  dyd_wants_clear(&a->wants);
   free(a->guest);
   return st;
 }

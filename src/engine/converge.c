@@ -24,7 +24,7 @@
 #include <dyadel/tolerance.h>
 #include <math.h>
 
-/* The best plan in hindsight: the least sum of bits by which a goal holds.
+/* The best choice in hindsight: the least sum of bits by which a goal holds.
  *
  * With b bits a point is known as its rectangle, rounded outward to multiples of 2^-(b + 2): these rectangles are
  * nested, so that the vectors of bits for which the goal holds are closed upward. The search goes through the points in
@@ -613,14 +613,14 @@ static bool piece_wants(const piece_run *p, const dyd_stage_row *row, size_t i) 
   return p->r->o->goal == DYD_GOAL_DECIDED && row->orientation != DYD_UNSURE && row->con[i - p->first] == DYD_UNSURE;
 }
 
-static dyd_status piece_ask(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status piece_ask(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
   piece_run *p = user;
   dyd_status st = DYD_OK;
   bool known = true;
   dyd_stage_row *row = NULL;
   (void)err;
   for (size_t i = 0; st == DYD_OK && i < p->count; i++) {
-    if (!dyd_engine_knows(e, (uint32_t)i)) known = false, st = dyd_wants_add(plan, (uint32_t)i, DYD_BITS_NEXT);
+    if (!dyd_engine_knows(e, (uint32_t)i)) known = false, st = dyd_wants_add(wants, (uint32_t)i, DYD_BITS_NEXT);
     if (st == DYD_OK) st = dyd_sites_get(&p->rect[i], dyd_engine_sites(e), i);
   }
   if (st != DYD_OK || !known) return st;
@@ -628,7 +628,7 @@ static dyd_status piece_ask(bool *answered, dyd_wants *plan, void *user, const d
   st = piece_row(&row, p);
   *answered = st == DYD_OK && piece_goal_holds(p, row, &goal);
   for (size_t i = 0; st == DYD_OK && !*answered && i < p->count; i++)
-    if (piece_wants(p, row, i)) st = dyd_wants_add(plan, (uint32_t)i, DYD_BITS_NEXT);
+    if (piece_wants(p, row, i)) st = dyd_wants_add(wants, (uint32_t)i, DYD_BITS_NEXT);
   return st;
 }
 

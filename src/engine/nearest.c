@@ -40,21 +40,22 @@ typedef struct nearest_question {
 } nearest_question;
 
 /* Adds a want for p if its precision is below the level. *open: p can be narrowed still. */
-static void nearest_mark(bool *open, dyd_wants *plan, const dyd_refinable *p, int64_t level) {
+static void nearest_mark(bool *open, dyd_wants *wants, const dyd_refinable *p, int64_t level) {
   if (!p || p->final) return;
   *open = true;
-  if (!p->asked || p->bits < level) dyd_wants_mark_alone(plan, p, level, DYD_REASON_QUESTION);
+  if (!p->asked || p->bits < level) dyd_wants_mark_alone(wants, p, level, DYD_REASON_QUESTION);
 }
 
 /* Raises the level until the guest or some site of the list is below it. */
-static void nearest_plan(int64_t *level, dyd_wants *plan, const dyd_index_list *site) {
-  if (*level == INT64_MIN) *level = dyd_bits_first(plan->o);
-  for (bool open = false;; *level = dyd_bits_grown(*level, plan->o)) {
-    if (*level > plan->o->max_bits) *level = plan->o->max_bits;
-    for (size_t k = 0; k < plan->guests; k++) nearest_mark(&open, plan, &plan->guest[k], *level);
-    for (size_t k = 0; k < site->count; k++) nearest_mark(&open, plan, dyd_engine_find(plan->e, site->item[k]), *level);
-    plan->blocked = open;
-    if (plan->count || plan->failed || !open || *level == plan->o->max_bits) return;
+static void nearest_plan(int64_t *level, dyd_wants *wants, const dyd_index_list *site) {
+  if (*level == INT64_MIN) *level = dyd_bits_first(wants->o);
+  for (bool open = false;; *level = dyd_bits_grown(*level, wants->o)) {
+    if (*level > wants->o->max_bits) *level = wants->o->max_bits;
+    for (size_t k = 0; k < wants->guests; k++) nearest_mark(&open, wants, &wants->guest[k], *level);
+    for (size_t k = 0; k < site->count; k++)
+      nearest_mark(&open, wants, dyd_engine_find(wants->e, site->item[k]), *level);
+    wants->blocked = open;
+    if (wants->count || wants->failed || !open || *level == wants->o->max_bits) return;
   }
 }
 
@@ -108,14 +109,14 @@ static dyd_status nearest_is_settled(bool *out, const nearest_question *q) {
   return st;
 }
 
-static dyd_status nearest_ask(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status nearest_ask(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
   nearest_question *q = user;
   dyd_status st = dyd_nearest(&q->near, &q->sure, e->pd, dyd_stream_rect(q->at));
   *answered = st == DYD_OK && q->sure;
-  if (st == DYD_OK && q->near.count > 1) st = nearest_try_tie(q, plan->o, err);
+  if (st == DYD_OK && q->near.count > 1) st = nearest_try_tie(q, wants->o, err);
   bool settled = q->sure || q->tied || q->near.count == 0;
   if (st == DYD_OK && !settled && q->near.count > 1) st = nearest_is_settled(&settled, q);
-  if (st == DYD_OK && !settled) nearest_plan(&q->level, plan, &q->near);
+  if (st == DYD_OK && !settled) nearest_plan(&q->level, wants, &q->near);
   return st;
 }
 
@@ -256,11 +257,11 @@ static void problem_clear(graph_problem *p) {
 }
 
 /* Triangulates the sites, and finds the graph, unless sites join. */
-static dyd_status problem_solve(bool *good, graph_problem *p, const graph_question *q, const dyd_wants *plan,
+static dyd_status problem_solve(bool *good, graph_problem *p, const graph_question *q, const dyd_wants *wants,
                                 dyd_rect_fn *rect, const void *user, dyd_error *err) {
-  const dyd_engine *e = plan->e;
-  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = plan->o->max_pairs, .cancel = &e->stop,
-                                  .threads = plan->o->threads, .no_filter = plan->o->no_filter};
+  const dyd_engine *e = wants->e;
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = wants->o->max_pairs, .cancel = &e->stop,
+                                  .threads = wants->o->threads, .no_filter = wants->o->no_filter};
   dyd_status st = dyd_delaunay_made(&p->pd, dyd_sites_count(e->sites), rect, user, &o, err);
   *good = st == DYD_OK && !choice_joins(p->pd, e);
   if (*good) st = dyd_graph_edges(&p->edges, p->pd, NULL, q->graph, &e->stop, err);
@@ -273,11 +274,11 @@ static const dyd_graph_edge *problem_edge(const graph_problem *p, const dyd_grap
 
 /* Draws one choice in the cores, and looks which edges are certain, and which none, whatever the other points are.
  * *found: one of them was not known to be so. */
-static dyd_status graph_draw(bool *found, graph_question *q, const dyd_wants *plan, uint32_t choice, dyd_error *err) {
+static dyd_status graph_draw(bool *found, graph_question *q, const dyd_wants *wants, uint32_t choice, dyd_error *err) {
   graph_problem p = {0};
   bool good = false;
-  const core_choice drawn = {plan->e, choice};
-  dyd_status st = problem_solve(&good, &p, q, plan, choice_rect, &drawn, err);
+  const core_choice drawn = {wants->e, choice};
+  dyd_status st = problem_solve(&good, &p, q, wants, choice_rect, &drawn, err);
   for (size_t k = 0; good && st == DYD_OK && k < q->edges.count; k++) {
     const dyd_graph_edge *same = problem_edge(&p, &q->edges.item[k]);
     *found |= (!q->may[k] && same && same->sure) || (!q->may_not[k] && !same);
@@ -290,16 +291,16 @@ static dyd_status graph_draw(bool *found, graph_question *q, const dyd_wants *pl
 
 /* Examines all choices in the cores, less 4 eps where a site is firm: one point represents the places of other sites.
  */
-static dyd_status graph_shrink(graph_question *q, const dyd_wants *plan, dyd_error *err) {
-  size_t sites = dyd_sites_count(plan->e->sites);
+static dyd_status graph_shrink(graph_question *q, const dyd_wants *wants, dyd_error *err) {
+  size_t sites = dyd_sites_count(wants->e->sites);
   graph_problem p = {.firm = dyd_alloc(sites, sizeof *p.firm)};
   bool good = false;
   DYD_LOCAL(dyd_dyadic, eps);
-  const dyd_firm_sites cores = {plan->e, &eps, p.firm, NULL};
-  dyd_status st = p.firm ? dyd_firm_eps(&eps, plan->e) : DYD_E_NOMEM;
+  const dyd_firm_sites cores = {wants->e, &eps, p.firm, NULL};
+  dyd_status st = p.firm ? dyd_firm_eps(&eps, wants->e) : DYD_E_NOMEM;
   bool moving = dyd_dyadic_sgn(&eps) != 0;
   for (int k = 0; st == DYD_OK && k < 2; k++) st = dyd_dyadic_add(&eps, &eps, &eps);
-  if (st == DYD_OK) st = problem_solve(&good, &p, q, plan, dyd_firm_rect, &cores, err);
+  if (st == DYD_OK) st = problem_solve(&good, &p, q, wants, dyd_firm_rect, &cores, err);
   for (size_t k = 0; good && st == DYD_OK && k < q->edges.count; k++) {
     const dyd_graph_edge *edge = &q->edges.item[k], *same = problem_edge(&p, edge);
     bool ends = p.firm[edge->j] && (q->graph == DYD_GRAPH_NEAREST || p.firm[edge->i]);
@@ -391,20 +392,20 @@ dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, const dy
   return st;
 }
 
-static dyd_status disc_mark_near(dyd_wants *plan, uint32_t end);
+static dyd_status disc_mark_near(dyd_wants *wants, uint32_t end);
 
 /* Asks for the centres that edges that are not certain depend on, up to the accuracy of discs. */
-static dyd_status graph_mark_discs(dyd_wants *plan, const dyd_graph_list *edges) {
+static dyd_status graph_mark_discs(dyd_wants *wants, const dyd_graph_list *edges) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; st == DYD_OK && k < edges->count; k++) {
     if (edges->item[k].sure) continue;
-    st = disc_mark_near(plan, edges->item[k].i);
-    if (st == DYD_OK) st = disc_mark_near(plan, edges->item[k].j);
+    st = disc_mark_near(wants, edges->item[k].i);
+    if (st == DYD_OK) st = disc_mark_near(wants, edges->item[k].j);
   }
   return st;
 }
 
-static dyd_status graph_ask(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status graph_ask(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
   graph_question *q = user;
   size_t sites = dyd_sites_count(e->sites);
   dyd_status st = q->discs ? dyd_disc_pairs(&q->pairs, e->pd, &e->stop, err) : DYD_OK;
@@ -413,20 +414,20 @@ static dyd_status graph_ask(bool *answered, dyd_wants *plan, void *user, const d
   q->known |= *answered;
   for (size_t k = 0; *answered && k < q->edges.count; k++) *answered = q->edges.item[k].sure;
   if (st != DYD_OK || *answered) return st;
-  if (q->discs) return graph_mark_discs(plan, &q->edges);
+  if (q->discs) return graph_mark_discs(wants, &q->edges);
   bool cores = false;
   st = graph_reserve(q, sites);
   if (st == DYD_OK && graph_can_narrow(q, e)) st = graph_has_cores(&cores, e);
-  if (st == DYD_OK && cores) st = graph_shrink(q, plan, err);
+  if (st == DYD_OK && cores) st = graph_shrink(q, wants, err);
   for (uint32_t idle = 0;
        st == DYD_OK && cores && q->drawn < CHOICES_MOST && idle < CHOICES_IDLE && graph_can_narrow(q, e);) {
     bool found = false;
-    st = graph_draw(&found, q, plan, q->drawn++, err);
+    st = graph_draw(&found, q, wants, q->drawn++, err);
     idle = found ? 0 : idle + 1;
   }
   for (size_t k = 0; st == DYD_OK && k < q->edges.count; k++)
     if (graph_is_open(q, k)) st = graph_take_edge(q, e, &q->edges.item[k]);
-  if (st == DYD_OK) nearest_plan(&q->level, plan, &q->site);
+  if (st == DYD_OK) nearest_plan(&q->level, wants, &q->site);
   return st;
 }
 
@@ -464,39 +465,39 @@ typedef struct disc_question {
 } disc_question;
 
 /* Adds a want for the site up to the accuracy of discs. */
-static dyd_status disc_mark(dyd_wants *plan, uint32_t site) {
-  const dyd_refinable *p = dyd_engine_find(plan->e, site);
+static dyd_status disc_mark(dyd_wants *wants, uint32_t site) {
+  const dyd_refinable *p = dyd_engine_find(wants->e, site);
   if (!p || p->final) return DYD_OK;
   DYD_LOCAL(dyd_rect, r);
-  dyd_status st = dyd_sites_get(&r, plan->e->sites, site);
+  dyd_status st = dyd_sites_get(&r, wants->e->sites, site);
   int64_t bits = st == DYD_OK ? dyd_rect_bits(&r) + DISC_SPARE : INT64_MIN;
-  plan->blocked = plan->blocked || (p->bits < bits && bits > plan->o->max_bits);
-  if (bits > plan->o->max_bits) bits = plan->o->max_bits;
-  if (st == DYD_OK && p->bits < bits) dyd_wants_mark_alone(plan, p, bits, DYD_REASON_QUESTION);
+  wants->blocked = wants->blocked || (p->bits < bits && bits > wants->o->max_bits);
+  if (bits > wants->o->max_bits) bits = wants->o->max_bits;
+  if (st == DYD_OK && p->bits < bits) dyd_wants_mark_alone(wants, p, bits, DYD_REASON_QUESTION);
   return st;
 }
 
 /* Of the end of an open pair, and of all that may be next to it. */
-static dyd_status disc_mark_near(dyd_wants *plan, uint32_t end) {
+static dyd_status disc_mark_near(dyd_wants *wants, uint32_t end) {
   DYD_SCOPED(dyd_index_list) near = {0};
-  dyd_status st = dyd_delaunay_neighbours(&near, plan->e->pd, end, DYD_INDETERMINATE);
-  if (st == DYD_OK) st = disc_mark(plan, end);
-  for (size_t k = 0; st == DYD_OK && k < near.count; k++) st = disc_mark(plan, near.item[k]);
+  dyd_status st = dyd_delaunay_neighbours(&near, wants->e->pd, end, DYD_INDETERMINATE);
+  if (st == DYD_OK) st = disc_mark(wants, end);
+  for (size_t k = 0; st == DYD_OK && k < near.count; k++) st = disc_mark(wants, near.item[k]);
   return st;
 }
 
-static dyd_status disc_mark_pairs(dyd_wants *plan, const disc_question *q) {
+static dyd_status disc_mark_pairs(dyd_wants *wants, const disc_question *q) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; st == DYD_OK && k < q->pairs.count; k++) {
     const dyd_pair *pair = &q->pairs.item[k];
     if (pair->status != DYD_INDETERMINATE || dyd_is_settled(&q->settled, pair)) continue;
-    st = disc_mark_near(plan, pair->i);
-    if (st == DYD_OK) st = disc_mark_near(plan, pair->j);
+    st = disc_mark_near(wants, pair->i);
+    if (st == DYD_OK) st = disc_mark_near(wants, pair->j);
   }
   return st;
 }
 
-static dyd_status disc_ask(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status disc_ask(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
   disc_question *q = user;
   q->st = dyd_disc_pairs(&q->pairs, e->pd, &e->stop, err);
   if (q->st == DYD_CANCELLED && err) q->why = *err;
@@ -507,11 +508,11 @@ static dyd_status disc_ask(bool *answered, dyd_wants *plan, void *user, const dy
   for (size_t k = 0; k < q->pairs.count; k++) *answered = *answered && q->pairs.item[k].status == DYD_LEGAL;
   if (!narrows) return DYD_OK;
   q->settled.discs = &q->pairs;
-  dyd_status st = disc_mark_pairs(plan, q);
-  if (st == DYD_OK && plan->count + plan->blocked) {
-    st = dyd_settle(&q->settled, plan);
-    dyd_wants_empty(plan);
-    if (st == DYD_OK) st = disc_mark_pairs(plan, q);
+  dyd_status st = disc_mark_pairs(wants, q);
+  if (st == DYD_OK && wants->count + wants->blocked) {
+    st = dyd_settle(&q->settled, wants);
+    dyd_wants_empty(wants);
+    if (st == DYD_OK) st = disc_mark_pairs(wants, q);
   }
   return st;
 }

@@ -58,9 +58,9 @@ static dyd_status quad_is_decided(bool *out, const dyd_engine *e, const dyd_quad
 
 /* ---- finding them ---- */
 
-static bool is_marked(const dyd_wants *plan, uint32_t site) {
-  const dyd_refinable *p = dyd_engine_find(plan->e, site);
-  return p && dyd_wants_find(plan, p);
+static bool is_marked(const dyd_wants *wants, uint32_t site) {
+  const dyd_refinable *p = dyd_engine_find(wants->e, site);
+  return p && dyd_wants_find(wants, p);
 }
 
 static bool probe_has(const dyd_probe *probe, uint32_t site) {
@@ -70,9 +70,9 @@ static bool probe_has(const dyd_probe *probe, uint32_t site) {
 }
 
 /* An indeterminate pair with ends that are marked and free. */
-static bool probe_can_take(const dyd_probe *probe, const dyd_wants *plan, const dyd_pair *p) {
+static bool probe_can_take(const dyd_probe *probe, const dyd_wants *wants, const dyd_pair *p) {
   return p->status == DYD_INDETERMINATE && !probe_has(probe, p->i) && !probe_has(probe, p->j) &&
-         is_marked(plan, p->i) && is_marked(plan, p->j);
+         is_marked(wants, p->i) && is_marked(wants, p->j);
 }
 
 static bool share_an_end(const dyd_pair *p, const dyd_pair *q) {
@@ -80,16 +80,16 @@ static bool share_an_end(const dyd_pair *p, const dyd_pair *q) {
 }
 
 /* Adds the quad of p and one of the pairs from number *at on, when one is found within the bounds. */
-static dyd_status probe_find_partner(size_t *at, size_t *tries, dyd_probe *probe, const dyd_wants *plan,
+static dyd_status probe_find_partner(size_t *at, size_t *tries, dyd_probe *probe, const dyd_wants *wants,
                                      const dyd_pair_list *pairs, const dyd_pair *p) {
   dyd_status st = DYD_OK;
   bool decided = true;
   for (size_t n = 0; st == DYD_OK && decided && n < pairs->count && n < STEPS && *tries % TRIES; n++) {
     const dyd_pair *q = &pairs->item[*at];
     *at = (*at + STRIDE) % pairs->count;
-    if (share_an_end(p, q) || !probe_can_take(probe, plan, q)) continue;
+    if (share_an_end(p, q) || !probe_can_take(probe, wants, q)) continue;
     const dyd_quad_sites quad = {{p->i, p->j, q->i, q->j}};
-    st = quad_is_decided(&decided, plan->e, &quad);
+    st = quad_is_decided(&decided, wants->e, &quad);
     ++*tries;
     if (st == DYD_OK && !decided) probe->quad[probe->quads++] = quad;
   }
@@ -97,22 +97,22 @@ static dyd_status probe_find_partner(size_t *at, size_t *tries, dyd_probe *probe
 }
 
 /* Adds a quad, when one is found within the bounds. Pairs are taken in strides, as if at random. */
-static dyd_status probe_find_quad(size_t *at, dyd_probe *probe, const dyd_wants *plan, const dyd_pair_list *pairs) {
+static dyd_status probe_find_quad(size_t *at, dyd_probe *probe, const dyd_wants *wants, const dyd_pair_list *pairs) {
   dyd_status st = DYD_OK;
   size_t before = probe->quads;
   for (size_t n = 0, tries = 1; st == DYD_OK && probe->quads == before && n < STEPS && tries < 4 * TRIES; n++) {
     const dyd_pair *p = &pairs->item[*at];
     *at = (*at + STRIDE) % pairs->count;
-    if (!probe_can_take(probe, plan, p)) continue;
-    st = probe_find_partner(at, &tries, probe, plan, pairs, p);
+    if (!probe_can_take(probe, wants, p)) continue;
+    st = probe_find_partner(at, &tries, probe, wants, pairs, p);
     tries = (tries / TRIES + 1) * TRIES + 1;
   }
   return st;
 }
 
-static dyd_status probes_append(dyd_probes *s, const dyd_wants *plan, const dyd_pair_list *pairs,
+static dyd_status probes_append(dyd_probes *s, const dyd_wants *wants, const dyd_pair_list *pairs,
                                 const dyd_probe *probe) {
-  const dyd_engine *e = plan->e;
+  const dyd_engine *e = wants->e;
   if (!s->of) s->of = calloc(e->points, sizeof *s->of);
   if (!s->of || s->count >= UINT32_MAX || !DYD_GROW(s->item, s->cap, s->count + 1)) {
     return DYD_E_NOMEM;
@@ -120,19 +120,19 @@ static dyd_status probes_append(dyd_probes *s, const dyd_wants *plan, const dyd_
   s->item[s->count++] = *probe;
   for (size_t k = 0; k < 2 * pairs->count; k++) {
     const dyd_refinable *p = dyd_engine_find(e, k % 2 ? pairs->item[k / 2].j : pairs->item[k / 2].i);
-    if (p && dyd_wants_find(plan, p)) s->of[p - e->point] = (uint32_t)s->count;
+    if (p && dyd_wants_find(wants, p)) s->of[p - e->point] = (uint32_t)s->count;
   }
   return DYD_OK;
 }
 
-dyd_status dyd_probes_add(dyd_probes *s, const dyd_wants *plan, const dyd_pair_list *pairs) {
+dyd_status dyd_probes_add(dyd_probes *s, const dyd_wants *wants, const dyd_pair_list *pairs) {
   dyd_probe probe = {.quads = 0};
   dyd_status st = DYD_OK;
   /* Eight points have at least eight pairs that are not edges of their hull, if all cross. */
   if (pairs->count < 8) return DYD_OK;
   for (size_t k = 0, at = 0; st == DYD_OK && k < DYD_PROBE_QUADS && probe.quads == k; k++)
-    st = probe_find_quad(&at, &probe, plan, pairs);
-  return st != DYD_OK || probe.quads < 2 ? st : probes_append(s, plan, pairs, &probe);
+    st = probe_find_quad(&at, &probe, wants, pairs);
+  return st != DYD_OK || probe.quads < 2 ? st : probes_append(s, wants, pairs, &probe);
 }
 
 /* ---- the probe ---- */
@@ -183,7 +183,7 @@ static int64_t probe_step(int64_t b, int64_t most) {
   return dyd_bits_raised(b, b < 16 ? 16 : b < DEAR ? b : b / 2, most);
 }
 
-/* Sends the probes of a quad that can continue: for what the plan wanted at first, then for more. How many there are.
+/* Sends the probes of a quad that can continue: for what was wanted at first, then for more. How many there are.
  */
 static size_t probe_send_quad(dyd_wants *out, dyd_wants *held, const dyd_quad_sites *q) {
   size_t sent = 0;

@@ -31,9 +31,9 @@ typedef struct dyd_probes {
 } dyd_probes;
 
 void dyd_probes_clear(dyd_probes *s);
-/* Looks for quads among the indeterminate pairs of a face with ends in the plan; adds a probe when there are two or
+/* Looks for quads among the indeterminate pairs of a face with ends that are wanted; adds a probe when there are two or
  * more. */
-dyd_status dyd_probes_add(dyd_probes *s, const dyd_wants *plan, const dyd_pair_list *pairs);
+dyd_status dyd_probes_add(dyd_probes *s, const dyd_wants *wants, const dyd_pair_list *pairs);
 /* Judges the quads of all probes; *out, empty, becomes the probes of probes that continue, which are narrowed further,
  * while all else in `held` waits. Nothing in *out: all probes are over. */
 dyd_status dyd_probes_next(dyd_wants *out, dyd_probes *s, dyd_wants *held);

@@ -149,7 +149,7 @@ static dyd_status goal_area_holds(bool *out, mpfr_ptr bound, dyd_voronoi_sums **
 }
 
 /* Sets *out to whether the goal, one of these two, holds. If it does not, *sums, NULL before, keeps the sums found, for
- * the plan; freed by goal_sums_free, whatever is returned. */
+ * the wants; freed by goal_sums_free, whatever is returned. */
 static dyd_status goal_voronoi_holds(bool *out, dyd_voronoi_sums **sums, const dyd_engine *e,
                                      const dyd_engine_options *o) {
   DYD_SCOPED(dyd_pair_list) pairs = {0};
@@ -183,8 +183,8 @@ static dyd_status goal_vertex_excess(int64_t *out, const dyd_engine *e, const dy
  * on the others equals its cost: so waiting at most doubles the total cost. It then goes at once to the finest
  * precision of the face: the bits of one call cost nothing, and it need not take the steps of the others.
  *
- * The cheapest never wait, so a plan is empty only where it was. Like all of the schedule this only chooses what to
- * narrow. */
+ * The cheapest never wait, so nothing is wanted only where that was so before. Like all of the schedule this only
+ * chooses what to narrow. */
 
 enum { EXPENSIVE = 2 };
 
@@ -247,25 +247,25 @@ static double waiting_least(double *spent, const dyd_wants *face) {
   return least;
 }
 
-/* The wants of the face with these sites go to the plan, but for wants that wait. */
-static void waiting_choose(dyd_wants *plan, dyd_waiting *t, const dyd_index_list *sites) {
+/* The wants of the face with these sites go to *wants, but for wants that wait. */
+static void waiting_choose(dyd_wants *wants, dyd_waiting *t, const dyd_index_list *sites) {
   dyd_wants *face = &t->face;
   double spent, least = waiting_least(&spent, face);
   if (!t->waited) return;
   for (size_t k = 0; k < face->count; k++) {
     const dyd_want *w = &face->item[k];
     const dyd_refinable *p = dyd_wants_point(face, w);
-    double cost = waiting_cost(face, p->site), *waited = &t->waited[p - plan->e->point];
+    double cost = waiting_cost(face, p->site), *waited = &t->waited[p - wants->e->point];
     if (cost > EXPENSIVE * least && *waited < cost) {
       *waited += spent;
       continue;
     }
-    int64_t finest = *waited > 0 && !plan->o->step_bits ? waiting_finest(plan->e, sites) : w->bits;
-    dyd_wants_mark(plan, p, finest > w->bits ? finest : w->bits, w->reason, w->i, w->j);
+    int64_t finest = *waited > 0 && !wants->o->step_bits ? waiting_finest(wants->e, sites) : w->bits;
+    dyd_wants_mark(wants, p, finest > w->bits ? finest : w->bits, w->reason, w->i, w->j);
     *waited = 0;
   }
-  if (face->failed) plan->failed = face->failed;
-  plan->blocked = plan->blocked || face->blocked;
+  if (face->failed) wants->failed = face->failed;
+  wants->blocked = wants->blocked || face->blocked;
   dyd_wants_empty(face);
 }
 
@@ -359,10 +359,10 @@ static bool lacks_needed(const dyd_refinable *p, const dyd_engine_options *o) {
 }
 
 /* Returns true if that is known of a site of the face. Then no probe has to be sent to learn it. */
-static bool any_lacks_needed(const dyd_face_precision *c, const dyd_wants *plan) {
+static bool any_lacks_needed(const dyd_face_precision *c, const dyd_wants *wants) {
   for (size_t k = 0; k < c->sites.count; k++) {
-    const dyd_refinable *p = dyd_engine_find(plan->e, c->sites.item[k]);
-    if (p && !p->final && lacks_needed(p, plan->o)) return true;
+    const dyd_refinable *p = dyd_engine_find(wants->e, c->sites.item[k]);
+    if (p && !p->final && lacks_needed(p, wants->o)) return true;
   }
   return false;
 }
@@ -374,48 +374,48 @@ static int64_t face_step(const dyd_refinable *p, int64_t relative, const dyd_eng
 
 /* The relative precision up to which ends are refined: beyond it they wait for the coarsest site of the face, which may
  * be what keeps their pairs open. */
-static int64_t bits_worth(dyd_wants *plan, const dyd_face_precision *c) {
+static int64_t bits_worth(dyd_wants *wants, const dyd_face_precision *c) {
   int64_t least = INT64_MAX;
   for (size_t k = 0; k < c->sites.count; k++)
-    if (dyd_wants_can_narrow(plan, dyd_engine_find(plan->e, c->sites.item[k])))
+    if (dyd_wants_can_narrow(wants, dyd_engine_find(wants->e, c->sites.item[k])))
       least = lesser_bits(least, dyd_face_precision_bits(c, c->sites.item[k]));
   return least > INT64_MAX / 4 ? INT64_MAX : least + least / 2;
 }
 
 /* Marks the coarsest of the ends of pairs that can be narrowed, up to the precision `worth`; *least becomes their
  * relative precision. Returns false if no end can be narrowed. */
-static bool mark_ends(int64_t *least, dyd_wants *plan, const dyd_face_precision *c, const dyd_pair_list *pairs,
+static bool mark_ends(int64_t *least, dyd_wants *wants, const dyd_face_precision *c, const dyd_pair_list *pairs,
                       int64_t worth) {
   bool any = false;
   *least = INT64_MAX;
   for (int pass = 0; pass < 2; pass++) {
     for (size_t k = 0; k < 2 * pairs->count; k++) {
       const dyd_pair *pair = &pairs->item[k / 2];
-      const dyd_refinable *p = dyd_engine_find(plan->e, k % 2 ? pair->j : pair->i);
-      if (!dyd_wants_can_narrow(plan, p)) continue;
+      const dyd_refinable *p = dyd_engine_find(wants->e, k % 2 ? pair->j : pair->i);
+      if (!dyd_wants_can_narrow(wants, p)) continue;
       int64_t relative = dyd_face_precision_bits(c, p->site);
       any = true;
       if (pass == 0)
         *least = lesser_bits(*least, relative);
-      else if ((relative <= companion_bits(*least) && relative <= worth) || lacks_needed(p, plan->o))
-        dyd_wants_mark(plan, p, face_step(p, relative, plan->o), DYD_REASON_END, pair->i, pair->j);
+      else if ((relative <= companion_bits(*least) && relative <= worth) || lacks_needed(p, wants->o))
+        dyd_wants_mark(wants, p, face_step(p, relative, wants->o), DYD_REASON_END, pair->i, pair->j);
     }
   }
   return any;
 }
 
 /* Marks the sites of the face that are coarser than the ends; where no end can be narrowed, the coarsest of all. */
-static void mark_blockers(dyd_wants *plan, const dyd_face_precision *c, bool ends, int64_t least) {
+static void mark_blockers(dyd_wants *wants, const dyd_face_precision *c, bool ends, int64_t least) {
   int64_t limit = ends ? least - 1 : INT64_MAX;
   for (int pass = ends ? 1 : 0; pass < 2; pass++) {
     for (size_t k = 0; k < c->sites.count; k++) {
-      const dyd_refinable *p = dyd_engine_find(plan->e, c->sites.item[k]);
-      if (!dyd_wants_can_narrow(plan, p)) continue;
+      const dyd_refinable *p = dyd_engine_find(wants->e, c->sites.item[k]);
+      if (!dyd_wants_can_narrow(wants, p)) continue;
       int64_t relative = dyd_face_precision_bits(c, p->site);
       if (pass == 0)
         limit = lesser_bits(limit, relative);
-      else if (relative <= limit || lacks_needed(p, plan->o))
-        dyd_wants_mark_alone(plan, p, face_step(p, relative, plan->o), DYD_REASON_BLOCKER);
+      else if (relative <= limit || lacks_needed(p, wants->o))
+        dyd_wants_mark_alone(wants, p, face_step(p, relative, wants->o), DYD_REASON_BLOCKER);
     }
     if (pass == 0) limit = companion_bits(limit);
   }
@@ -423,78 +423,80 @@ static void mark_blockers(dyd_wants *plan, const dyd_face_precision *c, bool end
 
 /* Marks all sites of a face whose pairs are not all known: to twice their bits, or to where a tie was seen to be none.
  * Which of them suffice is not known yet. Probes need pairs that cross: each site with one half of the face on. */
-static dyd_status plan_capped(dyd_wants *plan, dyd_helpers *h, size_t f) {
+static dyd_status want_capped(dyd_wants *wants, dyd_helpers *h, size_t f) {
   DYD_SCOPED(dyd_index_list) sites = {0};
   bool outer, lacks = false;
-  dyd_status st = dyd_delaunay_face(&sites, &outer, plan->e->pd, f);
+  dyd_status st = dyd_delaunay_face(&sites, &outer, wants->e->pd, f);
   DYD_SCOPED(dyd_pair_list) across = {st == DYD_OK ? sites.count : 0, dyd_alloc(sites.count, sizeof *across.item)};
   if (!across.item) st = DYD_E_NOMEM;
   for (size_t k = 0; st == DYD_OK && k < sites.count; k++) {
-    const dyd_refinable *p = dyd_engine_find(plan->e, sites.item[k]);
+    const dyd_refinable *p = dyd_engine_find(wants->e, sites.item[k]);
     across.item[k] = (dyd_pair){sites.item[k], sites.item[(k + sites.count / 2) % sites.count], DYD_INDETERMINATE};
-    if (!dyd_wants_can_narrow(plan, p)) continue;
-    int64_t bits = dyd_bits_grown(p->bits, plan->o);
-    lacks = lacks || lacks_needed(p, plan->o);
-    dyd_wants_mark_alone(plan, p, lacks_needed(p, plan->o) && p->needed > bits ? p->needed : bits, DYD_REASON_BLOCKER);
+    if (!dyd_wants_can_narrow(wants, p)) continue;
+    int64_t bits = dyd_bits_grown(p->bits, wants->o);
+    lacks = lacks || lacks_needed(p, wants->o);
+    dyd_wants_mark_alone(wants, p, lacks_needed(p, wants->o) && p->needed > bits ? p->needed : bits,
+                         DYD_REASON_BLOCKER);
   }
-  bool probes = h->probes && !lacks && dyd_open_is_postponed(plan->e->pd, f);
-  if (st == DYD_OK && probes) st = dyd_probes_add(h->probes, plan, &across);
+  bool probes = h->probes && !lacks && dyd_open_is_postponed(wants->e->pd, f);
+  if (st == DYD_OK && probes) st = dyd_probes_add(h->probes, wants, &across);
   return st;
 }
 
-static dyd_status plan_face(dyd_wants *plan, dyd_helpers *h, size_t f, dyd_measure *m, const dyd_settled *settled) {
-  const dyd_delaunay *pd = plan->e->pd;
-  if (dyd_open_is_capped(pd, f)) return plan_capped(plan, h, f);
+static dyd_status want_face(dyd_wants *wants, dyd_helpers *h, size_t f, dyd_measure *m, const dyd_settled *settled) {
+  const dyd_delaunay *pd = wants->e->pd;
+  if (dyd_open_is_capped(pd, f)) return want_capped(wants, h, f);
   DYD_SCOPED(dyd_face_precision) c = {0};
   DYD_SCOPED(dyd_pair_list) pairs = {0};
   dyd_status st = dyd_delaunay_face_pairs(&pairs, pd, f);
-  if (st == DYD_OK) st = keep_pairs(&pairs, m, settled, plan->o);
+  if (st == DYD_OK) st = keep_pairs(&pairs, m, settled, wants->o);
   if (st == DYD_OK && pairs.count) st = dyd_face_precision_set(&c, pd, f, &pairs);
   if (st == DYD_OK && pairs.count) {
     int64_t least;
-    dyd_wants *wants = h->waiting->waited ? &h->waiting->face : plan; /* where none waits they go to the plan itself */
+    dyd_wants *into =
+        h->waiting->waited ? &h->waiting->face : wants; /* of the face; where none waits all go to one list */
     /* Where points have costs the coarsest may be expensive, and wait themselves. */
-    bool ends = mark_ends(&least, wants, &c, &pairs, h->waiting->waited ? INT64_MAX : bits_worth(plan, &c));
-    mark_blockers(wants, &c, ends, least);
-    waiting_choose(plan, h->waiting, &c.sites);
-    if (ends && h->probes && !any_lacks_needed(&c, plan)) st = dyd_probes_add(h->probes, plan, &pairs);
+    bool ends = mark_ends(&least, into, &c, &pairs, h->waiting->waited ? INT64_MAX : bits_worth(wants, &c));
+    mark_blockers(into, &c, ends, least);
+    waiting_choose(wants, h->waiting, &c.sites);
+    if (ends && h->probes && !any_lacks_needed(&c, wants)) st = dyd_probes_add(h->probes, wants, &pairs);
   }
   return st;
 }
 
-static dyd_status plan_faces(dyd_wants *plan, dyd_helpers *h, dyd_measure *m, const dyd_settled *settled) {
+static dyd_status want_faces(dyd_wants *wants, dyd_helpers *h, dyd_measure *m, const dyd_settled *settled) {
   dyd_status st = DYD_OK;
-  size_t faces = dyd_delaunay_undecided_faces(plan->e->pd);
-  for (size_t f = 0; st == DYD_OK && f < faces; f++) st = plan_face(plan, h, f, m, settled);
+  size_t faces = dyd_delaunay_undecided_faces(wants->e->pd);
+  for (size_t f = 0; st == DYD_OK && f < faces; f++) st = want_face(wants, h, f, m, settled);
   return st;
 }
 
 /* ---- bounds ---- */
 
-static dyd_status plan_hausdorff(dyd_wants *plan, dyd_helpers *h, dyd_measure *m) {
+static dyd_status want_hausdorff(dyd_wants *wants, dyd_helpers *h, dyd_measure *m) {
   const dyd_settled none = {0}; /* a pair that stays indeterminate may still come below the bound */
-  const dyd_engine *e = plan->e;
-  const dyd_engine_options *o = plan->o;
-  dyd_status st = plan_faces(plan, h, m, &none);
+  const dyd_engine *e = wants->e;
+  const dyd_engine_options *o = wants->o;
+  dyd_status st = want_faces(wants, h, m, &none);
   DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, diameter);
   for (size_t k = 0; st == DYD_OK && k < e->points; k++) {
     const dyd_refinable *p = &e->point[k];
     if (p->final) continue;
     st = dyd_measure_diameter(diameter, m, p->site);
-    if (mpfr_cmp_ui_2exp(diameter, 1, (mpfr_exp_t)-o->goal_bits) <= 0 || !dyd_wants_can_narrow(plan, p)) continue;
+    if (mpfr_cmp_ui_2exp(diameter, 1, (mpfr_exp_t)-o->goal_bits) <= 0 || !dyd_wants_can_narrow(wants, p)) continue;
     /* Widths of 2^-b give a diameter of at most sqrt(2) 2^-b. */
-    dyd_wants_mark_alone(plan, p,
-                         p->bits <= o->goal_bits && !o->step_bits ? o->goal_bits + 1 : dyd_bits_grown(p->bits, plan->o),
-                         DYD_REASON_BOUND);
+    dyd_wants_mark_alone(
+        wants, p, p->bits <= o->goal_bits && !o->step_bits ? o->goal_bits + 1 : dyd_bits_grown(p->bits, wants->o),
+        DYD_REASON_BOUND);
   }
   return st;
 }
 
 /* Marks the ends of pairs with a number above `least`, so that the numbers shrink below `share`;
  * *largest becomes the largest number of a pair with an end that can be narrowed. */
-static dyd_status mark_bound(dyd_wants *plan, mpfr_ptr largest, dyd_measure *m, dyd_voronoi_sums *sums,
+static dyd_status mark_bound(dyd_wants *wants, mpfr_ptr largest, dyd_measure *m, dyd_voronoi_sums *sums,
                              const dyd_pair_list *pairs, mpfr_srcptr least, mpfr_srcptr share) {
-  const dyd_engine_options *o = plan->o;
+  const dyd_engine_options *o = wants->o;
   dyd_status st = DYD_OK;
   DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, value);
   mpfr_set_zero(largest, 1);
@@ -505,11 +507,11 @@ static dyd_status mark_bound(dyd_wants *plan, mpfr_ptr largest, dyd_measure *m, 
     if (st != DYD_OK || mpfr_zero_p(value)) continue;
     int64_t excess = mpfr_inf_p(value) ? 0 : (int64_t)mpfr_get_exp(value) - (int64_t)mpfr_get_exp(share) + 2;
     for (int a = 0; a < 2; a++) {
-      const dyd_refinable *p = dyd_engine_find(plan->e, end[a]);
-      if (!dyd_wants_can_narrow(plan, p)) continue;
+      const dyd_refinable *p = dyd_engine_find(wants->e, end[a]);
+      if (!dyd_wants_can_narrow(wants, p)) continue;
       mpfr_max(largest, largest, value, MPFR_RNDU);
       if (mpfr_cmp(value, least) > 0)
-        dyd_wants_mark(plan, p, excess_step(p, excess, o), DYD_REASON_BOUND, end[0], end[1]);
+        dyd_wants_mark(wants, p, excess_step(p, excess, o), DYD_REASON_BOUND, end[0], end[1]);
     }
   }
   return st;
@@ -517,67 +519,67 @@ static dyd_status mark_bound(dyd_wants *plan, mpfr_ptr largest, dyd_measure *m, 
 
 /* The ends of the pairs whose numbers are above 2^-M, or above the share 2^-M / P of P pairs; where none of them can be
  * narrowed, those of at least half the largest number with an end that can. */
-static dyd_status plan_bound(dyd_wants *plan, dyd_measure *m, dyd_voronoi_sums *sums, bool shared) {
+static dyd_status want_bound(dyd_wants *wants, dyd_measure *m, dyd_voronoi_sums *sums, bool shared) {
   DYD_SCOPED(dyd_pair_list) pairs = {0};
   DYD_LOCAL_FLOATS(DYD_MEASURE_PREC, share, largest, unused);
-  dyd_status st = dyd_pairs_list(&pairs, plan->e->pd, sums ? dyd_least_bounding_true(plan->e->pd) : DYD_TIE);
+  dyd_status st = dyd_pairs_list(&pairs, wants->e->pd, sums ? dyd_least_bounding_true(wants->e->pd) : DYD_TIE);
   if (st == DYD_OK && pairs.count) {
-    mpfr_set_ui_2exp(share, 1, (mpfr_exp_t)-plan->o->goal_bits, MPFR_RNDD);
+    mpfr_set_ui_2exp(share, 1, (mpfr_exp_t)-wants->o->goal_bits, MPFR_RNDD);
     if (shared) mpfr_div_ui(share, share, (unsigned long)pairs.count, MPFR_RNDD);
-    st = mark_bound(plan, largest, m, sums, &pairs, share, share);
-    if (st == DYD_OK && plan->count == 0 && !mpfr_zero_p(largest)) {
+    st = mark_bound(wants, largest, m, sums, &pairs, share, share);
+    if (st == DYD_OK && wants->count == 0 && !mpfr_zero_p(largest)) {
       mpfr_div_2ui(largest, largest, 1, MPFR_RNDD);
-      st = mark_bound(plan, unused, m, sums, &pairs, largest, share);
+      st = mark_bound(wants, unused, m, sums, &pairs, largest, share);
     }
   }
   return st;
 }
 
 /* Marks the ends of certain triangles whose Voronoi vertex may be in the window and is enclosed in more than 2^-M. */
-static dyd_status plan_vertices(dyd_wants *plan) {
-  const dyd_engine_options *o = plan->o;
+static dyd_status want_vertices(dyd_wants *wants) {
+  const dyd_engine_options *o = wants->o;
   DYD_SCOPED(dyd_triangle_list) list = {0};
-  dyd_status st = dyd_delaunay_triangles(&list, NULL, plan->e->pd, 0);
+  dyd_status st = dyd_delaunay_triangles(&list, NULL, wants->e->pd, 0);
   for (size_t k = 0; k < list.count && st == DYD_OK; k++) {
     const uint32_t *v = list.item[k].v;
     int64_t excess;
-    st = goal_vertex_excess(&excess, plan->e, &list.item[k], o);
+    st = goal_vertex_excess(&excess, wants->e, &list.item[k], o);
     for (int m = 0; m < 3 && st == DYD_OK && excess > 0; m++) {
-      const dyd_refinable *p = dyd_engine_find(plan->e, v[m]);
-      if (dyd_wants_can_narrow(plan, p))
-        dyd_wants_mark(plan, p, excess_step(p, excess, o), DYD_REASON_BOUND, v[m], v[(m + 1) % 3]);
+      const dyd_refinable *p = dyd_engine_find(wants->e, v[m]);
+      if (dyd_wants_can_narrow(wants, p))
+        dyd_wants_mark(wants, p, excess_step(p, excess, o), DYD_REASON_BOUND, v[m], v[(m + 1) % 3]);
     }
   }
   return st;
 }
 
 /* Replaces the marks by: every point to one precision, a step above the least so far. */
-static void plan_uniform(dyd_wants *plan) {
-  const dyd_engine *e = plan->e;
+static void want_uniform(dyd_wants *wants) {
+  const dyd_engine *e = wants->e;
   int64_t least = INT64_MAX;
   for (size_t k = 0; k < e->points; k++)
     if (!e->point[k].final && e->point[k].bits < least) least = e->point[k].bits;
-  dyd_wants_empty(plan);
-  int64_t level = lesser_bits(dyd_bits_grown(least, plan->o), plan->o->max_bits);
+  dyd_wants_empty(wants);
+  int64_t level = lesser_bits(dyd_bits_grown(least, wants->o), wants->o->max_bits);
   for (size_t k = 0; k < e->points; k++)
     if (!e->point[k].final && e->point[k].bits < level)
-      dyd_wants_mark_alone(plan, &e->point[k], level, DYD_REASON_UNIFORM);
+      dyd_wants_mark_alone(wants, &e->point[k], level, DYD_REASON_UNIFORM);
 }
 
-static dyd_status plan_all(dyd_wants *plan, dyd_helpers *h, dyd_settled *settled, dyd_measure *m,
+static dyd_status want_all(dyd_wants *wants, dyd_helpers *h, dyd_settled *settled, dyd_measure *m,
                            dyd_voronoi_sums *sums) {
-  const dyd_engine_options *o = plan->o;
+  const dyd_engine_options *o = wants->o;
   if (o->step_bits || o->schedule != DYD_SCHEDULE_ADAPTIVE || h->waiting->waited || dyd_has_policy(o)) h->probes = NULL;
-  bool capped = dyd_delaunay_is_capped(plan->e->pd);
+  bool capped = dyd_delaunay_is_capped(wants->e->pd);
   if (o->goal == DYD_GOAL_DECIDED || capped) {
-    dyd_status settling = capped ? DYD_OK : dyd_settle(settled, plan);
-    return settling == DYD_OK ? plan_faces(plan, h, NULL, settled) : settling;
+    dyd_status settling = capped ? DYD_OK : dyd_settle(settled, wants);
+    return settling == DYD_OK ? want_faces(wants, h, NULL, settled) : settling;
   }
-  if (o->goal == DYD_GOAL_HAUSDORFF) return plan_hausdorff(plan, h, m);
-  if (o->goal == DYD_GOAL_AREA) return plan_bound(plan, m, NULL, true);
+  if (o->goal == DYD_GOAL_HAUSDORFF) return want_hausdorff(wants, h, m);
+  if (o->goal == DYD_GOAL_AREA) return want_bound(wants, m, NULL, true);
   /* Where the bound on the diagram holds already, and sums are not kept, only vertices are left to be narrowed. */
-  dyd_status st = sums ? plan_bound(plan, m, sums, o->goal == DYD_GOAL_VORONOI_AREA) : DYD_OK;
-  if (st == DYD_OK && o->goal == DYD_GOAL_VORONOI_HAUSDORFF) st = plan_vertices(plan);
+  dyd_status st = sums ? want_bound(wants, m, sums, o->goal == DYD_GOAL_VORONOI_AREA) : DYD_OK;
+  if (st == DYD_OK && o->goal == DYD_GOAL_VORONOI_HAUSDORFF) st = want_vertices(wants);
   return st;
 }
 
@@ -606,11 +608,11 @@ static dyd_status goal_voronoi_and_vertices_hold(bool *out, dyd_voronoi_sums **s
                                                  const dyd_engine_options *o) {
   dyd_status st = goal_voronoi_holds(out, sums, e, o);
   if (st != DYD_OK || !*out || o->goal != DYD_GOAL_VORONOI_HAUSDORFF) return st;
-  DYD_SCOPED(dyd_wants) plan;
-  dyd_wants_init(&plan, e, o, NULL, 0);
-  st = plan_vertices(&plan);
-  if (st == DYD_OK) st = plan.failed;
-  *out = st == DYD_OK && plan.count == 0;
+  DYD_SCOPED(dyd_wants) wants;
+  dyd_wants_init(&wants, e, o, NULL, 0);
+  st = want_vertices(&wants);
+  if (st == DYD_OK) st = wants.failed;
+  *out = st == DYD_OK && wants.count == 0;
   return st;
 }
 
@@ -622,34 +624,34 @@ static dyd_status goal_holds(bool *out, dyd_measure *m, dyd_voronoi_sums **sums,
                                       : dyd_goal_of_pairs_holds(out, m, e->pd, o);
 }
 
-/* Else a plan is empty, whatever the goal. */
+/* Else nothing is wanted, whatever the goal. */
 static bool any_point_is_left(const dyd_engine *e) {
   for (size_t k = 0; k < e->points; k++)
     if (!e->point[k].final) return true;
   return false;
 }
 
-/* Sets *holds if the goal holds for the result, which is up to date. Otherwise *plan, empty, becomes the points to
+/* Sets *holds if the goal holds for the result, which is up to date. Otherwise *wants, empty, becomes the points to
  * narrow for it; adds to *probes, just initialised, the points that may go ahead, and to *waiting and *settled, kept
  * from judgement to judgement of a run, the points that wait and the pairs that no refinement decides. DYD_CANCELLED
  * when e->stop was seen. */
-static dyd_status schedule_judge(bool *holds, dyd_wants *plan, dyd_probes *probes, dyd_waiting *waiting,
+static dyd_status schedule_judge(bool *holds, dyd_wants *wants, dyd_probes *probes, dyd_waiting *waiting,
                                  dyd_settled *settled) {
   dyd_helpers h = {probes, waiting};
   DYD_SCOPED(dyd_measure) m;
   dyd_voronoi_sums *sums = NULL;
-  dyd_measure_init(&m, plan->e->sites);
-  dyd_status st = goal_holds(holds, &m, &sums, plan->e, plan->o);
-  if (st == DYD_OK && !*holds && any_point_is_left(plan->e)) st = plan_all(plan, &h, settled, &m, sums);
-  if (st == DYD_OK) st = plan->failed;
-  if (st == DYD_OK && plan->count && plan->o->schedule == DYD_SCHEDULE_UNIFORM) plan_uniform(plan);
+  dyd_measure_init(&m, wants->e->sites);
+  dyd_status st = goal_holds(holds, &m, &sums, wants->e, wants->o);
+  if (st == DYD_OK && !*holds && any_point_is_left(wants->e)) st = want_all(wants, &h, settled, &m, sums);
+  if (st == DYD_OK) st = wants->failed;
+  if (st == DYD_OK && wants->count && wants->o->schedule == DYD_SCHEDULE_UNIFORM) want_uniform(wants);
   goal_sums_free(&sums);
   return st;
 }
 
 #define MOST_GOAL_BITS ((int64_t)1 << 40)
 
-/* Invariant: while probes.count > 0 the probes began in the stage after number `stage`, and `held` is the plan that
+/* Invariant: while probes.count > 0 the probes began in the stage after number `stage`, and `held` is the list that
  * waits for them. */
 typedef struct goal_question {
   dyd_probes probes;
@@ -659,25 +661,25 @@ typedef struct goal_question {
   uint64_t stage;
 } goal_question;
 
-/* Probes go ahead within a stage, and the plan follows when their probes are over. A stage that was cut short ends the
+/* Probes go ahead within a stage, and the others follow when their probes are over. A stage that was cut short ends the
  * probes as well: there is a new result to be judged. */
-static dyd_status goal_ask(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status goal_ask(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
   goal_question *q = user;
   (void)err;
   if (q->probes.count == 0 || q->stage != e->stages) {
     dyd_probes_clear(&q->probes);
     dyd_wants_empty(&q->held);
-    dyd_status st = schedule_judge(answered, plan, &q->probes, &q->waiting, &q->settled);
+    dyd_status st = schedule_judge(answered, wants, &q->probes, &q->waiting, &q->settled);
     if (st != DYD_OK || q->probes.count == 0) return st;
     q->stage = e->stages;
-    dyd_wants all = *plan; /* waits */
-    *plan = q->held;
+    dyd_wants all = *wants; /* waits */
+    *wants = q->held;
     q->held = all;
   }
-  dyd_status st = dyd_probes_next(plan, &q->probes, &q->held);
-  plan->again = plan->count > 0;
-  if (st != DYD_OK || plan->again) return st;
-  dyd_probes_finish(plan, &q->probes, &q->held);
+  dyd_status st = dyd_probes_next(wants, &q->probes, &q->held);
+  wants->again = wants->count > 0;
+  if (st != DYD_OK || wants->again) return st;
+  dyd_probes_finish(wants, &q->probes, &q->held);
   dyd_probes_clear(&q->probes);
   dyd_wants_empty(&q->held);
   return DYD_OK;

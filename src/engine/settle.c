@@ -715,10 +715,10 @@ static void settled_sort(dyd_settled *s) {
 /* ---- pairs of firm sites ---- */
 
 /* Settles pairs of firm sites, by all sites. */
-static dyd_status settle_firm(dyd_settled_pair *pair, size_t pairs, const dyd_wants *plan, const dyd_dyadic *eps) {
-  const dyd_engine *e = plan->e;
-  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = plan->o->max_pairs, .cancel = &e->stop,
-                                  .threads = plan->o->threads, .no_filter = plan->o->no_filter};
+static dyd_status settle_firm(dyd_settled_pair *pair, size_t pairs, const dyd_wants *wants, const dyd_dyadic *eps) {
+  const dyd_engine *e = wants->e;
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = wants->o->max_pairs, .cancel = &e->stop,
+                                  .threads = wants->o->threads, .no_filter = wants->o->no_filter};
   DYD_OWNED(dyd_delaunay) *pd = NULL;
   size_t sites = dyd_sites_count(e->sites);
   dyd_firm_sites cores = {e, eps, dyd_alloc(sites, sizeof *cores.firm), NULL};
@@ -797,15 +797,15 @@ static dyd_status settled_append(dyd_settled *s, dyd_settled *fresh) {
   return DYD_OK;
 }
 
-static dyd_status settle_pairs(dyd_settled *fresh, dyd_settled *s, const dyd_wants *plan) {
-  const dyd_engine *e = plan->e;
+static dyd_status settle_pairs(dyd_settled *fresh, dyd_settled *s, const dyd_wants *wants) {
+  const dyd_engine *e = wants->e;
   dyd_settle_work work = {WORK + WORK_PER_SITE * dyd_sites_count(e->sites), PROOFS};
   size_t faces = dyd_delaunay_undecided_faces(e->pd);
   DYD_LOCAL(dyd_dyadic, eps);
   dyd_status st = dyd_firm_eps(&eps, e);
   for (size_t f = 0; st == DYD_OK && f < faces && !s->discs; f++)
     st = settle_face_pairs(fresh, s, &work, e, &eps, f, true);
-  if (st == DYD_OK && fresh->count) st = settle_firm(fresh->item, fresh->count, plan, &eps);
+  if (st == DYD_OK && fresh->count) st = settle_firm(fresh->item, fresh->count, wants, &eps);
   if (st == DYD_OK) st = settled_append(s, fresh); /* what firm sites do not settle, a point at a corner may */
   for (size_t f = 0; st == DYD_OK && work.sites && f < faces; f++)
     st = settle_face_pairs(fresh, s, &work, e, &eps, f, false);
@@ -827,19 +827,19 @@ static dyd_status any_core(bool *out, const dyd_engine *e) {
 }
 
 /* From FIRST_BITS on, and when all pairs are examined for the first time, if radii may be what keeps them open. */
-static dyd_status settle_is_due(bool *out, const dyd_settled *s, const dyd_wants *plan, int64_t bits) {
+static dyd_status settle_is_due(bool *out, const dyd_settled *s, const dyd_wants *wants, int64_t bits) {
   int64_t due = s->next > FIRST_BITS ? s->next : FIRST_BITS;
-  *out = bits >= due || bits >= plan->o->max_bits;
-  return *out || s->next ? DYD_OK : any_core(out, plan->e);
+  *out = bits >= due || bits >= wants->o->max_bits;
+  return *out || s->next ? DYD_OK : any_core(out, wants->e);
 }
 
-dyd_status dyd_settle(dyd_settled *s, const dyd_wants *plan) {
-  int64_t bits = most_bits(plan->e);
+dyd_status dyd_settle(dyd_settled *s, const dyd_wants *wants) {
+  int64_t bits = most_bits(wants->e);
   DYD_SCOPED(dyd_settled) fresh = {0};
   bool due;
-  dyd_status st = settle_is_due(&due, s, plan, bits);
+  dyd_status st = settle_is_due(&due, s, wants, bits);
   if (st != DYD_OK || !due) return st;
   s->next = dyd_bits_raised(bits, bits > 0 ? 3 * bits : 0, INT64_MAX);
-  st = settle_pairs(&fresh, s, plan);
+  st = settle_pairs(&fresh, s, wants);
   return st == DYD_OK ? settled_append(s, &fresh) : st;
 }

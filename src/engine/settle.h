@@ -75,6 +75,6 @@ bool dyd_is_settled(const dyd_settled *s, const dyd_pair *pair);
 /* Examines pairs in undecided faces with cores and points that can be narrowed, when these are known to more
  * bits than most pairs need, and again each time they are known to four times as many. DYD_CANCELLED when e->stop was
  * seen. Bounded: about as long as a few first stages of the sites. */
-dyd_status dyd_settle(dyd_settled *s, const dyd_wants *plan);
+dyd_status dyd_settle(dyd_settled *s, const dyd_wants *wants);
 
 #endif

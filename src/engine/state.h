@@ -6,15 +6,15 @@
  *   points.c        asking one point to narrow, measuring one again; answers of an earlier run; the statuses of
  *                   each stage
  *   wants.c          which points to narrow, and how far: a value
- *   ask.c           the loop: a question, its plan, narrowing, triangulating, until it is answered;
- *                   plans changed by a callback or a program
+ *   ask.c           the loop: a question, its wants, narrowing, triangulating, until it is answered;
+ *                   wants changed by a callback or a program
  *   run.c           the question of a run: does the goal hold, also one on the Voronoi diagram, and what to narrow
  *                   where it does not
  *   probe.c         a few points that go ahead of the others
  *   settle.c        pairs that no refinement decides
  *   nearest.c       the question after the nearest sites of a computable point
  *   ties.c          proofs about true points: ties, and points that are the same place
- *   converge.c      tables of runs, stage by stage, and the best plan, once all is known
+ *   converge.c      tables of runs, stage by stage, and the best choice, once all is known
  *   check.c         the harness of monotone refinement */
 #ifndef DYD_ENGINE_STATE_H
 #define DYD_ENGINE_STATE_H
@@ -86,7 +86,7 @@ typedef struct dyd_recalled dyd_recalled;
 
 /* Invariant: point is sorted by site; changed lists (with repeats) the sites narrowed since pd was last brought up
  * to date; pd = NULL before the first complete stage. Sites of points never asked hold the whole plane.
- * Only engine.c, points.c and ask.c write here once the engine has been started: functions that plan or judge take it
+ * Only engine.c, points.c and ask.c write here once the engine has been started: functions that choose or judge take it
  * const. */
 struct dyd_engine {
   dyd_sites *sites;

@@ -16,14 +16,14 @@ typedef struct level {
   bool begun;
 } level;
 
-static dyd_status level_ask(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status level_ask(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
   level *l = user;
   dyd_status st = DYD_OK;
   (void)err;
   *answered = l->begun;
   for (size_t i = 0; i < e->points && st == DYD_OK && !l->begun; i++)
-    if (!e->point[i].final && e->point[i].bits < l->bits) st = dyd_wants_add(plan, e->point[i].site, l->bits);
-  *answered = l->begun || !dyd_wants_count(plan);
+    if (!e->point[i].final && e->point[i].bits < l->bits) st = dyd_wants_add(wants, e->point[i].site, l->bits);
+  *answered = l->begun || !dyd_wants_count(wants);
   l->begun = true;
   return st;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* A plan: which points to narrow, and how far.
+/* Wants: which points to narrow, and how far.
  *
- * Every want asks for more than its point was asked for before, and for max_bits at most: a loop that carries out plans
+ * Every want asks for more than its point was asked for before, and for max_bits at most: a loop that carries out wants
  * until one is empty ends. Growth is geometric, so a run asks for at most about twice the bits it needs; with step_bits
  * it is that step instead, for tables of convergence. */
 #include "engine/wants.h"
@@ -33,7 +33,7 @@ void dyd_wants_empty(dyd_wants *p) {
   p->blocked = p->again = false;
 }
 
-static int plan_compare(const void *a, const void *b) {
+static int wants_compare(const void *a, const void *b) {
   const dyd_want *v = a, *w = b;
   return (v->point > w->point) - (v->point < w->point);
 }
@@ -41,7 +41,7 @@ static int plan_compare(const void *a, const void *b) {
 void dyd_wants_sort(dyd_wants *p) {
   size_t k = 1;
   while (k < p->count && p->item[k - 1].point < p->item[k].point) k++;
-  if (k < p->count) qsort(p->item, p->count, sizeof *p->item, plan_compare);
+  if (k < p->count) qsort(p->item, p->count, sizeof *p->item, wants_compare);
 }
 
 /* ---- growth ---- */
@@ -68,7 +68,7 @@ int64_t dyd_bits_first(const dyd_engine_options *o) {
   return bits < o->max_bits ? bits : o->max_bits;
 }
 
-static int64_t plan_first_bits(const dyd_refinable *point, const dyd_engine_options *o) {
+static int64_t want_first_bits(const dyd_refinable *point, const dyd_engine_options *o) {
   if (o->start_bits || !point->stream || o->schedule != DYD_SCHEDULE_ADAPTIVE) return dyd_bits_first(o);
   int64_t bits = dyd_stream_glance_bits(point->stream);
   return bits >= FIRST_IN_DOUBLES && bits < FIRST_BITS ? bits : FIRST_BITS;
@@ -76,7 +76,7 @@ static int64_t plan_first_bits(const dyd_refinable *point, const dyd_engine_opti
 
 /* ---- wants ---- */
 
-static size_t plan_number(const dyd_wants *p, const dyd_refinable *point) {
+static size_t wants_number(const dyd_wants *p, const dyd_refinable *point) {
   size_t sites = dyd_sites_count(p->e->sites);
   return point->site < sites ? p->guests + (size_t)(point - p->e->point) : point->site - sites;
 }
@@ -93,7 +93,7 @@ bool dyd_wants_can_narrow(dyd_wants *p, const dyd_refinable *point) {
 }
 
 dyd_want *dyd_wants_find(const dyd_wants *p, const dyd_refinable *point) {
-  uint32_t at = p->slot ? p->slot[plan_number(p, point)] : 0;
+  uint32_t at = p->slot ? p->slot[wants_number(p, point)] : 0;
   return at ? &p->item[at - 1] : NULL;
 }
 
@@ -105,7 +105,7 @@ void dyd_wants_mark(dyd_wants *p, const dyd_refinable *point, int64_t bits, dyd_
     p->failed = DYD_E_NOMEM;
     return;
   }
-  size_t number = plan_number(p, point);
+  size_t number = wants_number(p, point);
   if (!w) {
     w = &p->item[p->count++];
     p->slot[number] = (uint32_t)p->count;
@@ -120,7 +120,7 @@ void dyd_wants_mark_alone(dyd_wants *p, const dyd_refinable *point, int64_t bits
 void dyd_wants_first(dyd_wants *p) {
   for (size_t k = 0; k < p->e->points; k++) {
     const dyd_refinable *point = &p->e->point[k];
-    if (!point->asked) dyd_wants_mark_alone(p, point, plan_first_bits(point, p->o), DYD_REASON_FIRST);
+    if (!point->asked) dyd_wants_mark_alone(p, point, want_first_bits(point, p->o), DYD_REASON_FIRST);
   }
 }
 
@@ -135,7 +135,7 @@ dyd_status dyd_wants_add(dyd_wants *p, uint32_t site, int64_t bits) {
   const dyd_refinable *point = site < sites ? dyd_engine_find(p->e, site) : &p->guest[site - sites];
   if (!dyd_wants_can_narrow(p, point)) return DYD_OK;
   if (point->asked && bits <= point->bits) bits = dyd_bits_grown(point->bits, p->o);
-  if (bits == DYD_BITS_NEXT) bits = plan_first_bits(point, p->o);
+  if (bits == DYD_BITS_NEXT) bits = want_first_bits(point, p->o);
   dyd_wants_mark_alone(p, point, bits, DYD_REASON_QUESTION);
   return p->failed;
 }
@@ -156,30 +156,30 @@ static bool announce_is_due(dyd_rect *scratch, const dyd_refinable *p, const dyd
 
 /* Announces the wants first .. end-1 to their one source; *left is the number of calls still allowed. Wants that do not
  * fit into memory, or are refused, are not announced. */
-static void announce_source(uint64_t *left, const dyd_wants *plan, size_t first, size_t end) {
-  const dyd_engine *e = plan->e;
-  const dyd_source *source = &e->source[dyd_wants_point(plan, &plan->item[first])->source].source;
+static void announce_source(uint64_t *left, const dyd_wants *wants, size_t first, size_t end) {
+  const dyd_engine *e = wants->e;
+  const dyd_source *source = &e->source[dyd_wants_point(wants, &wants->item[first])->source].source;
   DYD_FREED dyd_request *list = dyd_alloc(end - first, sizeof *list);
   size_t count = 0;
   DYD_LOCAL(dyd_rect, scratch);
   for (size_t k = first; list && *left && k < end; k++) {
-    const dyd_want *w = &plan->item[k];
-    const dyd_refinable *p = dyd_wants_point(plan, w);
+    const dyd_want *w = &wants->item[k];
+    const dyd_refinable *p = dyd_wants_point(wants, w);
     if (!announce_is_due(&scratch, p, e, w->bits)) continue;
     --*left;
-    if (dyd_engine_request(&list[count], p, e, w->bits, plan->o->max_bits, NULL) == DYD_OK) count++;
+    if (dyd_engine_request(&list[count], p, e, w->bits, wants->o->max_bits, NULL) == DYD_OK) count++;
   }
   if (count) source->announce(source->user, list, count);
 }
 
-void dyd_wants_announce(const dyd_wants *plan, uint64_t most) {
-  for (size_t k = 0, end; k < plan->count; k = end) {
-    const dyd_refinable *p = dyd_wants_point(plan, &plan->item[k]);
-    for (end = k + 1; end < plan->count && !p->stream; end++) {
-      const dyd_refinable *next = dyd_wants_point(plan, &plan->item[end]);
+void dyd_wants_announce(const dyd_wants *wants, uint64_t most) {
+  for (size_t k = 0, end; k < wants->count; k = end) {
+    const dyd_refinable *p = dyd_wants_point(wants, &wants->item[k]);
+    for (end = k + 1; end < wants->count && !p->stream; end++) {
+      const dyd_refinable *next = dyd_wants_point(wants, &wants->item[end]);
       if (next->stream || next->source != p->source) break;
     }
-    if (!p->stream && plan->e->source[p->source].source.announce) announce_source(&most, plan, k, end);
+    if (!p->stream && wants->e->source[p->source].source.announce) announce_source(&most, wants, k, end);
   }
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* A plan: which points to narrow, and how far. A value: making one changes neither engine nor points. And how coarse
+/* Wants: which points to narrow, and how far. A value: making it changes neither engine nor points. And how coarse
  * the sites of a face are. */
 #ifndef DYD_ENGINE_WANTS_H
 #define DYD_ENGINE_WANTS_H
@@ -12,7 +12,7 @@ typedef struct dyd_want {
   int64_t bits;
   dyd_reason reason;
   uint32_t i, j;
-  bool sent; /* this was asked, as a probe, before the rest of the plan (probe.c) */
+  bool sent; /* this was asked, as a probe, before the rest (probe.c) */
 } dyd_want;
 
 /* Invariant: slot[k] is 1 + the place in item of point k, 0 where there is none; bits are more than the point was asked
@@ -31,17 +31,17 @@ struct dyd_wants {
   uint32_t missing;
 };
 
-/* Borrows e, o and the guests. Without memory the plan is `failed`. */
+/* Borrows e, o and the guests. Without memory `failed` says so. */
 void dyd_wants_init(dyd_wants *p, const dyd_engine *e, const dyd_engine_options *o, const dyd_refinable *guest,
                     size_t guests);
 void dyd_wants_clear(dyd_wants *p);
-/* Empties the plan and frees its contents. */
+/* Empties the list and frees its contents. */
 void dyd_wants_empty(dyd_wants *p);
 /* Puts the wants in the order of points; dyd_wants_find may not be used after it. */
 void dyd_wants_sort(dyd_wants *p);
 
 const dyd_refinable *dyd_wants_point(const dyd_wants *p, const dyd_want *w);
-/* Returns true if the point (NULL: a fixed site) can still be asked, now or under a larger max_bits. The plan remembers
+/* Returns true if the point (NULL: a fixed site) can still be asked, now or under a larger max_bits. The list remembers
  * the second. */
 bool dyd_wants_can_narrow(dyd_wants *p, const dyd_refinable *point);
 /* Adds a want; of several for one point the one that asks for most is kept, the first among equals. bits are cut to
@@ -49,11 +49,11 @@ bool dyd_wants_can_narrow(dyd_wants *p, const dyd_refinable *point);
 void dyd_wants_mark(dyd_wants *p, const dyd_refinable *point, int64_t bits, dyd_reason reason, uint32_t i, uint32_t j);
 /* The same for a reason that names no pair. */
 void dyd_wants_mark_alone(dyd_wants *p, const dyd_refinable *point, int64_t bits, dyd_reason reason);
-/* What the plan wants of a point; NULL: nothing. Borrowed until the plan changes. */
+/* What is wanted of a point; NULL: nothing. Borrowed until the list changes. */
 dyd_want *dyd_wants_find(const dyd_wants *p, const dyd_refinable *point);
 /* The points never asked, for the first stage. */
 void dyd_wants_first(dyd_wants *p);
-/* Tells the sources that want to know which of their points a plan, sorted, has, in the order in which
+/* Tells the sources that want to know which of their points sorted wants have, in the order in which
  * narrowing will come to them; `most` points of such sources at most. */
 void dyd_wants_announce(const dyd_wants *p, uint64_t most);
 

@@ -251,11 +251,11 @@ static void test_refused(void **state) {
   dyd_engine_free(e);
 }
 
-static dyd_status append_inside(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status append_inside(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
   dyd_engine *same = user;
   const double x = 7;
   dyd_rect r;
-  (void)plan, (void)e;
+  (void)wants, (void)e;
   assert_int_equal(DYD_E_ARG, dyd_engine_add_points(same, 1, &x, &x, err));
   assert_non_null(strstr(err->message, "at work"));
   dyd_rect_init(&r);

@@ -11,7 +11,7 @@ typedef struct left {
   int64_t bits;      /* wanted of both; DYD_BITS_NEXT: as the options grow */
   bool left, right;  /* answers */
   unsigned asked;    /* how often */
-  size_t planned;    /* points in the last plan */
+  size_t wanted;     /* points wanted last */
   double width;      /* of site 0 when last asked */
   dyd_engine *enter; /* entered from within, and cancelled before asking number cancel_at returns */
   unsigned cancel_at;
@@ -24,11 +24,11 @@ typedef struct left {
 
 static void enter_from_within(dyd_engine *e);
 
-static dyd_status ask_left(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status ask_left(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
   left *q = user;
   double a[4], b[4];
   assert_false(*answered);
-  assert_int_equal(0, dyd_wants_count(plan));
+  assert_int_equal(0, dyd_wants_count(wants));
   assert_int_equal(0, err->message[0]);
   if (q->enter && q->cancel_at == 0) enter_from_within(q->enter);
   if (++q->asked == q->cancel_at) dyd_engine_cancel(q->enter);
@@ -43,10 +43,10 @@ static dyd_status ask_left(bool *answered, dyd_wants *plan, void *user, const dy
   q->right = b[1] < a[0];
   q->width = a[1] - a[0];
   *answered = q->left || q->right || q->boast;
-  dyd_status st = dyd_wants_add(plan, 0, q->bits);
-  if (st == DYD_OK) st = dyd_wants_add(plan, other, q->bits);
-  if (st == DYD_OK && q->also) st = dyd_wants_add(plan, q->also, q->bits);
-  q->planned = dyd_wants_count(plan);
+  dyd_status st = dyd_wants_add(wants, 0, q->bits);
+  if (st == DYD_OK) st = dyd_wants_add(wants, other, q->bits);
+  if (st == DYD_OK && q->also) st = dyd_wants_add(wants, q->also, q->bits);
+  q->wanted = dyd_wants_count(wants);
   if (q->give && !q->mute) snprintf(err->message, sizeof err->message, "the question is foolish");
   return q->give ? q->give : q->ignores ? DYD_OK : st;
 }
@@ -119,7 +119,7 @@ static void test_fixpoint(void **state) {
   assert_true(dyd_engine_knows(e, 1));
   assert_int_equal(DYD_OUTCOME_FIXPOINT, put(e, &q, NULL, NULL));
   assert_int_equal(1, q.asked);
-  assert_int_equal(0, q.planned);
+  assert_int_equal(0, q.wanted);
   assert_int_equal(0, engine_counters(e).calls);
   q.also = 2; /* narrower once, to the end of the budget */
   assert_int_equal(DYD_OUTCOME_BUDGET, put(e, &q, NULL, NULL));
@@ -133,7 +133,7 @@ static void test_bits(void **state) {
   o.max_bits = 600;
   left q = {.bits = DYD_BITS_NEXT};
   assert_int_equal(DYD_OUTCOME_BUDGET, put(e, &q, &o, NULL));
-  assert_int_equal(0, q.planned);
+  assert_int_equal(0, q.wanted);
   assert_int_equal(600, engine_counters(e).bits_least);
   assert_int_equal(DYD_BUDGET_NONE, engine_counters(e).spent); /* of no run */
   o.max_bits = 1000;
@@ -166,12 +166,12 @@ static void test_steps(void **state) {
   dyd_engine_free(e);
 }
 
-static dyd_status ask_twice(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status ask_twice(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
   int64_t *bits = user;
   (void)err;
   *answered = dyd_engine_knows(e, 0);
-  for (int k = 0; k < 3; k++) assert_int_equal(DYD_OK, dyd_wants_add(plan, 0, bits[k]));
-  assert_int_equal(1, dyd_wants_count(plan));
+  for (int k = 0; k < 3; k++) assert_int_equal(DYD_OK, dyd_wants_add(wants, 0, bits[k]));
+  assert_int_equal(1, dyd_wants_count(wants));
   return DYD_OK;
 }
 
@@ -215,7 +215,7 @@ static void test_seconds(void **state) {
   o.seconds = 0.1;
   assert_int_equal(DYD_OUTCOME_BUDGET, put(e, &q, &o, NULL));
   assert_true(engine_counters(e).calls > 0);
-  assert_int_equal(2, q.planned);
+  assert_int_equal(2, q.wanted);
   dyd_sites_get_d(box, dyd_engine_sites(e), 0);
   assert_true(q.width == box[1] - box[0]);
   o.seconds = -1;

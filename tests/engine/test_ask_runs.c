@@ -11,7 +11,7 @@ static dyd_engine_options options(void) {
 }
 
 /* Asks whether all pairs are decided, and requests the ends of the others, as a user might. */
-static dyd_status ask_pairs(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status ask_pairs(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
   unsigned *asked = user;
   dyd_pair_list pairs = {0};
   (void)err;
@@ -22,8 +22,8 @@ static dyd_status ask_pairs(bool *answered, dyd_wants *plan, void *user, const d
   for (size_t k = 0; st == DYD_OK && k < pairs.count; k++) {
     if (pairs.item[k].status != DYD_INDETERMINATE) continue;
     *answered = false;
-    st = dyd_wants_add(plan, pairs.item[k].i, DYD_BITS_NEXT);
-    if (st == DYD_OK) st = dyd_wants_add(plan, pairs.item[k].j, DYD_BITS_NEXT);
+    st = dyd_wants_add(wants, pairs.item[k].i, DYD_BITS_NEXT);
+    if (st == DYD_OK) st = dyd_wants_add(wants, pairs.item[k].j, DYD_BITS_NEXT);
   }
   dyd_pair_list_clear(&pairs);
   return st;
@@ -67,8 +67,8 @@ static void test_triangulation(void **state) {
   dyd_engine_free(e);
 }
 
-static dyd_status ask_nothing(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
-  (void)answered, (void)plan, (void)e, (void)user, (void)err;
+static dyd_status ask_nothing(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
+  (void)answered, (void)wants, (void)e, (void)user, (void)err;
   return DYD_OK;
 }
 
@@ -99,13 +99,13 @@ typedef struct want {
   bool asked;
 } want;
 
-static dyd_status ask_once(bool *answered, dyd_wants *plan, void *user, const dyd_engine *e, dyd_error *err) {
+static dyd_status ask_once(bool *answered, dyd_wants *wants, void *user, const dyd_engine *e, dyd_error *err) {
   want *q = user;
   dyd_status st = DYD_OK;
   (void)e, (void)err;
   *answered = q->asked;
   q->asked = true;
-  for (int k = 0; st == DYD_OK && k < 3; k++) st = dyd_wants_add(plan, q->site[k], q->bits);
+  for (int k = 0; st == DYD_OK && k < 3; k++) st = dyd_wants_add(wants, q->site[k], q->bits);
   return st;
 }
 

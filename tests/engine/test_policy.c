@@ -13,11 +13,11 @@ typedef struct gambler {
   uint32_t beyond; /* added to a point's number */
 } gambler;
 
-static dyd_status gamble(dyd_wants *plan, void *user, const dyd_engine *e, const dyd_request *request, size_t count,
+static dyd_status gamble(dyd_wants *wants, void *user, const dyd_engine *e, const dyd_request *request, size_t count,
                          dyd_error *err) {
   gambler *g = user;
   test_random *r = g->random;
-  assert_int_equal(0, dyd_wants_count(plan));
+  assert_int_equal(0, dyd_wants_count(wants));
   assert_int_equal(0, err->message[0]);
   assert_true(count > 0);
   for (size_t k = 0; k < count; k++) assert_true(dyd_request_at(request, k)->point < dyd_engine_count(e));
@@ -31,9 +31,9 @@ static dyd_status gamble(dyd_wants *plan, void *user, const dyd_engine *e, const
     static const int64_t odd[] = {INT64_MIN, INT64_MAX, -1, 0, -(1 << 20), 5000};
     uint32_t site = (uint32_t)test_below(r, dyd_engine_count(e));
     int64_t bits = test_chance(r, 4) ? odd[test_below(r, 6)] : (int64_t)test_below(r, 90);
-    assert_int_equal(DYD_OK, dyd_wants_add(plan, site, bits));
+    assert_int_equal(DYD_OK, dyd_wants_add(wants, site, bits));
   }
-  if (g->beyond && g->calls >= g->at) dyd_wants_add(plan, (uint32_t)dyd_engine_count(e) - 1 + g->beyond, 9);
+  if (g->beyond && g->calls >= g->at) dyd_wants_add(wants, (uint32_t)dyd_engine_count(e) - 1 + g->beyond, 9);
   return g->calls >= g->at ? (dyd_status)g->give : DYD_OK;
 }
 

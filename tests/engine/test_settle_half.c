@@ -209,8 +209,8 @@ static void test_faces(void **state) {
     half_case_new(&c, &r, 160);
     run_coarsely(&c, &o, test_between(&r, 2, 6));
     if (dyd_engine_delaunay(c.e)) {
-      const dyd_wants plan = {.e = c.e, .o = &o};
-      assert_int_equal(DYD_OK, dyd_settle(&s, &plan));
+      const dyd_wants wants = {.e = c.e, .o = &o};
+      assert_int_equal(DYD_OK, dyd_settle(&s, &wants));
     }
     check_all_said(&c, s.item, s.count, &r);
     for (size_t k = 0; k < s.count; k++) said++, settled += dyd_pair_is_settled(&s.item[k]);
