@@ -9,10 +9,11 @@
 #include "voronoi/surd_point.h"
 #include <stdlib.h>
 
-const dyd_json_breaks dyd_json_forms[] = {[DYD_JSON_FLAT] = {"", ", ", ""},
-                                          [DYD_JSON_LINES] = {"", ",\n", ""},
-                                          [DYD_JSON_LIST] = {"\n", ",\n", "\n"},
-                                          [DYD_JSON_ROWS] = {"\n", ",\n", ""}};
+const dyd_json_breaks dyd_json_forms[] = {[DYD_JSON_FLAT] = {"", ", ", "", 3},
+                                          [DYD_JSON_LINES] = {"", ",\n", "", 3},
+                                          [DYD_JSON_LIST] = {"\n", ",\n", "\n", 3},
+                                          [DYD_JSON_ROWS] = {"\n", ",\n", "", 3},
+                                          [DYD_JSON_DENSE] = {"", ",", "", 2}};
 
 void dyd_json_begin(dyd_json *j, FILE *out) {
   dyd_sink_begin(&j->to, out);

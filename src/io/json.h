@@ -23,14 +23,17 @@ typedef enum dyd_json_form {
   DYD_JSON_FLAT,  /* nowhere */
   DYD_JSON_LINES, /* behind each comma */
   DYD_JSON_LIST,  /* before each member, and before the closing bracket */
-  DYD_JSON_ROWS   /* before each member */
+  DYD_JSON_ROWS,  /* before each member */
+  DYD_JSON_DENSE  /* nowhere, nor are there blanks; so it is with objects and arrays in it */
 } dyd_json_form;
 
 enum { DYD_JSON_DEPTH = 12 };
 
-/* The text before the first member, between members, and before the closing bracket, by form: at most 4 bytes. */
+/* The text before the first member, between members, and before the closing bracket, by form: at most 4 bytes; the
+ * length of what follows a name. */
 typedef struct dyd_json_breaks {
   const char *first, *between, *close;
+  size_t colon;
 } dyd_json_breaks;
 extern const dyd_json_breaks dyd_json_forms[];
 
@@ -63,7 +66,7 @@ static inline void dyd_json_name(dyd_json *j, const char *name) {
     *p++ = '"';
     memcpy(p, name, length);
     memcpy(p + length, "\": ", 3);
-    p += length + 3;
+    p += length + j->level[j->depth].form->colon;
   }
   j->to.end = p;
   j->level[j->depth].before = j->level[j->depth].form->between;
@@ -73,6 +76,7 @@ FILE *dyd_json_file(dyd_json *j, const char *name);
 static inline void dyd_json_open(dyd_json *j, const char *name, dyd_json_form form, char open, char close) {
   dyd_json_name(j, name);
   *j->to.end++ = open; /* there is room behind a name */
+  if (j->level[j->depth].form == &dyd_json_forms[DYD_JSON_DENSE]) form = DYD_JSON_DENSE;
   j->depth++;
   j->level[j->depth].form = &dyd_json_forms[form];
   j->level[j->depth].before = dyd_json_forms[form].first;

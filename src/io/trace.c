@@ -2,7 +2,7 @@
 /* Traces, whose format io.h describes: written, read back into an engine (recall), and replayed.
  *
  * A line of JSON for each narrowing and for each stage, made in memory and written with the digest of all lines so far.
- * All texts are words of the library and numbers, so nothing needs escaping.
+ * All texts are words of the library and numbers.
  *
  * Recall gives an engine the answers of a trace, which may end anywhere, also within a line: the run that wrote it may
  * have been killed. Replay puts the rectangles of a trace into a table of sites, stage by stage, and triangulates as
@@ -16,7 +16,7 @@
 #include "base/local.h"
 #include "engine/record.h"
 #include "engine/ties.h"
-#include "io/decimal.h"
+#include "io/json.h"
 #include "io/output.h"
 #include "io/read/text.h"
 #include "rect/sites_table.h"
@@ -42,10 +42,11 @@ static const char *const relation_name[] = {
 
 /* ---- writing ---- */
 
-/* Invariant: seen[i]: point i was narrowed; NULL once the fixed points are written. line: the part of the line under
- * way that is written, in text[0 .. size) once it is flushed. sync < 0: not requested. */
+/* Invariant: seen[i]: point i was narrowed; NULL once the fixed points are written. json: of the line under way, which
+ * is in text[0 .. size) once it is ended, without its closing bracket. sync < 0: not requested. */
 struct dyd_trace {
   FILE *out, *line;
+  dyd_json json;
   char *text;
   size_t size;
   uint64_t sum;
@@ -65,9 +66,17 @@ static dyd_status trace_to_disk(dyd_trace *t) {
   return done ? DYD_OK : DYD_E_IO;
 }
 
+static dyd_json *trace_open_line(dyd_trace *t) {
+  dyd_json_begin(&t->json, t->line);
+  dyd_json_object(&t->json, NULL, DYD_JSON_DENSE);
+  return &t->json;
+}
+
 /* Ends the line. */
 static dyd_status trace_line(dyd_trace *t) {
-  if (fflush(t->line) != 0) return DYD_E_NOMEM;
+  dyd_status st = dyd_json_end(&t->json, "");
+  if (st == DYD_OK && fflush(t->line) != 0) st = DYD_E_NOMEM;
+  if (st != DYD_OK) return st;
   t->sum = dyd_digest(t->sum, t->text, t->size);
   fwrite(t->text, 1, t->size, t->out);
   fprintf(t->out, ",\"sum\":\"%016" PRIx64 "\"}\n", t->sum);
@@ -83,21 +92,20 @@ dyd_status dyd_trace_sync(dyd_trace *t, double seconds, dyd_error *err) {
 
 static dyd_status trace_head(dyd_trace *t, const char *input, const dyd_engine_options *o,
                              const dyd_converge_options *c) {
-  dyd_status st = DYD_OK;
-  fprintf(t->line, "{\"format\":\"" FORMAT "\",\"points\":%zu", t->points);
-  if (input) fprintf(t->line, ",\"input\":\"%s\"", input);
-  fprintf(t->line,
-          ",\"schedule\":\"%s\",\"goal\":\"%s\",\"goal_bits\":%" PRId64 ",\"start_bits\":%" PRId64
-          ",\"step_bits\":%" PRId64 ",\"max_bits\":%" PRId64 ",\"max_pairs\":%zu",
-          dyd_schedule_text(o->schedule), dyd_goal_text(o->goal), o->goal_bits, o->start_bits, o->step_bits,
-          o->max_bits, o->max_pairs);
-  fprintf(t->line, ",\"of\":\"%s\"", dyd_converge_of_text(c->of));
-  if (c->window) {
-    fputs(",\"window\":[", t->line);
-    st = dyd_put_window(t->line, c->window, "\"", ",");
-    fputs("]", t->line);
-  }
-  return st == DYD_OK ? trace_line(t) : st;
+  dyd_json *j = trace_open_line(t);
+  dyd_json_word(j, "format", FORMAT);
+  dyd_json_index(j, "points", t->points);
+  if (input) dyd_json_word(j, "input", input);
+  dyd_json_word(j, "schedule", dyd_schedule_text(o->schedule));
+  dyd_json_word(j, "goal", dyd_goal_text(o->goal));
+  dyd_json_signed(j, "goal_bits", o->goal_bits);
+  dyd_json_signed(j, "start_bits", o->start_bits);
+  dyd_json_signed(j, "step_bits", o->step_bits);
+  dyd_json_signed(j, "max_bits", o->max_bits);
+  dyd_json_index(j, "max_pairs", o->max_pairs);
+  dyd_json_word(j, "of", dyd_converge_of_text(c->of));
+  if (c->window) dyd_json_window(j, "window", c->window, ",");
+  return trace_line(t);
 }
 
 static void trace_free(dyd_trace *t) {
@@ -105,27 +113,20 @@ static void trace_free(dyd_trace *t) {
   dyd_free_all(t->text, t->seen, t);
 }
 
-static dyd_status trace_side(FILE *out, const char *name, const dyd_interval *a) {
-  char *lo = dyd_end_text(a, false), *hi = dyd_end_text(a, true);
-  dyd_status st = lo && hi ? DYD_OK : DYD_E_NOMEM;
-  if (st == DYD_OK) fprintf(out, ",\"%s\":[\"%s\",\"%s\"]", name, lo, hi);
-  dyd_free_all(lo, hi);
-  return st;
-}
-
 /* Ends the line with the rectangle. */
 static dyd_status trace_rect(dyd_trace *t, const dyd_rect *r) {
-  dyd_status st = trace_side(t->line, "x", &r->x);
-  if (st == DYD_OK) st = trace_side(t->line, "y", &r->y);
-  return st == DYD_OK ? trace_line(t) : st;
+  dyd_json_sides(&t->json, r);
+  return trace_line(t);
 }
 
 /* An answer of an earlier trace. */
 static dyd_status trace_kept(void *user, uint32_t site, int64_t bits, const dyd_rect *r, bool final) {
-  dyd_trace *t = user;
-  fprintf(t->line, "{\"kept\":true,\"point\":%" PRIu32 ",\"bits\":%" PRId64, site, bits);
-  if (final) fputs(",\"final\":true", t->line);
-  return trace_rect(t, r);
+  dyd_json *j = trace_open_line(user);
+  dyd_json_bool(j, "kept", true);
+  dyd_json_index(j, "point", site);
+  dyd_json_signed(j, "bits", bits);
+  if (final) dyd_json_bool(j, "final", true);
+  return trace_rect(user, r);
 }
 
 dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const char *input,
@@ -161,10 +162,19 @@ void dyd_trace_step(void *trace, const dyd_step *step) {
   dyd_trace *t = trace;
   if (t->failed != DYD_OK) return;
   if (t->seen) t->seen[step->site] = true;
-  fprintf(t->line, "{\"stage\":%" PRIu64 ",\"point\":%" PRIu32 ",\"bits\":%" PRId64 ",\"called\":%s,\"why\":\"%s\"",
-          step->stage, step->site, step->bits, step->called ? "true" : "false", dyd_reason_text(step->reason));
-  if (step->final) fputs(",\"final\":true", t->line);
-  if (step->i != step->j) fprintf(t->line, ",\"pair\":[%" PRIu32 ",%" PRIu32 "]", step->i, step->j);
+  dyd_json *j = trace_open_line(t);
+  dyd_json_index(j, "stage", step->stage);
+  dyd_json_index(j, "point", step->site);
+  dyd_json_signed(j, "bits", step->bits);
+  dyd_json_bool(j, "called", step->called);
+  dyd_json_word(j, "why", dyd_reason_text(step->reason));
+  if (step->final) dyd_json_bool(j, "final", true);
+  if (step->i != step->j) {
+    dyd_json_array(j, "pair", DYD_JSON_FLAT);
+    dyd_json_index(j, NULL, step->i);
+    dyd_json_index(j, NULL, step->j);
+    dyd_json_close(j, 1);
+  }
   t->failed = trace_rect(t, step->rect);
 }
 
@@ -175,8 +185,12 @@ static dyd_status trace_fixed(dyd_trace *t, const dyd_delaunay *pd) {
   for (size_t i = 0; st == DYD_OK && i < t->points; i++) {
     if (t->seen[i]) continue;
     st = dyd_sites_get(&rect, dyd_delaunay_sites(pd), i);
-    fprintf(t->line, "{\"stage\":1,\"point\":%zu,\"why\":\"fixed\"", i);
-    if (st == DYD_OK) st = trace_rect(t, &rect);
+    if (st != DYD_OK) break;
+    dyd_json *j = trace_open_line(t);
+    dyd_json_index(j, "stage", 1);
+    dyd_json_index(j, "point", i);
+    dyd_json_word(j, "why", "fixed");
+    st = trace_rect(t, &rect);
   }
   free(t->seen);
   t->seen = NULL;
@@ -189,9 +203,11 @@ static dyd_status trace_proofs(dyd_trace *t) {
   const uint32_t *site;
   size_t count;
   for (; dyd_ties_proved(&relation, &site, &count, t->e, t->proofs); t->proofs++) {
-    fprintf(t->line, "{\"proved\":\"%s\",\"points\":[", relation_name[relation]);
-    for (size_t k = 0; k < count; k++) fprintf(t->line, k ? ",%" PRIu32 : "%" PRIu32, site[k]);
-    fputs("]", t->line);
+    dyd_json *j = trace_open_line(t);
+    dyd_json_word(j, "proved", relation_name[relation]);
+    dyd_json_array(j, "points", DYD_JSON_FLAT);
+    for (size_t k = 0; k < count; k++) dyd_json_index(j, NULL, site[k]);
+    dyd_json_close(j, 1);
     dyd_status st = trace_line(t);
     if (st != DYD_OK) return st;
   }
@@ -206,17 +222,22 @@ void dyd_trace_stage(void *trace, const dyd_progress *p) {
   if (t->failed == DYD_OK) t->failed = dyd_digest_pairs(&digest, pd);
   if (t->failed == DYD_OK) t->failed = trace_proofs(t);
   if (t->failed != DYD_OK) return;
-  fprintf(t->line,
-          "{\"stage\":%" PRIu64
-          ",\"done\":true,\"legal\":%zu,\"indeterminate\":%zu,\"tie\":%zu,\"statuses\":\"%016" PRIx64 "\"",
-          p->stage, p->count[DYD_LEGAL], p->count[DYD_INDETERMINATE], p->count[DYD_TIE], digest);
+  char sum[17];
+  snprintf(sum, sizeof sum, "%016" PRIx64, digest);
+  dyd_json *j = trace_open_line(t);
+  dyd_json_index(j, "stage", p->stage);
+  dyd_json_bool(j, "done", true);
+  dyd_json_index(j, "legal", p->count[DYD_LEGAL]);
+  dyd_json_index(j, "indeterminate", p->count[DYD_INDETERMINATE]);
+  dyd_json_index(j, "tie", p->count[DYD_TIE]);
+  dyd_json_word(j, "statuses", sum);
   t->failed = trace_line(t);
 }
 
 dyd_status dyd_trace_end(dyd_trace *t, dyd_outcome outcome, dyd_error *err) {
   if (!t) return dyd_fail_null(err);
   dyd_status st = t->failed;
-  fprintf(t->line, "{\"outcome\":\"%s\"", dyd_outcome_text(outcome));
+  dyd_json_word(trace_open_line(t), "outcome", dyd_outcome_text(outcome));
   if (st == DYD_OK) st = trace_line(t);
   if (st == DYD_OK && t->sync >= 0) st = trace_to_disk(t);
   if (st == DYD_OK)
