@@ -78,27 +78,20 @@ static dyd_status put_packed(FILE *out, const char *text, size_t size) {
 /* A list of points by their numbers on the page, as differences, which pack well: of pairs (i, j), sorted, i less that
  * of the pair before, and j - i; of triangles the same of their first corners, and the others less these. */
 typedef struct html_list {
-  FILE *out;
-  const char *between;
+  dyd_json *j;
   uint32_t before; /* the first number of the last thing */
 } html_list;
 
-/* "NAME": [ */
-static void html_list_begin(html_list *l, FILE *out, const char *name) {
-  *l = (html_list){.out = out, .between = ""};
-  fprintf(out, "\"%s\": [", name);
+static html_list html_list_begin(dyd_json *j, const char *name) {
+  dyd_json_array(j, name, DYD_JSON_DENSE);
+  return (html_list){.j = j};
 }
 
 /* A thing of `count` numbers. Modulo 2^32: a page has few enough points to read these as negative. */
 static void html_list_put(html_list *l, const uint32_t *number, int count) {
-  fprintf(l->out, "%s%" PRId32, l->between, (int32_t)(number[0] - l->before));
-  for (int k = 1; k < count; k++) fprintf(l->out, ",%" PRId32, (int32_t)(number[k] - number[0]));
+  dyd_json_signed(l->j, NULL, (int32_t)(number[0] - l->before));
+  for (int k = 1; k < count; k++) dyd_json_signed(l->j, NULL, (int32_t)(number[k] - number[0]));
   l->before = number[0];
-  l->between = ",";
-}
-
-static void html_list_end(html_list *l) {
-  fputc(']', l->out);
 }
 
 /* Pairs; and changes of statuses, all stages together. A page that holds more is no longer moved with ease. */
@@ -106,12 +99,12 @@ enum { MOST_PAIRS = 300000, MOST_CHANGES = 4 * MOST_PAIRS };
 
 #define NOT_SHOWN UINT32_MAX
 
-/* Writes members of a page of its own, each with a comma behind. */
-typedef dyd_status (*html_own_fn)(FILE *out, const dyd_output *o);
+/* Writes members that not every page has. */
+typedef dyd_status (*html_own_fn)(dyd_json *j, const dyd_output *o);
 
 /* All borrowed but number and made. Set r and kind, and what differs from the triangulation of a plane. */
 typedef struct html_scene {
-  FILE *out; /* JSON */
+  dyd_json *j;
   const dyd_result *r;
   const char *kind; /* "delaunay", "voronoi", "converge", "plan" */
   html_own_fn own;
@@ -241,66 +234,64 @@ static const char *layer_name(dyd_content content) {
   return name[content] ? name[content] : "pairs";
 }
 
+/* A member in the line of the one before. */
+static const char *on_line(dyd_json *j, const char *name) {
+  dyd_json_break(j, ", ");
+  return name;
+}
+
 /* The opening of the object; o->content is the layer that is shown first. */
-static dyd_status html_head(const html_scene *s, const dyd_output *o) {
-  FILE *out = s->out;
+static void html_head(const html_scene *s, const dyd_output *o) {
+  dyd_json *j = s->j;
   const dyd_result *r = s->r;
   const dyd_engine *e = r->sphere ? dyd_sphere_images(r->sphere) : r->engine;
   int64_t bits;
   dyd_goal goal = dyd_engine_goal(&bits, e);
-  dyd_json j;
-  dyd_json_begin(&j, out);
-  dyd_json_head(&j, "dyadel html 1", o);
-  if (o->name) dyd_json_text(&j, "name", o->name);
-  if (dyd_unit_of(r->epsg)) dyd_json_word(&j, "length_unit", dyd_unit_of(r->epsg));
-  dyd_json_confidence(&j, r->engine);
-  dyd_json_end(&j, ",\n");
-  fprintf(out,
-          "\"kind\": \"%s\", \"layer\": \"%s\", \"outcome\": \"%s\", \"goal\": \"%s\", \"goal_bits\": %" PRId64
-          ", \"capped\": %s, \"discs\": %s,\n\"sites\": %zu, \"window\": ",
-          s->kind, layer_name(o->content), dyd_outcome_text(dyd_engine_outcome(e)), dyd_goal_text(goal), bits,
-          dyd_delaunay_is_capped(r->pd) ? "true" : "false", r->discs ? "true" : "false", r->count);
-  dyd_json_begin(&j, out);
-  dyd_json_window(&j, NULL, s->shown, ", ");
-  if (r->graph_name) dyd_json_break(&j, ",\n");
-  if (r->graph_name) dyd_json_word(&j, "graph", r->graph_name);
-  return dyd_json_end(&j, ",\n");
+  dyd_json_head(j, "dyadel html 1", o);
+  if (o->name) dyd_json_text(j, "name", o->name);
+  if (dyd_unit_of(r->epsg)) dyd_json_word(j, "length_unit", dyd_unit_of(r->epsg));
+  dyd_json_confidence(j, r->engine);
+  dyd_json_word(j, "kind", s->kind);
+  dyd_json_word(j, on_line(j, "layer"), layer_name(o->content));
+  dyd_json_word(j, on_line(j, "outcome"), dyd_outcome_text(dyd_engine_outcome(e)));
+  dyd_json_word(j, on_line(j, "goal"), dyd_goal_text(goal));
+  dyd_json_signed(j, on_line(j, "goal_bits"), bits);
+  dyd_json_bool(j, on_line(j, "capped"), dyd_delaunay_is_capped(r->pd));
+  dyd_json_bool(j, on_line(j, "discs"), r->discs);
+  dyd_json_index(j, "sites", r->count);
+  dyd_json_window(j, on_line(j, "window"), s->shown, ", ");
+  if (r->graph_name) dyd_json_word(j, "graph", r->graph_name);
 }
 
 /* ---- points ---- */
 
 /* row: NULL on a globe, where no point is on the hull. */
-static dyd_status html_point(const html_scene *s, uint32_t i, const dyd_site_row *row) {
+static void html_point(const html_scene *s, uint32_t i, const dyd_site_row *row) {
   const double *radius = s->r->tolerance ? dyd_tolerance_get(s->r->tolerance)->points : NULL;
-  dyd_json j;
+  dyd_json *j = s->j;
   DYD_LOCAL(dyd_rect, rect);
-  dyd_json_begin(&j, s->out);
-  dyd_json_break(&j, s->number[i] ? ",\n" : "\n");
-  dyd_json_object(&j, NULL, DYD_JSON_FLAT);
-  dyd_json_site(&j, "i", s->r->engine, i);
-  if (dyd_json_good(&j, s->r->sphere ? dyd_sphere_rect(&rect, s->r->sphere, i) : dyd_sites_get(&rect, s->r->sites, i)))
-    dyd_json_sides(&j, &rect);
-  dyd_json_ids(&j, s->r->engine, &i, 0);
-  if (row) dyd_json_word(&j, "hull", row->hull);
+  dyd_json_object(j, NULL, DYD_JSON_FLAT);
+  dyd_json_site(j, "i", s->r->engine, i);
+  if (dyd_json_good(j, s->r->sphere ? dyd_sphere_rect(&rect, s->r->sphere, i) : dyd_sites_get(&rect, s->r->sites, i)))
+    dyd_json_sides(j, &rect);
+  dyd_json_ids(j, s->r->engine, &i, 0);
+  if (row) dyd_json_word(j, "hull", row->hull);
   if (radius) {
     char text[DYD_DECIMAL_SIZE] = "null"; /* no motion changes anything */
     if (isfinite(radius[i])) dyd_decimal_directed(text, radius[i], 6, DYD_DOWN);
-    dyd_json_raw(&j, "rho", text);
+    dyd_json_raw(j, "rho", text);
   }
-  return dyd_json_end(&j, "}");
+  dyd_json_close(j, 1);
 }
 
 static dyd_status html_points(const html_scene *s) {
   DYD_FREED dyd_site_row *rows = NULL;
-  dyd_json j;
   dyd_status st = s->r->sphere ? DYD_OK : dyd_result_sites(&rows, s->r);
-  fputs("\"points\": [", s->out);
-  for (uint32_t i = 0; i < s->r->count && st == DYD_OK; i++)
-    if (s->number[i] != NOT_SHOWN) st = html_point(s, i, rows ? &rows[i] : NULL);
-  fputs("],\n", s->out);
-  dyd_json_begin(&j, s->out);
-  dyd_json_aliases(&j, s->r->engine, s->r->sphere);
-  dyd_json_end(&j, ",\n");
+  dyd_json_array(s->j, "points", DYD_JSON_ROWS);
+  for (uint32_t i = 0; i < s->r->count && st == DYD_OK && s->j->st == DYD_OK; i++)
+    if (s->number[i] != NOT_SHOWN) html_point(s, i, rows ? &rows[i] : NULL);
+  dyd_json_close(s->j, 1);
+  dyd_json_aliases(s->j, s->r->engine, s->r->sphere);
   return st;
 }
 
@@ -314,16 +305,14 @@ static bool scene_sees_triangle(const html_scene *s, const uint32_t v[3]) {
 /* Beside a graph there are none. */
 static dyd_status html_triangles(const html_scene *s) {
   DYD_SCOPED(dyd_triangle_list) list = {0};
-  html_list l;
   dyd_status st = s->r->graph_name ? DYD_OK : dyd_result_triangles(&list, s->r);
-  html_list_begin(&l, s->out, "triangles");
+  html_list l = html_list_begin(s->j, "triangles");
   for (size_t k = 0; k < list.count; k++) {
     const uint32_t *v = list.item[k].v;
     if (scene_sees_triangle(s, v))
       html_list_put(&l, (uint32_t[]){s->number[v[0]], s->number[v[1]], s->number[v[2]]}, 3);
   }
-  html_list_end(&l);
-  fputs(",\n", s->out);
+  dyd_json_close(s->j, 1);
   return st;
 }
 
@@ -333,13 +322,11 @@ static void html_changes(const html_scene *s, size_t stage, dyd_pair_status stat
   const dyd_history *h = s->history;
   const dyd_pair *pair = h ? h->change : s->r->pairs.item;
   size_t end = h ? dyd_history_changes_end(h, stage) : s->r->pairs.count;
-  html_list l;
-  html_list_begin(&l, s->out, dyd_pair_status_text(status));
+  html_list l = html_list_begin(s->j, dyd_pair_status_text(status));
   for (const dyd_pair *p = pair + (h ? h->change_begin[stage] : 0); p < pair + end; p++)
     if (p->status == status && scene_sees_pair(s, p))
       html_list_put(&l, (uint32_t[]){s->number[p->i], s->number[p->j]}, 2);
-  html_list_end(&l);
-  fputs(", ", s->out);
+  dyd_json_close(s->j, 1);
 }
 
 /* Returns true if box number k of the history is the one that its site has in the end. */
@@ -354,47 +341,46 @@ static bool is_last_box(const html_scene *s, size_t k) {
  * the first stage, where that goes without saying. */
 static void html_boxes(const html_scene *s, size_t stage, bool last) {
   const dyd_history *h = s->history;
-  const char *between = "";
-  fprintf(s->out, "\"%s\": [", last ? "final" : "boxes");
+  dyd_json_array(s->j, last ? "final" : "boxes", DYD_JSON_DENSE);
   for (size_t k = h ? h->box_begin[stage] : 0; h && k < dyd_history_boxes_end(h, stage); k++) {
     uint32_t n = s->number[h->box[k].site];
     if (n == NOT_SHOWN || is_last_box(s, k) != last || (last && stage == 0)) continue;
-    fprintf(s->out, "%s%" PRIu32, between, n);
-    for (int e = 0; e < 4 && !last; e++) {
-      fputc(',', s->out);
-      dyd_decimal_put(s->out, h->box[k].box[e], e & 1 ? DYD_UP : DYD_DOWN, "null");
-    }
-    between = ",";
+    dyd_json_index(s->j, NULL, n);
+    for (int e = 0; e < 4 && !last; e++) dyd_json_decimal(s->j, NULL, h->box[k].box[e], e & 1 ? DYD_UP : DYD_DOWN);
   }
-  fputs("]", s->out);
+  dyd_json_close(s->j, 1);
 }
 
 static dyd_status html_body(const html_scene *s) {
   dyd_status st = html_points(s);
   if (st == DYD_OK) st = html_triangles(s);
-  fputs("\"stages\": [", s->out);
+  dyd_json_array(s->j, "stages", DYD_JSON_LIST);
   for (size_t k = 0; k < (s->history ? s->history->stages : 1); k++) {
-    fputs(k ? ",\n{" : "\n{", s->out);
+    dyd_json_object(s->j, NULL, DYD_JSON_FLAT);
     for (int status = DYD_ILLEGAL; status <= DYD_LEGAL; status++) html_changes(s, k, (dyd_pair_status)status);
     html_boxes(s, k, false);
-    fputs(", ", s->out);
     html_boxes(s, k, true);
-    fputs("}", s->out);
+    dyd_json_close(s->j, 1);
   }
-  fputs("\n]", s->out);
+  dyd_json_close(s->j, 1);
   return st;
 }
 
 /* The object of a page: its head, its own members, then "points", "aliases", "triangles", "stages". */
-static dyd_status html_scene_write(html_scene *s, const dyd_output *o) {
+static dyd_status html_scene_write(html_scene *s, FILE *out, const dyd_output *o) {
+  dyd_json j;
+  dyd_json_begin(&j, out);
+  s->j = &j;
   dyd_status st = html_scene_init(s, o->err);
-  if (st == DYD_OK) st = html_head(s, o);
-  if (st == DYD_OK) st = s->own(s->out, o);
+  if (st == DYD_OK) {
+    html_head(s, o);
+    st = s->own(&j, o);
+  }
   if (st == DYD_OK) st = html_body(s);
-  fputs("}\n", s->out);
+  dyd_json_good(&j, st);
   dyd_history_free(s->made);
   free(s->number);
-  return st;
+  return dyd_json_end(&j, "}\n");
 }
 
 /* A page of r, with what `own` writes. */
@@ -403,7 +389,7 @@ static dyd_status html_write(const dyd_output *o, const dyd_result *r, const cha
   size_t size = 0;
   FILE *to = open_memstream(&text, &size);
   if (!to) return DYD_E_NOMEM;
-  dyd_status st = html_scene_write(&(html_scene){.out = to, .r = r, .kind = kind, .own = own}, o);
+  dyd_status st = html_scene_write(&(html_scene){.r = r, .kind = kind, .own = own}, to, o);
   if ((fclose(to) != 0 || !text) && st == DYD_OK) st = DYD_E_NOMEM;
   if (st != DYD_OK) return st;
   fwrite(dyd_html_before, 1, dyd_html_before_size, o->out);
@@ -415,14 +401,11 @@ static dyd_status html_write(const dyd_output *o, const dyd_result *r, const cha
 /* ---- runs, triangulations, graphs ---- */
 
 /* The table of convergence, as json has it; the page shows its row next to the triangulation. */
-static dyd_status html_table(FILE *out, const dyd_output *o) {
+static dyd_status html_table(dyd_json *j, const dyd_output *o) {
   dyd_output table = *o;
-  table.out = out;
+  table.out = dyd_json_file(j, "convergence");
   table.format = DYD_FORMAT_JSON;
-  fputs("\"convergence\": ", out);
-  dyd_status st = dyd_convergence_json(&table);
-  fputs(",\n", out);
-  return st;
+  return dyd_convergence_json(&table);
 }
 
 static dyd_status html_convergence(const dyd_output *o) {
@@ -433,39 +416,47 @@ static dyd_status html_convergence(const dyd_output *o) {
 }
 
 /* Which surface; up to which motion of all points nothing changes at all. */
-static dyd_status html_whole(FILE *out, const dyd_output *o) {
+static dyd_status html_whole(dyd_json *j, const dyd_output *o) {
   const dyd_result *r = o->what;
-  double lo, hi;
-  if (r->sphere) fputs("\"surface\": \"sphere\",\n", out);
-  dyd_json j;
-  if (!r->tolerance) return DYD_OK;
-  lo = dyd_tolerance_get(r->tolerance)->lo, hi = dyd_tolerance_get(r->tolerance)->hi;
-  dyd_json_begin(&j, out);
-  dyd_json_decimals(&j, "tolerance", lo, hi);
-  return dyd_json_end(&j, ",\n");
+  if (r->sphere) dyd_json_word(j, "surface", "sphere");
+  if (r->tolerance)
+    dyd_json_decimals(j, "tolerance", dyd_tolerance_get(r->tolerance)->lo, dyd_tolerance_get(r->tolerance)->hi);
+  return DYD_OK;
 }
 
 /* Its points, in order: row, half-widths now and needed, pairs decided and left; and which rank decides each pair. */
-static dyd_status html_plan(FILE *out, const dyd_output *o) {
+static dyd_status html_plan(dyd_json *j, const dyd_output *o) {
   const dyd_result *r = o->what;
   const dyd_survey_row *row;
   const dyd_survey_pair *pair;
   const size_t rows = dyd_survey_rows(&row, r->survey), pairs = dyd_survey_pairs(&pair, r->survey);
   char text[DYD_DECIMAL_SIZE];
   double error;
-  fputs("\"plan\": {\"points\": [", out);
+  dyd_json_object(j, "plan", DYD_JSON_FLAT);
+  dyd_json_array(j, "points", DYD_JSON_DENSE);
   for (size_t k = 0; k < rows; k++) {
-    fprintf(out, "%s[%zu,", k ? "," : "", dyd_engine_row(r->engine, row[k].site));
-    dyd_decimal_put(out, row[k].now, DYD_UP, "null");
+    dyd_json_array(j, NULL, DYD_JSON_DENSE);
+    dyd_json_site(j, NULL, r->engine, row[k].site);
+    dyd_json_decimal(j, NULL, row[k].now, DYD_UP);
     dyd_decimal_within(text, &error, row[k].needed, row[k].needed);
-    fprintf(out, ",%s,%zu,%zu]", text, row[k].decided, row[k].left);
+    dyd_json_raw(j, NULL, text);
+    dyd_json_index(j, NULL, row[k].decided);
+    dyd_json_index(j, NULL, row[k].left);
+    dyd_json_close(j, 1);
   }
-  fputs("], \"pairs\": [", out);
-  for (size_t k = 0; k < pairs; k++)
-    fprintf(out, "%s[%zu,%zu,%zu]", k ? "," : "", dyd_engine_row(r->engine, pair[k].i),
-            dyd_engine_row(r->engine, pair[k].j), pair[k].row == SIZE_MAX ? 0 : pair[k].row + 1);
-  fprintf(out, "], \"finished\": %s},\n", dyd_survey_get(r->survey)->cut ? "false" : "true");
-  return html_whole(out, o);
+  dyd_json_close(j, 1);
+  dyd_json_array(j, "pairs", DYD_JSON_DENSE);
+  for (size_t k = 0; k < pairs; k++) {
+    dyd_json_array(j, NULL, DYD_JSON_DENSE);
+    dyd_json_site(j, NULL, r->engine, pair[k].i);
+    dyd_json_site(j, NULL, r->engine, pair[k].j);
+    dyd_json_index(j, NULL, pair[k].row == SIZE_MAX ? 0 : pair[k].row + 1);
+    dyd_json_close(j, 1);
+  }
+  dyd_json_close(j, 1);
+  dyd_json_bool(j, "finished", !dyd_survey_get(r->survey)->cut);
+  dyd_json_close(j, 1);
+  return html_whole(j, o);
 }
 
 static dyd_status html_plan_of(const dyd_output *o) {
@@ -480,11 +471,10 @@ static dyd_status html_triangulation(const dyd_output *o) {
 
 /* All borrowed. */
 typedef struct html_diagram {
-  FILE *out;
+  dyd_json *j;
   const dyd_diagram *d;
   dyd_error *err;
   double origin[2], unit;
-  bool any; /* is there one in the list that is written? */
 } html_diagram;
 
 static int diagram_unit(html_diagram *g) {
@@ -502,104 +492,90 @@ static int diagram_unit(html_diagram *g) {
 }
 
 /* The number of units; last is that of the place before, and becomes this one. */
-static void put_place(html_diagram *g, double x, double y, int64_t last[2], const char *before) {
+static void put_place(html_diagram *g, double x, double y, int64_t last[2]) {
   int64_t now[2] = {(int64_t)llround((x - g->origin[0]) / g->unit), (int64_t)llround((y - g->origin[1]) / g->unit)};
-  fprintf(g->out, "%s%" PRId64 ",%" PRId64, before, now[0] - last[0], now[1] - last[1]);
-  last[0] = now[0];
-  last[1] = now[1];
+  for (int axis = 0; axis < 2; axis++) {
+    dyd_json_signed(g->j, NULL, now[axis] - last[axis]);
+    last[axis] = now[axis];
+  }
 }
 
-static void put_polygon(html_diagram *g, const dyd_polygon *p) {
+static void put_polygon(html_diagram *g, const char *name, const dyd_polygon *p) {
   int64_t last[2] = {0, 0};
-  fputc('[', g->out);
+  dyd_json_array(g->j, name, DYD_JSON_DENSE);
   for (size_t k = 0; k < p->count; k++)
-    put_place(g, dyd_dyadic_get_d(&p->vertex[k].x, DYD_DOWN), dyd_dyadic_get_d(&p->vertex[k].y, DYD_DOWN), last,
-              k ? "," : "");
-  fputc(']', g->out);
+    put_place(g, dyd_dyadic_get_d(&p->vertex[k].x, DYD_DOWN), dyd_dyadic_get_d(&p->vertex[k].y, DYD_DOWN), last);
+  dyd_json_close(g->j, 1);
 }
 
 static dyd_status html_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
   html_diagram *g = context;
   DYD_SCOPED(dyd_polygon) inner = {0};
   DYD_SCOPED(dyd_polygon_list) outer = {0};
-  dyd_json j;
+  dyd_json *j = g->j;
   if (!row->present) return DYD_OK;
   dyd_status st = dyd_shape_inner(&inner, shape);
   if (st == DYD_OK) st = dyd_shape_outer(&outer, shape);
-  dyd_json_begin(&j, g->out);
-  dyd_json_break(&j, g->any ? ",\n" : "\n");
-  dyd_json_object(&j, NULL, DYD_JSON_FLAT);
-  dyd_json_site(&j, "i", g->d->engine, i);
-  dyd_json_decimals(&j, "area", row->area[0], row->area[1]);
-  dyd_json_decimal(&j, "undetermined", dyd_cell_undetermined(row), DYD_UP);
-  dyd_json_file(&j, "inner");
-  put_polygon(g, &inner);
-  fputs(", \"outer\": [", g->out);
-  for (size_t k = 0; k < outer.count; k++) {
-    if (k) fputc(',', g->out);
-    put_polygon(g, &outer.item[k]);
-  }
-  fputs("]}", g->out);
-  g->any = true;
+  dyd_json_object(j, NULL, DYD_JSON_FLAT);
+  dyd_json_site(j, "i", g->d->engine, i);
+  dyd_json_decimals(j, "area", row->area[0], row->area[1]);
+  dyd_json_decimal(j, "undetermined", dyd_cell_undetermined(row), DYD_UP);
+  put_polygon(g, "inner", &inner);
+  dyd_json_array(j, "outer", DYD_JSON_DENSE);
+  for (size_t k = 0; k < outer.count; k++) put_polygon(g, NULL, &outer.item[k]);
+  dyd_json_close(j, 2);
   return st;
 }
 
 /* A tile is a cell of one choice: all its rings are "outer", and none is certain. */
 static dyd_status html_tiles(html_diagram *g) {
   DYD_SCOPED(dyd_tiles) t = {0};
-  dyd_json j;
+  dyd_json *j = g->j;
   dyd_status st = dyd_diagram_tiles(&t, g->d, false, g->err);
   for (size_t r = 0, end = 0; r < t.count && st == DYD_OK;) {
-    dyd_json_begin(&j, g->out);
-    dyd_json_break(&j, r ? ",\n" : "\n");
-    dyd_json_object(&j, NULL, DYD_JSON_FLAT);
-    dyd_json_site(&j, "i", g->d->engine, t.site[r]);
-    dyd_json_decimals(&j, "area", t.bound[2 * r], t.bound[2 * r + 1]);
-    dyd_json_decimal(&j, "tile_area", dyd_diagram_tile(&end, g->d, &t), DYD_UP);
-    st = dyd_json_end(&j, ", \"inner\": [], \"outer\": [");
-    for (size_t first = r; r < end; r++) {
+    dyd_json_object(j, NULL, DYD_JSON_FLAT);
+    dyd_json_site(j, "i", g->d->engine, t.site[r]);
+    dyd_json_decimals(j, "area", t.bound[2 * r], t.bound[2 * r + 1]);
+    dyd_json_decimal(j, "tile_area", dyd_diagram_tile(&end, g->d, &t), DYD_UP);
+    put_polygon(g, "inner", &(dyd_polygon){0});
+    dyd_json_array(j, "outer", DYD_JSON_DENSE);
+    for (; r < end; r++) {
       int64_t last[2] = {0, 0};
-      fputs(r > first ? ",[" : "[", g->out);
-      for (size_t k = t.offset[r]; k < t.offset[r + 1]; k++)
-        put_place(g, t.xy[2 * k], t.xy[2 * k + 1], last, k > t.offset[r] ? "," : "");
-      fputc(']', g->out);
+      dyd_json_array(j, NULL, DYD_JSON_DENSE);
+      for (size_t k = t.offset[r]; k < t.offset[r + 1]; k++) put_place(g, t.xy[2 * k], t.xy[2 * k + 1], last);
+      dyd_json_close(j, 1);
     }
-    fputs("]}", g->out);
+    dyd_json_close(j, 2);
   }
   return st;
 }
 
-static dyd_status html_vertices(html_diagram *g) {
+static void html_vertices(html_diagram *g) {
   const dyd_diagram *d = g->d;
-  dyd_json j;
-  dyd_json_begin(&j, g->out);
-  dyd_json_array(&j, "vertices", DYD_JSON_ROWS);
-  for (size_t k = 0; k < dyd_diagram_vertices(d) && j.st == DYD_OK; k++) {
+  dyd_json *j = g->j;
+  dyd_json_array(j, "vertices", DYD_JSON_ROWS);
+  for (size_t k = 0; k < dyd_diagram_vertices(d) && j->st == DYD_OK; k++) {
     DYD_SCOPED(dyd_index_list) sites = {0};
     if (!dyd_diagram_vertex_in_window(d, k)) continue;
-    dyd_json_good(&j, dyd_diagram_vertex_sites(&sites, d, k));
-    dyd_json_object(&j, NULL, DYD_JSON_FLAT);
-    dyd_json_sites(&j, "sites", d->engine, &sites);
-    dyd_json_box(&j, false, d->vertex[k]);
-    dyd_json_close(&j, 1);
+    dyd_json_good(j, dyd_diagram_vertex_sites(&sites, d, k));
+    dyd_json_object(j, NULL, DYD_JSON_FLAT);
+    dyd_json_sites(j, "sites", d->engine, &sites);
+    dyd_json_box(j, false, d->vertex[k]);
+    dyd_json_close(j, 1);
   }
-  return dyd_json_end(&j, "],\n");
+  dyd_json_close(j, 1);
 }
 
 static dyd_status html_region(void *context, size_t face, const double box[4]) {
   html_diagram *g = context;
   DYD_SCOPED(dyd_index_list) sites = {0};
   bool outer;
-  dyd_json j;
   if (!box) return DYD_OK;
   dyd_status st = dyd_delaunay_face(&sites, &outer, g->d->pd, face);
-  dyd_json_begin(&j, g->out);
-  dyd_json_break(&j, g->any ? ",\n" : "\n");
-  dyd_json_object(&j, NULL, DYD_JSON_FLAT);
-  dyd_json_sites(&j, "sites", g->d->engine, &sites);
-  dyd_json_box(&j, false, box);
-  dyd_json_end(&j, "}");
-  g->any = true;
+  dyd_json_object(g->j, NULL, DYD_JSON_FLAT);
+  dyd_json_sites(g->j, "sites", g->d->engine, &sites);
+  dyd_json_box(g->j, false, box);
+  dyd_json_close(g->j, 1);
   return st;
 }
 
@@ -609,8 +585,7 @@ static dyd_status html_edges(html_diagram *g) {
   size_t count = 0;
   double box[2][4];
   dyd_status st = dyd_diagram_edges(&edge, &count, g->d);
-  const char *between = "";
-  fputs("\"edges\": [", g->out);
+  dyd_json_array(g->j, "edges", DYD_JSON_DENSE);
   for (size_t k = 0; k < count; k++) {
     int64_t last[2] = {0, 0};
     double z[2][2], w[4];
@@ -618,37 +593,30 @@ static dyd_status html_edges(html_diagram *g) {
     for (int c = 0; c < 4; c++) z[c >> 1][c & 1] = box[c >> 1][2 * (c & 1)] / 2 + box[c >> 1][2 * (c & 1) + 1] / 2;
     dyd_rect_get_d(w, &g->d->window);
     if (!dyd_clip_segment(z, w)) continue;
-    put_place(g, z[0][0], z[0][1], last, between);
-    put_place(g, z[1][0], z[1][1], last, ",");
-    between = ",";
+    for (int c = 0; c < 2; c++) put_place(g, z[c][0], z[c][1], last);
   }
-  fputs("],\n", g->out);
+  dyd_json_close(g->j, 1);
   return st;
 }
 
 /* Cells come first, as they give the bounds. */
-static dyd_status html_diagram_parts(FILE *to, const dyd_output *page) {
+static dyd_status html_diagram_parts(dyd_json *j, const dyd_output *page) {
   const dyd_diagram *d = page->what;
-  html_diagram g = {.out = to, .d = d, .err = page->err};
-  int unit = diagram_unit(&g);
-  dyd_json j;
-  fprintf(to, "\"unit\": %d, \"origin\": [", unit);
-  dyd_decimal_put_near(to, g.origin[0]);
-  fputs(", ", to);
-  dyd_decimal_put_near(to, g.origin[1]);
-  fprintf(to, "], \"flatten_bits\": %" PRId64 ",\n\"cells\": [", d->bits);
+  html_diagram g = {.j = j, .d = d, .err = page->err};
+  dyd_json_signed(j, "unit", diagram_unit(&g));
+  dyd_json_array(j, on_line(j, "origin"), DYD_JSON_FLAT);
+  for (int axis = 0; axis < 2; axis++) dyd_decimal_put_near(dyd_json_file(j, NULL), g.origin[axis]);
+  dyd_json_close(j, 1);
+  dyd_json_signed(j, on_line(j, "flatten_bits"), d->bits);
+  dyd_json_array(j, "cells", DYD_JSON_ROWS);
   dyd_status st = page->content == DYD_CONTENT_TILES ? html_tiles(&g) : dyd_diagram_visit(d, html_cell, &g);
-  fputs("],\n", to);
-  dyd_json_begin(&j, to);
-  dyd_json_bound(&j, "undetermined_area", &d->bounds->area);
-  dyd_json_break(&j, ",\n");
-  dyd_json_bound(&j, "distance_to_true_diagram", d->bounds->finite ? &d->bounds->hausdorff : NULL);
-  if (st == DYD_OK) st = dyd_json_end(&j, ",\n");
-  if (st == DYD_OK) st = html_vertices(&g);
-  g.any = false;
-  fputs("\"regions\": [", to);
+  dyd_json_close(j, 1);
+  dyd_json_bound(j, "undetermined_area", &d->bounds->area);
+  dyd_json_bound(j, "distance_to_true_diagram", d->bounds->finite ? &d->bounds->hausdorff : NULL);
+  html_vertices(&g);
+  dyd_json_array(j, "regions", DYD_JSON_ROWS);
   if (st == DYD_OK) st = dyd_diagram_regions(d, html_region, &g);
-  fputs("],\n", to);
+  dyd_json_close(j, 1);
   return st == DYD_OK ? html_edges(&g) : st;
 }
 
