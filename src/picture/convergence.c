@@ -10,33 +10,31 @@
 #include <math.h>
 #include <stdio.h>
 
-/* One curve, distinguished by colour, by dash and by marker, so that grey does as well. */
+/* A row of the table of a panel: one curve, which number of a stage it shows, how it is drawn and called in the key;
+ * distinguished by colour, by dash and by marker, so that grey does as well. */
 typedef struct plot_series {
+  size_t number;
   const char *name;
   unsigned rgb;
   double dash;   /* length; 0: a full line */
   unsigned mark; /* sides of the marker: 0 (a ring) or 3, 4, 5 */
 } plot_series;
 
-enum { PANEL_MOST = 6 }; /* curves */
-
-/* Invariant: low < high, count <= PANEL_MOST; zero is drawn on the bottom line, below low. */
+/* Invariant: low < high; zero is drawn on the bottom line, below low. */
 typedef struct plot_panel {
   double x, y, width, height; /* of the frame */
   double low, high;           /* on its scale */
   const char *id, *title;
   const plot_series *series;
   size_t count;
-  /* A number of the row for each curve, on the panel's scale; NAN where it is not known, -INFINITY for zero. */
-  void (*values)(double *out, const dyd_stage_row *r);
+  /* A number of the row, on the panel's scale; NAN where it is not known, -INFINITY for zero. */
+  double (*value)(const dyd_stage_row *r, size_t number);
 } plot_panel;
 
 static const double turn = 6.283185307179586;
 
-static double panel_value(const plot_panel *p, size_t series, const dyd_stage_row *r) {
-  double value[PANEL_MOST];
-  p->values(value, r);
-  return value[series];
+static double panel_value(const plot_panel *p, const plot_series *s, const dyd_stage_row *r) {
+  return p->value(r, s->number);
 }
 
 /* Sets low and high from the values. */
@@ -44,7 +42,7 @@ static void panel_fit(plot_panel *p, const dyd_convergence *c) {
   double low = INFINITY, high = -INFINITY;
   for (size_t s = 0; s < p->count; s++)
     for (size_t k = 0; k < c->count; k++) {
-      double v = panel_value(p, s, c->row[k]);
+      double v = panel_value(p, &p->series[s], c->row[k]);
       if (isfinite(v)) low = fmin(low, v), high = fmax(high, v);
     }
   bool any = low <= high;
@@ -131,7 +129,7 @@ static void stroke_series(dyd_canvas *on, const plot_series *s) {
   dyd_canvas_paint(on, &(dyd_paint){DYD_NO_COLOUR, s->rgb, 1, 1.5, s->dash, s->dash});
 }
 
-static void draw_curve(dyd_canvas *on, const plot_panel *p, size_t s, const dyd_convergence *c) {
+static void draw_curve(dyd_canvas *on, const plot_panel *p, const plot_series *s, const dyd_convergence *c) {
   char id[48];
   bool gap = true;
   for (size_t k = 0; k < c->count; k++) {
@@ -142,22 +140,22 @@ static void draw_curve(dyd_canvas *on, const plot_panel *p, size_t s, const dyd_
       dyd_canvas_line(on, panel_x(p, c, k), panel_y(p, v));
     gap = isnan(v);
   }
-  snprintf(id, sizeof id, "%s-%zu", p->id, s);
-  dyd_canvas_name(on, id, p->series[s].name);
-  stroke_series(on, &p->series[s]);
+  snprintf(id, sizeof id, "%s-%zu", p->id, s->number);
+  dyd_canvas_name(on, id, s->name);
+  stroke_series(on, s);
   for (size_t k = 0; k < c->count; k++) {
     double v = panel_value(p, s, c->row[k]);
     if (isnan(v)) continue;
     char title[80];
-    snprintf(id, sizeof id, "%s-%zu-%zu", p->id, s, k);
-    snprintf(title, sizeof title, "%s, stage %" PRIu64 ", %" PRId64 " bits", p->series[s].name, c->row[k]->stage,
+    snprintf(id, sizeof id, "%s-%zu-%zu", p->id, s->number, k);
+    snprintf(title, sizeof title, "%s, stage %" PRIu64 ", %" PRId64 " bits", s->name, c->row[k]->stage,
              c->row[k]->bits_most);
     dyd_canvas_name(on, id, title);
-    draw_series_mark(on, &p->series[s], panel_x(p, c, k), panel_y(p, v));
+    draw_series_mark(on, s, panel_x(p, c, k), panel_y(p, v));
   }
 }
 
-static bool has_values(const plot_panel *p, size_t s, const dyd_convergence *c) {
+static bool has_values(const plot_panel *p, const plot_series *s, const dyd_convergence *c) {
   for (size_t k = 0; k < c->count; k++)
     if (!isnan(panel_value(p, s, c->row[k]))) return true;
   return false;
@@ -179,10 +177,10 @@ static void panel_draw(dyd_canvas *on, const plot_panel *p, const dyd_convergenc
   dyd_canvas_box(on, p->x, p->y, p->width, p->height);
   dyd_picture_stroke(on, 0x333333, 0.8, 0, 0);
   double key = p->y + 8;
-  for (size_t s = 0; s < p->count; s++) {
+  for (const plot_series *s = p->series; s < p->series + p->count; s++) {
     if (!has_values(p, s, c)) continue;
     draw_curve(on, p, s, c);
-    if (!bare) draw_key(on, &p->series[s], p->x + p->width + 14, key);
+    if (!bare) draw_key(on, s, p->x + p->width + 14, key);
     key += 19 * on->text;
   }
 }
@@ -198,70 +196,75 @@ static double log2_of(const dyd_dyadic *x) {
   return log2(m) + (double)e + (double)x->exp;
 }
 
-enum { BOUNDS = 6 };
-
 /* NULL: it is not known. */
 static const dyd_dyadic *plot_bound(const dyd_stage_row *r, size_t k) {
-  const dyd_dyadic *bound[BOUNDS] = {&r->area,        &r->hausdorff,     &r->v_area,
-                                     &r->v_hausdorff, &r->width_largest, &r->width_median};
+  const dyd_dyadic *bound[] = {&r->area,        &r->hausdorff,     &r->v_area,
+                               &r->v_hausdorff, &r->width_largest, &r->width_median};
   return k < 4 && !(k < 2 ? r->bounded : r->voronoi) ? NULL : bound[k];
 }
 
-static void plot_bounds(double *out, const dyd_stage_row *r) {
-  for (size_t k = 0; k < BOUNDS; k++) out[k] = plot_bound(r, k) ? log2_of(plot_bound(r, k)) : (double)NAN;
+static double bound_value(const dyd_stage_row *r, size_t k) {
+  return plot_bound(r, k) ? log2_of(plot_bound(r, k)) : (double)NAN;
 }
 
-static void plot_counts(double *out, const dyd_stage_row *r) {
+static double count_value(const dyd_stage_row *r, size_t k) {
   size_t legal = r->count[DYD_LEGAL], open = r->count[DYD_INDETERMINATE], tie = r->count[DYD_TIE],
          count[] = {legal + open + tie, legal, open, tie, r->undecided_faces};
-  for (size_t k = 0; k < sizeof count / sizeof *count; k++) out[k] = count[k] ? log10((double)count[k]) : -INFINITY;
+  return count[k] ? log10((double)count[k]) : -INFINITY;
 }
 
 /* Colours after Okabe and Ito, distinct for all kinds of sight. */
 static const plot_series bounds[] = {
-    {"triangulation: area", 0x0072b2, 0, 0}, {"triangulation: distance", 0xd55e00, 0, 3},
-    {"diagram: area", 0x56b4e9, 6, 0},       {"diagram: distance", 0xe69f00, 6, 3},
-    {"largest width", 0x4d4d4d, 2, 4},       {"median width", 0x999999, 2, 5}};
+    {0, "triangulation: area", 0x0072b2, 0, 0}, {1, "triangulation: distance", 0xd55e00, 0, 3},
+    {2, "diagram: area", 0x56b4e9, 6, 0},       {3, "diagram: distance", 0xe69f00, 6, 3},
+    {4, "largest width", 0x4d4d4d, 2, 4},       {5, "median width", 0x999999, 2, 5}};
 
-/* Of a disc or bisector: at the places of these. */
-static const plot_series piece_bounds[] = {
-    {"area", 0x0072b2, 0, 0},          {"distance", 0xd55e00, 0, 3},    {"", 0, 0, 0}, {"", 0, 0, 0},
-    {"largest width", 0x4d4d4d, 2, 4}, {"median width", 0x999999, 2, 5}};
+/* Of a disc or bisector. */
+static const plot_series piece_bounds[] = {{0, "area", 0x0072b2, 0, 0},
+                                           {1, "distance", 0xd55e00, 0, 3},
+                                           {4, "largest width", 0x4d4d4d, 2, 4},
+                                           {5, "median width", 0x999999, 2, 5}};
 
-static const plot_series counts[] = {{"possible pairs", 0x000000, 0, 0},
-                                     {"legal", 0x009e73, 0, 4},
-                                     {"indeterminate", 0xd55e00, 0, 3},
-                                     {"ties", 0xcc79a7, 6, 5},
-                                     {"faces undecided", 0x0072b2, 2, 0}};
+static const plot_series counts[] = {{0, "possible pairs", 0x000000, 0, 0},
+                                     {1, "legal", 0x009e73, 0, 4},
+                                     {2, "indeterminate", 0xd55e00, 0, 3},
+                                     {3, "ties", 0xcc79a7, 6, 5},
+                                     {4, "faces undecided", 0x0072b2, 2, 0}};
+
+/* The curves of bounds, and how many there are. */
+static const plot_series *bounds_of(size_t *count, const dyd_convergence *c) {
+  const bool piece = c->of >= DYD_CONVERGE_DISC;
+  *count = piece ? sizeof piece_bounds / sizeof *piece_bounds : sizeof bounds / sizeof *bounds;
+  return piece ? piece_bounds : bounds;
+}
 
 /* ---- the page ---- */
 
 static void plot_draw(dyd_canvas *on, const dyd_convergence *c, bool bare) {
-  const bool piece = c->of >= DYD_CONVERGE_DISC;
-  plot_panel top = {70,
-                    66,
-                    570,
-                    290,
-                    0,
-                    1,
-                    "bound",
-                    "Upper bounds and widths (powers of 2, in units of the coordinates)",
-                    piece ? piece_bounds : bounds,
-                    sizeof bounds / sizeof *bounds,
-                    plot_bounds};
-  plot_panel bottom = {70,         356 + 70 * on->text,
-                       570,        150,
-                       0,          1,
-                       "count",    "Pairs and faces",
-                       counts,     sizeof counts / sizeof *counts,
-                       plot_counts};
+  plot_panel top = {.x = 70,
+                    .y = 66,
+                    .width = 570,
+                    .height = 290,
+                    .id = "bound",
+                    .title = "Upper bounds and widths (powers of 2, in units of the coordinates)",
+                    .value = bound_value},
+             bottom = {.x = 70,
+                       .y = 356 + 70 * on->text,
+                       .width = 570,
+                       .height = 150,
+                       .id = "count",
+                       .title = "Pairs and faces",
+                       .series = counts,
+                       .count = sizeof counts / sizeof *counts,
+                       .value = count_value};
+  top.series = bounds_of(&top.count, c);
   char title[120];
   snprintf(title, sizeof title, "dyadel converge: %s, %s schedule, outcome %s", dyd_converge_of_text(c->of),
            dyd_schedule_text(c->options->schedule), dyd_outcome_text(c->outcome));
   if (!bare) draw_title(on, 70, 66 - 34 * on->text, 15, title);
   panel_fit(&top, c);
   panel_draw(on, &top, c, 2, bare);
-  if (piece) return;
+  if (c->of >= DYD_CONVERGE_DISC) return;
   panel_fit(&bottom, c);
   panel_draw(on, &bottom, c, 10, bare);
 }
@@ -285,28 +288,29 @@ static bool has_pgf(const dyd_stage_row *r, size_t k) {
   return plot_bound(r, k) && dyd_dyadic_sgn(plot_bound(r, k)) != 0;
 }
 
-static void pgf_curve(FILE *out, const dyd_convergence *c, const plot_series *series, size_t k, bool legend) {
+static void pgf_curve(FILE *out, const dyd_convergence *c, const plot_series *s, bool legend) {
   char text[DYD_DECIMAL_SIZE];
   size_t points = 0;
   for (size_t n = 0; n < c->count; n++) {
-    if (!has_pgf(c->row[n], k)) continue;
-    dyd_decimal_dyadic(text, plot_bound(c->row[n], k), 6, DYD_UP);
+    if (!has_pgf(c->row[n], s->number)) continue;
+    dyd_decimal_dyadic(text, plot_bound(c->row[n], s->number), 6, DYD_UP);
     fprintf(out, "%s(%" PRId64 ",%s)", points++ ? " " : "\\addplot coordinates {", c->row[n]->bits_most, text);
   }
   if (points) fputs("};\n", out);
-  if (points && legend) fprintf(out, "\\addlegendentry{%s}\n", series->name);
+  if (points && legend) fprintf(out, "\\addlegendentry{%s}\n", s->name);
 }
 
 /* Bounds against the bits asked for, as coordinates of pgfplots. */
 static dyd_status convergence_pgf(const dyd_output *o) {
   const dyd_convergence *c = o->what;
-  const plot_series *series = c->of >= DYD_CONVERGE_DISC ? piece_bounds : bounds;
+  size_t count;
+  const plot_series *series = bounds_of(&count, c);
   fprintf(o->out,
           "%% dyadel converge: %s, %s schedule, outcome %s; bounds and widths are rounded up, zeros omitted\n"
           "\\begin{tikzpicture}\n\\begin{axis}[xlabel={bits},ylabel={upper bound},ymode=log,log basis y=2,legend "
           "pos=outer north east]\n",
           dyd_converge_of_text(c->of), dyd_schedule_text(c->options->schedule), dyd_outcome_text(c->outcome));
-  for (size_t k = 0; k < BOUNDS; k++) pgf_curve(o->out, c, &series[k], k, !o->style.bare);
+  for (size_t k = 0; k < count; k++) pgf_curve(o->out, c, &series[k], !o->style.bare);
   fputs("\\end{axis}\n\\end{tikzpicture}\n", o->out);
   return DYD_OK;
 }
