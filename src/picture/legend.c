@@ -161,39 +161,17 @@ void dyd_density_legend(dyd_legend *l, const dyd_density *d, const char *what) {
 #define AXIS 46.0 /* from the frame to the middle of the first row */
 
 const char *dyd_unit_of(unsigned epsg) {
-  static const struct {
-    unsigned first, last;
-    const char *unit;
-  } known[] = {{4326, 4326, "degree"},
-               {4258, 4258, "degree"},
-               {4267, 4267, "degree"},
-               {4269, 4269, "degree"},
-               /* UTM: ED50, ETRS89, NAD83, GDA94, GDA2020, WGS 84 */
-               {23028, 23038, "m"},
-               {25828, 25838, "m"},
-               {26901, 26923, "m"},
-               {28348, 28358, "m"},
-               {7846, 7859, "m"},
-               {32601, 32660, "m"},
-               {32701, 32760, "m"},
-               /* Web Mercator, Europe, and national grids */
-               {3857, 3857, "m"},
-               {3034, 3035, "m"},
-               {2056, 2056, "m"},
-               {21781, 21781, "m"},
-               {27700, 27700, "m"},
-               {2154, 2154, "m"},
-               {28992, 28992, "m"},
-               {31370, 31370, "m"},
-               {2193, 2193, "m"},
-               {3006, 3006, "m"},
-               {2180, 2180, "m"},
-               {3067, 3067, "m"},
-               {5514, 5514, "m"},
-               {31254, 31259, "m"},
-               {31466, 31469, "m"}};
-  for (size_t k = 0; k < sizeof known / sizeof *known; k++)
-    if (known[k].first <= epsg && epsg <= known[k].last) return known[k].unit;
+  static const unsigned degrees[] = {4326, 4258, 4267, 4269};
+  /* First and last. UTM: ED50, ETRS89, NAD83, GDA94, GDA2020, WGS 84; Web Mercator, Europe, and national grids. */
+  static const unsigned metres[][2] = {{23028, 23038}, {25828, 25838}, {26901, 26923}, {28348, 28358}, {7846, 7859},
+                                       {32601, 32660}, {32701, 32760}, {3857, 3857},   {3034, 3035},   {2056, 2056},
+                                       {21781, 21781}, {27700, 27700}, {2154, 2154},   {28992, 28992}, {31370, 31370},
+                                       {2193, 2193},   {3006, 3006},   {2180, 2180},   {3067, 3067},   {5514, 5514},
+                                       {31254, 31259}, {31466, 31469}};
+  for (size_t k = 0; k < sizeof degrees / sizeof *degrees; k++)
+    if (degrees[k] == epsg) return "degree";
+  for (size_t k = 0; k < sizeof metres / sizeof *metres; k++)
+    if (metres[k][0] <= epsg && epsg <= metres[k][1]) return "m";
   return NULL;
 }
 
